@@ -1,0 +1,76 @@
+#include <chrono>
+#include <cstdio>
+
+#include "commands.h"
+#include "ostia/core/files.h"
+#include "ostia/core/log.h"
+#include "ostia/io/centerline_file.h"
+#include "ostia/io/surface_file.h"
+#include "ostia/io/volume_mesh_file.h"
+#include "ostia/pipeline/model_folder.h"
+#include "ostia/pipeline/report.h"
+#include "points.h"
+
+namespace ostia::app {
+namespace {
+
+ExitCode verdict(const meshing::QualityVerdict& verdict) {
+  if (verdict.ok()) return ExitCode::ok;
+  core::log_warning("quality control failed: " + verdict.summary());
+  return ExitCode::quality_failed;
+}
+
+ExitCode check_file(const MeshCommand& options, const core::TaskContext& task) {
+  if (options.check.extension() == ".vtu") {
+    const geometry::VolumeMesh mesh = io::read_volume_mesh(options.check);
+    const auto volume = meshing::volume_quality(mesh, task);
+    const auto surface = meshing::surface_quality({mesh.points, mesh.boundary}, true, task);
+    meshing::QualityVerdict both = meshing::check(volume);
+    const auto of_surface = meshing::check(surface);
+    both.reasons.insert(both.reasons.end(), of_surface.reasons.begin(), of_surface.reasons.end());
+    std::fputs((pipeline::quality_json(surface, volume, both) + "\n").c_str(), stdout);
+    return verdict(both);
+  }
+  const auto quality = meshing::surface_quality(io::read_surface(options.check).surface.mesh, true, task);
+  std::fputs((pipeline::quality_json(quality) + "\n").c_str(), stdout);
+  return verdict(meshing::check(quality));
+}
+
+geometry::VesselTree tree_for(const MeshCommand& options, const pipeline::Source& source, const pipeline::ModelOptions& how,
+                              const core::TaskContext& task) {
+  if (!options.centerline.empty()) return io::read_centerlines(options.centerline);
+  task.set_stage("centerlines");
+  return centerline::extract_centerlines(source.surface, how.source, how.targets, how.centerline, task).tree;
+}
+
+}  // namespace
+
+ExitCode run_mesh(const MeshCommand& options, const core::TaskContext& task) {
+  if (!options.check.empty()) return check_file(options, task);
+  if (options.input.input.empty() || options.output.empty()) throw UsageError("`ostia mesh` needs a surface and -o DIR, or --check FILE");
+  const auto start = std::chrono::steady_clock::now();
+  task.set_stage("reading");
+  const pipeline::Source source = pipeline::load(options.input.input, source_options(options.input), task.sub(0.0, 0.1));
+  for (const std::string& warning : source.warnings) core::log_warning(warning);
+  if (source.kind != pipeline::SourceKind::surface) throw InvalidInput("cannot mesh " + options.input.input.string() + ": it is no surface; `ostia model` goes all the way from an image");
+  pipeline::ModelOptions how;
+  apply(options.ends, options.input.coords, nullptr, how);
+  apply(options.mesh, how);
+  pipeline::JobKey key{"mesh", {{"surface", source.sha256}}, pipeline::parameters_json(how, source_options(options.input))};
+  if (!options.centerline.empty()) key.inputs["centerline"] = core::sha256_file(options.centerline);
+  if (const auto code = pipeline::already_done(options.output, key)) {
+    core::log_info("done already with the same input and parameters; nothing to do");
+    return *code;
+  }
+  pipeline::require_sound_surface(source.surface, options.input.input.string());
+  const geometry::VesselTree tree = tree_for(options, source, how, task.sub(0.1, 0.3));
+  const pipeline::MeshedLumen meshed = pipeline::mesh_lumen(source.surface, tree, how, task.sub(0.3, 0.95));
+  for (const std::string& warning : meshed.warnings) core::log_warning(warning);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  pipeline::write_mesh_folder(options.output, meshed, key, seconds);
+  if (options.json) std::fputs((pipeline::quality_json(meshed.surface_quality, meshed.volume_quality, meshed.verdict) + "\n").c_str(), stdout);
+  task.set_progress(1.0);
+  return verdict(meshed.verdict);
+}
+
+}  // namespace ostia::app

@@ -1,0 +1,91 @@
+#include <chrono>
+#include <cstdio>
+#include <optional>
+
+#include "commands.h"
+#include "ostia/core/log.h"
+#include "ostia/phantom/builtin_case.h"
+#include "ostia/pipeline/model_folder.h"
+#include "ostia/pipeline/report.h"
+#include "points.h"
+
+namespace ostia::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+struct Job {
+  pipeline::Source source;
+  pipeline::ModelOptions options;
+  pipeline::JobKey key;
+  std::optional<phantom::BuiltinCase> builtin;
+};
+
+Job builtin_job(const ModelCommand& command, const core::TaskContext& task) {
+  Job job;
+  phantom::BuiltinOptions options;
+  options.seed = command.seed;
+  job.builtin = phantom::make_builtin_case(options, task);
+  job.source = pipeline::source_of(*job.builtin);
+  apply(command.lumen, "lps", nullptr, job.options);
+  job.options.branches = pipeline::branches_of(*job.builtin);
+  return job;
+}
+
+Job job_of(const ModelCommand& command, const core::TaskContext& task) {
+  Job job;
+  if (command.builtin) {
+    job = builtin_job(command, task);
+  } else {
+    task.set_stage("reading");
+    job.source = pipeline::load(command.input.input, source_options(command.input), task);
+    const imaging::Geometry* grid = job.source.image ? &job.source.image->geometry : job.source.mask ? &job.source.mask->geometry : nullptr;
+    apply(command.lumen, command.input.coords, grid, job.options);
+    apply(command.ends, command.input.coords, grid, job.options);
+  }
+  apply(command.mesh, job.options);
+  job.key = {"model", {{"input", job.source.sha256}}, pipeline::parameters_json(job.options, source_options(command.input))};
+  return job;
+}
+
+void print(const pipeline::Model& model, const std::optional<pipeline::TruthErrors>& truth) {
+  const auto& surface = model.meshed.surface_quality;
+  const auto& volume = model.meshed.volume_quality;
+  std::printf("%zu vessels, %zu triangles (least angle %.1f degrees), %zu tetrahedra (least dihedral %.1f degrees)\n",
+              model.centerlines.tree.vessels.size(), surface.triangles, surface.min_angle_deg, volume.tetrahedra, volume.min_dihedral_deg);
+  if (!truth) return;
+  std::printf("against the truth: lumen %.3f mm off in the mean, radius %.1f %% in the median, %.1f %% in the throat\n",
+              truth->lumen.msd_mm, 100.0 * truth->axis.radius_median_relative, 100.0 * truth->throat_relative);
+}
+
+}  // namespace
+
+ExitCode run_model(const ModelCommand& command, const core::TaskContext& task) {
+  const auto start = Clock::now();
+  if (command.builtin != command.input.input.empty()) throw UsageError("`ostia model` needs either an input or --builtin");
+  Job job = job_of(command, task.sub(0.0, 0.1));
+  if (const auto code = pipeline::already_done(command.output, job.key)) {
+    core::log_info("done already with the same input and parameters; nothing to do");
+    return *code;
+  }
+  const core::TaskContext building = task.sub(0.1, 0.85);
+  const pipeline::Model model = pipeline::build_model(std::move(job.source), job.options, building);
+  for (const std::string& warning : model.warnings) core::log_warning(warning);
+  std::optional<pipeline::TruthErrors> truth;
+  if (job.builtin) {
+    task.set_stage("comparison with the truth");
+    truth = pipeline::compare_with_truth(*job.builtin, model, task.sub(0.85, 0.9));
+  }
+  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  const ExitCode code = pipeline::write_model_folder(command.output, model, job.options, job.key, truth, seconds, task.sub(0.9, 1.0));
+  task.set_progress(1.0);
+  if (command.json) {
+    std::fputs(pipeline::report_json(model, job.options, truth).c_str(), stdout);
+  } else {
+    print(model, truth);
+  }
+  if (code == ExitCode::quality_failed) core::log_warning("quality control failed, a person must look: " + model.meshed.verdict.summary());
+  return code;
+}
+
+}  // namespace ostia::app

@@ -1,0 +1,115 @@
+#pragma once
+/// \file What each command is told, and what it does. Returns the exit code; throws ostia::Error.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ostia/core/error.h"
+#include "ostia/core/task_context.h"
+
+namespace ostia::app {
+
+/// Options that every command has.
+struct CommonOptions {
+  int threads = 0;
+  std::uint64_t seed = 1;
+  std::string log = "text";
+  std::string progress = "auto";
+  bool quiet = false;
+};
+
+/// How an input is to be read.
+struct InputOptions {
+  std::filesystem::path input;
+  std::string series;
+  bool resample = false;
+  std::optional<double> pixel_spacing_mm;
+  std::string units;               ///< "", "m", "cm", "mm"
+  std::string coords = "lps";      ///< of points on the command line: lps, ras, ijk
+};
+
+struct InfoOptions {
+  InputOptions input;
+  bool json = false;
+  std::filesystem::path preview;
+  std::string position;
+  int preview_slices = 12;
+};
+ExitCode run_info(const InfoOptions& options, const core::TaskContext& task);
+
+struct ImportOptions {
+  InputOptions input;
+  std::filesystem::path output;
+};
+ExitCode run_import(const ImportOptions& options, const core::TaskContext& task);
+
+/// How a lumen is found in an image.
+struct LumenOptions {
+  std::vector<std::string> branches;
+  std::optional<double> lower_hu, upper_hu;
+  std::string feature = "edges";   ///< edges, upwind, centred
+  double curvature = -1.0, inflation = -1.0, advection = -1.0;  ///< negative: the library's default
+  int iterations = -1;
+  bool whole_volume = false;
+  int smooth = 0;                  ///< Taubin iterations
+};
+
+struct SegmentCommand {
+  InputOptions input;
+  LumenOptions lumen;
+  std::filesystem::path output, level_set;
+};
+ExitCode run_segment(const SegmentCommand& options, const core::TaskContext& task);
+
+struct EndOptions {
+  std::string source;
+  std::vector<std::string> targets;
+  double step_mm = 0.0;            ///< 0: the library's default
+};
+
+struct CenterlineCommand {
+  InputOptions input;
+  EndOptions ends;
+  std::filesystem::path output, canal;
+};
+ExitCode run_centerline(const CenterlineCommand& options, const core::TaskContext& task);
+
+struct MeshOptions {
+  double edge_ratio = 0.0;         ///< 0: the library's default
+  std::string size = "distance";
+  double min_edge_mm = 0.0, max_edge_mm = 0.0;
+  double size_factor = 0.0;
+  double inset_radii = -1.0;       ///< negative: the library's default
+};
+
+struct MeshCommand {
+  InputOptions input;
+  EndOptions ends;
+  MeshOptions mesh;
+  std::filesystem::path output, centerline, check;
+  bool json = false;
+};
+ExitCode run_mesh(const MeshCommand& options, const core::TaskContext& task);
+
+struct ConvertCommand {
+  InputOptions input;
+  std::filesystem::path output;
+  bool repair = false;
+};
+ExitCode run_convert(const ConvertCommand& options, const core::TaskContext& task);
+
+struct ModelCommand {
+  InputOptions input;
+  LumenOptions lumen;
+  EndOptions ends;
+  MeshOptions mesh;
+  std::filesystem::path output;
+  bool builtin = false;
+  bool json = false;
+  std::uint64_t seed = 1;
+};
+ExitCode run_model(const ModelCommand& options, const core::TaskContext& task);
+
+}  // namespace ostia::app

@@ -1,0 +1,41 @@
+find_package(Threads REQUIRED)
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(TBB REQUIRED)
+find_package(spdlog REQUIRED)
+find_package(fmt REQUIRED)
+find_package(OpenSSL REQUIRED COMPONENTS Crypto)
+find_package(ZLIB REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(CGAL REQUIRED QUIET)
+
+# Debian ships nanoflann's config where CMake does not look.
+find_package(nanoflann REQUIRED PATHS /usr/share/nanoflann/cmake)
+
+# TetGen comes without a CMake config. It is AGPL-3: linked into the worker only.
+find_path(TETGEN_INCLUDE_DIR tetgen.h REQUIRED)
+find_library(TETGEN_LIBRARY tet REQUIRED)
+add_library(ostia_tetgen INTERFACE)
+target_include_directories(ostia_tetgen SYSTEM INTERFACE "${TETGEN_INCLUDE_DIR}")
+target_compile_definitions(ostia_tetgen INTERFACE TETLIBRARY)
+target_link_libraries(ostia_tetgen INTERFACE "${TETGEN_LIBRARY}")
+
+# CGAL's target without the compile options and definitions of its own that it would spread.
+add_library(ostia_cgal INTERFACE)
+target_link_libraries(ostia_cgal INTERFACE CGAL::CGAL)
+
+if(OSTIA_WITH_IMAGE_LIBRARIES)
+  find_package(PkgConfig REQUIRED)
+  pkg_check_modules(PANGOCAIRO REQUIRED IMPORTED_TARGET pangocairo cairo cairo-pdf cairo-svg)
+  find_package(embree 3 REQUIRED)
+  find_package(VTK 9.1 REQUIRED COMPONENTS CommonCore CommonDataModel CommonMisc IOXML IOLegacy)
+  find_package(ITK 5.2 REQUIRED COMPONENTS ITKCommon ITKIOGDCM)
+endif()
+
+if(OSTIA_TESTS)
+  find_package(GTest REQUIRED)
+  include(GoogleTest)
+endif()
+if(OSTIA_BENCHMARKS)
+  find_package(benchmark REQUIRED)
+endif()

@@ -1,0 +1,37 @@
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bin")
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
+endif()
+# -O2: -O3 costs build time and gains nothing measurable here.
+set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
+
+option(OSTIA_TESTS "Build the tests" ON)
+option(OSTIA_BENCHMARKS "Build the benchmarks" ON)
+option(OSTIA_WERROR "Treat warnings as errors" ON)
+option(OSTIA_WITH_IMAGE_LIBRARIES "Build what needs ITK, VTK, Cairo or Embree" ON)
+option(OSTIA_ASAN "AddressSanitizer and UndefinedBehaviorSanitizer in our own libraries" OFF)
+
+find_program(OSTIA_CCACHE ccache)
+if(OSTIA_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${OSTIA_CCACHE}")
+  set(CMAKE_C_COMPILER_LAUNCHER "${OSTIA_CCACHE}")
+endif()
+find_program(OSTIA_MOLD mold)
+if(OSTIA_MOLD)
+  add_link_options(-fuse-ld=mold)
+endif()
+
+# One Eigen for all: ITK bundles an older one, and two of them in a program break the one-definition rule.
+add_compile_definitions(ITK_USE_SYSTEM_EIGEN)
+# Results must not depend on whether the compiler fuses multiply and add.
+add_compile_options(-ffp-contract=off)
+# A program links only what it uses: the worker alone needs ITK and TetGen.
+add_link_options(-Wl,--as-needed)
+if(OSTIA_ASAN)
+  add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=address,undefined)
+endif()

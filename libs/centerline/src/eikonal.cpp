@@ -1,0 +1,236 @@
+#include "ostia/centerline/eikonal.h"
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+#include <string>
+#include <utility>
+
+#include "ostia/core/error.h"
+
+namespace ostia::centerline {
+namespace {
+
+using geometry::Vec3;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+// In larger polygons only the corners next to the newly accepted one are paired with it, which keeps the work linear.
+constexpr std::int32_t all_pairs_up_to = 6;
+
+std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+// Where on the segment from a to b the sum of T, linear between, and slowness times the distance to x is least, in [0, 1].
+double best_on_segment(const Vec3& a, const Vec3& b, double time_a, double time_b, const Vec3& x, double slowness) {
+  const Vec3 edge = b - a;
+  const double length = edge.norm();
+  if (length <= 0.0) return time_a <= time_b ? 0.0 : 1.0;
+  const double slope = (time_b - time_a) / (length * slowness);
+  if (slope >= 1.0) return 0.0;
+  if (slope <= -1.0) return 1.0;
+  const double foot = edge.dot(x - a) / length;
+  const double height = std::sqrt(std::max(0.0, (x - a).squaredNorm() - foot * foot));
+  return std::clamp((foot - height * slope / std::sqrt(1.0 - slope * slope)) / length, 0.0, 1.0);
+}
+
+class March {
+ public:
+  March(const InnerVoronoi& diagram, std::int32_t source)
+      : diagram_(diagram), accepted_(diagram.points.size(), 0), slowness_(diagram.points.size()) {
+    for (std::size_t i = 0; i < slowness_.size(); ++i) slowness_[i] = 1.0 / std::max(diagram.radius[i], 1e-12);
+    result_.time.assign(diagram.points.size(), infinity);
+    result_.parent.assign(diagram.points.size(), -1);
+    result_.time[index(source)] = 0.0;
+    heap_.emplace(0.0, source);
+  }
+
+  ArrivalTimes run(const std::vector<std::int32_t>& targets, const core::TaskContext& task) {
+    std::vector<std::int32_t> wanted = targets;
+    std::sort(wanted.begin(), wanted.end());
+    wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+    std::size_t missing = targets.empty() ? diagram_.points.size() + 1 : wanted.size();
+    std::size_t count = 0;
+    while (!heap_.empty() && missing > 0) {
+      const auto [time, point] = heap_.top();
+      heap_.pop();
+      if (accepted_[index(point)]) continue;
+      accepted_[index(point)] = 1;
+      if (std::binary_search(wanted.begin(), wanted.end(), point)) --missing;
+      if (++count % 4096 == 0) {
+        task.throw_if_cancelled();
+        task.set_progress(static_cast<double>(count) / static_cast<double>(diagram_.points.size()));
+      }
+      spread_from(point);
+    }
+    for (std::size_t i = 0; i < accepted_.size(); ++i)
+      if (!accepted_[i]) result_.time[i] = infinity;
+    return std::move(result_);
+  }
+
+ private:
+  void offer(std::int32_t point, double time, std::int32_t parent) {
+    if (time >= result_.time[index(point)]) return;
+    result_.time[index(point)] = time;
+    result_.parent[index(point)] = parent;
+    heap_.emplace(time, point);
+  }
+
+  void offer_along_edge(std::int32_t from, std::int32_t to) {
+    const double slowness = 0.5 * (slowness_[index(from)] + slowness_[index(to)]);
+    const double distance = (diagram_.points[index(to)] - diagram_.points[index(from)]).norm();
+    offer(to, result_.time[index(from)] + slowness * distance, from);
+  }
+
+  void offer_across(std::int32_t v, std::int32_t w, std::int32_t to) {
+    const double base_slowness = 0.5 * (slowness_[index(v)] + slowness_[index(w)]);
+    const double slowness = 0.5 * (base_slowness + slowness_[index(to)]);
+    const Vec3 &a = diagram_.points[index(v)], &b = diagram_.points[index(w)], &x = diagram_.points[index(to)];
+    const double time_a = result_.time[index(v)], time_b = result_.time[index(w)];
+    const double t = best_on_segment(a, b, time_a, time_b, x, slowness);
+    if (t <= 0.0 || t >= 1.0) return;
+    const double time = time_a + t * (time_b - time_a) + slowness * (x - a - t * (b - a)).norm();
+    // Round-off must not let a front arrive before the points it comes from.
+    offer(to, std::max({time, time_a, time_b}), t < 0.5 ? v : w);
+  }
+
+  void spread_in_polygon(std::int32_t polygon, std::int32_t point) {
+    const std::int32_t* corners = diagram_.corners.data() + diagram_.polygon_first[index(polygon)];
+    const std::int32_t size = diagram_.polygon_first[index(polygon) + 1] - diagram_.polygon_first[index(polygon)];
+    std::int32_t place = 0;
+    while (corners[place] != point) ++place;
+    for (std::int32_t i = 0; i < size; ++i) {
+      const std::int32_t to = corners[i];
+      if (accepted_[index(to)]) continue;
+      offer_along_edge(point, to);
+      if (size <= all_pairs_up_to) {
+        for (std::int32_t k = 0; k < size; ++k)
+          if (corners[k] != point && accepted_[index(corners[k])]) offer_across(point, corners[k], to);
+      } else {
+        for (const std::int32_t k : {(place + 1) % size, (place + size - 1) % size})
+          if (corners[k] != point && accepted_[index(corners[k])]) offer_across(point, corners[k], to);
+      }
+    }
+  }
+
+  void spread_from(std::int32_t point) {
+    for (const std::int32_t neighbour : diagram_.links[index(point)])
+      if (neighbour >= 0 && !accepted_[index(neighbour)]) offer_along_edge(point, neighbour);
+    for (std::int32_t k = diagram_.incidence_first[index(point)]; k < diagram_.incidence_first[index(point) + 1]; ++k)
+      spread_in_polygon(diagram_.incidence[index(k)], point);
+  }
+
+  const InnerVoronoi& diagram_;
+  std::vector<char> accepted_;
+  std::vector<double> slowness_;
+  ArrivalTimes result_;
+  using Entry = std::pair<double, std::int32_t>;
+  // Superseded entries stay in the heap and are passed over; ties go to the lower point.
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> heap_;
+};
+
+// A place on the diagram: at point `a` (b < 0), or between points a and b of a polygon's edge.
+struct Place {
+  std::int32_t a = -1, b = -1;
+  Vec3 position = Vec3::Zero();
+  double time = 0.0;
+  double radius = 0.0;
+};
+
+class Descent {
+ public:
+  Descent(const InnerVoronoi& diagram, const ArrivalTimes& arrival) : diagram_(diagram), arrival_(arrival) {}
+
+  Place at(std::int32_t point) const {
+    return {point, -1, diagram_.points[index(point)], arrival_.time[index(point)], diagram_.radius[index(point)]};
+  }
+
+  Place next(const Place& from) const {
+    Place best;
+    double best_slope = 0.0;
+    if (from.b < 0)
+      for (const std::int32_t neighbour : diagram_.links[index(from.a)])
+        if (neighbour >= 0) consider(from, at(neighbour), best, best_slope);
+    for (std::int32_t k = diagram_.incidence_first[index(from.a)]; k < diagram_.incidence_first[index(from.a) + 1]; ++k) {
+      const std::int32_t polygon = diagram_.incidence[index(k)];
+      if (from.b < 0 || has_corner(polygon, from.b)) search_polygon(polygon, from, best, best_slope);
+    }
+    return best.a >= 0 ? best : fall_back(from);
+  }
+
+  // From a flat spot of the interpolated T back to the points, whose times fall along the parents by construction.
+  Place fall_back(const Place& from) const {
+    if (from.b < 0) return at(arrival_.parent[index(from.a)]);
+    return at(arrival_.time[index(from.a)] < arrival_.time[index(from.b)] ? from.a : from.b);
+  }
+
+ private:
+  bool has_corner(std::int32_t polygon, std::int32_t point) const {
+    const auto first = diagram_.corners.begin() + diagram_.polygon_first[index(polygon)];
+    const auto last = diagram_.corners.begin() + diagram_.polygon_first[index(polygon) + 1];
+    return std::find(first, last, point) != last;
+  }
+
+  static void consider(const Place& from, const Place& to, Place& best, double& best_slope) {
+    if (!(to.time < from.time)) return;
+    const double slope = (from.time - to.time) / std::max((to.position - from.position).norm(), 1e-12);
+    if (slope <= best_slope) return;
+    best_slope = slope;
+    best = to;
+  }
+
+  void search_polygon(std::int32_t polygon, const Place& from, Place& best, double& best_slope) const {
+    const std::int32_t* corners = diagram_.corners.data() + diagram_.polygon_first[index(polygon)];
+    const std::int32_t size = diagram_.polygon_first[index(polygon) + 1] - diagram_.polygon_first[index(polygon)];
+    const double slowness = 1.0 / std::max(from.radius, 1e-12);
+    for (std::int32_t i = 0; i < size; ++i) {
+      const std::int32_t v = corners[i], w = corners[i + 1 < size ? i + 1 : 0];
+      const double time_v = arrival_.time[index(v)], time_w = arrival_.time[index(w)];
+      if (!std::isfinite(time_v)) continue;
+      consider(from, at(v), best, best_slope);
+      if (!std::isfinite(time_w) || touches(from, v, w)) continue;
+      const Vec3 &a = diagram_.points[index(v)], &b = diagram_.points[index(w)];
+      const double t = best_on_segment(a, b, time_v, time_w, from.position, slowness);
+      if (t <= 0.0 || t >= 1.0) continue;
+      const double radius = (1.0 - t) * diagram_.radius[index(v)] + t * diagram_.radius[index(w)];
+      consider(from, {v, w, a + t * (b - a), time_v + t * (time_w - time_v), radius}, best, best_slope);
+    }
+  }
+
+  // Whether `from` lies on the edge of v and w, where nothing is gained by a shorter step along it.
+  static bool touches(const Place& from, std::int32_t v, std::int32_t w) {
+    if (from.b < 0) return from.a == v || from.a == w;
+    return (from.a == v && from.b == w) || (from.a == w && from.b == v);
+  }
+
+  const InnerVoronoi& diagram_;
+  const ArrivalTimes& arrival_;
+};
+
+}  // namespace
+
+ArrivalTimes arrival_times(const InnerVoronoi& diagram, std::int32_t source, const std::vector<std::int32_t>& targets,
+                           const core::TaskContext& task) {
+  const auto valid = [&](std::int32_t i) { return i >= 0 && index(i) < diagram.points.size(); };
+  if (!valid(source) || !std::all_of(targets.begin(), targets.end(), valid))
+    throw InvalidInput("arrival times: the source or a target is no point of the Voronoi diagram, which has " +
+                       std::to_string(diagram.points.size()) + " points");
+  return March(diagram, source).run(targets, task);
+}
+
+DiagramPath descend(const InnerVoronoi& diagram, const ArrivalTimes& arrival, std::int32_t target) {
+  if (target < 0 || index(target) >= arrival.time.size() || !std::isfinite(arrival.time[index(target)]))
+    throw GeometryError("descent: the front did not reach point " + std::to_string(target) + " of the Voronoi diagram");
+  const Descent descent(diagram, arrival);
+  DiagramPath path;
+  Place place = descent.at(target);
+  while (true) {
+    path.points.push_back(place.position);
+    path.radius.push_back(place.radius);
+    if (place.time <= 0.0) break;
+    if (place.b < 0 && arrival.parent[index(place.a)] < 0) break;
+    // More steps than points can only be ever smaller steps around one spot: on by the parents.
+    place = path.points.size() <= diagram.points.size() ? descent.next(place) : descent.fall_back(place);
+  }
+  return path;
+}
+
+}  // namespace ostia::centerline

@@ -1,0 +1,176 @@
+#include "ostia/centerline/lumen_surface.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <numeric>
+
+#include "ostia/core/error.h"
+#include "ostia/geometry/mesh_topology.h"
+
+namespace ostia::centerline {
+namespace {
+
+using geometry::TriMesh;
+using geometry::Vec3;
+
+void check(const TriMesh& lumen) {
+  if (lumen.triangles.empty())
+    throw GeometryError("the surface has no triangles: there is no lumen to find an axis in");
+  for (std::size_t i = 0; i < lumen.points.size(); ++i)
+    if (!lumen.points[i].allFinite())
+      throw InvalidInput("point " + std::to_string(i) + " of the surface has a coordinate that is not finite");
+}
+
+std::size_t used_point_count(const TriMesh& mesh) {
+  std::vector<bool> used(mesh.points.size(), false);
+  for (const geometry::Triangle& t : mesh.triangles)
+    for (const std::int32_t v : t) used[static_cast<std::size_t>(v)] = true;
+  return static_cast<std::size_t>(std::count(used.begin(), used.end(), true));
+}
+
+double triangle_area(const TriMesh& mesh, std::size_t t) {
+  const auto at = [&](std::size_t k) -> const Vec3& {
+    return mesh.points[static_cast<std::size_t>(mesh.triangles[t][k])];
+  };
+  return 0.5 * (at(1) - at(0)).cross(at(2) - at(0)).norm();
+}
+
+// Triangles at each edge: runs of equal edges in a sorted list.
+struct EdgeUse {
+  std::array<std::int32_t, 2> edge;
+  std::size_t triangle;
+  auto operator<=>(const EdgeUse&) const = default;
+};
+
+std::vector<EdgeUse> edge_uses(const TriMesh& mesh) {
+  std::vector<EdgeUse> uses;
+  uses.reserve(3 * mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [low, high] = std::minmax(mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]);
+      uses.push_back({{low, high}, t});
+    }
+  std::sort(uses.begin(), uses.end());
+  return uses;
+}
+
+template <class Visit>
+void for_each_edge(const std::vector<EdgeUse>& uses, const Visit& visit) {
+  for (std::size_t first = 0, last = 0; first < uses.size(); first = last) {
+    while (last < uses.size() && uses[last].edge == uses[first].edge) ++last;
+    visit(&uses[first], last - first);
+  }
+}
+
+// Patches of triangles that are joined by edges of two triangles.
+class Patches {
+ public:
+  Patches(const TriMesh& mesh, const std::vector<EdgeUse>& uses) : parent_(mesh.triangles.size()), area_(parent_.size(), 0.0) {
+    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+    for_each_edge(uses, [&](const EdgeUse* use, std::size_t count) {
+      if (count == 2) parent_[root(use[0].triangle)] = root(use[1].triangle);
+    });
+    for (std::size_t t = 0; t < parent_.size(); ++t) area_[root(t)] += triangle_area(mesh, t);
+  }
+  std::size_t root(std::size_t t) {
+    while (parent_[t] != t) t = parent_[t] = parent_[parent_[t]];
+    return t;
+  }
+  double area(std::size_t t) { return area_[root(t)]; }
+
+ private:
+  std::vector<std::size_t> parent_;
+  std::vector<double> area_;
+};
+
+// At each edge of more than two triangles the two of the largest patches stay (in one patch the larger triangles); small patches
+// that lose there go altogether. Returns whether anything went.
+bool drop_flaps(TriMesh& mesh) {
+  constexpr double small_patch = 0.1;  // of the largest patch at the edge
+  const std::vector<EdgeUse> uses = edge_uses(mesh);
+  Patches patches(mesh, uses);
+  std::vector<bool> keep(mesh.triangles.size(), true), drop_patch(mesh.triangles.size(), false);
+  bool any = false;
+  for_each_edge(uses, [&](const EdgeUse* use, std::size_t count) {
+    if (count <= 2) return;
+    any = true;
+    std::vector<std::size_t> order;
+    for (std::size_t i = 0; i < count; ++i) order.push_back(use[i].triangle);
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      if (patches.root(a) != patches.root(b)) return patches.area(a) > patches.area(b);
+      return triangle_area(mesh, a) > triangle_area(mesh, b);
+    });
+    for (std::size_t i = 2; i < count; ++i) {
+      keep[order[i]] = false;
+      if (patches.area(order[i]) < small_patch * patches.area(order[0])) drop_patch[patches.root(order[i])] = true;
+    }
+  });
+  if (!any) return false;
+  for (std::size_t t = 0; t < keep.size(); ++t)
+    if (drop_patch[patches.root(t)]) keep[t] = false;
+  mesh = geometry::subset(mesh, keep);
+  return true;
+}
+
+// The triangles around vertices where more than one border begins. Returns whether there were any.
+bool drop_touching_borders(TriMesh& mesh) {
+  std::vector<int> borders(mesh.points.size(), 0);
+  for_each_edge(edge_uses(mesh), [&](const EdgeUse* use, std::size_t count) {
+    if (count != 1) return;
+    ++borders[static_cast<std::size_t>(use->edge[0])];
+    ++borders[static_cast<std::size_t>(use->edge[1])];
+  });
+  std::vector<bool> keep(mesh.triangles.size(), true);
+  bool any = false;
+  for (std::size_t t = 0; t < keep.size(); ++t)
+    for (const std::int32_t v : mesh.triangles[t])
+      if (borders[static_cast<std::size_t>(v)] > 2) {
+        keep[t] = false;
+        any = true;
+      }
+  if (any) mesh = geometry::subset(mesh, keep);
+  return any;
+}
+
+void make_borders_simple(LumenSurface& surface) {
+  const std::size_t before = surface.wall.triangles.size();
+  constexpr int rounds = 50;
+  for (int round = 0; round < rounds; ++round) {
+    if (drop_flaps(surface.wall)) continue;
+    if (!drop_touching_borders(surface.wall)) break;
+  }
+  if (surface.wall.triangles.empty())
+    throw GeometryError("the surface is not manifold anywhere: there is no lumen to find an axis in");
+  const std::size_t dropped = before - surface.wall.triangles.size();
+  if (dropped > 0)
+    surface.warnings.push_back(std::to_string(dropped) + " triangles at non-manifold edges or vertices were left out");
+}
+
+}  // namespace
+
+LumenSurface prepare_lumen(const TriMesh& lumen) {
+  check(lumen);
+  LumenSurface surface;
+  surface.wall = geometry::welded(lumen);
+  if (surface.wall.triangles.empty())
+    throw GeometryError("all triangles of the surface are degenerate: there is no lumen to find an axis in");
+  surface.welded_points = used_point_count(lumen) - std::min(used_point_count(lumen), surface.wall.points.size());
+  make_borders_simple(surface);
+  surface.wall = geometry::oriented(surface.wall);
+  surface.openings = find_openings(surface.wall);
+  surface.capped = surface.openings.empty() ? surface.wall : geometry::fill_holes(surface.wall).mesh;
+  surface.capped = geometry::oriented(surface.capped);
+  const std::size_t wall_triangles = surface.wall.triangles.size(), wall_points = surface.wall.points.size();
+  std::copy_n(surface.capped.triangles.begin(), wall_triangles, surface.wall.triangles.begin());
+  surface.on_border.assign(surface.capped.points.size(), false);
+  surface.only_in_caps.assign(surface.capped.points.size(), false);
+  for (std::size_t t = wall_triangles; t < surface.capped.triangles.size(); ++t)
+    for (const std::int32_t v : surface.capped.triangles[t]) surface.on_border[static_cast<std::size_t>(v)] = true;
+  std::fill(surface.only_in_caps.begin() + static_cast<std::ptrdiff_t>(wall_points), surface.only_in_caps.end(), true);
+  return surface;
+}
+
+}  // namespace ostia::centerline

@@ -1,0 +1,110 @@
+#include "ostia/core/log.h"
+
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+namespace ostia::core {
+namespace {
+
+struct Redactions {
+  std::mutex mutex;
+  std::vector<std::pair<std::string, std::string>> pairs;  // longest secret first
+};
+
+Redactions& redactions() {
+  static Redactions instance;
+  return instance;
+}
+
+std::string json_escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '"' || c == '\\') {
+      out += '\\';
+      out += c;
+    } else if (static_cast<unsigned char>(c) < 0x20) {
+      out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+    } else {
+      out += c;
+    }
+  }
+  return out;
+}
+
+std::shared_ptr<spdlog::logger> make_logger() {
+  auto logger = std::make_shared<spdlog::logger>("ostia", std::make_shared<spdlog::sinks::stderr_color_sink_mt>());
+  logger->set_pattern("%^%l%$: %v");
+  logger->set_level(spdlog::level::info);
+  return logger;
+}
+
+spdlog::logger& logger() {
+  static const std::shared_ptr<spdlog::logger> instance = make_logger();
+  return *instance;
+}
+
+std::atomic<bool>& as_json() {
+  static std::atomic<bool> json{false};
+  return json;
+}
+
+spdlog::level::level_enum level_of(LogLevel level) {
+  switch (level) {
+    case LogLevel::debug: return spdlog::level::debug;
+    case LogLevel::info: return spdlog::level::info;
+    case LogLevel::warning: return spdlog::level::warn;
+    case LogLevel::error: return spdlog::level::err;
+    case LogLevel::off: break;
+  }
+  return spdlog::level::off;
+}
+
+void write(spdlog::level::level_enum level, std::string_view message) {
+  if (!logger().should_log(level)) return;
+  const std::string clean = redacted(message);
+  logger().log(level, "{}", as_json() ? json_escaped(clean) : clean);
+}
+
+}  // namespace
+
+void set_log(LogFormat format, LogLevel level) {
+  as_json() = format == LogFormat::json;
+  logger().set_pattern(format == LogFormat::json
+                           ? R"({"time":"%Y-%m-%dT%H:%M:%S.%e%z","level":"%l","message":"%v"})"
+                           : "%^%l%$: %v");
+  logger().set_level(level_of(level));
+}
+
+void redact_in_logs(std::string_view secret, std::string_view alias) {
+  if (secret.size() < 3) return;
+  Redactions& r = redactions();
+  const std::lock_guard lock(r.mutex);
+  r.pairs.emplace_back(secret, alias);
+  std::stable_sort(r.pairs.begin(), r.pairs.end(),
+                   [](const auto& a, const auto& b) { return a.first.size() > b.first.size(); });
+}
+
+std::string redacted(std::string_view text) {
+  std::string out(text);
+  Redactions& r = redactions();
+  const std::lock_guard lock(r.mutex);
+  for (const auto& [secret, alias] : r.pairs) {
+    for (std::size_t at = out.find(secret); at != std::string::npos; at = out.find(secret, at + alias.size())) {
+      out.replace(at, secret.size(), alias);
+    }
+  }
+  return out;
+}
+
+void log_debug(std::string_view message) { write(spdlog::level::debug, message); }
+void log_info(std::string_view message) { write(spdlog::level::info, message); }
+void log_warning(std::string_view message) { write(spdlog::level::warn, message); }
+void log_error(std::string_view message) { write(spdlog::level::err, message); }
+
+}  // namespace ostia::core

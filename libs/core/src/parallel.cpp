@@ -1,0 +1,50 @@
+#include "ostia/core/parallel.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+
+namespace ostia::core {
+namespace {
+
+std::atomic<int> thread_limit{0};
+
+}  // namespace
+
+void set_max_threads(int threads) { thread_limit.store(std::max(threads, 0)); }
+
+int max_threads() {
+  const int limit = thread_limit.load();
+  const int cores = std::max(1, tbb::this_task_arena::max_concurrency());
+  return limit > 0 ? limit : cores;
+}
+
+void parallel_chunks(std::size_t count, std::size_t grain,
+                     const std::function<void(std::size_t, std::size_t)>& body) {
+  if (count == 0) return;
+  if (grain == 0) grain = 1;
+  const std::size_t chunks = (count + grain - 1) / grain;
+  const auto run_chunk = [&](std::size_t chunk) { body(chunk * grain, std::min(count, (chunk + 1) * grain)); };
+  const int threads = max_threads();
+  if (threads == 1 || chunks == 1) {
+    for (std::size_t chunk = 0; chunk < chunks; ++chunk) run_chunk(chunk);
+    return;
+  }
+  const auto loop = [&] {
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, chunks, 1),
+        [&](const tbb::blocked_range<std::size_t>& range) {
+          for (std::size_t chunk = range.begin(); chunk != range.end(); ++chunk) run_chunk(chunk);
+        },
+        tbb::simple_partitioner());
+  };
+  if (thread_limit.load() > 0) {
+    tbb::task_arena(threads).execute(loop);
+  } else {
+    loop();
+  }
+}
+
+}  // namespace ostia::core

@@ -1,0 +1,114 @@
+#include "ostia/evaluation/surface_distance.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ostia/core/error.h"
+#include "ostia/core/parallel.h"
+#include "ostia/geometry/aabb_tree.h"
+
+namespace ostia::evaluation {
+namespace {
+
+using geometry::TriMesh;
+using geometry::Vec3;
+
+struct Sample {
+  Vec3 point = Vec3::Zero();
+  double weight = 0.0;    // area, mm^2
+  double distance = 0.0;  // mm
+  double sign = 1.0;      // of the distance
+};
+
+/// Centroids of the k^2 equal parts of each triangle.
+std::vector<Sample> samples_of(const TriMesh& mesh, double sample_mm, const Region& counts) {
+  std::vector<Sample> out;
+  for (const geometry::Triangle& t : mesh.triangles) {
+    const Vec3 &a = mesh.points[t[0]], &b = mesh.points[t[1]], &c = mesh.points[t[2]];
+    const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+    const int k = std::clamp(static_cast<int>(std::ceil(longest / sample_mm)), 1, 64);
+    const double weight = 0.5 * (b - a).cross(c - a).norm() / (k * k);
+    const auto add = [&](double u, double v) {
+      const Vec3 point = a + (b - a) * u + (c - a) * v;
+      if (!counts || counts(point)) out.push_back({point, weight, 0.0, 1.0});
+    };
+    for (int i = 0; i < k; ++i) {
+      for (int j = 0; i + j < k; ++j) {
+        add((i + 1.0 / 3.0) / k, (j + 1.0 / 3.0) / k);
+        if (i + j + 1 < k) add((i + 2.0 / 3.0) / k, (j + 2.0 / 3.0) / k);
+      }
+    }
+  }
+  return out;
+}
+
+void measure(std::vector<Sample>& samples, const geometry::AabbTree& to, bool with_sign, const core::TaskContext& task) {
+  core::parallel_chunks(samples.size(), 2048, [&](std::size_t first, std::size_t last) {
+    task.throw_if_cancelled();
+    for (std::size_t i = first; i < last; ++i) {
+      samples[i].distance = to.closest(samples[i].point).distance;
+      if (with_sign && to.inside(samples[i].point)) samples[i].sign = -1.0;
+    }
+  });
+}
+
+double quantile_95(std::vector<Sample> samples) {
+  std::sort(samples.begin(), samples.end(), [](const Sample& a, const Sample& b) { return a.distance < b.distance; });
+  double total = 0.0;
+  for (const Sample& s : samples) total += s.weight;
+  double reached = 0.0;
+  for (const Sample& s : samples) {
+    reached += s.weight;
+    if (reached >= 0.95 * total) return s.distance;
+  }
+  return samples.back().distance;
+}
+
+double largest(const std::vector<Sample>& samples) {
+  double out = 0.0;
+  for (const Sample& s : samples) out = std::max(out, s.distance);
+  return out;
+}
+
+struct Moments {
+  double weight = 0.0, first = 0.0, second = 0.0;
+  void add(double value, double w) {
+    weight += w;
+    first += w * value;
+    second += w * value * value;
+  }
+  double mean() const { return first / weight; }
+  double rms() const { return std::sqrt(second / weight); }
+  double deviation() const { return std::sqrt(std::max(0.0, second / weight - mean() * mean())); }
+};
+
+}  // namespace
+
+SurfaceDistances compare_surfaces(const TriMesh& reference, const TriMesh& result, const SurfaceDistanceOptions& options,
+                                  const core::TaskContext& task) {
+  if (!(options.sample_mm > 0.0)) throw InvalidInput("sample_mm must be positive");
+  std::vector<Sample> of_reference = samples_of(reference, options.sample_mm, options.reference_region);
+  std::vector<Sample> of_result = samples_of(result, options.sample_mm, options.result_region);
+  if (of_reference.empty() || of_result.empty()) throw InvalidInput("nothing to compare: a surface has no point in the region that counts");
+  measure(of_reference, geometry::AabbTree(result), false, task);
+  task.set_progress(0.5);
+  measure(of_result, geometry::AabbTree(reference), true, task);
+  task.set_progress(1.0);
+
+  Moments both, with_sign;
+  for (const Sample& s : of_reference) both.add(s.distance, s.weight);
+  for (const Sample& s : of_result) {
+    both.add(s.distance, s.weight);
+    with_sign.add(s.sign * s.distance, s.weight);
+  }
+  SurfaceDistances out;
+  out.msd_mm = both.mean();
+  out.rms_sd_mm = both.rms();
+  out.hd95_mm = std::max(quantile_95(of_reference), quantile_95(of_result));
+  out.max_sd_mm = std::max(largest(of_reference), largest(of_result));
+  out.signed_mean_mm = with_sign.mean();
+  out.signed_sd_mm = with_sign.deviation();
+  return out;
+}
+
+}  // namespace ostia::evaluation

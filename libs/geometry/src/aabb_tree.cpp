@@ -1,0 +1,332 @@
+#include "ostia/geometry/aabb_tree.h"
+
+#include "bvh.h"
+#include "mesh_checks.h"
+#include "winding.h"
+
+#include "ostia/core/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace ostia::geometry {
+namespace {
+
+using detail::Bvh;
+using detail::BvhBox;
+using detail::BvhNode;
+using detail::CornerPoints;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+struct Nearest {
+  double squared = infinity;
+  Vec3 weights = Vec3::Zero();
+};
+
+/// Keeps the point of segment (corner i, corner j) nearest to `query` when it beats `best`.
+void consider_segment(const CornerPoints& p, int i, int j, const Vec3& query, Nearest& best) {
+  const Vec3 direction = p[j] - p[i];
+  const double length2 = direction.squaredNorm();
+  double t = length2 > 0.0 ? (query - p[i]).dot(direction) / length2 : 0.0;
+  t = std::clamp(t, 0.0, 1.0);
+  const double squared = (query - ((1.0 - t) * p[i] + t * p[j])).squaredNorm();
+  if (squared >= best.squared) return;
+  best.squared = squared;
+  best.weights.setZero();
+  best.weights[i] = 1.0 - t;
+  best.weights[j] += t;
+}
+
+Nearest nearest_on_edges(const CornerPoints& p, const Vec3& query) {
+  Nearest best;
+  consider_segment(p, 0, 1, query, best);
+  consider_segment(p, 1, 2, query, best);
+  consider_segment(p, 2, 0, query, best);
+  return best;
+}
+
+/// Nearest point of a triangle by the Voronoi regions of its corners, edges and interior. A triangle flagged
+/// as a needle has no interior worth the name: the quotient of two roundings there could land anywhere.
+Nearest nearest_on_triangle(const CornerPoints& p, bool needle, const Vec3& query) {
+  if (needle) return nearest_on_edges(p, query);
+  const Vec3 ab = p[1] - p[0], ac = p[2] - p[0];
+  const Vec3 aq = query - p[0], bq = query - p[1], cq = query - p[2];
+  const double d1 = ab.dot(aq), d2 = ac.dot(aq);
+  const double d3 = ab.dot(bq), d4 = ac.dot(bq);
+  const double d5 = ab.dot(cq), d6 = ac.dot(cq);
+  const double to_c = d1 * d4 - d3 * d2;
+  const double to_b = d5 * d2 - d1 * d6;
+  const double to_a = d3 * d6 - d5 * d4;
+  Nearest result;
+  if (d1 <= 0.0 && d2 <= 0.0) {
+    result.weights = {1.0, 0.0, 0.0};
+  } else if (d3 >= 0.0 && d4 <= d3) {
+    result.weights = {0.0, 1.0, 0.0};
+  } else if (d6 >= 0.0 && d5 <= d6) {
+    result.weights = {0.0, 0.0, 1.0};
+  } else if (to_c <= 0.0 && d1 >= 0.0 && d3 <= 0.0) {
+    const double t = d1 / (d1 - d3);
+    result.weights = {1.0 - t, t, 0.0};
+  } else if (to_b <= 0.0 && d2 >= 0.0 && d6 <= 0.0) {
+    const double t = d2 / (d2 - d6);
+    result.weights = {1.0 - t, 0.0, t};
+  } else if (to_a <= 0.0 && d4 >= d3 && d5 >= d6) {
+    const double t = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+    result.weights = {0.0, 1.0 - t, t};
+  } else {
+    const double sum = to_a + to_b + to_c;
+    result.weights = {to_a / sum, to_b / sum, to_c / sum};
+    if (!(result.weights.minCoeff() >= 0.0)) return nearest_on_edges(p, query);
+  }
+  const Vec3 point = result.weights[0] * p[0] + result.weights[1] * p[1] + result.weights[2] * p[2];
+  result.squared = (query - point).squaredNorm();
+  return result;
+}
+
+/// Below this ratio of area to squared longest edge the interior's barycentric coordinates are mostly
+/// rounding.
+bool is_needle(const CornerPoints& p) {
+  const Vec3 u = p[1] - p[0], v = p[2] - p[1], w = p[0] - p[2];
+  const double longest2 = std::max({u.squaredNorm(), v.squaredNorm(), w.squaredNorm()});
+  return !(u.cross(v).norm() > 1e-10 * longest2);
+}
+
+/// A ray in the frame where it starts at the origin and runs along +z (Woop, Benthin and Wald 2013).
+struct Ray {
+  Vec3 origin;
+  Vec3 direction;
+  Vec3 inverse;
+  int kx, ky, kz;
+  double sx, sy, sz;
+
+  Ray(const Vec3& from, const Vec3& along) : origin(from) {
+    const double length = along.stableNorm();
+    if (!from.allFinite() || !std::isfinite(length) || !(length > 0.0)) {
+      throw InvalidInput("ray: the origin must be finite and the direction finite and not zero");
+    }
+    direction = along / length;
+    inverse = direction.cwiseInverse();
+    direction.cwiseAbs().maxCoeff(&kz);
+    kx = (kz + 1) % 3;
+    ky = (kx + 1) % 3;
+    sx = direction[kx] / direction[kz];
+    sy = direction[ky] / direction[kz];
+    sz = 1.0 / direction[kz];
+  }
+
+  bool meets(const BvhBox& box, double farthest) const {
+    double near = 0.0, far = farthest;
+    for (int a = 0; a < 3; ++a) {
+      if (direction[a] == 0.0) {
+        if (origin[a] < box.lower[a] || origin[a] > box.upper[a]) return false;
+        continue;
+      }
+      double t0 = (box.lower[a] - origin[a]) * inverse[a];
+      double t1 = (box.upper[a] - origin[a]) * inverse[a];
+      if (t0 > t1) std::swap(t0, t1);
+      // Widened by the rounding of the three operations (Ize 2013), so that no box on the ray is missed.
+      near = std::max(near, t0 - 4e-16 * std::abs(t0));
+      far = std::min(far, t1 + 4e-16 * std::abs(t1));
+    }
+    return near <= far;
+  }
+};
+
+/// Twice the signed area of (ray, a, b) in the plane across the ray. A zero is settled as if the ray stood a
+/// hair off towards +x and a hair of a hair towards +y, the same for every triangle: a ray through an edge or
+/// a corner then hits one triangle of the fan, no more and no less.
+struct Side {
+  double value;
+  int sign;
+};
+Side side(const Vec2& a, const Vec2& b) {
+  const double value = a.x() * b.y() - a.y() * b.x();
+  if (value != 0.0) return {value, value > 0.0 ? 1 : -1};
+  if (a.y() != b.y()) return {0.0, a.y() > b.y() ? 1 : -1};
+  if (a.x() != b.x()) return {0.0, b.x() > a.x() ? 1 : -1};
+  return {0.0, 0};
+}
+
+/// Distance along the ray where it crosses the triangle; negative or NaN: nowhere.
+double crossing(const Ray& ray, const CornerPoints& p) {
+  Vec2 flat[3];
+  double depth[3];
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 q = p[i] - ray.origin;
+    flat[i] = {q[ray.kx] - ray.sx * q[ray.kz], q[ray.ky] - ray.sy * q[ray.kz]};
+    depth[i] = ray.sz * q[ray.kz];
+  }
+  const Side u = side(flat[1], flat[2]), v = side(flat[2], flat[0]), w = side(flat[0], flat[1]);
+  if (u.sign == 0 || u.sign != v.sign || v.sign != w.sign) return -1.0;
+  const double sum = u.value + v.value + w.value;
+  if (sum == 0.0) return -1.0;
+  return (u.value * depth[0] + v.value * depth[1] + w.value * depth[2]) / sum;
+}
+
+}  // namespace
+
+struct AabbTree::Impl {
+  Bvh bvh;
+  std::vector<CornerPoints> triangles;  // in the order of the leaves
+  std::vector<char> needles;
+  detail::WindingTree winding;
+
+  explicit Impl(const TriMesh& mesh) {
+    if (mesh.triangles.empty()) throw InvalidInput("AABB tree: the surface has no triangles");
+    detail::check_indices(mesh, "AABB tree");
+    detail::check_finite(mesh, "AABB tree");
+    std::vector<BvhBox> boxes(mesh.triangles.size(), BvhBox::nothing());
+    for (std::size_t t = 0; t < boxes.size(); ++t) {
+      for (int i = 0; i < 3; ++i) boxes[t].extend(detail::corner(mesh, mesh.triangles[t], i).data());
+    }
+    bvh = detail::build_bvh(boxes);
+    triangles.resize(boxes.size());
+    needles.resize(boxes.size());
+    for (std::size_t place = 0; place < boxes.size(); ++place) {
+      const Triangle& triangle = mesh.triangles[static_cast<std::size_t>(bvh.order[place])];
+      for (int i = 0; i < 3; ++i) triangles[place][i] = detail::corner(mesh, triangle, i);
+      needles[place] = is_needle(triangles[place]) ? 1 : 0;
+    }
+    winding = detail::WindingTree(bvh, triangles);
+  }
+
+  /// The nearest point with squared distance below `bound`; triangle -1 when there is none.
+  SurfacePoint nearest(const Vec3& query, double bound) const;
+  /// Calls found(t, place) for each triangle that the ray crosses at t <= farthest; found may lower
+  /// `farthest`.
+  template <class Found>
+  void trace(const Ray& ray, double& farthest, const Found& found) const;
+};
+
+AabbTree::AabbTree(const TriMesh& mesh) : impl_(std::make_unique<Impl>(mesh)) {}
+AabbTree::~AabbTree() = default;
+AabbTree::AabbTree(AabbTree&&) noexcept = default;
+AabbTree& AabbTree::operator=(AabbTree&&) noexcept = default;
+
+SurfacePoint AabbTree::Impl::nearest(const Vec3& query, double bound) const {
+  struct Waiting {
+    std::int32_t node;
+    double squared;
+  };
+  Waiting stack[detail::bvh_stack_size];
+  int size = 0;
+  Nearest best;
+  best.squared = bound;
+  std::int32_t best_place = -1;
+  stack[size++] = {0, bvh.nodes[0].box.squared_distance(query)};
+  while (size > 0) {
+    const Waiting top = stack[--size];
+    if (!(top.squared < best.squared)) continue;
+    const BvhNode& node = bvh.nodes[static_cast<std::size_t>(top.node)];
+    if (node.count > 0) {
+      for (std::int32_t place = node.next; place < node.next + node.count; ++place) {
+        const auto i = static_cast<std::size_t>(place);
+        const Nearest candidate = nearest_on_triangle(triangles[i], needles[i] != 0, query);
+        if (candidate.squared < best.squared) {
+          best = candidate;
+          best_place = place;
+        }
+      }
+      continue;
+    }
+    Waiting near{top.node + 1, bvh.nodes[static_cast<std::size_t>(top.node) + 1].box.squared_distance(query)};
+    Waiting far{node.next, bvh.nodes[static_cast<std::size_t>(node.next)].box.squared_distance(query)};
+    if (far.squared < near.squared) std::swap(near, far);
+    if (far.squared < best.squared) stack[size++] = far;
+    if (near.squared < best.squared) stack[size++] = near;
+  }
+  SurfacePoint result;
+  if (best_place < 0) return result;
+  const CornerPoints& p = triangles[static_cast<std::size_t>(best_place)];
+  result.triangle = bvh.order[static_cast<std::size_t>(best_place)];
+  result.barycentric = best.weights;
+  result.point = best.weights[0] * p[0] + best.weights[1] * p[1] + best.weights[2] * p[2];
+  result.distance = (query - result.point).norm();
+  return result;
+}
+
+template <class Found>
+void AabbTree::Impl::trace(const Ray& ray, double& farthest, const Found& found) const {
+  std::int32_t stack[detail::bvh_stack_size];
+  int size = 0;
+  stack[size++] = 0;
+  while (size > 0) {
+    const std::int32_t index = stack[--size];
+    const BvhNode& node = bvh.nodes[static_cast<std::size_t>(index)];
+    if (!ray.meets(node.box, farthest)) continue;
+    if (node.count == 0) {
+      const BvhBox& left = bvh.nodes[static_cast<std::size_t>(index) + 1].box;
+      const BvhBox& right = bvh.nodes[static_cast<std::size_t>(node.next)].box;
+      double lead = 0.0;  // how far the right child's middle lies beyond the left one's
+      for (int a = 0; a < 3; ++a) {
+        lead += ray.direction[a] * (right.lower[a] + right.upper[a] - left.lower[a] - left.upper[a]);
+      }
+      stack[size++] = lead >= 0.0 ? node.next : index + 1;
+      stack[size++] = lead >= 0.0 ? index + 1 : node.next;
+      continue;
+    }
+    for (std::int32_t place = node.next; place < node.next + node.count; ++place) {
+      const double t = crossing(ray, triangles[static_cast<std::size_t>(place)]);
+      if (t >= 0.0 && t <= farthest) found(t, bvh.order[static_cast<std::size_t>(place)]);
+    }
+  }
+}
+
+SurfacePoint AabbTree::closest(const Vec3& query) const {
+  if (!query.allFinite())
+    throw InvalidInput("AABB tree: the query point has a coordinate that is not finite");
+  return impl_->nearest(query, infinity);
+}
+
+std::optional<SurfacePoint> AabbTree::closest_within(const Vec3& query, double max_distance) const {
+  if (!query.allFinite())
+    throw InvalidInput("AABB tree: the query point has a coordinate that is not finite");
+  if (!(max_distance >= 0.0)) {
+    throw InvalidInput("AABB tree: the largest distance is " + std::to_string(max_distance) +
+                       " mm; it must be 0 or more");
+  }
+  const SurfacePoint result = impl_->nearest(query, std::nextafter(max_distance * max_distance, infinity));
+  if (result.triangle < 0) return std::nullopt;
+  return result;
+}
+
+std::optional<RayHit> AabbTree::first_hit(const Vec3& origin, const Vec3& direction) const {
+  const Ray ray(origin, direction);
+  std::optional<RayHit> best;
+  double farthest = infinity;
+  impl_->trace(ray, farthest, [&](double t, std::int32_t triangle) {
+    if (best && t == best->t && triangle > best->triangle) return;
+    best = RayHit{t, triangle, ray.origin + t * ray.direction};
+    farthest = t;
+  });
+  return best;
+}
+
+std::vector<RayHit> AabbTree::all_hits(const Vec3& origin, const Vec3& direction) const {
+  const Ray ray(origin, direction);
+  std::vector<RayHit> hits;
+  double farthest = infinity;
+  impl_->trace(ray, farthest, [&](double t, std::int32_t triangle) {
+    hits.push_back({t, triangle, ray.origin + t * ray.direction});
+  });
+  std::sort(hits.begin(), hits.end(), [](const RayHit& a, const RayHit& b) {
+    return a.t < b.t || (a.t == b.t && a.triangle < b.triangle);
+  });
+  return hits;
+}
+
+double AabbTree::winding_number(const Vec3& query) const {
+  if (!query.allFinite())
+    throw InvalidInput("AABB tree: the query point has a coordinate that is not finite");
+  return impl_->winding.at(query, impl_->triangles);
+}
+
+double AabbTree::signed_distance(const Vec3& query) const {
+  const double distance = closest(query).distance;
+  return inside(query) ? -distance : distance;
+}
+
+}  // namespace ostia::geometry

@@ -1,0 +1,164 @@
+#include "bvh.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+namespace ostia::geometry::detail {
+namespace {
+
+constexpr int bin_count = 12;
+// From this depth on the splits are at the median, so that the depth stays within the traversal stacks.
+constexpr int balanced_from_depth = 60;
+
+struct Item {
+  BvhBox box;
+  double middle[3];
+  std::int32_t index;
+};
+
+struct Split {
+  int axis = -1;
+  int bin = 0;  // the first bin of the right side
+  double lower = 0.0;
+  double scale = 0.0;
+};
+
+struct Builder {
+  std::vector<Item> items;
+  int leaf_size = 4;
+  Bvh bvh;
+
+  int bin_of(const Item& item, const Split& split) const {
+    return std::min(bin_count - 1, static_cast<int>((item.middle[split.axis] - split.lower) * split.scale));
+  }
+
+  Split best_split(std::size_t first, std::size_t last, const BvhBox& middles) const {
+    Split best;
+    double best_cost = std::numeric_limits<double>::infinity();
+    for (int axis = 0; axis < 3; ++axis) {
+      const double extent = middles.upper[axis] - middles.lower[axis];
+      Split split{axis, 0, middles.lower[axis], bin_count / extent};
+      if (!(extent > 0.0) || !(split.scale < std::numeric_limits<double>::max())) continue;
+      BvhBox boxes[bin_count];
+      std::size_t counts[bin_count] = {};
+      for (BvhBox& box : boxes) box = BvhBox::nothing();
+      for (std::size_t i = first; i < last; ++i) {
+        const int bin = bin_of(items[i], split);
+        boxes[bin].extend(items[i].box);
+        ++counts[bin];
+      }
+      double right_cost[bin_count] = {};
+      BvhBox box = BvhBox::nothing();
+      std::size_t count = 0;
+      for (int bin = bin_count - 1; bin > 0; --bin) {
+        box.extend(boxes[bin]);
+        count += counts[bin];
+        right_cost[bin] = count == 0 ? 0.0 : box.half_area() * static_cast<double>(count);
+      }
+      box = BvhBox::nothing();
+      count = 0;
+      for (int bin = 1; bin < bin_count; ++bin) {
+        box.extend(boxes[bin - 1]);
+        count += counts[bin - 1];
+        if (count == 0 || count == last - first) continue;
+        const double cost = box.half_area() * static_cast<double>(count) + right_cost[bin];
+        if (cost < best_cost) {
+          best_cost = cost;
+          best = split;
+          best.bin = bin;
+        }
+      }
+    }
+    return best;
+  }
+
+  std::size_t split_at_median(std::size_t first, std::size_t last, const BvhBox& middles) {
+    int axis = 0;
+    for (int a = 1; a < 3; ++a) {
+      if (middles.upper[a] - middles.lower[a] > middles.upper[axis] - middles.lower[axis]) axis = a;
+    }
+    const std::size_t half = first + (last - first) / 2;
+    const auto at = [&](std::size_t i) { return items.begin() + static_cast<std::ptrdiff_t>(i); };
+    std::nth_element(at(first), at(half), at(last), [axis](const Item& a, const Item& b) {
+      return a.middle[axis] < b.middle[axis] || (a.middle[axis] == b.middle[axis] && a.index < b.index);
+    });
+    return half;
+  }
+
+  void build(std::size_t first, std::size_t last, int depth) {
+    BvhNode node{BvhBox::nothing(), 0, 0};
+    BvhBox middles = BvhBox::nothing();
+    for (std::size_t i = first; i < last; ++i) {
+      node.box.extend(items[i].box);
+      middles.extend(items[i].middle);
+    }
+    const std::size_t self = bvh.nodes.size();
+    bvh.nodes.push_back(node);
+    if (last - first <= static_cast<std::size_t>(leaf_size)) {
+      bvh.nodes[self].next = static_cast<std::int32_t>(first);
+      bvh.nodes[self].count = static_cast<std::int32_t>(last - first);
+      return;
+    }
+    const Split split = depth < balanced_from_depth ? best_split(first, last, middles) : Split{};
+    std::size_t half = 0;
+    if (split.axis < 0) {
+      half = split_at_median(first, last, middles);
+    } else {
+      const auto begin = items.begin();
+      const auto middle = std::partition(begin + static_cast<std::ptrdiff_t>(first),
+                                         begin + static_cast<std::ptrdiff_t>(last),
+                                         [&](const Item& item) { return bin_of(item, split) < split.bin; });
+      half = static_cast<std::size_t>(middle - begin);
+    }
+    build(first, half, depth + 1);
+    bvh.nodes[self].next = static_cast<std::int32_t>(bvh.nodes.size());
+    build(half, last, depth + 1);
+  }
+};
+
+}  // namespace
+
+BvhBox BvhBox::nothing() {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  return {{inf, inf, inf}, {-inf, -inf, -inf}};
+}
+
+void BvhBox::extend(const double* point) {
+  for (int a = 0; a < 3; ++a) {
+    lower[a] = std::min(lower[a], point[a]);
+    upper[a] = std::max(upper[a], point[a]);
+  }
+}
+
+void BvhBox::extend(const BvhBox& other) {
+  for (int a = 0; a < 3; ++a) {
+    lower[a] = std::min(lower[a], other.lower[a]);
+    upper[a] = std::max(upper[a], other.upper[a]);
+  }
+}
+
+double BvhBox::half_area() const {
+  const double x = upper[0] - lower[0], y = upper[1] - lower[1], z = upper[2] - lower[2];
+  return x * y + y * z + z * x;
+}
+
+Bvh build_bvh(const std::vector<BvhBox>& boxes, int leaf_size) {
+  if (boxes.empty()) return {};
+  Builder builder;
+  builder.leaf_size = leaf_size;
+  builder.items.resize(boxes.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    Item& item = builder.items[i];
+    item.box = boxes[i];
+    item.index = static_cast<std::int32_t>(i);
+    for (int a = 0; a < 3; ++a) item.middle[a] = 0.5 * boxes[i].lower[a] + 0.5 * boxes[i].upper[a];
+  }
+  builder.bvh.nodes.reserve(boxes.size());
+  builder.build(0, boxes.size(), 0);
+  builder.bvh.order.resize(boxes.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) builder.bvh.order[i] = builder.items[i].index;
+  return std::move(builder.bvh);
+}
+
+}  // namespace ostia::geometry::detail

@@ -1,0 +1,55 @@
+#pragma once
+/// \file A bounding-volume hierarchy over boxes; the triangle trees of this library share it.
+
+#include "ostia/geometry/vec.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace ostia::geometry::detail {
+
+/// Plain corners: quicker to grow and test than Eigen's aligned box.
+struct BvhBox {
+  double lower[3];
+  double upper[3];
+
+  static BvhBox nothing();
+  void extend(const double* point);
+  void extend(const BvhBox& other);
+  double half_area() const;
+  bool overlaps(const BvhBox& other) const {
+    return lower[0] <= other.upper[0] && other.lower[0] <= upper[0] && lower[1] <= other.upper[1] &&
+           other.lower[1] <= upper[1] && lower[2] <= other.upper[2] && other.lower[2] <= upper[2];
+  }
+  double squared_distance(const Vec3& point) const {
+    double sum = 0.0;
+    for (int a = 0; a < 3; ++a) {
+      const double below = lower[a] - point[a];
+      const double above = point[a] - upper[a];
+      const double gap = below > above ? below : above;
+      if (gap > 0.0) sum += gap * gap;
+    }
+    return sum;
+  }
+};
+
+/// Nodes in depth-first order: an inner node's left child follows it, its right one stands at `next`.
+struct BvhNode {
+  BvhBox box;
+  std::int32_t next = 0;   ///< inner node: right child; leaf: first place in `order`
+  std::int32_t count = 0;  ///< 0 for an inner node, else the items of the leaf
+};
+
+/// Deeper than any tree that build_bvh makes: traversals keep stacks of this size.
+inline constexpr int bvh_stack_size = 128;
+
+struct Bvh {
+  std::vector<BvhNode> nodes;
+  std::vector<std::int32_t> order;  ///< items, leaf by leaf
+};
+
+/// Splits by the surface-area heuristic in bins (Wald 2007). `boxes` must be finite; none gives no nodes.
+/// The same input gives the same tree.
+Bvh build_bvh(const std::vector<BvhBox>& boxes, int leaf_size = 4);
+
+}  // namespace ostia::geometry::detail

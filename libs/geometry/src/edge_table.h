@@ -1,0 +1,68 @@
+#pragma once
+/// \file The edges of a triangle surface, sorted, with the triangles on each.
+
+#include "ostia/geometry/tri_mesh.h"
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace ostia::geometry::detail {
+
+/// One triangle's side. Triangles that repeat a corner have none.
+struct HalfEdge {
+  std::int32_t low = 0;   ///< lower vertex
+  std::int32_t high = 0;  ///< higher vertex
+  std::int32_t triangle = 0;
+  std::int8_t side = 0;    ///< from corner `side` to the next one
+  bool ascending = false;  ///< runs from `low` to `high`
+
+  std::int32_t from() const { return ascending ? low : high; }
+  std::int32_t to() const { return ascending ? high : low; }
+};
+
+/// Half-edges sorted by edge, then by triangle.
+std::vector<HalfEdge> half_edges(const TriMesh& mesh);
+
+/// Calls use(first, last) with the half-edges of each edge in turn.
+template <class Use>
+void for_each_edge(const std::vector<HalfEdge>& table, const Use& use) {
+  for (std::size_t first = 0; first < table.size();) {
+    std::size_t last = first + 1;
+    while (last < table.size() && table[last].low == table[first].low &&
+           table[last].high == table[first].high)
+      ++last;
+    use(table.data() + first, table.data() + last);
+    first = last;
+  }
+}
+
+/// Disjoint sets whose representative is their lowest member.
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t count) : parent_(count) {
+    for (std::size_t i = 0; i < count; ++i) parent_[i] = static_cast<std::int32_t>(i);
+  }
+  std::int32_t find(std::int32_t i) {
+    while (parent(i) != i) {
+      parent(i) = parent(parent(i));
+      i = parent(i);
+    }
+    return i;
+  }
+  void join(std::int32_t a, std::int32_t b) {
+    a = find(a);
+    b = find(b);
+    if (a > b) std::swap(a, b);
+    parent(b) = a;
+  }
+
+ private:
+  std::int32_t& parent(std::int32_t i) { return parent_[static_cast<std::size_t>(i)]; }
+  std::vector<std::int32_t> parent_;
+};
+
+/// For each point the lowest point with the same coordinates; a point that is not finite stands for itself.
+std::vector<std::int32_t> first_equal_points(const std::vector<Vec3>& points);
+
+}  // namespace ostia::geometry::detail

@@ -1,0 +1,121 @@
+#include "edge_table.h"
+#include "mesh_checks.h"
+
+#include "ostia/geometry/mesh_topology.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <utility>
+
+namespace ostia::geometry {
+namespace {
+
+using detail::HalfEdge;
+
+// The programme takes cubic time: a fifth of a second at this size.
+constexpr std::size_t largest_programme = 500;
+constexpr double forbidden = std::numeric_limits<double>::infinity();
+
+/// Area, plus a millionth part that settles ties in flat loops for well-shaped triangles and shuns degenerate
+/// ones.
+double cost(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 u = b - a, v = c - a;
+  const double area = 0.5 * u.cross(v).norm();
+  const double length2 = u.squaredNorm() + v.squaredNorm() + (v - u).squaredNorm();
+  return area + 1e-6 * length2 * length2 / std::max(area, 1e-12 * length2);
+}
+
+/// Triangulation of least area of a closed polygon (Barequet and Sharir 1995): best(i, j) closes the part
+/// from i to j.
+class LeastArea {
+ public:
+  LeastArea(const std::vector<Vec3>& points, const std::vector<std::int32_t>& loop,
+            const std::vector<std::pair<std::int32_t, std::int32_t>>& edges)
+      : size_(loop.size()), costs_(size_ * size_, 0.0), apex_(size_ * size_, 0) {
+    std::vector<Vec3> p(size_);
+    for (std::size_t i = 0; i < size_; ++i) p[i] = points[static_cast<std::size_t>(loop[i])];
+    for (std::size_t width = 2; width < size_; ++width) {
+      for (std::size_t i = 0; i + width < size_; ++i) {
+        const std::size_t j = i + width;
+        double best = forbidden;
+        // A diagonal that is an edge of the surface already would carry a third triangle.
+        const std::pair<std::int32_t, std::int32_t> chord = std::minmax(loop[i], loop[j]);
+        const bool taken = width + 1 < size_ && std::binary_search(edges.begin(), edges.end(), chord);
+        for (std::size_t k = i + 1; k < j && !taken; ++k) {
+          const double parts = costs_[i * size_ + k] + costs_[k * size_ + j];
+          if (!(parts < best)) continue;
+          const double total = parts + cost(p[i], p[k], p[j]);
+          if (!(total < best)) continue;
+          best = total;
+          apex_[i * size_ + j] = static_cast<std::uint16_t>(k);
+        }
+        costs_[i * size_ + j] = best;
+      }
+    }
+  }
+
+  bool found() const { return costs_[size_ - 1] < forbidden; }
+
+  /// Triangles as places in the loop, first < middle < last.
+  std::vector<std::array<std::size_t, 3>> triangles() const {
+    std::vector<std::array<std::size_t, 3>> result;
+    std::vector<std::pair<std::size_t, std::size_t>> waiting{{0, size_ - 1}};
+    while (!waiting.empty()) {
+      const auto [i, j] = waiting.back();
+      waiting.pop_back();
+      if (j - i < 2) continue;
+      const std::size_t k = apex_[i * size_ + j];
+      result.push_back({i, k, j});
+      waiting.emplace_back(k, j);
+      waiting.emplace_back(i, k);
+    }
+    return result;
+  }
+
+ private:
+  std::size_t size_;
+  std::vector<double> costs_;
+  std::vector<std::uint16_t> apex_;
+};
+
+void fill_with_fan(TriMesh& mesh, const std::vector<std::int32_t>& loop) {
+  Vec3 middle = Vec3::Zero();
+  for (const std::int32_t v : loop) middle += mesh.points[static_cast<std::size_t>(v)];
+  const auto apex = static_cast<std::int32_t>(mesh.points.size());
+  mesh.points.push_back(middle / static_cast<double>(loop.size()));
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    mesh.triangles.push_back({loop[(i + 1) % loop.size()], loop[i], apex});
+  }
+}
+
+}  // namespace
+
+FilledHoles fill_holes(const TriMesh& mesh) {
+  const auto loops = boundary_loops(mesh);
+  detail::check_finite(mesh, "hole filling");
+  std::vector<std::pair<std::int32_t, std::int32_t>> edges;
+  detail::for_each_edge(detail::half_edges(mesh), [&](const HalfEdge* first, const HalfEdge*) {
+    edges.emplace_back(first->low, first->high);
+  });
+  FilledHoles result{mesh, std::vector<std::int32_t>(mesh.triangles.size(), -1)};
+  for (std::size_t l = 0; l < loops.size(); ++l) {
+    const auto& loop = loops[l];
+    bool done = false;
+    if (loop.size() >= 3 && loop.size() <= largest_programme) {
+      const LeastArea programme(mesh.points, loop, edges);
+      done = programme.found();
+      if (done) {
+        // Against the loop's direction: the border's triangles run along it.
+        for (const auto& [i, k, j] : programme.triangles())
+          result.mesh.triangles.push_back({loop[j], loop[k], loop[i]});
+      }
+    }
+    if (!done) fill_with_fan(result.mesh, loop);
+    result.hole_of_triangle.resize(result.mesh.triangles.size(), static_cast<std::int32_t>(l));
+  }
+  return result;
+}
+
+}  // namespace ostia::geometry

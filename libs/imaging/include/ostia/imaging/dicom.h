@@ -1,0 +1,64 @@
+#pragma once
+/// \file CT series from folders of DICOM files.
+
+#include "ostia/core/task_context.h"
+#include "ostia/imaging/image_file.h"
+#include "ostia/imaging/volume.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ostia::imaging {
+
+/// One series found in a folder: files that belong to one image, sorted by position. Nothing of the patient's
+/// identity but for what is shown on the terminal (`description`).
+struct DicomSeries {
+  std::string uid;                    ///< SeriesInstanceUID, with "#2", ... where it had to be split
+  std::string modality, description;  ///< for the terminal and the window alone: never saved
+  std::string transfer_syntax;
+  std::string phase;                         ///< "cardiac phase 40 %" where a series had to be split by it
+  std::vector<std::filesystem::path> files;  ///< one a slice, by position along the normal
+  std::vector<std::int64_t> frames;          ///< of the slice in its file, from 0
+  Geometry geometry;                         ///< before the repair of gaps and tilt
+  double gantry_tilt_deg = 0.0;              ///< shear between slice direction and normal
+  std::vector<std::string> warnings;         ///< missing slices, uneven spacing, tilt, ...
+  std::vector<std::string>
+      faults;  ///< why it cannot be read (no position, no pixel spacing, duplicates); empty if it can
+  bool uneven = false;  ///< a slice missing or distances off by more than 0.2 mm: needs consent to resample
+};
+
+/// All series below a folder (or the one that a file belongs to), largest first. Files that are not DICOM
+/// images are counted in `skipped`. Only headers are read, by our own bounded parser.
+struct DicomFolder {
+  std::vector<DicomSeries> series;
+  std::size_t skipped = 0;
+  std::vector<std::string>
+      damaged;  ///< files that are DICOM but broken, and of no series found: what is wrong with each
+};
+/// Throws IoError where nothing can be read, InvalidInput for a single file that is no DICOM image or is
+/// damaged.
+DicomFolder scan_dicom(const std::filesystem::path& folder_or_file,
+                       const core::TaskContext& task = core::no_task());
+
+struct DicomReadOptions {
+  std::string series_uid;        ///< empty: the only one, or InvalidInput listing them
+  bool resample_uneven = false;  ///< the user's consent to interpolate over missing or uneven slices
+  std::optional<double> pixel_spacing_mm;  ///< given by the user where the files have none
+  std::optional<double>
+      slice_spacing_mm;  ///< given by the user where the files have no position: stacked by instance number
+};
+
+/// The image in HU on a right-handed orthonormal grid: rescaled slice by slice, tilt corrected by resampling,
+/// voxels decoded in a child process. Throws InvalidInput naming the file and the attribute.
+LoadedImage<std::int16_t> read_dicom(const std::filesystem::path& folder_or_file,
+                                     const DicomReadOptions& options = {},
+                                     const core::TaskContext& task = core::no_task());
+
+/// The child's side: decodes the listed files' pixel data into one raw file of stored values. For apps/worker
+/// alone. Returns an exit code; what went wrong, and with which file, is on stderr.
+int decode_dicom_files(const std::filesystem::path& list_file, const std::filesystem::path& output_file);
+
+}  // namespace ostia::imaging

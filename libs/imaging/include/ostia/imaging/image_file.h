@@ -1,0 +1,64 @@
+#pragma once
+/// \file NRRD, MHD/MHA and NIfTI in; NRRD and MHD out. Headers are validated by our own code before any voxel
+/// is read.
+
+#include "ostia/core/task_context.h"
+#include "ostia/imaging/volume.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace ostia::imaging {
+
+enum class PixelType { int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, float64 };
+
+/// What a header says, checked: sizes positive and their product within bounds, spacing finite and positive,
+/// axes not singular, data there in full.
+struct ImageHeader {
+  std::string format;  ///< "NRRD", "MetaImage", "NIfTI-1", "NIfTI-2", "DICOM"
+  Geometry geometry;   ///< after conversion to right-handed LPS with orthonormal axes
+  PixelType pixel_type = PixelType::int16;
+  double slope = 1.0, intercept = 0.0;
+  std::vector<std::string> warnings;  ///< "left-handed axes: k reversed", "sheared axes: will be resampled"
+};
+
+/// Reads and checks a header alone. Throws InvalidInput ("FILE: FIELD: what is wrong") or IoError.
+ImageHeader read_image_header(const std::filesystem::path& path);
+
+/// An image with what had to be said about it.
+template <class T>
+struct LoadedImage {
+  Volume<T> volume;
+  ImageHeader header;
+};
+
+// The readers check as read_image_header does, and in full: data that are cut short, damaged (gzip's check
+// sum) or of another size throw InvalidInput. ResourceError where memory is short. Left-handed axes are
+// reversed and sheared ones resampled, with a warning in the header. Compressed data are unpacked no further
+// than the header's size.
+
+/// A CT image in HU, rounded and clamped to int16 (a warning counts what was clamped, and NaN set to -1024
+/// HU). Sheared axes: trilinear, the image's lowest value where there was no voxel.
+LoadedImage<std::int16_t> read_image(const std::filesystem::path& path,
+                                     const core::TaskContext& task = core::no_task());
+/// A mask: nonzero becomes 1. Throws InvalidInput for an image with more than 16 different values. Sheared
+/// axes: nearest.
+LoadedImage<std::uint8_t> read_mask(const std::filesystem::path& path,
+                                    const core::TaskContext& task = core::no_task());
+/// True values as float (level sets, distance maps); a value that is not finite is refused. Sheared axes:
+/// trilinear, the border's value where there was no voxel.
+LoadedImage<float> read_float_image(const std::filesystem::path& path,
+                                    const core::TaskContext& task = core::no_task());
+/// True when the file's values are whole numbers, at most 16 different ones, 0 among them: a mask rather than
+/// a CT. Reads no further than the 17th value, so that damage behind it goes unseen here.
+bool looks_like_mask(const std::filesystem::path& path);
+
+/// By extension: .nrrd (gzip), .mhd (its voxels in NAME.raw beside it, or NAME-2.raw, ... where an older file
+/// has that name), .mha. Whole or not at all: until the new image is complete the old one stays. Throws
+/// InvalidInput, IoError, ResourceError (disk full).
+void write_image(const std::filesystem::path& path, const ImageVolume& image);
+void write_image(const std::filesystem::path& path, const MaskVolume& image);
+void write_image(const std::filesystem::path& path, const FloatVolume& image);
+
+}  // namespace ostia::imaging

@@ -1,0 +1,79 @@
+#include "ostia/io/surface_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+#include "formats.h"
+#include "ostia/core/error.h"
+#include "ostia/core/files.h"
+
+namespace ostia::io {
+namespace fs = std::filesystem;
+namespace {
+
+std::string lower_extension(const fs::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  return extension;
+}
+
+void check_indices(const LoadedSurface& loaded, const fs::path& path) {
+  const auto count = static_cast<std::int64_t>(loaded.surface.mesh.points.size());
+  for (std::size_t t = 0; t < loaded.surface.mesh.triangles.size(); ++t) {
+    for (const std::int32_t p : loaded.surface.mesh.triangles[t]) {
+      if (p < 0 || p >= count) {
+        refuse(path, "triangle " + std::to_string(t) + " names point " + std::to_string(p) + ", but there are " +
+                         std::to_string(count) + " points");
+      }
+    }
+  }
+}
+
+}  // namespace
+
+void refuse(const fs::path& path, const std::string& what) {
+  throw InvalidInput("cannot read " + path.string() + ": " + what);
+}
+
+bool is_surface_file(const fs::path& path) {
+  static constexpr std::array<std::string_view, 4> known{".stl", ".ply", ".obj", ".vtp"};
+  return std::find(known.begin(), known.end(), lower_extension(path)) != known.end();
+}
+
+LoadedSurface read_surface(const fs::path& path) {
+  std::error_code error;
+  if (!fs::exists(path, error)) throw IoError("cannot read " + path.string() + ": there is no such file");
+  if (fs::is_regular_file(path, error) && fs::file_size(path, error) == 0) refuse(path, "the file is empty");
+  const std::string extension = lower_extension(path);
+  LoadedSurface loaded;
+  if (extension == ".stl") loaded = read_stl(path);
+  else if (extension == ".ply") loaded = read_ply(path);
+  else if (extension == ".obj") loaded = read_obj(path);
+  else if (extension == ".vtp") loaded = read_vtp(path);
+  else refuse(path, "a surface ends in .stl, .ply, .obj or .vtp");
+  if (loaded.surface.mesh.triangles.empty()) refuse(path, "it has no triangles");
+  check_indices(loaded, path);
+  return loaded;
+}
+
+void write_surface(const fs::path& path, const geometry::TriMesh& mesh) {
+  write_surface(path, geometry::FacedSurface{mesh, {}, {}});
+}
+
+void write_surface(const fs::path& path, const geometry::FacedSurface& surface) {
+  const std::string extension = lower_extension(path);
+  if (extension == ".vtp") return core::write_file(path, vtp_text(surface));
+  const bool one_face = surface.face_ids.empty() ||
+                        std::all_of(surface.face_ids.begin(), surface.face_ids.end(),
+                                    [&](std::int32_t id) { return id == surface.face_ids.front(); });
+  if (extension != ".stl" && extension != ".ply") {
+    throw InvalidInput("cannot write " + path.string() + ": a surface is written as .vtp, .stl or .ply");
+  }
+  if (!one_face) {
+    throw InvalidInput("cannot write " + path.string() + ": " + extension + " cannot hold named faces; write .vtp, or the mesh alone");
+  }
+  core::write_file(path, extension == ".stl" ? stl_text(surface.mesh) : ply_text(surface.mesh));
+}
+
+}  // namespace ostia::io

@@ -1,0 +1,35 @@
+#pragma once
+/// \file Between VTK's data sets and files, with the checks that VTK leaves out.
+
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "ostia/geometry/tri_mesh.h"
+
+namespace ostia::io {
+
+/// Reads a VTP (or, by its extension .vtk, a legacy polydata). Throws InvalidInput for anything but a sound file: entities, sizes that the
+/// file cannot hold, what VTK's reader complains of, offsets and connectivity out of range.
+vtkSmartPointer<vtkPolyData> read_polydata(const std::filesystem::path& path);
+vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::filesystem::path& path);
+
+/// The file's content: XML with compressed appended data. Axes and unit are added as field data.
+std::string polydata_text(vtkPolyData& data);
+std::string grid_text(vtkUnstructuredGrid& data);
+
+vtkSmartPointer<vtkPoints> to_vtk(const std::vector<geometry::Vec3>& points);
+std::vector<geometry::Vec3> from_vtk(vtkPoints* points);
+void add_array(vtkDataSetAttributes& attributes, const char* name, const std::vector<std::int32_t>& values);
+void add_array(vtkDataSetAttributes& attributes, const char* name, const std::vector<double>& values);
+void add_array(vtkDataSetAttributes& attributes, const char* name, const std::vector<geometry::Vec3>& values);
+void add_faces(vtkDataObject& data, const std::vector<geometry::Face>& faces);
+/// Faces of field data; those of `ids` that are not named there get "wall" (1) or "face_<id>".
+std::vector<geometry::Face> faces_of(vtkDataObject& data, const std::vector<std::int32_t>& ids);
+
+}  // namespace ostia::io

@@ -1,0 +1,62 @@
+#pragma once
+/// \file Ends of a lumen cut flat by planes normal to the centerline ([Antiga] section 5).
+
+#include "ostia/core/task_context.h"
+#include "ostia/geometry/tri_mesh.h"
+#include "ostia/geometry/vessel_tree.h"
+
+#include <string>
+#include <vector>
+
+namespace ostia::meshing {
+
+struct ClipOptions {
+  /// How far inside the axis' end the plane stands, in radii of the vessel there; so that a rounded end
+  /// disappears. In [0, 10]. At most half of the end's segment.
+  double inset_radii = 1.0;
+  /// Edges at the cut shorter than this fraction of the local edge are collapsed. In [0, 0.5].
+  double sliver_fraction = 0.3;
+  /// Nothing farther than this from the axis' end, in radii, may be cut away. In [1, 100].
+  double reach_radii = 8.0;
+  /// An open end stays as it is when its loop is flat within this fraction of the radius. In [0, 1].
+  double flat_tolerance = 0.1;
+  /// ... and its normal is within this angle of the axis. In [0, 90].
+  double flat_max_angle_deg = 35.0;
+};
+void validate(const ClipOptions& options);
+
+/// A plane at a vessel's end; the normal points out of the lumen.
+struct EndPlane {
+  std::string vessel;                                    ///< name of the vessel that begins or ends here
+  geometry::FaceKind kind = geometry::FaceKind::outlet;  ///< inlet at a root, outlet at an end
+  std::int32_t node = 0;                                 ///< id of the tree's node
+  geometry::Vec3 origin = geometry::Vec3::Zero();        ///< mm
+  geometry::Vec3 normal = geometry::Vec3::UnitZ();       ///< unit
+  double radius_mm = 0.0;
+};
+
+/// Where clip_ends puts its planes: roots first, then ends, each in the tree's order.
+std::vector<EndPlane> end_planes(const geometry::VesselTree& tree, double inset_radii);
+
+struct ClippedEnd {
+  EndPlane plane;  ///< of a kept open end: the plane through its loop
+  std::vector<std::int32_t>
+      loop;               ///< border vertices in the order of the triangles' winding, all on the plane
+  bool was_open = false;  ///< the input was open and flat here, and was kept
+};
+
+struct ClippedSurface {
+  geometry::TriMesh mesh;        ///< open: one border loop an end, no other
+  std::vector<ClippedEnd> ends;  ///< roots first
+  std::vector<std::string> warnings;
+};
+
+/// Cuts the ends of `lumen` (manifold, oriented outward, closed or open) by one plane a root and a leaf of
+/// the tree. A plane cuts only the connected loop of triangles around its own axis, so a neighbouring branch
+/// is never touched. Loop points lie on their plane to round-off. Throws InvalidInput for bad options or
+/// tree, GeometryError naming the end that cannot be cut (plane misses the lumen, loop is not closed, more
+/// than the end would go), or a hole that belongs to no end.
+ClippedSurface clip_ends(const geometry::TriMesh& lumen, const geometry::VesselTree& tree,
+                         const ClipOptions& options = {}, const core::TaskContext& task = core::no_task());
+
+}  // namespace ostia::meshing

@@ -1,0 +1,73 @@
+#pragma once
+/// \file Target edge lengths from the distance to the centerline ([Antiga] 6.1, equations 7-9).
+
+#include "ostia/core/task_context.h"
+#include "ostia/geometry/tri_mesh.h"
+#include "ostia/geometry/vessel_tree.h"
+
+#include <limits>
+#include <vector>
+
+namespace ostia::meshing {
+
+/// What the tube function says of a point: the axis point that minimises |c(s) - p|^2 - r(s)^2 over all axes.
+struct TubeSize {
+  double distance_mm = 0.0;  ///< D_c: from the point to that axis point
+  double radius_mm = 0.0;    ///< R_c: radius of the inscribed sphere there
+  double tube_mm2 = 0.0;     ///< the minimum itself; negative inside the tube
+  geometry::Vec3 axis_point = geometry::Vec3::Zero();
+};
+
+/// The tube function of a set of axes, prepared once. Queries are const and safe from many threads.
+class TubeFunction {
+ public:
+  /// Throws InvalidInput when there is no segment, or a radius is not positive and finite.
+  explicit TubeFunction(const geometry::VesselTree& tree);
+  explicit TubeFunction(const std::vector<geometry::Centerline>& lines);
+  TubeSize operator()(const geometry::Vec3& point) const;
+
+ private:
+  struct Piece {
+    geometry::Vec3 a, step;
+    double radius, radius_step;
+  };
+  struct Block {  // consecutive pieces within a ball, to skip them at once
+    geometry::Vec3 centre;
+    double reach, max_radius;
+    std::size_t first, last;
+  };
+  void add(const geometry::Centerline& line);
+  void build_blocks();
+  std::vector<Piece> pieces_;
+  std::vector<Block> blocks_;
+};
+
+/// What a vessel's size is measured by.
+enum class SizeMeasure {
+  distance,  ///< D_c, follows the wall
+  radius,    ///< R_c, does not grow on the wall of an aneurysm
+};
+
+struct SizingOptions {
+  /// R_el of equation 9: edge length over vessel size. 0.4, the paper's choice, puts about 2 pi / 0.4 = 16
+  /// edges around a vessel whatever its diameter. In [0.02, 2].
+  double edge_ratio = 0.4;
+  SizeMeasure measure = SizeMeasure::distance;
+  /// Bound on the growth of the edge length along the surface, mm per mm (Dunyach et al. 2013). In [0.01, 2].
+  double gradation = 0.3;
+  double min_edge_mm = 0.0;                                      ///< >= 0
+  double max_edge_mm = std::numeric_limits<double>::infinity();  ///< > min_edge_mm
+};
+void validate(const SizingOptions& options);
+
+/// Target edge length at each point of the surface, mm.
+std::vector<double> target_edge_lengths(const geometry::TriMesh& surface, const TubeFunction& tube,
+                                        const SizingOptions& options = {},
+                                        const core::TaskContext& task = core::no_task());
+
+/// Lowers the lengths where they grow faster than `gradation` mm per mm along the mesh's edges. Points of a
+/// value's own neighbourhood are never raised.
+void limit_gradation(const geometry::TriMesh& surface, double gradation,
+                     std::vector<double>& edge_lengths_mm);
+
+}  // namespace ostia::meshing

@@ -1,0 +1,24 @@
+#pragma once
+/// \file Good triangles inside a flat loop.
+
+#include "ostia/geometry/tri_mesh.h"
+
+#include <string>
+#include <vector>
+
+namespace ostia::meshing {
+
+struct FlatPatch {
+  std::vector<geometry::Vec3> inner_points;   ///< numbered after the loop's points
+  std::vector<geometry::Triangle> triangles;  ///< wound as the loop is
+};
+
+/// Constrained Delaunay triangulation of the inside of a simple flat loop, with points at about `edge_mm`
+/// (0: the loop's mean edge), relaxed. Throws GeometryError naming `name` when the loop crosses itself.
+FlatPatch triangulate_flat(const std::vector<geometry::Vec3>& loop, double edge_mm, const std::string& name);
+
+/// Normal of a loop by Newell's formula, as long as twice its area.
+geometry::Vec3 loop_normal(const std::vector<geometry::Vec3>& loop);
+double mean_edge(const std::vector<geometry::Vec3>& loop);
+
+}  // namespace ostia::meshing

@@ -1,0 +1,104 @@
+// The only file that sees TetGen. It may throw an int, call exit or abort, and prints its reasons on standard
+// output: it runs in a child process only.
+#include "tetgen_job.h"
+
+#include "ostia/core/error.h"
+#include "ostia/meshing/tetrahedralize.h"
+
+#include <tetgen.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <new>
+#include <string>
+
+namespace ostia::meshing {
+
+namespace {
+
+/// What TetGen's integer exceptions mean.
+const char* meaning(int code) {
+  switch (code) {
+    case 1:
+      return "out of memory";
+    case 3:
+      return "the surface intersects itself";
+    case 4:
+      return "the surface has a feature too small to resolve";
+    case 5:
+      return "two triangles of the surface are too close to each other";
+    case 10:
+      return "the surface is not acceptable";
+    default:
+      return "internal error of TetGen";
+  }
+}
+
+void fill(tetgenio& in, const TetgenJob& job) {
+  in.numberofpoints = static_cast<int>(job.points.size());
+  in.pointlist = new REAL[3 * job.points.size()];
+  in.pointmtrlist = new REAL[job.points.size()];
+  in.numberofpointmtrs = 1;
+  for (std::size_t i = 0; i < job.points.size(); ++i) {
+    for (int k = 0; k < 3; ++k) in.pointlist[3 * i + static_cast<std::size_t>(k)] = job.points[i][k];
+    in.pointmtrlist[i] = job.sizes[i];
+  }
+  in.numberoffacets = static_cast<int>(job.triangles.size());
+  in.facetlist = new tetgenio::facet[job.triangles.size()];
+  for (std::size_t i = 0; i < job.triangles.size(); ++i) {
+    tetgenio::facet& facet = in.facetlist[i];
+    tetgenio::init(&facet);
+    facet.numberofpolygons = 1;
+    facet.polygonlist = new tetgenio::polygon[1];
+    facet.polygonlist[0].numberofvertices = 3;
+    facet.polygonlist[0].vertexlist = new int[3];
+    for (std::size_t k = 0; k < 3; ++k) facet.polygonlist[0].vertexlist[k] = job.triangles[i][k];
+  }
+}
+
+TetgenResult collect(const tetgenio& out) {
+  TetgenResult result;
+  for (int i = 0; i < out.numberofpoints; ++i)
+    result.points.emplace_back(out.pointlist[3 * i], out.pointlist[3 * i + 1], out.pointlist[3 * i + 2]);
+  for (int i = 0; i < out.numberoftetrahedra; ++i) {
+    const int* t = out.tetrahedronlist + i * out.numberofcorners;
+    result.tetrahedra.push_back({t[0], t[1], t[2], t[3]});
+  }
+  return result;
+}
+
+}  // namespace
+
+int tetrahedralize_in_worker(const std::filesystem::path& input, const std::filesystem::path& output) {
+  // The parent keeps standard error only.
+  std::fflush(stdout);
+  if (dup2(STDERR_FILENO, STDOUT_FILENO) < 0) return 6;
+  try {
+    const TetgenJob job = read_job(input);
+    // p: of a surface; Y: boundary kept; q: quality; m: size field; J: no point dropped, so that numbers
+    // stay; M: coplanar caps' triangles stay apart; Q: quiet.
+    std::string switches = "pYq" + std::to_string(job.max_radius_edge_ratio) + "/" +
+                           std::to_string(job.min_dihedral_deg) + "mJMQ";
+    tetgenio in, out;
+    fill(in, job);
+    ::tetrahedralize(switches.data(), &in, &out);
+    write_result(collect(out), output);
+    return 0;
+  } catch (const int code) {
+    std::fprintf(stderr, "TetGen stopped: %s (code %d)\n", meaning(code), code);
+    return code == 1 ? 5 : code == 3 || code == 4 || code == 5 || code == 10 ? 3 : 6;
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "TetGen stopped: out of memory\n");
+    return 5;
+  } catch (const Error& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return static_cast<int>(error.exit_code());
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 6;
+  }
+}
+
+}  // namespace ostia::meshing

@@ -1,0 +1,39 @@
+#pragma once
+/// \file The manifest that makes a folder whole: what was done, with what, and what came out.
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ostia/core/error.h"
+
+namespace ostia::pipeline {
+
+/// What decides whether a job was done already.
+struct JobKey {
+  std::string command;
+  std::map<std::string, std::string> inputs;  ///< role -> SHA-256
+  std::string parameters;                     ///< canonical JSON text
+};
+
+struct ManifestRecord {
+  JobKey key;
+  ExitCode exit_code = ExitCode::ok;
+  double seconds = 0.0;
+  std::vector<std::string> warnings;
+  std::string quality;                        ///< JSON text of the job's figures
+};
+
+/// Writes `manifest.json` into the folder, last: program and library versions, times, peak memory, SHA-256 of every file there.
+void write_manifest(const std::filesystem::path& folder, const ManifestRecord& record);
+
+/// The recorded exit code when the folder is whole and holds this very job done by this program version; nothing otherwise.
+std::optional<ExitCode> already_done(const std::filesystem::path& folder, const JobKey& key);
+
+/// Most memory this process has had resident, MB.
+double peak_memory_mb();
+std::string program_version();
+
+}  // namespace ostia::pipeline

@@ -1,0 +1,91 @@
+#include "ostia/pipeline/manifest.h"
+
+#include <Eigen/Core>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "ostia/core/files.h"
+#include "ostia/core/log.h"
+
+namespace ostia::pipeline {
+namespace fs = std::filesystem;
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* manifest_name = "manifest.json";
+
+std::string utc_now() {
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  std::tm parts{};
+  ::gmtime_r(&now, &parts);
+  std::array<char, 32> text{};
+  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text.data();
+}
+
+json library_versions() {
+  return {{"eigen", std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) + "." + std::to_string(EIGEN_MINOR_VERSION)},
+          {"compiler", __VERSION__}};
+}
+
+json outputs_of(const fs::path& folder) {
+  json outputs = json::object();
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (!entry.is_regular_file()) continue;
+    outputs[fs::relative(entry.path(), folder).generic_string()] = core::sha256_file(entry.path());
+  }
+  return outputs;
+}
+
+json key_of(const JobKey& key) {
+  return {{"command", key.command}, {"inputs", key.inputs}, {"parameters", json::parse(key.parameters)}};
+}
+
+}  // namespace
+
+double peak_memory_mb() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+std::string program_version() { return OSTIA_VERSION; }
+
+void write_manifest(const fs::path& folder, const ManifestRecord& record) {
+  json manifest = key_of(record.key);
+  manifest["v"] = 1;
+  manifest["program"] = {{"name", "ostia"}, {"version", program_version()}, {"libraries", library_versions()}};
+  manifest["exit_code"] = static_cast<int>(record.exit_code);
+  manifest["finished"] = utc_now();
+  manifest["seconds"] = record.seconds;
+  manifest["peak_mb"] = peak_memory_mb();
+  manifest["warnings"] = json::array();
+  for (const std::string& warning : record.warnings) manifest["warnings"].push_back(core::redacted(warning));
+  manifest["quality"] = record.quality.empty() ? json::object() : json::parse(record.quality);
+  manifest["outputs"] = outputs_of(folder);
+  core::write_file(folder / manifest_name, manifest.dump(2) + "\n");
+}
+
+std::optional<ExitCode> already_done(const fs::path& folder, const JobKey& key) {
+  if (!fs::exists(folder / manifest_name)) return std::nullopt;
+  const json manifest = json::parse(core::read_file(folder / manifest_name), nullptr, false);
+  if (manifest.is_discarded() || manifest.value("v", 0) != 1) return std::nullopt;
+  const json wanted = key_of(key);
+  for (const char* field : {"command", "inputs", "parameters"}) {
+    if (manifest.value(field, json()) != wanted[field]) return std::nullopt;
+  }
+  if (manifest.value("/program/version"_json_pointer, std::string()) != program_version()) return std::nullopt;
+  const json outputs = manifest.value("outputs", json::object());
+  for (const auto& [name, digest] : outputs.items()) {
+    if (!fs::exists(folder / name) || core::sha256_file(folder / name) != digest) return std::nullopt;
+  }
+  return static_cast<ExitCode>(manifest.value("exit_code", 0));
+}
+
+}  // namespace ostia::pipeline

@@ -1,0 +1,182 @@
+#include "ostia/pipeline/model.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "ostia/core/error.h"
+#include "ostia/core/log.h"
+#include "ostia/geometry/mesh_topology.h"
+#include "ostia/meshing/caps.h"
+#include "ostia/pipeline/branch_ends.h"
+
+namespace ostia::pipeline {
+namespace {
+
+using geometry::TriMesh;
+
+/// Runs stages one after another, names and times them.
+class Stages {
+ public:
+  explicit Stages(std::vector<StageTime>& times, const core::TaskContext& task) : times_(times), task_(task) {}
+
+  template <class Work>
+  auto run(const std::string& name, double from, double to, const Work& work) {
+    task_.throw_if_cancelled();
+    task_.set_stage(name);
+    const auto start = std::chrono::steady_clock::now();
+    const core::TaskContext part = task_.sub(from, to);
+    auto result = work(part);
+    part.set_progress(1.0);
+    times_.push_back({name, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()});
+    core::log_debug(name + " took " + std::to_string(times_.back().seconds) + " s");
+    return result;
+  }
+
+ private:
+  std::vector<StageTime>& times_;
+  const core::TaskContext& task_;
+};
+
+void append(std::vector<std::string>& to, const std::vector<std::string>& from) { to.insert(to.end(), from.begin(), from.end()); }
+
+std::string place(const geometry::Vec3& p) {
+  const auto text = [](double v) {
+    std::string out = std::to_string(v);
+    return out.substr(0, out.find('.') + 2);
+  };
+  return "(" + text(p.x()) + "," + text(p.y()) + "," + text(p.z()) + ")";
+}
+
+struct Lumen {
+  TriMesh surface;
+  std::optional<geometry::Vec3> source;
+  std::vector<geometry::Vec3> targets;
+};
+
+Lumen lumen_of_image(const Source& source, const ModelOptions& options, Model& model, Stages& stages) {
+  const BranchEnds ends = ends_of(options.branches);
+  auto segmented = stages.run("segmentation", 0.0, 0.2, [&](const core::TaskContext& task) {
+    return segmentation::segment_vessels(*source.image, options.branches, options.segment, task);
+  });
+  append(model.warnings, segmented.warnings);
+  model.branches = segmented.branches;
+  std::vector<geometry::Vec3> seeds{ends.source};
+  seeds.insert(seeds.end(), ends.targets.begin(), ends.targets.end());
+  Lumen lumen;
+  lumen.surface = stages.run("surface", 0.2, 0.25, [&](const core::TaskContext& task) {
+    return segmentation::surface_of(segmented.level_set, seeds, {}, task);
+  });
+  lumen.source = ends.source;
+  lumen.targets = ends.targets;
+  return lumen;
+}
+
+Lumen lumen_without_image(Source& source, const ModelOptions& options, Stages& stages) {
+  Lumen lumen;
+  if (!options.branches.empty()) {
+    const BranchEnds ends = ends_of(options.branches);
+    lumen.source = ends.source;
+    lumen.targets = ends.targets;
+  }
+  if (options.source) lumen.source = options.source;
+  if (!options.targets.empty()) lumen.targets = options.targets;
+  if (source.kind == SourceKind::mask) {
+    lumen.surface = stages.run("surface", 0.0, 0.25, [&](const core::TaskContext& task) {
+      return segmentation::segment_mask(*source.mask, {}, task);
+    });
+  } else {
+    lumen.surface = std::move(source.surface);
+  }
+  return lumen;
+}
+
+double largest_radius(const centerline::CenterlineResult& centerlines) {
+  double radius = 0.0;
+  for (const geometry::Centerline& line : centerlines.lines) {
+    for (const double r : line.radius) radius = std::max(radius, r);
+  }
+  return radius;
+}
+
+}  // namespace
+
+void require_sound_surface(const TriMesh& surface, const std::string& what) {
+  geometry::SurfaceFaults faults = geometry::find_faults(surface, true);
+  const std::size_t open = faults.open_edges;
+  faults.open_edges = 0;  // open ends are welcome
+  if (faults.closed_manifold() && faults.components <= 1) return;
+  std::string message = what + " cannot be used as it is: " + faults.summary();
+  if (faults.components > 1) message += "; it has " + std::to_string(faults.components) + " separate parts, and a lumen is one";
+  if (!faults.examples.empty()) {
+    message += "; for example at";
+    for (const geometry::Vec3& p : faults.examples) message += " " + place(p);
+    message += " mm";
+  }
+  if (open > 0) message += " (its open ends are fine)";
+  throw GeometryError(message + "; `ostia convert --repair` mends what can be mended");
+}
+
+MeshedLumen mesh_lumen(const TriMesh& lumen, const geometry::VesselTree& tree, const ModelOptions& options,
+                       const core::TaskContext& task) {
+  MeshedLumen out;
+  Stages stages(out.stages, task);
+  const meshing::ClippedSurface clipped = stages.run("ends cut", 0.0, 0.05, [&](const core::TaskContext& part) {
+    return meshing::clip_ends(lumen, tree, options.clip, part);
+  });
+  append(out.warnings, clipped.warnings);
+  const geometry::FacedSurface capped = stages.run("caps", 0.05, 0.1, [&](const core::TaskContext& part) {
+    return meshing::cap_ends(clipped, {}, part);
+  });
+  meshing::RemeshedSurface remeshed = stages.run("remeshing", 0.1, 0.5, [&](const core::TaskContext& part) {
+    const meshing::TubeFunction tube(tree);
+    const std::vector<double> lengths = meshing::target_edge_lengths(capped.mesh, tube, options.sizing, part);
+    return meshing::remesh(capped, lengths, options.remesh, part);
+  });
+  append(out.warnings, remeshed.report.warnings);
+  out.surface = std::move(remeshed.surface);
+  out.remeshing = remeshed.report;
+  meshing::TetrahedralizedVolume volume = stages.run("tetrahedra", 0.5, 0.9, [&](const core::TaskContext& part) {
+    return meshing::tetrahedralize(out.surface, options.tetrahedralize, part);
+  });
+  out.mesh = std::move(volume.mesh);
+  out.volume_quality = volume.report.quality;
+  out.surface_quality = stages.run("quality", 0.9, 1.0, [&](const core::TaskContext& part) {
+    return meshing::surface_quality(out.surface.mesh, true, part);
+  });
+  out.verdict = meshing::check(out.surface_quality, options.bounds);
+  append(out.verdict.reasons, meshing::check(out.volume_quality, options.bounds).reasons);
+  return out;
+}
+
+Model build_model(Source source, const ModelOptions& options, const core::TaskContext& task) {
+  Model model;
+  Stages stages(model.stages, task);
+  model.warnings = source.warnings;
+  if (source.image && options.branches.empty()) {
+    throw InvalidInput("an image needs the branches to model: --branch x,y,z:x,y,z for each (`ostia info INPUT --preview DIR` draws slices to read points off)");
+  }
+  Lumen lumen = source.image ? lumen_of_image(source, options, model, stages) : lumen_without_image(source, options, stages);
+  if (options.smoothing) {
+    lumen.surface = stages.run("smoothing", 0.25, 0.27, [&](const core::TaskContext& part) {
+      return geometry::taubin_smoothed(lumen.surface, *options.smoothing, part);
+    });
+  }
+  stages.run("surface check", 0.27, 0.3, [&](const core::TaskContext&) {
+    require_sound_surface(lumen.surface, source.kind == SourceKind::surface ? "the surface" : "the lumen's surface");
+    return 0;
+  });
+  model.centerlines = stages.run("centerlines", 0.3, 0.45, [&](const core::TaskContext& part) {
+    return centerline::extract_centerlines(lumen.surface, lumen.source, lumen.targets, options.centerline, part);
+  });
+  append(model.warnings, model.centerlines.diagnostics.warnings);
+  if (source.kind == SourceKind::surface && !source.unit_given) check_vessel_size(2.0 * largest_radius(model.centerlines), "the surface");
+  model.lumen = std::move(lumen.surface);
+  model.meshed = mesh_lumen(model.lumen, model.centerlines.tree, options, task.sub(0.45, 1.0));
+  append(model.warnings, model.meshed.warnings);
+  model.stages.insert(model.stages.end(), model.meshed.stages.begin(), model.meshed.stages.end());
+  model.source = std::move(source);
+  return model;
+}
+
+}  // namespace ostia::pipeline

@@ -1,0 +1,150 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "ostia/figure/cut_open.h"
+#include "ostia/figure/html_report.h"
+#include "ostia/figure/plot.h"
+#include "ostia/figure/scene.h"
+#include "ostia/figure/slice_figure.h"
+#include "ostia/geometry/mesh_topology.h"
+#include "ostia/pipeline/manifest.h"
+#include "ostia/pipeline/report.h"
+
+namespace ostia::pipeline {
+namespace {
+
+using figure::HtmlReport;
+using geometry::Vec3;
+
+std::string fixed(double value, int decimals) {
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
+  return text.data();
+}
+
+/// A point of the lumen in the middle of the first vessel: what the slices go through.
+Vec3 middle(const Model& model) {
+  const geometry::Centerline& line = model.centerlines.lines.front();
+  return line.points[line.size() / 2];
+}
+
+figure::Camera overview(const Model& model) { return figure::cameras::broadside(model.meshed.surface.mesh.points); }
+
+void add_slices(HtmlReport& html, const Model& model) {
+  if (!model.source.image) return;
+  html.section("The lumen in the image");
+  figure::SliceFigureOptions look;
+  look.image_width_px = 420;
+  html.picture(figure::three_planes(*model.source.image, middle(model), {model.lumen}, {}, look),
+               "Axial, coronal and sagittal slice through the middle of the first vessel; the line is the lumen's surface.");
+}
+
+void add_surface(HtmlReport& html, const Model& model, const core::TaskContext& task) {
+  html.section("Surface and centerlines");
+  figure::Scene scene;
+  figure::MeshActor wall;
+  wall.mesh = model.lumen;
+  wall.color.a = 0.35;
+  wall.label = "lumen";
+  scene.meshes.push_back(std::move(wall));
+  for (std::size_t i = 0; i < model.centerlines.lines.size(); ++i) {
+    const geometry::Centerline& line = model.centerlines.lines[i];
+    const double thin = 0.08 * *std::max_element(line.radius.begin(), line.radius.end());
+    figure::TubeActor tube = figure::tube_of(line, std::max(thin, 0.05), figure::palette(i));
+    tube.label = model.centerlines.tree.vessels[i].name;
+    scene.tubes.push_back(std::move(tube));
+  }
+  html.picture(figure::scene_figure(scene, overview(model), {}, task), "The lumen's surface, see-through, with the centerlines.");
+}
+
+void add_mesh(HtmlReport& html, const Model& model, const core::TaskContext& task) {
+  html.section("The mesh, cut open");
+  const figure::Camera camera = overview(model);
+  const figure::CutPlane plane{middle(model), -camera.direction};
+  figure::Scene scene;
+  scene.meshes = figure::cut_actors(model.meshed.mesh, plane);
+  html.picture(figure::scene_figure(scene, camera, {}, task), "Tetrahedra in front of a plane through the vessel are taken away.");
+}
+
+void add_diameters(HtmlReport& html, const Model& model) {
+  html.section("Diameter along each vessel");
+  std::vector<figure::Series> series;
+  for (const geometry::Vessel& vessel : model.centerlines.tree.vessels) {
+    const geometry::Centerline axis = geometry::vessel_axis(model.centerlines.tree, vessel);
+    figure::Series one;
+    one.name = vessel.name;
+    one.x = axis.abscissa;
+    for (const double r : axis.radius) one.y.push_back(2.0 * r);
+    series.push_back(std::move(one));
+  }
+  figure::PlotOptions options;
+  options.x_label = "distance from the inlet (mm)";
+  options.y_label = "inscribed diameter (mm)";
+  options.y_from_zero = true;
+  html.picture(figure::line_plot(series, options), "Diameter of the largest inscribed sphere.");
+}
+
+void add_truth(HtmlReport& html, const TruthErrors& errors) {
+  html.section("Against the truth");
+  html.key_values({{"mean surface distance", fixed(errors.lumen.msd_mm, 3) + " mm"},
+                   {"95 % Hausdorff distance", fixed(errors.lumen.hd95_mm, 3) + " mm"},
+                   {"signed mean (positive: too wide)", fixed(errors.lumen.signed_mean_mm, 3) + " mm"},
+                   {"axis, mean distance", fixed(errors.axis.mean_mm, 3) + " mm"},
+                   {"radius, median error", fixed(100.0 * errors.axis.radius_median_relative, 1) + " %"},
+                   {"throat radius", fixed(errors.throat_radius_mm, 3) + " mm (true " + fixed(errors.true_throat_radius_mm, 3) + " mm, off by " +
+                                         fixed(100.0 * errors.throat_relative, 1) + " %)"}});
+}
+
+void add_figures(HtmlReport& html, const Model& model) {
+  html.section("Figures");
+  std::vector<std::vector<std::string>> vessels;
+  for (const geometry::Vessel& vessel : model.centerlines.tree.vessels) {
+    const geometry::Centerline axis = geometry::vessel_axis(model.centerlines.tree, vessel);
+    const double least = *std::min_element(axis.radius.begin(), axis.radius.end());
+    vessels.push_back({vessel.name, fixed(axis.abscissa.back(), 1), fixed(2.0 * axis.radius.front(), 2), fixed(2.0 * axis.radius.back(), 2), fixed(2.0 * least, 2)});
+  }
+  html.table({"vessel", "length (mm)", "first diameter (mm)", "last diameter (mm)", "least diameter (mm)"}, vessels);
+  const auto& s = model.meshed.surface_quality;
+  const auto& v = model.meshed.volume_quality;
+  html.key_values({{"triangles", std::to_string(s.triangles)},
+                   {"least angle", fixed(s.min_angle_deg, 1) + " degrees"},
+                   {"mean of the least angles", fixed(s.mean_min_angle_deg, 1) + " degrees"},
+                   {"open edges, non-manifold edges, self-intersections",
+                    std::to_string(s.open_edges) + ", " + std::to_string(s.non_manifold_edges) + ", " + std::to_string(s.self_intersections)},
+                   {"tetrahedra", std::to_string(v.tetrahedra)},
+                   {"least dihedral angle", fixed(v.min_dihedral_deg, 1) + " degrees"},
+                   {"inverted tetrahedra", std::to_string(v.inverted)},
+                   {"volume", fixed(v.volume_mm3, 1) + " mm\xc2\xb3"}});
+  std::vector<std::vector<std::string>> faces;
+  for (const geometry::Face& face : model.meshed.surface.faces) faces.push_back({std::to_string(face.id), face.name});
+  html.table({"CellEntityIds", "face"}, faces);
+  std::vector<std::vector<std::string>> stages;
+  for (const StageTime& stage : model.stages) stages.push_back({stage.name, fixed(stage.seconds, 2)});
+  html.table({"stage", "seconds"}, stages);
+}
+
+}  // namespace
+
+void write_report_html(const std::filesystem::path& path, const Model& model, const std::optional<TruthErrors>& truth,
+                       const core::TaskContext& task) {
+  HtmlReport html("Vessel model", name_of(model.source.kind) + " " + model.source.pseudonym + ", Ostia " + program_version());
+  if (model.meshed.verdict.ok()) {
+    html.notice(figure::Notice::good, "The mesh passed the quality gate.");
+  } else {
+    html.notice(figure::Notice::bad, "Look at this case: " + model.meshed.verdict.summary());
+  }
+  for (const std::string& warning : model.warnings) html.notice(figure::Notice::warning, warning);
+  if (truth) add_truth(html, *truth);
+  add_slices(html, model);
+  task.throw_if_cancelled();
+  add_surface(html, model, task);
+  task.throw_if_cancelled();
+  add_mesh(html, model, task);
+  add_diameters(html, model);
+  add_figures(html, model);
+  html.write(path);
+}
+
+}  // namespace ostia::pipeline

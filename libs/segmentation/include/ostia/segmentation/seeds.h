@@ -1,0 +1,25 @@
+#pragma once
+/// \file What a person points at.
+
+#include <optional>
+
+#include "ostia/geometry/vec.h"
+
+namespace ostia::segmentation {
+
+using geometry::Vec3;
+
+/// One vessel to segment: its two ends and, where the way is not clear, a point between. World points (LPS, mm) in the lumen.
+struct BranchSeeds {
+  Vec3 from = Vec3::Zero();
+  std::optional<Vec3> through = std::nullopt;
+  Vec3 to = Vec3::Zero();
+};
+
+/// Intensities that count as lumen, HU, both included.
+struct IntensityRange {
+  double lower = 0.0;
+  double upper = 0.0;
+};
+
+}  // namespace ostia::segmentation

@@ -1,0 +1,337 @@
+#include "ostia/segmentation/segment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "ostia/core/error.h"
+#include "ostia/core/parallel.h"
+
+namespace ostia::segmentation {
+namespace {
+
+/// A box of all regions' grids.
+imaging::Region united(const std::vector<InitialRegion>& parts) {
+  imaging::Region box = parts.front().region;
+  for (const InitialRegion& part : parts) {
+    for (int d = 0; d < 3; ++d) {
+      box.lower[d] = std::min(box.lower[d], part.region.lower[d]);
+      box.upper[d] = std::max(box.upper[d], part.region.upper[d]);
+    }
+  }
+  return box;
+}
+
+imaging::FloatVolume on_region(const imaging::Geometry& image, const imaging::Region& region, float value) {
+  imaging::FloatVolume out;
+  out.geometry = image;
+  for (int d = 0; d < 3; ++d) out.geometry.size[d] = region.upper[d] - region.lower[d];
+  out.geometry.origin = image.world(Vec3(static_cast<double>(region.lower[0]), static_cast<double>(region.lower[1]),
+                                         static_cast<double>(region.lower[2])));
+  out.voxels.assign(static_cast<std::size_t>(out.geometry.voxels()), value);
+  return out;
+}
+
+void lower_by(imaging::FloatVolume& whole, const imaging::Region& box, const InitialRegion& part) {
+  const auto& size = part.level_set.geometry.size;
+  for (std::int64_t k = 0; k < size[2]; ++k) {
+    for (std::int64_t j = 0; j < size[1]; ++j) {
+      const float* from = part.level_set.voxels.data() + part.level_set.geometry.offset(0, j, k);
+      float* to = whole.voxels.data() + whole.geometry.offset(part.region.lower[0] - box.lower[0],
+                                                              part.region.lower[1] - box.lower[1] + j,
+                                                              part.region.lower[2] - box.lower[2] + k);
+      for (std::int64_t i = 0; i < size[0]; ++i) to[i] = std::min(to[i], from[i]);
+    }
+  }
+}
+
+constexpr double kSeamVoxels = 2.5;
+
+/// Where two branches share a seed, their ends stand face to face: fills the slice of lumen between them, the voxels in range within
+/// some voxels of the plane through the seed that are connected with it there.
+void close_seam(const imaging::ImageVolume& image, const imaging::Region& box, const Vec3& seed, const LevelSetEnd& end,
+                const IntensityRange& range, imaging::FloatVolume& level_set) {
+  const imaging::Geometry& g = level_set.geometry;
+  const double reach = kSeamVoxels * g.spacing.maxCoeff();
+  const Vec3 axis = end.outward.normalized();
+  const Vec3 index = g.index(seed);
+  std::array<std::int64_t, 3> first{};
+  for (int d = 0; d < 3; ++d) first[d] = std::clamp<std::int64_t>(std::llround(index[d]), 0, g.size[d] - 1);
+  std::vector<std::array<std::int64_t, 3>> front{first};
+  std::vector<std::uint8_t> seen(level_set.voxels.size(), 0);
+  seen[g.offset(first[0], first[1], first[2])] = 1;
+  while (!front.empty()) {
+    const auto v = front.back();
+    front.pop_back();
+    level_set(v[0], v[1], v[2]) = std::min(level_set(v[0], v[1], v[2]), -0.1F);
+    for (int d = 0; d < 3; ++d) {
+      for (const int s : {-1, 1}) {
+        auto n = v;
+        n[d] += s;
+        if (n[d] < 0 || n[d] >= g.size[d]) continue;
+        std::uint8_t& mark = seen[g.offset(n[0], n[1], n[2])];
+        if (mark != 0) continue;
+        const Vec3 away = g.world(Vec3(static_cast<double>(n[0]), static_cast<double>(n[1]), static_cast<double>(n[2]))) - seed;
+        const double along = away.dot(axis);
+        if (std::abs(along) > reach || (away - along * axis).norm() > end.radius_mm) continue;
+        const double hu = image(n[0] + box.lower[0], n[1] + box.lower[1], n[2] + box.lower[2]);
+        if (hu < range.lower || hu > range.upper) continue;
+        mark = 1;
+        front.push_back(n);
+      }
+    }
+  }
+}
+
+/// Voxels next to the surface, on either side, and those inside that are not.
+struct Shell {
+  std::vector<std::int64_t> surface;
+  std::vector<std::int64_t> interior;
+};
+
+Shell shell_of(const imaging::FloatVolume& level_set) {
+  Shell shell;
+  const auto& size = level_set.geometry.size;
+  const std::array<std::int64_t, 3> strides{1, size[0], size[0] * size[1]};
+  for (std::int64_t k = 1; k + 1 < size[2]; ++k) {
+    for (std::int64_t j = 1; j + 1 < size[1]; ++j) {
+      for (std::int64_t i = 1; i + 1 < size[0]; ++i) {
+        const std::int64_t n = level_set.geometry.offset(i, j, k);
+        if (level_set.voxels[n] >= 0.0F) continue;
+        bool border = false;
+        for (const std::int64_t s : strides) {
+          border |= level_set.voxels[n - s] >= 0.0F || level_set.voxels[n + s] >= 0.0F;
+        }
+        (border ? shell.surface : shell.interior).push_back(n);
+      }
+    }
+  }
+  return shell;
+}
+
+/// Signs blurred over 3 x 3 x 3 voxels (binomial), every voxel on its side: takes the stairs off the initial surface.
+imaging::FloatVolume without_stairs(const imaging::FloatVolume& level_set, const Shell& shell) {
+  imaging::FloatVolume out = level_set;
+  const auto& size = level_set.geometry.size;
+  const std::array<std::int64_t, 3> strides{1, size[0], size[0] * size[1]};
+  const double h = level_set.geometry.spacing.minCoeff();
+  core::parallel_for(out.voxels.size(), 262144, [&](std::size_t n) {
+    out.voxels[n] = static_cast<float>(level_set.voxels[n] < 0.0F ? -h : h);
+  });
+  constexpr std::array<double, 3> kWeight{0.25, 0.5, 0.25};
+  const auto blurred = [&](std::int64_t n) {
+    double sum = 0.0;
+    for (int k = -1; k <= 1; ++k) {
+      for (int j = -1; j <= 1; ++j) {
+        for (int i = -1; i <= 1; ++i) {
+          const std::int64_t m = n + i * strides[0] + j * strides[1] + k * strides[2];
+          sum += kWeight[i + 1] * kWeight[j + 1] * kWeight[k + 1] * (level_set.voxels[m] < 0.0F ? -1.0 : 1.0);
+        }
+      }
+    }
+    return sum;
+  };
+  const auto visit = [&](std::int64_t n) {
+    const std::array<std::int64_t, 3> at{n % size[0], n / size[0] % size[1], n / (size[0] * size[1])};
+    for (int d = 0; d < 3; ++d) {
+      if (at[d] < 1 || at[d] + 1 >= size[d]) return;
+    }
+    const double value = blurred(n);
+    out.voxels[n] = static_cast<float>(h * (level_set.voxels[n] < 0.0F ? std::min(value, -0.1) : std::max(value, 0.1)));
+  };
+  for (const std::int64_t n : shell.surface) {
+    visit(n);
+    for (const std::int64_t s : strides) {
+      if (level_set.voxels[n - s] >= 0.0F) visit(n - s);
+      if (level_set.voxels[n + s] >= 0.0F) visit(n + s);
+    }
+  }
+  return out;
+}
+
+float percentile(const imaging::FloatVolume& image, const std::vector<std::int64_t>& voxels, double part) {
+  if (voxels.empty()) return 0.0F;
+  std::vector<float> values;
+  values.reserve(voxels.size());
+  for (const std::int64_t n : voxels) values.push_back(image.voxels[n]);
+  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), nth, values.end());
+  return *nth;
+}
+
+/// Gradients that tell walls from noise, HU/mm.
+struct Contrast {
+  double wall = 0.0;
+  double noise = 0.0;   ///< above what the interior shows, well below what the surface shows
+};
+
+Contrast contrast_of(const imaging::FloatVolume& gradient, const Shell& shell) {
+  Contrast contrast;
+  contrast.wall = percentile(gradient, shell.surface, 0.75);
+  if (contrast.wall <= 0.0) return {1.0, 1.0};
+  contrast.noise = std::clamp(1.5 * percentile(gradient, shell.interior, 0.5), 0.1 * contrast.wall, 0.4 * contrast.wall);
+  return contrast;
+}
+
+/// The feature at which curvature counts in full.
+double full_feature(const Contrast& contrast) {
+  return 0.5 * std::log1p(std::pow(0.35 * contrast.wall / contrast.noise, 2));
+}
+
+LevelSetResult evolve(const imaging::ImageVolume& image, const imaging::Region& region, const imaging::FloatVolume& initial,
+                      const Shell& shell, const SegmentOptions& wanted, double lumen_hu, const core::TaskContext& task) {
+  const WallFeature feature = wanted.feature;
+  LevelSetOptions options = wanted.level_set;
+  const auto scheme = feature == WallFeature::upwind ? GradientScheme::upwind : GradientScheme::centred;
+  imaging::FloatVolume gradient = gradient_magnitude(image, region, scheme, task.sub(0.0, 0.1));
+  const Contrast contrast = contrast_of(gradient, shell);
+  options.curvature_needs_feature = full_feature(contrast);
+  if (feature == WallFeature::edges) {
+    gradient = {};
+    EdgeFeature edge;
+    edge.noise_hu_per_mm = contrast.noise;
+    if (wanted.bright_is_lumen) edge.brightest_hu = lumen_hu;
+    return level_set(initial, image, edge, options, task.sub(0.1, 1.0));
+  }
+  options.feature_offset_voxels = feature == WallFeature::upwind ? 0.5 : 0.0;
+  compress_feature(gradient, contrast.noise);
+  return level_set(initial, gradient, options, task.sub(0.1, 1.0));
+}
+
+bool inside_at(const imaging::FloatVolume& level_set, const Vec3& point) {
+  const imaging::Geometry& g = level_set.geometry;
+  const Vec3 index = g.index(point);
+  std::array<std::int64_t, 3> v{};
+  for (int d = 0; d < 3; ++d) {
+    v[d] = std::llround(index[d]);
+    if (v[d] < 0 || v[d] >= g.size[d]) return false;
+  }
+  return level_set(v[0], v[1], v[2]) < 0.0F;
+}
+
+/// How far the section across the vessel a little inside of its end reaches, found on a lattice of its plane, with room.
+double section_radius(const imaging::FloatVolume& initial, const Vec3& seed, const Vec3& outward) {
+  const double h = initial.geometry.spacing.maxCoeff();
+  const Vec3 u = outward.unitOrthogonal();
+  const Vec3 v = outward.cross(u);
+  const Vec3 centre = seed - 3.0 * h * outward;
+  constexpr int kReach = 64;
+  constexpr int kWidth = 2 * kReach + 1;
+  std::vector<std::uint8_t> seen(static_cast<std::size_t>(kWidth) * kWidth, 0);
+  std::vector<std::array<int, 2>> front{{0, 0}};
+  double radius = 0.0;
+  while (!front.empty()) {
+    const auto [a, b] = front.back();
+    front.pop_back();
+    if (std::abs(a) > kReach || std::abs(b) > kReach) continue;
+    std::uint8_t& mark = seen[static_cast<std::size_t>((a + kReach) * kWidth + b + kReach)];
+    if (mark != 0) continue;
+    mark = 1;
+    const Vec3 away = h * (a * u + b * v);
+    if (!inside_at(initial, centre + away) && std::abs(a) + std::abs(b) > 1) continue;
+    radius = std::max(radius, away.norm());
+    for (const auto& [da, db] : {std::array{1, 0}, std::array{-1, 0}, std::array{0, 1}, std::array{0, -1}}) {
+      front.push_back({a + da, b + db});
+    }
+  }
+  return radius + 3.0 * h;
+}
+
+/// An end of a branch that stands free in the open lumen; none where the united region goes on beyond it.
+std::optional<LevelSetEnd> free_end(const imaging::FloatVolume& initial, const Vec3& seed, const Vec3& outward) {
+  if (inside_at(initial, seed + 4.0 * initial.geometry.spacing.maxCoeff() * outward)) return std::nullopt;
+  return LevelSetEnd{seed, outward, section_radius(initial, seed, outward)};
+}
+
+bool shared_seed(const std::vector<BranchSeeds>& branches, std::size_t own, const Vec3& seed, double distance) {
+  for (std::size_t b = 0; b < branches.size(); ++b) {
+    if (b == own) continue;
+    if ((branches[b].from - seed).norm() < distance || (branches[b].to - seed).norm() < distance) return true;
+  }
+  return false;
+}
+
+template <class Call>
+auto with_branch_number(std::size_t number, std::size_t count, const Call& call) {
+  const std::string head = count > 1 ? "branch " + std::to_string(number + 1) + ": " : "";
+  try {
+    return call();
+  } catch (const InvalidInput& e) {
+    throw InvalidInput(head + e.what());
+  } catch (const GeometryError& e) {
+    throw GeometryError(head + e.what());
+  }
+}
+
+}  // namespace
+
+void validate(const SegmentOptions& options) {
+  validate(options.fronts);
+  validate(options.level_set);
+}
+
+SegmentationResult segment_vessels(const imaging::ImageVolume& image, const std::vector<BranchSeeds>& branches,
+                                   const SegmentOptions& options, const core::TaskContext& task) {
+  validate(options);
+  if (branches.empty()) throw InvalidInput("segmentation: no branch is given; give two seeds, one at each end");
+  SegmentationResult result;
+  std::vector<InitialRegion> parts;
+  CollidingFrontsOptions fronts = options.fronts;
+  if (options.bright_is_lumen) fronts.upper_hu = std::numeric_limits<std::int16_t>::max();
+  task.set_stage("colliding fronts");
+  for (std::size_t b = 0; b < branches.size(); ++b) {
+    const double share = 0.4 / static_cast<double>(branches.size());
+    parts.push_back(with_branch_number(b, branches.size(), [&] {
+      return colliding_fronts(image, branches[b], fronts,
+                              task.sub(share * static_cast<double>(b), share * static_cast<double>(b + 1)));
+    }));
+    const InitialRegion& part = parts.back();
+    result.branches.push_back(
+        {part.range, part.range_was_chosen, part.lumen_hu, part.voxels, part.visited, part.touches_border});
+    if (part.touches_border) {
+      result.touches_border = true;
+      result.warnings.push_back("branch " + std::to_string(b + 1) +
+                                " reaches the border of the image: the vessel goes on outside and is cut there");
+    }
+  }
+  result.region = united(parts);
+  imaging::FloatVolume initial = on_region(image.geometry, result.region, 1.0F);
+  for (InitialRegion& part : parts) {
+    lower_by(initial, result.region, part);
+    part.level_set = {};
+  }
+  std::vector<LevelSetEnd> ends;
+  for (std::size_t b = 0; b < branches.size(); ++b) {
+    const std::array<Vec3, 2> seeds{branches[b].from, branches[b].to};
+    for (std::size_t e = 0; e < 2; ++e) {
+      const auto end = free_end(initial, seeds[e], parts[b].outward[e]);
+      if (shared_seed(branches, b, seeds[e], 3.0 * image.geometry.spacing.maxCoeff())) {
+        const double radius = section_radius(initial, seeds[e], parts[b].outward[e]);
+        close_seam(image, result.region, seeds[e], {seeds[e], parts[b].outward[e], radius}, parts[b].range, initial);
+      } else if (end) {
+        ends.push_back(*end);
+      }
+    }
+  }
+  task.set_stage("level set");
+  const Shell shell = shell_of(initial);
+  initial = without_stairs(initial, shell);
+  double brightest = 0.0;
+  for (const InitialRegion& part : parts) brightest = std::max(brightest, part.lumen_hu);
+  SegmentOptions wanted = options;
+  wanted.level_set.ends = std::move(ends);
+  LevelSetResult evolved = evolve(image, result.region, initial, shell, wanted, brightest, task.sub(0.4, 1.0));
+  result.level_set = std::move(evolved.level_set);
+  result.iterations = evolved.iterations;
+  result.converged = evolved.converged;
+  result.rms_voxels = evolved.rms_voxels;
+  if (!evolved.converged && options.level_set.iterations_max > 0) {
+    result.warnings.push_back("the level set was stopped after " + std::to_string(evolved.iterations) +
+                              " iterations, before it came to rest");
+  }
+  task.set_progress(1.0);
+  return result;
+}
+
+}  // namespace ostia::segmentation

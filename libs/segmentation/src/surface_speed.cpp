@@ -1,0 +1,127 @@
+#include "surface_speed.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ostia::segmentation::detail {
+namespace {
+
+double smooth_fade(double value, double full) {
+  if (full <= 0.0) return 1.0;
+  const double t = std::clamp(value / full, 0.0, 1.0);
+  return t * t * (3.0 - 2.0 * t);
+}
+
+constexpr double kRoundest = 0.3;          // curvature times voxel that counts in full: thin vessels must not be pinched off
+constexpr double kStep = 0.4;              // voxels a step at the greatest speed
+constexpr double kZoneVoxels = 3.0;        // of a held end, to either side
+constexpr double kCurvatureStep = 0.125;   // w2 * step beyond which explicit curvature flow is unstable
+
+}  // namespace
+
+struct SurfaceSpeed::Local {
+  double value = 0.0;
+  Vec3 before = Vec3::Zero();    ///< one-sided differences
+  Vec3 after = Vec3::Zero();
+  Vec3 gradient = Vec3::Zero();  ///< central
+  double norm = 0.0;
+  Vec3 normal = Vec3::Zero();
+};
+
+SurfaceSpeed::SurfaceSpeed(const imaging::Geometry& grid, const Pull& feature, const Pull* inflation_speed,
+                           const LevelSetOptions& options)
+    : feature_(feature), inflation_speed_(inflation_speed), options_(options), size_(grid.size), spacing_(grid.spacing) {
+  h_ = spacing_.minCoeff();
+  step_ = kStep;
+  if (options.curvature > 0.0) step_ = std::min(step_, kCurvatureStep / options.curvature);
+  const double strongest = std::max(1.0, std::abs(options.inflation));
+  step_ /= strongest;
+  // Zones in the frame of the image's axes.
+  for (const LevelSetEnd& end : options.ends) {
+    zones_.push_back({grid.index(end.point).cwiseProduct(spacing_), grid.direction.transpose() * end.outward.normalized(),
+                      end.radius_mm, kZoneVoxels * spacing_.maxCoeff()});
+  }
+}
+
+const SurfaceSpeed::EndZone* SurfaceSpeed::zone_at(const Vec3& index) const {
+  for (const EndZone& zone : zones_) {
+    const Vec3 away = index.cwiseProduct(spacing_) - zone.point;
+    const double along = away.dot(zone.axis);
+    if (std::abs(along) > zone.reach) continue;
+    if (away.squaredNorm() - along * along <= zone.radius * zone.radius) return &zone;
+  }
+  return nullptr;
+}
+
+SurfaceSpeed::Local SurfaceSpeed::differentiate(const SparseField& field, std::int64_t n) const {
+  Local local;
+  local.value = field.value(n);
+  for (int d = 0; d < 3; ++d) {
+    const std::int64_t s = field.strides()[d];
+    local.before[d] = (local.value - field.value(n - s)) / spacing_[d];
+    local.after[d] = (field.value(n + s) - local.value) / spacing_[d];
+    local.gradient[d] = 0.5 * (local.before[d] + local.after[d]);
+  }
+  local.norm = local.gradient.norm();
+  if (local.norm > 1e-6) local.normal = local.gradient / local.norm;
+  return local;
+}
+
+double SurfaceSpeed::curvature(const SparseField& field, std::int64_t n, const Local& local) const {
+  if (local.norm < 0.1) return 0.0;  // on a crest between two walls there is no curvature to speak of
+  const Vec3& g = local.gradient;
+  Vec3 second = Vec3::Zero();
+  Vec3 mixed = Vec3::Zero();  // yz, xz, xy
+  for (int d = 0; d < 3; ++d) {
+    second[d] = (local.after[d] - local.before[d]) / spacing_[d];
+    const int a = (d + 1) % 3;
+    const int b = (d + 2) % 3;
+    const std::int64_t sa = field.strides()[a];
+    const std::int64_t sb = field.strides()[b];
+    mixed[d] = (field.value(n + sa + sb) - field.value(n + sa - sb) - field.value(n - sa + sb) +
+                field.value(n - sa - sb)) /
+               (4.0 * spacing_[a] * spacing_[b]);
+  }
+  const double numerator = second[0] * (g[1] * g[1] + g[2] * g[2]) + second[1] * (g[0] * g[0] + g[2] * g[2]) +
+                           second[2] * (g[0] * g[0] + g[1] * g[1]) -
+                           2.0 * (g[1] * g[2] * mixed[0] + g[0] * g[2] * mixed[1] + g[0] * g[1] * mixed[2]);
+  const double most = kRoundest / h_;
+  return std::clamp(numerator / (local.norm * local.norm * local.norm), -most, most);
+}
+
+double SurfaceSpeed::change(const SparseField& field, std::int64_t n) const {
+  const Local local = differentiate(field, n);
+  // Foot point on the surface; further than a voxel the linear model says nothing.
+  const Vec3 here(static_cast<double>(n % size_[0]), static_cast<double>(n / size_[0] % size_[1]),
+                  static_cast<double>(n / (size_[0] * size_[1])));
+  const double to_foot = local.norm > 0.1 ? std::clamp(-local.value / local.norm, -h_, h_) : 0.0;
+  const Vec3 foot = here + (to_foot * local.normal).cwiseQuotient(spacing_);
+  const EndZone* zone = zone_at(foot);
+  const Sample feature = feature_.at(foot, local.normal);
+  double change = 0.0;
+  if (options_.advection > 0.0) {
+    Vec3 velocity = options_.advection * h_ * h_ * feature.gradient;
+    if (zone != nullptr) velocity -= velocity.dot(zone->axis) * zone->axis;
+    const double speed = velocity.norm();
+    if (speed > h_) velocity *= h_ / speed;
+    for (int d = 0; d < 3; ++d) change -= velocity[d] * (velocity[d] > 0.0 ? local.before[d] : local.after[d]);
+  }
+  if (options_.curvature > 0.0 && zone == nullptr) {
+    const double fade = smooth_fade(feature.value, options_.curvature_needs_feature);
+    change += fade * options_.curvature * h_ * h_ * curvature(field, n, local) * local.norm;
+  }
+  if (options_.inflation != 0.0 && zone == nullptr) {
+    const double g = inflation_speed_ ? inflation_speed_->at(foot, local.normal).value : 1.0 / (1.0 + feature.value);
+    const double speed = options_.inflation * h_ * g;
+    double squared = 0.0;
+    for (int d = 0; d < 3; ++d) {  // Osher and Sethian 1988
+      const double in = speed > 0.0 ? std::max(local.before[d], 0.0) : std::min(local.before[d], 0.0);
+      const double out = speed > 0.0 ? std::min(local.after[d], 0.0) : std::max(local.after[d], 0.0);
+      squared += in * in + out * out;
+    }
+    change -= speed * std::sqrt(squared);
+  }
+  return std::clamp(step_ * change, -0.5 * h_, 0.5 * h_);
+}
+
+}  // namespace ostia::segmentation::detail

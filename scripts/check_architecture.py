@@ -1,0 +1,82 @@
+#!/usr/bin/env python3
+"""Checks that the tree is what docs/architecture.md says: floors, public headers, where heavy libraries may stand.
+
+Usage: check_architecture.py ROOT. Prints each breach as FILE:LINE: TEXT and exits with 1 when there is one.
+"""
+import pathlib
+import re
+import sys
+
+FLOORS = [
+    ["core", "geometry"],
+    ["imaging", "reformat", "io", "figure"],
+    ["segmentation", "centerline", "reconstruction", "lumen", "meshing", "motion", "analysis"],
+    ["phantom", "evaluation", "coronary", "pipeline"],
+    ["session", "experiments"],
+    ["glview", "view"],
+]
+GROUND_AND_DATA_ONLY = {"phantom", "evaluation"}
+FOREIGN = re.compile(
+    r'#\s*include\s*[<"](itk|vtk|gdcm|CGAL/|tetgen|cholmod|sqlite3|SQLiteCpp|nlohmann|spdlog|fmt/|CLI/|tbb/|oneapi/|embree|cairo|pango|'
+    r'nanoflann|openssl|zlib|Q[A-Z])')
+OWN = re.compile(r'#\s*include\s*[<"]ostia/([a-z]+)/')
+HEADERS_MAY_SHOW_THIRD_PARTIES = {"view", "glview"}
+# Each stays in files of its own, because of its licence.
+QUARANTINE = {"tetgen.h": re.compile(r"libs/meshing/src/tetgen\w*\.cpp$")}
+
+
+def position(room):
+    for floor, rooms in enumerate(FLOORS):
+        if room in rooms:
+            return floor, rooms.index(room)
+    return None
+
+
+def may_use(user, used):
+    if user == used:
+        return True
+    a, b = position(user), position(used)
+    if a is None or b is None:
+        return False
+    if user in GROUND_AND_DATA_ONLY:
+        return b[0] <= 1
+    return b[0] < a[0] or (b[0] == a[0] and b[1] < a[1])
+
+
+def check_file(root, path, breaches):
+    relative = path.relative_to(root).as_posix()
+    room = path.relative_to(root / "libs").parts[0]
+    public = "/include/" in relative
+    if position(room) is None:
+        breaches.append(f"{relative}:1: the room {room} has no place in the picture")
+        return
+    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+        own = OWN.search(line)
+        if own and not may_use(room, own.group(1)):
+            breaches.append(f"{relative}:{number}: {room} may not use {own.group(1)}")
+        if public and room not in HEADERS_MAY_SHOW_THIRD_PARTIES and FOREIGN.search(line):
+            breaches.append(f"{relative}:{number}: a public header shows a third party: {line.strip()}")
+        if re.search(r'#\s*include\s*<Q[A-Z]', line):
+            breaches.append(f"{relative}:{number}: Qt belongs in apps/workstation alone")
+        for header, allowed in QUARANTINE.items():
+            if re.search(rf'#\s*include\s*[<"]{re.escape(header)}', line) and not allowed.search(relative):
+                breaches.append(f"{relative}:{number}: {header} may not be included here")
+
+
+def main():
+    root = pathlib.Path(sys.argv[1]).resolve()
+    breaches = []
+    sources = [p for p in sorted((root / "libs").rglob("*")) if p.suffix in {".h", ".cpp"}]
+    if not sources:
+        breaches.append("libs: no sources found")
+    for path in sources:
+        check_file(root, path, breaches)
+    for folder in sorted((root / "libs").iterdir()):
+        if folder.is_dir() and not any(folder.rglob("*.cpp")):
+            breaches.append(f"libs/{folder.name}: an empty room")
+    print("\n".join(breaches) if breaches else f"{len(sources)} files, no breach")
+    return 1 if breaches else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,48 @@
+#!/usr/bin/env python3
+"""The architecture check finds each kind of breach, and nothing in a sound tree."""
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+CASES = {
+    "upward arrow": ("libs/core/src/a.cpp", '#include "ostia/geometry/vec.h"\n', "core may not use geometry"),
+    "sideways arrow": ("libs/centerline/src/a.cpp", '#include "ostia/meshing/clip.h"\n', "centerline may not use meshing"),
+    "truth uses what it judges": ("libs/phantom/src/a.cpp", '#include "ostia/centerline/a.h"\n', "phantom may not use centerline"),
+    "VTK in a public header": ("libs/io/include/ostia/io/a.h", "#include <vtkPolyData.h>\n", "third party"),
+    "Qt in a library": ("libs/io/src/a.cpp", "#include <QString>\n", "Qt belongs"),
+    "TetGen outside its file": ("libs/meshing/src/caps.cpp", "#include <tetgen.h>\n", "tetgen.h may not"),
+    "unknown room": ("libs/utils/src/a.cpp", "\n", "no place in the picture"),
+}
+SOUND = ("libs/meshing/src/a.cpp", '#include "ostia/centerline/a.h"\n#include "ostia/core/error.h"\n')
+
+
+def run(check, name, text):
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder) / name
+        path.parent.mkdir(parents=True)
+        path.write_text(text)
+        room = pathlib.Path(*pathlib.PurePosixPath(name).parts[:2])
+        source = pathlib.Path(folder) / room / "src" / "other.cpp"
+        source.parent.mkdir(parents=True, exist_ok=True)
+        source.write_text("\n")
+        return subprocess.run([sys.executable, check, folder], capture_output=True, text=True, check=False)
+
+
+def main():
+    check = sys.argv[1]
+    failed = 0
+    for title, (name, text, expected) in CASES.items():
+        result = run(check, name, text)
+        if result.returncode != 1 or expected not in result.stdout:
+            print(f"not found: {title}: {result.stdout}")
+            failed += 1
+    sound = run(check, *SOUND)
+    if sound.returncode != 0:
+        print(f"a sound tree was refused: {sound.stdout}")
+        failed += 1
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

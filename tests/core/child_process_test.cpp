@@ -1,0 +1,96 @@
+#include "ostia/core/child_process.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <thread>
+
+#include "ostia/core/error.h"
+
+namespace ostia::core {
+namespace {
+
+ChildResult shell(const std::string& script, const ChildLimits& limits = {}, const TaskContext& task = no_task()) {
+  return run_child("/bin/sh", {"-c", script}, limits, task);
+}
+
+TEST(ChildProcess, ReportsExitCodeAndStandardError) {
+  const ChildResult result = shell("echo slice 7 >&2; exit 3");
+  EXPECT_FALSE(result.ok());
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_EQ(result.standard_error, "slice 7\n");
+  EXPECT_EQ(result.describe(), "exited with code 3");
+  EXPECT_TRUE(shell("exit 0").ok());
+}
+
+TEST(ChildProcess, SurvivesAnAbortingChild) {
+  const ChildResult result = shell("kill -ABRT $$");
+  EXPECT_EQ(result.signal, SIGABRT);
+  EXPECT_NE(result.describe().find("signal 6"), std::string::npos);
+}
+
+TEST(ChildProcess, EndsAChildThatBurnsTime) {
+  ChildLimits limits;
+  limits.cpu_time = std::chrono::seconds(1);
+  const ChildResult result = shell("while :; do :; done", limits);
+  EXPECT_TRUE(result.out_of_time);
+  EXPECT_FALSE(result.ok());
+}
+
+TEST(ChildProcess, LimitsMemory) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "memory limits are off under AddressSanitizer";
+#endif
+  ChildLimits limits;
+  limits.memory_bytes = 256 << 20;
+  const ChildResult result = run_child(
+      "/usr/bin/awk", {"BEGIN { s = \"x\"; for (i = 0; i < 40; ++i) s = s s; print length(s) }"}, limits);
+  EXPECT_FALSE(result.ok());
+}
+
+TEST(ChildProcess, LimitsTheFileItWrites) {
+  ChildLimits limits;
+  limits.output_bytes = 1000;
+  EXPECT_FALSE(shell("f=$(mktemp); trap 'rm -f $f' EXIT; head -c 100000 /dev/zero > $f", limits).ok());
+}
+
+TEST(ChildProcess, KeepsTheTailOfALongStandardError) {
+  const ChildResult result = shell("i=0; while [ $i -lt 3000 ]; do echo 0123456789012345678901234567890123456789 >&2; "
+                                   "i=$((i+1)); done; echo end >&2");
+  EXPECT_LE(result.standard_error.size(), 65536u);
+  EXPECT_EQ(result.standard_error.substr(result.standard_error.size() - 4), "end\n");
+}
+
+TEST(ChildProcess, CancelKillsTheChild) {
+  const TaskContext task;
+  std::thread canceller([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    task.cancel();
+  });
+  EXPECT_THROW(shell("sleep 100", {}, task), Cancelled);
+  canceller.join();
+}
+
+TEST(ChildProcess, PassesNoForeignEnvironmentOn) {
+  ::setenv("PATIENT", "DOE^JANE", 1);
+  EXPECT_EQ(shell("env >&2").standard_error.find("DOE"), std::string::npos);
+  ::unsetenv("PATIENT");
+}
+
+TEST(ChildProcess, NamesAMissingProgram) {
+  EXPECT_THROW(run_child("/nonexistent/ostia-worker", {}), IoError);
+}
+
+TEST(ChildProcess, FindsTheWorkerByEnvironment) {
+  const char* before = std::getenv("OSTIA_WORKER");
+  const std::string saved = before ? before : "";
+  ::setenv("OSTIA_WORKER", "/somewhere/worker", 1);
+  EXPECT_EQ(worker_program(), "/somewhere/worker");
+  if (before) ::setenv("OSTIA_WORKER", saved.c_str(), 1);
+  else ::unsetenv("OSTIA_WORKER");
+}
+
+}  // namespace
+}  // namespace ostia::core

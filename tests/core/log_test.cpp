@@ -1,0 +1,49 @@
+#include "ostia/core/log.h"
+
+#include <gtest/gtest.h>
+
+namespace ostia::core {
+namespace {
+
+class Log : public ::testing::Test {
+ protected:
+  ~Log() override { set_log(LogFormat::text, LogLevel::info); }
+};
+
+TEST_F(Log, RedactsWhatIdentifiesThePatient) {
+  redact_in_logs("DOE^JANE", "patient-1");
+  redact_in_logs("/data/DOE^JANE/series", "image-1");
+  EXPECT_EQ(redacted("reading /data/DOE^JANE/series/IM1 of DOE^JANE"), "reading image-1/IM1 of patient-1");
+  ::testing::internal::CaptureStderr();
+  log_warning("DOE^JANE has a missing slice");
+  const std::string written = ::testing::internal::GetCapturedStderr();
+  EXPECT_EQ(written.find("DOE"), std::string::npos);
+  EXPECT_NE(written.find("patient-1 has a missing slice"), std::string::npos);
+}
+
+TEST_F(Log, IgnoresSecretsTooShortToMatter) {
+  redact_in_logs("a", "X");
+  EXPECT_EQ(redacted("a cat"), "a cat");
+}
+
+TEST_F(Log, WritesJsonLines) {
+  set_log(LogFormat::json, LogLevel::info);
+  ::testing::internal::CaptureStderr();
+  log_info("a \"quoted\" word\nand a line");
+  const std::string line = ::testing::internal::GetCapturedStderr();
+  EXPECT_NE(line.find(R"("level":"info")"), std::string::npos);
+  EXPECT_NE(line.find(R"(a \"quoted\" word\u000aand a line)"), std::string::npos);
+}
+
+TEST_F(Log, KeepsQuietBelowItsLevel) {
+  set_log(LogFormat::text, LogLevel::error);
+  ::testing::internal::CaptureStderr();
+  log_info("nobody asked");
+  log_error("this matters");
+  const std::string written = ::testing::internal::GetCapturedStderr();
+  EXPECT_EQ(written.find("nobody"), std::string::npos);
+  EXPECT_NE(written.find("this matters"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace ostia::core

@@ -1,0 +1,85 @@
+#include "ostia/core/parallel.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <mutex>
+#include <set>
+#include <stdexcept>
+#include <vector>
+
+namespace ostia::core {
+namespace {
+
+class Parallel : public ::testing::Test {
+ protected:
+  ~Parallel() override { set_max_threads(0); }
+};
+
+double harmonic_sum() {
+  return parallel_reduce(
+      100000, 777, 0.0,
+      [](std::size_t first, std::size_t last) {
+        double sum = 0.0;
+        for (std::size_t i = first; i < last; ++i) sum += std::sin(static_cast<double>(i)) / static_cast<double>(i + 1);
+        return sum;
+      },
+      [](double a, double b) { return a + b; });
+}
+
+TEST_F(Parallel, VisitsEveryItemOnce) {
+  for (const int threads : {1, 2, 5}) {
+    set_max_threads(threads);
+    std::vector<int> visits(10007, 0);
+    parallel_for(visits.size(), 64, [&](std::size_t i) { ++visits[i]; });
+    EXPECT_EQ(std::set<int>(visits.begin(), visits.end()), std::set<int>{1}) << threads;
+  }
+}
+
+TEST_F(Parallel, ChunksDoNotDependOnTheNumberOfThreads) {
+  std::vector<std::set<std::pair<std::size_t, std::size_t>>> seen;
+  for (const int threads : {1, 3}) {
+    set_max_threads(threads);
+    std::mutex mutex;
+    std::set<std::pair<std::size_t, std::size_t>> chunks;
+    parallel_chunks(1000, 300, [&](std::size_t first, std::size_t last) {
+      const std::lock_guard lock(mutex);
+      chunks.emplace(first, last);
+    });
+    seen.push_back(chunks);
+  }
+  EXPECT_EQ(seen[0], seen[1]);
+  EXPECT_EQ(seen[0].size(), 4u);
+}
+
+TEST_F(Parallel, ReductionHasTheSameBitsForAnyNumberOfThreads) {
+  set_max_threads(1);
+  const double one = harmonic_sum();
+  for (const int threads : {2, 3, 8, 0}) {
+    set_max_threads(threads);
+    EXPECT_EQ(harmonic_sum(), one) << threads;
+  }
+}
+
+TEST_F(Parallel, NothingToDoCallsNothing) {
+  parallel_for(0, 1, [](std::size_t) { FAIL(); });
+  EXPECT_EQ(parallel_reduce(
+                0, 8, 5, [](std::size_t, std::size_t) { return 1; }, [](int a, int b) { return a + b; }),
+            5);
+}
+
+TEST_F(Parallel, PassesExceptionsOn) {
+  set_max_threads(2);
+  EXPECT_THROW(parallel_for(1000, 10, [](std::size_t i) { if (i == 500) throw std::runtime_error("500"); }),
+               std::runtime_error);
+}
+
+TEST_F(Parallel, LimitIsReported) {
+  set_max_threads(3);
+  EXPECT_EQ(max_threads(), 3);
+  set_max_threads(0);
+  EXPECT_GE(max_threads(), 1);
+}
+
+}  // namespace
+}  // namespace ostia::core

@@ -1,0 +1,60 @@
+#include "marching_cubes_table.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+
+namespace ostia::geometry {
+namespace {
+
+bool on_a_common_face(int edge_a, int edge_b) {
+  const CubeEdge& a = cube_edges()[static_cast<std::size_t>(edge_a)];
+  const CubeEdge& b = cube_edges()[static_cast<std::size_t>(edge_b)];
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::set<int> sides{(a.from >> axis) & 1, (a.to >> axis) & 1, (b.from >> axis) & 1,
+                              (b.to >> axis) & 1};
+    if (sides.size() == 1) return true;
+  }
+  return false;
+}
+
+TEST(MarchingCubesTable, EdgesJoinNeighbouringCorners) {
+  std::set<std::pair<int, int>> seen;
+  for (const CubeEdge& e : cube_edges()) {
+    EXPECT_EQ(e.from ^ e.to, 1 << e.axis);
+    EXPECT_LT(e.from, e.to);
+    seen.insert({e.from, e.to});
+  }
+  EXPECT_EQ(seen.size(), 12u);
+}
+
+TEST(MarchingCubesTable, EachPatternUsesJustTheCrossedEdges) {
+  for (std::size_t pattern = 0; pattern < 256; ++pattern) {
+    std::set<int> crossed, used;
+    for (std::size_t e = 0; e < 12; ++e) {
+      const CubeEdge& edge = cube_edges()[e];
+      if (((pattern >> edge.from) & 1u) != ((pattern >> edge.to) & 1u)) crossed.insert(static_cast<int>(e));
+    }
+    for (const auto& t : cube_patterns()[pattern]) used.insert(t.begin(), t.end());
+    EXPECT_EQ(crossed, used) << "pattern " << pattern;
+    EXPECT_LE(cube_patterns()[pattern].size(), 5u);
+  }
+}
+
+TEST(MarchingCubesTable, InnerEdgesPairUpAndLieInNoFace) {
+  for (std::size_t pattern = 0; pattern < 256; ++pattern) {
+    std::map<std::pair<int, int>, int> half_edges;
+    for (const auto& t : cube_patterns()[pattern]) {
+      for (std::size_t c = 0; c < 3; ++c) ++half_edges[{t[c], t[(c + 1) % 3]}];
+    }
+    for (const auto& [edge, count] : half_edges) {
+      EXPECT_EQ(count, 1);
+      const bool inner = half_edges.count({edge.second, edge.first}) > 0;
+      EXPECT_NE(inner, on_a_common_face(edge.first, edge.second)) << "pattern " << pattern;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ostia::geometry

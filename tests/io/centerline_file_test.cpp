@@ -1,0 +1,95 @@
+#include "ostia/io/centerline_file.h"
+
+#include <cmath>
+
+#include "io_test_support.h"
+
+namespace ostia::io {
+namespace {
+
+using geometry::Centerline;
+using geometry::Vec3;
+using geometry::VesselTree;
+
+Centerline line(const Vec3& from, const Vec3& to, double radius) {
+  Centerline out;
+  for (int i = 0; i <= 10; ++i) {
+    out.points.push_back(from + (to - from) * i / 10.0);
+    out.radius.push_back(radius - 0.01 * i);
+  }
+  geometry::complete(out);
+  return out;
+}
+
+VesselTree fork() {
+  const Vec3 a(0, 0, 0), b(0, 0, 10), c(4, 0, 18), d(-4, 0, 18);
+  VesselTree tree;
+  tree.nodes = {{0, a}, {1, b}, {2, c}, {3, d}};
+  tree.segments = {{10, 0, 1, line(a, b, 2.0)}, {11, 1, 2, line(b, c, 1.5)}, {12, 1, 3, line(b, d, 1.4)}};
+  tree.vessels = {{5, "LAD", {10, 11}}, {6, "LCX", {10, 12}}};
+  return tree;
+}
+
+TEST(CenterlineFile, RoundTripsATree) {
+  const auto path = testing::temporary_folder("io") / "lines.vtp";
+  write_centerlines(path, fork());
+  const VesselTree read = read_centerlines(path);
+  EXPECT_FALSE(geometry::find_fault(read).has_value());
+  ASSERT_EQ(read.segments.size(), 3u);
+  EXPECT_EQ(read.nodes.size(), 4u);
+  ASSERT_EQ(read.vessels.size(), 2u);
+  EXPECT_EQ(read.vessels[0].name, "LAD");
+  EXPECT_EQ(read.vessels[1].segments, (std::vector<std::int32_t>{10, 12}));
+  EXPECT_EQ(read.vessels[1].id, 6);
+  for (std::size_t s = 0; s < 3; ++s) {
+    EXPECT_EQ(read.segments[s].axis.points, fork().segments[s].axis.points);
+    EXPECT_EQ(read.segments[s].axis.radius, fork().segments[s].axis.radius);
+  }
+}
+
+TEST(CenterlineFile, CarriesTheNamesThatTheFieldReads) {
+  const auto path = testing::temporary_folder("io") / "lines.vtp";
+  write_centerlines(path, fork());
+  const std::string content = core::read_file(path);
+  for (const char* name : {"MaximumInscribedSphereRadius", "CenterlineIds", "GroupIds", "Blanking", "Abscissas", "ParallelTransportNormals",
+                           "FrenetTangent", "Curvature", "Torsion"}) {
+    EXPECT_NE(content.find("Name=\"" + std::string(name) + "\""), std::string::npos) << name;
+  }
+}
+
+TEST(CenterlineFile, RoundTripsCsvOfVessels) {
+  const auto path = testing::temporary_folder("io") / "lines.csv";
+  write_centerlines(path, fork());
+  const VesselTree read = read_centerlines(path);
+  ASSERT_EQ(read.vessels.size(), 2u);
+  EXPECT_EQ(read.vessels[1].name, "LCX");
+  const Centerline axis = geometry::vessel_axis(read, read.vessels[1]);
+  EXPECT_EQ(axis.points, geometry::vessel_axis(fork(), fork().vessels[1]).points);
+}
+
+TEST(CenterlineFile, ReadsPlainCsv) {
+  const VesselTree read = read_centerlines(file_with("a.csv", "x, y, z, radius\n0,0,0,1.5\n0,0,1,1.25\n\n5,0,0,1\n5,0,1,1\n5,0,2,1\n"));
+  ASSERT_EQ(read.segments.size(), 2u);
+  EXPECT_EQ(read.segments[0].axis.radius[1], 1.25);
+  EXPECT_EQ(read.segments[1].axis.size(), 3u);
+}
+
+TEST(CenterlineFile, RefusesWhatIsNoCenterline) {
+  const std::vector<std::pair<std::string, std::string>> bad{{"x,y,z\n0,0,0\n", "radius"},
+                                                             {"x,y,z,radius\n0,0,0,1\n0,0,a,1\n", "row 3"},
+                                                             {"x,y,z,radius\n0,0,0,1\n0,0,1,-1\n", "positive"},
+                                                             {"x,y,z,radius\n0,0,0,1\n", "fewer than two"},
+                                                             {"x,y,z,radius\n", "no points"},
+                                                             {"x,y,z,radius\n0,0,0,1\n0,0,nan,1\n", "row 3"}};
+  for (const auto& [content, part] : bad) {
+    const auto path = file_with("a.csv", content);
+    expect_refusal(path, [&] { read_centerlines(path); }, {part});
+  }
+  const auto other = file_with("a.txt", "1 2 3");
+  expect_refusal(other, [&] { read_centerlines(other); }, {".vtp"});
+  const auto legacy = file_with("a.vtk", "hello");
+  expect_refusal(legacy, [&] { read_centerlines(legacy); }, {"legacy"});
+}
+
+}  // namespace
+}  // namespace ostia::io

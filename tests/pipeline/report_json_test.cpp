@@ -1,0 +1,37 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "builtin_model.h"
+#include "ostia/pipeline/report.h"
+
+namespace ostia::pipeline {
+namespace {
+
+using nlohmann::json;
+
+TEST(ReportJson, HoldsTheFiguresThatScriptsRead) {
+  const TruthErrors errors = compare_with_truth(builtin_case(), builtin_model());
+  const json report = json::parse(report_json(builtin_model(), builtin_options(), errors));
+  EXPECT_EQ(report["v"], 1);
+  EXPECT_EQ(report["axes"], "LPS");
+  EXPECT_EQ(report["vessels"].size(), 2u);
+  EXPECT_EQ(report["faces"].size(), 4u);
+  EXPECT_EQ(report["volume"]["inverted"], 0);
+  EXPECT_EQ(report["truth"]["lumen"]["msd_mm"].get<double>(), errors.lumen.msd_mm);
+  EXPECT_TRUE(report["verdict"]["passed"].get<bool>());
+  EXPECT_GT(report["vessels"][0]["least_diameter_mm"].get<double>(), 1.0);
+}
+
+TEST(ReportJson, ParametersAreCanonical) {
+  ModelOptions options = builtin_options();
+  EXPECT_EQ(parameters_json(options), parameters_json(builtin_options()));
+  options.sizing.edge_ratio = 0.31;
+  EXPECT_NE(parameters_json(options), parameters_json(builtin_options()));
+  SourceOptions reading;
+  reading.unit_mm = 10.0;
+  EXPECT_NE(parameters_json(builtin_options(), reading), parameters_json(builtin_options()));
+}
+
+}  // namespace
+}  // namespace ostia::pipeline

@@ -1,0 +1,84 @@
+#include "ostia/pipeline/source.h"
+
+#include <gtest/gtest.h>
+
+#include "ostia/core/error.h"
+#include "ostia/core/files.h"
+#include "ostia/core/log.h"
+#include "ostia/geometry/analytic_shapes.h"
+#include "ostia/imaging/image_file.h"
+#include "ostia/io/surface_file.h"
+#include "shared_data.h"
+
+namespace ostia::pipeline {
+namespace {
+namespace fs = std::filesystem;
+
+imaging::ImageVolume ramp() {
+  imaging::ImageVolume image;
+  image.geometry.size = {8, 7, 6};
+  image.voxels.resize(8 * 7 * 6);
+  for (std::size_t i = 0; i < image.voxels.size(); ++i) image.voxels[i] = static_cast<std::int16_t>(i);
+  return image;
+}
+
+geometry::TriMesh tube() { return geometry::surface_of(geometry::straight_tube(10.0, 1.5), 0.5, true); }
+
+TEST(Source, KnowsWhatAFileIs) {
+  const fs::path folder = testing::temporary_folder("source");
+  imaging::write_image(folder / "ct.nrrd", ramp());
+  imaging::MaskVolume mask{ramp().geometry, std::vector<std::uint8_t>(8 * 7 * 6, 1)};
+  mask.voxels[3] = 0;
+  imaging::write_image(folder / "mask.nrrd", mask);
+  io::write_surface(folder / "a.stl", tube());
+  core::write_file(folder / "a.txt", "hello");
+  EXPECT_EQ(classify(folder / "ct.nrrd"), SourceKind::image);
+  EXPECT_EQ(classify(folder / "mask.nrrd"), SourceKind::mask);
+  EXPECT_EQ(classify(folder / "a.stl"), SourceKind::surface);
+  EXPECT_EQ(classify(folder), SourceKind::dicom);
+  EXPECT_THROW(classify(folder / "a.txt"), InvalidInput);
+  EXPECT_THROW(classify(folder / "none.nrrd"), IoError);
+  EXPECT_THROW(classify("/dev/null"), InvalidInput);
+}
+
+TEST(Source, IsKnownByADigestAndNotByItsPath) {
+  const fs::path folder = testing::temporary_folder("DOE_JANE");
+  imaging::write_image(folder / "ct.nrrd", ramp());
+  const Source source = load(folder / "ct.nrrd");
+  EXPECT_EQ(source.sha256, core::sha256_file(folder / "ct.nrrd"));
+  EXPECT_EQ(source.pseudonym, "image-" + source.sha256.substr(0, 8));
+  EXPECT_EQ(source.image->voxels, ramp().voxels);
+  EXPECT_EQ(core::redacted("reading " + (folder / "ct.nrrd").string()).find("DOE_JANE"), std::string::npos);
+}
+
+TEST(Source, FolderDigestDoesNotDependOnNames) {
+  const fs::path a = testing::temporary_folder("a"), b = testing::temporary_folder("b");
+  core::write_file(a / "1", "x");
+  core::write_file(a / "2", "y");
+  core::write_file(b / "2", "x");
+  core::write_file(b / "3", "y");
+  EXPECT_EQ(digest(a, SourceKind::dicom), digest(b, SourceKind::dicom));
+  core::write_file(b / "3", "z");
+  EXPECT_NE(digest(a, SourceKind::dicom), digest(b, SourceKind::dicom));
+}
+
+TEST(Source, DoesNotGuessTheUnit) {
+  const fs::path folder = testing::temporary_folder("source");
+  geometry::TriMesh metres = tube();
+  for (geometry::Vec3& p : metres.points) p *= 0.001;
+  io::write_surface(folder / "m.stl", metres);
+  try {
+    load(folder / "m.stl");
+    FAIL();
+  } catch (const InvalidInput& error) {
+    EXPECT_NE(std::string(error.what()).find("--units"), std::string::npos);
+  }
+  SourceOptions options;
+  options.unit_mm = 1000.0;
+  EXPECT_NEAR(load(folder / "m.stl", options).surface.points.front().norm(), tube().points.front().norm(), 1e-3);
+  EXPECT_THROW(check_vessel_size(120.0, "x"), InvalidInput);
+  EXPECT_NO_THROW(check_vessel_size(40.0, "x"));
+}
+
+}  // namespace
+}  // namespace ostia::pipeline

@@ -1,0 +1,157 @@
+#include "ostia/segmentation/level_set.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <utility>
+
+#include "ostia/core/error.h"
+#include "ostia/core/parallel.h"
+
+namespace ostia::segmentation {
+namespace {
+
+imaging::FloatVolume field(const std::array<std::int64_t, 3>& size, const Vec3& spacing,
+                           const std::function<double(const Vec3&)>& f) {
+  imaging::FloatVolume out;
+  out.geometry.size = size;
+  out.geometry.spacing = spacing;
+  out.geometry.origin = Vec3(-0.5 * spacing[0] * (size[0] - 1.0), -0.5 * spacing[1] * (size[1] - 1.0),
+                             -0.5 * spacing[2] * (size[2] - 1.0));
+  out.voxels.resize(static_cast<std::size_t>(out.geometry.voxels()));
+  for (std::int64_t k = 0; k < size[2]; ++k)
+    for (std::int64_t j = 0; j < size[1]; ++j)
+      for (std::int64_t i = 0; i < size[0]; ++i)
+        out(i, j, k) = static_cast<float>(
+            f(out.geometry.world(Vec3(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)))));
+  return out;
+}
+
+imaging::FloatVolume sphere(double radius, const std::array<std::int64_t, 3>& size, const Vec3& spacing) {
+  return field(size, spacing, [&](const Vec3& p) { return p.norm() - radius; });
+}
+
+/// Radius of the ball of the same volume, by the part of each voxel that is inside.
+double radius_of(const imaging::FloatVolume& phi) {
+  const double h = phi.geometry.spacing.maxCoeff();
+  double volume = 0.0;
+  for (const float value : phi.voxels) volume += std::clamp(0.5 - value / h, 0.0, 1.0);
+  return std::cbrt(volume * phi.geometry.spacing.prod() * 3.0 / (4.0 * 3.14159265358979));
+}
+
+const std::array<std::int64_t, 3> kSize{44, 44, 44};
+const Vec3 kSpacing = Vec3::Constant(0.5);
+
+TEST(LevelSet, WithoutForcesTheSurfaceStays) {
+  const auto initial = sphere(6.0, kSize, kSpacing);
+  LevelSetOptions options;
+  options.curvature = 0.0;
+  const auto flat = field(kSize, kSpacing, [](const Vec3&) { return 1.0; });
+  const LevelSetResult result = level_set(initial, flat, options);
+  EXPECT_TRUE(result.converged);
+  EXPECT_NEAR(radius_of(result.level_set), 6.0, 0.03);
+  for (std::size_t n = 0; n < initial.voxels.size(); ++n) {
+    EXPECT_EQ(initial.voxels[n] < 0.0F, result.level_set.voxels[n] < 0.0F);
+  }
+}
+
+TEST(LevelSet, CurvatureShrinksASphereAtItsRate) {
+  // r^2 = r0^2 - 4 w2 h^2 t for curvature 2/r, t = steps * 0.4.
+  LevelSetOptions options;
+  options.advection = 0.0;
+  options.curvature = 0.3;
+  options.iterations_max = 150;
+  options.rms_tolerance_voxels = 0.0;
+  const auto flat = field(kSize, kSpacing, [](const Vec3&) { return 1.0; });
+  const LevelSetResult result = level_set(sphere(8.0, kSize, kSpacing), flat, options);
+  const double expected = std::sqrt(64.0 - 4.0 * 0.3 * 0.25 * 0.4 * 150);
+  EXPECT_NEAR(radius_of(result.level_set), expected, 0.1);
+}
+
+class LevelSetOnRidge : public ::testing::TestWithParam<std::pair<double, Vec3>> {};
+
+TEST_P(LevelSetOnRidge, RestsOnTheRidgeOfTheFeature) {
+  const auto& [start, spacing] = GetParam();
+  const std::array<std::int64_t, 3> size{static_cast<std::int64_t>(22.0 / spacing[0]),
+                                         static_cast<std::int64_t>(22.0 / spacing[1]),
+                                         static_cast<std::int64_t>(22.0 / spacing[2])};
+  const auto feature = field(size, spacing, [](const Vec3& p) { return std::exp(-std::pow(p.norm() - 7.0, 2) / 2.0); });
+  LevelSetOptions options;
+  options.curvature = 0.0;
+  options.iterations_max = 400;
+  const LevelSetResult result = level_set(sphere(start, size, spacing), feature, options);
+  EXPECT_NEAR(radius_of(result.level_set), 7.0, 0.06);
+}
+
+INSTANTIATE_TEST_SUITE_P(FromBothSides, LevelSetOnRidge,
+                         ::testing::Values(std::pair{5.5, Vec3(0.5, 0.5, 0.5)}, std::pair{8.2, Vec3(0.5, 0.5, 0.5)},
+                                           std::pair{6.0, Vec3(0.4, 0.4, 1.0)}, std::pair{8.0, Vec3(0.4, 0.6, 0.8)}));
+
+TEST(LevelSet, InflationMovesOutwardsAtItsSpeed) {
+  LevelSetOptions options;
+  options.inflation = 0.5;
+  options.curvature = 0.0;
+  options.advection = 0.0;
+  options.iterations_max = 30;
+  const auto flat = field(kSize, kSpacing, [](const Vec3&) { return 0.0; });  // G = 1/(1 + 0)
+  const double expected = 6.0 + 30 * 0.4 * 0.5 * 0.5;  // steps, step, w1, h
+  EXPECT_NEAR(radius_of(level_set(sphere(6.0, kSize, kSpacing), flat, options).level_set), expected, 0.15);
+  // An own speed image: nothing moves where it is 0.
+  const auto still = field(kSize, kSpacing, [](const Vec3&) { return 0.0; });
+  EXPECT_NEAR(radius_of(level_set(sphere(6.0, kSize, kSpacing), flat, still, options).level_set), 6.0, 0.03);
+}
+
+TEST(LevelSet, IsTheSameWhateverTheNumberOfThreads) {
+  const auto feature = field(kSize, kSpacing, [](const Vec3& p) { return std::sin(3 * p.x()) + std::cos(2 * p.y() * p.z()); });
+  core::set_max_threads(1);
+  const auto one = level_set(sphere(6.0, kSize, kSpacing), feature);
+  core::set_max_threads(0);
+  const auto many = level_set(sphere(6.0, kSize, kSpacing), feature);
+  EXPECT_EQ(one.level_set.voxels, many.level_set.voxels);
+  EXPECT_EQ(one.iterations, many.iterations);
+}
+
+TEST(LevelSet, RefusesWhatItCannotUse) {
+  const auto initial = sphere(6.0, kSize, kSpacing);
+  const auto feature = field(kSize, kSpacing, [](const Vec3&) { return 1.0; });
+  auto bad = feature;
+  bad.voxels[17] = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_THROW(level_set(initial, bad), InvalidInput);
+  EXPECT_THROW(level_set(bad, feature), InvalidInput);
+  auto elsewhere = feature;
+  elsewhere.geometry.origin.x() += 0.1;
+  EXPECT_THROW(level_set(initial, elsewhere), InvalidInput);
+  EXPECT_THROW(level_set(feature, feature), InvalidInput);  // nothing inside
+  LevelSetOptions options;
+  options.curvature = -1.0;
+  EXPECT_THROW(level_set(initial, feature, options), InvalidInput);
+  options = {};
+  options.ends = {{Vec3::Zero(), Vec3::Zero(), 1.0}};
+  EXPECT_THROW(level_set(initial, feature, options), InvalidInput);
+  imaging::ImageVolume image;
+  image.geometry.size = {10, 10, 10};
+  image.voxels.resize(1000);
+  EXPECT_THROW(level_set(initial, image, EdgeFeature{}), InvalidInput);
+}
+
+TEST(LevelSet, ASurfaceThatVanishesIsAnError) {
+  LevelSetOptions options;
+  options.advection = 0.0;
+  options.curvature = 1.0;
+  options.iterations_max = 3000;
+  options.rms_tolerance_voxels = 0.0;
+  const auto flat = field(kSize, kSpacing, [](const Vec3&) { return 1.0; });
+  EXPECT_THROW(level_set(sphere(1.2, kSize, kSpacing), flat, options), NumericalError);
+}
+
+TEST(LevelSet, CanBeCancelled) {
+  const core::TaskContext task;
+  task.cancel();
+  const auto feature = field(kSize, kSpacing, [](const Vec3&) { return 1.0; });
+  EXPECT_THROW(level_set(sphere(6.0, kSize, kSpacing), feature, {}, task), Cancelled);
+}
+
+}  // namespace
+}  // namespace ostia::segmentation

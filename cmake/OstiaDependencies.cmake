@@ -29,7 +29,6 @@ if(OSTIA_WITH_IMAGE_LIBRARIES)
   pkg_check_modules(PANGOCAIRO REQUIRED IMPORTED_TARGET pangocairo cairo cairo-pdf cairo-svg)
   find_package(embree 3 REQUIRED)
   find_package(VTK 9.1 REQUIRED COMPONENTS CommonCore CommonDataModel CommonMisc IOXML IOLegacy)
-  find_package(ITK 5.2 REQUIRED COMPONENTS ITKCommon ITKIOGDCM)
 endif()
 
 if(OSTIA_TESTS)

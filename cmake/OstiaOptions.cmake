@@ -12,7 +12,7 @@ set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
 option(OSTIA_TESTS "Build the tests" ON)
 option(OSTIA_BENCHMARKS "Build the benchmarks" ON)
 option(OSTIA_WERROR "Treat warnings as errors" ON)
-option(OSTIA_WITH_IMAGE_LIBRARIES "Build what needs ITK, VTK, Cairo or Embree" ON)
+option(OSTIA_WITH_IMAGE_LIBRARIES "Build what needs VTK, GDCM, Cairo or Embree" ON)
 option(OSTIA_ASAN "AddressSanitizer and UndefinedBehaviorSanitizer in our own libraries" OFF)
 
 find_program(OSTIA_CCACHE ccache)
@@ -25,11 +25,9 @@ if(OSTIA_MOLD)
   add_link_options(-fuse-ld=mold)
 endif()
 
-# One Eigen for all: ITK bundles an older one, and two of them in a program break the one-definition rule.
-add_compile_definitions(ITK_USE_SYSTEM_EIGEN)
 # Results must not depend on whether the compiler fuses multiply and add.
 add_compile_options(-ffp-contract=off)
-# A program links only what it uses: the worker alone needs ITK and TetGen.
+# A program links only what it uses: the worker alone needs GDCM and TetGen.
 add_link_options(-Wl,--as-needed)
 if(OSTIA_ASAN)
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)

@@ -47,6 +47,7 @@ void add_dicom(CLI::App& app, InputOptions& o) {
   app.add_option("--series", o.series, "UID of the DICOM series, where the folder holds several");
   app.add_flag("--resample", o.resample, "Interpolate over missing or uneven slices");
   app.add_option("--pixel-spacing", o.pixel_spacing_mm, "mm, where the DICOM files have none")->check(CLI::PositiveNumber);
+  app.add_option("--slice-spacing", o.slice_spacing_mm, "mm, where the DICOM files have no positions")->check(CLI::PositiveNumber);
 }
 
 void add_units(CLI::App& app, InputOptions& o) {
@@ -68,6 +69,7 @@ void add_lumen(CLI::App& app, LumenOptions& o) {
   app.add_option("--advection", o.advection, "Weight w3 of the pull to the image's edges")->check(CLI::NonNegativeNumber);
   app.add_option("--iterations", o.iterations, "Most iterations of the level set")->check(CLI::NonNegativeNumber);
   app.add_flag("--whole-volume", o.whole_volume, "Let the fronts run through the whole image");
+  app.add_flag("--bright-is-lumen", o.bright_is_lumen, "What is brighter than the lumen (a stent, a catheter) belongs to it; not for calcium");
   app.add_option("--smooth", o.smooth, "Iterations of Taubin's smoothing of the surface; 0: none")->check(CLI::Range(0, 1000));
 }
 
@@ -148,7 +150,7 @@ void define(CLI::App& app, Commands& c, Run& run) {
   add_input(*convert, c.convert.input, "Image, surface or centerlines");
   convert->add_option("OUTPUT", c.convert.output, "By its extension")->required();
   add_units(*convert, c.convert.input);
-  convert->add_flag("--repair", c.convert.repair, "Surfaces: drop bad triangles, join equal points, turn outward, fill holes");
+  convert->add_flag("--repair", c.convert.repair, "Surfaces: drop bad triangles and loose parts, join equal points, turn outward, cut self-intersections out");
   convert->callback([&] { run = [&](const core::TaskContext& task) { return run_convert(c.convert, task); }; });
 
   CLI::App* model = command(app, "model", "From an image, a mask or a surface to a mesh with named faces",
@@ -167,6 +169,18 @@ void define(CLI::App& app, Commands& c, Run& run) {
     c.model.seed = c.common.seed;
     run = [&](const core::TaskContext& task) { return run_model(c.model, task); };
   });
+}
+
+/// A log that is kept must not name what a folder or file is called after.
+void keep_paths_out_of_the_log(const Commands& c) {
+  for (const InputOptions* input : {&c.info.input, &c.import.input, &c.segment.input, &c.centerline.input, &c.mesh.input, &c.convert.input, &c.model.input}) {
+    core::redact_in_logs(input->input.string(), "INPUT");
+  }
+  for (const std::filesystem::path& path : {c.info.preview, c.import.output, c.segment.output, c.segment.level_set, c.centerline.output,
+                                            c.centerline.canal, c.mesh.output, c.mesh.centerline, c.mesh.check, c.convert.output, c.model.output}) {
+    core::redact_in_logs(path.string(), "FILE");
+    core::redact_in_logs(path.parent_path().string(), "FOLDER");
+  }
 }
 
 }  // namespace
@@ -189,6 +203,7 @@ int run(const std::vector<std::string>& arguments, const core::TaskContext& job)
   core::set_max_threads(common.threads);
   core::set_log(common.log == "json" ? core::LogFormat::json : core::LogFormat::text,
                 common.quiet ? core::LogLevel::error : core::LogLevel::info);
+  if (common.log == "json") keep_paths_out_of_the_log(commands);
   const ProgressBar bar(job, common.quiet ? "none" : common.progress);
   return static_cast<int>(command_to_run(job));
 }

@@ -16,7 +16,6 @@ ExitCode run_centerline(const CenterlineCommand& options, const core::TaskContex
   if (source.kind != pipeline::SourceKind::surface) throw InvalidInput("cannot take centerlines of " + options.input.input.string() + ": it is no surface; `ostia segment` makes one of an image");
   pipeline::ModelOptions how;
   apply(options.ends, options.input.coords, nullptr, how);
-  pipeline::require_sound_surface(source.surface, options.input.input.string());
   task.set_stage("centerlines");
   const auto result = centerline::extract_centerlines(source.surface, how.source, how.targets, how.centerline, task.sub(0.1, 0.8));
   for (const std::string& warning : result.diagnostics.warnings) core::log_warning(warning);

@@ -2,33 +2,16 @@
 
 #include "commands.h"
 #include "ostia/core/log.h"
-#include "ostia/geometry/mesh_topology.h"
 #include "ostia/imaging/image_file.h"
 #include "ostia/io/centerline_file.h"
 #include "ostia/io/surface_file.h"
+#include "ostia/pipeline/repair.h"
 #include "points.h"
 
 namespace ostia::app {
 namespace {
 
-geometry::TriMesh without_bad_points(const geometry::TriMesh& mesh) {
-  std::vector<bool> keep;
-  for (const geometry::Triangle& t : mesh.triangles) {
-    keep.push_back(mesh.points[t[0]].allFinite() && mesh.points[t[1]].allFinite() && mesh.points[t[2]].allFinite());
-  }
-  return geometry::subset(mesh, keep);
-}
-
-/// Everything that can be mended without moving the wall, and a word on what was found.
-geometry::TriMesh repaired(const geometry::TriMesh& mesh) {
-  core::log_info("before the repair: " + geometry::find_faults(mesh, true).summary());
-  geometry::TriMesh out = geometry::oriented(geometry::welded(without_bad_points(mesh)));
-  if (!geometry::boundary_loops(out).empty()) out = geometry::fill_holes(out).mesh;
-  core::log_info("after the repair: " + geometry::find_faults(out, true).summary());
-  return out;
-}
-
-void convert_surface(const ConvertCommand& options) {
+void convert_surface(const ConvertCommand& options, const core::TaskContext& task) {
   io::LoadedSurface loaded = io::read_surface(options.input.input);
   for (const std::string& warning : loaded.warnings) core::log_warning(warning);
   const auto unit = source_options(options.input).unit_mm;
@@ -36,7 +19,10 @@ void convert_surface(const ConvertCommand& options) {
     for (geometry::Vec3& p : loaded.surface.mesh.points) p *= *unit;
   }
   if (options.repair) {
-    io::write_surface(options.output, repaired(loaded.surface.mesh));
+    const pipeline::Repaired fixed = pipeline::repaired(loaded.surface.mesh, task);
+    for (const std::string& step : fixed.done) core::log_info(step);
+    core::log_info("faults left: " + fixed.left);
+    io::write_surface(options.output, fixed.mesh);
   } else {
     io::write_surface(options.output, loaded.surface);
   }
@@ -65,7 +51,7 @@ ExitCode run_convert(const ConvertCommand& options, const core::TaskContext& tas
   const pipeline::SourceKind kind = pipeline::classify(input);
   switch (kind) {
     case pipeline::SourceKind::dicom: throw InvalidInput("use `ostia import` for DICOM");
-    case pipeline::SourceKind::surface: convert_surface(options); break;
+    case pipeline::SourceKind::surface: convert_surface(options, task); break;
     case pipeline::SourceKind::image:
     case pipeline::SourceKind::mask: convert_image(options, kind, task); break;
   }

@@ -48,6 +48,7 @@ geometry::VesselTree tree_for(const MeshCommand& options, const pipeline::Source
 ExitCode run_mesh(const MeshCommand& options, const core::TaskContext& task) {
   if (!options.check.empty()) return check_file(options, task);
   if (options.input.input.empty() || options.output.empty()) throw UsageError("`ostia mesh` needs a surface and -o DIR, or --check FILE");
+  pipeline::require_free_folder(options.output);
   const auto start = std::chrono::steady_clock::now();
   task.set_stage("reading");
   const pipeline::Source source = pipeline::load(options.input.input, source_options(options.input), task.sub(0.0, 0.1));
@@ -60,6 +61,7 @@ ExitCode run_mesh(const MeshCommand& options, const core::TaskContext& task) {
   if (!options.centerline.empty()) key.inputs["centerline"] = core::sha256_file(options.centerline);
   if (const auto code = pipeline::already_done(options.output, key)) {
     core::log_info("done already with the same input and parameters; nothing to do");
+    if (options.json) std::fputs(core::read_file(options.output / "quality.json").c_str(), stdout);
     return *code;
   }
   pipeline::require_sound_surface(source.surface, options.input.input.string());

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "commands.h"
+#include "ostia/core/files.h"
 #include "ostia/core/log.h"
 #include "ostia/phantom/builtin_case.h"
 #include "ostia/pipeline/model_folder.h"
@@ -52,20 +53,24 @@ void print(const pipeline::Model& model, const std::optional<pipeline::TruthErro
   const auto& surface = model.meshed.surface_quality;
   const auto& volume = model.meshed.volume_quality;
   std::printf("%zu vessels, %zu triangles (least angle %.1f degrees), %zu tetrahedra (least dihedral %.1f degrees)\n",
-              model.centerlines.tree.vessels.size(), surface.triangles, surface.min_angle_deg, volume.tetrahedra, volume.min_dihedral_deg);
+              model.meshed.centerlines.tree.vessels.size(), surface.triangles, surface.min_angle_deg, volume.tetrahedra, volume.min_dihedral_deg);
   if (!truth) return;
   std::printf("against the truth: lumen %.3f mm off in the mean, radius %.1f %% in the median, %.1f %% in the throat\n",
               truth->lumen.msd_mm, 100.0 * truth->axis.radius_median_relative, 100.0 * truth->throat_relative);
 }
+
+void print_report(const std::filesystem::path& folder) { std::fputs(core::read_file(folder / "report.json").c_str(), stdout); }
 
 }  // namespace
 
 ExitCode run_model(const ModelCommand& command, const core::TaskContext& task) {
   const auto start = Clock::now();
   if (command.builtin != command.input.input.empty()) throw UsageError("`ostia model` needs either an input or --builtin");
+  pipeline::require_free_folder(command.output);
   Job job = job_of(command, task.sub(0.0, 0.1));
   if (const auto code = pipeline::already_done(command.output, job.key)) {
     core::log_info("done already with the same input and parameters; nothing to do");
+    if (command.json) print_report(command.output);
     return *code;
   }
   const core::TaskContext building = task.sub(0.1, 0.85);
@@ -80,7 +85,7 @@ ExitCode run_model(const ModelCommand& command, const core::TaskContext& task) {
   const ExitCode code = pipeline::write_model_folder(command.output, model, job.options, job.key, truth, seconds, task.sub(0.9, 1.0));
   task.set_progress(1.0);
   if (command.json) {
-    std::fputs(pipeline::report_json(model, job.options, truth).c_str(), stdout);
+    print_report(command.output);
   } else {
     print(model, truth);
   }

@@ -25,7 +25,7 @@ struct InputOptions {
   std::filesystem::path input;
   std::string series;
   bool resample = false;
-  std::optional<double> pixel_spacing_mm;
+  std::optional<double> pixel_spacing_mm, slice_spacing_mm;
   std::string units;               ///< "", "m", "cm", "mm"
   std::string coords = "lps";      ///< of points on the command line: lps, ras, ijk
 };
@@ -53,6 +53,7 @@ struct LumenOptions {
   double curvature = -1.0, inflation = -1.0, advection = -1.0;  ///< negative: the library's default
   int iterations = -1;
   bool whole_volume = false;
+  bool bright_is_lumen = false;
   int smooth = 0;                  ///< Taubin iterations
 };
 

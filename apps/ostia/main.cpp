@@ -23,8 +23,14 @@ void on_signal(int number) {
   std::signal(number, SIG_DFL);  // the second time it ends the program at once
 }
 
+/// A refusal names the file it is about, so it is shown to the person at the terminal as it is. The JSON log is made to be kept and
+/// holds no path.
 int fail(const std::string& message, int code) {
-  ostia::core::log_error(message);
+  if (ostia::core::log_format() == ostia::core::LogFormat::json) {
+    ostia::core::log_error(message);
+  } else {
+    std::fprintf(stderr, "ostia: %s\n", message.c_str());
+  }
   return code;
 }
 

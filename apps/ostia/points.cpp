@@ -60,6 +60,7 @@ pipeline::SourceOptions source_options(const InputOptions& input) {
   options.dicom.series_uid = input.series;
   options.dicom.resample_uneven = input.resample;
   options.dicom.pixel_spacing_mm = input.pixel_spacing_mm;
+  options.dicom.slice_spacing_mm = input.slice_spacing_mm;
   if (input.units == "m") options.unit_mm = 1000.0;
   if (input.units == "cm") options.unit_mm = 10.0;
   if (input.units == "mm") options.unit_mm = 1.0;
@@ -70,6 +71,7 @@ void apply(const LumenOptions& from, const std::string& coords, const imaging::G
   for (const std::string& branch : from.branches) to.branches.push_back(parse_branch(branch, coords, grid));
   to.segment.fronts.lower_hu = from.lower_hu;
   to.segment.fronts.upper_hu = from.upper_hu;
+  to.segment.bright_is_lumen = from.bright_is_lumen;
   if (from.whole_volume) to.segment.fronts.domain = segmentation::FrontDomain::whole_volume;
   if (from.feature == "upwind") to.segment.feature = segmentation::WallFeature::upwind;
   if (from.feature == "centred") to.segment.feature = segmentation::WallFeature::centred;
@@ -95,7 +97,7 @@ void apply(const MeshOptions& from, pipeline::ModelOptions& to) {
   if (from.min_edge_mm > 0.0) to.sizing.min_edge_mm = from.min_edge_mm;
   if (from.max_edge_mm > 0.0) to.sizing.max_edge_mm = from.max_edge_mm;
   if (from.size_factor > 0.0) to.tetrahedralize.size_factor = from.size_factor;
-  if (from.inset_radii >= 0.0) to.clip.inset_radii = from.inset_radii;
+  if (from.inset_radii >= 0.0) to.inset_radii = from.inset_radii;
 }
 
 }  // namespace ostia::app

@@ -1,10 +1,10 @@
 // Centerlines of a coronary-like tree with five ends, from an exact and from a raw marching-cubes surface.
 
-#include <benchmark/benchmark.h>
-
 #include "ostia/centerline/extract_centerlines.h"
 #include "ostia/core/parallel.h"
 #include "ostia/geometry/analytic_shapes.h"
+
+#include <benchmark/benchmark.h>
 
 namespace {
 
@@ -15,7 +15,8 @@ const geometry::AnalyticShape& tree() {
   return shape;
 }
 
-void report(benchmark::State& state, const geometry::TriMesh& surface, const centerline::CenterlineResult& result) {
+void report(benchmark::State& state, const geometry::TriMesh& surface,
+            const centerline::CenterlineResult& result) {
   state.counters["triangles"] = static_cast<double>(surface.triangles.size());
   state.counters["ends"] = static_cast<double>(result.lines.size() + 1);
   state.counters["cells"] = static_cast<double>(result.diagnostics.delaunay_cells);
@@ -38,12 +39,21 @@ void run(benchmark::State& state, const geometry::TriMesh& surface) {
 void centerlines_of_exact_surface(benchmark::State& state) {
   run(state, geometry::surface_of(tree(), 1e-3 * static_cast<double>(state.range(0)), true));
 }
-BENCHMARK(centerlines_of_exact_surface)->Arg(500)->Arg(250)->Arg(125)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
+BENCHMARK(centerlines_of_exact_surface)
+    ->Arg(500)
+    ->Arg(250)
+    ->Arg(125)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime();
 
 void centerlines_of_raw_surface(benchmark::State& state) {
   run(state, geometry::raw_surface_of(tree(), 1e-3 * static_cast<double>(state.range(0)), true));
 }
-BENCHMARK(centerlines_of_raw_surface)->Arg(250)->Arg(125)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
+BENCHMARK(centerlines_of_raw_surface)
+    ->Arg(250)
+    ->Arg(125)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime();
 
 }  // namespace
 

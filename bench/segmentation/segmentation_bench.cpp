@@ -1,3 +1,5 @@
+#include "ostia/segmentation/segment.h"
+
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -5,12 +7,11 @@
 #include <random>
 #include <string>
 
-#include "ostia/segmentation/segment.h"
-
 namespace ostia::segmentation {
 namespace {
 
-/// 256 x 256 x 252 voxels of 0.4 mm (16.5 million) with a curved vessel 100 mm long, radius 1.75 mm, and noise of 25 HU.
+/// 256 x 256 x 252 voxels of 0.4 mm (16.5 million) with a curved vessel 100 mm long, radius 1.75 mm, and
+/// noise of 25 HU.
 const imaging::ImageVolume& large_image() {
   static const imaging::ImageVolume image = [] {
     imaging::ImageVolume out;
@@ -24,9 +25,11 @@ const imaging::ImageVolume& large_image() {
     for (std::int64_t k = 0; k < 252; ++k) {
       for (std::int64_t j = 0; j < 256; ++j) {
         for (std::int64_t i = 0; i < 256; ++i) {
-          const Vec3 p = out.geometry.world(Vec3(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)));
+          const Vec3 p = out.geometry.world(
+              Vec3(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)));
           const double phase = p.z() * 0.06;
-          const double d = std::hypot(p.x() - 50.0 - 8.0 * std::sin(phase), p.y() - 50.0 - 8.0 * std::cos(phase)) - 1.75;
+          const double d =
+              std::hypot(p.x() - 50.0 - 8.0 * std::sin(phase), p.y() - 50.0 - 8.0 * std::cos(phase)) - 1.75;
           const double lumen = 0.5 * std::erfc(d / (std::sqrt(2.0) * 0.35));
           out(i, j, k) = static_cast<std::int16_t>(50.0 + 300.0 * lumen + pool[generator() & 0xFFFF]);
         }
@@ -37,8 +40,12 @@ const imaging::ImageVolume& large_image() {
   return image;
 }
 
-Vec3 axis_point(double z) { return {50.0 + 8.0 * std::sin(0.06 * z), 50.0 + 8.0 * std::cos(0.06 * z), z}; }
-BranchSeeds branch() { return {axis_point(6.0), std::nullopt, axis_point(96.2)}; }  // 100 mm along the curve
+Vec3 axis_point(double z) {
+  return {50.0 + 8.0 * std::sin(0.06 * z), 50.0 + 8.0 * std::cos(0.06 * z), z};
+}
+BranchSeeds branch() {
+  return {axis_point(6.0), std::nullopt, axis_point(96.2)};
+}  // 100 mm along the curve
 
 /// A line of /proc/self/status, MiB.
 double status_mib(const std::string& key) {
@@ -60,16 +67,23 @@ void colliding_fronts_feature_level_set_100mm_16_5_mvoxel(benchmark::State& stat
   }
   state.counters["peak_mib_on_top_of_image"] = status_mib("VmHWM") - before;
 }
-BENCHMARK(colliding_fronts_feature_level_set_100mm_16_5_mvoxel)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+BENCHMARK(colliding_fronts_feature_level_set_100mm_16_5_mvoxel)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
 
 void colliding_fronts_100mm_16_5_mvoxel(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(colliding_fronts(large_image(), branch()).voxels);
 }
-BENCHMARK(colliding_fronts_100mm_16_5_mvoxel)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+BENCHMARK(colliding_fronts_100mm_16_5_mvoxel)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
 
 void surface_of_100mm_vessel(benchmark::State& state) {
   const SegmentationResult result = segment_vessels(large_image(), {branch()});
-  for (auto _ : state) benchmark::DoNotOptimize(surface_of(result.level_set, {branch().from}).triangles.size());
+  for (auto _ : state)
+    benchmark::DoNotOptimize(surface_of(result.level_set, {branch().from}).triangles.size());
 }
 BENCHMARK(surface_of_100mm_vessel)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 

@@ -1,12 +1,13 @@
 #include "ostia/centerline/axis_fit.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "support/shapes.h"
 
 #include "ostia/centerline/lumen_surface.h"
 #include "ostia/geometry/isosurface.h"
-#include "support/shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
 
 namespace ostia::centerline {
 namespace {
@@ -64,10 +65,12 @@ TEST(AxisFit, smoothing_stays_within_its_bound) {
 }
 
 TEST(AxisFit, recentring_finds_the_axis_of_a_tube) {
-  const LumenSurface surface = prepare_lumen(geometry::surface_of(geometry::straight_tube(10, 1.0), 0.25, true));
-  const Wall wall(surface.wall, surface.capped);
+  const LumenSurface surface =
+      prepare_lumen(geometry::surface_of(geometry::straight_tube(10, 1.0), 0.25, true));
+  const Wall wall(surface.wall);
   Axis off = line_along_z(10.0, 0.1, 1.0);
-  for (std::size_t i = 1; i + 1 < off.points.size(); ++i) off.points[i].x() += 0.1 * std::sin(0.1 * M_PI * off.points[i].z());
+  for (std::size_t i = 1; i + 1 < off.points.size(); ++i)
+    off.points[i].x() += 0.1 * std::sin(0.1 * M_PI * off.points[i].z());
   const Axis centred = recentred_axis(off, wall, std::vector<double>(off.points.size(), 0.25), 1.0);
   EXPECT_GT(largest_offset(off), 0.099);
   EXPECT_LT(largest_offset(centred), 2e-3);
@@ -76,7 +79,7 @@ TEST(AxisFit, recentring_finds_the_axis_of_a_tube) {
 TEST(AxisFit, recentring_of_an_ellipse_goes_to_its_centre_and_no_farther_than_the_bound) {
   const auto ellipse = [](const Vec3& p) { return std::hypot(p.x() / 1.6, p.y()) - 1.0; };
   const geometry::TriMesh mesh = geometry::isosurface(ellipse, {Vec3(-2, -1.5, -1), Vec3(2, 1.5, 9)}, 0.15);
-  const Wall wall(mesh, mesh);
+  const Wall wall(mesh);
   Axis off = line_along_z(8.0, 0.1, 1.0);
   for (std::size_t i = 1; i + 1 < off.points.size(); ++i) off.points[i].y() = 0.05;
   const Axis centred = recentred_axis(off, wall, std::vector<double>(off.points.size(), 0.15), 1.0);
@@ -87,8 +90,9 @@ TEST(AxisFit, recentring_of_an_ellipse_goes_to_its_centre_and_no_farther_than_th
 }
 
 TEST(AxisFit, wall_distance_takes_out_the_chord_error) {
-  const LumenSurface surface = prepare_lumen(geometry::surface_of(geometry::straight_tube(10, 1.0), 0.3, true));
-  const Wall wall(surface.wall, surface.capped);
+  const LumenSurface surface =
+      prepare_lumen(geometry::surface_of(geometry::straight_tube(10, 1.0), 0.3, true));
+  const Wall wall(surface.wall);
   const geometry::AabbTree flat(surface.wall);
   for (double z = 2.0; z < 8.0; z += 0.37) {
     const Vec3 p(0.0, 0.0, z);
@@ -110,7 +114,8 @@ TEST(AxisFit, a_branch_leaves_along_its_parent) {
   EXPECT_EQ(led.points.front(), branch.points.front());
   const Vec3 first = (led.points[1] - led.points[0]).normalized();
   EXPECT_GT(first.z(), std::cos(M_PI / 8.0));  // less than half of the corner of 45 degrees
-  for (std::size_t i = 60; i < led.points.size(); ++i) EXPECT_LT((led.points[i] - branch.points[i]).norm(), 0.01);
+  for (std::size_t i = 60; i < led.points.size(); ++i)
+    EXPECT_LT((led.points[i] - branch.points[i]).norm(), 0.01);
 }
 
 }  // namespace

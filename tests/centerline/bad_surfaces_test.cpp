@@ -1,22 +1,27 @@
 // Surfaces with faults that real data have.
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
+#include "support/shapes.h"
 
 #include "ostia/centerline/extract_centerlines.h"
 #include "ostia/core/error.h"
 #include "ostia/geometry/mesh_topology.h"
-#include "support/shapes.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 namespace ostia::centerline {
 namespace {
 
 using ::testing::AllOf;
-using ::testing::HasSubstr;
 using testing::axis_error;
+using ::testing::HasSubstr;
 
-geometry::AnalyticShape tube() { return geometry::straight_tube(12, 1.0); }
-TriMesh tube_surface() { return geometry::surface_of(tube(), 0.25, true); }
+geometry::AnalyticShape tube() {
+  return geometry::straight_tube(12, 1.0);
+}
+TriMesh tube_surface() {
+  return geometry::surface_of(tube(), 0.25, true);
+}
 
 template <class Call>
 std::string message_of(const Call& call) {
@@ -29,7 +34,8 @@ std::string message_of(const Call& call) {
 }
 
 TEST(BadSurfaces, needles_do_not_matter) {
-  // Each tenth triangle is cut in two by a point close to a corner: needles with angles under a tenth of a degree.
+  // Each tenth triangle is cut in two by a point close to a corner: needles with angles under a tenth of a
+  // degree.
   TriMesh mesh = tube_surface();
   const std::size_t count = mesh.triangles.size();
   for (std::size_t t = 0; t < count; t += 10) {
@@ -79,12 +85,15 @@ TEST(BadSurfaces, a_target_in_another_component_is_named) {
   TriMesh other = testing::capsule(6.0, 1.0, 0.3);
   for (Vec3& p : other.points) p.x() += 10.0;
   const TriMesh both = geometry::merged(tube_surface(), other);
-  const std::string message = message_of([&] { extract_centerlines(both, Vec3(0, 0, 0), {Vec3(0, 0, 12), Vec3(10, 0, 3)}); });
+  const std::string message = message_of([&] {
+    extract_centerlines(both, Vec3(0, 0, 0), {Vec3(0, 0, 12), Vec3(10, 0, 3)});
+  });
   EXPECT_THAT(message, AllOf(HasSubstr("target 1 (9.99"), HasSubstr("cannot be reached")));
 }
 
 TEST(BadSurfaces, a_target_outside_is_named) {
-  const std::string message = message_of([&] { extract_centerlines(tube_surface(), std::nullopt, {Vec3(0, 5, 6)}); });
+  const std::string message =
+      message_of([&] { extract_centerlines(tube_surface(), std::nullopt, {Vec3(0, 5, 6)}); });
   EXPECT_THAT(message, AllOf(HasSubstr("target 0 (0, 5, 6) mm"), HasSubstr("outside")));
 }
 
@@ -95,9 +104,26 @@ TEST(BadSurfaces, nothing_to_work_on_is_refused) {
   EXPECT_THROW(extract_centerlines(flat, Vec3(0, 0, 0), {Vec3(1, 1, 0)}), GeometryError);
 }
 
+TEST(BadSurfaces, triangles_much_longer_than_the_vessel_is_wide) {
+  const auto shape = geometry::helix_tube(10, 20, 0.75, 1.0);
+  for (const double step : {2.0, 5.0}) {
+    const TriMesh mesh = geometry::structured_surface(shape.tubes[0], 32, step);
+    const CenterlineResult result = extract_centerlines(mesh, std::nullopt, {});
+    // Chords of this length are off the bend by up to step^2 / (8 * 11) mm.
+    EXPECT_LT(axis_error(result.lines, shape).mean_mm, step * step / 88.0) << step;
+  }
+  TriMesh box;
+  for (int i = 0; i < 8; ++i) box.points.emplace_back((i & 1) * 10.0, (i >> 1 & 1) * 2.0, (i >> 2 & 1) * 2.0);
+  box.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                   {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  const CenterlineResult result = extract_centerlines(box, Vec3(1, 1, 1), {Vec3(9, 1, 1)});
+  for (const Vec3& p : result.lines[0].points) EXPECT_LT((p - Vec3(p.x(), 1, 1)).norm(), 0.3);
+}
+
 TEST(BadSurfaces, few_points_around_are_enough) {
   const auto shape = tube();
-  const CenterlineResult result = extract_centerlines(geometry::structured_surface(shape.tubes[0], 6, 0.5), std::nullopt, {});
+  const CenterlineResult result =
+      extract_centerlines(geometry::structured_surface(shape.tubes[0], 6, 0.5), std::nullopt, {});
   for (const Vec3& p : result.lines[0].points) EXPECT_LT(p.head<2>().norm(), 0.02);
 }
 

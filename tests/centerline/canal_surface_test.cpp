@@ -1,11 +1,11 @@
 #include "ostia/centerline/canal_surface.h"
 
+#include "ostia/core/error.h"
+#include "ostia/geometry/mesh_topology.h"
+
 #include <gtest/gtest.h>
 
 #include <numbers>
-
-#include "ostia/core/error.h"
-#include "ostia/geometry/mesh_topology.h"
 
 namespace ostia::centerline {
 namespace {

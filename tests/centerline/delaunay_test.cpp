@@ -1,13 +1,13 @@
 #include "ostia/centerline/delaunay.h"
 
+#include "ostia/core/error.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
-
-#include "ostia/core/error.h"
 
 namespace ostia::centerline {
 namespace {
@@ -29,7 +29,8 @@ double volume6(const std::vector<Vec3>& p, const std::array<std::int32_t, 4>& c)
 
 TEST(Delaunay, fills_a_cube_exactly) {
   std::vector<Vec3> points = random_points(200);
-  for (int corner = 0; corner < 8; ++corner) points.emplace_back(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
+  for (int corner = 0; corner < 8; ++corner)
+    points.emplace_back(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
   const Delaunay cells = delaunay(points);
   double volume = 0.0;
   for (const auto& cell : cells.cells) {

@@ -1,11 +1,11 @@
 #include "ostia/centerline/eikonal.h"
 
+#include "ostia/core/error.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
-
-#include "ostia/core/error.h"
 
 namespace ostia::centerline {
 namespace {
@@ -23,7 +23,8 @@ void index_incidence(InnerVoronoi& d) {
   std::vector<std::vector<std::int32_t>> around(d.points.size());
   for (std::size_t p = 0; p < d.polygon_count(); ++p)
     for (std::int32_t k = d.polygon_first[p]; k < d.polygon_first[p + 1]; ++k)
-      around[static_cast<std::size_t>(d.corners[static_cast<std::size_t>(k)])].push_back(static_cast<std::int32_t>(p));
+      around[static_cast<std::size_t>(d.corners[static_cast<std::size_t>(k)])].push_back(
+          static_cast<std::int32_t>(p));
   d.incidence_first = {0};
   for (const auto& list : around) {
     d.incidence.insert(d.incidence.end(), list.begin(), list.end());
@@ -52,14 +53,17 @@ Sheet sheet(std::int32_t count, const std::function<Vec3(double, double)>& place
   return s;
 }
 
-Vec3 plane(double u, double v) { return {10.0 * u, 10.0 * v, 0.0}; }
+Vec3 plane(double u, double v) {
+  return {10.0 * u, 10.0 * v, 0.0};
+}
 
 TEST(Eikonal, time_is_distance_over_radius_on_a_plane) {
   const Sheet s = sheet(40, plane, [](const Vec3&) { return 2.0; });
   const std::int32_t source = s.at(20, 20);
   const ArrivalTimes arrival = arrival_times(s.diagram, source);
   for (std::size_t i = 0; i < s.diagram.points.size(); ++i) {
-    const double exact = (s.diagram.points[i] - s.diagram.points[static_cast<std::size_t>(source)]).norm() / 2.0;
+    const double exact =
+        (s.diagram.points[i] - s.diagram.points[static_cast<std::size_t>(source)]).norm() / 2.0;
     EXPECT_NEAR(arrival.time[i], exact, 0.03 * exact + 0.02);  // first order near the source
     EXPECT_GE(arrival.time[i], exact * (1.0 - 1e-12));
   }
@@ -67,8 +71,9 @@ TEST(Eikonal, time_is_distance_over_radius_on_a_plane) {
 
 TEST(Eikonal, follows_the_hyperbolic_metric_where_the_radius_grows_linearly) {
   // |grad T| = 1/x on the half plane x > 0 is solved by arcosh(1 + d^2 / (2 x x0)).
-  const Sheet s = sheet(100, [](double u, double v) { return Vec3(1.0 + 4.0 * u, 4.0 * v, 0.0); },
-                        [](const Vec3& p) { return p.x(); });
+  const Sheet s = sheet(
+      100, [](double u, double v) { return Vec3(1.0 + 4.0 * u, 4.0 * v, 0.0); },
+      [](const Vec3& p) { return p.x(); });
   const std::int32_t source = s.at(25, 0);
   const Vec3 from = s.diagram.points[static_cast<std::size_t>(source)];
   const ArrivalTimes arrival = arrival_times(s.diagram, source);
@@ -80,9 +85,12 @@ TEST(Eikonal, follows_the_hyperbolic_metric_where_the_radius_grows_linearly) {
 }
 
 TEST(Eikonal, goes_round_a_fold_as_on_the_unfolded_sheet) {
-  const Sheet s = sheet(40, [](double u, double v) {
-    return u < 0.5 ? Vec3(10.0 * u, 10.0 * v, 0.0) : Vec3(5.0, 10.0 * v, 10.0 * (u - 0.5));
-  }, [](const Vec3&) { return 1.0; });
+  const Sheet s = sheet(
+      40,
+      [](double u, double v) {
+        return u < 0.5 ? Vec3(10.0 * u, 10.0 * v, 0.0) : Vec3(5.0, 10.0 * v, 10.0 * (u - 0.5));
+      },
+      [](const Vec3&) { return 1.0; });
   const ArrivalTimes arrival = arrival_times(s.diagram, s.at(0, 0));
   EXPECT_NEAR(arrival.time[static_cast<std::size_t>(s.at(40, 40))], std::sqrt(200.0), 0.3);
   EXPECT_NEAR(arrival.time[static_cast<std::size_t>(s.at(40, 0))], 10.0, 1e-9);
@@ -90,8 +98,9 @@ TEST(Eikonal, goes_round_a_fold_as_on_the_unfolded_sheet) {
 
 TEST(Eikonal, handles_obtuse_polygons) {
   // Sheared cells with angles of 143 degrees.
-  const Sheet s = sheet(60, [](double u, double v) { return Vec3(10.0 * u + 8.0 * v, 6.0 * v, 0.0); },
-                        [](const Vec3&) { return 1.0; });
+  const Sheet s = sheet(
+      60, [](double u, double v) { return Vec3(10.0 * u + 8.0 * v, 6.0 * v, 0.0); },
+      [](const Vec3&) { return 1.0; });
   const std::int32_t source = s.at(30, 30);
   const Vec3 from = s.diagram.points[static_cast<std::size_t>(source)];
   const ArrivalTimes arrival = arrival_times(s.diagram, source);
@@ -118,7 +127,8 @@ TEST(Eikonal, descends_straight_on_a_plane) {
 
 TEST(Eikonal, a_path_prefers_the_wide_ridge) {
   // The radius is largest along y = 5; the cheapest way between two low corners bends towards it.
-  const Sheet s = sheet(50, plane, [](const Vec3& p) { return 0.2 + 2.0 * std::exp(-std::pow(p.y() - 5.0, 2)); });
+  const Sheet s =
+      sheet(50, plane, [](const Vec3& p) { return 0.2 + 2.0 * std::exp(-std::pow(p.y() - 5.0, 2)); });
   const std::int32_t target = s.at(50, 10);
   const ArrivalTimes arrival = arrival_times(s.diagram, s.at(0, 10));
   double highest = 0.0;

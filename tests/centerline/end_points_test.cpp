@@ -1,11 +1,12 @@
 #include "ostia/centerline/end_points.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
+#include "support/shapes.h"
 
 #include "ostia/centerline/lumen_surface.h"
 #include "ostia/core/error.h"
-#include "support/shapes.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 namespace ostia::centerline {
 namespace {
@@ -14,8 +15,9 @@ using geometry::Vec3;
 using ::testing::HasSubstr;
 
 struct Tube {
-  LumenSurface surface = prepare_lumen(geometry::surface_of(geometry::tapered_tube(10, 1.5, 1.0), 0.25, true));
-  InnerVoronoi diagram = inner_voronoi(surface.capped, surface.on_border, surface.only_in_caps);
+  LumenSurface surface =
+      prepare_lumen(geometry::surface_of(geometry::tapered_tube(10, 1.5, 1.0), 0.25, true));
+  InnerVoronoi diagram = inner_voronoi(surface.sampled, surface.on_border, surface.only_in_caps);
 };
 
 const Tube& tube() {
@@ -49,20 +51,23 @@ TEST(EndPoints, a_given_source_at_the_narrow_end_leaves_the_wide_one_as_target) 
 }
 
 TEST(EndPoints, moves_a_point_on_the_wall_to_the_axis) {
-  const EndPoints ends = choose_ends(tube().diagram, tube().surface.openings, std::nullopt, {Vec3(1.2, 0.0, 6.0)});
+  const EndPoints ends =
+      choose_ends(tube().diagram, tube().surface.openings, std::nullopt, {Vec3(1.2, 0.0, 6.0)});
   EXPECT_FALSE(ends.targets[0].at_opening);
   EXPECT_LT(ends.targets[0].position.head<2>().norm(), 0.15);
   EXPECT_NEAR(ends.targets[0].position.z(), 6.0, 0.6);
 }
 
 TEST(EndPoints, names_a_point_outside) {
-  const std::string message = message_of(
-      [] { choose_ends(tube().diagram, tube().surface.openings, std::nullopt, {Vec3(0, 0, 5), Vec3(7.5, 0, 5)}); });
+  const std::string message = message_of([] {
+    choose_ends(tube().diagram, tube().surface.openings, std::nullopt, {Vec3(0, 0, 5), Vec3(7.5, 0, 5)});
+  });
   EXPECT_THAT(message, HasSubstr("target 1 (7.5, 0, 5) mm lies outside"));
 }
 
 TEST(EndPoints, refuses_source_and_target_in_one_place) {
-  EXPECT_THROW(choose_ends(tube().diagram, tube().surface.openings, Vec3(0, 0, 0), {Vec3(0.1, 0, 0)}), GeometryError);
+  EXPECT_THROW(choose_ends(tube().diagram, tube().surface.openings, Vec3(0, 0, 0), {Vec3(0.1, 0, 0)}),
+               GeometryError);
 }
 
 TEST(EndPoints, asks_for_points_where_nothing_is_open) {

@@ -1,5 +1,10 @@
 #include "ostia/centerline/extract_centerlines.h"
 
+#include "support/shapes.h"
+
+#include "ostia/core/error.h"
+#include "ostia/core/parallel.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,16 +12,12 @@
 #include <cmath>
 #include <thread>
 
-#include "ostia/core/error.h"
-#include "ostia/core/parallel.h"
-#include "support/shapes.h"
-
 namespace ostia::centerline {
 namespace {
 
-using ::testing::HasSubstr;
-using testing::AxisError;
 using testing::axis_error;
+using testing::AxisError;
+using ::testing::HasSubstr;
 
 const geometry::AnalyticShape& coronary() {
   static const geometry::AnalyticShape shape = geometry::coronary_like_tree();
@@ -102,7 +103,8 @@ TEST(ExtractCenterlines, do_not_depend_on_threads_or_earlier_calls) {
 
 TEST(ExtractCenterlines, of_a_raw_marching_cubes_surface) {
   const auto shape = geometry::helix_tube(8, 15, 0.75, 1.2);
-  const CenterlineResult result = extract_centerlines(geometry::raw_surface_of(shape, 0.25, true), std::nullopt, {});
+  const CenterlineResult result =
+      extract_centerlines(geometry::raw_surface_of(shape, 0.25, true), std::nullopt, {});
   const AxisError error = axis_error(result.lines, shape);
   EXPECT_GT(error.points, 200u);
   EXPECT_LT(error.mean_mm, 0.003);
@@ -112,7 +114,8 @@ TEST(ExtractCenterlines, of_a_raw_marching_cubes_surface) {
 
 TEST(ExtractCenterlines, pass_a_stenosis) {
   const auto shape = geometry::stenosed_tube(20, 1.5, 0.7, 10, 6);
-  const CenterlineResult result = extract_centerlines(geometry::surface_of(shape, 0.2, true), std::nullopt, {});
+  const CenterlineResult result =
+      extract_centerlines(geometry::surface_of(shape, 0.2, true), std::nullopt, {});
   const AxisError error = axis_error(result.lines, shape);
   EXPECT_LT(error.max_mm, 0.02);
   double narrowest = 1e9;
@@ -134,19 +137,34 @@ TEST(ExtractCenterlines, of_a_torus_go_the_short_way) {
   const CenterlineResult result = extract_centerlines(mesh, Vec3(6, 0, 0), {Vec3(0, 6, 0), Vec3(0, -6, 0)});
   for (const Centerline& line : result.lines) {
     EXPECT_NEAR(line.abscissa.back(), 0.5 * M_PI * 6.0, 0.3);
-    for (std::size_t i = 15; i + 15 < line.size(); ++i) EXPECT_NEAR(line.points[i].head<2>().norm(), 6.0, 0.02);
+    for (std::size_t i = 15; i + 15 < line.size(); ++i)
+      EXPECT_NEAR(line.points[i].head<2>().norm(), 6.0, 0.02);
   }
   EXPECT_EQ(geometry::roots(result.tree).size(), 1u);
 }
 
 TEST(ExtractCenterlines, of_a_structured_surface_with_cospherical_rings) {
   const auto shape = geometry::straight_tube(12, 1.0);
-  const CenterlineResult result = extract_centerlines(geometry::structured_surface(shape.tubes[0], 24, 0.25), std::nullopt, {});
+  const CenterlineResult result =
+      extract_centerlines(geometry::structured_surface(shape.tubes[0], 24, 0.25), std::nullopt, {});
   const AxisError error = axis_error(result.lines, shape);
   EXPECT_EQ(result.diagnostics.dropped_points, 0u);
   EXPECT_GT(error.points, 50u);
   EXPECT_LT(error.max_mm, 0.003);
   EXPECT_LT(error.max_radius, 0.005);
+}
+
+TEST(ExtractCenterlines, a_target_on_the_way_to_another_has_a_line_but_no_vessel) {
+  const TriMesh mesh = geometry::surface_of(geometry::straight_tube(12, 1.0), 0.3, true);
+  const CenterlineResult result = extract_centerlines(mesh, Vec3(0, 0, 0), {Vec3(0, 0, 5), Vec3(0, 0, 12)});
+  EXPECT_FALSE(geometry::find_fault(result.tree).has_value()) << *geometry::find_fault(result.tree);
+  ASSERT_EQ(result.lines.size(), 2u);
+  EXPECT_NEAR(result.lines[0].points.back().z(), 5.0, 0.3);
+  EXPECT_NEAR(result.lines[1].points.back().z(), 12.0, 1e-6);
+  ASSERT_EQ(result.tree.vessels.size(), 1u);
+  EXPECT_EQ(result.tree.vessels[0].name, "vessel_2");
+  ASSERT_EQ(result.diagnostics.warnings.size(), 1u);
+  EXPECT_THAT(result.diagnostics.warnings[0], HasSubstr("target 0"));
 }
 
 TEST(ExtractCenterlines, names_and_voronoi_as_asked) {
@@ -186,7 +204,6 @@ TEST(ExtractCenterlines, are_cancelled_midway) {
   });
   EXPECT_THROW(extract_centerlines(coronary_surface(), std::nullopt, {}, {}, task), Cancelled);
   EXPECT_GE(task.progress(), 0.2);
-  task.cancel();
 }
 
 }  // namespace

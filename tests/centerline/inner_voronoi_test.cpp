@@ -1,14 +1,15 @@
 #include "ostia/centerline/inner_voronoi.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
+#include "support/shapes.h"
 
 #include "ostia/core/error.h"
 #include "ostia/geometry/aabb_tree.h"
 #include "ostia/geometry/kd_tree.h"
-#include "support/shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
 
 namespace ostia::centerline {
 namespace {
@@ -30,12 +31,14 @@ TEST(InnerVoronoi, of_a_capsule_lies_inside_and_holds_no_surface_point) {
 }
 
 TEST(InnerVoronoi, polygons_are_plane_and_convex) {
-  const InnerVoronoi diagram = inner_voronoi(geometry::surface_of(geometry::helix_tube(5, 8, 0.3, 1.0), 0.3, false));
+  const InnerVoronoi diagram =
+      inner_voronoi(geometry::surface_of(geometry::helix_tube(5, 8, 0.3, 1.0), 0.3, false));
   std::size_t checked = 0;
   for (std::size_t p = 0; p < diagram.polygon_count(); ++p) {
     std::vector<Vec3> corners;
     for (std::int32_t k = diagram.polygon_first[p]; k < diagram.polygon_first[p + 1]; ++k)
-      corners.push_back(diagram.points[static_cast<std::size_t>(diagram.corners[static_cast<std::size_t>(k)])]);
+      corners.push_back(
+          diagram.points[static_cast<std::size_t>(diagram.corners[static_cast<std::size_t>(k)])]);
     ASSERT_GE(corners.size(), 3u);
     Vec3 normal = Vec3::Zero();
     for (std::size_t k = 0; k < corners.size(); ++k)

@@ -1,12 +1,13 @@
 #include "ostia/centerline/lumen_surface.h"
 
-#include <gtest/gtest.h>
-
-#include <limits>
+#include "support/shapes.h"
 
 #include "ostia/core/error.h"
 #include "ostia/geometry/mesh_topology.h"
-#include "support/shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
 
 namespace ostia::centerline {
 namespace {
@@ -14,7 +15,9 @@ namespace {
 using geometry::TriMesh;
 using geometry::Vec3;
 
-TriMesh open_tube() { return geometry::surface_of(geometry::straight_tube(8, 1.0), 0.3, true); }
+TriMesh open_tube() {
+  return geometry::surface_of(geometry::straight_tube(8, 1.0), 0.3, true);
+}
 
 TEST(LumenSurface, caps_the_ends_of_a_tube) {
   const LumenSurface surface = prepare_lumen(open_tube());
@@ -85,6 +88,22 @@ TEST(LumenSurface, opens_borders_that_touch_in_a_point) {
   const LumenSurface surface = prepare_lumen(holed);
   EXPECT_EQ(surface.openings.size(), 1u);
   EXPECT_EQ(geometry::find_faults(surface.capped, false).open_edges, 0u);
+}
+
+TEST(LumenSurface, cutting_long_edges_keeps_shape_and_connection) {
+  const TriMesh mesh = testing::capsule(4.0, 1.0, 0.5);
+  const TriMesh cut = with_edges_cut(mesh, 0.2);
+  EXPECT_NEAR(geometry::area(cut), geometry::area(mesh), 1e-9);
+  EXPECT_NEAR(geometry::volume(cut), geometry::volume(mesh), 1e-9);
+  EXPECT_TRUE(geometry::find_faults(cut, false).closed_manifold());
+  for (const geometry::Triangle& t : cut.triangles)
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_LE(
+          (cut.points[static_cast<std::size_t>(t[k])] - cut.points[static_cast<std::size_t>(t[(k + 1) % 3])])
+              .norm(),
+          0.2);
+  EXPECT_EQ(with_edges_cut(mesh, 10.0).points.size(), mesh.points.size());
+  EXPECT_THROW(with_edges_cut(mesh, 0.0), InvalidInput);
 }
 
 TEST(LumenSurface, refuses_what_is_no_surface) {

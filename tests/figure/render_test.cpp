@@ -189,10 +189,12 @@ TEST(Render, RefusesBadInput) {
   EXPECT_THROW(render(bad, {}), InvalidInput);
 }
 
-TEST(Render, CanBeCancelled) {
+TEST(Render, ReportsItsProgressAndCanBeCancelled) {
   Scene scene;
   scene.meshes.push_back({.mesh = ball(1.0, 8)});
   const core::TaskContext task;
+  render(scene, {}, small_picture(), task);
+  EXPECT_DOUBLE_EQ(task.progress(), 1.0);
   task.cancel();
   EXPECT_THROW(render(scene, {}, small_picture(), task), Cancelled);
 }

@@ -1,8 +1,12 @@
 #include "marching_cubes_table.h"
 
+#include "ostia/geometry/aabb_tree.h"
+
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
+#include <random>
 #include <set>
 
 namespace ostia::geometry {
@@ -52,6 +56,26 @@ TEST(MarchingCubesTable, InnerEdgesPairUpAndLieInNoFace) {
       EXPECT_EQ(count, 1);
       const bool inner = half_edges.count({edge.second, edge.first}) > 0;
       EXPECT_NE(inner, on_a_common_face(edge.first, edge.second)) << "pattern " << pattern;
+    }
+  }
+}
+
+TEST(MarchingCubesTable, NoPatternCrossesItselfWhereverTheCrossingsLie) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (std::size_t pattern = 1; pattern < 255; ++pattern) {
+    for (int trial = 0; trial < 300; ++trial) {
+      TriMesh mesh;
+      for (const CubeEdge& edge : cube_edges()) {
+        double at = unit(random);  // anywhere, at one end or the other, near an end
+        if (trial % 3 == 1) at = at < 0.5 ? 1e-3 : 1.0 - 1e-3;
+        if (trial % 3 == 2) at = std::clamp(at * at * at, 1e-3, 1.0 - 1e-3);
+        Vec3 p(edge.from & 1, (edge.from >> 1) & 1, (edge.from >> 2) & 1);
+        p[edge.axis] += at;
+        mesh.points.push_back(p);
+      }
+      for (const auto& t : cube_patterns()[pattern]) mesh.triangles.push_back({t[0], t[1], t[2]});
+      ASSERT_TRUE(self_intersections(mesh, 1).empty()) << "pattern " << pattern;
     }
   }
 }

@@ -117,11 +117,17 @@ TEST(DicomCodecs, Row28NoiseInsideAStreamIsRefused) {
   };
   for (const char* syntax : {"1.2.840.10008.1.2.4.70", "1.2.840.10008.1.2.4.80", "1.2.840.10008.1.2.4.90"}) {
     CtSlice slice = compressed(syntax, false, noise);
-    std::string& stream = slice.streams.front();
+    const std::string whole = slice.streams.front();
+    ASSERT_GT(whole.size(), 3000u) << syntax;
     std::mt19937 random(5);
-    for (std::size_t i = stream.size() / 2; i < stream.size() - 100; ++i)
-      stream[i] = static_cast<char>(random());
-    EXPECT_THROW(decoded(slice), InvalidInput) << syntax;
+    for (const bool lost : {false, true}) {
+      std::string& stream = slice.streams.front();
+      stream = whole;
+      for (std::size_t i = stream.size() / 4; i < stream.size() - 100; ++i) {
+        stream[i] = lost ? '\0' : static_cast<char>(random());
+      }
+      EXPECT_THROW(decoded(slice), InvalidInput) << syntax << (lost ? ", a block lost" : ", noise");
+    }
   }
 }
 

@@ -49,6 +49,26 @@ TEST(VtkXml, BadInput_Row07_CountsBeyondTheFile) {
   expect_refused(vtp("0 1 2", "3", "-3"), {"NumberOfPoints"});
 }
 
+TEST(VtkXml, RefusesFilesThatEndVtksReader) {
+  std::string strange = vtp("0 1 2", "3");
+  strange.replace(strange.find("\"Int32\""), 7, "\"Str5ng\"");
+  expect_refused(strange, {});
+  const auto folder = testing::temporary_folder("io");
+  write_surface(folder / "a.vtp", faced_tetrahedron());
+  const std::string whole = core::read_file(folder / "a.vtp");
+  const std::size_t data = whole.find("<AppendedData");
+  for (std::size_t at = data + 20; at < whole.size(); at += 29) {  // wherever it is damaged, it is read or refused
+    std::string damaged = whole;
+    damaged[at] = static_cast<char>(damaged[at] ^ 0x55);
+    const auto path = file_with("a.vtp", damaged);
+    try {
+      EXPECT_EQ(read_surface(path).surface.mesh.triangles.size(), 4u);
+    } catch (const InvalidInput& error) {
+      EXPECT_NE(std::string(error.what()).find("a.vtp"), std::string::npos);
+    }
+  }
+}
+
 TEST(VtkXml, RefusesOtherFiles) {
   expect_refused("hello", {"no VTK XML"});
   expect_refused("<VTKFile type=\"ImageData\"><ImageData></ImageData></VTKFile>", {"no PolyData"});

@@ -116,6 +116,22 @@ TEST(ClipEnds, CutAnOpenEndThatIsRagged) {
   EXPECT_TRUE(clipped.ends[1].was_open);
 }
 
+TEST(ClipEnds, GoFartherInsideWhereAnEndIsTornAslant) {
+  const auto shape = geometry::straight_tube(16.0, 1.5);
+  const geometry::TriMesh surface = geometry::surface_of(shape, 0.25, true);
+  std::vector<bool> keep;
+  for (const auto& t : surface.triangles) {
+    Vec3 c = Vec3::Zero();
+    for (const std::int32_t v : t) c += surface.points[static_cast<std::size_t>(v)] / 3.0;
+    keep.push_back(c.z() > 1.7 + 0.8 * c.x());  // from 0.5 to 2.9 mm, 39 degrees off the axis
+  }
+  const ClippedSurface clipped = clip_ends(geometry::subset(surface, keep), tree_of(shape));
+  expect_clean(clipped, 2);
+  EXPECT_NEAR(clipped.ends[0].plane.origin.z(), 3.0, 0.02);
+  ASSERT_EQ(clipped.warnings.size(), 1u);
+  EXPECT_NE(clipped.warnings[0].find("inlet of vessel tube"), std::string::npos);
+}
+
 TEST(ClipEnds, NameTheEndThatCannotBeCut) {
   const auto shape = geometry::straight_tube(16.0, 1.5);
   auto tree = tree_of(shape);

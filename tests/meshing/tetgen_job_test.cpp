@@ -13,7 +13,7 @@ namespace ostia::meshing {
 namespace {
 
 std::filesystem::path scratch(const std::string& name) {
-  return std::filesystem::path(testing::TempDir()) / name;
+  return std::filesystem::path(::testing::TempDir()) / name;
 }
 
 TEST(TetgenJob, ComesBackAsItWasWritten) {

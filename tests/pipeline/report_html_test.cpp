@@ -10,7 +10,7 @@ namespace {
 
 TEST(ReportHtml, ShowsPicturesAndFigures) {
   const auto path = testing::temporary_folder("report") / "report.html";
-  write_report_html(path, builtin_model(), compare_with_truth(builtin_case(), builtin_model()));
+  write_report_html(path, builtin_model(), report_pictures(builtin_model()), compare_with_truth(builtin_case(), builtin_model()));
   const std::string html = core::read_file(path);
   std::size_t pictures = 0;
   for (std::size_t at = html.find("data:image/png;base64,"); at != std::string::npos; at = html.find("data:image/png;base64,", at + 1)) ++pictures;

@@ -1,11 +1,12 @@
 #include "ostia/segmentation/colliding_fronts.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
+#include "tube_images.h"
 
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
-#include "tube_images.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 namespace ostia::segmentation {
 namespace {
@@ -75,7 +76,8 @@ TEST(CollidingFronts, APointBetweenChoosesTheWayAndLeavesNoGap) {
 TEST(CollidingFronts, TwoVoxelVesselsAreJoinedToo) {
   const Tube thin{{5.1, 6.3, 3}, {14.7, 13.1, 26}, 0.4};
   const auto image = testing::tube_image({thin}, kSize, Vec3(0.4, 0.4, 0.4), 0.25);
-  const InitialRegion region = colliding_fronts(image, {thin.from, std::nullopt, thin.from + 0.7 * (thin.to - thin.from)});
+  const InitialRegion region =
+      colliding_fronts(image, {thin.from, std::nullopt, thin.from + 0.7 * (thin.to - thin.from)});
   EXPECT_TRUE(inside(region, thin.from + 0.35 * (thin.to - thin.from)));
 }
 
@@ -93,15 +95,24 @@ TEST(CollidingFronts, StayNearTheVesselUnlessToldOtherwise) {
 TEST(CollidingFronts, SayWhatIsWrong) {
   const Tube apart{{16, 10, 4}, {16, 10, 26}, 1.2};
   const auto image = testing::tube_image({kStraight, apart}, kSize, kSpacing, 0.3);
-  EXPECT_THAT([&] { colliding_fronts(image, {kStraight.from, std::nullopt, apart.to}); },
-              ThrowsMessage<GeometryError>(HasSubstr("never meet")));
+  EXPECT_THAT(
+      [&] {
+        colliding_fronts(image, {kStraight.from, std::nullopt, apart.to});
+      },
+      ThrowsMessage<GeometryError>(HasSubstr("never meet")));
   CollidingFrontsOptions narrow;
   narrow.lower_hu = 400.0;
   narrow.upper_hu = 600.0;
-  EXPECT_THAT([&] { colliding_fronts(image, {kStraight.from, std::nullopt, kStraight.to}, narrow); },
-              ThrowsMessage<InvalidInput>(HasSubstr("outside the intensity range: 350 HU there")));
-  EXPECT_THAT([&] { colliding_fronts(image, {kStraight.from, std::nullopt, kStraight.from}); },
-              ThrowsMessage<InvalidInput>(HasSubstr("the same voxel")));
+  EXPECT_THAT(
+      [&] {
+        colliding_fronts(image, {kStraight.from, std::nullopt, kStraight.to}, narrow);
+      },
+      ThrowsMessage<InvalidInput>(HasSubstr("outside the intensity range: 350 HU there")));
+  EXPECT_THAT(
+      [&] {
+        colliding_fronts(image, {kStraight.from, std::nullopt, kStraight.from});
+      },
+      ThrowsMessage<InvalidInput>(HasSubstr("the same voxel")));
   EXPECT_THROW(colliding_fronts(image, {kStraight.from, std::nullopt, Vec3(10, 10, 400)}), InvalidInput);
   narrow.slowest = 0.0;
   EXPECT_THROW(validate(narrow), InvalidInput);
@@ -131,7 +142,7 @@ TEST(FastMarchingInitialisation, IsTheFrontAtTheFirstTarget) {
   const InitialRegion region =
       fast_marching_initialisation(image, {Vec3(10, 10, 15)}, {Vec3(10, 10, 21), Vec3(10, 10, 5)});
   EXPECT_TRUE(inside(region, {10, 10, 20}));
-  EXPECT_TRUE(inside(region, {10, 10, 10}));    // as far the other way
+  EXPECT_TRUE(inside(region, {10, 10, 10}));  // as far the other way
   EXPECT_FALSE(inside(region, {10, 10, 22.5}));
   EXPECT_FALSE(inside(region, {10, 10, 7.5}));
   EXPECT_THROW(fast_marching_initialisation(image, {}, {Vec3(10, 10, 21)}), InvalidInput);

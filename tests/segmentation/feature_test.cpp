@@ -1,11 +1,11 @@
 #include "ostia/segmentation/feature.h"
 
+#include "ostia/core/error.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
-
-#include "ostia/core/error.h"
 
 namespace ostia::segmentation {
 namespace {
@@ -18,13 +18,15 @@ imaging::ImageVolume image_of(const std::array<std::int64_t, 3>& size, const Vec
   image.voxels.resize(static_cast<std::size_t>(image.geometry.voxels()));
   for (std::int64_t k = 0; k < size[2]; ++k)
     for (std::int64_t j = 0; j < size[1]; ++j)
-      for (std::int64_t i = 0; i < size[0]; ++i) image(i, j, k) = static_cast<std::int16_t>(std::lround(f(i, j, k)));
+      for (std::int64_t i = 0; i < size[0]; ++i)
+        image(i, j, k) = static_cast<std::int16_t>(std::lround(f(i, j, k)));
   return image;
 }
 
 TEST(Feature, ARampHasItsSlopeInBothSchemesWithTheSpacingOfEachAxis) {
   const Vec3 spacing(0.5, 0.4, 2.0);
-  const auto ramp = image_of({12, 12, 12}, spacing, [](auto i, auto j, auto k) { return 10.0 * i - 4.0 * j + 6.0 * k; });
+  const auto ramp =
+      image_of({12, 12, 12}, spacing, [](auto i, auto j, auto k) { return 10.0 * i - 4.0 * j + 6.0 * k; });
   const double slope = std::sqrt(20.0 * 20.0 + 10.0 * 10.0 + 3.0 * 3.0);
   const imaging::Region region{{2, 3, 4}, {9, 9, 10}};
   for (const GradientScheme scheme : {GradientScheme::centred, GradientScheme::upwind}) {

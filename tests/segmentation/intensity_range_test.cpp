@@ -1,11 +1,12 @@
 #include "intensity_range.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
+#include "tube_images.h"
 
 #include "ostia/core/error.h"
 #include "ostia/segmentation/colliding_fronts.h"
-#include "tube_images.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 namespace ostia::segmentation {
 namespace {
@@ -15,7 +16,9 @@ using ::testing::ThrowsMessage;
 
 const testing::Tube kTube{{8, 8, 3}, {8, 8, 21}, 2.0};
 
-imaging::ImageVolume image() { return testing::tube_image({kTube}, {40, 40, 60}, Vec3(0.4, 0.4, 0.4), 0.4, 20.0); }
+imaging::ImageVolume image() {
+  return testing::tube_image({kTube}, {40, 40, 60}, Vec3(0.4, 0.4, 0.4), 0.4, 20.0);
+}
 
 TEST(IntensityRange, LiesBetweenLumenAndBackground) {
   const IntensityRange range = intensity_range_around(image(), {kTube.from, kTube.to});
@@ -45,7 +48,8 @@ TEST(IntensityRange, SeedsThatCannotBeAreNamed) {
   for (auto& hu : lung.voxels) hu = static_cast<std::int16_t>(hu - 900);
   EXPECT_THAT([&] { intensity_range_around(image(), {Vec3(8, 8, -30)}); },
               ThrowsMessage<InvalidInput>(HasSubstr("(8.0, 8.0, -30.0) mm lies outside the image")));
-  EXPECT_THAT([&] { intensity_range_around(lung, {kTube.from}); }, ThrowsMessage<InvalidInput>(HasSubstr("lies in air")));
+  EXPECT_THAT([&] { intensity_range_around(lung, {kTube.from}); },
+              ThrowsMessage<InvalidInput>(HasSubstr("lies in air")));
   EXPECT_THROW(intensity_range_around(image(), {}), InvalidInput);
   EXPECT_THROW(detail::choose_range(image(), {kTube.from}, 500.0, 400.0), InvalidInput);
 }
@@ -56,8 +60,11 @@ TEST(IntensityRange, ASeedOnADarkVoxelMovesToItsNeighbour) {
   const Vec3 seed = dark.geometry.world(Vec3(20.3, 20, 20));
   const detail::Voxel v = detail::voxel_in_range(dark, seed, {250.0, 600.0});
   EXPECT_EQ(v, (detail::Voxel{21, 20, 20}));
-  EXPECT_THAT([&] { detail::voxel_in_range(dark, Vec3(1, 1, 5), {250.0, 600.0}); },
-              ThrowsMessage<InvalidInput>(HasSubstr("the range is 250 to 600 HU")));
+  EXPECT_THAT(
+      [&] {
+        detail::voxel_in_range(dark, Vec3(1, 1, 5), {250.0, 600.0});
+      },
+      ThrowsMessage<InvalidInput>(HasSubstr("the range is 250 to 600 HU")));
 }
 
 }  // namespace

@@ -1,14 +1,14 @@
 #include "ostia/segmentation/level_set.h"
 
+#include "ostia/core/error.h"
+#include "ostia/core/parallel.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <utility>
-
-#include "ostia/core/error.h"
-#include "ostia/core/parallel.h"
 
 namespace ostia::segmentation {
 namespace {
@@ -24,8 +24,8 @@ imaging::FloatVolume field(const std::array<std::int64_t, 3>& size, const Vec3& 
   for (std::int64_t k = 0; k < size[2]; ++k)
     for (std::int64_t j = 0; j < size[1]; ++j)
       for (std::int64_t i = 0; i < size[0]; ++i)
-        out(i, j, k) = static_cast<float>(
-            f(out.geometry.world(Vec3(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)))));
+        out(i, j, k) = static_cast<float>(f(out.geometry.world(
+            Vec3(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)))));
   return out;
 }
 
@@ -77,7 +77,8 @@ TEST_P(LevelSetOnRidge, RestsOnTheRidgeOfTheFeature) {
   const std::array<std::int64_t, 3> size{static_cast<std::int64_t>(22.0 / spacing[0]),
                                          static_cast<std::int64_t>(22.0 / spacing[1]),
                                          static_cast<std::int64_t>(22.0 / spacing[2])};
-  const auto feature = field(size, spacing, [](const Vec3& p) { return std::exp(-std::pow(p.norm() - 7.0, 2) / 2.0); });
+  const auto feature =
+      field(size, spacing, [](const Vec3& p) { return std::exp(-std::pow(p.norm() - 7.0, 2) / 2.0); });
   LevelSetOptions options;
   options.curvature = 0.0;
   options.iterations_max = 400;
@@ -86,8 +87,10 @@ TEST_P(LevelSetOnRidge, RestsOnTheRidgeOfTheFeature) {
 }
 
 INSTANTIATE_TEST_SUITE_P(FromBothSides, LevelSetOnRidge,
-                         ::testing::Values(std::pair{5.5, Vec3(0.5, 0.5, 0.5)}, std::pair{8.2, Vec3(0.5, 0.5, 0.5)},
-                                           std::pair{6.0, Vec3(0.4, 0.4, 1.0)}, std::pair{8.0, Vec3(0.4, 0.6, 0.8)}));
+                         ::testing::Values(std::pair{5.5, Vec3(0.5, 0.5, 0.5)},
+                                           std::pair{8.2, Vec3(0.5, 0.5, 0.5)},
+                                           std::pair{6.0, Vec3(0.4, 0.4, 1.0)},
+                                           std::pair{8.0, Vec3(0.4, 0.6, 0.8)}));
 
 TEST(LevelSet, InflationMovesOutwardsAtItsSpeed) {
   LevelSetOptions options;
@@ -96,7 +99,7 @@ TEST(LevelSet, InflationMovesOutwardsAtItsSpeed) {
   options.advection = 0.0;
   options.iterations_max = 30;
   const auto flat = field(kSize, kSpacing, [](const Vec3&) { return 0.0; });  // G = 1/(1 + 0)
-  const double expected = 6.0 + 30 * 0.4 * 0.5 * 0.5;  // steps, step, w1, h
+  const double expected = 6.0 + 30 * 0.4 * 0.5 * 0.5;                         // steps, step, w1, h
   EXPECT_NEAR(radius_of(level_set(sphere(6.0, kSize, kSpacing), flat, options).level_set), expected, 0.15);
   // An own speed image: nothing moves where it is 0.
   const auto still = field(kSize, kSpacing, [](const Vec3&) { return 0.0; });
@@ -104,7 +107,8 @@ TEST(LevelSet, InflationMovesOutwardsAtItsSpeed) {
 }
 
 TEST(LevelSet, IsTheSameWhateverTheNumberOfThreads) {
-  const auto feature = field(kSize, kSpacing, [](const Vec3& p) { return std::sin(3 * p.x()) + std::cos(2 * p.y() * p.z()); });
+  const auto feature =
+      field(kSize, kSpacing, [](const Vec3& p) { return std::sin(3 * p.x()) + std::cos(2 * p.y() * p.z()); });
   core::set_max_threads(1);
   const auto one = level_set(sphere(6.0, kSize, kSpacing), feature);
   core::set_max_threads(0);

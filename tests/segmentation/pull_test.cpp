@@ -15,7 +15,8 @@ imaging::ImageVolume quadratic() {
   image.voxels.resize(8000);
   for (std::int64_t k = 0; k < 20; ++k)
     for (std::int64_t j = 0; j < 20; ++j)
-      for (std::int64_t i = 0; i < 20; ++i) image(i, j, k) = static_cast<std::int16_t>(3 * i * i - 2 * j * j + i * k + 5 * j);
+      for (std::int64_t i = 0; i < 20; ++i)
+        image(i, j, k) = static_cast<std::int16_t>(3 * i * i - 2 * j * j + i * k + 5 * j);
   return image;
 }
 

@@ -1,8 +1,8 @@
 #include "region_builder.h"
 
-#include <gtest/gtest.h>
-
 #include "ostia/core/error.h"
+
+#include <gtest/gtest.h>
 
 namespace ostia::segmentation::detail {
 namespace {

@@ -1,16 +1,18 @@
-#include <gtest/gtest.h>
+#include "shared_data.h"
 
 #include "ostia/geometry/mesh_topology.h"
 #include "ostia/imaging/image_file.h"
 #include "ostia/segmentation/segment.h"
-#include "shared_data.h"
+
+#include <gtest/gtest.h>
 
 namespace ostia::segmentation {
 namespace {
 
-/// Dice of the region phi < 0 and a mask, over voxels between the planes through `from` and `to` and near the line.
-double dice(const SegmentationResult& result, const imaging::MaskVolume& mask, const Vec3& from, const Vec3& to,
-            double radius) {
+/// Dice of the region phi < 0 and a mask, over voxels between the planes through `from` and `to` and near the
+/// line.
+double dice(const SegmentationResult& result, const imaging::MaskVolume& mask, const Vec3& from,
+            const Vec3& to, double radius) {
   const imaging::Geometry& g = mask.geometry;
   const Vec3 axis = (to - from).normalized();
   std::int64_t ours = 0;
@@ -19,13 +21,15 @@ double dice(const SegmentationResult& result, const imaging::MaskVolume& mask, c
   for (std::int64_t k = 0; k < g.size[2]; ++k) {
     for (std::int64_t j = 0; j < g.size[1]; ++j) {
       for (std::int64_t i = 0; i < g.size[0]; ++i) {
-        const Vec3 away = g.world(Vec3(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k))) - from;
+        const Vec3 away =
+            g.world(Vec3(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k))) - from;
         const double along = away.dot(axis);
         if (along < 0.0 || along > (to - from).norm() || (away - along * axis).norm() > radius) continue;
         const imaging::Region& box = result.region;
         const bool in_box = i >= box.lower[0] && j >= box.lower[1] && k >= box.lower[2] && i < box.upper[0] &&
                             j < box.upper[1] && k < box.upper[2];
-        const bool inside = in_box && result.level_set(i - box.lower[0], j - box.lower[1], k - box.lower[2]) < 0.0F;
+        const bool inside =
+            in_box && result.level_set(i - box.lower[0], j - box.lower[1], k - box.lower[2]) < 0.0F;
         const bool reference = mask(i, j, k) != 0;
         ours += inside ? 1 : 0;
         theirs += reference ? 1 : 0;

@@ -1,11 +1,12 @@
 #include "ostia/segmentation/segment.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
+#include "tube_images.h"
 
 #include "ostia/core/error.h"
 #include "ostia/geometry/mesh_topology.h"
-#include "tube_images.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 namespace ostia::segmentation {
 namespace {
@@ -25,7 +26,8 @@ Tube oblique(double radius_voxels) {
   return {a + 0.15 * (b - a), a + 0.85 * (b - a), radius_voxels * kVoxel};
 }
 
-testing::WallError segmented_wall(const imaging::ImageVolume& image, const Tube& tube, const SegmentOptions& options = {}) {
+testing::WallError segmented_wall(const imaging::ImageVolume& image, const Tube& tube,
+                                  const SegmentOptions& options = {}) {
   const SegmentationResult result = segment_vessels(image, {{tube.from, std::nullopt, tube.to}}, options);
   return testing::wall_error(surface_of(result.level_set, {tube.from, tube.to}).points, tube, 2.5);
 }
@@ -43,26 +45,38 @@ TEST_P(SegmentTube, FindsTheWallBelowAVoxel) {
 INSTANTIATE_TEST_SUITE_P(RadiiInVoxels, SegmentTube, ::testing::Values(2.5, 4.0, 8.0));
 
 TEST(Segment, ThinVesselsKeepTheirLength) {
+  // Two and three voxels across.
   for (const double radius : {1.0, 1.5}) {
-    for (const WallFeature feature : {WallFeature::edges, WallFeature::upwind}) {
-      const Tube tube = oblique(radius);
-      SegmentOptions options;
-      options.feature = feature;
-      const auto image = testing::tube_image({tube}, kSize, kSpacing, 0.6 * kVoxel);
-      const SegmentationResult result = segment_vessels(image, {{tube.from, std::nullopt, tube.to}}, options);
-      const geometry::TriMesh mesh = surface_of(result.level_set, {tube.from});
-      const Vec3 axis = (tube.to - tube.from).normalized();
-      double first = 1e9;
-      double last = -1e9;
-      for (const Vec3& p : mesh.points) {
-        first = std::min(first, (p - tube.from).dot(axis));
-        last = std::max(last, (p - tube.from).dot(axis));
-      }
-      EXPECT_LT(first, 4.0 * kVoxel) << radius << " " << static_cast<int>(feature);
-      EXPECT_GT(last, (tube.to - tube.from).norm() - 4.0 * kVoxel) << radius << " " << static_cast<int>(feature);
-      const auto error = testing::wall_error(mesh.points, tube, 2.5);
-      EXPECT_LT(std::abs(error.mean), 0.5 * kVoxel) << radius << " " << static_cast<int>(feature);
+    const Tube tube = oblique(radius);
+    const auto image = testing::tube_image({tube}, kSize, kSpacing, 0.6 * kVoxel);
+    const SegmentationResult result = segment_vessels(image, {{tube.from, std::nullopt, tube.to}});
+    const geometry::TriMesh mesh = surface_of(result.level_set, {tube.from});
+    const Vec3 axis = (tube.to - tube.from).normalized();
+    double first = 1e9;
+    double last = -1e9;
+    for (const Vec3& p : mesh.points) {
+      first = std::min(first, (p - tube.from).dot(axis));
+      last = std::max(last, (p - tube.from).dot(axis));
     }
+    const double length = (tube.to - tube.from).norm();
+    // Nothing is lost; the end of so thin a vessel may run on by some voxels.
+    EXPECT_LT(first, 2.0 * kVoxel) << radius;
+    EXPECT_GT(first, -7.0 * kVoxel) << radius;
+    EXPECT_GT(last, length - 2.0 * kVoxel) << radius;
+    EXPECT_LT(last, length + 7.0 * kVoxel) << radius;
+    EXPECT_LT(std::abs(testing::wall_error(mesh.points, tube, 2.5).mean), 0.3 * kVoxel) << radius;
+  }
+}
+
+TEST(Segment, TheVoxelFeaturesOfThePaperFindTheWallToo) {
+  const Tube tube = oblique(5.0);
+  const auto image = testing::tube_image({tube}, kSize, kSpacing, 0.8 * kVoxel);
+  for (const WallFeature feature : {WallFeature::upwind, WallFeature::centred}) {
+    SegmentOptions options;
+    options.feature = feature;
+    const auto error = segmented_wall(image, tube, options);
+    EXPECT_LT(std::abs(error.mean), 0.25 * kVoxel);
+    EXPECT_LT(error.rms, 0.25 * kVoxel);
   }
 }
 
@@ -108,7 +122,8 @@ TEST(Segment, BranchesThatMeetBecomeOneSurfaceWithoutASeam) {
   EXPECT_TRUE(faults.closed_manifold()) << faults.summary();
   EXPECT_EQ(faults.components, 1U);
   EXPECT_EQ(faults.self_intersections, 0U);
-  const double euler = static_cast<double>(mesh.points.size()) - 0.5 * static_cast<double>(mesh.triangles.size());
+  const double euler =
+      static_cast<double>(mesh.points.size()) - 0.5 * static_cast<double>(mesh.triangles.size());
   EXPECT_EQ(euler, 2.0);
   geometry::Box3 box = geometry::bounds(mesh.points);
   EXPECT_LT(box.min().x(), 7.5);
@@ -121,9 +136,11 @@ TEST(Segment, BrightThingsInTheLumenAreLumenWhereAsked) {
   auto image = testing::tube_image({tube}, kSize, kSpacing, 0.8 * kVoxel);
   const Vec3 axis = (tube.to - tube.from).normalized();
   for (std::int64_t n = 0; n < image.geometry.voxels(); ++n) {  // a ring of a stent just inside the wall
-    const Vec3 p = image.geometry.world(Vec3(static_cast<double>(n % 60), static_cast<double>(n / 60 % 60), static_cast<double>(n / 3600)));
+    const Vec3 p = image.geometry.world(
+        Vec3(static_cast<double>(n % 60), static_cast<double>(n / 60 % 60), static_cast<double>(n / 3600)));
     const double rho = testing::distance_to_axis(tube, p);
-    if (rho > 1.7 && rho < 2.2 && std::abs((p - tube.from).dot(axis) - 8.0) < 2.0) image.voxels[static_cast<std::size_t>(n)] = 1500;
+    if (rho > 1.7 && rho < 2.2 && std::abs((p - tube.from).dot(axis) - 8.0) < 2.0)
+      image.voxels[static_cast<std::size_t>(n)] = 1500;
   }
   SegmentOptions options;
   const auto without = segmented_wall(image, tube, options);
@@ -137,8 +154,12 @@ TEST(Segment, SaysWhichBranchIsWrongAndWhatItMet) {
   const Tube tube = oblique(4.0);
   const auto image = testing::tube_image({tube}, kSize, kSpacing, 0.8 * kVoxel);
   EXPECT_THROW(segment_vessels(image, {}), InvalidInput);
-  EXPECT_THAT([&] { segment_vessels(image, {{tube.from, std::nullopt, tube.to}, {Vec3(-50, 0, 0), std::nullopt, tube.to}}); },
-              ThrowsMessage<InvalidInput>(HasSubstr("branch 2: seed (-50.0, 0.0, 0.0) mm")));
+  EXPECT_THAT(
+      [&] {
+        segment_vessels(image,
+                        {{tube.from, std::nullopt, tube.to}, {Vec3(-50, 0, 0), std::nullopt, tube.to}});
+      },
+      ThrowsMessage<InvalidInput>(HasSubstr("branch 2: seed (-50.0, 0.0, 0.0) mm")));
   const SegmentationResult cut = segment_vessels(image, {{Vec3(10.6, 11.2, 0.0), std::nullopt, tube.to}});
   EXPECT_TRUE(cut.touches_border);
   ASSERT_FALSE(cut.warnings.empty());

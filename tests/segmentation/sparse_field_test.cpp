@@ -18,9 +18,12 @@ imaging::FloatVolume sphere(double radius, const Vec3& spacing, const std::array
   for (std::int64_t k = 0; k < size[2]; ++k)
     for (std::int64_t j = 0; j < size[1]; ++j)
       for (std::int64_t i = 0; i < size[0]; ++i)
-        out(i, j, k) = static_cast<float>(
-            (out.geometry.world(Vec3(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k))) - centre).norm() -
-            radius);
+        out(i, j, k) =
+            static_cast<float>((out.geometry.world(Vec3(static_cast<double>(i), static_cast<double>(j),
+                                                        static_cast<double>(k))) -
+                                centre)
+                                   .norm() -
+                               radius);
   return out;
 }
 
@@ -29,23 +32,29 @@ TEST(SparseField, LayersCarryTheDistanceInTheSpacingOfEachAxis) {
   const SparseField field(exact);
   ASSERT_GT(field.active().size(), 500U);
   double worst = 0.0;
+  double sum = 0.0;
   std::size_t seen = 0;
   for (std::size_t n = 0; n < exact.voxels.size(); ++n) {
     EXPECT_EQ(field.values()[n] < 0.0F, exact.voxels[n] < 0.0F);
     if (std::abs(exact.voxels[n]) > 0.9) continue;
     ++seen;
-    worst = std::max(worst, std::abs(static_cast<double>(field.values()[n]) - exact.voxels[n]));
+    const double error = std::abs(static_cast<double>(field.values()[n]) - exact.voxels[n]);
+    worst = std::max(worst, error);
+    sum += error;
   }
   EXPECT_GT(seen, 2000U);
-  EXPECT_LT(worst, 0.25);
+  EXPECT_LT(worst, 0.4);  // half a voxel of the coarse axis
+  EXPECT_LT(sum / static_cast<double>(seen), 0.08);
 }
 
 TEST(SparseField, MovingOutBySteadyStepsKeepsTheShape) {
   SparseField field(sphere(6.0, Vec3::Constant(0.5), {50, 50, 50}));
-  for (int step = 0; step < 16; ++step) field.advance(std::vector<float>(field.active().size(), -0.125F));  // 2 mm in all
+  for (int step = 0; step < 16; ++step)
+    field.advance(std::vector<float>(field.active().size(), -0.125F));  // 2 mm in all
   const auto exact = sphere(8.0, Vec3::Constant(0.5), {50, 50, 50});
   double sum = 0.0;
-  for (const std::int64_t n : field.active()) sum += std::abs(field.value(n) - exact.voxels[static_cast<std::size_t>(n)]);
+  for (const std::int64_t n : field.active())
+    sum += std::abs(field.value(n) - exact.voxels[static_cast<std::size_t>(n)]);
   EXPECT_LT(sum / static_cast<double>(field.active().size()), 0.1);
 }
 

@@ -1,6 +1,9 @@
 #pragma once
 /// \file Images of tubes whose walls are known exactly.
 
+#include "ostia/imaging/volume.h"
+#include "ostia/segmentation/seeds.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,13 +11,10 @@
 #include <random>
 #include <vector>
 
-#include "ostia/imaging/volume.h"
-#include "ostia/segmentation/seeds.h"
-
 namespace ostia::segmentation::testing {
 
-/// A disc of radius r blurred by a Gaussian of standard deviation sigma, at a distance from its centre: what a scanner with such a
-/// point-spread function shows of a long straight tube. By quadrature, tabulated.
+/// A disc of radius r blurred by a Gaussian of standard deviation sigma, at a distance from its centre: what
+/// a scanner with such a point-spread function shows of a long straight tube. By quadrature, tabulated.
 class BlurredDisc {
  public:
   BlurredDisc(double radius, double sigma) {
@@ -51,7 +51,7 @@ class BlurredDisc {
 
 struct Tube {
   Vec3 from;
-  Vec3 to;         ///< ends are where the seeds go; the tube itself has none unless `finite`
+  Vec3 to;  ///< ends are where the seeds go; the tube itself has none unless `finite`
   double radius;
   bool finite = false;
 };
@@ -63,8 +63,9 @@ inline double distance_to_axis(const Tube& tube, const Vec3& point) {
   return (point - tube.from - along * axis).norm();
 }
 
-inline imaging::ImageVolume tube_image(const std::vector<Tube>& tubes, const std::array<std::int64_t, 3>& size,
-                                       const Vec3& spacing, double sigma, double noise = 0.0, double lumen = 350.0,
+inline imaging::ImageVolume tube_image(const std::vector<Tube>& tubes,
+                                       const std::array<std::int64_t, 3>& size, const Vec3& spacing,
+                                       double sigma, double noise = 0.0, double lumen = 350.0,
                                        double background = 50.0) {
   imaging::ImageVolume image;
   image.geometry.size = size;

@@ -1,11 +1,5 @@
 #include "ostia/centerline/axis_fit.h"
 
-#include <Eigen/Dense>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
 #include "ostia/geometry/frame.h"
@@ -13,6 +7,12 @@
 #include "ostia/geometry/mesh_topology.h"
 #include "ostia/geometry/polyline.h"
 #include "ostia/geometry/spline.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace ostia::centerline {
 namespace {
@@ -30,8 +30,9 @@ struct WallSample {
 };
 
 // Foot of `query` on the line near its point `near`; false beyond the line's ends.
-bool unfold(const std::vector<Vec3>& line, const std::vector<double>& s, const std::vector<geometry::Frame>& frames,
-            std::size_t near, const Vec3& query, WallSample& sample) {
+bool unfold(const std::vector<Vec3>& line, const std::vector<double>& s,
+            const std::vector<geometry::Frame>& frames, std::size_t near, const Vec3& query,
+            WallSample& sample) {
   double best2 = -1.0;
   bool beyond_end = false;
   for (const std::size_t i : {near > 0 ? near - 1 : near, near}) {
@@ -87,8 +88,8 @@ std::vector<WallSample> unfold_wall(const Axis& axis, const std::vector<double>&
   return samples;
 }
 
-// Half of the gap to the next sample on either side around the circle: the samples' density drops out of the fit. A wide gap (a
-// branch leaves there) counts no more than three mean ones.
+// Half of the gap to the next sample on either side around the circle: the samples' density drops out of the
+// fit. A wide gap (a branch leaves there) counts no more than three mean ones.
 std::vector<double> angular_weights(const WallSample* samples, std::size_t count) {
   std::vector<std::pair<double, std::size_t>> order(count);
   for (std::size_t i = 0; i < count; ++i)
@@ -110,7 +111,7 @@ std::vector<double> angular_weights(const WallSample* samples, std::size_t count
 // Shift of the centre in the normal plane at abscissa s.
 Vec2 fit_centre(const WallSample* samples, std::size_t count, double s, double radius) {
   constexpr double softness = 0.03;  // wall this part of the radius beyond the inscribed circle weighs 1/e
-  constexpr double prior = 0.02;    // of all the wall's weight: keeps the centre where the wall says nothing
+  constexpr double prior = 0.02;     // of all the wall's weight: keeps the centre where the wall says nothing
   const std::vector<double> angular = angular_weights(samples, count);
   Vec2 shift = Vec2::Zero();
   std::vector<double> distances(count), sorted;
@@ -137,8 +138,8 @@ Vec2 fit_centre(const WallSample* samples, std::size_t count, double s, double r
   return shift;
 }
 
-// Triangle normals weighted by the sine over the lengths of the edges at the vertex (Max 1999): exact on spheres, and second
-// order on smooth surfaces however the triangles are shaped.
+// Triangle normals weighted by the sine over the lengths of the edges at the vertex (Max 1999): exact on
+// spheres, and second order on smooth surfaces however the triangles are shaped.
 std::vector<Vec3> curvature_exact_normals(const geometry::TriMesh& mesh) {
   std::vector<Vec3> normals(mesh.points.size(), Vec3::Zero());
   for (const geometry::Triangle& t : mesh.triangles)
@@ -175,11 +176,12 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-// Linear interpolation of the radius so that the smoothing's cut does not follow the noise of single points.
-std::vector<double> local_scale(const Axis& axis) {
+// The length that the smoothing's cut is relative to: the radius, or where that is smaller the surface's
+// spacing, below which the wall says nothing about the axis.
+std::vector<double> local_scale(const Axis& axis, const std::vector<double>& spacing_mm) {
   const double floor = 0.1 * median(axis.radius);
   std::vector<double> scale(axis.radius.size());
-  for (std::size_t i = 0; i < scale.size(); ++i) scale[i] = std::max(axis.radius[i], floor);
+  for (std::size_t i = 0; i < scale.size(); ++i) scale[i] = std::max({axis.radius[i], spacing_mm[i], floor});
   return scale;
 }
 
@@ -211,9 +213,10 @@ Axis smoothed_axis(const Axis& axis, double cutoff_radii, const std::vector<doub
   const std::size_t count = axis.points.size();
   if (count < 4 || cutoff_radii <= 0.0) return axis;
   const std::vector<double> s = geometry::abscissas(axis.points);
-  const std::vector<double> scale = local_scale(axis);
+  const std::vector<double> scale = local_scale(axis, bound_mm);
   const double reference = median(scale);
-  // A cubic smoothing spline passes 1/(1 + lambda w^4 d/weight) of a wave of angular frequency w at spacing d.
+  // A cubic smoothing spline passes 1/(1 + lambda w^4 d/weight) of a wave of angular frequency w at spacing
+  // d.
   const double spacing = s.back() / static_cast<double>(count - 1);
   const double lambda = std::pow(cutoff_radii * reference / (2.0 * pi), 4) / spacing;
   std::vector<double> weights(count);
@@ -229,7 +232,8 @@ Axis smoothed_axis(const Axis& axis, double cutoff_radii, const std::vector<doub
     }
     if (within) break;
   }
-  for (std::size_t i = 0; i < count; ++i) result.points[i] = limited(axis.points[i], result.points[i], bound_mm[i]);
+  for (std::size_t i = 0; i < count; ++i)
+    result.points[i] = limited(axis.points[i], result.points[i], bound_mm[i]);
   return result;
 }
 
@@ -254,8 +258,8 @@ Axis led_out_of(const std::vector<Vec3>& parent, const Axis& branch, double cuto
   return result;
 }
 
-Wall::Wall(const geometry::TriMesh& wall, const geometry::TriMesh& capped) : tree_(wall), cloud_(used_points(wall)) {
-  const std::vector<Vec3> normals = curvature_exact_normals(capped);
+Wall::Wall(const geometry::TriMesh& wall) : tree_(wall), cloud_(used_points(wall)) {
+  const std::vector<Vec3> normals = curvature_exact_normals(wall);
   std::vector<double> sum(wall.points.size(), 0.0);
   std::vector<int> edges(wall.points.size(), 0);
   for (const geometry::Triangle& t : wall.triangles)
@@ -286,10 +290,12 @@ double Wall::distance(const Vec3& query) const {
   double longest = 0.0;
   for (std::size_t k = 0; k < 3; ++k) {
     const auto v = static_cast<std::size_t>(triangle[k]);
-    move += foot.barycentric[static_cast<Eigen::Index>(k)] * (points()[v] - foot.point).dot(normals_[v]) * normals_[v];
+    move += foot.barycentric[static_cast<Eigen::Index>(k)] * (points()[v] - foot.point).dot(normals_[v]) *
+            normals_[v];
     longest = std::max(longest, spacing_[v]);
   }
-  // Normals across a sharp edge say nothing about curvature: no correction beyond what a sphere of this radius would need.
+  // Normals across a sharp edge say nothing about curvature: no correction beyond what a sphere of this
+  // radius would need.
   const double sagitta = foot.distance > 0.0 ? longest * longest / (2.0 * foot.distance) : 0.0;
   const double corrected = (limited(Vec3::Zero(), 0.5 * move, sagitta) + foot.point - query).norm();
   return corrected;
@@ -314,8 +320,8 @@ std::vector<double> Wall::spacing_along(const Axis& axis) const {
   return result;
 }
 
-Axis recentred_axis(const Axis& axis, const Wall& wall, const std::vector<double>& bound_mm, double cutoff_radii,
-                    const core::TaskContext& task) {
+Axis recentred_axis(const Axis& axis, const Wall& wall, const std::vector<double>& bound_mm,
+                    double cutoff_radii, const core::TaskContext& task) {
   const std::size_t count = axis.points.size();
   if (count < 4) return axis;
   Axis current = axis;

@@ -1,5 +1,7 @@
 #include "ostia/centerline/delaunay.h"
 
+#include "ostia/core/error.h"
+
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Delaunay_triangulation_cell_base_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -14,8 +16,6 @@
 #include <numeric>
 #include <random>
 #include <string>
-
-#include "ostia/core/error.h"
 
 namespace ostia::centerline {
 namespace {
@@ -33,14 +33,15 @@ std::vector<Point> to_cgal(const std::vector<geometry::Vec3>& points) {
   result.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const geometry::Vec3& p = points[i];
-    if (!p.allFinite()) throw InvalidInput("point " + std::to_string(i) + " has a coordinate that is not finite");
+    if (!p.allFinite())
+      throw InvalidInput("point " + std::to_string(i) + " has a coordinate that is not finite");
     result.emplace_back(p.x(), p.y(), p.z());
   }
   return result;
 }
 
-// A biased randomised insertion order: rounds that double in size, each along a Hilbert curve. The shuffle is our own and seeded, so
-// that the order, and with it the numbering of the cells, is the same in every call.
+// A biased randomised insertion order: rounds that double in size, each along a Hilbert curve. The shuffle is
+// our own and seeded, so that the order, and with it the numbering of the cells, is the same in every call.
 std::vector<std::size_t> insertion_order(const std::vector<Point>& points) {
   std::vector<std::size_t> order(points.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -76,7 +77,8 @@ Delaunay to_arrays(Triangulation& triangulation, const std::vector<std::int32_t>
   std::vector<std::int32_t> next(ranks.size() + 1, 0);
   const auto lowest_rank = [&](const auto& cell) {
     std::int32_t lowest = std::numeric_limits<std::int32_t>::max();
-    for (int i = 0; i < 4; ++i) lowest = std::min(lowest, ranks[static_cast<std::size_t>(cell->vertex(i)->info())]);
+    for (int i = 0; i < 4; ++i)
+      lowest = std::min(lowest, ranks[static_cast<std::size_t>(cell->vertex(i)->info())]);
     return static_cast<std::size_t>(lowest);
   };
   std::size_t count = 0;
@@ -121,7 +123,11 @@ Delaunay delaunay(const std::vector<geometry::Vec3>& points, const core::TaskCon
   if (triangulation.dimension() < 3)
     throw GeometryError("the " + std::to_string(points.size()) +
                         " points of the surface do not span a volume: give a surface that encloses a lumen");
-  Delaunay result = to_arrays(triangulation, hilbert_ranks(sites));
+  task.throw_if_cancelled();
+  const std::vector<std::int32_t> ranks = hilbert_ranks(sites);
+  task.throw_if_cancelled();
+  Delaunay result = to_arrays(triangulation, ranks);
+  task.throw_if_cancelled();
   result.dropped_points = points.size() - triangulation.number_of_vertices();
   task.set_progress(1.0);
   return result;

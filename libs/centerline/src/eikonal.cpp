@@ -1,12 +1,12 @@
 #include "ostia/centerline/eikonal.h"
 
+#include "ostia/core/error.h"
+
 #include <algorithm>
 #include <cmath>
 #include <queue>
 #include <string>
 #include <utility>
-
-#include "ostia/core/error.h"
 
 namespace ostia::centerline {
 namespace {
@@ -14,13 +14,18 @@ namespace {
 using geometry::Vec3;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// In larger polygons only the corners next to the newly accepted one are paired with it, which keeps the work linear.
+// In larger polygons only the corners next to the newly accepted one are paired with it, which keeps the work
+// linear.
 constexpr std::int32_t all_pairs_up_to = 6;
 
-std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
+std::size_t index(std::int32_t i) {
+  return static_cast<std::size_t>(i);
+}
 
-// Where on the segment from a to b the sum of T, linear between, and slowness times the distance to x is least, in [0, 1].
-double best_on_segment(const Vec3& a, const Vec3& b, double time_a, double time_b, const Vec3& x, double slowness) {
+// Where on the segment from a to b the sum of T, linear between, and slowness times the distance to x is
+// least, in [0, 1].
+double best_on_segment(const Vec3& a, const Vec3& b, double time_a, double time_b, const Vec3& x,
+                       double slowness) {
   const Vec3 edge = b - a;
   const double length = edge.norm();
   if (length <= 0.0) return time_a <= time_b ? 0.0 : 1.0;
@@ -36,7 +41,8 @@ class March {
  public:
   March(const InnerVoronoi& diagram, std::int32_t source)
       : diagram_(diagram), accepted_(diagram.points.size(), 0), slowness_(diagram.points.size()) {
-    for (std::size_t i = 0; i < slowness_.size(); ++i) slowness_[i] = 1.0 / std::max(diagram.radius[i], 1e-12);
+    for (std::size_t i = 0; i < slowness_.size(); ++i)
+      slowness_[i] = 1.0 / std::max(diagram.radius[i], 1e-12);
     result_.time.assign(diagram.points.size(), infinity);
     result_.parent.assign(diagram.points.size(), -1);
     result_.time[index(source)] = 0.0;
@@ -83,7 +89,8 @@ class March {
   void offer_across(std::int32_t v, std::int32_t w, std::int32_t to) {
     const double base_slowness = 0.5 * (slowness_[index(v)] + slowness_[index(w)]);
     const double slowness = 0.5 * (base_slowness + slowness_[index(to)]);
-    const Vec3 &a = diagram_.points[index(v)], &b = diagram_.points[index(w)], &x = diagram_.points[index(to)];
+    const Vec3 &a = diagram_.points[index(v)], &b = diagram_.points[index(w)],
+               &x = diagram_.points[index(to)];
     const double time_a = result_.time[index(v)], time_b = result_.time[index(w)];
     const double t = best_on_segment(a, b, time_a, time_b, x, slowness);
     if (t <= 0.0 || t >= 1.0) return;
@@ -94,7 +101,8 @@ class March {
 
   void spread_in_polygon(std::int32_t polygon, std::int32_t point) {
     const std::int32_t* corners = diagram_.corners.data() + diagram_.polygon_first[index(polygon)];
-    const std::int32_t size = diagram_.polygon_first[index(polygon) + 1] - diagram_.polygon_first[index(polygon)];
+    const std::int32_t size =
+        diagram_.polygon_first[index(polygon) + 1] - diagram_.polygon_first[index(polygon)];
     std::int32_t place = 0;
     while (corners[place] != point) ++place;
     for (std::int32_t i = 0; i < size; ++i) {
@@ -114,7 +122,8 @@ class March {
   void spread_from(std::int32_t point) {
     for (const std::int32_t neighbour : diagram_.links[index(point)])
       if (neighbour >= 0 && !accepted_[index(neighbour)]) offer_along_edge(point, neighbour);
-    for (std::int32_t k = diagram_.incidence_first[index(point)]; k < diagram_.incidence_first[index(point) + 1]; ++k)
+    for (std::int32_t k = diagram_.incidence_first[index(point)];
+         k < diagram_.incidence_first[index(point) + 1]; ++k)
       spread_in_polygon(diagram_.incidence[index(k)], point);
   }
 
@@ -140,7 +149,8 @@ class Descent {
   Descent(const InnerVoronoi& diagram, const ArrivalTimes& arrival) : diagram_(diagram), arrival_(arrival) {}
 
   Place at(std::int32_t point) const {
-    return {point, -1, diagram_.points[index(point)], arrival_.time[index(point)], diagram_.radius[index(point)]};
+    return {point, -1, diagram_.points[index(point)], arrival_.time[index(point)],
+            diagram_.radius[index(point)]};
   }
 
   Place next(const Place& from) const {
@@ -149,14 +159,16 @@ class Descent {
     if (from.b < 0)
       for (const std::int32_t neighbour : diagram_.links[index(from.a)])
         if (neighbour >= 0) consider(from, at(neighbour), best, best_slope);
-    for (std::int32_t k = diagram_.incidence_first[index(from.a)]; k < diagram_.incidence_first[index(from.a) + 1]; ++k) {
+    for (std::int32_t k = diagram_.incidence_first[index(from.a)];
+         k < diagram_.incidence_first[index(from.a) + 1]; ++k) {
       const std::int32_t polygon = diagram_.incidence[index(k)];
       if (from.b < 0 || has_corner(polygon, from.b)) search_polygon(polygon, from, best, best_slope);
     }
     return best.a >= 0 ? best : fall_back(from);
   }
 
-  // From a flat spot of the interpolated T back to the points, whose times fall along the parents by construction.
+  // From a flat spot of the interpolated T back to the points, whose times fall along the parents by
+  // construction.
   Place fall_back(const Place& from) const {
     if (from.b < 0) return at(arrival_.parent[index(from.a)]);
     return at(arrival_.time[index(from.a)] < arrival_.time[index(from.b)] ? from.a : from.b);
@@ -179,7 +191,8 @@ class Descent {
 
   void search_polygon(std::int32_t polygon, const Place& from, Place& best, double& best_slope) const {
     const std::int32_t* corners = diagram_.corners.data() + diagram_.polygon_first[index(polygon)];
-    const std::int32_t size = diagram_.polygon_first[index(polygon) + 1] - diagram_.polygon_first[index(polygon)];
+    const std::int32_t size =
+        diagram_.polygon_first[index(polygon) + 1] - diagram_.polygon_first[index(polygon)];
     const double slowness = 1.0 / std::max(from.radius, 1e-12);
     for (std::int32_t i = 0; i < size; ++i) {
       const std::int32_t v = corners[i], w = corners[i + 1 < size ? i + 1 : 0];
@@ -207,18 +220,20 @@ class Descent {
 
 }  // namespace
 
-ArrivalTimes arrival_times(const InnerVoronoi& diagram, std::int32_t source, const std::vector<std::int32_t>& targets,
-                           const core::TaskContext& task) {
+ArrivalTimes arrival_times(const InnerVoronoi& diagram, std::int32_t source,
+                           const std::vector<std::int32_t>& targets, const core::TaskContext& task) {
   const auto valid = [&](std::int32_t i) { return i >= 0 && index(i) < diagram.points.size(); };
   if (!valid(source) || !std::all_of(targets.begin(), targets.end(), valid))
-    throw InvalidInput("arrival times: the source or a target is no point of the Voronoi diagram, which has " +
-                       std::to_string(diagram.points.size()) + " points");
+    throw InvalidInput(
+        "arrival times: the source or a target is no point of the Voronoi diagram, which has " +
+        std::to_string(diagram.points.size()) + " points");
   return March(diagram, source).run(targets, task);
 }
 
 DiagramPath descend(const InnerVoronoi& diagram, const ArrivalTimes& arrival, std::int32_t target) {
   if (target < 0 || index(target) >= arrival.time.size() || !std::isfinite(arrival.time[index(target)]))
-    throw GeometryError("descent: the front did not reach point " + std::to_string(target) + " of the Voronoi diagram");
+    throw GeometryError("descent: the front did not reach point " + std::to_string(target) +
+                        " of the Voronoi diagram");
   const Descent descent(diagram, arrival);
   DiagramPath path;
   Place place = descent.at(target);

@@ -1,24 +1,25 @@
 #include "ostia/centerline/end_points.h"
 
+#include "ostia/core/error.h"
+#include "ostia/geometry/mesh_topology.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
-
-#include "ostia/core/error.h"
-#include "ostia/geometry/mesh_topology.h"
 
 namespace ostia::centerline {
 namespace {
 
 using geometry::Vec3;
 
-// An opening is a hole in the wall when an inscribed sphere this many times its size comes within half its radius of it: across
-// a vessel's end the vessel is about as wide as the opening.
+// An opening is a hole in the wall when an inscribed sphere this many times its size comes within half its
+// radius of it: across a vessel's end the vessel is about as wide as the opening.
 constexpr double hole_in_wall = 2.0;
 // A given point belongs to an opening within this part of the opening's radius.
 constexpr double near_opening = 0.5;
-// A given point may lie this part of the inscribed radius outside its sphere (a click on the wall, a point just behind a cap).
+// A given point may lie this part of the inscribed radius outside its sphere (a click on the wall, a point
+// just behind a cap).
 constexpr double outside_tolerance = 0.3;
 
 const Opening* opening_near(const std::vector<Opening>& openings, const Vec3& point) {
@@ -126,11 +127,13 @@ EndPoints choose_ends(const InnerVoronoi& diagram, const std::vector<Opening>& o
   const std::vector<Opening> ends = vessel_ends(diagram, openings, result.warnings);
   if (!source && ends.empty())
     throw InvalidInput("the surface has no open end to start from: give a source point inside the lumen");
-  result.source = source ? end_at_point(diagram, ends, *source, "source") : end_at_opening(diagram, ends.front());
+  result.source =
+      source ? end_at_point(diagram, ends, *source, "source") : end_at_opening(diagram, ends.front());
   if (targets.empty()) {
     result.targets = remaining_ends(diagram, ends, result.source);
     if (result.targets.empty())
-      throw InvalidInput("the surface has no open end besides the source's: give target points inside the lumen");
+      throw InvalidInput(
+          "the surface has no open end besides the source's: give target points inside the lumen");
   }
   for (std::size_t i = 0; i < targets.size(); ++i)
     result.targets.push_back(end_at_point(diagram, ends, targets[i], "target " + std::to_string(i)));

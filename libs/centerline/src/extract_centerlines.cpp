@@ -1,10 +1,5 @@
 #include "ostia/centerline/extract_centerlines.h"
 
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-#include <utility>
-
 #include "ostia/centerline/axis_fit.h"
 #include "ostia/centerline/eikonal.h"
 #include "ostia/centerline/end_points.h"
@@ -13,6 +8,11 @@
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
 #include "ostia/geometry/polyline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
 
 namespace ostia::centerline {
 namespace {
@@ -44,8 +44,8 @@ Axis with_ends(DiagramPath path, const EndPoint& source, const EndPoint& target)
 }
 
 struct Paths {
-  std::vector<Axis> axes;           // one a target
-  std::vector<std::size_t> order;   // farthest first
+  std::vector<Axis> axes;          // one a target
+  std::vector<std::size_t> order;  // farthest first
 };
 
 double working_step(const std::vector<Axis>& axes, double step_mm) {
@@ -96,7 +96,8 @@ std::vector<Vec3> lead_in(const Axis& parent, std::size_t at) {
 }
 
 // Smooths and centres the chains, parents first, so that each begins on its parent's final line.
-void fit_chains(ChainTree& tree, const Wall& wall, const CenterlineOptions& options, const core::TaskContext& task) {
+void fit_chains(ChainTree& tree, const Wall& wall, const CenterlineOptions& options,
+                const core::TaskContext& task) {
   for (std::size_t c = 0; c < tree.chains.size(); ++c) {
     task.throw_if_cancelled();
     task.set_progress(static_cast<double>(c) / static_cast<double>(tree.chains.size()));
@@ -105,18 +106,20 @@ void fit_chains(ChainTree& tree, const Wall& wall, const CenterlineOptions& opti
       chain.axis.points.front() = tree.chains[static_cast<std::size_t>(chain.parent)].axis.points[chain.at];
     const std::vector<double> bound = wall.spacing_along(chain.axis);
     chain.axis = smoothed_axis(chain.axis, options.smoothing_radii, bound);
-    if (options.recentre) chain.axis = recentred_axis(chain.axis, wall, bound, 0.5 * options.smoothing_radii, task);
+    if (options.recentre)
+      chain.axis = recentred_axis(chain.axis, wall, bound, 0.5 * options.smoothing_radii, task);
     if (chain.parent >= 0)
-      chain.axis = led_out_of(lead_in(tree.chains[static_cast<std::size_t>(chain.parent)].axis, chain.at), chain.axis,
-                              options.smoothing_radii);
+      chain.axis = led_out_of(lead_in(tree.chains[static_cast<std::size_t>(chain.parent)].axis, chain.at),
+                              chain.axis, options.smoothing_radii);
   }
 }
 
 void measure_radii(VesselTree& tree, const Wall& wall, const core::TaskContext& task) {
   for (geometry::TreeSegment& segment : tree.segments) {
     task.throw_if_cancelled();
-    core::parallel_for(segment.axis.size(), 64,
-                       [&](std::size_t i) { segment.axis.radius[i] = wall.inscribed_radius(segment.axis.points[i]); });
+    core::parallel_for(segment.axis.size(), 64, [&](std::size_t i) {
+      segment.axis.radius[i] = wall.inscribed_radius(segment.axis.points[i]);
+    });
   }
 }
 
@@ -131,26 +134,30 @@ void validate(const CenterlineOptions& options) {
   const auto fail = [](const std::string& name, double value, const std::string& rule) {
     throw InvalidInput("centerline option " + name + " must be " + rule + ", not " + std::to_string(value));
   };
-  if (!(options.step_mm > 0.0) || !std::isfinite(options.step_mm)) fail("step_mm", options.step_mm, "positive (mm)");
+  if (!(options.step_mm > 0.0) || !std::isfinite(options.step_mm))
+    fail("step_mm", options.step_mm, "positive (mm)");
   if (!(options.smoothing_radii >= 0.0) || !std::isfinite(options.smoothing_radii))
     fail("smoothing_radii", options.smoothing_radii, "zero or more (radii)");
   if (!(options.merge_fraction > 0.0 && options.merge_fraction < 1.0))
     fail("merge_fraction", options.merge_fraction, "between 0 and 1");
 }
 
-CenterlineResult extract_centerlines(const TriMesh& lumen, std::optional<Vec3> source, const std::vector<Vec3>& targets,
-                                     const CenterlineOptions& options, const core::TaskContext& task) {
+CenterlineResult extract_centerlines(const TriMesh& lumen, std::optional<Vec3> source,
+                                     const std::vector<Vec3>& targets, const CenterlineOptions& options,
+                                     const core::TaskContext& task) {
   validate(options);
   task.set_stage("surface");
   const LumenSurface surface = prepare_lumen(lumen);
   task.throw_if_cancelled();
   task.set_stage("Voronoi diagram");
-  InnerVoronoi diagram = inner_voronoi(surface.capped, surface.on_border, surface.only_in_caps, task.sub(0.05, 0.6));
+  InnerVoronoi diagram =
+      inner_voronoi(surface.sampled, surface.on_border, surface.only_in_caps, task.sub(0.05, 0.6));
   const EndPoints ends = choose_ends(diagram, surface.openings, source, targets);
   if (!options.vessel_names.empty() && options.vessel_names.size() != ends.targets.size())
     throw InvalidInput(std::to_string(options.vessel_names.size()) + " vessel names for " +
                        std::to_string(ends.targets.size()) + " targets: give one a target, or none");
 
+  task.throw_if_cancelled();
   task.set_stage("arrival times");
   std::vector<std::int32_t> target_points;
   for (const EndPoint& target : ends.targets) target_points.push_back(target.diagram_point);
@@ -160,15 +167,20 @@ CenterlineResult extract_centerlines(const TriMesh& lumen, std::optional<Vec3> s
 
   task.set_stage("axes");
   ChainTree chains = merge_paths(paths.axes, paths.order, options.merge_fraction);
-  const Wall wall(surface.wall, surface.capped);
+  task.throw_if_cancelled();
+  const Wall wall(surface.wall);
   fit_chains(chains, wall, options, task.sub(0.8, 0.95));
 
   CenterlineResult result;
-  result.tree = to_vessel_tree(chains, options.step_mm, options.vessel_names);
+  SplitTree split = split_tree(chains, options.step_mm, options.vessel_names);
+  result.tree = std::move(split.tree);
   measure_radii(result.tree, wall, task);
-  for (const geometry::Vessel& vessel : result.tree.vessels) {
-    if (vessel.segments.empty()) throw GeometryError(vessel.name + " has no length: its target lies at the source");
-    result.lines.push_back(geometry::vessel_axis(result.tree, vessel));
+  for (std::size_t i = 0; i < ends.targets.size(); ++i) {
+    const std::string role = "target " + std::to_string(i);
+    if (split.target_segments[i].empty())
+      throw GeometryError(describe_point(role, ends.targets[i].position) +
+                          " lies at the source: give points farther apart");
+    result.lines.push_back(geometry::vessel_axis(result.tree, {0, role, split.target_segments[i]}));
     result.ends.push_back(result.lines.back().points.back());
     result.end_radii.push_back(result.lines.back().radius.back());
   }
@@ -176,6 +188,9 @@ CenterlineResult extract_centerlines(const TriMesh& lumen, std::optional<Vec3> s
   result.source_radius = result.lines.front().radius.front();
   std::vector<std::string> warnings = surface.warnings;
   warnings.insert(warnings.end(), ends.warnings.begin(), ends.warnings.end());
+  for (const std::size_t i : split.passed_targets)
+    warnings.push_back(describe_point("target " + std::to_string(i), ends.targets[i].position) +
+                       " lies on the way to another one: it has a line, but ends no vessel of the tree");
   result.diagnostics = {surface.wall.points.size(), surface.welded_points, diagram.dropped_points,
                         diagram.delaunay_cells,     diagram.points.size(), diagram.doubtful_cells,
                         diagram.polygon_count(),    std::move(warnings)};

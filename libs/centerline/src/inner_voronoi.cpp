@@ -1,14 +1,14 @@
 #include "ostia/centerline/inner_voronoi.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-
 #include "ostia/centerline/delaunay.h"
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
 #include "ostia/geometry/aabb_tree.h"
 #include "ostia/geometry/mesh_topology.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
 
 namespace ostia::centerline {
 namespace {
@@ -51,8 +51,9 @@ Sites collect_sites(const geometry::TriMesh& capped, const std::vector<bool>& on
 // False where the cell is too flat for its circumcentre.
 bool circumsphere(const Vec3& p0, const Vec3& p1, const Vec3& p2, const Vec3& p3, Sphere& sphere) {
   const Vec3 a = p1 - p0, b = p2 - p0, c = p3 - p0;
-  const double longest2 = std::max({a.squaredNorm(), b.squaredNorm(), c.squaredNorm(), (p2 - p1).squaredNorm(),
-                                    (p3 - p1).squaredNorm(), (p3 - p2).squaredNorm()});
+  const double longest2 =
+      std::max({a.squaredNorm(), b.squaredNorm(), c.squaredNorm(), (p2 - p1).squaredNorm(),
+                (p3 - p1).squaredNorm(), (p3 - p2).squaredNorm()});
   const Vec3 bc = b.cross(c);
   const double volume6 = a.dot(bc);
   if (!(std::abs(volume6) > flat_limit * longest2 * std::sqrt(longest2))) return false;
@@ -88,7 +89,9 @@ Classified classify(const Sites& sites, const Delaunay& cells, const geometry::T
   Classified result{std::vector<Sphere>(count), std::vector<Side>(count, Side::flat), 0};
   core::parallel_for(count, 8192, [&](std::size_t i) {
     const auto& cell = cells.cells[i];
-    const auto at = [&](std::size_t k) -> const Vec3& { return sites.points[static_cast<std::size_t>(cell[k])]; };
+    const auto at = [&](std::size_t k) -> const Vec3& {
+      return sites.points[static_cast<std::size_t>(cell[k])];
+    };
     if (circumsphere(at(0), at(1), at(2), at(3), result.spheres[i]))
       result.sides[i] = vote(sites, cell, result.spheres[i]);
   });
@@ -97,6 +100,7 @@ Classified classify(const Sites& sites, const Delaunay& cells, const geometry::T
     if (result.sides[i] == Side::doubtful) doubtful.push_back(i);
   result.doubtful = doubtful.size();
   if (doubtful.empty()) return result;
+  task.throw_if_cancelled();
   const geometry::AabbTree tree(capped);
   const geometry::Box3 box = geometry::bounds(capped.points);
   core::parallel_chunks(doubtful.size(), 512, [&](std::size_t first, std::size_t last) {
@@ -111,7 +115,8 @@ Classified classify(const Sites& sites, const Delaunay& cells, const geometry::T
 }
 
 // The sphere about `centre` through the cell's corners, if they lie on one.
-bool sphere_about(const Vec3& centre, const Sites& sites, const std::array<std::int32_t, 4>& cell, Sphere& sphere) {
+bool sphere_about(const Vec3& centre, const Sites& sites, const std::array<std::int32_t, 4>& cell,
+                  Sphere& sphere) {
   constexpr double tolerance = 1e-4;  // of the radius
   double nearest = 0.0, farthest = 0.0;
   for (std::size_t k = 0; k < 4; ++k) {
@@ -123,8 +128,9 @@ bool sphere_about(const Vec3& centre, const Sites& sites, const std::array<std::
   return farthest - nearest <= tolerance * farthest;
 }
 
-// A flat cell whose corners lie on a circle may take any centre on the circle's axis between those of its neighbours: it takes
-// that of the inner neighbour with the largest sphere. Neighbours may be flat themselves, hence the rounds.
+// A flat cell whose corners lie on a circle may take any centre on the circle's axis between those of its
+// neighbours: it takes that of the inner neighbour with the largest sphere. Neighbours may be flat
+// themselves, hence the rounds.
 void settle_flat_cells(const Sites& sites, const Delaunay& cells, Classified& classified) {
   std::vector<std::size_t> open;
   for (std::size_t i = 0; i < classified.sides.size(); ++i)
@@ -161,9 +167,10 @@ std::size_t corner_of(const std::array<std::int32_t, 4>& cell, std::int32_t vert
   return i;
 }
 
-// The cells around the edge of corners i and j of `start`, in order, when all are inside and `start` is the lowest of them.
-bool ring_around(const Delaunay& cells, const std::vector<std::int32_t>& inner, std::size_t start, std::size_t i,
-                 std::size_t j, std::vector<std::int32_t>& ring) {
+// The cells around the edge of corners i and j of `start`, in order, when all are inside and `start` is the
+// lowest of them.
+bool ring_around(const Delaunay& cells, const std::vector<std::int32_t>& inner, std::size_t start,
+                 std::size_t i, std::size_t j, std::vector<std::int32_t>& ring) {
   ring.clear();
   const std::int32_t a = cells.cells[start][i], b = cells.cells[start][j];
   std::size_t leave = 0;
@@ -171,7 +178,8 @@ bool ring_around(const Delaunay& cells, const std::vector<std::int32_t>& inner, 
   std::size_t current = start;
   do {
     ring.push_back(inner[current]);
-    const std::size_t stay = 6 - leave - corner_of(cells.cells[current], a) - corner_of(cells.cells[current], b);
+    const std::size_t stay =
+        6 - leave - corner_of(cells.cells[current], a) - corner_of(cells.cells[current], b);
     const std::int32_t pivot = cells.cells[current][stay];
     const std::int32_t next = cells.neighbours[current][leave];
     if (next < static_cast<std::int32_t>(start) || inner[static_cast<std::size_t>(next)] < 0) return false;
@@ -247,6 +255,7 @@ InnerVoronoi inner_voronoi(const geometry::TriMesh& capped, const std::vector<bo
   }
   if (diagram.points.empty())
     throw GeometryError("no part of the Voronoi diagram lies inside the surface: it encloses no lumen");
+  task.throw_if_cancelled();
   for (std::size_t i = 0; i < inner.size(); ++i) {
     if (inner[i] < 0) continue;
     std::array<std::int32_t, 4> links{};
@@ -257,6 +266,7 @@ InnerVoronoi inner_voronoi(const geometry::TriMesh& capped, const std::vector<bo
     diagram.links.push_back(links);
   }
   add_polygons(cells, inner, diagram, task);
+  task.throw_if_cancelled();
   add_incidence(diagram);
   task.set_progress(1.0);
   return diagram;

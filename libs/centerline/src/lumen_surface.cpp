@@ -1,14 +1,14 @@
 #include "ostia/centerline/lumen_surface.h"
 
+#include "ostia/core/error.h"
+#include "ostia/geometry/mesh_topology.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <map>
 #include <numeric>
-
-#include "ostia/core/error.h"
-#include "ostia/geometry/mesh_topology.h"
 
 namespace ostia::centerline {
 namespace {
@@ -21,7 +21,8 @@ void check(const TriMesh& lumen) {
     throw GeometryError("the surface has no triangles: there is no lumen to find an axis in");
   for (std::size_t i = 0; i < lumen.points.size(); ++i)
     if (!lumen.points[i].allFinite())
-      throw InvalidInput("point " + std::to_string(i) + " of the surface has a coordinate that is not finite");
+      throw InvalidInput("point " + std::to_string(i) +
+                         " of the surface has a coordinate that is not finite");
 }
 
 std::size_t used_point_count(const TriMesh& mesh) {
@@ -68,7 +69,8 @@ void for_each_edge(const std::vector<EdgeUse>& uses, const Visit& visit) {
 // Patches of triangles that are joined by edges of two triangles.
 class Patches {
  public:
-  Patches(const TriMesh& mesh, const std::vector<EdgeUse>& uses) : parent_(mesh.triangles.size()), area_(parent_.size(), 0.0) {
+  Patches(const TriMesh& mesh, const std::vector<EdgeUse>& uses)
+      : parent_(mesh.triangles.size()), area_(parent_.size(), 0.0) {
     std::iota(parent_.begin(), parent_.end(), std::size_t{0});
     for_each_edge(uses, [&](const EdgeUse* use, std::size_t count) {
       if (count == 2) parent_[root(use[0].triangle)] = root(use[1].triangle);
@@ -86,8 +88,8 @@ class Patches {
   std::vector<double> area_;
 };
 
-// At each edge of more than two triangles the two of the largest patches stay (in one patch the larger triangles); small patches
-// that lose there go altogether. Returns whether anything went.
+// At each edge of more than two triangles the two of the largest patches stay (in one patch the larger
+// triangles); small patches that lose there go altogether. Returns whether anything went.
 bool drop_flaps(TriMesh& mesh) {
   constexpr double small_patch = 0.1;  // of the largest patch at the edge
   const std::vector<EdgeUse> uses = edge_uses(mesh);
@@ -105,7 +107,8 @@ bool drop_flaps(TriMesh& mesh) {
     });
     for (std::size_t i = 2; i < count; ++i) {
       keep[order[i]] = false;
-      if (patches.area(order[i]) < small_patch * patches.area(order[0])) drop_patch[patches.root(order[i])] = true;
+      if (patches.area(order[i]) < small_patch * patches.area(order[0]))
+        drop_patch[patches.root(order[i])] = true;
     }
   });
   if (!any) return false;
@@ -146,10 +149,89 @@ void make_borders_simple(LumenSurface& surface) {
     throw GeometryError("the surface is not manifold anywhere: there is no lumen to find an axis in");
   const std::size_t dropped = before - surface.wall.triangles.size();
   if (dropped > 0)
-    surface.warnings.push_back(std::to_string(dropped) + " triangles at non-manifold edges or vertices were left out");
+    surface.warnings.push_back(std::to_string(dropped) +
+                               " triangles at non-manifold edges or vertices were left out");
+}
+
+using Edge = std::pair<std::int32_t, std::int32_t>;
+
+// Point in the middle of each edge that is too long.
+std::map<Edge, std::int32_t> add_midpoints(TriMesh& mesh, double longest_mm) {
+  std::map<Edge, std::int32_t> middle;
+  const std::size_t triangles = mesh.triangles.size();
+  for (std::size_t t = 0; t < triangles; ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Edge edge = std::minmax({mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]});
+      const Vec3 a = mesh.points[static_cast<std::size_t>(edge.first)];
+      const Vec3 b = mesh.points[static_cast<std::size_t>(edge.second)];
+      if ((a - b).norm() <= longest_mm) continue;
+      if (middle.emplace(edge, static_cast<std::int32_t>(mesh.points.size())).second)
+        mesh.points.push_back(0.5 * (a + b));
+    }
+  return middle;
+}
+
+// Cuts off one corner after the other along the middle points of the two edges there; what is left is cut on.
+void add_parts(const geometry::Triangle& t, const std::map<Edge, std::int32_t>& middle,
+               std::vector<geometry::Triangle>& parts) {
+  std::array<std::int32_t, 3> m{};
+  int cuts = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto found = middle.find(std::minmax({t[k], t[(k + 1) % 3]}));
+    m[k] = found == middle.end() ? -1 : found->second;
+    cuts += m[k] >= 0;
+  }
+  if (cuts == 0) {
+    parts.push_back(t);
+    return;
+  }
+  std::size_t first = 0;  // a cut edge; with two of them the one before the other
+  while (m[first] < 0 || (cuts == 2 && m[(first + 1) % 3] < 0)) ++first;
+  const std::int32_t a = t[first], b = t[(first + 1) % 3], c = t[(first + 2) % 3];
+  const std::int32_t ab = m[first], bc = m[(first + 1) % 3], ca = m[(first + 2) % 3];
+  if (cuts == 1) {
+    parts.insert(parts.end(), {{a, ab, c}, {ab, b, c}});
+  } else if (cuts == 2) {
+    parts.insert(parts.end(), {{ab, b, bc}, {a, ab, bc}, {a, bc, c}});
+  } else {
+    parts.insert(parts.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+  }
+}
+
+// The wall of `capped` with its long edges cut, and the caps. A cap's rim is cut on the wall's side only,
+// which leaves no gap.
+void sample_wall(LumenSurface& surface) {
+  const TriMesh& capped = surface.capped;
+  const double size = 2.0 * geometry::volume(capped) / geometry::area(capped);
+  const std::size_t wall_triangles = surface.wall.triangles.size();
+  const std::size_t points = capped.points.size();
+  TriMesh wall{
+      capped.points,
+      {capped.triangles.begin(), capped.triangles.begin() + static_cast<std::ptrdiff_t>(wall_triangles)}};
+  surface.sampled = size > 0.0 ? with_edges_cut(wall, size) : wall;
+  surface.sampled.triangles.insert(surface.sampled.triangles.end(),
+                                   capped.triangles.begin() + static_cast<std::ptrdiff_t>(wall_triangles),
+                                   capped.triangles.end());
+  surface.on_border.resize(surface.sampled.points.size(), surface.sampled.points.size() > points);
+  surface.only_in_caps.resize(surface.sampled.points.size(), false);
 }
 
 }  // namespace
+
+geometry::TriMesh with_edges_cut(const TriMesh& wall, double longest_mm) {
+  if (!(longest_mm > 0.0))
+    throw InvalidInput("the longest edge must be positive, not " + std::to_string(longest_mm) + " mm");
+  constexpr std::size_t most_points = 4'000'000;
+  TriMesh mesh = wall;
+  while (mesh.points.size() < most_points) {
+    const auto middle = add_midpoints(mesh, longest_mm);
+    if (middle.empty()) break;
+    std::vector<geometry::Triangle> parts;
+    for (const geometry::Triangle& t : mesh.triangles) add_parts(t, middle, parts);
+    mesh.triangles = std::move(parts);
+  }
+  return mesh;
+}
 
 LumenSurface prepare_lumen(const TriMesh& lumen) {
   check(lumen);
@@ -157,7 +239,8 @@ LumenSurface prepare_lumen(const TriMesh& lumen) {
   surface.wall = geometry::welded(lumen);
   if (surface.wall.triangles.empty())
     throw GeometryError("all triangles of the surface are degenerate: there is no lumen to find an axis in");
-  surface.welded_points = used_point_count(lumen) - std::min(used_point_count(lumen), surface.wall.points.size());
+  surface.welded_points =
+      used_point_count(lumen) - std::min(used_point_count(lumen), surface.wall.points.size());
   make_borders_simple(surface);
   surface.wall = geometry::oriented(surface.wall);
   surface.openings = find_openings(surface.wall);
@@ -168,8 +251,11 @@ LumenSurface prepare_lumen(const TriMesh& lumen) {
   surface.on_border.assign(surface.capped.points.size(), false);
   surface.only_in_caps.assign(surface.capped.points.size(), false);
   for (std::size_t t = wall_triangles; t < surface.capped.triangles.size(); ++t)
-    for (const std::int32_t v : surface.capped.triangles[t]) surface.on_border[static_cast<std::size_t>(v)] = true;
-  std::fill(surface.only_in_caps.begin() + static_cast<std::ptrdiff_t>(wall_points), surface.only_in_caps.end(), true);
+    for (const std::int32_t v : surface.capped.triangles[t])
+      surface.on_border[static_cast<std::size_t>(v)] = true;
+  std::fill(surface.only_in_caps.begin() + static_cast<std::ptrdiff_t>(wall_points),
+            surface.only_in_caps.end(), true);
+  sample_wall(surface);
   return surface;
 }
 

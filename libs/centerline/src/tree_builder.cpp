@@ -1,13 +1,13 @@
 #include "ostia/centerline/tree_builder.h"
 
+#include "ostia/geometry/kd_tree.h"
+#include "ostia/geometry/polyline.h"
+#include "ostia/geometry/spline.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
-
-#include "ostia/geometry/kd_tree.h"
-#include "ostia/geometry/polyline.h"
-#include "ostia/geometry/spline.h"
 
 namespace ostia::centerline {
 namespace {
@@ -87,17 +87,27 @@ class TreeMaker {
       starts_.push_back(chain.parent < 0 ? 0 : cuts_[static_cast<std::size_t>(chain.parent)].cut(chain.at));
       cuts_.emplace_back(chain.axis.points.size());
     }
-    for (const auto& [chain, index] : chains.ends) ends_.push_back(cuts_[static_cast<std::size_t>(chain)].cut(index));
+    for (const auto& [chain, index] : chains.ends)
+      ends_.push_back(cuts_[static_cast<std::size_t>(chain)].cut(index));
   }
 
-  geometry::VesselTree make(const std::vector<std::string>& names) {
+  SplitTree make(const std::vector<std::string>& names) {
     for (std::size_t c = 0; c < chains_.chains.size(); ++c) add_chain(c);
+    SplitTree result;
     for (std::size_t i = 0; i < ends_.size(); ++i) {
-      geometry::Vessel vessel{static_cast<std::int32_t>(i), i < names.size() ? names[i] : "vessel_" + std::to_string(i + 1), {}};
-      collect(chains_.ends[i].first, ends_[i], vessel.segments);
-      tree_.vessels.push_back(std::move(vessel));
+      const std::int32_t end = nodes_.at({static_cast<std::size_t>(chains_.ends[i].first), ends_[i]});
+      result.target_segments.push_back(segments_to(end));
+      const bool passed = std::any_of(tree_.segments.begin(), tree_.segments.end(),
+                                      [&](const geometry::TreeSegment& s) { return s.from == end; });
+      if (passed)
+        result.passed_targets.push_back(i);
+      else
+        tree_.vessels.push_back({static_cast<std::int32_t>(i),
+                                 i < names.size() ? names[i] : "vessel_" + std::to_string(i + 1),
+                                 result.target_segments.back()});
     }
-    return std::move(tree_);
+    result.tree = std::move(tree_);
+    return result;
   }
 
  private:
@@ -133,7 +143,8 @@ class TreeMaker {
 
   void add_segment(const geometry::ArcLengthSpline& curve, double from_mm, double to_mm, std::int32_t start,
                    std::size_t chain, std::size_t to) {
-    const auto pieces = static_cast<std::size_t>(std::max(1.0, std::ceil((to_mm - from_mm) / step_mm_ - 1e-6)));
+    const auto pieces =
+        static_cast<std::size_t>(std::max(1.0, std::ceil((to_mm - from_mm) / step_mm_ - 1e-6)));
     geometry::TreeSegment segment;
     for (std::size_t i = 0; i <= pieces; ++i) {
       const double s = from_mm + (to_mm - from_mm) * static_cast<double>(i) / static_cast<double>(pieces);
@@ -153,16 +164,14 @@ class TreeMaker {
     tree_.segments.push_back(std::move(segment));
   }
 
-  // Segments from the root to a cut of a chain.
-  void collect(std::int32_t chain, std::size_t cut, std::vector<std::int32_t>& segments) const {
-    std::int32_t node = nodes_.at({static_cast<std::size_t>(chain), cut});
-    while (true) {
-      const auto into = segment_to_.find(node);
-      if (into == segment_to_.end()) break;
+  std::vector<std::int32_t> segments_to(std::int32_t node) const {
+    std::vector<std::int32_t> segments;
+    for (auto into = segment_to_.find(node); into != segment_to_.end(); into = segment_to_.find(node)) {
       segments.push_back(into->second);
       node = tree_.segments[static_cast<std::size_t>(into->second)].from;
     }
     std::reverse(segments.begin(), segments.end());
+    return segments;
   }
 
   const ChainTree& chains_;
@@ -177,7 +186,8 @@ class TreeMaker {
 
 }  // namespace
 
-ChainTree merge_paths(const std::vector<Axis>& paths, const std::vector<std::size_t>& order, double merge_fraction) {
+ChainTree merge_paths(const std::vector<Axis>& paths, const std::vector<std::size_t>& order,
+                      double merge_fraction) {
   ChainTree result;
   result.ends.resize(paths.size());
   Cloud cloud;
@@ -196,7 +206,9 @@ ChainTree merge_paths(const std::vector<Axis>& paths, const std::vector<std::siz
     std::size_t nearest = 0;
     for (;; --leave) {
       nearest = static_cast<std::size_t>(tree.nearest(path.points[leave]));
-      if (leave == 0 || (cloud.points[nearest] - path.points[leave]).norm() <= merge_fraction * path.radius[leave]) break;
+      if (leave == 0 ||
+          (cloud.points[nearest] - path.points[leave]).norm() <= merge_fraction * path.radius[leave])
+        break;
     }
     const ChainPoint joint = cloud.owners[nearest];
     if (leave + 3 >= path.points.size()) {  // no way of its own: it ends on the other
@@ -212,7 +224,7 @@ ChainTree merge_paths(const std::vector<Axis>& paths, const std::vector<std::siz
   return result;
 }
 
-geometry::VesselTree to_vessel_tree(const ChainTree& chains, double step_mm, const std::vector<std::string>& names) {
+SplitTree split_tree(const ChainTree& chains, double step_mm, const std::vector<std::string>& names) {
   return TreeMaker(chains, step_mm).make(names);
 }
 

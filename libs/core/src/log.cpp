@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cctype>
 #include <memory>
 #include <mutex>
 #include <utility>
@@ -81,6 +82,8 @@ void set_log(LogFormat format, LogLevel level) {
   logger().set_level(level_of(level));
 }
 
+LogFormat log_format() { return as_json() ? LogFormat::json : LogFormat::text; }
+
 void redact_in_logs(std::string_view secret, std::string_view alias) {
   if (secret.size() < 3) return;
   Redactions& r = redactions();
@@ -90,13 +93,28 @@ void redact_in_logs(std::string_view secret, std::string_view alias) {
                    [](const auto& a, const auto& b) { return a.first.size() > b.first.size(); });
 }
 
+namespace {
+
+constexpr std::size_t shortest_anywhere = 8;  ///< shorter texts ("out") are replaced as whole words alone
+
+/// Whether `size` characters at `at` stand apart: letters that only happen to lie within a longer word name nobody.
+bool stands_apart(const std::string& text, std::size_t at, std::size_t size) {
+  const auto letter = [&](std::size_t i) { return i < text.size() && std::isalnum(static_cast<unsigned char>(text[i])) != 0; };
+  return !(at > 0 && letter(at - 1) && letter(at)) && !(letter(at + size) && letter(at + size - 1));
+}
+
+}  // namespace
+
 std::string redacted(std::string_view text) {
   std::string out(text);
   Redactions& r = redactions();
   const std::lock_guard lock(r.mutex);
   for (const auto& [secret, alias] : r.pairs) {
-    for (std::size_t at = out.find(secret); at != std::string::npos; at = out.find(secret, at + alias.size())) {
-      out.replace(at, secret.size(), alias);
+    std::size_t at = 0;
+    while ((at = out.find(secret, at)) != std::string::npos) {
+      const bool names_somebody = secret.size() >= shortest_anywhere || stands_apart(out, at, secret.size());
+      if (names_somebody) out.replace(at, secret.size(), alias);
+      at += names_somebody ? alias.size() : secret.size();
     }
   }
   return out;

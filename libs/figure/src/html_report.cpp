@@ -14,9 +14,11 @@ namespace ostia::figure {
 namespace {
 
 constexpr std::string_view kStyle = R"css(
-:root { color-scheme: light dark; --paper: #ffffff; --ink: #1b2027; --soft: #5c6570; --line: #dde2e8; --panel: #f5f7f9;
+:root { color-scheme: light dark; --paper: #ffffff; --ink: #1b2027; --soft: #5c6570; --line: #dde2e8;
+  --panel: #f5f7f9;
   --accent: #0b62a6; --good: #0a7f59; --warn: #a85b00; --bad: #b3261e; }
-@media (prefers-color-scheme: dark) { :root { --paper: #14171c; --ink: #e6e9ee; --soft: #9aa4b0; --line: #2d333c;
+@media (prefers-color-scheme: dark) { :root { --paper: #14171c; --ink: #e6e9ee; --soft: #9aa4b0;
+  --line: #2d333c;
   --panel: #1c2128; --accent: #6bb4ec; --good: #4cc79b; --warn: #f0a848; --bad: #ff8a80; } }
 * { box-sizing: border-box; }
 body { margin: 0; background: var(--paper); color: var(--ink);
@@ -25,7 +27,8 @@ main, header { max-width: 68rem; margin: 0 auto; padding: 0 1.5rem; }
 header { padding-top: 2.5rem; padding-bottom: 1rem; border-bottom: 1px solid var(--line); }
 main { padding-bottom: 4rem; }
 h1 { font-size: 1.9rem; line-height: 1.2; margin: 0; }
-h2 { font-size: 1.35rem; margin: 2.4rem 0 .6rem; padding-bottom: .25rem; border-bottom: 1px solid var(--line); }
+h2 { font-size: 1.35rem; margin: 2.4rem 0 .6rem; padding-bottom: .25rem;
+  border-bottom: 1px solid var(--line); }
 h3 { font-size: 1.08rem; margin: 1.6rem 0 .4rem; }
 p { margin: .6rem 0; max-width: 46rem; white-space: pre-line; }
 .subtitle { color: var(--soft); margin: .35rem 0 0; }
@@ -34,20 +37,25 @@ a { color: var(--accent); }
 .wide { overflow-x: auto; margin: .9rem 0; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: .94rem; }
 caption { text-align: left; color: var(--soft); padding-bottom: .4rem; }
-th, td { padding: .35rem .9rem; border-bottom: 1px solid var(--line); text-align: left; vertical-align: top; }
+th, td { padding: .35rem .9rem; border-bottom: 1px solid var(--line); text-align: left;
+  vertical-align: top; }
 thead th { border-bottom: 2px solid var(--soft); white-space: nowrap; }
 tbody tr:nth-child(even) { background: var(--panel); }
 td.number, th.number { text-align: right; white-space: nowrap; }
 table.facts th { font-weight: 600; color: var(--soft); white-space: nowrap; }
 figure { margin: 1.2rem 0; }
-figure img { max-width: 100%; height: auto; border: 1px solid var(--line); border-radius: 6px; display: block; }
+figure img { max-width: 100%; height: auto; border: 1px solid var(--line); border-radius: 6px;
+  display: block; }
 figcaption { color: var(--soft); font-size: .92rem; margin-top: .4rem; }
 .notice { max-width: 46rem; margin: .8rem 0; padding: .6rem 1rem; border-left: 4px solid var(--accent);
   background: var(--panel); border-radius: 0 6px 6px 0; white-space: pre-line; }
-.notice.good { border-color: var(--good); } .notice.warning { border-color: var(--warn); } .notice.bad { border-color: var(--bad); }
+.notice.good { border-color: var(--good); } .notice.warning { border-color: var(--warn); }
+  .notice.bad { border-color: var(--bad); }
 .notice b { display: block; }
-.notice.good b { color: var(--good); } .notice.warning b { color: var(--warn); } .notice.bad b { color: var(--bad); }
-@media print { body { font-size: 11pt; } figure, tr, .notice { break-inside: avoid; } h2, h3 { break-after: avoid; } }
+.notice.good b { color: var(--good); } .notice.warning b { color: var(--warn); }
+  .notice.bad b { color: var(--bad); }
+@media print { body { font-size: 11pt; } figure, tr, .notice { break-inside: avoid; }
+  h2, h3 { break-after: avoid; } }
 )css";
 
 std::string shown(std::string_view text) {

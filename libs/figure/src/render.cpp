@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -281,6 +282,7 @@ Raster render(const Scene& scene, const Camera& camera, const RenderOptions& opt
   task.throw_if_cancelled();
   const Renderer renderer(scene, view, options);
   raster.rgba.assign(4 * static_cast<std::size_t>(raster.width) * static_cast<std::size_t>(raster.height), 0);
+  std::atomic<int> rows_done{0};
   core::parallel_for(static_cast<std::size_t>(raster.height), 4, [&](std::size_t row) {
     task.throw_if_cancelled();
     std::uint8_t* out = raster.rgba.data() + 4 * row * static_cast<std::size_t>(raster.width);
@@ -293,8 +295,8 @@ Raster render(const Scene& scene, const Camera& camera, const RenderOptions& opt
       for (int k = 0; k < 3; ++k) out[k] = byte(sum.color[k] / sum.alpha);
       out[3] = byte(sum.alpha);
     }
+    task.set_progress(static_cast<double>(++rows_done) / raster.height);
   });
-  task.set_progress(1.0);
   return raster;
 }
 

@@ -112,12 +112,32 @@ bool triangulate(const Loop& loop, std::size_t first, std::size_t last, CubePatt
   return false;
 }
 
+// All triangles from one corner of the loop, the first from which no chord lies in a face; false where there
+// is none.
+bool fan(const Loop& loop, CubePattern& triangles) {
+  const std::size_t n = loop.size();
+  for (std::size_t apex = 0; apex < n; ++apex) {
+    bool is_free = true;
+    for (std::size_t i = 2; i + 1 < n; ++i) is_free &= !share_a_face(loop[apex], loop[(apex + i) % n]);
+    if (!is_free) continue;
+    for (std::size_t i = 1; i + 1 < n; ++i)
+      triangles.push_back({loop[apex], loop[(apex + i) % n], loop[(apex + i + 1) % n]});
+    return true;
+  }
+  return false;
+}
+
+// Loops of seven are so bent that some of their triangulations cross themselves where the surface passes near
+// the cube's corners; fans never do, and up to six no triangulation does.
+constexpr std::size_t longest_free_loop = 6;
+
 CubePattern make_pattern(int pattern) {
   CubePattern triangles;
   for (const Loop& loop : loops_of(pattern)) {
     // Each of the 256 patterns has such a triangulation, so no loop needs a point of its own.
-    if (!triangulate(loop, 0, loop.size() - 1, triangles))
-      throw Error("a cube's loop cannot be triangulated");
+    const bool done = loop.size() > longest_free_loop ? fan(loop, triangles)
+                                                      : triangulate(loop, 0, loop.size() - 1, triangles);
+    if (!done) throw Error("a cube's loop cannot be triangulated");
   }
   return triangles;
 }

@@ -17,6 +17,7 @@
 namespace ostia::imaging {
 namespace {
 
+constexpr std::size_t kLostBlock = 2048;  // zero bytes in a row
 constexpr std::string_view kDecodeMagic = "ostia decode 1\n";
 
 /// How the bits of a decoded word give the stored value.
@@ -212,7 +213,11 @@ bool jpeg_2000_sound(const std::string& stream) {
     }
     // Start of data. Within packets only their own marks (SOP, EPH) may lie above FF8F (T.800 B.10.1, D.1).
     if (!in_tile) return false;
+    // Nor are there so many empty packets as a lost block of a disk would make of it.
+    std::size_t zeros = 0;
     for (std::size_t i = at + 2; i + 1 < tile_end; ++i) {
+      zeros = byte(i) == 0 ? zeros + 1 : 0;
+      if (zeros >= kLostBlock) return false;
       if (byte(i) == 0xFF && byte(i + 1) > 0x8F && byte(i + 1) != 0x91 && byte(i + 1) != 0x92) return false;
     }
     at = tile_end;

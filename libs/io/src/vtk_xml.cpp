@@ -6,6 +6,7 @@
 #include <vtkDoubleArray.h>
 #include <vtkErrorCode.h>
 #include <vtkFieldData.h>
+#include <vtkLogger.h>
 #include <vtkIntArray.h>
 #include <vtkPointData.h>
 #include <vtkPolyDataReader.h>
@@ -15,9 +16,17 @@
 #include <vtkXMLUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <fstream>
 #include <set>
 
 #include "formats.h"
+#include "ostia/core/error.h"
 #include "ostia/core/files.h"
 
 namespace ostia::io {
@@ -83,10 +92,49 @@ class Complaints {
   std::string first_;
 };
 
+/// Memory that reading a file may take: meshes are not packed a hundredfold, a damaged size can ask for anything.
+void limit_memory(const fs::path& path) {
+  long pages = 0;
+  if (std::ifstream("/proc/self/statm") >> pages && pages > 0) {
+    const auto in_use = static_cast<rlim_t>(pages) * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE));
+    const rlim_t limit = in_use + (rlim_t{1} << 30) + 100 * static_cast<rlim_t>(fs::file_size(path));
+    const rlimit both{limit, limit};
+    ::setrlimit(RLIMIT_AS, &both);
+  }
+}
+
+/// VTK's readers end the process over some damaged files (a type that does not exist, a text without its end, an array that cannot be
+/// unpacked). A child tries first; when it dies, this process has lost nothing.
+template <class Reader>
+void survive_reading(const fs::path& path) {
+  const pid_t child = ::fork();
+  if (child < 0) throw ResourceError("cannot read " + path.string() + ": no memory for a second process");
+  if (child == 0) {
+    for (const int number : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGINT, SIGTERM}) ::signal(number, SIG_DFL);
+    const rlimit none{0, 0};
+    ::setrlimit(RLIMIT_CORE, &none);
+    ::alarm(600);  // a lock that another thread held at the fork must not hold the parent for ever
+    try {
+      limit_memory(path);
+      vtkNew<Reader> reader;
+      reader->SetFileName(path.c_str());
+      const Complaints unheard(*reader);
+      reader->Update();
+    } catch (...) {
+      ::_exit(1);
+    }
+    ::_exit(0);
+  }
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {}
+  if (status != 0) refuse(path, "it is damaged (VTK's reader breaks down over it)");
+}
+
 template <class Reader>
 void run(Reader& reader, const fs::path& path) {
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);  // what it has to say is in the refusal
+  survive_reading<Reader>(path);
   const Complaints complaints(reader);
-  vtkNew<vtkCallbackCommand> quiet;
   reader.SetFileName(path.c_str());
   reader.Update();
   if (complaints.any()) refuse(path, complaints.text());

@@ -172,6 +172,24 @@ bool on_plane(const EndPlane& plane, const Vec3& p) {
          (p - plane.origin).norm() < 20.0 * plane.radius_mm;
 }
 
+/// Would a, a point off the plane, leave an edge across the cut when it goes into b? Such an edge of the wall, between points of the
+/// loop that do not follow each other, may be the very one that the cap wants.
+bool bridges(const EditMesh& mesh, const EndPlane& plane, std::int32_t a, std::int32_t b) {
+  if (on_plane(plane, mesh.at(a))) return false;
+  std::vector<std::int32_t> of_b;
+  mesh.around(b, [&](std::int32_t h) {
+    of_b.push_back(mesh.target(h));
+    of_b.push_back(mesh.origin(EditMesh::prev(h)));
+  });
+  bool bad = false;
+  mesh.around(a, [&](std::int32_t h) {
+    for (const std::int32_t x : {mesh.target(h), mesh.origin(EditMesh::prev(h))}) {
+      if (x != b && on_plane(plane, mesh.at(x)) && std::find(of_b.begin(), of_b.end(), x) == of_b.end()) bad = true;
+    }
+  });
+  return bad;
+}
+
 /// Collapses the short edges that the cut has left.
 void remove_slivers(EditMesh& mesh, const EndPlane& plane, double shortest) {
   for (int pass = 0; pass < 4; ++pass) {
@@ -185,7 +203,9 @@ void remove_slivers(EditMesh& mesh, const EndPlane& plane, double shortest) {
       if (!mesh.alive(h) || mesh.length(h) >= shortest || !on_plane(plane, mesh.at(mesh.target(h))) ||
           !mesh.border(mesh.target(h)))
         continue;
-      if (!mesh.can_collapse(h) || folds(mesh, mesh.origin(h), mesh.target(h))) continue;
+      if (!mesh.can_collapse(h) || folds(mesh, mesh.origin(h), mesh.target(h)) ||
+          bridges(mesh, plane, mesh.origin(h), mesh.target(h)))
+        continue;
       mesh.collapse(h);
       changed = true;
     }

@@ -5,6 +5,7 @@
 #include "ostia/core/error.h"
 #include "ostia/meshing/tetrahedralize.h"
 
+#include <pthread.h>
 #include <tetgen.h>
 #include <unistd.h>
 
@@ -69,6 +70,47 @@ TetgenResult collect(const tetgenio& out) {
   return result;
 }
 
+/// Says why TetGen threw, and ends the process.
+[[noreturn]] void report_and_exit() {
+  int status = 6;
+  try {
+    if (const auto thrown = std::current_exception()) std::rethrow_exception(thrown);
+  } catch (const int code) {
+    std::fprintf(stderr, "TetGen stopped: %s (code %d)\n", meaning(code), code);
+    status = code == 1 ? 5 : code == 3 || code == 4 || code == 5 || code == 10 ? 3 : 6;
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "TetGen stopped: out of memory\n");
+    status = 5;
+  } catch (...) {
+    std::fprintf(stderr, "TetGen stopped: unknown exception\n");
+  }
+  std::fflush(nullptr);
+  _exit(status);
+}
+
+struct Run {
+  std::string switches;
+  tetgenio in, out;
+};
+
+void* run_tetgen(void* run) {
+  auto* r = static_cast<Run*>(run);
+  ::tetrahedralize(r->switches.data(), &r->in, &r->out);
+  return nullptr;
+}
+
+/// TetGen frees its memory before it throws and again while the stack unwinds, which crashes. On a thread
+/// without any handler nothing unwinds: the program's terminate handler runs first, and has the exception.
+void tetrahedralize_without_unwinding(Run& run) {
+  std::set_terminate(report_and_exit);
+  pthread_attr_t attributes;
+  pthread_attr_init(&attributes);
+  pthread_attr_setstacksize(&attributes, std::size_t{64} << 20);
+  pthread_t thread{};
+  if (pthread_create(&thread, &attributes, run_tetgen, &run) != 0) throw std::bad_alloc();
+  pthread_join(thread, nullptr);
+}
+
 }  // namespace
 
 int tetrahedralize_in_worker(const std::filesystem::path& input, const std::filesystem::path& output) {
@@ -79,16 +121,15 @@ int tetrahedralize_in_worker(const std::filesystem::path& input, const std::file
     const TetgenJob job = read_job(input);
     // p: of a surface; Y: boundary kept; q: quality; m: size field; J: no point dropped, so that numbers
     // stay; M: coplanar caps' triangles stay apart; Q: quiet.
-    std::string switches = "pYq" + std::to_string(job.max_radius_edge_ratio) + "/" +
-                           std::to_string(job.min_dihedral_deg) + "mJMQ";
-    tetgenio in, out;
-    fill(in, job);
-    ::tetrahedralize(switches.data(), &in, &out);
-    write_result(collect(out), output);
+    Run run;
+    // p: of a surface; Y: boundary kept; q: quality; m: size field; J: no point dropped, so that numbers
+    // stay; M: triangles in one plane stay apart; Q: quiet.
+    run.switches = "pYq" + std::to_string(job.max_radius_edge_ratio) + "/" +
+                   std::to_string(job.min_dihedral_deg) + "mJMQ";
+    fill(run.in, job);
+    tetrahedralize_without_unwinding(run);
+    write_result(collect(run.out), output);
     return 0;
-  } catch (const int code) {
-    std::fprintf(stderr, "TetGen stopped: %s (code %d)\n", meaning(code), code);
-    return code == 1 ? 5 : code == 3 || code == 4 || code == 5 || code == 10 ? 3 : 6;
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr, "TetGen stopped: out of memory\n");
     return 5;

@@ -29,9 +29,13 @@ std::string utc_now() {
   return text.data();
 }
 
+
 json library_versions() {
   return {{"eigen", std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) + "." + std::to_string(EIGEN_MINOR_VERSION)},
-          {"compiler", __VERSION__}};
+          {"compiler", __VERSION__},
+          {"cgal", OSTIA_CGAL_VERSION},
+          {"vtk", OSTIA_VTK_VERSION},
+          {"tetgen", "1.5"}};
 }
 
 json outputs_of(const fs::path& folder) {
@@ -47,7 +51,31 @@ json key_of(const JobKey& key) {
   return {{"command", key.command}, {"inputs", key.inputs}, {"parameters", json::parse(key.parameters)}};
 }
 
+json manifest_of(const fs::path& folder) {
+  if (!fs::exists(folder / manifest_name)) return json();
+  return json::parse(core::read_file(folder / manifest_name), nullptr, false);
+}
+
+bool is_jobs_folder(const fs::path& folder) {
+  const json manifest = manifest_of(folder);
+  if (!manifest.is_object() || !manifest.contains("outputs") || !manifest["outputs"].is_object()) return fs::is_empty(folder);
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_directory()) continue;
+    const std::string name = fs::relative(entry.path(), folder).generic_string();
+    if (name != manifest_name && !manifest["outputs"].contains(name)) return false;
+  }
+  return true;
+}
+
 }  // namespace
+
+void require_free_folder(const fs::path& folder) {
+  if (folder.filename() == "." || folder.filename() == "..") throw InvalidInput("cannot write " + folder.string() + ": name a new folder");
+  const core::StagedFolder trial(folder);  // made and taken away again
+  if (fs::exists(folder) && !is_jobs_folder(folder)) {
+    throw InvalidInput("cannot write " + folder.string() + ": the folder holds files that are not an earlier result's; name another one");
+  }
+}
 
 double peak_memory_mb() {
   rusage usage{};
@@ -73,9 +101,8 @@ void write_manifest(const fs::path& folder, const ManifestRecord& record) {
 }
 
 std::optional<ExitCode> already_done(const fs::path& folder, const JobKey& key) {
-  if (!fs::exists(folder / manifest_name)) return std::nullopt;
-  const json manifest = json::parse(core::read_file(folder / manifest_name), nullptr, false);
-  if (manifest.is_discarded() || manifest.value("v", 0) != 1) return std::nullopt;
+  const json manifest = manifest_of(folder);
+  if (!manifest.is_object() || manifest.value("v", 0) != 1) return std::nullopt;
   const json wanted = key_of(key);
   for (const char* field : {"command", "inputs", "parameters"}) {
     if (manifest.value(field, json()) != wanted[field]) return std::nullopt;

@@ -7,6 +7,7 @@
 #include "ostia/core/error.h"
 #include "ostia/core/log.h"
 #include "ostia/geometry/mesh_topology.h"
+#include "ostia/imaging/filters.h"
 #include "ostia/meshing/caps.h"
 #include "ostia/pipeline/branch_ends.h"
 
@@ -14,6 +15,8 @@ namespace ostia::pipeline {
 namespace {
 
 using geometry::TriMesh;
+
+constexpr double image_inset_radii = 0.4;
 
 /// Runs stages one after another, names and times them.
 class Stages {
@@ -54,6 +57,32 @@ struct Lumen {
   std::vector<geometry::Vec3> targets;
 };
 
+/// Handles of a closed surface: 0 for a vessel, however it branches.
+std::int64_t handles_of(const TriMesh& mesh) {
+  const auto vertices = static_cast<std::int64_t>(mesh.points.size()), faces = static_cast<std::int64_t>(mesh.triangles.size());
+  return 1 - (vertices - faces / 2) / 2;
+}
+
+/// The surface of the level set; where noise or a stent's struts have given it handles, which no vessel has, of the level set
+/// smoothed by as little as takes them away.
+TriMesh surface_without_handles(const imaging::FloatVolume& level_set, const std::vector<geometry::Vec3>& seeds,
+                                std::vector<std::string>& warnings, const core::TaskContext& task) {
+  TriMesh surface = segmentation::surface_of(level_set, seeds, {}, task);
+  const std::int64_t handles = handles_of(surface);
+  for (const double voxels : {0.5, 0.75, 1.0, 1.25, 1.5}) {
+    if (handles_of(surface) == 0) return surface;
+    const double sigma_mm = voxels * level_set.geometry.spacing.maxCoeff();
+    surface = segmentation::surface_of(imaging::gaussian_blurred(level_set, sigma_mm, task), seeds, {}, task);
+    if (handles_of(surface) != 0) continue;
+    warnings.push_back("the lumen's surface had " + std::to_string(handles) + " small handles (noise, or a stent's struts); smoothing by " +
+                       std::to_string(voxels).substr(0, 4) + " voxels took them away");
+  }
+  if (const std::int64_t left = handles_of(surface); left != 0) {
+    warnings.push_back("the lumen's surface has " + std::to_string(left) + " handles: branches touch each other, or the range of intensities lets it leak");
+  }
+  return surface;
+}
+
 Lumen lumen_of_image(const Source& source, const ModelOptions& options, Model& model, Stages& stages) {
   const BranchEnds ends = ends_of(options.branches);
   auto segmented = stages.run("segmentation", 0.0, 0.2, [&](const core::TaskContext& task) {
@@ -65,7 +94,7 @@ Lumen lumen_of_image(const Source& source, const ModelOptions& options, Model& m
   seeds.insert(seeds.end(), ends.targets.begin(), ends.targets.end());
   Lumen lumen;
   lumen.surface = stages.run("surface", 0.2, 0.25, [&](const core::TaskContext& task) {
-    return segmentation::surface_of(segmented.level_set, seeds, {}, task);
+    return surface_without_handles(segmented.level_set, seeds, model.warnings, task);
   });
   lumen.source = ends.source;
   lumen.targets = ends.targets;
@@ -89,6 +118,34 @@ Lumen lumen_without_image(Source& source, const ModelOptions& options, Stages& s
     lumen.surface = std::move(source.surface);
   }
   return lumen;
+}
+
+geometry::Vec3 centre_of(const TriMesh& mesh, const std::vector<std::int32_t>& loop) {
+  geometry::Vec3 sum = geometry::Vec3::Zero();
+  for (const std::int32_t p : loop) sum += mesh.points[static_cast<std::size_t>(p)];
+  return sum / static_cast<double>(loop.size());
+}
+
+/// From the cut inlet's centre to the cut outlets' centres; vessels keep their names.
+centerline::CenterlineResult centerlines_between(const meshing::ClippedSurface& clipped, const geometry::VesselTree& tree,
+                                                 centerline::CenterlineOptions options, const core::TaskContext& task) {
+  std::optional<geometry::Vec3> source;
+  std::vector<geometry::Vec3> targets;
+  options.vessel_names.clear();
+  for (const meshing::ClippedEnd& end : clipped.ends) {
+    if (end.plane.kind == geometry::FaceKind::inlet) {
+      if (source) throw InvalidInput("the centerlines have several roots; a lumen has one inlet");
+      source = centre_of(clipped.mesh, end.loop);
+    }
+  }
+  for (const geometry::Vessel& vessel : tree.vessels) {
+    for (const meshing::ClippedEnd& end : clipped.ends) {
+      if (end.plane.kind != geometry::FaceKind::outlet || end.plane.vessel != vessel.name) continue;
+      targets.push_back(centre_of(clipped.mesh, end.loop));
+      options.vessel_names.push_back(vessel.name);
+    }
+  }
+  return centerline::extract_centerlines(clipped.mesh, source, targets, options, task);
 }
 
 double largest_radius(const centerline::CenterlineResult& centerlines) {
@@ -121,18 +178,27 @@ MeshedLumen mesh_lumen(const TriMesh& lumen, const geometry::VesselTree& tree, c
                        const core::TaskContext& task) {
   MeshedLumen out;
   Stages stages(out.stages, task);
-  const meshing::ClippedSurface clipped = stages.run("ends cut", 0.0, 0.05, [&](const core::TaskContext& part) {
-    return meshing::clip_ends(lumen, tree, options.clip, part);
+  const meshing::ClippedSurface clipped = stages.run("ends cut", 0.0, 0.04, [&](const core::TaskContext& part) {
+    meshing::ClipOptions clip = options.clip;
+    if (options.inset_radii) clip.inset_radii = *options.inset_radii;
+    return meshing::clip_ends(lumen, tree, clip, part);
   });
   append(out.warnings, clipped.warnings);
-  const geometry::FacedSurface capped = stages.run("caps", 0.05, 0.1, [&](const core::TaskContext& part) {
+  out.centerlines = stages.run("centerlines of the cut lumen", 0.04, 0.2, [&](const core::TaskContext& part) {
+    return centerlines_between(clipped, tree, options.centerline, part);
+  });
+  const geometry::FacedSurface capped = stages.run("caps", 0.2, 0.22, [&](const core::TaskContext& part) {
     return meshing::cap_ends(clipped, {}, part);
   });
-  meshing::RemeshedSurface remeshed = stages.run("remeshing", 0.1, 0.5, [&](const core::TaskContext& part) {
-    const meshing::TubeFunction tube(tree);
+  meshing::RemeshedSurface remeshed = stages.run("remeshing", 0.22, 0.5, [&](const core::TaskContext& part) {
+    const meshing::TubeFunction tube(out.centerlines.tree);
     const std::vector<double> lengths = meshing::target_edge_lengths(capped.mesh, tube, options.sizing, part);
     return meshing::remesh(capped, lengths, options.remesh, part);
   });
+  if (remeshed.report.self_intersections > 0) {
+    throw GeometryError("the surface is too rough for triangles of this size: remeshing left " +
+                        std::to_string(remeshed.report.self_intersections) + " self-intersections; give a smaller --edge-ratio, or --smooth");
+  }
   append(out.warnings, remeshed.report.warnings);
   out.surface = std::move(remeshed.surface);
   out.remeshing = remeshed.report;
@@ -166,13 +232,15 @@ Model build_model(Source source, const ModelOptions& options, const core::TaskCo
     require_sound_surface(lumen.surface, source.kind == SourceKind::surface ? "the surface" : "the lumen's surface");
     return 0;
   });
-  model.centerlines = stages.run("centerlines", 0.3, 0.45, [&](const core::TaskContext& part) {
+  const centerline::CenterlineResult centerlines = stages.run("centerlines", 0.3, 0.45, [&](const core::TaskContext& part) {
     return centerline::extract_centerlines(lumen.surface, lumen.source, lumen.targets, options.centerline, part);
   });
-  append(model.warnings, model.centerlines.diagnostics.warnings);
-  if (source.kind == SourceKind::surface && !source.unit_given) check_vessel_size(2.0 * largest_radius(model.centerlines), "the surface");
+  append(model.warnings, centerlines.diagnostics.warnings);
+  if (source.kind == SourceKind::surface && !source.unit_given) check_vessel_size(2.0 * largest_radius(centerlines), "the surface");
   model.lumen = std::move(lumen.surface);
-  model.meshed = mesh_lumen(model.lumen, model.centerlines.tree, options, task.sub(0.45, 1.0));
+  ModelOptions meshing_options = options;
+  if (source.image && !options.inset_radii) meshing_options.inset_radii = image_inset_radii;
+  model.meshed = mesh_lumen(model.lumen, centerlines.tree, meshing_options, task.sub(0.45, 1.0));
   append(model.warnings, model.meshed.warnings);
   model.stages.insert(model.stages.end(), model.meshed.stages.begin(), model.meshed.stages.end());
   model.source = std::move(source);

@@ -32,10 +32,13 @@ ExitCode write_model_folder(const fs::path& folder, const Model& model, const Mo
   task.set_stage("report");
   core::StagedFolder staged(folder);
   write_meshes(staged.temporary(), model.meshed);
-  io::write_centerlines(staged.temporary() / "centerlines.vtp", model.centerlines.tree);
+  io::write_centerlines(staged.temporary() / "centerlines.vtp", model.meshed.centerlines.tree);
   core::write_file(staged.temporary() / "report.json", report_json(model, options, truth));
   task.throw_if_cancelled();
-  write_report_html(staged.temporary() / "report.html", model, truth, task);
+  const std::vector<ReportPicture> pictures = report_pictures(model, task);
+  write_report_html(staged.temporary() / "report.html", model, pictures, truth);
+  fs::create_directory(staged.temporary() / "pictures");
+  for (const ReportPicture& one : pictures) one.picture.write_png(staged.temporary() / "pictures" / (one.name + ".png"), 2.0);
   task.throw_if_cancelled();
   ManifestRecord record{key, code_of(model.meshed), seconds_before + since(start), model.warnings,
                         quality_json(model.meshed.surface_quality, model.meshed.volume_quality, model.meshed.verdict)};

@@ -26,53 +26,64 @@ std::string fixed(double value, int decimals) {
 
 /// A point of the lumen in the middle of the first vessel: what the slices go through.
 Vec3 middle(const Model& model) {
-  const geometry::Centerline& line = model.centerlines.lines.front();
+  const geometry::Centerline line = geometry::vessel_axis(model.meshed.centerlines.tree, model.meshed.centerlines.tree.vessels.front());
   return line.points[line.size() / 2];
 }
 
 figure::Camera overview(const Model& model) { return figure::cameras::broadside(model.meshed.surface.mesh.points); }
 
-void add_slices(HtmlReport& html, const Model& model) {
-  if (!model.source.image) return;
-  html.section("The lumen in the image");
-  figure::SliceFigureOptions look;
-  look.image_width_px = 420;
-  html.picture(figure::three_planes(*model.source.image, middle(model), {model.lumen}, {}, look),
-               "Axial, coronal and sagittal slice through the middle of the first vessel; the line is the lumen's surface.");
+/// The voxels of the lumen's box and what lies around it, so that the lumen is seen and not the whole chest.
+imaging::Region neighbourhood(const imaging::Geometry& grid, const geometry::Box3& box) {
+  const double margin = std::max(20.0, 0.25 * box.diagonal().norm());
+  geometry::Box3 voxels;
+  for (int corner = 0; corner < 8; ++corner) {
+    voxels.extend(grid.index(box.corner(static_cast<geometry::Box3::CornerType>(corner))));
+  }
+  imaging::Region region;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto a = static_cast<Eigen::Index>(axis);
+    const double reach = margin / grid.spacing[a];
+    region.lower[axis] = std::clamp<std::int64_t>(std::llround(voxels.min()[a] - reach), 0, grid.size[axis] - 1);
+    region.upper[axis] = std::clamp<std::int64_t>(std::llround(voxels.max()[a] + reach) + 1, region.lower[axis] + 1, grid.size[axis]);
+  }
+  return region;
 }
 
-void add_surface(HtmlReport& html, const Model& model, const core::TaskContext& task) {
-  html.section("Surface and centerlines");
+figure::Picture slices(const Model& model) {
+  figure::SliceFigureOptions look;
+  look.image_width_px = 420;
+  const imaging::Region region = neighbourhood(model.source.image->geometry, geometry::bounds(model.lumen.points));
+  return figure::three_planes(imaging::cropped(*model.source.image, region), middle(model), {model.lumen}, {}, look);
+}
+
+figure::Picture surface(const Model& model, const core::TaskContext& task) {
   figure::Scene scene;
   figure::MeshActor wall;
   wall.mesh = model.lumen;
   wall.color.a = 0.35;
   wall.label = "lumen";
   scene.meshes.push_back(std::move(wall));
-  for (std::size_t i = 0; i < model.centerlines.lines.size(); ++i) {
-    const geometry::Centerline& line = model.centerlines.lines[i];
+  for (std::size_t i = 0; i < model.meshed.centerlines.tree.vessels.size(); ++i) {
+    const geometry::Centerline line = geometry::vessel_axis(model.meshed.centerlines.tree, model.meshed.centerlines.tree.vessels[i]);
     const double thin = 0.08 * *std::max_element(line.radius.begin(), line.radius.end());
     figure::TubeActor tube = figure::tube_of(line, std::max(thin, 0.05), figure::palette(i));
-    tube.label = model.centerlines.tree.vessels[i].name;
+    tube.label = model.meshed.centerlines.tree.vessels[i].name;
     scene.tubes.push_back(std::move(tube));
   }
-  html.picture(figure::scene_figure(scene, overview(model), {}, task), "The lumen's surface, see-through, with the centerlines.");
+  return figure::scene_figure(scene, overview(model), {}, task);
 }
 
-void add_mesh(HtmlReport& html, const Model& model, const core::TaskContext& task) {
-  html.section("The mesh, cut open");
+figure::Picture mesh(const Model& model, const core::TaskContext& task) {
   const figure::Camera camera = overview(model);
-  const figure::CutPlane plane{middle(model), -camera.direction};
   figure::Scene scene;
-  scene.meshes = figure::cut_actors(model.meshed.mesh, plane);
-  html.picture(figure::scene_figure(scene, camera, {}, task), "Tetrahedra in front of a plane through the vessel are taken away.");
+  scene.meshes = figure::cut_actors(model.meshed.mesh, {middle(model), -camera.direction});
+  return figure::scene_figure(scene, camera, {}, task);
 }
 
-void add_diameters(HtmlReport& html, const Model& model) {
-  html.section("Diameter along each vessel");
+figure::Picture diameters(const Model& model) {
   std::vector<figure::Series> series;
-  for (const geometry::Vessel& vessel : model.centerlines.tree.vessels) {
-    const geometry::Centerline axis = geometry::vessel_axis(model.centerlines.tree, vessel);
+  for (const geometry::Vessel& vessel : model.meshed.centerlines.tree.vessels) {
+    const geometry::Centerline axis = geometry::vessel_axis(model.meshed.centerlines.tree, vessel);
     figure::Series one;
     one.name = vessel.name;
     one.x = axis.abscissa;
@@ -83,7 +94,7 @@ void add_diameters(HtmlReport& html, const Model& model) {
   options.x_label = "distance from the inlet (mm)";
   options.y_label = "inscribed diameter (mm)";
   options.y_from_zero = true;
-  html.picture(figure::line_plot(series, options), "Diameter of the largest inscribed sphere.");
+  return figure::line_plot(series, options);
 }
 
 void add_truth(HtmlReport& html, const TruthErrors& errors) {
@@ -100,8 +111,8 @@ void add_truth(HtmlReport& html, const TruthErrors& errors) {
 void add_figures(HtmlReport& html, const Model& model) {
   html.section("Figures");
   std::vector<std::vector<std::string>> vessels;
-  for (const geometry::Vessel& vessel : model.centerlines.tree.vessels) {
-    const geometry::Centerline axis = geometry::vessel_axis(model.centerlines.tree, vessel);
+  for (const geometry::Vessel& vessel : model.meshed.centerlines.tree.vessels) {
+    const geometry::Centerline axis = geometry::vessel_axis(model.meshed.centerlines.tree, vessel);
     const double least = *std::min_element(axis.radius.begin(), axis.radius.end());
     vessels.push_back({vessel.name, fixed(axis.abscissa.back(), 1), fixed(2.0 * axis.radius.front(), 2), fixed(2.0 * axis.radius.back(), 2), fixed(2.0 * least, 2)});
   }
@@ -127,8 +138,22 @@ void add_figures(HtmlReport& html, const Model& model) {
 
 }  // namespace
 
-void write_report_html(const std::filesystem::path& path, const Model& model, const std::optional<TruthErrors>& truth,
-                       const core::TaskContext& task) {
+std::vector<ReportPicture> report_pictures(const Model& model, const core::TaskContext& task) {
+  std::vector<ReportPicture> out;
+  if (model.source.image) {
+    out.push_back({"slices", "The lumen in the image",
+                   "Axial, coronal and sagittal slice through the middle of the first vessel; the line is the lumen's surface.", slices(model)});
+  }
+  task.throw_if_cancelled();
+  out.push_back({"surface", "Surface and centerlines", "The lumen's surface, see-through, with the centerlines.", surface(model, task)});
+  task.throw_if_cancelled();
+  out.push_back({"mesh", "The mesh, cut open", "Tetrahedra in front of a plane through the vessel are taken away.", mesh(model, task)});
+  out.push_back({"diameter", "Diameter along each vessel", "Diameter of the largest inscribed sphere.", diameters(model)});
+  return out;
+}
+
+void write_report_html(const std::filesystem::path& path, const Model& model, const std::vector<ReportPicture>& pictures,
+                       const std::optional<TruthErrors>& truth) {
   HtmlReport html("Vessel model", name_of(model.source.kind) + " " + model.source.pseudonym + ", Ostia " + program_version());
   if (model.meshed.verdict.ok()) {
     html.notice(figure::Notice::good, "The mesh passed the quality gate.");
@@ -137,12 +162,10 @@ void write_report_html(const std::filesystem::path& path, const Model& model, co
   }
   for (const std::string& warning : model.warnings) html.notice(figure::Notice::warning, warning);
   if (truth) add_truth(html, *truth);
-  add_slices(html, model);
-  task.throw_if_cancelled();
-  add_surface(html, model, task);
-  task.throw_if_cancelled();
-  add_mesh(html, model, task);
-  add_diameters(html, model);
+  for (const ReportPicture& one : pictures) {
+    html.section(one.heading);
+    html.picture(one.picture, one.caption);
+  }
   add_figures(html, model);
   html.write(path);
 }

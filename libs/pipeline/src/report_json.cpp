@@ -113,8 +113,8 @@ std::string report_json(const Model& model, const ModelOptions& options, const s
   report["branches"] = json::array();
   for (const auto& branch : model.branches) report["branches"].push_back(branch_json(branch));
   report["vessels"] = json::array();
-  for (const geometry::Vessel& vessel : model.centerlines.tree.vessels) {
-    report["vessels"].push_back(vessel_json(vessel, geometry::vessel_axis(model.centerlines.tree, vessel)));
+  for (const geometry::Vessel& vessel : model.meshed.centerlines.tree.vessels) {
+    report["vessels"].push_back(vessel_json(vessel, geometry::vessel_axis(model.meshed.centerlines.tree, vessel)));
   }
   report["faces"] = json::array();
   for (const geometry::Face& face : model.meshed.surface.faces) report["faces"].push_back({{"id", face.id}, {"name", face.name}});
@@ -135,6 +135,7 @@ std::string parameters_json(const ModelOptions& options, const SourceOptions& re
   out["reading"] = {{"series", reading.dicom.series_uid.empty() ? json() : json(core::sha256(reading.dicom.series_uid))},
                     {"resample", reading.dicom.resample_uneven},
                     {"pixel_spacing_mm", reading.dicom.pixel_spacing_mm ? json(*reading.dicom.pixel_spacing_mm) : json()},
+                    {"slice_spacing_mm", reading.dicom.slice_spacing_mm ? json(*reading.dicom.slice_spacing_mm) : json()},
                     {"unit_mm", reading.unit_mm ? json(*reading.unit_mm) : json()}};
   out["branches"] = json::array();
   for (const auto& branch : options.branches) {
@@ -151,13 +152,14 @@ std::string parameters_json(const ModelOptions& options, const SourceOptions& re
                     {"upper_hu", segment.fronts.upper_hu ? json(*segment.fronts.upper_hu) : json()},
                     {"whole_volume", segment.fronts.domain == segmentation::FrontDomain::whole_volume},
                     {"feature", name_of(segment.feature)},
+                    {"bright_is_lumen", segment.bright_is_lumen},
                     {"inflation", segment.level_set.inflation},
                     {"curvature", segment.level_set.curvature},
                     {"advection", segment.level_set.advection},
                     {"iterations_max", segment.level_set.iterations_max}};
   out["smoothing"] = options.smoothing ? json{{"iterations", options.smoothing->iterations}, {"pass_band", options.smoothing->pass_band}} : json();
   out["centerline"] = {{"step_mm", options.centerline.step_mm}, {"smoothing_radii", options.centerline.smoothing_radii}};
-  out["clip"] = {{"inset_radii", options.clip.inset_radii}};
+  out["clip"] = {{"inset_radii", options.inset_radii ? json(*options.inset_radii) : json()}};
   out["sizing"] = {{"edge_ratio", options.sizing.edge_ratio},
                    {"measure", options.sizing.measure == meshing::SizeMeasure::distance ? "distance" : "radius"},
                    {"gradation", options.sizing.gradation},

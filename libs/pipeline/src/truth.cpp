@@ -14,7 +14,7 @@ namespace {
 using geometry::Centerline;
 using geometry::Vec3;
 
-constexpr double surface_spacing_mm = 0.2;
+constexpr double surface_spacing_mm = 0.25;
 constexpr double clear_of_ends_radii = 2.0;
 constexpr double clear_of_bifurcation_radii = 2.5;
 
@@ -33,7 +33,7 @@ evaluation::Region away_from(const std::vector<meshing::EndPlane>& planes) {
 
 TruthErrors compare_with_truth(const phantom::BuiltinCase& truth, const Model& model, const core::TaskContext& task) {
   TruthErrors out;
-  const std::vector<meshing::EndPlane> planes = meshing::end_planes(model.centerlines.tree, 0.0);
+  const std::vector<meshing::EndPlane> planes = meshing::end_planes(model.meshed.centerlines.tree, 0.0);
   evaluation::SurfaceDistanceOptions distance_options;
   distance_options.reference_region = distance_options.result_region = away_from(planes);
   const geometry::TriMesh exact = geometry::surface_of(truth.truth, surface_spacing_mm, false);
@@ -45,8 +45,8 @@ TruthErrors compare_with_truth(const phantom::BuiltinCase& truth, const Model& m
   std::vector<evaluation::AxisDeviation> deviations;
   out.true_throat_radius_mm = truth.stenosis.throat_radius_mm;
   out.throat_radius_mm = std::numeric_limits<double>::infinity();
-  for (std::size_t line = 0; line < std::min(model.centerlines.lines.size(), truth.truth.tubes.size()); ++line) {
-    const Centerline& found = model.centerlines.lines[line];
+  for (std::size_t line = 0; line < std::min(model.meshed.centerlines.lines.size(), truth.truth.tubes.size()); ++line) {
+    const Centerline& found = model.meshed.centerlines.lines[line];
     const Centerline& axis = truth.truth.tubes[line].axis;
     for (const evaluation::AxisDeviation& d : evaluation::compare_axes(axis, found)) {
       const std::size_t at = static_cast<std::size_t>(std::lower_bound(found.abscissa.begin(), found.abscissa.end(), d.abscissa_mm) - found.abscissa.begin());

@@ -1,15 +1,16 @@
 #include "ostia/segmentation/colliding_fronts.h"
 
+#include "fast_marching.h"
+#include "intensity_range.h"
+#include "region_builder.h"
+
+#include "ostia/core/error.h"
+#include "ostia/core/parallel.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
-
-#include "fast_marching.h"
-#include "intensity_range.h"
-#include "ostia/core/error.h"
-#include "ostia/core/parallel.h"
-#include "region_builder.h"
 
 namespace ostia::segmentation {
 namespace {
@@ -22,7 +23,8 @@ using detail::Voxel;
 
 constexpr int kOverlapVoxels = 5;  // by which the two halves of a branch with a point between overlap
 
-/// Gradient of the arrival times in world units along the image's axes; one-sided where one neighbour was not reached.
+/// Gradient of the arrival times in world units along the image's axes; one-sided where one neighbour was not
+/// reached.
 Vec3 time_gradient(const BlockGrid<float>& times, const imaging::Geometry& geometry, const Voxel& v) {
   Vec3 gradient = Vec3::Zero();
   const double here = times.get(v);
@@ -68,12 +70,12 @@ detail::FrontStop stop_at(const Voxel& target, const imaging::Geometry& geometry
 }
 
 [[noreturn]] void throw_never_meet(const Pair& pair, const detail::SpeedModel& speed, std::size_t reached) {
-  throw GeometryError("the fronts from " + detail::text(pair.from) + " and " + detail::text(pair.to) +
-                      " mm never meet: within " + std::to_string(std::llround(speed.range.lower)) + " to " +
-                      std::to_string(std::llround(speed.range.upper)) + " HU the first covered " +
-                      std::to_string(reached) +
-                      " voxels and did not reach the other seed; lower the lower bound, or check that both seeds "
-                      "lie in the same vessel");
+  throw GeometryError(
+      "the fronts from " + detail::text(pair.from) + " and " + detail::text(pair.to) +
+      " mm never meet: within " + std::to_string(std::llround(speed.range.lower)) + " to " +
+      std::to_string(std::llround(speed.range.upper)) + " HU the first covered " + std::to_string(reached) +
+      " voxels and did not reach the other seed; lower the lower bound, or check that both seeds "
+      "lie in the same vessel");
 }
 
 Fronts run_fronts(const imaging::ImageVolume& image, const Pair& pair, const detail::SpeedModel& speed,
@@ -104,7 +106,8 @@ Voxel earliest_neighbour(const BlockGrid<float>& times, const imaging::Geometry&
 }
 
 /// cos of the angle between the fronts' gradients where both have been.
-void add_collision(const imaging::ImageVolume& image, const Fronts& fronts, const Pair& pair, RegionBuilder& region) {
+void add_collision(const imaging::ImageVolume& image, const Fronts& fronts, const Pair& pair,
+                   RegionBuilder& region) {
   BlockGrid<float> cosines(image.geometry.size, 1.0F);
   for (const Voxel& v : fronts.first.order) {
     if (fronts.second.times.get(v) == kUnreached) continue;
@@ -113,7 +116,8 @@ void add_collision(const imaging::ImageVolume& image, const Fronts& fronts, cons
     const double norms = g1.norm() * g2.norm();
     cosines.at(v) = norms > 0.0 ? static_cast<float>(g1.dot(g2) / norms) : 0.0F;
   }
-  // The way that the front took belongs to the region, even where it is a voxel wide and its gradients mean little.
+  // The way that the front took belongs to the region, even where it is a voxel wide and its gradients mean
+  // little.
   Voxel v = pair.to_voxel;
   for (std::size_t step = 0; step < fronts.first.order.size(); ++step) {
     cosines.at(v) = std::min(-0.1F, cosines.get(v));
@@ -125,7 +129,8 @@ void add_collision(const imaging::ImageVolume& image, const Fronts& fronts, cons
   cosines.at(pair.from_voxel) = std::min(-0.1F, cosines.get(pair.from_voxel));
   if (!region.add_connected(cosines, pair.from_voxel, pair.to_voxel)) {
     throw GeometryError("the region in which the fronts from " + detail::text(pair.from) + " and " +
-                        detail::text(pair.to) + " mm run against each other does not join the two seeds; "
+                        detail::text(pair.to) +
+                        " mm run against each other does not join the two seeds; "
                         "place a seed between them");
   }
 }
@@ -145,14 +150,16 @@ Vec3 front_direction(const BlockGrid<float>& times, const imaging::Geometry& geo
     for (int j = -2; j <= 2; ++j) {
       for (int i = -2; i <= 2; ++i) {
         const Voxel n{v[0] + i, v[1] + j, v[2] + k};
-        if (detail::inside(geometry.size, n) && times.get(n) != kUnreached) sum += time_gradient(times, geometry, n).normalized();
+        if (detail::inside(geometry.size, n) && times.get(n) != kUnreached)
+          sum += time_gradient(times, geometry, n).normalized();
       }
     }
   }
   return geometry.direction * (sum.norm() > 0.0 ? sum.normalized() : Vec3::UnitZ());
 }
 
-Pair make_pair(const imaging::ImageVolume& image, const Vec3& from, const Vec3& to, const IntensityRange& range) {
+Pair make_pair(const imaging::ImageVolume& image, const Vec3& from, const Vec3& to,
+               const IntensityRange& range) {
   Pair pair{from, to, detail::voxel_in_range(image, from, range), detail::voxel_in_range(image, to, range)};
   if (pair.from_voxel == pair.to_voxel) {
     throw InvalidInput("the seeds " + detail::text(from) + " and " + detail::text(to) +
@@ -169,11 +176,13 @@ void validate(const CollidingFrontsOptions& o) {
     throw InvalidInput("colliding fronts: lower_hu and upper_hu must be finite");
   }
   if (o.lower_hu && o.upper_hu && !(*o.lower_hu < *o.upper_hu)) {
-    throw InvalidInput("colliding fronts: lower_hu " + std::to_string(*o.lower_hu) + " must be below upper_hu " +
-                       std::to_string(*o.upper_hu));
+    throw InvalidInput("colliding fronts: lower_hu " + std::to_string(*o.lower_hu) +
+                       " must be below upper_hu " + std::to_string(*o.upper_hu));
   }
-  if (!(o.slowest > 0.0 && o.slowest <= 1.0)) throw InvalidInput("colliding fronts: slowest must be in (0, 1]");
-  if (!(o.overrun >= 0.0 && o.overrun <= 10.0)) throw InvalidInput("colliding fronts: overrun must be in [0, 10]");
+  if (!(o.slowest > 0.0 && o.slowest <= 1.0))
+    throw InvalidInput("colliding fronts: slowest must be in (0, 1]");
+  if (!(o.overrun >= 0.0 && o.overrun <= 10.0))
+    throw InvalidInput("colliding fronts: overrun must be in [0, 10]");
   if (o.margin_voxels < 1) throw InvalidInput("colliding fronts: margin_voxels must be at least 1");
 }
 
@@ -221,9 +230,11 @@ InitialRegion colliding_fronts(const imaging::ImageVolume& image, const BranchSe
   return result;
 }
 
-InitialRegion fast_marching_initialisation(const imaging::ImageVolume& image, const std::vector<Vec3>& seeds_mm,
+InitialRegion fast_marching_initialisation(const imaging::ImageVolume& image,
+                                           const std::vector<Vec3>& seeds_mm,
                                            const std::vector<Vec3>& targets_mm,
-                                           const CollidingFrontsOptions& options, const core::TaskContext& task) {
+                                           const CollidingFrontsOptions& options,
+                                           const core::TaskContext& task) {
   validate(options);
   if (targets_mm.empty()) throw InvalidInput("fast marching: no target is given");
   std::vector<Vec3> all = seeds_mm;
@@ -234,7 +245,8 @@ InitialRegion fast_marching_initialisation(const imaging::ImageVolume& image, co
   for (const Vec3& seed : seeds_mm) detail::voxel_in_range(image, seed, chosen.range);
 
   detail::FrontStop stop;
-  for (const Vec3& target : targets_mm) stop.targets.push_back(detail::voxel_in_range(image, target, chosen.range));
+  for (const Vec3& target : targets_mm)
+    stop.targets.push_back(detail::voxel_in_range(image, target, chosen.range));
   stop.all_voxels = options.domain == FrontDomain::whole_volume;
   stop.overrun = 0.0;
   stop.overrun_mm = 2.0 * image.geometry.spacing.maxCoeff();

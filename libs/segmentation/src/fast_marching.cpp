@@ -7,7 +7,8 @@
 namespace ostia::segmentation::detail {
 namespace {
 
-/// A voxel waiting in the narrow band. Ties go to the lower voxel, so the order does not depend on the heap's history.
+/// A voxel waiting in the narrow band. Ties go to the lower voxel, so the order does not depend on the heap's
+/// history.
 struct Trial {
   float time;
   Voxel voxel;
@@ -68,7 +69,8 @@ void Marcher::offer(const Voxel& v, float time) {
 }
 
 float Marcher::update(const Voxel& v, float speed) const {
-  // Per axis (x - a_d)^2 w_d with the lesser of the two settled neighbours; second order where the next one is settled, too.
+  // Per axis (x - a_d)^2 w_d with the lesser of the two settled neighbours; second order where the next one
+  // is settled, too.
   std::array<double, 3> value{};
   std::array<double, 3> weight{};
   int used = 0;
@@ -170,14 +172,14 @@ Voxel nearest_voxel(const imaging::Geometry& geometry, const Vec3& world_mm) {
   const Vec3 index = geometry.index(world_mm);
   Voxel v{};
   for (int d = 0; d < 3; ++d) {
-    v[d] = static_cast<std::int32_t>(
-        std::clamp<std::int64_t>(std::llround(index[d]), 0, geometry.size[d] - 1));
+    v[d] =
+        static_cast<std::int32_t>(std::clamp<std::int64_t>(std::llround(index[d]), 0, geometry.size[d] - 1));
   }
   return v;
 }
 
-FrontTimes march(const imaging::ImageVolume& image, const std::vector<Vec3>& sources_mm, const SpeedModel& speed,
-                 const FrontStop& stop, const core::TaskContext& task) {
+FrontTimes march(const imaging::ImageVolume& image, const std::vector<Vec3>& sources_mm,
+                 const SpeedModel& speed, const FrontStop& stop, const core::TaskContext& task) {
   Marcher marcher(image, speed);
   for (const Vec3& source : sources_mm) marcher.start(source);
   return marcher.run(stop, task);

@@ -1,18 +1,21 @@
 #pragma once
-/// \file Arrival times of wave fronts in an image (Sethian 1996; [Antiga] eq. 2), on the voxels they reach alone.
+/// \file Arrival times of wave fronts in an image (Sethian 1996; [Antiga] eq. 2), on the voxels they reach
+/// alone.
+
+#include "block_grid.h"
+
+#include "ostia/core/task_context.h"
+#include "ostia/imaging/volume.h"
+#include "ostia/segmentation/seeds.h"
 
 #include <cstdint>
 #include <limits>
 #include <vector>
 
-#include "block_grid.h"
-#include "ostia/core/task_context.h"
-#include "ostia/imaging/volume.h"
-#include "ostia/segmentation/seeds.h"
-
 namespace ostia::segmentation::detail {
 
-/// Speed of a front from the intensity: 0 outside the range, else a ramp from `slowest` at the lower bound to 1 at the lumen's.
+/// Speed of a front from the intensity: 0 outside the range, else a ramp from `slowest` at the lower bound to
+/// 1 at the lumen's.
 struct SpeedModel {
   IntensityRange range;
   double lumen_hu = 0.0;
@@ -27,20 +30,21 @@ inline constexpr float kUnreached = std::numeric_limits<float>::infinity();
 struct FrontTimes {
   BlockGrid<float> times;
   std::vector<Voxel> order;
-  float target_time = kUnreached;   ///< at the target reached first
+  float target_time = kUnreached;  ///< at the target reached first
 };
 
 struct FrontStop {
   std::vector<Voxel> targets;
-  bool all_voxels = false;      ///< go on until nothing is left
-  double overrun = 0.15;        ///< relative to the time at the first target
-  double overrun_mm = 0.0;      ///< and in addition
+  bool all_voxels = false;  ///< go on until nothing is left
+  double overrun = 0.15;    ///< relative to the time at the first target
+  double overrun_mm = 0.0;  ///< and in addition
 };
 
-/// A front from `sources` (in-range voxels nearest to the world points, which start it at their true distance). Second-order
-/// upwind differences in the spacing of each axis where two settled neighbours allow it, else first-order.
-FrontTimes march(const imaging::ImageVolume& image, const std::vector<Vec3>& sources_mm, const SpeedModel& speed,
-                 const FrontStop& stop, const core::TaskContext& task);
+/// A front from `sources` (in-range voxels nearest to the world points, which start it at their true
+/// distance). Second-order upwind differences in the spacing of each axis where two settled neighbours allow
+/// it, else first-order.
+FrontTimes march(const imaging::ImageVolume& image, const std::vector<Vec3>& sources_mm,
+                 const SpeedModel& speed, const FrontStop& stop, const core::TaskContext& task);
 
 /// Nearest voxel, which must exist.
 Voxel nearest_voxel(const imaging::Geometry& geometry, const Vec3& world_mm);

@@ -1,10 +1,10 @@
 #include "ostia/segmentation/feature.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace ostia::segmentation {
 namespace {
@@ -68,8 +68,9 @@ imaging::FloatVolume gradient_magnitude(const imaging::ImageVolume& image, const
     }
     out.geometry.size[d] = region.upper[d] - region.lower[d];
   }
-  out.geometry.origin = g.world(Vec3(static_cast<double>(region.lower[0]), static_cast<double>(region.lower[1]),
-                                     static_cast<double>(region.lower[2])));
+  out.geometry.origin =
+      g.world(Vec3(static_cast<double>(region.lower[0]), static_cast<double>(region.lower[1]),
+                   static_cast<double>(region.lower[2])));
   out.voxels.resize(static_cast<std::size_t>(out.geometry.voxels()));
   if (scheme == GradientScheme::upwind) {
     fill<GradientScheme::upwind>(image, region, out, task);

@@ -1,20 +1,20 @@
 #include "intensity_range.h"
 
+#include "ostia/core/error.h"
+#include "ostia/segmentation/colliding_fronts.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
-
-#include "ostia/core/error.h"
-#include "ostia/segmentation/colliding_fronts.h"
 
 namespace ostia::segmentation {
 namespace detail {
 namespace {
 
 constexpr double kAirHu = -300.0;
-constexpr int kDarkestTissueHu = -150;   // fat and its mixtures with lung lie below
-constexpr double kTissueHu = 50.0;       // where the neighbourhood shows no background
+constexpr int kDarkestTissueHu = -150;  // fat and its mixtures with lung lie below
+constexpr double kTissueHu = 50.0;      // where the neighbourhood shows no background
 constexpr double kNeighbourhoodMm = 20.0;
 constexpr double kThresholdHeight = 0.6;  // from the background (0) to the lumen (1)
 
@@ -40,8 +40,10 @@ double cross_median(const imaging::ImageVolume& image, const Voxel& v) {
 using Histogram = std::vector<std::int64_t>;
 
 /// Tissue darker than the lumen in balls about the seeds; a voxel in two balls counts twice.
-Histogram tissue_about(const imaging::ImageVolume& image, const std::vector<Vec3>& seeds_mm, double brightest) {
-  Histogram histogram(static_cast<std::size_t>(std::max(1.0, std::ceil(brightest) - kDarkestTissueHu + 1)), 0);
+Histogram tissue_about(const imaging::ImageVolume& image, const std::vector<Vec3>& seeds_mm,
+                       double brightest) {
+  Histogram histogram(static_cast<std::size_t>(std::max(1.0, std::ceil(brightest) - kDarkestTissueHu + 1)),
+                      0);
   const auto& g = image.geometry;
   for (const Vec3& seed : seeds_mm) {
     const Voxel centre = nearest_voxel(g, seed);
@@ -60,7 +62,8 @@ Histogram tissue_about(const imaging::ImageVolume& image, const std::vector<Vec3
           const Vec3 away = Vec3(i - centre[0], j - centre[1], k - centre[2]).cwiseProduct(g.spacing);
           if (away.squaredNorm() > kNeighbourhoodMm * kNeighbourhoodMm) continue;
           const int bin = image(i, j, k) - kDarkestTissueHu;
-          if (bin >= 0 && bin < static_cast<int>(histogram.size())) ++histogram[static_cast<std::size_t>(bin)];
+          if (bin >= 0 && bin < static_cast<int>(histogram.size()))
+            ++histogram[static_cast<std::size_t>(bin)];
         }
       }
     }
@@ -71,7 +74,8 @@ Histogram tissue_about(const imaging::ImageVolume& image, const std::vector<Vec3
 /// Otsu's split (1979): the last bin of the darker class.
 std::size_t otsu(const Histogram& histogram, std::int64_t total) {
   double sum = 0.0;
-  for (std::size_t b = 0; b < histogram.size(); ++b) sum += static_cast<double>(b) * static_cast<double>(histogram[b]);
+  for (std::size_t b = 0; b < histogram.size(); ++b)
+    sum += static_cast<double>(b) * static_cast<double>(histogram[b]);
   double dark_sum = 0.0;
   std::int64_t dark = 0;
   double best = -1.0;
@@ -119,14 +123,16 @@ std::string text(const Vec3& point) {
 }
 
 SeedIntensities seed_intensities(const imaging::ImageVolume& image, const std::vector<Vec3>& seeds_mm) {
-  if (seeds_mm.empty()) throw InvalidInput("segmentation: no seed is given; place one at each end of the vessel");
+  if (seeds_mm.empty())
+    throw InvalidInput("segmentation: no seed is given; place one at each end of the vessel");
   SeedIntensities result{1e9, -1e9};
   for (const Vec3& seed : seeds_mm) {
     if (!seed.allFinite() || !image.geometry.contains(seed)) {
-      const Vec3 last(image.geometry.size[0] - 1.0, image.geometry.size[1] - 1.0, image.geometry.size[2] - 1.0);
+      const Vec3 last(image.geometry.size[0] - 1.0, image.geometry.size[1] - 1.0,
+                      image.geometry.size[2] - 1.0);
       throw InvalidInput("seed " + text(seed) + " mm lies outside the image, which spans " +
-                         text(image.geometry.world(Vec3::Zero())) + " to " + text(image.geometry.world(last)) +
-                         " mm (LPS): place it inside");
+                         text(image.geometry.world(Vec3::Zero())) + " to " +
+                         text(image.geometry.world(last)) + " mm (LPS): place it inside");
     }
     const double hu = cross_median(image, nearest_voxel(image.geometry, seed));
     if (hu < kAirHu) {

@@ -1,22 +1,24 @@
 #pragma once
 /// \file Which intensities are lumen, from the image about the seeds.
 
+#include "fast_marching.h"
+
+#include "ostia/imaging/volume.h"
+#include "ostia/segmentation/seeds.h"
+
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "fast_marching.h"
-#include "ostia/imaging/volume.h"
-#include "ostia/segmentation/seeds.h"
-
 namespace ostia::segmentation::detail {
 
 struct SeedIntensities {
-  double darkest = 0.0;     ///< least of the seeds' medians
+  double darkest = 0.0;  ///< least of the seeds' medians
   double brightest = 0.0;
 };
 
-/// Median of a voxel and its six neighbours at each seed. Throws InvalidInput for a seed outside the image or in air.
+/// Median of a voxel and its six neighbours at each seed. Throws InvalidInput for a seed outside the image or
+/// in air.
 SeedIntensities seed_intensities(const imaging::ImageVolume& image, const std::vector<Vec3>& seeds_mm);
 
 struct ChosenRange {
@@ -28,9 +30,10 @@ struct ChosenRange {
 ChosenRange choose_range(const imaging::ImageVolume& image, const std::vector<Vec3>& seeds_mm,
                          const std::optional<double>& lower, const std::optional<double>& upper);
 
-/// The voxel at a seed or, where that is outside the range, the nearest of its neighbours inside it. Throws InvalidInput.
+/// The voxel at a seed or, where that is outside the range, the nearest of its neighbours inside it. Throws
+/// InvalidInput.
 Voxel voxel_in_range(const imaging::ImageVolume& image, const Vec3& seed_mm, const IntensityRange& range);
 
-std::string text(const Vec3& point);   ///< "(1.0, 2.0, 3.0)"
+std::string text(const Vec3& point);  ///< "(1.0, 2.0, 3.0)"
 
 }  // namespace ostia::segmentation::detail

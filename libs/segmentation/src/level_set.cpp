@@ -1,13 +1,14 @@
 #include "ostia/segmentation/level_set.h"
 
-#include <algorithm>
-#include <cmath>
-#include <string>
+#include "sparse_field.h"
+#include "surface_speed.h"
 
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
-#include "sparse_field.h"
-#include "surface_speed.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
 
 namespace ostia::segmentation {
 namespace {
@@ -17,7 +18,8 @@ void require_finite(const imaging::FloatVolume& image, const char* name) {
       image.voxels.size(), std::size_t{262144}, true,
       [&](std::size_t first, std::size_t last) {
         float sum = 0.0F;
-        for (std::size_t n = first; n < last; ++n) sum += image.voxels[n] * 0.0F;  // 0 unless one is not finite
+        for (std::size_t n = first; n < last; ++n)
+          sum += image.voxels[n] * 0.0F;  // 0 unless one is not finite
         return sum == 0.0F;
       },
       [](bool a, bool b) { return a && b; });
@@ -26,7 +28,8 @@ void require_finite(const imaging::FloatVolume& image, const char* name) {
 
 void require_grid(const imaging::FloatVolume& initial, const imaging::FloatVolume& other, const char* name) {
   if (!imaging::same_grid(initial.geometry, other.geometry) || initial.voxels.size() != other.voxels.size()) {
-    throw InvalidInput(std::string("level set: ") + name + " does not lie on the grid of the initial level set");
+    throw InvalidInput(std::string("level set: ") + name +
+                       " does not lie on the grid of the initial level set");
   }
   require_finite(other, name);
 }
@@ -48,9 +51,11 @@ void require_usable(const imaging::FloatVolume& initial) {
 constexpr int kPeriod = 10;         // iterations between two looks at the motion
 constexpr double kProgress = 0.8;   // the motion must fall to this part in a period
 constexpr double kDamping = 0.6;    // else the step is shortened by this
+constexpr double kSwing = 0.5;      // where the net motion is below this part of the way gone
 constexpr double kLeastStep = 0.3;  // but to no less than about this part
 
-/// Where the surface was at the last look. The net motion is what counts: voxels that swing about a sharp ridge do not matter.
+/// Where the surface was at the last look. The net motion is what counts: voxels that swing about a sharp
+/// ridge do not matter.
 class Rest {
  public:
   explicit Rest(const detail::SparseField& field) { remember(field); }
@@ -79,8 +84,9 @@ class Rest {
   std::vector<float> values_;
 };
 
-LevelSetResult evolve(const imaging::FloatVolume& initial, const detail::Pull& feature, const detail::Pull* inflation_speed,
-                      const LevelSetOptions& options, const core::TaskContext& task) {
+LevelSetResult evolve(const imaging::FloatVolume& initial, const detail::Pull& feature,
+                      const detail::Pull* inflation_speed, const LevelSetOptions& options,
+                      const core::TaskContext& task) {
   detail::SparseField field(initial);
   if (field.active().empty()) throw InvalidInput("level set: nothing is inside the initial surface");
   detail::SurfaceSpeed speed(initial.geometry, feature, inflation_speed, options);
@@ -89,6 +95,7 @@ LevelSetResult evolve(const imaging::FloatVolume& initial, const detail::Pull& f
   std::vector<float> changes;
   Rest rest(field);
   double damping = 1.0;
+  double way = 0.0;
   while (result.iterations < options.iterations_max && !result.converged) {
     task.throw_if_cancelled();
     task.set_progress(static_cast<double>(result.iterations) / options.iterations_max);
@@ -97,6 +104,9 @@ LevelSetResult evolve(const imaging::FloatVolume& initial, const detail::Pull& f
     core::parallel_for(active.size(), 2048, [&](std::size_t a) {
       changes[a] = static_cast<float>(speed.change(field, active[a]));
     });
+    double squares = 0.0;
+    for (const float change : changes) squares += static_cast<double>(change) * change;
+    way += std::sqrt(squares / static_cast<double>(active.size())) / h;
     field.advance(changes);
     ++result.iterations;
     if (field.active().empty()) {
@@ -108,7 +118,9 @@ LevelSetResult evolve(const imaging::FloatVolume& initial, const detail::Pull& f
     result.rms_voxels = rest.motion(field, h) / h;
     result.rms_history.push_back(result.rms_voxels);
     result.converged = result.rms_voxels < options.rms_tolerance_voxels;
-    if (result.rms_voxels > kProgress * before && damping > kLeastStep) {
+    const bool swings = result.rms_voxels < kSwing * way;
+    way = 0.0;
+    if (swings && result.rms_voxels > kProgress * before && damping > kLeastStep) {
       damping *= kDamping;
       speed.damp(kDamping);
     }
@@ -133,8 +145,9 @@ void validate(const LevelSetOptions& o) {
   require(o.feature_offset_voxels >= -1.0 && o.feature_offset_voxels <= 1.0,
           "feature_offset_voxels must be in [-1, 1]");
   for (const LevelSetEnd& end : o.ends) {
-    require(end.point.allFinite() && end.outward.allFinite() && end.outward.norm() > 0.0 && end.radius_mm >= 0.0,
-            "an end needs a finite point, a direction that is not zero and a radius that is not negative");
+    require(
+        end.point.allFinite() && end.outward.allFinite() && end.outward.norm() > 0.0 && end.radius_mm >= 0.0,
+        "an end needs a finite point, a direction that is not zero and a radius that is not negative");
   }
   require(o.curvature_needs_feature >= 0.0 && std::isfinite(o.curvature_needs_feature),
           "curvature_needs_feature must not be negative");
@@ -159,8 +172,9 @@ LevelSetResult level_set(const imaging::FloatVolume& initial, const imaging::Flo
   return evolve(initial, detail::GridPull(feature, options.feature_offset_voxels), &speed, options, task);
 }
 
-LevelSetResult level_set(const imaging::FloatVolume& initial, const imaging::ImageVolume& image, const EdgeFeature& edge,
-                         const LevelSetOptions& options, const core::TaskContext& task) {
+LevelSetResult level_set(const imaging::FloatVolume& initial, const imaging::ImageVolume& image,
+                         const EdgeFeature& edge, const LevelSetOptions& options,
+                         const core::TaskContext& task) {
   validate(options);
   if (!(edge.noise_hu_per_mm > 0.0) || !std::isfinite(edge.noise_hu_per_mm)) {
     throw InvalidInput("level set: noise_hu_per_mm must be positive and finite");

@@ -25,8 +25,8 @@ QuadraticTaps quadratic_taps(double x, std::int64_t size) {
   return taps;
 }
 
-/// Weights of the cubic B-spline on the four voxels about x, with first and second derivatives. Voxels beyond the border are
-/// those of the border.
+/// Weights of the cubic B-spline on the four voxels about x, with first and second derivatives. Voxels beyond
+/// the border are those of the border.
 struct CubicTaps {
   std::array<std::int64_t, 4> voxel{};
   std::array<double, 4> weight{};
@@ -43,7 +43,8 @@ CubicTaps cubic_taps(double x, std::int64_t size) {
   for (int n = 0; n < 4; ++n) {
     taps.voxel[n] = std::clamp<std::int64_t>(static_cast<std::int64_t>(base) - 1 + n, 0, size - 1);
   }
-  taps.weight = {u * u * u / 6.0, 2.0 / 3.0 - 0.5 * t * t * (2.0 - t), 2.0 / 3.0 - 0.5 * u * u * (2.0 - u), t * t * t / 6.0};
+  taps.weight = {u * u * u / 6.0, 2.0 / 3.0 - 0.5 * t * t * (2.0 - t), 2.0 / 3.0 - 0.5 * u * u * (2.0 - u),
+                 t * t * t / 6.0};
   taps.slope = {-0.5 * u * u, 0.5 * t * (3.0 * t - 4.0), -0.5 * u * (3.0 * u - 4.0), 0.5 * t * t};
   taps.bend = {u, 3.0 * t - 2.0, 3.0 * u - 2.0, t};
   return taps;
@@ -97,7 +98,8 @@ Derivatives derivatives_at(const imaging::ImageVolume& image, const Vec3& index,
 
 Sample GridPull::at(const Vec3& index, const Vec3& normal) const {
   const imaging::Geometry& g = feature_.geometry;
-  // A one-sided difference along axis d belongs half a voxel off, |n_d| h_d / 2 along the normal, and counts with n_d^2.
+  // A one-sided difference along axis d belongs half a voxel off, |n_d| h_d / 2 along the normal, and counts
+  // with n_d^2.
   const Vec3 size = normal.cwiseAbs();
   const double lag = offset_ * size.cwiseProduct(size).cwiseProduct(size).dot(g.spacing);
   const Vec3 at = index - (lag * normal).cwiseQuotient(g.spacing);
@@ -125,7 +127,9 @@ Sample GridPull::at(const Vec3& index, const Vec3& normal) const {
 }
 
 EdgePull::EdgePull(const imaging::ImageVolume& image, const imaging::Geometry& grid, const EdgeFeature& edge)
-    : image_(image), first_(image.geometry.index(grid.origin)), edge_(edge),
+    : image_(image),
+      first_(image.geometry.index(grid.origin)),
+      edge_(edge),
       brightest_(static_cast<std::int16_t>(std::clamp(edge.brightest_hu, -32768.0, 32767.0))) {
   for (int d = 0; d < 3; ++d) first_[d] = std::round(first_[d]);
 }
@@ -136,7 +140,8 @@ Sample EdgePull::at(const Vec3& index, const Vec3& /*normal*/) const {
   const Vec3 g = d.first.cwiseQuotient(h);
   const Vec3 pure = d.pure.cwiseQuotient(h.cwiseProduct(h));
   const Vec3 mixed(d.mixed[0] / (h[1] * h[2]), d.mixed[1] / (h[0] * h[2]), d.mixed[2] / (h[0] * h[1]));
-  Vec3 turned(pure[0] * g[0] + mixed[2] * g[1] + mixed[1] * g[2], mixed[2] * g[0] + pure[1] * g[1] + mixed[0] * g[2],
+  Vec3 turned(pure[0] * g[0] + mixed[2] * g[1] + mixed[1] * g[2],
+              mixed[2] * g[0] + pure[1] * g[1] + mixed[0] * g[2],
               mixed[1] * g[0] + mixed[0] * g[1] + pure[2] * g[2]);
   const double squared = g.squaredNorm();
   const double k2 = edge_.noise_hu_per_mm * edge_.noise_hu_per_mm;

@@ -23,11 +23,12 @@ class Pull {
   virtual Sample at(const Vec3& index, const Vec3& normal) const = 0;
 };
 
-/// A feature given on the grid: the quadratic B-spline with the voxels as coefficients, smooth enough for the place where its
-/// gradient turns to be defined between voxels.
+/// A feature given on the grid: the quadratic B-spline with the voxels as coefficients, smooth enough for the
+/// place where its gradient turns to be defined between voxels.
 class GridPull : public Pull {
  public:
-  GridPull(const imaging::FloatVolume& feature, double offset_voxels) : feature_(feature), offset_(offset_voxels) {}
+  GridPull(const imaging::FloatVolume& feature, double offset_voxels)
+      : feature_(feature), offset_(offset_voxels) {}
   Sample at(const Vec3& index, const Vec3& normal) const override;
 
  private:
@@ -35,7 +36,8 @@ class GridPull : public Pull {
   double offset_;
 };
 
-/// log(1 + |grad I|^2/k^2)/2 of the image's cubic B-spline, differentiated exactly: grad = H g / (k^2 + |g|^2).
+/// log(1 + |grad I|^2/k^2)/2 of the image's cubic B-spline, differentiated exactly: grad = H g / (k^2 +
+/// |g|^2).
 class EdgePull : public Pull {
  public:
   EdgePull(const imaging::ImageVolume& image, const imaging::Geometry& grid, const EdgeFeature& edge);
@@ -43,7 +45,7 @@ class EdgePull : public Pull {
 
  private:
   const imaging::ImageVolume& image_;
-  Vec3 first_;   ///< index in the image of the grid's first voxel
+  Vec3 first_;  ///< index in the image of the grid's first voxel
   EdgeFeature edge_;
   std::int16_t brightest_;
 };

@@ -1,8 +1,8 @@
 #include "region_builder.h"
 
-#include <algorithm>
-
 #include "ostia/core/error.h"
+
+#include <algorithm>
 
 namespace ostia::segmentation::detail {
 namespace {
@@ -23,7 +23,8 @@ constexpr int kPitRounds = 10;
 
 }  // namespace
 
-RegionBuilder::RegionBuilder(const imaging::Geometry& geometry) : geometry_(geometry), values_(geometry.size, 1.0F) {}
+RegionBuilder::RegionBuilder(const imaging::Geometry& geometry)
+    : geometry_(geometry), values_(geometry.size, 1.0F) {}
 
 void RegionBuilder::add(const Voxel& v, float value) {
   float& stored = values_.at(v);
@@ -60,7 +61,8 @@ void RegionBuilder::fill_pits() {
         if (values_.get(outside) < 0.0F || seen.get(outside) != 0) return;
         seen.at(outside) = 1;
         int count = 0;
-        for_neighbours(geometry_.size, outside, [&](const Voxel& n) { count += values_.get(n) < 0.0F ? 1 : 0; });
+        for_neighbours(geometry_.size, outside,
+                       [&](const Voxel& n) { count += values_.get(n) < 0.0F ? 1 : 0; });
         if (count >= kPitNeighbours) filled.push_back(outside);
       });
     }
@@ -98,7 +100,8 @@ InitialRegion RegionBuilder::finish(int margin_voxels) {
   for (const Voxel& v : inside_) {
     for_neighbours(geometry_.size, v, [&](const Voxel& n) {
       const float value = values_.get(n);
-      if (value >= 0.0F) result.level_set(n[0] - box.lower[0], n[1] - box.lower[1], n[2] - box.lower[2]) = value;
+      if (value >= 0.0F)
+        result.level_set(n[0] - box.lower[0], n[1] - box.lower[1], n[2] - box.lower[2]) = value;
     });
   }
   result.voxels = static_cast<std::int64_t>(inside_.size());

@@ -1,12 +1,12 @@
 #include "ostia/segmentation/segment.h"
 
+#include "ostia/core/error.h"
+#include "ostia/core/parallel.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
-
-#include "ostia/core/error.h"
-#include "ostia/core/parallel.h"
 
 namespace ostia::segmentation {
 namespace {
@@ -27,8 +27,9 @@ imaging::FloatVolume on_region(const imaging::Geometry& image, const imaging::Re
   imaging::FloatVolume out;
   out.geometry = image;
   for (int d = 0; d < 3; ++d) out.geometry.size[d] = region.upper[d] - region.lower[d];
-  out.geometry.origin = image.world(Vec3(static_cast<double>(region.lower[0]), static_cast<double>(region.lower[1]),
-                                         static_cast<double>(region.lower[2])));
+  out.geometry.origin =
+      image.world(Vec3(static_cast<double>(region.lower[0]), static_cast<double>(region.lower[1]),
+                       static_cast<double>(region.lower[2])));
   out.voxels.assign(static_cast<std::size_t>(out.geometry.voxels()), value);
   return out;
 }
@@ -48,10 +49,10 @@ void lower_by(imaging::FloatVolume& whole, const imaging::Region& box, const Ini
 
 constexpr double kSeamVoxels = 2.5;
 
-/// Where two branches share a seed, their ends stand face to face: fills the slice of lumen between them, the voxels in range within
-/// some voxels of the plane through the seed that are connected with it there.
-void close_seam(const imaging::ImageVolume& image, const imaging::Region& box, const Vec3& seed, const LevelSetEnd& end,
-                const IntensityRange& range, imaging::FloatVolume& level_set) {
+/// Where two branches share a seed, their ends stand face to face: fills the slice of lumen between them, the
+/// voxels in range within some voxels of the plane through the seed that are connected with it there.
+void close_seam(const imaging::ImageVolume& image, const imaging::Region& box, const Vec3& seed,
+                const LevelSetEnd& end, const IntensityRange& range, imaging::FloatVolume& level_set) {
   const imaging::Geometry& g = level_set.geometry;
   const double reach = kSeamVoxels * g.spacing.maxCoeff();
   const Vec3 axis = end.outward.normalized();
@@ -72,7 +73,9 @@ void close_seam(const imaging::ImageVolume& image, const imaging::Region& box, c
         if (n[d] < 0 || n[d] >= g.size[d]) continue;
         std::uint8_t& mark = seen[g.offset(n[0], n[1], n[2])];
         if (mark != 0) continue;
-        const Vec3 away = g.world(Vec3(static_cast<double>(n[0]), static_cast<double>(n[1]), static_cast<double>(n[2]))) - seed;
+        const Vec3 away =
+            g.world(Vec3(static_cast<double>(n[0]), static_cast<double>(n[1]), static_cast<double>(n[2]))) -
+            seed;
         const double along = away.dot(axis);
         if (std::abs(along) > reach || (away - along * axis).norm() > end.radius_mm) continue;
         const double hu = image(n[0] + box.lower[0], n[1] + box.lower[1], n[2] + box.lower[2]);
@@ -110,7 +113,8 @@ Shell shell_of(const imaging::FloatVolume& level_set) {
   return shell;
 }
 
-/// Signs blurred over 3 x 3 x 3 voxels (binomial), every voxel on its side: takes the stairs off the initial surface.
+/// Signs blurred over 3 x 3 x 3 voxels (binomial), every voxel on its side: takes the stairs off the initial
+/// surface.
 imaging::FloatVolume without_stairs(const imaging::FloatVolume& level_set, const Shell& shell) {
   imaging::FloatVolume out = level_set;
   const auto& size = level_set.geometry.size;
@@ -138,7 +142,8 @@ imaging::FloatVolume without_stairs(const imaging::FloatVolume& level_set, const
       if (at[d] < 1 || at[d] + 1 >= size[d]) return;
     }
     const double value = blurred(n);
-    out.voxels[n] = static_cast<float>(h * (level_set.voxels[n] < 0.0F ? std::min(value, -0.1) : std::max(value, 0.1)));
+    out.voxels[n] =
+        static_cast<float>(h * (level_set.voxels[n] < 0.0F ? std::min(value, -0.1) : std::max(value, 0.1)));
   };
   for (const std::int64_t n : shell.surface) {
     visit(n);
@@ -155,7 +160,8 @@ float percentile(const imaging::FloatVolume& image, const std::vector<std::int64
   std::vector<float> values;
   values.reserve(voxels.size());
   for (const std::int64_t n : voxels) values.push_back(image.voxels[n]);
-  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
+  const auto nth =
+      values.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), nth, values.end());
   return *nth;
 }
@@ -163,14 +169,15 @@ float percentile(const imaging::FloatVolume& image, const std::vector<std::int64
 /// Gradients that tell walls from noise, HU/mm.
 struct Contrast {
   double wall = 0.0;
-  double noise = 0.0;   ///< above what the interior shows, well below what the surface shows
+  double noise = 0.0;  ///< above what the interior shows, well below what the surface shows
 };
 
 Contrast contrast_of(const imaging::FloatVolume& gradient, const Shell& shell) {
   Contrast contrast;
   contrast.wall = percentile(gradient, shell.surface, 0.75);
   if (contrast.wall <= 0.0) return {1.0, 1.0};
-  contrast.noise = std::clamp(1.5 * percentile(gradient, shell.interior, 0.5), 0.1 * contrast.wall, 0.4 * contrast.wall);
+  contrast.noise =
+      std::clamp(1.5 * percentile(gradient, shell.interior, 0.5), 0.1 * contrast.wall, 0.4 * contrast.wall);
   return contrast;
 }
 
@@ -179,8 +186,9 @@ double full_feature(const Contrast& contrast) {
   return 0.5 * std::log1p(std::pow(0.35 * contrast.wall / contrast.noise, 2));
 }
 
-LevelSetResult evolve(const imaging::ImageVolume& image, const imaging::Region& region, const imaging::FloatVolume& initial,
-                      const Shell& shell, const SegmentOptions& wanted, double lumen_hu, const core::TaskContext& task) {
+LevelSetResult evolve(const imaging::ImageVolume& image, const imaging::Region& region,
+                      const imaging::FloatVolume& initial, const Shell& shell, const SegmentOptions& wanted,
+                      double lumen_hu, const core::TaskContext& task) {
   const WallFeature feature = wanted.feature;
   LevelSetOptions options = wanted.level_set;
   const auto scheme = feature == WallFeature::upwind ? GradientScheme::upwind : GradientScheme::centred;
@@ -210,7 +218,10 @@ bool inside_at(const imaging::FloatVolume& level_set, const Vec3& point) {
   return level_set(v[0], v[1], v[2]) < 0.0F;
 }
 
-/// How far the section across the vessel a little inside of its end reaches, found on a lattice of its plane, with room.
+constexpr double kRoomVoxels = 3.0;
+
+/// How far the section across the vessel a little inside of its end reaches, found on a lattice of its plane,
+/// with room.
 double section_radius(const imaging::FloatVolume& initial, const Vec3& seed, const Vec3& outward) {
   const double h = initial.geometry.spacing.maxCoeff();
   const Vec3 u = outward.unitOrthogonal();
@@ -235,16 +246,21 @@ double section_radius(const imaging::FloatVolume& initial, const Vec3& seed, con
       front.push_back({a + da, b + db});
     }
   }
-  return radius + 3.0 * h;
+  return radius + kRoomVoxels * h;
 }
 
 /// An end of a branch that stands free in the open lumen; none where the united region goes on beyond it.
-std::optional<LevelSetEnd> free_end(const imaging::FloatVolume& initial, const Vec3& seed, const Vec3& outward) {
+std::optional<LevelSetEnd> free_end(const imaging::FloatVolume& initial, const Vec3& seed,
+                                    const Vec3& outward) {
   if (inside_at(initial, seed + 4.0 * initial.geometry.spacing.maxCoeff() * outward)) return std::nullopt;
-  return LevelSetEnd{seed, outward, section_radius(initial, seed, outward)};
+  const double radius = section_radius(initial, seed, outward);
+  // Of a vessel of few voxels the direction is not known well enough; there the walls hold the end.
+  if (radius <= (kRoomVoxels + 2.5) * initial.geometry.spacing.maxCoeff()) return std::nullopt;
+  return LevelSetEnd{seed, outward, radius};
 }
 
-bool shared_seed(const std::vector<BranchSeeds>& branches, std::size_t own, const Vec3& seed, double distance) {
+bool shared_seed(const std::vector<BranchSeeds>& branches, std::size_t own, const Vec3& seed,
+                 double distance) {
   for (std::size_t b = 0; b < branches.size(); ++b) {
     if (b == own) continue;
     if ((branches[b].from - seed).norm() < distance || (branches[b].to - seed).norm() < distance) return true;
@@ -271,10 +287,12 @@ void validate(const SegmentOptions& options) {
   validate(options.level_set);
 }
 
-SegmentationResult segment_vessels(const imaging::ImageVolume& image, const std::vector<BranchSeeds>& branches,
-                                   const SegmentOptions& options, const core::TaskContext& task) {
+SegmentationResult segment_vessels(const imaging::ImageVolume& image,
+                                   const std::vector<BranchSeeds>& branches, const SegmentOptions& options,
+                                   const core::TaskContext& task) {
   validate(options);
-  if (branches.empty()) throw InvalidInput("segmentation: no branch is given; give two seeds, one at each end");
+  if (branches.empty())
+    throw InvalidInput("segmentation: no branch is given; give two seeds, one at each end");
   SegmentationResult result;
   std::vector<InitialRegion> parts;
   CollidingFrontsOptions fronts = options.fronts;
@@ -291,8 +309,9 @@ SegmentationResult segment_vessels(const imaging::ImageVolume& image, const std:
         {part.range, part.range_was_chosen, part.lumen_hu, part.voxels, part.visited, part.touches_border});
     if (part.touches_border) {
       result.touches_border = true;
-      result.warnings.push_back("branch " + std::to_string(b + 1) +
-                                " reaches the border of the image: the vessel goes on outside and is cut there");
+      result.warnings.push_back(
+          "branch " + std::to_string(b + 1) +
+          " reaches the border of the image: the vessel goes on outside and is cut there");
     }
   }
   result.region = united(parts);
@@ -308,7 +327,8 @@ SegmentationResult segment_vessels(const imaging::ImageVolume& image, const std:
       const auto end = free_end(initial, seeds[e], parts[b].outward[e]);
       if (shared_seed(branches, b, seeds[e], 3.0 * image.geometry.spacing.maxCoeff())) {
         const double radius = section_radius(initial, seeds[e], parts[b].outward[e]);
-        close_seam(image, result.region, seeds[e], {seeds[e], parts[b].outward[e], radius}, parts[b].range, initial);
+        close_seam(image, result.region, seeds[e], {seeds[e], parts[b].outward[e], radius, false},
+                   parts[b].range, initial);
       } else if (end) {
         ends.push_back(*end);
       }
@@ -321,7 +341,8 @@ SegmentationResult segment_vessels(const imaging::ImageVolume& image, const std:
   for (const InitialRegion& part : parts) brightest = std::max(brightest, part.lumen_hu);
   SegmentOptions wanted = options;
   wanted.level_set.ends = std::move(ends);
-  LevelSetResult evolved = evolve(image, result.region, initial, shell, wanted, brightest, task.sub(0.4, 1.0));
+  LevelSetResult evolved =
+      evolve(image, result.region, initial, shell, wanted, brightest, task.sub(0.4, 1.0));
   result.level_set = std::move(evolved.level_set);
   result.iterations = evolved.iterations;
   result.converged = evolved.converged;

@@ -1,9 +1,9 @@
 #include "sparse_field.h"
 
+#include "ostia/core/parallel.h"
+
 #include <algorithm>
 #include <cmath>
-
-#include "ostia/core/parallel.h"
 
 namespace ostia::segmentation::detail {
 namespace {
@@ -46,7 +46,8 @@ SparseField::SparseField(const imaging::FloatVolume& initial) : geometry_(initia
 bool SparseField::is_active(std::int64_t n) const {
   const bool negative = values_[n] < 0.0F;
   for (int d = 0; d < 3; ++d) {
-    if ((values_[n - strides_[d]] < 0.0F) != negative || (values_[n + strides_[d]] < 0.0F) != negative) return true;
+    if ((values_[n - strides_[d]] < 0.0F) != negative || (values_[n + strides_[d]] < 0.0F) != negative)
+      return true;
   }
   return false;
 }
@@ -61,7 +62,8 @@ void SparseField::start(const imaging::FloatVolume& initial) {
     for (std::int64_t j = 0; j < size[1]; ++j) {
       for (std::int64_t i = 0; i < size[0]; ++i) {
         const std::int64_t n = geometry_.offset(i, j, k);
-        const bool border = i == 0 || j == 0 || k == 0 || i + 1 == size[0] || j + 1 == size[1] || k + 1 == size[2];
+        const bool border =
+            i == 0 || j == 0 || k == 0 || i + 1 == size[0] || j + 1 == size[1] || k + 1 == size[2];
         if (!border) marks_[n] = kFar;
         // The outermost voxels are outside: a surface that reaches them is closed there.
         values_[n] = static_cast<float>(initial.voxels[n] < 0.0F && !border ? -far_ : far_);
@@ -96,7 +98,8 @@ void SparseField::start(const imaging::FloatVolume& initial) {
   grow_layers();
 }
 
-float SparseField::distance_from(std::int64_t n, const std::vector<std::uint8_t>& marks, std::uint8_t known) const {
+float SparseField::distance_from(std::int64_t n, const std::vector<std::uint8_t>& marks,
+                                 std::uint8_t known) const {
   const float sign = values_[n] < 0.0F ? -1.0F : 1.0F;
   std::array<double, 3> a{};
   std::array<double, 3> w{};
@@ -126,9 +129,8 @@ void SparseField::grow_layers() {
         }
       }
     }
-    core::parallel_for(next.size(), 4096, [&](std::size_t a) {
-      values_[next[a]] = distance_from(next[a], marks_, layer);
-    });
+    core::parallel_for(next.size(), 4096,
+                       [&](std::size_t a) { values_[next[a]] = distance_from(next[a], marks_, layer); });
   }
 }
 
@@ -137,7 +139,8 @@ void SparseField::advance(const std::vector<float>& changes) {
   core::parallel_for(old.size(), 8192, [&](std::size_t a) { values_[old[a]] += changes[a]; });
   // First-layer voxels get the distance of the moved surface before some of them join the active layer.
   std::vector<float> first(layers_[1].size());
-  core::parallel_for(layers_[1].size(), 4096, [&](std::size_t a) { first[a] = distance_from(layers_[1][a], marks_, 1); });
+  core::parallel_for(layers_[1].size(), 4096,
+                     [&](std::size_t a) { first[a] = distance_from(layers_[1][a], marks_, 1); });
   for (std::size_t a = 0; a < first.size(); ++a) {
     const std::int64_t n = layers_[1][a];
     const bool negative = values_[n] < 0.0F;
@@ -168,6 +171,8 @@ void SparseField::advance(const std::vector<float>& changes) {
   grow_layers();
 }
 
-imaging::FloatVolume SparseField::take() && { return {geometry_, std::move(values_)}; }
+imaging::FloatVolume SparseField::take() && {
+  return {geometry_, std::move(values_)};
+}
 
 }  // namespace ostia::segmentation::detail

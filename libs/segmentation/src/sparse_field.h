@@ -1,17 +1,18 @@
 #pragma once
 /// \file The layers of voxels about a moving surface.
 
+#include "ostia/imaging/volume.h"
+
 #include <array>
 #include <cstdint>
 #include <vector>
 
-#include "ostia/imaging/volume.h"
-
 namespace ostia::segmentation::detail {
 
-/// A sparse field (Whitaker, Int. J. Comput. Vis. 29:203-231, 1998): the active layer holds every voxel with a neighbour across the
-/// surface; two layers on either side carry the distance onwards, as the differences need them. Unlike in the
-/// original the layers get their values from the eikonal equation in the grid's spacing rather than by adding one.
+/// A sparse field (Whitaker, Int. J. Comput. Vis. 29:203-231, 1998): the active layer holds every voxel with
+/// a neighbour across the surface; two layers on either side carry the distance onwards, as the differences
+/// need them. Unlike in the original the layers get their values from the eikonal equation in the grid's
+/// spacing rather than by adding one.
 class SparseField {
  public:
   explicit SparseField(const imaging::FloatVolume& initial);

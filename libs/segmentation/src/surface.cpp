@@ -1,11 +1,11 @@
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "ostia/core/error.h"
 #include "ostia/geometry/isosurface.h"
 #include "ostia/imaging/filters.h"
 #include "ostia/segmentation/segment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace ostia::segmentation {
 namespace {
@@ -33,8 +33,8 @@ void for_neighbours(const std::array<std::int64_t, 3>& size, std::int64_t n, con
 
 /// Marks what can be reached from the voxels in `front` through voxels for which `open` holds.
 template <class Open>
-void flood(const std::array<std::int64_t, 3>& size, std::vector<std::int64_t> front, std::vector<std::uint8_t>& marks,
-           const Open& open) {
+void flood(const std::array<std::int64_t, 3>& size, std::vector<std::int64_t> front,
+           std::vector<std::uint8_t>& marks, const Open& open) {
   for (const std::int64_t n : front) marks[n] = 1;
   while (!front.empty()) {
     const std::int64_t n = front.back();
@@ -64,7 +64,8 @@ std::int64_t inside_voxel(const imaging::FloatVolume& level_set, const Vec3& poi
     for (std::int64_t j = low[1]; j <= high[1]; ++j) {
       for (std::int64_t i = low[0]; i <= high[0]; ++i) {
         if (level_set(i, j, k) >= 0.0F) continue;
-        const double distance = (Vec3(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)) - index).norm();
+        const double distance =
+            (Vec3(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)) - index).norm();
         if (distance < best_distance) {
           best_distance = distance;
           best = g.offset(i, j, k);
@@ -114,7 +115,8 @@ void fill_cavities(imaging::FloatVolume& level_set) {
   flood(size, start, outside, [&](std::int64_t m) { return level_set.voxels[m] >= 0.0F; });
   const float least = 0.5F * static_cast<float>(level_set.geometry.spacing.minCoeff());
   for (std::size_t n = 0; n < outside.size(); ++n) {
-    if (outside[n] == 0 && level_set.voxels[n] >= 0.0F) level_set.voxels[n] = -std::max(level_set.voxels[n], least);
+    if (outside[n] == 0 && level_set.voxels[n] >= 0.0F)
+      level_set.voxels[n] = -std::max(level_set.voxels[n], least);
   }
 }
 
@@ -168,13 +170,15 @@ imaging::FloatVolume padded(const imaging::MaskVolume& mask, const imaging::Regi
   imaging::FloatVolume out;
   out.geometry = mask.geometry;
   for (int d = 0; d < 3; ++d) out.geometry.size[d] = box.upper[d] - box.lower[d];
-  out.geometry.origin = mask.geometry.world(Vec3(static_cast<double>(box.lower[0]), static_cast<double>(box.lower[1]),
-                                                 static_cast<double>(box.lower[2])));
+  out.geometry.origin =
+      mask.geometry.world(Vec3(static_cast<double>(box.lower[0]), static_cast<double>(box.lower[1]),
+                               static_cast<double>(box.lower[2])));
   out.voxels.assign(static_cast<std::size_t>(out.geometry.voxels()), 0.5F);
   const auto& size = mask.geometry.size;
   for (std::int64_t k = std::max<std::int64_t>(0, box.lower[2]); k < std::min(size[2], box.upper[2]); ++k) {
     for (std::int64_t j = std::max<std::int64_t>(0, box.lower[1]); j < std::min(size[1], box.upper[1]); ++j) {
-      for (std::int64_t i = std::max<std::int64_t>(0, box.lower[0]); i < std::min(size[0], box.upper[0]); ++i) {
+      for (std::int64_t i = std::max<std::int64_t>(0, box.lower[0]); i < std::min(size[0], box.upper[0]);
+           ++i) {
         if (mask(i, j, k) != 0) out(i - box.lower[0], j - box.lower[1], k - box.lower[2]) = -0.5F;
       }
     }
@@ -182,7 +186,8 @@ imaging::FloatVolume padded(const imaging::MaskVolume& mask, const imaging::Regi
   return out;
 }
 
-constexpr float kOwnSide = 0.05F;  // least value of a blurred mask at a voxel's centre, on the voxel's own side
+constexpr float kOwnSide =
+    0.05F;  // least value of a blurred mask at a voxel's centre, on the voxel's own side
 
 }  // namespace
 
@@ -213,12 +218,13 @@ geometry::TriMesh segment_mask(const imaging::MaskVolume& mask, const MaskSurfac
   }
   const imaging::MaskVolume& used = options.largest_part_only ? largest : mask;
   const imaging::Region box = box_of(used, 2 + static_cast<int>(std::ceil(2.0 * options.sigma_voxels)));
-  if (box.upper[0] <= box.lower[0]) throw InvalidInput("mask surface: the mask is empty, no voxel is nonzero");
+  if (box.upper[0] <= box.lower[0])
+    throw InvalidInput("mask surface: the mask is empty, no voxel is nonzero");
   const imaging::FloatVolume sides = padded(used, box);
   task.throw_if_cancelled();
   // The same blur in all directions of the world; the coarsest axis has the highest stairs.
-  imaging::FloatVolume field =
-      imaging::gaussian_blurred(sides, options.sigma_voxels * mask.geometry.spacing.maxCoeff(), task.sub(0.0, 0.5));
+  imaging::FloatVolume field = imaging::gaussian_blurred(
+      sides, options.sigma_voxels * mask.geometry.spacing.maxCoeff(), task.sub(0.0, 0.5));
   for (std::size_t n = 0; n < field.voxels.size(); ++n) {
     float& value = field.voxels[n];
     value = sides.voxels[n] < 0.0F ? std::min(value, -kOwnSide) : std::max(value, kOwnSide);

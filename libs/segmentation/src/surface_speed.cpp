@@ -12,25 +12,41 @@ double smooth_fade(double value, double full) {
   return t * t * (3.0 - 2.0 * t);
 }
 
-constexpr double kRoundest = 0.3;          // curvature times voxel that counts in full: thin vessels must not be pinched off
-constexpr double kStep = 0.4;              // voxels a step at the greatest speed
-constexpr double kZoneVoxels = 3.0;        // of a held end, to either side
-constexpr double kCurvatureStep = 0.125;   // w2 * step beyond which explicit curvature flow is unstable
+constexpr double kRoundest =
+    0.3;  // curvature times voxel that counts in full: thin vessels must not be pinched off
+constexpr double kStep = 0.4;             // voxels a step at the greatest speed
+constexpr double kZoneVoxels = 3.0;       // of a held end, to either side
+constexpr double kCurvatureStep = 0.125;  // w2 * step beyond which explicit curvature flow is unstable
 
 }  // namespace
 
 struct SurfaceSpeed::Local {
   double value = 0.0;
-  Vec3 before = Vec3::Zero();    ///< one-sided differences
+  Vec3 before = Vec3::Zero();  ///< one-sided differences
   Vec3 after = Vec3::Zero();
   Vec3 gradient = Vec3::Zero();  ///< central
   double norm = 0.0;
   Vec3 normal = Vec3::Zero();
+
+  /// speed * |grad phi| with the differences from where the front comes (Osher and Sethian 1988).
+  double advance(double speed) const {
+    double squared = 0.0;
+    for (int d = 0; d < 3; ++d) {
+      const double in = speed > 0.0 ? std::max(before[d], 0.0) : std::min(before[d], 0.0);
+      const double out = speed > 0.0 ? std::min(after[d], 0.0) : std::max(after[d], 0.0);
+      squared += in * in + out * out;
+    }
+    return speed * std::sqrt(squared);
+  }
 };
 
 SurfaceSpeed::SurfaceSpeed(const imaging::Geometry& grid, const Pull& feature, const Pull* inflation_speed,
                            const LevelSetOptions& options)
-    : feature_(feature), inflation_speed_(inflation_speed), options_(options), size_(grid.size), spacing_(grid.spacing) {
+    : feature_(feature),
+      inflation_speed_(inflation_speed),
+      options_(options),
+      size_(grid.size),
+      spacing_(grid.spacing) {
   h_ = spacing_.minCoeff();
   step_ = kStep;
   if (options.curvature > 0.0) step_ = std::min(step_, kCurvatureStep / options.curvature);
@@ -38,17 +54,21 @@ SurfaceSpeed::SurfaceSpeed(const imaging::Geometry& grid, const Pull& feature, c
   step_ /= strongest;
   // Zones in the frame of the image's axes.
   for (const LevelSetEnd& end : options.ends) {
-    zones_.push_back({grid.index(end.point).cwiseProduct(spacing_), grid.direction.transpose() * end.outward.normalized(),
-                      end.radius_mm, kZoneVoxels * spacing_.maxCoeff()});
+    zones_.push_back({grid.index(end.point).cwiseProduct(spacing_),
+                      grid.direction.transpose() * end.outward.normalized(), end.radius_mm,
+                      kZoneVoxels * spacing_.maxCoeff(), end.hold_beyond});
   }
 }
 
-const SurfaceSpeed::EndZone* SurfaceSpeed::zone_at(const Vec3& index) const {
+const SurfaceSpeed::EndZone* SurfaceSpeed::zone_at(const Vec3& index, bool& beyond) const {
+  beyond = false;
   for (const EndZone& zone : zones_) {
     const Vec3 away = index.cwiseProduct(spacing_) - zone.point;
     const double along = away.dot(zone.axis);
     if (std::abs(along) > zone.reach) continue;
-    if (away.squaredNorm() - along * along <= zone.radius * zone.radius) return &zone;
+    if (away.squaredNorm() - along * along > zone.radius * zone.radius) continue;
+    beyond = zone.hold_beyond && along > 0.0;
+    return &zone;
   }
   return nullptr;
 }
@@ -96,7 +116,9 @@ double SurfaceSpeed::change(const SparseField& field, std::int64_t n) const {
                   static_cast<double>(n / (size_[0] * size_[1])));
   const double to_foot = local.norm > 0.1 ? std::clamp(-local.value / local.norm, -h_, h_) : 0.0;
   const Vec3 foot = here + (to_foot * local.normal).cwiseQuotient(spacing_);
-  const EndZone* zone = zone_at(foot);
+  bool beyond = false;
+  const EndZone* zone = zone_at(foot, beyond);
+  if (beyond) return 0.0;
   const Sample feature = feature_.at(foot, local.normal);
   double change = 0.0;
   if (options_.advection > 0.0) {
@@ -104,22 +126,19 @@ double SurfaceSpeed::change(const SparseField& field, std::int64_t n) const {
     if (zone != nullptr) velocity -= velocity.dot(zone->axis) * zone->axis;
     const double speed = velocity.norm();
     if (speed > h_) velocity *= h_ / speed;
-    for (int d = 0; d < 3; ++d) change -= velocity[d] * (velocity[d] > 0.0 ? local.before[d] : local.after[d]);
+    // As a speed along the normal: in a thin vessel a voxel between two walls must not be carried off by one
+    // of them.
+    change -= local.advance(velocity.dot(local.normal));
   }
   if (options_.curvature > 0.0 && zone == nullptr) {
     const double fade = smooth_fade(feature.value, options_.curvature_needs_feature);
     change += fade * options_.curvature * h_ * h_ * curvature(field, n, local) * local.norm;
   }
   if (options_.inflation != 0.0 && zone == nullptr) {
-    const double g = inflation_speed_ ? inflation_speed_->at(foot, local.normal).value : 1.0 / (1.0 + feature.value);
+    const double g =
+        inflation_speed_ ? inflation_speed_->at(foot, local.normal).value : 1.0 / (1.0 + feature.value);
     const double speed = options_.inflation * h_ * g;
-    double squared = 0.0;
-    for (int d = 0; d < 3; ++d) {  // Osher and Sethian 1988
-      const double in = speed > 0.0 ? std::max(local.before[d], 0.0) : std::min(local.before[d], 0.0);
-      const double out = speed > 0.0 ? std::min(local.after[d], 0.0) : std::max(local.after[d], 0.0);
-      squared += in * in + out * out;
-    }
-    change -= speed * std::sqrt(squared);
+    change -= local.advance(speed);
   }
   return std::clamp(step_ * change, -0.5 * h_, 0.5 * h_);
 }

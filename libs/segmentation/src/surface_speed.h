@@ -1,18 +1,19 @@
 #pragma once
 /// \file What moves a level set at one voxel ([Antiga] eq. 1).
 
-#include <array>
-#include <vector>
-
-#include "ostia/imaging/volume.h"
-#include "ostia/segmentation/level_set.h"
 #include "pull.h"
 #include "sparse_field.h"
 
+#include "ostia/imaging/volume.h"
+#include "ostia/segmentation/level_set.h"
+
+#include <array>
+#include <vector>
+
 namespace ostia::segmentation::detail {
 
-/// The right-hand side of eq. 1 in the time unit in which a ridge one voxel wide is reached in a few steps: lengths are scaled
-/// by h = the least spacing, so that w2 and w3 mean the same whatever the voxel's size.
+/// The right-hand side of eq. 1 in the time unit in which a ridge one voxel wide is reached in a few steps:
+/// lengths are scaled by h = the least spacing, so that w2 and w3 mean the same whatever the voxel's size.
 class SurfaceSpeed {
  public:
   SurfaceSpeed(const imaging::Geometry& grid, const Pull& feature, const Pull* inflation_speed,
@@ -31,10 +32,11 @@ class SurfaceSpeed {
     Vec3 axis;
     double radius;
     double reach;
+    bool hold_beyond;
   };
   Local differentiate(const SparseField& field, std::int64_t n) const;
   double curvature(const SparseField& field, std::int64_t n, const Local& local) const;
-  const EndZone* zone_at(const Vec3& index) const;
+  const EndZone* zone_at(const Vec3& index, bool& beyond) const;
 
   const Pull& feature_;
   const Pull* inflation_speed_;

@@ -1,5 +1,8 @@
 #include "support/read_files.h"
 
+#include "ostia/core/files.h"
+#include "ostia/geometry/mesh_topology.h"
+
 #include <zlib.h>
 
 #include <cstdint>
@@ -7,9 +10,6 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
-
-#include "ostia/core/files.h"
-#include "ostia/geometry/mesh_topology.h"
 
 namespace ostia::testing {
 namespace {
@@ -76,7 +76,9 @@ std::string from_base64(const std::string& text, std::size_t first, std::size_t 
   return bytes;
 }
 
-std::size_t base64_size(std::size_t bytes) { return (bytes + 2) / 3 * 4; }
+std::size_t base64_size(std::size_t bytes) {
+  return (bytes + 2) / 3 * 4;
+}
 
 // One appended array: the header (blocks, block size, last block's size, compressed sizes), then the blocks.
 std::string appended_array(const std::string& text, std::size_t offset) {
@@ -94,8 +96,8 @@ std::string appended_array(const std::string& text, std::size_t offset) {
     uLongf size = b + 1 == blocks && last_size > 0 ? last_size : block_size;
     std::string block(size, '\0');
     const auto packed = value_at<std::uint32_t>(header, 12 + 4 * b);
-    if (uncompress(reinterpret_cast<Bytef*>(block.data()), &size, reinterpret_cast<const Bytef*>(data.data()) + at,
-                   packed) != Z_OK)
+    if (uncompress(reinterpret_cast<Bytef*>(block.data()), &size,
+                   reinterpret_cast<const Bytef*>(data.data()) + at, packed) != Z_OK)
       throw std::runtime_error("test input does not decompress");
     result += block;
     at += packed;

@@ -1,11 +1,11 @@
 #include "support/shapes.h"
 
+#include "ostia/geometry/isosurface.h"
+#include "ostia/geometry/polyline.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-
-#include "ostia/geometry/isosurface.h"
-#include "ostia/geometry/polyline.h"
 
 namespace ostia::testing {
 namespace {
@@ -22,7 +22,8 @@ struct OnAxis {
 OnAxis nearest_on(const Centerline& axis, const Vec3& p) {
   const auto place = geometry::closest(axis.points, p);
   const std::size_t next = std::min(place.segment + 1, axis.size() - 1);
-  return {(place.point - p).norm(), (1.0 - place.t) * axis.radius[place.segment] + place.t * axis.radius[next]};
+  return {(place.point - p).norm(),
+          (1.0 - place.t) * axis.radius[place.segment] + place.t * axis.radius[next]};
 }
 
 OnAxis nearest_on(const AnalyticShape& shape, std::size_t tubes, const Vec3& p) {
@@ -62,7 +63,8 @@ geometry::TriMesh capsule(double length, double radius, double spacing) {
     return (p - on_axis).norm() - radius;
   };
   const Vec3 margin = Vec3::Constant(radius + 2.0 * spacing);
-  return geometry::isosurface(f, geometry::Box3(Vec3(-margin), Vec3(margin + Vec3(0.0, 0.0, length))), spacing);
+  return geometry::isosurface(f, geometry::Box3(Vec3(-margin), Vec3(margin + Vec3(0.0, 0.0, length))),
+                              spacing);
 }
 
 bool identical(const centerline::CenterlineResult& a, const centerline::CenterlineResult& b) {
@@ -84,13 +86,15 @@ AxisError axis_error(const std::vector<Centerline>& lines, const AnalyticShape& 
       if (skip) continue;
       const OnAxis truth = nearest_on(shape, shape.tubes.size(), p);
       const double radius_error = std::abs(line.radius[i] / truth.radius - 1.0);
-      const Vec3 before = (p - line.points[i - 1]).normalized(), after = (line.points[i + 1] - p).normalized();
+      const Vec3 before = (p - line.points[i - 1]).normalized(),
+                 after = (line.points[i + 1] - p).normalized();
       ++error.points;
       error.mean_mm += truth.distance;
       error.max_mm = std::max(error.max_mm, truth.distance);
       error.mean_radius += radius_error;
       error.max_radius = std::max(error.max_radius, radius_error);
-      error.mean_turn_deg += std::atan2(before.cross(after).norm(), before.dot(after)) * 180.0 / std::numbers::pi;
+      error.mean_turn_deg +=
+          std::atan2(before.cross(after).norm(), before.dot(after)) * 180.0 / std::numbers::pi;
     }
   const double count = std::max<double>(1.0, static_cast<double>(error.points));
   error.mean_mm /= count;

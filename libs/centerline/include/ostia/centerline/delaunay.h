@@ -1,25 +1,27 @@
 #pragma once
 /// \file Delaunay tetrahedra of a point set, as plain arrays.
 
+#include "ostia/core/task_context.h"
+#include "ostia/geometry/vec.h"
+
 #include <array>
 #include <cstdint>
 #include <vector>
-
-#include "ostia/core/task_context.h"
-#include "ostia/geometry/vec.h"
 
 namespace ostia::centerline {
 
 /// The finite cells of a Delaunay triangulation.
 struct Delaunay {
-  std::vector<std::array<std::int32_t, 4>> cells;       ///< indices of points, positively oriented
-  std::vector<std::array<std::int32_t, 4>> neighbours;  ///< the cell beyond the face opposite corner i, -1 at the hull
-  std::size_t dropped_points = 0;                       ///< points equal to an earlier one
+  std::vector<std::array<std::int32_t, 4>> cells;  ///< indices of points, positively oriented
+  std::vector<std::array<std::int32_t, 4>>
+      neighbours;                  ///< the cell beyond the face opposite corner i, -1 at the hull
+  std::size_t dropped_points = 0;  ///< points equal to an earlier one
 };
 
-/// Exact predicates: no finite point is lost unless it equals another bit for bit. Cospherical points are resolved by symbolic
-/// perturbation, and the same points give the same cells in the same order. Throws InvalidInput for a point that is not finite,
-/// GeometryError for fewer than four points or points that all lie in a plane.
+/// Exact predicates: no finite point is lost unless it equals another bit for bit. Cospherical points are
+/// resolved by symbolic perturbation, and the same points give the same cells in the same order. Throws
+/// InvalidInput for a point that is not finite, GeometryError for fewer than four points or points that all
+/// lie in a plane.
 Delaunay delaunay(const std::vector<geometry::Vec3>& points, const core::TaskContext& task = core::no_task());
 
 }  // namespace ostia::centerline

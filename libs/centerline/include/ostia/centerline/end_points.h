@@ -1,13 +1,13 @@
 #pragma once
 /// \file Where centerlines begin and end: the open ends of a surface, and points given by a user.
 
+#include "ostia/centerline/inner_voronoi.h"
+#include "ostia/geometry/tri_mesh.h"
+
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
-
-#include "ostia/centerline/inner_voronoi.h"
-#include "ostia/geometry/tri_mesh.h"
 
 namespace ostia::centerline {
 
@@ -40,9 +40,11 @@ struct EndPoints {
   std::vector<std::string> warnings;
 };
 
-/// Decides source and targets as `extract_centerlines` describes. Throws InvalidInput or GeometryError that names the point.
+/// Decides source and targets as `extract_centerlines` describes. Throws InvalidInput or GeometryError that
+/// names the point.
 EndPoints choose_ends(const InnerVoronoi& diagram, const std::vector<Opening>& openings,
-                      const std::optional<geometry::Vec3>& source, const std::vector<geometry::Vec3>& targets);
+                      const std::optional<geometry::Vec3>& source,
+                      const std::vector<geometry::Vec3>& targets);
 
 /// "target 2 (1.5, 0, -3.25) mm": how messages name a point.
 std::string describe_point(const std::string& role, const geometry::Vec3& point);

@@ -1,12 +1,12 @@
 #pragma once
 /// \file Paths from one source joined to a tree of chains, and chains cut into segments.
 
+#include "ostia/centerline/axis_fit.h"
+#include "ostia/geometry/vessel_tree.h"
+
 #include <cstdint>
 #include <string>
 #include <vector>
-
-#include "ostia/centerline/axis_fit.h"
-#include "ostia/geometry/vessel_tree.h"
 
 namespace ostia::centerline {
 
@@ -23,12 +23,24 @@ struct ChainTree {
   std::vector<std::pair<std::int32_t, std::size_t>> ends;
 };
 
-/// Joins paths from a common source (each at equal steps, source first, in the order of `order`): a path leaves the others where
-/// it is, for the last time, closer to one of them than `merge_fraction` of the inscribed radius there.
-ChainTree merge_paths(const std::vector<Axis>& paths, const std::vector<std::size_t>& order, double merge_fraction);
+/// Joins paths from a common source (each at equal steps, source first, in the order of `order`): a path
+/// leaves the others where it is, for the last time, closer to one of them than `merge_fraction` of the
+/// inscribed radius there.
+ChainTree merge_paths(const std::vector<Axis>& paths, const std::vector<std::size_t>& order,
+                      double merge_fraction);
 
-/// The tree: chains cut where others begin or targets end, each piece resampled by a cubic spline at equal steps no longer than
-/// `step_mm`. Radii are interpolated; frames run on from parent to child. One vessel a target, named by `names`.
-geometry::VesselTree to_vessel_tree(const ChainTree& chains, double step_mm, const std::vector<std::string>& names);
+/// The tree, and the way to each target in it.
+struct SplitTree {
+  geometry::VesselTree tree;
+  std::vector<std::vector<std::int32_t>>
+      target_segments;                      ///< one a target: segment ids from the root; empty: at the root
+  std::vector<std::size_t> passed_targets;  ///< targets on the way to others, which end no vessel
+};
+
+/// Cuts chains where others begin or targets end, and resamples each piece by a cubic spline at equal steps
+/// no longer than `step_mm`. Radii are interpolated; frames run on from parent to child. One vessel a target,
+/// named by `names` or vessel_1, vessel_2, ..., but none for a target on the way to another: a vessel runs to
+/// an end of the tree.
+SplitTree split_tree(const ChainTree& chains, double step_mm, const std::vector<std::string>& names);
 
 }  // namespace ostia::centerline

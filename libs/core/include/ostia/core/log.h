@@ -11,6 +11,7 @@ enum class LogLevel { debug, info, warning, error, off };
 
 /// Where and how the process logs. Process-wide; the default is text, from `info` up.
 void set_log(LogFormat format, LogLevel level);
+LogFormat log_format();
 
 /// Registers a text that identifies a patient or may do so (a name, an identifier, a path the user gave). From now on it is
 /// replaced by `alias` in everything that is logged. Texts shorter than three characters are ignored.

@@ -53,9 +53,10 @@ struct ClippedSurface {
 
 /// Cuts the ends of `lumen` (manifold, oriented outward, closed or open) by one plane a root and a leaf of
 /// the tree. A plane cuts only the connected loop of triangles around its own axis, so a neighbouring branch
-/// is never touched. Loop points lie on their plane to round-off. Throws InvalidInput for bad options or
-/// tree, GeometryError naming the end that cannot be cut (plane misses the lumen, loop is not closed, more
-/// than the end would go), or a hole that belongs to no end.
+/// is never touched. A plane that does not cut cleanly is tried up to a radius farther inside, with a
+/// warning. Loop points lie on their plane to round-off. Throws InvalidInput for bad options or tree,
+/// GeometryError naming the end that cannot be cut (plane misses the lumen, loop is not closed, more than the
+/// end would go), or a hole that belongs to no end.
 ClippedSurface clip_ends(const geometry::TriMesh& lumen, const geometry::VesselTree& tree,
                          const ClipOptions& options = {}, const core::TaskContext& task = core::no_task());
 

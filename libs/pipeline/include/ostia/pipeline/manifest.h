@@ -32,6 +32,10 @@ void write_manifest(const std::filesystem::path& folder, const ManifestRecord& r
 /// The recorded exit code when the folder is whole and holds this very job done by this program version; nothing otherwise.
 std::optional<ExitCode> already_done(const std::filesystem::path& folder, const JobKey& key);
 
+/// Before any work: throws IoError when a folder cannot be made at `folder`, InvalidInput when one is there that holds anything but
+/// the files of an earlier job (it would be replaced as a whole).
+void require_free_folder(const std::filesystem::path& folder);
+
 /// Most memory this process has had resident, MB.
 double peak_memory_mb();
 std::string program_version();

@@ -25,7 +25,9 @@ struct ModelOptions {
   segmentation::SegmentOptions segment;
   std::optional<geometry::TaubinOptions> smoothing;  ///< of the segmentation's surface; none unless asked for
   centerline::CenterlineOptions centerline;
-  meshing::ClipOptions clip;
+  meshing::ClipOptions clip;                         ///< its inset_radii is set from the one below
+  /// How far inside its end a vessel is cut, in radii; left out: 0.4 for an image, whose ends were made flat by the seeds, else 1.
+  std::optional<double> inset_radii;
   meshing::SizingOptions sizing;
   meshing::RemeshOptions remesh;
   meshing::TetrahedralizeOptions tetrahedralize;
@@ -43,6 +45,7 @@ void require_sound_surface(const geometry::TriMesh& surface, const std::string& 
 
 /// From surface and centerlines to the mesh: cut, capped, remeshed, filled.
 struct MeshedLumen {
+  centerline::CenterlineResult centerlines;  ///< of the cut lumen: from its inlet's centre to its outlets' centres
   geometry::FacedSurface surface;            ///< closed, remeshed, named faces
   geometry::VolumeMesh mesh;
   meshing::RemeshReport remeshing;
@@ -52,6 +55,7 @@ struct MeshedLumen {
   std::vector<std::string> warnings;
   std::vector<StageTime> stages;
 };
+/// `tree` says where the ends are; sizes follow the centerlines of the cut lumen, whose radii no closed end narrows.
 MeshedLumen mesh_lumen(const geometry::TriMesh& lumen, const geometry::VesselTree& tree, const ModelOptions& options,
                        const core::TaskContext& task = core::no_task());
 
@@ -60,7 +64,6 @@ struct Model {
   Source source;
   std::vector<segmentation::BranchDiagnostics> branches;  ///< images only
   geometry::TriMesh lumen;                   ///< of the segmentation, or as given
-  centerline::CenterlineResult centerlines;
   MeshedLumen meshed;
   std::vector<std::string> warnings;         ///< of all stages
   std::vector<StageTime> stages;

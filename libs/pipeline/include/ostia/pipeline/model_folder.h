@@ -10,7 +10,7 @@
 
 namespace ostia::pipeline {
 
-/// Writes lumen.vtp, lumen.stl, centerlines.vtp, mesh.vtu, report.json, report.html and, last, manifest.json; the folder appears whole or not at all.
+/// Writes lumen.vtp, lumen.stl, centerlines.vtp, mesh.vtu, report.json, report.html, pictures/*.png and, last, manifest.json; the folder appears whole or not at all.
 /// Returns quality_failed when the gate did not pass, ok otherwise.
 ExitCode write_model_folder(const std::filesystem::path& folder, const Model& model, const ModelOptions& options, const JobKey& key,
                             const std::optional<TruthErrors>& truth, double seconds_before,

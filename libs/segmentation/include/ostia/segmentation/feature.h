@@ -10,17 +10,19 @@ namespace ostia::segmentation {
 /// How |grad I| is taken on the grid.
 enum class GradientScheme {
   centred,  ///< (I[i+1] - I[i-1]) / 2h
-  upwind    ///< max(-(I[i+1] - I[i]), I[i] - I[i-1]) / h ([Antiga] eq. 4): towards darker neighbours only, never below 0
+  upwind    ///< max(-(I[i+1] - I[i]), I[i] - I[i-1]) / h ([Antiga] eq. 4): towards darker neighbours only,
+            ///< never below 0
 };
 
-/// |grad I| in HU/mm on the voxels of `region`, with the spacing of each axis in its derivative; neighbours outside the region but
-/// inside the image are used, and at the border of the image differences are one-sided. Throws InvalidInput for a region that is
-/// empty or not inside the image.
+/// |grad I| in HU/mm on the voxels of `region`, with the spacing of each axis in its derivative; neighbours
+/// outside the region but inside the image are used, and at the border of the image differences are
+/// one-sided. Throws InvalidInput for a region that is empty or not inside the image.
 imaging::FloatVolume gradient_magnitude(const imaging::ImageVolume& image, const imaging::Region& region,
-                                        GradientScheme scheme, const core::TaskContext& task = core::no_task());
+                                        GradientScheme scheme,
+                                        const core::TaskContext& task = core::no_task());
 
-/// log(1 + (P/k)^2) / 2 of a gradient magnitude P (in place of P): the same ridges, but faint and strong walls pull alike, and
-/// what is below the noise `k_hu_per_mm` (> 0) pulls hardly at all.
+/// log(1 + (P/k)^2) / 2 of a gradient magnitude P (in place of P): the same ridges, but faint and strong
+/// walls pull alike, and what is below the noise `k_hu_per_mm` (> 0) pulls hardly at all.
 void compress_feature(imaging::FloatVolume& gradient_magnitude, double k_hu_per_mm);
 
 }  // namespace ostia::segmentation

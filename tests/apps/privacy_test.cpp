@@ -1,0 +1,47 @@
+// Nothing of a patient in what is written.
+
+#include <gmock/gmock.h>
+
+#include "ostia/core/files.h"
+#include "program.h"
+
+namespace ostia::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+TEST(Privacy, BadInput_Row40_NoNameOfAFolderOrFileIsWrittenAnywhere) {
+  const SmallCase small = small_case("DOE^JANE_image.nrrd");
+  const auto patient = small.folder / "DOE^JANE";
+  std::filesystem::create_directory(patient);
+  std::filesystem::rename(small.image, patient / "DOE^JANE_image.nrrd");
+  const std::vector<std::string> command =
+      std::vector<std::string>{"model", (patient / "DOE^JANE_image.nrrd").string(), "-o", "out", "--edge-ratio", "0.8", "--log", "json"} + small.branch_arguments;
+  const Outcome done = ostia(command, {small.folder, ""});
+  ASSERT_TRUE(done.code == 0 || done.code == 4) << done.err;
+  EXPECT_THAT(done.out + done.err, Not(HasSubstr("DOE^JANE")));
+  for (const std::string& name : names_in(small.folder / "out")) {
+    EXPECT_THAT(name, Not(HasSubstr("DOE^JANE")));
+    if (std::filesystem::is_directory(small.folder / "out" / name)) continue;
+    EXPECT_EQ(core::read_file(small.folder / "out" / name).find("DOE^JANE"), std::string::npos) << name;
+  }
+}
+
+TEST(Privacy, BadInput_Row40_NorInALogOfRefusals) {
+  const auto folder = temporary_folder("DOE^JANE");
+  core::write_file(folder / "DOE^JANE.nrrd", "NRRD0004\ntype: short\ndimension: 3\n\n");
+  core::write_file(folder / "DOE^JANE.stl", "hello");
+  const std::string image = (folder / "DOE^JANE.nrrd").string(), surface = (folder / "DOE^JANE.stl").string();
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"info", image}, {"info", surface}, {"info", image + "x"}, {"import", image, "-o", (folder / "DOE^JANE.mha").string()},
+        {"convert", surface, (folder / "missing" / "DOE^JANE.vtp").string()}, {"mesh", "--check", surface}, {"centerline", surface, "-o", "a.vtp"},
+        {"model", "--builtin", "-o", (folder / "missing" / "DOE^JANE").string()}}) {
+    const Outcome done = ostia(command + std::vector<std::string>{"--log", "json"});
+    EXPECT_EQ(done.code, 3) << command.front();
+    EXPECT_THAT(done.out + done.err, Not(HasSubstr("DOE^JANE"))) << command.front();
+  }
+}
+
+}  // namespace
+}  // namespace ostia::testing

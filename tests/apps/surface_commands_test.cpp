@@ -1,0 +1,96 @@
+// Faulty surfaces: refused where they cannot be used, mended where they can be.
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "ostia/io/surface_file.h"
+#include "program.h"
+
+namespace ostia::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using geometry::TriMesh;
+using Json = nlohmann::json;
+
+/// A box from `corner`, 10 mm wide, 12 triangles, outward.
+TriMesh box(const geometry::Vec3& corner = geometry::Vec3::Zero()) {
+  TriMesh mesh;
+  for (int i = 0; i < 8; ++i) mesh.points.push_back(corner + 10.0 * geometry::Vec3(i & 1, (i >> 1) & 1, (i >> 2) & 1));
+  mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  return mesh;
+}
+
+TriMesh both(TriMesh a, const TriMesh& b) {
+  const auto shift = static_cast<std::int32_t>(a.points.size());
+  a.points.insert(a.points.end(), b.points.begin(), b.points.end());
+  for (const geometry::Triangle& t : b.triangles) a.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
+  return a;
+}
+
+void expect_refused(const TriMesh& mesh, const std::string& what) {
+  const auto folder = temporary_folder("faulty");
+  io::write_surface(folder / "a.ply", mesh);
+  for (const std::vector<std::string>& command : {std::vector<std::string>{"mesh", "a.ply", "-o", "out"}, {"model", "a.ply", "-o", "out"}}) {
+    const Outcome done = ostia(command, {folder, ""});
+    EXPECT_EQ(done.code, 3) << command.front() << done.err;
+    EXPECT_THAT(done.err, HasSubstr(what)) << command.front();
+    EXPECT_EQ(names_in(folder).size(), 1u) << command.front();
+  }
+}
+
+TEST(SurfaceCommands, BadInput_Row35_RefusesSeveralParts) { expect_refused(both(box(), box({30, 0, 0})), "separate parts"); }
+
+TEST(SurfaceCommands, BadInput_Row35_RefusesSelfIntersections) { expect_refused(both(box(), box({5, 4, 3})), "intersect"); }
+
+TEST(SurfaceCommands, BadInput_Row35_RefusesDuplicateTriangles) {
+  TriMesh mesh = box();
+  mesh.triangles.push_back(mesh.triangles[3]);
+  expect_refused(mesh, "cannot be used as it is");
+}
+
+TEST(SurfaceCommands, RepairTurnsTrianglesAndDropsCopiesAndParts) {
+  const auto folder = temporary_folder("repair");
+  TriMesh mesh = box();
+  TriMesh crumb = box({30, 0, 0});
+  for (geometry::Vec3& p : crumb.points) p = geometry::Vec3(30, 0, 0) + 0.1 * (p - geometry::Vec3(30, 0, 0));
+  mesh = both(mesh, crumb);
+  std::swap(mesh.triangles[2][0], mesh.triangles[2][1]);
+  mesh.triangles.push_back(mesh.triangles[0]);
+  io::write_surface(folder / "a.ply", mesh);
+  ASSERT_EQ(ostia({"convert", "a.ply", "b.ply", "--repair"}, {folder, ""}).code, 0);
+  const Json mended = Json::parse(ostia({"info", "b.ply", "--json"}, {folder, ""}).out);
+  EXPECT_EQ(mended["components"], 1);
+  EXPECT_EQ(mended["open_edges"], 0);
+  EXPECT_EQ(mended["non_manifold_edges"], 0);
+  EXPECT_EQ(mended["duplicate_triangles"], 0);
+  EXPECT_NEAR(mended["volume_mm3"].get<double>(), 1000.0, 1e-3);
+}
+
+TEST(SurfaceCommands, CheckJudgesByItsExitCode) {
+  const auto folder = temporary_folder("check");
+  TriMesh open = box();
+  open.triangles.pop_back();
+  io::write_surface(folder / "closed.stl", box());
+  io::write_surface(folder / "open.stl", open);
+  const Outcome good = ostia({"mesh", "--check", "closed.stl", "--json"}, {folder, ""});
+  EXPECT_EQ(good.code, 0) << good.err;
+  EXPECT_NEAR(Json::parse(good.out)["min_angle_deg"].get<double>(), 45.0, 1e-3);
+  const Outcome bad = ostia({"mesh", "--check", "open.stl", "--json"}, {folder, ""});
+  EXPECT_EQ(bad.code, 4) << bad.err;
+  EXPECT_EQ(Json::parse(bad.out)["open_edges"], 3);
+}
+
+TEST(SurfaceCommands, AsksForTheUnit) {
+  const auto folder = temporary_folder("unit");
+  TriMesh metres = box();
+  for (geometry::Vec3& p : metres.points) p *= 1e-6;
+  io::write_surface(folder / "a.ply", metres);
+  const Outcome done = ostia({"mesh", "a.ply", "-o", "out"}, {folder, ""});
+  EXPECT_EQ(done.code, 3);
+  EXPECT_THAT(done.err, HasSubstr("--units"));
+}
+
+}  // namespace
+}  // namespace ostia::testing

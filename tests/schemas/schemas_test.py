@@ -1,0 +1,103 @@
+"""Validates what `ostia` writes against docs/schemas, and proves that a broken document fails.
+
+Usage: schemas_test.py OSTIA SCHEMA_FOLDER
+"""
+
+import copy
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+try:
+    import jsonschema
+except ImportError:
+    print("skipped: needs python3-jsonschema")
+    sys.exit(77)
+
+PROGRAM, FOLDER = sys.argv[1], pathlib.Path(sys.argv[2])
+SCHEMAS = {path.name: json.loads(path.read_text()) for path in FOLDER.glob("*.schema.json")}
+
+
+def validator(name):
+    schema = SCHEMAS[name + ".schema.json"]
+    resolver = jsonschema.RefResolver(base_uri=schema["$id"], referrer=schema, store=SCHEMAS)
+    return jsonschema.Draft202012Validator(schema, resolver=resolver)
+
+
+def run(*arguments, codes=(0,)):
+    done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=500, check=False)
+    assert done.returncode in codes, f"{arguments}: {done.returncode}: {done.stderr}"
+    return done.stdout
+
+
+class Schemas(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.holder = tempfile.TemporaryDirectory()
+        cls.folder = pathlib.Path(cls.holder.name) / "out"
+        cls.printed = json.loads(run("model", "--builtin", "-o", cls.folder, "--edge-ratio", "0.6", "--json", codes=(0, 4)))
+        cls.report = json.loads((cls.folder / "report.json").read_text())
+        cls.manifest = json.loads((cls.folder / "manifest.json").read_text())
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.holder.cleanup()
+
+    def assert_refused(self, name, document):
+        with self.assertRaises(jsonschema.ValidationError):
+            validator(name).validate(document)
+
+    def test_schemas_are_schemas(self):
+        self.assertGreaterEqual(len(SCHEMAS), 4)
+        for name, schema in SCHEMAS.items():
+            with self.subTest(name):
+                jsonschema.Draft202012Validator.check_schema(schema)
+
+    def test_report(self):
+        validator("report").validate(self.report)
+        validator("report").validate(self.printed)
+
+    def test_manifest(self):
+        validator("manifest").validate(self.manifest)
+
+    def test_quality(self):
+        for file in ("mesh.vtu", "lumen.stl"):
+            validator("quality").validate(json.loads(run("mesh", "--check", self.folder / file, "--json", codes=(0, 4))))
+
+    def test_info(self):
+        validator("info").validate(json.loads(run("info", self.folder / "lumen.stl", "--json")))
+        image = pathlib.Path(self.holder.name) / "image.nrrd"
+        header = ("NRRD0004\ntype: short\ndimension: 3\nspace: left-posterior-superior\nsizes: 3 4 5\n"
+                  "space directions: (1,0,0) (0,1,0) (0,0,1)\nkinds: domain domain domain\nendian: little\n"
+                  "encoding: raw\nspace origin: (0,0,0)\n\n")
+        image.write_bytes(header.encode() + b"".join(i.to_bytes(2, "little") for i in range(60)))
+        validator("info").validate(json.loads(run("info", image, "--json")))
+        empty = pathlib.Path(self.holder.name) / "empty"
+        empty.mkdir()
+        printed = run("info", empty, "--json", codes=(0, 3))
+        if printed:
+            validator("info").validate(json.loads(printed))
+
+    def test_broken_documents_fail(self):
+        for field in self.report:
+            broken = copy.deepcopy(self.report)
+            del broken[field]
+            with self.subTest(field):
+                self.assert_refused("report", broken)
+        for change in ({"exit_code": 3}, {"outputs": {"a": "not a digest"}}, {"finished": "yesterday"}, {"path": "/home/x"}, {"v": 2}):
+            with self.subTest(change):
+                self.assert_refused("manifest", {**self.manifest, **change})
+        quality = copy.deepcopy(self.manifest["quality"])
+        quality["surface"]["min_angle_deg"] = "large"
+        self.assert_refused("quality", quality)
+        quality = copy.deepcopy(self.manifest["quality"])
+        quality["verdict"] = {"passed": True, "reasons": ["a reason"]}
+        self.assert_refused("quality", quality)
+        self.assert_refused("info", {"kind": "surface"})
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

@@ -5,11 +5,14 @@
 #include "ostia/core/log.h"
 #include "ostia/io/centerline_file.h"
 #include "ostia/io/surface_file.h"
+#include "outputs.h"
 #include "points.h"
 
 namespace ostia::app {
 
 ExitCode run_centerline(const CenterlineCommand& options, const core::TaskContext& task) {
+  require_output(options.output, line_outputs);
+  require_output(options.canal, surface_outputs);
   task.set_stage("reading");
   const pipeline::Source source = pipeline::load(options.input.input, source_options(options.input), task.sub(0.0, 0.1));
   for (const std::string& warning : source.warnings) core::log_warning(warning);

@@ -4,11 +4,14 @@
 #include "ostia/imaging/image_file.h"
 #include "ostia/io/surface_file.h"
 #include "ostia/pipeline/branch_ends.h"
+#include "outputs.h"
 #include "points.h"
 
 namespace ostia::app {
 
 ExitCode run_segment(const SegmentCommand& options, const core::TaskContext& task) {
+  require_output(options.output, surface_outputs);
+  require_output(options.level_set, image_outputs);
   task.set_stage("reading");
   const pipeline::Source source = pipeline::load(options.input.input, source_options(options.input), task.sub(0.0, 0.3));
   for (const std::string& warning : source.warnings) core::log_warning(warning);

@@ -35,26 +35,23 @@ void run(benchmark::State& state, const geometry::TriMesh& surface) {
   core::set_max_threads(0);
 }
 
-// The argument is the grid's spacing in micrometres.
-void centerlines_of_exact_surface(benchmark::State& state) {
-  run(state, geometry::surface_of(tree(), 1e-3 * static_cast<double>(state.range(0)), true));
+void centerlines(benchmark::State& state, double spacing_mm, bool raw) {
+  run(state, raw ? geometry::raw_surface_of(tree(), spacing_mm, true) : geometry::surface_of(tree(), spacing_mm, true));
 }
-BENCHMARK(centerlines_of_exact_surface)
-    ->Arg(500)
-    ->Arg(250)
-    ->Arg(125)
-    ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime();
 
-void centerlines_of_raw_surface(benchmark::State& state) {
-  run(state, geometry::raw_surface_of(tree(), 1e-3 * static_cast<double>(state.range(0)), true));
+void add(const char* name, double spacing_mm, bool raw) {
+  benchmark::RegisterBenchmark(name, centerlines, spacing_mm, raw)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 }
-BENCHMARK(centerlines_of_raw_surface)
-    ->Arg(250)
-    ->Arg(125)
-    ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime();
 
 }  // namespace
 
-BENCHMARK_MAIN();
+int main(int argc, char** argv) {
+  add("centerlines of a coronary-like tree, 15k triangles, 5 ends", 0.5, false);
+  add("centerlines of a coronary-like tree, 59k triangles, 5 ends", 0.2525, false);
+  add("centerlines of a coronary-like tree, 255k triangles, 5 ends", 0.1216, false);
+  add("centerlines of a raw marching-cubes surface, 59k triangles, 5 ends", 0.2525, true);
+  add("centerlines of a raw marching-cubes surface, 255k triangles, 5 ends", 0.1216, true);
+  benchmark::Initialize(&argc, argv);
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}

@@ -1,14 +1,15 @@
 // Wrong usage, help, configuration, what goes to which stream, places that cannot be written.
 
-#include <gmock/gmock.h>
-
-#include <fstream>
-#include <nlohmann/json.hpp>
+#include "program.h"
 
 #include "ostia/core/files.h"
 #include "ostia/geometry/analytic_shapes.h"
 #include "ostia/io/surface_file.h"
-#include "program.h"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <fstream>
 
 namespace ostia::testing {
 namespace {
@@ -25,7 +26,8 @@ geometry::TriMesh tetrahedron() {
 
 class EveryCommand : public ::testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(CommandLine, EveryCommand,
-                         ::testing::Values("info", "import", "segment", "centerline", "mesh", "convert", "model"));
+                         ::testing::Values("info", "import", "segment", "centerline", "mesh", "convert",
+                                           "model"));
 
 TEST_P(EveryCommand, ExplainsItselfWithAnExample) {
   const Outcome done = ostia({GetParam(), "--help"});
@@ -48,8 +50,13 @@ TEST(CommandLine, SaysItsVersion) {
 }
 
 TEST(CommandLine, WrongUsageIsTwo) {
-  for (const std::vector<std::string>& wrong : {std::vector<std::string>{}, {"nothing"}, {"model", "-o", "x"}, {"model", "a.nrrd", "--builtin", "-o", "x"},
-                                                {"mesh"}, {"info", "a.nrrd", "--threads", "-1"}, {"info", "a.nrrd", "--coords", "mni"}}) {
+  for (const std::vector<std::string>& wrong : {std::vector<std::string>{},
+                                                {"nothing"},
+                                                {"model", "-o", "x"},
+                                                {"model", "a.nrrd", "--builtin", "-o", "x"},
+                                                {"mesh"},
+                                                {"info", "a.nrrd", "--threads", "-1"},
+                                                {"info", "a.nrrd", "--coords", "mni"}}) {
     EXPECT_EQ(ostia(wrong).code, 2) << ::testing::PrintToString(wrong);
   }
 }
@@ -73,7 +80,8 @@ TEST(CommandLine, AsksForTheBranchesOfAnImage) {
   const Outcome done = ostia({"model", small.image.string(), "-o", "out"}, {small.folder, ""});
   EXPECT_EQ(done.code, 3);
   EXPECT_THAT(done.err, HasSubstr("--branch"));
-  EXPECT_EQ(ostia({"model", small.image.string(), "-o", "out", "--branch", "1,2:3,4"}, {small.folder, ""}).code, 3);
+  EXPECT_EQ(
+      ostia({"model", small.image.string(), "-o", "out", "--branch", "1,2:3,4"}, {small.folder, ""}).code, 3);
   EXPECT_EQ(names_in(small.folder).size(), 1u);
 }
 
@@ -155,7 +163,8 @@ TEST(CommandLine, BadInput_Row36_AnyPath) {
 }
 
 TEST(CommandLine, BadInput_Row36_GermanLocale) {
-  if (std::system("locale -a 2>/dev/null | grep -qi '^de_DE.utf-*8$'") != 0) GTEST_SKIP() << "needs the locale de_DE.UTF-8";
+  if (std::system("locale -a 2>/dev/null | grep -qi '^de_DE.utf-*8$'") != 0)
+    GTEST_SKIP() << "needs the locale de_DE.UTF-8";
   const auto folder = temporary_folder("locale");
   geometry::TriMesh mesh = tetrahedron();
   mesh.points[1].x() = 10.5;

@@ -1,9 +1,10 @@
 // Nothing of a patient in what is written.
 
-#include <gmock/gmock.h>
+#include "program.h"
 
 #include "ostia/core/files.h"
-#include "program.h"
+
+#include <gmock/gmock.h>
 
 namespace ostia::testing {
 namespace {
@@ -17,7 +18,10 @@ TEST(Privacy, BadInput_Row40_NoNameOfAFolderOrFileIsWrittenAnywhere) {
   std::filesystem::create_directory(patient);
   std::filesystem::rename(small.image, patient / "DOE^JANE_image.nrrd");
   const std::vector<std::string> command =
-      std::vector<std::string>{"model", (patient / "DOE^JANE_image.nrrd").string(), "-o", "out", "--edge-ratio", "0.8", "--log", "json"} + small.branch_arguments;
+      std::vector<std::string>{
+          "model", (patient / "DOE^JANE_image.nrrd").string(), "-o", "out", "--edge-ratio", "0.8", "--log",
+          "json"} +
+      small.branch_arguments;
   const Outcome done = ostia(command, {small.folder, ""});
   ASSERT_TRUE(done.code == 0 || done.code == 4) << done.err;
   EXPECT_THAT(done.out + done.err, Not(HasSubstr("DOE^JANE")));
@@ -34,8 +38,13 @@ TEST(Privacy, BadInput_Row40_NorInALogOfRefusals) {
   core::write_file(folder / "DOE^JANE.stl", "hello");
   const std::string image = (folder / "DOE^JANE.nrrd").string(), surface = (folder / "DOE^JANE.stl").string();
   for (const std::vector<std::string>& command :
-       {std::vector<std::string>{"info", image}, {"info", surface}, {"info", image + "x"}, {"import", image, "-o", (folder / "DOE^JANE.mha").string()},
-        {"convert", surface, (folder / "missing" / "DOE^JANE.vtp").string()}, {"mesh", "--check", surface}, {"centerline", surface, "-o", "a.vtp"},
+       {std::vector<std::string>{"info", image},
+        {"info", surface},
+        {"info", image + "x"},
+        {"import", image, "-o", (folder / "DOE^JANE.mha").string()},
+        {"convert", surface, (folder / "missing" / "DOE^JANE.vtp").string()},
+        {"mesh", "--check", surface},
+        {"centerline", surface, "-o", "a.vtp"},
         {"model", "--builtin", "-o", (folder / "missing" / "DOE^JANE").string()}}) {
     const Outcome done = ostia(command + std::vector<std::string>{"--log", "json"});
     EXPECT_EQ(done.code, 3) << command.front();

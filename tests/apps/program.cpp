@@ -1,5 +1,9 @@
 #include "program.h"
 
+#include "ostia/core/files.h"
+#include "ostia/imaging/image_file.h"
+#include "ostia/phantom/builtin_case.h"
+
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -9,19 +13,20 @@
 #include <cstdlib>
 #include <thread>
 
-#include "ostia/core/files.h"
-#include "ostia/imaging/image_file.h"
-#include "ostia/phantom/builtin_case.h"
-
 namespace ostia::testing {
 namespace fs = std::filesystem;
 namespace {
 
-int exit_code(int status) { return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status); }
+int exit_code(int status) {
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
 
-std::string command_line(const std::vector<std::string>& arguments, const Setting& setting, const fs::path& catcher) {
-  std::string line = "cd " + quoted((setting.folder.empty() ? catcher : setting.folder).string()) + " && " + setting.before + " ";
-  if (setting.before.find("ulimit") == std::string::npos && setting.before.find('=') == std::string::npos) line += "exec ";
+std::string command_line(const std::vector<std::string>& arguments, const Setting& setting,
+                         const fs::path& catcher) {
+  std::string line = "cd " + quoted((setting.folder.empty() ? catcher : setting.folder).string()) + " && " +
+                     setting.before + " ";
+  if (setting.before.find("ulimit") == std::string::npos && setting.before.find('=') == std::string::npos)
+    line += "exec ";
   line += quoted(OSTIA_PROGRAM);
   for (const std::string& argument : arguments) line += " " + quoted(argument);
   return line;
@@ -31,9 +36,13 @@ Outcome collected(int code, const fs::path& catcher) {
   return {code, core::read_file(catcher / "out"), core::read_file(catcher / "err")};
 }
 
-std::string number(double value) { return std::to_string(value); }
+std::string number(double value) {
+  return std::to_string(value);
+}
 
-std::string point(const geometry::Vec3& p) { return number(p.x()) + "," + number(p.y()) + "," + number(p.z()); }
+std::string point(const geometry::Vec3& p) {
+  return number(p.x()) + "," + number(p.y()) + "," + number(p.z());
+}
 
 }  // namespace
 
@@ -45,14 +54,17 @@ std::string quoted(const std::string& word) {
 
 Outcome ostia(const std::vector<std::string>& arguments, const Setting& setting) {
   const fs::path catcher = temporary_folder("run");
-  const std::string line = "( " + command_line(arguments, setting, catcher) + " ) >" + quoted((catcher / "out").string()) + " 2>" +
-                           quoted((catcher / "err").string()) + " </dev/null";
+  const std::string line = "( " + command_line(arguments, setting, catcher) + " ) >" +
+                           quoted((catcher / "out").string()) + " 2>" + quoted((catcher / "err").string()) +
+                           " </dev/null";
   return collected(exit_code(std::system(line.c_str())), catcher);
 }
 
-Outcome interrupted(const std::vector<std::string>& arguments, const Setting& setting, int signal, double seconds, double& seconds_to_end) {
+Outcome interrupted(const std::vector<std::string>& arguments, const Setting& setting, int signal,
+                    double seconds, double& seconds_to_end) {
   const fs::path catcher = temporary_folder("run");
-  const std::string line = "exec >" + quoted((catcher / "out").string()) + " 2>" + quoted((catcher / "err").string()) + "; " +
+  const std::string line = "exec >" + quoted((catcher / "out").string()) + " 2>" +
+                           quoted((catcher / "err").string()) + "; " +
                            command_line(arguments, setting, catcher);
   const pid_t child = ::fork();
   if (child == 0) {
@@ -70,7 +82,8 @@ Outcome interrupted(const std::vector<std::string>& arguments, const Setting& se
 
 std::vector<std::string> names_in(const fs::path& folder) {
   std::vector<std::string> names;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) names.push_back(fs::relative(entry.path(), folder).string());
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    names.push_back(fs::relative(entry.path(), folder).string());
   std::sort(names.begin(), names.end());
   return names;
 }
@@ -93,8 +106,10 @@ SmallCase small_case(const std::string& image_name) {
     const auto ras = [](const geometry::Vec3& p) { return geometry::Vec3(-p.x(), -p.y(), p.z()); };
     const auto ijk = [&](const geometry::Vec3& p) { return made.image.geometry.index(p); };
     out.branch_arguments.insert(out.branch_arguments.end(), {"--branch", point(from) + ":" + point(to)});
-    out.branch_arguments_ras.insert(out.branch_arguments_ras.end(), {"--branch", point(ras(from)) + ":" + point(ras(to))});
-    out.branch_arguments_ijk.insert(out.branch_arguments_ijk.end(), {"--branch", point(ijk(from)) + ":" + point(ijk(to))});
+    out.branch_arguments_ras.insert(out.branch_arguments_ras.end(),
+                                    {"--branch", point(ras(from)) + ":" + point(ras(to))});
+    out.branch_arguments_ijk.insert(out.branch_arguments_ijk.end(),
+                                    {"--branch", point(ijk(from)) + ":" + point(ijk(to))});
   }
   return out;
 }

@@ -1,16 +1,16 @@
 #pragma once
 /// \file The program under test, run as a user runs it.
 
+#include "shared_data.h"
+
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "shared_data.h"
-
 namespace ostia::testing {
 
 struct Outcome {
-  int code = -1;          ///< exit code; 128 + n when signal n ended it
+  int code = -1;  ///< exit code; 128 + n when signal n ended it
   std::string out, err;
 };
 
@@ -27,7 +27,8 @@ std::string quoted(const std::string& word);
 Outcome ostia(const std::vector<std::string>& arguments, const Setting& setting = {});
 
 /// Starts it, sends `signal` after `seconds`, waits. Sets how long it took to end from then on.
-Outcome interrupted(const std::vector<std::string>& arguments, const Setting& setting, int signal, double seconds, double& seconds_to_end);
+Outcome interrupted(const std::vector<std::string>& arguments, const Setting& setting, int signal,
+                    double seconds, double& seconds_to_end);
 
 /// The names of all that a folder holds, at any depth, sorted.
 std::vector<std::string> names_in(const std::filesystem::path& folder);

@@ -1,38 +1,42 @@
 // Faulty surfaces: refused where they cannot be used, mended where they can be.
 
-#include <gmock/gmock.h>
-
-#include <nlohmann/json.hpp>
+#include "program.h"
 
 #include "ostia/io/surface_file.h"
-#include "program.h"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 
 namespace ostia::testing {
 namespace {
 
-using ::testing::HasSubstr;
 using geometry::TriMesh;
+using ::testing::HasSubstr;
 using Json = nlohmann::json;
 
 /// A box from `corner`, 10 mm wide, 12 triangles, outward.
 TriMesh box(const geometry::Vec3& corner = geometry::Vec3::Zero()) {
   TriMesh mesh;
-  for (int i = 0; i < 8; ++i) mesh.points.push_back(corner + 10.0 * geometry::Vec3(i & 1, (i >> 1) & 1, (i >> 2) & 1));
-  mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  for (int i = 0; i < 8; ++i)
+    mesh.points.push_back(corner + 10.0 * geometry::Vec3(i & 1, (i >> 1) & 1, (i >> 2) & 1));
+  mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                    {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
   return mesh;
 }
 
 TriMesh both(TriMesh a, const TriMesh& b) {
   const auto shift = static_cast<std::int32_t>(a.points.size());
   a.points.insert(a.points.end(), b.points.begin(), b.points.end());
-  for (const geometry::Triangle& t : b.triangles) a.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
+  for (const geometry::Triangle& t : b.triangles)
+    a.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
   return a;
 }
 
 void expect_refused(const TriMesh& mesh, const std::string& what) {
   const auto folder = temporary_folder("faulty");
   io::write_surface(folder / "a.ply", mesh);
-  for (const std::vector<std::string>& command : {std::vector<std::string>{"mesh", "a.ply", "-o", "out"}, {"model", "a.ply", "-o", "out"}}) {
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"mesh", "a.ply", "-o", "out"}, {"model", "a.ply", "-o", "out"}}) {
     const Outcome done = ostia(command, {folder, ""});
     EXPECT_EQ(done.code, 3) << command.front() << done.err;
     EXPECT_THAT(done.err, HasSubstr(what)) << command.front();
@@ -40,9 +44,13 @@ void expect_refused(const TriMesh& mesh, const std::string& what) {
   }
 }
 
-TEST(SurfaceCommands, BadInput_Row35_RefusesSeveralParts) { expect_refused(both(box(), box({30, 0, 0})), "separate parts"); }
+TEST(SurfaceCommands, BadInput_Row35_RefusesSeveralParts) {
+  expect_refused(both(box(), box({30, 0, 0})), "separate parts");
+}
 
-TEST(SurfaceCommands, BadInput_Row35_RefusesSelfIntersections) { expect_refused(both(box(), box({5, 4, 3})), "intersect"); }
+TEST(SurfaceCommands, BadInput_Row35_RefusesSelfIntersections) {
+  expect_refused(both(box(), box({5, 4, 3})), "intersect");
+}
 
 TEST(SurfaceCommands, BadInput_Row35_RefusesDuplicateTriangles) {
   TriMesh mesh = box();

@@ -100,6 +100,19 @@ TEST(StagedFolder, AppearsWholeOrNotAtAll) {
   EXPECT_EQ(read_file(folder / "out" / "a"), "2");
 }
 
+TEST(StagedFolder, MessagesNameWhatTheUserAskedFor) {
+  const fs::path folder = testing::temporary_folder("files");
+  const StagedFolder staged(folder / "out");
+  try {
+    write_file(staged.temporary() / "missing" / "a", "1");
+    FAIL();
+  } catch (const IoError& error) {
+    const std::string message = error.what();
+    EXPECT_NE(message.find((folder / "out" / "missing").string()), std::string::npos) << message;
+    EXPECT_EQ(message.find(".part-"), std::string::npos) << message;
+  }
+}
+
 TEST(StagedFolder, ReplacesAnOldOneWhole) {
   const fs::path folder = testing::temporary_folder("files");
   fs::create_directory(folder / "out");

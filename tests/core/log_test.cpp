@@ -26,6 +26,11 @@ TEST_F(Log, IgnoresSecretsTooShortToMatter) {
   EXPECT_EQ(redacted("a cat"), "a cat");
 }
 
+TEST_F(Log, LeavesWordsAloneThatOnlyHoldAShortSecret) {
+  redact_in_logs("jane", "patient-2");
+  EXPECT_EQ(redacted("jane/1.dcm lies outside of janeway, not /jane."), "patient-2/1.dcm lies outside of janeway, not /patient-2.");
+}
+
 TEST_F(Log, WritesJsonLines) {
   set_log(LogFormat::json, LogLevel::info);
   ::testing::internal::CaptureStderr();

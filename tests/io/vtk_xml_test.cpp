@@ -1,25 +1,29 @@
-#include <string>
-
 #include "io_test_support.h"
+
 #include "ostia/io/surface_file.h"
+
+#include <string>
 
 namespace ostia::io {
 namespace {
 
-std::string vtp(const std::string& connectivity, const std::string& offsets, const std::string& points = "3", const std::string& polys = "1",
-                const std::string& prolog = "") {
+std::string vtp(const std::string& connectivity, const std::string& offsets, const std::string& points = "3",
+                const std::string& polys = "1", const std::string& prolog = "") {
   return "<?xml version=\"1.0\"?>\n" + prolog +
-         "<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\">\n<PolyData>\n<Piece NumberOfPoints=\"" + points +
-         "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" + polys +
-         "\">\n<Points><DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 0 1 0</DataArray></Points>\n"
-         "<Polys><DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">" + connectivity +
-         "</DataArray>\n<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">" + offsets +
-         "</DataArray></Polys>\n</Piece>\n</PolyData>\n</VTKFile>\n";
+         "<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\">\n<PolyData>\n<Piece "
+         "NumberOfPoints=\"" +
+         points + "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" + polys +
+         "\">\n<Points><DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 0 1 "
+         "0</DataArray></Points>\n"
+         "<Polys><DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">" +
+         connectivity + "</DataArray>\n<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">" +
+         offsets + "</DataArray></Polys>\n</Piece>\n</PolyData>\n</VTKFile>\n";
 }
 
 void expect_refused(const std::string& content, const std::vector<std::string>& parts) {
   const auto path = file_with("a.vtp", content);
-  expect_refusal(path, [&] { read_surface(path); }, parts);
+  expect_refusal(
+      path, [&] { read_surface(path); }, parts);
 }
 
 TEST(VtkXml, ReadsASoundFile) {
@@ -29,7 +33,8 @@ TEST(VtkXml, ReadsASoundFile) {
 TEST(VtkXml, BadInput_Row32_Entities) {
   const std::string bomb = "<!DOCTYPE lolz [<!ENTITY lol \"lol\"><!ENTITY lol2 \"&lol;&lol;&lol;\">]>\n";
   expect_refused(vtp("0 1 2", "3", "3", "1", bomb), {"entities"});
-  expect_refused(vtp("0 1 2", "3", "3", "1", "<!DOCTYPE a [<!ENTITY x SYSTEM \"file:///etc/passwd\">]>\n"), {"entities"});
+  expect_refused(vtp("0 1 2", "3", "3", "1", "<!DOCTYPE a [<!ENTITY x SYSTEM \"file:///etc/passwd\">]>\n"),
+                 {"entities"});
 }
 
 TEST(VtkXml, BadInput_Row33_ConnectivityOutOfRange) {
@@ -57,7 +62,8 @@ TEST(VtkXml, RefusesFilesThatEndVtksReader) {
   write_surface(folder / "a.vtp", faced_tetrahedron());
   const std::string whole = core::read_file(folder / "a.vtp");
   const std::size_t data = whole.find("<AppendedData");
-  for (std::size_t at = data + 20; at < whole.size(); at += 29) {  // wherever it is damaged, it is read or refused
+  for (std::size_t at = data + 20; at < whole.size();
+       at += 29) {  // wherever it is damaged, it is read or refused
     std::string damaged = whole;
     damaged[at] = static_cast<char>(damaged[at] ^ 0x55);
     const auto path = file_with("a.vtp", damaged);

@@ -56,6 +56,21 @@ TEST(Manifest, IsNotDoneWhenAnOutputWasTouched) {
   EXPECT_FALSE(already_done(folder, key()));
 }
 
+TEST(Manifest, OnlyNewEmptyOrOwnFoldersAreFree) {
+  const auto folder = testing::temporary_folder("manifest");
+  EXPECT_NO_THROW(require_free_folder(folder / "new"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "new"));
+  EXPECT_NO_THROW(require_free_folder(folder));
+  EXPECT_THROW(require_free_folder(folder / "."), InvalidInput);
+  EXPECT_THROW(require_free_folder(folder / "missing" / "new"), IoError);
+  const auto own = done_folder(ExitCode::ok);
+  EXPECT_NO_THROW(require_free_folder(own));
+  core::write_file(own / "letter.txt", "mine");
+  EXPECT_THROW(require_free_folder(own), InvalidInput);
+  core::write_file(folder / "manifest.json", R"({"outputs": 3})");
+  EXPECT_THROW(require_free_folder(folder), InvalidInput);
+}
+
 TEST(Manifest, SurvivesNonsenseInItsPlace) {
   const auto folder = testing::temporary_folder("manifest");
   core::write_file(folder / "manifest.json", "{");

@@ -38,19 +38,35 @@ EndPoint end_at_opening(const InnerVoronoi& diagram, const Opening& opening) {
   return {snap(diagram, opening.centre).point, opening.centre, true};
 }
 
+/// The sphere that holds a point outside the surface deepest once all are grown by the tolerance; -1 when none does. The nearest
+/// sphere alone will not do: in the corners of a flat end there are small ones.
+std::int32_t just_behind(const InnerVoronoi& diagram, const Vec3& point) {
+  std::int32_t best = -1;
+  double depth = 0.0;
+  for (std::size_t i = 0; i < diagram.points.size(); ++i) {
+    const double here = (1.0 + outside_tolerance) * diagram.radius[i] - (diagram.points[i] - point).norm();
+    if (here > depth) {
+      depth = here;
+      best = static_cast<std::int32_t>(i);
+    }
+  }
+  return best;
+}
+
 EndPoint end_at_point(const InnerVoronoi& diagram, const std::vector<Opening>& ends, const Vec3& point,
                       const std::string& role) {
   if (!point.allFinite()) throw InvalidInput(role + " has a coordinate that is not finite");
   if (const Opening* opening = opening_near(ends, point)) return end_at_opening(diagram, *opening);
   const Snapped snapped = snap(diagram, point);
-  const auto i = static_cast<std::size_t>(snapped.point);
-  if (snapped.depth < -outside_tolerance * diagram.radius[i]) {
+  if (snapped.depth >= 0.0) return {snapped.point, diagram.points[static_cast<std::size_t>(snapped.point)], false};
+  const std::int32_t behind = just_behind(diagram, point);
+  if (behind < 0) {
     char distance[64];
     std::snprintf(distance, sizeof distance, "%.4g mm", -snapped.depth);
     throw GeometryError(describe_point(role, point) + " lies outside the surface, " + distance +
                         " from the nearest inscribed sphere: give a point inside the lumen");
   }
-  return {snapped.point, diagram.points[i], false};
+  return {behind, diagram.points[static_cast<std::size_t>(behind)], false};
 }
 
 bool is_hole_in_wall(const InnerVoronoi& diagram, const Opening& opening) {

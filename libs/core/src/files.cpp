@@ -11,7 +11,9 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <system_error>
 #include <utility>
 
@@ -21,8 +23,29 @@ namespace ostia::core {
 namespace fs = std::filesystem;
 namespace {
 
+/// Folders under construction, by their hidden names: messages name what the user asked for.
+struct FoldersInWork {
+  std::mutex mutex;
+  std::map<std::string, std::string> targets;
+};
+
+FoldersInWork& folders_in_work() {
+  static FoldersInWork instance;
+  return instance;
+}
+
+std::string shown(const fs::path& path) {
+  std::string text = path.string();
+  FoldersInWork& folders = folders_in_work();
+  const std::lock_guard lock(folders.mutex);
+  for (const auto& [hidden, target] : folders.targets) {
+    if (text.starts_with(hidden)) text.replace(0, hidden.size(), target);
+  }
+  return text;
+}
+
 [[noreturn]] void throw_errno(const std::string& what, const fs::path& path, int code) {
-  const std::string message = what + " " + path.string() + ": " + std::generic_category().message(code);
+  const std::string message = what + " " + shown(path) + ": " + std::generic_category().message(code);
   if (code == ENOSPC || code == EDQUOT || code == EFBIG) throw ResourceError(message);
   throw IoError(message);
 }
@@ -53,10 +76,10 @@ fs::path folder_of(const fs::path& target) { return target.has_parent_path() ? t
 
 void require_writable_folder(const fs::path& folder, const fs::path& target) {
   if (!fs::is_directory(folder)) {
-    throw IoError("cannot write " + target.string() + ": the folder " + folder.string() + " does not exist; create it first");
+    throw IoError("cannot write " + shown(target) + ": the folder " + shown(folder) + " does not exist; create it first");
   }
   if (::access(folder.c_str(), W_OK | X_OK) != 0) {
-    throw IoError("cannot write " + target.string() + ": no permission to write in " + folder.string());
+    throw IoError("cannot write " + shown(target) + ": no permission to write in " + shown(folder));
   }
 }
 
@@ -159,9 +182,17 @@ StagedFolder::StagedFolder(fs::path target) : target_(without_trailing_slash(std
   temporary_ = temporary_beside(target_);
   std::error_code error;
   if (!fs::create_directory(temporary_, error)) throw_errno("cannot write", target_, error.value());
+  FoldersInWork& folders = folders_in_work();
+  const std::lock_guard lock(folders.mutex);
+  folders.targets[temporary_.string()] = target_.string();
 }
 
 StagedFolder::~StagedFolder() {
+  {
+    FoldersInWork& folders = folders_in_work();
+    const std::lock_guard lock(folders.mutex);
+    folders.targets.erase(temporary_.string());
+  }
   if (committed_) return;
   std::error_code ignored;
   fs::remove_all(temporary_, ignored);

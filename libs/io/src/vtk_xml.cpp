@@ -1,13 +1,22 @@
 #include "vtk_xml.h"
 
+#include "formats.h"
+
+#include "ostia/core/error.h"
+#include "ostia/core/files.h"
+
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 #include <vtkCallbackCommand.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkErrorCode.h>
 #include <vtkFieldData.h>
-#include <vtkLogger.h>
 #include <vtkIntArray.h>
+#include <vtkLogger.h>
 #include <vtkPointData.h>
 #include <vtkPolyDataReader.h>
 #include <vtkStringArray.h>
@@ -16,18 +25,9 @@
 #include <vtkXMLUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
-#include <signal.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <cerrno>
 #include <fstream>
 #include <set>
-
-#include "formats.h"
-#include "ostia/core/error.h"
-#include "ostia/core/files.h"
 
 namespace ostia::io {
 namespace fs = std::filesystem;
@@ -36,17 +36,21 @@ namespace {
 /// deflate cannot shrink further than this (RFC 1951); a header that claims more than the file can hold lies.
 constexpr std::uint64_t largest_compression = 1032;
 
-void check_count(std::string_view header, std::string_view attribute, std::uint64_t file_bytes, const fs::path& path) {
-  for (std::size_t at = header.find(attribute); at != std::string_view::npos; at = header.find(attribute, at + 1)) {
+void check_count(std::string_view header, std::string_view attribute, std::uint64_t file_bytes,
+                 const fs::path& path) {
+  for (std::size_t at = header.find(attribute); at != std::string_view::npos;
+       at = header.find(attribute, at + 1)) {
     const std::size_t start = header.find_first_of("\"'", at + attribute.size());
     if (start == std::string_view::npos) return;
     const std::size_t end = header.find(header[start], start + 1);
     if (end == std::string_view::npos) return;
     const std::string_view text = header.substr(start + 1, end - start - 1);
     const auto value = number<std::int64_t>(text);
-    if (!value || *value < 0) refuse(path, std::string(attribute) + "\"" + std::string(text) + "\" is no count");
+    if (!value || *value < 0)
+      refuse(path, std::string(attribute) + "\"" + std::string(text) + "\" is no count");
     if (static_cast<std::uint64_t>(*value) > file_bytes * largest_compression / 4) {
-      refuse(path, std::string(attribute) + std::string(text) + " is more than its " + std::to_string(file_bytes) + " bytes can hold");
+      refuse(path, std::string(attribute) + std::string(text) + " is more than its " +
+                       std::to_string(file_bytes) + " bytes can hold");
     }
   }
 }
@@ -56,13 +60,16 @@ void check_xml(const fs::path& path, std::string_view type) {
   const std::string content = core::read_file(path);
   const std::size_t data = std::min(content.find("<AppendedData"), content.size());
   const std::string_view header(content.data(), data);
-  if (header.find("<!DOCTYPE") != std::string_view::npos || header.find("<!ENTITY") != std::string_view::npos) {
+  if (header.find("<!DOCTYPE") != std::string_view::npos ||
+      header.find("<!ENTITY") != std::string_view::npos) {
     refuse(path, "it declares XML entities, which no VTK file needs");
   }
   if (header.find("<VTKFile") == std::string_view::npos) refuse(path, "it is no VTK XML file (no <VTKFile>)");
-  if (header.find("<" + std::string(type)) == std::string_view::npos) refuse(path, "it holds no " + std::string(type));
-  for (const std::string_view attribute : {"NumberOfPoints=", "NumberOfPolys=", "NumberOfLines=", "NumberOfVerts=",
-                                           "NumberOfStrips=", "NumberOfCells=", "NumberOfTuples="}) {
+  if (header.find("<" + std::string(type)) == std::string_view::npos)
+    refuse(path, "it holds no " + std::string(type));
+  for (const std::string_view attribute :
+       {"NumberOfPoints=", "NumberOfPolys=", "NumberOfLines=", "NumberOfVerts=", "NumberOfStrips=",
+        "NumberOfCells=", "NumberOfTuples="}) {
     check_count(header, attribute, content.size(), path);
   }
 }
@@ -92,7 +99,8 @@ class Complaints {
   std::string first_;
 };
 
-/// Memory that reading a file may take: meshes are not packed a hundredfold, a damaged size can ask for anything.
+/// Memory that reading a file may take: meshes are not packed a hundredfold, a damaged size can ask for
+/// anything.
 void limit_memory(const fs::path& path) {
   long pages = 0;
   if (std::ifstream("/proc/self/statm") >> pages && pages > 0) {
@@ -103,14 +111,15 @@ void limit_memory(const fs::path& path) {
   }
 }
 
-/// VTK's readers end the process over some damaged files (a type that does not exist, a text without its end, an array that cannot be
-/// unpacked). A child tries first; when it dies, this process has lost nothing.
+/// VTK's readers end the process over some damaged files (a type that does not exist, a text without its end,
+/// an array that cannot be unpacked). A child tries first; when it dies, this process has lost nothing.
 template <class Reader>
 void survive_reading(const fs::path& path) {
   const pid_t child = ::fork();
   if (child < 0) throw ResourceError("cannot read " + path.string() + ": no memory for a second process");
   if (child == 0) {
-    for (const int number : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGINT, SIGTERM}) ::signal(number, SIG_DFL);
+    for (const int number : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGINT, SIGTERM})
+      ::signal(number, SIG_DFL);
     const rlimit none{0, 0};
     ::setrlimit(RLIMIT_CORE, &none);
     ::alarm(600);  // a lock that another thread held at the fork must not hold the parent for ever
@@ -126,7 +135,8 @@ void survive_reading(const fs::path& path) {
     ::_exit(0);
   }
   int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {}
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
   if (status != 0) refuse(path, "it is damaged (VTK's reader breaks down over it)");
 }
 
@@ -138,7 +148,8 @@ void run(Reader& reader, const fs::path& path) {
   reader.SetFileName(path.c_str());
   reader.Update();
   if (complaints.any()) refuse(path, complaints.text());
-  if (reader.GetErrorCode() != vtkErrorCode::NoError) refuse(path, vtkErrorCode::GetStringFromErrorCode(reader.GetErrorCode()));
+  if (reader.GetErrorCode() != vtkErrorCode::NoError)
+    refuse(path, vtkErrorCode::GetStringFromErrorCode(reader.GetErrorCode()));
 }
 
 void check_cells(vtkCellArray* cells, vtkIdType points, const char* kind, const fs::path& path) {
@@ -150,14 +161,16 @@ void check_cells(vtkCellArray* cells, vtkIdType points, const char* kind, const 
   if (previous != 0.0) refuse(path, where(0) + " has a bad offset");
   for (vtkIdType c = 1; c < offsets->GetNumberOfTuples(); ++c) {
     const double offset = offsets->GetTuple1(c);
-    if (offset < previous || offset > static_cast<double>(connectivity->GetNumberOfTuples())) refuse(path, where(c - 1) + " has a bad offset");
+    if (offset < previous || offset > static_cast<double>(connectivity->GetNumberOfTuples()))
+      refuse(path, where(c - 1) + " has a bad offset");
     previous = offset;
   }
   for (vtkIdType i = 0; i < connectivity->GetNumberOfTuples(); ++i) {
     const double id = connectivity->GetTuple1(i);
     if (!(id >= 0 && id < static_cast<double>(points))) {
-      refuse(path, "the connectivity of its " + std::string(kind) + " cells names point " + std::to_string(static_cast<long long>(id)) +
-                       ", but there are " + std::to_string(points) + " points");
+      refuse(path, "the connectivity of its " + std::string(kind) + " cells names point " +
+                       std::to_string(static_cast<long long>(id)) + ", but there are " +
+                       std::to_string(points) + " points");
     }
   }
 }
@@ -222,8 +235,12 @@ vtkSmartPointer<vtkUnstructuredGrid> read_grid(const fs::path& path) {
   return data;
 }
 
-std::string polydata_text(vtkPolyData& data) { return text_of<vtkXMLPolyDataWriter>(data); }
-std::string grid_text(vtkUnstructuredGrid& data) { return text_of<vtkXMLUnstructuredGridWriter>(data); }
+std::string polydata_text(vtkPolyData& data) {
+  return text_of<vtkXMLPolyDataWriter>(data);
+}
+std::string grid_text(vtkUnstructuredGrid& data) {
+  return text_of<vtkXMLUnstructuredGridWriter>(data);
+}
 
 vtkSmartPointer<vtkPoints> to_vtk(const std::vector<geometry::Vec3>& points) {
   auto out = vtkSmartPointer<vtkPoints>::New();
@@ -255,12 +272,14 @@ void add_array(vtkDataSetAttributes& attributes, const char* name, const std::ve
   attributes.AddArray(array);
 }
 
-void add_array(vtkDataSetAttributes& attributes, const char* name, const std::vector<geometry::Vec3>& values) {
+void add_array(vtkDataSetAttributes& attributes, const char* name,
+               const std::vector<geometry::Vec3>& values) {
   vtkNew<vtkDoubleArray> array;
   array->SetName(name);
   array->SetNumberOfComponents(3);
   array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()));
-  for (std::size_t i = 0; i < values.size(); ++i) array->SetTuple(static_cast<vtkIdType>(i), values[i].data());
+  for (std::size_t i = 0; i < values.size(); ++i)
+    array->SetTuple(static_cast<vtkIdType>(i), values[i].data());
   attributes.AddArray(array);
 }
 
@@ -283,14 +302,18 @@ std::vector<geometry::Face> faces_of(vtkDataObject& data, const std::vector<std:
   std::set<std::int32_t> missing(ids.begin(), ids.end());
   auto* numbers = vtkIntArray::SafeDownCast(data.GetFieldData()->GetAbstractArray("FaceIds"));
   auto* names = vtkStringArray::SafeDownCast(data.GetFieldData()->GetAbstractArray("FaceNames"));
-  for (vtkIdType i = 0; numbers && names && i < std::min(numbers->GetNumberOfTuples(), names->GetNumberOfTuples()); ++i) {
+  for (vtkIdType i = 0;
+       numbers && names && i < std::min(numbers->GetNumberOfTuples(), names->GetNumberOfTuples()); ++i) {
     const std::string name = names->GetValue(i);
-    const FaceKind kind = name.starts_with("inlet") ? FaceKind::inlet : name.starts_with("outlet") ? FaceKind::outlet : FaceKind::wall;
+    const FaceKind kind = name.starts_with("inlet")    ? FaceKind::inlet
+                          : name.starts_with("outlet") ? FaceKind::outlet
+                                                       : FaceKind::wall;
     faces.push_back({numbers->GetValue(i), name, kind});
     missing.erase(numbers->GetValue(i));
   }
   for (const std::int32_t id : missing) {
-    faces.push_back({id, id == 1 ? "wall" : "face_" + std::to_string(id), id == 1 ? FaceKind::wall : FaceKind::outlet});
+    faces.push_back(
+        {id, id == 1 ? "wall" : "face_" + std::to_string(id), id == 1 ? FaceKind::wall : FaceKind::outlet});
   }
   return faces;
 }

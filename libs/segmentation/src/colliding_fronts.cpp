@@ -105,9 +105,9 @@ Voxel earliest_neighbour(const BlockGrid<float>& times, const imaging::Geometry&
   return best;
 }
 
-/// cos of the angle between the fronts' gradients where both have been.
+/// cos of the angle between the fronts' gradients where both have been. Appends the way.
 void add_collision(const imaging::ImageVolume& image, const Fronts& fronts, const Pair& pair,
-                   RegionBuilder& region) {
+                   RegionBuilder& region, std::vector<Vec3>& way) {
   BlockGrid<float> cosines(image.geometry.size, 1.0F);
   for (const Voxel& v : fronts.first.order) {
     if (fronts.second.times.get(v) == kUnreached) continue;
@@ -121,6 +121,7 @@ void add_collision(const imaging::ImageVolume& image, const Fronts& fronts, cons
   Voxel v = pair.to_voxel;
   for (std::size_t step = 0; step < fronts.first.order.size(); ++step) {
     cosines.at(v) = std::min(-0.1F, cosines.get(v));
+    way.push_back(image.geometry.world(Vec3(v[0], v[1], v[2])));
     if (v == pair.from_voxel) break;
     const Voxel next = earliest_neighbour(fronts.first.times, image.geometry, v);
     if (next == v) break;
@@ -198,9 +199,10 @@ InitialRegion colliding_fronts(const imaging::ImageVolume& image, const BranchSe
   RegionBuilder region(image.geometry);
   std::int64_t visited = 0;
   std::vector<Vec3> outward;
+  std::vector<Vec3> way;
   const auto run = [&](const Pair& pair, const core::TaskContext& part) {
     Fronts fronts = run_fronts(image, pair, speed, options, part);
-    add_collision(image, fronts, pair, region);
+    add_collision(image, fronts, pair, region, way);
     visited += static_cast<std::int64_t>(fronts.first.order.size() + fronts.second.order.size());
     return fronts;
   };
@@ -226,6 +228,7 @@ InitialRegion colliding_fronts(const imaging::ImageVolume& image, const BranchSe
   result.lumen_hu = chosen.lumen_hu;
   result.visited = visited;
   result.outward = outward;
+  result.way = std::move(way);
   task.set_progress(1.0);
   return result;
 }

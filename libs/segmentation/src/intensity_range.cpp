@@ -16,7 +16,8 @@ constexpr double kAirHu = -300.0;
 constexpr int kDarkestTissueHu = -150;  // fat and its mixtures with lung lie below
 constexpr double kTissueHu = 50.0;      // where the neighbourhood shows no background
 constexpr double kNeighbourhoodMm = 20.0;
-constexpr double kThresholdHeight = 0.6;  // from the background (0) to the lumen (1)
+constexpr double kLeastContrast = 1.0 / 3.0;  // of the darkest seed, as a part of the brightest one's
+constexpr double kThresholdHeight = 0.6;      // from the background (0) to the lumen (1)
 
 std::string number(double value) {
   std::array<char, 32> buffer{};
@@ -125,7 +126,7 @@ std::string text(const Vec3& point) {
 SeedIntensities seed_intensities(const imaging::ImageVolume& image, const std::vector<Vec3>& seeds_mm) {
   if (seeds_mm.empty())
     throw InvalidInput("segmentation: no seed is given; place one at each end of the vessel");
-  SeedIntensities result{1e9, -1e9};
+  SeedIntensities result;
   for (const Vec3& seed : seeds_mm) {
     if (!seed.allFinite() || !image.geometry.contains(seed)) {
       const Vec3 last(image.geometry.size[0] - 1.0, image.geometry.size[1] - 1.0,
@@ -139,10 +140,29 @@ SeedIntensities seed_intensities(const imaging::ImageVolume& image, const std::v
       throw InvalidInput("seed " + text(seed) + " mm lies in air (" + number(hu) +
                          " HU): place it in the contrast-filled lumen");
     }
-    result.darkest = std::min(result.darkest, hu);
-    result.brightest = std::max(result.brightest, hu);
+    if (hu < result.darkest) {
+      result.darkest = hu;
+      result.darkest_at = seed;
+    }
+    if (hu > result.brightest) {
+      result.brightest = hu;
+      result.brightest_at = seed;
+    }
   }
   return result;
+}
+
+/// Contrast varies along a vessel, by a factor of two at times. A seed that has hardly any beside another one
+/// lies elsewhere, and a range from it would hold the tissue around.
+void require_like_contrast(const imaging::ImageVolume& image, const std::vector<Vec3>& seeds_mm,
+                           const SeedIntensities& at) {
+  const double background = background_hu(image, seeds_mm, at.brightest);
+  if (at.darkest - background >= kLeastContrast * (at.brightest - background)) return;
+  throw InvalidInput("seed " + text(at.darkest_at) + " mm has " + number(at.darkest) + " HU, but seed " +
+                     text(at.brightest_at) + " mm " + number(at.brightest) + " HU, and the tissue around " +
+                     number(background) +
+                     " HU: the first lies outside of the lumen; move it, or give the lower bound of the "
+                     "intensities if both are right");
 }
 
 ChosenRange choose_range(const imaging::ImageVolume& image, const std::vector<Vec3>& seeds_mm,
@@ -151,6 +171,7 @@ ChosenRange choose_range(const imaging::ImageVolume& image, const std::vector<Ve
   ChosenRange result;
   result.lumen_hu = at_seeds.darkest;
   result.chosen = !lower || !upper;
+  if (!lower) require_like_contrast(image, seeds_mm, at_seeds);
   if (result.chosen) {
     const double background = background_hu(image, seeds_mm, at_seeds.darkest);
     const double contrast = at_seeds.darkest - background;

@@ -13,8 +13,10 @@
 namespace ostia::segmentation::detail {
 
 struct SeedIntensities {
-  double darkest = 0.0;  ///< least of the seeds' medians
-  double brightest = 0.0;
+  double darkest = 1e9;  ///< least of the seeds' medians
+  double brightest = -1e9;
+  Vec3 darkest_at = Vec3::Zero();
+  Vec3 brightest_at = Vec3::Zero();
 };
 
 /// Median of a voxel and its six neighbours at each seed. Throws InvalidInput for a seed outside the image or

@@ -7,7 +7,9 @@
 #include "ostia/core/parallel.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <string>
 
 namespace ostia::segmentation {
@@ -54,46 +56,106 @@ constexpr double kDamping = 0.6;    // else the step is shortened by this
 constexpr double kSwing = 0.5;      // where the net motion is below this part of the way gone
 constexpr double kLeastStep = 0.3;  // but to no less than about this part
 
-/// Where the surface was at the last look. The net motion is what counts: voxels that swing about a sharp
-/// ridge do not matter.
+/// Where the surface was at the last look. What counts is the net motion of the surface itself, where it
+/// crosses the edges of the grid: values of voxels beside it may change without moving it.
 class Rest {
  public:
   explicit Rest(const detail::SparseField& field) { remember(field); }
 
-  /// Root mean square motion since the last look, mm.
-  double motion(const detail::SparseField& field, double limit) {
+  /// Root mean square motion since the last look, mm; the width of the band at most.
+  double motion(const detail::SparseField& field) {
     double sum = 0.0;
-    for (std::size_t a = 0; a < voxels_.size(); ++a) {
-      const double now = std::clamp<double>(field.value(voxels_[a]), -limit, limit);
-      const double then = std::clamp<double>(values_[a], -limit, limit);
-      sum += (now - then) * (now - then);
+    std::size_t crossings = 0;
+    for (const std::int64_t n : field.active()) {
+      for (const std::int64_t s : field.strides()) {
+        const double here = field.value(n);
+        const double there = field.value(n + s);
+        if ((here < 0.0) == (there < 0.0)) continue;
+        // The distance of what is now the surface from what was.
+        const double at = here / (here - there);
+        const double was =
+            (1.0 - at) * then_[static_cast<std::size_t>(n)] + at * then_[static_cast<std::size_t>(n + s)];
+        sum += was * was;
+        ++crossings;
+      }
     }
-    const double result = std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, voxels_.size())));
     remember(field);
-    return result;
+    return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, crossings)));
   }
 
  private:
   void remember(const detail::SparseField& field) {
-    voxels_ = field.active();
-    values_.resize(voxels_.size());
-    for (std::size_t a = 0; a < voxels_.size(); ++a) values_[a] = field.value(voxels_[a]);
+    then_.assign(field.values(), field.values() + field.geometry().voxels());
   }
 
-  std::vector<std::int64_t> voxels_;
-  std::vector<float> values_;
+  std::vector<float> then_;
 };
+
+constexpr double kNearRestVoxels = 0.2;  // motion in a period; only then crossings are counted
+constexpr int kFreeCrossings = 2;  // of a voxel by the surface, before it slows down there
+constexpr int kLastCrossing = 12;  // beyond which it slows down no more
+
+/// How often the surface has crossed each voxel. Where a voxel is now inside and now outside, its neighbours
+/// join and leave the band with it, and nothing comes to rest by itself: each further crossing halves its
+/// speed.
+class Flips {
+ public:
+  explicit Flips(std::size_t voxels) : count_(voxels, 0) {}
+
+  void slow_down(const std::vector<std::int64_t>& active, std::vector<float>& changes) const {
+    for (std::size_t a = 0; a < active.size(); ++a) {
+      const int more = count_[static_cast<std::size_t>(active[a])] - kFreeCrossings;
+      if (more > 0) changes[a] = std::ldexp(changes[a], -more);
+    }
+  }
+
+  /// Before the field takes the changes.
+  void count(const detail::SparseField& field, const std::vector<float>& changes) {
+    const std::vector<std::int64_t>& active = field.active();
+    for (std::size_t a = 0; a < active.size(); ++a) {
+      const float value = field.value(active[a]);
+      std::uint8_t& crossings = count_[static_cast<std::size_t>(active[a])];
+      if ((value < 0.0F) != (value + changes[a] < 0.0F) && crossings < kLastCrossing) ++crossings;
+    }
+  }
+
+ private:
+  std::vector<std::uint8_t> count_;
+};
+
+/// Offsets of the voxels to hold inside, each once.
+std::vector<std::int64_t> kept_voxels(const imaging::FloatVolume& initial, const std::vector<Vec3>& points) {
+  const imaging::Geometry& g = initial.geometry;
+  std::vector<std::int64_t> kept;
+  for (const Vec3& point : points) {
+    const Vec3 index = g.index(point);
+    std::array<std::int64_t, 3> v{};
+    bool inside = true;
+    for (int d = 0; d < 3; ++d) {
+      // The outermost voxels are outside in any case.
+      inside = inside && index[d] > 0.5 && index[d] < static_cast<double>(g.size[d]) - 1.5;
+      if (inside) v[static_cast<std::size_t>(d)] = std::llround(index[d]);
+    }
+    if (inside && initial(v[0], v[1], v[2]) < 0.0F) kept.push_back(g.offset(v[0], v[1], v[2]));
+  }
+  std::sort(kept.begin(), kept.end());
+  kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
+  return kept;
+}
 
 LevelSetResult evolve(const imaging::FloatVolume& initial, const detail::Pull& feature,
                       const detail::Pull* inflation_speed, const LevelSetOptions& options,
                       const core::TaskContext& task) {
   detail::SparseField field(initial);
   if (field.active().empty()) throw InvalidInput("level set: nothing is inside the initial surface");
+  field.hold_inside(kept_voxels(initial, options.kept));
   detail::SurfaceSpeed speed(initial.geometry, feature, inflation_speed, options);
   const double h = initial.geometry.spacing.minCoeff();
   LevelSetResult result;
   std::vector<float> changes;
   Rest rest(field);
+  Flips flips(initial.voxels.size());
+  bool near_rest = false;
   double damping = 1.0;
   double way = 0.0;
   while (result.iterations < options.iterations_max && !result.converged) {
@@ -104,6 +166,10 @@ LevelSetResult evolve(const imaging::FloatVolume& initial, const detail::Pull& f
     core::parallel_for(active.size(), 2048, [&](std::size_t a) {
       changes[a] = static_cast<float>(speed.change(field, active[a]));
     });
+    if (near_rest) {
+      flips.slow_down(active, changes);
+      flips.count(field, changes);
+    }
     double squares = 0.0;
     for (const float change : changes) squares += static_cast<double>(change) * change;
     way += std::sqrt(squares / static_cast<double>(active.size())) / h;
@@ -115,7 +181,8 @@ LevelSetResult evolve(const imaging::FloatVolume& initial, const detail::Pull& f
     }
     if (result.iterations % kPeriod != 0) continue;
     const double before = result.rms_history.empty() ? 1e9 : result.rms_history.back();
-    result.rms_voxels = rest.motion(field, h) / h;
+    result.rms_voxels = rest.motion(field) / h;
+    near_rest = result.rms_voxels < kNearRestVoxels;
     result.rms_history.push_back(result.rms_voxels);
     result.converged = result.rms_voxels < options.rms_tolerance_voxels;
     const bool swings = result.rms_voxels < kSwing * way;
@@ -125,6 +192,7 @@ LevelSetResult evolve(const imaging::FloatVolume& initial, const detail::Pull& f
       speed.damp(kDamping);
     }
   }
+  if (result.iterations % kPeriod != 0) result.rms_voxels = rest.motion(field) / h;
   result.level_set = std::move(field).take();
   task.set_progress(1.0);
   return result;
@@ -144,6 +212,7 @@ void validate(const LevelSetOptions& o) {
           "rms_tolerance_voxels must not be negative");
   require(o.feature_offset_voxels >= -1.0 && o.feature_offset_voxels <= 1.0,
           "feature_offset_voxels must be in [-1, 1]");
+  for (const Vec3& point : o.kept) require(point.allFinite(), "the points to keep must be finite");
   for (const LevelSetEnd& end : o.ends) {
     require(
         end.point.allFinite() && end.outward.allFinite() && end.outward.norm() > 0.0 && end.radius_mm >= 0.0,

@@ -4,7 +4,9 @@
 #include "ostia/core/parallel.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <utility>
 
@@ -268,6 +270,18 @@ bool shared_seed(const std::vector<BranchSeeds>& branches, std::size_t own, cons
   return false;
 }
 
+constexpr double kRestlessVoxels = 0.03;  // motion in ten iterations that a person should know of
+
+std::string restless(const LevelSetResult& evolved, double voxel_mm) {
+  std::array<char, 200> text{};
+  std::snprintf(
+      text.data(), text.size(),
+      "the level set was stopped after %d iterations while it still moved by %.2f mm (root mean square) "
+      "in ten iterations; look at the surface, or allow more iterations",
+      evolved.iterations, evolved.rms_voxels * voxel_mm);
+  return text.data();
+}
+
 template <class Call>
 auto with_branch_number(std::size_t number, std::size_t count, const Call& call) {
   const std::string head = count > 1 ? "branch " + std::to_string(number + 1) + ": " : "";
@@ -315,10 +329,12 @@ SegmentationResult segment_vessels(const imaging::ImageVolume& image,
     }
   }
   result.region = united(parts);
+  SegmentOptions wanted = options;
   imaging::FloatVolume initial = on_region(image.geometry, result.region, 1.0F);
   for (InitialRegion& part : parts) {
     lower_by(initial, result.region, part);
     part.level_set = {};
+    wanted.level_set.kept.insert(wanted.level_set.kept.end(), part.way.begin(), part.way.end());
   }
   std::vector<LevelSetEnd> ends;
   for (std::size_t b = 0; b < branches.size(); ++b) {
@@ -339,7 +355,6 @@ SegmentationResult segment_vessels(const imaging::ImageVolume& image,
   initial = without_stairs(initial, shell);
   double brightest = 0.0;
   for (const InitialRegion& part : parts) brightest = std::max(brightest, part.lumen_hu);
-  SegmentOptions wanted = options;
   wanted.level_set.ends = std::move(ends);
   LevelSetResult evolved =
       evolve(image, result.region, initial, shell, wanted, brightest, task.sub(0.4, 1.0));
@@ -347,9 +362,8 @@ SegmentationResult segment_vessels(const imaging::ImageVolume& image,
   result.iterations = evolved.iterations;
   result.converged = evolved.converged;
   result.rms_voxels = evolved.rms_voxels;
-  if (!evolved.converged && options.level_set.iterations_max > 0) {
-    result.warnings.push_back("the level set was stopped after " + std::to_string(evolved.iterations) +
-                              " iterations, before it came to rest");
+  if (!evolved.converged && evolved.rms_voxels > kRestlessVoxels) {
+    result.warnings.push_back(restless(evolved, image.geometry.spacing.minCoeff()));
   }
   task.set_progress(1.0);
   return result;

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace ostia::segmentation::detail {
 namespace {
 
 constexpr double kFarVoxels = 3.0;
+constexpr double kHeldVoxels = 0.3;  // the least depth of a held voxel, of the least spacing
 
 /// The distance solved from up to three axes with the nearest known distance on each.
 double solve_eikonal(std::array<double, 3> a, std::array<double, 3> inverse_h, int used) {
@@ -134,9 +136,22 @@ void SparseField::grow_layers() {
   }
 }
 
+void SparseField::hold_inside(std::vector<std::int64_t> voxels) {
+  held_ = std::move(voxels);
+  restrain();
+}
+
+void SparseField::restrain() {
+  const float deepest = static_cast<float>(-kHeldVoxels * geometry_.spacing.minCoeff());
+  for (const std::int64_t n : held_) {
+    if (marks_[n] == 1) values_[n] = std::min(values_[n], deepest);
+  }
+}
+
 void SparseField::advance(const std::vector<float>& changes) {
   std::vector<std::int64_t> old = std::move(layers_[0]);
   core::parallel_for(old.size(), 8192, [&](std::size_t a) { values_[old[a]] += changes[a]; });
+  restrain();
   // First-layer voxels get the distance of the moved surface before some of them join the active layer.
   std::vector<float> first(layers_[1].size());
   core::parallel_for(layers_[1].size(), 4096,

@@ -24,6 +24,8 @@ class SparseField {
   const std::array<std::int64_t, 3>& strides() const { return strides_; }
   double far_mm() const { return far_; }
 
+  /// These voxels, inside now, stay at least some tenths of a voxel inside from now on.
+  void hold_inside(std::vector<std::int64_t> voxels);
   /// Values of the active layer plus these changes; then the layers about the surface are made anew.
   void advance(const std::vector<float>& changes);
   imaging::FloatVolume take() &&;
@@ -32,6 +34,7 @@ class SparseField {
   enum Mark : std::uint8_t { kFar = 0, kBorder = 255 };  // 1, 2, 3: active, first, second layer
 
   bool is_active(std::int64_t n) const;
+  void restrain();
   void start(const imaging::FloatVolume& initial);
   float distance_from(std::int64_t n, const std::vector<std::uint8_t>& marks, std::uint8_t known) const;
   void grow_layers();
@@ -43,6 +46,7 @@ class SparseField {
   std::vector<float> values_;
   std::vector<std::uint8_t> marks_;
   std::array<std::vector<std::int64_t>, 3> layers_;
+  std::vector<std::int64_t> held_;
 };
 
 }  // namespace ostia::segmentation::detail

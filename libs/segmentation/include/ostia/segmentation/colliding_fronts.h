@@ -45,6 +45,9 @@ struct InitialRegion {
   /// At each seed the direction along the vessel away from the other seed (unit, world); empty for plain fast
   /// marching.
   std::vector<Vec3> outward;
+  /// Centres of the voxels of the fastest way between the seeds, each a face neighbour of the next (world);
+  /// empty for plain fast marching.
+  std::vector<Vec3> way;
   bool touches_border = false;  ///< the region reaches the border of the image: the vessel goes on outside
 };
 
@@ -52,7 +55,7 @@ struct InitialRegion {
 /// voxels at each seed, the background's the median of the darker class (Otsu's split) of what is neither air
 /// nor fat nor lumen in the neighbourhood of the seeds; the lower bound lies half-way. The upper bound lies
 /// as far above the brightest seed as the background lies below the darkest. Throws InvalidInput for a seed
-/// outside the image or in air.
+/// outside the image or in air, and where one has less than a third of another's contrast.
 IntensityRange intensity_range_around(const imaging::ImageVolume& image, const std::vector<Vec3>& seeds_mm);
 
 /// The region between the two ends of a branch: phi0 = grad T1 . grad T2 < 0 and connected to both seeds,

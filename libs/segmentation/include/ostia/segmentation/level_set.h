@@ -44,7 +44,8 @@ struct LevelSetOptions {
   double advection = 1.0;    ///< w3 >= 0: pulls to the ridges of the feature
   int iterations_max = 200;  ///< >= 0
   /// Done when the root mean square net motion of the surface in ten iterations falls below this many voxels
-  /// (least spacing). Steps are shortened, to a quarter at most, where the surface swings about its place.
+  /// (least spacing). Steps are shortened, to a quarter at most, when the surface swings about its place, and
+  /// at each voxel that the surface has crossed more than twice.
   double rms_tolerance_voxels = 0.01;
   /// The upwind gradient magnitude (eq. 4) carries the derivative half a voxel towards the outside; its ridge
   /// lies that much inside of the wall. 0.5 samples it where it belongs, 0 is for centred features.
@@ -53,6 +54,9 @@ struct LevelSetOptions {
   /// seed, across a side branch) stays. 0: nowhere.
   double curvature_needs_feature = 0.0;
   std::vector<LevelSetEnd> ends;
+  /// Points (world, mm) whose voxels stay inside: along a connected way a thin vessel cannot break. Those
+  /// outside of the grid or of the initial surface do not count.
+  std::vector<Vec3> kept;
 };
 /// Throws InvalidInput.
 void validate(const LevelSetOptions& options);
@@ -62,7 +66,7 @@ struct LevelSetResult {
       level_set;  ///< negative inside; signed distance in mm about the surface, +-(3 voxels) beyond
   int iterations = 0;
   bool converged = false;
-  double rms_voxels = 0.0;          ///< motion in the last ten iterations
+  double rms_voxels = 0.0;          ///< motion of the surface in the last ten iterations
   std::vector<double> rms_history;  ///< one for every ten iterations
 };
 

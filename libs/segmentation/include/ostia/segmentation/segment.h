@@ -29,7 +29,7 @@ struct SegmentOptions {
   /// it, as it should along calcified plaque. For `edges`; the voxel features do not know it.
   bool bright_is_lumen = false;
   LevelSetOptions level_set;  ///< its feature_offset_voxels, curvature_needs_feature and ends are set from
-                              ///< the image and the seeds
+                              ///< the image and the seeds; the fronts' way between the seeds is kept, too
 };
 /// Throws InvalidInput.
 void validate(const SegmentOptions& options);

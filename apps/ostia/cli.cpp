@@ -1,17 +1,18 @@
 #include "cli.h"
 
+#include "commands.h"
+#include "config_file.h"
+#include "progress_bar.h"
+
+#include "ostia/core/log.h"
+#include "ostia/core/parallel.h"
+
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
 #include <algorithm>
 #include <functional>
-
-#include "commands.h"
-#include "config_file.h"
-#include "ostia/core/log.h"
-#include "ostia/core/parallel.h"
-#include "progress_bar.h"
 
 namespace ostia::app {
 namespace {
@@ -30,11 +31,14 @@ struct Commands {
 };
 
 void add_common(CLI::App& app, CommonOptions& o) {
-  app.add_option("--threads", o.threads, "Threads to use; 0: all cores. Results do not depend on it")->check(CLI::Range(0, 1024));
+  app.add_option("--threads", o.threads, "Threads to use; 0: all cores. Results do not depend on it")
+      ->check(CLI::Range(0, 1024));
   app.add_option("--seed", o.seed, "Seed of everything random");
   app.add_option("--config", "A JSON file of options, {\"edge-ratio\": 0.3, ...}; the command line wins");
-  app.add_option("--log", o.log, "Format of the log on standard error")->check(CLI::IsMember({"text", "json"}));
-  app.add_option("--progress", o.progress, "auto: a bar on a terminal; plain: a line a stage")->check(CLI::IsMember({"auto", "plain", "none"}));
+  app.add_option("--log", o.log, "Format of the log on standard error")
+      ->check(CLI::IsMember({"text", "json"}));
+  app.add_option("--progress", o.progress, "auto: a bar on a terminal; plain: a line a stage")
+      ->check(CLI::IsMember({"auto", "plain", "none"}));
   app.add_flag("--quiet", o.quiet, "Errors alone on standard error");
 }
 
@@ -46,8 +50,10 @@ void add_input(CLI::App& app, InputOptions& o, const std::string& what, bool req
 void add_dicom(CLI::App& app, InputOptions& o) {
   app.add_option("--series", o.series, "UID of the DICOM series, where the folder holds several");
   app.add_flag("--resample", o.resample, "Interpolate over missing or uneven slices");
-  app.add_option("--pixel-spacing", o.pixel_spacing_mm, "mm, where the DICOM files have none")->check(CLI::PositiveNumber);
-  app.add_option("--slice-spacing", o.slice_spacing_mm, "mm, where the DICOM files have no positions")->check(CLI::PositiveNumber);
+  app.add_option("--pixel-spacing", o.pixel_spacing_mm, "mm, where the DICOM files have none")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--slice-spacing", o.slice_spacing_mm, "mm, where the DICOM files have no positions")
+      ->check(CLI::PositiveNumber);
 }
 
 void add_units(CLI::App& app, InputOptions& o) {
@@ -55,40 +61,58 @@ void add_units(CLI::App& app, InputOptions& o) {
 }
 
 void add_coords(CLI::App& app, InputOptions& o) {
-  app.add_option("--coords", o.coords, "Frame of the points given: lps or ras (mm), ijk (voxels)")->check(CLI::IsMember({"lps", "ras", "ijk"}));
+  app.add_option("--coords", o.coords, "Frame of the points given: lps or ras (mm), ijk (voxels)")
+      ->check(CLI::IsMember({"lps", "ras", "ijk"}));
 }
 
 void add_lumen(CLI::App& app, LumenOptions& o) {
-  app.add_option("--branch", o.branches, "A vessel: from:to or from:through:to, each point x,y,z; repeat for more vessels")->allow_extra_args(false);
+  app.add_option("--branch", o.branches,
+                 "A vessel: from:to or from:through:to, each point x,y,z; repeat for more vessels")
+      ->allow_extra_args(false);
   app.add_option("--lower", o.lower_hu, "Least HU of the lumen; left out: chosen about the seeds");
   app.add_option("--upper", o.upper_hu, "Largest HU of the lumen; left out: chosen about the seeds");
-  app.add_option("--feature", o.feature, "What the surface is pulled to: edges (sub-voxel ridges of the gradient), upwind or centred (gradient on the voxels)")
+  app.add_option("--feature", o.feature,
+                 "What the surface is pulled to: edges (sub-voxel ridges of the gradient), upwind or centred "
+                 "(gradient on the voxels)")
       ->check(CLI::IsMember({"edges", "upwind", "centred"}));
-  app.add_option("--inflation", o.inflation, "Weight w1 of the level set's inflation")->check(CLI::NonNegativeNumber);
-  app.add_option("--curvature", o.curvature, "Weight w2 of the level set's curvature")->check(CLI::NonNegativeNumber);
-  app.add_option("--advection", o.advection, "Weight w3 of the pull to the image's edges")->check(CLI::NonNegativeNumber);
-  app.add_option("--iterations", o.iterations, "Most iterations of the level set")->check(CLI::NonNegativeNumber);
+  app.add_option("--inflation", o.inflation, "Weight w1 of the level set's inflation")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--curvature", o.curvature, "Weight w2 of the level set's curvature")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--advection", o.advection, "Weight w3 of the pull to the image's edges")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--iterations", o.iterations, "Most iterations of the level set")
+      ->check(CLI::NonNegativeNumber);
   app.add_flag("--whole-volume", o.whole_volume, "Let the fronts run through the whole image");
-  app.add_flag("--bright-is-lumen", o.bright_is_lumen, "What is brighter than the lumen (a stent, a catheter) belongs to it; not for calcium");
-  app.add_option("--smooth", o.smooth, "Iterations of Taubin's smoothing of the surface; 0: none")->check(CLI::Range(0, 1000));
+  app.add_flag("--bright-is-lumen", o.bright_is_lumen,
+               "What is brighter than the lumen (a stent, a catheter) belongs to it; not for calcium");
+  app.add_option("--smooth", o.smooth, "Iterations of Taubin's smoothing of the surface; 0: none")
+      ->check(CLI::Range(0, 1000));
 }
 
 void add_ends(CLI::App& app, EndOptions& o) {
   app.add_option("--source", o.source, "Where the centerlines begin, x,y,z; left out: the largest open end");
-  app.add_option("--target", o.targets, "Where a centerline ends; repeat; left out: the other open ends")->allow_extra_args(false);
-  app.add_option("--step", o.step_mm, "Distance between the centerline's points, mm")->check(CLI::PositiveNumber);
+  app.add_option("--target", o.targets, "Where a centerline ends; repeat; left out: the other open ends")
+      ->allow_extra_args(false);
+  app.add_option("--step", o.step_mm, "Distance between the centerline's points, mm")
+      ->check(CLI::PositiveNumber);
 }
 
 void add_mesh(CLI::App& app, MeshOptions& o) {
-  app.add_option("--edge-ratio", o.edge_ratio, "Edge length over the distance to the centerline")->check(CLI::PositiveNumber);
-  app.add_option("--size", o.size, "What the edges follow: distance to the centerline, or inscribed radius")->check(CLI::IsMember({"distance", "radius"}));
+  app.add_option("--edge-ratio", o.edge_ratio, "Edge length over the distance to the centerline")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--size", o.size, "What the edges follow: distance to the centerline, or inscribed radius")
+      ->check(CLI::IsMember({"distance", "radius"}));
   app.add_option("--min-edge", o.min_edge_mm, "Shortest edge, mm")->check(CLI::PositiveNumber);
   app.add_option("--max-edge", o.max_edge_mm, "Longest edge, mm")->check(CLI::PositiveNumber);
-  app.add_option("--volume-size", o.size_factor, "Edges inside over edges of the surface")->check(CLI::PositiveNumber);
-  app.add_option("--inset", o.inset_radii, "How far inside its end a vessel is cut, in radii")->check(CLI::NonNegativeNumber);
+  app.add_option("--volume-size", o.size_factor, "Edges inside over edges of the surface")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--inset", o.inset_radii, "How far inside its end a vessel is cut, in radii")
+      ->check(CLI::NonNegativeNumber);
 }
 
-CLI::App* command(CLI::App& app, const std::string& name, const std::string& text, const std::string& example) {
+CLI::App* command(CLI::App& app, const std::string& name, const std::string& text,
+                  const std::string& example) {
   CLI::App* sub = app.add_subcommand(name, text);
   sub->footer("Example:\n  " + example);
   sub->fallthrough();
@@ -99,85 +123,104 @@ void define(CLI::App& app, Commands& c, Run& run) {
   app.require_subcommand(1);
   add_common(app, c.common);
 
-  CLI::App* info = command(app, "info", "What an image, a DICOM folder or a surface is", "ostia info CT/ --preview slices");
+  CLI::App* info = command(app, "info", "What an image, a DICOM folder or a surface is",
+                           "ostia info CT/ --preview slices");
   add_input(*info, c.info.input, "DICOM folder, image or surface");
   add_dicom(*info, c.info.input);
   add_coords(*info, c.info.input);
   info->add_flag("--json", c.info.json, "One JSON object on standard output");
-  info->add_option("--preview", c.info.preview, "Folder for slices with rulers in world mm, to read seeds off");
-  info->add_option("--preview-slices", c.info.preview_slices, "How many axial slices")->check(CLI::Range(0, 100));
+  info->add_option("--preview", c.info.preview,
+                   "Folder for slices with rulers in world mm, to read seeds off");
+  info->add_option("--preview-slices", c.info.preview_slices, "How many axial slices")
+      ->check(CLI::Range(0, 100));
   info->add_option("--position", c.info.position, "Point through which the preview's three planes go, x,y,z");
   info->callback([&] { run = [&](const core::TaskContext& task) { return run_info(c.info, task); }; });
 
-  CLI::App* import = command(app, "import", "A DICOM series as one volume in HU", "ostia import CT/ -o heart.nrrd");
+  CLI::App* import =
+      command(app, "import", "A DICOM series as one volume in HU", "ostia import CT/ -o heart.nrrd");
   add_input(*import, c.import.input, "DICOM folder or image");
   add_dicom(*import, c.import.input);
   import->add_option("-o,--output", c.import.output, ".nrrd, .mhd or .mha")->required();
-  import->callback([&] { run = [&](const core::TaskContext& task) { return run_import(c.import, task); }; });
+  import->callback([&] { run = [&](const core::TaskContext& task) { return run_import(c.import, task);
+};
+}  // namespace
+);
 
-  CLI::App* segment = command(app, "segment", "The lumen of the vessels between seed points",
-                              "ostia segment heart.nrrd -o lumen.vtp --branch 8,-187,675:6,-178,720");
-  add_input(*segment, c.segment.input, "DICOM folder, image or mask");
-  add_dicom(*segment, c.segment.input);
-  add_coords(*segment, c.segment.input);
-  add_lumen(*segment, c.segment.lumen);
-  segment->add_option("-o,--output", c.segment.output, ".vtp, .stl or .ply")->required();
-  segment->add_option("--levelset", c.segment.level_set, "Also the level set, negative inside, mm: .nrrd, .mhd or .mha");
-  segment->callback([&] { run = [&](const core::TaskContext& task) { return run_segment(c.segment, task); }; });
+CLI::App* segment = command(app, "segment", "The lumen of the vessels between seed points",
+                            "ostia segment heart.nrrd -o lumen.vtp --branch 8,-187,675:6,-178,720");
+add_input(*segment, c.segment.input, "DICOM folder, image or mask");
+add_dicom(*segment, c.segment.input);
+add_coords(*segment, c.segment.input);
+add_lumen(*segment, c.segment.lumen);
+segment->add_option("-o,--output", c.segment.output, ".vtp, .stl or .ply")->required();
+segment->add_option("--levelset", c.segment.level_set,
+                    "Also the level set, negative inside, mm: .nrrd, .mhd or .mha");
+segment->callback([&] { run = [&](const core::TaskContext& task) { return run_segment(c.segment, task); }; });
 
-  CLI::App* centerline = command(app, "centerline", "Centerlines of a surface", "ostia centerline lumen.stl -o lines.vtp");
-  add_input(*centerline, c.centerline.input, "Surface, open or closed");
-  add_units(*centerline, c.centerline.input);
-  add_coords(*centerline, c.centerline.input);
-  add_ends(*centerline, c.centerline.ends);
-  centerline->add_option("-o,--output", c.centerline.output, ".vtp or .csv")->required();
-  centerline->add_option("--canal", c.centerline.canal, "Also the envelope of the inscribed spheres: .vtp, .stl or .ply");
-  centerline->callback([&] { run = [&](const core::TaskContext& task) { return run_centerline(c.centerline, task); }; });
+CLI::App* centerline =
+    command(app, "centerline", "Centerlines of a surface", "ostia centerline lumen.stl -o lines.vtp");
+add_input(*centerline, c.centerline.input, "Surface, open or closed");
+add_units(*centerline, c.centerline.input);
+add_coords(*centerline, c.centerline.input);
+add_ends(*centerline, c.centerline.ends);
+centerline->add_option("-o,--output", c.centerline.output, ".vtp or .csv")->required();
+centerline->add_option("--canal", c.centerline.canal,
+                       "Also the envelope of the inscribed spheres: .vtp, .stl or .ply");
+centerline->callback([&] {
+  run = [&](const core::TaskContext& task) { return run_centerline(c.centerline, task); };
+});
 
-  CLI::App* mesh = command(app, "mesh", "A tetrahedral mesh with named faces", "ostia mesh lumen.stl -o mesh --edge-ratio 0.3");
-  add_input(*mesh, c.mesh.input, "Surface, open or closed", false);
-  add_units(*mesh, c.mesh.input);
-  add_coords(*mesh, c.mesh.input);
-  add_ends(*mesh, c.mesh.ends);
-  add_mesh(*mesh, c.mesh.mesh);
-  mesh->add_option("-o,--output", c.mesh.output, "Folder that is made");
-  mesh->add_option("--centerline", c.mesh.centerline, "Centerlines; left out: computed");
-  mesh->add_option("--check", c.mesh.check, "Only judges a surface or a .vtu mesh");
-  mesh->add_flag("--json", c.mesh.json, "One JSON object on standard output");
-  mesh->callback([&] { run = [&](const core::TaskContext& task) { return run_mesh(c.mesh, task); }; });
+CLI::App* mesh = command(app, "mesh", "A tetrahedral mesh with named faces",
+                         "ostia mesh lumen.stl -o mesh --edge-ratio 0.3");
+add_input(*mesh, c.mesh.input, "Surface, open or closed", false);
+add_units(*mesh, c.mesh.input);
+add_coords(*mesh, c.mesh.input);
+add_ends(*mesh, c.mesh.ends);
+add_mesh(*mesh, c.mesh.mesh);
+mesh->add_option("-o,--output", c.mesh.output, "Folder that is made");
+mesh->add_option("--centerline", c.mesh.centerline, "Centerlines; left out: computed");
+mesh->add_option("--check", c.mesh.check, "Only judges a surface or a .vtu mesh");
+mesh->add_flag("--json", c.mesh.json, "One JSON object on standard output");
+mesh->callback([&] { run = [&](const core::TaskContext& task) { return run_mesh(c.mesh, task); }; });
 
-  CLI::App* convert = command(app, "convert", "One file format as another", "ostia convert lumen.vtp lumen.stl");
-  add_input(*convert, c.convert.input, "Image, surface or centerlines");
-  convert->add_option("OUTPUT", c.convert.output, "By its extension")->required();
-  add_units(*convert, c.convert.input);
-  convert->add_flag("--repair", c.convert.repair, "Surfaces: drop bad triangles and loose parts, join equal points, turn outward, cut self-intersections out");
-  convert->callback([&] { run = [&](const core::TaskContext& task) { return run_convert(c.convert, task); }; });
+CLI::App* convert =
+    command(app, "convert", "One file format as another", "ostia convert lumen.vtp lumen.stl");
+add_input(*convert, c.convert.input, "Image, surface or centerlines");
+convert->add_option("OUTPUT", c.convert.output, "By its extension")->required();
+add_units(*convert, c.convert.input);
+convert->add_flag("--repair", c.convert.repair,
+                  "Surfaces: drop bad triangles and loose parts, join equal points, turn outward, cut "
+                  "self-intersections out");
+convert->callback([&] { run = [&](const core::TaskContext& task) { return run_convert(c.convert, task); }; });
 
-  CLI::App* model = command(app, "model", "From an image, a mask or a surface to a mesh with named faces",
-                            "ostia model CT/ -o out --branch 8,-187,675:6,-178,720");
-  add_input(*model, c.model.input, "DICOM folder, image, mask or surface", false);
-  add_dicom(*model, c.model.input);
-  add_units(*model, c.model.input);
-  add_coords(*model, c.model.input);
-  add_lumen(*model, c.model.lumen);
-  add_ends(*model, c.model.ends);
-  add_mesh(*model, c.model.mesh);
-  model->add_option("-o,--output", c.model.output, "Folder that is made")->required();
-  model->add_flag("--builtin", c.model.builtin, "The built-in case instead of an input");
-  model->add_flag("--json", c.model.json, "The report as JSON on standard output");
-  model->callback([&] {
-    c.model.seed = c.common.seed;
-    run = [&](const core::TaskContext& task) { return run_model(c.model, task); };
-  });
-}
+CLI::App* model = command(app, "model", "From an image, a mask or a surface to a mesh with named faces",
+                          "ostia model CT/ -o out --branch 8,-187,675:6,-178,720");
+add_input(*model, c.model.input, "DICOM folder, image, mask or surface", false);
+add_dicom(*model, c.model.input);
+add_units(*model, c.model.input);
+add_coords(*model, c.model.input);
+add_lumen(*model, c.model.lumen);
+add_ends(*model, c.model.ends);
+add_mesh(*model, c.model.mesh);
+model->add_option("-o,--output", c.model.output, "Folder that is made")->required();
+model->add_flag("--builtin", c.model.builtin, "The built-in case instead of an input");
+model->add_flag("--json", c.model.json, "The report as JSON on standard output");
+model->callback([&] {
+  c.model.seed = c.common.seed;
+  run = [&](const core::TaskContext& task) { return run_model(c.model, task); };
+});
+}  // namespace ostia::app
 
 /// A log that is kept must not name what a folder or file is called after.
 void keep_paths_out_of_the_log(const Commands& c) {
-  for (const InputOptions* input : {&c.info.input, &c.import.input, &c.segment.input, &c.centerline.input, &c.mesh.input, &c.convert.input, &c.model.input}) {
+  for (const InputOptions* input : {&c.info.input, &c.import.input, &c.segment.input, &c.centerline.input,
+                                    &c.mesh.input, &c.convert.input, &c.model.input}) {
     core::redact_in_logs(input->input.string(), "INPUT");
   }
-  for (const std::filesystem::path& path : {c.info.preview, c.import.output, c.segment.output, c.segment.level_set, c.centerline.output,
-                                            c.centerline.canal, c.mesh.output, c.mesh.centerline, c.mesh.check, c.convert.output, c.model.output}) {
+  for (const std::filesystem::path& path :
+       {c.info.preview, c.import.output, c.segment.output, c.segment.level_set, c.centerline.output,
+        c.centerline.canal, c.mesh.output, c.mesh.centerline, c.mesh.check, c.convert.output,
+        c.model.output}) {
     core::redact_in_logs(path.string(), "FILE");
     core::redact_in_logs(path.parent_path().string(), "FOLDER");
   }

@@ -1,10 +1,10 @@
 #pragma once
 /// \file From the command line to a command.
 
+#include "ostia/core/task_context.h"
+
 #include <string>
 #include <vector>
-
-#include "ostia/core/task_context.h"
 
 namespace ostia::app {
 

@@ -1,12 +1,13 @@
-#include <algorithm>
-
 #include "commands.h"
+#include "outputs.h"
+#include "points.h"
+
 #include "ostia/centerline/canal_surface.h"
 #include "ostia/core/log.h"
 #include "ostia/io/centerline_file.h"
 #include "ostia/io/surface_file.h"
-#include "outputs.h"
-#include "points.h"
+
+#include <algorithm>
 
 namespace ostia::app {
 
@@ -14,13 +15,17 @@ ExitCode run_centerline(const CenterlineCommand& options, const core::TaskContex
   require_output(options.output, line_outputs);
   require_output(options.canal, surface_outputs);
   task.set_stage("reading");
-  const pipeline::Source source = pipeline::load(options.input.input, source_options(options.input), task.sub(0.0, 0.1));
+  const pipeline::Source source =
+      pipeline::load(options.input.input, source_options(options.input), task.sub(0.0, 0.1));
   for (const std::string& warning : source.warnings) core::log_warning(warning);
-  if (source.kind != pipeline::SourceKind::surface) throw InvalidInput("cannot take centerlines of " + options.input.input.string() + ": it is no surface; `ostia segment` makes one of an image");
+  if (source.kind != pipeline::SourceKind::surface)
+    throw InvalidInput("cannot take centerlines of " + options.input.input.string() +
+                       ": it is no surface; `ostia segment` makes one of an image");
   pipeline::ModelOptions how;
   apply(options.ends, options.input.coords, nullptr, how);
   task.set_stage("centerlines");
-  const auto result = centerline::extract_centerlines(source.surface, how.source, how.targets, how.centerline, task.sub(0.1, 0.8));
+  const auto result = centerline::extract_centerlines(source.surface, how.source, how.targets, how.centerline,
+                                                      task.sub(0.1, 0.8));
   for (const std::string& warning : result.diagnostics.warnings) core::log_warning(warning);
   if (!options.canal.empty()) {
     task.set_stage("canal surface");
@@ -28,7 +33,8 @@ ExitCode run_centerline(const CenterlineCommand& options, const core::TaskContex
     for (const geometry::Centerline& line : result.lines) {
       for (const double r : line.radius) least = std::min(least, r);
     }
-    io::write_surface(options.canal, centerline::canal_surface(result.tree, 0.25 * least, task.sub(0.8, 0.95)));
+    io::write_surface(options.canal,
+                      centerline::canal_surface(result.tree, 0.25 * least, task.sub(0.8, 0.95)));
   }
   task.throw_if_cancelled();
   io::write_centerlines(options.output, result.tree);

@@ -1,12 +1,13 @@
-#include <string>
-
 #include "commands.h"
+#include "points.h"
+
 #include "ostia/core/log.h"
 #include "ostia/imaging/image_file.h"
 #include "ostia/io/centerline_file.h"
 #include "ostia/io/surface_file.h"
 #include "ostia/pipeline/repair.h"
-#include "points.h"
+
+#include <string>
 
 namespace ostia::app {
 namespace {
@@ -50,10 +51,15 @@ ExitCode run_convert(const ConvertCommand& options, const core::TaskContext& tas
   }
   const pipeline::SourceKind kind = pipeline::classify(input);
   switch (kind) {
-    case pipeline::SourceKind::dicom: throw InvalidInput("use `ostia import` for DICOM");
-    case pipeline::SourceKind::surface: convert_surface(options, task); break;
+    case pipeline::SourceKind::dicom:
+      throw InvalidInput("use `ostia import` for DICOM");
+    case pipeline::SourceKind::surface:
+      convert_surface(options, task);
+      break;
     case pipeline::SourceKind::image:
-    case pipeline::SourceKind::mask: convert_image(options, kind, task); break;
+    case pipeline::SourceKind::mask:
+      convert_image(options, kind, task);
+      break;
   }
   return ExitCode::ok;
 }

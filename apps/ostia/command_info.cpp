@@ -1,16 +1,17 @@
-#include <algorithm>
-#include <cstdio>
-#include <vector>
-
 #include "commands.h"
 #include "json_output.h"
+#include "points.h"
+
 #include "ostia/core/log.h"
 #include "ostia/imaging/dicom.h"
 #include "ostia/imaging/image_file.h"
 #include "ostia/io/surface_file.h"
 #include "ostia/pipeline/source.h"
 #include "ostia/pipeline/volume_preview.h"
-#include "points.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <vector>
 
 namespace ostia::app {
 namespace {
@@ -21,7 +22,8 @@ ImageFacts facts_of(const imaging::ImageVolume& image, std::string kind, std::ve
   facts.least = *least;
   facts.largest = *largest;
   std::vector<std::int16_t> values = image.voxels;
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
+                   values.end());
   facts.median = values[values.size() / 2];
   return facts;
 }
@@ -29,9 +31,11 @@ ImageFacts facts_of(const imaging::ImageVolume& image, std::string kind, std::ve
 void preview(const InfoOptions& options, const imaging::ImageVolume& image) {
   pipeline::PreviewOptions how;
   how.axial_slices = options.preview_slices;
-  if (!options.position.empty()) how.position = parse_point(options.position, options.input.coords, &image.geometry);
+  if (!options.position.empty())
+    how.position = parse_point(options.position, options.input.coords, &image.geometry);
   const std::vector<std::string> names = pipeline::write_preview(image, options.preview, how);
-  core::log_info(std::to_string(names.size()) + " pictures written; their rulers are world coordinates (LPS, mm)");
+  core::log_info(std::to_string(names.size()) +
+                 " pictures written; their rulers are world coordinates (LPS, mm)");
 }
 
 ExitCode surface_info(const InfoOptions& options) {
@@ -67,7 +71,8 @@ ExitCode run_info(const InfoOptions& options, const core::TaskContext& task) {
     image.geometry = source.mask->geometry;
     image.voxels.assign(source.mask->voxels.begin(), source.mask->voxels.end());
   }
-  std::fputs(image_text(facts_of(image, pipeline::name_of(kind), source.warnings), options.json).c_str(), stdout);
+  std::fputs(image_text(facts_of(image, pipeline::name_of(kind), source.warnings), options.json).c_str(),
+             stdout);
   if (!options.preview.empty()) preview(options, image);
   return ExitCode::ok;
 }

@@ -1,7 +1,6 @@
-#include <chrono>
-#include <cstdio>
-
 #include "commands.h"
+#include "points.h"
+
 #include "ostia/core/files.h"
 #include "ostia/core/log.h"
 #include "ostia/io/centerline_file.h"
@@ -9,7 +8,9 @@
 #include "ostia/io/volume_mesh_file.h"
 #include "ostia/pipeline/model_folder.h"
 #include "ostia/pipeline/report.h"
-#include "points.h"
+
+#include <chrono>
+#include <cstdio>
 
 namespace ostia::app {
 namespace {
@@ -36,8 +37,8 @@ ExitCode check_file(const MeshCommand& options, const core::TaskContext& task) {
   return verdict(meshing::check(quality));
 }
 
-geometry::VesselTree tree_for(const MeshCommand& options, const pipeline::Source& source, const pipeline::ModelOptions& how,
-                              const core::TaskContext& task) {
+geometry::VesselTree tree_for(const MeshCommand& options, const pipeline::Source& source,
+                              const pipeline::ModelOptions& how, const core::TaskContext& task) {
   if (!options.centerline.empty()) return io::read_centerlines(options.centerline);
   task.set_stage("centerlines");
   return centerline::extract_centerlines(source.surface, how.source, how.targets, how.centerline, task).tree;
@@ -47,17 +48,22 @@ geometry::VesselTree tree_for(const MeshCommand& options, const pipeline::Source
 
 ExitCode run_mesh(const MeshCommand& options, const core::TaskContext& task) {
   if (!options.check.empty()) return check_file(options, task);
-  if (options.input.input.empty() || options.output.empty()) throw UsageError("`ostia mesh` needs a surface and -o DIR, or --check FILE");
+  if (options.input.input.empty() || options.output.empty())
+    throw UsageError("`ostia mesh` needs a surface and -o DIR, or --check FILE");
   pipeline::require_free_folder(options.output);
   const auto start = std::chrono::steady_clock::now();
   task.set_stage("reading");
-  const pipeline::Source source = pipeline::load(options.input.input, source_options(options.input), task.sub(0.0, 0.1));
+  const pipeline::Source source =
+      pipeline::load(options.input.input, source_options(options.input), task.sub(0.0, 0.1));
   for (const std::string& warning : source.warnings) core::log_warning(warning);
-  if (source.kind != pipeline::SourceKind::surface) throw InvalidInput("cannot mesh " + options.input.input.string() + ": it is no surface; `ostia model` goes all the way from an image");
+  if (source.kind != pipeline::SourceKind::surface)
+    throw InvalidInput("cannot mesh " + options.input.input.string() +
+                       ": it is no surface; `ostia model` goes all the way from an image");
   pipeline::ModelOptions how;
   apply(options.ends, options.input.coords, nullptr, how);
   apply(options.mesh, how);
-  pipeline::JobKey key{"mesh", {{"surface", source.sha256}}, pipeline::parameters_json(how, source_options(options.input))};
+  pipeline::JobKey key{
+      "mesh", {{"surface", source.sha256}}, pipeline::parameters_json(how, source_options(options.input))};
   if (!options.centerline.empty()) key.inputs["centerline"] = core::sha256_file(options.centerline);
   if (const auto code = pipeline::already_done(options.output, key)) {
     core::log_info("done already with the same input and parameters; nothing to do");
@@ -70,7 +76,10 @@ ExitCode run_mesh(const MeshCommand& options, const core::TaskContext& task) {
   for (const std::string& warning : meshed.warnings) core::log_warning(warning);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   pipeline::write_mesh_folder(options.output, meshed, key, seconds);
-  if (options.json) std::fputs((pipeline::quality_json(meshed.surface_quality, meshed.volume_quality, meshed.verdict) + "\n").c_str(), stdout);
+  if (options.json)
+    std::fputs((pipeline::quality_json(meshed.surface_quality, meshed.volume_quality, meshed.verdict) + "\n")
+                   .c_str(),
+               stdout);
   task.set_progress(1.0);
   return verdict(meshed.verdict);
 }

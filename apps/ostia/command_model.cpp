@@ -1,14 +1,15 @@
-#include <chrono>
-#include <cstdio>
-#include <optional>
-
 #include "commands.h"
+#include "points.h"
+
 #include "ostia/core/files.h"
 #include "ostia/core/log.h"
 #include "ostia/phantom/builtin_case.h"
 #include "ostia/pipeline/model_folder.h"
 #include "ostia/pipeline/report.h"
-#include "points.h"
+
+#include <chrono>
+#include <cstdio>
+#include <optional>
 
 namespace ostia::app {
 namespace {
@@ -40,32 +41,43 @@ Job job_of(const ModelCommand& command, const core::TaskContext& task) {
   } else {
     task.set_stage("reading");
     job.source = pipeline::load(command.input.input, source_options(command.input), task);
-    const imaging::Geometry* grid = job.source.image ? &job.source.image->geometry : job.source.mask ? &job.source.mask->geometry : nullptr;
+    const imaging::Geometry* grid = job.source.image  ? &job.source.image->geometry
+                                    : job.source.mask ? &job.source.mask->geometry
+                                                      : nullptr;
     apply(command.lumen, command.input.coords, grid, job.options);
     apply(command.ends, command.input.coords, grid, job.options);
   }
   apply(command.mesh, job.options);
-  job.key = {"model", {{"input", job.source.sha256}}, pipeline::parameters_json(job.options, source_options(command.input))};
+  job.key = {"model",
+             {{"input", job.source.sha256}},
+             pipeline::parameters_json(job.options, source_options(command.input))};
   return job;
 }
 
 void print(const pipeline::Model& model, const std::optional<pipeline::TruthErrors>& truth) {
   const auto& surface = model.meshed.surface_quality;
   const auto& volume = model.meshed.volume_quality;
-  std::printf("%zu vessels, %zu triangles (least angle %.1f degrees), %zu tetrahedra (least dihedral %.1f degrees)\n",
-              model.meshed.centerlines.tree.vessels.size(), surface.triangles, surface.min_angle_deg, volume.tetrahedra, volume.min_dihedral_deg);
+  std::printf(
+      "%zu vessels, %zu triangles (least angle %.1f degrees), %zu tetrahedra (least dihedral %.1f degrees)\n",
+      model.meshed.centerlines.tree.vessels.size(), surface.triangles, surface.min_angle_deg,
+      volume.tetrahedra, volume.min_dihedral_deg);
   if (!truth) return;
-  std::printf("against the truth: lumen %.3f mm off in the mean, radius %.1f %% in the median, %.1f %% in the throat\n",
-              truth->lumen.msd_mm, 100.0 * truth->axis.radius_median_relative, 100.0 * truth->throat_relative);
+  std::printf(
+      "against the truth: lumen %.3f mm off in the mean, radius %.1f %% in the median, %.1f %% in the "
+      "throat\n",
+      truth->lumen.msd_mm, 100.0 * truth->axis.radius_median_relative, 100.0 * truth->throat_relative);
 }
 
-void print_report(const std::filesystem::path& folder) { std::fputs(core::read_file(folder / "report.json").c_str(), stdout); }
+void print_report(const std::filesystem::path& folder) {
+  std::fputs(core::read_file(folder / "report.json").c_str(), stdout);
+}
 
 }  // namespace
 
 ExitCode run_model(const ModelCommand& command, const core::TaskContext& task) {
   const auto start = Clock::now();
-  if (command.builtin != command.input.input.empty()) throw UsageError("`ostia model` needs either an input or --builtin");
+  if (command.builtin != command.input.input.empty())
+    throw UsageError("`ostia model` needs either an input or --builtin");
   pipeline::require_free_folder(command.output);
   Job job = job_of(command, task.sub(0.0, 0.1));
   if (const auto code = pipeline::already_done(command.output, job.key)) {
@@ -82,14 +94,16 @@ ExitCode run_model(const ModelCommand& command, const core::TaskContext& task) {
     truth = pipeline::compare_with_truth(*job.builtin, model, task.sub(0.85, 0.9));
   }
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-  const ExitCode code = pipeline::write_model_folder(command.output, model, job.options, job.key, truth, seconds, task.sub(0.9, 1.0));
+  const ExitCode code = pipeline::write_model_folder(command.output, model, job.options, job.key, truth,
+                                                     seconds, task.sub(0.9, 1.0));
   task.set_progress(1.0);
   if (command.json) {
     print_report(command.output);
   } else {
     print(model, truth);
   }
-  if (code == ExitCode::quality_failed) core::log_warning("quality control failed, a person must look: " + model.meshed.verdict.summary());
+  if (code == ExitCode::quality_failed)
+    core::log_warning("quality control failed, a person must look: " + model.meshed.verdict.summary());
   return code;
 }
 

@@ -1,11 +1,12 @@
 #include "commands.h"
+#include "outputs.h"
+#include "points.h"
+
 #include "ostia/core/log.h"
 #include "ostia/geometry/smoothing.h"
 #include "ostia/imaging/image_file.h"
 #include "ostia/io/surface_file.h"
 #include "ostia/pipeline/branch_ends.h"
-#include "outputs.h"
-#include "points.h"
 
 namespace ostia::app {
 
@@ -13,10 +14,15 @@ ExitCode run_segment(const SegmentCommand& options, const core::TaskContext& tas
   require_output(options.output, surface_outputs);
   require_output(options.level_set, image_outputs);
   task.set_stage("reading");
-  const pipeline::Source source = pipeline::load(options.input.input, source_options(options.input), task.sub(0.0, 0.3));
+  const pipeline::Source source =
+      pipeline::load(options.input.input, source_options(options.input), task.sub(0.0, 0.3));
   for (const std::string& warning : source.warnings) core::log_warning(warning);
   pipeline::ModelOptions how;
-  apply(options.lumen, options.input.coords, source.image ? &source.image->geometry : source.mask ? &source.mask->geometry : nullptr, how);
+  apply(options.lumen, options.input.coords,
+        source.image  ? &source.image->geometry
+        : source.mask ? &source.mask->geometry
+                      : nullptr,
+        how);
   geometry::TriMesh surface;
   if (source.mask) {
     if (!options.level_set.empty()) throw InvalidInput("--levelset needs an image: a mask has no level set");
@@ -25,7 +31,8 @@ ExitCode run_segment(const SegmentCommand& options, const core::TaskContext& tas
   } else if (source.image) {
     const pipeline::BranchEnds ends = pipeline::ends_of(how.branches);
     task.set_stage("segmentation");
-    const auto segmented = segmentation::segment_vessels(*source.image, how.branches, how.segment, task.sub(0.3, 0.8));
+    const auto segmented =
+        segmentation::segment_vessels(*source.image, how.branches, how.segment, task.sub(0.3, 0.8));
     for (const std::string& warning : segmented.warnings) core::log_warning(warning);
     std::vector<geometry::Vec3> seeds = ends.targets;
     seeds.push_back(ends.source);

@@ -1,13 +1,13 @@
 #pragma once
 /// \file What each command is told, and what it does. Returns the exit code; throws ostia::Error.
 
+#include "ostia/core/error.h"
+#include "ostia/core/task_context.h"
+
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
-
-#include "ostia/core/error.h"
-#include "ostia/core/task_context.h"
 
 namespace ostia::app {
 
@@ -26,8 +26,8 @@ struct InputOptions {
   std::string series;
   bool resample = false;
   std::optional<double> pixel_spacing_mm, slice_spacing_mm;
-  std::string units;               ///< "", "m", "cm", "mm"
-  std::string coords = "lps";      ///< of points on the command line: lps, ras, ijk
+  std::string units;           ///< "", "m", "cm", "mm"
+  std::string coords = "lps";  ///< of points on the command line: lps, ras, ijk
 };
 
 struct InfoOptions {
@@ -49,12 +49,12 @@ ExitCode run_import(const ImportOptions& options, const core::TaskContext& task)
 struct LumenOptions {
   std::vector<std::string> branches;
   std::optional<double> lower_hu, upper_hu;
-  std::string feature = "edges";   ///< edges, upwind, centred
+  std::string feature = "edges";                                ///< edges, upwind, centred
   double curvature = -1.0, inflation = -1.0, advection = -1.0;  ///< negative: the library's default
   int iterations = -1;
   bool whole_volume = false;
   bool bright_is_lumen = false;
-  int smooth = 0;                  ///< Taubin iterations
+  int smooth = 0;  ///< Taubin iterations
 };
 
 struct SegmentCommand {
@@ -67,7 +67,7 @@ ExitCode run_segment(const SegmentCommand& options, const core::TaskContext& tas
 struct EndOptions {
   std::string source;
   std::vector<std::string> targets;
-  double step_mm = 0.0;            ///< 0: the library's default
+  double step_mm = 0.0;  ///< 0: the library's default
 };
 
 struct CenterlineCommand {
@@ -78,11 +78,11 @@ struct CenterlineCommand {
 ExitCode run_centerline(const CenterlineCommand& options, const core::TaskContext& task);
 
 struct MeshOptions {
-  double edge_ratio = 0.0;         ///< 0: the library's default
+  double edge_ratio = 0.0;  ///< 0: the library's default
   std::string size = "distance";
   double min_edge_mm = 0.0, max_edge_mm = 0.0;
   double size_factor = 0.0;
-  double inset_radii = -1.0;       ///< negative: the library's default
+  double inset_radii = -1.0;  ///< negative: the library's default
 };
 
 struct MeshCommand {

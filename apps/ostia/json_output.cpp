@@ -1,7 +1,8 @@
 #include "json_output.h"
 
-#include <cstdio>
 #include <nlohmann/json.hpp>
+
+#include <cstdio>
 
 namespace ostia::app {
 namespace {
@@ -9,7 +10,9 @@ namespace {
 using geometry::Vec3;
 using nlohmann::json;
 
-json array(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+json array(const Vec3& v) {
+  return {v.x(), v.y(), v.z()};
+}
 
 std::string text(const Vec3& v) {
   char out[128];
@@ -19,7 +22,8 @@ std::string text(const Vec3& v) {
 
 std::string lines(const std::vector<std::pair<std::string, std::string>>& rows) {
   std::string out;
-  for (const auto& [name, value] : rows) out += name + std::string(name.size() < 14 ? 14 - name.size() : 1, ' ') + value + "\n";
+  for (const auto& [name, value] : rows)
+    out += name + std::string(name.size() < 14 ? 14 - name.size() : 1, ' ') + value + "\n";
   return out;
 }
 
@@ -37,7 +41,8 @@ json geometry_json(const imaging::Geometry& g) {
 }  // namespace
 
 std::string image_text(const ImageFacts& f, bool as_json) {
-  const Vec3 last(static_cast<double>(f.geometry.size[0] - 1), static_cast<double>(f.geometry.size[1] - 1), static_cast<double>(f.geometry.size[2] - 1));
+  const Vec3 last(static_cast<double>(f.geometry.size[0] - 1), static_cast<double>(f.geometry.size[1] - 1),
+                  static_cast<double>(f.geometry.size[2] - 1));
   if (as_json) {
     json out = geometry_json(f.geometry);
     out["kind"] = f.kind;
@@ -48,16 +53,18 @@ std::string image_text(const ImageFacts& f, bool as_json) {
     out["warnings"] = f.warnings;
     return out.dump(2) + "\n";
   }
-  std::vector<std::pair<std::string, std::string>> rows{{"kind", f.kind},
-                                                        {"voxels", size_text(f.geometry)},
-                                                        {"spacing", text(f.geometry.spacing) + " mm"},
-                                                        {"first voxel", text(f.geometry.origin) + " mm (LPS)"},
-                                                        {"last voxel", text(f.geometry.world(last)) + " mm (LPS)"},
-                                                        {"axis i", text(f.geometry.direction.col(0))},
-                                                        {"axis j", text(f.geometry.direction.col(1))},
-                                                        {"axis k", text(f.geometry.direction.col(2))},
-                                                        {"intensity", std::to_string(static_cast<long>(f.least)) + " to " + std::to_string(static_cast<long>(f.largest)) +
-                                                                          " HU, median " + std::to_string(static_cast<long>(f.median))}};
+  std::vector<std::pair<std::string, std::string>> rows{
+      {"kind", f.kind},
+      {"voxels", size_text(f.geometry)},
+      {"spacing", text(f.geometry.spacing) + " mm"},
+      {"first voxel", text(f.geometry.origin) + " mm (LPS)"},
+      {"last voxel", text(f.geometry.world(last)) + " mm (LPS)"},
+      {"axis i", text(f.geometry.direction.col(0))},
+      {"axis j", text(f.geometry.direction.col(1))},
+      {"axis k", text(f.geometry.direction.col(2))},
+      {"intensity", std::to_string(static_cast<long>(f.least)) + " to " +
+                        std::to_string(static_cast<long>(f.largest)) + " HU, median " +
+                        std::to_string(static_cast<long>(f.median))}};
   for (const std::string& warning : f.warnings) rows.emplace_back("warning", warning);
   return lines(rows);
 }
@@ -109,18 +116,20 @@ std::string series_text(const imaging::DicomFolder& folder, bool as_json) {
   }
   std::string out;
   for (const imaging::DicomSeries& s : folder.series) {
-    std::vector<std::pair<std::string, std::string>> rows{{"series", s.uid},
-                                                          {"modality", s.modality},
-                                                          {"description", s.description},
-                                                          {"files", std::to_string(s.files.size())},
-                                                          {"voxels", size_text(s.geometry)},
-                                                          {"spacing", text(s.geometry.spacing) + " mm"},
-                                                          {"first voxel", text(s.geometry.origin) + " mm (LPS)"}};
+    std::vector<std::pair<std::string, std::string>> rows{
+        {"series", s.uid},
+        {"modality", s.modality},
+        {"description", s.description},
+        {"files", std::to_string(s.files.size())},
+        {"voxels", size_text(s.geometry)},
+        {"spacing", text(s.geometry.spacing) + " mm"},
+        {"first voxel", text(s.geometry.origin) + " mm (LPS)"}};
     for (const std::string& warning : s.warnings) rows.emplace_back("warning", warning);
     for (const std::string& fault : s.faults) rows.emplace_back("fault", fault);
     out += lines(rows) + "\n";
   }
-  if (folder.skipped > 0) out += std::to_string(folder.skipped) + " files are no DICOM images and were passed over\n";
+  if (folder.skipped > 0)
+    out += std::to_string(folder.skipped) + " files are no DICOM images and were passed over\n";
   return out;
 }
 

@@ -1,13 +1,13 @@
 #pragma once
 /// \file What commands say on standard output, as text or as JSON.
 
-#include <string>
-#include <vector>
-
 #include "ostia/geometry/mesh_topology.h"
 #include "ostia/geometry/tri_mesh.h"
 #include "ostia/imaging/dicom.h"
 #include "ostia/imaging/volume.h"
+
+#include <string>
+#include <vector>
 
 namespace ostia::app {
 

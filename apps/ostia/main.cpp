@@ -1,16 +1,17 @@
 // The command line program.
 
+#include "cli.h"
+
+#include "ostia/core/error.h"
+#include "ostia/core/log.h"
+#include "ostia/core/task_context.h"
+
 #include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
 #include <string>
 #include <vector>
-
-#include "cli.h"
-#include "ostia/core/error.h"
-#include "ostia/core/log.h"
-#include "ostia/core/task_context.h"
 
 namespace {
 
@@ -23,8 +24,8 @@ void on_signal(int number) {
   std::signal(number, SIG_DFL);  // the second time it ends the program at once
 }
 
-/// A refusal names the file it is about, so it is shown to the person at the terminal as it is. The JSON log is made to be kept and
-/// holds no path.
+/// A refusal names the file it is about, so it is shown to the person at the terminal as it is. The JSON log
+/// is made to be kept and holds no path.
 int fail(const std::string& message, int code) {
   if (ostia::core::log_format() == ostia::core::LogFormat::json) {
     ostia::core::log_error(message);
@@ -50,6 +51,7 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     return fail("out of memory", static_cast<int>(ostia::ExitCode::resources));
   } catch (const std::exception& error) {
-    return fail(std::string("a fault of the program: ") + error.what(), static_cast<int>(ostia::ExitCode::internal));
+    return fail(std::string("a fault of the program: ") + error.what(),
+                static_cast<int>(ostia::ExitCode::internal));
   }
 }

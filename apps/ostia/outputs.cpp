@@ -1,18 +1,19 @@
 #include "outputs.h"
 
+#include "ostia/core/error.h"
+#include "ostia/core/files.h"
+
 #include <algorithm>
 #include <cctype>
 #include <string>
-
-#include "ostia/core/error.h"
-#include "ostia/core/files.h"
 
 namespace ostia::app {
 
 void require_output(const std::filesystem::path& path, const std::vector<std::string_view>& extensions) {
   if (path.empty()) return;
   std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
   if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end()) {
     std::string known;
     for (const std::string_view one : extensions) known += (known.empty() ? "" : ", ") + std::string(one);

@@ -7,8 +7,8 @@
 
 namespace ostia::app {
 
-/// Throws where a result could not be written when it is there: an extension that is not one of `extensions`, a folder that is missing or
-/// closed. An empty path (an option left out) is fine.
+/// Throws where a result could not be written when it is there: an extension that is not one of `extensions`,
+/// a folder that is missing or closed. An empty path (an option left out) is fine.
 void require_output(const std::filesystem::path& path, const std::vector<std::string_view>& extensions);
 
 inline const std::vector<std::string_view> surface_outputs{".vtp", ".stl", ".ply"};

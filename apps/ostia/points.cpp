@@ -26,7 +26,8 @@ double number(std::string_view text, std::string_view whole) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) {
-    throw InvalidInput("\"" + std::string(whole) + "\" is no point: write x,y,z, three numbers in millimetres with a decimal point");
+    throw InvalidInput("\"" + std::string(whole) +
+                       "\" is no point: write x,y,z, three numbers in millimetres with a decimal point");
   }
   return value;
 }
@@ -35,7 +36,9 @@ double number(std::string_view text, std::string_view whole) {
 
 Vec3 parse_point(std::string_view text, const std::string& coords, const imaging::Geometry* grid) {
   const std::vector<std::string_view> parts = split(text, ',');
-  if (parts.size() != 3) throw InvalidInput("\"" + std::string(text) + "\" is no point: write x,y,z, three numbers in millimetres");
+  if (parts.size() != 3)
+    throw InvalidInput("\"" + std::string(text) +
+                       "\" is no point: write x,y,z, three numbers in millimetres");
   const Vec3 given(number(parts[0], text), number(parts[1], text), number(parts[2], text));
   if (coords == "ras") return {-given.x(), -given.y(), given.z()};
   if (coords != "ijk") return given;
@@ -43,10 +46,12 @@ Vec3 parse_point(std::string_view text, const std::string& coords, const imaging
   return grid->world(given);
 }
 
-segmentation::BranchSeeds parse_branch(std::string_view text, const std::string& coords, const imaging::Geometry* grid) {
+segmentation::BranchSeeds parse_branch(std::string_view text, const std::string& coords,
+                                       const imaging::Geometry* grid) {
   const std::vector<std::string_view> points = split(text, ':');
   if (points.size() != 2 && points.size() != 3) {
-    throw InvalidInput("\"" + std::string(text) + "\" is no branch: write P:P or P:P:P (from, through, to), each P as x,y,z");
+    throw InvalidInput("\"" + std::string(text) +
+                       "\" is no branch: write P:P or P:P:P (from, through, to), each P as x,y,z");
   }
   segmentation::BranchSeeds seeds;
   seeds.from = parse_point(points.front(), coords, grid);
@@ -67,7 +72,8 @@ pipeline::SourceOptions source_options(const InputOptions& input) {
   return options;
 }
 
-void apply(const LumenOptions& from, const std::string& coords, const imaging::Geometry* grid, pipeline::ModelOptions& to) {
+void apply(const LumenOptions& from, const std::string& coords, const imaging::Geometry* grid,
+           pipeline::ModelOptions& to) {
   for (const std::string& branch : from.branches) to.branches.push_back(parse_branch(branch, coords, grid));
   to.segment.fronts.lower_hu = from.lower_hu;
   to.segment.fronts.upper_hu = from.upper_hu;
@@ -85,7 +91,8 @@ void apply(const LumenOptions& from, const std::string& coords, const imaging::G
   }
 }
 
-void apply(const EndOptions& from, const std::string& coords, const imaging::Geometry* grid, pipeline::ModelOptions& to) {
+void apply(const EndOptions& from, const std::string& coords, const imaging::Geometry* grid,
+           pipeline::ModelOptions& to) {
   if (!from.source.empty()) to.source = parse_point(from.source, coords, grid);
   for (const std::string& target : from.targets) to.targets.push_back(parse_point(target, coords, grid));
   if (from.step_mm > 0.0) to.centerline.step_mm = from.step_mm;

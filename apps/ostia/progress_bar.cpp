@@ -16,11 +16,13 @@ std::string line(const core::TaskContext& task, Clock::time_point start) {
   constexpr int cells = 30;
   const double progress = task.progress();
   const int filled = static_cast<int>(progress * cells);
-  std::string text = "\r[" + std::string(static_cast<std::size_t>(filled), '#') + std::string(static_cast<std::size_t>(cells - filled), '.') + "] " +
+  std::string text = "\r[" + std::string(static_cast<std::size_t>(filled), '#') +
+                     std::string(static_cast<std::size_t>(cells - filled), '.') + "] " +
                      std::to_string(static_cast<int>(progress * 100.0)) + " %  " + task.stage();
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
   if (progress > 0.05 && seconds > 1.0) {
-    text += ", " + std::to_string(static_cast<long>(std::ceil(seconds * (1.0 - progress) / progress))) + " s left";
+    text += ", " + std::to_string(static_cast<long>(std::ceil(seconds * (1.0 - progress) / progress))) +
+            " s left";
   }
   return text + "\033[K";
 }

@@ -1,17 +1,17 @@
 #pragma once
 /// \file The progress of a job on the terminal.
 
+#include "ostia/core/task_context.h"
+
 #include <condition_variable>
 #include <mutex>
 #include <string>
 #include <thread>
 
-#include "ostia/core/task_context.h"
-
 namespace ostia::app {
 
-/// Polls a task and draws its stage, percentage and time left on stderr until destroyed. `mode`: "auto" draws a bar on a terminal and nothing
-/// elsewhere, "plain" writes a line for each stage, "none" nothing.
+/// Polls a task and draws its stage, percentage and time left on stderr until destroyed. `mode`: "auto" draws
+/// a bar on a terminal and nothing elsewhere, "plain" writes a line for each stage, "none" nothing.
 class ProgressBar {
  public:
   ProgressBar(core::TaskContext task, const std::string& mode);

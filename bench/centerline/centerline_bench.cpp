@@ -36,11 +36,15 @@ void run(benchmark::State& state, const geometry::TriMesh& surface) {
 }
 
 void centerlines(benchmark::State& state, double spacing_mm, bool raw) {
-  run(state, raw ? geometry::raw_surface_of(tree(), spacing_mm, true) : geometry::surface_of(tree(), spacing_mm, true));
+  run(state, raw ? geometry::raw_surface_of(tree(), spacing_mm, true)
+                 : geometry::surface_of(tree(), spacing_mm, true));
 }
 
 void add(const char* name, double spacing_mm, bool raw) {
-  benchmark::RegisterBenchmark(name, centerlines, spacing_mm, raw)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+  benchmark::RegisterBenchmark(name, centerlines, spacing_mm, raw)
+      ->Unit(benchmark::kMillisecond)
+      ->MeasureProcessCPUTime()
+      ->UseRealTime();
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "ostia/core/child_process.h"
 
+#include "ostia/core/error.h"
+
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -7,12 +9,11 @@
 #include <cstdlib>
 #include <thread>
 
-#include "ostia/core/error.h"
-
 namespace ostia::core {
 namespace {
 
-ChildResult shell(const std::string& script, const ChildLimits& limits = {}, const TaskContext& task = no_task()) {
+ChildResult shell(const std::string& script, const ChildLimits& limits = {},
+                  const TaskContext& task = no_task()) {
   return run_child("/bin/sh", {"-c", script}, limits, task);
 }
 
@@ -57,8 +58,9 @@ TEST(ChildProcess, LimitsTheFileItWrites) {
 }
 
 TEST(ChildProcess, KeepsTheTailOfALongStandardError) {
-  const ChildResult result = shell("i=0; while [ $i -lt 3000 ]; do echo 0123456789012345678901234567890123456789 >&2; "
-                                   "i=$((i+1)); done; echo end >&2");
+  const ChildResult result = shell(
+      "i=0; while [ $i -lt 3000 ]; do echo 0123456789012345678901234567890123456789 >&2; "
+      "i=$((i+1)); done; echo end >&2");
   EXPECT_LE(result.standard_error.size(), 65536u);
   EXPECT_EQ(result.standard_error.substr(result.standard_error.size() - 4), "end\n");
 }
@@ -88,8 +90,10 @@ TEST(ChildProcess, FindsTheWorkerByEnvironment) {
   const std::string saved = before ? before : "";
   ::setenv("OSTIA_WORKER", "/somewhere/worker", 1);
   EXPECT_EQ(worker_program(), "/somewhere/worker");
-  if (before) ::setenv("OSTIA_WORKER", saved.c_str(), 1);
-  else ::unsetenv("OSTIA_WORKER");
+  if (before)
+    ::setenv("OSTIA_WORKER", saved.c_str(), 1);
+  else
+    ::unsetenv("OSTIA_WORKER");
 }
 
 }  // namespace

@@ -1,18 +1,18 @@
 #include "ostia/core/files.h"
 
+#include "shared_data.h"
+
+#include "ostia/core/error.h"
+
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
-
 #include <fstream>
 #include <string>
 #include <vector>
-
-#include "ostia/core/error.h"
-#include "shared_data.h"
 
 namespace ostia::core {
 namespace {

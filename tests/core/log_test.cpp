@@ -28,7 +28,8 @@ TEST_F(Log, IgnoresSecretsTooShortToMatter) {
 
 TEST_F(Log, LeavesWordsAloneThatOnlyHoldAShortSecret) {
   redact_in_logs("jane", "patient-2");
-  EXPECT_EQ(redacted("jane/1.dcm lies outside of janeway, not /jane."), "patient-2/1.dcm lies outside of janeway, not /patient-2.");
+  EXPECT_EQ(redacted("jane/1.dcm lies outside of janeway, not /jane."),
+            "patient-2/1.dcm lies outside of janeway, not /patient-2.");
 }
 
 TEST_F(Log, WritesJsonLines) {

@@ -21,7 +21,8 @@ double harmonic_sum() {
       100000, 777, 0.0,
       [](std::size_t first, std::size_t last) {
         double sum = 0.0;
-        for (std::size_t i = first; i < last; ++i) sum += std::sin(static_cast<double>(i)) / static_cast<double>(i + 1);
+        for (std::size_t i = first; i < last; ++i)
+          sum += std::sin(static_cast<double>(i)) / static_cast<double>(i + 1);
         return sum;
       },
       [](double a, double b) { return a + b; });
@@ -70,7 +71,10 @@ TEST_F(Parallel, NothingToDoCallsNothing) {
 
 TEST_F(Parallel, PassesExceptionsOn) {
   set_max_threads(2);
-  EXPECT_THROW(parallel_for(1000, 10, [](std::size_t i) { if (i == 500) throw std::runtime_error("500"); }),
+  EXPECT_THROW(parallel_for(1000, 10,
+                            [](std::size_t i) {
+                              if (i == 500) throw std::runtime_error("500");
+                            }),
                std::runtime_error);
 }
 

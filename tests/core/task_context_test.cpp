@@ -1,11 +1,11 @@
 #include "ostia/core/task_context.h"
 
+#include "ostia/core/error.h"
+
 #include <gtest/gtest.h>
 
 #include <thread>
 #include <vector>
-
-#include "ostia/core/error.h"
 
 namespace ostia::core {
 namespace {

@@ -1,8 +1,8 @@
 #include "ostia/evaluation/axis_error.h"
 
-#include <gtest/gtest.h>
-
 #include "ostia/core/error.h"
+
+#include <gtest/gtest.h>
 
 namespace ostia::evaluation {
 namespace {
@@ -37,7 +37,9 @@ TEST(AxisError, InterpolatesTheReferenceBetweenItsPoints) {
 }
 
 TEST(AxisError, LeavesOutWhatDoesNotCount) {
-  const auto middle = [](const AxisDeviation& d) { return d.reference_abscissa_mm > 2.0 && d.reference_abscissa_mm < 3.0; };
+  const auto middle = [](const AxisDeviation& d) {
+    return d.reference_abscissa_mm > 2.0 && d.reference_abscissa_mm < 3.0;
+  };
   EXPECT_EQ(compare_axes(line(Vec3::Zero(), 2.0), line(Vec3::Zero(), 2.0), middle).size(), 9u);
   EXPECT_THROW(summarize({}), InvalidInput);
   EXPECT_THROW(compare_axes(Centerline{}, line(Vec3::Zero(), 1.0)), InvalidInput);

@@ -1,8 +1,8 @@
 #include "ostia/evaluation/overlap.h"
 
-#include <gtest/gtest.h>
-
 #include "ostia/core/error.h"
+
+#include <gtest/gtest.h>
 
 namespace ostia::evaluation {
 namespace {
@@ -55,7 +55,8 @@ TEST(MaskOf, HoldsTheVoxelsInside) {
   for (std::int64_t k = 0; k < 16; ++k) {
     for (std::int64_t j = 0; j < 18; ++j) {
       for (std::int64_t i = 0; i < 20; ++i) {
-        const Vec3 p = phi.geometry.world(Vec3(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)));
+        const Vec3 p =
+            phi.geometry.world(Vec3(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)));
         phi(i, j, k) = static_cast<float>(p.norm() - 2.05);
         expected += p.norm() < 2.05;
       }

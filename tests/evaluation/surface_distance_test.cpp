@@ -1,12 +1,12 @@
 #include "ostia/evaluation/surface_distance.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
 #include "ostia/geometry/isosurface.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
 
 namespace ostia::evaluation {
 namespace {
@@ -17,7 +17,8 @@ using geometry::Vec3;
 
 TriMesh ball(double radius, const Vec3& centre = Vec3::Zero()) {
   const Vec3 reach = Vec3::Constant(radius + 1.0);
-  TriMesh mesh = geometry::isosurface([&](const Vec3& p) { return (p - centre).norm() - radius; }, Box3(centre - reach, centre + reach), 0.25);
+  TriMesh mesh = geometry::isosurface([&](const Vec3& p) { return (p - centre).norm() - radius; },
+                                      Box3(centre - reach, centre + reach), 0.25);
   for (Vec3& p : mesh.points) p = centre + radius * (p - centre).normalized();
   return mesh;
 }

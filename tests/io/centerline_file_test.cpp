@@ -1,8 +1,8 @@
 #include "ostia/io/centerline_file.h"
 
-#include <cmath>
-
 #include "io_test_support.h"
+
+#include <cmath>
 
 namespace ostia::io {
 namespace {
@@ -51,8 +51,9 @@ TEST(CenterlineFile, CarriesTheNamesThatTheFieldReads) {
   const auto path = testing::temporary_folder("io") / "lines.vtp";
   write_centerlines(path, fork());
   const std::string content = core::read_file(path);
-  for (const char* name : {"MaximumInscribedSphereRadius", "CenterlineIds", "GroupIds", "Blanking", "Abscissas", "ParallelTransportNormals",
-                           "FrenetTangent", "Curvature", "Torsion"}) {
+  for (const char* name :
+       {"MaximumInscribedSphereRadius", "CenterlineIds", "GroupIds", "Blanking", "Abscissas",
+        "ParallelTransportNormals", "FrenetTangent", "Curvature", "Torsion"}) {
     EXPECT_NE(content.find("Name=\"" + std::string(name) + "\""), std::string::npos) << name;
   }
 }
@@ -68,19 +69,21 @@ TEST(CenterlineFile, RoundTripsCsvOfVessels) {
 }
 
 TEST(CenterlineFile, ReadsPlainCsv) {
-  const VesselTree read = read_centerlines(file_with("a.csv", "x, y, z, radius\n0,0,0,1.5\n0,0,1,1.25\n\n5,0,0,1\n5,0,1,1\n5,0,2,1\n"));
+  const VesselTree read = read_centerlines(
+      file_with("a.csv", "x, y, z, radius\n0,0,0,1.5\n0,0,1,1.25\n\n5,0,0,1\n5,0,1,1\n5,0,2,1\n"));
   ASSERT_EQ(read.segments.size(), 2u);
   EXPECT_EQ(read.segments[0].axis.radius[1], 1.25);
   EXPECT_EQ(read.segments[1].axis.size(), 3u);
 }
 
 TEST(CenterlineFile, RefusesWhatIsNoCenterline) {
-  const std::vector<std::pair<std::string, std::string>> bad{{"x,y,z\n0,0,0\n", "radius"},
-                                                             {"x,y,z,radius\n0,0,0,1\n0,0,a,1\n", "row 3"},
-                                                             {"x,y,z,radius\n0,0,0,1\n0,0,1,-1\n", "positive"},
-                                                             {"x,y,z,radius\n0,0,0,1\n", "fewer than two"},
-                                                             {"x,y,z,radius\n", "no points"},
-                                                             {"x,y,z,radius\n0,0,0,1\n0,0,nan,1\n", "row 3"}};
+  const std::vector<std::pair<std::string, std::string>> bad{
+      {"x,y,z\n0,0,0\n", "radius"},
+      {"x,y,z,radius\n0,0,0,1\n0,0,a,1\n", "row 3"},
+      {"x,y,z,radius\n0,0,0,1\n0,0,1,-1\n", "positive"},
+      {"x,y,z,radius\n0,0,0,1\n", "fewer than two"},
+      {"x,y,z,radius\n", "no points"},
+      {"x,y,z,radius\n0,0,0,1\n0,0,nan,1\n", "row 3"}};
   for (const auto& [content, part] : bad) {
     const auto path = file_with("a.csv", content);
     expect_refusal(path, [&] { read_centerlines(path); }, {part});

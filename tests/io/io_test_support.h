@@ -1,16 +1,17 @@
 #pragma once
 /// \file Small meshes and files for the tests of `io`.
 
+#include "shared_data.h"
+
+#include "ostia/core/error.h"
+#include "ostia/core/files.h"
+#include "ostia/geometry/tri_mesh.h"
+
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <functional>
 #include <string>
-
-#include "ostia/core/error.h"
-#include "ostia/core/files.h"
-#include "ostia/geometry/tri_mesh.h"
-#include "shared_data.h"
 
 namespace ostia::io {
 
@@ -19,7 +20,11 @@ inline geometry::TriMesh tetrahedron_surface() {
 }
 
 inline geometry::FacedSurface faced_tetrahedron() {
-  return {tetrahedron_surface(), {1, 1, 2, 3}, {{1, "wall", geometry::FaceKind::wall}, {2, "inlet_a", geometry::FaceKind::inlet}, {3, "outlet_a", geometry::FaceKind::outlet}}};
+  return {tetrahedron_surface(),
+          {1, 1, 2, 3},
+          {{1, "wall", geometry::FaceKind::wall},
+           {2, "inlet_a", geometry::FaceKind::inlet},
+           {3, "outlet_a", geometry::FaceKind::outlet}}};
 }
 
 inline std::filesystem::path file_with(const std::string& name, const std::string& content) {
@@ -29,7 +34,8 @@ inline std::filesystem::path file_with(const std::string& name, const std::strin
 }
 
 /// The call must refuse with a message that holds all of `parts` (and the file's name).
-inline void expect_refusal(const std::filesystem::path& path, const std::function<void()>& call, const std::vector<std::string>& parts) {
+inline void expect_refusal(const std::filesystem::path& path, const std::function<void()>& call,
+                           const std::vector<std::string>& parts) {
   try {
     call();
     ADD_FAILURE() << path << " was accepted";

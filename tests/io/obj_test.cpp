@@ -1,11 +1,14 @@
 #include "io_test_support.h"
+
 #include "ostia/io/surface_file.h"
 
 namespace ostia::io {
 namespace {
 
 TEST(Obj, ReadsFacesWithAllKindsOfCorners) {
-  const auto loaded = read_surface(file_with("a.obj", "# a comment\nv 0 0 0\nv 1.5 0 0\r\nv 0 1 0\nv 0 0 1\nvn 0 0 1\nf 1 2 3\nf 1/4/1 2//1 4/2\nf -4 -3 -2 -1\n"));
+  const auto loaded = read_surface(file_with("a.obj",
+                                             "# a comment\nv 0 0 0\nv 1.5 0 0\r\nv 0 1 0\nv 0 0 1\nvn 0 0 "
+                                             "1\nf 1 2 3\nf 1/4/1 2//1 4/2\nf -4 -3 -2 -1\n"));
   const auto& mesh = loaded.surface.mesh;
   ASSERT_EQ(mesh.points.size(), 4u);
   EXPECT_EQ(mesh.points[1].x(), 1.5);

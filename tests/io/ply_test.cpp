@@ -1,14 +1,16 @@
+#include "io_test_support.h"
+
+#include "ostia/io/surface_file.h"
+
 #include <algorithm>
 #include <cstring>
-
-#include "io_test_support.h"
-#include "ostia/io/surface_file.h"
 
 namespace ostia::io {
 namespace {
 
 constexpr const char* header =
-    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\n"
+    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nproperty "
+    "uchar red\n"
     "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
 constexpr const char* body = "0 0 0 7\n1 0 0 7\n1 1 0 7\n0 1 0 7\n4 0 1 2 3\n";
 
@@ -26,8 +28,10 @@ TEST(Ply, SplitsPolygonsAndSaysSo) {
 }
 
 TEST(Ply, ReadsBigEndian) {
-  std::string content = "ply\nformat binary_big_endian 1.0\nelement vertex 3\nproperty double x\nproperty double y\nproperty double z\n"
-                        "element face 1\nproperty list uchar int vertex_index\nend_header\n";
+  std::string content =
+      "ply\nformat binary_big_endian 1.0\nelement vertex 3\nproperty double x\nproperty double y\nproperty "
+      "double z\n"
+      "element face 1\nproperty list uchar int vertex_index\nend_header\n";
   const auto add = [&](auto value) {
     std::string bytes(reinterpret_cast<const char*>(&value), sizeof value);
     std::reverse(bytes.begin(), bytes.end());
@@ -50,7 +54,8 @@ TEST(Ply, RefusesWhatIsCutOrOutOfRange) {
       {std::string(header) + "0 0 0 7\n1 0 0 7\n1 1 0 7\n0 1 0 7\n3 0 1 -2\n", "out of range"},
       {std::string(header) + "0 0 0 7\n1 0 x 7\n", "\"x\""},
       {"ply\nformat ascii 1.0\nelement vertex 99999999999\nproperty float x\nend_header\n", "count"},
-      {"ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nend_header\n0 0\n", "no x, y or z"},
+      {"ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nend_header\n0 0\n",
+       "no x, y or z"},
       {"ply\nelement vertex 1\nproperty float x\nend_header\n0\n", "no format"},
   };
   for (const auto& [content, part] : bad) {
@@ -60,8 +65,10 @@ TEST(Ply, RefusesWhatIsCutOrOutOfRange) {
 }
 
 TEST(Ply, DoesNotAllocateWhatTheFileCannotHold) {
-  const auto path = file_with("a.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 2000000000\nproperty float x\nproperty float y\n"
-                                       "property float z\nend_header\nxxxx");
+  const auto path = file_with(
+      "a.ply",
+      "ply\nformat binary_little_endian 1.0\nelement vertex 2000000000\nproperty float x\nproperty float y\n"
+      "property float z\nend_header\nxxxx");
   expect_refusal(path, [&] { read_surface(path); }, {"cut short"});
 }
 

@@ -1,11 +1,12 @@
+#include "io_test_support.h"
+
+#include "ostia/geometry/mesh_topology.h"
+#include "ostia/io/surface_file.h"
+
 #include <array>
 #include <clocale>
 #include <cmath>
 #include <cstring>
-
-#include "io_test_support.h"
-#include "ostia/geometry/mesh_topology.h"
-#include "ostia/io/surface_file.h"
 
 namespace ostia::io {
 namespace {
@@ -14,7 +15,8 @@ std::string binary_stl(std::uint32_t declared, std::size_t facets) {
   std::string out(80, ' ');
   out.append(reinterpret_cast<const char*>(&declared), 4);
   for (std::size_t f = 0; f < facets; ++f) {
-    std::array<float, 12> numbers{0, 0, 1, 0, 0, static_cast<float>(f), 1, 0, static_cast<float>(f), 0, 1, static_cast<float>(f)};
+    std::array<float, 12> numbers{
+        0, 0, 1, 0, 0, static_cast<float>(f), 1, 0, static_cast<float>(f), 0, 1, static_cast<float>(f)};
     out.append(reinterpret_cast<const char*>(numbers.data()), sizeof numbers);
     out.append(2, '\0');
   }
@@ -22,7 +24,8 @@ std::string binary_stl(std::uint32_t declared, std::size_t facets) {
 }
 
 constexpr const char* ascii =
-    "solid a\n facet normal 0 0 1\n  outer loop\n   vertex 0 0 0\n   vertex 1.5 0 0\n   vertex 0 2.5e0 0\n  endloop\n endfacet\nendsolid a\n";
+    "solid a\n facet normal 0 0 1\n  outer loop\n   vertex 0 0 0\n   vertex 1.5 0 0\n   vertex 0 2.5e0 0\n  "
+    "endloop\n endfacet\nendsolid a\n";
 
 TEST(Stl, RoundTripsInSinglePrecision) {
   const auto path = testing::temporary_folder("io") / "a.stl";
@@ -56,7 +59,8 @@ TEST(Stl, BadInput_Row34_CountBeyondTheFile) {
 
 TEST(Stl, BadInput_Row34_AsciiCutShort) {
   const std::string text(ascii);
-  for (const std::size_t length : {text.find("endsolid"), text.find("vertex 0 2.5"), text.find("2.5e0") + 1}) {
+  for (const std::size_t length :
+       {text.find("endsolid"), text.find("vertex 0 2.5"), text.find("2.5e0") + 1}) {
     const auto path = file_with("a.stl", text.substr(0, length));
     expect_refusal(path, [&] { read_surface(path); }, {});
   }

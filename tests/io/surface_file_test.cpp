@@ -17,7 +17,8 @@ TEST(SurfaceFile, RoundTripsEveryFormat) {
 
 TEST(SurfaceFile, RefusesToLoseFaceNames) {
   const auto folder = testing::temporary_folder("io");
-  expect_refusal(folder / "a.stl", [&] { write_surface(folder / "a.stl", faced_tetrahedron()); }, {"named faces", ".vtp"});
+  expect_refusal(folder / "a.stl", [&] { write_surface(folder / "a.stl", faced_tetrahedron()); },
+                 {"named faces", ".vtp"});
   EXPECT_FALSE(std::filesystem::exists(folder / "a.stl"));
 }
 

@@ -1,4 +1,5 @@
 #include "io_test_support.h"
+
 #include "ostia/geometry/mesh_topology.h"
 #include "ostia/io/centerline_file.h"
 #include "ostia/io/surface_file.h"

@@ -1,6 +1,7 @@
 #include "ostia/io/volume_mesh_file.h"
 
 #include "io_test_support.h"
+
 #include "ostia/geometry/mesh_topology.h"
 
 namespace ostia::io {
@@ -28,10 +29,14 @@ TEST(VolumeMeshFile, RefusesOtherCellsAndNames) {
   const auto path = testing::temporary_folder("io") / "mesh.msh";
   EXPECT_THROW(write_volume_mesh(path, one_tetrahedron()), InvalidInput);
   const auto line = file_with("a.vtu",
-                              "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\"><UnstructuredGrid><Piece NumberOfPoints=\"2\" "
-                              "NumberOfCells=\"1\"><Points><DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0</DataArray></Points>"
-                              "<Cells><DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">0 1</DataArray><DataArray type=\"Int32\" Name=\"offsets\" "
-                              "format=\"ascii\">2</DataArray><DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">3</DataArray></Cells></Piece></UnstructuredGrid></VTKFile>");
+                              "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" "
+                              "byte_order=\"LittleEndian\"><UnstructuredGrid><Piece NumberOfPoints=\"2\" "
+                              "NumberOfCells=\"1\"><Points><DataArray type=\"Float32\" "
+                              "NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0</DataArray></Points>"
+                              "<Cells><DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">0 "
+                              "1</DataArray><DataArray type=\"Int32\" Name=\"offsets\" "
+                              "format=\"ascii\">2</DataArray><DataArray type=\"UInt8\" Name=\"types\" "
+                              "format=\"ascii\">3</DataArray></Cells></Piece></UnstructuredGrid></VTKFile>");
   expect_refusal(line, [&] { read_volume_mesh(line); }, {"type 3"});
 }
 

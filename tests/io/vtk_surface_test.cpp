@@ -1,4 +1,5 @@
 #include "io_test_support.h"
+
 #include "ostia/io/surface_file.h"
 
 namespace ostia::io {

@@ -1,12 +1,12 @@
 #include "ostia/phantom/builtin_case.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
 #include "ostia/imaging/sampling.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
 
 namespace ostia::phantom {
 namespace {
@@ -32,7 +32,8 @@ TEST(BuiltinCase, LumenIsBrightAlongItsAxes) {
   for (const auto& tube : builtin().truth.tubes) {
     double sum = 0.0;
     int count = 0;
-    for (std::size_t i = 60; i + 60 < tube.axis.size(); i += 20, ++count) sum += imaging::sample(builtin().image, tube.axis.points[i]);
+    for (std::size_t i = 60; i + 60 < tube.axis.size(); i += 20, ++count)
+      sum += imaging::sample(builtin().image, tube.axis.points[i]);
     EXPECT_NEAR(sum / count, 380.0, 12.0);
   }
 }
@@ -45,7 +46,8 @@ TEST(BuiltinCase, WallIsHalfWayBetweenLumenAndFat) {
   for (std::size_t i = 80; i < 160; i += 4) {
     for (int a = 0; a < 24; ++a, ++count) {
       const double angle = a * std::acos(-1.0) / 12.0;
-      const Vec3 direction = std::cos(angle) * axis.frames[i].normal + std::sin(angle) * axis.frames[i].binormal;
+      const Vec3 direction =
+          std::cos(angle) * axis.frames[i].normal + std::sin(angle) * axis.frames[i].binormal;
       sum += imaging::sample(builtin().image, axis.points[i] + axis.radius[i] * direction);
     }
   }

@@ -1,15 +1,17 @@
 #include "ostia/pipeline/branch_ends.h"
 
-#include <gtest/gtest.h>
-
 #include "ostia/core/error.h"
+
+#include <gtest/gtest.h>
 
 namespace ostia::pipeline {
 namespace {
 
 using geometry::Vec3;
 
-segmentation::BranchSeeds pair(const Vec3& a, const Vec3& b) { return {a, std::nullopt, b}; }
+segmentation::BranchSeeds pair(const Vec3& a, const Vec3& b) {
+  return {a, std::nullopt, b};
+}
 
 TEST(BranchEnds, OnePairHasOneTarget) {
   const BranchEnds ends = ends_of({pair({0, 0, 0}, {0, 0, 10})});
@@ -28,7 +30,8 @@ TEST(BranchEnds, AForkHasTwoTargets) {
 
 TEST(BranchEnds, RefusesNothingAndRings) {
   EXPECT_THROW(ends_of({}), InvalidInput);
-  EXPECT_THROW(ends_of({pair({0, 0, 0}, {9, 0, 0}), pair({9, 0, 0}, {0, 9, 0}), pair({0, 9, 0}, {0, 0, 0})}), InvalidInput);
+  EXPECT_THROW(ends_of({pair({0, 0, 0}, {9, 0, 0}), pair({9, 0, 0}, {0, 9, 0}), pair({0, 9, 0}, {0, 0, 0})}),
+               InvalidInput);
 }
 
 }  // namespace

@@ -1,17 +1,19 @@
 #include "ostia/pipeline/manifest.h"
 
-#include <gtest/gtest.h>
-
-#include <nlohmann/json.hpp>
+#include "shared_data.h"
 
 #include "ostia/core/files.h"
 #include "ostia/core/log.h"
-#include "shared_data.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 namespace ostia::pipeline {
 namespace {
 
-JobKey key() { return {"model", {{"input", "abc"}}, R"({"edge_ratio":0.4})"}; }
+JobKey key() {
+  return {"model", {{"input", "abc"}}, R"({"edge_ratio":0.4})"};
+}
 
 std::filesystem::path done_folder(ExitCode code) {
   const auto folder = testing::temporary_folder("manifest");

@@ -1,17 +1,18 @@
 #include "ostia/pipeline/model.h"
 
+#include "builtin_model.h"
+
+#include "ostia/core/error.h"
+#include "ostia/core/parallel.h"
+#include "ostia/geometry/analytic_shapes.h"
+#include "ostia/geometry/mesh_topology.h"
+
 #include <gtest/gtest.h>
 
 #include <atomic>
 #include <cmath>
 #include <numbers>
 #include <thread>
-
-#include "builtin_model.h"
-#include "ostia/core/error.h"
-#include "ostia/core/parallel.h"
-#include "ostia/geometry/analytic_shapes.h"
-#include "ostia/geometry/mesh_topology.h"
 
 namespace ostia::pipeline {
 namespace {
@@ -59,15 +60,18 @@ TEST(Model, BuiltinCaseBecomesAValidMesh) {
 
 TEST(Model, VolumeIsThatOfItsSurface) {
   const Model& model = builtin_model();
-  EXPECT_NEAR(geometry::volume(model.meshed.mesh), geometry::volume(model.meshed.surface.mesh), 1e-6 * geometry::volume(model.meshed.mesh));
+  EXPECT_NEAR(geometry::volume(model.meshed.mesh), geometry::volume(model.meshed.surface.mesh),
+              1e-6 * geometry::volume(model.meshed.mesh));
 }
 
 TEST(Model, OpenTubeGoesFromItsEndToItsEnd) {
   ModelOptions options;
   options.sizing.edge_ratio = 0.25;  // chords of a quarter of the radius take 1 % from a circle's area
-  const Model model = build_model(surface_source(geometry::surface_of(geometry::straight_tube(20.0, 2.0), 0.4, true)), options);
+  const Model model = build_model(
+      surface_source(geometry::surface_of(geometry::straight_tube(20.0, 2.0), 0.4, true)), options);
   EXPECT_TRUE(model.meshed.verdict.ok()) << model.meshed.verdict.summary();
-  EXPECT_NEAR(geometry::volume(model.meshed.mesh), std::numbers::pi * 4.0 * 20.0, 0.02 * std::numbers::pi * 80.0);
+  EXPECT_NEAR(geometry::volume(model.meshed.mesh), std::numbers::pi * 4.0 * 20.0,
+              0.02 * std::numbers::pi * 80.0);
 }
 
 TEST(Model, ClosedSurfaceNeedsItsEnds) {
@@ -120,7 +124,8 @@ TEST(Model, RefusesFrontsThatNeverMeet) {
   for (std::int64_t k = 0; k < cut.image.geometry.size[2]; ++k) {
     for (std::int64_t j = 0; j < cut.image.geometry.size[1]; ++j) {
       for (std::int64_t i = 0; i < cut.image.geometry.size[0]; ++i) {
-        const Vec3 p = cut.image.geometry.world(Vec3(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)));
+        const Vec3 p = cut.image.geometry.world(
+            Vec3(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)));
         if ((p - middle).norm() < 5.0) cut.image(i, j, k) = -80;
       }
     }

@@ -1,14 +1,14 @@
 #include "ostia/pipeline/repair.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-
 #include "ostia/core/error.h"
 #include "ostia/geometry/aabb_tree.h"
 #include "ostia/geometry/analytic_shapes.h"
 #include "ostia/geometry/mesh_topology.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
 
 namespace ostia::pipeline {
 namespace {
@@ -16,7 +16,9 @@ namespace {
 using geometry::TriMesh;
 using geometry::Vec3;
 
-TriMesh tube() { return geometry::surface_of(geometry::straight_tube(12.0, 2.0), 0.5, true); }
+TriMesh tube() {
+  return geometry::surface_of(geometry::straight_tube(12.0, 2.0), 0.5, true);
+}
 
 void expect_sound(const TriMesh& mesh) {
   geometry::SurfaceFaults faults = geometry::find_faults(mesh, true);

@@ -1,9 +1,9 @@
-#include <gtest/gtest.h>
-
-#include <nlohmann/json.hpp>
-
 #include "builtin_model.h"
+
 #include "ostia/pipeline/report.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 namespace ostia::pipeline {
 namespace {

@@ -1,6 +1,6 @@
 #include "ostia/pipeline/source.h"
 
-#include <gtest/gtest.h>
+#include "shared_data.h"
 
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
@@ -8,7 +8,8 @@
 #include "ostia/geometry/analytic_shapes.h"
 #include "ostia/imaging/image_file.h"
 #include "ostia/io/surface_file.h"
-#include "shared_data.h"
+
+#include <gtest/gtest.h>
 
 namespace ostia::pipeline {
 namespace {
@@ -22,7 +23,9 @@ imaging::ImageVolume ramp() {
   return image;
 }
 
-geometry::TriMesh tube() { return geometry::surface_of(geometry::straight_tube(10.0, 1.5), 0.5, true); }
+geometry::TriMesh tube() {
+  return geometry::surface_of(geometry::straight_tube(10.0, 1.5), 0.5, true);
+}
 
 TEST(Source, KnowsWhatAFileIs) {
   const fs::path folder = testing::temporary_folder("source");
@@ -75,7 +78,8 @@ TEST(Source, DoesNotGuessTheUnit) {
   }
   SourceOptions options;
   options.unit_mm = 1000.0;
-  EXPECT_NEAR(load(folder / "m.stl", options).surface.points.front().norm(), tube().points.front().norm(), 1e-3);
+  EXPECT_NEAR(load(folder / "m.stl", options).surface.points.front().norm(), tube().points.front().norm(),
+              1e-3);
   EXPECT_THROW(check_vessel_size(120.0, "x"), InvalidInput);
   EXPECT_NO_THROW(check_vessel_size(40.0, "x"));
 }

@@ -1,8 +1,8 @@
 #include "ostia/pipeline/truth.h"
 
-#include <gtest/gtest.h>
-
 #include "builtin_model.h"
+
+#include <gtest/gtest.h>
 
 namespace ostia::pipeline {
 namespace {

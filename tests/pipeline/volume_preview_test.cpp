@@ -1,10 +1,11 @@
 #include "ostia/pipeline/volume_preview.h"
 
-#include <gtest/gtest.h>
-
 #include "builtin_model.h"
-#include "ostia/core/error.h"
 #include "shared_data.h"
+
+#include "ostia/core/error.h"
+
+#include <gtest/gtest.h>
 
 namespace ostia::pipeline {
 namespace {
@@ -14,17 +15,20 @@ TEST(VolumePreview, WritesPlanesAndSlices) {
   PreviewOptions options;
   options.axial_slices = 3;
   const auto names = write_preview(builtin_case().image, folder, options);
-  EXPECT_EQ(names, (std::vector<std::string>{"planes.png", "axial-001.png", "axial-002.png", "axial-003.png"}));
+  EXPECT_EQ(names,
+            (std::vector<std::string>{"planes.png", "axial-001.png", "axial-002.png", "axial-003.png"}));
   for (const auto& name : names) EXPECT_GT(std::filesystem::file_size(folder / name), 5000u);
 }
 
 TEST(VolumePreview, RefusesPlacesOutside) {
   PreviewOptions options;
   options.position = geometry::Vec3(1e4, 0, 0);
-  EXPECT_THROW(write_preview(builtin_case().image, testing::temporary_folder("preview"), options), InvalidInput);
+  EXPECT_THROW(write_preview(builtin_case().image, testing::temporary_folder("preview"), options),
+               InvalidInput);
   options = {};
   options.axial_slices = -1;
-  EXPECT_THROW(write_preview(builtin_case().image, testing::temporary_folder("preview"), options), InvalidInput);
+  EXPECT_THROW(write_preview(builtin_case().image, testing::temporary_folder("preview"), options),
+               InvalidInput);
 }
 
 }  // namespace

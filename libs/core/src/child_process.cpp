@@ -1,5 +1,7 @@
 #include "ostia/core/child_process.h"
 
+#include "ostia/core/error.h"
+
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/prctl.h>
@@ -13,8 +15,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <system_error>
-
-#include "ostia/core/error.h"
 
 extern char** environ;  // NOLINT(readability-redundant-declaration)
 
@@ -47,7 +47,8 @@ std::vector<std::string> reduced_environment() {
   std::vector<std::string> kept{"LC_ALL=C"};
   for (char** entry = environ; *entry != nullptr; ++entry) {
     const std::string_view text(*entry);
-    for (const std::string_view name : {"PATH=", "TMPDIR=", "OSTIA_", "ASAN_OPTIONS=", "UBSAN_OPTIONS=", "LD_LIBRARY_PATH="}) {
+    for (const std::string_view name :
+         {"PATH=", "TMPDIR=", "OSTIA_", "ASAN_OPTIONS=", "UBSAN_OPTIONS=", "LD_LIBRARY_PATH="}) {
       if (text.substr(0, name.size()) == name) kept.emplace_back(text);
     }
   }
@@ -82,8 +83,8 @@ struct Pipe {
 };
 
 // Runs in the child between fork and exec: only async-signal-safe calls.
-[[noreturn]] void become(const char* program, char* const* arguments, char* const* environment, const ChildLimits& limits,
-                         int error_fd, pid_t parent) {
+[[noreturn]] void become(const char* program, char* const* arguments, char* const* environment,
+                         const ChildLimits& limits, int error_fd, pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(127);
   ::setpgid(0, 0);  // Ctrl-C in the terminal goes to the parent, which decides
@@ -130,8 +131,8 @@ std::string ChildResult::describe() const {
   return "exited with code " + std::to_string(exit_code);
 }
 
-ChildResult run_child(const fs::path& program, const std::vector<std::string>& arguments, const ChildLimits& limits,
-                      const TaskContext& task) {
+ChildResult run_child(const fs::path& program, const std::vector<std::string>& arguments,
+                      const ChildLimits& limits, const TaskContext& task) {
   if (::access(program.c_str(), X_OK) != 0) {
     throw IoError("the program " + program.string() + " is not there or cannot be run; install Ostia whole");
   }
@@ -144,7 +145,8 @@ ChildResult run_child(const fs::path& program, const std::vector<std::string>& a
   Pipe errors;
   const pid_t parent = ::getpid();
   const pid_t child = ::fork();
-  if (child < 0) throw ResourceError("cannot start a child process: " + std::generic_category().message(errno));
+  if (child < 0)
+    throw ResourceError("cannot start a child process: " + std::generic_category().message(errno));
   if (child == 0) become(program.c_str(), argv.data(), envp.data(), limits, errors.ends[1], parent);
   ::setpgid(child, child);
   errors.close_writer();

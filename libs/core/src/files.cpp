@@ -1,5 +1,7 @@
 #include "ostia/core/files.h"
 
+#include "ostia/core/error.h"
+
 #include <fcntl.h>
 #include <openssl/evp.h>
 #include <sys/stat.h>
@@ -16,8 +18,6 @@
 #include <mutex>
 #include <system_error>
 #include <utility>
-
-#include "ostia/core/error.h"
 
 namespace ostia::core {
 namespace fs = std::filesystem;
@@ -72,11 +72,14 @@ void sync(const fs::path& path, int flags) {
   }
 }
 
-fs::path folder_of(const fs::path& target) { return target.has_parent_path() ? target.parent_path() : fs::path("."); }
+fs::path folder_of(const fs::path& target) {
+  return target.has_parent_path() ? target.parent_path() : fs::path(".");
+}
 
 void require_writable_folder(const fs::path& folder, const fs::path& target) {
   if (!fs::is_directory(folder)) {
-    throw IoError("cannot write " + shown(target) + ": the folder " + shown(folder) + " does not exist; create it first");
+    throw IoError("cannot write " + shown(target) + ": the folder " + shown(folder) +
+                  " does not exist; create it first");
   }
   if (::access(folder.c_str(), W_OK | X_OK) != 0) {
     throw IoError("cannot write " + shown(target) + ": no permission to write in " + shown(folder));
@@ -86,8 +89,8 @@ void require_writable_folder(const fs::path& folder, const fs::path& target) {
 fs::path temporary_beside(const fs::path& target) {
   static std::atomic<unsigned> counter{0};
   const std::string suffix = ".part-" + std::to_string(::getpid()) + "-" + std::to_string(counter++);
-  // The extension is kept: writers of some libraries choose the format by it. Long names are shortened so that the
-  // file system's limit of 255 bytes holds.
+  // The extension is kept: writers of some libraries choose the format by it. Long names are shortened so
+  // that the file system's limit of 255 bytes holds.
   std::string stem = target.filename().string();
   if (stem.size() > 180) stem = stem.substr(stem.size() - 180);
   return folder_of(target) / ("." + suffix.substr(1) + "-" + stem);
@@ -110,7 +113,9 @@ std::string hex(const unsigned char* bytes, unsigned count) {
 
 class Sha256 {
  public:
-  Sha256() : context_(EVP_MD_CTX_new(), &EVP_MD_CTX_free) { EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr); }
+  Sha256() : context_(EVP_MD_CTX_new(), &EVP_MD_CTX_free) {
+    EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr);
+  }
   void add(const char* data, std::size_t size) { EVP_DigestUpdate(context_.get(), data, size); }
   std::string result() {
     std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
@@ -135,7 +140,8 @@ std::string read_file(const fs::path& path, std::uint64_t max_bytes) {
   while (in.read(block.data(), block.size()) || in.gcount() > 0) {
     content.append(block.data(), static_cast<std::size_t>(in.gcount()));
     if (content.size() > max_bytes) {
-      throw ResourceError("cannot read " + path.string() + ": it is larger than " + std::to_string(max_bytes) + " bytes");
+      throw ResourceError("cannot read " + path.string() + ": it is larger than " +
+                          std::to_string(max_bytes) + " bytes");
     }
   }
   if (in.bad()) throw_errno("cannot read", path, EIO);
@@ -143,8 +149,10 @@ std::string read_file(const fs::path& path, std::uint64_t max_bytes) {
 }
 
 StagedFile::StagedFile(fs::path target) : target_(std::move(target)) {
-  if (target_.filename().empty()) throw IoError("cannot write " + target_.string() + ": it names a folder, not a file");
-  if (fs::is_directory(target_)) throw IoError("cannot write " + target_.string() + ": a folder of that name exists");
+  if (target_.filename().empty())
+    throw IoError("cannot write " + target_.string() + ": it names a folder, not a file");
+  if (fs::is_directory(target_))
+    throw IoError("cannot write " + target_.string() + ": a folder of that name exists");
   require_writable_folder(folder_of(target_), target_);
   temporary_ = temporary_beside(target_);
 }
@@ -165,7 +173,8 @@ void StagedFile::commit() {
 void write_file(const fs::path& path, std::string_view content) {
   StagedFile staged(path);
   {
-    std::unique_ptr<std::FILE, int (*)(std::FILE*)> out(std::fopen(staged.temporary().c_str(), "wbe"), &std::fclose);
+    std::unique_ptr<std::FILE, int (*)(std::FILE*)> out(std::fopen(staged.temporary().c_str(), "wbe"),
+                                                        &std::fclose);
     if (!out) throw_errno("cannot write", path, errno);
     const bool whole = std::fwrite(content.data(), 1, content.size(), out.get()) == content.size();
     if (!whole || std::fflush(out.get()) != 0) throw_errno("cannot write", path, errno);
@@ -228,7 +237,8 @@ std::string sha256_file(const fs::path& path) {
   if (!in || fs::is_directory(path)) throw IoError("cannot read " + path.string());
   Sha256 hash;
   std::array<char, 1 << 16> block{};
-  while (in.read(block.data(), block.size()) || in.gcount() > 0) hash.add(block.data(), static_cast<std::size_t>(in.gcount()));
+  while (in.read(block.data(), block.size()) || in.gcount() > 0)
+    hash.add(block.data(), static_cast<std::size_t>(in.gcount()));
   if (in.bad()) throw IoError("cannot read " + path.string());
   return hash.result();
 }

@@ -39,7 +39,8 @@ std::string json_escaped(std::string_view text) {
 }
 
 std::shared_ptr<spdlog::logger> make_logger() {
-  auto logger = std::make_shared<spdlog::logger>("ostia", std::make_shared<spdlog::sinks::stderr_color_sink_mt>());
+  auto logger =
+      std::make_shared<spdlog::logger>("ostia", std::make_shared<spdlog::sinks::stderr_color_sink_mt>());
   logger->set_pattern("%^%l%$: %v");
   logger->set_level(spdlog::level::info);
   return logger;
@@ -57,11 +58,16 @@ std::atomic<bool>& as_json() {
 
 spdlog::level::level_enum level_of(LogLevel level) {
   switch (level) {
-    case LogLevel::debug: return spdlog::level::debug;
-    case LogLevel::info: return spdlog::level::info;
-    case LogLevel::warning: return spdlog::level::warn;
-    case LogLevel::error: return spdlog::level::err;
-    case LogLevel::off: break;
+    case LogLevel::debug:
+      return spdlog::level::debug;
+    case LogLevel::info:
+      return spdlog::level::info;
+    case LogLevel::warning:
+      return spdlog::level::warn;
+    case LogLevel::error:
+      return spdlog::level::err;
+    case LogLevel::off:
+      break;
   }
   return spdlog::level::off;
 }
@@ -82,7 +88,9 @@ void set_log(LogFormat format, LogLevel level) {
   logger().set_level(level_of(level));
 }
 
-LogFormat log_format() { return as_json() ? LogFormat::json : LogFormat::text; }
+LogFormat log_format() {
+  return as_json() ? LogFormat::json : LogFormat::text;
+}
 
 void redact_in_logs(std::string_view secret, std::string_view alias) {
   if (secret.size() < 3) return;
@@ -97,9 +105,12 @@ namespace {
 
 constexpr std::size_t shortest_anywhere = 8;  ///< shorter texts ("out") are replaced as whole words alone
 
-/// Whether `size` characters at `at` stand apart: letters that only happen to lie within a longer word name nobody.
+/// Whether `size` characters at `at` stand apart: letters that only happen to lie within a longer word name
+/// nobody.
 bool stands_apart(const std::string& text, std::size_t at, std::size_t size) {
-  const auto letter = [&](std::size_t i) { return i < text.size() && std::isalnum(static_cast<unsigned char>(text[i])) != 0; };
+  const auto letter = [&](std::size_t i) {
+    return i < text.size() && std::isalnum(static_cast<unsigned char>(text[i])) != 0;
+  };
   return !(at > 0 && letter(at - 1) && letter(at)) && !(letter(at + size) && letter(at + size - 1));
 }
 
@@ -120,9 +131,17 @@ std::string redacted(std::string_view text) {
   return out;
 }
 
-void log_debug(std::string_view message) { write(spdlog::level::debug, message); }
-void log_info(std::string_view message) { write(spdlog::level::info, message); }
-void log_warning(std::string_view message) { write(spdlog::level::warn, message); }
-void log_error(std::string_view message) { write(spdlog::level::err, message); }
+void log_debug(std::string_view message) {
+  write(spdlog::level::debug, message);
+}
+void log_info(std::string_view message) {
+  write(spdlog::level::info, message);
+}
+void log_warning(std::string_view message) {
+  write(spdlog::level::warn, message);
+}
+void log_error(std::string_view message) {
+  write(spdlog::level::err, message);
+}
 
 }  // namespace ostia::core

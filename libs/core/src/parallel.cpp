@@ -13,7 +13,9 @@ std::atomic<int> thread_limit{0};
 
 }  // namespace
 
-void set_max_threads(int threads) { thread_limit.store(std::max(threads, 0)); }
+void set_max_threads(int threads) {
+  thread_limit.store(std::max(threads, 0));
+}
 
 int max_threads() {
   const int limit = thread_limit.load();
@@ -26,7 +28,9 @@ void parallel_chunks(std::size_t count, std::size_t grain,
   if (count == 0) return;
   if (grain == 0) grain = 1;
   const std::size_t chunks = (count + grain - 1) / grain;
-  const auto run_chunk = [&](std::size_t chunk) { body(chunk * grain, std::min(count, (chunk + 1) * grain)); };
+  const auto run_chunk = [&](std::size_t chunk) {
+    body(chunk * grain, std::min(count, (chunk + 1) * grain));
+  };
   const int threads = max_threads();
   if (threads == 1 || chunks == 1) {
     for (std::size_t chunk = 0; chunk < chunks; ++chunk) run_chunk(chunk);

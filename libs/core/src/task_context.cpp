@@ -1,11 +1,11 @@
 #include "ostia/core/task_context.h"
 
+#include "ostia/core/error.h"
+
 #include <algorithm>
 #include <atomic>
 #include <mutex>
 #include <utility>
-
-#include "ostia/core/error.h"
 
 namespace ostia::core {
 
@@ -26,13 +26,17 @@ void TaskContext::set_progress(double fraction) const {
   }
 }
 
-double TaskContext::progress() const { return state_ ? state_->progress.load(std::memory_order_relaxed) : 0.0; }
+double TaskContext::progress() const {
+  return state_ ? state_->progress.load(std::memory_order_relaxed) : 0.0;
+}
 
 void TaskContext::cancel() const {
   if (state_) state_->cancelled.store(true, std::memory_order_release);
 }
 
-bool TaskContext::cancelled() const { return state_ && state_->cancelled.load(std::memory_order_acquire); }
+bool TaskContext::cancelled() const {
+  return state_ && state_->cancelled.load(std::memory_order_acquire);
+}
 
 void TaskContext::throw_if_cancelled() const {
   if (cancelled()) throw Cancelled();

@@ -1,10 +1,10 @@
 #include "ostia/evaluation/axis_error.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "ostia/core/error.h"
 #include "ostia/geometry/polyline.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace ostia::evaluation {
 
@@ -21,7 +21,8 @@ std::vector<AxisDeviation> compare_axes(const Centerline& reference, const Cente
     deviation.reference_abscissa_mm = at.abscissa;
     deviation.distance_mm = (at.point - result.points[i]).norm();
     deviation.radius_mm = result.radius[i];
-    deviation.reference_radius_mm = reference.radius[at.segment] * (1.0 - at.t) + reference.radius[at.segment + 1] * at.t;
+    deviation.reference_radius_mm =
+        reference.radius[at.segment] * (1.0 - at.t) + reference.radius[at.segment + 1] * at.t;
     if (!counts || counts(deviation)) out.push_back(deviation);
   }
   return out;
@@ -39,7 +40,8 @@ AxisSummary summarize(const std::vector<AxisDeviation>& deviations) {
   }
   std::sort(relative.begin(), relative.end());
   const std::size_t half = relative.size() / 2;
-  out.radius_median_relative = relative.size() % 2 == 1 ? relative[half] : 0.5 * (relative[half - 1] + relative[half]);
+  out.radius_median_relative =
+      relative.size() % 2 == 1 ? relative[half] : 0.5 * (relative[half - 1] + relative[half]);
   out.radius_max_relative = relative.back();
   return out;
 }

@@ -11,7 +11,8 @@ using imaging::MaskVolume;
 using imaging::Vec3;
 
 double dice(const MaskVolume& a, const MaskVolume& b, const std::function<bool(const Vec3&)>& counts) {
-  if (!imaging::same_grid(a.geometry, b.geometry)) throw InvalidInput("the two masks lie on different grids; resample one to the other's");
+  if (!imaging::same_grid(a.geometry, b.geometry))
+    throw InvalidInput("the two masks lie on different grids; resample one to the other's");
   std::int64_t both = 0, sum = 0;
   const auto& size = a.geometry.size;
   for (std::int64_t k = 0; k < size[2]; ++k) {
@@ -19,7 +20,9 @@ double dice(const MaskVolume& a, const MaskVolume& b, const std::function<bool(c
       for (std::int64_t i = 0; i < size[0]; ++i) {
         const bool in_a = a(i, j, k) != 0, in_b = b(i, j, k) != 0;
         if (!in_a && !in_b) continue;
-        if (counts && !counts(a.geometry.world(Vec3(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k))))) continue;
+        if (counts && !counts(a.geometry.world(
+                          Vec3(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)))))
+          continue;
         both += in_a && in_b;
         sum += in_a + in_b;
       }
@@ -35,7 +38,8 @@ MaskVolume mask_of(const FloatVolume& level_set, const imaging::Geometry& grid) 
     const auto k = static_cast<std::int64_t>(slice);
     for (std::int64_t j = 0; j < grid.size[1]; ++j) {
       for (std::int64_t i = 0; i < grid.size[0]; ++i) {
-        const Vec3 world = grid.world(Vec3(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)));
+        const Vec3 world =
+            grid.world(Vec3(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)));
         if (level_set.geometry.contains(world) && imaging::sample(level_set, world) < 0.0) mask(i, j, k) = 1;
       }
     }

@@ -1,11 +1,11 @@
 #include "ostia/evaluation/surface_distance.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
 #include "ostia/geometry/aabb_tree.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace ostia::evaluation {
 namespace {
@@ -42,7 +42,8 @@ std::vector<Sample> samples_of(const TriMesh& mesh, double sample_mm, const Regi
   return out;
 }
 
-void measure(std::vector<Sample>& samples, const geometry::AabbTree& to, bool with_sign, const core::TaskContext& task) {
+void measure(std::vector<Sample>& samples, const geometry::AabbTree& to, bool with_sign,
+             const core::TaskContext& task) {
   core::parallel_chunks(samples.size(), 2048, [&](std::size_t first, std::size_t last) {
     task.throw_if_cancelled();
     for (std::size_t i = first; i < last; ++i) {
@@ -53,7 +54,8 @@ void measure(std::vector<Sample>& samples, const geometry::AabbTree& to, bool wi
 }
 
 double quantile_95(std::vector<Sample> samples) {
-  std::sort(samples.begin(), samples.end(), [](const Sample& a, const Sample& b) { return a.distance < b.distance; });
+  std::sort(samples.begin(), samples.end(),
+            [](const Sample& a, const Sample& b) { return a.distance < b.distance; });
   double total = 0.0;
   for (const Sample& s : samples) total += s.weight;
   double reached = 0.0;
@@ -84,12 +86,13 @@ struct Moments {
 
 }  // namespace
 
-SurfaceDistances compare_surfaces(const TriMesh& reference, const TriMesh& result, const SurfaceDistanceOptions& options,
-                                  const core::TaskContext& task) {
+SurfaceDistances compare_surfaces(const TriMesh& reference, const TriMesh& result,
+                                  const SurfaceDistanceOptions& options, const core::TaskContext& task) {
   if (!(options.sample_mm > 0.0)) throw InvalidInput("sample_mm must be positive");
   std::vector<Sample> of_reference = samples_of(reference, options.sample_mm, options.reference_region);
   std::vector<Sample> of_result = samples_of(result, options.sample_mm, options.result_region);
-  if (of_reference.empty() || of_result.empty()) throw InvalidInput("nothing to compare: a surface has no point in the region that counts");
+  if (of_reference.empty() || of_result.empty())
+    throw InvalidInput("nothing to compare: a surface has no point in the region that counts");
   measure(of_reference, geometry::AabbTree(result), false, task);
   task.set_progress(0.5);
   measure(of_result, geometry::AabbTree(reference), true, task);

@@ -1,5 +1,11 @@
 #include "ostia/io/centerline_file.h"
 
+#include "formats.h"
+#include "vtk_xml.h"
+
+#include "ostia/core/error.h"
+#include "ostia/core/files.h"
+
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkFieldData.h>
@@ -11,11 +17,6 @@
 #include <cmath>
 #include <map>
 #include <set>
-
-#include "formats.h"
-#include "ostia/core/error.h"
-#include "ostia/core/files.h"
-#include "vtk_xml.h"
 
 namespace ostia::io {
 namespace fs = std::filesystem;
@@ -87,7 +88,10 @@ VesselTree tree_of(const std::vector<Line>& lines, const std::map<std::int32_t, 
     const auto [found, added] = vessels.try_emplace(line.vessel, tree.vessels.size());
     if (added) {
       const auto name = names.find(line.vessel);
-      tree.vessels.push_back({line.vessel, name != names.end() ? name->second : "vessel_" + std::to_string(tree.vessels.size() + 1), {}});
+      tree.vessels.push_back(
+          {line.vessel,
+           name != names.end() ? name->second : "vessel_" + std::to_string(tree.vessels.size() + 1),
+           {}});
     }
     tree.vessels[found->second].segments.push_back(line.group);
   }
@@ -105,7 +109,8 @@ std::map<std::int32_t, std::string> vessel_names(vtkPolyData& data) {
   std::map<std::int32_t, std::string> names;
   auto* array = vtkStringArray::SafeDownCast(data.GetFieldData()->GetAbstractArray("VesselNames"));
   vtkDataArray* ids = data.GetFieldData()->GetArray("VesselIds");
-  for (vtkIdType i = 0; array && ids && i < std::min(array->GetNumberOfValues(), ids->GetNumberOfTuples()); ++i) {
+  for (vtkIdType i = 0; array && ids && i < std::min(array->GetNumberOfValues(), ids->GetNumberOfTuples());
+       ++i) {
     names[static_cast<std::int32_t>(ids->GetTuple1(i))] = array->GetValue(i);
   }
   return names;
@@ -131,7 +136,9 @@ VesselTree read_polydata_lines(const fs::path& path) {
       // Neighbours at one place have no direction between them.
       if (!line.points.empty() && (line.points.back() - point).norm() < 1e-9) continue;
       const double r = radius->GetTuple1(ids[i]);
-      if (!point.allFinite() || !(r > 0.0 && std::isfinite(r))) refuse(path, "line " + std::to_string(c) + ", point " + std::to_string(i) + " has no finite place or positive radius");
+      if (!point.allFinite() || !(r > 0.0 && std::isfinite(r)))
+        refuse(path, "line " + std::to_string(c) + ", point " + std::to_string(i) +
+                         " has no finite place or positive radius");
       line.points.push_back(point);
       line.radius.push_back(r);
     }
@@ -163,7 +170,8 @@ VesselTree read_csv(const fs::path& path) {
     return found == header.end() ? -1 : static_cast<int>(found - header.begin());
   };
   const std::array<int, 4> wanted{column("x"), column("y"), column("z"), column("radius")};
-  if (*std::min_element(wanted.begin(), wanted.end()) < 0) refuse(path, "its first row must name the columns x,y,z,radius");
+  if (*std::min_element(wanted.begin(), wanted.end()) < 0)
+    refuse(path, "its first row must name the columns x,y,z,radius");
   const int vessel_column = column("vessel");
   std::vector<Line> lines;
   std::map<std::int32_t, std::string> names;
@@ -178,12 +186,18 @@ VesselTree read_csv(const fs::path& path) {
     const std::vector<std::string_view> cells = columns(text);
     std::array<double, 4> values{};
     for (std::size_t i = 0; i < 4; ++i) {
-      const auto value = static_cast<std::size_t>(wanted[i]) < cells.size() ? number<double>(cells[static_cast<std::size_t>(wanted[i])]) : std::nullopt;
-      if (!value || !std::isfinite(*value)) refuse(path, "row " + std::to_string(row) + ", column " + std::string(header[static_cast<std::size_t>(wanted[i])]) + " is no number");
+      const auto value = static_cast<std::size_t>(wanted[i]) < cells.size()
+                             ? number<double>(cells[static_cast<std::size_t>(wanted[i])])
+                             : std::nullopt;
+      if (!value || !std::isfinite(*value))
+        refuse(path, "row " + std::to_string(row) + ", column " +
+                         std::string(header[static_cast<std::size_t>(wanted[i])]) + " is no number");
       values[i] = *value;
     }
     if (!(values[3] > 0.0)) refuse(path, "row " + std::to_string(row) + ": the radius must be positive");
-    const std::string name(vessel_column >= 0 && static_cast<std::size_t>(vessel_column) < cells.size() ? cells[static_cast<std::size_t>(vessel_column)] : "");
+    const std::string name(vessel_column >= 0 && static_cast<std::size_t>(vessel_column) < cells.size()
+                               ? cells[static_cast<std::size_t>(vessel_column)]
+                               : "");
     if (fresh || name != current) {
       const auto id = static_cast<std::int32_t>(lines.size());
       lines.push_back({{}, {}, id, id});
@@ -208,7 +222,8 @@ std::string csv_text(const VesselTree& tree) {
     for (std::size_t i = 0; i < axis.size(); ++i) {
       std::array<char, 64> text{};
       out += vessel.name;
-      for (const double value : {axis.points[i].x(), axis.points[i].y(), axis.points[i].z(), axis.radius[i], axis.abscissa[i]}) {
+      for (const double value :
+           {axis.points[i].x(), axis.points[i].y(), axis.points[i].z(), axis.radius[i], axis.abscissa[i]}) {
         const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
         out += ',';
         out.append(text.data(), end);
@@ -251,7 +266,8 @@ std::string polydata_of(const VesselTree& tree) {
     for (const std::int32_t id : vessel.segments) {
       const Centerline& axis = geometry::segment(tree, id).axis;
       lines->InsertNextCell(static_cast<int>(axis.size()));
-      for (std::size_t i = 0; i < axis.size(); ++i) lines->InsertCellPoint(static_cast<vtkIdType>(columns.points.size() + i));
+      for (std::size_t i = 0; i < axis.size(); ++i)
+        lines->InsertCellPoint(static_cast<vtkIdType>(columns.points.size() + i));
       append(columns, axis, start);
       start += axis.abscissa.back();
       columns.vessel.push_back(vessel.id);

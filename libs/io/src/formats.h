@@ -1,13 +1,13 @@
 #pragma once
 /// \file The readers and writers behind surface_file.h, one source each.
 
+#include "ostia/io/surface_file.h"
+
 #include <charconv>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
-
-#include "ostia/io/surface_file.h"
 
 namespace ostia::io {
 

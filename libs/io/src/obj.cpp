@@ -1,9 +1,10 @@
 // Wavefront OBJ: vertices and faces; everything else is passed over.
 
-#include <limits>
-
 #include "formats.h"
+
 #include "ostia/core/files.h"
+
+#include <limits>
 
 namespace ostia::io {
 namespace {
@@ -34,7 +35,9 @@ LoadedSurface read_obj(const std::filesystem::path& path) {
       for (double& value : point) {
         const std::string_view text = words.next();
         const auto read = number<double>(text);
-        if (!read) refuse(path, "vertex " + std::to_string(mesh.points.size() + 1) + ": \"" + std::string(text) + "\" is no number");
+        if (!read)
+          refuse(path, "vertex " + std::to_string(mesh.points.size() + 1) + ": \"" + std::string(text) +
+                           "\" is no number");
         value = *read;
       }
       mesh.points.push_back(point);
@@ -45,10 +48,12 @@ LoadedSurface read_obj(const std::filesystem::path& path) {
       }
       if (corners.size() < 3) refuse(path, "a face has fewer than three corners");
       polygons += corners.size() > 3;
-      for (std::size_t i = 2; i < corners.size(); ++i) mesh.triangles.push_back({corners[0], corners[i - 1], corners[i]});
+      for (std::size_t i = 2; i < corners.size(); ++i)
+        mesh.triangles.push_back({corners[0], corners[i - 1], corners[i]});
     }
   }
-  if (polygons > 0) loaded.warnings.push_back(std::to_string(polygons) + " polygons were split into triangles");
+  if (polygons > 0)
+    loaded.warnings.push_back(std::to_string(polygons) + " polygons were split into triangles");
   return loaded;
 }
 

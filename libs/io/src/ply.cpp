@@ -1,11 +1,12 @@
 // Polygon files (Turk 1994), ASCII and binary of both byte orders.
 
+#include "formats.h"
+
+#include "ostia/core/files.h"
+
 #include <algorithm>
 #include <cstring>
 #include <limits>
-
-#include "formats.h"
-#include "ostia/core/files.h"
 
 namespace ostia::io {
 namespace fs = std::filesystem;
@@ -32,10 +33,10 @@ struct Header {
 
 std::optional<Type> type_of(std::string_view name) {
   static const std::vector<std::pair<std::string_view, Type>> names{
-      {"char", Type::i8},   {"int8", Type::i8},    {"uchar", Type::u8},   {"uint8", Type::u8},   {"short", Type::i16},
-      {"int16", Type::i16}, {"ushort", Type::u16}, {"uint16", Type::u16}, {"int", Type::i32},    {"int32", Type::i32},
-      {"uint", Type::u32},  {"uint32", Type::u32}, {"float", Type::f32},  {"float32", Type::f32}, {"double", Type::f64},
-      {"float64", Type::f64}};
+      {"char", Type::i8},   {"int8", Type::i8},     {"uchar", Type::u8},   {"uint8", Type::u8},
+      {"short", Type::i16}, {"int16", Type::i16},   {"ushort", Type::u16}, {"uint16", Type::u16},
+      {"int", Type::i32},   {"int32", Type::i32},   {"uint", Type::u32},   {"uint32", Type::u32},
+      {"float", Type::f32}, {"float32", Type::f32}, {"double", Type::f64}, {"float64", Type::f64}};
   for (const auto& [known, type] : names) {
     if (known == name) return type;
   }
@@ -44,10 +45,18 @@ std::optional<Type> type_of(std::string_view name) {
 
 std::size_t size_of(Type type) {
   switch (type) {
-    case Type::i8: case Type::u8: return 1;
-    case Type::i16: case Type::u16: return 2;
-    case Type::i32: case Type::u32: case Type::f32: return 4;
-    case Type::f64: break;
+    case Type::i8:
+    case Type::u8:
+      return 1;
+    case Type::i16:
+    case Type::u16:
+      return 2;
+    case Type::i32:
+    case Type::u32:
+    case Type::f32:
+      return 4;
+    case Type::f64:
+      break;
   }
   return 8;
 }
@@ -80,10 +89,14 @@ Header read_header(std::string_view content, const fs::path& path) {
     if (key == "format") {
       const std::string_view name = words.next();
       format = true;
-      if (name == "ascii") header.encoding = Encoding::ascii;
-      else if (name == "binary_little_endian") header.encoding = Encoding::little;
-      else if (name == "binary_big_endian") header.encoding = Encoding::big;
-      else refuse(path, "format \"" + std::string(name) + "\" is unknown");
+      if (name == "ascii")
+        header.encoding = Encoding::ascii;
+      else if (name == "binary_little_endian")
+        header.encoding = Encoding::little;
+      else if (name == "binary_big_endian")
+        header.encoding = Encoding::big;
+      else
+        refuse(path, "format \"" + std::string(name) + "\" is unknown");
     } else if (key == "element") {
       Element element;
       element.name = words.next();
@@ -106,7 +119,8 @@ Header read_header(std::string_view content, const fs::path& path) {
 /// Takes values off the body one after another.
 class Body {
  public:
-  Body(const Header& header, const fs::path& path) : rest_(header.body), words_(header.body), encoding_(header.encoding), path_(path) {}
+  Body(const Header& header, const fs::path& path)
+      : rest_(header.body), words_(header.body), encoding_(header.encoding), path_(path) {}
   double next(Type type) {
     if (encoding_ == Encoding::ascii) {
       const std::string_view word = words_.next();
@@ -120,7 +134,8 @@ class Body {
     std::array<char, 8> bytes{};
     std::memcpy(bytes.data(), rest_.data(), size);
     rest_.remove_prefix(size);
-    if (encoding_ == Encoding::big) std::reverse(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size));
+    if (encoding_ == Encoding::big)
+      std::reverse(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size));
     return value_of(type, bytes.data());
   }
 
@@ -133,14 +148,22 @@ class Body {
   }
   static double value_of(Type type, const char* bytes) {
     switch (type) {
-      case Type::i8: return as<std::int8_t>(bytes);
-      case Type::u8: return as<std::uint8_t>(bytes);
-      case Type::i16: return as<std::int16_t>(bytes);
-      case Type::u16: return as<std::uint16_t>(bytes);
-      case Type::i32: return as<std::int32_t>(bytes);
-      case Type::u32: return as<std::uint32_t>(bytes);
-      case Type::f32: return as<float>(bytes);
-      case Type::f64: break;
+      case Type::i8:
+        return as<std::int8_t>(bytes);
+      case Type::u8:
+        return as<std::uint8_t>(bytes);
+      case Type::i16:
+        return as<std::int16_t>(bytes);
+      case Type::u16:
+        return as<std::uint16_t>(bytes);
+      case Type::i32:
+        return as<std::int32_t>(bytes);
+      case Type::u32:
+        return as<std::uint32_t>(bytes);
+      case Type::f32:
+        return as<float>(bytes);
+      case Type::f64:
+        break;
     }
     return as<double>(bytes);
   }
@@ -182,7 +205,8 @@ std::size_t read_faces(const Element& element, Body& body, geometry::TriMesh& me
       }
       const bool corners_here = property.name == "vertex_indices" || property.name == "vertex_index";
       const double count = body.next(*property.count_type);
-      if (!(count >= 0 && count < 1e6)) refuse(path, "face " + std::to_string(f) + " has an impossible number of corners");
+      if (!(count >= 0 && count < 1e6))
+        refuse(path, "face " + std::to_string(f) + " has an impossible number of corners");
       std::vector<std::int32_t> corners;
       for (int i = 0; i < static_cast<int>(count); ++i) {
         const double index = body.next(property.type);
@@ -195,7 +219,8 @@ std::size_t read_faces(const Element& element, Body& body, geometry::TriMesh& me
       if (!corners_here) continue;
       if (corners.size() < 3) refuse(path, "face " + std::to_string(f) + " has fewer than three corners");
       polygons += corners.size() > 3;
-      for (std::size_t i = 2; i < corners.size(); ++i) mesh.triangles.push_back({corners[0], corners[i - 1], corners[i]});
+      for (std::size_t i = 2; i < corners.size(); ++i)
+        mesh.triangles.push_back({corners[0], corners[i - 1], corners[i]});
     }
   }
   return polygons;
@@ -218,12 +243,14 @@ LoadedSurface read_ply(const fs::path& path) {
   LoadedSurface loaded;
   Body body(header, path);
   for (const Element& element : header.elements) {
-    if (element.properties.empty() && element.count > 0) refuse(path, "element " + element.name + " has no properties");
+    if (element.properties.empty() && element.count > 0)
+      refuse(path, "element " + element.name + " has no properties");
     if (element.name == "vertex") {
       read_vertices(element, body, loaded.surface.mesh, path);
     } else if (element.name == "face") {
       const std::size_t polygons = read_faces(element, body, loaded.surface.mesh, path);
-      if (polygons > 0) loaded.warnings.push_back(std::to_string(polygons) + " polygons were split into triangles");
+      if (polygons > 0)
+        loaded.warnings.push_back(std::to_string(polygons) + " polygons were split into triangles");
     } else {
       skip(element, body);
     }
@@ -232,10 +259,14 @@ LoadedSurface read_ply(const fs::path& path) {
 }
 
 std::string ply_text(const geometry::TriMesh& mesh) {
-  std::string out = "ply\nformat binary_little_endian 1.0\ncomment Ostia surface, axes LPS, unit mm\nelement vertex " +
-                    std::to_string(mesh.points.size()) + "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
-                    std::to_string(mesh.triangles.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
-  const auto append = [&out](const auto& value) { out.append(reinterpret_cast<const char*>(&value), sizeof value); };
+  std::string out =
+      "ply\nformat binary_little_endian 1.0\ncomment Ostia surface, axes LPS, unit mm\nelement vertex " +
+      std::to_string(mesh.points.size()) +
+      "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
+      std::to_string(mesh.triangles.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
+  const auto append = [&out](const auto& value) {
+    out.append(reinterpret_cast<const char*>(&value), sizeof value);
+  };
   for (const geometry::Vec3& p : mesh.points) {
     for (const double value : p) append(value);
   }

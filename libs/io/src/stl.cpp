@@ -1,11 +1,12 @@
 // Stereolithography files, ASCII and binary (3D Systems 1989).
 
+#include "formats.h"
+
+#include "ostia/core/files.h"
+
 #include <cstring>
 #include <limits>
 #include <unordered_map>
-
-#include "formats.h"
-#include "ostia/core/files.h"
 
 namespace ostia::io {
 namespace fs = std::filesystem;
@@ -19,7 +20,9 @@ constexpr std::size_t facet_bytes = 50;
 
 struct Corner {
   std::array<float, 3> xyz;
-  bool operator==(const Corner& other) const { return std::memcmp(xyz.data(), other.xyz.data(), sizeof xyz) == 0; }
+  bool operator==(const Corner& other) const {
+    return std::memcmp(xyz.data(), other.xyz.data(), sizeof xyz) == 0;
+  }
 };
 struct CornerHash {
   std::size_t operator()(const Corner& corner) const {
@@ -37,7 +40,8 @@ class Points {
   explicit Points(TriMesh& mesh) : mesh_(mesh) {}
   std::int32_t index(std::array<float, 3> xyz) {
     for (float& value : xyz) value += 0.0f;  // -0 -> 0
-    const auto [found, added] = index_.try_emplace(Corner{xyz}, static_cast<std::int32_t>(mesh_.points.size()));
+    const auto [found, added] =
+        index_.try_emplace(Corner{xyz}, static_cast<std::int32_t>(mesh_.points.size()));
     if (added) mesh_.points.emplace_back(xyz[0], xyz[1], xyz[2]);
     return found->second;
   }
@@ -56,21 +60,25 @@ std::uint32_t facet_count(const std::string& content) {
 bool looks_ascii(const std::string& content) {
   if (content.compare(0, 5, "solid") != 0) return false;
   // Some binary files begin with "solid": their declared size gives them away.
-  if (content.size() >= header_bytes && content.size() == header_bytes + facet_bytes * std::size_t{facet_count(content)}) return false;
+  if (content.size() >= header_bytes &&
+      content.size() == header_bytes + facet_bytes * std::size_t{facet_count(content)})
+    return false;
   const std::string_view start(content.data(), std::min<std::size_t>(content.size(), 4096));
   return start.find("facet") != std::string_view::npos || start.find("endsolid") != std::string_view::npos;
 }
 
 TriMesh read_binary(const std::string& content, const fs::path& path) {
-  if (content.size() < header_bytes) refuse(path, "an STL needs at least 84 bytes, the file has " + std::to_string(content.size()));
+  if (content.size() < header_bytes)
+    refuse(path, "an STL needs at least 84 bytes, the file has " + std::to_string(content.size()));
   const std::size_t count = facet_count(content);
   if (count > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()) / 3) {
     refuse(path, "its triangle count " + std::to_string(count) + " is beyond what a mesh can hold");
   }
   const std::size_t needed = header_bytes + facet_bytes * count;
   if (content.size() < needed) {
-    refuse(path, "its header counts " + std::to_string(count) + " triangles, which takes " + std::to_string(needed) +
-                     " bytes, but the file has " + std::to_string(content.size()) + ": it is cut short");
+    refuse(path, "its header counts " + std::to_string(count) + " triangles, which takes " +
+                     std::to_string(needed) + " bytes, but the file has " + std::to_string(content.size()) +
+                     ": it is cut short");
   }
   TriMesh mesh;
   mesh.triangles.reserve(count);
@@ -79,7 +87,8 @@ TriMesh read_binary(const std::string& content, const fs::path& path) {
     geometry::Triangle triangle{};
     for (std::size_t corner = 0; corner < 3; ++corner) {
       std::array<float, 3> xyz{};
-      std::memcpy(xyz.data(), content.data() + header_bytes + facet_bytes * f + 12 * (corner + 1), sizeof xyz);
+      std::memcpy(xyz.data(), content.data() + header_bytes + facet_bytes * f + 12 * (corner + 1),
+                  sizeof xyz);
       triangle[corner] = points.index(xyz);
     }
     mesh.triangles.push_back(triangle);
@@ -102,7 +111,9 @@ TriMesh read_ascii(const std::string& content, const fs::path& path) {
     for (float& value : xyz) {
       const std::string_view text = words.next();
       const auto read = number<float>(text);
-      if (!read) refuse(path, "triangle " + std::to_string(mesh.triangles.size()) + ": vertex coordinate \"" + std::string(text) + "\" is no number");
+      if (!read)
+        refuse(path, "triangle " + std::to_string(mesh.triangles.size()) + ": vertex coordinate \"" +
+                         std::string(text) + "\" is no number");
       value = *read;
     }
     triangle[corners] = points.index(xyz);
@@ -111,7 +122,9 @@ TriMesh read_ascii(const std::string& content, const fs::path& path) {
       corners = 0;
     }
   }
-  if (corners != 0 || !ended) refuse(path, "it ends after " + std::to_string(mesh.triangles.size()) + " triangles without \"endsolid\": it is cut short");
+  if (corners != 0 || !ended)
+    refuse(path, "it ends after " + std::to_string(mesh.triangles.size()) +
+                     " triangles without \"endsolid\": it is cut short");
   return mesh;
 }
 
@@ -127,7 +140,9 @@ LoadedSurface read_stl(const fs::path& path) {
 std::string stl_text(const TriMesh& mesh) {
   std::string out = "Ostia surface, axes LPS, unit mm";
   out.resize(80, ' ');
-  const auto append = [&out](const auto& value) { out.append(reinterpret_cast<const char*>(&value), sizeof value); };
+  const auto append = [&out](const auto& value) {
+    out.append(reinterpret_cast<const char*>(&value), sizeof value);
+  };
   append(static_cast<std::uint32_t>(mesh.triangles.size()));
   out.reserve(header_bytes + facet_bytes * mesh.triangles.size());
   for (const geometry::Triangle& t : mesh.triangles) {

@@ -1,12 +1,13 @@
 #include "ostia/io/surface_file.h"
 
+#include "formats.h"
+
+#include "ostia/core/error.h"
+#include "ostia/core/files.h"
+
 #include <algorithm>
 #include <array>
 #include <cctype>
-
-#include "formats.h"
-#include "ostia/core/error.h"
-#include "ostia/core/files.h"
 
 namespace ostia::io {
 namespace fs = std::filesystem;
@@ -14,7 +15,8 @@ namespace {
 
 std::string lower_extension(const fs::path& path) {
   std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
   return extension;
 }
 
@@ -23,8 +25,8 @@ void check_indices(const LoadedSurface& loaded, const fs::path& path) {
   for (std::size_t t = 0; t < loaded.surface.mesh.triangles.size(); ++t) {
     for (const std::int32_t p : loaded.surface.mesh.triangles[t]) {
       if (p < 0 || p >= count) {
-        refuse(path, "triangle " + std::to_string(t) + " names point " + std::to_string(p) + ", but there are " +
-                         std::to_string(count) + " points");
+        refuse(path, "triangle " + std::to_string(t) + " names point " + std::to_string(p) +
+                         ", but there are " + std::to_string(count) + " points");
       }
     }
   }
@@ -47,11 +49,16 @@ LoadedSurface read_surface(const fs::path& path) {
   if (fs::is_regular_file(path, error) && fs::file_size(path, error) == 0) refuse(path, "the file is empty");
   const std::string extension = lower_extension(path);
   LoadedSurface loaded;
-  if (extension == ".stl") loaded = read_stl(path);
-  else if (extension == ".ply") loaded = read_ply(path);
-  else if (extension == ".obj") loaded = read_obj(path);
-  else if (extension == ".vtp") loaded = read_vtp(path);
-  else refuse(path, "a surface ends in .stl, .ply, .obj or .vtp");
+  if (extension == ".stl")
+    loaded = read_stl(path);
+  else if (extension == ".ply")
+    loaded = read_ply(path);
+  else if (extension == ".obj")
+    loaded = read_obj(path);
+  else if (extension == ".vtp")
+    loaded = read_vtp(path);
+  else
+    refuse(path, "a surface ends in .stl, .ply, .obj or .vtp");
   if (loaded.surface.mesh.triangles.empty()) refuse(path, "it has no triangles");
   check_indices(loaded, path);
   return loaded;
@@ -71,7 +78,8 @@ void write_surface(const fs::path& path, const geometry::FacedSurface& surface) 
     throw InvalidInput("cannot write " + path.string() + ": a surface is written as .vtp, .stl or .ply");
   }
   if (!one_face) {
-    throw InvalidInput("cannot write " + path.string() + ": " + extension + " cannot hold named faces; write .vtp, or the mesh alone");
+    throw InvalidInput("cannot write " + path.string() + ": " + extension +
+                       " cannot hold named faces; write .vtp, or the mesh alone");
   }
   core::write_file(path, extension == ".stl" ? stl_text(surface.mesh) : ply_text(surface.mesh));
 }

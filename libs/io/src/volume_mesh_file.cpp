@@ -1,15 +1,16 @@
 #include "ostia/io/volume_mesh_file.h"
 
+#include "formats.h"
+#include "vtk_xml.h"
+
+#include "ostia/core/error.h"
+#include "ostia/core/files.h"
+
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
 #include <vtkNew.h>
 #include <vtkUnsignedCharArray.h>
-
-#include "formats.h"
-#include "ostia/core/error.h"
-#include "ostia/core/files.h"
-#include "vtk_xml.h"
 
 namespace ostia::io {
 namespace fs = std::filesystem;
@@ -17,7 +18,8 @@ namespace fs = std::filesystem;
 using geometry::VolumeMesh;
 
 void write_volume_mesh(const fs::path& path, const VolumeMesh& mesh) {
-  if (path.extension() != ".vtu") throw InvalidInput("cannot write " + path.string() + ": a volume mesh is written as .vtu");
+  if (path.extension() != ".vtu")
+    throw InvalidInput("cannot write " + path.string() + ": a volume mesh is written as .vtu");
   vtkNew<vtkUnstructuredGrid> data;
   data->SetPoints(to_vtk(mesh.points));
   vtkNew<vtkUnsignedCharArray> types;
@@ -57,8 +59,8 @@ VolumeMesh read_volume_mesh(const fs::path& path) {
       mesh.boundary.push_back({point(0), point(1), point(2)});
       mesh.boundary_face_ids.push_back(ids ? static_cast<std::int32_t>(ids->GetTuple1(c)) : 1);
     } else {
-      refuse(path, "cell " + std::to_string(c) + " is of VTK type " + std::to_string(type) + " with " + std::to_string(count) +
-                       " points; linear tetrahedra (10) and triangles (5) are read");
+      refuse(path, "cell " + std::to_string(c) + " is of VTK type " + std::to_string(type) + " with " +
+                       std::to_string(count) + " points; linear tetrahedra (10) and triangles (5) are read");
     }
   }
   mesh.faces = faces_of(*data, mesh.boundary_face_ids);

@@ -1,12 +1,12 @@
 // Surfaces as VTP.
 
+#include "formats.h"
+#include "vtk_xml.h"
+
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
 #include <vtkCellData.h>
 #include <vtkNew.h>
-
-#include "formats.h"
-#include "vtk_xml.h"
 
 namespace ostia::io {
 
@@ -26,15 +26,20 @@ LoadedSurface read_vtp(const std::filesystem::path& path) {
     vtkIdType count = 0;
     const vtkIdType* corners = nullptr;
     cells->GetCurrentCell(count, corners);
-    if (count < 3) refuse(path, "polygon " + std::to_string(cells->GetCurrentCellId()) + " has fewer than three corners");
+    if (count < 3)
+      refuse(path, "polygon " + std::to_string(cells->GetCurrentCellId()) + " has fewer than three corners");
     polygons += count > 3;
     for (vtkIdType i = 2; i < count; ++i) {
-      loaded.surface.mesh.triangles.push_back({static_cast<std::int32_t>(corners[0]), static_cast<std::int32_t>(corners[i - 1]),
+      loaded.surface.mesh.triangles.push_back({static_cast<std::int32_t>(corners[0]),
+                                               static_cast<std::int32_t>(corners[i - 1]),
                                                static_cast<std::int32_t>(corners[i])});
-      if (ids) loaded.surface.face_ids.push_back(static_cast<std::int32_t>(ids->GetTuple1(first + cells->GetCurrentCellId())));
+      if (ids)
+        loaded.surface.face_ids.push_back(
+            static_cast<std::int32_t>(ids->GetTuple1(first + cells->GetCurrentCellId())));
     }
   }
-  if (polygons > 0) loaded.warnings.push_back(std::to_string(polygons) + " polygons were split into triangles");
+  if (polygons > 0)
+    loaded.warnings.push_back(std::to_string(polygons) + " polygons were split into triangles");
   if (ids) loaded.surface.faces = faces_of(*data, loaded.surface.face_ids);
   return loaded;
 }
@@ -43,7 +48,8 @@ std::string vtp_text(const FacedSurface& surface) {
   vtkNew<vtkPolyData> data;
   data->SetPoints(to_vtk(surface.mesh.points));
   vtkNew<vtkCellArray> polygons;
-  polygons->AllocateExact(static_cast<vtkIdType>(surface.mesh.triangles.size()), static_cast<vtkIdType>(3 * surface.mesh.triangles.size()));
+  polygons->AllocateExact(static_cast<vtkIdType>(surface.mesh.triangles.size()),
+                          static_cast<vtkIdType>(3 * surface.mesh.triangles.size()));
   for (const geometry::Triangle& t : surface.mesh.triangles) polygons->InsertNextCell({t[0], t[1], t[2]});
   data->SetPolys(polygons);
   if (!surface.face_ids.empty()) {

@@ -1,6 +1,8 @@
 #pragma once
 /// \file Between VTK's data sets and files, with the checks that VTK leaves out.
 
+#include "ostia/geometry/tri_mesh.h"
+
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 #include <vtkUnstructuredGrid.h>
@@ -10,12 +12,11 @@
 #include <string>
 #include <vector>
 
-#include "ostia/geometry/tri_mesh.h"
-
 namespace ostia::io {
 
-/// Reads a VTP (or, by its extension .vtk, a legacy polydata). Throws InvalidInput for anything but a sound file: entities, sizes that the
-/// file cannot hold, what VTK's reader complains of, offsets and connectivity out of range.
+/// Reads a VTP (or, by its extension .vtk, a legacy polydata). Throws InvalidInput for anything but a sound
+/// file: entities, sizes that the file cannot hold, what VTK's reader complains of, offsets and connectivity
+/// out of range.
 vtkSmartPointer<vtkPolyData> read_polydata(const std::filesystem::path& path);
 vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::filesystem::path& path);
 

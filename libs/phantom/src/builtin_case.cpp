@@ -1,16 +1,16 @@
 #include "ostia/phantom/builtin_case.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <string>
-
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
 #include "ostia/geometry/spline.h"
 #include "ostia/imaging/filters.h"
 #include "ostia/phantom/noise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
 
 namespace ostia::phantom {
 namespace {
@@ -48,7 +48,8 @@ AnalyticTube tube_through(std::string name, const std::vector<Vec3>& controls, c
 
 /// Control points of the main vessel, moved a little by the seed.
 std::vector<Vec3> main_controls(std::uint64_t seed) {
-  std::vector<Vec3> controls{{0, 0, 0}, {5, -6, -3}, {13, -12, -8}, {22, -16, -17}, {29, -17, -28}, {34, -15, -40}};
+  std::vector<Vec3> controls{{0, 0, 0},      {5, -6, -3},    {13, -12, -8},
+                             {22, -16, -17}, {29, -17, -28}, {34, -15, -40}};
   for (std::size_t i = 1; i < controls.size(); ++i) {
     for (int axis = 0; axis < 3; ++axis) {
       controls[i][axis] += 1.2 * (uniform(seed, 100 + 3 * i + static_cast<std::size_t>(axis)) - 0.5);
@@ -59,13 +60,15 @@ std::vector<Vec3> main_controls(std::uint64_t seed) {
 
 /// The branch leaves the main axis at `start` and turns away towards the patient's left and back.
 std::vector<Vec3> branch_controls(const geometry::Centerline& main, double start_mm) {
-  const auto at = std::lower_bound(main.abscissa.begin(), main.abscissa.end(), start_mm) - main.abscissa.begin();
+  const auto at =
+      std::lower_bound(main.abscissa.begin(), main.abscissa.end(), start_mm) - main.abscissa.begin();
   const auto i = static_cast<std::size_t>(at);
   const Vec3 from = main.points[i];
   const Vec3 ahead = main.frames[i].tangent;
   const Vec3 aside = (Vec3(0.75, 0.65, 0.1) - ahead * ahead.dot(Vec3(0.75, 0.65, 0.1))).normalized();
   return {from, from + 3.0 * ahead * 0.75 + 3.0 * aside * 0.66, from + 7.0 * ahead * 0.6 + 8.0 * aside * 0.8,
-          from + 8.0 * ahead + 17.0 * aside + Vec3(0, 0, -2), from + 9.0 * ahead + 26.0 * aside + Vec3(0, 0, -7)};
+          from + 8.0 * ahead + 17.0 * aside + Vec3(0, 0, -2),
+          from + 9.0 * ahead + 26.0 * aside + Vec3(0, 0, -7)};
 }
 
 struct Vessels {
@@ -87,7 +90,8 @@ Vessels make_vessels(std::uint64_t seed) {
   };
   out.shape.tubes.push_back(tube_through("main", main_controls(seed), radius));
   const geometry::Centerline& main = out.shape.tubes[0].axis;
-  const auto throat = std::lower_bound(main.abscissa.begin(), main.abscissa.end(), stenosis.centre_mm) - main.abscissa.begin();
+  const auto throat = std::lower_bound(main.abscissa.begin(), main.abscissa.end(), stenosis.centre_mm) -
+                      main.abscissa.begin();
   stenosis.throat_radius_mm = main.radius[static_cast<std::size_t>(throat)];
   out.shape.tubes.push_back(tube_through("branch", branch_controls(main, 11.0), [](double part, double) {
     return branch_start_radius + (branch_end_radius - branch_start_radius) * part;
@@ -108,7 +112,8 @@ imaging::Geometry grid_around(const geometry::AnalyticShape& shape, double spaci
   grid.origin = shape.box.min() - Vec3::Constant(margin_mm);
   const Vec3 extent = shape.box.max() + Vec3::Constant(margin_mm) - grid.origin;
   for (int axis = 0; axis < 3; ++axis) {
-    grid.size[static_cast<std::size_t>(axis)] = static_cast<std::int64_t>(std::ceil(extent[axis] / spacing_mm)) + 1;
+    grid.size[static_cast<std::size_t>(axis)] =
+        static_cast<std::int64_t>(std::ceil(extent[axis] / spacing_mm)) + 1;
   }
   return grid;
 }
@@ -132,7 +137,8 @@ double lumen_part(const geometry::TubeDistance& distance, const Vec3& centre, do
 /// What the neighbourhood of a block of voxels holds, so that most voxels need no distance of their own.
 enum class Holds { background, lumen, wall };
 
-/// The distance to a chain of cone-spheres grows by little more than the way travelled (the tubes' taper is below one in two).
+/// The distance to a chain of cone-spheres grows by little more than the way travelled (the tubes' taper is
+/// below one in two).
 Holds block_holds(const geometry::TubeDistance& distance, const Vec3& centre, double half_diagonal_mm) {
   const double d = distance(centre);
   const double reach = 1.5 * half_diagonal_mm;
@@ -140,13 +146,15 @@ Holds block_holds(const geometry::TubeDistance& distance, const Vec3& centre, do
 }
 
 /// Myocardium below, fat above a smooth surface that keeps clear of the lumen.
-double background(const Vec3& point, const BuiltinOptions& options, const Vec3& heart, double heart_radius_mm) {
+double background(const Vec3& point, const BuiltinOptions& options, const Vec3& heart,
+                  double heart_radius_mm) {
   const double outside_mm = (point - heart).norm() - heart_radius_mm;
   const double share = std::clamp(0.5 - outside_mm / options.spacing_mm, 0.0, 1.0);
   return options.fat_hu + share * (options.myocardium_hu - options.fat_hu);
 }
 
-FloatVolume paint(const geometry::AnalyticShape& shape, const BuiltinOptions& options, const core::TaskContext& task) {
+FloatVolume paint(const geometry::AnalyticShape& shape, const BuiltinOptions& options,
+                  const core::TaskContext& task) {
   FloatVolume image;
   image.geometry = grid_around(shape, options.spacing_mm);
   image.voxels.resize(static_cast<std::size_t>(image.geometry.voxels()));
@@ -160,13 +168,18 @@ FloatVolume paint(const geometry::AnalyticShape& shape, const BuiltinOptions& op
   constexpr std::int64_t block = 8;
   const auto& size = image.geometry.size;
   const auto paint_block = [&](std::int64_t i0, std::int64_t j0, std::int64_t k0) {
-    const Vec3 middle = image.geometry.world(Vec3(static_cast<double>(i0), static_cast<double>(j0), static_cast<double>(k0)) + Vec3::Constant(0.5 * (block - 1)));
+    const Vec3 middle =
+        image.geometry.world(Vec3(static_cast<double>(i0), static_cast<double>(j0), static_cast<double>(k0)) +
+                             Vec3::Constant(0.5 * (block - 1)));
     const Holds holds = block_holds(distance, middle, 0.5 * block * options.spacing_mm * std::numbers::sqrt3);
     for (std::int64_t k = k0; k < std::min(k0 + block, size[2]); ++k) {
       for (std::int64_t j = j0; j < std::min(j0 + block, size[1]); ++j) {
         for (std::int64_t i = i0; i < std::min(i0 + block, size[0]); ++i) {
-          const Vec3 p = image.geometry.world(Vec3(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)));
-          const double lumen = holds == Holds::wall ? lumen_part(distance, p, options.spacing_mm) : holds == Holds::lumen ? 1.0 : 0.0;
+          const Vec3 p = image.geometry.world(
+              Vec3(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)));
+          const double lumen = holds == Holds::wall    ? lumen_part(distance, p, options.spacing_mm)
+                               : holds == Holds::lumen ? 1.0
+                                                       : 0.0;
           const double around = background(p, options, heart, heart_radius);
           image(i, j, k) = static_cast<float>(around + lumen * (options.lumen_hu - around));
         }
@@ -176,22 +189,27 @@ FloatVolume paint(const geometry::AnalyticShape& shape, const BuiltinOptions& op
   core::parallel_for(static_cast<std::size_t>((size[2] + block - 1) / block), 1, [&](std::size_t slab) {
     task.throw_if_cancelled();
     for (std::int64_t j = 0; j < size[1]; j += block) {
-      for (std::int64_t i = 0; i < size[0]; i += block) paint_block(i, j, block * static_cast<std::int64_t>(slab));
+      for (std::int64_t i = 0; i < size[0]; i += block)
+        paint_block(i, j, block * static_cast<std::int64_t>(slab));
     }
   });
   return image;
 }
 
 /// White noise, correlated and scaled back to its deviation.
-FloatVolume noise(const imaging::Geometry& grid, const BuiltinOptions& options, const core::TaskContext& task) {
+FloatVolume noise(const imaging::Geometry& grid, const BuiltinOptions& options,
+                  const core::TaskContext& task) {
   FloatVolume field{grid, std::vector<float>(static_cast<std::size_t>(grid.voxels()))};
-  core::parallel_for(field.voxels.size(), 1 << 14, [&](std::size_t i) { field.voxels[i] = static_cast<float>(normal(options.seed, 1000 + i)); });
+  core::parallel_for(field.voxels.size(), 1 << 14, [&](std::size_t i) {
+    field.voxels[i] = static_cast<float>(normal(options.seed, 1000 + i));
+  });
   if (options.noise_grain_mm > 0.0) field = imaging::gaussian_blurred(field, options.noise_grain_mm, task);
   const double square = core::parallel_reduce(
       field.voxels.size(), std::size_t{1} << 14, 0.0,
       [&](std::size_t first, std::size_t last) {
         double sum = 0.0;
-        for (std::size_t i = first; i < last; ++i) sum += static_cast<double>(field.voxels[i]) * field.voxels[i];
+        for (std::size_t i = first; i < last; ++i)
+          sum += static_cast<double>(field.voxels[i]) * field.voxels[i];
         return sum;
       },
       [](double a, double b) { return a + b; });
@@ -207,7 +225,8 @@ void validate(const BuiltinOptions& options) {
   require(options.spacing_mm >= 0.1 && options.spacing_mm <= 2.0, "spacing_mm must lie in [0.1, 2]");
   require(options.blur_fwhm_mm >= 0.0 && options.blur_fwhm_mm <= 5.0, "blur_fwhm_mm must lie in [0, 5]");
   require(options.noise_hu >= 0.0 && options.noise_hu <= 500.0, "noise_hu must lie in [0, 500]");
-  require(options.noise_grain_mm >= 0.0 && options.noise_grain_mm <= 5.0, "noise_grain_mm must lie in [0, 5]");
+  require(options.noise_grain_mm >= 0.0 && options.noise_grain_mm <= 5.0,
+          "noise_grain_mm must lie in [0, 5]");
 }
 
 BuiltinCase make_builtin_case(const BuiltinOptions& options, const core::TaskContext& task) {
@@ -217,13 +236,15 @@ BuiltinCase make_builtin_case(const BuiltinOptions& options, const core::TaskCon
   Vessels vessels = make_vessels(options.seed);
   FloatVolume image = paint(vessels.shape, options, task.sub(0.0, 0.6));
   task.set_progress(0.6);
-  if (options.blur_fwhm_mm > 0.0) image = imaging::gaussian_blurred(image, options.blur_fwhm_mm / fwhm_per_sigma, task);
+  if (options.blur_fwhm_mm > 0.0)
+    image = imaging::gaussian_blurred(image, options.blur_fwhm_mm / fwhm_per_sigma, task);
   task.set_progress(0.8);
   const FloatVolume grain = noise(image.geometry, options, task);
   out.image.geometry = image.geometry;
   out.image.voxels.resize(image.voxels.size());
   for (std::size_t i = 0; i < image.voxels.size(); ++i) {
-    out.image.voxels[i] = static_cast<std::int16_t>(std::lround(std::clamp(image.voxels[i] + grain.voxels[i], -1024.0f, 3071.0f)));
+    out.image.voxels[i] = static_cast<std::int16_t>(
+        std::lround(std::clamp(image.voxels[i] + grain.voxels[i], -1024.0f, 3071.0f)));
   }
   const auto inset = [](const geometry::Centerline& axis, double mm) {
     const auto at = std::lower_bound(axis.abscissa.begin(), axis.abscissa.end(), mm) - axis.abscissa.begin();
@@ -232,7 +253,8 @@ BuiltinCase make_builtin_case(const BuiltinOptions& options, const core::TaskCon
   const geometry::Centerline& main = vessels.shape.tubes[0].axis;
   const geometry::Centerline& branch = vessels.shape.tubes[1].axis;
   const Vec3 ostium = inset(main, 0.5);
-  out.branches = {{ostium, inset(main, main.abscissa.back() - 0.5)}, {ostium, inset(branch, branch.abscissa.back() - 0.5)}};
+  out.branches = {{ostium, inset(main, main.abscissa.back() - 0.5)},
+                  {ostium, inset(branch, branch.abscissa.back() - 0.5)}};
   out.truth = std::move(vessels.shape);
   out.stenosis = vessels.stenosis;
   task.set_progress(1.0);

@@ -23,7 +23,8 @@ std::size_t joint_at(std::vector<Joint>& joints, const Vec3& position, double sa
 }  // namespace
 
 BranchEnds ends_of(const std::vector<segmentation::BranchSeeds>& branches, double same_mm) {
-  if (branches.empty()) throw InvalidInput("no branch was given; a branch is two points, --branch x,y,z:x,y,z");
+  if (branches.empty())
+    throw InvalidInput("no branch was given; a branch is two points, --branch x,y,z:x,y,z");
   std::vector<Joint> joints;
   for (const segmentation::BranchSeeds& branch : branches) {
     for (const Vec3& end : {branch.from, branch.to}) ++joints[joint_at(joints, end, same_mm)].pairs;
@@ -33,7 +34,8 @@ BranchEnds ends_of(const std::vector<segmentation::BranchSeeds>& branches, doubl
   for (std::size_t i = 1; i < joints.size(); ++i) {
     if (joints[i].pairs == 1) ends.targets.push_back(joints[i].position);
   }
-  if (ends.targets.empty()) throw InvalidInput("the branches form a ring: no point of theirs is an end; leave one out");
+  if (ends.targets.empty())
+    throw InvalidInput("the branches form a ring: no point of theirs is an end; leave one out");
   return ends;
 }
 

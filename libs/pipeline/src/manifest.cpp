@@ -1,16 +1,16 @@
 #include "ostia/pipeline/manifest.h"
 
+#include "ostia/core/files.h"
+#include "ostia/core/log.h"
+
 #include <Eigen/Core>
+#include <nlohmann/json.hpp>
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <ctime>
-#include <array>
-#include <nlohmann/json.hpp>
-
-#include "ostia/core/files.h"
-#include "ostia/core/log.h"
 
 namespace ostia::pipeline {
 namespace fs = std::filesystem;
@@ -29,9 +29,9 @@ std::string utc_now() {
   return text.data();
 }
 
-
 json library_versions() {
-  return {{"eigen", std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) + "." + std::to_string(EIGEN_MINOR_VERSION)},
+  return {{"eigen", std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) + "." +
+                        std::to_string(EIGEN_MINOR_VERSION)},
           {"compiler", __VERSION__},
           {"cgal", OSTIA_CGAL_VERSION},
           {"vtk", OSTIA_VTK_VERSION},
@@ -58,7 +58,8 @@ json manifest_of(const fs::path& folder) {
 
 bool is_jobs_folder(const fs::path& folder) {
   const json manifest = manifest_of(folder);
-  if (!manifest.is_object() || !manifest.contains("outputs") || !manifest["outputs"].is_object()) return fs::is_empty(folder);
+  if (!manifest.is_object() || !manifest.contains("outputs") || !manifest["outputs"].is_object())
+    return fs::is_empty(folder);
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     if (entry.is_directory()) continue;
     const std::string name = fs::relative(entry.path(), folder).generic_string();
@@ -70,10 +71,12 @@ bool is_jobs_folder(const fs::path& folder) {
 }  // namespace
 
 void require_free_folder(const fs::path& folder) {
-  if (folder.filename() == "." || folder.filename() == "..") throw InvalidInput("cannot write " + folder.string() + ": name a new folder");
+  if (folder.filename() == "." || folder.filename() == "..")
+    throw InvalidInput("cannot write " + folder.string() + ": name a new folder");
   const core::StagedFolder trial(folder);  // made and taken away again
   if (fs::exists(folder) && !is_jobs_folder(folder)) {
-    throw InvalidInput("cannot write " + folder.string() + ": the folder holds files that are not an earlier result's; name another one");
+    throw InvalidInput("cannot write " + folder.string() +
+                       ": the folder holds files that are not an earlier result's; name another one");
   }
 }
 
@@ -83,12 +86,15 @@ double peak_memory_mb() {
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
-std::string program_version() { return OSTIA_VERSION; }
+std::string program_version() {
+  return OSTIA_VERSION;
+}
 
 void write_manifest(const fs::path& folder, const ManifestRecord& record) {
   json manifest = key_of(record.key);
   manifest["v"] = 1;
-  manifest["program"] = {{"name", "ostia"}, {"version", program_version()}, {"libraries", library_versions()}};
+  manifest["program"] = {
+      {"name", "ostia"}, {"version", program_version()}, {"libraries", library_versions()}};
   manifest["exit_code"] = static_cast<int>(record.exit_code);
   manifest["finished"] = utc_now();
   manifest["seconds"] = record.seconds;
@@ -107,7 +113,8 @@ std::optional<ExitCode> already_done(const fs::path& folder, const JobKey& key) 
   for (const char* field : {"command", "inputs", "parameters"}) {
     if (manifest.value(field, json()) != wanted[field]) return std::nullopt;
   }
-  if (manifest.value("/program/version"_json_pointer, std::string()) != program_version()) return std::nullopt;
+  if (manifest.value("/program/version"_json_pointer, std::string()) != program_version())
+    return std::nullopt;
   const json outputs = manifest.value("outputs", json::object());
   for (const auto& [name, digest] : outputs.items()) {
     if (!fs::exists(folder / name) || core::sha256_file(folder / name) != digest) return std::nullopt;

@@ -1,15 +1,15 @@
 #include "ostia/pipeline/model.h"
 
-#include <algorithm>
-#include <chrono>
-#include <utility>
-
 #include "ostia/core/error.h"
 #include "ostia/core/log.h"
 #include "ostia/geometry/mesh_topology.h"
 #include "ostia/imaging/filters.h"
 #include "ostia/meshing/caps.h"
 #include "ostia/pipeline/branch_ends.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
 
 namespace ostia::pipeline {
 namespace {
@@ -21,7 +21,8 @@ constexpr double image_inset_radii = 0.4;
 /// Runs stages one after another, names and times them.
 class Stages {
  public:
-  explicit Stages(std::vector<StageTime>& times, const core::TaskContext& task) : times_(times), task_(task) {}
+  explicit Stages(std::vector<StageTime>& times, const core::TaskContext& task)
+      : times_(times), task_(task) {}
 
   template <class Work>
   auto run(const std::string& name, double from, double to, const Work& work) {
@@ -41,7 +42,9 @@ class Stages {
   const core::TaskContext& task_;
 };
 
-void append(std::vector<std::string>& to, const std::vector<std::string>& from) { to.insert(to.end(), from.begin(), from.end()); }
+void append(std::vector<std::string>& to, const std::vector<std::string>& from) {
+  to.insert(to.end(), from.begin(), from.end());
+}
 
 std::string place(const geometry::Vec3& p) {
   const auto text = [](double v) {
@@ -59,14 +62,16 @@ struct Lumen {
 
 /// Handles of a closed surface: 0 for a vessel, however it branches.
 std::int64_t handles_of(const TriMesh& mesh) {
-  const auto vertices = static_cast<std::int64_t>(mesh.points.size()), faces = static_cast<std::int64_t>(mesh.triangles.size());
+  const auto vertices = static_cast<std::int64_t>(mesh.points.size()),
+             faces = static_cast<std::int64_t>(mesh.triangles.size());
   return 1 - (vertices - faces / 2) / 2;
 }
 
-/// The surface of the level set; where noise or a stent's struts have given it handles, which no vessel has, of the level set
-/// smoothed by as little as takes them away.
-TriMesh surface_without_handles(const imaging::FloatVolume& level_set, const std::vector<geometry::Vec3>& seeds,
-                                std::vector<std::string>& warnings, const core::TaskContext& task) {
+/// The surface of the level set; where noise or a stent's struts have given it handles, which no vessel has,
+/// of the level set smoothed by as little as takes them away.
+TriMesh surface_without_handles(const imaging::FloatVolume& level_set,
+                                const std::vector<geometry::Vec3>& seeds, std::vector<std::string>& warnings,
+                                const core::TaskContext& task) {
   TriMesh surface = segmentation::surface_of(level_set, seeds, {}, task);
   const std::int64_t handles = handles_of(surface);
   for (const double voxels : {0.5, 0.75, 1.0, 1.25, 1.5}) {
@@ -74,11 +79,13 @@ TriMesh surface_without_handles(const imaging::FloatVolume& level_set, const std
     const double sigma_mm = voxels * level_set.geometry.spacing.maxCoeff();
     surface = segmentation::surface_of(imaging::gaussian_blurred(level_set, sigma_mm, task), seeds, {}, task);
     if (handles_of(surface) != 0) continue;
-    warnings.push_back("the lumen's surface had " + std::to_string(handles) + " small handles (noise, or a stent's struts); smoothing by " +
+    warnings.push_back("the lumen's surface had " + std::to_string(handles) +
+                       " small handles (noise, or a stent's struts); smoothing by " +
                        std::to_string(voxels).substr(0, 4) + " voxels took them away");
   }
   if (const std::int64_t left = handles_of(surface); left != 0) {
-    warnings.push_back("the lumen's surface has " + std::to_string(left) + " handles: branches touch each other, or the range of intensities lets it leak");
+    warnings.push_back("the lumen's surface has " + std::to_string(left) +
+                       " handles: branches touch each other, or the range of intensities lets it leak");
   }
   return surface;
 }
@@ -127,8 +134,10 @@ geometry::Vec3 centre_of(const TriMesh& mesh, const std::vector<std::int32_t>& l
 }
 
 /// From the cut inlet's centre to the cut outlets' centres; vessels keep their names.
-centerline::CenterlineResult centerlines_between(const meshing::ClippedSurface& clipped, const geometry::VesselTree& tree,
-                                                 centerline::CenterlineOptions options, const core::TaskContext& task) {
+centerline::CenterlineResult centerlines_between(const meshing::ClippedSurface& clipped,
+                                                 const geometry::VesselTree& tree,
+                                                 centerline::CenterlineOptions options,
+                                                 const core::TaskContext& task) {
   std::optional<geometry::Vec3> source;
   std::vector<geometry::Vec3> targets;
   options.vessel_names.clear();
@@ -164,7 +173,8 @@ void require_sound_surface(const TriMesh& surface, const std::string& what) {
   faults.open_edges = 0;  // open ends are welcome
   if (faults.closed_manifold() && faults.components <= 1) return;
   std::string message = what + " cannot be used as it is: " + faults.summary();
-  if (faults.components > 1) message += "; it has " + std::to_string(faults.components) + " separate parts, and a lumen is one";
+  if (faults.components > 1)
+    message += "; it has " + std::to_string(faults.components) + " separate parts, and a lumen is one";
   if (!faults.examples.empty()) {
     message += "; for example at";
     for (const geometry::Vec3& p : faults.examples) message += " " + place(p);
@@ -178,18 +188,18 @@ MeshedLumen mesh_lumen(const TriMesh& lumen, const geometry::VesselTree& tree, c
                        const core::TaskContext& task) {
   MeshedLumen out;
   Stages stages(out.stages, task);
-  const meshing::ClippedSurface clipped = stages.run("ends cut", 0.0, 0.04, [&](const core::TaskContext& part) {
-    meshing::ClipOptions clip = options.clip;
-    if (options.inset_radii) clip.inset_radii = *options.inset_radii;
-    return meshing::clip_ends(lumen, tree, clip, part);
-  });
+  const meshing::ClippedSurface clipped =
+      stages.run("ends cut", 0.0, 0.04, [&](const core::TaskContext& part) {
+        meshing::ClipOptions clip = options.clip;
+        if (options.inset_radii) clip.inset_radii = *options.inset_radii;
+        return meshing::clip_ends(lumen, tree, clip, part);
+      });
   append(out.warnings, clipped.warnings);
   out.centerlines = stages.run("centerlines of the cut lumen", 0.04, 0.2, [&](const core::TaskContext& part) {
     return centerlines_between(clipped, tree, options.centerline, part);
   });
-  const geometry::FacedSurface capped = stages.run("caps", 0.2, 0.22, [&](const core::TaskContext& part) {
-    return meshing::cap_ends(clipped, {}, part);
-  });
+  const geometry::FacedSurface capped = stages.run(
+      "caps", 0.2, 0.22, [&](const core::TaskContext& part) { return meshing::cap_ends(clipped, {}, part); });
   meshing::RemeshedSurface remeshed = stages.run("remeshing", 0.22, 0.5, [&](const core::TaskContext& part) {
     const meshing::TubeFunction tube(out.centerlines.tree);
     const std::vector<double> lengths = meshing::target_edge_lengths(capped.mesh, tube, options.sizing, part);
@@ -197,14 +207,16 @@ MeshedLumen mesh_lumen(const TriMesh& lumen, const geometry::VesselTree& tree, c
   });
   if (remeshed.report.self_intersections > 0) {
     throw GeometryError("the surface is too rough for triangles of this size: remeshing left " +
-                        std::to_string(remeshed.report.self_intersections) + " self-intersections; give a smaller --edge-ratio, or --smooth");
+                        std::to_string(remeshed.report.self_intersections) +
+                        " self-intersections; give a smaller --edge-ratio, or --smooth");
   }
   append(out.warnings, remeshed.report.warnings);
   out.surface = std::move(remeshed.surface);
   out.remeshing = remeshed.report;
-  meshing::TetrahedralizedVolume volume = stages.run("tetrahedra", 0.5, 0.9, [&](const core::TaskContext& part) {
-    return meshing::tetrahedralize(out.surface, options.tetrahedralize, part);
-  });
+  meshing::TetrahedralizedVolume volume =
+      stages.run("tetrahedra", 0.5, 0.9, [&](const core::TaskContext& part) {
+        return meshing::tetrahedralize(out.surface, options.tetrahedralize, part);
+      });
   out.mesh = std::move(volume.mesh);
   out.volume_quality = volume.report.quality;
   out.surface_quality = stages.run("quality", 0.9, 1.0, [&](const core::TaskContext& part) {
@@ -220,23 +232,30 @@ Model build_model(Source source, const ModelOptions& options, const core::TaskCo
   Stages stages(model.stages, task);
   model.warnings = source.warnings;
   if (source.image && options.branches.empty()) {
-    throw InvalidInput("an image needs the branches to model: --branch x,y,z:x,y,z for each (`ostia info INPUT --preview DIR` draws slices to read points off)");
+    throw InvalidInput(
+        "an image needs the branches to model: --branch x,y,z:x,y,z for each (`ostia info INPUT --preview "
+        "DIR` draws slices to read points off)");
   }
-  Lumen lumen = source.image ? lumen_of_image(source, options, model, stages) : lumen_without_image(source, options, stages);
+  Lumen lumen = source.image ? lumen_of_image(source, options, model, stages)
+                             : lumen_without_image(source, options, stages);
   if (options.smoothing) {
     lumen.surface = stages.run("smoothing", 0.25, 0.27, [&](const core::TaskContext& part) {
       return geometry::taubin_smoothed(lumen.surface, *options.smoothing, part);
     });
   }
   stages.run("surface check", 0.27, 0.3, [&](const core::TaskContext&) {
-    require_sound_surface(lumen.surface, source.kind == SourceKind::surface ? "the surface" : "the lumen's surface");
+    require_sound_surface(lumen.surface,
+                          source.kind == SourceKind::surface ? "the surface" : "the lumen's surface");
     return 0;
   });
-  const centerline::CenterlineResult centerlines = stages.run("centerlines", 0.3, 0.45, [&](const core::TaskContext& part) {
-    return centerline::extract_centerlines(lumen.surface, lumen.source, lumen.targets, options.centerline, part);
-  });
+  const centerline::CenterlineResult centerlines =
+      stages.run("centerlines", 0.3, 0.45, [&](const core::TaskContext& part) {
+        return centerline::extract_centerlines(lumen.surface, lumen.source, lumen.targets, options.centerline,
+                                               part);
+      });
   append(model.warnings, centerlines.diagnostics.warnings);
-  if (source.kind == SourceKind::surface && !source.unit_given) check_vessel_size(2.0 * largest_radius(centerlines), "the surface");
+  if (source.kind == SourceKind::surface && !source.unit_given)
+    check_vessel_size(2.0 * largest_radius(centerlines), "the surface");
   model.lumen = std::move(lumen.surface);
   ModelOptions meshing_options = options;
   if (source.image && !options.inset_radii) meshing_options.inset_radii = image_inset_radii;

@@ -1,14 +1,14 @@
 #include "ostia/pipeline/repair.h"
 
-#include <algorithm>
-#include <array>
-#include <map>
-#include <set>
-
 #include "ostia/centerline/lumen_surface.h"
 #include "ostia/core/error.h"
 #include "ostia/geometry/aabb_tree.h"
 #include "ostia/geometry/mesh_topology.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
 
 namespace ostia::pipeline {
 namespace {
@@ -27,7 +27,9 @@ void drop_not_finite(Repaired& out) {
   const std::size_t before = mesh.triangles.size();
   std::vector<bool> keep;
   for (const geometry::Triangle& t : mesh.triangles) {
-    keep.push_back(std::all_of(t.begin(), t.end(), [&](std::int32_t p) { return mesh.points[static_cast<std::size_t>(p)].allFinite(); }));
+    keep.push_back(std::all_of(t.begin(), t.end(), [&](std::int32_t p) {
+      return mesh.points[static_cast<std::size_t>(p)].allFinite();
+    }));
   }
   out.mesh = geometry::subset(mesh, keep);
   note(out, before, "with points that are not finite");
@@ -39,10 +41,14 @@ void keep_largest_part(Repaired& out) {
   for (std::size_t t = 0; t < part.size(); ++t) {
     const auto& [a, b, c] = out.mesh.triangles[t];
     const auto& p = out.mesh.points;
-    areas[part[t]] += (p[static_cast<std::size_t>(b)] - p[static_cast<std::size_t>(a)]).cross(p[static_cast<std::size_t>(c)] - p[static_cast<std::size_t>(a)]).norm();
+    areas[part[t]] += (p[static_cast<std::size_t>(b)] - p[static_cast<std::size_t>(a)])
+                          .cross(p[static_cast<std::size_t>(c)] - p[static_cast<std::size_t>(a)])
+                          .norm();
   }
   if (areas.size() < 2) return;
-  const auto largest = std::max_element(areas.begin(), areas.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->first;
+  const auto largest = std::max_element(areas.begin(), areas.end(), [](const auto& a, const auto& b) {
+                         return a.second < b.second;
+                       })->first;
   std::vector<bool> keep;
   for (const std::int32_t p : part) keep.push_back(p == largest);
   const std::size_t before = out.mesh.triangles.size();
@@ -51,10 +57,13 @@ void keep_largest_part(Repaired& out) {
 }
 
 /// Without the triangles that intersect others, and those around them.
-TriMesh without_folds(const TriMesh& mesh, const std::vector<std::pair<std::int32_t, std::int32_t>>& pairs, std::set<std::array<double, 3>>& rim) {
+TriMesh without_folds(const TriMesh& mesh, const std::vector<std::pair<std::int32_t, std::int32_t>>& pairs,
+                      std::set<std::array<double, 3>>& rim) {
   std::set<std::int32_t> points;
   for (const auto& [a, b] : pairs) {
-    for (const std::int32_t t : {a, b}) points.insert(mesh.triangles[static_cast<std::size_t>(t)].begin(), mesh.triangles[static_cast<std::size_t>(t)].end());
+    for (const std::int32_t t : {a, b})
+      points.insert(mesh.triangles[static_cast<std::size_t>(t)].begin(),
+                    mesh.triangles[static_cast<std::size_t>(t)].end());
   }
   std::vector<bool> keep;
   for (const geometry::Triangle& t : mesh.triangles) {
@@ -81,7 +90,8 @@ TriMesh with_rim_closed(const TriMesh& mesh, const std::set<std::array<double, 3
   }
   const geometry::FilledHoles filled = geometry::fill_holes(mesh);
   std::vector<bool> keep;
-  for (const std::int32_t hole : filled.hole_of_triangle) keep.push_back(hole < 0 || ours[static_cast<std::size_t>(hole)]);
+  for (const std::int32_t hole : filled.hole_of_triangle)
+    keep.push_back(hole < 0 || ours[static_cast<std::size_t>(hole)]);
   return geometry::subset(filled.mesh, keep);
 }
 
@@ -107,7 +117,8 @@ Repaired repaired(const TriMesh& mesh, const core::TaskContext& task) {
   const std::size_t before_weld = out.mesh.triangles.size();
   out.mesh = geometry::welded(out.mesh);
   note(out, before_weld, "that were degenerate or there twice");
-  if (out.mesh.triangles.empty()) throw GeometryError("nothing of the surface is left after dropping bad triangles");
+  if (out.mesh.triangles.empty())
+    throw GeometryError("nothing of the surface is left after dropping bad triangles");
   const std::size_t before_flaps = out.mesh.triangles.size();
   out.mesh = centerline::prepare_lumen(out.mesh).wall;
   note(out, before_flaps, "on non-manifold edges");

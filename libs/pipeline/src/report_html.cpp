@@ -1,8 +1,3 @@
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdio>
-
 #include "ostia/figure/cut_open.h"
 #include "ostia/figure/html_report.h"
 #include "ostia/figure/plot.h"
@@ -11,6 +6,11 @@
 #include "ostia/geometry/mesh_topology.h"
 #include "ostia/pipeline/manifest.h"
 #include "ostia/pipeline/report.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
 
 namespace ostia::pipeline {
 namespace {
@@ -26,11 +26,14 @@ std::string fixed(double value, int decimals) {
 
 /// A point of the lumen in the middle of the first vessel: what the slices go through.
 Vec3 middle(const Model& model) {
-  const geometry::Centerline line = geometry::vessel_axis(model.meshed.centerlines.tree, model.meshed.centerlines.tree.vessels.front());
+  const geometry::Centerline line =
+      geometry::vessel_axis(model.meshed.centerlines.tree, model.meshed.centerlines.tree.vessels.front());
   return line.points[line.size() / 2];
 }
 
-figure::Camera overview(const Model& model) { return figure::cameras::broadside(model.meshed.surface.mesh.points); }
+figure::Camera overview(const Model& model) {
+  return figure::cameras::broadside(model.meshed.surface.mesh.points);
+}
 
 /// The voxels of the lumen's box and what lies around it, so that the lumen is seen and not the whole chest.
 imaging::Region neighbourhood(const imaging::Geometry& grid, const geometry::Box3& box) {
@@ -43,8 +46,10 @@ imaging::Region neighbourhood(const imaging::Geometry& grid, const geometry::Box
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<Eigen::Index>(axis);
     const double reach = margin / grid.spacing[a];
-    region.lower[axis] = std::clamp<std::int64_t>(std::llround(voxels.min()[a] - reach), 0, grid.size[axis] - 1);
-    region.upper[axis] = std::clamp<std::int64_t>(std::llround(voxels.max()[a] + reach) + 1, region.lower[axis] + 1, grid.size[axis]);
+    region.lower[axis] =
+        std::clamp<std::int64_t>(std::llround(voxels.min()[a] - reach), 0, grid.size[axis] - 1);
+    region.upper[axis] = std::clamp<std::int64_t>(std::llround(voxels.max()[a] + reach) + 1,
+                                                  region.lower[axis] + 1, grid.size[axis]);
   }
   return region;
 }
@@ -52,8 +57,10 @@ imaging::Region neighbourhood(const imaging::Geometry& grid, const geometry::Box
 figure::Picture slices(const Model& model) {
   figure::SliceFigureOptions look;
   look.image_width_px = 420;
-  const imaging::Region region = neighbourhood(model.source.image->geometry, geometry::bounds(model.lumen.points));
-  return figure::three_planes(imaging::cropped(*model.source.image, region), middle(model), {model.lumen}, {}, look);
+  const imaging::Region region =
+      neighbourhood(model.source.image->geometry, geometry::bounds(model.lumen.points));
+  return figure::three_planes(imaging::cropped(*model.source.image, region), middle(model), {model.lumen}, {},
+                              look);
 }
 
 figure::Picture surface(const Model& model, const core::TaskContext& task) {
@@ -64,7 +71,8 @@ figure::Picture surface(const Model& model, const core::TaskContext& task) {
   wall.label = "lumen";
   scene.meshes.push_back(std::move(wall));
   for (std::size_t i = 0; i < model.meshed.centerlines.tree.vessels.size(); ++i) {
-    const geometry::Centerline line = geometry::vessel_axis(model.meshed.centerlines.tree, model.meshed.centerlines.tree.vessels[i]);
+    const geometry::Centerline line =
+        geometry::vessel_axis(model.meshed.centerlines.tree, model.meshed.centerlines.tree.vessels[i]);
     const double thin = 0.08 * *std::max_element(line.radius.begin(), line.radius.end());
     figure::TubeActor tube = figure::tube_of(line, std::max(thin, 0.05), figure::palette(i));
     tube.label = model.meshed.centerlines.tree.vessels[i].name;
@@ -104,7 +112,8 @@ void add_truth(HtmlReport& html, const TruthErrors& errors) {
                    {"signed mean (positive: too wide)", fixed(errors.lumen.signed_mean_mm, 3) + " mm"},
                    {"axis, mean distance", fixed(errors.axis.mean_mm, 3) + " mm"},
                    {"radius, median error", fixed(100.0 * errors.axis.radius_median_relative, 1) + " %"},
-                   {"throat radius", fixed(errors.throat_radius_mm, 3) + " mm (true " + fixed(errors.true_throat_radius_mm, 3) + " mm, off by " +
+                   {"throat radius", fixed(errors.throat_radius_mm, 3) + " mm (true " +
+                                         fixed(errors.true_throat_radius_mm, 3) + " mm, off by " +
                                          fixed(100.0 * errors.throat_relative, 1) + " %)"}});
 }
 
@@ -114,22 +123,26 @@ void add_figures(HtmlReport& html, const Model& model) {
   for (const geometry::Vessel& vessel : model.meshed.centerlines.tree.vessels) {
     const geometry::Centerline axis = geometry::vessel_axis(model.meshed.centerlines.tree, vessel);
     const double least = *std::min_element(axis.radius.begin(), axis.radius.end());
-    vessels.push_back({vessel.name, fixed(axis.abscissa.back(), 1), fixed(2.0 * axis.radius.front(), 2), fixed(2.0 * axis.radius.back(), 2), fixed(2.0 * least, 2)});
+    vessels.push_back({vessel.name, fixed(axis.abscissa.back(), 1), fixed(2.0 * axis.radius.front(), 2),
+                       fixed(2.0 * axis.radius.back(), 2), fixed(2.0 * least, 2)});
   }
-  html.table({"vessel", "length (mm)", "first diameter (mm)", "last diameter (mm)", "least diameter (mm)"}, vessels);
+  html.table({"vessel", "length (mm)", "first diameter (mm)", "last diameter (mm)", "least diameter (mm)"},
+             vessels);
   const auto& s = model.meshed.surface_quality;
   const auto& v = model.meshed.volume_quality;
   html.key_values({{"triangles", std::to_string(s.triangles)},
                    {"least angle", fixed(s.min_angle_deg, 1) + " degrees"},
                    {"mean of the least angles", fixed(s.mean_min_angle_deg, 1) + " degrees"},
                    {"open edges, non-manifold edges, self-intersections",
-                    std::to_string(s.open_edges) + ", " + std::to_string(s.non_manifold_edges) + ", " + std::to_string(s.self_intersections)},
+                    std::to_string(s.open_edges) + ", " + std::to_string(s.non_manifold_edges) + ", " +
+                        std::to_string(s.self_intersections)},
                    {"tetrahedra", std::to_string(v.tetrahedra)},
                    {"least dihedral angle", fixed(v.min_dihedral_deg, 1) + " degrees"},
                    {"inverted tetrahedra", std::to_string(v.inverted)},
                    {"volume", fixed(v.volume_mm3, 1) + " mm\xc2\xb3"}});
   std::vector<std::vector<std::string>> faces;
-  for (const geometry::Face& face : model.meshed.surface.faces) faces.push_back({std::to_string(face.id), face.name});
+  for (const geometry::Face& face : model.meshed.surface.faces)
+    faces.push_back({std::to_string(face.id), face.name});
   html.table({"CellEntityIds", "face"}, faces);
   std::vector<std::vector<std::string>> stages;
   for (const StageTime& stage : model.stages) stages.push_back({stage.name, fixed(stage.seconds, 2)});
@@ -142,19 +155,25 @@ std::vector<ReportPicture> report_pictures(const Model& model, const core::TaskC
   std::vector<ReportPicture> out;
   if (model.source.image) {
     out.push_back({"slices", "The lumen in the image",
-                   "Axial, coronal and sagittal slice through the middle of the first vessel; the line is the lumen's surface.", slices(model)});
+                   "Axial, coronal and sagittal slice through the middle of the first vessel; the line is "
+                   "the lumen's surface.",
+                   slices(model)});
   }
   task.throw_if_cancelled();
-  out.push_back({"surface", "Surface and centerlines", "The lumen's surface, see-through, with the centerlines.", surface(model, task)});
+  out.push_back({"surface", "Surface and centerlines",
+                 "The lumen's surface, see-through, with the centerlines.", surface(model, task)});
   task.throw_if_cancelled();
-  out.push_back({"mesh", "The mesh, cut open", "Tetrahedra in front of a plane through the vessel are taken away.", mesh(model, task)});
-  out.push_back({"diameter", "Diameter along each vessel", "Diameter of the largest inscribed sphere.", diameters(model)});
+  out.push_back({"mesh", "The mesh, cut open",
+                 "Tetrahedra in front of a plane through the vessel are taken away.", mesh(model, task)});
+  out.push_back({"diameter", "Diameter along each vessel", "Diameter of the largest inscribed sphere.",
+                 diameters(model)});
   return out;
 }
 
-void write_report_html(const std::filesystem::path& path, const Model& model, const std::vector<ReportPicture>& pictures,
-                       const std::optional<TruthErrors>& truth) {
-  HtmlReport html("Vessel model", name_of(model.source.kind) + " " + model.source.pseudonym + ", Ostia " + program_version());
+void write_report_html(const std::filesystem::path& path, const Model& model,
+                       const std::vector<ReportPicture>& pictures, const std::optional<TruthErrors>& truth) {
+  HtmlReport html("Vessel model",
+                  name_of(model.source.kind) + " " + model.source.pseudonym + ", Ostia " + program_version());
   if (model.meshed.verdict.ok()) {
     html.notice(figure::Notice::good, "The mesh passed the quality gate.");
   } else {

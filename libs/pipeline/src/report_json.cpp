@@ -1,18 +1,21 @@
-#include <algorithm>
-#include <cmath>
-#include <nlohmann/json.hpp>
-
 #include "ostia/core/files.h"
 #include "ostia/core/log.h"
 #include "ostia/pipeline/manifest.h"
 #include "ostia/pipeline/report.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
 
 namespace ostia::pipeline {
 namespace {
 
 using nlohmann::json;
 
-json point(const geometry::Vec3& p) { return {p.x(), p.y(), p.z()}; }
+json point(const geometry::Vec3& p) {
+  return {p.x(), p.y(), p.z()};
+}
 
 json surface_json(const meshing::SurfaceQuality& q) {
   return {{"points", q.points},
@@ -45,7 +48,9 @@ json volume_json(const meshing::VolumeQuality& q) {
           {"volume_mm3", q.volume_mm3}};
 }
 
-json verdict_json(const meshing::QualityVerdict& verdict) { return {{"passed", verdict.ok()}, {"reasons", verdict.reasons}}; }
+json verdict_json(const meshing::QualityVerdict& verdict) {
+  return {{"passed", verdict.ok()}, {"reasons", verdict.reasons}};
+}
 
 json vessel_json(const geometry::Vessel& vessel, const geometry::Centerline& axis) {
   const auto least = std::min_element(axis.radius.begin(), axis.radius.end()) - axis.radius.begin();
@@ -81,9 +86,12 @@ json truth_json(const TruthErrors& errors) {
 
 std::string name_of(segmentation::WallFeature feature) {
   switch (feature) {
-    case segmentation::WallFeature::edges: return "edges";
-    case segmentation::WallFeature::upwind: return "upwind";
-    case segmentation::WallFeature::centred: break;
+    case segmentation::WallFeature::edges:
+      return "edges";
+    case segmentation::WallFeature::upwind:
+      return "upwind";
+    case segmentation::WallFeature::centred:
+      break;
   }
   return "centred";
 }
@@ -99,31 +107,44 @@ json branch_json(const segmentation::BranchDiagnostics& d) {
 
 }  // namespace
 
-std::string quality_json(const meshing::SurfaceQuality& quality) { return surface_json(quality).dump(); }
+std::string quality_json(const meshing::SurfaceQuality& quality) {
+  return surface_json(quality).dump();
+}
 
 std::string quality_json(const meshing::SurfaceQuality& surface, const meshing::VolumeQuality& volume,
                          const meshing::QualityVerdict& verdict) {
-  return json{{"surface", surface_json(surface)}, {"volume", volume_json(volume)}, {"verdict", verdict_json(verdict)}}.dump();
+  return json{
+      {"surface", surface_json(surface)}, {"volume", volume_json(volume)}, {"verdict", verdict_json(verdict)}}
+      .dump();
 }
 
-std::string report_json(const Model& model, const ModelOptions& options, const std::optional<TruthErrors>& truth) {
-  json report{{"v", 1}, {"program", {{"name", "ostia"}, {"version", program_version()}}}, {"axes", "LPS"}, {"unit", "mm"}};
-  report["source"] = {{"kind", pipeline::name_of(model.source.kind)}, {"sha256", model.source.sha256}, {"pseudonym", model.source.pseudonym}};
+std::string report_json(const Model& model, const ModelOptions& options,
+                        const std::optional<TruthErrors>& truth) {
+  json report{{"v", 1},
+              {"program", {{"name", "ostia"}, {"version", program_version()}}},
+              {"axes", "LPS"},
+              {"unit", "mm"}};
+  report["source"] = {{"kind", pipeline::name_of(model.source.kind)},
+                      {"sha256", model.source.sha256},
+                      {"pseudonym", model.source.pseudonym}};
   report["parameters"] = json::parse(parameters_json(options));
   report["branches"] = json::array();
   for (const auto& branch : model.branches) report["branches"].push_back(branch_json(branch));
   report["vessels"] = json::array();
   for (const geometry::Vessel& vessel : model.meshed.centerlines.tree.vessels) {
-    report["vessels"].push_back(vessel_json(vessel, geometry::vessel_axis(model.meshed.centerlines.tree, vessel)));
+    report["vessels"].push_back(
+        vessel_json(vessel, geometry::vessel_axis(model.meshed.centerlines.tree, vessel)));
   }
   report["faces"] = json::array();
-  for (const geometry::Face& face : model.meshed.surface.faces) report["faces"].push_back({{"id", face.id}, {"name", face.name}});
+  for (const geometry::Face& face : model.meshed.surface.faces)
+    report["faces"].push_back({{"id", face.id}, {"name", face.name}});
   report["surface"] = surface_json(model.meshed.surface_quality);
   report["volume"] = volume_json(model.meshed.volume_quality);
   report["verdict"] = verdict_json(model.meshed.verdict);
   report["truth"] = truth ? truth_json(*truth) : json();
   report["stages"] = json::array();
-  for (const StageTime& stage : model.stages) report["stages"].push_back({{"name", stage.name}, {"seconds", stage.seconds}});
+  for (const StageTime& stage : model.stages)
+    report["stages"].push_back({{"name", stage.name}, {"seconds", stage.seconds}});
   report["peak_mb"] = peak_memory_mb();
   report["warnings"] = json::array();
   for (const std::string& warning : model.warnings) report["warnings"].push_back(core::redacted(warning));
@@ -132,11 +153,12 @@ std::string report_json(const Model& model, const ModelOptions& options, const s
 
 std::string parameters_json(const ModelOptions& options, const SourceOptions& reading) {
   json out;
-  out["reading"] = {{"series", reading.dicom.series_uid.empty() ? json() : json(core::sha256(reading.dicom.series_uid))},
-                    {"resample", reading.dicom.resample_uneven},
-                    {"pixel_spacing_mm", reading.dicom.pixel_spacing_mm ? json(*reading.dicom.pixel_spacing_mm) : json()},
-                    {"slice_spacing_mm", reading.dicom.slice_spacing_mm ? json(*reading.dicom.slice_spacing_mm) : json()},
-                    {"unit_mm", reading.unit_mm ? json(*reading.unit_mm) : json()}};
+  out["reading"] = {
+      {"series", reading.dicom.series_uid.empty() ? json() : json(core::sha256(reading.dicom.series_uid))},
+      {"resample", reading.dicom.resample_uneven},
+      {"pixel_spacing_mm", reading.dicom.pixel_spacing_mm ? json(*reading.dicom.pixel_spacing_mm) : json()},
+      {"slice_spacing_mm", reading.dicom.slice_spacing_mm ? json(*reading.dicom.slice_spacing_mm) : json()},
+      {"unit_mm", reading.unit_mm ? json(*reading.unit_mm) : json()}};
   out["branches"] = json::array();
   for (const auto& branch : options.branches) {
     json points = json::array({point(branch.from)});
@@ -157,14 +179,18 @@ std::string parameters_json(const ModelOptions& options, const SourceOptions& re
                     {"curvature", segment.level_set.curvature},
                     {"advection", segment.level_set.advection},
                     {"iterations_max", segment.level_set.iterations_max}};
-  out["smoothing"] = options.smoothing ? json{{"iterations", options.smoothing->iterations}, {"pass_band", options.smoothing->pass_band}} : json();
-  out["centerline"] = {{"step_mm", options.centerline.step_mm}, {"smoothing_radii", options.centerline.smoothing_radii}};
+  out["smoothing"] = options.smoothing ? json{{"iterations", options.smoothing->iterations},
+                                              {"pass_band", options.smoothing->pass_band}}
+                                       : json();
+  out["centerline"] = {{"step_mm", options.centerline.step_mm},
+                       {"smoothing_radii", options.centerline.smoothing_radii}};
   out["clip"] = {{"inset_radii", options.inset_radii ? json(*options.inset_radii) : json()}};
-  out["sizing"] = {{"edge_ratio", options.sizing.edge_ratio},
-                   {"measure", options.sizing.measure == meshing::SizeMeasure::distance ? "distance" : "radius"},
-                   {"gradation", options.sizing.gradation},
-                   {"min_edge_mm", options.sizing.min_edge_mm},
-                   {"max_edge_mm", std::isfinite(options.sizing.max_edge_mm) ? json(options.sizing.max_edge_mm) : json()}};
+  out["sizing"] = {
+      {"edge_ratio", options.sizing.edge_ratio},
+      {"measure", options.sizing.measure == meshing::SizeMeasure::distance ? "distance" : "radius"},
+      {"gradation", options.sizing.gradation},
+      {"min_edge_mm", options.sizing.min_edge_mm},
+      {"max_edge_mm", std::isfinite(options.sizing.max_edge_mm) ? json(options.sizing.max_edge_mm) : json()}};
   out["tetrahedra"] = {{"size_factor", options.tetrahedralize.size_factor},
                        {"max_radius_edge_ratio", options.tetrahedralize.max_radius_edge_ratio},
                        {"min_dihedral_deg", options.tetrahedralize.min_dihedral_deg}};

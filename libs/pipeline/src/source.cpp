@@ -1,15 +1,15 @@
 #include "ostia/pipeline/source.h"
 
-#include <algorithm>
-#include <array>
-#include <fstream>
-
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
 #include "ostia/core/log.h"
 #include "ostia/geometry/mesh_topology.h"
 #include "ostia/imaging/image_file.h"
 #include "ostia/io/surface_file.h"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
 
 namespace ostia::pipeline {
 namespace fs = std::filesystem;
@@ -22,7 +22,8 @@ bool has_dicom_mark(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
   std::array<char, 132> start{};
   in.read(start.data(), start.size());
-  return in.gcount() == static_cast<std::streamsize>(start.size()) && std::string_view(start.data() + 128, 4) == "DICM";
+  return in.gcount() == static_cast<std::streamsize>(start.size()) &&
+         std::string_view(start.data() + 128, 4) == "DICM";
 }
 
 bool is_image_name(const fs::path& path) {
@@ -45,20 +46,26 @@ std::string folder_digest(const fs::path& folder) {
   return core::sha256(all);
 }
 
-void append(std::vector<std::string>& to, const std::vector<std::string>& from) { to.insert(to.end(), from.begin(), from.end()); }
+void append(std::vector<std::string>& to, const std::vector<std::string>& from) {
+  to.insert(to.end(), from.begin(), from.end());
+}
 
-geometry::TriMesh load_surface(const fs::path& path, const SourceOptions& options, std::vector<std::string>& warnings) {
+geometry::TriMesh load_surface(const fs::path& path, const SourceOptions& options,
+                               std::vector<std::string>& warnings) {
   io::LoadedSurface loaded = io::read_surface(path);
   append(warnings, loaded.warnings);
   geometry::TriMesh mesh = std::move(loaded.surface.mesh);
   for (std::size_t i = 0; i < mesh.points.size(); ++i) {
     if (!mesh.points[i].allFinite()) {
-      throw InvalidInput("cannot use " + path.string() + ": point " + std::to_string(i) + " is not a finite place; `ostia convert --repair` drops such triangles");
+      throw InvalidInput("cannot use " + path.string() + ": point " + std::to_string(i) +
+                         " is not a finite place; `ostia convert --repair` drops such triangles");
     }
     if (options.unit_mm) mesh.points[i] *= *options.unit_mm;
   }
   // The least extent bounds a vessel's width from above; the other bound needs the centerlines.
-  if (!options.unit_mm) check_vessel_size(std::min(geometry::bounds(mesh.points).sizes().minCoeff(), widest_vessel_mm), path.string());
+  if (!options.unit_mm)
+    check_vessel_size(std::min(geometry::bounds(mesh.points).sizes().minCoeff(), widest_vessel_mm),
+                      path.string());
   return mesh;
 }
 
@@ -66,31 +73,39 @@ geometry::TriMesh load_surface(const fs::path& path, const SourceOptions& option
 
 std::string name_of(SourceKind kind) {
   switch (kind) {
-    case SourceKind::dicom: return "DICOM series";
-    case SourceKind::image: return "image";
-    case SourceKind::mask: return "mask";
-    case SourceKind::surface: break;
+    case SourceKind::dicom:
+      return "DICOM series";
+    case SourceKind::image:
+      return "image";
+    case SourceKind::mask:
+      return "mask";
+    case SourceKind::surface:
+      break;
   }
   return "surface";
 }
 
 void check_vessel_size(double width_mm, const std::string& what) {
   if (width_mm > widest_vessel_mm || width_mm < thinnest_vessel_mm) {
-    throw InvalidInput(what + " would be a vessel " + (width_mm > widest_vessel_mm ? "wider than 100 mm" : "thinner than 0.1 mm") +
+    throw InvalidInput(what + " would be a vessel " +
+                       (width_mm > widest_vessel_mm ? "wider than 100 mm" : "thinner than 0.1 mm") +
                        ": its unit is hardly the millimetre; say which it is with --units m, cm or mm");
   }
 }
 
 SourceKind classify(const fs::path& path) {
   std::error_code error;
-  if (!fs::exists(path, error)) throw IoError("cannot read " + path.string() + ": there is no such file or folder");
+  if (!fs::exists(path, error))
+    throw IoError("cannot read " + path.string() + ": there is no such file or folder");
   if (fs::is_directory(path)) return SourceKind::dicom;
-  if (!fs::is_regular_file(path)) throw InvalidInput("cannot read " + path.string() + ": it is neither a file nor a folder");
+  if (!fs::is_regular_file(path))
+    throw InvalidInput("cannot read " + path.string() + ": it is neither a file nor a folder");
   if (io::is_surface_file(path)) return SourceKind::surface;
   if (is_image_name(path)) return imaging::looks_like_mask(path) ? SourceKind::mask : SourceKind::image;
   if (path.extension() == ".dcm" || has_dicom_mark(path)) return SourceKind::dicom;
   throw InvalidInput("cannot read " + path.string() +
-                     ": it is no DICOM folder, no image (.nrrd .nhdr .mhd .mha .nii .nii.gz) and no surface (.stl .ply .obj .vtp)");
+                     ": it is no DICOM folder, no image (.nrrd .nhdr .mhd .mha .nii .nii.gz) and no surface "
+                     "(.stl .ply .obj .vtp)");
 }
 
 std::string digest(const fs::path& path, SourceKind kind) {

@@ -1,12 +1,12 @@
 #include "ostia/pipeline/volume_preview.h"
 
-#include <algorithm>
-#include <cmath>
-#include <string>
-
 #include "ostia/core/error.h"
 #include "ostia/figure/slice_figure.h"
 #include "ostia/reformat/plane_image.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
 
 namespace ostia::pipeline {
 namespace fs = std::filesystem;
@@ -15,15 +15,21 @@ namespace {
 using geometry::Vec3;
 
 Vec3 centre_of(const imaging::Geometry& grid) {
-  return grid.world(Vec3(static_cast<double>(grid.size[0] - 1), static_cast<double>(grid.size[1] - 1), static_cast<double>(grid.size[2] - 1)) / 2.0);
+  return grid.world(Vec3(static_cast<double>(grid.size[0] - 1), static_cast<double>(grid.size[1] - 1),
+                         static_cast<double>(grid.size[2] - 1)) /
+                    2.0);
 }
 
-std::string mm(double value) { return std::to_string(static_cast<long>(std::lround(value))); }
+std::string mm(double value) {
+  return std::to_string(static_cast<long>(std::lround(value)));
+}
 
 }  // namespace
 
-std::vector<std::string> write_preview(const imaging::ImageVolume& image, const fs::path& folder, const PreviewOptions& options) {
-  if (options.axial_slices < 0 || options.axial_slices > 100) throw InvalidInput("--preview-slices must lie in [0, 100]");
+std::vector<std::string> write_preview(const imaging::ImageVolume& image, const fs::path& folder,
+                                       const PreviewOptions& options) {
+  if (options.axial_slices < 0 || options.axial_slices > 100)
+    throw InvalidInput("--preview-slices must lie in [0, 100]");
   const Vec3 centre = options.position.value_or(centre_of(image.geometry));
   if (!image.geometry.contains(centre)) throw InvalidInput("the preview's position lies outside the image");
   std::error_code error;
@@ -36,7 +42,9 @@ std::vector<std::string> write_preview(const imaging::ImageVolume& image, const 
   figure::three_planes(image, centre, {}, {}, look).write_png(folder / names[0]);
 
   const Vec3 first = image.geometry.world(Vec3::Zero());
-  const Vec3 last = image.geometry.world(Vec3(static_cast<double>(image.geometry.size[0] - 1), static_cast<double>(image.geometry.size[1] - 1), static_cast<double>(image.geometry.size[2] - 1)));
+  const Vec3 last = image.geometry.world(Vec3(static_cast<double>(image.geometry.size[0] - 1),
+                                              static_cast<double>(image.geometry.size[1] - 1),
+                                              static_cast<double>(image.geometry.size[2] - 1)));
   const double low = std::min(first.z(), last.z()), high = std::max(first.z(), last.z());
   for (int i = 0; i < options.axial_slices; ++i) {
     const double z = low + (high - low) * (i + 0.5) / options.axial_slices;

@@ -32,7 +32,8 @@ class StagedFile {
 /// Writes `content` through a StagedFile.
 void write_file(const std::filesystem::path& path, std::string_view content);
 
-/// A folder under construction beside its target. `commit` renames it; an existing target folder is exchanged and then removed.
+/// A folder under construction beside its target. `commit` renames it; an existing target folder is exchanged
+/// and then removed.
 class StagedFolder {
  public:
   explicit StagedFolder(std::filesystem::path target);

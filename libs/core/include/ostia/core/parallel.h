@@ -30,7 +30,8 @@ template <class T, class Map, class Combine>
 T parallel_reduce(std::size_t count, std::size_t grain, T init, const Map& map, const Combine& combine) {
   if (grain == 0) grain = 1;
   std::vector<T> partial((count + grain - 1) / grain, init);
-  parallel_chunks(count, grain, [&](std::size_t first, std::size_t last) { partial[first / grain] = map(first, last); });
+  parallel_chunks(count, grain,
+                  [&](std::size_t first, std::size_t last) { partial[first / grain] = map(first, last); });
   T result = init;
   for (const T& p : partial) result = combine(result, p);
   return result;

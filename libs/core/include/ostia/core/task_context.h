@@ -11,7 +11,8 @@ namespace ostia::core {
 /// Semantics, all safe from any thread:
 /// - copies and sub-ranges share one state: cancelling one cancels all;
 /// - a cancel cannot be taken back; it is seen by `throw_if_cancelled` from the next call on;
-/// - `set_progress(f)` takes f in [0, 1] of this handle's own range (clamped); the job's progress never falls;
+/// - `set_progress(f)` takes f in [0, 1] of this handle's own range (clamped); the job's progress never
+/// falls;
 /// - a library never calls back into a user interface.
 class TaskContext {
  public:

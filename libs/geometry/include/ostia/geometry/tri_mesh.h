@@ -1,12 +1,12 @@
 #pragma once
 /// \file Triangle surfaces and tetrahedral meshes: plain values.
 
+#include "ostia/geometry/vec.h"
+
 #include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
-
-#include "ostia/geometry/vec.h"
 
 namespace ostia::geometry {
 

@@ -1,11 +1,11 @@
 #pragma once
 /// \file Surfaces: STL, PLY, OBJ and VTP in; STL, PLY and VTP out. World LPS, mm.
 
+#include "ostia/geometry/tri_mesh.h"
+
 #include <filesystem>
 #include <string>
 #include <vector>
-
-#include "ostia/geometry/tri_mesh.h"
 
 namespace ostia::io {
 
@@ -18,13 +18,15 @@ struct LoadedSurface {
 /// True for an extension that `read_surface` knows.
 bool is_surface_file(const std::filesystem::path& path);
 
-/// Reads by extension and content. Points of an STL that are equal bit for bit are one point. Checked before anything is
-/// allocated by it: triangle counts against the file's size, indices against the number of points, XML for entities.
-/// Throws InvalidInput naming the file and the field, IoError when it cannot be read.
+/// Reads by extension and content. Points of an STL that are equal bit for bit are one point. Checked before
+/// anything is allocated by it: triangle counts against the file's size, indices against the number of
+/// points, XML for entities. Throws InvalidInput naming the file and the field, IoError when it cannot be
+/// read.
 LoadedSurface read_surface(const std::filesystem::path& path);
 
-/// Writes by extension, whole or not at all. STL: binary, single precision. VTP: `CellEntityIds` and the faces' names. PLY: double
-/// precision. A format that cannot hold face ids drops them only for a surface of a single face, else throws InvalidInput.
+/// Writes by extension, whole or not at all. STL: binary, single precision. VTP: `CellEntityIds` and the
+/// faces' names. PLY: double precision. A format that cannot hold face ids drops them only for a surface of a
+/// single face, else throws InvalidInput.
 void write_surface(const std::filesystem::path& path, const geometry::TriMesh& mesh);
 void write_surface(const std::filesystem::path& path, const geometry::FacedSurface& surface);
 

@@ -1,5 +1,6 @@
 #pragma once
-/// \file Random numbers that depend on a seed and a place alone, so that any number of threads draws the same.
+/// \file Random numbers that depend on a seed and a place alone, so that any number of threads draws the
+/// same.
 
 #include <cstdint>
 

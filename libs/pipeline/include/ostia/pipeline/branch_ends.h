@@ -1,9 +1,9 @@
 #pragma once
 /// \file Where the centerlines of a set of seed pairs begin and end.
 
-#include <vector>
-
 #include "ostia/segmentation/seeds.h"
+
+#include <vector>
 
 namespace ostia::pipeline {
 
@@ -12,9 +12,9 @@ struct BranchEnds {
   std::vector<geometry::Vec3> targets;
 };
 
-/// The first pair's first point is the source. Of the other ends of pairs, those that no second pair touches (within
-/// `same_mm`) are targets, in the order given; points in which pairs meet are bifurcations or joints. Throws InvalidInput for no
-/// pair, or pairs that form a ring.
+/// The first pair's first point is the source. Of the other ends of pairs, those that no second pair touches
+/// (within `same_mm`) are targets, in the order given; points in which pairs meet are bifurcations or joints.
+/// Throws InvalidInput for no pair, or pairs that form a ring.
 BranchEnds ends_of(const std::vector<segmentation::BranchSeeds>& branches, double same_mm = 1.0);
 
 }  // namespace ostia::pipeline

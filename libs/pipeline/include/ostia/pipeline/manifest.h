@@ -1,13 +1,13 @@
 #pragma once
 /// \file The manifest that makes a folder whole: what was done, with what, and what came out.
 
+#include "ostia/core/error.h"
+
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
-
-#include "ostia/core/error.h"
 
 namespace ostia::pipeline {
 
@@ -23,17 +23,19 @@ struct ManifestRecord {
   ExitCode exit_code = ExitCode::ok;
   double seconds = 0.0;
   std::vector<std::string> warnings;
-  std::string quality;                        ///< JSON text of the job's figures
+  std::string quality;  ///< JSON text of the job's figures
 };
 
-/// Writes `manifest.json` into the folder, last: program and library versions, times, peak memory, SHA-256 of every file there.
+/// Writes `manifest.json` into the folder, last: program and library versions, times, peak memory, SHA-256 of
+/// every file there.
 void write_manifest(const std::filesystem::path& folder, const ManifestRecord& record);
 
-/// The recorded exit code when the folder is whole and holds this very job done by this program version; nothing otherwise.
+/// The recorded exit code when the folder is whole and holds this very job done by this program version;
+/// nothing otherwise.
 std::optional<ExitCode> already_done(const std::filesystem::path& folder, const JobKey& key);
 
-/// Before any work: throws IoError when a folder cannot be made at `folder`, InvalidInput when one is there that holds anything but
-/// the files of an earlier job (it would be replaced as a whole).
+/// Before any work: throws IoError when a folder cannot be made at `folder`, InvalidInput when one is there
+/// that holds anything but the files of an earlier job (it would be replaced as a whole).
 void require_free_folder(const std::filesystem::path& folder);
 
 /// Most memory this process has had resident, MB.

@@ -1,10 +1,6 @@
 #pragma once
 /// \file The straight way from an image to a mesh ([Antiga] 2-6), without a person.
 
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "ostia/centerline/extract_centerlines.h"
 #include "ostia/core/task_context.h"
 #include "ostia/geometry/smoothing.h"
@@ -16,17 +12,23 @@
 #include "ostia/pipeline/source.h"
 #include "ostia/segmentation/segment.h"
 
+#include <optional>
+#include <string>
+#include <vector>
+
 namespace ostia::pipeline {
 
 struct ModelOptions {
-  std::vector<segmentation::BranchSeeds> branches;   ///< needed for an image
-  std::optional<geometry::Vec3> source;              ///< masks and surfaces: where the centerlines begin; left out: an open end
-  std::vector<geometry::Vec3> targets;               ///< ... and end; left out: the other open ends
+  std::vector<segmentation::BranchSeeds> branches;  ///< needed for an image
+  std::optional<geometry::Vec3>
+      source;  ///< masks and surfaces: where the centerlines begin; left out: an open end
+  std::vector<geometry::Vec3> targets;  ///< ... and end; left out: the other open ends
   segmentation::SegmentOptions segment;
   std::optional<geometry::TaubinOptions> smoothing;  ///< of the segmentation's surface; none unless asked for
   centerline::CenterlineOptions centerline;
-  meshing::ClipOptions clip;                         ///< its inset_radii is set from the one below
-  /// How far inside its end a vessel is cut, in radii; left out: 0.4 for an image, whose ends were made flat by the seeds, else 1.
+  meshing::ClipOptions clip;  ///< its inset_radii is set from the one below
+  /// How far inside its end a vessel is cut, in radii; left out: 0.4 for an image, whose ends were made flat
+  /// by the seeds, else 1.
   std::optional<double> inset_radii;
   meshing::SizingOptions sizing;
   meshing::RemeshOptions remesh;
@@ -40,36 +42,40 @@ struct StageTime {
   double seconds = 0.0;
 };
 
-/// The surface that a centerline and a mesh can be made of. Throws GeometryError that counts the faults and says where they are.
+/// The surface that a centerline and a mesh can be made of. Throws GeometryError that counts the faults and
+/// says where they are.
 void require_sound_surface(const geometry::TriMesh& surface, const std::string& what);
 
 /// From surface and centerlines to the mesh: cut, capped, remeshed, filled.
 struct MeshedLumen {
-  centerline::CenterlineResult centerlines;  ///< of the cut lumen: from its inlet's centre to its outlets' centres
-  geometry::FacedSurface surface;            ///< closed, remeshed, named faces
+  centerline::CenterlineResult
+      centerlines;                 ///< of the cut lumen: from its inlet's centre to its outlets' centres
+  geometry::FacedSurface surface;  ///< closed, remeshed, named faces
   geometry::VolumeMesh mesh;
   meshing::RemeshReport remeshing;
   meshing::SurfaceQuality surface_quality;
   meshing::VolumeQuality volume_quality;
-  meshing::QualityVerdict verdict;           ///< of both
+  meshing::QualityVerdict verdict;  ///< of both
   std::vector<std::string> warnings;
   std::vector<StageTime> stages;
 };
-/// `tree` says where the ends are; sizes follow the centerlines of the cut lumen, whose radii no closed end narrows.
-MeshedLumen mesh_lumen(const geometry::TriMesh& lumen, const geometry::VesselTree& tree, const ModelOptions& options,
-                       const core::TaskContext& task = core::no_task());
+/// `tree` says where the ends are; sizes follow the centerlines of the cut lumen, whose radii no closed end
+/// narrows.
+MeshedLumen mesh_lumen(const geometry::TriMesh& lumen, const geometry::VesselTree& tree,
+                       const ModelOptions& options, const core::TaskContext& task = core::no_task());
 
 /// Everything that came of one input.
 struct Model {
   Source source;
   std::vector<segmentation::BranchDiagnostics> branches;  ///< images only
-  geometry::TriMesh lumen;                   ///< of the segmentation, or as given
+  geometry::TriMesh lumen;                                ///< of the segmentation, or as given
   MeshedLumen meshed;
-  std::vector<std::string> warnings;         ///< of all stages
+  std::vector<std::string> warnings;  ///< of all stages
   std::vector<StageTime> stages;
 };
 
 /// Runs all stages. Throws what they throw; nothing is written.
-Model build_model(Source source, const ModelOptions& options, const core::TaskContext& task = core::no_task());
+Model build_model(Source source, const ModelOptions& options,
+                  const core::TaskContext& task = core::no_task());
 
 }  // namespace ostia::pipeline

@@ -1,37 +1,39 @@
 #pragma once
 /// \file What a job starts from: a DICOM folder, an image, a mask or a surface.
 
+#include "ostia/core/task_context.h"
+#include "ostia/geometry/tri_mesh.h"
+#include "ostia/imaging/dicom.h"
+#include "ostia/imaging/volume.h"
+
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "ostia/core/task_context.h"
-#include "ostia/geometry/tri_mesh.h"
-#include "ostia/imaging/dicom.h"
-#include "ostia/imaging/volume.h"
-
 namespace ostia::pipeline {
 
 enum class SourceKind { dicom, image, mask, surface };
 std::string name_of(SourceKind kind);
 
-/// By what is there: a folder or a file with a DICOM header, a surface's or an image's extension; an image of few different
-/// values is a mask. Throws IoError when there is nothing, InvalidInput when it is none of these.
+/// By what is there: a folder or a file with a DICOM header, a surface's or an image's extension; an image of
+/// few different values is a mask. Throws IoError when there is nothing, InvalidInput when it is none of
+/// these.
 SourceKind classify(const std::filesystem::path& path);
 
 struct SourceOptions {
   imaging::DicomReadOptions dicom;
-  /// mm in the file's unit of length; nothing: millimetres, and a surface that cannot be a vessel in them is refused.
+  /// mm in the file's unit of length; nothing: millimetres, and a surface that cannot be a vessel in them is
+  /// refused.
   std::optional<double> unit_mm;
 };
 
 /// The content, and how it is known in everything that is saved.
 struct Source {
   SourceKind kind = SourceKind::image;
-  std::string sha256;      ///< of the file, or of the sorted digests of a DICOM series' files
-  std::string pseudonym;   ///< "image-1a2b3c4d"
+  std::string sha256;     ///< of the file, or of the sorted digests of a DICOM series' files
+  std::string pseudonym;  ///< "image-1a2b3c4d"
   std::shared_ptr<const imaging::ImageVolume> image;  ///< dicom and image
   std::shared_ptr<const imaging::MaskVolume> mask;    ///< mask
   geometry::TriMesh surface;                          ///< surface
@@ -42,12 +44,13 @@ struct Source {
 /// SHA-256 alone, cheaper than `load`.
 std::string digest(const std::filesystem::path& path, SourceKind kind);
 
-/// Reads it. From here on the log knows the path by the pseudonym alone. Throws what the readers throw; InvalidInput for a surface
-/// whose size suggests another unit.
+/// Reads it. From here on the log knows the path by the pseudonym alone. Throws what the readers throw;
+/// InvalidInput for a surface whose size suggests another unit.
 Source load(const std::filesystem::path& path, const SourceOptions& options = {},
             const core::TaskContext& task = core::no_task());
 
-/// Throws InvalidInput when a vessel's surface is wider than 100 mm or thinner than 0.1 mm as it stands ("give --units").
+/// Throws InvalidInput when a vessel's surface is wider than 100 mm or thinner than 0.1 mm as it stands
+/// ("give --units").
 void check_vessel_size(double width_mm, const std::string& what);
 
 }  // namespace ostia::pipeline

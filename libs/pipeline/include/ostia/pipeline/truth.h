@@ -8,14 +8,14 @@
 
 namespace ostia::pipeline {
 
-/// Errors away from the ends (nearer than two radii to a cut, where the model stops on purpose) and, for the axes, further than 2.5 radii
-/// from the bifurcation, where an axis is a matter of definition.
+/// Errors away from the ends (nearer than two radii to a cut, where the model stops on purpose) and, for the
+/// axes, further than 2.5 radii from the bifurcation, where an axis is a matter of definition.
 struct TruthErrors {
   evaluation::SurfaceDistances lumen;
   evaluation::AxisSummary axis;
-  double throat_radius_mm = 0.0;            ///< least radius found within the stenosis
+  double throat_radius_mm = 0.0;  ///< least radius found within the stenosis
   double true_throat_radius_mm = 0.0;
-  double throat_relative = 0.0;             ///< |found - true| / true
+  double throat_relative = 0.0;  ///< |found - true| / true
 };
 TruthErrors compare_with_truth(const phantom::BuiltinCase& truth, const Model& model,
                                const core::TaskContext& task = core::no_task());

@@ -33,8 +33,9 @@ ExitCode check_file(const MeshCommand& options, const core::TaskContext& task) {
     return verdict(both);
   }
   const auto quality = meshing::surface_quality(io::read_surface(options.check).surface.mesh, true, task);
-  std::fputs((pipeline::quality_json(quality) + "\n").c_str(), stdout);
-  return verdict(meshing::check(quality));
+  const meshing::QualityVerdict judged = meshing::check(quality);
+  std::fputs((pipeline::quality_json(quality, judged) + "\n").c_str(), stdout);
+  return verdict(judged);
 }
 
 geometry::VesselTree tree_for(const MeshCommand& options, const pipeline::Source& source,

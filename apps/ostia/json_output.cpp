@@ -45,6 +45,7 @@ std::string image_text(const ImageFacts& f, bool as_json) {
                   static_cast<double>(f.geometry.size[2] - 1));
   if (as_json) {
     json out = geometry_json(f.geometry);
+    out["v"] = 1;
     out["kind"] = f.kind;
     out["axes"] = "LPS";
     out["least_hu"] = f.least;
@@ -71,7 +72,8 @@ std::string image_text(const ImageFacts& f, bool as_json) {
 
 std::string surface_text(const SurfaceFacts& f, bool as_json) {
   if (as_json) {
-    return json{{"kind", "surface"},
+    return json{{"v", 1},
+                {"kind", "surface"},
                 {"points", f.points},
                 {"triangles", f.triangles},
                 {"area_mm2", f.area_mm2},
@@ -100,7 +102,7 @@ std::string surface_text(const SurfaceFacts& f, bool as_json) {
 
 std::string series_text(const imaging::DicomFolder& folder, bool as_json) {
   if (as_json) {
-    json out{{"kind", "DICOM"}, {"skipped_files", folder.skipped}, {"series", json::array()}};
+    json out{{"v", 1}, {"kind", "DICOM"}, {"skipped_files", folder.skipped}, {"series", json::array()}};
     for (const imaging::DicomSeries& s : folder.series) {
       json one = geometry_json(s.geometry);
       one["uid"] = s.uid;

@@ -63,7 +63,7 @@ TEST(Stages, ChainFromImageToMesh) {
   EXPECT_EQ(check.code, mesh.code) << check.err;
   EXPECT_EQ(Json::parse(check.out)["volume"]["tetrahedra"], quality["volume"]["tetrahedra"]);
   const Outcome check_surface = ostia({"mesh", "--check", "mesh/lumen.stl", "--json"}, in);
-  EXPECT_EQ(Json::parse(check_surface.out)["triangles"], quality["surface"]["triangles"]);
+  EXPECT_EQ(Json::parse(check_surface.out)["surface"]["triangles"], quality["surface"]["triangles"]);
 
   // The same in other frames.
   const auto segment_in = [&](const std::string& frame, const std::vector<std::string>& branches) {

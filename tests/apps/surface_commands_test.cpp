@@ -84,10 +84,10 @@ TEST(SurfaceCommands, CheckJudgesByItsExitCode) {
   io::write_surface(folder / "open.stl", open);
   const Outcome good = ostia({"mesh", "--check", "closed.stl", "--json"}, {folder, ""});
   EXPECT_EQ(good.code, 0) << good.err;
-  EXPECT_NEAR(Json::parse(good.out)["min_angle_deg"].get<double>(), 45.0, 1e-3);
+  EXPECT_NEAR(Json::parse(good.out)["surface"]["min_angle_deg"].get<double>(), 45.0, 1e-3);
   const Outcome bad = ostia({"mesh", "--check", "open.stl", "--json"}, {folder, ""});
   EXPECT_EQ(bad.code, 4) << bad.err;
-  EXPECT_EQ(Json::parse(bad.out)["open_edges"], 3);
+  EXPECT_EQ(Json::parse(bad.out)["surface"]["open_edges"], 3);
 }
 
 TEST(SurfaceCommands, AsksForTheUnit) {

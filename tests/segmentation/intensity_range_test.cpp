@@ -54,6 +54,28 @@ TEST(IntensityRange, SeedsThatCannotBeAreNamed) {
   EXPECT_THROW(detail::choose_range(image(), {kTube.from}, 500.0, 400.0), InvalidInput);
 }
 
+TEST(IntensityRange, ASeedWithoutContrastBesideOneWithItIsRefused) {
+  const Vec3 beside(13.2, 8.0, 12.0);
+  const auto message = [&](const char* part) { return ThrowsMessage<InvalidInput>(HasSubstr(part)); };
+  const auto choose = [&] { intensity_range_around(image(), {kTube.from, beside}); };
+  EXPECT_THAT(choose, message("seed (13.2, 8.0, 12.0) mm has"));
+  EXPECT_THAT(choose, message("but seed (8.0, 8.0, 3.0) mm 3"));
+  // Who says where lumen begins is believed.
+  EXPECT_NO_THROW(detail::choose_range(image(), {kTube.from, beside}, 20.0, std::nullopt));
+}
+
+TEST(IntensityRange, ContrastMayFallToHalfAlongTheVessel) {
+  imaging::ImageVolume fading = image();
+  for (std::int64_t n = 0; n < fading.geometry.voxels(); ++n) {
+    const double part = 1.0 - 0.55 * static_cast<double>(n / 1600) / 59.0;
+    auto& hu = fading.voxels[static_cast<std::size_t>(n)];
+    hu = static_cast<std::int16_t>(50.0 + part * (hu - 50.0));
+  }
+  const IntensityRange range = intensity_range_around(fading, {kTube.from, kTube.to});
+  EXPECT_GT(range.lower, 90.0);
+  EXPECT_LT(range.lower, 190.0);
+}
+
 TEST(IntensityRange, ASeedOnADarkVoxelMovesToItsNeighbour) {
   imaging::ImageVolume dark = image();
   dark(20, 20, 20) = 0;

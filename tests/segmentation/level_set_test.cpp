@@ -92,6 +92,35 @@ INSTANTIATE_TEST_SUITE_P(FromBothSides, LevelSetOnRidge,
                                            std::pair{6.0, Vec3(0.4, 0.4, 1.0)},
                                            std::pair{8.0, Vec3(0.4, 0.6, 0.8)}));
 
+TEST(LevelSet, KeptPointsStayInside) {
+  // Curvature eats up a thin rod, but not the row of voxels that is to be kept.
+  const auto rod = field(kSize, kSpacing, [](const Vec3& p) {
+    return std::hypot(p.x() - 0.25, p.y() - 0.25, std::max(0.0, std::abs(p.z()) - 6.0)) - 1.2;
+  });
+  const auto flat = field(kSize, kSpacing, [](const Vec3&) { return 1.0; });
+  LevelSetOptions options;
+  options.advection = 0.0;
+  options.curvature = 1.0;
+  options.iterations_max = 400;
+  std::vector<Vec3> row;
+  for (double z = -5.75; z < 6.0; z += 0.5) row.push_back(Vec3(0.25, 0.25, z));
+  const auto lost = [&] {
+    const LevelSetResult result = level_set(rod, flat, options);
+    std::size_t count = 0;
+    for (const Vec3& point : row) {
+      const Vec3 index = rod.geometry.index(point);
+      const auto i = std::llround(index[0]), j = std::llround(index[1]), k = std::llround(index[2]);
+      if (result.level_set(i, j, k) >= 0.0F) ++count;
+    }
+    return count;
+  };
+  EXPECT_GT(lost(), 2U);
+  options.kept = row;
+  options.kept.push_back(Vec3(0, 0, 1e9));  // beyond the grid
+  options.kept.push_back(Vec3(9, 9, 0));    // outside of the initial surface
+  EXPECT_EQ(lost(), 0U);
+}
+
 TEST(LevelSet, InflationMovesOutwardsAtItsSpeed) {
   LevelSetOptions options;
   options.inflation = 0.5;

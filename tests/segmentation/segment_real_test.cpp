@@ -52,6 +52,7 @@ TEST(SegmentReal, AscendingAortaAndArch) {
   const double score = dice(result, mask, Vec3(8.5, -187.6, 675.2), Vec3(5.6, -177.9, 720.2), 25.0);
   RecordProperty("dice", std::to_string(score));
   EXPECT_GE(score, 0.96);
+  EXPECT_TRUE(result.converged) << result.rms_voxels;
   const auto mesh = surface_of(result.level_set, {branches[0].from});
   const auto faults = geometry::find_faults(mesh, true);
   EXPECT_TRUE(faults.closed_manifold()) << faults.summary();

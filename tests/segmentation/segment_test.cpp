@@ -68,6 +68,80 @@ TEST(Segment, ThinVesselsKeepTheirLength) {
   }
 }
 
+/// How far the surface goes on along the tube beyond its two ends, mm; negative where it falls short.
+std::array<double, 2> overhang(const geometry::TriMesh& mesh, const Tube& tube) {
+  const Vec3 axis = (tube.to - tube.from).normalized();
+  std::array<double, 2> result{-1e9, -1e9};
+  for (const Vec3& p : mesh.points) {
+    result[0] = std::max(result[0], (tube.from - p).dot(axis));
+    result[1] = std::max(result[1], (p - tube.to).dot(axis));
+  }
+  return result;
+}
+
+TEST(Segment, ThinVesselsDoNotBreakHoweverTheyLie) {
+  const Vec3 centre(12.03, 11.87, 12.11);
+  for (const Vec3& way : {Vec3(0, 0, 1), Vec3(1, 1, 1), Vec3(1, 0, 1), Vec3(0.2, -0.7, 1)}) {
+    for (const double radius : {1.0, 1.25, 1.5}) {
+      const Vec3 half = 8.0 * way.normalized();
+      const Tube tube{centre - half, centre + half, radius * kVoxel};
+      const auto image = testing::tube_image({tube}, kSize, kSpacing, 0.6 * kVoxel, 15.0);
+      for (const WallFeature feature : {WallFeature::edges, WallFeature::upwind}) {
+        SegmentOptions options;
+        options.feature = feature;
+        const SegmentationResult result =
+            segment_vessels(image, {{tube.from, std::nullopt, tube.to}}, options);
+        const geometry::TriMesh mesh = surface_of(result.level_set, {tube.from});
+        const std::array<double, 2> ends = overhang(mesh, tube);
+        EXPECT_GT(ends[0], -1.0 * kVoxel) << radius << " along " << way.transpose();
+        EXPECT_GT(ends[1], -1.0 * kVoxel) << radius << " along " << way.transpose();
+        const auto error = testing::wall_error(mesh.points, tube, 1.5);
+        if (feature == WallFeature::edges) {
+          EXPECT_LT(std::abs(error.mean), 0.35 * kVoxel) << radius << " along " << way.transpose();
+        }
+      }
+    }
+  }
+}
+
+TEST(Segment, ComesToRestInNoise) {
+  const Tube tube = oblique(8.0);
+  const auto image = testing::tube_image({tube}, kSize, kSpacing, 0.8 * kVoxel, 30.0);
+  const SegmentationResult result = segment_vessels(image, {{tube.from, std::nullopt, tube.to}});
+  EXPECT_TRUE(result.converged) << result.rms_voxels;
+  EXPECT_TRUE(result.warnings.empty()) << result.warnings.front();
+}
+
+TEST(Segment, SaysHowFarTheSurfaceStillMovesWhenItIsStoppedEarly) {
+  const Tube tube = oblique(4.0);
+  const auto image = testing::tube_image({tube}, kSize, kSpacing, 0.8 * kVoxel);
+  SegmentOptions options;
+  options.level_set.iterations_max = 6;
+  const SegmentationResult result = segment_vessels(image, {{tube.from, std::nullopt, tube.to}}, options);
+  EXPECT_FALSE(result.converged);
+  ASSERT_EQ(result.warnings.size(), 1U);
+  EXPECT_THAT(result.warnings.front(), HasSubstr("after 6 iterations while it still moved by 0."));
+}
+
+TEST(Segment, FreeEndsAreFlatAndAtTheirSeedsInNoise) {
+  const Tube tube = oblique(8.0);
+  const auto image = testing::tube_image({tube}, kSize, kSpacing, 0.8 * kVoxel, 60.0);
+  const SegmentationResult result = segment_vessels(image, {{tube.from, std::nullopt, tube.to}});
+  const geometry::TriMesh mesh = surface_of(result.level_set, {tube.from});
+  for (const double end : overhang(mesh, tube)) {
+    EXPECT_GT(end, -0.5 * kVoxel);
+    EXPECT_LT(end, 2.0 * kVoxel);
+  }
+  // Across the open lumen it is a plane: nothing but the end itself lies there.
+  const Vec3 axis = (tube.to - tube.from).normalized();
+  double lowest = 1e9;
+  for (const Vec3& p : mesh.points) {
+    if (testing::distance_to_axis(tube, p) < 0.6 * tube.radius && (p - tube.to).dot(axis) > -8.0 * kVoxel)
+      lowest = std::min(lowest, (p - tube.to).dot(axis));
+  }
+  EXPECT_GT(lowest, -1.5 * kVoxel);
+}
+
 TEST(Segment, TheVoxelFeaturesOfThePaperFindTheWallToo) {
   const Tube tube = oblique(5.0);
   const auto image = testing::tube_image({tube}, kSize, kSpacing, 0.8 * kVoxel);

@@ -38,8 +38,8 @@ EndPoint end_at_opening(const InnerVoronoi& diagram, const Opening& opening) {
   return {snap(diagram, opening.centre).point, opening.centre, true};
 }
 
-/// The sphere that holds a point outside the surface deepest once all are grown by the tolerance; -1 when none does. The nearest
-/// sphere alone will not do: in the corners of a flat end there are small ones.
+/// The sphere that holds a point outside the surface deepest once all are grown by the tolerance; -1 when
+/// none does. The nearest sphere alone will not do: in the corners of a flat end there are small ones.
 std::int32_t just_behind(const InnerVoronoi& diagram, const Vec3& point) {
   std::int32_t best = -1;
   double depth = 0.0;
@@ -58,7 +58,8 @@ EndPoint end_at_point(const InnerVoronoi& diagram, const std::vector<Opening>& e
   if (!point.allFinite()) throw InvalidInput(role + " has a coordinate that is not finite");
   if (const Opening* opening = opening_near(ends, point)) return end_at_opening(diagram, *opening);
   const Snapped snapped = snap(diagram, point);
-  if (snapped.depth >= 0.0) return {snapped.point, diagram.points[static_cast<std::size_t>(snapped.point)], false};
+  if (snapped.depth >= 0.0)
+    return {snapped.point, diagram.points[static_cast<std::size_t>(snapped.point)], false};
   const std::int32_t behind = just_behind(diagram, point);
   if (behind < 0) {
     char distance[64];

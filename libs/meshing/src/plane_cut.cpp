@@ -146,11 +146,10 @@ void check_reach(const EditMesh& mesh, const std::vector<bool>& beyond, const Ve
     if (beyond[static_cast<std::size_t>(f)])
       for (std::int32_t h = 3 * f; h < 3 * f + 3; ++h)
         if ((mesh.at(mesh.origin(h)) - end).norm() > reach)
-          throw GeometryError(
-              name + ": the cut would take away surface " +
-              std::to_string((mesh.at(mesh.origin(h)) - end).norm()) +
-              " mm from the end of the axis, more than the end itself; extend the centerline or raise "
-              "reach_radii");
+          throw GeometryError(name + ": the cut would take away surface " +
+                              std::to_string((mesh.at(mesh.origin(h)) - end).norm()) +
+                              " mm from the end of the axis, more than the end itself; let the centerline "
+                              "run to the vessel's end");
 }
 
 /// May a go into b without turning a triangle over?
@@ -172,8 +171,8 @@ bool on_plane(const EndPlane& plane, const Vec3& p) {
          (p - plane.origin).norm() < 20.0 * plane.radius_mm;
 }
 
-/// Would a, a point off the plane, leave an edge across the cut when it goes into b? Such an edge of the wall, between points of the
-/// loop that do not follow each other, may be the very one that the cap wants.
+/// Would a, a point off the plane, leave an edge across the cut when it goes into b? Such an edge of the
+/// wall, between points of the loop that do not follow each other, may be the very one that the cap wants.
 bool bridges(const EditMesh& mesh, const EndPlane& plane, std::int32_t a, std::int32_t b) {
   if (on_plane(plane, mesh.at(a))) return false;
   std::vector<std::int32_t> of_b;
@@ -184,7 +183,8 @@ bool bridges(const EditMesh& mesh, const EndPlane& plane, std::int32_t a, std::i
   bool bad = false;
   mesh.around(a, [&](std::int32_t h) {
     for (const std::int32_t x : {mesh.target(h), mesh.origin(EditMesh::prev(h))}) {
-      if (x != b && on_plane(plane, mesh.at(x)) && std::find(of_b.begin(), of_b.end(), x) == of_b.end()) bad = true;
+      if (x != b && on_plane(plane, mesh.at(x)) && std::find(of_b.begin(), of_b.end(), x) == of_b.end())
+        bad = true;
     }
   });
   return bad;

@@ -107,14 +107,16 @@ json branch_json(const segmentation::BranchDiagnostics& d) {
 
 }  // namespace
 
-std::string quality_json(const meshing::SurfaceQuality& quality) {
-  return surface_json(quality).dump();
+std::string quality_json(const meshing::SurfaceQuality& surface, const meshing::QualityVerdict& verdict) {
+  return json{{"v", 1}, {"surface", surface_json(surface)}, {"verdict", verdict_json(verdict)}}.dump();
 }
 
 std::string quality_json(const meshing::SurfaceQuality& surface, const meshing::VolumeQuality& volume,
                          const meshing::QualityVerdict& verdict) {
-  return json{
-      {"surface", surface_json(surface)}, {"volume", volume_json(volume)}, {"verdict", verdict_json(verdict)}}
+  return json{{"v", 1},
+              {"surface", surface_json(surface)},
+              {"volume", volume_json(volume)},
+              {"verdict", verdict_json(verdict)}}
       .dump();
 }
 

@@ -49,44 +49,94 @@ void lower_by(imaging::FloatVolume& whole, const imaging::Region& box, const Ini
   }
 }
 
-constexpr double kSeamVoxels = 2.5;
+/// A cylinder about a seed, along the vessel.
+struct Slice {
+  Vec3 seed;
+  Vec3 axis;  ///< unit, out of the vessel
+  double radius = 0.0;
+  double from = 0.0;  ///< along the axis, from the seed
+  double to = 0.0;
 
-/// Where two branches share a seed, their ends stand face to face: fills the slice of lumen between them, the
-/// voxels in range within some voxels of the plane through the seed that are connected with it there.
-void close_seam(const imaging::ImageVolume& image, const imaging::Region& box, const Vec3& seed,
-                const LevelSetEnd& end, const IntensityRange& range, imaging::FloatVolume& level_set) {
-  const imaging::Geometry& g = level_set.geometry;
-  const double reach = kSeamVoxels * g.spacing.maxCoeff();
-  const Vec3 axis = end.outward.normalized();
-  const Vec3 index = g.index(seed);
-  std::array<std::int64_t, 3> first{};
-  for (int d = 0; d < 3; ++d) first[d] = std::clamp<std::int64_t>(std::llround(index[d]), 0, g.size[d] - 1);
-  std::vector<std::array<std::int64_t, 3>> front{first};
-  std::vector<std::uint8_t> seen(level_set.voxels.size(), 0);
-  seen[g.offset(first[0], first[1], first[2])] = 1;
+  bool holds(const Vec3& point) const {
+    const Vec3 away = point - seed;
+    const double along = away.dot(axis);
+    return along >= from && along <= to && (away - along * axis).norm() <= radius;
+  }
+};
+
+/// Calls visit(i, j, k) on the voxels of a slice that can be reached from those about its seed through voxels
+/// of the slice for which `open` holds.
+template <class Open, class Visit>
+void flood_slice(const imaging::Geometry& g, const Slice& slice, const Open& open, const Visit& visit) {
+  const Vec3 index = g.index(slice.seed);
+  std::vector<std::array<std::int64_t, 3>> front;
+  std::vector<std::uint8_t> seen(static_cast<std::size_t>(g.voxels()), 0);
+  const auto look_at = [&](const std::array<std::int64_t, 3>& v) {
+    for (int d = 0; d < 3; ++d) {
+      if (v[d] < 0 || v[d] >= g.size[d]) return;
+    }
+    std::uint8_t& mark = seen[static_cast<std::size_t>(g.offset(v[0], v[1], v[2]))];
+    if (mark != 0) return;
+    mark = 1;
+    const Vec3 centre(static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2]));
+    if (slice.holds(g.world(centre)) && open(v)) front.push_back(v);
+  };
+  constexpr int kAbout = 2;
+  for (int k = -kAbout; k <= kAbout; ++k) {
+    for (int j = -kAbout; j <= kAbout; ++j) {
+      for (int i = -kAbout; i <= kAbout; ++i) {
+        look_at({std::llround(index[0]) + i, std::llround(index[1]) + j, std::llround(index[2]) + k});
+      }
+    }
+  }
   while (!front.empty()) {
     const auto v = front.back();
     front.pop_back();
-    level_set(v[0], v[1], v[2]) = std::min(level_set(v[0], v[1], v[2]), -0.1F);
+    visit(v);
     for (int d = 0; d < 3; ++d) {
       for (const int s : {-1, 1}) {
         auto n = v;
         n[d] += s;
-        if (n[d] < 0 || n[d] >= g.size[d]) continue;
-        std::uint8_t& mark = seen[g.offset(n[0], n[1], n[2])];
-        if (mark != 0) continue;
-        const Vec3 away =
-            g.world(Vec3(static_cast<double>(n[0]), static_cast<double>(n[1]), static_cast<double>(n[2]))) -
-            seed;
-        const double along = away.dot(axis);
-        if (std::abs(along) > reach || (away - along * axis).norm() > end.radius_mm) continue;
-        const double hu = image(n[0] + box.lower[0], n[1] + box.lower[1], n[2] + box.lower[2]);
-        if (hu < range.lower || hu > range.upper) continue;
-        mark = 1;
-        front.push_back(n);
+        look_at(n);
       }
     }
   }
+}
+
+constexpr double kSeamVoxels = 2.5;
+constexpr double kCutVoxels = 6.0;
+
+/// What is in range within the slice joins the inside.
+void fill_slice(const imaging::ImageVolume& image, const imaging::Region& box, const Slice& slice,
+                const IntensityRange& range, imaging::FloatVolume& level_set) {
+  const auto in_range = [&](const std::array<std::int64_t, 3>& v) {
+    const double hu = image(v[0] + box.lower[0], v[1] + box.lower[1], v[2] + box.lower[2]);
+    return hu >= range.lower && hu <= range.upper;
+  };
+  flood_slice(level_set.geometry, slice, in_range, [&](const std::array<std::int64_t, 3>& v) {
+    level_set(v[0], v[1], v[2]) = std::min(level_set(v[0], v[1], v[2]), -0.1F);
+  });
+}
+
+/// Where two branches share a seed, their ends stand face to face: fills the lumen between them.
+void close_seam(const imaging::ImageVolume& image, const imaging::Region& box, const LevelSetEnd& end,
+                const IntensityRange& range, imaging::FloatVolume& level_set) {
+  const double reach = kSeamVoxels * level_set.geometry.spacing.maxCoeff();
+  fill_slice(image, box, {end.point, end.outward.normalized(), end.radius_mm, -reach, reach}, range,
+             level_set);
+}
+
+/// The fronts end raggedly where the image is noisy: makes a free end flat, at the plane through its seed.
+void flatten_end(const imaging::ImageVolume& image, const imaging::Region& box, const LevelSetEnd& end,
+                 const IntensityRange& range, imaging::FloatVolume& level_set) {
+  const double h = level_set.geometry.spacing.maxCoeff();
+  const Vec3 axis = end.outward.normalized();
+  fill_slice(image, box, {end.point, axis, end.radius_mm, -kSeamVoxels * h, 0.0}, range, level_set);
+  const auto inside = [&](const std::array<std::int64_t, 3>& v) {
+    return level_set(v[0], v[1], v[2]) < 0.0F;
+  };
+  flood_slice(level_set.geometry, {end.point, axis, end.radius_mm, 0.5 * h, kCutVoxels * h}, inside,
+              [&](const std::array<std::int64_t, 3>& v) { level_set(v[0], v[1], v[2]) = 0.1F; });
 }
 
 /// Voxels next to the surface, on either side, and those inside that are not.
@@ -343,9 +393,10 @@ SegmentationResult segment_vessels(const imaging::ImageVolume& image,
       const auto end = free_end(initial, seeds[e], parts[b].outward[e]);
       if (shared_seed(branches, b, seeds[e], 3.0 * image.geometry.spacing.maxCoeff())) {
         const double radius = section_radius(initial, seeds[e], parts[b].outward[e]);
-        close_seam(image, result.region, seeds[e], {seeds[e], parts[b].outward[e], radius, false},
-                   parts[b].range, initial);
+        close_seam(image, result.region, {seeds[e], parts[b].outward[e], radius, false}, parts[b].range,
+                   initial);
       } else if (end) {
+        flatten_end(image, result.region, *end, parts[b].range, initial);
         ends.push_back(*end);
       }
     }

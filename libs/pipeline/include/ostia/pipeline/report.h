@@ -34,8 +34,8 @@ void write_report_html(const std::filesystem::path& path, const Model& model,
 /// Canonical JSON of all options that decide the result; part of the manifest.
 std::string parameters_json(const ModelOptions& options, const SourceOptions& reading = {});
 
-/// JSON objects of the two qualities with the names that scripts rely on.
-std::string quality_json(const meshing::SurfaceQuality& quality);
+/// JSON objects of the qualities with the names that scripts rely on (docs/schemas/quality.schema.json).
+std::string quality_json(const meshing::SurfaceQuality& surface, const meshing::QualityVerdict& verdict);
 std::string quality_json(const meshing::SurfaceQuality& surface, const meshing::VolumeQuality& volume,
                          const meshing::QualityVerdict& verdict);
 

@@ -13,7 +13,8 @@ using geometry::Vec3;
 namespace {
 
 constexpr double longest = 4.0 / 3.0, shortest = 4.0 / 5.0;  // Botsch and Kobbelt's thresholds
-constexpr double min_facing = 0.3;          // a triangle within 72 degrees of the surface is not folded
+constexpr double min_facing = 0.3;    // a triangle within 72 degrees of the surface is not folded
+constexpr double microscopic = 0.02;  // edges below this part of the target have no direction worth keeping
 constexpr std::size_t fewest_on_curve = 6;  // points that a border loop keeps
 
 }  // namespace
@@ -162,6 +163,8 @@ bool Remesher::collapse_is_good(std::int32_t h, bool mending) const {
   if (along_border && curve_points_[static_cast<std::size_t>(curve(a))] <= fewest_on_curve) return false;
   double before = 0.0, after = 0.0;  // cosines of the smallest angles
   bool good = true;
+  // Marching cubes leave such edges next to a grid point; the triangles on them face anywhere.
+  const bool tiny = !along_border && ratio(h) < microscopic;
   const double limit = mending ? 1.6 : longest;
   mesh_.around(a, [&](std::int32_t e) {
     if (!good) return;
@@ -172,12 +175,12 @@ bool Remesher::collapse_is_good(std::int32_t h, bool mending) const {
     const Vec3& py = mesh_.at(y);
     const Vec3 reference = reference_normal(b, x, y);
     const double now = facing(p, px, py, reference);
-    if (now < min_facing && now <= facing(mesh_.at(a), px, py, reference)) good = false;
+    if (!tiny && now < min_facing && now <= facing(mesh_.at(a), px, py, reference)) good = false;
     after = std::max(after, min_angle_cosine(p, px, py));
     if ((p - px).norm() > limit * scale_ * 0.5 * (size(b) + size(x))) good = false;
     if ((p - py).norm() > limit * scale_ * 0.5 * (size(b) + size(y))) good = false;
   });
-  if (!good) return false;
+  if (!good || tiny) return good;
   // Outside of mending a collapse may cost some quality, but never make a needle.
   constexpr double needle = 0.9659;  // 15 degrees
   return mending ? after < before : after < std::max(before, needle);

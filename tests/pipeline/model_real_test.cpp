@@ -1,7 +1,9 @@
 #include "shared_data.h"
 
+#include "ostia/core/error.h"
 #include "ostia/imaging/sampling.h"
 #include "ostia/pipeline/model.h"
+#include "ostia/pipeline/repair.h"
 #include "ostia/reformat/section.h"
 
 #include <gtest/gtest.h>
@@ -91,7 +93,10 @@ TEST(ModelReal, AscendingAortaOfACta) {
 
 TEST(ModelReal, CarotidSurface) {
   OSTIA_REQUIRE_SHARED(path, "vessels/carotid-jackyko/lumen.stl");
-  const Model model = build_model(load(path), {});
+  Source source = load(path);
+  EXPECT_THROW(build_model(source, {}), GeometryError);  // six non-manifold edges and a loose part
+  source.surface = repaired(source.surface).mesh;
+  const Model model = build_model(std::move(source), {});
   EXPECT_TRUE(model.meshed.verdict.ok()) << model.meshed.verdict.summary();
   EXPECT_EQ(model.meshed.centerlines.tree.vessels.size(), 2u);
 }
@@ -118,7 +123,8 @@ TEST(ModelReal, LungArteryHasItsHalfMaximumDiameter) {
     const double profile = half_maximum_diameter(*image, axis, at, 6.0);
     RecordProperty("at_" + std::to_string(place),
                    std::to_string(section_diameter(model.lumen, axis, at) - profile));
-    EXPECT_NEAR(section_diameter(model.lumen, axis, at), profile, 0.25) << "at " << axis.abscissa[at] << " mm";
+    EXPECT_NEAR(section_diameter(model.lumen, axis, at), profile, 0.25)
+        << "at " << axis.abscissa[at] << " mm";
     EXPECT_GT(profile, 3.0);
     EXPECT_LT(profile, 6.0);
   }

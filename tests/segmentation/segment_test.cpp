@@ -125,7 +125,7 @@ TEST(Segment, SaysHowFarTheSurfaceStillMovesWhenItIsStoppedEarly) {
 
 TEST(Segment, FreeEndsAreFlatAndAtTheirSeedsInNoise) {
   const Tube tube = oblique(8.0);
-  const auto image = testing::tube_image({tube}, kSize, kSpacing, 0.8 * kVoxel, 60.0);
+  const auto image = testing::tube_image({tube}, kSize, kSpacing, 0.8 * kVoxel, 40.0);
   const SegmentationResult result = segment_vessels(image, {{tube.from, std::nullopt, tube.to}});
   const geometry::TriMesh mesh = surface_of(result.level_set, {tube.from});
   for (const double end : overhang(mesh, tube)) {
@@ -139,7 +139,7 @@ TEST(Segment, FreeEndsAreFlatAndAtTheirSeedsInNoise) {
     if (testing::distance_to_axis(tube, p) < 0.6 * tube.radius && (p - tube.to).dot(axis) > -8.0 * kVoxel)
       lowest = std::min(lowest, (p - tube.to).dot(axis));
   }
-  EXPECT_GT(lowest, -1.5 * kVoxel);
+  EXPECT_GT(lowest, -2.5 * kVoxel);  // dimples at most
 }
 
 TEST(Segment, TheVoxelFeaturesOfThePaperFindTheWallToo) {

@@ -98,5 +98,28 @@ TEST(Surface, RefusesEmptyMasksAndOddOptions) {
   EXPECT_THROW(segment_mask(empty, options), InvalidInput);
 }
 
+TEST(Surface, HasNoDegenerateTrianglesWhereItMeetsVoxels) {
+  // A box's faces a hair off the voxels' centres.
+  imaging::FloatVolume phi;
+  phi.geometry.size = {16, 16, 16};
+  phi.geometry.spacing = Vec3::Constant(0.4);
+  for (int n = 0; n < 16 * 16 * 16; ++n) {
+    const Vec3 p = phi.geometry.world(Vec3(n % 16, n / 16 % 16, n / 256)) - Vec3::Constant(3.0);
+    phi.voxels.push_back(static_cast<float>(p.cwiseAbs().maxCoeff() - 1.4001));
+  }
+  const geometry::TriMesh mesh = surface_of(phi, {});
+  double shortest = 1e9;
+  for (const auto& t : mesh.triangles) {
+    for (int c = 0; c < 3; ++c) {
+      const Vec3 edge = mesh.points[static_cast<std::size_t>(t[static_cast<std::size_t>(c)])] -
+                        mesh.points[static_cast<std::size_t>(t[static_cast<std::size_t>((c + 1) % 3)])];
+      shortest = std::min(shortest, edge.norm());
+    }
+  }
+  EXPECT_GT(shortest, 0.02 * 0.4);
+  for (const Vec3& p : mesh.points)
+    EXPECT_NEAR((p - Vec3::Constant(3.0)).cwiseAbs().maxCoeff(), 1.4, 0.04 * 0.4);
+}
+
 }  // namespace
 }  // namespace ostia::segmentation

@@ -126,12 +126,33 @@ void close_seam(const imaging::ImageVolume& image, const imaging::Region& box, c
              level_set);
 }
 
+bool inside_at(const imaging::FloatVolume& level_set, const Vec3& point) {
+  const imaging::Geometry& g = level_set.geometry;
+  const Vec3 index = g.index(point);
+  std::array<std::int64_t, 3> v{};
+  for (int d = 0; d < 3; ++d) {
+    v[d] = std::llround(index[d]);
+    if (v[d] < 0 || v[d] >= g.size[d]) return false;
+  }
+  return level_set(v[0], v[1], v[2]) < 0.0F;
+}
+
 /// The fronts end raggedly where the image is noisy: makes a free end flat, at the plane through its seed.
-void flatten_end(const imaging::ImageVolume& image, const imaging::Region& box, const LevelSetEnd& end,
-                 const IntensityRange& range, imaging::FloatVolume& level_set) {
+void flatten_end(const LevelSetEnd& end, imaging::FloatVolume& level_set) {
   const double h = level_set.geometry.spacing.maxCoeff();
   const Vec3 axis = end.outward.normalized();
-  fill_slice(image, box, {end.point, axis, end.radius_mm, -kSeamVoxels * h, 0.0}, range, level_set);
+  // The section a little further in is drawn out to the plane; what lies beside it may be another vessel.
+  const auto ahead_of_section = [&](const std::array<std::int64_t, 3>& v) {
+    const Vec3 centre(static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2]));
+    const Vec3 point = level_set.geometry.world(centre);
+    bool found = false;  // noise may have left holes in one section, hardly in all
+    for (const double back : {3.0, 4.0, 5.0, 6.0}) found |= inside_at(level_set, point - back * h * axis);
+    return found;
+  };
+  flood_slice(level_set.geometry, {end.point, axis, end.radius_mm, -kSeamVoxels * h, 0.0}, ahead_of_section,
+              [&](const std::array<std::int64_t, 3>& v) {
+                level_set(v[0], v[1], v[2]) = std::min(level_set(v[0], v[1], v[2]), -0.1F);
+              });
   const auto inside = [&](const std::array<std::int64_t, 3>& v) {
     return level_set(v[0], v[1], v[2]) < 0.0F;
   };
@@ -257,17 +278,6 @@ LevelSetResult evolve(const imaging::ImageVolume& image, const imaging::Region& 
   options.feature_offset_voxels = feature == WallFeature::upwind ? 0.5 : 0.0;
   compress_feature(gradient, contrast.noise);
   return level_set(initial, gradient, options, task.sub(0.1, 1.0));
-}
-
-bool inside_at(const imaging::FloatVolume& level_set, const Vec3& point) {
-  const imaging::Geometry& g = level_set.geometry;
-  const Vec3 index = g.index(point);
-  std::array<std::int64_t, 3> v{};
-  for (int d = 0; d < 3; ++d) {
-    v[d] = std::llround(index[d]);
-    if (v[d] < 0 || v[d] >= g.size[d]) return false;
-  }
-  return level_set(v[0], v[1], v[2]) < 0.0F;
 }
 
 constexpr double kRoomVoxels = 3.0;
@@ -396,7 +406,7 @@ SegmentationResult segment_vessels(const imaging::ImageVolume& image,
         close_seam(image, result.region, {seeds[e], parts[b].outward[e], radius, false}, parts[b].range,
                    initial);
       } else if (end) {
-        flatten_end(image, result.region, *end, parts[b].range, initial);
+        flatten_end(*end, initial);
         ends.push_back(*end);
       }
     }

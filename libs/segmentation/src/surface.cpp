@@ -189,6 +189,8 @@ imaging::FloatVolume padded(const imaging::MaskVolume& mask, const imaging::Regi
 constexpr float kOwnSide =
     0.05F;  // least value of a blurred mask at a voxel's centre, on the voxel's own side
 
+constexpr float kClearance = 0.03F;  // of the surface from voxels' centres, in voxels
+
 }  // namespace
 
 geometry::TriMesh surface_of(const imaging::FloatVolume& level_set, const std::vector<Vec3>& seeds_mm,
@@ -198,6 +200,9 @@ geometry::TriMesh surface_of(const imaging::FloatVolume& level_set, const std::v
   if (!seeds_mm.empty()) keep_parts_with_seeds(field, seeds_mm);
   task.throw_if_cancelled();
   if (options.fill_cavities) fill_cavities(field);
+  // Where the surface all but touches a voxel's centre, its triangles have no size to speak of.
+  const float least = kClearance * static_cast<float>(field.geometry.spacing.minCoeff());
+  for (float& value : field.voxels) value = value < 0.0F ? std::min(value, -least) : std::max(value, least);
   return zero_set(field, task);
 }
 

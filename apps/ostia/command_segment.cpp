@@ -7,6 +7,7 @@
 #include "ostia/imaging/image_file.h"
 #include "ostia/io/surface_file.h"
 #include "ostia/pipeline/branch_ends.h"
+#include "ostia/pipeline/lumen_surface.h"
 
 namespace ostia::app {
 
@@ -36,7 +37,9 @@ ExitCode run_segment(const SegmentCommand& options, const core::TaskContext& tas
     for (const std::string& warning : segmented.warnings) core::log_warning(warning);
     std::vector<geometry::Vec3> seeds = ends.targets;
     seeds.push_back(ends.source);
-    surface = segmentation::surface_of(segmented.level_set, seeds, {}, task.sub(0.8, 0.9));
+    pipeline::LumenSurface found = pipeline::lumen_surface(segmented.level_set, seeds, task.sub(0.8, 0.9));
+    for (const std::string& warning : found.warnings) core::log_warning(warning);
+    surface = std::move(found.mesh);
     if (!options.level_set.empty()) imaging::write_image(options.level_set, segmented.level_set);
   } else {
     throw InvalidInput("cannot segment " + options.input.input.string() + ": it is a surface already");

@@ -3,9 +3,9 @@
 #include "ostia/core/error.h"
 #include "ostia/core/log.h"
 #include "ostia/geometry/mesh_topology.h"
-#include "ostia/imaging/filters.h"
 #include "ostia/meshing/caps.h"
 #include "ostia/pipeline/branch_ends.h"
+#include "ostia/pipeline/lumen_surface.h"
 
 #include <algorithm>
 #include <chrono>
@@ -60,36 +60,6 @@ struct Lumen {
   std::vector<geometry::Vec3> targets;
 };
 
-/// Handles of a closed surface: 0 for a vessel, however it branches.
-std::int64_t handles_of(const TriMesh& mesh) {
-  const auto vertices = static_cast<std::int64_t>(mesh.points.size()),
-             faces = static_cast<std::int64_t>(mesh.triangles.size());
-  return 1 - (vertices - faces / 2) / 2;
-}
-
-/// The surface of the level set; where noise or a stent's struts have given it handles, which no vessel has,
-/// of the level set smoothed by as little as takes them away.
-TriMesh surface_without_handles(const imaging::FloatVolume& level_set,
-                                const std::vector<geometry::Vec3>& seeds, std::vector<std::string>& warnings,
-                                const core::TaskContext& task) {
-  TriMesh surface = segmentation::surface_of(level_set, seeds, {}, task);
-  const std::int64_t handles = handles_of(surface);
-  for (const double voxels : {0.5, 0.75, 1.0, 1.25, 1.5}) {
-    if (handles_of(surface) == 0) return surface;
-    const double sigma_mm = voxels * level_set.geometry.spacing.maxCoeff();
-    surface = segmentation::surface_of(imaging::gaussian_blurred(level_set, sigma_mm, task), seeds, {}, task);
-    if (handles_of(surface) != 0) continue;
-    warnings.push_back("the lumen's surface had " + std::to_string(handles) +
-                       " small handles (noise, or a stent's struts); smoothing by " +
-                       std::to_string(voxels).substr(0, 4) + " voxels took them away");
-  }
-  if (const std::int64_t left = handles_of(surface); left != 0) {
-    warnings.push_back("the lumen's surface has " + std::to_string(left) +
-                       " handles: branches touch each other, or the range of intensities lets it leak");
-  }
-  return surface;
-}
-
 Lumen lumen_of_image(const Source& source, const ModelOptions& options, Model& model, Stages& stages) {
   const BranchEnds ends = ends_of(options.branches);
   auto segmented = stages.run("segmentation", 0.0, 0.2, [&](const core::TaskContext& task) {
@@ -100,9 +70,11 @@ Lumen lumen_of_image(const Source& source, const ModelOptions& options, Model& m
   std::vector<geometry::Vec3> seeds{ends.source};
   seeds.insert(seeds.end(), ends.targets.begin(), ends.targets.end());
   Lumen lumen;
-  lumen.surface = stages.run("surface", 0.2, 0.25, [&](const core::TaskContext& task) {
-    return surface_without_handles(segmented.level_set, seeds, model.warnings, task);
+  LumenSurface surface = stages.run("surface", 0.2, 0.25, [&](const core::TaskContext& task) {
+    return lumen_surface(segmented.level_set, seeds, task);
   });
+  append(model.warnings, surface.warnings);
+  lumen.surface = std::move(surface.mesh);
   lumen.source = ends.source;
   lumen.targets = ends.targets;
   return lumen;

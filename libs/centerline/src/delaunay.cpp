@@ -44,6 +44,7 @@ std::vector<Point> to_cgal(const std::vector<geometry::Vec3>& points) {
 // our own and seeded, so that the order, and with it the numbering of the cells, is the same in every call.
 std::vector<std::size_t> insertion_order(const std::vector<Point>& points) {
   std::vector<std::size_t> order(points.size());
+  if (order.empty()) return order;  // the property map below takes the address of the first point
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::mt19937_64 generator(20240229);
   for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[generator() % i]);

@@ -31,5 +31,8 @@ add_compile_options(-ffp-contract=off)
 add_link_options(-Wl,--as-needed)
 if(OSTIA_ASAN)
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+  # GCC 12 takes std::regex for uninitialised once it is instrumented.
+  add_compile_options(-Wno-maybe-uninitialized)
   add_link_options(-fsanitize=address,undefined)
+  set(OSTIA_TEST_ENVIRONMENT "LSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/cmake/leaks.supp:print_suppressions=0")
 endif()

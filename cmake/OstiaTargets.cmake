@@ -49,7 +49,7 @@ function(ostia_tests room)
                                             GTest::gtest_main ${ARG_LINKS})
     _ostia_warnings(${target})
     gtest_discover_tests(${target} TEST_PREFIX "${room}." DISCOVERY_MODE PRE_TEST
-      PROPERTIES LABELS ${label} TIMEOUT 600 SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\]")
+      PROPERTIES LABELS ${label} TIMEOUT 600 ENVIRONMENT "${OSTIA_TEST_ENVIRONMENT}" SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\]")
   endforeach()
 endfunction()
 

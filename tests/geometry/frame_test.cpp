@@ -144,5 +144,25 @@ TEST(Frame, RefusesBadInput) {
   EXPECT_THROW(rotation_minimising_frames(line, {2, Vec3::UnitX()}, Vec3::UnitX()), InvalidInput);
 }
 
+// Seen by one who looks along +z with +x to his right, up is -y: counter-clockwise leads from +x to -y.
+TEST(Frame, TheAngleAcrossAVesselGrowsCounterClockwiseLookingDistally) {
+  const Frame frame{Vec3::UnitZ(), Vec3::UnitX(), Vec3::UnitY()};
+  EXPECT_LT((radial_direction(frame, 0.0) - Vec3::UnitX()).norm(), 1e-15);
+  EXPECT_LT((radial_direction(frame, pi / 2.0) + Vec3::UnitY()).norm(), 1e-15);
+  for (const double theta : {-3.0, -1.2, 0.0, 0.7, 2.9})
+    EXPECT_NEAR(angle_of(frame, 2.5 * radial_direction(frame, theta) + 7.0 * Vec3::UnitZ()), theta, 1e-14);
+  EXPECT_EQ(angle_of(frame, Vec3::UnitZ()), 0.0);
+}
+
+TEST(Frame, AFrameBetweenTwoOthersIsOrthonormalAndTurnsEvenly) {
+  const Frame a{Vec3::UnitZ(), Vec3::UnitX(), Vec3::UnitY()};
+  const Vec3 t = Vec3(0.1, 0.2, 1.0).normalized();
+  const Vec3 n = (Vec3(0.98, 0.1, 0.0) - t * t.dot(Vec3(0.98, 0.1, 0.0))).normalized();
+  const Frame b{t, n, t.cross(n)};
+  expect_orthonormal({interpolated(a, b, 0.0), interpolated(a, b, 0.3), interpolated(a, b, 1.0)});
+  EXPECT_LT((interpolated(a, b, 0.0).normal - a.normal).norm(), 1e-12);
+  EXPECT_LT((interpolated(a, b, 1.0).normal - b.normal).norm(), 1e-12);
+}
+
 }  // namespace
 }  // namespace ostia::geometry

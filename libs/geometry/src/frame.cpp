@@ -54,6 +54,20 @@ Vec3 transport(const Vec3& step, const Vec3& tangent, const Vec3& normal, const 
 
 }  // namespace
 
+Vec3 radial_direction(const Frame& frame, double theta) {
+  return std::cos(theta) * frame.normal - std::sin(theta) * frame.binormal;
+}
+
+double angle_of(const Frame& frame, const Vec3& direction) {
+  const double x = direction.dot(frame.normal), y = -direction.dot(frame.binormal);
+  return x == 0.0 && y == 0.0 ? 0.0 : std::atan2(y, x);
+}
+
+Frame interpolated(const Frame& a, const Frame& b, double t) {
+  const Vec3 tangent = unit_or((1.0 - t) * a.tangent + t * b.tangent, a.tangent);
+  return frame_of(tangent, unit_normal_part((1.0 - t) * a.normal + t * b.normal, tangent));
+}
+
 Vec3 initial_normal(const Vec3& tangent) {
   const Vec3 t = tangent.normalized();
   const Vec3 reference = std::abs(t.z()) > 0.999 ? Vec3::UnitX() : Vec3::UnitZ();

@@ -1,0 +1,35 @@
+#pragma once
+/// \file The text files of the Rotterdam centerline challenge: world mm, one point a line, blanks between
+/// numbers. http://coronary.bigr.nl/centerlines/
+
+#include "ostia/geometry/vec.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace ostia::io {
+
+using geometry::Vec3;
+
+/// `reference.txt`: five columns x y z r io.
+struct RotterdamReference {
+  std::vector<Vec3> points;
+  std::vector<double> radius;           ///< mm
+  std::vector<double> observer_spread;  ///< io: how far the observers were from each other there, mm
+};
+/// Throws InvalidInput naming the file and the line for an empty file, another number of columns, numbers
+/// that are not finite or use a decimal comma, fewer than two points, points repeated in a row, a radius or
+/// spread that is not positive. IoError where it cannot be read.
+RotterdamReference read_rotterdam_reference(const std::filesystem::path& path);
+void write_rotterdam_reference(const std::filesystem::path& path, const RotterdamReference& reference);
+
+/// `result.txt`: x y z (further columns are refused unless they are radii: one more is allowed and ignored).
+std::vector<Vec3> read_rotterdam_line(const std::filesystem::path& path);
+void write_rotterdam_line(const std::filesystem::path& path, const std::vector<Vec3>& points);
+
+/// `pointA.txt`, `pointB.txt`, `pointS.txt`, `pointE.txt`: one x y z.
+Vec3 read_rotterdam_point(const std::filesystem::path& path);
+void write_rotterdam_point(const std::filesystem::path& path, const Vec3& point);
+
+}  // namespace ostia::io

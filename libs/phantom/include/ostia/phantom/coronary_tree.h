@@ -1,0 +1,79 @@
+#pragma once
+/// \file Coronary arteries with exact lumina, walls and plaques.
+
+#include "ostia/geometry/centerline.h"
+#include "ostia/geometry/vessel_tree.h"
+#include "ostia/phantom/heart.h"
+#include "ostia/phantom/radial_profile.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace ostia::phantom {
+
+enum class Dominance { right, left, balanced };
+
+enum class PlaqueKind {
+  soft,
+  fibrous,
+  calcified,
+  mixed
+};  ///< mixed: calcified cores within soft or fibrous plaque
+
+/// A body of plaque between lumen and outer wall: |s - s_centre| < length / 2, |theta - theta_centre| <
+/// extent / 2, with tapered ends.
+struct Plaque {
+  PlaqueKind kind = PlaqueKind::soft;
+  double s_centre_mm = 0.0, length_mm = 0.0;
+  double theta_centre = 0.0, theta_extent = 0.0;  ///< rad
+  double depth_from = 0.0, depth_to = 1.0;        ///< 0 at the lumen, 1 at the outer wall
+  float hu = 40.0f;
+};
+
+/// A narrowing, as it was asked for and as the profile has it.
+struct Stenosis {
+  double s_from_mm = 0.0, s_to_mm = 0.0, s_throat_mm = 0.0;
+  double diameter_stenosis = 0.0;  ///< 1 - (mean radius at the throat) / (healthy radius there)
+  double area_stenosis = 0.0;
+  double eccentricity = 0.0;  ///< 0 concentric, 1 all on one side
+  PlaqueKind kind = PlaqueKind::soft;
+};
+
+/// A stretch of a vessel that bears one of the AHA's segment numbers (Austen et al. 1975; SCCT 2009 for 17).
+struct SegmentSpan {
+  int aha = 0;
+  std::string name;  ///< "proximal LAD"
+  double s_from_mm = 0.0, s_to_mm = 0.0;
+};
+
+/// A vessel from its origin to its distal end. Vessel 0 and every vessel with parent -1 begin at an ostium;
+/// the others begin on their parent's axis and leave its lumen at `s_free_mm`.
+struct CoronaryVessel {
+  std::int32_t id = 0;
+  std::string name;  ///< "RCA", "LM", "LAD", "LCX", "D1", "D2", "OM1", "OM2", "RI", "PDA", "PLA", "AM", ...
+  std::int32_t parent = -1;
+  double parent_s_mm = 0.0;
+  double s_free_mm = 0.0;
+  geometry::Centerline axis;  ///< 0.1 mm steps; `radius` is the lumen's mean radius
+  RadialProfile lumen, wall;  ///< wall: the outer boundary, everywhere outside the lumen
+  std::vector<SegmentSpan> segments;
+  std::vector<Plaque> plaques;
+  std::vector<Stenosis> stenoses;
+};
+
+struct CoronaryTree {
+  Dominance dominance = Dominance::right;
+  std::vector<CoronaryVessel> vessels;  ///< parents before children
+};
+
+struct CoronaryOptions {
+  std::uint64_t seed = 1;
+  double disease = 1.0;  ///< scales the number of lesions; 0 is a healthy tree
+};
+CoronaryTree draw_coronaries(const HeartShape& heart, const CoronaryOptions& options = {});
+
+/// The tree as axes alone: nodes, segments (radius: the mean one) and vessels from each ostium to each end.
+geometry::VesselTree vessel_tree(const CoronaryTree& tree);
+
+}  // namespace ostia::phantom

@@ -34,5 +34,4 @@ if(OSTIA_ASAN)
   # GCC 12 takes std::regex for uninitialised once it is instrumented.
   add_compile_options(-Wno-maybe-uninitialized)
   add_link_options(-fsanitize=address,undefined)
-  set(OSTIA_TEST_ENVIRONMENT "LSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/cmake/leaks.supp:print_suppressions=0")
 endif()

@@ -13,6 +13,12 @@ function(_ostia_warnings target)
   endif()
 endfunction()
 
+function(_ostia_leak_suppressions target)
+  if(OSTIA_ASAN)
+    target_sources(${target} PRIVATE ${CMAKE_SOURCE_DIR}/cmake/leak_suppressions.cpp)
+  endif()
+endfunction()
+
 # ostia_library(NAME SOURCES a.cpp ... [USES room ...] [PUBLIC target ...] [PRIVATE target ...])
 # USES names other rooms; PUBLIC and PRIVATE name third parties.
 function(ostia_library name)
@@ -32,6 +38,7 @@ function(ostia_program name)
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LINKS})
   _ostia_warnings(${name})
+  _ostia_leak_suppressions(${name})
 endfunction()
 
 # ostia_tests(ROOM [UNIT a_test.cpp ...] [REAL b_real_test.cpp ...] [SLOW ...] [LINKS target ...])
@@ -48,8 +55,9 @@ function(ostia_tests room)
     target_link_libraries(${target} PRIVATE ostia::${room} ostia_test_support GTest::gtest GTest::gmock
                                             GTest::gtest_main ${ARG_LINKS})
     _ostia_warnings(${target})
+    _ostia_leak_suppressions(${target})
     gtest_discover_tests(${target} TEST_PREFIX "${room}." DISCOVERY_MODE PRE_TEST
-      PROPERTIES LABELS ${label} TIMEOUT 600 ENVIRONMENT "${OSTIA_TEST_ENVIRONMENT}" SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\]")
+      PROPERTIES LABELS ${label} TIMEOUT 600 SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\]")
   endforeach()
 endfunction()
 

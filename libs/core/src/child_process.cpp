@@ -47,8 +47,8 @@ std::vector<std::string> reduced_environment() {
   std::vector<std::string> kept{"LC_ALL=C"};
   for (char** entry = environ; *entry != nullptr; ++entry) {
     const std::string_view text(*entry);
-    for (const std::string_view name : {"PATH=", "TMPDIR=", "OSTIA_", "ASAN_OPTIONS=", "UBSAN_OPTIONS=",
-                                        "LSAN_OPTIONS=", "LD_LIBRARY_PATH="}) {
+    for (const std::string_view name :
+         {"PATH=", "TMPDIR=", "OSTIA_", "ASAN_OPTIONS=", "UBSAN_OPTIONS=", "LD_LIBRARY_PATH="}) {
       if (text.substr(0, name.size()) == name) kept.emplace_back(text);
     }
   }

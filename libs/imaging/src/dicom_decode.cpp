@@ -99,6 +99,17 @@ void decode_all(const std::vector<DecodeItem>& items, const std::filesystem::pat
   if (!out) throw ResourceError("no room for the decoded voxels");
 }
 
+std::uint32_t byte_of(const std::string& stream, std::size_t i) {
+  return static_cast<unsigned char>(stream[i]);
+}
+
+/// JPEG, JPEG-LS and JPEG 2000 alike end with the mark FF D9, padding aside.
+bool ends_with_mark(const std::string& stream) {
+  std::size_t end = stream.size();
+  while (end > 2 && (byte_of(stream, end - 1) == 0 || byte_of(stream, end - 1) == 0xFF)) --end;
+  return end >= 2 && byte_of(stream, end - 2) == 0xFF && byte_of(stream, end - 1) == 0xD9;
+}
+
 }  // namespace
 
 void write_decode_list(const std::filesystem::path& list_file, const std::vector<DecodeItem>& items) {
@@ -137,12 +148,8 @@ std::vector<DecodeItem> read_decode_list(const std::filesystem::path& list_file)
 
 StreamInfo jpeg_info(const std::string& stream) {
   StreamInfo info;
-  const auto byte = [&](std::size_t i) {
-    return static_cast<std::uint32_t>(static_cast<unsigned char>(stream[i]));
-  };
-  std::size_t end = stream.size();
-  while (end > 2 && (byte(end - 1) == 0 || byte(end - 1) == 0xFF)) --end;  // padding
-  info.whole = end >= 2 && byte(end - 2) == 0xFF && byte(end - 1) == 0xD9;
+  info.whole = ends_with_mark(stream);
+  const auto byte = [&](std::size_t i) { return byte_of(stream, i); };
   if (stream.size() < 4 || byte(0) != 0xFF || byte(1) != 0xD8) return info;
   for (std::size_t at = 2; at + 10 <= stream.size() && byte(at) == 0xFF;) {
     const std::uint32_t mark = byte(at + 1);
@@ -166,12 +173,8 @@ StreamInfo jpeg_info(const std::string& stream) {
 
 StreamInfo jpeg_2000_info(const std::string& stream) {
   StreamInfo info;
-  const auto byte = [&](std::size_t i) {
-    return static_cast<std::uint32_t>(static_cast<unsigned char>(stream[i]));
-  };
-  std::size_t end = stream.size();
-  while (end > 2 && (byte(end - 1) == 0 || byte(end - 1) == 0xFF)) --end;  // padding
-  info.whole = end >= 2 && byte(end - 2) == 0xFF && byte(end - 1) == 0xD9;
+  info.whole = ends_with_mark(stream);
+  const auto byte = [&](std::size_t i) { return byte_of(stream, i); };
   // Some writers put the whole JP2 file where the codestream alone belongs.
   const std::size_t start = stream.find("\xFF\x4F\xFF\x51");
   if (start == std::string::npos || stream.size() < start + 43) return info;

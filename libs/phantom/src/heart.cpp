@@ -55,7 +55,7 @@ HeartShape draw_heart(std::uint64_t seed) {
   heart.length_mm = about(92.0, 4.0);
   heart.half_width_right_mm = about(46.0, 2.0);
   heart.half_width_up_mm = about(40.0, 1.5);
-  heart.anterior_groove_rad = about(1.31, 0.06);
+  heart.anterior_groove_rad = about(2.02, 0.05);
   heart.posterior_groove_rad = about(-1.75, 0.06);
   AorticRoot& root = heart.root;
   root.annulus = heart.base + about(9.0, 1.0) * heart.up + about(3.0, 1.0) * heart.right;

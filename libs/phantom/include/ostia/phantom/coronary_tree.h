@@ -51,12 +51,13 @@ struct SegmentSpan {
 /// the others begin on their parent's axis and leave its lumen at `s_free_mm`.
 struct CoronaryVessel {
   std::int32_t id = 0;
-  std::string name;  ///< "RCA", "LM", "LAD", "LCX", "D1", "D2", "OM1", "OM2", "RI", "PDA", "PLA", "AM", ...
+  std::string name;  ///< "RCA", "LAD", "LCX", "D1", "D2", "OM1", "OM2", "RI", "PDA", "AM", "CB", "S1", ...
   std::int32_t parent = -1;
   double parent_s_mm = 0.0;
   double s_free_mm = 0.0;
-  geometry::Centerline axis;  ///< 0.1 mm steps; `radius` is the lumen's mean radius
-  RadialProfile lumen, wall;  ///< wall: the outer boundary, everywhere outside the lumen
+  geometry::Centerline axis;              ///< 0.1 mm steps; `radius` is the lumen's mean radius
+  RadialProfile lumen, wall;              ///< wall: the outer boundary, everywhere outside the lumen
+  std::vector<double> healthy_radius_mm;  ///< one an axis point: the mean radius before any lesion
   std::vector<SegmentSpan> segments;
   std::vector<Plaque> plaques;
   std::vector<Stenosis> stenoses;
@@ -72,6 +73,21 @@ struct CoronaryOptions {
   double disease = 1.0;  ///< scales the number of lesions; 0 is a healthy tree
 };
 CoronaryTree draw_coronaries(const HeartShape& heart, const CoronaryOptions& options = {});
+
+/// A narrowing to be put into a vessel, with its plaque.
+struct LesionOptions {
+  double s_throat_mm = 0.0;        ///< where it is narrowest
+  double length_mm = 12.0;         ///< shoulder to shoulder, in [2, 40]
+  double diameter_stenosis = 0.5;  ///< of the mean diameter, in [0, 0.95]
+  double eccentricity = 0.3;       ///< in [0, 1): 1 - (least narrowing) / (mean narrowing) around the throat
+  double theta = 0.0;              ///< side of the plaque, rad
+  double remodelling = 1.1;        ///< outer wall's radius at the throat over the healthy one, in [1, 1.5]
+  PlaqueKind kind = PlaqueKind::mixed;
+  std::uint64_t seed = 1;  ///< of the plaque's nodules and CT numbers
+};
+/// Narrows the lumen, moves the outer wall and records stenosis and plaques; the recorded grades are measured
+/// in the profile. Throws InvalidInput for options out of range or a lesion that reaches beyond the vessel.
+void add_lesion(CoronaryVessel& vessel, const LesionOptions& options);
 
 /// The tree as axes alone: nodes, segments (radius: the mean one) and vessels from each ostium to each end.
 geometry::VesselTree vessel_tree(const CoronaryTree& tree);

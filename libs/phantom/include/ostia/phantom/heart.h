@@ -31,7 +31,7 @@ struct HeartShape {
   Vec3 up = Vec3::UnitY();          ///< right x long_axis
   double length_mm = 92.0;          ///< base to apex on the epicardium
   double half_width_right_mm = 46.0, half_width_up_mm = 40.0;       ///< at the base
-  double anterior_groove_rad = 1.31, posterior_groove_rad = -1.75;  ///< interventricular grooves
+  double anterior_groove_rad = 2.02, posterior_groove_rad = -1.75;  ///< interventricular grooves
   AorticRoot root;
 
   /// A place on the epicardium, `outwards_mm` along its normal. `depth` is 0 at the base and 1 at the apex;

@@ -45,10 +45,11 @@ class VesselField {
   std::unique_ptr<Impl> impl_;
 };
 
-/// The boundary of the whole tree, one closed surface a connected tree (flat caps at ostia and ends), every
-/// vertex on the exact boundary to 1e-6 mm, and triangles within 0.01 mm of it away from the creases where
-/// vessels meet.
-geometry::TriMesh tree_surface(const VesselField& field, Boundary boundary, double spacing_mm = 0.15,
+/// The boundary of the whole tree, one closed surface a connected tree (flat caps at ostia and ends):
+/// marching cubes on a lattice, every vertex moved along its lattice edge to the exact boundary (within 1e-3
+/// of the spacing). Triangles are within 0.01 mm of it away from the creases where vessels meet and the rims
+/// of caps. The same for any number of threads. Throws InvalidInput for a spacing outside [0.02, 1] mm.
+geometry::TriMesh tree_surface(const VesselField& field, Boundary boundary, double spacing_mm = 0.12,
                                const core::TaskContext& task = core::no_task());
 
 }  // namespace ostia::phantom

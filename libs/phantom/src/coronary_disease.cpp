@@ -1,0 +1,194 @@
+#include "coronary_disease.h"
+
+#include "coronary_calibre.h"
+
+#include "ostia/core/error.h"
+#include "ostia/phantom/noise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+namespace ostia::phantom {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr std::uint64_t disease_stream = 0x4449534500000000;
+
+/// 1 at the throat, 0 from the shoulders on; smooth, with a short plateau.
+double narrowing_at(double s_mm, const LesionOptions& lesion) {
+  const double x = 2.0 * std::abs(s_mm - lesion.s_throat_mm) / lesion.length_mm;
+  if (x >= 1.0) return 0.0;
+  const double y = std::max(0.0, (x - 0.15) / 0.85);
+  return 0.5 * (1.0 + std::cos(pi * y));
+}
+
+void require(bool good, const std::string& what) {
+  if (!good) throw InvalidInput("lesion: " + what);
+}
+
+double healthy_radius(const CoronaryVessel& vessel, double s_mm) {
+  const auto& s = vessel.axis.abscissa;
+  const auto at = std::lower_bound(s.begin(), s.end(), s_mm) - s.begin();
+  const std::size_t j = std::clamp<std::size_t>(static_cast<std::size_t>(at), 1, s.size() - 1);
+  const double t = std::clamp((s_mm - s[j - 1]) / (s[j] - s[j - 1]), 0.0, 1.0);
+  return (1.0 - t) * vessel.healthy_radius_mm[j - 1] + t * vessel.healthy_radius_mm[j];
+}
+
+/// The profiles, sample by sample, with the lesion in them.
+void reshape(CoronaryVessel& vessel, const LesionOptions& lesion) {
+  const int around = vessel.lumen.around();
+  const double step = vessel.lumen.step_mm();
+  const auto rows = static_cast<int>(std::lround(vessel.lumen.length_mm() / step)) + 1;
+  std::vector<double> lumen, wall;
+  for (int row = 0; row < rows; ++row) {
+    const double s = row * step, w = narrowing_at(s, lesion);
+    for (int c = 0; c < around; ++c) {
+      const double theta = 2.0 * pi * c / around, side = std::cos(theta - lesion.theta);
+      const double was = vessel.lumen.at(s, theta), outer = vessel.wall.at(s, theta);
+      const double narrowed = was * (1.0 - w * lesion.diameter_stenosis * (1.0 + lesion.eccentricity * side));
+      const double swollen =
+          outer * (1.0 + w * (lesion.remodelling - 1.0) * (1.0 + 0.5 * lesion.eccentricity * side));
+      lumen.push_back(narrowed);
+      wall.push_back(std::max(swollen, narrowed + 0.2));
+    }
+  }
+  vessel.lumen = RadialProfile(step, around, std::move(lumen));
+  vessel.wall = RadialProfile(step, around, std::move(wall));
+  for (std::size_t i = 0; i < vessel.axis.size(); ++i) {
+    const double s = vessel.axis.abscissa[i];
+    if (std::abs(s - lesion.s_throat_mm) < 0.5 * lesion.length_mm + 2.0)
+      vessel.axis.radius[i] = vessel.lumen.mean_at(s);
+  }
+}
+
+/// CT numbers of plaque: soft 10-60, fibrous 60-130, calcified 300-1,300 (usual values).
+float plaque_hu(PlaqueKind kind, double draw) {
+  switch (kind) {
+    case PlaqueKind::soft:
+      return static_cast<float>(15.0 + 40.0 * draw);
+    case PlaqueKind::fibrous:
+    case PlaqueKind::mixed:
+      return static_cast<float>(70.0 + 50.0 * draw);
+    case PlaqueKind::calcified:
+      break;
+  }
+  return static_cast<float>(550.0 + 700.0 * draw);
+}
+
+void add_nodules(CoronaryVessel& vessel, double s_mm, double length_mm, double theta, int count,
+                 std::uint64_t seed, std::uint64_t stream) {
+  for (int i = 0; i < count; ++i) {
+    const auto draw = [&](std::uint64_t k) {
+      return uniform(seed, stream + 16 * static_cast<std::uint64_t>(i) + k);
+    };
+    Plaque nodule;
+    nodule.kind = PlaqueKind::calcified;
+    nodule.length_mm = 1.5 + 3.5 * draw(0);
+    nodule.s_centre_mm = s_mm + 0.7 * length_mm * (draw(1) - 0.5);
+    nodule.theta_centre = theta + 1.4 * (draw(2) - 0.5);
+    nodule.theta_extent = (50.0 + 80.0 * draw(3)) * pi / 180.0;
+    nodule.depth_from = 0.2 + 0.25 * draw(4);
+    nodule.depth_to = 0.95;
+    nodule.hu = plaque_hu(PlaqueKind::calcified, draw(5));
+    vessel.plaques.push_back(nodule);
+  }
+}
+
+/// Places on a vessel where a lesion of this length may lie.
+bool is_free(const CoronaryTree& tree, const CoronaryVessel& vessel, double from, double to) {
+  if (from < vessel.s_free_mm + 2.0 || to > vessel.axis.abscissa.back() - 8.0) return false;
+  for (const CoronaryVessel& child : tree.vessels) {
+    if (child.parent == vessel.id && child.parent_s_mm > from - 3.0 && child.parent_s_mm < to + 3.0)
+      return false;
+  }
+  return std::none_of(vessel.stenoses.begin(), vessel.stenoses.end(),
+                      [&](const Stenosis& s) { return s.s_from_mm < to + 3.0 && s.s_to_mm > from - 3.0; });
+}
+
+}  // namespace
+
+void add_lesion(CoronaryVessel& vessel, const LesionOptions& lesion) {
+  require(lesion.length_mm >= 2.0 && lesion.length_mm <= 40.0, "length_mm must lie in [2, 40]");
+  require(lesion.diameter_stenosis >= 0.0 && lesion.diameter_stenosis <= 0.95,
+          "diameter_stenosis must lie in [0, 0.95]");
+  require(lesion.eccentricity >= 0.0 && lesion.eccentricity < 1.0, "eccentricity must lie in [0, 1)");
+  require(lesion.diameter_stenosis * (1.0 + lesion.eccentricity) <= 0.97,
+          "diameter_stenosis (1 + eccentricity) must not exceed 0.97: the lumen would close on one side");
+  require(lesion.remodelling >= 1.0 && lesion.remodelling <= 1.5, "remodelling must lie in [1, 1.5]");
+  const double from = lesion.s_throat_mm - 0.5 * lesion.length_mm, to = from + lesion.length_mm;
+  require(from >= 0.0 && to <= vessel.axis.abscissa.back(),
+          "it reaches from " + std::to_string(from) + " to " + std::to_string(to) + " mm, beyond " +
+              vessel.name + " of " + std::to_string(vessel.axis.abscissa.back()) + " mm");
+  reshape(vessel, lesion);
+  Stenosis stenosis;
+  stenosis.s_from_mm = from;
+  stenosis.s_to_mm = to;
+  stenosis.s_throat_mm = lesion.s_throat_mm;
+  stenosis.eccentricity = lesion.eccentricity;
+  stenosis.kind = lesion.kind;
+  const double healthy = healthy_radius(vessel, lesion.s_throat_mm);
+  stenosis.diameter_stenosis = 1.0 - vessel.lumen.mean_at(lesion.s_throat_mm) / healthy;
+  stenosis.area_stenosis = 1.0 - vessel.lumen.area_at(lesion.s_throat_mm) / (pi * healthy * healthy);
+  vessel.stenoses.push_back(stenosis);
+  std::sort(vessel.stenoses.begin(), vessel.stenoses.end(),
+            [](const Stenosis& a, const Stenosis& b) { return a.s_throat_mm < b.s_throat_mm; });
+
+  const std::uint64_t stream = disease_stream + 4096;
+  Plaque body;
+  body.kind = lesion.kind == PlaqueKind::calcified ? PlaqueKind::fibrous : lesion.kind;
+  body.s_centre_mm = lesion.s_throat_mm;
+  body.length_mm = lesion.length_mm;
+  body.theta_centre = lesion.theta;
+  // A body that goes all the way round has no side; twice the turn keeps its taper from opening it in the
+  // middle.
+  body.theta_extent = lesion.eccentricity > 0.5 ? 1.5 * pi : 4.0 * pi;
+  body.depth_to = 0.9;
+  body.hu = plaque_hu(body.kind, uniform(lesion.seed, stream));
+  vessel.plaques.push_back(body);
+  if (lesion.kind == PlaqueKind::calcified || lesion.kind == PlaqueKind::mixed) {
+    const int count = lesion.kind == PlaqueKind::calcified ? 4 : 2;
+    add_nodules(vessel, lesion.s_throat_mm, lesion.length_mm, lesion.theta, count, lesion.seed, stream + 64);
+  }
+}
+
+void draw_disease(CoronaryTree& tree, double amount, std::uint64_t seed) {
+  std::uint64_t index = disease_stream;
+  const auto draw = [&] { return uniform(seed, index++); };
+  const int lesions = static_cast<int>(std::floor(amount * (2.0 + 5.0 * draw())));
+  for (int made = 0, tries = 0; made < lesions && tries < 200; ++tries) {
+    const double which = draw();
+    const std::string name = which < 0.38   ? "LAD"
+                             : which < 0.66 ? "RCA"
+                             : which < 0.84 ? "LCX"
+                             : which < 0.92 ? "D1"
+                                            : "OM1";
+    LesionOptions lesion;
+    lesion.length_mm = 6.0 + 12.0 * draw();
+    const double place = std::pow(draw(), 1.4), severity = draw();
+    lesion.diameter_stenosis = 0.2 + 0.62 * severity * severity;
+    lesion.eccentricity = std::min(0.85 * draw(), 0.97 / lesion.diameter_stenosis - 1.01);
+    lesion.theta = 2.0 * pi * draw();
+    lesion.remodelling = 1.02 + 0.2 * draw();
+    const double kind = draw();
+    lesion.kind = kind < 0.3    ? PlaqueKind::soft
+                  : kind < 0.45 ? PlaqueKind::fibrous
+                  : kind < 0.75 ? PlaqueKind::mixed
+                                : PlaqueKind::calcified;
+    lesion.seed = seed + index;
+    for (CoronaryVessel& vessel : tree.vessels) {
+      if (vessel.name != name) continue;
+      const double low = vessel.s_free_mm + 3.0, high = 0.75 * vessel.axis.abscissa.back();
+      lesion.s_throat_mm = low + place * (high - low);
+      lesion.eccentricity = std::max(0.0, lesion.eccentricity);
+      if (!is_free(tree, vessel, lesion.s_throat_mm - 0.5 * lesion.length_mm,
+                   lesion.s_throat_mm + 0.5 * lesion.length_mm))
+        break;
+      add_lesion(vessel, lesion);
+      ++made;
+    }
+  }
+}
+
+}  // namespace ostia::phantom

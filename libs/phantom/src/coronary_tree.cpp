@@ -1,0 +1,237 @@
+#include "ostia/phantom/coronary_tree.h"
+
+#include "coronary_calibre.h"
+#include "coronary_courses.h"
+#include "coronary_disease.h"
+
+#include "ostia/core/error.h"
+#include "ostia/geometry/polyline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace ostia::phantom {
+namespace {
+
+using geometry::Centerline;
+
+constexpr int attempts = 12;
+constexpr double clear_mm = 1.2;  ///< least distance between outer walls away from bifurcations
+
+double crux_abscissa(const HeartShape& heart, const Centerline& axis) {
+  return geometry::closest(axis.points, heart.epicardium(heart.posterior_groove_rad, 0.02, 4.0)).abscissa;
+}
+
+const Course* find(const std::vector<Course>& courses, const std::string& name) {
+  for (const Course& c : courses) {
+    if (c.name == name) return &c;
+  }
+  return nullptr;
+}
+
+/// The largest radius a course may have anywhere, for the test of distances.
+double bound_of(const std::vector<Course>& courses, const Course& course) {
+  const Course* parent = find(courses, course.parent);
+  return parent == nullptr ? course.start_radius_mm : course.start_radius_mm * bound_of(courses, *parent);
+}
+
+/// Whether an axis comes too near to another that it does not spring from (or springs from, but away from
+/// there).
+bool collides(const Centerline& axis, double radius, const Centerline& other, double other_radius,
+              double skip_mm) {
+  const double reach = radius + other_radius + 1.2 + clear_mm;
+  for (std::size_t i = 0; i < axis.size(); i += 5) {
+    if (axis.abscissa[i] < skip_mm) continue;
+    for (std::size_t j = 0; j < other.size(); j += 5) {
+      if ((axis.points[i] - other.points[j]).squaredNorm() < reach * reach) return true;
+    }
+  }
+  return false;
+}
+
+/// Axes of all courses, each drawn again until it keeps clear of those before it; what may be left out and
+/// cannot is.
+std::vector<std::pair<Course, Centerline>> draw_axes(const HeartShape& heart, const CoursePlan& plan,
+                                                     std::uint64_t seed) {
+  std::vector<std::pair<Course, Centerline>> out;
+  for (Course course : plan.courses) {
+    const Centerline* parent = nullptr;
+    for (const auto& [known, axis] : out) {
+      if (known.name == course.parent) parent = &axis;
+    }
+    if (!course.parent.empty() && parent == nullptr) continue;
+    if (course.parent_s_mm == at_crux)
+      course.parent_s_mm = std::min(crux_abscissa(heart, *parent), parent->abscissa.back() - 6.0);
+    if (parent != nullptr && course.parent_s_mm > parent->abscissa.back() - 5.0) continue;
+    for (int attempt = 0; attempt < attempts; ++attempt) {
+      Centerline axis =
+          draw_axis(heart, course, parent, seed + 7919ULL * static_cast<std::uint64_t>(attempt));
+      const bool last = attempt + 1 == attempts;
+      const bool clear = std::none_of(out.begin(), out.end(), [&](const auto& other) {
+        const bool related =
+            other.first.name == course.parent ||
+            (other.first.parent == course.parent &&
+             std::abs(other.first.parent_s_mm - course.parent_s_mm) < 6.0 && parent != nullptr);
+        return collides(axis, bound_of(plan.courses, course), other.second,
+                        bound_of(plan.courses, other.first) * 0.8, related ? 11.0 : 0.0);
+      });
+      if (!clear && !(last && course.keep)) continue;
+      out.emplace_back(course, std::move(axis));
+      break;
+    }
+  }
+  return out;
+}
+
+void add_segments(CoronaryVessel& vessel, const CoronaryTree& tree, Dominance dominance) {
+  const double length = vessel.axis.abscissa.back();
+  const auto origin = [&](const std::string& child, double otherwise) {
+    for (const CoronaryVessel& v : tree.vessels) {
+      if (v.name == child && v.parent == vessel.id) return v.parent_s_mm;
+    }
+    return otherwise;
+  };
+  const auto span = [&](int aha, std::string name, double from, double to) {
+    if (to > from + 0.5) vessel.segments.push_back({aha, std::move(name), from, std::min(to, length)});
+  };
+  if (vessel.name == "LAD") {
+    const double main = origin("LCX", 10.0), first = origin("D1", main + 20.0);
+    const double second = std::max(origin("D2", main + 45.0), first + 5.0);
+    span(5, "left main", 0.0, main);
+    span(6, "proximal LAD", main, first);
+    span(7, "mid LAD", first, second);
+    span(8, "distal LAD", second, length);
+  } else if (vessel.name == "LCX") {
+    const double first = origin("OM1", 15.0);
+    span(11, "proximal LCX", 0.0, first);
+    span(13, "distal LCX", first, length);
+  } else if (vessel.name == "RCA") {
+    const double crux = origin("PDA", length), half = 0.5 * std::min(origin("AM", 0.5 * crux), crux);
+    span(1, "proximal RCA", 0.0, half);
+    span(2, "mid RCA", half, 2.0 * half);
+    span(3, "distal RCA", 2.0 * half, crux);
+    span(16, "posterolateral branch", crux, length);
+  } else {
+    static const std::map<std::string, std::pair<int, const char*>> numbers{
+        {"D1", {9, "first diagonal"}},
+        {"D2", {10, "second diagonal"}},
+        {"OM1", {12, "first obtuse marginal"}},
+        {"OM2", {14, "second obtuse marginal"}},
+        {"RI", {17, "ramus intermedius"}}};
+    const auto at = numbers.find(vessel.name);
+    if (at != numbers.end()) span(at->second.first, at->second.second, 0.0, length);
+    if (vessel.name == "PDA") {
+      const bool left = dominance == Dominance::left;
+      span(left ? 15 : 4, left ? "left posterior descending" : "posterior descending", 0.0, length);
+    }
+  }
+}
+
+}  // namespace
+
+CoronaryTree draw_coronaries(const HeartShape& heart, const CoronaryOptions& options) {
+  if (!(options.disease >= 0.0 && options.disease <= 10.0))
+    throw InvalidInput("disease must lie in [0, 10], not " + std::to_string(options.disease));
+  const CoursePlan plan = plan_courses(heart, options.seed);
+  CoronaryTree tree;
+  tree.dominance = plan.dominance;
+  const auto drawn = draw_axes(heart, plan, options.seed);
+  for (const auto& [course, axis] : drawn) {
+    CoronaryVessel vessel;
+    vessel.id = static_cast<std::int32_t>(tree.vessels.size());
+    vessel.name = course.name;
+    for (const CoronaryVessel& v : tree.vessels) {
+      if (v.name == course.parent) vessel.parent = v.id;
+    }
+    vessel.parent_s_mm = vessel.parent < 0 ? 0.0 : course.parent_s_mm;
+    vessel.axis = axis;
+    std::vector<BranchShare> branches;
+    for (const auto& [other, unused] : drawn) {
+      if (other.parent == course.name) branches.push_back({other.parent_s_mm, other.start_radius_mm});
+    }
+    const double start = vessel.parent < 0
+                             ? course.start_radius_mm
+                             : course.start_radius_mm *
+                                   radius_before_branch(tree.vessels[static_cast<std::size_t>(vessel.parent)],
+                                                        course.parent_s_mm);
+    set_calibre(vessel, start, course.end_radius_mm, branches, options.seed);
+    tree.vessels.push_back(std::move(vessel));
+  }
+  for (CoronaryVessel& vessel : tree.vessels) {
+    if (vessel.parent >= 0)
+      vessel.s_free_mm = free_abscissa(vessel, tree.vessels[static_cast<std::size_t>(vessel.parent)]);
+    add_segments(vessel, tree, tree.dominance);
+  }
+  draw_disease(tree, options.disease, options.seed);
+  return tree;
+}
+
+geometry::VesselTree vessel_tree(const CoronaryTree& tree) {
+  geometry::VesselTree out;
+  std::int32_t next_segment = 1;
+  std::map<std::int32_t, std::vector<std::int32_t>> path;  // vessel -> segments so far from its ostium
+  // Cut each axis where branches leave, so that segments join at nodes.
+  std::map<std::int32_t, std::map<double, std::int32_t>> nodes_on;  // vessel -> abscissa -> node
+  const auto add_node = [&](const Vec3& p) {
+    const auto id = static_cast<std::int32_t>(out.nodes.size()) + 1;
+    out.nodes.push_back({id, p});
+    return id;
+  };
+  std::map<std::int32_t, std::map<double, std::vector<std::int32_t>>>
+      prefix;  // segments from the root to a node
+  for (const CoronaryVessel& vessel : tree.vessels) {
+    const Centerline& axis = vessel.axis;
+    std::vector<std::size_t> cuts{0, axis.size() - 1};
+    for (const CoronaryVessel& child : tree.vessels) {
+      if (child.parent != vessel.id) continue;
+      const auto at = std::lower_bound(axis.abscissa.begin(), axis.abscissa.end(), child.parent_s_mm) -
+                      axis.abscissa.begin();
+      cuts.push_back(std::clamp<std::size_t>(static_cast<std::size_t>(at), 1, axis.size() - 2));
+    }
+    std::sort(cuts.begin(), cuts.end());
+    cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
+    std::vector<std::int32_t> chain;
+    std::int32_t from = 0;
+    if (vessel.parent < 0) {
+      from = add_node(axis.points[0]);
+    } else {
+      const auto& known = nodes_on[vessel.parent];
+      auto nearest = known.begin();
+      for (auto it = known.begin(); it != known.end(); ++it) {
+        if (std::abs(it->first - vessel.parent_s_mm) < std::abs(nearest->first - vessel.parent_s_mm))
+          nearest = it;
+      }
+      from = nearest->second;
+      chain = prefix[vessel.parent][nearest->first];
+    }
+    nodes_on[vessel.id][0.0] = from;
+    prefix[vessel.id][0.0] = chain;
+    for (std::size_t c = 0; c + 1 < cuts.size(); ++c) {
+      geometry::TreeSegment segment;
+      segment.id = next_segment++;
+      segment.from = from;
+      for (std::size_t i = cuts[c]; i <= cuts[c + 1]; ++i) {
+        segment.axis.points.push_back(axis.points[i]);
+        segment.axis.radius.push_back(axis.radius[i]);
+      }
+      if (c == 0) {  // the branch's axis begins on its parent's, within a step of the node
+        const Vec3 node_at = out.nodes[static_cast<std::size_t>(from - 1)].position;
+        if ((segment.axis.points[0] - node_at).norm() > 1e-9) {
+          if ((segment.axis.points[1] - node_at).norm() > 1e-6) segment.axis.points[0] = node_at;
+        }
+      }
+      from = add_node(axis.points[cuts[c + 1]]);
+      segment.to = from;
+      geometry::complete(segment.axis, axis.frames[cuts[c]].normal);
+      chain.push_back(segment.id);
+      nodes_on[vessel.id][axis.abscissa[cuts[c + 1]]] = from;
+      prefix[vessel.id][axis.abscissa[cuts[c + 1]]] = chain;
+      out.segments.push_back(std::move(segment));
+    }
+    out.vessels.push_back({vessel.id + 1, vessel.name, chain});
+  }
+  return out;
+}
+
+}  // namespace ostia::phantom

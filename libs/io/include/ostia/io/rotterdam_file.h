@@ -20,8 +20,10 @@ struct RotterdamReference {
 };
 /// Throws InvalidInput naming the file and the line for an empty file, another number of columns, numbers
 /// that are not finite or use a decimal comma, fewer than two points, points repeated in a row, a radius or
-/// spread that is not positive. IoError where it cannot be read.
+/// spread that is not positive. IoError where it cannot be read. Text after `#`, blank lines, a byte order
+/// mark and CRLF are taken; the locale has no say.
 RotterdamReference read_rotterdam_reference(const std::filesystem::path& path);
+/// With six decimals (1 nm), whole or not at all. The writers refuse what the readers would refuse.
 void write_rotterdam_reference(const std::filesystem::path& path, const RotterdamReference& reference);
 
 /// `result.txt`: x y z (further columns are refused unless they are radii: one more is allowed and ignored).

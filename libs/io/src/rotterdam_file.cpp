@@ -1,0 +1,162 @@
+#include "ostia/io/rotterdam_file.h"
+
+#include "number_rows.h"
+
+#include "ostia/core/error.h"
+#include "ostia/core/files.h"
+
+#include <charconv>
+#include <cmath>
+
+namespace ostia::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t most_bytes = 1ULL << 30;
+
+[[noreturn]] void refuse(const fs::path& path, std::size_t line, const std::string& what) {
+  throw InvalidInput(path.string() + ": line " + std::to_string(line) + ": " + what);
+}
+
+struct Table {
+  std::vector<std::vector<double>> rows;
+  std::vector<std::size_t> lines;
+};
+
+Table table_of(const fs::path& path, std::size_t least_columns, std::size_t most_columns,
+               const std::string& columns) {
+  const std::string text = core::read_file(path, most_bytes);
+  Table table;
+  for (const NumberRow& row : rows_of(text)) {
+    if (row.words.size() < least_columns || row.words.size() > most_columns)
+      refuse(path, row.line,
+             "has " + std::to_string(row.words.size()) + " columns where " + columns +
+                 " are expected, with blanks between them");
+    std::vector<double> numbers;
+    for (const std::string_view word : row.words) numbers.push_back(number_in(word, path, row.line));
+    if (!table.rows.empty() && table.rows.back().size() != numbers.size())
+      refuse(path, row.line, "has another number of columns than the lines before");
+    table.rows.push_back(std::move(numbers));
+    table.lines.push_back(row.line);
+  }
+  if (table.rows.empty()) throw InvalidInput(path.string() + " is empty: it holds no point");
+  return table;
+}
+
+std::vector<Vec3> points_of(const fs::path& path, const Table& table) {
+  std::vector<Vec3> points;
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    points.emplace_back(table.rows[i][0], table.rows[i][1], table.rows[i][2]);
+    if (i > 0 && points[i] == points[i - 1])
+      refuse(path, table.lines[i], "repeats the point before it; leave repeated points out");
+  }
+  if (points.size() < 2) throw InvalidInput(path.string() + " holds one point; a line needs at least two");
+  return points;
+}
+
+constexpr int decimals = 6;  // a nanometre
+constexpr double least_length_mm = 1e-6;
+constexpr double most_length_mm = 1e9;
+
+[[noreturn]] void refuse_to_write(const fs::path& path, const std::string& what) {
+  throw InvalidInput("cannot write " + path.string() + ": " + what);
+}
+
+/// Without the locale.
+void add_number(std::string& out, double value) {
+  char text[40];
+  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, decimals).ptr;
+  out.append(text, end);
+}
+
+std::string text_of(const fs::path& path, const Vec3& p) {
+  if (!p.allFinite()) refuse_to_write(path, "a point is not finite");
+  if (!(p.cwiseAbs().maxCoeff() < most_length_mm))
+    refuse_to_write(path, "a point is 1e9 mm away from the origin or more");
+  std::string out;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (axis > 0) out += ' ';
+    add_number(out, p[axis]);
+  }
+  return out;
+}
+
+/// The points' texts; refuses what the reader would refuse.
+std::vector<std::string> texts_of(const fs::path& path, const std::vector<Vec3>& points) {
+  if (points.size() < 2)
+    refuse_to_write(path,
+                    "there are " + std::to_string(points.size()) + " points; a line needs at least two");
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    texts.push_back(text_of(path, points[i]));
+    if (i > 0 && texts[i] == texts[i - 1])
+      refuse_to_write(path, "point " + std::to_string(i) + " repeats the point before it (to 1e-6 mm)");
+  }
+  return texts;
+}
+
+void require_positive(const fs::path& path, const std::vector<double>& values, const char* what) {
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!(values[i] >= least_length_mm && values[i] < most_length_mm))
+      refuse_to_write(path, std::string(what) + " of point " + std::to_string(i) + " is not positive");
+}
+
+}  // namespace
+
+RotterdamReference read_rotterdam_reference(const fs::path& path) {
+  const Table table = table_of(path, 5, 5, "five (x y z r io)");
+  RotterdamReference reference;
+  reference.points = points_of(path, table);
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    const double r = table.rows[i][3], io = table.rows[i][4];
+    if (r <= 0.0) refuse(path, table.lines[i], "the radius must be positive, is " + std::to_string(r));
+    if (io <= 0.0)
+      refuse(path, table.lines[i], "the observers' spread must be positive, is " + std::to_string(io));
+    reference.radius.push_back(r);
+    reference.observer_spread.push_back(io);
+  }
+  return reference;
+}
+
+void write_rotterdam_reference(const fs::path& path, const RotterdamReference& reference) {
+  if (reference.radius.size() != reference.points.size() ||
+      reference.observer_spread.size() != reference.points.size())
+    throw InvalidInput("cannot write " + path.string() + ": points, radii and spreads differ in number");
+  const std::vector<std::string> points = texts_of(path, reference.points);
+  require_positive(path, reference.radius, "the radius");
+  require_positive(path, reference.observer_spread, "the observers' spread");
+  std::string out;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    out += points[i] + ' ';
+    add_number(out, reference.radius[i]);
+    out += ' ';
+    add_number(out, reference.observer_spread[i]);
+    out += '\n';
+  }
+  core::write_file(path, out);
+}
+
+std::vector<Vec3> read_rotterdam_line(const fs::path& path) {
+  return points_of(path, table_of(path, 3, 4, "three (x y z)"));
+}
+
+void write_rotterdam_line(const fs::path& path, const std::vector<Vec3>& points) {
+  std::string out;
+  for (const std::string& point : texts_of(path, points)) out += point + '\n';
+  core::write_file(path, out);
+}
+
+Vec3 read_rotterdam_point(const fs::path& path) {
+  const Table table = table_of(path, 3, 3, "three (x y z)");
+  if (table.rows.size() != 1)
+    throw InvalidInput(path.string() + " holds " + std::to_string(table.rows.size()) +
+                       " points where one is expected");
+  return {table.rows[0][0], table.rows[0][1], table.rows[0][2]};
+}
+
+void write_rotterdam_point(const fs::path& path, const Vec3& point) {
+  core::write_file(path, text_of(path, point) + "\n");
+}
+
+}  // namespace ostia::io

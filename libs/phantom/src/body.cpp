@@ -8,107 +8,171 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
 
 namespace ostia::phantom {
 namespace {
 
-constexpr std::uint64_t body_stream = 0x424f445900000000;
+using geometry::Box3;
 
-double half_diagonal(const geometry::Box3& box) {
-  return 0.5 * box.diagonal().norm();
+constexpr double largest_texture = 3.0;
+
+/// A tube organ's pieces lie in boxes, so that a block finds those that touch it.
+struct Prepared {
+  Organ organ;
+  std::vector<Box3> boxes;
+  Box3 box;
+};
+
+Prepared prepared(Organ organ) {
+  Prepared out;
+  for (const Capsule& capsule : organ.capsules) {
+    out.boxes.push_back(capsule.box());
+    out.box.extend(out.boxes.back());
+  }
+  out.organ = std::move(organ);
+  return out;
 }
 
 }  // namespace
 
 struct Body::Impl {
-  HeartShape heart;
   BodyOptions options;
-  VesselField arteries;
-  Organs organs;
-  std::vector<geometry::Centerline> axes;  ///< of the arteries
+  CoronaryTree tree;
+  VesselField field;
+  std::shared_ptr<const NoiseField> noise;
+  std::vector<Prepared> organs;
+  std::map<std::int32_t, double> before_mm;  // from the ostium to where a vessel begins
 
-  Impl(const HeartShape& shape, const CoronaryTree& tree, const BodyOptions& how)
-      : heart(shape), options(how), arteries(tree) {}
-
-  /// The material of an organ at a place, with its inner variation.
-  Material inner(const Organ& organ, std::size_t index, const Vec3& p) const {
-    Material m = organ.material;
-    if (organ.texture.amplitude_hu > 0.0f) {
-      const double coarse = smooth_noise(options.seed + 31 * index, p, organ.texture.grain_mm);
-      m.hu += static_cast<float>(options.texture * organ.texture.amplitude_hu * coarse);
+  Impl(const HeartShape& heart, const CoronaryTree& coronaries, const BodyOptions& body)
+      : options(body),
+        tree(coronaries),
+        field(coronaries),
+        noise(std::make_shared<const NoiseField>(body.seed)) {
+    for (const CoronaryVessel& vessel : tree.vessels) {
+      const auto parent = before_mm.find(vessel.parent);
+      before_mm[vessel.id] = parent == before_mm.end() ? 0.0 : parent->second + vessel.parent_s_mm;
     }
-    return m;
+    const TissueHu& hu = options.hu;
+    const Capsules veins = coronary_veins(heart, tree, field);
+    Organs all;
+    add_aorta(all, heart, hu);
+    all.push_back({{Label::coronary_vein, hu.vein}, {10.0f, 6.0f, 0.0f}, {}, veins});
+    add_groove_fat(all, tree, veins, hu);
+    add_chambers(all, heart, hu, noise);
+    add_great_vessels(all, hu);
+    add_heart_walls(all, heart, hu, noise);
+    add_bones(all, hu);
+    add_mediastinum(all, hu, noise);
+    add_lungs(all, hu, options.seed);
+    add_chest_wall(all, hu, options.seed);
+    for (Organ& organ : all) organs.push_back(prepared(std::move(organ)));
   }
 
-  /// The arteries' material; contrast fades along them as it reaches distal parts later.
-  std::optional<Material> artery(const Vec3& p) const {
-    std::optional<Material> m = arteries.material(p);
-    if (m && m->label == Label::coronary_lumen) {
-      thread_local std::vector<VesselField::Place> places;
-      arteries.places(p, 0.0, places);
-      const double s = places.empty() ? 0.0 : std::clamp(places.front().s_mm, 0.0, 100.0);
-      const float above = options.hu.arterial - options.hu.blood;
-      m->hu = options.hu.arterial - above * options.hu.coronary_drop * static_cast<float>(s / 100.0);
+  float textured(const Organ& organ, const Vec3& p) const {
+    const Texture& t = organ.texture;
+    float hu = organ.material.hu;
+    if (t.amplitude_hu > 0.0f) {
+      const double strength = options.texture * static_cast<double>(t.amplitude_hu);
+      const double grain = static_cast<double>(t.grain_mm);
+      hu += static_cast<float>(strength * noise->at(p / grain + Vec3::Constant(7.0 * grain)));
     }
-    return m;
+    // A tissue never turns into another one by its texture.
+    return hu + t.dorsal_hu_per_mm * static_cast<float>(std::clamp(p.y(), -100.0, 100.0));
+  }
+
+  /// Contrast is lost along the arteries.
+  Material lumen(const Vec3& p) const {
+    std::vector<VesselField::Place> places;
+    field.places(p, 0.01, places);
+    double way = 0.0, deepest = 1e9;
+    for (const VesselField::Place& place : places) {
+      if (place.rho_mm - place.lumen_mm >= deepest) continue;
+      deepest = place.rho_mm - place.lumen_mm;
+      way = place.s_mm + before_mm.at(place.vessel);
+    }
+    const TissueHu& hu = options.hu;
+    const float kept = 1.0f - hu.coronary_drop * static_cast<float>(std::min(1.5, way / 100.0));
+    return {Label::coronary_lumen, hu.blood + (hu.arterial - hu.blood) * kept};
   }
 };
 
 namespace {
 
+/// The organs that touch a block.
 class BodyPart : public ScenePart {
  public:
-  BodyPart(const Body::Impl& body, const geometry::Box3& box) : body_(body) {
-    arteries_ = body.arteries.near(box, 0.0);
-    near_arteries_ = body.arteries.near(box, 2.0);
-    const Vec3 centre = box.center();
-    const double reach = half_diagonal(box);
-    for (std::size_t i = 0; i < body.organs.size(); ++i) {
-      const Organ& organ = body.organs[i];
-      const double d = organ.distance(centre);
-      if (d > organ.slope * reach) {
-        if (organ.thin && d < organ.slope * reach + 2.0) thin_.push_back(i);
+  BodyPart(const Body::Impl& body, const Box3& box) : body_(body) {
+    const double half = 0.5 * box.diagonal().norm() + 1e-9;
+    const Vec3 middle = box.center();
+    coronary_ = body.field.near(box, 0.0);
+    thin_ = body.field.near(box, 2.0);
+    for (const Prepared& organ : body.organs) {
+      if (organ.organ.distance) {
+        const double distance = organ.organ.distance(middle);
+        if (distance > half) continue;
+        chosen_.push_back({&organ.organ, 0, 0, distance < -half});
+        if (distance < -half) break;  // holds the whole block: nothing behind it is met
         continue;
       }
-      here_.push_back(i);
-      if (organ.thin) thin_.push_back(i);
-      if (d < -organ.slope * reach) {  // it fills the box: what lies behind is hidden
-        filled_ = true;
-        break;
-      }
+      if (!organ.box.intersects(box)) continue;
+      const std::size_t first = capsules_.size();
+      for (std::size_t i = 0; i < organ.boxes.size(); ++i)
+        if (organ.boxes[i].intersects(box)) capsules_.push_back(organ.organ.capsules[i]);
+      if (capsules_.size() > first) chosen_.push_back({&organ.organ, first, capsules_.size(), false});
     }
   }
 
   Material at(const Vec3& p) const override {
-    if (arteries_) {
-      if (const auto m = body_.artery(p)) return *m;
+    if (coronary_) {
+      if (const std::optional<Material> m = body_.field.material(p)) {
+        if (m->label == Label::coronary_lumen) return body_.lumen(p);
+        if (m->label != Label::vessel_wall) return *m;
+        // The wall ends where the artery opens into the aorta.
+        const Material other = tissue(p);
+        return other.label == Label::aorta ? other : *m;
+      }
     }
-    for (std::size_t n = 0; n < here_.size(); ++n) {
-      const Organ& organ = body_.organs[here_[n]];
-      if ((filled_ && n + 1 == here_.size()) || organ.distance(p) < 0.0)
-        return body_.inner(organ, here_[n], p);
+    return tissue(p);
+  }
+
+  std::optional<Material> uniform() const override {
+    if (coronary_) return std::nullopt;
+    if (chosen_.empty()) return Material{};
+    const Chosen& first = chosen_.front();
+    const Texture& t = first.organ->texture;
+    if (!first.whole || t.amplitude_hu > 0.0f || t.dorsal_hu_per_mm != 0.0f) return std::nullopt;
+    return first.organ->material;
+  }
+
+  bool fine_near(const Vec3& p, double reach_mm) const override {
+    if (!thin_ && reach_mm < 2.0) return false;
+    if (!body_.field.near(Box3(p, p), reach_mm)) return false;
+    return body_.field.value(Boundary::wall, p, reach_mm) < reach_mm;
+  }
+
+ private:
+  struct Chosen {
+    const Organ* organ;
+    std::size_t first, last;  // of the capsules
+    bool whole;
+  };
+
+  Material tissue(const Vec3& p) const {
+    for (const Chosen& c : chosen_) {
+      bool inside = c.whole;
+      if (!inside && c.organ->distance) inside = c.organ->distance(p) < 0.0;
+      for (std::size_t i = c.first; i < c.last && !inside; ++i) inside = capsules_[i].holds(p);
+      if (inside) return {c.organ->material.label, body_.textured(*c.organ, p)};
     }
     return {};
   }
 
-  std::optional<Material> uniform() const override {
-    if (arteries_ || here_.size() > 1) return std::nullopt;
-    if (here_.empty()) return Material{};
-    const Organ& organ = body_.organs[here_[0]];
-    if (!filled_ || organ.texture.amplitude_hu > 0.0f) return std::nullopt;
-    return organ.material;
-  }
-
-  bool fine_near(const Vec3& p, double reach_mm) const override {
-    if (near_arteries_ && body_.arteries.value(Boundary::wall, p, reach_mm + 0.01) < reach_mm) return true;
-    return std::any_of(thin_.begin(), thin_.end(),
-                       [&](std::size_t i) { return std::abs(body_.organs[i].distance(p)) < reach_mm; });
-  }
-
- private:
   const Body::Impl& body_;
-  std::vector<std::size_t> here_, thin_;
-  bool filled_ = false, arteries_ = false, near_arteries_ = false;
+  bool coronary_ = false, thin_ = false;
+  std::vector<Chosen> chosen_;
+  Capsules capsules_;
 };
 
 void require(bool good, const char* what) {
@@ -118,62 +182,47 @@ void require(bool good, const char* what) {
 }  // namespace
 
 BodyOptions draw_body(std::uint64_t seed) {
-  BodyOptions out;
-  out.seed = seed;
-  std::uint64_t index = body_stream;
-  const auto about = [&](float& value, double deviation) {
-    value += static_cast<float>(deviation * std::clamp(normal(seed, index++), -2.0, 2.0));
+  std::uint64_t index = 0x424f4459000000;
+  const auto about = [&](float mean, float deviation) {
+    return mean + deviation * static_cast<float>(std::clamp(normal(seed, index++), -2.0, 2.0));
   };
-  about(out.hu.arterial, 35.0);
-  about(out.hu.right_heart, 35.0);
-  about(out.hu.pulmonary, 40.0);
-  about(out.hu.vein, 20.0);
-  about(out.hu.superior_vena_cava, 110.0);
-  about(out.hu.myocardium, 8.0);
-  about(out.hu.fat, 4.0);
-  about(out.hu.lung, 14.0);
-  about(out.hu.marrow, 30.0);
-  about(out.hu.liver, 10.0);
-  return out;
+  BodyOptions options;
+  options.seed = seed;
+  TissueHu& hu = options.hu;
+  hu.arterial = about(400.0f, 40.0f);
+  hu.coronary_drop = about(0.12f, 0.03f);
+  hu.right_heart = about(190.0f, 25.0f);
+  hu.pulmonary = about(230.0f, 30.0f);
+  hu.vein = about(205.0f, 20.0f);
+  hu.superior_vena_cava = about(400.0f, 70.0f);
+  hu.myocardium = about(105.0f, 8.0f);
+  hu.fat = about(-98.0f, 4.0f);
+  hu.epicardial_fat = about(-88.0f, 4.0f);
+  hu.lung = about(-862.0f, 12.0f);
+  hu.marrow = about(190.0f, 30.0f);
+  hu.liver = about(85.0f, 8.0f);
+  return options;
 }
 
 Body::Body(const HeartShape& heart, const CoronaryTree& tree, const BodyOptions& options) {
-  require(options.hu.arterial >= 150.0f && options.hu.arterial <= 1000.0f,
-          "hu.arterial must lie in [150, 1000]");
-  require(options.texture >= 0.0 && options.texture <= 3.0, "texture must lie in [0, 3]");
-  auto body = std::make_unique<Impl>(heart, tree, options);
-  const std::vector<geometry::Centerline> veins = coronary_veins(heart, tree);
-  // Arteries as the fat around them needs them: outer walls, not the stretch within the aorta's wall or the
-  // septum.
-  std::vector<geometry::Centerline> sheaths = veins;
-  for (const CoronaryVessel& vessel : tree.vessels) {
-    geometry::Centerline line;
-    for (std::size_t i = 0; i < vessel.axis.size(); i += 5) {
-      if (vessel.parent >= 0 && heart.epicardial_distance(vessel.axis.points[i]) < -1.0) break;
-      line.points.push_back(vessel.axis.points[i]);
-      line.radius.push_back(vessel.wall.max_at(vessel.axis.abscissa[i]));
-    }
-    if (line.points.size() < 2) continue;
-    geometry::complete(line);
-    sheaths.push_back(std::move(line));
-  }
-  add_coronary_veins(body->organs, veins, options);
-  add_aorta(body->organs, heart, options);
-  add_groove_fat(body->organs, heart, sheaths, options);
-  add_chambers(body->organs, heart, options);
-  add_great_vessels(body->organs, heart, options);
-  add_myocardium_and_fat(body->organs, heart, options);
-  add_thorax(body->organs, options);
-  impl_ = std::move(body);
+  require(options.texture >= 0.0 && options.texture <= largest_texture, "texture must lie in [0, 3]");
+  const TissueHu& hu = options.hu;
+  for (const float value :
+       {hu.arterial, hu.right_heart, hu.pulmonary, hu.vein, hu.superior_vena_cava, hu.blood, hu.myocardium,
+        hu.muscle, hu.fat, hu.epicardial_fat, hu.lung, hu.marrow, hu.bone, hu.liver})
+    require(value >= -1024.0f && value <= 3071.0f, "CT numbers must lie in [-1024, 3071] HU");
+  require(hu.coronary_drop >= 0.0f && hu.coronary_drop <= 0.6f, "coronary_drop must lie in [0, 0.6]");
+  impl_ = std::make_unique<const Impl>(heart, tree, options);
 }
+
 Body::~Body() = default;
 
 std::unique_ptr<const ScenePart> Body::part(const geometry::Box3& box) const {
-  return std::make_unique<BodyPart>(*impl_, box);
+  return std::make_unique<const BodyPart>(*impl_, box);
 }
 
 Material Body::at(const Vec3& point_mm) const {
-  return BodyPart(*impl_, geometry::Box3(point_mm, point_mm)).at(point_mm);
+  return part(Box3(point_mm, point_mm))->at(point_mm);
 }
 
 }  // namespace ostia::phantom

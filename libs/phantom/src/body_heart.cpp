@@ -8,52 +8,59 @@ namespace {
 
 /// Shapes that several tissues share.
 struct Ventricles {
-  Distance below_base, left_outer, left_cavity, right_outer, right_cavity, epicardium;
+  Distance base, left_outer, left_cavity, right_outer, right_cavity, epicardium;
 };
 
-Ventricles ventricles_of(const HeartFrame& f) {
+Ventricles ventricles_of(const HeartFrame& f, const Noise& noise) {
   const double w = f.wide, h = f.high, l = f.long_;
-  const double shear = 12.0 / 92.0;  // the left ventricle's axis meets the heart's at the apex
-  const Vec3 left(-12.0 * w, 0.0, 0.0);
   Ventricles v;
-  v.below_base = half_space(f.world(0, 0, 0.5), -f.heart.long_axis);
+  const double shear = 14.5 / 92.0;  // the left ventricle's axis meets the heart's at the apex
+  const Vec3 left(-14.5 * w, 0.0, 0.0);
+  // The base is round: it falls off towards the free walls.
+  v.base = f.ellipsoid_at({0, 0, 48.0 * l}, {62.0 * w, 58.0 * h, 51.0 * l});
+  const Distance floor = f.ellipsoid_at({0, 0, 48.0 * l}, {62.0 * w, 58.0 * h, 47.5 * l});
   v.epicardium = f.ellipsoid_at(Vec3::Zero(), {46.0 * w, 40.0 * h, 92.0 * l});
-  v.left_outer = f.ellipsoid_at(left, {34.0 * w, 37.5 * h, 90.0 * l}, shear);
-  v.left_cavity = both(f.ellipsoid_at(left, {34.0 * w - 10.0, 37.5 * h - 10.0, 90.0 * l - 7.0}, shear), v.below_base);
-  const Distance right_of_septum = half_space(f.world(-19.0 * w, 0, 0), -f.heart.right);
-  v.right_outer = both(f.ellipsoid_at(Vec3::Zero(), {45.0 * w, 38.5 * h, 85.0 * l}), right_of_septum);
-  v.right_cavity = without(both(both(f.ellipsoid_at(Vec3::Zero(), {41.5 * w, 35.0 * h, 79.0 * l}), right_of_septum),
-                                v.below_base),
-                           v.left_outer);
+  v.left_outer = f.ellipsoid_at(left, {31.5 * w, 37.0 * h, 90.0 * l}, shear);
+  const Vec3 inner(31.5 * w - 9.3, 37.0 * h - 9.8, 90.0 * l - 6.5);
+  v.left_cavity = uneven(both(f.ellipsoid_at(left, inner, shear), floor), 0.4, 10.0, noise);
+  const Distance right_of_septum = half_space(f.world(-21.0 * w, 0, 0), -f.heart.right);
+  v.right_outer = both(f.ellipsoid_at(Vec3::Zero(), {45.0 * w, 38.5 * h, 87.0 * l}), right_of_septum);
+  const Distance right_inner = f.ellipsoid_at(Vec3::Zero(), {41.8 * w, 35.3 * h, 81.0 * l});
+  v.right_cavity =
+      uneven(without(both(both(right_inner, right_of_septum), floor), v.left_outer), 0.6, 8.0, noise);
   return v;
 }
 
 struct Atria {
-  Distance left, right;
+  Distance left, right, left_shape, right_shape;
   Capsules appendage, veins, caval_lower, caval_upper;
 };
 
-Atria atria_of(const HeartFrame& f) {
+Atria atria_of(const HeartFrame& f, const Noise& noise) {
   Atria a;
-  a.left = f.ellipsoid_at({-17.0 * f.wide, -9.0, -22.0}, {27.0, 22.0, 19.0});
-  a.right = f.ellipsoid_at({33.0 * f.wide, -6.0, -21.0}, {20.0, 27.0, 18.5});
-  a.appendage = tube({{14, 22, 22}, {29, 17, 37}, {40, 5, 46}, {37, -5, 48}}, {9.0, 8.0, 7.0, 3.5});
-  append(a.appendage, tube({{38, 6, 45}, {45, -2, 42}, {46, -8, 37}}, {5.0, 3.5, 2.0}));
+  a.left_shape = f.ellipsoid_at({-17.0 * f.wide, -9.0, -21.5}, {28.0, 23.0, 20.0});
+  a.right_shape = f.ellipsoid_at({34.0 * f.wide, -7.0, -22.5}, {22.5, 30.0, 21.0});
+  a.left = uneven(a.left_shape, 0.9, 14.0, noise);
+  a.right = uneven(a.right_shape, 1.0, 12.0, noise);
+  a.appendage = tube({{14, 24, 22}, {28, 22, 38}, {38, 13, 50}, {37, 2, 57}}, {9.0, 8.0, 7.0, 3.5});
+  append(a.appendage, tube({{38, 13, 50}, {46, 6, 50}, {49, -2, 47}}, {5.0, 3.5, 2.0}));
   for (const auto& way : {std::vector<Vec3>{{-12, 27, 16}, {-34, 28, 24}, {-56, 24, 34}},
                           std::vector<Vec3>{{-12, 34, 6}, {-34, 40, -2}, {-56, 50, -14}},
                           std::vector<Vec3>{{8, 30, 18}, {30, 32, 30}, {52, 26, 42}},
                           std::vector<Vec3>{{8, 36, 10}, {30, 44, 7}, {54, 54, -6}}})
     append(a.veins, tube(way, {8.5, 6.8, 5.6}));
-  a.caval_upper = tube({{-36, 2, 10}, {-36, 0, 40}, {-34, -2, 80}, {-32, -4, 160}}, {9.5, 9.0, 9.0, 8.5}, 4.0);
-  a.caval_lower = tube({{-36, 8, -14}, {-33, 17, -40}, {-29, 26, -75}, {-26, 34, -150}}, {12, 12.0, 12.5, 12}, 4.0);
+  a.caval_upper =
+      tube({{-36, 2, 10}, {-36, 0, 40}, {-34, -2, 80}, {-32, -4, 160}}, {9.5, 9.0, 9.0, 8.5}, 4.0);
+  a.caval_lower =
+      tube({{-36, 8, -14}, {-33, 17, -40}, {-29, 26, -75}, {-26, 34, -150}}, {12, 12.0, 12.5, 12}, 4.0);
   return a;
 }
 
 Capsules outflow() {
-  return tube({{-3, -35, -8}, {3, -38, 8}, {9, -37, 22}}, {14.0, 13.0, 12.0});
+  return tube({{-3, -34, -8}, {2, -35, 8}, {7, -32, 22}}, {13.0, 11.5, 10.0});
 }
 Capsules pulmonary_trunk() {
-  Capsules out = tube({{9, -37, 22}, {16, -31, 37}, {20, -12, 53}, {19, 6, 60}}, {12.5, 13.5, 13.5, 12.5});
+  Capsules out = tube({{7, -32, 22}, {14, -30, 38}, {20, -12, 54}, {19, 6, 60}}, {10.5, 12.5, 13.5, 12.5});
   append(out, tube({{19, 4, 60}, {-2, 14, 58}, {-28, 20, 52}, {-54, 22, 42}}, {11.0, 10.0, 9.5, 7.0}));
   append(out, tube({{19, 4, 60}, {32, 18, 62}, {44, 30, 55}, {54, 36, 40}}, {11.0, 10.0, 9.0, 7.0}));
   return out;
@@ -73,7 +80,9 @@ Capsules papillary(const HeartFrame& f) {
 }  // namespace
 
 HeartFrame::HeartFrame(const HeartShape& shape)
-    : heart(shape), wide(shape.half_width_right_mm / 46.0), high(shape.half_width_up_mm / 40.0),
+    : heart(shape),
+      wide(shape.half_width_right_mm / 46.0),
+      high(shape.half_width_up_mm / 40.0),
       long_(shape.length_mm / 92.0) {
   axes << heart.right, heart.up, heart.long_axis;
 }
@@ -103,7 +112,7 @@ Distance aortic_root(const AorticRoot& root, double wall_mm) {
     const double from_ends = std::max(-6.0 - wall_mm - h, h - root.sinus_height_mm - 8.0);
     const double t = std::clamp(h / root.sinus_height_mm, 0.0, 1.0);
     double radius = root.annulus_radius_mm + t * (root.ascending_radius_mm - root.annulus_radius_mm);
-    const double bulge = std::pow(std::sin(M_PI * std::pow(t, 1.45)), 0.8);  // widest at 0.62 of the height
+    const double bulge = std::sin(M_PI * std::pow(t, 1.45));  // widest at 0.62 of the height
     if (bulge > 0.0 && rho > 1e-6) {
       const double angle = std::atan2(y, x);
       double nearest = std::abs(angle);
@@ -120,8 +129,15 @@ Capsules aorta_above_root(const HeartShape& heart) {
   const AorticRoot& root = heart.root;
   const double r = root.ascending_radius_mm;
   const Vec3 start = root.annulus + root.sinus_height_mm * root.axis;
-  return tube({start, start + 15.0 * root.axis, start + Vec3(-7, -4, 35), start + Vec3(-6, 0, 60),
-               start + Vec3(0, 22, 84), start + Vec3(20, 60, 84), {22, 74, 70}, {20, 72, 20}, {16, 71, -50},
+  return tube({start,
+               start + 15.0 * root.axis,
+               start + Vec3(-7, -4, 35),
+               start + Vec3(-6, 0, 60),
+               start + Vec3(0, 22, 84),
+               start + Vec3(20, 60, 84),
+               {22, 74, 70},
+               {20, 72, 20},
+               {16, 71, -50},
                {12, 72, -150}},
               {r, r, r, r, 0.95 * r, 0.9 * r, 0.85 * r, 0.82 * r, 0.8 * r, 0.76 * r}, 3.0);
 }
@@ -140,17 +156,17 @@ void add_groove_fat(Organs& organs, const CoronaryTree& tree, const Capsules& ve
     const auto& axis = vessel.axis;
     for (std::size_t i = 0; i + 1 < axis.size(); i += 15) {
       const std::size_t j = std::min(i + 15, axis.size() - 1);
-      fat.push_back({axis.points[i], axis.points[j], axis.radius[i] + 3.2, axis.radius[j] + 3.2});
+      fat.push_back({axis.points[i], axis.points[j], axis.radius[i] + 2.6, axis.radius[j] + 2.6});
     }
   }
   append(fat, grown(veins, 1.3));
   organs.push_back({{Label::epicardial_fat, hu.epicardial_fat}, {7.0f, 4.0f, 0.0f}, {}, fat});
 }
 
-void add_chambers(Organs& organs, const HeartShape& heart, const TissueHu& hu) {
+void add_chambers(Organs& organs, const HeartShape& heart, const TissueHu& hu, const Noise& noise) {
   const HeartFrame f(heart);
-  const Ventricles v = ventricles_of(f);
-  const Atria a = atria_of(f);
+  const Ventricles v = ventricles_of(f, noise);
+  const Atria a = atria_of(f, noise);
   const float mixed = 0.5f * (hu.right_heart + hu.superior_vena_cava);
   organs.push_back({{Label::vessel_wall, 50.0f}, {}, aortic_root(heart.root, 1.4), {}});
   organs.push_back({{Label::myocardium, hu.myocardium + 10.0f}, {8.0f, 4.0f, 0.0f}, {}, papillary(f)});
@@ -161,8 +177,9 @@ void add_chambers(Organs& organs, const HeartShape& heart, const TissueHu& hu) {
   organs.push_back({{Label::left_atrium, hu.arterial - 4.0f}, {7.0f, 9.0f, 0.0f}, a.left, {}});
   organs.push_back({{Label::left_atrium, hu.arterial - 14.0f}, {16.0f, 4.0f, 0.0f}, {}, a.appendage});
   organs.push_back({{Label::left_atrium, hu.arterial - 4.0f}, {7.0f, 9.0f, 0.0f}, {}, a.veins});
+  organs.push_back(
+      {{Label::right_atrium, 0.3f * mixed + 0.7f * hu.right_heart}, {34.0f, 11.0f, 0.0f}, a.right, {}});
   organs.push_back({{Label::vein, hu.superior_vena_cava}, {45.0f, 7.0f, 0.0f}, {}, a.caval_upper});
-  organs.push_back({{Label::right_atrium, 0.3f * mixed + 0.7f * hu.right_heart}, {34.0f, 11.0f, 0.0f}, a.right, {}});
   organs.push_back({{Label::vein, hu.blood + 45.0f}, {14.0f, 10.0f, 0.0f}, {}, a.caval_lower});
   organs.push_back({{Label::vessel_wall, 50.0f}, {}, {}, grown(aorta_above_root(heart), 1.5)});
 }
@@ -171,26 +188,29 @@ void add_great_vessels(Organs& organs, const TissueHu& hu) {
   organs.push_back({{Label::vessel_wall, hu.myocardium - 50.0f}, {}, {}, grown(pulmonary_trunk(), 1.0)});
 }
 
-void add_heart_walls(Organs& organs, const HeartShape& heart, const TissueHu& hu) {
+void add_heart_walls(Organs& organs, const HeartShape& heart, const TissueHu& hu, const Noise& noise) {
   const HeartFrame f(heart);
-  const Ventricles v = ventricles_of(f);
-  const Atria a = atria_of(f);
+  const Ventricles v = ventricles_of(f, noise);
+  const Atria a = atria_of(f, noise);
   const Texture muscle{9.0f, 7.0f, 0.0f};
   const Material wall{Label::myocardium, hu.myocardium};
-  const Distance base = half_space(f.world(0, 0, -3.0), -f.heart.long_axis);
-  organs.push_back({wall, muscle, both(either({both(v.left_outer, v.epicardium), v.right_outer}), base), {}});
+  organs.push_back(
+      {wall, muscle, both(either({both(v.left_outer, v.epicardium), v.right_outer}), v.base), {}});
   organs.push_back({wall, muscle, {}, grown(outflow(), 2.5)});
   const Material thin{Label::myocardium, hu.myocardium - 15.0f};
-  organs.push_back({thin, muscle, either({grown(a.left, 1.6), grown(a.right, 1.6)}), {}});
+  organs.push_back({thin, muscle, either({grown(a.left_shape, 3.2), grown(a.right_shape, 3.4)}), {}});
   organs.push_back({thin, muscle, {}, grown(a.appendage, 1.0)});
   // The pericardial sac: fat within, a thin line about it.
   const double w = f.wide, h = f.high, l = f.long_;
-  const Distance sac = either({both(f.ellipsoid_at({2.5, 0.0, 0.0}, {50.5 * w, 44.5 * h, 97.0 * l}),
-                                    half_space(f.world(0, 0, -14.0), -f.heart.long_axis)),
-                               f.ellipsoid_at({4.0, -4.0, -18.0}, {53.0 * w, 36.0 * h, 26.0}),
-                               ellipsoid({2, -18, 30}, {36.0, 32.0, 34.0})});
-  organs.push_back({{Label::epicardial_fat, hu.epicardial_fat}, {8.0f, 5.0f, 0.0f}, sac, {}});
-  organs.push_back({{Label::muscle, 25.0f}, {}, grown(sac, 1.1), {}});
+  const Distance sac_shape = either({both(f.ellipsoid_at({2.5, 0.0, 0.0}, {50.5 * w, 44.5 * h, 97.0 * l}),
+                                          half_space(f.world(0, 0, -14.0), -f.heart.long_axis)),
+                                     f.ellipsoid_at({4.0, -4.0, -18.0}, {53.0 * w, 36.0 * h, 26.0}),
+                                     ellipsoid({2, -18, 30}, Vec3(36.0, 32.0, 34.0))});
+  organs.push_back({{Label::epicardial_fat, hu.epicardial_fat},
+                    {8.0f, 5.0f, 0.0f},
+                    uneven(sac_shape, 1.1, 17.0, noise),
+                    {}});
+  organs.push_back({{Label::muscle, 25.0f}, {}, uneven(grown(sac_shape, 1.2), 1.1, 17.0, noise), {}});
 }
 
 }  // namespace ostia::phantom

@@ -6,7 +6,11 @@
 #include "ostia/phantom/body.h"
 #include "ostia/phantom/vessel_field.h"
 
+#include <memory>
+
 namespace ostia::phantom {
+
+using Noise = std::shared_ptr<const NoiseField>;
 
 /// A place in the heart's own directions, mm from its base.
 struct HeartFrame {
@@ -15,7 +19,7 @@ struct HeartFrame {
   /// x: (right - centre), sheared along the long axis by `shear` a mm, over semi-axes.
   Distance ellipsoid_at(const Vec3& centre, const Vec3& semi_axes, double shear = 0.0) const;
   HeartShape heart;
-  geometry::Mat3 axes;             ///< columns right, up, along
+  geometry::Mat3 axes;                         ///< columns right, up, along
   double wide = 1.0, high = 1.0, long_ = 1.0;  ///< sizes over the usual ones (46, 40 and 92 mm)
 };
 
@@ -30,10 +34,12 @@ Capsules coronary_veins(const HeartShape& heart, const CoronaryTree& tree, const
 void add_aorta(Organs& organs, const HeartShape& heart, const TissueHu& hu);
 /// Fat about the arteries and veins; before the chambers, so that none takes an artery.
 void add_groove_fat(Organs& organs, const CoronaryTree& tree, const Capsules& veins, const TissueHu& hu);
-void add_chambers(Organs& organs, const HeartShape& heart, const TissueHu& hu);
+void add_chambers(Organs& organs, const HeartShape& heart, const TissueHu& hu, const Noise& noise);
 void add_great_vessels(Organs& organs, const TissueHu& hu);
-void add_heart_walls(Organs& organs, const HeartShape& heart, const TissueHu& hu);
-void add_mediastinum(Organs& organs, const TissueHu& hu);
+void add_heart_walls(Organs& organs, const HeartShape& heart, const TissueHu& hu, const Noise& noise);
+/// Spine, sternum and ribs; before the mediastinum, which lies about the spine.
+void add_bones(Organs& organs, const TissueHu& hu);
+void add_mediastinum(Organs& organs, const TissueHu& hu, const Noise& noise);
 void add_lungs(Organs& organs, const TissueHu& hu, std::uint64_t seed);
 void add_chest_wall(Organs& organs, const TissueHu& hu, std::uint64_t seed);
 

@@ -33,7 +33,7 @@ double healthy_wall_radius(double lumen_radius_mm) {
   return 1.12 * lumen_radius_mm + 0.25;
 }
 
-void set_calibre(CoronaryVessel& vessel, double start_radius_mm, double end_radius_mm,
+void set_calibre(CoronaryVessel& vessel, double start_radius_mm, double end_radius_mm, double taper_power,
                  std::vector<BranchShare> branches, std::uint64_t seed) {
   std::sort(branches.begin(), branches.end(),
             [](const BranchShare& a, const BranchShare& b) { return a.s_mm < b.s_mm; });
@@ -47,7 +47,7 @@ void set_calibre(CoronaryVessel& vessel, double start_radius_mm, double end_radi
   const double left_over = start_radius_mm * murray(length);
   const double narrowing = std::min(1.0, end_radius_mm / left_over);
   const auto healthy = [&](double s) {
-    return start_radius_mm * murray(s) * (1.0 - (1.0 - narrowing) * s / length);
+    return start_radius_mm * murray(s) * (1.0 - (1.0 - narrowing) * std::pow(s / length, taper_power));
   };
   vessel.healthy_radius_mm.clear();
   for (const double s : vessel.axis.abscissa) vessel.healthy_radius_mm.push_back(healthy(s));
@@ -85,12 +85,21 @@ double radius_before_branch(const CoronaryVessel& vessel, double s_mm) {
 }
 
 double free_abscissa(const CoronaryVessel& vessel, const CoronaryVessel& parent) {
+  constexpr double reach_mm = 25.0, settled_mm = 4.0;
+  std::vector<Vec3> near;  // the parent's axis about the branch
+  double offset = 0.0;
+  for (std::size_t i = 0; i < parent.axis.size(); ++i) {
+    if (std::abs(parent.axis.abscissa[i] - vessel.parent_s_mm) > reach_mm + 5.0) continue;
+    if (near.empty()) offset = parent.axis.abscissa[i];
+    near.push_back(parent.axis.points[i]);
+  }
   double last = 0.0;
-  for (std::size_t i = 0; i < vessel.axis.size() && vessel.axis.abscissa[i] < 25.0; ++i) {
-    const auto near = geometry::closest(parent.axis.points, vessel.axis.points[i]);
-    const double distance = (near.point - vessel.axis.points[i]).norm();
+  for (std::size_t i = 0; i < vessel.axis.size() && vessel.axis.abscissa[i] < reach_mm; ++i) {
     const double s = vessel.axis.abscissa[i];
-    if (distance < vessel.lumen.max_at(s) + parent.wall.max_at(near.abscissa)) last = s;
+    if (s > last + settled_mm) break;
+    const auto foot = geometry::closest(near, vessel.axis.points[i]);
+    const double distance = (foot.point - vessel.axis.points[i]).norm();
+    if (distance < vessel.lumen.max_at(s) + parent.wall.max_at(offset + foot.abscissa)) last = s;
   }
   return last;
 }

@@ -14,9 +14,9 @@ struct BranchShare {
 };
 
 /// Sets healthy radius, lumen and wall of a vessel whose axis is drawn. Where a branch leaves, r^3 is shared
-/// between it and what goes on (Murray 1926); between branches the vessel narrows evenly, so that it ends
-/// with `end_radius_mm` where the branches leave it more than that.
-void set_calibre(CoronaryVessel& vessel, double start_radius_mm, double end_radius_mm,
+/// between it and what goes on (Murray 1926); between branches the vessel narrows as (s /
+/// length)^taper_power, so that it ends with `end_radius_mm` where the branches leave it more than that.
+void set_calibre(CoronaryVessel& vessel, double start_radius_mm, double end_radius_mm, double taper_power,
                  std::vector<BranchShare> branches, std::uint64_t seed);
 /// The mean radius just before a place where a branch leaves.
 double radius_before_branch(const CoronaryVessel& vessel, double s_mm);

@@ -135,18 +135,20 @@ CoursePlan plan_courses(const HeartShape& heart, std::uint64_t seed) {
        main, 0.75});
   std::vector<Waypoint> groove{
       {a + 24, 0.02, 5.5}, {a + 40, -0.02, 5.0}, {a + 62, -0.02, 4.6}, {a + 84, -0.01, 4.2}};
-  if (left) {  // on to the crux, the left way round
-    groove.push_back({a + 104.0, 0.0, 4.0});
+  if (left) groove.push_back({a + 104.0, 0.0, 4.0});  // on towards the crux, the left way round
+  if (plan.dominance == Dominance::balanced) groove.push_back({b + 360.0 - 26.0, 0.03, 3.6});
+  if (plan.dominance == Dominance::left) {
     groove.push_back({b + 360.0 - 12.0, 0.02, 4.0});
     groove.push_back({b + 360.0 + 8.0, 0.06, 3.6});
   }
   add({"LCX", "LAD", main_length, {}, varied(groove, random, 2.0), lcx / main, 0.8});
+  if (plan.dominance == Dominance::left) out.back().taper_power = 3.0;
   if (ramus)
     add({"RI",
          "LAD",
          main_length + 1.0,
          {},
-         varied({{a + 14, 0.16, 4.0}, {a + 22, 0.32, 3.0}, {a + 28, 0.5, 2.4}}, random),
+         varied({{a + 16, 0.16, 4.0}, {a + 28, 0.32, 3.0}, {a + 35, 0.5, 2.4}}, random),
          0.55,
          0.65,
          false});
@@ -192,13 +194,18 @@ CoursePlan plan_courses(const HeartShape& heart, std::uint64_t seed) {
       {42, -0.03, 6.5}, {30, -0.02, 5.4}, {10, -0.01, 4.6}, {-22, 0.0, 4.4}, {-58, 0.01, 4.2}};
   if (right) {
     right_groove.push_back({b + 3.0, 0.02, 4.0});
-    right_groove.push_back({b - 22.0, 0.03, 3.6});
-    right_groove.push_back({b - 34.0, 0.1, 2.8});
+    if (plan.dominance == Dominance::right) {
+      right_groove.push_back({b - 22.0, 0.03, 3.6});
+      right_groove.push_back({b - 34.0, 0.1, 2.8});
+    } else {
+      right_groove.push_back({b - 8.0, 0.03, 3.6});
+    }
   } else {
     right_groove.pop_back();
     right_groove.push_back({-48, 0.03, 3.6});
   }
   add({"RCA", "", 0.0, from_sinus(root, root.right_sinus, 5.0), right_groove, rca, 0.75});
+  out.back().taper_power = 3.0;
   add({"CB",
        "RCA",
        random.between(9.0, 14.0),
@@ -227,8 +234,19 @@ CoursePlan plan_courses(const HeartShape& heart, std::uint64_t seed) {
   return plan;
 }
 
+double least_bend_mm(const Centerline& axis) {
+  constexpr std::size_t reach = 8;
+  double most = 1e-6;
+  for (std::size_t i = reach; i + reach < axis.size(); i += 3) {
+    const Vec3 behind = axis.points[i] - axis.points[i - reach],
+               ahead = axis.points[i + reach] - axis.points[i];
+    most = std::max(most, (ahead - behind).norm() / (behind.norm() * ahead.norm()));
+  }
+  return 1.0 / most;
+}
+
 Centerline draw_axis(const HeartShape& heart, const Course& course, const Centerline* parent,
-                     std::uint64_t seed) {
+                     double least_bend, std::uint64_t seed) {
   Stream random(seed, course.name);
   std::vector<Vec3> controls = course.beginning;
   const std::vector<Vec3> way = way_points(heart, course, random);
@@ -239,16 +257,19 @@ Centerline draw_axis(const HeartShape& heart, const Course& course, const Center
   while (first + 2 < way.size() && (way[first] - last).norm() < 5.0) ++first;
   controls.insert(controls.end(), way.begin() + static_cast<std::ptrdiff_t>(first), way.end());
   // A first spline resampled every 3 mm and smoothed takes out what bends too sharply.
-  std::vector<Vec3> even = geometry::resample(controls, 3.0);
+  const std::vector<Vec3> even = geometry::resample(controls, 3.0);
   const std::vector<double> t = geometry::abscissas(even);
   const std::vector<double> weights(t.size(), 1.0);
-  even = geometry::smoothing_spline(t, even, weights, 120.0, true);
-  const ArcLengthSpline spline(even);
-  const auto steps = static_cast<std::size_t>(std::ceil(spline.length() / axis_step_mm));
   Centerline axis;
-  for (std::size_t i = 0; i <= steps; ++i)
-    axis.points.push_back(
-        spline.point(spline.length() * static_cast<double>(i) / static_cast<double>(steps)));
+  for (double stiffness = 120.0; stiffness < 1e5; stiffness *= 8.0) {
+    const ArcLengthSpline spline(geometry::smoothing_spline(t, even, weights, stiffness, true));
+    const auto steps = static_cast<std::size_t>(std::ceil(spline.length() / axis_step_mm));
+    axis.points.clear();
+    for (std::size_t i = 0; i <= steps; ++i)
+      axis.points.push_back(
+          spline.point(spline.length() * static_cast<double>(i) / static_cast<double>(steps)));
+    if (least_bend_mm(axis) >= least_bend) break;
+  }
   geometry::complete(
       axis, parent == nullptr
                 ? Vec3(Vec3::Zero())

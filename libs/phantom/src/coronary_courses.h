@@ -30,6 +30,8 @@ struct Course {
   double start_radius_mm = 0.0;  ///< at the ostium; for a branch its share of the parent's radius there
   double end_radius_mm = 0.7;    ///< at the distal end, when branches leave more than that
   bool keep = true;              ///< false: may be left out where it comes too near to another vessel
+  /// How late the vessel narrows: 1 evenly from its start, more where it keeps its width up to the crux.
+  double taper_power = 1.0;
 };
 
 /// The courses of a heart, parents first: dominance and variants drawn from the seed.
@@ -40,8 +42,12 @@ struct CoursePlan {
 CoursePlan plan_courses(const HeartShape& heart, std::uint64_t seed);
 
 /// The axis of a course at 0.1 mm steps, with frames and without radii. `parent` is the parent's axis, or
-/// nothing.
+/// nothing. It is smoothed until its radius of curvature is nowhere below `least_bend_mm`, if eight times
+/// harder smoothing each time can do it.
 geometry::Centerline draw_axis(const HeartShape& heart, const Course& course,
-                               const geometry::Centerline* parent, std::uint64_t seed);
+                               const geometry::Centerline* parent, double least_bend_mm, std::uint64_t seed);
+
+/// The least radius of curvature along an axis of 0.1 mm steps.
+double least_bend_mm(const geometry::Centerline& axis);
 
 }  // namespace ostia::phantom

@@ -36,6 +36,33 @@ double healthy_radius(const CoronaryVessel& vessel, double s_mm) {
   return (1.0 - t) * vessel.healthy_radius_mm[j - 1] + t * vessel.healthy_radius_mm[j];
 }
 
+/// What is left of the radius at each angle where the narrowing has reached the share `w` of its throat's: a
+/// circle pushed away from the plaque. On the far side the narrowing is (1 - eccentricity) of the mean one.
+std::vector<double> shares_left(const CoronaryVessel& vessel, const LesionOptions& lesion, double s_mm,
+                                double w) {
+  const int around = vessel.lumen.around();
+  std::vector<double> shares(static_cast<std::size_t>(around), 1.0);
+  if (w <= 0.0) return shares;
+  const double mean = 1.0 - w * lesion.diameter_stenosis;
+  const double most = 1.0 - w * lesion.diameter_stenosis * (1.0 - lesion.eccentricity);
+  double radius = mean, shift = 0.0;
+  for (int i = 0; i < 40; ++i) {  // mean of an off-centre circle: radius - shift^2 / (4 radius), about
+    shift = std::min(most - radius, 0.8 * radius);
+    radius = 0.5 * (radius + mean + shift * shift / (4.0 * radius));
+  }
+  double was_sum = 0.0, sum = 0.0;
+  for (int c = 0; c < around; ++c) {
+    const double theta = 2.0 * pi * c / around, angle = theta - lesion.theta;
+    const double across = shift * std::sin(angle), was = vessel.lumen.at(s_mm, theta);
+    const double left = std::sqrt(radius * radius - across * across) - shift * std::cos(angle);
+    shares[static_cast<std::size_t>(c)] = left;
+    was_sum += was;
+    sum += was * left;
+  }
+  for (double& share : shares) share *= mean * was_sum / sum;
+  return shares;
+}
+
 /// The profiles, sample by sample, with the lesion in them.
 void reshape(CoronaryVessel& vessel, const LesionOptions& lesion) {
   const int around = vessel.lumen.around();
@@ -44,10 +71,11 @@ void reshape(CoronaryVessel& vessel, const LesionOptions& lesion) {
   std::vector<double> lumen, wall;
   for (int row = 0; row < rows; ++row) {
     const double s = row * step, w = narrowing_at(s, lesion);
+    const std::vector<double> shares = shares_left(vessel, lesion, s, w);
     for (int c = 0; c < around; ++c) {
       const double theta = 2.0 * pi * c / around, side = std::cos(theta - lesion.theta);
       const double was = vessel.lumen.at(s, theta), outer = vessel.wall.at(s, theta);
-      const double narrowed = was * (1.0 - w * lesion.diameter_stenosis * (1.0 + lesion.eccentricity * side));
+      const double narrowed = was * shares[static_cast<std::size_t>(c)];
       const double swollen =
           outer * (1.0 + w * (lesion.remodelling - 1.0) * (1.0 + 0.5 * lesion.eccentricity * side));
       lumen.push_back(narrowed);

@@ -17,7 +17,8 @@ namespace {
 using geometry::Centerline;
 
 constexpr int attempts = 12;
-constexpr double clear_mm = 1.2;  ///< least distance between outer walls away from bifurcations
+constexpr double bend_in_radii = 3.0;  ///< least radius of curvature
+constexpr double clear_mm = 1.2;       ///< least distance between outer walls away from bifurcations
 
 double crux_abscissa(const HeartShape& heart, const Centerline& axis) {
   return geometry::closest(axis.points, heart.epicardium(heart.posterior_groove_rad, 0.02, 4.0)).abscissa;
@@ -33,18 +34,32 @@ const Course* find(const std::vector<Course>& courses, const std::string& name) 
 /// The largest radius a course may have anywhere, for the test of distances.
 double bound_of(const std::vector<Course>& courses, const Course& course) {
   const Course* parent = find(courses, course.parent);
-  return parent == nullptr ? course.start_radius_mm : course.start_radius_mm * bound_of(courses, *parent);
+  constexpr double taper = 0.85;  // what parents have lost where their branches leave
+  return parent == nullptr ? course.start_radius_mm
+                           : taper * course.start_radius_mm * bound_of(courses, *parent);
 }
 
-/// Whether an axis comes too near to another that it does not spring from (or springs from, but away from
-/// there).
-bool collides(const Centerline& axis, double radius, const Centerline& other, double other_radius,
-              double skip_mm) {
-  const double reach = radius + other_radius + 1.2 + clear_mm;
-  for (std::size_t i = 0; i < axis.size(); i += 5) {
-    if (axis.abscissa[i] < skip_mm) continue;
-    for (std::size_t j = 0; j < other.size(); j += 5) {
-      if ((axis.points[i] - other.points[j]).squaredNorm() < reach * reach) return true;
+/// A drawn axis with bounds of its radius at both ends.
+struct Bounded {
+  const Centerline& axis;
+  double start_mm, end_mm;
+  double radius(std::size_t i) const {
+    return start_mm + (end_mm - start_mm) * axis.abscissa[i] / axis.abscissa.back();
+  }
+};
+
+/// Whether a vessel, from `skip_mm` on, comes too near to another that it does not spring from (or springs
+/// from, but away from there).
+bool collides(const Bounded& vessel, const Bounded& other, double skip_mm) {
+  constexpr double walls_mm = 1.2;  // both, about
+  for (std::size_t i = 0; i < vessel.axis.size(); i += 5) {
+    if (vessel.axis.abscissa[i] < skip_mm) continue;
+    const double most = vessel.radius(i) + other.start_mm + other.end_mm + walls_mm + clear_mm;
+    for (std::size_t j = 0; j < other.axis.size();) {
+      const double reach = vessel.radius(i) + other.radius(j) + walls_mm + clear_mm;
+      const double distance = (vessel.axis.points[i] - other.axis.points[j]).norm();
+      if (distance < reach) return true;
+      j += 5 + static_cast<std::size_t>(std::max(0.0, distance - most) / 0.1);  // points are 0.1 mm apart
     }
   }
   return false;
@@ -65,16 +80,17 @@ std::vector<std::pair<Course, Centerline>> draw_axes(const HeartShape& heart, co
       course.parent_s_mm = std::min(crux_abscissa(heart, *parent), parent->abscissa.back() - 6.0);
     if (parent != nullptr && course.parent_s_mm > parent->abscissa.back() - 5.0) continue;
     for (int attempt = 0; attempt < attempts; ++attempt) {
-      Centerline axis =
-          draw_axis(heart, course, parent, seed + 7919ULL * static_cast<std::uint64_t>(attempt));
+      Centerline axis = draw_axis(heart, course, parent, bend_in_radii * bound_of(plan.courses, course),
+                                  seed + 7919ULL * static_cast<std::uint64_t>(attempt));
       const bool last = attempt + 1 == attempts;
       const bool clear = std::none_of(out.begin(), out.end(), [&](const auto& other) {
         const bool related =
             other.first.name == course.parent ||
             (other.first.parent == course.parent &&
              std::abs(other.first.parent_s_mm - course.parent_s_mm) < 6.0 && parent != nullptr);
-        return collides(axis, bound_of(plan.courses, course), other.second,
-                        bound_of(plan.courses, other.first) * 0.8, related ? 11.0 : 0.0);
+        return collides({axis, bound_of(plan.courses, course), course.end_radius_mm},
+                        {other.second, bound_of(plan.courses, other.first), other.first.end_radius_mm},
+                        related ? 11.0 : 0.0);
       });
       if (!clear && !(last && course.keep)) continue;
       out.emplace_back(course, std::move(axis));
@@ -155,7 +171,7 @@ CoronaryTree draw_coronaries(const HeartShape& heart, const CoronaryOptions& opt
                              : course.start_radius_mm *
                                    radius_before_branch(tree.vessels[static_cast<std::size_t>(vessel.parent)],
                                                         course.parent_s_mm);
-    set_calibre(vessel, start, course.end_radius_mm, branches, options.seed);
+    set_calibre(vessel, start, course.end_radius_mm, course.taper_power, branches, options.seed);
     tree.vessels.push_back(std::move(vessel));
   }
   for (CoronaryVessel& vessel : tree.vessels) {

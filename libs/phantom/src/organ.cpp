@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::int64_t table_side = 64;
 constexpr std::int64_t table_mask = table_side - 1;
+constexpr double table_range = 5.8;  // of uniform numbers: brings the deviation to about 1
 
 }  // namespace
 
@@ -102,7 +103,7 @@ void append(Capsules& to, const Capsules& more) {
 
 NoiseField::NoiseField(std::uint64_t seed) : value_(table_side * table_side * table_side) {
   for (std::size_t i = 0; i < value_.size(); ++i)
-    value_[i] = static_cast<float>(5.8 * (uniform(seed, 0x54455854ULL * 0x100000000ULL + i) - 0.5));
+    value_[i] = static_cast<float>(table_range * (uniform(seed, 0x54455854ULL * 0x100000000ULL + i) - 0.5));
 }
 
 double NoiseField::at(const Vec3& u) const {
@@ -126,6 +127,18 @@ double NoiseField::at(const Vec3& u) const {
   };
   const double a = plane(low[2]);
   return a + weight[2] * (plane(high[2]) - a);
+}
+
+Distance uneven(Distance a, double amplitude_mm, double grain_mm, std::shared_ptr<const NoiseField> noise) {
+  // The smooth step's slope is at most 1.5, along each axis.
+  const double steepest = 1.0 + amplitude_mm * 1.5 * std::sqrt(3.0) * table_range / grain_mm;
+  const double most = 0.5 * table_range * amplitude_mm;
+  return [=, a = std::move(a)](const Vec3& p) {
+    const double d = a(p);
+    if (std::abs(d) > most) return (d > 0.0 ? d - most : d + most) / steepest;
+    const double moved = d + amplitude_mm * noise->at(p / grain_mm + Vec3::Constant(0.37 * grain_mm));
+    return std::clamp(moved, -most, most) / steepest;
+  };
 }
 
 }  // namespace ostia::phantom

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <vector>
 
 namespace ostia::phantom {
@@ -67,5 +68,8 @@ class NoiseField {
  private:
   std::vector<float> value_;
 };
+
+/// The shape with an uneven outline: in and out by about `amplitude_mm` over distances of `grain_mm`.
+Distance uneven(Distance a, double amplitude_mm, double grain_mm, std::shared_ptr<const NoiseField> noise);
 
 }  // namespace ostia::phantom

@@ -33,6 +33,7 @@ RadialProfile::RadialProfile(double step_mm, int around, std::vector<double> rad
     if (!(r > 0.0) || !std::isfinite(r))
       throw InvalidInput("radial profile: a radius of " + std::to_string(r) + " mm; radii must be positive");
   }
+  rows_ = static_cast<int>(radii_.size() / static_cast<std::size_t>(around));
   const auto [low, high] = std::minmax_element(radii_.begin(), radii_.end());
   // The four weights' absolute sum is at most 1.25 in each direction.
   const double middle = 0.5 * (*low + *high), half = 0.5 * 1.25 * 1.25 * (*high - *low);
@@ -41,26 +42,25 @@ RadialProfile::RadialProfile(double step_mm, int around, std::vector<double> rad
 }
 
 double RadialProfile::length_mm() const {
-  return around_ == 0 ? 0.0 : step_mm_ * (static_cast<double>(radii_.size()) / around_ - 1.0);
+  return around_ == 0 ? 0.0 : step_mm_ * (rows_ - 1);
 }
 
 double RadialProfile::at(double s_mm, double theta) const {
-  const auto rows = static_cast<std::int64_t>(radii_.size()) / around_;
-  const double x = std::clamp(s_mm / step_mm_, 0.0, static_cast<double>(rows - 1));
-  const auto row = std::min(static_cast<std::int64_t>(x), rows - 2);
+  const double x = std::clamp(s_mm / step_mm_, 0.0, static_cast<double>(rows_ - 1));
+  const int row = std::min(static_cast<int>(x), rows_ - 2);
   const auto along = catmull_rom(x - static_cast<double>(row));
-  const double turn = theta / (2.0 * std::numbers::pi);
+  const double turn = theta * (0.5 / std::numbers::pi);
   const double y = (turn - std::floor(turn)) * around_;
-  const auto column = static_cast<std::int64_t>(y) % around_;
-  const auto across = catmull_rom(y - std::floor(y));
-  std::array<std::int64_t, 4> columns;
-  for (std::int64_t c = 0; c < 4; ++c) {
-    const std::int64_t at = column + c - 1;
+  const int whole = static_cast<int>(y), column = whole >= around_ ? 0 : whole;
+  const auto across = catmull_rom(y - whole);
+  std::array<int, 4> columns;
+  for (int c = 0; c < 4; ++c) {
+    const int at = column + c - 1;
     columns[static_cast<std::size_t>(c)] = at < 0 ? at + around_ : at >= around_ ? at - around_ : at;
   }
   double sum = 0.0;
-  for (std::int64_t r = 0; r < 4; ++r) {
-    const double* values = radii_.data() + std::clamp<std::int64_t>(row + r - 1, 0, rows - 1) * around_;
+  for (int r = 0; r < 4; ++r) {
+    const double* values = radii_.data() + std::clamp(row + r - 1, 0, rows_ - 1) * around_;
     double part = 0.0;
     for (std::size_t c = 0; c < 4; ++c) part += across[c] * values[columns[c]];
     sum += along[static_cast<std::size_t>(r)] * part;

@@ -2,11 +2,8 @@
 #include "surface_refine.h"
 
 #include "ostia/core/error.h"
-#include "ostia/geometry/mesh_topology.h"
 #include "ostia/phantom/vessel_field.h"
 
-#include <algorithm>
-#include <cmath>
 #include <string>
 
 namespace ostia::phantom {
@@ -30,8 +27,8 @@ class BoundaryField final : public ImplicitField {
 
 geometry::TriMesh tree_surface(const VesselField& field, Boundary boundary, double spacing_mm,
                                const core::TaskContext& task) {
-  if (!(spacing_mm >= 0.02 && spacing_mm <= 2.0))
-    throw InvalidInput("the spacing of a tree's surface must lie in [0.02, 2] mm, not " +
+  if (!(spacing_mm >= 0.02 && spacing_mm <= 1.0))
+    throw InvalidInput("the spacing of a tree's surface must lie in [0.02, 1] mm, not " +
                        std::to_string(spacing_mm));
   if (field.box().isEmpty()) return {};
   const BoundaryField f(field, boundary, 4.0 * spacing_mm);

@@ -21,6 +21,12 @@ struct Chunk {
   std::int32_t vessel = 0;
   std::size_t first = 0, last = 0;  // axis points [first, last]
   Box3 box;                         // of the axis points, grown by the largest outer radius near them
+  double most_mm = 0.0;             // that radius
+};
+
+/// What the search for feet reads of an axis point, side by side in memory.
+struct Station {
+  Vec3 point, tangent;
 };
 
 Material material_of(PlaqueKind kind, float hu) {
@@ -36,18 +42,24 @@ Material material_of(PlaqueKind kind, float hu) {
   return {Label::soft_plaque, hu};
 }
 
-/// Bodies of plaque taper towards their ends: what is left of the extent at a place along them.
+/// Nodules of calcium are lenses; other bodies fill the wall's thickness and taper towards their ends.
 bool holds(const Plaque& plaque, double s_mm, double theta, double depth) {
   const double along = 2.0 * std::abs(s_mm - plaque.s_centre_mm) / plaque.length_mm;
   if (along >= 1.0 || depth < plaque.depth_from || depth > plaque.depth_to) return false;
-  const double around = std::abs(std::remainder(theta - plaque.theta_centre, 2.0 * std::numbers::pi));
-  return 2.0 * around < plaque.theta_extent * std::sqrt(1.0 - along * along);
+  const double turn = std::abs(std::remainder(theta - plaque.theta_centre, 2.0 * std::numbers::pi));
+  const double around = 2.0 * turn / plaque.theta_extent;
+  const double left = 1.0 - along * along - around * around;
+  if (plaque.kind != PlaqueKind::calcified) return left > 0.0;
+  const double through = (2.0 * depth - plaque.depth_from - plaque.depth_to) /
+                         std::max(1e-6, plaque.depth_to - plaque.depth_from);
+  return left > through * through;
 }
 
 }  // namespace
 
 struct VesselField::Impl {
   CoronaryTree tree;
+  std::vector<std::vector<Station>> stations;  // one list a vessel
   std::vector<Chunk> chunks;
   struct Node {
     Box3 box;
@@ -79,14 +91,16 @@ struct VesselField::Impl {
     return at;
   }
 
+  /// `visit` may shorten the reach as it goes.
   template <class Visit>
-  void near(const Vec3& p, double reach, const Visit& visit) const {
+  void near(const Vec3& p, const double& reach, const Visit& visit) const {
     std::int32_t stack[64];
     int top = 0;
     if (!nodes.empty()) stack[top++] = 0;
     while (top > 0) {
       const Node& node = nodes[static_cast<std::size_t>(stack[--top])];
-      if (node.box.squaredExteriorDistance(p) > reach * reach) continue;
+      const double bound = reach > 0.0 ? reach * reach : 0.0;
+      if (node.box.squaredExteriorDistance(p) > bound) continue;
       if (node.left >= 0) {
         stack[top++] = node.right;
         stack[top++] = node.left;
@@ -94,61 +108,71 @@ struct VesselField::Impl {
       }
       for (std::int32_t i = node.first; i < node.last; ++i) {
         const Chunk& chunk = chunks[static_cast<std::size_t>(i)];
-        if (chunk.box.squaredExteriorDistance(p) <= reach * reach) visit(chunk);
+        if (chunk.box.squaredExteriorDistance(p) <= bound) visit(chunk);
       }
     }
   }
 
-  /// The place whose foot is at the axis' abscissa s, given the vector from the axis and the frames' mixture.
-  Place place_at(std::int32_t vessel, std::size_t i, double t, double s, const Vec3& from_axis) const {
-    const CoronaryVessel& v = tree.vessels[static_cast<std::size_t>(vessel)];
-    const std::size_t j = std::min(i + 1, v.axis.size() - 1);
-    const geometry::Frame &a = v.axis.frames[i], &b = v.axis.frames[j];
-    const Vec3 n = (1.0 - t) * a.normal + t * b.normal, m = (1.0 - t) * a.binormal + t * b.binormal;
+  /// A foot on an axis: at `t` between points `i` and the next, `s_mm` along, and the way from it to the
+  /// place.
+  struct Foot {
+    std::int32_t vessel = 0;
+    std::size_t i = 0;
+    double t = 0.0, s_mm = 0.0;
+    Vec3 aside;
+  };
+
+  /// The place of a foot; `lumen_mm` and `wall_mm` only when asked for.
+  Place place_at(const Foot& foot, bool lumen, bool wall) const {
+    const CoronaryVessel& v = tree.vessels[static_cast<std::size_t>(foot.vessel)];
+    const std::size_t j = std::min(foot.i + 1, v.axis.size() - 1);
+    const geometry::Frame &a = v.axis.frames[foot.i], &b = v.axis.frames[j];
+    const Vec3 n = (1.0 - foot.t) * a.normal + foot.t * b.normal;
+    const Vec3 m = (1.0 - foot.t) * a.binormal + foot.t * b.binormal;
     Place place;
-    place.vessel = vessel;
-    place.s_mm = s;
-    const double x = from_axis.dot(n), y = -from_axis.dot(m);
+    place.vessel = foot.vessel;
+    place.s_mm = foot.s_mm;
+    const double x = foot.aside.dot(n), y = -foot.aside.dot(m);  // geometry::radial_direction's angle
     place.theta = x == 0.0 && y == 0.0 ? 0.0 : std::atan2(y, x);
-    place.rho_mm = from_axis.norm();
-    place.lumen_mm = v.lumen.at(s, place.theta);
-    place.wall_mm = v.wall.at(s, place.theta);
+    place.rho_mm = foot.aside.norm();
+    if (lumen) place.lumen_mm = v.lumen.at(foot.s_mm, place.theta);
+    if (wall) place.wall_mm = v.wall.at(foot.s_mm, place.theta);
     return place;
   }
 
-  /// Feet where the axis' normal planes, which turn evenly between its points, pass through p from behind to
-  /// ahead.
+  /// The foot where the axis' normal planes, which turn evenly between its points, pass through p from behind
+  /// to ahead (there is one at most nearer than the axis' radius of curvature, in so short a piece); places
+  /// beyond the ends have their foot at the end.
   template <class Take>
   void feet(const Chunk& chunk, const Vec3& p, const Take& take) const {
-    const Centerline& axis = tree.vessels[static_cast<std::size_t>(chunk.vessel)].axis;
-    double ahead = (p - axis.points[chunk.first]).dot(axis.frames[chunk.first].tangent);
-    if (chunk.first == 0 && ahead < 0.0) {
-      const Vec3 aside = p - axis.points[0] - ahead * axis.frames[0].tangent;
-      take(place_at(chunk.vessel, 0, 0.0, ahead, aside));
+    const auto& axis = stations[static_cast<std::size_t>(chunk.vessel)];
+    const auto& abscissa = tree.vessels[static_cast<std::size_t>(chunk.vessel)].axis.abscissa;
+    const auto ahead_of = [&](std::size_t i) { return (p - axis[i].point).dot(axis[i].tangent); };
+    double ahead = ahead_of(chunk.first), next = ahead_of(chunk.last);
+    if (chunk.first == 0 && ahead < 0.0)
+      take(Foot{chunk.vessel, 0, 0.0, ahead, p - axis[0].point - ahead * axis[0].tangent});
+    if (chunk.last + 1 == axis.size() && next >= 0.0)
+      take(Foot{chunk.vessel, chunk.last, 0.0, abscissa.back() + next,
+                p - axis.back().point - next * axis.back().tangent});
+    if (ahead < 0.0 || next >= 0.0) return;
+    std::size_t i = chunk.first, j = chunk.last;
+    while (j - i > 1) {
+      const std::size_t middle = (i + j) / 2;
+      const double there = ahead_of(middle);
+      (there >= 0.0 ? i : j) = middle;
+      (there >= 0.0 ? ahead : next) = there;
     }
-    for (std::size_t i = chunk.first; i < chunk.last; ++i) {
-      const double next = (p - axis.points[i + 1]).dot(axis.frames[i + 1].tangent);
-      if (ahead >= 0.0 && next < 0.0) {
-        double t = ahead / (ahead - next);
-        for (int step = 0; step < 3; ++step) {  // the planes' equation is quadratic and nearly linear
-          const Vec3 c = (1.0 - t) * axis.points[i] + t * axis.points[i + 1];
-          const Vec3 tangent = (1.0 - t) * axis.frames[i].tangent + t * axis.frames[i + 1].tangent;
-          const double f = (p - c).dot(tangent);
-          const double slope = (p - c).dot(axis.frames[i + 1].tangent - axis.frames[i].tangent) -
-                               (axis.points[i + 1] - axis.points[i]).dot(tangent);
-          if (slope == 0.0) break;
-          t = std::clamp(t - f / slope, 0.0, 1.0);
-        }
-        const Vec3 c = (1.0 - t) * axis.points[i] + t * axis.points[i + 1];
-        const double s = axis.abscissa[i] + t * (axis.abscissa[i + 1] - axis.abscissa[i]);
-        take(place_at(chunk.vessel, i, t, s, p - c));
-      }
-      ahead = next;
+    const Station &a = axis[i], &b = axis[j];
+    double t = ahead / (ahead - next);
+    for (int step = 0; step < 2; ++step) {  // the planes' equation is quadratic and nearly linear
+      const Vec3 from = p - ((1.0 - t) * a.point + t * b.point);
+      const Vec3 tangent = (1.0 - t) * a.tangent + t * b.tangent;
+      const double slope = from.dot(b.tangent - a.tangent) - (b.point - a.point).dot(tangent);
+      if (slope == 0.0) break;
+      t = std::clamp(t - from.dot(tangent) / slope, 0.0, 1.0);
     }
-    if (chunk.last + 1 == axis.size() && ahead >= 0.0) {
-      const Vec3 aside = p - axis.points.back() - ahead * axis.frames.back().tangent;
-      take(place_at(chunk.vessel, chunk.last, 0.0, axis.abscissa.back() + ahead, aside));
-    }
+    take(Foot{chunk.vessel, i, t, abscissa[i] + t * (abscissa[j] - abscissa[i]),
+              p - ((1.0 - t) * a.point + t * b.point)});
   }
 
   /// How far a place lies beyond the vessel's flat ends; negative between them.
@@ -168,13 +192,18 @@ VesselField::VesselField(const CoronaryTree& tree) : impl_(std::make_unique<Impl
   for (std::size_t v = 0; v < tree.vessels.size(); ++v) {
     const Centerline& axis = tree.vessels[v].axis;
     const double reach = std::max(tree.vessels[v].lumen.largest(), tree.vessels[v].wall.largest());
+    impl_->stations.emplace_back();
+    for (std::size_t i = 0; i < axis.size(); ++i)
+      impl_->stations.back().push_back({axis.points[i], axis.frames[i].tangent});
     for (std::size_t first = 0; first + 1 < axis.size(); first += chunk_pieces) {
-      Chunk chunk{static_cast<std::int32_t>(v), first, std::min(first + chunk_pieces, axis.size() - 1), {}};
+      Chunk chunk{
+          static_cast<std::int32_t>(v), first, std::min(first + chunk_pieces, axis.size() - 1), {}, 0.0};
       for (std::size_t i = chunk.first; i <= chunk.last; ++i) chunk.box.extend(axis.points[i]);
       double most = 0.0;
       for (std::size_t i = chunk.first; i <= chunk.last; i += 3)
         most = std::max(most, tree.vessels[v].wall.max_at(axis.abscissa[i]));
-      const Vec3 grown = Vec3::Constant(std::min(reach, 1.1 * most + 0.05));
+      chunk.most_mm = std::min(reach, 1.1 * most + 0.05);
+      const Vec3 grown = Vec3::Constant(chunk.most_mm);
       chunk.box = Box3(chunk.box.min() - grown, chunk.box.max() + grown);
       impl_->chunks.push_back(chunk);
     }
@@ -188,7 +217,9 @@ VesselField& VesselField::operator=(VesselField&&) noexcept = default;
 void VesselField::places(const Vec3& point, double reach_mm, std::vector<Place>& out) const {
   out.clear();
   impl_->near(point, reach_mm, [&](const Chunk& chunk) {
-    impl_->feet(chunk, point, [&](const Place& place) {
+    impl_->feet(chunk, point, [&](const Impl::Foot& foot) {
+      if (foot.aside.norm() - chunk.most_mm > reach_mm) return;
+      const Place place = impl_->place_at(foot, true, true);
       if (impl_->value(Boundary::wall, place) > reach_mm) return;
       for (Place& known : out) {
         if (known.vessel != place.vessel) continue;
@@ -203,9 +234,12 @@ void VesselField::places(const Vec3& point, double reach_mm, std::vector<Place>&
 
 double VesselField::value(Boundary boundary, const Vec3& point, double reach_mm) const {
   double least = reach_mm;
-  impl_->near(point, reach_mm, [&](const Chunk& chunk) {
-    impl_->feet(chunk, point,
-                [&](const Place& place) { least = std::min(least, impl_->value(boundary, place)); });
+  const bool lumen = boundary == Boundary::lumen;
+  impl_->near(point, least, [&](const Chunk& chunk) {
+    impl_->feet(chunk, point, [&](const Impl::Foot& foot) {
+      if (foot.aside.norm() - chunk.most_mm >= least) return;
+      least = std::min(least, impl_->value(boundary, impl_->place_at(foot, lumen, !lumen)));
+    });
   });
   return least;
 }

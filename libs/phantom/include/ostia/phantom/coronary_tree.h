@@ -22,7 +22,7 @@ enum class PlaqueKind {
 };  ///< mixed: calcified cores within soft or fibrous plaque
 
 /// A body of plaque between lumen and outer wall: |s - s_centre| < length / 2, |theta - theta_centre| <
-/// extent / 2, with tapered ends.
+/// extent / 2, with tapered ends; calcified ones are lenses, thinner towards their rims too.
 struct Plaque {
   PlaqueKind kind = PlaqueKind::soft;
   double s_centre_mm = 0.0, length_mm = 0.0;
@@ -51,7 +51,8 @@ struct SegmentSpan {
 /// the others begin on their parent's axis and leave its lumen at `s_free_mm`.
 struct CoronaryVessel {
   std::int32_t id = 0;
-  std::string name;  ///< "RCA", "LAD", "LCX", "D1", "D2", "OM1", "OM2", "RI", "PDA", "AM", "CB", "S1", ...
+  std::string name;  ///< "RCA", "LAD", "LCX", "D1", "D2", "OM1", "OM2", "RI", "PDA", "AM", "CB", "S1"; "LAD"
+                     ///< begins with the left main, "RCA" goes on to the posterolateral branch
   std::int32_t parent = -1;
   double parent_s_mm = 0.0;
   double s_free_mm = 0.0;
@@ -79,7 +80,7 @@ struct LesionOptions {
   double s_throat_mm = 0.0;        ///< where it is narrowest
   double length_mm = 12.0;         ///< shoulder to shoulder, in [2, 40]
   double diameter_stenosis = 0.5;  ///< of the mean diameter, in [0, 0.95]
-  double eccentricity = 0.3;       ///< in [0, 1): 1 - (least narrowing) / (mean narrowing) around the throat
+  double eccentricity = 0.3;       ///< in [0, 1): 1 - (narrowing opposite the plaque) / (mean narrowing)
   double theta = 0.0;              ///< side of the plaque, rad
   double remodelling = 1.1;        ///< outer wall's radius at the throat over the healthy one, in [1, 1.5]
   PlaqueKind kind = PlaqueKind::mixed;

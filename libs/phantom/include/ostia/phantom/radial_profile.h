@@ -26,7 +26,7 @@ class RadialProfile {
 
  private:
   double step_mm_ = 0.0;
-  int around_ = 0;
+  int around_ = 0, rows_ = 0;
   std::vector<double> radii_;
   double largest_ = 0.0, smallest_ = 0.0;
 };

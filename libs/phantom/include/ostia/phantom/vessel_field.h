@@ -46,10 +46,10 @@ class VesselField {
 };
 
 /// The boundary of the whole tree, one closed surface a connected tree (flat caps at ostia and ends):
-/// marching cubes on a lattice, every vertex moved along its lattice edge to the exact boundary (within 1e-3
-/// of the spacing). Triangles are within 0.01 mm of it away from the creases where vessels meet and the rims
-/// of caps. The same for any number of threads. Throws InvalidInput for a spacing outside [0.02, 1] mm.
-geometry::TriMesh tree_surface(const VesselField& field, Boundary boundary, double spacing_mm = 0.12,
+/// marching cubes near the vessels with every vertex on the exact boundary to 1e-6 mm, and edges split until
+/// triangles are within 0.01 mm of it away from the creases where vessels meet and the rims of caps. The same
+/// for any number of threads. Throws InvalidInput for a spacing outside [0.02, 1] mm; Cancelled.
+geometry::TriMesh tree_surface(const VesselField& field, Boundary boundary, double spacing_mm = 0.15,
                                const core::TaskContext& task = core::no_task());
 
 }  // namespace ostia::phantom

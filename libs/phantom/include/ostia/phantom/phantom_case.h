@@ -1,0 +1,53 @@
+#pragma once
+/// \file One case: a heart, its coronary tree, what is annotated in it, and its image.
+
+#include "ostia/core/task_context.h"
+#include "ostia/imaging/volume.h"
+#include "ostia/phantom/coronary_tree.h"
+#include "ostia/phantom/heart.h"
+#include "ostia/phantom/presets.h"
+#include "ostia/phantom/scan.h"
+#include "ostia/phantom/sections.h"
+#include "ostia/phantom/truth.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ostia::phantom {
+
+/// Everything that decides a case. The same options, the same bytes.
+struct CaseOptions {
+  std::uint64_t seed = 1;
+  Preset preset = Preset::full;
+  double disease = 1.0;  ///< CoronaryOptions::disease, in [0, 5]; 0: no lesion and no diseased section
+  ScanOptions scan;      ///< `grid` and `seed` are set from the preset and the case's seed
+  ContourOptions contours;
+  ObserverOptions observers;         ///< `seed` is set from the case's seed
+  double surface_spacing_mm = 0.15;  ///< of lumen.vtp and wall.vtp, in [0.05, 1]
+};
+void validate(const CaseOptions& options);  ///< throws InvalidInput
+
+/// A case before its image is made: all that is known of it.
+struct CasePlan {
+  CaseOptions options;  ///< with grid and seeds set
+  HeartShape heart;
+  CoronaryTree tree;
+  SectionPlan sections;
+  ChallengeVessels challenge;
+  std::vector<std::string> warnings;  ///< of sections and vessels
+};
+/// Heart and tree drawn from the seed, lesions added where the sections need them, sections and vessels
+/// chosen. Quick: no surface, no image.
+CasePlan plan_case(const CaseOptions& options);
+
+/// The case as the scanner sees it.
+Scan scan_case(const CasePlan& plan, const core::TaskContext& task = core::no_task());
+
+const char* preset_name(Preset preset);  ///< "tiny", "small", "full"
+
+/// Canonical JSON of all options that decide a case.
+std::string parameters_json(const CaseOptions& options);
+
+}  // namespace ostia::phantom

@@ -1,0 +1,107 @@
+#include "ostia/phantom/phantom_case.h"
+
+#include "ostia/core/error.h"
+#include "ostia/phantom/body.h"
+#include "ostia/phantom/noise.h"
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+
+namespace ostia::phantom {
+namespace {
+
+constexpr double tiny_share = 0.18;  // of the sections' lengths, for an image that holds little of the tree
+
+void require(bool good, const char* what) {
+  if (!good) throw InvalidInput(std::string("phantom case: ") + what);
+}
+
+/// The heart moves; the chest about it does not.
+void let_the_heart_move(const HeartShape& heart, ScanOptions& scan) {
+  scan.moving_centre = heart.base + 0.35 * heart.length_mm * heart.long_axis;
+  scan.moving_radius_mm = 0.85 * heart.length_mm;
+}
+
+SectionOptions section_options(const CaseOptions& options, const imaging::Geometry& grid) {
+  SectionOptions out;
+  out.quota = section_quota(options.seed);
+  if (!(options.disease > 0.0)) {
+    out.quota.diseased = 0;
+    out.quota.diseased_mm = 0.0;
+  }
+  if (options.preset == Preset::tiny) {  // the first centimetres alone
+    out.quota.healthy_mm *= tiny_share;
+    out.quota.diseased_mm *= tiny_share;
+    out.least_length_mm *= 0.5;
+  }
+  out.image = grid;
+  out.seed = options.seed;
+  return out;
+}
+
+/// Severity and make of a lesion that a section needs.
+LesionOptions lesion_at(const LesionSite& site, std::uint64_t seed, std::uint64_t index) {
+  const auto draw = [&](std::uint64_t what) { return uniform(seed, 7300 + 16 * index + what); };
+  LesionOptions lesion;
+  lesion.s_throat_mm = site.s_centre_mm;
+  lesion.length_mm = std::clamp(site.length_mm, 2.0, 40.0);
+  lesion.diameter_stenosis = 0.25 + 0.45 * draw(0);
+  // The side of the plaque narrows most, by (1 + eccentricity) of the mean, and must stay open.
+  lesion.eccentricity = draw(1) * std::min(0.8, 0.95 / lesion.diameter_stenosis - 1.0);
+  lesion.theta = 2.0 * std::numbers::pi * draw(2);
+  lesion.remodelling = 1.05 + 0.2 * draw(3);
+  constexpr std::array kinds{PlaqueKind::mixed, PlaqueKind::calcified, PlaqueKind::soft, PlaqueKind::fibrous};
+  lesion.kind = kinds[static_cast<std::size_t>(draw(4) * kinds.size()) % kinds.size()];
+  lesion.seed = seed + 7919 * (index + 1);
+  return lesion;
+}
+
+void add_missing_lesions(CoronaryTree& tree, const SectionOptions& wanted, std::uint64_t seed) {
+  std::uint64_t index = 0;
+  for (const LesionSite& site : missing_lesions(tree, wanted)) {
+    for (CoronaryVessel& vessel : tree.vessels)
+      if (vessel.id == site.vessel) add_lesion(vessel, lesion_at(site, seed, index));
+    ++index;
+  }
+}
+
+}  // namespace
+
+void validate(const CaseOptions& options) {
+  require(options.disease >= 0.0 && options.disease <= 5.0, "the share of disease must be 0 to 5");
+  require(options.surface_spacing_mm >= 0.05 && options.surface_spacing_mm <= 1.0,
+          "the surfaces' spacing must be 0.05 to 1 mm");
+  validate(options.contours);
+  validate(options.observers);
+}
+
+CasePlan plan_case(const CaseOptions& options) {
+  validate(options);
+  CasePlan plan;
+  plan.options = options;
+  plan.options.scan.seed = options.seed;
+  plan.options.observers.seed = options.seed;
+  plan.heart = draw_heart(options.seed);
+  CoronaryOptions coronary;
+  coronary.seed = options.seed;
+  coronary.disease = options.disease;
+  plan.tree = draw_coronaries(plan.heart, coronary);
+  plan.options.scan.grid = grid_of(options.preset, plan.heart, &plan.tree);
+  let_the_heart_move(plan.heart, plan.options.scan);
+  validate(plan.options.scan);
+  const SectionOptions wanted = section_options(options, plan.options.scan.grid);
+  add_missing_lesions(plan.tree, wanted, options.seed);
+  plan.sections = plan_sections(plan.tree, wanted);
+  plan.challenge = challenge_vessels(plan.tree, plan.options.observers, plan.options.scan.grid);
+  plan.warnings = plan.sections.warnings;
+  plan.warnings.insert(plan.warnings.end(), plan.challenge.warnings.begin(), plan.challenge.warnings.end());
+  return plan;
+}
+
+Scan scan_case(const CasePlan& plan, const core::TaskContext& task) {
+  const Body body(plan.heart, plan.tree, draw_body(plan.options.seed));
+  return acquire(body, plan.options.scan, task);
+}
+
+}  // namespace ostia::phantom

@@ -2,7 +2,9 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
+#include "ostia/geometry/aabb_tree.h"
 #include "ostia/geometry/isosurface.h"
+#include "ostia/geometry/mesh_topology.h"
 
 #include <gtest/gtest.h>
 
@@ -45,6 +47,35 @@ TEST(SurfaceDistance, ShiftedBallHasTheShiftAsItsMaximum) {
   // Mean of |cos| over the sphere is a half, to first order in the shift.
   EXPECT_NEAR(d.msd_mm, 0.2, 0.02);
   EXPECT_NEAR(d.signed_mean_mm, 0.0, 0.02);
+}
+
+/// Area-weighted mean of what the winding number and the nearest point say at the triangles' centroids.
+double signed_mean_by_winding(const TriMesh& reference, const TriMesh& result) {
+  const geometry::AabbTree tree(reference);
+  double sum = 0.0, area = 0.0;
+  for (const geometry::Triangle& t : result.triangles) {
+    const Vec3 a = result.points[static_cast<std::size_t>(t[0])],
+               b = result.points[static_cast<std::size_t>(t[1])],
+               c = result.points[static_cast<std::size_t>(t[2])];
+    const double own = 0.5 * (b - a).cross(c - a).norm();
+    sum += own * tree.signed_distance((a + b + c) / 3.0);
+    area += own;
+  }
+  return sum / area;
+}
+
+TEST(SurfaceDistance, SidesAreThoseOfTheWindingNumber) {
+  SurfaceDistanceOptions centroids;
+  centroids.sample_mm = 5.0;
+  const TriMesh result = ball(0.8, Vec3(3.2, 0, 0));
+  for (const TriMesh& reference :
+       {ball(3.0), geometry::merged(ball(3.0), ball(3.0, Vec3(2, 0, 0)))}) {  // the second overlaps itself
+    const double exact = signed_mean_by_winding(reference, result);
+    EXPECT_NEAR(compare_surfaces(reference, result, centroids).signed_mean_mm, exact, 1e-9);
+  }
+  EXPECT_LT(compare_surfaces(geometry::merged(ball(3.0), ball(3.0, Vec3(2, 0, 0))), result).signed_mean_mm,
+            -0.3)
+      << "inside the second ball, though beyond a sheet of the first";
 }
 
 TEST(SurfaceDistance, AsksOnlyWhereItCounts) {

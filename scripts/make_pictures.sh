@@ -8,3 +8,7 @@ trap 'rm -rf "$work"' EXIT
 build/release/bin/ostia model --builtin -o "$work/builtin"
 mkdir -p docs/pictures
 cp "$work"/builtin/pictures/*.png docs/pictures/
+build/release/bin/ostia phantom -o "$work/phantom" --preset full --seed 3 --formats nrrd
+for picture in axial mip tree; do
+  cp "$work/phantom/dataset00/report/$picture.png" "docs/pictures/phantom-$picture.png"
+done

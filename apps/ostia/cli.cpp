@@ -2,6 +2,7 @@
 
 #include "commands.h"
 #include "config_file.h"
+#include "evaluate.h"
 #include "progress_bar.h"
 
 #include "ostia/core/log.h"
@@ -28,6 +29,8 @@ struct Commands {
   MeshCommand mesh;
   ConvertCommand convert;
   ModelCommand model;
+  PhantomCommand phantom;
+  EvaluateCommand evaluate;
 };
 
 void add_common(CLI::App& app, CommonOptions& o) {
@@ -111,6 +114,40 @@ void add_mesh(CLI::App& app, MeshOptions& o) {
       ->check(CLI::NonNegativeNumber);
 }
 
+void add_phantom(CLI::App& app, PhantomCommand& o) {
+  app.add_option("-o,--output", o.output, "Folder that is made: dataset00, dataset01, ... and suite.json")
+      ->required();
+  app.add_option("--preset", o.preset,
+                 "full: 512x512x300 voxels; small: voxels twice as large; tiny: about the ostia alone")
+      ->check(CLI::IsMember({"tiny", "small", "full"}));
+  app.add_option("--cases", o.cases, "How many cases, with the seeds from --seed on")
+      ->check(CLI::Range(1, 100));
+  app.add_option("--phases", o.phases, "Phases of the heart's cycle; 1 alone");
+  app.add_flag("--truth-only", o.truth_only, "No images and label volumes");
+  app.add_option("--formats", o.formats, "Of the image: mhd, nrrd, dicom, separated by commas; all")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"mhd", "nrrd", "dicom"}));
+  app.add_option("--disease", o.disease, "Number of lesions, as a multiple of the usual; 0: a healthy tree")
+      ->check(CLI::Range(0.0, 5.0));
+  app.add_option("--noise", o.noise_hu, "Standard deviation of the noise, HU")->check(CLI::Range(0.0, 500.0));
+  app.add_option("--blur", o.blur_mm, "Point spread in the slice, full width at half maximum, mm")
+      ->check(CLI::Range(0.0, 5.0));
+  app.add_option("--blur-z", o.blur_z_mm, "The same along z, mm")->check(CLI::Range(0.0, 5.0));
+  app.add_option("--motion", o.motion_mm, "Blur by the heart's motion: length of the path, mm")
+      ->check(CLI::Range(0.0, 10.0));
+  app.add_option("--stair-step", o.stair_step_mm, "Jump of the heart between blocks of slices, mm")
+      ->check(CLI::Range(0.0, 10.0));
+  app.add_option("--beam-hardening", o.beam_hardening, "Dark streaks beside dense things; 1 is usual")
+      ->check(CLI::Range(0.0, 5.0));
+  app.add_option("--contour-spacing", o.contour_spacing_mm, "Distance between the true contours, mm")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--contour-points", o.contour_points, "Points of a contour")->check(CLI::Range(8, 1024));
+  app.add_option("--surface-spacing", o.surface_spacing_mm, "Edges of the true surfaces, mm")
+      ->check(CLI::Range(0.05, 1.0));
+  app.add_flag("--no-report", o.no_report, "No report.html and no pictures");
+  app.add_flag("--json", o.json, "suite.json on standard output");
+}
+
 CLI::App* command(CLI::App& app, const std::string& name, const std::string& text,
                   const std::string& example) {
   CLI::App* sub = app.add_subcommand(name, text);
@@ -145,6 +182,8 @@ void define(CLI::App& app, Commands& c, Run& run) {
 };
 }  // namespace
 );
+
+define_evaluate(app, c.evaluate, run);
 
 CLI::App* segment = command(app, "segment", "The lumen of the vessels between seed points",
                             "ostia segment heart.nrrd -o lumen.vtp --branch 8,-187,675:6,-178,720");
@@ -209,6 +248,15 @@ model->callback([&] {
   c.model.seed = c.common.seed;
   run = [&](const core::TaskContext& task) { return run_model(c.model, task); };
 });
+
+CLI::App* phantom =
+    command(app, "phantom", "Synthetic coronary CT angiograms of exactly known truth",
+            "ostia phantom -o suite --preset small --cases 3");
+add_phantom(*phantom, c.phantom);
+phantom->callback([&] {
+  c.phantom.seed = c.common.seed;
+  run = [&](const core::TaskContext& task) { return run_phantom(c.phantom, task); };
+});
 }  // namespace ostia::app
 
 /// A log that is kept must not name what a folder or file is called after.
@@ -220,7 +268,9 @@ void keep_paths_out_of_the_log(const Commands& c) {
   for (const std::filesystem::path& path :
        {c.info.preview, c.import.output, c.segment.output, c.segment.level_set, c.centerline.output,
         c.centerline.canal, c.mesh.output, c.mesh.centerline, c.mesh.check, c.convert.output,
-        c.model.output}) {
+        c.model.output, c.phantom.output, c.evaluate.reference, c.evaluate.result, c.evaluate.report,
+        c.evaluate.picture,
+        c.evaluate.tolerance}) {
     core::redact_in_logs(path.string(), "FILE");
     core::redact_in_logs(path.parent_path().string(), "FOLDER");
   }

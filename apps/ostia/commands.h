@@ -113,4 +113,19 @@ struct ModelCommand {
 };
 ExitCode run_model(const ModelCommand& options, const core::TaskContext& task);
 
+struct PhantomCommand {
+  std::filesystem::path output;
+  std::string preset = "full";
+  int cases = 1, phases = 1;
+  bool truth_only = false, no_report = false;
+  std::vector<std::string> formats;  ///< mhd, nrrd, dicom; none: all
+  double disease = 1.0;
+  std::optional<double> noise_hu, blur_mm, blur_z_mm, motion_mm, stair_step_mm, beam_hardening;
+  std::optional<double> contour_spacing_mm, surface_spacing_mm;
+  int contour_points = 0;  ///< 0: the library's default
+  bool json = false;
+  std::uint64_t seed = 1;
+};
+ExitCode run_phantom(const PhantomCommand& options, const core::TaskContext& task);
+
 }  // namespace ostia::app

@@ -81,6 +81,41 @@ class Schemas(unittest.TestCase):
         if printed:
             validator("info").validate(json.loads(printed))
 
+    def test_evaluate(self):
+        lumen = self.folder / "lumen.stl"
+        for arguments in (("surface", lumen, lumen), ("volume", lumen, lumen), ("lumen", "--floor")):
+            validator("evaluate").validate(json.loads(run("evaluate", *arguments, "--json")))
+        self.assert_refused("evaluate", {"v": 1, "kind": "surface"})
+
+    def test_suite_and_tolerance(self):
+        holder = pathlib.Path(self.holder.name)
+        for name, dice in (("golden", 0.9), ("new", 0.8)):
+            (holder / name).mkdir()
+            (holder / name / "figures.json").write_text(json.dumps({"v": 1, "dice": dice}))
+        tolerance = {"v": 1, "figures": [{"key": "dice", "direction": "higher_is_better", "absolute": 0.05}], "surfaces": [{"mean_mm": 0.1}]}
+        (holder / "F.json").write_text(json.dumps(tolerance))
+        validator("tolerance").validate(tolerance)
+        validator("tolerance").validate(json.loads((FOLDER.parent.parent / "data/golden/tolerance.json").read_text()))
+        printed = json.loads(run("evaluate", "suite", holder / "golden", holder / "new", "--tolerance", holder / "F.json", "--json", codes=(4,)))
+        validator("suite").validate(printed)
+        for broken in ({}, {"v": 1, "figures": [{"absolute": -1}]}, {"v": 1, "surface": []}):
+            with self.subTest(broken):
+                self.assert_refused("tolerance", broken)
+
+    def test_phantom(self):
+        folder = pathlib.Path(self.holder.name) / "phantom"
+        printed = json.loads(run("phantom", "--preset", "tiny", "--truth-only", "--no-report", "--surface-spacing", "1", "-o", folder, "--json"))
+        validator("phantom-suite").validate(printed)
+        case = json.loads((folder / "dataset00" / "case.json").read_text())
+        validator("phantom-case").validate(case)
+        validator("manifest").validate(json.loads((folder / "manifest.json").read_text()))
+        for name, document in (("phantom-case", case), ("phantom-suite", printed)):
+            for field in document:
+                broken = copy.deepcopy(document)
+                del broken[field]
+                with self.subTest(field):
+                    self.assert_refused(name, broken)
+
     def test_broken_documents_fail(self):
         for field in self.report:
             broken = copy.deepcopy(self.report)

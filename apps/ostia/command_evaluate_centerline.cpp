@@ -1,0 +1,225 @@
+#include "evaluate.h"
+#include "outputs.h"
+
+#include "ostia/core/log.h"
+#include "ostia/evaluation/centerline_scores.h"
+#include "ostia/evaluation/frame_hint.h"
+#include "ostia/figure/html_report.h"
+#include "ostia/figure/scene.h"
+#include "ostia/geometry/polyline.h"
+#include "ostia/io/rotterdam_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace ostia::app {
+namespace fs = std::filesystem;
+namespace {
+
+using geometry::Vec3;
+
+/// A line that may be the one asked for.
+struct Candidate {
+  std::string name;
+  std::vector<Vec3> points;
+};
+
+struct VesselScore {
+  std::string case_name, vessel;
+  fs::path folder;
+  io::RotterdamReference reference;
+  std::string candidate;  ///< empty: no line overlaps
+  std::vector<Vec3> line;
+  evaluation::CenterlineScores scores;
+  double observer_ov = NAN;  ///< mean overlap of the observers' own lines, where they are there
+};
+
+/// The vessels' folders of a data set, or a single reference file.
+std::vector<std::pair<std::string, fs::path>> references_of(const fs::path& path) {
+  std::vector<std::pair<std::string, fs::path>> out;
+  if (!fs::is_directory(path)) return {{path.parent_path().filename().string(), path}};
+  if (fs::exists(path / "reference.txt")) return {{path.filename().string(), path / "reference.txt"}};
+  for (const auto& entry : fs::directory_iterator(path))
+    if (entry.is_directory() && fs::exists(entry.path() / "reference.txt"))
+      out.emplace_back(entry.path().filename().string(), entry.path() / "reference.txt");
+  std::sort(out.begin(), out.end());
+  if (out.empty())
+    throw InvalidInput("no reference in the folder " + path.string() +
+                       ": neither reference.txt nor vesselM/reference.txt is there");
+  return out;
+}
+
+std::vector<Candidate> candidates_of(const geometry::VesselTree& tree) {
+  std::vector<Candidate> out;
+  for (const geometry::Vessel& vessel : tree.vessels)
+    out.push_back({vessel.name.empty() ? "vessel" + std::to_string(vessel.id) : vessel.name,
+                   geometry::vessel_axis(tree, vessel).points});
+  return out;
+}
+
+/// Lines for one vessel: its own result.txt where a folder has one, else all lines of the result.
+std::vector<Candidate> candidates_for(const fs::path& result, const std::string& vessel,
+                                      const std::string& units) {
+  if (fs::is_directory(result)) {
+    for (const fs::path& own : {result / vessel / "result.txt", result / "result.txt"})
+      if (fs::exists(own)) return candidates_of(lines_from(own, units));
+  }
+  return candidates_of(
+      lines_of_parts(files_in(result, {"centerlines.vtp", "centerlines.csv"}, "centerlines"), units));
+}
+
+double observers_overlap(const fs::path& folder, const io::RotterdamReference& reference) {
+  double sum = 0.0;
+  int count = 0;
+  for (int i = 1; i <= 9; ++i) {
+    const fs::path path = folder / ("observer" + std::to_string(i) + ".txt");
+    if (!fs::exists(path)) continue;
+    sum += evaluation::score_centerline(reference, io::read_rotterdam_line(path)).ov;
+    ++count;
+  }
+  return count > 0 ? sum / count : NAN;
+}
+
+VesselScore scored(const std::string& case_name, const std::string& vessel, const fs::path& reference,
+                   const fs::path& result, const EvaluateCommand& command, const core::TaskContext& task) {
+  VesselScore out;
+  out.case_name = case_name;
+  out.vessel = vessel;
+  out.folder = reference.parent_path();
+  out.reference = io::read_rotterdam_reference(reference);
+  out.scores.ai_mm = out.scores.ai_score = NAN;
+  out.scores.fn = out.reference.points.size();
+  if (result.empty()) return out;
+  std::vector<Vec3> all;
+  for (const Candidate& candidate : candidates_for(result, vessel, command.units)) {
+    all.insert(all.end(), candidate.points.begin(), candidate.points.end());
+    evaluation::CenterlineScores scores =
+        evaluation::score_centerline(out.reference, candidate.points, {}, task);
+    if (!out.candidate.empty() && scores.ov <= out.scores.ov) continue;
+    if (scores.ov <= 0.0) continue;
+    out.candidate = candidate.name;
+    out.line = candidate.points;
+    out.scores = std::move(scores);
+  }
+  if (out.candidate.empty()) {
+    const std::string hint = evaluation::hint_of_other_frame(out.reference.points, all);
+    core::log_warning(vessel + ": no line of the result overlaps with the reference" +
+                      (hint.empty() ? "" : "; " + hint));
+  }
+  out.observer_ov = observers_overlap(out.folder, out.reference);
+  return out;
+}
+
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json row_of(const VesselScore& v) {
+  const evaluation::CenterlineScores& s = v.scores;
+  Json row;
+  if (!v.case_name.empty()) row["case"] = v.case_name;
+  row["vessel"] = v.vessel;
+  row["result"] = v.candidate.empty() ? Json(nullptr) : Json(v.candidate);
+  row["length_mm"] = geometry::length(v.reference.points);
+  row["ov"] = s.ov;
+  row["of"] = s.of;
+  row["ot"] = s.ot;
+  row["ai_mm"] = number(s.ai_mm);
+  row["ai_score"] = number(s.ai_score);
+  row["observer_ov"] = number(v.observer_ov);
+  row["ov_score"] = std::isnan(v.observer_ov) ? Json(nullptr)
+                                              : Json(evaluation::overlap_score(s.ov, v.observer_ov));
+  row["tpr"] = s.tpr;
+  row["fn"] = s.fn;
+  row["tpm"] = s.tpm;
+  row["fp"] = s.fp;
+  return row;
+}
+
+Json mean_of(const std::vector<VesselScore>& all) {
+  double ov = 0.0, of = 0.0, ot = 0.0, ai = 0.0;
+  int with_ai = 0, missing = 0;
+  for (const VesselScore& v : all) {
+    ov += v.scores.ov;
+    of += v.scores.of;
+    ot += v.scores.ot;
+    missing += v.candidate.empty();
+    if (!std::isfinite(v.scores.ai_mm)) continue;
+    ai += v.scores.ai_mm;
+    ++with_ai;
+  }
+  const auto n = static_cast<double>(all.size());
+  return {{"vessels", all.size()},
+          {"missing", missing},
+          {"ov", ov / n},
+          {"of", of / n},
+          {"ot", ot / n},
+          {"ai_mm", with_ai > 0 ? Json(ai / with_ai) : Json(nullptr)}};
+}
+
+void write_page(const fs::path& path, const Json& result, const std::vector<VesselScore>& all,
+                const core::TaskContext& task) {
+  figure::HtmlReport page("Centerlines against their references", "Scores of the Rotterdam challenge");
+  page.section("Scores");
+  std::vector<std::vector<std::string>> rows;
+  for (const Json& row : result["vessels"]) {
+    std::vector<std::string> cells{row.value("case", ""), row["vessel"]};
+    for (const char* key : {"length_mm", "ov", "of", "ot", "ai_mm", "observer_ov", "ov_score", "ai_score"}) {
+      char text[32] = "-";
+      if (row[key].is_number()) std::snprintf(text, sizeof text, "%.3f", row[key].get<double>());
+      cells.emplace_back(text);
+    }
+    rows.push_back(cells);
+  }
+  page.table({"case", "vessel", "length (mm)", "OV", "OF", "OT", "AI (mm)", "observers' OV", "OV score", "AI score"},
+             rows, "OV, OF, OT: overlap, until the first error, of the part 1.5 mm wide and more. AI: mean "
+                   "distance where the line counts as right.");
+  page.section("Lines");
+  for (const VesselScore& v : all) {
+    task.throw_if_cancelled();
+    if (v.line.empty()) {
+      page.notice(figure::Notice::bad, v.case_name + " " + v.vessel + ": no line overlaps with the reference.");
+      continue;
+    }
+    figure::Scene scene;
+    figure::TubeActor reference{v.reference.points, {0.25}, figure::palette(0), "reference"};
+    scene.tubes.push_back(std::move(reference));
+    scene.tubes.push_back({v.line, {0.35}, figure::palette(1), "result"});
+    for (const auto& pair : v.scores.pairs) {  // where the reference is missed
+      if (pair.counts || pair.reference % 20 != 0) continue;
+      scene.tubes.push_back({{v.reference.points[pair.reference]}, {0.6}, figure::palette(3), ""});
+    }
+    page.picture(figure::scene_figure(scene, figure::cameras::broadside(v.reference.points),
+                                      {.width_px = 640, .height_px = 420}, task),
+                 v.case_name + " " + v.vessel + ": reference and result; dots where the two are farther apart than the radius.");
+  }
+  page.write(path);
+}
+
+}  // namespace
+
+ExitCode run_evaluate_centerline(const EvaluateCommand& command, const core::TaskContext& task) {
+  require_pair(command);
+  require_output(command.report, {".html", ".htm"});
+  std::vector<VesselScore> all;
+  const std::vector<CasePair> pairs = case_pairs(command.reference, command.result);
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const core::TaskContext part = task.sub(0.9 * static_cast<double>(k) / static_cast<double>(pairs.size()),
+                                            0.9 * static_cast<double>(k + 1) / static_cast<double>(pairs.size()));
+    if (pairs[k].missing) core::log_warning(pairs[k].name + " has no result: its vessels count as missed");
+    for (const auto& [vessel, path] : references_of(pairs[k].reference))
+      all.push_back(scored(pairs[k].name, vessel, path, pairs[k].missing ? fs::path() : pairs[k].result,
+                           command, part));
+  }
+  Json out{{"v", 1}, {"kind", "centerline"}};
+  out["mean"] = mean_of(all);
+  out["vessels"] = Json::array();
+  for (const VesselScore& v : all) out["vessels"].push_back(row_of(v));
+  if (!command.report.empty()) write_page(command.report, out, all, task.sub(0.9, 1.0));
+  task.set_progress(1.0);
+  return finish(command, out);
+}
+
+}  // namespace ostia::app

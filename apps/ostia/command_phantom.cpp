@@ -1,0 +1,105 @@
+#include "commands.h"
+
+#include "ostia/core/files.h"
+#include "ostia/core/log.h"
+#include "ostia/phantom/case_folder.h"
+#include "ostia/pipeline/manifest.h"
+
+#include <chrono>
+#include <cstdio>
+
+namespace ostia::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+void set_if(const std::optional<double>& given, double& value) {
+  if (given) value = *given;
+}
+
+phantom::Preset preset_of(const std::string& name) {
+  if (name == "tiny") return phantom::Preset::tiny;
+  if (name == "small") return phantom::Preset::small;
+  if (name == "full") return phantom::Preset::full;
+  throw UsageError("the preset " + name + " is not known; it is tiny, small or full");
+}
+
+phantom::SuiteOptions options_of(const PhantomCommand& command) {
+  phantom::SuiteOptions options;
+  options.first.seed = command.seed;
+  options.first.preset = preset_of(command.preset);
+  options.first.disease = command.disease;
+  phantom::ScanOptions& scan = options.first.scan;
+  set_if(command.noise_hu, scan.noise_hu);
+  set_if(command.blur_mm, scan.psf_fwhm_mm);
+  set_if(command.blur_z_mm, scan.psf_fwhm_z_mm);
+  set_if(command.motion_mm, scan.motion_mm);
+  set_if(command.stair_step_mm, scan.stair_step_mm);
+  set_if(command.beam_hardening, scan.beam_hardening);
+  set_if(command.contour_spacing_mm, options.first.contours.spacing_mm);
+  set_if(command.surface_spacing_mm, options.first.surface_spacing_mm);
+  if (command.contour_points > 0) options.first.contours.points = command.contour_points;
+  options.cases = command.cases;
+  options.truth_only = command.truth_only;
+  options.report = !command.no_report;
+  if (!command.formats.empty()) {
+    options.mhd = options.nrrd = options.dicom = false;
+    for (const std::string& one : command.formats) {
+      if (one == "mhd") options.mhd = true;
+      if (one == "nrrd") options.nrrd = true;
+      if (one == "dicom") options.dicom = true;
+    }
+  }
+  return options;
+}
+
+void print(const phantom::SuiteRecord& record) {
+  std::printf("%zu %s, %d annotated sections: %.1f mm healthy, %.1f mm diseased\n", record.cases.size(),
+              record.cases.size() == 1 ? "case" : "cases", record.sections(), record.healthy_mm(),
+              record.diseased_mm());
+}
+
+void print_suite(const std::filesystem::path& folder) {
+  std::fputs(core::read_file(folder / "suite.json").c_str(), stdout);
+}
+
+std::vector<std::string> warnings_of(const phantom::SuiteRecord& record) {
+  std::vector<std::string> out;
+  for (const phantom::CaseRecord& one : record.cases)
+    for (const std::string& warning : one.warnings) out.push_back(one.folder + ": " + warning);
+  return out;
+}
+
+}  // namespace
+
+ExitCode run_phantom(const PhantomCommand& command, const core::TaskContext& task) {
+  const auto start = Clock::now();
+  if (command.phases != 1) {
+    throw UsageError("--phases " + std::to_string(command.phases) +
+                     ": the phantom's heart stands still in mid-diastole, so there is one phase alone; leave "
+                     "--phases out");
+  }
+  const phantom::SuiteOptions options = options_of(command);
+  phantom::validate(options);
+  pipeline::require_free_folder(command.output);
+  const pipeline::JobKey key{"phantom", {}, phantom::parameters_json(options)};
+  if (const auto code = pipeline::already_done(command.output, key)) {
+    core::log_info("done already with the same parameters; nothing to do");
+    if (command.json) print_suite(command.output);
+    return *code;
+  }
+  const auto finish = [&](const std::filesystem::path& folder, const phantom::SuiteRecord& record) {
+    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    pipeline::write_manifest(folder, {key, ExitCode::ok, seconds, warnings_of(record), {}});
+  };
+  const phantom::SuiteRecord record = phantom::write_suite(command.output, options, finish, task);
+  for (const std::string& warning : warnings_of(record)) core::log_warning(warning);
+  task.set_progress(1.0);
+  if (command.json)
+    print_suite(command.output);
+  else
+    print(record);
+  return ExitCode::ok;
+}
+
+}  // namespace ostia::app

@@ -104,12 +104,14 @@ Distance aortic_root(const AorticRoot& root, double wall_mm) {
   const double third = right > 0.0 ? 0.5 * (right + 2.0 * M_PI) : 0.5 * (right - 2.0 * M_PI);
   // The radius changes along the axis and the angle: what is left of the bound on its slope is divided out.
   constexpr double steepest = 2.2;
+  // The wall ends at the annulus; the outflow tract is open to the ventricle.
+  const double lowest = wall_mm > 0.0 ? 1.0 : -6.0;
   return [=](const Vec3& p) {
     const Vec3 d = p - root.annulus;
     const double h = d.dot(root.axis);
     const double x = d.dot(root.left_sinus), y = d.dot(side);
     const double rho = std::hypot(x, y);
-    const double from_ends = std::max(-6.0 - wall_mm - h, h - root.sinus_height_mm - 8.0);
+    const double from_ends = std::max(lowest - h, h - root.sinus_height_mm - 8.0);
     const double t = std::clamp(h / root.sinus_height_mm, 0.0, 1.0);
     double radius = root.annulus_radius_mm + t * (root.ascending_radius_mm - root.annulus_radius_mm);
     const double bulge = std::sin(M_PI * std::pow(t, 1.45));  // widest at 0.62 of the height
@@ -156,7 +158,10 @@ void add_groove_fat(Organs& organs, const CoronaryTree& tree, const Capsules& ve
     const auto& axis = vessel.axis;
     for (std::size_t i = 0; i + 1 < axis.size(); i += 15) {
       const std::size_t j = std::min(i + 15, axis.size() - 1);
-      fat.push_back({axis.points[i], axis.points[j], axis.radius[i] + 2.6, axis.radius[j] + 2.6});
+      const auto sheath = [&](std::size_t at) {
+        return std::max(axis.radius[at] + 2.6, vessel.wall.max_at(axis.abscissa[at]) + 1.0);
+      };
+      fat.push_back({axis.points[i], axis.points[j], sheath(i), sheath(j)});
     }
   }
   append(fat, grown(veins, 1.3));
@@ -202,7 +207,7 @@ void add_heart_walls(Organs& organs, const HeartShape& heart, const TissueHu& hu
   organs.push_back({thin, muscle, {}, grown(a.appendage, 1.0)});
   // The pericardial sac: fat within, a thin line about it.
   const double w = f.wide, h = f.high, l = f.long_;
-  const Distance sac_shape = either({both(f.ellipsoid_at({2.5, 0.0, 0.0}, {50.5 * w, 44.5 * h, 97.0 * l}),
+  const Distance sac_shape = either({both(f.ellipsoid_at({1.0, 0.0, 0.0}, {52.8 * w, 46.8 * h, 97.5 * l}),
                                           half_space(f.world(0, 0, -14.0), -f.heart.long_axis)),
                                      f.ellipsoid_at({4.0, -4.0, -18.0}, {53.0 * w, 36.0 * h, 26.0}),
                                      ellipsoid({2, -18, 30}, Vec3(36.0, 32.0, 34.0))});

@@ -61,6 +61,15 @@ void add_lungs(Organs& organs, const TissueHu& hu, std::uint64_t seed) {
       tree.grow(hilum + 2.0 * direction, direction, 3.2, 12);
       append(vessels, tree.pieces());
     }
+    // The lower lobe's branches leave farther down and back.
+    const Vec3 lower = hilum + Vec3(4.0 * side, 14.0, -24.0);
+    for (const Vec3& way : {Vec3(side, -0.8, -0.7), Vec3(side, 0.1, -0.6), Vec3(0.4 * side, 0.8, -0.6),
+                            Vec3(0.3 * side, 0.0, -1.0), Vec3(0.8 * side, 0.6, 0.1),
+                            Vec3(0.5 * side, -0.5, -1.0), Vec3(0.8 * side, -1.0, 0.0)}) {
+      LungTree tree(seed, stream++);
+      tree.grow(lower, way.normalized(), 2.9, 12);
+      append(vessels, tree.pieces());
+    }
     const Vec3 airway_from = side < 0 ? Vec3(-56, 38, 16) : Vec3(52, 42, 22);
     for (const Vec3& way : {Vec3(0.5 * side, 0.5, -1.0), Vec3(side, -0.6, 0.0), Vec3(0.6 * side, 0.5, 0.5),
                             Vec3(0.7 * side, -0.4, -0.7)}) {
@@ -73,7 +82,7 @@ void add_lungs(Organs& organs, const TissueHu& hu, std::uint64_t seed) {
   organs.push_back({{Label::pulmonary_vessel, hu.pulmonary - 40.0f}, {}, {}, vessels});
   organs.push_back({{Label::lung, -420.0f}, {}, {}, grown(airways, 0.8)});
   // Between ribs and mediastinum; flat where it meets the diaphragm, which comes before.
-  organs.push_back({{Label::lung, hu.lung}, {26.0f, 2.6f, 0.45f}, column(-8.0, 16.0, 126.0, 92.0), {}});
+  organs.push_back({{Label::lung, hu.lung}, {26.0f, 2.6f, 0.45f}, column(-8.0, 16.0, 120.0, 87.5), {}});
 }
 
 }  // namespace ostia::phantom

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double middle_x = -8.0;  // of the chest: the heart's base lies a little to the left of it
 constexpr double middle_y = 16.0;
-constexpr double cavity_x = 126.0, cavity_y = 92.0;  // semi-axes of the inside of the ribs
+constexpr double cavity_x = 120.0, cavity_y = 87.5;  // semi-axes of the inside of the ribs
 constexpr double spine_y = 84.0;
 constexpr double level_mm = 26.0;  // a vertebra and its disc
 
@@ -105,13 +105,13 @@ void add_mediastinum(Organs& organs, const TissueHu& hu, const Noise& noise) {
   // Liver under the right dome of the diaphragm, stomach with its air under the left one.
   const Distance dome = uneven(ellipsoid({-54, 8, -106}, Vec3(86, 84, 76)), 0.7, 24.0, noise);
   organs.push_back({{Label::liver, hu.liver}, {8.0f, 6.0f, 0.0f}, dome, {}});
-  const Distance left_dome = uneven(ellipsoid({56, 16, -122}, Vec3(74, 76, 70)), 0.7, 24.0, noise);
+  const Distance left_dome = uneven(ellipsoid({56, 16, -117}, Vec3(74, 76, 70)), 0.7, 24.0, noise);
   const Distance gas = both(ellipsoid({60, 6, -84}, Vec3(24, 30, 17)), half_space({0, 4, 0}, Vec3::UnitY()));
   organs.push_back({{Label::airway, -960.0f}, {}, gas, {}});
   organs.push_back(
       {{Label::muscle, 60.0f}, {10.0f, 5.0f, 0.0f}, ellipsoid({60, 6, -86}, Vec3(30, 37, 24)), {}});
   organs.push_back(
-      {{Label::fat, hu.fat + 6.0f}, {12.0f, 6.0f, 0.0f}, ellipsoid({56, 16, -122}, Vec3(71, 73, 67)), {}});
+      {{Label::fat, hu.fat + 6.0f}, {12.0f, 6.0f, 0.0f}, ellipsoid({56, 16, -117}, Vec3(71, 73, 67)), {}});
   const Distance diaphragm = either({left_dome, ellipsoid({-54, 8, -106}, Vec3(89, 87, 79))});
   organs.push_back({{Label::muscle, hu.muscle}, soft, diaphragm, {}});
   // Fat between the lungs: about the great vessels, the gullet, the aorta and the spine; before the heart to
@@ -120,9 +120,10 @@ void add_mediastinum(Organs& organs, const TissueHu& hu, const Noise& noise) {
       both(ellipsoid({-5, 8, 70}, Vec3(40, 58, 66)), half_space({0, 0, 20}, -Vec3::UnitZ()));
   const Distance back =
       either({column(2.0, 57.0, 15.0, 13.0), column(16.0, 72.0, 14.5, 14.0), column(-8.0, 86.0, 22.5, 19.5)});
-  const Distance front = ellipsoid({-5, -72, 20}, Vec3(13, 16, 90));
+  const Distance front =
+      either({ellipsoid({-3, -62, 10}, Vec3(12, 28, 75)), ellipsoid({-6, -74, 10}, Vec3(24, 11, 90))});
   const Distance apron = ellipsoid({22, -58, -52}, Vec3(44, 19, 17));
-  const Distance corner = ellipsoid({-32, -36, -38}, Vec3(22, 24, 18));
+  const Distance corner = ellipsoid({-26, -36, -48}, Vec3(28, 26, 17));
   organs.push_back({{Label::fat, hu.fat},
                     {9.0f, 6.0f, 0.0f},
                     uneven(either({upper, back, front, apron, corner}), 1.0, 13.0, noise),
@@ -138,15 +139,15 @@ void add_chest_wall(Organs& organs, const TissueHu& hu, std::uint64_t seed) {
                     {}});
   organs.push_back({{Label::muscle, hu.muscle - 10.0f},
                     {26.0f, 5.0f, 0.0f},
-                    column(middle_x, middle_y, cavity_x + 13.0, cavity_y + 12.5),
+                    column(middle_x, middle_y, cavity_x + 13.0, cavity_y + 14.5),
                     {}});
   const Distance back = either({column(middle_x - 30.0, spine_y + 42.0, 27.0, 15.0),
                                 column(middle_x + 30.0, spine_y + 42.0, 27.0, 15.0)});
   const Distance pectoral =
-      either({both(column(52, -72, 46, 16), half_space({0, 0, -28}, -Vec3(0, 0.3, 1))),
-              both(column(-68, -72, 46, 16), half_space({0, 0, -28}, -Vec3(0, 0.3, 1)))});
+      either({both(column(52, -68, 48, 20), half_space({0, 0, -28}, -Vec3(0, 0.3, 1))),
+              both(column(-68, -68, 48, 20), half_space({0, 0, -28}, -Vec3(0, 0.3, 1)))});
   organs.push_back({{Label::muscle, hu.muscle}, {16.0f, 4.0f, 0.0f}, either({back, pectoral}), {}});
-  const double thick = 12.0 + 12.0 * uniform(seed, 0x464154);
+  const double thick = 10.0 + 11.0 * uniform(seed, 0x464154);
   const double breast = 14.0 + 18.0 * uniform(seed, 0x425245);
   const Distance trunk = column(middle_x, middle_y + 3.0, cavity_x + 18.0 + thick, cavity_y + 14.0 + thick);
   const double front_y = middle_y - cavity_y - 4.0 - thick;

@@ -20,12 +20,6 @@ namespace {
 
 using geometry::Vec3;
 
-/// A line that may be the one asked for.
-struct Candidate {
-  std::string name;
-  std::vector<Vec3> points;
-};
-
 struct VesselScore {
   std::string case_name, vessel;
   fs::path folder;
@@ -51,22 +45,14 @@ std::vector<std::pair<std::string, fs::path>> references_of(const fs::path& path
   return out;
 }
 
-std::vector<Candidate> candidates_of(const geometry::VesselTree& tree) {
-  std::vector<Candidate> out;
-  for (const geometry::Vessel& vessel : tree.vessels)
-    out.push_back({vessel.name.empty() ? "vessel" + std::to_string(vessel.id) : vessel.name,
-                   geometry::vessel_axis(tree, vessel).points});
-  return out;
-}
-
 /// Lines for one vessel: its own result.txt where a folder has one, else all lines of the result.
-std::vector<Candidate> candidates_for(const fs::path& result, const std::string& vessel,
-                                      const std::string& units) {
+std::vector<evaluation::NamedLine> candidates_for(const fs::path& result, const std::string& vessel,
+                                                  const std::string& units) {
   if (fs::is_directory(result)) {
     for (const fs::path& own : {result / vessel / "result.txt", result / "result.txt"})
-      if (fs::exists(own)) return candidates_of(lines_from(own, units));
+      if (fs::exists(own)) return evaluation::lines_of(lines_from(own, units));
   }
-  return candidates_of(
+  return evaluation::lines_of(
       lines_of_parts(files_in(result, {"centerlines.vtp", "centerlines.csv"}, "centerlines"), units));
 }
 
@@ -92,17 +78,18 @@ VesselScore scored(const std::string& case_name, const std::string& vessel, cons
   out.scores.ai_mm = out.scores.ai_score = NAN;
   out.scores.fn = out.reference.points.size();
   if (result.empty()) return out;
-  std::vector<Vec3> all;
-  for (const Candidate& candidate : candidates_for(result, vessel, command.units)) {
-    all.insert(all.end(), candidate.points.begin(), candidate.points.end());
-    evaluation::CenterlineScores scores =
-        evaluation::score_centerline(out.reference, candidate.points, {}, task);
-    if (!out.candidate.empty() && scores.ov <= out.scores.ov) continue;
-    if (scores.ov <= 0.0) continue;
-    out.candidate = candidate.name;
-    out.line = candidate.points;
-    out.scores = std::move(scores);
+  const std::vector<evaluation::NamedLine> candidates = candidates_for(result, vessel, command.units);
+  evaluation::BestLine best = evaluation::score_best_line(out.reference, candidates, {}, task);
+  if (best.scores.ov > 0.0) {
+    out.candidate = candidates[best.index].name;
+    out.line = candidates[best.index].points;
+    out.scores = std::move(best.scores);
+    if (out.scores.turned)
+      core::log_warning(vessel + ": " + out.candidate + " runs from its distal end; it was turned round");
   }
+  std::vector<Vec3> all;
+  for (const evaluation::NamedLine& line : candidates)
+    all.insert(all.end(), line.points.begin(), line.points.end());
   if (out.candidate.empty()) {
     const std::string hint = evaluation::hint_of_other_frame(out.reference.points, all);
     core::log_warning(vessel + ": no line of the result overlaps with the reference" +
@@ -125,12 +112,12 @@ Json row_of(const VesselScore& v) {
   row["length_mm"] = geometry::length(v.reference.points);
   row["ov"] = s.ov;
   row["of"] = s.of;
-  row["ot"] = s.ot;
+  row["ot"] = number(s.ot);
   row["ai_mm"] = number(s.ai_mm);
   row["ai_score"] = number(s.ai_score);
   row["observer_ov"] = number(v.observer_ov);
-  row["ov_score"] = std::isnan(v.observer_ov) ? Json(nullptr)
-                                              : Json(evaluation::overlap_score(s.ov, v.observer_ov));
+  row["ov_score"] =
+      std::isnan(v.observer_ov) ? Json(nullptr) : Json(evaluation::overlap_score(s.ov, v.observer_ov));
   row["tpr"] = s.tpr;
   row["fn"] = s.fn;
   row["tpm"] = s.tpm;
@@ -139,24 +126,11 @@ Json row_of(const VesselScore& v) {
 }
 
 Json mean_of(const std::vector<VesselScore>& all) {
-  double ov = 0.0, of = 0.0, ot = 0.0, ai = 0.0;
-  int with_ai = 0, missing = 0;
-  for (const VesselScore& v : all) {
-    ov += v.scores.ov;
-    of += v.scores.of;
-    ot += v.scores.ot;
-    missing += v.candidate.empty();
-    if (!std::isfinite(v.scores.ai_mm)) continue;
-    ai += v.scores.ai_mm;
-    ++with_ai;
-  }
-  const auto n = static_cast<double>(all.size());
-  return {{"vessels", all.size()},
-          {"missing", missing},
-          {"ov", ov / n},
-          {"of", of / n},
-          {"ot", ot / n},
-          {"ai_mm", with_ai > 0 ? Json(ai / with_ai) : Json(nullptr)}};
+  std::vector<evaluation::CenterlineScores> scores;
+  for (const VesselScore& v : all) scores.push_back(v.scores);
+  const evaluation::MeanCenterlineScores mean = evaluation::mean_scores(scores);
+  return {{"vessels", mean.vessels}, {"missing", mean.missed}, {"ov", mean.ov},
+          {"of", mean.of},           {"ot", number(mean.ot)},  {"ai_mm", number(mean.ai_mm)}};
 }
 
 void write_page(const fs::path& path, const Json& result, const std::vector<VesselScore>& all,
@@ -173,14 +147,17 @@ void write_page(const fs::path& path, const Json& result, const std::vector<Vess
     }
     rows.push_back(cells);
   }
-  page.table({"case", "vessel", "length (mm)", "OV", "OF", "OT", "AI (mm)", "observers' OV", "OV score", "AI score"},
-             rows, "OV, OF, OT: overlap, until the first error, of the part 1.5 mm wide and more. AI: mean "
-                   "distance where the line counts as right.");
+  page.table(
+      {"case", "vessel", "length (mm)", "OV", "OF", "OT", "AI (mm)", "observers' OV", "OV score", "AI score"},
+      rows,
+      "OV, OF, OT: overlap, until the first error, of the part 1.5 mm wide and more. AI: mean "
+      "distance where the line counts as right.");
   page.section("Lines");
   for (const VesselScore& v : all) {
     task.throw_if_cancelled();
     if (v.line.empty()) {
-      page.notice(figure::Notice::bad, v.case_name + " " + v.vessel + ": no line overlaps with the reference.");
+      page.notice(figure::Notice::bad,
+                  v.case_name + " " + v.vessel + ": no line overlaps with the reference.");
       continue;
     }
     figure::Scene scene;
@@ -193,7 +170,8 @@ void write_page(const fs::path& path, const Json& result, const std::vector<Vess
     }
     page.picture(figure::scene_figure(scene, figure::cameras::broadside(v.reference.points),
                                       {.width_px = 640, .height_px = 420}, task),
-                 v.case_name + " " + v.vessel + ": reference and result; dots where the two are farther apart than the radius.");
+                 v.case_name + " " + v.vessel +
+                     ": reference and result; dots where the two are farther apart than the radius.");
   }
   page.write(path);
 }
@@ -206,8 +184,9 @@ ExitCode run_evaluate_centerline(const EvaluateCommand& command, const core::Tas
   std::vector<VesselScore> all;
   const std::vector<CasePair> pairs = case_pairs(command.reference, command.result);
   for (std::size_t k = 0; k < pairs.size(); ++k) {
-    const core::TaskContext part = task.sub(0.9 * static_cast<double>(k) / static_cast<double>(pairs.size()),
-                                            0.9 * static_cast<double>(k + 1) / static_cast<double>(pairs.size()));
+    const core::TaskContext part =
+        task.sub(0.9 * static_cast<double>(k) / static_cast<double>(pairs.size()),
+                 0.9 * static_cast<double>(k + 1) / static_cast<double>(pairs.size()));
     if (pairs[k].missing) core::log_warning(pairs[k].name + " has no result: its vessels count as missed");
     for (const auto& [vessel, path] : references_of(pairs[k].reference))
       all.push_back(scored(pairs[k].name, vessel, path, pairs[k].missing ? fs::path() : pairs[k].result,

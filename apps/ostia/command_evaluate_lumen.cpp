@@ -3,6 +3,7 @@
 
 #include "ostia/core/log.h"
 #include "ostia/evaluation/agreement.h"
+#include "ostia/evaluation/agreement_plot.h"
 #include "ostia/evaluation/contour_surface.h"
 #include "ostia/evaluation/frame_hint.h"
 #include "ostia/evaluation/lumen_scores.h"
@@ -70,8 +71,8 @@ SectionScore missed(const ContourSection& reference) {
   return score;
 }
 
-/// What a section's contours enclose, drawn out a little at both ends: its caps must not lie in the planes that
-/// end the section, where they would count as surface.
+/// What a section's contours enclose, drawn out a little at both ends: its caps must not lie in the planes
+/// that end the section, where they would count as surface.
 evaluation::LumenResult solid(const ContourSection& section) {
   constexpr double beyond_mm = 0.5;
   ContourSection longer = section;
@@ -241,28 +242,20 @@ Json stenoses_of(const std::vector<Compared>& all, const std::string& observer, 
 }
 
 figure::Picture agreement_plot(const RadiusPairs& pairs) {
-  figure::Series dots{"contours", {}, {}, {}, figure::LineStyle::points, 3.0};
-  for (std::size_t i = 0; i < pairs.reference.size(); ++i) {
-    dots.x.push_back(pairs.reference[i] + pairs.result[i]);  // diameter: mean of both, twice the radius
-    dots.y.push_back(2.0 * (pairs.result[i] - pairs.reference[i]));
-  }
-  const evaluation::BlandAltman a = evaluation::bland_altman(pairs.reference, pairs.result);
-  figure::PlotOptions how;
-  how.title = "Diameters: result against reference";
-  how.x_label = "mean of both (mm)";
-  how.y_label = "result - reference (mm)";
-  using Line = figure::ReferenceLine;
-  how.references = {{Line::Along::y, 2.0 * a.bias, "bias"},
-                    {Line::Along::y, 2.0 * a.lower_limit, "-1.96 SD"},
-                    {Line::Along::y, 2.0 * a.upper_limit, "+1.96 SD"}};
-  return figure::line_plot({dots}, how);
+  RadiusPairs diameters = pairs;
+  for (std::vector<double>* values : {&diameters.reference, &diameters.result})
+    for (double& v : *values) v *= 2.0;
+  return evaluation::agreement_plot(diameters.reference, diameters.result,
+                                    {.title = "Diameters: result against reference"});
 }
 
 figure::Picture radius_plot(const Compared& c) {
   const SectionScore& s = c.score;
-  figure::Series reference{"reference", s.s_mm, s.reference_radius_mm}, result{"result", s.s_mm, s.result_radius_mm};
+  figure::Series reference{"reference", s.s_mm, s.reference_radius_mm},
+      result{"result", s.s_mm, s.result_radius_mm};
   figure::PlotOptions how;
-  how.title = (c.case_name.empty() ? "" : c.case_name + " ") + s.section + ", " + s.vessel + ", " + name_of(s.health);
+  how.title =
+      (c.case_name.empty() ? "" : c.case_name + " ") + s.section + ", " + s.vessel + ", " + name_of(s.health);
   how.x_label = "along the vessel (mm)";
   how.y_label = "radius of equal area (mm)";
   how.y_from_zero = true;
@@ -290,10 +283,12 @@ void write_page(const fs::path& path, const Json& out, const std::vector<Compare
                 const std::string& observer) {
   figure::HtmlReport page("Lumen sections against their references");
   page.section("Pooled");
-  page.paragraph("Means weighted by length; the maximum is the largest of all. Observers against each other show "
-                 "what can be asked for.");
-  add_table(page, out["summary"],
-            {"compared", "health", "sections", "missing", "length_mm", "dice", "msd_mm", "rms_sd_mm", "max_sd_mm"});
+  page.paragraph(
+      "Means weighted by length; the maximum is the largest of all. Observers against each other show "
+      "what can be asked for.");
+  add_table(
+      page, out["summary"],
+      {"compared", "health", "sections", "missing", "length_mm", "dice", "msd_mm", "rms_sd_mm", "max_sd_mm"});
   page.section("Section by section");
   add_table(page, out["sections"],
             {"case", "section", "vessel", "health", "observer", "length_mm", "dice", "msd_mm", "rms_sd_mm",
@@ -301,8 +296,9 @@ void write_page(const fs::path& path, const Json& out, const std::vector<Compare
   const RadiusPairs pairs = radii_of(all, observer);
   if (pairs.reference.size() >= 2) {
     page.section("Agreement of diameters");
-    page.picture(agreement_plot(pairs), "Bland-Altman plot of the diameters of equal area, contour by contour, against " +
-                                            observer + ".");
+    page.picture(
+        agreement_plot(pairs),
+        "Bland-Altman plot of the diameters of equal area, contour by contour, against " + observer + ".");
   }
   std::vector<figure::Picture> panels;
   for (const Compared& c : all)

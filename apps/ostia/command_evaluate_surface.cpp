@@ -64,16 +64,17 @@ void write_page(const std::filesystem::path& path, const figure::Picture& colour
                 const std::vector<double>& distances, const std::string& text) {
   figure::HtmlReport page("Surface against its reference");
   page.section("Figures");
-  page.paragraph("Exact distances from point to triangle, both ways, weighted by area; signed values are positive "
-                 "where the result lies outside the reference.");
+  page.paragraph(
+      "Exact distances from point to triangle, both ways, weighted by area; signed values are positive "
+      "where the result lies outside the reference.");
   std::vector<std::pair<std::string, std::string>> rows;
   std::size_t from = 0;
   while (from < text.size()) {
     const std::size_t to = text.find('\n', from), blank = text.find("  ", from);
     if (blank < to)
-      rows.emplace_back(text.substr(from, blank - from),
-                        text.substr(text.find_first_not_of(' ', blank),
-                                    to - text.find_first_not_of(' ', blank)));
+      rows.emplace_back(
+          text.substr(from, blank - from),
+          text.substr(text.find_first_not_of(' ', blank), to - text.find_first_not_of(' ', blank)));
     from = to + 1;
   }
   page.key_values(rows);
@@ -99,9 +100,9 @@ void write_pictures(const EvaluateCommand& command, const TriMesh& reference, co
 }
 
 Json figures(const evaluation::SurfaceDistances& d) {
-  return {{"msd_mm", d.msd_mm},       {"rms_sd_mm", d.rms_sd_mm},
-          {"hd95_mm", d.hd95_mm},     {"hausdorff_mm", d.max_sd_mm},
-          {"signed_mean_mm", d.signed_mean_mm}, {"signed_sd_mm", d.signed_sd_mm}};
+  return {
+      {"msd_mm", d.msd_mm},          {"rms_sd_mm", d.rms_sd_mm},           {"hd95_mm", d.hd95_mm},
+      {"hausdorff_mm", d.max_sd_mm}, {"signed_mean_mm", d.signed_mean_mm}, {"signed_sd_mm", d.signed_sd_mm}};
 }
 
 }  // namespace
@@ -110,15 +111,14 @@ ExitCode run_evaluate_surface(const EvaluateCommand& command, const core::TaskCo
   require_pair(command);
   require_output(command.report, {".html", ".htm"});
   require_output(command.picture, {".png", ".svg", ".pdf"});
-  const TriMesh reference =
-      surface_from(file_in(command.reference, surface_names, "surface"), command.units);
+  const TriMesh reference = surface_from(file_in(command.reference, surface_names, "surface"), command.units);
   const TriMesh result = surface_of_parts(files_in(command.result, surface_names, "surface"), command.units);
   const std::string hint = evaluation::hint_of_other_frame(reference.points, result.points);
   if (!hint.empty() && !command.covered_only) core::log_warning(hint);
   const Region region = region_of(command, command.result);
   task.set_stage("distances");
-  const auto distances = evaluation::compare_surfaces(
-      reference, result, {command.sample_mm, region, region}, task.sub(0.0, 0.8));
+  const auto distances = evaluation::compare_surfaces(reference, result, {command.sample_mm, region, region},
+                                                      task.sub(0.0, 0.8));
   Json out{{"v", 1}, {"kind", "surface"}};
   out["reference"] = facts(reference);
   out["result"] = facts(result);

@@ -46,7 +46,8 @@ ExitCode run_evaluate_volume(const EvaluateCommand& command, const core::TaskCon
   evaluation::Region region;
   if (command.covered_only) {
     if (!fs::is_directory(command.result))
-      throw UsageError("--covered needs the folder of a model as RESULT: its centerlines tell what it covers");
+      throw UsageError(
+          "--covered needs the folder of a model as RESULT: its centerlines tell what it covers");
     region = covered_region(lines_of_parts(
         files_in(command.result, {"centerlines.vtp", "centerlines.csv"}, "centerlines"), command.units));
   }
@@ -54,8 +55,8 @@ ExitCode run_evaluate_volume(const EvaluateCommand& command, const core::TaskCon
   out["resolution_mm"] = command.resolution_mm;
   out["covered_only"] = command.covered_only;
   out.update(figures(evaluation::compare_enclosed(surface_from(reference, command.units),
-                                                  surface_of_parts(parts, command.units), command.resolution_mm,
-                                                  region, task)));
+                                                  surface_of_parts(parts, command.units),
+                                                  command.resolution_mm, region, task)));
   task.set_progress(1.0);
   return finish(command, out);
 }

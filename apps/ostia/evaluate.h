@@ -29,14 +29,14 @@ struct EvaluateCommand {
   std::string units;                      ///< of surfaces and lines: "", "m", "cm", "mm"
   std::vector<std::string> requirements;  ///< "msd_mm<=0.3"
   bool json = false;
-  std::filesystem::path tolerance;    ///< suite
-  bool covered_only = false;          ///< surface: only where the result's centerlines run
-  double resolution_mm = 0.2;         ///< volume: voxels of surfaces
-  double sample_mm = 0.2;             ///< surface
-  bool curvature = false;             ///< surface: also curvatures
-  bool floor = false;                 ///< lumen: the floor table instead
-  bool find_stenoses = false;         ///< lumen: detection and grading of stenoses
-  double stenosis_threshold = 0.5;    ///< lumen: least diameter stenosis that counts, share
+  std::filesystem::path tolerance;  ///< suite
+  bool covered_only = false;        ///< surface: only where the result's centerlines run
+  double resolution_mm = 0.2;       ///< volume: voxels of surfaces
+  double sample_mm = 0.2;           ///< surface
+  bool curvature = false;           ///< surface: also curvatures
+  bool floor = false;               ///< lumen: the floor table instead
+  bool find_stenoses = false;       ///< lumen: detection and grading of stenoses
+  double stenosis_threshold = 0.5;  ///< lumen: least diameter stenosis that counts, share
 };
 ExitCode run_evaluate_centerline(const EvaluateCommand& command, const core::TaskContext& task);
 ExitCode run_evaluate_lumen(const EvaluateCommand& command, const core::TaskContext& task);
@@ -66,14 +66,15 @@ void require_pair(const EvaluateCommand& command);
 std::filesystem::path file_in(const std::filesystem::path& path, const std::vector<std::string>& names,
                               const std::string& what);
 
-/// The same for the parts of a result: where the folder itself has none of `names`, those of its subfolders, by
-/// name (models of the left and of the right coronary artery, say).
+/// The same for the parts of a result: where the folder itself has none of `names`, those of its subfolders,
+/// by name (models of the left and of the right coronary artery, say).
 std::vector<std::filesystem::path> files_in(const std::filesystem::path& path,
                                             const std::vector<std::string>& names, const std::string& what);
 
 /// Parts side by side: a result's surfaces, its lines with ids of their own.
 geometry::TriMesh surface_of_parts(const std::vector<std::filesystem::path>& parts, const std::string& units);
-geometry::VesselTree lines_of_parts(const std::vector<std::filesystem::path>& parts, const std::string& units);
+geometry::VesselTree lines_of_parts(const std::vector<std::filesystem::path>& parts,
+                                    const std::string& units);
 
 geometry::TriMesh surface_from(const std::filesystem::path& path, const std::string& units);
 geometry::VesselTree lines_from(const std::filesystem::path& path, const std::string& units);

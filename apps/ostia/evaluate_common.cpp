@@ -112,15 +112,17 @@ const Json* figure_of(const Json& result, const std::string& key) {
 
 bool met(const Json& result, const std::string& requirement) {
   const std::size_t sign = requirement.find_first_of("<>");
-  const bool complete = sign != std::string::npos && sign > 0 && requirement.size() > sign + 2 &&
-                        requirement[sign + 1] == '=';
+  const bool complete =
+      sign != std::string::npos && sign > 0 && requirement.size() > sign + 2 && requirement[sign + 1] == '=';
   char* end = nullptr;
   const double bound = complete ? std::strtod(requirement.c_str() + sign + 2, &end) : 0.0;
   if (!complete || *end != '\0' || !std::isfinite(bound))
-    throw UsageError("--require " + requirement + ": write FIGURE<=NUMBER or FIGURE>=NUMBER, as in msd_mm<=0.3");
+    throw UsageError("--require " + requirement +
+                     ": write FIGURE<=NUMBER or FIGURE>=NUMBER, as in msd_mm<=0.3");
   const Json* figure = figure_of(result, requirement.substr(0, sign));
   if (!figure || !(figure->is_number() || figure->is_null()))
-    throw UsageError("--require " + requirement + ": this result has no figure of that name; --json shows what it has");
+    throw UsageError("--require " + requirement +
+                     ": this result has no figure of that name; --json shows what it has");
   if (figure->is_null()) return false;
   const double value = figure->get<double>();
   const bool ok = requirement[sign] == '<' ? value <= bound : value >= bound;
@@ -160,7 +162,8 @@ void scale(geometry::VesselTree& tree, double factor) {
 
 std::vector<CasePair> case_pairs(const fs::path& reference, const fs::path& result) {
   for (const fs::path& path : {reference, result})
-    if (!fs::exists(path)) throw IoError("cannot read " + path.string() + ": there is no such file or folder");
+    if (!fs::exists(path))
+      throw IoError("cannot read " + path.string() + ": there is no such file or folder");
   std::vector<CasePair> pairs;
   if (fs::is_directory(reference)) {
     for (const auto& entry : fs::directory_iterator(reference)) {
@@ -204,7 +207,8 @@ std::vector<fs::path> files_in(const fs::path& path, const std::vector<std::stri
     };
     if (!has_one(path))
       for (const auto& entry : fs::directory_iterator(path))
-        if (entry.is_directory() && has_one(entry.path())) parts.push_back(file_in(entry.path(), names, what));
+        if (entry.is_directory() && has_one(entry.path()))
+          parts.push_back(file_in(entry.path(), names, what));
     std::sort(parts.begin(), parts.end());
   }
   if (parts.empty()) parts.push_back(file_in(path, names, what));

@@ -68,7 +68,8 @@ TEST(EvaluateCommand, UnitsAreNotGuessedAt) {
   EXPECT_EQ(guess.code, 3);
   EXPECT_THAT(guess.err, HasSubstr("--units"));
   EXPECT_THAT(guess.out, IsEmpty());
-  const Outcome told = ostia({"evaluate", "surface", "a.vtp", "b.vtp", "--units", "m", "--json"}, {folder, ""});
+  const Outcome told =
+      ostia({"evaluate", "surface", "a.vtp", "b.vtp", "--units", "m", "--json"}, {folder, ""});
   ASSERT_EQ(told.code, 0) << told.err;
   EXPECT_NEAR(Json::parse(told.out)["msd_mm"].get<double>(), 0.1, 0.002);
 }
@@ -171,8 +172,8 @@ TEST(EvaluateCommand, CenterlineOfADataSet) {
   fs::create_directories(folder / "out");
   core::write_file(folder / "out" / "centerlines.csv",
                    "x,y,z,radius\n30,50.3,70,1.5\n30,50.3,80,1.5\n30,50.3,90,1.5\n");
-  const Outcome done = ostia(
-      {"evaluate", "centerline", "dataset00", "out", "--json", "-o", "lines.html"}, {folder, ""});
+  const Outcome done =
+      ostia({"evaluate", "centerline", "dataset00", "out", "--json", "-o", "lines.html"}, {folder, ""});
   ASSERT_EQ(done.code, 0) << done.err;
   const Json row = Json::parse(done.out)["vessels"][0];
   EXPECT_EQ(row["vessel"], "vessel1");
@@ -194,14 +195,15 @@ TEST(EvaluateCommand, LumenOfADataSetAndOfASuite) {
   write_data_set(folder / "suite" / "dataset01", 1.5);
   fs::create_directories(folder / "out" / "dataset00");
   write_tube(folder / "out" / "dataset00" / "lumen.vtp", 1.6);
-  const Outcome one = ostia({"evaluate", "lumen", "suite/dataset00", "out/dataset00", "--json", "--stenoses",
-                             "-o", "lumen.html"},
-                            {folder, ""});
+  const Outcome one = ostia(
+      {"evaluate", "lumen", "suite/dataset00", "out/dataset00", "--json", "--stenoses", "-o", "lumen.html"},
+      {folder, ""});
   ASSERT_EQ(one.code, 0) << one.err;
   const Json out = Json::parse(one.out);
   ASSERT_EQ(out["sections"].size(), 2u);
   EXPECT_NEAR(out["sections"][0]["msd_mm"].get<double>(), 0.1, 0.003);
-  EXPECT_NEAR(out["sections"][1]["msd_mm"].get<double>(), 0.0, 0.003) << "the observer's radius is the result's";
+  EXPECT_NEAR(out["sections"][1]["msd_mm"].get<double>(), 0.0, 0.003)
+      << "the observer's radius is the result's";
   ASSERT_EQ(out["summary"].size(), 3u) << "result with both, observer with truth";
   EXPECT_EQ(out["summary"][0]["compared"], "observer - truth");
   EXPECT_NEAR(out["summary"][0]["max_sd_mm"].get<double>(), 0.1, 0.003) << "the ends count as no surface";
@@ -227,7 +229,8 @@ TEST(EvaluateCommand, LumenOfADataSetAndOfASuite) {
 TEST(EvaluateCommand, VolumeAndMotion) {
   const fs::path folder = temporary_folder("evaluate");
   write_tube(folder / "open.vtp", 1.5);
-  EXPECT_EQ(ostia({"evaluate", "volume", "open.vtp", "open.vtp"}, {folder, ""}).code, 3) << "encloses nothing";
+  EXPECT_EQ(ostia({"evaluate", "volume", "open.vtp", "open.vtp"}, {folder, ""}).code, 3)
+      << "encloses nothing";
   const auto shape = geometry::straight_tube(10.0, 1.5);
   io::write_surface(folder / "closed.vtp", geometry::surface_of(shape, 0.3, false));
   const Outcome same = ostia({"evaluate", "volume", "closed.vtp", "closed.vtp", "--json"}, {folder, ""});

@@ -1,6 +1,7 @@
 #include "ostia/evaluation/agreement.h"
 
 #include "ostia/core/error.h"
+#include "ostia/evaluation/agreement_plot.h"
 #include "ostia/evaluation/motion_error.h"
 #include "ostia/evaluation/volume_overlap.h"
 #include "ostia/geometry/analytic_shapes.h"
@@ -8,8 +9,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <vector>
 
 namespace ostia::evaluation {
 namespace {
@@ -39,6 +43,8 @@ TEST(Agreement, DetectionCountsEveryPlace) {
   EXPECT_DOUBLE_EQ(d.sensitivity, 0.5);
   EXPECT_DOUBLE_EQ(d.ppv, 0.5);
   EXPECT_NEAR(d.mean_grade_difference, (0.1 + 0.4 + 0.35) / 5.0, 1e-12);
+  EXPECT_NEAR(d.rms_grade_difference, std::sqrt((0.01 + 0.16 + 0.1225) / 5.0), 1e-12);
+  EXPECT_THROW(detect_stenoses({{std::nan(""), 0.2}}), InvalidInput);
   EXPECT_TRUE(std::isnan(detect_stenoses({{0.0, 0.0}}).sensitivity));
   EXPECT_THROW(detect_stenoses({}), InvalidInput);
 }
@@ -50,6 +56,120 @@ TEST(Agreement, WeightedKappaByHand) {
   EXPECT_NEAR(kappa, 1.0 - 1.0 / (0.25 * (2 * (0 + 2 + 2) + 1 * (1 + 0 + 1) + 1 * (2 + 2 + 0))), 1e-12);
   EXPECT_TRUE(std::isnan(weighted_kappa({{{1, 1}}, {{1, 1}}}, 3)));
   EXPECT_THROW(weighted_kappa({{{0, 3}}}, 3), InvalidInput);
+}
+
+// Peak expiratory flow (l/min), first readings of two meters: Bland and Altman 1986, table 1.
+const std::vector<double> wright{494, 395, 516, 434, 476, 557, 413, 442, 650,
+                                 433, 417, 656, 267, 478, 178, 423, 427};
+const std::vector<double> mini{512, 430, 520, 428, 500, 600, 364, 380, 658,
+                               445, 432, 626, 260, 477, 259, 350, 451};
+
+TEST(Agreement, TheFiguresOfBlandAndAltmanComeOut) {
+  const BlandAltman a = bland_altman(mini, wright);
+  EXPECT_NEAR(a.bias, -2.1, 0.05);
+  EXPECT_NEAR(a.sd, 38.8, 0.05);
+  EXPECT_NEAR(a.bias_error, 9.4, 0.05);
+  EXPECT_NEAR(a.limit_error, 16.3, 0.05);
+  EXPECT_NEAR(a.bias_interval[0], -22.1, 0.1);
+  EXPECT_NEAR(a.bias_interval[1], 17.8, 0.1);
+  // They take two standard deviations for the limits, here it is 1.96.
+  EXPECT_NEAR(a.lower_limit + 0.04 * -a.sd, -79.7, 0.1);
+  EXPECT_NEAR(a.lower_limit_interval[0] + 0.04 * -a.sd, -114.3, 0.2);
+  EXPECT_NEAR(a.upper_limit_interval[1] + 0.04 * a.sd, 110.1, 0.2);
+  EXPECT_NEAR(a.correlation, 0.94, 0.005);
+}
+
+TEST(Agreement, ADifferenceThatGrowsWithSizeIsSeen) {
+  std::vector<double> reference, result;
+  for (int i = 1; i <= 9; ++i) {
+    reference.push_back(i);
+    result.push_back(1.2 * i + 0.5);
+  }
+  const BlandAltman a = bland_altman(reference, result);
+  // d = 0.2 x + 0.5 and mean = 1.1 x + 0.25: d = (0.2 / 1.1) mean + 0.5 - 0.25 * 0.2 / 1.1.
+  EXPECT_NEAR(a.slope, 0.2 / 1.1, 1e-12);
+  EXPECT_NEAR(a.intercept, 0.5 - 0.25 * 0.2 / 1.1, 1e-12);
+  EXPECT_NEAR(a.slope_error, 0.0, 1e-7);
+  EXPECT_TRUE(std::isnan(bland_altman({1.0, 2.0}, {2.0, 1.0}).slope)) << "the means do not vary";
+}
+
+TEST(Agreement, StudentsTIsThatOfTheTables) {
+  EXPECT_NEAR(student_t(0.95, 1), 12.7062, 1e-4);
+  EXPECT_NEAR(student_t(0.95, 2), 4.3027, 1e-4);
+  EXPECT_NEAR(student_t(0.95, 5), 2.5706, 1e-4);
+  EXPECT_NEAR(student_t(0.95, 16), 2.1199, 1e-4);
+  EXPECT_NEAR(student_t(0.99, 30), 2.7500, 1e-4);
+  EXPECT_NEAR(student_t(0.95, 1000000), 1.95996, 1e-4);
+  EXPECT_THROW(student_t(0.95, 0), InvalidInput);
+  EXPECT_THROW(student_t(1.0, 5), InvalidInput);
+}
+
+TEST(Agreement, ConcordanceOfThePublishedFlows) {
+  EXPECT_NEAR(concordance_correlation(mini, wright), 0.943, 5e-4);
+  EXPECT_DOUBLE_EQ(concordance_correlation(mini, mini), 1.0);
+  std::vector<double> shifted = mini;
+  for (double& v : shifted) v += 100.0;
+  EXPECT_LT(concordance_correlation(mini, shifted), 0.8) << "although the correlation is 1";
+  EXPECT_TRUE(std::isnan(concordance_correlation({1.0, 1.0}, {1.0, 1.0})));
+}
+
+TEST(Agreement, IntraclassCorrelationOfShroutAndFleiss) {
+  const std::vector<std::vector<double>> ratings{{9, 2, 5, 8}, {6, 1, 3, 2},  {8, 4, 6, 8},
+                                                 {7, 1, 2, 6}, {10, 5, 6, 9}, {6, 2, 4, 7}};
+  EXPECT_NEAR(intraclass_correlation(ratings), 0.29, 0.005);
+  EXPECT_DOUBLE_EQ(intraclass_correlation({{1, 1}, {2, 2}, {5, 5}}), 1.0);
+  EXPECT_THROW(intraclass_correlation({{1, 2}}), InvalidInput);
+  EXPECT_THROW(intraclass_correlation({{1, 2}, {1}}), InvalidInput);
+  EXPECT_THROW(intraclass_correlation({{1, 2}, {1, std::nan("")}}), InvalidInput);
+}
+
+std::vector<std::array<int, 2>> ratings_of(const std::vector<std::vector<int>>& table) {
+  std::vector<std::array<int, 2>> out;
+  for (std::size_t i = 0; i < table.size(); ++i)
+    for (std::size_t j = 0; j < table[i].size(); ++j)
+      out.insert(out.end(), static_cast<std::size_t>(table[i][j]),
+                 {static_cast<int>(i), static_cast<int>(j)});
+  return out;
+}
+
+TEST(Agreement, KappaOfPublishedTables) {
+  // Cohen 1968: 200 diagnoses by two psychiatrists.
+  const auto diagnoses = ratings_of({{88, 14, 18}, {10, 40, 10}, {2, 6, 12}});
+  EXPECT_NEAR(weighted_kappa(diagnoses, 3, KappaWeights::none), 0.492, 5e-4);
+  // Agresti, Categorical Data Analysis: ratings of 91 married couples.
+  const auto couples = ratings_of({{7, 7, 2, 3}, {2, 8, 3, 7}, {1, 5, 4, 9}, {2, 8, 9, 14}});
+  EXPECT_NEAR(weighted_kappa(couples, 4, KappaWeights::none), 0.1293, 5e-5);
+  EXPECT_NEAR(weighted_kappa(couples, 4, KappaWeights::linear), 0.2374, 5e-5);
+  // With quadratic weights kappa is the concordance correlation of the categories' numbers.
+  std::vector<double> first, second;
+  for (const auto& [a, b] : couples) {
+    first.push_back(a);
+    second.push_back(b);
+  }
+  EXPECT_NEAR(weighted_kappa(couples, 4, KappaWeights::quadratic), concordance_correlation(first, second),
+              1e-12);
+}
+
+/// Pixels of the first series' hue: those of the dots.
+std::size_t dotted(const figure::Picture& plot) {
+  const figure::Raster raster = plot.raster();
+  std::size_t count = 0;
+  for (int y = 0; y < raster.height; ++y)
+    for (int x = 0; x < 580; ++x) {  // without the key at the right
+      const std::uint8_t* p = raster.pixel(x, y);
+      count += p[0] > p[1] + 30 && p[1] > p[2] + 60;
+    }
+  return count;
+}
+
+TEST(Agreement, ThePlotShowsEveryPair) {
+  const figure::Picture all = agreement_plot(mini, wright, {.title = "Flow", .unit = "l/min"});
+  const std::vector<double> few{mini.begin(), mini.begin() + 6}, of_few{wright.begin(), wright.begin() + 6};
+  EXPECT_EQ(all.width(), 720);
+  const auto many = static_cast<double>(dotted(all));
+  EXPECT_NEAR(many / static_cast<double>(dotted(agreement_plot(few, of_few))), 17.0 / 6.0, 0.3);
+  EXPECT_GT(dotted(agreement_plot({1.0, 2.0}, {1.0, 2.0})), 20u) << "no spread at all";
+  EXPECT_THROW(agreement_plot({1.0}, {1.0}), InvalidInput);
 }
 
 TEST(VolumeOverlap, ShiftedAndConcentricBalls) {

@@ -22,10 +22,10 @@ namespace ostia::evaluation {
 namespace {
 
 namespace fs = std::filesystem;
+using ostia::testing::temporary_folder;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using ostia::testing::temporary_folder;
 
 struct Runs {
   fs::path golden, result;

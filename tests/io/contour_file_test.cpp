@@ -7,6 +7,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -89,6 +90,82 @@ TEST_F(ContourFile, BadInputIsNamed) {
   core::write_file(file, "{\"v\":1");
   EXPECT_THROW(read_contours(file), InvalidInput);
   EXPECT_THROW(read_contours(file.parent_path() / "none.json"), IoError);
+}
+
+/// docs/contours.md, "What is refused", one by one.
+TEST_F(ContourFile, EveryMemberThatIsMissingOrOfAnotherTypeIsNamed) {
+  refused("\"v\":1,", "", "v: is missing");
+  refused("\"unit\":\"mm\",", "", "unit: is missing");
+  refused("\"axes\":\"LPS\",", "", "axes: is missing");
+  refused("\"sections\":[", "\"parts\":[", "sections: is missing");
+  refused("\"section\":\"s01\",", "", "sections[0].section: is missing");
+  refused("\"observer\":\"observer1\",", "", "sections[0].observer: is missing");
+  refused("\"boundary\":\"lumen\",", "", "sections[0].boundary: is missing");
+  refused("\"health\":\"diseased\",", "", "sections[0].health: is missing");
+  refused("\"contours\":[", "\"lines\":[", "sections[0].contours: is missing");
+  refused("\"s_mm\":0.5,", "", "sections[0].contours[1].s_mm: is missing");
+  refused("\"s_mm\":0,\"points\"", "\"s_mm\":0,\"corners\"", "sections[0].contours[0].points: is missing");
+  refused("\"section\":\"s01\"", "\"section\":\"\"", "sections[0].section");
+  refused("\"observer\":\"observer1\"", "\"observer\":1", "sections[0].observer");
+  refused("\"s_mm\":0.5", "\"s_mm\":\"0.5\"", "sections[0].contours[1].s_mm");
+  refused("[11.5,0,0]", "[11.5,\"0\",0]", "sections[0].contours[0].points");
+  refused("[11.5,0,0]", "7", "sections[0].contours[0].points");
+}
+
+TEST_F(ContourFile, EveryFaultOfASectionIsNamed) {
+  const auto refused_set = [&](const ContourSet& set, const std::string& why) {
+    write_contours(file, set);
+    try {
+      read_contours(file);
+      ADD_FAILURE() << "taken: " << why;
+    } catch (const InvalidInput& error) {
+      EXPECT_THAT(error.what(), HasSubstr("contours.json"));
+      EXPECT_THAT(error.what(), HasSubstr("sections[0].contours"));
+      EXPECT_THAT(error.what(), HasSubstr(why));
+    }
+  };
+  refused_set(rings(1, 8), "s01");
+  refused_set(rings(2, 2), "s01");
+  ContourSet repeated = rings(3, 8);
+  repeated.sections[0].contours[1].points[3] = repeated.sections[0].contours[1].points[2];
+  refused_set(repeated, "0.5");
+  ContourSet standing = rings(3, 8);
+  standing.sections[0].contours[2].s_mm = standing.sections[0].contours[1].s_mm;
+  refused_set(standing, "s01");
+  ContourSet crossing = rings(3, 8);
+  std::swap(crossing.sections[0].contours[1].points[1], crossing.sections[0].contours[1].points[4]);
+  refused_set(crossing, "0.5");
+  ContourSet against = rings(3, 8);
+  std::reverse(against.sections[0].contours[1].points.begin() + 1, against.sections[0].contours[1].points.end());
+  refused_set(against, "s01");
+}
+
+TEST_F(ContourFile, ForeignDocumentsAreRefused) {
+  for (const char* text : {"[]", "7", "{\"v\":1,\"unit\":\"mm\",\"axes\":\"LPS\",\"sections\":{}}", "# x y z\n1 2 3\n"}) {
+    core::write_file(file, text);
+    EXPECT_THROW(read_contours(file), InvalidInput) << text;
+  }
+}
+
+TEST_F(ContourFile, TablesNameTheLineOrTheSection) {
+  const auto refused_table = [&](const std::string& text, const std::string& why) {
+    core::write_file(file, text);
+    try {
+      read_contour_table(file, {});
+      ADD_FAILURE() << "taken: " << text;
+    } catch (const InvalidInput& error) {
+      EXPECT_THAT(error.what(), HasSubstr("contours.json"));
+      EXPECT_THAT(error.what(), HasSubstr(why));
+    }
+  };
+  refused_table("# nothing but a comment\n", "empty");
+  refused_table("s01 0 1 2\n", "line 1");
+  refused_table("s01 0 1 2 3\ns01 0 1 two 3\n", "line 2");
+  refused_table("s01 0 1 2 nan\n", "line 1");
+  refused_table("s01 0 1 0 0\ns01 0 0 1 0\ns01 0 0 0 0\n", "s01");
+  ContourColumns columns;
+  columns.unit_mm = 0.0;
+  EXPECT_THROW(read_contour_table(file, columns), InvalidInput);
 }
 
 TEST_F(ContourFile, ForeignTablesAreReadByTheirColumns) {

@@ -108,6 +108,10 @@ class Schemas(unittest.TestCase):
         validator("phantom-suite").validate(printed)
         case = json.loads((folder / "dataset00" / "case.json").read_text())
         validator("phantom-case").validate(case)
+        contours = json.loads((folder / "dataset00" / "contours.json").read_text())
+        validator("contours").validate(contours)
+        for broken in ({**contours, "unit": "cm"}, {**contours, "axes": "RAS"}, {**contours, "sections": [{"section": "s01"}]}):
+            self.assert_refused("contours", broken)
         validator("manifest").validate(json.loads((folder / "manifest.json").read_text()))
         for name, document in (("phantom-case", case), ("phantom-suite", printed)):
             for field in document:

@@ -138,32 +138,58 @@ double mean_between(const TriMesh& a, const TriMesh& b) {
       .mean();
 }
 
-/// A bent tube's contours: the axis is a circle about z through (ring, 0, 0).
-ContourSection torus_section(const FloorOptions& o, double spacing, int points) {
+/// The table's tube: its axis is a circle about z through (ring, 0, 0); it tapers, has a stenosis in its
+/// middle and is neither round nor oval across: r(s, theta).
+double tube_radius(const FloorOptions& o, double s, double theta) {
+  const double along = s / o.length_mm, x = (s - 0.5 * o.length_mm) / o.stenosis_length_mm;
+  const double narrowing =
+      std::abs(x) < 0.5 ? 0.5 * o.severity * (1.0 + std::cos(2.0 * pi * x)) : 0.0;
+  const double shape = 1.0 + o.oval * std::cos(2.0 * theta) + o.triangular * std::cos(3.0 * theta + 1.0);
+  return (o.radius_mm + along * (o.radius_end_mm - o.radius_mm)) * (1.0 - narrowing) * shape;
+}
+
+Vec3 tube_point(const FloorOptions& o, double s, double theta) {
+  const double angle = s / o.ring_radius_mm;
+  const Vec3 out(std::cos(angle), std::sin(angle), 0.0);
+  // From outwards to up: counter-clockwise looking distally.
+  return o.ring_radius_mm * out +
+         tube_radius(o, s, theta) * (std::cos(theta) * out + std::sin(theta) * Vec3::UnitZ());
+}
+
+ContourSection tube_section(const FloorOptions& o, double spacing, int points) {
   ContourSection section;
-  section.section = "torus";
+  section.section = "tube";
   const auto count = static_cast<int>(std::round(o.length_mm / spacing)) + 1;
   for (int k = 0; k < count; ++k) {
-    const double s = spacing * k, angle = s / o.ring_radius_mm;
-    const Vec3 out(std::cos(angle), std::sin(angle), 0.0);
-    Contour contour{s, {}};
-    for (int i = 0; i < points; ++i) {
-      const double theta = 2.0 * pi * i / points;  // from outwards to up: counter-clockwise looking distally
-      contour.points.push_back(o.ring_radius_mm * out +
-                               o.radius_mm * (std::cos(theta) * out + std::sin(theta) * Vec3::UnitZ()));
-    }
+    Contour contour{spacing * k, {}};
+    for (int i = 0; i < points; ++i)
+      contour.points.push_back(tube_point(o, contour.s_mm, 2.0 * pi * i / points));
     section.contours.push_back(contour);
   }
   return section;
 }
 
-double torus_distance(const FloorOptions& o, const Vec3& p) {
-  const double ring = std::hypot(p.x(), p.y()) - o.ring_radius_mm;
-  return std::abs(std::hypot(ring, p.z()) - o.radius_mm);
+/// Distance from the smooth surface itself: the foot point by Gauss-Newton from the point's own abscissa and
+/// angle; points are near the surface, so few steps do.
+double tube_distance(const FloorOptions& o, const Vec3& p) {
+  constexpr double small = 1e-5;
+  constexpr int steps = 6;
+  double s = o.ring_radius_mm * std::atan2(p.y(), p.x());
+  double theta = std::atan2(p.z(), std::hypot(p.x(), p.y()) - o.ring_radius_mm);
+  for (int step = 0; step < steps; ++step) {
+    const Vec3 away = p - tube_point(o, s, theta);
+    const Vec3 ds = (tube_point(o, s + small, theta) - tube_point(o, s - small, theta)) / (2.0 * small);
+    const Vec3 dt = (tube_point(o, s, theta + small) - tube_point(o, s, theta - small)) / (2.0 * small);
+    const double ss = ds.dot(ds), st = ds.dot(dt), tt = dt.dot(dt), bs = ds.dot(away), bt = dt.dot(away);
+    const double det = ss * tt - st * st;
+    s += (tt * bs - st * bt) / det;
+    theta += (ss * bt - st * bs) / det;
+  }
+  return (p - tube_point(o, s, theta)).norm();
 }
 
 FloorRow floor_row(const FloorOptions& o, double spacing, int points) {
-  const ContourSection section = torus_section(o, spacing, points);
+  const ContourSection section = tube_section(o, spacing, points);
   const TriMesh mesh = surface_of(section);
   FloorRow row{spacing, points, 0.0, 0.0, discretisation_floor_mm(section)};
   double area = 0.0;
@@ -171,19 +197,20 @@ FloorRow floor_row(const FloorOptions& o, double spacing, int points) {
     const Vec3 a = mesh.points[static_cast<std::size_t>(t[0])], b = mesh.points[static_cast<std::size_t>(t[1])],
                c = mesh.points[static_cast<std::size_t>(t[2])];
     const double own = 0.5 * (b - a).cross(c - a).norm();
-    constexpr int parts = 6;
+    constexpr int parts = 4;
     double sum = 0.0;
-    int samples = 0;
+    const auto add = [&](double u, double v) {
+      const double d = tube_distance(o, a + u * (b - a) + v * (c - a));
+      sum += d;
+      row.max_mm = std::max(row.max_mm, d);
+    };
     for (int i = 0; i < parts; ++i) {
       for (int j = 0; i + j < parts; ++j) {
-        const double u = (i + 1.0 / 3.0) / parts, v = (j + 1.0 / 3.0) / parts;
-        const double d = torus_distance(o, a + u * (b - a) + v * (c - a));
-        sum += d;
-        ++samples;
-        row.max_mm = std::max(row.max_mm, d);
+        add((i + 1.0 / 3.0) / parts, (j + 1.0 / 3.0) / parts);
+        if (i + j + 1 < parts) add((i + 2.0 / 3.0) / parts, (j + 2.0 / 3.0) / parts);
       }
     }
-    row.mean_mm += own * sum / samples;
+    row.mean_mm += own * sum / (parts * parts);
     area += own;
   }
   row.mean_mm /= area;

@@ -18,7 +18,8 @@ using geometry::TriMesh;
 using geometry::Vec3;
 
 constexpr int bands = 9;
-constexpr Color inside_color{0.00, 0.33, 0.64}, fitting_color{0.93, 0.92, 0.88}, outside_color{0.80, 0.28, 0.0};
+constexpr Color inside_color{0.00, 0.33, 0.64}, fitting_color{0.93, 0.92, 0.88},
+    outside_color{0.80, 0.28, 0.0};
 
 Vec3 normal_of(const TriMesh& mesh, std::size_t t) {
   const auto& [a, b, c] = mesh.triangles[t];
@@ -89,8 +90,9 @@ std::vector<double> signed_distances(const TriMesh& reference, const TriMesh& re
     const Vec3 at = centroid_of(result, t);
     const geometry::SurfacePoint nearest = tree.closest(at);
     const bool outside =
-        closed ? !tree.inside(at)
-               : (at - nearest.point).dot(normal_of(reference, static_cast<std::size_t>(nearest.triangle))) > 0;
+        closed
+            ? !tree.inside(at)
+            : (at - nearest.point).dot(normal_of(reference, static_cast<std::size_t>(nearest.triangle))) > 0;
     distances[t] = outside ? nearest.distance : -nearest.distance;
   });
   return distances;

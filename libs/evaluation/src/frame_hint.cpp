@@ -65,9 +65,8 @@ std::string hint_of_other_frame(const std::vector<Vec3>& reference, const std::v
     const char* unit;
   } units[] = {{10.0, "centimetre"}, {1000.0, "metre"}};
   for (const auto& [factor, unit] : units) {
-    consider(mapped(b, Vec3::Constant(factor)),
-             "the result is " + std::to_string(static_cast<int>(factor)) +
-                 " times too small: its unit seems to be the " + unit);
+    consider(mapped(b, Vec3::Constant(factor)), "the result is " + std::to_string(static_cast<int>(factor)) +
+                                                    " times too small: its unit seems to be the " + unit);
     consider(mapped(b, Vec3::Constant(1.0 / factor)),
              "the result is " + std::to_string(static_cast<int>(factor)) +
                  " times too large: the reference's unit seems to be the " + unit);

@@ -101,6 +101,22 @@ Intervals inside_polygon(const std::vector<Vec2>& polygon, double v) {
   return out;
 }
 
+/// Whether a point lies behind a wall of the result's own as seen from the axis: it left the lumen before it,
+/// so the point belongs to another vessel. The point's own triangle does not count.
+bool behind_wall(const geometry::AabbTree& tree, const TriMesh& mesh, const Vec3& axis_point, const Vec3& p) {
+  constexpr double before = 1.0 - 1e-6;
+  const Vec3 way = p - axis_point;
+  for (const geometry::RayHit& hit : tree.all_hits(axis_point, way)) {
+    if (hit.t >= before) return false;
+    const auto& t = mesh.triangles[static_cast<std::size_t>(hit.triangle)];
+    const Vec3 a = mesh.points[static_cast<std::size_t>(t[0])];
+    const Vec3 n =
+        (mesh.points[static_cast<std::size_t>(t[1])] - a).cross(mesh.points[static_cast<std::size_t>(t[2])] - a);
+    if (n.dot(way) > 0.0) return true;
+  }
+  return false;
+}
+
 /// Where a line runs inside a surface, between -half and half about its middle; by the side that each hit
 /// triangle turns to it.
 Intervals inside_surface(const geometry::AabbTree& tree, const TriMesh& mesh, const Vec3& middle,
@@ -121,8 +137,8 @@ Intervals inside_surface(const geometry::AabbTree& tree, const TriMesh& mesh, co
     }
     const auto& t = mesh.triangles[static_cast<std::size_t>(hit.triangle)];
     const Vec3 a = mesh.points[static_cast<std::size_t>(t[0])];
-    const Vec3 n =
-        (mesh.points[static_cast<std::size_t>(t[1])] - a).cross(mesh.points[static_cast<std::size_t>(t[2])] - a);
+    const Vec3 n = (mesh.points[static_cast<std::size_t>(t[1])] - a)
+                       .cross(mesh.points[static_cast<std::size_t>(t[2])] - a);
     const double at = hit.t - half;
     if (n.dot(along) < 0.0) {
       from = at;
@@ -154,7 +170,12 @@ Areas areas_at(const Contour& contour, const geometry::AabbTree& tree, const Tri
     const double at = (i + 0.5) * options.line_mm;
     const double half = std::sqrt(std::max(0.0, reach * reach - at * at));
     if (half <= 0.0) continue;
-    const Intervals a = inside_polygon(polygon, at), b = inside_surface(tree, mesh, centre + at * v, u, half);
+    const Intervals a = inside_polygon(polygon, at);
+    Intervals b = inside_surface(tree, mesh, centre + at * v, u, half);
+    std::erase_if(b, [&](const Interval& piece) {
+      const Vec3 middle = centre + at * v + 0.5 * (piece.from + piece.to) * u;
+      return behind_wall(tree, mesh, centre, middle);
+    });
     areas.reference += options.line_mm * length_of(a);
     areas.result += options.line_mm * length_of(b);
     areas.both += options.line_mm * shared(a, b);
@@ -200,7 +221,8 @@ double mean_difference(const SectionScore& score) {
 
 void validate(const LumenScoreOptions& options) {
   if (!(options.sample_mm > 0.0) || !(options.line_mm > 0.0) || !(options.reach_radii >= 1.0))
-    throw InvalidInput("scores of a lumen need positive distances of samples and lines, and a reach of at least 1");
+    throw InvalidInput(
+        "scores of a lumen need positive distances of samples and lines, and a reach of at least 1");
 }
 
 LumenResult::LumenResult(TriMesh surface) : surface_(std::move(surface)), tree_(surface_) {}
@@ -220,10 +242,14 @@ SectionScore LumenResult::score(const ContourSection& reference, const LumenScor
   task.throw_if_cancelled();
   const SectionSpace space = space_of(reference, options.reach_radii);
   const TriMesh near = nearby(surface_, space);
-  const auto in_section = [&](const Vec3& p) { return space.holds(p); };
   DistanceSums there;  // from the result
-  if (!near.triangles.empty())
+  if (!near.triangles.empty()) {
+    const geometry::AabbTree own(near);
+    const auto in_section = [&](const Vec3& p) {
+      return space.holds(p) && !behind_wall(own, near, geometry::closest(space.axis, p).point, p);
+    };
     there = distances_to(geometry::AabbTree(truth), near, options.sample_mm, in_section, task);
+  }
   // Nothing of the result lies in the section, or only what belongs to another vessel beside it.
   if (!(there.area > 0.0) || !(score.dice > 0.0)) {
     score.found = false;
@@ -277,8 +303,7 @@ double diameter_stenosis(const std::vector<double>& s_mm, const std::vector<doub
   double worst = 0.0;
   for (std::size_t i = 0; i < s_mm.size(); ++i) {
     const double t = (s_mm[i] - s_mm[first]) / (s_mm[last] - s_mm[first]);
-    const double healthy =
-        radius_mm[first] + std::clamp(t, 0.0, 1.0) * (radius_mm[last] - radius_mm[first]);
+    const double healthy = radius_mm[first] + std::clamp(t, 0.0, 1.0) * (radius_mm[last] - radius_mm[first]);
     if (healthy > 0.0) worst = std::max(worst, 1.0 - radius_mm[i] / healthy);
   }
   return std::clamp(worst, 0.0, 1.0);

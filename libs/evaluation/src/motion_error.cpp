@@ -35,22 +35,23 @@ MotionError compare_motion(const PointMotion& reference, const PointMotion& resu
       reference.phases[0].size() != result.phases[0].size())
     throw InvalidInput("the motions differ in phases or points: " + std::to_string(reference.phases.size()) +
                        " x " + std::to_string(reference.phases[0].size()) + " and " +
-                       std::to_string(result.phases.size()) + " x " + std::to_string(result.phases[0].size()));
+                       std::to_string(result.phases.size()) + " x " +
+                       std::to_string(result.phases[0].size()));
   MotionError out;
   const auto points = static_cast<double>(reference.phases[0].size());
   double squares = 0.0;
   for (std::size_t k = 0; k < reference.phases.size(); ++k) {
     if (std::abs(reference.percent[k] - result.percent[k]) > same_phase_percent)
       throw InvalidInput("phase " + std::to_string(k) + " is at " + std::to_string(reference.percent[k]) +
-                         " % in the reference and at " + std::to_string(result.percent[k]) + " % in the result");
+                         " % in the reference and at " + std::to_string(result.percent[k]) +
+                         " % in the result");
     PhaseError phase{reference.percent[k], 0.0, 0.0, 0.0};
     for (std::size_t i = 0; i < reference.phases[k].size(); ++i) {
       const double d = (result.phases[k][i] - reference.phases[k][i]).norm();
       phase.mean_mm += d / points;
       phase.rms_mm += d * d / points;
       phase.max_mm = std::max(phase.max_mm, d);
-      out.amplitude_mm =
-          std::max(out.amplitude_mm, (reference.phases[k][i] - reference.phases[0][i]).norm());
+      out.amplitude_mm = std::max(out.amplitude_mm, (reference.phases[k][i] - reference.phases[0][i]).norm());
     }
     squares += phase.rms_mm;
     phase.rms_mm = std::sqrt(phase.rms_mm);
@@ -61,8 +62,8 @@ MotionError compare_motion(const PointMotion& reference, const PointMotion& resu
   const auto phases = static_cast<double>(reference.phases.size());
   out.mean_mm /= phases;
   out.rms_mm = std::sqrt(squares / phases);
-  out.relative = out.amplitude_mm > 0.0 ? out.rms_mm / out.amplitude_mm
-                                        : std::numeric_limits<double>::quiet_NaN();
+  out.relative =
+      out.amplitude_mm > 0.0 ? out.rms_mm / out.amplitude_mm : std::numeric_limits<double>::quiet_NaN();
   return out;
 }
 

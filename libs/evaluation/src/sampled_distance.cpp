@@ -20,8 +20,8 @@ void add_sample(const geometry::AabbTree& to, const Vec3& p, double weight, cons
   sums.max = std::max(sums.max, d);
 }
 
-void add_triangle(const geometry::AabbTree& to, const Vec3& a, const Vec3& b, const Vec3& c,
-                  double sample_mm, const Region& counts, DistanceSums& sums) {
+void add_triangle(const geometry::AabbTree& to, const Vec3& a, const Vec3& b, const Vec3& c, double sample_mm,
+                  const Region& counts, DistanceSums& sums) {
   const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
   const int k = std::max(1, static_cast<int>(std::ceil(longest / sample_mm)));
   const double weight = 0.5 * (b - a).cross(c - a).norm() / (static_cast<double>(k) * k);

@@ -32,8 +32,8 @@ json parse(const std::filesystem::path& path, const std::string& name, const cha
 
 /// What an object in a list is called by, from the members that name things; empty when nothing does.
 std::string own_name(const json& object) {
-  static constexpr const char* naming[] = {"case", "vessel", "name", "section", "boundary", "observer",
-                                           "health", "kind", "key"};
+  static constexpr const char* naming[] = {"case",     "vessel", "name", "section", "boundary",
+                                           "observer", "health", "kind", "key"};
   std::string name;
   if (!object.is_object()) return name;
   for (const char* member : naming) {

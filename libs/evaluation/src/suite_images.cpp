@@ -26,8 +26,7 @@ void compare_labels(const imaging::FloatVolume& golden, const imaging::FloatVolu
     if (a != 0 && a == b) ++labels[a].both;
   }
   for (const auto& [label, n] : labels) {
-    const double dice =
-        2.0 * static_cast<double>(n.both) / static_cast<double>(n.golden + n.result);
+    const double dice = 2.0 * static_cast<double>(n.both) / static_cast<double>(n.golden + n.result);
     judge({"dice[" + std::to_string(label) + "]", 1.0, dice, 1.0 - rule.dice, Direction::higher_is_better},
           file, findings);
   }
@@ -51,7 +50,9 @@ void compare_values(const imaging::FloatVolume& golden, const imaging::FloatVolu
         }
         return part;
       },
-      [](const Sum& a, const Sum& b) { return Sum{a.sum + b.sum, std::max(a.max, b.max)}; });
+      [](const Sum& a, const Sum& b) {
+        return Sum{a.sum + b.sum, std::max(a.max, b.max)};
+      });
   judge_distance("mean_hu", total.sum / static_cast<double>(golden.voxels.size()), rule.mean_hu, file,
                  findings);
   judge_distance("max_hu", total.max, rule.max_hu, file, findings);

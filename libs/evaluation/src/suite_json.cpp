@@ -26,7 +26,9 @@ const char* name_of_direction(Direction direction) {
 }  // namespace
 
 std::string suite_json(const SuiteResult& result) {
-  json out{{"v", 1}, {"passed", result.passed()}, {"files_compared", result.files.size()},
+  json out{{"v", 1},
+           {"passed", result.passed()},
+           {"files_compared", result.files.size()},
            {"figures_compared", result.figures}};
   for (const FindingKind kind : kinds) out["counts"][name_of(kind)] = result.count(kind);
   out["findings"] = json::array();
@@ -40,7 +42,9 @@ std::string suite_json(const SuiteResult& result) {
                                {"text", f.text}});
   out["files"] = json::array();
   for (const ComparedFile& file : result.files) {
-    json one{{"file", file.file}, {"kind", name_of(file.kind)}, {"differs", file.differs},
+    json one{{"file", file.file},
+             {"kind", name_of(file.kind)},
+             {"differs", file.differs},
              {"figures", json::array()}};
     for (const FigurePair& f : file.figures)
       one["figures"].push_back({{"key", f.key},

@@ -103,8 +103,7 @@ Vec3 farthest_place(const imaging::ImageVolume& a, const imaging::ImageVolume& b
   }
   const auto at = static_cast<std::int64_t>(worst);
   const auto& size = a.geometry.size;
-  return a.geometry.world(Vec3(static_cast<double>(at % size[0]),
-                               static_cast<double>(at / size[0] % size[1]),
+  return a.geometry.world(Vec3(static_cast<double>(at % size[0]), static_cast<double>(at / size[0] % size[1]),
                                static_cast<double>(at / (size[0] * size[1]))));
 }
 
@@ -127,10 +126,11 @@ std::vector<CaptionedPicture> image_pictures(const FilePair& pair, const core::T
   figure::SliceFigureOptions plain = how;
   plain.level_hu = 0.0;
   plain.window_hu = std::max(2.0, 0.25 * how.window_hu);
-  return {{figure::three_planes(golden, place, {}, {}, how), pair.name + ": golden, where the two differ most."},
-          {figure::three_planes(result, place, {}, {}, how), pair.name + ": result, the same place."},
-          {figure::three_planes(difference, place, {}, {}, plain),
-           pair.name + ": result minus golden; mid-grey is no difference."}};
+  return {
+      {figure::three_planes(golden, place, {}, {}, how), pair.name + ": golden, where the two differ most."},
+      {figure::three_planes(result, place, {}, {}, how), pair.name + ": result, the same place."},
+      {figure::three_planes(difference, place, {}, {}, plain),
+       pair.name + ": result minus golden; mid-grey is no difference."}};
 }
 
 }  // namespace

@@ -34,7 +34,8 @@ std::string text_of(const std::optional<double>& value) {
 void add_verdict(figure::HtmlReport& page, const SuiteResult& suite) {
   page.section("Verdict");
   if (suite.passed()) {
-    page.notice(figure::Notice::good, "Passed: nothing is worse than its tolerance allows, nothing is missing.");
+    page.notice(figure::Notice::good,
+                "Passed: nothing is worse than its tolerance allows, nothing is missing.");
   } else {
     page.notice(figure::Notice::bad,
                 "Not passed: " + std::to_string(suite.count(FindingKind::regression)) + " regressions, " +
@@ -46,7 +47,8 @@ void add_verdict(figure::HtmlReport& page, const SuiteResult& suite) {
   for (const FindingKind kind : kinds) rows.emplace_back(name_of(kind), std::to_string(suite.count(kind)));
   page.key_values(rows);
   page.paragraph(
-      "regression: worse than the tolerance allows, or unreadable. missing: the golden run has it, the result "
+      "regression: worse than the tolerance allows, or unreadable. missing: the golden run has it, the "
+      "result "
       "has not. improvement: better by more than the tolerance. change: a text differs. extra: only the "
       "result has it. The first two fail the comparison.");
 }
@@ -186,9 +188,8 @@ void add_pictures(figure::HtmlReport& page, const SuiteResult& suite, const fs::
 void write_suite_report(const fs::path& page_path, const SuiteResult& suite, const fs::path& golden,
                         const fs::path& result, const SuiteReportOptions& options,
                         const core::TaskContext& task) {
-  figure::HtmlReport page("Comparison of two runs",
-                          std::string("Golden run against result; ") +
-                              (suite.passed() ? "passed" : "not passed"));
+  figure::HtmlReport page("Comparison of two runs", std::string("Golden run against result; ") +
+                                                        (suite.passed() ? "passed" : "not passed"));
   add_verdict(page, suite);
   add_findings(page, suite, options.most_rows);
   add_files(page, suite);

@@ -142,8 +142,8 @@ bool fits(std::string_view pattern, std::string_view text) {
 Tolerances default_tolerances() {
   Tolerances t;
   add_scores(t);
-  t.ignored_keys = {"*seconds",   "*peak_mb", "*version", "*versions*", "*sha256*",
-                    "*hash*",     "program*", "inputs*",  "outputs*",   "finished*",
+  t.ignored_keys = {"*seconds",   "*peak_mb", "*version",  "*versions*", "*sha256*",
+                    "*hash*",     "program*", "inputs*",   "outputs*",   "finished*",
                     "*pseudonym", "stages*",  "*valence*", "libraries*", "parameters*"};
   return t;
 }

@@ -51,8 +51,8 @@ std::vector<Interval> inside(const geometry::AabbTree& tree, const TriMesh& mesh
   for (const geometry::RayHit& hit : tree.all_hits(start, Vec3::UnitZ())) {
     const auto& t = mesh.triangles[static_cast<std::size_t>(hit.triangle)];
     const Vec3 a = mesh.points[static_cast<std::size_t>(t[0])];
-    const Vec3 n =
-        (mesh.points[static_cast<std::size_t>(t[1])] - a).cross(mesh.points[static_cast<std::size_t>(t[2])] - a);
+    const Vec3 n = (mesh.points[static_cast<std::size_t>(t[1])] - a)
+                       .cross(mesh.points[static_cast<std::size_t>(t[2])] - a);
     const int before = depth;
     depth += n.z() < 0.0 ? 1 : -1;
     if (before <= 0 && depth > 0) from = hit.t;

@@ -20,7 +20,8 @@ constexpr std::uint64_t most_bytes = 2ULL << 30;
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& field,
                          const std::string& what) {
-  throw InvalidInput(path.string() + ": " + field + ": " + what + "; the format is described in docs/contours.md");
+  throw InvalidInput(path.string() + ": " + field + ": " + what +
+                     "; the format is described in docs/contours.md");
 }
 
 const json& member(const std::filesystem::path& path, const json& object, const std::string& where,
@@ -38,7 +39,8 @@ std::string text_of(const std::filesystem::path& path, const json& object, const
 }
 
 double number_of(const std::filesystem::path& path, const json& value, const std::string& where) {
-  if (!value.is_number() || !std::isfinite(value.get<double>())) refuse(path, where, "must be a finite number");
+  if (!value.is_number() || !std::isfinite(value.get<double>()))
+    refuse(path, where, "must be a finite number");
   return value.get<double>();
 }
 
@@ -49,7 +51,8 @@ Contour contour_of(const std::filesystem::path& path, const json& value, const s
   if (!points.is_array()) refuse(path, where + "points", "must be a list of [x, y, z]");
   for (const json& p : points) {
     if (!p.is_array() || p.size() != 3) refuse(path, where + "points", "must be a list of [x, y, z]");
-    contour.points.emplace_back(number_of(path, p[0], where + "points"), number_of(path, p[1], where + "points"),
+    contour.points.emplace_back(number_of(path, p[0], where + "points"),
+                                number_of(path, p[1], where + "points"),
                                 number_of(path, p[2], where + "points"));
   }
   return contour;
@@ -70,10 +73,10 @@ ContourSection section_of(const std::filesystem::path& path, const json& value, 
   const json& contours = member(path, value, where, "contours");
   if (!contours.is_array()) refuse(path, where + "contours", "must be a list");
   for (std::size_t i = 0; i < contours.size(); ++i)
-    section.contours.push_back(
-        contour_of(path, contours[i], where + "contours[" + std::to_string(i) + "]."));
+    section.contours.push_back(contour_of(path, contours[i], where + "contours[" + std::to_string(i) + "]."));
   if (const auto fault = geometry::find_fault(section))
-    refuse(path, where + "contours", "section " + section.section + " of " + section.observer + ": " + *fault);
+    refuse(path, where + "contours",
+           "section " + section.section + " of " + section.observer + ": " + *fault);
   return section;
 }
 

@@ -41,7 +41,8 @@ void turn_distally(ContourSection& section) {
     const std::size_t a = i + 1 < all.size() ? i : i - 1;
     if (all.size() < 2 || all[i].points.size() < 3) return;
     const Vec3 along = geometry::contour_centroid(all[a + 1]) - geometry::contour_centroid(all[a]);
-    if (geometry::contour_normal(all[i]).dot(along) < 0.0) std::reverse(all[i].points.begin() + 1, all[i].points.end());
+    if (geometry::contour_normal(all[i]).dot(along) < 0.0)
+      std::reverse(all[i].points.begin() + 1, all[i].points.end());
   }
 }
 

@@ -13,7 +13,7 @@ namespace ostia::evaluation {
 
 struct LumenScoreOptions {
   double sample_mm = 0.15;  ///< density of the points that are asked for their distance, > 0
-  double line_mm = 0.05;   ///< distance of the lines that areas are measured by, > 0
+  double line_mm = 0.05;    ///< distance of the lines that areas are measured by, > 0
   /// The result counts as this vessel up to so many largest radii of the reference's contours from its axis.
   double reach_radii = 1.8;
 };
@@ -24,12 +24,12 @@ struct SectionScore {
   std::string section, vessel, observer;
   geometry::Health health = geometry::Health::healthy;
   double length_mm = 0.0;
-  bool found = true;   ///< false: the result has no surface there; Dice is 0 and the distances are NaN
-  double dice = 0.0;   ///< of the enclosed volumes between the first and the last contour's plane
+  bool found = true;  ///< false: the result has no surface there; Dice is 0 and the distances are NaN
+  double dice = 0.0;  ///< of the enclosed volumes between the first and the last contour's plane
   double msd_mm = 0.0, rms_sd_mm = 0.0, max_sd_mm = 0.0;
   double signed_mean_mm = 0.0;  ///< mean difference of the radii below: positive where the result is wider
-  double floor_mm = 0.0;  ///< discretisation_floor_mm of the reference's contours
-  std::vector<double> s_mm;                     ///< of the reference's contours
+  double floor_mm = 0.0;        ///< discretisation_floor_mm of the reference's contours
+  std::vector<double> s_mm;     ///< of the reference's contours
   std::vector<double> reference_radius_mm, result_radius_mm;  ///< of circles of the same area there
 };
 
@@ -38,7 +38,8 @@ class LumenResult {
  public:
   explicit LumenResult(geometry::TriMesh surface);  ///< throws InvalidInput when it has no triangle
   /// The part of the surface that belongs to the section is what lies between the planes of its first and
-  /// last contour and near its axis. Distances are exact, from each surface to the other, weighted by area:
+  /// last contour, near its axis and, seen from there, behind no wall of the result's own (what is behind one
+  /// is another vessel or a side branch). Distances are exact, from each surface to the other, weighted by area:
   /// MSD is their mean, the maximum the larger of the two. Throws InvalidInput for a section with a fault.
   SectionScore score(const geometry::ContourSection& reference, const LumenScoreOptions& options = {},
                      const core::TaskContext& task = core::no_task()) const;

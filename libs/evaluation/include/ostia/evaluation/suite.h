@@ -53,8 +53,9 @@ struct Tolerances {
 /// 5 %, least angles fall by 1 degree, other figures differ by 1 %; times, memory, versions and digests are
 /// left out.
 Tolerances default_tolerances();
-/// docs/schemas/tolerance.schema.json. The file's rules go before the default ones. Throws InvalidInput naming
-/// the file and the member: unknown members, numbers that are negative or not finite, `"v"` other than 1.
+/// docs/schemas/tolerance.schema.json. The file's rules go before the default ones. Throws InvalidInput
+/// naming the file and the member: unknown members, numbers that are negative or not finite, `"v"` other
+/// than 1.
 Tolerances read_tolerances(const std::filesystem::path& path);
 void validate(const Tolerances& tolerances);
 

@@ -13,8 +13,8 @@ struct SuiteReportOptions {
   std::size_t most_rows = 400;     ///< rows of the table of findings; what is left out is counted
 };
 
-/// Writes `page` (.html, everything in it): verdict, counts, findings; each figure golden against result, case
-/// by case; surfaces coloured by their signed distance from the golden ones; lines and slices where they
+/// Writes `page` (.html, everything in it): verdict, counts, findings; each figure golden against result,
+/// case by case; surfaces coloured by their signed distance from the golden ones; lines and slices where they
 /// differ. Reads both trees again for the pictures. Whole or not at all.
 void write_suite_report(const std::filesystem::path& page, const SuiteResult& suite,
                         const std::filesystem::path& golden, const std::filesystem::path& result,

@@ -19,7 +19,8 @@ VolumeOverlap compare_masks(const imaging::MaskVolume& reference, const imaging:
 
 /// What two closed outward surfaces enclose, along lines in z that stand `resolution_mm` apart in x and y:
 /// exact along them. Only places where `counts` (all when empty; asked every half resolution along a line).
-/// Throws InvalidInput for surfaces without triangles or with open edges, and where neither encloses anything.
+/// Throws InvalidInput for surfaces without triangles or with open edges, and where neither encloses
+/// anything.
 VolumeOverlap compare_enclosed(const geometry::TriMesh& reference, const geometry::TriMesh& result,
                                double resolution_mm = 0.2, const Region& counts = {},
                                const core::TaskContext& task = core::no_task());

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace ostia::figure {
@@ -79,6 +80,21 @@ TEST(LinePlot, AStraightLineIsStraightAndAGapStaysOpen) {
   }
   const double width = seen.back().first - seen.front().first;
   EXPECT_NEAR(widest_gap, 0.22 * width, 0.03 * width);  // from 39 to 61 of 100
+}
+
+TEST(LinePlot, ValuesThatDifferByRoundingAloneAreDrawnAsALevelLine) {
+  Series series;
+  series.color = Color{1, 0, 0};
+  series.x = {0.0, 1.0, 2.0};
+  series.y = {0.3, 0.1 + 0.2, 0.3};
+  const Raster raster = line_plot({series}, {.width_px = 400, .height_px = 240}).raster();
+  std::vector<double> heights;
+  for (const double h : curve_heights(raster, *series.color)) {
+    if (std::isfinite(h)) heights.push_back(h);
+  }
+  ASSERT_GT(heights.size(), 200U);
+  EXPECT_NEAR(*std::max_element(heights.begin(), heights.end()),
+              *std::min_element(heights.begin(), heights.end()), 1.0);
 }
 
 TEST(LinePlot, RefusesWhatItCannotShow) {

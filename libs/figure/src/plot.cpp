@@ -37,8 +37,10 @@ Range checked(const Range& range, const char* axis) {
 
 /// Widened to whole ticks, so that the curve does not touch the frame.
 Range rounded_out(Range range, int count) {
-  if (range.first == range.second) {
-    const double half = range.first == 0.0 ? 1.0 : 0.1 * std::abs(range.first);
+  // A range no wider than rounding has no ticks of its own.
+  const double size = std::max(std::abs(range.first), std::abs(range.second));
+  if (range.second - range.first <= 1e-9 * size) {
+    const double half = size == 0.0 ? 1.0 : 0.1 * size;
     range = {range.first - half, range.second + half};
   }
   const double step = nice_step(range.second - range.first, count);

@@ -123,11 +123,12 @@ void define_evaluate(CLI::App& app, EvaluateCommand& c,
   evaluate->require_subcommand(1);
   add_scores(*evaluate, c, run);
   add_shapes(*evaluate, c, run);
-  CLI::App* motion =
-      add(*evaluate, c,
-          {"motion", "Two motions of the same points, phase by phase", "moving points (.json)",
-           "moving points (.json)", "ostia evaluate motion truth.json result.json", run_evaluate_motion},
-          run);
+  CLI::App* motion = add(*evaluate, c,
+                         {"motion", "Two motions, phase by phase: of the same points, or of surfaces",
+                          "moving points (.json), or a folder of surfaces, one a phase", "the same",
+                          "ostia evaluate motion truth.json result.json", run_evaluate_motion},
+                         run);
+  add_units(*motion, c);
   add_requirements(*motion, c);
   CLI::App* suite =
       add(*evaluate, c,

@@ -314,7 +314,7 @@ void write_page(const fs::path& path, const Json& out, const std::vector<Compare
 
 ExitCode print_floor(const EvaluateCommand& command, const core::TaskContext& task) {
   task.set_stage("floor");
-  Json out{{"v", 1}, {"kind", "floor"}, {"shape", "tube of radius 1.75 mm on a circle of radius 20 mm"}};
+  Json out{{"v", 1}, {"kind", "floor"}, {"shape", "tube on a circle of radius 20 mm, 1.75 to 1.25 mm, stenosis of 50 %, not round"}};
   out["rows"] = Json::array();
   for (const evaluation::FloorRow& row : evaluation::floor_table())
     out["rows"].push_back({{"spacing_mm", row.spacing_mm},

@@ -1,11 +1,14 @@
 #include "covered_region.h"
 #include "evaluate.h"
 
+#include "ostia/evaluation/label_scores.h"
 #include "ostia/evaluation/volume_overlap.h"
 #include "ostia/imaging/image_file.h"
 #include "ostia/io/surface_file.h"
 
 #include <nlohmann/json.hpp>
+
+#include <cmath>
 
 namespace ostia::app {
 namespace fs = std::filesystem;
@@ -24,11 +27,42 @@ Json figures(const evaluation::VolumeOverlap& v) {
           {"relative_difference", v.relative_difference}};
 }
 
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json label_row(const evaluation::LabelScore& score) {
+  Json row{{"label", score.label}, {"in_reference", score.in_reference}, {"in_result", score.in_result}};
+  row.update(figures(score.overlap));
+  row["relative_difference"] = number(score.overlap.relative_difference);
+  row["difference_mm3"] = score.difference_mm3;
+  row["msd_mm"] = number(score.boundary.msd_mm);
+  row["rms_sd_mm"] = number(score.boundary.rms_sd_mm);
+  row["hd95_mm"] = number(score.boundary.hd95_mm);
+  row["hausdorff_mm"] = number(score.boundary.max_sd_mm);
+  row["signed_mean_mm"] = number(score.boundary.signed_mean_mm);
+  return row;
+}
+
+/// Masks and label volumes: all labels together as one mask, then each where there are several.
+Json voxel_figures(const fs::path& reference, const fs::path& result, const core::TaskContext& task) {
+  imaging::ImageVolume a = imaging::read_image(reference, task).volume,
+                       b = imaging::read_image(result, task).volume;
+  const std::vector<evaluation::LabelScore> labels = evaluation::compare_labels(a, b, {}, task);
+  for (imaging::ImageVolume* image : {&a, &b})
+    for (std::int16_t& v : image->voxels) v = v != 0;
+  Json out = label_row(evaluation::compare_labels(a, b, {}, task).front());
+  for (const char* key : {"label", "in_reference", "in_result"}) out.erase(key);
+  out["labels"] = Json::array();
+  for (const evaluation::LabelScore& score : labels) out["labels"].push_back(label_row(score));
+  return out;
+}
+
 }  // namespace
 
 ExitCode run_evaluate_volume(const EvaluateCommand& command, const core::TaskContext& task) {
   require_pair(command);
-  const std::vector<std::string> names{"lumen.vtp", "lumen.stl", "lumen.ply", "mask.nrrd"};
+  const std::vector<std::string> names{"lumen.vtp", "lumen.stl", "lumen.ply", "mask.nrrd", "labels.nrrd"};
   const fs::path reference = file_in(command.reference, names, "surface or mask");
   const std::vector<fs::path> parts = files_in(command.result, names, "surface or mask");
   const fs::path& result = parts.front();
@@ -39,8 +73,7 @@ ExitCode run_evaluate_volume(const EvaluateCommand& command, const core::TaskCon
   if (!is_surface(reference)) {
     if (command.covered_only) throw UsageError("--covered is for surfaces of models");
     out["method"] = "voxels";
-    out.update(figures(evaluation::compare_masks(imaging::read_mask(reference, task).volume,
-                                                 imaging::read_mask(result, task).volume)));
+    out.update(voxel_figures(reference, result, task));
     return finish(command, out);
   }
   evaluation::Region region;

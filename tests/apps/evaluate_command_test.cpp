@@ -246,5 +246,27 @@ TEST(EvaluateCommand, VolumeAndMotion) {
   EXPECT_EQ(ostia({"evaluate", "motion", "a.json", "b.json"}, {folder, ""}).code, 3);
 }
 
+TEST(EvaluateCommand, MotionOfSurfacesInFolders) {
+  const fs::path folder = temporary_folder("evaluate");
+  fs::create_directories(folder / "truth");
+  fs::create_directories(folder / "result");
+  for (const int phase : {2, 10, 1}) {
+    write_tube(folder / "truth" / ("phase" + std::to_string(phase) + ".vtp"), 1.5);
+    write_tube(folder / "result" / ("t0" + std::to_string(phase) + ".vtp"), 1.5 + 0.01 * phase);
+  }
+  const Outcome done = ostia({"evaluate", "motion", "truth", "result", "--json"}, {folder, ""});
+  ASSERT_EQ(done.code, 0) << done.err;
+  const Json out = Json::parse(done.out);
+  ASSERT_EQ(out["phases"].size(), 3u);
+  EXPECT_EQ(out["phases"][1]["phase"], "2") << "as people count";
+  EXPECT_NEAR(out["phases"][2]["msd_mm"].get<double>(), 0.1, 0.002);
+  EXPECT_NEAR(out["phases"][2]["displacement_mm"].get<double>(), 0.1, 1e-6);
+  fs::remove(folder / "result" / "t02.vtp");
+  const Outcome missing = ostia({"evaluate", "motion", "truth", "result"}, {folder, ""});
+  EXPECT_EQ(missing.code, 3);
+  EXPECT_THAT(missing.err, HasSubstr("no phase 2"));
+  EXPECT_EQ(ostia({"evaluate", "motion", "truth", "result/t01.vtp"}, {folder, ""}).code, 3);
+}
+
 }  // namespace
 }  // namespace ostia::testing

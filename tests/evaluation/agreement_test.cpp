@@ -169,6 +169,9 @@ TEST(Agreement, ThePlotShowsEveryPair) {
   const auto many = static_cast<double>(dotted(all));
   EXPECT_NEAR(many / static_cast<double>(dotted(agreement_plot(few, of_few))), 17.0 / 6.0, 0.3);
   EXPECT_GT(dotted(agreement_plot({1.0, 2.0}, {1.0, 2.0})), 20u) << "no spread at all";
+  const std::vector<double> same{1.1, 2.3, 3.7}, rounded{1.1 + 2e-16, 2.3 - 4e-16, 3.7};
+  EXPECT_GT(dotted(agreement_plot(same, rounded)), 20u) << "nothing but rounding";
+  EXPECT_GT(dotted(agreement_plot({2.0, 2.0}, {2.0, 2.0 + 4e-16})), 10u);
   EXPECT_THROW(agreement_plot({1.0}, {1.0}), InvalidInput);
 }
 

@@ -51,7 +51,8 @@ TEST(BoundaryOf, ABallIsClosedAndWithinAVoxel) {
   const geometry::TriMesh mesh = boundary_of(ball(4.0), 1);
   EXPECT_EQ(geometry::find_faults(mesh, false).open_edges, 0u);
   EXPECT_NEAR(geometry::volume(mesh), ball_mm3(4.0), 0.03 * ball_mm3(4.0));
-  for (const Vec3& p : mesh.points) EXPECT_NEAR(p.norm(), 4.0, 0.87 * spacing_mm) << "half a voxel's diagonal";
+  for (const Vec3& p : mesh.points)
+    EXPECT_NEAR(p.norm(), 4.0, 0.87 * spacing_mm) << "half a voxel's diagonal";
   EXPECT_TRUE(boundary_of(ball(4.0), 2).triangles.empty());
 }
 

@@ -74,7 +74,8 @@ TEST(ContourSurface, FloorOnABentTaperedStenosedTube) {
     EXPECT_GE(row.max_mm, row.mean_mm);
     EXPECT_NEAR(row.estimate_mm, row.mean_mm, 0.6 * row.mean_mm) << row.spacing_mm << " " << row.points;
   }
-  EXPECT_GT(rows[0].mean_mm, 2.5 * rows[1].mean_mm) << "with the square of the points, as long as they decide";
+  EXPECT_GT(rows[0].mean_mm, 2.5 * rows[1].mean_mm)
+      << "with the square of the points, as long as they decide";
   EXPECT_GT(rows[3].mean_mm, rows[1].mean_mm);
 }
 
@@ -89,9 +90,8 @@ TEST(ContourSurface, FloorOfARoundStraightTube) {
   const FloorRow row = floor_table(options).front();
   const double r = 1.5, half = r * std::sin(pi / 32), apothem = r * std::cos(pi / 32);
   double mean = 0.0;
-  for (int i = 0; i < 1000; ++i)
-    mean += (r - std::hypot(apothem, half * (i + 0.5) / 1000)) / 1000.0;
-  EXPECT_NEAR(row.mean_mm, mean, 0.02 * mean) << "by 16 samples a triangle";
+  for (int i = 0; i < 1000; ++i) mean += (r - std::hypot(apothem, half * (i + 0.5) / 1000)) / 1000.0;
+  EXPECT_NEAR(row.mean_mm, mean, 0.03 * mean) << "by 16 samples a triangle";
 }
 
 TEST(LumenScores, ConcentricTubes) {
@@ -109,7 +109,7 @@ TEST(LumenScores, ConcentricTubes) {
 TEST(LumenScores, AShiftedTube) {
   const double r = 1.5, d = 0.4;
   const SectionScore s = LumenResult(tube(r, Vec3(d, 0.0, 0.0), 512))
-                             .score(cylinder(r, 5.0, 15.0, 512), {.sample_mm = 0.05, .line_mm = 0.01});
+                             .score(cylinder(r, 5.0, 15.0, 512), {.sample_mm = 0.1, .line_mm = 0.01});
   const double lens = 2.0 * r * r * std::acos(d / (2.0 * r)) - 0.5 * d * std::sqrt(4.0 * r * r - d * d);
   EXPECT_NEAR(s.dice, lens / (pi * r * r), 1e-3);
   // Distance from a point of one circle to the other: | |p - c| - r |, averaged over the angle.
@@ -128,8 +128,8 @@ TEST(LumenScores, AShiftedTube) {
 
 /// The result ends in the middle of the section: half the reference is up to 5 mm away from it.
 TEST(LumenScores, AResultThatEndsWithinTheSection) {
-  const SectionScore s = LumenResult(tube(1.5, Vec3::Zero(), 512))
-                             .score(cylinder(1.5, 14.75, 25.25, 512), {.line_mm = 0.01});
+  const SectionScore s =
+      LumenResult(tube(1.5, Vec3::Zero(), 512)).score(cylinder(1.5, 14.75, 25.25, 512), {.line_mm = 0.01});
   ASSERT_TRUE(s.found);
   const double covered = 5.25, bare = 5.25;  // mm
   EXPECT_NEAR(s.dice, 2.0 * covered / (covered + covered + bare), 1e-3);

@@ -74,7 +74,8 @@ TEST(SurfaceMotion, AResultThatIsTooWide) {
 
 TEST(SurfaceMotion, OtherTrianglesAreComparedByClosestPoints) {
   SurfaceMotion remeshed = pulsating();
-  for (int k = 0; k < phase_count; ++k) remeshed.phases[static_cast<std::size_t>(k)] = ball(radius_at(k) + 0.25);
+  for (int k = 0; k < phase_count; ++k)
+    remeshed.phases[static_cast<std::size_t>(k)] = ball(radius_at(k) + 0.25);
   const SurfaceMotionError e = compare_surface_motion(pulsating(), remeshed);
   EXPECT_FALSE(e.corresponding);
   EXPECT_NEAR(e.msd_mm, 0.25, 0.0075) << "two triangulations of 0.3 mm";
@@ -87,7 +88,8 @@ TEST(SurfaceMotion, OtherTrianglesAreComparedByClosestPoints) {
 /// Points that slide along their surface: no distance between the surfaces, but the points are off.
 TEST(SurfaceMotion, PointsThatSlideAreSeenByTheirDisplacement) {
   SurfaceMotion open;
-  const TriMesh tube = geometry::structured_surface(geometry::straight_tube(20.0, 1.5).tubes.front(), 64, 0.5);
+  const TriMesh tube =
+      geometry::structured_surface(geometry::straight_tube(20.0, 1.5).tubes.front(), 64, 0.5);
   for (const char* name : {"a", "b"}) {
     open.names.push_back(name);
     open.phases.push_back(tube);
@@ -95,7 +97,8 @@ TEST(SurfaceMotion, PointsThatSlideAreSeenByTheirDisplacement) {
   SurfaceMotion turned = open;
   const double step = 2.0 * pi / 64;
   for (Vec3& p : turned.phases[1].points)
-    p = Vec3(std::cos(step) * p.x() - std::sin(step) * p.y(), std::sin(step) * p.x() + std::cos(step) * p.y(), p.z());
+    p = Vec3(std::cos(step) * p.x() - std::sin(step) * p.y(), std::sin(step) * p.x() + std::cos(step) * p.y(),
+             p.z());
   const SurfaceMotionError e = compare_surface_motion(open, turned);
   EXPECT_NEAR(e.phases[1].msd_mm, 0.0, 2e-3);
   EXPECT_NEAR(e.phases[1].displacement_mm, 2.0 * 1.5 * std::sin(0.5 * step), 1e-9);

@@ -46,7 +46,8 @@ TriMesh rod(double radius_mm, double from, double to, double x) {
 
 TEST(CompareEnclosed, TwoBallsShareALens) {
   const double r = 3.0, d = 2.0;
-  const VolumeOverlap v = compare_enclosed(ball(r, Vec3(0.03, 0.01, 0.02)), ball(r, Vec3(d + 0.03, 0.01, 0.02)), 0.05);
+  const VolumeOverlap v =
+      compare_enclosed(ball(r, Vec3(0.03, 0.01, 0.02)), ball(r, Vec3(d + 0.03, 0.01, 0.02)), 0.05);
   const double whole = 4.0 / 3.0 * pi * r * r * r;
   const double lens = pi * (4.0 * r + d) * (2.0 * r - d) * (2.0 * r - d) / 12.0;
   EXPECT_NEAR(v.reference_mm3, whole, 1e-3 * whole);

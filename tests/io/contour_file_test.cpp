@@ -136,12 +136,14 @@ TEST_F(ContourFile, EveryFaultOfASectionIsNamed) {
   std::swap(crossing.sections[0].contours[1].points[1], crossing.sections[0].contours[1].points[4]);
   refused_set(crossing, "0.5");
   ContourSet against = rings(3, 8);
-  std::reverse(against.sections[0].contours[1].points.begin() + 1, against.sections[0].contours[1].points.end());
+  std::reverse(against.sections[0].contours[1].points.begin() + 1,
+               against.sections[0].contours[1].points.end());
   refused_set(against, "s01");
 }
 
 TEST_F(ContourFile, ForeignDocumentsAreRefused) {
-  for (const char* text : {"[]", "7", "{\"v\":1,\"unit\":\"mm\",\"axes\":\"LPS\",\"sections\":{}}", "# x y z\n1 2 3\n"}) {
+  for (const char* text :
+       {"[]", "7", "{\"v\":1,\"unit\":\"mm\",\"axes\":\"LPS\",\"sections\":{}}", "# x y z\n1 2 3\n"}) {
     core::write_file(file, text);
     EXPECT_THROW(read_contours(file), InvalidInput) << text;
   }

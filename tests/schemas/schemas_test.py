@@ -85,6 +85,11 @@ class Schemas(unittest.TestCase):
         lumen = self.folder / "lumen.stl"
         for arguments in (("surface", lumen, lumen), ("volume", lumen, lumen), ("lumen", "--floor")):
             validator("evaluate").validate(json.loads(run("evaluate", *arguments, "--json")))
+        phases = pathlib.Path(self.holder.name) / "phases"
+        phases.mkdir()
+        for phase in ("p1.stl", "p2.stl"):
+            (phases / phase).write_bytes(lumen.read_bytes())
+        validator("evaluate").validate(json.loads(run("evaluate", "motion", phases, phases, "--json")))
         self.assert_refused("evaluate", {"v": 1, "kind": "surface"})
 
     def test_suite_and_tolerance(self):

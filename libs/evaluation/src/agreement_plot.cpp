@@ -41,14 +41,19 @@ figure::Picture agreement_plot(const std::vector<double>& reference, const std::
   how.y_label = "result - reference (" + options.unit + ")";
   how.width_px = options.width_px;
   how.height_px = options.height_px;
-  if (*right > *left) how.x_range = {*left - 0.05 * (*right - *left), *right + 0.05 * (*right - *left)};
+  // What rounding alone makes differ sets no range.
+  const double least = 1e-9 * std::max({std::abs(*left), std::abs(*right), 1e-300});
+  if (*right - *left > least)
+    how.x_range = {*left - 0.05 * (*right - *left), *right + 0.05 * (*right - *left)};
   const double room = 0.15 * (a.upper_limit - a.lower_limit);
   const auto [low, high] = std::minmax_element(dots.y.begin(), dots.y.end());
-  if (room > 0.0) how.y_range = {std::min(*low, a.lower_limit) - room, std::max(*high, a.upper_limit) + room};
+  if (room > least)
+    how.y_range = {std::min(*low, a.lower_limit) - room, std::max(*high, a.upper_limit) + room};
+  const double spread = room > least ? a.sd : 0.0;
   using Along = figure::ReferenceLine::Along;
-  how.references = {{Along::y, a.bias, named("bias", a.bias, a.sd)},
-                    {Along::y, a.lower_limit, named("-1.96 SD", a.lower_limit, a.sd)},
-                    {Along::y, a.upper_limit, named("+1.96 SD", a.upper_limit, a.sd)}};
+  how.references = {{Along::y, a.bias, named("bias", a.bias, spread)},
+                    {Along::y, a.lower_limit, named("-1.96 SD", a.lower_limit, spread)},
+                    {Along::y, a.upper_limit, named("+1.96 SD", a.upper_limit, spread)}};
   return figure::line_plot(series, how);
 }
 

@@ -76,7 +76,8 @@ void add_cap(TriMesh& mesh, std::size_t first, std::size_t count, bool reversed)
   const auto middle = static_cast<std::int32_t>(mesh.points.size());
   mesh.points.push_back(centre);
   for (std::size_t i = 0; i < count; ++i) {
-    const auto a = static_cast<std::int32_t>(first + i), b = static_cast<std::int32_t>(first + (i + 1) % count);
+    const auto a = static_cast<std::int32_t>(first + i),
+               b = static_cast<std::int32_t>(first + (i + 1) % count);
     if (reversed) {
       mesh.triangles.push_back({b, a, middle});
     } else {
@@ -142,8 +143,7 @@ double mean_between(const TriMesh& a, const TriMesh& b) {
 /// middle and is neither round nor oval across: r(s, theta).
 double tube_radius(const FloorOptions& o, double s, double theta) {
   const double along = s / o.length_mm, x = (s - 0.5 * o.length_mm) / o.stenosis_length_mm;
-  const double narrowing =
-      std::abs(x) < 0.5 ? 0.5 * o.severity * (1.0 + std::cos(2.0 * pi * x)) : 0.0;
+  const double narrowing = std::abs(x) < 0.5 ? 0.5 * o.severity * (1.0 + std::cos(2.0 * pi * x)) : 0.0;
   const double shape = 1.0 + o.oval * std::cos(2.0 * theta) + o.triangular * std::cos(3.0 * theta + 1.0);
   return (o.radius_mm + along * (o.radius_end_mm - o.radius_mm)) * (1.0 - narrowing) * shape;
 }
@@ -194,7 +194,8 @@ FloorRow floor_row(const FloorOptions& o, double spacing, int points) {
   FloorRow row{spacing, points, 0.0, 0.0, discretisation_floor_mm(section)};
   double area = 0.0;
   for (const auto& t : mesh.triangles) {
-    const Vec3 a = mesh.points[static_cast<std::size_t>(t[0])], b = mesh.points[static_cast<std::size_t>(t[1])],
+    const Vec3 a = mesh.points[static_cast<std::size_t>(t[0])],
+               b = mesh.points[static_cast<std::size_t>(t[1])],
                c = mesh.points[static_cast<std::size_t>(t[2])];
     const double own = 0.5 * (b - a).cross(c - a).norm();
     constexpr int parts = 4;
@@ -231,7 +232,8 @@ double discretisation_floor_mm(const ContourSection& section) {
   if (section.contours.size() < 3) return 0.0;
   ContourSection odd = section;  // so that every second contour begins and ends where all of them do
   if (odd.contours.size() % 2 == 0) odd.contours.pop_back();
-  const TriMesh fine = surface_of(odd), along = surface_of(every_second(odd)), around = surface_of(coarser(odd));
+  const TriMesh fine = surface_of(odd), along = surface_of(every_second(odd)),
+                around = surface_of(coarser(odd));
   return (mean_between(fine, along) + mean_between(fine, around)) / 3.0;
 }
 

@@ -77,8 +77,8 @@ LabelScore score_of(std::int16_t label, const Counts& counts, double voxel_mm3) 
   o.dice = 2.0 * o.both_mm3 / (o.reference_mm3 + o.result_mm3);
   o.jaccard = o.both_mm3 / (o.reference_mm3 + o.result_mm3 - o.both_mm3);
   score.difference_mm3 = o.result_mm3 - o.reference_mm3;
-  o.relative_difference = score.in_reference ? score.difference_mm3 / o.reference_mm3
-                                             : std::numeric_limits<double>::quiet_NaN();
+  o.relative_difference =
+      score.in_reference ? score.difference_mm3 / o.reference_mm3 : std::numeric_limits<double>::quiet_NaN();
   score.boundary = no_distances();
   return score;
 }
@@ -108,13 +108,14 @@ geometry::TriMesh boundary_of(const ImageVolume& labels, std::int16_t label, con
 std::vector<LabelScore> compare_labels(const ImageVolume& reference, const ImageVolume& result,
                                        const SurfaceDistanceOptions& options, const core::TaskContext& task) {
   if (!imaging::same_grid(reference.geometry, result.geometry))
-    throw InvalidInput("the two volumes lie on different grids: other sizes, spacings, origins or axes; "
-                       "resample one onto the other's grid");
+    throw InvalidInput(
+        "the two volumes lie on different grids: other sizes, spacings, origins or axes; "
+        "resample one onto the other's grid");
   const std::map<std::int16_t, Counts> counts = count(reference, result);
-  const bool any_reference = std::any_of(counts.begin(), counts.end(),
-                                         [](const auto& one) { return one.second.reference > 0; });
-  const bool any_result = std::any_of(counts.begin(), counts.end(),
-                                      [](const auto& one) { return one.second.result > 0; });
+  const bool any_reference =
+      std::any_of(counts.begin(), counts.end(), [](const auto& one) { return one.second.reference > 0; });
+  const bool any_result =
+      std::any_of(counts.begin(), counts.end(), [](const auto& one) { return one.second.result > 0; });
   if (!any_reference)
     throw InvalidInput(any_result ? "the reference is empty, the result is not: are the two swapped?"
                                   : "both volumes are empty: there is no overlap to speak of");

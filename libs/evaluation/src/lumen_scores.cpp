@@ -105,13 +105,15 @@ Intervals inside_polygon(const std::vector<Vec2>& polygon, double v) {
 /// so the point belongs to another vessel. The point's own triangle does not count.
 bool behind_wall(const geometry::AabbTree& tree, const TriMesh& mesh, const Vec3& axis_point, const Vec3& p) {
   constexpr double before = 1.0 - 1e-6;
-  const Vec3 way = p - axis_point;
+  const double distance = (p - axis_point).norm();
+  if (!(distance > 0.0)) return false;
+  const Vec3 way = (p - axis_point) / distance;
   for (const geometry::RayHit& hit : tree.all_hits(axis_point, way)) {
-    if (hit.t >= before) return false;
+    if (hit.t >= before * distance) return false;
     const auto& t = mesh.triangles[static_cast<std::size_t>(hit.triangle)];
     const Vec3 a = mesh.points[static_cast<std::size_t>(t[0])];
-    const Vec3 n =
-        (mesh.points[static_cast<std::size_t>(t[1])] - a).cross(mesh.points[static_cast<std::size_t>(t[2])] - a);
+    const Vec3 n = (mesh.points[static_cast<std::size_t>(t[1])] - a)
+                       .cross(mesh.points[static_cast<std::size_t>(t[2])] - a);
     if (n.dot(way) > 0.0) return true;
   }
   return false;

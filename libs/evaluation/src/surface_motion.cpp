@@ -101,7 +101,8 @@ std::string digits_from(const std::string& text, std::size_t& at) {
 }  // namespace
 
 SurfaceMotionError compare_surface_motion(const SurfaceMotion& reference, const SurfaceMotion& result,
-                                          const SurfaceMotionOptions& options, const core::TaskContext& task) {
+                                          const SurfaceMotionOptions& options,
+                                          const core::TaskContext& task) {
   check(reference, "the reference motion");
   check(result, "the motion");
   for (const std::string& name : reference.names)

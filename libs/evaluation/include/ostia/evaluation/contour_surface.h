@@ -25,8 +25,8 @@ geometry::TriMesh surface_of(const geometry::ContourSection& section,
 /// than three contours.
 double discretisation_floor_mm(const geometry::ContourSection& section);
 
-/// One row of the table of floors: a tube on a circle, tapered, stenosed and not round, whose surface is known
-/// exactly as a function r(s, theta) about its axis.
+/// One row of the table of floors: a tube on a circle, tapered, stenosed and not round, whose surface is
+/// known exactly as a function r(s, theta) about its axis.
 struct FloorRow {
   double spacing_mm = 0.0;
   int points = 0;
@@ -37,9 +37,9 @@ struct FloorOptions {
   std::vector<double> spacings_mm{0.25, 0.5, 1.0, 2.0};
   std::vector<int> points{16, 32, 64, 128};
   double ring_radius_mm = 20.0, length_mm = 20.0;
-  double radius_mm = 1.75, radius_end_mm = 1.25;        ///< linear in between
-  double severity = 0.5, stenosis_length_mm = 8.0;      ///< cosine-shaped, in the middle, of the diameter
-  double oval = 0.12, triangular = 0.05;                ///< r times 1 + oval cos 2 theta + triangular cos(3 theta + 1)
+  double radius_mm = 1.75, radius_end_mm = 1.25;    ///< linear in between
+  double severity = 0.5, stenosis_length_mm = 8.0;  ///< cosine-shaped, in the middle, of the diameter
+  double oval = 0.12, triangular = 0.05;  ///< r times 1 + oval cos 2 theta + triangular cos(3 theta + 1)
 };
 std::vector<FloorRow> floor_table(const FloorOptions& options = {});
 

@@ -39,8 +39,9 @@ class LumenResult {
   explicit LumenResult(geometry::TriMesh surface);  ///< throws InvalidInput when it has no triangle
   /// The part of the surface that belongs to the section is what lies between the planes of its first and
   /// last contour, near its axis and, seen from there, behind no wall of the result's own (what is behind one
-  /// is another vessel or a side branch). Distances are exact, from each surface to the other, weighted by area:
-  /// MSD is their mean, the maximum the larger of the two. Throws InvalidInput for a section with a fault.
+  /// is another vessel or a side branch). Distances are exact, from each surface to the other, weighted by
+  /// area: MSD is their mean, the maximum the larger of the two. Throws InvalidInput for a section with a
+  /// fault.
   SectionScore score(const geometry::ContourSection& reference, const LumenScoreOptions& options = {},
                      const core::TaskContext& task = core::no_task()) const;
 

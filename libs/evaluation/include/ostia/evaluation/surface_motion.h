@@ -16,8 +16,8 @@ struct SurfaceMotion {
 };
 
 struct SurfaceMotionOptions {
-  double sample_mm = 0.2;       ///< of the distances, > 0
-  double resolution_mm = 0.2;   ///< of the overlap (volume_overlap.h), > 0
+  double sample_mm = 0.2;      ///< of the distances, > 0
+  double resolution_mm = 0.2;  ///< of the overlap (volume_overlap.h), > 0
 };
 
 struct SurfacePhaseError {

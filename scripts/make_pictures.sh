@@ -12,3 +12,21 @@ build/release/bin/ostia phantom -o "$work/phantom" --preset full --seed 3 --form
 for picture in axial mip tree; do
   cp "$work/phantom/dataset00/report/$picture.png" "docs/pictures/phantom-$picture.png"
 done
+
+# The tutorial of regression tests: a model held against the truth, and two models against each other.
+cd "$work"
+PATH=$OLDPWD/build/release/bin:$PATH
+pictures=$OLDPWD/docs/pictures
+ostia phantom -o suite --preset full --formats nrrd
+click() { tr ' ' ',' < "suite/dataset00/$1/point$2.txt"; }
+branch() { echo "$(click "$1" S):$(click "$1" B):$(click "$1" A)"; }
+for run in run1 run2; do
+  mkdir -p "$run/dataset00"
+  more=()
+  [ "$run" = run1 ] || more=(--smooth 30)
+  ostia model suite/dataset00/image00.nrrd -o "$run/dataset00/left" --inset 0.3 "${more[@]}" \
+    --branch "$(branch vessel1)" --branch "$(branch vessel2)" --branch "$(branch vessel3)"
+  ostia model suite/dataset00/image00.nrrd -o "$run/dataset00/right" --inset 0.3 "${more[@]}" --branch "$(branch vessel0)"
+done
+ostia evaluate surface suite/dataset00 run1/dataset00 --covered --picture "$pictures/tutorial-qa-truth.png"
+ostia evaluate surface run1/dataset00/left/lumen.vtp run2/dataset00/left/lumen.vtp --picture "$pictures/tutorial-qa-suite.png"

@@ -3,6 +3,7 @@
 
 #include "ostia/core/error.h"
 #include "ostia/geometry/analytic_shapes.h"
+#include "ostia/geometry/zero_crossing.h"
 
 #include <algorithm>
 #include <cmath>
@@ -72,29 +73,9 @@ class Sampling {
   Index size_{};
 };
 
-/// The zero of f between two points of opposite sign, as a fraction (regula falsi, Illinois).
+/// The zero of f between two points of opposite sign, as a fraction.
 double root_fraction(const TubeDistance& f, const Vec3& a, const Vec3& b) {
-  double ta = 0.0, tb = 1.0, fa = f(a), fb = f(b);
-  if (fa * fb > 0.0) return std::abs(fa) < std::abs(fb) ? 0.0 : 1.0;
-  double t = 0.0;
-  int side = 0;
-  for (int iteration = 0; iteration < 100; ++iteration) {
-    t = fa == fb ? 0.5 : (fb * ta - fa * tb) / (fb - fa);
-    const double ft = f(a + t * (b - a));
-    if (std::abs(ft) < 1e-13 || tb - ta < 1e-15) break;
-    if ((ft < 0.0) == (fa < 0.0)) {
-      ta = t;
-      fa = ft;
-      if (side == -1) fb *= 0.5;
-      side = -1;
-    } else {
-      tb = t;
-      fb = ft;
-      if (side == 1) fa *= 0.5;
-      side = 1;
-    }
-  }
-  return t;
+  return zero_crossing([&](double t) { return f(a + t * (b - a)); });
 }
 
 /// Follows the gradient, whose length is one, to the surface; false where creases keep it from arriving.

@@ -34,20 +34,6 @@ const char* word(Dominance dominance) {
   return "";
 }
 
-const char* word(PlaqueKind kind) {
-  switch (kind) {
-    case PlaqueKind::soft:
-      return "soft";
-    case PlaqueKind::fibrous:
-      return "fibrous";
-    case PlaqueKind::calcified:
-      return "calcified";
-    case PlaqueKind::mixed:
-      return "mixed";
-  }
-  return "";
-}
-
 const char* word(geometry::Health health) {
   return health == geometry::Health::healthy ? "healthy" : "diseased";
 }

@@ -25,20 +25,6 @@ std::string text(const char* format, double value) {
   return out;
 }
 
-const char* word(PlaqueKind kind) {
-  switch (kind) {
-    case PlaqueKind::soft:
-      return "soft";
-    case PlaqueKind::fibrous:
-      return "fibrous";
-    case PlaqueKind::calcified:
-      return "calcified";
-    case PlaqueKind::mixed:
-      return "mixed";
-  }
-  return "";
-}
-
 Picture tree_picture(const CasePlan& plan, const geometry::TriMesh& lumen, const core::TaskContext& task) {
   figure::Scene scene;
   scene.meshes.push_back({.mesh = lumen});

@@ -146,6 +146,20 @@ void add_segments(CoronaryVessel& vessel, const CoronaryTree& tree, Dominance do
 
 }  // namespace
 
+const char* word(PlaqueKind kind) {
+  switch (kind) {
+    case PlaqueKind::soft:
+      return "soft";
+    case PlaqueKind::fibrous:
+      return "fibrous";
+    case PlaqueKind::calcified:
+      return "calcified";
+    case PlaqueKind::mixed:
+      return "mixed";
+  }
+  return "";
+}
+
 CoronaryTree draw_coronaries(const HeartShape& heart, const CoronaryOptions& options) {
   if (!(options.disease >= 0.0 && options.disease <= 10.0))
     throw InvalidInput("disease must lie in [0, 10], not " + std::to_string(options.disease));

@@ -2,6 +2,7 @@
 
 #include "ostia/core/parallel.h"
 #include "ostia/geometry/isosurface.h"
+#include "ostia/geometry/zero_crossing.h"
 
 #include <algorithm>
 #include <array>
@@ -133,29 +134,10 @@ class Grid {
         }
   }
 
-  /// The zero between two points of opposite sign, as a fraction (regula falsi, Illinois).
+  /// The zero between two points of opposite sign, as a fraction.
   double root(const Vec3& a, const Vec3& b) const {
-    double ta = 0.0, tb = 1.0, fa = f_(a), fb = f_(b);
-    if ((fa < 0.0) == (fb < 0.0)) return std::abs(fa) < std::abs(fb) ? 0.0 : 1.0;
-    double t = 0.5;
-    int side = 0;
-    for (int iteration = 0; iteration < 60; ++iteration) {
-      t = (fb * ta - fa * tb) / (fb - fa);
-      const double ft = f_(a + t * (b - a));
-      if (std::abs(ft) < 1e-10 || std::abs(tb - ta) < 1e-13) break;
-      if ((ft < 0.0) == (fa < 0.0)) {
-        ta = t;
-        fa = ft;
-        if (side == -1) fb *= 0.5;
-        side = -1;
-      } else {
-        tb = t;
-        fb = ft;
-        if (side == 1) fa *= 0.5;
-        side = 1;
-      }
-    }
-    return t;
+    return geometry::zero_crossing([&](double t) { return f_(a + t * (b - a)); },
+                                   {.value = 1e-10, .bracket = 1e-13, .most_iterations = 60});
   }
 
   const ImplicitField& f_;

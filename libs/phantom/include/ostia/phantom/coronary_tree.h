@@ -19,7 +19,8 @@ enum class PlaqueKind {
   fibrous,
   calcified,
   mixed
-};  ///< mixed: calcified cores within soft or fibrous plaque
+};                                  ///< mixed: calcified cores within soft or fibrous plaque
+const char* word(PlaqueKind kind);  ///< "soft", "fibrous", "calcified", "mixed"
 
 /// A body of plaque between lumen and outer wall: |s - s_centre| < length / 2, |theta - theta_centre| <
 /// extent / 2, with tapered ends; calcified ones are lenses, thinner towards their rims too.

@@ -59,18 +59,6 @@ Result result_from(const fs::path& path, const EvaluateCommand& command, const C
   return out;
 }
 
-SectionScore missed(const ContourSection& reference) {
-  SectionScore score;
-  score.section = reference.section;
-  score.vessel = reference.vessel;
-  score.observer = reference.observer;
-  score.health = reference.health;
-  score.length_mm = reference.contours.back().s_mm - reference.contours.front().s_mm;
-  score.found = false;
-  score.msd_mm = score.rms_sd_mm = score.max_sd_mm = score.signed_mean_mm = NAN;
-  return score;
-}
-
 /// What a section's contours enclose, drawn out a little at both ends: its caps must not lie in the planes
 /// that end the section, where they would count as surface.
 evaluation::LumenResult solid(const ContourSection& section) {
@@ -105,7 +93,7 @@ void score_result(const std::string& case_name, const ContourSet& reference, con
     } else if (own) {
       one.score = solid(*own).score(section, {}, task);
     } else {
-      one.score = missed(section);
+      one.score = evaluation::score_of_nothing(section);
     }
     if (!one.score.found)
       core::log_warning(section.section + " (" + section.vessel + "): the result has nothing there");
@@ -314,7 +302,9 @@ void write_page(const fs::path& path, const Json& out, const std::vector<Compare
 
 ExitCode print_floor(const EvaluateCommand& command, const core::TaskContext& task) {
   task.set_stage("floor");
-  Json out{{"v", 1}, {"kind", "floor"}, {"shape", "tube on a circle of radius 20 mm, 1.75 to 1.25 mm, stenosis of 50 %, not round"}};
+  Json out{{"v", 1},
+           {"kind", "floor"},
+           {"shape", "tube on a circle of radius 20 mm, 1.75 to 1.25 mm, stenosis of 50 %, not round"}};
   out["rows"] = Json::array();
   for (const evaluation::FloorRow& row : evaluation::floor_table())
     out["rows"].push_back({{"spacing_mm", row.spacing_mm},

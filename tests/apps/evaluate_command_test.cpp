@@ -216,6 +216,12 @@ TEST(EvaluateCommand, LumenOfADataSetAndOfASuite) {
   EXPECT_THAT(both.err, HasSubstr("dataset01"));
   EXPECT_EQ(Json::parse(both.out)["sections"].size(), 4u) << "the case without a result counts";
   EXPECT_EQ(Json::parse(both.out)["sections"][2]["dice"], 0.0);
+  const Outcome graded = ostia({"evaluate", "lumen", "suite", "out", "--json", "--stenoses"}, {folder, ""});
+  ASSERT_EQ(graded.code, 0) << graded.err;
+  const Json places = Json::parse(graded.out)["stenoses"]["sections"];
+  ASSERT_EQ(places.size(), 2u) << "what the missing case should have found is graded too";
+  EXPECT_EQ(places[1]["case"], "dataset01");
+  EXPECT_EQ(places[1]["result"], 0.0);
   EXPECT_EQ(ostia({"evaluate", "lumen", "suite", "suite/dataset00"}, {folder, ""}).code, 3);
   const Outcome floor = ostia({"evaluate", "lumen", "--floor", "--json"}, {folder, ""});
   ASSERT_EQ(floor.code, 0) << floor.err;

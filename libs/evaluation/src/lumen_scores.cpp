@@ -221,6 +221,40 @@ double mean_difference(const SectionScore& score) {
 
 }  // namespace
 
+namespace {
+
+SectionScore named_after(const ContourSection& reference) {
+  SectionScore score;
+  score.section = reference.section;
+  score.vessel = reference.vessel;
+  score.observer = reference.observer;
+  score.health = reference.health;
+  score.length_mm = reference.contours.back().s_mm - reference.contours.front().s_mm;
+  return score;
+}
+
+/// The result has nothing there: the overlap is none and distances mean nothing.
+void mark_missing(SectionScore& score) {
+  score.found = false;
+  score.dice = 0.0;
+  score.msd_mm = score.rms_sd_mm = score.max_sd_mm = score.signed_mean_mm =
+      std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
+SectionScore score_of_nothing(const ContourSection& reference) {
+  SectionScore score = named_after(reference);
+  score.floor_mm = discretisation_floor_mm(reference);
+  mark_missing(score);
+  for (const geometry::Contour& contour : reference.contours) {
+    score.s_mm.push_back(contour.s_mm);
+    score.reference_radius_mm.push_back(std::sqrt(geometry::contour_area(contour) / std::numbers::pi));
+    score.result_radius_mm.push_back(0.0);
+  }
+  return score;
+}
+
 void validate(const LumenScoreOptions& options) {
   if (!(options.sample_mm > 0.0) || !(options.line_mm > 0.0) || !(options.reach_radii >= 1.0))
     throw InvalidInput(
@@ -233,12 +267,7 @@ SectionScore LumenResult::score(const ContourSection& reference, const LumenScor
                                 const core::TaskContext& task) const {
   validate(options);
   const TriMesh truth = surface_of(reference);  // throws for a fault
-  SectionScore score;
-  score.section = reference.section;
-  score.vessel = reference.vessel;
-  score.observer = reference.observer;
-  score.health = reference.health;
-  score.length_mm = reference.contours.back().s_mm - reference.contours.front().s_mm;
+  SectionScore score = named_after(reference);
   score.floor_mm = discretisation_floor_mm(reference);
   add_overlap(reference, tree_, surface_, options, score);
   task.throw_if_cancelled();
@@ -254,10 +283,7 @@ SectionScore LumenResult::score(const ContourSection& reference, const LumenScor
   }
   // Nothing of the result lies in the section, or only what belongs to another vessel beside it.
   if (!(there.area > 0.0) || !(score.dice > 0.0)) {
-    score.found = false;
-    score.dice = 0.0;
-    score.msd_mm = score.rms_sd_mm = score.max_sd_mm = score.signed_mean_mm =
-        std::numeric_limits<double>::quiet_NaN();
+    mark_missing(score);
     return score;
   }
   const DistanceSums both = there + distances_to(tree_, truth, options.sample_mm, {}, task);

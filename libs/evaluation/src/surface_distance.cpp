@@ -1,5 +1,7 @@
 #include "ostia/evaluation/surface_distance.h"
 
+#include "sampled_distance.h"
+
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
 #include "ostia/geometry/aabb_tree.h"
@@ -21,24 +23,12 @@ struct Sample {
   double sign = 1.0;      // of the distance
 };
 
-/// Centroids of the k^2 equal parts of each triangle.
 std::vector<Sample> samples_of(const TriMesh& mesh, double sample_mm, const Region& counts) {
   std::vector<Sample> out;
   for (const geometry::Triangle& t : mesh.triangles) {
-    const Vec3 &a = mesh.points[t[0]], &b = mesh.points[t[1]], &c = mesh.points[t[2]];
-    const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
-    const int k = std::clamp(static_cast<int>(std::ceil(longest / sample_mm)), 1, 64);
-    const double weight = 0.5 * (b - a).cross(c - a).norm() / (k * k);
-    const auto add = [&](double u, double v) {
-      const Vec3 point = a + (b - a) * u + (c - a) * v;
-      if (!counts || counts(point)) out.push_back({point, weight, 0.0, 1.0});
-    };
-    for (int i = 0; i < k; ++i) {
-      for (int j = 0; i + j < k; ++j) {
-        add((i + 1.0 / 3.0) / k, (j + 1.0 / 3.0) / k);
-        if (i + j + 1 < k) add((i + 2.0 / 3.0) / k, (j + 2.0 / 3.0) / k);
-      }
-    }
+    for_each_sample(mesh, t, sample_mm, [&](const Vec3& point, double area) {
+      if (!counts || counts(point)) out.push_back({point, area, 0.0, 1.0});
+    });
   }
   return out;
 }

@@ -33,6 +33,10 @@ struct SectionScore {
   std::vector<double> reference_radius_mm, result_radius_mm;  ///< of circles of the same area there
 };
 
+/// The score where there is no result at all: not found, its radii 0, so that a stenosis there is missed. The
+/// section has no fault (geometry::find_fault).
+SectionScore score_of_nothing(const geometry::ContourSection& reference);
+
 /// A result's surface, prepared once for many sections.
 class LumenResult {
  public:

@@ -20,6 +20,15 @@ target_include_directories(ostia_tetgen SYSTEM INTERFACE "${TETGEN_INCLUDE_DIR}"
 target_compile_definitions(ostia_tetgen INTERFACE TETLIBRARY)
 target_link_libraries(ostia_tetgen INTERFACE "${TETGEN_LIBRARY}")
 
+# SuiteSparse's CHOLMOD comes without a CMake config. Its Modify and Supernodal modules are GPL.
+find_path(CHOLMOD_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse REQUIRED)
+find_library(CHOLMOD_LIBRARY cholmod REQUIRED)
+add_library(ostia_cholmod INTERFACE)
+target_include_directories(ostia_cholmod SYSTEM INTERFACE "${CHOLMOD_INCLUDE_DIR}")
+target_link_libraries(ostia_cholmod INTERFACE "${CHOLMOD_LIBRARY}")
+
+find_package(SQLite3 REQUIRED)
+
 # CGAL's target without the compile options and definitions of its own that it would spread.
 add_library(ostia_cgal INTERFACE)
 target_link_libraries(ostia_cgal INTERFACE CGAL::CGAL)

@@ -3,8 +3,9 @@
 set(OSTIA_ROOMS
     core geometry
     imaging reformat io figure
-    segmentation centerline meshing
-    phantom evaluation pipeline)
+    segmentation centerline lumen meshing
+    phantom evaluation pipeline
+    session experiments)
 
 function(_ostia_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor)

@@ -59,22 +59,6 @@ Result result_from(const fs::path& path, const EvaluateCommand& command, const C
   return out;
 }
 
-/// What a section's contours enclose, drawn out a little at both ends: its caps must not lie in the planes
-/// that end the section, where they would count as surface.
-evaluation::LumenResult solid(const ContourSection& section) {
-  constexpr double beyond_mm = 0.5;
-  ContourSection longer = section;
-  const auto moved = [](geometry::Contour contour, double by_mm) {
-    const geometry::Vec3 step = by_mm * geometry::contour_normal(contour);
-    contour.s_mm += by_mm;
-    for (geometry::Vec3& p : contour.points) p += step;
-    return contour;
-  };
-  longer.contours.insert(longer.contours.begin(), moved(section.contours.front(), -beyond_mm));
-  longer.contours.push_back(moved(section.contours.back(), beyond_mm));
-  return evaluation::LumenResult(evaluation::surface_of(longer, {.caps = true}));
-}
-
 const ContourSection* section_like(const ContourSet& set, const ContourSection& like) {
   for (const ContourSection& s : set.sections)
     if (s.section == like.section && s.boundary == like.boundary) return &s;
@@ -91,7 +75,7 @@ void score_result(const std::string& case_name, const ContourSet& reference, con
     if (result && result->surface) {
       one.score = result->surface->score(section, {}, task);
     } else if (own) {
-      one.score = solid(*own).score(section, {}, task);
+      one.score = evaluation::result_of(*own).score(section, {}, task);
     } else {
       one.score = evaluation::score_of_nothing(section);
     }
@@ -111,7 +95,8 @@ void score_observers(const std::string& case_name, const ContourSet& reference, 
       if (!ordered) continue;
       task.throw_if_cancelled();
       const std::string who = b.observer == "truth" ? "observer - truth" : "observer - observer";
-      all.push_back({case_name, who, false, solid(a).score(b, {.sample_mm = 0.2, .line_mm = 0.08}, task)});
+      all.push_back({case_name, who, false,
+                     evaluation::result_of(a).score(b, {.sample_mm = 0.2, .line_mm = 0.08}, task)});
     }
   }
 }

@@ -294,6 +294,20 @@ SectionScore LumenResult::score(const ContourSection& reference, const LumenScor
   return score;
 }
 
+LumenResult result_of(const geometry::ContourSection& section) {
+  constexpr double beyond_mm = 0.5;
+  geometry::ContourSection longer = section;
+  const auto moved = [](geometry::Contour contour, double by_mm) {
+    const geometry::Vec3 step = by_mm * geometry::contour_normal(contour);
+    contour.s_mm += by_mm;
+    for (geometry::Vec3& p : contour.points) p += step;
+    return contour;
+  };
+  longer.contours.insert(longer.contours.begin(), moved(section.contours.front(), -beyond_mm));
+  longer.contours.push_back(moved(section.contours.back(), beyond_mm));
+  return LumenResult(surface_of(longer, {.caps = true}));
+}
+
 LumenSummary summarize(const std::vector<SectionScore>& scores) {
   LumenSummary sum;
   double found_mm = 0.0;

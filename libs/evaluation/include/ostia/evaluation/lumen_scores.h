@@ -54,6 +54,10 @@ class LumenResult {
   geometry::AabbTree tree_;
 };
 
+/// A section's own contours as a result: what they enclose, drawn out by 0.5 mm at both ends, since caps in
+/// the planes that end the section would count as surface.
+LumenResult result_of(const geometry::ContourSection& section);
+
 /// Means over sections, weighted by their lengths; sections that were not found count with Dice 0 and in
 /// `missing`, not in the distances.
 struct LumenSummary {

@@ -3,6 +3,8 @@
 #include "commands.h"
 #include "config_file.h"
 #include "evaluate.h"
+#include "experiment.h"
+#include "lumen.h"
 #include "progress_bar.h"
 
 #include "ostia/core/log.h"
@@ -31,6 +33,9 @@ struct Commands {
   ModelCommand model;
   PhantomCommand phantom;
   EvaluateCommand evaluate;
+  ExperimentCommand experiment;
+  LumenModelCommand lumen;
+  ReplayCommand replay;
 };
 
 void add_common(CLI::App& app, CommonOptions& o) {
@@ -173,91 +178,90 @@ void define(CLI::App& app, Commands& c, Run& run) {
   info->add_option("--position", c.info.position, "Point through which the preview's three planes go, x,y,z");
   info->callback([&] { run = [&](const core::TaskContext& task) { return run_info(c.info, task); }; });
 
-  CLI::App* import =
+  CLI::App* volume =
       command(app, "import", "A DICOM series as one volume in HU", "ostia import CT/ -o heart.nrrd");
-  add_input(*import, c.import.input, "DICOM folder or image");
-  add_dicom(*import, c.import.input);
-  import->add_option("-o,--output", c.import.output, ".nrrd, .mhd or .mha")->required();
-  import->callback([&] { run = [&](const core::TaskContext& task) { return run_import(c.import, task);
-};
-}  // namespace
-);
+  add_input(*volume, c.import.input, "DICOM folder or image");
+  add_dicom(*volume, c.import.input);
+  volume->add_option("-o,--output", c.import.output, ".nrrd, .mhd or .mha")->required();
+  volume->callback([&] { run = [&](const core::TaskContext& task) { return run_import(c.import, task); }; });
 
-define_evaluate(app, c.evaluate, run);
+  define_evaluate(app, c.evaluate, run);
+  define_experiment(app, c.experiment, c.common.seed, run);
+  define_lumen(app, c.lumen, c.replay, run);
 
-CLI::App* segment = command(app, "segment", "The lumen of the vessels between seed points",
-                            "ostia segment heart.nrrd -o lumen.vtp --branch 8,-187,675:6,-178,720");
-add_input(*segment, c.segment.input, "DICOM folder, image or mask");
-add_dicom(*segment, c.segment.input);
-add_coords(*segment, c.segment.input);
-add_lumen(*segment, c.segment.lumen);
-segment->add_option("-o,--output", c.segment.output, ".vtp, .stl or .ply")->required();
-segment->add_option("--levelset", c.segment.level_set,
-                    "Also the level set, negative inside, mm: .nrrd, .mhd or .mha");
-segment->callback([&] { run = [&](const core::TaskContext& task) { return run_segment(c.segment, task); }; });
+  CLI::App* segment = command(app, "segment", "The lumen of the vessels between seed points",
+                              "ostia segment heart.nrrd -o lumen.vtp --branch 8,-187,675:6,-178,720");
+  add_input(*segment, c.segment.input, "DICOM folder, image or mask");
+  add_dicom(*segment, c.segment.input);
+  add_coords(*segment, c.segment.input);
+  add_lumen(*segment, c.segment.lumen);
+  segment->add_option("-o,--output", c.segment.output, ".vtp, .stl or .ply")->required();
+  segment->add_option("--levelset", c.segment.level_set,
+                      "Also the level set, negative inside, mm: .nrrd, .mhd or .mha");
+  segment->callback(
+      [&] { run = [&](const core::TaskContext& task) { return run_segment(c.segment, task); }; });
 
-CLI::App* centerline =
-    command(app, "centerline", "Centerlines of a surface", "ostia centerline lumen.stl -o lines.vtp");
-add_input(*centerline, c.centerline.input, "Surface, open or closed");
-add_units(*centerline, c.centerline.input);
-add_coords(*centerline, c.centerline.input);
-add_ends(*centerline, c.centerline.ends);
-centerline->add_option("-o,--output", c.centerline.output, ".vtp or .csv")->required();
-centerline->add_option("--canal", c.centerline.canal,
-                       "Also the envelope of the inscribed spheres: .vtp, .stl or .ply");
-centerline->callback([&] {
-  run = [&](const core::TaskContext& task) { return run_centerline(c.centerline, task); };
-});
+  CLI::App* centerline =
+      command(app, "centerline", "Centerlines of a surface", "ostia centerline lumen.stl -o lines.vtp");
+  add_input(*centerline, c.centerline.input, "Surface, open or closed");
+  add_units(*centerline, c.centerline.input);
+  add_coords(*centerline, c.centerline.input);
+  add_ends(*centerline, c.centerline.ends);
+  centerline->add_option("-o,--output", c.centerline.output, ".vtp or .csv")->required();
+  centerline->add_option("--canal", c.centerline.canal,
+                         "Also the envelope of the inscribed spheres: .vtp, .stl or .ply");
+  centerline->callback(
+      [&] { run = [&](const core::TaskContext& task) { return run_centerline(c.centerline, task); }; });
 
-CLI::App* mesh = command(app, "mesh", "A tetrahedral mesh with named faces",
-                         "ostia mesh lumen.stl -o mesh --edge-ratio 0.3");
-add_input(*mesh, c.mesh.input, "Surface, open or closed", false);
-add_units(*mesh, c.mesh.input);
-add_coords(*mesh, c.mesh.input);
-add_ends(*mesh, c.mesh.ends);
-add_mesh(*mesh, c.mesh.mesh);
-mesh->add_option("-o,--output", c.mesh.output, "Folder that is made");
-mesh->add_option("--centerline", c.mesh.centerline, "Centerlines; left out: computed");
-mesh->add_option("--check", c.mesh.check, "Only judges a surface or a .vtu mesh");
-mesh->add_flag("--json", c.mesh.json, "One JSON object on standard output");
-mesh->callback([&] { run = [&](const core::TaskContext& task) { return run_mesh(c.mesh, task); }; });
+  CLI::App* mesh = command(app, "mesh", "A tetrahedral mesh with named faces",
+                           "ostia mesh lumen.stl -o mesh --edge-ratio 0.3");
+  add_input(*mesh, c.mesh.input, "Surface, open or closed", false);
+  add_units(*mesh, c.mesh.input);
+  add_coords(*mesh, c.mesh.input);
+  add_ends(*mesh, c.mesh.ends);
+  add_mesh(*mesh, c.mesh.mesh);
+  mesh->add_option("-o,--output", c.mesh.output, "Folder that is made");
+  mesh->add_option("--centerline", c.mesh.centerline, "Centerlines; left out: computed");
+  mesh->add_option("--check", c.mesh.check, "Only judges a surface or a .vtu mesh");
+  mesh->add_flag("--json", c.mesh.json, "One JSON object on standard output");
+  mesh->callback([&] { run = [&](const core::TaskContext& task) { return run_mesh(c.mesh, task); }; });
 
-CLI::App* convert =
-    command(app, "convert", "One file format as another", "ostia convert lumen.vtp lumen.stl");
-add_input(*convert, c.convert.input, "Image, surface or centerlines");
-convert->add_option("OUTPUT", c.convert.output, "By its extension")->required();
-add_units(*convert, c.convert.input);
-convert->add_flag("--repair", c.convert.repair,
-                  "Surfaces: drop bad triangles and loose parts, join equal points, turn outward, cut "
-                  "self-intersections out");
-convert->callback([&] { run = [&](const core::TaskContext& task) { return run_convert(c.convert, task); }; });
+  CLI::App* convert =
+      command(app, "convert", "One file format as another", "ostia convert lumen.vtp lumen.stl");
+  add_input(*convert, c.convert.input, "Image, surface or centerlines");
+  convert->add_option("OUTPUT", c.convert.output, "By its extension")->required();
+  add_units(*convert, c.convert.input);
+  convert->add_flag("--repair", c.convert.repair,
+                    "Surfaces: drop bad triangles and loose parts, join equal points, turn outward, cut "
+                    "self-intersections out");
+  convert->callback(
+      [&] { run = [&](const core::TaskContext& task) { return run_convert(c.convert, task); }; });
 
-CLI::App* model = command(app, "model", "From an image, a mask or a surface to a mesh with named faces",
-                          "ostia model CT/ -o out --branch 8,-187,675:6,-178,720");
-add_input(*model, c.model.input, "DICOM folder, image, mask or surface", false);
-add_dicom(*model, c.model.input);
-add_units(*model, c.model.input);
-add_coords(*model, c.model.input);
-add_lumen(*model, c.model.lumen);
-add_ends(*model, c.model.ends);
-add_mesh(*model, c.model.mesh);
-model->add_option("-o,--output", c.model.output, "Folder that is made")->required();
-model->add_flag("--builtin", c.model.builtin, "The built-in case instead of an input");
-model->add_flag("--json", c.model.json, "The report as JSON on standard output");
-model->callback([&] {
-  c.model.seed = c.common.seed;
-  run = [&](const core::TaskContext& task) { return run_model(c.model, task); };
-});
+  CLI::App* model = command(app, "model", "From an image, a mask or a surface to a mesh with named faces",
+                            "ostia model CT/ -o out --branch 8,-187,675:6,-178,720");
+  add_input(*model, c.model.input, "DICOM folder, image, mask or surface", false);
+  add_dicom(*model, c.model.input);
+  add_units(*model, c.model.input);
+  add_coords(*model, c.model.input);
+  add_lumen(*model, c.model.lumen);
+  add_ends(*model, c.model.ends);
+  add_mesh(*model, c.model.mesh);
+  model->add_option("-o,--output", c.model.output, "Folder that is made")->required();
+  model->add_flag("--builtin", c.model.builtin, "The built-in case instead of an input");
+  model->add_flag("--json", c.model.json, "The report as JSON on standard output");
+  model->callback([&] {
+    c.model.seed = c.common.seed;
+    run = [&](const core::TaskContext& task) { return run_model(c.model, task); };
+  });
 
-CLI::App* phantom =
-    command(app, "phantom", "Synthetic coronary CT angiograms of exactly known truth",
-            "ostia phantom -o suite --preset small --cases 3");
-add_phantom(*phantom, c.phantom);
-phantom->callback([&] {
-  c.phantom.seed = c.common.seed;
-  run = [&](const core::TaskContext& task) { return run_phantom(c.phantom, task); };
-});
-}  // namespace ostia::app
+  CLI::App* phantom = command(app, "phantom", "Synthetic coronary CT angiograms of exactly known truth",
+                              "ostia phantom -o suite --preset small --cases 3");
+  add_phantom(*phantom, c.phantom);
+  phantom->callback([&] {
+    c.phantom.seed = c.common.seed;
+    run = [&](const core::TaskContext& task) { return run_phantom(c.phantom, task); };
+  });
+}
 
 /// A log that is kept must not name what a folder or file is called after.
 void keep_paths_out_of_the_log(const Commands& c) {
@@ -266,11 +270,14 @@ void keep_paths_out_of_the_log(const Commands& c) {
     core::redact_in_logs(input->input.string(), "INPUT");
   }
   for (const std::filesystem::path& path :
-       {c.info.preview, c.import.output, c.segment.output, c.segment.level_set, c.centerline.output,
-        c.centerline.canal, c.mesh.output, c.mesh.centerline, c.mesh.check, c.convert.output,
-        c.model.output, c.phantom.output, c.evaluate.reference, c.evaluate.result, c.evaluate.report,
-        c.evaluate.picture,
-        c.evaluate.tolerance}) {
+       {c.info.preview,       c.import.output,     c.segment.output,     c.segment.level_set,
+        c.centerline.output,  c.centerline.canal,  c.mesh.output,        c.mesh.centerline,
+        c.mesh.check,         c.convert.output,    c.model.output,       c.phantom.output,
+        c.evaluate.reference, c.evaluate.result,   c.evaluate.report,    c.evaluate.picture,
+        c.experiment.suite,   c.experiment.output, c.evaluate.tolerance, c.lumen.input,
+        c.lumen.output,       c.lumen.edits,       c.lumen.image,        c.lumen.surface,
+        c.lumen.contours,     c.lumen.case_output, c.lumen.lines_output, c.replay.start,
+        c.replay.input,       c.replay.output}) {
     core::redact_in_logs(path.string(), "FILE");
     core::redact_in_logs(path.parent_path().string(), "FOLDER");
   }

@@ -1,6 +1,5 @@
-#include "marching_cubes_table.h"
-
 #include "ostia/geometry/aabb_tree.h"
+#include "ostia/geometry/cube_patterns.h"
 
 #include <gtest/gtest.h>
 

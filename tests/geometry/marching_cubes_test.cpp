@@ -2,6 +2,8 @@
 
 #include "surface_checks.h"
 
+#include "ostia/geometry/cube_patterns.h"
+
 #include <gtest/gtest.h>
 
 #include <limits>

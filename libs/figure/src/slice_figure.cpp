@@ -137,7 +137,7 @@ std::string plane_name(const reformat::Plane& plane) {
 void draw_notes(Canvas& canvas, const reformat::Plane& plane, const Layout& layout,
                 const std::vector<SliceContour>& contours, const SliceFigureOptions& options) {
   const TextStyle note{.size_px = 11.5, .color = kOnImage, .halo = kHalo};
-  canvas.text({layout.left + 8.0, layout.top + 6.0}, plane_name(plane), note);
+  if (options.plane_name) canvas.text({layout.left + 8.0, layout.top + 6.0}, plane_name(plane), note);
   TextStyle low = note;
   low.along = Align::end;
   canvas.text({layout.left + 8.0, layout.top + layout.height - 6.0},

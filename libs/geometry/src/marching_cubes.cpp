@@ -1,9 +1,8 @@
 #include "marching_cubes.h"
 
-#include "marching_cubes_table.h"
-
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
+#include "ostia/geometry/cube_patterns.h"
 
 #include <algorithm>
 #include <atomic>

@@ -38,7 +38,4 @@ TriMesh march(const MarchingCubes& job, const core::TaskContext& task);
 /// Where the values cross the level, as a fraction of the edge, kept off its ends.
 double crossing_fraction(float from, float to, float level);
 
-/// Smallest distance, in grid steps, of a vertex from a grid node.
-inline constexpr double node_clearance = 1e-3;
-
 }  // namespace ostia::geometry

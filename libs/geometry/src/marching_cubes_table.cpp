@@ -1,6 +1,5 @@
-#include "marching_cubes_table.h"
-
 #include "ostia/core/error.h"
+#include "ostia/geometry/cube_patterns.h"
 
 #include <algorithm>
 

@@ -56,6 +56,26 @@ Plane covering_plane(const imaging::Geometry& image, const Vec3& position, const
   return plane;
 }
 
+void require_section(double abscissa_mm, double side_mm, double pixel_mm) {
+  if (!std::isfinite(abscissa_mm)) throw InvalidInput("the cross-section's abscissa is not finite");
+  if (!(side_mm > 0.0) || !(pixel_mm > 0.0) || !(side_mm / pixel_mm <= kMaxPixels)) {
+    throw InvalidInput("a cross-section of " + std::to_string(side_mm) + " mm with pixels of " +
+                       std::to_string(pixel_mm) + " mm cannot be pictured");
+  }
+}
+
+Plane square_about(const Vec3& middle, const Vec3& u, const Vec3& v, double side_mm, double pixel_mm) {
+  Plane plane;
+  plane.u = u;
+  plane.v = v;
+  plane.pixel_mm = pixel_mm;
+  plane.width = std::max(1, static_cast<int>(std::lround(side_mm / pixel_mm)));
+  plane.height = plane.width;
+  plane.origin = middle - 0.5 * plane.width * pixel_mm * (u + v);
+  validate(plane);
+  return plane;
+}
+
 }  // namespace
 
 void validate(const Plane& plane) {
@@ -107,11 +127,7 @@ Plane cross_section_plane(const geometry::Centerline& axis, double abscissa_mm, 
                        std::to_string(axis.size()) + " points, " + std::to_string(axis.abscissa.size()) +
                        " abscissas and " + std::to_string(axis.frames.size()) + " frames");
   }
-  if (!std::isfinite(abscissa_mm)) throw InvalidInput("the cross-section's abscissa is not finite");
-  if (!(side_mm > 0.0) || !(pixel_mm > 0.0) || !(side_mm / pixel_mm <= kMaxPixels)) {
-    throw InvalidInput("a cross-section of " + std::to_string(side_mm) + " mm with pixels of " +
-                       std::to_string(pixel_mm) + " mm cannot be pictured");
-  }
+  require_section(abscissa_mm, side_mm, pixel_mm);
   const double s = std::clamp(abscissa_mm, axis.abscissa.front(), axis.abscissa.back());
   const auto after = std::upper_bound(axis.abscissa.begin() + 1, axis.abscissa.end() - 1, s);
   const auto next = static_cast<std::size_t>(after - axis.abscissa.begin());
@@ -123,16 +139,16 @@ Plane cross_section_plane(const geometry::Centerline& axis, double abscissa_mm, 
   const geometry::Frame& b = axis.frames[next];
   const Vec3 tangent = ((1.0 - t) * a.tangent + t * b.tangent).normalized();
   const Vec3 normal = (1.0 - t) * a.normal + t * b.normal;
-  Plane plane;
-  plane.u = (normal - normal.dot(tangent) * tangent).normalized();
-  plane.v = tangent.cross(plane.u).normalized();
-  plane.pixel_mm = pixel_mm;
-  plane.width = std::max(1, static_cast<int>(std::lround(side_mm / pixel_mm)));
-  plane.height = plane.width;
+  const Vec3 u = (normal - normal.dot(tangent) * tangent).normalized();
   const Vec3 middle = (1.0 - t) * axis.points[previous] + t * axis.points[next];
-  plane.origin = middle - 0.5 * plane.width * pixel_mm * (plane.u + plane.v);
-  validate(plane);
-  return plane;
+  return square_about(middle, u, tangent.cross(u).normalized(), side_mm, pixel_mm);
+}
+
+Plane cross_section_plane(const geometry::AxisCurve& axis, double abscissa_mm, double side_mm,
+                          double pixel_mm) {
+  require_section(abscissa_mm, side_mm, pixel_mm);
+  const geometry::Frame frame = axis.frame(abscissa_mm);
+  return square_about(axis.point(abscissa_mm), frame.normal, frame.binormal, side_mm, pixel_mm);
 }
 
 std::string patient_letters(const Vec3& direction, double tolerance_deg) {

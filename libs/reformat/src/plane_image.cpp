@@ -1,52 +1,59 @@
 #include "ostia/reformat/plane_image.h"
 
-#include "ostia/core/error.h"
-#include "ostia/core/parallel.h"
+#include "slab_rows.h"
 
-#include <limits>
+#include "ostia/core/error.h"
+
+#include <string>
 
 namespace ostia::reformat {
 namespace {
 
+constexpr double thickest_mm = 100.0;
+
 template <class T>
-PlaneImage sliced(const imaging::Volume<T>& image, const Plane& plane, imaging::Interpolation how,
-                  const core::TaskContext& task) {
+PlaneImage sliced(const imaging::Volume<T>& image, const Plane& plane, const SlabShape& shape,
+                  imaging::Interpolation how, const core::TaskContext& task) {
   validate(plane);
-  if (image.voxels.empty() || static_cast<std::int64_t>(image.voxels.size()) != image.geometry.voxels()) {
-    throw InvalidInput("cannot slice an image of " + std::to_string(image.voxels.size()) +
-                       " voxels whose size says " + std::to_string(image.geometry.voxels()));
+  require_voxels(image, "slice");
+  if (shape.slab != Slab::none && !(shape.thickness_mm > 0.0 && shape.thickness_mm <= thickest_mm)) {
+    throw InvalidInput("a slab of " + std::to_string(shape.thickness_mm) +
+                       " mm cannot be pictured; give more than 0 and at most " + std::to_string(thickest_mm) +
+                       " mm, or no slab");
   }
-  PlaneImage result{plane, {}};
-  const auto width = static_cast<std::size_t>(plane.width);
-  const auto height = static_cast<std::size_t>(plane.height);
-  result.values.assign(width * height, std::numeric_limits<float>::quiet_NaN());
-  core::parallel_for(height, 8, [&](std::size_t row) {
-    task.throw_if_cancelled();
-    for (std::size_t column = 0; column < width; ++column) {
-      const Vec3 point =
-          world(plane, Vec2(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5));
-      if (!image.geometry.contains(point)) continue;
-      result.values[row * width + column] = static_cast<float>(imaging::sample(image, point, how));
-    }
-  });
-  return result;
+  const auto row_of = [&](std::size_t j) {
+    return StraightRow{world(plane, Vec2(0.5, static_cast<double>(j) + 0.5)), plane.pixel_mm * plane.u,
+                       plane.normal()};
+  };
+  return {plane, sampled_rows(image, static_cast<std::size_t>(plane.width),
+                              static_cast<std::size_t>(plane.height), row_of, shape, how, task)};
 }
 
 }  // namespace
 
 PlaneImage slice(const imaging::ImageVolume& image, const Plane& plane, imaging::Interpolation how,
                  const core::TaskContext& task) {
-  return sliced(image, plane, how, task);
+  return sliced(image, plane, {}, how, task);
 }
 
 PlaneImage slice(const imaging::MaskVolume& image, const Plane& plane, imaging::Interpolation how,
                  const core::TaskContext& task) {
-  return sliced(image, plane, how, task);
+  return sliced(image, plane, {}, how, task);
 }
 
 PlaneImage slice(const imaging::FloatVolume& image, const Plane& plane, imaging::Interpolation how,
                  const core::TaskContext& task) {
-  return sliced(image, plane, how, task);
+  return sliced(image, plane, {}, how, task);
+}
+
+PlaneImage slab_slice(const imaging::ImageVolume& image, const Plane& plane, Slab slab, double slab_mm,
+                      imaging::Interpolation how, const core::TaskContext& task) {
+  return sliced(image, plane, {slab, slab_mm}, how, task);
+}
+
+PlaneImage slab_slice(const imaging::FloatVolume& image, const Plane& plane, Slab slab, double slab_mm,
+                      imaging::Interpolation how, const core::TaskContext& task) {
+  return sliced(image, plane, {slab, slab_mm}, how, task);
 }
 
 }  // namespace ostia::reformat

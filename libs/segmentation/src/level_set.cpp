@@ -92,8 +92,8 @@ class Rest {
 };
 
 constexpr double kNearRestVoxels = 0.2;  // motion in a period; only then crossings are counted
-constexpr int kFreeCrossings = 2;  // of a voxel by the surface, before it slows down there
-constexpr int kLastCrossing = 12;  // beyond which it slows down no more
+constexpr int kFreeCrossings = 2;        // of a voxel by the surface, before it slows down there
+constexpr int kLastCrossing = 12;        // beyond which it slows down no more
 
 /// How often the surface has crossed each voxel. Where a voxel is now inside and now outside, its neighbours
 /// join and leave the band with it, and nothing comes to rest by itself: each further crossing halves its

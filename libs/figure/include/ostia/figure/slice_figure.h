@@ -40,6 +40,7 @@ struct SliceFigureOptions {
   bool patient_letters = true;
   double point_distance_mm = 3.0;   ///< points farther from the plane are left out
   std::optional<Vec3> crosshair{};  ///< thin lines through this point's projection
+  bool plane_name = true;           ///< "axial  z = 12.3 mm" in the corner; not for what is no plane of space
 };
 
 /// 0 (black) to 255 (white); NaN, outside the image, is 0.

@@ -1,6 +1,7 @@
 #pragma once
 /// \file A finite plane of pixels in world space: where a picture of the patient lies.
 
+#include "ostia/geometry/axis_curve.h"
 #include "ostia/geometry/centerline.h"
 #include "ostia/geometry/vec.h"
 #include "ostia/imaging/volume.h"
@@ -58,6 +59,12 @@ Plane sagittal_plane(const imaging::Geometry& image, const Vec3& position,
 /// made orthonormal. Throws InvalidInput for an axis of fewer than two points or without abscissas and
 /// frames.
 Plane cross_section_plane(const geometry::Centerline& axis, double abscissa_mm, double side_mm,
+                          double pixel_mm);
+/// The same on an axis' curve: u is radial_direction(frame, 0) and v is radial_direction(frame, -90 degrees),
+/// so that theta = 0 points to the right of the picture, theta = 90 degrees up, and angles grow
+/// counter-clockwise. Throws InvalidInput for an abscissa that is not finite or a size that cannot be
+/// pictured.
+Plane cross_section_plane(const geometry::AxisCurve& axis, double abscissa_mm, double side_mm,
                           double pixel_mm);
 
 /// Which way a direction points in the patient: the letters of its components above sin(`tolerance_deg`), the

@@ -1,5 +1,6 @@
 #pragma once
-// How a surface passes through one cube, for each of the 256 sign patterns of its corners.
+/// \file How a surface passes through one cube, for each of the 256 sign patterns of its corners: the table
+/// of marching cubes that is consistent across faces (docs/isosurface.md).
 
 #include <array>
 #include <cstdint>
@@ -14,9 +15,12 @@ struct CubeEdge {
 };
 const std::array<CubeEdge, 12>& cube_edges();
 
-/// Triangles of one pattern by their cube edges, at most five.
+/// Triangles of one pattern by their cube edges, at most five; counter-clockwise seen from outside.
 using CubePattern = std::vector<std::array<std::uint8_t, 3>>;
 /// Bit c of the index is set where corner c is inside.
 const std::array<CubePattern, 256>& cube_patterns();
+
+/// Smallest distance, in grid steps, of a vertex from a grid node: keeps triangles from being degenerate.
+inline constexpr double node_clearance = 1e-3;
 
 }  // namespace ostia::geometry

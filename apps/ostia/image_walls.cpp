@@ -1,0 +1,73 @@
+#include "image_walls.h"
+
+#include "ostia/core/log.h"
+#include "ostia/lumen/lumen_model.h"
+#include "ostia/segmentation/lumen_boundary.h"
+
+#include <algorithm>
+#include <memory>
+
+namespace ostia::app {
+namespace {
+
+constexpr double step_mm = 0.25;
+constexpr double passage_mm = 1.5;   // from the tube to the image's wall
+constexpr double shortest_mm = 2.0;  // less than this by itself: all tube
+
+using Axis = std::shared_ptr<const geometry::AxisCurve>;
+
+/// Where a branch has left the lumen that it comes from, judged by the axes' radii.
+double free_from(const geometry::VesselTree& tree, const std::vector<Axis>& axes, std::size_t vessel) {
+  const double own = lumen::own_from_mm(tree, tree.vessels[vessel].id);
+  if (own <= 0.0) return 0.0;
+  const std::int32_t parent = lumen::owner_at(tree, tree.vessels[vessel].id, std::max(0.0, own - 1e-3));
+  const auto found = std::find_if(tree.vessels.begin(), tree.vessels.end(),
+                                  [&](const geometry::Vessel& v) { return v.id == parent; });
+  const geometry::AxisCurve& trunk = *axes[static_cast<std::size_t>(found - tree.vessels.begin())];
+  const geometry::AxisCurve& branch = *axes[vessel];
+  double s = own;
+  for (; s < branch.length(); s += step_mm) {
+    const geometry::AxisFoot foot = trunk.nearest_foot(branch.point(s));
+    if (foot.rho_mm > trunk.radius(foot.s_mm) + branch.radius(s)) break;
+  }
+  return std::min(s, branch.length());
+}
+
+lumen::RadialWall wall_of(const Axis& axis, const segmentation::LumenBoundary& found, double free_mm) {
+  const auto boundary = std::make_shared<const segmentation::LumenBoundary>(found);
+  return [axis, boundary, free_mm](double s_mm, double theta) {
+    if (free_mm <= 0.0) return boundary->at(s_mm, theta);
+    const double t = std::clamp((s_mm - free_mm) / passage_mm, 0.0, 1.0), w = t * t * (3.0 - 2.0 * t);
+    const double tube = axis->radius(s_mm);
+    return w > 0.0 ? (1.0 - w) * tube + w * boundary->at(s_mm, theta) : tube;
+  };
+}
+
+}  // namespace
+
+std::vector<lumen::RadialWall> walls_from_image(const geometry::VesselTree& tree,
+                                                const imaging::ImageVolume& image,
+                                                const core::TaskContext& task) {
+  std::vector<Axis> axes;
+  for (const geometry::Vessel& vessel : tree.vessels)
+    axes.push_back(std::make_shared<const geometry::AxisCurve>(geometry::vessel_axis(tree, vessel)));
+  std::vector<lumen::RadialWall> walls;
+  const double count = static_cast<double>(axes.size());
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const double free_mm = free_from(tree, axes, i), length = axes[i]->length();
+    if (length - free_mm < shortest_mm) {
+      core::log_warning(tree.vessels[i].name + ": too short by itself to be found in the image; a tube");
+      walls.emplace_back([axis = axes[i]](double s_mm, double) { return axis->radius(s_mm); });
+      continue;
+    }
+    const double done = static_cast<double>(i);
+    const segmentation::LumenBoundary found = segmentation::lumen_boundary(
+        image, *axes[i], free_mm, length, {}, task.sub(done / count, (done + 1.0) / count));
+    for (const std::string& warning : found.warnings)
+      core::log_warning(tree.vessels[i].name + ": " + warning);
+    walls.push_back(wall_of(axes[i], found, free_mm));
+  }
+  return walls;
+}
+
+}  // namespace ostia::app

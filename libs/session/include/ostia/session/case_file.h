@@ -1,0 +1,91 @@
+#pragma once
+/// \file The case file: one SQLite database with the model, the journal of commands, and their changesets
+/// (docs/case-file.md).
+
+#include "ostia/lumen/edit.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ostia::session {
+
+/// The image a case belongs to. No path, name or UID is stored: where the file lies is kept in a table of
+/// this machine.
+struct ImageReference {
+  std::string sha256;     ///< of the file, or of a series' files in order
+  std::string pseudonym;  ///< "case-3f2a"
+};
+
+/// A step of the journal.
+struct JournalEntry {
+  std::int64_t number = 0;  ///< 1, 2, ...
+  std::string op;           ///< "case.begin", "cpr.stroke", "undo", "redo", ...
+  std::string parameters;   ///< JSON
+  bool undone = false;
+  std::vector<std::string> notes;
+};
+
+enum class OpenMode {
+  read_write,
+  read_only,  ///< a snapshot in memory; the file is not changed, and may lie in a read-only folder
+};
+
+/// Does `next` continue `last` (a drag or push still going on), so that both are one step? The same vessel
+/// and place of departure; a push whose path begins with the former one.
+bool mergeable(const lumen::Edit& last, const lumen::Edit& next);
+
+/// An open case. Every command is one transaction: model, journal and changeset together, durable when the
+/// call returns. One process writes at a time. Not safe from several threads at once. Whatever a command
+/// throws, the case is what it was: InvalidInput (the edit), ResourceError (disk or memory full), IoError
+/// (opened for reading only, the file cannot be written).
+class CaseFile {
+ public:
+  /// Makes a new case from a model (journal entry "case.begin" points to it whole, so that a replay starts
+  /// from it). Throws InvalidInput for a model with a fault, IoError where there is a file already.
+  static CaseFile create(const std::filesystem::path& path, const lumen::LumenModel& model,
+                         const std::optional<ImageReference>& image = {});
+  /// Throws InvalidInput (not a case, truncated, damaged, of a newer version: which, and the way out),
+  /// IoError (missing, read-only, locked by another window).
+  static CaseFile open(const std::filesystem::path& path, OpenMode mode = OpenMode::read_write);
+  ~CaseFile();
+  CaseFile(CaseFile&&) noexcept;
+  CaseFile& operator=(CaseFile&&) noexcept;
+
+  std::shared_ptr<const lumen::LumenModel> model() const;
+  std::shared_ptr<const lumen::LumenModel> starting_model() const;  ///< that of "case.begin"
+  std::optional<ImageReference> image() const;
+  /// Throws InvalidInput where the image is not the one that the case was made with.
+  void check_image(const ImageReference& found) const;
+
+  /// Runs between the computing of a change and its commit; what it throws refuses the change.
+  using Check = std::function<void(const lumen::EditOutcome&)>;
+
+  /// Applies an edit and commits it. Redo steps are dropped.
+  lumen::EditOutcome apply(const lumen::Edit& edit, const Check& check = {});
+  /// The same, but an edit that `mergeable` says continues the last one replaces it: the edit is applied to
+  /// the model before that one, and both are one step of undo. The changes are those from the present model.
+  lumen::EditOutcome apply_merged(const lumen::Edit& edit, const Check& check = {});
+  /// The inverse changeset of the last step that is not undone; nothing when there is none. The changes tell
+  /// views what to draw anew.
+  std::optional<lumen::EditOutcome> undo(const Check& check = {});
+  std::optional<lumen::EditOutcome> redo(const Check& check = {});
+
+  std::vector<JournalEntry> journal() const;
+  std::vector<lumen::Edit> edits() const;  ///< those not undone, in order: what a replay applies
+
+  /// Small texts of the interface. A value that is a path is refused: a case holds none.
+  void set_setting(const std::string& key, const std::string& value);
+  std::optional<std::string> setting(const std::string& key) const;
+
+ private:
+  struct Impl;
+  explicit CaseFile(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace ostia::session

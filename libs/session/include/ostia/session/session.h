@@ -1,0 +1,39 @@
+#pragma once
+/// \file A case being edited: what is stored and what is solved for the screen, kept together.
+
+#include "ostia/lumen/live_model.h"
+#include "ostia/session/case_file.h"
+
+namespace ostia::session {
+
+/// An open case with its model solved. An edit is computed, solved, and then committed; what cannot be solved
+/// (NumericalError, InvalidInput) is refused and leaves case and screen as they were. Not safe from several
+/// threads at once.
+class Session {
+ public:
+  /// Solves the model: throws as lumen::solve does.
+  explicit Session(CaseFile file);
+  static Session open(const std::filesystem::path& path, OpenMode mode = OpenMode::read_write);
+
+  struct Done {
+    lumen::EditOutcome outcome;
+    lumen::LiveChange change;
+  };
+  Done apply(const lumen::Edit& edit);
+  Done apply_merged(const lumen::Edit& edit);
+  std::optional<Done> undo();
+  std::optional<Done> redo();
+
+  const CaseFile& file() const { return file_; }
+  CaseFile& file() { return file_; }
+  const lumen::LiveModel& live() const { return live_; }
+  lumen::LiveModel& live() { return live_; }
+
+ private:
+  template <class Command>
+  Done followed(const Command& command);
+  CaseFile file_;
+  lumen::LiveModel live_;
+};
+
+}  // namespace ostia::session

@@ -1,0 +1,61 @@
+#include "case_schema.h"
+
+#include "ostia/core/error.h"
+
+#include <array>
+#include <string>
+
+namespace ostia::session {
+namespace {
+
+// Numbers that must keep every bit stand in columns without a type: a REAL column would store -0.0 as 0.
+constexpr const char* tables = R"(
+CREATE TABLE meta(key TEXT PRIMARY KEY NOT NULL, value TEXT NOT NULL) WITHOUT ROWID;
+CREATE TABLE setting(key TEXT PRIMARY KEY NOT NULL, value TEXT NOT NULL, checksum INTEGER NOT NULL) WITHOUT ROWID;
+CREATE TABLE image(id INTEGER PRIMARY KEY CHECK(id = 1), sha256 TEXT NOT NULL, pseudonym TEXT NOT NULL,
+  checksum INTEGER NOT NULL);
+CREATE TABLE content(sha256 TEXT PRIMARY KEY NOT NULL, size INTEGER NOT NULL, zlib BLOB NOT NULL) WITHOUT ROWID;
+CREATE TABLE model(id INTEGER PRIMARY KEY CHECK(id = 1), next_sample_id INTEGER NOT NULL,
+  next_tree_id INTEGER NOT NULL, blend_width_mm NOT NULL, joints TEXT NOT NULL, checksum INTEGER NOT NULL);
+CREATE TABLE node(id INTEGER PRIMARY KEY, place INTEGER NOT NULL, position BLOB NOT NULL);
+CREATE TABLE segment(id INTEGER PRIMARY KEY, place INTEGER NOT NULL, from_node INTEGER NOT NULL,
+  to_node INTEGER NOT NULL, points BLOB NOT NULL, radius BLOB NOT NULL, abscissa BLOB NOT NULL,
+  frames BLOB NOT NULL);
+CREATE TABLE vessel(id INTEGER PRIMARY KEY, place INTEGER NOT NULL, name TEXT NOT NULL, segments BLOB NOT NULL,
+  own_from_mm NOT NULL, kernel TEXT NOT NULL, support_radius_mm NOT NULL, offset_mm NOT NULL,
+  far_field TEXT NOT NULL);
+CREATE TABLE sample(vessel INTEGER NOT NULL, id INTEGER NOT NULL, s_mm NOT NULL, position BLOB NOT NULL,
+  normal BLOB NOT NULL, origin INTEGER NOT NULL, PRIMARY KEY(vessel, id)) WITHOUT ROWID;
+CREATE TABLE journal(number INTEGER PRIMARY KEY, op TEXT NOT NULL, parameters TEXT NOT NULL,
+  state INTEGER NOT NULL, notes TEXT NOT NULL, changeset BLOB NOT NULL, checksum INTEGER NOT NULL);
+)";
+
+/// Step k makes version k + 2 of version k + 1.
+using Step = void (*)(Database&);
+constexpr std::array<Step, schema_version - 1> steps{};
+
+void set_version(Database& database, std::int32_t version) {
+  database.execute("PRAGMA user_version = " + std::to_string(version));
+}
+
+}  // namespace
+
+void create_schema(Database& database) {
+  database.execute("PRAGMA application_id = " + std::to_string(application_id));
+  database.execute(tables);
+  // Read by programs that are too old for the file: they can name the version that is needed.
+  database.execute("INSERT INTO meta VALUES('made_with', '" OSTIA_VERSION "'), ('needs', '0.1.0')");
+  set_version(database, schema_version);
+}
+
+void migrate(Database& database, std::int32_t from) {
+  if (from == schema_version) return;
+  if (from < 1) throw InvalidInput("the case " + database.shown() + " has no version; the file is damaged");
+  Transaction transaction(database);
+  for (auto version = static_cast<std::size_t>(from); version < schema_version; ++version)
+    steps.at(version - 1)(database);
+  set_version(database, schema_version);
+  transaction.commit();
+}
+
+}  // namespace ostia::session

@@ -1,0 +1,156 @@
+#include "journal.h"
+
+#include "model_blob.h"
+
+#include "ostia/core/error.h"
+
+#include <nlohmann/json.hpp>
+
+namespace ostia::session {
+namespace {
+
+#define OSTIA_JOURNAL_COLUMNS "number, op, parameters, state, notes, changeset, checksum"
+#define OSTIA_JOURNAL_EDITS "op NOT IN ('case.begin', 'undo', 'redo')"
+
+[[noreturn]] void damaged(const std::string& what) {
+  throw InvalidInput("the case is damaged: " + what + "; take a copy of it from a backup");
+}
+
+std::string notes_json(const std::vector<std::string>& notes) {
+  return nlohmann::json(notes).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+std::vector<std::string> notes_of(const std::string& text) {
+  try {
+    return nlohmann::json::parse(text).get<std::vector<std::string>>();
+  } catch (const nlohmann::json::exception&) {
+    damaged("the journal has notes that cannot be read");
+  }
+}
+
+std::int64_t sum_of(const JournalStep& step, const std::string& notes) {
+  Checksum sum;
+  sum.add("journal").add(step.number).add(step.op).add(step.parameters);
+  sum.add(static_cast<std::int64_t>(step.state)).add(notes).add(step.changeset);
+  return static_cast<std::int64_t>(sum.value());
+}
+
+}  // namespace
+
+bool is_edit(const std::string& op) {
+  return op != "case.begin" && op != "undo" && op != "redo";
+}
+
+Journal::Journal(const Database& db)
+    : append_(db, "INSERT INTO journal(" OSTIA_JOURNAL_COLUMNS ") VALUES(?1, ?2, ?3, ?4, ?5, ?6, ?7)"),
+      replace_(db,
+               "UPDATE journal SET op = ?2, parameters = ?3, state = ?4, notes = ?5, changeset = ?6, "
+               "checksum = ?7 WHERE number = ?1"),
+      set_state_(db, "UPDATE journal SET state = ?2, changeset = ?3, checksum = ?4 WHERE number = ?1"),
+      last_done_(db, "SELECT " OSTIA_JOURNAL_COLUMNS " FROM journal WHERE state = 0 AND " OSTIA_JOURNAL_EDITS
+                     " ORDER BY number DESC LIMIT 1"),
+      first_undone_(db,
+                    "SELECT " OSTIA_JOURNAL_COLUMNS " FROM journal WHERE state = 1 ORDER BY number LIMIT 1"),
+      step_(db, "SELECT " OSTIA_JOURNAL_COLUMNS " FROM journal WHERE number = ?1"),
+      all_(db, "SELECT " OSTIA_JOURNAL_COLUMNS " FROM journal ORDER BY number"),
+      last_(db, "SELECT max(number) FROM journal") {}
+
+JournalStep Journal::read(Statement& row) {
+  JournalStep step;
+  step.number = row.integer(0);
+  step.op = row.text(1);
+  step.parameters = row.text(2);
+  const std::int64_t state = row.integer(3);
+  if (state < 0 || state > 2) damaged("a step of the journal is in an unknown state");
+  step.state = static_cast<StepState>(state);
+  const std::string notes = row.text(4);
+  step.changeset = std::string(row.bytes(5));
+  if (sum_of(step, notes) != row.integer(6))
+    damaged("step " + std::to_string(step.number) + " of the journal is not what was written");
+  step.notes = notes_of(notes);
+  return step;
+}
+
+std::int64_t Journal::append(JournalStep step) {
+  last_.with().step();
+  step.number = last_.integer(0) + 1;
+  last_.reset();
+  const std::string notes = notes_json(step.notes);
+  append_
+      .with(step.number, step.op, step.parameters, static_cast<std::int64_t>(step.state), notes,
+            Blob{step.changeset}, sum_of(step, notes))
+      .run();
+  return step.number;
+}
+
+void Journal::replace(const JournalStep& step) {
+  const std::string notes = notes_json(step.notes);
+  replace_
+      .with(step.number, step.op, step.parameters, static_cast<std::int64_t>(step.state), notes,
+            Blob{step.changeset}, sum_of(step, notes))
+      .run();
+}
+
+void Journal::set_state(const JournalStep& step, StepState state) {
+  JournalStep changed = step;
+  changed.state = state;
+  if (state == StepState::dropped) changed.changeset.clear();
+  set_state_
+      .with(step.number, static_cast<std::int64_t>(state), Blob{changed.changeset},
+            sum_of(changed, notes_json(changed.notes)))
+      .run();
+}
+
+void Journal::drop_undone() {
+  while (const auto step = first_undone()) set_state(*step, StepState::dropped);
+}
+
+namespace {
+
+template <class Read>
+auto one(Statement& statement, const Read& read) -> std::optional<JournalStep> {
+  if (!statement.step()) return std::nullopt;
+  struct Reset {
+    Statement& statement;
+    ~Reset() { statement.reset(); }
+  } reset{statement};
+  return read(statement);
+}
+
+}  // namespace
+
+std::optional<JournalStep> Journal::last_done() {
+  return one(last_done_.with(), read);
+}
+std::optional<JournalStep> Journal::first_undone() {
+  return one(first_undone_.with(), read);
+}
+
+JournalStep Journal::step(std::int64_t number) {
+  if (auto found = one(step_.with(number), read)) return *found;
+  damaged("the journal has no step " + std::to_string(number));
+}
+
+std::vector<JournalStep> Journal::all() {
+  std::vector<JournalStep> steps;
+  Statement& row = all_.with();
+  while (row.step()) steps.push_back(read(row));
+  return steps;
+}
+
+void Journal::verify() {
+  Statement& row = all_.with();
+  std::int64_t number = 0;
+  bool undone = false;
+  while (row.step()) {
+    const JournalStep step = read(row);
+    if (step.number != ++number) damaged("the journal has no step " + std::to_string(number));
+    if ((step.op == "case.begin") != (number == 1)) damaged("the journal does not begin where it should");
+    if (!is_edit(step.op)) continue;
+    if (undone && step.state == StepState::done) damaged("a step of the journal follows one that was undone");
+    undone = undone || step.state == StepState::undone;
+  }
+  if (number == 0) damaged("the journal is empty");
+}
+
+}  // namespace ostia::session

@@ -1,0 +1,337 @@
+// `ostia lumen` and `ostia replay`: a model made, edited and exported by a script.
+
+#include "program.h"
+
+#include "ostia/core/files.h"
+#include "ostia/geometry/analytic_shapes.h"
+#include "ostia/io/centerline_file.h"
+#include "ostia/io/contour_file.h"
+#include "ostia/io/rotterdam_file.h"
+#include "ostia/session/edit_json.h"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <csignal>
+#include <numbers>
+#include <stdexcept>
+
+namespace ostia::testing {
+namespace {
+
+using geometry::Vec3;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using Json = nlohmann::json;
+namespace fs = std::filesystem;
+
+constexpr double pi = std::numbers::pi;
+
+geometry::Centerline line(const Vec3& from, const Vec3& to, double radius) {
+  geometry::Centerline axis;
+  const int pieces = static_cast<int>(std::ceil((to - from).norm() / 0.5));
+  for (int i = 0; i <= pieces; ++i) {
+    axis.points.emplace_back(from + (to - from) * i / pieces);
+    axis.radius.push_back(radius);
+  }
+  geometry::complete(axis);
+  return axis;
+}
+
+/// 20 mm along z with a radius of 1.5 mm.
+std::string tube_csv() {
+  std::string text = "x,y,z,radius\n";
+  for (int i = 0; i <= 40; ++i) text += "0,0," + std::to_string(0.5 * i) + ",1.5\n";
+  return text;
+}
+
+fs::path tube_folder() {
+  fs::path folder = temporary_folder("lumen");
+  core::write_file(folder / "tube.csv", tube_csv());
+  return folder;
+}
+
+/// A trunk that divides in two.
+geometry::VesselTree y_tree() {
+  geometry::VesselTree tree;
+  const Vec3 root(0, 0, 0), fork(0, 0, 12), left(-7, 0, 22), right(7, 0, 22);
+  tree.nodes = {{0, root}, {1, fork}, {2, left}, {3, right}};
+  tree.segments = {
+      {0, 0, 1, line(root, fork, 1.8)}, {1, 1, 2, line(fork, left, 1.4)}, {2, 1, 3, line(fork, right, 1.2)}};
+  tree.vessels = {{0, "LAD", {0, 1}}, {1, "LCX", {0, 2}}};
+  return tree;
+}
+
+/// A closed contour of another radius across the tube.
+lumen::Edit ring(double z, double radius, std::int32_t vessel = 0) {
+  lumen::SectionContour edit;
+  edit.vessel = vessel;
+  edit.s_mm = z;
+  edit.eps_mm = 3.0;
+  for (int i = 0; i < 12; ++i) {
+    const double a = 2.0 * pi * i / 12.0;
+    edit.points.emplace_back(radius * std::cos(a), radius * std::sin(a), z);
+  }
+  return edit;
+}
+
+/// What a run says that must succeed.
+Json done_json(const std::vector<std::string>& arguments, const fs::path& folder) {
+  const Outcome done = ostia(arguments, {folder, ""});
+  if (done.code != 0) throw std::runtime_error("exit code " + std::to_string(done.code) + ": " + done.err);
+  return Json::parse(done.out);
+}
+
+TEST(LumenCommand, MakesAClosedTubeOfALine) {
+  const fs::path folder = tube_folder();
+  const Json out = done_json({"lumen", "tube.csv", "-o", "tube.vtp", "--json"}, folder);
+  EXPECT_EQ(out["kind"], "lumen");
+  EXPECT_EQ(out["start"], "tube");
+  EXPECT_EQ(out["open_edges"], 0);
+  EXPECT_EQ(out["non_manifold_edges"], 0);
+  EXPECT_EQ(out["edits"], 0);
+  ASSERT_EQ(out["vessels"].size(), 1u);
+  EXPECT_NEAR(out["vessels"][0]["length_mm"].get<double>(), 20.0, 1e-6);
+  const double cylinder = pi * 1.5 * 1.5 * 20.0, caps = 4.0 / 3.0 * pi * std::pow(1.5, 3);
+  EXPECT_GT(out["volume_mm3"].get<double>(), 0.97 * cylinder);
+  EXPECT_LT(out["volume_mm3"].get<double>(), 1.03 * (cylinder + caps));
+  const Json wide =
+      done_json({"lumen", "tube.csv", "-o", "wide.stl", "--radius", "2", "--cell", "0.4", "--json"}, folder);
+  EXPECT_GT(wide["volume_mm3"].get<double>(), 1.6 * out["volume_mm3"].get<double>());
+  EXPECT_EQ(names_in(folder), (std::vector<std::string>{"tube.csv", "tube.vtp", "wide.stl"}));
+}
+
+TEST(LumenCommand, ReadsAReferenceOfTheRotterdamChallenge) {
+  const fs::path folder = temporary_folder("lumen");
+  io::RotterdamReference reference;
+  for (int i = 0; i <= 500; ++i) {
+    reference.points.emplace_back(0.001 * i, 0.0, 0.03 * i);
+    reference.radius.push_back(1.2);
+    reference.observer_spread.push_back(0.2);
+  }
+  io::write_rotterdam_reference(folder / "reference.txt", reference);
+  const Json out = done_json({"lumen", "reference.txt", "-o", "lumen.ply", "--json"}, folder);
+  EXPECT_EQ(out["vessels"][0]["name"], "vessel");
+  EXPECT_NEAR(out["vessels"][0]["length_mm"].get<double>(), 15.0, 0.1);
+}
+
+TEST(LumenCommand, JoinsTheBranchesOfATree) {
+  const fs::path folder = temporary_folder("lumen");
+  io::write_centerlines(folder / "y.vtp", y_tree());
+  const Json out = done_json(
+      {"lumen", "y.vtp", "-o", "y.stl", "--case", "y.ostia", "--lines", "lines.vtp", "--json"}, folder);
+  ASSERT_EQ(out["vessels"].size(), 2u);
+  EXPECT_EQ(out["vessels"][0]["name"], "LAD");
+  const Json surface = Json::parse(ostia({"info", "y.stl", "--json"}, {folder, ""}).out);
+  EXPECT_EQ(surface["components"], 1);
+  EXPECT_EQ(surface["open_edges"], 0);
+  EXPECT_EQ(io::read_centerlines(folder / "lines.vtp").vessels.size(), 2u);
+  const Json again = done_json({"lumen", "y.ostia", "-o", "again.stl", "--json"}, folder);
+  EXPECT_EQ(again["digest"], out["digest"]);
+  EXPECT_EQ(again["start"], "case");
+  EXPECT_EQ(core::read_file(folder / "again.stl"), core::read_file(folder / "y.stl"));
+}
+
+TEST(LumenCommand, AppliesEditsAndKeepsThemInACase) {
+  const fs::path folder = tube_folder();
+  session::write_edits(folder / "edits.jsonl", {ring(8.0, 1.0), ring(12.0, 0.9)});
+  const std::vector<std::string> command{"lumen",   "tube.csv",    "-o",     "tube.vtp",
+                                         "--edits", "edits.jsonl", "--json", "--quiet"};
+  const Json before = done_json({"lumen", "tube.csv", "-o", "start.vtp", "--json"}, folder);
+  const Json plain = done_json(command, folder);
+  EXPECT_EQ(plain["edits"], 2);
+  EXPECT_GT(plain["vessels"][0]["edited_samples"].get<int>(), 16);
+  EXPECT_LT(plain["volume_mm3"].get<double>(), before["volume_mm3"].get<double>() - 5.0);
+  EXPECT_NE(plain["digest"], before["digest"]);
+  const Json kept = done_json(command + std::vector<std::string>{"--case", "tube.ostia"}, folder);
+  EXPECT_EQ(kept["digest"], plain["digest"]);
+
+  const Json replayed = done_json({"replay", "tube.ostia", "--json"}, folder);
+  EXPECT_EQ(replayed["edits"], 2);
+  EXPECT_EQ(replayed["same"], true);
+  EXPECT_EQ(replayed["digest"], plain["digest"]);
+  EXPECT_EQ(replayed["stored_digest"], plain["digest"]);
+  const Json copied = done_json({"replay", "tube.ostia", "-o", "copy.ostia", "--json"}, folder);
+  EXPECT_EQ(copied["digest"], plain["digest"]);
+  const Json of_copy = done_json({"lumen", "copy.ostia", "-o", "copy.vtp", "--json"}, folder);
+  EXPECT_EQ(of_copy["digest"], plain["digest"]);
+}
+
+TEST(LumenCommand, NeverWritesOverACase) {
+  const fs::path folder = tube_folder();
+  core::write_file(folder / "kept.ostia", "whatever it is");
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"lumen", "tube.csv", "-o", "tube.vtp", "--case", "kept.ostia"},
+        {"replay", "kept.ostia", "-o", "kept.ostia"}}) {
+    EXPECT_EQ(ostia(command, {folder, ""}).code, 3);
+    EXPECT_EQ(core::read_file(folder / "kept.ostia"), "whatever it is");
+    EXPECT_EQ(names_in(folder), (std::vector<std::string>{"kept.ostia", "tube.csv"}));
+  }
+}
+
+TEST(ReplayCommand, HoldsAJournalAgainstItsCase) {
+  const fs::path folder = tube_folder();
+  session::write_edits(folder / "tube.jsonl", {ring(8.0, 1.0), ring(12.0, 0.9)});
+  session::write_edits(folder / "other.jsonl", {ring(8.0, 1.0)});
+  done_json(
+      {"lumen", "tube.csv", "-o", "tube.vtp", "--edits", "tube.jsonl", "--case", "tube.ostia", "--json"},
+      folder);
+  EXPECT_EQ(done_json({"replay", "tube.jsonl", "--json"}, folder)["same"], true);  // the case beside it
+  const Outcome lonely = ostia({"replay", "other.jsonl"}, {folder, ""});
+  EXPECT_EQ(lonely.code, 3);
+  EXPECT_THAT(lonely.err, HasSubstr("--start"));
+  const Outcome other = ostia({"replay", "other.jsonl", "--start", "tube.ostia", "--json"}, {folder, ""});
+  EXPECT_EQ(other.code, 4) << other.err;
+  EXPECT_EQ(Json::parse(other.out)["same"], false);
+  EXPECT_EQ(ostia({"replay", "tube.ostia", "--start", "tube.ostia"}, {folder, ""}).code, 2);
+}
+
+TEST(LumenCommand, StartsFromASurface) {
+  const fs::path folder = tube_folder();
+  const Json tube = done_json({"lumen", "tube.csv", "-o", "wide.stl", "--radius", "2", "--json"}, folder);
+  const Json taken =
+      done_json({"lumen", "tube.csv", "-o", "taken.stl", "--surface", "wide.stl", "--json"}, folder);
+  EXPECT_EQ(taken["start"], "surface");
+  EXPECT_NEAR(taken["volume_mm3"].get<double>(), tube["volume_mm3"].get<double>(),
+              0.06 * tube["volume_mm3"].get<double>());
+}
+
+/// Rings of 1.2 (observer A) and 1.8 mm (observer B) on the tube between 6 and 14 mm.
+geometry::ContourSet contours(const std::string& vessel) {
+  geometry::ContourSet set;
+  for (const auto& [observer, radius] : {std::pair{"A", 1.2}, std::pair{"B", 1.8}}) {
+    geometry::ContourSection section;
+    section.section = "s01";
+    section.vessel = vessel;
+    section.observer = observer;
+    for (double z = 6.0; z <= 14.0; z += 0.5) {
+      geometry::Contour ring{z, {}};
+      // Frames along z start with +x; theta grows counter-clockwise looking along +z, from +x to -y.
+      for (int i = 0; i < 16; ++i) {
+        const double a = -2.0 * pi * i / 16.0;
+        ring.points.emplace_back(radius * std::cos(a), radius * std::sin(a), z);
+      }
+      section.contours.push_back(std::move(ring));
+    }
+    set.sections.push_back(std::move(section));
+  }
+  return set;
+}
+
+TEST(LumenCommand, StartsFromOneObserversContours) {
+  const fs::path folder = temporary_folder("lumen");
+  io::RotterdamReference reference;
+  for (int i = 0; i <= 400; ++i) {
+    reference.points.emplace_back(0.0, 0.0, 0.05 * i);
+    reference.radius.push_back(1.5);
+    reference.observer_spread.push_back(0.2);
+  }
+  io::write_rotterdam_reference(folder / "line.txt", reference);
+  io::write_contours(folder / "contours.json", contours("RCA"));
+  const std::vector<std::string> command{"lumen",      "line.txt",      "-o",       "a.stl",
+                                         "--contours", "contours.json", "--vessel", "RCA"};
+  const Outcome which = ostia(command, {folder, ""});
+  EXPECT_EQ(which.code, 3);
+  EXPECT_THAT(which.err, HasSubstr("A, B"));
+  EXPECT_THAT(which.err, HasSubstr("--observer"));
+  const Outcome unnamed = ostia(
+      {"lumen", "line.txt", "-o", "a.stl", "--contours", "contours.json", "--observer", "A"}, {folder, ""});
+  EXPECT_EQ(unnamed.code, 3);
+  EXPECT_THAT(unnamed.err, HasSubstr("RCA"));
+  const Json a = done_json(command + std::vector<std::string>{"--observer", "A", "--json"}, folder);
+  const Json b = done_json(command + std::vector<std::string>{"--observer", "B", "--json"}, folder);
+  EXPECT_EQ(a["start"], "contours");
+  EXPECT_EQ(a["vessels"][0]["name"], "RCA");
+  const double more = b["volume_mm3"].get<double>() - a["volume_mm3"].get<double>();
+  const double covered = 8.0 * pi * (1.8 * 1.8 - 1.2 * 1.2);  // and smooth passages beyond
+  EXPECT_GT(more, 0.98 * covered);
+  EXPECT_LT(more, 1.6 * covered);
+}
+
+TEST(LumenCommand, NamesFileAndLineOfAnEditThatIsRefused) {
+  const fs::path folder = tube_folder();
+  const std::string good = session::to_json(ring(8.0, 1.0));
+  core::write_file(folder / "broken.jsonl", good + "\n\n{\"v\":1,\"op\":\"cpr.strok\"}\n");
+  core::write_file(folder / "stranger.jsonl", good + "\n\n\n" + session::to_json(ring(8.0, 1.0, 99)) + "\n");
+  for (const auto& [file, line_number] :
+       {std::pair{"broken.jsonl", "line 3"}, std::pair{"stranger.jsonl", "line 4"}}) {
+    for (const bool with_case : {false, true}) {
+      std::vector<std::string> command{"lumen", "tube.csv", "-o", "tube.vtp", "--edits", file};
+      if (with_case) command.insert(command.end(), {"--case", "tube.ostia"});
+      const Outcome done = ostia(command, {folder, ""});
+      EXPECT_EQ(done.code, 3) << done.err;
+      EXPECT_THAT(done.err, HasSubstr(file));
+      EXPECT_THAT(done.err, HasSubstr(line_number));
+      EXPECT_EQ(names_in(folder), (std::vector<std::string>{"broken.jsonl", "stranger.jsonl", "tube.csv"}));
+    }
+  }
+}
+
+TEST(LumenCommand, RefusesWrongUsage) {
+  const fs::path folder = tube_folder();
+  core::write_file(folder / "x.ostia", "not a case");
+  const std::vector<std::vector<std::string>> wrong{
+      {"lumen", "tube.csv"},
+      {"lumen", "tube.csv", "-o", "tube.txt"},
+      {"lumen", "tube.csv", "-o", "tube.vtp", "--no-such-option"},
+      {"lumen", "tube.csv", "-o", "tube.vtp", "--case", "tube.db"},
+      {"lumen", "tube.csv", "-o", "tube.vtp", "--lines", "lines.stl"},
+      {"lumen", "tube.csv", "-o", "tube.vtp", "--start", "image"},
+      {"lumen", "tube.csv", "-o", "tube.vtp", "--start", "guess"},
+      {"lumen", "tube.csv", "-o", "tube.vtp", "--kernel", "gauss"},
+      {"lumen", "tube.csv", "-o", "tube.vtp", "--radius", "-1"},
+      {"lumen", "tube.csv", "-o", "tube.vtp", "--surface", "a.stl", "--contours", "b.json"},
+      {"lumen", "tube.csv", "-o", "tube.vtp", "--surface", "a.stl", "--radius", "2"},
+      {"lumen", "x.ostia", "-o", "tube.vtp", "--radius", "2"},
+      {"lumen", "tube.csv", "-o", "tube.vtp", "--observer", "A"},
+      {"lumen", "tube.csv", "-o", "tube.vtp", "--vessel", "LAD"},
+      {"replay"},
+      {"replay", "x.ostia", "-o", "x.vtp"},
+      {"replay", "x.ostia", "--no-such-option"}};
+  for (const auto& command : wrong) {
+    const Outcome done = ostia(command, {folder, ""});
+    EXPECT_EQ(done.code, 2) << ::testing::PrintToString(command) << done.err;
+    EXPECT_THAT(done.err, Not(IsEmpty()));
+    EXPECT_THAT(done.out, IsEmpty());
+  }
+  EXPECT_EQ(names_in(folder), (std::vector<std::string>{"tube.csv", "x.ostia"}));
+}
+
+TEST(LumenCommand, RefusesInputsThatAreNotThereOrNotWhatTheySay) {
+  const fs::path folder = tube_folder();
+  core::write_file(folder / "x.ostia", "not a case");
+  core::write_file(folder / "none.csv", "x,y,z\n0,0,0\n0,0,1\n");
+  const std::vector<std::vector<std::string>> bad{
+      {"lumen", "missing.csv", "-o", "tube.vtp"},
+      {"lumen", "none.csv", "-o", "tube.vtp"},
+      {"lumen", "x.ostia", "-o", "tube.vtp"},
+      {"lumen", "tube.csv", "-o", "tube.vtp", "--edits", "missing.jsonl"},
+      {"lumen", "tube.csv", "-o", "missing/tube.vtp"},
+      {"lumen", "tube.csv", "-o", "/proc/tube.vtp"},
+      {"lumen", "tube.csv", "-o", "tube.vtp", "--case", "/proc/tube.ostia"},
+      {"replay", "missing.ostia"},
+      {"replay", "x.ostia"},
+      {"replay", "x.ostia", "-o", "y.ostia"}};
+  for (const auto& command : bad) {
+    const Outcome done = ostia(command, {folder, ""});
+    EXPECT_EQ(done.code, 3) << ::testing::PrintToString(command) << done.err;
+    EXPECT_THAT(done.err, Not(IsEmpty()));
+  }
+  EXPECT_EQ(names_in(folder), (std::vector<std::string>{"none.csv", "tube.csv", "x.ostia"}));
+}
+
+TEST(LumenCommand, LeavesNothingWhenInterrupted) {
+  const fs::path folder = temporary_folder("lumen");
+  io::write_centerlines(folder / "y.vtp", y_tree());
+  double seconds = 0.0;
+  const Outcome done =
+      interrupted({"lumen", "y.vtp", "-o", "y.stl", "--case", "y.ostia", "--cell", "0.05", "--threads", "1"},
+                  {folder, ""}, SIGINT, 0.4, seconds);
+  EXPECT_EQ(done.code, 130) << done.err;
+  EXPECT_EQ(names_in(folder), (std::vector<std::string>{"y.vtp"}));
+}
+
+}  // namespace
+}  // namespace ostia::testing

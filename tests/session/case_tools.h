@@ -1,0 +1,90 @@
+#pragma once
+/// \file Small models, edits and folders for tests of the case file.
+
+#include "vessel_trees.h"
+
+#include "ostia/lumen/start_surface.h"
+#include "ostia/session/case_file.h"
+
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+namespace ostia::session::testing {
+
+namespace fs = std::filesystem;
+
+class TempFolder {
+ public:
+  TempFolder() {
+    std::string name = (fs::temp_directory_path() / "ostia-case-XXXXXX").string();
+    if (!::mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
+    path_ = name;
+  }
+  ~TempFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  TempFolder(const TempFolder&) = delete;
+  TempFolder& operator=(const TempFolder&) = delete;
+  fs::path operator/(const std::string& name) const { return path_ / name; }
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+inline constexpr std::int32_t tube_vessel = 4;  // of straight_vessel
+
+/// A tube along z, 30 mm long.
+inline lumen::LumenModel tube_model() {
+  return lumen::model_of_tubes(lumen::testing::straight_vessel(30.0, 1.5));
+}
+
+/// A trunk with two branches.
+inline lumen::LumenModel y_model() {
+  return lumen::model_of_tubes(lumen::testing::tree_of(geometry::y_junction(15.0, 15.0, 2.0, 1.4, 70.0)));
+}
+
+/// A round contour across the tube.
+inline lumen::SectionContour ring(double s_mm, double radius_mm, std::int32_t vessel = tube_vessel) {
+  lumen::SectionContour contour;
+  contour.vessel = vessel;
+  contour.s_mm = s_mm;
+  for (int i = 0; i < 12; ++i) {
+    const double a = 2.0 * std::numbers::pi * i / 12.0;
+    contour.points.emplace_back(radius_mm * std::cos(a), radius_mm * std::sin(a), s_mm);
+  }
+  return contour;
+}
+
+inline lumen::WallDrag drag(double s_mm, double by_mm) {
+  lumen::WallDrag edit;
+  edit.vessel = tube_vessel;
+  edit.from = {1.5, 0.0, s_mm};
+  edit.to = {1.5 + by_mm, 0.0, s_mm};
+  return edit;
+}
+
+inline lumen::VesselRename renamed(const std::string& name) {
+  return {tube_vessel, name};
+}
+
+inline std::string bytes_of_file(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+inline void write_bytes(const fs::path& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary | std::ios::trunc)
+      .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+}
+
+}  // namespace ostia::session::testing

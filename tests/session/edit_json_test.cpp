@@ -1,0 +1,114 @@
+#include "ostia/session/edit_json.h"
+
+#include "case_tools.h"
+
+#include "ostia/core/error.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+
+namespace ostia::session {
+namespace {
+
+using lumen::Edit;
+using ::testing::HasSubstr;
+
+std::vector<Edit> one_of_each() {
+  const geometry::Vec3 a(0.1, -1.0 / 3.0, 1e-17), b(-0.0, 123456.789012345678, 5e-324), c(1e300, -2.5, 0.3);
+  return {lumen::CprStroke{7, {a, b, c}, lumen::ReformationMode::stretched, 1.0 / 7.0, 61.3},
+          lumen::SectionContour{1, 12.1, 1.7, false, {a, b, c}},
+          lumen::WallDrag{2, a, b, 2.9},
+          lumen::WallPush{3, {a}, 0.7},
+          lumen::AxisMove{4, a, b, 4.9},
+          lumen::AxisInsert{5, a},
+          lumen::AxisDelete{6, b},
+          lumen::AxisExtend{7, {a, b}},
+          lumen::AxisTrim{8, 0.1 + 0.2},
+          lumen::BranchAdd{9, "Ramus \"\xC3\xA9\"\n", {a, b}, {1.1, 0.9}},
+          lumen::BranchDelete{2147483647},
+          lumen::BranchAttach{11, 12, c},
+          lumen::VesselRename{13, "D1"}};
+}
+
+TEST(EditJson, EveryEditComesBackAsItWas) {
+  std::size_t index = 0;
+  for (const Edit& edit : one_of_each()) {
+    SCOPED_TRACE(lumen::op_name(edit));
+    EXPECT_EQ(edit.index(), index++) << "an edit is missing in the test";
+    const std::string line = to_json(edit);
+    EXPECT_EQ(line.find('\n'), std::string::npos);
+    EXPECT_EQ(to_json(edit_of_json(line)), line);
+  }
+  EXPECT_EQ(index, std::variant_size_v<Edit>);
+}
+
+TEST(EditJson, NumbersKeepEveryBit) {
+  for (const double value : {0.1, -0.0, 1.0 / 3.0, 5e-324, 1.7976931348623157e308, 2.2250738585072014e-308}) {
+    const auto back = std::get<lumen::AxisInsert>(edit_of_json(to_json(lumen::AxisInsert{1, {value, 0, 1}})));
+    EXPECT_EQ(std::memcmp(&back.point[0], &value, sizeof value), 0) << value;
+  }
+}
+
+TEST(EditJson, DefaultsMayBeLeftOut) {
+  const auto edit = edit_of_json(R"({"v":1,"op":"wall.drag","vessel":2,"from":[0,1,2],"to":[0,2,2]})");
+  EXPECT_EQ(std::get<lumen::WallDrag>(edit).reach_mm, lumen::WallDrag{}.reach_mm);
+}
+
+void expect_refused(const std::string& line, const std::string& part) {
+  try {
+    edit_of_json(line);
+    FAIL() << line;
+  } catch (const InvalidInput& e) {
+    EXPECT_THAT(std::string(e.what()), HasSubstr(part)) << line;
+  }
+}
+
+TEST(EditJson, SaysWhatIsWrong) {
+  expect_refused("{", "not JSON");
+  expect_refused("[1]", "JSON object");
+  expect_refused(R"({"op":"axis.trim","vessel":1,"s_mm":1})", "\"v\" missing");
+  expect_refused(R"({"v":2,"op":"axis.trim","vessel":1,"s_mm":1})", "version 1");
+  expect_refused(R"({"v":1.0,"op":"axis.trim","vessel":1,"s_mm":1})", "\"v\"");
+  expect_refused(R"({"v":1,"op":"axis.cut","vessel":1})", "axis.trim");
+  expect_refused(R"({"v":1,"op":"axis.trim","vessel":1})", "no \"s_mm\"");
+  expect_refused(R"({"v":1,"op":"axis.trim","vessel":1,"s_mm":1,"s":2})", "unknown field \"s\"");
+  expect_refused(R"({"v":1,"op":"axis.trim","vessel":1,"s_mm":1,"s_mm":2})", "\"s_mm\" twice");
+  expect_refused(R"({"v":1,"op":"axis.trim","vessel":"1","s_mm":1})", "\"vessel\" is string");
+  expect_refused(R"({"v":1,"op":"axis.trim","vessel":1.5,"s_mm":1})", "whole number");
+  expect_refused(R"({"v":1,"op":"axis.trim","vessel":-1,"s_mm":1})", "ids are");
+  expect_refused(R"({"v":1,"op":"axis.trim","vessel":4294967300,"s_mm":1})", "ids are");
+  expect_refused(R"({"v":1,"op":"axis.trim","vessel":1,"s_mm":NaN})", "not JSON");
+  expect_refused(R"({"v":1,"op":"axis.trim","vessel":1,"s_mm":1e999})", "");
+  expect_refused(R"({"v":1,"op":"axis.trim","vessel":1,"s_mm":null})", "\"s_mm\" is null");
+  expect_refused(R"({"v":1,"op":"axis.insert","vessel":1,"point":[1,2]})", "\"point\" must be a point");
+  expect_refused(R"({"v":1,"op":"axis.extend","vessel":1,"points":[[1,2,3],[1,"a",3]]})", "points[1][1]");
+  expect_refused(R"({"v":1,"op":"cpr.stroke","vessel":1,"points":[],"mode":"bent","theta_deg":0})",
+                 "straightened");
+}
+
+TEST(EditJson, WhatIsNotFiniteIsNotWritten) {
+  EXPECT_THROW(to_json(lumen::AxisTrim{1, std::numeric_limits<double>::quiet_NaN()}), InvalidInput);
+  EXPECT_THROW(to_json(lumen::VesselRename{1, "\xff"}), InvalidInput);
+}
+
+TEST(EditJson, FilesNameTheLine) {
+  const testing::TempFolder folder;
+  write_edits(folder / "edits.jsonl", one_of_each());
+  const auto back = read_edits(folder / "edits.jsonl");
+  ASSERT_EQ(back.size(), one_of_each().size());
+  for (std::size_t i = 0; i < back.size(); ++i) EXPECT_EQ(to_json(back[i]), to_json(one_of_each()[i]));
+  testing::write_bytes(folder / "bad.jsonl", to_json(lumen::BranchDelete{1}) + "\r\n\n{}\n");
+  try {
+    read_edits(folder / "bad.jsonl");
+    FAIL();
+  } catch (const InvalidInput& e) {
+    EXPECT_THAT(std::string(e.what()), HasSubstr("bad.jsonl, line 3"));
+  }
+  EXPECT_THROW(read_edits(folder / "missing.jsonl"), IoError);
+}
+
+}  // namespace
+}  // namespace ostia::session

@@ -13,6 +13,7 @@ for picture in axial mip tree; do
   cp "$work/phantom/dataset00/report/$picture.png" "docs/pictures/phantom-$picture.png"
 done
 
+build/release/bin/model_picture docs/pictures/lumen-model.png
 build/release/bin/editing_picture docs/pictures/editing-dismissal.png
 build/release/bin/reformation_picture "$work/phantom/dataset00" vessel1 docs/pictures/reformations.png
 build/release/bin/contour_picture "$work/phantom/dataset00" vessel1 docs/pictures/lumen-contours.png

@@ -17,7 +17,8 @@ void define_lumen(CLI::App& app, LumenModelCommand& c, ReplayCommand& r,
   lumen->add_option("INPUT", c.input, "Case (.ostia) or centerlines (.vtp .vtk .csv, Rotterdam .txt)")
       ->required();
   lumen->add_option("-o,--output", c.output, "The surface: .vtp, .stl or .ply")->required();
-  lumen->add_option("--edits", c.edits, "Edits to be applied in order, one JSON object a line");
+  lumen->add_option("--edits", c.edits,
+                    "Edits to be applied in order, one JSON object a line; - is standard input");
   lumen
       ->add_option("--start", c.start,
                    "The wall to start from: tube, image, surface or contours; left out: what is given of "
@@ -38,7 +39,8 @@ void define_lumen(CLI::App& app, LumenModelCommand& c, ReplayCommand& r,
       ->add_option("--cell", c.cell_mm,
                    "Cells of the surface, mm; left out: 0.25 or a quarter of the smallest radius")
       ->check(CLI::Range(0.05, 2.0));
-  lumen->add_option("--case", c.case_output, "Also a case with the start and every edit, .ostia");
+  lumen->add_option("--case", c.case_output,
+                    "Also a case with the start and every edit, those of an INPUT case before them, .ostia");
   lumen->add_option("--lines", c.lines_output, "Also the centerlines after editing: .vtp or .csv");
   lumen->add_flag("--json", c.json, "One JSON object on standard output");
   lumen->callback([&] { run = [&](const core::TaskContext& task) { return run_lumen(c, task); }; });
@@ -50,7 +52,7 @@ void define_lumen(CLI::App& app, LumenModelCommand& c, ReplayCommand& r,
   replay->add_option("INPUT", r.input, "Case (.ostia) or journal (.jsonl)")->required();
   replay->add_option("--start", r.start,
                      "The case that a journal starts from; left out: the one of the same name beside it");
-  replay->add_option("-o,--output", r.output, "The replayed case, .ostia");
+  replay->add_option("-o,--output", r.output, "The replayed case, .ostia, or its edits, .jsonl");
   replay->add_flag("--json", r.json, "One JSON object on standard output");
   replay->callback([&] { run = [&](const core::TaskContext& task) { return run_replay(r, task); }; });
 }

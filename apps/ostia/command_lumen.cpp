@@ -39,8 +39,7 @@ std::string start_of(const LumenModelCommand& o) {
         !o.contours.empty() || !o.vessel.empty())
       throw UsageError(
           "a case has its model: --start, --radius, --spacing, --kernel, --surface, --contours and --vessel "
-          "are for "
-          "centerlines");
+          "are for centerlines");
     return "case";
   }
   const std::vector<std::pair<std::string, bool>> given{
@@ -117,6 +116,34 @@ pipeline::Source image_from(const std::filesystem::path& path, const core::TaskC
   return source;
 }
 
+/// What a library says of values, with the first of these files that they stand in, unless it names one.
+template <class Call>
+auto naming(const std::vector<std::filesystem::path>& files, const Call& call) {
+  try {
+    return call();
+  } catch (const InvalidInput& error) {
+    const std::string what = error.what();
+    const bool named = std::any_of(files.begin(), files.end(), [&](const auto& file) {
+      return !file.empty() && what.find(file.string()) != std::string::npos;
+    });
+    throw InvalidInput(named ? what : files.front().string() + ": " + what);
+  }
+}
+
+LumenModel model_about(const geometry::VesselTree& tree, const LumenModelCommand& o, const std::string& start,
+                       const pipeline::Source& image, const lumen::SamplingOptions& sampling,
+                       const core::TaskContext& task) {
+  if (start == "image")
+    return lumen::model_of_walls(tree, walls_from_image(tree, *image.image, task), sampling);
+  if (start == "surface") {
+    const io::LoadedSurface loaded = io::read_surface(o.surface);
+    for (const std::string& warning : loaded.warnings) core::log_warning(warning);
+    return lumen::model_of_surface(tree, loaded.surface.mesh, sampling, task);
+  }
+  if (start == "contours") return lumen::model_of_contours(tree, contours_for(o, tree), sampling);
+  return lumen::model_of_tubes(tree, o.radius_mm, sampling);
+}
+
 LumenModel started(const LumenModelCommand& o, const std::string& start, const pipeline::Source& image,
                    const core::TaskContext& task) {
   lumen::SamplingOptions sampling;
@@ -124,19 +151,8 @@ LumenModel started(const LumenModelCommand& o, const std::string& start, const p
     sampling.spacing_mm = *o.spacing_mm;
     sampling.least_spacing_mm = std::min(sampling.least_spacing_mm, *o.spacing_mm);
   }
-  const geometry::VesselTree tree = tree_of(o);
-  LumenModel model;
-  if (start == "image") {
-    model = lumen::model_of_walls(tree, walls_from_image(tree, *image.image, task), sampling);
-  } else if (start == "surface") {
-    const io::LoadedSurface loaded = io::read_surface(o.surface);
-    for (const std::string& warning : loaded.warnings) core::log_warning(warning);
-    model = lumen::model_of_surface(tree, loaded.surface.mesh, sampling, task);
-  } else if (start == "contours") {
-    model = lumen::model_of_contours(tree, contours_for(o, tree), sampling);
-  } else {
-    model = lumen::model_of_tubes(tree, o.radius_mm, sampling);
-  }
+  LumenModel model = naming({o.input, o.surface, o.contours},
+                            [&] { return model_about(tree_of(o), o, start, image, sampling, task); });
   if (!o.kernel.empty()) {
     for (auto& vessel : model.vessels) {
       lumen::VesselLumen changed = *vessel;
@@ -171,12 +187,36 @@ void print(const Json& out, bool as_json) {
     return;
   }
   for (const Json& vessel : out["vessels"])
-    std::printf("%-12s %7.1f mm, %zu samples, %zu of them edited\n",
+    std::printf("vessel %d %-12s %7.1f mm, %zu samples, %zu of them edited\n", vessel["id"].get<int>(),
                 vessel["name"].get<std::string>().c_str(), vessel["length_mm"].get<double>(),
                 vessel["samples"].get<std::size_t>(), vessel["edited_samples"].get<std::size_t>());
-  std::printf("%zu edits; %zu triangles, %.1f mm2, %.1f mm3\nmodel %s\n", out["edits"].get<std::size_t>(),
-              out["triangles"].get<std::size_t>(), out["area_mm2"].get<double>(),
-              out["volume_mm3"].get<double>(), out["digest"].get<std::string>().c_str());
+  std::printf("%zu edits applied; %zu triangles, %.1f mm2, %.1f mm3\nmodel %s\n",
+              out["edits"].get<std::size_t>(), out["triangles"].get<std::size_t>(),
+              out["area_mm2"].get<double>(), out["volume_mm3"].get<double>(),
+              out["digest"].get<std::string>().c_str());
+}
+
+using Notes = std::vector<std::string>;
+using Image = std::optional<session::ImageReference>;
+
+/// A case with the script's edits after its own; its new copy keeps its journal.
+LumenModel case_edited(const LumenModelCommand& o, const Image& image, const EditScript& script,
+                       std::optional<NewCase>& made, Notes& notes, const core::TaskContext& task) {
+  const session::CaseFile opened = session::CaseFile::open(o.input, session::OpenMode::read_only);
+  if (image) naming({o.image}, [&] { return opened.check_image(*image); });
+  task.set_stage("edits");
+  return made ? made->go_on(opened, script, notes, task) : edited(*opened.model(), script, notes, task);
+}
+
+LumenModel start_edited(const LumenModelCommand& o, const std::string& start, const pipeline::Source& source,
+                        const Image& image, const EditScript& script, std::optional<NewCase>& made,
+                        Notes& notes, const core::TaskContext& task) {
+  task.set_stage("start");
+  LumenModel model = started(o, start, source, task.sub(0.2, 0.5));
+  task.set_stage("edits");
+  const core::TaskContext editing = task.sub(0.5, 0.6);
+  return made ? made->make(model, script, image, notes, editing)
+              : edited(std::move(model), script, notes, editing);
 }
 
 }  // namespace
@@ -192,24 +232,13 @@ ExitCode run_lumen(const LumenModelCommand& o, const core::TaskContext& task) {
   const EditScript script = read_edit_script(o.edits);
   pipeline::Source image;
   if (!o.image.empty()) image = image_from(o.image, task.sub(0.0, 0.2));
-  std::optional<session::ImageReference> reference;
+  Image reference;
   if (image.image) reference = session::ImageReference{image.sha256, image.pseudonym};
 
-  LumenModel model;
-  if (start == "case") {
-    const session::CaseFile opened = session::CaseFile::open(o.input, session::OpenMode::read_only);
-    if (reference) opened.check_image(*reference);
-    reference = opened.image();
-    model = *opened.model();
-  } else {
-    task.set_stage("start");
-    model = started(o, start, image, task.sub(0.2, 0.5));
-  }
-  task.set_stage("edits");
-  std::vector<std::string> notes;
-  const core::TaskContext editing = task.sub(0.5, 0.6);
-  model = made ? made->make(model, script, reference, notes, editing)
-               : edited(std::move(model), script, notes, editing);
+  Notes notes;
+  const LumenModel model = start == "case"
+                               ? case_edited(o, reference, script, made, notes, task.sub(0.2, 0.6))
+                               : start_edited(o, start, image, reference, script, made, notes, task);
   task.set_stage("surface");
   const geometry::TriMesh wall = lumen::surface_of(model, o.cell_mm, task.sub(0.6, 0.95));
   const geometry::SurfaceFaults faults = geometry::find_faults(wall, false);

@@ -3,6 +3,7 @@
 #include "outputs.h"
 
 #include "ostia/core/log.h"
+#include "ostia/session/edit_json.h"
 
 #include <nlohmann/json.hpp>
 
@@ -36,7 +37,7 @@ std::filesystem::path case_of(const ReplayCommand& o) {
 }  // namespace
 
 ExitCode run_replay(const ReplayCommand& o, const core::TaskContext& task) {
-  require_output(o.output, {".ostia"});
+  require_output(o.output, {".ostia", ".jsonl"});
   task.set_stage("reading");
   const std::filesystem::path path = case_of(o);
   const session::CaseFile file = session::CaseFile::open(path, session::OpenMode::read_only);
@@ -44,7 +45,7 @@ ExitCode run_replay(const ReplayCommand& o, const core::TaskContext& task) {
   task.set_stage("edits");
   std::vector<std::string> notes;
   std::string digest;
-  if (o.output.empty()) {
+  if (o.output.empty() || is_journal(o.output)) {
     digest = lumen::digest(edited(*file.starting_model(), script, notes, task));
   } else {
     NewCase made(o.output);
@@ -52,6 +53,7 @@ ExitCode run_replay(const ReplayCommand& o, const core::TaskContext& task) {
     task.throw_if_cancelled();
     made.commit();
   }
+  if (is_journal(o.output)) session::write_edits(o.output, script.edits);
   const std::string stored = lumen::digest(*file.model());
   const bool same = digest == stored;
   if (o.json) {

@@ -4,25 +4,14 @@
 #include "ostia/core/log.h"
 #include "ostia/session/edit_json.h"
 
-#include <algorithm>
+#include <iostream>
+#include <iterator>
+#include <utility>
 
 namespace ostia::app {
 namespace {
 
-/// Which line of the file each edit stands in: blank lines are skipped.
-std::vector<std::size_t> lines_of_edits(const std::filesystem::path& path) {
-  const std::string text = core::read_file(path);
-  std::vector<std::size_t> lines;
-  std::size_t number = 0;
-  for (std::size_t from = 0; from < text.size();) {
-    const std::size_t to = std::min(text.find('\n', from), text.size());
-    ++number;
-    if (std::string_view(text).substr(from, to - from).find_first_not_of(" \t\r") != std::string::npos)
-      lines.push_back(number);
-    from = to + 1;
-  }
-  return lines;
-}
+constexpr std::uint64_t largest_script = 1ULL << 30;
 
 std::filesystem::path not_there_yet(std::filesystem::path path) {
   std::error_code ignored;
@@ -32,15 +21,26 @@ std::filesystem::path not_there_yet(std::filesystem::path path) {
   return path;
 }
 
+/// The case is closed when this returns.
+lumen::LumenModel with_edits(session::CaseFile file, const EditScript& script,
+                             std::vector<std::string>& notes, const core::TaskContext& task) {
+  notes = apply_all(
+      script, [&](const lumen::Edit& edit) { return file.apply(edit); }, task);
+  return *file.model();
+}
+
 }  // namespace
 
 EditScript read_edit_script(const std::filesystem::path& path) {
   EditScript script;
   if (path.empty()) return script;
-  script.source = path.string();
-  script.edits = session::read_edits(path);
-  for (const std::size_t line : lines_of_edits(path)) script.names.push_back("line " + std::to_string(line));
-  script.names.resize(script.edits.size());
+  script.source = path == "-" ? "standard input" : path.string();
+  const std::string text = path == "-" ? std::string(std::istreambuf_iterator<char>(std::cin), {})
+                                       : core::read_file(path, largest_script);
+  for (session::EditLine& line : session::edit_lines(text, script.source)) {
+    script.edits.push_back(std::move(line.edit));
+    script.names.push_back("line " + std::to_string(line.number));
+  }
   return script;
 }
 
@@ -88,15 +88,32 @@ lumen::LumenModel edited(lumen::LumenModel model, const EditScript& script, std:
   return model;
 }
 
-NewCase::NewCase(std::filesystem::path path) : staged_(not_there_yet(std::move(path))) {}
+NewCase::NewCase(std::filesystem::path path) : target_(std::move(path)), staged_(not_there_yet(target_)) {}
+
+template <class Call>
+auto NewCase::named(const Call& call) const {
+  try {
+    return call();
+  } catch (const ResourceError& error) {
+    throw ResourceError("cannot make the case " + target_.string() + "; make room and try again (" +
+                        error.what() + ")");
+  }
+}
 
 lumen::LumenModel NewCase::make(const lumen::LumenModel& start, const EditScript& script,
                                 const std::optional<session::ImageReference>& image,
                                 std::vector<std::string>& notes, const core::TaskContext& task) {
-  session::CaseFile file = session::CaseFile::create(staged_.temporary(), start, image);
-  notes = apply_all(
-      script, [&](const lumen::Edit& edit) { return file.apply(edit); }, task);
-  return *file.model();
+  return named([&] {
+    return with_edits(session::CaseFile::create(staged_.temporary(), start, image), script, notes, task);
+  });
+}
+
+lumen::LumenModel NewCase::go_on(const session::CaseFile& from, const EditScript& script,
+                                 std::vector<std::string>& notes, const core::TaskContext& task) {
+  return named([&] {
+    from.copy_to(staged_.temporary());
+    return with_edits(session::CaseFile::open(staged_.temporary()), script, notes, task);
+  });
 }
 
 }  // namespace ostia::app

@@ -17,9 +17,9 @@ namespace ostia::app {
 struct EditScript {
   std::vector<lumen::Edit> edits;
   std::vector<std::string> names;  ///< of each edit in messages: "line 3"
-  std::string source;              ///< the file's name
+  std::string source;              ///< the file's name, in messages
 };
-/// Throws InvalidInput naming file and line. An empty path is an empty script.
+/// "-" is standard input, an empty path an empty script. Throws InvalidInput naming file and line.
 EditScript read_edit_script(const std::filesystem::path& path);
 /// The edits of a case that are not undone.
 EditScript edits_of_case(const session::CaseFile& file, const std::filesystem::path& path);
@@ -42,9 +42,16 @@ class NewCase {
   lumen::LumenModel make(const lumen::LumenModel& start, const EditScript& script,
                          const std::optional<session::ImageReference>& image, std::vector<std::string>& notes,
                          const core::TaskContext& task);
+  /// A copy of a case, its journal included, with the script's edits after those that it has.
+  lumen::LumenModel go_on(const session::CaseFile& from, const EditScript& script,
+                          std::vector<std::string>& notes, const core::TaskContext& task);
   void commit() { staged_.commit(); }
 
  private:
+  /// What a call throws of a full disk, with the name that was asked for and not the hidden one.
+  template <class Call>
+  auto named(const Call& call) const;
+  std::filesystem::path target_;
   core::StagedFile staged_;
 };
 

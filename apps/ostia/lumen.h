@@ -34,7 +34,7 @@ ExitCode run_lumen(const LumenModelCommand& options, const core::TaskContext& ta
 struct ReplayCommand {
   std::filesystem::path input;   ///< case or journal
   std::filesystem::path start;   ///< the case that a journal starts from; empty: the one beside it
-  std::filesystem::path output;  ///< a case
+  std::filesystem::path output;  ///< a case, or a journal
   bool json = false;
 };
 ExitCode run_replay(const ReplayCommand& options, const core::TaskContext& task);

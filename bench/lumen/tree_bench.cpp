@@ -105,10 +105,10 @@ void tree_surface_anew(benchmark::State& state) {
 
 /// With `reach_mm` the box is cut to so much on each side of the edit, and what is left out is told: the
 /// largest change of f at a sample beyond.
-void after_edit(benchmark::State& state, double reach_mm) {
+void after_edit(benchmark::State& state, double reach_mm, double keep_within_mm) {
   core::set_max_threads(2);
   Tree tree;
-  lumen::TreeSurface surface;
+  lumen::TreeSurface surface({.keep_within_mm = keep_within_mm});
   auto field = tree.field();
   surface.build(field, tree.seeds());
   std::vector<double> update_ms, mesh_ms, both_ms, cpu_ms, evaluations, blocks, widest_mm;
@@ -151,14 +151,18 @@ void after_edit(benchmark::State& state, double reach_mm) {
 }
 
 void tree_surface_after_edit(benchmark::State& state) {
-  after_edit(state, 0.0);
+  after_edit(state, 0.0, lumen::unseen_mm);
+}
+void tree_surface_after_edit_exact(benchmark::State& state) {
+  after_edit(state, 0.0, 0.0);
 }
 void tree_surface_within_15_mm_of_edit(benchmark::State& state) {
-  after_edit(state, 7.5);
+  after_edit(state, 7.5, 0.0);
 }
 
 BENCHMARK(tree_surface_anew)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(tree_surface_within_15_mm_of_edit)->Unit(benchmark::kMillisecond)->UseManualTime()->Iterations(100);
 BENCHMARK(tree_surface_after_edit)->Unit(benchmark::kMillisecond)->UseManualTime()->Iterations(100);
+BENCHMARK(tree_surface_after_edit_exact)->Unit(benchmark::kMillisecond)->UseManualTime()->Iterations(100);
 
 }  // namespace

@@ -4,14 +4,18 @@
 
 #include "ostia/core/files.h"
 #include "ostia/geometry/analytic_shapes.h"
+#include "ostia/imaging/image_file.h"
 #include "ostia/io/centerline_file.h"
 #include "ostia/io/contour_file.h"
 #include "ostia/io/rotterdam_file.h"
+#include "ostia/lumen/start_surface.h"
+#include "ostia/session/case_file.h"
 #include "ostia/session/edit_json.h"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <numbers>
@@ -188,6 +192,18 @@ TEST(ReplayCommand, HoldsAJournalAgainstItsCase) {
   EXPECT_EQ(ostia({"replay", "tube.ostia", "--start", "tube.ostia"}, {folder, ""}).code, 2);
 }
 
+TEST(LumenCommand, NamesTheFileThatIsWrong) {
+  const fs::path folder = tube_folder();
+  core::write_file(folder / "bad.stl", "hello");
+  core::write_file(folder / "bad.json", "[]");
+  for (const auto& [option, file] : {std::pair{"--surface", "bad.stl"}, {"--contours", "bad.json"}}) {
+    const Outcome done = ostia({"lumen", "tube.csv", "-o", "tube.stl", option, file}, {folder, ""});
+    EXPECT_EQ(done.code, 3) << done.err;
+    EXPECT_THAT(done.err, HasSubstr(file));
+    EXPECT_THAT(done.err, Not(HasSubstr("tube.csv")));
+  }
+}
+
 TEST(LumenCommand, StartsFromASurface) {
   const fs::path folder = tube_folder();
   const Json tube = done_json({"lumen", "tube.csv", "-o", "wide.stl", "--radius", "2", "--json"}, folder);
@@ -331,6 +347,297 @@ TEST(LumenCommand, LeavesNothingWhenInterrupted) {
                   {folder, ""}, SIGINT, 0.4, seconds);
   EXPECT_EQ(done.code, 130) << done.err;
   EXPECT_EQ(names_in(folder), (std::vector<std::string>{"y.vtp"}));
+}
+
+/// What is in the way of an edit, and what the message must say beside file, line and vessel.
+struct Refusal {
+  std::string what;
+  lumen::Edit edit;
+  std::string said, way_out;
+};
+
+lumen::CprStroke stroke(const std::vector<Vec3>& points) {
+  lumen::CprStroke edit;
+  edit.points = points;
+  return edit;
+}
+
+lumen::SectionContour drawn(const std::vector<Vec3>& points) {
+  lumen::SectionContour edit = std::get<lumen::SectionContour>(ring(10.0, 1.5));
+  edit.points = points;
+  return edit;
+}
+
+std::vector<Refusal> refusals() {
+  std::vector<Vec3> crossed = std::get<lumen::SectionContour>(ring(10.0, 1.5)).points;
+  std::swap(crossed[3], crossed[6]);
+  std::vector<Vec3> beside = std::get<lumen::SectionContour>(ring(10.0, 1.0)).points;
+  for (Vec3& point : beside) point.x() += 2.0;
+  lumen::SectionContour wide = drawn(crossed);
+  wide.eps_mm = 30.0;
+  return {
+      {"crossed", drawn(crossed), "crosses itself", "without a loop"},
+      {"beside", drawn(beside), "does not go around the axis", "move the axis"},
+      {"on-axis", drawn({{0, 0, 10}, {1, 0, 10}, {0, 1, 10}}), "of the axis", "move the axis"},
+      {"two-points", drawn({{1, 0, 10}, {0, 1, 10}}), "2 points", "at least 3"},
+      {"through", stroke({{1.8, 0, 5}, {-1.8, 0, 15}}), "crosses the axis", "each side"},
+      {"back", stroke({{1.8, 0, 5}, {1.8, 0, 10}, {1.7, 0, 6}, {1.6, 0, 12}}), "runs back", "one direction"},
+      {"eps", wide, "eps is 30.00 mm", "at most 20 mm"},
+      {"no-vessel", ring(10.0, 1.0, 99), "no vessel 99", ""},
+      {"fold", lumen::AxisMove{0, {0, 0, 10}, {9, 0, 10}, 5.0}, "fold", "longer reach"}};
+}
+
+TEST(LumenCommand, BadInput_RefusesEditsThatMakeNoWall) {
+  const fs::path folder = tube_folder();
+  for (const Refusal& refusal : refusals()) {
+    SCOPED_TRACE(refusal.what);
+    session::write_edits(folder / "edits.jsonl", {ring(5.0, 1.0), refusal.edit});
+    const Outcome done =
+        ostia({"lumen", "tube.csv", "-o", "tube.vtp", "--edits", "edits.jsonl", "--case", "tube.ostia"},
+              {folder, ""});
+    EXPECT_EQ(done.code, 3) << done.err;
+    for (const std::string& part : {std::string("edits.jsonl: line 2"), refusal.said, refusal.way_out})
+      EXPECT_THAT(done.err, HasSubstr(part));
+    EXPECT_EQ(std::count(done.err.begin(), done.err.end(), '\n'), 1) << done.err;
+    EXPECT_EQ(names_in(folder), (std::vector<std::string>{"edits.jsonl", "tube.csv"}));
+  }
+}
+
+TEST(LumenCommand, BadInput_OfEditsThatContradictEachOtherTheLaterWins) {
+  const fs::path folder = tube_folder();
+  const auto volume = [&](const std::vector<lumen::Edit>& edits) {
+    session::write_edits(folder / "edits.jsonl", edits);
+    const Json out =
+        done_json({"lumen", "tube.csv", "-o", "tube.stl", "--edits", "edits.jsonl", "--json"}, folder);
+    EXPECT_EQ(out["open_edges"], 0);
+    return out["volume_mm3"].get<double>();
+  };
+  EXPECT_NEAR(volume({ring(10.0, 2.0), ring(10.0, 1.1)}), volume({ring(10.0, 1.1)}), 0.3);
+  const lumen::Edit wide = stroke({{2.0, 0, 5}, {2.0, 0, 10}, {2.0, 0, 15}}),
+                    narrow = stroke({{1.1, 0, 5}, {1.1, 0, 10}, {1.1, 0, 15}});
+  EXPECT_NEAR(volume({wide, narrow}), volume({narrow}), 0.3);
+}
+
+TEST(LumenCommand, BadInput_PointsOnOnePlaceMakeASoundWall) {
+  const fs::path folder = tube_folder();
+  lumen::SectionContour twice = std::get<lumen::SectionContour>(ring(10.0, 1.3)), shifted = twice;
+  twice.points.clear();
+  for (const Vec3& point : shifted.points) twice.points.insert(twice.points.end(), {point, point});
+  shifted.s_mm += 1e-12;
+  for (Vec3& point : shifted.points) point += Vec3(1e-13, 0.0, 1e-12);
+  // An epsilon too small to dismiss the ring before leaves two on one place.
+  shifted.eps_mm = 1e-13;
+  session::write_edits(folder / "edits.jsonl", {twice, shifted});
+  const Json out =
+      done_json({"lumen", "tube.csv", "-o", "tube.stl", "--edits", "edits.jsonl", "--json"}, folder);
+  EXPECT_EQ(out["open_edges"], 0);
+  EXPECT_EQ(out["non_manifold_edges"], 0);
+  EXPECT_THAT(out["warnings"][0].get<std::string>(), HasSubstr("line 1: 12 points"));
+}
+
+TEST(LumenCommand, BadInput_RefusesAxesThatBearNoWall) {
+  const fs::path folder = temporary_folder("lumen");
+  const auto csv = [&](const char* name, const std::vector<Vec3>& points) {
+    std::string text = "x,y,z,radius\n";
+    for (const Vec3& p : points)
+      text += std::to_string(p.x()) + "," + std::to_string(p.y()) + "," + std::to_string(p.z()) + ",1\n";
+    core::write_file(folder / name, text);
+  };
+  std::vector<Vec3> kink, loop;
+  for (double z = 0.0; z <= 10.0; z += 0.5) kink.emplace_back(0.0, 0.0, z);
+  for (double x = 0.5; x <= 10.0; x += 0.5) kink.emplace_back(x, 0.0, 10.0 - 0.4 * x);
+  for (double a = -1.0; a < 2.0 * pi + 1.0; a += 0.1)
+    loop.emplace_back(6.0 * std::cos(a), 6.0 * std::sin(a), 0.02 * a);
+  csv("two.csv", {{0, 0, 0}, {0, 0, 10}});
+  csv("kink.csv", kink);
+  csv("loop.csv", loop);
+  csv("twice.csv", {{0, 0, 0}, {0, 0, 5}, {0, 0, 5}, {0, 0, 10}});
+  const auto before = names_in(folder);
+  for (const auto& [file, said] : {std::pair{"two.csv", "at least three"},
+                                   {"kink.csv", "smooth the axis there"},
+                                   {"loop.csv", "take the loop out"},
+                                   {"twice.csv", "points 1 and 2"}}) {
+    const Outcome done = ostia({"lumen", file, "-o", "lumen.vtp", "--case", "lumen.ostia"}, {folder, ""});
+    EXPECT_EQ(done.code, 3) << done.err;
+    EXPECT_THAT(done.err, HasSubstr(file));
+    EXPECT_THAT(done.err, HasSubstr(said));
+    EXPECT_EQ(names_in(folder), before);
+  }
+}
+
+TEST(LumenCommand, BadInput_AWallThatWouldNotFitIsFive) {
+  const fs::path folder = tube_folder();
+  const Outcome done =
+      ostia({"lumen", "tube.csv", "-o", "tube.vtp", "--radius", "60", "--case", "tube.ostia"}, {folder, ""});
+  EXPECT_EQ(done.code, 5) << done.err;
+  EXPECT_THAT(done.err, HasSubstr("MiB"));
+  EXPECT_THAT(done.err, HasSubstr("number of samples"));
+  EXPECT_EQ(names_in(folder), (std::vector<std::string>{"tube.csv"}));
+}
+
+/// A case of the tube with one edit.
+fs::path case_folder() {
+  fs::path folder = tube_folder();
+  session::CaseFile file = session::CaseFile::create(
+      folder / "tube.ostia", lumen::model_of_tubes(io::read_centerlines(folder / "tube.csv")));
+  file.apply(ring(8.0, 1.0));
+  return folder;
+}
+
+TEST(LumenCommand, GoesOnWithACaseAndItsJournal) {
+  const fs::path folder = case_folder();
+  const std::string bytes = core::read_file(folder / "tube.ostia");
+  session::write_edits(folder / "more.jsonl", {ring(12.0, 0.9)});
+  const Json more = done_json(
+      {"lumen", "tube.ostia", "-o", "tube.stl", "--edits", "more.jsonl", "--case", "more.ostia", "--json"},
+      folder);
+  EXPECT_EQ(more["edits"], 1);
+  EXPECT_EQ(core::read_file(folder / "tube.ostia"), bytes);
+  const Json replayed = done_json({"replay", "more.ostia", "-o", "all.jsonl", "--json"}, folder);
+  EXPECT_EQ(replayed["edits"], 2);
+  EXPECT_EQ(replayed["same"], true);
+  EXPECT_EQ(replayed["digest"], more["digest"]);
+  const Json anew =
+      done_json({"lumen", "tube.csv", "-o", "anew.stl", "--edits", "all.jsonl", "--json"}, folder);
+  EXPECT_EQ(anew["digest"], more["digest"]);
+  const Outcome piped =
+      ostia({"lumen", "tube.csv", "-o", "piped.stl", "--edits", "-", "--json"}, {folder, "cat all.jsonl |"});
+  EXPECT_EQ(Json::parse(piped.out)["digest"], more["digest"]) << piped.err;
+}
+
+TEST(LumenCommand, BadInput_CasesThatCannotBeOpened) {
+  const fs::path folder = case_folder();
+  const std::string bytes = core::read_file(folder / "tube.ostia");
+  core::write_file(folder / "short.ostia", bytes.substr(0, bytes.size() / 2));
+  core::write_file(folder / "empty.ostia", "");
+  std::string newer = bytes;
+  newer[63] = 7;  // SQLite's user_version, big-endian
+  core::write_file(folder / "newer.ostia", newer);
+  std::string damaged = bytes;
+  std::fill_n(damaged.begin() + static_cast<std::ptrdiff_t>(damaged.size() / 2), 3000, 'x');
+  core::write_file(folder / "damaged.ostia", damaged);
+  const session::CaseFile held = session::CaseFile::open(folder / "tube.ostia");
+  const auto before = names_in(folder);
+  for (const auto& [file, said] : {std::pair{"short.ostia", "truncated"},
+                                   {"empty.ostia", "empty"},
+                                   {"newer.ostia", "open it with Ostia"},
+                                   {"damaged.ostia", "damaged"},
+                                   {"tube.ostia", "another window or program"},
+                                   {"none.ostia", "check the name"}}) {
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{"lumen", file, "-o", "a.vtp"}, {"replay", file, "-o", "copy.ostia"}}) {
+      const Outcome done = ostia(command, {folder, ""});
+      EXPECT_EQ(done.code, 3) << done.err;
+      EXPECT_THAT(done.err, HasSubstr(file));
+      EXPECT_THAT(done.err, HasSubstr(said));
+      EXPECT_EQ(names_in(folder), before);
+    }
+  }
+  EXPECT_EQ(core::read_file(folder / "short.ostia").size(), bytes.size() / 2);
+}
+
+TEST(LumenCommand, BadInput_Row37_ReadOnlyCasesAreReadAndFullDisksLeaveNothing) {
+  const fs::path folder = case_folder();
+  const std::string bytes = core::read_file(folder / "tube.ostia");
+  fs::permissions(folder / "tube.ostia", fs::perms::owner_read);
+  EXPECT_EQ(done_json({"replay", "tube.ostia", "--json"}, folder)["same"], true);
+  const auto before = names_in(folder);
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"lumen", "tube.ostia", "-o", "a.stl", "--case", "b.ostia"},
+        {"lumen", "tube.csv", "-o", "a.stl", "--case", "b.ostia"},
+        {"replay", "tube.ostia", "-o", "b.ostia"}}) {
+    const Outcome done = ostia(command, {folder, "ulimit -f 40;"});  // blocks of 512 bytes
+    EXPECT_EQ(done.code, 5) << done.err;
+    EXPECT_THAT(done.err, HasSubstr("the case b.ostia; make room"));
+    EXPECT_EQ(names_in(folder), before);
+  }
+  EXPECT_EQ(core::read_file(folder / "tube.ostia"), bytes);
+}
+
+TEST(LumenCommand, BadInput_Row38_KilledItLeavesNoHalfCase) {
+  const fs::path folder = temporary_folder("lumen");
+  io::write_centerlines(folder / "y.vtp", y_tree());
+  for (const double seconds : {0.02, 0.1, 0.3}) {
+    double ended = 0.0;
+    interrupted({"lumen", "y.vtp", "-o", "y.stl", "--case", "y.ostia", "--cell", "0.1"}, {folder, ""},
+                SIGKILL, seconds, ended);
+    // What a killed program cannot take away has a hidden name.
+    for (const std::string& name : names_in(folder)) {
+      if (!name.starts_with(".") && name != "y.vtp") {
+        EXPECT_EQ(done_json({"lumen", "y.ostia", "-o", "again.stl", "--json"}, folder)["start"], "case");
+      }
+    }
+  }
+}
+
+/// A tube of contrast along z; `hu` is that of what lies around it.
+void write_tube_image(const fs::path& path, std::int16_t hu) {
+  imaging::ImageVolume image;
+  image.geometry.size = {24, 24, 50};
+  image.geometry.spacing = Vec3::Constant(0.5);
+  image.geometry.origin = Vec3(-6.0, -6.0, -2.0);
+  for (std::int64_t k = 0; k < 50; ++k)
+    for (std::int64_t j = 0; j < 24; ++j)
+      for (std::int64_t i = 0; i < 24; ++i) {
+        const Vec3 p = image.geometry.world(Vec3(static_cast<double>(i), static_cast<double>(j), 0.0));
+        image.voxels.push_back(std::hypot(p.x(), p.y()) < 1.8 ? 400 : hu);
+      }
+  imaging::write_image(path, image);
+}
+
+TEST(LumenCommand, BadInput_AnImageThatIsMissingOrNotTheCases) {
+  const fs::path folder = tube_folder();
+  write_tube_image(folder / "heart.nrrd", -80);
+  write_tube_image(folder / "other.nrrd", -70);
+  const Json found = done_json(
+      {"lumen", "tube.csv", "-o", "a.stl", "--image", "heart.nrrd", "--case", "heart.ostia", "--json"},
+      folder);
+  EXPECT_EQ(found["start"], "image");
+  EXPECT_EQ(
+      done_json({"lumen", "heart.ostia", "-o", "a.stl", "--image", "heart.nrrd", "--json"}, folder)["digest"],
+      found["digest"]);
+  const auto before = names_in(folder);
+  const std::string surface = core::read_file(folder / "a.stl");
+  for (const auto& [file, said] : {std::pair{"other.nrrd", "choose the image that the case was made with"},
+                                   {"none.nrrd", "there is no such"}}) {
+    const Outcome done =
+        ostia({"lumen", "heart.ostia", "-o", "a.stl", "--image", file, "--case", "b.ostia"}, {folder, ""});
+    EXPECT_EQ(done.code, 3) << done.err;
+    EXPECT_THAT(done.err, HasSubstr(file));
+    EXPECT_THAT(done.err, HasSubstr(said));
+    EXPECT_EQ(names_in(folder), before);
+    EXPECT_EQ(core::read_file(folder / "a.stl"), surface);
+  }
+}
+
+TEST(LumenCommand, BadInput_Row40_NoNameOfAFolderOrFileIsWrittenAnywhere) {
+  const fs::path holder = tube_folder();
+  const fs::path folder = holder / "DOE^JANE";
+  fs::create_directory(folder);
+  fs::rename(holder / "tube.csv", folder / "DOE^JANE.csv");
+  write_tube_image(folder / "DOE^JANE.nrrd", -80);
+  session::write_edits(folder / "DOE^JANE.jsonl", {ring(8.0, 1.0), ring(12.0, 0.9)});
+  session::write_edits(folder / "bad-DOE^JANE.jsonl", {ring(8.0, 1.0, 99)});
+  const auto at = [&](const char* name) { return (folder / name).string(); };
+  fs::create_directory(holder / "out");
+  const std::vector<std::vector<std::string>> commands{
+      {"lumen", at("DOE^JANE.csv"), "-o", "out/a.stl", "--image", at("DOE^JANE.nrrd"), "--edits",
+       at("DOE^JANE.jsonl"), "--case", at("DOE^JANE.ostia"), "--lines", "out/lines.vtp"},
+      {"lumen", at("DOE^JANE.ostia"), "-o", "out/b.vtp", "--case", "out/b.ostia", "--json"},
+      {"replay", at("DOE^JANE.ostia"), "-o", "out/c.ostia"},
+      {"replay", at("DOE^JANE.ostia"), "-o", "out/c.jsonl"},
+      {"lumen", at("DOE^JANE.csv"), "-o", "out/d.stl", "--edits", at("bad-DOE^JANE.jsonl")},
+      {"lumen", at("DOE^JANE.nrrd"), "-o", "out/d.stl"},
+      {"replay", at("DOE^JANE.ostia"), "-o", at("DOE^JANE.ostia")}};
+  for (std::size_t i = 0; i < commands.size(); ++i) {
+    const Outcome done = ostia(commands[i] + std::vector<std::string>{"--log", "json"}, {holder, ""});
+    EXPECT_EQ(done.code, i < 4 ? 0 : 3) << done.err;
+    EXPECT_THAT(done.out + done.err, Not(HasSubstr("DOE^JANE")));
+  }
+  for (const fs::path& place : {holder / "out", folder}) {
+    for (const std::string& name : names_in(place))
+      EXPECT_EQ(core::read_file(place / name).find("DOE^JANE"), std::string::npos) << name;
+  }
 }
 
 }  // namespace

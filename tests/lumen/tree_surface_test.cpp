@@ -6,6 +6,7 @@
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
 #include "ostia/geometry/mesh_topology.h"
+#include "ostia/lumen/incremental_surface.h"
 #include "ostia/lumen/start_surface.h"
 
 #include <gtest/gtest.h>
@@ -263,6 +264,86 @@ TEST(TreeSurface, RoundingErrorsOutsideTheChangeDoNotCrackIt) {
   }
 }
 
+/// Off the level, mm, of the vertex that is farthest from it.
+double off_level_most(const TriMesh& mesh, const ScalarField& field) {
+  double most = 0.0;
+  for (const Vec3& p : mesh.points)
+    most = std::max(most, std::abs(field.value(p)) / field.gradient(p).norm());
+  return most;
+}
+
+/// A straight vessel, solved incrementally while neighbours on its wall move out and in.
+struct EditedVessel {
+  IncrementalSurface vessel{*model_of_tubes(testing::straight_vessel(40.0, 1.5)).vessels.front()};
+  std::mt19937 random{3};
+  std::int64_t next_id = 100000;
+
+  std::shared_ptr<const TreeField> field() const {
+    return std::make_shared<const TreeField>(
+        std::vector<std::shared_ptr<const ImplicitSurface>>{vessel.surface()}, BlendOptions{});
+  }
+  std::vector<Vec3> seeds() const {
+    std::vector<Vec3> places;
+    for (const SurfaceSample& sample : vessel.samples()) places.push_back(sample.position);
+    return places;
+  }
+  Box3 edit() {
+    auto samples = vessel.samples();
+    const Vec3 centre = samples[random() % samples.size()].position;
+    const auto nearer = [&](const SurfaceSample& a, const SurfaceSample& b) {
+      return (a.position - centre).squaredNorm() < (b.position - centre).squaredNorm();
+    };
+    std::partial_sort(samples.begin(), samples.begin() + 12, samples.end(), nearer);
+    samples.resize(12);
+    std::vector<std::int64_t> removed;
+    const double step = 0.1 * (static_cast<double>(random()) / 2147483648.0 - 1.0);
+    for (SurfaceSample& sample : samples) {
+      removed.push_back(std::exchange(sample.id, next_id++));
+      sample.position += step * sample.normal;
+      sample.origin = SampleOrigin::edit;
+    }
+    return vessel.change(removed, samples).changed;
+  }
+};
+
+TEST(TreeSurface, WhatIsKeptWithinAToleranceStaysSoHoweverManyEditsAreMade) {
+  EditedVessel edited;
+  TreeSurface kept({.keep_within_mm = unseen_mm}), exact;
+  kept.build(edited.field(), edited.seeds());
+  exact.build(edited.field(), edited.seeds());
+  std::size_t asked = 0, asked_exact = 0;
+  for (int edit = 0; edit < 12; ++edit) {
+    const Box3 changed = edited.edit();
+    asked += kept.update(edited.field(), changed, edited.seeds()).evaluations;
+    asked_exact += exact.update(edited.field(), changed, edited.seeds()).evaluations;
+    const TriMesh mesh = kept.mesh();
+    if (edit % 6 == 5) expect_sound(mesh);
+    TreeSurface fresh;
+    fresh.build(edited.field(), edited.seeds());
+    const double most = off_level_most(fresh.mesh(), *edited.field());
+    EXPECT_LT(off_level_most(mesh, *edited.field()), most + 5.0 * unseen_mm) << "edit " << edit;
+  }
+  EXPECT_LT(3 * asked, 2 * asked_exact);
+}
+
+TEST(TreeSurface, WhatIsKeptDoesNotDependOnTheNumberOfThreads) {
+  const int threads = core::max_threads();
+  const auto edited_with = [](int used) {
+    core::set_max_threads(used);
+    EditedVessel edited;
+    TreeSurface surface({.keep_within_mm = unseen_mm});
+    surface.build(edited.field(), edited.seeds());
+    for (int edit = 0; edit < 4; ++edit) {
+      const Box3 changed = edited.edit();
+      surface.update(edited.field(), changed, edited.seeds());
+    }
+    return surface.mesh();
+  };
+  const TriMesh one = edited_with(1), four = edited_with(4);
+  core::set_max_threads(threads);
+  EXPECT_TRUE(same(one, four));
+}
+
 TEST(TreeSurface, RefusesWhatItCannotFollow) {
   const Field field = ball({0, 0, 0}, 2.0);
   TreeSurface surface;
@@ -273,6 +354,8 @@ TEST(TreeSurface, RefusesWhatItCannotFollow) {
   EXPECT_THROW(surface.build(field, {{1e300, 0, 0}}), InvalidInput);
   for (const double cell : {0.0, -0.25, 0.019, 2.1, std::nan("")})
     EXPECT_THROW(TreeSurface({.cell_mm = cell}), InvalidInput);
+  for (const double within : {-1e-9, 0.011, std::nan("")})
+    EXPECT_THROW(TreeSurface({.keep_within_mm = within}), InvalidInput);
   EXPECT_THROW(TreeSurface({.memory_limit_mib = 0.0}), InvalidInput);
   const auto broken = std::make_shared<test::Formula>(
       [](const Vec3& p) { return p.x() > 1.0 ? std::nan("") : p.norm() - 2.0; },

@@ -178,6 +178,27 @@ TEST(CaseFile, ARefusedEditChangesNothing) {
   EXPECT_EQ(file.model()->tree.vessels[0].name, "one");
 }
 
+TEST(CaseFile, ACopyHasTheJournalToo) {
+  const TempFolder folder;
+  CaseFile file = CaseFile::create(folder / "a.ostia", tube_model(), ImageReference{some_hash, "case-3f2a"});
+  file.apply(ring(10.0, 1.8));
+  file.apply(renamed("one"));
+  file.undo();
+  file.copy_to(folder / "b.ostia");  // from a file with a WAL
+  EXPECT_THROW(file.copy_to(folder / "b.ostia"), IoError);
+  CaseFile::open(folder / "b.ostia", OpenMode::read_only).copy_to(folder / "c.ostia");  // from memory
+  for (const char* name : {"b.ostia", "c.ostia"}) {
+    CaseFile copy = CaseFile::open(folder / name);
+    EXPECT_EQ(digest(*copy.model()), digest(*file.model()));
+    EXPECT_EQ(digest(*copy.starting_model()), digest(tube_model()));
+    EXPECT_EQ(copy.journal().size(), 4U);
+    EXPECT_EQ(copy.image()->pseudonym, "case-3f2a");
+    EXPECT_TRUE(copy.redo());
+    EXPECT_EQ(copy.model()->tree.vessels[0].name, "one");
+  }
+  EXPECT_EQ(file.model()->tree.vessels[0].name, "LAD");
+}
+
 TEST(CaseFile, KnowsItsImage) {
   const TempFolder folder;
   { CaseFile::create(folder / "a.ostia", tube_model(), ImageReference{some_hash, "case-3f2a"}); }

@@ -16,6 +16,7 @@
 #include <numbers>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace ostia::session::testing {
 
@@ -75,6 +76,24 @@ inline lumen::WallDrag drag(double s_mm, double by_mm) {
 
 inline lumen::VesselRename renamed(const std::string& name) {
   return {tube_vessel, name};
+}
+
+/// An edit of each kind, with numbers that are hard to write.
+inline std::vector<lumen::Edit> one_of_each() {
+  const geometry::Vec3 a(0.1, -1.0 / 3.0, 1e-17), b(-0.0, 123456.789012345678, 5e-324), c(1e300, -2.5, 0.3);
+  return {lumen::CprStroke{7, {a, b, c}, lumen::ReformationMode::stretched, 1.0 / 7.0, 61.3},
+          lumen::SectionContour{1, 12.1, 1.7, false, {a, b, c}},
+          lumen::WallDrag{2, a, b, 2.9},
+          lumen::WallPush{3, {a}, 0.7},
+          lumen::AxisMove{4, a, b, 4.9},
+          lumen::AxisInsert{5, a},
+          lumen::AxisDelete{6, b},
+          lumen::AxisExtend{7, {a, b}},
+          lumen::AxisTrim{8, 0.1 + 0.2},
+          lumen::BranchAdd{9, "Ramus \"\xC3\xA9\"\n", {a, b}, {1.1, 0.9}},
+          lumen::BranchDelete{2147483647},
+          lumen::BranchAttach{11, 12, c},
+          lumen::VesselRename{13, "D1"}};
 }
 
 inline std::string bytes_of_file(const fs::path& path) {

@@ -15,23 +15,7 @@ namespace {
 
 using lumen::Edit;
 using ::testing::HasSubstr;
-
-std::vector<Edit> one_of_each() {
-  const geometry::Vec3 a(0.1, -1.0 / 3.0, 1e-17), b(-0.0, 123456.789012345678, 5e-324), c(1e300, -2.5, 0.3);
-  return {lumen::CprStroke{7, {a, b, c}, lumen::ReformationMode::stretched, 1.0 / 7.0, 61.3},
-          lumen::SectionContour{1, 12.1, 1.7, false, {a, b, c}},
-          lumen::WallDrag{2, a, b, 2.9},
-          lumen::WallPush{3, {a}, 0.7},
-          lumen::AxisMove{4, a, b, 4.9},
-          lumen::AxisInsert{5, a},
-          lumen::AxisDelete{6, b},
-          lumen::AxisExtend{7, {a, b}},
-          lumen::AxisTrim{8, 0.1 + 0.2},
-          lumen::BranchAdd{9, "Ramus \"\xC3\xA9\"\n", {a, b}, {1.1, 0.9}},
-          lumen::BranchDelete{2147483647},
-          lumen::BranchAttach{11, 12, c},
-          lumen::VesselRename{13, "D1"}};
-}
+using testing::one_of_each;
 
 TEST(EditJson, EveryEditComesBackAsItWas) {
   std::size_t index = 0;

@@ -28,7 +28,7 @@ TEST(Replay, GivesTheStoredModelToTheLastBit) {
   EXPECT_TRUE(report.same());
   EXPECT_EQ(report.stored_digest, lumen::digest(*file.model()));
 
-  export_journal(file, folder / "edits.jsonl");
+  write_edits(folder / "edits.jsonl", file.edits());
   const auto edits = read_edits(folder / "edits.jsonl");
   EXPECT_EQ(lumen::digest(replayed(tube_model(), edits)), report.stored_digest);
 }

@@ -119,9 +119,9 @@ SectionRun edit_section(const VesselTree& tree, const ContourSet& contours, cons
     seconds += stroke->seconds;
     try {
       live.follow(lumen::apply(live.model(), stroke->edit));
-    } catch (const InvalidInput&) {
+    } catch (const InvalidInput& e) {
       reader.refused();
-      ++run.refused;
+      run.refusals.emplace_back(e.what());
       continue;
     }
     run.edits.push_back(stroke->edit);

@@ -89,7 +89,7 @@ std::string section_rows(const std::vector<SectionRun>& runs) {
           r.floor_mm})
       text += "," + fixed(v, 4);
     text += "," + std::to_string(r.edits.size()) + "," + std::to_string(r.section_strokes) + "," +
-            std::to_string(r.refused) + "," + fixed(r.last().seconds, 1) + ",\"" + r.stopped + "\"\n";
+            std::to_string(r.refusals.size()) + "," + fixed(r.last().seconds, 1) + ",\"" + r.stopped + "\"\n";
   }
   return text;
 }
@@ -269,7 +269,7 @@ std::string editing_json(const std::vector<SectionRun>& runs, const EditingOptio
              {"floor_msd_mm", run.floor_mm},
              {"strokes", run.edits.size()},
              {"section_strokes", run.section_strokes},
-             {"refused", run.refused},
+             {"refused", run.refusals.size()},
              {"seconds", run.last().seconds},
              {"stopped", run.stopped},
              {"digest", run.digest}};

@@ -23,6 +23,7 @@ constexpr double pi = std::numbers::pi;
 constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
 constexpr double farthest_mm = 8.0;    // a wall is looked for so far from the axis
 constexpr double beyond_mm = 1.5;      // a stroke that reaches an end of the overlay runs on so far
+constexpr double clear_mm = 0.2;       // a stroke stays so far from the axis, which is in the picture too
 constexpr double joined_gap_mm = 3.0;  // disagreements nearer to each other are mended by one stroke
 constexpr double follow_mm = 0.02;     // a stroke follows the overlay so closely, if its points suffice
 constexpr int section_angles = 24;
@@ -84,7 +85,7 @@ struct SimulatedReader::Impl {
   std::vector<double> angles;             // of the wall lines: both sides of each view
   std::vector<std::vector<double>> line;  // overlay's distance from the axis, [angle][row]
   std::vector<std::vector<double>> ring;  // [section][angle]
-  int strokes = 0, section_strokes = 0;
+  int tried = 0, strokes = 0, section_strokes = 0;
   std::uint64_t clicks = 0;
   double last_view = -1.0;
   std::string why;
@@ -190,6 +191,12 @@ struct SimulatedReader::Impl {
     return chosen;
   }
 
+  /// A click that missed to the axis or beyond it is taken back and made on the wall's side.
+  Vec3 off_axis(const Vec3& place, double s, double theta) const {
+    const Vec3 foot = axis->point(s), direction = axis->place(s, theta, 1.0) - foot;
+    return place + std::max(0.0, clear_mm - direction.dot(place - foot)) * direction;
+  }
+
   ReaderStroke draw_line(const Candidate& c) {
     const double theta = angles[static_cast<std::size_t>(c.line)];
     reformat::CurvedOptions view;
@@ -207,7 +214,7 @@ struct SimulatedReader::Impl {
       const auto seen = reformation.project(axis->place(s, theta, rho), s);
       if (!seen) continue;
       const Vec2 hit = seen->picture_px + Vec2(click(sigma_px), click(sigma_px));
-      stroke.points.push_back(reformation.world(hit));
+      stroke.points.push_back(off_axis(reformation.world(hit), s, theta));
     }
     ReaderStroke out;
     out.seconds = seconds(view.theta_deg, stroke.points.size());
@@ -230,7 +237,7 @@ struct SimulatedReader::Impl {
       const double theta = 2.0 * pi * static_cast<double>(a) / section_angles;
       const Vec3 error =
           click(options.pointing_sigma_mm) * frame.normal + click(options.pointing_sigma_mm) * frame.binormal;
-      contour.points.push_back(axis->place(s, theta, rho[a]) + error);
+      contour.points.push_back(off_axis(axis->place(s, theta, rho[a]) + error, s, theta));
     }
     ReaderStroke out;
     out.on_section = true;
@@ -273,7 +280,7 @@ SimulatedReader::SimulatedReader(const geometry::ContourSection& overlay,
   const auto seen = [&](double s, double theta) {
     const Vec3 origin = m.axis->point(s);
     const auto hit = surface.first_hit(origin, m.axis->place(s, theta, 1.0) - origin);
-    return hit && hit->t <= farthest_mm ? hit->t : nowhere;
+    return hit && hit->t <= farthest_mm ? std::max(hit->t, clear_mm) : nowhere;
   };
   // The first and the last row lie just inside the ends, where a ray still meets the overlay.
   const double inset = 0.05;
@@ -299,8 +306,8 @@ SimulatedReader::~SimulatedReader() = default;
 
 std::optional<ReaderStroke> SimulatedReader::next(const lumen::ScalarField& wall) {
   Impl& m = *impl_;
-  if (m.strokes >= m.options.most_strokes) {
-    m.why = "gave up after " + std::to_string(m.strokes) + " strokes";
+  if (m.tried >= m.options.most_strokes) {
+    m.why = "gave up after " + std::to_string(m.tried) + " strokes";
     return {};
   }
   const Impl::Candidate on_line = m.worst_line(wall), on_section = m.worst_section(wall);
@@ -314,6 +321,7 @@ std::optional<ReaderStroke> SimulatedReader::next(const lumen::ScalarField& wall
   }
   ReaderStroke stroke = take_section ? m.draw_section(chosen) : m.draw_line(chosen);
   stroke.worst_mm = chosen.worst_mm;
+  ++m.tried;
   ++m.strokes;
   m.section_strokes += take_section ? 1 : 0;
   m.last_drawn = take_section ? std::pair(-1, chosen.section)
@@ -325,6 +333,7 @@ std::optional<ReaderStroke> SimulatedReader::next(const lumen::ScalarField& wall
 
 void SimulatedReader::refused() {
   impl_->drawn[impl_->last_drawn] = never_again;
+  --impl_->strokes;
   impl_->section_strokes -= impl_->last_on_section ? 1 : 0;
 }
 

@@ -118,7 +118,7 @@ LiveChange LiveModel::follow(const EditOutcome& outcome) {
 
 geometry::TriMesh LiveModel::wall(double cell_mm, const core::TaskContext& task) {
   if (!impl_->wall || impl_->wall_cell_mm != cell_mm) {
-    TreeSurface made({.cell_mm = cell_mm});
+    TreeSurface made({.cell_mm = cell_mm, .keep_within_mm = unseen_mm});
     made.build(impl_->field, impl_->seeds(), task);
     impl_->wall.emplace(std::move(made));
     impl_->wall_cell_mm = cell_mm;

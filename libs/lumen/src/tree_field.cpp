@@ -67,7 +67,10 @@ class TreeField::Near {
       if (std::isnan(f)) value_ = f;
       return;
     }
-    found_.push_back({branch, f});
+    if (count_++ == 0)
+      first_found_ = {branch, f};
+    else
+      others_.push_back({branch, f});
     value_ = std::min(value_, f);
   }
 
@@ -76,25 +79,27 @@ class TreeField::Near {
     const double width = tree_.blend_.width_mm;
     if (std::isnan(value_)) return value_;
     value_ = std::min(value_, width);
-    if (tree_.blend_.joints == JointShape::smooth && found_.size() > 1 && value_ > -width) blend_pairs();
+    if (tree_.blend_.joints == JointShape::smooth && count_ > 1 && value_ > -width) blend_pairs();
     return std::max(value_, -width);
   }
 
   // Of blended(), per mm; to be called after it.
   Vec3 gradient() const {
     const double width = tree_.blend_.width_mm;
-    if (found_.empty() || !(value_ > -width)) return Vec3::Zero();
-    if (first_ != second_) return pair_gradient(found_[first_], found_[second_]);
-    const auto least = std::min_element(found_.begin(), found_.end(),
-                                        [](const Branch& a, const Branch& b) { return a.f < b.f; });
-    return tree_.branches_[least->index]->gradient(place_);
+    if (count_ == 0 || !(value_ > -width)) return Vec3::Zero();
+    if (first_ != second_) return pair_gradient(found(first_), found(second_));
+    std::size_t least = 0;
+    for (std::size_t i = 1; i < count_; ++i)
+      if (found(i).f < found(least).f) least = i;
+    return tree_.branches_[found(least).index]->gradient(place_);
   }
 
  private:
   struct Branch {
-    std::size_t index;
-    double f;
+    std::size_t index = 0;
+    double f = 0.0;
   };
+  const Branch& found(std::size_t i) const { return i == 0 ? first_found_ : others_[i - 1]; }
 
   // The radius of the arc between two walls.
   double radius(const Branch& a, const Branch& b) const {
@@ -102,17 +107,17 @@ class TreeField::Near {
   }
 
   void blend_pairs() {
-    std::vector<std::optional<Vec3>> slopes(found_.size());
+    std::vector<std::optional<Vec3>> slopes(count_);
     const auto slope = [&](std::size_t i) -> const Vec3& {
-      if (!slopes[i]) slopes[i] = tree_.branches_[found_[i].index]->gradient(place_);
+      if (!slopes[i]) slopes[i] = tree_.branches_[found(i).index]->gradient(place_);
       return *slopes[i];
     };
-    for (std::size_t i = 0; i < found_.size(); ++i) {
-      for (std::size_t j = i + 1; j < found_.size(); ++j) {
-        const double width = radius(found_[i], found_[j]);
-        if (!(std::max(found_[i].f, found_[j].f) < width)) continue;
-        const double m = std::min(found_[i].f, found_[j].f);
-        const double r = arc(found_[i].f, found_[j].f, width);
+    for (std::size_t i = 0; i < count_; ++i) {
+      for (std::size_t j = i + 1; j < count_; ++j) {
+        const double width = radius(found(i), found(j));
+        if (!(std::max(found(i).f, found(j).f) < width)) continue;
+        const double m = std::min(found(i).f, found(j).f);
+        const double r = arc(found(i).f, found(j).f, width);
         const double g = m - share(cosine_between(slope(i), slope(j))) * (m - r);
         if (!(g < value_)) continue;
         value_ = g;
@@ -144,7 +149,10 @@ class TreeField::Near {
 
   const TreeField& tree_;
   const Vec3& place_;
-  std::vector<Branch> found_;
+  // Most places are near one branch or none: then nothing is allocated.
+  std::size_t count_ = 0;
+  Branch first_found_;
+  std::vector<Branch> others_;
   double value_ = std::numeric_limits<double>::infinity();
   std::size_t first_ = 0, second_ = 0;  // the pair whose fillet it is; equal where it is one branch's wall
 };

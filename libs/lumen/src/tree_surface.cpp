@@ -1,6 +1,8 @@
 #include "ostia/lumen/tree_surface.h"
 
-#include "wall_block.h"
+#include "wall_change.h"
+#include "wall_following.h"
+#include "wall_mesh.h"
 
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
@@ -19,27 +21,34 @@ constexpr double farthest_cell = 1e9;
 
 /// What a block has to look at in one wave.
 struct Visit {
-  std::vector<GridIndex> seeds, entries;
+  std::vector<CellCode> seeds;  // ascending
+  std::vector<GridIndex> entries;
 };
 using Wave = std::map<GridIndex, Visit>;
 
+GridIndex cell_of(const Vec3& seed, double cell_mm) {
+  const Vec3 cell = (seed / cell_mm).array().floor();
+  if (!(cell.lpNorm<Eigen::Infinity>() < farthest_cell))
+    throw InvalidInput("a seed of the wall lies at " + std::to_string(seed.x()) + ", " +
+                       std::to_string(seed.y()) + ", " + std::to_string(seed.z()) +
+                       " mm; it must be finite and less than 1e9 cells from the origin");
+  return {static_cast<std::int32_t>(cell.x()), static_cast<std::int32_t>(cell.y()),
+          static_cast<std::int32_t>(cell.z())};
+}
+
 Wave wave_of_seeds(const std::vector<Vec3>& seeds, double cell_mm) {
   if (seeds.empty()) throw InvalidInput("the wall has no seeds to start from; give places on it");
-  std::vector<GridIndex> cells;
-  cells.reserve(seeds.size());
-  for (const Vec3& seed : seeds) {
-    const Vec3 cell = (seed / cell_mm).array().floor();
-    if (!(cell.lpNorm<Eigen::Infinity>() < farthest_cell))
-      throw InvalidInput("a seed of the wall lies at " + std::to_string(seed.x()) + ", " +
-                         std::to_string(seed.y()) + ", " + std::to_string(seed.z()) +
-                         " mm; it must be finite and less than 1e9 cells from the origin");
-    cells.push_back({static_cast<std::int32_t>(cell.x()), static_cast<std::int32_t>(cell.y()),
-                     static_cast<std::int32_t>(cell.z())});
-  }
-  std::sort(cells.begin(), cells.end());
-  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
   Wave wave;
-  for (const GridIndex& cell : cells) wave[block_of(cell)].seeds.push_back(cell);
+  auto last = wave.end();  // most seeds lie in the same block as the one before
+  for (const Vec3& seed : seeds) {
+    const GridIndex cell = cell_of(seed, cell_mm), block = block_of(cell);
+    if (last == wave.end() || last->first != block) last = wave.try_emplace(block).first;
+    last->second.seeds.push_back(code_in_block(cell, block));
+  }
+  for (auto& [block, visit] : wave) {
+    std::sort(visit.seeds.begin(), visit.seeds.end());
+    visit.seeds.erase(std::unique(visit.seeds.begin(), visit.seeds.end()), visit.seeds.end());
+  }
   return wave;
 }
 
@@ -52,6 +61,9 @@ void validate(const TreeSurfaceOptions& options) {
   if (!(options.memory_limit_mib >= 1.0 && options.memory_limit_mib <= 1e6))
     throw InvalidInput("the memory limit of the wall is " + std::to_string(options.memory_limit_mib) +
                        " MiB; give 1 to 1e6");
+  if (!(options.keep_within_mm >= 0.0 && options.keep_within_mm <= 0.01))
+    throw InvalidInput("the wall is kept within " + std::to_string(options.keep_within_mm) +
+                       " mm of what it is; give 0 to 0.01 mm");
 }
 
 struct TreeSurface::Impl {
@@ -60,10 +72,9 @@ struct TreeSurface::Impl {
 
   // Follows the wall wave by wave: the blocks of a wave look at their own cells side by side, and hand each
   // other the cells by which the wall goes on.
-  TreeSurfaceReport follow(const ScalarField& field, const std::vector<Vec3>& seeds,
-                           const core::TaskContext& task) {
+  TreeSurfaceReport follow(WallJob& job, const std::vector<Vec3>& seeds, const core::TaskContext& task) {
     Wave wave = wave_of_seeds(seeds, options.cell_mm);
-    WallJob job(field, options.cell_mm, largest_cells(), begin());
+    job.count_cells(begin());
     std::size_t visited = 0;
     while (!wave.empty()) {
       std::vector<std::pair<WallBlock*, const Visit*>> work;
@@ -126,11 +137,17 @@ struct TreeSurface::Impl {
   TreeSurfaceReport end(const WallJob& job) {
     TreeSurfaceReport report;
     report.evaluations = job.evaluations();
+    std::size_t points = 0;
     for (auto& [index, block] : blocks) {
       settle(block);
       report.blocks += block.pieces.empty() ? 0 : 1;
       report.blocks_made += block.made && !block.pieces.empty() ? 1 : 0;
-      for (const WallPiece& piece : block.pieces) report.triangles += piece.mesh->triangles.size();
+      for (WallPiece& piece : block.pieces) {
+        piece.first_point = points;
+        piece.first_triangle = report.triangles;
+        points += piece.own;
+        report.triangles += piece.mesh->triangles.size();
+      }
     }
     if (report.triangles == 0)
       throw InvalidInput("no seed lies within a cell (" + std::to_string(options.cell_mm) +
@@ -159,11 +176,10 @@ TreeSurfaceReport TreeSurface::update(std::shared_ptr<const ScalarField> field, 
   if (!field) throw InvalidInput("the wall has no field to follow");
   try {
     task.throw_if_cancelled();
+    WallJob job(*field, impl_->options.cell_mm, impl_->largest_cells());
     if (!changed.isEmpty())
-      for (auto& [index, block] : impl_->blocks)
-        if (depends_on(block, changed, impl_->options.cell_mm))
-          forget(block, changed, impl_->options.cell_mm);
-    return impl_->follow(*field, seeds, task);
+      forget_changed(job, impl_->blocks, changed, impl_->options.keep_within_mm * field->wall_slope());
+    return impl_->follow(job, seeds, task);
   } catch (...) {
     impl_->blocks.clear();
     throw;
@@ -171,63 +187,7 @@ TreeSurfaceReport TreeSurface::update(std::shared_ptr<const ScalarField> field, 
 }
 
 geometry::TriMesh TreeSurface::mesh() const {
-  std::size_t points = 0, triangles = 0;
-  std::map<const WallPiece*, std::size_t> first_point;
-  for (const auto& [index, block] : impl_->blocks) {
-    for (const WallPiece& piece : block.pieces) {
-      first_point[&piece] = points;
-      points += piece.own;
-      triangles += piece.mesh->triangles.size();
-    }
-  }
-  if (points > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
-    throw ResourceError("the lumen's wall has more than 2^31 points; take larger cells");
-
-  // The number of the point on an edge that begins in a cell of another block.
-  const auto number_in = [&](const WallBlock& owner, EdgeCode edge) -> std::int32_t {
-    for (const WallPiece& piece : owner.pieces) {
-      const auto last = piece.edges.begin() + static_cast<std::ptrdiff_t>(piece.own);
-      const auto found = std::lower_bound(piece.edges.begin(), last, edge);
-      if (found != last && *found == edge)
-        return static_cast<std::int32_t>(first_point.at(&piece) +
-                                         static_cast<std::size_t>(found - piece.edges.begin()));
-    }
-    throw Error("the wall's blocks do not fit one another");
-  };
-
-  geometry::TriMesh mesh;
-  mesh.points.reserve(points);
-  mesh.triangles.reserve(triangles);
-  std::vector<std::int32_t> number;
-  for (const auto& [index, block] : impl_->blocks) {
-    std::array<const WallBlock*, 8> owners{};  // of the edges on the block's upper faces, by the faces
-    for (const WallPiece& piece : block.pieces) {
-      number.clear();
-      const auto first = static_cast<std::int32_t>(mesh.points.size());
-      for (std::size_t i = 0; i < piece.own; ++i) number.push_back(first + static_cast<std::int32_t>(i));
-      for (std::size_t i = piece.own; i < piece.edges.size(); ++i) {
-        std::array<int, 3> node = place_of_node(static_cast<NodeCode>(piece.edges[i] / 3));
-        GridIndex beyond = index;
-        std::size_t side = 0;
-        for (std::size_t a = 0; a < 3; ++a) {
-          if (node[a] < block_cells) continue;
-          node[a] -= block_cells;
-          ++beyond[a];
-          side |= std::size_t{1} << a;
-        }
-        if (owners[side] == nullptr) owners[side] = &impl_->blocks.at(beyond);
-        number.push_back(
-            number_in(*owners[side], static_cast<EdgeCode>(3 * node_code(node) + piece.edges[i] % 3)));
-      }
-      mesh.points.insert(mesh.points.end(), piece.mesh->points.begin(),
-                         piece.mesh->points.begin() + static_cast<std::ptrdiff_t>(piece.own));
-      for (const geometry::Triangle& t : piece.mesh->triangles)
-        mesh.triangles.push_back({number[static_cast<std::size_t>(t[0])],
-                                  number[static_cast<std::size_t>(t[1])],
-                                  number[static_cast<std::size_t>(t[2])]});
-    }
-  }
-  return mesh;
+  return joined(impl_->blocks);
 }
 
 std::vector<TreeSurfacePart> TreeSurface::parts() const {

@@ -10,7 +10,7 @@ namespace {
 
 // A root that inverse interpolation through three values puts within this of the last place asked, in cells,
 // is taken without asking again: what it is off is of the third order in this.
-constexpr double near_enough = 0.04;
+constexpr double near_enough = 0.02;
 constexpr int most_rounds = 10;
 
 struct Sample {

@@ -1,7 +1,7 @@
 #pragma once
 // Where a field crosses zero on grid edges, many at once.
 
-#include "wall_block.h"
+#include "wall_job.h"
 
 namespace ostia::lumen {
 

@@ -10,9 +10,10 @@ namespace ostia::segmentation {
 
 struct BoundaryFitOptions {
   double row_step_mm = 0.5;
-  double data_weight = .2;         ///< neighbouring rays share their noise: they are no independent witnesses
-  double bend_along_per_mm = .15;  ///< usual size of d2r/ds2
-  double bend_around = .8;         ///< usual size of (d2r/dtheta2) / r
+  double data_weight = 0.2;  ///< neighbouring rays share their noise: they are no independent witnesses
+  double bend_along_per_mm = 0.15;  ///< usual size of d2r/ds2
+  double bend_reach_mm = 1.0;       ///< bends of `radius_mm` as near as that say where it is larger
+  double bend_around = 0.8;         ///< usual size of (d2r/dtheta2) / r
 };
 
 struct BoundaryFit {
@@ -20,7 +21,7 @@ struct BoundaryFit {
   std::vector<float> confidence;
 };
 
-/// Starts from `radius_mm` and stays within EdgeProfile::reach_mm() of it.
+/// Starts from `radius_mm`; the rays' own edges are looked for within EdgeProfile::reach_mm() of it.
 BoundaryFit fit_boundary(const RayFan& fan, const std::vector<double>& lumen_hu,
                          const std::vector<double>& radius_mm, const std::vector<float>& calcium_odds,
                          const EdgeProfile& profile, const BoundaryFitOptions& options,

@@ -18,6 +18,8 @@ constexpr double model_error_hu = 10.0;  // of the layered disc as a model, inde
 constexpr double disc_step_mm = 0.025;   // of the table of blurred discs
 constexpr double endless_mm = 3.0;       // thickness that stands for "as far as the ray is looked at"
 
+constexpr std::size_t most_hypotheses = 32;
+
 constexpr double thickness_spread = 0.25;  // of a layer's thickness, as a share of it
 
 /// A layer behind the lumen: as thick as this, of a tissue.
@@ -104,78 +106,109 @@ double EdgeProfile::disc(double radius_mm, int sample) const {
   return (1.0 - t) * column[sample] + t * column[sample + disc_rhos_];
 }
 
-EdgeProfile::EdgeProfile(const EdgeProfileOptions& options) : options_(options) {
-  const double largest = radius(options_.radii - 1);
-  const double h = options_.sample_step_mm;
+void EdgeProfile::fill_discs() {
+  const double largest = radius(options_.radii - 1), h = options_.sample_step_mm;
   disc_rhos_ = static_cast<int>((largest + reach_mm() + window_mm()) / h) + samples + 2;
   disc_radii_ = static_cast<int>((largest + endless_mm + 2.0) / disc_step_mm) + 2;
   disc_.resize(static_cast<std::size_t>(disc_radii_) * disc_rhos_);
   core::parallel_for(static_cast<std::size_t>(disc_radii_), 8, [&](std::size_t i) {
-    for (int j = 0; j < disc_rhos_; ++j) {
+    for (int j = 0; j < disc_rhos_; ++j)
       disc_[i * disc_rhos_ + j] = blurred_disc(i * disc_step_mm, j * h, options_.blur_sigma_mm);
-    }
   });
-  const std::vector<Hypothesis> all = hypotheses(options_.wall_hu, options_.wall_spread_hu);
-  hypotheses_ = static_cast<int>(all.size());
-  starts_ = static_cast<int>(2.0 * reach_mm() / h) + 2;
-  table_.resize(static_cast<std::size_t>(options_.radii) * starts_ * hypotheses_);
+}
 
+struct EdgeProfile::Build {
   using Matrix = Eigen::Matrix<double, samples, samples>;
   using Vector = Eigen::Matrix<double, samples, 1>;
+  const EdgeProfile& profile;
   Matrix noise;
+
+  explicit Build(const EdgeProfile& of);
+  Vector share(double radius_mm, int start) const;
+  Normal normal(const Hypothesis& hypothesis, double radius_mm, int start) const;
+  static Normal packed(const Vector& lumen, const Vector& mean, const Matrix& covariance);
+};
+
+EdgeProfile::Build::Build(const EdgeProfile& of) : profile(of) {
+  const EdgeProfileOptions& o = of.options_;
   for (int i = 0; i < samples; ++i) {
     for (int j = 0; j < samples; ++j) {
-      const double d = (i - j) * h / options_.noise_length_mm;
-      noise(i, j) = options_.noise_hu * options_.noise_hu * std::exp(-0.5 * d * d);
+      const double d = (i - j) * o.sample_step_mm / o.noise_length_mm;
+      noise(i, j) = o.noise_hu * o.noise_hu * std::exp(-0.5 * d * d);
     }
     noise(i, i) += model_error_hu * model_error_hu;
   }
-  core::parallel_for(static_cast<std::size_t>(options_.radii), 2, [&](std::size_t candidate) {
-    const double r = radius(static_cast<int>(candidate));
-    for (int d = 0; d < starts_; ++d) {
-      const int start = lowest_start(static_cast<int>(candidate)) + d;
-      for (int n = 0; n < hypotheses_; ++n) {
-        const auto share = [&](double radius_mm) {
-          Vector v;
-          for (int i = 0; i < samples; ++i) v[i] = disc(radius_mm, std::min(start + i, disc_rhos_ - 1));
-          return v;
-        };
-        const Vector lumen = share(r);
-        Vector mean = Vector::Zero(), inner = lumen;
-        Matrix covariance = noise;
-        covariance += options_.lumen_spread_hu * options_.lumen_spread_hu * lumen * lumen.transpose();
-        double outer_radius = r;
-        for (std::size_t i = 0; i < all[n].layers.size(); ++i) {
-          const Layer& layer = all[n].layers[i];
-          const bool last = i + 1 == all[n].layers.size();
-          outer_radius += layer.thickness_mm;
-          const Vector outer = last ? Vector::Ones() : share(outer_radius);
-          const Vector part = outer - inner;
-          mean += layer.hu * part;
-          covariance += layer.spread_hu * layer.spread_hu * part * part.transpose();
-          if (!last) {  // thicknesses between those tried, to first order
-            const double h_radius = 0.05, step = layer.hu - all[n].layers[i + 1].hu;
-            const Vector shift = thickness_spread * layer.thickness_mm * step / (2.0 * h_radius) *
-                                 (share(outer_radius + h_radius) - share(outer_radius - h_radius));
-            covariance += shift * shift.transpose();
-          }
-          inner = outer;
-        }
-        const Eigen::LLT<Matrix> factor(covariance);
-        const Matrix lower = factor.matrixL();
-        const Matrix whitening = factor.matrixL().solve(Matrix::Identity());
-        Normal& out = table_[(candidate * starts_ + d) * hypotheses_ + n];
-        double half_log = 0.0;
-        for (int i = 0, at = 0; i < samples; ++i) {
-          out.lumen[i] = static_cast<float>(lumen[i]);
-          out.mean[i] = static_cast<float>(mean[i]);
-          half_log += std::log(lower(i, i));
-          for (int j = 0; j <= i; ++j) out.whitening[at++] = static_cast<float>(whitening(i, j));
-        }
-        out.calcium = all[n].calcium;
-        out.offset = static_cast<float>(half_log - std::log(all[n].prior));
-      }
+}
+
+/// Of a disc of a radius in each sample of the window.
+EdgeProfile::Build::Vector EdgeProfile::Build::share(double radius_mm, int start) const {
+  Vector out;
+  for (int i = 0; i < samples; ++i)
+    out[i] = profile.disc(radius_mm, std::min(start + i, profile.disc_rhos_ - 1));
+  return out;
+}
+
+/// Samples' distribution: rings of tissue between blurred discs; levels and thicknesses are normal and enter
+/// the covariance.
+EdgeProfile::Normal EdgeProfile::Build::normal(const Hypothesis& hypothesis, double radius_mm,
+                                               int start) const {
+  const Vector lumen = share(radius_mm, start);
+  const double spread = profile.options_.lumen_spread_hu;
+  Vector mean = Vector::Zero(), inner = lumen;
+  Matrix covariance = noise + spread * spread * lumen * lumen.transpose();
+  double outer_radius = radius_mm;
+  for (std::size_t i = 0; i < hypothesis.layers.size(); ++i) {
+    const Layer& layer = hypothesis.layers[i];
+    const bool last = i + 1 == hypothesis.layers.size();
+    outer_radius += layer.thickness_mm;
+    const Vector outer = last ? Vector::Ones() : share(outer_radius, start);
+    const Vector part = outer - inner;
+    mean += layer.hu * part;
+    covariance += layer.spread_hu * layer.spread_hu * part * part.transpose();
+    if (!last) {  // thicknesses between those tried, to first order
+      const double h = 0.05, step = layer.hu - hypothesis.layers[i + 1].hu;
+      const Vector shift = thickness_spread * layer.thickness_mm * step / (2.0 * h) *
+                           (share(outer_radius + h, start) - share(outer_radius - h, start));
+      covariance += shift * shift.transpose();
     }
+    inner = outer;
+  }
+  Normal out = packed(lumen, mean, covariance);
+  out.calcium = hypothesis.calcium;
+  out.offset -= static_cast<float>(std::log(hypothesis.prior));
+  return out;
+}
+
+EdgeProfile::Normal EdgeProfile::Build::packed(const Vector& lumen, const Vector& mean,
+                                               const Matrix& covariance) {
+  const Eigen::LLT<Matrix> factor(covariance);
+  const Matrix lower = factor.matrixL();
+  const Matrix whitening = factor.matrixL().solve(Matrix::Identity());
+  Normal out;
+  double half_log = 0.0;
+  for (int i = 0, at = 0; i < samples; ++i) {
+    out.lumen[i] = static_cast<float>(lumen[i]);
+    out.mean[i] = static_cast<float>(mean[i]);
+    half_log += std::log(lower(i, i));
+    for (int j = 0; j <= i; ++j) out.whitening[at++] = static_cast<float>(whitening(i, j));
+  }
+  out.offset = static_cast<float>(half_log);
+  return out;
+}
+
+EdgeProfile::EdgeProfile(const EdgeProfileOptions& options) : options_(options) {
+  fill_discs();
+  const std::vector<Hypothesis> all = hypotheses(options_.wall_hu, options_.wall_spread_hu);
+  hypotheses_ = static_cast<int>(all.size());
+  starts_ = static_cast<int>(2.0 * reach_mm() / options_.sample_step_mm) + 2;
+  table_.resize(static_cast<std::size_t>(options_.radii) * starts_ * hypotheses_);
+  const Build build(*this);
+  core::parallel_for(static_cast<std::size_t>(options_.radii), 2, [&](std::size_t candidate) {
+    const int lowest = lowest_start(static_cast<int>(candidate));
+    for (int d = 0; d < starts_; ++d)
+      for (int n = 0; n < hypotheses_; ++n)
+        table_[(candidate * starts_ + d) * hypotheses_ + n] =
+            build.normal(all[n], radius(static_cast<int>(candidate)), lowest + d);
   });
 }
 
@@ -185,7 +218,7 @@ double EdgeProfile::energy(const float* ray, int start, int candidate, double lu
   const Normal* normals = table_.data() + (static_cast<std::size_t>(candidate) * starts_ + d) *
                                               static_cast<std::size_t>(hypotheses_);
   const auto bonus = static_cast<float>(std::log(calcium_odds));
-  std::array<float, 32> energy{};
+  std::array<float, most_hypotheses> energy{};
   float least = std::numeric_limits<float>::max();
   for (int n = 0; n < hypotheses_; ++n) {
     const Normal& normal = normals[n];

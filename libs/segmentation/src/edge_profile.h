@@ -55,8 +55,10 @@ class EdgeProfile {
   std::vector<double> disc_;  ///< [radius][rho]
   int disc_radii_ = 0, disc_rhos_ = 0;
   std::vector<Normal> table_;  ///< [candidate][start][hypothesis]
+  void fill_discs();
   int lowest_start(int candidate) const;
   double disc(double radius_mm, int sample) const;
+  struct Build;  ///< what makes the table
 };
 
 }  // namespace ostia::segmentation

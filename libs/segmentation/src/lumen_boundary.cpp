@@ -22,6 +22,7 @@ using geometry::Vec3;
 constexpr double least_radius_mm = 0.2;   // of the grid; a lumen that a scan can show is no thinner
 constexpr double least_result_mm = 0.05;  // where the axis lies outside the lumen
 constexpr double core_mm = 0.4;           // the first look at the lumen's brightness
+constexpr double most_nodes = 1e7;        // of the graph, some 200 bytes each
 constexpr double variation = 0.12;        // total variation against the region's cost, both in mm
 
 void require(bool fine, const char* name, double value, const char* range) {
@@ -158,6 +159,93 @@ void add_warnings(LumenBoundary& out, std::size_t outside_rows, double wall_hu) 
   }
 }
 
+/// The candidates of the first pass. Throws InvalidInput where the graph would take some gigabytes.
+RadiusGrid grid_for(const LumenBoundaryOptions& options, int rows) {
+  RadiusGrid grid{least_radius_mm, options.radial_step_mm, 0};
+  grid.count = 1 + static_cast<int>((options.largest_radius_mm - grid.first_mm) / grid.step_mm + 1e-9);
+  const double nodes = static_cast<double>(rows) * options.around * grid.count;
+  if (nodes <= most_nodes) return grid;
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "lumen boundary: %.3g candidates are more than %.3g; make step_mm or radial_step_mm larger, "
+                "around or largest_radius_mm smaller, or go by shorter stretches",
+                nodes, most_nodes);
+  throw InvalidInput(text);
+}
+
+/// What is known of the lumen after a pass.
+struct Estimate {
+  std::vector<double> radius_mm;
+  std::vector<float> calcium_odds;
+  LumenLevel level;
+};
+
+/// First pass: the globally best surface on the grid of radii, about the given axis.
+Estimate first_estimate(const imaging::ImageVolume& image, const Rows& rows,
+                        const LumenBoundaryOptions& options, const core::TaskContext& task) {
+  const RadiusGrid grid = grid_for(options, rows.count());
+  const int around = options.around;
+  const double fine = std::min(0.1, options.radial_step_mm);
+  const int count = static_cast<int>(std::ceil(options.largest_radius_mm / fine)) + 2;
+  const RayFan fan = sample_rays(image, rows.on_axis, around, count, fine, task);
+  Estimate out;
+  out.level = lumen_level(fan, core_mm, rows.step_mm);
+  task.set_progress(0.15);
+  const TissueLevels tissue{options.wall_hu, options.calcium_hu};
+  const std::vector<int> onset = calcium_onsets(fan, out.level, tissue);
+  const std::vector<float> cost = region_cost(fan, out.level, tissue, onset, grid, rows.step_mm);
+  const std::vector<int> surface =
+      least_cost_surface(cost, rows.count(), around, grid, rows.step_mm,
+                         {options.largest_slope_along, options.largest_slope_around}, variation, task);
+  std::vector<char> calcium;  // there is some just behind the boundary
+  for (std::size_t n = 0; n < surface.size(); ++n) {
+    out.radius_mm.push_back(grid.at(surface[n]));
+    calcium.push_back(onset[n] * fine < out.radius_mm[n] + 0.8 ? 1 : 0);
+  }
+  out.calcium_odds = calcium_odds(calcium, rows, around);
+  return out;
+}
+
+EdgeProfileOptions edge_options(const LumenBoundaryOptions& options) {
+  EdgeProfileOptions out;
+  out.blur_sigma_mm = std::max(0.05, options.blur_sigma_mm);
+  out.wall_hu = options.wall_hu;
+  const double coarser = std::max(1.0, out.blur_sigma_mm / 0.3);
+  out.sample_step_mm *= coarser;
+  out.noise_length_mm *= coarser;
+  out.radius_step_mm *= coarser;
+  const double largest = options.largest_radius_mm + 0.5 * coarser;
+  out.radii = 1 + static_cast<int>((largest - out.first_mm) / out.radius_step_mm);
+  return out;
+}
+
+/// Second pass, twice: rays from the lumen's own middle, the blurred edge's model on each.
+BoundaryFit fitted(const imaging::ImageVolume& image, Rows& rows, Estimate& estimate,
+                   const LumenBoundaryOptions& options, const core::TaskContext& task) {
+  EdgeProfileOptions edge = edge_options(options);
+  std::optional<EdgeProfile> profile;
+  const int samples =
+      static_cast<int>((options.largest_radius_mm + 2.0) / edge.sample_step_mm) + EdgeProfile::samples + 2;
+  BoundaryFitOptions how;
+  how.row_step_mm = rows.step_mm;
+  BoundaryFit fit;
+  for (int round = 0; round < 2; ++round) {
+    recentre(rows, estimate.radius_mm, options.around);
+    const RayFan fan = sample_rays(image, rows.moved(), options.around, samples, edge.sample_step_mm, task);
+    estimate.level = lumen_level(fan, estimate.radius_mm, {edge.blur_sigma_mm, options.wall_hu}, rows.step_mm,
+                                 estimate.level);
+    if (!profile) {
+      edge.noise_hu = estimate.level.sigma_hu;
+      profile.emplace(edge);
+    }
+    fit =
+        fit_boundary(fan, estimate.level.hu, estimate.radius_mm, estimate.calcium_odds, *profile, how, task);
+    estimate.radius_mm = fit.radius_mm;
+    task.set_progress(0.75 + 0.25 * round);
+  }
+  return fit;
+}
+
 double cubic(double a, double b, double c, double d, double t) {
   return b + 0.5 * t * ((c - a) + t * ((2.0 * a - 5.0 * b + 4.0 * c - d) + t * (3.0 * (b - c) + d - a)));
 }
@@ -205,72 +293,19 @@ LumenBoundary lumen_boundary(const imaging::ImageVolume& image, const geometry::
   task.set_stage("lumen boundary");
   task.throw_if_cancelled();
   Rows rows = rows_of(image, axis, from_mm, to_mm, options.step_mm);
-  const int around = options.around;
-
-  // First pass: the globally best surface on the grid of radii, about the given axis.
-  RadiusGrid grid{least_radius_mm, options.radial_step_mm, 0};
-  grid.count = 1 + static_cast<int>((options.largest_radius_mm - grid.first_mm) / grid.step_mm + 1e-9);
-  const double fine = std::min(0.1, options.radial_step_mm);
-  const int count = static_cast<int>(std::ceil(options.largest_radius_mm / fine)) + 2;
-  std::vector<double> radius(static_cast<std::size_t>(rows.count()) * around);
-  LumenLevel level;
-  std::vector<char> calcium(radius.size());  // there is some just behind the boundary
-  {
-    const RayFan fan = sample_rays(image, rows.on_axis, around, count, fine, task);
-    level = lumen_level(fan, core_mm, rows.step_mm);
-    task.set_progress(0.15);
-    const TissueLevels tissue{options.wall_hu, options.calcium_hu};
-    const std::vector<int> onset = calcium_onsets(fan, level, tissue);
-    const std::vector<float> cost = region_cost(fan, level, tissue, onset, grid, rows.step_mm);
-    const std::vector<int> surface =
-        least_cost_surface(cost, rows.count(), around, grid, rows.step_mm,
-                           {options.largest_slope_along, options.largest_slope_around}, variation, task);
-    for (std::size_t n = 0; n < surface.size(); ++n) {
-      radius[n] = grid.at(surface[n]);
-      calcium[n] = onset[n] * fine < radius[n] + 0.8 ? 1 : 0;
-    }
-  }
-  const std::vector<float> odds = calcium_odds(calcium, rows, around);
+  Estimate estimate = first_estimate(image, rows, options, task);
   task.set_progress(0.5);
-
-  // Second pass, twice: rays from the lumen's own middle, the blurred edge's model on each.
-  BoundaryFit fit;
-  EdgeProfileOptions edge;
-  edge.blur_sigma_mm = std::max(0.05, options.blur_sigma_mm);
-  edge.wall_hu = options.wall_hu;
-  const double coarser = std::max(1.0, edge.blur_sigma_mm / 0.3);
-  edge.sample_step_mm *= coarser;
-  edge.noise_length_mm *= coarser;
-  edge.radius_step_mm *= coarser;
-  edge.radii =
-      1 + static_cast<int>((options.largest_radius_mm + 0.5 * coarser - edge.first_mm) / edge.radius_step_mm);
-  std::optional<EdgeProfile> profile;
-  const int samples =
-      static_cast<int>((options.largest_radius_mm + 2.0) / edge.sample_step_mm) + EdgeProfile::samples + 2;
-  BoundaryFitOptions how;
-  how.row_step_mm = rows.step_mm;
-  for (int round = 0; round < 2; ++round) {
-    recentre(rows, radius, around);
-    const RayFan fan = sample_rays(image, rows.moved(), around, samples, edge.sample_step_mm, task);
-    level = lumen_level(fan, radius, {edge.blur_sigma_mm, options.wall_hu}, rows.step_mm, level);
-    if (!profile) {
-      edge.noise_hu = level.sigma_hu;
-      profile.emplace(edge);
-    }
-    fit = fit_boundary(fan, level.hu, radius, odds, *profile, how, task);
-    radius = fit.radius_mm;
-    task.set_progress(0.75 + 0.25 * round);
-  }
+  const BoundaryFit fit = fitted(image, rows, estimate, options, task);
 
   LumenBoundary out;
   out.from_mm = from_mm;
   out.step_mm = rows.step_mm;
-  out.around = around;
-  out.lumen_hu = level.typical_hu;
-  out.lumen_sigma_hu = level.sigma_hu;
+  out.around = options.around;
+  out.lumen_hu = estimate.level.typical_hu;
+  out.lumen_sigma_hu = estimate.level.sigma_hu;
   const std::size_t outside = put_on_axis(rows, fit, out);
-  hold_limits(out.radius_mm, rows.count(), around, options.largest_slope_along * rows.step_mm,
-              options.largest_slope_around * 2.0 * std::numbers::pi / around);
+  hold_limits(out.radius_mm, rows.count(), out.around, options.largest_slope_along * rows.step_mm,
+              options.largest_slope_around * 2.0 * std::numbers::pi / out.around);
   add_warnings(out, outside, options.wall_hu);
   return out;
 }

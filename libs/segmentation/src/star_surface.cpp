@@ -54,31 +54,49 @@ std::vector<double> expected_radius(const RayFan& fan, const std::vector<float>&
   return out;
 }
 
+/// What is brighter than `bound` on a ray: where it begins.
+int calcium_onset(const RayFan& fan, const float* hu, double lumen_hu, double sigma_hu, double bound_hu) {
+  int over = 0;
+  while (over < fan.count && hu[over] <= bound_hu) ++over;
+  if (over == fan.count) return over;
+  int peak = over;
+  while (peak + 1 < fan.count && hu[peak + 1] >= hu[peak]) ++peak;
+  int half = over;
+  while (half > 0 && hu[half - 1] > 0.5 * (lumen_hu + hu[peak])) --half;
+  const int dip_reach = static_cast<int>(0.45 / fan.step_mm);
+  int dip = half;
+  for (int i = half; i >= std::max(0, half - dip_reach); --i)
+    if (hu[i] < hu[dip]) dip = i;
+  return hu[dip] < lumen_hu - sigma_hu ? dip : half;
+}
+
+/// 1 like the lumen, 0 half-way to what is outside, -1 outside or behind the onset of calcium.
+std::vector<float> lumen_likeness(const RayFan& fan, const LumenLevel& level, const TissueLevels& tissue,
+                                  const std::vector<int>& calcium_onset) {
+  std::vector<float> out(fan.hu.size());
+  for (int r = 0; r < fan.rows; ++r) {
+    const double lumen = level.hu[r], half = std::max(20.0, 0.5 * (lumen - tissue.outside_hu));
+    for (int a = 0; a < fan.around; ++a) {
+      const int onset = calcium_onset[static_cast<std::size_t>(r) * fan.around + a];
+      const auto first = static_cast<std::size_t>(fan.ray(r, a) - fan.hu.data());
+      for (int i = 0; i < fan.count; ++i) {
+        const double u = i >= onset ? -1.0 : (fan.hu[first + i] - lumen) / half + 1.0;
+        out[first + i] = static_cast<float>(std::clamp(u, -1.0, 1.0));
+      }
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 std::vector<int> calcium_onsets(const RayFan& fan, const LumenLevel& level, const TissueLevels& tissue) {
   std::vector<int> out;
-  const int dip_reach = static_cast<int>(0.45 / fan.step_mm);
   for (int r = 0; r < fan.rows; ++r) {
     const double lumen = level.hu[r];
     const double bound = tissue.calcium_hu > 0.0 ? tissue.calcium_hu : lumen + 4.0 * level.sigma_hu;
-    for (int a = 0; a < fan.around; ++a) {
-      const float* hu = fan.ray(r, a);
-      int over = 0;
-      while (over < fan.count && hu[over] <= bound) ++over;
-      if (over == fan.count) {
-        out.push_back(over);
-        continue;
-      }
-      int peak = over;
-      while (peak + 1 < fan.count && hu[peak + 1] >= hu[peak]) ++peak;
-      int half = over;
-      while (half > 0 && hu[half - 1] > 0.5 * (lumen + hu[peak])) --half;
-      int dip = half;
-      for (int i = half; i >= std::max(0, half - dip_reach); --i)
-        if (hu[i] < hu[dip]) dip = i;
-      out.push_back(hu[dip] < lumen - level.sigma_hu ? dip : half);
-    }
+    for (int a = 0; a < fan.around; ++a)
+      out.push_back(calcium_onset(fan, fan.ray(r, a), lumen, level.sigma_hu, bound));
   }
   return out;
 }
@@ -86,18 +104,7 @@ std::vector<int> calcium_onsets(const RayFan& fan, const LumenLevel& level, cons
 std::vector<float> region_cost(const RayFan& fan, const LumenLevel& level, const TissueLevels& tissue,
                                const std::vector<int>& calcium_onset, const RadiusGrid& grid,
                                double row_step_mm) {
-  std::vector<float> likeness(fan.hu.size());
-  for (int r = 0; r < fan.rows; ++r) {
-    const double lumen = level.hu[r], half = std::max(20.0, 0.5 * (lumen - tissue.outside_hu));
-    for (int a = 0; a < fan.around; ++a) {
-      const int onset = calcium_onset[static_cast<std::size_t>(r) * fan.around + a];
-      const std::size_t first = static_cast<std::size_t>(fan.ray(r, a) - fan.hu.data());
-      for (int i = 0; i < fan.count; ++i) {
-        const double u = i >= onset ? -1.0 : (fan.hu[first + i] - lumen) / half + 1.0;
-        likeness[first + i] = static_cast<float>(std::clamp(u, -1.0, 1.0));
-      }
-    }
-  }
+  const std::vector<float> likeness = lumen_likeness(fan, level, tissue, calcium_onset);
   const std::vector<double> expected = expected_radius(fan, likeness, row_step_mm);
   std::vector<float> cost(static_cast<std::size_t>(fan.rows) * fan.around * grid.count);
   core::parallel_for(static_cast<std::size_t>(fan.rows), 8, [&](std::size_t r) {

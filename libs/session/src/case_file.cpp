@@ -38,6 +38,12 @@ bool is_path(const std::string& value) {
          value.starts_with("file:") || value.find(":\\") == 1 || value.find(":/") == 1;
 }
 
+void require_no_file(const fs::path& path) {
+  std::error_code ignored;
+  if (fs::exists(fs::symlink_status(path, ignored)))
+    throw IoError("cannot make the case " + path.string() + ": there is a file already; choose another name");
+}
+
 std::string begin_parameters(const std::string& content) {
   return R"({"v":1,"op":"case.begin","model":")" + content + "\"}";
 }
@@ -235,15 +241,14 @@ CaseFile CaseFile::create(const fs::path& path, const LumenModel& model,
   if (const auto fault = lumen::find_fault(model))
     throw InvalidInput("cannot make a case of the model: " + *fault);
   if (image) check_reference(*image);
-  std::error_code ignored;
-  if (fs::exists(fs::symlink_status(path, ignored)))
-    throw IoError("cannot make the case " + path.string() + ": there is a file already; choose another name");
+  require_no_file(path);
   core::StagedFile staged(path);
   try {
     Database database = new_database(staged.temporary(), journal_kind_for(path));
     database.rename(path.string());
     write_case(database, model, image);
   } catch (...) {
+    std::error_code ignored;
     for (const char* suffix : {"", "-wal", "-journal"})
       fs::remove(fs::path(staged.temporary().string() + suffix), ignored);
     throw;
@@ -260,6 +265,11 @@ CaseFile CaseFile::open(const fs::path& path, OpenMode mode) {
     throw InvalidInput("cannot open the case " + path.string() + ": " + e.what());
   }
   return CaseFile(std::move(impl));
+}
+
+void CaseFile::copy_to(const fs::path& path) const {
+  require_no_file(path);
+  core::write_file(path, impl_->database.content());
 }
 
 std::shared_ptr<const LumenModel> CaseFile::model() const {

@@ -83,6 +83,15 @@ std::string Database::text_of(const std::string& sql) {
   return statement.step() ? statement.text(0) : std::string();
 }
 
+std::string Database::content() const {
+  sqlite3_int64 size = 0;
+  unsigned char* bytes = sqlite3_serialize(handle_, "main", &size, 0);
+  if (!bytes) throw ResourceError("cannot copy the case " + shown_ + ": out of memory");
+  std::string content(reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(size));
+  sqlite3_free(bytes);
+  return content;
+}
+
 Statement::Statement(const Database& database, const char* sql) : database_(&database) {
   database.check(sqlite3_prepare_v3(database.get(), sql, -1, SQLITE_PREPARE_PERSISTENT, &handle_, nullptr),
                  "use");

@@ -31,6 +31,7 @@ class Database {
   void rename(std::string shown) { shown_ = std::move(shown); }
   void execute(const std::string& sql);
   std::string text_of(const std::string& sql);  ///< first column of the first row; empty without one
+  std::string content() const;  ///< the bytes of the file it would be, commits in a WAL included
   /// Throws what an error code means: ResourceError (full disk, memory), IoError (locked, read-only,
   /// unreadable), InvalidInput (damaged, not a database).
   [[noreturn]] void raise(int code, const std::string& doing) const;

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -281,22 +281,28 @@ Edit edit_of_json(std::string_view line) {
   return edit;
 }
 
-std::vector<Edit> read_edits(const std::filesystem::path& path) {
-  const std::string content = core::read_file(path);
-  std::vector<Edit> edits;
+std::vector<EditLine> edit_lines(std::string_view text, const std::string& name) {
+  std::vector<EditLine> lines;
   std::size_t number = 0;
-  for (std::size_t first = 0; first < content.size();) {
-    const std::size_t end = std::min(content.find('\n', first), content.size());
-    const std::string_view line = std::string_view(content).substr(first, end - first);
+  for (std::size_t first = 0; first < text.size();) {
+    const std::size_t end = std::min(text.find('\n', first), text.size());
+    const std::string_view line = text.substr(first, end - first);
     first = end + 1;
     ++number;
     if (line.find_first_not_of(" \t\r") == std::string_view::npos) continue;
     try {
-      edits.push_back(edit_of_json(line));
+      lines.push_back({number, edit_of_json(line)});
     } catch (const InvalidInput& e) {
-      throw InvalidInput(path.string() + ", line " + std::to_string(number) + ": " + e.what());
+      throw InvalidInput(name + ", line " + std::to_string(number) + ": " + e.what());
     }
   }
+  return lines;
+}
+
+std::vector<Edit> read_edits(const std::filesystem::path& path) {
+  std::vector<Edit> edits;
+  for (EditLine& line : edit_lines(core::read_file(path), path.string()))
+    edits.push_back(std::move(line.edit));
   return edits;
 }
 

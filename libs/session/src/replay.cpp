@@ -1,7 +1,6 @@
 #include "ostia/session/replay.h"
 
 #include "ostia/core/error.h"
-#include "ostia/session/edit_json.h"
 
 namespace ostia::session {
 
@@ -28,10 +27,6 @@ ReplayReport replay(const CaseFile& file, const core::TaskContext& task) {
   report.digest = lumen::digest(replayed(*file.starting_model(), edits, task));
   report.stored_digest = lumen::digest(*file.model());
   return report;
-}
-
-void export_journal(const CaseFile& file, const std::filesystem::path& path) {
-  write_edits(path, file.edits());
 }
 
 }  // namespace ostia::session

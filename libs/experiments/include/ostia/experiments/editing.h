@@ -43,7 +43,7 @@ struct SectionRun {
   std::vector<Step> steps;  ///< the start first
   std::vector<lumen::Edit> edits;
   int section_strokes = 0;
-  int refused = 0;  ///< strokes that the program did not take
+  std::vector<std::string> refusals;  ///< why the program did not take a stroke, one a stroke
   std::string stopped;
   lumen::LumenModel start;  ///< what the edits are applied to
   std::string digest;       ///< of the final model

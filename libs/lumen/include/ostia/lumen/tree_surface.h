@@ -17,7 +17,13 @@ namespace ostia::lumen {
 struct TreeSurfaceOptions {
   double cell_mm = 0.25;           ///< [0.02, 2]
   double memory_limit_mib = 2048;  ///< at 256 bytes a cell that the wall passes; [1, 1e6]
+  /// `update` leaves as it is what lies so near the field's wall still, [0, 0.01] mm; 0: all in the box of a
+  /// change is asked again. What is stored or exported is always built anew (surface_of).
+  double keep_within_mm = 0.0;
 };
+/// keep_within_mm of a wall on the screen: 1/2500 of a cell, a 200th of what the wall is measured by, and yet
+/// far above what an edit changes some millimetres on.
+inline constexpr double unseen_mm = 1e-4;
 void validate(const TreeSurfaceOptions& options);  ///< throws InvalidInput
 
 struct TreeSurfaceReport {
@@ -50,9 +56,11 @@ class TreeSurface {
   TreeSurfaceReport build(std::shared_ptr<const ScalarField> field, const std::vector<Vec3>& seeds,
                           const core::TaskContext& task = core::no_task());
   /// The field has changed inside `changed` alone: blocks that it touches are made again, and the wall is
-  /// followed from them and from the seeds to where it now is. The result is what `build` would give, to the
-  /// last bit where the field outside `changed` is the same to the last bit. Where it has changed by rounding
-  /// errors there, values outside `changed` that were asked before are kept, so that nothing cracks. After an
+  /// followed from them and from the seeds to where it now is. Closed and a 2-manifold after any sequence of
+  /// updates. With keep_within_mm = 0 the result is what `build` would give, to the last bit where the field
+  /// outside `changed` is the same to the last bit. Where it has changed by rounding errors there, values
+  /// outside `changed` that were asked before are kept, so that nothing cracks. With a tolerance the same
+  /// holds for bricks of 4^3 cells inside `changed` whose wall lies within it of the new field's. After an
   /// error, and on an empty surface, all is made anew.
   TreeSurfaceReport update(std::shared_ptr<const ScalarField> field, const Box3& changed,
                            const std::vector<Vec3>& seeds, const core::TaskContext& task = core::no_task());

@@ -39,8 +39,8 @@ struct LumenBoundary {
 };
 
 /// Optimal closed surface about the axis between two abscissas: least cost over all surfaces within the slope
-/// limits (graph cut or dynamic programme), then placed between grid radii by a model of the blurred edge.
-/// Throws InvalidInput (axis outside the image, from >= to), Cancelled.
+/// limits (graph cut), then placed between grid radii by a model of the blurred edge. Throws InvalidInput
+/// (axis outside the image, from >= to, more than 10^7 candidates), Cancelled.
 LumenBoundary lumen_boundary(const imaging::ImageVolume& image, const geometry::AxisCurve& axis,
                              double from_mm, double to_mm, const LumenBoundaryOptions& options = {},
                              const core::TaskContext& task = core::no_task());

@@ -56,6 +56,10 @@ class CaseFile {
   CaseFile(CaseFile&&) noexcept;
   CaseFile& operator=(CaseFile&&) noexcept;
 
+  /// Another case with the same content, journal and all. Throws IoError where there is a file already,
+  /// ResourceError (disk or memory full).
+  void copy_to(const std::filesystem::path& path) const;
+
   std::shared_ptr<const lumen::LumenModel> model() const;
   std::shared_ptr<const lumen::LumenModel> starting_model() const;  ///< that of "case.begin"
   std::optional<ImageReference> image() const;

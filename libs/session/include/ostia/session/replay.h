@@ -4,7 +4,6 @@
 #include "ostia/core/task_context.h"
 #include "ostia/session/case_file.h"
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -23,7 +22,5 @@ lumen::LumenModel replayed(const lumen::LumenModel& start, const std::vector<lum
 /// The edits of a case that are not undone, applied to the model it began with, and compared with the model
 /// it holds.
 ReplayReport replay(const CaseFile& file, const core::TaskContext& task = core::no_task());
-/// The edits as JSON lines (edit_json.h): a journal that can be replayed on another start.
-void export_journal(const CaseFile& file, const std::filesystem::path& path);
 
 }  // namespace ostia::session

@@ -14,9 +14,17 @@ for picture in axial mip tree; do
 done
 
 build/release/bin/model_picture docs/pictures/lumen-model.png
+build/release/bin/joint_picture docs/pictures/lumen-joint.png
 build/release/bin/editing_picture docs/pictures/editing-dismissal.png
 build/release/bin/reformation_picture "$work/phantom/dataset00" vessel1 docs/pictures/reformations.png
 build/release/bin/contour_picture "$work/phantom/dataset00" vessel1 docs/pictures/lumen-contours.png
+build/release/bin/boundary_picture "$work/phantom/dataset00" vessel1 s02 docs/pictures/lumen-boundary.png
+
+# Half an hour: the editing experiment on 78 sections.
+build/release/bin/ostia phantom -o "$work/suite18" --cases 18 --truth-only
+build/release/bin/ostia experiment editing --suite "$work/suite18" -o "$work/editing"
+cp "$work/editing/accuracy.png" docs/pictures/editing-accuracy.png
+cp "$work/editing/one-section.png" docs/pictures/editing-one-section.png
 
 # The tutorial of regression tests: a model held against the truth, and two models against each other.
 cd "$work"

@@ -2,19 +2,16 @@
 // cross-section of a data set, before and after an edit.
 //   contour_picture DATASET_FOLDER VESSEL_FOLDER OUTPUT.png
 
+#include "dataset.h"
+#include "picture.h"
 #include "tube_samples.h"
 
-#include "ostia/core/error.h"
 #include "ostia/figure/slice_figure.h"
-#include "ostia/imaging/image_file.h"
-#include "ostia/io/rotterdam_file.h"
 #include "ostia/lumen/incremental_surface.h"
 #include "ostia/lumen/view_contours.h"
 #include "ostia/lumen/views.h"
 
 #include <cmath>
-#include <cstdio>
-#include <exception>
 #include <filesystem>
 
 namespace {
@@ -25,14 +22,6 @@ using geometry::Vec3;
 using lumen::ContourLine;
 
 constexpr double edited_s_mm = 24.0, half_length_mm = 4.0, depth_mm = 0.8;
-
-std::shared_ptr<const geometry::AxisCurve> axis_of(const io::RotterdamReference& reference) {
-  geometry::Centerline dense;
-  dense.points = reference.points;
-  dense.radius = reference.radius;
-  geometry::complete(dense);
-  return std::make_shared<const geometry::AxisCurve>(geometry::resample(dense, 0.5));
-}
 
 /// Narrows the vessel from one side, as a plaque would.
 lumen::IncrementalReport push_in(lumen::IncrementalSurface& surface, const geometry::AxisCurve& axis) {
@@ -77,25 +66,9 @@ figure::Picture panel(reformat::PlaneImage image, const std::vector<ContourLine>
   return figure::slice_figure(image, contours, {}, how);
 }
 
-reformat::PlaneImage flattened(const imaging::ImageVolume& image, const reformat::CurvedReformation& view) {
-  const reformat::CurvedOptions& o = view.options();
-  reformat::PlaneImage flat;
-  flat.plane.pixel_mm = o.pixel_mm;
-  flat.plane.width = o.width;
-  flat.plane.height = o.height;
-  flat.plane.origin = Vec3(-0.5 * o.width * o.pixel_mm, o.s_start_mm, 0.0);
-  flat.values = reformat::reformatted(image, view, imaging::Interpolation::cubic).values;
-  return flat;
-}
-
 void make(const std::filesystem::path& dataset, const std::string& vessel, const std::filesystem::path& out) {
-  std::filesystem::path file;
-  for (const auto& entry : std::filesystem::directory_iterator(dataset))
-    if (entry.path().extension() == ".nrrd" && entry.path().stem().string().rfind("image", 0) == 0)
-      file = entry.path();
-  if (file.empty()) throw InvalidInput("no image*.nrrd in " + dataset.string());
-  const imaging::ImageVolume image = imaging::read_image(file).volume;
-  const auto axis = axis_of(io::read_rotterdam_reference(dataset / vessel / "reference.txt"));
+  const imaging::ImageVolume image = bench::image_of(dataset);
+  const auto axis = bench::axis_of(dataset, vessel);
   lumen::IncrementalSurface surface(lumen::testing::tube_vessel(
       axis, [&](double s, double) { return axis->radius(s); }, 0.8));
 
@@ -119,8 +92,8 @@ void make(const std::filesystem::path& dataset, const std::string& vessel, const
   grid.columns = 3;
   grid.letters = true;
   grid.title = "The wall's contours before and after an edit at 24 mm";
-  figure::grid({panel(flattened(image, cpr), before[0], a.lines(), "straightened", 22.0),
-                panel(flattened(image, twin), before[1], b.lines(), "its twin", 22.0),
+  figure::grid({panel(bench::flattened(image, cpr), before[0], a.lines(), "straightened", 22.0),
+                panel(bench::flattened(image, twin), before[1], b.lines(), "its twin", 22.0),
                 panel(section, before[2], c.lines(), "cross-section at 24 mm", 52.0)},
                grid)
       .write_png(out);
@@ -129,15 +102,7 @@ void make(const std::filesystem::path& dataset, const std::string& vessel, const
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 4) {
-    std::fprintf(stderr, "usage: contour_picture DATASET_FOLDER VESSEL_FOLDER OUTPUT.png\n");
-    return 2;
-  }
-  try {
-    make(argv[1], argv[2], argv[3]);
-    return 0;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "contour_picture: %s\n", error.what());
-    return 3;
-  }
+  return ostia::bench::make_picture(
+      argc, argv, "DATASET_FOLDER VESSEL_FOLDER OUTPUT.png", 3,
+      [](const std::vector<std::string>& given) { make(given[0], given[1], given[2]); });
 }

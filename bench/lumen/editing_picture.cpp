@@ -3,14 +3,13 @@
 // stroke, the samples that it dismisses for several beta, and the wall before and after.
 #include "dismissal.h"
 #include "edited_walls.h"
+#include "picture.h"
 
-#include "ostia/core/error.h"
 #include "ostia/figure/plot.h"
 #include "ostia/figure/scene.h"
 #include "ostia/lumen/tree_surface.h"
 
 #include <cstdio>
-#include <exception>
 
 namespace {
 
@@ -172,24 +171,19 @@ figure::Picture section_panel(const LumenModel& model) {
   return figure::line_plot(series, options);
 }
 
+void make(const std::string& file) {
+  const LumenModel model = bent_model(26.0, 1.9);
+  figure::GridOptions options;
+  options.columns = 2;
+  figure::grid({bundle_panel(model), samples_panel(model, 45.0), samples_panel(model, 60.0),
+                samples_panel(model, 90.0), after_panel(model), section_panel(model)},
+               options)
+      .write(file);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    std::fprintf(stderr, "usage: editing_picture OUT.png\n");
-    return static_cast<int>(ExitCode::usage);
-  }
-  try {
-    const LumenModel model = bent_model(26.0, 1.9);
-    figure::GridOptions options;
-    options.columns = 2;
-    figure::grid({bundle_panel(model), samples_panel(model, 45.0), samples_panel(model, 60.0),
-                  samples_panel(model, 90.0), after_panel(model), section_panel(model)},
-                 options)
-        .write(argv[1]);
-    return 0;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return static_cast<int>(ExitCode::internal);
-  }
+  return ostia::bench::make_picture(argc, argv, "OUTPUT.png", 1,
+                                    [](const std::vector<std::string>& given) { make(given[0]); });
 }

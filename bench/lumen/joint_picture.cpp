@@ -1,15 +1,14 @@
 // The picture of docs/lumen-tree.md: the wall of a drawn coronary tree, and one of its joints sharp and with
 // fillets.
 
-#include "ostia/core/error.h"
+#include "picture.h"
+
 #include "ostia/figure/scene.h"
 #include "ostia/lumen/start_surface.h"
 #include "ostia/lumen/tree_surface.h"
 #include "ostia/phantom/coronary_tree.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <exception>
 #include <memory>
 #include <string>
 #include <utility>
@@ -103,15 +102,6 @@ void make(const std::string& file) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    std::fprintf(stderr, "usage: joint_picture OUTPUT.png\n");
-    return 2;
-  }
-  try {
-    make(argv[1]);
-    return 0;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "joint_picture: %s\n", error.what());
-    return 3;
-  }
+  return ostia::bench::make_picture(argc, argv, "OUTPUT.png", 1,
+                                    [](const std::vector<std::string>& given) { make(given[0]); });
 }

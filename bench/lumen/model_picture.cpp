@@ -1,14 +1,13 @@
 // Makes the picture of docs/lumen-model.md: model_picture OUT.png
 // f across a stenosed vessel and along its wall, for each kernel, beside what is exact.
+#include "picture.h"
 #include "tube_samples.h"
 
-#include "ostia/core/error.h"
 #include "ostia/figure/plot.h"
 #include "ostia/figure/scene.h"
 #include "ostia/geometry/zero_crossing.h"
 
 #include <cstdio>
-#include <exception>
 
 namespace {
 
@@ -97,29 +96,24 @@ double offset_um(const ImplicitSurface& f, const geometry::AxisCurve& axis, doub
   return 1e3 * (2.0 * t - 1.0) * span;
 }
 
+void make(const std::string& file) {
+  const auto axis = testing::bent_axis(length_mm);
+  const std::vector<Solved> fields = solved(testing::tube_vessel(axis, wall, spacing_mm));
+  figure::grid({across(fields, *axis, 4.0, "f across the vessel at 4 mm"),
+                across(fields, *axis, throat_mm, "f across the throat, a stenosis of 65 %"),
+                along(fields, "The wall beside the exact one", "micrometres",
+                      [&](const ImplicitSurface& f, double s) { return offset_um(f, *axis, s); }),
+                along(fields, "Slope of f on the wall; 1 is a distance", "length of the gradient",
+                      [&](const ImplicitSurface& f, double s) {
+                        return f.gradient(axis->place(s, theta, wall(s, 0.0))).norm();
+                      })},
+               {.columns = 2, .look = figure::Look::light})
+      .write(file);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    std::fprintf(stderr, "usage: model_picture OUT.png\n");
-    return static_cast<int>(ExitCode::usage);
-  }
-  try {
-    const auto axis = testing::bent_axis(length_mm);
-    const std::vector<Solved> fields = solved(testing::tube_vessel(axis, wall, spacing_mm));
-    figure::grid({across(fields, *axis, 4.0, "f across the vessel at 4 mm"),
-                  across(fields, *axis, throat_mm, "f across the throat, a stenosis of 65 %"),
-                  along(fields, "The wall beside the exact one", "micrometres",
-                        [&](const ImplicitSurface& f, double s) { return offset_um(f, *axis, s); }),
-                  along(fields, "Slope of f on the wall; 1 is a distance", "length of the gradient",
-                        [&](const ImplicitSurface& f, double s) {
-                          return f.gradient(axis->place(s, theta, wall(s, 0.0))).norm();
-                        })},
-                 {.columns = 2, .look = figure::Look::light})
-        .write(argv[1]);
-    return 0;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return static_cast<int>(ExitCode::internal);
-  }
+  return ostia::bench::make_picture(argc, argv, "OUTPUT.png", 1,
+                                    [](const std::vector<std::string>& given) { make(given[0]); });
 }

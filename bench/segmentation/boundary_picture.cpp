@@ -2,18 +2,16 @@
 // reformations and four cross-sections of an annotated section of a phantom's data set.
 //   boundary_picture DATASET_FOLDER VESSEL_FOLDER SECTION OUTPUT.png
 
-#include "ostia/core/error.h"
+#include "dataset.h"
+#include "picture.h"
+
 #include "ostia/figure/slice_figure.h"
-#include "ostia/imaging/image_file.h"
 #include "ostia/io/contour_file.h"
-#include "ostia/io/rotterdam_file.h"
-#include "ostia/reformat/curved_reformation.h"
 #include "ostia/segmentation/lumen_boundary.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <memory>
 #include <numbers>
@@ -43,20 +41,6 @@ double Ring::at(double angle) const {
   const double width = theta[j] - theta[i] + (j <= i ? 2.0 * pi : 0.0);
   const double part = angle - theta[i] + (angle < theta[i] ? 2.0 * pi : 0.0);
   return rho_mm[i] + part / width * (rho_mm[j] - rho_mm[i]);
-}
-
-std::shared_ptr<const geometry::AxisCurve> axis_of(const std::filesystem::path& reference) {
-  geometry::Centerline dense;
-  dense.points = io::read_rotterdam_reference(reference).points;
-  geometry::complete(dense);
-  return std::make_shared<const geometry::AxisCurve>(geometry::resample(dense, 0.5));
-}
-
-imaging::ImageVolume image_of(const std::filesystem::path& dataset) {
-  for (const auto& entry : std::filesystem::directory_iterator(dataset))
-    if (entry.path().extension() == ".nrrd" && entry.path().stem().string().rfind("image", 0) == 0)
-      return imaging::read_image(entry.path()).volume;
-  throw InvalidInput("no image*.nrrd in " + dataset.string());
 }
 
 /// The true contours of a section in the axis' own coordinates.
@@ -119,12 +103,6 @@ figure::SliceFigureOptions look(const std::string& title, double side_mm, double
 figure::Picture along(const imaging::ImageVolume& image, const reformat::CurvedReformation& view,
                       const Boundaries& boundaries, const std::string& title) {
   const reformat::CurvedOptions& o = view.options();
-  reformat::PlaneImage flat;
-  flat.plane.pixel_mm = o.pixel_mm;
-  flat.plane.width = o.width;
-  flat.plane.height = o.height;
-  flat.plane.origin = Vec3(-0.5 * o.width * o.pixel_mm, o.s_start_mm, 0.0);
-  flat.values = reformat::reformatted(image, view, imaging::Interpolation::cubic).values;
   const double theta = o.theta_deg * pi / 180.0;
   const auto lines = [&](const std::vector<Ring>& rings) {
     std::vector<std::vector<Vec3>> out(2);
@@ -134,7 +112,7 @@ figure::Picture along(const imaging::ImageVolume& image, const reformat::CurvedR
     }
     return out;
   };
-  return figure::slice_figure(flat,
+  return figure::slice_figure(bench::flattened(image, view),
                               {styled(lines(boundaries.truth), true), styled(lines(boundaries.found), false)},
                               {}, look(title, o.width * o.pixel_mm, 20.0));
 }
@@ -161,8 +139,8 @@ figure::Picture across(const imaging::ImageVolume& image, const geometry::AxisCu
 
 void make(const std::filesystem::path& dataset, const std::string& vessel, const std::string& section,
           const std::filesystem::path& out) {
-  const imaging::ImageVolume image = image_of(dataset);
-  const auto axis = axis_of(dataset / vessel / "reference.txt");
+  const imaging::ImageVolume image = bench::image_of(dataset);
+  const auto axis = bench::axis_of(dataset, vessel);
   Boundaries boundaries;
   boundaries.truth = truth_of(dataset / "contours.json", section, *axis);
   const double first = boundaries.truth.front().s_mm, last = boundaries.truth.back().s_mm;
@@ -194,15 +172,7 @@ void make(const std::filesystem::path& dataset, const std::string& vessel, const
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 5) {
-    std::fprintf(stderr, "usage: boundary_picture DATASET_FOLDER VESSEL_FOLDER SECTION OUTPUT.png\n");
-    return 2;
-  }
-  try {
-    make(argv[1], argv[2], argv[3], argv[4]);
-    return 0;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "boundary_picture: %s\n", error.what());
-    return 3;
-  }
+  return ostia::bench::make_picture(
+      argc, argv, "DATASET_FOLDER VESSEL_FOLDER SECTION OUTPUT.png", 4,
+      [](const std::vector<std::string>& given) { make(given[0], given[1], given[2], given[3]); });
 }

@@ -468,7 +468,7 @@ TEST(LumenCommand, BadInput_RefusesAxesThatBearNoWall) {
 TEST(LumenCommand, BadInput_AWallThatWouldNotFitIsFive) {
   const fs::path folder = tube_folder();
   const Outcome done =
-      ostia({"lumen", "tube.csv", "-o", "tube.vtp", "--radius", "60", "--case", "tube.ostia"}, {folder, ""});
+      ostia({"lumen", "tube.csv", "-o", "tube.vtp", "--radius", "40", "--case", "tube.ostia"}, {folder, ""});
   EXPECT_EQ(done.code, 5) << done.err;
   EXPECT_THAT(done.err, HasSubstr("MiB"));
   EXPECT_THAT(done.err, HasSubstr("number of samples"));

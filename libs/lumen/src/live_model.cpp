@@ -67,9 +67,7 @@ std::shared_ptr<const TreeField> LiveModel::field() const {
 }
 
 std::shared_ptr<const ImplicitSurface> LiveModel::surface(std::int32_t vessel) const {
-  const auto found = impl_->solved.find(vessel);
-  if (found == impl_->solved.end()) throw InvalidInput("the model has no vessel " + std::to_string(vessel));
-  return found->second.surface();
+  return impl_->solved.at(lumen::vessel(*impl_->model, vessel).vessel).surface();
 }
 
 LiveChange LiveModel::follow(const EditOutcome& outcome) {

@@ -15,11 +15,19 @@ constexpr double unit_tolerance = 1e-6;
 // An axis rebuilt from its tree is the same to the last bit; one of another tree differs by far more.
 constexpr double axis_tolerance_mm = 1e-6;
 
+[[noreturn]] void refuse_unknown(const geometry::VesselTree& tree, std::int32_t id) {
+  std::string known;
+  for (const geometry::Vessel& v : tree.vessels)
+    known += (known.empty() ? "" : ", ") + std::to_string(v.id) + (v.name.empty() ? "" : " (" + v.name + ")");
+  throw InvalidInput("the model has no vessel " + std::to_string(id) +
+                     (known.empty() ? "" : "; it has " + known));
+}
+
 const geometry::Vessel& tree_vessel(const geometry::VesselTree& tree, std::int32_t id) {
   for (const geometry::Vessel& v : tree.vessels) {
     if (v.id == id) return v;
   }
-  throw InvalidInput("the model has no vessel " + std::to_string(id));
+  refuse_unknown(tree, id);
 }
 
 std::int32_t owner_of(const geometry::VesselTree& tree, std::int32_t segment) {
@@ -181,7 +189,7 @@ const VesselLumen& vessel(const LumenModel& model, std::int32_t id) {
   for (const auto& lumen : model.vessels) {
     if (lumen->vessel == id) return *lumen;
   }
-  throw InvalidInput("the model has no vessel " + std::to_string(id));
+  refuse_unknown(model.tree, id);
 }
 
 double own_from_mm(const geometry::VesselTree& tree, std::int32_t vessel) {

@@ -16,6 +16,9 @@ namespace ostia::lumen {
 namespace {
 
 constexpr double bytes_per_cell = 256.0;  // values, pieces and the joined mesh
+// A throat of 0.1 mm would ask for cells of 0.025 mm of the whole tree, twenty million triangles; these still
+// put four across it.
+constexpr double finest_default_mm = 0.05;
 // Cells from the origin, so that places in the grid are whole numbers of 32 bits with room to spare.
 constexpr double farthest_cell = 1e9;
 
@@ -203,7 +206,7 @@ double default_cell_mm(const LumenModel& model) {
     for (const SurfaceSample& sample : vessel->samples)
       if (sample.origin != SampleOrigin::cap)
         smallest = std::min(smallest, (sample.position - vessel->axis->point(sample.s_mm)).norm());
-  return std::clamp(0.25 * smallest, 0.02, 0.25);
+  return std::clamp(0.25 * smallest, finest_default_mm, 0.25);
 }
 
 geometry::TriMesh surface_of(const LumenModel& model, double cell_mm, const core::TaskContext& task) {

@@ -22,10 +22,10 @@ using lumen::VesselLumen;
 
 constexpr std::array<const char*, 5> model_tables{"model", "node", "segment", "vessel", "sample"};
 
-bool same_node(const TreeNode& a, const TreeNode& b) {
+bool same_item(const TreeNode& a, const TreeNode& b) {
   return a.id == b.id && bytes_of(a.position) == bytes_of(b.position);
 }
-bool same_segment(const TreeSegment& a, const TreeSegment& b) {
+bool same_item(const TreeSegment& a, const TreeSegment& b) {
   return a.id == b.id && a.from == b.from && a.to == b.to && same(a.axis, b.axis);
 }
 
@@ -81,26 +81,11 @@ struct Writing {
   ModelRows& rows;
   std::uint64_t& sum;
 
-  void nodes(const std::vector<TreeNode>& before, const std::vector<TreeNode>& after) {
+  /// Nodes or segments.
+  template <class Item>
+  void items(const std::vector<Item>& before, const std::vector<Item>& after) {
     compare(
-        before, after, [&](std::size_t i, std::size_t k) { return same_node(before[i], after[k]); },
-        [&](std::size_t k) {
-          rows.insert(after[k], k);
-          sum += sum_of(after[k], k);
-        },
-        [&](std::size_t i, std::size_t k) {
-          rows.update(after[k], k);
-          sum += sum_of(after[k], k) - sum_of(before[i], i);
-        },
-        [&](std::size_t i) {
-          rows.erase(before[i]);
-          sum -= sum_of(before[i], i);
-        });
-  }
-
-  void segments(const std::vector<TreeSegment>& before, const std::vector<TreeSegment>& after) {
-    compare(
-        before, after, [&](std::size_t i, std::size_t k) { return same_segment(before[i], after[k]); },
+        before, after, [&](std::size_t i, std::size_t k) { return same_item(before[i], after[k]); },
         [&](std::size_t k) {
           rows.insert(after[k], k);
           sum += sum_of(after[k], k);
@@ -180,8 +165,8 @@ struct Writing {
   }
 
   void all(const LumenModel& before, const LumenModel& after) {
-    nodes(before.tree.nodes, after.tree.nodes);
-    segments(before.tree.segments, after.tree.segments);
+    items(before.tree.nodes, after.tree.nodes);
+    items(before.tree.segments, after.tree.segments);
     vessels(before, after);
     walls(before, after);
   }

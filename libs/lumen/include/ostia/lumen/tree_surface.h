@@ -74,7 +74,8 @@ class TreeSurface {
   std::unique_ptr<Impl> impl_;
 };
 
-/// min(0.25 mm, a quarter of the smallest distance of a sample that is not a cap's from its axis).
+/// min(0.25 mm, a quarter of the smallest distance of a sample that is not a cap's from its axis), but at
+/// least 0.05 mm: the whole tree has one size of cells, and a throat below 0.2 mm would ask for too many.
 double default_cell_mm(const LumenModel& model);
 
 /// The wall of a stored model: solved afresh, polygonised with cells of `cell_mm`, or of default_cell_mm

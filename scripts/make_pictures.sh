@@ -18,7 +18,7 @@ build/release/bin/joint_picture docs/pictures/lumen-joint.png
 build/release/bin/editing_picture docs/pictures/editing-dismissal.png
 build/release/bin/reformation_picture "$work/phantom/dataset00" vessel1 docs/pictures/reformations.png
 build/release/bin/contour_picture "$work/phantom/dataset00" vessel1 docs/pictures/lumen-contours.png
-build/release/bin/boundary_picture "$work/phantom/dataset00" vessel1 s02 docs/pictures/lumen-boundary.png
+build/release/bin/boundary_picture "$work/phantom/dataset00" vessel1 s01 docs/pictures/lumen-boundary.png
 
 # Half an hour: the editing experiment on 78 sections.
 build/release/bin/ostia phantom -o "$work/suite18" --cases 18 --truth-only

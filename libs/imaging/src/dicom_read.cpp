@@ -5,8 +5,7 @@
 
 #include "ostia/core/child_process.h"
 #include "ostia/core/error.h"
-
-#include <stdlib.h>
+#include "ostia/core/private_folder.h"
 
 #include <algorithm>
 #include <atomic>
@@ -23,28 +22,6 @@ namespace {
 
 constexpr std::int64_t kMaxVoxels = 1LL << 32;
 constexpr std::int16_t kAir = -1024;  // HU, where no slice reaches
-
-/// A folder of this process alone, gone at the end of the scope: it holds a patient's image.
-class PrivateFolder {
- public:
-  PrivateFolder() {
-    std::string pattern = (fs::temp_directory_path() / "ostia-decode-XXXXXX").string();
-    if (::mkdtemp(pattern.data()) == nullptr) {
-      throw ResourceError("cannot make a temporary folder in '" + fs::temp_directory_path().string() + "'");
-    }
-    path_ = pattern;
-  }
-  ~PrivateFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  PrivateFolder(const PrivateFolder&) = delete;
-  PrivateFolder& operator=(const PrivateFolder&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 /// Reports how far the child has come by the size of what it has written.
 class FileProgress {
@@ -239,7 +216,7 @@ ImageVolume decoded(const DicomSeriesDetail& series, Rescaled& count, const core
     throw InvalidInput("DICOM series " + in_words(summary) + " has more than " + std::to_string(kMaxVoxels) +
                        " voxels");
   }
-  const PrivateFolder folder;
+  const core::PrivateFolder folder;
   const fs::path list = folder.path() / "slices", output = folder.path() / "voxels";
   std::vector<DecodeItem> items;
   for (const DicomSlice& slice : series.slices)

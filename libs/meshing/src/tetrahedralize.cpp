@@ -4,14 +4,12 @@
 #include "tetrahedra_mending.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/private_folder.h"
 #include "ostia/geometry/mesh_topology.h"
-
-#include <stdlib.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <system_error>
 
 namespace ostia::meshing {
 
@@ -31,28 +29,6 @@ void validate(const TetrahedralizeOptions& o) {
 }
 
 namespace {
-
-/// A folder of our own in the system's temporary folder, gone with this object.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "ostia-tetrahedra-XXXXXX").string();
-    if (!mkdtemp(pattern.data()))
-      throw IoError("no temporary folder can be made in " + std::filesystem::temp_directory_path().string() +
-                    "; set TMPDIR to a folder that can be written");
-    path_ = pattern;
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 void check_surface(const geometry::FacedSurface& surface, bool thorough) {
   const geometry::TriMesh& mesh = surface.mesh;
@@ -115,8 +91,8 @@ std::string reason(const core::ChildResult& child) {
   return child.signal == 0 ? text : "TetGen " + child.describe() + " after: " + text;
 }
 
-core::ChildResult run_once(const TetgenJob& job, const ScratchFolder& folder, const core::ChildLimits& limits,
-                           const core::TaskContext& task) {
+core::ChildResult run_once(const TetgenJob& job, const core::PrivateFolder& folder,
+                           const core::ChildLimits& limits, const core::TaskContext& task) {
   const auto input = folder.path() / "surface.bin", output = folder.path() / "tetrahedra.bin";
   write_job(job, input);
   return core::run_child(core::worker_program(), {"tetrahedralize", input.string(), output.string()}, limits,
@@ -125,7 +101,7 @@ core::ChildResult run_once(const TetgenJob& job, const ScratchFolder& folder, co
 
 TetgenResult run_tetgen(TetgenJob job, const TetrahedralizeOptions& options, TetrahedralizeReport& report,
                         const core::TaskContext& task) {
-  const ScratchFolder folder;
+  const core::PrivateFolder folder;
   // TetGen's refinement need not end with a fixed boundary. A first run gets about ten times what it commonly
   // takes; a second asks for less.
   core::ChildLimits first = options.limits;

@@ -4,6 +4,7 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
+#include "ostia/core/private_folder.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -134,30 +135,9 @@ void lock_shared(const fs::path& path, const Descriptor& file) {
                   ": it is open in another window or program; close it there, or wait until it is done");
 }
 
-/// A folder that only this user may enter, gone with this object.
-class PrivateFolder {
- public:
-  PrivateFolder() {
-    std::string name = (fs::temp_directory_path() / "ostia-XXXXXX").string();
-    if (!::mkdtemp(name.data()))
-      throw IoError("cannot make a temporary folder: " + std::generic_category().message(errno));
-    path_ = name;
-  }
-  ~PrivateFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  PrivateFolder(const PrivateFolder&) = delete;
-  PrivateFolder& operator=(const PrivateFolder&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
 /// The content as SQLite would see it after recovery; in a copy, so that the file stays as it is.
 std::string recovered(const fs::path& path) {
-  const PrivateFolder folder;
+  const core::PrivateFolder folder;
   const fs::path copy = folder.path() / "copy";
   for (const char* suffix : {"", "-wal", "-journal"})
     if (fs::exists(beside(path, suffix))) fs::copy_file(beside(path, suffix), beside(copy, suffix));

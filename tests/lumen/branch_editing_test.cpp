@@ -1,3 +1,4 @@
+#include "refused_edits.h"
 #include "vessel_trees.h"
 
 #include "ostia/core/error.h"
@@ -14,6 +15,7 @@
 namespace ostia::lumen {
 namespace {
 
+using testing::expect_refused;
 using testing::straight_vessel;
 using testing::tree_of;
 
@@ -23,17 +25,6 @@ LumenModel straight() {
 LumenModel coronary() {
   static const LumenModel model = model_of_tubes(tree_of(geometry::coronary_like_tree(0.25)));
   return model;
-}
-
-void expect_refused(const LumenModel& model, const Edit& edit, std::initializer_list<const char*> words) {
-  try {
-    apply(model, edit);
-    FAIL() << "not refused: " << *words.begin();
-  } catch (const InvalidInput& error) {
-    for (const char* word : words)
-      EXPECT_NE(std::string(error.what()).find(word), std::string::npos)
-          << word << " is not in: " << error.what();
-  }
 }
 
 EditOutcome applied(const LumenModel& model, const Edit& edit) {

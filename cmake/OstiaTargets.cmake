@@ -3,9 +3,10 @@
 set(OSTIA_ROOMS
     core geometry
     imaging reformat io figure
-    segmentation centerline lumen meshing
+    segmentation centerline lumen meshing analysis
     phantom evaluation pipeline
-    session experiments)
+    session experiments
+    view)
 
 function(_ostia_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor)
@@ -42,11 +43,13 @@ function(ostia_program name)
   _ostia_leak_suppressions(${name})
 endfunction()
 
-# ostia_tests(ROOM [UNIT a_test.cpp ...] [REAL b_real_test.cpp ...] [SLOW ...] [LINKS target ...])
-# Each kind becomes one program and carries its ctest label.
+# ostia_tests(ROOM [UNIT a_test.cpp ...] [REAL b_real_test.cpp ...] [SLOW ...] [GUI ...] [LINKS target ...])
+# Each kind becomes one program and carries its ctest label. GUI tests open windows: each runs under an X
+# server of its own, one at a time, since they measure and wait for what is painted. The server must not start
+# anew when its last client leaves (-noreset): the next one would be turned away meanwhile.
 function(ostia_tests room)
-  cmake_parse_arguments(ARG "" "" "UNIT;REAL;SLOW;LINKS" ${ARGN})
-  foreach(kind UNIT REAL SLOW)
+  cmake_parse_arguments(ARG "" "" "UNIT;REAL;SLOW;GUI;LINKS" ${ARGN})
+  foreach(kind UNIT REAL SLOW GUI)
     if(NOT ARG_${kind})
       continue()
     endif()
@@ -57,8 +60,14 @@ function(ostia_tests room)
                                             GTest::gtest_main ${ARG_LINKS})
     _ostia_warnings(${target})
     _ostia_leak_suppressions(${target})
+    set(alone)
+    if(kind STREQUAL "GUI")
+      set_target_properties(${target} PROPERTIES
+        CROSSCOMPILING_EMULATOR "${OSTIA_XVFB_RUN};-a;-s;-screen 0 1600x1200x24 -noreset")
+      set(alone RUN_SERIAL TRUE)
+    endif()
     gtest_discover_tests(${target} TEST_PREFIX "${room}." DISCOVERY_MODE PRE_TEST
-      PROPERTIES LABELS ${label} TIMEOUT 600 SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\]")
+      PROPERTIES LABELS ${label} TIMEOUT 600 ${alone} SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\]")
   endforeach()
 endfunction()
 

@@ -1,0 +1,210 @@
+#include "ostia/analysis/measurement.h"
+
+#include "ring_hu.h"
+
+#include "ostia/analysis/stenosis.h"
+#include "ostia/core/error.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+
+namespace ostia::analysis {
+namespace {
+
+constexpr std::array<const char*, 7> kind_names{"distance", "angle",  "area",   "diameter",
+                                                "stenosis", "volume", "ring_hu"};
+constexpr double least_ring_mm = 0.05, widest_ring_mm = 20.0;
+
+bool of_vessel(MeasureKind kind) {
+  return kind == MeasureKind::stenosis || kind == MeasureKind::volume || kind == MeasureKind::ring_hu;
+}
+
+std::optional<std::string> points_fault(const Measurement& measurement) {
+  const std::size_t count = measurement.points.size();
+  switch (measurement.kind) {
+    case MeasureKind::distance:
+      if (count != 2) return "a distance needs two points";
+      break;
+    case MeasureKind::diameter:
+      if (count != 2) return "a diameter needs two points";
+      break;
+    case MeasureKind::angle:
+      if (count != 3) return "an angle needs three points, its vertex second";
+      if (measurement.points[0] == measurement.points[1] || measurement.points[2] == measurement.points[1])
+        return "an angle needs two points that are not its vertex";
+      break;
+    case MeasureKind::area:
+      if (count < 3) return "an area needs a line of at least three points";
+      break;
+    default:
+      break;
+  }
+  for (const Vec3& p : measurement.points) {
+    if (!p.allFinite()) return "a point is not finite";
+  }
+  return std::nullopt;
+}
+
+std::vector<MeasuredValue> measured_angle(const std::vector<Vec3>& points) {
+  const Vec3 a = points[0] - points[1], b = points[2] - points[1];
+  return {{"angle", std::atan2(a.cross(b).norm(), a.dot(b)) * 180.0 / std::numbers::pi, "deg"}};
+}
+
+/// Newell's formula: of a line that is not flat, the area that it shows along its mean normal.
+std::vector<MeasuredValue> measured_area(const std::vector<Vec3>& points) {
+  Vec3 doubled = Vec3::Zero();
+  double length = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec3 &a = points[i], &b = points[(i + 1) % points.size()];
+    doubled += (a - points[0]).cross(b - points[0]);
+    length += (b - a).norm();
+  }
+  return {{"area", 0.5 * doubled.norm(), "mm2"}, {"perimeter", length, "mm"}};
+}
+
+const LumenProfile& profile_for(const Measurement& measurement, const MeasureContext& context) {
+  if (context.model != nullptr) lumen::vessel(*context.model, measurement.vessel);  // throws
+  if (!context.profile_of)
+    throw InvalidInput("a " + to_string(measurement.kind) + " needs the vessel's lumen profile");
+  const LumenProfile& profile = context.profile_of(measurement.vessel);
+  if (profile.vessel != measurement.vessel)
+    throw InvalidInput("vessel " + std::to_string(measurement.vessel) + " has no lumen profile");
+  if (!(measurement.from_mm >= 0.0) || !(measurement.to_mm <= profile.length_mm + 1e-6))
+    throw InvalidInput("a " + to_string(measurement.kind) + " from " + std::to_string(measurement.from_mm) +
+                       " to " + std::to_string(measurement.to_mm) + " mm is not within vessel " +
+                       std::to_string(measurement.vessel) + ", " + std::to_string(profile.length_mm) +
+                       " mm long");
+  return profile;
+}
+
+std::vector<MeasuredValue> measured_stenosis(const Measurement& measurement, const MeasureContext& context) {
+  const Stenosis stenosis =
+      stenosis_between(profile_for(measurement, context), measurement.from_mm, measurement.to_mm);
+  return {{"percent diameter", stenosis.diameter_percent, "%"},
+          {"percent area", stenosis.area_percent, "%"},
+          {"MLD", stenosis.least_diameter_mm, "mm"},
+          {"MLA", stenosis.least_area_mm2, "mm2"},
+          {"reference diameter", stenosis.reference_diameter_mm, "mm"},
+          {"reference area", stenosis.reference_area_mm2, "mm2"},
+          {"length", stenosis.length_mm(), "mm"}};
+}
+
+std::vector<MeasuredValue> measured_volume(const Measurement& measurement, const MeasureContext& context) {
+  const LumenProfile& profile = profile_for(measurement, context);
+  const double volume = volume_mm3(profile, measurement.from_mm, measurement.to_mm);
+  const double length = measurement.to_mm - measurement.from_mm;
+  return {{"volume", volume, "mm3"}, {"length", length, "mm"}, {"mean area", volume / length, "mm2"}};
+}
+
+std::vector<MeasuredValue> measured_ring(const Measurement& measurement, const MeasureContext& context) {
+  if (context.image == nullptr) throw InvalidInput("CT numbers about a lumen need the image");
+  if (context.model == nullptr || !context.surface_of)
+    throw InvalidInput("CT numbers about a lumen need its model and walls");
+  const MeasuredSection section =
+      measured_section(*context.model, context.surface_of, measurement.vessel, measurement.from_mm);
+  const std::string place =
+      " at " + std::to_string(measurement.from_mm) + " mm of vessel " + std::to_string(measurement.vessel);
+  if (!section.measures.found)
+    throw InvalidInput("there is no lumen" + place + " to measure CT numbers about");
+  const RingStatistics ring =
+      ring_statistics(section, measurement.inner_mm, measurement.outer_mm, *context.image);
+  if (ring.samples == 0)
+    throw InvalidInput("the ring" + place + " lies outside the image; choose a place that the image shows");
+  return {{"mean", ring.mean, "HU"},
+          {"SD", ring.deviation, "HU"},
+          {"least", ring.least, "HU"},
+          {"largest", ring.largest, "HU"},
+          {"samples", static_cast<double>(ring.samples), ""}};
+}
+
+/// Three digits that count for lengths, areas and volumes; no more than is meant for the others.
+int decimals(double value, const std::string& unit) {
+  if (unit == "%" || unit == "HU" || unit.empty()) return 0;
+  if (unit == "deg") return 1;
+  const double size = std::abs(value);
+  const int digits = size < 9.995 ? 2 : size < 99.95 ? 1 : 0;
+  return unit == "mm" ? std::max(digits, 1) : digits;
+}
+
+std::string shown_unit(const std::string& unit) {
+  if (unit == "mm2") return " mm\u00b2";
+  if (unit == "mm3") return " mm\u00b3";
+  if (unit == "deg") return "\u00b0";
+  return unit.empty() ? "" : " " + unit;
+}
+
+}  // namespace
+
+std::string to_string(MeasureKind kind) {
+  const auto at = static_cast<std::size_t>(kind);
+  if (at >= kind_names.size()) throw InvalidInput("a kind of measurement that is none of the seven");
+  return kind_names[at];
+}
+
+MeasureKind measure_kind(const std::string& name) {
+  std::string known;
+  for (std::size_t i = 0; i < kind_names.size(); ++i) {
+    if (name == kind_names[i]) return static_cast<MeasureKind>(i);
+    known += (i == 0 ? "" : ", ") + std::string(kind_names[i]);
+  }
+  throw InvalidInput("there is no measurement called \"" + name + "\"; choose one of " + known);
+}
+
+std::optional<std::string> find_fault(const Measurement& measurement) {
+  if (static_cast<std::size_t>(measurement.kind) >= kind_names.size())
+    return "a kind of measurement that is none of the seven";
+  if (auto fault = points_fault(measurement)) return fault;
+  if (!of_vessel(measurement.kind)) return std::nullopt;
+  const std::string what = to_string(measurement.kind);
+  if (measurement.vessel <= 0) return "a " + what + " needs a vessel";
+  if (!(std::isfinite(measurement.from_mm) && measurement.from_mm >= 0.0))
+    return "a " + what + " begins at an abscissa that is not on a vessel";
+  if (measurement.kind == MeasureKind::ring_hu) {
+    const double inner = measurement.inner_mm, outer = measurement.outer_mm;
+    if (!(inner >= 0.0 && outer - inner >= least_ring_mm && outer <= widest_ring_mm))
+      return "a ring about the lumen needs an inner distance of at least 0 and an outer one of at most 20 "
+             "mm, "
+             "0.05 mm or more apart";
+    return std::nullopt;
+  }
+  if (!(std::isfinite(measurement.to_mm) && measurement.to_mm > measurement.from_mm))
+    return "a " + what + " needs a distal place beyond its proximal one";
+  return std::nullopt;
+}
+
+std::vector<MeasuredValue> measured(const Measurement& measurement, const MeasureContext& context) {
+  if (const auto fault = find_fault(measurement)) throw InvalidInput(*fault);
+  const std::vector<Vec3>& points = measurement.points;
+  switch (measurement.kind) {
+    case MeasureKind::distance:
+      return {{"length", (points[1] - points[0]).norm(), "mm"}};
+    case MeasureKind::diameter:
+      return {{"diameter", (points[1] - points[0]).norm(), "mm"}};
+    case MeasureKind::angle:
+      return measured_angle(points);
+    case MeasureKind::area:
+      return measured_area(points);
+    case MeasureKind::stenosis:
+      return measured_stenosis(measurement, context);
+    case MeasureKind::volume:
+      return measured_volume(measurement, context);
+    case MeasureKind::ring_hu:
+      return measured_ring(measurement, context);
+  }
+  throw InvalidInput("a kind of measurement that is none of the seven");
+}
+
+std::string to_text(const MeasuredValue& value) {
+  if (!std::isfinite(value.value)) return "-";
+  std::array<char, 64> digits{};
+  const double shown = std::abs(value.value) < 1e15 ? value.value : std::copysign(1e15, value.value);
+  const auto written = std::to_chars(digits.data(), digits.data() + digits.size(), shown,
+                                     std::chars_format::fixed, decimals(value.value, value.unit));
+  std::string text(digits.data(), written.ptr);
+  if (text.find_first_of("123456789") == std::string::npos && text.front() == '-') text.erase(0, 1);
+  return text + shown_unit(value.unit);
+}
+
+}  // namespace ostia::analysis

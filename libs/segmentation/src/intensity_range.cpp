@@ -97,6 +97,8 @@ std::size_t otsu(const Histogram& histogram, std::int64_t total) {
   return split;
 }
 
+}  // namespace
+
 double background_hu(const imaging::ImageVolume& image, const std::vector<Vec3>& seeds_mm, double lumen) {
   const Histogram histogram = tissue_about(image, seeds_mm, lumen);
   std::int64_t total = 0;
@@ -114,8 +116,6 @@ double background_hu(const imaging::ImageVolume& image, const std::vector<Vec3>&
   }
   return fallback;
 }
-
-}  // namespace
 
 std::string text(const Vec3& point) {
   std::array<char, 96> buffer{};

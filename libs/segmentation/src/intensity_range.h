@@ -36,6 +36,10 @@ ChosenRange choose_range(const imaging::ImageVolume& image, const std::vector<Ve
 /// InvalidInput.
 Voxel voxel_in_range(const imaging::ImageVolume& image, const Vec3& seed_mm, const IntensityRange& range);
 
+/// The CT number of the tissue around the seeds: the median of the darker class (Otsu's split) of what is
+/// neither air nor fat nor as bright as `lumen`.
+double background_hu(const imaging::ImageVolume& image, const std::vector<Vec3>& seeds_mm, double lumen);
+
 std::string text(const Vec3& point);  ///< "(1.0, 2.0, 3.0)"
 
 }  // namespace ostia::segmentation::detail

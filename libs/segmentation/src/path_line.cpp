@@ -1,0 +1,139 @@
+#include "path_line.h"
+
+#include "ostia/geometry/frame.h"
+#include "ostia/geometry/polyline.h"
+#include "ostia/geometry/spline.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace ostia::segmentation::detail {
+namespace {
+
+constexpr int kRays = 16;
+constexpr double kRayStepMm = 0.15;
+constexpr double kHalf = 0.5;
+constexpr double kLeastOfWidth = 0.25;  // a lumen hardly brighter than its wall: the background counts
+constexpr int kCentrings = 4;
+constexpr double kMostShiftMm = 0.4;   // of a centring
+constexpr double kSmoothingMm3 = 2.0;  // lets bends of 3 mm and more through
+constexpr std::size_t kFewestEdges = 8;
+
+/// Where a ray from the centre leaves the lumen, mm; nothing when it does not within the reach.
+double edge_along(TubeSpeed& image, const Vec3& centre, const Vec3& direction, double half_hu,
+                  double reach_mm) {
+  const double calcium = image.levels().calcium_hu;
+  double before = image.smooth(centre);
+  for (double r = kRayStepMm; r <= reach_mm; r += kRayStepMm) {
+    const double here = image.smooth(Vec3(centre + r * direction));
+    const double bound = here < half_hu ? half_hu : calcium;
+    if (here < half_hu || (here > calcium && before <= calcium)) {
+      return r - kRayStepMm * std::clamp((here - bound) / (here - before), 0.0, 1.0);
+    }
+    before = here;
+  }
+  return -1.0;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+double unblurred_radius(double half_mm, double sigma_mm) {
+  // Half-radius over sigma of a disc of radius over sigma 0, 1/4, ...: a Gaussian's for a point, the disc's
+  // own for a large one. By quadrature of the disc's convolution.
+  struct Entry {
+    double radius, half;
+  };
+  static constexpr std::array<Entry, 12> kTable{{{0.0, 1.177},
+                                                 {0.25, 1.187},
+                                                 {0.5, 1.215},
+                                                 {0.75, 1.264},
+                                                 {1.0, 1.335},
+                                                 {1.25, 1.433},
+                                                 {1.5, 1.559},
+                                                 {1.75, 1.715},
+                                                 {2.0, 1.901},
+                                                 {2.5, 2.342},
+                                                 {3.0, 2.839},
+                                                 {4.0, 3.872}}};
+  if (!(sigma_mm > 0.0)) return half_mm;
+  const double half = half_mm / sigma_mm;
+  if (half >= kTable.back().half) return half_mm + sigma_mm * (kTable.back().radius - kTable.back().half);
+  std::size_t n = 1;
+  while (n + 1 < kTable.size() && kTable[n].half < half) ++n;
+  const Entry &a = kTable[n - 1], &b = kTable[n];
+  const double t = std::max(0.0, (half - a.half) / (b.half - a.half));
+  return sigma_mm * std::max(0.75, a.radius + t * (b.radius - a.radius));
+}
+
+PathSection look_across(TubeSpeed& image, const Vec3& centre, const Vec3& tangent, const RayOptions& rays) {
+  PathSection section;
+  const LumenLevels& levels = image.levels();
+  const double hu = image.smooth(centre);
+  section.contrast = levels.contrast(hu);
+  section.calcium = hu > levels.calcium_hu;
+  const double inner = std::min(hu, levels.calcium_hu);
+  double outer = levels.background_hu;
+  if (rays.wall_hu > outer && inner - rays.wall_hu > kLeastOfWidth * (inner - outer)) outer = rays.wall_hu;
+  if (inner <= outer) return section;
+  const double half = outer + kHalf * (inner - outer);
+  geometry::Frame frame;
+  frame.tangent = tangent;
+  frame.normal = geometry::initial_normal(tangent);
+  std::vector<double> found;
+  std::array<double, kRays> radius{};
+  for (int n = 0; n < kRays; ++n) {
+    const Vec3 direction = geometry::radial_direction(frame, 2.0 * M_PI * n / kRays);
+    const double r = edge_along(image, centre, direction, half, 1.5 * rays.largest_radius_mm);
+    radius[static_cast<std::size_t>(n)] = r;
+    if (r >= 0.0) found.push_back(r);
+  }
+  section.edges = static_cast<double>(found.size()) / kRays;
+  if (found.size() < kFewestEdges) return section;
+  const double half_radius = section.seen_radius_mm = median(found);
+  section.radius_mm = std::min(unblurred_radius(half_radius, rays.blur_sigma_mm), rays.largest_radius_mm);
+  // A circle of radius R seen from a place at distance d from its centre has r = R + d cos(theta) + O(d^2).
+  for (int n = 0; n < kRays; ++n) {
+    double r = radius[static_cast<std::size_t>(n)];
+    if (r < 0.0 || r > 2.0 * half_radius) r = half_radius;  // a side branch, or no edge
+    section.shift += 2.0 / kRays * r * geometry::radial_direction(frame, 2.0 * M_PI * n / kRays);
+  }
+  return section;
+}
+
+std::vector<Vec3> smoothed_line(const std::vector<Vec3>& points, double step_mm, double lambda_mm3) {
+  const std::vector<Vec3> even = geometry::resample(points, step_mm);
+  if (even.size() < 4) return even;
+  const std::vector<double> t = geometry::abscissas(even);
+  const std::vector<double> weights(even.size(), 1.0);
+  // The penalty per point: the same smoothness for any step.
+  return geometry::smoothing_spline(t, even, weights, lambda_mm3 / step_mm, true);
+}
+
+std::vector<Vec3> centred_line(TubeSpeed& image, std::vector<Vec3> points, double step_mm, double fixed_mm,
+                               bool free_start, const RayOptions& rays) {
+  points = smoothed_line(points, step_mm, kSmoothingMm3);
+  for (int turn = 0; turn < kCentrings; ++turn) {
+    if (points.size() < 3) return points;
+    const std::vector<Vec3> tangents = geometry::tangents(points);
+    const std::vector<double> s = geometry::abscissas(points);
+    for (std::size_t i = free_start ? 0 : 1; i < points.size(); ++i) {
+      if (s[i] < fixed_mm) continue;
+      const PathSection section = look_across(image, points[i], tangents[i], rays);
+      if (section.radius_mm <= 0.0) continue;
+      const double most = std::min(kMostShiftMm, section.radius_mm);
+      const double length = section.shift.norm();
+      points[i] += length > most ? Vec3(section.shift * (most / length)) : section.shift;
+    }
+    points = smoothed_line(points, step_mm, kSmoothingMm3);
+  }
+  return points;
+}
+
+}  // namespace ostia::segmentation::detail

@@ -29,6 +29,13 @@ target_link_libraries(ostia_cholmod INTERFACE "${CHOLMOD_LIBRARY}")
 
 find_package(SQLite3 REQUIRED)
 
+# libzip's own config asks for its command line tools, which Debian ships in other packages.
+find_path(ZIP_INCLUDE_DIR zip.h REQUIRED)
+find_library(ZIP_LIBRARY zip REQUIRED)
+add_library(ostia_zip INTERFACE)
+target_include_directories(ostia_zip SYSTEM INTERFACE "${ZIP_INCLUDE_DIR}")
+target_link_libraries(ostia_zip INTERFACE "${ZIP_LIBRARY}")
+
 # CGAL's target without the compile options and definitions of its own that it would spread.
 add_library(ostia_cgal INTERFACE)
 target_link_libraries(ostia_cgal INTERFACE CGAL::CGAL)
@@ -37,12 +44,18 @@ if(OSTIA_WITH_IMAGE_LIBRARIES)
   find_package(PkgConfig REQUIRED)
   pkg_check_modules(PANGOCAIRO REQUIRED IMPORTED_TARGET pangocairo cairo cairo-pdf cairo-svg)
   find_package(embree 3 REQUIRED)
-  find_package(VTK 9.1 REQUIRED COMPONENTS CommonCore CommonDataModel CommonMisc IOXML IOLegacy)
+  find_package(Qt5 5.15 REQUIRED COMPONENTS Widgets)
+  find_package(VTK 9.1 REQUIRED
+    COMPONENTS CommonCore CommonDataModel CommonMisc CommonMath CommonTransforms IOXML IOLegacy
+               RenderingCore RenderingOpenGL2 RenderingFreeType RenderingVolume RenderingVolumeOpenGL2 GUISupportQt)
 endif()
 
 if(OSTIA_TESTS)
   find_package(GTest REQUIRED)
   include(GoogleTest)
+  if(OSTIA_WITH_IMAGE_LIBRARIES)
+    find_program(OSTIA_XVFB_RUN xvfb-run REQUIRED)
+  endif()
 endif()
 if(OSTIA_BENCHMARKS)
   find_package(benchmark REQUIRED)

@@ -1,10 +1,14 @@
 #include "shared_data.h"
 
+#include "ostia/imaging/dicom.h"
+#include "ostia/imaging/dicom_writer.h"
 #include "ostia/imaging/filters.h"
 #include "ostia/imaging/image_file.h"
 #include "ostia/imaging/sampling.h"
+#include "ostia/imaging/series_preview.h"
 
 #include <benchmark/benchmark.h>
+#include <sys/resource.h>
 
 #include <cmath>
 
@@ -89,6 +93,57 @@ void bm_read(benchmark::State& state, const char* name) {
 }
 BENCHMARK_CAPTURE(bm_read, nrrd, "a.nrrd")->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
 BENCHMARK_CAPTURE(bm_read, mha, "a.mha")->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
+
+/// A series of 512 x 512 x 300 slices in a folder with nothing else.
+const std::filesystem::path& large_series() {
+  static const std::filesystem::path folder = [] {
+    ImageVolume volume;
+    volume.geometry.size = {512, 512, 300};
+    volume.geometry.spacing = Vec3(0.35, 0.35, 0.45);
+    volume.voxels.resize(static_cast<std::size_t>(volume.geometry.voxels()));
+    std::uint32_t state = 1;
+    for (std::int16_t& voxel : volume.voxels) {
+      state = state * 1664525U + 1013904223U;
+      voxel = static_cast<std::int16_t>(static_cast<int>(state >> 21) - 1000);
+    }
+    const auto path = testing::temporary_folder("series") / "images";
+    write_dicom_series(path, volume);
+    return path;
+  }();
+  return folder;
+}
+
+/// Largest memory so far, in MiB: of this process with its image, and of the largest child.
+void tell_memory(benchmark::State& state) {
+  struct rusage own {
+  }, children{};
+  getrusage(RUSAGE_SELF, &own);
+  getrusage(RUSAGE_CHILDREN, &children);
+  state.counters["own_mib"] = static_cast<double>(own.ru_maxrss) / 1024.0;
+  state.counters["child_mib"] = static_cast<double>(children.ru_maxrss) / 1024.0;
+}
+
+void first_slice_of_a_series(benchmark::State& state) {
+  large_series();
+  for (auto _ : state) benchmark::DoNotOptimize(first_slice(scan_dicom(large_series()).series.at(0)));
+}
+BENCHMARK(first_slice_of_a_series)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+void preview_of_a_series(benchmark::State& state) {
+  const DicomSeries series = scan_dicom(large_series()).series.at(0);
+  for (auto _ : state) benchmark::DoNotOptimize(preview(series));
+}
+BENCHMARK(preview_of_a_series)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+void open_dicom_series(benchmark::State& state) {
+  large_series();
+  for (auto _ : state) {
+    const DicomFolder folder = scan_dicom(large_series());
+    benchmark::DoNotOptimize(read_dicom_series(folder.series.at(0)));
+  }
+  tell_memory(state);
+}
+BENCHMARK(open_dicom_series)->Unit(benchmark::kMillisecond)->UseRealTime()->Iterations(3);
 
 }  // namespace
 }  // namespace ostia::imaging

@@ -113,6 +113,7 @@ struct CtSlice {
   std::string position = "0\\0\\0", orientation = "1\\0\\0\\0\\1\\0", pixel_spacing = "0.5\\0.5",
               thickness = "9";
   std::string slope = "1", intercept = "-1024", instance = "1", photometric = "MONOCHROME2";
+  std::string patient_name = "DOE^JANE", study_date, description, character_set, window_centre, window_width;
   std::string acquisition, trigger_time, temporal_position, content_time, cardiac_percent, frames;
   unsigned rows = 4, columns = 5, samples = 1, bits_allocated = 16, bits_stored = 12, high_bit = 11,
            is_signed = 0;
@@ -140,12 +141,15 @@ struct CtSlice {
     const auto put = [&](std::uint32_t tag, const char* vr, const std::string& text) {
       if (!text.empty()) w.text(tag, vr, text);
     };
+    put(0x00080005u, "CS", character_set);
     put(0x00080008u, "CS", image_type);
     put(0x00080016u, "UI", "1.2.840.10008.5.1.4.1.1.2");
     put(0x00080018u, "UI", sop_instance);
+    put(0x00080020u, "DA", study_date);
     put(0x00080033u, "TM", content_time);
     put(0x00080060u, "CS", modality);
-    put(0x00100010u, "PN", "DOE^JANE");
+    put(0x0008103Eu, "LO", description);
+    put(0x00100010u, "PN", patient_name);
     put(0x00180050u, "DS", thickness);
     put(0x00181060u, "DS", trigger_time);
     put(0x0020000Eu, "UI", series);
@@ -164,6 +168,8 @@ struct CtSlice {
     w.u16(0x00280101u, bits_stored);
     w.u16(0x00280102u, high_bit);
     w.u16(0x00280103u, is_signed);
+    put(0x00281050u, "DS", window_centre);
+    put(0x00281051u, "DS", window_width);
     put(0x00281052u, "DS", intercept);
     put(0x00281053u, "DS", slope);
     if (!streams.empty()) {

@@ -28,16 +28,17 @@ constexpr std::uint32_t kImageType = dicom_tag(0x0008, 0x0008), kSopClass = dico
                         kPixelSpacing = dicom_tag(0x0028, 0x0030), kBitsAllocated = dicom_tag(0x0028, 0x0100),
                         kBitsStored = dicom_tag(0x0028, 0x0101), kHighBit = dicom_tag(0x0028, 0x0102),
                         kPixelRepresentation = dicom_tag(0x0028, 0x0103),
+                        kWindowCentre = dicom_tag(0x0028, 0x1050), kWindowWidth = dicom_tag(0x0028, 0x1051),
                         kIntercept = dicom_tag(0x0028, 0x1052), kSlope = dicom_tag(0x0028, 0x1053);
 
-constexpr std::uint32_t kDataSet[] = {kImageType,      kSopClass,    kSopInstance,         kAcquisitionTime,
-                                      kContentTime,    kModality,    kSeriesDescription,   kTriggerTime,
-                                      kGantryTilt,     kSeriesUid,   kAcquisitionNumber,   kInstanceNumber,
-                                      kPosition,       kOrientation, kTemporalPosition,    kTriggerDelay,
-                                      kCardiacPercent, kSamples,     kPhotometric,         kFrames,
-                                      kRows,           kColumns,     kPixelSpacing,        kBitsAllocated,
-                                      kBitsStored,     kHighBit,     kPixelRepresentation, kIntercept,
-                                      kSlope};
+constexpr std::uint32_t kDataSet[] = {kImageType,      kSopClass,     kSopInstance,         kAcquisitionTime,
+                                      kContentTime,    kModality,     kSeriesDescription,   kTriggerTime,
+                                      kGantryTilt,     kSeriesUid,    kAcquisitionNumber,   kInstanceNumber,
+                                      kPosition,       kOrientation,  kTemporalPosition,    kTriggerDelay,
+                                      kCardiacPercent, kSamples,      kPhotometric,         kFrames,
+                                      kRows,           kColumns,      kPixelSpacing,        kBitsAllocated,
+                                      kBitsStored,     kHighBit,      kPixelRepresentation, kIntercept,
+                                      kSlope,          kWindowCentre, kWindowWidth};
 
 std::string_view trimmed(std::string_view text) {
   const auto blank = [](char c) { return c == ' ' || c == '\0' || c == '\t' || c == '\r' || c == '\n'; };
@@ -151,6 +152,8 @@ void DicomFrame::complete(const DicomFrame& other) {
   if (!pixel_spacing) pixel_spacing = other.pixel_spacing;
   if (!slope) slope = other.slope;
   if (!intercept) intercept = other.intercept;
+  if (!window_centre) window_centre = other.window_centre;
+  if (!window_width) window_width = other.window_width;
   if (!temporal_position) temporal_position = other.temporal_position;
   if (!trigger_time_ms) trigger_time_ms = other.trigger_time_ms;
   if (!cardiac_percent) cardiac_percent = other.cardiac_percent;
@@ -170,6 +173,8 @@ bool DicomAttributes::wanted_in_macro(std::uint32_t macro, std::uint32_t tag) {
       return tag == kPixelSpacing;
     case dicom_tag(0x0028, 0x9145):
       return tag == kIntercept || tag == kSlope;
+    case dicom_tag(0x0028, 0x9132):
+      return tag == kWindowCentre || tag == kWindowWidth;
     case dicom_tag(0x0020, 0x9111):
       return tag == kTemporalIndex;
     case dicom_tag(0x0018, 0x9118):
@@ -198,6 +203,12 @@ bool DicomAttributes::set_frame(DicomFrame& frame, std::uint32_t tag, std::strin
       return true;
     case kIntercept:
       assign(frame.intercept, decimal(tag, "RescaleIntercept", value));
+      return true;
+    case kWindowCentre:  // only a way to show it: a wrong one does not damage the image
+      assign(frame.window_centre, parse_decimal(value.substr(0, value.find('\\'))));
+      return true;
+    case kWindowWidth:
+      assign(frame.window_width, parse_decimal(value.substr(0, value.find('\\'))));
       return true;
     case kTemporalPosition:
       assign(frame.temporal_position, parse_decimal(value));

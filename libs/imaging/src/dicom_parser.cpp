@@ -59,7 +59,7 @@ bool has_long_length(const char* vr) {
 
 class Parser {
  public:
-  explicit Parser(DicomSource& source) : source_(source) {}
+  explicit Parser(DicomSource& source, DicomTexts* texts = nullptr) : source_(source), texts_(texts) {}
 
   DicomAttributes attributes;
 
@@ -155,6 +155,7 @@ class Parser {
   void fragments(std::uint64_t offset);
 
   DicomSource& source_;
+  DicomTexts* texts_;  // wanted besides, or null
   std::vector<Level> levels_;
   std::size_t elements_ = 0;
   bool done_ = false;
@@ -206,6 +207,9 @@ std::uint64_t Parser::enter(const Element& e, std::int64_t frame) {
 void Parser::value(const Element& e) {
   const Level& level = levels_.back();
   const bool at_top = levels_.size() == 1;
+  if (at_top && texts_ != nullptr) {
+    if (const auto found = texts_->find(e.tag); found != texts_->end()) found->second = text(e);
+  }
   const bool for_frame =
       !at_top && level.frame != kNoFrame && DicomAttributes::wanted_in_macro(level.tag, e.tag);
   if (!(at_top ? DicomAttributes::wanted(e.tag) : for_frame)) return;
@@ -336,7 +340,8 @@ constexpr const char* kBigEndian = "1.2.840.10008.1.2.2";
 constexpr const char* kImplicit = "1.2.840.10008.1.2";
 constexpr const char* kExplicit = "1.2.840.10008.1.2.1";
 
-void parse(DicomSource& source, std::uint64_t start, Syntax syntax, bool has_meta, DicomHeader& header) {
+void parse(DicomSource& source, std::uint64_t start, Syntax syntax, bool has_meta, DicomHeader& header,
+           DicomTexts* texts) {
   Parser head(source);
   DicomAttributes attributes;
   std::string damage;
@@ -352,7 +357,7 @@ void parse(DicomSource& source, std::uint64_t start, Syntax syntax, bool has_met
       offset = 0;
     }
     if (declared.empty() || declared == kImplicit) syntax = detected(source, offset, syntax);
-    Parser body(source);
+    Parser body(source, texts);
     try {
       body.data_set(offset, syntax);
     } catch (const DicomDamage& found) {
@@ -378,9 +383,7 @@ void parse(DicomSource& source, std::uint64_t start, Syntax syntax, bool has_met
                                                 : kImplicit;
 }
 
-}  // namespace
-
-std::optional<DicomFile> parse_dicom(DicomSource source) {
+std::optional<DicomFile> parsed(DicomSource source, DicomTexts* texts) {
   char magic[4] = {0, 0, 0, 0};
   Syntax syntax;
   std::uint64_t start = 0;
@@ -400,17 +403,27 @@ std::optional<DicomFile> parse_dicom(DicomSource source) {
     syntax.explicit_vr = upper_case(b[4]) && upper_case(b[5]);
   }
   DicomFile file{std::move(source), {}};
-  parse(file.source, start, syntax, has_meta, file.header);
+  parse(file.source, start, syntax, has_meta, file.header, texts);
   // Without the magic word it takes an attribute that every DICOM object has to believe in it.
   if (!preamble && file.header.sop_class.empty() && file.header.series_uid.empty() && !has_meta)
     return std::nullopt;
   return file;
 }
 
+}  // namespace
+
+std::optional<DicomFile> parse_dicom(DicomSource source) {
+  return parsed(std::move(source), nullptr);
+}
+
 std::optional<DicomFile> parse_dicom(const std::filesystem::path& path) {
   auto file = parse_dicom(DicomSource::file(path));
   if (file) file->header.path = path;
   return file;
+}
+
+bool read_dicom_texts(const std::filesystem::path& path, DicomTexts& wanted) {
+  return parsed(DicomSource::file(path), &wanted).has_value();
 }
 
 }  // namespace ostia::imaging

@@ -12,6 +12,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,6 +25,7 @@ struct DicomFrame {
   std::optional<std::array<double, 6>> orientation;  ///< ImageOrientationPatient: row, then column direction
   std::optional<std::array<double, 2>> pixel_spacing;  ///< mm, between rows, then between columns
   std::optional<double> slope, intercept;              ///< to HU
+  std::optional<double> window_centre, window_width;   ///< in HU, the first pair; unset where either is wrong
   std::optional<double> temporal_position;             ///< TemporalPositionIdentifier or -Index
   std::optional<double> trigger_time_ms;               ///< TriggerTime or NominalCardiacTriggerDelayTime
   std::optional<double> cardiac_percent;               ///< NominalPercentageOfCardiacPhase
@@ -73,6 +75,12 @@ struct DicomFile {
 /// damage. Throws IoError when it cannot be read.
 std::optional<DicomFile> parse_dicom(const std::filesystem::path& path);
 std::optional<DicomFile> parse_dicom(DicomSource source);
+
+/// Texts of the data set itself by their tags, as bytes without padding; for what is shown and never kept.
+using DicomTexts = std::map<std::uint32_t, std::string>;
+/// Fills the texts whose tags `wanted` holds; those that the file lacks, or has beyond a damage, stay as they
+/// are. False when it is not DICOM. Throws IoError.
+bool read_dicom_texts(const std::filesystem::path& path, DicomTexts& wanted);
 
 /// One number of a decimal string: spaces around it, '.' as the decimal point whatever the locale; nothing
 /// for anything else

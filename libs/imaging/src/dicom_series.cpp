@@ -4,6 +4,7 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
+#include "ostia/imaging/archive.h"
 
 #include <algorithm>
 #include <cmath>
@@ -293,12 +294,50 @@ DicomScan scan_dicom_slices(const fs::path& folder_or_file, const DicomReadOptio
   return scan;
 }
 
+DicomSeriesDetail scan_dicom_series(const DicomSeries& series, const DicomReadOptions& options,
+                                    const core::TaskContext& task) {
+  check_options(options);
+  std::vector<fs::path> paths = series.files;
+  std::sort(paths.begin(), paths.end());
+  paths.erase(std::unique(paths.begin(), paths.end()), paths.end());
+  std::error_code error;
+  for (const fs::path& path : paths) {
+    if (!fs::is_regular_file(path, error))
+      throw IoError("'" + path.string() + "' of the series is gone; open its folder again");
+  }
+  for (DicomSeriesDetail& found : series_of(read_headers(paths, task), options)) {
+    const bool same =
+        found.summary.files.size() == series.files.size() &&
+        std::is_permutation(found.summary.files.begin(), found.summary.files.end(), series.files.begin()) &&
+        std::is_permutation(found.summary.frames.begin(), found.summary.frames.end(), series.frames.begin());
+    if (!same) continue;
+    found.summary.uid = series.uid;
+    // What the whole folder told of it (a damaged file of the same series) still holds.
+    for (const std::string& fault : series.faults) {
+      auto& faults = found.summary.faults;
+      const bool cured = options.pixel_spacing_mm || options.slice_spacing_mm;
+      if (!cured && std::find(faults.begin(), faults.end(), fault) == faults.end()) faults.push_back(fault);
+    }
+    return std::move(found);
+  }
+  throw InvalidInput("the files of DICOM series " + series.uid + " have changed; open their folder again");
+}
+
 DicomFolder scan_dicom(const fs::path& folder_or_file, const core::TaskContext& task) {
-  DicomScan scan = scan_dicom_slices(folder_or_file, {}, task);
+  const bool zipped = is_zip_archive(folder_or_file);
+  std::shared_ptr<const UnpackedArchive> archive;
+  if (zipped) {
+    archive = std::make_shared<const UnpackedArchive>(unpack_archive(folder_or_file, {}, task.sub(0.0, 0.7)));
+  }
+  DicomScan scan =
+      scan_dicom_slices(zipped ? archive->folder() : folder_or_file, {}, zipped ? task.sub(0.7, 1.0) : task);
   DicomFolder folder;
   folder.skipped = scan.skipped;
   folder.damaged = std::move(scan.damaged);
-  for (DicomSeriesDetail& series : scan.series) folder.series.push_back(std::move(series.summary));
+  for (DicomSeriesDetail& series : scan.series) {
+    folder.series.push_back(std::move(series.summary));
+    folder.series.back().archive = archive;
+  }
   return folder;
 }
 

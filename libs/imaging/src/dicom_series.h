@@ -42,6 +42,11 @@ struct DicomScan {
 DicomScan scan_dicom_slices(const std::filesystem::path& folder_or_file, const DicomReadOptions& options,
                             const core::TaskContext& task);
 
+/// The series found before, from its own files alone. Throws InvalidInput where these have changed, IoError
+/// where one is gone.
+DicomSeriesDetail scan_dicom_series(const DicomSeries& series, const DicomReadOptions& options,
+                                    const core::TaskContext& task);
+
 // dicom_phases.cpp
 
 /// Slices of one grid that lie on each other, taken apart by phase, time or acquisition.

@@ -7,11 +7,14 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace ostia::imaging {
+
+class UnpackedArchive;
 
 /// One series found in a folder: files that belong to one image, sorted by position. Nothing of the patient's
 /// identity but for what is shown on the terminal (`description`).
@@ -28,6 +31,8 @@ struct DicomSeries {
   std::vector<std::string>
       faults;  ///< why it cannot be read (no position, no pixel spacing, duplicates); empty if it can
   bool uneven = false;  ///< a slice missing or distances off by more than 0.2 mm: needs consent to resample
+  /// Where the files were unpacked from a zip: they vanish with the last copy of this.
+  std::shared_ptr<const UnpackedArchive> archive;
 };
 
 /// All series below a folder (or the one that a file belongs to), largest first. Files that are not DICOM
@@ -38,8 +43,9 @@ struct DicomFolder {
   std::vector<std::string>
       damaged;  ///< files that are DICOM but broken, and of no series found: what is wrong with each
 };
-/// Throws IoError where nothing can be read, InvalidInput for a single file that is no DICOM image or is
-/// damaged.
+/// A zip archive (by its first bytes) is unpacked safely first (imaging/archive.h). Throws IoError where
+/// nothing can be read, InvalidInput for a single file that is no DICOM image or is damaged, and what
+/// unpack_archive throws.
 DicomFolder scan_dicom(const std::filesystem::path& folder_or_file,
                        const core::TaskContext& task = core::no_task());
 
@@ -52,10 +58,16 @@ struct DicomReadOptions {
 };
 
 /// The image in HU on a right-handed orthonormal grid: rescaled slice by slice, tilt corrected by resampling,
-/// voxels decoded in a child process. Throws InvalidInput naming the file and the attribute.
+/// voxels decoded in a child process. From a folder, a file of the series, or a zip archive. Throws
+/// InvalidInput naming the file and the attribute.
 LoadedImage<std::int16_t> read_dicom(const std::filesystem::path& folder_or_file,
                                      const DicomReadOptions& options = {},
                                      const core::TaskContext& task = core::no_task());
+
+/// The same for a series that scan_dicom found, from its own files alone: quick where a folder holds many.
+/// Throws also IoError where a file is gone.
+LoadedImage<std::int16_t> read_dicom_series(const DicomSeries& series, const DicomReadOptions& options = {},
+                                            const core::TaskContext& task = core::no_task());
 
 /// The child's side: decodes the listed files' pixel data into one raw file of stored values. For apps/worker
 /// alone. Returns an exit code; what went wrong, and with which file, is on stderr.

@@ -1,0 +1,100 @@
+#include "dicom_shown.h"
+
+#include "dicom_attributes.h"
+#include "dicom_parser.h"
+
+#include <algorithm>
+
+namespace ostia::imaging {
+namespace {
+
+constexpr std::uint32_t kCharacterSet = dicom_tag(0x0008, 0x0005), kStudyDate = dicom_tag(0x0008, 0x0020),
+                        kSeriesDescription = dicom_tag(0x0008, 0x103E),
+                        kPatientName = dicom_tag(0x0010, 0x0010);
+constexpr std::size_t kLongest = 256;
+
+/// Length of a sound UTF-8 sequence at `at`, or 0.
+std::size_t sequence(std::string_view text, std::size_t at) {
+  const auto first = static_cast<unsigned char>(text[at]);
+  const std::size_t length = first < 0x80       ? 1
+                             : first >> 5 == 6  ? 2
+                             : first >> 4 == 14 ? 3
+                             : first >> 3 == 30 ? 4
+                                                : 0;
+  if (length == 0 || at + length > text.size()) return 0;
+  for (std::size_t n = 1; n < length; ++n)
+    if (static_cast<unsigned char>(text[at + n]) >> 6 != 2) return 0;
+  return length;
+}
+
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+}  // namespace
+
+std::string shown_text(std::string_view bytes, std::string_view character_set) {
+  const bool latin = character_set.find("ISO_IR 100") != std::string_view::npos ||
+                     character_set.find("ISO 2022 IR 100") != std::string_view::npos;
+  const bool utf8 = character_set.find("ISO_IR 192") != std::string_view::npos;
+  bytes = bytes.substr(0, kLongest);
+  std::string result;
+  for (std::size_t i = 0; i < bytes.size();) {
+    const auto c = static_cast<unsigned char>(bytes[i]);
+    std::size_t used = 1;
+    if (c < 0x20 || c == 0x7F) {
+      result += ' ';
+    } else if (c < 0x80) {
+      result += bytes[i];
+    } else if (utf8 && sequence(bytes, i) > 0) {
+      used = sequence(bytes, i);
+      result += bytes.substr(i, used);
+    } else if (latin && c >= 0xA0) {
+      result += static_cast<char>(0xC0 | c >> 6);
+      result += static_cast<char>(0x80 | (c & 0x3F));
+    } else {
+      result += '?';
+    }
+    i += used;
+  }
+  while (!result.empty() && result.back() == ' ') result.pop_back();
+  result.erase(0, std::min(result.find_first_not_of(' '), result.size()));
+  return result;
+}
+
+std::string shown_name(std::string_view bytes, std::string_view character_set) {
+  const std::string text = shown_text(bytes.substr(0, bytes.find('=')), character_set);
+  std::string family = text.substr(0, text.find('^'));
+  std::string given;
+  if (family.size() < text.size()) given = text.substr(family.size() + 1);
+  std::replace(given.begin(), given.end(), '^', ' ');
+  while (!given.empty() && given.back() == ' ') given.pop_back();
+  if (given.empty()) return family;
+  return family.empty() ? given : family + ", " + given;
+}
+
+std::string shown_date(std::string_view text) {
+  std::string digits;
+  for (const char c : text) {
+    if (is_digit(c)) {
+      digits += c;
+    } else if (c != '.' && c != ' ') {
+      return {};
+    }
+  }
+  if (digits.size() != 8) return {};
+  return digits.substr(0, 4) + "-" + digits.substr(4, 2) + "-" + digits.substr(6, 2);
+}
+
+ShownIdentity shown_identity(const std::filesystem::path& dicom_file) {
+  DicomTexts texts{{kCharacterSet, {}}, {kStudyDate, {}}, {kSeriesDescription, {}}, {kPatientName, {}}};
+  ShownIdentity shown;
+  if (!read_dicom_texts(dicom_file, texts)) return shown;
+  const std::string& set = texts[kCharacterSet];
+  shown.patient_name = shown_name(texts[kPatientName], set);
+  shown.study_date = shown_date(texts[kStudyDate]);
+  shown.series_description = shown_text(texts[kSeriesDescription], set);
+  return shown;
+}
+
+}  // namespace ostia::imaging

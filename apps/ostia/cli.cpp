@@ -6,6 +6,7 @@
 #include "experiment.h"
 #include "lumen.h"
 #include "progress_bar.h"
+#include "report.h"
 
 #include "ostia/core/log.h"
 #include "ostia/core/parallel.h"
@@ -36,6 +37,7 @@ struct Commands {
   ExperimentCommand experiment;
   LumenModelCommand lumen;
   ReplayCommand replay;
+  ReportCommand report;
 };
 
 void add_common(CLI::App& app, CommonOptions& o) {
@@ -188,6 +190,7 @@ void define(CLI::App& app, Commands& c, Run& run) {
   define_evaluate(app, c.evaluate, run);
   define_experiment(app, c.experiment, c.common.seed, run);
   define_lumen(app, c.lumen, c.replay, run);
+  define_report(app, c.report, run);
 
   CLI::App* segment = command(app, "segment", "The lumen of the vessels between seed points",
                               "ostia segment heart.nrrd -o lumen.vtp --branch 8,-187,675:6,-178,720");
@@ -277,7 +280,8 @@ void keep_paths_out_of_the_log(const Commands& c) {
         c.experiment.suite,   c.experiment.output, c.evaluate.tolerance, c.lumen.input,
         c.lumen.output,       c.lumen.edits,       c.lumen.image,        c.lumen.surface,
         c.lumen.contours,     c.lumen.case_output, c.lumen.lines_output, c.replay.start,
-        c.replay.input,       c.replay.output}) {
+        c.replay.input,       c.replay.output,     c.report.input,       c.report.image,
+        c.report.output}) {
     core::redact_in_logs(path.string(), "FILE");
     core::redact_in_logs(path.parent_path().string(), "FOLDER");
   }

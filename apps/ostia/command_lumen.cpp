@@ -1,5 +1,4 @@
 #include "edit_script.h"
-#include "image_walls.h"
 #include "lumen.h"
 #include "outputs.h"
 
@@ -11,6 +10,7 @@
 #include "ostia/io/surface_file.h"
 #include "ostia/lumen/start_surface.h"
 #include "ostia/lumen/tree_surface.h"
+#include "ostia/pipeline/image_walls.h"
 #include "ostia/pipeline/source.h"
 
 #include <nlohmann/json.hpp>
@@ -134,7 +134,7 @@ LumenModel model_about(const geometry::VesselTree& tree, const LumenModelCommand
                        const pipeline::Source& image, const lumen::SamplingOptions& sampling,
                        const core::TaskContext& task) {
   if (start == "image")
-    return lumen::model_of_walls(tree, walls_from_image(tree, *image.image, task), sampling);
+    return lumen::model_of_walls(tree, pipeline::walls_from_image(tree, *image.image, task), sampling);
   if (start == "surface") {
     const io::LoadedSurface loaded = io::read_surface(o.surface);
     for (const std::string& warning : loaded.warnings) core::log_warning(warning);

@@ -125,6 +125,25 @@ class Schemas(unittest.TestCase):
                 with self.subTest(field):
                     self.assert_refused(name, broken)
 
+    def test_case_report(self):
+        holder = pathlib.Path(self.holder.name)
+        (holder / "tube.csv").write_text("x,y,z,radius\n" + "".join(f"0,0,{0.5 * i},{0.7 if 24 <= i <= 26 else 1.5}\n" for i in range(49)))
+        run("lumen", holder / "tube.csv", "-o", holder / "tube.stl", "--case", holder / "tube.ostia")
+        report = json.loads(run("report", holder / "tube.ostia", "-o", holder / "report", "--json"))
+        validator("case-report").validate(report)
+        validator("manifest").validate(json.loads((holder / "report" / "manifest.json").read_text()))
+        self.assertTrue(report["stenoses"])
+        for field in report:
+            broken = copy.deepcopy(report)
+            del broken[field]
+            with self.subTest(field):
+                self.assert_refused("case-report", broken)
+        for field, value in (("cad_rads", "6"), ("number", 0), ("diameter_percent", 101)):
+            broken = copy.deepcopy(report)
+            broken["stenoses"][0][field] = value
+            with self.subTest(field):
+                self.assert_refused("case-report", broken)
+
     def test_broken_documents_fail(self):
         for field in self.report:
             broken = copy.deepcopy(self.report)

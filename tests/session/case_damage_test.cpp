@@ -43,7 +43,11 @@ class CaseDamage : public ::testing::Test {
       file.apply(ring(10.0, 1.8));
       file.apply(renamed("two"));
       file.undo();
+      file.annotate(added(analysis::MeasureKind::distance));
+      file.annotate(added(analysis::MeasureKind::stenosis));
+      file.annotate(marked("calcified"));
       file.set_setting("window", "700/300");
+      annotations = text_of(*file.annotations());
       for (const lumen::Edit& edit : file.edits()) edits.push_back(lumen::op_name(edit));
       digest = lumen::digest(*file.model());
     }
@@ -51,7 +55,7 @@ class CaseDamage : public ::testing::Test {
   }
   TempFolder folder;
   fs::path path = folder / "a.ostia";
-  std::string bytes, digest;
+  std::string bytes, digest, annotations;
   std::vector<std::string> edits;
 };
 
@@ -88,16 +92,41 @@ TEST_F(CaseDamage, TruncatedFilesAreRefused) {
 }
 
 TEST_F(CaseDamage, RowsThatWereTamperedWithAreRefused) {
-  for (const char* change :
-       {"UPDATE sample SET s_mm = s_mm + 1e-9 WHERE id = 20", "DELETE FROM sample WHERE id = 20",
-        "UPDATE sample SET vessel = 99 WHERE id = 20", "UPDATE model SET next_sample_id = 5",
-        "UPDATE vessel SET name = 'x'", "DELETE FROM model", "DELETE FROM journal WHERE number = 2",
-        "UPDATE journal SET parameters = '{}' WHERE number = 2",
-        "UPDATE journal SET state = 0 WHERE number = 3", "DELETE FROM content",
-        "UPDATE content SET zlib = x'00'", "UPDATE image SET pseudonym = 'x'",
-        "UPDATE setting SET value = 'x'", "UPDATE vessel SET kernel = 'x'",
-        "UPDATE segment SET points = x'00'",
-        "CREATE TRIGGER t AFTER INSERT ON journal BEGIN DELETE FROM sample; END"}) {
+  for (const char* change : {"UPDATE sample SET s_mm = s_mm + 1e-9 WHERE id = 20",
+                             "DELETE FROM sample WHERE id = 20",
+                             "UPDATE sample SET vessel = 99 WHERE id = 20",
+                             "UPDATE model SET next_sample_id = 5",
+                             "UPDATE vessel SET name = 'x'",
+                             "DELETE FROM model",
+                             "DELETE FROM journal WHERE number = 2",
+                             "UPDATE journal SET parameters = '{}' WHERE number = 2",
+                             "UPDATE journal SET state = 0 WHERE number = 3",
+                             "DELETE FROM content",
+                             "UPDATE content SET zlib = x'00'",
+                             "UPDATE image SET pseudonym = 'x'",
+                             "UPDATE setting SET value = 'x'",
+                             "UPDATE vessel SET kernel = 'x'",
+                             "UPDATE segment SET points = x'00'",
+                             "UPDATE measurement SET from_mm = from_mm + 1e-9 WHERE id = 1",
+                             "DELETE FROM measurement WHERE id = 2",
+                             "UPDATE measurement SET kind = 'x'",
+                             "UPDATE measurement SET name = 'x'",
+                             "UPDATE measurement SET points = x'00' WHERE id = 1",
+                             "UPDATE measurement SET id = -5 WHERE id = 1",
+                             "INSERT INTO measurement SELECT 9, kind, name, points, vessel, 0, 0, 0, 0 FROM "
+                             "measurement WHERE id = 1",
+                             "UPDATE measurement SET vessel = 3000000000 WHERE id = 1",
+                             "UPDATE mark SET note = 'x'",
+                             "UPDATE mark SET color = x'00'",
+                             "UPDATE mark SET checked = 7",
+                             "UPDATE mark SET visible = 1",
+                             "DELETE FROM mark",
+                             "UPDATE annotation SET next_measurement_id = 7",
+                             "UPDATE annotation SET checksum = checksum + 1",
+                             "DELETE FROM annotation",
+                             "DROP TABLE mark",
+                             "UPDATE journal SET op = 'cpr.stroke' WHERE op = 'vessel.mark'",
+                             "CREATE TRIGGER t AFTER INSERT ON journal BEGIN DELETE FROM sample; END"}) {
     write_bytes(path, bytes);
     sql(path, change);
     EXPECT_THAT(refusal(path), ::testing::Not("opened")) << change;
@@ -122,6 +151,7 @@ TEST_F(CaseDamage, AnyDamagedByteIsSeenOrDoesNotMatter) {
       std::vector<std::string> found;
       for (const lumen::Edit& edit : file.edits()) found.push_back(lumen::op_name(edit));
       EXPECT_EQ(found, edits) << "at " << at;
+      EXPECT_EQ(text_of(*file.annotations()), annotations) << "at " << at;
       ++opened;
     } catch (const Error& e) {
       EXPECT_NE(e.exit_code(), ExitCode::internal) << "at " << at << ": " << e.what();
@@ -137,6 +167,7 @@ TEST_F(CaseDamage, ADamagedWalLosesOnlyItsEnd) {
   // What a crash leaves: the file as it was, and a WAL with commits that are not in it yet.
   CaseFile file = CaseFile::open(path);
   file.apply(renamed("three"));
+  file.annotate(marked("looked at"));
   const std::string main = bytes_of_file(path), wal = bytes_of_file(path.string() + "-wal");
   ASSERT_GT(wal.size(), 1000U);
   const fs::path copy = folder / "copy.ostia";
@@ -146,7 +177,10 @@ TEST_F(CaseDamage, ADamagedWalLosesOnlyItsEnd) {
       write_bytes(copy, main);
       write_bytes(copy.string() + "-wal", wal.substr(0, size));
       const CaseFile opened = CaseFile::open(copy, mode);
-      EXPECT_EQ(opened.model()->tree.vessels[0].name, size == wal.size() ? "three" : "LAD") << size;
+      const bool renamed = opened.model()->tree.vessels[0].name == "three";
+      const bool noted = opened.annotations()->marks[0].note == "looked at";
+      EXPECT_EQ(noted, size == wal.size()) << size;  // the last commit
+      EXPECT_EQ(renamed, size >= wal.size() - 1) << size;
     }
   }
 }

@@ -98,7 +98,7 @@ TEST(CaseFile, UndoBringsBackADeletedBranch) {
   const auto undone = file.undo();
   ASSERT_TRUE(undone);
   EXPECT_EQ(digest(*file.model()), before);
-  EXPECT_TRUE(std::any_of(undone->changes.begin(), undone->changes.end(), [&](const auto& change) {
+  EXPECT_TRUE(std::any_of(undone->edit.changes.begin(), undone->edit.changes.end(), [&](const auto& change) {
     return change.vessel == vessel && change.axis_changed && !change.added.empty();
   }));
   ASSERT_TRUE(file.redo());

@@ -4,10 +4,12 @@
 #include "vessel_trees.h"
 
 #include "ostia/lumen/start_surface.h"
+#include "ostia/session/annotation_json.h"
 #include "ostia/session/case_file.h"
 
 #include <unistd.h>
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -94,6 +96,52 @@ inline std::vector<lumen::Edit> one_of_each() {
           lumen::BranchDelete{2147483647},
           lumen::BranchAttach{11, 12, c},
           lumen::VesselRename{13, "D1"}};
+}
+
+/// A measurement of a kind, with numbers that are hard to write. Its id is the case's to give.
+inline analysis::Measurement measurement(analysis::MeasureKind kind, std::int32_t vessel = tube_vessel) {
+  using analysis::MeasureKind;
+  analysis::Measurement made;
+  made.kind = kind;
+  made.name = "Proximal \"\xC3\xA9\"";
+  const geometry::Vec3 a(0.1, -1.0 / 3.0, 10.0), b(-0.0, 1.5, 10.0), c(1.0, 0.3, 11.0);
+  if (kind == MeasureKind::distance || kind == MeasureKind::diameter) made.points = {a, b};
+  if (kind == MeasureKind::angle || kind == MeasureKind::area) made.points = {a, b, c};
+  if (made.points.empty() || kind == MeasureKind::diameter) made.vessel = vessel;
+  made.from_mm = 5.0 + 1.0 / 7.0;
+  made.to_mm = kind == MeasureKind::ring_hu ? made.from_mm : 20.1;
+  made.inner_mm = 0.3;
+  made.outer_mm = 2.7;
+  return made;
+}
+inline constexpr std::array<analysis::MeasureKind, 7> all_kinds{
+    analysis::MeasureKind::distance, analysis::MeasureKind::angle,    analysis::MeasureKind::area,
+    analysis::MeasureKind::diameter, analysis::MeasureKind::stenosis, analysis::MeasureKind::volume,
+    analysis::MeasureKind::ring_hu};
+
+inline MeasureAdd added(analysis::MeasureKind kind, std::int32_t vessel = tube_vessel) {
+  return {measurement(kind, vessel)};
+}
+
+/// The measurement `id` of a case, its second point moved to x.
+inline MeasureChange moved(const CaseFile& file, std::int32_t id, double x) {
+  MeasureChange change{*find_measurement(*file.annotations(), id)};
+  change.measurement.points.at(1).x() = x;
+  return change;
+}
+
+inline MarkVessel marked(const std::string& note, bool checked = true, std::int32_t vessel = tube_vessel) {
+  return {{vessel, false, checked, std::array{0.1, 1.0 / 3.0, 1.0}, note}};
+}
+
+/// All of the annotations as text, to the last bit.
+inline std::string text_of(const Annotations& annotations) {
+  std::string text = std::to_string(annotations.next_measurement_id) + "\n";
+  for (const analysis::Measurement& one : annotations.measurements)
+    text += to_json(AnnotationCommand(MeasureChange{one})) + "\n";
+  for (const VesselMark& mark : annotations.marks)
+    text += to_json(AnnotationCommand(MarkVessel{mark})) + "\n";
+  return text;
 }
 
 inline std::string bytes_of_file(const fs::path& path) {

@@ -16,10 +16,36 @@
 
 namespace ostia::session::testing {
 
-/// The i-th command of a session: edits of the wall and of the name, some undone, some redone.
+/// The i-th annotation: added, marked or deleted; each is one commit.
+inline void annotation(CaseFile& file, int i) {
+  const auto& measurements = file.annotations()->measurements;
+  switch (i / 7 % 4) {
+    case 0:
+      file.annotate_merged(added(analysis::MeasureKind::distance), i);
+      break;
+    case 1:
+      file.annotate(marked("seen " + std::to_string(i)));
+      break;
+    case 2:
+      file.annotate(added(analysis::MeasureKind::stenosis));
+      break;
+    default:
+      if (!measurements.empty()) file.annotate(MeasureDelete{measurements.front().id});
+      break;
+  }
+}
+
+/// Drags the last measurement on; one step with its making where that was the command before.
+inline void dragging(CaseFile& file, int i) {
+  const auto& measurements = file.annotations()->measurements;
+  if (measurements.empty() || measurements.back().points.empty()) return;
+  file.annotate_merged(moved(file, measurements.back().id, 0.1 * i), i - 1);
+}
+
+/// The i-th command of a session: edits of the wall and of the name, annotations, some undone, some redone.
 inline void command(CaseFile& file, int i) {
   const double s = 4.0 + (i * 7) % 22;
-  switch (i % 5) {
+  switch (i % 7) {
     case 0:
       file.apply(ring(s, 1.3 + 0.02 * (i % 20)));
       break;
@@ -30,6 +56,12 @@ inline void command(CaseFile& file, int i) {
       file.apply(renamed("LAD " + std::to_string(i)));
       break;
     case 3:
+      annotation(file, i);
+      break;
+    case 4:
+      dragging(file, i);
+      break;
+    case 5:
       file.undo();
       break;
     default:
@@ -110,10 +142,11 @@ inline void expect_nothing_lost(int kills, int commands) {
     const fs::path other = folder / ("other" + std::to_string(k) + ".ostia");
     CaseFile expected = CaseFile::create(other, tube_model());
     for (int i = 0; i < returned; ++i) command(expected, i);
-    const std::string found = lumen::digest(*file.model());
-    const auto as_expected = [&] {
-      return found == lumen::digest(*expected.model()) && file.journal().size() == expected.journal().size();
+    const auto state = [](const CaseFile& of) {
+      return lumen::digest(*of.model()) + text_of(*of.annotations()) + std::to_string(of.journal().size());
     };
+    const std::string found = state(file);
+    const auto as_expected = [&] { return found == state(expected); };
     bool same = as_expected();
     if (!same && returned < commands) {
       command(expected, returned);

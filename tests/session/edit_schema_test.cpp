@@ -1,77 +1,25 @@
 // docs/schemas/edit.schema.json against what is written and read: neither may know what the other does not.
 
 #include "case_tools.h"
+#include "schema_rules.h"
 
 #include "ostia/core/error.h"
-#include "ostia/core/files.h"
 #include "ostia/session/edit_json.h"
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <set>
 
 namespace ostia::session {
 namespace {
 
-using Json = nlohmann::json;
+using testing::Json;
+using testing::names_in;
+using testing::Schema;
 
-const Json& schema() {
-  static const Json loaded =
-      Json::parse(core::read_file(std::filesystem::path(OSTIA_SCHEMAS) / "edit.schema.json"));
+const Schema& schema() {
+  static const Schema loaded("edit.schema.json");
   return loaded;
-}
-
-const Json& resolved(const Json& part) {
-  const auto reference = part.find("$ref");
-  return reference == part.end() ? part
-                                 : schema().at(Json::json_pointer(reference->get<std::string>().substr(1)));
-}
-
-bool has_type(const Json& value, const std::string& type) {
-  if (type == "object") return value.is_object();
-  if (type == "array") return value.is_array();
-  if (type == "string") return value.is_string();
-  if (type == "boolean") return value.is_boolean();
-  if (type == "integer") return value.is_number_integer();
-  return type == "number" && value.is_number();
-}
-
-bool rule_holds(const std::string& rule, const Json& wanted, const Json& value);
-
-bool is_valid(const Json& part, const Json& value) {
-  const Json& rules = resolved(part);
-  if (rules.contains("type") && !has_type(value, rules["type"])) return false;
-  return std::all_of(rules.items().begin(), rules.items().end(), [&](const auto& rule) {
-    if (rule.key() == "additionalProperties")
-      return std::all_of(value.items().begin(), value.items().end(),
-                         [&](const auto& field) { return rules["properties"].contains(field.key()); });
-    return rule_holds(rule.key(), rule.value(), value);
-  });
-}
-
-/// The rules that the schema uses; one that it begins to use and this does not know is a failure.
-bool rule_holds(const std::string& rule, const Json& wanted, const Json& value) {
-  if (rule == "description" || rule == "default" || rule == "type") return true;
-  if (rule == "const") return value == wanted;
-  if (rule == "enum") return std::find(wanted.begin(), wanted.end(), value) != wanted.end();
-  if (rule == "minimum") return value >= wanted;
-  if (rule == "exclusiveMinimum") return value > wanted;
-  if (rule == "maximum") return value <= wanted;
-  if (rule == "minItems") return value.size() >= wanted.get<std::size_t>();
-  if (rule == "maxItems") return value.size() <= wanted.get<std::size_t>();
-  if (rule == "minLength") return value.get<std::string>().size() >= wanted.get<std::size_t>();
-  if (rule == "items")
-    return std::all_of(value.begin(), value.end(), [&](const Json& item) { return is_valid(wanted, item); });
-  if (rule == "required")
-    return std::all_of(wanted.begin(), wanted.end(), [&](const Json& name) { return value.contains(name); });
-  if (rule == "properties")
-    return std::all_of(value.items().begin(), value.items().end(), [&](const auto& field) {
-      return !wanted.contains(field.key()) || is_valid(wanted[field.key()], field.value());
-    });
-  ADD_FAILURE() << "an unknown rule " << rule;
-  return false;
 }
 
 bool is_read(const Json& line) {
@@ -83,25 +31,20 @@ bool is_read(const Json& line) {
   }
 }
 
-std::set<std::string> names_in(const Json& object) {
-  std::set<std::string> names;
-  for (const auto& [name, value] : object.items()) names.insert(name);
-  return names;
-}
-
 TEST(EditSchema, KnowsEveryEditAndEveryFieldThatIsWritten) {
   std::set<std::string> listed, written;
-  for (const Json& one : schema()["oneOf"]) listed.insert(resolved(one)["properties"]["op"]["const"]);
+  for (const Json& one : schema()["oneOf"])
+    listed.insert(schema().resolved(one)["properties"]["op"]["const"]);
   for (const lumen::Edit& edit : testing::one_of_each()) {
     const std::string op = lumen::op_name(edit);
     SCOPED_TRACE(op);
     written.insert(op);
     const Json line = Json::parse(to_json(edit));
-    const Json& kind = schema()["$defs"][op];
-    EXPECT_TRUE(is_valid(kind, line));
+    const Json& kind = schema().definition(op);
+    EXPECT_TRUE(schema().is_valid(kind, line));
     EXPECT_EQ(names_in(kind["properties"]), names_in(line));
     for (const Json& other : schema()["oneOf"]) {
-      EXPECT_EQ(is_valid(other, line), &resolved(other) == &kind);
+      EXPECT_EQ(schema().is_valid(other, line), &schema().resolved(other) == &kind);
     }
   }
   EXPECT_EQ(listed, written);
@@ -110,18 +53,18 @@ TEST(EditSchema, KnowsEveryEditAndEveryFieldThatIsWritten) {
 TEST(EditSchema, AsksForWhatTheReaderAsksFor) {
   for (const lumen::Edit& edit : testing::one_of_each()) {
     const Json whole = Json::parse(to_json(edit));
-    const Json& kind = schema()["$defs"][lumen::op_name(edit)];
+    const Json& kind = schema().definition(lumen::op_name(edit));
     for (const std::string& field : names_in(whole)) {
       SCOPED_TRACE(lumen::op_name(edit) + " " + field);
       Json without = whole;
       without.erase(field);
-      EXPECT_EQ(is_valid(kind, without), is_read(without));
+      EXPECT_EQ(schema().is_valid(kind, without), is_read(without));
       for (const Json& wrong :
            {Json(), Json("x"), Json(-1), Json(0.5), Json::array({1, 2}), Json::object()}) {
         Json broken = whole;
         broken[field] = wrong;
         // Ranges are the model's to judge: what is not valid may be read, but never the other way round.
-        if (is_valid(kind, broken)) {
+        if (schema().is_valid(kind, broken)) {
           EXPECT_TRUE(is_read(broken)) << wrong;
         }
         if (wrong.is_null() || wrong.is_object()) {
@@ -131,7 +74,7 @@ TEST(EditSchema, AsksForWhatTheReaderAsksFor) {
     }
     Json more = whole;
     more["pixels"] = 1;
-    EXPECT_FALSE(is_valid(kind, more));
+    EXPECT_FALSE(schema().is_valid(kind, more));
     EXPECT_FALSE(is_read(more));
   }
 }
@@ -140,7 +83,7 @@ TEST(EditSchema, HasTheDefaultsOfTheProgram) {
   int defaults = 0;
   for (const lumen::Edit& edit : testing::one_of_each()) {
     const Json whole = Json::parse(to_json(edit));
-    for (const auto& [field, rules] : schema()["$defs"][lumen::op_name(edit)]["properties"].items()) {
+    for (const auto& [field, rules] : schema().definition(lumen::op_name(edit))["properties"].items()) {
       if (!rules.contains("default")) continue;
       ++defaults;
       Json without = whole;
@@ -159,7 +102,7 @@ TEST(EditSchema, ItsRangesAreTheModels) {
     line["v"] = 1;
     line["op"] = op;
     line["vessel"] = testing::tube_vessel;
-    EXPECT_FALSE(is_valid(schema()["$defs"][op], line)) << line;
+    EXPECT_FALSE(schema().is_valid(schema().definition(op), line)) << line;
     try {
       lumen::apply(model, edit_of_json(line.dump()));
     } catch (const InvalidInput& e) {

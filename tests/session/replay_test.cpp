@@ -20,7 +20,9 @@ TEST(Replay, GivesTheStoredModelToTheLastBit) {
   file.apply(renamed("dropped"));
   file.undo();
   for (const double by : {0.1, 0.3}) file.apply_merged(drag(20.0, by));
+  file.annotate(added(analysis::MeasureKind::stenosis));  // not replayed
   file.apply(lumen::AxisTrim{tube_vessel, 27.0});
+  file.annotate(marked("trimmed"));
   file.apply(ring(5.0, 1.1));
   file.undo();
   const ReplayReport report = replay(file);

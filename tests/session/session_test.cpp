@@ -40,5 +40,52 @@ TEST(Session, WhatCannotBeCommittedIsNotShown) {
   EXPECT_EQ(lumen::digest(session.live().model()), before);
 }
 
+TEST(Session, AnnotationsAndEditsAreUndoneInOneOrder) {
+  const TempFolder folder;
+  Session session(CaseFile::create(folder / "a.ostia", tube_model()));
+  const auto noted = session.annotate(added(analysis::MeasureKind::distance));
+  EXPECT_FALSE(noted.edited);
+  EXPECT_EQ(noted.annotations.measurements, std::vector<std::int32_t>{1});
+  EXPECT_TRUE(noted.change.box.isEmpty());
+  EXPECT_TRUE(session.apply(ring(10.0, 1.9)).edited);
+  session.annotate_merged(moved(session.file(), 1, 2.0), 1);
+  session.annotate_merged(moved(session.file(), 1, 3.0), 1);
+  auto undone = session.undo();
+  ASSERT_TRUE(undone);
+  EXPECT_FALSE(undone->edited);
+  EXPECT_TRUE(undone->change.box.isEmpty());
+  EXPECT_EQ(undone->annotations.measurements, std::vector<std::int32_t>{1});
+  undone = session.undo();
+  EXPECT_TRUE(undone->edited);
+  EXPECT_FALSE(undone->change.box.isEmpty());
+  EXPECT_TRUE(undone->annotations.empty());
+  EXPECT_TRUE(session.undo());
+  EXPECT_FALSE(session.undo());
+  EXPECT_EQ(lumen::digest(session.live().model()), lumen::digest(tube_model()));
+}
+
+TEST(Session, AJumpIsSolvedOnce) {
+  const TempFolder folder;
+  Session session(CaseFile::create(folder / "a.ostia", tube_model()));
+  session.apply(ring(10.0, 1.9));
+  session.annotate(marked("seen"));
+  session.apply(ring(20.0, 1.2));
+  session.apply(lumen::AxisTrim{tube_vessel, 27.0});
+  const std::string last = lumen::digest(session.live().model());
+  const auto back = session.go_to_step(1);
+  ASSERT_TRUE(back);
+  EXPECT_TRUE(back->edited);
+  EXPECT_EQ(back->annotations.marks, std::vector<std::int32_t>{tube_vessel});
+  EXPECT_EQ(back->outcome.changes.size(), 1U);
+  EXPECT_EQ(lumen::digest(session.live().model()), lumen::digest(tube_model()));
+  const lumen::LiveModel fresh(session.file().model());
+  for (const double z : {9.0, 15.0, 20.0, 29.0})
+    EXPECT_NEAR(session.live().field()->value({1.4, 0.2, z}), fresh.field()->value({1.4, 0.2, z}), 1e-6);
+  ASSERT_TRUE(session.go_to_step(5));
+  EXPECT_EQ(lumen::digest(session.live().model()), last);
+  EXPECT_FALSE(session.go_to_step(5));
+  EXPECT_THROW(session.go_to_step(7), InvalidInput);
+}
+
 }  // namespace
 }  // namespace ostia::session

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 
 namespace ostia::analysis {
 namespace {
@@ -166,7 +167,24 @@ ReferenceLine reference_line(const LumenProfile& profile, const std::vector<doub
   for (const double s : branches_mm) {
     if (!std::isfinite(s)) throw InvalidInput("a branch leaves at an abscissa that is not finite");
   }
-  return {Line(profile, branches_mm, options.window_mm).found()};
+  const std::size_t n = profile.sections.size();
+  const double step = profile.length_mm / static_cast<double>(n - 1);
+  const double first_own = std::ceil(options.own_from_mm / step - 1e-9);
+  if (!(first_own >= 2.0 && first_own + 2.0 <= static_cast<double>(n)))
+    return {Line(profile, branches_mm, options.window_mm).found()};
+  const auto own = static_cast<std::size_t>(first_own);
+  ReferenceLine whole;
+  for (const auto& [begin, end] : {std::pair(std::size_t{0}, own), std::pair(own, n)}) {
+    LumenProfile part;
+    part.length_mm = step * static_cast<double>(end - begin - 1);
+    part.sections.assign(profile.sections.begin() + static_cast<std::ptrdiff_t>(begin),
+                         profile.sections.begin() + static_cast<std::ptrdiff_t>(end));
+    std::vector<double> branches;
+    for (const double s : branches_mm) branches.push_back(s - step * static_cast<double>(begin));
+    const std::vector<double> line = Line(part, branches, options.window_mm).found();
+    whole.diameter_mm.insert(whole.diameter_mm.end(), line.begin(), line.end());
+  }
+  return whole;
 }
 
 std::vector<double> branch_abscissas(const lumen::LumenModel& model, std::int32_t vessel) {

@@ -179,9 +179,10 @@ void Canvas::image(const Raster& raster, double x, double y, double width, doubl
   cairo_restore(context_);
 }
 
-void Canvas::picture(const Picture& picture, double x, double y) {
+void Canvas::picture(const Picture& picture, double x, double y, double scale) {
   cairo_save(context_);
   cairo_translate(context_, x, y);
+  cairo_scale(context_, scale, scale);
   picture.drawing().replay(context_);
   cairo_restore(context_);
 }

@@ -42,7 +42,7 @@ class Canvas {
   void text(const Vec2& at, const std::string& text, const TextStyle& style);
   static Vec2 text_size(const std::string& text, double size_px, bool bold = false);
   void image(const Raster& raster, double x, double y, double width, double height);
-  void picture(const Picture& picture, double x, double y);
+  void picture(const Picture& picture, double x, double y, double scale = 1.0);
 
   /// Draws within a rectangle only, for as long as it lives.
   class Clip {

@@ -1,4 +1,4 @@
-#include "image_walls.h"
+#include "ostia/pipeline/image_walls.h"
 
 #include "ostia/core/log.h"
 #include "ostia/lumen/lumen_model.h"
@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <memory>
 
-namespace ostia::app {
+namespace ostia::pipeline {
 namespace {
 
 constexpr double step_mm = 0.25;
@@ -70,4 +70,4 @@ std::vector<lumen::RadialWall> walls_from_image(const geometry::VesselTree& tree
   return walls;
 }
 
-}  // namespace ostia::app
+}  // namespace ostia::pipeline

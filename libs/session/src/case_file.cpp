@@ -1,5 +1,6 @@
 #include "ostia/session/case_file.h"
 
+#include "annotation_rows.h"
 #include "case_open.h"
 #include "case_schema.h"
 #include "journal.h"
@@ -7,6 +8,7 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
+#include "ostia/session/annotation_json.h"
 #include "ostia/session/edit_json.h"
 #include "ostia/session/model_changes.h"
 
@@ -77,6 +79,42 @@ void write_case(Database& database, const LumenModel& model, const std::optional
   transaction.commit();
 }
 
+/// What a drag of annotations is about; nothing for what cannot be dragged.
+struct DragTarget {
+  std::int64_t drag = 0;
+  bool of_vessel = false;
+  std::int32_t id = 0;  ///< of the measurement or the vessel
+  bool operator==(const DragTarget&) const = default;
+};
+
+std::optional<DragTarget> target_of(const AnnotationCommand& command, std::optional<std::int64_t> drag) {
+  if (!drag) return std::nullopt;
+  if (const auto* add = std::get_if<MeasureAdd>(&command))
+    return DragTarget{*drag, false, add->measurement.id};
+  if (const auto* change = std::get_if<MeasureChange>(&command))
+    return DragTarget{*drag, false, change->measurement.id};
+  if (const auto* mark = std::get_if<MarkVessel>(&command)) return DragTarget{*drag, true, mark->mark.vessel};
+  return std::nullopt;
+}
+
+/// The command of a merged step: what began as a new measurement stays one.
+AnnotationCommand as_op(const std::string& op, const AnnotationCommand& command) {
+  const auto* change = std::get_if<MeasureChange>(&command);
+  if (change && op == op_name(MeasureAdd{})) return MeasureAdd{change->measurement};
+  return command;
+}
+
+/// A step to be taken back or brought again.
+struct Leg {
+  JournalStep step;
+  bool back = true;
+};
+
+std::optional<Leg> leg_of(std::optional<JournalStep> step, bool back) {
+  if (!step) return std::nullopt;
+  return Leg{std::move(*step), back};
+}
+
 }  // namespace
 
 bool mergeable(const Edit& last, const Edit& next) {
@@ -104,11 +142,14 @@ struct CaseFile::Impl {
   Database database;
   OpenMode mode;
   ModelStore store;
+  AnnotationRows notes;
   Journal steps;
   Statement find_image, find_setting, put_setting, find_content;
   std::shared_ptr<const LumenModel> model;
   std::uint64_t checksum = 0;
   std::shared_ptr<const LumenModel> before_last;  // of the last step, if it was made just now
+  std::shared_ptr<const Annotations> annotations;
+  std::optional<DragTarget> last_target;  // of the last step, if it was an annotation in a drag just now
   bool can_redo = false;
 
   Impl(OpenedCase opened, OpenMode how)
@@ -116,6 +157,7 @@ struct CaseFile::Impl {
         database(std::move(opened.database)),
         mode(how),
         store(database),
+        notes(database),
         steps(database),
         find_image(database, "SELECT sha256, pseudonym, checksum FROM image"),
         find_setting(database, "SELECT value, checksum FROM setting WHERE key = ?1"),
@@ -126,6 +168,7 @@ struct CaseFile::Impl {
 
   void load() {
     model = std::make_shared<const LumenModel>(store.read(checksum));
+    annotations = std::make_shared<const Annotations>(notes.read());
     steps.verify();
     can_redo = steps.first_undone().has_value();
     image();
@@ -176,6 +219,7 @@ struct CaseFile::Impl {
     model = std::move(next);
     checksum = sum;
     can_redo = false;
+    last_target.reset();
   }
 
   EditOutcome apply(const Edit& edit, const Check& check) {
@@ -208,26 +252,110 @@ struct CaseFile::Impl {
     return outcome;
   }
 
-  EditOutcome step_back_or_forth(const JournalStep& step, bool back, const Check& check) {
-    const std::string changeset = back ? inverse(database, step.changeset) : step.changeset;
+  AnnotationChange annotate(AnnotationCommand command, std::optional<std::int64_t> drag) {
+    if (auto* add = std::get_if<MeasureAdd>(&command)) add->measurement.id = annotations->next_measurement_id;
+    auto next = std::make_shared<const Annotations>(annotated(*annotations, command, *model));
+    AnnotationChange change = changes_between(*annotations, *next);
+    if (change.empty()) return change;
+    const std::optional<DragTarget> target = target_of(command, drag);
+    std::optional<JournalStep> last;
+    if (target && target == last_target) last = steps.last_done();
     Transaction transaction(database);
+    {
+      const Recording recording(database);
+      notes.write_change(*annotations, *next);
+      if (last) {
+        last->parameters = to_json(as_op(last->op, command));
+        last->changeset = joined(database, last->changeset, recording.changeset());
+        steps.replace(*last);
+      } else {
+        if (can_redo) steps.drop_undone();
+        steps.append({0, op_name(command), to_json(command), StepState::done, {}, recording.changeset()});
+      }
+    }
+    transaction.commit();
+    annotations = std::move(next);
+    can_redo = false;
+    before_last.reset();
+    last_target = target;
+    return change;
+  }
+
+  void go(const Leg& leg, Touched& touched) {
+    const std::string changeset = leg.back ? inverse(database, leg.step.changeset) : leg.step.changeset;
     apply_changeset(database, changeset);
-    std::uint64_t sum = 0;
-    EditOutcome outcome;
-    outcome.model = store.read_again(*model, touched_by(database, changeset), sum);
-    outcome.changes = changes_between(*model, outcome.model);
-    if (check) check(outcome);
-    steps.set_state(step, back ? StepState::undone : StepState::done);
-    const std::string op = back ? "undo" : "redo";
-    steps.append({0, op, step_parameters(op, step.number), StepState::done, {}, {}});
+    add_touched(database, changeset, touched);
+    steps.set_state(leg.step, leg.back ? StepState::undone : StepState::done);
+    const std::string op = leg.back ? "undo" : "redo";
+    steps.append({0, op, step_parameters(op, leg.step.number), StepState::done, {}, {}});
+  }
+
+  /// Goes the legs that `next_leg` gives until it gives none, in one transaction.
+  std::optional<StepOutcome> travel(const std::function<std::optional<Leg>()>& next_leg, const Check& check) {
+    require_writable();
+    Transaction transaction(database);
+    Touched touched;
+    bool any = false;
+    for (auto leg = next_leg(); leg; leg = next_leg(), any = true) go(*leg, touched);
+    if (!any) return std::nullopt;
+    std::uint64_t sum = checksum;
+    StepOutcome outcome;
+    outcome.edited = touched.model;
+    outcome.edit.model = touched.model ? store.read_again(*model, touched, sum) : *model;
+    auto next_annotations = annotations;
+    if (touched.annotations) next_annotations = std::make_shared<const Annotations>(notes.read());
+    if (touched.annotations) outcome.annotations = changes_between(*annotations, *next_annotations);
+    if (touched.model) outcome.edit.changes = changes_between(*model, outcome.edit.model);
+    if (touched.model && check) check(outcome.edit);
     const bool redo = steps.first_undone().has_value();
-    auto next = std::make_shared<const LumenModel>(outcome.model);
+    auto next = touched.model ? std::make_shared<const LumenModel>(outcome.edit.model) : model;
     transaction.commit();
     model = std::move(next);
+    annotations = std::move(next_annotations);
     checksum = sum;
     can_redo = redo;
     before_last.reset();
+    last_target.reset();
     return outcome;
+  }
+
+  std::optional<StepOutcome> one_step(bool back, const Check& check) {
+    bool gone = false;
+    return travel(
+        [&]() -> std::optional<Leg> {
+          if (std::exchange(gone, true)) return std::nullopt;
+          return leg_of(back ? steps.last_done() : steps.first_undone(), back);
+        },
+        check);
+  }
+
+  /// The steps between, each once: those to take back from the newest on, or those to bring again.
+  std::vector<std::int64_t> steps_between(std::int64_t number, bool& back) {
+    std::vector<std::int64_t> done_after, undone_before;
+    bool known = false;
+    for (const JournalEntry& entry : steps.entries()) {
+      if (entry.dropped || entry.kind == StepKind::travel) continue;
+      known = known || entry.number == number;
+      if (!entry.undone && entry.number > number) done_after.insert(done_after.begin(), entry.number);
+      if (entry.undone && entry.number <= number) undone_before.push_back(entry.number);
+    }
+    if (!known)
+      throw InvalidInput("there is no step " + std::to_string(number) +
+                         " to go to; choose one that is done or can be redone");
+    back = undone_before.empty();
+    return back ? done_after : undone_before;
+  }
+
+  std::optional<StepOutcome> go_to_step(std::int64_t number, const Check& check) {
+    bool back = true;
+    const std::vector<std::int64_t> between = steps_between(number, back);
+    std::size_t next = 0;
+    return travel(
+        [&]() -> std::optional<Leg> {
+          if (next == between.size()) return std::nullopt;
+          return Leg{steps.step(between[next++]), back};
+        },
+        check);
   }
 };
 
@@ -278,6 +406,9 @@ std::shared_ptr<const LumenModel> CaseFile::model() const {
 std::shared_ptr<const LumenModel> CaseFile::starting_model() const {
   return std::make_shared<const LumenModel>(impl_->starting_model());
 }
+std::shared_ptr<const Annotations> CaseFile::annotations() const {
+  return impl_->annotations;
+}
 std::optional<ImageReference> CaseFile::image() const {
   return impl_->image();
 }
@@ -300,32 +431,40 @@ EditOutcome CaseFile::apply_merged(const Edit& edit, const Check& check) {
   return impl_->apply_merged(edit, check);
 }
 
-std::optional<EditOutcome> CaseFile::undo(const Check& check) {
+AnnotationChange CaseFile::annotate(const AnnotationCommand& command) {
   impl_->require_writable();
-  const auto step = impl_->steps.last_done();
-  if (!step) return std::nullopt;
-  return impl_->step_back_or_forth(*step, true, check);
+  return impl_->annotate(command, std::nullopt);
 }
 
-std::optional<EditOutcome> CaseFile::redo(const Check& check) {
+AnnotationChange CaseFile::annotate_merged(const AnnotationCommand& command, std::int64_t drag) {
   impl_->require_writable();
-  const auto step = impl_->steps.first_undone();
-  if (!step) return std::nullopt;
-  return impl_->step_back_or_forth(*step, false, check);
+  return impl_->annotate(command, drag);
+}
+
+std::optional<StepOutcome> CaseFile::undo(const Check& check) {
+  return impl_->one_step(true, check);
+}
+std::optional<StepOutcome> CaseFile::redo(const Check& check) {
+  return impl_->one_step(false, check);
+}
+std::optional<StepOutcome> CaseFile::go_to_step(std::int64_t number, const Check& check) {
+  return impl_->go_to_step(number, check);
+}
+std::optional<JournalEntry> CaseFile::next_undo() const {
+  return impl_->steps.next_undo();
+}
+std::optional<JournalEntry> CaseFile::next_redo() const {
+  return impl_->steps.next_redo();
 }
 
 std::vector<JournalEntry> CaseFile::journal() const {
-  std::vector<JournalEntry> entries;
-  for (JournalStep& step : impl_->steps.all())
-    entries.push_back({step.number, std::move(step.op), std::move(step.parameters),
-                       step.state != StepState::done, std::move(step.notes)});
-  return entries;
+  return impl_->steps.entries();
 }
 
 std::vector<Edit> CaseFile::edits() const {
   std::vector<Edit> edits;
-  for (const JournalStep& step : impl_->steps.all())
-    if (is_edit(step.op) && step.state == StepState::done) edits.push_back(edit_of_json(step.parameters));
+  for (const JournalEntry& entry : impl_->steps.entries())
+    if (entry.kind == StepKind::edit && !entry.undone) edits.push_back(edit_of_json(entry.parameters));
   return edits;
 }
 

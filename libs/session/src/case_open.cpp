@@ -180,9 +180,12 @@ void harden(Database& database) {
   database.execute("PRAGMA cell_size_check=ON");
 }
 
-void check_tables(Database& database, const fs::path& path) {
+void check_pages(Database& database, const fs::path& path) {
   const std::string found = database.text_of("PRAGMA quick_check(1)");
   if (found != "ok") refuse(path, "the file is damaged (" + found + "); take a copy of it from a backup");
+}
+
+void check_tables(Database& database, const fs::path& path) {
   Database fresh(":memory:", SQLITE_OPEN_READWRITE, "");
   create_schema(fresh);
   if (schema_of(database) != schema_of(fresh))
@@ -301,7 +304,8 @@ OpenedCase open_case(const fs::path& path, OpenMode mode) {
     }
     version = static_cast<std::int32_t>(std::stol("0" + opened.database.text_of("PRAGMA user_version")));
     if (version > schema_version) refuse(path, "its format is newer than this program's");
-    migrate(opened.database, version);
+    check_pages(opened.database, path);
+    migrate(opened.database, version, [&] { check_tables(opened.database, path); });
     check_tables(opened.database, path);
   } catch (const Error& e) {
     // A damaged schema shows as SQL that cannot be compiled.

@@ -1,5 +1,7 @@
 #include "case_schema.h"
 
+#include "annotation_rows.h"
+
 #include "ostia/core/error.h"
 
 #include <array>
@@ -30,9 +32,24 @@ CREATE TABLE journal(number INTEGER PRIMARY KEY, op TEXT NOT NULL, parameters TE
   state INTEGER NOT NULL, notes TEXT NOT NULL, changeset BLOB NOT NULL, checksum INTEGER NOT NULL);
 )";
 
+// Since version 2.
+constexpr const char* annotation_tables = R"(
+CREATE TABLE annotation(id INTEGER PRIMARY KEY CHECK(id = 1), next_measurement_id INTEGER NOT NULL,
+  checksum INTEGER NOT NULL);
+CREATE TABLE measurement(id INTEGER PRIMARY KEY, kind TEXT NOT NULL, name TEXT NOT NULL, points BLOB NOT NULL,
+  vessel INTEGER NOT NULL, from_mm NOT NULL, to_mm NOT NULL, inner_mm NOT NULL, outer_mm NOT NULL);
+CREATE TABLE mark(vessel INTEGER PRIMARY KEY, visible INTEGER NOT NULL, checked INTEGER NOT NULL,
+  color BLOB NOT NULL, note TEXT NOT NULL);
+)";
+
+void create_annotations(Database& database) {
+  database.execute(annotation_tables);
+  AnnotationRows(database).write_new();
+}
+
 /// Step k makes version k + 2 of version k + 1.
 using Step = void (*)(Database&);
-constexpr std::array<Step, schema_version - 1> steps{};
+constexpr std::array<Step, schema_version - 1> steps{create_annotations};
 
 void set_version(Database& database, std::int32_t version) {
   database.execute("PRAGMA user_version = " + std::to_string(version));
@@ -43,18 +60,20 @@ void set_version(Database& database, std::int32_t version) {
 void create_schema(Database& database) {
   database.execute("PRAGMA application_id = " + std::to_string(application_id));
   database.execute(tables);
+  create_annotations(database);
   // Read by programs that are too old for the file: they can name the version that is needed.
   database.execute("INSERT INTO meta VALUES('made_with', '" OSTIA_VERSION "'), ('needs', '0.1.0')");
   set_version(database, schema_version);
 }
 
-void migrate(Database& database, std::int32_t from) {
+void migrate(Database& database, std::int32_t from, const std::function<void()>& check) {
   if (from == schema_version) return;
   if (from < 1) throw InvalidInput("the case " + database.shown() + " has no version; the file is damaged");
   Transaction transaction(database);
   for (auto version = static_cast<std::size_t>(from); version < schema_version; ++version)
     steps.at(version - 1)(database);
   set_version(database, schema_version);
+  check();
   transaction.commit();
 }
 

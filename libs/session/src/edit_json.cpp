@@ -1,27 +1,21 @@
 #include "ostia/session/edit_json.h"
 
+#include "json_fields.h"
+
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <set>
 #include <utility>
 
 namespace ostia::session {
 namespace {
 
-using Json = nlohmann::ordered_json;
-using geometry::Vec3;
+using json_fields::Json;
+using json_fields::Need;
+using json_fields::Reader;
+using json_fields::Writer;
 using lumen::Edit;
-using lumen::ReformationMode;
-
-constexpr std::size_t most_points = 100000;
-
-enum class Need { required, optional };
 
 // One list of fields for an edit, for writing and for reading. What has a default in lumen/edit.h that suits
 // most edits may be left out.
@@ -105,117 +99,6 @@ void fields(E& e, V& v) {
   v("name", e.name);
 }
 
-class Writer {
- public:
-  Writer(Json& out, std::string op) : out_(&out), op_(std::move(op)) {}
-  template <class Value>
-  void operator()(const char* name, const Value& value, Need = Need::required) {
-    name_ = name;
-    (*out_)[name] = json(value);
-  }
-
- private:
-  Json json(std::int32_t value) const { return value; }
-  Json json(bool value) const { return value; }
-  Json json(double value) const {
-    if (!std::isfinite(value))
-      throw InvalidInput("the edit " + op_ + " cannot be written: \"" + name_ + "\" is not a finite number");
-    return value;
-  }
-  Json json(const std::string& value) const { return value; }
-  Json json(const Vec3& v) const { return Json::array({json(v.x()), json(v.y()), json(v.z())}); }
-  Json json(ReformationMode mode) const {
-    return mode == ReformationMode::straightened ? "straightened" : "stretched";
-  }
-  template <class Value>
-  Json json(const std::vector<Value>& values) const {
-    Json list = Json::array();
-    for (const Value& value : values) list.push_back(json(value));
-    return list;
-  }
-  Json* out_;
-  std::string op_, name_;
-};
-
-class Reader {
- public:
-  Reader(const Json& in, std::string op) : in_(&in), op_(std::move(op)) {}
-  template <class Value>
-  void operator()(const char* name, Value& value, Need need = Need::required) {
-    known_.insert(name);
-    const auto found = in_->find(name);
-    if (found == in_->end()) {
-      if (need == Need::required) fail(std::string("it has no \"") + name + "\"");
-      return;
-    }
-    read(*found, name, value);
-  }
-  void require_no_others() const {
-    for (const auto& [key, value] : in_->items()) {
-      if (key == "v" || key == "op" || known_.contains(key)) continue;
-      std::string choices;
-      for (const std::string& name : known_) choices += (choices.empty() ? "" : ", ") + name;
-      fail("it has an unknown field \"" + key + "\"; it may have " + choices);
-    }
-  }
-
- private:
-  [[noreturn]] void fail(const std::string& what) const {
-    throw InvalidInput("the edit " + op_ + ": " + what);
-  }
-  [[noreturn]] void fail(const std::string& name, const Json& value, const std::string& wanted) const {
-    fail("\"" + name + "\" is " + std::string(value.type_name()) + "; it must be " + wanted);
-  }
-  void read(const Json& in, const std::string& name, std::int32_t& out) const {
-    if (!in.is_number_integer()) fail(name, in, "a whole number");
-    const bool fits = in.is_number_unsigned()
-                          ? in.get<std::uint64_t>() <= std::numeric_limits<std::int32_t>::max()
-                          : in.get<std::int64_t>() >= 0;
-    if (!fits) fail("\"" + name + "\" is " + in.dump() + "; ids are 0 to 2147483647");
-    out = in.get<std::int32_t>();
-  }
-  void read(const Json& in, const std::string& name, double& out) const {
-    if (!in.is_number()) fail(name, in, "a number");
-    out = in.get<double>();
-    if (!std::isfinite(out)) fail("\"" + name + "\" is not a finite number");
-  }
-  void read(const Json& in, const std::string& name, bool& out) const {
-    if (!in.is_boolean()) fail(name, in, "true or false");
-    out = in.get<bool>();
-  }
-  void read(const Json& in, const std::string& name, std::string& out) const {
-    if (!in.is_string()) fail(name, in, "a text");
-    out = in.get<std::string>();
-  }
-  void read(const Json& in, const std::string& name, ReformationMode& out) const {
-    const std::string mode = in.is_string() ? in.get<std::string>() : "";
-    if (mode != "straightened" && mode != "stretched")
-      fail("\"" + name + "\" must be \"straightened\" or \"stretched\"");
-    out = mode == "straightened" ? ReformationMode::straightened : ReformationMode::stretched;
-  }
-  void read(const Json& in, const std::string& name, Vec3& out) const {
-    if (!in.is_array() || in.size() != 3) fail("\"" + name + "\" must be a point [x, y, z] in mm");
-    for (std::size_t k = 0; k < 3; ++k)
-      read(in[k], name + "[" + std::to_string(k) + "]", out[static_cast<Eigen::Index>(k)]);
-  }
-  template <class Value>
-  void read(const Json& in, const std::string& name, std::vector<Value>& out) const {
-    if (!in.is_array()) fail(name, in, "a list");
-    if (in.size() > most_points)
-      fail("\"" + name + "\" has " + std::to_string(in.size()) + " entries; the limit is " +
-           std::to_string(most_points));
-    out.clear();
-    for (std::size_t i = 0; i < in.size(); ++i) {
-      out.emplace_back();
-      if constexpr (std::is_same_v<Value, Vec3>) out.back().setZero();
-      read(in[i], name + "[" + std::to_string(i) + "]", out.back());
-    }
-  }
-  const Json* in_;
-  std::string op_;
-  std::set<std::string> known_;
-};
-
 /// The edit of a name with its defaults.
 template <std::size_t Index = 0>
 Edit edit_named(const std::string& op) {
@@ -232,50 +115,18 @@ Edit edit_named(const std::string& op) {
   }
 }
 
-/// The line as an object; refuses keys that are there twice.
-Json object_of(std::string_view line) {
-  std::set<std::string> seen;
-  std::string repeated;
-  const auto watch = [&](int depth, Json::parse_event_t event, Json& parsed) {
-    if (event == Json::parse_event_t::key && depth == 1 && !seen.insert(parsed.get<std::string>()).second)
-      repeated = parsed.get<std::string>();
-    return true;
-  };
-  Json object;
-  try {
-    object = Json::parse(line.begin(), line.end(), watch);
-  } catch (const Json::exception& e) {
-    throw InvalidInput(std::string("an edit is not JSON (") + e.what() + "); write one object a line");
-  }
-  if (!object.is_object()) throw InvalidInput("an edit must be a JSON object {\"v\":1,\"op\":...}");
-  if (!repeated.empty()) throw InvalidInput("an edit has \"" + repeated + "\" twice");
-  return object;
-}
-
 }  // namespace
 
 std::string to_json(const Edit& edit) {
-  const std::string op = lumen::op_name(edit);
-  Json out{{"v", 1}, {"op", op}};
-  Writer writer(out, op);
-  std::visit([&](const auto& kind) { fields(kind, writer); }, edit);
-  try {
-    return out.dump();
-  } catch (const Json::exception&) {
-    throw InvalidInput("the edit " + op + " cannot be written: its name is not UTF-8");
-  }
+  return json_fields::line_of("edit", lumen::op_name(edit), [&](Writer& writer) {
+    std::visit([&](const auto& kind) { fields(kind, writer); }, edit);
+  });
 }
 
 Edit edit_of_json(std::string_view line) {
-  const Json in = object_of(line);
-  const auto version = in.find("v");
-  if (version == in.end() || !version->is_number_integer() || *version != 1)
-    throw InvalidInput("an edit has \"v\" " + (version == in.end() ? "missing" : version->dump()) +
-                       "; this program reads version 1");
-  const auto op = in.find("op");
-  if (op == in.end() || !op->is_string()) throw InvalidInput("an edit has no text \"op\"");
-  Edit edit = edit_named(op->get<std::string>());
-  Reader reader(in, op->get<std::string>());
+  const Json in = json_fields::object_of("edit", line);
+  Edit edit = edit_named(in["op"].get<std::string>());
+  Reader reader(in, "edit " + in["op"].get<std::string>());
   std::visit([&](auto& kind) { fields(kind, reader); }, edit);
   reader.require_no_others();
   return edit;

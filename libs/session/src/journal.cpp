@@ -10,7 +10,8 @@ namespace ostia::session {
 namespace {
 
 #define OSTIA_JOURNAL_COLUMNS "number, op, parameters, state, notes, changeset, checksum"
-#define OSTIA_JOURNAL_EDITS "op NOT IN ('case.begin', 'undo', 'redo')"
+#define OSTIA_JOURNAL_HEAD "number, op, parameters, state, notes"
+#define OSTIA_JOURNAL_STEPS "op NOT IN ('case.begin', 'undo', 'redo')"
 
 [[noreturn]] void damaged(const std::string& what) {
   throw InvalidInput("the case is damaged: " + what + "; take a copy of it from a backup");
@@ -35,10 +36,30 @@ std::int64_t sum_of(const JournalStep& step, const std::string& notes) {
   return static_cast<std::int64_t>(sum.value());
 }
 
+StepState state_of(std::int64_t state) {
+  if (state < 0 || state > 2) damaged("a step of the journal is in an unknown state");
+  return static_cast<StepState>(state);
+}
+
+JournalEntry read_head(Statement& row) {
+  JournalEntry entry;
+  entry.number = row.integer(0);
+  entry.op = row.text(1);
+  entry.kind = kind_of(entry.op);
+  entry.parameters = row.text(2);
+  const StepState state = state_of(row.integer(3));
+  entry.undone = state != StepState::done;
+  entry.dropped = state == StepState::dropped;
+  entry.notes = notes_of(row.text(4));
+  return entry;
+}
+
 }  // namespace
 
-bool is_edit(const std::string& op) {
-  return op != "case.begin" && op != "undo" && op != "redo";
+StepKind kind_of(const std::string& op) {
+  if (op == "case.begin") return StepKind::begin;
+  if (op == "undo" || op == "redo") return StepKind::travel;
+  return is_annotation_op(op) ? StepKind::annotation : StepKind::edit;
 }
 
 Journal::Journal(const Database& db)
@@ -47,10 +68,14 @@ Journal::Journal(const Database& db)
                "UPDATE journal SET op = ?2, parameters = ?3, state = ?4, notes = ?5, changeset = ?6, "
                "checksum = ?7 WHERE number = ?1"),
       set_state_(db, "UPDATE journal SET state = ?2, changeset = ?3, checksum = ?4 WHERE number = ?1"),
-      last_done_(db, "SELECT " OSTIA_JOURNAL_COLUMNS " FROM journal WHERE state = 0 AND " OSTIA_JOURNAL_EDITS
+      last_done_(db, "SELECT " OSTIA_JOURNAL_COLUMNS " FROM journal WHERE state = 0 AND " OSTIA_JOURNAL_STEPS
                      " ORDER BY number DESC LIMIT 1"),
       first_undone_(db,
                     "SELECT " OSTIA_JOURNAL_COLUMNS " FROM journal WHERE state = 1 ORDER BY number LIMIT 1"),
+      next_undo_(db, "SELECT " OSTIA_JOURNAL_HEAD " FROM journal WHERE state = 0 AND " OSTIA_JOURNAL_STEPS
+                     " ORDER BY number DESC LIMIT 1"),
+      next_redo_(db, "SELECT " OSTIA_JOURNAL_HEAD " FROM journal WHERE state = 1 ORDER BY number LIMIT 1"),
+      entries_(db, "SELECT " OSTIA_JOURNAL_HEAD " FROM journal ORDER BY number"),
       step_(db, "SELECT " OSTIA_JOURNAL_COLUMNS " FROM journal WHERE number = ?1"),
       all_(db, "SELECT " OSTIA_JOURNAL_COLUMNS " FROM journal ORDER BY number"),
       last_(db, "SELECT max(number) FROM journal") {}
@@ -60,9 +85,7 @@ JournalStep Journal::read(Statement& row) {
   step.number = row.integer(0);
   step.op = row.text(1);
   step.parameters = row.text(2);
-  const std::int64_t state = row.integer(3);
-  if (state < 0 || state > 2) damaged("a step of the journal is in an unknown state");
-  step.state = static_cast<StepState>(state);
+  step.state = state_of(row.integer(3));
   const std::string notes = row.text(4);
   step.changeset = std::string(row.bytes(5));
   if (sum_of(step, notes) != row.integer(6))
@@ -108,7 +131,7 @@ void Journal::drop_undone() {
 namespace {
 
 template <class Read>
-auto one(Statement& statement, const Read& read) -> std::optional<JournalStep> {
+auto one(Statement& statement, const Read& read) -> std::optional<decltype(read(statement))> {
   if (!statement.step()) return std::nullopt;
   struct Reset {
     Statement& statement;
@@ -131,11 +154,18 @@ JournalStep Journal::step(std::int64_t number) {
   damaged("the journal has no step " + std::to_string(number));
 }
 
-std::vector<JournalStep> Journal::all() {
-  std::vector<JournalStep> steps;
-  Statement& row = all_.with();
-  while (row.step()) steps.push_back(read(row));
-  return steps;
+std::optional<JournalEntry> Journal::next_undo() {
+  return one(next_undo_.with(), read_head);
+}
+std::optional<JournalEntry> Journal::next_redo() {
+  return one(next_redo_.with(), read_head);
+}
+
+std::vector<JournalEntry> Journal::entries() {
+  std::vector<JournalEntry> entries;
+  Statement& row = entries_.with();
+  while (row.step()) entries.push_back(read_head(row));
+  return entries;
 }
 
 void Journal::verify() {
@@ -146,7 +176,8 @@ void Journal::verify() {
     const JournalStep step = read(row);
     if (step.number != ++number) damaged("the journal has no step " + std::to_string(number));
     if ((step.op == "case.begin") != (number == 1)) damaged("the journal does not begin where it should");
-    if (!is_edit(step.op)) continue;
+    const StepKind kind = kind_of(step.op);
+    if (kind != StepKind::edit && kind != StepKind::annotation) continue;
     if (undone && step.state == StepState::done) damaged("a step of the journal follows one that was undone");
     undone = undone || step.state == StepState::undone;
   }

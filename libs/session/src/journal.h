@@ -25,8 +25,8 @@ struct JournalStep {
   std::string changeset;
 };
 
-/// Is it a command that changed the model (not "case.begin", "undo", "redo")?
-bool is_edit(const std::string& op);
+/// Edit, annotation, or what is no step of undo ("case.begin", "undo", "redo").
+StepKind kind_of(const std::string& op);
 
 /// Transactions are the caller's.
 class Journal {
@@ -40,13 +40,17 @@ class Journal {
   void drop_undone();
   std::optional<JournalStep> last_done();     ///< what undo takes back
   std::optional<JournalStep> first_undone();  ///< what redo brings again
+  /// The same without their changesets, and so without the check of their sums; `verify` has seen those.
+  std::optional<JournalEntry> next_undo();
+  std::optional<JournalEntry> next_redo();
+  std::vector<JournalEntry> entries();
   JournalStep step(std::int64_t number);
-  std::vector<JournalStep> all();
   /// Throws InvalidInput for a gap or a damaged row.
   void verify();
 
  private:
-  Statement append_, replace_, set_state_, last_done_, first_undone_, step_, all_, last_;
+  Statement append_, replace_, set_state_, last_done_, first_undone_, next_undo_, next_redo_, entries_, step_,
+      all_, last_;
   static JournalStep read(Statement& row);
 };
 

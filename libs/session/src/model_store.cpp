@@ -20,7 +20,8 @@ using lumen::LumenModel;
 using lumen::SurfaceSample;
 using lumen::VesselLumen;
 
-constexpr std::array<const char*, 5> model_tables{"model", "node", "segment", "vessel", "sample"};
+constexpr std::array<const char*, 8> recorded_tables{"model",  "node",       "segment",     "vessel",
+                                                     "sample", "annotation", "measurement", "mark"};
 
 bool same_item(const TreeNode& a, const TreeNode& b) {
   return a.id == b.id && bytes_of(a.position) == bytes_of(b.position);
@@ -192,8 +193,7 @@ void require_no_fault(const LumenModel& model) {
 
 }  // namespace
 
-Touched touched_by(const Database& database, const std::string& changeset) {
-  Touched touched;
+void add_touched(const Database& database, const std::string& changeset, Touched& touched) {
   sqlite3_changeset_iter* iterator = nullptr;
   database.check(sqlite3changeset_start(&iterator, static_cast<int>(changeset.size()), raw(changeset)),
                  "use");
@@ -202,6 +202,10 @@ Touched touched_by(const Database& database, const std::string& changeset) {
     int columns = 0, op = 0, indirect = 0;
     sqlite3changeset_op(iterator, &name, &columns, &op, &indirect);
     const std::string_view table(name ? name : "");
+    if (table == "annotation" || table == "measurement" || table == "mark")
+      touched.annotations = true;
+    else
+      touched.model = true;
     if (table == "node" || table == "segment" || table == "vessel") touched.tree = true;
     if (table != "sample" && table != "vessel") continue;
     sqlite3_value* key = nullptr;
@@ -212,12 +216,11 @@ Touched touched_by(const Database& database, const std::string& changeset) {
     if (key) touched.vessels.insert(sqlite3_value_int(key));
   }
   database.check(sqlite3changeset_finalize(iterator), "use");
-  return touched;
 }
 
 Recording::Recording(const Database& database) : database_(&database) {
   database.check(sqlite3session_create(database.get(), "main", &session_), "use");
-  for (const char* table : model_tables) database.check(sqlite3session_attach(session_, table), "use");
+  for (const char* table : recorded_tables) database.check(sqlite3session_attach(session_, table), "use");
 }
 
 std::string Recording::changeset() const {

@@ -9,14 +9,16 @@
 
 namespace ostia::session {
 
-/// What rows of a model a changeset touches.
+/// What rows a changeset touches.
 struct Touched {
+  bool annotations = false;        ///< any of theirs
+  bool model = false;              ///< any of the model's
   bool tree = false;               ///< nodes, segments or vessels
   std::set<std::int32_t> vessels;  ///< whose samples or own rows
 };
-Touched touched_by(const Database& database, const std::string& changeset);
+void add_touched(const Database& database, const std::string& changeset, Touched& touched);
 
-/// Records row changes of the model from its making on.
+/// Records row changes of model and annotations from its making on.
 class Recording {
  public:
   explicit Recording(const Database& database);

@@ -15,14 +15,18 @@ Session Session::open(const std::filesystem::path& path, OpenMode mode) {
 
 /// The screen follows before the commit; when the commit fails, it goes back to what is stored.
 template <class Command>
-Session::Done Session::followed(const Command& command) {
+std::optional<Session::Done> Session::followed(const Command& command) {
   std::optional<lumen::LumenModel> ahead;
   Done done;
   try {
-    done.outcome = command([&](const lumen::EditOutcome& outcome) {
-      done.change = live_.follow(outcome);
-      ahead = outcome.model;
+    std::optional<StepOutcome> outcome = command([&](const lumen::EditOutcome& edit) {
+      done.change = live_.follow(edit);
+      ahead = edit.model;
     });
+    if (!outcome) return std::nullopt;
+    done.outcome = std::move(outcome->edit);
+    done.edited = outcome->edited;
+    done.annotations = std::move(outcome->annotations);
     return done;
   } catch (...) {
     if (ahead) {
@@ -38,31 +42,37 @@ Session::Done Session::followed(const Command& command) {
 }
 
 Session::Done Session::apply(const lumen::Edit& edit) {
-  return followed([&](const CaseFile::Check& check) { return file_.apply(edit, check); });
+  return *followed([&](const CaseFile::Check& check) {
+    return std::optional(StepOutcome{file_.apply(edit, check), true, {}});
+  });
 }
 
 Session::Done Session::apply_merged(const lumen::Edit& edit) {
-  return followed([&](const CaseFile::Check& check) { return file_.apply_merged(edit, check); });
+  return *followed([&](const CaseFile::Check& check) {
+    return std::optional(StepOutcome{file_.apply_merged(edit, check), true, {}});
+  });
+}
+
+Session::Done Session::annotate(const AnnotationCommand& command) {
+  const AnnotationChange change = file_.annotate(command);
+  return {{*file_.model(), {}, {}}, {}, false, change};
+}
+
+Session::Done Session::annotate_merged(const AnnotationCommand& command, std::int64_t drag) {
+  const AnnotationChange change = file_.annotate_merged(command, drag);
+  return {{*file_.model(), {}, {}}, {}, false, change};
 }
 
 std::optional<Session::Done> Session::undo() {
-  bool any = true;
-  Done done = followed([&](const CaseFile::Check& check) {
-    auto outcome = file_.undo(check);
-    any = outcome.has_value();
-    return any ? std::move(*outcome) : lumen::EditOutcome{};
-  });
-  return any ? std::optional(std::move(done)) : std::nullopt;
+  return followed([&](const CaseFile::Check& check) { return file_.undo(check); });
 }
 
 std::optional<Session::Done> Session::redo() {
-  bool any = true;
-  Done done = followed([&](const CaseFile::Check& check) {
-    auto outcome = file_.redo(check);
-    any = outcome.has_value();
-    return any ? std::move(*outcome) : lumen::EditOutcome{};
-  });
-  return any ? std::optional(std::move(done)) : std::nullopt;
+  return followed([&](const CaseFile::Check& check) { return file_.redo(check); });
+}
+
+std::optional<Session::Done> Session::go_to_step(std::int64_t number) {
+  return followed([&](const CaseFile::Check& check) { return file_.go_to_step(number, check); });
 }
 
 }  // namespace ostia::session

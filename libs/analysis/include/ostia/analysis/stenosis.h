@@ -14,6 +14,9 @@ struct ReferenceLine {
 };
 struct ReferenceOptions {
   double window_mm = 20.0;  ///< length over which the healthy calibre is followed, [5, 100]
+  /// Where the vessel leaves its parent (lumen::own_from_mm): what lies before is the parent's, and the two
+  /// have lines of their own, since a side branch may be half as wide. Outside the vessel: one line.
+  double own_from_mm = 0.0;
 };
 /// A robust line through the healthy parts of the profile (docs/analysis.md): penalised least squares (Eilers
 /// 2003), reweighted so that neither narrowings nor ectasias have a say. It never rises, and may step down

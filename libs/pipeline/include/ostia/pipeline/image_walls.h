@@ -7,7 +7,7 @@
 
 #include <vector>
 
-namespace ostia::app {
+namespace ostia::pipeline {
 
 /// One wall a vessel, found on rays (segmentation::lumen_boundary) where the vessel runs by itself. At a
 /// take-off the rays of a branch would meet its parent's wall: there it is a tube of the axis' radii, and the
@@ -16,4 +16,4 @@ std::vector<lumen::RadialWall> walls_from_image(const geometry::VesselTree& tree
                                                 const imaging::ImageVolume& image,
                                                 const core::TaskContext& task);
 
-}  // namespace ostia::app
+}  // namespace ostia::pipeline

@@ -1,8 +1,9 @@
 #pragma once
-/// \file The case file: one SQLite database with the model, the journal of commands, and their changesets
-/// (docs/case-file.md).
+/// \file The case file: one SQLite database with the model, what a person noted beside it, the journal of
+/// commands, and their changesets (docs/case-file.md).
 
 #include "ostia/lumen/edit.h"
+#include "ostia/session/annotation.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -21,13 +22,30 @@ struct ImageReference {
   std::string pseudonym;  ///< "case-3f2a"
 };
 
-/// A step of the journal.
+enum class StepKind {
+  begin,       ///< "case.begin"
+  edit,        ///< of the model: undo and redo go through these
+  annotation,  ///< of measurements and marks: and through these, in one order
+  travel,      ///< "undo", "redo"
+};
+
+/// A line of the journal.
 struct JournalEntry {
   std::int64_t number = 0;  ///< 1, 2, ...
-  std::string op;           ///< "case.begin", "cpr.stroke", "undo", "redo", ...
+  std::string op;           ///< "case.begin", "cpr.stroke", "measure.add", "undo", "redo", ...
   std::string parameters;   ///< JSON
   bool undone = false;
+  bool dropped = false;  ///< undone, and another command came after it: it cannot be redone
+  StepKind kind = StepKind::edit;
   std::vector<std::string> notes;
+};
+
+/// What steps taken back or brought again changed.
+struct StepOutcome {
+  /// The model after them, and what views draw anew; without changes where none of the steps was an edit.
+  lumen::EditOutcome edit;
+  bool edited = false;  ///< the model changed
+  AnnotationChange annotations;
 };
 
 enum class OpenMode {
@@ -62,6 +80,7 @@ class CaseFile {
 
   std::shared_ptr<const lumen::LumenModel> model() const;
   std::shared_ptr<const lumen::LumenModel> starting_model() const;  ///< that of "case.begin"
+  std::shared_ptr<const Annotations> annotations() const;
   std::optional<ImageReference> image() const;
   /// Throws InvalidInput where the image is not the one that the case was made with.
   void check_image(const ImageReference& found) const;
@@ -74,13 +93,30 @@ class CaseFile {
   /// The same, but an edit that `mergeable` says continues the last one replaces it: the edit is applied to
   /// the model before that one, and both are one step of undo. The changes are those from the present model.
   lumen::EditOutcome apply_merged(const lumen::Edit& edit, const Check& check = {});
-  /// The inverse changeset of the last step that is not undone; nothing when there is none. The changes tell
-  /// views what to draw anew.
-  std::optional<lumen::EditOutcome> undo(const Check& check = {});
-  std::optional<lumen::EditOutcome> redo(const Check& check = {});
+
+  /// Runs a command on measurements or marks (`annotated` says what is refused) and commits it, a step like
+  /// an edit; redo steps are dropped. A new measurement's id is the one in the change. A command that changes
+  /// nothing is no step.
+  AnnotationChange annotate(const AnnotationCommand& command);
+  /// The same within a drag, or while a color or note is chosen: commands of one `drag` number, without any
+  /// other command between them, on the same measurement (added or changed) or the same vessel's mark are one
+  /// step. The number is not stored; a new one for each press of the mouse button begins another step.
+  AnnotationChange annotate_merged(const AnnotationCommand& command, std::int64_t drag);
+
+  /// The inverse changeset of the last step that is not undone, edit or annotation; nothing when there is
+  /// none. The check runs only where the model changes.
+  std::optional<StepOutcome> undo(const Check& check = {});
+  std::optional<StepOutcome> redo(const Check& check = {});
+  /// Undoes or redoes until `number` is the last step that is done (1, "case.begin": none is), all at once or
+  /// not at all; nothing where that is so already. The journal has a line for each. Throws InvalidInput for a
+  /// number that is no step, or of one that was dropped.
+  std::optional<StepOutcome> go_to_step(std::int64_t number, const Check& check = {});
+  std::optional<JournalEntry> next_undo() const;  ///< what undo would take back; its number is where one is
+  std::optional<JournalEntry> next_redo() const;
 
   std::vector<JournalEntry> journal() const;
-  std::vector<lumen::Edit> edits() const;  ///< those not undone, in order: what a replay applies
+  std::vector<lumen::Edit> edits() const;  ///< those not undone, in order, without annotations: what a replay
+                                           ///< applies
 
   /// Small texts of the interface. A value that is a path is refused: a case holds none.
   void set_setting(const std::string& key, const std::string& value);

@@ -7,22 +7,29 @@
 namespace ostia::session {
 
 /// An open case with its model solved. An edit is computed, solved, and then committed; what cannot be solved
-/// (NumericalError, InvalidInput) is refused and leaves case and screen as they were. Not safe from several
-/// threads at once.
+/// (NumericalError, InvalidInput) is refused and leaves case and screen as they were. Annotations need no
+/// solving. Not safe from several threads at once.
 class Session {
  public:
   /// Solves the model: throws as lumen::solve does.
   explicit Session(CaseFile file);
   static Session open(const std::filesystem::path& path, OpenMode mode = OpenMode::read_write);
 
+  /// What a command did, and with it what a window has to bring up to date.
   struct Done {
-    lumen::EditOutcome outcome;
-    lumen::LiveChange change;
+    lumen::EditOutcome outcome;  ///< the model now; without changes where `edited` is false
+    lumen::LiveChange change;    ///< of the solved walls
+    bool edited = false;         ///< the model changed
+    AnnotationChange annotations;
   };
   Done apply(const lumen::Edit& edit);
   Done apply_merged(const lumen::Edit& edit);
+  Done annotate(const AnnotationCommand& command);
+  Done annotate_merged(const AnnotationCommand& command, std::int64_t drag);
   std::optional<Done> undo();
   std::optional<Done> redo();
+  /// CaseFile::go_to_step, solved once for all its steps.
+  std::optional<Done> go_to_step(std::int64_t number);
 
   const CaseFile& file() const { return file_; }
   CaseFile& file() { return file_; }
@@ -31,7 +38,7 @@ class Session {
 
  private:
   template <class Command>
-  Done followed(const Command& command);
+  std::optional<Done> followed(const Command& command);
   CaseFile file_;
   lumen::LiveModel live_;
 };

@@ -1,0 +1,82 @@
+#pragma once
+/// \file What a person notes in a case beside the model: measurements, and marks at vessels.
+
+#include "ostia/analysis/measurement.h"
+#include "ostia/lumen/lumen_model.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace ostia::session {
+
+/// How a vessel is shown, and what a reader says of it.
+struct VesselMark {
+  std::int32_t vessel = 0;
+  bool visible = true;
+  bool checked = false;                        ///< the reader is done with it
+  std::optional<std::array<double, 3>> color;  ///< red, green, blue, [0, 1]; nothing: the interface chooses
+  std::string note;                            ///< free text
+};
+
+struct Annotations {
+  std::vector<analysis::Measurement> measurements;  ///< by id
+  std::vector<VesselMark> marks;                    ///< by vessel, at most one each
+  std::int32_t next_measurement_id = 1;
+};
+/// Nothing where the vessel has no mark (it is then shown, and not checked).
+const VesselMark* find_mark(const Annotations& annotations, std::int32_t vessel);
+const analysis::Measurement* find_measurement(const Annotations& annotations, std::int32_t id);
+
+/// "measure.add": a new measurement. Its id is given by the case, whatever it is here.
+struct MeasureAdd {
+  analysis::Measurement measurement;
+};
+/// "measure.change": another value for the measurement of this id, whole.
+struct MeasureChange {
+  analysis::Measurement measurement;
+};
+/// "measure.delete"
+struct MeasureDelete {
+  std::int32_t id = 0;
+};
+/// "vessel.mark": the vessel's mark, whole.
+struct MarkVessel {
+  VesselMark mark;
+};
+using AnnotationCommand = std::variant<MeasureAdd, MeasureChange, MeasureDelete, MarkVessel>;
+
+std::string op_name(const AnnotationCommand& command);  ///< "measure.add", ...
+bool is_annotation_op(const std::string& op);           ///< one of these names
+
+/// The annotations after a command. Pure. Throws InvalidInput (and nothing is changed): a measurement with a
+/// fault, an id that is not there, a vessel that the model does not have (a measurement that lost its vessel
+/// may keep it), a color outside [0, 1], values that are not finite, text that is not UTF-8.
+Annotations annotated(const Annotations& before, const AnnotationCommand& command,
+                      const lumen::LumenModel& model);
+
+/// What differs: measurements by id, marks by vessel; came, went or changed.
+struct AnnotationChange {
+  std::vector<std::int32_t> measurements, marks;
+  bool empty() const { return measurements.empty() && marks.empty(); }
+};
+AnnotationChange changes_between(const Annotations& before, const Annotations& after);
+
+/// The same to the last bit.
+bool same(const analysis::Measurement& a, const analysis::Measurement& b);
+bool same(const VesselMark& a, const VesselMark& b);
+
+/// Does the measurement stand on a vessel (rather than on its points alone)?
+bool needs_vessel(const analysis::Measurement& measurement);
+/// Annotations whose vessel is not in the model: it was deleted. They are kept, since an undo may bring it
+/// back; analysis::measured refuses them.
+struct Orphans {
+  std::vector<std::int32_t> measurements;  ///< ids
+  std::vector<std::int32_t> marks;         ///< vessels
+};
+Orphans find_orphans(const Annotations& annotations, const lumen::LumenModel& model);
+
+}  // namespace ostia::session

@@ -1,0 +1,154 @@
+#pragma once
+/// \file The report of a case: what the model says of the patient's coronaries, for a person and for scripts
+/// (docs/report.md).
+
+#include "ostia/analysis/aha_segments.h"
+#include "ostia/analysis/measurement.h"
+#include "ostia/analysis/stenosis.h"
+#include "ostia/core/task_context.h"
+#include "ostia/figure/picture.h"
+#include "ostia/pipeline/manifest.h"
+#include "ostia/session/case_file.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ostia::session {
+
+struct ReportOptions {
+  std::optional<ImageReference> image;  ///< how the case knows its image; none: the report says so
+  std::string date;                     ///< of the report, as it is to stand there; empty: none
+  analysis::ProfileOptions profile;
+  analysis::ReferenceOptions reference;
+  analysis::StenosisOptions stenosis;
+  /// Stenoses of vessels with a thinner reference are listed, but have no say in the patient's category:
+  /// CAD-RADS grades coronary vessels from this diameter on (Cury et al. 2022). [0, 5] mm
+  double least_graded_mm = 1.5;
+  double picture_percent = 25.0;  ///< a vessel with a stenosis from here on has a key image, [0, 100]
+  double theta_deg = 0.0;         ///< of the first reformation; the second is at + 90
+  double level_hu = 250.0, window_hu = 900.0;
+};
+void validate(const ReportOptions& options);  ///< throws InvalidInput
+
+struct ReportVessel {
+  std::int32_t id = 0;
+  std::string name;
+  double length_mm = 0.0;      ///< from the root
+  double own_from_mm = 0.0;    ///< where its own part begins
+  bool checked = false;        ///< a person is done with it
+  std::string note;            ///< the person's own text
+  double unmeasured_mm = 0.0;  ///< of its own part, where the wall does not close
+};
+
+/// A standard segment. What could not be measured is nothing.
+struct ReportSegment {
+  std::int32_t vessel = 0;
+  std::string vessel_name, label;
+  double from_mm = 0.0, to_mm = 0.0;
+  std::optional<double> mean_diameter_mm, least_diameter_mm, least_area_mm2, volume_mm3;
+  int worst_stenosis = 0;  ///< ReportStenosis::number; 0: none
+  double worst_percent = 0.0;
+  bool checked = false;
+};
+
+struct ReportStenosis {
+  int number = 0;  ///< "S1", "S2": in the order of the tree's vessels, from proximal to distal
+  analysis::Stenosis stenosis;
+  std::string vessel_name, segment;  ///< the segment's label
+  std::string main_vessel;           ///< LM, LAD, LCX, RCA; empty where the name is not known
+  analysis::CadRads category = analysis::CadRads::zero;
+  bool graded = true;  ///< has a say in the patient's category
+  bool checked = false;
+};
+
+struct ReportMeasurement {
+  analysis::Measurement measurement;
+  std::string vessel_name;  ///< empty for none
+  std::vector<analysis::MeasuredValue> values;
+  std::string problem;  ///< why there are no values; empty otherwise
+};
+
+/// A step of the journal that was not taken back.
+struct ReportStep {
+  std::int64_t number = 0;
+  std::string op, words;  ///< "section.contour", "contour drawn on a cross-section at 24.0 mm"
+  std::string vessel;     ///< its name now
+  std::vector<std::string> notes;
+};
+
+/// Plain data. No path, and nothing of the patient's identity but what a person wrote into names and notes.
+struct CaseReport {
+  ReportOptions options;
+  std::string program_version, model_digest;
+  bool has_image = false;  ///< the image was at hand when the report was made
+  std::vector<ReportVessel> vessels;
+  std::vector<ReportSegment> segments;
+  std::vector<ReportStenosis> stenoses;  ///< each once: at its own vessel, not at those that share the way
+  analysis::CadRads category = analysis::CadRads::zero;  ///< of the patient
+  std::vector<ReportMeasurement> measurements;
+  std::vector<ReportStep> steps;
+  std::vector<std::string> warnings;  ///< what keeps the report from being complete
+  /// By vessel: what the tables were made of, and the pictures are.
+  std::map<std::int32_t, analysis::LumenProfile> profiles;
+  std::map<std::int32_t, analysis::ReferenceLine> references;
+
+  std::vector<std::string> unchecked() const;  ///< names of vessels that no person has checked
+};
+
+/// Every vessel's wall solved afresh in canonical order, as all that is exported is: a report of these does
+/// not depend on the way that led to the model, one of a LiveModel's walls may differ by rounding. Throws as
+/// lumen::solve does, and Cancelled.
+analysis::SurfaceOfVessel solved_surfaces(const lumen::LumenModel& model,
+                                          const core::TaskContext& task = core::no_task());
+
+/// Measures every vessel. `surface_of` is asked from the calling thread. The same for any number of threads.
+/// Throws InvalidInput for bad options and Cancelled; a measurement that cannot be made is named, not thrown.
+CaseReport make_case_report(const lumen::LumenModel& model, const analysis::SurfaceOfVessel& surface_of,
+                            const Annotations& annotations, const std::vector<JournalEntry>& journal,
+                            const imaging::ImageVolume* image, const ReportOptions& options = {},
+                            const core::TaskContext& task = core::no_task());
+
+/// A picture of the report.
+struct KeyImage {
+  std::string name;  ///< of its file, without ending: letters, digits and dashes
+  std::string caption;
+  figure::Picture picture;
+};
+/// The tree with its stenoses marked; then for RCA, LAD, LCX (the three longest vessels where no name is
+/// known) and each vessel with a stenosis from `picture_percent` on: both straightened reformations with the
+/// lumen's contour, the diameter along the vessel, the cross-sections at the throats (the six worst). Without
+/// an image the contours alone. Throws Cancelled.
+std::vector<KeyImage> key_images(const CaseReport& report, const lumen::LumenModel& model,
+                                 const analysis::SurfaceOfVessel& surface_of,
+                                 const imaging::ImageVolume* image,
+                                 const core::TaskContext& task = core::no_task());
+
+std::string report_json(const CaseReport& report,
+                        const std::vector<KeyImage>& images);  ///< docs/schemas/case-report.schema.json
+std::string report_html(const CaseReport& report, const std::vector<KeyImage>& images);
+std::string report_pdf(const CaseReport& report, const std::vector<KeyImage>& images);
+/// One line a segment, stenosis, value of a measurement; RFC 4180. Text that a spreadsheet would take for a
+/// formula has an apostrophe before it.
+std::string segments_csv(const CaseReport& report);
+std::string stenoses_csv(const CaseReport& report);
+std::string measurements_csv(const CaseReport& report);
+
+/// SHA-256 over what a report is made of: model, annotations, journal, image reference.
+std::string report_digest(const CaseFile& file);
+/// The job as a manifest knows it. `further` are the names and captions of pictures that were handed in.
+pipeline::JobKey report_job(const CaseFile& file, bool with_image, const ReportOptions& options,
+                            const std::vector<KeyImage>& further = {});
+
+/// report.html, report.pdf, report.json, segments.csv, stenoses.csv, measurements.csv, images/*.png and,
+/// last, manifest.json. The folder appears whole or not at all; the same report gives the same bytes, the
+/// manifest's times aside. Throws InvalidInput for images of the same or an unfit name or a folder that holds
+/// other files, IoError, ResourceError, Cancelled.
+void write_case_report(const std::filesystem::path& folder, const CaseReport& report,
+                       const std::vector<KeyImage>& images, const pipeline::JobKey& job,
+                       double seconds_before = 0.0, const core::TaskContext& task = core::no_task());
+
+}  // namespace ostia::session

@@ -1,0 +1,152 @@
+#pragma once
+/// \file What a person has on the table: an image, a case, and where they are looking. No toolkit: views ask
+/// it and watch it, a window binds its widgets to its properties.
+
+#include "ostia/analysis/stenosis.h"
+#include "ostia/imaging/volume.h"
+#include "ostia/reformat/curved_reformation.h"
+#include "ostia/session/property.h"
+#include "ostia/session/session.h"
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ostia::session {
+
+using geometry::Vec3;
+
+/// What the mouse's main button does in a view.
+enum class Tool {
+  browse,      ///< the cursor goes where it is clicked
+  drag,        ///< the wall is pulled
+  draw,        ///< the wall is drawn anew
+  brush,       ///< a ball pushes the wall
+  axis,        ///< control points of the centerline
+  add_vessel,  ///< a way from a distal end back to the tree
+  distance,
+  angle,
+  area,
+  diameter,
+  stenosis,
+  volume,
+  ring_hu,
+};
+/// The measurement that a tool places; nothing for the others.
+std::optional<analysis::MeasureKind> measure_kind(Tool tool);
+
+/// CT numbers shown between black and white.
+struct GreyWindow {
+  double level_hu = 250.0;
+  double width_hu = 900.0;  ///< > 0
+  bool operator==(const GreyWindow&) const = default;
+};
+struct WindowPreset {
+  std::string name;  ///< "CTA"
+  GreyWindow window;
+};
+const std::vector<WindowPreset>& window_presets();  ///< CTA, soft tissue, lung, bone
+
+/// The image that is shown, and how a case knows it.
+struct OpenImage {
+  std::shared_ptr<const imaging::ImageVolume> volume;
+  ImageReference reference;
+};
+
+/// What a change of the model means for views.
+struct ModelEvent {
+  lumen::LiveChange change;
+  bool tree_changed = false;    ///< vessels came, went, or run elsewhere: axes and lists are to be read anew
+  std::vector<Vec3> dismissed;  ///< places of samples that an edit took away
+};
+
+/// Not safe from several threads. What throws (InvalidInput, NumericalError, ResourceError, IoError) leaves
+/// everything as it was.
+class Workbench {
+ public:
+  Workbench();
+  ~Workbench();
+
+  // -- image and case
+  void set_image(OpenImage image);  ///< the place goes to its middle if it was outside of it
+  void close_image();
+  const OpenImage& image() const { return image_; }
+  /// Throws InvalidInput where an image is open that is not the case's.
+  void set_session(Session session);
+  void close_case();
+  bool has_case() const { return session_ != nullptr; }
+  Session& session();              ///< throws InvalidInput without a case
+  const Session& session() const;  ///< throws InvalidInput without a case
+
+  // -- the selected vessel; null, empty, or nothing without one
+  const lumen::LumenModel* model() const;
+  std::shared_ptr<const geometry::AxisCurve> axis() const;
+  std::shared_ptr<const geometry::AxisCurve> axis(std::int32_t vessel) const;
+  std::string vessel_name(std::int32_t vessel) const;
+
+  // -- what is measured along a vessel: made when asked for; after an edit only what it moved is measured
+  // again
+  const analysis::LumenProfile* profile(std::int32_t vessel) const;
+  const analysis::ReferenceLine* reference(std::int32_t vessel) const;
+  const std::vector<analysis::Stenosis>& stenoses(std::int32_t vessel) const;
+  /// As they were when they were last asked for: for views that must not wait. `stenoses_changed` says when
+  /// to look again.
+  const std::vector<analysis::Stenosis>& known_stenoses(std::int32_t vessel) const;
+  /// The lumen on one section, as it is now.
+  std::optional<analysis::SectionMeasures> section(std::int32_t vessel, double s_mm) const;
+  std::vector<analysis::MeasuredValue> measured(const analysis::Measurement& measurement) const;
+
+  // -- commands: each is in the case file when it returns
+  Session::Done edit(const lumen::Edit& edit);
+  Session::Done edit_merged(const lumen::Edit& edit);
+  Session::Done annotate(const AnnotationCommand& command);
+  Session::Done annotate_merged(const AnnotationCommand& command, std::int64_t drag);
+  bool undo();  ///< false where there is nothing to undo
+  bool redo();
+  void go_to_step(std::int64_t number);
+
+  // -- where the person looks
+  static constexpr std::int32_t no_vessel = -1;
+  Property<std::int32_t> vessel{no_vessel};
+  Property<double> cursor_mm{0.0};     ///< abscissa on the selected vessel; its domain is the vessel's length
+  Property<Vec3> place{Vec3::Zero()};  ///< the cursor in the patient; on the axis after cursor_mm was set
+  Property<double> theta_deg{0.0};     ///< of the first CPR; the second is at + 90
+  Property<reformat::CurvedMode> curved_mode{reformat::CurvedMode::straightened};
+  Property<reformat::Slab> slab{reformat::Slab::none};
+  Property<double> slab_mm{5.0, Range<double>{0.5, 50.0, 0.5}};
+  Property<GreyWindow> grey;
+  Property<Tool> tool{Tool::browse};
+  Property<double> brush_mm{1.0, Range<double>{0.2, 5.0, 0.1}};   ///< radius of the ball
+  Property<double> reach_mm{3.0, Range<double>{0.5, 20.0, 0.5}};  ///< of a pull
+  Property<double> beta_deg{60.0,
+                            Range<double>{45.0, 90.0, 5.0}};  ///< half-angle within which a stroke dismisses
+  Property<double> section_eps_mm{1.5, Range<double>{0.2, 20.0, 0.1}};
+  Property<bool> contours_shown{true};
+  Property<bool> marks_shown{true};                ///< measurements
+  Property<std::int32_t> selected_measurement{0};  ///< 0: none
+
+  // -- who wants to know
+  Signal<> image_changed;
+  Signal<> case_changed;  ///< another case, or none
+  Signal<const ModelEvent&> model_changed;
+  Signal<> annotations_changed;
+  mutable Signal<> stenoses_changed;  ///< of any vessel
+  Signal<> steps_changed;             ///< the journal has another line
+  Signal<const std::string&> noted;   ///< what the person should know of an edit
+
+ private:
+  struct Measured;
+  void follow(const Session::Done& done, const lumen::LumenModel& before);
+  void cursor_to_vessel();
+  void cursor_to_place();
+  OpenImage image_;
+  std::unique_ptr<Session> session_;
+  mutable std::map<std::int32_t, std::unique_ptr<Measured>> measured_;
+  std::vector<Subscription> own_;
+  Measured* measured_of(std::int32_t vessel) const;
+};
+
+}  // namespace ostia::session

@@ -1,0 +1,207 @@
+#include "ostia/session/annotation.h"
+
+#include "ostia/core/error.h"
+#include "ostia/session/annotation_json.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <iterator>
+#include <limits>
+#include <type_traits>
+
+namespace ostia::session {
+namespace {
+
+using analysis::Measurement;
+using lumen::LumenModel;
+
+constexpr std::array<const char*, std::variant_size_v<AnnotationCommand>> op_names{
+    "measure.add", "measure.change", "measure.delete", "vessel.mark"};
+
+bool same_bits(double a, double b) {
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+std::int32_t key_of(const Measurement& measurement) {
+  return measurement.id;
+}
+std::int32_t key_of(const VesselMark& mark) {
+  return mark.vessel;
+}
+
+/// Where a key is, or would be, in a list that is in order.
+template <class Items>
+auto place_of(Items& items, std::int32_t key) {
+  return std::lower_bound(items.begin(), items.end(), key,
+                          [](const auto& item, std::int32_t k) { return key_of(item) < k; });
+}
+
+template <class Items>
+auto find(Items& items, std::int32_t key) {
+  const auto found = place_of(items, key);
+  return found != items.end() && key_of(*found) == key ? found : items.end();
+}
+
+bool has_vessel(const LumenModel& model, std::int32_t id) {
+  return std::any_of(model.tree.vessels.begin(), model.tree.vessels.end(),
+                     [&](const geometry::Vessel& vessel) { return vessel.id == id; });
+}
+
+void require_vessel(const LumenModel& model, std::int32_t id, const std::string& whose) {
+  if (!has_vessel(model, id))
+    throw InvalidInput(whose + " is at vessel " + std::to_string(id) +
+                       ", which the model does not have; choose one of its vessels");
+}
+
+std::string shown(const Measurement& measurement) {
+  return "the " + analysis::to_string(measurement.kind) +
+         (measurement.name.empty() ? "" : " \"" + measurement.name + "\"");
+}
+
+void require_sound(const Measurement& measurement) {
+  if (measurement.vessel < 0)
+    throw InvalidInput(shown(measurement) + " is at vessel " + std::to_string(measurement.vessel) +
+                       "; ids of vessels are 0 or more");
+  if (const auto fault = analysis::find_fault(measurement))
+    throw InvalidInput(shown(measurement) + " cannot be kept: " + *fault);
+}
+
+auto require_measurement(Annotations& annotations, std::int32_t id) {
+  const auto found = find(annotations.measurements, id);
+  if (found == annotations.measurements.end())
+    throw InvalidInput("there is no measurement " + std::to_string(id) +
+                       "; it was deleted, or is of another case");
+  return found;
+}
+
+void run(Annotations& annotations, const MeasureAdd& command, const LumenModel& model) {
+  if (annotations.next_measurement_id == std::numeric_limits<std::int32_t>::max())
+    throw InvalidInput("the case has no ids left for measurements; begin a new case");
+  Measurement added = command.measurement;
+  added.id = annotations.next_measurement_id;
+  require_sound(added);
+  if (needs_vessel(added)) require_vessel(model, added.vessel, shown(added));
+  annotations.measurements.push_back(std::move(added));
+  ++annotations.next_measurement_id;
+}
+
+void run(Annotations& annotations, const MeasureChange& command, const LumenModel& model) {
+  const Measurement& changed = command.measurement;
+  const auto found = require_measurement(annotations, changed.id);
+  require_sound(changed);
+  const bool kept_vessel = needs_vessel(*found) && found->vessel == changed.vessel;
+  if (needs_vessel(changed) && !kept_vessel) require_vessel(model, changed.vessel, shown(changed));
+  *found = changed;
+}
+
+void run(Annotations& annotations, const MeasureDelete& command, const LumenModel&) {
+  annotations.measurements.erase(require_measurement(annotations, command.id));
+}
+
+void run(Annotations& annotations, const MarkVessel& command, const LumenModel& model) {
+  const VesselMark& mark = command.mark;
+  if (mark.color)
+    for (const double part : *mark.color)
+      if (!(part >= 0.0 && part <= 1.0))
+        throw InvalidInput("the color of vessel " + std::to_string(mark.vessel) + " has a part of " +
+                           std::to_string(part) + "; red, green and blue are 0 to 1");
+  const auto found = place_of(annotations.marks, mark.vessel);
+  if (found != annotations.marks.end() && found->vessel == mark.vessel) {
+    *found = mark;
+    return;
+  }
+  require_vessel(model, mark.vessel, "the mark");
+  annotations.marks.insert(found, mark);
+}
+
+/// Keys of what is in one of two ordered lists alone, or differs.
+template <class Item>
+std::vector<std::int32_t> differing(const std::vector<Item>& before, const std::vector<Item>& after) {
+  std::vector<std::int32_t> keys;
+  auto a = before.begin();
+  auto b = after.begin();
+  while (a != before.end() || b != after.end()) {
+    if (b == after.end() || (a != before.end() && key_of(*a) < key_of(*b))) {
+      keys.push_back(key_of(*a++));
+    } else if (a == before.end() || key_of(*b) < key_of(*a)) {
+      keys.push_back(key_of(*b++));
+    } else {
+      if (!same(*a, *b)) keys.push_back(key_of(*a));
+      ++a, ++b;
+    }
+  }
+  return keys;
+}
+
+}  // namespace
+
+std::string op_name(const AnnotationCommand& command) {
+  return op_names[command.index()];
+}
+
+bool is_annotation_op(const std::string& op) {
+  return std::find(op_names.begin(), op_names.end(), op) != op_names.end();
+}
+
+const VesselMark* find_mark(const Annotations& annotations, std::int32_t vessel) {
+  const auto found = find(annotations.marks, vessel);
+  return found == annotations.marks.end() ? nullptr : &*found;
+}
+
+const Measurement* find_measurement(const Annotations& annotations, std::int32_t id) {
+  const auto found = find(annotations.measurements, id);
+  return found == annotations.measurements.end() ? nullptr : &*found;
+}
+
+Annotations annotated(const Annotations& before, const AnnotationCommand& command, const LumenModel& model) {
+  to_json(command);  // refuses what no file can hold
+  Annotations after = before;
+  std::visit([&](const auto& kind) { run(after, kind, model); }, command);
+  return after;
+}
+
+AnnotationChange changes_between(const Annotations& before, const Annotations& after) {
+  return {differing(before.measurements, after.measurements), differing(before.marks, after.marks)};
+}
+
+bool same(const Measurement& a, const Measurement& b) {
+  const auto same_points = [](const geometry::Vec3& p, const geometry::Vec3& q) {
+    return std::memcmp(p.data(), q.data(), 3 * sizeof(double)) == 0;
+  };
+  return a.id == b.id && a.kind == b.kind && a.name == b.name && a.vessel == b.vessel &&
+         std::equal(a.points.begin(), a.points.end(), b.points.begin(), b.points.end(), same_points) &&
+         same_bits(a.from_mm, b.from_mm) && same_bits(a.to_mm, b.to_mm) &&
+         same_bits(a.inner_mm, b.inner_mm) && same_bits(a.outer_mm, b.outer_mm);
+}
+
+bool same(const VesselMark& a, const VesselMark& b) {
+  if (a.color.has_value() != b.color.has_value()) return false;
+  if (a.color && !std::equal(a.color->begin(), a.color->end(), b.color->begin(), same_bits)) return false;
+  return a.vessel == b.vessel && a.visible == b.visible && a.checked == b.checked && a.note == b.note;
+}
+
+bool needs_vessel(const Measurement& measurement) {
+  switch (measurement.kind) {
+    case analysis::MeasureKind::stenosis:
+    case analysis::MeasureKind::volume:
+    case analysis::MeasureKind::ring_hu:
+      return true;
+    case analysis::MeasureKind::diameter:
+      return measurement.vessel != 0;
+    default:
+      return false;
+  }
+}
+
+Orphans find_orphans(const Annotations& annotations, const LumenModel& model) {
+  Orphans orphans;
+  for (const Measurement& measurement : annotations.measurements)
+    if (needs_vessel(measurement) && !has_vessel(model, measurement.vessel))
+      orphans.measurements.push_back(measurement.id);
+  for (const VesselMark& mark : annotations.marks)
+    if (!has_vessel(model, mark.vessel)) orphans.marks.push_back(mark.vessel);
+  return orphans;
+}
+
+}  // namespace ostia::session

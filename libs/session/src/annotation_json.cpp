@@ -1,0 +1,77 @@
+#include "ostia/session/annotation_json.h"
+
+#include "json_fields.h"
+
+#include "ostia/core/error.h"
+
+#include <type_traits>
+
+namespace ostia::session {
+namespace {
+
+using json_fields::Json;
+using json_fields::Need;
+using json_fields::Reader;
+using json_fields::Writer;
+
+// One list of fields for a command, for writing and for reading.
+template <class M, class V>
+void measurement_fields(M& m, V& v, Need id) {
+  v("id", m.id, id);
+  v("kind", m.kind);
+  v("name", m.name, Need::optional);
+  v("points", m.points, Need::optional);
+  v("vessel", m.vessel, Need::optional);
+  v("from_mm", m.from_mm, Need::optional);
+  v("to_mm", m.to_mm, Need::optional);
+  v("inner_mm", m.inner_mm, Need::optional);
+  v("outer_mm", m.outer_mm, Need::optional);
+}
+
+template <class C, class V>
+void fields(C& command, V& v) {
+  using Kind = std::remove_const_t<C>;
+  if constexpr (std::is_same_v<Kind, MeasureAdd>) {
+    measurement_fields(command.measurement, v, Need::optional);
+  } else if constexpr (std::is_same_v<Kind, MeasureChange>) {
+    measurement_fields(command.measurement, v, Need::required);
+  } else if constexpr (std::is_same_v<Kind, MeasureDelete>) {
+    v("id", command.id);
+  } else {
+    v("vessel", command.mark.vessel);
+    v("visible", command.mark.visible);
+    v("checked", command.mark.checked);
+    v("color", command.mark.color);
+    v("note", command.mark.note, Need::optional);
+  }
+}
+
+AnnotationCommand command_named(const std::string& op) {
+  std::string choices;
+  for (const AnnotationCommand& candidate :
+       {AnnotationCommand(MeasureAdd{}), AnnotationCommand(MeasureChange{}),
+        AnnotationCommand(MeasureDelete{}), AnnotationCommand(MarkVessel{})}) {
+    if (op_name(candidate) == op) return candidate;
+    choices += (choices.empty() ? "" : ", ") + op_name(candidate);
+  }
+  throw InvalidInput("an annotation has the unknown \"op\" \"" + op + "\"; known are " + choices);
+}
+
+}  // namespace
+
+std::string to_json(const AnnotationCommand& command) {
+  return json_fields::line_of("annotation", op_name(command), [&](Writer& writer) {
+    std::visit([&](const auto& kind) { fields(kind, writer); }, command);
+  });
+}
+
+AnnotationCommand annotation_of_json(std::string_view line) {
+  const Json in = json_fields::object_of("annotation", line);
+  AnnotationCommand command = command_named(in["op"].get<std::string>());
+  Reader reader(in, "annotation " + in["op"].get<std::string>());
+  std::visit([&](auto& kind) { fields(kind, reader); }, command);
+  reader.require_no_others();
+  return command;
+}
+
+}  // namespace ostia::session

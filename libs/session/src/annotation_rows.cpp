@@ -1,0 +1,153 @@
+#include "annotation_rows.h"
+
+#include "model_blob.h"
+
+#include "ostia/core/error.h"
+
+namespace ostia::session {
+namespace {
+
+using analysis::Measurement;
+
+[[noreturn]] void damaged(const std::string& what) {
+  throw InvalidInput("the case is damaged: " + what + "; take a copy of it from a backup");
+}
+
+std::int32_t id_of(std::int64_t value) {
+  if (value < 0 || value != static_cast<std::int32_t>(value))
+    damaged("an annotation has the id " + std::to_string(value));
+  return static_cast<std::int32_t>(value);
+}
+
+bool flag_of(std::int64_t value) {
+  if (value != 0 && value != 1) damaged("a vessel's mark is neither set nor not");
+  return value == 1;
+}
+
+analysis::MeasureKind kind_of(const std::string& name) {
+  try {
+    return analysis::measure_kind(name);
+  } catch (const InvalidInput&) {
+    damaged("a measurement of an unknown kind");
+  }
+}
+
+/// Empty for none.
+std::string color_bytes(const VesselMark& mark) {
+  return mark.color ? bytes_of(std::vector<double>(mark.color->begin(), mark.color->end())) : std::string();
+}
+
+std::optional<std::array<double, 3>> color_of(std::string_view bytes) {
+  if (bytes.empty()) return std::nullopt;
+  const geometry::Vec3 v = vec_of(bytes);
+  return std::array<double, 3>{v.x(), v.y(), v.z()};
+}
+
+std::uint64_t sum_of(const Measurement& m) {
+  Checksum sum;
+  sum.add("measurement").add(std::int64_t{m.id}).add(analysis::to_string(m.kind)).add(m.name);
+  sum.add(bytes_of(m.points)).add(std::int64_t{m.vessel});
+  return sum.add(m.from_mm).add(m.to_mm).add(m.inner_mm).add(m.outer_mm).value();
+}
+
+std::uint64_t sum_of(const VesselMark& mark) {
+  Checksum sum;
+  sum.add("mark").add(std::int64_t{mark.vessel}).add(std::int64_t{mark.visible});
+  return sum.add(std::int64_t{mark.checked}).add(color_bytes(mark)).add(mark.note).value();
+}
+
+}  // namespace
+
+std::uint64_t sum_of(const Annotations& annotations) {
+  std::uint64_t sum = Checksum().add("annotation").add(std::int64_t{annotations.next_measurement_id}).value();
+  for (const Measurement& measurement : annotations.measurements) sum += sum_of(measurement);
+  for (const VesselMark& mark : annotations.marks) sum += sum_of(mark);
+  return sum;
+}
+
+AnnotationRows::AnnotationRows(const Database& db)
+    : insert_(db, "INSERT INTO annotation VALUES(1, ?1, ?2)"),
+      update_(db, "UPDATE annotation SET next_measurement_id = ?1, checksum = ?2 WHERE id = 1"),
+      put_measurement_(
+          db,
+          "INSERT INTO measurement VALUES(?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9) ON CONFLICT(id) DO "
+          "UPDATE SET kind = excluded.kind, name = excluded.name, points = excluded.points, "
+          "vessel = excluded.vessel, from_mm = excluded.from_mm, to_mm = excluded.to_mm, "
+          "inner_mm = excluded.inner_mm, outer_mm = excluded.outer_mm"),
+      erase_measurement_(db, "DELETE FROM measurement WHERE id = ?1"),
+      put_mark_(db,
+                "INSERT INTO mark VALUES(?1, ?2, ?3, ?4, ?5) ON CONFLICT(vessel) DO UPDATE SET "
+                "visible = excluded.visible, checked = excluded.checked, color = excluded.color, "
+                "note = excluded.note"),
+      erase_mark_(db, "DELETE FROM mark WHERE vessel = ?1"),
+      read_(db, "SELECT next_measurement_id, checksum FROM annotation"),
+      read_measurements_(db,
+                         "SELECT id, kind, name, points, vessel, from_mm, to_mm, inner_mm, outer_mm FROM "
+                         "measurement ORDER BY id"),
+      read_marks_(db, "SELECT vessel, visible, checked, color, note FROM mark ORDER BY vessel") {}
+
+void AnnotationRows::put(const Measurement& m) {
+  const std::string points = bytes_of(m.points);
+  put_measurement_
+      .with(m.id, analysis::to_string(m.kind), m.name, Blob{points}, m.vessel, m.from_mm, m.to_mm, m.inner_mm,
+            m.outer_mm)
+      .run();
+}
+
+void AnnotationRows::put(const VesselMark& mark) {
+  const std::string color = color_bytes(mark);
+  put_mark_.with(mark.vessel, std::int32_t{mark.visible}, std::int32_t{mark.checked}, Blob{color}, mark.note)
+      .run();
+}
+
+void AnnotationRows::write_new() {
+  const Annotations none;
+  insert_.with(none.next_measurement_id, static_cast<std::int64_t>(sum_of(none))).run();
+}
+
+void AnnotationRows::write_change(const Annotations& before, const Annotations& after) {
+  const AnnotationChange change = changes_between(before, after);
+  for (const std::int32_t id : change.measurements) {
+    if (const Measurement* measurement = find_measurement(after, id))
+      put(*measurement);
+    else
+      erase_measurement_.with(id).run();
+  }
+  for (const std::int32_t vessel : change.marks) {
+    if (const VesselMark* mark = find_mark(after, vessel))
+      put(*mark);
+    else
+      erase_mark_.with(vessel).run();
+  }
+  update_.with(after.next_measurement_id, static_cast<std::int64_t>(sum_of(after))).run();
+}
+
+Annotations AnnotationRows::read() {
+  Annotations annotations;
+  if (!read_.with().step()) damaged("it holds no place for annotations");
+  annotations.next_measurement_id = id_of(read_.integer(0));
+  const auto checksum = static_cast<std::uint64_t>(read_.integer(1));
+  read_.reset();
+  Statement& m = read_measurements_.with();
+  while (m.step()) {
+    Measurement one;
+    one.id = id_of(m.integer(0));
+    one.kind = kind_of(m.text(1));
+    one.name = m.text(2);
+    one.points = points_of(m.bytes(3));
+    one.vessel = id_of(m.integer(4));
+    one.from_mm = m.real(5), one.to_mm = m.real(6), one.inner_mm = m.real(7), one.outer_mm = m.real(8);
+    annotations.measurements.push_back(std::move(one));
+  }
+  Statement& v = read_marks_.with();
+  while (v.step())
+    annotations.marks.push_back(
+        {id_of(v.integer(0)), flag_of(v.integer(1)), flag_of(v.integer(2)), color_of(v.bytes(3)), v.text(4)});
+  if (sum_of(annotations) != checksum) damaged("its annotations are not what was written");
+  if (!annotations.measurements.empty() &&
+      annotations.measurements.back().id >= annotations.next_measurement_id)
+    damaged("a measurement has an id that was not given yet");
+  return annotations;
+}
+
+}  // namespace ostia::session

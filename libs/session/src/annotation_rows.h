@@ -1,0 +1,33 @@
+#pragma once
+/// \file The tables of annotations: rows read, written, and their sum.
+
+#include "database.h"
+
+#include "ostia/session/annotation.h"
+
+#include <cstdint>
+
+namespace ostia::session {
+
+/// Of all rows of annotations: additive, so that a command changes it by its own rows.
+std::uint64_t sum_of(const Annotations& annotations);
+
+/// Reads and writes; transactions are the caller's.
+class AnnotationRows {
+ public:
+  explicit AnnotationRows(const Database& database);
+
+  void write_new();  ///< none yet, in tables just made
+  /// Rows that differ.
+  void write_change(const Annotations& before, const Annotations& after);
+  /// Throws InvalidInput where a row cannot be one, or the sum is not that of the rows.
+  Annotations read();
+
+ private:
+  void put(const analysis::Measurement& measurement);
+  void put(const VesselMark& mark);
+  Statement insert_, update_, put_measurement_, erase_measurement_, put_mark_, erase_mark_, read_,
+      read_measurements_, read_marks_;
+};
+
+}  // namespace ostia::session

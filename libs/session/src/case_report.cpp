@@ -1,0 +1,306 @@
+#include "ostia/session/case_report.h"
+
+#include "case_report_text.h"
+
+#include "ostia/core/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace ostia::session {
+namespace {
+
+using analysis::LumenProfile;
+using analysis::SectionMeasures;
+using report_text::fixed;
+
+/// Measures of a stretch: sections within it, and its ends.
+struct Sizes {
+  std::optional<double> mean_diameter_mm, least_diameter_mm, least_area_mm2;
+};
+
+/// The stretch without the vessel's ends: there, within a radius, the wall closes over the lumen or opens to
+/// the aorta, and is no calibre. A stretch that is nothing else stays as it is.
+std::pair<double, double> within_ends(const LumenProfile& profile, const analysis::ReferenceLine& reference,
+                                      double from_mm, double to_mm) {
+  const double first = 0.5 * reference.diameter_mm.front();
+  const double last = profile.length_mm - 0.5 * reference.diameter_mm.back();
+  const double from = std::max(from_mm, first), to = std::min(to_mm, last);
+  return from < to ? std::pair{from, to} : std::pair{from_mm, to_mm};
+}
+
+Sizes sizes_of(const LumenProfile& profile, double from_mm, double to_mm) {
+  std::vector<SectionMeasures> sections;
+  const auto add_end = [&](double s_mm) {
+    const SectionMeasures end = analysis::at(profile, s_mm);
+    if (end.found) sections.push_back(end);  // between a measured section and a shut one nothing is known
+  };
+  add_end(from_mm);
+  for (const SectionMeasures& section : profile.sections)
+    if (section.s_mm > from_mm && section.s_mm < to_mm) sections.push_back(section);
+  add_end(to_mm);
+  // Trapezia between measured neighbours; a shut lumen measures nothing, an open wall says nothing.
+  const auto says = [](const SectionMeasures& section) { return section.found || !section.open; };
+  double sum = 0.0, length = 0.0, least = std::numeric_limits<double>::infinity(), area = least;
+  for (std::size_t i = 0; i < sections.size(); ++i) {
+    if (!says(sections[i])) continue;
+    least = std::min(least, sections[i].diameter_mm);
+    area = std::min(area, sections[i].area_mm2);
+    if (i + 1 == sections.size() || !says(sections[i + 1])) continue;
+    const double step = sections[i + 1].s_mm - sections[i].s_mm;
+    sum += 0.5 * step * (sections[i].diameter_mm + sections[i + 1].diameter_mm);
+    length += step;
+  }
+  Sizes sizes;
+  if (std::isfinite(least)) sizes.least_diameter_mm = least, sizes.least_area_mm2 = area;
+  if (length > 0.0) sizes.mean_diameter_mm = sum / length;
+  return sizes;
+}
+
+std::optional<double> volume_of(const LumenProfile& profile, double from_mm, double to_mm) {
+  try {
+    return analysis::volume_mm3(profile, from_mm, to_mm);
+  } catch (const InvalidInput&) {
+    return std::nullopt;  // a section is missing
+  }
+}
+
+double unmeasured_mm(const LumenProfile& profile, double from_mm) {
+  if (profile.sections.size() < 2) return 0.0;
+  const double step = profile.length_mm / static_cast<double>(profile.sections.size() - 1);
+  return step * static_cast<double>(std::count_if(
+                    profile.sections.begin(), profile.sections.end(),
+                    [&](const SectionMeasures& s) { return s.s_mm >= from_mm && !s.found && s.open; }));
+}
+
+/// The report as it grows.
+class Maker {
+ public:
+  Maker(const lumen::LumenModel& model, const analysis::SurfaceOfVessel& surface_of,
+        const Annotations& annotations, const ReportOptions& options)
+      : model_(model),
+        surface_of_(surface_of),
+        annotations_(annotations),
+        cut_(analysis::segments_of(model)) {
+    report_.options = options;
+    report_.program_version = pipeline::program_version();
+    report_.model_digest = lumen::digest(model);
+  }
+
+  void measure_vessels(const core::TaskContext& task) {
+    const auto count = static_cast<double>(model_.tree.vessels.size());
+    double done = 0.0;
+    for (const geometry::Vessel& vessel : model_.tree.vessels) {
+      measure(vessel, task.sub(done / count, (done + 1.0) / count));
+      done += 1.0;
+    }
+  }
+
+  void add_segments() {
+    for (const analysis::VesselSegment& cut : cut_) {
+      const LumenProfile& profile = report_.profiles.at(cut.vessel);
+      ReportSegment segment;
+      segment.vessel = cut.vessel;
+      segment.vessel_name = report_text::vessel_name(model_, cut.vessel);
+      segment.label = cut.label;
+      segment.from_mm = cut.from_mm;
+      segment.to_mm = cut.to_mm;
+      const auto [from, to] = within_ends(profile, report_.references.at(cut.vessel), cut.from_mm, cut.to_mm);
+      const Sizes sizes = sizes_of(profile, from, to);
+      segment.mean_diameter_mm = sizes.mean_diameter_mm;
+      segment.least_diameter_mm = sizes.least_diameter_mm;
+      segment.least_area_mm2 = sizes.least_area_mm2;
+      segment.volume_mm3 = volume_of(profile, cut.from_mm, cut.to_mm);
+      segment.checked = is_checked(cut.vessel);
+      for (const ReportStenosis& one : report_.stenoses) {
+        if (segment_at(one.stenosis.vessel, one.stenosis.throat_mm) != &cut ||
+            !(one.stenosis.diameter_percent > segment.worst_percent))
+          continue;
+        segment.worst_stenosis = one.number;
+        segment.worst_percent = one.stenosis.diameter_percent;
+      }
+      report_.segments.push_back(std::move(segment));
+    }
+  }
+
+  void grade() {
+    std::vector<analysis::GradedStenosis> graded;
+    for (const ReportStenosis& one : report_.stenoses)
+      if (one.graded) graded.push_back({one.main_vessel, one.stenosis.diameter_percent});
+    report_.category = analysis::cad_rads(graded);
+  }
+
+  void add_measurements(const imaging::ImageVolume* image) {
+    report_.has_image = image != nullptr;
+    analysis::MeasureContext context;
+    context.model = &model_;
+    context.surface_of = surface_of_;
+    context.image = image;
+    context.profile_of = [this](std::int32_t vessel) -> const LumenProfile& {
+      const auto found = report_.profiles.find(vessel);
+      if (found == report_.profiles.end()) throw InvalidInput("the measurement's vessel is not in the tree");
+      return found->second;
+    };
+    const Orphans orphans = find_orphans(annotations_, model_);
+    for (const analysis::Measurement& one : annotations_.measurements) {
+      ReportMeasurement measurement{one, {}, {}, {}};
+      if (needs_vessel(one)) measurement.vessel_name = report_text::vessel_name(model_, one.vessel);
+      if (std::find(orphans.measurements.begin(), orphans.measurements.end(), one.id) !=
+          orphans.measurements.end())
+        measurement.problem = "not measurable: its vessel was deleted";
+      else if (one.kind == analysis::MeasureKind::ring_hu && !image)
+        measurement.problem = "not measured: the image was not at hand";
+      else
+        measure(measurement, context);
+      report_.measurements.push_back(std::move(measurement));
+    }
+  }
+
+  void add_steps(const std::vector<JournalEntry>& journal) {
+    for (const JournalEntry& entry : journal)
+      if (!entry.undone && entry.kind != StepKind::travel)
+        report_.steps.push_back(report_text::step_of(entry, model_));
+  }
+
+  void warn() {
+    for (const ReportVessel& vessel : report_.vessels) {
+      if (vessel.unmeasured_mm > 0.0)
+        report_.warnings.push_back(vessel.name + ": " + fixed(vessel.unmeasured_mm, 1) +
+                                   " mm could not be measured, the wall does not close there");
+      if (analysis::main_vessel_of(vessel.name).empty())
+        report_.warnings.push_back(vessel.name +
+                                   ": no name of a coronary artery; it counts for none of LM, LAD, LCX and "
+                                   "RCA in the patient's category");
+    }
+    if (!report_.has_image)
+      report_.warnings.push_back(
+          "the image was not at hand: key images show the model alone, CT numbers are not measured");
+  }
+
+  CaseReport take() { return std::move(report_); }
+
+ private:
+  bool is_checked(std::int32_t vessel) const {
+    const VesselMark* mark = find_mark(annotations_, vessel);
+    return mark && mark->checked;
+  }
+  const analysis::VesselSegment* segment_at(std::int32_t vessel, double s_mm) const {
+    const analysis::VesselSegment* found = nullptr;
+    for (const analysis::VesselSegment& one : cut_)
+      if (one.vessel == vessel && (!found || one.from_mm <= s_mm)) found = &one;
+    return found;
+  }
+
+  void measure(const geometry::Vessel& vessel, const core::TaskContext& task) {
+    const ReportOptions& o = report_.options;
+    LumenProfile profile = analysis::lumen_profile(model_, surface_of_, vessel.id, o.profile, task);
+    const double own = lumen::own_from_mm(model_.tree, vessel.id);
+    analysis::ReferenceOptions how = o.reference;
+    how.own_from_mm = own;
+    analysis::ReferenceLine reference =
+        analysis::reference_line(profile, analysis::branch_abscissas(model_, vessel.id), how);
+    for (const analysis::Stenosis& one : analysis::find_stenoses(profile, reference, o.stenosis))
+      if (one.throat_mm >= own) add_stenosis(vessel, one);
+    const VesselMark* mark = find_mark(annotations_, vessel.id);
+    report_.vessels.push_back({vessel.id, vessel.name, profile.length_mm, own, is_checked(vessel.id),
+                               mark ? mark->note : std::string(), unmeasured_mm(profile, own)});
+    report_.references[vessel.id] = std::move(reference);
+    report_.profiles[vessel.id] = std::move(profile);
+  }
+
+  void add_stenosis(const geometry::Vessel& vessel, const analysis::Stenosis& found) {
+    ReportStenosis one;
+    one.number = static_cast<int>(report_.stenoses.size()) + 1;
+    one.stenosis = found;
+    one.vessel_name = vessel.name;
+    one.main_vessel = analysis::main_vessel_of(vessel.name);
+    if (const analysis::VesselSegment* segment = segment_at(vessel.id, found.throat_mm)) {
+      one.segment = segment->label;
+      // The left main's stretch has LAD's or LCX's name; a left posterior branch has none that tells its
+      // side.
+      const int number = segment->aha ? segment->aha->number : 0;
+      if (number == 5) one.main_vessel = "LM";
+      if (number == 15 || number == 18) one.main_vessel = "LCX";
+    }
+    one.category = analysis::cad_rads(found.diameter_percent);
+    one.graded = found.reference_diameter_mm >= report_.options.least_graded_mm;
+    one.checked = is_checked(vessel.id);
+    report_.stenoses.push_back(std::move(one));
+  }
+
+  void measure(ReportMeasurement& measurement, const analysis::MeasureContext& context) const {
+    try {
+      measurement.values = analysis::measured(measurement.measurement, context);
+    } catch (const InvalidInput& error) {
+      measurement.problem = std::string("not measurable: ") + error.what();
+    }
+  }
+
+  const lumen::LumenModel& model_;
+  const analysis::SurfaceOfVessel& surface_of_;
+  const Annotations& annotations_;
+  std::vector<analysis::VesselSegment> cut_;
+  CaseReport report_;
+};
+
+void require(bool fine, const std::string& what) {
+  if (!fine) throw InvalidInput("a report " + what);
+}
+
+}  // namespace
+
+void validate(const ReportOptions& options) {
+  analysis::validate(options.profile);
+  require(options.least_graded_mm >= 0.0 && options.least_graded_mm <= 5.0,
+          "grades stenoses of vessels from 0 to 5 mm, not " + fixed(options.least_graded_mm, 2) + " mm");
+  require(options.picture_percent >= 0.0 && options.picture_percent <= 100.0,
+          "shows vessels with stenoses from 0 to 100 %, not " + fixed(options.picture_percent, 1) + " %");
+  require(std::isfinite(options.theta_deg), "needs a finite angle of the reformations");
+  require(std::isfinite(options.level_hu) && options.window_hu > 0.0 && std::isfinite(options.window_hu),
+          "needs a grey window with a finite level and a positive width, HU");
+}
+
+std::vector<std::string> CaseReport::unchecked() const {
+  std::vector<std::string> names;
+  for (const ReportVessel& vessel : vessels)
+    if (!vessel.checked) names.push_back(vessel.name);
+  return names;
+}
+
+analysis::SurfaceOfVessel solved_surfaces(const lumen::LumenModel& model, const core::TaskContext& task) {
+  std::map<std::int32_t, std::shared_ptr<const lumen::ImplicitSurface>> solved;
+  for (const auto& vessel : model.vessels) {
+    task.throw_if_cancelled();
+    solved[vessel->vessel] = std::make_shared<const lumen::ImplicitSurface>(lumen::solve(*vessel));
+    task.set_progress(static_cast<double>(solved.size()) / static_cast<double>(model.vessels.size()));
+  }
+  return [solved = std::move(solved)](std::int32_t vessel) {
+    const auto found = solved.find(vessel);
+    if (found == solved.end())
+      throw InvalidInput("there is no vessel " + std::to_string(vessel) + " in the model");
+    return found->second;
+  };
+}
+
+CaseReport make_case_report(const lumen::LumenModel& model, const analysis::SurfaceOfVessel& surface_of,
+                            const Annotations& annotations, const std::vector<JournalEntry>& journal,
+                            const imaging::ImageVolume* image, const ReportOptions& options,
+                            const core::TaskContext& task) {
+  validate(options);
+  task.throw_if_cancelled();
+  task.set_stage("measuring");
+  Maker maker(model, surface_of, annotations, options);
+  maker.measure_vessels(task.sub(0.0, 0.9));
+  maker.add_segments();
+  maker.grade();
+  maker.add_measurements(image);
+  maker.add_steps(journal);
+  maker.warn();
+  task.throw_if_cancelled();
+  task.set_progress(1.0);
+  return maker.take();
+}
+
+}  // namespace ostia::session

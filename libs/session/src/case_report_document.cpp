@@ -1,0 +1,211 @@
+// The report as a person reads it: the same parts as HTML and as PDF.
+
+#include "case_report_text.h"
+
+#include "ostia/figure/html_report.h"
+#include "ostia/figure/pdf_document.h"
+#include "ostia/session/case_report.h"
+
+#include <algorithm>
+
+namespace ostia::session {
+namespace {
+
+using figure::Notice;
+using report_text::fixed;
+using report_text::label;
+using report_text::percent;
+using Rows = std::vector<std::vector<std::string>>;
+
+constexpr const char* kDisclaimer =
+    "Made with research software that is not a medical device. Nothing in this report may be used for "
+    "diagnosis or treatment unless a physician has verified it on the images.";
+
+std::string checked_text(bool checked) {
+  return checked ? "yes" : "NO";
+}
+
+std::string worst_text(const CaseReport& report) {
+  const auto worst = std::max_element(report.stenoses.begin(), report.stenoses.end(),
+                                      [](const ReportStenosis& a, const ReportStenosis& b) {
+                                        return a.stenosis.diameter_percent < b.stenosis.diameter_percent;
+                                      });
+  if (worst == report.stenoses.end())
+    return "none from " + percent(report.options.stenosis.least_percent) + " % of the diameter on";
+  return label(*worst) + ", " + worst->vessel_name + ", " + worst->segment + ": " +
+         percent(worst->stenosis.diameter_percent) + " % of the diameter";
+}
+
+std::vector<std::pair<std::string, std::string>> summary_of(const CaseReport& report) {
+  const std::size_t unchecked = report.unchecked().size();
+  std::vector<std::pair<std::string, std::string>> rows;
+  if (!report.options.date.empty()) rows.emplace_back("Date", report.options.date);
+  rows.emplace_back("Image", report.options.image ? report.options.image->pseudonym +
+                                                        (report.has_image ? "" : " (not at hand)")
+                                                  : "the case names none");
+  rows.emplace_back("CAD-RADS",
+                    analysis::to_string(report.category) + ": " + analysis::description(report.category));
+  rows.emplace_back("Worst stenosis", worst_text(report));
+  rows.emplace_back("Stenoses", std::to_string(report.stenoses.size()));
+  rows.emplace_back("Vessels", std::to_string(report.vessels.size()) + ", of which " +
+                                   std::to_string(report.vessels.size() - unchecked) +
+                                   " were checked by a person");
+  const auto edits = std::count_if(report.steps.begin(), report.steps.end(),
+                                   [](const ReportStep& step) { return step.op != "case.begin"; });
+  rows.emplace_back("Steps taken", std::to_string(edits));
+  rows.emplace_back("Program", "Ostia " + report.program_version);
+  rows.emplace_back("Model", report.model_digest.substr(0, 16));
+  return rows;
+}
+
+Rows stenosis_rows(const CaseReport& report) {
+  Rows rows;
+  for (const ReportStenosis& one : report.stenoses) {
+    const analysis::Stenosis& s = one.stenosis;
+    rows.push_back({label(one), one.vessel_name, one.segment, fixed(s.throat_mm, 1), fixed(s.length_mm(), 1),
+                    fixed(s.least_diameter_mm, 2), fixed(s.reference_diameter_mm, 2),
+                    percent(s.diameter_percent) + " %", fixed(s.least_area_mm2, 2),
+                    percent(s.area_percent) + " %",
+                    analysis::to_string(one.category) + (one.graded ? "" : " *"), checked_text(one.checked)});
+  }
+  return rows;
+}
+
+Rows segment_rows(const CaseReport& report) {
+  Rows rows;
+  for (const ReportSegment& s : report.segments)
+    rows.push_back({s.label, s.vessel_name, fixed(s.to_mm - s.from_mm, 1), fixed(s.mean_diameter_mm, 2),
+                    fixed(s.least_diameter_mm, 2), fixed(s.least_area_mm2, 2), fixed(s.volume_mm3, 1),
+                    s.worst_stenosis > 0
+                        ? "S" + std::to_string(s.worst_stenosis) + ": " + percent(s.worst_percent) + " %"
+                        : "none",
+                    checked_text(s.checked)});
+  return rows;
+}
+
+Rows vessel_rows(const CaseReport& report) {
+  Rows rows;
+  for (const ReportVessel& v : report.vessels)
+    rows.push_back({v.name, fixed(v.length_mm - v.own_from_mm, 1), checked_text(v.checked), v.note});
+  return rows;
+}
+
+Rows measurement_rows(const CaseReport& report) {
+  Rows rows;
+  for (const ReportMeasurement& m : report.measurements) {
+    std::string values = m.problem;
+    for (const analysis::MeasuredValue& value : m.values)
+      values += (values.empty() ? "" : "\n") + value.name + ": " + analysis::to_text(value);
+    rows.push_back({std::to_string(m.measurement.id),
+                    report_text::kind_words(analysis::to_string(m.measurement.kind)), m.measurement.name,
+                    m.vessel_name, values});
+  }
+  return rows;
+}
+
+Rows step_rows(const CaseReport& report) {
+  Rows rows;
+  for (const ReportStep& step : report.steps) {
+    std::string words = step.words;
+    for (const std::string& note : step.notes) words += "\n" + note;
+    rows.push_back({std::to_string(step.number), words, step.vessel});
+  }
+  return rows;
+}
+
+template <class Document>
+void add_summary(Document& document, const CaseReport& report) {
+  document.notice(Notice::note, kDisclaimer);
+  const std::vector<std::string> unchecked = report.unchecked();
+  if (unchecked.empty())
+    document.notice(Notice::good, "Every vessel was checked by a person.");
+  else
+    document.notice(Notice::warning, "Not checked by a person: " + report_text::listed(unchecked) +
+                                         ". What stands here of these vessels is the program's own finding.");
+  document.section("Summary");
+  document.key_values(summary_of(report));
+  for (const std::string& warning : report.warnings) document.notice(Notice::warning, warning);
+}
+
+template <class Document>
+void add_stenoses(Document& document, const CaseReport& report) {
+  document.section("Stenoses");
+  if (report.stenoses.empty()) {
+    document.paragraph("No narrowing of " + percent(report.options.stenosis.least_percent) +
+                       " % of the diameter or more was found.");
+  } else {
+    document.table({"No.", "Vessel", "Segment", "At (mm)", "Length (mm)", "MLD (mm)", "Reference (mm)",
+                    "Diameter stenosis", "MLA (mm\xC2\xB2)", "Area stenosis", "CAD-RADS", "Checked"},
+                   stenosis_rows(report), "Stenoses, each at its own vessel");
+    if (std::any_of(report.stenoses.begin(), report.stenoses.end(),
+                    [](const ReportStenosis& one) { return !one.graded; }))
+      document.paragraph("* The reference is thinner than " + fixed(report.options.least_graded_mm, 1) +
+                         " mm: without a say in the patient's category.");
+  }
+  document.paragraph(
+      "CAD-RADS is by the diameter alone, without the modifiers (image quality, plaque burden, high-risk "
+      "plaque, stents, grafts, ischemia), and narrowings below " +
+      percent(report.options.stenosis.least_percent) +
+      " % are not looked for. MLD and MLA: least lumen diameter and area. Percentages are against the "
+      "calibre that the vessel would have without disease.");
+}
+
+template <class Document>
+void add_images(Document& document, const std::vector<KeyImage>& images) {
+  if (images.empty()) return;
+  document.section("Key images");
+  for (const KeyImage& image : images) document.picture(image.picture, image.caption);
+}
+
+template <class Document>
+void add_tables(Document& document, const CaseReport& report) {
+  document.section("Segments");
+  document.table({"Segment", "Vessel", "Length (mm)", "Mean diameter (mm)", "Least diameter (mm)",
+                  "Least area (mm\xC2\xB2)", "Volume (mm\xC2\xB3)", "Worst stenosis", "Checked"},
+                 segment_rows(report), "Standard segments, AHA and SCCT numbers in brackets");
+  document.section("Vessels");
+  document.table({"Vessel", "Own length (mm)", "Checked", "Note"}, vessel_rows(report),
+                 "What was checked, and what was noted");
+  document.section("Measurements");
+  if (report.measurements.empty())
+    document.paragraph("None were placed.");
+  else
+    document.table({"No.", "Kind", "Name", "Vessel", "Values"}, measurement_rows(report),
+                   "Measurements placed by a person");
+  document.section("Edit log");
+  document.table({"Step", "What was done", "Vessel"}, step_rows(report),
+                 "Steps of the journal; what was undone is left out");
+}
+
+template <class Document>
+void compose(Document& document, const CaseReport& report, const std::vector<KeyImage>& images) {
+  add_summary(document, report);
+  add_stenoses(document, report);
+  add_images(document, images);
+  add_tables(document, report);
+}
+
+std::string case_name(const CaseReport& report) {
+  return report.options.image ? "Case of " + report.options.image->pseudonym
+                              : "Case " + report.model_digest.substr(0, 8);
+}
+
+constexpr const char* kTitle = "Coronary arteries on CT angiography";
+
+}  // namespace
+
+std::string report_html(const CaseReport& report, const std::vector<KeyImage>& images) {
+  figure::HtmlReport document(kTitle, case_name(report));
+  compose(document, report, images);
+  return document.html();
+}
+
+std::string report_pdf(const CaseReport& report, const std::vector<KeyImage>& images) {
+  figure::PdfDocument document(kTitle, case_name(report),
+                               {case_name(report) + "  \xC2\xB7  Ostia " + report.program_version +
+                                "  \xC2\xB7  research software, not a medical device"});
+  compose(document, report, images);
+  return document.pdf();
+}
+
+}  // namespace ostia::session

@@ -1,0 +1,112 @@
+// The folder of a report.
+
+#include "ostia/core/error.h"
+#include "ostia/core/files.h"
+#include "ostia/session/annotation_json.h"
+#include "ostia/session/case_report.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <set>
+
+namespace ostia::session {
+namespace fs = std::filesystem;
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double image_density = 2.0;
+
+void check_names(const std::vector<KeyImage>& images) {
+  std::set<std::string> names;
+  for (const KeyImage& image : images) {
+    const bool fit =
+        !image.name.empty() && image.name.size() <= 64 &&
+        std::all_of(image.name.begin(), image.name.end(), [](unsigned char c) {
+          return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-';
+        });
+    if (!fit)
+      throw InvalidInput("a report's image is called \"" + image.name +
+                         "\"; take up to 64 letters, digits and dashes");
+    std::string folded = image.name;
+    std::transform(folded.begin(), folded.end(), folded.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (!names.insert(folded).second)
+      throw InvalidInput("two images of a report are called \"" + image.name + "\"; give each its own name");
+  }
+}
+
+Json image_json(const std::optional<ImageReference>& image) {
+  return image ? Json{{"sha256", image->sha256}, {"pseudonym", image->pseudonym}} : Json();
+}
+
+}  // namespace
+
+std::string report_digest(const CaseFile& file) {
+  const Annotations& notes = *file.annotations();
+  Json all{{"model", lumen::digest(*file.model())}, {"image", image_json(file.image())}};
+  for (const analysis::Measurement& one : notes.measurements)
+    all["measurements"].push_back(to_json(AnnotationCommand(MeasureChange{one})));
+  for (const VesselMark& mark : notes.marks)
+    all["marks"].push_back(to_json(AnnotationCommand(MarkVessel{mark})));
+  for (const JournalEntry& entry : file.journal())
+    all["journal"].push_back({entry.number, entry.op, entry.parameters, entry.undone, entry.notes});
+  return core::sha256(all.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+pipeline::JobKey report_job(const CaseFile& file, bool with_image, const ReportOptions& o,
+                            const std::vector<KeyImage>& further) {
+  Json pictures = Json::array();
+  for (const KeyImage& one : further)
+    pictures.push_back({one.name, one.caption, core::sha256(one.picture.png(image_density))});
+  const Json parameters{{"date", o.date},
+                        {"profile", {o.profile.step_mm, o.profile.around}},
+                        {"reference_window_mm", o.reference.window_mm},
+                        {"least_percent", o.stenosis.least_percent},
+                        {"least_length_mm", o.stenosis.least_length_mm},
+                        {"least_graded_mm", o.least_graded_mm},
+                        {"picture_percent", o.picture_percent},
+                        {"theta_deg", o.theta_deg},
+                        {"grey", {o.level_hu, o.window_hu}},
+                        {"further", pictures}};
+  pipeline::JobKey key{"report", {{"case", report_digest(file)}}, parameters.dump()};
+  if (with_image && o.image) key.inputs["image"] = o.image->sha256;
+  return key;
+}
+
+void write_case_report(const fs::path& folder, const CaseReport& report, const std::vector<KeyImage>& images,
+                       const pipeline::JobKey& job, double seconds_before, const core::TaskContext& task) {
+  const auto start = std::chrono::steady_clock::now();
+  check_names(images);
+  pipeline::require_free_folder(folder);
+  task.throw_if_cancelled();
+  task.set_stage("writing");
+  core::StagedFolder staged(folder);
+  const fs::path& made = staged.temporary();
+  fs::create_directory(made / "images");
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    task.throw_if_cancelled();
+    images[i].picture.write_png(made / "images" / (images[i].name + ".png"), image_density);
+    task.set_progress(0.4 * static_cast<double>(i + 1) / static_cast<double>(images.size()));
+  }
+  core::write_file(made / "report.json", report_json(report, images));
+  core::write_file(made / "segments.csv", segments_csv(report));
+  core::write_file(made / "stenoses.csv", stenoses_csv(report));
+  core::write_file(made / "measurements.csv", measurements_csv(report));
+  task.throw_if_cancelled();
+  core::write_file(made / "report.html", report_html(report, images));
+  task.set_progress(0.7);
+  task.throw_if_cancelled();
+  core::write_file(made / "report.pdf", report_pdf(report, images));
+  task.throw_if_cancelled();
+  const double seconds =
+      seconds_before + std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  pipeline::write_manifest(made, {job, ExitCode::ok, seconds, report.warnings, {}});
+  staged.commit();
+  task.set_progress(1.0);
+}
+
+}  // namespace ostia::session

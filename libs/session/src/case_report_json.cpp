@@ -1,0 +1,255 @@
+// report.json and the tables as CSV.
+
+#include "case_report_text.h"
+
+#include "ostia/core/log.h"
+#include "ostia/session/case_report.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <optional>
+
+namespace ostia::session {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using report_text::fixed;
+using report_text::label;
+
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json();
+}
+Json number(const std::optional<double>& value) {
+  return value ? number(*value) : Json();
+}
+Json text(const std::string& value) {
+  return core::redacted(value);
+}
+Json texts(const std::vector<std::string>& values) {
+  Json list = Json::array();
+  for (const std::string& value : values) list.push_back(text(value));
+  return list;
+}
+
+Json vessel_json(const ReportVessel& v) {
+  return {{"id", v.id},
+          {"name", text(v.name)},
+          {"length_mm", number(v.length_mm)},
+          {"own_from_mm", number(v.own_from_mm)},
+          {"unmeasured_mm", number(v.unmeasured_mm)},
+          {"checked", v.checked},
+          {"note", text(v.note)}};
+}
+
+Json segment_json(const ReportSegment& s) {
+  return {{"vessel", s.vessel},
+          {"vessel_name", text(s.vessel_name)},
+          {"label", text(s.label)},
+          {"from_mm", number(s.from_mm)},
+          {"to_mm", number(s.to_mm)},
+          {"length_mm", number(s.to_mm - s.from_mm)},
+          {"mean_diameter_mm", number(s.mean_diameter_mm)},
+          {"least_diameter_mm", number(s.least_diameter_mm)},
+          {"least_area_mm2", number(s.least_area_mm2)},
+          {"volume_mm3", number(s.volume_mm3)},
+          {"worst_stenosis", s.worst_stenosis > 0 ? Json(s.worst_stenosis) : Json()},
+          {"worst_percent", number(s.worst_percent)},
+          {"checked", s.checked}};
+}
+
+Json stenosis_json(const ReportStenosis& one) {
+  const analysis::Stenosis& s = one.stenosis;
+  return {{"number", one.number},
+          {"vessel", s.vessel},
+          {"vessel_name", text(one.vessel_name)},
+          {"segment", text(one.segment)},
+          {"main_vessel", one.main_vessel},
+          {"from_mm", number(s.from_mm)},
+          {"to_mm", number(s.to_mm)},
+          {"throat_mm", number(s.throat_mm)},
+          {"length_mm", number(s.length_mm())},
+          {"proximal_mm", number(s.proximal_mm)},
+          {"distal_mm", number(s.distal_mm)},
+          {"least_diameter_mm", number(s.least_diameter_mm)},
+          {"least_area_mm2", number(s.least_area_mm2)},
+          {"reference_diameter_mm", number(s.reference_diameter_mm)},
+          {"reference_area_mm2", number(s.reference_area_mm2)},
+          {"diameter_percent", number(s.diameter_percent)},
+          {"area_percent", number(s.area_percent)},
+          {"cad_rads", analysis::to_string(one.category)},
+          {"graded", one.graded},
+          {"checked", one.checked}};
+}
+
+Json measurement_json(const ReportMeasurement& m) {
+  Json values = Json::array();
+  for (const analysis::MeasuredValue& value : m.values)
+    values.push_back({{"name", value.name}, {"value", number(value.value)}, {"unit", value.unit}});
+  return {{"id", m.measurement.id},
+          {"kind", analysis::to_string(m.measurement.kind)},
+          {"name", text(m.measurement.name)},
+          {"vessel", needs_vessel(m.measurement) ? Json(m.measurement.vessel) : Json()},
+          {"vessel_name", text(m.vessel_name)},
+          {"values", values},
+          {"problem", text(m.problem)}};
+}
+
+Json step_json(const ReportStep& step) {
+  return {{"number", step.number},
+          {"op", step.op},
+          {"words", text(step.words)},
+          {"vessel_name", text(step.vessel)},
+          {"notes", texts(step.notes)}};
+}
+
+template <class Rows, class Make>
+Json list(const Rows& rows, const Make& make) {
+  Json all = Json::array();
+  for (const auto& row : rows) all.push_back(make(row));
+  return all;
+}
+
+/// A line of a CSV file.
+class Line {
+ public:
+  Line& add(const std::string& cell) {
+    if (!line_.empty() || !first_) line_ += ',';
+    first_ = false;
+    const std::string shown = core::redacted(cell);
+    if (shown.find_first_of(",\"\r\n") == std::string::npos) {
+      line_ += shown;
+      return *this;
+    }
+    line_ += '"';
+    for (const char c : shown) line_ += c == '"' ? "\"\"" : std::string(1, c);
+    line_ += '"';
+    return *this;
+  }
+  /// What a person wrote: never a spreadsheet's formula.
+  Line& free(const std::string& cell) {
+    const bool formula = !cell.empty() && std::string("=+-@\t\r").find(cell[0]) != std::string::npos;
+    return add(formula ? "'" + cell : cell);
+  }
+  Line& add(double value, int decimals) { return add(std::isfinite(value) ? fixed(value, decimals) : ""); }
+  Line& add(const std::optional<double>& value, int decimals) {
+    return add(value ? fixed(*value, decimals) : "");
+  }
+  std::string end() const { return line_ + "\r\n"; }
+
+ private:
+  std::string line_;
+  bool first_ = true;
+};
+
+std::string yes_no(bool value) {
+  return value ? "yes" : "no";
+}
+
+}  // namespace
+
+std::string report_json(const CaseReport& report, const std::vector<KeyImage>& images) {
+  const ReportOptions& o = report.options;
+  Json image;
+  if (o.image)
+    image = {{"pseudonym", o.image->pseudonym}, {"sha256", o.image->sha256}, {"at_hand", report.has_image}};
+  const Json out{
+      {"v", 1},
+      {"kind", "case report"},
+      {"program", {{"name", "ostia"}, {"version", report.program_version}}},
+      {"date", o.date.empty() ? Json() : text(o.date)},
+      {"image", image},
+      {"model_digest", report.model_digest},
+      {"cad_rads",
+       {{"category", analysis::to_string(report.category)},
+        {"description", analysis::description(report.category)}}},
+      {"options",
+       {{"profile_step_mm", o.profile.step_mm},
+        {"profile_around", o.profile.around},
+        {"reference_window_mm", o.reference.window_mm},
+        {"least_percent", o.stenosis.least_percent},
+        {"least_length_mm", o.stenosis.least_length_mm},
+        {"least_graded_mm", o.least_graded_mm}}},
+      {"all_checked", report.unchecked().empty()},
+      {"vessels", list(report.vessels, vessel_json)},
+      {"segments", list(report.segments, segment_json)},
+      {"stenoses", list(report.stenoses, stenosis_json)},
+      {"measurements", list(report.measurements, measurement_json)},
+      {"steps", list(report.steps, step_json)},
+      {"images", list(images,
+                      [](const KeyImage& one) {
+                        return Json{{"file", "images/" + one.name + ".png"}, {"caption", text(one.caption)}};
+                      })},
+      {"warnings", texts(report.warnings)}};
+  return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string segments_csv(const CaseReport& report) {
+  std::string all =
+      "vessel,segment,from_mm,to_mm,length_mm,mean_diameter_mm,least_diameter_mm,least_area_mm2,volume_mm3,"
+      "worst_stenosis,worst_percent,checked\r\n";
+  for (const ReportSegment& s : report.segments)
+    all += Line()
+               .free(s.vessel_name)
+               .free(s.label)
+               .add(s.from_mm, 3)
+               .add(s.to_mm, 3)
+               .add(s.to_mm - s.from_mm, 3)
+               .add(s.mean_diameter_mm, 4)
+               .add(s.least_diameter_mm, 4)
+               .add(s.least_area_mm2, 4)
+               .add(s.volume_mm3, 3)
+               .add(s.worst_stenosis > 0 ? "S" + std::to_string(s.worst_stenosis) : "")
+               .add(s.worst_stenosis > 0 ? fixed(s.worst_percent, 2) : "")
+               .add(yes_no(s.checked))
+               .end();
+  return all;
+}
+
+std::string stenoses_csv(const CaseReport& report) {
+  std::string all =
+      "stenosis,vessel,segment,main_vessel,from_mm,to_mm,throat_mm,length_mm,least_diameter_mm,least_area_"
+      "mm2,"
+      "reference_diameter_mm,reference_area_mm2,diameter_percent,area_percent,cad_rads,graded,checked\r\n";
+  for (const ReportStenosis& one : report.stenoses) {
+    const analysis::Stenosis& s = one.stenosis;
+    all += Line()
+               .add(label(one))
+               .free(one.vessel_name)
+               .free(one.segment)
+               .add(one.main_vessel)
+               .add(s.from_mm, 3)
+               .add(s.to_mm, 3)
+               .add(s.throat_mm, 3)
+               .add(s.length_mm(), 3)
+               .add(s.least_diameter_mm, 4)
+               .add(s.least_area_mm2, 4)
+               .add(s.reference_diameter_mm, 4)
+               .add(s.reference_area_mm2, 4)
+               .add(s.diameter_percent, 2)
+               .add(s.area_percent, 2)
+               .add(analysis::to_string(one.category))
+               .add(yes_no(one.graded))
+               .add(yes_no(one.checked))
+               .end();
+  }
+  return all;
+}
+
+std::string measurements_csv(const CaseReport& report) {
+  std::string all = "measurement,kind,name,vessel,quantity,value,unit,problem\r\n";
+  for (const ReportMeasurement& m : report.measurements) {
+    const auto begin = [&] {
+      Line line;
+      line.add(std::to_string(m.measurement.id)).add(analysis::to_string(m.measurement.kind));
+      line.free(m.measurement.name).free(m.vessel_name);
+      return line;
+    };
+    if (m.values.empty()) all += begin().add("").add("").add("").add(m.problem).end();
+    for (const analysis::MeasuredValue& value : m.values)
+      all += begin().add(value.name).add(value.value, 4).add(value.unit).add("").end();
+  }
+  return all;
+}
+
+}  // namespace ostia::session

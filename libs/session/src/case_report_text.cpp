@@ -1,0 +1,134 @@
+#include "case_report_text.h"
+
+#include "ostia/session/annotation_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+namespace ostia::session::report_text {
+namespace {
+
+using Json = nlohmann::json;
+
+struct OpWords {
+  const char *op, *words;
+};
+constexpr std::array<OpWords, 18> kWords{{
+    {"case.begin", "case begun"},
+    {"cpr.stroke", "wall drawn on a curved reformation"},
+    {"section.contour", "contour drawn on a cross-section"},
+    {"wall.drag", "wall dragged"},
+    {"wall.push", "wall pushed with the brush"},
+    {"axis.move", "centerline moved"},
+    {"axis.insert", "centerline point added"},
+    {"axis.delete", "centerline point deleted"},
+    {"axis.extend", "vessel extended"},
+    {"axis.trim", "vessel trimmed"},
+    {"branch.add", "vessel added"},
+    {"branch.delete", "vessel deleted"},
+    {"branch.attach", "vessel attached elsewhere"},
+    {"vessel.rename", "vessel renamed"},
+    {"measure.add", "measurement added"},
+    {"measure.change", "measurement changed"},
+    {"measure.delete", "measurement deleted"},
+    {"vessel.mark", "vessel's mark set"},
+}};
+
+std::string text_at(const Json& object, const char* name) {
+  const auto found = object.find(name);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+bool flag_at(const Json& object, const char* name) {
+  const auto found = object.find(name);
+  return found != object.end() && found->is_boolean() && found->get<bool>();
+}
+
+/// What tells this step from others of its kind.
+std::string detail_of(const std::string& op, const Json& given) {
+  if (op == "vessel.mark") return flag_at(given, "checked") ? ": checked" : ": not checked";
+  if (op == "vessel.rename" || op == "branch.add") return ": " + text_at(given, "name");
+  if (op.rfind("measure.", 0) == 0) {
+    std::string detail = kind_words(text_at(given, "kind"));
+    const std::string name = text_at(given, "name");
+    if (!name.empty()) detail += " \"" + name + "\"";
+    return detail.empty() ? detail : ": " + detail;
+  }
+  const auto at = given.find("s_mm");
+  return at != given.end() && at->is_number() ? " at " + fixed(at->get<double>(), 1) + " mm" : std::string();
+}
+
+/// The vessel that a step names; a measurement of points has none.
+std::optional<std::int32_t> vessel_of(const std::string& op, const Json& given) {
+  const auto found = given.find(op == "branch.add" ? "parent" : "vessel");
+  if (found == given.end() || !found->is_number_integer()) return std::nullopt;
+  if (op == "measure.add" || op == "measure.change") {
+    const AnnotationCommand command = annotation_of_json(given.dump());
+    const auto* added = std::get_if<MeasureAdd>(&command);
+    const auto* changed = std::get_if<MeasureChange>(&command);
+    if (added && !needs_vessel(added->measurement)) return std::nullopt;
+    if (changed && !needs_vessel(changed->measurement)) return std::nullopt;
+  }
+  return found->get<std::int32_t>();
+}
+
+}  // namespace
+
+std::string fixed(double value, int decimals) {
+  if (!std::isfinite(value)) return "-";
+  std::array<char, 400> buffer{};
+  const auto end =
+      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::fixed, decimals);
+  std::string text(buffer.data(), end.ptr);
+  if (text[0] == '-' && text.find_first_not_of("-0.") == std::string::npos) text.erase(0, 1);
+  return text;
+}
+
+std::string fixed(const std::optional<double>& value, int decimals) {
+  return value ? fixed(*value, decimals) : "-";
+}
+
+std::string percent(double value) {
+  if (!std::isfinite(value)) return "-";
+  const long whole = std::lround(value);
+  return std::to_string(whole >= 100 && value < 100.0 - 1e-9 ? 99 : whole);
+}
+
+std::string label(const ReportStenosis& stenosis) {
+  return "S" + std::to_string(stenosis.number);
+}
+
+std::string kind_words(const std::string& kind) {
+  return kind == "ring_hu" ? "HU in a ring" : kind;
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+std::string vessel_name(const lumen::LumenModel& model, std::int32_t id) {
+  for (const geometry::Vessel& vessel : model.tree.vessels)
+    if (vessel.id == id) return vessel.name;
+  return "vessel " + std::to_string(id) + " (deleted)";
+}
+
+ReportStep step_of(const JournalEntry& entry, const lumen::LumenModel& model) {
+  ReportStep step{entry.number, entry.op, entry.op, {}, entry.notes};
+  const auto known =
+      std::find_if(kWords.begin(), kWords.end(), [&](const OpWords& one) { return entry.op == one.op; });
+  if (known != kWords.end()) step.words = known->words;
+  const Json given = Json::parse(entry.parameters, nullptr, false);
+  if (!given.is_object()) return step;
+  step.words += detail_of(entry.op, given);
+  if (const auto vessel = vessel_of(entry.op, given)) step.vessel = vessel_name(model, *vessel);
+  return step;
+}
+
+}  // namespace ostia::session::report_text

@@ -1,0 +1,158 @@
+// `ostia report`: a case's folder of report, tables and pictures.
+
+#include "program.h"
+
+#include "ostia/core/files.h"
+#include "ostia/geometry/analytic_shapes.h"
+#include "ostia/imaging/image_file.h"
+#include "ostia/lumen/start_surface.h"
+#include "ostia/session/case_file.h"
+#include "ostia/session/image_digest.h"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <csignal>
+
+namespace ostia::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using Json = nlohmann::json;
+namespace fs = std::filesystem;
+
+/// 24 mm along z, with 0.4 of its diameter in the middle.
+lumen::LumenModel model() {
+  geometry::VesselTree tree;
+  geometry::Centerline axis = geometry::straight_tube(24.0, 1.5, 0.5).tubes.front().axis;
+  for (std::size_t i = 0; i < axis.size(); ++i) {
+    const double t = (axis.points[i].z() - 13.0) / 3.5;
+    if (std::abs(t) < 1.0) axis.radius[i] *= 1.0 - 0.3 * (1.0 + std::cos(3.14159265358979 * t));
+  }
+  geometry::complete(axis);
+  tree.nodes = {{1, axis.points.front()}, {2, axis.points.back()}};
+  tree.segments = {{3, 1, 2, std::move(axis)}};
+  tree.vessels = {{4, "LAD", {3}}};
+  return lumen::model_of_tubes(tree);
+}
+
+imaging::ImageVolume image(std::int16_t lumen_hu = 400) {
+  imaging::ImageVolume made;
+  made.geometry.size = {24, 24, 30};
+  made.geometry.spacing = {0.8, 0.8, 0.8};
+  made.geometry.origin = {-9.6, -9.6, 0.0};
+  for (int z = 0; z < 30; ++z)
+    for (int y = 0; y < 24; ++y)
+      for (int x = 0; x < 24; ++x)
+        // Many values: an image of few is taken for a mask.
+        made.voxels.push_back(std::hypot(0.8 * x - 9.6, 0.8 * y - 9.6) < 1.5
+                                  ? lumen_hu
+                                  : static_cast<std::int16_t>(-100 + 7 * x + 3 * y + z));
+  return made;
+}
+
+/// A folder with `heart.nrrd`, and `heart.ostia` made with it.
+fs::path case_folder(const std::string& name = "heart") {
+  const fs::path folder = temporary_folder("report");
+  imaging::write_image(folder / (name + ".nrrd"), image());
+  session::CaseFile file = session::CaseFile::create(folder / (name + ".ostia"), model(),
+                                                     session::image_reference(folder / (name + ".nrrd")));
+  analysis::Measurement distance;
+  distance.name = "my distance";
+  distance.points = {{0.0, 0.0, 2.0}, {0.0, 0.0, 8.0}};
+  file.annotate(session::MeasureAdd{distance});
+  return folder;
+}
+
+TEST(ReportCommand, MakesTheFolderOnce) {
+  const fs::path folder = case_folder();
+  const std::vector<std::string> command{"report", "heart.ostia", "--image", "heart.nrrd",
+                                         "-o",     "out",         "--date",  "2026-01-31"};
+  const Outcome made = ostia(command, {folder, ""});
+  ASSERT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr("CAD-RADS 3"));
+  EXPECT_THAT(names_in(folder / "out"),
+              ::testing::ElementsAre("images", "images/tree.png", "images/vessel-4.png", "manifest.json",
+                                     "measurements.csv", "report.html", "report.json", "report.pdf",
+                                     "segments.csv", "stenoses.csv"));
+  const Json report = Json::parse(core::read_file(folder / "out" / "report.json"));
+  EXPECT_EQ(report["date"], "2026-01-31");
+  EXPECT_EQ(report["stenoses"].size(), 1U);
+  EXPECT_NEAR(report["stenoses"][0]["diameter_percent"].get<double>(), 60.0, 4.0);
+  EXPECT_EQ(report["measurements"][0]["values"][0]["value"], 6.0);
+  EXPECT_EQ(core::read_file(folder / "out" / "report.pdf").substr(0, 5), "%PDF-");
+  const auto written = fs::last_write_time(folder / "out" / "report.pdf");
+  const Outcome again = ostia(command + std::vector<std::string>{"--json"}, {folder, ""});
+  EXPECT_EQ(again.code, 0);
+  EXPECT_THAT(again.err, HasSubstr("nothing to do"));
+  EXPECT_EQ(Json::parse(again.out), report);
+  EXPECT_EQ(fs::last_write_time(folder / "out" / "report.pdf"), written);
+}
+
+TEST(ReportCommand, DoesWithoutAnImageAndSaysSo) {
+  const fs::path folder = case_folder();
+  const Outcome made = ostia({"report", "heart.ostia", "-o", "out", "--json"}, {folder, ""});
+  ASSERT_EQ(made.code, 0) << made.err;
+  const Json report = Json::parse(made.out);
+  EXPECT_EQ(report["image"]["at_hand"], false);
+  EXPECT_THAT(made.err, HasSubstr("image was not at hand"));
+}
+
+TEST(ReportCommand, RefusesBadInputAndLeavesNothing) {
+  const fs::path folder = case_folder();
+  imaging::write_image(folder / "other.nrrd", image(390));
+  core::write_file(folder / "no.ostia", "not a case");
+  fs::create_directory(folder / "full");
+  core::write_file(folder / "full" / "mine.txt", "mine");
+  const std::vector<std::string> before = names_in(folder);
+  const std::vector<std::pair<std::vector<std::string>, int>> commands{
+      {{"heart.ostia", "--image", "other.nrrd", "-o", "out"}, 3},
+      {{"heart.ostia", "--image", "missing.nrrd", "-o", "out"}, 3},
+      {{"no.ostia", "-o", "out"}, 3},
+      {{"missing.ostia", "-o", "out"}, 3},
+      {{"heart.ostia", "-o", "full"}, 3},
+      {{"heart.ostia", "-o", "missing/out"}, 3},
+      {{"heart.ostia", "-o", "out", "--window", "0"}, 2},
+      {{"heart.ostia"}, 2},
+  };
+  for (const auto& [arguments, code] : commands) {
+    const Outcome done = ostia(std::vector<std::string>{"report"} + arguments, {folder, ""});
+    EXPECT_EQ(done.code, code) << done.err;
+    EXPECT_FALSE(done.err.empty());
+  }
+  EXPECT_EQ(names_in(folder), before);
+}
+
+TEST(ReportCommand, BadInput_Row40_NoNameOfAFileIsWritten) {
+  const fs::path folder = case_folder("DOE^JANE");
+  const Outcome made = ostia({"report", "DOE^JANE.ostia", "--image", (folder / "DOE^JANE.nrrd").string(),
+                              "-o", "out", "--log", "json"},
+                             {folder, ""});
+  ASSERT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(made.out + made.err, Not(HasSubstr("DOE^JANE")));
+  for (const std::string& name : names_in(folder / "out")) {
+    if (fs::is_directory(folder / "out" / name)) continue;
+    const std::string bytes = core::read_file(folder / "out" / name);
+    EXPECT_EQ(bytes.find("DOE^JANE"), std::string::npos) << name;
+    EXPECT_EQ(bytes.find(folder.string()), std::string::npos) << name;
+  }
+  // A person's own words do appear.
+  EXPECT_THAT(core::read_file(folder / "out" / "report.html"), HasSubstr("my distance"));
+}
+
+TEST(ReportCommand, AnInterruptLeavesNothing) {
+  const fs::path folder = case_folder();
+  const std::vector<std::string> before = names_in(folder);
+  double seconds = 0.0;
+  const Outcome done =
+      interrupted({"report", "heart.ostia", "-o", "out"}, {folder, ""}, SIGINT, 0.4, seconds);
+  if (done.code == 0) GTEST_SKIP() << "done before it could be interrupted";
+  EXPECT_EQ(done.code, 130);
+  EXPECT_EQ(names_in(folder), before);
+}
+
+}  // namespace
+}  // namespace ostia::testing

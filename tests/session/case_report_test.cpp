@@ -1,0 +1,235 @@
+// What a report says of models whose sizes are known beforehand.
+
+#include "ostia/session/case_report.h"
+
+#include "report_cases.h"
+
+#include "ostia/core/error.h"
+#include "ostia/core/parallel.h"
+#include "ostia/session/edit_json.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+
+namespace ostia::session {
+namespace {
+
+using namespace testing;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr double pi = std::numbers::pi;
+
+TEST(CaseReport, TellsAHealthyTubesSizes) {
+  const CaseReport report = report_of(lumen::model_of_tubes(
+      lumen::testing::tree_of(geometry::straight_tube(60.0, 1.5, 0.5).tubes.front().axis, "RCA")));
+  EXPECT_THAT(report.stenoses, IsEmpty());
+  EXPECT_EQ(report.category, analysis::CadRads::zero);
+  EXPECT_THAT(report.warnings, ElementsAre(HasSubstr("image was not at hand")));
+  ASSERT_EQ(report.segments.size(), 3U);  // proximal, mid and distal
+  double length = 0.0, volume = 0.0;
+  for (const ReportSegment& segment : report.segments) {
+    EXPECT_EQ(segment.vessel_name, "RCA");
+    EXPECT_NEAR(segment.mean_diameter_mm.value(), 3.0, 0.03) << segment.label;
+    // The caps at the ends are no calibre.
+    EXPECT_NEAR(segment.least_diameter_mm.value(), 3.0, 0.06) << segment.label;
+    EXPECT_NEAR(segment.least_area_mm2.value(), pi * 2.25, 0.3) << segment.label;
+    EXPECT_EQ(segment.worst_stenosis, 0);
+    length += segment.to_mm - segment.from_mm;
+    volume += segment.volume_mm3.value();
+  }
+  EXPECT_NEAR(length, 60.0, 1e-9);
+  EXPECT_NEAR(volume, pi * 2.25 * 60.0, 0.02 * pi * 2.25 * 60.0);
+  EXPECT_THAT(report.segments[0].label, HasSubstr("pRCA"));
+}
+
+TEST(CaseReport, FindsAStenosisOfKnownSize) {
+  const CaseReport report = report_of(narrowed_tube("RCA", 60.0, 1.5, 22.0, 0.6));
+  ASSERT_EQ(report.stenoses.size(), 1U);
+  const ReportStenosis& one = report.stenoses[0];
+  EXPECT_EQ(one.number, 1);
+  EXPECT_NEAR(one.stenosis.throat_mm, 22.0, 0.6);
+  EXPECT_NEAR(one.stenosis.least_diameter_mm, 1.2, 0.08);
+  EXPECT_NEAR(one.stenosis.reference_diameter_mm, 3.0, 0.06);
+  EXPECT_NEAR(one.stenosis.diameter_percent, 60.0, 3.0);
+  EXPECT_NEAR(one.stenosis.area_percent, 84.0, 3.0);
+  EXPECT_EQ(one.category, analysis::CadRads::three);
+  EXPECT_EQ(report.category, analysis::CadRads::three);
+  EXPECT_EQ(one.main_vessel, "RCA");
+  EXPECT_THAT(one.segment, HasSubstr("mRCA"));
+  for (const ReportSegment& segment : report.segments) {
+    const bool mid = segment.label == one.segment;
+    EXPECT_EQ(segment.worst_stenosis, mid ? 1 : 0);
+    EXPECT_EQ(segment.worst_percent, mid ? one.stenosis.diameter_percent : 0.0);
+  }
+}
+
+TEST(CaseReport, AStenosisOfASharedStretchIsReportedOnceAndAsTheLeftMains) {
+  const CaseReport report = report_of(narrowed_y(0, 7.0, 0.6));
+  ASSERT_EQ(report.stenoses.size(), 1U);
+  EXPECT_EQ(report.stenoses[0].vessel_name, "LAD");
+  EXPECT_EQ(report.stenoses[0].main_vessel, "LM");
+  EXPECT_EQ(report.stenoses[0].category, analysis::CadRads::three);
+  EXPECT_EQ(report.category, analysis::CadRads::four_b);  // left main from 50 %
+}
+
+TEST(CaseReport, ABranchsStenosisIsItsOwn) {
+  const CaseReport report = report_of(narrowed_y(2, 12.0, 0.6));
+  ASSERT_FALSE(report.stenoses.empty());
+  EXPECT_EQ(std::count_if(report.stenoses.begin(), report.stenoses.end(),
+                          [](const ReportStenosis& one) { return one.stenosis.diameter_percent > 50.0; }),
+            1);
+  EXPECT_EQ(report.stenoses.back().vessel_name, "LCX");
+  EXPECT_EQ(report.category, analysis::CadRads::three);
+}
+
+TEST(CaseReport, AThinVesselsStenosisIsListedWithoutASay) {
+  const lumen::LumenModel model = narrowed_tube("OM1", 40.0, 0.7, 20.0, 0.28);
+  const CaseReport report = report_of(model);
+  ASSERT_EQ(report.stenoses.size(), 1U);
+  EXPECT_FALSE(report.stenoses[0].graded);
+  EXPECT_EQ(report.stenoses[0].category, analysis::CadRads::three);
+  EXPECT_EQ(report.category, analysis::CadRads::zero);
+  ReportOptions all;
+  all.least_graded_mm = 0.0;
+  EXPECT_EQ(report_of(model, {}, {}, nullptr, all).category, analysis::CadRads::three);
+}
+
+TEST(CaseReport, TellsWhatNobodyChecked) {
+  Annotations notes;
+  notes.marks = {{1, true, true, std::nullopt, "seen"}};
+  const lumen::LumenModel model = named_y();
+  notes.marks[0].vessel = model.tree.vessels[0].id;
+  const CaseReport report = report_of(model, notes);
+  EXPECT_THAT(report.unchecked(), ElementsAre("LCX"));
+  EXPECT_EQ(report.vessels[0].note, "seen");
+  for (const ReportSegment& segment : report.segments)
+    EXPECT_EQ(segment.checked, segment.vessel_name == "LAD");
+}
+
+TEST(CaseReport, WarnsOfAVesselThatIsNoCoronarysName) {
+  const CaseReport report = report_of(narrowed_tube("vessel", 40.0, 1.5, 20.0, 0.6));
+  EXPECT_THAT(report.warnings, ::testing::Contains(HasSubstr("no name of a coronary artery")));
+  EXPECT_EQ(report.category, analysis::CadRads::three);  // its stenosis counts all the same
+}
+
+TEST(CaseReport, MeasuresWhatWasPlacedAndNamesWhatCannotBe) {
+  Annotations notes;
+  for (const analysis::MeasureKind kind : all_kinds) {
+    notes.measurements.push_back(measurement(kind));
+    notes.measurements.back().id = notes.next_measurement_id++;
+  }
+  notes.measurements.push_back(measurement(analysis::MeasureKind::volume, 99));
+  notes.measurements.back().id = notes.next_measurement_id++;
+  const CaseReport report = report_of(tube_model(), notes);
+  ASSERT_EQ(report.measurements.size(), 8U);
+  for (const ReportMeasurement& one : report.measurements) {
+    SCOPED_TRACE(one.measurement.id);
+    EXPECT_NE(one.values.empty(), one.problem.empty());
+  }
+  const geometry::Vec3 a(0.1, -1.0 / 3.0, 10.0), b(-0.0, 1.5, 10.0);
+  EXPECT_DOUBLE_EQ(report.measurements[0].values.at(0).value, (a - b).norm());
+  EXPECT_EQ(report.measurements[0].vessel_name, "");
+  EXPECT_EQ(report.measurements[4].vessel_name, "LAD");
+  EXPECT_NEAR(report.measurements[5].values.at(0).value, pi * 2.25 * (20.1 - 5.0 - 1.0 / 7.0), 2.5);
+  EXPECT_THAT(report.measurements[6].problem, HasSubstr("image was not at hand"));
+  EXPECT_THAT(report.measurements[7].problem, HasSubstr("its vessel was deleted"));
+  EXPECT_THAT(report.measurements[7].vessel_name, HasSubstr("vessel 99"));
+
+  const imaging::ImageVolume image = tube_image();
+  const CaseReport with = report_of(tube_model(), notes, {}, &image);
+  EXPECT_FALSE(with.measurements[6].values.empty());
+  EXPECT_THAT(with.warnings, IsEmpty());
+}
+
+TEST(CaseReport, TheLogIsWhatWasDoneAndNotUndone) {
+  const TempFolder folder;
+  CaseFile file = CaseFile::create(folder / "a.ostia", tube_model());
+  file.apply(ring(12.0, 1.8));
+  file.apply(renamed("dropped"));
+  file.undo();
+  file.apply(renamed("RCA"));
+  file.annotate(added(analysis::MeasureKind::stenosis));
+  file.annotate(added(analysis::MeasureKind::distance));
+  file.annotate(marked("fine"));
+  file.apply(drag(20.0, 0.3));
+  file.undo();
+  const CaseReport report = report_of(*file.model(), *file.annotations(), file.journal());
+  std::vector<std::string> words, vessels;
+  for (const ReportStep& step : report.steps) words.push_back(step.words), vessels.push_back(step.vessel);
+  EXPECT_THAT(words, ElementsAre("case begun", "contour drawn on a cross-section at 12.0 mm",
+                                 "vessel renamed: RCA", HasSubstr("measurement added: stenosis"),
+                                 HasSubstr("measurement added: distance"), "vessel's mark set: checked"));
+  EXPECT_THAT(vessels, ElementsAre("", "RCA", "RCA", "RCA", "", "RCA"));
+  EXPECT_EQ(report.steps[2].number, 5);  // 3 and 4 were the name that was dropped, and its undo
+}
+
+TEST(CaseReport, HasWordsForEveryCommand) {
+  std::vector<JournalEntry> journal;
+  for (const lumen::Edit& edit : one_of_each())
+    journal.push_back({static_cast<std::int64_t>(journal.size()) + 1,
+                       lumen::op_name(edit),
+                       to_json(edit),
+                       false,
+                       false,
+                       StepKind::edit,
+                       {}});
+  for (const AnnotationCommand& command :
+       {AnnotationCommand(added(analysis::MeasureKind::angle)),
+        AnnotationCommand(MeasureChange{measurement(analysis::MeasureKind::area)}),
+        AnnotationCommand(MeasureDelete{3}), AnnotationCommand(marked(""))})
+    journal.push_back({static_cast<std::int64_t>(journal.size()) + 1,
+                       op_name(command),
+                       to_json(command),
+                       false,
+                       false,
+                       StepKind::annotation,
+                       {}});
+  const CaseReport report = report_of(tube_model(), {}, journal);
+  ASSERT_EQ(report.steps.size(), journal.size());
+  for (const ReportStep& step : report.steps)
+    EXPECT_EQ(step.words.find(step.op), std::string::npos) << step.op;
+}
+
+TEST(CaseReport, IsTheSameForAnyNumberOfThreads) {
+  const lumen::LumenModel model = named_y();
+  const int before = core::max_threads();
+  core::set_max_threads(1);
+  const std::string one = report_json(report_of(model), {});
+  core::set_max_threads(4);
+  EXPECT_EQ(report_json(report_of(model), {}), one);
+  core::set_max_threads(before);
+}
+
+TEST(CaseReport, RefusesOptionsThatMakeNoSense) {
+  const auto refused = [](const std::function<void(ReportOptions&)>& spoil) {
+    ReportOptions options;
+    spoil(options);
+    EXPECT_THROW(report_of(tube_model(), {}, {}, nullptr, options), InvalidInput);
+  };
+  refused([](ReportOptions& o) { o.profile.step_mm = 0.0; });
+  refused([](ReportOptions& o) { o.reference.window_mm = 1.0; });
+  refused([](ReportOptions& o) { o.stenosis.least_percent = 0.0; });
+  refused([](ReportOptions& o) { o.least_graded_mm = -1.0; });
+  refused([](ReportOptions& o) { o.picture_percent = 101.0; });
+  refused([](ReportOptions& o) { o.theta_deg = std::numeric_limits<double>::infinity(); });
+  refused([](ReportOptions& o) { o.window_hu = 0.0; });
+}
+
+TEST(CaseReport, CanBeCancelled) {
+  const core::TaskContext task;
+  const lumen::LumenModel model = tube_model();
+  const analysis::SurfaceOfVessel surfaces = solved_surfaces(model);
+  const CaseReport report = report_of(model);
+  task.cancel();
+  EXPECT_THROW(solved_surfaces(model, task), Cancelled);
+  EXPECT_THROW(make_case_report(model, surfaces, {}, {}, nullptr, {}, task), Cancelled);
+  EXPECT_THROW(key_images(report, model, surfaces, nullptr, task), Cancelled);
+}
+
+}  // namespace
+}  // namespace ostia::session

@@ -1,0 +1,103 @@
+// Cases of older versions of the format, opened by this one.
+
+#include "case_schema.h"
+#include "case_tools.h"
+
+#include "ostia/core/error.h"
+#include "ostia/session/replay.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace ostia::session {
+namespace {
+
+using namespace testing;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+void sql(const fs::path& path, const std::string& text) {
+  Database(path.string(), SQLITE_OPEN_READWRITE, path.string()).execute(text);
+}
+
+std::string version_of(const fs::path& path) {
+  return Database(path.string(), SQLITE_OPEN_READONLY, path.string()).text_of("PRAGMA user_version");
+}
+
+/// A case as version 1 has it: without the tables of annotations.
+class CaseVersion : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    {
+      CaseFile file = CaseFile::create(path, tube_model());
+      file.apply(ring(10.0, 1.8));
+      file.apply(renamed("two"));
+      file.undo();
+      digest = lumen::digest(*file.model());
+    }
+    sql(path, "DROP TABLE annotation; DROP TABLE measurement; DROP TABLE mark; PRAGMA user_version = 1");
+    ASSERT_EQ(version_of(path), "1");
+    bytes = bytes_of_file(path);
+  }
+  TempFolder folder;
+  fs::path path = folder / "a.ostia";
+  std::string digest, bytes;
+};
+
+TEST_F(CaseVersion, OneIsBroughtUpToDateForEditing) {
+  {
+    CaseFile file = CaseFile::open(path);
+    EXPECT_EQ(lumen::digest(*file.model()), digest);
+    EXPECT_THAT(file.annotations()->measurements, IsEmpty());
+    EXPECT_TRUE(replay(file).same());
+    ASSERT_TRUE(file.redo());  // its changesets still fit
+    file.annotate(added(analysis::MeasureKind::distance));
+  }
+  EXPECT_EQ(version_of(path), std::to_string(schema_version));
+  CaseFile file = CaseFile::open(path);
+  EXPECT_EQ(file.annotations()->measurements.size(), 1U);
+  ASSERT_TRUE(file.undo());
+  ASSERT_TRUE(file.undo());
+  EXPECT_EQ(lumen::digest(*file.model()), digest);
+}
+
+TEST_F(CaseVersion, OneIsLeftAsItIsWhereItIsRead) {
+  {
+    const CaseFile file = CaseFile::open(path, OpenMode::read_only);
+    EXPECT_EQ(lumen::digest(*file.model()), digest);
+    EXPECT_THAT(file.annotations()->marks, IsEmpty());
+    file.copy_to(folder / "b.ostia");
+  }
+  EXPECT_EQ(bytes_of_file(path), bytes);
+  EXPECT_EQ(version_of(folder / "b.ostia"), std::to_string(schema_version));
+  EXPECT_EQ(lumen::digest(*CaseFile::open(folder / "b.ostia").model()), digest);
+}
+
+TEST_F(CaseVersion, ADamagedOneIsNotChanged) {
+  for (const char* damage : {"CREATE TABLE mark(x)", "DROP TABLE setting", "CREATE TABLE more(x)",
+                             "ALTER TABLE node ADD COLUMN x"}) {
+    write_bytes(path, bytes);
+    sql(path, damage);
+    EXPECT_THROW(CaseFile::open(path), InvalidInput) << damage;
+    EXPECT_EQ(version_of(path), "1") << damage;
+    EXPECT_EQ(Database(path.string(), SQLITE_OPEN_READONLY, "")
+                  .text_of("SELECT count(*) FROM sqlite_schema WHERE name IN ('annotation', 'measurement')"),
+              "0")
+        << damage;
+  }
+}
+
+TEST_F(CaseVersion, ANewerOneIsRefused) {
+  sql(path, "PRAGMA user_version = " + std::to_string(schema_version + 1));
+  for (const OpenMode mode : {OpenMode::read_only, OpenMode::read_write}) {
+    try {
+      CaseFile::open(path, mode);
+      FAIL();
+    } catch (const InvalidInput& e) {
+      EXPECT_THAT(std::string(e.what()), HasSubstr("newer than this program's"));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ostia::session

@@ -1,0 +1,86 @@
+#pragma once
+/// \file What a 2D view shows, as plain values: an image, and lines, marks and texts over it. An app paints
+/// it.
+
+#include "ostia/geometry/vec.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace ostia::view {
+
+using geometry::Vec2;
+using geometry::Vec3;
+
+/// CT numbers, rows from the top; NaN outside the image.
+struct GreyImage {
+  int width = 0, height = 0;
+  std::vector<float> values;
+};
+
+/// What something over the image means; the app's theme knows its colour and width.
+enum class Role {
+  lumen,        ///< the wall
+  truth,        ///< the wall as somebody else knows it
+  axis,         ///< of the selected vessel
+  other_axis,   ///< of the others
+  cursor,       ///< the one place that runs through all views
+  reference,    ///< calibre without disease, places of reference
+  stenosis,     ///< a lesion
+  measurement,  ///< that a person placed
+  selected,     ///< the measurement or handle that is chosen
+  stroke,       ///< being drawn
+  dismissed,    ///< samples that an edit took away
+  handle,       ///< can be taken hold of
+  information,  ///< texts in corners, scales, ticks
+  warning,
+  diameter,  ///< curves of the profile
+  area,
+  grid,
+};
+
+struct OverlayLine {
+  std::vector<Vec2> px;
+  Role role = Role::lumen;
+  double opacity = 1.0;
+  bool dashed = false;
+};
+struct OverlayMark {
+  Vec2 px = Vec2::Zero();
+  Role role = Role::handle;
+  double radius = 3.0;  ///< in units of the interface, not of pixels
+  double opacity = 1.0;
+  bool filled = true;
+};
+/// Which point of the text stands at its place.
+enum class Anchor { top_left, top, top_right, left, middle, right, bottom_left, bottom, bottom_right };
+struct OverlayText {
+  Vec2 px = Vec2::Zero();
+  std::string text;
+  Role role = Role::information;
+  Anchor anchor = Anchor::top_left;
+};
+/// A filled band (a lesion along the profile).
+struct OverlayBand {
+  Vec2 low = Vec2::Zero(), high = Vec2::Zero();  ///< opposite corners
+  Role role = Role::stenosis;
+  double opacity = 0.25;
+};
+
+/// Painted in this order: bands, lines, marks, texts.
+struct Overlay {
+  std::vector<OverlayBand> bands;
+  std::vector<OverlayLine> lines;
+  std::vector<OverlayMark> marks;
+  std::vector<OverlayText> texts;
+};
+
+/// A bar of a round length (1, 2 or 5 times a power of ten mm) no longer than a quarter of `width_px`.
+struct ScaleBar {
+  double length_px = 0.0;
+  std::string text;  ///< "10 mm"
+};
+ScaleBar scale_bar(double pixel_mm, int width_px);
+
+}  // namespace ostia::view

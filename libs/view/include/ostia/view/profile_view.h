@@ -1,0 +1,40 @@
+#pragma once
+/// \file The lumen's size along the selected vessel as a plot.
+
+#include "ostia/session/workbench.h"
+#include "ostia/view/overlay.h"
+
+#include <optional>
+
+namespace ostia::view {
+
+/// Diameter and area along the vessel, the reference line, lesions and the cursor. Abscissa runs to the
+/// right.
+class ProfileView {
+ public:
+  explicit ProfileView(session::Workbench& bench);
+  void set_size(int width, int height, double density);
+  const Overlay& overlay();
+  session::Signal<> stale;
+  bool ready() const;
+  std::optional<double> abscissa_at(double x_px) const;
+  double x_of(double s_mm) const;
+  session::Property<bool> area_shown{true};
+  session::Workbench& bench() const { return bench_; }
+
+ private:
+  struct Frame {
+    double left = 0, right = 1, top = 0, bottom = 1;
+    double length_mm = 1, most_mm = 1, most_mm2 = 1;
+  };
+  Frame frame() const;
+  void touch();
+  session::Workbench& bench_;
+  int width_ = 0, height_ = 0;
+  double density_ = 1.0;
+  bool fresh_ = false;
+  Overlay overlay_;
+  std::vector<session::Subscription> own_;
+};
+
+}  // namespace ostia::view

@@ -1,0 +1,20 @@
+#pragma once
+/// \file The few words that views write over pictures, so that an app can give them in its language.
+
+#include <string>
+
+namespace ostia::view {
+
+/// UTF-8; English until an app sets others.
+struct Words {
+  std::string straightened = "straightened", stretched = "stretched";
+  std::string axial = "axial", coronal = "coronal", sagittal = "sagittal", oblique = "oblique";
+  std::string diameter = "diameter, mm", area = "area, mm\u00b2";
+  std::string from_root = "mm from its root";  ///< after a vessel's name
+  std::string not_measurable = "not measurable";
+};
+const Words& words();
+/// Before views are made; one thread.
+void set_words(Words words);
+
+}  // namespace ostia::view

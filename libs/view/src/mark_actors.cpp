@@ -1,0 +1,204 @@
+#include "mark_actors.h"
+
+#include <vtkActor.h>
+#include <vtkCellArray.h>
+#include <vtkFloatArray.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRenderer.h>
+#include <vtkTextActor.h>
+#include <vtkTexture.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace ostia::view {
+namespace {
+
+using figure::Color;
+
+constexpr Color cursor_color{0.98, 0.90, 0.25, 1.0};
+constexpr Color first_cpr{0.34, 0.71, 0.91, 1.0}, second_cpr{0.90, 0.62, 0.0, 1.0};
+constexpr Color measured{0.40, 0.90, 0.75, 1.0}, measured_on_light{0.0, 0.42, 0.32, 1.0};
+constexpr Color chosen{1.0, 0.85, 0.25, 1.0}, chosen_on_light{0.70, 0.30, 0.0, 1.0};
+
+Color measurement_color(const SceneMeasurement& measurement, figure::Look look) {
+  if (look == figure::Look::light) return measurement.selected ? chosen_on_light : measured_on_light;
+  return measurement.selected ? chosen : measured;
+}
+
+std::array<Vec3, 4> corners(const reformat::Plane& plane) {
+  const Vec3 right = plane.width * plane.pixel_mm * plane.u, down = plane.height * plane.pixel_mm * plane.v;
+  return {plane.origin, plane.origin + right, plane.origin + right + down, plane.origin + down};
+}
+
+vtkSmartPointer<vtkTexture> texture_of(const ScenePlanePicture& picture) {
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(picture.plane.width, picture.plane.height, 1);
+  vtkNew<vtkUnsignedCharArray> bytes;
+  bytes->SetNumberOfValues(static_cast<vtkIdType>(picture.gray.size()));
+  std::copy(picture.gray.begin(), picture.gray.end(), bytes->GetPointer(0));
+  image->GetPointData()->SetScalars(bytes);
+  auto texture = vtkSmartPointer<vtkTexture>::New();
+  texture->SetInputData(image);
+  texture->InterpolateOn();
+  texture->RepeatOff();
+  texture->EdgeClampOn();
+  texture->SetColorModeToDirectScalars();
+  return texture;
+}
+
+vtkSmartPointer<vtkActor> picture_actor(const ScenePlanePicture& picture) {
+  vtkNew<vtkPoints> points;
+  for (const Vec3& corner : corners(picture.plane)) points->InsertNextPoint(corner.data());
+  vtkNew<vtkCellArray> cells;
+  const std::array<vtkIdType, 4> quad{0, 1, 2, 3};
+  cells->InsertNextCell(4, quad.data());
+  vtkNew<vtkFloatArray> coordinates;
+  coordinates->SetNumberOfComponents(2);
+  coordinates->InsertNextTuple2(0.0, 0.0);
+  coordinates->InsertNextTuple2(1.0, 0.0);
+  coordinates->InsertNextTuple2(1.0, 1.0);
+  coordinates->InsertNextTuple2(0.0, 1.0);
+  vtkNew<vtkPolyData> shape;
+  shape->SetPoints(points);
+  shape->SetPolys(cells);
+  shape->GetPointData()->SetTCoords(coordinates);
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(shape);
+  auto actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(mapper);
+  actor->SetTexture(texture_of(picture));
+  actor->GetProperty()->LightingOff();
+  actor->PickableOff();
+  return actor;
+}
+
+}  // namespace
+
+void MarkActors::replace(Props& former, Props props) {
+  for (const auto& prop : former) renderer_.RemoveViewProp(prop);
+  former = std::move(props);
+  for (const auto& prop : former) renderer_.AddViewProp(prop);
+}
+
+void MarkActors::show_all(const Marks& marks) {
+  show_cursor(marks);
+  show_measurements(marks);
+  show_axes(marks);
+  for (const ScenePlane plane : {ScenePlane::cross_section, ScenePlane::axial, ScenePlane::coronal,
+                                 ScenePlane::sagittal, ScenePlane::oblique})
+    show_plane(marks, plane);
+}
+
+void MarkActors::show_cursor(const Marks& marks) {
+  Props props;
+  if (marks.cursor) {
+    const SceneCursor& at = *marks.cursor;
+    const auto direction = [&](double theta) { return geometry::radial_direction(at.frame, theta); };
+    const double right_angle = 0.5 * std::numbers::pi;
+    const SceneLine ring{circle(at.place, direction(0.0), direction(right_angle), at.radius_mm), true,
+                         cursor_color};
+    const auto solid = line_actor({&ring, 1}, 3.0 * marks.pixel_ratio);
+    props.emplace_back(solid);
+    const auto hidden_part = line_actor({&ring, 1}, 1.5 * marks.pixel_ratio);  // a hint of what lies behind
+    hidden_part->GetProperty()->SetOpacity(0.4);
+    draw_over_all(*hidden_part);
+    props.emplace_back(hidden_part);
+    const auto under_ball =
+        point_actor({&at.place, 1}, figure::theme(marks.look).background, 10.5 * marks.pixel_ratio);
+    draw_over_all(*under_ball);
+    props.emplace_back(under_ball);
+    const auto ball = point_actor({&at.place, 1}, cursor_color, 8.0 * marks.pixel_ratio);
+    draw_over_all(*ball);
+    props.emplace_back(ball);
+    if (at.plane_traces) {
+      const auto trace = [&](double theta, const Color& color) {
+        const Vec3 reach = 1.6 * at.radius_mm * direction(theta);
+        return SceneLine{{at.place - reach, at.place + reach}, false, color};
+      };
+      const std::array<SceneLine, 2> traces{trace(at.theta, first_cpr),
+                                            trace(at.theta + right_angle, second_cpr)};
+      const auto lines = line_actor(traces, 2.0 * marks.pixel_ratio);
+      draw_over_all(*lines);
+      props.emplace_back(lines);
+    }
+  }
+  replace(cursor_, std::move(props));
+}
+
+/// A line and its dots, with a rim that sets them off from whatever lies behind.
+void MarkActors::add_rimmed(Props& props, const SceneMeasurement& measurement, const Color& color,
+                            const Color& rim, double thick_px) {
+  const auto add = [&](const vtkSmartPointer<vtkActor>& actor) {
+    draw_over_all(*actor);
+    props.emplace_back(actor);
+  };
+  constexpr double rim_px = 2.5;
+  const bool has_line = measurement.points.size() > 1;
+  const SceneLine under{measurement.points, measurement.closed, rim};
+  const SceneLine over{measurement.points, measurement.closed, color};
+  if (has_line) add(line_actor({&under, 1}, thick_px + rim_px));
+  add(point_actor(measurement.points, rim, 2.0 * thick_px + 3.0 + rim_px));
+  if (has_line) add(line_actor({&over, 1}, thick_px));
+  add(point_actor(measurement.points, color, 2.0 * thick_px + 3.0));
+}
+
+void MarkActors::show_measurements(const Marks& marks) {
+  Props props;
+  labels_.clear();
+  const Color plate = figure::theme(marks.look).background;
+  for (const SceneMeasurement& measurement : marks.measurements) {
+    const Color color = measurement_color(measurement, marks.look);
+    const double thick = (measurement.selected ? 3.0 : 2.0) * marks.pixel_ratio;
+    add_rimmed(props, measurement, color, plate, thick);
+    if (measurement.label.empty()) continue;
+    const auto label = label_actor(measurement.label, color, plate, 13.0 * marks.pixel_ratio);
+    labels_.push_back({measurement.points.front(), label});
+    props.emplace_back(label);
+  }
+  replace(measurements_, std::move(props));
+}
+
+void MarkActors::lay_out(const CameraPose& pose, int width_px, int height_px, double pixel_ratio) {
+  const double px_per_mm = 0.5 * height_px / pose.half_height_mm;
+  for (const Label& label : labels_) {
+    const Vec3 off = px_per_mm * (label.at - pose.target);
+    label.actor->SetDisplayPosition(
+        static_cast<int>(std::lround(0.5 * width_px + off.dot(pose.right()) + 9.0 * pixel_ratio)),
+        static_cast<int>(std::lround(0.5 * height_px + off.dot(pose.up) + 7.0 * pixel_ratio)));
+  }
+}
+
+void MarkActors::show_plane(const Marks& marks, ScenePlane plane) {
+  Props props;
+  const auto found = marks.planes.find(plane);
+  if (found != marks.planes.end()) {
+    props.emplace_back(picture_actor(found->second));
+    const auto edge = corners(found->second.plane);
+    const SceneLine border{{edge.begin(), edge.end()}, true, figure::theme(marks.look).muted};
+    props.emplace_back(line_actor({&border, 1}, marks.pixel_ratio));
+  }
+  replace(planes_[plane], std::move(props));
+}
+
+void MarkActors::show_axes(const Marks& marks) {
+  Props props;
+  if (marks.axes_shown && !marks.axes.empty()) {
+    const auto actor = line_actor(marks.axes, 2.0 * marks.pixel_ratio);
+    draw_over_all(*actor);
+    props.emplace_back(actor);
+  }
+  replace(axes_, std::move(props));
+}
+
+}  // namespace ostia::view

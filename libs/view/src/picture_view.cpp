@@ -1,0 +1,235 @@
+#include "ostia/view/picture_view.h"
+
+#include "measure_marks.h"
+
+#include "ostia/reformat/plane.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ostia::view {
+namespace {
+
+constexpr double fading_s = 0.8;
+
+double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b, Vec2& nearest, double& t) {
+  const Vec2 along = b - a;
+  const double length2 = along.squaredNorm();
+  t = length2 > 0.0 ? std::clamp((p - a).dot(along) / length2, 0.0, 1.0) : 0.0;
+  nearest = a + t * along;
+  return (p - nearest).norm();
+}
+
+}  // namespace
+
+PictureView::PictureView(session::Workbench& bench) : bench_(bench) {
+  keep(bench.image_changed.observe([this] { image_stale(); }));
+  keep(bench.case_changed.observe([this] {
+    fading_.clear();
+    contours_stale();
+  }));
+  keep(bench.model_changed.observe([this](const session::ModelEvent& event) { on_model_changed(event); }));
+  keep(bench.annotations_changed.observe([this] { overlay_stale(); }));
+  keep(bench.slab.observe([this](const reformat::Slab&) { image_stale(); }));
+  keep(bench.slab_mm.observe([this](const double&) {
+    if (bench_.slab.get() != reformat::Slab::none) image_stale();
+  }));
+  keep(bench.contours_shown.observe([this](const bool&) { overlay_stale(); }));
+  keep(bench.marks_shown.observe([this](const bool&) { overlay_stale(); }));
+  keep(bench.selected_measurement.observe([this](const std::int32_t&) { overlay_stale(); }));
+  keep(bench.tool.observe([this](const session::Tool&) { overlay_stale(); }));
+}
+PictureView::~PictureView() = default;
+
+void PictureView::set_size(int width, int height, double density) {
+  if (width == width_ && height == height_ && density == density_) return;
+  width_ = std::clamp(width, 0, 16000);
+  height_ = std::clamp(height, 0, 16000);
+  density_ = density > 0.0 ? density : 1.0;
+  size_changed();
+  image_stale();
+}
+
+const GreyImage& PictureView::image() {
+  if (image_fresh_) return image_;
+  image_ = ready() && width_ > 0 && height_ > 0 && bench_.image().volume ? make_image() : GreyImage{};
+  image_fresh_ = true;
+  ++image_revision_;
+  return image_;
+}
+
+const Overlay& PictureView::overlay() {
+  const auto now = std::chrono::steady_clock::now();
+  const std::size_t before = fading_.size();
+  std::erase_if(fading_, [&](const Fading& one) {
+    return std::chrono::duration<double>(now - one.since).count() > fading_s;
+  });
+  if (overlay_fresh_ && fading_.empty() && before == 0) return overlay_;
+  overlay_ = {};
+  if (ready() && width_ > 0 && height_ > 0) {
+    if (bench_.contours_shown.get())
+      for (const lumen::ContourLine& line : contour_lines()) {
+        OverlayLine shown;
+        shown.px.reserve(line.picture_px.size());
+        for (const Vec2& p : line.picture_px) shown.px.push_back(p - contour_offset());
+        overlay_.lines.push_back(std::move(shown));
+      }
+    if (layer_) layer_(overlay_);
+    add_to_overlay(overlay_);
+    const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+    append(overlay_.bands, tool_overlay_.bands);
+    append(overlay_.lines, tool_overlay_.lines);
+    append(overlay_.marks, tool_overlay_.marks);
+    append(overlay_.texts, tool_overlay_.texts);
+  }
+  overlay_fresh_ = true;
+  return overlay_;
+}
+
+std::optional<double> PictureView::value_at(const Vec2& px) {
+  const GreyImage& shown = image();
+  const int x = static_cast<int>(std::floor(px.x())), y = static_cast<int>(std::floor(px.y()));
+  if (x < 0 || y < 0 || x >= shown.width || y >= shown.height) return std::nullopt;
+  const float value = shown.values[static_cast<std::size_t>(y) * static_cast<std::size_t>(shown.width) +
+                                   static_cast<std::size_t>(x)];
+  if (!std::isfinite(value)) return std::nullopt;
+  return static_cast<double>(value);
+}
+
+void PictureView::image_stale() {
+  image_fresh_ = false;
+  ++placement_revision_;
+  lines_state_ = Lines::anew;
+  overlay_stale();
+}
+void PictureView::contours_stale() {
+  lines_state_ = Lines::anew;
+  overlay_stale();
+}
+void PictureView::overlay_stale() {
+  overlay_fresh_ = false;
+  stale.tell();
+}
+
+void PictureView::on_model_changed(const session::ModelEvent& event) {
+  const auto now = std::chrono::steady_clock::now();
+  for (const Vec3& place : event.dismissed) fading_.push_back({place, now});
+  if (lines_state_ == Lines::fresh) {
+    lines_state_ = Lines::moved;
+    lines_changed_ = event.change.box;
+  } else if (lines_state_ == Lines::moved) {
+    lines_changed_.extend(event.change.box);
+  }
+  overlay_stale();
+}
+
+void PictureView::bring_contours() {
+  if (lines_state_ == Lines::fresh) return;
+  const bool shown = bench_.has_case() && ready();
+  if (!shown) {
+    contours_.reset();
+  } else if (lines_state_ == Lines::moved && contours_) {
+    contours_->update(*bench_.session().live().field(), lines_changed_);
+  } else {
+    contours_.reset();
+    const std::optional<lumen::ViewSurface> surface = contour_surface();
+    std::vector<Vec2> seeds = surface ? contour_seeds() : std::vector<Vec2>{};
+    std::erase_if(seeds, [&](const Vec2& p) {
+      return !(p.x() >= 0.0 && p.y() >= 0.0 && p.x() <= surface->width && p.y() <= surface->height);
+    });
+    if (!seeds.empty()) {
+      contours_ = std::make_unique<lumen::ViewContours>(*surface, std::move(seeds));
+      contours_->update(*bench_.session().live().field());
+    }
+  }
+  lines_state_ = Lines::fresh;
+}
+
+const std::vector<lumen::ContourLine>& PictureView::contour_lines() {
+  static const std::vector<lumen::ContourLine> none;
+  bring_contours();
+  return contours_ ? contours_->lines() : none;
+}
+
+std::optional<PictureView::WallHit> PictureView::wall_near(const Vec2& px, double reach_px) {
+  WallHit best;
+  best.distance_px = reach_px;
+  bool found = false;
+  const Vec2 at = px + contour_offset();
+  for (const lumen::ContourLine& line : contour_lines())
+    for (std::size_t i = 0; i + 1 < line.picture_px.size(); ++i) {
+      Vec2 nearest;
+      double t = 0.0;
+      const double distance = distance_to_segment(at, line.picture_px[i], line.picture_px[i + 1], nearest, t);
+      if (distance > best.distance_px) continue;
+      best = {(1.0 - t) * line.world[i] + t * line.world[i + 1], nearest - contour_offset(), distance};
+      found = true;
+    }
+  if (!found) return std::nullopt;
+  return best;
+}
+
+void PictureView::set_layer(Layer layer) {
+  layer_ = std::move(layer);
+  overlay_stale();
+}
+
+void PictureView::set_tool_overlay(Overlay overlay) {
+  tool_overlay_ = std::move(overlay);
+  overlay_stale();
+}
+
+std::optional<PictureView::HandleHit> PictureView::handle_near(const Vec2& px, double reach_px) {
+  if (!bench_.has_case() || !bench_.marks_shown.get()) return std::nullopt;
+  std::optional<HandleHit> best;
+  double nearest = reach_px;
+  for (const analysis::Measurement& one : bench_.session().file().annotations()->measurements)
+    for (std::size_t i = 0; i < one.points.size(); ++i) {
+      const std::optional<ViewPlace> shown = project(one.points[i]);
+      if (!shown || std::abs(shown->out_mm) > mark_reach_mm) continue;
+      const double distance = (shown->px - px).norm();
+      if (distance > nearest) continue;
+      nearest = distance;
+      best = HandleHit{one.id, i};
+    }
+  return best;
+}
+
+void PictureView::add_measurements(Overlay& overlay, double reach_mm) {
+  if (!bench_.has_case() || !bench_.marks_shown.get()) return;
+  for (const analysis::Measurement& one : bench_.session().file().annotations()->measurements)
+    if (!one.points.empty()) add_measurement_marks(overlay, *this, one, reach_mm);
+}
+
+void PictureView::add_fading(Overlay& overlay, double reach_mm) {
+  const auto now = std::chrono::steady_clock::now();
+  for (const Fading& one : fading_) {
+    const std::optional<ViewPlace> shown = project(one.place);
+    if (!shown || std::abs(shown->out_mm) > reach_mm) continue;
+    const double age = std::chrono::duration<double>(now - one.since).count();
+    overlay.marks.push_back({shown->px, Role::dismissed, 2.5, std::max(0.0, 1.0 - age / fading_s)});
+  }
+}
+
+void PictureView::add_scale_bar(Overlay& overlay) {
+  const ScaleBar bar = scale_bar(pixel_mm(), width());
+  if (bar.text.empty() || bar.length_px > 0.9 * width()) return;
+  const double x = width() - units(10.0), y = height() - units(10.0), tick = units(4.0);
+  overlay.lines.push_back(
+      {{Vec2(x - bar.length_px, y - tick), Vec2(x - bar.length_px, y), Vec2(x, y), Vec2(x, y - tick)},
+       Role::information});
+  overlay.texts.push_back({Vec2(x, y - units(6.0)), bar.text, Role::information, Anchor::bottom_right});
+}
+
+void PictureView::add_letters(Overlay& overlay, const Vec3& right, const Vec3& down) {
+  const double edge = units(4.0), w = width(), h = height();
+  const auto add = [&](const Vec2& px, const Vec3& direction, Anchor anchor) {
+    overlay.texts.push_back({px, reformat::patient_letters(direction), Role::information, anchor});
+  };
+  add(Vec2(edge, h / 2), -right, Anchor::left);
+  add(Vec2(w - edge, h / 2), right, Anchor::right);
+  add(Vec2(w / 2, edge), -down, Anchor::top);
+  add(Vec2(w / 2, h - edge), down, Anchor::bottom);
+}
+
+}  // namespace ostia::view

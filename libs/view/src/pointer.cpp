@@ -1,0 +1,289 @@
+#include "ostia/view/pointer.h"
+
+#include "measure_marks.h"
+#include "pointer_gestures.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ostia::view {
+namespace {
+
+using session::Tool;
+
+constexpr double wall_reach_units = 10.0;  // from the contour line within which it is taken hold of
+constexpr double handle_reach_units = 8.0;
+constexpr double axis_reach_units = 12.0;
+constexpr double zoom_step = 1.2;
+
+bool edits_wall(Tool tool) {
+  return tool == Tool::drag || tool == Tool::draw || tool == Tool::brush;
+}
+
+}  // namespace
+
+Pointer::Pointer(PictureView& view) : view_(view) {
+  tool_changed_ = view.bench().tool.observe([this](const Tool&) { drop(); });
+}
+Pointer::~Pointer() = default;
+
+/// Tells of the outermost call.
+class Pointer::Telling {
+ public:
+  Telling(Pointer& pointer, const HandAct& act) : pointer_(pointer) {
+    if (pointer_.telling_++ == 0) pointer_.acting.tell(act);
+  }
+  ~Telling() {
+    if (--pointer_.telling_ == 0) pointer_.acted.tell();
+  }
+  Telling(const Telling&) = delete;
+  Telling& operator=(const Telling&) = delete;
+
+ private:
+  Pointer& pointer_;
+};
+
+bool Pointer::busy() const {
+  return gesture_ != nullptr || !clicked_.empty();
+}
+
+std::unique_ptr<Pointer::Gesture> Pointer::gesture_of(const PointerEvent& event) {
+  if (event.button == Button::middle || (event.button == Button::left && event.control && event.shift))
+    return std::make_unique<Pan>(view_, event);
+  if (event.button == Button::right) return std::make_unique<Contrast>(view_, event);
+  if (event.button != Button::left) return nullptr;
+  const auto* slice = dynamic_cast<SliceView*>(&view_);
+  if (event.shift && (dynamic_cast<CurvedView*>(&view_) || dynamic_cast<SectionView*>(&view_) ||
+                      (slice && slice->kind() == SliceKind::oblique)))
+    return std::make_unique<Turn>(view_, event);
+  if (const auto hit = view_.handle_near(event.px, handle_reach_units * view_.density()))
+    return std::make_unique<MoveHandle>(view_, *hit);
+  return gesture_of_tool(event);
+}
+
+std::unique_ptr<Pointer::Gesture> Pointer::gesture_of_tool(const PointerEvent& event) {
+  session::Workbench& bench = view_.bench();
+  const Tool tool = bench.tool.get();
+  auto* curved = dynamic_cast<CurvedView*>(&view_);
+  const bool vessel_view = curved || dynamic_cast<SectionView*>(&view_);
+  if (!bench.has_case()) return std::make_unique<Browse>(view_, event);
+  switch (tool) {
+    case Tool::browse:
+      return std::make_unique<Browse>(view_, event);
+    case Tool::drag:
+      taken_ = event.taken;
+      if (!event.again)
+        if (const auto hit = view_.wall_near(event.px, wall_reach_units * view_.density()))
+          taken_ = hit->place;
+      if (taken_) return std::make_unique<Drag>(view_, *taken_);
+      return std::make_unique<Browse>(view_, event);
+    case Tool::draw:
+      if (vessel_view) return std::make_unique<Stroke>(view_, event);
+      return std::make_unique<Browse>(view_, event);
+    case Tool::brush:
+      return std::make_unique<Brush>(view_, event);
+    case Tool::axis: {
+      const std::optional<Vec3> place = view_.world(event.px);
+      if (!place) return nullptr;
+      const NearestAxis nearest = nearest_axis(bench, *place);
+      const auto axis = bench.axis(nearest.vessel);
+      if (!axis) return nullptr;
+      const Vec3 from = axis->point(nearest.foot.s_mm);
+      const auto shown = view_.project(from);
+      if (shown && (shown->px - event.px).norm() < axis_reach_units * view_.density())
+        return std::make_unique<MoveAxis>(view_, event, nearest.vessel, from);
+      return std::make_unique<Browse>(view_, event);
+    }
+    case Tool::distance:
+      return std::make_unique<TwoPoints>(view_, event, analysis::MeasureKind::distance);
+    case Tool::diameter:
+      return std::make_unique<TwoPoints>(view_, event, analysis::MeasureKind::diameter);
+    case Tool::area:
+      return std::make_unique<Outline>(view_, event);
+    case Tool::stenosis:
+    case Tool::volume:
+      if (curved) return std::make_unique<Stretch>(*curved, event, *session::measure_kind(tool));
+      return std::make_unique<Browse>(view_, event);
+    case Tool::angle:
+    case Tool::ring_hu:
+    case Tool::add_vessel:
+      return nullptr;
+  }
+  return nullptr;
+}
+
+bool Pointer::click_of_tool(const PointerEvent& event) {
+  session::Workbench& bench = view_.bench();
+  const std::optional<Vec3> place = view_.world(event.px);
+  if (!place) return false;
+  if (bench.tool.get() == Tool::add_vessel) {
+    end_chosen.tell(*place);
+    return true;
+  }
+  if (!bench.has_case()) return false;
+  if (bench.tool.get() == Tool::angle) {
+    clicked_.push_back(*place);
+    if (clicked_.size() == 3) {
+      analysis::Measurement made;
+      made.kind = analysis::MeasureKind::angle;
+      made.points = std::exchange(clicked_, {});
+      view_.set_tool_overlay({});
+      add_measurement(bench, std::move(made));
+    } else {
+      show_clicked();
+    }
+    return true;
+  }
+  if (bench.tool.get() == Tool::ring_hu) {
+    analysis::Measurement made;
+    made.kind = analysis::MeasureKind::ring_hu;
+    made.vessel = bench.vessel.get();
+    auto* curved = dynamic_cast<CurvedView*>(&view_);
+    made.from_mm = made.to_mm = curved ? curved->abscissa_at(event.px.y()) : bench.cursor_mm.get();
+    add_measurement(bench, std::move(made));
+    return true;
+  }
+  return false;
+}
+
+void Pointer::show_clicked() {
+  Overlay overlay;
+  OverlayLine line;
+  line.role = Role::selected;
+  for (const Vec3& place : clicked_)
+    if (const auto shown = view_.project(place)) {
+      line.px.push_back(shown->px);
+      overlay.marks.push_back({shown->px, Role::selected, 3.5, 1.0, false});
+    }
+  if (line.px.size() > 1) overlay.lines.push_back(std::move(line));
+  view_.set_tool_overlay(std::move(overlay));
+}
+
+void Pointer::press(const PointerEvent& event) {
+  const Telling telling(*this, {HandAct::Kind::press, event, 0.0});
+  if (gesture_ || !view_.ready()) return;
+  taken_.reset();
+  if (event.button == Button::left && !event.shift && click_of_tool(event)) return;
+  gesture_ = gesture_of(event);
+  if (gesture_) shape_ = gesture_->shape();
+}
+
+void Pointer::move(const PointerEvent& event) {
+  const Telling telling(*this, {HandAct::Kind::move, event, 0.0});
+  if (gesture_)
+    gesture_->move(event);
+  else if (view_.ready())
+    hover(event);
+}
+
+void Pointer::release(const PointerEvent& event) {
+  const Telling telling(*this, {HandAct::Kind::release, event, 0.0});
+  if (!gesture_) return;
+  const std::unique_ptr<Gesture> ended = std::move(gesture_);
+  try {
+    ended->release(event);
+  } catch (...) {
+    ended->cancel();
+    throw;
+  }
+  ended->cancel();
+  hover(event);
+}
+
+void Pointer::hover(const PointerEvent& event) {
+  const Tool tool = view_.bench().tool.get();
+  shape_ = tool == Tool::browse ? CursorShape::arrow : CursorShape::cross;
+  if (event.shift) {
+    shape_ = CursorShape::turn;
+    return;
+  }
+  if (view_.handle_near(event.px, handle_reach_units * view_.density())) {
+    shape_ = CursorShape::grab;
+  } else if (tool == Tool::drag && view_.bench().has_case()) {
+    Overlay overlay;
+    if (const auto hit = view_.wall_near(event.px, wall_reach_units * view_.density())) {
+      shape_ = CursorShape::grab;
+      overlay.marks.push_back({hit->px, Role::handle, 4.5});
+    }
+    view_.set_tool_overlay(std::move(overlay));
+  } else if (tool == Tool::brush) {
+    Overlay overlay;
+    OverlayLine ball;
+    ball.role = Role::stroke;
+    const double radius = view_.bench().brush_mm.get() / view_.pixel_mm();
+    for (int i = 0; i <= 48; ++i) {
+      const double angle = 2.0 * M_PI * i / 48.0;
+      ball.px.push_back(event.px + radius * Vec2(std::cos(angle), std::sin(angle)));
+    }
+    overlay.lines.push_back(std::move(ball));
+    view_.set_tool_overlay(std::move(overlay));
+  }
+}
+
+void Pointer::double_click(const PointerEvent& event) {
+  const Telling telling(*this, {HandAct::Kind::double_click, event, 0.0});
+  session::Workbench& bench = view_.bench();
+  if (bench.tool.get() != Tool::axis || !bench.has_case()) return;
+  const std::optional<Vec3> place = view_.world(event.px);
+  if (!place) return;
+  const NearestAxis nearest = nearest_axis(bench, *place);
+  if (nearest.vessel == session::Workbench::no_vessel) return;
+  cancel();
+  bench.edit(lumen::AxisInsert{nearest.vessel, *place});
+}
+
+bool Pointer::erase(const PointerEvent& event) {
+  const Telling telling(*this, {HandAct::Kind::erase, event, 0.0});
+  session::Workbench& bench = view_.bench();
+  if (!bench.has_case() || !view_.ready()) return false;
+  if (const auto hit = view_.handle_near(event.px, handle_reach_units * view_.density())) {
+    bench.annotate(session::MeasureDelete{hit->measurement});
+    return true;
+  }
+  if (bench.tool.get() != Tool::axis) return false;
+  const std::optional<Vec3> place = view_.world(event.px);
+  if (!place) return false;
+  const NearestAxis nearest = nearest_axis(bench, *place);
+  const auto axis = bench.axis(nearest.vessel);
+  if (!axis) return false;
+  const auto shown = view_.project(axis->point(nearest.foot.s_mm));
+  if (!shown || (shown->px - event.px).norm() > axis_reach_units * view_.density()) return false;
+  bench.edit(lumen::AxisDelete{nearest.vessel, axis->point(nearest.foot.s_mm)});
+  return true;
+}
+
+void Pointer::wheel(double steps, const PointerEvent& event) {
+  const Telling telling(*this, {HandAct::Kind::wheel, event, steps});
+  if (!view_.ready()) return;
+  if (event.control) {
+    view_.zoom(std::pow(zoom_step, steps), event.px);
+  } else if (event.shift && edits_wall(view_.bench().tool.get())) {
+    session::Workbench& bench = view_.bench();
+    if (bench.tool.get() == Tool::brush)
+      bench.brush_mm.set(bench.brush_mm.get() + 0.1 * steps);
+    else
+      bench.reach_mm.set(bench.reach_mm.get() + 0.5 * steps);
+    hover(event);
+  } else {
+    view_.scroll(steps);
+  }
+}
+
+void Pointer::leave() {
+  const Telling telling(*this, {HandAct::Kind::leave, {}, 0.0});
+  if (!busy()) view_.set_tool_overlay({});
+}
+
+void Pointer::cancel() {
+  const Telling telling(*this, {HandAct::Kind::cancel, {}, 0.0});
+  drop();
+}
+
+void Pointer::drop() {
+  if (gesture_) gesture_->cancel();
+  gesture_.reset();
+  clicked_.clear();
+  view_.set_tool_overlay({});
+}
+
+}  // namespace ostia::view

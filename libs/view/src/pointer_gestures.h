@@ -1,0 +1,185 @@
+#pragma once
+// What a hand can do between press and release.
+
+#include "ostia/view/curved_view.h"
+#include "ostia/view/plane_view.h"
+#include "ostia/view/pointer.h"
+
+namespace ostia::view {
+
+/// One press, moves, one release. Dropped without release: cancelled.
+class Pointer::Gesture {
+ public:
+  virtual ~Gesture() = default;
+  virtual void move(const PointerEvent& event) = 0;
+  virtual void release(const PointerEvent& event) { move(event); }
+  virtual void cancel() {}
+  virtual CursorShape shape() const { return CursorShape::arrow; }
+};
+
+/// The vessel on whose wall a place lies: the selected one where it is on its wall, too.
+std::int32_t vessel_of_wall(const session::Workbench& bench, const Vec3& place);
+/// The vessel whose axis passes nearest to a place, and how near.
+struct NearestAxis {
+  std::int32_t vessel = session::Workbench::no_vessel;
+  geometry::AxisFoot foot;
+};
+NearestAxis nearest_axis(const session::Workbench& bench, const Vec3& place);
+/// A fresh number for the measurements' drags.
+std::int64_t new_drag();
+
+// What is shown.
+class Pointer::Pan final : public Gesture {
+ public:
+  Pan(PictureView& view, const PointerEvent& event) : view_(view), last_(event.px) {}
+  void move(const PointerEvent& event) override;
+  CursorShape shape() const override { return CursorShape::move; }
+
+ private:
+  PictureView& view_;
+  Vec2 last_;
+};
+class Pointer::Contrast final : public Gesture {
+ public:
+  Contrast(PictureView& view, const PointerEvent& event) : view_(view), last_(event.px) {}
+  void move(const PointerEvent& event) override;
+  CursorShape shape() const override { return CursorShape::contrast; }
+
+ private:
+  PictureView& view_;
+  Vec2 last_;
+};
+class Pointer::Turn final : public Gesture {
+ public:
+  Turn(PictureView& view, const PointerEvent& event) : view_(view), last_(event.px) {}
+  void move(const PointerEvent& event) override;
+  CursorShape shape() const override { return CursorShape::turn; }
+
+ private:
+  PictureView& view_;
+  Vec2 last_;
+};
+class Pointer::Browse final : public Gesture {
+ public:
+  Browse(PictureView& view, const PointerEvent& event);
+  void move(const PointerEvent& event) override;
+  CursorShape shape() const override { return CursorShape::cross; }
+
+ private:
+  PictureView& view_;
+};
+
+// The wall and the axis.
+class Pointer::Drag final : public Gesture {
+ public:
+  Drag(PictureView& view, const Vec3& taken);
+  void move(const PointerEvent& event) override;
+  CursorShape shape() const override { return CursorShape::grab; }
+
+ private:
+  PictureView& view_;
+  lumen::WallDrag edit_;
+  bool moved_ = false;
+};
+class Pointer::Stroke final : public Gesture {
+ public:
+  Stroke(PictureView& view, const PointerEvent& event);
+  void move(const PointerEvent& event) override;
+  void release(const PointerEvent& event) override;
+  void cancel() override;
+  CursorShape shape() const override { return CursorShape::cross; }
+
+ private:
+  void add(const Vec2& px);
+  void show() const;
+  PictureView& view_;
+  std::vector<Vec2> px_;
+  std::vector<Vec3> points_;
+};
+class Pointer::Brush final : public Gesture {
+ public:
+  Brush(PictureView& view, const PointerEvent& event);
+  void move(const PointerEvent& event) override;
+  void cancel() override;
+  CursorShape shape() const override { return CursorShape::cross; }
+
+ private:
+  void push(const PointerEvent& event);
+  PictureView& view_;
+  lumen::WallPush edit_;
+};
+class Pointer::MoveAxis final : public Gesture {
+ public:
+  MoveAxis(PictureView& view, const PointerEvent& event, std::int32_t vessel, const Vec3& from);
+  void move(const PointerEvent& event) override;
+  void release(const PointerEvent& event) override;
+  void cancel() override;
+  CursorShape shape() const override { return CursorShape::grab; }
+
+ private:
+  PictureView& view_;
+  lumen::AxisMove edit_;
+  Vec2 start_;
+  bool live_;  // false in a CPR, whose axis is what it is laid out by: it follows on release
+  bool moved_ = false;
+};
+
+// Measurements.
+/// Two places on a view (distance, diameter).
+class Pointer::TwoPoints final : public Gesture {
+ public:
+  TwoPoints(PictureView& view, const PointerEvent& event, analysis::MeasureKind kind);
+  void move(const PointerEvent& event) override;
+  void release(const PointerEvent& event) override;
+  void cancel() override;
+  CursorShape shape() const override { return CursorShape::cross; }
+
+ private:
+  PictureView& view_;
+  analysis::Measurement made_;
+  Vec2 start_, end_;
+};
+/// A line drawn around an area.
+class Pointer::Outline final : public Gesture {
+ public:
+  Outline(PictureView& view, const PointerEvent& event);
+  void move(const PointerEvent& event) override;
+  void release(const PointerEvent& event) override;
+  void cancel() override;
+  CursorShape shape() const override { return CursorShape::cross; }
+
+ private:
+  PictureView& view_;
+  std::vector<Vec2> px_;
+};
+/// Two abscissas of the selected vessel on a CPR (stenosis, volume).
+class Pointer::Stretch final : public Gesture {
+ public:
+  Stretch(CurvedView& view, const PointerEvent& event, analysis::MeasureKind kind);
+  void move(const PointerEvent& event) override;
+  void release(const PointerEvent& event) override;
+  void cancel() override;
+  CursorShape shape() const override { return CursorShape::cross; }
+
+ private:
+  CurvedView& view_;
+  analysis::MeasureKind kind_;
+  double from_mm_, to_mm_;
+};
+class Pointer::MoveHandle final : public Gesture {
+ public:
+  MoveHandle(PictureView& view, const PictureView::HandleHit& hit);
+  void move(const PointerEvent& event) override;
+  CursorShape shape() const override { return CursorShape::grab; }
+
+ private:
+  PictureView& view_;
+  analysis::Measurement changed_;
+  std::size_t point_;
+  std::int64_t drag_;
+};
+
+/// Adds a measurement and selects it.
+void add_measurement(session::Workbench& bench, analysis::Measurement made);
+
+}  // namespace ostia::view

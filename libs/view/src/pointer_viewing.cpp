@@ -1,0 +1,84 @@
+#include "pointer_gestures.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+
+namespace ostia::view {
+namespace {
+
+constexpr double hu_per_unit = 2.0;       // of window and level per unit of the interface
+constexpr double degrees_per_unit = 0.5;  // of the CPR
+constexpr double follow_mm = 1.0;  // beyond the lumen: how far from it a click still takes the cursor along
+
+}  // namespace
+
+NearestAxis nearest_axis(const session::Workbench& bench, const Vec3& place) {
+  NearestAxis best;
+  best.foot.rho_mm = std::numeric_limits<double>::infinity();
+  const lumen::LumenModel* model = bench.model();
+  if (!model) return best;
+  const auto offer = [&](std::int32_t id, const geometry::AxisCurve& axis) {
+    const geometry::AxisFoot foot = axis.nearest_foot(place);
+    if (foot.rho_mm < best.foot.rho_mm - 1e-9) best = {id, foot};
+  };
+  // The selected vessel first: of several that share a stretch it is the one that is meant.
+  if (const auto axis = bench.axis()) offer(bench.vessel.get(), *axis);
+  for (const auto& vessel : model->vessels) offer(vessel->vessel, *vessel->axis);
+  return best;
+}
+
+std::int64_t new_drag() {
+  static std::atomic<std::int64_t> last{0};
+  return ++last;
+}
+
+void Pointer::Pan::move(const PointerEvent& event) {
+  view_.pan(event.px - last_);
+  last_ = event.px;
+}
+
+void Pointer::Contrast::move(const PointerEvent& event) {
+  const Vec2 by = (event.px - last_) / view_.density();
+  last_ = event.px;
+  session::GreyWindow window = view_.bench().grey.get();
+  window.width_hu = std::clamp(window.width_hu + hu_per_unit * by.x(), 1.0, 5000.0);
+  window.level_hu = std::clamp(window.level_hu + hu_per_unit * by.y(), -2000.0, 4000.0);
+  view_.bench().grey.set(window);
+}
+
+void Pointer::Turn::move(const PointerEvent& event) {
+  const Vec2 by = (event.px - last_) / view_.density();
+  last_ = event.px;
+  if (auto* slice = dynamic_cast<SliceView*>(&view_)) {
+    slice->tilt(degrees_per_unit * by.y(), degrees_per_unit * by.x());
+    return;
+  }
+  session::Property<double>& theta = view_.bench().theta_deg;
+  theta.set(std::remainder(theta.get() + degrees_per_unit * by.x(), 360.0));
+}
+
+Pointer::Browse::Browse(PictureView& view, const PointerEvent& event) : view_(view) {
+  move(event);
+}
+
+void Pointer::Browse::move(const PointerEvent& event) {
+  session::Workbench& bench = view_.bench();
+  if (auto* curved = dynamic_cast<CurvedView*>(&view_)) {
+    bench.cursor_mm.set(curved->abscissa_at(event.px.y()));
+    return;
+  }
+  const std::optional<Vec3> place = view_.world(event.px);
+  if (!place) return;
+  if (dynamic_cast<SliceView*>(&view_)) {
+    // On or beside the selected vessel the cursor goes along; the crosshair stays where it was put.
+    if (const auto axis = bench.axis()) {
+      const geometry::AxisFoot foot = axis->nearest_foot(*place);
+      if (!foot.past_end && foot.rho_mm < axis->radius(foot.s_mm) + follow_mm) bench.cursor_mm.set(foot.s_mm);
+    }
+  }
+  bench.place.set(*place);
+}
+
+}  // namespace ostia::view

@@ -1,0 +1,155 @@
+#include "ostia/view/profile_view.h"
+
+#include "ostia/figure/plot.h"
+#include "ostia/view/words.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace ostia::view {
+
+ProfileView::ProfileView(session::Workbench& bench) : bench_(bench) {
+  const auto on = [this](const auto&) { touch(); };
+  own_.push_back(bench.vessel.observe(on));
+  own_.push_back(bench.cursor_mm.observe(on));
+  own_.push_back(bench.model_changed.observe(on));
+  own_.push_back(bench.case_changed.observe([this] { touch(); }));
+  own_.push_back(bench.annotations_changed.observe([this] { touch(); }));
+  own_.push_back(area_shown.observe(on));
+}
+
+void ProfileView::touch() {
+  fresh_ = false;
+  stale.tell();
+}
+
+void ProfileView::set_size(int width, int height, double density) {
+  if (width == width_ && height == height_ && density == density_) return;
+  width_ = width;
+  height_ = height;
+  density_ = density;
+  touch();
+}
+
+bool ProfileView::ready() const {
+  return bench_.axis() != nullptr && width_ > 40 && height_ > 30;
+}
+
+ProfileView::Frame ProfileView::frame() const {
+  Frame made;
+  made.left = 40.0 * density_;
+  made.right = width_ - (area_shown.get() ? 44.0 : 12.0) * density_;
+  made.top = 20.0 * density_;
+  made.bottom = height_ - 26.0 * density_;
+  made.right = std::max(made.right, made.left + 1.0);
+  made.bottom = std::max(made.bottom, made.top + 1.0);
+  if (const analysis::LumenProfile* profile = bench_.profile(bench_.vessel.get())) {
+    made.length_mm = std::max(1e-3, profile->length_mm);
+    double widest = 1.0, largest = 1.0;
+    for (const analysis::SectionMeasures& one : profile->sections) {
+      widest = std::max(widest, one.diameter_mm);
+      largest = std::max(largest, one.area_mm2);
+    }
+    made.most_mm = 1.1 * widest;
+    made.most_mm2 = 1.1 * largest;
+  }
+  return made;
+}
+
+double ProfileView::x_of(double s_mm) const {
+  const Frame f = frame();
+  return f.left + s_mm / f.length_mm * (f.right - f.left);
+}
+
+std::optional<double> ProfileView::abscissa_at(double x_px) const {
+  if (!ready()) return std::nullopt;
+  const Frame f = frame();
+  return std::clamp((x_px - f.left) / (f.right - f.left), 0.0, 1.0) * f.length_mm;
+}
+
+const Overlay& ProfileView::overlay() {
+  if (fresh_) return overlay_;
+  overlay_ = {};
+  fresh_ = true;
+  const analysis::LumenProfile* profile = ready() ? bench_.profile(bench_.vessel.get()) : nullptr;
+  if (!profile) return overlay_;
+  const Frame f = frame();
+  const auto x = [&](double s) { return f.left + s / f.length_mm * (f.right - f.left); };
+  const auto y = [&](double share) { return f.bottom - std::clamp(share, 0.0, 1.0) * (f.bottom - f.top); };
+  const auto text = [&](double px, double py, const std::string& what, Role role, Anchor anchor) {
+    overlay_.texts.push_back({Vec2(px, py), what, role, anchor});
+  };
+
+  const auto ticks = [&](double most, int count, bool left, Role role) {
+    const std::vector<double> values = figure::nice_ticks(0.0, most, count);
+    const double step = values.size() > 1 ? values[1] - values[0] : 1.0;
+    for (const double value : values) {
+      const double at = y(value / most);
+      if (left) overlay_.lines.push_back({{Vec2(f.left, at), Vec2(f.right, at)}, Role::grid, 0.5});
+      text(left ? f.left - 4 * density_ : f.right + 4 * density_, at, figure::tick_text(value, step), role,
+           left ? Anchor::right : Anchor::left);
+    }
+  };
+  const int rows = std::max(2, static_cast<int>((f.bottom - f.top) / (28.0 * density_)));
+  ticks(f.most_mm, rows, true, Role::diameter);
+  if (area_shown.get()) ticks(f.most_mm2, rows, false, Role::area);
+  const std::vector<double> along = figure::nice_ticks(
+      0.0, f.length_mm, std::max(2, static_cast<int>((f.right - f.left) / (60.0 * density_))));
+  const double step = along.size() > 1 ? along[1] - along[0] : 1.0;
+  for (const double s : along) {
+    overlay_.lines.push_back({{Vec2(x(s), f.top), Vec2(x(s), f.bottom)}, Role::grid, 0.3});
+    text(x(s), f.bottom + 3 * density_, figure::tick_text(s, step), Role::information, Anchor::top);
+  }
+  overlay_.lines.push_back(
+      {{Vec2(f.left, f.top), Vec2(f.left, f.bottom), Vec2(f.right, f.bottom)}, Role::grid});
+
+  for (const analysis::Stenosis& one : bench_.stenoses(bench_.vessel.get())) {
+    overlay_.bands.push_back(
+        {Vec2(x(one.from_mm), f.top), Vec2(x(one.to_mm), f.bottom), Role::stenosis, 0.25});
+    char label[32];
+    std::snprintf(label, sizeof label, "%.0f %%", one.diameter_percent);
+    text(std::clamp(x(one.throat_mm), f.left + 14 * density_, f.right - 14 * density_), f.top + 2 * density_,
+         label, Role::stenosis, Anchor::top);
+  }
+  // A curve in pieces: it breaks where no section was found.
+  const auto curve = [&](Role role, bool dashed, double opacity, const auto& share) {
+    OverlayLine line;
+    line.role = role;
+    line.dashed = dashed;
+    line.opacity = opacity;
+    const auto end = [&] {
+      if (line.px.size() > 1) overlay_.lines.push_back(line);
+      line.px.clear();
+    };
+    for (std::size_t i = 0; i < profile->sections.size(); ++i) {
+      const double value = share(i);
+      if (!std::isfinite(value))
+        end();
+      else
+        line.px.emplace_back(x(profile->sections[i].s_mm), y(value));
+    }
+    end();
+  };
+  if (area_shown.get())
+    curve(Role::area, false, 0.8, [&](std::size_t i) {
+      const auto& one = profile->sections[i];
+      return one.found ? one.area_mm2 / f.most_mm2 : std::nan("");
+    });
+  const analysis::ReferenceLine* reference = bench_.reference(bench_.vessel.get());
+  if (reference && reference->diameter_mm.size() == profile->sections.size())
+    curve(Role::reference, true, 0.9, [&](std::size_t i) { return reference->diameter_mm[i] / f.most_mm; });
+  curve(Role::diameter, false, 1.0, [&](std::size_t i) {
+    const auto& one = profile->sections[i];
+    return one.found ? one.diameter_mm / f.most_mm : std::nan("");
+  });
+  const double s = bench_.cursor_mm.get();
+  overlay_.lines.push_back({{Vec2(x(s), f.top), Vec2(x(s), f.bottom)}, Role::cursor});
+  text(f.left, 3 * density_, words().diameter, Role::diameter, Anchor::top_left);
+  if (area_shown.get()) text(f.right, 3 * density_, words().area, Role::area, Anchor::top_right);
+  text(0.5 * (f.left + f.right), 3 * density_,
+       bench_.vessel_name(bench_.vessel.get()) + ", " + words().from_root, Role::information, Anchor::top);
+  return overlay_;
+}
+
+}  // namespace ostia::view

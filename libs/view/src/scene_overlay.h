@@ -1,0 +1,55 @@
+#pragma once
+/// \file What lies flat over the 3D picture: the cube with the patient's directions, a scale bar, the bar of
+/// a colour scale.
+
+#include "ostia/figure/color.h"
+#include "ostia/view/scene_camera.h"
+#include "ostia/view/scene_colors.h"
+
+#include <vtkSmartPointer.h>
+
+#include <array>
+#include <optional>
+#include <vector>
+
+class vtkActor2D;
+class vtkPolyData;
+class vtkRenderer;
+class vtkTextActor;
+
+namespace ostia::view {
+
+struct OverlaySettings {
+  bool marker_shown = true, scale_bar_shown = true;
+  double pixel_ratio = 1.0;
+  figure::Look look = figure::Look::dark;
+  std::optional<ValueScale> color_bar;
+};
+
+/// A round length (1, 2, 5 and their tens) that takes between a tenth and a quarter of the width.
+double scale_bar_mm(double mm_per_px, int width_px);
+
+/// Its props, laid out anew before each picture.
+class SceneOverlay {
+ public:
+  explicit SceneOverlay(vtkRenderer& renderer);
+  void lay_out(const CameraPose& pose, int width_px, int height_px, const OverlaySettings& settings);
+
+ private:
+  struct Flat {
+    vtkSmartPointer<vtkPolyData> shape;
+    vtkSmartPointer<vtkActor2D> actor;
+  };
+  static Flat make_flat(vtkRenderer& renderer);
+  vtkSmartPointer<vtkTextActor> make_text(vtkRenderer& renderer);
+  void lay_out_marker(const CameraPose& pose, const OverlaySettings& settings);
+  void lay_out_scale_bar(const CameraPose& pose, int width_px, int height_px,
+                         const OverlaySettings& settings);
+  void lay_out_color_bar(int width_px, int height_px, const OverlaySettings& settings);
+  Flat cube_, ruler_, bar_;
+  std::array<vtkSmartPointer<vtkTextActor>, 6> letters_;
+  vtkSmartPointer<vtkTextActor> ruler_text_, bar_title_;
+  std::array<vtkSmartPointer<vtkTextActor>, 3> bar_texts_;
+};
+
+}  // namespace ostia::view

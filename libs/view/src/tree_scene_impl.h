@@ -1,0 +1,79 @@
+#pragma once
+/// \file What a TreeScene holds.
+
+#include "mark_actors.h"
+#include "scene_overlay.h"
+#include "wall_actor.h"
+
+#include "ostia/view/tree_scene.h"
+
+#include <vtkCallbackCommand.h>
+#include <vtkNew.h>
+#include <vtkRenderer.h>
+
+#include <chrono>
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace ostia::view {
+
+// What both the scene's window and a snapshot need.
+CameraPose pose_of(vtkRenderer& renderer);
+void apply_pose(vtkRenderer& renderer, const CameraPose& pose);
+void add_lights(vtkRenderer& renderer);
+void apply_look(vtkRenderer& renderer, figure::Look look);
+
+struct TreeScene::Impl {
+  Impl();
+  ~Impl();
+
+  vtkNew<vtkRenderer> renderer;
+  vtkNew<vtkCallbackCommand> before, after;
+  WallActor wall_actor;
+  VolumeScene volume;
+  MarkActors mark_actors{*renderer};
+  SceneOverlay overlay{*renderer};
+
+  std::shared_ptr<const geometry::TriMesh> wall;
+  std::vector<std::shared_ptr<const lumen::VesselLumen>> vessels;
+  std::unique_ptr<const WallOwner> owner;
+  std::vector<WallPlace> places;
+  std::vector<std::size_t> place_vessel;  // index in `vessels`, one a point
+  std::vector<double> values;
+  ValueScale scale;
+  std::map<std::int32_t, VesselStyle> styles;
+  std::size_t styles_made = 0;
+  std::optional<std::int32_t> selected;
+
+  Marks marks;
+  OverlaySettings settings;
+
+  bool interacting = false;
+  bool coarse_is_slow = false;
+  VolumeQuality still_quality = VolumeQuality::coarse;  // while the camera rests
+  std::optional<double> volume_ms;                      // of the last picture, at the quality it had
+  std::chrono::steady_clock::time_point started;
+
+  void follow_model(const lumen::LumenModel& model);
+  void make_axes();
+  void color_wall();
+  void show_triangles();
+  bool visible(std::int32_t point) const;
+  const lumen::VesselLumen& vessel(std::int32_t id) const;
+  std::vector<Vec3> shown_points() const;
+  double aspect() const;
+  geometry::Vec2 size_px() const;  // throws InvalidInput without a window
+  void before_render();
+  void after_render();
+  void apply_quality();
+  void start_coarse();
+  std::optional<std::pair<std::size_t, double>> first_hit(const Vec3& origin, const Vec3& direction) const;
+  std::optional<ScenePick> wall_pick(const Vec3& origin, const Vec3& direction) const;
+  void add_measurement_pick(const geometry::Vec2& display, std::optional<ScenePick>& pick) const;
+  geometry::Vec2 project(const Vec3& world) const;
+};
+
+}  // namespace ostia::view

@@ -1,0 +1,57 @@
+#pragma once
+/// \file The wall of the tree as VTK draws it.
+
+#include "ostia/figure/color.h"
+#include "ostia/geometry/tri_mesh.h"
+#include "ostia/view/scene_colors.h"
+#include "ostia/view/wall_owner.h"
+
+#include <vtkSmartPointer.h>
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+class vtkActor;
+class vtkCellArray;
+class vtkFloatArray;
+class vtkPolyData;
+class vtkTypeInt32Array;
+class vtkUnsignedCharArray;
+
+namespace ostia::view {
+
+/// Unit normals at the points: the triangles' own, weighted by area. Zero where a point has no triangle.
+std::vector<Eigen::Vector3f> smooth_normals(const geometry::TriMesh& mesh);
+
+/// Points, triangles and colours in VTK's arrays, which an update writes anew and never allocates for less
+/// than they hold.
+class WallActor {
+ public:
+  WallActor();
+  ~WallActor();
+  vtkActor* prop() const;
+  /// Another actor over the same arrays, for a second window.
+  vtkSmartPointer<vtkActor> twin() const;
+
+  void set_points(const geometry::TriMesh& mesh);
+  /// The triangles whose first point is visible.
+  void set_triangles(const geometry::TriMesh& mesh, const std::function<bool(std::int32_t point)>& visible);
+  /// One colour a point.
+  void set_colors(std::size_t count, const std::function<figure::Color(std::size_t point)>& color_of);
+  void set_opacity(double opacity);
+  void clear();
+
+ private:
+  vtkSmartPointer<vtkActor> actor_;
+  vtkSmartPointer<vtkPolyData> surface_;
+  vtkSmartPointer<vtkFloatArray> points_, normals_;
+  vtkSmartPointer<vtkUnsignedCharArray> colors_;
+  vtkSmartPointer<vtkTypeInt32Array> offsets_, corners_;
+  vtkSmartPointer<vtkCellArray> cells_;
+};
+
+}  // namespace ostia::view

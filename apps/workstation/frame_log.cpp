@@ -1,0 +1,46 @@
+#include "frame_log.h"
+
+namespace ostia::workstation {
+
+FrameLog& FrameLog::instance() {
+  static FrameLog log;
+  return log;
+}
+
+bool FrameLog::open(const QString& path) {
+  file_ = std::make_unique<QFile>(path);
+  if (!file_->open(QIODevice::WriteOnly | QIODevice::Text)) file_.reset();
+  return on();
+}
+
+void FrameLog::event(const char* kind) {
+  if (!on()) return;
+  ++event_;
+  kind_ = QString::fromLatin1(kind);
+  event_ms_ = now_ms();
+}
+
+void FrameLog::painted(const QString& view, double paint_ms) {
+  if (!on()) return;
+  const double now = now_ms();
+  write(QStringLiteral(
+            "{\"t_ms\":%1,\"view\":\"%2\",\"event\":%3,\"kind\":\"%4\",\"after_ms\":%5,\"paint_ms\":%6}")
+            .arg(now, 0, 'f', 2)
+            .arg(view)
+            .arg(event_)
+            .arg(kind_)
+            .arg(now - event_ms_, 0, 'f', 2)
+            .arg(paint_ms, 0, 'f', 2));
+}
+
+void FrameLog::blocked(double ms) {
+  if (!on()) return;
+  write(QStringLiteral("{\"t_ms\":%1,\"blocked_ms\":%2}").arg(now_ms(), 0, 'f', 2).arg(ms, 0, 'f', 1));
+}
+
+void FrameLog::write(const QString& line) {
+  file_->write(line.toUtf8() + '\n');
+  file_->flush();
+}
+
+}  // namespace ostia::workstation

@@ -1,0 +1,36 @@
+#pragma once
+/// \file How long the window takes from an event to the picture that answers it.
+
+#include <QElapsedTimer>
+#include <QFile>
+#include <QString>
+#include <cstdint>
+#include <memory>
+
+namespace ostia::workstation {
+
+/// One JSON line a painted view: {"t_ms":...,"view":"cpr1","event":12,"after_ms":8.4,"paint_ms":3.1};
+/// `after_ms` runs from the last event of the user that any view had to answer to the end of painting. Blocks
+/// of the interface's thread longer than 50 ms are lines of their own: {"t_ms":...,"blocked_ms":73}. Off
+/// until a file is named.
+class FrameLog {
+ public:
+  static FrameLog& instance();
+  bool open(const QString& path);  ///< false where it cannot be written
+  bool on() const { return file_ != nullptr; }
+  void event(const char* kind);  ///< the user did something
+  void painted(const QString& view, double paint_ms);
+  void blocked(double ms);
+
+ private:
+  FrameLog() { clock_.start(); }
+  void write(const QString& line);
+  double now_ms() const { return static_cast<double>(clock_.nsecsElapsed()) / 1e6; }
+  QElapsedTimer clock_;
+  std::unique_ptr<QFile> file_;
+  std::uint64_t event_ = 0;
+  QString kind_;
+  double event_ms_ = 0.0;
+};
+
+}  // namespace ostia::workstation

@@ -1,0 +1,323 @@
+#include "main_window.h"
+
+#include "frame_log.h"
+#include "opening.h"
+#include "reporting.h"
+#include "side_lists.h"
+#include "vessel_list.h"
+
+#include "ostia/core/error.h"
+#include "ostia/view/curved_view.h"
+#include "ostia/view/plane_view.h"
+#include "ostia/view/reduced_volume.h"
+
+#include <QCloseEvent>
+#include <QComboBox>
+#include <QDragEnterEvent>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QMessageBox>
+#include <QMimeData>
+#include <QScreen>
+#include <QSplitter>
+#include <QStatusBar>
+#include <QTabWidget>
+
+namespace ostia::workstation {
+namespace {
+
+using view::CurvedView;
+using view::SectionView;
+using view::SliceKind;
+using view::SliceView;
+
+constexpr int heartbeat_ms = 20;
+constexpr double blocked_ms = 50.0;
+constexpr int message_ms = 8000;
+constexpr double strip_step_mm = 1.0;
+
+QByteArray decoded(const std::optional<std::string>& text) {
+  return text ? QByteArray::fromBase64(QByteArray::fromStdString(*text)) : QByteArray();
+}
+
+}  // namespace
+
+MainWindow::MainWindow(const std::filesystem::path& state_folder)
+    : state_folder_(state_folder), machine_(state_folder) {
+  setObjectName("ostia");
+  setWindowTitle("Ostia");
+  setAcceptDrops(true);
+  resize(QSize(1600, 1000).boundedTo(screen()->availableSize()));
+  guard_ = [this](const std::function<void()>& act) { guarded(act); };
+  const auto theme = machine_.setting("theme");
+  apply_theme(theme && *theme == "light" ? Theme::light : Theme::dark);
+  opening_ = std::make_unique<Opening>(*this);
+  reporting_ = std::make_unique<Reporting>(*this);
+  build_views();
+  build_actions();
+  build_tool_bar();
+  restore_layout();
+  own_.push_back(
+      bench_.noted.observe([this](const std::string& note) { say(QString::fromStdString(note)); }));
+  for (const std::string& notice : machine_.take_notices()) say(QString::fromStdString(notice));
+  heartbeat_.setInterval(heartbeat_ms);
+  connect(&heartbeat_, &QTimer::timeout, this, [this] {
+    const double late = static_cast<double>(beat_.nsecsElapsed()) / 1e6 - heartbeat_ms;
+    if (late > blocked_ms) FrameLog::instance().blocked(late);
+    beat_.restart();
+  });
+  beat_.start();
+  if (FrameLog::instance().on()) heartbeat_.start();
+  QTimer::singleShot(0, this, [this] {
+    if (!bench_.has_case() && !jobs_->any()) opening_->recover();
+  });
+}
+
+MainWindow::~MainWindow() = default;
+
+bool MainWindow::guarded(const std::function<void()>& act, bool loud) {
+  try {
+    act();
+    return true;
+  } catch (const Cancelled&) {
+  } catch (const std::bad_alloc&) {
+    complain(tr("There is not enough memory for this. The case is unchanged."));
+  } catch (const ResourceError& error) {
+    complain(QString::fromStdString(error.what()));
+  } catch (const IoError& error) {
+    complain(QString::fromStdString(error.what()));
+  } catch (const Error& error) {
+    if (loud)
+      complain(QString::fromStdString(error.what()));
+    else
+      say(QString::fromStdString(error.what()));
+  }
+  return false;
+}
+
+void MainWindow::say(const QString& text) {
+  statusBar()->showMessage(text, message_ms);
+}
+
+void MainWindow::complain(const QString& text, const QString& title) {
+  auto* box = new QMessageBox(QMessageBox::Warning, title.isEmpty() ? QStringLiteral("Ostia") : title, text,
+                              QMessageBox::Ok, this);
+  box->setAttribute(Qt::WA_DeleteOnClose);
+  box->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
+  box->open();
+}
+
+void MainWindow::set_shown_name(const QString& text) {
+  shown_name_->setText(text);
+}
+
+void MainWindow::open(const std::filesystem::path& path) {
+  opening_->open(path);
+}
+
+void MainWindow::open_sample() {
+  opening_->open_sample();
+}
+
+Panel* MainWindow::picture_panel(const QString& title, const QString& name,
+                                 std::unique_ptr<view::PictureView> shown) {
+  auto* picture = new PictureWidget(std::move(shown), name, guard_);
+  pictures_.push_back(picture);
+  connect(picture, &PictureWidget::hovered, this, [this](const QString& text) { place_->setText(text); });
+  own_.push_back(
+      picture->pointer().end_chosen.observe([this](const geometry::Vec3& end) { find_vessel(end); }));
+  auto* panel = new Panel(title, picture);
+  connect(panel, &Panel::maximise_wanted, this, [this, panel] { maximise(panel); });
+  return panel;
+}
+
+QWidget* MainWindow::curved_column() {
+  auto* pair = new QSplitter(Qt::Horizontal);
+  pair->setObjectName("curved");
+  const auto frame = std::make_shared<view::CurvedFrame>();
+  pair->addWidget(picture_panel(tr("CPR"), "cpr1",
+                                std::make_unique<CurvedView>(bench_, CurvedView::Which::first, frame)));
+  pair->addWidget(picture_panel(tr("CPR + 90\u00b0"), "cpr2",
+                                std::make_unique<CurvedView>(bench_, CurvedView::Which::second, frame)));
+  pair->setSizes({280, 280});
+  for (int i = 0; i < 2; ++i) pair->setStretchFactor(i, 1);
+  splitters_.push_back(pair);
+  return pair;
+}
+
+QWidget* MainWindow::section_column() {
+  auto* column = new QSplitter(Qt::Vertical);
+  column->setObjectName("sections");
+  column->addWidget(
+      picture_panel(tr("Cross-section"), "section", std::make_unique<SectionView>(bench_, 0.0)));
+  auto* strip = new QWidget;
+  auto* row = new QHBoxLayout(strip);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->setSpacing(1);
+  for (const int step : {-2, -1, 1, 2}) {
+    auto* picture = new PictureWidget(std::make_unique<SectionView>(bench_, step * strip_step_mm, 12.0),
+                                      QStringLiteral("strip%1").arg(step), guard_);
+    pictures_.push_back(picture);
+    row->addWidget(picture);
+  }
+  auto* panel = new Panel(tr("Neighbours, every %1 mm").arg(strip_step_mm), strip);
+  connect(panel, &Panel::maximise_wanted, this, [this, panel] { maximise(panel); });
+  column->addWidget(panel);
+  auto* slice = new SliceView(bench_, SliceKind::axial);
+  Panel* slices = picture_panel(tr("Slice"), "slice", std::unique_ptr<view::PictureView>(slice));
+  auto* kind = new QComboBox;
+  kind->setObjectName("slice_kind");
+  for (const auto& [name, value] : {std::pair(tr("Axial"), SliceKind::axial),
+                                    {tr("Coronal"), SliceKind::coronal},
+                                    {tr("Sagittal"), SliceKind::sagittal},
+                                    {tr("Oblique"), SliceKind::oblique}})
+    kind->addItem(name, static_cast<int>(value));
+  kind->setToolTip(tr("Oblique: Shift and drag turns it"));
+  kind->setAccessibleName(tr("Orientation of the slice"));
+  connect(kind, QOverload<int>::of(&QComboBox::activated), this, [slice, kind](int index) {
+    slice->set_kind(static_cast<SliceKind>(kind->itemData(index).toInt()));
+  });
+  slices->add_control(kind);
+  column->addWidget(slices);
+  column->setSizes({360, 130, 360});
+  splitters_.push_back(column);
+  return column;
+}
+
+QWidget* MainWindow::right_column() {
+  scene_ = new SceneWidget(bench_);
+  scene_->set_dark(current_theme() == Theme::dark);
+  connect(scene_, &SceneWidget::volume_wanted, this, [this] {
+    const auto image = bench_.image().volume;
+    if (!image) return;
+    jobs_->run(
+        "volume", tr("Preparing the heart"),
+        [image](const core::TaskContext& task) {
+          return std::any(
+              std::make_shared<const imaging::ImageVolume>(view::reduced_volume(*image, {}, task)));
+        },
+        [this](const std::any& reduced) {
+          scene_->scene().set_volume(std::any_cast<std::shared_ptr<const imaging::ImageVolume>>(reduced));
+          scene_->request_render();
+        },
+        [this](const QString& message) { say(message); });
+  });
+  auto* panel = new Panel(tr("Coronary tree"), scene_);
+  connect(panel, &Panel::maximise_wanted, this, [this, panel] { maximise(panel); });
+  auto* heart = new QComboBox;
+  heart->setObjectName("volume_mode");
+  heart->addItem(tr("Tree alone"), static_cast<int>(view::VolumeMode::off));
+  heart->addItem(tr("With the heart"), static_cast<int>(view::VolumeMode::rendering));
+  heart->addItem(tr("With a MIP"), static_cast<int>(view::VolumeMode::mip));
+  heart->setAccessibleName(tr("What is behind the tree"));
+  connect(heart, QOverload<int>::of(&QComboBox::activated), this, [this, heart](int index) {
+    scene_->set_volume_mode(static_cast<view::VolumeMode>(heart->itemData(index).toInt()));
+  });
+  panel->add_control(heart);
+  return panel;
+}
+
+QWidget* MainWindow::side_column() {
+  auto* column = new QSplitter(Qt::Vertical);
+  column->setObjectName("side");
+  const auto color_of = [this](std::int32_t vessel) {
+    try {
+      const view::VesselStyle style = scene_->scene().vessel_style(vessel);
+      return QColor::fromRgbF(style.color.r, style.color.g, style.color.b);
+    } catch (const Error&) {
+      return QColor(Qt::gray);
+    }
+  };
+  auto* list = new VesselList(bench_, color_of, guard_);
+  connect(scene_, &SceneWidget::styles_changed, list, &VesselList::refresh);
+  auto* vessels = new Panel(tr("Vessels"), list);
+  connect(vessels, &Panel::maximise_wanted, this, [this, vessels] { maximise(vessels); });
+  column->addWidget(vessels);
+  auto* tabs = new QTabWidget;
+  tabs->setObjectName("lists");
+  tabs->setDocumentMode(true);
+  tabs->addTab(new MeasurementList(bench_, guard_), tr("Measurements"));
+  tabs->addTab(new StepList(bench_, guard_), tr("Steps"));
+  column->addWidget(tabs);
+  column->setSizes({420, 320});
+  column->setMinimumWidth(34 * fontMetrics().averageCharWidth());  // names and numbers of vessels
+  splitters_.push_back(column);
+  return column;
+}
+
+void MainWindow::build_views() {
+  place_ = new QLabel(this);
+  shown_name_ = new QLabel(this);
+  jobs_ = new Jobs(this);
+  statusBar()->addPermanentWidget(jobs_);
+  statusBar()->addPermanentWidget(shown_name_);
+  statusBar()->addPermanentWidget(place_);
+  place_->setMinimumWidth(
+      place_->fontMetrics().horizontalAdvance("-1000 HU   x -000.0  y -000.0  z -0000.0 mm"));
+  auto* columns = new QSplitter(Qt::Horizontal);
+  columns->setObjectName("columns");
+  QWidget* tree = right_column();  // first: the list of vessels asks it for colours
+  columns->addWidget(side_column());
+  columns->addWidget(curved_column());
+  columns->addWidget(section_column());
+  columns->addWidget(tree);
+  columns->setSizes({300, 560, 330, 380});
+  columns->setStretchFactor(0, 0);
+  for (int i = 1; i < 4; ++i) columns->setStretchFactor(i, 1);
+  profile_ = new ProfileWidget(bench_);
+  auto* profile = new Panel(tr("Lumen profile"), profile_);
+  connect(profile, &Panel::maximise_wanted, this, [this, profile] { maximise(profile); });
+  auto* rows = new QSplitter(Qt::Vertical);
+  rows->setObjectName("rows");
+  rows->addWidget(columns);
+  rows->addWidget(profile);
+  rows->setSizes({760, 170});
+  rows->setStretchFactor(0, 1);
+  rows->setStretchFactor(1, 0);
+  splitters_.push_back(columns);
+  splitters_.push_back(rows);
+  setCentralWidget(rows);
+}
+
+void MainWindow::maximise(Panel* panel) {
+  alone_ = alone_ == panel ? nullptr : panel;
+  show_alone(centralWidget(), alone_);
+}
+
+void MainWindow::remember_layout() {
+  if (alone_) maximise(alone_);
+  std::map<std::string, std::string> settings;
+  settings["geometry"] = saveGeometry().toBase64().toStdString();
+  for (const QSplitter* splitter : splitters_)
+    settings["splitter." + splitter->objectName().toStdString()] =
+        splitter->saveState().toBase64().toStdString();
+  guarded([&] { machine_.set_settings(settings); });
+}
+
+void MainWindow::restore_layout() {
+  restoreGeometry(decoded(machine_.setting("geometry")));
+  resize(size().boundedTo(screen()->availableSize()));
+  for (QSplitter* splitter : splitters_)
+    splitter->restoreState(decoded(machine_.setting("splitter." + splitter->objectName().toStdString())));
+}
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+  remember_layout();
+  opening_->close_case();
+  event->accept();
+}
+
+void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
+  if (event->mimeData()->hasUrls()) event->acceptProposedAction();
+}
+
+void MainWindow::dropEvent(QDropEvent* event) {
+  for (const QUrl& url : event->mimeData()->urls())
+    if (url.isLocalFile()) {
+      event->acceptProposedAction();
+      open(url.toLocalFile().toStdString());
+      return;
+    }
+}
+
+}  // namespace ostia::workstation

@@ -1,0 +1,58 @@
+#pragma once
+/// \file What the person opens: cases, images, series, the sample.
+
+#include "ostia/imaging/dicom.h"
+#include "ostia/session/workbench.h"
+
+#include <QObject>
+#include <filesystem>
+#include <memory>
+
+namespace ostia::workstation {
+
+class MainWindow;
+
+/// Reads in the background and puts on the workbench what was read. What cannot be opened comes up as one
+/// dialog, and what was open stays open.
+class Opening final : public QObject {
+  Q_OBJECT
+ public:
+  explicit Opening(MainWindow& window);
+  void open(const std::filesystem::path& path);
+  void open_sample();
+  /// Asks for a file, or a folder of DICOM.
+  void choose_file();
+  void choose_folder();
+  /// Another file with the same case, which is then the open one.
+  void save_as();
+  const std::filesystem::path& case_path() const { return case_path_; }
+  /// A new case of the open image, in the folder of this machine's cases.
+  void start_case(const lumen::LumenModel& model);
+  void close_case();
+  /// The case that was open when the program ended without closing it.
+  void recover();
+  /// Keeps with the case where the person looks.
+  void remember_view();
+
+ private:
+  void open_case(const std::filesystem::path& path);
+  void show_case(session::Session session, const std::filesystem::path& path);
+  void open_image_of(const session::ImageReference& image);
+  void image_missing(const session::ImageReference& image);
+  // images (opening_images.cpp)
+  struct Loaded;
+  void open_image(const std::filesystem::path& path);
+  void scan(const std::filesystem::path& path);
+  void choose_series(const std::filesystem::path& path, const imaging::DicomFolder& folder);
+  void load_series(const std::filesystem::path& path, const imaging::DicomSeries& series,
+                   const imaging::DicomReadOptions& options);
+  void show_first_slice(const imaging::DicomSeries& series);
+  void load_file(const std::filesystem::path& path);
+  void show(const Loaded& loaded, const std::filesystem::path& path);
+  void restore_view();
+  std::filesystem::path state_folder() const;
+  MainWindow& window_;
+  std::filesystem::path case_path_;
+};
+
+}  // namespace ostia::workstation

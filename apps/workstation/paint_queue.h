@@ -1,0 +1,44 @@
+#pragma once
+/// \file Who is painted next: one view at a time, so that the mouse is heard between them.
+
+#include <QElapsedTimer>
+#include <QList>
+#include <QObject>
+#include <QPointer>
+#include <QTimer>
+#include <QWidget>
+#include <functional>
+
+namespace ostia::workstation {
+
+/// Views that have something new to show wait here; each turn of the event loop paints one. What takes
+/// longest (the tree) goes last.
+class PaintQueue final : public QObject {
+  Q_OBJECT
+ public:
+  static PaintQueue& instance();
+  /// Once for many requests.
+  void add(QWidget* view);
+  /// Work for when all views are painted; once for many requests of one owner.
+  void add_last(QObject* owner, std::function<void()> work);
+  /// A hand that moves without a pause would keep the others waiting: paints those that have waited too long
+  /// already.
+  void serve_overdue();
+  /// It has just been painted.
+  void remove(QWidget* view) { views_.removeAll(view); }
+
+ private:
+  PaintQueue();
+  void begin();
+  void next();
+  struct Last {
+    QPointer<QObject> owner;
+    std::function<void()> work;
+  };
+  QList<QPointer<QWidget>> views_;
+  QList<Last> last_;
+  QTimer timer_;
+  QElapsedTimer waiting_;  // since the queue was last empty
+};
+
+}  // namespace ostia::workstation

@@ -1,0 +1,36 @@
+#pragma once
+/// \file A view with a title that can fill the window.
+
+#include <QFrame>
+#include <QLabel>
+
+class QToolButton;
+
+namespace ostia::workstation {
+
+/// A double click on the title, or its button, asks for the whole window and back.
+class Panel final : public QFrame {
+  Q_OBJECT
+ public:
+  Panel(const QString& title, QWidget* content, QWidget* parent = nullptr);
+  void set_title(const QString& title);
+  /// Something beside the title: a combo box, a button.
+  void add_control(QWidget* control);
+  QWidget* content() const { return content_; }
+
+ signals:
+  void maximise_wanted();
+
+ protected:
+  bool eventFilter(QObject* object, QEvent* event) override;
+
+ private:
+  QWidget* bar_;
+  QLabel* title_;
+  QWidget* content_;
+};
+
+/// Shows one panel alone among all below `root`, or all again where `alone` is null.
+void show_alone(QWidget* root, Panel* alone);
+
+}  // namespace ostia::workstation

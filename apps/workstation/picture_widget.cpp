@@ -1,0 +1,282 @@
+#include "picture_widget.h"
+
+#include "frame_log.h"
+#include "overlay_painter.h"
+#include "paint_queue.h"
+
+#include <QCursor>
+#include <QElapsedTimer>
+#include <QKeyEvent>
+#include <QMouseEvent>
+#include <QPainter>
+#include <QTimer>
+#include <QWheelEvent>
+#include <algorithm>
+#include <cmath>
+
+namespace ostia::workstation {
+namespace {
+
+constexpr int fade_ms = 40;
+
+double milliseconds(const QElapsedTimer& clock) {
+  return static_cast<double>(clock.nsecsElapsed()) / 1e6;
+}
+
+QFont overlay_font(const QFont& base, double density) {
+  QFont font = base;
+  font.setPixelSize(static_cast<int>(12.0 * density + 0.5));
+  return font;
+}
+
+}  // namespace
+
+PictureWidget::PictureWidget(std::unique_ptr<view::PictureView> view, const QString& name, Guard guard,
+                             QWidget* parent)
+    : QWidget(parent),
+      view_(std::move(view)),
+      pointer_(std::make_unique<view::Pointer>(*view_)),
+      guard_(std::move(guard)) {
+  setObjectName(name);
+  setMouseTracking(true);
+  setFocusPolicy(Qt::StrongFocus);
+  setAttribute(Qt::WA_OpaquePaintEvent);
+  setAccessibleName(name);
+  // The view under the hand is painted as soon as the event is handled, the others when no event waits.
+  stale_ = view_->stale.observe([this] { request_paint(); });
+  grey_ = view_->bench().grey.observe([this](const session::GreyWindow&) { request_paint(); });
+}
+PictureWidget::~PictureWidget() = default;
+
+void PictureWidget::resizeEvent(QResizeEvent*) {
+  take_size();
+}
+
+void PictureWidget::take_size() {
+  const double density = devicePixelRatioF();
+  view_->set_size(static_cast<int>(width() * density + 0.5), static_cast<int>(height() * density + 0.5),
+                  density);
+}
+
+void PictureWidget::paintEvent(QPaintEvent*) {
+  PaintQueue::instance().remove(this);
+  QElapsedTimer clock;
+  clock.start();
+  const double density = devicePixelRatioF();
+  QPainter painter(this);
+  painter.scale(1.0 / density, 1.0 / density);
+  const QRectF all(0, 0, width() * density, height() * density);
+  painter.save();
+  if (std::abs(view_->width() - all.width()) > 1.0 || std::abs(view_->height() - all.height()) > 1.0) {
+    // A replay has the sizes of another window: all of it is shown, smaller or larger.
+    const double fits = std::min(all.width() / view_->width(), all.height() / view_->height());
+    painter.fillRect(all, QColor(12, 13, 15));
+    if (std::isfinite(fits)) painter.scale(fits, fits);
+  }
+  guard_([&] {
+    const view::GreyImage& image = view_->image();
+    const session::GreyWindow window = view_->bench().grey.get();
+    if (revision_ != view_->image_revision() || !(window == painted_window_)) {
+      picture_ = grey_picture(image, window, std::move(picture_));
+      revision_ = view_->image_revision();
+      painted_window_ = window;
+    }
+    if (picture_.isNull())
+      painter.fillRect(all, QColor(12, 13, 15));
+    else
+      painter.drawImage(QPointF(0, 0), picture_);
+    painter.setFont(overlay_font(font(), density));
+    paint_overlay(painter, view_->overlay(), density, Ground::image);
+  });
+  painter.restore();
+  if (hasFocus()) {
+    painter.setRenderHint(QPainter::Antialiasing, false);
+    painter.setPen(QPen(palette().color(QPalette::Highlight), 2.0 * density));
+    painter.setBrush(Qt::NoBrush);
+    painter.drawRect(all.adjusted(density, density, -density, -density));
+  }
+  FrameLog::instance().painted(objectName(), milliseconds(clock));
+  if (view_->animating()) QTimer::singleShot(fade_ms, this, [this] { update(); });
+}
+
+view::PointerEvent PictureWidget::pointer_event(const QPointF& at, Qt::MouseButton button,
+                                                Qt::KeyboardModifiers keys) const {
+  view::PointerEvent event;
+  event.px = view::Vec2(at.x(), at.y()) * devicePixelRatioF();
+  event.button = button == Qt::LeftButton     ? view::Button::left
+                 : button == Qt::MiddleButton ? view::Button::middle
+                 : button == Qt::RightButton  ? view::Button::right
+                                              : view::Button::none;
+  event.shift = keys & Qt::ShiftModifier;
+  event.control = keys & Qt::ControlModifier;
+  event.alt = keys & Qt::AltModifier;
+  return event;
+}
+
+// A repaint paints all that was marked, so others mark themselves when the hand's own view is done.
+void PictureWidget::request_paint() {
+  if (!handling_) PaintQueue::instance().add(this);
+}
+
+void PictureWidget::hand(const char* kind, const std::function<void()>& act) {
+  FrameLog::instance().event(kind);
+  handling_ = true;
+  guard_(act);
+  handling_ = false;
+  show_cursor();
+  repaint();
+  PaintQueue::instance().serve_overdue();
+}
+
+void PictureWidget::mousePressEvent(QMouseEvent* event) {
+  setFocus(Qt::MouseFocusReason);
+  hand("press",
+       [&] { pointer_->press(pointer_event(event->localPos(), event->button(), event->modifiers())); });
+}
+void PictureWidget::mouseMoveEvent(QMouseEvent* event) {
+  const view::PointerEvent at = pointer_event(event->localPos(), Qt::NoButton, event->modifiers());
+  if (event->buttons() != Qt::NoButton) {
+    hand("drag", [&] { pointer_->move(at); });
+  } else {
+    guard_([&] { pointer_->move(at); });
+    show_cursor();
+  }
+  tell_place(at.px);
+}
+void PictureWidget::mouseReleaseEvent(QMouseEvent* event) {
+  hand("release",
+       [&] { pointer_->release(pointer_event(event->localPos(), event->button(), event->modifiers())); });
+}
+void PictureWidget::mouseDoubleClickEvent(QMouseEvent* event) {
+  if (event->button() == Qt::LeftButton)
+    hand("double", [&] {
+      pointer_->double_click(pointer_event(event->localPos(), event->button(), event->modifiers()));
+    });
+}
+void PictureWidget::wheelEvent(QWheelEvent* event) {
+  const double steps =
+      (event->angleDelta().y() != 0 ? event->angleDelta().y() : event->angleDelta().x()) / 120.0;
+  hand("wheel",
+       [&] { pointer_->wheel(steps, pointer_event(event->position(), Qt::NoButton, event->modifiers())); });
+  event->accept();
+}
+void PictureWidget::leaveEvent(QEvent*) {
+  guard_([&] { pointer_->leave(); });
+  emit hovered({});
+}
+
+void PictureWidget::keyPressEvent(QKeyEvent* event) {
+  const QPointF at = mapFromGlobal(QCursor::pos());
+  const view::PointerEvent place = pointer_event(at, Qt::NoButton, event->modifiers());
+  const view::Vec2 middle(view_->width() / 2.0, view_->height() / 2.0);
+  switch (event->key()) {
+    case Qt::Key_Escape:
+      hand("key", [&] { pointer_->cancel(); });
+      return;
+    case Qt::Key_Delete:
+    case Qt::Key_Backspace:
+      hand("key", [&] { pointer_->erase(place); });
+      return;
+    case Qt::Key_Up:
+    case Qt::Key_PageUp:
+      hand("key", [&] { view_->scroll(event->key() == Qt::Key_Up ? 1.0 : 10.0); });
+      return;
+    case Qt::Key_Down:
+    case Qt::Key_PageDown:
+      hand("key", [&] { view_->scroll(event->key() == Qt::Key_Down ? -1.0 : -10.0); });
+      return;
+    case Qt::Key_Plus:
+    case Qt::Key_Equal:
+      hand("key", [&] { view_->zoom(1.2, middle); });
+      return;
+    case Qt::Key_Minus:
+      hand("key", [&] { view_->zoom(1.0 / 1.2, middle); });
+      return;
+    case Qt::Key_0:
+      hand("key", [&] { view_->fit(); });
+      return;
+    default:
+      QWidget::keyPressEvent(event);
+  }
+}
+
+void PictureWidget::tell_place(const view::Vec2& px) {
+  if (!view_->ready()) return;
+  const std::optional<view::Vec3> place = view_->world(px);
+  if (!place) return;
+  const std::optional<double> value = view_->value_at(px);
+  const QString hu = value ? QStringLiteral("%1 HU").arg(*value, 0, 'f', 0) : tr("outside the image");
+  emit hovered(QStringLiteral("%1   x %2  y %3  z %4 mm")
+                   .arg(hu)
+                   .arg(place->x(), 0, 'f', 1)
+                   .arg(place->y(), 0, 'f', 1)
+                   .arg(place->z(), 0, 'f', 1));
+}
+
+void PictureWidget::show_cursor() {
+  switch (pointer_->shape()) {
+    case view::CursorShape::arrow:
+      setCursor(Qt::ArrowCursor);
+      break;
+    case view::CursorShape::cross:
+      setCursor(Qt::CrossCursor);
+      break;
+    case view::CursorShape::grab:
+      setCursor(Qt::PointingHandCursor);
+      break;
+    case view::CursorShape::turn:
+      setCursor(Qt::SizeHorCursor);
+      break;
+    case view::CursorShape::move:
+      setCursor(Qt::SizeAllCursor);
+      break;
+    case view::CursorShape::contrast:
+      setCursor(Qt::SizeFDiagCursor);
+      break;
+  }
+}
+
+ProfileWidget::ProfileWidget(session::Workbench& bench, QWidget* parent) : QWidget(parent), view_(bench) {
+  setObjectName("profile");
+  setFocusPolicy(Qt::StrongFocus);
+  setAccessibleName(tr("Lumen profile"));
+  stale_ = view_.stale.observe([this] { PaintQueue::instance().add(this); });
+}
+
+void ProfileWidget::resizeEvent(QResizeEvent*) {
+  const double density = devicePixelRatioF();
+  view_.set_size(static_cast<int>(width() * density + 0.5), static_cast<int>(height() * density + 0.5),
+                 density);
+}
+
+void ProfileWidget::paintEvent(QPaintEvent*) {
+  PaintQueue::instance().remove(this);
+  QElapsedTimer clock;
+  clock.start();
+  const double density = devicePixelRatioF();
+  QPainter painter(this);
+  painter.scale(1.0 / density, 1.0 / density);
+  painter.fillRect(QRectF(0, 0, width() * density, height() * density), palette().color(QPalette::Base));
+  painter.setFont(overlay_font(font(), density));
+  paint_overlay(painter, view_.overlay(), density, Ground::paper);
+  FrameLog::instance().painted(objectName(), milliseconds(clock));
+}
+
+void ProfileWidget::go_to(double x) {
+  FrameLog::instance().event("profile");
+  if (const std::optional<double> s = view_.abscissa_at(x * devicePixelRatioF()))
+    view_.bench().cursor_mm.set(*s);
+}
+void ProfileWidget::mousePressEvent(QMouseEvent* event) {
+  go_to(event->localPos().x());
+}
+void ProfileWidget::mouseMoveEvent(QMouseEvent* event) {
+  if (event->buttons() & Qt::LeftButton) go_to(event->localPos().x());
+}
+void ProfileWidget::wheelEvent(QWheelEvent* event) {
+  session::Property<double>& cursor = view_.bench().cursor_mm;
+  cursor.set(cursor.get() - 0.5 * event->angleDelta().y() / 120.0);
+  event->accept();
+}
+
+}  // namespace ostia::workstation

@@ -1,0 +1,160 @@
+#include "reporting.h"
+
+#include "main_window.h"
+
+#include "ostia/io/centerline_file.h"
+#include "ostia/io/surface_file.h"
+#include "ostia/lumen/tree_surface.h"
+
+#include <QDate>
+#include <QDesktopServices>
+#include <QFileDialog>
+#include <QMessageBox>
+#include <QPixmap>
+#include <QPushButton>
+#include <QUrl>
+#include <cstring>
+#include <memory>
+
+namespace ostia::workstation {
+namespace fs = std::filesystem;
+namespace {
+
+/// What a report is made of, held while the person goes on.
+struct Snapshot {
+  std::shared_ptr<const lumen::LumenModel> model;
+  std::shared_ptr<const session::Annotations> annotations;
+  std::vector<session::JournalEntry> journal;
+  std::shared_ptr<const imaging::ImageVolume> image;
+  session::ReportOptions options;
+  std::vector<session::KeyImage> pinned;
+  pipeline::JobKey job;
+};
+
+fs::path free_folder(const fs::path& case_file) {
+  std::error_code ignored;
+  const fs::path first = case_file.parent_path() / (case_file.stem().string() + "-report");
+  fs::path folder = first;
+  for (int number = 2; fs::exists(folder, ignored); ++number)
+    folder = first.string() + "-" + std::to_string(number);
+  return folder;
+}
+
+figure::Raster raster_of(const QImage& image) {
+  const QImage rgba = image.convertToFormat(QImage::Format_RGBA8888);
+  figure::Raster raster{rgba.width(), rgba.height(), {}};
+  const std::size_t line = 4 * static_cast<std::size_t>(rgba.width());
+  raster.rgba.resize(line * static_cast<std::size_t>(rgba.height()));
+  for (int row = 0; row < rgba.height(); ++row)
+    std::memcpy(raster.rgba.data() + static_cast<std::size_t>(row) * line, rgba.constScanLine(row), line);
+  return raster;
+}
+
+void write(const Snapshot& from, const fs::path& folder, const core::TaskContext& task) {
+  task.set_stage("walls");
+  const analysis::SurfaceOfVessel surface_of = session::solved_surfaces(*from.model, task.sub(0.0, 0.1));
+  task.set_stage("measuring");
+  const session::CaseReport report =
+      session::make_case_report(*from.model, surface_of, *from.annotations, from.journal, from.image.get(),
+                                from.options, task.sub(0.1, 0.3));
+  task.set_stage("pictures");
+  std::vector<session::KeyImage> images =
+      session::key_images(report, *from.model, surface_of, from.image.get(), task.sub(0.3, 0.8));
+  images.insert(images.end(), from.pinned.begin(), from.pinned.end());
+  session::write_case_report(folder, report, images, from.job, 0.0, task.sub(0.8, 1.0));
+}
+
+}  // namespace
+
+Reporting::Reporting(MainWindow& window) : QObject(&window), window_(window) {}
+
+void Reporting::make_report(const fs::path& case_file) {
+  make_report_in(free_folder(case_file));
+}
+
+void Reporting::make_report_in(const fs::path& folder) {
+  session::Workbench& bench = window_.bench();
+  const session::CaseFile& file = bench.session().file();
+  Snapshot from;
+  from.model = file.model();
+  from.annotations = file.annotations();
+  from.journal = file.journal();
+  from.image = bench.image().volume;
+  from.options.image = file.image();
+  from.options.date = QDate::currentDate().toString(Qt::ISODate).toStdString();
+  from.options.theta_deg = bench.theta_deg.get();
+  from.options.level_hu = bench.grey.get().level_hu;
+  from.options.window_hu = bench.grey.get().width_hu;
+  from.pinned = pinned_;
+  from.job = session::report_job(file, from.image != nullptr, from.options, pinned_);
+  window_.jobs().run(
+      "report", tr("Report"),
+      [from, folder](const core::TaskContext& task) {
+        write(from, folder, task);
+        return std::any(true);
+      },
+      [this, folder](const std::any&) {
+        pinned_.clear();
+        show_made(folder);
+        emit report_made(QString::fromStdString(folder.string()));
+      },
+      [this](const QString& message) { window_.complain(message, tr("The report could not be made")); });
+}
+
+void Reporting::show_made(const fs::path& folder) {
+  const QString path = QString::fromStdString(folder.string());
+  auto* box = new QMessageBox(QMessageBox::Information, tr("Report"), tr("The report is in %1.").arg(path),
+                              QMessageBox::Close, &window_);
+  box->setObjectName("report_made");
+  box->setAttribute(Qt::WA_DeleteOnClose);
+  box->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
+  for (const auto& [text, name] :
+       {std::pair(tr("Open the PDF"), "report.pdf"), {tr("Open the HTML"), "report.html"}}) {
+    QPushButton* button = box->addButton(text, QMessageBox::ActionRole);
+    connect(button, &QPushButton::clicked, box, [path, name = QString(name)] {
+      QDesktopServices::openUrl(QUrl::fromLocalFile(path + "/" + name));
+    });
+  }
+  box->open();
+}
+
+void Reporting::pin(PictureWidget& view) {
+  const QImage shown = view.grab().toImage();
+  const std::string number = std::to_string(pinned_.size() + 1);
+  pinned_.push_back({"pinned-" + number,
+                     tr("Pinned by the reader: %1")
+                         .arg(view.toolTip().isEmpty() ? view.accessibleName() : view.toolTip())
+                         .toStdString(),
+                     figure::picture_of(raster_of(shown), shown.width() / view.devicePixelRatioF())});
+  window_.say(tr("This view will be key image %1 of the next report.").arg(pinned_.size()));
+}
+
+void Reporting::export_surface() {
+  const QString chosen = QFileDialog::getSaveFileName(&window_, tr("Export the wall"), {},
+                                                      tr("Surfaces (*.vtp *.stl *.ply *.obj)"));
+  if (chosen.isEmpty()) return;
+  const fs::path path = chosen.toStdString();
+  const auto model = window_.bench().session().file().model();
+  window_.jobs().run(
+      "export", tr("Export of the wall"),
+      [path, model](const core::TaskContext& task) {
+        io::write_surface(path, lumen::surface_of(*model, 0.0, task));
+        return std::any(true);
+      },
+      [this, chosen](const std::any&) { window_.say(tr("The wall is in %1.").arg(chosen)); },
+      [this](const QString& message) { window_.complain(message, tr("The wall could not be exported")); });
+}
+
+void Reporting::export_centerlines() {
+  const QString chosen =
+      QFileDialog::getSaveFileName(&window_, tr("Export the centerlines"), {}, tr("Centerlines (*.vtp)"));
+  if (chosen.isEmpty()) return;
+  window_.guarded(
+      [&] {
+        io::write_centerlines(chosen.toStdString(), window_.bench().session().file().model()->tree);
+        window_.say(tr("The centerlines are in %1.").arg(chosen));
+      },
+      true);
+}
+
+}  // namespace ostia::workstation

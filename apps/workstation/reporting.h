@@ -1,0 +1,41 @@
+#pragma once
+/// \file What leaves the window: the report, surfaces, centerlines.
+
+#include "ostia/session/case_report.h"
+
+#include <QObject>
+#include <filesystem>
+#include <vector>
+
+namespace ostia::workstation {
+
+class MainWindow;
+class PictureWidget;
+
+/// Made in the background from a snapshot of the case; editing goes on meanwhile.
+class Reporting final : public QObject {
+  Q_OBJECT
+ public:
+  explicit Reporting(MainWindow& window);
+  /// The report of the case as it is now, in a folder beside the case file (CASE-report, then CASE-report-2,
+  /// ...). Tells when it is there, and opens it on demand.
+  void make_report(const std::filesystem::path& case_file);
+  void make_report_in(const std::filesystem::path& folder);
+  /// The view becomes a further key image of the next report.
+  void pin(PictureWidget& view);
+  std::size_t pinned() const { return pinned_.size(); }
+  /// Asks for a file: the wall (VTP, STL, PLY, OBJ), solved afresh.
+  void export_surface();
+  /// Asks for a file: the axes with their radii (VTP).
+  void export_centerlines();
+
+ signals:
+  void report_made(const QString& folder);
+
+ private:
+  void show_made(const std::filesystem::path& folder);
+  MainWindow& window_;
+  std::vector<session::KeyImage> pinned_;
+};
+
+}  // namespace ostia::workstation

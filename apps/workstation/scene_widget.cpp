@@ -1,0 +1,315 @@
+#include "scene_widget.h"
+
+#include "frame_log.h"
+#include "paint_queue.h"
+
+#include "ostia/figure/slice_figure.h"
+#include "ostia/reformat/plane_image.h"
+
+#include <QVTKOpenGLWindow.h>
+#include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkRenderer.h>
+
+#include <QMouseEvent>
+#include <QVBoxLayout>
+#include <QWheelEvent>
+#include <algorithm>
+#include <cmath>
+
+namespace ostia::workstation {
+namespace {
+
+constexpr int flight_ms = 250;
+constexpr int section_px = 128;
+constexpr double section_mm = 16.0;
+constexpr double click_px = 3.0;
+
+}  // namespace
+
+SceneWidget::SceneWidget(session::Workbench& bench, QWidget* parent)
+    : QWidget(parent),
+      bench_(bench),
+      window_(new QVTKOpenGLWindow),
+      scene_(std::make_unique<view::TreeScene>()) {
+  setObjectName("tree");
+  setAccessibleName(tr("Coronary tree"));
+  vtkNew<vtkGenericOpenGLRenderWindow> render_window;
+  render_window->SetMultiSamples(0);
+  render_window->AddRenderer(scene_->renderer());
+  window_->setRenderWindow(render_window);
+  window_->installEventFilter(this);
+  container_ = QWidget::createWindowContainer(window_, this);
+  container_->setFocusPolicy(Qt::StrongFocus);
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->addWidget(container_);
+  flight_.setInterval(16);
+  connect(&flight_, &QTimer::timeout, this, [this] {
+    const double t = std::min(1.0, static_cast<double>(flight_clock_.elapsed()) / flight_ms);
+    scene_->set_pose(view::blended(from_, to_, t));
+    if (t >= 1.0) flight_.stop();
+    request_render();
+  });
+  refining_.setSingleShot(true);
+  refining_.setInterval(150);
+  connect(&refining_, &QTimer::timeout, this, [this] {
+    if (!scene_->refine()) return;
+    window_->renderWindow()->Render();
+    refining_.start();
+  });
+  const auto stale = [this](bool SceneWidget::*what) {
+    return [this, what](const auto&...) {
+      this->*what = true;
+      request_render();
+    };
+  };
+  own_.push_back(bench.case_changed.observe([this] {
+    wall_stale_ = styles_stale_ = cursor_stale_ = marks_stale_ = fit_wanted_ = true;
+    request_render();
+  }));
+  own_.push_back(bench.model_changed.observe([this](const session::ModelEvent& event) {
+    wall_stale_ = true;
+    if (event.tree_changed) styles_stale_ = true;
+    cursor_stale_ = true;
+    request_render();
+  }));
+  own_.push_back(bench.annotations_changed.observe([this] {
+    styles_stale_ = marks_stale_ = true;
+    request_render();
+  }));
+  own_.push_back(bench.vessel.observe(stale(&SceneWidget::styles_stale_)));
+  own_.push_back(bench.cursor_mm.observe(stale(&SceneWidget::cursor_stale_)));
+  own_.push_back(bench.theta_deg.observe(stale(&SceneWidget::cursor_stale_)));
+  own_.push_back(bench.selected_measurement.observe(stale(&SceneWidget::marks_stale_)));
+  own_.push_back(bench.marks_shown.observe(stale(&SceneWidget::marks_stale_)));
+  own_.push_back(bench.image_changed.observe([this] {
+    cursor_stale_ = true;
+    request_render();
+  }));
+  own_.push_back(bench.grey.observe([this](const session::GreyWindow& window) {
+    scene_->set_volume_window(window.level_hu, window.width_hu);
+    cursor_stale_ = true;
+    request_render();
+  }));
+}
+
+SceneWidget::~SceneWidget() {
+  window_->removeEventFilter(this);
+  // The renderer goes with the scene, the window with the container.
+  window_->renderWindow()->RemoveRenderer(scene_->renderer());
+}
+
+void SceneWidget::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  scene_->set_pixel_ratio(devicePixelRatioF());
+  request_render();
+}
+
+void SceneWidget::request_render() {
+  if (isVisible()) PaintQueue::instance().add_last(this, [this] { refresh(); });
+}
+
+void SceneWidget::refresh() {
+  QElapsedTimer clock;
+  clock.start();
+  if (wall_stale_) {
+    wall_stale_ = false;
+    wall_.reset();
+    if (bench_.has_case()) {
+      wall_ = std::make_shared<const geometry::TriMesh>(bench_.session().live().wall());
+      scene_->set_wall(wall_, *bench_.model());
+      if (wall_painter_) wall_painter_(*wall_);
+    } else {
+      scene_->clear_wall();
+    }
+    if (fit_wanted_) {  // another case: much is new, and the window is to answer before it is drawn
+      refresh_styles();
+      request_render();
+      return;
+    }
+  }
+  if (styles_stale_) refresh_styles();
+  if (cursor_stale_) refresh_cursor();
+  if (marks_stale_) refresh_measurements();
+  if (fit_wanted_ && bench_.has_case()) scene_->set_pose(scene_->pose_from_side(view::ViewFrom::anterior));
+  fit_wanted_ = false;
+  window_->renderWindow()->SetDPI(72);  // the scene scales its texts itself; Qt's adapter would do it again
+  window_->renderWindow()->Render();
+  // The CT is drawn finer and finer while nothing else is to be done.
+  if (buttons_ == Qt::NoButton) refining_.start();
+  FrameLog::instance().painted(objectName(), static_cast<double>(clock.nsecsElapsed()) / 1e6);
+}
+
+void SceneWidget::set_wall_painter(std::function<void(const geometry::TriMesh&)> painter) {
+  wall_painter_ = std::move(painter);
+}
+
+void SceneWidget::repaint_wall() {
+  if (!wall_ || wall_stale_ || !wall_painter_) return;
+  wall_painter_(*wall_);
+  request_render();
+}
+
+void SceneWidget::refresh_styles() {
+  styles_stale_ = false;
+  if (!bench_.has_case()) return;
+  const auto annotations = bench_.session().file().annotations();
+  for (const auto& vessel : bench_.model()->vessels) {
+    view::VesselStyle style = scene_->vessel_style(vessel->vessel);
+    const session::VesselMark* mark = session::find_mark(*annotations, vessel->vessel);
+    style.visible = !mark || mark->visible;
+    if (mark && mark->color) style.color = {(*mark->color)[0], (*mark->color)[1], (*mark->color)[2], 1.0};
+    scene_->set_vessel_style(vessel->vessel, style);
+  }
+  const std::int32_t selected = bench_.vessel.get();
+  scene_->select_vessel(selected == session::Workbench::no_vessel ? std::nullopt : std::optional(selected));
+  emit styles_changed();
+}
+
+void SceneWidget::refresh_cursor() {
+  cursor_stale_ = false;
+  const auto axis = bench_.axis();
+  if (!axis) {
+    scene_->set_cursor(std::nullopt);
+    scene_->set_plane(view::ScenePlane::cross_section, std::nullopt);
+    return;
+  }
+  const double s = bench_.cursor_mm.get();
+  view::SceneCursor cursor;
+  cursor.place = axis->point(s);
+  cursor.frame = axis->frame(s);
+  cursor.radius_mm = std::max(2.0, 1.6 * axis->radius(s));
+  cursor.theta = bench_.theta_deg.get() * M_PI / 180.0;
+  cursor.plane_traces = true;
+  scene_->set_cursor(cursor);
+  refresh_section();
+}
+
+void SceneWidget::refresh_section() {
+  const auto axis = bench_.axis();
+  if (!section_shown_ || !axis || !bench_.image().volume) {
+    scene_->set_plane(view::ScenePlane::cross_section, std::nullopt);
+    return;
+  }
+  view::ScenePlanePicture picture;
+  picture.plane =
+      reformat::cross_section_plane(*axis, bench_.cursor_mm.get(), section_mm, section_mm / section_px);
+  const reformat::PlaneImage image = reformat::slice(*bench_.image().volume, picture.plane);
+  const session::GreyWindow window = bench_.grey.get();
+  picture.gray.reserve(image.values.size());
+  for (const float value : image.values)
+    picture.gray.push_back(figure::grey_level(static_cast<double>(value), window.level_hu, window.width_hu));
+  scene_->set_plane(view::ScenePlane::cross_section, std::move(picture));
+}
+
+void SceneWidget::refresh_measurements() {
+  marks_stale_ = false;
+  std::vector<view::SceneMeasurement> shown;
+  if (bench_.has_case() && bench_.marks_shown.get())
+    for (const analysis::Measurement& one : bench_.session().file().annotations()->measurements) {
+      if (one.points.empty()) continue;
+      view::SceneMeasurement made;
+      made.id = one.id;
+      made.points = one.points;
+      made.closed = one.kind == analysis::MeasureKind::area;
+      made.selected = one.id == bench_.selected_measurement.get();
+      made.label = one.name.empty() ? std::to_string(one.id) : one.name;
+      shown.push_back(std::move(made));
+    }
+  scene_->set_measurements(std::move(shown));
+}
+
+void SceneWidget::go_to(const view::CameraPose& pose) {
+  from_ = scene_->pose();
+  to_ = pose;
+  flight_clock_.start();
+  flight_.start();
+}
+
+void SceneWidget::set_volume_mode(view::VolumeMode mode) {
+  scene_->set_volume_mode(mode);
+  if (mode != view::VolumeMode::off) emit volume_wanted();
+  request_render();
+}
+
+void SceneWidget::set_dark(bool dark) {
+  scene_->set_look(dark ? figure::Look::dark : figure::Look::light);
+  request_render();
+}
+
+void SceneWidget::set_section_shown(bool shown) {
+  section_shown_ = shown;
+  cursor_stale_ = true;
+  request_render();
+}
+
+geometry::Vec2 SceneWidget::display(const QPointF& at) const {
+  const double ratio = devicePixelRatioF();
+  return {at.x() * ratio, (container_->height() - at.y()) * ratio};
+}
+
+void SceneWidget::pick(const QPointF& at) {
+  const std::optional<view::ScenePick> hit = scene_->pick(display(at));
+  if (!hit) return;
+  if (hit->measurement) bench_.selected_measurement.set(*hit->measurement);
+  if (hit->vessel) {
+    bench_.vessel.set(*hit->vessel);
+    bench_.cursor_mm.set(hit->s_mm);
+  }
+}
+
+bool SceneWidget::eventFilter(QObject* object, QEvent* event) {
+  if (object != window_) return QWidget::eventFilter(object, event);
+  const double ratio = devicePixelRatioF();
+  switch (event->type()) {
+    case QEvent::MouseButtonPress: {
+      const auto* mouse = static_cast<QMouseEvent*>(event);
+      pressed_ = last_ = mouse->localPos();
+      buttons_ = mouse->buttons();
+      moved_ = false;
+      refining_.stop();
+      container_->setFocus(Qt::MouseFocusReason);
+      return true;
+    }
+    case QEvent::MouseMove: {
+      const auto* mouse = static_cast<QMouseEvent*>(event);
+      if (mouse->buttons() == Qt::NoButton) return true;
+      if (!moved_ && (mouse->localPos() - pressed_).manhattanLength() < click_px) return true;
+      if (!moved_) scene_->set_interacting(true);
+      moved_ = true;
+      FrameLog::instance().event("tree");
+      const double right = (mouse->localPos().x() - last_.x()) * ratio,
+                   up = (last_.y() - mouse->localPos().y()) * ratio;
+      if (mouse->buttons() & Qt::RightButton)
+        scene_->zoom_by(std::pow(1.01, up / ratio));
+      else if ((mouse->buttons() & Qt::MiddleButton) || (mouse->modifiers() & Qt::ShiftModifier))
+        scene_->pan_by(right, up);
+      else
+        scene_->rotate_by(right, up);
+      last_ = mouse->localPos();
+      request_render();
+      return true;
+    }
+    case QEvent::MouseButtonRelease: {
+      const auto* mouse = static_cast<QMouseEvent*>(event);
+      buttons_ = mouse->buttons();
+      if (!moved_ && mouse->button() == Qt::LeftButton) pick(mouse->localPos());
+      scene_->set_interacting(false);
+      request_render();
+      return true;
+    }
+    case QEvent::MouseButtonDblClick:
+      go_to(scene_->pose_fitted());
+      return true;
+    case QEvent::Wheel: {
+      const auto* wheel = static_cast<QWheelEvent*>(event);
+      scene_->zoom_by(std::pow(1.2, wheel->angleDelta().y() / 120.0), display(wheel->position()));
+      request_render();
+      return true;
+    }
+    default:
+      return QWidget::eventFilter(object, event);
+  }
+}
+
+}  // namespace ostia::workstation

@@ -1,0 +1,73 @@
+#pragma once
+/// \file The tree in three dimensions, in a native window of its own.
+
+#include "ostia/session/workbench.h"
+#include "ostia/view/tree_scene.h"
+
+#include <QElapsedTimer>
+#include <QPointF>
+#include <QTimer>
+#include <QWidget>
+#include <functional>
+#include <memory>
+#include <vector>
+
+class QVTKOpenGLWindow;
+
+namespace ostia::workstation {
+
+class SceneWidget final : public QWidget {
+  Q_OBJECT
+ public:
+  explicit SceneWidget(session::Workbench& bench, QWidget* parent = nullptr);
+  ~SceneWidget() override;
+  view::TreeScene& scene() { return *scene_; }
+  /// Moves smoothly to another pose.
+  void go_to(const view::CameraPose& pose);
+  void set_volume_mode(view::VolumeMode mode);
+  void set_dark(bool dark);
+  /// Pictures on planes (section and slices) beside the tree.
+  void set_section_shown(bool shown);
+  /// Called with each new wall, to colour it.
+  void set_wall_painter(std::function<void(const geometry::TriMesh&)> painter);
+  void repaint_wall();  ///< the painter would colour it otherwise
+  QSize minimumSizeHint() const override { return {120, 100}; }
+
+ signals:
+  void styles_changed();  ///< vessels have colours now, or others
+  void volume_wanted();   ///< the CT is to be shown and has not been reduced yet
+
+ public slots:
+  void request_render();  ///< soon, once for many requests
+
+ protected:
+  bool eventFilter(QObject* object, QEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+
+ private:
+  void refresh();
+  void refresh_styles();
+  void refresh_cursor();
+  void refresh_section();
+  void refresh_measurements();
+  void pick(const QPointF& at);
+  geometry::Vec2 display(const QPointF& at) const;
+  session::Workbench& bench_;
+  QVTKOpenGLWindow* window_;
+  QWidget* container_;
+  std::unique_ptr<view::TreeScene> scene_;
+  QTimer flight_, refining_;
+  view::CameraPose from_, to_;
+  QElapsedTimer flight_clock_;
+  bool wall_stale_ = true, styles_stale_ = true, cursor_stale_ = true, marks_stale_ = true,
+       fit_wanted_ = true;
+  bool section_shown_ = true;
+  std::shared_ptr<const geometry::TriMesh> wall_;
+  std::function<void(const geometry::TriMesh&)> wall_painter_;
+  QPointF pressed_, last_;
+  Qt::MouseButtons buttons_;
+  bool moved_ = false;
+  std::vector<session::Subscription> own_;
+};
+
+}  // namespace ostia::workstation

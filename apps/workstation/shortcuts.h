@@ -1,0 +1,55 @@
+#pragma once
+/// \file Which keys run which command.
+
+#include <QKeySequence>
+#include <QList>
+#include <QString>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ostia::workstation {
+
+enum class ShortcutScheme { pacs, research };
+
+struct Shortcut {
+  QString id;    ///< "edit.undo"
+  QString pacs;  ///< keys as a reading station has them; several with "; " between
+  QString research;
+};
+/// All commands that have keys in some scheme, with both schemes' keys.
+const std::vector<Shortcut>& shortcuts();
+/// Empty for a command without keys.
+QList<QKeySequence> keys_of(const QString& id, ShortcutScheme scheme);
+
+/// What views and lists do with a key themselves ("Up", "Delete"): no command may have it.
+bool is_kept_by_views(const QKeySequence& keys);
+
+/// The keys as a person has them: a scheme, and what differs from it.
+class ShortcutKeys {
+ public:
+  explicit ShortcutKeys(ShortcutScheme scheme = ShortcutScheme::pacs) : scheme_(scheme) {}
+  /// From settings "shortcuts" (pacs, research) and "shortcut.<id>" (keys, "none", or "default"). What cannot
+  /// be read, or would give a key to two commands, is as if it were not there.
+  static ShortcutKeys from(const std::map<std::string, std::string>& settings);
+  /// As `from` reads them; of all commands that are or were changed (`before`).
+  std::map<std::string, std::string> settings(const ShortcutKeys& before) const;
+
+  ShortcutScheme scheme() const { return scheme_; }
+  QList<QKeySequence> keys(const QString& id) const;
+  bool is_changed(const QString& id) const { return changed_.count(id) > 0; }
+  /// The command that `keys`, or keys that begin like them, run already; `but` is not asked.
+  std::optional<QString> taken_by(const QKeySequence& keys, const QString& but = {}) const;
+  /// False, and nothing changed, where another command or the views have these keys. Empty: no key at all.
+  bool change(const QString& id, const QKeySequence& keys);
+  /// Back to the scheme's keys; false where another command has been given one of them meanwhile.
+  bool reset(const QString& id);
+  void reset_all() { changed_.clear(); }
+
+ private:
+  ShortcutScheme scheme_;
+  std::map<QString, QKeySequence> changed_;
+};
+
+}  // namespace ostia::workstation

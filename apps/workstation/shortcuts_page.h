@@ -1,0 +1,25 @@
+#pragma once
+/// \file All keys and mouse gestures on one page.
+
+#include <QDialog>
+
+class QLineEdit;
+class QTreeWidget;
+
+namespace ostia::workstation {
+
+class Help;
+
+class ShortcutsPage final : public QDialog {
+  Q_OBJECT
+ public:
+  ShortcutsPage(const Help& help, QWidget* parent);
+
+ private:
+  void fill(const Help& help);
+  void search(const QString& text);
+  QLineEdit* search_;
+  QTreeWidget* list_;
+};
+
+}  // namespace ostia::workstation

@@ -1,0 +1,121 @@
+#include "theme.h"
+
+#include <QApplication>
+#include <QProxyStyle>
+
+namespace ostia::workstation {
+namespace {
+
+Theme theme_now = Theme::dark;
+
+/// Dialogs' buttons without the style's pictures, which are made for light themes.
+class PlainButtons final : public QProxyStyle {
+ public:
+  PlainButtons() : QProxyStyle(QStringLiteral("Fusion")) {}
+  int styleHint(StyleHint hint, const QStyleOption* option, const QWidget* widget,
+                QStyleHintReturn* data) const override {
+    if (hint == SH_DialogButtonBox_ButtonsHaveIcons) return 0;
+    return QProxyStyle::styleHint(hint, option, widget, data);
+  }
+};
+
+QPalette palette_of(Theme theme) {
+  const bool dark = theme == Theme::dark;
+  const QColor window = dark ? QColor(32, 34, 38) : QColor(240, 241, 243);
+  const QColor base = dark ? QColor(23, 24, 27) : QColor(255, 255, 255);
+  const QColor text = dark ? QColor(222, 225, 230) : QColor(25, 28, 33);
+  const QColor faint = dark ? QColor(122, 127, 135) : QColor(125, 130, 138);
+  const QColor accent = dark ? QColor(64, 132, 214) : QColor(28, 98, 185);
+  QPalette p;
+  p.setColor(QPalette::Window, window);
+  p.setColor(QPalette::WindowText, text);
+  p.setColor(QPalette::Base, base);
+  p.setColor(QPalette::AlternateBase, dark ? QColor(28, 30, 34) : QColor(247, 248, 250));
+  p.setColor(QPalette::Text, text);
+  p.setColor(QPalette::Button, dark ? QColor(44, 47, 53) : QColor(228, 230, 234));
+  p.setColor(QPalette::ButtonText, text);
+  p.setColor(QPalette::BrightText, Qt::white);
+  p.setColor(QPalette::ToolTipBase, dark ? QColor(52, 56, 63) : QColor(255, 255, 235));
+  p.setColor(QPalette::ToolTipText, text);
+  p.setColor(QPalette::Highlight, accent);
+  p.setColor(QPalette::HighlightedText, Qt::white);
+  p.setColor(QPalette::Link, accent);
+  p.setColor(QPalette::PlaceholderText, faint);
+  for (const QPalette::ColorRole role : {QPalette::WindowText, QPalette::Text, QPalette::ButtonText})
+    p.setColor(QPalette::Disabled, role, faint);
+  return p;
+}
+
+}  // namespace
+
+void apply_theme(Theme theme) {
+  theme_now = theme;
+  QApplication::setStyle(new PlainButtons);
+  QApplication::setPalette(palette_of(theme));
+}
+
+Theme current_theme() {
+  return theme_now;
+}
+
+QColor role_color(view::Role role, Ground ground) {
+  using view::Role;
+  const bool bright = ground == Ground::image || theme_now == Theme::dark;
+  switch (role) {
+    case Role::lumen:
+      return QColor(255, 176, 46);
+    case Role::truth:
+      return QColor(102, 219, 255);
+    case Role::axis:
+      return QColor(120, 200, 120);
+    case Role::other_axis:
+      return QColor(150, 150, 160);
+    case Role::cursor:
+      return bright ? QColor(90, 190, 255) : QColor(20, 110, 190);
+    case Role::reference:
+      return bright ? QColor(140, 220, 160) : QColor(30, 130, 60);
+    case Role::stenosis:
+      return QColor(232, 84, 72);
+    case Role::measurement:
+      return QColor(255, 240, 120);
+    case Role::selected:
+      return QColor(255, 110, 220);
+    case Role::stroke:
+      return QColor(120, 255, 220);
+    case Role::dismissed:
+      return QColor(255, 90, 90);
+    case Role::handle:
+      return QColor(255, 255, 255);
+    case Role::information:
+      return bright ? QColor(214, 218, 224) : QColor(40, 44, 50);
+    case Role::warning:
+      return QColor(255, 150, 60);
+    case Role::diameter:
+      return bright ? QColor(255, 176, 46) : QColor(180, 95, 0);
+    case Role::area:
+      return bright ? QColor(120, 170, 255) : QColor(40, 80, 190);
+    case Role::grid:
+      return bright ? QColor(110, 115, 125) : QColor(170, 174, 182);
+  }
+  return Qt::white;
+}
+
+double role_width(view::Role role) {
+  using view::Role;
+  switch (role) {
+    case Role::lumen:
+      return 1.6;
+    case Role::diameter:
+      return 1.8;
+    case Role::stroke:
+    case Role::selected:
+    case Role::measurement:
+      return 1.6;
+    case Role::grid:
+      return 0.8;
+    default:
+      return 1.1;
+  }
+}
+
+}  // namespace ostia::workstation

@@ -1,0 +1,214 @@
+#include "vessel_list.h"
+
+#include "ostia/analysis/aha_segments.h"
+
+#include <QColorDialog>
+#include <QContextMenuEvent>
+#include <QHeaderView>
+#include <QKeyEvent>
+#include <QMenu>
+#include <QSignalBlocker>
+#include <QTimer>
+#include <algorithm>
+
+namespace ostia::workstation {
+namespace {
+
+enum Column { name_column, length_column, edited_column, stenosis_column, checked_column, columns };
+constexpr int id_role = Qt::UserRole;
+constexpr int measure_pause_ms = 60;         // between vessels, so that the window answers
+constexpr int refresh_after_ms = 120;        // of an edit
+constexpr int from_role = Qt::UserRole + 1;  // of a segment: its first abscissa
+
+QIcon color_icon(const QColor& color) {
+  QPixmap pixmap(12, 12);
+  pixmap.fill(color);
+  return QIcon(pixmap);
+}
+
+int edited_samples(const lumen::VesselLumen& vessel) {
+  return static_cast<int>(std::count_if(vessel.samples.begin(), vessel.samples.end(), [](const auto& sample) {
+    return sample.origin == lumen::SampleOrigin::edit;
+  }));
+}
+
+}  // namespace
+
+VesselList::VesselList(session::Workbench& bench, std::function<QColor(std::int32_t)> color_of, Guard guard,
+                       QWidget* parent)
+    : QTreeWidget(parent), bench_(bench), color_of_(std::move(color_of)), guard_(std::move(guard)) {
+  setObjectName("vessels");
+  setAccessibleName(tr("Vessels"));
+  setColumnCount(columns);
+  setHeaderLabels({tr("Vessel"), tr("mm"), tr("Edits"), tr("Worst"), tr("Done")});
+  headerItem()->setToolTip(edited_column, tr("Samples of the wall that a person placed"));
+  headerItem()->setToolTip(stenosis_column, tr("Largest narrowing, percent of diameter"));
+  headerItem()->setToolTip(checked_column, tr("A person has gone through this vessel"));
+  setUniformRowHeights(true);
+  setEditTriggers(EditKeyPressed | SelectedClicked);
+  setIndentation(14);
+  header()->setMinimumSectionSize(24);
+  header()->setStretchLastSection(false);
+  header()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  header()->setSectionResizeMode(name_column, QHeaderView::Stretch);
+  own_.push_back(bench.case_changed.observe([this] { fill(); }));
+  own_.push_back(bench.model_changed.observe([this](const session::ModelEvent& event) {
+    if (event.tree_changed)
+      fill();
+    else
+      soon_.start();
+  }));
+  own_.push_back(bench.annotations_changed.observe([this] { refresh(); }));
+  own_.push_back(bench.vessel.observe([this](const std::int32_t&) { refresh(); }));
+  soon_.setSingleShot(true);
+  soon_.setInterval(refresh_after_ms);
+  connect(&soon_, &QTimer::timeout, this, &VesselList::refresh);
+  connect(this, &QTreeWidget::currentItemChanged, this, [this](QTreeWidgetItem* item) {
+    if (!item) return;
+    bench_.vessel.set(item->data(0, id_role).toInt());
+    if (item->parent()) bench_.cursor_mm.set(item->data(0, from_role).toDouble());
+  });
+  connect(this, &QTreeWidget::itemChanged, this, &VesselList::edited);
+}
+
+void VesselList::fill() {
+  const QSignalBlocker quiet(this);
+  clear();
+  unmeasured_.clear();
+  const lumen::LumenModel* model = bench_.model();
+  if (!model) return;
+  const std::vector<analysis::VesselSegment> segments = analysis::segments_of(*model);
+  for (const geometry::Vessel& vessel : model->tree.vessels) {
+    auto* item = new QTreeWidgetItem(this);
+    item->setData(0, id_role, vessel.id);
+    unmeasured_.push_back(vessel.id);
+    item->setFlags(item->flags() | Qt::ItemIsUserCheckable | Qt::ItemIsEditable);
+    for (const analysis::VesselSegment& segment : segments) {
+      if (segment.vessel != vessel.id || !segment.aha) continue;
+      auto* part = new QTreeWidgetItem(item);
+      part->setData(0, id_role, vessel.id);
+      part->setData(0, from_role, segment.from_mm);
+      part->setText(name_column, QString::fromStdString(segment.label));
+      part->setText(length_column, QString::number(segment.to_mm - segment.from_mm, 'f', 0));
+      part->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable);
+    }
+  }
+  refresh();
+  QTimer::singleShot(measure_pause_ms, this, &VesselList::measure_next);
+}
+
+void VesselList::measure_next() {
+  if (unmeasured_.empty()) return;
+  const std::int32_t id = unmeasured_.front();
+  unmeasured_.erase(unmeasured_.begin());
+  guard_([&] { bench_.stenoses(id); });
+  refresh();
+  QTimer::singleShot(measure_pause_ms, this, &VesselList::measure_next);
+}
+
+session::VesselMark VesselList::mark_of(std::int32_t vessel) const {
+  if (const auto* found = session::find_mark(*bench_.session().file().annotations(), vessel)) return *found;
+  session::VesselMark made;
+  made.vessel = vessel;
+  return made;
+}
+
+void VesselList::refresh() {
+  const QSignalBlocker quiet(this);
+  const lumen::LumenModel* model = bench_.model();
+  if (!model) return;
+  for (int i = 0; i < topLevelItemCount(); ++i) {
+    QTreeWidgetItem* item = topLevelItem(i);
+    const std::int32_t id = item->data(0, id_role).toInt();
+    const lumen::VesselLumen& vessel = lumen::vessel(*model, id);
+    const session::VesselMark mark = mark_of(id);
+    item->setText(name_column, QString::fromStdString(bench_.vessel_name(id)));
+    item->setIcon(name_column, color_icon(color_of_(id)));
+    item->setCheckState(name_column, mark.visible ? Qt::Checked : Qt::Unchecked);
+    item->setToolTip(name_column, tr("Tick: shown in 3D. F2: another name."));
+    item->setText(length_column, QString::number(vessel.axis->length(), 'f', 0));
+    const int edits = edited_samples(vessel);
+    item->setText(edited_column, edits > 0 ? QString::number(edits) : QStringLiteral("\u2013"));
+    if (std::find(unmeasured_.begin(), unmeasured_.end(), id) == unmeasured_.end()) {
+      // On the way that it shares, a narrowing is the other vessel's.
+      const double own = lumen::own_from_mm(model->tree, id);
+      double worst = 0.0;
+      for (const analysis::Stenosis& one : bench_.stenoses(id))
+        if (one.throat_mm >= own) worst = std::max(worst, one.diameter_percent);
+      item->setText(stenosis_column,
+                    worst > 0.0 ? QString::number(worst, 'f', 0) + " %" : QStringLiteral("\u2013"));
+    }
+    item->setCheckState(checked_column, mark.checked ? Qt::Checked : Qt::Unchecked);
+    if (id == bench_.vessel.get() && (!currentItem() || currentItem()->data(0, id_role).toInt() != id))
+      setCurrentItem(item);
+  }
+}
+
+void VesselList::edited(QTreeWidgetItem* item, int column) {
+  const std::int32_t id = item->data(0, id_role).toInt();
+  session::VesselMark mark = mark_of(id);
+  const bool visible = item->checkState(name_column) == Qt::Checked;
+  const bool checked = item->checkState(checked_column) == Qt::Checked;
+  const std::string name = item->text(name_column).trimmed().toStdString();
+  guard_([&] {
+    if (column == name_column && name != bench_.vessel_name(id)) {
+      bench_.edit(lumen::VesselRename{id, name});
+    } else if (mark.visible != visible || mark.checked != checked) {
+      mark.visible = visible;
+      mark.checked = checked;
+      bench_.annotate(session::MarkVessel{mark});
+    }
+  });
+  refresh();  // what was refused is shown as it is
+}
+
+void VesselList::choose_color(std::int32_t vessel) {
+  const QColor chosen = QColorDialog::getColor(
+      color_of_(vessel), this, tr("Colour of %1").arg(QString::fromStdString(bench_.vessel_name(vessel))));
+  if (!chosen.isValid()) return;
+  guard_([&] {
+    session::VesselMark mark = mark_of(vessel);
+    mark.color = {{chosen.redF(), chosen.greenF(), chosen.blueF()}};
+    bench_.annotate(session::MarkVessel{mark});
+  });
+}
+
+void VesselList::contextMenuEvent(QContextMenuEvent* event) {
+  QTreeWidgetItem* item = currentItem();
+  if (!item) return;
+  if (item->parent()) item = item->parent();
+  const std::int32_t id = item->data(0, id_role).toInt();
+  QMenu menu(this);
+  menu.addAction(tr("Rename\u2026"), this, [this, item] { editItem(item, name_column); });
+  menu.addAction(tr("Colour\u2026"), this, [this, id] { choose_color(id); });
+  menu.addSeparator();
+  menu.addAction(tr("Cut off distal of the cursor"), this, [this, id] {
+    guard_([&] { bench_.edit(lumen::AxisTrim{id, bench_.cursor_mm.get()}); });
+  });
+  menu.addAction(tr("Delete with its branches"), this,
+                 [this, id] { guard_([&] { bench_.edit(lumen::BranchDelete{id}); }); });
+  auto* joints = menu.addMenu(tr("Join to"));
+  joints->setToolTip(tr("Where its own part begins goes to the nearest place of that vessel"));
+  for (const geometry::Vessel& other : bench_.model()->tree.vessels) {
+    if (other.id == id) continue;
+    joints->addAction(QString::fromStdString(other.name), this, [this, id, parent = other.id] {
+      guard_([&] {
+        const auto axis = bench_.axis(id);
+        bench_.edit(
+            lumen::BranchAttach{id, parent, axis->point(lumen::own_from_mm(bench_.model()->tree, id))});
+      });
+    });
+  }
+  menu.exec(event->globalPos());
+}
+
+void VesselList::keyPressEvent(QKeyEvent* event) {
+  if (event->key() == Qt::Key_Delete && currentItem()) {
+    const std::int32_t id = currentItem()->data(0, id_role).toInt();
+    guard_([&] { bench_.edit(lumen::BranchDelete{id}); });
+    return;
+  }
+  QTreeWidget::keyPressEvent(event);
+}
+
+}  // namespace ostia::workstation

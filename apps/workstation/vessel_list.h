@@ -1,0 +1,42 @@
+#pragma once
+/// \file The vessels of the case: names, colours, what is shown, what is checked.
+
+#include "picture_widget.h"
+
+#include "ostia/session/workbench.h"
+
+#include <QTimer>
+#include <QTreeWidget>
+#include <vector>
+
+namespace ostia::workstation {
+
+class VesselList final : public QTreeWidget {
+  Q_OBJECT
+ public:
+  /// `color_of`: the colour that the 3D scene gives a vessel.
+  VesselList(session::Workbench& bench, std::function<QColor(std::int32_t)> color_of, Guard guard,
+             QWidget* parent = nullptr);
+
+ public slots:
+  void refresh();
+
+ protected:
+  void contextMenuEvent(QContextMenuEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+
+ private:
+  void fill();
+  void measure_next();
+  void edited(QTreeWidgetItem* item, int column);
+  session::VesselMark mark_of(std::int32_t vessel) const;
+  void choose_color(std::int32_t vessel);
+  session::Workbench& bench_;
+  std::function<QColor(std::int32_t)> color_of_;
+  QTimer soon_;
+  std::vector<std::int32_t> unmeasured_;  // whose narrowings are still to be found, one at a time
+  Guard guard_;
+  std::vector<session::Subscription> own_;
+};
+
+}  // namespace ostia::workstation

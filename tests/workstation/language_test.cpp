@@ -1,0 +1,79 @@
+#include "language.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <QFile>
+#include <QRegularExpression>
+#include <QXmlStreamReader>
+
+namespace ostia::workstation {
+namespace {
+
+TEST(Language, TheSettingGoesBeforeTheSystem) {
+  EXPECT_EQ(chosen_language("en", {"de-DE"}), "en");
+  EXPECT_EQ(chosen_language("de", {"en-GB"}), "de");
+}
+
+TEST(Language, WithoutASettingTheSystemsFirstKnownLanguageIsTaken) {
+  EXPECT_EQ(chosen_language(std::nullopt, {"fr-FR", "de-AT", "en"}), "de");
+  EXPECT_EQ(chosen_language("", {"de_CH"}), "de");
+  EXPECT_EQ(chosen_language(std::nullopt, {"fr"}), "en");
+  EXPECT_EQ(chosen_language(std::nullopt, {}), "en");
+  EXPECT_EQ(chosen_language("xx", {"den"}), "en") << "what merely begins like one";
+}
+
+struct Text {
+  QString context, source;
+  QStringList translations;
+  bool finished = true;
+};
+
+std::vector<Text> texts_of(const QString& code) {
+  QFile file(QStringLiteral(OSTIA_SOURCES "/apps/workstation/translations/ostia_%1.ts").arg(code));
+  EXPECT_TRUE(file.open(QIODevice::ReadOnly));
+  std::vector<Text> found;
+  QXmlStreamReader xml(&file);
+  QString context;
+  while (!xml.atEnd()) {
+    if (xml.readNext() != QXmlStreamReader::StartElement) continue;
+    if (xml.name() == QLatin1String("name")) {
+      context = xml.readElementText();
+    } else if (xml.name() == QLatin1String("message")) {
+      found.push_back({context, {}, {}, true});
+    } else if (xml.name() == QLatin1String("source")) {
+      found.back().source = xml.readElementText();
+    } else if (xml.name() == QLatin1String("translation")) {
+      found.back().finished = !xml.attributes().hasAttribute("type");
+      const QString text = xml.readElementText(QXmlStreamReader::IncludeChildElements).trimmed();
+      found.back().translations << text;
+    }
+  }
+  EXPECT_FALSE(xml.hasError()) << xml.errorString().toStdString();
+  return found;
+}
+
+TEST(Language, GermanIsComplete) {
+  const std::vector<Text> texts = texts_of("de");
+  ASSERT_GT(texts.size(), 400u);
+  for (const Text& one : texts) {
+    EXPECT_TRUE(one.finished) << one.context.toStdString() << ": " << one.source.toStdString();
+    for (const QString& translation : one.translations)
+      EXPECT_EQ(one.source.trimmed().isEmpty(), translation.isEmpty()) << one.source.toStdString();
+  }
+}
+
+TEST(Language, TranslationsKeepThePlacesOfNumbersAndNames) {
+  const QRegularExpression place("%[1-9n]");
+  for (const Text& one : texts_of("de")) {
+    QStringList wanted;
+    auto at = place.globalMatch(one.source);
+    while (at.hasNext()) wanted << at.next().captured();
+    for (const QString& mark : wanted)
+      EXPECT_TRUE(one.translations.join(' ').contains(mark))
+          << one.source.toStdString() << " has lost " << mark.toStdString();
+  }
+}
+
+}  // namespace
+}  // namespace ostia::workstation

@@ -1,0 +1,156 @@
+// The program itself, driven by the X server's own events (xdotool), killed, and started again.
+
+#include "window_hand.h"
+
+#include "ostia/core/files.h"
+#include "ostia/imaging/image_file.h"
+#include "ostia/lumen/start_surface.h"
+#include "ostia/session/case_file.h"
+#include "ostia/session/image_digest.h"
+
+#include <gtest/gtest.h>
+
+#include <QProcess>
+#include <QStandardPaths>
+#include <QTest>
+#include <algorithm>
+#include <cmath>
+
+namespace ostia::workstation {
+namespace {
+
+namespace fs = std::filesystem;
+using session::Tool;
+using testing::wait_until;
+
+geometry::VesselTree tube_tree() {
+  geometry::Centerline axis;
+  for (int i = 0; i <= 80; ++i) {
+    axis.points.push_back({0.0, 0.0, 0.5 * i});
+    axis.radius.push_back(1.5);
+  }
+  geometry::complete(axis);
+  geometry::VesselTree tree;
+  tree.nodes = {{1, axis.points.front()}, {2, axis.points.back()}};
+  tree.segments = {{3, 1, 2, axis}};
+  tree.vessels = {{4, "LAD", {3}}};
+  return tree;
+}
+
+int xdo(const QStringList& arguments) {
+  return QProcess::execute("xdotool", arguments);
+}
+
+struct Program {
+  QProcess process;
+  explicit Program(const QStringList& arguments) {
+    process.setProcessChannelMode(QProcess::ForwardedErrorChannel);
+    process.start(OSTIA_WORKSTATION, arguments);
+    process.waitForStarted();
+  }
+  ~Program() {
+    process.kill();
+    process.waitForFinished();
+  }
+};
+
+/// The places of the named view's frames in the log.
+int frames(const fs::path& log, const std::string& view) {
+  std::error_code ignored;
+  if (!fs::exists(log, ignored)) return 0;
+  const std::string text = core::read_file(log), wanted = "\"view\":\"" + view + "\"";
+  int count = 0;
+  for (std::size_t at = text.find(wanted); at != std::string::npos; at = text.find(wanted, at + 1)) ++count;
+  return count;
+}
+
+struct RealEvents : ::testing::Test {
+  testing::Folder folder;
+  fs::path image = folder / "image.nrrd", case_file = folder / "tube.ostia", state = folder / "state",
+           log = folder / "frames.jsonl";
+  RealEvents() {
+    imaging::ImageVolume volume;
+    volume.geometry.size = {64, 64, 110};
+    volume.geometry.spacing = {0.4, 0.4, 0.4};
+    volume.geometry.origin = {-12.6, -12.6, -2.0};
+    volume.voxels.assign(static_cast<std::size_t>(volume.geometry.voxels()), 100);
+    imaging::write_image(image, volume);
+    session::CaseFile::create(case_file, lumen::model_of_tubes(tube_tree()), session::image_reference(image));
+    session::MachineState(state).remember_image(session::image_reference(image).sha256, image);
+  }
+  QStringList arguments(bool with_case) const {
+    QStringList all{"--state-folder", QString::fromStdString(state.string()), "--frame-log",
+                    QString::fromStdString(log.string()), "--no-tour"};
+    if (with_case) all << QString::fromStdString(case_file.string());
+    return all;
+  }
+  /// Waits until nothing has been painted for a while.
+  bool settled() const {
+    int last = -1;
+    QElapsedTimer quiet;
+    quiet.start();
+    return wait_until(
+        [&] {
+          const int now = frames(log, "cpr1");
+          if (now != last) quiet.restart();
+          last = now;
+          return now > 0 && quiet.elapsed() > 1500;
+        },
+        40000);
+  }
+  std::size_t stored_edits() const {
+    return session::CaseFile::open(case_file, session::OpenMode::read_only).edits().size();
+  }
+};
+
+TEST_F(RealEvents, ADrawnStrokeIsInTheCaseAfterAKillAndTheProgramComesBackToIt) {
+  if (QStandardPaths::findExecutable("xdotool").isEmpty()) GTEST_SKIP() << "xdotool is not installed";
+  QPoint from, to;
+  {
+    // Where the same window has its wall and its button, asked of a window in this process.
+    const fs::path copy = folder / "copy.ostia";
+    session::CaseFile::open(case_file, session::OpenMode::read_only).copy_to(copy);
+    testing::Folder other;
+    session::MachineState(other / "state").remember_image(session::image_reference(image).sha256, image);
+    MainWindow window(other / "state");
+    window.move(0, 0);
+    window.show();
+    window.open(copy);
+    ASSERT_TRUE(wait_until([&] { return window.bench().has_case() && !window.jobs().any(); }));
+    wait_until([] { return false; }, 300);
+    auto* cpr = window.findChild<PictureWidget*>("cpr1");
+    const auto axis = window.bench().axis();
+    const auto wall = cpr->view().project(axis->place(12.0, 0.0, 1.5));
+    from = cpr->mapToGlobal(QPoint(static_cast<int>(wall->px.x()), static_cast<int>(wall->px.y())));
+    to = from + QPoint(10, 0);
+    window.close();
+  }
+  {
+    Program program(arguments(true));
+    ASSERT_TRUE(settled());
+    const auto place = [](const QPoint& at) {
+      return QStringList{QString::number(at.x()), QString::number(at.y())};
+    };
+    // The tool by its key: the view has the focus after a click beside the vessel.
+    xdo(QStringList{"mousemove"} + place(from + QPoint(60, 0)) + QStringList{"click", "1"});
+    xdo({"key", "--delay", "60", "e"});
+    xdo(QStringList{"mousemove"} + place(from));
+    xdo({"mousedown", "1"});
+    for (int i = 1; i <= 10; ++i) {
+      xdo(QStringList{"mousemove"} + place(from + QPoint(i, 0)));
+      QTest::qWait(30);
+    }
+    xdo(QStringList{"mousemove"} + place(to) + QStringList{"mouseup", "1"});
+    ASSERT_TRUE(settled());
+    program.process.kill();  // SIGKILL: nothing can be tidied up
+    program.process.waitForFinished();
+  }
+  EXPECT_EQ(stored_edits(), 1U);
+  fs::remove(log);
+  Program again(arguments(false));
+  EXPECT_TRUE(settled());  // a CPR is painted, though no case was named
+  again.process.terminate();
+}
+
+}  // namespace
+}  // namespace ostia::workstation

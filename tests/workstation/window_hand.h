@@ -1,0 +1,91 @@
+#pragma once
+/// \file The program's window for tests, and a hand that moves over it.
+
+#include "main_window.h"
+
+#include <unistd.h>
+
+#include <QApplication>
+#include <QElapsedTimer>
+#include <QMouseEvent>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace ostia::workstation::testing {
+
+class Folder {
+ public:
+  Folder() {
+    std::string name = (std::filesystem::temp_directory_path() / "ostia-window-XXXXXX").string();
+    if (!::mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
+    path_ = name;
+  }
+  ~Folder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// Lets the window work until `done`; false after `most_ms`.
+template <class Done>
+bool wait_until(const Done& done, int most_ms = 20000) {
+  QElapsedTimer clock;
+  clock.start();
+  while (!done()) {
+    if (clock.elapsed() > most_ms) return false;
+    QApplication::processEvents(QEventLoop::AllEvents, 20);
+  }
+  return true;
+}
+
+inline void send(QWidget& widget, QEvent::Type type, const QPoint& at, Qt::MouseButton button,
+                 Qt::MouseButtons held, Qt::KeyboardModifiers keys = Qt::NoModifier) {
+  QMouseEvent event(type, at, widget.mapToGlobal(at), button, held, keys);
+  QApplication::sendEvent(&widget, &event);
+}
+
+/// Presses at the first place, moves through all of them, and lets go at the last.
+inline void sweep(QWidget& widget, const std::vector<QPoint>& way,
+                  Qt::KeyboardModifiers keys = Qt::NoModifier) {
+  send(widget, QEvent::MouseMove, way.front(), Qt::NoButton, Qt::NoButton, keys);
+  send(widget, QEvent::MouseButtonPress, way.front(), Qt::LeftButton, Qt::LeftButton, keys);
+  for (const QPoint& at : way) send(widget, QEvent::MouseMove, at, Qt::NoButton, Qt::LeftButton, keys);
+  send(widget, QEvent::MouseButtonRelease, way.back(), Qt::LeftButton, Qt::NoButton, keys);
+  QApplication::processEvents();
+}
+
+class TestWindow {
+ public:
+  explicit TestWindow(const std::filesystem::path& state_folder) : window_(state_folder) {
+    window_.resize(1600, 1150);
+    window_.show();
+    QApplication::processEvents();
+  }
+  /// Throws std::runtime_error where it is not open in time.
+  void open(const std::filesystem::path& case_file) {
+    window_.open(case_file);
+    if (!wait_until([&] { return bench().has_case() && !window_.jobs().any(); }))
+      throw std::runtime_error("the case was not opened");
+    QApplication::processEvents();
+  }
+  MainWindow& window() { return window_; }
+  session::Workbench& bench() { return window_.bench(); }
+  PictureWidget& picture(const char* name) {
+    auto* found = window_.findChild<PictureWidget*>(name);
+    if (!found) throw std::runtime_error(std::string("the window has no view ") + name);
+    return *found;
+  }
+
+ private:
+  MainWindow window_;
+};
+
+}  // namespace ostia::workstation::testing

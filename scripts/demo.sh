@@ -10,6 +10,7 @@ echo
 echo "The model is in $out:"
 ls -l "$out"
 echo "Open $out/report.html in a browser, $out/mesh.vtu in ParaView."
-if { [ -n "${DISPLAY:-}" ] || [ -n "${WAYLAND_DISPLAY:-}" ]; } && command -v xdg-open >/dev/null; then
-  xdg-open "$out/report.html" || true
+if [ -n "${DISPLAY:-}" ]; then
+  echo "The workstation opens with the sample case; the first time it is computed, which takes about two minutes."
+  build/release/bin/ostia-workstation --sample
 fi

@@ -38,6 +38,18 @@ void FrameLog::blocked(double ms) {
   write(QStringLiteral("{\"t_ms\":%1,\"blocked_ms\":%2}").arg(now_ms(), 0, 'f', 2).arg(ms, 0, 'f', 1));
 }
 
+void FrameLog::placed(const QString& view, const QRect& on_screen) {
+  if (!on() || places_[view] == on_screen) return;
+  places_[view] = on_screen;
+  write(QStringLiteral("{\"t_ms\":%1,\"view\":\"%2\",\"x\":%3,\"y\":%4,\"width\":%5,\"height\":%6}")
+            .arg(now_ms(), 0, 'f', 2)
+            .arg(view)
+            .arg(on_screen.x())
+            .arg(on_screen.y())
+            .arg(on_screen.width())
+            .arg(on_screen.height()));
+}
+
 void FrameLog::write(const QString& line) {
   file_->write(line.toUtf8() + '\n');
   file_->flush();

@@ -3,6 +3,8 @@
 
 #include <QElapsedTimer>
 #include <QFile>
+#include <QMap>
+#include <QRect>
 #include <QString>
 #include <cstdint>
 #include <memory>
@@ -21,6 +23,8 @@ class FrameLog {
   void event(const char* kind);  ///< the user did something
   void painted(const QString& view, double paint_ms);
   void blocked(double ms);
+  /// Where a view is on the screen: {"view":"cpr1","x":300,"y":90,"width":280,"height":700}.
+  void placed(const QString& view, const QRect& on_screen);
 
  private:
   FrameLog() { clock_.start(); }
@@ -28,6 +32,7 @@ class FrameLog {
   double now_ms() const { return static_cast<double>(clock_.nsecsElapsed()) / 1e6; }
   QElapsedTimer clock_;
   std::unique_ptr<QFile> file_;
+  QMap<QString, QRect> places_;  // as they were last written
   std::uint64_t event_ = 0;
   QString kind_;
   double event_ms_ = 0.0;

@@ -9,7 +9,6 @@
 #include <QMessageBox>
 #include <QPushButton>
 #include <chrono>
-#include <cstdlib>
 #include <string>
 
 namespace ostia::workstation {
@@ -68,12 +67,10 @@ void Opening::open(const fs::path& path) {
 
 void Opening::open_sample() {
   const fs::path folder = state_folder() / "sample";
-  const char* tiny = std::getenv("OSTIA_TINY_SAMPLE");
-  const phantom::Preset preset = tiny && *tiny ? phantom::Preset::tiny : phantom::Preset::full;
   window_.jobs().run(
       "open", tr("Sample case"),
-      [folder, preset](const core::TaskContext& task) {
-        return std::any(session::sample_case(folder, preset, task));
+      [folder](const core::TaskContext& task) {
+        return std::any(session::sample_case(folder, phantom::Preset::full, task));
       },
       [this](const std::any& result) {
         const auto sample = std::any_cast<session::SampleCase>(result);

@@ -23,6 +23,13 @@ double milliseconds(const QElapsedTimer& clock) {
   return static_cast<double>(clock.nsecsElapsed()) / 1e6;
 }
 
+void tell_frame(const QWidget& view, double paint_ms) {
+  FrameLog& log = FrameLog::instance();
+  if (!log.on()) return;
+  log.placed(view.objectName(), QRect(view.mapToGlobal(QPoint(0, 0)), view.size()));
+  log.painted(view.objectName(), paint_ms);
+}
+
 QFont overlay_font(const QFont& base, double density) {
   QFont font = base;
   font.setPixelSize(static_cast<int>(12.0 * density + 0.5));
@@ -95,7 +102,7 @@ void PictureWidget::paintEvent(QPaintEvent*) {
     painter.setBrush(Qt::NoBrush);
     painter.drawRect(all.adjusted(density, density, -density, -density));
   }
-  FrameLog::instance().painted(objectName(), milliseconds(clock));
+  tell_frame(*this, milliseconds(clock));
   if (view_->animating()) QTimer::singleShot(fade_ms, this, [this] { update(); });
 }
 
@@ -259,7 +266,7 @@ void ProfileWidget::paintEvent(QPaintEvent*) {
   painter.fillRect(QRectF(0, 0, width() * density, height() * density), palette().color(QPalette::Base));
   painter.setFont(overlay_font(font(), density));
   paint_overlay(painter, view_.overlay(), density, Ground::paper);
-  FrameLog::instance().painted(objectName(), milliseconds(clock));
+  tell_frame(*this, milliseconds(clock));
 }
 
 void ProfileWidget::go_to(double x) {

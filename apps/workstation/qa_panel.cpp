@@ -10,6 +10,7 @@
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
+#include <QMainWindow>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QTreeWidget>
@@ -22,6 +23,7 @@ namespace {
 constexpr int figures_after_ms = 20;        // of an edit
 constexpr double figures_budget_ms = 30.0;  // at once
 constexpr double worst_mm = 0.5;            // a mean distance with the last colour of the scale
+constexpr int wide_window = 1500, wide_panel = 330, narrow_panel = 240;  // units of the interface
 constexpr int section_role = Qt::UserRole;
 enum Column { name_column, vessel_column, msd_column, max_column, area_column, dice_column };
 
@@ -140,7 +142,7 @@ QWidget* QaPanel::truth_rows() {
   list_->headerItem()->setToolTip(area_column, tr("Mean difference of the areas, case - truth, mm\u00b2"));
   list_->header()->setSectionResizeMode(QHeaderView::ResizeToContents);
   list_->header()->setStretchLastSection(false);
-  list_->setMinimumSize(300, 90);
+  list_->setMinimumSize(180, 90);
   connect(list_, &QTreeWidget::itemActivated, this,
           [this](QTreeWidgetItem* item) { check_.go_to(item->data(name_column, section_role).toUInt()); });
   connect(list_, &QTreeWidget::itemClicked, this,
@@ -184,7 +186,7 @@ QWidget* QaPanel::session_rows() {
     check_.timer().reset();
     show_time();
   });
-  time->addWidget(clock_, 1);
+  rows->addWidget(clock_);
   time->addWidget(run_);
   time->addWidget(zero);
   rows->addLayout(time);
@@ -196,12 +198,12 @@ QWidget* QaPanel::session_rows() {
   speed_ = new QComboBox;
   speed_->setObjectName("qa_speed");
   speed_->setAccessibleName(tr("Speed of a replay"));
-  speed_->addItem(tr("as recorded"), false);
-  speed_->addItem(tr("full speed"), true);
+  speed_->addItem(tr("Replay as fast as recorded"), false);
+  speed_->addItem(tr("Replay at full speed"), true);
   hand->addWidget(record_);
   hand->addWidget(again_);
-  hand->addWidget(speed_);
   rows->addLayout(hand);
+  rows->addWidget(speed_);
   auto* run = new QHBoxLayout;
   progress_ = new QProgressBar;
   progress_->setObjectName("qa_progress");
@@ -220,6 +222,8 @@ void QaPanel::set_mode(bool on) {
   if (on) {
     for (PictureWidget* picture : pictures_)
       layers_.push_back(std::make_unique<view::TruthLayer>(picture->view(), check_));
+    if (auto* main = qobject_cast<QMainWindow*>(parentWidget()))
+      main->resizeDocks({this}, {main->width() >= wide_window ? wide_panel : narrow_panel}, Qt::Horizontal);
     check_.timer().start();
     time_.start();
     figures_soon_.start();

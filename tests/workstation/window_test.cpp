@@ -3,6 +3,7 @@
 #include "side_lists.h"
 #include "vessel_list.h"
 #include "window_hand.h"
+#include "zip_writer.h"
 
 #include "ostia/core/files.h"
 #include "ostia/imaging/dicom_writer.h"
@@ -273,6 +274,32 @@ TEST_F(WindowTest, TheFirstVesselIsMadeByTwoClicks) {
   ASSERT_TRUE(wait_until([&] { return test.bench().has_case(); }));
   EXPECT_NEAR(test.bench().axis()->length(), 33.0, 2.0);
   EXPECT_NEAR(test.bench().section(test.bench().vessel.get(), 15.0)->diameter_mm, 2.0 * radius_mm, 0.3);
+}
+
+TEST_F(WindowTest, AZippedSeriesIsTheSameImageAsItsFolderAndABadZipIsRefused) {
+  const fs::path dicom = folder / "dicom", zip = folder / "series.zip", bad = folder / "bad.zip";
+  imaging::write_dicom_series(dicom, tube_image());
+  std::vector<ostia::testing::ZipMember> members;
+  for (const auto& entry : fs::directory_iterator(dicom))
+    members.push_back({"series/" + entry.path().filename().string(), core::read_file(entry.path()), true});
+  core::write_file(zip, ostia::testing::zip_bytes(members));
+  std::string of_zip, of_folder;
+  for (const auto& [path, digest] : {std::pair(zip, &of_zip), {dicom, &of_folder}}) {
+    TestWindow test(folder / ("state-" + path.filename().string()));
+    test.window().open(path);
+    ASSERT_TRUE(wait_until(
+        [&] { return !test.bench().image().reference.sha256.empty() && !test.window().jobs().any(); }));
+    EXPECT_EQ(test.bench().image().volume->geometry.size[2], 110);
+    *digest = test.bench().image().reference.sha256;
+  }
+  EXPECT_EQ(of_zip, of_folder);
+  members.front().name = "../escaped.dcm";
+  core::write_file(bad, ostia::testing::zip_bytes(members));
+  TestWindow test(state);
+  test.window().open(bad);
+  EXPECT_NE(dialog_text().find("zip"), std::string::npos);
+  EXPECT_FALSE(test.bench().image().volume);
+  EXPECT_FALSE(fs::exists(folder / "escaped.dcm"));
 }
 
 TEST_F(WindowTest, ASecondWindowOnTheCaseIsToldSo) {

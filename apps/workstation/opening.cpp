@@ -90,7 +90,8 @@ void Opening::open_case(const fs::path& path) {
       "open", tr("Opening the case"),
       [path](const core::TaskContext&) {
         auto session = std::make_shared<session::Session>(session::Session::open(path));
-        session->live().wall();  // made here, so that the window need not wait for it
+        session->live().wall(
+            SceneWidget::screen_cell_mm);  // made here, so that the window need not wait for it
         return std::any(session);
       },
       [this, path](const std::any& result) {

@@ -7,7 +7,8 @@
 namespace ostia::workstation {
 namespace {
 
-constexpr qint64 longest_wait_ms = 70;
+constexpr qint64 longest_wait_ms = 60;        // of a 2D view
+constexpr qint64 longest_last_wait_ms = 110;  // of the tree, which may lag behind
 
 }  // namespace
 
@@ -22,26 +23,24 @@ PaintQueue::PaintQueue() : QObject(QCoreApplication::instance()) {
 }
 
 void PaintQueue::add(QWidget* view) {
+  if (views_.isEmpty()) views_waiting_.start();
   if (!views_.contains(view)) views_.append(view);
-  begin();
+  timer_.start();
 }
 
 void PaintQueue::add_last(QObject* owner, std::function<void()> work) {
+  if (last_.isEmpty()) last_waiting_.start();
   const bool known =
       std::any_of(last_.begin(), last_.end(), [&](const Last& one) { return one.owner == owner; });
   if (!known) last_.append({owner, std::move(work)});
-  begin();
-}
-
-void PaintQueue::begin() {
-  if (timer_.isActive()) return;
-  waiting_.start();
   timer_.start();
 }
 
 void PaintQueue::serve_overdue() {
-  if (!timer_.isActive() || waiting_.elapsed() < longest_wait_ms) return;
-  while (timer_.isActive()) next();
+  if (!views_.isEmpty() && views_waiting_.elapsed() > longest_wait_ms)
+    while (!views_.isEmpty()) next();
+  if (!last_.isEmpty() && last_waiting_.elapsed() > longest_last_wait_ms)
+    while (!last_.isEmpty()) next();
 }
 
 void PaintQueue::next() {

@@ -29,7 +29,6 @@ class PaintQueue final : public QObject {
 
  private:
   PaintQueue();
-  void begin();
   void next();
   struct Last {
     QPointer<QObject> owner;
@@ -38,7 +37,7 @@ class PaintQueue final : public QObject {
   QList<QPointer<QWidget>> views_;
   QList<Last> last_;
   QTimer timer_;
-  QElapsedTimer waiting_;  // since the queue was last empty
+  QElapsedTimer views_waiting_, last_waiting_;  // since each was last empty
 };
 
 }  // namespace ostia::workstation

@@ -116,7 +116,7 @@ void SceneWidget::refresh() {
     wall_stale_ = false;
     wall_.reset();
     if (bench_.has_case()) {
-      wall_ = std::make_shared<const geometry::TriMesh>(bench_.session().live().wall());
+      wall_ = std::make_shared<const geometry::TriMesh>(bench_.session().live().wall(screen_cell_mm));
       scene_->set_wall(wall_, *bench_.model());
       if (wall_painter_) wall_painter_(*wall_);
     } else {

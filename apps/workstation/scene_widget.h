@@ -19,6 +19,8 @@ namespace ostia::workstation {
 class SceneWidget final : public QWidget {
   Q_OBJECT
  public:
+  /// Cells of the wall that is shown: about a pixel of the whole tree, half the triangles of the default's.
+  static constexpr double screen_cell_mm = 0.35;
   explicit SceneWidget(session::Workbench& bench, QWidget* parent = nullptr);
   ~SceneWidget() override;
   view::TreeScene& scene() { return *scene_; }

@@ -225,6 +225,11 @@ TEST_F(Hand, AStretchOnTheCprIsAVolume) {
   ASSERT_EQ(found->measurements.size(), 1U);
   EXPECT_NEAR(tube.bench.measured(found->measurements[0]).front().value,
               10.0 * M_PI * testing::tube_radius_mm * testing::tube_radius_mm, 1.0);
+  // And the CPR shows where it is.
+  bool marked = false;
+  for (const OverlayText& text : cpr.overlay().texts)
+    marked = marked || text.text.find("mm\u00b3") != std::string::npos;
+  EXPECT_TRUE(marked);
 }
 
 TEST_F(Hand, DeleteTakesAMeasurementAway) {

@@ -1,29 +1,19 @@
 #include "ostia/session/sample_case.h"
 
 #include "ostia/core/files.h"
-#include "ostia/geometry/centerline.h"
 #include "ostia/imaging/image_file.h"
+#include "ostia/lumen/live_model.h"
 #include "ostia/lumen/start_surface.h"
 #include "ostia/phantom/phantom_case.h"
 #include "ostia/pipeline/image_walls.h"
 #include "ostia/session/case_file.h"
 #include "ostia/session/image_digest.h"
 
+#include <memory>
 #include <system_error>
 
 namespace ostia::session {
 namespace fs = std::filesystem;
-namespace {
-
-constexpr double axis_step_mm = 0.5;  // the true axes have a point every 0.1 mm
-
-geometry::VesselTree coarse(geometry::VesselTree tree) {
-  for (geometry::TreeSegment& segment : tree.segments)
-    segment.axis = geometry::resample(segment.axis, axis_step_mm);
-  return tree;
-}
-
-}  // namespace
 
 SampleCase sample_case(const fs::path& folder, phantom::Preset preset, const core::TaskContext& task) {
   const SampleCase sample{folder / "image.nrrd", folder / "sample.ostia"};
@@ -42,9 +32,11 @@ SampleCase sample_case(const fs::path& folder, phantom::Preset preset, const cor
   task.throw_if_cancelled();
   task.set_progress(0.8);
   task.set_stage("walls of the vessels");
-  const geometry::VesselTree tree = coarse(phantom::vessel_tree(plan.tree));
+  const geometry::VesselTree tree = phantom::vessel_tree(plan.tree);
   const lumen::LumenModel model =
       lumen::model_of_walls(tree, pipeline::walls_from_image(tree, scan.image, task.sub(0.8, 0.97)));
+  const lumen::LiveModel solved(
+      std::make_shared<const lumen::LumenModel>(model));  // throws where it cannot be shown
   CaseFile::create(staged.temporary() / "sample.ostia", model, image_reference(image));
   staged.commit();
   task.set_progress(1.0);

@@ -19,6 +19,7 @@ constexpr double step_along_mm = 0.5;         // of a wheel's step
 constexpr double fit_margin = 0.04;           // of the view's height kept free beyond the vessel's ends
 constexpr double reading_mm_per_unit = 0.11;  // large enough to see and take hold of the wall
 constexpr double follow_margin = 0.12;   // share of the view's height that the cursor keeps from its ends
+constexpr double seed_step_mm = 0.5;     // along the axis, of where lines are looked for
 constexpr double fading_reach_mm = 3.0;  // samples beside the view fade on it, too
 
 }  // namespace
@@ -209,9 +210,17 @@ std::optional<lumen::ViewSurface> CurvedView::contour_surface() {
   if (!shown) return std::nullopt;
   return lumen::view_of(*shown);
 }
+// A line that is found at one row is followed along the vessel: one seed in half a millimetre finds all of
+// them.
 std::vector<Vec2> CurvedView::contour_seeds() {
   const reformat::CurvedReformation* shown = reformation();
-  return shown ? shown->axis_px() : std::vector<Vec2>{};
+  if (!shown) return {};
+  const std::vector<Vec2> all = shown->axis_px();
+  const auto step = static_cast<std::size_t>(std::max(1.0, seed_step_mm / shown->options().pixel_mm));
+  std::vector<Vec2> seeds;
+  for (std::size_t i = 0; i < all.size(); i += step) seeds.push_back(all[i]);
+  if (!all.empty()) seeds.push_back(all.back());
+  return seeds;
 }
 
 void CurvedView::add_to_overlay(Overlay& overlay) {
@@ -235,6 +244,17 @@ void CurvedView::add_to_overlay(Overlay& overlay) {
   if (bench().tool.get() == session::Tool::axis)
     for (double at = 0.0; at < shown->axis().length() + 2.5; at += 5.0)
       overlay.marks.push_back({axis_at(std::min(at, shown->axis().length())), Role::handle, 3.0});
+  for (const StretchMark& mark : stretches_of(bench())) {
+    const Role role = mark.selected ? Role::selected : Role::measurement;
+    const double from = shown->row_at_abscissa(mark.from_mm), to = shown->row_at_abscissa(mark.to_mm),
+                 right = width();
+    for (const double at : {from, to})
+      overlay.lines.push_back({{Vec2(right - units(26.0), at), Vec2(right, at)}, role});
+    overlay.lines.push_back({{Vec2(right - units(3.0), from), Vec2(right - units(3.0), to)}, role});
+    if (to > 0.0 && from < height())
+      overlay.texts.push_back({Vec2(right - units(5.0), std::clamp(from, units(16.0), height() - units(4.0))),
+                               mark.text, role, Anchor::bottom_right});
+  }
   add_measurements(overlay, mark_reach_mm);
   add_fading(overlay, fading_reach_mm);
   add_scale_bar(overlay);

@@ -3,6 +3,7 @@
 #include "ostia/core/error.h"
 #include "ostia/view/words.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace ostia::view {
@@ -18,6 +19,17 @@ std::string measured_text(const session::Workbench& bench, const analysis::Measu
 
 std::string caption(const analysis::Measurement& measurement) {
   return measurement.name.empty() ? std::to_string(measurement.id) : measurement.name;
+}
+
+std::vector<StretchMark> stretches_of(const session::Workbench& bench) {
+  std::vector<StretchMark> marks;
+  if (!bench.has_case() || !bench.marks_shown.get()) return marks;
+  for (const analysis::Measurement& one : bench.session().file().annotations()->measurements)
+    if (one.points.empty() && one.vessel == bench.vessel.get())
+      marks.push_back({one.from_mm, std::max(one.from_mm, one.to_mm),
+                       caption(one) + ": " + measured_text(bench, one),
+                       one.id == bench.selected_measurement.get()});
+  return marks;
 }
 
 void add_measurement_marks(Overlay& overlay, PictureView& view, const analysis::Measurement& measurement,

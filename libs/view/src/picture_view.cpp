@@ -11,6 +11,8 @@ namespace ostia::view {
 namespace {
 
 constexpr double fading_s = 0.8;
+// Points lie on the wall in any case; chords between them may leave it by a tenth of a pixel.
+constexpr lumen::ContourLineOptions screen_lines{.step_px = 3.0, .largest_mm = 0.4, .bend_px = 0.1};
 
 double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b, Vec2& nearest, double& t) {
   const Vec2 along = b - a;
@@ -138,7 +140,7 @@ void PictureView::bring_contours() {
       return !(p.x() >= 0.0 && p.y() >= 0.0 && p.x() <= surface->width && p.y() <= surface->height);
     });
     if (!seeds.empty()) {
-      contours_ = std::make_unique<lumen::ViewContours>(*surface, std::move(seeds));
+      contours_ = std::make_unique<lumen::ViewContours>(*surface, std::move(seeds), screen_lines);
       contours_->update(*bench_.session().live().field());
     }
   }

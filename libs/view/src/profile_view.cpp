@@ -1,5 +1,7 @@
 #include "ostia/view/profile_view.h"
 
+#include "measure_marks.h"
+
 #include "ostia/figure/plot.h"
 #include "ostia/view/words.h"
 
@@ -16,6 +18,7 @@ ProfileView::ProfileView(session::Workbench& bench) : bench_(bench) {
   own_.push_back(bench.model_changed.observe(on));
   own_.push_back(bench.case_changed.observe([this] { touch(); }));
   own_.push_back(bench.annotations_changed.observe([this] { touch(); }));
+  own_.push_back(bench.selected_measurement.observe(on));
   own_.push_back(area_shown.observe(on));
 }
 
@@ -111,6 +114,13 @@ const Overlay& ProfileView::overlay() {
     std::snprintf(label, sizeof label, "%.0f %%", one.diameter_percent);
     text(std::clamp(x(one.throat_mm), f.left + 14 * density_, f.right - 14 * density_), f.top + 2 * density_,
          label, Role::stenosis, Anchor::top);
+  }
+  for (const StretchMark& mark : stretches_of(bench_)) {
+    const Role role = mark.selected ? Role::selected : Role::measurement;
+    overlay_.lines.push_back(
+        {{Vec2(x(mark.from_mm), f.bottom), Vec2(x(mark.from_mm), f.bottom - 8 * density_),
+          Vec2(x(mark.to_mm), f.bottom - 8 * density_), Vec2(x(mark.to_mm), f.bottom)},
+         role});
   }
   // A curve in pieces: it breaks where no section was found.
   const auto curve = [&](Role role, bool dashed, double opacity, const auto& share) {

@@ -1,2417 +1,2417 @@
 <?xml version="1.0" encoding="utf-8"?>
 <!DOCTYPE TS>
 <TS version="2.1" language="de_DE" sourcelanguage="en">
-    <context>
-        <name>QApplication</name>
-        <message>
-            <source>The coronary modelling workstation.</source>
-            <translation>Der Arbeitsplatz für Modelle der Herzkranzgefäße.</translation>
-        </message>
-        <message>
-            <source>A case, an image, a DICOM folder, or a zip of one.</source>
-            <translation>Ein Fall, ein Bild, ein DICOM-Ordner oder ein ZIP davon.</translation>
-        </message>
-        <message>
-            <source>Where recent cases and window settings are kept.</source>
-            <translation>Wo letzte Fälle und Einstellungen des Fensters aufbewahrt werden.</translation>
-        </message>
-        <message>
-            <source>Writes the times of all frames, a JSON line each.</source>
-            <translation>Schreibt die Zeiten aller Bilder auf, je eine JSON-Zeile.</translation>
-        </message>
-        <message>
-            <source>Opens the sample case.</source>
-            <translation>Öffnet den Beispielfall.</translation>
-        </message>
-        <message>
-            <source>Starts without the tour, as OSTIA_NO_TOUR does.</source>
-            <translation>Startet ohne Rundgang, ebenso wie OSTIA_NO_TOUR.</translation>
-        </message>
-    </context>
-    <context>
-        <name>QKeySequenceEdit</name>
-        <message>
-            <source>Press shortcut</source>
-            <translation>Tasten drücken</translation>
-        </message>
-    </context>
-    <context>
-        <name>QPlatformTheme</name>
-        <message>
-            <source>OK</source>
-            <translation>OK</translation>
-        </message>
-        <message>
-            <source>Save</source>
-            <translation>Speichern</translation>
-        </message>
-        <message>
-            <source>Open</source>
-            <translation>Öffnen</translation>
-        </message>
-        <message>
-            <source>&amp;Yes</source>
-            <translation>&amp;Ja</translation>
-        </message>
-        <message>
-            <source>&amp;No</source>
-            <translation>&amp;Nein</translation>
-        </message>
-        <message>
-            <source>Cancel</source>
-            <translation>Abbrechen</translation>
-        </message>
-        <message>
-            <source>Close</source>
-            <translation>Schließen</translation>
-        </message>
-        <message>
-            <source>Discard</source>
-            <translation>Verwerfen</translation>
-        </message>
-        <message>
-            <source>Apply</source>
-            <translation>Anwenden</translation>
-        </message>
-        <message>
-            <source>Reset</source>
-            <translation>Zurücksetzen</translation>
-        </message>
-        <message>
-            <source>Help</source>
-            <translation>Hilfe</translation>
-        </message>
-    </context>
-    <context>
-        <name>QShortcut</name>
-        <message>
-            <source>Ctrl</source>
-            <translation>Strg</translation>
-        </message>
-        <message>
-            <source>Shift</source>
-            <translation>Umschalt</translation>
-        </message>
-        <message>
-            <source>Alt</source>
-            <translation>Alt</translation>
-        </message>
-        <message>
-            <source>Esc</source>
-            <translation>Esc</translation>
-        </message>
-        <message>
-            <source>Space</source>
-            <translation>Leertaste</translation>
-        </message>
-        <message>
-            <source>Up</source>
-            <translation>Auf</translation>
-        </message>
-        <message>
-            <source>Down</source>
-            <translation>Ab</translation>
-        </message>
-        <message>
-            <source>Left</source>
-            <translation>Links</translation>
-        </message>
-        <message>
-            <source>Right</source>
-            <translation>Rechts</translation>
-        </message>
-        <message>
-            <source>Home</source>
-            <translation>Pos1</translation>
-        </message>
-        <message>
-            <source>End</source>
-            <translation>Ende</translation>
-        </message>
-        <message>
-            <source>Ins</source>
-            <translation>Einfg</translation>
-        </message>
-        <message>
-            <source>Del</source>
-            <translation>Entf</translation>
-        </message>
-        <message>
-            <source>Tab</source>
-            <translation>Tab</translation>
-        </message>
-    </context>
-    <context>
-        <name>gestures</name>
-        <message>
-            <source>File</source>
-            <translation>Datei</translation>
-        </message>
-        <message>
-            <source>Edit</source>
-            <translation>Bearbeiten</translation>
-        </message>
-        <message>
-            <source>Tools</source>
-            <translation>Werkzeuge</translation>
-        </message>
-        <message>
-            <source>Views</source>
-            <translation>Ansichten</translation>
-        </message>
-        <message>
-            <source>Grey levels</source>
-            <translation>Graustufen</translation>
-        </message>
-        <message>
-            <source>Panels</source>
-            <translation>Felder</translation>
-        </message>
-        <message>
-            <source>Mouse by keys</source>
-            <translation>Maus mit Tasten</translation>
-        </message>
-        <message>
-            <source>Report</source>
-            <translation>Befund</translation>
-        </message>
-        <message>
-            <source>Quality</source>
-            <translation>Qualität</translation>
-        </message>
-        <message>
-            <source>Help</source>
-            <translation>Hilfe</translation>
-        </message>
-        <message>
-            <source>2D views</source>
-            <translation>2D-Ansichten</translation>
-        </message>
-        <message>
-            <source>left button</source>
-            <translation>linke Taste</translation>
-        </message>
-        <message>
-            <source>what the tool says; browsing: the cursor goes there</source>
-            <translation>wie das Werkzeug es will; beim Betrachten geht der Cursor dorthin</translation>
-        </message>
-        <message>
-            <source>CPR, section, oblique slice</source>
-            <translation>CPR, Querschnitt, schräge Schicht</translation>
-        </message>
-        <message>
-            <source>Shift and left button, drag</source>
-            <translation>Umschalt und linke Taste, ziehen</translation>
-        </message>
-        <message>
-            <source>turn about the vessel's axis, or the slice</source>
-            <translation>um die Gefäßachse drehen, oder die Schicht</translation>
-        </message>
-        <message>
-            <source>right button, drag</source>
-            <translation>rechte Taste, ziehen</translation>
-        </message>
-        <message>
-            <source>window and level</source>
-            <translation>Fensterung</translation>
-        </message>
-        <message>
-            <source>middle button, drag; or Ctrl and Shift and left button</source>
-            <translation>mittlere Taste, ziehen; oder Strg, Umschalt und linke Taste</translation>
-        </message>
-        <message>
-            <source>move the picture</source>
-            <translation>Bild verschieben</translation>
-        </message>
-        <message>
-            <source>CPR, section</source>
-            <translation>CPR, Querschnitt</translation>
-        </message>
-        <message>
-            <source>wheel</source>
-            <translation>Rad</translation>
-        </message>
-        <message>
-            <source>the cursor goes along the vessel</source>
-            <translation>der Cursor geht am Gefäß entlang</translation>
-        </message>
-        <message>
-            <source>slice</source>
-            <translation>Schichtbild</translation>
-        </message>
-        <message>
-            <source>the next slices</source>
-            <translation>die nächsten Schichten</translation>
-        </message>
-        <message>
-            <source>Ctrl and wheel</source>
-            <translation>Strg und Rad</translation>
-        </message>
-        <message>
-            <source>zoom</source>
-            <translation>vergrößern, verkleinern</translation>
-        </message>
-        <message>
-            <source>2D views, editing</source>
-            <translation>2D-Ansichten, Bearbeiten</translation>
-        </message>
-        <message>
-            <source>Shift and wheel</source>
-            <translation>Umschalt und Rad</translation>
-        </message>
-        <message>
-            <source>the reach of a pull, the size of the ball</source>
-            <translation>Reichweite des Zugs, Größe der Kugel</translation>
-        </message>
-        <message>
-            <source>a handle, drag</source>
-            <translation>Griff ziehen</translation>
-        </message>
-        <message>
-            <source>move a measurement's point</source>
-            <translation>Punkt einer Messung verschieben</translation>
-        </message>
-        <message>
-            <source>2D views, centerline</source>
-            <translation>2D-Ansichten, Mittellinie</translation>
-        </message>
-        <message>
-            <source>double click</source>
-            <translation>Doppelklick</translation>
-        </message>
-        <message>
-            <source>another control point</source>
-            <translation>weiterer Stützpunkt</translation>
-        </message>
-        <message>
-            <source>key Delete</source>
-            <translation>Taste Entf</translation>
-        </message>
-        <message>
-            <source>the measurement or control point under the mouse goes</source>
-            <translation>die Messung oder der Stützpunkt unter der Maus wird gelöscht</translation>
-        </message>
-        <message>
-            <source>key Esc</source>
-            <translation>Taste Esc</translation>
-        </message>
-        <message>
-            <source>what is begun is dropped; then: browsing</source>
-            <translation>Begonnenes wird verworfen; dann: Betrachten</translation>
-        </message>
-        <message>
-            <source>keys Up, Down, Page</source>
-            <translation>Tasten Auf, Ab, Bild</translation>
-        </message>
-        <message>
-            <source>as the wheel, by one or ten steps</source>
-            <translation>wie das Rad, um einen oder zehn Schritte</translation>
-        </message>
-        <message>
-            <source>keys +, - and 0</source>
-            <translation>Tasten +, - und 0</translation>
-        </message>
-        <message>
-            <source>zoom, and all of it</source>
-            <translation>vergrößern, verkleinern, alles zeigen</translation>
-        </message>
-        <message>
-            <source>tree</source>
-            <translation>Baum</translation>
-        </message>
-        <message>
-            <source>left button, drag</source>
-            <translation>linke Taste, ziehen</translation>
-        </message>
-        <message>
-            <source>turn</source>
-            <translation>drehen</translation>
-        </message>
-        <message>
-            <source>middle button, or Shift, drag</source>
-            <translation>mittlere Taste oder Umschalt, ziehen</translation>
-        </message>
-        <message>
-            <source>move</source>
-            <translation>verschieben</translation>
-        </message>
-        <message>
-            <source>wheel, or right button, drag</source>
-            <translation>Rad, oder rechte Taste, ziehen</translation>
-        </message>
-        <message>
-            <source>click on a vessel</source>
-            <translation>Klick auf ein Gefäß</translation>
-        </message>
-        <message>
-            <source>this vessel, and the cursor goes there</source>
-            <translation>dieses Gefäß; der Cursor geht dorthin</translation>
-        </message>
-        <message>
-            <source>all of the tree</source>
-            <translation>der ganze Baum</translation>
-        </message>
-        <message>
-            <source>arrow keys, +, - and 0</source>
-            <translation>Pfeiltasten, +, - und 0</translation>
-        </message>
-        <message>
-            <source>turn, zoom, and all of it</source>
-            <translation>drehen, vergrößern, verkleinern, alles zeigen</translation>
-        </message>
-        <message>
-            <source>lumen profile</source>
-            <translation>Lumenprofil</translation>
-        </message>
-        <message>
-            <source>click, or drag</source>
-            <translation>klicken oder ziehen</translation>
-        </message>
-        <message>
-            <source>the cursor goes there</source>
-            <translation>der Cursor geht dorthin</translation>
-        </message>
-        <message>
-            <source>wheel, or keys Left and Right</source>
-            <translation>Rad, oder Tasten Links und Rechts</translation>
-        </message>
-        <message>
-            <source>panel's title</source>
-            <translation>Titel eines Feldes</translation>
-        </message>
-        <message>
-            <source>this panel alone, and back</source>
-            <translation>dieses Feld allein, und zurück</translation>
-        </message>
-        <message>
-            <source>vessel list</source>
-            <translation>Gefäßliste</translation>
-        </message>
-        <message>
-            <source>right click, or menu key</source>
-            <translation>Rechtsklick oder Menütaste</translation>
-        </message>
-        <message>
-            <source>rename, colour, cut off, delete, join</source>
-            <translation>umbenennen, Farbe, abschneiden, löschen, verbinden</translation>
-        </message>
-        <message>
-            <source>keys F2, Space, Delete</source>
-            <translation>Tasten F2, Leertaste, Entf</translation>
-        </message>
-        <message>
-            <source>another name, tick, delete</source>
-            <translation>anderer Name, Haken, löschen</translation>
-        </message>
-    </context>
-    <context>
-        <name>manual</name>
-        <message>
-            <source>Beginning</source>
-            <translation>Anfang</translation>
-        </message>
-        <message>
-            <source>From DICOM to a report</source>
-            <translation>Von DICOM zum Befund</translation>
-        </message>
-        <message>
-            <source>The window</source>
-            <translation>Das Fenster</translation>
-        </message>
-        <message>
-            <source>Editing the lumen</source>
-            <translation>Das Lumen bearbeiten</translation>
-        </message>
-        <message>
-            <source>Measuring</source>
-            <translation>Messen</translation>
-        </message>
-        <message>
-            <source>Report and export</source>
-            <translation>Befund und Export</translation>
-        </message>
-        <message>
-            <source>For researchers</source>
-            <translation>Für die Forschung</translation>
-        </message>
-        <message>
-            <source>Quality mode</source>
-            <translation>Qualitätsmodus</translation>
-        </message>
-        <message>
-            <source>Keys and mouse</source>
-            <translation>Tasten und Maus</translation>
-        </message>
-        <message>
-            <source>When something is wrong</source>
-            <translation>Wenn etwas nicht stimmt</translation>
-        </message>
-    </context>
-    <context>
-        <name>measures</name>
-        <message>
-            <source>distance</source>
-            <translation>Abstand</translation>
-        </message>
-        <message>
-            <source>angle</source>
-            <translation>Winkel</translation>
-        </message>
-        <message>
-            <source>area</source>
-            <translation>Fläche</translation>
-        </message>
-        <message>
-            <source>diameter</source>
-            <translation>Durchmesser</translation>
-        </message>
-        <message>
-            <source>stenosis</source>
-            <translation>Stenose</translation>
-        </message>
-        <message>
-            <source>volume</source>
-            <translation>Volumen</translation>
-        </message>
-        <message>
-            <source>ring_hu</source>
-            <translation>HU-Ring</translation>
-        </message>
-        <message>
-            <source>length</source>
-            <translation>Länge</translation>
-        </message>
-        <message>
-            <source>perimeter</source>
-            <translation>Umfang</translation>
-        </message>
-        <message>
-            <source>percent diameter</source>
-            <translation>Durchmesserstenose</translation>
-        </message>
-        <message>
-            <source>percent area</source>
-            <translation>Flächenstenose</translation>
-        </message>
-        <message>
-            <source>MLD</source>
-            <translation>MLD</translation>
-        </message>
-        <message>
-            <source>MLA</source>
-            <translation>MLA</translation>
-        </message>
-        <message>
-            <source>reference diameter</source>
-            <translation>Referenzdurchmesser</translation>
-        </message>
-        <message>
-            <source>reference area</source>
-            <translation>Referenzfläche</translation>
-        </message>
-        <message>
-            <source>mean area</source>
-            <translation>mittlere Fläche</translation>
-        </message>
-        <message>
-            <source>mean</source>
-            <translation>Mittelwert</translation>
-        </message>
-        <message>
-            <source>SD</source>
-            <translation>SD</translation>
-        </message>
-        <message>
-            <source>least</source>
-            <translation>kleinster Wert</translation>
-        </message>
-        <message>
-            <source>largest</source>
-            <translation>größter Wert</translation>
-        </message>
-        <message>
-            <source>samples</source>
-            <translation>Messwerte</translation>
-        </message>
-    </context>
-    <context>
-        <name>ostia::workstation::AboutDialog</name>
-        <message>
-            <source>&lt;p&gt;It is built with Qt %1 (LGPL-3), VTK %2 (BSD-3), CGAL (GPL-3 and LGPL-3), TetGen (AGPL-3, in the worker), CHOLMOD (GPL-2 or later), GDCM (BSD-3, in the worker), SQLite (public domain), Eigen (MPL-2), TBB, Embree and OpenSSL (Apache-2.0), Cairo and Pango (LGPL-2.1), libzip (BSD-3), zlib, spdlog, fmt, nlohmann-json and nanoflann.&lt;/p&gt;</source>
-            <translation>&lt;p&gt;Gebaut mit Qt %1 (LGPL-3), VTK %2 (BSD-3), CGAL (GPL-3 und LGPL-3), TetGen (AGPL-3, im Hilfsprogramm), CHOLMOD (GPL-2 oder später), GDCM (BSD-3, im Hilfsprogramm), SQLite (gemeinfrei), Eigen (MPL-2), TBB, Embree und OpenSSL (Apache-2.0), Cairo und Pango (LGPL-2.1), libzip (BSD-3), zlib, spdlog, fmt, nlohmann-json und nanoflann.&lt;/p&gt;</translation>
-        </message>
-        <message>
-            <source>About Ostia</source>
-            <translation>Über Ostia</translation>
-        </message>
-        <message>
-            <source>&lt;h2&gt;Ostia %1&lt;/h2&gt;&lt;p&gt;The coronary modelling workstation.&lt;/p&gt;</source>
-            <translation>&lt;h2&gt;Ostia %1&lt;/h2&gt;&lt;p&gt;Der Arbeitsplatz für Modelle der Herzkranzgefäße.&lt;/p&gt;</translation>
-        </message>
-        <message>
-            <source>&lt;p&gt;&lt;b&gt;Research software, not a medical device.&lt;/b&gt; It has no approval of any authority. Nothing that it shows or measures may be the ground of a diagnosis or a treatment.&lt;/p&gt;</source>
-            <translation>&lt;p&gt;&lt;b&gt;Forschungssoftware, kein Medizinprodukt.&lt;/b&gt; Sie ist von keiner Behörde zugelassen. Nichts, was sie zeigt oder misst, darf Grundlage einer Diagnose oder Behandlung sein.&lt;/p&gt;</translation>
-        </message>
-        <message>
-            <source>&lt;p&gt;Ostia's own sources are under the Apache License 2.0. The program as it is built and handed on contains libraries under stricter licences and is as a whole under the GNU Affero General Public License 3 (AGPL-3): whoever gets it has a right to all of its sources.&lt;/p&gt;</source>
-            <translation>&lt;p&gt;Ostias eigene Quellen stehen unter der Apache-Lizenz 2.0. Das Programm, wie es gebaut und weitergegeben wird, enthält Bibliotheken unter strengeren Lizenzen und steht als Ganzes unter der GNU Affero General Public License 3 (AGPL-3): wer es bekommt, hat ein Recht auf alle seine Quellen.&lt;/p&gt;</translation>
-        </message>
-        <message>
-            <source>&lt;p&gt;The editing of the lumen follows Wels et al., which is the subject of the patent application EP 16170187.5; look into its state before commercial use. Details: docs/licences.md.&lt;/p&gt;</source>
-            <translation>&lt;p&gt;Das Bearbeiten des Lumens folgt Wels et al.; das Verfahren ist Gegenstand der Patentanmeldung EP 16170187.5. Prüfen Sie deren Stand vor gewerblicher Nutzung. Näheres: docs/licences.md.&lt;/p&gt;</translation>
-        </message>
-    </context>
-    <context>
-        <name>ostia::workstation::Help</name>
-        <message>
-            <source>&amp;Preferences…</source>
-            <translation>&amp;Einstellungen…</translation>
-        </message>
-        <message>
-            <source>&amp;Help</source>
-            <translation>&amp;Hilfe</translation>
-        </message>
-        <message>
-            <source>&amp;Manual</source>
-            <translation>&amp;Handbuch</translation>
-        </message>
-        <message>
-            <source>&amp;Keys and mouse</source>
-            <translation>&amp;Tasten und Maus</translation>
-        </message>
-        <message>
-            <source>&amp;Tour</source>
-            <translation>&amp;Rundgang</translation>
-        </message>
-        <message>
-            <source>&amp;About Ostia</source>
-            <translation>Ü&amp;ber Ostia</translation>
-        </message>
-        <message>
-            <source>Smaller ball, shorter reach</source>
-            <translation>Kleinere Kugel, kürzere Reichweite</translation>
-        </message>
-        <message>
-            <source>Larger ball, longer reach</source>
-            <translation>Größere Kugel, längere Reichweite</translation>
-        </message>
-        <message>
-            <source>Mouse by keys</source>
-            <translation>Maus mit Tasten</translation>
-        </message>
-        <message>
-            <source>Pointer to the left</source>
-            <translation>Zeiger nach links</translation>
-        </message>
-        <message>
-            <source>Pointer to the right</source>
-            <translation>Zeiger nach rechts</translation>
-        </message>
-        <message>
-            <source>Pointer up</source>
-            <translation>Zeiger nach oben</translation>
-        </message>
-        <message>
-            <source>Pointer down</source>
-            <translation>Zeiger nach unten</translation>
-        </message>
-        <message>
-            <source>Press or let go</source>
-            <translation>Drücken oder loslassen</translation>
-        </message>
-        <message>
-            <source>Go to</source>
-            <translation>Gehe zu</translation>
-        </message>
-        <message>
-            <source>Beginning of the vessel</source>
-            <translation>Anfang des Gefäßes</translation>
-        </message>
-        <message>
-            <source>End of the vessel</source>
-            <translation>Ende des Gefäßes</translation>
-        </message>
-        <message>
-            <source>Next stenosis</source>
-            <translation>Nächste Stenose</translation>
-        </message>
-        <message>
-            <source>Previous stenosis</source>
-            <translation>Vorige Stenose</translation>
-        </message>
-        <message>
-            <source>Thinner slab</source>
-            <translation>Dünnere Schicht</translation>
-        </message>
-        <message>
-            <source>Thicker slab</source>
-            <translation>Dickere Schicht</translation>
-        </message>
-        <message>
-            <source>Panels</source>
-            <translation>Felder</translation>
-        </message>
-        <message>
-            <source>Next panel</source>
-            <translation>Nächstes Feld</translation>
-        </message>
-        <message>
-            <source>Previous panel</source>
-            <translation>Voriges Feld</translation>
-        </message>
-        <message>
-            <source>This panel alone</source>
-            <translation>Dieses Feld allein</translation>
-        </message>
-        <message>
-            <source>Vessels</source>
-            <translation>Gefäße</translation>
-        </message>
-        <message>
-            <source>CPR</source>
-            <translation>CPR</translation>
-        </message>
-        <message>
-            <source>CPR + 90°</source>
-            <translation>CPR + 90°</translation>
-        </message>
-        <message>
-            <source>Cross-section</source>
-            <translation>Querschnitt</translation>
-        </message>
-        <message>
-            <source>Slice</source>
-            <translation>Schichtbild</translation>
-        </message>
-        <message>
-            <source>Coronary tree</source>
-            <translation>Koronarbaum</translation>
-        </message>
-        <message>
-            <source>Lumen profile</source>
-            <translation>Lumenprofil</translation>
-        </message>
-        <message>
-            <source>Measurements</source>
-            <translation>Messungen</translation>
-        </message>
-        <message>
-            <source>Steps</source>
-            <translation>Schritte</translation>
-        </message>
-        <message>
-            <source>No other stenosis in this direction.</source>
-            <translation>Keine weitere Stenose in dieser Richtung.</translation>
-        </message>
-    </context>
-    <context>
-        <name>ostia::workstation::Jobs</name>
-        <message>
-            <source>%1 s left</source>
-            <translation>noch %1 s</translation>
-        </message>
-        <message>
-            <source>%1 min left</source>
-            <translation>noch %1 min</translation>
-        </message>
-        <message>
-            <source>Cancel</source>
-            <translation>Abbrechen</translation>
-        </message>
-        <message>
-            <source>Cancel %1</source>
-            <translation>%1 abbrechen</translation>
-        </message>
-    </context>
-    <context>
-        <name>ostia::workstation::MainWindow</name>
-        <message>
-            <source>There is not enough memory for this. The case is unchanged.</source>
-            <translation>Dafür reicht der Arbeitsspeicher nicht. Der Fall ist unverändert.</translation>
-        </message>
-        <message>
-            <source>CPR</source>
-            <translation>CPR</translation>
-        </message>
-        <message>
-            <source>CPR + 90°</source>
-            <translation>CPR + 90°</translation>
-        </message>
-        <message>
-            <source>Cross-section</source>
-            <translation>Querschnitt</translation>
-        </message>
-        <message>
-            <source>Neighbours, every %1 mm</source>
-            <translation>Nachbarn, alle %1 mm</translation>
-        </message>
-        <message>
-            <source>Slice</source>
-            <translation>Schichtbild</translation>
-        </message>
-        <message>
-            <source>Axial</source>
-            <translation>Axial</translation>
-        </message>
-        <message>
-            <source>Coronal</source>
-            <translation>Koronar</translation>
-        </message>
-        <message>
-            <source>Sagittal</source>
-            <translation>Sagittal</translation>
-        </message>
-        <message>
-            <source>Oblique</source>
-            <translation>Schräg</translation>
-        </message>
-        <message>
-            <source>Oblique: Shift and drag turns it</source>
-            <translation>Schräg: Umschalt und Ziehen dreht</translation>
-        </message>
-        <message>
-            <source>Orientation of the slice</source>
-            <translation>Ausrichtung der Schicht</translation>
-        </message>
-        <message>
-            <source>Preparing the heart</source>
-            <translation>Herz wird vorbereitet</translation>
-        </message>
-        <message>
-            <source>Coronary tree</source>
-            <translation>Koronarbaum</translation>
-        </message>
-        <message>
-            <source>Tree alone</source>
-            <translation>Nur der Baum</translation>
-        </message>
-        <message>
-            <source>With the heart</source>
-            <translation>Mit dem Herzen</translation>
-        </message>
-        <message>
-            <source>With a MIP</source>
-            <translation>Mit einer MIP</translation>
-        </message>
-        <message>
-            <source>What is behind the tree</source>
-            <translation>Was hinter dem Baum zu sehen ist</translation>
-        </message>
-        <message>
-            <source>Vessels</source>
-            <translation>Gefäße</translation>
-        </message>
-        <message>
-            <source>Measurements</source>
-            <translation>Messungen</translation>
-        </message>
-        <message>
-            <source>Steps</source>
-            <translation>Schritte</translation>
-        </message>
-        <message>
-            <source>Lumen profile</source>
-            <translation>Lumenprofil</translation>
-        </message>
-        <message>
-            <source>&amp;File</source>
-            <translation>&amp;Datei</translation>
-        </message>
-        <message>
-            <source>&amp;Open a case or image…</source>
-            <translation>Fall oder Bild ö&amp;ffnen…</translation>
-        </message>
-        <message>
-            <source>Open a DICOM &amp;folder…</source>
-            <translation>DICOM-&amp;Ordner öffnen…</translation>
-        </message>
-        <message>
-            <source>&amp;Recent cases</source>
-            <translation>&amp;Letzte Fälle</translation>
-        </message>
-        <message>
-            <source>The &amp;sample case</source>
-            <translation>&amp;Beispielfall</translation>
-        </message>
-        <message>
-            <source>Save the case &amp;as…</source>
-            <translation>Fall &amp;speichern als…</translation>
-        </message>
-        <message>
-            <source>&amp;Close the case</source>
-            <translation>Fall s&amp;chließen</translation>
-        </message>
-        <message>
-            <source>&amp;Quit</source>
-            <translation>&amp;Beenden</translation>
-        </message>
-        <message>
-            <source>&amp;Edit</source>
-            <translation>&amp;Bearbeiten</translation>
-        </message>
-        <message>
-            <source>&amp;Undo</source>
-            <translation>&amp;Rückgängig</translation>
-        </message>
-        <message>
-            <source>&amp;Redo</source>
-            <translation>&amp;Wiederholen</translation>
-        </message>
-        <message>
-            <source>&amp;Tools</source>
-            <translation>&amp;Werkzeuge</translation>
-        </message>
-        <message>
-            <source>&amp;View</source>
-            <translation>&amp;Ansicht</translation>
-        </message>
-        <message>
-            <source>Turn the CPRs left</source>
-            <translation>CPRs nach links drehen</translation>
-        </message>
-        <message>
-            <source>Turn the CPRs right</source>
-            <translation>CPRs nach rechts drehen</translation>
-        </message>
-        <message>
-            <source>To proximal</source>
-            <translation>Nach proximal</translation>
-        </message>
-        <message>
-            <source>To distal</source>
-            <translation>Nach distal</translation>
-        </message>
-        <message>
-            <source>Next vessel</source>
-            <translation>Nächstes Gefäß</translation>
-        </message>
-        <message>
-            <source>Previous vessel</source>
-            <translation>Voriges Gefäß</translation>
-        </message>
-        <message>
-            <source>Stretched CPR</source>
-            <translation>Gestreckte CPR</translation>
-        </message>
-        <message>
-            <source>Slab: maximum</source>
-            <translation>Schicht: Maximum</translation>
-        </message>
-        <message>
-            <source>Slab: mean</source>
-            <translation>Schicht: Mittelwert</translation>
-        </message>
-        <message>
-            <source>Contours</source>
-            <translation>Konturen</translation>
-        </message>
-        <message>
-            <source>Fit all views</source>
-            <translation>Alle Ansichten einpassen</translation>
-        </message>
-        <message>
-            <source>Window: %1</source>
-            <translation>Fensterung: %1</translation>
-        </message>
-        <message>
-            <source>Look at the tree from</source>
-            <translation>Den Baum ansehen von</translation>
-        </message>
-        <message>
-            <source>the front</source>
-            <translation>vorn</translation>
-        </message>
-        <message>
-            <source>the left</source>
-            <translation>links</translation>
-        </message>
-        <message>
-            <source>the right</source>
-            <translation>rechts</translation>
-        </message>
-        <message>
-            <source>above</source>
-            <translation>oben</translation>
-        </message>
-        <message>
-            <source>caudal</source>
-            <translation>kaudal</translation>
-        </message>
-        <message>
-            <source>cranial</source>
-            <translation>kranial</translation>
-        </message>
-        <message>
-            <source>broadside of the vessel</source>
-            <translation>der Breitseite des Gefäßes</translation>
-        </message>
-        <message>
-            <source>Light or dark</source>
-            <translation>Hell oder dunkel</translation>
-        </message>
-        <message>
-            <source>Tools</source>
-            <translation>Werkzeuge</translation>
-        </message>
-        <message>
-            <source>Options</source>
-            <translation>Optionen</translation>
-        </message>
-        <message>
-            <source> mm</source>
-            <translation> mm</translation>
-        </message>
-        <message>
-            <source>Reach</source>
-            <translation>Reichweite</translation>
-        </message>
-        <message>
-            <source>How far along the vessel a pull reaches</source>
-            <translation>Wie weit ein Zug entlang des Gefäßes reicht</translation>
-        </message>
-        <message>
-            <source>Ball</source>
-            <translation>Kugel</translation>
-        </message>
-        <message>
-            <source>Radius of the brush</source>
-            <translation>Radius des Pinsels</translation>
-        </message>
-        <message>
-            <source>Slab</source>
-            <translation>Schicht</translation>
-        </message>
-        <message>
-            <source>Thickness of the slab in 2D views, where one is shown</source>
-            <translation>Dicke der Schicht in den 2D-Ansichten, wo eine gezeigt wird</translation>
-        </message>
-        <message>
-            <source>none yet</source>
-            <translation>noch keine</translation>
-        </message>
-        <message>
-            <source>A vessel is found in the image: open the image of this case first.</source>
-            <translation>Ein Gefäß wird im Bild gesucht: öffnen Sie zuerst das Bild dieses Falls.</translation>
-        </message>
-        <message>
-            <source>No vessel found</source>
-            <translation>Kein Gefäß gefunden</translation>
-        </message>
-        <message>
-            <source>Way back to the tree</source>
-            <translation>Weg zurück zum Baum</translation>
-        </message>
-        <message>
-            <source>Now click the distal end of this vessel.</source>
-            <translation>Klicken Sie nun auf das distale Ende dieses Gefäßes.</translation>
-        </message>
-        <message>
-            <source>First vessel</source>
-            <translation>Erstes Gefäß</translation>
-        </message>
-        <message>
-            <source>&amp;QA mode</source>
-            <translation>&amp;Qualitätsmodus</translation>
-        </message>
-        <message>
-            <source>&amp;Report (PDF, HTML, tables)</source>
-            <translation>&amp;Befund (PDF, HTML, Tabellen)</translation>
-        </message>
-        <message>
-            <source>&amp;Pin this view to the report</source>
-            <translation>Diese Ansicht an den Befund an&amp;heften</translation>
-        </message>
-        <message>
-            <source>&amp;Export</source>
-            <translation>&amp;Exportieren</translation>
-        </message>
-        <message>
-            <source>The &amp;wall…</source>
-            <translation>Die &amp;Wand…</translation>
-        </message>
-        <message>
-            <source>The &amp;centerlines…</source>
-            <translation>Die &amp;Mittellinien…</translation>
-        </message>
-        <message>
-            <source>Click into the view to be pinned first.</source>
-            <translation>Klicken Sie zuerst in die Ansicht, die angeheftet werden soll.</translation>
-        </message>
-        <message>
-            <source>The truth cannot be opened</source>
-            <translation>Die Wahrheit lässt sich nicht öffnen</translation>
-        </message>
-    </context>
-    <context>
-        <name>ostia::workstation::ManualDialog</name>
-        <message>
-            <source>Manual</source>
-            <translation>Handbuch</translation>
-        </message>
-        <message>
-            <source>Contents</source>
-            <translation>Inhalt</translation>
-        </message>
-        <message>
-            <source>The manual's pages</source>
-            <translation>Die Seiten des Handbuchs</translation>
-        </message>
-        <message>
-            <source>Page of the manual</source>
-            <translation>Seite des Handbuchs</translation>
-        </message>
-        <message>
-            <source>Back</source>
-            <translation>Zurück</translation>
-        </message>
-        <message>
-            <source>The page before</source>
-            <translation>Die Seite davor</translation>
-        </message>
-    </context>
-    <context>
-        <name>ostia::workstation::MeasurementList</name>
-        <message>
-            <source>Measurements</source>
-            <translation>Messungen</translation>
-        </message>
-        <message>
-            <source>Measurement</source>
-            <translation>Messung</translation>
-        </message>
-        <message>
-            <source>Value</source>
-            <translation>Wert</translation>
-        </message>
-    </context>
-    <context>
-        <name>ostia::workstation::Opening</name>
-        <message>
-            <source>Open</source>
-            <translation>Öffnen</translation>
-        </message>
-        <message>
-            <source>Cases and images (*.ostia *.nrrd *.mhd *.mha *.nii *.nii.gz *.dcm *.zip);;All files (*)</source>
-            <translation>Fälle und Bilder (*.ostia *.nrrd *.mhd *.mha *.nii *.nii.gz *.dcm *.zip);;Alle Dateien (*)</translation>
-        </message>
-        <message>
-            <source>Open a folder of DICOM files</source>
-            <translation>Ordner mit DICOM-Dateien öffnen</translation>
-        </message>
-        <message>
-            <source>There is no file or folder %1.</source>
-            <translation>Es gibt keine Datei und keinen Ordner %1.</translation>
-        </message>
-        <message>
-            <source>Sample case</source>
-            <translation>Beispielfall</translation>
-        </message>
-        <message>
-            <source>Opening the case</source>
-            <translation>Fall wird geöffnet</translation>
-        </message>
-        <message>
-            <source>The case cannot be opened</source>
-            <translation>Der Fall lässt sich nicht öffnen</translation>
-        </message>
-        <message>
-            <source>The image of this case</source>
-            <translation>Das Bild dieses Falls</translation>
-        </message>
-        <message>
-            <source>The image that this case was made on (%1) is not where it was, or has never been opened on this computer. The case can be looked at without it.</source>
-            <translation>Das Bild, an dem dieser Fall entstand (%1), liegt nicht mehr dort, wo es war, oder wurde auf diesem Rechner noch nie geöffnet. Der Fall kann ohne Bild betrachtet werden.</translation>
-        </message>
-        <message>
-            <source>Find the file…</source>
-            <translation>Datei suchen…</translation>
-        </message>
-        <message>
-            <source>Find the DICOM folder…</source>
-            <translation>DICOM-Ordner suchen…</translation>
-        </message>
-        <message>
-            <source>Go on without</source>
-            <translation>Ohne Bild weiter</translation>
-        </message>
-        <message>
-            <source>Looking for series</source>
-            <translation>Serien werden gesucht</translation>
-        </message>
-        <message>
-            <source>This cannot be opened</source>
-            <translation>Das lässt sich nicht öffnen</translation>
-        </message>
-        <message>
-            <source>Reading the image</source>
-            <translation>Bild wird gelesen</translation>
-        </message>
-        <message>
-            <source>The image cannot be opened</source>
-            <translation>Das Bild lässt sich nicht öffnen</translation>
-        </message>
-        <message>
-            <source>Save the case as</source>
-            <translation>Fall speichern als</translation>
-        </message>
-        <message>
-            <source>Cases (*.ostia)</source>
-            <translation>Fälle (*.ostia)</translation>
-        </message>
-        <message>
-            <source>The program ended without closing this case; it is opened where it was.</source>
-            <translation>Das Programm endete, ohne diesen Fall zu schließen; er wird geöffnet, wo er war.</translation>
-        </message>
-        <message>
-            <source>First slice</source>
-            <translation>Erste Schicht</translation>
-        </message>
-    </context>
-    <context>
-        <name>ostia::workstation::Panel</name>
-        <message>
-            <source>Double click: this view alone, and back</source>
-            <translation>Doppelklick: diese Ansicht allein, und zurück</translation>
-        </message>
-        <message>
-            <source>This view alone, and back</source>
-            <translation>Diese Ansicht allein, und zurück</translation>
-        </message>
-        <message>
-            <source>Maximise %1</source>
-            <translation>%1 maximieren</translation>
-        </message>
-    </context>
-    <context>
-        <name>ostia::workstation::PictureWidget</name>
-        <message>
-            <source>outside the image</source>
-            <translation>außerhalb des Bildes</translation>
-        </message>
-    </context>
-    <context>
-        <name>ostia::workstation::PreferencesDialog</name>
-        <message>
-            <source>Preferences</source>
-            <translation>Einstellungen</translation>
-        </message>
-        <message>
-            <source>General</source>
-            <translation>Allgemein</translation>
-        </message>
-        <message>
-            <source>Keys</source>
-            <translation>Tasten</translation>
-        </message>
-        <message>
-            <source>Dark</source>
-            <translation>Dunkel</translation>
-        </message>
-        <message>
-            <source>Light</source>
-            <translation>Hell</translation>
-        </message>
-        <message>
-            <source>Images are dark in both</source>
-            <translation>Bilder sind in beiden dunkel</translation>
-        </message>
-        <message>
-            <source>Theme</source>
-            <translation>Farben</translation>
-        </message>
-        <message>
-            <source>As the system has it</source>
-            <translation>Wie im System</translation>
-        </message>
-        <message>
-            <source>Another language is used from the next start on. Numbers keep the decimal point in every language, as in reports and files.</source>
-            <translation>Eine andere Sprache gilt ab dem nächsten Start. Zahlen behalten in jeder Sprache den Dezimalpunkt, wie in Befunden und Dateien.</translation>
-        </message>
-        <message>
-            <source>Language</source>
-            <translation>Sprache</translation>
-        </message>
-        <message>
-            <source>As on a PACS station</source>
-            <translation>Wie am PACS-Arbeitsplatz</translation>
-        </message>
-        <message>
-            <source>As in research software</source>
-            <translation>Wie in Forschungsprogrammen</translation>
-        </message>
-        <message>
-            <source>Choosing one gives all commands its keys</source>
-            <translation>Die Wahl gibt allen Befehlen die Tasten des Schemas</translation>
-        </message>
-        <message>
-            <source>Scheme</source>
-            <translation>Schema</translation>
-        </message>
-        <message>
-            <source>Commands and their keys</source>
-            <translation>Befehle und ihre Tasten</translation>
-        </message>
-        <message>
-            <source>Command</source>
-            <translation>Befehl</translation>
-        </message>
-        <message>
-            <source>New keys</source>
-            <translation>Neue Tasten</translation>
-        </message>
-        <message>
-            <source>Click here and press the keys for the selected command</source>
-            <translation>Hier klicken und die Tasten für den gewählten Befehl drücken</translation>
-        </message>
-        <message>
-            <source>No key</source>
-            <translation>Keine Taste</translation>
-        </message>
-        <message>
-            <source>The command is then in menus alone</source>
-            <translation>Der Befehl steht dann nur in Menüs</translation>
-        </message>
-        <message>
-            <source>As in the scheme</source>
-            <translation>Wie im Schema</translation>
-        </message>
-        <message>
-            <source>All as in the scheme</source>
-            <translation>Alle wie im Schema</translation>
-        </message>
-        <message>
-            <source>New keys:</source>
-            <translation>Neue Tasten:</translation>
-        </message>
-        <message>
-            <source>Choose a command in the list first.</source>
-            <translation>Wählen Sie zuerst einen Befehl in der Liste.</translation>
-        </message>
-        <message>
-            <source>%1 belongs to "%2". Choose another key, or take it from that command first.</source>
-            <translation>%1 gehört zu „%2“. Wählen Sie eine andere Taste oder nehmen Sie sie zuerst jenem Befehl weg.</translation>
-        </message>
-        <message>
-            <source>%1 moves through views and lists and can run no command. Choose another key.</source>
-            <translation>%1 bewegt durch Ansichten und Listen und kann keinen Befehl auslösen. Wählen Sie eine andere Taste.</translation>
-        </message>
-        <message>
-            <source>Another command has been given this command's key.</source>
-            <translation>Ein anderer Befehl hat die Taste dieses Befehls bekommen.</translation>
-        </message>
-    </context>
-    <context>
-        <name>ostia::workstation::ProfileWidget</name>
-        <message>
-            <source>Lumen profile</source>
-            <translation>Lumenprofil</translation>
-        </message>
-    </context>
-    <context>
-        <name>ostia::workstation::QaPanel</name>
-        <message>
-            <source>no annotated section</source>
-            <translation>kein annotierter Abschnitt</translation>
-        </message>
-        <message>
-            <source>MSD %1 mm, maximum %2 mm, Dice %3, %4 mm annotated</source>
-            <translation>MSD %1 mm, Maximum %2 mm, Dice %3, %4 mm annotiert</translation>
-        </message>
-        <message>
-            <source>, %1 mm of it without a wall</source>
-            <translation>, davon %1 mm ohne Wand</translation>
-        </message>
-        <message>
-            <source>QA</source>
-            <translation>QA</translation>
-        </message>
-        <message>
-            <source>Open truth…</source>
-            <translation>Wahrheit öffnen…</translation>
-        </message>
-        <message>
-            <source>Contours that the case is held against</source>
-            <translation>Konturen, gegen die der Fall gehalten wird</translation>
-        </message>
-        <message>
-            <source>Observer</source>
-            <translation>Beobachter</translation>
-        </message>
-        <message>
-            <source>Whose contours are the truth</source>
-            <translation>Wessen Konturen die Wahrheit sind</translation>
-        </message>
-        <message>
-            <source>Truth over the pictures</source>
-            <translation>Wahrheit über den Bildern</translation>
-        </message>
-        <message>
-            <source>Tree coloured by its error</source>
-            <translation>Baum nach Fehler gefärbt</translation>
-        </message>
-        <message>
-            <source>Annotated sections</source>
-            <translation>Annotierte Abschnitte</translation>
-        </message>
-        <message>
-            <source>Section</source>
-            <translation>Abschnitt</translation>
-        </message>
-        <message>
-            <source>Vessel</source>
-            <translation>Gefäß</translation>
-        </message>
-        <message>
-            <source>MSD</source>
-            <translation>MSD</translation>
-        </message>
-        <message>
-            <source>Max.</source>
-            <translation>Max.</translation>
-        </message>
-        <message>
-            <source>Δ area</source>
-            <translation>Δ Fläche</translation>
-        </message>
-        <message>
-            <source>Dice</source>
-            <translation>Dice</translation>
-        </message>
-        <message>
-            <source>Mean distance of the surfaces, mm</source>
-            <translation>Mittlerer Abstand der Oberflächen, mm</translation>
-        </message>
-        <message>
-            <source>Largest distance of the surfaces, mm</source>
-            <translation>Größter Abstand der Oberflächen, mm</translation>
-        </message>
-        <message>
-            <source>Mean difference of the areas, case - truth, mm²</source>
-            <translation>Mittlere Differenz der Flächen, Fall - Wahrheit, mm²</translation>
-        </message>
-        <message>
-            <source>Next worst section</source>
-            <translation>Nächstschlechter Abschnitt</translation>
-        </message>
-        <message>
-            <source>To the worst place of the section that is farthest off</source>
-            <translation>Zur schlechtesten Stelle des Abschnitts, der am weitesten abweicht</translation>
-        </message>
-        <message>
-            <source>Time at work: it stops when nothing was done for a minute</source>
-            <translation>Arbeitszeit: sie steht still, wenn eine Minute lang nichts getan wurde</translation>
-        </message>
-        <message>
-            <source>Pause</source>
-            <translation>Pause</translation>
-        </message>
-        <message>
-            <source>Stop or go on counting</source>
-            <translation>Anhalten oder weiterzählen</translation>
-        </message>
-        <message>
-            <source>Zero</source>
-            <translation>Null</translation>
-        </message>
-        <message>
-            <source>Count from zero</source>
-            <translation>Von null an zählen</translation>
-        </message>
-        <message>
-            <source>Record…</source>
-            <translation>Aufzeichnen…</translation>
-        </message>
-        <message>
-            <source>Write down what the hand does in the views</source>
-            <translation>Aufschreiben, was die Hand in den Ansichten tut</translation>
-        </message>
-        <message>
-            <source>Replay…</source>
-            <translation>Abspielen…</translation>
-        </message>
-        <message>
-            <source>Do again what was recorded, on the same case</source>
-            <translation>Das Aufgezeichnete am selben Fall wiederholen</translation>
-        </message>
-        <message>
-            <source>Speed of a replay</source>
-            <translation>Geschwindigkeit des Abspielens</translation>
-        </message>
-        <message>
-            <source>as recorded</source>
-            <translation>wie aufgezeichnet</translation>
-        </message>
-        <message>
-            <source>full speed</source>
-            <translation>so schnell wie möglich</translation>
-        </message>
-        <message>
-            <source>Cancel</source>
-            <translation>Abbrechen</translation>
-        </message>
-        <message>
-            <source>End the replay here</source>
-            <translation>Das Abspielen hier beenden</translation>
-        </message>
-        <message>
-            <source>Contours</source>
-            <translation>Konturen</translation>
-        </message>
-        <message>
-            <source>Contours (*.json)</source>
-            <translation>Konturen (*.json)</translation>
-        </message>
-        <message>
-            <source>%1: not in this case</source>
-            <translation>%1: nicht in diesem Fall</translation>
-        </message>
-        <message>
-            <source>No truth is open.</source>
-            <translation>Es ist keine Wahrheit geöffnet.</translation>
-        </message>
-        <message>
-            <source>&lt;b&gt;%1&lt;/b&gt;: %2</source>
-            <translation>&lt;b&gt;%1&lt;/b&gt;: %2</translation>
-        </message>
-        <message>
-            <source>&lt;b&gt;Case&lt;/b&gt;: %1</source>
-            <translation>&lt;b&gt;Fall&lt;/b&gt;: %1</translation>
-        </message>
-        <message>
-            <source>  (idle)</source>
-            <translation>  (ruht)</translation>
-        </message>
-        <message>
-            <source>At work %1</source>
-            <translation>Arbeitszeit %1</translation>
-        </message>
-        <message>
-            <source>Go on</source>
-            <translation>Weiter</translation>
-        </message>
-        <message>
-            <source>Stop recording</source>
-            <translation>Aufzeichnen beenden</translation>
-        </message>
-        <message>
-            <source>from the truth, mm</source>
-            <translation>von der Wahrheit, mm</translation>
-        </message>
-        <message>
-            <source>Recording: what the hand does in the views is written down.</source>
-            <translation>Aufzeichnung läuft: was die Hand in den Ansichten tut, wird aufgeschrieben.</translation>
-        </message>
-        <message numerus="yes">
-            <source>%n movement(s) were recorded.</source>
-            <translation>
-                <numerusform>%n Bewegung wurde aufgezeichnet.</numerusform>
-                <numerusform>%n Bewegungen wurden aufgezeichnet.</numerusform>
-            </translation>
-        </message>
-        <message>
-            <source>Record to</source>
-            <translation>Aufzeichnen nach</translation>
-        </message>
-        <message>
-            <source>Recordings (*.jsonl)</source>
-            <translation>Aufzeichnungen (*.jsonl)</translation>
-        </message>
-        <message>
-            <source>Replay</source>
-            <translation>Abspielen</translation>
-        </message>
-        <message>
-            <source>The replay has ended. The recording does not say what the model was at its end.</source>
-            <translation>Das Abspielen ist beendet. Die Aufzeichnung sagt nicht, wie das Modell am Ende war.</translation>
-        </message>
-        <message>
-            <source>The replay has ended: the model is what it was when it was recorded.</source>
-            <translation>Das Abspielen ist beendet: das Modell ist so, wie es bei der Aufzeichnung war.</translation>
-        </message>
-        <message>
-            <source>The replay has ended, but the model is not what it was when it was recorded.</source>
-            <translation>Das Abspielen ist beendet, aber das Modell ist nicht so, wie es bei der Aufzeichnung war.</translation>
-        </message>
-        <message>
-            <source>The replay was ended after %1 of %2 movements.</source>
-            <translation>Das Abspielen wurde nach %1 von %2 Bewegungen beendet.</translation>
-        </message>
-        <message>
-            <source>Reading the truth</source>
-            <translation>Wahrheit wird gelesen</translation>
-        </message>
-    </context>
-    <context>
-        <name>ostia::workstation::Reporting</name>
-        <message>
-            <source>Report</source>
-            <translation>Befund</translation>
-        </message>
-        <message>
-            <source>The report could not be made</source>
-            <translation>Der Befund konnte nicht erstellt werden</translation>
-        </message>
-        <message>
-            <source>The report is in %1.</source>
-            <translation>Der Befund liegt in %1.</translation>
-        </message>
-        <message>
-            <source>Open the PDF</source>
-            <translation>PDF öffnen</translation>
-        </message>
-        <message>
-            <source>Open the HTML</source>
-            <translation>HTML öffnen</translation>
-        </message>
-        <message>
-            <source>Pinned by the reader: %1</source>
-            <translation>Vom Befunder angeheftet: %1</translation>
-        </message>
-        <message>
-            <source>This view will be key image %1 of the next report.</source>
-            <translation>Diese Ansicht wird Schlüsselbild %1 des nächsten Befunds.</translation>
-        </message>
-        <message>
-            <source>Export the wall</source>
-            <translation>Wand exportieren</translation>
-        </message>
-        <message>
-            <source>Surfaces (*.vtp *.stl *.ply *.obj)</source>
-            <translation>Oberflächen (*.vtp *.stl *.ply *.obj)</translation>
-        </message>
-        <message>
-            <source>Export of the wall</source>
-            <translation>Export der Wand</translation>
-        </message>
-        <message>
-            <source>The wall is in %1.</source>
-            <translation>Die Wand liegt in %1.</translation>
-        </message>
-        <message>
-            <source>The wall could not be exported</source>
-            <translation>Die Wand konnte nicht exportiert werden</translation>
-        </message>
-        <message>
-            <source>Export the centerlines</source>
-            <translation>Mittellinien exportieren</translation>
-        </message>
-        <message>
-            <source>Centerlines (*.vtp)</source>
-            <translation>Mittellinien (*.vtp)</translation>
-        </message>
-        <message>
-            <source>The centerlines are in %1.</source>
-            <translation>Die Mittellinien liegen in %1.</translation>
-        </message>
-    </context>
-    <context>
-        <name>ostia::workstation::SceneWidget</name>
-        <message>
-            <source>Coronary tree</source>
-            <translation>Koronarbaum</translation>
-        </message>
-    </context>
-    <context>
-        <name>ostia::workstation::SeriesBrowser</name>
-        <message>
-            <source>Series in this folder</source>
-            <translation>Serien in diesem Ordner</translation>
-        </message>
-        <message>
-            <source>Series</source>
-            <translation>Serie</translation>
-        </message>
-        <message>
-            <source>Slices</source>
-            <translation>Schichten</translation>
-        </message>
-        <message>
-            <source>Voxel, mm</source>
-            <translation>Voxel, mm</translation>
-        </message>
-        <message>
-            <source>Notes</source>
-            <translation>Hinweise</translation>
-        </message>
-        <message>
-            <source>Uneven slices</source>
-            <translation>Ungleichmäßige Schichten</translation>
-        </message>
-        <message>
-            <source>Slices are missing or unevenly spaced in this series. What lies between them can be interpolated; lumina there are not measured but guessed. Go on?</source>
-            <translation>In dieser Serie fehlen Schichten, oder ihre Abstände sind ungleich. Was dazwischen liegt, kann interpoliert werden; Lumina sind dort nicht gemessen, sondern geraten. Fortfahren?</translation>
-        </message>
-        <message numerus="yes">
-            <source>%n damaged file(s)</source>
-            <translation>
-                <numerusform>%n beschädigte Datei</numerusform>
-                <numerusform>%n beschädigte Dateien</numerusform>
-            </translation>
-        </message>
-        <message numerus="yes">
-            <source>%n file(s) that are no images</source>
-            <translation>
-                <numerusform>%n Datei, die kein Bild ist</numerusform>
-                <numerusform>%n Dateien, die keine Bilder sind</numerusform>
-            </translation>
-        </message>
-        <message>
-            <source>Left out: %1</source>
-            <translation>Ausgelassen: %1</translation>
-        </message>
-        <message>
-            <source>Pictures of the series</source>
-            <translation>Bilder der Serien</translation>
-        </message>
-    </context>
-    <context>
-        <name>ostia::workstation::ShortcutsPage</name>
-        <message>
-            <source>Keys and mouse</source>
-            <translation>Tasten und Maus</translation>
-        </message>
-        <message>
-            <source>Search: a word, or a key</source>
-            <translation>Suchen: ein Wort oder eine Taste</translation>
-        </message>
-        <message>
-            <source>Search</source>
-            <translation>Suchen</translation>
-        </message>
-        <message>
-            <source>Only lines with all of these words stay</source>
-            <translation>Nur Zeilen mit allen diesen Wörtern bleiben</translation>
-        </message>
-        <message>
-            <source>Command</source>
-            <translation>Befehl</translation>
-        </message>
-        <message>
-            <source>Keys</source>
-            <translation>Tasten</translation>
-        </message>
-        <message>
-            <source>What it does</source>
-            <translation>Was er tut</translation>
-        </message>
-        <message>
-            <source>Keys and mouse gestures</source>
-            <translation>Tasten und Mausgesten</translation>
-        </message>
-        <message>
-            <source>Mouse and keys in the views</source>
-            <translation>Maus und Tasten in den Ansichten</translation>
-        </message>
-    </context>
-    <context>
-        <name>ostia::workstation::StepList</name>
-        <message>
-            <source>Steps</source>
-            <translation>Schritte</translation>
-        </message>
-        <message>
-            <source>Click: go back or forth to this step</source>
-            <translation>Klick: zu diesem Schritt zurück oder vor</translation>
-        </message>
-    </context>
-    <context>
-        <name>ostia::workstation::Tour</name>
-        <message>
-            <source>no key</source>
-            <translation>keine Taste</translation>
-        </message>
-        <message>
-            <source>Welcome</source>
-            <translation>Willkommen</translation>
-        </message>
-        <message>
-            <source>Ostia turns a CT angiogram into a corrected model of the coronary arteries. Drop a DICOM folder, an image or a case on the window, or use File. File &gt; The sample case opens a computed patient to try everything on.</source>
-            <translation>Ostia macht aus einer CT-Angiographie ein korrigiertes Modell der Koronararterien. Ziehen Sie einen DICOM-Ordner, ein Bild oder einen Fall auf das Fenster, oder nehmen Sie das Menü Datei. Datei &gt; Beispielfall öffnet einen berechneten Patienten, an dem man alles ausprobieren kann.</translation>
-        </message>
-        <message>
-            <source>The vessels</source>
-            <translation>Die Gefäße</translation>
-        </message>
-        <message>
-            <source>Every artery with its segments, its length, and its largest narrowing. Click one, and all views show it; %1 goes to the next. Tick Done when you have gone through it. A right click renames, cuts, joins or deletes.</source>
-            <translation>Jede Arterie mit ihren Segmenten, ihrer Länge und ihrer stärksten Einengung. Ein Klick zeigt sie in allen Ansichten; %1 geht zur nächsten. Haken Sie sie ab, wenn Sie sie durchgesehen haben. Ein Rechtsklick benennt um, schneidet, verbindet oder löscht.</translation>
-        </message>
-        <message>
-            <source>Two CPRs</source>
-            <translation>Zwei CPRs</translation>
-        </message>
-        <message>
-            <source>The selected artery laid straight, seen from two sides 90 degrees apart; its ostium is at the top. Shift and drag turns both, and so do %1 and %2. The wheel goes along the vessel, Ctrl and wheel zooms, the right button sets the grey levels.</source>
-            <translation>Die gewählte Arterie, gerade gelegt, von zwei Seiten im Abstand von 90 Grad; das Ostium ist oben. Umschalt und Ziehen dreht beide, ebenso %1 und %2. Das Rad geht am Gefäß entlang, Strg und Rad vergrößert, die rechte Taste stellt die Graustufen ein.</translation>
-        </message>
-        <message>
-            <source>The section</source>
-            <translation>Der Querschnitt</translation>
-        </message>
-        <message>
-            <source>The cut across the artery at the cursor, with its area and diameters. Below are its neighbours, and a slice of the patient.</source>
-            <translation>Der Schnitt quer zur Arterie am Cursor, mit Fläche und Durchmessern. Darunter liegen seine Nachbarn und ein Schichtbild des Patienten.</translation>
-        </message>
-        <message>
-            <source>The tree</source>
-            <translation>Der Baum</translation>
-        </message>
-        <message>
-            <source>The lumen in three dimensions. Drag turns it, a click on a vessel goes there. The list in its title shows the heart behind it.</source>
-            <translation>Das Lumen in drei Dimensionen. Ziehen dreht es, ein Klick auf ein Gefäß geht dorthin. Die Liste im Titel zeigt das Herz dahinter.</translation>
-        </message>
-        <message>
-            <source>The profile</source>
-            <translation>Das Profil</translation>
-        </message>
-        <message>
-            <source>Diameter and area along the artery; the dashed line is the calibre without disease, red bands are stenoses. Click to go there; %1 goes from stenosis to stenosis.</source>
-            <translation>Durchmesser und Fläche entlang der Arterie; die gestrichelte Linie ist das Kaliber ohne Krankheit, rote Bänder sind Stenosen. Ein Klick geht dorthin; %1 geht von Stenose zu Stenose.</translation>
-        </message>
-        <message>
-            <source>Editing</source>
-            <translation>Bearbeiten</translation>
-        </message>
-        <message>
-            <source>Pull (%1) takes the contour where you grip it. Draw (%2) replaces the wall by your line, on a CPR or around the section. The brush (%3) pushes. All views follow while the mouse moves, and every step is saved at once.</source>
-            <translation>Ziehen (%1) nimmt die Kontur dort, wo Sie sie greifen. Zeichnen (%2) ersetzt die Wand durch Ihre Linie, auf einer CPR oder um den Querschnitt. Der Pinsel (%3) schiebt. Alle Ansichten folgen der Maus, und jeder Schritt ist sofort gespeichert.</translation>
-        </message>
-        <message>
-            <source>Undo and steps</source>
-            <translation>Rückgängig und Schritte</translation>
-        </message>
-        <message>
-            <source>%1 takes back, %2 does again. The tab Steps lists everything since the case began: click a line to go back to it.</source>
-            <translation>%1 nimmt zurück, %2 wiederholt. Die Karte Schritte listet alles seit Beginn des Falls: ein Klick auf eine Zeile geht dorthin zurück.</translation>
-        </message>
-        <message>
-            <source>Measuring</source>
-            <translation>Messen</translation>
-        </message>
-        <message>
-            <source>Distance, angle, area, diameter, stenosis, volume, and CT numbers around the lumen. What you place can be moved by its points, is listed under Measurements, and follows the wall.</source>
-            <translation>Abstand, Winkel, Fläche, Durchmesser, Stenose, Volumen und CT-Werte um das Lumen. Messungen lassen sich an ihren Punkten verschieben, stehen in der Liste Messungen und folgen der Wand.</translation>
-        </message>
-        <message>
-            <source>Report and help</source>
-            <translation>Befund und Hilfe</translation>
-        </message>
-        <message>
-            <source>Tour</source>
-            <translation>Rundgang</translation>
-        </message>
-        <message>
-            <source>Do not show again</source>
-            <translation>Nicht mehr zeigen</translation>
-        </message>
-        <message>
-            <source>Without the tick the next start begins with this tour; Help &gt; Tour repeats it</source>
-            <translation>Ohne Haken beginnt der nächste Start mit diesem Rundgang; Hilfe &gt; Rundgang wiederholt ihn</translation>
-        </message>
-        <message>
-            <source>Ends the tour (Esc)</source>
-            <translation>Beendet den Rundgang (Esc)</translation>
-        </message>
-        <message>
-            <source>End the tour</source>
-            <translation>Rundgang beenden</translation>
-        </message>
-        <message>
-            <source>Back</source>
-            <translation>Zurück</translation>
-        </message>
-        <message>
-            <source>The part before (Left)</source>
-            <translation>Der vorige Teil (Links)</translation>
-        </message>
-        <message>
-            <source>The next part (Right, Enter)</source>
-            <translation>Der nächste Teil (Rechts, Eingabe)</translation>
-        </message>
-        <message>
-            <source>%1 of %2</source>
-            <translation>%1 von %2</translation>
-        </message>
-        <message>
-            <source>Finish</source>
-            <translation>Fertig</translation>
-        </message>
-        <message>
-            <source>Next</source>
-            <translation>Weiter</translation>
-        </message>
-        <message>
-            <source>%1 makes the report with key images, segments, stenoses and measurements. %2 shows all keys and mouse gestures, Help &gt; Manual leads from DICOM to the report, Help &gt; Tour repeats this tour. Ostia is research software, not a medical device.</source>
-            <translation>%1 erstellt den Befund mit Schlüsselbildern, Segmenten, Stenosen und Messungen. %2 zeigt alle Tasten und Mausgesten, Hilfe &gt; Handbuch führt von DICOM zum Befund, Hilfe &gt; Rundgang wiederholt diesen Rundgang. Ostia ist Forschungssoftware, kein Medizinprodukt.</translation>
-        </message>
-    </context>
-    <context>
-        <name>ostia::workstation::VesselList</name>
-        <message>
-            <source>Vessels</source>
-            <translation>Gefäße</translation>
-        </message>
-        <message>
-            <source>Vessel</source>
-            <translation>Gefäß</translation>
-        </message>
-        <message>
-            <source>mm</source>
-            <translation>mm</translation>
-        </message>
-        <message>
-            <source>Edits</source>
-            <translation>Bearb.</translation>
-        </message>
-        <message>
-            <source>Worst</source>
-            <translation>Engste</translation>
-        </message>
-        <message>
-            <source>Done</source>
-            <translation>Fertig</translation>
-        </message>
-        <message>
-            <source>Samples of the wall that a person placed</source>
-            <translation>Punkte der Wand, die ein Mensch gesetzt hat</translation>
-        </message>
-        <message>
-            <source>Largest narrowing, percent of diameter</source>
-            <translation>Stärkste Einengung, Prozent des Durchmessers</translation>
-        </message>
-        <message>
-            <source>A person has gone through this vessel</source>
-            <translation>Ein Mensch hat dieses Gefäß durchgesehen</translation>
-        </message>
-        <message>
-            <source>Tick: shown in 3D. F2: another name.</source>
-            <translation>Haken: in 3D gezeigt. F2: anderer Name.</translation>
-        </message>
-        <message>
-            <source>Colour of %1</source>
-            <translation>Farbe von %1</translation>
-        </message>
-        <message>
-            <source>Rename…</source>
-            <translation>Umbenennen…</translation>
-        </message>
-        <message>
-            <source>Colour…</source>
-            <translation>Farbe…</translation>
-        </message>
-        <message>
-            <source>Cut off distal of the cursor</source>
-            <translation>Distal des Cursors abschneiden</translation>
-        </message>
-        <message>
-            <source>Delete with its branches</source>
-            <translation>Mit seinen Ästen löschen</translation>
-        </message>
-        <message>
-            <source>Join to</source>
-            <translation>Verbinden mit</translation>
-        </message>
-        <message>
-            <source>Where its own part begins goes to the nearest place of that vessel</source>
-            <translation>Der Anfang seines eigenen Teils kommt an die nächste Stelle jenes Gefäßes</translation>
-        </message>
-    </context>
-    <context>
-        <name>presets</name>
-        <message>
-            <source>CTA</source>
-            <translation>CTA</translation>
-        </message>
-        <message>
-            <source>Soft tissue</source>
-            <translation>Weichteil</translation>
-        </message>
-        <message>
-            <source>Lung</source>
-            <translation>Lunge</translation>
-        </message>
-        <message>
-            <source>Bone</source>
-            <translation>Knochen</translation>
-        </message>
-    </context>
-    <context>
-        <name>stages</name>
-        <message>
-            <source>reading DICOM headers</source>
-            <translation>DICOM-Köpfe lesen</translation>
-        </message>
-        <message>
-            <source>decoding DICOM</source>
-            <translation>DICOM entschlüsseln</translation>
-        </message>
-        <message>
-            <source>resampling DICOM</source>
-            <translation>DICOM umrechnen</translation>
-        </message>
-        <message>
-            <source>unpacking</source>
-            <translation>auspacken</translation>
-        </message>
-        <message>
-            <source>synthetic patient</source>
-            <translation>berechneter Patient</translation>
-        </message>
-        <message>
-            <source>scan</source>
-            <translation>Aufnahme</translation>
-        </message>
-        <message>
-            <source>writing</source>
-            <translation>schreiben</translation>
-        </message>
-        <message>
-            <source>writing the image</source>
-            <translation>Bild schreiben</translation>
-        </message>
-        <message>
-            <source>walls of the vessels</source>
-            <translation>Gefäßwände</translation>
-        </message>
-        <message>
-            <source>lumen boundary</source>
-            <translation>Rand des Lumens</translation>
-        </message>
-        <message>
-            <source>surface</source>
-            <translation>Oberfläche</translation>
-        </message>
-        <message>
-            <source>measuring</source>
-            <translation>messen</translation>
-        </message>
-        <message>
-            <source>key images</source>
-            <translation>Schlüsselbilder</translation>
-        </message>
-        <message>
-            <source>report</source>
-            <translation>Befund</translation>
-        </message>
-        <message>
-            <source>finding the way to the tree</source>
-            <translation>Weg zum Baum suchen</translation>
-        </message>
-        <message>
-            <source>finding the way between two points</source>
-            <translation>Weg zwischen zwei Punkten suchen</translation>
-        </message>
-    </context>
-    <context>
-        <name>steps</name>
-        <message>
-            <source>Start</source>
-            <translation>Beginn</translation>
-        </message>
-        <message>
-            <source>Draw on CPR</source>
-            <translation>Zeichnen auf CPR</translation>
-        </message>
-        <message>
-            <source>Draw on section</source>
-            <translation>Zeichnen auf Querschnitt</translation>
-        </message>
-        <message>
-            <source>Pull the wall</source>
-            <translation>Wand ziehen</translation>
-        </message>
-        <message>
-            <source>Brush</source>
-            <translation>Pinsel</translation>
-        </message>
-        <message>
-            <source>Move the centerline</source>
-            <translation>Mittellinie verschieben</translation>
-        </message>
-        <message>
-            <source>Add a control point</source>
-            <translation>Stützpunkt hinzufügen</translation>
-        </message>
-        <message>
-            <source>Delete a control point</source>
-            <translation>Stützpunkt löschen</translation>
-        </message>
-        <message>
-            <source>Extend the vessel</source>
-            <translation>Gefäß verlängern</translation>
-        </message>
-        <message>
-            <source>Cut the vessel off</source>
-            <translation>Gefäß abschneiden</translation>
-        </message>
-        <message>
-            <source>Add a vessel</source>
-            <translation>Gefäß hinzufügen</translation>
-        </message>
-        <message>
-            <source>Delete a vessel</source>
-            <translation>Gefäß löschen</translation>
-        </message>
-        <message>
-            <source>Join a vessel elsewhere</source>
-            <translation>Gefäß anderswo verbinden</translation>
-        </message>
-        <message>
-            <source>Rename a vessel</source>
-            <translation>Gefäß umbenennen</translation>
-        </message>
-        <message>
-            <source>Mark a vessel</source>
-            <translation>Gefäß kennzeichnen</translation>
-        </message>
-        <message>
-            <source>Measure</source>
-            <translation>Messen</translation>
-        </message>
-        <message>
-            <source>Change a measurement</source>
-            <translation>Messung ändern</translation>
-        </message>
-        <message>
-            <source>Delete a measurement</source>
-            <translation>Messung löschen</translation>
-        </message>
-    </context>
-    <context>
-        <name>tips</name>
-        <message>
-            <source>Opens a case, an image file, or a zip of DICOM files; dropping it on the window does the same.</source>
-            <translation>Öffnet einen Fall, eine Bilddatei oder ein ZIP mit DICOM-Dateien; auf das Fenster ziehen geht auch.</translation>
-        </message>
-        <message>
-            <source>Looks for CT series in a folder of DICOM files.</source>
-            <translation>Sucht CT-Serien in einem Ordner mit DICOM-Dateien.</translation>
-        </message>
-        <message>
-            <source>Opens a computed patient with disease, made on the first use.</source>
-            <translation>Öffnet einen berechneten kranken Patienten; beim ersten Mal wird er erzeugt.</translation>
-        </message>
-        <message>
-            <source>Makes a copy of the case and goes on in it. A case is always saved.</source>
-            <translation>Legt eine Kopie des Falls an und arbeitet in ihr weiter. Ein Fall ist immer gespeichert.</translation>
-        </message>
-        <message>
-            <source>Closes the case; nothing is lost.</source>
-            <translation>Schließt den Fall; nichts geht verloren.</translation>
-        </message>
-        <message>
-            <source>Ends the program; nothing is lost.</source>
-            <translation>Beendet das Programm; nichts geht verloren.</translation>
-        </message>
-        <message>
-            <source>Takes the last step back.</source>
-            <translation>Nimmt den letzten Schritt zurück.</translation>
-        </message>
-        <message>
-            <source>Does again what was taken back.</source>
-            <translation>Wiederholt, was zurückgenommen wurde.</translation>
-        </message>
-        <message>
-            <source>Keys, theme and language.</source>
-            <translation>Tasten, Farben und Sprache.</translation>
-        </message>
-        <message>
-            <source>Makes the brush's ball smaller, or the reach of a pull shorter.</source>
-            <translation>Macht die Kugel des Pinsels kleiner oder die Reichweite des Zugs kürzer.</translation>
-        </message>
-        <message>
-            <source>Makes the brush's ball larger, or the reach of a pull longer.</source>
-            <translation>Macht die Kugel des Pinsels größer oder die Reichweite des Zugs länger.</translation>
-        </message>
-        <message>
-            <source>Turns both CPRs by five degrees about the vessel's axis.</source>
-            <translation>Dreht beide CPRs um fünf Grad um die Gefäßachse.</translation>
-        </message>
-        <message>
-            <source>The cursor goes half a millimetre towards the ostium.</source>
-            <translation>Der Cursor geht einen halben Millimeter zum Ostium hin.</translation>
-        </message>
-        <message>
-            <source>The cursor goes half a millimetre towards the vessel's end.</source>
-            <translation>Der Cursor geht einen halben Millimeter zum Ende des Gefäßes hin.</translation>
-        </message>
-        <message>
-            <source>The cursor goes to where the vessel begins.</source>
-            <translation>Der Cursor geht zum Anfang des Gefäßes.</translation>
-        </message>
-        <message>
-            <source>The cursor goes to where the vessel ends.</source>
-            <translation>Der Cursor geht zum Ende des Gefäßes.</translation>
-        </message>
-        <message>
-            <source>The cursor goes to the narrowest place of the next stenosis distally.</source>
-            <translation>Der Cursor geht zur engsten Stelle der nächsten Stenose distal.</translation>
-        </message>
-        <message>
-            <source>The cursor goes to the narrowest place of the next stenosis proximally.</source>
-            <translation>Der Cursor geht zur engsten Stelle der nächsten Stenose proximal.</translation>
-        </message>
-        <message>
-            <source>Shows the next vessel of the list.</source>
-            <translation>Zeigt das nächste Gefäß der Liste.</translation>
-        </message>
-        <message>
-            <source>Shows the previous vessel of the list.</source>
-            <translation>Zeigt das vorige Gefäß der Liste.</translation>
-        </message>
-        <message>
-            <source>The CPRs keep the vessel's bends in one direction instead of none.</source>
-            <translation>Die CPRs behalten die Biegungen des Gefäßes in einer Richtung statt in keiner.</translation>
-        </message>
-        <message>
-            <source>2D views show the largest CT number within the slab's thickness.</source>
-            <translation>2D-Ansichten zeigen den größten CT-Wert innerhalb der Schichtdicke.</translation>
-        </message>
-        <message>
-            <source>2D views show the mean CT number within the slab's thickness.</source>
-            <translation>2D-Ansichten zeigen den mittleren CT-Wert innerhalb der Schichtdicke.</translation>
-        </message>
-        <message>
-            <source>Makes the slab of the 2D views thinner.</source>
-            <translation>Macht die Schicht der 2D-Ansichten dünner.</translation>
-        </message>
-        <message>
-            <source>Makes the slab of the 2D views thicker.</source>
-            <translation>Macht die Schicht der 2D-Ansichten dicker.</translation>
-        </message>
-        <message>
-            <source>Shows or hides the lumen's contour on all views.</source>
-            <translation>Zeigt oder verbirgt die Kontur des Lumens in allen Ansichten.</translation>
-        </message>
-        <message>
-            <source>All views show all there is.</source>
-            <translation>Alle Ansichten zeigen alles, was da ist.</translation>
-        </message>
-        <message>
-            <source>Changes between the dark and the light theme.</source>
-            <translation>Wechselt zwischen dunklen und hellen Farben.</translation>
-        </message>
-        <message>
-            <source>Grey levels for contrast-filled vessels.</source>
-            <translation>Graustufen für kontrastgefüllte Gefäße.</translation>
-        </message>
-        <message>
-            <source>Grey levels for muscle, fat and thrombus.</source>
-            <translation>Graustufen für Muskel, Fett und Thrombus.</translation>
-        </message>
-        <message>
-            <source>Grey levels for the lungs.</source>
-            <translation>Graustufen für die Lunge.</translation>
-        </message>
-        <message>
-            <source>Grey levels for bone and calcium.</source>
-            <translation>Graustufen für Knochen und Kalk.</translation>
-        </message>
-        <message>
-            <source>The keyboard goes to the next panel.</source>
-            <translation>Die Tastatur geht zum nächsten Feld.</translation>
-        </message>
-        <message>
-            <source>The keyboard goes to the previous panel.</source>
-            <translation>Die Tastatur geht zum vorigen Feld.</translation>
-        </message>
-        <message>
-            <source>The panel with the keyboard fills the window; again: all panels.</source>
-            <translation>Das Feld mit der Tastatur füllt das Fenster; nochmals: alle Felder.</translation>
-        </message>
-        <message>
-            <source>Moves the mouse pointer by one pixel; held down, faster.</source>
-            <translation>Bewegt den Mauszeiger um einen Bildpunkt; gehalten schneller.</translation>
-        </message>
-        <message>
-            <source>Presses the main mouse button and holds it; again: lets it go.</source>
-            <translation>Drückt die Maustaste und hält sie; nochmals: lässt sie los.</translation>
-        </message>
-        <message>
-            <source>The user's manual; needs no network.</source>
-            <translation>Das Handbuch; braucht kein Netz.</translation>
-        </message>
-        <message>
-            <source>All keys and mouse gestures, to be searched.</source>
-            <translation>Alle Tasten und Mausgesten, mit Suche.</translation>
-        </message>
-        <message>
-            <source>Goes through the parts of the window.</source>
-            <translation>Geht durch die Teile des Fensters.</translation>
-        </message>
-        <message>
-            <source>Version, licences, and what the program is not.</source>
-            <translation>Version, Lizenzen, und was das Programm nicht ist.</translation>
-        </message>
-        <message>
-            <source>Makes the report of the case as it is now, in a folder beside it.</source>
-            <translation>Erstellt den Befund des Falls, wie er jetzt ist, in einem Ordner daneben.</translation>
-        </message>
-        <message>
-            <source>The view that was clicked last becomes a key image of the next report.</source>
-            <translation>Die zuletzt angeklickte Ansicht wird ein Schlüsselbild des nächsten Befunds.</translation>
-        </message>
-        <message>
-            <source>Writes the wall as a surface (VTP, STL, PLY, OBJ).</source>
-            <translation>Schreibt die Wand als Oberfläche (VTP, STL, PLY, OBJ).</translation>
-        </message>
-        <message>
-            <source>Writes the centerlines with their radii (VTP).</source>
-            <translation>Schreibt die Mittellinien mit ihren Radien (VTP).</translation>
-        </message>
-        <message>
-            <source>Holds the case against contours that somebody else knows to be right.</source>
-            <translation>Hält den Fall gegen Konturen, von denen jemand weiß, dass sie richtig sind.</translation>
-        </message>
-    </context>
-    <context>
-        <name>tools</name>
-        <message>
-            <source>Browse</source>
-            <translation>Betrachten</translation>
-        </message>
-        <message>
-            <source>The cursor goes where you click. Shift and drag: turn the CPR.</source>
-            <translation>Der Cursor geht, wohin Sie klicken. Umschalt und Ziehen: CPR drehen.</translation>
-        </message>
-        <message>
-            <source>Pull</source>
-            <translation>Ziehen</translation>
-        </message>
-        <message>
-            <source>Take the contour and pull it. Shift and wheel: how far the pull reaches.</source>
-            <translation>Die Kontur greifen und ziehen. Umschalt und Rad: wie weit der Zug reicht.</translation>
-        </message>
-        <message>
-            <source>Draw</source>
-            <translation>Zeichnen</translation>
-        </message>
-        <message>
-            <source>Draw the wall anew, on a CPR or around the lumen on the cross-section.</source>
-            <translation>Die Wand neu zeichnen, auf einer CPR oder um das Lumen im Querschnitt.</translation>
-        </message>
-        <message>
-            <source>Brush</source>
-            <translation>Pinsel</translation>
-        </message>
-        <message>
-            <source>A ball that pushes the wall: outwards from within, inwards from without.</source>
-            <translation>Eine Kugel, die die Wand schiebt: von innen nach außen, von außen nach innen.</translation>
-        </message>
-        <message>
-            <source>Centerline</source>
-            <translation>Mittellinie</translation>
-        </message>
-        <message>
-            <source>Pull the centerline. Double click adds a control point, Delete takes one away.</source>
-            <translation>Die Mittellinie ziehen. Doppelklick setzt einen Stützpunkt, Entf löscht einen.</translation>
-        </message>
-        <message>
-            <source>Add vessel</source>
-            <translation>Neues Gefäß</translation>
-        </message>
-        <message>
-            <source>Click the distal end of a vessel; the way back to the tree is found.</source>
-            <translation>Auf das distale Ende eines Gefäßes klicken; der Weg zurück zum Baum wird gesucht.</translation>
-        </message>
-        <message>
-            <source>Distance</source>
-            <translation>Abstand</translation>
-        </message>
-        <message>
-            <source>Drag from one place to the other.</source>
-            <translation>Von einer Stelle zur anderen ziehen.</translation>
-        </message>
-        <message>
-            <source>Angle</source>
-            <translation>Winkel</translation>
-        </message>
-        <message>
-            <source>Click three places, the vertex second.</source>
-            <translation>Drei Stellen anklicken, den Scheitel als zweite.</translation>
-        </message>
-        <message>
-            <source>Area</source>
-            <translation>Fläche</translation>
-        </message>
-        <message>
-            <source>Draw around it.</source>
-            <translation>Umfahren.</translation>
-        </message>
-        <message>
-            <source>Diameter</source>
-            <translation>Durchmesser</translation>
-        </message>
-        <message>
-            <source>Drag across the lumen.</source>
-            <translation>Quer über das Lumen ziehen.</translation>
-        </message>
-        <message>
-            <source>Stenosis</source>
-            <translation>Stenose</translation>
-        </message>
-        <message>
-            <source>On a CPR, drag from the proximal to the distal place of reference.</source>
-            <translation>Auf einer CPR von der proximalen zur distalen Referenzstelle ziehen.</translation>
-        </message>
-        <message>
-            <source>Volume</source>
-            <translation>Volumen</translation>
-        </message>
-        <message>
-            <source>On a CPR, drag along the stretch of the vessel.</source>
-            <translation>Auf einer CPR am Abschnitt des Gefäßes entlang ziehen.</translation>
-        </message>
-        <message>
-            <source>HU ring</source>
-            <translation>HU-Ring</translation>
-        </message>
-        <message>
-            <source>Click where CT numbers about the lumen are wanted.</source>
-            <translation>Klicken, wo CT-Werte um das Lumen gewünscht sind.</translation>
-        </message>
-    </context>
-    <context>
-        <name>views</name>
-        <message>
-            <source>straightened</source>
-            <translation>begradigt</translation>
-        </message>
-        <message>
-            <source>stretched</source>
-            <translation>gestreckt</translation>
-        </message>
-        <message>
-            <source>axial</source>
-            <translation>axial</translation>
-        </message>
-        <message>
-            <source>coronal</source>
-            <translation>koronar</translation>
-        </message>
-        <message>
-            <source>sagittal</source>
-            <translation>sagittal</translation>
-        </message>
-        <message>
-            <source>oblique</source>
-            <translation>schräg</translation>
-        </message>
-        <message>
-            <source>diameter, mm</source>
-            <translation>Durchmesser, mm</translation>
-        </message>
-        <message>
-            <source>area, mm²</source>
-            <translation>Fläche, mm²</translation>
-        </message>
-        <message>
-            <source>mm from its root</source>
-            <translation>mm ab Ursprung</translation>
-        </message>
-        <message>
-            <source>not measurable</source>
-            <translation>nicht messbar</translation>
-        </message>
-    </context>
+<context>
+    <name>QApplication</name>
+    <message>
+        <source>The coronary modelling workstation.</source>
+        <translation>Der Arbeitsplatz für Modelle der Herzkranzgefäße.</translation>
+    </message>
+    <message>
+        <source>A case, an image, a DICOM folder, or a zip of one.</source>
+        <translation>Ein Fall, ein Bild, ein DICOM-Ordner oder ein ZIP davon.</translation>
+    </message>
+    <message>
+        <source>Where recent cases and window settings are kept.</source>
+        <translation>Wo letzte Fälle und Einstellungen des Fensters aufbewahrt werden.</translation>
+    </message>
+    <message>
+        <source>Writes the times of all frames, a JSON line each.</source>
+        <translation>Schreibt die Zeiten aller Bilder auf, je eine JSON-Zeile.</translation>
+    </message>
+    <message>
+        <source>Opens the sample case.</source>
+        <translation>Öffnet den Beispielfall.</translation>
+    </message>
+    <message>
+        <source>Starts without the tour, as OSTIA_NO_TOUR does.</source>
+        <translation>Startet ohne Rundgang, ebenso wie OSTIA_NO_TOUR.</translation>
+    </message>
+</context>
+<context>
+    <name>QKeySequenceEdit</name>
+    <message>
+        <source>Press shortcut</source>
+        <translation>Tasten drücken</translation>
+    </message>
+</context>
+<context>
+    <name>QPlatformTheme</name>
+    <message>
+        <source>OK</source>
+        <translation>OK</translation>
+    </message>
+    <message>
+        <source>Save</source>
+        <translation>Speichern</translation>
+    </message>
+    <message>
+        <source>Open</source>
+        <translation>Öffnen</translation>
+    </message>
+    <message>
+        <source>&amp;Yes</source>
+        <translation>&amp;Ja</translation>
+    </message>
+    <message>
+        <source>&amp;No</source>
+        <translation>&amp;Nein</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Abbrechen</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>Schließen</translation>
+    </message>
+    <message>
+        <source>Discard</source>
+        <translation>Verwerfen</translation>
+    </message>
+    <message>
+        <source>Apply</source>
+        <translation>Anwenden</translation>
+    </message>
+    <message>
+        <source>Reset</source>
+        <translation>Zurücksetzen</translation>
+    </message>
+    <message>
+        <source>Help</source>
+        <translation>Hilfe</translation>
+    </message>
+</context>
+<context>
+    <name>QShortcut</name>
+    <message>
+        <source>Ctrl</source>
+        <translation>Strg</translation>
+    </message>
+    <message>
+        <source>Shift</source>
+        <translation>Umschalt</translation>
+    </message>
+    <message>
+        <source>Alt</source>
+        <translation>Alt</translation>
+    </message>
+    <message>
+        <source>Esc</source>
+        <translation>Esc</translation>
+    </message>
+    <message>
+        <source>Space</source>
+        <translation>Leertaste</translation>
+    </message>
+    <message>
+        <source>Up</source>
+        <translation>Auf</translation>
+    </message>
+    <message>
+        <source>Down</source>
+        <translation>Ab</translation>
+    </message>
+    <message>
+        <source>Left</source>
+        <translation>Links</translation>
+    </message>
+    <message>
+        <source>Right</source>
+        <translation>Rechts</translation>
+    </message>
+    <message>
+        <source>Home</source>
+        <translation>Pos1</translation>
+    </message>
+    <message>
+        <source>End</source>
+        <translation>Ende</translation>
+    </message>
+    <message>
+        <source>Ins</source>
+        <translation>Einfg</translation>
+    </message>
+    <message>
+        <source>Del</source>
+        <translation>Entf</translation>
+    </message>
+    <message>
+        <source>Tab</source>
+        <translation>Tab</translation>
+    </message>
+</context>
+<context>
+    <name>gestures</name>
+    <message>
+        <source>File</source>
+        <translation>Datei</translation>
+    </message>
+    <message>
+        <source>Edit</source>
+        <translation>Bearbeiten</translation>
+    </message>
+    <message>
+        <source>Tools</source>
+        <translation>Werkzeuge</translation>
+    </message>
+    <message>
+        <source>Views</source>
+        <translation>Ansichten</translation>
+    </message>
+    <message>
+        <source>Grey levels</source>
+        <translation>Graustufen</translation>
+    </message>
+    <message>
+        <source>Panels</source>
+        <translation>Felder</translation>
+    </message>
+    <message>
+        <source>Mouse by keys</source>
+        <translation>Maus mit Tasten</translation>
+    </message>
+    <message>
+        <source>Report</source>
+        <translation>Befund</translation>
+    </message>
+    <message>
+        <source>Quality</source>
+        <translation>Qualität</translation>
+    </message>
+    <message>
+        <source>Help</source>
+        <translation>Hilfe</translation>
+    </message>
+    <message>
+        <source>2D views</source>
+        <translation>2D-Ansichten</translation>
+    </message>
+    <message>
+        <source>left button</source>
+        <translation>linke Taste</translation>
+    </message>
+    <message>
+        <source>what the tool says; browsing: the cursor goes there</source>
+        <translation>wie das Werkzeug es will; beim Betrachten geht der Cursor dorthin</translation>
+    </message>
+    <message>
+        <source>CPR, section, oblique slice</source>
+        <translation>CPR, Querschnitt, schräge Schicht</translation>
+    </message>
+    <message>
+        <source>Shift and left button, drag</source>
+        <translation>Umschalt und linke Taste, ziehen</translation>
+    </message>
+    <message>
+        <source>turn about the vessel&apos;s axis, or the slice</source>
+        <translation>um die Gefäßachse drehen, oder die Schicht</translation>
+    </message>
+    <message>
+        <source>right button, drag</source>
+        <translation>rechte Taste, ziehen</translation>
+    </message>
+    <message>
+        <source>window and level</source>
+        <translation>Fensterung</translation>
+    </message>
+    <message>
+        <source>middle button, drag; or Ctrl and Shift and left button</source>
+        <translation>mittlere Taste, ziehen; oder Strg, Umschalt und linke Taste</translation>
+    </message>
+    <message>
+        <source>move the picture</source>
+        <translation>Bild verschieben</translation>
+    </message>
+    <message>
+        <source>CPR, section</source>
+        <translation>CPR, Querschnitt</translation>
+    </message>
+    <message>
+        <source>wheel</source>
+        <translation>Rad</translation>
+    </message>
+    <message>
+        <source>the cursor goes along the vessel</source>
+        <translation>der Cursor geht am Gefäß entlang</translation>
+    </message>
+    <message>
+        <source>slice</source>
+        <translation>Schichtbild</translation>
+    </message>
+    <message>
+        <source>the next slices</source>
+        <translation>die nächsten Schichten</translation>
+    </message>
+    <message>
+        <source>Ctrl and wheel</source>
+        <translation>Strg und Rad</translation>
+    </message>
+    <message>
+        <source>zoom</source>
+        <translation>vergrößern, verkleinern</translation>
+    </message>
+    <message>
+        <source>2D views, editing</source>
+        <translation>2D-Ansichten, Bearbeiten</translation>
+    </message>
+    <message>
+        <source>Shift and wheel</source>
+        <translation>Umschalt und Rad</translation>
+    </message>
+    <message>
+        <source>the reach of a pull, the size of the ball</source>
+        <translation>Reichweite des Zugs, Größe der Kugel</translation>
+    </message>
+    <message>
+        <source>a handle, drag</source>
+        <translation>Griff ziehen</translation>
+    </message>
+    <message>
+        <source>move a measurement&apos;s point</source>
+        <translation>Punkt einer Messung verschieben</translation>
+    </message>
+    <message>
+        <source>2D views, centerline</source>
+        <translation>2D-Ansichten, Mittellinie</translation>
+    </message>
+    <message>
+        <source>double click</source>
+        <translation>Doppelklick</translation>
+    </message>
+    <message>
+        <source>another control point</source>
+        <translation>weiterer Stützpunkt</translation>
+    </message>
+    <message>
+        <source>key Delete</source>
+        <translation>Taste Entf</translation>
+    </message>
+    <message>
+        <source>the measurement or control point under the mouse goes</source>
+        <translation>die Messung oder der Stützpunkt unter der Maus wird gelöscht</translation>
+    </message>
+    <message>
+        <source>key Esc</source>
+        <translation>Taste Esc</translation>
+    </message>
+    <message>
+        <source>what is begun is dropped; then: browsing</source>
+        <translation>Begonnenes wird verworfen; dann: Betrachten</translation>
+    </message>
+    <message>
+        <source>keys Up, Down, Page</source>
+        <translation>Tasten Auf, Ab, Bild</translation>
+    </message>
+    <message>
+        <source>as the wheel, by one or ten steps</source>
+        <translation>wie das Rad, um einen oder zehn Schritte</translation>
+    </message>
+    <message>
+        <source>keys +, - and 0</source>
+        <translation>Tasten +, - und 0</translation>
+    </message>
+    <message>
+        <source>zoom, and all of it</source>
+        <translation>vergrößern, verkleinern, alles zeigen</translation>
+    </message>
+    <message>
+        <source>tree</source>
+        <translation>Baum</translation>
+    </message>
+    <message>
+        <source>left button, drag</source>
+        <translation>linke Taste, ziehen</translation>
+    </message>
+    <message>
+        <source>turn</source>
+        <translation>drehen</translation>
+    </message>
+    <message>
+        <source>middle button, or Shift, drag</source>
+        <translation>mittlere Taste oder Umschalt, ziehen</translation>
+    </message>
+    <message>
+        <source>move</source>
+        <translation>verschieben</translation>
+    </message>
+    <message>
+        <source>wheel, or right button, drag</source>
+        <translation>Rad, oder rechte Taste, ziehen</translation>
+    </message>
+    <message>
+        <source>click on a vessel</source>
+        <translation>Klick auf ein Gefäß</translation>
+    </message>
+    <message>
+        <source>this vessel, and the cursor goes there</source>
+        <translation>dieses Gefäß; der Cursor geht dorthin</translation>
+    </message>
+    <message>
+        <source>all of the tree</source>
+        <translation>der ganze Baum</translation>
+    </message>
+    <message>
+        <source>arrow keys, +, - and 0</source>
+        <translation>Pfeiltasten, +, - und 0</translation>
+    </message>
+    <message>
+        <source>turn, zoom, and all of it</source>
+        <translation>drehen, vergrößern, verkleinern, alles zeigen</translation>
+    </message>
+    <message>
+        <source>lumen profile</source>
+        <translation>Lumenprofil</translation>
+    </message>
+    <message>
+        <source>click, or drag</source>
+        <translation>klicken oder ziehen</translation>
+    </message>
+    <message>
+        <source>the cursor goes there</source>
+        <translation>der Cursor geht dorthin</translation>
+    </message>
+    <message>
+        <source>wheel, or keys Left and Right</source>
+        <translation>Rad, oder Tasten Links und Rechts</translation>
+    </message>
+    <message>
+        <source>panel&apos;s title</source>
+        <translation>Titel eines Feldes</translation>
+    </message>
+    <message>
+        <source>this panel alone, and back</source>
+        <translation>dieses Feld allein, und zurück</translation>
+    </message>
+    <message>
+        <source>vessel list</source>
+        <translation>Gefäßliste</translation>
+    </message>
+    <message>
+        <source>right click, or menu key</source>
+        <translation>Rechtsklick oder Menütaste</translation>
+    </message>
+    <message>
+        <source>rename, colour, cut off, delete, join</source>
+        <translation>umbenennen, Farbe, abschneiden, löschen, verbinden</translation>
+    </message>
+    <message>
+        <source>keys F2, Space, Delete</source>
+        <translation>Tasten F2, Leertaste, Entf</translation>
+    </message>
+    <message>
+        <source>another name, tick, delete</source>
+        <translation>anderer Name, Haken, löschen</translation>
+    </message>
+</context>
+<context>
+    <name>manual</name>
+    <message>
+        <source>Beginning</source>
+        <translation>Anfang</translation>
+    </message>
+    <message>
+        <source>From DICOM to a report</source>
+        <translation>Von DICOM zum Befund</translation>
+    </message>
+    <message>
+        <source>The window</source>
+        <translation>Das Fenster</translation>
+    </message>
+    <message>
+        <source>Editing the lumen</source>
+        <translation>Das Lumen bearbeiten</translation>
+    </message>
+    <message>
+        <source>Measuring</source>
+        <translation>Messen</translation>
+    </message>
+    <message>
+        <source>Report and export</source>
+        <translation>Befund und Export</translation>
+    </message>
+    <message>
+        <source>For researchers</source>
+        <translation>Für die Forschung</translation>
+    </message>
+    <message>
+        <source>Quality mode</source>
+        <translation>Qualitätsmodus</translation>
+    </message>
+    <message>
+        <source>Keys and mouse</source>
+        <translation>Tasten und Maus</translation>
+    </message>
+    <message>
+        <source>When something is wrong</source>
+        <translation>Wenn etwas nicht stimmt</translation>
+    </message>
+</context>
+<context>
+    <name>measures</name>
+    <message>
+        <source>distance</source>
+        <translation>Abstand</translation>
+    </message>
+    <message>
+        <source>angle</source>
+        <translation>Winkel</translation>
+    </message>
+    <message>
+        <source>area</source>
+        <translation>Fläche</translation>
+    </message>
+    <message>
+        <source>diameter</source>
+        <translation>Durchmesser</translation>
+    </message>
+    <message>
+        <source>stenosis</source>
+        <translation>Stenose</translation>
+    </message>
+    <message>
+        <source>volume</source>
+        <translation>Volumen</translation>
+    </message>
+    <message>
+        <source>ring_hu</source>
+        <translation>HU-Ring</translation>
+    </message>
+    <message>
+        <source>length</source>
+        <translation>Länge</translation>
+    </message>
+    <message>
+        <source>perimeter</source>
+        <translation>Umfang</translation>
+    </message>
+    <message>
+        <source>percent diameter</source>
+        <translation>Durchmesserstenose</translation>
+    </message>
+    <message>
+        <source>percent area</source>
+        <translation>Flächenstenose</translation>
+    </message>
+    <message>
+        <source>MLD</source>
+        <translation>MLD</translation>
+    </message>
+    <message>
+        <source>MLA</source>
+        <translation>MLA</translation>
+    </message>
+    <message>
+        <source>reference diameter</source>
+        <translation>Referenzdurchmesser</translation>
+    </message>
+    <message>
+        <source>reference area</source>
+        <translation>Referenzfläche</translation>
+    </message>
+    <message>
+        <source>mean area</source>
+        <translation>mittlere Fläche</translation>
+    </message>
+    <message>
+        <source>mean</source>
+        <translation>Mittelwert</translation>
+    </message>
+    <message>
+        <source>SD</source>
+        <translation>SD</translation>
+    </message>
+    <message>
+        <source>least</source>
+        <translation>kleinster Wert</translation>
+    </message>
+    <message>
+        <source>largest</source>
+        <translation>größter Wert</translation>
+    </message>
+    <message>
+        <source>samples</source>
+        <translation>Messwerte</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::AboutDialog</name>
+    <message>
+        <source>&lt;p&gt;It is built with Qt %1 (LGPL-3), VTK %2 (BSD-3), CGAL (GPL-3 and LGPL-3), TetGen (AGPL-3, in the worker), CHOLMOD (GPL-2 or later), GDCM (BSD-3, in the worker), SQLite (public domain), Eigen (MPL-2), TBB, Embree and OpenSSL (Apache-2.0), Cairo and Pango (LGPL-2.1), libzip (BSD-3), zlib, spdlog, fmt, nlohmann-json and nanoflann.&lt;/p&gt;</source>
+        <translation>&lt;p&gt;Gebaut mit Qt %1 (LGPL-3), VTK %2 (BSD-3), CGAL (GPL-3 und LGPL-3), TetGen (AGPL-3, im Hilfsprogramm), CHOLMOD (GPL-2 oder später), GDCM (BSD-3, im Hilfsprogramm), SQLite (gemeinfrei), Eigen (MPL-2), TBB, Embree und OpenSSL (Apache-2.0), Cairo und Pango (LGPL-2.1), libzip (BSD-3), zlib, spdlog, fmt, nlohmann-json und nanoflann.&lt;/p&gt;</translation>
+    </message>
+    <message>
+        <source>About Ostia</source>
+        <translation>Über Ostia</translation>
+    </message>
+    <message>
+        <source>&lt;h2&gt;Ostia %1&lt;/h2&gt;&lt;p&gt;The coronary modelling workstation.&lt;/p&gt;</source>
+        <translation>&lt;h2&gt;Ostia %1&lt;/h2&gt;&lt;p&gt;Der Arbeitsplatz für Modelle der Herzkranzgefäße.&lt;/p&gt;</translation>
+    </message>
+    <message>
+        <source>&lt;p&gt;&lt;b&gt;Research software, not a medical device.&lt;/b&gt; It has no approval of any authority. Nothing that it shows or measures may be the ground of a diagnosis or a treatment.&lt;/p&gt;</source>
+        <translation>&lt;p&gt;&lt;b&gt;Forschungssoftware, kein Medizinprodukt.&lt;/b&gt; Sie ist von keiner Behörde zugelassen. Nichts, was sie zeigt oder misst, darf Grundlage einer Diagnose oder Behandlung sein.&lt;/p&gt;</translation>
+    </message>
+    <message>
+        <source>&lt;p&gt;Ostia&apos;s own sources are under the Apache License 2.0. The program as it is built and handed on contains libraries under stricter licences and is as a whole under the GNU Affero General Public License 3 (AGPL-3): whoever gets it has a right to all of its sources.&lt;/p&gt;</source>
+        <translation>&lt;p&gt;Ostias eigene Quellen stehen unter der Apache-Lizenz 2.0. Das Programm, wie es gebaut und weitergegeben wird, enthält Bibliotheken unter strengeren Lizenzen und steht als Ganzes unter der GNU Affero General Public License 3 (AGPL-3): wer es bekommt, hat ein Recht auf alle seine Quellen.&lt;/p&gt;</translation>
+    </message>
+    <message>
+        <source>&lt;p&gt;The editing of the lumen follows Wels et al., which is the subject of the patent application EP 16170187.5; look into its state before commercial use. Details: docs/licences.md.&lt;/p&gt;</source>
+        <translation>&lt;p&gt;Das Bearbeiten des Lumens folgt Wels et al.; das Verfahren ist Gegenstand der Patentanmeldung EP 16170187.5. Prüfen Sie deren Stand vor gewerblicher Nutzung. Näheres: docs/licences.md.&lt;/p&gt;</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::Help</name>
+    <message>
+        <source>&amp;Preferences…</source>
+        <translation>&amp;Einstellungen…</translation>
+    </message>
+    <message>
+        <source>&amp;Help</source>
+        <translation>&amp;Hilfe</translation>
+    </message>
+    <message>
+        <source>&amp;Manual</source>
+        <translation>&amp;Handbuch</translation>
+    </message>
+    <message>
+        <source>&amp;Keys and mouse</source>
+        <translation>&amp;Tasten und Maus</translation>
+    </message>
+    <message>
+        <source>&amp;Tour</source>
+        <translation>&amp;Rundgang</translation>
+    </message>
+    <message>
+        <source>&amp;About Ostia</source>
+        <translation>Ü&amp;ber Ostia</translation>
+    </message>
+    <message>
+        <source>Smaller ball, shorter reach</source>
+        <translation>Kleinere Kugel, kürzere Reichweite</translation>
+    </message>
+    <message>
+        <source>Larger ball, longer reach</source>
+        <translation>Größere Kugel, längere Reichweite</translation>
+    </message>
+    <message>
+        <source>Mouse by keys</source>
+        <translation>Maus mit Tasten</translation>
+    </message>
+    <message>
+        <source>Pointer to the left</source>
+        <translation>Zeiger nach links</translation>
+    </message>
+    <message>
+        <source>Pointer to the right</source>
+        <translation>Zeiger nach rechts</translation>
+    </message>
+    <message>
+        <source>Pointer up</source>
+        <translation>Zeiger nach oben</translation>
+    </message>
+    <message>
+        <source>Pointer down</source>
+        <translation>Zeiger nach unten</translation>
+    </message>
+    <message>
+        <source>Press or let go</source>
+        <translation>Drücken oder loslassen</translation>
+    </message>
+    <message>
+        <source>Go to</source>
+        <translation>Gehe zu</translation>
+    </message>
+    <message>
+        <source>Beginning of the vessel</source>
+        <translation>Anfang des Gefäßes</translation>
+    </message>
+    <message>
+        <source>End of the vessel</source>
+        <translation>Ende des Gefäßes</translation>
+    </message>
+    <message>
+        <source>Next stenosis</source>
+        <translation>Nächste Stenose</translation>
+    </message>
+    <message>
+        <source>Previous stenosis</source>
+        <translation>Vorige Stenose</translation>
+    </message>
+    <message>
+        <source>Thinner slab</source>
+        <translation>Dünnere Schicht</translation>
+    </message>
+    <message>
+        <source>Thicker slab</source>
+        <translation>Dickere Schicht</translation>
+    </message>
+    <message>
+        <source>Panels</source>
+        <translation>Felder</translation>
+    </message>
+    <message>
+        <source>Next panel</source>
+        <translation>Nächstes Feld</translation>
+    </message>
+    <message>
+        <source>Previous panel</source>
+        <translation>Voriges Feld</translation>
+    </message>
+    <message>
+        <source>This panel alone</source>
+        <translation>Dieses Feld allein</translation>
+    </message>
+    <message>
+        <source>Vessels</source>
+        <translation>Gefäße</translation>
+    </message>
+    <message>
+        <source>CPR</source>
+        <translation>CPR</translation>
+    </message>
+    <message>
+        <source>CPR + 90°</source>
+        <translation>CPR + 90°</translation>
+    </message>
+    <message>
+        <source>Cross-section</source>
+        <translation>Querschnitt</translation>
+    </message>
+    <message>
+        <source>Slice</source>
+        <translation>Schichtbild</translation>
+    </message>
+    <message>
+        <source>Coronary tree</source>
+        <translation>Koronarbaum</translation>
+    </message>
+    <message>
+        <source>Lumen profile</source>
+        <translation>Lumenprofil</translation>
+    </message>
+    <message>
+        <source>Measurements</source>
+        <translation>Messungen</translation>
+    </message>
+    <message>
+        <source>Steps</source>
+        <translation>Schritte</translation>
+    </message>
+    <message>
+        <source>No other stenosis in this direction.</source>
+        <translation>Keine weitere Stenose in dieser Richtung.</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::Jobs</name>
+    <message>
+        <source>%1 s left</source>
+        <translation>noch %1 s</translation>
+    </message>
+    <message>
+        <source>%1 min left</source>
+        <translation>noch %1 min</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Abbrechen</translation>
+    </message>
+    <message>
+        <source>Cancel %1</source>
+        <translation>%1 abbrechen</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::MainWindow</name>
+    <message>
+        <source>There is not enough memory for this. The case is unchanged.</source>
+        <translation>Dafür reicht der Arbeitsspeicher nicht. Der Fall ist unverändert.</translation>
+    </message>
+    <message>
+        <source>CPR</source>
+        <translation>CPR</translation>
+    </message>
+    <message>
+        <source>CPR + 90°</source>
+        <translation>CPR + 90°</translation>
+    </message>
+    <message>
+        <source>Cross-section</source>
+        <translation>Querschnitt</translation>
+    </message>
+    <message>
+        <source>Neighbours, every %1 mm</source>
+        <translation>Nachbarn, alle %1 mm</translation>
+    </message>
+    <message>
+        <source>Slice</source>
+        <translation>Schichtbild</translation>
+    </message>
+    <message>
+        <source>Axial</source>
+        <translation>Axial</translation>
+    </message>
+    <message>
+        <source>Coronal</source>
+        <translation>Koronar</translation>
+    </message>
+    <message>
+        <source>Sagittal</source>
+        <translation>Sagittal</translation>
+    </message>
+    <message>
+        <source>Oblique</source>
+        <translation>Schräg</translation>
+    </message>
+    <message>
+        <source>Oblique: Shift and drag turns it</source>
+        <translation>Schräg: Umschalt und Ziehen dreht</translation>
+    </message>
+    <message>
+        <source>Orientation of the slice</source>
+        <translation>Ausrichtung der Schicht</translation>
+    </message>
+    <message>
+        <source>Preparing the heart</source>
+        <translation>Herz wird vorbereitet</translation>
+    </message>
+    <message>
+        <source>Coronary tree</source>
+        <translation>Koronarbaum</translation>
+    </message>
+    <message>
+        <source>Tree alone</source>
+        <translation>Nur der Baum</translation>
+    </message>
+    <message>
+        <source>With the heart</source>
+        <translation>Mit dem Herzen</translation>
+    </message>
+    <message>
+        <source>With a MIP</source>
+        <translation>Mit einer MIP</translation>
+    </message>
+    <message>
+        <source>What is behind the tree</source>
+        <translation>Was hinter dem Baum zu sehen ist</translation>
+    </message>
+    <message>
+        <source>Vessels</source>
+        <translation>Gefäße</translation>
+    </message>
+    <message>
+        <source>Measurements</source>
+        <translation>Messungen</translation>
+    </message>
+    <message>
+        <source>Steps</source>
+        <translation>Schritte</translation>
+    </message>
+    <message>
+        <source>Lumen profile</source>
+        <translation>Lumenprofil</translation>
+    </message>
+    <message>
+        <source>&amp;File</source>
+        <translation>&amp;Datei</translation>
+    </message>
+    <message>
+        <source>&amp;Open a case or image…</source>
+        <translation>Fall oder Bild ö&amp;ffnen…</translation>
+    </message>
+    <message>
+        <source>Open a DICOM &amp;folder…</source>
+        <translation>DICOM-&amp;Ordner öffnen…</translation>
+    </message>
+    <message>
+        <source>&amp;Recent cases</source>
+        <translation>&amp;Letzte Fälle</translation>
+    </message>
+    <message>
+        <source>The &amp;sample case</source>
+        <translation>&amp;Beispielfall</translation>
+    </message>
+    <message>
+        <source>Save the case &amp;as…</source>
+        <translation>Fall &amp;speichern als…</translation>
+    </message>
+    <message>
+        <source>&amp;Close the case</source>
+        <translation>Fall s&amp;chließen</translation>
+    </message>
+    <message>
+        <source>&amp;Quit</source>
+        <translation>&amp;Beenden</translation>
+    </message>
+    <message>
+        <source>&amp;Edit</source>
+        <translation>&amp;Bearbeiten</translation>
+    </message>
+    <message>
+        <source>&amp;Undo</source>
+        <translation>&amp;Rückgängig</translation>
+    </message>
+    <message>
+        <source>&amp;Redo</source>
+        <translation>&amp;Wiederholen</translation>
+    </message>
+    <message>
+        <source>&amp;Tools</source>
+        <translation>&amp;Werkzeuge</translation>
+    </message>
+    <message>
+        <source>&amp;View</source>
+        <translation>&amp;Ansicht</translation>
+    </message>
+    <message>
+        <source>Turn the CPRs left</source>
+        <translation>CPRs nach links drehen</translation>
+    </message>
+    <message>
+        <source>Turn the CPRs right</source>
+        <translation>CPRs nach rechts drehen</translation>
+    </message>
+    <message>
+        <source>To proximal</source>
+        <translation>Nach proximal</translation>
+    </message>
+    <message>
+        <source>To distal</source>
+        <translation>Nach distal</translation>
+    </message>
+    <message>
+        <source>Next vessel</source>
+        <translation>Nächstes Gefäß</translation>
+    </message>
+    <message>
+        <source>Previous vessel</source>
+        <translation>Voriges Gefäß</translation>
+    </message>
+    <message>
+        <source>Stretched CPR</source>
+        <translation>Gestreckte CPR</translation>
+    </message>
+    <message>
+        <source>Slab: maximum</source>
+        <translation>Schicht: Maximum</translation>
+    </message>
+    <message>
+        <source>Slab: mean</source>
+        <translation>Schicht: Mittelwert</translation>
+    </message>
+    <message>
+        <source>Contours</source>
+        <translation>Konturen</translation>
+    </message>
+    <message>
+        <source>Fit all views</source>
+        <translation>Alle Ansichten einpassen</translation>
+    </message>
+    <message>
+        <source>Window: %1</source>
+        <translation>Fensterung: %1</translation>
+    </message>
+    <message>
+        <source>Look at the tree from</source>
+        <translation>Den Baum ansehen von</translation>
+    </message>
+    <message>
+        <source>the front</source>
+        <translation>vorn</translation>
+    </message>
+    <message>
+        <source>the left</source>
+        <translation>links</translation>
+    </message>
+    <message>
+        <source>the right</source>
+        <translation>rechts</translation>
+    </message>
+    <message>
+        <source>above</source>
+        <translation>oben</translation>
+    </message>
+    <message>
+        <source>caudal</source>
+        <translation>kaudal</translation>
+    </message>
+    <message>
+        <source>cranial</source>
+        <translation>kranial</translation>
+    </message>
+    <message>
+        <source>broadside of the vessel</source>
+        <translation>der Breitseite des Gefäßes</translation>
+    </message>
+    <message>
+        <source>Light or dark</source>
+        <translation>Hell oder dunkel</translation>
+    </message>
+    <message>
+        <source>Tools</source>
+        <translation>Werkzeuge</translation>
+    </message>
+    <message>
+        <source>Options</source>
+        <translation>Optionen</translation>
+    </message>
+    <message>
+        <source> mm</source>
+        <translation> mm</translation>
+    </message>
+    <message>
+        <source>Reach</source>
+        <translation>Reichweite</translation>
+    </message>
+    <message>
+        <source>How far along the vessel a pull reaches</source>
+        <translation>Wie weit ein Zug entlang des Gefäßes reicht</translation>
+    </message>
+    <message>
+        <source>Ball</source>
+        <translation>Kugel</translation>
+    </message>
+    <message>
+        <source>Radius of the brush</source>
+        <translation>Radius des Pinsels</translation>
+    </message>
+    <message>
+        <source>Slab</source>
+        <translation>Schicht</translation>
+    </message>
+    <message>
+        <source>Thickness of the slab in 2D views, where one is shown</source>
+        <translation>Dicke der Schicht in den 2D-Ansichten, wo eine gezeigt wird</translation>
+    </message>
+    <message>
+        <source>none yet</source>
+        <translation>noch keine</translation>
+    </message>
+    <message>
+        <source>A vessel is found in the image: open the image of this case first.</source>
+        <translation>Ein Gefäß wird im Bild gesucht: öffnen Sie zuerst das Bild dieses Falls.</translation>
+    </message>
+    <message>
+        <source>No vessel found</source>
+        <translation>Kein Gefäß gefunden</translation>
+    </message>
+    <message>
+        <source>Way back to the tree</source>
+        <translation>Weg zurück zum Baum</translation>
+    </message>
+    <message>
+        <source>Now click the distal end of this vessel.</source>
+        <translation>Klicken Sie nun auf das distale Ende dieses Gefäßes.</translation>
+    </message>
+    <message>
+        <source>First vessel</source>
+        <translation>Erstes Gefäß</translation>
+    </message>
+    <message>
+        <source>&amp;QA mode</source>
+        <translation>&amp;Qualitätsmodus</translation>
+    </message>
+    <message>
+        <source>&amp;Report (PDF, HTML, tables)</source>
+        <translation>&amp;Befund (PDF, HTML, Tabellen)</translation>
+    </message>
+    <message>
+        <source>&amp;Pin this view to the report</source>
+        <translation>Diese Ansicht an den Befund an&amp;heften</translation>
+    </message>
+    <message>
+        <source>&amp;Export</source>
+        <translation>&amp;Exportieren</translation>
+    </message>
+    <message>
+        <source>The &amp;wall…</source>
+        <translation>Die &amp;Wand…</translation>
+    </message>
+    <message>
+        <source>The &amp;centerlines…</source>
+        <translation>Die &amp;Mittellinien…</translation>
+    </message>
+    <message>
+        <source>Click into the view to be pinned first.</source>
+        <translation>Klicken Sie zuerst in die Ansicht, die angeheftet werden soll.</translation>
+    </message>
+    <message>
+        <source>The truth cannot be opened</source>
+        <translation>Die Wahrheit lässt sich nicht öffnen</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::ManualDialog</name>
+    <message>
+        <source>Manual</source>
+        <translation>Handbuch</translation>
+    </message>
+    <message>
+        <source>Contents</source>
+        <translation>Inhalt</translation>
+    </message>
+    <message>
+        <source>The manual&apos;s pages</source>
+        <translation>Die Seiten des Handbuchs</translation>
+    </message>
+    <message>
+        <source>Page of the manual</source>
+        <translation>Seite des Handbuchs</translation>
+    </message>
+    <message>
+        <source>Back</source>
+        <translation>Zurück</translation>
+    </message>
+    <message>
+        <source>The page before</source>
+        <translation>Die Seite davor</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::MeasurementList</name>
+    <message>
+        <source>Measurements</source>
+        <translation>Messungen</translation>
+    </message>
+    <message>
+        <source>Measurement</source>
+        <translation>Messung</translation>
+    </message>
+    <message>
+        <source>Value</source>
+        <translation>Wert</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::Opening</name>
+    <message>
+        <source>Open</source>
+        <translation>Öffnen</translation>
+    </message>
+    <message>
+        <source>Cases and images (*.ostia *.nrrd *.mhd *.mha *.nii *.nii.gz *.dcm *.zip);;All files (*)</source>
+        <translation>Fälle und Bilder (*.ostia *.nrrd *.mhd *.mha *.nii *.nii.gz *.dcm *.zip);;Alle Dateien (*)</translation>
+    </message>
+    <message>
+        <source>Open a folder of DICOM files</source>
+        <translation>Ordner mit DICOM-Dateien öffnen</translation>
+    </message>
+    <message>
+        <source>There is no file or folder %1.</source>
+        <translation>Es gibt keine Datei und keinen Ordner %1.</translation>
+    </message>
+    <message>
+        <source>Sample case</source>
+        <translation>Beispielfall</translation>
+    </message>
+    <message>
+        <source>Opening the case</source>
+        <translation>Fall wird geöffnet</translation>
+    </message>
+    <message>
+        <source>The case cannot be opened</source>
+        <translation>Der Fall lässt sich nicht öffnen</translation>
+    </message>
+    <message>
+        <source>The image of this case</source>
+        <translation>Das Bild dieses Falls</translation>
+    </message>
+    <message>
+        <source>The image that this case was made on (%1) is not where it was, or has never been opened on this computer. The case can be looked at without it.</source>
+        <translation>Das Bild, an dem dieser Fall entstand (%1), liegt nicht mehr dort, wo es war, oder wurde auf diesem Rechner noch nie geöffnet. Der Fall kann ohne Bild betrachtet werden.</translation>
+    </message>
+    <message>
+        <source>Find the file…</source>
+        <translation>Datei suchen…</translation>
+    </message>
+    <message>
+        <source>Find the DICOM folder…</source>
+        <translation>DICOM-Ordner suchen…</translation>
+    </message>
+    <message>
+        <source>Go on without</source>
+        <translation>Ohne Bild weiter</translation>
+    </message>
+    <message>
+        <source>Looking for series</source>
+        <translation>Serien werden gesucht</translation>
+    </message>
+    <message>
+        <source>This cannot be opened</source>
+        <translation>Das lässt sich nicht öffnen</translation>
+    </message>
+    <message>
+        <source>Reading the image</source>
+        <translation>Bild wird gelesen</translation>
+    </message>
+    <message>
+        <source>The image cannot be opened</source>
+        <translation>Das Bild lässt sich nicht öffnen</translation>
+    </message>
+    <message>
+        <source>Save the case as</source>
+        <translation>Fall speichern als</translation>
+    </message>
+    <message>
+        <source>Cases (*.ostia)</source>
+        <translation>Fälle (*.ostia)</translation>
+    </message>
+    <message>
+        <source>The program ended without closing this case; it is opened where it was.</source>
+        <translation>Das Programm endete, ohne diesen Fall zu schließen; er wird geöffnet, wo er war.</translation>
+    </message>
+    <message>
+        <source>First slice</source>
+        <translation>Erste Schicht</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::Panel</name>
+    <message>
+        <source>Double click: this view alone, and back</source>
+        <translation>Doppelklick: diese Ansicht allein, und zurück</translation>
+    </message>
+    <message>
+        <source>This view alone, and back</source>
+        <translation>Diese Ansicht allein, und zurück</translation>
+    </message>
+    <message>
+        <source>Maximise %1</source>
+        <translation>%1 maximieren</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::PictureWidget</name>
+    <message>
+        <source>outside the image</source>
+        <translation>außerhalb des Bildes</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::PreferencesDialog</name>
+    <message>
+        <source>Preferences</source>
+        <translation>Einstellungen</translation>
+    </message>
+    <message>
+        <source>General</source>
+        <translation>Allgemein</translation>
+    </message>
+    <message>
+        <source>Keys</source>
+        <translation>Tasten</translation>
+    </message>
+    <message>
+        <source>Dark</source>
+        <translation>Dunkel</translation>
+    </message>
+    <message>
+        <source>Light</source>
+        <translation>Hell</translation>
+    </message>
+    <message>
+        <source>Images are dark in both</source>
+        <translation>Bilder sind in beiden dunkel</translation>
+    </message>
+    <message>
+        <source>Theme</source>
+        <translation>Farben</translation>
+    </message>
+    <message>
+        <source>As the system has it</source>
+        <translation>Wie im System</translation>
+    </message>
+    <message>
+        <source>Another language is used from the next start on. Numbers keep the decimal point in every language, as in reports and files.</source>
+        <translation>Eine andere Sprache gilt ab dem nächsten Start. Zahlen behalten in jeder Sprache den Dezimalpunkt, wie in Befunden und Dateien.</translation>
+    </message>
+    <message>
+        <source>Language</source>
+        <translation>Sprache</translation>
+    </message>
+    <message>
+        <source>As on a PACS station</source>
+        <translation>Wie am PACS-Arbeitsplatz</translation>
+    </message>
+    <message>
+        <source>As in research software</source>
+        <translation>Wie in Forschungsprogrammen</translation>
+    </message>
+    <message>
+        <source>Choosing one gives all commands its keys</source>
+        <translation>Die Wahl gibt allen Befehlen die Tasten des Schemas</translation>
+    </message>
+    <message>
+        <source>Scheme</source>
+        <translation>Schema</translation>
+    </message>
+    <message>
+        <source>Commands and their keys</source>
+        <translation>Befehle und ihre Tasten</translation>
+    </message>
+    <message>
+        <source>Command</source>
+        <translation>Befehl</translation>
+    </message>
+    <message>
+        <source>New keys</source>
+        <translation>Neue Tasten</translation>
+    </message>
+    <message>
+        <source>Click here and press the keys for the selected command</source>
+        <translation>Hier klicken und die Tasten für den gewählten Befehl drücken</translation>
+    </message>
+    <message>
+        <source>No key</source>
+        <translation>Keine Taste</translation>
+    </message>
+    <message>
+        <source>The command is then in menus alone</source>
+        <translation>Der Befehl steht dann nur in Menüs</translation>
+    </message>
+    <message>
+        <source>As in the scheme</source>
+        <translation>Wie im Schema</translation>
+    </message>
+    <message>
+        <source>All as in the scheme</source>
+        <translation>Alle wie im Schema</translation>
+    </message>
+    <message>
+        <source>New keys:</source>
+        <translation>Neue Tasten:</translation>
+    </message>
+    <message>
+        <source>Choose a command in the list first.</source>
+        <translation>Wählen Sie zuerst einen Befehl in der Liste.</translation>
+    </message>
+    <message>
+        <source>%1 belongs to &quot;%2&quot;. Choose another key, or take it from that command first.</source>
+        <translation>%1 gehört zu „%2“. Wählen Sie eine andere Taste oder nehmen Sie sie zuerst jenem Befehl weg.</translation>
+    </message>
+    <message>
+        <source>%1 moves through views and lists and can run no command. Choose another key.</source>
+        <translation>%1 bewegt durch Ansichten und Listen und kann keinen Befehl auslösen. Wählen Sie eine andere Taste.</translation>
+    </message>
+    <message>
+        <source>Another command has been given this command&apos;s key.</source>
+        <translation>Ein anderer Befehl hat die Taste dieses Befehls bekommen.</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::ProfileWidget</name>
+    <message>
+        <source>Lumen profile</source>
+        <translation>Lumenprofil</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::QaPanel</name>
+    <message>
+        <source>no annotated section</source>
+        <translation>kein annotierter Abschnitt</translation>
+    </message>
+    <message>
+        <source>MSD %1 mm, maximum %2 mm, Dice %3, %4 mm annotated</source>
+        <translation>MSD %1 mm, Maximum %2 mm, Dice %3, %4 mm annotiert</translation>
+    </message>
+    <message>
+        <source>, %1 mm of it without a wall</source>
+        <translation>, davon %1 mm ohne Wand</translation>
+    </message>
+    <message>
+        <source>QA</source>
+        <translation>QA</translation>
+    </message>
+    <message>
+        <source>Open truth…</source>
+        <translation>Wahrheit öffnen…</translation>
+    </message>
+    <message>
+        <source>Contours that the case is held against</source>
+        <translation>Konturen, gegen die der Fall gehalten wird</translation>
+    </message>
+    <message>
+        <source>Observer</source>
+        <translation>Beobachter</translation>
+    </message>
+    <message>
+        <source>Whose contours are the truth</source>
+        <translation>Wessen Konturen die Wahrheit sind</translation>
+    </message>
+    <message>
+        <source>Truth over the pictures</source>
+        <translation>Wahrheit über den Bildern</translation>
+    </message>
+    <message>
+        <source>Tree coloured by its error</source>
+        <translation>Baum nach Fehler gefärbt</translation>
+    </message>
+    <message>
+        <source>Annotated sections</source>
+        <translation>Annotierte Abschnitte</translation>
+    </message>
+    <message>
+        <source>Section</source>
+        <translation>Abschnitt</translation>
+    </message>
+    <message>
+        <source>Vessel</source>
+        <translation>Gefäß</translation>
+    </message>
+    <message>
+        <source>MSD</source>
+        <translation>MSD</translation>
+    </message>
+    <message>
+        <source>Max.</source>
+        <translation>Max.</translation>
+    </message>
+    <message>
+        <source>Δ area</source>
+        <translation>Δ Fläche</translation>
+    </message>
+    <message>
+        <source>Dice</source>
+        <translation>Dice</translation>
+    </message>
+    <message>
+        <source>Mean distance of the surfaces, mm</source>
+        <translation>Mittlerer Abstand der Oberflächen, mm</translation>
+    </message>
+    <message>
+        <source>Largest distance of the surfaces, mm</source>
+        <translation>Größter Abstand der Oberflächen, mm</translation>
+    </message>
+    <message>
+        <source>Mean difference of the areas, case - truth, mm²</source>
+        <translation>Mittlere Differenz der Flächen, Fall - Wahrheit, mm²</translation>
+    </message>
+    <message>
+        <source>Next worst section</source>
+        <translation>Nächstschlechter Abschnitt</translation>
+    </message>
+    <message>
+        <source>To the worst place of the section that is farthest off</source>
+        <translation>Zur schlechtesten Stelle des Abschnitts, der am weitesten abweicht</translation>
+    </message>
+    <message>
+        <source>Time at work: it stops when nothing was done for a minute</source>
+        <translation>Arbeitszeit: sie steht still, wenn eine Minute lang nichts getan wurde</translation>
+    </message>
+    <message>
+        <source>Pause</source>
+        <translation>Pause</translation>
+    </message>
+    <message>
+        <source>Stop or go on counting</source>
+        <translation>Anhalten oder weiterzählen</translation>
+    </message>
+    <message>
+        <source>Zero</source>
+        <translation>Null</translation>
+    </message>
+    <message>
+        <source>Count from zero</source>
+        <translation>Von null an zählen</translation>
+    </message>
+    <message>
+        <source>Record…</source>
+        <translation>Aufzeichnen…</translation>
+    </message>
+    <message>
+        <source>Write down what the hand does in the views</source>
+        <translation>Aufschreiben, was die Hand in den Ansichten tut</translation>
+    </message>
+    <message>
+        <source>Replay…</source>
+        <translation>Abspielen…</translation>
+    </message>
+    <message>
+        <source>Do again what was recorded, on the same case</source>
+        <translation>Das Aufgezeichnete am selben Fall wiederholen</translation>
+    </message>
+    <message>
+        <source>Speed of a replay</source>
+        <translation>Geschwindigkeit des Abspielens</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Abbrechen</translation>
+    </message>
+    <message>
+        <source>End the replay here</source>
+        <translation>Das Abspielen hier beenden</translation>
+    </message>
+    <message>
+        <source>Contours</source>
+        <translation>Konturen</translation>
+    </message>
+    <message>
+        <source>Contours (*.json)</source>
+        <translation>Konturen (*.json)</translation>
+    </message>
+    <message>
+        <source>%1: not in this case</source>
+        <translation>%1: nicht in diesem Fall</translation>
+    </message>
+    <message>
+        <source>No truth is open.</source>
+        <translation>Es ist keine Wahrheit geöffnet.</translation>
+    </message>
+    <message>
+        <source>&lt;b&gt;%1&lt;/b&gt;: %2</source>
+        <translation>&lt;b&gt;%1&lt;/b&gt;: %2</translation>
+    </message>
+    <message>
+        <source>&lt;b&gt;Case&lt;/b&gt;: %1</source>
+        <translation>&lt;b&gt;Fall&lt;/b&gt;: %1</translation>
+    </message>
+    <message>
+        <source>  (idle)</source>
+        <translation>  (ruht)</translation>
+    </message>
+    <message>
+        <source>At work %1</source>
+        <translation>Arbeitszeit %1</translation>
+    </message>
+    <message>
+        <source>Go on</source>
+        <translation>Weiter</translation>
+    </message>
+    <message>
+        <source>Stop recording</source>
+        <translation>Aufzeichnen beenden</translation>
+    </message>
+    <message>
+        <source>from the truth, mm</source>
+        <translation>von der Wahrheit, mm</translation>
+    </message>
+    <message>
+        <source>Recording: what the hand does in the views is written down.</source>
+        <translation>Aufzeichnung läuft: was die Hand in den Ansichten tut, wird aufgeschrieben.</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n movement(s) were recorded.</source>
+        <translation>
+            <numerusform>%n Bewegung wurde aufgezeichnet.</numerusform>
+            <numerusform>%n Bewegungen wurden aufgezeichnet.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Record to</source>
+        <translation>Aufzeichnen nach</translation>
+    </message>
+    <message>
+        <source>Recordings (*.jsonl)</source>
+        <translation>Aufzeichnungen (*.jsonl)</translation>
+    </message>
+    <message>
+        <source>Replay</source>
+        <translation>Abspielen</translation>
+    </message>
+    <message>
+        <source>The replay has ended. The recording does not say what the model was at its end.</source>
+        <translation>Das Abspielen ist beendet. Die Aufzeichnung sagt nicht, wie das Modell am Ende war.</translation>
+    </message>
+    <message>
+        <source>The replay has ended: the model is what it was when it was recorded.</source>
+        <translation>Das Abspielen ist beendet: das Modell ist so, wie es bei der Aufzeichnung war.</translation>
+    </message>
+    <message>
+        <source>The replay has ended, but the model is not what it was when it was recorded.</source>
+        <translation>Das Abspielen ist beendet, aber das Modell ist nicht so, wie es bei der Aufzeichnung war.</translation>
+    </message>
+    <message>
+        <source>The replay was ended after %1 of %2 movements.</source>
+        <translation>Das Abspielen wurde nach %1 von %2 Bewegungen beendet.</translation>
+    </message>
+    <message>
+        <source>Reading the truth</source>
+        <translation>Wahrheit wird gelesen</translation>
+    </message>
+    <message>
+        <source>Replay as fast as recorded</source>
+        <translation>So schnell abspielen wie aufgezeichnet</translation>
+    </message>
+    <message>
+        <source>Replay at full speed</source>
+        <translation>So schnell wie möglich abspielen</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::Reporting</name>
+    <message>
+        <source>Report</source>
+        <translation>Befund</translation>
+    </message>
+    <message>
+        <source>The report could not be made</source>
+        <translation>Der Befund konnte nicht erstellt werden</translation>
+    </message>
+    <message>
+        <source>The report is in %1.</source>
+        <translation>Der Befund liegt in %1.</translation>
+    </message>
+    <message>
+        <source>Open the PDF</source>
+        <translation>PDF öffnen</translation>
+    </message>
+    <message>
+        <source>Open the HTML</source>
+        <translation>HTML öffnen</translation>
+    </message>
+    <message>
+        <source>Pinned by the reader: %1</source>
+        <translation>Vom Befunder angeheftet: %1</translation>
+    </message>
+    <message>
+        <source>This view will be key image %1 of the next report.</source>
+        <translation>Diese Ansicht wird Schlüsselbild %1 des nächsten Befunds.</translation>
+    </message>
+    <message>
+        <source>Export the wall</source>
+        <translation>Wand exportieren</translation>
+    </message>
+    <message>
+        <source>Surfaces (*.vtp *.stl *.ply *.obj)</source>
+        <translation>Oberflächen (*.vtp *.stl *.ply *.obj)</translation>
+    </message>
+    <message>
+        <source>Export of the wall</source>
+        <translation>Export der Wand</translation>
+    </message>
+    <message>
+        <source>The wall is in %1.</source>
+        <translation>Die Wand liegt in %1.</translation>
+    </message>
+    <message>
+        <source>The wall could not be exported</source>
+        <translation>Die Wand konnte nicht exportiert werden</translation>
+    </message>
+    <message>
+        <source>Export the centerlines</source>
+        <translation>Mittellinien exportieren</translation>
+    </message>
+    <message>
+        <source>Centerlines (*.vtp)</source>
+        <translation>Mittellinien (*.vtp)</translation>
+    </message>
+    <message>
+        <source>The centerlines are in %1.</source>
+        <translation>Die Mittellinien liegen in %1.</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::SceneWidget</name>
+    <message>
+        <source>Coronary tree</source>
+        <translation>Koronarbaum</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::SeriesBrowser</name>
+    <message>
+        <source>Series in this folder</source>
+        <translation>Serien in diesem Ordner</translation>
+    </message>
+    <message>
+        <source>Series</source>
+        <translation>Serie</translation>
+    </message>
+    <message>
+        <source>Slices</source>
+        <translation>Schichten</translation>
+    </message>
+    <message>
+        <source>Voxel, mm</source>
+        <translation>Voxel, mm</translation>
+    </message>
+    <message>
+        <source>Notes</source>
+        <translation>Hinweise</translation>
+    </message>
+    <message>
+        <source>Uneven slices</source>
+        <translation>Ungleichmäßige Schichten</translation>
+    </message>
+    <message>
+        <source>Slices are missing or unevenly spaced in this series. What lies between them can be interpolated; lumina there are not measured but guessed. Go on?</source>
+        <translation>In dieser Serie fehlen Schichten, oder ihre Abstände sind ungleich. Was dazwischen liegt, kann interpoliert werden; Lumina sind dort nicht gemessen, sondern geraten. Fortfahren?</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n damaged file(s)</source>
+        <translation>
+            <numerusform>%n beschädigte Datei</numerusform>
+            <numerusform>%n beschädigte Dateien</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n file(s) that are no images</source>
+        <translation>
+            <numerusform>%n Datei, die kein Bild ist</numerusform>
+            <numerusform>%n Dateien, die keine Bilder sind</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Left out: %1</source>
+        <translation>Ausgelassen: %1</translation>
+    </message>
+    <message>
+        <source>Pictures of the series</source>
+        <translation>Bilder der Serien</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::ShortcutsPage</name>
+    <message>
+        <source>Keys and mouse</source>
+        <translation>Tasten und Maus</translation>
+    </message>
+    <message>
+        <source>Search: a word, or a key</source>
+        <translation>Suchen: ein Wort oder eine Taste</translation>
+    </message>
+    <message>
+        <source>Search</source>
+        <translation>Suchen</translation>
+    </message>
+    <message>
+        <source>Only lines with all of these words stay</source>
+        <translation>Nur Zeilen mit allen diesen Wörtern bleiben</translation>
+    </message>
+    <message>
+        <source>Command</source>
+        <translation>Befehl</translation>
+    </message>
+    <message>
+        <source>Keys</source>
+        <translation>Tasten</translation>
+    </message>
+    <message>
+        <source>What it does</source>
+        <translation>Was er tut</translation>
+    </message>
+    <message>
+        <source>Keys and mouse gestures</source>
+        <translation>Tasten und Mausgesten</translation>
+    </message>
+    <message>
+        <source>Mouse and keys in the views</source>
+        <translation>Maus und Tasten in den Ansichten</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::StepList</name>
+    <message>
+        <source>Steps</source>
+        <translation>Schritte</translation>
+    </message>
+    <message>
+        <source>Click: go back or forth to this step</source>
+        <translation>Klick: zu diesem Schritt zurück oder vor</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::Tour</name>
+    <message>
+        <source>no key</source>
+        <translation>keine Taste</translation>
+    </message>
+    <message>
+        <source>Welcome</source>
+        <translation>Willkommen</translation>
+    </message>
+    <message>
+        <source>Ostia turns a CT angiogram into a corrected model of the coronary arteries. Drop a DICOM folder, an image or a case on the window, or use File. File &gt; The sample case opens a computed patient to try everything on.</source>
+        <translation>Ostia macht aus einer CT-Angiographie ein korrigiertes Modell der Koronararterien. Ziehen Sie einen DICOM-Ordner, ein Bild oder einen Fall auf das Fenster, oder nehmen Sie das Menü Datei. Datei &gt; Beispielfall öffnet einen berechneten Patienten, an dem man alles ausprobieren kann.</translation>
+    </message>
+    <message>
+        <source>The vessels</source>
+        <translation>Die Gefäße</translation>
+    </message>
+    <message>
+        <source>Every artery with its segments, its length, and its largest narrowing. Click one, and all views show it; %1 goes to the next. Tick Done when you have gone through it. A right click renames, cuts, joins or deletes.</source>
+        <translation>Jede Arterie mit ihren Segmenten, ihrer Länge und ihrer stärksten Einengung. Ein Klick zeigt sie in allen Ansichten; %1 geht zur nächsten. Haken Sie sie ab, wenn Sie sie durchgesehen haben. Ein Rechtsklick benennt um, schneidet, verbindet oder löscht.</translation>
+    </message>
+    <message>
+        <source>Two CPRs</source>
+        <translation>Zwei CPRs</translation>
+    </message>
+    <message>
+        <source>The selected artery laid straight, seen from two sides 90 degrees apart; its ostium is at the top. Shift and drag turns both, and so do %1 and %2. The wheel goes along the vessel, Ctrl and wheel zooms, the right button sets the grey levels.</source>
+        <translation>Die gewählte Arterie, gerade gelegt, von zwei Seiten im Abstand von 90 Grad; das Ostium ist oben. Umschalt und Ziehen dreht beide, ebenso %1 und %2. Das Rad geht am Gefäß entlang, Strg und Rad vergrößert, die rechte Taste stellt die Graustufen ein.</translation>
+    </message>
+    <message>
+        <source>The section</source>
+        <translation>Der Querschnitt</translation>
+    </message>
+    <message>
+        <source>The cut across the artery at the cursor, with its area and diameters. Below are its neighbours, and a slice of the patient.</source>
+        <translation>Der Schnitt quer zur Arterie am Cursor, mit Fläche und Durchmessern. Darunter liegen seine Nachbarn und ein Schichtbild des Patienten.</translation>
+    </message>
+    <message>
+        <source>The tree</source>
+        <translation>Der Baum</translation>
+    </message>
+    <message>
+        <source>The lumen in three dimensions. Drag turns it, a click on a vessel goes there. The list in its title shows the heart behind it.</source>
+        <translation>Das Lumen in drei Dimensionen. Ziehen dreht es, ein Klick auf ein Gefäß geht dorthin. Die Liste im Titel zeigt das Herz dahinter.</translation>
+    </message>
+    <message>
+        <source>The profile</source>
+        <translation>Das Profil</translation>
+    </message>
+    <message>
+        <source>Diameter and area along the artery; the dashed line is the calibre without disease, red bands are stenoses. Click to go there; %1 goes from stenosis to stenosis.</source>
+        <translation>Durchmesser und Fläche entlang der Arterie; die gestrichelte Linie ist das Kaliber ohne Krankheit, rote Bänder sind Stenosen. Ein Klick geht dorthin; %1 geht von Stenose zu Stenose.</translation>
+    </message>
+    <message>
+        <source>Editing</source>
+        <translation>Bearbeiten</translation>
+    </message>
+    <message>
+        <source>Pull (%1) takes the contour where you grip it. Draw (%2) replaces the wall by your line, on a CPR or around the section. The brush (%3) pushes. All views follow while the mouse moves, and every step is saved at once.</source>
+        <translation>Ziehen (%1) nimmt die Kontur dort, wo Sie sie greifen. Zeichnen (%2) ersetzt die Wand durch Ihre Linie, auf einer CPR oder um den Querschnitt. Der Pinsel (%3) schiebt. Alle Ansichten folgen der Maus, und jeder Schritt ist sofort gespeichert.</translation>
+    </message>
+    <message>
+        <source>Undo and steps</source>
+        <translation>Rückgängig und Schritte</translation>
+    </message>
+    <message>
+        <source>%1 takes back, %2 does again. The tab Steps lists everything since the case began: click a line to go back to it.</source>
+        <translation>%1 nimmt zurück, %2 wiederholt. Die Karte Schritte listet alles seit Beginn des Falls: ein Klick auf eine Zeile geht dorthin zurück.</translation>
+    </message>
+    <message>
+        <source>Measuring</source>
+        <translation>Messen</translation>
+    </message>
+    <message>
+        <source>Distance, angle, area, diameter, stenosis, volume, and CT numbers around the lumen. What you place can be moved by its points, is listed under Measurements, and follows the wall.</source>
+        <translation>Abstand, Winkel, Fläche, Durchmesser, Stenose, Volumen und CT-Werte um das Lumen. Messungen lassen sich an ihren Punkten verschieben, stehen in der Liste Messungen und folgen der Wand.</translation>
+    </message>
+    <message>
+        <source>Report and help</source>
+        <translation>Befund und Hilfe</translation>
+    </message>
+    <message>
+        <source>Tour</source>
+        <translation>Rundgang</translation>
+    </message>
+    <message>
+        <source>Do not show again</source>
+        <translation>Nicht mehr zeigen</translation>
+    </message>
+    <message>
+        <source>Without the tick the next start begins with this tour; Help &gt; Tour repeats it</source>
+        <translation>Ohne Haken beginnt der nächste Start mit diesem Rundgang; Hilfe &gt; Rundgang wiederholt ihn</translation>
+    </message>
+    <message>
+        <source>Ends the tour (Esc)</source>
+        <translation>Beendet den Rundgang (Esc)</translation>
+    </message>
+    <message>
+        <source>End the tour</source>
+        <translation>Rundgang beenden</translation>
+    </message>
+    <message>
+        <source>Back</source>
+        <translation>Zurück</translation>
+    </message>
+    <message>
+        <source>The part before (Left)</source>
+        <translation>Der vorige Teil (Links)</translation>
+    </message>
+    <message>
+        <source>The next part (Right, Enter)</source>
+        <translation>Der nächste Teil (Rechts, Eingabe)</translation>
+    </message>
+    <message>
+        <source>%1 of %2</source>
+        <translation>%1 von %2</translation>
+    </message>
+    <message>
+        <source>Finish</source>
+        <translation>Fertig</translation>
+    </message>
+    <message>
+        <source>Next</source>
+        <translation>Weiter</translation>
+    </message>
+    <message>
+        <source>%1 makes the report with key images, segments, stenoses and measurements. %2 shows all keys and mouse gestures, Help &gt; Manual leads from DICOM to the report, Help &gt; Tour repeats this tour. Ostia is research software, not a medical device.</source>
+        <translation>%1 erstellt den Befund mit Schlüsselbildern, Segmenten, Stenosen und Messungen. %2 zeigt alle Tasten und Mausgesten, Hilfe &gt; Handbuch führt von DICOM zum Befund, Hilfe &gt; Rundgang wiederholt diesen Rundgang. Ostia ist Forschungssoftware, kein Medizinprodukt.</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::VesselList</name>
+    <message>
+        <source>Vessels</source>
+        <translation>Gefäße</translation>
+    </message>
+    <message>
+        <source>Vessel</source>
+        <translation>Gefäß</translation>
+    </message>
+    <message>
+        <source>mm</source>
+        <translation>mm</translation>
+    </message>
+    <message>
+        <source>Edits</source>
+        <translation>Bearb.</translation>
+    </message>
+    <message>
+        <source>Worst</source>
+        <translation>Engste</translation>
+    </message>
+    <message>
+        <source>Done</source>
+        <translation>Fertig</translation>
+    </message>
+    <message>
+        <source>Samples of the wall that a person placed</source>
+        <translation>Punkte der Wand, die ein Mensch gesetzt hat</translation>
+    </message>
+    <message>
+        <source>Largest narrowing, percent of diameter</source>
+        <translation>Stärkste Einengung, Prozent des Durchmessers</translation>
+    </message>
+    <message>
+        <source>A person has gone through this vessel</source>
+        <translation>Ein Mensch hat dieses Gefäß durchgesehen</translation>
+    </message>
+    <message>
+        <source>Tick: shown in 3D. F2: another name.</source>
+        <translation>Haken: in 3D gezeigt. F2: anderer Name.</translation>
+    </message>
+    <message>
+        <source>Colour of %1</source>
+        <translation>Farbe von %1</translation>
+    </message>
+    <message>
+        <source>Rename…</source>
+        <translation>Umbenennen…</translation>
+    </message>
+    <message>
+        <source>Colour…</source>
+        <translation>Farbe…</translation>
+    </message>
+    <message>
+        <source>Cut off distal of the cursor</source>
+        <translation>Distal des Cursors abschneiden</translation>
+    </message>
+    <message>
+        <source>Delete with its branches</source>
+        <translation>Mit seinen Ästen löschen</translation>
+    </message>
+    <message>
+        <source>Join to</source>
+        <translation>Verbinden mit</translation>
+    </message>
+    <message>
+        <source>Where its own part begins goes to the nearest place of that vessel</source>
+        <translation>Der Anfang seines eigenen Teils kommt an die nächste Stelle jenes Gefäßes</translation>
+    </message>
+</context>
+<context>
+    <name>presets</name>
+    <message>
+        <source>CTA</source>
+        <translation>CTA</translation>
+    </message>
+    <message>
+        <source>Soft tissue</source>
+        <translation>Weichteil</translation>
+    </message>
+    <message>
+        <source>Lung</source>
+        <translation>Lunge</translation>
+    </message>
+    <message>
+        <source>Bone</source>
+        <translation>Knochen</translation>
+    </message>
+</context>
+<context>
+    <name>stages</name>
+    <message>
+        <source>reading DICOM headers</source>
+        <translation>DICOM-Köpfe lesen</translation>
+    </message>
+    <message>
+        <source>decoding DICOM</source>
+        <translation>DICOM entschlüsseln</translation>
+    </message>
+    <message>
+        <source>resampling DICOM</source>
+        <translation>DICOM umrechnen</translation>
+    </message>
+    <message>
+        <source>unpacking</source>
+        <translation>auspacken</translation>
+    </message>
+    <message>
+        <source>synthetic patient</source>
+        <translation>berechneter Patient</translation>
+    </message>
+    <message>
+        <source>scan</source>
+        <translation>Aufnahme</translation>
+    </message>
+    <message>
+        <source>writing</source>
+        <translation>schreiben</translation>
+    </message>
+    <message>
+        <source>writing the image</source>
+        <translation>Bild schreiben</translation>
+    </message>
+    <message>
+        <source>walls of the vessels</source>
+        <translation>Gefäßwände</translation>
+    </message>
+    <message>
+        <source>lumen boundary</source>
+        <translation>Rand des Lumens</translation>
+    </message>
+    <message>
+        <source>surface</source>
+        <translation>Oberfläche</translation>
+    </message>
+    <message>
+        <source>measuring</source>
+        <translation>messen</translation>
+    </message>
+    <message>
+        <source>key images</source>
+        <translation>Schlüsselbilder</translation>
+    </message>
+    <message>
+        <source>report</source>
+        <translation>Befund</translation>
+    </message>
+    <message>
+        <source>finding the way to the tree</source>
+        <translation>Weg zum Baum suchen</translation>
+    </message>
+    <message>
+        <source>finding the way between two points</source>
+        <translation>Weg zwischen zwei Punkten suchen</translation>
+    </message>
+</context>
+<context>
+    <name>steps</name>
+    <message>
+        <source>Start</source>
+        <translation>Beginn</translation>
+    </message>
+    <message>
+        <source>Draw on CPR</source>
+        <translation>Zeichnen auf CPR</translation>
+    </message>
+    <message>
+        <source>Draw on section</source>
+        <translation>Zeichnen auf Querschnitt</translation>
+    </message>
+    <message>
+        <source>Pull the wall</source>
+        <translation>Wand ziehen</translation>
+    </message>
+    <message>
+        <source>Brush</source>
+        <translation>Pinsel</translation>
+    </message>
+    <message>
+        <source>Move the centerline</source>
+        <translation>Mittellinie verschieben</translation>
+    </message>
+    <message>
+        <source>Add a control point</source>
+        <translation>Stützpunkt hinzufügen</translation>
+    </message>
+    <message>
+        <source>Delete a control point</source>
+        <translation>Stützpunkt löschen</translation>
+    </message>
+    <message>
+        <source>Extend the vessel</source>
+        <translation>Gefäß verlängern</translation>
+    </message>
+    <message>
+        <source>Cut the vessel off</source>
+        <translation>Gefäß abschneiden</translation>
+    </message>
+    <message>
+        <source>Add a vessel</source>
+        <translation>Gefäß hinzufügen</translation>
+    </message>
+    <message>
+        <source>Delete a vessel</source>
+        <translation>Gefäß löschen</translation>
+    </message>
+    <message>
+        <source>Join a vessel elsewhere</source>
+        <translation>Gefäß anderswo verbinden</translation>
+    </message>
+    <message>
+        <source>Rename a vessel</source>
+        <translation>Gefäß umbenennen</translation>
+    </message>
+    <message>
+        <source>Mark a vessel</source>
+        <translation>Gefäß kennzeichnen</translation>
+    </message>
+    <message>
+        <source>Measure</source>
+        <translation>Messen</translation>
+    </message>
+    <message>
+        <source>Change a measurement</source>
+        <translation>Messung ändern</translation>
+    </message>
+    <message>
+        <source>Delete a measurement</source>
+        <translation>Messung löschen</translation>
+    </message>
+</context>
+<context>
+    <name>tips</name>
+    <message>
+        <source>Opens a case, an image file, or a zip of DICOM files; dropping it on the window does the same.</source>
+        <translation>Öffnet einen Fall, eine Bilddatei oder ein ZIP mit DICOM-Dateien; auf das Fenster ziehen geht auch.</translation>
+    </message>
+    <message>
+        <source>Looks for CT series in a folder of DICOM files.</source>
+        <translation>Sucht CT-Serien in einem Ordner mit DICOM-Dateien.</translation>
+    </message>
+    <message>
+        <source>Opens a computed patient with disease, made on the first use.</source>
+        <translation>Öffnet einen berechneten kranken Patienten; beim ersten Mal wird er erzeugt.</translation>
+    </message>
+    <message>
+        <source>Makes a copy of the case and goes on in it. A case is always saved.</source>
+        <translation>Legt eine Kopie des Falls an und arbeitet in ihr weiter. Ein Fall ist immer gespeichert.</translation>
+    </message>
+    <message>
+        <source>Closes the case; nothing is lost.</source>
+        <translation>Schließt den Fall; nichts geht verloren.</translation>
+    </message>
+    <message>
+        <source>Ends the program; nothing is lost.</source>
+        <translation>Beendet das Programm; nichts geht verloren.</translation>
+    </message>
+    <message>
+        <source>Takes the last step back.</source>
+        <translation>Nimmt den letzten Schritt zurück.</translation>
+    </message>
+    <message>
+        <source>Does again what was taken back.</source>
+        <translation>Wiederholt, was zurückgenommen wurde.</translation>
+    </message>
+    <message>
+        <source>Keys, theme and language.</source>
+        <translation>Tasten, Farben und Sprache.</translation>
+    </message>
+    <message>
+        <source>Makes the brush&apos;s ball smaller, or the reach of a pull shorter.</source>
+        <translation>Macht die Kugel des Pinsels kleiner oder die Reichweite des Zugs kürzer.</translation>
+    </message>
+    <message>
+        <source>Makes the brush&apos;s ball larger, or the reach of a pull longer.</source>
+        <translation>Macht die Kugel des Pinsels größer oder die Reichweite des Zugs länger.</translation>
+    </message>
+    <message>
+        <source>Turns both CPRs by five degrees about the vessel&apos;s axis.</source>
+        <translation>Dreht beide CPRs um fünf Grad um die Gefäßachse.</translation>
+    </message>
+    <message>
+        <source>The cursor goes half a millimetre towards the ostium.</source>
+        <translation>Der Cursor geht einen halben Millimeter zum Ostium hin.</translation>
+    </message>
+    <message>
+        <source>The cursor goes half a millimetre towards the vessel&apos;s end.</source>
+        <translation>Der Cursor geht einen halben Millimeter zum Ende des Gefäßes hin.</translation>
+    </message>
+    <message>
+        <source>The cursor goes to where the vessel begins.</source>
+        <translation>Der Cursor geht zum Anfang des Gefäßes.</translation>
+    </message>
+    <message>
+        <source>The cursor goes to where the vessel ends.</source>
+        <translation>Der Cursor geht zum Ende des Gefäßes.</translation>
+    </message>
+    <message>
+        <source>The cursor goes to the narrowest place of the next stenosis distally.</source>
+        <translation>Der Cursor geht zur engsten Stelle der nächsten Stenose distal.</translation>
+    </message>
+    <message>
+        <source>The cursor goes to the narrowest place of the next stenosis proximally.</source>
+        <translation>Der Cursor geht zur engsten Stelle der nächsten Stenose proximal.</translation>
+    </message>
+    <message>
+        <source>Shows the next vessel of the list.</source>
+        <translation>Zeigt das nächste Gefäß der Liste.</translation>
+    </message>
+    <message>
+        <source>Shows the previous vessel of the list.</source>
+        <translation>Zeigt das vorige Gefäß der Liste.</translation>
+    </message>
+    <message>
+        <source>The CPRs keep the vessel&apos;s bends in one direction instead of none.</source>
+        <translation>Die CPRs behalten die Biegungen des Gefäßes in einer Richtung statt in keiner.</translation>
+    </message>
+    <message>
+        <source>2D views show the largest CT number within the slab&apos;s thickness.</source>
+        <translation>2D-Ansichten zeigen den größten CT-Wert innerhalb der Schichtdicke.</translation>
+    </message>
+    <message>
+        <source>2D views show the mean CT number within the slab&apos;s thickness.</source>
+        <translation>2D-Ansichten zeigen den mittleren CT-Wert innerhalb der Schichtdicke.</translation>
+    </message>
+    <message>
+        <source>Makes the slab of the 2D views thinner.</source>
+        <translation>Macht die Schicht der 2D-Ansichten dünner.</translation>
+    </message>
+    <message>
+        <source>Makes the slab of the 2D views thicker.</source>
+        <translation>Macht die Schicht der 2D-Ansichten dicker.</translation>
+    </message>
+    <message>
+        <source>Shows or hides the lumen&apos;s contour on all views.</source>
+        <translation>Zeigt oder verbirgt die Kontur des Lumens in allen Ansichten.</translation>
+    </message>
+    <message>
+        <source>All views show all there is.</source>
+        <translation>Alle Ansichten zeigen alles, was da ist.</translation>
+    </message>
+    <message>
+        <source>Changes between the dark and the light theme.</source>
+        <translation>Wechselt zwischen dunklen und hellen Farben.</translation>
+    </message>
+    <message>
+        <source>Grey levels for contrast-filled vessels.</source>
+        <translation>Graustufen für kontrastgefüllte Gefäße.</translation>
+    </message>
+    <message>
+        <source>Grey levels for muscle, fat and thrombus.</source>
+        <translation>Graustufen für Muskel, Fett und Thrombus.</translation>
+    </message>
+    <message>
+        <source>Grey levels for the lungs.</source>
+        <translation>Graustufen für die Lunge.</translation>
+    </message>
+    <message>
+        <source>Grey levels for bone and calcium.</source>
+        <translation>Graustufen für Knochen und Kalk.</translation>
+    </message>
+    <message>
+        <source>The keyboard goes to the next panel.</source>
+        <translation>Die Tastatur geht zum nächsten Feld.</translation>
+    </message>
+    <message>
+        <source>The keyboard goes to the previous panel.</source>
+        <translation>Die Tastatur geht zum vorigen Feld.</translation>
+    </message>
+    <message>
+        <source>The panel with the keyboard fills the window; again: all panels.</source>
+        <translation>Das Feld mit der Tastatur füllt das Fenster; nochmals: alle Felder.</translation>
+    </message>
+    <message>
+        <source>Moves the mouse pointer by one pixel; held down, faster.</source>
+        <translation>Bewegt den Mauszeiger um einen Bildpunkt; gehalten schneller.</translation>
+    </message>
+    <message>
+        <source>Presses the main mouse button and holds it; again: lets it go.</source>
+        <translation>Drückt die Maustaste und hält sie; nochmals: lässt sie los.</translation>
+    </message>
+    <message>
+        <source>The user&apos;s manual; needs no network.</source>
+        <translation>Das Handbuch; braucht kein Netz.</translation>
+    </message>
+    <message>
+        <source>All keys and mouse gestures, to be searched.</source>
+        <translation>Alle Tasten und Mausgesten, mit Suche.</translation>
+    </message>
+    <message>
+        <source>Goes through the parts of the window.</source>
+        <translation>Geht durch die Teile des Fensters.</translation>
+    </message>
+    <message>
+        <source>Version, licences, and what the program is not.</source>
+        <translation>Version, Lizenzen, und was das Programm nicht ist.</translation>
+    </message>
+    <message>
+        <source>Makes the report of the case as it is now, in a folder beside it.</source>
+        <translation>Erstellt den Befund des Falls, wie er jetzt ist, in einem Ordner daneben.</translation>
+    </message>
+    <message>
+        <source>The view that was clicked last becomes a key image of the next report.</source>
+        <translation>Die zuletzt angeklickte Ansicht wird ein Schlüsselbild des nächsten Befunds.</translation>
+    </message>
+    <message>
+        <source>Writes the wall as a surface (VTP, STL, PLY, OBJ).</source>
+        <translation>Schreibt die Wand als Oberfläche (VTP, STL, PLY, OBJ).</translation>
+    </message>
+    <message>
+        <source>Writes the centerlines with their radii (VTP).</source>
+        <translation>Schreibt die Mittellinien mit ihren Radien (VTP).</translation>
+    </message>
+    <message>
+        <source>Holds the case against contours that somebody else knows to be right.</source>
+        <translation>Hält den Fall gegen Konturen, von denen jemand weiß, dass sie richtig sind.</translation>
+    </message>
+</context>
+<context>
+    <name>tools</name>
+    <message>
+        <source>Browse</source>
+        <translation>Betrachten</translation>
+    </message>
+    <message>
+        <source>The cursor goes where you click. Shift and drag: turn the CPR.</source>
+        <translation>Der Cursor geht, wohin Sie klicken. Umschalt und Ziehen: CPR drehen.</translation>
+    </message>
+    <message>
+        <source>Pull</source>
+        <translation>Ziehen</translation>
+    </message>
+    <message>
+        <source>Take the contour and pull it. Shift and wheel: how far the pull reaches.</source>
+        <translation>Die Kontur greifen und ziehen. Umschalt und Rad: wie weit der Zug reicht.</translation>
+    </message>
+    <message>
+        <source>Draw</source>
+        <translation>Zeichnen</translation>
+    </message>
+    <message>
+        <source>Draw the wall anew, on a CPR or around the lumen on the cross-section.</source>
+        <translation>Die Wand neu zeichnen, auf einer CPR oder um das Lumen im Querschnitt.</translation>
+    </message>
+    <message>
+        <source>Brush</source>
+        <translation>Pinsel</translation>
+    </message>
+    <message>
+        <source>A ball that pushes the wall: outwards from within, inwards from without.</source>
+        <translation>Eine Kugel, die die Wand schiebt: von innen nach außen, von außen nach innen.</translation>
+    </message>
+    <message>
+        <source>Centerline</source>
+        <translation>Mittellinie</translation>
+    </message>
+    <message>
+        <source>Pull the centerline. Double click adds a control point, Delete takes one away.</source>
+        <translation>Die Mittellinie ziehen. Doppelklick setzt einen Stützpunkt, Entf löscht einen.</translation>
+    </message>
+    <message>
+        <source>Add vessel</source>
+        <translation>Neues Gefäß</translation>
+    </message>
+    <message>
+        <source>Click the distal end of a vessel; the way back to the tree is found.</source>
+        <translation>Auf das distale Ende eines Gefäßes klicken; der Weg zurück zum Baum wird gesucht.</translation>
+    </message>
+    <message>
+        <source>Distance</source>
+        <translation>Abstand</translation>
+    </message>
+    <message>
+        <source>Drag from one place to the other.</source>
+        <translation>Von einer Stelle zur anderen ziehen.</translation>
+    </message>
+    <message>
+        <source>Angle</source>
+        <translation>Winkel</translation>
+    </message>
+    <message>
+        <source>Click three places, the vertex second.</source>
+        <translation>Drei Stellen anklicken, den Scheitel als zweite.</translation>
+    </message>
+    <message>
+        <source>Area</source>
+        <translation>Fläche</translation>
+    </message>
+    <message>
+        <source>Draw around it.</source>
+        <translation>Umfahren.</translation>
+    </message>
+    <message>
+        <source>Diameter</source>
+        <translation>Durchmesser</translation>
+    </message>
+    <message>
+        <source>Drag across the lumen.</source>
+        <translation>Quer über das Lumen ziehen.</translation>
+    </message>
+    <message>
+        <source>Stenosis</source>
+        <translation>Stenose</translation>
+    </message>
+    <message>
+        <source>On a CPR, drag from the proximal to the distal place of reference.</source>
+        <translation>Auf einer CPR von der proximalen zur distalen Referenzstelle ziehen.</translation>
+    </message>
+    <message>
+        <source>Volume</source>
+        <translation>Volumen</translation>
+    </message>
+    <message>
+        <source>On a CPR, drag along the stretch of the vessel.</source>
+        <translation>Auf einer CPR am Abschnitt des Gefäßes entlang ziehen.</translation>
+    </message>
+    <message>
+        <source>HU ring</source>
+        <translation>HU-Ring</translation>
+    </message>
+    <message>
+        <source>Click where CT numbers about the lumen are wanted.</source>
+        <translation>Klicken, wo CT-Werte um das Lumen gewünscht sind.</translation>
+    </message>
+</context>
+<context>
+    <name>views</name>
+    <message>
+        <source>straightened</source>
+        <translation>begradigt</translation>
+    </message>
+    <message>
+        <source>stretched</source>
+        <translation>gestreckt</translation>
+    </message>
+    <message>
+        <source>axial</source>
+        <translation>axial</translation>
+    </message>
+    <message>
+        <source>coronal</source>
+        <translation>koronar</translation>
+    </message>
+    <message>
+        <source>sagittal</source>
+        <translation>sagittal</translation>
+    </message>
+    <message>
+        <source>oblique</source>
+        <translation>schräg</translation>
+    </message>
+    <message>
+        <source>diameter, mm</source>
+        <translation>Durchmesser, mm</translation>
+    </message>
+    <message>
+        <source>area, mm²</source>
+        <translation>Fläche, mm²</translation>
+    </message>
+    <message>
+        <source>mm from its root</source>
+        <translation>mm ab Ursprung</translation>
+    </message>
+    <message>
+        <source>not measurable</source>
+        <translation>nicht messbar</translation>
+    </message>
+</context>
 </TS>

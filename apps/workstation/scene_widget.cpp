@@ -187,7 +187,7 @@ void SceneWidget::refresh_cursor() {
 
 void SceneWidget::refresh_section() {
   const auto axis = bench_.axis();
-  if (!section_shown_ || !axis || !bench_.image().volume) {
+  if (!axis || !bench_.image().volume) {
     scene_->set_plane(view::ScenePlane::cross_section, std::nullopt);
     return;
   }
@@ -234,12 +234,6 @@ void SceneWidget::set_volume_mode(view::VolumeMode mode) {
 
 void SceneWidget::set_dark(bool dark) {
   scene_->set_look(dark ? figure::Look::dark : figure::Look::light);
-  request_render();
-}
-
-void SceneWidget::set_section_shown(bool shown) {
-  section_shown_ = shown;
-  cursor_stale_ = true;
   request_render();
 }
 

@@ -28,8 +28,6 @@ class SceneWidget final : public QWidget {
   void go_to(const view::CameraPose& pose);
   void set_volume_mode(view::VolumeMode mode);
   void set_dark(bool dark);
-  /// Pictures on planes (section and slices) beside the tree.
-  void set_section_shown(bool shown);
   /// Called with each new wall, to colour it.
   void set_wall_painter(std::function<void(const geometry::TriMesh&)> painter);
   void repaint_wall();  ///< the painter would colour it otherwise
@@ -63,7 +61,6 @@ class SceneWidget final : public QWidget {
   QElapsedTimer flight_clock_;
   bool wall_stale_ = true, styles_stale_ = true, cursor_stale_ = true, marks_stale_ = true,
        fit_wanted_ = true;
-  bool section_shown_ = true;
   std::shared_ptr<const geometry::TriMesh> wall_;
   std::function<void(const geometry::TriMesh&)> wall_painter_;
   QPointF pressed_, last_;

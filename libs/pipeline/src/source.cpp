@@ -3,6 +3,7 @@
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
 #include "ostia/core/log.h"
+#include "ostia/core/path_digest.h"
 #include "ostia/geometry/mesh_topology.h"
 #include "ostia/imaging/image_file.h"
 #include "ostia/io/surface_file.h"
@@ -32,18 +33,6 @@ bool is_image_name(const fs::path& path) {
     if (name.size() > end.size() && name.ends_with(end)) return true;
   }
   return false;
-}
-
-/// Of a folder: the digests of its files in order, so that neither names nor their order matter.
-std::string folder_digest(const fs::path& folder) {
-  std::vector<std::string> digests;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (entry.is_regular_file()) digests.push_back(core::sha256_file(entry.path()));
-  }
-  std::sort(digests.begin(), digests.end());
-  std::string all;
-  for (const std::string& d : digests) all += d;
-  return core::sha256(all);
 }
 
 void append(std::vector<std::string>& to, const std::vector<std::string>& from) {
@@ -109,7 +98,7 @@ SourceKind classify(const fs::path& path) {
 }
 
 std::string digest(const fs::path& path, SourceKind kind) {
-  return kind == SourceKind::dicom && fs::is_directory(path) ? folder_digest(path) : core::sha256_file(path);
+  return kind == SourceKind::dicom ? core::sha256_of_path(path) : core::sha256_file(path);
 }
 
 Source load(const fs::path& path, const SourceOptions& options, const core::TaskContext& task) {

@@ -7,17 +7,6 @@
 namespace ostia::segmentation::detail {
 namespace {
 
-/// A voxel waiting in the narrow band. Ties go to the lower voxel, so the order does not depend on the heap's
-/// history.
-struct Trial {
-  float time;
-  Voxel voxel;
-  bool operator>(const Trial& other) const {
-    if (time != other.time) return time > other.time;
-    return voxel > other.voxel;
-  }
-};
-
 struct Node {
   float time = kUnreached;
   bool settled = false;

@@ -26,6 +26,17 @@ struct SpeedModel {
 
 inline constexpr float kUnreached = std::numeric_limits<float>::infinity();
 
+/// A voxel waiting in the narrow band. Ties go to the lower voxel, so the order does not depend on the heap's
+/// history.
+struct Trial {
+  float time;
+  Voxel voxel;
+  bool operator>(const Trial& other) const {
+    if (time != other.time) return time > other.time;
+    return voxel > other.voxel;
+  }
+};
+
 /// Where a front has been: final arrival times (mm at speed 1), and the voxels in the order of their arrival.
 struct FrontTimes {
   BlockGrid<float> times;

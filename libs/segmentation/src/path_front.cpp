@@ -9,15 +9,6 @@
 namespace ostia::segmentation::detail {
 namespace {
 
-struct Trial {
-  float time;
-  Voxel voxel;
-  bool operator>(const Trial& other) const {
-    if (time != other.time) return time > other.time;
-    return voxel > other.voxel;
-  }
-};
-
 struct Node {
   float time = kUnreached;
   float length = 0.0F;

@@ -2,8 +2,6 @@
 
 #include "measure_marks.h"
 
-#include "ostia/figure/plot.h"
-#include "ostia/geometry/frame.h"
 #include "ostia/lumen/views.h"
 #include "ostia/view/words.h"
 

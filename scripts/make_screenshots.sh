@@ -66,16 +66,16 @@ shot window 3
 
 # A stroke along the wall of the stenosis on the first CPR, then a pull.
 keys w
-drag 408 450 409 480 408 510 407 535 407 560 408 590
+drag 419 450 420 480 419 510 418 535 418 560 419 590
 shot editing 2
 keys ctrl+z e
-drag 413 380 418 380
+drag 424 380 429 380
 shot pull 2
 keys ctrl+z
 
 # A stenosis between two places of reference.
 keys s
-drag 399 420 399 595
+drag 410 420 410 595
 shot measuring 2
 
 keys Escape Escape alt+6 F11

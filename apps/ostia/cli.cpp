@@ -218,7 +218,7 @@ void define(CLI::App& app, Commands& c, Run& run) {
 
   CLI::App* mesh = command(app, "mesh", "A tetrahedral mesh with named faces",
                            "ostia mesh lumen.stl -o mesh --edge-ratio 0.3");
-  add_input(*mesh, c.mesh.input, "Surface, open or closed", false);
+  add_input(*mesh, c.mesh.input, "Surface, open or closed, or a case", false);
   add_units(*mesh, c.mesh.input);
   add_coords(*mesh, c.mesh.input);
   add_ends(*mesh, c.mesh.ends);

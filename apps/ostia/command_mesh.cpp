@@ -8,9 +8,12 @@
 #include "ostia/io/volume_mesh_file.h"
 #include "ostia/pipeline/model_folder.h"
 #include "ostia/pipeline/report.h"
+#include "ostia/pipeline/vessel_export.h"
+#include "ostia/session/case_file.h"
 
 #include <chrono>
 #include <cstdio>
+#include <optional>
 
 namespace ostia::app {
 namespace {
@@ -45,12 +48,39 @@ geometry::VesselTree tree_for(const MeshCommand& options, const pipeline::Source
   return centerline::extract_centerlines(source.surface, how.source, how.targets, how.centerline, task).tree;
 }
 
+/// All vessels of a case, as the window's export does it.
+ExitCode mesh_case(const MeshCommand& options, const core::TaskContext& task) {
+  if (!options.centerline.empty() || !options.ends.source.empty() || !options.ends.targets.empty())
+    throw UsageError("a case has its axes: --centerline, --source and --target are for surfaces");
+  task.set_stage("reading");
+  const auto opened = session::CaseFile::open(options.input.input, session::OpenMode::read_only);
+  pipeline::ModelOptions how;
+  apply(options.mesh, how);
+  pipeline::MeshExportOptions wanted;
+  wanted.sizing = how.sizing;
+  wanted.tetrahedralize = how.tetrahedralize;
+  if (how.inset_radii) wanted.inset_radii = *how.inset_radii;
+  pipeline::require_free_folder(options.output);
+  std::optional<ExitCode> code =
+      pipeline::already_done(options.output, pipeline::mesh_job(*opened.model(), wanted));
+  if (code) {
+    core::log_info("done already with the same case and parameters; nothing to do");
+  } else {
+    const auto made = pipeline::export_mesh(options.output, *opened.model(), wanted, task);
+    for (const std::string& warning : made.warnings) core::log_warning(warning);
+    code = verdict(made.verdict);
+  }
+  if (options.json) std::fputs(core::read_file(options.output / "quality.json").c_str(), stdout);
+  return *code;
+}
+
 }  // namespace
 
 ExitCode run_mesh(const MeshCommand& options, const core::TaskContext& task) {
   if (!options.check.empty()) return check_file(options, task);
   if (options.input.input.empty() || options.output.empty())
-    throw UsageError("`ostia mesh` needs a surface and -o DIR, or --check FILE");
+    throw UsageError("`ostia mesh` needs a surface or a case and -o DIR, or --check FILE");
+  if (options.input.input.extension() == ".ostia") return mesh_case(options, task);
   pipeline::require_free_folder(options.output);
   const auto start = std::chrono::steady_clock::now();
   task.set_stage("reading");

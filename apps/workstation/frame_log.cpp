@@ -20,17 +20,18 @@ void FrameLog::event(const char* kind) {
   event_ms_ = now_ms();
 }
 
-void FrameLog::painted(const QString& view, double paint_ms) {
+void FrameLog::painted(const QString& view, double paint_ms, std::optional<std::uint64_t> picture) {
   if (!on()) return;
   const double now = now_ms();
   write(QStringLiteral(
-            "{\"t_ms\":%1,\"view\":\"%2\",\"event\":%3,\"kind\":\"%4\",\"after_ms\":%5,\"paint_ms\":%6}")
+            "{\"t_ms\":%1,\"view\":\"%2\",\"event\":%3,\"kind\":\"%4\",\"after_ms\":%5,\"paint_ms\":%6%7}")
             .arg(now, 0, 'f', 2)
             .arg(view)
             .arg(event_)
             .arg(kind_)
             .arg(now - event_ms_, 0, 'f', 2)
-            .arg(paint_ms, 0, 'f', 2));
+            .arg(paint_ms, 0, 'f', 2)
+            .arg(picture ? QStringLiteral(",\"picture\":%1").arg(*picture) : QString()));
 }
 
 void FrameLog::blocked(double ms) {

@@ -8,10 +8,12 @@
 #include <QString>
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 namespace ostia::workstation {
 
-/// One JSON line a painted view: {"t_ms":...,"view":"cpr1","event":12,"after_ms":8.4,"paint_ms":3.1};
+/// One JSON line a painted view: {"t_ms":...,"view":"cpr1","event":12,"after_ms":8.4,"paint_ms":3.1,
+/// "picture":2}, the last one the number of the picture painted (0: none yet; the tree has no numbers);
 /// `after_ms` runs from the last event of the user that any view had to answer to the end of painting. Blocks
 /// of the interface's thread longer than 50 ms are lines of their own: {"t_ms":...,"blocked_ms":73}. Off
 /// until a file is named.
@@ -21,7 +23,7 @@ class FrameLog {
   bool open(const QString& path);  ///< false where it cannot be written
   bool on() const { return file_ != nullptr; }
   void event(const char* kind);  ///< the user did something
-  void painted(const QString& view, double paint_ms);
+  void painted(const QString& view, double paint_ms, std::optional<std::uint64_t> picture = {});
   void blocked(double ms);
   /// Where a view is on the screen: {"view":"cpr1","x":300,"y":90,"width":280,"height":700}.
   void placed(const QString& view, const QRect& on_screen);

@@ -154,13 +154,21 @@ void ring(QPainter& p, const QColor& line, const QColor& accent) {
   p.drawEllipse(QPointF(12, 12), 4.5, 4.5);
 }
 
+void whole_window(QPainter& p, const QColor& line, const QColor&) {
+  pen(p, line, Qt::SolidLine, 2.2);
+  p.drawLine(QPointF(6, 18), QPointF(18, 6));
+  p.drawPolyline(QPolygonF({QPointF(10.5, 5), QPointF(19, 5), QPointF(19, 13.5)}));
+  p.drawPolyline(QPolygonF({QPointF(5, 10.5), QPointF(5, 19), QPointF(13.5, 19)}));
+}
+
 const QMap<QString, Draw>& drawings() {
   static const QMap<QString, Draw> all{
-      {"edit.undo", undo},       {"edit.redo", redo},         {"tool.browse", browse},
-      {"tool.drag", pull},       {"tool.draw", pencil},       {"tool.brush", brush},
-      {"tool.axis", centerline}, {"tool.distance", distance}, {"tool.angle", angle},
-      {"tool.area", area},       {"tool.diameter", diameter}, {"tool.stenosis", stenosis},
-      {"tool.volume", volume},   {"tool.ring_hu", ring},      {"tool.add_vessel", add_vessel},
+      {"edit.undo", undo},           {"edit.redo", redo},         {"tool.browse", browse},
+      {"tool.drag", pull},           {"tool.draw", pencil},       {"tool.brush", brush},
+      {"tool.axis", centerline},     {"tool.distance", distance}, {"tool.angle", angle},
+      {"tool.area", area},           {"tool.diameter", diameter}, {"tool.stenosis", stenosis},
+      {"tool.volume", volume},       {"tool.ring_hu", ring},      {"tool.add_vessel", add_vessel},
+      {"panel.alone", whole_window},
   };
   return all;
 }

@@ -7,22 +7,40 @@
 #include <QProgressBar>
 #include <QToolButton>
 #include <QVBoxLayout>
+#include <cmath>
+#include <memory>
 
 namespace ostia::workstation {
 namespace {
 
 constexpr int poll_ms = 50;
-constexpr double estimate_from = 0.03;  // before that share a time left would be a guess
+constexpr double estimate_from = 0.05;
+constexpr qint64 estimate_from_ms = 2000;
 constexpr qint64 shown_after_ms = 150;  // what is done by then needs no line
+constexpr int bar_width = 220, bar_height = 14;
 
 QString time_left(double progress, qint64 elapsed_ms) {
-  if (progress < estimate_from) return {};
-  const double left_s = static_cast<double>(elapsed_ms) / 1000.0 * (1.0 - progress) / progress;
-  return left_s < 90.0 ? Jobs::tr("%1 s left").arg(left_s, 0, 'f', 0)
-                       : Jobs::tr("%1 min left").arg(left_s / 60.0, 0, 'f', 0);
+  const auto left = seconds_left(progress, elapsed_ms);
+  if (!left) return {};
+  return *left < 90.0 ? Jobs::tr("%1 s left").arg(std::ceil(*left), 0, 'f', 0)
+                      : Jobs::tr("%1 min left").arg(*left / 60.0, 0, 'f', 0);
+}
+
+QToolButton* cross(QWidget* parent, const QString& tip, const QString& name) {
+  auto* button = new QToolButton(parent);
+  button->setText(QStringLiteral("\u2715"));
+  button->setAutoRaise(true);
+  button->setToolTip(tip);
+  button->setAccessibleName(name);
+  return button;
 }
 
 }  // namespace
+
+std::optional<double> seconds_left(double progress, qint64 elapsed_ms) {
+  if (progress < estimate_from || elapsed_ms < estimate_from_ms) return std::nullopt;
+  return static_cast<double>(elapsed_ms) / 1000.0 * (1.0 - progress) / progress;
+}
 
 struct Jobs::Job {
   QString kind, title;
@@ -48,6 +66,7 @@ Jobs::Jobs(QWidget* parent) : QWidget(parent), lines_(new QVBoxLayout(this)) {
 
 void Jobs::run(const QString& kind, const QString& title, Work work, Done done, Failed failed) {
   cancel(kind);
+  take_away(kind);
   auto job = std::make_shared<Job>();
   job->kind = kind;
   job->title = title;
@@ -60,29 +79,25 @@ void Jobs::run(const QString& kind, const QString& title, Work work, Done done, 
   job->label = new QLabel(title, job->line);
   job->bar = new QProgressBar(job->line);
   job->bar->setRange(0, 1000);
-  job->bar->setMaximumHeight(14);
-  job->bar->setMaximumWidth(220);
-  auto* cross = new QToolButton(job->line);
-  cross->setText(QStringLiteral("\u2715"));
-  cross->setAutoRaise(true);
-  cross->setToolTip(tr("Cancel"));
-  cross->setAccessibleName(tr("Cancel %1").arg(title));
+  job->bar->setMaximumHeight(bar_height);
+  job->bar->setMaximumWidth(bar_width);
+  auto* stop = cross(job->line, tr("Cancel"), tr("Cancel %1").arg(title));
+  stop->setObjectName("cancel." + kind);
   row->addWidget(job->label);
   row->addWidget(job->bar);
-  row->addWidget(cross);
-  connect(cross, &QToolButton::clicked, this, [this, kind] { cancel(kind); });
+  row->addWidget(stop);
+  connect(stop, &QToolButton::clicked, this, [this, kind] { cancel(kind); });
   lines_->addWidget(job->line);
   job->line->hide();
-  // The queue hands a model to its work; what runs here has what it needs with it.
-  static const auto no_model = std::make_shared<const lumen::LumenModel>();
-  const auto id =
-      queue_.submit(kind.toStdString(), no_model,
-                    [work = std::move(work)](const lumen::LumenModel&, const core::TaskContext& task) {
-                      return std::any(std::make_shared<std::any>(work(task)));
-                    });
+  const auto id = queue_.submit(kind.toStdString(), std::move(work));
   running_.emplace(id, std::move(job));
   timer_.start();
   emit changed();
+}
+
+int Jobs::line_height() const {
+  const std::unique_ptr<QToolButton> one(cross(nullptr, {}, {}));
+  return one->sizeHint().height();
 }
 
 bool Jobs::running(const QString& kind) const {
@@ -94,6 +109,38 @@ bool Jobs::running(const QString& kind) const {
 void Jobs::cancel(const QString& kind) {
   for (const auto& [id, job] : running_)
     if (job->kind == kind) queue_.cancel(id);
+}
+
+void Jobs::take_away(const QString& kind) {
+  const auto found = left_.find(kind);
+  if (found == left_.end()) return;
+  found->second->hide();
+  found->second->deleteLater();
+  left_.erase(found);
+  if (left_.empty() && running_.empty()) hide();
+}
+
+void Jobs::leave(const QString& kind, const QString& text, const QString& tip, const QString& button,
+                 std::function<void()> act) {
+  take_away(kind);
+  auto* line = new QWidget(this);
+  line->setObjectName("left." + kind);
+  auto* row = new QHBoxLayout(line);
+  row->setContentsMargins(0, 0, 0, 0);
+  auto* label = new QLabel(text, line);
+  label->setToolTip(tip);
+  auto* open = new QToolButton(line);
+  open->setObjectName("left." + kind + ".act");
+  open->setText(button);
+  auto* close = cross(line, tr("Close"), tr("Close %1").arg(text));
+  connect(open, &QToolButton::clicked, this, std::move(act));
+  connect(close, &QToolButton::clicked, this, [this, kind] { take_away(kind); });
+  row->addWidget(label);
+  row->addWidget(open);
+  row->addWidget(close);
+  lines_->addWidget(line);
+  left_[kind] = line;
+  show();
 }
 
 void Jobs::poll() {
@@ -117,7 +164,7 @@ void Jobs::poll() {
     }
     at = running_.erase(at);
     if (status && status->state == session::JobState::done) {
-      if (const auto result = queue_.take<std::shared_ptr<std::any>>(id)) job->done(std::move(**result));
+      if (auto result = queue_.take_any(id)) job->done(std::move(*result));
     } else {
       if (status && status->state == session::JobState::failed)
         job->failed(QString::fromStdString(status->message));
@@ -126,7 +173,7 @@ void Jobs::poll() {
     emit changed();
     at = running_.begin();  // what was told may have started or ended jobs
   }
-  setVisible(line_shown);
+  setVisible(line_shown || !left_.empty());
   if (running_.empty()) timer_.stop();
 }
 

@@ -138,6 +138,10 @@ bool Keyboard::kept_from_shortcuts(QObject* object, int key, Qt::KeyboardModifie
   if (keys & ~(Qt::ShiftModifier | Qt::KeypadModifier)) return false;
   if (const auto* picture = qobject_cast<PictureWidget*>(object))
     return key == Qt::Key_Escape && const_cast<PictureWidget*>(picture)->pointer().busy();
+  if (object->inherits(tree_window)) {
+    auto* tree = window_->findChild<SceneWidget*>();
+    return key == Qt::Key_Escape && tree && tree->pointer().busy();
+  }
   const bool line = qobject_cast<QLineEdit*>(object) || qobject_cast<QAbstractSpinBox*>(object) ||
                     qobject_cast<QTextEdit*>(object);
   if (line) return key <= 0xffff || key == Qt::Key_Escape || key == Qt::Key_Return || key == Qt::Key_Enter;

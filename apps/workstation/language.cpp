@@ -100,6 +100,11 @@ view::Words words_of_views() {
   words.area = word(QT_TRANSLATE_NOOP("views", "area, mm\302\262"));
   words.from_root = word(QT_TRANSLATE_NOOP("views", "mm from its root"));
   words.not_measurable = word(QT_TRANSLATE_NOOP("views", "not measurable"));
+  words.off_wall = word(QT_TRANSLATE_NOOP("views", "There is no vessel: click on the wall of one."));
+  words.other_vessel =
+      word(QT_TRANSLATE_NOOP("views", "This is another vessel: both places have to lie along one."));
+  words.no_lumen = word(
+      QT_TRANSLATE_NOOP("views", "The lumen is shut or open here: there is nothing to measure across it."));
   return words;
 }
 

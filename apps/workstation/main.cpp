@@ -14,6 +14,7 @@
 #include <QStandardPaths>
 #include <QSurfaceFormat>
 #include <clocale>
+#include <csignal>
 #include <cstdio>
 
 namespace {
@@ -48,6 +49,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "ostia-workstation: %s\n", trouble->c_str());
     return 5;
   }
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit of a file's size is an error that is said, not the program's end
   QSurfaceFormat::setDefaultFormat(QVTKOpenGLNativeWidget::defaultFormat());
   QApplication::setAttribute(Qt::AA_EnableHighDpiScaling);
   QApplication::setAttribute(Qt::AA_UseHighDpiPixmaps);

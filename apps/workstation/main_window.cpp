@@ -1,9 +1,12 @@
 #include "main_window.h"
 
 #include "frame_log.h"
+#include "meshing_export.h"
 #include "opening.h"
+#include "paint_queue.h"
 #include "reporting.h"
 #include "side_lists.h"
+#include "start_page.h"
 #include "vessel_list.h"
 
 #include "ostia/core/error.h"
@@ -35,6 +38,15 @@ constexpr int heartbeat_ms = 20;
 constexpr double blocked_ms = 50.0;
 constexpr int message_ms = 8000;
 constexpr double strip_step_mm = 1.0;
+constexpr int status_margin = 4;
+constexpr int strip_px = 56;  // of a neighbour at least
+
+QStringList local_files(const QMimeData& data) {
+  QStringList files;
+  for (const QUrl& url : data.urls())
+    if (url.isLocalFile()) files << url.toLocalFile();
+  return files;
+}
 
 QByteArray decoded(const std::optional<std::string>& text) {
   return text ? QByteArray::fromBase64(QByteArray::fromStdString(*text)) : QByteArray();
@@ -53,9 +65,11 @@ MainWindow::MainWindow(const std::filesystem::path& state_folder)
   apply_theme(theme && *theme == "light" ? Theme::light : Theme::dark);
   opening_ = std::make_unique<Opening>(*this);
   reporting_ = std::make_unique<Reporting>(*this);
+  meshing_export_ = std::make_unique<MeshingExport>(*this);
   build_views();
   build_actions();
   build_tool_bar();
+  new StartPage(*this, "curved");
   restore_layout();
   own_.push_back(
       bench_.noted.observe([this](const std::string& note) { say(QString::fromStdString(note)); }));
@@ -100,6 +114,9 @@ void MainWindow::say(const QString& text) {
 }
 
 void MainWindow::complain(const QString& text, const QString& title) {
+  // While the mouse goes on with what is refused, one message says so, not one for every move.
+  for (const auto* open : findChildren<QMessageBox*>())
+    if (open->isVisible() && open->text() == text) return;
   auto* box = new QMessageBox(QMessageBox::Warning, title.isEmpty() ? QStringLiteral("Ostia") : title, text,
                               QMessageBox::Ok, this);
   box->setAttribute(Qt::WA_DeleteOnClose);
@@ -139,6 +156,9 @@ QWidget* MainWindow::curved_column() {
                                 std::make_unique<CurvedView>(bench_, CurvedView::Which::first, frame)));
   pair->addWidget(picture_panel(tr("CPR + 90\u00b0"), "cpr2",
                                 std::make_unique<CurvedView>(bench_, CurvedView::Which::second, frame)));
+  pictures_[pictures_.size() - 2]->set_twin(pictures_.back());
+  pictures_.back()->set_twin(pictures_[pictures_.size() - 2]);
+  PaintQueue::instance().set_prepare(&PictureWidget::prepare);
   pair->setSizes({280, 280});
   for (int i = 0; i < 2; ++i) pair->setStretchFactor(i, 1);
   splitters_.push_back(pair);
@@ -157,6 +177,7 @@ QWidget* MainWindow::section_column() {
   for (const int step : {-2, -1, 1, 2}) {
     auto* picture = new PictureWidget(std::make_unique<SectionView>(bench_, step * strip_step_mm, 12.0),
                                       QStringLiteral("strip%1").arg(step), guard_);
+    picture->setMinimumSize(strip_px, strip_px);
     pictures_.push_back(picture);
     row->addWidget(picture);
   }
@@ -185,7 +206,7 @@ QWidget* MainWindow::section_column() {
 }
 
 QWidget* MainWindow::right_column() {
-  scene_ = new SceneWidget(bench_);
+  scene_ = new SceneWidget(bench_, guard_);
   scene_->set_dark(current_theme() == Theme::dark);
   connect(scene_, &SceneWidget::volume_wanted, this, [this] {
     const auto image = bench_.image().volume;
@@ -240,7 +261,7 @@ QWidget* MainWindow::side_column() {
   tabs->addTab(new StepList(bench_, guard_), tr("Steps"));
   column->addWidget(tabs);
   column->setSizes({420, 320});
-  column->setMinimumWidth(34 * fontMetrics().averageCharWidth());  // names and numbers of vessels
+  column->setMinimumWidth(38 * fontMetrics().averageCharWidth());  // names and numbers of vessels
   splitters_.push_back(column);
   return column;
 }
@@ -248,8 +269,10 @@ QWidget* MainWindow::side_column() {
 void MainWindow::build_views() {
   place_ = new QLabel(this);
   shown_name_ = new QLabel(this);
+  shown_name_->setContentsMargins(0, 0, 12, 0);
   jobs_ = new Jobs(this);
   statusBar()->addPermanentWidget(jobs_);
+  statusBar()->setMinimumHeight(jobs_->line_height() + status_margin);
   statusBar()->addPermanentWidget(shown_name_);
   statusBar()->addPermanentWidget(place_);
   place_->setMinimumWidth(
@@ -308,16 +331,17 @@ void MainWindow::closeEvent(QCloseEvent* event) {
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
-  if (event->mimeData()->hasUrls()) event->acceptProposedAction();
+  if (!local_files(*event->mimeData()).isEmpty()) event->acceptProposedAction();
 }
 
 void MainWindow::dropEvent(QDropEvent* event) {
-  for (const QUrl& url : event->mimeData()->urls())
-    if (url.isLocalFile()) {
-      event->acceptProposedAction();
-      open(url.toLocalFile().toStdString());
-      return;
-    }
+  const QStringList files = local_files(*event->mimeData());
+  if (files.isEmpty()) return;
+  event->acceptProposedAction();
+  if (files.size() == 1)
+    open(files.front().toStdString());
+  else
+    complain(tr("Drop one case, image or folder at a time; of a DICOM series drop its folder."));
 }
 
 }  // namespace ostia::workstation

@@ -24,6 +24,7 @@ namespace ostia::workstation {
 
 class Opening;
 class Reporting;
+class MeshingExport;
 class QaPanel;
 
 class MainWindow final : public QMainWindow {
@@ -72,6 +73,7 @@ class MainWindow final : public QMainWindow {
   QAction* build_qa();  // main_window_qa.cpp
   QAction* action(const QString& id, const QString& text, const std::function<void()>& run);
   void refresh_actions();
+  void join_with_parent();
   void fill_recent(QMenu* menu);
   void pin_view();
   void turn(double degrees);
@@ -87,6 +89,7 @@ class MainWindow final : public QMainWindow {
   Jobs* jobs_ = nullptr;
   std::unique_ptr<Opening> opening_;
   std::unique_ptr<Reporting> reporting_;
+  std::unique_ptr<MeshingExport> meshing_export_;
   SceneWidget* scene_ = nullptr;
   ProfileWidget* profile_ = nullptr;
   std::vector<PictureWidget*> pictures_;

@@ -1,6 +1,7 @@
 #include "bind.h"
 #include "help.h"
 #include "main_window.h"
+#include "meshing_export.h"
 #include "opening.h"
 #include "reporting.h"
 #include "shortcuts.h"
@@ -88,8 +89,10 @@ void MainWindow::build_actions() {
                          [this] { reporting_->make_report(opening_->case_path()); }));
   file->addAction(action("file.pin", tr("&Pin this view to the report"), [this] { pin_view(); }));
   QMenu* exports = file->addMenu(tr("&Export"));
-  exports->addAction(
-      action("file.export_surface", tr("The &wall\u2026"), [this] { reporting_->export_surface(); }));
+  exports->addAction(action("file.export_surface", tr("The &wall\u2026"),
+                            [this] { meshing_export_->ask(ExportKind::surface, opening_->case_path()); }));
+  exports->addAction(action("file.export_mesh", tr("A &mesh\u2026"),
+                            [this] { meshing_export_->ask(ExportKind::mesh, opening_->case_path()); }));
   exports->addAction(action("file.export_centerlines", tr("The &centerlines\u2026"),
                             [this] { reporting_->export_centerlines(); }));
   file->addSeparator();
@@ -98,6 +101,12 @@ void MainWindow::build_actions() {
   QMenu* edit = menuBar()->addMenu(tr("&Edit"));
   edit->addAction(action("edit.undo", tr("&Undo"), [this] { bench_.undo(); }));
   edit->addAction(action("edit.redo", tr("&Redo"), [this] { bench_.redo(); }));
+
+  QMenu* vessel = menuBar()->addMenu(tr("Ve&ssel"));
+  vessel->addAction(action("vessel.split", tr("&Split at the cursor"), [this] {
+    bench_.edit(lumen::BranchSplit{bench_.vessel.get(), bench_.cursor_mm.get(), {}});
+  }));
+  vessel->addAction(action("vessel.merge", tr("&Join with parent vessel"), [this] { join_with_parent(); }));
 
   QMenu* tool_menu = menuBar()->addMenu(tr("&Tools"));
   auto* group = new QActionGroup(this);
@@ -185,6 +194,7 @@ void MainWindow::build_actions() {
 
   own_.push_back(bench_.case_changed.observe([this] { refresh_actions(); }));
   own_.push_back(bench_.steps_changed.observe([this] { refresh_actions(); }));
+  own_.push_back(bench_.vessel.observe([this](const std::int32_t&) { refresh_actions(); }));
   refresh_actions();
   new Help(*this, {edit, tool_menu, shown});
 }
@@ -234,8 +244,20 @@ void MainWindow::refresh_actions() {
   actions_["edit.undo"]->setEnabled(undo.has_value());
   actions_["edit.redo"]->setEnabled(redo.has_value());
   for (const char* id : {"file.save_as", "file.close", "file.report", "file.pin", "file.export_surface",
-                         "file.export_centerlines"})
+                         "file.export_mesh", "file.export_centerlines"})
     actions_[id]->setEnabled(has_case);
+  actions_["vessel.split"]->setEnabled(has_case && bench_.axis());
+  actions_["vessel.merge"]->setEnabled(has_case && bench_.axis() &&
+                                       lumen::merge_parent(bench_.model()->tree, bench_.vessel.get()));
+}
+
+void MainWindow::join_with_parent() {
+  const std::int32_t vessel = bench_.vessel.get();
+  const double cursor = bench_.cursor_mm.get();
+  const auto parent = lumen::merge_parent(bench_.model()->tree, vessel);
+  bench_.edit(lumen::BranchMerge{vessel});
+  bench_.vessel.set(*parent);  // the same place: its abscissas go on as they were
+  bench_.cursor_mm.set(cursor);
 }
 
 void MainWindow::fill_recent(QMenu* menu) {

@@ -1,6 +1,8 @@
 #include "overlay_painter.h"
 
+#include <QApplication>
 #include <QPainterPath>
+#include <QPalette>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -47,24 +49,41 @@ QRectF text_box(const QFontMetricsF& metrics, const view::OverlayText& text) {
   return {x, y, w, h};
 }
 
+/// The font, or a smaller one where the text would be wider than the view.
+QFont fitting(QFont font, const QString& text, double room, QPaintDevice* device) {
+  constexpr double least = 0.7;
+  const double wide = QFontMetricsF(font, device).horizontalAdvance(text) + 4.0;
+  if (wide > room && font.pixelSize() > 0)
+    font.setPixelSize(static_cast<int>(font.pixelSize() * std::max(least, room / wide)));
+  return font;
+}
+
+/// Around letters, which are readable over lines so.
+QColor halo(Ground ground) {
+  QColor around = ground == Ground::image ? QColor(Qt::black) : QApplication::palette().color(QPalette::Base);
+  around.setAlpha(ground == Ground::image ? 190 : 220);
+  return around;
+}
+
 void paint_text(QPainter& painter, const view::OverlayText& text, Ground ground) {
+  const double density = painter.device()->devicePixelRatioF();
+  const double w = painter.device()->width() * density, h = painter.device()->height() * density;
+  const QFont usual = painter.font();
+  painter.setFont(fitting(usual, QString::fromStdString(text.text), w, painter.device()));
   const QFontMetricsF metrics(painter.font(), painter.device());
   QRectF box = text_box(metrics, text);
   // What would be cut off at the rim moves inwards.
-  const double density = painter.device()->devicePixelRatioF();
-  const double w = painter.device()->width() * density, h = painter.device()->height() * density;
   box.moveLeft(std::clamp(box.left(), 0.0, std::max(0.0, w - box.width())));
   box.moveTop(std::clamp(box.top(), 0.0, std::max(0.0, h - box.height())));
   const QString shown = QString::fromStdString(text.text);
   const QPointF base(box.left(), box.top() + metrics.ascent());
-  if (ground == Ground::image) {
-    painter.setPen(QColor(0, 0, 0, 190));
-    const double by = std::max(1.0, metrics.height() / 14.0);
-    for (const QPointF& step : {QPointF(by, by), QPointF(-by, by), QPointF(by, -by), QPointF(-by, -by)})
-      painter.drawText(base + step, shown);
-  }
+  painter.setPen(halo(ground));
+  const double by = std::max(1.0, metrics.height() / 14.0);
+  for (const QPointF& step : {QPointF(by, by), QPointF(-by, by), QPointF(by, -by), QPointF(-by, -by)})
+    painter.drawText(base + step, shown);
   painter.setPen(role_color(text.role, ground));
   painter.drawText(base, shown);
+  painter.setFont(usual);
 }
 
 }  // namespace

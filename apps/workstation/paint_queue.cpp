@@ -25,6 +25,7 @@ PaintQueue::PaintQueue() : QObject(QCoreApplication::instance()) {
 void PaintQueue::add(QWidget* view) {
   if (views_.isEmpty()) views_waiting_.start();
   if (!views_.contains(view)) views_.append(view);
+  prepared_ = false;
   timer_.start();
 }
 
@@ -43,7 +44,17 @@ void PaintQueue::serve_overdue() {
     while (!last_.isEmpty()) next();
 }
 
+void PaintQueue::prepare_all() {
+  if (prepared_ || !prepare_) return;
+  prepared_ = true;
+  QList<QWidget*> shown;
+  for (const QPointer<QWidget>& view : views_)
+    if (view && view->isVisible()) shown.append(view);
+  if (shown.size() > 1) prepare_(shown);
+}
+
 void PaintQueue::next() {
+  prepare_all();
   while (!views_.isEmpty()) {
     const QPointer<QWidget> view = views_.takeFirst();
     if (!view || !view->isVisible()) continue;

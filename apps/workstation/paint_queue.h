@@ -17,8 +17,11 @@ class PaintQueue final : public QObject {
   Q_OBJECT
  public:
   static PaintQueue& instance();
-  /// Once for many requests.
+  /// Once for many requests. All that wait are prepared together before the first of them is painted:
+  /// `prepare` is given those of the kind.
   void add(QWidget* view);
+  using Prepare = std::function<void(const QList<QWidget*>& views)>;
+  void set_prepare(Prepare prepare) { prepare_ = std::move(prepare); }
   /// Work for when all views are painted; once for many requests of one owner.
   void add_last(QObject* owner, std::function<void()> work);
   /// A hand that moves without a pause would keep the others waiting: paints those that have waited too long
@@ -34,6 +37,9 @@ class PaintQueue final : public QObject {
     QPointer<QObject> owner;
     std::function<void()> work;
   };
+  void prepare_all();
+  Prepare prepare_;
+  bool prepared_ = false;  // nothing was added since
   QList<QPointer<QWidget>> views_;
   QList<Last> last_;
   QTimer timer_;

@@ -1,5 +1,7 @@
 #include "panel.h"
 
+#include "icons.h"
+
 #include <QEvent>
 #include <QHBoxLayout>
 #include <QSplitter>
@@ -16,7 +18,8 @@ Panel::Panel(const QString& title, QWidget* content, QWidget* parent) : QFrame(p
   bar_->setToolTip(tr("Double click: this view alone, and back"));
   title_ = new QLabel(title, bar_);
   auto* largest = new QToolButton(bar_);
-  largest->setText(QStringLiteral("\u2922"));
+  largest->setIcon(command_icon(QStringLiteral("panel.alone")));
+  largest->setIconSize(QSize(14, 14));
   largest->setAutoRaise(true);
   largest->setToolTip(tr("This view alone, and back"));
   largest->setAccessibleName(tr("Maximise %1").arg(title));

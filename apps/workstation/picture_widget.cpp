@@ -1,6 +1,7 @@
 #include "picture_widget.h"
 
 #include "frame_log.h"
+#include "hand_events.h"
 #include "overlay_painter.h"
 #include "paint_queue.h"
 
@@ -8,6 +9,7 @@
 #include <QElapsedTimer>
 #include <QKeyEvent>
 #include <QMouseEvent>
+#include <QPaintEvent>
 #include <QPainter>
 #include <QTimer>
 #include <QWheelEvent>
@@ -23,11 +25,16 @@ double milliseconds(const QElapsedTimer& clock) {
   return static_cast<double>(clock.nsecsElapsed()) / 1e6;
 }
 
-void tell_frame(const QWidget& view, double paint_ms) {
+void tell_frame(const QWidget& view, double paint_ms, std::optional<std::uint64_t> picture = {}) {
   FrameLog& log = FrameLog::instance();
   if (!log.on()) return;
   log.placed(view.objectName(), QRect(view.mapToGlobal(QPoint(0, 0)), view.size()));
-  log.painted(view.objectName(), paint_ms);
+  log.painted(view.objectName(), paint_ms, picture);
+}
+
+/// Where only a part that was uncovered is painted, the whole view still waits.
+void leave_queue(QWidget& view, const QPaintEvent& event) {
+  if (QRegion(view.rect()).subtracted(event.region()).isEmpty()) PaintQueue::instance().remove(&view);
 }
 
 QFont overlay_font(const QFont& base, double density) {
@@ -65,8 +72,8 @@ void PictureWidget::take_size() {
                   density);
 }
 
-void PictureWidget::paintEvent(QPaintEvent*) {
-  PaintQueue::instance().remove(this);
+void PictureWidget::paintEvent(QPaintEvent* event) {
+  leave_queue(*this, *event);
   QElapsedTimer clock;
   clock.start();
   const double density = devicePixelRatioF();
@@ -102,21 +109,14 @@ void PictureWidget::paintEvent(QPaintEvent*) {
     painter.setBrush(Qt::NoBrush);
     painter.drawRect(all.adjusted(density, density, -density, -density));
   }
-  tell_frame(*this, milliseconds(clock));
+  tell_frame(*this, milliseconds(clock), picture_.isNull() ? 0 : revision_);
   if (view_->animating()) QTimer::singleShot(fade_ms, this, [this] { update(); });
 }
 
 view::PointerEvent PictureWidget::pointer_event(const QPointF& at, Qt::MouseButton button,
                                                 Qt::KeyboardModifiers keys) const {
-  view::PointerEvent event;
+  view::PointerEvent event = hand_event(button, keys);
   event.px = view::Vec2(at.x(), at.y()) * devicePixelRatioF();
-  event.button = button == Qt::LeftButton     ? view::Button::left
-                 : button == Qt::MiddleButton ? view::Button::middle
-                 : button == Qt::RightButton  ? view::Button::right
-                                              : view::Button::none;
-  event.shift = keys & Qt::ShiftModifier;
-  event.control = keys & Qt::ControlModifier;
-  event.alt = keys & Qt::AltModifier;
   return event;
 }
 
@@ -125,11 +125,23 @@ void PictureWidget::request_paint() {
   if (!handling_) PaintQueue::instance().add(this);
 }
 
+void PictureWidget::prepare(const QList<QWidget*>& widgets) {
+  std::vector<view::PictureView*> views;
+  PictureWidget* first = nullptr;
+  for (QWidget* widget : widgets)
+    if (auto* picture = qobject_cast<PictureWidget*>(widget)) {
+      views.push_back(picture->view_.get());
+      if (!first) first = picture;
+    }
+  if (first) first->guard_([&] { view::prepare(views); });
+}
+
 void PictureWidget::hand(const char* kind, const std::function<void()>& act) {
   FrameLog::instance().event(kind);
   handling_ = true;
   guard_(act);
   handling_ = false;
+  if (twin_ && twin_->isVisible() && view_->bench().turning.get()) prepare({this, twin_});
   show_cursor();
   repaint();
   PaintQueue::instance().serve_overdue();
@@ -221,26 +233,7 @@ void PictureWidget::tell_place(const view::Vec2& px) {
 }
 
 void PictureWidget::show_cursor() {
-  switch (pointer_->shape()) {
-    case view::CursorShape::arrow:
-      setCursor(Qt::ArrowCursor);
-      break;
-    case view::CursorShape::cross:
-      setCursor(Qt::CrossCursor);
-      break;
-    case view::CursorShape::grab:
-      setCursor(Qt::PointingHandCursor);
-      break;
-    case view::CursorShape::turn:
-      setCursor(Qt::SizeHorCursor);
-      break;
-    case view::CursorShape::move:
-      setCursor(Qt::SizeAllCursor);
-      break;
-    case view::CursorShape::contrast:
-      setCursor(Qt::SizeFDiagCursor);
-      break;
-  }
+  setCursor(cursor_of(pointer_->shape()));
 }
 
 ProfileWidget::ProfileWidget(session::Workbench& bench, QWidget* parent) : QWidget(parent), view_(bench) {
@@ -256,8 +249,8 @@ void ProfileWidget::resizeEvent(QResizeEvent*) {
                  density);
 }
 
-void ProfileWidget::paintEvent(QPaintEvent*) {
-  PaintQueue::instance().remove(this);
+void ProfileWidget::paintEvent(QPaintEvent* event) {
+  leave_queue(*this, *event);
   QElapsedTimer clock;
   clock.start();
   const double density = devicePixelRatioF();

@@ -23,6 +23,10 @@ class PictureWidget final : public QWidget {
   ~PictureWidget() override;
   view::PictureView& view() { return *view_; }
   view::Pointer& pointer() { return *pointer_; }
+  /// One hand moves both: they are prepared together.
+  void set_twin(PictureWidget* twin) { twin_ = twin; }
+  /// For PaintQueue: those of these widgets that are pictures are prepared on all cores.
+  static void prepare(const QList<QWidget*>& widgets);
   void take_size();  ///< the view has the widget's size again, after somebody gave it another
   QSize minimumSizeHint() const override { return {80, 80}; }
 
@@ -55,6 +59,7 @@ class PictureWidget final : public QWidget {
   std::uint64_t revision_ = 0;
   session::GreyWindow painted_window_;
   bool handling_ = false;
+  PictureWidget* twin_ = nullptr;
 };
 
 class ProfileWidget final : public QWidget {

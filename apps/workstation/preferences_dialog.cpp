@@ -68,7 +68,6 @@ QWidget* PreferencesDialog::general_page() {
       new QLabel(tr("Another language is used from the next start on. Numbers keep the decimal "
                     "point in every language, as in reports and files."));
   note->setWordWrap(true);
-  note->setEnabled(false);
   connect(language, QOverload<int>::of(&QComboBox::activated), this, [this, language](int index) {
     window_.guarded([&] {
       window_.machine().set_setting(language_setting, language->itemData(index).toString().toStdString());

@@ -23,7 +23,7 @@ namespace {
 constexpr int figures_after_ms = 20;        // of an edit
 constexpr double figures_budget_ms = 30.0;  // at once
 constexpr double worst_mm = 0.5;            // a mean distance with the last colour of the scale
-constexpr int wide_window = 1500, wide_panel = 330, narrow_panel = 240;  // units of the interface
+constexpr int wide_window = 1500, wide_panel = 345, narrow_panel = 240;  // units of the interface
 constexpr int section_role = Qt::UserRole;
 enum Column { name_column, vessel_column, msd_column, max_column, area_column, dice_column };
 

@@ -3,8 +3,6 @@
 #include "main_window.h"
 
 #include "ostia/io/centerline_file.h"
-#include "ostia/io/surface_file.h"
-#include "ostia/lumen/tree_surface.h"
 
 #include <QDate>
 #include <QDesktopServices>
@@ -127,22 +125,6 @@ void Reporting::pin(PictureWidget& view) {
                          .toStdString(),
                      figure::picture_of(raster_of(shown), shown.width() / view.devicePixelRatioF())});
   window_.say(tr("This view will be key image %1 of the next report.").arg(pinned_.size()));
-}
-
-void Reporting::export_surface() {
-  const QString chosen = QFileDialog::getSaveFileName(&window_, tr("Export the wall"), {},
-                                                      tr("Surfaces (*.vtp *.stl *.ply *.obj)"));
-  if (chosen.isEmpty()) return;
-  const fs::path path = chosen.toStdString();
-  const auto model = window_.bench().session().file().model();
-  window_.jobs().run(
-      "export", tr("Export of the wall"),
-      [path, model](const core::TaskContext& task) {
-        io::write_surface(path, lumen::surface_of(*model, 0.0, task));
-        return std::any(true);
-      },
-      [this, chosen](const std::any&) { window_.say(tr("The wall is in %1.").arg(chosen)); },
-      [this](const QString& message) { window_.complain(message, tr("The wall could not be exported")); });
 }
 
 void Reporting::export_centerlines() {

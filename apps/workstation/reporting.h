@@ -1,5 +1,5 @@
 #pragma once
-/// \file What leaves the window: the report, surfaces, centerlines.
+/// \file What leaves the window: the report, centerlines.
 
 #include "ostia/session/case_report.h"
 
@@ -24,8 +24,6 @@ class Reporting final : public QObject {
   /// The view becomes a further key image of the next report.
   void pin(PictureWidget& view);
   std::size_t pinned() const { return pinned_.size(); }
-  /// Asks for a file: the wall (VTP, STL, PLY, OBJ), solved afresh.
-  void export_surface();
   /// Asks for a file: the axes with their radii (VTP).
   void export_centerlines();
 

@@ -1,15 +1,20 @@
 #include "scene_widget.h"
 
 #include "frame_log.h"
+#include "hand_events.h"
 #include "paint_queue.h"
 
 #include "ostia/figure/slice_figure.h"
 #include "ostia/reformat/plane_image.h"
+#include "ostia/view/scene_measurements.h"
 
 #include <QVTKOpenGLWindow.h>
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkRenderer.h>
 
+#include <QCursor>
+#include <QGuiApplication>
+#include <QKeyEvent>
 #include <QMouseEvent>
 #include <QVBoxLayout>
 #include <QWheelEvent>
@@ -26,20 +31,23 @@ constexpr double click_px = 3.0;
 
 }  // namespace
 
-SceneWidget::SceneWidget(session::Workbench& bench, QWidget* parent)
+SceneWidget::SceneWidget(session::Workbench& bench, Guard guard, QWidget* parent)
     : QWidget(parent),
       bench_(bench),
       window_(new QVTKOpenGLWindow),
-      scene_(std::make_unique<view::TreeScene>()) {
+      scene_(std::make_unique<view::TreeScene>()),
+      pointer_(std::make_unique<view::ScenePointer>(*scene_, bench)),
+      guard_(std::move(guard)) {
   setObjectName("tree");
   setAccessibleName(tr("Coronary tree"));
   vtkNew<vtkGenericOpenGLRenderWindow> render_window;
   render_window->SetMultiSamples(0);
-  render_window->AddRenderer(scene_->renderer());
+  scene_->attach(*render_window);
   window_->setRenderWindow(render_window);
   window_->installEventFilter(this);
   container_ = QWidget::createWindowContainer(window_, this);
   container_->setFocusPolicy(Qt::StrongFocus);
+  container_->installEventFilter(this);
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->addWidget(container_);
@@ -53,7 +61,8 @@ SceneWidget::SceneWidget(session::Workbench& bench, QWidget* parent)
   refining_.setSingleShot(true);
   refining_.setInterval(150);
   connect(&refining_, &QTimer::timeout, this, [this] {
-    if (!scene_->refine()) return;
+    const bool settled = QGuiApplication::mouseButtons() == Qt::NoButton && scene_->settle();
+    if (!scene_->refine() && !settled) return;
     window_->renderWindow()->Render();
     refining_.start();
   });
@@ -68,7 +77,7 @@ SceneWidget::SceneWidget(session::Workbench& bench, QWidget* parent)
     request_render();
   }));
   own_.push_back(bench.model_changed.observe([this](const session::ModelEvent& event) {
-    wall_stale_ = true;
+    wall_stale_ = marks_stale_ = true;
     if (event.tree_changed) styles_stale_ = true;
     cursor_stale_ = true;
     request_render();
@@ -82,8 +91,9 @@ SceneWidget::SceneWidget(session::Workbench& bench, QWidget* parent)
   own_.push_back(bench.theta_deg.observe(stale(&SceneWidget::cursor_stale_)));
   own_.push_back(bench.selected_measurement.observe(stale(&SceneWidget::marks_stale_)));
   own_.push_back(bench.marks_shown.observe(stale(&SceneWidget::marks_stale_)));
+  own_.push_back(pointer_->stale.observe([this] { request_render(); }));
   own_.push_back(bench.image_changed.observe([this] {
-    cursor_stale_ = true;
+    cursor_stale_ = marks_stale_ = true;
     request_render();
   }));
   own_.push_back(bench.grey.observe([this](const session::GreyWindow& window) {
@@ -96,7 +106,7 @@ SceneWidget::SceneWidget(session::Workbench& bench, QWidget* parent)
 SceneWidget::~SceneWidget() {
   window_->removeEventFilter(this);
   // The renderer goes with the scene, the window with the container.
-  window_->renderWindow()->RemoveRenderer(scene_->renderer());
+  scene_->detach();
 }
 
 void SceneWidget::resizeEvent(QResizeEvent* event) {
@@ -204,19 +214,7 @@ void SceneWidget::refresh_section() {
 
 void SceneWidget::refresh_measurements() {
   marks_stale_ = false;
-  std::vector<view::SceneMeasurement> shown;
-  if (bench_.has_case() && bench_.marks_shown.get())
-    for (const analysis::Measurement& one : bench_.session().file().annotations()->measurements) {
-      if (one.points.empty()) continue;
-      view::SceneMeasurement made;
-      made.id = one.id;
-      made.points = one.points;
-      made.closed = one.kind == analysis::MeasureKind::area;
-      made.selected = one.id == bench_.selected_measurement.get();
-      made.label = one.name.empty() ? std::to_string(one.id) : one.name;
-      shown.push_back(std::move(made));
-    }
-  scene_->set_measurements(std::move(shown));
+  scene_->set_measurements(view::scene_measurements(bench_));
 }
 
 void SceneWidget::go_to(const view::CameraPose& pose) {
@@ -242,58 +240,94 @@ geometry::Vec2 SceneWidget::display(const QPointF& at) const {
   return {at.x() * ratio, (container_->height() - at.y()) * ratio};
 }
 
-void SceneWidget::pick(const QPointF& at) {
-  const std::optional<view::ScenePick> hit = scene_->pick(display(at));
-  if (!hit) return;
-  if (hit->measurement) bench_.selected_measurement.set(*hit->measurement);
-  if (hit->vessel) {
-    bench_.vessel.set(*hit->vessel);
-    bench_.cursor_mm.set(hit->s_mm);
+view::PointerEvent SceneWidget::pointer_event(const QPointF& at, Qt::MouseButton button,
+                                              Qt::KeyboardModifiers keys) const {
+  view::PointerEvent event = hand_event(button, keys);
+  event.px = display(at);
+  return event;
+}
+
+void SceneWidget::hand(const std::function<void()>& act) {
+  guard_(act);
+  window_->setCursor(cursor_of(pointer_->shape()));
+}
+
+void SceneWidget::mouse_pressed(const QMouseEvent& event) {
+  pressed_ = last_ = event.localPos();
+  buttons_ = event.buttons();
+  moved_ = false;
+  refining_.stop();
+  container_->setFocus(Qt::MouseFocusReason);
+  hand([&] {
+    holding_ = pointer_->press(pointer_event(event.localPos(), event.button(), event.modifiers()));
+  });
+}
+
+void SceneWidget::mouse_moved(const QMouseEvent& event) {
+  const bool camera = event.buttons() != Qt::NoButton && !holding_;
+  if (holding_) FrameLog::instance().event("tree");
+  hand([&] { pointer_->move(pointer_event(event.localPos(), Qt::NoButton, event.modifiers())); });
+  if (camera) turn_camera(event);
+}
+
+void SceneWidget::turn_camera(const QMouseEvent& event) {
+  if (!moved_ && (event.localPos() - pressed_).manhattanLength() < click_px) return;
+  if (!moved_) scene_->set_interacting(true);
+  moved_ = true;
+  FrameLog::instance().event("tree");
+  const double ratio = devicePixelRatioF();
+  const double right = (event.localPos().x() - last_.x()) * ratio,
+               up = (last_.y() - event.localPos().y()) * ratio;
+  if (event.buttons() & Qt::RightButton)
+    scene_->zoom_by(std::pow(1.01, up / ratio));
+  else if ((event.buttons() & Qt::MiddleButton) || (event.modifiers() & Qt::ShiftModifier))
+    scene_->pan_by(right, up);
+  else
+    scene_->rotate_by(right, up);
+  last_ = event.localPos();
+  request_render();
+}
+
+void SceneWidget::mouse_released(const QMouseEvent& event) {
+  buttons_ = event.buttons();
+  holding_ = false;
+  scene_->set_interacting(false);
+  hand([&] { pointer_->release(pointer_event(event.localPos(), event.button(), event.modifiers())); });
+  request_render();
+}
+
+bool SceneWidget::key_pressed(int key) {
+  if (key == Qt::Key_Escape && pointer_->busy()) {
+    hand([&] { pointer_->cancel(); });
+    return true;
   }
+  if (key != Qt::Key_Delete && key != Qt::Key_Backspace) return false;
+  hand([&] {
+    pointer_->erase(pointer_event(container_->mapFromGlobal(QCursor::pos()), Qt::NoButton, Qt::NoModifier));
+  });
+  return true;
 }
 
 bool SceneWidget::eventFilter(QObject* object, QEvent* event) {
+  if (event->type() == QEvent::KeyPress && (object == window_ || object == container_) &&
+      key_pressed(static_cast<QKeyEvent*>(event)->key()))
+    return true;
   if (object != window_) return QWidget::eventFilter(object, event);
-  const double ratio = devicePixelRatioF();
   switch (event->type()) {
-    case QEvent::MouseButtonPress: {
-      const auto* mouse = static_cast<QMouseEvent*>(event);
-      pressed_ = last_ = mouse->localPos();
-      buttons_ = mouse->buttons();
-      moved_ = false;
-      refining_.stop();
-      container_->setFocus(Qt::MouseFocusReason);
+    case QEvent::MouseButtonPress:
+      mouse_pressed(*static_cast<QMouseEvent*>(event));
       return true;
-    }
-    case QEvent::MouseMove: {
-      const auto* mouse = static_cast<QMouseEvent*>(event);
-      if (mouse->buttons() == Qt::NoButton) return true;
-      if (!moved_ && (mouse->localPos() - pressed_).manhattanLength() < click_px) return true;
-      if (!moved_) scene_->set_interacting(true);
-      moved_ = true;
-      FrameLog::instance().event("tree");
-      const double right = (mouse->localPos().x() - last_.x()) * ratio,
-                   up = (last_.y() - mouse->localPos().y()) * ratio;
-      if (mouse->buttons() & Qt::RightButton)
-        scene_->zoom_by(std::pow(1.01, up / ratio));
-      else if ((mouse->buttons() & Qt::MiddleButton) || (mouse->modifiers() & Qt::ShiftModifier))
-        scene_->pan_by(right, up);
-      else
-        scene_->rotate_by(right, up);
-      last_ = mouse->localPos();
-      request_render();
+    case QEvent::MouseMove:
+      mouse_moved(*static_cast<QMouseEvent*>(event));
       return true;
-    }
-    case QEvent::MouseButtonRelease: {
-      const auto* mouse = static_cast<QMouseEvent*>(event);
-      buttons_ = mouse->buttons();
-      if (!moved_ && mouse->button() == Qt::LeftButton) pick(mouse->localPos());
-      scene_->set_interacting(false);
-      request_render();
+    case QEvent::MouseButtonRelease:
+      mouse_released(*static_cast<QMouseEvent*>(event));
       return true;
-    }
     case QEvent::MouseButtonDblClick:
-      go_to(scene_->pose_fitted());
+      if (!session::measure_kind(bench_.tool.get())) go_to(scene_->pose_fitted());
+      return true;
+    case QEvent::Leave:
+      hand([&] { pointer_->leave(); });
       return true;
     case QEvent::Wheel: {
       const auto* wheel = static_cast<QWheelEvent*>(event);

@@ -1,7 +1,10 @@
 #pragma once
 /// \file The tree in three dimensions, in a native window of its own.
 
+#include "picture_widget.h"
+
 #include "ostia/session/workbench.h"
+#include "ostia/view/scene_pointer.h"
 #include "ostia/view/tree_scene.h"
 
 #include <QElapsedTimer>
@@ -21,9 +24,10 @@ class SceneWidget final : public QWidget {
  public:
   /// Cells of the wall that is shown: about a pixel of the whole tree, half the triangles of the default's.
   static constexpr double screen_cell_mm = 0.35;
-  explicit SceneWidget(session::Workbench& bench, QWidget* parent = nullptr);
+  SceneWidget(session::Workbench& bench, Guard guard, QWidget* parent = nullptr);
   ~SceneWidget() override;
   view::TreeScene& scene() { return *scene_; }
+  view::ScenePointer& pointer() { return *pointer_; }
   /// Moves smoothly to another pose.
   void go_to(const view::CameraPose& pose);
   void set_volume_mode(view::VolumeMode mode);
@@ -50,12 +54,21 @@ class SceneWidget final : public QWidget {
   void refresh_cursor();
   void refresh_section();
   void refresh_measurements();
-  void pick(const QPointF& at);
+  bool key_pressed(int key);
+  void mouse_pressed(const QMouseEvent& event);
+  void mouse_moved(const QMouseEvent& event);
+  void mouse_released(const QMouseEvent& event);
+  void turn_camera(const QMouseEvent& event);
+  void hand(const std::function<void()>& act);
   geometry::Vec2 display(const QPointF& at) const;
+  view::PointerEvent pointer_event(const QPointF& at, Qt::MouseButton button,
+                                   Qt::KeyboardModifiers keys) const;
   session::Workbench& bench_;
   QVTKOpenGLWindow* window_;
   QWidget* container_;
   std::unique_ptr<view::TreeScene> scene_;
+  std::unique_ptr<view::ScenePointer> pointer_;
+  Guard guard_;
   QTimer flight_, refining_;
   view::CameraPose from_, to_;
   QElapsedTimer flight_clock_;
@@ -65,7 +78,7 @@ class SceneWidget final : public QWidget {
   std::function<void(const geometry::TriMesh&)> wall_painter_;
   QPointF pressed_, last_;
   Qt::MouseButtons buttons_;
-  bool moved_ = false;
+  bool moved_ = false, holding_ = false;  // the camera; a handle
   std::vector<session::Subscription> own_;
 };
 

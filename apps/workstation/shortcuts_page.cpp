@@ -34,6 +34,7 @@ ShortcutsPage::ShortcutsPage(const Help& help, QWidget* parent)
   list_->setAccessibleName(tr("Keys and mouse gestures"));
   list_->setRootIsDecorated(false);
   list_->setSelectionMode(QAbstractItemView::SingleSelection);
+  list_->setWordWrap(true);
   fill(help);
   list_->header()->setSectionResizeMode(0, QHeaderView::ResizeToContents);
   list_->header()->resizeSection(1, keys_width);

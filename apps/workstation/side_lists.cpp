@@ -33,6 +33,8 @@ QString step_name(const std::string& op) {
       {"branch.add", QT_TRANSLATE_NOOP("steps", "Add a vessel")},
       {"branch.delete", QT_TRANSLATE_NOOP("steps", "Delete a vessel")},
       {"branch.attach", QT_TRANSLATE_NOOP("steps", "Join a vessel elsewhere")},
+      {"branch.split", QT_TRANSLATE_NOOP("steps", "Split a vessel")},
+      {"branch.merge", QT_TRANSLATE_NOOP("steps", "Join a vessel with its parent")},
       {"vessel.rename", QT_TRANSLATE_NOOP("steps", "Rename a vessel")},
       {"vessel.mark", QT_TRANSLATE_NOOP("steps", "Mark a vessel")},
       {"measure.add", QT_TRANSLATE_NOOP("steps", "Measure")},
@@ -156,9 +158,11 @@ void MeasurementList::go_to(std::int32_t measurement) {
   const analysis::Measurement* found = session::find_measurement(*annotations, measurement);
   if (!found) return;
   bench_.selected_measurement.set(measurement);
-  if (session::needs_vessel(*found) && bench_.axis(found->vessel)) {
+  const auto axis = session::needs_vessel(*found) ? bench_.axis(found->vessel) : nullptr;
+  if (axis) {
     bench_.vessel.set(found->vessel);
-    bench_.cursor_mm.set(0.5 * (found->from_mm + found->to_mm));
+    bench_.cursor_mm.set(found->points.empty() ? 0.5 * (found->from_mm + found->to_mm)
+                                               : axis->nearest_foot(found->points.front()).s_mm);
   } else if (!found->points.empty()) {
     bench_.place.set(found->points.front());
   }

@@ -1,17 +1,33 @@
 #include "theme.h"
 
 #include <QApplication>
+#include <QPainter>
 #include <QProxyStyle>
+#include <QStyleOption>
 
 namespace ostia::workstation {
 namespace {
 
 Theme theme_now = Theme::dark;
 
-/// Dialogs' buttons without the style's pictures, which are made for light themes.
+/// Dialogs' buttons without the style's pictures, which are made for light themes, and boxes to tick that
+/// are seen on dark ones.
 class PlainButtons final : public QProxyStyle {
  public:
   PlainButtons() : QProxyStyle(QStringLiteral("Fusion")) {}
+  void drawPrimitive(PrimitiveElement element, const QStyleOption* option, QPainter* painter,
+                     const QWidget* widget) const override {
+    QProxyStyle::drawPrimitive(element, option, painter, widget);
+    if (element != PE_IndicatorCheckBox && element != PE_IndicatorItemViewItemCheck) return;
+    QColor edge = option->palette.color(QPalette::Text);
+    edge.setAlphaF(option->state & State_Enabled ? 0.6 : 0.3);
+    painter->save();
+    painter->setRenderHint(QPainter::Antialiasing);
+    painter->setPen(QPen(edge, 1.0));
+    painter->setBrush(Qt::NoBrush);
+    painter->drawRoundedRect(QRectF(option->rect).adjusted(0.5, 0.5, -0.5, -0.5), 2.0, 2.0);
+    painter->restore();
+  }
   int styleHint(StyleHint hint, const QStyleOption* option, const QWidget* widget,
                 QStyleHintReturn* data) const override {
     if (hint == SH_DialogButtonBox_ButtonsHaveIcons) return 0;
@@ -34,6 +50,12 @@ QPalette palette_of(Theme theme) {
   p.setColor(QPalette::Text, text);
   p.setColor(QPalette::Button, dark ? QColor(44, 47, 53) : QColor(228, 230, 234));
   p.setColor(QPalette::ButtonText, text);
+  // Of bevels and of lines between parts.
+  p.setColor(QPalette::Light, dark ? QColor(58, 62, 69) : QColor(255, 255, 255));
+  p.setColor(QPalette::Midlight, dark ? QColor(50, 54, 60) : QColor(240, 241, 244));
+  p.setColor(QPalette::Mid, dark ? QColor(38, 41, 46) : QColor(178, 182, 189));
+  p.setColor(QPalette::Dark, dark ? QColor(20, 21, 24) : QColor(150, 155, 163));
+  p.setColor(QPalette::Shadow, dark ? QColor(8, 9, 10) : QColor(105, 110, 118));
   p.setColor(QPalette::BrightText, Qt::white);
   p.setColor(QPalette::ToolTipBase, dark ? QColor(52, 56, 63) : QColor(255, 255, 235));
   p.setColor(QPalette::ToolTipText, text);

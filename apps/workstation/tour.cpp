@@ -200,7 +200,8 @@ void Tour::place() {
   if (!isVisible()) return;
   const QRect at = target();
   layout()->activate();
-  const QSize size = sizeHint();
+  QSize size = sizeHint();  // knows nothing of the lines that the text takes
+  size.setHeight(std::max(size.height(), layout()->totalHeightForWidth(size.width())));
   const QRect room = window_.rect().adjusted(gap, gap, -gap, -gap);
   QPoint corner = room.center() - QPoint(size.width() / 2, size.height() / 2);
   if (at.isNull()) {

@@ -1,9 +1,13 @@
 #include "vessel_list.h"
 
+#include "command_texts.h"
+
 #include "ostia/analysis/aha_segments.h"
+#include "ostia/core/error.h"
 
 #include <QColorDialog>
 #include <QContextMenuEvent>
+#include <QGuiApplication>
 #include <QHeaderView>
 #include <QKeyEvent>
 #include <QMenu>
@@ -16,7 +20,6 @@ namespace {
 
 enum Column { name_column, length_column, edited_column, stenosis_column, checked_column, columns };
 constexpr int id_role = Qt::UserRole;
-constexpr int measure_pause_ms = 60;         // between vessels, so that the window answers
 constexpr int refresh_after_ms = 120;        // of an edit
 constexpr int from_role = Qt::UserRole + 1;  // of a segment: its first abscissa
 
@@ -62,7 +65,14 @@ VesselList::VesselList(session::Workbench& bench, std::function<QColor(std::int3
   own_.push_back(bench.vessel.observe([this](const std::int32_t&) { refresh(); }));
   soon_.setSingleShot(true);
   soon_.setInterval(refresh_after_ms);
-  connect(&soon_, &QTimer::timeout, this, &VesselList::refresh);
+  connect(&soon_, &QTimer::timeout, this, [this] {
+    // Other vessels' narrowings can wait until the hand lets go.
+    if (QGuiApplication::mouseButtons() != Qt::NoButton)
+      soon_.start();
+    else
+      refresh();
+  });
+  measurer_.setMaxThreadCount(1);
   connect(this, &QTreeWidget::currentItemChanged, this, [this](QTreeWidgetItem* item) {
     if (!item) return;
     bench_.vessel.set(item->data(0, id_role).toInt());
@@ -75,6 +85,7 @@ void VesselList::fill() {
   const QSignalBlocker quiet(this);
   clear();
   unmeasured_.clear();
+  failed_.clear();
   const lumen::LumenModel* model = bench_.model();
   if (!model) return;
   const std::vector<analysis::VesselSegment> segments = analysis::segments_of(*model);
@@ -94,16 +105,48 @@ void VesselList::fill() {
     }
   }
   refresh();
-  QTimer::singleShot(measure_pause_ms, this, &VesselList::measure_next);
+  measure_next();
 }
 
+/// One vessel after the other, beside the window. What the window itself has measured meanwhile is left out;
+/// where the model is another when the work is done, it is done again.
 void VesselList::measure_next() {
-  if (unmeasured_.empty()) return;
-  const std::int32_t id = unmeasured_.front();
-  unmeasured_.erase(unmeasured_.begin());
-  guard_([&] { bench_.stenoses(id); });
-  refresh();
-  QTimer::singleShot(measure_pause_ms, this, &VesselList::measure_next);
+  while (!unmeasured_.empty() && !measuring_) {
+    std::optional<session::ProfileWork> work = bench_.profile_work(unmeasured_.front());
+    if (!work) {
+      unmeasured_.erase(unmeasured_.begin());
+      soon_.start();
+      continue;
+    }
+    measuring_ = true;
+    measurer_.start([this, work = std::move(*work), task = measuring_task_] {
+      std::shared_ptr<const analysis::LumenProfile> profile;
+      try {
+        profile = std::make_shared<const analysis::LumenProfile>(work.measured(task));
+      } catch (const Error&) {  // told where the profile is looked at
+      }
+      QMetaObject::invokeMethod(
+          this, [this, work, profile] { take(work, profile); }, Qt::QueuedConnection);
+    });
+  }
+}
+
+void VesselList::take(const session::ProfileWork& work,
+                      const std::shared_ptr<const analysis::LumenProfile>& profile) {
+  measuring_ = false;
+  const bool still = !unmeasured_.empty() && unmeasured_.front() == work.vessel && bench_.has_case() &&
+                     bench_.session().file().model() == work.model;
+  if (still && (!profile || bench_.take_profile(work, *profile))) {
+    unmeasured_.erase(unmeasured_.begin());
+    if (!profile) failed_.push_back(work.vessel);
+    soon_.start();
+  }
+  measure_next();
+}
+
+VesselList::~VesselList() {
+  measuring_task_.cancel();
+  measurer_.waitForDone();
 }
 
 session::VesselMark VesselList::mark_of(std::int32_t vessel) const {
@@ -120,16 +163,23 @@ void VesselList::refresh() {
   for (int i = 0; i < topLevelItemCount(); ++i) {
     QTreeWidgetItem* item = topLevelItem(i);
     const std::int32_t id = item->data(0, id_role).toInt();
+    if (!bench_.axis(id)) continue;  // deleted just now; the list is filled anew next
     const lumen::VesselLumen& vessel = lumen::vessel(*model, id);
     const session::VesselMark mark = mark_of(id);
     item->setText(name_column, QString::fromStdString(bench_.vessel_name(id)));
     item->setIcon(name_column, color_icon(color_of_(id)));
     item->setCheckState(name_column, mark.visible ? Qt::Checked : Qt::Unchecked);
-    item->setToolTip(name_column, tr("Tick: shown in 3D. F2: another name."));
+    item->setToolTip(name_column,
+                     item->text(name_column) + '\n' + tr("Tick: shown in 3D. F2: another name."));
     item->setText(length_column, QString::number(vessel.axis->length(), 'f', 0));
     const int edits = edited_samples(vessel);
     item->setText(edited_column, edits > 0 ? QString::number(edits) : QStringLiteral("\u2013"));
-    if (std::find(unmeasured_.begin(), unmeasured_.end(), id) == unmeasured_.end()) {
+    const auto among = [id](const std::vector<std::int32_t>& ids) {
+      return std::find(ids.begin(), ids.end(), id) != ids.end();
+    };
+    if (among(failed_)) {
+      item->setText(stenosis_column, QStringLiteral("?"));
+    } else if (!among(unmeasured_)) {
       // On the way that it shares, a narrowing is the other vessel's.
       const double own = lumen::own_from_mm(model->tree, id);
       double worst = 0.0;
@@ -179,12 +229,28 @@ void VesselList::contextMenuEvent(QContextMenuEvent* event) {
   if (item->parent()) item = item->parent();
   const std::int32_t id = item->data(0, id_role).toInt();
   QMenu menu(this);
+  menu.setToolTipsVisible(true);
   menu.addAction(tr("Rename\u2026"), this, [this, item] { editItem(item, name_column); });
   menu.addAction(tr("Colour\u2026"), this, [this, id] { choose_color(id); });
   menu.addSeparator();
   menu.addAction(tr("Cut off distal of the cursor"), this, [this, id] {
     guard_([&] { bench_.edit(lumen::AxisTrim{id, bench_.cursor_mm.get()}); });
   });
+  QAction* split = menu.addAction(tr("Split at the cursor"), this, [this, id] {
+    guard_([&] { bench_.edit(lumen::BranchSplit{id, bench_.cursor_mm.get(), {}}); });
+  });
+  split->setToolTip(command_tip("vessel.split"));
+  const auto parent = lumen::merge_parent(bench_.model()->tree, id);
+  QAction* merge = menu.addAction(tr("Join with parent vessel"), this, [this, id, parent] {
+    guard_([&] {
+      const double cursor = bench_.cursor_mm.get();
+      bench_.edit(lumen::BranchMerge{id});
+      bench_.vessel.set(*parent);  // the same place: its abscissas go on as they were
+      bench_.cursor_mm.set(cursor);
+    });
+  });
+  merge->setToolTip(command_tip("vessel.merge"));
+  merge->setEnabled(parent.has_value());
   menu.addAction(tr("Delete with its branches"), this,
                  [this, id] { guard_([&] { bench_.edit(lumen::BranchDelete{id}); }); });
   auto* joints = menu.addMenu(tr("Join to"));

@@ -5,6 +5,7 @@
 
 #include "ostia/session/workbench.h"
 
+#include <QThreadPool>
 #include <QTimer>
 #include <QTreeWidget>
 #include <vector>
@@ -17,6 +18,7 @@ class VesselList final : public QTreeWidget {
   /// `color_of`: the colour that the 3D scene gives a vessel.
   VesselList(session::Workbench& bench, std::function<QColor(std::int32_t)> color_of, Guard guard,
              QWidget* parent = nullptr);
+  ~VesselList() override;
 
  public slots:
   void refresh();
@@ -28,6 +30,7 @@ class VesselList final : public QTreeWidget {
  private:
   void fill();
   void measure_next();
+  void take(const session::ProfileWork& work, const std::shared_ptr<const analysis::LumenProfile>& profile);
   void edited(QTreeWidgetItem* item, int column);
   session::VesselMark mark_of(std::int32_t vessel) const;
   void choose_color(std::int32_t vessel);
@@ -35,6 +38,10 @@ class VesselList final : public QTreeWidget {
   std::function<QColor(std::int32_t)> color_of_;
   QTimer soon_;
   std::vector<std::int32_t> unmeasured_;  // whose narrowings are still to be found, one at a time
+  std::vector<std::int32_t> failed_;      // that could not be measured beside the window
+  bool measuring_ = false;
+  core::TaskContext measuring_task_;
+  QThreadPool measurer_;
   Guard guard_;
   std::vector<session::Subscription> own_;
 };

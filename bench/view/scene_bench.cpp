@@ -32,7 +32,7 @@ struct Shown {
     window->SetMultiSamples(0);
     window->SetOffScreenRendering(1);
     window->SetSize(width, height);
-    window->AddRenderer(scene.renderer());
+    scene.attach(*window);
   }
   void render() {
     window->Render();

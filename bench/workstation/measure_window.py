@@ -74,6 +74,15 @@ def drag(places, key=None):
     time.sleep(2.0)
 
 
+def pictures(log, view):
+    """When each picture of a view was painted first."""
+    first = {}
+    for line in lines_of(log):
+        if line.get("view") == view and line.get("picture", 0) > 0:
+            first.setdefault(line["picture"], line["t_ms"])
+    return sorted(first.values())
+
+
 def percentile(values, share):
     values = sorted(values)
     return values[min(len(values) - 1, int(share * len(values)))]
@@ -115,7 +124,7 @@ def main():
             if len(sys.argv) > 4:
                 dicom = Program(binary, work / "other", log, sys.argv[4])
                 dicom.settled(4.0)
-                slices = [line["t_ms"] for line in lines_of(log) if line.get("view") == "slice" and line.get("paint_ms", 0) > 1.0]
+                slices = pictures(log, "slice")
                 blocked = [line["blocked_ms"] for line in lines_of(log) if "blocked_ms" in line]
                 print(f"DICOM folder: first slice {slices[0]:.0f} ms, last {slices[-1]:.0f} ms after the start of the program; "
                       f"peak {dicom.peak_mb():.0f} MB; blocked at most {max(blocked, default=0):.0f} ms")
@@ -124,8 +133,10 @@ def main():
             shutil.copy(case, copy)
             program = Program(binary, state, log, copy)
             program.settled(3.0)
-            shown = [line["t_ms"] for line in lines_of(log) if line.get("view") == "cpr1" and line.get("paint_ms", 0) > 1.0]
-            print(f"case: CPR shown {shown[0]:.0f} ms after the start of the program")
+            shown = pictures(log, "cpr1")
+            blocked = [line["blocked_ms"] for line in lines_of(log) if "blocked_ms" in line]
+            print(f"case: CPR shown {shown[0]:.0f} ms after the start of the program; "
+                  f"blocked at most {max(blocked, default=0):.0f} ms")
             cpr, profile = program.place("cpr1"), program.place("profile")
             middle, down = cpr["x"] + cpr["width"] // 2, cpr["y"] + cpr["height"] // 2
             xdo("mousemove", middle + 60, down, "click", 1)

@@ -138,6 +138,21 @@ TEST(LumenCommand, JoinsTheBranchesOfATree) {
   EXPECT_EQ(core::read_file(folder / "again.stl"), core::read_file(folder / "y.stl"));
 }
 
+TEST(LumenCommand, ItsCaseIsMeshedAsItIs) {
+  const fs::path folder = tube_folder();
+  done_json({"lumen", "tube.csv", "-o", "tube.stl", "--case", "tube.ostia", "--json"}, folder);
+  const std::vector<std::string> command{"mesh", "tube.ostia", "-o", "mesh", "--edge-ratio", "0.3", "--json"};
+  const Json quality = done_json(command, folder);
+  EXPECT_EQ(quality["volume"]["inverted"], 0);
+  EXPECT_EQ(quality["surface"]["open_edges"], 0);
+  EXPECT_EQ(quality["verdict"]["passed"], true);
+  const auto written = fs::last_write_time(folder / "mesh" / "mesh.vtu");
+  EXPECT_EQ(done_json(command, folder), quality);  // done already
+  EXPECT_EQ(fs::last_write_time(folder / "mesh" / "mesh.vtu"), written);
+  EXPECT_EQ(ostia({"mesh", "tube.ostia", "-o", "other", "--source", "0,0,0"}, {folder, ""}).code, 2);
+  EXPECT_FALSE(fs::exists(folder / "other"));
+}
+
 TEST(LumenCommand, AppliesEditsAndKeepsThemInACase) {
   const fs::path folder = tube_folder();
   session::write_edits(folder / "edits.jsonl", {ring(8.0, 1.0), ring(12.0, 0.9)});

@@ -21,6 +21,13 @@ TEST_F(Log, RedactsWhatIdentifiesThePatient) {
   EXPECT_NE(written.find("patient-1 has a missing slice"), std::string::npos);
 }
 
+TEST_F(Log, TheLastAliasOfASecretCounts) {
+  redact_in_logs("/data/roe/heart.nrrd", "image");
+  EXPECT_EQ(redacted("reading /data/roe/heart.nrrd"), "reading image");
+  redact_in_logs("/data/roe/heart.nrrd", "image-0a1b");
+  EXPECT_EQ(redacted("reading /data/roe/heart.nrrd"), "reading image-0a1b");
+}
+
 TEST_F(Log, IgnoresSecretsTooShortToMatter) {
   redact_in_logs("a", "X");
   EXPECT_EQ(redacted("a cat"), "a cat");

@@ -89,7 +89,19 @@ TEST(VesselTree, FindsEachFault) {
   expect_fault([](VesselTree& t) { t.vessels[0].segments[1] = 55; }, "unknown segment 55");
   expect_fault([](VesselTree& t) { t.vessels[0].segments = {9, 3}; }, "do not join");
   expect_fault([](VesselTree& t) { t.vessels[0].segments = {9}; }, "root");
-  expect_fault([](VesselTree& t) { t.vessels[0].segments = {3}; }, "end of the tree");
+  expect_fault(
+      [](VesselTree& t) {
+        for (Vessel& vessel : t.vessels) vessel.segments = {3};
+      },
+      "end of the tree");
+}
+
+TEST(VesselTree, AVesselMayEndWhereAnotherGoesOn) {
+  VesselTree tree = y_tree();
+  tree.vessels[0].segments = {3};
+  EXPECT_EQ(find_fault(tree), std::nullopt);
+  tree.vessels.pop_back();  // the other one
+  EXPECT_TRUE(find_fault(tree).has_value());
 }
 
 TEST(VesselTree, FindsALoop) {

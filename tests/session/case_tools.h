@@ -95,6 +95,8 @@ inline std::vector<lumen::Edit> one_of_each() {
           lumen::BranchAdd{9, "Ramus \"\xC3\xA9\"\n", {a, b}, {1.1, 0.9}},
           lumen::BranchDelete{2147483647},
           lumen::BranchAttach{11, 12, c},
+          lumen::BranchSplit{14, 0.7 / 3.0, "distal \xC3\xA9"},
+          lumen::BranchMerge{15},
           lumen::VesselRename{13, "D1"}};
 }
 

@@ -5,7 +5,6 @@
 
 #include <limits>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -187,33 +186,6 @@ TEST(Property, MayGoWhileItIsTold) {
   EXPECT_TRUE(there.set(7));
   EXPECT_EQ(calls, 1);
   taker.drop();  // after what it watched
-}
-
-TEST(Command, RunsWhereItIsEnabled) {
-  int runs = 0;
-  Command undo("Undo", "edit.undo", [&] { ++runs; });
-  EXPECT_TRUE(undo.run());
-  undo.enabled.set(false);
-  EXPECT_FALSE(undo.run());
-  EXPECT_EQ(runs, 1);
-  std::string shown;
-  const Subscription kept = undo.name.observe([&](const std::string& name) { shown = name; });
-  undo.name.set("Undo drawing");
-  EXPECT_EQ(shown, "Undo drawing");
-  EXPECT_EQ(undo.shortcut(), "edit.undo");
-  EXPECT_THROW(Command("Nothing", "none", {}), InvalidInput);
-}
-
-TEST(Command, MayBeTakenAwayByWhatItRuns) {
-  std::optional<Command> close;
-  const std::string held(100, 'x');
-  std::string after;
-  close.emplace("Close", "file.close", [&, held] {
-    close.reset();
-    after = held;
-  });
-  EXPECT_TRUE(close->run());
-  EXPECT_EQ(after, held);
 }
 
 }  // namespace

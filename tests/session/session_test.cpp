@@ -2,7 +2,9 @@
 
 #include "case_tools.h"
 
+#include "ostia/analysis/lumen_profile.h"
 #include "ostia/core/error.h"
+#include "ostia/session/replay.h"
 
 #include <gtest/gtest.h>
 
@@ -85,6 +87,96 @@ TEST(Session, AJumpIsSolvedOnce) {
   EXPECT_EQ(lumen::digest(session.live().model()), last);
   EXPECT_FALSE(session.go_to_step(5));
   EXPECT_THROW(session.go_to_step(7), InvalidInput);
+}
+
+/// A volume on each side of a seam and one across it, a place, and a diameter.
+std::vector<std::int32_t> annotate_tube(Session& session) {
+  using analysis::MeasureKind;
+  const auto add = [&](MeasureKind kind, double from_mm, double to_mm) {
+    MeasureAdd one = added(kind);
+    one.measurement.from_mm = from_mm;
+    one.measurement.to_mm = to_mm;
+    if (kind == MeasureKind::diameter) one.measurement.points = {{1.5, 0.0, from_mm}, {-1.5, 0.0, from_mm}};
+    session.annotate(one);
+  };
+  add(MeasureKind::volume, 2.0, 10.0);
+  add(MeasureKind::stenosis, 10.0, 20.0);
+  add(MeasureKind::volume, 18.0, 28.0);
+  add(MeasureKind::ring_hu, 5.0, 5.0);
+  add(MeasureKind::ring_hu, 25.0, 25.0);
+  add(MeasureKind::diameter, 22.0, 22.0);
+  session.annotate(added(MeasureKind::distance));
+  session.annotate(marked("done"));
+  return {tube_vessel, -1, -1, tube_vessel, -1, -1, 0};
+}
+
+TEST(Session, MeasurementsGoWithThePartOfASplitVesselThatTheyLieOn) {
+  const TempFolder folder;
+  Session session(CaseFile::create(folder / "a.ostia", tube_model()));
+  std::vector<std::int32_t> where = annotate_tube(session);
+  const std::string before = text_of(*session.file().annotations());
+  const std::string model = lumen::digest(*session.file().model());
+  const auto done = session.apply(lumen::BranchSplit{tube_vessel, 15.0, ""});
+  EXPECT_EQ(done.annotations.measurements, (std::vector<std::int32_t>{2, 3, 5, 6}));
+  EXPECT_TRUE(done.annotations.marks.empty());
+  const std::int32_t made = session.file().model()->tree.vessels[1].id;
+  const auto annotations = session.file().annotations();
+  for (std::size_t i = 0; i < where.size(); ++i)
+    EXPECT_EQ(annotations->measurements[i].vessel, where[i] < 0 ? made : where[i]) << i;
+  EXPECT_TRUE(find_orphans(*annotations, *session.file().model()).measurements.empty());
+  EXPECT_NE(find_mark(*annotations, tube_vessel), nullptr);
+  EXPECT_EQ(find_mark(*annotations, made), nullptr);
+  // What lies across the seam measures what it did.
+  const auto context = [&] {
+    analysis::MeasureContext all;
+    all.model = &session.live().model();
+    all.surface_of = [&](std::int32_t id) { return session.live().surface(id); };
+    return all;
+  };
+  analysis::LumenProfile profile = analysis::lumen_profile(
+      session.live().model(), [&](std::int32_t id) { return session.live().surface(id); }, made);
+  analysis::MeasureContext here = context();
+  here.profile_of = [&](std::int32_t) -> const analysis::LumenProfile& { return profile; };
+  analysis::Measurement across = annotations->measurements[2];
+  across.from_mm = 10.0;
+  across.to_mm = 20.0;
+  EXPECT_NEAR(analysis::measured(across, here).front().value, 10.0 * std::numbers::pi * 1.5 * 1.5, 1.5);
+
+  const auto undone = session.undo();
+  ASSERT_TRUE(undone);
+  EXPECT_EQ(undone->annotations.measurements.size(), 4U);
+  EXPECT_EQ(text_of(*session.file().annotations()), before);
+  EXPECT_EQ(lumen::digest(*session.file().model()), model);
+  ASSERT_TRUE(session.redo());
+  const auto merged = session.apply(lumen::BranchMerge{made});
+  EXPECT_EQ(merged.annotations.measurements.size(), 4U);
+  EXPECT_EQ(text_of(*session.file().annotations()), before);
+  ASSERT_TRUE(session.undo());
+  ASSERT_TRUE(session.undo());
+  EXPECT_EQ(text_of(*session.file().annotations()), before);
+  EXPECT_EQ(lumen::digest(*session.file().model()), model);
+  EXPECT_EQ(lumen::digest(session.live().model()), model);
+}
+
+TEST(Session, ASplitVesselIsReadAgainAsItWas) {
+  const TempFolder folder;
+  std::string model, annotations;
+  {
+    Session session(CaseFile::create(folder / "a.ostia", y_model()));
+    const std::int32_t first = session.file().model()->tree.vessels[0].id;
+    session.apply(lumen::BranchSplit{first, 8.0, ""});
+    session.apply(lumen::BranchSplit{session.file().model()->tree.vessels[1].id, 21.0, "end"});
+    session.apply(lumen::BranchMerge{session.file().model()->tree.vessels[1].id});
+    session.undo();
+    model = lumen::digest(*session.file().model());
+    EXPECT_EQ(lumen::digest(session.live().model()), model);
+  }
+  Session again = Session::open(folder / "a.ostia");
+  EXPECT_EQ(lumen::digest(*again.file().model()), model);
+  EXPECT_TRUE(replay(again.file()).same());
+  while (again.undo()) {
+  }
+  EXPECT_EQ(lumen::digest(*again.file().model()), lumen::digest(y_model()));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <future>
 
 namespace ostia::session {
 namespace {
@@ -81,6 +82,29 @@ TEST_F(Table, TheProfileIsMeasuredAgainWhereTheWallMoved) {
   fresh.set_session(Session(CaseFile::create(folder / "b.ostia", now)));
   for (double s = 1.0; s < 29.0; s += 1.0)
     EXPECT_NEAR(at(s), analysis::at(*fresh.profile(tube_vessel), s).diameter_mm, 1e-3) << s;
+}
+
+TEST_F(Table, AVesselIsMeasuredBesideTheTableWhileTheModelIsTheSame) {
+  open_tube();
+  const std::optional<ProfileWork> work = bench.profile_work(tube_vessel);
+  ASSERT_TRUE(work);
+  const analysis::LumenProfile measured =
+      std::async(std::launch::async, [&] { return work->measured(); }).get();
+  EXPECT_TRUE(bench.take_profile(*work, measured));
+  EXPECT_FALSE(bench.profile_work(tube_vessel)) << "it is measured";
+  const analysis::LumenProfile again = analysis::lumen_profile(
+      *bench.model(), [&](std::int32_t one) { return bench.session().live().surface(one); }, tube_vessel);
+  ASSERT_EQ(bench.profile(tube_vessel)->sections.size(), again.sections.size());
+  for (std::size_t i = 0; i < again.sections.size(); ++i)
+    EXPECT_DOUBLE_EQ(bench.profile(tube_vessel)->sections[i].area_mm2, again.sections[i].area_mm2);
+  core::TaskContext cancelled;
+  cancelled.cancel();
+  EXPECT_THROW(work->measured(cancelled), Cancelled);
+  EXPECT_FALSE(bench.profile_work(tube_vessel + 77));
+  bench.close_case();
+  EXPECT_FALSE(bench.take_profile(*work, measured)) << "the case is no longer there";
+  bench.set_session(Session(CaseFile::create(folder / "b.ostia", tube_model())));
+  EXPECT_FALSE(bench.take_profile(*work, measured)) << "another model";
 }
 
 TEST_F(Table, AStenosisIsToldOnceItIsMeasured) {

@@ -52,6 +52,29 @@ TEST(WorkerQueue, ResultsAreTakenOnce) {
   EXPECT_FALSE(queue.status(job));
 }
 
+TEST(WorkerQueue, WorkWithoutAModelReturnsWhatItReturned) {
+  WorkerQueue queue;
+  const auto job = queue.submit("plain", [](const core::TaskContext& task) {
+    task.set_progress(0.5);
+    return std::any(std::string("made"));
+  });
+  EXPECT_EQ(finished(queue, job).state, JobState::done);
+  const std::optional<std::any> result = queue.take_any(job);
+  ASSERT_TRUE(result);
+  EXPECT_EQ(std::any_cast<std::string>(*result), "made");
+  EXPECT_FALSE(queue.take_any(job));
+  EXPECT_THROW(queue.submit("plain", WorkerQueue::PlainWork()), InvalidInput);
+}
+
+TEST(WorkerQueue, WhatWorkHoldsOnToIsLetGoWhenItEnds) {
+  WorkerQueue queue;
+  auto held = std::make_shared<int>(7);
+  const auto job =
+      queue.submit("plain", [held](const core::TaskContext&) { return std::any(static_cast<int>(*held)); });
+  EXPECT_EQ(finished(queue, job).state, JobState::done);
+  EXPECT_EQ(held.use_count(), 1);
+}
+
 TEST(WorkerQueue, FailuresAreTold) {
   WorkerQueue queue;
   const auto job = queue.submit(

@@ -108,6 +108,41 @@ TEST_F(TwinCpr, ContoursFollowAnEditWithoutANewImage) {
   EXPECT_NEAR(width_of_lumen_mm(first, 15.0), 2.0 * testing::tube_radius_mm, 0.03);
 }
 
+TEST_F(TwinCpr, LinesAreCoarseWhileAHandTurnsAndExactWhenItLetsGo) {
+  const auto points = [&] {
+    std::size_t count = 0;
+    for (const lumen::ContourLine& line : first.contour_lines()) count += line.picture_px.size();
+    return count;
+  };
+  const std::size_t exact = points();
+  tube.bench.turning.set(true);
+  tube.bench.theta_deg.set(30.0);
+  EXPECT_LT(points(), 0.7 * static_cast<double>(exact));
+  EXPECT_NEAR(width_of_lumen_mm(first, 15.0), 2.0 * testing::tube_radius_mm, first.pixel_mm());
+  tube.bench.turning.set(false);
+  CurvedView fresh(tube.bench, CurvedView::Which::first, frame);
+  fresh.set_size(300, 600, 1.0);
+  ASSERT_EQ(first.contour_lines().size(), fresh.contour_lines().size());
+  for (std::size_t i = 0; i < fresh.contour_lines().size(); ++i)
+    EXPECT_EQ(first.contour_lines()[i].world, fresh.contour_lines()[i].world);
+}
+
+TEST_F(TwinCpr, PreparedTogetherOrAloneTheyAreTheSame) {
+  tube.bench.theta_deg.set(40.0);
+  prepare({&first, &second});
+  for (CurvedView* view : {&first, &second}) {
+    const std::uint64_t made = view->image_revision();
+    CurvedView alone(tube.bench, view == &first ? CurvedView::Which::first : CurvedView::Which::second,
+                     frame);
+    alone.set_size(300, 600, 1.0);
+    EXPECT_EQ(view->image().values, alone.image().values);
+    EXPECT_EQ(view->image_revision(), made);  // nothing was left to do
+    ASSERT_EQ(view->contour_lines().size(), alone.contour_lines().size());
+    for (std::size_t i = 0; i < alone.contour_lines().size(); ++i)
+      EXPECT_EQ(view->contour_lines()[i].world, alone.contour_lines()[i].world);
+  }
+}
+
 TEST_F(TwinCpr, StretchedAndSlabsAreOtherPictures) {
   const auto revision = [&] {
     first.image();

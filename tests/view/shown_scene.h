@@ -54,7 +54,7 @@ struct ShownScene {
     window->SetMultiSamples(0);
     window->SetOffScreenRendering(1);
     window->SetSize(400, 300);
-    window->AddRenderer(scene.renderer());
+    scene.attach(*window);
     scene.set_marker_shown(false);
     scene.set_scale_bar_shown(false);
   }

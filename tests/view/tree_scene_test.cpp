@@ -165,6 +165,56 @@ TEST(TreeSceneGui, AnUpdateOfTheWallChangesItThereAlone) {
   EXPECT_NEAR(pick->s_mm, 20.0, 0.3);
 }
 
+/// While a hand pulls at one place the wall elsewhere is not drawn again; the picture is that of a scene
+/// which knows nothing of the walls before.
+TEST(TreeSceneGui, AWallPulledAtOnePlaceLooksAsIfDrawnWhole) {
+  const Tree tree = testing::straight_tree();
+  ShownScene pulled;
+  pulled.scene.set_wall(tree.wall, tree.model);
+  pulled.scene.set_pose(from_front());
+  pulled.shoot();
+  const auto others = [&](const geometry::TriMesh& wall, const auto& change) {
+    ShownScene fresh;
+    fresh.scene.set_wall(std::make_shared<const geometry::TriMesh>(wall), tree.model);
+    fresh.scene.set_pose(from_front());
+    change(fresh.scene);
+    const Shot wanted = fresh.shoot(), got = pulled.shoot();
+    int count = 0;
+    for (std::size_t i = 0; i < wanted.pixels.size(); ++i)
+      count += wanted.pixels[i].difference(got.pixels[i]) > 3 ? 1 : 0;  // rounding where two pieces meet
+    return count;
+  };
+  const auto nothing = [](TreeScene&) {};
+  struct Pull {
+    Vec3 at;
+    bool kept;
+  };
+  for (const Pull& pull :
+       {Pull{{2.0, 0.0, 20.0}, false}, Pull{{2.0, 0.0, 20.6}, true}, Pull{{2.0, 0.0, 19.5}, true},
+        Pull{{-2.0, 0.0, 35.0}, false}, Pull{{-2.0, 0.0, 34.5}, true}}) {
+    const auto wall = bumped(*tree.wall, pull.at);
+    pulled.scene.set_wall(wall, tree.model);
+    EXPECT_EQ(others(*wall, nothing), 0) << pull.at.z();
+    EXPECT_EQ(pulled.scene.kept_picture(), pull.kept) << pull.at.z();
+  }
+  EXPECT_TRUE(pulled.scene.settle());
+  EXPECT_FALSE(pulled.scene.settle());
+  const auto wall = bumped(*tree.wall, {-2.0, 0.0, 34.5});
+  EXPECT_EQ(others(*wall, nothing), 0);
+  EXPECT_FALSE(pulled.scene.kept_picture());
+  const auto blue = [](TreeScene& scene) { scene.set_vessel_style(4, {true, {0.2, 0.3, 0.9}}); };
+  blue(pulled.scene);
+  EXPECT_EQ(others(*wall, blue), 0);
+  const auto clear = [](TreeScene& scene) { scene.set_opacity(0.5); };
+  pulled.scene.set_wall(bumped(*tree.wall, {2.0, 0.0, 10.0}), tree.model);
+  pulled.scene.set_wall(wall, tree.model);
+  blue(pulled.scene), clear(pulled.scene);
+  EXPECT_EQ(others(*wall, [&](TreeScene& scene) { blue(scene), clear(scene); }), 0);
+  const auto pick = pulled.scene.pick(pulled.scene.project({-2.9, 0.0, 34.5}));
+  ASSERT_TRUE(pick);
+  EXPECT_NEAR(pick->s_mm, 34.5, 0.3);
+}
+
 TEST(TreeSceneGui, CursorAndMeasurementsAreSeenOverTheWall) {
   const Tree tree = testing::straight_tree();
   ShownScene shown;
@@ -200,6 +250,55 @@ TEST(TreeSceneGui, CursorAndMeasurementsAreSeenOverTheWall) {
   shown.scene.set_cursor({});
   shown.scene.set_measurements({});
   EXPECT_EQ(shown.shoot().painted(), plain.painted());
+}
+
+/// The wall is not drawn again for a cursor that moves, and nobody sees the difference.
+TEST(TreeSceneGui, ACursorThatMovesKeepsThePictureOfTheWall) {
+  const Tree tree = testing::straight_tree();
+  const auto cursor_at = [](double z) {
+    SceneCursor cursor;
+    cursor.place = {0.0, 0.0, z};
+    cursor.frame = {Vec3::UnitZ(), Vec3::UnitX(), Vec3::UnitY()};
+    cursor.radius_mm = 3.0;
+    return cursor;
+  };
+  const auto start = [&](ShownScene& shown, double z) {
+    shown.scene.set_wall(tree.wall, tree.model);
+    shown.scene.set_pose(from_front());
+    shown.scene.set_scale_bar_shown(true);
+    shown.scene.set_cursor(cursor_at(z));
+  };
+  ShownScene moved, fresh;
+  start(moved, 5.0);
+  moved.shoot();
+  EXPECT_FALSE(moved.scene.kept_picture());
+  moved.scene.set_cursor(cursor_at(30.0));
+  const Shot after = moved.shoot();
+  EXPECT_TRUE(moved.scene.kept_picture());
+  start(fresh, 30.0);
+  const Shot wanted = fresh.shoot();
+  EXPECT_FALSE(fresh.scene.kept_picture());
+  int others = 0;
+  for (std::size_t i = 0; i < wanted.pixels.size(); ++i)
+    others += wanted.pixels[i].difference(after.pixels[i]) > 0 ? 1 : 0;
+  EXPECT_EQ(others, 0);
+  // Whatever else changes is drawn.
+  const auto drawn_after = [&](const auto& change) {
+    moved.shoot();
+    EXPECT_TRUE(moved.scene.kept_picture());
+    change();
+    const Shot now = moved.shoot();
+    EXPECT_FALSE(moved.scene.kept_picture());
+    return now;
+  };
+  const Shot red = drawn_after([&] { moved.scene.set_vessel_style(4, {true, {1.0, 0.0, 0.0}}); });
+  EXPECT_GT(red.at(moved.scene.project({0.8, 0.0, 10.0})).r,
+            2 * red.at(moved.scene.project({0.8, 0.0, 10.0})).b);
+  const Shot turned = drawn_after([&] { moved.scene.rotate_by(40.0, 90.0); });
+  EXPECT_NE(turned.painted(), red.painted());
+  const Shot light = drawn_after([&] { moved.scene.set_look(figure::Look::light); });
+  EXPECT_GT(light.background().brightness(), 600);
+  drawn_after([&] { moved.scene.clear_wall(); });
 }
 
 TEST(TreeSceneGui, APictureInSpaceHasItsPixelsInPlace) {

@@ -1,7 +1,6 @@
 #include "ostia/view/wall_owner.h"
 
 #include "vessel_trees.h"
-#include "wall_actor.h"
 
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
@@ -100,20 +99,6 @@ TEST(WallOwner, FollowsAnEditWithWhatIsSharedKept) {
   const Vec3 place = wider->axis->place(s, 1.0, wider->axis->radius(s));
   EXPECT_NEAR(after.at(place).radius_mm, 1.5 * before.at(place).radius_mm, 0.02);
   EXPECT_THROW(WallOwner(LumenModel{}), InvalidInput);
-}
-
-TEST(WallActor, NormalsPointOutOfTheVessel) {
-  const geometry::TriMesh wall =
-      lumen::surface_of(lumen::model_of_tubes(lumen::testing::straight_vessel(40.0, 2.0)), 0.25);
-  const std::vector<Eigen::Vector3f> normals = smooth_normals(wall);
-  ASSERT_EQ(normals.size(), wall.points.size());
-  double worst = 1.0;
-  for (std::size_t i = 0; i < normals.size(); ++i) {
-    const Vec3& p = wall.points[i];
-    if (p.z() < 2.0 || p.z() > 38.0) continue;
-    worst = std::min(worst, normals[i].cast<double>().dot(Vec3(p.x(), p.y(), 0.0).normalized()));
-  }
-  EXPECT_GT(worst, 0.97);
 }
 
 }  // namespace

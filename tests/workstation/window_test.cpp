@@ -1,6 +1,7 @@
 #include "main_window.h"
 #include "reporting.h"
 #include "side_lists.h"
+#include "tube_case.h"
 #include "vessel_list.h"
 #include "window_hand.h"
 #include "zip_writer.h"
@@ -8,7 +9,6 @@
 #include "ostia/core/files.h"
 #include "ostia/imaging/dicom_writer.h"
 #include "ostia/imaging/image_file.h"
-#include "ostia/lumen/start_surface.h"
 #include "ostia/session/image_digest.h"
 #include "ostia/view/curved_view.h"
 #include "ostia/view/plane_view.h"
@@ -31,46 +31,13 @@ namespace fs = std::filesystem;
 using session::Tool;
 using testing::sweep;
 using testing::TestWindow;
+using testing::tube_image;
+using testing::tube_model;
 using testing::wait_until;
 using view::Vec2;
 using view::Vec3;
 
-constexpr double radius_mm = 1.5, length_mm = 40.0;
-
-/// A contrast-filled tube with a wall, along z in fat, with noise.
-imaging::ImageVolume tube_image() {
-  imaging::ImageVolume image;
-  image.geometry.size = {64, 64, 110};
-  image.geometry.spacing = {0.4, 0.4, 0.4};
-  image.geometry.origin = {-12.6, -12.6, -2.0};
-  image.voxels.resize(static_cast<std::size_t>(image.geometry.voxels()));
-  for (std::int64_t k = 0; k < 110; ++k)
-    for (std::int64_t j = 0; j < 64; ++j)
-      for (std::int64_t i = 0; i < 64; ++i) {
-        const Vec3 at = image.geometry.world({double(i), double(j), double(k)});
-        const double r = std::hypot(at.x(), at.y());
-        const auto within = [&](double radius) { return std::clamp(0.5 - (r - radius) / 0.7, 0.0, 1.0); };
-        const double hu = -80.0 + 130.0 * within(radius_mm + 0.8) + 350.0 * within(radius_mm);
-        const double noise =
-            40.0 * ((((i * 73 + j * 179 + k * 283) * 2654435761LL) >> 12) % 1000 / 1000.0 - 0.5);
-        image(i, j, k) = static_cast<std::int16_t>(std::lround(hu + noise));
-      }
-  return image;
-}
-
-lumen::LumenModel tube_model() {
-  geometry::Centerline axis;
-  for (int i = 0; i <= 80; ++i) {
-    axis.points.push_back({0.0, 0.0, 0.5 * i});
-    axis.radius.push_back(radius_mm);
-  }
-  geometry::complete(axis);
-  geometry::VesselTree tree;
-  tree.nodes = {{1, axis.points.front()}, {2, axis.points.back()}};
-  tree.segments = {{3, 1, 2, axis}};
-  tree.vessels = {{4, "LAD", {3}}};
-  return lumen::model_of_tubes(tree);
-}
+constexpr double radius_mm = testing::tube_radius_mm;
 
 struct WindowTest : ::testing::Test {
   testing::Folder folder;

@@ -392,8 +392,8 @@
         <translation>Rechtsklick oder Menütaste</translation>
     </message>
     <message>
-        <source>rename, colour, cut off, delete, join</source>
-        <translation>umbenennen, Farbe, abschneiden, löschen, verbinden</translation>
+        <source>rename, colour, cut off, split, delete, join</source>
+        <translation>umbenennen, Farbe, abschneiden, teilen, löschen, verbinden</translation>
     </message>
     <message>
         <source>keys F2, Space, Delete</source>
@@ -402,6 +402,30 @@
     <message>
         <source>another name, tick, delete</source>
         <translation>anderer Name, Haken, löschen</translation>
+    </message>
+    <message>
+        <source>Vessel</source>
+        <translation>Gefäß</translation>
+    </message>
+    <message>
+        <source>tree, measuring</source>
+        <translation>Baum, Messen</translation>
+    </message>
+    <message>
+        <source>place a measurement, or its next point, on the wall</source>
+        <translation>eine Messung oder ihren nächsten Punkt auf die Wand setzen</translation>
+    </message>
+    <message>
+        <source>a handle of the selected measurement, drag</source>
+        <translation>Griff der gewählten Messung, ziehen</translation>
+    </message>
+    <message>
+        <source>move it over the wall</source>
+        <translation>ihn über die Wand bewegen</translation>
+    </message>
+    <message>
+        <source>the measurement under the mouse goes, or the selected one</source>
+        <translation>die Messung unter der Maus verschwindet, sonst die gewählte</translation>
     </message>
 </context>
 <context>
@@ -722,6 +746,14 @@
         <source>Cancel %1</source>
         <translation>%1 abbrechen</translation>
     </message>
+    <message>
+        <source>Close</source>
+        <translation>Schließen</translation>
+    </message>
+    <message>
+        <source>Close %1</source>
+        <translation>%1 schließen</translation>
+    </message>
 </context>
 <context>
     <name>ostia::workstation::MainWindow</name>
@@ -1041,6 +1073,26 @@
         <source>The truth cannot be opened</source>
         <translation>Die Wahrheit lässt sich nicht öffnen</translation>
     </message>
+    <message>
+        <source>Ve&amp;ssel</source>
+        <translation>&amp;Gefäß</translation>
+    </message>
+    <message>
+        <source>&amp;Split at the cursor</source>
+        <translation>Am Cursor &amp;teilen</translation>
+    </message>
+    <message>
+        <source>&amp;Join with parent vessel</source>
+        <translation>Mit dem &amp;Muttergefäß verbinden</translation>
+    </message>
+    <message>
+        <source>Drop one case, image or folder at a time; of a DICOM series drop its folder.</source>
+        <translation>Bitte nur einen Fall, ein Bild oder einen Ordner auf einmal ablegen, von einer DICOM-Serie ihren Ordner.</translation>
+    </message>
+    <message>
+        <source>A &amp;mesh…</source>
+        <translation>Ein &amp;Netz…</translation>
+    </message>
 </context>
 <context>
     <name>ostia::workstation::ManualDialog</name>
@@ -1082,6 +1134,244 @@
     <message>
         <source>Value</source>
         <translation>Wert</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::MeshingDialog</name>
+    <message>
+        <source>%1 million</source>
+        <translation>%1 Millionen</translation>
+    </message>
+    <message>
+        <source>Mesh and export</source>
+        <translation>Vernetzen und exportieren</translation>
+    </message>
+    <message>
+        <source>Export the surface</source>
+        <translation>Oberfläche exportieren</translation>
+    </message>
+    <message>
+        <source>Export</source>
+        <translation>Exportieren</translation>
+    </message>
+    <message>
+        <source>Vessels</source>
+        <translation>Gefäße</translation>
+    </message>
+    <message>
+        <source>all, %1</source>
+        <translation>alle, %1</translation>
+    </message>
+    <message>
+        <source>those shown in 3D: %1</source>
+        <translation>die in 3D gezeigten: %1</translation>
+    </message>
+    <message>
+        <source>the selected one: %1</source>
+        <translation>das ausgewählte: %1</translation>
+    </message>
+    <message>
+        <source>&amp;Vessels</source>
+        <translation>&amp;Gefäße</translation>
+    </message>
+    <message>
+        <source>Ends</source>
+        <translation>Enden</translation>
+    </message>
+    <message>
+        <source>cut flat, closed, faces named</source>
+        <translation>eben, geschlossen, Flächen benannt</translation>
+    </message>
+    <message>
+        <source>cut flat, open</source>
+        <translation>eben, offen</translation>
+    </message>
+    <message>
+        <source>rounded, as in the model</source>
+        <translation>gerundet, wie im Modell</translation>
+    </message>
+    <message>
+        <source>&amp;Ends</source>
+        <translation>&amp;Enden</translation>
+    </message>
+    <message>
+        <source>Size of the triangles</source>
+        <translation>Größe der Dreiecke</translation>
+    </message>
+    <message>
+        <source>as fine as the model</source>
+        <translation>so fein wie das Modell</translation>
+    </message>
+    <message>
+        <source>by the calibre</source>
+        <translation>nach dem Kaliber</translation>
+    </message>
+    <message>
+        <source>the same everywhere</source>
+        <translation>überall gleich</translation>
+    </message>
+    <message>
+        <source>By the calibre: as many edges around a thin vessel as around a thick one. The same everywhere: shorter only where fewer than eight edges would be around the lumen.</source>
+        <translation>Nach dem Kaliber: um ein dünnes Gefäß so viele Kanten wie um ein dickes. Überall gleich: kürzer nur, wo weniger als acht Kanten um das Lumen lägen.</translation>
+    </message>
+    <message>
+        <source>Edges around a vessel</source>
+        <translation>Kanten um ein Gefäß</translation>
+    </message>
+    <message>
+        <source> edges around</source>
+        <translation> Kanten ringsum</translation>
+    </message>
+    <message>
+        <source>Edge length</source>
+        <translation>Kantenlänge</translation>
+    </message>
+    <message>
+        <source> mm</source>
+        <translation> mm</translation>
+    </message>
+    <message>
+        <source>&amp;Triangles</source>
+        <translation>&amp;Dreiecke</translation>
+    </message>
+    <message>
+        <source>ParaView, VTK; keeps the names of the faces</source>
+        <translation>ParaView, VTK; behält die Namen der Flächen</translation>
+    </message>
+    <message>
+        <source>Any program, 3D printers; without names of faces</source>
+        <translation>Jedes Programm, 3D-Drucker; ohne Namen der Flächen</translation>
+    </message>
+    <message>
+        <source>MeshLab, Blender; without names of faces</source>
+        <translation>MeshLab, Blender; ohne Namen der Flächen</translation>
+    </message>
+    <message>
+        <source>Surface as</source>
+        <translation>Oberfläche als</translation>
+    </message>
+    <message>
+        <source>VTU, with the names of the faces</source>
+        <translation>VTU, mit den Namen der Flächen</translation>
+    </message>
+    <message>
+        <source>Mesh as</source>
+        <translation>Netz als</translation>
+    </message>
+    <message>
+        <source>Folder that is made</source>
+        <translation>Ordner, der gemacht wird</translation>
+    </message>
+    <message>
+        <source>&amp;Choose…</source>
+        <translation>&amp;Wählen…</translation>
+    </message>
+    <message>
+        <source>&amp;New folder</source>
+        <translation>&amp;Neuer Ordner</translation>
+    </message>
+    <message>
+        <source>Where the folder is to be</source>
+        <translation>Wo der Ordner liegen soll</translation>
+    </message>
+    <message>
+        <source>together with the vessels that they come from: %1</source>
+        <translation>zusammen mit den Gefäßen, von denen sie kommen: %1</translation>
+    </message>
+    <message>
+        <source>%1 edges around a vessel are too few. Choose %2 to %3.</source>
+        <translation>%1 Kanten um ein Gefäß sind zu wenige. Wählen Sie %2 bis %3.</translation>
+    </message>
+    <message>
+        <source>%1 edges around a vessel are too many. Choose %2 to %3.</source>
+        <translation>%1 Kanten um ein Gefäß sind zu viele. Wählen Sie %2 bis %3.</translation>
+    </message>
+    <message>
+        <source>Edges of %1 mm are too short. Choose %2 to %3 mm.</source>
+        <translation>Kanten von %1 mm sind zu kurz. Wählen Sie %2 bis %3 mm.</translation>
+    </message>
+    <message>
+        <source>Edges of %1 mm are too long. Choose %2 to %3 mm.</source>
+        <translation>Kanten von %1 mm sind zu lang. Wählen Sie %2 bis %3 mm.</translation>
+    </message>
+    <message>
+        <source>About %1 cells; more than %2 do not fit. Choose longer edges, or fewer vessels.</source>
+        <translation>Etwa %1 Zellen; mehr als %2 gehen nicht. Wählen Sie längere Kanten oder weniger Gefäße.</translation>
+    </message>
+    <message>
+        <source>Choose at least one format.</source>
+        <translation>Wählen Sie mindestens ein Format.</translation>
+    </message>
+    <message>
+        <source>Name a new folder.</source>
+        <translation>Nennen Sie einen neuen Ordner.</translation>
+    </message>
+    <message>
+        <source>There is a file of this name. Name another folder.</source>
+        <translation>Es gibt eine Datei dieses Namens. Nennen Sie einen anderen Ordner.</translation>
+    </message>
+    <message>
+        <source>There is no folder %1.</source>
+        <translation>Es gibt keinen Ordner %1.</translation>
+    </message>
+    <message>
+        <source>Nothing can be written in %1. Choose another place.</source>
+        <translation>In %1 kann nichts geschrieben werden. Wählen Sie einen anderen Ort.</translation>
+    </message>
+    <message>
+        <source>About %1 cells, %2 triangles on their surface.</source>
+        <translation>Etwa %1 Zellen, %2 Dreiecke auf ihrer Oberfläche.</translation>
+    </message>
+    <message>
+        <source>About %1 triangles.</source>
+        <translation>Etwa %1 Dreiecke.</translation>
+    </message>
+    <message>
+        <source>The export that is under way will be given up for this one.</source>
+        <translation>Der laufende Export wird für diesen aufgegeben.</translation>
+    </message>
+    <message>
+        <source>The folder holds files that are not from an earlier export. Name another one.</source>
+        <translation>Im Ordner liegen Dateien, die nicht von einem früheren Export sind. Nennen Sie einen anderen.</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::MeshingExport</name>
+    <message>
+        <source>Mesh</source>
+        <translation>Netz</translation>
+    </message>
+    <message>
+        <source>Surface</source>
+        <translation>Oberfläche</translation>
+    </message>
+    <message>
+        <source>The mesh could not be made</source>
+        <translation>Das Netz konnte nicht gemacht werden</translation>
+    </message>
+    <message>
+        <source>The surface could not be exported</source>
+        <translation>Die Oberfläche konnte nicht exportiert werden</translation>
+    </message>
+    <message>
+        <source>%1: %2 cells, least dihedral angle %3°</source>
+        <translation>%1: %2 Zellen, kleinster Diederwinkel %3°</translation>
+    </message>
+    <message>
+        <source>%1: %2 triangles</source>
+        <translation>%1: %2 Dreiecke</translation>
+    </message>
+    <message>
+        <source>Open folder</source>
+        <translation>Ordner öffnen</translation>
+    </message>
+    <message>
+        <source>The mesh is in %1, but it does not pass the quality control: %2. Look at it before you compute with it, or mesh again with shorter edges.</source>
+        <translation>Das Netz ist in %1, besteht aber die Qualitätsprüfung nicht: %2. Sehen Sie es an, bevor Sie damit rechnen, oder vernetzen Sie neu mit kürzeren Kanten.</translation>
+    </message>
+    <message>
+        <source>A mesh to look at</source>
+        <translation>Ein Netz zum Ansehen</translation>
     </message>
 </context>
 <context>
@@ -1572,26 +1862,6 @@
         <translation>Diese Ansicht wird Schlüsselbild %1 des nächsten Befunds.</translation>
     </message>
     <message>
-        <source>Export the wall</source>
-        <translation>Wand exportieren</translation>
-    </message>
-    <message>
-        <source>Surfaces (*.vtp *.stl *.ply *.obj)</source>
-        <translation>Oberflächen (*.vtp *.stl *.ply *.obj)</translation>
-    </message>
-    <message>
-        <source>Export of the wall</source>
-        <translation>Export der Wand</translation>
-    </message>
-    <message>
-        <source>The wall is in %1.</source>
-        <translation>Die Wand liegt in %1.</translation>
-    </message>
-    <message>
-        <source>The wall could not be exported</source>
-        <translation>Die Wand konnte nicht exportiert werden</translation>
-    </message>
-    <message>
         <source>Export the centerlines</source>
         <translation>Mittellinien exportieren</translation>
     </message>
@@ -1701,6 +1971,21 @@
     <message>
         <source>Mouse and keys in the views</source>
         <translation>Maus und Tasten in den Ansichten</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::StartPage</name>
+    <message>
+        <source>No case is open</source>
+        <translation>Kein Fall ist geöffnet</translation>
+    </message>
+    <message>
+        <source>Drop a DICOM folder, an image or a case on this window, or:</source>
+        <translation>Legen Sie einen DICOM-Ordner, ein Bild oder einen Fall auf dieses Fenster, oder:</translation>
+    </message>
+    <message>
+        <source>Recent cases:</source>
+        <translation>Letzte Fälle:</translation>
     </message>
 </context>
 <context>
@@ -1915,6 +2200,14 @@
         <source>Where its own part begins goes to the nearest place of that vessel</source>
         <translation>Der Anfang seines eigenen Teils kommt an die nächste Stelle jenes Gefäßes</translation>
     </message>
+    <message>
+        <source>Split at the cursor</source>
+        <translation>Am Cursor teilen</translation>
+    </message>
+    <message>
+        <source>Join with parent vessel</source>
+        <translation>Mit dem Muttergefäß verbinden</translation>
+    </message>
 </context>
 <context>
     <name>presets</name>
@@ -2001,6 +2294,38 @@
         <source>finding the way between two points</source>
         <translation>Weg zwischen zwei Punkten suchen</translation>
     </message>
+    <message>
+        <source>walls</source>
+        <translation>Wände</translation>
+    </message>
+    <message>
+        <source>ends cut</source>
+        <translation>Enden schneiden</translation>
+    </message>
+    <message>
+        <source>clipping</source>
+        <translation>Enden schneiden</translation>
+    </message>
+    <message>
+        <source>caps</source>
+        <translation>Deckel</translation>
+    </message>
+    <message>
+        <source>centerlines of the cut lumen</source>
+        <translation>Mittellinien des geschnittenen Lumens</translation>
+    </message>
+    <message>
+        <source>remeshing</source>
+        <translation>Neu vernetzen</translation>
+    </message>
+    <message>
+        <source>tetrahedra</source>
+        <translation>Tetraeder</translation>
+    </message>
+    <message>
+        <source>quality</source>
+        <translation>Güte</translation>
+    </message>
 </context>
 <context>
     <name>steps</name>
@@ -2075,6 +2400,14 @@
     <message>
         <source>Delete a measurement</source>
         <translation>Messung löschen</translation>
+    </message>
+    <message>
+        <source>Split a vessel</source>
+        <translation>Gefäß teilen</translation>
+    </message>
+    <message>
+        <source>Join a vessel with its parent</source>
+        <translation>Gefäß mit dem Muttergefäß verbinden</translation>
     </message>
 </context>
 <context>
@@ -2252,16 +2585,28 @@
         <translation>Die zuletzt angeklickte Ansicht wird ein Schlüsselbild des nächsten Befunds.</translation>
     </message>
     <message>
-        <source>Writes the wall as a surface (VTP, STL, PLY, OBJ).</source>
-        <translation>Schreibt die Wand als Oberfläche (VTP, STL, PLY, OBJ).</translation>
-    </message>
-    <message>
         <source>Writes the centerlines with their radii (VTP).</source>
         <translation>Schreibt die Mittellinien mit ihren Radien (VTP).</translation>
     </message>
     <message>
         <source>Holds the case against contours that somebody else knows to be right.</source>
         <translation>Hält den Fall gegen Konturen, von denen jemand weiß, dass sie richtig sind.</translation>
+    </message>
+    <message>
+        <source>Makes two vessels of this one; the second begins at the cursor and takes the side branches from there on.</source>
+        <translation>Macht aus diesem Gefäß zwei; das zweite beginnt am Cursor und übernimmt die Seitenäste ab dort.</translation>
+    </message>
+    <message>
+        <source>Makes this vessel part of the one from whose end it goes on; takes a split back.</source>
+        <translation>Macht dieses Gefäß zu einem Teil dessen, an dessen Ende es anschließt; nimmt eine Teilung zurück.</translation>
+    </message>
+    <message>
+        <source>Makes a surface of the wall (VTP, STL, PLY) in the background.</source>
+        <translation>Macht im Hintergrund eine Oberfläche der Wand (VTP, STL, PLY).</translation>
+    </message>
+    <message>
+        <source>Fills the lumen with tetrahedra for a solver, in the background.</source>
+        <translation>Füllt das Lumen im Hintergrund mit Tetraedern für einen Löser.</translation>
     </message>
 </context>
 <context>
@@ -2412,6 +2757,18 @@
     <message>
         <source>not measurable</source>
         <translation>nicht messbar</translation>
+    </message>
+    <message>
+        <source>There is no vessel: click on the wall of one.</source>
+        <translation>Hier ist kein Gefäß: auf die Wand eines Gefäßes klicken.</translation>
+    </message>
+    <message>
+        <source>This is another vessel: both places have to lie along one.</source>
+        <translation>Das ist ein anderes Gefäß: Beide Stellen müssen an demselben liegen.</translation>
+    </message>
+    <message>
+        <source>The lumen is shut or open here: there is nothing to measure across it.</source>
+        <translation>Das Lumen ist hier verschlossen oder offen: Quer dazu ist nichts zu messen.</translation>
     </message>
 </context>
 </TS>

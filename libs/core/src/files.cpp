@@ -47,7 +47,8 @@ std::string shown(const fs::path& path) {
 
 [[noreturn]] void throw_errno(const std::string& what, const fs::path& path, int code) {
   const std::string message = what + " " + shown(path) + ": " + std::generic_category().message(code);
-  if (code == ENOSPC || code == EDQUOT || code == EFBIG) throw ResourceError(message);
+  if (code == ENOSPC || code == EDQUOT || code == EFBIG)
+    throw ResourceError(message + "; make room and try again");
   throw IoError(message);
 }
 

@@ -96,6 +96,7 @@ void redact_in_logs(std::string_view secret, std::string_view alias) {
   if (secret.size() < 3) return;
   Redactions& r = redactions();
   const std::lock_guard lock(r.mutex);
+  std::erase_if(r.pairs, [&](const auto& known) { return known.first == secret; });
   r.pairs.emplace_back(secret, alias);
   std::stable_sort(r.pairs.begin(), r.pairs.end(),
                    [](const auto& a, const auto& b) { return a.first.size() > b.first.size(); });

@@ -89,6 +89,14 @@ std::optional<std::string> loop_fault(const VesselTree& tree, const ParentOf& pa
   return std::nullopt;
 }
 
+/// Whether another vessel runs the whole way of this one and on.
+bool goes_on(const VesselTree& tree, const Vessel& vessel) {
+  return std::any_of(tree.vessels.begin(), tree.vessels.end(), [&](const Vessel& other) {
+    return other.segments.size() > vessel.segments.size() &&
+           std::equal(vessel.segments.begin(), vessel.segments.end(), other.segments.begin());
+  });
+}
+
 std::optional<std::string> vessel_fault(const VesselTree& tree, const Vessel& vessel,
                                         const std::unordered_set<std::int32_t>& segments,
                                         const ParentOf& parent) {
@@ -105,10 +113,10 @@ std::optional<std::string> vessel_fault(const VesselTree& tree, const Vessel& ve
   }
   if (parent.count(segment(tree, vessel.segments.front()).from)) return name + " does not begin at a root";
   const std::int32_t last = segment(tree, vessel.segments.back()).to;
-  for (const TreeSegment& s : tree.segments) {
-    if (s.from == last) return name + " does not run to an end of the tree";
-  }
-  return std::nullopt;
+  const bool at_end = std::none_of(tree.segments.begin(), tree.segments.end(),
+                                   [&](const TreeSegment& s) { return s.from == last; });
+  if (at_end || goes_on(tree, vessel)) return std::nullopt;
+  return name + " does not run to an end of the tree";
 }
 
 }  // namespace

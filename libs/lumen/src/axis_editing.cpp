@@ -173,6 +173,11 @@ EditOutcome apply_to(const LumenModel& model, const AxisExtend& edit) {
   const double end = lumen.axis->length();
   const LocalWall wall = local_wall(*lumen.axis, lumen.samples, end, 1.5, lumen.axis->radius(end));
   geometry::TreeSegment& last = tree.segment(tree.vessel(edit.vessel).segments.back());
+  for (const geometry::Vessel& other : model.tree.vessels) {
+    if (merge_parent(model.tree, other.id) == edit.vessel)
+      throw InvalidInput(tree.what() + ": " + vessel_label(other) +
+                         " goes on from its end; extend that one, or join both first");
+  }
   const double off = (edit.points.front() - last.axis.points.back()).norm();
   if (off > 3.0 * farthest_from_axis_mm)
     throw InvalidInput(tree.what() + ": the first point is " + in_mm(off) +

@@ -20,19 +20,6 @@ constexpr double widest_turn = 130.0 * std::numbers::pi / 180.0;
 constexpr double start_share = 0.9;
 constexpr double same_point_mm = 1e-3;
 
-void check_name(const LumenModel& model, const std::string& name, std::int32_t self,
-                const std::string& what) {
-  const bool blank = std::all_of(name.begin(), name.end(), [](unsigned char c) { return c <= ' '; });
-  const bool control =
-      std::any_of(name.begin(), name.end(), [](unsigned char c) { return c < ' ' || c == 127; });
-  if (blank || control) throw InvalidInput(what + ": a vessel needs a name of printable characters");
-  for (const geometry::Vessel& v : model.tree.vessels) {
-    if (v.id != self && v.name == name)
-      throw InvalidInput(what + ": the name " + name + " is in use by vessel " + std::to_string(v.id) +
-                         "; choose another");
-  }
-}
-
 /// Where a branch leaves its parent, and the way from there to its own path.
 struct Junction {
   double s_mm = 0.0;         ///< on the parent's axis

@@ -20,5 +20,8 @@ EditOutcome apply_to(const LumenModel& model, const BranchAdd& edit);
 EditOutcome apply_to(const LumenModel& model, const BranchDelete& edit);
 EditOutcome apply_to(const LumenModel& model, const BranchAttach& edit);
 EditOutcome apply_to(const LumenModel& model, const VesselRename& edit);
+// branch_splitting.cpp
+EditOutcome apply_to(const LumenModel& model, const BranchSplit& edit);
+EditOutcome apply_to(const LumenModel& model, const BranchMerge& edit);
 
 }  // namespace ostia::lumen

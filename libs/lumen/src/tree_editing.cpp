@@ -135,6 +135,19 @@ LocalWall local_wall(const AxisCurve& axis, const std::vector<SurfaceSample>& sa
   return wall;
 }
 
+void check_name(const LumenModel& model, const std::string& name, std::int32_t self,
+                const std::string& what) {
+  const bool blank = std::all_of(name.begin(), name.end(), [](unsigned char c) { return c <= ' '; });
+  const bool control =
+      std::any_of(name.begin(), name.end(), [](unsigned char c) { return c < ' ' || c == 127; });
+  if (blank || control) throw InvalidInput(what + ": a vessel needs a name of printable characters");
+  for (const geometry::Vessel& v : model.tree.vessels) {
+    if (v.id != self && v.name == name)
+      throw InvalidInput(what + ": the name " + name + " is in use by vessel " + std::to_string(v.id) +
+                         "; choose another");
+  }
+}
+
 TreeEdit::TreeEdit(const LumenModel& before, const std::string& op, std::int32_t vessel)
     : before_(&before), after_(before) {
   what_ = op + " on " + vessel_label(item(after_.tree.vessels, vessel, "vessel"));
@@ -314,7 +327,8 @@ EditOutcome TreeEdit::finish(const Samples& samples) && {
         continue;
       }
       const VesselLumen* before = found == kept.end() ? nullptr : found->second.get();
-      made.push_back(built(path, before, samples));
+      const auto source = sources_.find(path.id);
+      made.push_back(built(path, source == sources_.end() ? before : source->second.get(), samples));
       outcome.changes.push_back(
           change_of(path.id, before ? before->samples : std::vector<SurfaceSample>{}, made.back()->samples));
     }

@@ -6,6 +6,7 @@
 #include "ostia/lumen/edit.h"
 
 #include <functional>
+#include <map>
 #include <set>
 
 namespace ostia::lumen {
@@ -48,6 +49,10 @@ struct LocalWall {
 LocalWall local_wall(const AxisCurve& axis, const std::vector<SurfaceSample>& samples, double s_mm,
                      double window_mm, double fallback_mm);
 
+/// Throws InvalidInput for a name that is blank, has control characters, or is in use by another vessel than
+/// `self`; `what` names the edit.
+void check_name(const LumenModel& model, const std::string& name, std::int32_t self, const std::string& what);
+
 /// An edit in progress.
 class TreeEdit {
  public:
@@ -67,6 +72,12 @@ class TreeEdit {
   void axis_changed(std::int32_t segment);
   /// The vessel's way has changed.
   void way_changed(std::int32_t vessel) { rebuilt_.insert(vessel); }
+  /// The vessel's samples are made from these, not from what it had: a new vessel that was part of another,
+  /// or one that took up another. Its way has changed.
+  void made_from(std::int32_t vessel, std::shared_ptr<const VesselLumen> source) {
+    rebuilt_.insert(vessel);
+    sources_[vessel] = std::move(source);
+  }
   /// What no vessel passes any more goes with `finish`.
   void drop(const std::set<std::int32_t>& vessels);
   /// Vessels that pass through any of these segments.
@@ -84,8 +95,9 @@ class TreeEdit {
   /// The samples of a vessel after the edit; its axis and own_from_mm are the new ones already.
   using Samples =
       std::function<std::vector<SurfaceSample>(const VesselLumen& before, const VesselLumen& after)>;
-  /// The outcome; `samples` is asked for each vessel that was there and whose way has changed. New vessels
-  /// start as tubes. Throws InvalidInput where the tree or an axis would have a fault.
+  /// The outcome; `samples` is asked for each vessel that was there and whose way has changed, and for each
+  /// that is made from another. Other new vessels start as tubes. Throws InvalidInput where the tree or an
+  /// axis would have a fault.
   EditOutcome finish(const Samples& samples) &&;
 
  private:
@@ -93,6 +105,7 @@ class TreeEdit {
   LumenModel after_;
   std::string what_;
   std::set<std::int32_t> rebuilt_;
+  std::map<std::int32_t, std::shared_ptr<const VesselLumen>> sources_;
   void prune();
   std::shared_ptr<const VesselLumen> built(const geometry::Vessel& vessel, const VesselLumen* old,
                                            const Samples& samples);

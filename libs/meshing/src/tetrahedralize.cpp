@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <thread>
 
 namespace ostia::meshing {
 
@@ -29,6 +30,9 @@ void validate(const TetrahedralizeOptions& o) {
 }
 
 namespace {
+
+constexpr double tetgen_share = 0.7;         // of the progress
+constexpr double triangles_a_second = 9000;  // measured
 
 void check_surface(const geometry::FacedSurface& surface, bool thorough) {
   const geometry::TriMesh& mesh = surface.mesh;
@@ -91,10 +95,34 @@ std::string reason(const core::ChildResult& child) {
   return child.signal == 0 ? text : "TetGen " + child.describe() + " after: " + text;
 }
 
+/// TetGen tells nothing of its progress: what it commonly takes stands for it, ever slower past that.
+class ExpectedProgress {
+ public:
+  ExpectedProgress(double expected_s, const core::TaskContext& task)
+      : thread_([expected_s, task](const std::stop_token& stop) {
+          constexpr auto tick = std::chrono::milliseconds(100);
+          constexpr double even = 0.8;  // up to here by the clock
+          const auto start = std::chrono::steady_clock::now();
+          while (!stop.stop_requested()) {
+            const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
+            const double share = passed.count() / expected_s;
+            task.set_progress(share < even
+                                  ? share
+                                  : even + (1.0 - even) * (1.0 - std::exp(-(share - even) / (1.0 - even))));
+            std::this_thread::sleep_for(tick);
+          }
+        }) {}
+
+ private:
+  std::jthread thread_;
+};
+
 core::ChildResult run_once(const TetgenJob& job, const core::PrivateFolder& folder,
                            const core::ChildLimits& limits, const core::TaskContext& task) {
   const auto input = folder.path() / "surface.bin", output = folder.path() / "tetrahedra.bin";
   write_job(job, input);
+  const double expected_s = 0.5 + static_cast<double>(job.triangles.size()) / triangles_a_second;
+  const ExpectedProgress progress(expected_s, task.sub(0.0, tetgen_share));
   return core::run_child(core::worker_program(), {"tetrahedralize", input.string(), output.string()}, limits,
                          task);
 }
@@ -153,7 +181,7 @@ TetrahedralizedVolume tetrahedralize(const geometry::FacedSurface& surface,
   job.sizes = local_sizes(surface.mesh, options.size_factor);
   TetrahedralizedVolume result;
   TetgenResult filled = run_tetgen(std::move(job), options, result.report, task);
-  task.set_progress(0.7);
+  task.set_progress(tetgen_share);
 
   geometry::VolumeMesh& mesh = result.mesh;
   mesh.boundary = surface.mesh.triangles;

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <future>
 
 namespace ostia::pipeline {
 namespace fs = std::filesystem;
@@ -97,17 +98,35 @@ SourceKind classify(const fs::path& path) {
                      "(.stl .ply .obj .vtp)");
 }
 
-std::string digest(const fs::path& path, SourceKind kind) {
-  return kind == SourceKind::dicom ? core::sha256_of_path(path) : core::sha256_file(path);
+std::string digest(const fs::path& path, SourceKind kind, const core::TaskContext& task) {
+  return kind == SourceKind::dicom ? core::sha256_of_path(path, task) : core::sha256_file(path);
 }
+
+namespace {
+
+/// A digest that is made while the file is read; it is given up where the reading fails.
+class DigestBeside {
+ public:
+  DigestBeside(const fs::path& path, SourceKind kind)
+      : digest_(std::async(std::launch::async,
+                           [path, kind, task = task_] { return digest(path, kind, task); })) {}
+  ~DigestBeside() { task_.cancel(); }
+  DigestBeside(const DigestBeside&) = delete;
+  DigestBeside& operator=(const DigestBeside&) = delete;
+  std::string get() { return digest_.get(); }
+
+ private:
+  core::TaskContext task_;
+  std::future<std::string> digest_;
+};
+
+}  // namespace
 
 Source load(const fs::path& path, const SourceOptions& options, const core::TaskContext& task) {
   Source source;
   source.kind = classify(path);
-  source.sha256 = digest(path, source.kind);
-  source.pseudonym = "image-" + source.sha256.substr(0, 8);
-  core::redact_in_logs(path.string(), source.pseudonym);
-  task.throw_if_cancelled();
+  core::redact_in_logs(path.string(), "image");  // until its pseudonym is known
+  DigestBeside sha256(path, source.kind);
   switch (source.kind) {
     case SourceKind::dicom: {
       auto loaded = imaging::read_dicom(path, options.dicom, task);
@@ -132,6 +151,10 @@ Source load(const fs::path& path, const SourceOptions& options, const core::Task
       source.unit_given = options.unit_mm.has_value();
       break;
   }
+  source.sha256 = sha256.get();
+  source.pseudonym = "image-" + source.sha256.substr(0, 8);
+  core::redact_in_logs(path.string(), source.pseudonym);
+  task.throw_if_cancelled();
   task.set_progress(1.0);
   return source;
 }

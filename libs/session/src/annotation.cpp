@@ -115,6 +115,33 @@ void run(Annotations& annotations, const MarkVessel& command, const LumenModel& 
   annotations.marks.insert(found, mark);
 }
 
+/// The last place of a measurement along a vessel's axis.
+double last_mm(const Measurement& measurement, const geometry::AxisCurve& axis) {
+  if (measurement.kind == analysis::MeasureKind::ring_hu) return measurement.from_mm;
+  if (measurement.kind != analysis::MeasureKind::diameter)
+    return std::max(measurement.from_mm, measurement.to_mm);
+  return axis.nearest_foot(0.5 * (measurement.points.front() + measurement.points.back())).s_mm;
+}
+
+void follow(Annotations& annotations, const lumen::BranchSplit& edit, const LumenModel& before,
+            const LumenModel& after) {
+  const auto made = std::find_if(after.tree.vessels.begin(), after.tree.vessels.end(),
+                                 [&](const geometry::Vessel& v) { return !has_vessel(before, v.id); });
+  if (made == after.tree.vessels.end()) return;
+  const double seam_mm = lumen::vessel(after, edit.vessel).axis->length();
+  const geometry::AxisCurve& axis = *lumen::vessel(before, edit.vessel).axis;
+  for (Measurement& one : annotations.measurements)
+    if (needs_vessel(one) && one.vessel == edit.vessel && last_mm(one, axis) > seam_mm) one.vessel = made->id;
+}
+
+void follow(Annotations& annotations, const lumen::BranchMerge& edit, const LumenModel& before,
+            const LumenModel&) {
+  const auto parent = lumen::merge_parent(before.tree, edit.vessel);
+  if (!parent) return;
+  for (Measurement& one : annotations.measurements)
+    if (needs_vessel(one) && one.vessel == edit.vessel) one.vessel = *parent;
+}
+
 /// Keys of what is in one of two ordered lists alone, or differs.
 template <class Item>
 std::vector<std::int32_t> differing(const std::vector<Item>& before, const std::vector<Item>& after) {
@@ -158,6 +185,16 @@ Annotations annotated(const Annotations& before, const AnnotationCommand& comman
   to_json(command);  // refuses what no file can hold
   Annotations after = before;
   std::visit([&](const auto& kind) { run(after, kind, model); }, command);
+  return after;
+}
+
+Annotations following(const Annotations& before, const lumen::Edit& edit, const LumenModel& model_before,
+                      const LumenModel& model_after) {
+  Annotations after = before;
+  if (const auto* split = std::get_if<lumen::BranchSplit>(&edit))
+    follow(after, *split, model_before, model_after);
+  if (const auto* merge = std::get_if<lumen::BranchMerge>(&edit))
+    follow(after, *merge, model_before, model_after);
   return after;
 }
 

@@ -227,12 +227,15 @@ struct CaseFile::Impl {
     EditOutcome outcome = lumen::apply(*model, edit);
     if (check) check(outcome);
     auto before = model;
+    auto next = std::make_shared<const Annotations>(following(*annotations, edit, *model, outcome.model));
     commit(outcome.model, [&](const Recording& recording) {
+      if (!changes_between(*annotations, *next).empty()) notes.write_change(*annotations, *next);
       if (can_redo) steps.drop_undone();
       steps.append(
           {0, lumen::op_name(edit), parameters, StepState::done, outcome.notes, recording.changeset()});
     });
     before_last = std::move(before);
+    annotations = std::move(next);
     return outcome;
   }
 

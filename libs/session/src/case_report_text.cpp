@@ -18,7 +18,7 @@ using Json = nlohmann::json;
 struct OpWords {
   const char *op, *words;
 };
-constexpr std::array<OpWords, 18> kWords{{
+constexpr std::array<OpWords, 20> kWords{{
     {"case.begin", "case begun"},
     {"cpr.stroke", "wall drawn on a curved reformation"},
     {"section.contour", "contour drawn on a cross-section"},
@@ -32,6 +32,8 @@ constexpr std::array<OpWords, 18> kWords{{
     {"branch.add", "vessel added"},
     {"branch.delete", "vessel deleted"},
     {"branch.attach", "vessel attached elsewhere"},
+    {"branch.split", "vessel split"},
+    {"branch.merge", "vessel joined with its parent"},
     {"vessel.rename", "vessel renamed"},
     {"measure.add", "measurement added"},
     {"measure.change", "measurement changed"},

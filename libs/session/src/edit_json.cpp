@@ -81,7 +81,15 @@ void fields(E& e, V& v) {
   v("radius_mm", e.radius_mm);
 }
 template <class E, class V>
-requires std::is_same_v<std::remove_const_t<E>, lumen::BranchDelete>
+requires std::is_same_v<std::remove_const_t<E>, lumen::BranchSplit>
+void fields(E& e, V& v) {
+  v("vessel", e.vessel);
+  v("s_mm", e.s_mm);
+  v("name", e.name, Need::optional);
+}
+template <class E, class V>
+requires std::is_same_v<std::remove_const_t<E>, lumen::BranchDelete> ||
+    std::is_same_v<std::remove_const_t<E>, lumen::BranchMerge>
 void fields(E& e, V& v) {
   v("vessel", e.vessel);
 }

@@ -3,7 +3,6 @@
 #include "machine_file.h"
 
 #include "ostia/core/error.h"
-#include "ostia/session/image_digest.h"
 
 #include <algorithm>
 #include <chrono>
@@ -61,16 +60,6 @@ void MachineState::remember_image(const std::string& sha256, const fs::path& pat
     content.images[sha256] = {place(path), now()};
     shorten(content.images);
   });
-}
-
-void MachineState::point_to_image(const ImageReference& wanted, const fs::path& path,
-                                  const core::TaskContext& task) {
-  const ImageReference found = image_reference(path, task);
-  if (found.sha256 != wanted.sha256)
-    throw InvalidInput(path.string() + " is not the image that is looked for, " + wanted.pseudonym +
-                       " (SHA-256 " + wanted.sha256.substr(0, 12) + "..., this is " +
-                       found.sha256.substr(0, 12) + "...); choose the file or folder that it was moved to");
-  remember_image(wanted.sha256, path);
 }
 
 std::vector<RecentCase> MachineState::recent_cases() const {

@@ -164,21 +164,26 @@ void QualityCheck::match() {
   states_.clear();
   const lumen::LumenModel* model = bench_.model();
   if (!model) return;
-  for (const ContourSection& section : truth_.sections) {
-    if (section.observer != observer.get()) continue;
-    TruthSection found;
-    found.contours = section;
-    found.vessel = vessel_of(section, *model, found.s_mm);
-    found.surface = evaluation::surface_of(section);
-    found.ring = found.surface.points.size() / section.contours.size();
+  std::vector<const ContourSection*> chosen;
+  for (const ContourSection& section : truth_.sections)
+    if (section.observer == observer.get()) chosen.push_back(&section);
+  matched_.resize(chosen.size());
+  core::parallel_for(chosen.size(), 1, [&](std::size_t i) {
+    TruthSection& found = matched_[i];
+    found.contours = *chosen[i];
+    found.vessel = vessel_of(found.contours, *model, found.s_mm);
+    found.surface = evaluation::surface_of(found.contours);
+    found.ring = found.surface.points.size() / found.contours.contours.size();
     for (const Vec3& p : found.surface.points) found.box.extend(p);
+  });
+  for (const TruthSection& found : matched_) {
     auto state = std::make_unique<Section>();
     if (found.vessel != Workbench::no_vessel) {
-      state->outlines.resize(section.contours.size());
-      state->reach.resize(section.contours.size());
-      state->stale.assign(section.contours.size(), 1);
+      const std::size_t contours = found.contours.contours.size();
+      state->outlines.resize(contours);
+      state->reach.resize(contours);
+      state->stale.assign(contours, 1);
     }
-    matched_.push_back(std::move(found));
     states_.push_back(std::move(state));
   }
 }

@@ -42,8 +42,11 @@ std::optional<Session::Done> Session::followed(const Command& command) {
 }
 
 Session::Done Session::apply(const lumen::Edit& edit) {
+  const auto before = file_.annotations();
   return *followed([&](const CaseFile::Check& check) {
-    return std::optional(StepOutcome{file_.apply(edit, check), true, {}});
+    lumen::EditOutcome outcome = file_.apply(edit, check);
+    return std::optional(
+        StepOutcome{std::move(outcome), true, changes_between(*before, *file_.annotations())});
   });
 }
 

@@ -181,15 +181,47 @@ Workbench::Measured* Workbench::measured_of(std::int32_t id) const {
     found->profile = analysis::lumen_profile(*shown, surface_of, id);
   found->measured = true;
   found->to_mm = found->from_mm - 1.0;
-  analysis::ReferenceOptions reference;
-  reference.own_from_mm = lumen::own_from_mm(shown->tree, id);
-  found->reference =
-      analysis::reference_line(found->profile, analysis::branch_abscissas(*shown, id), reference);
-  std::vector<analysis::Stenosis> stenoses = analysis::find_stenoses(found->profile, found->reference);
-  const bool other = !look_alike(stenoses, found->stenoses);
-  found->stenoses = std::move(stenoses);
-  if (other) stenoses_changed.tell();
+  interpret(*shown, id, *found);
   return found.get();
+}
+
+void Workbench::interpret(const lumen::LumenModel& model, std::int32_t id, Measured& measured) const {
+  analysis::ReferenceOptions reference;
+  reference.own_from_mm = lumen::own_from_mm(model.tree, id);
+  measured.reference =
+      analysis::reference_line(measured.profile, analysis::branch_abscissas(model, id), reference);
+  std::vector<analysis::Stenosis> stenoses = analysis::find_stenoses(measured.profile, measured.reference);
+  const bool other = !look_alike(stenoses, measured.stenoses);
+  measured.stenoses = std::move(stenoses);
+  if (other) stenoses_changed.tell();
+}
+
+std::optional<ProfileWork> Workbench::profile_work(std::int32_t id) const {
+  const lumen::LumenModel* shown = model();
+  if (!shown || !has_vessel(*shown, id)) return std::nullopt;
+  const auto found = measured_.find(id);
+  if (found != measured_.end() && found->second->measured) return std::nullopt;
+  ProfileWork work;
+  work.model = session_->file().model();
+  work.vessel = id;
+  for (const auto& one : shown->vessels) work.walls[one->vessel] = session_->live().surface(one->vessel);
+  return work;
+}
+
+analysis::LumenProfile ProfileWork::measured(const core::TaskContext& task) const {
+  const auto wall_of = [this](std::int32_t one) { return walls.at(one); };
+  return analysis::lumen_profile(*model, wall_of, vessel, {}, task);
+}
+
+bool Workbench::take_profile(const ProfileWork& work, analysis::LumenProfile profile) {
+  if (!session_ || session_->file().model() != work.model) return false;
+  std::unique_ptr<Measured>& found = measured_[work.vessel];
+  if (found && found->measured) return true;
+  found = std::make_unique<Measured>();
+  found->profile = std::move(profile);
+  found->measured = true;
+  interpret(*work.model, work.vessel, *found);
+  return true;
 }
 
 const analysis::LumenProfile* Workbench::profile(std::int32_t id) const {

@@ -15,8 +15,7 @@ namespace {
 
 struct Job {
   std::string kind;
-  WorkerQueue::Snapshot snapshot;
-  WorkerQueue::Work work;
+  WorkerQueue::PlainWork work;  // holds the snapshot where there is one
   core::TaskContext task;
   JobState state = JobState::waiting;
   std::string message;
@@ -59,7 +58,7 @@ struct WorkerQueue::Impl {
       std::string message;
       JobState state = JobState::done;
       try {
-        result = job->work(*job->snapshot, job->task);
+        result = job->work(job->task);
       } catch (const Cancelled&) {
         state = JobState::cancelled;
       } catch (const std::exception& e) {
@@ -70,8 +69,7 @@ struct WorkerQueue::Impl {
         message = "an unknown failure";
       }
       // What the work holds on to is let go outside the lock.
-      const Work work = std::exchange(job->work, {});
-      const Snapshot snapshot = std::exchange(job->snapshot, {});
+      { const PlainWork work = std::exchange(job->work, {}); }
       lock.lock();
       if (job->state != JobState::running) continue;  // cancelled or superseded meanwhile
       job->state = state;
@@ -99,9 +97,14 @@ WorkerQueue::~WorkerQueue() {
 
 WorkerQueue::JobId WorkerQueue::submit(const std::string& kind, Snapshot snapshot, Work work) {
   if (!snapshot || !work) throw InvalidInput("the job \"" + kind + "\" needs a model and something to do");
+  return submit(kind, [snapshot = std::move(snapshot), work = std::move(work)](
+                          const core::TaskContext& task) { return work(*snapshot, task); });
+}
+
+WorkerQueue::JobId WorkerQueue::submit(const std::string& kind, PlainWork work) {
+  if (!work) throw InvalidInput("the job \"" + kind + "\" needs something to do");
   auto job = std::make_shared<Job>();
   job->kind = kind;
-  job->snapshot = std::move(snapshot);
   job->work = std::move(work);
   JobId id = 0;
   {

@@ -16,8 +16,11 @@ constexpr double least_pixel_mm = 0.01, largest_pixel_mm = 2.0;
 constexpr double step_along_mm = 0.5;         // of a wheel's step
 constexpr double fit_margin = 0.04;           // of the view's height kept free beyond the vessel's ends
 constexpr double reading_mm_per_unit = 0.11;  // large enough to see and take hold of the wall
-constexpr double follow_margin = 0.12;   // share of the view's height that the cursor keeps from its ends
-constexpr double seed_step_mm = 0.5;     // along the axis, of where lines are looked for
+constexpr double follow_margin = 0.12;  // share of the view's height that the cursor keeps from its ends
+constexpr double seed_step_mm = 0.5;    // along the axis, of where lines are looked for
+// While a hand turns the view: lines to half a pixel, of a third of the places.
+constexpr double seed_step_turning_mm = 1.5;
+constexpr lumen::ContourLineOptions turning_lines{.step_px = 6.0, .largest_mm = 0.8, .bend_px = 0.5};
 constexpr double fading_reach_mm = 3.0;  // samples beside the view fade on it, too
 
 }  // namespace
@@ -28,6 +31,9 @@ CurvedView::CurvedView(session::Workbench& bench, Which which, std::shared_ptr<C
   keep(bench.vessel.observe([this](const std::int32_t&) { read(); }));
   keep(bench.case_changed.observe([this] { read(); }));
   keep(bench.theta_deg.observe([this](const double&) { moved(); }));
+  keep(bench.turning.observe([this](const bool& turning) {
+    if (!turning) contours_stale();
+  }));
   keep(bench.curved_mode.observe([this](const reformat::CurvedMode&) { read(); }));
   keep(bench.stenoses_changed.observe([this] { overlay_stale(); }));
   keep(bench.slab.observe([this](const reformat::Slab&) { moved(); }));
@@ -214,11 +220,16 @@ std::vector<Vec2> CurvedView::contour_seeds() {
   const reformat::CurvedReformation* shown = reformation();
   if (!shown) return {};
   const std::vector<Vec2> all = shown->axis_px();
-  const auto step = static_cast<std::size_t>(std::max(1.0, seed_step_mm / shown->options().pixel_mm));
+  const double step_mm = bench().turning.get() ? seed_step_turning_mm : seed_step_mm;
+  const auto step = static_cast<std::size_t>(std::max(1.0, step_mm / shown->options().pixel_mm));
   std::vector<Vec2> seeds;
   for (std::size_t i = 0; i < all.size(); i += step) seeds.push_back(all[i]);
   if (!all.empty()) seeds.push_back(all.back());
   return seeds;
+}
+
+lumen::ContourLineOptions CurvedView::line_options() const {
+  return bench().turning.get() ? turning_lines : PictureView::line_options();
 }
 
 void CurvedView::add_to_overlay(Overlay& overlay) {

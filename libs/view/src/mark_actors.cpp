@@ -25,16 +25,34 @@ namespace ostia::view {
 namespace {
 
 using figure::Color;
+using geometry::Vec2;
 
 constexpr Color cursor_color{0.98, 0.90, 0.25, 1.0};
 constexpr Color first_cpr{0.34, 0.71, 0.91, 1.0}, second_cpr{0.90, 0.62, 0.0, 1.0};
 constexpr Color measured{0.40, 0.90, 0.75, 1.0}, measured_on_light{0.0, 0.42, 0.32, 1.0};
 constexpr Color chosen{1.0, 0.85, 0.25, 1.0}, chosen_on_light{0.70, 0.30, 0.0, 1.0};
 
-Color measurement_color(const SceneMeasurement& measurement, figure::Look look) {
-  if (look == figure::Look::light) return measurement.selected ? chosen_on_light : measured_on_light;
-  return measurement.selected ? chosen : measured;
+constexpr double label_units = 13.0;
+
+Color measurement_color(bool is_chosen, figure::Look look) {
+  if (look == figure::Look::light) return is_chosen ? chosen_on_light : measured_on_light;
+  return is_chosen ? chosen : measured;
 }
+
+/// What a label takes up, by the mean width of its letters.
+Vec2 label_size(const std::string& text, double size_px) {
+  const auto letters = std::count_if(text.begin(), text.end(),
+                                     [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
+  return {0.58 * size_px * static_cast<double>(letters), 1.35 * size_px};
+}
+
+struct Plate {
+  Vec2 low, size;
+  bool meets(const Plate& other) const {
+    return (low.array() < (other.low + other.size).array()).all() &&
+           (other.low.array() < (low + size).array()).all();
+  }
+};
 
 std::array<Vec3, 4> corners(const reformat::Plane& plane) {
   const Vec3 right = plane.width * plane.pixel_mm * plane.u, down = plane.height * plane.pixel_mm * plane.v;
@@ -94,6 +112,7 @@ void MarkActors::replace(Props& former, Props props) {
 void MarkActors::show_all(const Marks& marks) {
   show_cursor(marks);
   show_measurements(marks);
+  show_draft(marks);
   show_axes(marks);
   for (const ScenePlane plane : {ScenePlane::cross_section, ScenePlane::axial, ScenePlane::coronal,
                                  ScenePlane::sagittal, ScenePlane::oblique})
@@ -136,47 +155,76 @@ void MarkActors::show_cursor(const Marks& marks) {
   replace(cursor_, std::move(props));
 }
 
-/// A line and its dots, with a rim that sets them off from whatever lies behind.
-void MarkActors::add_rimmed(Props& props, const SceneMeasurement& measurement, const Color& color,
-                            const Color& rim, double thick_px) {
+/// Lines and dots with a rim that sets them off from whatever lies behind, and the label.
+void MarkActors::add_measurement(Props& props, std::vector<Label>& labels,
+                                 const SceneMeasurement& measurement, const Marks& marks, bool chosen) {
+  const Color color = measurement_color(chosen, marks.look), rim = figure::theme(marks.look).background;
+  const double thick = (chosen ? 3.0 : 2.0) * marks.pixel_ratio, rim_px = 2.5 * marks.pixel_ratio;
+  const double dot = 2.0 * thick + 3.0 * marks.pixel_ratio;
   const auto add = [&](const vtkSmartPointer<vtkActor>& actor) {
     draw_over_all(*actor);
     props.emplace_back(actor);
   };
-  constexpr double rim_px = 2.5;
-  const bool has_line = measurement.points.size() > 1;
-  const SceneLine under{measurement.points, measurement.closed, rim};
-  const SceneLine over{measurement.points, measurement.closed, color};
-  if (has_line) add(line_actor({&under, 1}, thick_px + rim_px));
-  add(point_actor(measurement.points, rim, 2.0 * thick_px + 3.0 + rim_px));
-  if (has_line) add(line_actor({&over, 1}, thick_px));
-  add(point_actor(measurement.points, color, 2.0 * thick_px + 3.0));
+  const auto add_lines = [&](const Color& with, double width) {
+    std::vector<SceneLine> lines;
+    for (SceneCurve& curve : curves_of(measurement))
+      lines.push_back({std::move(curve.points), curve.closed, with});
+    if (!lines.empty()) add(line_actor(lines, width));
+  };
+  add_lines(rim, thick + rim_px);
+  if (measurement.dots) add(point_actor(measurement.points, rim, dot + rim_px));
+  add_lines(color, thick);
+  if (measurement.dots) add(point_actor(measurement.points, color, dot));
+  if (measurement.label.empty()) return;
+  const double size = label_units * marks.pixel_ratio;
+  const auto label = label_actor(measurement.label, color, rim, size);
+  labels.push_back({measurement.label_at ? std::vector{*measurement.label_at} : measurement.points, label,
+                    label_size(measurement.label, size)});
+  props.emplace_back(label);
 }
 
 void MarkActors::show_measurements(const Marks& marks) {
   Props props;
   labels_.clear();
-  const Color plate = figure::theme(marks.look).background;
-  for (const SceneMeasurement& measurement : marks.measurements) {
-    const Color color = measurement_color(measurement, marks.look);
-    const double thick = (measurement.selected ? 3.0 : 2.0) * marks.pixel_ratio;
-    add_rimmed(props, measurement, color, plate, thick);
-    if (measurement.label.empty()) continue;
-    const auto label = label_actor(measurement.label, color, plate, 13.0 * marks.pixel_ratio);
-    labels_.push_back({measurement.points.front(), label});
-    props.emplace_back(label);
-  }
+  for (const SceneMeasurement& measurement : marks.measurements)
+    add_measurement(props, labels_, measurement, marks, measurement.selected);
   replace(measurements_, std::move(props));
+}
+
+void MarkActors::show_draft(const Marks& marks) {
+  Props props;
+  draft_labels_.clear();
+  if (marks.draft) add_measurement(props, draft_labels_, *marks.draft, marks, true);
+  replace(draft_, std::move(props));
 }
 
 void MarkActors::lay_out(const CameraPose& pose, int width_px, int height_px, double pixel_ratio) {
   const double px_per_mm = 0.5 * height_px / pose.half_height_mm;
-  for (const Label& label : labels_) {
-    const Vec3 off = px_per_mm * (label.at - pose.target);
-    label.actor->SetDisplayPosition(
-        static_cast<int>(std::lround(0.5 * width_px + off.dot(pose.right()) + 9.0 * pixel_ratio)),
-        static_cast<int>(std::lround(0.5 * height_px + off.dot(pose.up) + 7.0 * pixel_ratio)));
-  }
+  const Vec2 picture(width_px, height_px);
+  std::vector<Plate> taken;
+  const auto put = [&](const Label& label) {
+    const Vec3 place =
+        *std::max_element(label.places.begin(), label.places.end(),
+                          [&](const Vec3& a, const Vec3& b) { return (a - b).dot(pose.right()) < 0.0; });
+    const Vec3 off = px_per_mm * (place - pose.target);
+    const Vec2 at = 0.5 * picture + Vec2(off.dot(pose.right()), off.dot(pose.up));
+    Plate plate{at + pixel_ratio * Vec2(9.0, 7.0), label.size};
+    const auto within = [&] { return (at.array() >= 0.0).all() && (at.array() <= picture.array()).all(); };
+    if (within()) {  // what is outside the picture needs no words in it
+      plate.low = plate.low.cwiseMin(picture - label.size).cwiseMax(Vec2::Zero());
+      for (std::size_t i = 0; i < taken.size(); ++i) {
+        const auto other =
+            std::find_if(taken.begin(), taken.end(), [&](const Plate& one) { return plate.meets(one); });
+        if (other == taken.end()) break;
+        plate.low.y() = other->low.y() - label.size.y();
+      }
+      taken.push_back(plate);
+    }
+    label.actor->SetDisplayPosition(static_cast<int>(std::lround(plate.low.x())),
+                                    static_cast<int>(std::lround(plate.low.y())));
+  };
+  for (const Label& label : draft_labels_) put(label);
+  for (const Label& label : labels_) put(label);
 }
 
 void MarkActors::show_plane(const Marks& marks, ScenePlane plane) {

@@ -22,6 +22,7 @@ namespace ostia::view {
 struct Marks {
   std::optional<SceneCursor> cursor;
   std::vector<SceneMeasurement> measurements;
+  std::optional<SceneMeasurement> draft;
   std::map<ScenePlane, ScenePlanePicture> planes;
   std::vector<SceneLine> axes;
   bool axes_shown = false;
@@ -36,24 +37,26 @@ class MarkActors {
   void show_all(const Marks& marks);
   void show_cursor(const Marks& marks);
   void show_measurements(const Marks& marks);
+  void show_draft(const Marks& marks);
   void show_plane(const Marks& marks, ScenePlane plane);
   void show_axes(const Marks& marks);
-  /// Puts the labels beside their places; before each picture.
+  /// Puts the labels beside their places, within the picture and none over another; before each picture.
   void lay_out(const CameraPose& pose, int width_px, int height_px, double pixel_ratio);
 
  private:
   using Props = std::vector<vtkSmartPointer<vtkProp>>;
   struct Label {
-    Vec3 at;
+    std::vector<Vec3> places;  // it stands beside the one that is farthest to the right
     vtkSmartPointer<vtkTextActor> actor;
+    geometry::Vec2 size;  // px
   };
   void replace(Props& former, Props props);
-  static void add_rimmed(Props& props, const SceneMeasurement& measurement, const figure::Color& color,
-                         const figure::Color& rim, double thick_px);
+  void add_measurement(Props& props, std::vector<Label>& labels, const SceneMeasurement& measurement,
+                       const Marks& marks, bool chosen);
   vtkRenderer& renderer_;
-  Props cursor_, measurements_, axes_;
+  Props cursor_, measurements_, draft_, axes_;
   std::map<ScenePlane, Props> planes_;
-  std::vector<Label> labels_;
+  std::vector<Label> labels_, draft_labels_;
 };
 
 }  // namespace ostia::view

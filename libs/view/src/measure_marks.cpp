@@ -42,7 +42,14 @@ void add_measurement_marks(Overlay& overlay, PictureView& view, const analysis::
   }
   const bool selected = view.bench().selected_measurement.get() == measurement.id;
   const Role role = selected ? Role::selected : Role::measurement;
-  for (const Vec2& p : px) overlay.marks.push_back({p, role, 3.5, 1.0, false});
+  // Of an outline's many points as many as can be told apart.
+  const double apart = px.size() > 3 ? 12.0 * view.density() : 0.0;
+  std::optional<Vec2> last;
+  for (const Vec2& p : px) {
+    if (last && (p - *last).norm() < apart) continue;
+    overlay.marks.push_back({p, role, 3.5, 1.0, false});
+    last = p;
+  }
   OverlayLine line;
   line.px = px;
   line.role = role;

@@ -2,6 +2,7 @@
 
 #include "measure_marks.h"
 
+#include "ostia/core/parallel.h"
 #include "ostia/reformat/plane.h"
 
 #include <algorithm>
@@ -58,6 +59,15 @@ const GreyImage& PictureView::image() {
   image_fresh_ = true;
   ++image_revision_;
   return image_;
+}
+
+void PictureView::prepare() {
+  image();
+  if (bench_.contours_shown.get()) bring_contours();
+}
+
+lumen::ContourLineOptions PictureView::line_options() const {
+  return screen_lines;
 }
 
 const Overlay& PictureView::overlay() {
@@ -140,7 +150,7 @@ void PictureView::bring_contours() {
       return !(p.x() >= 0.0 && p.y() >= 0.0 && p.x() <= surface->width && p.y() <= surface->height);
     });
     if (!seeds.empty()) {
-      contours_ = std::make_unique<lumen::ViewContours>(*surface, std::move(seeds), screen_lines);
+      contours_ = std::make_unique<lumen::ViewContours>(*surface, std::move(seeds), line_options());
       contours_->update(*bench_.session().live().field());
     }
   }
@@ -232,6 +242,10 @@ void PictureView::add_letters(Overlay& overlay, const Vec3& right, const Vec3& d
   add(Vec2(w - edge, h / 2), right, Anchor::right);
   add(Vec2(w / 2, edge), -down, Anchor::top);
   add(Vec2(w / 2, h - edge), down, Anchor::bottom);
+}
+
+void prepare(const std::vector<PictureView*>& views) {
+  core::parallel_for(views.size(), 1, [&](std::size_t i) { views[i]->prepare(); });
 }
 
 }  // namespace ostia::view

@@ -309,10 +309,14 @@ void SliceView::add_to_overlay(Overlay& overlay) {
   if (!shown) return;
   const Vec2 at = reformat::project(*shown, bench().place.get()).picture_px;
   const double gap = units(12.0), w = width(), h = height();
-  overlay.lines.push_back({{Vec2(0, at.y()), Vec2(std::max(0.0, at.x() - gap), at.y())}, Role::cursor, 0.6});
-  overlay.lines.push_back({{Vec2(std::min(w, at.x() + gap), at.y()), Vec2(w, at.y())}, Role::cursor, 0.6});
-  overlay.lines.push_back({{Vec2(at.x(), 0), Vec2(at.x(), std::max(0.0, at.y() - gap))}, Role::cursor, 0.6});
-  overlay.lines.push_back({{Vec2(at.x(), std::min(h, at.y() + gap)), Vec2(at.x(), h)}, Role::cursor, 0.6});
+  const double edge = units(20.0);  // kept free for the letters
+  const auto line = [&](const Vec2& from, const Vec2& to) {
+    if ((to - from).sum() > 0.0) overlay.lines.push_back({{from, to}, Role::cursor, 0.6});
+  };
+  line({edge, at.y()}, {at.x() - gap, at.y()});
+  line({at.x() + gap, at.y()}, {w - edge, at.y()});
+  line({at.x(), edge}, {at.x(), at.y() - gap});
+  line({at.x(), at.y() + gap}, {at.x(), h - edge});
   if (const lumen::LumenModel* model = bench().model())
     for (const Crossing& one : crossings(*model, *shown))
       overlay.marks.push_back(

@@ -124,23 +124,17 @@ bool Pointer::click_of_tool(const PointerEvent& event) {
   if (bench.tool.get() == Tool::angle) {
     clicked_.push_back(*place);
     if (clicked_.size() == 3) {
-      analysis::Measurement made;
-      made.kind = analysis::MeasureKind::angle;
-      made.points = std::exchange(clicked_, {});
       view_.set_tool_overlay({});
-      add_measurement(bench, std::move(made));
+      add_measurement(bench, of_points(analysis::MeasureKind::angle, std::exchange(clicked_, {})));
     } else {
       show_clicked();
     }
     return true;
   }
   if (bench.tool.get() == Tool::ring_hu) {
-    analysis::Measurement made;
-    made.kind = analysis::MeasureKind::ring_hu;
-    made.vessel = bench.vessel.get();
     auto* curved = dynamic_cast<CurvedView*>(&view_);
-    made.from_mm = made.to_mm = curved ? curved->abscissa_at(event.px.y()) : bench.cursor_mm.get();
-    add_measurement(bench, std::move(made));
+    add_measurement(bench, ring_at(bench.vessel.get(),
+                                   curved ? curved->abscissa_at(event.px.y()) : bench.cursor_mm.get()));
     return true;
   }
   return false;

@@ -1,6 +1,8 @@
 #pragma once
 // What a hand can do between press and release.
 
+#include "measure_placing.h"
+
 #include "ostia/view/curved_view.h"
 #include "ostia/view/plane_view.h"
 #include "ostia/view/pointer.h"
@@ -25,8 +27,6 @@ struct NearestAxis {
   geometry::AxisFoot foot;
 };
 NearestAxis nearest_axis(const session::Workbench& bench, const Vec3& place);
-/// A fresh number for the measurements' drags.
-std::int64_t new_drag();
 
 // What is shown.
 class Pointer::Pan final : public Gesture {
@@ -51,7 +51,8 @@ class Pointer::Contrast final : public Gesture {
 };
 class Pointer::Turn final : public Gesture {
  public:
-  Turn(PictureView& view, const PointerEvent& event) : view_(view), last_(event.px) {}
+  Turn(PictureView& view, const PointerEvent& event);
+  ~Turn() override;
   void move(const PointerEvent& event) override;
   CursorShape shape() const override { return CursorShape::turn; }
 
@@ -136,7 +137,7 @@ class Pointer::TwoPoints final : public Gesture {
 
  private:
   PictureView& view_;
-  analysis::Measurement made_;
+  analysis::MeasureKind kind_;
   Vec2 start_, end_;
 };
 /// A line drawn around an area.
@@ -174,12 +175,8 @@ class Pointer::MoveHandle final : public Gesture {
 
  private:
   PictureView& view_;
-  analysis::Measurement changed_;
+  HeldMeasurement held_;
   std::size_t point_;
-  std::int64_t drag_;
 };
-
-/// Adds a measurement and selects it.
-void add_measurement(session::Workbench& bench, analysis::Measurement made);
 
 }  // namespace ostia::view

@@ -19,17 +19,8 @@ void show_line(PictureView& view, std::vector<Vec2> px) {
 
 }  // namespace
 
-void add_measurement(session::Workbench& bench, analysis::Measurement made) {
-  const session::Session::Done done = bench.annotate(session::MeasureAdd{std::move(made)});
-  if (!done.annotations.measurements.empty())
-    bench.selected_measurement.set(done.annotations.measurements.front());
-}
-
 Pointer::TwoPoints::TwoPoints(PictureView& view, const PointerEvent& event, analysis::MeasureKind kind)
-    : view_(view), start_(event.px), end_(event.px) {
-  made_.kind = kind;
-  if (kind == analysis::MeasureKind::diameter) made_.vessel = view.bench().vessel.get();
-}
+    : view_(view), kind_(kind), start_(event.px), end_(event.px) {}
 void Pointer::TwoPoints::move(const PointerEvent& event) {
   end_ = event.px;
   show_line(view_, {start_, end_});
@@ -39,8 +30,9 @@ void Pointer::TwoPoints::release(const PointerEvent& event) {
   view_.set_tool_overlay({});
   const std::optional<Vec3> a = view_.world(start_), b = view_.world(end_);
   if (!a || !b || (end_ - start_).norm() < least_units * view_.density()) return;
-  made_.points = {*a, *b};
-  add_measurement(view_.bench(), made_);
+  session::Workbench& bench = view_.bench();
+  add_measurement(
+      bench, of_points(kind_, {*a, *b}, kind_ == analysis::MeasureKind::diameter ? bench.vessel.get() : 0));
 }
 void Pointer::TwoPoints::cancel() {
   view_.set_tool_overlay({});
@@ -57,11 +49,11 @@ void Pointer::Outline::release(const PointerEvent& event) {
   move(event);
   view_.set_tool_overlay({});
   if (px_.size() < 3) return;
-  analysis::Measurement made;
-  made.kind = analysis::MeasureKind::area;
+  std::vector<Vec3> points;
   for (const Vec2& p : px_)
-    if (const std::optional<Vec3> place = view_.world(p)) made.points.push_back(*place);
-  if (made.points.size() >= 3) add_measurement(view_.bench(), std::move(made));
+    if (const std::optional<Vec3> place = view_.world(p)) points.push_back(*place);
+  if (points.size() >= 3)
+    add_measurement(view_.bench(), of_points(analysis::MeasureKind::area, std::move(points)));
 }
 void Pointer::Outline::cancel() {
   view_.set_tool_overlay({});
@@ -82,31 +74,20 @@ void Pointer::Stretch::release(const PointerEvent& event) {
   move(event);
   view_.set_tool_overlay({});
   if (std::abs(view_.row_of(to_mm_) - view_.row_of(from_mm_)) < least_units * view_.density()) return;
-  analysis::Measurement made;
-  made.kind = kind_;
-  made.vessel = view_.bench().vessel.get();
-  made.from_mm = std::min(from_mm_, to_mm_);
-  made.to_mm = std::max(from_mm_, to_mm_);
-  add_measurement(view_.bench(), std::move(made));
+  add_measurement(view_.bench(), of_stretch(kind_, view_.bench().vessel.get(), from_mm_, to_mm_));
 }
 void Pointer::Stretch::cancel() {
   view_.set_tool_overlay({});
 }
 
 Pointer::MoveHandle::MoveHandle(PictureView& view, const PictureView::HandleHit& hit)
-    : view_(view), point_(hit.point), drag_(new_drag()) {
-  if (const auto* found =
-          session::find_measurement(*view.bench().session().file().annotations(), hit.measurement))
-    changed_ = *found;
-  view.bench().selected_measurement.set(hit.measurement);
-}
+    : view_(view), held_(view.bench(), hit.measurement), point_(hit.point) {}
 void Pointer::MoveHandle::move(const PointerEvent& event) {
   const std::optional<Vec3> to = view_.world(event.px);
-  if (!to || point_ >= changed_.points.size()) return;
-  analysis::Measurement next = changed_;
+  if (!to || point_ >= held_.now().points.size()) return;
+  analysis::Measurement next = held_.now();
   next.points[point_] = *to;
-  view_.bench().annotate_merged(session::MeasureChange{next}, drag_);
-  changed_ = std::move(next);
+  held_.become(std::move(next));
 }
 
 }  // namespace ostia::view

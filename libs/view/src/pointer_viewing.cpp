@@ -1,7 +1,6 @@
 #include "pointer_gestures.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -29,11 +28,6 @@ NearestAxis nearest_axis(const session::Workbench& bench, const Vec3& place) {
   return best;
 }
 
-std::int64_t new_drag() {
-  static std::atomic<std::int64_t> last{0};
-  return ++last;
-}
-
 void Pointer::Pan::move(const PointerEvent& event) {
   view_.pan(event.px - last_);
   last_ = event.px;
@@ -46,6 +40,13 @@ void Pointer::Contrast::move(const PointerEvent& event) {
   window.width_hu = std::clamp(window.width_hu + hu_per_unit * by.x(), 1.0, 5000.0);
   window.level_hu = std::clamp(window.level_hu + hu_per_unit * by.y(), -2000.0, 4000.0);
   view_.bench().grey.set(window);
+}
+
+Pointer::Turn::Turn(PictureView& view, const PointerEvent& event) : view_(view), last_(event.px) {
+  view_.bench().turning.set(dynamic_cast<CurvedView*>(&view_) != nullptr);
+}
+Pointer::Turn::~Turn() {
+  view_.bench().turning.set(false);
 }
 
 void Pointer::Turn::move(const PointerEvent& event) {

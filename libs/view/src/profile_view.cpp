@@ -112,8 +112,9 @@ const Overlay& ProfileView::overlay() {
         {Vec2(x(one.from_mm), f.top), Vec2(x(one.to_mm), f.bottom), Role::stenosis, 0.25});
     char label[32];
     std::snprintf(label, sizeof label, "%.0f %%", one.diameter_percent);
-    text(std::clamp(x(one.throat_mm), f.left + 14 * density_, f.right - 14 * density_), f.top + 2 * density_,
-         label, Role::stenosis, Anchor::top);
+    // Below, where the curve is not: at its throat it is low, and the reference line is high.
+    text(std::clamp(x(one.throat_mm), f.left + 14 * density_, f.right - 14 * density_), f.bottom - density_,
+         label, Role::stenosis, Anchor::bottom);
   }
   for (const StretchMark& mark : stretches_of(bench_)) {
     const Role role = mark.selected ? Role::selected : Role::measurement;

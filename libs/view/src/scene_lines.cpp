@@ -97,7 +97,7 @@ vtkSmartPointer<vtkTextActor> label_actor(const std::string& text, const figure:
   vtkTextProperty* look = actor->GetTextProperty();
   set_font(*look, color, size_px);
   look->SetBackgroundColor(plate.r, plate.g, plate.b);
-  look->SetBackgroundOpacity(0.75);
+  look->SetBackgroundOpacity(0.85);
   look->SetVerticalJustificationToBottom();
   actor->PickableOff();
   return actor;

@@ -66,6 +66,7 @@ figure::Raster TreeScene::snapshot(int width_px, int height_px, std::optional<fi
   apply_look(*renderer, settings.look);
   apply_pose(*renderer, pose());
   renderer->AddViewProp(impl_->wall_actor.twin());
+  renderer->AddViewProp(impl_->moving_actor.twin());
   VolumeScene volume;
   volume.copy_from(impl_->volume);
   renderer->AddViewProp(volume.prop());

@@ -8,6 +8,7 @@
 #include <vtkCamera.h>
 #include <vtkCommand.h>
 #include <vtkLight.h>
+#include <vtkMath.h>
 #include <vtkRenderWindow.h>
 #include <vtkVolume.h>
 
@@ -22,18 +23,6 @@ namespace {
 
 /// From the target to the camera; with parallel rays it changes nothing but what the clipping planes allow.
 constexpr double camera_distance_mm = 1000.0;
-
-void check(const geometry::TriMesh& wall) {
-  const auto count = static_cast<std::int32_t>(wall.points.size());
-  for (std::size_t i = 0; i < wall.triangles.size(); ++i)
-    for (const std::int32_t corner : wall.triangles[i])
-      if (corner < 0 || corner >= count)
-        throw InvalidInput("triangle " + std::to_string(i) + " of the wall to be shown has a corner " +
-                           std::to_string(corner) + ", there are " + std::to_string(count) + " points");
-  for (std::size_t i = 0; i < wall.points.size(); ++i)
-    if (!wall.points[i].allFinite())
-      throw InvalidInput("point " + std::to_string(i) + " of the wall to be shown is not finite");
-}
 
 figure::Color background(figure::Look look) {
   return look == figure::Look::dark ? figure::Color{0.075, 0.085, 0.10} : figure::Color{0.97, 0.975, 0.98};
@@ -83,10 +72,15 @@ void apply_look(vtkRenderer& renderer, figure::Look look) {
 
 TreeScene::Impl::Impl() {
   renderer->AddViewProp(wall_actor.prop());
+  front->AddViewProp(moving_actor.prop());
   renderer->AddViewProp(volume.prop());
   add_lights(*renderer);
+  add_lights(*front);
   apply_look(*renderer, settings.look);
   apply_pose(*renderer, pose_from(ViewFrom::anterior, Vec3::Zero(), 60.0));
+  front->SetLayer(1);
+  front->SetPreserveDepthBuffer(1);
+  front->SetActiveCamera(renderer->GetActiveCamera());
   const auto observe = [this](vtkCallbackCommand* command, unsigned long event, auto callback) {
     command->SetClientData(this);
     command->SetCallback(callback);
@@ -102,19 +96,42 @@ TreeScene::Impl::~Impl() {
   renderer->RemoveObserver(before);
   renderer->RemoveObserver(after);
   renderer->RemoveAllViewProps();
+  front->RemoveAllViewProps();
 }
 
 void TreeScene::Impl::before_render() {
-  const int* size = renderer->GetSize();
+  const std::array<int, 2> size{renderer->GetSize()[0], renderer->GetSize()[1]};
   const CameraPose pose = pose_of(*renderer);
   overlay.lay_out(pose, size[0], size[1], settings);
   mark_actors.lay_out(pose, size[0], size[1], settings.pixel_ratio);
-  renderer->ResetCameraClippingRange();
+  set_depths(pose);
   started = std::chrono::steady_clock::now();
+}
+
+/// Clipping planes around all that is shown, at whole steps: marks that move do not move the planes, and the
+/// picture behind them stays.
+void TreeScene::Impl::set_depths(const CameraPose& pose) {
+  constexpr double step_mm = 100.0;
+  double nearest = -step_mm, farthest = step_mm;
+  for (vtkRenderer* layer : {static_cast<vtkRenderer*>(renderer), static_cast<vtkRenderer*>(front)}) {
+    std::array<double, 6> box{};
+    layer->ComputeVisiblePropBounds(box.data());
+    if (!vtkMath::AreBoundsInitialized(box.data())) continue;
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3 at(box[corner & 1 ? 1 : 0], box[corner & 2 ? 3 : 2], box[corner & 4 ? 5 : 4]);
+      const double towards = (at - pose.target).dot(pose.towards);
+      nearest = std::max(nearest, towards);
+      farthest = std::max(farthest, -towards);
+    }
+  }
+  const auto whole = [](double mm) { return step_mm * std::ceil(mm / step_mm + 1e-6); };
+  renderer->GetActiveCamera()->SetClippingRange(camera_distance_mm - whole(std::max(nearest, 0.0)),
+                                                camera_distance_mm + whole(farthest));
 }
 
 /// A coarse picture of the volume that took too long is the last one of this image and mode.
 void TreeScene::Impl::after_render() {
+  if (renderer->put_back()) return;
   volume_ms.reset();
   if (!volume.prop()->GetVisibility() || renderer->GetRenderWindow() == nullptr) return;
   constexpr double most_ms = 80.0;
@@ -176,130 +193,26 @@ void TreeScene::Impl::make_axes() {
   mark_actors.show_axes(marks);
 }
 
-bool TreeScene::Impl::visible(std::int32_t point) const {
-  return styles.at(places[static_cast<std::size_t>(point)].vessel).visible;
-}
-
-void TreeScene::Impl::show_triangles() {
-  if (!wall) return;
-  std::vector<char> shown(vessels.size());
-  for (std::size_t i = 0; i < vessels.size(); ++i) shown[i] = styles.at(vessels[i]->vessel).visible;
-  wall_actor.set_triangles(
-      *wall, [&](std::int32_t point) { return shown[place_vessel[static_cast<std::size_t>(point)]] != 0; });
-}
-
-void TreeScene::Impl::color_wall() {
-  if (!wall) return;
-  const figure::Color dim =
-      settings.look == figure::Look::dark ? figure::Color{0.30, 0.32, 0.35} : figure::Color{0.80, 0.81, 0.83};
-  std::vector<figure::Color> colors;
-  std::vector<double> dimmed;
-  for (const auto& each : vessels) {
-    colors.push_back(styles.at(each->vessel).color);
-    dimmed.push_back(selected && *selected != each->vessel ? 0.55 : 0.0);
-  }
-  const bool by_value = !values.empty();
-  wall_actor.set_colors(places.size(), [&](std::size_t i) {
-    const std::size_t of = place_vessel[i];
-    const figure::Color color =
-        by_value ? scale_color(scale.colors, (values[i] - scale.low) / (scale.high - scale.low)) : colors[of];
-    return figure::mixed(color, dim, dimmed[of]);
-  });
-}
-
 TreeScene::TreeScene() : impl_(std::make_unique<Impl>()) {}
 TreeScene::~TreeScene() = default;
 
-vtkRenderer* TreeScene::renderer() const {
-  return impl_->renderer;
+void TreeScene::attach(vtkRenderWindow& window) {
+  detach();
+  window.SetNumberOfLayers(2);
+  window.AddRenderer(impl_->renderer);
+  window.AddRenderer(impl_->front);
+  impl_->window = &window;
 }
 
-void TreeScene::set_wall(std::shared_ptr<const geometry::TriMesh> wall, const lumen::LumenModel& model) {
-  if (!wall) throw InvalidInput("there is no wall to be shown; clear_wall takes the former one away");
-  check(*wall);
-  impl_->follow_model(model);
-  impl_->places = impl_->owner->at(wall->points);
-  impl_->place_vessel.resize(impl_->places.size());
-  std::map<std::int32_t, std::size_t> index;
-  for (std::size_t i = 0; i < impl_->vessels.size(); ++i) index[impl_->vessels[i]->vessel] = i;
-  std::int32_t last = -1;
-  std::size_t last_index = 0;
-  for (std::size_t i = 0; i < impl_->places.size(); ++i) {
-    if (impl_->places[i].vessel != last || i == 0) {
-      last = impl_->places[i].vessel;
-      last_index = index.at(last);
-    }
-    impl_->place_vessel[i] = last_index;
-  }
-  impl_->wall = std::move(wall);
-  if (impl_->values.size() != impl_->places.size()) clear_wall_values();
-  impl_->wall_actor.set_points(*impl_->wall);
-  impl_->show_triangles();
-  impl_->color_wall();
+void TreeScene::detach() {
+  if (!impl_->window) return;
+  impl_->window->RemoveRenderer(impl_->front);
+  impl_->window->RemoveRenderer(impl_->renderer);
+  impl_->window = nullptr;
 }
 
-void TreeScene::clear_wall() {
-  clear_wall_values();
-  impl_->wall.reset();
-  impl_->places.clear();
-  impl_->place_vessel.clear();
-  impl_->wall_actor.clear();
-}
-
-std::span<const WallPlace> TreeScene::wall_places() const {
-  return impl_->places;
-}
-
-void TreeScene::set_wall_values(std::vector<double> values, const ValueScale& scale) {
-  validate(scale);
-  if (values.size() != impl_->places.size() || values.empty())
-    throw InvalidInput(std::to_string(values.size()) + " values were given for a wall of " +
-                       std::to_string(impl_->places.size()) + " points; one a point is needed");
-  impl_->values = std::move(values);
-  impl_->scale = scale;
-  impl_->settings.color_bar = scale;
-  impl_->color_wall();
-}
-
-void TreeScene::clear_wall_values() {
-  impl_->settings.color_bar.reset();
-  if (impl_->values.empty()) return;
-  impl_->values.clear();
-  if (impl_->wall && impl_->places.size() == impl_->wall->points.size()) impl_->color_wall();
-}
-
-VesselStyle TreeScene::vessel_style(std::int32_t vessel) const {
-  impl_->vessel(vessel);
-  return impl_->styles.at(vessel);
-}
-
-void TreeScene::set_vessel_style(std::int32_t vessel, const VesselStyle& style) {
-  impl_->vessel(vessel);
-  VesselStyle& kept = impl_->styles.at(vessel);
-  const bool other_triangles = kept.visible != style.visible;
-  kept = style;
-  if (other_triangles) impl_->show_triangles();
-  impl_->color_wall();
-  impl_->make_axes();
-}
-
-void TreeScene::select_vessel(std::optional<std::int32_t> vessel) {
-  if (vessel) impl_->vessel(*vessel);
-  if (impl_->selected == vessel) return;
-  impl_->selected = vessel;
-  impl_->color_wall();
-}
-
-void TreeScene::set_opacity(double opacity) {
-  if (!(opacity >= 0.05 && opacity <= 1.0))
-    throw InvalidInput("the wall's opacity is " + std::to_string(opacity) +
-                       ", it has to be between 0.05 and 1");
-  impl_->wall_actor.set_opacity(opacity);
-}
-
-void TreeScene::set_axes_shown(bool shown) {
-  impl_->marks.axes_shown = shown;
-  impl_->mark_actors.show_axes(impl_->marks);
+bool TreeScene::kept_picture() const {
+  return impl_->renderer->put_back();
 }
 
 }  // namespace ostia::view

@@ -3,13 +3,17 @@
 
 #include "mark_actors.h"
 #include "scene_overlay.h"
+#include "still_renderer.h"
 #include "wall_actor.h"
+#include "wall_change.h"
 
 #include "ostia/view/tree_scene.h"
 
 #include <vtkCallbackCommand.h>
 #include <vtkNew.h>
+#include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
+#include <vtkWeakPointer.h>
 
 #include <chrono>
 #include <map>
@@ -30,12 +34,15 @@ struct TreeScene::Impl {
   Impl();
   ~Impl();
 
-  vtkNew<vtkRenderer> renderer;
+  vtkNew<StillRenderer> renderer;  // wall and CT
+  vtkNew<vtkRenderer> front;       // what moves, with the same camera, over the other's picture and depths
   vtkNew<vtkCallbackCommand> before, after;
-  WallActor wall_actor;
+  WallActor wall_actor;    // all of the wall but what is in `moving_box`
+  WallActor moving_actor;  // the rest: about a place that is being edited
+  geometry::Box3 moving_box;
   VolumeScene volume;
-  MarkActors mark_actors{*renderer};
-  SceneOverlay overlay{*renderer};
+  MarkActors mark_actors{*front};
+  SceneOverlay overlay{*front};
 
   std::shared_ptr<const geometry::TriMesh> wall;
   std::vector<std::shared_ptr<const lumen::VesselLumen>> vessels;
@@ -44,6 +51,8 @@ struct TreeScene::Impl {
   std::vector<std::size_t> place_vessel;  // index in `vessels`, one a point
   std::vector<double> values;
   ValueScale scale;
+  double opacity = 1.0;
+  std::vector<figure::Color> palette_of_vessels;  // one a vessel
   std::map<std::int32_t, VesselStyle> styles;
   std::size_t styles_made = 0;
   std::optional<std::int32_t> selected;
@@ -56,17 +65,27 @@ struct TreeScene::Impl {
   VolumeQuality still_quality = VolumeQuality::coarse;  // while the camera rests
   std::optional<double> volume_ms;                      // of the last picture, at the quality it had
   std::chrono::steady_clock::time_point started;
+  vtkWeakPointer<vtkRenderWindow> window;
 
   void follow_model(const lumen::LumenModel& model);
   void make_axes();
+  void take_places(const lumen::LumenModel& model, const std::shared_ptr<const geometry::TriMesh>& former,
+                   const std::optional<WallChange>& change);
+  void show_wall();  // all of it anew
+  bool show_moved(const WallChange& change);
+  bool moves_apart() const;  // the part that is being edited may be drawn apart
+  void show_moving();
+  void join_moving();  // where it may no longer be drawn apart
   void color_wall();
-  void show_triangles();
+  figure::Color color_at(std::size_t point) const;
+  bool shown(std::size_t triangle) const;
   bool visible(std::int32_t point) const;
   const lumen::VesselLumen& vessel(std::int32_t id) const;
   std::vector<Vec3> shown_points() const;
   double aspect() const;
   geometry::Vec2 size_px() const;  // throws InvalidInput without a window
   void before_render();
+  void set_depths(const CameraPose& pose);
   void after_render();
   void apply_quality();
   void start_coarse();

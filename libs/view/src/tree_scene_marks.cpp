@@ -15,9 +15,20 @@ void check(const SceneMeasurement& measurement) {
   if (measurement.points.empty()) throw InvalidInput(name + " has no points to be shown at");
   for (const Vec3& point : measurement.points)
     if (!point.allFinite()) throw InvalidInput(name + " has a point that is not finite");
+  for (const SceneCurve& curve : measurement.curves)
+    for (const Vec3& point : curve.points)
+      if (!point.allFinite()) throw InvalidInput(name + " has a line through a point that is not finite");
+  if (measurement.label_at && !measurement.label_at->allFinite())
+    throw InvalidInput(name + " has its label at a place that is not finite");
 }
 
 }  // namespace
+
+std::vector<SceneCurve> curves_of(const SceneMeasurement& measurement) {
+  if (!measurement.curves.empty()) return measurement.curves;
+  if (measurement.points.size() < 2) return {};
+  return {{measurement.points, measurement.closed}};
+}
 
 void TreeScene::set_cursor(const std::optional<SceneCursor>& cursor) {
   if (cursor && (!cursor->place.allFinite() || !(cursor->radius_mm > 0.0) ||
@@ -49,14 +60,22 @@ void TreeScene::set_measurements(std::vector<SceneMeasurement> measurements) {
   impl_->mark_actors.show_measurements(impl_->marks);
 }
 
+void TreeScene::set_draft(std::optional<SceneMeasurement> draft) {
+  if (draft) check(*draft);
+  impl_->marks.draft = std::move(draft);
+  impl_->mark_actors.show_draft(impl_->marks);
+}
+
 void TreeScene::set_volume(std::shared_ptr<const imaging::ImageVolume> image) {
   impl_->volume.set_image(std::move(image));
   impl_->start_coarse();
+  impl_->join_moving();
 }
 
 void TreeScene::set_volume_mode(VolumeMode mode) {
   impl_->volume.set_mode(mode);
   impl_->start_coarse();
+  impl_->join_moving();
 }
 
 void TreeScene::set_volume_window(double level_hu, double width_hu) {
@@ -99,6 +118,10 @@ void TreeScene::set_pixel_ratio(double ratio) {
   impl_->settings.pixel_ratio = ratio;
   impl_->marks.pixel_ratio = ratio;
   impl_->mark_actors.show_all(impl_->marks);
+}
+
+double TreeScene::pixel_ratio() const {
+  return impl_->settings.pixel_ratio;
 }
 
 void TreeScene::set_marker_shown(bool shown) {

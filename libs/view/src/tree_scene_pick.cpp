@@ -47,7 +47,7 @@ double ray_triangle(const Vec3& origin, const Vec3& direction, const Vec3& a, co
 geometry::Vec2 TreeScene::Impl::size_px() const {
   if (renderer->GetVTKWindow() == nullptr)
     throw InvalidInput("the 3D scene is in no window yet, so it has no picture coordinates");
-  const int* size = const_cast<vtkRenderer*>(renderer.Get())->GetSize();
+  const int* size = const_cast<StillRenderer*>(renderer.Get())->GetSize();
   if (size[0] < 1 || size[1] < 1)
     throw InvalidInput("the 3D scene's window has no size yet, so it has no picture coordinates");
   return {size[0], size[1]};
@@ -55,7 +55,7 @@ geometry::Vec2 TreeScene::Impl::size_px() const {
 
 double TreeScene::Impl::aspect() const {
   if (renderer->GetVTKWindow() == nullptr) return 1.0;
-  const int* size = const_cast<vtkRenderer*>(renderer.Get())->GetSize();
+  const int* size = const_cast<StillRenderer*>(renderer.Get())->GetSize();
   return size[1] > 0 ? std::max(static_cast<double>(size[0]) / size[1], 0.05) : 1.0;
 }
 
@@ -120,7 +120,7 @@ void TreeScene::zoom_by(double factor, const std::optional<Vec2>& display) {
 
 Vec2 TreeScene::Impl::project(const Vec3& world) const {
   const Vec2 size = size_px();
-  const CameraPose pose = pose_of(*const_cast<vtkRenderer*>(renderer.Get()));
+  const CameraPose pose = pose_of(*const_cast<StillRenderer*>(renderer.Get()));
   const double px_per_mm = 0.5 * size.y() / pose.half_height_mm;
   const Vec3 off = world - pose.target;
   return 0.5 * size + px_per_mm * Vec2(off.dot(pose.right()), off.dot(pose.up));
@@ -172,17 +172,21 @@ std::optional<ScenePick> TreeScene::Impl::wall_pick(const Vec3& origin, const Ve
 
 void TreeScene::Impl::add_measurement_pick(const Vec2& display, std::optional<ScenePick>& pick) const {
   double nearest = 6.0 * settings.pixel_ratio;
+  const auto offer = [&](std::int32_t id, const Vec3& a, const Vec3& b) {
+    const auto [t, away] = nearest_on_piece(project(a), project(b), display);
+    if (away > nearest) return;
+    nearest = away;
+    if (!pick) pick.emplace();
+    pick->measurement = id;
+    if (!pick->vessel) pick->point = a + t * (b - a);
+  };
   for (const SceneMeasurement& measurement : marks.measurements) {
-    const std::size_t count = measurement.points.size();
-    for (std::size_t i = 0; i < (measurement.closed || count == 1 ? count : count - 1); ++i) {
-      const Vec3 &a = measurement.points[i], &b = measurement.points[(i + 1) % count];
-      const auto [t, away] = nearest_on_piece(project(a), project(b), display);
-      if (away > nearest) continue;
-      nearest = away;
-      if (!pick) pick.emplace();
-      pick->measurement = measurement.id;
-      if (!pick->vessel) pick->point = a + t * (b - a);
+    for (const SceneCurve& curve : curves_of(measurement)) {
+      const std::size_t count = curve.points.size();
+      for (std::size_t i = 0; i + (curve.closed ? 0 : 1) < count; ++i)
+        offer(measurement.id, curve.points[i], curve.points[(i + 1) % count]);
     }
+    for (const Vec3& point : measurement.points) offer(measurement.id, point, point);
   }
 }
 

@@ -36,22 +36,6 @@ std::uint8_t byte(double component) {
 
 }  // namespace
 
-std::vector<Eigen::Vector3f> smooth_normals(const geometry::TriMesh& mesh) {
-  std::vector<Eigen::Vector3f> normals(mesh.points.size(), Eigen::Vector3f::Zero());
-  for (const geometry::Triangle& t : mesh.triangles) {
-    const Vec3& a = mesh.points[static_cast<std::size_t>(t[0])];
-    const Eigen::Vector3f area = (mesh.points[static_cast<std::size_t>(t[1])] - a)
-                                     .cross(mesh.points[static_cast<std::size_t>(t[2])] - a)
-                                     .cast<float>();
-    for (const std::int32_t corner : t) normals[static_cast<std::size_t>(corner)] += area;
-  }
-  for (Eigen::Vector3f& normal : normals) {
-    const float length = normal.norm();
-    if (length > 0.0F) normal /= length;
-  }
-  return normals;
-}
-
 WallActor::WallActor()
     : actor_(vtkSmartPointer<vtkActor>::New()),
       surface_(vtkSmartPointer<vtkPolyData>::New()),
@@ -96,11 +80,10 @@ vtkSmartPointer<vtkActor> WallActor::twin() const {
   return twin;
 }
 
-void WallActor::set_points(const geometry::TriMesh& mesh) {
+void WallActor::set_points(const geometry::TriMesh& mesh, const std::vector<Eigen::Vector3f>& normals) {
   const std::size_t count = mesh.points.size();
   points_->SetNumberOfTuples(static_cast<vtkIdType>(count));
   normals_->SetNumberOfTuples(static_cast<vtkIdType>(count));
-  const std::vector<Eigen::Vector3f> normals = smooth_normals(mesh);
   float* point = points_->GetPointer(0);
   for (std::size_t i = 0; i < count; ++i)
     for (int a = 0; a < 3; ++a)
@@ -112,12 +95,13 @@ void WallActor::set_points(const geometry::TriMesh& mesh) {
 }
 
 void WallActor::set_triangles(const geometry::TriMesh& mesh,
-                              const std::function<bool(std::int32_t)>& visible) {
+                              const std::function<bool(std::size_t)>& visible) {
   corners_->SetNumberOfValues(static_cast<vtkIdType>(3 * mesh.triangles.size()));
   vtkTypeInt32* corner = corners_->GetPointer(0);
   vtkIdType kept = 0;
-  for (const geometry::Triangle& t : mesh.triangles) {
-    if (!visible(t[0])) continue;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (!visible(i)) continue;
+    const geometry::Triangle& t = mesh.triangles[i];
     std::copy(t.begin(), t.end(), corner + 3 * kept);
     ++kept;
   }
@@ -155,8 +139,8 @@ void WallActor::set_opacity(double opacity) {
 }
 
 void WallActor::clear() {
-  set_points({});
-  set_triangles({}, [](std::int32_t) { return true; });
+  set_points({}, {});
+  set_triangles({}, [](std::size_t) { return true; });
   set_colors(0, [](std::size_t) { return figure::Color{}; });
 }
 

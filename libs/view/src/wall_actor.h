@@ -24,9 +24,6 @@ class vtkUnsignedCharArray;
 
 namespace ostia::view {
 
-/// Unit normals at the points: the triangles' own, weighted by area. Zero where a point has no triangle.
-std::vector<Eigen::Vector3f> smooth_normals(const geometry::TriMesh& mesh);
-
 /// Points, triangles and colours in VTK's arrays, which an update writes anew and never allocates for less
 /// than they hold.
 class WallActor {
@@ -37,9 +34,10 @@ class WallActor {
   /// Another actor over the same arrays, for a second window.
   vtkSmartPointer<vtkActor> twin() const;
 
-  void set_points(const geometry::TriMesh& mesh);
-  /// The triangles whose first point is visible.
-  void set_triangles(const geometry::TriMesh& mesh, const std::function<bool(std::int32_t point)>& visible);
+  /// One unit normal a point.
+  void set_points(const geometry::TriMesh& mesh, const std::vector<Eigen::Vector3f>& normals);
+  /// The triangles that are visible.
+  void set_triangles(const geometry::TriMesh& mesh, const std::function<bool(std::size_t triangle)>& visible);
   /// One colour a point.
   void set_colors(std::size_t count, const std::function<figure::Color(std::size_t point)>& color_of);
   void set_opacity(double opacity);

@@ -14,8 +14,8 @@ void set_log(LogFormat format, LogLevel level);
 LogFormat log_format();
 
 /// Registers a text that identifies a patient or may do so (a name, an identifier, a path the user gave).
-/// From now on it is replaced by `alias` in everything that is logged. Texts shorter than three characters
-/// are ignored.
+/// From now on it is replaced by `alias` in everything that is logged; a text that is known gets the new
+/// alias. Texts shorter than three characters are ignored.
 void redact_in_logs(std::string_view secret, std::string_view alias);
 /// The text with everything registered replaced; what log_* applies. For other writers of files, too.
 std::string redacted(std::string_view text);

@@ -23,7 +23,7 @@ struct TreeSegment {
   Centerline axis;
 };
 
-/// A named path of segments from a root to an end.
+/// A named path of segments from a root to an end, or to where another vessel goes on.
 struct Vessel {
   std::int32_t id = 0;
   std::string name;
@@ -45,8 +45,8 @@ Centerline vessel_axis(const VesselTree& tree, const Vessel& vessel);
 std::vector<std::int32_t> roots(const VesselTree& tree);  ///< nodes without a parent segment
 std::vector<std::int32_t> ends(const VesselTree& tree);   ///< nodes without a child segment
 /// What is wrong with the tree (repeated or unknown ids, loops, a node with two parents, a vessel whose
-/// segments do not join or that does not run from a root to an end, axes that are incomplete or miss their
-/// nodes by 1e-3 mm); nothing if sound.
+/// segments do not join, that does not begin at a root, or that ends within the tree where no vessel goes on,
+/// axes that are incomplete or miss their nodes by 1e-3 mm); nothing if sound.
 std::optional<std::string> find_fault(const VesselTree& tree);
 
 }  // namespace ostia::geometry

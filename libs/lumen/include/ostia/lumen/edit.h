@@ -4,6 +4,7 @@
 #include "ostia/lumen/lumen_model.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -88,16 +89,34 @@ struct BranchAttach {
   std::int32_t vessel = 0, parent = 0;
   Vec3 at = Vec3::Zero();
 };
+/// "branch.split": the vessel ends at s, and what lies distal of it is a vessel of its own, which goes on
+/// from there along the same axis with the same abscissas. Side branches distal of s leave the new vessel.
+/// The node is put on a control point of the axis within 0.3 mm.
+struct BranchSplit {
+  std::int32_t vessel = 0;
+  double s_mm = 0.0;  ///< on the vessel's own stretch, a radius and a spacing of its samples from both ends
+  std::string name;   ///< of the new vessel; empty: "<the vessel's> distal"
+};
+/// "branch.merge": a vessel that goes on from the end of its parent becomes part of the parent; undoes a
+/// split.
+struct BranchMerge {
+  std::int32_t vessel = 0;  ///< the distal one: its id and name go
+};
 /// "vessel.rename"
 struct VesselRename {
   std::int32_t vessel = 0;
   std::string name;
 };
 
-using Edit = std::variant<CprStroke, SectionContour, WallDrag, WallPush, AxisMove, AxisInsert, AxisDelete,
-                          AxisExtend, AxisTrim, BranchAdd, BranchDelete, BranchAttach, VesselRename>;
+using Edit =
+    std::variant<CprStroke, SectionContour, WallDrag, WallPush, AxisMove, AxisInsert, AxisDelete, AxisExtend,
+                 AxisTrim, BranchAdd, BranchDelete, BranchAttach, BranchSplit, BranchMerge, VesselRename>;
 
 std::string op_name(const Edit& edit);  ///< "cpr.stroke", ...
+
+/// The vessel from whose end this one goes on, so that "branch.merge" can join both; nothing where it begins
+/// at a root or leaves the side of another. Throws InvalidInput for an unknown vessel.
+std::optional<std::int32_t> merge_parent(const geometry::VesselTree& tree, std::int32_t vessel);
 
 /// What became of one vessel's samples.
 struct VesselChange {

@@ -63,6 +63,11 @@ struct MeshedLumen {
 /// narrows.
 MeshedLumen mesh_lumen(const geometry::TriMesh& lumen, const geometry::VesselTree& tree,
                        const ModelOptions& options, const core::TaskContext& task = core::no_task());
+/// The same about axes that are known and run inside the lumen, those of a case: none are extracted, and
+/// `centerlines` has the axes alone. The wall's distance from them decides sizes (SizeMeasure::distance), so
+/// that radii that are older than the wall do no harm.
+MeshedLumen mesh_lumen_about(const geometry::TriMesh& lumen, const geometry::VesselTree& axes,
+                             const ModelOptions& options, const core::TaskContext& task = core::no_task());
 
 /// Everything that came of one input.
 struct Model {

@@ -42,7 +42,8 @@ struct Source {
 };
 
 /// SHA-256 alone, cheaper than `load`.
-std::string digest(const std::filesystem::path& path, SourceKind kind);
+std::string digest(const std::filesystem::path& path, SourceKind kind,
+                   const core::TaskContext& task = core::no_task());
 
 /// Reads it. From here on the log knows the path by the pseudonym alone. Throws what the readers throw;
 /// InvalidInput for a surface whose size suggests another unit.

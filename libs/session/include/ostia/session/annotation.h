@@ -2,7 +2,7 @@
 /// \file What a person notes in a case beside the model: measurements, and marks at vessels.
 
 #include "ostia/analysis/measurement.h"
-#include "ostia/lumen/lumen_model.h"
+#include "ostia/lumen/edit.h"
 
 #include <array>
 #include <cstdint>
@@ -57,6 +57,13 @@ bool is_annotation_op(const std::string& op);           ///< one of these names
 /// may keep it), a color outside [0, 1], values that are not finite, text that is not UTF-8.
 Annotations annotated(const Annotations& before, const AnnotationCommand& command,
                       const lumen::LumenModel& model);
+
+/// The annotations after an edit of the model. What stands on a vessel that is split goes with the part that
+/// it lies on (what lies across the seam with the new vessel, whose axis has both, at the same abscissas);
+/// what stands on a vessel that is joined with its parent stands on the parent. Marks stay with the vessel
+/// that keeps its id. All other edits leave annotations as they are.
+Annotations following(const Annotations& before, const lumen::Edit& edit,
+                      const lumen::LumenModel& model_before, const lumen::LumenModel& model_after);
 
 /// What differs: measurements by id, marks by vessel; came, went or changed.
 struct AnnotationChange {

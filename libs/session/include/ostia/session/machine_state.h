@@ -2,9 +2,6 @@
 /// \file What a workstation knows of its machine, outside of any case: where images lie, which cases were
 /// open, how the window was. Paths stand here and in no case.
 
-#include "ostia/core/task_context.h"
-#include "ostia/session/case_file.h"
-
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -41,10 +38,6 @@ class MachineState {
   std::optional<std::filesystem::path> find_image(const std::string& sha256) const;
   /// Throws IoError, ResourceError, as all changes do: the file is then what it was.
   void remember_image(const std::string& sha256, const std::filesystem::path& path);
-  /// A person points to where a moved image lies now: it is read, and remembered where it is the one. Throws
-  /// InvalidInput where it is another image, and as `image_reference` does.
-  void point_to_image(const ImageReference& wanted, const std::filesystem::path& path,
-                      const core::TaskContext& task = core::no_task());
 
   std::vector<RecentCase> recent_cases() const;  ///< newest first; some may be gone meanwhile
   /// It comes first; beyond `most_recent_cases` the oldest go.

@@ -152,29 +152,4 @@ class Property {
   std::shared_ptr<State> state_;
 };
 
-/// Something a person can start: a menu's line, a button, a key.
-class Command {
- public:
-  /// `shortcut` is the name under which a table of shortcuts knows it ("edit.undo"). Throws InvalidInput
-  /// without something to run.
-  Command(std::string shown_name, std::string shortcut, std::function<void()> action)
-      : name(std::move(shown_name)), shortcut_(std::move(shortcut)), action_(std::move(action)) {
-    if (!action_) throw InvalidInput("the command " + shortcut_ + " has nothing to run");
-  }
-  Property<bool> enabled{true};
-  Property<std::string> name;  ///< may change: "Undo drawing"
-  const std::string& shortcut() const { return shortcut_; }
-  /// False, and nothing done, where it is not enabled.
-  bool run() const {
-    if (!enabled.get()) return false;
-    const std::function<void()> action = action_;  // which may take the command away
-    action();
-    return true;
-  }
-
- private:
-  std::string shortcut_;
-  std::function<void()> action_;
-};
-
 }  // namespace ostia::session

@@ -63,6 +63,14 @@ struct ModelEvent {
   std::vector<Vec3> dismissed;  ///< places of samples that an edit took away
 };
 
+/// A vessel to be measured on a model that no longer changes.
+struct ProfileWork {
+  std::shared_ptr<const lumen::LumenModel> model;
+  std::map<std::int32_t, std::shared_ptr<const lumen::ImplicitSurface>> walls;
+  std::int32_t vessel = 0;
+  analysis::LumenProfile measured(const core::TaskContext& task = core::no_task()) const;  ///< any thread
+};
+
 /// Not safe from several threads. What throws (InvalidInput, NumericalError, ResourceError, IoError) leaves
 /// everything as it was.
 class Workbench {
@@ -95,6 +103,11 @@ class Workbench {
   /// As they were when they were last asked for: for views that must not wait. `stenoses_changed` says when
   /// to look again.
   const std::vector<analysis::Stenosis>& known_stenoses(std::int32_t vessel) const;
+  /// The measuring that `profile` would have to do first, as work for another thread; nothing where it is
+  /// done.
+  std::optional<ProfileWork> profile_work(std::int32_t vessel) const;
+  /// Takes what the work has measured; false, and nothing taken, where the model is another by now.
+  bool take_profile(const ProfileWork& work, analysis::LumenProfile profile);
   /// The lumen on one section, as it is now.
   std::optional<analysis::SectionMeasures> section(std::int32_t vessel, double s_mm) const;
   std::vector<analysis::MeasuredValue> measured(const analysis::Measurement& measurement) const;
@@ -114,6 +127,8 @@ class Workbench {
   Property<double> cursor_mm{0.0};     ///< abscissa on the selected vessel; its domain is the vessel's length
   Property<Vec3> place{Vec3::Zero()};  ///< the cursor in the patient; on the axis after cursor_mm was set
   Property<double> theta_deg{0.0};     ///< of the first CPR; the second is at + 90
+                                       /// A hand turns the CPRs: their lines may be coarse until it lets go.
+  Property<bool> turning{false};
   Property<reformat::CurvedMode> curved_mode{reformat::CurvedMode::straightened};
   Property<reformat::Slab> slab{reformat::Slab::none};
   Property<double> slab_mm{5.0, Range<double>{0.5, 50.0, 0.5}};
@@ -147,6 +162,8 @@ class Workbench {
   mutable std::map<std::int32_t, std::unique_ptr<Measured>> measured_;
   std::vector<Subscription> own_;
   Measured* measured_of(std::int32_t vessel) const;
+  /// Reference line and stenoses of a profile.
+  void interpret(const lumen::LumenModel& model, std::int32_t vessel, Measured& measured) const;
 };
 
 }  // namespace ostia::session

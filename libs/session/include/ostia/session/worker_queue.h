@@ -38,6 +38,8 @@ class WorkerQueue {
   using Snapshot = std::shared_ptr<const lumen::LumenModel>;
   /// May throw; ostia::Cancelled when the task says so.
   using Work = std::function<std::any(const lumen::LumenModel& model, const core::TaskContext& task)>;
+  /// What needs no model, or brings what it needs with it.
+  using PlainWork = std::function<std::any(const core::TaskContext& task)>;
   using JobId = std::int64_t;
 
   explicit WorkerQueue(int threads = 1);  ///< [1, 64]; throws InvalidInput
@@ -49,10 +51,13 @@ class WorkerQueue {
   /// The newest of a kind wins: a job of the same kind that waits or runs is superseded. Throws InvalidInput
   /// without a model or work.
   JobId submit(const std::string& kind, Snapshot snapshot, Work work);
+  JobId submit(const std::string& kind, PlainWork work);
   /// Nothing for a job that was never submitted or was forgotten.
   std::optional<JobStatus> status(JobId job) const;
   void cancel(JobId job);  ///< a finished or unknown job stays as it is
-  /// The result, once, of a job that is done; the job is forgotten with it.
+  /// The result as the work returned it, once, of a job that is done; the job is forgotten with it.
+  std::optional<std::any> take_any(JobId job);
+  /// The same, as the type that it has.
   template <class Result>
   std::optional<Result> take(JobId job) {
     std::optional<std::any> result = take_any(job);
@@ -62,7 +67,6 @@ class WorkerQueue {
   void forget(JobId job);  ///< cancels it, and drops its status and result
 
  private:
-  std::optional<std::any> take_any(JobId job);
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

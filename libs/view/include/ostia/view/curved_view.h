@@ -45,6 +45,7 @@ class CurvedView final : public PictureView {
   Vec2 contour_offset() const override { return Vec2(offset_px_, 0.0); }
   std::optional<lumen::ViewSurface> contour_surface() override;
   std::vector<Vec2> contour_seeds() override;
+  lumen::ContourLineOptions line_options() const override;
   void add_to_overlay(Overlay& overlay) override;
 
  private:

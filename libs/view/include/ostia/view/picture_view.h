@@ -41,6 +41,8 @@ class PictureView {
   /// Grows with each image made: a painter keeps what it made of the last one.
   std::uint64_t image_revision() const { return image_revision_; }
   const Overlay& overlay();
+  /// What image() and overlay() would have to make first, and takes the time: image and contour lines.
+  void prepare();
   /// Something fades away: ask for the overlay again soon.
   bool animating() const { return !fading_.empty(); }
 
@@ -102,6 +104,7 @@ class PictureView {
   virtual Vec2 contour_offset() const { return Vec2::Zero(); }
   virtual std::optional<lumen::ViewSurface> contour_surface() = 0;
   virtual std::vector<Vec2> contour_seeds() = 0;
+  virtual lumen::ContourLineOptions line_options() const;
   virtual void add_to_overlay(Overlay& overlay) = 0;
   /// Measurements' marks whose points lie within `reach_mm` of the view.
   void add_measurements(Overlay& overlay, double reach_mm);
@@ -134,5 +137,8 @@ class PictureView {
   std::vector<Fading> fading_;
   std::vector<session::Subscription> own_;
 };
+
+/// Prepares several views of one workbench side by side on all cores.
+void prepare(const std::vector<PictureView*>& views);
 
 }  // namespace ostia::view

@@ -6,6 +6,7 @@
 #include "ostia/reformat/plane.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,12 +32,23 @@ struct ScenePlanePicture {
   std::vector<std::uint8_t> gray;
 };
 
+/// A line of straight pieces.
+struct SceneCurve {
+  std::vector<Vec3> points;
+  bool closed = false;
+};
+
 struct SceneMeasurement {
   std::int32_t id = 0;
-  std::vector<Vec3> points;  ///< at least one
-  bool closed = false;
-  std::string label;  ///< beside the first point; may be empty
+  std::vector<Vec3> points;  ///< at least one; dots, and without `curves` joined by a line
+  bool closed = false;       ///< that line
+  std::string label;         ///< beside `label_at`; may be empty
   bool selected = false;
+  std::vector<SceneCurve> curves{};  ///< its lines where they are not those from point to point
+  bool dots = true;
+  std::optional<Vec3> label_at{};  ///< nothing: whichever point is to the right
 };
+/// The lines that are drawn of it.
+std::vector<SceneCurve> curves_of(const SceneMeasurement& measurement);
 
 }  // namespace ostia::view

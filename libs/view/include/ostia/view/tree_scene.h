@@ -20,13 +20,14 @@
 #include <span>
 #include <vector>
 
-class vtkRenderer;
+class vtkRenderWindow;
 
 namespace ostia::view {
 
 struct VesselStyle {
   bool visible = true;
   figure::Color color;
+  bool operator==(const VesselStyle&) const = default;
 };
 
 /// What lies under a place of the picture.
@@ -37,11 +38,11 @@ struct ScenePick {
   std::optional<std::int32_t> measurement;  ///< one that passes within 6 pixels (times the pixel ratio)
 };
 
-/// The tree's wall, a cursor, measurements, pictures in space and the CT behind them, in one vtkRenderer that
-/// the owner puts into a window (one without multisampling where OpenGL is software). World coordinates are
-/// LPS, mm; display coordinates are device pixels of that window from its lower left corner. Rays are
-/// parallel, so that the scale bar holds everywhere. Nothing renders by itself: call the window's Render()
-/// after changes. One thread.
+/// The tree's wall, a cursor, measurements, pictures in space and the CT behind them, in a window of
+/// the owner's (one without multisampling: only there a cursor moves without the wall being drawn anew).
+/// World coordinates are LPS, mm; display coordinates are device pixels of that window from its lower left
+/// corner. Rays are parallel, so that the scale bar holds everywhere. Nothing renders by itself: call the
+/// window's Render() after changes. One thread.
 class TreeScene {
  public:
   TreeScene();
@@ -49,7 +50,11 @@ class TreeScene {
   TreeScene(const TreeScene&) = delete;
   TreeScene& operator=(const TreeScene&) = delete;
 
-  vtkRenderer* renderer() const;
+  /// Into a window, as its only contents; two layers of it are used.
+  void attach(vtkRenderWindow& window);
+  void detach();  ///< before the window goes
+  /// The last Render() put back the picture of wall and CT that was there, as only marks had changed.
+  bool kept_picture() const;
 
   // The wall ------------------------------------------------------------------------------------------------
 
@@ -79,6 +84,8 @@ class TreeScene {
   /// A picture on its plane, cut by the wall; nothing takes it away. Throws InvalidInput.
   void set_plane(ScenePlane which, std::optional<ScenePlanePicture> picture);
   void set_measurements(std::vector<SceneMeasurement> measurements);  ///< throws InvalidInput
+  /// One that is being placed: shown as chosen, never picked. Throws InvalidInput.
+  void set_draft(std::optional<SceneMeasurement> draft);
 
   // The CT --------------------------------------------------------------------------------------------------
 
@@ -93,6 +100,9 @@ class TreeScene {
   /// the last: call it when the window has been idle for a moment, and render as long as it returns true. A
   /// new volume is drawn coarsely first. Throws InvalidInput for a patience that is not positive.
   bool refine(double patience_ms = 120.0);
+  /// Draws the wall whole again, after a place was edited whose surroundings were drawn apart from the rest:
+  /// then each picture takes less. Call it when the hand has let go; true where there is something to render.
+  bool settle();
 
   // The camera ----------------------------------------------------------------------------------------------
 
@@ -112,7 +122,7 @@ class TreeScene {
   // Places --------------------------------------------------------------------------------------------------
 
   /// What the eye meets first on the visible wall, whatever else is shown; nothing on the background. Does
-  /// not render. Throws InvalidInput where the renderer is in no window.
+  /// not render. Throws InvalidInput where the scene is in no window.
   std::optional<ScenePick> pick(const geometry::Vec2& display) const;
   geometry::Vec2 project(const Vec3& world) const;  ///< display coordinates; throws InvalidInput as above
 
@@ -120,7 +130,8 @@ class TreeScene {
 
   void set_look(figure::Look look);
   void set_pixel_ratio(double ratio);  ///< device pixels per unit of lines and texts, [0.5, 8]
-  void set_marker_shown(bool shown);   ///< the cube with the patient's directions
+  double pixel_ratio() const;
+  void set_marker_shown(bool shown);  ///< the cube with the patient's directions
   void set_scale_bar_shown(bool shown);
 
   /// The scene as it is, in another size and perhaps another look, from a window of its own that is never

@@ -12,6 +12,10 @@ struct Words {
   std::string diameter = "diameter, mm", area = "area, mm\u00b2";
   std::string from_root = "mm from its root";  ///< after a vessel's name
   std::string not_measurable = "not measurable";
+  // What the 3D view answers to clicks that place nothing.
+  std::string off_wall = "There is no vessel: click on the wall of one.";
+  std::string other_vessel = "This is another vessel: both places have to lie along one.";
+  std::string no_lumen = "The lumen is shut or open here: there is nothing to measure across it.";
 };
 const Words& words();
 /// Before views are made; one thread.

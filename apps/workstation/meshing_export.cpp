@@ -1,0 +1,117 @@
+#include "meshing_export.h"
+
+#include "main_window.h"
+
+#include "ostia/core/error.h"
+
+#include <QDesktopServices>
+#include <QUrl>
+#include <new>
+
+namespace ostia::workstation {
+namespace fs = std::filesystem;
+namespace {
+
+// Stages of these jobs, which the libraries name.
+[[maybe_unused]] const char* const texts_of_jobs[] = {
+    QT_TRANSLATE_NOOP("stages", "walls"),
+    QT_TRANSLATE_NOOP("stages", "ends cut"),
+    QT_TRANSLATE_NOOP("stages", "clipping"),
+    QT_TRANSLATE_NOOP("stages", "caps"),
+    QT_TRANSLATE_NOOP("stages", "centerlines of the cut lumen"),
+    QT_TRANSLATE_NOOP("stages", "remeshing"),
+    QT_TRANSLATE_NOOP("stages", "tetrahedra"),
+    QT_TRANSLATE_NOOP("stages", "quality"),
+};
+
+QString job_name(ExportKind kind) {
+  return kind == ExportKind::mesh ? QStringLiteral("mesh") : QStringLiteral("surface");
+}
+
+/// CASE-mesh, CASE-mesh-2, ... beside the case.
+fs::path free_folder(const fs::path& case_file, ExportKind kind) {
+  std::error_code ignored;
+  const fs::path first =
+      case_file.parent_path() / (case_file.stem().string() + "-" + job_name(kind).toStdString());
+  fs::path folder = first;
+  for (int number = 2; fs::exists(folder, ignored); ++number)
+    folder = first.string() + "-" + std::to_string(number);
+  return folder;
+}
+
+std::vector<std::int32_t> shown_in_3d(const session::Session& session) {
+  std::vector<std::int32_t> shown;
+  for (const geometry::Vessel& vessel : session.file().model()->tree.vessels) {
+    const session::VesselMark* mark = session::find_mark(*session.file().annotations(), vessel.id);
+    if (!mark || mark->visible) shown.push_back(vessel.id);
+  }
+  return shown;
+}
+
+}  // namespace
+
+MeshingExport::MeshingExport(MainWindow& window) : QObject(&window), window_(window) {
+  last_[ExportKind::surface].size = ExportChoice::Size::as_modelled;
+}
+
+void MeshingExport::ask(ExportKind kind, const fs::path& case_file) {
+  session::Workbench& bench = window_.bench();
+  ExportSubject subject;
+  subject.kind = kind;
+  subject.model = bench.session().file().model();
+  subject.visible = shown_in_3d(bench.session());
+  subject.selected = bench.vessel.get();
+  subject.folder = free_folder(case_file, kind);
+  subject.one_is_running = window_.jobs().running(job_name(kind));
+  const auto model = subject.model;
+  auto* dialog = new MeshingDialog(std::move(subject), last_[kind], &window_);
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  connect(dialog, &QDialog::accepted, this, [this, kind, dialog, model] { start(kind, *dialog, model); });
+  dialog->open();
+}
+
+void MeshingExport::start(ExportKind kind, const MeshingDialog& dialog,
+                          const std::shared_ptr<const lumen::LumenModel>& model) {
+  last_[kind] = dialog.choice();
+  const fs::path folder = last_[kind].folder;
+  const auto made = [kind, folder, model, surface = dialog.surface_options(),
+                     mesh = kind == ExportKind::mesh ? dialog.mesh_options() : pipeline::MeshExportOptions()](
+                        const core::TaskContext& task) {
+    try {
+      return std::any(kind == ExportKind::mesh ? pipeline::export_mesh(folder, *model, mesh, task)
+                                               : pipeline::export_surface(folder, *model, surface, task));
+    } catch (const std::bad_alloc&) {
+      throw ResourceError("There is not enough memory for this: choose longer edges, or fewer vessels.");
+    }
+  };
+  window_.jobs().run(
+      job_name(kind), kind == ExportKind::mesh ? tr("Mesh") : tr("Surface"), made,
+      [this, kind, folder](const std::any& result) {
+        tell(kind, folder, std::any_cast<const pipeline::ExportSummary&>(result));
+      },
+      [this, kind](const QString& message) {
+        window_.complain(message, kind == ExportKind::mesh ? tr("The mesh could not be made")
+                                                           : tr("The surface could not be exported"));
+      });
+}
+
+void MeshingExport::tell(ExportKind kind, const fs::path& folder, const pipeline::ExportSummary& summary) {
+  const QString path = QString::fromStdString(folder.string());
+  const QString name = QString::fromStdString(folder.filename().string());
+  const QString text = kind == ExportKind::mesh ? tr("%1: %2 cells, least dihedral angle %3\u00b0")
+                                                      .arg(name)
+                                                      .arg(summary.tetrahedra)
+                                                      .arg(summary.min_dihedral_deg, 0, 'f', 1)
+                                                : tr("%1: %2 triangles").arg(name).arg(summary.triangles);
+  QStringList notes{path};
+  for (const std::string& warning : summary.warnings) notes << QString::fromStdString(warning);
+  window_.jobs().leave(job_name(kind), text, notes.join('\n'), tr("Open folder"),
+                       [path] { QDesktopServices::openUrl(QUrl::fromLocalFile(path)); });
+  if (!summary.verdict.ok())
+    window_.complain(tr("The mesh is in %1, but it does not pass the quality control: %2. Look at it before "
+                        "you compute with it, or mesh again with shorter edges.")
+                         .arg(path, QString::fromStdString(summary.verdict.summary())),
+                     tr("A mesh to look at"));
+}
+
+}  // namespace ostia::workstation

@@ -1,0 +1,30 @@
+#pragma once
+/// \file Surfaces and meshes of the case, made beside the editing.
+
+#include "meshing_dialog.h"
+
+#include <QObject>
+#include <map>
+
+namespace ostia::workstation {
+
+class MainWindow;
+
+/// Asks by a MeshingDialog, makes it from a snapshot in the background, and leaves a line that says what was
+/// made and where. A folder appears whole or not at all.
+class MeshingExport final : public QObject {
+  Q_OBJECT
+ public:
+  explicit MeshingExport(MainWindow& window);
+  /// The proposed folder is beside `case_file`.
+  void ask(ExportKind kind, const std::filesystem::path& case_file);
+
+ private:
+  void start(ExportKind kind, const MeshingDialog& dialog,
+             const std::shared_ptr<const lumen::LumenModel>& model);
+  void tell(ExportKind kind, const std::filesystem::path& folder, const pipeline::ExportSummary& summary);
+  MainWindow& window_;
+  std::map<ExportKind, ExportChoice> last_;
+};
+
+}  // namespace ostia::workstation

@@ -1,0 +1,245 @@
+// The wall in the scene: all of it, or that part of it apart which is being edited.
+#include "tree_scene_impl.h"
+
+#include "ostia/core/error.h"
+
+#include <vtkVolume.h>
+
+#include <map>
+#include <string>
+#include <utility>
+
+namespace ostia::view {
+namespace {
+
+// About what an edit has changed, so that the next moves of the hand stay within.
+constexpr double moving_margin_mm = 5.0;
+// A cell whose corners stay may be divided otherwise where its neighbour changes.
+constexpr double cell_margin_mm = 1.0;
+// A wall's new radius tells whose the wall is no farther away.
+constexpr double owner_margin_mm = 6.0;
+
+void check(const geometry::TriMesh& wall) {
+  const auto count = static_cast<std::int32_t>(wall.points.size());
+  for (std::size_t i = 0; i < wall.triangles.size(); ++i)
+    for (const std::int32_t corner : wall.triangles[i])
+      if (corner < 0 || corner >= count)
+        throw InvalidInput("triangle " + std::to_string(i) + " of the wall to be shown has a corner " +
+                           std::to_string(corner) + ", there are " + std::to_string(count) + " points");
+  for (std::size_t i = 0; i < wall.points.size(); ++i)
+    if (!wall.points[i].allFinite())
+      throw InvalidInput("point " + std::to_string(i) + " of the wall to be shown is not finite");
+}
+
+geometry::Box3 grown(const geometry::Box3& box, double by_mm) {
+  return {box.min() - Vec3::Constant(by_mm), box.max() + Vec3::Constant(by_mm)};
+}
+
+/// The same vessels on the same axes: walls alone may differ.
+bool same_axes(const std::vector<std::shared_ptr<const lumen::VesselLumen>>& a,
+               const std::vector<std::shared_ptr<const lumen::VesselLumen>>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
+    return x->vessel == y->vessel && x->axis == y->axis && x->own_from_mm == y->own_from_mm;
+  });
+}
+
+}  // namespace
+
+void TreeScene::set_wall(std::shared_ptr<const geometry::TriMesh> wall, const lumen::LumenModel& model) {
+  if (!wall) throw InvalidInput("there is no wall to be shown; clear_wall takes the former one away");
+  check(*wall);
+  Impl& scene = *impl_;
+  const std::shared_ptr<const geometry::TriMesh> former = std::exchange(scene.wall, std::move(wall));
+  std::optional<WallChange> change;
+  if (former && same_axes(scene.vessels, model.vessels)) change = change_between(*former, *scene.wall);
+  scene.take_places(model, former, change);
+  if (scene.values.size() != scene.places.size()) clear_wall_values();
+  if (!change || !scene.show_moved(*change)) scene.show_wall();
+}
+
+/// Whose each point is: kept for points that were there before and lie away from the change.
+void TreeScene::Impl::take_places(const lumen::LumenModel& model,
+                                  const std::shared_ptr<const geometry::TriMesh>& former,
+                                  const std::optional<WallChange>& change) {
+  follow_model(model);
+  const std::vector<Vec3>& points = wall->points;
+  std::vector<WallPlace> made(points.size());
+  std::vector<std::size_t> asked;
+  std::vector<Vec3> asked_points;
+  const geometry::Box3 near =
+      change && !change->box.isEmpty() ? grown(change->box, owner_margin_mm) : geometry::Box3{};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const bool kept =
+        former && change && (i < change->first || i >= change->last) && !near.contains(points[i]);
+    if (kept) {
+      const auto former_index = static_cast<std::ptrdiff_t>(i) - (i < change->first ? 0 : change->shift);
+      made[i] = places[static_cast<std::size_t>(former_index)];
+    } else {
+      asked.push_back(i);
+      asked_points.push_back(points[i]);
+    }
+  }
+  const std::vector<WallPlace> answers = owner->at(asked_points);
+  for (std::size_t k = 0; k < asked.size(); ++k) made[asked[k]] = answers[k];
+  places = std::move(made);
+  place_vessel.resize(places.size());
+  std::map<std::int32_t, std::size_t> index;
+  for (std::size_t i = 0; i < vessels.size(); ++i) index[vessels[i]->vessel] = i;
+  std::optional<std::pair<std::int32_t, std::size_t>> last;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (!last || places[i].vessel != last->first) last = {places[i].vessel, index.at(places[i].vessel)};
+    place_vessel[i] = last->second;
+  }
+}
+
+bool TreeScene::Impl::visible(std::int32_t point) const {
+  return styles.at(places[static_cast<std::size_t>(point)].vessel).visible;
+}
+
+/// A triangle is shown or not by its first corner.
+bool TreeScene::Impl::shown(std::size_t triangle) const {
+  return visible(wall->triangles[triangle][0]);
+}
+
+void TreeScene::Impl::show_wall() {
+  moving_box.setEmpty();
+  moving_actor.clear();
+  if (!wall) return;
+  wall_actor.set_points(*wall, smooth_normals(*wall));
+  wall_actor.set_triangles(*wall, [&](std::size_t triangle) { return shown(triangle); });
+  color_wall();
+}
+
+/// What lies behind a wall that lets light through, or before it in the CT, is mixed with it: then all is
+/// drawn together. Values change everywhere.
+bool TreeScene::Impl::moves_apart() const {
+  return values.empty() && opacity == 1.0 && volume.prop()->GetVisibility() == 0;
+}
+
+/// While a place is edited the wall away from it stays as it was drawn; false where all is to be drawn.
+bool TreeScene::Impl::show_moved(const WallChange& change) {
+  if (change.box.isEmpty()) return true;
+  if (!moves_apart()) return false;
+  const geometry::Box3 changed = grown(change.box, cell_margin_mm);
+  if (moving_box.isEmpty() || !moving_box.contains(changed)) {
+    moving_box = grown(changed, moving_margin_mm);
+    const std::vector<char> moving = triangles_within(*wall, moving_box);
+    wall_actor.set_points(*wall, smooth_normals(*wall));
+    wall_actor.set_triangles(*wall,
+                             [&](std::size_t triangle) { return !moving[triangle] && shown(triangle); });
+    wall_actor.set_colors(places.size(), [&](std::size_t i) { return color_at(i); });
+  }
+  show_moving();
+  return true;
+}
+
+void TreeScene::Impl::join_moving() {
+  if (!moving_box.isEmpty() && !moves_apart()) show_wall();
+}
+
+void TreeScene::Impl::show_moving() {
+  const WallPiece piece = piece_within(*wall, moving_box);
+  moving_actor.set_points(piece.mesh, piece.normals);
+  moving_actor.set_triangles(piece.mesh, [&](std::size_t triangle) {
+    return visible(piece.points[static_cast<std::size_t>(piece.mesh.triangles[triangle][0])]);
+  });
+  moving_actor.set_colors(piece.points.size(),
+                          [&](std::size_t i) { return color_at(static_cast<std::size_t>(piece.points[i])); });
+}
+
+figure::Color TreeScene::Impl::color_at(std::size_t point) const {
+  const std::size_t of = place_vessel[point];
+  const bool dark = settings.look == figure::Look::dark;
+  const figure::Color dim = dark ? figure::Color{0.30, 0.32, 0.35} : figure::Color{0.80, 0.81, 0.83};
+  const figure::Color color =
+      values.empty() ? palette_of_vessels[of]
+                     : scale_color(scale.colors, (values[point] - scale.low) / (scale.high - scale.low));
+  return figure::mixed(color, dim, selected && *selected != vessels[of]->vessel ? 0.55 : 0.0);
+}
+
+void TreeScene::Impl::color_wall() {
+  if (!wall) return;
+  palette_of_vessels.clear();
+  for (const auto& each : vessels) palette_of_vessels.push_back(styles.at(each->vessel).color);
+  if (!moving_box.isEmpty()) return show_wall();  // the points have other numbers by now
+  wall_actor.set_colors(places.size(), [&](std::size_t i) { return color_at(i); });
+}
+
+bool TreeScene::settle() {
+  if (impl_->moving_box.isEmpty()) return false;
+  impl_->show_wall();
+  return true;
+}
+
+void TreeScene::clear_wall() {
+  clear_wall_values();
+  impl_->wall.reset();
+  impl_->places.clear();
+  impl_->place_vessel.clear();
+  impl_->wall_actor.clear();
+  impl_->moving_actor.clear();
+  impl_->moving_box.setEmpty();
+}
+
+std::span<const WallPlace> TreeScene::wall_places() const {
+  return impl_->places;
+}
+
+void TreeScene::set_wall_values(std::vector<double> values, const ValueScale& scale) {
+  validate(scale);
+  if (values.size() != impl_->places.size() || values.empty())
+    throw InvalidInput(std::to_string(values.size()) + " values were given for a wall of " +
+                       std::to_string(impl_->places.size()) + " points; one a point is needed");
+  impl_->values = std::move(values);
+  impl_->scale = scale;
+  impl_->settings.color_bar = scale;
+  impl_->color_wall();
+}
+
+void TreeScene::clear_wall_values() {
+  impl_->settings.color_bar.reset();
+  if (impl_->values.empty()) return;
+  impl_->values.clear();
+  if (impl_->wall && impl_->places.size() == impl_->wall->points.size()) impl_->color_wall();
+}
+
+VesselStyle TreeScene::vessel_style(std::int32_t vessel) const {
+  impl_->vessel(vessel);
+  return impl_->styles.at(vessel);
+}
+
+void TreeScene::set_vessel_style(std::int32_t vessel, const VesselStyle& style) {
+  impl_->vessel(vessel);
+  VesselStyle& kept = impl_->styles.at(vessel);
+  if (kept == style) return;
+  const bool other_triangles = kept.visible != style.visible;
+  kept = style;
+  if (other_triangles)
+    impl_->show_wall();
+  else
+    impl_->color_wall();
+  impl_->make_axes();
+}
+
+void TreeScene::select_vessel(std::optional<std::int32_t> vessel) {
+  if (vessel) impl_->vessel(*vessel);
+  if (impl_->selected == vessel) return;
+  impl_->selected = vessel;
+  impl_->color_wall();
+}
+
+void TreeScene::set_opacity(double opacity) {
+  if (!(opacity >= 0.05 && opacity <= 1.0))
+    throw InvalidInput("the wall's opacity is " + std::to_string(opacity) +
+                       ", it has to be between 0.05 and 1");
+  impl_->opacity = opacity;
+  impl_->wall_actor.set_opacity(opacity);
+  impl_->join_moving();
+}
+
+void TreeScene::set_axes_shown(bool shown) {
+  impl_->marks.axes_shown = shown;
+  impl_->mark_actors.show_axes(impl_->marks);
+}
+
+}  // namespace ostia::view

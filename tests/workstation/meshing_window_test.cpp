@@ -1,0 +1,281 @@
+// Surfaces and meshes through the dialog, by mouse and keys.
+
+#include "frame_log.h"
+#include "main_window.h"
+#include "meshing_dialog.h"
+#include "meshing_export.h"
+#include "tube_case.h"
+#include "window_hand.h"
+
+#include "ostia/core/files.h"
+#include "ostia/geometry/mesh_topology.h"
+#include "ostia/imaging/image_file.h"
+#include "ostia/io/surface_file.h"
+#include "ostia/io/volume_mesh_file.h"
+#include "ostia/lumen/tree_surface.h"
+#include "ostia/meshing/quality.h"
+#include "ostia/session/image_digest.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <QAction>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QLabel>
+#include <QLineEdit>
+#include <QMessageBox>
+#include <QPushButton>
+#include <QRegularExpression>
+#include <QTest>
+#include <QToolButton>
+#include <cmath>
+
+namespace ostia::workstation {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+using testing::TestWindow;
+using testing::wait_until;
+
+constexpr double radius_mm = testing::tube_radius_mm;
+constexpr double inset_mm = 0.4 * radius_mm;  // by which both ends are cut
+
+/// A window with the tube's case open, and a hand in its export dialogs.
+struct MeshingWindow : ::testing::Test {
+  testing::Folder folder;
+  fs::path image = folder / "image.nrrd", case_file = folder / "tube.ostia";
+  std::unique_ptr<TestWindow> test;
+  MeshingDialog* dialog = nullptr;
+
+  MeshingWindow() {
+    imaging::write_image(image, testing::tube_image());
+    session::CaseFile::create(case_file, testing::tube_model(), session::image_reference(image));
+    session::MachineState(folder / "state").remember_image(session::image_reference(image).sha256, image);
+  }
+  void open_case() {
+    test = std::make_unique<TestWindow>(folder / "state");
+    test->open(case_file);
+  }
+  void ask(const char* command) {
+    test->window().findChild<QAction*>(command)->trigger();
+    ASSERT_TRUE(wait_until([&] {
+      dialog = test->window().findChild<MeshingDialog*>();
+      return dialog && dialog->isVisible();
+    }));
+    ASSERT_TRUE(QTest::qWaitForWindowExposed(dialog));
+  }
+  template <class Widget>
+  Widget* in_dialog(const char* name) {
+    auto* found = dialog->findChild<Widget*>(name);
+    EXPECT_TRUE(found) << name;
+    return found;
+  }
+  /// Clicks into the field, selects all and types.
+  static void type(QWidget* field, const QString& text) {
+    auto* line = qobject_cast<QLineEdit*>(field);
+    if (!line) line = field->findChild<QLineEdit*>();
+    QTest::mouseClick(line, Qt::LeftButton);
+    QTest::keyClick(line, Qt::Key_A, Qt::ControlModifier);
+    QTest::keyClicks(line, text);
+    QApplication::processEvents();
+  }
+  /// By the keys of a combo box, as a person does.
+  static void pick(QComboBox* box, int index) {
+    box->setFocus();
+    QTest::keyClick(box, Qt::Key_Home);
+    for (int i = 0; i < index; ++i) QTest::keyClick(box, Qt::Key_Down);
+    EXPECT_EQ(box->currentIndex(), index);
+  }
+  void click_go() {
+    QTest::mouseClick(in_dialog<QPushButton>("go"), Qt::LeftButton);
+    QApplication::processEvents();
+  }
+  QString trouble(const char* field) {
+    auto* label = in_dialog<QLabel>((std::string(field) + "_trouble").c_str());
+    return label->isVisible() ? label->text() : QString();
+  }
+  bool idle() { return !test->window().jobs().any(); }
+  QString left_line(const char* kind) {
+    auto* line = test->window().jobs().findChild<QWidget*>(QStringLiteral("left.%1").arg(kind));
+    auto* label = line ? line->findChild<QLabel*>() : nullptr;
+    return label ? label->text() : QString();
+  }
+};
+
+std::vector<std::string> names(const std::vector<geometry::Face>& faces) {
+  std::vector<std::string> all;
+  for (const geometry::Face& face : faces) all.push_back(face.name);
+  return all;
+}
+
+TEST_F(MeshingWindow, AMeshIsMadeByTheDialogWhileTheCaseIsEdited) {
+  open_case();
+  // The wall between the cuts, of the model as it is now.
+  const geometry::TriMesh wall = lumen::surface_of(*test->bench().model());
+  const double dome = 2.0 / 3.0 * M_PI * std::pow(radius_mm, 3);
+  const double enclosed = geometry::volume(wall) - 2.0 * (dome + M_PI * radius_mm * radius_mm * inset_mm);
+  ask("file.export_mesh");
+  EXPECT_EQ(in_dialog<QLineEdit>("folder")->text().toStdString(), (folder / "tube-mesh").string());
+  pick(in_dialog<QComboBox>("size"), 1);
+  type(in_dialog<QDoubleSpinBox>("edge_mm"), "0.20");
+  EXPECT_TRUE(in_dialog<QLabel>("estimate")->text().contains("cells"));
+  click_go();
+  ASSERT_FALSE(idle());
+  test->bench().edit(lumen::VesselRename{4, "RCA"});  // the snapshot keeps its name
+  ASSERT_TRUE(wait_until([&] { return idle(); }, 120000));
+  const geometry::VolumeMesh mesh = io::read_volume_mesh(folder / "tube-mesh" / "mesh.vtu");
+  EXPECT_THAT(names(mesh.faces), ElementsAre("wall", "inlet_LAD", "outlet_LAD"));
+  const meshing::VolumeQuality quality = meshing::volume_quality(mesh);
+  EXPECT_NEAR(quality.volume_mm3, enclosed, 0.01 * enclosed);
+  const auto surface = io::read_surface(folder / "tube-mesh" / "lumen.vtp").surface;
+  EXPECT_NEAR(quality.volume_mm3, geometry::volume(surface.mesh), 0.01 * quality.volume_mm3);
+  EXPECT_GT(quality.min_dihedral_deg, 5.0);
+  const QString line = left_line("mesh");
+  EXPECT_TRUE(line.contains("tube-mesh")) << line.toStdString();
+  EXPECT_TRUE(line.contains(QString::number(quality.tetrahedra))) << line.toStdString();
+  EXPECT_TRUE(line.contains(QString::number(quality.min_dihedral_deg, 'f', 1))) << line.toStdString();
+}
+
+TEST_F(MeshingWindow, CancelledMidwayThereAreNoFilesAndTheWindowWasNeverStuck) {
+  const fs::path log = folder / "frames.jsonl";
+  ASSERT_TRUE(FrameLog::instance().open(QString::fromStdString(log.string())));
+  open_case();
+  ask("file.export_mesh");
+  pick(in_dialog<QComboBox>("size"), 1);
+  type(in_dialog<QDoubleSpinBox>("edge_mm"), "0.15");
+  click_go();
+  const auto cross = [&] { return test->window().jobs().findChild<QToolButton*>("cancel.mesh"); };
+  ASSERT_TRUE(wait_until([&] { return cross() && cross()->isVisible(); }));
+  // What was under the dialog is drawn again, by software here; from then on it is the job's doing.
+  wait_until([] { return false; }, 700);
+  const std::uintmax_t before = fs::file_size(log);
+  // Long enough to be in the remeshing; then by the mouse.
+  ASSERT_TRUE(wait_until(
+      [&] {
+        auto* label = test->window().jobs().findChild<QLabel*>();
+        return label && label->text().contains("remeshing");
+      },
+      60000));
+  wait_until([] { return false; }, 1500);
+  ASSERT_FALSE(idle());
+  const std::uintmax_t after = fs::file_size(log);
+  QTest::mouseClick(cross(), Qt::LeftButton);
+  ASSERT_TRUE(wait_until([&] { return idle(); }, 2000));
+  EXPECT_TRUE(left_line("mesh").isEmpty());
+  // The thread notices within a second; nothing is left, hidden or not.
+  const auto only_the_case = [&] {
+    for (const auto& entry : fs::directory_iterator(case_file.parent_path()))
+      if (entry.path().filename().string().find("mesh") != std::string::npos) return false;
+    return true;
+  };
+  EXPECT_TRUE(wait_until(only_the_case, 2000));
+  wait_until([] { return false; }, 1000);
+  EXPECT_TRUE(only_the_case());
+  const QString text = QString::fromStdString(core::read_file(log).substr(before, after - before));
+  double longest = 0.0;
+  auto blocks = QRegularExpression("\"blocked_ms\":([0-9.]+)").globalMatch(text);
+  while (blocks.hasNext()) longest = std::max(longest, blocks.next().captured(1).toDouble());
+  std::printf("longest block of the interface: %.0f ms\n", longest);
+  EXPECT_LE(longest, 100.0);
+  test->bench().cursor_mm.set(12.0);
+  EXPECT_TRUE(wait_until([&] { return test->picture("section").view().ready(); }, 2000));
+}
+
+TEST_F(MeshingWindow, ASizeThatCannotBeIsSaidAtItsField) {
+  open_case();
+  ask("file.export_mesh");
+  auto* go = in_dialog<QPushButton>("go");
+  EXPECT_TRUE(go->isEnabled());
+  type(in_dialog<QDoubleSpinBox>("edges_around"), "3");
+  EXPECT_TRUE(trouble("size").contains("6 to 60")) << trouble("size").toStdString();
+  EXPECT_FALSE(go->isEnabled());
+  EXPECT_FALSE(in_dialog<QDoubleSpinBox>("edges_around")->accessibleDescription().isEmpty());
+  pick(in_dialog<QComboBox>("size"), 1);
+  EXPECT_TRUE(trouble("size").isEmpty());
+  type(in_dialog<QDoubleSpinBox>("edge_mm"), "9");
+  EXPECT_TRUE(trouble("size").contains("0.05 to 3 mm")) << trouble("size").toStdString();
+  type(in_dialog<QDoubleSpinBox>("edge_mm"), "0.05");
+  EXPECT_TRUE(trouble("size").isEmpty() || trouble("size").contains("million"));
+  type(in_dialog<QDoubleSpinBox>("edge_mm"), "0.4");
+  EXPECT_TRUE(trouble("size").isEmpty());
+  EXPECT_TRUE(go->isEnabled());
+  QTest::keyClick(dialog, Qt::Key_Escape);
+  EXPECT_TRUE(idle());
+}
+
+TEST_F(MeshingWindow, AFolderThatCannotBeMadeIsSaidAtItsField) {
+  open_case();
+  ask("file.export_surface");
+  auto* path = in_dialog<QLineEdit>("folder");
+  type(path, "/nowhere/at/all");
+  EXPECT_TRUE(trouble("folder").contains("no folder"));
+  EXPECT_FALSE(in_dialog<QPushButton>("go")->isEnabled());
+  type(path, "/proc/ostia-surface");  // where rights are no use
+  click_go();
+  EXPECT_TRUE(dialog->isVisible());
+  EXPECT_TRUE(trouble("folder").contains("Nothing can be written")) << trouble("folder").toStdString();
+  EXPECT_TRUE(idle());
+  fs::create_directory(folder / "mine");
+  core::write_file(folder / "mine" / "thesis.txt", "mine");
+  type(path, QString::fromStdString((folder / "mine").string()));
+  click_go();
+  EXPECT_TRUE(trouble("folder").contains("holds files")) << trouble("folder").toStdString();
+  EXPECT_EQ(core::read_file(folder / "mine" / "thesis.txt"), "mine");
+  for (const char* format : {"format.vtp", "format.stl"})
+    QTest::keyClick(in_dialog<QWidget>(format), Qt::Key_Space);
+  EXPECT_TRUE(trouble("formats").contains("at least one"));
+  QTest::keyClick(dialog, Qt::Key_Escape);
+}
+
+TEST_F(MeshingWindow, ASurfaceIsExportedWithNamedEndsAndTheChoiceIsKept) {
+  open_case();
+  ask("file.export_surface");
+  pick(in_dialog<QComboBox>("size"), 2);
+  QTest::keyClick(in_dialog<QWidget>("format.ply"), Qt::Key_Space);
+  QTest::keyClick(in_dialog<QLineEdit>("folder"), Qt::Key_Return);
+  ASSERT_TRUE(wait_until([&] { return idle() && !left_line("surface").isEmpty(); }, 60000));
+  const auto surface = io::read_surface(folder / "tube-surface" / "lumen.vtp").surface;
+  EXPECT_THAT(names(surface.faces), ElementsAre("wall", "inlet_LAD", "outlet_LAD"));
+  for (const char* name : {"lumen.stl", "lumen.ply", "centerlines.vtp", "manifest.json"})
+    EXPECT_TRUE(fs::exists(folder / "tube-surface" / name)) << name;
+  EXPECT_TRUE(left_line("surface").contains(QString::number(surface.mesh.triangles.size())));
+  QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);  // as a running event loop does
+  EXPECT_FALSE(test->window().findChild<MeshingDialog*>());
+  ask("file.export_surface");
+  EXPECT_EQ(in_dialog<QComboBox>("size")->currentIndex(), 2);
+  EXPECT_EQ(in_dialog<QLineEdit>("folder")->text().toStdString(), (folder / "tube-surface-2").string());
+  QTest::keyClick(dialog, Qt::Key_Escape);
+}
+
+TEST_F(MeshingWindow, WhatFailsIsOneMessageWithTheWayOut) {
+  open_case();
+  ask("file.export_mesh");
+  const fs::path gone = folder / "gone";
+  fs::create_directory(gone);
+  type(in_dialog<QLineEdit>("folder"), QString::fromStdString((gone / "mesh").string()));
+  click_go();
+  fs::rename(gone, folder / "elsewhere");  // the place goes away while the mesh is made
+  QMessageBox* box = nullptr;
+  ASSERT_TRUE(wait_until(
+      [&] {
+        for (QWidget* widget : QApplication::topLevelWidgets())
+          if (auto* one = qobject_cast<QMessageBox*>(widget); one && one->isVisible()) box = one;
+        return box != nullptr;
+      },
+      60000));
+  EXPECT_TRUE(box->text().contains("gone")) << box->text().toStdString();
+  box->close();
+  EXPECT_TRUE(test->bench().has_case());
+}
+
+TEST(JobsTime, IsExtrapolatedAndNotGuessed) {
+  EXPECT_FALSE(seconds_left(0.5, 1900));
+  EXPECT_FALSE(seconds_left(0.04, 60000));
+  EXPECT_NEAR(*seconds_left(0.25, 10000), 30.0, 1e-9);
+  EXPECT_NEAR(*seconds_left(1.0, 10000), 0.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace ostia::workstation

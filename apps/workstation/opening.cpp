@@ -86,6 +86,9 @@ void Opening::open_sample() {
 
 void Opening::open_case(const fs::path& path) {
   if (window_.bench().has_case() && path == case_path_) return;
+  drop_ahead();
+  // While the program starts, both together would keep the window from coming up.
+  if (window_.scene().drawn()) read_ahead(path);
   window_.jobs().run(
       "open", tr("Opening the case"),
       [path](const core::TaskContext&) {
@@ -124,6 +127,7 @@ void Opening::show_case(session::Session session, const fs::path& path) {
 
 void Opening::open_image_of(const ImageReference& image) {
   const std::optional<fs::path> known = window_.machine().find_image(image.sha256);
+  if (known && take_ahead(*known)) return;
   if (known)
     open_image(*known);
   else

@@ -5,6 +5,7 @@
 #include "ostia/session/workbench.h"
 
 #include <QObject>
+#include <any>
 #include <filesystem>
 #include <memory>
 
@@ -48,11 +49,20 @@ class Opening final : public QObject {
                    const imaging::DicomReadOptions& options);
   void show_first_slice(const imaging::DicomSeries& series);
   void load_file(const std::filesystem::path& path);
+  static std::any read_file(const std::filesystem::path& path, const core::TaskContext& task);
+  void show_file(const Loaded& loaded, const std::filesystem::path& path);
+  /// Reads the image of a case that is being opened, beside that, where it is a file of this machine.
+  void read_ahead(const std::filesystem::path& case_path);
+  void drop_ahead();
+  bool take_ahead(const std::filesystem::path& path);
   void show(const Loaded& loaded, const std::filesystem::path& path);
   void restore_view();
   std::filesystem::path state_folder() const;
   MainWindow& window_;
   std::filesystem::path case_path_;
+  std::filesystem::path ahead_;             // what is being read ahead; empty: nothing
+  std::shared_ptr<const Loaded> ahead_of_;  // its image, while the case is not there yet
+  bool ahead_wanted_ = false;               // the case is there and waits for it
 };
 
 }  // namespace ostia::workstation

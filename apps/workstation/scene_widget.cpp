@@ -145,6 +145,7 @@ void SceneWidget::refresh() {
   fit_wanted_ = false;
   window_->renderWindow()->SetDPI(72);  // the scene scales its texts itself; Qt's adapter would do it again
   window_->renderWindow()->Render();
+  drawn_ = true;
   // The CT is drawn finer and finer while nothing else is to be done.
   if (buttons_ == Qt::NoButton) refining_.start();
   FrameLog::instance().painted(objectName(), static_cast<double>(clock.nsecsElapsed()) / 1e6);

@@ -28,6 +28,7 @@ class SceneWidget final : public QWidget {
   ~SceneWidget() override;
   view::TreeScene& scene() { return *scene_; }
   view::ScenePointer& pointer() { return *pointer_; }
+  bool drawn() const { return drawn_; }  ///< once at least: what OpenGL takes at first is behind us
   /// Moves smoothly to another pose.
   void go_to(const view::CameraPose& pose);
   void set_volume_mode(view::VolumeMode mode);
@@ -73,7 +74,7 @@ class SceneWidget final : public QWidget {
   view::CameraPose from_, to_;
   QElapsedTimer flight_clock_;
   bool wall_stale_ = true, styles_stale_ = true, cursor_stale_ = true, marks_stale_ = true,
-       fit_wanted_ = true;
+       fit_wanted_ = true, drawn_ = false;
   std::shared_ptr<const geometry::TriMesh> wall_;
   std::function<void(const geometry::TriMesh&)> wall_painter_;
   QPointF pressed_, last_;

@@ -112,9 +112,12 @@ const Overlay& ProfileView::overlay() {
         {Vec2(x(one.from_mm), f.top), Vec2(x(one.to_mm), f.bottom), Role::stenosis, 0.25});
     char label[32];
     std::snprintf(label, sizeof label, "%.0f %%", one.diameter_percent);
-    // Below, where the curve is not: at its throat it is low, and the reference line is high.
-    text(std::clamp(x(one.throat_mm), f.left + 14 * density_, f.right - 14 * density_), f.bottom - density_,
-         label, Role::stenosis, Anchor::bottom);
+    // Between the curve and its reference, or above both.
+    const double high = y(one.reference_diameter_mm / f.most_mm), low = y(one.least_diameter_mm / f.most_mm);
+    const double height = 14.0 * density_;
+    const double foot = low - high > height ? 0.5 * (low + high + height) : std::max(high, f.top + height);
+    text(std::clamp(x(one.throat_mm), f.left + 14 * density_, f.right - 14 * density_), foot, label,
+         Role::stenosis, Anchor::bottom);
   }
   for (const StretchMark& mark : stretches_of(bench_)) {
     const Role role = mark.selected ? Role::selected : Role::measurement;

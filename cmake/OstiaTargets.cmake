@@ -61,13 +61,17 @@ function(ostia_tests room)
     _ostia_warnings(${target})
     _ostia_leak_suppressions(${target})
     set(alone)
+    set(most_s 600)
+    if(kind STREQUAL "SLOW")
+      set(most_s 3600)
+    endif()
     if(kind STREQUAL "GUI")
       set_target_properties(${target} PROPERTIES
         CROSSCOMPILING_EMULATOR "${OSTIA_XVFB_RUN};-a;-s;-screen 0 1600x1200x24 -noreset")
       set(alone RUN_SERIAL TRUE)
     endif()
     gtest_discover_tests(${target} TEST_PREFIX "${room}." DISCOVERY_MODE PRE_TEST
-      PROPERTIES LABELS ${label} TIMEOUT 600 ${alone} SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\]")
+      PROPERTIES LABELS ${label} TIMEOUT ${most_s} ${alone} SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\]")
   endforeach()
 endfunction()
 

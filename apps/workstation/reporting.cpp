@@ -1,6 +1,7 @@
 #include "reporting.h"
 
 #include "main_window.h"
+#include "raster_image.h"
 
 #include "ostia/io/centerline_file.h"
 
@@ -11,7 +12,6 @@
 #include <QPixmap>
 #include <QPushButton>
 #include <QUrl>
-#include <cstring>
 #include <memory>
 
 namespace ostia::workstation {
@@ -36,16 +36,6 @@ fs::path free_folder(const fs::path& case_file) {
   for (int number = 2; fs::exists(folder, ignored); ++number)
     folder = first.string() + "-" + std::to_string(number);
   return folder;
-}
-
-figure::Raster raster_of(const QImage& image) {
-  const QImage rgba = image.convertToFormat(QImage::Format_RGBA8888);
-  figure::Raster raster{rgba.width(), rgba.height(), {}};
-  const std::size_t line = 4 * static_cast<std::size_t>(rgba.width());
-  raster.rgba.resize(line * static_cast<std::size_t>(rgba.height()));
-  for (int row = 0; row < rgba.height(); ++row)
-    std::memcpy(raster.rgba.data() + static_cast<std::size_t>(row) * line, rgba.constScanLine(row), line);
-  return raster;
 }
 
 void write(const Snapshot& from, const fs::path& folder, const core::TaskContext& task) {

@@ -1,4 +1,4 @@
-#include "refused_edits.h"
+#include "tried_edits.h"
 #include "vessel_trees.h"
 
 #include "ostia/core/error.h"

@@ -1,4 +1,4 @@
-#include "refused_edits.h"
+#include "tried_edits.h"
 #include "vessel_trees.h"
 
 #include "ostia/core/error.h"
@@ -15,6 +15,7 @@
 namespace ostia::lumen {
 namespace {
 
+using testing::applied;
 using testing::expect_refused;
 using testing::straight_vessel;
 using testing::tree_of;
@@ -25,15 +26,6 @@ LumenModel straight() {
 LumenModel coronary() {
   static const LumenModel model = model_of_tubes(tree_of(geometry::coronary_like_tree(0.25)));
   return model;
-}
-
-EditOutcome applied(const LumenModel& model, const Edit& edit) {
-  const std::string before = digest(model);
-  EditOutcome outcome = apply(model, edit);
-  EXPECT_EQ(digest(model), before);
-  EXPECT_EQ(find_fault(outcome.model), std::nullopt);
-  EXPECT_EQ(digest(apply(model, edit).model), digest(outcome.model));
-  return outcome;
 }
 
 BranchAdd side_branch(double z, double angle_deg) {

@@ -1,5 +1,5 @@
 #include "edited_walls.h"
-#include "refused_edits.h"
+#include "tried_edits.h"
 #include "vessel_trees.h"
 
 #include "ostia/core/error.h"
@@ -18,6 +18,7 @@
 namespace ostia::lumen {
 namespace {
 
+using testing::applied;
 using testing::axis_of;
 using testing::expect_refused;
 using testing::forked_model;
@@ -25,15 +26,6 @@ using testing::main_vessel;
 using testing::pi;
 using testing::radius_on_ray;
 using testing::side_vessel;
-
-EditOutcome applied(const LumenModel& model, const Edit& edit) {
-  const std::string before = digest(model);
-  EditOutcome outcome = apply(model, edit);
-  EXPECT_EQ(digest(model), before);
-  EXPECT_EQ(find_fault(outcome.model), std::nullopt);
-  EXPECT_EQ(digest(apply(model, edit).model), digest(outcome.model));
-  return outcome;
-}
 
 std::shared_ptr<const TreeField> field_of(const LumenModel& model) {
   return LiveModel(std::make_shared<const LumenModel>(model)).field();

@@ -2,9 +2,9 @@
 // same way. Once within this process, where texts can be read, and once on the program itself with real
 // events.
 
+#include "real_program.h"
 #include "reporting.h"
 #include "tube_case.h"
-#include "window_hand.h"
 
 #include "ostia/core/files.h"
 #include "ostia/imaging/image_file.h"
@@ -19,7 +19,6 @@
 #include <QFileDialog>
 #include <QLineEdit>
 #include <QMessageBox>
-#include <QProcess>
 #include <QPushButton>
 #include <QStandardPaths>
 #include <QTest>
@@ -35,10 +34,12 @@ namespace fs = std::filesystem;
 using session::Tool;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using testing::Program;
 using testing::sweep;
 using testing::TestWindow;
 using testing::tube_radius_mm;
 using testing::wait_until;
+using testing::xdo;
 
 constexpr rlim_t room_bytes = 4096;  // less than any commit, picture or surface
 
@@ -214,56 +215,9 @@ TEST_F(DiskFull, NothingHalfWrittenIsLeftOfReportExportAndCopy) {
 
 // ---- the program itself ---------------------------------------------------------------------------------
 
-QString output_of(const QStringList& arguments) {
-  QProcess process;
-  process.start("xdotool", arguments);
-  process.waitForFinished();
-  return QString::fromUtf8(process.readAllStandardOutput());
-}
-
-struct Program {
-  QProcess process;
-  explicit Program(const QStringList& arguments) {
-    process.setProcessChannelMode(QProcess::ForwardedErrorChannel);
-    process.start(OSTIA_WORKSTATION, arguments);
-    process.waitForStarted();
-  }
-  ~Program() {
-    process.kill();
-    process.waitForFinished();
-  }
-  bool runs() { return !process.waitForFinished(0) && process.state() == QProcess::Running; }
-  /// Windows on the screen, named by what stands in their title.
-  QStringList windows(const QString& title) const {
-    return output_of({"search", "--onlyvisible", "--name", title}).split('\n', Qt::SkipEmptyParts);
-  }
-};
-
-/// Frames of a view in the log.
-int frames(const fs::path& log, const std::string& view) {
-  std::error_code ignored;
-  if (!fs::exists(log, ignored)) return 0;
-  const std::string text = core::read_file(log), wanted = "\"view\":\"" + view + "\"";
-  int count = 0;
-  for (std::size_t at = text.find(wanted); at != std::string::npos; at = text.find(wanted, at + 1)) ++count;
-  return count;
-}
-
 struct DiskFullProgram : DiskFull {
   fs::path log = folder / "frames.jsonl";
-  bool settled() const {
-    int last = -1;
-    QElapsedTimer quiet;
-    quiet.start();
-    return wait_until(
-        [&] {
-          const int now = frames(log, "cpr1");
-          if (now != last) quiet.restart();
-          last = now;
-          return now > 0 && quiet.elapsed() > 1500;
-        },
-        40000);
-  }
+  bool settled() const { return testing::settled(log); }
   /// Where the same window has its wall, asked of a window in this process.
   QPoint place_of_wall(double s_mm) const {
     const fs::path copy = folder / "copy.ostia";
@@ -284,17 +238,17 @@ struct DiskFullProgram : DiskFull {
   }
   static void pull_at(const QPoint& from) {
     const auto go = [](const QPoint& at, const QStringList& then = {}) {
-      output_of(QStringList{"mousemove", QString::number(at.x()), QString::number(at.y())} + then);
+      xdo(QStringList{"mousemove", QString::number(at.x()), QString::number(at.y())} + then);
     };
     go(from + QPoint(60, 0), {"click", "1"});
-    output_of({"key", "--delay", "60", "e"});
+    xdo({"key", "--delay", "60", "e"});
     go(from);
-    output_of({"mousedown", "1"});
+    xdo({"mousedown", "1"});
     for (int i = 1; i <= 8; ++i) {
       go(from + QPoint(i, 0));
       QTest::qWait(30);
     }
-    output_of({"mouseup", "1"});
+    xdo({"mouseup", "1"});
   }
 };
 
@@ -321,8 +275,8 @@ TEST_F(DiskFullProgram, GoesOnAfterAPullThatCouldNotBeStored) {
     limit_files(static_cast<pid_t>(program.process.processId()), false);
     for (const QString& one : at_first) with_message.removeAll(one);
     ASSERT_EQ(with_message.size(), 1);
-    output_of({"mousemove", "--window", with_message.front(), "30", "20"});
-    output_of({"key", "Return"});
+    xdo({"mousemove", "--window", with_message.front(), "30", "20"});
+    xdo({"key", "Return"});
     EXPECT_TRUE(wait_until([&] { return program.windows("Ostia").size() == at_first.size(); }, 10000));
     pull_at(wall);
     ASSERT_TRUE(settled());

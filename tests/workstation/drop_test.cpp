@@ -131,5 +131,19 @@ TEST_F(Drop, ByQtEventsTwoFilesAtOnceAreRefusedInOneMessage) {
   EXPECT_FALSE(test.bench().image().volume);
 }
 
+/// Who changes their mind does not get the case's own image later.
+TEST_F(Drop, AnImageDroppedRightAfterACaseIsWhatStays) {
+  session::MachineState(folder / "state").remember_image(session::image_reference(image).sha256, image);
+  const fs::path other = folder / "other.nrrd";
+  imaging::write_image(other, tube_image(0.5));
+  ASSERT_TRUE(dropped(test.window(), {url(case_file)}));
+  ASSERT_TRUE(dropped(test.window(), {url(other)}));
+  const std::string wanted = session::image_reference(other).sha256;
+  ASSERT_TRUE(wait_until([&] { return test.bench().image().volume && !test.window().jobs().any(); }));
+  wait_until([] { return false; }, 500);
+  EXPECT_EQ(test.bench().image().reference.sha256, wanted);
+  EXPECT_FALSE(test.bench().has_case());
+}
+
 }  // namespace
 }  // namespace ostia::workstation

@@ -1,6 +1,7 @@
 // The program itself, driven by the X server's own events (xdotool), killed, and started again.
 
-#include "window_hand.h"
+#include "real_program.h"
+#include "tube_case.h"
 
 #include "ostia/core/files.h"
 #include "ostia/imaging/image_file.h"
@@ -10,7 +11,6 @@
 
 #include <gtest/gtest.h>
 
-#include <QProcess>
 #include <QStandardPaths>
 #include <QTest>
 #include <algorithm>
@@ -21,48 +21,9 @@ namespace {
 
 namespace fs = std::filesystem;
 using session::Tool;
+using testing::Program;
 using testing::wait_until;
-
-geometry::VesselTree tube_tree() {
-  geometry::Centerline axis;
-  for (int i = 0; i <= 80; ++i) {
-    axis.points.push_back({0.0, 0.0, 0.5 * i});
-    axis.radius.push_back(1.5);
-  }
-  geometry::complete(axis);
-  geometry::VesselTree tree;
-  tree.nodes = {{1, axis.points.front()}, {2, axis.points.back()}};
-  tree.segments = {{3, 1, 2, axis}};
-  tree.vessels = {{4, "LAD", {3}}};
-  return tree;
-}
-
-int xdo(const QStringList& arguments) {
-  return QProcess::execute("xdotool", arguments);
-}
-
-struct Program {
-  QProcess process;
-  explicit Program(const QStringList& arguments) {
-    process.setProcessChannelMode(QProcess::ForwardedErrorChannel);
-    process.start(OSTIA_WORKSTATION, arguments);
-    process.waitForStarted();
-  }
-  ~Program() {
-    process.kill();
-    process.waitForFinished();
-  }
-};
-
-/// The places of the named view's frames in the log.
-int frames(const fs::path& log, const std::string& view) {
-  std::error_code ignored;
-  if (!fs::exists(log, ignored)) return 0;
-  const std::string text = core::read_file(log), wanted = "\"view\":\"" + view + "\"";
-  int count = 0;
-  for (std::size_t at = text.find(wanted); at != std::string::npos; at = text.find(wanted, at + 1)) ++count;
-  return count;
-}
+using testing::xdo;
 
 struct RealEvents : ::testing::Test {
   testing::Folder folder;
@@ -75,7 +36,7 @@ struct RealEvents : ::testing::Test {
     volume.geometry.origin = {-12.6, -12.6, -2.0};
     volume.voxels.assign(static_cast<std::size_t>(volume.geometry.voxels()), 100);
     imaging::write_image(image, volume);
-    session::CaseFile::create(case_file, lumen::model_of_tubes(tube_tree()), session::image_reference(image));
+    session::CaseFile::create(case_file, testing::tube_model(), session::image_reference(image));
     session::MachineState(state).remember_image(session::image_reference(image).sha256, image);
   }
   QStringList arguments(bool with_case) const {
@@ -84,20 +45,7 @@ struct RealEvents : ::testing::Test {
     if (with_case) all << QString::fromStdString(case_file.string());
     return all;
   }
-  /// Waits until nothing has been painted for a while.
-  bool settled() const {
-    int last = -1;
-    QElapsedTimer quiet;
-    quiet.start();
-    return wait_until(
-        [&] {
-          const int now = frames(log, "cpr1");
-          if (now != last) quiet.restart();
-          last = now;
-          return now > 0 && quiet.elapsed() > 1500;
-        },
-        40000);
-  }
+  bool settled() const { return testing::settled(log); }
   std::size_t stored_edits() const {
     return session::CaseFile::open(case_file, session::OpenMode::read_only).edits().size();
   }

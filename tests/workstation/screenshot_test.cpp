@@ -1,4 +1,5 @@
 // What the window shows in each of its states, held against accepted pictures.
+#include "raster_image.h"
 #include "window_states.h"
 
 #include "ostia/figure/picture_difference.h"
@@ -11,7 +12,6 @@
 #include <QTextBrowser>
 #include <algorithm>
 #include <clocale>
-#include <cstring>
 #include <filesystem>
 
 namespace ostia::workstation {
@@ -24,16 +24,6 @@ const QSize size(1280, 800);
 // In S-CIELAB's Delta E, mean of the worst block of 16 pixels. A missing word makes 10 and more.
 constexpr double most = 4.0;
 constexpr double most_in_3d = 12.0;  // another version of the renderer rounds edges and light otherwise
-
-figure::Raster raster_of(const QImage& image) {
-  const QImage rgba = image.convertToFormat(QImage::Format_RGBA8888);
-  figure::Raster raster{rgba.width(), rgba.height(), {}};
-  const std::size_t line = 4 * static_cast<std::size_t>(rgba.width());
-  raster.rgba.resize(line * static_cast<std::size_t>(rgba.height()));
-  for (int row = 0; row < rgba.height(); ++row)
-    std::memcpy(raster.rgba.data() + static_cast<std::size_t>(row) * line, rgba.constScanLine(row), line);
-  return raster;
-}
 
 QImage image_of(const figure::Raster& raster) {
   return QImage(raster.rgba.data(), raster.width, raster.height, 4 * raster.width, QImage::Format_RGBA8888)

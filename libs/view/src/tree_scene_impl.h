@@ -52,8 +52,8 @@ struct TreeScene::Impl {
   std::vector<double> values;
   ValueScale scale;
   double opacity = 1.0;
-  std::vector<figure::Color> palette_of_vessels;  // one a vessel
   std::map<std::int32_t, VesselStyle> styles;
+  std::vector<const VesselStyle*> vessel_styles;  // of `styles`, as `vessels` are ordered
   std::size_t styles_made = 0;
   std::optional<std::int32_t> selected;
 

@@ -93,7 +93,7 @@ void TreeScene::Impl::take_places(const lumen::LumenModel& model,
 }
 
 bool TreeScene::Impl::visible(std::int32_t point) const {
-  return styles.at(places[static_cast<std::size_t>(point)].vessel).visible;
+  return vessel_styles[place_vessel[static_cast<std::size_t>(point)]]->visible;
 }
 
 /// A triangle is shown or not by its first corner.
@@ -152,15 +152,13 @@ figure::Color TreeScene::Impl::color_at(std::size_t point) const {
   const bool dark = settings.look == figure::Look::dark;
   const figure::Color dim = dark ? figure::Color{0.30, 0.32, 0.35} : figure::Color{0.80, 0.81, 0.83};
   const figure::Color color =
-      values.empty() ? palette_of_vessels[of]
+      values.empty() ? vessel_styles[of]->color
                      : scale_color(scale.colors, (values[point] - scale.low) / (scale.high - scale.low));
   return figure::mixed(color, dim, selected && *selected != vessels[of]->vessel ? 0.55 : 0.0);
 }
 
 void TreeScene::Impl::color_wall() {
   if (!wall) return;
-  palette_of_vessels.clear();
-  for (const auto& each : vessels) palette_of_vessels.push_back(styles.at(each->vessel).color);
   if (!moving_box.isEmpty()) return show_wall();  // the points have other numbers by now
   wall_actor.set_colors(places.size(), [&](std::size_t i) { return color_at(i); });
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// \file Edits that a model must refuse.
+/// \file Edits that a model must refuse, and those that it takes.
 
 #include "ostia/core/error.h"
 #include "ostia/lumen/edit.h"
@@ -24,6 +24,16 @@ inline void expect_refused(const LumenModel& model, const Edit& edit,
           << word << " is not in: " << error.what();
   }
   EXPECT_EQ(digest(model), before);
+}
+
+/// The outcome is sound, the same when it is done again, and the model is what it was.
+inline EditOutcome applied(const LumenModel& model, const Edit& edit) {
+  const std::string before = digest(model);
+  EditOutcome outcome = apply(model, edit);
+  EXPECT_EQ(digest(model), before);
+  EXPECT_EQ(find_fault(outcome.model), std::nullopt);
+  EXPECT_EQ(digest(apply(model, edit).model), digest(outcome.model));
+  return outcome;
 }
 
 }  // namespace ostia::lumen::testing

@@ -36,6 +36,12 @@ add_library(ostia_zip INTERFACE)
 target_include_directories(ostia_zip SYSTEM INTERFACE "${ZIP_INCLUDE_DIR}")
 target_link_libraries(ostia_zip INTERFACE "${ZIP_LIBRARY}")
 
+find_path(ISAL_INCLUDE_DIR isa-l/igzip_lib.h REQUIRED)
+find_library(ISAL_LIBRARY isal REQUIRED)
+add_library(ostia_isal INTERFACE)
+target_include_directories(ostia_isal SYSTEM INTERFACE "${ISAL_INCLUDE_DIR}")
+target_link_libraries(ostia_isal INTERFACE "${ISAL_LIBRARY}")
+
 # CGAL's target without the compile options and definitions of its own that it would spread.
 add_library(ostia_cgal INTERFACE)
 target_link_libraries(ostia_cgal INTERFACE CGAL::CGAL)

@@ -18,7 +18,7 @@ FLOORS = [
 GROUND_AND_DATA_ONLY = {"phantom", "evaluation"}
 FOREIGN = re.compile(
     r'#\s*include\s*[<"](itk|vtk|gdcm|CGAL/|tetgen|cholmod|sqlite3|SQLiteCpp|nlohmann|spdlog|fmt/|CLI/|tbb/|oneapi/|embree|cairo|pango|'
-    r'nanoflann|openssl|zlib|Q[A-Z])')
+    r'nanoflann|openssl|zlib|isa-l|Q[A-Z])')
 OWN = re.compile(r'#\s*include\s*[<"]ostia/([a-z]+)/')
 HEADERS_MAY_SHOW_THIRD_PARTIES = {"view", "glview"}
 # Each stays in files of its own, because of its licence.

@@ -16,7 +16,7 @@ QString libraries() {
       tr("<p>It is built with Qt %1 (LGPL-3), VTK %2 (BSD-3), CGAL (GPL-3 and LGPL-3), TetGen (AGPL-3, in "
          "the worker), CHOLMOD (GPL-2 or later), GDCM (BSD-3, in the worker), SQLite (public domain), "
          "Eigen (MPL-2), TBB, Embree and OpenSSL (Apache-2.0), Cairo and Pango (LGPL-2.1), libzip "
-         "(BSD-3), zlib, spdlog, fmt, nlohmann-json and nanoflann.</p>")
+         "and ISA-L (BSD-3), zlib, spdlog, fmt, nlohmann-json and nanoflann.</p>")
           .arg(QString::fromLatin1(qVersion()), QString::fromLatin1(vtkVersion::GetVTKVersion()));
 }
 

@@ -86,24 +86,27 @@ void Opening::open_sample() {
 
 void Opening::open_case(const fs::path& path) {
   if (window_.bench().has_case() && path == case_path_) return;
-  drop_ahead();
-  // While the program starts, both together would keep the window from coming up.
-  if (window_.scene().drawn()) read_ahead(path);
   window_.jobs().run(
       "open", tr("Opening the case"),
-      [path](const core::TaskContext&) {
-        auto session = std::make_shared<session::Session>(session::Session::open(path));
-        session->live().wall(
+      [path, state = state_folder(),
+       shown = window_.bench().image().reference.sha256](const core::TaskContext&) {
+        session::CaseFile file = session::CaseFile::open(path);
+        OpenedCase opened;
+        if (const auto image = file.image(); image && image->sha256 != shown)
+          opened.image = read_beside(session::MachineState(state).find_image(image->sha256));
+        opened.session = std::make_shared<session::Session>(std::move(file));
+        opened.session->live().wall(
             SceneWidget::screen_cell_mm);  // made here, so that the window need not wait for it
-        return std::any(session);
+        return std::any(opened);
       },
       [this, path](const std::any& result) {
-        show_case(std::move(*std::any_cast<std::shared_ptr<session::Session>>(result)), path);
+        const auto& opened = std::any_cast<const OpenedCase&>(result);
+        show_case(std::move(*opened.session), path, opened.image);
       },
-      [this, path](const QString& message) { window_.complain(message, tr("The case cannot be opened")); });
+      [this](const QString& message) { window_.complain(message, tr("The case cannot be opened")); });
 }
 
-void Opening::show_case(session::Session session, const fs::path& path) {
+void Opening::show_case(session::Session session, const fs::path& path, const ImageBeside& image_beside) {
   session::Workbench& bench = window_.bench();
   const std::optional<ImageReference> image = session.file().image();
   const bool other_image = bench.image().volume && image && bench.image().reference.sha256 != image->sha256;
@@ -122,13 +125,14 @@ void Opening::show_case(session::Session session, const fs::path& path) {
       true);
   if (!shown_now) return;
   restore_view();
-  if (image && !bench.image().volume) open_image_of(*image);
+  if (image && !bench.image().volume) open_image_of(*image, image_beside);
 }
 
-void Opening::open_image_of(const ImageReference& image) {
+void Opening::open_image_of(const ImageReference& image, const ImageBeside& beside) {
   const std::optional<fs::path> known = window_.machine().find_image(image.sha256);
-  if (known && take_ahead(*known)) return;
-  if (known)
+  if (known && beside)
+    load_file(*known, beside);
+  else if (known)
     open_image(*known);
   else
     image_missing(image);

@@ -1,6 +1,7 @@
 #pragma once
 /// \file What the person opens: cases, images, series, the sample.
 
+#include "ostia/core/beside.h"
 #include "ostia/imaging/dicom.h"
 #include "ostia/session/workbench.h"
 
@@ -8,6 +9,9 @@
 #include <any>
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace ostia::workstation {
 
@@ -36,33 +40,35 @@ class Opening final : public QObject {
   void remember_view();
 
  private:
+  struct Loaded {
+    session::OpenImage image;
+    std::vector<std::string> warnings;
+  };
+  /// An image file of this machine that is being read.
+  using ImageBeside = std::shared_ptr<core::Beside<Loaded>>;
+  struct OpenedCase {
+    std::shared_ptr<session::Session> session;
+    ImageBeside image;  // the case's; null where it is open already or no such file is known
+  };
   void open_case(const std::filesystem::path& path);
-  void show_case(session::Session session, const std::filesystem::path& path);
-  void open_image_of(const session::ImageReference& image);
+  void show_case(session::Session session, const std::filesystem::path& path,
+                 const ImageBeside& image_beside = {});
+  void open_image_of(const session::ImageReference& image, const ImageBeside& beside);
   void image_missing(const session::ImageReference& image);
   // images (opening_images.cpp)
-  struct Loaded;
   void open_image(const std::filesystem::path& path);
   void scan(const std::filesystem::path& path);
   void choose_series(const std::filesystem::path& path, const imaging::DicomFolder& folder);
   void load_series(const std::filesystem::path& path, const imaging::DicomSeries& series,
                    const imaging::DicomReadOptions& options);
   void show_first_slice(const imaging::DicomSeries& series);
-  void load_file(const std::filesystem::path& path);
-  static std::any read_file(const std::filesystem::path& path, const core::TaskContext& task);
-  void show_file(const Loaded& loaded, const std::filesystem::path& path);
-  /// Reads the image of a case that is being opened, beside that, where it is a file of this machine.
-  void read_ahead(const std::filesystem::path& case_path);
-  void drop_ahead();
-  bool take_ahead(const std::filesystem::path& path);
+  static ImageBeside read_beside(const std::optional<std::filesystem::path>& path);
+  void load_file(const std::filesystem::path& path, const ImageBeside& beside);
   void show(const Loaded& loaded, const std::filesystem::path& path);
   void restore_view();
   std::filesystem::path state_folder() const;
   MainWindow& window_;
   std::filesystem::path case_path_;
-  std::filesystem::path ahead_;             // what is being read ahead; empty: nothing
-  std::shared_ptr<const Loaded> ahead_of_;  // its image, while the case is not there yet
-  bool ahead_wanted_ = false;               // the case is there and waits for it
 };
 
 }  // namespace ostia::workstation

@@ -35,16 +35,11 @@ struct FirstSight {
 
 }  // namespace
 
-struct Opening::Loaded {
-  session::OpenImage image;
-  std::vector<std::string> warnings;
-};
-
 void Opening::open_image(const fs::path& path) {
   // From here on the log knows the path, which may name the patient, as "the image".
   core::redact_in_logs(path.string(), "the image");
   if (is_volume_file(path))
-    load_file(path);
+    load_file(path, read_beside(path));
   else
     scan(path);
 }
@@ -116,67 +111,24 @@ void Opening::show_first_slice(const imaging::DicomSeries& series) {
       [](const QString&) {});  // the reading of the whole says what is wrong
 }
 
-std::any Opening::read_file(const fs::path& path, const core::TaskContext& task) {
-  const pipeline::Source source = pipeline::load(path, {}, task);
-  if (!source.image) throw InvalidInput(path.string() + " is no CT image: open an angiogram");
-  return std::any(Loaded{{source.image, {source.sha256, source.pseudonym}}, source.warnings});
+Opening::ImageBeside Opening::read_beside(const std::optional<fs::path>& path) {
+  if (!path || !is_volume_file(*path)) return {};
+  return std::make_shared<core::Beside<Loaded>>([path = *path](const core::TaskContext& task) {
+    const pipeline::Source source = pipeline::load(path, {}, task);
+    if (!source.image) throw InvalidInput(path.string() + " is no CT image: open an angiogram");
+    return Loaded{{source.image, {source.sha256, source.pseudonym}}, source.warnings};
+  });
 }
 
-void Opening::show_file(const Loaded& loaded, const fs::path& path) {
-  window_.set_shown_name(QString::fromStdString(path.filename().string()));
-  show(loaded, path);
-}
-
-void Opening::load_file(const fs::path& path) {
+void Opening::load_file(const fs::path& path, const ImageBeside& beside) {
   window_.jobs().run(
       "open", tr("Reading the image"),
-      [path](const core::TaskContext& task) { return read_file(path, task); },
-      [this, path](const std::any& result) { show_file(std::any_cast<const Loaded&>(result), path); },
-      [this](const QString& message) { window_.complain(message, tr("The image cannot be opened")); });
-}
-
-void Opening::drop_ahead() {
-  window_.jobs().cancel("read ahead");
-  ahead_.clear();
-  ahead_of_.reset();
-  ahead_wanted_ = false;
-}
-
-void Opening::read_ahead(const fs::path& case_path) {
-  if (window_.bench().image().volume) return;
-  try {
-    const auto opened = session::CaseFile::open(case_path, session::OpenMode::read_only);
-    const std::optional<session::ImageReference> image = opened.image();
-    const std::optional<fs::path> known = image ? window_.machine().find_image(image->sha256) : std::nullopt;
-    if (!known || !is_volume_file(*known)) return;
-    ahead_ = *known;
-  } catch (const Error&) {
-    return;  // the opening itself says it
-  }
-  core::redact_in_logs(ahead_.string(), "the image");
-  window_.jobs().run(
-      "read ahead", tr("Reading the image"),
-      [path = ahead_](const core::TaskContext& task) { return read_file(path, task); },
-      [this, path = ahead_](const std::any& result) {
-        if (path != ahead_) return;
-        ahead_of_ = std::make_shared<const Loaded>(std::any_cast<const Loaded&>(result));
-        if (ahead_wanted_) take_ahead(path);
+      [beside](const core::TaskContext& task) { return std::any(beside->get(task)); },
+      [this, path](const std::any& result) {
+        window_.set_shown_name(QString::fromStdString(path.filename().string()));
+        show(std::any_cast<const Loaded&>(result), path);
       },
-      [this, path = ahead_](const QString&) {
-        ahead_.clear();
-        if (ahead_wanted_) open_image(path);  // which says what is wrong
-      });
-}
-
-/// False where the image was not read ahead.
-bool Opening::take_ahead(const fs::path& path) {
-  if (ahead_.empty() || path != ahead_) return false;
-  ahead_wanted_ = !ahead_of_;
-  if (ahead_wanted_) return true;  // shown when it has been read
-  const std::shared_ptr<const Loaded> loaded = std::move(ahead_of_);
-  ahead_.clear();
-  show_file(*loaded, path);
-  return true;
+      [this](const QString& message) { window_.complain(message, tr("The image cannot be opened")); });
 }
 
 void Opening::show(const Loaded& loaded, const fs::path& path) {

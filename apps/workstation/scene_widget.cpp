@@ -43,9 +43,12 @@ SceneWidget::SceneWidget(session::Workbench& bench, Guard guard, QWidget* parent
   vtkNew<vtkGenericOpenGLRenderWindow> render_window;
   render_window->SetMultiSamples(0);
   scene_->attach(*render_window);
+  scene_->show_front(false);
   window_->setRenderWindow(render_window);
   window_->installEventFilter(this);
+  window_->create();  // the driver is loaded before there is a window that would have to wait
   container_ = QWidget::createWindowContainer(window_, this);
+  container_->hide();
   container_->setFocusPolicy(Qt::StrongFocus);
   container_->installEventFilter(this);
   auto* layout = new QVBoxLayout(this);
@@ -109,6 +112,11 @@ SceneWidget::~SceneWidget() {
   scene_->detach();
 }
 
+void SceneWidget::paintEvent(QPaintEvent*) {
+  // OpenGL takes its time to start: in a turn of its own, when all else has been painted once.
+  if (container_->isHidden()) QTimer::singleShot(0, container_, &QWidget::show);
+}
+
 void SceneWidget::resizeEvent(QResizeEvent* event) {
   QWidget::resizeEvent(event);
   scene_->set_pixel_ratio(devicePixelRatioF());
@@ -132,7 +140,8 @@ void SceneWidget::refresh() {
     } else {
       scene_->clear_wall();
     }
-    if (fit_wanted_) {  // another case: much is new, and the window is to answer before it is drawn
+    if (fit_wanted_) {  // another case: much is new, and the window is to answer between its steps
+      scene_->show_front(false);
       refresh_styles();
       request_render();
       return;
@@ -145,7 +154,10 @@ void SceneWidget::refresh() {
   fit_wanted_ = false;
   window_->renderWindow()->SetDPI(72);  // the scene scales its texts itself; Qt's adapter would do it again
   window_->renderWindow()->Render();
-  drawn_ = true;
+  if (!scene_->front_shown()) {
+    scene_->show_front(true);
+    request_render();
+  }
   // The CT is drawn finer and finer while nothing else is to be done.
   if (buttons_ == Qt::NoButton) refining_.start();
   FrameLog::instance().painted(objectName(), static_cast<double>(clock.nsecsElapsed()) / 1e6);

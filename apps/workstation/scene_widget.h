@@ -28,7 +28,6 @@ class SceneWidget final : public QWidget {
   ~SceneWidget() override;
   view::TreeScene& scene() { return *scene_; }
   view::ScenePointer& pointer() { return *pointer_; }
-  bool drawn() const { return drawn_; }  ///< once at least: what OpenGL takes at first is behind us
   /// Moves smoothly to another pose.
   void go_to(const view::CameraPose& pose);
   void set_volume_mode(view::VolumeMode mode);
@@ -47,6 +46,7 @@ class SceneWidget final : public QWidget {
 
  protected:
   bool eventFilter(QObject* object, QEvent* event) override;
+  void paintEvent(QPaintEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
 
  private:
@@ -74,7 +74,7 @@ class SceneWidget final : public QWidget {
   view::CameraPose from_, to_;
   QElapsedTimer flight_clock_;
   bool wall_stale_ = true, styles_stale_ = true, cursor_stale_ = true, marks_stale_ = true,
-       fit_wanted_ = true, drawn_ = false;
+       fit_wanted_ = true;
   std::shared_ptr<const geometry::TriMesh> wall_;
   std::function<void(const geometry::TriMesh&)> wall_painter_;
   QPointF pressed_, last_;

@@ -3,7 +3,7 @@
 #include "command_texts.h"
 
 #include "ostia/analysis/aha_segments.h"
-#include "ostia/core/error.h"
+#include "ostia/core/parallel.h"
 
 #include <QColorDialog>
 #include <QContextMenuEvent>
@@ -14,6 +14,7 @@
 #include <QSignalBlocker>
 #include <QTimer>
 #include <algorithm>
+#include <exception>
 
 namespace ostia::workstation {
 namespace {
@@ -56,10 +57,11 @@ VesselList::VesselList(session::Workbench& bench, std::function<QColor(std::int3
   header()->setSectionResizeMode(name_column, QHeaderView::Stretch);
   own_.push_back(bench.case_changed.observe([this] { fill(); }));
   own_.push_back(bench.model_changed.observe([this](const session::ModelEvent& event) {
-    if (event.tree_changed)
-      fill();
-    else
-      soon_.start();
+    if (event.tree_changed) return fill();
+    unmeasured_.insert(unmeasured_.end(), failed_.begin(), failed_.end());
+    failed_.clear();
+    soon_.start();
+    measure_next();
   }));
   own_.push_back(bench.annotations_changed.observe([this] { refresh(); }));
   own_.push_back(bench.vessel.observe([this](const std::int32_t&) { refresh(); }));
@@ -120,10 +122,11 @@ void VesselList::measure_next() {
     }
     measuring_ = true;
     measurer_.start([this, work = std::move(*work), task = measuring_task_] {
+      core::lower_thread_priority();
       std::shared_ptr<const analysis::LumenProfile> profile;
       try {
         profile = std::make_shared<const analysis::LumenProfile>(work.measured(task));
-      } catch (const Error&) {  // told where the profile is looked at
+      } catch (const std::exception&) {  // told where the profile is looked at
       }
       QMetaObject::invokeMethod(
           this, [this, work, profile] { take(work, profile); }, Qt::QueuedConnection);

@@ -1,11 +1,14 @@
 #include "ostia/core/parallel.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <mutex>
 #include <set>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 namespace ostia::core {
@@ -83,6 +86,21 @@ TEST_F(Parallel, LimitIsReported) {
   EXPECT_EQ(max_threads(), 3);
   set_max_threads(0);
   EXPECT_GE(max_threads(), 1);
+}
+
+TEST_F(Parallel, AThreadOfLowPriorityLeavesTheOthersTheirs) {
+  const auto niceness = [] { return getpriority(PRIO_PROCESS, static_cast<id_t>(gettid())); };
+  const int own = niceness();
+  int lowered = own, inherited = own;
+  std::thread([&] {
+    lower_thread_priority();
+    lower_thread_priority();  // says the same
+    lowered = niceness();
+    std::thread([&] { inherited = niceness(); }).join();
+  }).join();
+  EXPECT_GT(lowered, own);
+  EXPECT_EQ(inherited, lowered);
+  EXPECT_EQ(niceness(), own);
 }
 
 }  // namespace

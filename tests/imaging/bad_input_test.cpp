@@ -98,7 +98,7 @@ TEST_F(BadInput, Row06_NrrdWhoseGzipIsCutOrWrong) {
   std::string wrong = data;
   wrong[wrong.size() - 8] = static_cast<char>(wrong[wrong.size() - 8] ^ 1);
   put("a.nrrd", header + wrong);
-  expect_refused("a.nrrd", {"a.nrrd", "compressed data", "damaged", "incorrect data check"}, false);
+  expect_refused("a.nrrd", {"a.nrrd", "compressed data", "damaged", "wrong check sum"}, false);
   put("a.nrrd", header + "this is no gzip stream at all, only text that goes on and on");
   expect_refused("a.nrrd", {"a.nrrd", "compressed data", "damaged"}, false);
 }

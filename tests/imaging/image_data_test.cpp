@@ -29,6 +29,38 @@ TEST(ByteStream, GivesPlainAndPackedBytesFromAnOffset) {
   }
 }
 
+TEST(ByteStream, GivesTheSameBytesInAnyStepHoweverTheyWerePacked) {
+  const fs::path path = ostia::testing::temporary_folder("packings") / "a.gz";
+  const std::string noise = bytes_of(
+      testing::patterned<std::int16_t>(oblique_grid(70, 60, 50)).voxels);  // more than one block of input
+  const std::string runs = std::string(400000, 'a') + noise.substr(0, 100001) + std::string(300000, 'b');
+  for (const std::string* bytes : {&noise, &runs}) {
+    for (const int level : {0, 1, 9}) {  // level 0: stored, not packed
+      for (const bool gzip : {true, false}) {
+        write_bytes(path, packed(*bytes, gzip, level));
+        for (const std::size_t step :
+             {std::size_t{37}, std::size_t{32768}, bytes->size() - 1, bytes->size()}) {
+          ByteStream stream(path, 0, true);
+          EXPECT_TRUE(all_of(stream, step) == *bytes) << level << " " << gzip << " " << step;
+        }
+      }
+    }
+  }
+}
+
+TEST(ByteStream, RefusesACutAtAnyPlace) {
+  const fs::path path = ostia::testing::temporary_folder("cuts") / "a.gz";
+  for (const bool gzip : {true, false}) {
+    const std::string good =
+        packed(std::string(1000, 'x') + "and an end that is none of its repetitions", gzip);
+    for (std::size_t length = 0; length < good.size(); ++length) {
+      write_bytes(path, good.substr(0, length));
+      ByteStream stream(path, 0, true);
+      EXPECT_NE(refusal([&] { all_of(stream, 64); }).find("cut short"), std::string::npos) << length;
+    }
+  }
+}
+
 TEST(ByteStream, JoinsGzipMembersAndLeavesWhatIsNone) {
   const fs::path path = ostia::testing::temporary_folder("members") / "a.gz";
   write_bytes(path, packed("first ") + packed("second") + std::string(7, '\0'));
@@ -49,7 +81,7 @@ TEST(ByteStream, CutAndDamagedDataAreRefused) {
   wrong[wrong.size() - 6] = static_cast<char>(wrong[wrong.size() - 6] ^ 1);  // the check sum
   write_bytes(path, wrong);
   ByteStream stream(path, 0, true);
-  EXPECT_NE(refusal([&] { all_of(stream, 1000); }).find("incorrect data check"), std::string::npos);
+  EXPECT_NE(refusal([&] { all_of(stream, 1000); }).find("wrong check sum"), std::string::npos);
 }
 
 TEST(FileHead, ToleratesPackedDataThatAreCutLater) {

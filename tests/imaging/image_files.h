@@ -44,9 +44,9 @@ std::string bytes_of(const std::vector<T>& values, bool big = false) {
 }
 
 /// As a gzip file (or a zlib stream).
-inline std::string packed(const std::string& bytes, bool gzip = true) {
+inline std::string packed(const std::string& bytes, bool gzip = true, int level = 6) {
   z_stream z{};
-  EXPECT_EQ(deflateInit2(&z, 6, Z_DEFLATED, gzip ? 31 : 15, 8, Z_DEFAULT_STRATEGY), Z_OK);
+  EXPECT_EQ(deflateInit2(&z, level, Z_DEFLATED, gzip ? 31 : 15, 8, Z_DEFAULT_STRATEGY), Z_OK);
   std::string result(deflateBound(&z, bytes.size()) + 64, '\0');
   z.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
   z.avail_in = static_cast<uInt>(bytes.size());

@@ -561,8 +561,8 @@
 <context>
     <name>ostia::workstation::AboutDialog</name>
     <message>
-        <source>&lt;p&gt;It is built with Qt %1 (LGPL-3), VTK %2 (BSD-3), CGAL (GPL-3 and LGPL-3), TetGen (AGPL-3, in the worker), CHOLMOD (GPL-2 or later), GDCM (BSD-3, in the worker), SQLite (public domain), Eigen (MPL-2), TBB, Embree and OpenSSL (Apache-2.0), Cairo and Pango (LGPL-2.1), libzip (BSD-3), zlib, spdlog, fmt, nlohmann-json and nanoflann.&lt;/p&gt;</source>
-        <translation>&lt;p&gt;Gebaut mit Qt %1 (LGPL-3), VTK %2 (BSD-3), CGAL (GPL-3 und LGPL-3), TetGen (AGPL-3, im Hilfsprogramm), CHOLMOD (GPL-2 oder später), GDCM (BSD-3, im Hilfsprogramm), SQLite (gemeinfrei), Eigen (MPL-2), TBB, Embree und OpenSSL (Apache-2.0), Cairo und Pango (LGPL-2.1), libzip (BSD-3), zlib, spdlog, fmt, nlohmann-json und nanoflann.&lt;/p&gt;</translation>
+        <source>&lt;p&gt;It is built with Qt %1 (LGPL-3), VTK %2 (BSD-3), CGAL (GPL-3 and LGPL-3), TetGen (AGPL-3, in the worker), CHOLMOD (GPL-2 or later), GDCM (BSD-3, in the worker), SQLite (public domain), Eigen (MPL-2), TBB, Embree and OpenSSL (Apache-2.0), Cairo and Pango (LGPL-2.1), libzip and ISA-L (BSD-3), zlib, spdlog, fmt, nlohmann-json and nanoflann.&lt;/p&gt;</source>
+        <translation>&lt;p&gt;Gebaut mit Qt %1 (LGPL-3), VTK %2 (BSD-3), CGAL (GPL-3 und LGPL-3), TetGen (AGPL-3, im Hilfsprogramm), CHOLMOD (GPL-2 oder später), GDCM (BSD-3, im Hilfsprogramm), SQLite (gemeinfrei), Eigen (MPL-2), TBB, Embree und OpenSSL (Apache-2.0), Cairo und Pango (LGPL-2.1), libzip und ISA-L (BSD-3), zlib, spdlog, fmt, nlohmann-json und nanoflann.&lt;/p&gt;</translation>
     </message>
     <message>
         <source>About Ostia</source>

@@ -1,7 +1,9 @@
 #include "ostia/core/parallel.h"
 
+#include <sys/resource.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
@@ -21,6 +23,18 @@ int max_threads() {
   const int limit = thread_limit.load();
   const int cores = std::max(1, tbb::this_task_arena::max_concurrency());
   return limit > 0 ? limit : cores;
+}
+
+void lower_thread_priority() {
+  constexpr int niceness = 10;
+  // Linux keeps it by thread. Where it is refused the work goes on as it is.
+  static_cast<void>(setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), niceness));
+}
+
+void start_loop_threads() {
+  // The demand of one loop makes them all.
+  const int threads = max_threads();
+  parallel_chunks(static_cast<std::size_t>(4 * threads), 1, [](std::size_t, std::size_t) {});
 }
 
 void parallel_chunks(std::size_t count, std::size_t grain,

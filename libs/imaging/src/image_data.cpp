@@ -4,7 +4,7 @@
 
 #include "ostia/core/error.h"
 
-#include <zlib.h>
+#include <isa-l/igzip_lib.h>
 
 #include <algorithm>
 #include <bit>
@@ -16,6 +16,22 @@ namespace ostia::imaging {
 namespace {
 
 constexpr std::size_t block_bytes = std::size_t{1} << 18;
+constexpr std::uint8_t gzip_mark = 0x1f;
+
+const char* fault(int code) {
+  switch (code) {
+    case ISAL_INVALID_BLOCK:
+      return "invalid block";
+    case ISAL_INVALID_SYMBOL:
+      return "invalid symbol";
+    case ISAL_INVALID_LOOKBACK:
+      return "invalid distance";
+    case ISAL_INCORRECT_CHECKSUM:
+      return "wrong check sum";
+    default:
+      return "no gzip or zlib stream";
+  }
+}
 
 template <class T>
 T byte_swapped(T value) {
@@ -28,15 +44,19 @@ T byte_swapped(T value) {
 
 }  // namespace
 
+/// ISA-L's, which takes half of zlib's time: of a CT volume the inflating is most of the reading.
 struct ByteStream::Inflater {
-  z_stream z{};
-  std::vector<unsigned char> input = std::vector<unsigned char>(block_bytes);
-  bool ended = false;
-  Inflater() {
-    if (inflateInit2(&z, 15 + 32) != Z_OK)
-      throw ResourceError("zlib: out of memory");  // 32: gzip or zlib, by its header
+  inflate_state state;
+  std::vector<std::uint8_t> input = std::vector<std::uint8_t>(block_bytes);
+  bool begun = false;
+  Inflater() { isal_inflate_init(&state); }
+  /// A gzip member or a zlib stream, by its first byte.
+  void begin() {
+    isal_inflate_reset(&state);
+    state.crc_flag = state.next_in[0] == gzip_mark ? ISAL_GZIP : ISAL_ZLIB;
+    begun = true;
   }
-  ~Inflater() { inflateEnd(&z); }
+  bool ended() const { return begun && state.block_state == ISAL_BLOCK_FINISH; }
 };
 
 ByteStream::ByteStream(const std::filesystem::path& file, std::uint64_t offset, bool compressed)
@@ -58,36 +78,28 @@ std::size_t ByteStream::read_file(char* to, std::size_t count) {
 }
 
 std::size_t ByteStream::inflate_to(char* to, std::size_t count) {
-  z_stream& z = inflater_->z;
+  Inflater& inflater = *inflater_;
+  inflate_state& state = inflater.state;
   std::size_t done = 0;
   while (done < count) {
-    if (z.avail_in == 0) {
-      z.next_in = inflater_->input.data();
-      z.avail_in =
-          static_cast<uInt>(read_file(reinterpret_cast<char*>(inflater_->input.data()), block_bytes));
-      if (z.avail_in == 0) {
-        if (inflater_->ended) break;
-        refuse(file_, "compressed data", "cut short: they end before their own end mark");
-      }
+    if (state.avail_in == 0) {
+      state.next_in = inflater.input.data();
+      state.avail_in =
+          static_cast<std::uint32_t>(read_file(reinterpret_cast<char*>(inflater.input.data()), block_bytes));
     }
-    if (inflater_->ended) {
-      if (z.next_in[0] != 0x1f) break;  // what follows is no further gzip member
-      inflateReset(&z);
-      inflater_->ended = false;
-    }
+    const bool no_more_input = state.avail_in == 0;
+    if (inflater.ended() && (no_more_input || state.next_in[0] != gzip_mark))
+      break;  // what follows is no further gzip member
+    if (!no_more_input && (!inflater.begun || inflater.ended())) inflater.begin();
     const std::size_t room = std::min(count - done, block_bytes);
-    z.next_out = reinterpret_cast<Bytef*>(to + done);
-    z.avail_out = static_cast<uInt>(room);
-    const int code = inflate(&z, Z_NO_FLUSH);
-    done += room - z.avail_out;
-    if (code == Z_STREAM_END) {
-      inflater_->ended = true;
-    } else if (code == Z_MEM_ERROR) {
-      throw ResourceError(file_.string() + ": out of memory while decompressing");
-    } else if (code != Z_OK && code != Z_BUF_ERROR) {
-      refuse(file_, "compressed data",
-             std::string("damaged (") + (z.msg ? z.msg : "no gzip or zlib stream") + ")");
-    }
+    state.next_out = reinterpret_cast<std::uint8_t*>(to + done);
+    state.avail_out = static_cast<std::uint32_t>(room);
+    const int code = inflater.begun ? isal_inflate(&state) : ISAL_END_INPUT;
+    done += room - state.avail_out;
+    if (code < 0) refuse(file_, "compressed data", std::string("damaged (") + fault(code) + ")");
+    // Without input there may still be output in the inflater's own buffer.
+    if (no_more_input && state.avail_out == room && !inflater.ended())
+      refuse(file_, "compressed data", "cut short: they end before their own end mark");
   }
   return done;
 }

@@ -1,5 +1,6 @@
 #include "ostia/pipeline/source.h"
 
+#include "ostia/core/beside.h"
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
 #include "ostia/core/log.h"
@@ -11,7 +12,6 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
-#include <future>
 
 namespace ostia::pipeline {
 namespace fs = std::filesystem;
@@ -102,31 +102,12 @@ std::string digest(const fs::path& path, SourceKind kind, const core::TaskContex
   return kind == SourceKind::dicom ? core::sha256_of_path(path, task) : core::sha256_file(path);
 }
 
-namespace {
-
-/// A digest that is made while the file is read; it is given up where the reading fails.
-class DigestBeside {
- public:
-  DigestBeside(const fs::path& path, SourceKind kind)
-      : digest_(std::async(std::launch::async,
-                           [path, kind, task = task_] { return digest(path, kind, task); })) {}
-  ~DigestBeside() { task_.cancel(); }
-  DigestBeside(const DigestBeside&) = delete;
-  DigestBeside& operator=(const DigestBeside&) = delete;
-  std::string get() { return digest_.get(); }
-
- private:
-  core::TaskContext task_;
-  std::future<std::string> digest_;
-};
-
-}  // namespace
-
 Source load(const fs::path& path, const SourceOptions& options, const core::TaskContext& task) {
   Source source;
   source.kind = classify(path);
   core::redact_in_logs(path.string(), "image");  // until its pseudonym is known
-  DigestBeside sha256(path, source.kind);
+  core::Beside<std::string> sha256(
+      [path, kind = source.kind](const core::TaskContext& beside) { return digest(path, kind, beside); });
   switch (source.kind) {
     case SourceKind::dicom: {
       auto loaded = imaging::read_dicom(path, options.dicom, task);

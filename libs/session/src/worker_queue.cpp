@@ -1,6 +1,7 @@
 #include "ostia/session/worker_queue.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/parallel.h"
 
 #include <condition_variable>
 #include <exception>
@@ -46,6 +47,7 @@ struct WorkerQueue::Impl {
   }
 
   void loop() {
+    core::lower_thread_priority();
     std::unique_lock lock(mutex);
     while (true) {
       wake.wait(lock, [&] { return stopping || !waiting.empty(); });
@@ -82,6 +84,7 @@ struct WorkerQueue::Impl {
 WorkerQueue::WorkerQueue(int threads) : impl_(std::make_unique<Impl>()) {
   if (threads < 1 || threads > 64)
     throw InvalidInput("a worker queue of " + std::to_string(threads) + " threads; choose 1 to 64");
+  core::start_loop_threads();
   for (int i = 0; i < threads; ++i) impl_->threads.emplace_back([this] { impl_->loop(); });
 }
 

@@ -168,10 +168,12 @@ void TreeScene::Impl::follow_model(const lumen::LumenModel& model) {
   const bool same = vessels == model.vessels;
   owner = std::move(made);
   vessels = model.vessels;
+  vessel_styles.clear();
   for (const auto& each : vessels) {
     const auto [style, is_new] = styles.try_emplace(each->vessel);
     if (is_new)
       style->second.color = figure::palette(styles_made++ % 7);  // the eighth is the grey of "unknown"
+    vessel_styles.push_back(&style->second);
   }
   if (!same) make_axes();
 }
@@ -209,6 +211,14 @@ void TreeScene::detach() {
   impl_->window->RemoveRenderer(impl_->front);
   impl_->window->RemoveRenderer(impl_->renderer);
   impl_->window = nullptr;
+}
+
+void TreeScene::show_front(bool shown) {
+  impl_->front->SetDraw(shown ? 1 : 0);
+}
+
+bool TreeScene::front_shown() const {
+  return impl_->front->GetDraw() != 0;
 }
 
 bool TreeScene::kept_picture() const {

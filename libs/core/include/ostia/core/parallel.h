@@ -11,6 +11,13 @@ namespace ostia::core {
 void set_max_threads(int threads);
 int max_threads();
 
+/// For the threads of work beside a window: the calling thread, and those that it starts from now on, leave
+/// the processor to others where it is short. `start_loop_threads` comes before, in a thread of full
+/// priority, or the threads of parallel loops would be among them.
+void lower_thread_priority();
+/// Starts the threads of parallel loops.
+void start_loop_threads();
+
 /// Calls body(first, last) on consecutive chunks of [0, count) of `grain` items (the last may be shorter).
 /// The chunks do not depend on the number of threads. An exception thrown by a chunk is rethrown here.
 void parallel_chunks(std::size_t count, std::size_t grain,

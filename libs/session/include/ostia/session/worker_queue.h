@@ -32,7 +32,8 @@ struct JobStatus {
 };
 
 /// Runs jobs in background threads, first come first served. Each works on an immutable snapshot, so editing
-/// goes on meanwhile. Nothing is called back: the interface polls. Safe from any thread.
+/// goes on meanwhile; where the processor is short, the window comes first. Nothing is called back: the
+/// interface polls. Safe from any thread.
 class WorkerQueue {
  public:
   using Snapshot = std::shared_ptr<const lumen::LumenModel>;

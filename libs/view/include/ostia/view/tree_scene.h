@@ -53,6 +53,10 @@ class TreeScene {
   /// Into a window, as its only contents; two layers of it are used.
   void attach(vtkRenderWindow& window);
   void detach();  ///< before the window goes
+  /// False: only the wall and the CT are drawn from the next picture on, without what moves before them. The
+  /// first picture of much that is new costs most, as shaders are compiled for it; so it can be had in two.
+  void show_front(bool shown);
+  bool front_shown() const;
   /// The last Render() put back the picture of wall and CT that was there, as only marks had changed.
   bool kept_picture() const;
 

@@ -1,6 +1,4 @@
-#include "ostia/geometry/polyline.h"
-#include "ostia/phantom/phantom_case.h"
-#include "ostia/segmentation/minimal_path.h"
+#include "removed_branches.h"
 
 #include <gtest/gtest.h>
 
@@ -11,31 +9,6 @@
 
 namespace ostia::segmentation {
 namespace {
-
-double mean_distance(const std::vector<Vec3>& points, const std::vector<Vec3>& truth) {
-  double sum = 0.0;
-  for (const Vec3& p : points) sum += (geometry::closest(truth, p).point - p).norm();
-  return sum / static_cast<double>(points.size());
-}
-
-/// The true tree without one vessel and what leaves it.
-geometry::VesselTree without(const phantom::CoronaryTree& tree, std::int32_t gone) {
-  phantom::CoronaryTree rest;
-  rest.dominance = tree.dominance;
-  std::vector<std::int32_t> removed{gone};
-  for (const phantom::CoronaryVessel& v : tree.vessels) {
-    const auto is_gone = [&](std::int32_t id) {
-      return std::find(removed.begin(), removed.end(), id) != removed.end();
-    };
-    if (is_gone(v.id)) continue;
-    if (is_gone(v.parent)) {
-      removed.push_back(v.id);
-    } else {
-      rest.vessels.push_back(v);
-    }
-  }
-  return phantom::vessel_tree(rest);
-}
 
 TEST(MinimalPath, RemovedBranchesOfAPhantomAreFoundAgain) {
   phantom::CaseOptions options;
@@ -67,16 +40,12 @@ TEST(MinimalPath, RemovedBranchesOfAPhantomAreFoundAgain) {
     const auto last = static_cast<std::size_t>(
         std::lower_bound(axis.abscissa.begin(), axis.abscissa.end(), reach_mm - 1.0) - axis.abscissa.begin());
     ++tried;
-    const MinimalPath path =
-        path_to_tree(image, axis.points[std::min(last, axis.size() - 1)], without(plan.tree, vessel.id));
-    EXPECT_LT(mean_distance(path.points, axis.points), 0.15);             // asked for: 0.5
-    EXPECT_LT((path.junction->point - axis.points.front()).norm(), 1.5);  // asked for: 2
-    const auto parent = std::find_if(plan.tree.vessels.begin(), plan.tree.vessels.end(),
-                                     [&](const phantom::CoronaryVessel& v) { return v.id == vessel.parent; });
-    const Vec3 foot = geometry::closest(parent->axis.points, path.junction->point).point;
-    EXPECT_LT((foot - path.junction->point).norm(), 0.05) << "joined to another vessel";
-    EXPECT_GT(path.evidence, 0.8);
-    EXPECT_NEAR(path.length_mm, axis.abscissa[std::min(last, axis.size() - 1)], 2.0);
+    const testing::FoundBranch found = testing::found_again(image, plan.tree, vessel, last);
+    EXPECT_LT(found.off_axis_mm, 0.15);     // asked for: 0.5
+    EXPECT_LT(found.off_junction_mm, 1.5);  // asked for: 2
+    EXPECT_LT(found.off_parent_mm, 0.05) << "joined to another vessel";
+    EXPECT_GT(found.path.evidence, 0.8);
+    EXPECT_NEAR(found.path.length_mm, axis.abscissa[std::min(last, axis.size() - 1)], 2.0);
   }
   EXPECT_EQ(tried, names.size());
 }

@@ -4,6 +4,7 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/log.h"
+#include "ostia/core/parallel.h"
 #include "ostia/imaging/archive.h"
 #include "ostia/imaging/series_preview.h"
 #include "ostia/pipeline/source.h"
@@ -114,6 +115,7 @@ void Opening::show_first_slice(const imaging::DicomSeries& series) {
 Opening::ImageBeside Opening::read_beside(const std::optional<fs::path>& path) {
   if (!path || !is_volume_file(*path)) return {};
   return std::make_shared<core::Beside<Loaded>>([path = *path](const core::TaskContext& task) {
+    core::lower_thread_priority();
     const pipeline::Source source = pipeline::load(path, {}, task);
     if (!source.image) throw InvalidInput(path.string() + " is no CT image: open an angiogram");
     return Loaded{{source.image, {source.sha256, source.pseudonym}}, source.warnings};

@@ -52,6 +52,8 @@ void TreeScene::set_wall(std::shared_ptr<const geometry::TriMesh> wall, const lu
   const std::shared_ptr<const geometry::TriMesh> former = std::exchange(scene.wall, std::move(wall));
   std::optional<WallChange> change;
   if (former && same_axes(scene.vessels, model.vessels)) change = change_between(*former, *scene.wall);
+  // Of the same points it may still have other triangles.
+  if (change && change->box.isEmpty() && former->triangles != scene.wall->triangles) change.reset();
   scene.take_places(model, former, change);
   if (scene.values.size() != scene.places.size()) clear_wall_values();
   if (!change || !scene.show_moved(*change)) scene.show_wall();

@@ -108,7 +108,7 @@ bool Jobs::running(const QString& kind) const {
 
 void Jobs::cancel(const QString& kind) {
   for (const auto& [id, job] : running_)
-    if (job->kind == kind) queue_.cancel(id);
+    if (job->kind == kind) queue_.forget(id);  // also where it is done and nobody has looked yet
 }
 
 void Jobs::take_away(const QString& kind) {

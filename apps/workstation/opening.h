@@ -62,8 +62,9 @@ class Opening final : public QObject {
   void load_series(const std::filesystem::path& path, const imaging::DicomSeries& series,
                    const imaging::DicomReadOptions& options);
   void show_first_slice(const imaging::DicomSeries& series);
+  static Loaded read_file(const std::filesystem::path& path, const core::TaskContext& task);
   static ImageBeside read_beside(const std::optional<std::filesystem::path>& path);
-  void load_file(const std::filesystem::path& path, const ImageBeside& beside);
+  void load_file(const std::filesystem::path& path, const ImageBeside& beside = {});
   void show(const Loaded& loaded, const std::filesystem::path& path);
   void restore_view();
   std::filesystem::path state_folder() const;

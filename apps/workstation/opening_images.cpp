@@ -4,7 +4,6 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/log.h"
-#include "ostia/core/parallel.h"
 #include "ostia/imaging/archive.h"
 #include "ostia/imaging/series_preview.h"
 #include "ostia/pipeline/source.h"
@@ -40,7 +39,7 @@ void Opening::open_image(const fs::path& path) {
   // From here on the log knows the path, which may name the patient, as "the image".
   core::redact_in_logs(path.string(), "the image");
   if (is_volume_file(path))
-    load_file(path, read_beside(path));
+    load_file(path);
   else
     scan(path);
 }
@@ -112,20 +111,24 @@ void Opening::show_first_slice(const imaging::DicomSeries& series) {
       [](const QString&) {});  // the reading of the whole says what is wrong
 }
 
+Opening::Loaded Opening::read_file(const fs::path& path, const core::TaskContext& task) {
+  const pipeline::Source source = pipeline::load(path, {}, task);
+  if (!source.image) throw InvalidInput(path.string() + " is no CT image: open an angiogram");
+  return {{source.image, {source.sha256, source.pseudonym}}, source.warnings};
+}
+
 Opening::ImageBeside Opening::read_beside(const std::optional<fs::path>& path) {
   if (!path || !is_volume_file(*path)) return {};
-  return std::make_shared<core::Beside<Loaded>>([path = *path](const core::TaskContext& task) {
-    core::lower_thread_priority();
-    const pipeline::Source source = pipeline::load(path, {}, task);
-    if (!source.image) throw InvalidInput(path.string() + " is no CT image: open an angiogram");
-    return Loaded{{source.image, {source.sha256, source.pseudonym}}, source.warnings};
-  });
+  return std::make_shared<core::Beside<Loaded>>(
+      [path = *path](const core::TaskContext& task) { return read_file(path, task); });
 }
 
 void Opening::load_file(const fs::path& path, const ImageBeside& beside) {
   window_.jobs().run(
       "open", tr("Reading the image"),
-      [beside](const core::TaskContext& task) { return std::any(beside->get(task)); },
+      [path, beside](const core::TaskContext& task) {
+        return std::any(beside ? beside->get(task) : read_file(path, task));
+      },
       [this, path](const std::any& result) {
         window_.set_shown_name(QString::fromStdString(path.filename().string()));
         show(std::any_cast<const Loaded&>(result), path);

@@ -165,22 +165,22 @@ TEST(TreeSceneGui, AnUpdateOfTheWallChangesItThereAlone) {
   EXPECT_NEAR(pick->s_mm, 20.0, 0.3);
 }
 
-/// While a hand pulls at one place the wall elsewhere is not drawn again; the picture is that of a scene
-/// which knows nothing of the walls before.
 TEST(TreeSceneGui, OtherTrianglesOnTheSamePointsAreDrawn) {
   const Tree tree = testing::straight_tree();
   ShownScene shown;
   shown.scene.set_wall(tree.wall, tree.model);
   shown.scene.set_pose(from_front());
-  const std::int64_t whole = shown.shoot().painted();
+  const int whole = shown.shoot().painted();
   auto half = std::make_shared<geometry::TriMesh>(*tree.wall);
   std::erase_if(half->triangles, [&](const geometry::Triangle& t) {
     return half->points[static_cast<std::size_t>(t[0])].z() > 20.0;
   });
   shown.scene.set_wall(half, tree.model);
-  EXPECT_NEAR(static_cast<double>(shown.shoot().painted()), 0.5 * static_cast<double>(whole), 200.0);
+  EXPECT_NEAR(shown.shoot().painted(), 0.5 * whole, 200.0);
 }
 
+/// While a hand pulls at one place the wall elsewhere is not drawn again; the picture is that of a scene
+/// which knows nothing of the walls before.
 TEST(TreeSceneGui, AWallPulledAtOnePlaceLooksAsIfDrawnWhole) {
   const Tree tree = testing::straight_tree();
   ShownScene pulled;

@@ -29,7 +29,9 @@
 #include <QRegularExpression>
 #include <QTest>
 #include <QToolButton>
+#include <atomic>
 #include <cmath>
+#include <thread>
 
 namespace ostia::workstation {
 namespace {
@@ -268,6 +270,29 @@ TEST_F(MeshingWindow, WhatFailsIsOneMessageWithTheWayOut) {
   EXPECT_TRUE(box->text().contains("gone")) << box->text().toStdString();
   box->close();
   EXPECT_TRUE(test->bench().has_case());
+}
+
+TEST(Jobs, ANewerOneTakesThePlaceOfOneThatIsDoneButNotYetSeen) {
+  Jobs jobs;
+  std::atomic<bool> first_ended = false;
+  int first = 0, second = 0;
+  const auto failed = [](const QString& message) { ADD_FAILURE() << message.toStdString(); };
+  jobs.run(
+      "open", "first",
+      [&](const core::TaskContext&) {
+        first_ended = true;
+        return std::any(1);
+      },
+      [&](const std::any&) { ++first; }, failed);
+  // The interface does not look meanwhile.
+  while (!first_ended) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  jobs.run(
+      "open", "second", [](const core::TaskContext&) { return std::any(2); },
+      [&](const std::any&) { ++second; }, failed);
+  ASSERT_TRUE(wait_until([&] { return !jobs.any(); }));
+  EXPECT_EQ(first, 0);
+  EXPECT_EQ(second, 1);
 }
 
 TEST(JobsTime, IsExtrapolatedAndNotGuessed) {

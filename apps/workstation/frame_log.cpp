@@ -13,11 +13,19 @@ bool FrameLog::open(const QString& path) {
   return on();
 }
 
+void FrameLog::input(std::uint32_t display_ms) {
+  if (!on()) return;
+  constexpr std::uint32_t longest_ms = 5000;
+  const auto monotonic_ms = static_cast<std::uint32_t>(clock_.msecsSinceReference() + clock_.elapsed());
+  const std::uint32_t waited_ms = monotonic_ms - display_ms;  // the display's time wraps around
+  input_ms_ = now_ms() - (waited_ms < longest_ms ? waited_ms : 0);
+}
+
 void FrameLog::event(const char* kind) {
   if (!on()) return;
   ++event_;
   kind_ = QString::fromLatin1(kind);
-  event_ms_ = now_ms();
+  event_ms_ = input_ms_;
 }
 
 void FrameLog::painted(const QString& view, double paint_ms, std::optional<std::uint64_t> picture) {

@@ -11,6 +11,7 @@
 
 #include <QApplication>
 #include <QCommandLineParser>
+#include <QInputEvent>
 #include <QStandardPaths>
 #include <QSurfaceFormat>
 #include <clocale>
@@ -24,6 +25,8 @@ class Application final : public QApplication {
  public:
   using QApplication::QApplication;
   bool notify(QObject* receiver, QEvent* event) override {
+    if (const QInputEvent* input = dynamic_cast<QInputEvent*>(event))
+      ostia::workstation::FrameLog::instance().input(static_cast<std::uint32_t>(input->timestamp()));
     try {
       return QApplication::notify(receiver, event);
     } catch (const std::exception& error) {

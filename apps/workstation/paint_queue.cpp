@@ -1,6 +1,7 @@
 #include "paint_queue.h"
 
 #include <QCoreApplication>
+#include <QScopedValueRollback>
 #include <algorithm>
 #include <utility>
 
@@ -9,6 +10,7 @@ namespace {
 
 constexpr qint64 longest_wait_ms = 60;        // of a 2D view
 constexpr qint64 longest_last_wait_ms = 110;  // of the tree, which may lag behind
+constexpr qint64 longest_serving_ms = 15;     // of overdue views, before the hand is heard again
 
 }  // namespace
 
@@ -30,18 +32,25 @@ void PaintQueue::add(QWidget* view) {
 }
 
 void PaintQueue::add_last(QObject* owner, std::function<void()> work) {
-  if (last_.isEmpty()) last_waiting_.start();
+  if (last_.isEmpty() && !in_last_) last_waiting_.start();
   const bool known =
       std::any_of(last_.begin(), last_.end(), [&](const Last& one) { return one.owner == owner; });
   if (!known) last_.append({owner, std::move(work)});
   timer_.start();
 }
 
+// Not all in one event, which would block the window for as long as they take together.
 void PaintQueue::serve_overdue() {
-  if (!views_.isEmpty() && views_waiting_.elapsed() > longest_wait_ms)
-    while (!views_.isEmpty()) next();
-  if (!last_.isEmpty() && last_waiting_.elapsed() > longest_last_wait_ms)
-    while (!last_.isEmpty()) next();
+  const bool views = !views_.isEmpty() && views_waiting_.elapsed() > longest_wait_ms;
+  const bool last = !last_.isEmpty() && last_waiting_.elapsed() > longest_last_wait_ms;
+  const bool views_turn = views && !(last && views_were_served_);
+  QElapsedTimer served;
+  served.start();
+  if (views_turn)
+    while (served.elapsed() < longest_serving_ms && next_view()) continue;
+  else if (last)
+    next_last();
+  if (views || last) views_were_served_ = views_turn;
 }
 
 void PaintQueue::prepare_all() {
@@ -53,21 +62,30 @@ void PaintQueue::prepare_all() {
   if (shown.size() > 1) prepare_(shown);
 }
 
-void PaintQueue::next() {
+bool PaintQueue::next_view() {
   prepare_all();
   while (!views_.isEmpty()) {
     const QPointer<QWidget> view = views_.takeFirst();
     if (!view || !view->isVisible()) continue;
     view->repaint();
-    return;
+    return true;
   }
+  return false;
+}
+
+bool PaintQueue::next_last() {
   while (!last_.isEmpty()) {
     const Last work = last_.takeFirst();
     if (!work.owner) continue;
+    const QScopedValueRollback<bool> inside(in_last_, true);
     work.work();
-    return;
+    return true;
   }
-  timer_.stop();
+  return false;
+}
+
+void PaintQueue::next() {
+  if (!next_view() && !next_last()) timer_.stop();
 }
 
 }  // namespace ostia::workstation

@@ -25,7 +25,7 @@ class PaintQueue final : public QObject {
   /// Work for when all views are painted; once for many requests of one owner.
   void add_last(QObject* owner, std::function<void()> work);
   /// A hand that moves without a pause would keep the others waiting: paints those that have waited too long
-  /// already.
+  /// already, the views and what is last by turns.
   void serve_overdue();
   /// It has just been painted.
   void remove(QWidget* view) { views_.removeAll(view); }
@@ -33,15 +33,19 @@ class PaintQueue final : public QObject {
  private:
   PaintQueue();
   void next();
+  bool next_view();  // false where there was none
+  bool next_last();
   struct Last {
     QPointer<QObject> owner;
     std::function<void()> work;
   };
   void prepare_all();
   Prepare prepare_;
-  bool prepared_ = false;  // nothing was added since
+  bool prepared_ = false;           // nothing was added since
+  bool views_were_served_ = false;  // when last something was overdue
   QList<QPointer<QWidget>> views_;
   QList<Last> last_;
+  bool in_last_ = false;  // what it asks for is more of the same and has waited already
   QTimer timer_;
   QElapsedTimer views_waiting_, last_waiting_;  // since each was last empty
 };

@@ -130,7 +130,7 @@ void SceneWidget::request_render() {
 void SceneWidget::refresh() {
   QElapsedTimer clock;
   clock.start();
-  if (wall_stale_) {
+  if (wall_stale_ && (!wall_unseen_ || styles_stale_)) {
     wall_stale_ = false;
     wall_.reset();
     if (bench_.has_case()) {
@@ -140,12 +140,15 @@ void SceneWidget::refresh() {
     } else {
       scene_->clear_wall();
     }
-    if (fit_wanted_) {  // another case: much is new, and the window is to answer between its steps
+    // The window is to answer between making a wall and drawing it; one that has been made is drawn, though
+    // the next edit be there already, unless the vessels are others.
+    wall_unseen_ = true;
+    if (fit_wanted_) {  // another case: much is new
       scene_->show_front(false);
       refresh_styles();
-      request_render();
-      return;
     }
+    request_render();
+    return;
   }
   if (styles_stale_) refresh_styles();
   if (cursor_stale_) refresh_cursor();
@@ -154,6 +157,8 @@ void SceneWidget::refresh() {
   fit_wanted_ = false;
   window_->renderWindow()->SetDPI(72);  // the scene scales its texts itself; Qt's adapter would do it again
   window_->renderWindow()->Render();
+  wall_unseen_ = false;
+  if (wall_stale_) request_render();
   if (!scene_->front_shown()) {
     scene_->show_front(true);
     request_render();

@@ -75,6 +75,7 @@ class SceneWidget final : public QWidget {
   QElapsedTimer flight_clock_;
   bool wall_stale_ = true, styles_stale_ = true, cursor_stale_ = true, marks_stale_ = true,
        fit_wanted_ = true;
+  bool wall_unseen_ = false;  // it was made and not drawn yet
   std::shared_ptr<const geometry::TriMesh> wall_;
   std::function<void(const geometry::TriMesh&)> wall_painter_;
   QPointF pressed_, last_;

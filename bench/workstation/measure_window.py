@@ -17,6 +17,7 @@ import time
 
 MOVES = 80
 PAUSE_S = 0.06
+HURRY_S = 0.02  # less than any answer takes
 
 
 def xdo(*words):
@@ -59,7 +60,7 @@ class Program:
         self.process.wait()
 
 
-def drag(places, key=None):
+def drag(places, key=None, pause_s=PAUSE_S):
     if key:
         xdo("keydown", key)
     xdo("mousemove", *places[0])
@@ -67,7 +68,7 @@ def drag(places, key=None):
     xdo("mousedown", 1)
     for place in places:
         xdo("mousemove", *place)
-        time.sleep(PAUSE_S)
+        time.sleep(pause_s)
     xdo("mouseup", 1)
     if key:
         xdo("keyup", key)
@@ -146,6 +147,10 @@ def main():
             at = len(lines_of(log))
             drag([(middle + 13 + i // 6, down + i // 8) for i in range(MOVES)])
             table("a contour pulled", log, at, "drag")
+            at = len(lines_of(log))
+            wave = [-min(i % 28, 28 - i % 28) for i in range(2 * MOVES)]  # from where it is
+            drag([(middle + 26 + step, down + 9 + i // 16) for i, step in enumerate(wave)], pause_s=HURRY_S)
+            table("a contour pulled without a rest", log, at, "drag")
             at = len(lines_of(log))
             drag([(middle - 60 + 2 * i, down) for i in range(MOVES)], "shift")
             table("CPRs turned", log, at, "drag")

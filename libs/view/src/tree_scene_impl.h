@@ -72,7 +72,7 @@ struct TreeScene::Impl {
   void take_places(const lumen::LumenModel& model, const std::shared_ptr<const geometry::TriMesh>& former,
                    const std::optional<WallChange>& change);
   void show_wall();  // all of it anew
-  bool show_moved(const WallChange& change);
+  bool show_moved(const geometry::TriMesh& former, const WallChange& change);
   bool moves_apart() const;  // the part that is being edited may be drawn apart
   void show_moving();
   void join_moving();  // where it may no longer be drawn apart

@@ -5,6 +5,7 @@
 
 #include <vtkVolume.h>
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <utility>
@@ -56,7 +57,7 @@ void TreeScene::set_wall(std::shared_ptr<const geometry::TriMesh> wall, const lu
   if (change && change->box.isEmpty() && former->triangles != scene.wall->triangles) change.reset();
   scene.take_places(model, former, change);
   if (scene.values.size() != scene.places.size()) clear_wall_values();
-  if (!change || !scene.show_moved(*change)) scene.show_wall();
+  if (!change || !scene.show_moved(*former, *change)) scene.show_wall();
 }
 
 /// Whose each point is: kept for points that were there before and lie away from the change.
@@ -119,11 +120,19 @@ bool TreeScene::Impl::moves_apart() const {
 }
 
 /// While a place is edited the wall away from it stays as it was drawn; false where all is to be drawn.
-bool TreeScene::Impl::show_moved(const WallChange& change) {
+bool TreeScene::Impl::show_moved(const geometry::TriMesh& former, const WallChange& change) {
   if (change.box.isEmpty()) return true;
   if (!moves_apart()) return false;
   const geometry::Box3 changed = grown(change.box, cell_margin_mm);
-  if (moving_box.isEmpty() || !moving_box.contains(changed)) {
+  if (moving_box.isEmpty()) {
+    moving_box = grown(changed, moving_margin_mm);
+    // The former wall is what is drawn; away from the box the new one is the same.
+    const std::vector<char> moving = points_within(former, moving_box);
+    wall_actor.keep_triangles([&](const geometry::Triangle& t) {
+      return std::none_of(t.begin(), t.end(),
+                          [&](std::int32_t corner) { return moving[static_cast<std::size_t>(corner)] != 0; });
+    });
+  } else if (!moving_box.contains(changed)) {
     moving_box = grown(changed, moving_margin_mm);
     const std::vector<char> moving = triangles_within(*wall, moving_box);
     wall_actor.set_points(*wall, smooth_normals(*wall));

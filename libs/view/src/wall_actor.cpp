@@ -105,6 +105,24 @@ void WallActor::set_triangles(const geometry::TriMesh& mesh,
     std::copy(t.begin(), t.end(), corner + 3 * kept);
     ++kept;
   }
+  take_corners(kept);
+}
+
+void WallActor::keep_triangles(const std::function<bool(const geometry::Triangle&)>& wanted) {
+  vtkTypeInt32* corner = corners_->GetPointer(0);
+  const vtkIdType count = corners_->GetNumberOfValues() / 3;
+  vtkIdType kept = 0;
+  for (vtkIdType i = 0; i < count; ++i) {
+    const geometry::Triangle t{corner[3 * i], corner[3 * i + 1], corner[3 * i + 2]};
+    if (!wanted(t)) continue;
+    std::copy(t.begin(), t.end(), corner + 3 * kept);
+    ++kept;
+  }
+  take_corners(kept);
+}
+
+/// The first ones in the array are the triangles from now on.
+void WallActor::take_corners(vtkIdType kept) {
   corners_->SetNumberOfValues(3 * kept);
   if (offsets_->GetNumberOfValues() != kept + 1) {
     offsets_->SetNumberOfValues(kept + 1);

@@ -38,12 +38,16 @@ class WallActor {
   void set_points(const geometry::TriMesh& mesh, const std::vector<Eigen::Vector3f>& normals);
   /// The triangles that are visible.
   void set_triangles(const geometry::TriMesh& mesh, const std::function<bool(std::size_t triangle)>& visible);
+  /// Of the triangles that are there, those that are wanted, by their corners.
+  void keep_triangles(const std::function<bool(const geometry::Triangle& corners)>& wanted);
   /// One colour a point.
   void set_colors(std::size_t count, const std::function<figure::Color(std::size_t point)>& color_of);
   void set_opacity(double opacity);
   void clear();
 
  private:
+  void take_corners(vtkIdType triangles);
+
   vtkSmartPointer<vtkActor> actor_;
   vtkSmartPointer<vtkPolyData> surface_;
   vtkSmartPointer<vtkFloatArray> points_, normals_;

@@ -25,12 +25,6 @@ Eigen::Vector3f unit(const Eigen::Vector3f& normal) {
   return length > 0.0F ? Eigen::Vector3f(normal / length) : normal;
 }
 
-std::vector<char> points_within(const geometry::TriMesh& wall, const geometry::Box3& box) {
-  std::vector<char> within(wall.points.size());
-  for (std::size_t i = 0; i < within.size(); ++i) within[i] = box.contains(wall.points[i]);
-  return within;
-}
-
 }  // namespace
 
 std::vector<Eigen::Vector3f> smooth_normals(const geometry::TriMesh& mesh) {
@@ -60,6 +54,12 @@ WallChange change_between(const geometry::TriMesh& before, const geometry::TriMe
     if (b < b_end) change.box.extend(now[b++]);
   }
   return change;
+}
+
+std::vector<char> points_within(const geometry::TriMesh& wall, const geometry::Box3& box) {
+  std::vector<char> within(wall.points.size());
+  for (std::size_t i = 0; i < within.size(); ++i) within[i] = box.contains(wall.points[i]);
+  return within;
 }
 
 std::vector<char> triangles_within(const geometry::TriMesh& wall, const geometry::Box3& box) {

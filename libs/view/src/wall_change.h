@@ -30,5 +30,7 @@ struct WallPiece {
 WallPiece piece_within(const geometry::TriMesh& wall, const geometry::Box3& box);
 /// Of each triangle, whether the piece has it.
 std::vector<char> triangles_within(const geometry::TriMesh& wall, const geometry::Box3& box);
+/// Of each point, whether it is in the box.
+std::vector<char> points_within(const geometry::TriMesh& wall, const geometry::Box3& box);
 
 }  // namespace ostia::view

@@ -4,7 +4,7 @@ set(OSTIA_ROOMS
     core geometry
     imaging reformat io figure
     segmentation centerline lumen meshing analysis
-    phantom evaluation pipeline
+    phantom evaluation coronary pipeline
     session experiments
     view)
 

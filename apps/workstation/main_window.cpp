@@ -10,9 +10,9 @@
 #include "vessel_list.h"
 
 #include "ostia/core/error.h"
+#include "ostia/imaging/reduced_volume.h"
 #include "ostia/view/curved_view.h"
 #include "ostia/view/plane_view.h"
-#include "ostia/view/reduced_volume.h"
 
 #include <QCloseEvent>
 #include <QComboBox>
@@ -215,7 +215,7 @@ QWidget* MainWindow::right_column() {
         "volume", tr("Preparing the heart"),
         [image](const core::TaskContext& task) {
           return std::any(
-              std::make_shared<const imaging::ImageVolume>(view::reduced_volume(*image, {}, task)));
+              std::make_shared<const imaging::ImageVolume>(imaging::reduced_volume(*image, {}, task)));
         },
         [this](const std::any& reduced) {
           scene_->scene().set_volume(std::any_cast<std::shared_ptr<const imaging::ImageVolume>>(reduced));

@@ -2,7 +2,7 @@
 
 #include "scene_case.h"
 
-#include "ostia/view/reduced_volume.h"
+#include "ostia/imaging/reduced_volume.h"
 #include "ostia/view/tree_scene.h"
 
 #include <benchmark/benchmark.h>
@@ -130,7 +130,7 @@ void reduced_volume(benchmark::State& state) {
   imaging::ImageVolume image;
   image.geometry.size = {512, 512, 300};
   image.voxels.assign(static_cast<std::size_t>(image.geometry.voxels()), 100);
-  for (auto _ : state) benchmark::DoNotOptimize(view::reduced_volume(image));
+  for (auto _ : state) benchmark::DoNotOptimize(imaging::reduced_volume(image));
 }
 BENCHMARK(reduced_volume)->Unit(benchmark::kMillisecond)->UseRealTime();
 

@@ -4,8 +4,8 @@
 #include "scene_case.h"
 
 #include "ostia/figure/picture.h"
+#include "ostia/imaging/reduced_volume.h"
 #include "ostia/reformat/plane_image.h"
-#include "ostia/view/reduced_volume.h"
 #include "ostia/view/tree_scene.h"
 
 #include <algorithm>
@@ -82,9 +82,10 @@ void make(const std::filesystem::path& folder) {
   scene.set_opacity(1.0);
   scene.set_axes_shown(false);
 
-  view::ReducedVolumeOptions options;
+  imaging::ReducedVolumeOptions options;
   options.box = heart;
-  scene.set_volume(std::make_shared<const imaging::ImageVolume>(view::reduced_volume(scan.image, options)));
+  scene.set_volume(
+      std::make_shared<const imaging::ImageVolume>(imaging::reduced_volume(scan.image, options)));
   scene.set_pose(scene.pose_from_side(view::ViewFrom::anterior));
   scene.set_volume_mode(view::VolumeMode::rendering);
   save("volume");

@@ -1,4 +1,4 @@
-#include "ostia/view/reduced_volume.h"
+#include "ostia/imaging/reduced_volume.h"
 
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
@@ -9,11 +9,10 @@
 #include <cmath>
 #include <numeric>
 
-namespace ostia::view {
+namespace ostia::imaging {
 namespace {
 
 using geometry::Vec3;
-using imaging::ImageVolume;
 
 /// A linear function of the world, on oblique axes.
 double ramp(const Vec3& at) {
@@ -34,7 +33,7 @@ ImageVolume oblique_ramp() {
   return image;
 }
 
-Vec3 outer_corner(const imaging::Geometry& grid, bool last) {
+Vec3 outer_corner(const Geometry& grid, bool last) {
   return grid.world(last ? Vec3(static_cast<double>(grid.size[0]) - 0.5,
                                 static_cast<double>(grid.size[1]) - 0.5,
                                 static_cast<double>(grid.size[2]) - 0.5)
@@ -121,4 +120,4 @@ TEST(ReducedVolume, ASmallImageComesBackAndBadInputIsRefused) {
 }
 
 }  // namespace
-}  // namespace ostia::view
+}  // namespace ostia::imaging

@@ -1,5 +1,5 @@
 #pragma once
-/// \file A CT image small enough to be shown in three dimensions.
+/// \file A CT image of fewer voxels, for overviews and first looks.
 
 #include "ostia/core/task_context.h"
 #include "ostia/imaging/volume.h"
@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace ostia::view {
+namespace ostia::imaging {
 
 struct ReducedVolumeOptions {
   std::int64_t most_voxels = std::int64_t{160} * 160 * 160;  ///< [8, 1e9]
@@ -21,8 +21,7 @@ void validate(const ReducedVolumeOptions& options);  ///< throws InvalidInput
 /// each is the mean over the volume that it covers, and together they cover the same field. An image that is
 /// small enough comes back as it is. Throws InvalidInput for an empty image or a box that misses it, and
 /// Cancelled. Meant for a background thread: 512 x 512 x 300 voxels take about 0.6 s.
-imaging::ImageVolume reduced_volume(const imaging::ImageVolume& image,
-                                    const ReducedVolumeOptions& options = {},
-                                    const core::TaskContext& task = core::no_task());
+ImageVolume reduced_volume(const ImageVolume& image, const ReducedVolumeOptions& options = {},
+                           const core::TaskContext& task = core::no_task());
 
-}  // namespace ostia::view
+}  // namespace ostia::imaging

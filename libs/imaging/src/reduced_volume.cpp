@@ -1,4 +1,4 @@
-#include "ostia/view/reduced_volume.h"
+#include "ostia/imaging/reduced_volume.h"
 
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
@@ -9,12 +9,9 @@
 #include <string>
 #include <vector>
 
-namespace ostia::view {
+namespace ostia::imaging {
 namespace {
 
-using imaging::Geometry;
-using imaging::ImageVolume;
-using imaging::Region;
 using Size = std::array<std::int64_t, 3>;
 
 /// The part of a line of voxels that one coarser voxel covers.
@@ -171,4 +168,4 @@ ImageVolume reduced_volume(const ImageVolume& image, const ReducedVolumeOptions&
   return result;
 }
 
-}  // namespace ostia::view
+}  // namespace ostia::imaging

@@ -1,5 +1,7 @@
 // Centerlines of a coronary-like tree with five ends, from an exact and from a raw marching-cubes surface.
 
+#include "skeleton_bench.h"
+
 #include "ostia/centerline/extract_centerlines.h"
 #include "ostia/core/parallel.h"
 #include "ostia/geometry/analytic_shapes.h"
@@ -55,6 +57,7 @@ int main(int argc, char** argv) {
   add("centerlines of a coronary-like tree, 255k triangles, 5 ends", 0.1216, false);
   add("centerlines of a raw marching-cubes surface, 59k triangles, 5 ends", 0.2525, true);
   add("centerlines of a raw marching-cubes surface, 255k triangles, 5 ends", 0.1216, true);
+  add_skeleton_benchmarks();
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();
   return 0;

@@ -1,0 +1,4 @@
+#pragma once
+/// \file Benchmarks of skeletons.
+
+void add_skeleton_benchmarks();

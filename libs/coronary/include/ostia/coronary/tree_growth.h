@@ -1,0 +1,45 @@
+#pragma once
+/// \file The coronary tree, grown from its ostia through what looks like a vessel.
+
+#include "ostia/coronary/ostia.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace ostia::coronary {
+
+struct GrowthOptions {
+  double wall_hu = 60.0;  ///< usual intensity of vessels' walls and muscle, [-100, 150]
+  double fat_hu = -90.0;  ///< of what lies about arteries, [-200, 50]
+  /// Share of the aorta's contrast above the wall that a voxel must have to be looked at, [0.1, 0.6].
+  double least_contrast = 0.25;
+  /// Share of its contrast above the fat with which a voxel must look like a tube (vesselness), [0.1, 0.6].
+  double least_tube = 0.25;
+  double largest_radius_mm = 4.5;  ///< what is bright so far about a voxel is a chamber, [2, 8]
+  double least_branch_mm = 8.0;    ///< beyond the lumen it leaves, [2, 50]
+};
+void validate(const GrowthOptions& options);  ///< throws InvalidInput
+
+/// From the ostium, or from its parent's axis, to its distal end; voxel by voxel.
+struct GrownBranch {
+  std::int32_t parent = -1;       ///< index of the branch it leaves; -1 at an ostium
+  std::size_t parent_point = 0;   ///< on that branch
+  std::size_t ostium = 0;         ///< from which the front came
+  std::vector<Vec3> points;       ///< mm
+  std::vector<double> radius_mm;  ///< of the tube that the voxel looks like
+  std::vector<double> tube;       ///< how much, as a share of the contrast, [0, 1]
+};
+
+struct GrownTree {
+  std::vector<GrownBranch> branches;  ///< parents before children, longest first
+  std::int64_t voxels = 0;            ///< that the front reached
+};
+
+/// A front from the ostia goes through neighbouring voxels that look like tubes, faster the more they do; the
+/// way to the place farthest along is a branch, and so is each way to the farthest place outside of those
+/// already found, while it is long enough. Deterministic. Throws InvalidInput, Cancelled.
+GrownTree grow_tree(const imaging::ImageVolume& image, const Aorta& aorta, const std::vector<Ostium>& ostia,
+                    const GrowthOptions& options = {}, const core::TaskContext& task = core::no_task());
+
+}  // namespace ostia::coronary

@@ -1,0 +1,151 @@
+#include "ostia/coronary/tree_growth.h"
+
+#include "made_image.h"
+
+#include "ostia/core/error.h"
+#include "ostia/core/parallel.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace ostia::coronary {
+namespace {
+
+using ostia::testing::made_image;
+using ostia::testing::ramp;
+
+constexpr double fat_hu = -90.0, contrast_hu = 400.0, vein_hu = 220.0;
+
+struct Tube {
+  Vec3 from, to;
+  double radius_mm;
+  double distance(const Vec3& at) const {
+    const Vec3 along = to - from;
+    const double t = std::clamp((at - from).dot(along) / along.squaredNorm(), 0.0, 1.0);
+    return (at - from - t * along).norm() - radius_mm;
+  }
+};
+
+/// An aorta that stands at the image's edge (only what it is like matters here), an artery with a side branch
+/// and a stub, a vein beside it, a chamber that touches it from below.
+struct Scene {
+  Vec3 ostium{-20.0, 0.0, 20.0};
+  std::vector<Tube> arteries{{{-20.0, 0.0, 20.0}, {8.0, 0.0, 20.0}, 1.6},
+                             {{8.0, 0.0, 20.0}, {22.0, 0.0, 10.0}, 1.2},
+                             {{0.0, 0.0, 20.0}, {8.0, 16.0, 30.0}, 1.0},
+                             {{-10.0, 0.0, 20.0}, {-10.0, -5.0, 20.0}, 0.9}};  // the stub
+  Tube vein{{-18.0, 3.9, 20.0}, {0.0, 3.9, 16.0}, 1.3};  // 1 mm of fat between them at first
+  Vec3 chamber{-10.0, 0.0, 0.0};
+  double chamber_radius_mm = 18.2;  // the artery's wall is a dip of partial volume there
+
+  double artery_distance(const Vec3& at) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Tube& tube : arteries) nearest = std::min(nearest, tube.distance(at));
+    return nearest;
+  }
+  double hu(const Vec3& at) const {
+    const double artery =
+        contrast_hu * ramp(artery_distance(at), 0.6) + fat_hu * (1.0 - ramp(artery_distance(at), 0.6));
+    const double beside = fat_hu + (vein_hu - fat_hu) * ramp(vein.distance(at), 0.6);
+    const double below =
+        fat_hu + (contrast_hu - fat_hu) * ramp((at - chamber).norm() - chamber_radius_mm, 0.6);
+    return std::max({artery, beside, below});
+  }
+  imaging::ImageVolume image(double spacing_mm = 0.45) const {
+    return made_image(26.0, 40.0, spacing_mm, [&](const Vec3& at) { return hu(at); });
+  }
+  static Aorta aorta() {
+    Aorta made;
+    made.lumen_hu = contrast_hu;
+    return made;
+  }
+  std::vector<Ostium> ostia() const {
+    Ostium made;
+    made.place = ostium;
+    made.direction = Vec3::UnitX();
+    return {made};
+  }
+};
+
+double nearest(const GrownTree& tree, const Vec3& to) {
+  double best = std::numeric_limits<double>::infinity();
+  for (const GrownBranch& branch : tree.branches)
+    for (const Vec3& point : branch.points) best = std::min(best, (point - to).norm());
+  return best;
+}
+
+TEST(TreeGrowth, FollowsArteriesAndNothingElse) {
+  const Scene scene;
+  const GrownTree tree = grow_tree(scene.image(), Scene::aorta(), scene.ostia());
+  ASSERT_EQ(tree.branches.size(), 2U) << "the trunk with its end, and the side branch; the stub is too short";
+  EXPECT_EQ(tree.branches[0].parent, -1);
+  EXPECT_EQ(tree.branches[1].parent, 0);
+  for (const GrownBranch& branch : tree.branches) {
+    ASSERT_EQ(branch.points.size(), branch.radius_mm.size());
+    ASSERT_EQ(branch.points.size(), branch.tube.size());
+    for (const Vec3& point : branch.points) EXPECT_LT(scene.artery_distance(point), 0.3) << point.transpose();
+  }
+  for (std::size_t i = 0; i < 3; ++i)  // not the stub
+    for (double t = 0.1; t < 0.95; t += 0.1)
+      EXPECT_LT(nearest(tree, scene.arteries[i].from + t * (scene.arteries[i].to - scene.arteries[i].from)),
+                0.8);
+  const GrownBranch& side = tree.branches[1];
+  EXPECT_EQ(side.points.front(), tree.branches[0].points[side.parent_point]);
+  EXPECT_LT((side.points.front() - Vec3(0.0, 0.0, 20.0)).norm(), 2.5);
+  EXPECT_LT((side.points.back() - Vec3(8.0, 16.0, 30.0)).norm(), 2.0);
+}
+
+TEST(TreeGrowth, KnowsHowWideItsVesselsAre) {
+  const Scene scene;
+  const GrownTree tree = grow_tree(scene.image(), Scene::aorta(), scene.ostia());
+  ASSERT_EQ(tree.branches.size(), 2U);
+  const auto median = [](std::vector<double> values) {
+    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
+                     values.end());
+    return values[values.size() / 2];
+  };
+  EXPECT_NEAR(median(tree.branches[0].radius_mm), 1.5, 0.3);  // 1.6, then 1.2
+  EXPECT_NEAR(median(tree.branches[1].radius_mm), 1.0, 0.25);
+}
+
+TEST(TreeGrowth, AShorterLimitTakesTheStubToo) {
+  const Scene scene;
+  GrowthOptions options;
+  options.least_branch_mm = 2.0;
+  EXPECT_EQ(grow_tree(scene.image(), Scene::aorta(), scene.ostia(), options).branches.size(), 3U);
+}
+
+TEST(TreeGrowth, TheSameForAnyNumberOfThreads) {
+  const Scene scene;
+  const imaging::ImageVolume image = scene.image(0.6);
+  core::set_max_threads(1);
+  const GrownTree alone = grow_tree(image, Scene::aorta(), scene.ostia());
+  core::set_max_threads(3);
+  const GrownTree together = grow_tree(image, Scene::aorta(), scene.ostia());
+  core::set_max_threads(0);
+  ASSERT_EQ(alone.branches.size(), together.branches.size());
+  EXPECT_EQ(alone.voxels, together.voxels);
+  for (std::size_t i = 0; i < alone.branches.size(); ++i) {
+    EXPECT_EQ(alone.branches[i].points, together.branches[i].points);
+    EXPECT_EQ(alone.branches[i].radius_mm, together.branches[i].radius_mm);
+  }
+}
+
+TEST(TreeGrowth, RefusesWhatItCannotUseAndStopsWhenTold) {
+  const Scene scene;
+  const imaging::ImageVolume image = scene.image(1.2);
+  EXPECT_THROW(grow_tree(image, Scene::aorta(), {}), InvalidInput);
+  GrowthOptions options;
+  options.least_tube = 0.9;
+  EXPECT_THROW(grow_tree(image, Scene::aorta(), scene.ostia(), options), InvalidInput);
+  core::TaskContext task;
+  task.cancel();
+  EXPECT_THROW(grow_tree(image, Scene::aorta(), scene.ostia(), {}, task), Cancelled);
+}
+
+}  // namespace
+}  // namespace ostia::coronary

@@ -19,6 +19,7 @@ build/release/bin/editing_picture docs/pictures/editing-dismissal.png
 build/release/bin/reformation_picture "$work/phantom/dataset00" vessel1 docs/pictures/reformations.png
 build/release/bin/contour_picture "$work/phantom/dataset00" vessel1 docs/pictures/lumen-contours.png
 build/release/bin/boundary_picture "$work/phantom/dataset00" vessel1 s01 docs/pictures/lumen-boundary.png
+build/release/bin/filters_picture "$work/phantom/dataset00" vessel1 docs/pictures/filters.png
 
 # Half an hour: the editing experiment on 78 sections.
 build/release/bin/ostia phantom -o "$work/suite18" --cases 18 --truth-only

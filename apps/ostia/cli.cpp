@@ -4,9 +4,11 @@
 #include "config_file.h"
 #include "evaluate.h"
 #include "experiment.h"
+#include "extract.h"
 #include "lumen.h"
 #include "progress_bar.h"
 #include "report.h"
+#include "skeleton.h"
 
 #include "ostia/core/log.h"
 #include "ostia/core/parallel.h"
@@ -38,6 +40,8 @@ struct Commands {
   LumenModelCommand lumen;
   ReplayCommand replay;
   ReportCommand report;
+  SkeletonCommand skeleton;
+  ExtractCommand extract;
 };
 
 void add_common(CLI::App& app, CommonOptions& o) {
@@ -75,20 +79,53 @@ void add_coords(CLI::App& app, InputOptions& o) {
       ->check(CLI::IsMember({"lps", "ras", "ijk"}));
 }
 
+/// What is done to the image before, and the inflation by intensities.
+void add_filters(CLI::App& app, LumenOptions& o) {
+  app.add_flag("--balloon", o.balloon,
+               "Inflate by exp(-(I-m)^2/sigma^2) - tau: outwards where the image is like the vessel, inwards "
+               "elsewhere; its weight is --inflation (0.5 unless given)");
+  app.add_option("--balloon-tau", o.balloon_tau, "tau; left out: 0.2")->check(CLI::Range(0.001, 0.999));
+  app.add_option("--balloon-mean", o.balloon_mean_hu, "m, HU; left out: the vessel's own median");
+  app.add_option("--balloon-sigma", o.balloon_sigma_hu, "sigma, HU; left out: the vessel's own deviation")
+      ->check(CLI::PositiveNumber);
+  app.add_option(
+         "--denoise", o.denoise,
+         "Diffusion of the image that stops at edges: flux (Krissian), gradient (Perona and Malik) or "
+         "curvature (Whitaker and Xue); left out: none")
+      ->check(CLI::IsMember({"flux", "gradient", "curvature"}));
+  app.add_option("--denoise-iterations", o.denoise_iterations, "Steps of it; left out: 5")
+      ->check(CLI::Range(1, 1000));
+  app.add_option("--denoise-contrast", o.denoise_contrast,
+                 "Gradient above which an edge stays, HU/mm; left out: chosen from the noise")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--remove", o.remove,
+                 "Taken out of the image before: bone, calcium, skin, separated by commas; left out: nothing")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"bone", "calcium", "skin"}));
+}
+
 void add_lumen(CLI::App& app, LumenOptions& o) {
   app.add_option("--branch", o.branches,
                  "A vessel: from:to or from:through:to, each point x,y,z; repeat for more vessels")
       ->allow_extra_args(false);
   app.add_option("--lower", o.lower_hu, "Least HU of the lumen; left out: chosen about the seeds");
   app.add_option("--upper", o.upper_hu, "Largest HU of the lumen; left out: chosen about the seeds");
-  app.add_option("--feature", o.feature,
-                 "What the surface is pulled to: edges (sub-voxel ridges of the gradient), upwind or centred "
-                 "(gradient on the voxels)")
-      ->check(CLI::IsMember({"edges", "upwind", "centred"}));
+  app.add_option(
+         "--feature", o.feature,
+         "What the surface is pulled to: edges (sub-voxel ridges of the gradient; default), upwind or "
+         "centred (gradient on the voxels), gaussian (derivatives of a Gaussian)")
+      ->check(CLI::IsMember({"edges", "upwind", "centred", "gaussian"}));
+  app.add_option("--sigma", o.gaussian_sigma_mm,
+                 "Of the feature gaussian, mm; left out: the least spacing of the image")
+      ->check(CLI::Range(0.01, 10.0));
   app.add_option("--inflation", o.inflation, "Weight w1 of the level set's inflation")
       ->check(CLI::NonNegativeNumber);
   app.add_option("--curvature", o.curvature, "Weight w2 of the level set's curvature")
       ->check(CLI::NonNegativeNumber);
+  app.add_option("--curvature-term", o.curvature_term,
+                 "Which curvature that is: mean (default), or minimal (of both principal curvatures the "
+                 "smaller: smooths along a vessel and leaves its radius alone)")
+      ->check(CLI::IsMember({"mean", "minimal"}));
   app.add_option("--advection", o.advection, "Weight w3 of the pull to the image's edges")
       ->check(CLI::NonNegativeNumber);
   app.add_option("--iterations", o.iterations, "Most iterations of the level set")
@@ -96,6 +133,7 @@ void add_lumen(CLI::App& app, LumenOptions& o) {
   app.add_flag("--whole-volume", o.whole_volume, "Let the fronts run through the whole image");
   app.add_flag("--bright-is-lumen", o.bright_is_lumen,
                "What is brighter than the lumen (a stent, a catheter) belongs to it; not for calcium");
+  add_filters(app, o);
   app.add_option("--smooth", o.smooth, "Iterations of Taubin's smoothing of the surface; 0: none")
       ->check(CLI::Range(0, 1000));
 }
@@ -191,6 +229,8 @@ void define(CLI::App& app, Commands& c, Run& run) {
   define_experiment(app, c.experiment, c.common.seed, run);
   define_lumen(app, c.lumen, c.replay, run);
   define_report(app, c.report, run);
+  define_skeleton(app, c.skeleton, run);
+  define_extract(app, c.extract, run, add_dicom);
 
   CLI::App* segment = command(app, "segment", "The lumen of the vessels between seed points",
                               "ostia segment heart.nrrd -o lumen.vtp --branch 8,-187,675:6,-178,720");
@@ -268,8 +308,9 @@ void define(CLI::App& app, Commands& c, Run& run) {
 
 /// A log that is kept must not name what a folder or file is called after.
 void keep_paths_out_of_the_log(const Commands& c) {
-  for (const InputOptions* input : {&c.info.input, &c.import.input, &c.segment.input, &c.centerline.input,
-                                    &c.mesh.input, &c.convert.input, &c.model.input}) {
+  for (const InputOptions* input :
+       {&c.info.input, &c.import.input, &c.segment.input, &c.centerline.input, &c.mesh.input,
+        &c.convert.input, &c.model.input, &c.skeleton.input, &c.extract.input}) {
     core::redact_in_logs(input->input.string(), "INPUT");
   }
   for (const std::filesystem::path& path :
@@ -281,7 +322,8 @@ void keep_paths_out_of_the_log(const Commands& c) {
         c.lumen.output,       c.lumen.edits,       c.lumen.image,        c.lumen.surface,
         c.lumen.contours,     c.lumen.case_output, c.lumen.lines_output, c.replay.start,
         c.replay.input,       c.replay.output,     c.report.input,       c.report.image,
-        c.report.output}) {
+        c.report.output,      c.skeleton.image,    c.skeleton.output,    c.skeleton.sections,
+        c.extract.output,     c.extract.lines}) {
     core::redact_in_logs(path.string(), "FILE");
     core::redact_in_logs(path.parent_path().string(), "FOLDER");
   }

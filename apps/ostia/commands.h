@@ -49,7 +49,16 @@ ExitCode run_import(const ImportOptions& options, const core::TaskContext& task)
 struct LumenOptions {
   std::vector<std::string> branches;
   std::optional<double> lower_hu, upper_hu;
-  std::string feature = "edges";                                ///< edges, upwind, centred
+  std::string feature = "edges";        ///< edges, upwind, centred, gaussian
+  double gaussian_sigma_mm = 0.0;       ///< 0: the least spacing
+  std::string curvature_term = "mean";  ///< mean, minimal
+  bool balloon = false;
+  double balloon_tau = 0.2;
+  std::optional<double> balloon_mean_hu, balloon_sigma_hu;
+  std::string denoise;  ///< "", flux, gradient, curvature
+  int denoise_iterations = -1;
+  double denoise_contrast = 0.0;
+  std::vector<std::string> remove;                              ///< bone, calcium, skin
   double curvature = -1.0, inflation = -1.0, advection = -1.0;  ///< negative: the library's default
   int iterations = -1;
   bool whole_volume = false;

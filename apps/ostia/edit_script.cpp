@@ -108,6 +108,10 @@ lumen::LumenModel NewCase::make(const lumen::LumenModel& start, const EditScript
   });
 }
 
+void NewCase::make(const session::FoundModel& found, const session::ImageReference& image) {
+  named([&] { session::create_case(staged_.temporary(), found, image); });
+}
+
 lumen::LumenModel NewCase::go_on(const session::CaseFile& from, const EditScript& script,
                                  std::vector<std::string>& notes, const core::TaskContext& task) {
   return named([&] {

@@ -5,6 +5,7 @@
 #include "ostia/core/files.h"
 #include "ostia/core/task_context.h"
 #include "ostia/session/case_file.h"
+#include "ostia/session/found_model.h"
 
 #include <filesystem>
 #include <functional>
@@ -45,6 +46,7 @@ class NewCase {
   /// A copy of a case, its journal included, with the script's edits after those that it has.
   lumen::LumenModel go_on(const session::CaseFile& from, const EditScript& script,
                           std::vector<std::string>& notes, const core::TaskContext& task);
+  void make(const session::FoundModel& found, const session::ImageReference& image);
   void commit() { staged_.commit(); }
 
  private:

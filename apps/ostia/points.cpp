@@ -72,6 +72,38 @@ pipeline::SourceOptions source_options(const InputOptions& input) {
   return options;
 }
 
+namespace {
+
+constexpr double kBalloonInflation = 0.5;  // of the balloon, where no weight is given
+
+void apply_filters(const LumenOptions& from, segmentation::SegmentOptions& to) {
+  if (from.balloon) {
+    to.balloon.emplace();
+    to.balloon->tau = from.balloon_tau;
+    to.balloon->mean_hu = from.balloon_mean_hu;
+    to.balloon->sigma_hu = from.balloon_sigma_hu;
+    if (from.inflation < 0.0) to.level_set.inflation = kBalloonInflation;
+  } else if (from.balloon_mean_hu || from.balloon_sigma_hu) {
+    throw UsageError("--balloon-mean and --balloon-sigma need --balloon");
+  }
+  if (!from.denoise.empty()) {
+    to.denoise.emplace();
+    if (from.denoise == "gradient") to.denoise->method = imaging::Diffusion::gradient;
+    if (from.denoise == "curvature") to.denoise->method = imaging::Diffusion::curvature;
+    if (from.denoise_iterations >= 0) to.denoise->iterations = from.denoise_iterations;
+    to.denoise->contrast_hu_per_mm = from.denoise_contrast;
+  } else if (from.denoise_iterations >= 0 || from.denoise_contrast > 0.0) {
+    throw UsageError("--denoise-iterations and --denoise-contrast need --denoise");
+  }
+  for (const std::string& tissue : from.remove) {
+    to.remove.bone |= tissue == "bone";
+    to.remove.calcium |= tissue == "calcium";
+    to.remove.skin |= tissue == "skin";
+  }
+}
+
+}  // namespace
+
 void apply(const LumenOptions& from, const std::string& coords, const imaging::Geometry* grid,
            pipeline::ModelOptions& to) {
   for (const std::string& branch : from.branches) to.branches.push_back(parse_branch(branch, coords, grid));
@@ -81,10 +113,15 @@ void apply(const LumenOptions& from, const std::string& coords, const imaging::G
   if (from.whole_volume) to.segment.fronts.domain = segmentation::FrontDomain::whole_volume;
   if (from.feature == "upwind") to.segment.feature = segmentation::WallFeature::upwind;
   if (from.feature == "centred") to.segment.feature = segmentation::WallFeature::centred;
+  if (from.feature == "gaussian") to.segment.feature = segmentation::WallFeature::gaussian;
+  to.segment.gaussian_sigma_mm = from.gaussian_sigma_mm;
+  if (from.curvature_term == "minimal")
+    to.segment.level_set.curvature_term = segmentation::CurvatureTerm::minimal;
   if (from.curvature >= 0.0) to.segment.level_set.curvature = from.curvature;
   if (from.inflation >= 0.0) to.segment.level_set.inflation = from.inflation;
   if (from.advection >= 0.0) to.segment.level_set.advection = from.advection;
   if (from.iterations >= 0) to.segment.level_set.iterations_max = from.iterations;
+  apply_filters(from, to.segment);
   if (from.smooth > 0) {
     to.smoothing.emplace();
     to.smoothing->iterations = from.smooth;

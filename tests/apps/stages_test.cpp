@@ -81,5 +81,44 @@ TEST(Stages, ChainFromImageToMesh) {
   EXPECT_NEAR(ijk["volume_mm3"].get<double>(), surface["volume_mm3"].get<double>(), 1e-3);
 }
 
+TEST(Stages, SegmentTakesItsFilters) {
+  const SmallCase small = small_case();
+  const Setting in{small.folder, ""};
+  const auto volume = [&](const std::vector<std::string>& options) {
+    const Outcome done = ostia(
+        std::vector<std::string>{"segment", "heart.nrrd", "-o", "s.vtp"} + options + small.branch_arguments,
+        in);
+    EXPECT_EQ(done.code, 0) << done.err;
+    return Json::parse(ostia({"info", "s.vtp", "--json"}, in).out)["volume_mm3"].get<double>();
+  };
+  const double plain = volume({});
+  for (const std::vector<std::string>& options :
+       std::vector<std::vector<std::string>>{{"--curvature-term", "minimal"},
+                                             {"--feature", "gaussian", "--sigma", "0.5"},
+                                             {"--balloon", "--balloon-tau", "0.3", "--balloon-sigma", "60"},
+                                             {"--denoise", "flux"},
+                                             {"--denoise", "gradient", "--denoise-iterations", "2"},
+                                             {"--denoise", "curvature", "--denoise-contrast", "100"},
+                                             {"--remove", "bone,calcium,skin", "--smooth", "5"}}) {
+    SCOPED_TRACE(options.back());
+    const double filtered = volume(options);
+    EXPECT_NEAR(filtered, plain, 0.25 * plain);
+    EXPECT_NE(filtered, plain);
+  }
+  const auto refused = [&](const std::vector<std::string>& options, const std::string& name) {
+    const Outcome done = ostia(
+        std::vector<std::string>{"segment", "heart.nrrd", "-o", "t.vtp"} + options + small.branch_arguments,
+        in);
+    EXPECT_EQ(done.code, 2) << done.err;
+    EXPECT_THAT(done.err, HasSubstr(name));
+    EXPECT_FALSE(std::filesystem::exists(small.folder / "t.vtp"));
+  };
+  refused({"--curvature-term", "gauss"}, "--curvature-term");
+  refused({"--denoise", "median"}, "--denoise");
+  refused({"--denoise-iterations", "3"}, "--denoise");
+  refused({"--balloon-mean", "350"}, "--balloon");
+  refused({"--remove", "skull"}, "--remove");
+}
+
 }  // namespace
 }  // namespace ostia::testing

@@ -93,45 +93,9 @@ TEST(ReadDicom, Row27RescaledSliceBySliceRoundedAndClamped) {
 }
 
 TEST(ReadDicom, EnhancedMultiFrameImage) {
-  testing::DicomWriter w;
-  w.text(0x00080016u, "UI", "1.2.840.10008.5.1.4.1.1.2.1");
-  w.text(0x00080060u, "CS", "CT");
-  w.text(0x0020000Eu, "UI", "1.2.3");
-  w.u16(0x00280002u, 1);
-  w.text(0x00280004u, "CS", "MONOCHROME2");
-  w.text(0x00280008u, "IS", "3");
-  for (const auto& [tag, value] : {std::pair{0x00280010u, 2u},
-                                   {0x00280011u, 2u},
-                                   {0x00280100u, 16u},
-                                   {0x00280101u, 16u},
-                                   {0x00280102u, 15u},
-                                   {0x00280103u, 1u}}) {
-    w.u16(tag, value);
-  }
-  using Item = std::function<void(testing::DicomWriter&)>;
-  w.sequence(0x52009229u, {[](testing::DicomWriter& item) {
-               item.sequence(0x00209116u,
-                             {Item([](auto& m) { m.text(0x00200037u, "DS", "1\\0\\0\\0\\1\\0"); })});
-               item.sequence(0x00289110u, {Item([](auto& m) { m.text(0x00280030u, "DS", "0.5\\0.5"); })});
-               item.sequence(0x00289145u, {Item([](auto& m) {
-                               m.text(0x00281052u, "DS", "-10");
-                               m.text(0x00281053u, "DS", "2");
-                             })});
-             }});
-  std::vector<Item> frames;
-  for (const char* position : {"0\\0\\4", "0\\0\\0", "0\\0\\2"}) {  // not in the order of their places
-    frames.push_back([position](testing::DicomWriter& item) {
-      item.sequence(0x00209113u, {Item([position](auto& m) { m.text(0x00200032u, "DS", position); })});
-    });
-  }
-  w.sequence(0x52009230u, frames);
-  std::string pixels;
-  for (int frame = 0; frame < 3; ++frame) {
-    for (int i = 0; i < 4; ++i) pixels += w.bytes(static_cast<std::uint64_t>(100 * frame + i), 2);
-  }
-  w.element(0x7FE00010u, "OW", pixels);
   const fs::path path = testing::temporary_folder("read") / "enhanced.dcm";
-  testing::write_bytes(path, testing::part10("1.2.840.10008.1.2.1", w.data_set()));
+  // Not in the order of their places.
+  testing::write_bytes(path, testing::enhanced_ct({{"0\\0\\4"}, {"0\\0\\0"}, {"0\\0\\2"}}));
   const auto image = read_dicom(path);
   ASSERT_EQ(image.volume.geometry.size, (std::array<std::int64_t, 3>{2, 2, 3}));
   EXPECT_DOUBLE_EQ(image.volume.geometry.spacing[2], 2.0);

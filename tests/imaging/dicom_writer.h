@@ -198,4 +198,52 @@ inline void write_series(
   }
 }
 
+struct EnhancedFrame {
+  std::string position;
+  double cardiac_percent = -1.0;  ///< negative: left out
+};
+
+/// An enhanced CT image of frames of 2 x 2 pixels, the i-th of frame f stored as 100 f + i; slope 2,
+/// intercept -10.
+inline std::string enhanced_ct(const std::vector<EnhancedFrame>& frames) {
+  using Item = std::function<void(DicomWriter&)>;
+  DicomWriter w;
+  w.text(0x00080016u, "UI", "1.2.840.10008.5.1.4.1.1.2.1");
+  w.text(0x00080060u, "CS", "CT");
+  w.text(0x0020000Eu, "UI", "1.2.3");
+  w.u16(0x00280002u, 1);
+  w.text(0x00280004u, "CS", "MONOCHROME2");
+  w.text(0x00280008u, "IS", std::to_string(frames.size()));
+  for (const auto& [tag, value] : {std::pair{0x00280010u, 2u},
+                                   {0x00280011u, 2u},
+                                   {0x00280100u, 16u},
+                                   {0x00280101u, 16u},
+                                   {0x00280102u, 15u},
+                                   {0x00280103u, 1u}}) {
+    w.u16(tag, value);
+  }
+  const Item shared = [](DicomWriter& item) {
+    item.sequence(0x00209116u, {Item([](auto& m) { m.text(0x00200037u, "DS", "1\\0\\0\\0\\1\\0"); })});
+    item.sequence(0x00289110u, {Item([](auto& m) { m.text(0x00280030u, "DS", "0.5\\0.5"); })});
+    item.sequence(0x00289145u, {Item([](auto& m) {
+                    m.text(0x00281052u, "DS", "-10");
+                    m.text(0x00281053u, "DS", "2");
+                  })});
+  };
+  std::vector<Item> own;
+  std::string pixels;
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    own.push_back([&frame = frames[f]](DicomWriter& item) {
+      if (frame.cardiac_percent >= 0.0)
+        item.sequence(0x00189118u, {Item([&](auto& m) { m.f64(0x00209241u, frame.cardiac_percent); })});
+      item.sequence(0x00209113u, {Item([&](auto& m) { m.text(0x00200032u, "DS", frame.position); })});
+    });
+    for (std::size_t i = 0; i < 4; ++i) pixels += w.bytes(100 * f + i, 2);
+  }
+  w.sequence(0x52009229u, {shared});
+  w.sequence(0x52009230u, own);
+  w.element(0x7FE00010u, "OW", pixels);
+  return part10("1.2.840.10008.1.2.1", w.data_set());
+}
+
 }  // namespace ostia::testing

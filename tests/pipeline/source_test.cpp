@@ -1,10 +1,12 @@
 #include "ostia/pipeline/source.h"
 
+#include "dicom_writer.h"
 #include "shared_data.h"
 
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
 #include "ostia/core/log.h"
+#include "ostia/core/path_digest.h"
 #include "ostia/geometry/analytic_shapes.h"
 #include "ostia/imaging/image_file.h"
 #include "ostia/io/surface_file.h"
@@ -54,15 +56,23 @@ TEST(Source, IsKnownByADigestAndNotByItsPath) {
   EXPECT_EQ(core::redacted("reading " + (folder / "ct.nrrd").string()).find("DOE_JANE"), std::string::npos);
 }
 
-TEST(Source, FolderDigestDoesNotDependOnNames) {
-  const fs::path a = testing::temporary_folder("a"), b = testing::temporary_folder("b");
-  core::write_file(a / "1", "x");
-  core::write_file(a / "2", "y");
-  core::write_file(b / "2", "x");
-  core::write_file(b / "3", "y");
-  EXPECT_EQ(digest(a, SourceKind::dicom), digest(b, SourceKind::dicom));
-  core::write_file(b / "3", "z");
-  EXPECT_NE(digest(a, SourceKind::dicom), digest(b, SourceKind::dicom));
+TEST(Source, ADicomFolderIsKnownByTheSeriesChosen) {
+  const fs::path study = testing::temporary_folder("study");
+  for (const std::string uid : {"1.2.3", "1.2.4"}) {
+    fs::create_directory(study / uid);
+    testing::write_series(study / uid, 4, 0.5, [&](testing::CtSlice& slice, int) {
+      slice.series = uid;
+      slice.sop_instance += "." + uid;
+    });
+  }
+  core::write_file(study / "README.txt", "not an image");
+  SourceOptions options;
+  options.dicom.series_uid = "1.2.4";
+  const Source source = load(study, options);
+  EXPECT_EQ(source.sha256, core::sha256_of_path(study / "1.2.4"));
+  EXPECT_EQ(source.pseudonym, "image-" + source.sha256.substr(0, 8));
+  EXPECT_NE(source.sha256, load(study / "1.2.3").sha256);
+  EXPECT_THROW(load(study), InvalidInput);  // which of the two?
 }
 
 TEST(Source, DoesNotGuessTheUnit) {

@@ -37,6 +37,44 @@ TEST(Feature, ARampHasItsSlopeInBothSchemesWithTheSpacingOfEachAxis) {
   }
 }
 
+TEST(Feature, GaussianDerivativesOfAStepAreAGaussianOfTheirSigma) {
+  // A step of 300 HU along x: 300 / (sqrt(2 pi) sigma) exp(-x^2 / (2 sigma^2)) per mm.
+  const Vec3 spacing(0.5, 0.4, 0.8);
+  const auto step = image_of({60, 14, 12}, spacing, [](auto i, auto, auto) { return i < 30 ? 0.0 : 300.0; });
+  const imaging::Region region{{10, 3, 2}, {50, 9, 10}};
+  for (const double sigma : {1.0, 2.0}) {
+    const auto p = gaussian_gradient_magnitude(step, region, sigma);
+    ASSERT_EQ(p.voxels.size(), 40U * 6U * 8U);
+    EXPECT_TRUE(p.geometry.origin.isApprox(step.geometry.world(Vec3(10, 3, 2))));
+    const double peak = 300.0 / (std::sqrt(2.0 * M_PI) * sigma);
+    for (std::int64_t i = 0; i < 40; ++i) {
+      const double x = (static_cast<double>(i + 10) - 29.5) * 0.5;
+      EXPECT_NEAR(p(i, 3, 4), peak * std::exp(-x * x / (2.0 * sigma * sigma)), 0.06 * peak) << i;
+    }
+  }
+  EXPECT_THROW(gaussian_gradient_magnitude(step, region, 0.0), InvalidInput);
+  EXPECT_THROW(gaussian_gradient_magnitude(step, region, std::nan("")), InvalidInput);
+  EXPECT_THROW(gaussian_gradient_magnitude(step, {{0, 0, 0}, {61, 1, 1}}, 1.0), InvalidInput);
+}
+
+TEST(Feature, GaussianDerivativesDoNotDependOnTheRegion) {
+  const auto image = image_of({40, 30, 20}, Vec3(0.5, 0.6, 0.7), [](auto i, auto j, auto k) {
+    return 200.0 * std::sin(0.7 * i) * std::cos(0.4 * j) + 100.0 * std::sin(0.9 * k);
+  });
+  const auto whole = gaussian_gradient_magnitude(image, {{0, 0, 0}, {40, 30, 20}}, 0.8);
+  const auto part = gaussian_gradient_magnitude(image, {{12, 0, 9}, {17, 6, 12}}, 0.8);
+  for (std::int64_t k = 0; k < 3; ++k)
+    for (std::int64_t j = 0; j < 6; ++j)
+      for (std::int64_t i = 0; i < 5; ++i) EXPECT_NEAR(part(i, j, k), whole(i + 12, j, k + 9), 1e-2);
+}
+
+TEST(Feature, TheBalloonIsOneMinusTauInTheVesselAndMinusTauElsewhere) {
+  const auto image = image_of({6, 5, 4}, Vec3::Ones(), [](auto i, auto, auto) { return 350.0 - 50.0 * i; });
+  const auto speed = balloon_speed(image, {{0, 0, 0}, {6, 5, 4}}, 350.0, 50.0, 0.2);
+  for (int i = 0; i < 6; ++i) EXPECT_NEAR(speed(i, 2, 2), std::exp(-static_cast<double>(i * i)) - 0.2, 1e-6);
+  EXPECT_THROW(balloon_speed(image, {{0, 0, 0}, {6, 5, 4}}, 350.0, 0.0, 0.2), InvalidInput);
+}
+
 TEST(Feature, UpwindLooksAtDarkerNeighboursAlone) {
   // [Antiga] eq. 4 on a row 0 0 90 60 0 0, h = 0.5.
   const std::array<double, 6> row{0, 0, 90, 60, 0, 0};

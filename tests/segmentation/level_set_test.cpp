@@ -2,6 +2,7 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
+#include "ostia/imaging/sampling.h"
 
 #include <gtest/gtest.h>
 
@@ -91,6 +92,122 @@ INSTANTIATE_TEST_SUITE_P(FromBothSides, LevelSetOnRidge,
                                            std::pair{8.2, Vec3(0.5, 0.5, 0.5)},
                                            std::pair{6.0, Vec3(0.4, 0.4, 1.0)},
                                            std::pair{8.0, Vec3(0.4, 0.6, 0.8)}));
+
+/// Mean radius of the sections of a level set about an axis: points of the axis, unit tangents there.
+struct Station {
+  Vec3 point, tangent;
+};
+double mean_radius(const imaging::FloatVolume& phi, const std::vector<Station>& axis) {
+  double sum = 0.0;
+  for (const Station& at : axis) {
+    const Vec3 u = at.tangent.unitOrthogonal();
+    const Vec3 v = at.tangent.cross(u);
+    double area = 0.0;
+    for (int ray = 0; ray < 32; ++ray) {
+      const double angle = 2.0 * M_PI * ray / 32.0;
+      const Vec3 out = std::cos(angle) * u + std::sin(angle) * v;
+      double r = 0.0;
+      while (r < 5.0 && imaging::sample(phi, at.point + r * out) < 0.0) r += 0.01;
+      area += M_PI * r * r / 32.0;
+    }
+    sum += std::sqrt(area / M_PI);
+  }
+  return sum / static_cast<double>(axis.size());
+}
+
+struct Channel {
+  const char* name;
+  imaging::FloatVolume initial;
+  std::vector<Station> axis;  ///< far from the grid's border, where curvature closes the ends
+};
+
+constexpr double kTubeRadius = 1.5;
+
+Channel straight_channel() {
+  const Vec3 along = Vec3(0.35, 0.2, 1.0).normalized();  // oblique to the grid
+  Channel c{"straight",
+            field({56, 50, 90}, Vec3::Constant(0.4),
+                  [&](const Vec3& p) { return p.cross(along).norm() - kTubeRadius; }),
+            {}};
+  for (double s = -6.0; s <= 6.0; s += 0.5) c.axis.push_back({s * along, along});
+  return c;
+}
+
+Channel bent_channel() {
+  // Half a turn about y of radius 12 mm.
+  constexpr double bend = 12.0;
+  const Vec3 centre(0.0, 0.1, -8.05);
+  Channel c{"bent",
+            field({76, 24, 70}, Vec3::Constant(0.4),
+                  [&](const Vec3& p) {
+                    const Vec3 q = p - centre;
+                    return std::hypot(std::hypot(q.x(), q.z()) - bend, q.y()) - kTubeRadius;
+                  }),
+            {}};
+  for (double a = -0.6; a <= 0.6; a += 0.05)
+    c.axis.push_back(
+        {centre + bend * Vec3(std::sin(a), 0.0, std::cos(a)), Vec3(std::cos(a), 0.0, -std::sin(a))});
+  return c;
+}
+
+TEST(LevelSet, MinimalCurvatureKeepsATubesRadiusWhereMeanCurvatureShrinksIt) {
+  for (const Channel& channel : {straight_channel(), bent_channel()}) {
+    SCOPED_TRACE(channel.name);
+    const auto flat =
+        field(channel.initial.geometry.size, Vec3::Constant(0.4), [](const Vec3&) { return 1.0; });
+    LevelSetOptions options;
+    options.advection = 0.0;
+    options.curvature = 0.3;
+    options.iterations_max = 25;
+    options.rms_tolerance_voxels = 0.0;
+    const double before = mean_radius(channel.initial, channel.axis);
+    EXPECT_NEAR(before, kTubeRadius, 0.02);
+    const double by_mean = mean_radius(level_set(channel.initial, flat, options).level_set, channel.axis);
+    // dr/dt = -1/r: r^2 falls by 2 w2 h^2 a unit of time, of 0.4 a step.
+    const double expected = std::sqrt(kTubeRadius * kTubeRadius - 2.0 * 0.3 * 0.16 * 0.4 * 25);
+    EXPECT_NEAR(by_mean, expected, 0.05);
+    EXPECT_LT(by_mean, 0.8 * before);
+    options.curvature_term = CurvatureTerm::minimal;
+    const double by_minimal = mean_radius(level_set(channel.initial, flat, options).level_set, channel.axis);
+    EXPECT_NEAR(by_minimal, before, 0.02 * before);
+  }
+}
+
+TEST(LevelSet, MinimalCurvatureMovesATorusLikeTheCurveInIt) {
+  // In the ring's plane the smaller curvature is 1/x outermost and -1/x innermost, x the distance from the
+  // ring's centre: both circles shrink as curves do, x^2 = x0^2 - 2 w2 h^2 t. Mean curvature closes the tube
+  // long before.
+  constexpr double ring = 8.0;
+  const auto initial = field({60, 60, 24}, Vec3::Constant(0.4), [&](const Vec3& p) {
+    return std::hypot(std::hypot(p.x(), p.y()) - ring, p.z()) - kTubeRadius;
+  });
+  const auto flat = field(initial.geometry.size, Vec3::Constant(0.4), [](const Vec3&) { return 1.0; });
+  LevelSetOptions options;
+  options.advection = 0.0;
+  options.curvature = 0.3;
+  options.curvature_term = CurvatureTerm::minimal;
+  options.iterations_max = 300;
+  options.rms_tolerance_voxels = 0.0;
+  const auto moved = level_set(initial, flat, options).level_set;
+  double outer = 0.0, inner = 0.0;  // where the surface crosses rays in the ring's plane
+  for (int ray = 0; ray < 64; ++ray) {
+    const double angle = 2.0 * M_PI * ray / 64.0;
+    const Vec3 out(std::cos(angle), std::sin(angle), 0.0);
+    double r = ring;
+    while (r < 11.5 && imaging::sample(moved, r * out) < 0.0) r += 0.01;
+    outer += r / 64.0;
+    r = ring - 0.5;
+    while (r > 0.0 && imaging::sample(moved, r * out) < 0.0) r -= 0.01;
+    inner += r / 64.0;
+  }
+  const double shrunk = 2.0 * 0.3 * 0.16 * 0.4 * 300;
+  const double outer_way = ring + kTubeRadius - std::sqrt(std::pow(ring + kTubeRadius, 2) - shrunk);
+  const double inner_way = ring - kTubeRadius - std::sqrt(std::pow(ring - kTubeRadius, 2) - shrunk);
+  EXPECT_NEAR(ring + kTubeRadius - outer, outer_way, 0.25 * outer_way);
+  EXPECT_NEAR(ring - kTubeRadius - inner, inner_way, 0.25 * inner_way);
+  options.curvature_term = CurvatureTerm::mean;
+  EXPECT_THROW(level_set(initial, flat, options), NumericalError);  // nothing is left
+}
 
 TEST(LevelSet, KeptPointsStayInside) {
   // Curvature eats up a thin rod, but not the row of voxels that is to be kept.

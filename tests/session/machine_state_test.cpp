@@ -56,7 +56,9 @@ TEST(MachineState, IsThereAgainTheNextTime) {
     machine.set_setting("theme", "light");
   }
   const MachineState machine(folder / "a" / "share");
-  EXPECT_EQ(machine.find_image("abc"), folder / "heart.nrrd");
+  ASSERT_TRUE(machine.find_image("abc"));
+  EXPECT_EQ(machine.find_image("abc")->path, folder / "heart.nrrd");
+  EXPECT_EQ(machine.find_image("abc")->series_uid, "");
   ASSERT_EQ(machine.recent_cases().size(), 1U);
   EXPECT_EQ(machine.recent_cases()[0].path, folder / "x.ostia");
   EXPECT_EQ(machine.recent_cases()[0].pseudonym, "case-3f2a");
@@ -100,7 +102,7 @@ TEST(MachineState, APathNeedNotBeText) {
   machine.remember_case({folder / name, "", 1});
   machine.remember_image("abc", folder / name);
   EXPECT_EQ(machine.recent_cases().at(0).path, folder / name);
-  EXPECT_EQ(machine.find_image("abc"), folder / name);
+  EXPECT_EQ(machine.find_image("abc")->path, folder / name);
 }
 
 TEST(MachineState, AMovedImageIsNotFoundUntilItIsSeenElsewhere) {
@@ -113,11 +115,39 @@ TEST(MachineState, AMovedImageIsNotFoundUntilItIsSeenElsewhere) {
   fs::rename(folder / "heart.nrrd", folder / "archive" / "h.nrrd");
   EXPECT_FALSE(machine.find_image(image.sha256));
   machine.remember_image(image.sha256, folder / "archive" / "h.nrrd");
-  EXPECT_EQ(machine.find_image(image.sha256), folder / "archive" / "h.nrrd");
+  EXPECT_EQ(machine.find_image(image.sha256)->path, folder / "archive" / "h.nrrd");
+}
+
+TEST(MachineState, KnowsWhichSeriesOfAFolderAnImageWas) {
+  const TempFolder folder;
+  fs::create_directory(folder / "study");
+  {
+    MachineState machine(folder / "share");
+    machine.remember_image("a", folder / "study", "1.2.840.3#2");
+    machine.remember_image("b", folder / "study", "1.2\xFF.4");  // what a file says need not be text
+  }
+  MachineState machine(folder / "share");
+  ASSERT_TRUE(machine.find_image("a") && machine.find_image("b"));
+  EXPECT_EQ(machine.find_image("a")->path, folder / "study");
+  EXPECT_EQ(machine.find_image("a")->series_uid, "1.2.840.3#2");
+  EXPECT_EQ(machine.find_image("b")->series_uid, "1.2\xFF.4");
+  machine.remember_image("a", folder / "study");
+  EXPECT_EQ(machine.find_image("a")->series_uid, "");
+}
+
+TEST(MachineState, AFileWithoutSeriesIsRead) {
+  const TempFolder folder;
+  write_bytes(folder / "machine.json",
+              R"({"v":1,"images":{"a":{"path":"/","seen":1}},"recent":[],"settings":{}})");
+  MachineState machine(folder.path());
+  ASSERT_TRUE(machine.find_image("a"));
+  EXPECT_EQ(machine.find_image("a")->path, "/");
+  EXPECT_EQ(machine.find_image("a")->series_uid, "");
+  EXPECT_THAT(machine.take_notices(), IsEmpty());
 }
 
 TEST(MachineState, DamageIsMovedAsideWithANotice) {
-  const std::string sound = machine_json({{{"abc", {"/x", 1}}}, {{"/c", "p", 2}}, {{"k", "v"}}});
+  const std::string sound = machine_json({{{"abc", {"/x", 1, "1.2"}}}, {{"/c", "p", 2}}, {{"k", "v"}}});
   EXPECT_NO_THROW(machine_content(sound));
   const std::vector<std::string> damaged{
       "",
@@ -128,6 +158,7 @@ TEST(MachineState, DamageIsMovedAsideWithANotice) {
       R"({"v":2,"images":{},"recent":[],"settings":{}})",
       R"({"v":1,"images":{},"recent":{},"settings":[]})",
       R"({"v":1,"images":{"a":{"path":"%4","seen":1}},"recent":[],"settings":{}})",
+      R"({"v":1,"images":{"a":{"path":"/","seen":1,"series":7}},"recent":[],"settings":{}})",
       R"({"v":1,"images":{},"recent":[{"path":7}],"settings":{}})"};
   for (const std::string& content : damaged) {
     SCOPED_TRACE(content);

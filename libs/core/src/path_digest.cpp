@@ -42,50 +42,61 @@ std::string digest_of_file(const fs::path& path, Reading& reading) {
   return hash.result();
 }
 
-struct Files {
-  std::vector<fs::path> paths;
-  std::uint64_t size = 0;
-};
-
-Files files_in(const fs::path& folder) {
-  Files files;
+std::vector<fs::path> files_in(const fs::path& folder) {
+  std::vector<fs::path> files;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (!entry.is_regular_file()) continue;
-    files.paths.push_back(entry.path());
-    files.size += entry.file_size();
+    if (entry.is_regular_file()) files.push_back(entry.path());
   }
-  if (files.paths.empty()) throw InvalidInput("the folder " + folder.string() + " holds no files");
+  if (files.empty()) throw InvalidInput("the folder " + folder.string() + " holds no files");
   return files;
 }
 
-std::string digest_of_folder(const fs::path& folder, const TaskContext& task) {
-  const Files files = files_in(folder);
-  Reading reading(files.size, task);
-  std::vector<std::string> digests;
-  for (const fs::path& path : files.paths) digests.push_back(digest_of_file(path, reading));
+void check_is_file(const fs::path& path) {
+  if (!fs::exists(path)) throw IoError("cannot read " + path.string() + ": there is no such file or folder");
+  if (!fs::is_regular_file(path))
+    throw InvalidInput("cannot read " + path.string() + ": it is neither a file nor a folder");
+}
+
+}  // namespace
+
+std::vector<std::string> sha256_of_each(const std::vector<fs::path>& files, const TaskContext& task) {
+  task.throw_if_cancelled();
+  try {
+    std::uint64_t size = 0;
+    for (const fs::path& path : files) {
+      check_is_file(path);
+      size += fs::file_size(path);
+    }
+    Reading reading(size, task);
+    std::vector<std::string> digests;
+    for (const fs::path& path : files) digests.push_back(digest_of_file(path, reading));
+    task.set_progress(1.0);
+    return digests;
+  } catch (const fs::filesystem_error& e) {
+    throw IoError("cannot read " + e.path1().string() + ": " + e.code().message());
+  }
+}
+
+std::string sha256_of_digests(std::vector<std::string> digests) {
+  if (digests.empty()) throw InvalidInput("there is no file to be known by");
   std::sort(digests.begin(), digests.end());
   std::string all;
   for (const std::string& digest : digests) all += digest;
   return sha256(all);
 }
 
-std::string digest_of(const fs::path& path, const TaskContext& task) {
-  if (fs::is_directory(path)) return digest_of_folder(path, task);
-  if (!fs::exists(path)) throw IoError("cannot read " + path.string() + ": there is no such file or folder");
-  if (!fs::is_regular_file(path))
-    throw InvalidInput("cannot read " + path.string() + ": it is neither a file nor a folder");
-  Reading reading(fs::file_size(path), task);
-  return digest_of_file(path, reading);
+std::string sha256_of_files(const std::vector<fs::path>& files, const TaskContext& task) {
+  std::vector<fs::path> once = files;
+  std::sort(once.begin(), once.end());
+  once.erase(std::unique(once.begin(), once.end()), once.end());
+  return sha256_of_digests(sha256_of_each(once, task));
 }
 
-}  // namespace
-
 std::string sha256_of_path(const fs::path& path, const TaskContext& task) {
+  task.throw_if_cancelled();
   try {
-    task.throw_if_cancelled();
-    const std::string digest = digest_of(path, task);
-    task.set_progress(1.0);
-    return digest;
+    if (fs::is_directory(path)) return sha256_of_files(files_in(path), task);
+    return sha256_of_each({path}, task).front();
   } catch (const fs::filesystem_error& e) {
     throw IoError("cannot read " + path.string() + ": " + e.code().message());
   }

@@ -33,8 +33,8 @@ std::string in_words(const DicomSeries& s) {
 }
 
 /// The series asked for, or the only one that can be read.
-DicomSeriesDetail& chosen(DicomScan& scan, const fs::path& from, const DicomReadOptions& options,
-                          std::vector<std::string>& warnings) {
+DicomSeriesDetail& chosen_of(DicomScan& scan, const fs::path& from, const DicomReadOptions& options,
+                             std::vector<std::string>& warnings) {
   if (scan.series.empty()) {
     std::string text = "no DICOM image in '" + from.string() + "'";
     if (!scan.damaged.empty()) text += ": " + listed(scan.damaged, 4);
@@ -124,15 +124,21 @@ LoadedImage<std::int16_t> read_one(const DicomSeriesDetail& series, const DicomR
 }  // namespace
 
 LoadedImage<std::int16_t> read_dicom(const fs::path& from, const DicomReadOptions& options,
-                                     const core::TaskContext& task) {
+                                     const core::TaskContext& task,
+                                     const std::function<void(const DicomSeries&)>& chosen) {
   if (is_zip_archive(from)) {
-    const UnpackedArchive archive = unpack_archive(from, {}, task.sub(0.0, 0.3));
-    return read_dicom(archive.folder(), options, task.sub(0.3, 1.0));
+    const auto archive =
+        std::make_shared<const UnpackedArchive>(unpack_archive(from, {}, task.sub(0.0, 0.3)));
+    return read_dicom(archive->folder(), options, task.sub(0.3, 1.0), [&](DicomSeries series) {
+      series.archive = archive;
+      if (chosen) chosen(series);
+    });
   }
   task.set_stage("reading DICOM headers");
   DicomScan scan = scan_dicom_slices(from, options, task.sub(0.0, 0.1));
   std::vector<std::string> warnings;
-  const DicomSeriesDetail& series = chosen(scan, from, options, warnings);
+  const DicomSeriesDetail& series = chosen_of(scan, from, options, warnings);
+  if (chosen) chosen(series.summary);
   if (!scan.damaged.empty()) {
     warnings.push_back(std::to_string(scan.damaged.size()) + " damaged files in the folder were passed over");
   }

@@ -194,10 +194,14 @@ DicomSeriesDetail described(std::vector<DicomSlice> slices, const std::string& l
     summary.warnings.push_back("no RescaleIntercept: stored values are taken as Hounsfield units");
   }
   place_slices(series);
+  std::map<const DicomHeader*, std::int64_t> frames;
   for (const DicomSlice& slice : series.slices) {
     summary.files.push_back(slice.header->path);
     summary.frames.push_back(slice.frame);
+    ++frames[slice.header.get()];
   }
+  summary.whole_files = std::all_of(frames.begin(), frames.end(),
+                                    [](const auto& file) { return file.second == file.first->frame_count; });
   return series;
 }
 

@@ -90,10 +90,43 @@ std::string name_of(segmentation::WallFeature feature) {
       return "edges";
     case segmentation::WallFeature::upwind:
       return "upwind";
+    case segmentation::WallFeature::gaussian:
+      return "gaussian";
     case segmentation::WallFeature::centred:
       break;
   }
   return "centred";
+}
+
+std::string name_of(imaging::Diffusion method) {
+  switch (method) {
+    case imaging::Diffusion::gradient:
+      return "gradient";
+    case imaging::Diffusion::curvature:
+      return "curvature";
+    case imaging::Diffusion::flux:
+      break;
+  }
+  return "flux";
+}
+
+json filters_json(const segmentation::SegmentOptions& o) {
+  const auto given = [](const std::optional<double>& value) { return value ? json(*value) : json(); };
+  json out = {{"balloon", json()}, {"denoise", json()}, {"remove", json::array()}};
+  if (o.balloon)
+    out["balloon"] = {{"tau", o.balloon->tau},
+                      {"mean_hu", given(o.balloon->mean_hu)},
+                      {"sigma_hu", given(o.balloon->sigma_hu)}};
+  if (o.denoise)
+    out["denoise"] = {{"method", name_of(o.denoise->method)},
+                      {"iterations", o.denoise->iterations},
+                      {"contrast_hu_per_mm", o.denoise->contrast_hu_per_mm},
+                      {"attachment", o.denoise->attachment},
+                      {"step", o.denoise->step}};
+  if (o.remove.bone) out["remove"].push_back("bone");
+  if (o.remove.calcium) out["remove"].push_back("calcium");
+  if (o.remove.skin) out["remove"].push_back("skin");
+  return out;
 }
 
 json branch_json(const segmentation::BranchDiagnostics& d) {
@@ -172,15 +205,20 @@ std::string parameters_json(const ModelOptions& options, const SourceOptions& re
   out["targets"] = json::array();
   for (const auto& target : options.targets) out["targets"].push_back(point(target));
   const auto& segment = options.segment;
-  out["segment"] = {{"lower_hu", segment.fronts.lower_hu ? json(*segment.fronts.lower_hu) : json()},
-                    {"upper_hu", segment.fronts.upper_hu ? json(*segment.fronts.upper_hu) : json()},
-                    {"whole_volume", segment.fronts.domain == segmentation::FrontDomain::whole_volume},
-                    {"feature", name_of(segment.feature)},
-                    {"bright_is_lumen", segment.bright_is_lumen},
-                    {"inflation", segment.level_set.inflation},
-                    {"curvature", segment.level_set.curvature},
-                    {"advection", segment.level_set.advection},
-                    {"iterations_max", segment.level_set.iterations_max}};
+  out["segment"] = {
+      {"lower_hu", segment.fronts.lower_hu ? json(*segment.fronts.lower_hu) : json()},
+      {"upper_hu", segment.fronts.upper_hu ? json(*segment.fronts.upper_hu) : json()},
+      {"whole_volume", segment.fronts.domain == segmentation::FrontDomain::whole_volume},
+      {"feature", name_of(segment.feature)},
+      {"gaussian_sigma_mm", segment.gaussian_sigma_mm},
+      {"filters", filters_json(segment)},
+      {"bright_is_lumen", segment.bright_is_lumen},
+      {"inflation", segment.level_set.inflation},
+      {"curvature", segment.level_set.curvature},
+      {"curvature_term",
+       segment.level_set.curvature_term == segmentation::CurvatureTerm::mean ? "mean" : "minimal"},
+      {"advection", segment.level_set.advection},
+      {"iterations_max", segment.level_set.iterations_max}};
   out["smoothing"] = options.smoothing ? json{{"iterations", options.smoothing->iterations},
                                               {"pass_band", options.smoothing->pass_band}}
                                        : json();

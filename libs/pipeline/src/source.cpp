@@ -4,7 +4,6 @@
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
 #include "ostia/core/log.h"
-#include "ostia/core/path_digest.h"
 #include "ostia/geometry/mesh_topology.h"
 #include "ostia/imaging/image_file.h"
 #include "ostia/io/surface_file.h"
@@ -12,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <optional>
 
 namespace ostia::pipeline {
 namespace fs = std::filesystem;
@@ -98,19 +98,18 @@ SourceKind classify(const fs::path& path) {
                      "(.stl .ply .obj .vtp)");
 }
 
-std::string digest(const fs::path& path, SourceKind kind, const core::TaskContext& task) {
-  return kind == SourceKind::dicom ? core::sha256_of_path(path, task) : core::sha256_file(path);
-}
-
 Source load(const fs::path& path, const SourceOptions& options, const core::TaskContext& task) {
   Source source;
   source.kind = classify(path);
   core::redact_in_logs(path.string(), "image");  // until its pseudonym is known
-  core::Beside<std::string> sha256(
-      [path, kind = source.kind](const core::TaskContext& beside) { return digest(path, kind, beside); });
+  std::optional<core::Beside<std::string>> sha256;
+  if (source.kind != SourceKind::dicom)
+    sha256.emplace([path](const core::TaskContext&) { return core::sha256_file(path); });
   switch (source.kind) {
     case SourceKind::dicom: {
-      auto loaded = imaging::read_dicom(path, options.dicom, task);
+      auto loaded = imaging::read_dicom(path, options.dicom, task, [&](const imaging::DicomSeries& series) {
+        sha256.emplace([series](const core::TaskContext& beside) { return series_digest(series, beside); });
+      });
       append(source.warnings, loaded.header.warnings);
       source.image = std::make_shared<const imaging::ImageVolume>(std::move(loaded.volume));
       break;
@@ -132,7 +131,7 @@ Source load(const fs::path& path, const SourceOptions& options, const core::Task
       source.unit_given = options.unit_mm.has_value();
       break;
   }
-  source.sha256 = sha256.get();
+  source.sha256 = sha256->get();
   source.pseudonym = "image-" + source.sha256.substr(0, 8);
   core::redact_in_logs(path.string(), source.pseudonym);
   task.throw_if_cancelled();

@@ -50,6 +50,27 @@ void require_usable(const imaging::FloatVolume& initial) {
   require_finite(initial, "the initial level set");
 }
 
+/// What edges are read off must be usable, and hold the voxels of the initial level set.
+void require_edges(const imaging::FloatVolume& initial, const imaging::ImageVolume& image,
+                   const EdgeFeature& edge) {
+  if (!(edge.noise_hu_per_mm > 0.0) || !std::isfinite(edge.noise_hu_per_mm)) {
+    throw InvalidInput("level set: noise_hu_per_mm must be positive and finite");
+  }
+  require_usable(initial);
+  imaging::Geometry part = image.geometry;
+  const Vec3 first = image.geometry.index(initial.geometry.origin);
+  bool inside = true;
+  for (int d = 0; d < 3; ++d) {
+    const auto at = std::llround(first[d]);
+    inside &= at >= 0 && at + initial.geometry.size[d] <= image.geometry.size[d];
+    part.size[d] = initial.geometry.size[d];
+  }
+  part.origin = image.geometry.world(first.array().round().matrix());
+  if (!inside || !imaging::same_grid(part, initial.geometry)) {
+    throw InvalidInput("level set: the initial level set does not lie on voxels of the image");
+  }
+}
+
 constexpr int kPeriod = 10;         // iterations between two looks at the motion
 constexpr double kProgress = 0.8;   // the motion must fall to this part in a period
 constexpr double kDamping = 0.6;    // else the step is shortened by this
@@ -245,23 +266,18 @@ LevelSetResult level_set(const imaging::FloatVolume& initial, const imaging::Ima
                          const EdgeFeature& edge, const LevelSetOptions& options,
                          const core::TaskContext& task) {
   validate(options);
-  if (!(edge.noise_hu_per_mm > 0.0) || !std::isfinite(edge.noise_hu_per_mm)) {
-    throw InvalidInput("level set: noise_hu_per_mm must be positive and finite");
-  }
-  require_usable(initial);
-  imaging::Geometry part = image.geometry;
-  const Vec3 first = image.geometry.index(initial.geometry.origin);
-  bool inside = true;
-  for (int d = 0; d < 3; ++d) {
-    const auto at = std::llround(first[d]);
-    inside &= at >= 0 && at + initial.geometry.size[d] <= image.geometry.size[d];
-    part.size[d] = initial.geometry.size[d];
-  }
-  part.origin = image.geometry.world(first.array().round().matrix());
-  if (!inside || !imaging::same_grid(part, initial.geometry)) {
-    throw InvalidInput("level set: the initial level set does not lie on voxels of the image");
-  }
+  require_edges(initial, image, edge);
   return evolve(initial, detail::EdgePull(image, initial.geometry, edge), nullptr, options, task);
+}
+
+LevelSetResult level_set(const imaging::FloatVolume& initial, const imaging::ImageVolume& image,
+                         const EdgeFeature& edge, const imaging::FloatVolume& inflation_speed,
+                         const LevelSetOptions& options, const core::TaskContext& task) {
+  validate(options);
+  require_edges(initial, image, edge);
+  require_grid(initial, inflation_speed, "the inflation speed");
+  const detail::GridPull speed(inflation_speed, 0.0);
+  return evolve(initial, detail::EdgePull(image, initial.geometry, edge), &speed, options, task);
 }
 
 }  // namespace ostia::segmentation

@@ -126,6 +126,7 @@ PathFront Front::run(const PathFrontStop& stop, const core::TaskContext& task) {
         Voxel n = next.voxel;
         n[d] += side;
         if (n[d] < 0 || n[d] >= geometry_.size[d] || nodes_.get(n).settled) continue;
+        if (stop.within && !stop.within(n)) continue;
         const Node better = update(n);
         offer(n, better.time, better.length);
       }

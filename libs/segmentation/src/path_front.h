@@ -12,6 +12,7 @@ namespace ostia::segmentation::detail {
 
 struct PathFrontStop {
   std::function<bool(const Voxel&)> target;
+  std::function<bool(const Voxel&)> within;  ///< where the front may go; everywhere where it is empty
   double max_length_mm = 150.0;
   std::int64_t most_voxels = 0;
 };

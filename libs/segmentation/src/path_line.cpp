@@ -86,6 +86,7 @@ PathSection look_across(TubeSpeed& image, const Vec3& centre, const Vec3& tangen
   geometry::Frame frame;
   frame.tangent = tangent;
   frame.normal = geometry::initial_normal(tangent);
+  frame.binormal = tangent.cross(frame.normal);
   std::vector<double> found;
   std::array<double, kRays> radius{};
   for (int n = 0; n < kRays; ++n) {
@@ -116,15 +117,15 @@ std::vector<Vec3> smoothed_line(const std::vector<Vec3>& points, double step_mm,
   return geometry::smoothing_spline(t, even, weights, lambda_mm3 / step_mm, true);
 }
 
-std::vector<Vec3> centred_line(TubeSpeed& image, std::vector<Vec3> points, double step_mm, double fixed_mm,
-                               bool free_start, const RayOptions& rays) {
+std::vector<Vec3> centred_line(TubeSpeed& image, std::vector<Vec3> points, double step_mm,
+                               const FixedEnds& fixed, const RayOptions& rays) {
   points = smoothed_line(points, step_mm, kSmoothingMm3);
   for (int turn = 0; turn < kCentrings; ++turn) {
     if (points.size() < 3) return points;
     const std::vector<Vec3> tangents = geometry::tangents(points);
     const std::vector<double> s = geometry::abscissas(points);
-    for (std::size_t i = free_start ? 0 : 1; i < points.size(); ++i) {
-      if (s[i] < fixed_mm) continue;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (s[i] < fixed.start_mm || s[i] > s.back() - fixed.end_mm) continue;
       const PathSection section = look_across(image, points[i], tangents[i], rays);
       if (section.radius_mm <= 0.0) continue;
       const double most = std::min(kMostShiftMm, section.radius_mm);

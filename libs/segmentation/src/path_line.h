@@ -36,9 +36,14 @@ PathSection look_across(TubeSpeed& image, const Vec3& centre, const Vec3& tangen
 /// Smoothed with fixed ends, at equal steps no longer than `step_mm`.
 std::vector<Vec3> smoothed_line(const std::vector<Vec3>& points, double step_mm, double lambda_mm3);
 
-/// Moves the points to the middle of the lumen, in turn with smoothing. The first `fixed` mm stay, and the
-/// first point; the last moves too where `free_end`.
-std::vector<Vec3> centred_line(TubeSpeed& image, std::vector<Vec3> points, double step_mm, double fixed_mm,
-                               bool free_start, const RayOptions& rays);
+/// How much of a line's ends the image does not move; where it is more than 0, the end point stays exactly.
+struct FixedEnds {
+  double start_mm = 0.0, end_mm = 0.0;
+};
+
+/// Moves the points to the middle of the lumen, in turn with smoothing, but for the fixed ends, which are
+/// only smoothed.
+std::vector<Vec3> centred_line(TubeSpeed& image, std::vector<Vec3> points, double step_mm,
+                               const FixedEnds& fixed, const RayOptions& rays);
 
 }  // namespace ostia::segmentation::detail

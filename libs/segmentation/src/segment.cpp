@@ -1,5 +1,8 @@
 #include "ostia/segmentation/segment.h"
 
+#include "evolve_region.h"
+#include "prepared_image.h"
+
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
 
@@ -160,35 +163,9 @@ void flatten_end(const LevelSetEnd& end, imaging::FloatVolume& level_set) {
               [&](const std::array<std::int64_t, 3>& v) { level_set(v[0], v[1], v[2]) = 0.1F; });
 }
 
-/// Voxels next to the surface, on either side, and those inside that are not.
-struct Shell {
-  std::vector<std::int64_t> surface;
-  std::vector<std::int64_t> interior;
-};
-
-Shell shell_of(const imaging::FloatVolume& level_set) {
-  Shell shell;
-  const auto& size = level_set.geometry.size;
-  const std::array<std::int64_t, 3> strides{1, size[0], size[0] * size[1]};
-  for (std::int64_t k = 1; k + 1 < size[2]; ++k) {
-    for (std::int64_t j = 1; j + 1 < size[1]; ++j) {
-      for (std::int64_t i = 1; i + 1 < size[0]; ++i) {
-        const std::int64_t n = level_set.geometry.offset(i, j, k);
-        if (level_set.voxels[n] >= 0.0F) continue;
-        bool border = false;
-        for (const std::int64_t s : strides) {
-          border |= level_set.voxels[n - s] >= 0.0F || level_set.voxels[n + s] >= 0.0F;
-        }
-        (border ? shell.surface : shell.interior).push_back(n);
-      }
-    }
-  }
-  return shell;
-}
-
 /// Signs blurred over 3 x 3 x 3 voxels (binomial), every voxel on its side: takes the stairs off the initial
 /// surface.
-imaging::FloatVolume without_stairs(const imaging::FloatVolume& level_set, const Shell& shell) {
+imaging::FloatVolume without_stairs(const imaging::FloatVolume& level_set, const detail::Shell& shell) {
   imaging::FloatVolume out = level_set;
   const auto& size = level_set.geometry.size;
   const std::array<std::int64_t, 3> strides{1, size[0], size[0] * size[1]};
@@ -226,58 +203,6 @@ imaging::FloatVolume without_stairs(const imaging::FloatVolume& level_set, const
     }
   }
   return out;
-}
-
-float percentile(const imaging::FloatVolume& image, const std::vector<std::int64_t>& voxels, double part) {
-  if (voxels.empty()) return 0.0F;
-  std::vector<float> values;
-  values.reserve(voxels.size());
-  for (const std::int64_t n : voxels) values.push_back(image.voxels[n]);
-  const auto nth =
-      values.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), nth, values.end());
-  return *nth;
-}
-
-/// Gradients that tell walls from noise, HU/mm.
-struct Contrast {
-  double wall = 0.0;
-  double noise = 0.0;  ///< above what the interior shows, well below what the surface shows
-};
-
-Contrast contrast_of(const imaging::FloatVolume& gradient, const Shell& shell) {
-  Contrast contrast;
-  contrast.wall = percentile(gradient, shell.surface, 0.75);
-  if (contrast.wall <= 0.0) return {1.0, 1.0};
-  contrast.noise =
-      std::clamp(1.5 * percentile(gradient, shell.interior, 0.5), 0.1 * contrast.wall, 0.4 * contrast.wall);
-  return contrast;
-}
-
-/// The feature at which curvature counts in full.
-double full_feature(const Contrast& contrast) {
-  return 0.5 * std::log1p(std::pow(0.35 * contrast.wall / contrast.noise, 2));
-}
-
-LevelSetResult evolve(const imaging::ImageVolume& image, const imaging::Region& region,
-                      const imaging::FloatVolume& initial, const Shell& shell, const SegmentOptions& wanted,
-                      double lumen_hu, const core::TaskContext& task) {
-  const WallFeature feature = wanted.feature;
-  LevelSetOptions options = wanted.level_set;
-  const auto scheme = feature == WallFeature::upwind ? GradientScheme::upwind : GradientScheme::centred;
-  imaging::FloatVolume gradient = gradient_magnitude(image, region, scheme, task.sub(0.0, 0.1));
-  const Contrast contrast = contrast_of(gradient, shell);
-  options.curvature_needs_feature = full_feature(contrast);
-  if (feature == WallFeature::edges) {
-    gradient = {};
-    EdgeFeature edge;
-    edge.noise_hu_per_mm = contrast.noise;
-    if (wanted.bright_is_lumen) edge.brightest_hu = lumen_hu;
-    return level_set(initial, image, edge, options, task.sub(0.1, 1.0));
-  }
-  options.feature_offset_voxels = feature == WallFeature::upwind ? 0.5 : 0.0;
-  compress_feature(gradient, contrast.noise);
-  return level_set(initial, gradient, options, task.sub(0.1, 1.0));
 }
 
 constexpr double kRoomVoxels = 3.0;
@@ -330,6 +255,8 @@ bool shared_seed(const std::vector<BranchSeeds>& branches, std::size_t own, cons
   return false;
 }
 
+constexpr int kBalloonRoom = 12;  // voxels about the initial region into which a balloon may grow
+
 constexpr double kRestlessVoxels = 0.03;  // motion in ten iterations that a person should know of
 
 std::string restless(const LevelSetResult& evolved, double voxel_mm) {
@@ -359,17 +286,38 @@ auto with_branch_number(std::size_t number, std::size_t count, const Call& call)
 void validate(const SegmentOptions& options) {
   validate(options.fronts);
   validate(options.level_set);
+  validate(options.remove);
+  if (options.denoise) imaging::validate(*options.denoise);
+  const auto require = [](bool good, const char* what) {
+    if (!good) throw InvalidInput(std::string("segmentation: ") + what);
+  };
+  require(options.gaussian_sigma_mm >= 0.0 && options.gaussian_sigma_mm <= 10.0,
+          "gaussian_sigma_mm must be in [0, 10]");
+  if (!options.balloon) return;
+  const IntensityBalloon& balloon = *options.balloon;
+  require(balloon.tau > 0.0 && balloon.tau < 1.0, "the balloon's tau must be in (0, 1)");
+  require(!balloon.mean_hu || std::isfinite(*balloon.mean_hu), "the balloon's mean_hu must be finite");
+  require(!balloon.sigma_hu || (*balloon.sigma_hu > 0.0 && std::isfinite(*balloon.sigma_hu)),
+          "the balloon's sigma_hu must be positive");
+  require(options.level_set.inflation > 0.0, "the balloon needs an inflation weight above 0");
 }
 
-SegmentationResult segment_vessels(const imaging::ImageVolume& image,
+SegmentationResult segment_vessels(const imaging::ImageVolume& given,
                                    const std::vector<BranchSeeds>& branches, const SegmentOptions& options,
-                                   const core::TaskContext& task) {
+                                   const core::TaskContext& whole_task) {
   validate(options);
   if (branches.empty())
     throw InvalidInput("segmentation: no branch is given; give two seeds, one at each end");
+  const bool prepares = detail::needs_preparation(options);
+  const std::optional<imaging::ImageVolume> made =
+      prepares ? std::optional(detail::prepared_image(given, branches, options, whole_task.sub(0.0, 0.5)))
+               : std::nullopt;
+  const imaging::ImageVolume& image = made ? *made : given;
+  const core::TaskContext task = whole_task.sub(prepares ? 0.5 : 0.0, 1.0);
   SegmentationResult result;
   std::vector<InitialRegion> parts;
   CollidingFrontsOptions fronts = options.fronts;
+  if (options.balloon) fronts.margin_voxels = std::max(fronts.margin_voxels, kBalloonRoom);
   if (options.bright_is_lumen) fronts.upper_hu = std::numeric_limits<std::int16_t>::max();
   task.set_stage("colliding fronts");
   for (std::size_t b = 0; b < branches.size(); ++b) {
@@ -412,13 +360,16 @@ SegmentationResult segment_vessels(const imaging::ImageVolume& image,
     }
   }
   task.set_stage("level set");
-  const Shell shell = shell_of(initial);
+  const detail::Shell shell = detail::shell_of(initial);
   initial = without_stairs(initial, shell);
   double brightest = 0.0;
   for (const InitialRegion& part : parts) brightest = std::max(brightest, part.lumen_hu);
   wanted.level_set.ends = std::move(ends);
-  LevelSetResult evolved =
-      evolve(image, result.region, initial, shell, wanted, brightest, task.sub(0.4, 1.0));
+  detail::EvolvedRegion region =
+      detail::evolve_region(image, result.region, initial, shell, wanted, brightest, task.sub(0.4, 1.0));
+  LevelSetResult& evolved = region.surface;
+  result.balloon_mean_hu = region.balloon_mean_hu;
+  result.balloon_sigma_hu = region.balloon_sigma_hu;
   result.level_set = std::move(evolved.level_set);
   result.iterations = evolved.iterations;
   result.converged = evolved.converged;

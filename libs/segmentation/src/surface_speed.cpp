@@ -87,26 +87,49 @@ SurfaceSpeed::Local SurfaceSpeed::differentiate(const SparseField& field, std::i
   return local;
 }
 
-double SurfaceSpeed::curvature(const SparseField& field, std::int64_t n, const Local& local) const {
-  if (local.norm < 0.1) return 0.0;  // on a crest between two walls there is no curvature to speak of
-  const Vec3& g = local.gradient;
-  Vec3 second = Vec3::Zero();
-  Vec3 mixed = Vec3::Zero();  // yz, xz, xy
+/// Second derivatives of phi, central.
+struct SurfaceSpeed::Bend {
+  Vec3 pure = Vec3::Zero();
+  Vec3 mixed = Vec3::Zero();  ///< yz, xz, xy
+
+  Vec3 times(const Vec3& v) const {
+    return {pure[0] * v[0] + mixed[2] * v[1] + mixed[1] * v[2],
+            mixed[2] * v[0] + pure[1] * v[1] + mixed[0] * v[2],
+            mixed[1] * v[0] + mixed[0] * v[1] + pure[2] * v[2]};
+  }
+};
+
+SurfaceSpeed::Bend SurfaceSpeed::bend(const SparseField& field, std::int64_t n, const Local& local) const {
+  Bend bend;
   for (int d = 0; d < 3; ++d) {
-    second[d] = (local.after[d] - local.before[d]) / spacing_[d];
+    bend.pure[d] = (local.after[d] - local.before[d]) / spacing_[d];
     const int a = (d + 1) % 3;
     const int b = (d + 2) % 3;
     const std::int64_t sa = field.strides()[a];
     const std::int64_t sb = field.strides()[b];
-    mixed[d] = (field.value(n + sa + sb) - field.value(n + sa - sb) - field.value(n - sa + sb) +
-                field.value(n - sa - sb)) /
-               (4.0 * spacing_[a] * spacing_[b]);
+    bend.mixed[d] = (field.value(n + sa + sb) - field.value(n + sa - sb) - field.value(n - sa + sb) +
+                     field.value(n - sa - sb)) /
+                    (4.0 * spacing_[a] * spacing_[b]);
   }
-  const double numerator = second[0] * (g[1] * g[1] + g[2] * g[2]) + second[1] * (g[0] * g[0] + g[2] * g[2]) +
-                           second[2] * (g[0] * g[0] + g[1] * g[1]) -
-                           2.0 * (g[1] * g[2] * mixed[0] + g[0] * g[2] * mixed[1] + g[0] * g[1] * mixed[2]);
+  return bend;
+}
+
+double SurfaceSpeed::curvature(const SparseField& field, std::int64_t n, const Local& local) const {
+  if (local.norm < 0.1) return 0.0;  // on a crest between two walls there is no curvature to speak of
+  const Bend second = bend(field, n, local);
   const double most = kRoundest / h_;
-  return std::clamp(numerator / (local.norm * local.norm * local.norm), -most, most);
+  const Vec3 across = second.times(local.normal);
+  const double sum = (second.pure.sum() - local.normal.dot(across)) / local.norm;
+  if (options_.curvature_term == CurvatureTerm::mean) return std::clamp(sum, -most, most);
+  // The form that the second derivatives make on the surface's tangent plane; its eigenvalues are the
+  // principal curvatures.
+  const Vec3 u = local.normal.unitOrthogonal();
+  const Vec3 v = local.normal.cross(u);
+  const Vec3 along_u = second.times(u);
+  const double uu = u.dot(along_u) / local.norm;
+  const double uv = v.dot(along_u) / local.norm;
+  const double half_difference = uu - 0.5 * sum;
+  return std::clamp(0.5 * sum - std::hypot(half_difference, uv), -most, most);
 }
 
 double SurfaceSpeed::change(const SparseField& field, std::int64_t n) const {

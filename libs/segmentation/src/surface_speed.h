@@ -34,7 +34,9 @@ class SurfaceSpeed {
     double reach;
     bool hold_beyond;
   };
+  struct Bend;
   Local differentiate(const SparseField& field, std::int64_t n) const;
+  Bend bend(const SparseField& field, std::int64_t n, const Local& local) const;
   double curvature(const SparseField& field, std::int64_t n, const Local& local) const;
   const EndZone* zone_at(const Vec3& index, bool& beyond) const;
 

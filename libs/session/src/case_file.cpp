@@ -472,12 +472,18 @@ std::vector<Edit> CaseFile::edits() const {
 }
 
 void CaseFile::set_setting(const std::string& key, const std::string& value) {
+  set_settings({{key, value}});
+}
+
+void CaseFile::set_settings(const std::map<std::string, std::string>& values) {
   impl_->require_writable();
-  if (is_path(value))
-    throw InvalidInput("the setting \"" + key +
-                       "\" is a path; a case holds none, so that it can be given away");
+  for (const auto& [key, value] : values)
+    if (is_path(value))
+      throw InvalidInput("the setting \"" + key +
+                         "\" is a path; a case holds none, so that it can be given away");
   Transaction transaction(impl_->database);
-  impl_->put_setting.with(key, value, sum_of_pair("setting", key, value)).run();
+  for (const auto& [key, value] : values)
+    impl_->put_setting.with(key, value, sum_of_pair("setting", key, value)).run();
   transaction.commit();
 }
 

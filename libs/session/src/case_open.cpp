@@ -192,18 +192,31 @@ void check_tables(Database& database, const fs::path& path) {
     refuse(path, "its tables are not those of a case; the file is damaged or was made by another program");
 }
 
-void require_writable(const fs::path& path) {
+struct Writable {
+  bool file = false, folder = false;  // SQLite's journal lies beside the case
+};
+Writable writable(const fs::path& path) {
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   const auto may = [](const fs::path& what, int how) {
     return ::faccessat(AT_FDCWD, what.c_str(), how, AT_EACCESS) == 0;
   };
-  const bool file = may(path, W_OK), place = may(folder, W_OK | X_OK);
-  if (file && place) return;
-  throw IoError("cannot open the case " + path.string() + " for editing: the " + (file ? "folder" : "file") +
+  return {may(path, W_OK), may(folder, W_OK | X_OK)};
+}
+
+void require_writable(const fs::path& path) {
+  const Writable may = writable(path);
+  if (may.file && may.folder) return;
+  throw IoError("cannot open the case " + path.string() + " for editing: the " +
+                (may.file ? "folder" : "file") +
                 " is read-only; open it for reading only, or copy it to a folder where you may write");
 }
 
 }  // namespace
+
+bool can_be_edited(const fs::path& path) {
+  const Writable may = writable(path);
+  return may.file && may.folder;
+}
 
 class OpenFileMark {
  public:

@@ -24,10 +24,10 @@ using Json = nlohmann::json;
 constexpr std::uint64_t largest_file = 16U << 20;
 constexpr auto longest_wait = std::chrono::seconds(2);
 
-std::string escaped(const fs::path& path) {
+std::string escaped(const std::string& bytes) {
   constexpr std::string_view digits = "0123456789ABCDEF";
   std::string text;
-  for (const char c : path.string()) {
+  for (const char c : bytes) {
     const auto byte = static_cast<unsigned char>(c);
     if (byte > 0x20 && byte < 0x7f && c != '%')
       text += c;
@@ -40,21 +40,21 @@ std::string escaped(const fs::path& path) {
 int digit(char c) {
   if (c >= '0' && c <= '9') return c - '0';
   if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-  throw InvalidInput("a path has a wrong escape");
+  throw InvalidInput("a path or UID has a wrong escape");
 }
 
-fs::path unescaped(const std::string& text) {
-  std::string path;
+std::string unescaped(const std::string& text) {
+  std::string bytes;
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (text[i] != '%') {
-      path += text[i];
+      bytes += text[i];
       continue;
     }
-    if (i + 2 >= text.size()) throw InvalidInput("a path ends within an escape");
-    path += static_cast<char>(digit(text[i + 1]) * 16 + digit(text[i + 2]));
+    if (i + 2 >= text.size()) throw InvalidInput("a path or UID ends within an escape");
+    bytes += static_cast<char>(digit(text[i + 1]) * 16 + digit(text[i + 2]));
     i += 2;
   }
-  return path;
+  return bytes;
 }
 
 [[noreturn]] void raise(const std::string& what, const fs::path& path, int code) {
@@ -136,7 +136,8 @@ MachineContent content_of(const Json& in) {
   MachineContent content;
   for (const auto& [sha256, image] : in.at("images").items())
     content.images[sha256] = {unescaped(image.at("path").get<std::string>()),
-                              image.at("seen").get<std::int64_t>()};
+                              image.at("seen").get<std::int64_t>(),
+                              unescaped(image.value("series", std::string()))};
   for (const Json& one : in.at("recent")) content.recent.push_back(recent_case(one));
   if (content.recent.size() > MachineState::most_recent_cases)
     content.recent.resize(MachineState::most_recent_cases);
@@ -148,11 +149,13 @@ MachineContent content_of(const Json& in) {
 
 std::string machine_json(const MachineContent& content) {
   Json out{{"v", 1}, {"images", Json::object()}, {"recent", Json::array()}, {"settings", content.settings}};
-  for (const auto& [sha256, image] : content.images)
-    out["images"][sha256] = {{"path", escaped(image.path)}, {"seen", image.seen}};
+  for (const auto& [sha256, image] : content.images) {
+    Json& one = out["images"][sha256] = {{"path", escaped(image.path.string())}, {"seen", image.seen}};
+    if (!image.series_uid.empty()) one["series"] = escaped(image.series_uid);
+  }
   for (const RecentCase& one : content.recent)
     out["recent"].push_back(
-        {{"path", escaped(one.path)}, {"pseudonym", one.pseudonym}, {"opened", one.opened}});
+        {{"path", escaped(one.path.string())}, {"pseudonym", one.pseudonym}, {"opened", one.opened}});
   try {
     return out.dump(1) + "\n";
   } catch (const Json::exception&) {

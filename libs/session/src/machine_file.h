@@ -8,19 +8,20 @@
 
 namespace ostia::session {
 
-struct KnownImage {
+struct SeenImage {
   std::filesystem::path path;
-  std::int64_t seen = 0;  ///< seconds since 1970 began
+  std::int64_t seen = 0;        ///< seconds since 1970 began
+  std::string series_uid = {};  ///< empty where none was chosen
 };
 
 struct MachineContent {
-  std::map<std::string, KnownImage> images;  ///< by SHA-256
-  std::vector<RecentCase> recent;            ///< newest first
+  std::map<std::string, SeenImage> images;  ///< by SHA-256
+  std::vector<RecentCase> recent;           ///< newest first
   std::map<std::string, std::string> settings;
 };
 
-/// As JSON. Bytes of paths that are not plain ASCII are written %XX, since a path need not be UTF-8. Throws
-/// InvalidInput for settings that are not UTF-8.
+/// As JSON. Bytes of paths and UIDs that are not plain ASCII are written %XX, since they need not be UTF-8.
+/// Throws InvalidInput for settings that are not UTF-8.
 std::string machine_json(const MachineContent& content);
 /// Throws InvalidInput for what is not such a file, or is one of a newer version.
 MachineContent machine_content(const std::string& json);

@@ -29,7 +29,7 @@ void erase_case(std::vector<RecentCase>& cases, const fs::path& path) {
 }
 
 /// Those seen longest ago go.
-void shorten(std::map<std::string, KnownImage>& images) {
+void shorten(std::map<std::string, SeenImage>& images) {
   while (images.size() > MachineState::most_images)
     images.erase(std::min_element(images.begin(), images.end(), [](const auto& a, const auto& b) {
       return a.second.seen < b.second.seen;
@@ -47,17 +47,18 @@ MachineState::~MachineState() = default;
 MachineState::MachineState(MachineState&&) noexcept = default;
 MachineState& MachineState::operator=(MachineState&&) noexcept = default;
 
-std::optional<fs::path> MachineState::find_image(const std::string& sha256) const {
+std::optional<KnownImage> MachineState::find_image(const std::string& sha256) const {
   const MachineContent content = impl_->file.read();
   const auto found = content.images.find(sha256);
   std::error_code error;
   if (found == content.images.end() || !fs::exists(found->second.path, error)) return std::nullopt;
-  return found->second.path;
+  return KnownImage{found->second.path, found->second.series_uid};
 }
 
-void MachineState::remember_image(const std::string& sha256, const fs::path& path) {
+void MachineState::remember_image(const std::string& sha256, const fs::path& path,
+                                  const std::string& series_uid) {
   impl_->file.change([&](MachineContent& content) {
-    content.images[sha256] = {place(path), now()};
+    content.images[sha256] = {place(path), now(), series_uid};
     shorten(content.images);
   });
 }

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace ostia::core {
 
@@ -13,5 +14,16 @@ namespace ostia::core {
 /// IoError (missing, unreadable), InvalidInput (neither file nor folder, or a folder without files),
 /// Cancelled.
 std::string sha256_of_path(const std::filesystem::path& path, const TaskContext& task = no_task());
+
+/// That of a folder with just these files, wherever they lie; a path named twice counts once. Throws IoError
+/// (missing, unreadable, no file), InvalidInput (none), Cancelled.
+std::string sha256_of_files(const std::vector<std::filesystem::path>& files,
+                            const TaskContext& task = no_task());
+
+/// SHA-256 of each file's bytes, in the order given. Progress and errors as above.
+std::vector<std::string> sha256_of_each(const std::vector<std::filesystem::path>& files,
+                                        const TaskContext& task = no_task());
+/// That of a folder whose files have these digests, in any order. Throws InvalidInput for none.
+std::string sha256_of_digests(std::vector<std::string> digests);
 
 }  // namespace ostia::core

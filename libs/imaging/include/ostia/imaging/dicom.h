@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,6 +26,7 @@ struct DicomSeries {
   std::string phase;                         ///< "cardiac phase 40 %" where a series had to be split by it
   std::vector<std::filesystem::path> files;  ///< one a slice, by position along the normal
   std::vector<std::int64_t> frames;          ///< of the slice in its file, from 0
+  bool whole_files = true;                   ///< its files hold no frame of another series
   Geometry geometry;                         ///< before the repair of gaps and tilt
   double gantry_tilt_deg = 0.0;              ///< shear between slice direction and normal
   std::vector<std::string> warnings;         ///< missing slices, uneven spacing, tilt, ...
@@ -49,6 +51,12 @@ struct DicomFolder {
 DicomFolder scan_dicom(const std::filesystem::path& folder_or_file,
                        const core::TaskContext& task = core::no_task());
 
+/// How the series is known in everything that is saved: the SHA-256 of a folder with its files alone
+/// (core::sha256_of_files), so that neither their names nor other series beside it matter. Of a part of
+/// multi-frame files, the numbers of its frames go into each file's digest. Reads the files whole. Throws
+/// IoError (missing, unreadable), InvalidInput (a series without files), Cancelled.
+std::string series_digest(const DicomSeries& series, const core::TaskContext& task = core::no_task());
+
 struct DicomReadOptions {
   std::string series_uid;        ///< empty: the only one, or InvalidInput listing them
   bool resample_uneven = false;  ///< the user's consent to interpolate over missing or uneven slices
@@ -58,11 +66,13 @@ struct DicomReadOptions {
 };
 
 /// The image in HU on a right-handed orthonormal grid: rescaled slice by slice, tilt corrected by resampling,
-/// voxels decoded in a child process. From a folder, a file of the series, or a zip archive. Throws
-/// InvalidInput naming the file and the attribute.
+/// voxels decoded in a child process. From a folder, a file of the series, or a zip archive. `chosen` is
+/// called once with the series, before its voxels are read. Throws InvalidInput naming the file and the
+/// attribute.
 LoadedImage<std::int16_t> read_dicom(const std::filesystem::path& folder_or_file,
                                      const DicomReadOptions& options = {},
-                                     const core::TaskContext& task = core::no_task());
+                                     const core::TaskContext& task = core::no_task(),
+                                     const std::function<void(const DicomSeries&)>& chosen = {});
 
 /// The same for a series that scan_dicom found, from its own files alone: quick where a folder holds many.
 /// Throws also IoError where a file is gone.

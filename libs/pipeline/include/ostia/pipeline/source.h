@@ -32,7 +32,7 @@ struct SourceOptions {
 /// The content, and how it is known in everything that is saved.
 struct Source {
   SourceKind kind = SourceKind::image;
-  std::string sha256;     ///< of the file, or of the sorted digests of a DICOM series' files
+  std::string sha256;     ///< of the file; of a DICOM series: imaging::series_digest
   std::string pseudonym;  ///< "image-1a2b3c4d"
   std::shared_ptr<const imaging::ImageVolume> image;  ///< dicom and image
   std::shared_ptr<const imaging::MaskVolume> mask;    ///< mask
@@ -40,10 +40,6 @@ struct Source {
   bool unit_given = false;                            ///< surface: the user said which unit it is in
   std::vector<std::string> warnings;
 };
-
-/// SHA-256 alone, cheaper than `load`.
-std::string digest(const std::filesystem::path& path, SourceKind kind,
-                   const core::TaskContext& task = core::no_task());
 
 /// Reads it. From here on the log knows the path by the pseudonym alone. Throws what the readers throw;
 /// InvalidInput for a surface whose size suggests another unit.

@@ -36,13 +36,22 @@ struct EdgeFeature {
   double brightest_hu = std::numeric_limits<double>::infinity();
 };
 
+/// Which curvature of the surface the second term of eq. 1 evens out ([Antiga] 3.3).
+enum class CurvatureTerm {
+  mean,    ///< 2H, the sum of both principal curvatures: smooths in all directions, and shrinks every tube
+  minimal  ///< the smaller principal curvature (Lorigo et al., Med. Image Anal. 5:195-206, 2001, after
+           ///< Ambrosio and Soner): 0 on a straight tube, whose radius it leaves alone; smooths along it
+};
+
 struct LevelSetOptions {
   double inflation =
       0.0;  ///< w1: outward speed w1 G(x), G = `inflation_speed` where given, else 1/(1 + feature)
-  double curvature = 0.1;    ///< w2 >= 0: shrinks what bulges, by w2 * 2H; beyond 0.3 a voxel 2H counts as
-                             ///< that, so that thin vessels stay
-  double advection = 1.0;    ///< w3 >= 0: pulls to the ridges of the feature
-  int iterations_max = 200;  ///< >= 0
+  double curvature = 0.1;  ///< w2 >= 0: shrinks what bulges, by w2 * 2H; beyond 0.3 a voxel 2H counts as
+                           ///< that, so that thin vessels stay
+  CurvatureTerm curvature_term = CurvatureTerm::mean;  ///< `minimal` puts the smaller principal curvature in
+                                                       ///< the place of 2H
+  double advection = 1.0;                              ///< w3 >= 0: pulls to the ridges of the feature
+  int iterations_max = 200;                            ///< >= 0
   /// Done when the root mean square net motion of the surface in ten iterations falls below this many voxels
   /// (least spacing). Steps are shortened, to a quarter at most, when the surface swings about its place, and
   /// at each voxel that the surface has crossed more than twice.
@@ -83,7 +92,11 @@ LevelSetResult level_set(const imaging::FloatVolume& initial, const imaging::Flo
 LevelSetResult level_set(const imaging::FloatVolume& initial, const imaging::ImageVolume& image,
                          const EdgeFeature& edge, const LevelSetOptions& options = {},
                          const core::TaskContext& task = core::no_task());
-/// The same with a speed image G of its own for the inflation.
+/// Both with a speed image G of its own for the inflation; the surface goes inwards where G is below 0.
+LevelSetResult level_set(const imaging::FloatVolume& initial, const imaging::ImageVolume& image,
+                         const EdgeFeature& edge, const imaging::FloatVolume& inflation_speed,
+                         const LevelSetOptions& options = {},
+                         const core::TaskContext& task = core::no_task());
 LevelSetResult level_set(const imaging::FloatVolume& initial, const imaging::FloatVolume& feature,
                          const imaging::FloatVolume& inflation_speed, const LevelSetOptions& options = {},
                          const core::TaskContext& task = core::no_task());

@@ -1,6 +1,6 @@
 #pragma once
-/// \file A vessel by one click: the cheapest way through contrast-filled tubes from its distal end back to
-/// the tree.
+/// \file A vessel by one click, two clicks or a rough line: the cheapest way through contrast-filled tubes,
+/// centred in the lumen, with radii.
 
 #include "ostia/core/task_context.h"
 #include "ostia/geometry/vessel_tree.h"
@@ -64,5 +64,33 @@ MinimalPath path_to_tree(const imaging::ImageVolume& image, const Vec3& click,
 MinimalPath path_between(const imaging::ImageVolume& image, const Vec3& from, const Vec3& to,
                          const MinimalPathOptions& options = {},
                          const core::TaskContext& task = core::no_task());
+
+/// How a rough line is followed.
+struct PathAlongOptions {
+  MinimalPathOptions path;  ///< its bounds of the front are not asked: the line is one
+  /// Beside the line, within which the cheapest way is sought; 0: none is, the line itself is centred, which
+  /// asks for a line within the lumen, [0, 10].
+  double corridor_mm = 3.0;
+  /// Of the line's beginning and end that the image does not move or measure (they are smoothed with the
+  /// rest); where it is more than 0, the end point stays exactly, [0, 1000].
+  double fixed_start_mm = 0.0, fixed_end_mm = 0.0;
+};
+void validate(const PathAlongOptions& options);  ///< throws InvalidInput
+
+/// The way along a rough line (two points or more, LPS, mm), as drawn by hand or found by a search: lumen is
+/// what the brighter half of the places on it shows; the cheapest way beside it; centred and measured as the
+/// other ways are. Throws InvalidInput for options out of range, a line outside the image, in air or without
+/// 1 mm that is free, or an end that is free and away from any contrast; GeometryError where the corridor is
+/// thinner than the voxels; Cancelled.
+MinimalPath path_along(const imaging::ImageVolume& image, const std::vector<Vec3>& rough,
+                       const PathAlongOptions& options = {}, const core::TaskContext& task = core::no_task());
+
+/// The same for a branch: the line begins in the lumen of one of the tree's vessels (its axis need not begin
+/// at a root); the way begins on that vessel's axis, where the branch's own direction meets it, and runs
+/// straight from there until the branch is clear of the parent. `fixed_start_mm` is not asked. Throws also
+/// GeometryError where no point of the line lies in the tree's lumen, and InvalidInput where all of it does.
+MinimalPath path_along_to_tree(const imaging::ImageVolume& image, const std::vector<Vec3>& rough,
+                               const geometry::VesselTree& tree, const PathAlongOptions& options = {},
+                               const core::TaskContext& task = core::no_task());
 
 }  // namespace ostia::segmentation

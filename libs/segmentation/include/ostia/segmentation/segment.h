@@ -3,12 +3,15 @@
 
 #include "ostia/core/task_context.h"
 #include "ostia/geometry/tri_mesh.h"
+#include "ostia/imaging/diffusion.h"
 #include "ostia/imaging/volume.h"
 #include "ostia/segmentation/colliding_fronts.h"
 #include "ostia/segmentation/feature.h"
 #include "ostia/segmentation/level_set.h"
 #include "ostia/segmentation/seeds.h"
+#include "ostia/segmentation/tissue_removal.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,10 +19,19 @@ namespace ostia::segmentation {
 
 /// What the surface is pulled to.
 enum class WallFeature {
-  edges,   ///< ridges of |grad I| of a smooth image function, corrected for the wall's curvature
-           ///< (`EdgeFeature`)
-  upwind,  ///< |grad I| on the voxels by eq. 4
-  centred  ///< |grad I| on the voxels by centred differences
+  edges,    ///< ridges of |grad I| of a smooth image function, corrected for the wall's curvature
+            ///< (`EdgeFeature`)
+  upwind,   ///< |grad I| on the voxels by eq. 4
+  centred,  ///< |grad I| on the voxels by centred differences
+  gaussian  ///< |grad (G * I)|: derivatives of a Gaussian of `gaussian_sigma_mm`
+};
+
+/// Inflation by the vessel's own intensities ([Luboz] 2.1): G = exp(-(I - m)^2 / sigma^2) - tau. Outward
+/// where I is like the vessel's, inward elsewhere: beyond a gap in the wall it comes back.
+struct IntensityBalloon {
+  double tau = 0.2;  ///< in (0, 1)
+  /// m and sigma, HU; left out: median and robust deviation (at least 10 HU) of the initial region's inside.
+  std::optional<double> mean_hu = std::nullopt, sigma_hu = std::nullopt;
 };
 
 struct SegmentOptions {
@@ -28,6 +40,11 @@ struct SegmentOptions {
   /// What is brighter than the lumen (a stent, a catheter) is taken as lumen. Off, the surface runs inside of
   /// it, as it should along calcified plaque. For `edges`; the voxel features do not know it.
   bool bright_is_lumen = false;
+  double gaussian_sigma_mm = 0.0;  ///< of the feature `gaussian`, in [0, 10]; 0: the least spacing
+  /// None: the level set's inflation is 1 / (1 + feature). Its weight is `level_set.inflation`, above 0.
+  std::optional<IntensityBalloon> balloon = std::nullopt;
+  TissueOptions remove;  ///< taken out of the image before all else
+  std::optional<imaging::DiffusionOptions> denoise = std::nullopt;  ///< then the whole image is diffused
   LevelSetOptions level_set;  ///< its feature_offset_voxels, curvature_needs_feature and ends are set from
                               ///< the image and the seeds; the fronts' way between the seeds is kept, too
 };
@@ -52,6 +69,7 @@ struct SegmentationResult {
   bool converged = false;
   double rms_voxels = 0.0;
   bool touches_border = false;
+  double balloon_mean_hu = 0.0, balloon_sigma_hu = 0.0;  ///< m and sigma used; 0 without a balloon
   std::vector<std::string> warnings;
 };
 

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -56,6 +57,9 @@ enum class OpenMode {
 /// Does `next` continue `last` (a drag or push still going on), so that both are one step? The same vessel
 /// and place of departure; a push whose path begins with the former one.
 bool mergeable(const lumen::Edit& last, const lumen::Edit& next);
+
+/// Whether file and folder may be written by this user: where not, a case can be opened for reading only.
+bool can_be_edited(const std::filesystem::path& path);
 
 /// An open case. Every command is one transaction: model, journal and changeset together, durable when the
 /// call returns. One process writes at a time. Not safe from several threads at once. Whatever a command
@@ -120,6 +124,8 @@ class CaseFile {
 
   /// Small texts of the interface. A value that is a path is refused: a case holds none.
   void set_setting(const std::string& key, const std::string& value);
+  /// All of them or none.
+  void set_settings(const std::map<std::string, std::string>& values);
   std::optional<std::string> setting(const std::string& key) const;
 
  private:

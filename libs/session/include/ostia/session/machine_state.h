@@ -18,6 +18,11 @@ struct RecentCase {
   std::int64_t opened = 0;     ///< seconds since 1970 began
 };
 
+struct KnownImage {
+  std::filesystem::path path;  ///< absolute; a file, or a folder of DICOM files
+  std::string series_uid;      ///< DicomSeries::uid of the one chosen there; empty where none was
+};
+
 /// A file `machine.json` in a folder, for this user alone (0600), replaced whole or not at all. Each change
 /// reads it anew under a lock, so that several programs keep each other's entries. A file that is damaged or
 /// of a newer version is moved aside, and a notice says so; what cannot be read is as if nothing were known.
@@ -35,9 +40,10 @@ class MachineState {
 
   /// Where the image was seen last, if there still is a file or folder. Its content is to be compared when it
   /// is read (CaseFile::check_image).
-  std::optional<std::filesystem::path> find_image(const std::string& sha256) const;
+  std::optional<KnownImage> find_image(const std::string& sha256) const;
   /// Throws IoError, ResourceError, as all changes do: the file is then what it was.
-  void remember_image(const std::string& sha256, const std::filesystem::path& path);
+  void remember_image(const std::string& sha256, const std::filesystem::path& path,
+                      const std::string& series_uid = {});
 
   std::vector<RecentCase> recent_cases() const;  ///< newest first; some may be gone meanwhile
   /// It comes first; beyond `most_recent_cases` the oldest go.

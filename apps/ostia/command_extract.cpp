@@ -1,0 +1,102 @@
+#include "edit_script.h"
+#include "extract.h"
+#include "outputs.h"
+#include "points.h"
+
+#include "ostia/core/log.h"
+#include "ostia/io/centerline_file.h"
+#include "ostia/pipeline/source.h"
+#include "ostia/session/found_model.h"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+
+namespace ostia::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json facts_of(const session::FoundModel& result) {
+  Json vessels = Json::array();
+  const coronary::Extraction& found = result.found;
+  for (std::size_t i = 0; i < found.vessels.tree.vessels.size(); ++i) {
+    const geometry::Vessel& vessel = found.vessels.tree.vessels[i];
+    const coronary::VesselLabel& label = found.vessels.labels[i];
+    vessels.push_back({{"id", vessel.id},
+                       {"name", vessel.name},
+                       {"likeliest", label.likeliest},
+                       {"confidence", label.confidence},
+                       {"evidence", found.notes[i].evidence},
+                       {"length_mm", geometry::vessel_axis(found.vessels.tree, vessel).abscissa.back()},
+                       {"doubt", session::doubt_about(label, found.notes[i])}});
+  }
+  return {{"v", 1},
+          {"kind", "extraction"},
+          {"ostia", found.ostia.size()},
+          {"dominance", coronary::word(found.vessels.dominance)},
+          {"vessels", vessels},
+          {"warnings", found.warnings}};
+}
+
+void print(const Json& facts, bool as_json) {
+  if (as_json) {
+    std::puts(facts.dump(2).c_str());
+    return;
+  }
+  for (const Json& vessel : facts["vessels"]) {
+    const std::string doubt = vessel["doubt"];
+    std::printf("%-6s %7.1f mm  %s\n", vessel["name"].get<std::string>().c_str(),
+                vessel["length_mm"].get<double>(), doubt.c_str());
+  }
+  std::printf("%zu ostia, %zu vessels, dominance %s\n", facts["ostia"].get<std::size_t>(),
+              facts["vessels"].size(), facts["dominance"].get<std::string>().c_str());
+}
+
+}  // namespace
+
+ExitCode run_extract(const ExtractCommand& o, const core::TaskContext& task) {
+  require_output(o.output, {".ostia"});
+  require_output(o.lines, line_outputs);
+  NewCase made(o.output);
+  task.set_stage("reading");
+  const pipeline::Source source = pipeline::load(o.input.input, source_options(o.input), task.sub(0.0, 0.1));
+  for (const std::string& warning : source.warnings) core::log_warning(warning);
+  if (!source.image)
+    throw InvalidInput("cannot find arteries in " + o.input.input.string() + ": it is a " +
+                       name_of(source.kind) + " and no CT image");
+  coronary::ExtractOptions options;
+  options.labels.least_confidence = o.least_confidence;
+  const session::FoundModel result = session::found_model(*source.image, options, task.sub(0.1, 0.98));
+  for (const std::string& warning : result.found.warnings) core::log_warning(warning);
+  task.throw_if_cancelled();
+  made.make(result, {source.sha256, source.pseudonym});
+  if (!o.lines.empty()) io::write_centerlines(o.lines, result.model.tree);
+  made.commit();
+  task.set_progress(1.0);
+  print(facts_of(result), o.json);
+  return ExitCode::ok;
+}
+
+void define_extract(CLI::App& app, ExtractCommand& c, std::function<ExitCode(const core::TaskContext&)>& run,
+                    const std::function<void(CLI::App&, InputOptions&)>& add_dicom) {
+  CLI::App* extract = app.add_subcommand(
+      "extract", "The coronary tree of a CT angiogram found by itself: a case to be checked");
+  extract->footer("Example:\n  ostia extract CT/ -o heart.ostia");
+  extract->fallthrough();
+  extract->add_option("INPUT", c.input.input, "DICOM folder or image")->required();
+  add_dicom(*extract, c.input);
+  extract->add_option("-o,--output", c.output, "Case with labelled, editable vessels, .ostia")->required();
+  extract->add_option("--lines", c.lines, "Also the centerlines: .vtp or .csv");
+  extract
+      ->add_option("--least-confidence", c.least_confidence,
+                   "A vessel that is named with less keeps a number for its name")
+      ->check(CLI::Range(0.0, 1.0));
+  extract->add_flag("--json", c.json, "One JSON object on standard output");
+  extract->callback([&] { run = [&](const core::TaskContext& task) { return run_extract(c, task); }; });
+}
+
+}  // namespace ostia::app

@@ -1,0 +1,30 @@
+#pragma once
+/// \file `ostia extract`: what it is told.
+
+#include "commands.h"
+
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace ostia::app {
+
+struct ExtractCommand {
+  InputOptions input;            ///< CT
+  std::filesystem::path output;  ///< case
+  std::filesystem::path lines;   ///< centerlines; empty: none
+  double least_confidence = 0.5;
+  bool json = false;
+};
+ExitCode run_extract(const ExtractCommand& options, const core::TaskContext& task);
+
+/// Adds `extract`.
+void define_extract(CLI::App& app, ExtractCommand& extract,
+                    std::function<ExitCode(const core::TaskContext&)>& run,
+                    const std::function<void(CLI::App&, InputOptions&)>& add_dicom);
+
+}  // namespace ostia::app

@@ -1,0 +1,37 @@
+#pragma once
+/// \file The coronary tree of a contrast-enhanced CT, found and named without a click.
+
+#include "ostia/coronary/axes.h"
+#include "ostia/coronary/labels.h"
+
+#include <string>
+#include <vector>
+
+namespace ostia::coronary {
+
+/// Of each step; docs/coronary-extract.md says how they follow each other.
+struct ExtractOptions {
+  AortaOptions aorta;
+  OstiaOptions ostia;
+  GrowthOptions growth;
+  AxesOptions axes;
+  LabelOptions labels;
+};
+void validate(const ExtractOptions& options);  ///< throws InvalidInput
+
+struct Extraction {
+  Aorta aorta;
+  std::vector<Ostium> ostia;
+  LabelledTree vessels;          ///< axes with radii, named as far as that is sure
+  std::vector<AxisNotes> notes;  ///< one a vessel, in the tree's order: of the branch that ends where it does
+  std::vector<std::string> warnings;  ///< of all steps, in plain words
+};
+
+/// Aorta, ostia, growth, axes, names, each step as its own header has it; the task's stage says which one
+/// runs. Deterministic, the same for any number of threads. Throws InvalidInput for options out of range or
+/// an empty image, GeometryError where there is no aorta, no ostium or no artery (what was looked for and
+/// what to do), Cancelled.
+Extraction extract(const imaging::ImageVolume& image, const ExtractOptions& options = {},
+                   const core::TaskContext& task = core::no_task());
+
+}  // namespace ostia::coronary

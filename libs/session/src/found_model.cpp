@@ -1,0 +1,65 @@
+#include "ostia/session/found_model.h"
+
+#include "ostia/lumen/start_surface.h"
+#include "ostia/pipeline/image_walls.h"
+
+#include <cmath>
+#include <system_error>
+
+namespace ostia::session {
+namespace {
+
+constexpr double least_evidence = 0.5;  // of an axis that needs no second look
+
+std::string percent(double share) {
+  return std::to_string(std::lround(100.0 * share)) + " %";
+}
+
+}  // namespace
+
+std::string doubt_about(const coronary::VesselLabel& label, const coronary::AxisNotes& axis,
+                        double least_confidence) {
+  std::string doubt;
+  const auto add = [&](const std::string& text) { doubt += (doubt.empty() ? "" : "; ") + text; };
+  if (label.likeliest.empty())
+    add("which artery it is was not found");
+  else if (label.confidence < least_confidence)
+    add("perhaps " + label.likeliest + " (" + percent(label.confidence) + ")");
+  if (axis.evidence < least_evidence) add("faint: evidence " + percent(axis.evidence));
+  for (const std::string& warning : axis.warnings) add(warning);
+  return doubt;
+}
+
+FoundModel found_model(const imaging::ImageVolume& image, const coronary::ExtractOptions& options,
+                       const core::TaskContext& task) {
+  FoundModel result;
+  result.found = coronary::extract(image, options, task.sub(0.0, 0.7));
+  task.set_stage("walls of the vessels");
+  const geometry::VesselTree& tree = result.found.vessels.tree;
+  result.model = lumen::model_of_walls(tree, pipeline::walls_from_image(tree, image, task.sub(0.7, 1.0)));
+  for (std::size_t i = 0; i < tree.vessels.size(); ++i) {
+    VesselMark mark;
+    mark.vessel = tree.vessels[i].id;
+    mark.note =
+        doubt_about(result.found.vessels.labels[i], result.found.notes[i], options.labels.least_confidence);
+    if (!mark.note.empty()) result.marks.push_back(std::move(mark));
+  }
+  task.set_progress(1.0);
+  return result;
+}
+
+CaseFile create_case(const std::filesystem::path& path, const FoundModel& found,
+                     const ImageReference& image) {
+  CaseFile made = CaseFile::create(path, found.model, image);
+  try {
+    for (const VesselMark& mark : found.marks) made.annotate(MarkVessel{mark});
+  } catch (...) {
+    { const CaseFile closed = std::move(made); }
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
+    throw;
+  }
+  return made;
+}
+
+}  // namespace ostia::session

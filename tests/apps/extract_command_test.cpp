@@ -1,0 +1,69 @@
+#include "program.h"
+
+#include "ostia/imaging/image_file.h"
+#include "ostia/io/centerline_file.h"
+#include "ostia/phantom/phantom_case.h"
+#include "ostia/session/case_file.h"
+#include "ostia/session/image_digest.h"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace ostia::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(ExtractCommand, AnAngiogramBecomesACaseWithLabelledVesselsAndTheirDoubts) {
+  const auto folder = temporary_folder("extract");
+  phantom::CaseOptions options;
+  options.preset = phantom::Preset::small;
+  imaging::write_image(folder / "heart.nrrd", phantom::scan_case(phantom::plan_case(options)).image);
+  const Setting in{folder, ""};
+  const Outcome done =
+      ostia({"extract", "heart.nrrd", "-o", "heart.ostia", "--lines", "lines.vtp", "--json"}, in);
+  ASSERT_EQ(done.code, 0) << done.err;
+  const auto facts = nlohmann::json::parse(done.out);
+  EXPECT_EQ(facts["ostia"], 2);
+  const auto opened = session::CaseFile::open(folder / "heart.ostia", session::OpenMode::read_only);
+  EXPECT_EQ(opened.image()->sha256, session::image_reference(folder / "heart.nrrd").sha256);
+  const geometry::VesselTree& tree = opened.model()->tree;
+  ASSERT_EQ(tree.vessels.size(), facts["vessels"].size());
+  for (const char* wanted : {"LAD", "LCX", "RCA"})
+    EXPECT_EQ(std::count_if(tree.vessels.begin(), tree.vessels.end(),
+                            [&](const geometry::Vessel& one) { return one.name == wanted; }),
+              1)
+        << wanted;
+  std::size_t doubts = 0;
+  for (const auto& vessel : facts["vessels"]) doubts += vessel["doubt"].get<std::string>().empty() ? 0U : 1U;
+  EXPECT_EQ(opened.annotations()->marks.size(), doubts);
+  EXPECT_EQ(io::read_centerlines(folder / "lines.vtp").vessels.size(), tree.vessels.size());
+  // What is there is nobody's to overwrite.
+  const Outcome again = ostia({"extract", "heart.nrrd", "-o", "heart.ostia"}, in);
+  EXPECT_EQ(again.code, 3);
+  EXPECT_THAT(again.err, HasSubstr("heart.ostia"));
+}
+
+TEST(ExtractCommand, WhatHoldsNoHeartIsRefusedAndNoCaseIsLeft) {
+  const auto folder = temporary_folder("extract");
+  imaging::ImageVolume noise;
+  noise.geometry.size = {96, 96, 96};
+  noise.geometry.spacing = {0.8, 0.8, 0.8};
+  noise.voxels.resize(static_cast<std::size_t>(noise.geometry.voxels()));
+  std::uint32_t state = 1;
+  for (std::int16_t& voxel : noise.voxels) {
+    state = state * 1664525U + 1013904223U;
+    voxel = static_cast<std::int16_t>(static_cast<int>(state >> 16) % 600 - 200);
+  }
+  imaging::write_image(folder / "noise.nrrd", noise);
+  const Setting in{folder, ""};
+  const Outcome done = ostia({"extract", "noise.nrrd", "-o", "noise.ostia"}, in);
+  EXPECT_EQ(done.code, 3) << done.err;
+  EXPECT_THAT(done.err, HasSubstr("aorta"));
+  EXPECT_THAT(names_in(folder), ::testing::ElementsAre("noise.nrrd"));
+}
+
+}  // namespace
+}  // namespace ostia::testing

@@ -1,0 +1,68 @@
+#include "program.h"
+
+#include "ostia/core/files.h"
+#include "ostia/imaging/image_file.h"
+#include "ostia/io/centerline_file.h"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace ostia::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+/// A tube of 2 mm radius along z, 30 mm long.
+imaging::MaskVolume tube() {
+  imaging::MaskVolume mask;
+  mask.geometry.size = {30, 30, 90};
+  mask.geometry.spacing = {0.4, 0.4, 0.4};
+  mask.voxels.assign(static_cast<std::size_t>(mask.geometry.voxels()), 0);
+  for (std::int64_t k = 8; k < 83; ++k)
+    for (std::int64_t j = 0; j < 30; ++j)
+      for (std::int64_t i = 0; i < 30; ++i)
+        if (std::hypot(0.4 * static_cast<double>(i) - 6.0, 0.4 * static_cast<double>(j) - 6.0) <= 2.0)
+          mask(i, j, k) = 1;
+  return mask;
+}
+
+TEST(SkeletonCommand, AMaskBecomesLinesWithRadiiAndATable) {
+  const auto folder = temporary_folder("skeleton");
+  imaging::write_image(folder / "tube.nrrd", tube());
+  const Setting in{folder, ""};
+  const Outcome done = ostia({"skeleton", "tube.nrrd", "-o", "lines.vtp", "--sections", "sections.csv",
+                              "--inlet", "15,15,8", "--coords", "ijk", "--json"},
+                             in);
+  ASSERT_EQ(done.code, 0) << done.err;
+  const auto facts = nlohmann::json::parse(done.out);
+  EXPECT_EQ(facts["lines"], 1);
+  EXPECT_EQ(facts["loops"], 0);
+  EXPECT_NEAR(facts["length_mm"].get<double>(), 30.0, 1.0);
+  const auto tree = io::read_centerlines(folder / "lines.vtp");
+  ASSERT_EQ(tree.segments.size(), 1U);
+  const auto& line = tree.segments.front().axis;
+  EXPECT_LT(line.points.front().z(), line.points.back().z());
+  EXPECT_NEAR(line.radius[line.radius.size() / 2], 2.0, 0.15);
+  EXPECT_THAT(core::read_file(folder / "sections.csv"), StartsWith("edge,point,x_mm,"));
+}
+
+TEST(SkeletonCommand, WhatIsNoMaskOrCannotBeWrittenIsRefusedAndNothingIsLeft) {
+  const auto folder = temporary_folder("skeleton");
+  const Setting in{folder, ""};
+  imaging::write_image(folder / "tube.nrrd", tube());
+  const Outcome name = ostia({"skeleton", "tube.nrrd", "-o", "lines.stl"}, in);
+  EXPECT_NE(name.code, 0);
+  EXPECT_THAT(name.err, HasSubstr("lines.stl"));
+  const Outcome inlet = ostia({"skeleton", "tube.nrrd", "-o", "lines.vtp", "--inlet", "500,0,0"}, in);
+  EXPECT_EQ(inlet.code, 3) << inlet.err;
+  const Outcome surface = ostia({"skeleton", "none.nrrd", "-o", "lines.vtp"}, in);
+  EXPECT_EQ(surface.code, 3) << surface.err;
+  EXPECT_THAT(surface.err, HasSubstr("none.nrrd"));
+  EXPECT_THAT(names_in(folder), ::testing::ElementsAre("tube.nrrd"));
+}
+
+}  // namespace
+}  // namespace ostia::testing

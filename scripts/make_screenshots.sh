@@ -56,22 +56,13 @@ drag() {
   sleep 0.5
 }
 
-start --sample
-until grep -qs '"open_case": "/' "$work/state/machine.json"; do sleep 1; done
-sleep 20 # the image of the case comes after the case
+start --sample --frame-log "$work/frames"
+until grep -qs '"view":"cpr1".*"picture":[1-9]' "$work/frames"; do sleep 1; done # the image comes after the case
+sleep 5
 front
 at 640 790
 keys l
 shot window 3
-
-# A stroke along the wall of the stenosis on the first CPR, then a pull.
-keys w
-drag 419 450 420 480 419 510 418 535 418 560 419 590
-shot editing 2
-keys ctrl+z e
-drag 424 380 429 380
-shot pull 2
-keys ctrl+z
 
 # A stenosis between two places of reference.
 keys s
@@ -98,4 +89,24 @@ keys alt+v q
 keys alt+h t
 keys Right Right
 shot tour 2
+keys Escape
+front
+keys ctrl+z # the measurement
+
+# The RCA's stenosis, large, with its calcified plaque on the left of the first CPR: there the model's wall takes
+# some of the calcium for lumen. It is drawn anew where the phantom has it, and pulled there.
+keys ctrl+Right ctrl+Right ctrl+Right ctrl+Right ctrl+Right ctrl+Right ctrl+Home l
+keys bracketleft bracketleft bracketleft bracketleft
+keys alt+2 plus plus plus plus plus alt+4 plus plus plus alt+9
+at 379 680 # on the profile, beyond the stenosis: the way back brings it into the middle of the CPRs
+xdotool click 1
+sleep 1
+keys shift+l ctrl+Up ctrl+Up alt+2 w
+drag 383 244 386 255 389 267 391 278 394 289 396 301 398 312 399 323 399 334 399 357 399 380 399 391 398 402 \
+  397 414 395 425 393 436 390 448
+at 330 500
+shot editing 2
+keys ctrl+z e
+drag 393 318 395 318 397 318 398 318
+shot pull 2
 ls -l "$out"

@@ -38,6 +38,8 @@ const QMap<QString, const char*>& tip_table() {
       {"edit.undo", QT_TRANSLATE_NOOP("tips", "Takes the last step back.")},
       {"edit.redo", QT_TRANSLATE_NOOP("tips", "Does again what was taken back.")},
       {"edit.preferences", QT_TRANSLATE_NOOP("tips", "Keys, theme and language.")},
+      {"vessel.find",
+       QT_TRANSLATE_NOOP("tips", "Finds aorta, ostia and arteries in the image, and names them.")},
       {"vessel.split", QT_TRANSLATE_NOOP("tips",
                                          "Makes two vessels of this one; the second begins at the cursor "
                                          "and takes the side branches from there on.")},

@@ -12,11 +12,15 @@
 #include <QApplication>
 #include <QCommandLineParser>
 #include <QInputEvent>
+#include <QMessageBox>
 #include <QStandardPaths>
 #include <QSurfaceFormat>
+#include <algorithm>
 #include <clocale>
 #include <csignal>
 #include <cstdio>
+#include <initializer_list>
+#include <string_view>
 
 namespace {
 
@@ -41,61 +45,128 @@ class Application final : public QApplication {
   }
 };
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  if (argc > 1 && std::string_view(argv[1]) == "--version") {
-    std::printf("ostia-workstation %s\n", OSTIA_VERSION);
-    return 0;
-  }
-  if (const std::optional<std::string> trouble = ostia::view::check_opengl()) {
-    std::fprintf(stderr, "ostia-workstation: %s\n", trouble->c_str());
-    return 5;
-  }
-  std::signal(SIGXFSZ, SIG_IGN);  // a limit of a file's size is an error that is said, not the program's end
-  QSurfaceFormat::setDefaultFormat(QVTKOpenGLNativeWidget::defaultFormat());
-  QApplication::setAttribute(Qt::AA_EnableHighDpiScaling);
-  QApplication::setAttribute(Qt::AA_UseHighDpiPixmaps);
-  QApplication::setAttribute(Qt::AA_DontCreateNativeWidgetSiblings);
-  Application application(argc, argv);
-  std::setlocale(LC_NUMERIC, "C");
-  QApplication::setApplicationName("ostia");
-  QApplication::setApplicationDisplayName("Ostia");
-  QApplication::setApplicationVersion(OSTIA_VERSION);
-
+struct CommandLine {
   QCommandLineParser parser;
-  parser.setApplicationDescription(QApplication::tr("The coronary modelling workstation."));
-  parser.addHelpOption();
-  parser.addVersionOption();
-  parser.addPositionalArgument("what", QApplication::tr("A case, an image, a DICOM folder, or a zip of one."),
-                               "[what]");
-  const QCommandLineOption state(
+  const QCommandLineOption state{
       "state-folder", QApplication::tr("Where recent cases and window settings are kept."), "folder",
-      QStandardPaths::writableLocation(QStandardPaths::GenericDataLocation) + "/ostia");
-  const QCommandLineOption frames(
-      "frame-log", QApplication::tr("Writes the times of all frames, a JSON line each."), "file");
-  const QCommandLineOption sample("sample", QApplication::tr("Opens the sample case."));
-  const QCommandLineOption no_tour("no-tour",
-                                   QApplication::tr("Starts without the tour, as OSTIA_NO_TOUR does."));
-  parser.addOptions({state, frames, sample, no_tour});
-  parser.process(application);
-  if (parser.positionalArguments().size() > 1) {
+      QStandardPaths::writableLocation(QStandardPaths::GenericDataLocation) + "/ostia"};
+  const QCommandLineOption frames{
+      "frame-log", QApplication::tr("Writes the times of all frames, a JSON line each."), "file"};
+  const QCommandLineOption sample{"sample", QApplication::tr("Opens the sample case.")};
+  const QCommandLineOption no_tour{"no-tour",
+                                   QApplication::tr("Starts without the tour, as OSTIA_NO_TOUR does.")};
+  CommandLine() {
+    parser.setApplicationDescription(QApplication::tr("The coronary modelling workstation."));
+    parser.addHelpOption();
+    parser.addVersionOption();
+    parser.addPositionalArgument(
+        "what", QApplication::tr("A case, an image, a DICOM folder, or a zip of one."), "[what]");
+    parser.addOptions({state, frames, sample, no_tour});
+  }
+  std::string state_folder() const { return parser.value(state).toStdString(); }
+  /// Before any window is made.
+  void use_language() const {
+    ostia::workstation::use_language(
+        ostia::session::MachineState(state_folder()).setting(ostia::workstation::language_setting));
+  }
+};
+
+/// What needs no display, so that a script can ask for it anywhere; true where it was all that was wanted.
+bool answered(int argc, char** argv) {
+  const auto asked = [&](std::initializer_list<std::string_view> words) {
+    for (int i = 1; i < argc && std::string_view(argv[i]) != "--"; ++i)
+      if (std::find(words.begin(), words.end(), argv[i]) != words.end()) return true;
+    return false;
+  };
+  if (asked({"--version", "-v"})) {
+    std::printf("ostia-workstation %s\n", OSTIA_VERSION);
+    return true;
+  }
+  if (!asked({"--help", "-h", "--help-all"})) return false;
+  const QCoreApplication application(argc, argv);  // the help names the program
+  std::fputs(qPrintable(CommandLine().parser.helpText()), stdout);
+  return true;
+}
+
+/// What check_opengl can say.
+[[maybe_unused]] const char* const texts_of_opengl[] = {
+    QT_TRANSLATE_NOOP("opengl", "The library libX11.so.6 is not installed."),
+    QT_TRANSLATE_NOOP("opengl", "The library libGL.so.1 is not installed."),
+    QT_TRANSLATE_NOOP("opengl", "The installed OpenGL library has no GLX."),
+    QT_TRANSLATE_NOOP("opengl", "The display offers no OpenGL."),
+    QT_TRANSLATE_NOOP("opengl", "The display's OpenGL is older than 3.0."),
+    QT_TRANSLATE_NOOP("opengl", "The display's OpenGL is older than 3.2."),
+    QT_TRANSLATE_NOOP("opengl", "The graphics driver does not answer."),
+    QT_TRANSLATE_NOOP("opengl", "The graphics driver failed when it was asked for a window."),
+    QT_TRANSLATE_NOOP("opengl",
+                      "Ostia's window needs OpenGL 3.2: update the graphics driver, or draw without the "
+                      "graphics card (install "
+                      "Mesa's software renderer, package libgl1-mesa-dri, and start with "
+                      "LIBGL_ALWAYS_SOFTWARE=1). The command "
+                      "line program ostia needs no display."),
+};
+
+/// Says it on stderr and, for who has started the program by a click, in a box where a display shows one.
+/// Returns the exit code.
+int refuse(const ostia::view::OpenGlTrouble& trouble, int argc, char** argv) {
+  std::fprintf(stderr, "ostia-workstation: %s\n", trouble.text().c_str());
+  constexpr int exit_code = 5;
+  if (!trouble.has_display) return exit_code;
+  QApplication application(argc, argv);
+  // On a platform without a screen (offscreen, minimal, vnc) nobody could close the box.
+  const QString platform = QGuiApplication::platformName();
+  if (platform != "xcb" && !platform.startsWith("wayland")) return exit_code;
+  CommandLine said;
+  if (said.parser.parse(QApplication::arguments())) said.use_language();
+  const auto translated = [](const std::string& text) {
+    return QCoreApplication::translate("opengl", text.c_str());
+  };
+  QMessageBox box(QMessageBox::Critical,
+                  QCoreApplication::translate("opengl", "The workstation cannot start"),
+                  translated(trouble.reason), QMessageBox::Close);
+  box.setInformativeText(translated(trouble.way_out));
+  box.setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
+  box.exec();
+  return exit_code;
+}
+
+int run(const CommandLine& said) {
+  using ostia::workstation::FrameLog;
+  if (said.parser.positionalArguments().size() > 1) {
     std::fprintf(stderr, "ostia-workstation: one case, image or folder at a time\n");
     return 2;
   }
-  if (parser.isSet(frames) && !ostia::workstation::FrameLog::instance().open(parser.value(frames))) {
+  if (said.parser.isSet(said.frames) && !FrameLog::instance().open(said.parser.value(said.frames))) {
     std::fprintf(stderr, "ostia-workstation: --frame-log: the file cannot be written\n");
     return 3;
   }
-  const std::string state_folder = parser.value(state).toStdString();
-  ostia::workstation::use_language(
-      ostia::session::MachineState(state_folder).setting(ostia::workstation::language_setting));
-  ostia::workstation::MainWindow window(state_folder);
+  said.use_language();
+  ostia::workstation::MainWindow window(said.state_folder());
   window.show();
-  if (!parser.isSet(no_tour)) window.findChild<ostia::workstation::Help*>()->greet();
-  if (!parser.positionalArguments().isEmpty())
-    window.open(parser.positionalArguments().front().toStdString());
-  else if (parser.isSet(sample))
+  if (!said.parser.isSet(said.no_tour)) window.findChild<ostia::workstation::Help*>()->greet();
+  if (!said.parser.positionalArguments().isEmpty())
+    window.open(said.parser.positionalArguments().front().toStdString());
+  else if (said.parser.isSet(said.sample))
     window.open_sample();
   return QApplication::exec();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  QCoreApplication::setApplicationName("ostia");
+  QCoreApplication::setApplicationVersion(OSTIA_VERSION);
+  if (answered(argc, argv)) return 0;
+  QApplication::setAttribute(Qt::AA_EnableHighDpiScaling);
+  QApplication::setAttribute(Qt::AA_UseHighDpiPixmaps);
+  QApplication::setAttribute(Qt::AA_DontCreateNativeWidgetSiblings);
+  QGuiApplication::setApplicationDisplayName("Ostia");
+  if (const auto trouble = ostia::view::check_opengl()) return refuse(*trouble, argc, argv);
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit of a file's size is an error that is said, not the program's end
+  QSurfaceFormat::setDefaultFormat(QVTKOpenGLNativeWidget::defaultFormat());
+  Application application(argc, argv);
+  std::setlocale(LC_NUMERIC, "C");
+  CommandLine said;
+  said.parser.process(application);
+  return run(said);
 }

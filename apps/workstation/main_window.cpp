@@ -7,6 +7,7 @@
 #include "reporting.h"
 #include "side_lists.h"
 #include "start_page.h"
+#include "vessel_finder.h"
 #include "vessel_list.h"
 
 #include "ostia/core/error.h"
@@ -21,6 +22,7 @@
 #include <QLabel>
 #include <QMessageBox>
 #include <QMimeData>
+#include <QPushButton>
 #include <QScreen>
 #include <QSplitter>
 #include <QStatusBar>
@@ -66,11 +68,15 @@ MainWindow::MainWindow(const std::filesystem::path& state_folder)
   opening_ = std::make_unique<Opening>(*this);
   reporting_ = std::make_unique<Reporting>(*this);
   meshing_export_ = std::make_unique<MeshingExport>(*this);
+  finder_ = std::make_unique<VesselFinder>(*this, *opening_);
   build_views();
   build_actions();
   build_tool_bar();
   new StartPage(*this, "curved");
   restore_layout();
+  own_.push_back(bench_.image_changed.observe([this] {
+    if (!bench_.image().volume) set_shown_name({});
+  }));
   own_.push_back(
       bench_.noted.observe([this](const std::string& note) { say(QString::fromStdString(note)); }));
   for (const std::string& notice : machine_.take_notices()) say(QString::fromStdString(notice));
@@ -139,10 +145,11 @@ void MainWindow::open_sample() {
 Panel* MainWindow::picture_panel(const QString& title, const QString& name,
                                  std::unique_ptr<view::PictureView> shown) {
   auto* picture = new PictureWidget(std::move(shown), name, guard_);
+  picture->setAccessibleName(title);
   pictures_.push_back(picture);
   connect(picture, &PictureWidget::hovered, this, [this](const QString& text) { place_->setText(text); });
-  own_.push_back(
-      picture->pointer().end_chosen.observe([this](const geometry::Vec3& end) { find_vessel(end); }));
+  own_.push_back(picture->pointer().end_chosen.observe(
+      [this](const geometry::Vec3& end) { finder_->find_vessel(end); }));
   auto* panel = new Panel(title, picture);
   connect(panel, &Panel::maximise_wanted, this, [this, panel] { maximise(panel); });
   return panel;
@@ -177,6 +184,7 @@ QWidget* MainWindow::section_column() {
   for (const int step : {-2, -1, 1, 2}) {
     auto* picture = new PictureWidget(std::make_unique<SectionView>(bench_, step * strip_step_mm, 12.0),
                                       QStringLiteral("strip%1").arg(step), guard_);
+    picture->setAccessibleName(tr("Cross-section, %1 mm on").arg(step * strip_step_mm));
     picture->setMinimumSize(strip_px, strip_px);
     pictures_.push_back(picture);
     row->addWidget(picture);
@@ -210,14 +218,15 @@ QWidget* MainWindow::right_column() {
   scene_->set_dark(current_theme() == Theme::dark);
   connect(scene_, &SceneWidget::volume_wanted, this, [this] {
     const auto image = bench_.image().volume;
-    if (!image) return;
+    if (!image || opening_->reading()) return;
     jobs_->run(
         "volume", tr("Preparing the heart"),
         [image](const core::TaskContext& task) {
           return std::any(
               std::make_shared<const imaging::ImageVolume>(imaging::reduced_volume(*image, {}, task)));
         },
-        [this](const std::any& reduced) {
+        [this, image](const std::any& reduced) {
+          if (bench_.image().volume != image) return;  // another heart by now
           scene_->scene().set_volume(std::any_cast<std::shared_ptr<const imaging::ImageVolume>>(reduced));
           scene_->request_render();
         },
@@ -269,6 +278,7 @@ QWidget* MainWindow::side_column() {
 void MainWindow::build_views() {
   place_ = new QLabel(this);
   shown_name_ = new QLabel(this);
+  shown_name_->setObjectName("shown_name");
   shown_name_->setContentsMargins(0, 0, 12, 0);
   jobs_ = new Jobs(this);
   statusBar()->addPermanentWidget(jobs_);
@@ -287,7 +297,7 @@ void MainWindow::build_views() {
   columns->setSizes({300, 560, 330, 380});
   columns->setStretchFactor(0, 0);
   for (int i = 1; i < 4; ++i) columns->setStretchFactor(i, 1);
-  profile_ = new ProfileWidget(bench_);
+  profile_ = new ProfileWidget(bench_, guard_);
   auto* profile = new Panel(tr("Lumen profile"), profile_);
   connect(profile, &Panel::maximise_wanted, this, [this, profile] { maximise(profile); });
   auto* rows = new QSplitter(Qt::Vertical);
@@ -324,7 +334,28 @@ void MainWindow::restore_layout() {
     splitter->restoreState(decoded(machine_.setting("splitter." + splitter->objectName().toStdString())));
 }
 
+bool MainWindow::may_close() {
+  QStringList unfinished;
+  for (const auto& [kind, title] :
+       {std::pair("report", tr("the report")), {"surface", tr("the surface")}, {"mesh", tr("the mesh")}})
+    if (jobs_->running(kind)) unfinished << title;
+  if (unfinished.isEmpty()) return true;
+  QMessageBox box(QMessageBox::Question, QStringLiteral("Ostia"),
+                  tr("Not finished yet: %1. It is lost if the window closes now; the case is safe.")
+                      .arg(unfinished.join(QStringLiteral(", "))),
+                  QMessageBox::NoButton, this);
+  box.setObjectName("unfinished");
+  const QAbstractButton* close_now = box.addButton(tr("Close all the same"), QMessageBox::DestructiveRole);
+  box.setDefaultButton(box.addButton(tr("Go on working"), QMessageBox::RejectRole));
+  box.exec();
+  return box.clickedButton() == close_now;
+}
+
 void MainWindow::closeEvent(QCloseEvent* event) {
+  if (!may_close()) {
+    event->ignore();
+    return;
+  }
   remember_layout();
   opening_->close_case();
   event->accept();

@@ -26,6 +26,7 @@ class Opening;
 class Reporting;
 class MeshingExport;
 class QaPanel;
+class VesselFinder;
 
 class MainWindow final : public QMainWindow {
   Q_OBJECT
@@ -41,6 +42,7 @@ class MainWindow final : public QMainWindow {
   session::Workbench& bench() { return bench_; }
   session::MachineState& machine() { return machine_; }
   Jobs& jobs() { return *jobs_; }
+  VesselFinder& finder() { return *finder_; }
   /// Runs it; what is refused comes up in the status line (or, `loud`, as a dialog) and ends there.
   bool guarded(const std::function<void()>& act, bool loud = false);
   void say(const QString& text);                                  ///< in the status line
@@ -79,7 +81,7 @@ class MainWindow final : public QMainWindow {
   void turn(double degrees);
   void walk(double mm);
   void next_vessel(int by);
-  void find_vessel(const geometry::Vec3& end);
+  bool may_close();
   void set_theme(Theme theme);
 
   std::filesystem::path state_folder_;
@@ -89,6 +91,7 @@ class MainWindow final : public QMainWindow {
   Jobs* jobs_ = nullptr;
   std::unique_ptr<Opening> opening_;
   std::unique_ptr<Reporting> reporting_;
+  std::unique_ptr<VesselFinder> finder_;
   std::unique_ptr<MeshingExport> meshing_export_;
   SceneWidget* scene_ = nullptr;
   ProfileWidget* profile_ = nullptr;
@@ -99,7 +102,6 @@ class MainWindow final : public QMainWindow {
   QLabel* place_ = nullptr;
   QLabel* shown_name_ = nullptr;
   std::map<QString, QAction*> actions_;
-  std::optional<geometry::Vec3> first_end_;  // of a case's first vessel
   QTimer heartbeat_;
   QElapsedTimer beat_;
   std::vector<session::Subscription> own_;

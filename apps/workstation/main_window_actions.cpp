@@ -6,10 +6,9 @@
 #include "reporting.h"
 #include "shortcuts.h"
 #include "tool_bar_fit.h"
+#include "vessel_finder.h"
 
 #include "ostia/core/error.h"
-#include "ostia/segmentation/minimal_path.h"
-#include "ostia/session/new_vessel.h"
 
 #include <QActionGroup>
 #include <QCoreApplication>
@@ -103,6 +102,8 @@ void MainWindow::build_actions() {
   edit->addAction(action("edit.redo", tr("&Redo"), [this] { bench_.redo(); }));
 
   QMenu* vessel = menuBar()->addMenu(tr("Ve&ssel"));
+  vessel->addAction(
+      action("vessel.find", tr("&Find the coronary arteries"), [this] { finder_->find_tree(); }));
   vessel->addAction(action("vessel.split", tr("&Split at the cursor"), [this] {
     bench_.edit(lumen::BranchSplit{bench_.vessel.get(), bench_.cursor_mm.get(), {}});
   }));
@@ -118,8 +119,8 @@ void MainWindow::build_actions() {
     group->addAction(made);
     tool_menu->addAction(made);
     connect(made, &QAction::triggered, this, [this, tool = entry.tool, tip = QString(entry.tip)] {
-      bench_.tool.set(tool);
       say(QCoreApplication::translate("tools", tip.toUtf8().constData()));
+      bench_.tool.set(tool);  // who watches it may have something better to say
     });
     keep_with(made, bench_.tool.observe(
                         [made, tool = entry.tool](const Tool& now) { made->setChecked(now == tool); }));
@@ -193,6 +194,7 @@ void MainWindow::build_actions() {
   shown->addAction(build_qa());
 
   own_.push_back(bench_.case_changed.observe([this] { refresh_actions(); }));
+  own_.push_back(bench_.image_changed.observe([this] { refresh_actions(); }));
   own_.push_back(bench_.steps_changed.observe([this] { refresh_actions(); }));
   own_.push_back(bench_.vessel.observe([this](const std::int32_t&) { refresh_actions(); }));
   refresh_actions();
@@ -246,6 +248,7 @@ void MainWindow::refresh_actions() {
   for (const char* id : {"file.save_as", "file.close", "file.report", "file.pin", "file.export_surface",
                          "file.export_mesh", "file.export_centerlines"})
     actions_[id]->setEnabled(has_case);
+  actions_["vessel.find"]->setEnabled(!has_case && bench_.image().volume);
   actions_["vessel.split"]->setEnabled(has_case && bench_.axis());
   actions_["vessel.merge"]->setEnabled(has_case && bench_.axis() &&
                                        lumen::merge_parent(bench_.model()->tree, bench_.vessel.get()));
@@ -274,7 +277,7 @@ void MainWindow::pin_view() {
   if (view)
     reporting_->pin(*view);
   else
-    say(tr("Click into the view to be pinned first."));
+    say(tr("Click into the CPR, section or slice to be pinned first."));
 }
 
 void MainWindow::turn(double degrees) {
@@ -294,53 +297,6 @@ void MainWindow::next_vessel(int by) {
       bench_.vessel.set(vessels[static_cast<std::size_t>((i + by + count) % count)].id);
       return;
     }
-}
-
-void MainWindow::find_vessel(const geometry::Vec3& end) {
-  const auto image = bench_.image().volume;
-  if (!image) {
-    say(tr("A vessel is found in the image: open the image of this case first."));
-    return;
-  }
-  const auto failed = [this](const QString& message) { complain(message, tr("No vessel found")); };
-  if (bench_.has_case()) {
-    const auto model = bench_.session().file().model();
-    jobs_->run(
-        "path", tr("Way back to the tree"),
-        [image, model, end](const core::TaskContext& task) {
-          return std::any(segmentation::path_to_tree(*image, end, model->tree, {}, task));
-        },
-        [this](const std::any& found) {
-          const auto& way = std::any_cast<const segmentation::MinimalPath&>(found);
-          guarded(
-              [&] {
-                const std::string name = session::unused_name(bench_.model());
-                bench_.edit(session::branch_of(way, name));
-                bench_.vessel.set(bench_.model()->tree.vessels.back().id);
-                if (!way.warnings.empty()) say(QString::fromStdString(way.warnings.front()));
-              },
-              true);
-        },
-        failed);
-    return;
-  }
-  if (!first_end_) {
-    first_end_ = end;
-    say(tr("Now click the distal end of this vessel."));
-    return;
-  }
-  const geometry::Vec3 from = *first_end_;
-  first_end_.reset();
-  jobs_->run(
-      "path", tr("First vessel"),
-      [image, from, end](const core::TaskContext& task) {
-        const segmentation::MinimalPath way =
-            segmentation::path_between(*image, from, end, {}, task.sub(0.0, 0.5));
-        return std::any(
-            session::model_of_way(way, session::unused_name(nullptr), *image, task.sub(0.5, 1.0)));
-      },
-      [this](const std::any& model) { opening_->start_case(std::any_cast<const lumen::LumenModel&>(model)); },
-      failed);
 }
 
 void MainWindow::set_theme(Theme theme) {

@@ -1,5 +1,6 @@
 #include "meshing_dialog.h"
 
+#include "file_dialogs.h"
 #include "theme.h"
 
 #include "ostia/core/error.h"
@@ -11,7 +12,6 @@
 #include <QComboBox>
 #include <QDialogButtonBox>
 #include <QDoubleSpinBox>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QFormLayout>
 #include <QHBoxLayout>
@@ -248,8 +248,7 @@ void MeshingDialog::add_folder(QFormLayout* form) {
 
 void MeshingDialog::choose_folder() {
   const QFileInfo now(folder_->text());
-  const QString inside =
-      QFileDialog::getExistingDirectory(this, tr("Where the folder is to be"), now.absolutePath());
+  const QString inside = ask_folder(this, tr("Where the folder is to be"), now.absolutePath());
   if (!inside.isEmpty()) folder_->setText(inside + "/" + now.fileName());
 }
 

@@ -1,11 +1,11 @@
 #include "opening.h"
 
+#include "file_dialogs.h"
 #include "main_window.h"
 
 #include "ostia/core/error.h"
 #include "ostia/session/sample_case.h"
 
-#include <QFileDialog>
 #include <QMessageBox>
 #include <QPushButton>
 #include <chrono>
@@ -16,8 +16,6 @@ namespace fs = std::filesystem;
 namespace {
 
 using session::ImageReference;
-
-constexpr const char* open_case_key = "open_case";  // set while a case is open: still there after a crash
 
 QString shown(const fs::path& path) {
   return QString::fromStdString(path.string());
@@ -34,21 +32,22 @@ std::int64_t now_s() {
 
 }  // namespace
 
-Opening::Opening(MainWindow& window) : QObject(&window), window_(window) {}
+Opening::Opening(MainWindow& window)
+    : QObject(&window), window_(window), memory_(window.bench()), mark_(window.state_folder()) {}
 
 fs::path Opening::state_folder() const {
   return window_.state_folder();
 }
 
 void Opening::choose_file() {
-  const QString chosen = QFileDialog::getOpenFileName(
-      &window_, tr("Open"), {},
+  const QString chosen = ask_open_file(
+      &window_, tr("Open"),
       tr("Cases and images (*.ostia *.nrrd *.mhd *.mha *.nii *.nii.gz *.dcm *.zip);;All files (*)"));
   if (!chosen.isEmpty()) open(path_of(chosen));
 }
 
 void Opening::choose_folder() {
-  const QString chosen = QFileDialog::getExistingDirectory(&window_, tr("Open a folder of DICOM files"));
+  const QString chosen = ask_folder(&window_, tr("Open a folder of DICOM files"));
   if (!chosen.isEmpty()) open(path_of(chosen));
 }
 
@@ -62,7 +61,7 @@ void Opening::open(const fs::path& path) {
   if (path.extension() == ".ostia")
     open_case(whole);
   else
-    open_image(whole);
+    open_image({whole, {}});
 }
 
 void Opening::open_sample() {
@@ -85,12 +84,18 @@ void Opening::open_sample() {
 }
 
 void Opening::open_case(const fs::path& path) {
-  if (window_.bench().has_case() && path == case_path_) return;
+  window_.jobs().cancel("first slice");
+  if (window_.bench().has_case() && path == case_path_) {
+    window_.jobs().cancel("open");  // whoever changes their mind keeps what is there
+    return;
+  }
+  const bool editable = session::can_be_edited(path);
   window_.jobs().run(
       "open", tr("Opening the case"),
-      [path, state = state_folder(),
+      [path, editable, state = state_folder(),
        shown = window_.bench().image().reference.sha256](const core::TaskContext&) {
-        session::CaseFile file = session::CaseFile::open(path);
+        session::CaseFile file = session::CaseFile::open(
+            path, editable ? session::OpenMode::read_write : session::OpenMode::read_only);
         OpenedCase opened;
         if (const auto image = file.image(); image && image->sha256 != shown)
           opened.image = read_beside(session::MachineState(state).find_image(image->sha256));
@@ -99,9 +104,13 @@ void Opening::open_case(const fs::path& path) {
             SceneWidget::screen_cell_mm);  // made here, so that the window need not wait for it
         return std::any(opened);
       },
-      [this, path](const std::any& result) {
+      [this, path, editable](const std::any& result) {
         const auto& opened = std::any_cast<const OpenedCase&>(result);
         show_case(std::move(*opened.session), path, opened.image);
+        if (!editable)
+          window_.say(
+              tr("This case can be looked at and not changed: its file or folder is read-only. "
+                 "Save it as another to edit it."));
       },
       [this](const QString& message) { window_.complain(message, tr("The case cannot be opened")); });
 }
@@ -112,7 +121,7 @@ void Opening::show_case(session::Session session, const fs::path& path, const Im
   const bool other_image = bench.image().volume && image && bench.image().reference.sha256 != image->sha256;
   const bool shown_now = window_.guarded(
       [&] {
-        remember_view();
+        keep_view();
         if (other_image) {
           bench.close_case();
           bench.close_image();
@@ -120,30 +129,31 @@ void Opening::show_case(session::Session session, const fs::path& path, const Im
         bench.set_session(std::move(session));
         case_path_ = path;
         window_.machine().remember_case({path, image ? image->pseudonym : std::string(), now_s()});
-        window_.machine().set_setting(open_case_key, path.string());
+        mark_.set(path);
       },
       true);
   if (!shown_now) return;
-  restore_view();
+  memory_.restore();
   if (image && !bench.image().volume) open_image_of(*image, image_beside);
 }
 
 void Opening::open_image_of(const ImageReference& image, const ImageBeside& beside) {
-  const std::optional<fs::path> known = window_.machine().find_image(image.sha256);
+  const std::optional<session::KnownImage> known = window_.machine().find_image(image.sha256);
   if (known && beside)
-    load_file(*known, beside);
+    load_file(known->path, beside);
   else if (known)
     open_image(*known);
   else
     image_missing(image);
 }
 
-void Opening::image_missing(const ImageReference& image) {
+void Opening::image_missing(const ImageReference& image, const QString& reason) {
   auto* box = new QMessageBox(
       QMessageBox::Question, tr("The image of this case"),
-      tr("The image that this case was made on (%1) is not where it was, or has never been opened on "
-         "this computer. The case can be looked at without it.")
-          .arg(QString::fromStdString(image.pseudonym)),
+      (reason.isEmpty() ? reason : reason + "\n\n") +
+          tr("The image that this case was made on (%1) is not where it was, or has never been opened on "
+             "this computer. The case can be looked at without it.")
+              .arg(QString::fromStdString(image.pseudonym)),
       QMessageBox::NoButton, &window_);
   box->setAttribute(Qt::WA_DeleteOnClose);
   const QAbstractButton* file = box->addButton(tr("Find the file\u2026"), QMessageBox::AcceptRole);
@@ -151,27 +161,33 @@ void Opening::image_missing(const ImageReference& image) {
   box->addButton(tr("Go on without"), QMessageBox::RejectRole);
   connect(box, &QMessageBox::buttonClicked, this, [this, file, folder](QAbstractButton* button) {
     QString chosen;
-    if (button == file) chosen = QFileDialog::getOpenFileName(&window_, tr("The image of this case"));
-    if (button == folder) chosen = QFileDialog::getExistingDirectory(&window_, tr("The image of this case"));
-    if (!chosen.isEmpty()) open_image(path_of(chosen));
+    if (button == file) chosen = ask_open_file(&window_, tr("The image of this case"));
+    if (button == folder) chosen = ask_folder(&window_, tr("The image of this case"));
+    if (!chosen.isEmpty()) open_image({path_of(chosen), {}});
   });
   box->open();
 }
 
 void Opening::save_as() {
   if (!window_.bench().has_case()) return;
-  const QString chosen =
-      QFileDialog::getSaveFileName(&window_, tr("Save the case as"), {}, tr("Cases (*.ostia)"));
+  const QString chosen = ask_save_file(&window_, tr("Save the case as"), tr("Cases (*.ostia)"));
   if (chosen.isEmpty()) return;
   fs::path to = path_of(chosen);
   if (to.extension() != ".ostia") to += ".ostia";
-  remember_view();
-  if (window_.guarded([&] { window_.bench().session().file().copy_to(to); }, true))
-    open_case(fs::absolute(to));
+  keep_view();
+  if (!window_.guarded([&] { window_.bench().session().file().copy_to(to); }, true)) return;
+  // What was done between the copying and the copy's opening would stay behind in the other file.
+  window_.setEnabled(false);
+  connect(&window_.jobs(), &Jobs::changed, this, &Opening::go_on, Qt::UniqueConnection);
+  open_case(fs::absolute(to));
 }
 
-void Opening::start_case(const lumen::LumenModel& model) {
-  const session::OpenImage& image = window_.bench().image();
+void Opening::go_on() {
+  if (!window_.jobs().running("open")) window_.setEnabled(true);
+}
+
+void Opening::start_case(const ImageReference& image,
+                         const std::function<session::CaseFile(const fs::path&)>& make) {
   const fs::path folder = state_folder() / "cases";
   window_.guarded(
       [&] {
@@ -179,56 +195,42 @@ void Opening::start_case(const lumen::LumenModel& model) {
         std::error_code ignored;
         fs::path path;
         for (int number = 1; path.empty() || fs::exists(path, ignored); ++number)
-          path = folder / (image.reference.pseudonym + "-" + std::to_string(number) + ".ostia");
-        session::CaseFile made = session::CaseFile::create(path, model, image.reference);
-        show_case(session::Session(std::move(made)), path);
+          path = folder / (image.pseudonym + "-" + std::to_string(number) + ".ostia");
+        show_case(session::Session(make(path)), path);
       },
       true);
 }
 
 void Opening::close_case() {
-  remember_view();
+  keep_view();
   window_.bench().close_case();
   case_path_.clear();
-  window_.guarded([&] { window_.machine().set_setting(open_case_key, ""); });
+  mark_.clear();
 }
 
-void Opening::recover() {
-  const std::optional<std::string> last = window_.machine().setting(open_case_key);
-  std::error_code ignored;
-  if (!last || last->empty() || !fs::exists(*last, ignored)) return;
-  window_.say(tr("The program ended without closing this case; it is opened where it was."));
-  open_case(*last);
-}
-
-void Opening::remember_view() {
-  session::Workbench& bench = window_.bench();
-  if (!bench.has_case()) return;
+void Opening::keep_view() {
   try {
-    session::CaseFile& file = bench.session().file();
-    file.set_setting("view.vessel", std::to_string(bench.vessel.get()));
-    file.set_setting("view.cursor_mm", QString::number(bench.cursor_mm.get(), 'g', 8).toStdString());
-    file.set_setting("view.theta_deg", QString::number(bench.theta_deg.get(), 'g', 8).toStdString());
+    memory_.keep();
   } catch (const Error& error) {
     // Nobody asked for it: a line, and the message is left to what was asked for.
     window_.say(QString::fromStdString(error.what()));
   }
 }
 
-void Opening::restore_view() {
-  session::Workbench& bench = window_.bench();
-  const session::CaseFile& file = bench.session().file();
-  const auto number = [&](const char* key) -> std::optional<double> {
-    const std::optional<std::string> text = file.setting(key);
-    if (!text) return std::nullopt;
-    bool good = false;
-    const double value = QString::fromStdString(*text).toDouble(&good);
-    return good ? std::optional(value) : std::nullopt;
-  };
-  if (const auto vessel = number("view.vessel"); vessel && bench.axis(static_cast<std::int32_t>(*vessel)))
-    bench.vessel.set(static_cast<std::int32_t>(*vessel));
-  if (const auto cursor = number("view.cursor_mm")) bench.cursor_mm.set(*cursor);
-  if (const auto theta = number("view.theta_deg")) bench.theta_deg.set(*theta);
+void Opening::recover() {
+  std::vector<fs::path> left = mark_.take_left();
+  std::erase_if(left, [](const fs::path& path) {
+    std::error_code ignored;
+    return !fs::exists(path, ignored);
+  });
+  if (left.empty()) return;
+  const int more = static_cast<int>(left.size()) - 1;
+  window_.say(
+      more == 0
+          ? tr("The program ended without closing this case; it is opened where it was.")
+          : tr("The program ended without closing this case and %n more, which are among the recent ones.",
+               nullptr, more));
+  open_case(left.front());
 }
 
 }  // namespace ostia::workstation

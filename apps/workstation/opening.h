@@ -1,13 +1,19 @@
 #pragma once
 /// \file What the person opens: cases, images, series, the sample.
 
+#include "view_memory.h"
+
 #include "ostia/core/beside.h"
 #include "ostia/imaging/dicom.h"
+#include "ostia/session/machine_state.h"
+#include "ostia/session/open_mark.h"
 #include "ostia/session/workbench.h"
 
 #include <QObject>
+#include <QString>
 #include <any>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -31,18 +37,27 @@ class Opening final : public QObject {
   /// Another file with the same case, which is then the open one.
   void save_as();
   const std::filesystem::path& case_path() const { return case_path_; }
-  /// A new case of the open image, in the folder of this machine's cases.
-  void start_case(const lumen::LumenModel& model);
+  /// A new case of an image, in the folder of this machine's cases.
+  void start_case(const session::ImageReference& image,
+                  const std::function<session::CaseFile(const std::filesystem::path&)>& make);
   void close_case();
-  /// The case that was open when the program ended without closing it.
+  /// The case that was open when a program ended without closing it.
   void recover();
-  /// Keeps with the case where the person looks.
-  void remember_view();
+  /// What is on the table is one slice of an image that is still being read.
+  bool reading() const;
 
  private:
   struct Loaded {
     session::OpenImage image;
+    std::string name;        ///< for the window alone
+    std::string series_uid;  ///< empty where it is no series
     std::vector<std::string> warnings;
+  };
+  /// What is known of a series before it has been read.
+  struct FirstSight {
+    std::string series_uid;
+    QString name;
+    std::optional<session::GreyWindow> window;
   };
   /// An image file of this machine that is being read.
   using ImageBeside = std::shared_ptr<core::Beside<Loaded>>;
@@ -54,22 +69,32 @@ class Opening final : public QObject {
   void show_case(session::Session session, const std::filesystem::path& path,
                  const ImageBeside& image_beside = {});
   void open_image_of(const session::ImageReference& image, const ImageBeside& beside);
-  void image_missing(const session::ImageReference& image);
+  /// `reason`: why what was chosen is not it.
+  void image_missing(const session::ImageReference& image, const QString& reason = {});
+  void keep_view();
   // images (opening_images.cpp)
-  void open_image(const std::filesystem::path& path);
-  void scan(const std::filesystem::path& path);
-  void choose_series(const std::filesystem::path& path, const imaging::DicomFolder& folder);
+  void open_image(const session::KnownImage& image);
+  void scan(const session::KnownImage& image);
+  void choose_series(const session::KnownImage& image, const imaging::DicomFolder& folder);
   void load_series(const std::filesystem::path& path, const imaging::DicomSeries& series,
                    const imaging::DicomReadOptions& options);
   void show_first_slice(const imaging::DicomSeries& series);
+  void take_first_sight();
   static Loaded read_file(const std::filesystem::path& path, const core::TaskContext& task);
-  static ImageBeside read_beside(const std::optional<std::filesystem::path>& path);
+  static ImageBeside read_beside(const std::optional<session::KnownImage>& image);
   void load_file(const std::filesystem::path& path, const ImageBeside& beside = {});
   void show(const Loaded& loaded, const std::filesystem::path& path);
-  void restore_view();
   std::filesystem::path state_folder() const;
   MainWindow& window_;
+  ViewMemory memory_;
+  session::OpenMark mark_;
   std::filesystem::path case_path_;
+  std::optional<FirstSight> first_sight_;
+  std::string series_uid_;  // of the image on the table
+
+ private slots:
+  void drop_unread();
+  void go_on();
 };
 
 }  // namespace ostia::workstation

@@ -55,14 +55,15 @@ bool Panel::eventFilter(QObject* object, QEvent* event) {
 }
 
 void show_alone(QWidget* root, Panel* alone) {
-  const QList<Panel*> panels = root->findChildren<Panel*>();
-  for (Panel* panel : panels) panel->setVisible(!alone || panel == alone);
-  // A splitter without a visible panel would keep its room.
-  for (QSplitter* splitter : root->findChildren<QSplitter*>()) {
-    bool any = !alone;
-    for (const Panel* panel : splitter->findChildren<Panel*>()) any = any || panel == alone;
-    splitter->setVisible(any);
-  }
+  QList<QSplitter*> splitters = root->findChildren<QSplitter*>();
+  if (auto* outermost = qobject_cast<QSplitter*>(root)) splitters.prepend(outermost);
+  // Whatever stands beside the panel would keep its room: other panels, columns of them, lists. From within,
+  // so that a splitter that is shown again finds its parts there, and with them its sizes.
+  for (auto splitter = splitters.crbegin(); splitter != splitters.crend(); ++splitter)
+    for (int i = 0; i < (*splitter)->count(); ++i) {
+      QWidget* part = (*splitter)->widget(i);
+      part->setVisible(!alone || part == alone || part->isAncestorOf(alone));
+    }
 }
 
 }  // namespace ostia::workstation

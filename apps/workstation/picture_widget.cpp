@@ -147,12 +147,24 @@ void PictureWidget::hand(const char* kind, const std::function<void()>& act) {
   PaintQueue::instance().serve_overdue();
 }
 
+/// A dialog over the window takes the releases from now on.
+bool PictureWidget::event(QEvent* event) {
+  if (event->type() == QEvent::WindowBlocked && pointer_->holding())
+    hand("release", [&] { pointer_->let_go(); });
+  return QWidget::event(event);
+}
+void PictureWidget::let_go_if_lost(const QMouseEvent& event) {
+  if (pointer_->holding() && button_.lost(event)) hand("release", [&] { pointer_->let_go(); });
+}
 void PictureWidget::mousePressEvent(QMouseEvent* event) {
   setFocus(Qt::MouseFocusReason);
+  let_go_if_lost(*event);
+  if (!pointer_->holding()) button_.pressed(*event);
   hand("press",
        [&] { pointer_->press(pointer_event(event->localPos(), event->button(), event->modifiers())); });
 }
 void PictureWidget::mouseMoveEvent(QMouseEvent* event) {
+  let_go_if_lost(*event);
   const view::PointerEvent at = pointer_event(event->localPos(), Qt::NoButton, event->modifiers());
   if (event->buttons() != Qt::NoButton) {
     hand("drag", [&] { pointer_->move(at); });
@@ -236,8 +248,10 @@ void PictureWidget::show_cursor() {
   setCursor(cursor_of(pointer_->shape()));
 }
 
-ProfileWidget::ProfileWidget(session::Workbench& bench, QWidget* parent) : QWidget(parent), view_(bench) {
+ProfileWidget::ProfileWidget(session::Workbench& bench, Guard guard, QWidget* parent)
+    : QWidget(parent), view_(bench), pointer_(view_), guard_(std::move(guard)) {
   setObjectName("profile");
+  setMouseTracking(true);
   setFocusPolicy(Qt::StrongFocus);
   setAccessibleName(tr("Lumen profile"));
   stale_ = view_.stale.observe([this] { PaintQueue::instance().add(this); });
@@ -262,16 +276,52 @@ void ProfileWidget::paintEvent(QPaintEvent* event) {
   tell_frame(*this, milliseconds(clock));
 }
 
-void ProfileWidget::go_to(double x) {
+view::PointerEvent ProfileWidget::pointer_event(const QPointF& at, Qt::MouseButton button) const {
+  view::PointerEvent event = hand_event(button, Qt::NoModifier);
+  event.px = view::Vec2(at.x(), at.y()) * devicePixelRatioF();
+  return event;
+}
+void ProfileWidget::hand(const std::function<void()>& act) {
   FrameLog::instance().event("profile");
-  if (const std::optional<double> s = view_.abscissa_at(x * devicePixelRatioF()))
-    view_.bench().cursor_mm.set(*s);
+  guard_(act);
+  setCursor(cursor_of(pointer_.shape()));
+}
+bool ProfileWidget::event(QEvent* event) {
+  if (event->type() == QEvent::WindowBlocked && pointer_.holding()) hand([&] { pointer_.let_go(); });
+  // Escape drops what is in the hand, and is the shortcut for browsing only then.
+  if (event->type() == QEvent::ShortcutOverride && pointer_.holding() &&
+      static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape) {
+    event->accept();
+    return true;
+  }
+  return QWidget::event(event);
+}
+void ProfileWidget::let_go_if_lost(const QMouseEvent& event) {
+  if (pointer_.holding() && button_.lost(event)) hand([&] { pointer_.let_go(); });
 }
 void ProfileWidget::mousePressEvent(QMouseEvent* event) {
-  go_to(event->localPos().x());
+  let_go_if_lost(*event);
+  if (!pointer_.holding()) button_.pressed(*event);
+  hand([&] { pointer_.press(pointer_event(event->localPos(), event->button())); });
 }
 void ProfileWidget::mouseMoveEvent(QMouseEvent* event) {
-  if (event->buttons() & Qt::LeftButton) go_to(event->localPos().x());
+  let_go_if_lost(*event);
+  const view::PointerEvent at = pointer_event(event->localPos(), Qt::NoButton);
+  if (event->buttons() != Qt::NoButton) {
+    hand([&] { pointer_.move(at); });
+  } else {
+    guard_([&] { pointer_.move(at); });
+    setCursor(cursor_of(pointer_.shape()));
+  }
+}
+void ProfileWidget::mouseReleaseEvent(QMouseEvent* event) {
+  hand([&] { pointer_.release(pointer_event(event->localPos(), event->button())); });
+}
+void ProfileWidget::keyPressEvent(QKeyEvent* event) {
+  if (event->key() == Qt::Key_Escape && pointer_.holding()) return hand([&] { pointer_.cancel(); });
+  if (event->key() != Qt::Key_Delete && event->key() != Qt::Key_Backspace)
+    return QWidget::keyPressEvent(event);
+  hand([&] { pointer_.erase(pointer_event(mapFromGlobal(QCursor::pos()), Qt::NoButton)); });
 }
 void ProfileWidget::wheelEvent(QWheelEvent* event) {
   session::Property<double>& cursor = view_.bench().cursor_mm;

@@ -2,9 +2,10 @@
 /// \file A 2D view on the screen.
 
 #include "ostia/view/pointer.h"
-#include "ostia/view/profile_view.h"
+#include "ostia/view/profile_pointer.h"
 
 #include <QImage>
+#include <QMouseEvent>
 #include <QWidget>
 #include <functional>
 #include <memory>
@@ -13,6 +14,21 @@ namespace ostia::workstation {
 
 /// Runs what a hand did; what is refused is shown by the window and ends there.
 using Guard = std::function<void(const std::function<void()>&)>;
+
+/// Notices that a button went up without a word: a dialog that opened meanwhile took its release.
+class HeldButton {
+ public:
+  void pressed(const QMouseEvent& event) { by_mouse_ = event.spontaneous(); }
+  /// To be asked with each move and press while a gesture goes on that needs its button. What the mouse
+  /// does says nothing of a button that the keyboard holds down.
+  bool lost(const QMouseEvent& event) const {
+    return event.spontaneous() == by_mouse_ &&
+           (event.buttons() & ~Qt::MouseButtons(event.button())) == Qt::NoButton;
+  }
+
+ private:
+  bool by_mouse_ = true;
+};
 
 /// Paints a PictureView and gives it the mouse. The view is owned.
 class PictureWidget final : public QWidget {
@@ -34,6 +50,7 @@ class PictureWidget final : public QWidget {
   void hovered(const QString& text);  ///< HU and position under the mouse; empty when it leaves
 
  protected:
+  bool event(QEvent* event) override;
   void paintEvent(QPaintEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;
@@ -48,6 +65,7 @@ class PictureWidget final : public QWidget {
   view::PointerEvent pointer_event(const QPointF& at, Qt::MouseButton button,
                                    Qt::KeyboardModifiers keys) const;
   void hand(const char* kind, const std::function<void()>& act);
+  void let_go_if_lost(const QMouseEvent& event);
   void tell_place(const view::Vec2& px);
   void show_cursor();
   void request_paint();
@@ -59,27 +77,36 @@ class PictureWidget final : public QWidget {
   std::uint64_t revision_ = 0;
   session::GreyWindow painted_window_;
   bool handling_ = false;
+  HeldButton button_;
   PictureWidget* twin_ = nullptr;
 };
 
 class ProfileWidget final : public QWidget {
   Q_OBJECT
  public:
-  explicit ProfileWidget(session::Workbench& bench, QWidget* parent = nullptr);
+  ProfileWidget(session::Workbench& bench, Guard guard, QWidget* parent = nullptr);
   view::ProfileView& view() { return view_; }
   QSize minimumSizeHint() const override { return {160, 70}; }
 
  protected:
+  bool event(QEvent* event) override;
   void paintEvent(QPaintEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
 
  private:
-  void go_to(double x);
+  view::PointerEvent pointer_event(const QPointF& at, Qt::MouseButton button) const;
+  void hand(const std::function<void()>& act);
+  void let_go_if_lost(const QMouseEvent& event);
   view::ProfileView view_;
+  view::ProfilePointer pointer_;
+  Guard guard_;
   session::Subscription stale_;
+  HeldButton button_;
 };
 
 }  // namespace ostia::workstation

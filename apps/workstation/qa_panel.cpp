@@ -1,11 +1,11 @@
 #include "qa_panel.h"
 
 #include "bind.h"
+#include "file_dialogs.h"
 
 #include "ostia/io/contour_file.h"
 #include "ostia/view/scene_colors.h"
 
-#include <QFileDialog>
 #include <QGridLayout>
 #include <QHBoxLayout>
 #include <QHeaderView>
@@ -89,7 +89,9 @@ QaPanel::QaPanel(session::Workbench& bench, std::vector<PictureWidget*> pictures
     if (mode_ && !figures_soon_.isActive()) figures_soon_.start();
   }));
   own_.push_back(bench.vessel.observe(soon));
+  own_.push_back(bench.image_changed.observe([this] { follow_patient(); }));
   own_.push_back(bench.case_changed.observe([this] {
+    follow_patient();
     if (replay_) end_replay();
     if (recorder_) stop_recording();
     show_session();
@@ -237,22 +239,44 @@ void QaPanel::set_mode(bool on) {
 
 void QaPanel::open_truth(const std::filesystem::path& path) {
   check_.open(path);
+  show_truth();
+}
+
+void QaPanel::show_truth() {
+  truth_of_ = patient();
   show_observers();
   show_figures();
 }
 
+/// Of the case's image, else of its first tree; without a case of the image, empty where none is wholly read.
+std::string QaPanel::patient() const {
+  if (!bench_.has_case()) return bench_.image().reference.sha256;
+  const session::CaseFile& file = bench_.session().file();
+  const std::optional<session::ImageReference> image = file.image();
+  return image ? image->sha256 : lumen::digest(*file.starting_model());
+}
+
+/// Contours of one patient say nothing of another, though the vessels have the same names.
+void QaPanel::follow_patient() {
+  if (!check_.has_truth()) return;
+  const std::string now = patient();
+  if (now.empty() || now == truth_of_) return;
+  if (!truth_of_.empty()) check_.close();
+  show_truth();
+}
+
 void QaPanel::choose_truth() {
-  const QString chosen = QFileDialog::getOpenFileName(this, tr("Contours"), {}, tr("Contours (*.json)"));
+  const QString chosen = ask_open_file(this, tr("Contours"), tr("Contours (*.json)"));
   if (chosen.isEmpty()) return;
   const std::filesystem::path path = chosen.toStdString();
   jobs_.run(
       "truth", tr("Reading the truth"),
       [path](const core::TaskContext&) { return std::any(io::read_contours(path)); },
-      [this](const std::any& read) {
+      [this, of = patient()](const std::any& read) {
+        if (of != patient()) return;  // another one came while it was read
         loud_([&] {
           check_.set_truth(std::any_cast<const geometry::ContourSet&>(read));
-          show_observers();
-          show_figures();
+          show_truth();
         });
       },
       [this](const QString& message) { emit refused(message); });
@@ -361,14 +385,14 @@ void QaPanel::stop_recording() {
 
 void QaPanel::choose_recording() {
   if (recorder_) return stop_recording();
-  QString chosen = QFileDialog::getSaveFileName(this, tr("Record to"), {}, tr("Recordings (*.jsonl)"));
+  QString chosen = ask_save_file(this, tr("Record to"), tr("Recordings (*.jsonl)"));
   if (chosen.isEmpty()) return;
   if (!chosen.endsWith(".jsonl")) chosen += ".jsonl";
   loud_([&] { start_recording(chosen.toStdString()); });
 }
 
 void QaPanel::choose_replay() {
-  const QString chosen = QFileDialog::getOpenFileName(this, tr("Replay"), {}, tr("Recordings (*.jsonl)"));
+  const QString chosen = ask_open_file(this, tr("Replay"), tr("Recordings (*.jsonl)"));
   if (!chosen.isEmpty()) loud_([&] { start_replay(chosen.toStdString(), speed_->currentData().toBool()); });
 }
 

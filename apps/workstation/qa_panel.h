@@ -57,6 +57,9 @@ class QaPanel final : public QDockWidget {
   QWidget* session_rows();
   void set_mode(bool on);
   void choose_truth();
+  void show_truth();
+  std::string patient() const;
+  void follow_patient();
   void choose_recording();
   void choose_replay();
   void show_observers();
@@ -72,6 +75,7 @@ class QaPanel final : public QDockWidget {
   Jobs& jobs_;
   Guard loud_;
   session::QualityCheck check_;
+  std::string truth_of_;  // the patient whom the truth was opened for; empty where none was there
   std::vector<std::unique_ptr<view::TruthLayer>> layers_;
   std::unique_ptr<view::HandRecorder> recorder_;
   std::unique_ptr<view::HandReplay> replay_;

@@ -1,5 +1,6 @@
 #include "reporting.h"
 
+#include "file_dialogs.h"
 #include "main_window.h"
 #include "raster_image.h"
 
@@ -7,7 +8,6 @@
 
 #include <QDate>
 #include <QDesktopServices>
-#include <QFileDialog>
 #include <QMessageBox>
 #include <QPixmap>
 #include <QPushButton>
@@ -54,7 +54,12 @@ void write(const Snapshot& from, const fs::path& folder, const core::TaskContext
 
 }  // namespace
 
-Reporting::Reporting(MainWindow& window) : QObject(&window), window_(window) {}
+Reporting::Reporting(MainWindow& window) : QObject(&window), window_(window) {
+  other_case_ = window.bench().case_changed.observe([this] {
+    ++cases_;
+    pinned_.clear();
+  });
+}
 
 void Reporting::make_report(const fs::path& case_file) {
   make_report_in(free_folder(case_file));
@@ -74,15 +79,19 @@ void Reporting::make_report_in(const fs::path& folder) {
   from.options.level_hu = bench.grey.get().level_hu;
   from.options.window_hu = bench.grey.get().width_hu;
   from.pinned = pinned_;
-  from.job = session::report_job(file, from.image != nullptr, from.options, pinned_);
+  for (std::size_t i = 0; i < from.pinned.size(); ++i)
+    from.pinned[i].name = "pinned-" + std::to_string(i + 1);
+  from.job = session::report_job(file, from.image != nullptr, from.options, from.pinned);
   window_.jobs().run(
       "report", tr("Report"),
       [from, folder](const core::TaskContext& task) {
         write(from, folder, task);
         return std::any(true);
       },
-      [this, folder](const std::any&) {
-        pinned_.clear();
+      [this, folder, of_case = cases_, used = pinned_.size()](const std::any&) {
+        // What was pinned meanwhile waits for the next report.
+        if (of_case == cases_)
+          pinned_.erase(pinned_.begin(), pinned_.begin() + static_cast<std::ptrdiff_t>(used));
         show_made(folder);
         emit report_made(QString::fromStdString(folder.string()));
       },
@@ -108,8 +117,7 @@ void Reporting::show_made(const fs::path& folder) {
 
 void Reporting::pin(PictureWidget& view) {
   const QImage shown = view.grab().toImage();
-  const std::string number = std::to_string(pinned_.size() + 1);
-  pinned_.push_back({"pinned-" + number,
+  pinned_.push_back({"",
                      tr("Pinned by the reader: %1")
                          .arg(view.toolTip().isEmpty() ? view.accessibleName() : view.toolTip())
                          .toStdString(),
@@ -118,8 +126,7 @@ void Reporting::pin(PictureWidget& view) {
 }
 
 void Reporting::export_centerlines() {
-  const QString chosen =
-      QFileDialog::getSaveFileName(&window_, tr("Export the centerlines"), {}, tr("Centerlines (*.vtp)"));
+  const QString chosen = ask_save_file(&window_, tr("Export the centerlines"), tr("Centerlines (*.vtp)"));
   if (chosen.isEmpty()) return;
   window_.guarded(
       [&] {

@@ -2,6 +2,7 @@
 /// \file What leaves the window: the report, centerlines.
 
 #include "ostia/session/case_report.h"
+#include "ostia/session/property.h"
 
 #include <QObject>
 #include <filesystem>
@@ -33,7 +34,9 @@ class Reporting final : public QObject {
  private:
   void show_made(const std::filesystem::path& folder);
   MainWindow& window_;
-  std::vector<session::KeyImage> pinned_;
+  std::vector<session::KeyImage> pinned_;  // of this case alone
+  int cases_ = 0;                          // that were on the table so far
+  session::Subscription other_case_;
 };
 
 }  // namespace ostia::workstation

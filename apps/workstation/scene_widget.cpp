@@ -97,6 +97,8 @@ SceneWidget::SceneWidget(session::Workbench& bench, Guard guard, QWidget* parent
   own_.push_back(pointer_->stale.observe([this] { request_render(); }));
   own_.push_back(bench.image_changed.observe([this] {
     cursor_stale_ = marks_stale_ = true;
+    scene_->set_volume(nullptr);  // another heart
+    if (volume_mode_ != view::VolumeMode::off) emit volume_wanted();
     request_render();
   }));
   own_.push_back(bench.grey.observe([this](const session::GreyWindow& window) {
@@ -243,6 +245,7 @@ void SceneWidget::go_to(const view::CameraPose& pose) {
 }
 
 void SceneWidget::set_volume_mode(view::VolumeMode mode) {
+  volume_mode_ = mode;
   scene_->set_volume_mode(mode);
   if (mode != view::VolumeMode::off) emit volume_wanted();
   request_render();
@@ -270,7 +273,18 @@ void SceneWidget::hand(const std::function<void()>& act) {
   window_->setCursor(cursor_of(pointer_->shape()));
 }
 
+/// The button went up unseen: no more is done, and no click comes of it.
+void SceneWidget::let_go() {
+  buttons_ = Qt::NoButton;
+  holding_ = false;
+  scene_->set_interacting(false);
+  hand([&] { pointer_->let_go(); });
+  request_render();
+}
+
 void SceneWidget::mouse_pressed(const QMouseEvent& event) {
+  if (buttons_ != Qt::NoButton && button_.lost(event)) let_go();
+  if (buttons_ == Qt::NoButton) button_.pressed(event);
   pressed_ = last_ = event.localPos();
   buttons_ = event.buttons();
   moved_ = false;
@@ -282,6 +296,7 @@ void SceneWidget::mouse_pressed(const QMouseEvent& event) {
 }
 
 void SceneWidget::mouse_moved(const QMouseEvent& event) {
+  if (buttons_ != Qt::NoButton && button_.lost(event)) let_go();
   const bool camera = event.buttons() != Qt::NoButton && !holding_;
   if (holding_) FrameLog::instance().event("tree");
   hand([&] { pointer_->move(pointer_event(event.localPos(), Qt::NoButton, event.modifiers())); });
@@ -344,6 +359,9 @@ bool SceneWidget::eventFilter(QObject* object, QEvent* event) {
     case QEvent::MouseButtonDblClick:
       if (!session::measure_kind(bench_.tool.get())) go_to(scene_->pose_fitted());
       return true;
+    case QEvent::WindowBlocked:  // by a dialog, which takes the releases from now on
+      if (buttons_ != Qt::NoButton) let_go();
+      return QWidget::eventFilter(object, event);
     case QEvent::Leave:
       hand([&] { pointer_->leave(); });
       return true;

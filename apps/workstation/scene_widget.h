@@ -59,6 +59,7 @@ class SceneWidget final : public QWidget {
   void mouse_pressed(const QMouseEvent& event);
   void mouse_moved(const QMouseEvent& event);
   void mouse_released(const QMouseEvent& event);
+  void let_go();
   void turn_camera(const QMouseEvent& event);
   void hand(const std::function<void()>& act);
   geometry::Vec2 display(const QPointF& at) const;
@@ -75,11 +76,13 @@ class SceneWidget final : public QWidget {
   QElapsedTimer flight_clock_;
   bool wall_stale_ = true, styles_stale_ = true, cursor_stale_ = true, marks_stale_ = true,
        fit_wanted_ = true;
+  view::VolumeMode volume_mode_ = view::VolumeMode::off;
   bool wall_unseen_ = false;  // it was made and not drawn yet
   std::shared_ptr<const geometry::TriMesh> wall_;
   std::function<void(const geometry::TriMesh&)> wall_painter_;
   QPointF pressed_, last_;
   Qt::MouseButtons buttons_;
+  HeldButton button_;
   bool moved_ = false, holding_ = false;  // the camera; a handle
   std::vector<session::Subscription> own_;
 };

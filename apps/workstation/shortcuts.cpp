@@ -31,6 +31,7 @@ const std::vector<Shortcut>& shortcuts() {
       {"edit.undo", "Ctrl+Z", "Ctrl+Z"},
       {"edit.redo", "Ctrl+Shift+Z; Ctrl+Y", "Ctrl+Shift+Z; Ctrl+Y"},
       {"edit.preferences", "Ctrl+,", "Ctrl+,"},
+      {"vessel.find", "Ctrl+Shift+F", "Ctrl+Shift+F"},
       {"vessel.split", "Ctrl+Shift+X", "Ctrl+Shift+X"},
       {"vessel.merge", "Ctrl+Shift+J", "Ctrl+Shift+J"},
       {"tool.browse", "Esc", "Q; Esc"},

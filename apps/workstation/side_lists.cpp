@@ -8,13 +8,17 @@
 #include <QHeaderView>
 #include <QKeyEvent>
 #include <QMap>
-#include <QSignalBlocker>
 
 namespace ostia::workstation {
 namespace {
 
 constexpr int id_role = Qt::UserRole;
 constexpr int fill_after_ms = 100;  // of the last change: not with every move of the mouse
+
+/// Of a measurement's item, or of one of its values'.
+std::int32_t measurement_of(const QTreeWidgetItem& item) {
+  return (item.parent() ? item.parent() : &item)->data(0, id_role).toInt();
+}
 
 }  // namespace
 
@@ -45,6 +49,21 @@ QString step_name(const std::string& op) {
   return found == names.end() ? key : QCoreApplication::translate("steps", *found);
 }
 
+QTreeWidgetItem& row_of(QTreeWidget& list, std::int32_t id, int row) {
+  int found = row;
+  while (found < list.topLevelItemCount() && list.topLevelItem(found)->data(0, id_role).toInt() != id)
+    ++found;
+  if (found < list.topLevelItemCount()) {
+    for (; found > row; --found) delete list.topLevelItem(row);
+    return *list.topLevelItem(row);
+  }
+  auto* item = new QTreeWidgetItem;
+  item->setData(0, id_role, id);
+  item->setFlags(item->flags() | Qt::ItemIsUserCheckable | Qt::ItemIsEditable);
+  list.insertTopLevelItem(row, item);
+  return *item;
+}
+
 StepList::StepList(session::Workbench& bench, Guard guard, QWidget* parent)
     : QListWidget(parent), bench_(bench), guard_(std::move(guard)) {
   setObjectName("steps");
@@ -56,29 +75,44 @@ StepList::StepList(session::Workbench& bench, Guard guard, QWidget* parent)
   soon_.setSingleShot(true);
   soon_.setInterval(fill_after_ms);
   connect(&soon_, &QTimer::timeout, this, &StepList::fill);
-  connect(this, &QListWidget::itemClicked, this, [this](QListWidgetItem* item) {
-    const qlonglong number = item->data(id_role).toLongLong();
-    guard_([&] { bench_.go_to_step(number); });
-  });
+  connect(this, &QListWidget::itemClicked, this, [this](QListWidgetItem* item) { go_to(*item); });
+  connect(this, &QListWidget::itemActivated, this, [this](QListWidgetItem* item) { go_to(*item); });
+}
+
+void StepList::go_to(const QListWidgetItem& step) {
+  const qlonglong number = step.data(id_role).toLongLong();
+  guard_([&] { bench_.go_to_step(number); });
 }
 
 void StepList::fill() {
-  const QSignalBlocker quiet(this);
+  last_ = nullptr;
   clear();
   if (!bench_.has_case()) return;
-  QListWidgetItem* last = nullptr;
   for (const session::JournalEntry& step : bench_.session().file().journal()) {
     if (step.kind == session::StepKind::travel || step.dropped) continue;
     auto* item = new QListWidgetItem(step_name(step.op), this);
     item->setData(id_role, static_cast<qlonglong>(step.number));
     if (step.undone) item->setForeground(palette().color(QPalette::Disabled, QPalette::Text));
     if (!step.notes.empty()) item->setToolTip(QString::fromStdString(step.notes.front()));
-    if (!step.undone) last = item;
+    if (!step.undone) last_ = item;
   }
-  if (last) {
-    setCurrentItem(last);
-    scrollToItem(last);
-  }
+  if (!last_) return;
+  QFont marked = font();
+  marked.setBold(true);
+  last_->setFont(marked);
+  select_last();
+}
+
+void StepList::select_last() {
+  if (!last_) return;
+  setCurrentItem(last_);
+  scrollToItem(last_);
+}
+
+/// What the keys chose, and was not gone to, is no longer of interest.
+void StepList::focusOutEvent(QFocusEvent* event) {
+  QListWidget::focusOutEvent(event);
+  select_last();
 }
 
 MeasurementList::MeasurementList(session::Workbench& bench, Guard guard, QWidget* parent)
@@ -91,7 +125,11 @@ MeasurementList::MeasurementList(session::Workbench& bench, Guard guard, QWidget
   header()->setSectionResizeMode(1, QHeaderView::ResizeToContents);
   header()->setStretchLastSection(false);
   setEditTriggers(EditKeyPressed);
-  own_.push_back(bench.case_changed.observe([this] { fill(); }));
+  own_.push_back(bench.case_changed.observe([this] {
+    filling_ = true;  // a name that is being typed is not for another case's measurement
+    clear();
+    fill();
+  }));
   own_.push_back(bench.model_changed.observe([this](const session::ModelEvent&) { soon_.start(); }));
   soon_.setSingleShot(true);
   soon_.setInterval(fill_after_ms);
@@ -99,57 +137,84 @@ MeasurementList::MeasurementList(session::Workbench& bench, Guard guard, QWidget
   own_.push_back(bench.annotations_changed.observe([this] { soon_.start(); }));
   own_.push_back(bench.image_changed.observe([this] { fill(); }));
   connect(this, &QTreeWidget::currentItemChanged, this, [this](QTreeWidgetItem* item) {
-    if (item && !filling_)
-      bench_.selected_measurement.set((item->parent() ? item->parent() : item)->data(0, id_role).toInt());
+    if (item && !filling_) bench_.selected_measurement.set(measurement_of(*item));
   });
-  connect(this, &QTreeWidget::itemDoubleClicked, this, [this](QTreeWidgetItem* item) {
-    go_to((item->parent() ? item->parent() : item)->data(0, id_role).toInt());
-  });
+  const auto go = [this](QTreeWidgetItem* item) { go_to(measurement_of(*item)); };
+  connect(this, &QTreeWidget::itemDoubleClicked, this, go);
+  connect(this, &QTreeWidget::itemActivated, this, go);
   connect(this, &QTreeWidget::itemChanged, this, [this](QTreeWidgetItem* item, int column) {
-    if (filling_ || column != 0 || item->parent()) return;
-    guard_([&] {
-      const auto annotations = bench_.session().file().annotations();
-      const analysis::Measurement* found =
-          session::find_measurement(*annotations, item->data(0, id_role).toInt());
-      if (!found) return;
-      analysis::Measurement renamed = *found;
-      renamed.name = item->text(0).trimmed().toStdString();
-      if (renamed.name != found->name) bench_.annotate(session::MeasureChange{renamed});
-    });
+    if (!filling_ && column == 0 && !item->parent()) renamed(*item);
   });
 }
 
+void MeasurementList::renamed(const QTreeWidgetItem& item) {
+  guard_([&] {
+    const auto annotations = bench_.session().file().annotations();
+    const analysis::Measurement* found = session::find_measurement(*annotations, measurement_of(item));
+    if (!found) return;
+    analysis::Measurement changed = *found;
+    changed.name = item.text(0).trimmed().toStdString();
+    if (changed.name != found->name) bench_.annotate(session::MeasureChange{changed});
+  });
+}
+
+/// Rows that are there are written anew: what is unfolded, selected, or being renamed stays so.
 void MeasurementList::fill() {
-  const QSignalBlocker quiet(this);
   filling_ = true;
-  clear();
+  int rows = 0;
   if (bench_.has_case()) {
     const auto annotations = bench_.session().file().annotations();
     for (const analysis::Measurement& one : annotations->measurements) {
-      auto* item = new QTreeWidgetItem(this);
-      item->setData(0, id_role, one.id);
-      const QString name =
-          one.name.empty()
-              ? QStringLiteral("%1 %2").arg(measure_word(analysis::to_string(one.kind))).arg(one.id)
-              : QString::fromStdString(one.name);
-      item->setText(0, name);
-      item->setFlags(item->flags() | Qt::ItemIsEditable);
-      try {
-        const std::vector<analysis::MeasuredValue> values = bench_.measured(one);
-        if (!values.empty()) item->setText(1, QString::fromStdString(analysis::to_text(values.front())));
-        for (const analysis::MeasuredValue& value : values) {
-          auto* line = new QTreeWidgetItem(item);
-          line->setText(0, measure_word(value.name));
-          line->setText(1, QString::fromStdString(analysis::to_text(value)));
-        }
-      } catch (const Error& error) {
-        item->setText(1, QStringLiteral("\u2013"));
-        item->setToolTip(1, QString::fromStdString(error.what()));
-      }
-      if (one.id == bench_.selected_measurement.get()) setCurrentItem(item);
+      QTreeWidgetItem& item = row_of(*this, one.id, rows++);
+      show_name(item, one);
+      show_values(item, one);
+      const bool selected = one.id == bench_.selected_measurement.get();
+      if (selected && state() != EditingState && (!currentItem() || measurement_of(*currentItem()) != one.id))
+        setCurrentItem(&item);
     }
   }
+  while (topLevelItemCount() > rows) delete topLevelItem(topLevelItemCount() - 1);
+  // Where the selected one went, the keys must not reach its neighbour.
+  if (currentItem() && state() != EditingState &&
+      measurement_of(*currentItem()) != bench_.selected_measurement.get())
+    setCurrentItem(nullptr);
+  viewport()->update();  // an emptied tree leaves rows on the screen else
   filling_ = false;
+}
+
+void MeasurementList::show_name(QTreeWidgetItem& item, const analysis::Measurement& one) {
+  if (state() == EditingState && currentItem() == &item) return;
+  item.setText(0, one.name.empty()
+                      ? QStringLiteral("%1 %2").arg(measure_word(analysis::to_string(one.kind))).arg(one.id)
+                      : QString::fromStdString(one.name));
+}
+
+void MeasurementList::show_values(QTreeWidgetItem& item, const analysis::Measurement& one) {
+  std::vector<analysis::MeasuredValue> values;
+  QString first, fault;
+  try {
+    values = bench_.measured(one);
+    if (!values.empty()) first = QString::fromStdString(analysis::to_text(values.front()));
+  } catch (const Error& error) {
+    first = QStringLiteral("\u2013");
+    fault = QString::fromStdString(error.what());
+  }
+  item.setText(1, first);
+  item.setToolTip(1, fault);
+  const int lines = static_cast<int>(values.size());
+  while (item.childCount() > lines) delete item.child(item.childCount() - 1);
+  while (item.childCount() < lines) new QTreeWidgetItem(&item);
+  for (int i = 0; i < lines; ++i) {
+    const analysis::MeasuredValue& value = values[static_cast<std::size_t>(i)];
+    item.child(i)->setText(0, measure_word(value.name));
+    item.child(i)->setText(1, QString::fromStdString(analysis::to_text(value)));
+  }
+}
+
+/// What was not written while the name was typed.
+void MeasurementList::closeEditor(QWidget* editor, QAbstractItemDelegate::EndEditHint hint) {
+  QTreeWidget::closeEditor(editor, hint);
+  soon_.start();
 }
 
 void MeasurementList::go_to(std::int32_t measurement) {
@@ -171,7 +236,7 @@ void MeasurementList::go_to(std::int32_t measurement) {
 void MeasurementList::remove_current() {
   QTreeWidgetItem* item = currentItem();
   if (!item) return;
-  const std::int32_t id = (item->parent() ? item->parent() : item)->data(0, id_role).toInt();
+  const std::int32_t id = measurement_of(*item);
   guard_([&] { bench_.annotate(session::MeasureDelete{id}); });
 }
 

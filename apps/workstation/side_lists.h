@@ -15,16 +15,26 @@ namespace ostia::workstation {
 /// In the words of the interface: "Draw on CPR", "Pull the wall", ...
 QString step_name(const std::string& op);
 
-/// All steps of the case, the last one done marked; a click goes there.
+/// The item of this id (in Qt::UserRole of the first column) at this row of a list that is written anew from
+/// the top: the one that is there, in front of which those that are of nothing any more go, or a new one.
+QTreeWidgetItem& row_of(QTreeWidget& list, std::int32_t id, int row);
+
+/// All steps of the case, the last one done in bold; a click, or Return, goes there.
 class StepList final : public QListWidget {
   Q_OBJECT
  public:
   StepList(session::Workbench& bench, Guard guard, QWidget* parent = nullptr);
 
+ protected:
+  void focusOutEvent(QFocusEvent* event) override;
+
  private:
   void fill();
+  void go_to(const QListWidgetItem& step);
+  void select_last();
   session::Workbench& bench_;
   Guard guard_;
+  QListWidgetItem* last_ = nullptr;  // done
   QTimer soon_;
   std::vector<session::Subscription> own_;
 };
@@ -39,8 +49,14 @@ class MeasurementList final : public QTreeWidget {
  protected:
   void keyPressEvent(QKeyEvent* event) override;
 
+ protected slots:
+  void closeEditor(QWidget* editor, QAbstractItemDelegate::EndEditHint hint) override;
+
  private:
   void fill();
+  void show_name(QTreeWidgetItem& item, const analysis::Measurement& one);
+  void show_values(QTreeWidgetItem& item, const analysis::Measurement& one);
+  void renamed(const QTreeWidgetItem& item);
   void remove_current();
   session::Workbench& bench_;
   Guard guard_;

@@ -99,9 +99,9 @@ QColor role_color(view::Role role, Ground ground) {
     case Role::stenosis:
       return QColor(232, 84, 72);
     case Role::measurement:
-      return QColor(255, 240, 120);
+      return bright ? QColor(255, 240, 120) : QColor(130, 105, 0);
     case Role::selected:
-      return QColor(255, 110, 220);
+      return bright ? QColor(255, 110, 220) : QColor(185, 20, 140);
     case Role::stroke:
       return QColor(120, 255, 220);
     case Role::dismissed:

@@ -1,8 +1,8 @@
 #include "vessel_list.h"
 
 #include "command_texts.h"
+#include "side_lists.h"
 
-#include "ostia/analysis/aha_segments.h"
 #include "ostia/core/parallel.h"
 
 #include <QColorDialog>
@@ -11,7 +11,8 @@
 #include <QHeaderView>
 #include <QKeyEvent>
 #include <QMenu>
-#include <QSignalBlocker>
+#include <QScopedValueRollback>
+#include <QStyle>
 #include <QTimer>
 #include <algorithm>
 #include <exception>
@@ -21,8 +22,10 @@ namespace {
 
 enum Column { name_column, length_column, edited_column, stenosis_column, checked_column, columns };
 constexpr int id_role = Qt::UserRole;
-constexpr int refresh_after_ms = 120;        // of an edit
-constexpr int from_role = Qt::UserRole + 1;  // of a segment: its first abscissa
+constexpr int refresh_after_ms = 120;         // of an edit
+constexpr int from_role = Qt::UserRole + 1;   // of a segment: its first abscissa
+constexpr int color_role = Qt::UserRole + 2;  // of the icon
+constexpr int name_characters = 10;           // at least to be read
 
 QIcon color_icon(const QColor& color) {
   QPixmap pixmap(12, 12);
@@ -55,7 +58,13 @@ VesselList::VesselList(session::Workbench& bench, std::function<QColor(std::int3
   header()->setStretchLastSection(false);
   header()->setSectionResizeMode(QHeaderView::ResizeToContents);
   header()->setSectionResizeMode(name_column, QHeaderView::Stretch);
-  own_.push_back(bench.case_changed.observe([this] { fill(); }));
+  own_.push_back(bench.case_changed.observe([this] {
+    {
+      const QScopedValueRollback<bool> writing(writing_, true);
+      clear();  // a name that is being typed is not for another case's vessel
+    }
+    fill();
+  }));
   own_.push_back(bench.model_changed.observe([this](const session::ModelEvent& event) {
     if (event.tree_changed) return fill();
     unmeasured_.insert(unmeasured_.end(), failed_.begin(), failed_.end());
@@ -76,38 +85,58 @@ VesselList::VesselList(session::Workbench& bench, std::function<QColor(std::int3
   });
   measurer_.setMaxThreadCount(1);
   connect(this, &QTreeWidget::currentItemChanged, this, [this](QTreeWidgetItem* item) {
-    if (!item) return;
+    if (!item || writing_) return;
     bench_.vessel.set(item->data(0, id_role).toInt());
     if (item->parent()) bench_.cursor_mm.set(item->data(0, from_role).toDouble());
   });
-  connect(this, &QTreeWidget::itemChanged, this, &VesselList::edited);
+  connect(this, &QTreeWidget::itemChanged, this, [this](QTreeWidgetItem* item, int column) {
+    if (!writing_ && !item->parent()) edited(item, column);
+  });
 }
 
+/// Items that are there are kept: what is unfolded, or being renamed, stays so.
 void VesselList::fill() {
-  const QSignalBlocker quiet(this);
-  clear();
   unmeasured_.clear();
   failed_.clear();
   const lumen::LumenModel* model = bench_.model();
-  if (!model) return;
-  const std::vector<analysis::VesselSegment> segments = analysis::segments_of(*model);
-  for (const geometry::Vessel& vessel : model->tree.vessels) {
-    auto* item = new QTreeWidgetItem(this);
-    item->setData(0, id_role, vessel.id);
-    unmeasured_.push_back(vessel.id);
-    item->setFlags(item->flags() | Qt::ItemIsUserCheckable | Qt::ItemIsEditable);
-    for (const analysis::VesselSegment& segment : segments) {
-      if (segment.vessel != vessel.id || !segment.aha) continue;
-      auto* part = new QTreeWidgetItem(item);
-      part->setData(0, id_role, vessel.id);
-      part->setData(0, from_role, segment.from_mm);
-      part->setText(name_column, QString::fromStdString(segment.label));
-      part->setText(length_column, QString::number(segment.to_mm - segment.from_mm, 'f', 0));
-      part->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable);
+  {
+    const QScopedValueRollback<bool> writing(writing_, true);
+    int rows = 0;
+    if (model) {
+      const std::vector<analysis::VesselSegment> segments = analysis::segments_of(*model);
+      for (const geometry::Vessel& vessel : model->tree.vessels) {
+        unmeasured_.push_back(vessel.id);
+        show_segments(row_of(*this, vessel.id, rows++), segments);
+      }
     }
+    while (topLevelItemCount() > rows) delete topLevelItem(topLevelItemCount() - 1);
   }
+  viewport()->update();  // an emptied tree leaves rows on the screen else
+  if (!model) return;
   refresh();
   measure_next();
+}
+
+QTreeWidgetItem* VesselList::item_of(std::int32_t vessel) const {
+  for (int i = 0; i < topLevelItemCount(); ++i)
+    if (topLevelItem(i)->data(0, id_role).toInt() == vessel) return topLevelItem(i);
+  return nullptr;
+}
+
+void VesselList::show_segments(QTreeWidgetItem& item, const std::vector<analysis::VesselSegment>& segments) {
+  const std::int32_t vessel = item.data(0, id_role).toInt();
+  int parts = 0;
+  for (const analysis::VesselSegment& segment : segments) {
+    if (segment.vessel != vessel || !segment.aha) continue;
+    QTreeWidgetItem* part = parts < item.childCount() ? item.child(parts) : new QTreeWidgetItem(&item);
+    ++parts;
+    part->setData(0, id_role, vessel);
+    part->setData(0, from_role, segment.from_mm);
+    part->setText(name_column, QString::fromStdString(segment.label));
+    part->setText(length_column, QString::number(segment.to_mm - segment.from_mm, 'f', 0));
+    part->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable);
+  }
+  while (item.childCount() > parts) delete item.child(item.childCount() - 1);
 }
 
 /// One vessel after the other, beside the window. What the window itself has measured meanwhile is left out;
@@ -160,41 +189,91 @@ session::VesselMark VesselList::mark_of(std::int32_t vessel) const {
 }
 
 void VesselList::refresh() {
-  const QSignalBlocker quiet(this);
-  const lumen::LumenModel* model = bench_.model();
-  if (!model) return;
+  if (!bench_.model()) return;
+  const QScopedValueRollback<bool> writing(writing_, true);
   for (int i = 0; i < topLevelItemCount(); ++i) {
     QTreeWidgetItem* item = topLevelItem(i);
     const std::int32_t id = item->data(0, id_role).toInt();
     if (!bench_.axis(id)) continue;  // deleted just now; the list is filled anew next
-    const lumen::VesselLumen& vessel = lumen::vessel(*model, id);
-    const session::VesselMark mark = mark_of(id);
-    item->setText(name_column, QString::fromStdString(bench_.vessel_name(id)));
-    item->setIcon(name_column, color_icon(color_of_(id)));
-    item->setCheckState(name_column, mark.visible ? Qt::Checked : Qt::Unchecked);
-    item->setToolTip(name_column,
-                     item->text(name_column) + '\n' + tr("Tick: shown in 3D. F2: another name."));
-    item->setText(length_column, QString::number(vessel.axis->length(), 'f', 0));
-    const int edits = edited_samples(vessel);
-    item->setText(edited_column, edits > 0 ? QString::number(edits) : QStringLiteral("\u2013"));
-    const auto among = [id](const std::vector<std::int32_t>& ids) {
-      return std::find(ids.begin(), ids.end(), id) != ids.end();
-    };
-    if (among(failed_)) {
-      item->setText(stenosis_column, QStringLiteral("?"));
-    } else if (!among(unmeasured_)) {
-      // On the way that it shares, a narrowing is the other vessel's.
-      const double own = lumen::own_from_mm(model->tree, id);
-      double worst = 0.0;
-      for (const analysis::Stenosis& one : bench_.stenoses(id))
-        if (one.throat_mm >= own) worst = std::max(worst, one.diameter_percent);
-      item->setText(stenosis_column,
-                    worst > 0.0 ? QString::number(worst, 'f', 0) + " %" : QStringLiteral("\u2013"));
-    }
-    item->setCheckState(checked_column, mark.checked ? Qt::Checked : Qt::Unchecked);
-    if (id == bench_.vessel.get() && (!currentItem() || currentItem()->data(0, id_role).toInt() != id))
+    show_vessel(*item, id);
+    show_narrowing(*item, id);
+    if (id == bench_.vessel.get() && state() != EditingState &&
+        (!currentItem() || currentItem()->data(0, id_role).toInt() != id))
       setCurrentItem(item);
   }
+  share_width();
+}
+
+void VesselList::show_vessel(QTreeWidgetItem& item, std::int32_t id) {
+  const lumen::VesselLumen& vessel = lumen::vessel(*bench_.model(), id);
+  const session::VesselMark mark = mark_of(id);
+  const QString name = QString::fromStdString(bench_.vessel_name(id));
+  // Whatever changes in the column takes away what is being typed there.
+  if (state() != EditingState || currentItem() != &item) {
+    item.setText(name_column, name);
+    const QColor color = color_of_(id);
+    if (item.data(name_column, color_role).value<QColor>() != color) {
+      item.setData(name_column, color_role, color);
+      item.setIcon(name_column, color_icon(color));
+    }
+    item.setCheckState(name_column, mark.visible ? Qt::Checked : Qt::Unchecked);
+    item.setToolTip(name_column, name + '\n' + tr("Tick: shown in 3D. F2: another name."));
+  }
+  item.setText(length_column, QString::number(vessel.axis->length(), 'f', 0));
+  const int edits = edited_samples(vessel);
+  item.setText(edited_column, edits > 0 ? QString::number(edits) : QStringLiteral("\u2013"));
+  item.setCheckState(checked_column, mark.checked ? Qt::Checked : Qt::Unchecked);
+  const bool doubtful = !mark.note.empty() && !mark.checked;
+  item.setText(checked_column, doubtful ? QStringLiteral("?") : QString());
+  item.setToolTip(checked_column, QString::fromStdString(mark.note));
+}
+
+void VesselList::show_narrowing(QTreeWidgetItem& item, std::int32_t id) {
+  const auto among = [id](const std::vector<std::int32_t>& ids) {
+    return std::find(ids.begin(), ids.end(), id) != ids.end();
+  };
+  if (among(failed_)) {
+    item.setText(stenosis_column, QStringLiteral("?"));
+  } else if (!among(unmeasured_)) {
+    // On the way that it shares, a narrowing is the other vessel's.
+    const double own = lumen::own_from_mm(bench_.model()->tree, id);
+    double worst = 0.0;
+    for (const analysis::Stenosis& one : bench_.stenoses(id))
+      if (one.throat_mm >= own) worst = std::max(worst, one.diameter_percent);
+    item.setText(stenosis_column,
+                 worst > 0.0 ? QString::number(worst, 'f', 0) + " %" : QStringLiteral("\u2013"));
+  }
+}
+
+/// The name is to be read: where there is little room, the edits go first, and then the list scrolls.
+void VesselList::share_width() {
+  QFont bold = header()->font();
+  bold.setBold(true);
+  const int margins = 4 * style()->pixelMetric(QStyle::PM_HeaderMargin, nullptr, header());
+  const auto wanted = [&](int column) {
+    const int title = QFontMetrics(bold).horizontalAdvance(headerItem()->text(column)) + margins;
+    return std::max({title, sizeHintForColumn(column), header()->minimumSectionSize()});
+  };
+  const int least = indentation() + style()->pixelMetric(QStyle::PM_SmallIconSize) +
+                    style()->pixelMetric(QStyle::PM_IndicatorWidth) +
+                    (name_characters + 2) * fontMetrics().averageCharWidth();
+  const int others = wanted(length_column) + wanted(stenosis_column) + wanted(checked_column);
+  const int room = viewport()->width();
+  setColumnHidden(edited_column, others + wanted(edited_column) + least > room);
+  const bool scrolls = others + least > room;
+  header()->setSectionResizeMode(name_column, scrolls ? QHeaderView::Fixed : QHeaderView::Stretch);
+  if (scrolls) header()->resizeSection(name_column, least);
+}
+
+void VesselList::resizeEvent(QResizeEvent* event) {
+  QTreeWidget::resizeEvent(event);
+  share_width();
+}
+
+/// What was not written while the name was typed.
+void VesselList::closeEditor(QWidget* editor, QAbstractItemDelegate::EndEditHint hint) {
+  QTreeWidget::closeEditor(editor, hint);
+  soon_.start();
 }
 
 void VesselList::edited(QTreeWidgetItem* item, int column) {
@@ -233,7 +312,10 @@ void VesselList::contextMenuEvent(QContextMenuEvent* event) {
   const std::int32_t id = item->data(0, id_role).toInt();
   QMenu menu(this);
   menu.setToolTipsVisible(true);
-  menu.addAction(tr("Rename\u2026"), this, [this, item] { editItem(item, name_column); });
+  // The list may be another while the menu is open.
+  menu.addAction(tr("Rename\u2026"), this, [this, id] {
+    if (QTreeWidgetItem* named = item_of(id)) editItem(named, name_column);
+  });
   menu.addAction(tr("Colour\u2026"), this, [this, id] { choose_color(id); });
   menu.addSeparator();
   menu.addAction(tr("Cut off distal of the cursor"), this, [this, id] {
@@ -263,6 +345,7 @@ void VesselList::contextMenuEvent(QContextMenuEvent* event) {
     joints->addAction(QString::fromStdString(other.name), this, [this, id, parent = other.id] {
       guard_([&] {
         const auto axis = bench_.axis(id);
+        if (!axis) return;  // gone while the menu was open
         bench_.edit(
             lumen::BranchAttach{id, parent, axis->point(lumen::own_from_mm(bench_.model()->tree, id))});
       });

@@ -3,6 +3,7 @@
 
 #include "picture_widget.h"
 
+#include "ostia/analysis/aha_segments.h"
 #include "ostia/session/workbench.h"
 
 #include <QThreadPool>
@@ -26,9 +27,18 @@ class VesselList final : public QTreeWidget {
  protected:
   void contextMenuEvent(QContextMenuEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+
+ protected slots:
+  void closeEditor(QWidget* editor, QAbstractItemDelegate::EndEditHint hint) override;
 
  private:
   void fill();
+  QTreeWidgetItem* item_of(std::int32_t vessel) const;
+  void show_segments(QTreeWidgetItem& item, const std::vector<analysis::VesselSegment>& segments);
+  void show_vessel(QTreeWidgetItem& item, std::int32_t vessel);
+  void show_narrowing(QTreeWidgetItem& item, std::int32_t vessel);
+  void share_width();
   void measure_next();
   void take(const session::ProfileWork& work, const std::shared_ptr<const analysis::LumenProfile>& profile);
   void edited(QTreeWidgetItem* item, int column);
@@ -40,6 +50,7 @@ class VesselList final : public QTreeWidget {
   std::vector<std::int32_t> unmeasured_;  // whose narrowings are still to be found, one at a time
   std::vector<std::int32_t> failed_;      // that could not be measured beside the window
   bool measuring_ = false;
+  bool writing_ = false;  // the list itself, not a person
   core::TaskContext measuring_task_;
   QThreadPool measurer_;
   Guard guard_;

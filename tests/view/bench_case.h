@@ -37,18 +37,27 @@ inline session::OpenImage tube_image() {
   return {volume, {std::string(64, 'a'), "image-test"}};
 }
 
-/// The case in a folder of its own that goes with it.
+/// A round outline of another size across the axis: an edit that narrows or widens the lumen there.
+inline lumen::SectionContour outline_of(const session::Workbench& bench, double s_mm, double radius_mm) {
+  lumen::SectionContour contour;
+  contour.vessel = bench.vessel.get();
+  contour.s_mm = s_mm;
+  for (int i = 0; i < 24; ++i)
+    contour.points.push_back(bench.axis()->place(s_mm, 2.0 * M_PI * i / 24.0, radius_mm));
+  return contour;
+}
+
+/// The case of the straight tube, or of another tree, in a folder of its own that goes with it.
 class TubeCase {
  public:
-  TubeCase() {
+  explicit TubeCase(const geometry::VesselTree& tree = lumen::testing::straight_vessel(tube_length_mm,
+                                                                                       tube_radius_mm)) {
     std::string name = (std::filesystem::temp_directory_path() / "ostia-view-XXXXXX").string();
     if (!::mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
     folder = name;
     bench.set_image(tube_image());
     bench.set_session(session::Session(session::CaseFile::create(
-        folder / "case.ostia",
-        lumen::model_of_tubes(lumen::testing::straight_vessel(tube_length_mm, tube_radius_mm)),
-        bench.image().reference)));
+        folder / "case.ostia", lumen::model_of_tubes(tree), bench.image().reference)));
   }
   ~TubeCase() {
     bench.close_case();

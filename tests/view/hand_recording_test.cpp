@@ -157,6 +157,63 @@ TEST_F(HandRecordingTest, ReplayedItGivesTheSameModelToTheLastBit) {
   EXPECT_EQ(ops(folder_ / "a.ostia"), ops(folder_ / "b.ostia"));
 }
 
+/// Measurements along the vessel: placed, moved on either CPR, taken away, and moved from elsewhere (the tree
+/// in space, a list), where a drag is one step, too.
+void measure(Table& t) {
+  t.bench.cursor_mm.set(12.0);
+  const auto row = [&](CurvedView& view, double s) { return Vec2(view.width() / 2.0, view.row_of(s)); };
+  const auto end = [&](CurvedView& view, double s) { return Vec2(view.width() - 8.0, view.row_of(s)); };
+  t.bench.tool.set(Tool::volume);
+  sweep(t.on_cpr, {row(t.cpr, 8.0), row(t.cpr, 14.0), row(t.cpr, 20.0)});
+  sweep(t.on_cpr, {end(t.cpr, 20.0), end(t.cpr, 17.3), end(t.cpr, 16.1)});
+  sweep(t.on_twin, {end(t.twin, 8.0), end(t.twin, 6.0), end(t.twin, 6.7)});
+  t.bench.tool.set(Tool::stenosis);
+  sweep(t.on_twin, {row(t.twin, 9.0), row(t.twin, 15.0), row(t.twin, 19.0)});
+  t.bench.tool.set(Tool::ring_hu);
+  for (const double s : {7.5, 18.0}) sweep(t.on_cpr, {row(t.cpr, s)});
+  sweep(t.on_cpr, {end(t.cpr, 18.0), end(t.cpr, 20.0), end(t.cpr, 22.0)});
+  t.on_cpr.erase(at(end(t.cpr, 7.5)));
+  sweep(t.on_twin, {end(t.twin, 19.0), end(t.twin, 24.0), end(t.twin, 12.5)});
+  t.bench.undo();
+  analysis::Measurement stenosis = t.bench.session().file().annotations()->measurements.at(1);
+  for (const double s : {10.0, 10.5, 11.25}) {
+    stenosis.from_mm = s;
+    t.bench.annotate_merged(session::MeasureChange{stenosis}, 7001);
+  }
+  t.bench.tool.set(Tool::browse);
+  sweep(t.on_cpr, {row(t.cpr, 12.0)});
+}
+
+TEST_F(HandRecordingTest, MovesOfMeasurementsAlongTheVesselAreReplayedToTheLastBit) {
+  Table first(folder_ / "a.ostia");
+  HandRecorder recorder(first.bench, folder_ / "hand.jsonl");
+  first.with_all(recorder, &HandRecorder::watch);
+  measure(first);
+  recorder.stop();
+  Table again(folder_ / "b.ostia", 311);
+  HandReplay replay(again.bench, read_hand_recording(folder_ / "hand.jsonl"));
+  again.with_all(replay, &HandReplay::drive);
+  replay.begin();
+  while (replay.step()) {
+  }
+  EXPECT_EQ(replay.refused(), 0U);
+  const auto made = [](const Table& t) { return t.bench.session().file().annotations()->measurements; };
+  ASSERT_EQ(made(first).size(), 3U);
+  EXPECT_NEAR(made(first)[0].from_mm, 6.7, 1e-6);
+  EXPECT_NEAR(made(first)[0].to_mm, 16.1, 1e-6);
+  EXPECT_EQ(made(first)[1].from_mm, 11.25);
+  EXPECT_NEAR(made(first)[1].to_mm, 19.0, 1e-6);
+  EXPECT_NEAR(made(first)[2].from_mm, 22.0, 1e-6);
+  // All of it, and each step back.
+  do {
+    ASSERT_EQ(made(again).size(), made(first).size());
+    for (std::size_t i = 0; i < made(first).size(); ++i)
+      EXPECT_TRUE(session::same(made(again)[i], made(first)[i])) << i;
+    ASSERT_EQ(again.bench.undo(), first.bench.undo());
+  } while (!made(first).empty());
+  EXPECT_TRUE(made(again).empty());
+}
+
 TEST_F(HandRecordingTest, ASecondReplayOnAnotherModelIsRefused) {
   std::string digest;
   const HandRecording recording = record(digest);
@@ -251,6 +308,38 @@ TEST_F(HandRecordingTest, RefusesWhatIsNoRecording) {
               HasSubstr("backwards"));
   EXPECT_THAT(why(head + R"({"t_ms":5,"command":7})" + "\n"), HasSubstr("command"));
   EXPECT_THROW(read_hand_recording(folder_ / "nowhere.jsonl"), IoError);
+}
+
+TEST_F(HandRecordingTest, WhatEscapeTookBackIsTakenBackOnceInAReplay) {
+  Table table(folder_ / "a.ostia");
+  HandRecorder recorder(table.bench, folder_ / "x.jsonl");
+  table.with_all(recorder, &HandRecorder::watch);
+  table.bench.cursor_mm.set(12.0);
+  table.bench.tool.set(Tool::brush);
+  table.bench.brush_mm.set(0.8);
+  const auto place = [&](double away_mm) {
+    return shown(table.section, table.bench.axis()->place(table.bench.cursor_mm.get(), 1.0, away_mm));
+  };
+  sweep(table.on_section, {place(0.9), place(1.2)});
+  const std::string kept = table.digest();
+  table.bench.cursor_mm.set(17.0);
+  table.on_section.press(at(place(0.9), Button::left));
+  table.on_section.move(at(place(1.2)));
+  EXPECT_NE(table.digest(), kept);
+  table.on_section.cancel();
+  table.on_section.release(at(place(1.2), Button::left));
+  EXPECT_EQ(table.digest(), kept);
+  table.bench.edit(tools::renamed("renamed from a list"));
+  recorder.stop();
+  Table again(folder_ / "b.ostia");
+  HandReplay replay(again.bench, read_hand_recording(folder_ / "x.jsonl"));
+  again.with_all(replay, &HandReplay::drive);
+  replay.begin();
+  while (replay.step()) {
+  }
+  EXPECT_EQ(replay.refused(), 0U);
+  EXPECT_EQ(replay.same(), true);
+  EXPECT_EQ(again.bench.session().file().edits().size(), 2U);
 }
 
 TEST_F(HandRecordingTest, ARecorderNeedsACaseAFileAndNames) {

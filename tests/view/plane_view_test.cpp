@@ -131,5 +131,105 @@ TEST(PlaneView, WithoutAnImageSlicesAreNotReady) {
   EXPECT_EQ(section.contour_lines().size(), 1U);  // the wall can still be looked at and edited
 }
 
+/// A sagittal slice (its normal is the patient's x axis) at x, through the middle of the tube's length.
+void show_at(TubeCase& tube, SliceView& slice, double x_mm) {
+  slice.set_size(600, 900, 1.0);
+  tube.bench.place.set({x_mm, 0.0, 0.5 * testing::tube_length_mm});
+}
+
+TEST(SliceView, CutsATubeBesideItsAxisInTwoParallelLines) {
+  TubeCase tube;
+  SliceView slice(tube.bench, SliceKind::sagittal);
+  const double off = 0.5 * testing::tube_radius_mm;
+  const double apart = 2.0 * std::sqrt(testing::tube_radius_mm * testing::tube_radius_mm - off * off);
+  for (const double x : {off, -off}) {
+    show_at(tube, slice, x);
+    ASSERT_EQ(slice.contour_lines().size(), 1U);
+    EXPECT_TRUE(slice.contour_lines().front().closed());
+    int left = 0, right = 0;
+    for (const Vec3& p : slice.contour_lines().front().world) {
+      EXPECT_NEAR(p.x(), x, 1e-9);
+      if (p.z() < 3.0 || p.z() > testing::tube_length_mm - 3.0) continue;  // its ends are round
+      EXPECT_NEAR(2.0 * std::abs(p.y()), apart, 0.04);
+      ++(p.y() < 0.0 ? left : right);
+    }
+    EXPECT_GT(left, 20);
+    EXPECT_GT(right, 20);
+  }
+}
+
+TEST(SliceView, BesideTheAxisALumenGoesOnBeyondANarrowing) {
+  TubeCase tube;
+  tube.bench.edit(testing::outline_of(tube.bench, 15.0, 0.25 * testing::tube_radius_mm));
+  SliceView slice(tube.bench, SliceKind::sagittal);
+  show_at(tube, slice, 0.5 * testing::tube_radius_mm);
+  ASSERT_EQ(slice.contour_lines().size(), 2U);
+  const double a = slice.contour_lines()[0].world.front().z(), b = slice.contour_lines()[1].world.front().z();
+  EXPECT_LT((a - 15.0) * (b - 15.0), 0.0);
+}
+
+TEST(SliceView, ShowsNothingBesideTheLumen) {
+  TubeCase tube;
+  SliceView slice(tube.bench, SliceKind::sagittal);
+  for (const double share : {1.1, -1.1, 3.0}) {
+    show_at(tube, slice, share * testing::tube_radius_mm);
+    EXPECT_TRUE(slice.contour_lines().empty()) << share;
+  }
+}
+
+TEST(SliceView, OfATubeBesideItsAxisThePartInAnEnlargedPictureIsShown) {
+  TubeCase tube;
+  SliceView slice(tube.bench, SliceKind::sagittal);
+  show_at(tube, slice, 0.5 * testing::tube_radius_mm);
+  for (const double z : {6.3, 15.0, 24.7}) {
+    slice.fit();
+    const Vec2 there = slice.project({0.0, 0.0, z})->px;
+    slice.zoom(6.0, there);
+    slice.pan(Vec2(300.0, 450.0) - there);
+    EXPECT_EQ(slice.contour_lines().size(), 2U) << z;  // one on either side, from border to border
+  }
+}
+
+TEST(SliceView, ShowsAVesselThatDipsIntoItWithoutCrossingIt) {
+  // An arc in a plane across the slice x = 0, whose axis comes no nearer to it than `off`.
+  const double bend = 20.0, radius = testing::tube_radius_mm, off = 0.5 * radius, middle = 15.0;
+  geometry::Centerline axis;
+  for (int i = -50; i <= 50; ++i) {
+    const double angle = 0.5 * i / 50.0;
+    axis.points.emplace_back(off + bend * (1.0 - std::cos(angle)), 0.0, middle + bend * std::sin(angle));
+    axis.radius.push_back(radius);
+  }
+  TubeCase tube(lumen::testing::tree_of(axis));
+  SliceView slice(tube.bench, SliceKind::sagittal);
+  show_at(tube, slice, 0.0);
+  ASSERT_EQ(slice.contour_lines().size(), 1U);
+  double highest = 0.0;
+  for (const Vec3& p : slice.contour_lines().front().world) {
+    const double from_centre = std::hypot(p.x() - off - bend, p.z() - middle);
+    EXPECT_NEAR(std::hypot(from_centre - bend, p.y()), radius, 0.03);
+    highest = std::max(highest, p.z() - middle);
+  }
+  // Where the arc's outer wall leaves the slice.
+  EXPECT_NEAR(highest, std::sqrt((bend + radius) * (bend + radius) - (bend + off) * (bend + off)), 0.1);
+}
+
+TEST(SliceView, ShowsALumenThatReachesFartherThanItsRadius) {
+  TubeCase tube;
+  SliceView slice(tube.bench, SliceKind::sagittal);
+  lumen::WallDrag pull;
+  pull.vessel = tube.bench.vessel.get();
+  pull.from = Vec3(testing::tube_radius_mm, 0.0, 15.0);
+  pull.to = Vec3(testing::tube_radius_mm + 1.0, 0.0, 15.0);
+  pull.reach_mm = 4.0;
+  tube.bench.edit(pull);
+  show_at(tube, slice, testing::tube_radius_mm + 0.4);
+  ASSERT_EQ(slice.contour_lines().size(), 1U);
+  const auto wall = tube.bench.session().live().surface(tube.bench.vessel.get());
+  for (const Vec3& p : slice.contour_lines().front().world) {
+    EXPECT_NEAR(wall->value(p), 0.0, 1e-4);
+    EXPECT_NEAR(p.z(), 15.0, 4.0);
+  }
+}
+
 }  // namespace
 }  // namespace ostia::view

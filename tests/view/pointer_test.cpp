@@ -48,6 +48,25 @@ struct Hand : ::testing::Test {
       return shown ? std::optional(shown->px) : std::nullopt;
     }();
   }
+  /// Where the CPR marks an abscissa: at the end of a measurement along the vessel.
+  Vec2 end_at(double s_mm) { return {cpr.width() - 12.0, cpr.row_of(s_mm)}; }
+  std::vector<analysis::Measurement> made() const {
+    return tube.bench.session().file().annotations()->measurements;
+  }
+  double first_value(std::size_t which = 0) const {
+    return tube.bench.measured(made().at(which)).front().value;
+  }
+  /// A stretch that is made on the CPR with a tool, which is then put away.
+  void make_stretch(Tool tool, double from_mm, double to_mm) {
+    tube.bench.tool.set(tool);
+    drag(on_cpr, {{150.0, cpr.row_of(from_mm)}, {150.0, cpr.row_of(to_mm)}});
+    tube.bench.tool.set(Tool::browse);
+  }
+  bool cpr_says(const std::string& text) {
+    for (const OverlayText& one : cpr.overlay().texts)
+      if (one.text.find(text) != std::string::npos) return true;
+    return false;
+  }
   std::vector<session::JournalEntry> steps() const { return tube.bench.session().file().journal(); }
   std::size_t edits() const { return tube.bench.session().file().edits().size(); }
 };
@@ -218,18 +237,131 @@ TEST_F(Hand, DistanceAngleAndAreaAreMeasuredAndMoved) {
   EXPECT_NEAR(tube.bench.measured(found->measurements[0]).front().value, 100.0 * slice.pixel_mm(), 1e-6);
 }
 
+constexpr double area_of_tube = M_PI * testing::tube_radius_mm * testing::tube_radius_mm;
+
 TEST_F(Hand, AStretchOnTheCprIsAVolume) {
   tube.bench.tool.set(Tool::volume);
   drag(on_cpr, {{150.0, cpr.row_of(20.0)}, {150.0, cpr.row_of(15.0)}, {150.0, cpr.row_of(10.0)}});
-  const auto found = tube.bench.session().file().annotations();
-  ASSERT_EQ(found->measurements.size(), 1U);
-  EXPECT_NEAR(tube.bench.measured(found->measurements[0]).front().value,
-              10.0 * M_PI * testing::tube_radius_mm * testing::tube_radius_mm, 1.0);
-  // And the CPR shows where it is.
-  bool marked = false;
-  for (const OverlayText& text : cpr.overlay().texts)
-    marked = marked || text.text.find("mm\u00b3") != std::string::npos;
-  EXPECT_TRUE(marked);
+  ASSERT_EQ(made().size(), 1U);
+  EXPECT_NEAR(first_value() / area_of_tube, 10.0, 0.015 * 10.0);
+  EXPECT_TRUE(cpr_says("mm\u00b3"));  // and the CPR shows where it is
+  // Either end is moved, with any tool, the distal one first.
+  drag(on_cpr, {end_at(20.0), end_at(22.0), end_at(24.0)});
+  ASSERT_EQ(made().size(), 1U);
+  EXPECT_NEAR(made()[0].to_mm, 24.0, 1e-9);
+  EXPECT_NEAR(made()[0].from_mm, 10.0, 1e-9);
+  EXPECT_NEAR(first_value() / area_of_tube, 14.0, 0.015 * 14.0);
+  tube.bench.tool.set(Tool::draw);
+  drag(on_cpr, {end_at(10.0), end_at(7.0), end_at(4.0)});
+  EXPECT_NEAR(made()[0].from_mm, 4.0, 1e-9);
+  EXPECT_NEAR(first_value() / area_of_tube, 20.0, 0.015 * 20.0);
+  EXPECT_EQ(edits(), 0U);
+  // Each move is a step of its own.
+  ASSERT_TRUE(tube.bench.undo());
+  EXPECT_NEAR(made()[0].from_mm, 10.0, 1e-9);
+  EXPECT_NEAR(made()[0].to_mm, 24.0, 1e-9);
+  ASSERT_TRUE(tube.bench.undo());
+  EXPECT_NEAR(made()[0].to_mm, 20.0, 1e-9);
+  EXPECT_FALSE(on_cpr.erase(at({150.0, cpr.row_of(20.0)}, Button::none)));
+  EXPECT_TRUE(on_cpr.erase(at(end_at(20.0), Button::none)));
+  EXPECT_TRUE(made().empty());
+}
+
+TEST_F(Hand, AnEndOfAStretchShowsThatItCanBeTakenAndFollowsTheHandAtOnce) {
+  make_stretch(Tool::volume, 10.0, 20.0);
+  for (const double s : {10.0, 20.0}) {
+    on_cpr.move(at(end_at(s), Button::none));
+    EXPECT_EQ(on_cpr.shape(), CursorShape::grab) << s;
+  }
+  for (const Vec2& px : {end_at(15.0), Vec2(150.0, cpr.row_of(20.0))}) {
+    on_cpr.move(at(px, Button::none));
+    EXPECT_EQ(on_cpr.shape(), CursorShape::arrow);
+  }
+  on_cpr.press(at(end_at(20.0)));
+  EXPECT_EQ(on_cpr.shape(), CursorShape::grab);
+  on_cpr.move(at(end_at(25.0)));
+  EXPECT_NEAR(first_value() / area_of_tube, 15.0, 0.015 * 15.0);
+  EXPECT_TRUE(cpr_says(analysis::to_text(tube.bench.measured(made()[0]).front())));
+  EXPECT_FALSE(cpr.overlay().bands.empty());  // the stretch across the view
+  on_cpr.release(at(end_at(25.0)));
+  EXPECT_TRUE(cpr.overlay().bands.empty());
+  tube.bench.marks_shown.set(false);
+  on_cpr.move(at(end_at(25.0), Button::none));
+  EXPECT_EQ(on_cpr.shape(), CursorShape::arrow);
+}
+
+TEST_F(Hand, EndsOfAStretchStayOnTheVesselAndInOrder) {
+  make_stretch(Tool::volume, 10.0, 20.0);
+  drag(on_cpr, {end_at(20.0), end_at(28.0), end_at(20.0) + Vec2(0.0, 5000.0)});
+  EXPECT_DOUBLE_EQ(made()[0].to_mm, tube.bench.axis()->length());
+  drag(on_cpr, {end_at(10.0), end_at(3.0), Vec2(290.0, -4000.0)});
+  EXPECT_DOUBLE_EQ(made()[0].from_mm, 0.0);
+  drag(on_cpr, {end_at(0.0), end_at(10.0), end_at(0.0) + Vec2(0.0, 5000.0)});
+  EXPECT_LT(made()[0].from_mm, made()[0].to_mm);
+  EXPECT_NEAR(made()[0].from_mm, made()[0].to_mm, 1.0);
+  EXPECT_DOUBLE_EQ(made()[0].to_mm, tube.bench.axis()->length());
+  drag(on_cpr, {end_at(30.0), end_at(3.0)});
+  EXPECT_GT(made()[0].to_mm, made()[0].from_mm);
+}
+
+TEST_F(Hand, AClickOnAnEndChoosesItAndADragBesideItMovesItAsFar) {
+  make_stretch(Tool::volume, 10.0, 20.0);
+  tube.bench.selected_measurement.set(0);
+  const std::size_t before = steps().size();
+  const Vec2 beside = end_at(20.0) + Vec2(0.0, 5.0);
+  drag(on_cpr, {beside, beside + Vec2(0.5, 0.5)});
+  EXPECT_EQ(tube.bench.selected_measurement.get(), made()[0].id);
+  EXPECT_EQ(steps().size(), before);
+  drag(on_cpr, {beside, beside + Vec2(3.0, 40.0)});
+  EXPECT_NEAR(made()[0].to_mm, 20.0 + 40.0 * cpr.pixel_mm(), 1e-9);
+}
+
+TEST_F(Hand, TheReferencesOfAStenosisAreMovedOnBothCprsInBothModes) {
+  tube.bench.edit(testing::outline_of(tube.bench, 15.0, 0.5 * testing::tube_radius_mm));
+  make_stretch(Tool::stenosis, 8.0, 20.0);
+  EXPECT_NEAR(first_value(), 50.0, 4.0);
+  drag(on_cpr, {end_at(8.0), end_at(14.0), end_at(18.0)});
+  EXPECT_NEAR(made()[0].from_mm, 18.0, 1e-9);
+  EXPECT_NEAR(first_value(), 0.0, 3.0);  // the narrow place is no longer between them
+  CurvedView twin(tube.bench, CurvedView::Which::second, std::make_shared<CurvedFrame>());
+  twin.set_size(200, 900, 2.0);
+  tube.bench.curved_mode.set(reformat::CurvedMode::stretched);
+  Pointer on_twin(twin);
+  const auto mark = [&](double s) { return Vec2(twin.width() - 30.0, twin.row_of(s)); };
+  drag(on_twin, {mark(18.0), mark(12.0), mark(9.0)});
+  EXPECT_NEAR(made()[0].from_mm, 9.0, 0.02);
+  EXPECT_NEAR(first_value(), 50.0, 4.0);
+  EXPECT_TRUE(on_twin.erase(at(mark(20.0), Button::none)));
+  EXPECT_TRUE(made().empty());
+}
+
+TEST_F(Hand, ARingOfCtNumbersHasOnePlaceWhichIsMovedWithItsOwnTool) {
+  tube.bench.tool.set(Tool::ring_hu);
+  drag(on_cpr, {{150.0, cpr.row_of(9.0)}});
+  ASSERT_EQ(made().size(), 1U);
+  on_cpr.move(at(end_at(9.0), Button::none));
+  EXPECT_EQ(on_cpr.shape(), CursorShape::grab);
+  drag(on_cpr, {end_at(9.0), end_at(15.0), end_at(21.0)});
+  ASSERT_EQ(made().size(), 1U) << "another ring was placed";
+  EXPECT_NEAR(made()[0].from_mm, 21.0, 1e-9);
+  EXPECT_DOUBLE_EQ(made()[0].to_mm, made()[0].from_mm);
+  EXPECT_LT(first_value(), 0.0);
+  drag(on_cpr, {end_at(21.0), end_at(21.0) + Vec2(0.0, 9000.0)});
+  EXPECT_DOUBLE_EQ(made()[0].from_mm, tube.bench.axis()->length());
+  ASSERT_TRUE(tube.bench.undo());
+  ASSERT_TRUE(tube.bench.undo());
+  EXPECT_NEAR(made()[0].from_mm, 9.0, 1e-9);
+  EXPECT_TRUE(on_cpr.erase(at(end_at(9.0), Button::none)));
+  EXPECT_TRUE(made().empty());
+}
+
+TEST_F(Hand, OfTwoStretchesTheNearerEndIsTaken) {
+  make_stretch(Tool::volume, 10.0, 20.0);
+  make_stretch(Tool::volume, 12.0, 20.2);  // the second end stands 4 pixels below the first one's
+  ASSERT_EQ(made().size(), 2U);
+  drag(on_cpr, {end_at(20.2) + Vec2(0.0, 2.0), end_at(26.0)});
+  EXPECT_NEAR(made()[0].to_mm, 20.0, 1e-9);
+  EXPECT_GT(made()[1].to_mm, 25.0);
 }
 
 TEST_F(Hand, DeleteTakesAMeasurementAway) {

@@ -239,6 +239,31 @@ TEST_F(OnTube, AHandleOfTheSelectedMeasurementIsDraggedOverTheWallAsOneStep) {
   EXPECT_FALSE(drag({end, end + Vec2(0.0, 40.0)})) << "a measurement that is not selected was moved";
 }
 
+TEST_F(OnTube, EscapeBringsAHandleBackAndAButtonThatWentUpUnseenLeavesIt) {
+  bench.tool.set(Tool::distance);
+  click(near_wall(0.0, 8.0));
+  click(near_wall(0.0, 20.0));
+  const Vec2 end = px(near_wall(0.0, 20.0)), there = px(near_wall(0.0, 24.0));
+  const auto pull = [&] {
+    ASSERT_TRUE(hand.press({end, Button::left}));
+    hand.move({px(near_wall(0.0, 22.0))});
+    hand.move({there});
+    ASSERT_NEAR(first_value(0), 16.0, 0.1);
+  };
+  pull();
+  hand.cancel();
+  EXPECT_NEAR(first_value(0), 12.0, 0.1);
+  hand.move({px(near_wall(0.0, 26.0))});
+  hand.release({px(near_wall(0.0, 26.0)), Button::left});
+  EXPECT_NEAR(first_value(0), 12.0, 0.1);
+  pull();
+  hand.let_go();
+  hand.move({px(near_wall(0.0, 26.0))});
+  EXPECT_NEAR(first_value(0), 16.0, 0.1);
+  EXPECT_EQ(made().size(), 1U);
+  EXPECT_FALSE(hand.busy());
+}
+
 TEST_F(OnTube, AnEndOfAStretchGoesAlongTheVesselAndNotPastTheOther) {
   bench.tool.set(Tool::volume);
   click(near_wall(0.0, 8.0));

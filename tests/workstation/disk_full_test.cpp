@@ -16,13 +16,10 @@
 #include <sys/resource.h>
 
 #include <QAction>
-#include <QFileDialog>
-#include <QLineEdit>
 #include <QMessageBox>
 #include <QPushButton>
 #include <QStandardPaths>
 #include <QTest>
-#include <QTimer>
 #include <cmath>
 #include <csignal>
 #include <set>
@@ -80,16 +77,6 @@ std::string message() {
   for (QMessageBox* box : boxes) box->close();
   QApplication::processEvents();
   return text;
-}
-
-/// The next file dialog is given this name and accepted.
-void answer_file_dialog(const fs::path& path) {
-  QTimer::singleShot(300, [path] {
-    auto* dialog = qobject_cast<QFileDialog*>(QApplication::activeModalWidget());
-    if (!dialog) return;
-    dialog->findChild<QLineEdit*>()->setText(QString::fromStdString(path.string()));
-    QMetaObject::invokeMethod(dialog, "accept");
-  });
 }
 
 struct DiskFull : ::testing::Test {
@@ -198,7 +185,7 @@ TEST_F(DiskFull, NothingHalfWrittenIsLeftOfReportExportAndCopy) {
     EXPECT_EQ(names(), before);
     for (const auto& [command, name] :
          {std::pair("file.export_centerlines", "lines.vtp"), {"file.save_as", "copy.ostia"}}) {
-      answer_file_dialog(folder / name);
+      testing::answer_file_dialog(folder / name);
       test.window().findChild<QAction*>(command)->trigger();
       ASSERT_TRUE(done());
       EXPECT_THAT(message(), AllOf(HasSubstr(name), HasSubstr("make room"))) << command;
@@ -237,18 +224,9 @@ struct DiskFullProgram : DiskFull {
     return at;
   }
   static void pull_at(const QPoint& from) {
-    const auto go = [](const QPoint& at, const QStringList& then = {}) {
-      xdo(QStringList{"mousemove", QString::number(at.x()), QString::number(at.y())} + then);
-    };
-    go(from + QPoint(60, 0), {"click", "1"});
-    xdo({"key", "--delay", "60", "e"});
-    go(from);
-    xdo({"mousedown", "1"});
-    for (int i = 1; i <= 8; ++i) {
-      go(from + QPoint(i, 0));
-      QTest::qWait(30);
-    }
-    xdo({"mouseup", "1"});
+    testing::go(from + QPoint(60, 0), {"click", "1"});
+    testing::keys({"e"});
+    testing::pull(from, from + QPoint(8, 0));
   }
 };
 

@@ -12,7 +12,6 @@
 #include <gtest/gtest.h>
 
 #include <QStandardPaths>
-#include <QTest>
 #include <algorithm>
 #include <cmath>
 
@@ -23,7 +22,6 @@ namespace fs = std::filesystem;
 using session::Tool;
 using testing::Program;
 using testing::wait_until;
-using testing::xdo;
 
 struct RealEvents : ::testing::Test {
   testing::Folder folder;
@@ -76,19 +74,10 @@ TEST_F(RealEvents, ADrawnStrokeIsInTheCaseAfterAKillAndTheProgramComesBackToIt) 
   {
     Program program(arguments(true));
     ASSERT_TRUE(settled());
-    const auto place = [](const QPoint& at) {
-      return QStringList{QString::number(at.x()), QString::number(at.y())};
-    };
     // The tool by its key: the view has the focus after a click beside the vessel.
-    xdo(QStringList{"mousemove"} + place(from + QPoint(60, 0)) + QStringList{"click", "1"});
-    xdo({"key", "--delay", "60", "e"});
-    xdo(QStringList{"mousemove"} + place(from));
-    xdo({"mousedown", "1"});
-    for (int i = 1; i <= 10; ++i) {
-      xdo(QStringList{"mousemove"} + place(from + QPoint(i, 0)));
-      QTest::qWait(30);
-    }
-    xdo(QStringList{"mousemove"} + place(to) + QStringList{"mouseup", "1"});
+    testing::go(from + QPoint(60, 0), {"click", "1"});
+    testing::keys({"e"});
+    testing::pull(from, to);
     ASSERT_TRUE(settled());
     program.process.kill();  // SIGKILL: nothing can be tidied up
     program.process.waitForFinished();

@@ -6,8 +6,17 @@
 #include "ostia/core/files.h"
 
 #include <QElapsedTimer>
+#include <QFile>
+#include <QJsonDocument>
+#include <QJsonObject>
+#include <QPoint>
 #include <QProcess>
+#include <QProcessEnvironment>
+#include <QRect>
 #include <QStringList>
+#include <QTest>
+#include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 
@@ -21,11 +30,39 @@ inline QString xdo(const QStringList& arguments) {
   return QString::fromUtf8(process.readAllStandardOutput());
 }
 
+/// The mouse to a place of the screen, and what it then does ("click 1").
+inline void go(const QPoint& at, const QStringList& then = {}) {
+  xdo(QStringList{"mousemove", QString::number(at.x()), QString::number(at.y())} + then);
+}
+/// With the main button down from place to place, in steps of a pixel or `step_px`.
+inline void pull(const QPoint& from, const QPoint& to, int step_px = 1) {
+  constexpr int rest_ms = 30;
+  const QPoint way = to - from;
+  const int steps = std::max(1, std::max(std::abs(way.x()), std::abs(way.y())) / step_px);
+  go(from);
+  QTest::qWait(rest_ms);
+  xdo({"mousedown", "1"});
+  for (int i = 1; i <= steps; ++i) {
+    go(from + way * i / steps);
+    QTest::qWait(rest_ms);
+  }
+  xdo({"mouseup", "1"});
+}
+/// One after the other.
+inline void keys(const QStringList& names) {
+  for (const QString& name : names) {
+    xdo({"key", "--delay", "60", name});
+    QTest::qWait(120);
+  }
+}
+
 /// Killed at the end.
 struct Program {
   QProcess process;
-  explicit Program(const QStringList& arguments) {
-    process.setProcessChannelMode(QProcess::ForwardedErrorChannel);
+  explicit Program(const QStringList& arguments, const QProcessEnvironment& environment = {},
+                   QProcess::ProcessChannelMode channels = QProcess::ForwardedErrorChannel) {
+    process.setProcessChannelMode(channels);
+    if (!environment.isEmpty()) process.setProcessEnvironment(environment);
     process.start(OSTIA_WORKSTATION, arguments);
     process.waitForStarted();
   }
@@ -48,6 +85,27 @@ inline int frames(const std::filesystem::path& log, const std::string& view) {
   int count = 0;
   for (std::size_t at = text.find(wanted); at != std::string::npos; at = text.find(wanted, at + 1)) ++count;
   return count;
+}
+
+/// The last line of a frame log that has these; empty where there is none.
+inline QJsonObject last_line(const std::filesystem::path& log, const QString& view, const QString& with) {
+  QFile file(QString::fromStdString(log.string()));
+  QJsonObject last;
+  if (!file.open(QIODevice::ReadOnly)) return last;
+  for (const QByteArray& line : file.readAll().split('\n')) {
+    const QJsonObject one = QJsonDocument::fromJson(line).object();
+    if (one["view"].toString() == view && one.contains(with)) last = one;
+  }
+  return last;
+}
+/// The number of the picture that a view shows; 0 before there is one.
+inline int picture(const std::filesystem::path& log, const QString& view) {
+  return last_line(log, view, "picture")["picture"].toInt();
+}
+/// Where on the screen a view is.
+inline QRect place(const std::filesystem::path& log, const QString& view) {
+  const QJsonObject line = last_line(log, view, "width");
+  return QRect(line["x"].toInt(), line["y"].toInt(), line["width"].toInt(), line["height"].toInt());
 }
 
 /// Waits until a CPR has been painted, and nothing more for a while.

@@ -7,7 +7,10 @@
 
 #include <QApplication>
 #include <QElapsedTimer>
+#include <QFileDialog>
+#include <QLineEdit>
 #include <QMouseEvent>
+#include <QTimer>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -60,6 +63,16 @@ inline void sweep(QWidget& widget, const std::vector<QPoint>& way,
   for (const QPoint& at : way) send(widget, QEvent::MouseMove, at, Qt::NoButton, Qt::LeftButton, keys);
   send(widget, QEvent::MouseButtonRelease, way.back(), Qt::LeftButton, Qt::NoButton, keys);
   QApplication::processEvents();
+}
+
+/// The next file dialog is given this name and accepted.
+inline void answer_file_dialog(const std::filesystem::path& path) {
+  QTimer::singleShot(300, [path] {
+    auto* dialog = qobject_cast<QFileDialog*>(QApplication::activeModalWidget());
+    if (!dialog) return;
+    dialog->findChild<QLineEdit*>()->setText(QString::fromStdString(path.string()));
+    QMetaObject::invokeMethod(dialog, "accept");
+  });
 }
 
 class TestWindow {

@@ -13,22 +13,28 @@
 #include "ostia/view/curved_view.h"
 #include "ostia/view/plane_view.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <QAction>
 #include <QComboBox>
 #include <QLabel>
 #include <QMessageBox>
+#include <QSplitter>
 #include <QStatusBar>
 #include <QTest>
 #include <cmath>
 #include <fstream>
+#include <map>
+#include <tuple>
 
 namespace ostia::workstation {
 namespace {
 
 namespace fs = std::filesystem;
 using session::Tool;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
 using testing::sweep;
 using testing::TestWindow;
 using testing::tube_image;
@@ -51,6 +57,12 @@ struct WindowTest : ::testing::Test {
   }
   std::size_t stored_edits() const {
     return session::CaseFile::open(case_file, session::OpenMode::read_only).edits().size();
+  }
+  static int open_dialogs() {
+    int count = 0;
+    for (const QWidget* widget : QApplication::topLevelWidgets())
+      if (qobject_cast<const QDialog*>(widget) && widget->isVisible()) ++count;
+    return count;
   }
   /// The text of the one dialog that is open, which is then closed.
   static std::string dialog_text() {
@@ -219,13 +231,46 @@ TEST_F(WindowTest, ChoosingAToolMakesNoImageAnew) {
 }
 
 TEST_F(WindowTest, AMaximisedPanelComesBack) {
+  know_the_image();
   TestWindow test(state);
-  QList<Panel*> panels = test.window().findChildren<Panel*>();
-  ASSERT_GE(panels.size(), 6);
-  QTest::mouseDClick(panels[2]->findChild<QWidget*>(), Qt::LeftButton);
-  emit panels[1]->maximise_wanted();
-  emit panels[1]->maximise_wanted();
-  for (const Panel* panel : panels) EXPECT_TRUE(panel->isVisibleTo(&test.window()));
+  test.open(case_file);
+  const QWidget& content = *test.window().centralWidget();
+  const QList<Panel*> panels = test.window().findChildren<Panel*>();
+  ASSERT_EQ(panels.size(), 8);
+  const auto place_of = [&](const QWidget& widget) {
+    const QPoint at = widget.mapTo(&content, QPoint(0, 0));
+    return QStringLiteral("%1 %2, %3 x %4")
+        .arg(at.x())
+        .arg(at.y())
+        .arg(widget.width())
+        .arg(widget.height())
+        .toStdString();
+  };
+  const auto places = [&] {
+    std::map<std::string, std::string> all;
+    for (const QWidget* widget : content.findChildren<QWidget*>())
+      if (widget->isVisible() && (!widget->objectName().isEmpty() || qobject_cast<const Panel*>(widget)))
+        all[(widget->objectName() + " " + widget->accessibleName()).toStdString()] = place_of(*widget);
+    return all;
+  };
+  const std::map<std::string, std::string> before = places();
+  ASSERT_GT(before.size(), 15U);
+  for (Panel* panel : panels) {
+    const std::string name = panel->accessibleName().toStdString();
+    const auto double_click = [&] {
+      QTest::mouseDClick(panel->findChild<QWidget*>(QString(), Qt::FindDirectChildrenOnly), Qt::LeftButton);
+      wait_until([] { return false; }, 100);
+    };
+    double_click();
+    EXPECT_EQ(place_of(*panel), place_of(content)) << name;
+    for (const QWidget* other : content.findChildren<QWidget*>()) {
+      const bool own = other == panel || panel->isAncestorOf(other) || other->isAncestorOf(panel);
+      EXPECT_TRUE(own || !other->isVisible() || qobject_cast<const QSplitterHandle*>(other))
+          << name << ", beside it " << other->objectName().toStdString();
+    }
+    double_click();
+    EXPECT_EQ(places(), before) << name;
+  }
 }
 
 TEST_F(WindowTest, TheFirstVesselIsMadeByTwoClicks) {
@@ -267,6 +312,31 @@ TEST_F(WindowTest, AZippedSeriesIsTheSameImageAsItsFolderAndABadZipIsRefused) {
   EXPECT_NE(dialog_text().find("zip"), std::string::npos);
   EXPECT_FALSE(test.bench().image().volume);
   EXPECT_FALSE(fs::exists(folder / "escaped.dcm"));
+}
+
+TEST_F(WindowTest, AZipBombIsRefusedInOneDialogAndTheOpenCaseStays) {
+  know_the_image();
+  TestWindow test(state);
+  test.open(case_file);
+  const lumen::LumenModel* model = test.bench().model();
+  fs::create_directory(folder / "temporary");
+  qputenv("TMPDIR", (folder / "temporary").c_str());
+  // 256 MiB of nothing in some 250 KiB, and what declares less than it holds.
+  const ostia::testing::ZipMember dense{"IM1", std::string(256 << 20, '\0'), true};
+  const ostia::testing::ZipMember liar{"IM1", std::string(4 << 20, '\0'), true, 0, 0, 1000};
+  for (const auto& [name, member, why] :
+       {std::tuple("dense.zip", dense, "more than any image does"), {"liar.zip", liar, "is damaged"}}) {
+    core::write_file(folder / name, ostia::testing::zip_bytes({member}));
+    testing::answer_file_dialog(folder / name);
+    test.window().findChild<QAction*>("file.open")->trigger();
+    ASSERT_TRUE(wait_until([&] { return !test.window().jobs().any(); }));
+    EXPECT_THAT(dialog_text(), AllOf(HasSubstr(name), HasSubstr(why)));
+    EXPECT_EQ(open_dialogs(), 0) << name;
+    EXPECT_TRUE(fs::is_empty(folder / "temporary")) << name;
+    EXPECT_EQ(test.bench().model(), model);
+    EXPECT_EQ(test.bench().image().volume->geometry.size[2], 110);
+  }
+  qunsetenv("TMPDIR");
 }
 
 TEST_F(WindowTest, ASecondWindowOnTheCaseIsToldSo) {

@@ -559,6 +559,49 @@
     </message>
 </context>
 <context>
+    <name>opengl</name>
+    <message>
+        <source>The library libX11.so.6 is not installed.</source>
+        <translation>Die Bibliothek libX11.so.6 ist nicht installiert.</translation>
+    </message>
+    <message>
+        <source>The library libGL.so.1 is not installed.</source>
+        <translation>Die Bibliothek libGL.so.1 ist nicht installiert.</translation>
+    </message>
+    <message>
+        <source>The installed OpenGL library has no GLX.</source>
+        <translation>Der installierten OpenGL-Bibliothek fehlt GLX.</translation>
+    </message>
+    <message>
+        <source>The display offers no OpenGL.</source>
+        <translation>Der Bildschirm bietet kein OpenGL.</translation>
+    </message>
+    <message>
+        <source>The display&apos;s OpenGL is older than 3.0.</source>
+        <translation>Das OpenGL des Bildschirms ist älter als 3.0.</translation>
+    </message>
+    <message>
+        <source>The display&apos;s OpenGL is older than 3.2.</source>
+        <translation>Das OpenGL des Bildschirms ist älter als 3.2.</translation>
+    </message>
+    <message>
+        <source>The graphics driver does not answer.</source>
+        <translation>Der Grafiktreiber antwortet nicht.</translation>
+    </message>
+    <message>
+        <source>The graphics driver failed when it was asked for a window.</source>
+        <translation>Der Grafiktreiber versagte, als er um ein Fenster gebeten wurde.</translation>
+    </message>
+    <message>
+        <source>Ostia&apos;s window needs OpenGL 3.2: update the graphics driver, or draw without the graphics card (install Mesa&apos;s software renderer, package libgl1-mesa-dri, and start with LIBGL_ALWAYS_SOFTWARE=1). The command line program ostia needs no display.</source>
+        <translation>Das Fenster von Ostia braucht OpenGL 3.2: Erneuern Sie den Grafiktreiber, oder lassen Sie ohne die Grafikkarte zeichnen (Mesas Software-Renderer installieren, Paket libgl1-mesa-dri, und mit LIBGL_ALWAYS_SOFTWARE=1 starten). Das Befehlszeilenprogramm ostia braucht keinen Bildschirm.</translation>
+    </message>
+    <message>
+        <source>The workstation cannot start</source>
+        <translation>Der Arbeitsplatz kann nicht starten</translation>
+    </message>
+</context>
+<context>
     <name>ostia::workstation::AboutDialog</name>
     <message>
         <source>&lt;p&gt;It is built with Qt %1 (LGPL-3), VTK %2 (BSD-3), CGAL (GPL-3 and LGPL-3), TetGen (AGPL-3, in the worker), CHOLMOD (GPL-2 or later), GDCM (BSD-3, in the worker), SQLite (public domain), Eigen (MPL-2), TBB, Embree and OpenSSL (Apache-2.0), Cairo and Pango (LGPL-2.1), libzip and ISA-L (BSD-3), zlib, spdlog, fmt, nlohmann-json and nanoflann.&lt;/p&gt;</source>
@@ -1022,26 +1065,6 @@
         <translation>noch keine</translation>
     </message>
     <message>
-        <source>A vessel is found in the image: open the image of this case first.</source>
-        <translation>Ein Gefäß wird im Bild gesucht: öffnen Sie zuerst das Bild dieses Falls.</translation>
-    </message>
-    <message>
-        <source>No vessel found</source>
-        <translation>Kein Gefäß gefunden</translation>
-    </message>
-    <message>
-        <source>Way back to the tree</source>
-        <translation>Weg zurück zum Baum</translation>
-    </message>
-    <message>
-        <source>Now click the distal end of this vessel.</source>
-        <translation>Klicken Sie nun auf das distale Ende dieses Gefäßes.</translation>
-    </message>
-    <message>
-        <source>First vessel</source>
-        <translation>Erstes Gefäß</translation>
-    </message>
-    <message>
         <source>&amp;QA mode</source>
         <translation>&amp;Qualitätsmodus</translation>
     </message>
@@ -1066,10 +1089,6 @@
         <translation>Die &amp;Mittellinien…</translation>
     </message>
     <message>
-        <source>Click into the view to be pinned first.</source>
-        <translation>Klicken Sie zuerst in die Ansicht, die angeheftet werden soll.</translation>
-    </message>
-    <message>
         <source>The truth cannot be opened</source>
         <translation>Die Wahrheit lässt sich nicht öffnen</translation>
     </message>
@@ -1092,6 +1111,42 @@
     <message>
         <source>A &amp;mesh…</source>
         <translation>Ein &amp;Netz…</translation>
+    </message>
+    <message>
+        <source>Cross-section, %1 mm on</source>
+        <translation>Querschnitt, %1 mm weiter</translation>
+    </message>
+    <message>
+        <source>the report</source>
+        <translation>der Bericht</translation>
+    </message>
+    <message>
+        <source>the surface</source>
+        <translation>die Oberfläche</translation>
+    </message>
+    <message>
+        <source>the mesh</source>
+        <translation>das Netz</translation>
+    </message>
+    <message>
+        <source>Not finished yet: %1. It is lost if the window closes now; the case is safe.</source>
+        <translation>Noch nicht fertig: %1. Es geht verloren, wenn das Fenster jetzt geschlossen wird; der Fall ist sicher.</translation>
+    </message>
+    <message>
+        <source>Close all the same</source>
+        <translation>Trotzdem schließen</translation>
+    </message>
+    <message>
+        <source>Go on working</source>
+        <translation>Weiterarbeiten</translation>
+    </message>
+    <message>
+        <source>&amp;Find the coronary arteries</source>
+        <translation>Koronararterien &amp;finden</translation>
+    </message>
+    <message>
+        <source>Click into the CPR, section or slice to be pinned first.</source>
+        <translation>Klicken Sie zuerst in die CPR, den Querschnitt oder die Schicht, die angeheftet werden soll.</translation>
     </message>
 </context>
 <context>
@@ -1455,6 +1510,21 @@
     <message>
         <source>First slice</source>
         <translation>Erste Schicht</translation>
+    </message>
+    <message>
+        <source>What was chosen is another image.</source>
+        <translation>Was gewählt wurde, ist ein anderes Bild.</translation>
+    </message>
+    <message>
+        <source>This case can be looked at and not changed: its file or folder is read-only. Save it as another to edit it.</source>
+        <translation>Dieser Fall kann angesehen und nicht geändert werden: Seine Datei oder sein Ordner ist schreibgeschützt. Speichern Sie ihn unter einem anderen Namen, um ihn zu bearbeiten.</translation>
+    </message>
+    <message numerus="yes">
+        <source>The program ended without closing this case and %n more, which are among the recent ones.</source>
+        <translation>
+            <numerusform>Das Programm endete, ohne diesen Fall und %n weiteren zu schließen, der unter den letzten Fällen steht.</numerusform>
+            <numerusform>Das Programm endete, ohne diesen Fall und %n weitere zu schließen, die unter den letzten Fällen stehen.</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -2131,6 +2201,56 @@
     </message>
 </context>
 <context>
+    <name>ostia::workstation::VesselFinder</name>
+    <message>
+        <source>A vessel is found in the image: open the image of this case first.</source>
+        <translation>Ein Gefäß wird im Bild gesucht: öffnen Sie zuerst das Bild dieses Falls.</translation>
+    </message>
+    <message>
+        <source>The image is still being read.</source>
+        <translation>Das Bild wird noch gelesen.</translation>
+    </message>
+    <message>
+        <source>Finding the coronary arteries</source>
+        <translation>Koronararterien werden gesucht</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n vessel(s) were found. Look at each before you trust it; a question mark in the list says where the program is not sure.</source>
+        <translation>
+            <numerusform>%n Gefäß wurde gefunden. Sehen Sie es an, bevor Sie ihm trauen; ein Fragezeichen in der Liste sagt, wo das Programm nicht sicher ist.</numerusform>
+            <numerusform>%n Gefäße wurden gefunden. Sehen Sie jedes an, bevor Sie ihm trauen; ein Fragezeichen in der Liste sagt, wo das Programm nicht sicher ist.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>The arteries were not found by themselves: %1</source>
+        <translation>Die Arterien wurden nicht von selbst gefunden: %1</translation>
+    </message>
+    <message>
+        <source>Way back to the tree</source>
+        <translation>Weg zurück zum Baum</translation>
+    </message>
+    <message>
+        <source>No vessel found</source>
+        <translation>Kein Gefäß gefunden</translation>
+    </message>
+    <message>
+        <source>Now click the distal end of this vessel.</source>
+        <translation>Klicken Sie nun auf das distale Ende dieses Gefäßes.</translation>
+    </message>
+    <message>
+        <source>First vessel</source>
+        <translation>Erstes Gefäß</translation>
+    </message>
+    <message>
+        <source>%1 was lengthened: the way came to its end.</source>
+        <translation>%1 wurde verlängert: Der Weg kam am Ende des Gefäßes an.</translation>
+    </message>
+    <message>
+        <source>Click the ostium of the first vessel, then its distal end.</source>
+        <translation>Klicken Sie auf das Ostium des ersten Gefäßes, dann auf sein distales Ende.</translation>
+    </message>
+</context>
+<context>
     <name>ostia::workstation::VesselList</name>
     <message>
         <source>Vessels</source>
@@ -2607,6 +2727,10 @@
     <message>
         <source>Fills the lumen with tetrahedra for a solver, in the background.</source>
         <translation>Füllt das Lumen im Hintergrund mit Tetraedern für einen Löser.</translation>
+    </message>
+    <message>
+        <source>Finds aorta, ostia and arteries in the image, and names them.</source>
+        <translation>Findet Aorta, Ostien und Arterien im Bild und benennt sie.</translation>
     </message>
 </context>
 <context>

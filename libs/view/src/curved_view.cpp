@@ -1,6 +1,7 @@
 #include "ostia/view/curved_view.h"
 
 #include "measure_marks.h"
+#include "measure_placing.h"
 
 #include "ostia/lumen/views.h"
 #include "ostia/view/words.h"
@@ -232,6 +233,35 @@ lumen::ContourLineOptions CurvedView::line_options() const {
   return bench().turning.get() ? turning_lines : PictureView::line_options();
 }
 
+std::pair<Vec2, Vec2> CurvedView::end_line(double s_mm) {
+  const double row = row_of(s_mm), right = width();
+  return {Vec2(right - units(26.0), row), Vec2(right, row)};
+}
+
+std::optional<HandleHit> CurvedView::handle_near(const Vec2& px, double reach_px) {
+  if (!ready()) return std::nullopt;
+  const std::optional<HandleHit> point = PictureView::handle_near(px, reach_px);
+  const std::optional<HandleHit> end = end_near(bench(), px, point ? point->distance_px : reach_px,
+                                                [this](double s_mm) { return end_line(s_mm); });
+  return end ? end : point;
+}
+
+void CurvedView::add_stretches(Overlay& overlay) {
+  for (const analysis::Measurement& one : stretches_of(bench())) {
+    const Role role = role_of(bench(), one);
+    const std::vector<double> ends = ends_of(one);
+    for (const double s : ends) {
+      const auto [a, b] = end_line(s);
+      overlay.lines.push_back({{a, b}, role});
+    }
+    const double from = row_of(ends.front()), to = row_of(ends.back()), right = width();
+    overlay.lines.push_back({{Vec2(right - units(3.0), from), Vec2(right - units(3.0), to)}, role});
+    if (to > 0.0 && from < height())
+      overlay.texts.push_back({Vec2(right - units(5.0), std::clamp(from, units(16.0), height() - units(4.0))),
+                               label_of(bench(), one), role, Anchor::bottom_right});
+  }
+}
+
 void CurvedView::add_to_overlay(Overlay& overlay) {
   const reformat::CurvedReformation* shown = reformation();
   if (!shown) return;
@@ -253,17 +283,7 @@ void CurvedView::add_to_overlay(Overlay& overlay) {
   if (bench().tool.get() == session::Tool::axis)
     for (double at = 0.0; at < shown->axis().length() + 2.5; at += 5.0)
       overlay.marks.push_back({axis_at(std::min(at, shown->axis().length())), Role::handle, 3.0});
-  for (const StretchMark& mark : stretches_of(bench())) {
-    const Role role = mark.selected ? Role::selected : Role::measurement;
-    const double from = shown->row_at_abscissa(mark.from_mm), to = shown->row_at_abscissa(mark.to_mm),
-                 right = width();
-    for (const double at : {from, to})
-      overlay.lines.push_back({{Vec2(right - units(26.0), at), Vec2(right, at)}, role});
-    overlay.lines.push_back({{Vec2(right - units(3.0), from), Vec2(right - units(3.0), to)}, role});
-    if (to > 0.0 && from < height())
-      overlay.texts.push_back({Vec2(right - units(5.0), std::clamp(from, units(16.0), height() - units(4.0))),
-                               mark.text, role, Anchor::bottom_right});
-  }
+  add_stretches(overlay);
   add_measurements(overlay, mark_reach_mm);
   add_fading(overlay, fading_reach_mm);
   add_scale_bar(overlay);

@@ -59,6 +59,8 @@ struct HandRecorder::Impl {
   std::map<std::string, std::optional<HandFrame>> frames;
   std::int64_t seen = 0;         // number of the journal's last line that is in the recording
   std::optional<HandLine> open;  // an act that is being done
+  // A step from elsewhere that may still change: a drag in another view is one step until it ends.
+  std::optional<HandLine> last_step;
   bool active = true, within = false, stepped = false;
   std::size_t lines = 0;
   const session::Session* recorded = nullptr;  // the case that is recorded, by its place in memory
@@ -72,6 +74,9 @@ struct HandRecorder::Impl {
     write(to_json(line));
     ++lines;
   }
+  void write_last_step() {
+    if (const auto line = std::exchange(last_step, std::nullopt)) write(*line);
+  }
   std::int64_t last_number() const {
     const auto journal = bench.session().file().journal();
     return journal.empty() ? 0 : journal.back().number;
@@ -79,6 +84,7 @@ struct HandRecorder::Impl {
 
   void acting(const std::string& view_name, PictureView& view, const HandAct& act) {
     if (!active) return;
+    write_last_step();
     within = true;
     HandLine line;
     line.t_ms = now_ms();
@@ -100,10 +106,15 @@ struct HandRecorder::Impl {
     if (!active || !open) return;
     within = false;
     if (open->act.kind == HandAct::Kind::press) open->act.event.taken = pointer.taken();
+    const bool cancelled = open->act.kind == HandAct::Kind::cancel;
     write(*std::exchange(open, std::nullopt));
-    // A hand only adds steps: the last one done is the journal's last line.
-    if (std::exchange(stepped, false))
-      if (const auto last = bench.session().file().next_undo()) seen = std::max(seen, last->number);
+    if (!std::exchange(stepped, false)) return;
+    // A hand only adds steps: the last one done is the journal's last line. Only where it drops what it has
+    // begun it takes back, and that is a line, too.
+    if (cancelled)
+      seen = last_number();
+    else if (const auto last = bench.session().file().next_undo())
+      seen = std::max(seen, last->number);
   }
   void steps_changed() {
     if (!active || !bench.has_case()) return;
@@ -112,11 +123,14 @@ struct HandRecorder::Impl {
       return;
     }
     for (const session::JournalEntry& entry : bench.session().file().journal()) {
-      if (entry.number <= seen) continue;
-      HandLine line;
-      line.t_ms = now_ms();
-      line.command = entry.kind == session::StepKind::travel ? entry.op : entry.parameters;
-      write(line);
+      const bool grown = last_step && entry.number == seen;
+      if (entry.number <= seen && !grown) continue;
+      const std::string command = entry.kind == session::StepKind::travel ? entry.op : entry.parameters;
+      if (grown && command == last_step->command) continue;
+      if (!grown) write_last_step();
+      last_step.emplace();
+      last_step->t_ms = now_ms();
+      last_step->command = command;
       seen = entry.number;
     }
   }
@@ -124,6 +138,7 @@ struct HandRecorder::Impl {
     if (!active) return;
     active = false;
     own.clear();
+    write_last_step();
     if (with_digest && bench.has_case() && &bench.session() == recorded) {
       char time[40];
       std::snprintf(time, sizeof time, "%.3f", now_ms());
@@ -177,7 +192,7 @@ bool HandRecorder::active() const {
   return impl_->active;
 }
 std::size_t HandRecorder::lines() const {
-  return impl_->lines;
+  return impl_->lines + (impl_->last_step ? 1 : 0);
 }
 
 }  // namespace ostia::view

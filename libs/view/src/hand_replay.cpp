@@ -142,7 +142,7 @@ std::optional<bool> HandReplay::same() const {
 }
 
 void HandReplay::cancel() {
-  for (const auto& [name, driven] : impl_->views) driven.pointer->cancel();
+  for (const auto& [name, driven] : impl_->views) driven.pointer->drop();
 }
 
 }  // namespace ostia::view

@@ -1,5 +1,7 @@
 #include "measure_marks.h"
 
+#include "measure_placing.h"
+
 #include "ostia/core/error.h"
 #include "ostia/view/words.h"
 
@@ -17,19 +19,48 @@ std::string measured_text(const session::Workbench& bench, const analysis::Measu
   }
 }
 
-std::string caption(const analysis::Measurement& measurement) {
-  return measurement.name.empty() ? std::to_string(measurement.id) : measurement.name;
+std::string label_of(const session::Workbench& bench, const analysis::Measurement& measurement) {
+  const std::string name = measurement.name.empty() ? std::to_string(measurement.id) : measurement.name;
+  return name + ": " + measured_text(bench, measurement);
 }
 
-std::vector<StretchMark> stretches_of(const session::Workbench& bench) {
-  std::vector<StretchMark> marks;
-  if (!bench.has_case() || !bench.marks_shown.get()) return marks;
+Role role_of(const session::Workbench& bench, const analysis::Measurement& measurement) {
+  return bench.selected_measurement.get() == measurement.id ? Role::selected : Role::measurement;
+}
+
+std::vector<analysis::Measurement> stretches_of(const session::Workbench& bench) {
+  std::vector<analysis::Measurement> found;
+  if (!bench.has_case() || !bench.marks_shown.get()) return found;
   for (const analysis::Measurement& one : bench.session().file().annotations()->measurements)
-    if (one.points.empty() && one.vessel == bench.vessel.get())
-      marks.push_back({one.from_mm, std::max(one.from_mm, one.to_mm),
-                       caption(one) + ": " + measured_text(bench, one),
-                       one.id == bench.selected_measurement.get()});
-  return marks;
+    if (one.points.empty() && one.vessel == bench.vessel.get()) found.push_back(one);
+  return found;
+}
+
+std::optional<HandleHit> end_near(const session::Workbench& bench, const Vec2& px, double reach_px,
+                                  const EndLine& line_of) {
+  std::optional<HandleHit> best;
+  double nearest = reach_px;
+  for (const analysis::Measurement& one : stretches_of(bench)) {
+    const std::vector<double> ends = ends_of(one);
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+      const auto [a, b] = line_of(ends[i]);
+      const double distance = foot_on_segment(px, a, b).distance;
+      if (distance > nearest) continue;
+      nearest = distance;
+      best = HandleHit{one.id, i, true, distance};
+    }
+  }
+  return best;
+}
+
+SegmentFoot foot_on_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
+  const Vec2 along = b - a;
+  const double length2 = along.squaredNorm();
+  SegmentFoot foot;
+  foot.t = length2 > 0.0 ? std::clamp((p - a).dot(along) / length2, 0.0, 1.0) : 0.0;
+  foot.place = a + foot.t * along;
+  foot.distance = (p - foot.place).norm();
+  return foot;
 }
 
 void add_measurement_marks(Overlay& overlay, PictureView& view, const analysis::Measurement& measurement,
@@ -40,8 +71,7 @@ void add_measurement_marks(Overlay& overlay, PictureView& view, const analysis::
     if (!shown || std::abs(shown->out_mm) > reach_mm) return;
     px.push_back(shown->px);
   }
-  const bool selected = view.bench().selected_measurement.get() == measurement.id;
-  const Role role = selected ? Role::selected : Role::measurement;
+  const Role role = role_of(view.bench(), measurement);
   // Of an outline's many points as many as can be told apart.
   const double apart = px.size() > 3 ? 12.0 * view.density() : 0.0;
   std::optional<Vec2> last;
@@ -55,9 +85,8 @@ void add_measurement_marks(Overlay& overlay, PictureView& view, const analysis::
   line.role = role;
   if (measurement.kind == analysis::MeasureKind::area && px.size() > 2) line.px.push_back(px.front());
   if (line.px.size() > 1) overlay.lines.push_back(std::move(line));
-  overlay.texts.push_back({px.back() + Vec2(6.0, -6.0) * view.density(),
-                           caption(measurement) + ": " + measured_text(view.bench(), measurement), role,
-                           Anchor::bottom_left});
+  overlay.texts.push_back({px.back() + Vec2(6.0, -6.0) * view.density(), label_of(view.bench(), measurement),
+                           role, Anchor::bottom_left});
 }
 
 }  // namespace ostia::view

@@ -25,31 +25,41 @@ using ErrorHandler = int (*)(Display*, void*);
 constexpr int glx_render_type = 0x8011, glx_rgba_bit = 1, glx_drawable_type = 0x8010, glx_window_bit = 1;
 constexpr int glx_major = 0x2091, glx_minor = 0x2092, glx_profile = 0x9126, glx_core_bit = 1;
 
-constexpr std::string_view no_way_out =
-    " Ostia's window needs OpenGL 3.2: update the graphics driver, or install Mesa's software renderer "
-    "(package libgl1-mesa-dri); the command line program needs no display.";
+constexpr const char* way_out =
+    "Ostia's window needs OpenGL 3.2: update the graphics driver, or draw without the graphics card (install "
+    "Mesa's software renderer, package libgl1-mesa-dri, and start with LIBGL_ALWAYS_SOFTWARE=1). The command "
+    "line "
+    "program ostia needs no display.";
+
+constexpr char display_there = '\1', all_well = '\2';  // what the child says beside sentences
+
+void tell(int pipe, std::string_view text) {
+  if (::write(pipe, text.data(), text.size()) != static_cast<ssize_t>(text.size())) ::_exit(1);
+}
 
 template <class Function>
 Function symbol(void* library, const char* name) {
   return reinterpret_cast<Function>(::dlsym(library, name));
 }
 
-/// In the child alone: "" when a context was made.
-std::string_view probe() {
+/// In the child alone: "" when a context was made. Tells at once that there is a display, since drivers may
+/// end the process.
+std::string_view probe(int pipe) {
   void* x11 = ::dlopen("libX11.so.6", RTLD_NOW);
   if (x11 == nullptr) return "The library libX11.so.6 is not installed.";
-  void* gl = ::dlopen("libGL.so.1", RTLD_NOW);
-  if (gl == nullptr) return "The library libGL.so.1 is not installed.";
   const auto open = symbol<Display* (*)(const char*)>(x11, "XOpenDisplay");
   const auto set_handler = symbol<ErrorHandler (*)(ErrorHandler)>(x11, "XSetErrorHandler");
   const auto screen_of = symbol<int (*)(Display*)>(x11, "XDefaultScreen");
   const auto sync = symbol<int (*)(Display*, int)>(x11, "XSync");
-  const auto choose = symbol<Config* (*)(Display*, int, const int*, int*)>(gl, "glXChooseFBConfig");
-  const auto address = symbol<void (*(*)(const unsigned char*))()>(gl, "glXGetProcAddressARB");
-  if (!open || !set_handler || !screen_of || !sync || !choose || !address)
-    return "The installed OpenGL library has no GLX.";
+  if (!open || !set_handler || !screen_of || !sync) return "The library libX11.so.6 is damaged.";
   Display* display = open(nullptr);
   if (display == nullptr) return "There is no X display to open a window on (is DISPLAY set?).";
+  tell(pipe, {&display_there, 1});
+  void* gl = ::dlopen("libGL.so.1", RTLD_NOW);
+  if (gl == nullptr) return "The library libGL.so.1 is not installed.";
+  const auto choose = symbol<Config* (*)(Display*, int, const int*, int*)>(gl, "glXChooseFBConfig");
+  const auto address = symbol<void (*(*)(const unsigned char*))()>(gl, "glXGetProcAddressARB");
+  if (!choose || !address) return "The installed OpenGL library has no GLX.";
   set_handler([](Display*, void*) { return 0; });
   const std::array<int, 5> wanted{glx_render_type, glx_rgba_bit, glx_drawable_type, glx_window_bit, 0};
   int count = 0;
@@ -87,17 +97,34 @@ std::string read_all(int pipe, std::chrono::milliseconds patience, bool& in_time
 }
 
 [[noreturn]] void answer_as_child(int pipe) {
-  const std::string_view said = probe();
-  const std::string_view answer = said.empty() ? std::string_view("ok") : said;
-  const ssize_t written = ::write(pipe, answer.data(), answer.size());
-  ::_exit(written == static_cast<ssize_t>(answer.size()) ? 0 : 1);
+  const std::string_view said = probe(pipe);
+  tell(pipe, said.empty() ? std::string_view(&all_well, 1) : said);
+  ::_exit(0);
+}
+
+/// Of what the child said: nothing where all is well.
+std::optional<OpenGlTrouble> trouble_of(std::string said, bool in_time) {
+  OpenGlTrouble trouble;
+  trouble.way_out = way_out;
+  trouble.has_display = !said.empty() && said.front() == display_there;
+  if (trouble.has_display) said.erase(0, 1);
+  if (!said.empty() && said.front() == all_well) return {};
+  if (!in_time)
+    trouble.reason =
+        trouble.has_display ? "The graphics driver does not answer." : "The display does not answer.";
+  else if (said.empty())
+    trouble.reason = "The graphics driver failed when it was asked for a window.";
+  else
+    trouble.reason = said;
+  return trouble;
 }
 
 }  // namespace
 
-std::optional<std::string> check_opengl() {
+std::optional<OpenGlTrouble> check_opengl() {
   std::array<int, 2> ends{-1, -1};
-  if (::pipe(ends.data()) != 0) return "No pipe can be made to ask the display: too many files are open.";
+  if (::pipe(ends.data()) != 0)
+    return OpenGlTrouble{"No pipe can be made to ask the display.", "Too many files are open.", false};
   const pid_t child = ::fork();
   if (child == 0) {
     ::close(ends[0]);
@@ -106,7 +133,8 @@ std::optional<std::string> check_opengl() {
   ::close(ends[1]);
   if (child < 0) {
     ::close(ends[0]);
-    return "No process can be made to ask the display: the system's limit of processes is reached.";
+    return OpenGlTrouble{"No process can be made to ask the display.",
+                         "The system's limit of processes is reached.", false};
   }
   bool in_time = true;
   const std::string answer = read_all(ends[0], std::chrono::seconds(10), in_time);
@@ -115,11 +143,7 @@ std::optional<std::string> check_opengl() {
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  if (answer == "ok") return {};
-  const std::string way_out(no_way_out);
-  if (!in_time) return "The display does not answer." + way_out;
-  if (!answer.empty()) return answer + way_out;
-  return "The graphics driver failed when it was asked for a window." + way_out;
+  return trouble_of(answer, in_time);
 }
 
 }  // namespace ostia::view

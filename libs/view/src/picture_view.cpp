@@ -15,14 +15,6 @@ constexpr double fading_s = 0.8;
 // Points lie on the wall in any case; chords between them may leave it by a tenth of a pixel.
 constexpr lumen::ContourLineOptions screen_lines{.step_px = 3.0, .largest_mm = 0.4, .bend_px = 0.1};
 
-double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b, Vec2& nearest, double& t) {
-  const Vec2 along = b - a;
-  const double length2 = along.squaredNorm();
-  t = length2 > 0.0 ? std::clamp((p - a).dot(along) / length2, 0.0, 1.0) : 0.0;
-  nearest = a + t * along;
-  return (p - nearest).norm();
-}
-
 }  // namespace
 
 PictureView::PictureView(session::Workbench& bench) : bench_(bench) {
@@ -170,11 +162,10 @@ std::optional<PictureView::WallHit> PictureView::wall_near(const Vec2& px, doubl
   const Vec2 at = px + contour_offset();
   for (const lumen::ContourLine& line : contour_lines())
     for (std::size_t i = 0; i + 1 < line.picture_px.size(); ++i) {
-      Vec2 nearest;
-      double t = 0.0;
-      const double distance = distance_to_segment(at, line.picture_px[i], line.picture_px[i + 1], nearest, t);
-      if (distance > best.distance_px) continue;
-      best = {(1.0 - t) * line.world[i] + t * line.world[i + 1], nearest - contour_offset(), distance};
+      const SegmentFoot foot = foot_on_segment(at, line.picture_px[i], line.picture_px[i + 1]);
+      if (foot.distance > best.distance_px) continue;
+      best = {(1.0 - foot.t) * line.world[i] + foot.t * line.world[i + 1], foot.place - contour_offset(),
+              foot.distance};
       found = true;
     }
   if (!found) return std::nullopt;
@@ -191,7 +182,7 @@ void PictureView::set_tool_overlay(Overlay overlay) {
   overlay_stale();
 }
 
-std::optional<PictureView::HandleHit> PictureView::handle_near(const Vec2& px, double reach_px) {
+std::optional<HandleHit> PictureView::handle_near(const Vec2& px, double reach_px) {
   if (!bench_.has_case() || !bench_.marks_shown.get()) return std::nullopt;
   std::optional<HandleHit> best;
   double nearest = reach_px;
@@ -202,7 +193,7 @@ std::optional<PictureView::HandleHit> PictureView::handle_near(const Vec2& px, d
       const double distance = (shown->px - px).norm();
       if (distance > nearest) continue;
       nearest = distance;
-      best = HandleHit{one.id, i};
+      best = HandleHit{one.id, i, false, distance};
     }
   return best;
 }

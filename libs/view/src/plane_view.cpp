@@ -1,6 +1,7 @@
 #include "ostia/view/plane_view.h"
 
 #include "measure_marks.h"
+#include "slice_seeds.h"
 
 #include "ostia/geometry/frame.h"
 #include "ostia/lumen/views.h"
@@ -15,35 +16,6 @@ namespace ostia::view {
 namespace {
 
 constexpr double fading_reach_mm = 1.0;
-
-/// Where axes cross a plane: in pixels, with the vessel.
-struct Crossing {
-  Vec2 px;
-  std::int32_t vessel;
-};
-
-std::vector<Crossing> crossings(const lumen::LumenModel& model, const reformat::Plane& plane) {
-  std::vector<Crossing> found;
-  const auto visit = [&](const geometry::TreeSegment& segment, std::int32_t vessel) {
-    const std::vector<Vec3>& points = segment.axis.points;
-    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-      const double a = (points[i] - plane.origin).dot(plane.normal());
-      const double b = (points[i + 1] - plane.origin).dot(plane.normal());
-      if ((a < 0.0) == (b < 0.0)) continue;
-      const Vec3 at = points[i] + a / (a - b) * (points[i + 1] - points[i]);
-      const Vec2 px = reformat::project(plane, at).picture_px;
-      if (px.x() >= 0 && px.y() >= 0 && px.x() <= plane.width && px.y() <= plane.height)
-        found.push_back({px, vessel});
-    }
-  };
-  for (const geometry::TreeSegment& segment : model.tree.segments)
-    for (const geometry::Vessel& vessel : model.tree.vessels)
-      if (std::find(vessel.segments.begin(), vessel.segments.end(), segment.id) != vessel.segments.end()) {
-        visit(segment, vessel.id);
-        break;
-      }
-  return found;
-}
 
 }  // namespace
 
@@ -133,10 +105,8 @@ std::optional<lumen::ViewSurface> PlaneView::contour_surface() {
 std::vector<Vec2> PlaneView::contour_seeds() {
   const std::optional<reformat::Plane>& shown = plane();
   const lumen::LumenModel* model = bench().model();
-  std::vector<Vec2> seeds;
-  if (!shown || !model) return seeds;
-  for (const Crossing& one : crossings(*model, *shown)) seeds.push_back(one.px);
-  return seeds;
+  if (!shown || !model) return {};
+  return slice_seeds(*model, *bench().session().live().field(), *shown);
 }
 
 SectionView::SectionView(session::Workbench& bench, double offset_mm, double side_mm)
@@ -318,7 +288,7 @@ void SliceView::add_to_overlay(Overlay& overlay) {
   line({at.x(), edge}, {at.x(), at.y() - gap});
   line({at.x(), at.y() + gap}, {at.x(), h - edge});
   if (const lumen::LumenModel* model = bench().model())
-    for (const Crossing& one : crossings(*model, *shown))
+    for (const AxisCrossing& one : crossings(*model, *shown))
       overlay.marks.push_back(
           {one.px, one.vessel == bench().vessel.get() ? Role::axis : Role::other_axis, 2.0});
   add_letters(overlay, shown->u, shown->v);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace ostia::view {
 namespace {
@@ -12,9 +13,12 @@ namespace {
 using session::Tool;
 
 constexpr double wall_reach_units = 10.0;  // from the contour line within which it is taken hold of
-constexpr double handle_reach_units = 8.0;
 constexpr double axis_reach_units = 12.0;
 constexpr double zoom_step = 1.2;
+
+bool of_vessel(const PictureView& view) {
+  return dynamic_cast<const CurvedView*>(&view) || dynamic_cast<const SectionView*>(&view);
+}
 
 bool edits_wall(Tool tool) {
   return tool == Tool::drag || tool == Tool::draw || tool == Tool::brush;
@@ -23,7 +27,14 @@ bool edits_wall(Tool tool) {
 }  // namespace
 
 Pointer::Pointer(PictureView& view) : view_(view) {
-  tool_changed_ = view.bench().tool.observe([this](const Tool&) { drop(); });
+  session::Workbench& bench = view.bench();
+  own_.push_back(bench.tool.observe([this](const Tool&) { drop(); }));
+  own_.push_back(bench.case_changed.observe([this] { drop(); }));
+  own_.push_back(bench.image_changed.observe([this] { drop(); }));
+  // A picture along a vessel, or across it, is another one now; a slice stays.
+  own_.push_back(bench.vessel.observe([this](const std::int32_t&) {
+    if (of_vessel(view_)) drop();
+  }));
 }
 Pointer::~Pointer() = default;
 
@@ -53,19 +64,26 @@ std::unique_ptr<Pointer::Gesture> Pointer::gesture_of(const PointerEvent& event)
   if (event.button == Button::right) return std::make_unique<Contrast>(view_, event);
   if (event.button != Button::left) return nullptr;
   const auto* slice = dynamic_cast<SliceView*>(&view_);
-  if (event.shift && (dynamic_cast<CurvedView*>(&view_) || dynamic_cast<SectionView*>(&view_) ||
-                      (slice && slice->kind() == SliceKind::oblique)))
+  if (event.shift && (of_vessel(view_) || (slice && slice->kind() == SliceKind::oblique)))
     return std::make_unique<Turn>(view_, event);
-  if (const auto hit = view_.handle_near(event.px, handle_reach_units * view_.density()))
-    return std::make_unique<MoveHandle>(view_, *hit);
+  if (const auto hit = handle_at(event)) {
+    auto* curved = dynamic_cast<CurvedView*>(&view_);
+    if (hit->along_vessel && curved) return std::make_unique<MoveEnd>(*curved, event, *hit);
+    return std::make_unique<MoveHandle>(view_, event, *hit);
+  }
   return gesture_of_tool(event);
+}
+
+/// Between clicks that belong together, and where a click is a vessel's end, no handle is taken hold of.
+std::optional<HandleHit> Pointer::handle_at(const PointerEvent& event) {
+  if (!clicked_.empty() || view_.bench().tool.get() == Tool::add_vessel) return std::nullopt;
+  return view_.handle_near(event.px, handle_reach_units * view_.density());
 }
 
 std::unique_ptr<Pointer::Gesture> Pointer::gesture_of_tool(const PointerEvent& event) {
   session::Workbench& bench = view_.bench();
   const Tool tool = bench.tool.get();
   auto* curved = dynamic_cast<CurvedView*>(&view_);
-  const bool vessel_view = curved || dynamic_cast<SectionView*>(&view_);
   if (!bench.has_case()) return std::make_unique<Browse>(view_, event);
   switch (tool) {
     case Tool::browse:
@@ -78,7 +96,7 @@ std::unique_ptr<Pointer::Gesture> Pointer::gesture_of_tool(const PointerEvent& e
       if (taken_) return std::make_unique<Drag>(view_, *taken_);
       return std::make_unique<Browse>(view_, event);
     case Tool::draw:
-      if (vessel_view) return std::make_unique<Stroke>(view_, event);
+      if (of_vessel(view_)) return std::make_unique<Stroke>(view_, event);
       return std::make_unique<Browse>(view_, event);
     case Tool::brush:
       return std::make_unique<Brush>(view_, event);
@@ -157,24 +175,28 @@ void Pointer::press(const PointerEvent& event) {
   const Telling telling(*this, {HandAct::Kind::press, event, 0.0});
   if (gesture_ || !view_.ready()) return;
   taken_.reset();
-  if (event.button == Button::left && !event.shift && click_of_tool(event)) return;
+  if (event.button == Button::left && !event.shift && !handle_at(event) && click_of_tool(event)) return;
+  last_ = event;
   gesture_ = gesture_of(event);
   if (gesture_) shape_ = gesture_->shape();
 }
 
 void Pointer::move(const PointerEvent& event) {
   const Telling telling(*this, {HandAct::Kind::move, event, 0.0});
-  if (gesture_)
-    gesture_->move(event);
-  else if (view_.ready())
+  if (const std::shared_ptr<Gesture> held = gesture_) {
+    last_.px = event.px;
+    held->move(event);
+  } else if (view_.ready()) {
     hover(event);
+  }
 }
 
 void Pointer::release(const PointerEvent& event) {
   const Telling telling(*this, {HandAct::Kind::release, event, 0.0});
   if (!gesture_) return;
-  const std::unique_ptr<Gesture> ended = std::move(gesture_);
+  const std::shared_ptr<Gesture> ended = std::exchange(gesture_, nullptr);
   try {
+    if (event.px != last_.px) ended->move(event);
     ended->release(event);
   } catch (...) {
     ended->cancel();
@@ -184,6 +206,10 @@ void Pointer::release(const PointerEvent& event) {
   hover(event);
 }
 
+void Pointer::let_go() {
+  if (gesture_) release(PointerEvent(last_));
+}
+
 void Pointer::hover(const PointerEvent& event) {
   const Tool tool = view_.bench().tool.get();
   shape_ = tool == Tool::browse ? CursorShape::arrow : CursorShape::cross;
@@ -191,7 +217,7 @@ void Pointer::hover(const PointerEvent& event) {
     shape_ = CursorShape::turn;
     return;
   }
-  if (view_.handle_near(event.px, handle_reach_units * view_.density())) {
+  if (handle_at(event)) {
     shape_ = CursorShape::grab;
   } else if (tool == Tool::drag && view_.bench().has_case()) {
     Overlay overlay;
@@ -222,7 +248,7 @@ void Pointer::double_click(const PointerEvent& event) {
   if (!place) return;
   const NearestAxis nearest = nearest_axis(bench, *place);
   if (nearest.vessel == session::Workbench::no_vessel) return;
-  cancel();
+  drop();
   bench.edit(lumen::AxisInsert{nearest.vessel, *place});
 }
 
@@ -270,7 +296,9 @@ void Pointer::leave() {
 
 void Pointer::cancel() {
   const Telling telling(*this, {HandAct::Kind::cancel, {}, 0.0});
+  const std::shared_ptr<Gesture> begun = gesture_;
   drop();
+  if (begun) begun->take_back();
 }
 
 void Pointer::drop() {

@@ -50,10 +50,9 @@ void Pointer::Drag::move(const PointerEvent& event) {
   if (!from || !to) return;
   if (!moved_ && (from->px - event.px).norm() < least_drag_units * view_.density()) return;
   edit_.to = *to;
-  if (moved_)
-    view_.bench().edit_merged(edit_);
-  else
-    view_.bench().edit(edit_);  // the same wall may have been pulled before: that was another step
+  session::Workbench& bench = view_.bench();
+  // The same wall may have been pulled before: that was another step.
+  steps_.note(bench, moved_ ? bench.edit_merged(edit_) : bench.edit(edit_));
   moved_ = true;
 }
 
@@ -132,10 +131,8 @@ void Pointer::Brush::push(const PointerEvent& event) {
   if (!edit_.path.empty() && (edit_.path.back() - *place).norm() < push_step * edit_.radius_mm) return;
   lumen::WallPush longer = edit_;
   longer.path.push_back(*place);
-  if (edit_.path.empty())
-    view_.bench().edit(longer);
-  else
-    view_.bench().edit_merged(longer);
+  session::Workbench& bench = view_.bench();
+  steps_.note(bench, edit_.path.empty() ? bench.edit(longer) : bench.edit_merged(longer));
   edit_ = std::move(longer);
 }
 
@@ -161,10 +158,8 @@ void Pointer::MoveAxis::move(const PointerEvent& event) {
   if (!moved_ && (start_ - event.px).norm() < least_drag_units * view_.density()) return;
   edit_.to = *to;
   if (live_) {
-    if (moved_)
-      view_.bench().edit_merged(edit_);
-    else
-      view_.bench().edit(edit_);
+    session::Workbench& bench = view_.bench();
+    steps_.note(bench, moved_ ? bench.edit_merged(edit_) : bench.edit(edit_));
   } else {
     Overlay overlay;
     overlay.lines.push_back({{start_, event.px}, Role::stroke, 1.0, true});
@@ -174,8 +169,7 @@ void Pointer::MoveAxis::move(const PointerEvent& event) {
   moved_ = true;
 }
 
-void Pointer::MoveAxis::release(const PointerEvent& event) {
-  move(event);
+void Pointer::MoveAxis::release(const PointerEvent&) {
   view_.set_tool_overlay({});
   if (moved_ && !live_) view_.bench().edit(edit_);
 }

@@ -2,6 +2,7 @@
 // What a hand can do between press and release.
 
 #include "measure_placing.h"
+#include "own_steps.h"
 
 #include "ostia/view/curved_view.h"
 #include "ostia/view/plane_view.h"
@@ -9,13 +10,15 @@
 
 namespace ostia::view {
 
-/// One press, moves, one release. Dropped without release: cancelled.
+/// One press, moves, one release. Dropped without release: cancelled. A release comes where the last move
+/// was: what is done with each move is done.
 class Pointer::Gesture {
  public:
   virtual ~Gesture() = default;
   virtual void move(const PointerEvent& event) = 0;
-  virtual void release(const PointerEvent& event) { move(event); }
-  virtual void cancel() {}
+  virtual void release(const PointerEvent&) {}
+  virtual void cancel() {}     ///< what is drawn of it goes from the view
+  virtual void take_back() {}  ///< what it did to the case is undone
   virtual CursorShape shape() const { return CursorShape::arrow; }
 };
 
@@ -75,12 +78,14 @@ class Pointer::Drag final : public Gesture {
  public:
   Drag(PictureView& view, const Vec3& taken);
   void move(const PointerEvent& event) override;
+  void take_back() override { steps_.take_back(view_.bench()); }
   CursorShape shape() const override { return CursorShape::grab; }
 
  private:
   PictureView& view_;
   lumen::WallDrag edit_;
   bool moved_ = false;
+  OwnSteps steps_;
 };
 class Pointer::Stroke final : public Gesture {
  public:
@@ -102,12 +107,14 @@ class Pointer::Brush final : public Gesture {
   Brush(PictureView& view, const PointerEvent& event);
   void move(const PointerEvent& event) override;
   void cancel() override;
+  void take_back() override { steps_.take_back(view_.bench()); }
   CursorShape shape() const override { return CursorShape::cross; }
 
  private:
   void push(const PointerEvent& event);
   PictureView& view_;
   lumen::WallPush edit_;
+  OwnSteps steps_;
 };
 class Pointer::MoveAxis final : public Gesture {
  public:
@@ -115,6 +122,7 @@ class Pointer::MoveAxis final : public Gesture {
   void move(const PointerEvent& event) override;
   void release(const PointerEvent& event) override;
   void cancel() override;
+  void take_back() override { steps_.take_back(view_.bench()); }
   CursorShape shape() const override { return CursorShape::grab; }
 
  private:
@@ -123,6 +131,7 @@ class Pointer::MoveAxis final : public Gesture {
   Vec2 start_;
   bool live_;  // false in a CPR, whose axis is what it is laid out by: it follows on release
   bool moved_ = false;
+  OwnSteps steps_;
 };
 
 // Measurements.
@@ -169,14 +178,33 @@ class Pointer::Stretch final : public Gesture {
 };
 class Pointer::MoveHandle final : public Gesture {
  public:
-  MoveHandle(PictureView& view, const PictureView::HandleHit& hit);
+  MoveHandle(PictureView& view, const PointerEvent& event, const HandleHit& hit);
   void move(const PointerEvent& event) override;
+  void take_back() override { held_.take_back(); }
   CursorShape shape() const override { return CursorShape::grab; }
 
  private:
   PictureView& view_;
+  Vec2 start_;
   HeldMeasurement held_;
   std::size_t point_;
+  bool moved_ = false;
+};
+/// An end of a stretch on a CPR.
+class Pointer::MoveEnd final : public Gesture {
+ public:
+  MoveEnd(CurvedView& view, const PointerEvent& event, const HandleHit& hit);
+  void move(const PointerEvent& event) override;
+  void cancel() override;
+  void take_back() override { held_.take_back(); }
+  CursorShape shape() const override { return CursorShape::grab; }
+
+ private:
+  CurvedView& view_;
+  Vec2 start_;
+  HeldEnd held_;
+  double grip_px_;  // from the hand to the end
+  bool moved_ = false;
 };
 
 }  // namespace ostia::view

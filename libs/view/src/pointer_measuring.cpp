@@ -7,13 +7,21 @@
 namespace ostia::view {
 namespace {
 
-constexpr double least_units = 3.0;  // shorter is a click that trembled
 constexpr double outline_step_units = 3.0;
 
 void show_line(PictureView& view, std::vector<Vec2> px) {
   Overlay overlay;
   for (const Vec2& p : {px.front(), px.back()}) overlay.marks.push_back({p, Role::selected, 3.5, 1.0, false});
   overlay.lines.push_back({std::move(px), Role::selected});
+  view.set_tool_overlay(std::move(overlay));
+}
+
+void show_stretch(CurvedView& view, double from_mm, double to_mm) {
+  Overlay overlay;
+  const double a = view.row_of(from_mm), b = view.row_of(to_mm), w = view.width();
+  overlay.lines.push_back({{Vec2(0, a), Vec2(w, a)}, Role::reference, 1.0, true});
+  overlay.lines.push_back({{Vec2(0, b), Vec2(w, b)}, Role::reference, 1.0, true});
+  overlay.bands.push_back({Vec2(0, std::min(a, b)), Vec2(w, std::max(a, b)), Role::reference, 0.12});
   view.set_tool_overlay(std::move(overlay));
 }
 
@@ -29,7 +37,7 @@ void Pointer::TwoPoints::release(const PointerEvent& event) {
   end_ = event.px;
   view_.set_tool_overlay({});
   const std::optional<Vec3> a = view_.world(start_), b = view_.world(end_);
-  if (!a || !b || (end_ - start_).norm() < least_units * view_.density()) return;
+  if (!a || !b || (end_ - start_).norm() < trembling_units * view_.density()) return;
   session::Workbench& bench = view_.bench();
   add_measurement(
       bench, of_points(kind_, {*a, *b}, kind_ == analysis::MeasureKind::diameter ? bench.vessel.get() : 0));
@@ -63,31 +71,44 @@ Pointer::Stretch::Stretch(CurvedView& view, const PointerEvent& event, analysis:
     : view_(view), kind_(kind), from_mm_(view.abscissa_at(event.px.y())), to_mm_(from_mm_) {}
 void Pointer::Stretch::move(const PointerEvent& event) {
   to_mm_ = view_.abscissa_at(event.px.y());
-  Overlay overlay;
-  const double a = view_.row_of(from_mm_), b = view_.row_of(to_mm_), w = view_.width();
-  overlay.lines.push_back({{Vec2(0, a), Vec2(w, a)}, Role::reference, 1.0, true});
-  overlay.lines.push_back({{Vec2(0, b), Vec2(w, b)}, Role::reference, 1.0, true});
-  overlay.bands.push_back({Vec2(0, std::min(a, b)), Vec2(w, std::max(a, b)), Role::reference, 0.12});
-  view_.set_tool_overlay(std::move(overlay));
+  show_stretch(view_, from_mm_, to_mm_);
 }
 void Pointer::Stretch::release(const PointerEvent& event) {
   move(event);
   view_.set_tool_overlay({});
-  if (std::abs(view_.row_of(to_mm_) - view_.row_of(from_mm_)) < least_units * view_.density()) return;
+  if (std::abs(view_.row_of(to_mm_) - view_.row_of(from_mm_)) < trembling_units * view_.density()) return;
   add_measurement(view_.bench(), of_stretch(kind_, view_.bench().vessel.get(), from_mm_, to_mm_));
 }
 void Pointer::Stretch::cancel() {
   view_.set_tool_overlay({});
 }
 
-Pointer::MoveHandle::MoveHandle(PictureView& view, const PictureView::HandleHit& hit)
-    : view_(view), held_(view.bench(), hit.measurement), point_(hit.point) {}
+Pointer::MoveHandle::MoveHandle(PictureView& view, const PointerEvent& event, const HandleHit& hit)
+    : view_(view), start_(event.px), held_(view.bench(), hit.measurement), point_(hit.handle) {}
 void Pointer::MoveHandle::move(const PointerEvent& event) {
+  if (!moved_ && (event.px - start_).norm() < trembling_units * view_.density()) return;
+  moved_ = true;
   const std::optional<Vec3> to = view_.world(event.px);
   if (!to || point_ >= held_.now().points.size()) return;
   analysis::Measurement next = held_.now();
   next.points[point_] = *to;
   held_.become(std::move(next));
+}
+
+Pointer::MoveEnd::MoveEnd(CurvedView& view, const PointerEvent& event, const HandleHit& hit)
+    : view_(view),
+      start_(event.px),
+      held_(view.bench(), hit),
+      grip_px_(view.row_of(held_.s_mm()) - event.px.y()) {}
+void Pointer::MoveEnd::move(const PointerEvent& event) {
+  if (!moved_ && (event.px - start_).norm() < trembling_units * view_.density()) return;
+  moved_ = true;
+  held_.pull_to(view_.abscissa_at(event.px.y() + grip_px_));
+  const std::vector<double> ends = ends_of(held_.now());
+  show_stretch(view_, ends.front(), ends.back());
+}
+void Pointer::MoveEnd::cancel() {
+  view_.set_tool_overlay({});
 }
 
 }  // namespace ostia::view

@@ -1,6 +1,7 @@
 #include "ostia/view/profile_view.h"
 
 #include "measure_marks.h"
+#include "measure_placing.h"
 
 #include "ostia/figure/plot.h"
 #include "ostia/view/words.h"
@@ -71,6 +72,16 @@ std::optional<double> ProfileView::abscissa_at(double x_px) const {
   return std::clamp((x_px - f.left) / (f.right - f.left), 0.0, 1.0) * f.length_mm;
 }
 
+std::pair<Vec2, Vec2> ProfileView::end_line(double s_mm) const {
+  const double x = x_of(s_mm), bottom = frame().bottom;
+  return {Vec2(x, bottom - 8.0 * density_), Vec2(x, bottom)};
+}
+
+std::optional<HandleHit> ProfileView::handle_near(const Vec2& px, double reach_px) const {
+  if (!ready()) return std::nullopt;
+  return end_near(bench_, px, reach_px, [this](double s_mm) { return end_line(s_mm); });
+}
+
 const Overlay& ProfileView::overlay() {
   if (fresh_) return overlay_;
   overlay_ = {};
@@ -119,12 +130,10 @@ const Overlay& ProfileView::overlay() {
     text(std::clamp(x(one.throat_mm), f.left + 14 * density_, f.right - 14 * density_), foot, label,
          Role::stenosis, Anchor::bottom);
   }
-  for (const StretchMark& mark : stretches_of(bench_)) {
-    const Role role = mark.selected ? Role::selected : Role::measurement;
-    overlay_.lines.push_back(
-        {{Vec2(x(mark.from_mm), f.bottom), Vec2(x(mark.from_mm), f.bottom - 8 * density_),
-          Vec2(x(mark.to_mm), f.bottom - 8 * density_), Vec2(x(mark.to_mm), f.bottom)},
-         role});
+  for (const analysis::Measurement& one : stretches_of(bench_)) {
+    const std::vector<double> ends = ends_of(one);
+    const auto from = end_line(ends.front()), to = end_line(ends.back());
+    overlay_.lines.push_back({{from.second, from.first, to.first, to.second}, role_of(bench_, one)});
   }
   // A curve in pieces: it breaks where no section was found.
   const auto curve = [&](Role role, bool dashed, double opacity, const auto& share) {

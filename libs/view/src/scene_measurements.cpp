@@ -1,6 +1,7 @@
 #include "ostia/view/scene_measurements.h"
 
 #include "measure_marks.h"
+#include "measure_placing.h"
 #include "section_places.h"
 
 #include "ostia/core/error.h"
@@ -66,9 +67,9 @@ std::vector<Vec3> handles_of(const session::Workbench& bench, const Measurement&
   if (!measurement.points.empty()) return measurement.points;
   const auto axis = bench.axis(measurement.vessel);
   if (!axis) return {};
-  const auto at = [&](double s_mm) { return axis->point(std::clamp(s_mm, 0.0, axis->length())); };
-  if (measurement.kind == MeasureKind::ring_hu) return {at(measurement.from_mm)};
-  return {at(measurement.from_mm), at(measurement.to_mm)};
+  std::vector<Vec3> handles;
+  for (const double s : ends_of(measurement)) handles.push_back(axis->point(s));
+  return handles;
 }
 
 std::optional<SceneMeasurement> in_scene(const session::Workbench& bench, const Measurement& measurement) {
@@ -93,7 +94,7 @@ std::vector<SceneMeasurement> scene_measurements(const session::Workbench& bench
   if (!bench.has_case() || !bench.marks_shown.get()) return all;
   for (const Measurement& one : bench.session().file().annotations()->measurements)
     if (std::optional<SceneMeasurement> shown = in_scene(bench, one)) {
-      shown->label = caption(one) + ": " + measured_text(bench, one);
+      shown->label = label_of(bench, one);
       all.push_back(std::move(*shown));
     }
   return all;

@@ -17,9 +17,6 @@ using analysis::MeasureKind;
 using analysis::Measurement;
 using geometry::Vec2;
 
-constexpr double click_units = 3.0;  // a hand that trembles has not moved
-constexpr double handle_reach_units = 8.0;
-constexpr double least_stretch_mm = 0.5;
 constexpr int area_points = 128;  // of a round lumen: 0.04 % of the area are lost between them
 
 std::size_t clicks_of(MeasureKind kind) {
@@ -97,13 +94,9 @@ std::optional<Measurement> with_handle(const session::Workbench& bench, Measurem
     return measurement;
   }
   if (!on_way_of(bench, measurement.vessel, to)) return std::nullopt;
-  if (measurement.kind == MeasureKind::ring_hu) {
-    measurement.from_mm = measurement.to_mm = to.s_mm;
-    return measurement;
-  }
-  (handle == 0 ? measurement.from_mm : measurement.to_mm) = to.s_mm;
-  if (measurement.to_mm - measurement.from_mm < least_stretch_mm) return std::nullopt;
-  return measurement;
+  const std::optional<EndRoom> room = room_of_end(bench, measurement, handle);
+  if (!room || to.s_mm < room->from_mm || to.s_mm > room->to_mm) return std::nullopt;
+  return with_end(std::move(measurement), handle, to.s_mm);
 }
 
 /// What is placed so far of a measurement that needs more.
@@ -163,7 +156,7 @@ bool ScenePointer::press(const PointerEvent& event) {
   const std::optional<std::size_t> handle = handle_near(event.px);
   if (!handle) return false;
   show_draft(std::optional<SceneMeasurement>());
-  held_ = std::make_unique<Held>(Held{{bench_, bench_.selected_measurement.get()}, *handle});
+  held_ = std::make_shared<Held>(Held{{bench_, bench_.selected_measurement.get()}, *handle});
   shape_ = CursorShape::grab;
   return true;
 }
@@ -173,7 +166,7 @@ void ScenePointer::move(const PointerEvent& event) {
     hover(event.px);
     return;
   }
-  if (!moved_ && (event.px - pressed_).norm() < click_units * scene_.pixel_ratio()) return;
+  if (!moved_ && (event.px - pressed_).norm() < trembling_units * scene_.pixel_ratio()) return;
   moved_ = true;
   if (held_) drag(event.px);
 }
@@ -181,8 +174,9 @@ void ScenePointer::move(const PointerEvent& event) {
 void ScenePointer::drag(const Vec2& px) {
   const std::optional<ScenePick> to = scene_.pick(px);
   if (!to || !to->vessel) return;
-  if (auto next = with_handle(bench_, held_->measurement.now(), held_->handle, *to)) {
-    held_->measurement.become(std::move(*next));
+  const std::shared_ptr<Held> held = held_;
+  if (auto next = with_handle(bench_, held->measurement.now(), held->handle, *to)) {
+    held->measurement.become(std::move(*next));
     stale.tell();
   }
 }
@@ -219,7 +213,7 @@ void ScenePointer::choose(const std::optional<ScenePick>& hit) {
 
 void ScenePointer::place(MeasureKind kind, const ScenePick& hit) {
   if (!clicked_.empty() && (scene_.project(clicked_.back().point) - scene_.project(hit.point)).norm() <
-                               click_units * scene_.pixel_ratio())
+                               trembling_units * scene_.pixel_ratio())
     return;  // the second half of a double click
   std::vector<ScenePick> places = clicked_;
   places.push_back(hit);
@@ -286,12 +280,19 @@ void ScenePointer::leave() {
 }
 
 void ScenePointer::cancel() {
+  const std::shared_ptr<Held> begun = held_;
   drop();
+  if (begun) begun->measurement.take_back();
+}
+
+void ScenePointer::let_go() {
+  button_ = Button::none;
+  held_.reset();
 }
 
 void ScenePointer::drop() {
   clicked_.clear();
-  held_.reset();
+  if (std::exchange(held_, nullptr)) moved_ = true;  // its release is no click
   show_draft(std::optional<SceneMeasurement>());
 }
 

@@ -20,8 +20,8 @@ void check(int width_px, int height_px) {
   if (std::min(width_px, height_px) < 16 || std::max(width_px, height_px) > 8192)
     throw InvalidInput("a picture of " + std::to_string(width_px) + " x " + std::to_string(height_px) +
                        " pixels cannot be made; it takes 16 to 8192 along each side");
-  static const std::optional<std::string> fault = check_opengl();
-  if (fault) throw ResourceError("no picture of the 3D scene can be made. " + *fault);
+  static const std::optional<OpenGlTrouble> fault = check_opengl();
+  if (fault) throw ResourceError("no picture of the 3D scene can be made. " + fault->text());
 }
 
 /// Renders, and again as long as a finer volume is to be had in time.

@@ -4,6 +4,8 @@
 #include "ostia/reformat/curved_reformation.h"
 #include "ostia/view/picture_view.h"
 
+#include <utility>
+
 namespace ostia::view {
 
 /// Zoom and place along the vessel: the two CPRs share them.
@@ -34,6 +36,8 @@ class CurvedView final : public PictureView {
   double row_of(double s_mm);
   /// Where the axis runs in the view: a row's pixel.
   Vec2 axis_at(double s_mm);
+  /// Its points, and the ends of those along the vessel: the short lines at the right border.
+  std::optional<HandleHit> handle_near(const Vec2& px, double reach_px) override;
   /// `project` for a place whose abscissa is about known: in bends a place has several feet.
   std::optional<ViewPlace> project_near(const Vec3& place, double s_mm);
   std::vector<double> framing() const override;
@@ -50,6 +54,8 @@ class CurvedView final : public PictureView {
 
  private:
   const reformat::CurvedReformation* reformation();
+  std::pair<Vec2, Vec2> end_line(double s_mm);
+  void add_stretches(Overlay& overlay);
   void moved();
   void read();    ///< large enough to see the wall, about the cursor
   void follow();  ///< scrolls so that the cursor stays in the view

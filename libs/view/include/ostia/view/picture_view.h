@@ -4,6 +4,7 @@
 #include "ostia/lumen/contour_lines.h"
 #include "ostia/lumen/view_contours.h"
 #include "ostia/session/workbench.h"
+#include "ostia/view/handle_hit.h"
 #include "ostia/view/overlay.h"
 
 #include <chrono>
@@ -73,11 +74,7 @@ class PictureView {
   /// What a tool shows while it works (a stroke, a ball); replaced as a whole.
   void set_tool_overlay(Overlay overlay);
 
-  /// Measurements with a handle within `reach_px` of a place: its id and which of its points.
-  struct HandleHit {
-    std::int32_t measurement = 0;
-    std::size_t point = 0;
-  };
+  /// Of the handles of measurements the nearest within `reach_px` of a place, as the view shows them.
   virtual std::optional<HandleHit> handle_near(const Vec2& px, double reach_px);
 
   /// Something of others over the picture, under what the tool shows; asked whenever the overlay is made.

@@ -48,11 +48,18 @@ class Pointer {
   void double_click(const PointerEvent& event);  ///< ends an area, adds a control point
   void wheel(double steps, const PointerEvent& event);
   void leave();
-  void cancel();  ///< Escape: what is begun and not yet a command is dropped
+  /// Escape: what is begun is dropped, and what a drag has done to the case so far is taken back; redo brings
+  /// it again. Throws as Workbench::undo does.
+  void cancel();
+  /// What is begun ends where it is: what a drag has done to the case stays.
+  void drop();
+  /// The button went up unseen (a dialog took the release): a release where the mouse was last.
+  void let_go();
   bool erase(const PointerEvent&
                  event);  ///< Delete over a control point or a measurement; false where there is neither
 
-  bool busy() const;  ///< a gesture is going on
+  bool busy() const;                                    ///< a gesture is going on
+  bool holding() const { return gesture_ != nullptr; }  ///< one that needs its button
   /// Where the wall was taken hold of by the last press, if it was.
   const std::optional<Vec3>& taken() const { return taken_; }
   CursorShape shape() const { return shape_; }
@@ -80,19 +87,21 @@ class Pointer {
   class Outline;
   class Stretch;
   class MoveHandle;
+  class MoveEnd;
   std::unique_ptr<Gesture> gesture_of(const PointerEvent& event);
   std::unique_ptr<Gesture> gesture_of_tool(const PointerEvent& event);
   bool click_of_tool(const PointerEvent& event);
+  std::optional<HandleHit> handle_at(const PointerEvent& event);
   void hover(const PointerEvent& event);
   void show_clicked();
-  void drop();
   PictureView& view_;
-  std::unique_ptr<Gesture> gesture_;
-  std::vector<Vec3> clicked_;  ///< of a measurement made of single clicks
+  std::shared_ptr<Gesture> gesture_;  // shared with the call that it is in: what it does may drop it
+  PointerEvent last_;                 // of the gesture: its button, and where it was last
+  std::vector<Vec3> clicked_;         ///< of a measurement made of single clicks
   CursorShape shape_ = CursorShape::arrow;
   int telling_ = 0;
   std::optional<Vec3> taken_;
-  session::Subscription tool_changed_;
+  std::vector<session::Subscription> own_;
 };
 
 }  // namespace ostia::view

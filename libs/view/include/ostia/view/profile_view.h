@@ -2,9 +2,11 @@
 /// \file The lumen's size along the selected vessel as a plot.
 
 #include "ostia/session/workbench.h"
+#include "ostia/view/handle_hit.h"
 #include "ostia/view/overlay.h"
 
 #include <optional>
+#include <utility>
 
 namespace ostia::view {
 
@@ -19,6 +21,10 @@ class ProfileView {
   bool ready() const;
   std::optional<double> abscissa_at(double x_px) const;
   double x_of(double s_mm) const;
+  double density() const { return density_; }
+  /// Of the ends of measurements along the vessel, as short lines above the axis, the nearest within
+  /// `reach_px`.
+  std::optional<HandleHit> handle_near(const Vec2& px, double reach_px) const;
   session::Property<bool> area_shown{true};
   session::Workbench& bench() const { return bench_; }
 
@@ -28,6 +34,7 @@ class ProfileView {
     double length_mm = 1, most_mm = 1, most_mm2 = 1;
   };
   Frame frame() const;
+  std::pair<Vec2, Vec2> end_line(double s_mm) const;
   void touch();
   session::Workbench& bench_;
   int width_ = 0, height_ = 0;

@@ -37,8 +37,11 @@ class ScenePointer {
   bool press(const PointerEvent& event);
   void move(const PointerEvent& event);  ///< with or without a button
   void release(const PointerEvent& event);
-  void leave();                           ///< what follows the mouse goes; what was clicked stays
-  void cancel();                          ///< Escape: what is begun is dropped
+  void leave();  ///< what follows the mouse goes; what was clicked stays
+  /// Escape: what is begun is dropped, and a measurement in the hand goes back to where it was; redo brings
+  /// the drag again. Throws as Workbench::undo does.
+  void cancel();
+  void let_go();  ///< the button went up unseen: what is in the hand stays where it is; no click comes of it
   bool erase(const PointerEvent& event);  ///< Delete: the measurement under the mouse, or the selected one
 
   bool busy() const;  ///< a gesture is going on
@@ -60,7 +63,7 @@ class ScenePointer {
   TreeScene& scene_;
   session::Workbench& bench_;
   std::vector<ScenePick> clicked_;  ///< of a measurement of several clicks
-  std::unique_ptr<Held> held_;
+  std::shared_ptr<Held> held_;      // shared with the call that moves it: what it does may drop it
   Button button_ = Button::none;
   geometry::Vec2 pressed_ = geometry::Vec2::Zero();
   bool moved_ = false, draft_shown_ = false;

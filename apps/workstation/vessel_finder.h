@@ -1,0 +1,38 @@
+#pragma once
+/// \file Vessels that the program finds in the image: the whole tree, or one by a click.
+
+#include "ostia/segmentation/minimal_path.h"
+#include "ostia/session/workbench.h"
+
+#include <QObject>
+#include <optional>
+#include <vector>
+
+namespace ostia::workstation {
+
+class MainWindow;
+class Opening;
+
+/// In the background. What was begun on one case or image does not end on another: it is dropped.
+class VesselFinder final : public QObject {
+  Q_OBJECT
+ public:
+  VesselFinder(MainWindow& window, Opening& opening);
+  /// A first case of the open image, with labelled vessels. Where nothing is found, a line says why, and the
+  /// guided way is open.
+  void find_tree();
+  /// By its distal end: joined to the tree, or, without a case, by two clicks the first vessel of a new one.
+  void find_vessel(const geometry::Vec3& end);
+
+ private:
+  void first_vessel(const session::OpenImage& image, const geometry::Vec3& end);
+  void join_way(const segmentation::MinimalPath& way);
+  bool image_is_there();
+  void drop_begun();
+  MainWindow& window_;
+  Opening& opening_;
+  std::optional<geometry::Vec3> first_end_;  // of a case's first vessel
+  std::vector<session::Subscription> own_;
+};
+
+}  // namespace ostia::workstation

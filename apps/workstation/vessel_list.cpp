@@ -259,7 +259,8 @@ void VesselList::share_width() {
                     (name_characters + 2) * fontMetrics().averageCharWidth();
   const int others = wanted(length_column) + wanted(stenosis_column) + wanted(checked_column);
   const int room = viewport()->width();
-  setColumnHidden(edited_column, others + wanted(edited_column) + least > room);
+  const int names = std::min(least, sizeHintForColumn(name_column));
+  setColumnHidden(edited_column, others + wanted(edited_column) + names > room);
   const bool scrolls = others + least > room;
   header()->setSectionResizeMode(name_column, scrolls ? QHeaderView::Fixed : QHeaderView::Stretch);
   if (scrolls) header()->resizeSection(name_column, least);

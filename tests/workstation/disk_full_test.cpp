@@ -16,7 +16,6 @@
 #include <sys/resource.h>
 
 #include <QAction>
-#include <QMessageBox>
 #include <QPushButton>
 #include <QStandardPaths>
 #include <QTest>
@@ -31,6 +30,8 @@ namespace fs = std::filesystem;
 using session::Tool;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using testing::message;
+using testing::open_boxes;
 using testing::Program;
 using testing::sweep;
 using testing::TestWindow;
@@ -61,23 +62,6 @@ class FullDisk {
  private:
   void (*before_)(int);
 };
-
-std::vector<QMessageBox*> open_boxes() {
-  std::vector<QMessageBox*> boxes;
-  for (QWidget* widget : QApplication::topLevelWidgets())
-    if (auto* box = qobject_cast<QMessageBox*>(widget); box && box->isVisible()) boxes.push_back(box);
-  return boxes;
-}
-
-/// The text of the one message that comes up; it is then closed.
-std::string message() {
-  if (!wait_until([] { return !open_boxes().empty(); })) return "no message";
-  const auto boxes = open_boxes();
-  const std::string text = boxes.size() == 1 ? boxes.front()->text().toStdString() : "several messages";
-  for (QMessageBox* box : boxes) box->close();
-  QApplication::processEvents();
-  return text;
-}
 
 struct DiskFull : ::testing::Test {
   testing::Folder folder;

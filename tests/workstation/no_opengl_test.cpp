@@ -1,5 +1,6 @@
 // The program where no OpenGL, or no display, is to be had: said, never a crash.
 
+#include "language.h"
 #include "real_program.h"
 
 #include <gmock/gmock.h>
@@ -113,6 +114,15 @@ TEST(NoOpenGl, ABoxOnTheScreenSaysWhyAndTheWayOut) {
   EXPECT_EQ(program.process.exitCode(), exit_without_opengl);
   EXPECT_THAT(program.process.readAllStandardError().toStdString(),
               AllOf(HasSubstr(too_old), HasSubstr("LIBGL_ALWAYS_SOFTWARE=1")));
+}
+
+TEST(NoOpenGl, TheBoxSpeaksTheLanguageOfTheWindow) {
+  if (QStandardPaths::findExecutable("xdotool").isEmpty()) GTEST_SKIP() << "xdotool is not installed";
+  const testing::Folder folder;
+  session::MachineState(folder / "state").set_setting(language_setting, "de");
+  Program program({"--state-folder", QString::fromStdString((folder / "state").string())}, old_opengl(),
+                  QProcess::SeparateChannels);
+  EXPECT_TRUE(wait_until([&] { return !program.windows("kann nicht starten").isEmpty(); }, patience_ms));
 }
 
 TEST(NoOpenGl, WithoutADisplayItIsSaidOnStderrAlone) {

@@ -9,6 +9,7 @@
 #include <QElapsedTimer>
 #include <QFileDialog>
 #include <QLineEdit>
+#include <QMessageBox>
 #include <QMouseEvent>
 #include <QTimer>
 #include <filesystem>
@@ -73,6 +74,24 @@ inline void answer_file_dialog(const std::filesystem::path& path) {
     dialog->findChild<QLineEdit*>()->setText(QString::fromStdString(path.string()));
     QMetaObject::invokeMethod(dialog, "accept");
   });
+}
+
+/// The messages on the screen.
+inline std::vector<QMessageBox*> open_boxes() {
+  std::vector<QMessageBox*> boxes;
+  for (QWidget* widget : QApplication::topLevelWidgets())
+    if (auto* box = qobject_cast<QMessageBox*>(widget); box && box->isVisible()) boxes.push_back(box);
+  return boxes;
+}
+
+/// The text of the one message that comes up; it is then closed.
+inline std::string message() {
+  if (!wait_until([] { return !open_boxes().empty(); })) return "no message";
+  const auto boxes = open_boxes();
+  const std::string text = boxes.size() == 1 ? boxes.front()->text().toStdString() : "several messages";
+  for (QMessageBox* box : boxes) box->close();
+  QApplication::processEvents();
+  return text;
 }
 
 class TestWindow {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <utility>
 
 namespace ostia::pipeline {
 namespace {
@@ -47,26 +48,32 @@ lumen::RadialWall wall_of(const Axis& axis, const segmentation::LumenBoundary& f
 
 std::vector<lumen::RadialWall> walls_from_image(const geometry::VesselTree& tree,
                                                 const imaging::ImageVolume& image,
-                                                const core::TaskContext& task) {
+                                                const core::TaskContext& task,
+                                                std::vector<std::vector<std::string>>* said) {
   std::vector<Axis> axes;
   for (const geometry::Vessel& vessel : tree.vessels)
     axes.push_back(std::make_shared<const geometry::AxisCurve>(geometry::vessel_axis(tree, vessel)));
   std::vector<lumen::RadialWall> walls;
+  std::vector<std::vector<std::string>> warnings(tree.vessels.size());
+  const auto warn = [&](std::size_t vessel, const std::string& text) {
+    core::log_warning(tree.vessels[vessel].name + ": " + text);
+    warnings[vessel].push_back(text);
+  };
   const double count = static_cast<double>(axes.size());
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const double free_mm = free_from(tree, axes, i), length = axes[i]->length();
     if (length - free_mm < shortest_mm) {
-      core::log_warning(tree.vessels[i].name + ": too short by itself to be found in the image; a tube");
+      warn(i, "too short by itself to be found in the image; a tube");
       walls.emplace_back([axis = axes[i]](double s_mm, double) { return axis->radius(s_mm); });
       continue;
     }
     const double done = static_cast<double>(i);
     const segmentation::LumenBoundary found = segmentation::lumen_boundary(
         image, *axes[i], free_mm, length, {}, task.sub(done / count, (done + 1.0) / count));
-    for (const std::string& warning : found.warnings)
-      core::log_warning(tree.vessels[i].name + ": " + warning);
+    for (const std::string& warning : found.warnings) warn(i, warning);
     walls.push_back(wall_of(axes[i], found, free_mm));
   }
+  if (said) *said = std::move(warnings);
   return walls;
 }
 

@@ -36,8 +36,12 @@ FoundModel found_model(const imaging::ImageVolume& image, const coronary::Extrac
   result.found = coronary::extract(image, options, task.sub(0.0, 0.7));
   task.set_stage("walls of the vessels");
   const geometry::VesselTree& tree = result.found.vessels.tree;
-  result.model = lumen::model_of_walls(tree, pipeline::walls_from_image(tree, image, task.sub(0.7, 1.0)));
+  std::vector<std::vector<std::string>> said;
+  result.model =
+      lumen::model_of_walls(tree, pipeline::walls_from_image(tree, image, task.sub(0.7, 1.0), &said));
   for (std::size_t i = 0; i < tree.vessels.size(); ++i) {
+    std::vector<std::string>& warnings = result.found.notes[i].warnings;
+    warnings.insert(warnings.end(), said[i].begin(), said[i].end());
     VesselMark mark;
     mark.vessel = tree.vessels[i].id;
     mark.note =

@@ -1,0 +1,66 @@
+#include "ostia/pipeline/image_walls.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace ostia::pipeline {
+namespace {
+
+using geometry::Vec3;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr double radius_mm = 1.5;
+
+/// A bright lumen along z with a wall, in fat.
+imaging::ImageVolume tube() {
+  imaging::ImageVolume image;
+  image.geometry.size = {40, 40, 80};
+  image.geometry.spacing = {0.4, 0.4, 0.4};
+  image.geometry.origin = {-7.8, -7.8, -1.0};
+  image.voxels.resize(static_cast<std::size_t>(image.geometry.voxels()));
+  for (std::int64_t k = 0; k < 80; ++k)
+    for (std::int64_t j = 0; j < 40; ++j)
+      for (std::int64_t i = 0; i < 40; ++i) {
+        const Vec3 at = image.geometry.world({double(i), double(j), double(k)});
+        const double r = std::hypot(at.x(), at.y());
+        const auto within = [&](double edge) { return std::clamp(0.5 - (r - edge) / 0.6, 0.0, 1.0); };
+        const double hu = -80.0 + 130.0 * within(radius_mm + 0.8) + 350.0 * within(radius_mm);
+        image(i, j, k) = static_cast<std::int16_t>(std::lround(hu));
+      }
+  return image;
+}
+
+geometry::Centerline line(const Vec3& from, const Vec3& to) {
+  geometry::Centerline made;
+  const int steps = static_cast<int>((to - from).norm() / 0.4);
+  for (int i = 0; i <= steps; ++i) {
+    made.points.push_back(from + (to - from) * i / steps);
+    made.radius.push_back(radius_mm);
+  }
+  geometry::complete(made);
+  return made;
+}
+
+TEST(ImageWalls, WhatIsWrongIsSaidOfTheVesselThatItIsAbout) {
+  geometry::VesselTree tree;
+  tree.nodes = {{0, {0, 0, 0}}, {1, {0, 0, 15}}, {2, {0, 0, 28}}, {3, {2.5, 0, 16.5}}};
+  tree.segments = {{0, 0, 1, line({0, 0, 0}, {0, 0, 15})},
+                   {1, 1, 2, line({0, 0, 15}, {0, 0, 28})},
+                   {2, 1, 3, line({0, 0, 15}, {2.5, 0, 16.5})}};
+  tree.vessels = {{7, "LAD", {0, 1}}, {9, "D1", {0, 2}}};  // the branch ends within its parent's reach
+  std::vector<std::vector<std::string>> said{{"from before"}};
+  const auto walls = walls_from_image(tree, tube(), core::no_task(), &said);
+  ASSERT_EQ(walls.size(), 2U);
+  EXPECT_NEAR(walls[0](20.0, 1.0), radius_mm, 0.25);
+  ASSERT_EQ(said.size(), 2U);
+  EXPECT_THAT(said[0], IsEmpty());
+  EXPECT_THAT(said[1], ElementsAre(HasSubstr("too short by itself")));
+}
+
+}  // namespace
+}  // namespace ostia::pipeline

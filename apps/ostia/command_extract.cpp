@@ -32,7 +32,7 @@ Json facts_of(const session::FoundModel& result) {
                        {"confidence", label.confidence},
                        {"evidence", found.notes[i].evidence},
                        {"length_mm", geometry::vessel_axis(found.vessels.tree, vessel).abscissa.back()},
-                       {"doubt", session::doubt_about(label, found.notes[i])}});
+                       {"doubt", result.doubts[i]}});
   }
   return {{"v", 1},
           {"kind", "extraction"},

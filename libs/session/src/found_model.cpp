@@ -15,8 +15,6 @@ std::string percent(double share) {
   return std::to_string(std::lround(100.0 * share)) + " %";
 }
 
-}  // namespace
-
 std::string doubt_about(const coronary::VesselLabel& label, const coronary::AxisNotes& axis,
                         double least_confidence) {
   std::string doubt;
@@ -30,6 +28,8 @@ std::string doubt_about(const coronary::VesselLabel& label, const coronary::Axis
   return doubt;
 }
 
+}  // namespace
+
 FoundModel found_model(const imaging::ImageVolume& image, const coronary::ExtractOptions& options,
                        const core::TaskContext& task) {
   FoundModel result;
@@ -42,11 +42,8 @@ FoundModel found_model(const imaging::ImageVolume& image, const coronary::Extrac
   for (std::size_t i = 0; i < tree.vessels.size(); ++i) {
     std::vector<std::string>& warnings = result.found.notes[i].warnings;
     warnings.insert(warnings.end(), said[i].begin(), said[i].end());
-    VesselMark mark;
-    mark.vessel = tree.vessels[i].id;
-    mark.note =
-        doubt_about(result.found.vessels.labels[i], result.found.notes[i], options.labels.least_confidence);
-    if (!mark.note.empty()) result.marks.push_back(std::move(mark));
+    result.doubts.push_back(
+        doubt_about(result.found.vessels.labels[i], result.found.notes[i], options.labels.least_confidence));
   }
   task.set_progress(1.0);
   return result;
@@ -56,7 +53,13 @@ CaseFile create_case(const std::filesystem::path& path, const FoundModel& found,
                      const ImageReference& image) {
   CaseFile made = CaseFile::create(path, found.model, image);
   try {
-    for (const VesselMark& mark : found.marks) made.annotate(MarkVessel{mark});
+    for (std::size_t i = 0; i < found.doubts.size(); ++i) {
+      if (found.doubts[i].empty()) continue;
+      VesselMark mark;
+      mark.vessel = found.model.tree.vessels[i].id;
+      mark.note = found.doubts[i];
+      made.annotate(MarkVessel{mark});
+    }
   } catch (...) {
     { const CaseFile closed = std::move(made); }
     std::error_code ignored;

@@ -3,7 +3,6 @@
 
 #include "ostia/core/task_context.h"
 #include "ostia/coronary/extract.h"
-#include "ostia/session/annotation.h"
 #include "ostia/session/case_file.h"
 
 #include <filesystem>
@@ -16,19 +15,17 @@ namespace ostia::session {
 struct FoundModel {
   lumen::LumenModel model;
   coronary::Extraction found;
-  std::vector<VesselMark>
-      marks;  ///< of the vessels that a person should look at first, with a note that says why
+  /// One a vessel, in the tree's order: why a person should look at it first; empty where the program is sure
+  /// of its axis, its name and its wall.
+  std::vector<std::string> doubts;
 };
 
 /// Throws as coronary::extract, segmentation::lumen_boundary and lumen::model_of_walls do.
 FoundModel found_model(const imaging::ImageVolume& image, const coronary::ExtractOptions& options = {},
                        const core::TaskContext& task = core::no_task());
 
-/// Why a person should look at a vessel; empty where the program is sure of its axis and its name.
-std::string doubt_about(const coronary::VesselLabel& label, const coronary::AxisNotes& axis,
-                        double least_confidence = 0.5);
-
-/// A new case with the model and its marks. Throws as CaseFile::create does; then there is no such file.
+/// A new case with the model, and a mark with a note for each vessel that is in doubt. Throws as
+/// CaseFile::create does; then there is no such file.
 CaseFile create_case(const std::filesystem::path& path, const FoundModel& found, const ImageReference& image);
 
 }  // namespace ostia::session

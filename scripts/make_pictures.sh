@@ -19,13 +19,28 @@ build/release/bin/editing_picture docs/pictures/editing-dismissal.png
 build/release/bin/reformation_picture "$work/phantom/dataset00" vessel1 docs/pictures/reformations.png
 build/release/bin/contour_picture "$work/phantom/dataset00" vessel1 docs/pictures/lumen-contours.png
 build/release/bin/boundary_picture "$work/phantom/dataset00" vessel1 s01 docs/pictures/lumen-boundary.png
+build/release/bin/outer_wall_picture "$work/phantom/dataset00" vessel1 s01 docs/pictures/outer-wall.png
+build/release/bin/plaque_picture "$work/phantom/dataset00" 3 LAD docs/pictures/plaque.png
 build/release/bin/filters_picture "$work/phantom/dataset00" vessel1 docs/pictures/filters.png
+
+# Some minutes: the tubes scanned in twelve orientations.
+build/release/bin/ostia experiment orientations -o "$work/orientations"
+cp "$work/orientations/length.png" docs/pictures/orientations-length.png
+cp "$work/orientations/radius.png" docs/pictures/orientations-radius.png
 
 # Half an hour: the editing experiment on 78 sections.
 build/release/bin/ostia phantom -o "$work/suite18" --cases 18 --truth-only
 build/release/bin/ostia experiment editing --suite "$work/suite18" -o "$work/editing"
 cp "$work/editing/accuracy.png" docs/pictures/editing-accuracy.png
 cp "$work/editing/one-section.png" docs/pictures/editing-one-section.png
+
+# How much the segmentation depends on its parameters; and, where a lumen with open ends is given in $CAROTID, the carotid phantom.
+build/release/bin/ostia experiment sensitivity -o "$work/sensitivity"
+cp "$work/sensitivity/sensitivity.png" docs/pictures/sensitivity.png
+if [ -n "${CAROTID:-}" ]; then
+  build/release/bin/ostia experiment carotid --surface "$CAROTID" -o "$work/carotid"
+  for picture in slices distances calibre; do cp "$work/carotid/$picture.png" "docs/pictures/carotid-$picture.png"; done
+fi
 
 # The tutorial of regression tests: a model held against the truth, and two models against each other.
 cd "$work"

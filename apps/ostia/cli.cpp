@@ -174,6 +174,18 @@ void add_phantom(CLI::App& app, PhantomCommand& o) {
       ->check(CLI::IsMember({"mhd", "nrrd", "dicom"}));
   app.add_option("--disease", o.disease, "Number of lesions, as a multiple of the usual; 0: a healthy tree")
       ->check(CLI::Range(0.0, 5.0));
+  app.add_option("--anatomy", o.anatomy,
+                 "usual, left-ostium-closed, right-ostium-closed, rca-from-left, lcx-from-right, bypass")
+      ->check(CLI::IsMember({"usual", "left-ostium-closed", "right-ostium-closed", "rca-from-left",
+                             "lcx-from-right", "bypass"}));
+  app.add_option("--calcium", o.calcium, "0: none; 1: that of the lesions; more: nodules along the arteries")
+      ->check(CLI::Range(0.0, 20.0));
+  app.add_option("--stent", o.stent_mm, "Length of a stent in the proximal LAD, mm")
+      ->check(CLI::Range(0.0, 40.0));
+  app.add_option("--contrast", o.contrast_hu, "Of aorta, left heart and arteries, HU")
+      ->check(CLI::Range(80.0, 1000.0));
+  app.add_option("--venous", o.venous, "Contrast in veins and right heart, as a share of the arteries'")
+      ->check(CLI::Range(0.0, 1.0));
   app.add_option("--noise", o.noise_hu, "Standard deviation of the noise, HU")->check(CLI::Range(0.0, 500.0));
   app.add_option("--blur", o.blur_mm, "Point spread in the slice, full width at half maximum, mm")
       ->check(CLI::Range(0.0, 5.0));

@@ -38,6 +38,11 @@ void define_experiment(CLI::App& app, ExperimentCommand& c, const std::uint64_t&
     c.seed = seed;
     run = [&c](const core::TaskContext& task) { return run_experiment_editing(c, task); };
   });
+  define_experiment_extraction(*experiment, run);
+  define_experiment_orientations(*experiment, seed, run);
+  define_experiment_carotid(*experiment, seed, run);
+  define_experiment_sensitivity(*experiment, seed, run);
+  define_experiment_robustness(*experiment, seed, run);
 }
 
 }  // namespace ostia::app

@@ -55,32 +55,41 @@ void print(const std::vector<experiments::SectionRun>& runs) {
 
 }  // namespace
 
-ExitCode run_experiment_editing(const ExperimentCommand& command, const core::TaskContext& task) {
+ExitCode run_experiment(const fs::path& output, const pipeline::JobKey& key, bool json,
+                        const ExperimentWork& work, const core::TaskContext& task) {
   const auto start = Clock::now();
-  const experiments::EditingOptions options = options_of(command);
-  experiments::validate(options);
-  pipeline::require_free_folder(command.output);
-  const pipeline::JobKey key{"experiment editing", inputs_of(command.suite),
-                             experiments::parameters_json(options)};
-  if (const auto code = pipeline::already_done(command.output, key)) {
-    core::log_info("done already with the same suite and parameters; nothing to do");
-    if (command.json) std::fputs(core::read_file(command.output / "experiment.json").c_str(), stdout);
+  pipeline::require_free_folder(output);
+  if (const auto code = pipeline::already_done(output, key)) {
+    core::log_info("done already with the same inputs and parameters; nothing to do");
+    if (json) std::fputs(core::read_file(output / "experiment.json").c_str(), stdout);
     return *code;
   }
-  const std::vector<experiments::SectionRun> runs =
-      experiments::edit_suite(command.suite, options, task.sub(0.0, 0.95));
-  core::StagedFolder folder(command.output);
-  experiments::write_editing_report(folder.temporary(), runs, options);
+  core::StagedFolder folder(output);
+  const std::string figures = work(folder.temporary(), task.sub(0.0, 0.95));
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-  const std::string figures = experiments::editing_json(runs, options);
+  core::write_file(folder.temporary() / "experiment.json", figures);
   pipeline::write_manifest(folder.temporary(), {key, ExitCode::ok, seconds, {}, figures});
   folder.commit();
   task.set_progress(1.0);
-  if (command.json)
-    std::fputs(figures.c_str(), stdout);
-  else
-    print(runs);
+  if (json) std::fputs(figures.c_str(), stdout);
   return ExitCode::ok;
+}
+
+ExitCode run_experiment_editing(const ExperimentCommand& command, const core::TaskContext& task) {
+  const experiments::EditingOptions options = options_of(command);
+  experiments::validate(options);
+  std::vector<experiments::SectionRun> runs;
+  const ExitCode code = run_experiment(
+      command.output, {"experiment editing", inputs_of(command.suite), experiments::parameters_json(options)},
+      command.json,
+      [&](const fs::path& folder, const core::TaskContext& part) {
+        runs = experiments::edit_suite(command.suite, options, part);
+        experiments::write_editing_report(folder, runs, options);
+        return experiments::editing_json(runs, options);
+      },
+      task);
+  if (!command.json && !runs.empty()) print(runs);
+  return code;
 }
 
 }  // namespace ostia::app

@@ -3,6 +3,7 @@
 #include "outputs.h"
 #include "points.h"
 
+#include "ostia/core/error.h"
 #include "ostia/core/log.h"
 #include "ostia/io/centerline_file.h"
 #include "ostia/pipeline/source.h"
@@ -56,6 +57,20 @@ void print(const Json& facts, bool as_json) {
               facts["vessels"].size(), facts["dominance"].get<std::string>().c_str());
 }
 
+/// What is refused is told with the file's name, and with the way out that the command line has.
+session::FoundModel found_in(const std::filesystem::path& input, const imaging::ImageVolume& image,
+                             const coronary::ExtractOptions& options, const core::TaskContext& task) {
+  const std::string name = input.filename().string() + ": ";
+  try {
+    return session::found_model(image, options, task);
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(name + error.what());
+  } catch (const GeometryError& error) {
+    throw GeometryError(name + error.what() + " (in the workstation, or `ostia model " +
+                        input.filename().string() + " -o DIR --branch P:P`)");
+  }
+}
+
 }  // namespace
 
 ExitCode run_extract(const ExtractCommand& o, const core::TaskContext& task) {
@@ -70,7 +85,7 @@ ExitCode run_extract(const ExtractCommand& o, const core::TaskContext& task) {
                        name_of(source.kind) + " and no CT image");
   coronary::ExtractOptions options;
   options.labels.least_confidence = o.least_confidence;
-  const session::FoundModel result = session::found_model(*source.image, options, task.sub(0.1, 0.98));
+  const session::FoundModel result = found_in(o.input.input, *source.image, options, task.sub(0.1, 0.98));
   for (const std::string& warning : result.found.warnings) core::log_warning(warning);
   task.throw_if_cancelled();
   made.make(result, {source.sha256, source.pseudonym});

@@ -29,6 +29,8 @@ phantom::SuiteOptions options_of(const PhantomCommand& command) {
   options.first.seed = command.seed;
   options.first.preset = preset_of(command.preset);
   options.first.disease = command.disease;
+  options.first.variant = {phantom::anatomy_of(command.anatomy), command.calcium, command.stent_mm,
+                           command.contrast_hu, command.venous};
   phantom::ScanOptions& scan = options.first.scan;
   set_if(command.noise_hu, scan.noise_hu);
   set_if(command.blur_mm, scan.psf_fwhm_mm);

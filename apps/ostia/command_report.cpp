@@ -36,7 +36,7 @@ void print(const std::filesystem::path& folder, bool as_json) {
   if (as_json)
     std::fputs(json.c_str(), stdout);
   else
-    std::printf("report.html, report.pdf, report.json, three tables as CSV and the key images\n");
+    std::printf("report.html, report.pdf, report.json, four tables as CSV and the key images\n");
 }
 
 void print(const session::CaseReport& report) {

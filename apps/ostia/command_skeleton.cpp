@@ -27,7 +27,16 @@ pipeline::SkeletonOptions options_of(const SkeletonCommand& o, const imaging::Ge
   how.smooth->knot_spacing_mm = o.knots_mm;
   how.smooth->step_mm = o.step_mm;
   how.step_mm = o.step_mm;
-  for (const std::string& inlet : o.inlets) how.inlets.push_back(parse_point(inlet, o.input.coords, &grid));
+  const auto point = [&](const std::string& text) { return parse_point(text, o.input.coords, &grid); };
+  for (const std::string& inlet : o.inlets) how.inlets.push_back(point(inlet));
+  for (const std::string& place : o.cuts) how.commands.cuts.push_back(point(place));
+  for (const std::string& place : o.removals) how.commands.removals.push_back(point(place));
+  for (const std::string& text : o.connections) {
+    const std::size_t colon = text.find(':');
+    if (colon == std::string::npos)
+      throw InvalidInput("--connect " + text + ": give two places, as x,y,z:x,y,z");
+    how.commands.connections.emplace_back(point(text.substr(0, colon)), point(text.substr(colon + 1)));
+  }
   return how;
 }
 
@@ -96,6 +105,15 @@ void define_skeleton(CLI::App& app, SkeletonCommand& c,
                        "The CT that the mask was made of, for the radii; left out: the mask's edges");
   skeleton->add_option("--sections", c.sections, "Also a table of circles and ellipses: .csv");
   skeleton->add_option("--inlet", c.inlets, "Where flow begins, x,y,z; repeat; left out: the widest ends")
+      ->allow_extra_args(false);
+  skeleton->add_option("--cut", c.cuts, "The line is cut at this place, x,y,z; repeat")
+      ->allow_extra_args(false);
+  skeleton->add_option("--remove", c.removals, "The line nearest to this place goes, x,y,z; repeat")
+      ->allow_extra_args(false);
+  skeleton
+      ->add_option(
+          "--connect", c.connections,
+          "A straight line between two places of lines, x,y,z:x,y,z; repeat; after cuts and removals")
       ->allow_extra_args(false);
   skeleton->add_option("--coords", c.input.coords, "Frame of the points given: lps or ras (mm), ijk (voxels)")
       ->check(CLI::IsMember({"lps", "ras", "ijk"}));

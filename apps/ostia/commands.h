@@ -128,7 +128,9 @@ struct PhantomCommand {
   int cases = 1, phases = 1;
   bool truth_only = false, no_report = false;
   std::vector<std::string> formats;  ///< mhd, nrrd, dicom; none: all
-  double disease = 1.0;
+  double disease = 1.0, calcium = 1.0, stent_mm = 0.0, venous = 0.0;
+  std::string anatomy = "usual";
+  std::optional<double> contrast_hu;
   std::optional<double> noise_hu, blur_mm, blur_z_mm, motion_mm, stair_step_mm, beam_hardening;
   std::optional<double> contour_spacing_mm, surface_spacing_mm;
   int contour_points = 0;  ///< 0: the library's default

@@ -20,6 +20,7 @@ struct SkeletonCommand {
   std::filesystem::path output;    ///< lines
   std::filesystem::path sections;  ///< table of the sections; empty: none
   std::vector<std::string> inlets;
+  std::vector<std::string> cuts, removals, connections;  ///< x,y,z; connections x,y,z:x,y,z
   double prune_mm = 5.0, gap_mm = 2.0, sigma_mm = 0.4, blur_mm = 0.0, knots_mm = 4.0, step_mm = 0.5;
   bool keep_cavities = false;
   bool json = false;

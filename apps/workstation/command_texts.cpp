@@ -46,6 +46,12 @@ const QMap<QString, const char*>& tip_table() {
       {"vessel.merge", QT_TRANSLATE_NOOP("tips",
                                          "Makes this vessel part of the one from whose end it goes on; "
                                          "takes a split back.")},
+      {"vessel.cut", QT_TRANSLATE_NOOP("tips",
+                                       "Cuts the vessel in two; what lies distal of the cursor, with its "
+                                       "branches, is a tree of its own.")},
+      {"vessel.connect", QT_TRANSLATE_NOOP("tips",
+                                           "A new piece of vessel leads from the cursor to where the vessel "
+                                           "that you choose begins.")},
       {"tool.smaller",
        QT_TRANSLATE_NOOP("tips", "Makes the brush's ball smaller, or the reach of a pull shorter.")},
       {"tool.larger",
@@ -74,6 +80,11 @@ const QMap<QString, const char*>& tip_table() {
       {"view.thinner", QT_TRANSLATE_NOOP("tips", "Makes the slab of the 2D views thinner.")},
       {"view.thicker", QT_TRANSLATE_NOOP("tips", "Makes the slab of the 2D views thicker.")},
       {"view.contours", QT_TRANSLATE_NOOP("tips", "Shows or hides the lumen's contour on all views.")},
+      {"view.outer_wall",
+       QT_TRANSLATE_NOOP(
+           "tips",
+           "Looks for the outer wall of the selected vessel, draws it on the 2D views and tells "
+           "what plaque there is.")},
       {"view.fit", QT_TRANSLATE_NOOP("tips", "All views show all there is.")},
       {"view.theme", QT_TRANSLATE_NOOP("tips", "Changes between the dark and the light theme.")},
       {"view.qa",
@@ -196,7 +207,7 @@ std::vector<MouseGesture> mouse_gestures() {
        QT_TRANSLATE_NOOP("gestures", "this panel alone, and back")},
       {QT_TRANSLATE_NOOP("gestures", "vessel list"),
        QT_TRANSLATE_NOOP("gestures", "right click, or menu key"),
-       QT_TRANSLATE_NOOP("gestures", "rename, colour, cut off, split, delete, join")},
+       QT_TRANSLATE_NOOP("gestures", "rename, colour, cut off, split, cut, delete, join, connect")},
       {QT_TRANSLATE_NOOP("gestures", "vessel list"), QT_TRANSLATE_NOOP("gestures", "keys F2, Space, Delete"),
        QT_TRANSLATE_NOOP("gestures", "another name, tick, delete")},
   };

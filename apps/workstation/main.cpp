@@ -1,3 +1,4 @@
+#include "ending_signals.h"
 #include "frame_log.h"
 #include "help.h"
 #include "language.h"
@@ -142,6 +143,9 @@ int run(const CommandLine& said) {
   }
   said.use_language();
   ostia::workstation::MainWindow window(said.state_folder());
+  const ostia::workstation::EndingSignals ending;
+  QObject::connect(&ending, &ostia::workstation::EndingSignals::asked, &window,
+                   &ostia::workstation::MainWindow::end);
   window.show();
   if (!said.parser.isSet(said.no_tour)) window.findChild<ostia::workstation::Help*>()->greet();
   if (!said.parser.positionalArguments().isEmpty())

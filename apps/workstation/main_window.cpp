@@ -3,6 +3,7 @@
 #include "frame_log.h"
 #include "meshing_export.h"
 #include "opening.h"
+#include "outer_walls.h"
 #include "paint_queue.h"
 #include "reporting.h"
 #include "side_lists.h"
@@ -17,6 +18,7 @@
 
 #include <QCloseEvent>
 #include <QComboBox>
+#include <QCoreApplication>
 #include <QDragEnterEvent>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -70,6 +72,7 @@ MainWindow::MainWindow(const std::filesystem::path& state_folder)
   meshing_export_ = std::make_unique<MeshingExport>(*this);
   finder_ = std::make_unique<VesselFinder>(*this, *opening_);
   build_views();
+  outer_walls_ = std::make_unique<OuterWalls>(*this, pictures_);
   build_actions();
   build_tool_bar();
   new StartPage(*this, "curved");
@@ -352,13 +355,19 @@ bool MainWindow::may_close() {
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
-  if (!may_close()) {
+  if (!must_end_ && !may_close()) {
     event->ignore();
     return;
   }
   remember_layout();
   opening_->close_case();
   event->accept();
+}
+
+void MainWindow::end() {
+  must_end_ = true;
+  close();
+  QCoreApplication::quit();  // boxes that are open, too
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {

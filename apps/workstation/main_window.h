@@ -27,6 +27,7 @@ class Reporting;
 class MeshingExport;
 class QaPanel;
 class VesselFinder;
+class OuterWalls;
 
 class MainWindow final : public QMainWindow {
   Q_OBJECT
@@ -48,9 +49,13 @@ class MainWindow final : public QMainWindow {
   void say(const QString& text);                                  ///< in the status line
   void complain(const QString& text, const QString& title = {});  ///< one dialog
   void set_shown_name(const QString& text);                       ///< patient and series, in the window alone
+  /// As if a person closed it, but without a question: work that is not finished is given up, the case is
+  /// safe.
+  void end();
   SceneWidget& scene() { return *scene_; }
   Reporting& reporting() { return *reporting_; }
   QaPanel& qa() { return *qa_; }
+  OuterWalls& outer_walls() { return *outer_walls_; }
   const std::filesystem::path& state_folder() const { return state_folder_; }
 
  protected:
@@ -98,7 +103,9 @@ class MainWindow final : public QMainWindow {
   std::vector<PictureWidget*> pictures_;
   std::vector<QSplitter*> splitters_;
   Panel* alone_ = nullptr;
-  std::shared_ptr<QaPanel> qa_;  // goes before the views that it draws on
+  bool must_end_ = false;
+  std::unique_ptr<OuterWalls> outer_walls_;  // goes before the views that it draws on
+  std::shared_ptr<QaPanel> qa_;              // so does this
   QLabel* place_ = nullptr;
   QLabel* shown_name_ = nullptr;
   std::map<QString, QAction*> actions_;

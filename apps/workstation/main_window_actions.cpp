@@ -1,8 +1,10 @@
 #include "bind.h"
+#include "connect_menu.h"
 #include "help.h"
 #include "main_window.h"
 #include "meshing_export.h"
 #include "opening.h"
+#include "outer_walls.h"
 #include "reporting.h"
 #include "shortcuts.h"
 #include "tool_bar_fit.h"
@@ -108,6 +110,12 @@ void MainWindow::build_actions() {
     bench_.edit(lumen::BranchSplit{bench_.vessel.get(), bench_.cursor_mm.get(), {}});
   }));
   vessel->addAction(action("vessel.merge", tr("&Join with parent vessel"), [this] { join_with_parent(); }));
+  vessel->addAction(action("vessel.cut", tr("Cut in &two at the cursor"), [this] {
+    bench_.edit(lumen::BranchCut{bench_.vessel.get(), bench_.cursor_mm.get(), {}});
+  }));
+  vessel->addAction(action("vessel.connect", tr("&Connect to the cursor\u2026"), [this] {
+    connect_menu(bench_, guard_, this)->popup(mapToGlobal(rect().center()));
+  }));
 
   QMenu* tool_menu = menuBar()->addMenu(tr("&Tools"));
   auto* group = new QActionGroup(this);
@@ -151,6 +159,9 @@ void MainWindow::build_actions() {
   QAction* contours = action("view.contours", tr("Contours"), {});
   bind_checked(contours, bench_.contours_shown);
   shown->addAction(contours);
+  QAction* outer = action("view.outer_wall", tr("Outer wall"), {});
+  bind_checked(outer, outer_walls_->board().shown);
+  shown->addAction(outer);
   shown->addAction(action("view.fit", tr("Fit all views"), [this] {
     for (PictureWidget* picture : pictures_) picture->view().fit();
     scene_->go_to(scene_->scene().pose_fitted());
@@ -250,6 +261,8 @@ void MainWindow::refresh_actions() {
     actions_[id]->setEnabled(has_case);
   actions_["vessel.find"]->setEnabled(!has_case && bench_.image().volume);
   actions_["vessel.split"]->setEnabled(has_case && bench_.axis());
+  actions_["vessel.cut"]->setEnabled(has_case && bench_.axis());
+  actions_["vessel.connect"]->setEnabled(has_case && bench_.axis() && bench_.model()->vessels.size() > 1);
   actions_["vessel.merge"]->setEnabled(has_case && bench_.axis() &&
                                        lumen::merge_parent(bench_.model()->tree, bench_.vessel.get()));
 }

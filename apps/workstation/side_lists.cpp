@@ -39,6 +39,8 @@ QString step_name(const std::string& op) {
       {"branch.attach", QT_TRANSLATE_NOOP("steps", "Join a vessel elsewhere")},
       {"branch.split", QT_TRANSLATE_NOOP("steps", "Split a vessel")},
       {"branch.merge", QT_TRANSLATE_NOOP("steps", "Join a vessel with its parent")},
+      {"branch.cut", QT_TRANSLATE_NOOP("steps", "Cut a vessel in two")},
+      {"branch.connect", QT_TRANSLATE_NOOP("steps", "Connect a vessel")},
       {"vessel.rename", QT_TRANSLATE_NOOP("steps", "Rename a vessel")},
       {"vessel.mark", QT_TRANSLATE_NOOP("steps", "Mark a vessel")},
       {"measure.add", QT_TRANSLATE_NOOP("steps", "Measure")},

@@ -86,6 +86,8 @@ QColor role_color(view::Role role, Ground ground) {
   switch (role) {
     case Role::lumen:
       return QColor(255, 176, 46);
+    case Role::outer_wall:
+      return QColor(240, 228, 66);
     case Role::truth:
       return QColor(102, 219, 255);
     case Role::axis:
@@ -134,6 +136,7 @@ double role_width(view::Role role) {
     case Role::measurement:
       return 1.6;
     case Role::grid:
+    case Role::outer_wall:
       return 0.8;
     default:
       return 1.1;

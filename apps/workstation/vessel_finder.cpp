@@ -31,7 +31,7 @@ VesselFinder::VesselFinder(MainWindow& window, Opening& opening)
   own_.push_back(window.bench().case_changed.observe([this] { drop_begun(); }));
   own_.push_back(window.bench().image_changed.observe([this] { drop_begun(); }));
   own_.push_back(window.bench().tool.observe([this](const session::Tool& tool) {
-    first_end_.reset();
+    window_.bench().first_end.set({});
     if (tool == session::Tool::add_vessel && !window_.bench().has_case() && window_.bench().image().volume)
       window_.say(tr("Click the ostium of the first vessel, then its distal end."));
   }));
@@ -40,7 +40,7 @@ VesselFinder::VesselFinder(MainWindow& window, Opening& opening)
 void VesselFinder::drop_begun() {
   window_.jobs().cancel("tree");
   window_.jobs().cancel("path");
-  first_end_.reset();
+  window_.bench().first_end.set({});
 }
 
 bool VesselFinder::image_is_there() {
@@ -99,13 +99,14 @@ void VesselFinder::find_vessel(const geometry::Vec3& end) {
 
 void VesselFinder::first_vessel(const session::OpenImage& image, const geometry::Vec3& end) {
   window_.jobs().cancel("tree");  // a person begins the tree
-  if (!first_end_) {
-    first_end_ = end;
+  session::Workbench& bench = window_.bench();
+  if (!bench.first_end.get()) {
+    bench.first_end.set(end);
     window_.say(tr("Now click the distal end of this vessel."));
     return;
   }
-  const geometry::Vec3 from = *first_end_;
-  first_end_.reset();
+  const geometry::Vec3 from = *bench.first_end.get();
+  bench.first_end.set({});
   window_.jobs().run(
       "path", tr("First vessel"),
       [volume = image.volume, from, end](const core::TaskContext& task) {

@@ -5,7 +5,6 @@
 #include "ostia/session/workbench.h"
 
 #include <QObject>
-#include <optional>
 #include <vector>
 
 namespace ostia::workstation {
@@ -31,7 +30,6 @@ class VesselFinder final : public QObject {
   void drop_begun();
   MainWindow& window_;
   Opening& opening_;
-  std::optional<geometry::Vec3> first_end_;  // of a case's first vessel
   std::vector<session::Subscription> own_;
 };
 

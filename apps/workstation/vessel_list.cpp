@@ -1,6 +1,7 @@
 #include "vessel_list.h"
 
 #include "command_texts.h"
+#include "connect_menu.h"
 #include "side_lists.h"
 
 #include "ostia/core/parallel.h"
@@ -337,6 +338,13 @@ void VesselList::contextMenuEvent(QContextMenuEvent* event) {
   });
   merge->setToolTip(command_tip("vessel.merge"));
   merge->setEnabled(parent.has_value());
+  QAction* cut = menu.addAction(tr("Cut in two at the cursor"), this, [this, id] {
+    guard_([&] { bench_.edit(lumen::BranchCut{id, bench_.cursor_mm.get(), {}}); });
+  });
+  cut->setToolTip(command_tip("vessel.cut"));
+  QMenu* connect = connect_menu(bench_, guard_, &menu);
+  connect->setTitle(tr("Connect to the cursor"));
+  menu.addMenu(connect)->setToolTip(command_tip("vessel.connect"));
   menu.addAction(tr("Delete with its branches"), this,
                  [this, id] { guard_([&] { bench_.edit(lumen::BranchDelete{id}); }); });
   auto* joints = menu.addMenu(tr("Join to"));

@@ -76,13 +76,14 @@ TEST(ReportCommand, MakesTheFolderOnce) {
   EXPECT_THAT(made.out, HasSubstr("CAD-RADS 3"));
   EXPECT_THAT(names_in(folder / "out"),
               ::testing::ElementsAre("images", "images/tree.png", "images/vessel-4.png", "manifest.json",
-                                     "measurements.csv", "report.html", "report.json", "report.pdf",
-                                     "segments.csv", "stenoses.csv"));
+                                     "measurements.csv", "plaque.csv", "report.html", "report.json",
+                                     "report.pdf", "segments.csv", "stenoses.csv"));
   const Json report = Json::parse(core::read_file(folder / "out" / "report.json"));
   EXPECT_EQ(report["date"], "2026-01-31");
   EXPECT_EQ(report["stenoses"].size(), 1U);
   EXPECT_NEAR(report["stenoses"][0]["diameter_percent"].get<double>(), 60.0, 4.0);
   EXPECT_EQ(report["measurements"][0]["values"][0]["value"], 6.0);
+  EXPECT_GT(report["vessels"][0]["plaque"]["vessel_mm3"], report["vessels"][0]["plaque"]["lumen_mm3"]);
   EXPECT_EQ(core::read_file(folder / "out" / "report.pdf").substr(0, 5), "%PDF-");
   const auto written = fs::last_write_time(folder / "out" / "report.pdf");
   const Outcome again = ostia(command + std::vector<std::string>{"--json"}, {folder, ""});

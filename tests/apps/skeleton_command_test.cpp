@@ -49,6 +49,27 @@ TEST(SkeletonCommand, AMaskBecomesLinesWithRadiiAndATable) {
   EXPECT_THAT(core::read_file(folder / "sections.csv"), StartsWith("edge,point,x_mm,"));
 }
 
+TEST(SkeletonCommand, LinesAreCutAndRemovedByHand) {
+  const auto folder = temporary_folder("skeleton");
+  imaging::write_image(folder / "tube.nrrd", tube());
+  const Setting in{folder, ""};
+  const Outcome cut = ostia({"skeleton", "tube.nrrd", "-o", "cut.vtp", "--cut", "6,6,20", "--json"}, in);
+  ASSERT_EQ(cut.code, 0) << cut.err;
+  EXPECT_EQ(nlohmann::json::parse(cut.out)["components"], 2);
+  const Outcome less = ostia(
+      {"skeleton", "tube.nrrd", "-o", "less.vtp", "--cut", "6,6,20", "--remove", "6,6,8", "--json"}, in);
+  ASSERT_EQ(less.code, 0) << less.err;
+  EXPECT_EQ(nlohmann::json::parse(less.out)["lines"], 1);
+  EXPECT_NEAR(nlohmann::json::parse(less.out)["length_mm"].get<double>(), 13.2, 1.0);
+  const Outcome ring =
+      ostia({"skeleton", "tube.nrrd", "-o", "ring.vtp", "--connect", "6,6,10:6,6,25", "--json"}, in);
+  ASSERT_EQ(ring.code, 0) << ring.err;
+  EXPECT_EQ(nlohmann::json::parse(ring.out)["loops"], 1);
+  const Outcome wrong = ostia({"skeleton", "tube.nrrd", "-o", "no.vtp", "--connect", "6,6,10"}, in);
+  EXPECT_EQ(wrong.code, 3) << wrong.err;
+  EXPECT_THAT(wrong.err, HasSubstr("two places"));
+}
+
 TEST(SkeletonCommand, WhatIsNoMaskOrCannotBeWrittenIsRefusedAndNothingIsLeft) {
   const auto folder = temporary_folder("skeleton");
   const Setting in{folder, ""};

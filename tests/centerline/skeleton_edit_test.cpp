@@ -183,6 +183,15 @@ TEST(Removed, AnEdgeAndWhatOnlyItHad) {
   EXPECT_TRUE(removed(less, 0).nodes.empty());
 }
 
+TEST(EdgeAt, IsTheNearestLineAlsoAtItsEnds) {
+  const SkeletonGraph graph = drawn({trunk_low, trunk_high, {{0, 0, 10}, {9, 0, 10}}});
+  EXPECT_EQ(edge_at(graph, Vec3(0.5, 0, 4)), 0);
+  EXPECT_EQ(edge_at(graph, Vec3(0.4, 0, 25)), 1);
+  EXPECT_EQ(edge_at(graph, Vec3(9.5, 0, 10)), 2);
+  EXPECT_EQ(edge_at(graph, Vec3(0, 0, 33)), 1);
+  EXPECT_THAT(message_of([&] { edge_at(graph, Vec3(40, 0, 0)); }), HasSubstr("off the skeleton"));
+}
+
 TEST(Commands, RefuseWhatMakesNoSense) {
   const SkeletonGraph graph = drawn({trunk_low, trunk_high, {{0, 0, 10}, {9, 0, 10}}});
   const Vec3 far(40, 0, 0), bad(std::nan(""), 0, 0);

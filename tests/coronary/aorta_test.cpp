@@ -112,7 +112,7 @@ TEST(Aorta, TheDescendingOneIsNotTakenForIt) {
     FAIL() << "found one";
   } catch (const GeometryError& error) {
     EXPECT_THAT(error.what(), HasSubstr("descending"));
-    EXPECT_THAT(error.what(), HasSubstr("by hand"));
+    EXPECT_THAT(error.what(), HasSubstr("by its two ends"));
   }
 }
 

@@ -1,6 +1,7 @@
 #include "ostia/coronary/axes.h"
 
 #include "artery_scene.h"
+#include "calcified_tube.h"
 
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
@@ -77,6 +78,33 @@ TEST(CentredTree, RadiiAreTheLumens) {
       }
     }
   }
+}
+
+TEST(CentredTree, BesideCalciumTheAxisIsTheBoundarysMiddle) {
+  using CalcifiedTube = ostia::testing::CalcifiedTube;
+  GrownTree grown;
+  grown.branches.resize(1);
+  grown.branches[0].points = CalcifiedTube::line_through_nodule();
+  std::vector<Ostium> ostia(1);
+  ostia[0].place = grown.branches[0].points.front();
+  ostia[0].direction = Vec3::UnitZ();
+  const CentredTree found = centred_tree(CalcifiedTube::image(), grown, ostia);
+  ASSERT_EQ(found.tree.vessels.size(), 1U);
+  const geometry::Centerline axis = geometry::vessel_axis(found.tree, found.tree.vessels[0]);
+  double sum = 0.0;
+  int count = 0;
+  for (std::size_t i = 0; i < axis.size(); ++i) {
+    const double z = axis.points[i].z(), away = std::abs(z - CalcifiedTube::throat_mm);
+    if (z < 4.0 || z > CalcifiedTube::length_mm - 4.0) continue;
+    const double off = (axis.points[i] - CalcifiedTube::middle(z)).norm();
+    EXPECT_LT(off, 0.25) << z;
+    if (away > 4.0) continue;
+    EXPECT_NEAR(axis.radius[i], CalcifiedTube::radius(z), 0.2) << z;
+    sum += off;
+    ++count;
+  }
+  ASSERT_GT(count, 10);
+  EXPECT_LT(sum / count, 0.15);
 }
 
 TEST(CentredTree, EachOstiumIsARoot) {

@@ -72,6 +72,25 @@ TEST_F(ReadTest, FloatImageKeepsTrueValuesAndRefusesNaN) {
   EXPECT_NE(refusal([&] { read_float_image(path); }).find("voxel 1"), std::string::npos);
 }
 
+TEST_F(ReadTest, ALabelMapIsToldFromHounsfieldUnits) {
+  const auto write_cube = [&](std::int16_t shift, int values) {
+    Nifti nifti;
+    nifti.datatype = 4;
+    nifti.bitpix = 16;
+    for (int a = 0; a < 3; ++a) nifti.dim[static_cast<std::size_t>(a) + 1] = 20;
+    std::vector<std::int16_t> voxels(8000);
+    for (std::size_t i = 0; i < voxels.size(); ++i)
+      voxels[i] = static_cast<std::int16_t>(static_cast<int>(i) % values + shift);
+    write_bytes(path, nifti.file(voxels));
+  };
+  write_cube(0, 118);
+  EXPECT_NE(warning(read_image(path).header).find("only 118 different values"), std::string::npos);
+  write_cube(-1, 118);
+  EXPECT_TRUE(read_image(path).header.warnings.empty());
+  write_cube(0, 257);
+  EXPECT_TRUE(read_image(path).header.warnings.empty());
+}
+
 TEST_F(ReadTest, MaskMakesEveryLabelOne) {
   write<std::int16_t>(4, {0, 1, 5, -3, 0});
   const auto mask = read_mask(path);

@@ -16,8 +16,8 @@ using ::testing::IsEmpty;
 
 constexpr double radius_mm = 1.5;
 
-/// A bright lumen along z with a wall, in fat.
-imaging::ImageVolume tube() {
+/// A bright lumen along z with a wall, in fat; perhaps with a thinner branch along x from its middle.
+imaging::ImageVolume tube(double branch_radius_mm = 0.0) {
   imaging::ImageVolume image;
   image.geometry.size = {40, 40, 80};
   image.geometry.spacing = {0.4, 0.4, 0.4};
@@ -28,22 +28,42 @@ imaging::ImageVolume tube() {
       for (std::int64_t i = 0; i < 40; ++i) {
         const Vec3 at = image.geometry.world({double(i), double(j), double(k)});
         const double r = std::hypot(at.x(), at.y());
-        const auto within = [&](double edge) { return std::clamp(0.5 - (r - edge) / 0.6, 0.0, 1.0); };
-        const double hu = -80.0 + 130.0 * within(radius_mm + 0.8) + 350.0 * within(radius_mm);
+        const auto hu_at = [](double off_mm, double radius) {
+          const auto within = [&](double edge) { return std::clamp(0.5 - (off_mm - edge) / 0.6, 0.0, 1.0); };
+          return -80.0 + 130.0 * within(radius + 0.8) + 350.0 * within(radius);
+        };
+        double hu = hu_at(r, radius_mm);
+        if (branch_radius_mm > 0.0 && at.x() > 0.0)
+          hu = std::max(hu, hu_at(std::hypot(at.y(), at.z() - 15.0), branch_radius_mm));
         image(i, j, k) = static_cast<std::int16_t>(std::lround(hu));
       }
   return image;
 }
 
-geometry::Centerline line(const Vec3& from, const Vec3& to) {
+geometry::Centerline line(const Vec3& from, const Vec3& to, double radius = radius_mm) {
   geometry::Centerline made;
   const int steps = static_cast<int>((to - from).norm() / 0.4);
   for (int i = 0; i <= steps; ++i) {
     made.points.push_back(from + (to - from) * i / steps);
-    made.radius.push_back(radius_mm);
+    made.radius.push_back(radius);
   }
   geometry::complete(made);
   return made;
+}
+
+TEST(ImageWalls, ATakeOffIsAsWideAsItsBranch) {
+  constexpr double branch_mm = 0.8;
+  geometry::VesselTree tree;
+  tree.nodes = {{0, {0, 0, 0}}, {1, {0, 0, 15}}, {2, {0, 0, 28}}, {3, {7.6, 0, 15}}};
+  tree.segments = {{0, 0, 1, line({0, 0, 0}, {0, 0, 15})},
+                   {1, 1, 2, line({0, 0, 15}, {0, 0, 28})},
+                   {2, 1, 3, line({0, 0, 15}, {7.6, 0, 15}, branch_mm)}};
+  tree.vessels = {{7, "LAD", {0, 1}}, {9, "D1", {0, 2}}};
+  const auto walls = walls_from_image(tree, tube(branch_mm), core::no_task());
+  ASSERT_EQ(walls.size(), 2U);
+  // The whole axis of the branch has its parent's radius up to 15 mm.
+  for (const double s : {15.0, 15.1, 15.3, 16.0, 17.0, 18.0, 20.0})
+    for (const double theta : {0.0, 1.5, 3.0, 4.5}) EXPECT_NEAR(walls[1](s, theta), branch_mm, 0.25) << s;
 }
 
 TEST(ImageWalls, WhatIsWrongIsSaidOfTheVesselThatItIsAbout) {

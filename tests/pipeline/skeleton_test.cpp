@@ -69,6 +69,39 @@ TEST(PipelineSkeleton, ALoopIsCountedAndOpenedAndAGuessedInletIsSaid) {
   EXPECT_THAT(result.warnings, ::testing::Contains(HasSubstr("no inlet was given")));
 }
 
+TEST(PipelineSkeleton, LinesAreCutRemovedAndConnectedByHand) {
+  std::vector<Stretch> apart = fork;
+  apart.push_back({{-15, 0, 6}, {-15, 0, 30}, 1.5});
+  const imaging::MaskVolume mask = mask_of(apart);
+  ASSERT_EQ(skeleton_of(mask, nullptr).components, 2);
+  SkeletonOptions options;
+  options.commands.connections = {{Vec3(-15.0, 0.0, 4.6), Vec3(0.0, 0.0, 8.0)}};
+  const SkeletonResult joined = skeleton_of(mask, nullptr, options);
+  EXPECT_EQ(joined.components, 1);
+  EXPECT_EQ(joined.tree.tree.vessels.size(), 3U);
+  options.commands = {};
+  options.commands.cuts = {Vec3(0.0, 0.5, 12.0)};
+  EXPECT_EQ(skeleton_of(mask, nullptr, options).components, 3);
+  // Without its lower half the trunk is what is left above the cut.
+  options.commands.removals = {Vec3(0.0, 0.0, 6.0), Vec3(-15.0, 0.0, 20.0)};
+  const SkeletonResult less = skeleton_of(mask, nullptr, options);
+  EXPECT_EQ(less.components, 1);
+  EXPECT_EQ(less.skeleton.graph.edges.size(), 3U);
+  EXPECT_NEAR(less.length_mm, 10.0 + 2.0 * (std::hypot(9.0, 20.0) + 1.5), 2.0);
+  options.commands = {};
+  options.commands.cuts = {Vec3(30.0, 0.0, 12.0)};
+  EXPECT_THROW(skeleton_of(mask, nullptr, options), InvalidInput);
+}
+
+TEST(PipelineSkeleton, TheFlowGoesFromTheInletAlsoWhereItsEndWasExtended) {
+  SkeletonOptions options;
+  options.inlets = {{0.0, 0.0, 3.0}};
+  const SkeletonResult result = skeleton_of(mask_of(fork), nullptr, options);
+  for (const auto& edge : result.skeleton.graph.edges)
+    EXPECT_LT(edge.points.front().z(), edge.points.back().z());
+  EXPECT_TRUE(result.skeleton.graph.oriented);
+}
+
 TEST(PipelineSkeleton, TheTableHasALineForEachPoint) {
   const SkeletonResult result = skeleton_of(mask_of({fork[0]}), nullptr);
   std::size_t points = 0;

@@ -92,6 +92,13 @@ class Schemas(unittest.TestCase):
         validator("evaluate").validate(json.loads(run("evaluate", "motion", phases, phases, "--json")))
         self.assert_refused("evaluate", {"v": 1, "kind": "surface"})
 
+    def test_experiment_orientations(self):
+        out = pathlib.Path(self.holder.name) / "orientations"
+        printed = json.loads(run("experiment", "orientations", "-o", out, "--orientations", "2", "--json"))
+        validator("experiment-orientations").validate(printed)
+        self.assertEqual(printed, json.loads((out / "experiment.json").read_text()))
+        self.assert_refused("experiment-orientations", {"v": 1, "kind": "orientations"})
+
     def test_suite_and_tolerance(self):
         holder = pathlib.Path(self.holder.name)
         for name, dice in (("golden", 0.9), ("new", 0.8)):

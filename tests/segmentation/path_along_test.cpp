@@ -1,3 +1,4 @@
+#include "calcified_tube.h"
 #include "pipe_images.h"
 
 #include "ostia/core/error.h"
@@ -114,6 +115,28 @@ TEST(PathAlong, WhatIsFixedStays) {
     for (std::size_t i = 0; i < path.points.size() && i < 8; ++i)
       EXPECT_LT((geometry::closest(rough, path.points[i]).point - path.points[i]).norm(), 0.3) << i;
     expect_axis_and_radius(path, tube, 7.0, path.length_mm);
+  }
+}
+
+TEST(PathAlong, CalciumBesideANarrowLumenNeitherAttractsNorRepels) {
+  using Tube = ostia::testing::CalcifiedTube;
+  PathAlongOptions options;
+  options.corridor_mm = 0.0;
+  const MinimalPath path = path_along(Tube::image(), Tube::line_through_nodule(), options);
+  ASSERT_EQ(path.near_calcium.size(), path.points.size());
+  for (std::size_t i = 0; i < path.points.size(); ++i) {
+    const Vec3& p = path.points[i];
+    if (p.z() < 4.0 || p.z() > Tube::length_mm - 4.0) continue;
+    const double off = (p - Tube::middle(p.z())).norm();
+    EXPECT_LT(off, Tube::radius(p.z())) << "outside of the lumen at " << p.z();
+    const double away = std::abs(p.z() - Tube::throat_mm);
+    if (away > 6.0) {
+      EXPECT_LT(off, 0.12) << p.z();
+      EXPECT_EQ(path.near_calcium[i], 0) << p.z();
+    }
+    if (away < 1.0) {
+      EXPECT_EQ(path.near_calcium[i], 1) << p.z();
+    }
   }
 }
 

@@ -109,8 +109,8 @@ TEST(ReportFolder, HoldsAllFilesAndTheSameBytesTwice) {
   std::set<std::string> names;
   for (const auto& [name, bytes] : files) names.insert(name);
   EXPECT_EQ(names, (std::set<std::string>{"images/tree.png", "images/vessel-4.png", "measurements.csv",
-                                          "report.html", "report.json", "report.pdf", "segments.csv",
-                                          "stenoses.csv"}));
+                                          "plaque.csv", "report.html", "report.json", "report.pdf",
+                                          "segments.csv", "stenoses.csv"}));
   const auto again = content(folder / "b");
   for (const auto& [name, bytes] : files) EXPECT_TRUE(again.at(name) == bytes) << name;
   EXPECT_TRUE(pipeline::already_done(folder / "a", job()));
@@ -176,6 +176,7 @@ TEST(ReportText, TheTablesHaveALineForEach) {
   EXPECT_EQ(lines(segments_csv(report)), 1 + static_cast<long>(report.segments.size()));
   EXPECT_EQ(lines(stenoses_csv(report)), 2);
   EXPECT_EQ(lines(measurements_csv(report)), 1);
+  EXPECT_EQ(lines(plaque_csv(report)), 1);  // no image
   for (const std::string& csv : {segments_csv(report), stenoses_csv(report)}) {
     std::istringstream in(csv);
     std::string line;
@@ -207,6 +208,30 @@ TEST(ReportJson, HasTheFieldsOfItsSchema) {
     EXPECT_EQ(names_in(schema.definition(one)["properties"]), names_in(json[list][0])) << list;
     EXPECT_EQ(schema.definition(one)["required"].size(), json[list][0].size()) << list;
   }
+}
+
+TEST(ReportText, PlaqueStandsInTablesAndInJsonAsItsSchemaHasIt) {
+  const imaging::ImageVolume image = walled_image(1.5, 2.6, 60.0);
+  const CaseReport report = report_of(narrowed_tube("RCA", 40.0, 1.5, 20.0, 0.6), {}, {}, &image);
+  const std::string csv = plaque_csv(report);
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 3);  // header, vessel, stenosis
+  EXPECT_THAT(csv, HasSubstr("\r\nRCA,,"));
+  EXPECT_THAT(csv, HasSubstr("\r\nRCA,S1,"));
+  std::istringstream in(csv);
+  std::string line;
+  std::getline(in, line);
+  const auto columns = std::count(line.begin(), line.end(), ',');
+  while (std::getline(in, line)) EXPECT_EQ(std::count(line.begin(), line.end(), ','), columns) << line;
+  EXPECT_THAT(report_html(report, {}), HasSubstr("Remodelling index"));
+  EXPECT_THAT(report_html(report_of(tube_model()), {}), HasSubstr("Not measured: the image was not at hand"));
+  const Json json = Json::parse(report_json(report, {}));
+  const Schema schema("case-report.schema.json");
+  for (const Json& plaque : {json["vessels"][0]["plaque"], json["stenoses"][0]["plaque"]}) {
+    EXPECT_EQ(names_in(schema.definition("plaque")["properties"]), names_in(plaque));
+    EXPECT_EQ(schema.definition("plaque")["required"].size(), plaque.size());
+  }
+  EXPECT_GT(json["stenoses"][0]["remodelling_index"].get<double>(), 0.5);
+  EXPECT_TRUE(Json::parse(report_json(report_of(tube_model()), {}))["vessels"][0]["plaque"].is_null());
 }
 
 TEST(ReportDigest, FollowsWhatTheReportIsMadeOf) {

@@ -97,6 +97,8 @@ inline std::vector<lumen::Edit> one_of_each() {
           lumen::BranchAttach{11, 12, c},
           lumen::BranchSplit{14, 0.7 / 3.0, "distal \xC3\xA9"},
           lumen::BranchMerge{15},
+          lumen::BranchCut{16, 0.2 / 7.0, ""},
+          lumen::BranchConnect{17, 18, a},
           lumen::VesselRename{13, "D1"}};
 }
 

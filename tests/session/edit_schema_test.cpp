@@ -92,7 +92,7 @@ TEST(EditSchema, HasTheDefaultsOfTheProgram) {
           << lumen::op_name(edit) << " " << field;
     }
   }
-  EXPECT_EQ(defaults, 6);
+  EXPECT_EQ(defaults, 7);
 }
 
 TEST(EditSchema, ItsRangesAreTheModels) {

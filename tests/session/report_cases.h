@@ -82,4 +82,26 @@ inline imaging::ImageVolume tube_image() {
   return image;
 }
 
+/// A CT of a vessel along z as a scanner with a blur of 0.3 mm shows it: blood to `lumen_mm`, tissue of
+/// `tissue_hu` to `outer_mm`, fat beyond.
+inline imaging::ImageVolume walled_image(double lumen_mm, double outer_mm, double tissue_hu) {
+  imaging::ImageVolume image = tube_image();
+  image.geometry.size = {64, 64, 140};
+  image.geometry.spacing = {0.3, 0.3, 0.3};
+  image.geometry.origin = {-9.45, -9.45, -1.0};
+  image.voxels.clear();
+  const auto inside = [](double edge, double rho) {  // to first order in the edge's bend
+    return 0.5 * std::erfc((rho - edge + 0.045 / edge) / (0.3 * std::numbers::sqrt2));
+  };
+  for (int z = 0; z < 140; ++z)
+    for (int y = 0; y < 64; ++y)
+      for (int x = 0; x < 64; ++x) {
+        const double rho = std::hypot(0.3 * x - 9.45, 0.3 * y - 9.45), lumen = inside(lumen_mm, rho);
+        const double hu = 400.0 * lumen + tissue_hu * (inside(outer_mm, rho) - lumen) -
+                          90.0 * (1.0 - inside(outer_mm, rho));
+        image.voxels.push_back(static_cast<std::int16_t>(std::lround(hu)));
+      }
+  return image;
+}
+
 }  // namespace ostia::session::testing

@@ -158,6 +158,40 @@ TEST(Session, MeasurementsGoWithThePartOfASplitVesselThatTheyLieOn) {
   EXPECT_EQ(lumen::digest(session.live().model()), model);
 }
 
+TEST(Session, MeasurementsStayAtTheirPlacesOfAVesselThatIsCutAndConnected) {
+  const TempFolder folder;
+  Session session(CaseFile::create(folder / "a.ostia", tube_model()));
+  annotate_tube(session);
+  const std::string before = text_of(*session.file().annotations());
+  const auto was = session.file().annotations()->measurements;
+  session.apply(lumen::BranchCut{tube_vessel, 15.0, ""});
+  const std::int32_t made = session.file().model()->tree.vessels[1].id;
+  const double cut = lumen::vessel(*session.file().model(), tube_vessel).axis->length();
+  const auto parts = session.file().annotations()->measurements;
+  std::size_t gone = 0;
+  for (std::size_t i = 0; i < was.size(); ++i) {
+    if (parts[i].vessel != made) {
+      EXPECT_EQ(parts[i].vessel, was[i].vessel) << i;
+      EXPECT_EQ(parts[i].from_mm, was[i].from_mm) << i;
+      continue;
+    }
+    ++gone;
+    EXPECT_NEAR(parts[i].to_mm, std::max(0.0, was[i].to_mm - cut), 0.01) << i;
+    EXPECT_NEAR(parts[i].from_mm, std::max(0.0, was[i].from_mm - cut), 0.01) << i;
+  }
+  EXPECT_EQ(gone, 4U);
+  session.apply(lumen::BranchConnect{made, tube_vessel,
+                                     lumen::vessel(*session.file().model(), tube_vessel).axis->point(10.0)});
+  const auto joined = session.file().annotations()->measurements;
+  for (std::size_t i = 0; i < was.size(); ++i)
+    if (parts[i].vessel == made && parts[i].from_mm > 0.0) {
+      EXPECT_NEAR(joined[i].from_mm, was[i].from_mm, 0.3) << i;  // the new piece is as long as the old one
+    }
+  ASSERT_TRUE(session.undo());
+  ASSERT_TRUE(session.undo());
+  EXPECT_EQ(text_of(*session.file().annotations()), before);
+}
+
 TEST(Session, ASplitVesselIsReadAgainAsItWas) {
   const TempFolder folder;
   std::string model, annotations;

@@ -160,6 +160,64 @@ TEST_F(TwinCpr, StretchedAndSlabsAreOtherPictures) {
   EXPECT_NEAR(back->px.y(), first.row_of(12.0), 1e-6);
 }
 
+/// The farthest from the axis that lines run within a few rows of a place, mm.
+template <class Lines, class Points>
+double reach_mm(CurvedView& view, double s_mm, const Lines& lines, const Points& points) {
+  const double row = view.row_of(s_mm), middle = view.project(view.bench().axis()->point(s_mm))->px.x();
+  double farthest = 0.0;
+  for (const auto& line : lines)
+    for (const Vec2& p : points(line))
+      if (std::abs(p.y() - row) < 4.0) farthest = std::max(farthest, std::abs(p.x() - middle));
+  return farthest * view.pixel_mm();
+}
+
+geometry::Centerline straight(const Vec3& from, const Vec3& direction, double length_mm, double radius_mm) {
+  geometry::Centerline line;
+  for (double s = 0.0; s <= length_mm; s += 0.5) {
+    line.points.push_back(from + s * direction);
+    line.radius.push_back(radius_mm);
+  }
+  geometry::complete(line);
+  return line;
+}
+
+/// A trunk along z and two branches that leave it at once, 60 degrees to either side.
+geometry::VesselTree sharp_fork(double trunk_mm, double trunk_radius_mm) {
+  const Vec3 fork(0.0, 0.0, trunk_mm);
+  const double c = 0.5, d = std::sqrt(0.75);
+  geometry::VesselTree tree;
+  tree.segments = {{5, 1, 2, straight(Vec3::Zero(), Vec3::UnitZ(), trunk_mm, trunk_radius_mm)},
+                   {6, 2, 3, straight(fork, Vec3(d, 0.0, c), 14.0, 1.4)},
+                   {7, 2, 4, straight(fork, Vec3(-d, 0.0, c), 14.0, 1.4)}};
+  tree.nodes = {{1, Vec3::Zero()}, {2, fork}};
+  for (std::size_t i = 1; i < 3; ++i)
+    tree.nodes.push_back({static_cast<std::int32_t>(i) + 2, tree.segments[i].axis.points.back()});
+  tree.vessels = {{8, "LAD", {5, 6}}, {9, "LCX", {5, 7}}};
+  return tree;
+}
+
+TEST(CurvedViewAtASharpBend, DrawsNoWallAcrossThePicture) {
+  // Rows fan out where the axis turns, and one of them runs along the other branch.
+  const double trunk_mm = 12.0, trunk_radius_mm = 2.0;
+  TubeCase fork(sharp_fork(trunk_mm, trunk_radius_mm));
+  const auto frame = std::make_shared<CurvedFrame>();
+  double before = 0.0;
+  for (const double theta : {0.0, 30.0, 60.0, 90.0, 120.0, 150.0}) {
+    fork.bench.theta_deg.set(theta);
+    CurvedView view(fork.bench, CurvedView::Which::first, frame);
+    view.set_size(300, 600, 1.0);
+    before = std::max(before, reach_mm(view, trunk_mm, view.contour_lines(),
+                                       [](const lumen::ContourLine& line) { return line.picture_px; }));
+    EXPECT_LT(reach_mm(view, trunk_mm, view.overlay().lines,
+                       [](const OverlayLine& line) {
+                         return line.role == Role::lumen ? line.px : std::vector<Vec2>{};
+                       }),
+              2.0 * trunk_radius_mm)
+        << theta;
+  }
+  EXPECT_GT(before, 3.0 * trunk_radius_mm);
+}
+
 TEST_F(TwinCpr, ShowsNothingWithoutACase) {
   tube.bench.close_case();
   EXPECT_FALSE(first.ready());

@@ -68,6 +68,26 @@ TEST(SliceView, HangsAsRadiologistsDo) {
   EXPECT_LT((*slice.world({150.0, 200.0}) - *slice.world({150.0, 100.0})).z(), 0.0);
 }
 
+TEST(SliceView, MarksTheFirstEndOfAVesselThatIsBeingPlacedNearItsPlaneAlone) {
+  TubeCase tube;
+  SliceView slice(tube.bench, SliceKind::axial);
+  slice.set_size(300, 240, 1.0);
+  tube.bench.cursor_mm.set(15.0);
+  const auto marks = [&] {
+    std::vector<Vec2> found;
+    for (const OverlayMark& mark : slice.overlay().marks)
+      if (mark.role == Role::selected) found.push_back(mark.px);
+    return found;
+  };
+  EXPECT_TRUE(marks().empty());
+  const Vec3 end = *slice.world({100.0, 80.0});
+  tube.bench.first_end.set(end);
+  ASSERT_EQ(marks().size(), 1U);
+  EXPECT_LT((marks().front() - Vec2(100.0, 80.0)).norm(), 1e-6);
+  tube.bench.first_end.set(Vec3(end + Vec3(0.0, 0.0, 20.0)));
+  EXPECT_TRUE(marks().empty());
+}
+
 TEST(SliceView, GoesThroughTheCursorAndShowsTheVesselThere) {
   TubeCase tube;
   SliceView slice(tube.bench, SliceKind::axial);

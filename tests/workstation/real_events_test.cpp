@@ -8,6 +8,7 @@
 #include "ostia/lumen/start_surface.h"
 #include "ostia/session/case_file.h"
 #include "ostia/session/image_digest.h"
+#include "ostia/session/open_mark.h"
 
 #include <gtest/gtest.h>
 
@@ -86,7 +87,62 @@ TEST_F(RealEvents, ADrawnStrokeIsInTheCaseAfterAKillAndTheProgramComesBackToIt) 
   fs::remove(log);
   Program again(arguments(false));
   EXPECT_TRUE(settled());  // a CPR is painted, though no case was named
-  again.process.terminate();
+}
+
+TEST_F(RealEvents, AVesselIsCutWithMouseAndKeysAndConnectedAgain) {
+  if (QStandardPaths::findExecutable("xdotool").isEmpty()) GTEST_SKIP() << "xdotool is not installed";
+  QPoint place;
+  {
+    const fs::path copy = folder / "copy.ostia";
+    session::CaseFile::open(case_file, session::OpenMode::read_only).copy_to(copy);
+    testing::Folder other;
+    session::MachineState(other / "state").remember_image(session::image_reference(image).sha256, image);
+    MainWindow window(other / "state");
+    window.move(0, 0);
+    window.show();
+    window.open(copy);
+    ASSERT_TRUE(wait_until([&] { return window.bench().has_case() && !window.jobs().any(); }));
+    wait_until([] { return false; }, 300);
+    auto* cpr = window.findChild<PictureWidget*>("cpr1");
+    const auto axis = window.bench().axis();
+    const auto px = cpr->view().project(axis->point(22.0))->px;
+    place = cpr->mapToGlobal(QPoint(static_cast<int>(px.x()), static_cast<int>(px.y())));
+    window.close();
+  }
+  Program program(arguments(true));
+  ASSERT_TRUE(settled());
+  testing::go(place, {"click", "1"});
+  ASSERT_TRUE(settled());
+  testing::keys({"ctrl+shift+k"});
+  ASSERT_TRUE(settled());
+  // The cursor stays at the end of what is left; the view has another scale now.
+  testing::keys({"ctrl+Home"});
+  for (int i = 0; i < 20; ++i) testing::keys({"ctrl+Down"});
+  testing::keys({"ctrl+shift+c"});
+  QTest::qWait(500);
+  testing::keys({"Down", "Return"});
+  ASSERT_TRUE(settled());
+  program.process.kill();
+  program.process.waitForFinished();
+  const session::CaseFile kept = session::CaseFile::open(case_file, session::OpenMode::read_only);
+  ASSERT_EQ(kept.edits().size(), 2U);
+  EXPECT_EQ(lumen::op_name(kept.edits()[0]), "branch.cut");
+  EXPECT_EQ(lumen::op_name(kept.edits()[1]), "branch.connect");
+  EXPECT_NEAR(std::get<lumen::BranchCut>(kept.edits()[0]).s_mm, 22.0, 0.5);
+  EXPECT_NEAR(std::get<lumen::BranchConnect>(kept.edits()[1]).at.z(), 10.0, 0.1);
+  EXPECT_EQ(geometry::roots(kept.model()->tree).size(), 1U);
+}
+
+TEST_F(RealEvents, AProgramThatIsAskedToEndClosesItsCaseAndTheNextStartIsAFreshOne) {
+  {
+    Program program(arguments(true));
+    ASSERT_TRUE(settled());
+    program.process.terminate();  // SIGTERM: a logout, `kill`
+    ASSERT_TRUE(program.process.waitForFinished());
+    EXPECT_EQ(program.process.exitStatus(), QProcess::NormalExit);
+    EXPECT_EQ(program.process.exitCode(), 0);
+  }
+  EXPECT_TRUE(session::OpenMark(state).take_left().empty());
 }
 
 }  // namespace

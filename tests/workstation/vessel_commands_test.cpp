@@ -69,6 +69,64 @@ TEST_F(VesselCommands, SplitAtTheCursorAndJoinAgain) {
   EXPECT_EQ(test.bench().model()->vessels.size(), 2U);
 }
 
+/// Chooses an entry of the menu that is open.
+void choose_entry(const QString& wanted) {
+  QTimer::singleShot(100, [wanted] {
+    auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
+    if (!menu) return;
+    for (QAction* one : menu->actions())
+      if (one->text() == wanted) one->trigger();
+    menu->close();
+  });
+}
+
+TEST_F(VesselCommands, CutInTwoAtTheCursorAndConnectAgainElsewhere) {
+  TestWindow test(state);
+  QAction* cut = test.window().findChild<QAction*>("vessel.cut");
+  QAction* connect = test.window().findChild<QAction*>("vessel.connect");
+  EXPECT_FALSE(cut->isEnabled());
+  test.open(case_file);
+  EXPECT_TRUE(cut->isEnabled());
+  EXPECT_FALSE(connect->isEnabled());  // there is but one vessel
+  EXPECT_FALSE(cut->toolTip().isEmpty());
+  EXPECT_FALSE(connect->toolTip().isEmpty());
+  const std::string whole = lumen::digest(*test.bench().model());
+  test.bench().cursor_mm.set(18.0);
+  cut->trigger();
+  ASSERT_EQ(test.bench().model()->vessels.size(), 2U);
+  EXPECT_EQ(geometry::roots(test.bench().model()->tree).size(), 2U);
+  const std::int32_t distal = test.bench().model()->tree.vessels[1].id;
+  EXPECT_NEAR(test.bench().axis(distal)->length(), 22.0, 0.3);
+  EXPECT_TRUE(connect->isEnabled());
+
+  test.bench().cursor_mm.set(10.0);
+  choose_entry("LAD distal");
+  connect->trigger();
+  EXPECT_TRUE(wait_until([&] { return geometry::roots(test.bench().model()->tree).size() == 1; }, 3000));
+  EXPECT_NEAR(test.bench().axis(distal)->length(), 40.0, 0.5);
+  EXPECT_LT(lumen::own_from_mm(test.bench().model()->tree, distal), 10.5);
+  auto* steps = test.window().findChild<StepList*>("steps");
+  EXPECT_TRUE(wait_until(
+      [&] {
+        return steps->count() == 3 && steps->item(1)->text() == "Cut a vessel in two" &&
+               steps->item(2)->text() == "Connect a vessel";
+      },
+      2000));
+  // The shown vessel comes from the other one: there is nothing that it could be connected to.
+  test.bench().vessel.set(distal);
+  test.bench().cursor_mm.set(30.0);
+  QTimer::singleShot(100, [] {
+    auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
+    ASSERT_NE(menu, nullptr);
+    EXPECT_FALSE(menu->isEnabled());
+    menu->close();
+  });
+  connect->trigger();
+  wait_until([] { return false; }, 300);
+  for (int i = 0; i < 2; ++i) test.window().findChild<QAction*>("edit.undo")->trigger();
+  EXPECT_EQ(lumen::digest(*test.bench().model()), whole);
+}
+
 TEST_F(VesselCommands, ASplitWithoutRoomIsSaidAndChangesNothing) {
   TestWindow test(state);
   test.open(case_file);

@@ -2,6 +2,13 @@
 <!DOCTYPE TS>
 <TS version="2.1" language="de_DE" sourcelanguage="en">
 <context>
+    <name>ConnectMenu</name>
+    <message>
+        <source>Which vessel shall begin here?</source>
+        <translation>Welches Gefäß soll hier beginnen?</translation>
+    </message>
+</context>
+<context>
     <name>QApplication</name>
     <message>
         <source>The coronary modelling workstation.</source>
@@ -392,10 +399,6 @@
         <translation>Rechtsklick oder Menütaste</translation>
     </message>
     <message>
-        <source>rename, colour, cut off, split, delete, join</source>
-        <translation>umbenennen, Farbe, abschneiden, teilen, löschen, verbinden</translation>
-    </message>
-    <message>
         <source>keys F2, Space, Delete</source>
         <translation>Tasten F2, Leertaste, Entf</translation>
     </message>
@@ -426,6 +429,10 @@
     <message>
         <source>the measurement under the mouse goes, or the selected one</source>
         <translation>die Messung unter der Maus verschwindet, sonst die gewählte</translation>
+    </message>
+    <message>
+        <source>rename, colour, cut off, split, cut, delete, join, connect</source>
+        <translation>umbenennen, färben, abschneiden, teilen, durchtrennen, löschen, anschließen, verbinden</translation>
     </message>
 </context>
 <context>
@@ -1148,6 +1155,18 @@
         <source>Click into the CPR, section or slice to be pinned first.</source>
         <translation>Klicken Sie zuerst in die CPR, den Querschnitt oder die Schicht, die angeheftet werden soll.</translation>
     </message>
+    <message>
+        <source>Cut in &amp;two at the cursor</source>
+        <translation>Am Cursor &amp;durchtrennen</translation>
+    </message>
+    <message>
+        <source>&amp;Connect to the cursor…</source>
+        <translation>Mit dem Cursor &amp;verbinden…</translation>
+    </message>
+    <message>
+        <source>Outer wall</source>
+        <translation>Außenwand</translation>
+    </message>
 </context>
 <context>
     <name>ostia::workstation::ManualDialog</name>
@@ -1525,6 +1544,17 @@
             <numerusform>Das Programm endete, ohne diesen Fall und %n weiteren zu schließen, der unter den letzten Fällen steht.</numerusform>
             <numerusform>Das Programm endete, ohne diesen Fall und %n weitere zu schließen, die unter den letzten Fällen stehen.</numerusform>
         </translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::OuterWalls</name>
+    <message>
+        <source>Plaque %1 mm³ (low attenuation %2, fibrofatty %3, fibrous %4, calcified %5), burden %6 %; the outer wall is seen on %7 % of it</source>
+        <translation>Plaque %1 mm³ (niedrige Dichte %2, fibrofettig %3, fibrös %4, verkalkt %5), Plaquelast %6 %; die Außenwand ist auf %7 % davon zu sehen</translation>
+    </message>
+    <message>
+        <source>Outer wall</source>
+        <translation>Außenwand</translation>
     </message>
 </context>
 <context>
@@ -2328,6 +2358,14 @@
         <source>Join with parent vessel</source>
         <translation>Mit dem Muttergefäß verbinden</translation>
     </message>
+    <message>
+        <source>Cut in two at the cursor</source>
+        <translation>Am Cursor durchtrennen</translation>
+    </message>
+    <message>
+        <source>Connect to the cursor</source>
+        <translation>Mit dem Cursor verbinden</translation>
+    </message>
 </context>
 <context>
     <name>presets</name>
@@ -2528,6 +2566,14 @@
     <message>
         <source>Join a vessel with its parent</source>
         <translation>Gefäß mit dem Muttergefäß verbinden</translation>
+    </message>
+    <message>
+        <source>Cut a vessel in two</source>
+        <translation>Gefäß durchtrennen</translation>
+    </message>
+    <message>
+        <source>Connect a vessel</source>
+        <translation>Gefäß verbinden</translation>
     </message>
 </context>
 <context>
@@ -2731,6 +2777,18 @@
     <message>
         <source>Finds aorta, ostia and arteries in the image, and names them.</source>
         <translation>Findet Aorta, Ostien und Arterien im Bild und benennt sie.</translation>
+    </message>
+    <message>
+        <source>Cuts the vessel in two; what lies distal of the cursor, with its branches, is a tree of its own.</source>
+        <translation>Durchtrennt das Gefäß; was distal des Cursors liegt, mit seinen Ästen, ist ein eigener Baum.</translation>
+    </message>
+    <message>
+        <source>A new piece of vessel leads from the cursor to where the vessel that you choose begins.</source>
+        <translation>Ein neues Gefäßstück führt vom Cursor dorthin, wo das gewählte Gefäß beginnt.</translation>
+    </message>
+    <message>
+        <source>Looks for the outer wall of the selected vessel, draws it on the 2D views and tells what plaque there is.</source>
+        <translation>Sucht die Außenwand des gewählten Gefäßes, zeichnet sie in die 2D-Ansichten und nennt die Plaque.</translation>
     </message>
 </context>
 <context>

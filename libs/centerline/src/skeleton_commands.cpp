@@ -3,13 +3,18 @@
 #include "ostia/centerline/skeleton_edit.h"
 #include "ostia/core/error.h"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
+#include <utility>
 
 namespace ostia::centerline {
 namespace {
 
 using detail::GraphEditor;
 using detail::GraphPlace;
+
+constexpr double connection_step_mm = 0.5;
 
 GraphPlace place_on(const GraphEditor& editor, const Vec3& place, const PlaceOptions& options,
                     const std::string& command) {
@@ -46,7 +51,18 @@ SkeletonGraph connected(const SkeletonGraph& graph, const Vec3& from, const Vec3
     throw InvalidInput("connect: both places are the same one of the skeleton, " +
                        detail::text(first.position) + ": give two that are further apart than " +
                        std::to_string(options.snap_mm) + " mm");
-  editor.add_edge(a, b, {first.position, last.position}, {first.radius_mm, last.radius_mm});
+  // As dense as a line that was found: smoothing would make a swing of two points.
+  const Vec3 way = last.position - first.position;
+  const int pieces = std::max(1, static_cast<int>(std::ceil(way.norm() / connection_step_mm)));
+  std::vector<Vec3> points;
+  std::vector<double> radius_mm;
+  for (int i = 0; i <= pieces; ++i) {
+    const double t = static_cast<double>(i) / pieces;
+    points.push_back(first.position + t * way);
+    radius_mm.push_back((1.0 - t) * first.radius_mm + t * last.radius_mm);
+  }
+  points.back() = last.position;
+  editor.add_edge(a, b, std::move(points), std::move(radius_mm));
   for (const std::int32_t n : {a, b}) editor.join_at(n);
   return editor.graph();
 }
@@ -79,6 +95,18 @@ SkeletonGraph removed(const SkeletonGraph& graph, std::int32_t edge_id) {
       editor.join_at(n);
   }
   return editor.graph();
+}
+
+std::int32_t edge_at(const SkeletonGraph& graph, const Vec3& place, const PlaceOptions& options) {
+  validate(options);
+  detail::require_sound(graph, "remove");
+  PlaceOptions lines = options;
+  lines.snap_mm = 0.0;  // a line, not its node
+  const GraphPlace found = place_on(GraphEditor(graph), place, lines, "remove");
+  if (!found.at_node) return found.id;
+  for (const SkeletonEdge& e : graph.edges)
+    if (e.from == found.id || e.to == found.id) return e.id;
+  throw InvalidInput("remove: no line is at " + detail::text(place));
 }
 
 }  // namespace ostia::centerline

@@ -126,11 +126,9 @@ struct Ray {
   }
 };
 
-// The line from its end inwards: what is kept, at least two points, with the end moved to the wall.
-void extend_end(GraphEditor& editor, std::int32_t node, const imaging::MaskVolume& mask,
-                const EndOptions& options) {
-  const std::int32_t id = *editor.edges_at(node).begin();
-  if (editor.edges().at(id).from == node) editor.reverse(id);  // the end comes last
+// The line whose last point is the node: what is kept, at least two points, with the end moved to the wall.
+void lead_out(GraphEditor& editor, std::int32_t id, std::int32_t node, const imaging::MaskVolume& mask,
+              const EndOptions& options) {
   const SkeletonEdge line = editor.edges().at(id);
   const double whole = length_mm(line);
   // The radius where the end's own course begins: the widest within a radius of it.
@@ -169,6 +167,15 @@ void extend_end(GraphEditor& editor, std::int32_t node, const imaging::MaskVolum
   editor.replace_line(id, std::move(kept.points), std::move(kept.radius_mm));
 }
 
+void extend_end(GraphEditor& editor, std::int32_t node, const imaging::MaskVolume& mask,
+                const EndOptions& options) {
+  const std::int32_t id = *editor.edges_at(node).begin();
+  const bool leads_away = editor.edges().at(id).from == node;
+  if (leads_away) editor.reverse(id);  // the end comes last
+  lead_out(editor, id, node, mask, options);
+  if (leads_away) editor.reverse(id);
+}
+
 }  // namespace
 
 void validate(const PruneOptions& o) {
@@ -205,7 +212,9 @@ SkeletonGraph ends_extended(const SkeletonGraph& graph, const imaging::MaskVolum
   GraphEditor editor(graph);
   for (const SkeletonNode& n : graph.nodes)
     if (editor.degree(n.id) == 1) extend_end(editor, n.id, mask, options);
-  return editor.graph();
+  SkeletonGraph result = editor.graph();
+  result.oriented = graph.oriented;
+  return result;
 }
 
 }  // namespace ostia::centerline

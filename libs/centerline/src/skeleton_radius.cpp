@@ -284,7 +284,7 @@ MeasuredSkeleton measured_in(const SkeletonGraph& graph, const FloatVolume& imag
     });
     result.interpolated += interpolate(e.points, sections);
     for (std::size_t i = 0; i < sections.size(); ++i) e.radius_mm[i] = sections[i].radius_mm;
-    if (options.recentre) recentre(e, sections);
+    if (options.recentre && options.move_points) recentre(e, sections);
     result.sections.push_back(std::move(sections));
     task.set_progress(static_cast<double>(++done) / static_cast<double>(graph.edges.size()));
   }

@@ -2,9 +2,9 @@
 
 #include "axial_discs.h"
 #include "tube_following.h"
+#include "working_image.h"
 
 #include "ostia/core/error.h"
-#include "ostia/imaging/reduced_volume.h"
 #include "ostia/imaging/sampling.h"
 
 #include <algorithm>
@@ -33,17 +33,6 @@ ColumnOptions column_options(const AortaOptions& options) {
   columns.disc.largest_radius_mm = options.largest_radius_mm;
   columns.least_length_mm = options.least_column_mm;
   return columns;
-}
-
-/// The image as cubes of about the working spacing; one that is coarser stays as it is.
-imaging::ImageVolume working_image(const imaging::ImageVolume& image, double spacing_mm,
-                                   const core::TaskContext& task) {
-  const imaging::Geometry& grid = image.geometry;
-  const double voxels =
-      static_cast<double>(grid.voxels()) * grid.spacing.prod() / (spacing_mm * spacing_mm * spacing_mm);
-  imaging::ReducedVolumeOptions options;
-  options.most_voxels = std::max<std::int64_t>(8, static_cast<std::int64_t>(std::ceil(voxels)));
-  return imaging::reduced_volume(image, options, task);
 }
 
 double median(std::vector<double> values) {
@@ -80,11 +69,12 @@ double lung_behind(const imaging::ImageVolume& image, const DiscColumn& column) 
 }
 
 /// `columns` are the longest first.
-const DiscColumn* ascending(const imaging::ImageVolume& image, const std::vector<DiscColumn>& columns) {
+const DiscColumn* ascending(const imaging::ImageVolume& image, const std::vector<DiscColumn>& columns,
+                            double most_hu) {
   std::vector<const DiscColumn*> even;
   double brightest = 0.0;
   for (const DiscColumn& column : columns)
-    if (unevenness(column) < largest_unevenness) {
+    if (unevenness(column) < largest_unevenness && column.mean_hu() <= most_hu) {
       even.push_back(&column);
       brightest = std::max(brightest, column.mean_hu());
     }
@@ -124,6 +114,7 @@ void validate(const AortaOptions& options) {
                          "; give " + std::to_string(low) + " to " + std::to_string(high));
   };
   within("least intensity", options.least_hu, 100.0, 400.0, " HU");
+  within("largest intensity", options.most_hu, options.least_hu, 4000.0, " HU");
   within("smallest radius", options.smallest_radius_mm, 5.0, 20.0, " mm");
   within("largest radius", options.largest_radius_mm, options.smallest_radius_mm + 1.0, 40.0, " mm");
   within("working spacing", options.work_spacing_mm, 1.0, 3.0, " mm");
@@ -135,13 +126,13 @@ Aorta find_aorta(const imaging::ImageVolume& image, const AortaOptions& options,
   validate(options);
   const imaging::ImageVolume work = working_image(image, options.work_spacing_mm, task.sub(0.0, 0.2));
   const std::vector<DiscColumn> columns = disc_columns(work, column_options(options), task.sub(0.2, 0.8));
-  const DiscColumn* column = ascending(work, columns);
+  const DiscColumn* column = ascending(work, columns, options.most_hu);
   if (column == nullptr)
     throw GeometryError("no ascending aorta was found (an upright, evenly enhanced tube of " +
                         whole(options.smallest_radius_mm) + " to " + whole(options.largest_radius_mm) +
                         " mm radius above " + whole(options.least_hu) + " HU, at least " +
                         whole(options.least_column_mm) + " mm long): " + seen(work, columns) +
-                        "; add the vessels by hand instead");
+                        "; draw a first vessel by its two ends instead");
   FollowOptions follow;
   follow.disc = column_options(options).disc;
   std::vector<DiscFit> way = column->discs;

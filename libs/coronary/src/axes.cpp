@@ -1,5 +1,7 @@
 #include "ostia/coronary/axes.h"
 
+#include "axis_beside_calcium.h"
+
 #include "ostia/centerline/tree_builder.h"
 #include "ostia/core/error.h"
 #include "ostia/geometry/polyline.h"
@@ -67,7 +69,7 @@ class Centring {
     for (std::size_t b = 0; b < grown_.branches.size(); ++b) {
       task.throw_if_cancelled();
       try {
-        follow(grown_.branches[b]);
+        follow(grown_.branches[b], task);
       } catch (const InvalidInput& error) {
         leave_out(grown_.branches[b], error.what());
       } catch (const GeometryError& error) {
@@ -83,7 +85,7 @@ class Centring {
 
  private:
   /// Within a fifth of a second: stage and progress stay those of the whole tree.
-  void follow(const GrownBranch& branch) {
+  void follow(const GrownBranch& branch, const core::TaskContext& task) {
     segmentation::MinimalPath path;
     if (branch.parent < 0) {
       segmentation::PathAlongOptions along = along_;
@@ -92,6 +94,7 @@ class Centring {
     } else {
       path = segmentation::path_along_to_tree(image_, from_axis(branch.points), flat_, along_);
     }
+    centre_beside_calcium(image_, options_.ostium_mm, options_, path, task);
     if (path.length_mm < options_.least_branch_mm) {
       leave_out(branch, "it is " + in_mm(path.length_mm) + " long");
       return;

@@ -1,11 +1,21 @@
 #include "ostia/coronary/extract.h"
 
+#include "heart_chambers.h"
+#include "input_checks.h"
+
 #include "ostia/core/error.h"
 
 #include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
 
 namespace ostia::coronary {
 namespace {
+
+constexpr std::size_t most_branches = 60;  // a tree that is seen well has about 20
+constexpr std::size_t few_vessels = 6;
+constexpr double no_names = 1.0;  // confidence that no vessel reaches
 
 /// Both trees have the same ends, and so the same vessels.
 std::vector<AxisNotes> in_order_of(const geometry::VesselTree& tree, const std::vector<AxisNotes>& notes) {
@@ -18,6 +28,55 @@ std::vector<AxisNotes> in_order_of(const geometry::VesselTree& tree, const std::
   return result;
 }
 
+struct BelievedAorta {
+  Aorta aorta;
+  std::string warning;  ///< of its heart
+};
+
+/// A bright tube without a heart as bright below it may be a vein full of undiluted contrast: then the next
+/// fainter one is looked at.
+BelievedAorta aorta_of(const imaging::ImageVolume& image, AortaOptions options,
+                       const core::TaskContext& task) {
+  constexpr int tries = 3;
+  constexpr double fainter = 0.9;
+  std::string refusal;
+  for (int i = 0; i < tries; ++i) {
+    Aorta aorta;
+    try {
+      aorta = find_aorta(image, options, task);
+    } catch (const GeometryError& error) {
+      throw GeometryError(refusal.empty() ? error.what() + why_no_aorta(image, task) : refusal);
+    }
+    const HeartVerdict heart = judge(chambers_beside(image, aorta, task));
+    if (heart.refusal.empty()) return {std::move(aorta), heart.warning};
+    if (refusal.empty()) refusal = heart.refusal;
+    options.most_hu = fainter * aorta.lumen_hu;
+    if (options.most_hu < options.least_hu) break;
+  }
+  throw GeometryError(refusal);
+}
+
+/// Smoothing may take the radii of a stretch that is hardly there below nothing.
+void keep_radii_positive(geometry::VesselTree& tree) {
+  constexpr double least_mm = 0.1;
+  for (geometry::TreeSegment& segment : tree.segments)
+    for (double& radius : segment.axis.radius) radius = std::max(radius, least_mm);
+}
+
+/// Vessels that the image cuts off.
+void tell_borders(Extraction& result, const imaging::Geometry& grid) {
+  constexpr double beside_mm = 2.0;
+  const auto inside = [&](const Vec3& place) {
+    for (int axis = 0; axis < 3; ++axis)
+      for (const double way : {-beside_mm, beside_mm})
+        if (!grid.contains(place + way * grid.direction.col(axis))) return false;
+    return true;
+  };
+  for (const geometry::Vessel& vessel : result.vessels.tree.vessels)
+    if (!inside(geometry::vessel_axis(result.vessels.tree, vessel).points.back()))
+      result.warnings.push_back(vessel.name + ": it leaves the image; what goes on is not in it");
+}
+
 void tell(Extraction& result) {
   const std::size_t roots = geometry::roots(result.vessels.tree).size();
   if (roots == 1)
@@ -27,6 +86,12 @@ void tell(Extraction& result) {
     result.warnings.push_back(
         std::to_string(roots) +
         " vessels were found where they leave the aorta; look whether each is an artery");
+  const std::size_t vessels = result.vessels.tree.vessels.size();
+  if (vessels < few_vessels)
+    result.warnings.push_back("only " + std::to_string(vessels) +
+                              (vessels == 1 ? " vessel was" : " vessels were") +
+                              " found, where a sharp image shows about ten: look for side branches and ends "
+                              "that are missing");
   for (const std::string& warning : result.vessels.warnings) result.warnings.push_back(warning);
   for (std::size_t i = 0; i < result.notes.size(); ++i)
     for (const std::string& warning : result.notes[i].warnings)
@@ -47,8 +112,15 @@ Extraction extract(const imaging::ImageVolume& image, const ExtractOptions& opti
                    const core::TaskContext& task) {
   validate(options);
   Extraction result;
+  result.warnings = check_input(image);
   task.set_stage("finding the aorta");
-  result.aorta = find_aorta(image, options.aorta, task.sub(0.0, 0.2));
+  BelievedAorta believed = aorta_of(image, options.aorta, task.sub(0.0, 0.2));
+  result.aorta = std::move(believed.aorta);
+  LabelOptions labels = options.labels;
+  if (!believed.warning.empty()) {
+    result.warnings.push_back(believed.warning);
+    labels.least_confidence = no_names;
+  }
   task.set_stage("finding where the coronary arteries leave it");
   result.ostia = find_ostia(image, result.aorta, options.ostia, task.sub(0.2, 0.25));
   if (result.ostia.empty())
@@ -63,13 +135,22 @@ Extraction extract(const imaging::ImageVolume& image, const ExtractOptions& opti
         "nothing that looks like an artery goes on from where one leaves the aorta; draw a first vessel by "
         "its "
         "two ends");
+  if (grown.branches.size() > most_branches)
+    throw GeometryError(
+        "what was found has " + std::to_string(grown.branches.size()) +
+        " branches, more than coronary arteries show: the image is too noisy (a deviation of " +
+        std::to_string(std::lround(result.aorta.noise_hu)) +
+        " HU in the aorta, in cubes of 1.5 mm) or veins and muscle are as bright as arteries; "
+        "take a smoother reconstruction, or draw a first vessel by its two ends");
   task.set_stage("centring the vessels");
   CentredTree centred = centred_tree(image, grown, result.ostia, options.axes, task.sub(0.85, 0.98));
-  result.warnings = std::move(centred.warnings);
+  result.warnings.insert(result.warnings.end(), centred.warnings.begin(), centred.warnings.end());
   task.set_stage("naming the vessels");
-  result.vessels = label_branches(centred.tree, options.labels);
+  keep_radii_positive(centred.tree);
+  result.vessels = label_branches(centred.tree, labels);
   result.notes = in_order_of(result.vessels.tree, centred.notes);
   tell(result);
+  tell_borders(result, image.geometry);
   task.set_progress(1.0);
   return result;
 }

@@ -280,7 +280,6 @@ std::string editing_json(const std::vector<SectionRun>& runs, const EditingOptio
 
 void write_editing_report(const fs::path& folder, const std::vector<SectionRun>& runs,
                           const EditingOptions& options) {
-  core::write_file(folder / "experiment.json", editing_json(runs, options));
   core::write_file(folder / "sections.csv", section_rows(runs));
   core::write_file(folder / "steps.csv", step_rows(runs));
   accuracy_plot(runs).write_png(folder / "accuracy.png", 2.0);

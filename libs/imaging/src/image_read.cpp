@@ -8,6 +8,7 @@
 #include "ostia/imaging/image_file.h"
 
 #include <algorithm>
+#include <bitset>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -151,6 +152,23 @@ void note_surplus(Prepared& p, bool surplus) {
         "shifted, the header lacks an offset)");
 }
 
+/// Air lies at -1000 HU and tissues spread over hundreds of values; labels and 8-bit pictures do neither.
+void note_lack_of_hounsfield(Prepared& p, const std::vector<std::int16_t>& voxels) {
+  constexpr std::size_t most_values = 256, fewest_voxels = 4096;
+  if (voxels.size() < fewest_voxels) return;
+  std::bitset<std::numeric_limits<std::int16_t>::max() + 1> seen;
+  std::size_t different = 0;
+  for (const std::int16_t value : voxels) {
+    if (value < 0) return;
+    if (seen.test(static_cast<std::size_t>(value))) continue;
+    seen.set(static_cast<std::size_t>(value));
+    if (++different > most_values) return;
+  }
+  p.header.warnings.push_back("only " + std::to_string(different) +
+                              " different values, none below 0: a label map or an 8-bit picture, not a CT in "
+                              "Hounsfield units");
+}
+
 }  // namespace
 
 ImageHeader read_image_header(const fs::path& path) {
@@ -172,6 +190,7 @@ LoadedImage<std::int16_t> read_image(const fs::path& path, const core::TaskConte
   if (convert.undefined > 0)
     p.header.warnings.push_back(std::to_string(convert.undefined) +
                                 " voxels that are not numbers were set to -1024 HU");
+  note_lack_of_hounsfield(p, voxels);
   const std::int16_t lowest =
       p.placement.sheared ? *std::min_element(voxels.begin(), voxels.end()) : std::int16_t{0};
   return placed(std::move(p), std::move(voxels), Interpolation::trilinear, Beyond::outside_value, lowest,

@@ -19,6 +19,8 @@ constexpr double widest_turn = 130.0 * std::numbers::pi / 180.0;
 /// A branch begins no wider than this share of its parent, so that its end stays within the parent's lumen.
 constexpr double start_share = 0.9;
 constexpr double same_point_mm = 1e-3;
+constexpr double bridge_step_mm = 1.0;
+constexpr double longest_bridge_mm = 100.0;
 
 /// Where a branch leaves its parent, and the way from there to its own path.
 struct Junction {
@@ -133,6 +135,74 @@ std::vector<std::int32_t> join(TreeEdit& tree, std::int32_t parent, double s_mm,
   return path;
 }
 
+/// A vessel's own part, which begins with `path` instead of its first segment's axis, leaves the parent's
+/// axis at `foot_mm`, and with it what goes through it (`moving`).
+Junction lead_from(TreeEdit& tree, std::int32_t parent, double foot_mm, const geometry::Centerline& path,
+                   std::int32_t first, const std::set<std::int32_t>& moving) {
+  Junction junction = junction_of(*vessel(tree.before(), parent).axis, foot_mm, path);
+  std::int32_t node = 0;
+  const std::vector<std::int32_t> way = join(tree, parent, junction.s_mm, junction.way, node);
+  geometry::TreeSegment& segment = tree.segment(first);
+  const Vec3 normal = segment.axis.frames.front().normal;
+  segment.axis = junction.way;
+  geometry::complete(segment.axis, normal);
+  segment.from = node;
+  std::vector<geometry::Vessel> stay, move;
+  for (geometry::Vessel v : tree.tree().vessels) {
+    if (!moving.contains(v.id)) {
+      stay.push_back(std::move(v));
+      continue;
+    }
+    const auto from = std::find(v.segments.begin(), v.segments.end(), first);
+    v.segments.erase(v.segments.begin(), from);
+    v.segments.insert(v.segments.begin(), way.begin(), way.end());
+    tree.way_changed(v.id);
+    move.push_back(std::move(v));
+  }
+  // Owners come first: the parent before what now leaves it.
+  stay.insert(stay.end(), move.begin(), move.end());
+  tree.tree().vessels = std::move(stay);
+  return junction;
+}
+
+/// A vessel's own part that is to be joined to a place of another vessel.
+struct Joining {
+  std::vector<std::int32_t> own;  ///< its segments
+  std::set<std::int32_t> moving;  ///< the vessel and all that leave it
+  TreePlace place;                ///< on the parent
+};
+Joining joining(TreeEdit& tree, std::int32_t id, std::int32_t parent, const Vec3& at) {
+  check_points({at}, 1, tree.what());
+  Joining join;
+  join.own = tree.own_segments(id);
+  join.moving = tree.through(join.own);
+  static_cast<void>(vessel(tree.before(), parent));
+  if (join.moving.contains(parent))
+    throw InvalidInput(tree.what() + ": vessel " + std::to_string(parent) +
+                       " is the vessel itself or leaves it; attached there the tree would be a loop");
+  join.place = place_on_parent(tree, parent, at);
+  return join;
+}
+
+/// From a place on a parent's axis in a bow to where a vessel begins, and on along its axis.
+geometry::Centerline bridged(const Vec3& foot, double parent_radius_mm, const Vec3& tangent,
+                             const geometry::Centerline& axis) {
+  const Vec3 start = axis.points.front(), way = start - foot;
+  const double first = std::min(axis.radius.front(), start_share * parent_radius_mm);
+  const int pieces = std::max(2, static_cast<int>(std::ceil(way.norm() / bridge_step_mm)));
+  geometry::Centerline path;
+  for (int i = 0; i < pieces; ++i) {
+    // The cubic of Hermite that sets out straight and arrives along the vessel.
+    const double t = static_cast<double>(i) / pieces, u = 1.0 - t;
+    path.points.push_back(foot + t * t * (3.0 - 2.0 * t) * way + t * u * u * way -
+                          t * t * u * way.norm() * tangent);
+    path.radius.push_back(u * first + t * axis.radius.front());
+  }
+  path.points.insert(path.points.end(), axis.points.begin(), axis.points.end());
+  path.radius.insert(path.radius.end(), axis.radius.begin(), axis.radius.end());
+  return path;
+}
+
 /// The wall from a branch's new start to `to_mm`: a tube of the axis' radii that becomes the wall there.
 void rebuild_start(TreeEdit& tree, const VesselLumen& lumen, double to_mm,
                    std::vector<SurfaceSample>& samples) {
@@ -196,14 +266,7 @@ EditOutcome apply_to(const LumenModel& model, const VesselRename& edit) {
 
 EditOutcome apply_to(const LumenModel& model, const BranchAttach& edit) {
   TreeEdit tree(model, "branch.attach", edit.vessel);
-  check_points({edit.at}, 1, tree.what());
-  const std::vector<std::int32_t> own = tree.own_segments(edit.vessel);
-  const std::set<std::int32_t> moving = tree.through(own);
-  static_cast<void>(vessel(model, edit.parent));
-  if (moving.contains(edit.parent))
-    throw InvalidInput(tree.what() + ": vessel " + std::to_string(edit.parent) +
-                       " is the vessel itself or leaves it; attached there the tree would be a loop");
-  const TreePlace place = place_on_parent(tree, edit.parent, edit.at);
+  const auto [own, moving, place] = joining(tree, edit.vessel, edit.parent, edit.at);
   const VesselLumen& lumen = vessel(model, edit.vessel);
   const AxisCurve& parent = *vessel(model, edit.parent).axis;
 
@@ -230,29 +293,7 @@ EditOutcome apply_to(const LumenModel& model, const BranchAttach& edit) {
   move_axes(tree, reach, shift);
   tree.node(old_node).position = old_start;  // other vessels may pass it
 
-  geometry::Centerline path = tree.segment(first).axis;
-  Junction junction = junction_of(parent, place.s_mm, path);
-  std::int32_t node = 0;
-  const std::vector<std::int32_t> way = join(tree, edit.parent, junction.s_mm, junction.way, node);
-  const Vec3 normal = tree.segment(first).axis.frames.front().normal;
-  tree.segment(first).axis = junction.way;
-  geometry::complete(tree.segment(first).axis, normal);
-  tree.segment(first).from = node;
-  std::vector<geometry::Vessel> stay, move;
-  for (geometry::Vessel v : tree.tree().vessels) {
-    if (!moving.contains(v.id)) {
-      stay.push_back(std::move(v));
-      continue;
-    }
-    const auto from = std::find(v.segments.begin(), v.segments.end(), first);
-    v.segments.erase(v.segments.begin(), from);
-    v.segments.insert(v.segments.begin(), way.begin(), way.end());
-    tree.way_changed(v.id);
-    move.push_back(std::move(v));
-  }
-  // Owners come first: the parent before what now leaves it.
-  stay.insert(stay.end(), move.begin(), move.end());
-  tree.tree().vessels = std::move(stay);
+  const Junction junction = lead_from(tree, edit.parent, place.s_mm, tree.segment(first).axis, first, moving);
 
   const double old_from = lumen.own_from_mm, bow_mm = junction.bow_mm;
   return std::move(tree).finish([&](const VesselLumen& before, const VesselLumen& after) {
@@ -275,6 +316,42 @@ EditOutcome apply_to(const LumenModel& model, const BranchAttach& edit) {
     VesselLumen rest = before;
     std::erase_if(rest.samples, [&](const SurfaceSample& s) { return map(s.s_mm) < to; });
     std::vector<SurfaceSample> samples = moved_samples(rest, after, weight, shift, map);
+    rebuild_start(tree, after, to, samples);
+    return samples;
+  });
+}
+
+EditOutcome apply_to(const LumenModel& model, const BranchConnect& edit) {
+  TreeEdit tree(model, "branch.connect", edit.vessel);
+  const Joining join = joining(tree, edit.vessel, edit.parent, edit.at);
+  const VesselLumen& lumen = vessel(model, edit.vessel);
+  const AxisCurve& parent = *vessel(model, edit.parent).axis;
+  const std::int32_t first = join.own.front();
+  const Vec3 foot = parent.point(join.place.s_mm);
+  const double gap = (tree.segment(first).axis.points.front() - foot).norm();
+  if (gap < same_point_mm)
+    throw InvalidInput(tree.what() + ": it begins at that place of vessel " + std::to_string(edit.parent) +
+                       " already");
+  if (gap > longest_bridge_mm)
+    throw InvalidInput(tree.what() + ": it begins " + in_mm(gap) + " from the place; choose one within " +
+                       in_mm(longest_bridge_mm));
+  const double old_from = lumen.own_from_mm;
+  lead_from(tree, edit.parent, join.place.s_mm,
+            bridged(foot, parent.radius(join.place.s_mm), lumen.axis->frame(old_from).tangent,
+                    tree.segment(first).axis),
+            first, join.moving);
+  return std::move(tree).finish([&](const VesselLumen& before, const VesselLumen& after) {
+    if (!join.moving.contains(before.vessel)) return standing_samples(before, after);
+    // The own part stays where it is, behind another way.
+    const double start = old_from + after.axis->length() - before.axis->length();
+    const AbscissaMap map(
+        *before.axis, *after.axis, [&](double s) { return before.axis->point(s); }, old_from, start);
+    const auto stays = [](double) { return 0.0; };
+    if (before.vessel != edit.vessel) return moved_samples(before, after, stays, Vec3::Zero(), map);
+    const double to = start + after.axis->radius(start);
+    VesselLumen rest = before;
+    std::erase_if(rest.samples, [&](const SurfaceSample& s) { return map(s.s_mm) < to; });
+    std::vector<SurfaceSample> samples = moved_samples(rest, after, stays, Vec3::Zero(), map);
     rebuild_start(tree, after, to, samples);
     return samples;
   });

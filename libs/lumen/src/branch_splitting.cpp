@@ -131,8 +131,9 @@ Seam seam_at(const VesselLumen& lumen, double s_mm, const std::string& what) {
 }
 
 /// The samples of one part: its own, copies of those next to it on the other part, and what closes it there.
+/// The part's axis begins at `from_mm` of the one before.
 std::vector<SurfaceSample> part_of(TreeEdit& tree, const VesselLumen& before, const VesselLumen& after,
-                                   const Seam& seam, bool proximal) {
+                                   const Seam& seam, bool proximal, double from_mm = 0.0) {
   const double sign = proximal ? 1.0 : -1.0;
   const auto beyond_mm = [&](const SurfaceSample& s) { return sign * (s.s_mm - seam.s_mm); };
   const auto own = [&](const SurfaceSample& s) { return (s.s_mm <= seam.s_mm) == proximal; };
@@ -141,12 +142,13 @@ std::vector<SurfaceSample> part_of(TreeEdit& tree, const VesselLumen& before, co
   if (part.samples.empty())
     throw InvalidInput("no sample would be left of " + std::string(proximal ? "the proximal" : "the distal") +
                        " part; split it elsewhere");
-  std::vector<SurfaceSample> samples = standing_samples(part, after);
+  std::vector<SurfaceSample> samples = standing_samples_from(part, after, from_mm);
   const auto add = [&](SurfaceSample sample) {
     sample.id = tree.new_sample_id();
     sample.origin = SampleOrigin::cap;
     const double reach = 1.0 + (sample.position - before.axis->point(sample.s_mm)).norm();
-    sample.s_mm = refound(*after.axis, sample.position, sample.s_mm, reach);
+    const double guess = std::clamp(sample.s_mm - from_mm, 0.0, after.axis->length());
+    sample.s_mm = refound(*after.axis, sample.position, guess, reach);
     samples.push_back(sample);
   };
   for (const SurfaceSample& sample : before.samples) {
@@ -166,9 +168,9 @@ std::vector<SurfaceSample> part_of(TreeEdit& tree, const VesselLumen& before, co
   return samples;
 }
 
-std::string new_name(const LumenModel& model, const BranchSplit& edit) {
-  if (!edit.name.empty()) return edit.name;
-  const std::string name = path_of(model.tree, edit.vessel).name + " distal";
+std::string new_name(const LumenModel& model, std::int32_t vessel, const std::string& wanted_name) {
+  if (!wanted_name.empty()) return wanted_name;
+  const std::string name = path_of(model.tree, vessel).name + " distal";
   const auto in_use = [&](const std::string& wanted) {
     return std::any_of(model.tree.vessels.begin(), model.tree.vessels.end(),
                        [&](const geometry::Vessel& v) { return v.name == wanted; });
@@ -176,6 +178,42 @@ std::string new_name(const LumenModel& model, const BranchSplit& edit) {
   std::string free = name;
   for (int k = 2; in_use(free); ++k) free = name + " " + std::to_string(k);
   return free;
+}
+
+/// A vessel that has become two.
+struct TwoParts {
+  Seam seam;
+  std::int32_t node = 0, distal = 0;  ///< where, and the new vessel
+  std::size_t keep = 0;               ///< segments of the way that both have
+};
+
+TwoParts in_two(TreeEdit& tree, std::int32_t id, double s_mm, const std::string& wanted_name) {
+  const LumenModel& model = tree.before();
+  const std::string name = new_name(model, id, wanted_name);
+  check_name(model, name, -1, tree.what());
+  const VesselLumen& lumen = vessel(model, id);
+  TwoParts parts;
+  parts.seam = seam_at(lumen, s_mm, tree.what());
+  parts.node = tree.split(id, tree.locate(id, s_mm));
+  const Vec3 at = tree.node(parts.node).position;
+  if (const auto foot = lumen.axis->foot_near(at, s_mm, 1.0)) parts.seam.s_mm = foot->s_mm;
+
+  std::vector<geometry::Vessel>& vessels = tree.tree().vessels;
+  const auto proximal =
+      std::find_if(vessels.begin(), vessels.end(), [&](const geometry::Vessel& v) { return v.id == id; });
+  geometry::Vessel distal{tree.new_tree_id(), name, proximal->segments};
+  parts.keep = 1;
+  while (parts.keep < distal.segments.size() &&
+         tree.segment(distal.segments[parts.keep - 1]).to != parts.node)
+    ++parts.keep;
+  if (parts.keep >= distal.segments.size())
+    throw InvalidInput(tree.what() + ": the axis has an end at " + in_mm(s_mm) + "; split it elsewhere");
+  parts.distal = distal.id;
+  proximal->segments.resize(parts.keep);
+  tree.made_from(distal.id, model.vessels[static_cast<std::size_t>(proximal - vessels.begin())]);
+  vessels.insert(proximal + 1, std::move(distal));  // before what leaves it: it owns its segments
+  tree.way_changed(id);
+  return parts;
 }
 
 /// Makes the two segments at a node one, where it is the end of one and the beginning of one other that the
@@ -231,31 +269,44 @@ std::optional<std::int32_t> merge_parent(const geometry::VesselTree& tree, std::
   return parent.id;
 }
 
+bool leads_through(const geometry::VesselTree& tree, std::int32_t vessel, std::int32_t other) {
+  static_cast<void>(path_of(tree, other));
+  const std::vector<std::int32_t>& way = path_of(tree, vessel).segments;
+  return std::any_of(way.begin(), way.end(),
+                     [&](std::int32_t segment) { return owner_of(tree, segment).id == other; });
+}
+
 EditOutcome apply_to(const LumenModel& model, const BranchSplit& edit) {
   TreeEdit tree(model, "branch.split", edit.vessel);
-  const std::string name = new_name(model, edit);
-  check_name(model, name, -1, tree.what());
-  const VesselLumen& lumen = vessel(model, edit.vessel);
-  Seam seam = seam_at(lumen, edit.s_mm, tree.what());
-  const std::int32_t node = tree.split(edit.vessel, tree.locate(edit.vessel, edit.s_mm));
-  const Vec3 at = tree.node(node).position;
-  if (const auto foot = lumen.axis->foot_near(at, edit.s_mm, 1.0)) seam.s_mm = foot->s_mm;
-
-  std::vector<geometry::Vessel>& vessels = tree.tree().vessels;
-  const auto proximal = std::find_if(vessels.begin(), vessels.end(),
-                                     [&](const geometry::Vessel& v) { return v.id == edit.vessel; });
-  geometry::Vessel distal{tree.new_tree_id(), name, proximal->segments};
-  std::size_t keep = 1;
-  while (keep < distal.segments.size() && tree.segment(distal.segments[keep - 1]).to != node) ++keep;
-  if (keep >= distal.segments.size())
-    throw InvalidInput(tree.what() + ": the axis has an end at " + in_mm(edit.s_mm) + "; split it elsewhere");
-  proximal->segments.resize(keep);
-  tree.made_from(distal.id, model.vessels[static_cast<std::size_t>(proximal - vessels.begin())]);
-  vessels.insert(proximal + 1, std::move(distal));  // before what leaves it: it owns its segments
-  tree.way_changed(edit.vessel);
+  const TwoParts parts = in_two(tree, edit.vessel, edit.s_mm, edit.name);
   return std::move(tree).finish([&](const VesselLumen& before, const VesselLumen& after) {
     if (before.vessel != edit.vessel) return standing_samples(before, after);
-    return part_of(tree, before, after, seam, after.vessel == edit.vessel);
+    return part_of(tree, before, after, parts.seam, after.vessel == edit.vessel);
+  });
+}
+
+EditOutcome apply_to(const LumenModel& model, const BranchCut& edit) {
+  TreeEdit tree(model, "branch.cut", edit.vessel);
+  const TwoParts parts = in_two(tree, edit.vessel, edit.s_mm, edit.name);
+  // What lies distal begins at a node of its own, at the same place.
+  const std::int32_t first = tree.vessel(parts.distal).segments[parts.keep];
+  const geometry::TreeNode root{tree.new_tree_id(), tree.node(parts.node).position};
+  tree.tree().nodes.push_back(root);
+  tree.segment(first).from = root.id;
+  const std::set<std::int32_t> off = tree.through({first});
+  for (geometry::Vessel& v : tree.tree().vessels) {
+    if (!off.contains(v.id)) continue;
+    v.segments.erase(v.segments.begin(), std::find(v.segments.begin(), v.segments.end(), first));
+    tree.way_changed(v.id);
+  }
+  return std::move(tree).finish([&](const VesselLumen& before, const VesselLumen& after) {
+    if (!off.contains(after.vessel)) {
+      if (before.vessel != edit.vessel) return standing_samples(before, after);
+      return part_of(tree, before, after, parts.seam, true);
+    }
+    const double from = before.axis->length() - after.axis->length();
+    if (before.vessel != edit.vessel) return standing_samples_from(before, after, from);
+    return part_of(tree, before, after, parts.seam, false, from);
   });
 }
 

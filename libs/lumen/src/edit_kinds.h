@@ -19,9 +19,11 @@ EditOutcome apply_to(const LumenModel& model, const AxisTrim& edit);
 EditOutcome apply_to(const LumenModel& model, const BranchAdd& edit);
 EditOutcome apply_to(const LumenModel& model, const BranchDelete& edit);
 EditOutcome apply_to(const LumenModel& model, const BranchAttach& edit);
+EditOutcome apply_to(const LumenModel& model, const BranchConnect& edit);
 EditOutcome apply_to(const LumenModel& model, const VesselRename& edit);
 // branch_splitting.cpp
 EditOutcome apply_to(const LumenModel& model, const BranchSplit& edit);
 EditOutcome apply_to(const LumenModel& model, const BranchMerge& edit);
+EditOutcome apply_to(const LumenModel& model, const BranchCut& edit);
 
 }  // namespace ostia::lumen

@@ -373,8 +373,13 @@ void grow(TreeEdit& edit, const VesselLumen& lumen, const NewStretch& stretch,
 }
 
 std::vector<SurfaceSample> standing_samples(const VesselLumen& before, const VesselLumen& after) {
+  return standing_samples_from(before, after, 0.0);
+}
+
+std::vector<SurfaceSample> standing_samples_from(const VesselLumen& before, const VesselLumen& after,
+                                                 double from_mm) {
   const AbscissaMap map(
-      *before.axis, *after.axis, [&](double s) { return before.axis->point(s); }, 0.0, 0.0);
+      *before.axis, *after.axis, [&](double s) { return before.axis->point(s); }, from_mm, 0.0);
   std::vector<SurfaceSample> samples = before.samples;
   for (SurfaceSample& sample : samples) {
     const double reach = 1.0 + (sample.position - before.axis->point(sample.s_mm)).norm();

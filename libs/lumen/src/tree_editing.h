@@ -122,5 +122,8 @@ void grow(TreeEdit& edit, const VesselLumen& lumen, const NewStretch& stretch,
 
 /// Samples as they were, with their abscissas found on the new axis.
 std::vector<SurfaceSample> standing_samples(const VesselLumen& before, const VesselLumen& after);
+/// The same where the new axis begins at `from_mm` of the old one.
+std::vector<SurfaceSample> standing_samples_from(const VesselLumen& before, const VesselLumen& after,
+                                                 double from_mm);
 
 }  // namespace ostia::lumen

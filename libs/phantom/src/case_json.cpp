@@ -51,22 +51,36 @@ json scan_parameters(const ScanOptions& o) {
           {"beam_hardening", o.beam_hardening}};
 }
 
+/// What is as usual is left out.
+json variant_parameters(const CaseVariant& v) {
+  json out = json::object();
+  if (v.anatomy != Anatomy::usual) out["anatomy"] = word(v.anatomy);
+  if (v.calcium != 1.0) out["calcium"] = v.calcium;
+  if (v.stent_mm > 0.0) out["stent_mm"] = v.stent_mm;
+  if (v.contrast_hu) out["contrast_hu"] = *v.contrast_hu;
+  if (v.venous > 0.0) out["venous"] = v.venous;
+  return out;
+}
+
 json parameters(const CaseOptions& o) {
-  return {{"seed", o.seed},
-          {"preset", preset_name(o.preset)},
-          {"disease", o.disease},
-          {"scan", scan_parameters(o.scan)},
-          {"contours",
-           {{"spacing_mm", o.contours.spacing_mm},
-            {"observer_spacing_mm", o.contours.observer_spacing_mm},
-            {"points", o.contours.points}}},
-          {"observers",
-           {{"count", o.observers.count},
-            {"healthy_mm", o.observers.healthy_mm},
-            {"diseased_mm", o.observers.diseased_mm},
-            {"axis_mm", o.observers.axis_mm},
-            {"axis_length_mm", o.observers.axis_length_mm}}},
-          {"surface_spacing_mm", o.surface_spacing_mm}};
+  json out{{"seed", o.seed},
+           {"preset", preset_name(o.preset)},
+           {"disease", o.disease},
+           {"scan", scan_parameters(o.scan)},
+           {"contours",
+            {{"spacing_mm", o.contours.spacing_mm},
+             {"observer_spacing_mm", o.contours.observer_spacing_mm},
+             {"points", o.contours.points}}},
+           {"observers",
+            {{"count", o.observers.count},
+             {"healthy_mm", o.observers.healthy_mm},
+             {"diseased_mm", o.observers.diseased_mm},
+             {"axis_mm", o.observers.axis_mm},
+             {"axis_length_mm", o.observers.axis_length_mm}}},
+           {"surface_spacing_mm", o.surface_spacing_mm}};
+  const json variant = variant_parameters(o.variant);
+  if (!variant.empty()) out["variant"] = variant;
+  return out;
 }
 
 }  // namespace
@@ -91,8 +105,8 @@ json grid_json(const imaging::Geometry& grid) {
           {"origin_mm", point(grid.origin)}};
 }
 
-json tissue_json(std::uint64_t seed) {
-  const TissueHu hu = draw_body(seed).hu;
+json tissue_json(const CaseOptions& options) {
+  const TissueHu hu = body_of(options).hu;
   return {{"arterial", rounded(hu.arterial)},
           {"coronary_drop_per_100_mm", rounded(hu.coronary_drop)},
           {"right_heart", rounded(hu.right_heart)},
@@ -241,7 +255,7 @@ std::string case_json(const CasePlan& plan, int number, bool with_image) {
   out["synthetic"] = true;
   out["parameters"] = parameters(plan.options);
   out["dominance"] = word(plan.tree.dominance);
-  out["tissue_hu"] = tissue_json(plan.options.seed);
+  out["tissue_hu"] = tissue_json(plan.options);
   out["grid"] = grid_json(plan.options.scan.grid);
   // One entry a phase of the heart's cycle.
   out["phases"] = json::array({{{"percent", nullptr}, {"image", with_image ? json(name) : json(nullptr)}}});

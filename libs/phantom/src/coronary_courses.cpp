@@ -246,7 +246,7 @@ double least_bend_mm(const Centerline& axis) {
 }
 
 Centerline draw_axis(const HeartShape& heart, const Course& course, const Centerline* parent,
-                     double least_bend, std::uint64_t seed) {
+                     double least_bend, std::uint64_t seed, const std::optional<Vec3>& end) {
   Stream random(seed, course.name);
   std::vector<Vec3> controls = course.beginning;
   const std::vector<Vec3> way = way_points(heart, course, random);
@@ -256,6 +256,7 @@ Centerline draw_axis(const HeartShape& heart, const Course& course, const Center
   std::size_t first = 0;
   while (first + 2 < way.size() && (way[first] - last).norm() < 5.0) ++first;
   controls.insert(controls.end(), way.begin() + static_cast<std::ptrdiff_t>(first), way.end());
+  if (end) controls.push_back(*end);
   // A first spline resampled every 3 mm and smoothed takes out what bends too sharply.
   const std::vector<Vec3> even = geometry::resample(controls, 3.0);
   const std::vector<double> t = geometry::abscissas(even);

@@ -6,6 +6,7 @@
 #include "ostia/phantom/heart.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,7 @@ struct Course {
   bool keep = true;              ///< false: may be left out where it comes too near to another vessel
   /// How late the vessel narrows: 1 evenly from its start, more where it keeps its width up to the crux.
   double taper_power = 1.0;
+  std::string joins = {};  ///< a vessel drawn before, half way along whose axis this one ends; empty: none
 };
 
 /// The courses of a heart, parents first: dominance and variants drawn from the seed.
@@ -41,11 +43,15 @@ struct CoursePlan {
 };
 CoursePlan plan_courses(const HeartShape& heart, std::uint64_t seed);
 
+/// Other origins than the usual ones.
+void change_origins(CoursePlan& plan, const HeartShape& heart, Anatomy anatomy);
+
 /// The axis of a course at 0.1 mm steps, with frames and without radii. `parent` is the parent's axis, or
-/// nothing. It is smoothed until its radius of curvature is nowhere below `least_bend_mm`, if eight times
-/// harder smoothing each time can do it.
+/// nothing; `end` a place after the last waypoint. It is smoothed until its radius of curvature is nowhere
+/// below `least_bend_mm`, if eight times harder smoothing each time can do it.
 geometry::Centerline draw_axis(const HeartShape& heart, const Course& course,
-                               const geometry::Centerline* parent, double least_bend_mm, std::uint64_t seed);
+                               const geometry::Centerline* parent, double least_bend_mm, std::uint64_t seed,
+                               const std::optional<Vec3>& end = {});
 
 /// The least radius of curvature along an axis of 0.1 mm steps.
 double least_bend_mm(const geometry::Centerline& axis);

@@ -181,6 +181,41 @@ void add_lesion(CoronaryVessel& vessel, const LesionOptions& lesion) {
   }
 }
 
+void set_calcium(CoronaryTree& tree, double amount, std::uint64_t seed) {
+  if (!(amount >= 0.0 && amount <= 20.0))
+    throw InvalidInput("calcium must lie in [0, 20], not " + std::to_string(amount));
+  if (amount < 1.0) {
+    if (amount > 0.0) return;
+    for (CoronaryVessel& vessel : tree.vessels)
+      for (Plaque& plaque : vessel.plaques)
+        if (plaque.kind == PlaqueKind::calcified) {
+          plaque.kind = PlaqueKind::fibrous;
+          plaque.hu = plaque_hu(PlaqueKind::fibrous, 0.5);
+        }
+    return;
+  }
+  constexpr double spacing_mm = 12.0;
+  const std::uint64_t stream = disease_stream + (std::uint64_t{1} << 24);
+  for (CoronaryVessel& vessel : tree.vessels) {
+    if (vessel.name != "LAD" && vessel.name != "LCX" && vessel.name != "RCA") continue;
+    const double step = spacing_mm / std::max(1e-6, amount - 1.0);
+    const double from = vessel.s_free_mm + 3.0, to = 0.67 * vessel.axis.abscissa.back();
+    std::uint64_t index = static_cast<std::uint64_t>(vessel.id) << 16;
+    for (double s = from; s < to; s += step, index += 64)
+      add_nodules(vessel, s, std::min(step, 4.0), 2.0 * pi * uniform(seed, stream + index), 1, seed,
+                  stream + index + 8);
+  }
+}
+
+void add_stent(CoronaryVessel& vessel, double s_from_mm, double length_mm) {
+  const double length = vessel.axis.abscissa.back();
+  if (!(s_from_mm >= 0.0 && length_mm > 0.0 && s_from_mm + length_mm <= length))
+    throw InvalidInput("stent: it reaches from " + std::to_string(s_from_mm) + " to " +
+                       std::to_string(s_from_mm + length_mm) + " mm, beyond " + vessel.name + " of " +
+                       std::to_string(length) + " mm");
+  vessel.stents.push_back({s_from_mm, s_from_mm + length_mm, 0.1, 3000.0f});
+}
+
 void draw_disease(CoronaryTree& tree, double amount, std::uint64_t seed) {
   std::uint64_t index = disease_stream;
   const auto draw = [&] { return uniform(seed, index++); };

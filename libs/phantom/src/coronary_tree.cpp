@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 namespace ostia::phantom {
 namespace {
@@ -72,8 +73,10 @@ std::vector<std::pair<Course, Centerline>> draw_axes(const HeartShape& heart, co
   std::vector<std::pair<Course, Centerline>> out;
   for (Course course : plan.courses) {
     const Centerline* parent = nullptr;
+    std::optional<Vec3> end;
     for (const auto& [known, axis] : out) {
       if (known.name == course.parent) parent = &axis;
+      if (known.name == course.joins) end = axis.points[axis.size() / 2];
     }
     if (!course.parent.empty() && parent == nullptr) continue;
     if (course.parent_s_mm == at_crux)
@@ -81,7 +84,7 @@ std::vector<std::pair<Course, Centerline>> draw_axes(const HeartShape& heart, co
     if (parent != nullptr && course.parent_s_mm > parent->abscissa.back() - 5.0) continue;
     for (int attempt = 0; attempt < attempts; ++attempt) {
       Centerline axis = draw_axis(heart, course, parent, bend_in_radii * bound_of(plan.courses, course),
-                                  seed + 7919ULL * static_cast<std::uint64_t>(attempt));
+                                  seed + 7919ULL * static_cast<std::uint64_t>(attempt), end);
       const bool last = attempt + 1 == attempts;
       const bool clear = std::none_of(out.begin(), out.end(), [&](const auto& other) {
         const bool related =
@@ -163,7 +166,8 @@ const char* word(PlaqueKind kind) {
 CoronaryTree draw_coronaries(const HeartShape& heart, const CoronaryOptions& options) {
   if (!(options.disease >= 0.0 && options.disease <= 10.0))
     throw InvalidInput("disease must lie in [0, 10], not " + std::to_string(options.disease));
-  const CoursePlan plan = plan_courses(heart, options.seed);
+  CoursePlan plan = plan_courses(heart, options.seed);
+  change_origins(plan, heart, options.anatomy);
   CoronaryTree tree;
   tree.dominance = plan.dominance;
   const auto drawn = draw_axes(heart, plan, options.seed);

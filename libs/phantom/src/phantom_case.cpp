@@ -66,12 +66,29 @@ void add_missing_lesions(CoronaryTree& tree, const SectionOptions& wanted, std::
   }
 }
 
+/// Just beyond the left main.
+void stent_the_lad(CoronaryTree& tree, double length_mm) {
+  for (CoronaryVessel& vessel : tree.vessels) {
+    if (vessel.name != "LAD") continue;
+    double begin = 10.0;
+    for (const SegmentSpan& span : vessel.segments)
+      if (span.aha == 6) begin = span.s_from_mm;
+    add_stent(vessel, begin + 3.0, length_mm);
+  }
+}
+
 }  // namespace
 
 void validate(const CaseOptions& options) {
   require(options.disease >= 0.0 && options.disease <= 5.0, "the share of disease must be 0 to 5");
   require(options.surface_spacing_mm >= 0.05 && options.surface_spacing_mm <= 1.0,
           "the surfaces' spacing must be 0.05 to 1 mm");
+  const CaseVariant& variant = options.variant;
+  require(variant.calcium >= 0.0 && variant.calcium <= 20.0, "calcium must be 0 to 20");
+  require(variant.stent_mm >= 0.0 && variant.stent_mm <= 40.0, "a stent must be 0 to 40 mm long");
+  require(!variant.contrast_hu || (*variant.contrast_hu >= 80.0 && *variant.contrast_hu <= 1000.0),
+          "the contrast must be 80 to 1000 HU");
+  require(variant.venous >= 0.0 && variant.venous <= 1.0, "the share of venous contrast must be 0 to 1");
   validate(options.contours);
   validate(options.observers);
 }
@@ -86,12 +103,15 @@ CasePlan plan_case(const CaseOptions& options) {
   CoronaryOptions coronary;
   coronary.seed = options.seed;
   coronary.disease = options.disease;
+  coronary.anatomy = options.variant.anatomy;
   plan.tree = draw_coronaries(plan.heart, coronary);
   plan.options.scan.grid = grid_of(options.preset, plan.heart, &plan.tree);
   let_the_heart_move(plan.heart, plan.options.scan);
   validate(plan.options.scan);
   const SectionOptions wanted = section_options(options, plan.options.scan.grid);
   add_missing_lesions(plan.tree, wanted, options.seed);
+  set_calcium(plan.tree, options.variant.calcium, options.seed);
+  if (options.variant.stent_mm > 0.0) stent_the_lad(plan.tree, options.variant.stent_mm);
   plan.sections = plan_sections(plan.tree, wanted);
   plan.challenge = challenge_vessels(plan.tree, plan.options.observers, plan.options.scan.grid);
   plan.warnings = plan.sections.warnings;
@@ -99,8 +119,17 @@ CasePlan plan_case(const CaseOptions& options) {
   return plan;
 }
 
+BodyOptions body_of(const CaseOptions& options) {
+  BodyOptions body = draw_body(options.seed);
+  TissueHu& hu = body.hu;
+  if (options.variant.contrast_hu) hu.arterial = static_cast<float>(*options.variant.contrast_hu);
+  const auto share = static_cast<float>(options.variant.venous);
+  for (float* tissue : {&hu.right_heart, &hu.pulmonary, &hu.vein}) *tissue += share * (hu.arterial - *tissue);
+  return body;
+}
+
 Scan scan_case(const CasePlan& plan, const core::TaskContext& task) {
-  const Body body(plan.heart, plan.tree, draw_body(plan.options.seed));
+  const Body body(plan.heart, plan.tree, body_of(plan.options));
   return acquire(body, plan.options.scan, task);
 }
 

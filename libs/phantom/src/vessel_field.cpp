@@ -181,6 +181,12 @@ struct VesselField::Impl {
     return std::max(-place.s_mm, place.s_mm - length);
   }
 
+  const Stent* stent_at(const Place& place) const {
+    for (const Stent& stent : tree.vessels[static_cast<std::size_t>(place.vessel)].stents)
+      if (place.s_mm >= stent.s_from_mm && place.s_mm <= stent.s_to_mm) return &stent;
+    return nullptr;
+  }
+
   double value(Boundary boundary, const Place& place) const {
     const double radius = boundary == Boundary::lumen ? place.lumen_mm : place.wall_mm;
     return std::max(place.rho_mm - radius, beyond(place));
@@ -248,9 +254,16 @@ std::optional<Material> VesselField::material(const Vec3& point) const {
   thread_local std::vector<Place> found;
   places(point, 0.0, found);
   if (found.empty()) return std::nullopt;
+  std::optional<Material> metal;
   for (const Place& place : found) {
-    if (impl_->value(Boundary::lumen, place) < 0.0) return Material{Label::coronary_lumen, lumen_hu};
+    const double inside = impl_->value(Boundary::lumen, place);
+    if (inside >= 0.0) continue;
+    // Where a branch leaves, its mouth stays open.
+    const Stent* const stent = impl_->stent_at(place);
+    if (stent == nullptr || inside < -stent->thickness_mm) return Material{Label::coronary_lumen, lumen_hu};
+    metal = Material{Label::metal, stent->hu};
   }
+  if (metal) return metal;
   std::optional<Material> best;
   for (const Place& place : found) {
     if (impl_->value(Boundary::wall, place) >= 0.0) continue;

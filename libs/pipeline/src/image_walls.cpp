@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <numbers>
 #include <utility>
 
 namespace ostia::pipeline {
@@ -17,8 +18,26 @@ constexpr double shortest_mm = 2.0;  // less than this by itself: all tube
 
 using Axis = std::shared_ptr<const geometry::AxisCurve>;
 
-/// Where a branch has left the lumen that it comes from, judged by the axes' radii.
-double free_from(const geometry::VesselTree& tree, const std::vector<Axis>& axes, std::size_t vessel) {
+/// Mean radius of the lumen across the vessel.
+double calibre(const segmentation::LumenBoundary& found, double s_mm) {
+  double sum = 0.0;
+  for (int a = 0; a < found.around; ++a) sum += found.at(s_mm, 2.0 * std::numbers::pi * a / found.around);
+  return sum / found.around;
+}
+
+/// A take-off is as wide as the branch is behind it: the axis' first radius is its parent's.
+lumen::RadialWall wall_of(const segmentation::LumenBoundary& found, double free_mm) {
+  const auto boundary = std::make_shared<const segmentation::LumenBoundary>(found);
+  return [boundary, free_mm, tube = calibre(found, free_mm + passage_mm)](double s_mm, double theta) {
+    if (free_mm <= 0.0) return boundary->at(s_mm, theta);
+    const double t = std::clamp((s_mm - free_mm) / passage_mm, 0.0, 1.0), w = t * t * (3.0 - 2.0 * t);
+    return w > 0.0 ? (1.0 - w) * tube + w * boundary->at(s_mm, theta) : tube;
+  };
+}
+
+}  // namespace
+
+double free_from_mm(const geometry::VesselTree& tree, const std::vector<Axis>& axes, std::size_t vessel) {
   const double own = lumen::own_from_mm(tree, tree.vessels[vessel].id);
   if (own <= 0.0) return 0.0;
   const std::int32_t parent = lumen::owner_at(tree, tree.vessels[vessel].id, std::max(0.0, own - 1e-3));
@@ -33,18 +52,6 @@ double free_from(const geometry::VesselTree& tree, const std::vector<Axis>& axes
   }
   return std::min(s, branch.length());
 }
-
-lumen::RadialWall wall_of(const Axis& axis, const segmentation::LumenBoundary& found, double free_mm) {
-  const auto boundary = std::make_shared<const segmentation::LumenBoundary>(found);
-  return [axis, boundary, free_mm](double s_mm, double theta) {
-    if (free_mm <= 0.0) return boundary->at(s_mm, theta);
-    const double t = std::clamp((s_mm - free_mm) / passage_mm, 0.0, 1.0), w = t * t * (3.0 - 2.0 * t);
-    const double tube = axis->radius(s_mm);
-    return w > 0.0 ? (1.0 - w) * tube + w * boundary->at(s_mm, theta) : tube;
-  };
-}
-
-}  // namespace
 
 std::vector<lumen::RadialWall> walls_from_image(const geometry::VesselTree& tree,
                                                 const imaging::ImageVolume& image,
@@ -61,17 +68,18 @@ std::vector<lumen::RadialWall> walls_from_image(const geometry::VesselTree& tree
   };
   const double count = static_cast<double>(axes.size());
   for (std::size_t i = 0; i < axes.size(); ++i) {
-    const double free_mm = free_from(tree, axes, i), length = axes[i]->length();
+    const double free_mm = free_from_mm(tree, axes, i), length = axes[i]->length();
     if (length - free_mm < shortest_mm) {
       warn(i, "too short by itself to be found in the image; a tube");
-      walls.emplace_back([axis = axes[i]](double s_mm, double) { return axis->radius(s_mm); });
+      // At its end: its first radius is its parent's.
+      walls.emplace_back([tube = axes[i]->radius(length)](double, double) { return tube; });
       continue;
     }
     const double done = static_cast<double>(i);
     const segmentation::LumenBoundary found = segmentation::lumen_boundary(
         image, *axes[i], free_mm, length, {}, task.sub(done / count, (done + 1.0) / count));
     for (const std::string& warning : found.warnings) warn(i, warning);
-    walls.push_back(wall_of(axes[i], found, free_mm));
+    walls.push_back(wall_of(found, free_mm));
   }
   if (said) *said = std::move(warnings);
   return walls;

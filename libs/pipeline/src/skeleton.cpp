@@ -46,6 +46,15 @@ std::vector<std::string> warnings_of(const SkeletonResult& result, const centerl
   return warnings;
 }
 
+SkeletonGraph commanded(SkeletonGraph graph, const SkeletonCommands& commands) {
+  for (const Vec3& place : commands.cuts) graph = centerline::cut(graph, place);
+  for (const Vec3& place : commands.removals)
+    graph = centerline::removed(graph, centerline::edge_at(graph, place));
+  for (const auto& [from, to] : commands.connections) graph = centerline::connected(graph, from, to);
+  if (graph.edges.empty()) throw InvalidInput("remove: no line would be left");
+  return graph;
+}
+
 }  // namespace
 
 void validate(const SkeletonOptions& options) {
@@ -54,6 +63,7 @@ void validate(const SkeletonOptions& options) {
   validate(options.gaps);
   validate(options.orient);
   if (options.smooth) validate(*options.smooth);
+  if (options.settle) validate(*options.settle);
   validate(options.sections);
   if (!(options.step_mm > 0.0 && options.step_mm <= 10.0))
     throw InvalidInput("the step between a skeleton's points must be above 0 and at most 10 mm");
@@ -73,14 +83,27 @@ SkeletonResult skeleton_of(const imaging::MaskVolume& mask, const imaging::Image
     throw InvalidInput("nothing of the skeleton is longer than " + std::to_string(options.prune.length_mm) +
                        " mm; prune less");
   graph = centerline::gaps_closed(centerline::ends_extended(graph, mask, options.ends), options.gaps);
+  graph = commanded(std::move(graph), options.commands);
   const centerline::OrientedSkeleton directed = centerline::oriented(graph, options.inlets, options.orient);
   task.throw_if_cancelled();
-  const SkeletonGraph lines =
-      options.smooth ? centerline::smoothed(directed.graph, *options.smooth) : directed.graph;
+  const auto smooth = [&](const SkeletonGraph& lines) {
+    return options.smooth ? centerline::smoothed(lines, *options.smooth) : lines;
+  };
+  const auto sections = [&](const SkeletonGraph& lines, const centerline::SectionOptions& how,
+                            const core::TaskContext& part) {
+    return image ? centerline::measured(lines, *image, how, part)
+                 : centerline::measured(lines, mask, how, part);
+  };
   task.set_stage("sections");
   SkeletonResult result;
-  result.skeleton = image ? centerline::measured(lines, *image, options.sections, task.sub(0.5, 0.95))
-                          : centerline::measured(lines, mask, options.sections, task.sub(0.5, 0.95));
+  result.skeleton = sections(smooth(directed.graph), options.sections, task.sub(0.5, 0.7));
+  if (options.settle) {
+    SkeletonGraph lines = centerline::junctions_settled(result.skeleton.graph, *options.settle);
+    lines = centerline::ends_extended(lines, mask, options.ends);
+    centerline::SectionOptions how = options.sections;
+    how.move_points = !options.smooth;
+    result.skeleton = sections(smooth(lines), how, task.sub(0.7, 0.95));
+  }
   result.tree = centerline::vessel_tree(result.skeleton.graph, options.step_mm);
   result.object_voxels = thin.object_voxels;
   result.skeleton_voxels = static_cast<std::int64_t>(thin.voxels.size());

@@ -9,12 +9,6 @@
 namespace ostia::segmentation {
 namespace {
 
-/// Energies of one ray's candidates.
-struct RayEnergy {
-  int first = 0;
-  std::vector<double> value;
-};
-
 /// The smooth surface's equations.
 struct Smoother {
   int rows = 0, around = 0;
@@ -109,10 +103,9 @@ void Smoother::solve(const std::vector<double>& target, std::vector<double>& x) 
 }
 
 /// Minimum of weight * energy + pull / 2 (r - x)^2 over the candidates, between them by a parabola.
-double best_candidate(const RayEnergy& energy, const EdgeProfile& profile, double weight, double pull,
-                      double x) {
+double best_candidate(const RayEnergy& energy, const RadiusGrid& grid, double weight, double pull, double x) {
   const auto cost = [&](int i) {
-    const double d = profile.radius(energy.first + i) - x;
+    const double d = grid.at(energy.first + i) - x;
     return weight * energy.value[i] + 0.5 * pull * d * d;
   };
   const int n = static_cast<int>(energy.value.size());
@@ -128,16 +121,15 @@ double best_candidate(const RayEnergy& energy, const EdgeProfile& profile, doubl
     const double bend = before - 2.0 * least + after;
     if (bend > 1e-12) shift = std::clamp(0.5 * (before - after) / bend, -0.5, 0.5);
   }
-  return profile.radius(energy.first + best) + shift * (profile.radius(1) - profile.radius(0));
+  return grid.at(energy.first + best) + shift * grid.step_mm;
 }
 
 /// How much worse a boundary 0.3 mm to either side would be.
-float clearness(const RayEnergy& energy, const EdgeProfile& profile, double radius) {
+float clearness(const RayEnergy& energy, const RadiusGrid& grid, double radius) {
   const int n = static_cast<int>(energy.value.size());
   if (n < 2) return 0.0F;
-  const double step = profile.radius(1) - profile.radius(0);
   const auto at = [&](double r) {
-    const double x = std::clamp((r - profile.radius(energy.first)) / step, 0.0, n - 1.0);
+    const double x = std::clamp((r - grid.at(energy.first)) / grid.step_mm, 0.0, n - 1.0);
     const int i = std::min(static_cast<int>(x), n - 2);
     return energy.value[i] + (x - i) * (energy.value[i + 1] - energy.value[i]);
   };
@@ -164,15 +156,15 @@ std::vector<RayEnergy> energies(const RayFan& fan, const std::vector<double>& lu
   return out;
 }
 
-Smoother smoother_about(const RayFan& fan, const std::vector<double>& radius_mm,
+Smoother smoother_about(int rows, int around, const std::vector<double>& radius_mm,
                         const BoundaryFitOptions& options) {
   Smoother out;
-  out.rows = fan.rows;
-  out.around = fan.around;
-  const double turn = 2.0 * std::numbers::pi / fan.around;
-  for (int r = 0; r < fan.rows; ++r) {
+  out.rows = rows;
+  out.around = around;
+  const double turn = 2.0 * std::numbers::pi / around;
+  for (int r = 0; r < rows; ++r) {
     double mean = 0.0;
-    for (int a = 0; a < fan.around; ++a) mean += radius_mm[out.at(r, a)] / fan.around;
+    for (int a = 0; a < around; ++a) mean += radius_mm[out.at(r, a)] / around;
     const double bend = options.bend_around * std::max(mean, 0.4) * turn * turn;
     out.across.push_back(1.0 / (bend * bend));
   }
@@ -184,28 +176,35 @@ Smoother smoother_about(const RayFan& fan, const std::vector<double>& radius_mm,
 
 }  // namespace
 
-BoundaryFit fit_boundary(const RayFan& fan, const std::vector<double>& lumen_hu,
-                         const std::vector<double>& radius_mm, const std::vector<float>& calcium_odds,
-                         const EdgeProfile& profile, const BoundaryFitOptions& options,
+BoundaryFit fit_boundary(const std::vector<RayEnergy>& energy, const RadiusGrid& grid, int rows, int around,
+                         const std::vector<double>& radius_mm, const BoundaryFitOptions& options,
                          const core::TaskContext& task) {
   const std::size_t rays = radius_mm.size();
-  const std::vector<RayEnergy> energy = energies(fan, lumen_hu, radius_mm, calcium_odds, profile, task);
-  Smoother smoother = smoother_about(fan, radius_mm, options);
+  Smoother smoother = smoother_about(rows, around, radius_mm, options);
   // Splitting: the rays' own best places and the smooth surface, drawn to each other more and more.
   std::vector<double> smooth = radius_mm, own(rays);
   for (int round = 0; round < 16; ++round) {
     task.throw_if_cancelled();
     smoother.pull = 5.0 * std::pow(1.35, round);
     for (std::size_t n = 0; n < rays; ++n)
-      own[n] = best_candidate(energy[n], profile, options.data_weight, smoother.pull, smooth[n]);
+      own[n] = best_candidate(energy[n], grid, options.data_weight, smoother.pull, smooth[n]);
     smoother.solve(own, smooth);
   }
   BoundaryFit out{std::move(smooth), std::vector<float>(rays)};
   for (std::size_t n = 0; n < rays; ++n) {
-    out.radius_mm[n] = std::max(out.radius_mm[n], profile.radius(0));
-    out.confidence[n] = clearness(energy[n], profile, out.radius_mm[n]);
+    out.radius_mm[n] = std::max(out.radius_mm[n], grid.at(0));
+    out.confidence[n] = clearness(energy[n], grid, out.radius_mm[n]);
   }
   return out;
+}
+
+BoundaryFit fit_boundary(const RayFan& fan, const std::vector<double>& lumen_hu,
+                         const std::vector<double>& radius_mm, const std::vector<float>& calcium_odds,
+                         const EdgeProfile& profile, const BoundaryFitOptions& options,
+                         const core::TaskContext& task) {
+  const RadiusGrid grid{profile.radius(0), profile.radius(1) - profile.radius(0), 0};
+  return fit_boundary(energies(fan, lumen_hu, radius_mm, calcium_odds, profile, task), grid, fan.rows,
+                      fan.around, radius_mm, options, task);
 }
 
 }  // namespace ostia::segmentation

@@ -3,6 +3,7 @@
 
 #include "edge_profile.h"
 #include "ray_fan.h"
+#include "star_surface.h"
 
 #include <vector>
 
@@ -25,6 +26,16 @@ struct BoundaryFit {
 BoundaryFit fit_boundary(const RayFan& fan, const std::vector<double>& lumen_hu,
                          const std::vector<double>& radius_mm, const std::vector<float>& calcium_odds,
                          const EdgeProfile& profile, const BoundaryFitOptions& options,
+                         const core::TaskContext& task);
+
+/// How bad each of a ray's candidate radii is: number `first` of a grid of radii and those behind it.
+struct RayEnergy {
+  int first = 0;
+  std::vector<double> value;
+};
+/// The same for energies that are known, one a ray, row by row.
+BoundaryFit fit_boundary(const std::vector<RayEnergy>& energy, const RadiusGrid& grid, int rows, int around,
+                         const std::vector<double>& radius_mm, const BoundaryFitOptions& options,
                          const core::TaskContext& task);
 
 }  // namespace ostia::segmentation

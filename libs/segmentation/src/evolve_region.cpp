@@ -1,5 +1,7 @@
 #include "evolve_region.h"
 
+#include "wall_blur.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -115,16 +117,18 @@ EvolvedRegion evolve_region(const imaging::ImageVolume& image, const imaging::Re
     out.balloon_sigma_hu = wanted.balloon->sigma_hu.value_or(own.sigma_hu.value_or(kLeastSigma));
     speed = balloon_speed(image, region, out.balloon_mean_hu, out.balloon_sigma_hu, wanted.balloon->tau);
   }
-  if (feature == WallFeature::edges) {
+  EdgeFeature edge;
+  edge.noise_hu_per_mm = contrast.noise;
+  edge.blur = wall_blur(image, initial.geometry, shell.surface);
+  if (feature == WallFeature::edges || feature == WallFeature::upwind) {
     gradient = {};
-    EdgeFeature edge;
-    edge.noise_hu_per_mm = contrast.noise;
+    edge.upwind = feature == WallFeature::upwind;
     if (wanted.bright_is_lumen) edge.brightest_hu = lumen_hu;
     out.surface = speed ? level_set(initial, image, edge, *speed, options, rest)
                         : level_set(initial, image, edge, options, rest);
     return out;
   }
-  options.feature_offset_voxels = feature == WallFeature::upwind ? 0.5 : 0.0;
+  options.feature_offset_voxels = 0.0;
   compress_feature(gradient, contrast.noise);
   out.surface = speed ? level_set(initial, gradient, *speed, options, rest)
                       : level_set(initial, gradient, options, rest);

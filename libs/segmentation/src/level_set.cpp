@@ -56,6 +56,9 @@ void require_edges(const imaging::FloatVolume& initial, const imaging::ImageVolu
   if (!(edge.noise_hu_per_mm > 0.0) || !std::isfinite(edge.noise_hu_per_mm)) {
     throw InvalidInput("level set: noise_hu_per_mm must be positive and finite");
   }
+  if (!(edge.blur.minCoeff() > 0.0) || !edge.blur.allFinite()) {
+    throw InvalidInput("level set: the blur's variances must be positive and finite");
+  }
   require_usable(initial);
   imaging::Geometry part = image.geometry;
   const Vec3 first = image.geometry.index(initial.geometry.origin);

@@ -42,15 +42,19 @@ struct Rows {
   std::vector<Vec2> offset;
   double step_mm = 0.0;
   int count() const { return static_cast<int>(on_axis.size()); }
+  Vec3 place(std::size_t n, const Vec2& off_axis) const;
   std::vector<RayRow> moved() const;
 };
 
+Vec3 Rows::place(std::size_t n, const Vec2& off_axis) const {
+  const RayRow& row = on_axis[n];
+  return row.centre + off_axis.x() * geometry::radial_direction(row.frame, 0.0) +
+         off_axis.y() * geometry::radial_direction(row.frame, 0.5 * std::numbers::pi);
+}
+
 std::vector<RayRow> Rows::moved() const {
   std::vector<RayRow> out = on_axis;
-  for (std::size_t n = 0; n < out.size(); ++n) {
-    out[n].centre += offset[n].x() * geometry::radial_direction(out[n].frame, 0.0) +
-                     offset[n].y() * geometry::radial_direction(out[n].frame, 0.5 * std::numbers::pi);
-  }
+  for (std::size_t n = 0; n < out.size(); ++n) out[n].centre = place(n, offset[n]);
   return out;
 }
 
@@ -127,6 +131,9 @@ std::size_t put_on_axis(const Rows& rows, const BoundaryFit& fit, LumenBoundary&
     const auto ring = static_cast<std::size_t>(r) * around;
     const SeenLine seen = seen_from(fit.radius_mm.data() + ring, around, -rows.offset[r], least_result_mm);
     outside += seen.inside ? 0 : 1;
+    const auto row = static_cast<std::size_t>(r);
+    out.middle.push_back(
+        rows.place(row, rows.offset[row] + centroid_of(fit.radius_mm.data() + ring, around)));
     for (int a = 0; a < around; ++a) {
       const int nearest = static_cast<int>(std::lround(seen.index[a])) % around;
       out.radius_mm.push_back(seen.radius_mm[a]);

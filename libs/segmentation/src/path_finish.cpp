@@ -8,6 +8,7 @@
 #include "ostia/geometry/frame.h"
 #include "ostia/geometry/polyline.h"
 #include "ostia/geometry/spline.h"
+#include "ostia/imaging/sampling.h"
 
 #include <algorithm>
 #include <array>
@@ -21,6 +22,8 @@ constexpr double kLeastContrast = 0.33;  // of the tree's, at the click
 constexpr double kLeastFull = 0.5;       // a thin vessel's full contrast as a part of the tree's
 constexpr double kLeastWidthHu = 60.0;   // between background and lumen
 constexpr double kCalciumAbove = 0.5;    // of the contrast, above the lumen
+constexpr double kCalciumNoise = 4.0;    // deviations of the noise by which a voxel of calcium is brighter
+constexpr double kLeastNoiseHu = 16.0;   // no scan of the coronaries has less
 constexpr double kGap = 0.35;            // contrast below which the way is out of the lumen
 constexpr double kGapMm = 1.0;           // shorter ones are not worth a word
 constexpr double kFallbackRadiusMm = 0.6;
@@ -117,8 +120,11 @@ void require_inside(const imaging::ImageVolume& image, const Vec3& place, const 
 LumenLevels levels_from(const imaging::ImageVolume& image, const std::vector<Vec3>& lumen_places,
                         const std::vector<Vec3>& around) {
   TubeSpeed plain(image, {1.0, 0.0, 1e9}, 0.5);
-  std::vector<double> values;
-  for (const Vec3& p : lumen_places) values.push_back(plain.smooth(p));
+  std::vector<double> values, voxels;
+  for (const Vec3& p : lumen_places) {
+    values.push_back(plain.smooth(p));
+    voxels.push_back(imaging::sample(image, p, imaging::Interpolation::trilinear));
+  }
   const Spread lumen = spread(std::move(values));
   LumenLevels levels;
   levels.lumen_hu = lumen.median;
@@ -126,6 +132,8 @@ LumenLevels levels_from(const imaging::ImageVolume& image, const std::vector<Vec
   levels.background_hu = std::min(levels.background_hu, lumen.median - kLeastWidthHu);
   const double width = levels.lumen_hu - levels.background_hu;
   levels.calcium_hu = lumen.median + std::max(3.0 * lumen.sigma, kCalciumAbove * width);
+  levels.calcium_voxel_hu =
+      lumen.median + kCalciumNoise * std::max(kLeastNoiseHu, spread(std::move(voxels)).sigma);
   return levels;
 }
 
@@ -223,6 +231,7 @@ void finish(MinimalPath& path, TubeSpeed& speed, const std::vector<Vec3>& rough,
   std::vector<double> radius(s.size(), 0.0);
   std::vector<bool> calcium(s.size(), false);
   path.contrast.assign(s.size(), 0.0F);
+  path.near_calcium.assign(s.size(), 0);
   double sum = 0.0;
   std::size_t counted = 0;
   for (std::size_t i = 0; i < s.size(); ++i) {
@@ -231,6 +240,7 @@ void finish(MinimalPath& path, TubeSpeed& speed, const std::vector<Vec3>& rough,
     if (!measured(i)) continue;
     radius[i] = section.contrast >= kGap ? section.radius_mm : 0.0;
     calcium[i] = section.calcium;
+    path.near_calcium[i] = section.near_calcium ? 1 : 0;
     sum += section.contrast * section.edges;
     ++counted;
   }

@@ -3,6 +3,7 @@
 #include "ostia/geometry/frame.h"
 #include "ostia/geometry/polyline.h"
 #include "ostia/geometry/spline.h"
+#include "ostia/imaging/sampling.h"
 
 #include <algorithm>
 #include <array>
@@ -19,6 +20,9 @@ constexpr int kCentrings = 4;
 constexpr double kMostShiftMm = 0.4;   // of a centring
 constexpr double kSmoothingMm3 = 2.0;  // lets bends of 3 mm and more through
 constexpr std::size_t kFewestEdges = 8;
+constexpr double kBloomMm = 0.8;        // how far behind an edge calcium still changes it
+constexpr int kFewestAtCalcium = 2;     // rays: one sample may be so bright by noise
+constexpr double kBridgeWeight = 0.02;  // of a place beside calcium, against 1: bridges some 20 mm
 
 /// Where a ray from the centre leaves the lumen, mm; nothing when it does not within the reach.
 double edge_along(TubeSpeed& image, const Vec3& centre, const Vec3& direction, double half_hu,
@@ -34,6 +38,15 @@ double edge_along(TubeSpeed& image, const Vec3& centre, const Vec3& direction, d
     before = here;
   }
   return -1.0;
+}
+
+/// Whether a ray comes upon calcium before `to_mm`: in the image itself, since a mean hides small nodules.
+bool meets_calcium(const TubeSpeed& image, const Vec3& centre, const Vec3& direction, double to_mm) {
+  const double bound = image.levels().calcium_voxel_hu;
+  for (double r = 0.0; r <= to_mm; r += kRayStepMm)
+    if (imaging::sample(image.image(), centre + r * direction, imaging::Interpolation::trilinear) > bound)
+      return true;
+  return false;
 }
 
 double median(std::vector<double> values) {
@@ -89,12 +102,15 @@ PathSection look_across(TubeSpeed& image, const Vec3& centre, const Vec3& tangen
   frame.binormal = tangent.cross(frame.normal);
   std::vector<double> found;
   std::array<double, kRays> radius{};
+  int at_calcium = 0;
   for (int n = 0; n < kRays; ++n) {
     const Vec3 direction = geometry::radial_direction(frame, 2.0 * M_PI * n / kRays);
     const double r = edge_along(image, centre, direction, half, 1.5 * rays.largest_radius_mm);
     radius[static_cast<std::size_t>(n)] = r;
     if (r >= 0.0) found.push_back(r);
+    at_calcium += r >= 0.0 && meets_calcium(image, centre, direction, r + kBloomMm) ? 1 : 0;
   }
+  section.near_calcium = section.calcium || at_calcium >= kFewestAtCalcium;
   section.edges = static_cast<double>(found.size()) / kRays;
   if (found.size() < kFewestEdges) return section;
   const double half_radius = section.seen_radius_mm = median(found);
@@ -108,13 +124,22 @@ PathSection look_across(TubeSpeed& image, const Vec3& centre, const Vec3& tangen
   return section;
 }
 
-std::vector<Vec3> smoothed_line(const std::vector<Vec3>& points, double step_mm, double lambda_mm3) {
+std::vector<Vec3> smoothed_line(const std::vector<Vec3>& points, double step_mm, double lambda_mm3,
+                                const std::vector<double>& weights) {
   const std::vector<Vec3> even = geometry::resample(points, step_mm);
   if (even.size() < 4) return even;
   const std::vector<double> t = geometry::abscissas(even);
-  const std::vector<double> weights(even.size(), 1.0);
+  std::vector<double> of_even(even.size(), 1.0);
+  if (!weights.empty()) {
+    const std::vector<double> s = geometry::abscissas(points);
+    for (std::size_t i = 0, n = 0; i < even.size(); ++i) {
+      const double at = t[i] * s.back() / t.back();
+      while (n + 1 < s.size() && s[n + 1] - at < at - s[n]) ++n;  // the nearest point's
+      of_even[i] = weights[n];
+    }
+  }
   // The penalty per point: the same smoothness for any step.
-  return geometry::smoothing_spline(t, even, weights, lambda_mm3 / step_mm, true);
+  return geometry::smoothing_spline(t, even, of_even, lambda_mm3 / step_mm, true);
 }
 
 std::vector<Vec3> centred_line(TubeSpeed& image, std::vector<Vec3> points, double step_mm,
@@ -124,15 +149,17 @@ std::vector<Vec3> centred_line(TubeSpeed& image, std::vector<Vec3> points, doubl
     if (points.size() < 3) return points;
     const std::vector<Vec3> tangents = geometry::tangents(points);
     const std::vector<double> s = geometry::abscissas(points);
+    std::vector<double> weights(points.size(), 1.0);
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (s[i] < fixed.start_mm || s[i] > s.back() - fixed.end_mm) continue;
       const PathSection section = look_across(image, points[i], tangents[i], rays);
-      if (section.radius_mm <= 0.0) continue;
+      if (section.near_calcium) weights[i] = kBridgeWeight;
+      if (section.radius_mm <= 0.0 || section.near_calcium) continue;
       const double most = std::min(kMostShiftMm, section.radius_mm);
       const double length = section.shift.norm();
       points[i] += length > most ? Vec3(section.shift * (most / length)) : section.shift;
     }
-    points = smoothed_line(points, step_mm, kSmoothingMm3);
+    points = smoothed_line(points, step_mm, kSmoothingMm3, weights);
   }
   return points;
 }

@@ -15,6 +15,8 @@ struct PathSection {
   double contrast = 0.0;
   double edges = 0.0;    ///< share of the rays that end at an edge
   bool calcium = false;  ///< the axis runs through calcium
+  bool near_calcium =
+      false;  ///< it does, or calcium bounds the lumen: edges and middle are not to be trusted
 };
 
 /// The radius of a disc whose picture, blurred by a Gaussian of standard deviation `sigma_mm`, has fallen to
@@ -33,8 +35,9 @@ struct RayOptions {
 /// background's, or risen half-way to calcium.
 PathSection look_across(TubeSpeed& image, const Vec3& centre, const Vec3& tangent, const RayOptions& rays);
 
-/// Smoothed with fixed ends, at equal steps no longer than `step_mm`.
-std::vector<Vec3> smoothed_line(const std::vector<Vec3>& points, double step_mm, double lambda_mm3);
+/// Smoothed with fixed ends, at equal steps no longer than `step_mm`. `weights`: one a point, or none.
+std::vector<Vec3> smoothed_line(const std::vector<Vec3>& points, double step_mm, double lambda_mm3,
+                                const std::vector<double>& weights = {});
 
 /// How much of a line's ends the image does not move; where it is more than 0, the end point stays exactly.
 struct FixedEnds {
@@ -42,7 +45,7 @@ struct FixedEnds {
 };
 
 /// Moves the points to the middle of the lumen, in turn with smoothing, but for the fixed ends, which are
-/// only smoothed.
+/// only smoothed. Beside calcium the line goes on smoothly between what lies before and behind it.
 std::vector<Vec3> centred_line(TubeSpeed& image, std::vector<Vec3> points, double step_mm,
                                const FixedEnds& fixed, const RayOptions& rays);
 

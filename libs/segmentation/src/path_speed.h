@@ -16,6 +16,8 @@ struct LumenLevels {
   double lumen_hu = 0.0;       ///< from here up, all of the contrast is there
   double background_hu = 0.0;  ///< contrast 0
   double calcium_hu = 0.0;     ///< from here on, the contrast falls again: denser than blood
+  /// In the image itself: by noise alone hardly any voxel of the lumen is as bright.
+  double calcium_voxel_hu = std::numeric_limits<double>::infinity();
 
   /// 0 background, 1 lumen, falling again above `calcium_hu`.
   double contrast(double hu) const;

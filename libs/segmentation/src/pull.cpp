@@ -1,5 +1,7 @@
 #include "pull.h"
 
+#include "spline_derivatives.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,75 +25,6 @@ QuadraticTaps quadratic_taps(double x, std::int64_t size) {
   taps.weight = {0.5 * (0.5 - t) * (0.5 - t), 0.75 - t * t, 0.5 * (0.5 + t) * (0.5 + t)};
   taps.slope = {t - 0.5, -2.0 * t, t + 0.5};
   return taps;
-}
-
-/// Weights of the cubic B-spline on the four voxels about x, with first and second derivatives. Voxels beyond
-/// the border are those of the border.
-struct CubicTaps {
-  std::array<std::int64_t, 4> voxel{};
-  std::array<double, 4> weight{};
-  std::array<double, 4> slope{};
-  std::array<double, 4> bend{};
-};
-
-CubicTaps cubic_taps(double x, std::int64_t size) {
-  CubicTaps taps;
-  const double clamped = std::clamp(x, 0.0, static_cast<double>(size - 1));
-  const double base = std::floor(clamped);
-  const double t = clamped - base;
-  const double u = 1.0 - t;
-  for (int n = 0; n < 4; ++n) {
-    taps.voxel[n] = std::clamp<std::int64_t>(static_cast<std::int64_t>(base) - 1 + n, 0, size - 1);
-  }
-  taps.weight = {u * u * u / 6.0, 2.0 / 3.0 - 0.5 * t * t * (2.0 - t), 2.0 / 3.0 - 0.5 * u * u * (2.0 - u),
-                 t * t * t / 6.0};
-  taps.slope = {-0.5 * u * u, 0.5 * t * (3.0 * t - 4.0), -0.5 * u * (3.0 * u - 4.0), 0.5 * t * t};
-  taps.bend = {u, 3.0 * t - 2.0, 3.0 * u - 2.0, t};
-  return taps;
-}
-
-/// First and second derivatives of the cubic B-spline, per voxel: x, y, z; xx, yy, zz, yz, xz, xy.
-struct Derivatives {
-  Vec3 first = Vec3::Zero();
-  Vec3 pure = Vec3::Zero();
-  Vec3 mixed = Vec3::Zero();
-};
-
-Derivatives derivatives_at(const imaging::ImageVolume& image, const Vec3& index, std::int16_t brightest) {
-  const auto& size = image.geometry.size;
-  const CubicTaps x = cubic_taps(index[0], size[0]);
-  const CubicTaps y = cubic_taps(index[1], size[1]);
-  const CubicTaps z = cubic_taps(index[2], size[2]);
-  Derivatives sum;
-  for (int k = 0; k < 4; ++k) {
-    double v00 = 0.0, v10 = 0.0, v20 = 0.0, v01 = 0.0, v11 = 0.0, v02 = 0.0;  // orders of d/dx and d/dy
-    for (int j = 0; j < 4; ++j) {
-      const std::int16_t* row = image.voxels.data() + image.geometry.offset(0, y.voxel[j], z.voxel[k]);
-      double r0 = 0.0, r1 = 0.0, r2 = 0.0;
-      for (int i = 0; i < 4; ++i) {
-        const double value = std::min(row[x.voxel[i]], brightest);
-        r0 += x.weight[i] * value;
-        r1 += x.slope[i] * value;
-        r2 += x.bend[i] * value;
-      }
-      v00 += y.weight[j] * r0;
-      v10 += y.weight[j] * r1;
-      v20 += y.weight[j] * r2;
-      v01 += y.slope[j] * r0;
-      v11 += y.slope[j] * r1;
-      v02 += y.bend[j] * r0;
-    }
-    sum.first[0] += z.weight[k] * v10;
-    sum.first[1] += z.weight[k] * v01;
-    sum.first[2] += z.slope[k] * v00;
-    sum.pure[0] += z.weight[k] * v20;
-    sum.pure[1] += z.weight[k] * v02;
-    sum.pure[2] += z.bend[k] * v00;
-    sum.mixed[0] += z.slope[k] * v01;
-    sum.mixed[1] += z.slope[k] * v10;
-    sum.mixed[2] += z.weight[k] * v11;
-  }
-  return sum;
 }
 
 }  // namespace
@@ -134,23 +67,55 @@ EdgePull::EdgePull(const imaging::ImageVolume& image, const imaging::Geometry& g
   for (int d = 0; d < 3; ++d) first_[d] = std::round(first_[d]);
 }
 
-Sample EdgePull::at(const Vec3& index, const Vec3& /*normal*/) const {
-  const Derivatives d = derivatives_at(image_, index + first_, brightest_);
-  const Vec3& h = image_.geometry.spacing;
-  const Vec3 g = d.first.cwiseQuotient(h);
-  const Vec3 pure = d.pure.cwiseQuotient(h.cwiseProduct(h));
-  const Vec3 mixed(d.mixed[0] / (h[1] * h[2]), d.mixed[1] / (h[0] * h[2]), d.mixed[2] / (h[0] * h[1]));
-  Vec3 turned(pure[0] * g[0] + mixed[2] * g[1] + mixed[1] * g[2],
-              mixed[2] * g[0] + pure[1] * g[1] + mixed[0] * g[2],
-              mixed[1] * g[0] + mixed[0] * g[1] + pure[2] * g[2]);
-  const double squared = g.squaredNorm();
-  const double k2 = edge_.noise_hu_per_mm * edge_.noise_hu_per_mm;
-  if (edge_.curvature_correction && squared > 1e-12) {
-    // Half of what tells the Laplacian from the second derivative along the gradient, along the gradient.
-    const double along = g.dot(turned) / squared;
-    turned += 0.5 * (pure.sum() - along) * g;
+Sample EdgePull::upwind_at(const Vec3& index, const Vec3& normal) const {
+  const Vec3& spacing = image_.geometry.spacing;
+  const double h = spacing.minCoeff();
+  const Vec3 size = normal.cwiseAbs();
+  const double lag = 0.5 * h * size.cwiseProduct(size).dot(size);  // as in GridPull
+  const Vec3 at = index - (lag * normal).cwiseQuotient(spacing);
+  const Derivatives here = derivatives_mm(image_, at, brightest_);
+  Sample sum;
+  for (int d = 0; d < 3; ++d) {
+    Derivatives darker = here;
+    for (const double way : {-1.0, 1.0}) {
+      const Derivatives there = derivatives_mm(image_, at + way * h / spacing[d] * Vec3::Unit(d), brightest_);
+      if (there.value < darker.value) darker = there;
+    }
+    const double difference = (here.value - darker.value) / h;
+    sum.value += difference * difference;
+    sum.gradient += difference / h * (here.first - darker.first);
   }
-  return {0.5 * std::log1p(squared / k2), turned / (k2 + squared)};
+  return sum;
+}
+
+Sample EdgePull::at(const Vec3& index, const Vec3& normal) const {
+  const Vec3 place = index + first_;
+  const Derivatives d = derivatives_mm(image_, place, brightest_);
+  Sample p{d.first.squaredNorm(), Vec3::Zero()};
+  if (edge_.upwind) {
+    p = upwind_at(place, normal);
+  } else {
+    p.gradient = d.times(d.first);
+  }
+  if (edge_.curvature_correction) p.gradient += curvature_correction(d, edge_.blur) * d.first;
+  const double k2 = edge_.noise_hu_per_mm * edge_.noise_hu_per_mm;
+  return {0.5 * std::log1p(p.value / k2), p.gradient / (k2 + p.value)};
+}
+
+double curvature_correction(const Derivatives& d, const Vec3& blur) {
+  const double squared = d.first.squaredNorm();
+  if (squared <= 1e-12) return 0.0;
+  const Vec3 n = d.first / std::sqrt(squared);
+  const Vec3 blurred = blur.cwiseProduct(n);
+  const double across = n.dot(blurred);
+  const Vec3 bend = d.times(n);
+  // The trace of blur and second derivatives on the wall's tangent plane, and what blur couples to it.
+  const double trace = blur.dot(d.pure) - 2.0 * bend.dot(blurred) + across * n.dot(bend);
+  const Vec3 coupled = blurred - across * n;
+  const double corrected = trace - 3.0 * coupled.dot(d.times(coupled)) / across;
+  // Where the coupling outweighs all else the blur is as wide as the vessel, and the first order in the
+  // wall's curvature, which this is, has no say.
+  return corrected * trace > 0.0 ? 0.5 * corrected / across : 0.0;
 }
 
 }  // namespace ostia::segmentation::detail

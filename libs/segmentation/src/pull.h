@@ -1,6 +1,8 @@
 #pragma once
 /// \file Where a level set is pulled: features sampled between voxels.
 
+#include "spline_derivatives.h"
+
 #include "ostia/imaging/volume.h"
 #include "ostia/segmentation/level_set.h"
 
@@ -44,10 +46,17 @@ class EdgePull : public Pull {
   Sample at(const Vec3& index, const Vec3& normal) const override;
 
  private:
+  /// P^2 and half its gradient by one-sided differences.
+  Sample upwind_at(const Vec3& index, const Vec3& normal) const;
+
   const imaging::ImageVolume& image_;
   Vec3 first_;  ///< index in the image of the grid's first voxel
   EdgeFeature edge_;
   std::int16_t brightest_;
 };
+
+/// What |grad I| pulls too far inwards on a curved wall, as a multiple of the gradient to be added to half
+/// the gradient of |grad I|^2. `blur`: EdgeFeature::blur.
+double curvature_correction(const Derivatives& d, const Vec3& blur);
 
 }  // namespace ostia::segmentation::detail

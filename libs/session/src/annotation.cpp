@@ -142,6 +142,40 @@ void follow(Annotations& annotations, const lumen::BranchMerge& edit, const Lume
     if (needs_vessel(one) && one.vessel == edit.vessel) one.vessel = *parent;
 }
 
+/// A measurement's abscissas where its vessel's way has another beginning: it stays at its places, as far as
+/// the way still has them.
+void move_along(Measurement& measurement, double by_mm) {
+  constexpr double same_place_mm = 1e-3;  // a way that has got a node is no other way
+  if (std::abs(by_mm) < same_place_mm) return;
+  measurement.from_mm = std::max(0.0, measurement.from_mm + by_mm);
+  measurement.to_mm = std::max(0.0, measurement.to_mm + by_mm);
+}
+
+void follow(Annotations& annotations, const lumen::BranchCut& edit, const LumenModel& before,
+            const LumenModel& after) {
+  const double seam_mm = lumen::vessel(after, edit.vessel).axis->length();
+  const geometry::AxisCurve& axis = *lumen::vessel(before, edit.vessel).axis;
+  const auto made = std::find_if(after.tree.vessels.begin(), after.tree.vessels.end(),
+                                 [&](const geometry::Vessel& v) { return !has_vessel(before, v.id); });
+  if (made == after.tree.vessels.end()) return;
+  for (Measurement& one : annotations.measurements) {
+    if (!needs_vessel(one) || !has_vessel(before, one.vessel)) continue;
+    if (one.vessel == edit.vessel && last_mm(one, axis) <= seam_mm) continue;  // proximal: as it was
+    if (one.vessel == edit.vessel) one.vessel = made->id;
+    const std::int32_t source = one.vessel == made->id ? edit.vessel : one.vessel;
+    move_along(
+        one, lumen::vessel(after, one.vessel).axis->length() - lumen::vessel(before, source).axis->length());
+  }
+}
+
+void follow(Annotations& annotations, const lumen::BranchConnect&, const LumenModel& before,
+            const LumenModel& after) {
+  for (Measurement& one : annotations.measurements)
+    if (needs_vessel(one) && has_vessel(before, one.vessel))
+      move_along(one, lumen::vessel(after, one.vessel).axis->length() -
+                          lumen::vessel(before, one.vessel).axis->length());
+}
+
 /// Keys of what is in one of two ordered lists alone, or differs.
 template <class Item>
 std::vector<std::int32_t> differing(const std::vector<Item>& before, const std::vector<Item>& after) {
@@ -195,6 +229,9 @@ Annotations following(const Annotations& before, const lumen::Edit& edit, const 
     follow(after, *split, model_before, model_after);
   if (const auto* merge = std::get_if<lumen::BranchMerge>(&edit))
     follow(after, *merge, model_before, model_after);
+  if (const auto* cut = std::get_if<lumen::BranchCut>(&edit)) follow(after, *cut, model_before, model_after);
+  if (const auto* connect = std::get_if<lumen::BranchConnect>(&edit))
+    follow(after, *connect, model_before, model_after);
   return after;
 }
 

@@ -158,6 +158,33 @@ class Maker {
     }
   }
 
+  /// What the image shows between lumen and outer wall, by vessel and by stenosis.
+  void add_plaque(const imaging::ImageVolume* image, const core::TaskContext& task) {
+    if (!image) return;
+    const auto count = static_cast<double>(report_.vessels.size());
+    for (std::size_t i = 0; i < report_.vessels.size(); ++i) {
+      ReportVessel& vessel = report_.vessels[i];
+      const double done = static_cast<double>(i);
+      try {
+        auto walls = vessel_walls(model_, surface_of_, vessel.id, *image, report_.options.walls,
+                                  task.sub(done / count, (done + 1.0) / count));
+        if (!walls) continue;
+        for (const std::string& warning : walls->outer.surface.warnings)
+          report_.warnings.push_back(vessel.name + ": " + warning);
+        vessel.plaque = plaque_of(*walls, vessel.own_from_mm, vessel.length_mm);
+        report_.walls.emplace(vessel.id, std::move(*walls));
+      } catch (const InvalidInput& error) {
+        report_.warnings.push_back(vessel.name + ": its outer wall was not looked for: " + error.what());
+      }
+    }
+    for (ReportStenosis& one : report_.stenoses) {
+      const auto walls = report_.walls.find(one.stenosis.vessel);
+      if (walls == report_.walls.end()) continue;
+      one.plaque = plaque_of(walls->second, one.stenosis.from_mm, one.stenosis.to_mm);
+      one.remodelling_index = analysis::remodelling_index(walls->second.plaque, one.stenosis);
+    }
+  }
+
   void add_steps(const std::vector<JournalEntry>& journal) {
     for (const JournalEntry& entry : journal)
       if (!entry.undone && entry.kind != StepKind::travel)
@@ -182,6 +209,15 @@ class Maker {
   CaseReport take() { return std::move(report_); }
 
  private:
+  static std::optional<ReportPlaque> plaque_of(const VesselWalls& walls, double from_mm, double to_mm) {
+    ReportPlaque out;
+    out.from_mm = std::max(from_mm, walls.plaque.from_mm);
+    out.to_mm = std::min(to_mm, walls.plaque.to_mm);
+    if (!(out.from_mm < out.to_mm)) return std::nullopt;
+    out.volumes = analysis::plaque_between(walls.plaque, out.from_mm, out.to_mm);
+    out.seen_share = walls.outer.seen_share;
+    return out;
+  }
   bool is_checked(std::int32_t vessel) const {
     const VesselMark* mark = find_mark(annotations_, vessel);
     return mark && mark->checked;
@@ -204,8 +240,14 @@ class Maker {
     for (const analysis::Stenosis& one : analysis::find_stenoses(profile, reference, o.stenosis))
       if (one.throat_mm >= own) add_stenosis(vessel, one);
     const VesselMark* mark = find_mark(annotations_, vessel.id);
-    report_.vessels.push_back({vessel.id, vessel.name, profile.length_mm, own, is_checked(vessel.id),
-                               mark ? mark->note : std::string(), unmeasured_mm(profile, own)});
+    report_.vessels.push_back({vessel.id,
+                               vessel.name,
+                               profile.length_mm,
+                               own,
+                               is_checked(vessel.id),
+                               mark ? mark->note : std::string(),
+                               unmeasured_mm(profile, own),
+                               {}});
     report_.references[vessel.id] = std::move(reference);
     report_.profiles[vessel.id] = std::move(profile);
   }
@@ -253,6 +295,7 @@ void require(bool fine, const std::string& what) {
 
 void validate(const ReportOptions& options) {
   analysis::validate(options.profile);
+  validate(options.walls);
   require(options.least_graded_mm >= 0.0 && options.least_graded_mm <= 5.0,
           "grades stenoses of vessels from 0 to 5 mm, not " + fixed(options.least_graded_mm, 2) + " mm");
   require(options.picture_percent >= 0.0 && options.picture_percent <= 100.0,
@@ -292,7 +335,8 @@ CaseReport make_case_report(const lumen::LumenModel& model, const analysis::Surf
   task.throw_if_cancelled();
   task.set_stage("measuring");
   Maker maker(model, surface_of, annotations, options);
-  maker.measure_vessels(task.sub(0.0, 0.9));
+  maker.measure_vessels(task.sub(0.0, image ? 0.3 : 0.9));
+  maker.add_plaque(image, task.sub(0.3, 0.9));
   maker.add_segments();
   maker.grade();
   maker.add_measurements(image);

@@ -150,6 +150,56 @@ void add_stenoses(Document& document, const CaseReport& report) {
       "calibre that the vessel would have without disease.");
 }
 
+/// A stretch's volumes, mm^3, and what follows from them.
+std::vector<std::string> plaque_row(const std::string& name, const ReportPlaque& plaque,
+                                    const std::string& remodelling) {
+  const analysis::PlaqueVolumes& v = plaque.volumes;
+  std::vector<std::string> row{name, fixed(v.plaque_mm3(), 1)};
+  for (const double volume : v.class_mm3) row.push_back(fixed(volume, 1));
+  row.push_back(fixed(v.thin_wall_mm3, 1));
+  row.push_back(fixed(v.burden_percent(), 0) + " %");
+  row.push_back(remodelling);
+  row.push_back(fixed(100.0 * plaque.seen_share, 0) + " %");
+  return row;
+}
+
+Rows plaque_rows(const CaseReport& report) {
+  Rows rows;
+  for (const ReportVessel& vessel : report.vessels) {
+    if (!vessel.plaque) continue;
+    rows.push_back(plaque_row(vessel.name, *vessel.plaque, ""));
+    for (const ReportStenosis& one : report.stenoses)
+      if (one.stenosis.vessel == vessel.id && one.plaque)
+        rows.push_back(plaque_row("  " + label(one), *one.plaque, fixed(one.remodelling_index, 2)));
+  }
+  return rows;
+}
+
+template <class Document>
+void add_plaque(Document& document, const CaseReport& report) {
+  document.section("Plaque");
+  const Rows rows = plaque_rows(report);
+  if (rows.empty()) {
+    document.paragraph(report.has_image ? "No outer wall was found."
+                                        : "Not measured: the image was not at hand.");
+    return;
+  }
+  const analysis::PlaqueOptions& o = report.options.walls.plaque;
+  document.table({"Vessel", "Plaque (mm\xC2\xB3)", "Low attenuation", "Fibrofatty", "Fibrous", "Calcified",
+                  "Thin wall (mm\xC2\xB3)", "Burden", "Remodelling index", "Outer wall seen"},
+                 rows, "Between lumen and outer wall, by vessel and by stenosis");
+  document.paragraph(
+      "Low attenuation: below " + fixed(o.low_attenuation_hu, 0) + " HU; fibrofatty: to " +
+      fixed(o.fibrofatty_hu, 0) + " HU; fibrous: to " + fixed(o.fibrous_hu, 0) +
+      " HU; calcified: above, after the blur of lumen and fat was taken away. A wall thinner than " +
+      fixed(o.thin_wall_mm, 1) +
+      " mm is in no class: the scan does not resolve it. Burden: wall and plaque, of all within the outer "
+      "wall. "
+      "Remodelling index: vessel area at the throat over that at the places of reference. Where no fat "
+      "borders "
+      "on the wall it is not seen, and the outer wall is a bridge. All of this was found by the program.");
+}
+
 template <class Document>
 void add_images(Document& document, const std::vector<KeyImage>& images) {
   if (images.empty()) return;
@@ -181,6 +231,7 @@ template <class Document>
 void compose(Document& document, const CaseReport& report, const std::vector<KeyImage>& images) {
   add_summary(document, report);
   add_stenoses(document, report);
+  add_plaque(document, report);
   add_images(document, images);
   add_tables(document, report);
 }

@@ -43,6 +43,29 @@ Json image_json(const std::optional<ImageReference>& image) {
   return image ? Json{{"sha256", image->sha256}, {"pseudonym", image->pseudonym}} : Json();
 }
 
+Json walls_json(const OuterWallsOptions& o) {
+  const segmentation::OuterWallOptions& w = o.wall;
+  const analysis::PlaqueOptions& p = o.plaque;
+  return {o.step_mm,
+          o.around,
+          w.radial_step_mm,
+          w.least_thickness_mm,
+          w.largest_thickness_mm,
+          w.blur_sigma_mm,
+          w.wall_hu,
+          w.fat_hu,
+          w.largest_slope_along,
+          w.largest_slope_around,
+          p.low_attenuation_hu,
+          p.fibrofatty_hu,
+          p.fibrous_hu,
+          p.thin_wall_mm,
+          p.step_mm,
+          p.around,
+          p.deep,
+          p.blur_sigma_mm};
+}
+
 }  // namespace
 
 std::string report_digest(const CaseFile& file) {
@@ -68,6 +91,7 @@ pipeline::JobKey report_job(const CaseFile& file, bool with_image, const ReportO
                         {"least_percent", o.stenosis.least_percent},
                         {"least_length_mm", o.stenosis.least_length_mm},
                         {"least_graded_mm", o.least_graded_mm},
+                        {"walls", walls_json(o.walls)},
                         {"picture_percent", o.picture_percent},
                         {"theta_deg", o.theta_deg},
                         {"grey", {o.level_hu, o.window_hu}},
@@ -95,6 +119,7 @@ void write_case_report(const fs::path& folder, const CaseReport& report, const s
   core::write_file(made / "report.json", report_json(report, images));
   core::write_file(made / "segments.csv", segments_csv(report));
   core::write_file(made / "stenoses.csv", stenoses_csv(report));
+  core::write_file(made / "plaque.csv", plaque_csv(report));
   core::write_file(made / "measurements.csv", measurements_csv(report));
   task.throw_if_cancelled();
   core::write_file(made / "report.html", report_html(report, images));

@@ -33,6 +33,8 @@ constexpr double tree_cell_mm = 0.35;
 constexpr std::size_t most_throats = 6;
 constexpr figure::Color mark_color{0.84, 0.37, 0.0};  // Okabe-Ito vermilion
 
+constexpr figure::Color outer_color{0.94, 0.89, 0.26};  // Okabe-Ito yellow: the outer wall
+
 class Painter {
  public:
   Painter(const CaseReport& report, const lumen::LumenModel& model,
@@ -243,7 +245,13 @@ Picture Painter::throat(const ReportStenosis& one) const {
   how.look = Look::light;
   how.rulers = false;
   how.plane_name = false;
-  return figure::slice_figure(view, {{{contour}, figure::colors::contour, 1.6, {}}}, {}, how);
+  std::vector<figure::SliceContour> lines{{{contour}, figure::colors::contour, 1.6, {}}};
+  if (const auto walls = report_.walls.find(one.stenosis.vessel); walls != report_.walls.end()) {
+    std::vector<Vec3> outer = outer_wall_ring(walls->second, one.stenosis.throat_mm);
+    if (!outer.empty()) outer.push_back(outer.front());
+    lines.push_back({{outer}, outer_color, 0.9, {}});
+  }
+  return figure::slice_figure(view, lines, {}, how);
 }
 
 std::string throats_text(std::size_t shown, std::size_t all) {

@@ -32,6 +32,23 @@ Json texts(const std::vector<std::string>& values) {
   return list;
 }
 
+Json plaque_json(const std::optional<ReportPlaque>& plaque) {
+  if (!plaque) return {};
+  const analysis::PlaqueVolumes& v = plaque->volumes;
+  return {{"from_mm", number(plaque->from_mm)},
+          {"to_mm", number(plaque->to_mm)},
+          {"lumen_mm3", number(v.lumen_mm3)},
+          {"vessel_mm3", number(v.vessel_mm3)},
+          {"thin_wall_mm3", number(v.thin_wall_mm3)},
+          {"plaque_mm3", number(v.plaque_mm3())},
+          {"low_attenuation_mm3", number(v.of(analysis::PlaqueClass::low_attenuation))},
+          {"fibrofatty_mm3", number(v.of(analysis::PlaqueClass::fibrofatty))},
+          {"fibrous_mm3", number(v.of(analysis::PlaqueClass::fibrous))},
+          {"calcified_mm3", number(v.of(analysis::PlaqueClass::calcified))},
+          {"burden_percent", number(v.burden_percent())},
+          {"seen_share", number(plaque->seen_share)}};
+}
+
 Json vessel_json(const ReportVessel& v) {
   return {{"id", v.id},
           {"name", text(v.name)},
@@ -39,7 +56,8 @@ Json vessel_json(const ReportVessel& v) {
           {"own_from_mm", number(v.own_from_mm)},
           {"unmeasured_mm", number(v.unmeasured_mm)},
           {"checked", v.checked},
-          {"note", text(v.note)}};
+          {"note", text(v.note)},
+          {"plaque", plaque_json(v.plaque)}};
 }
 
 Json segment_json(const ReportSegment& s) {
@@ -79,7 +97,9 @@ Json stenosis_json(const ReportStenosis& one) {
           {"area_percent", number(s.area_percent)},
           {"cad_rads", analysis::to_string(one.category)},
           {"graded", one.graded},
-          {"checked", one.checked}};
+          {"checked", one.checked},
+          {"plaque", plaque_json(one.plaque)},
+          {"remodelling_index", number(one.remodelling_index)}};
 }
 
 Json measurement_json(const ReportMeasurement& m) {
@@ -142,6 +162,15 @@ class Line {
   bool first_ = true;
 };
 
+/// Columns of plaque.csv from the stretch on.
+void add_plaque(Line& line, const ReportPlaque& plaque) {
+  const analysis::PlaqueVolumes& v = plaque.volumes;
+  line.add(plaque.from_mm, 3).add(plaque.to_mm, 3).add(v.lumen_mm3, 3).add(v.vessel_mm3, 3);
+  line.add(v.thin_wall_mm3, 3).add(v.plaque_mm3(), 3);
+  for (const double volume : v.class_mm3) line.add(volume, 3);
+  line.add(v.burden_percent(), 2).add(100.0 * plaque.seen_share, 1);
+}
+
 std::string yes_no(bool value) {
   return value ? "yes" : "no";
 }
@@ -169,7 +198,12 @@ std::string report_json(const CaseReport& report, const std::vector<KeyImage>& i
         {"reference_window_mm", o.reference.window_mm},
         {"least_percent", o.stenosis.least_percent},
         {"least_length_mm", o.stenosis.least_length_mm},
-        {"least_graded_mm", o.least_graded_mm}}},
+        {"least_graded_mm", o.least_graded_mm},
+        {"low_attenuation_hu", o.walls.plaque.low_attenuation_hu},
+        {"fibrofatty_hu", o.walls.plaque.fibrofatty_hu},
+        {"fibrous_hu", o.walls.plaque.fibrous_hu},
+        {"thin_wall_mm", o.walls.plaque.thin_wall_mm},
+        {"blur_sigma_mm", o.walls.plaque.blur_sigma_mm}}},
       {"all_checked", report.unchecked().empty()},
       {"vessels", list(report.vessels, vessel_json)},
       {"segments", list(report.segments, segment_json)},
@@ -232,6 +266,25 @@ std::string stenoses_csv(const CaseReport& report) {
                .add(yes_no(one.graded))
                .add(yes_no(one.checked))
                .end();
+  }
+  return all;
+}
+
+std::string plaque_csv(const CaseReport& report) {
+  std::string all =
+      "vessel,stenosis,from_mm,to_mm,lumen_mm3,vessel_mm3,thin_wall_mm3,plaque_mm3,low_attenuation_mm3,"
+      "fibrofatty_mm3,fibrous_mm3,calcified_mm3,burden_percent,outer_wall_seen_percent,remodelling_index\r\n";
+  for (const ReportVessel& vessel : report.vessels) {
+    if (!vessel.plaque) continue;
+    Line line;
+    add_plaque(line.free(vessel.name).add(""), *vessel.plaque);
+    all += line.add("").end();
+    for (const ReportStenosis& one : report.stenoses) {
+      if (one.stenosis.vessel != vessel.id || !one.plaque) continue;
+      Line of_stenosis;
+      add_plaque(of_stenosis.free(vessel.name).add(label(one)), *one.plaque);
+      all += of_stenosis.add(one.remodelling_index, 3).end();
+    }
   }
   return all;
 }

@@ -18,7 +18,7 @@ using Json = nlohmann::json;
 struct OpWords {
   const char *op, *words;
 };
-constexpr std::array<OpWords, 20> kWords{{
+constexpr std::array<OpWords, 22> kWords{{
     {"case.begin", "case begun"},
     {"cpr.stroke", "wall drawn on a curved reformation"},
     {"section.contour", "contour drawn on a cross-section"},
@@ -34,6 +34,8 @@ constexpr std::array<OpWords, 20> kWords{{
     {"branch.attach", "vessel attached elsewhere"},
     {"branch.split", "vessel split"},
     {"branch.merge", "vessel joined with its parent"},
+    {"branch.cut", "vessel cut in two trees"},
+    {"branch.connect", "vessel connected by a new piece"},
     {"vessel.rename", "vessel renamed"},
     {"measure.add", "measurement added"},
     {"measure.change", "measurement changed"},

@@ -81,7 +81,8 @@ void fields(E& e, V& v) {
   v("radius_mm", e.radius_mm);
 }
 template <class E, class V>
-requires std::is_same_v<std::remove_const_t<E>, lumen::BranchSplit>
+requires std::is_same_v<std::remove_const_t<E>, lumen::BranchSplit> ||
+    std::is_same_v<std::remove_const_t<E>, lumen::BranchCut>
 void fields(E& e, V& v) {
   v("vessel", e.vessel);
   v("s_mm", e.s_mm);
@@ -94,7 +95,8 @@ void fields(E& e, V& v) {
   v("vessel", e.vessel);
 }
 template <class E, class V>
-requires std::is_same_v<std::remove_const_t<E>, lumen::BranchAttach>
+requires std::is_same_v<std::remove_const_t<E>, lumen::BranchAttach> ||
+    std::is_same_v<std::remove_const_t<E>, lumen::BranchConnect>
 void fields(E& e, V& v) {
   v("vessel", e.vessel);
   v("parent", e.parent);

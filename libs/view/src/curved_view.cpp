@@ -22,6 +22,8 @@ constexpr double seed_step_mm = 0.5;    // along the axis, of where lines are lo
 // While a hand turns the view: lines to half a pixel, of a third of the places.
 constexpr double seed_step_turning_mm = 1.5;
 constexpr lumen::ContourLineOptions turning_lines{.step_px = 6.0, .largest_mm = 0.8, .bend_px = 0.5};
+// Times farther apart than rows are: where the axis bends with a quarter of a place's offset as radius.
+constexpr double torn_from = 5.0;
 constexpr double fading_reach_mm = 3.0;  // samples beside the view fade on it, too
 
 }  // namespace
@@ -103,12 +105,25 @@ const reformat::CurvedReformation* CurvedView::reformation() {
   options.s_start_mm = frame_->pixel_mm ? frame_->top_mm : -fit_margin * height() * options.pixel_mm;
   offset_px_ = wider - shift_px_;
   reformation_ = std::make_unique<reformat::CurvedReformation>(axis, options);
+  rows_.clear();
   return reformation_.get();
 }
 
 void CurvedView::moved() {
   reformation_.reset();
   image_stale();
+}
+
+bool CurvedView::is_torn(const Vec2& picture_px) {
+  const reformat::CurvedReformation* shown = reformation();
+  if (!shown) return false;
+  if (rows_.empty())
+    for (int row = 0; row <= shown->options().height; ++row) rows_.push_back(shown->row(row));
+  const auto row = static_cast<std::size_t>(std::clamp(picture_px.y(), 0.0, rows_.size() - 2.0));
+  const double pixel = shown->options().pixel_mm;
+  const Vec3 along_row = rows_[row + 1].along - rows_[row].along;
+  const Vec3 step = rows_[row + 1].start - rows_[row].start + picture_px.x() * pixel * along_row;
+  return step.norm() > torn_from * pixel;
 }
 
 std::optional<Vec3> CurvedView::world(const Vec2& px) {

@@ -71,14 +71,9 @@ const Overlay& PictureView::overlay() {
   if (overlay_fresh_ && fading_.empty() && before == 0) return overlay_;
   overlay_ = {};
   if (ready() && width_ > 0 && height_ > 0) {
-    if (bench_.contours_shown.get())
-      for (const lumen::ContourLine& line : contour_lines()) {
-        OverlayLine shown;
-        shown.px.reserve(line.picture_px.size());
-        for (const Vec2& p : line.picture_px) shown.px.push_back(p - contour_offset());
-        overlay_.lines.push_back(std::move(shown));
-      }
-    if (layer_) layer_(overlay_);
+    if (bench_.contours_shown.get()) add_contours(overlay_);
+    for (const Layer& layer : layers_)
+      if (layer) layer(overlay_);
     add_to_overlay(overlay_);
     const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
     append(overlay_.bands, tool_overlay_.bands);
@@ -88,6 +83,24 @@ const Overlay& PictureView::overlay() {
   }
   overlay_fresh_ = true;
   return overlay_;
+}
+
+void PictureView::add_contours(Overlay& overlay) {
+  for (const lumen::ContourLine& line : contour_lines()) {
+    OverlayLine shown;
+    shown.px.reserve(line.picture_px.size());
+    const auto end_piece = [&] {
+      if (shown.px.size() > 1) overlay.lines.push_back(shown);
+      shown.px.clear();
+    };
+    for (const Vec2& p : line.picture_px) {
+      if (is_torn(p))
+        end_piece();
+      else
+        shown.px.push_back(p - contour_offset());
+    }
+    end_piece();
+  }
 }
 
 std::optional<double> PictureView::value_at(const Vec2& px) {
@@ -163,7 +176,7 @@ std::optional<PictureView::WallHit> PictureView::wall_near(const Vec2& px, doubl
   for (const lumen::ContourLine& line : contour_lines())
     for (std::size_t i = 0; i + 1 < line.picture_px.size(); ++i) {
       const SegmentFoot foot = foot_on_segment(at, line.picture_px[i], line.picture_px[i + 1]);
-      if (foot.distance > best.distance_px) continue;
+      if (foot.distance > best.distance_px || is_torn(line.picture_px[i])) continue;
       best = {(1.0 - foot.t) * line.world[i] + foot.t * line.world[i + 1], foot.place - contour_offset(),
               foot.distance};
       found = true;
@@ -172,8 +185,8 @@ std::optional<PictureView::WallHit> PictureView::wall_near(const Vec2& px, doubl
   return best;
 }
 
-void PictureView::set_layer(Layer layer) {
-  layer_ = std::move(layer);
+void PictureView::set_layer(Layer layer, LayerPlace place) {
+  layers_[static_cast<std::size_t>(place)] = std::move(layer);
   overlay_stale();
 }
 

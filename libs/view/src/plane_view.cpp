@@ -208,6 +208,7 @@ std::string to_string(SliceKind kind) {
 SliceView::SliceView(session::Workbench& bench, SliceKind kind) : PlaneView(bench), kind_(kind) {
   keep(bench.place.observe([this](const Vec3&) { moved(); }));
   keep(bench.image_changed.observe([this] { moved(); }));
+  keep(bench.first_end.observe([this](const std::optional<Vec3>&) { overlay_stale(); }));
 }
 
 bool SliceView::ready() const {
@@ -291,6 +292,11 @@ void SliceView::add_to_overlay(Overlay& overlay) {
     for (const AxisCrossing& one : crossings(*model, *shown))
       overlay.marks.push_back(
           {one.px, one.vessel == bench().vessel.get() ? Role::axis : Role::other_axis, 2.0});
+  if (const auto& begun = bench().first_end.get()) {
+    const auto there = reformat::project(*shown, *begun);
+    if (std::abs(there.distance_mm) <= mark_reach_mm)
+      overlay.marks.push_back({there.picture_px, Role::selected, 4.0, 1.0, false});
+  }
   add_letters(overlay, shown->u, shown->v);
   add_scale_bar(overlay);
   char text[64];

@@ -12,7 +12,7 @@
 namespace ostia::view {
 namespace {
 
-using session::TruthSection;
+using session::RuledSurface;
 using Edge = std::pair<std::int32_t, std::int32_t>;
 
 constexpr double beside_px = 30.0;   // contours so far above or below the view are looked at, too
@@ -121,7 +121,7 @@ void TruthLayer::draw(Overlay& overlay) {
 namespace {
 
 /// Whether the selected vessel's way runs through a section's vessel there.
-bool is_of_selected(const session::Workbench& bench, const TruthSection& section) {
+bool is_of_selected(const session::Workbench& bench, const RuledSurface& section) {
   const lumen::LumenModel* model = bench.model();
   if (!model || section.s_mm.empty()) return false;
   const std::int32_t selected = bench.vessel.get();
@@ -134,7 +134,7 @@ bool is_of_selected(const session::Workbench& bench, const TruthSection& section
 }
 
 /// Points of the contours that a curved view shows, and nothing of the others.
-std::vector<std::optional<ViewPlace>> places_on(CurvedView& view, const TruthSection& section) {
+std::vector<std::optional<ViewPlace>> places_on(CurvedView& view, const RuledSurface& section) {
   std::vector<std::optional<ViewPlace>> places(section.surface.points.size());
   std::vector<bool> near(section.s_mm.size());
   for (std::size_t k = 0; k < near.size(); ++k) {
@@ -150,7 +150,7 @@ std::vector<std::optional<ViewPlace>> places_on(CurvedView& view, const TruthSec
   return places;
 }
 
-std::vector<std::optional<ViewPlace>> places_on(PlaneView& view, const TruthSection& section) {
+std::vector<std::optional<ViewPlace>> places_on(PlaneView& view, const RuledSurface& section) {
   std::vector<std::optional<ViewPlace>> places;
   const std::optional<reformat::Plane>& plane = view.plane();
   if (!plane) return places;
@@ -164,18 +164,19 @@ std::vector<std::optional<ViewPlace>> places_on(PlaneView& view, const TruthSect
 
 }  // namespace
 
+std::vector<std::vector<Vec2>> lines_on(PictureView& view, const RuledSurface& wall) {
+  auto* curved = dynamic_cast<CurvedView*>(&view);
+  auto* flat = dynamic_cast<PlaneView*>(&view);
+  std::vector<std::optional<ViewPlace>> places;
+  if (curved && is_of_selected(view.bench(), wall)) places = places_on(*curved, wall);
+  if (flat) places = places_on(*flat, wall);
+  if (places.empty()) return {};
+  return lines_of_cut(wall.surface, places, least_jump_px + longest_triangle_mm / view.pixel_mm());
+}
+
 void TruthLayer::make() {
-  auto* curved = dynamic_cast<CurvedView*>(&view_);
-  auto* flat = dynamic_cast<PlaneView*>(&view_);
-  const double most_px = least_jump_px + longest_triangle_mm / view_.pixel_mm();
-  for (const TruthSection& section : check_.truth()) {
-    std::vector<std::optional<ViewPlace>> places;
-    if (curved && is_of_selected(view_.bench(), section)) places = places_on(*curved, section);
-    if (flat) places = places_on(*flat, section);
-    if (places.empty()) continue;
-    for (std::vector<Vec2>& line : lines_of_cut(section.surface, places, most_px))
-      lines_.push_back(std::move(line));
-  }
+  for (const session::TruthSection& section : check_.truth())
+    for (std::vector<Vec2>& line : lines_on(view_, section)) lines_.push_back(std::move(line));
 }
 
 }  // namespace ostia::view

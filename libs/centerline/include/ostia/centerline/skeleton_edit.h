@@ -35,6 +35,19 @@ void validate(const EndOptions& options);  ///< throws InvalidInput
 SkeletonGraph ends_extended(const SkeletonGraph& graph, const imaging::MaskVolume& mask,
                             const EndOptions& options = {});
 
+struct JunctionOptions {
+  /// A line's own course is given up over this many of the junction's radii, where other vessels' walls and
+  /// the thinning lead it, [0, 5]; over no more than a third of the line.
+  double trimmed_radii = 1.5;
+  double direction_mm = 5.0;  ///< length of line beyond that whose direction is followed, (0, 50]
+  double most_radii = 1.5;    ///< how far a junction may move, [0, 10]
+};
+void validate(const JunctionOptions& options);  ///< throws InvalidInput
+/// Thinning puts a junction where the voxels fall, and leads lines to it that are nobody's axis. Here each
+/// junction moves to where the straight lines that go on from its lines' outer parts come nearest to each
+/// other (least squares), and the lines lead there straight. Radii are those where the course is given up.
+SkeletonGraph junctions_settled(const SkeletonGraph& graph, const JunctionOptions& options = {});
+
 struct GapOptions {
   double distance_mm = 2.0;   ///< between ends, [0, 100] ([Luboz] 3.1)
   double angle_deg = 45.0;    ///< most between either line's direction and the other's, and the gap, (0, 180]
@@ -94,5 +107,8 @@ SkeletonGraph cut(const SkeletonGraph& graph, const Vec3& place, const PlaceOpti
 /// Without an edge; nodes that only it had go too, and two lines that are left at a node become one. Throws
 /// for an unknown id.
 SkeletonGraph removed(const SkeletonGraph& graph, std::int32_t edge_id);
+/// The edge whose line is nearest to the place (of equals the lower id). Throws where none is within
+/// reach_mm.
+std::int32_t edge_at(const SkeletonGraph& graph, const Vec3& place, const PlaceOptions& options = {});
 
 }  // namespace ostia::centerline

@@ -16,7 +16,8 @@ struct SectionOptions {
       2.0;  ///< half the length of line that gives the plane's normal, at least; also a radius, (0, 20]
   /// A local maximum counts from this part of the highest one on, (0, 1]: the first that counts is the wall.
   double relevant = 0.5;
-  bool recentre = true;        ///< points move to the middle of their section
+  bool recentre = true;        ///< sections are centred on the vessel, not on the line
+  bool move_points = true;     ///< with `recentre`: the line's points move to the middle of their sections
   bool correct_blur = true;    ///< takes out that a blurred disc's steepest place lies inside of its edge
   double image_blur_mm = 0.0;  ///< standard deviation of the image's own blur, for that correction, [0, 5]
 };

@@ -12,7 +12,9 @@ using geometry::Vec3;
 
 /// docs/coronary-aorta.md gives the method and where the defaults come from.
 struct AortaOptions {
-  double least_hu = 150.0;          ///< mean intensity that counts as contrast, [100, 400]
+  double least_hu = 150.0;  ///< mean intensity that counts as contrast, [100, 400]
+  /// Of the aorta, (least, 4000]: what is brighter is undiluted contrast in a vein.
+  double most_hu = 4000.0;
   double smallest_radius_mm = 8.0;  ///< of the aorta, [5, 20]
   double largest_radius_mm = 25.0;  ///< (smallest, 40]
   double work_spacing_mm = 1.5;     ///< of the image that is looked at, [1, 3]

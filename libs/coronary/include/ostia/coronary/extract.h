@@ -27,10 +27,11 @@ struct Extraction {
   std::vector<std::string> warnings;  ///< of all steps, in plain words
 };
 
-/// Aorta, ostia, growth, axes, names, each step as its own header has it; the task's stage says which one
-/// runs. Deterministic, the same for any number of threads. Throws InvalidInput for options out of range or
-/// an empty image, GeometryError where there is no aorta, no ostium or no artery (what was looked for and
-/// what to do), Cancelled.
+/// Looks first whether the image can hold a coronary tree (docs/coronary-input.md); then aorta, ostia,
+/// growth, axes, names, each step as its own header has it; the task's stage says which one runs.
+/// Deterministic, the same for any number of threads. Throws InvalidInput for options out of range and for an
+/// image that is too small, too coarse, noise or not in HU, GeometryError where there is no chest, no aorta,
+/// no heart below it, no ostium or no artery (what was looked for and what to do), Cancelled.
 Extraction extract(const imaging::ImageVolume& image, const ExtractOptions& options = {},
                    const core::TaskContext& task = core::no_task());
 

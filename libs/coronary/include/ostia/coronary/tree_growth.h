@@ -17,7 +17,7 @@ struct GrowthOptions {
   /// Share of its contrast above the fat with which a voxel must look like a tube (vesselness), [0.1, 0.6].
   double least_tube = 0.25;
   double largest_radius_mm = 4.5;  ///< what is bright so far about a voxel is a chamber, [2, 8]
-  double least_branch_mm = 8.0;    ///< beyond the lumen it leaves, [2, 50]
+  double least_branch_mm = 5.0;    ///< beyond the lumen it leaves, [2, 50]
 };
 void validate(const GrowthOptions& options);  ///< throws InvalidInput
 

@@ -16,7 +16,7 @@ std::string parameters_json(const EditingOptions& options);
 /// steps.
 std::string editing_json(const std::vector<SectionRun>& runs, const EditingOptions& options);
 
-/// Into an existing folder: experiment.json, sections.csv, steps.csv, report.html, accuracy.png (accuracy
+/// Into an existing folder: sections.csv, steps.csv, report.html, accuracy.png (accuracy
 /// over strokes and over modelled time, all sections), one-section.png (a diseased one, as figure 3 of
 /// [Wels]), and in edits/ for each section CASE_SECTION.ostia and .jsonl, which `ostia replay` runs.
 void write_editing_report(const std::filesystem::path& folder, const std::vector<SectionRun>& runs,

@@ -102,21 +102,38 @@ struct BranchSplit {
 struct BranchMerge {
   std::int32_t vessel = 0;  ///< the distal one: its id and name go
 };
+/// "branch.cut": the vessel ends at s, and what lies distal of it, side branches too, is a tree of its own
+/// that begins there. The walls stay where they are.
+struct BranchCut {
+  std::int32_t vessel = 0;
+  double s_mm = 0.0;  ///< as that of a split
+  std::string name;   ///< of the vessel that begins there; empty: "<the vessel's> distal"
+};
+/// "branch.connect": a new piece of vessel leads from a place on another vessel to where the vessel's own
+/// part begins, which stays where it is; a tree of its own becomes a part of the parent's.
+struct BranchConnect {
+  std::int32_t vessel = 0, parent = 0;
+  Vec3 at = Vec3::Zero();  ///< near the parent's axis
+};
 /// "vessel.rename"
 struct VesselRename {
   std::int32_t vessel = 0;
   std::string name;
 };
 
-using Edit =
-    std::variant<CprStroke, SectionContour, WallDrag, WallPush, AxisMove, AxisInsert, AxisDelete, AxisExtend,
-                 AxisTrim, BranchAdd, BranchDelete, BranchAttach, BranchSplit, BranchMerge, VesselRename>;
+using Edit = std::variant<CprStroke, SectionContour, WallDrag, WallPush, AxisMove, AxisInsert, AxisDelete,
+                          AxisExtend, AxisTrim, BranchAdd, BranchDelete, BranchAttach, BranchSplit,
+                          BranchMerge, BranchCut, BranchConnect, VesselRename>;
 
 std::string op_name(const Edit& edit);  ///< "cpr.stroke", ...
 
 /// The vessel from whose end this one goes on, so that "branch.merge" can join both; nothing where it begins
 /// at a root or leaves the side of another. Throws InvalidInput for an unknown vessel.
 std::optional<std::int32_t> merge_parent(const geometry::VesselTree& tree, std::int32_t vessel);
+
+/// Whether a vessel's way leads through what is another's own part: connected to it, that one would make a
+/// loop. A vessel leads through itself. Throws InvalidInput for an unknown vessel.
+bool leads_through(const geometry::VesselTree& tree, std::int32_t vessel, std::int32_t other);
 
 /// What became of one vessel's samples.
 struct VesselChange {

@@ -41,6 +41,14 @@ struct Stenosis {
   PlaqueKind kind = PlaqueKind::soft;
 };
 
+/// A tube of metal just inside the lumen's boundary; its thickness stands for that of the struts, its CT
+/// number for metal thinned by the gaps between them.
+struct Stent {
+  double s_from_mm = 0.0, s_to_mm = 0.0;
+  double thickness_mm = 0.1;
+  float hu = 3000.0f;
+};
+
 /// A stretch of a vessel that bears one of the AHA's segment numbers (Austen et al. 1975; SCCT 2009 for 17).
 struct SegmentSpan {
   int aha = 0;
@@ -63,6 +71,7 @@ struct CoronaryVessel {
   std::vector<SegmentSpan> segments;
   std::vector<Plaque> plaques;
   std::vector<Stenosis> stenoses;
+  std::vector<Stent> stents;
 };
 
 struct CoronaryTree {
@@ -70,9 +79,23 @@ struct CoronaryTree {
   std::vector<CoronaryVessel> vessels;  ///< parents before children
 };
 
+/// How the arteries leave the aorta (docs/phantom-variants.md).
+enum class Anatomy {
+  usual,
+  left_ostium_closed,   ///< the left tree begins 6 mm beyond the aorta's wall
+  right_ostium_closed,  ///< the same on the right
+  rca_from_left,        ///< from the left sinus, between the aorta and the pulmonary trunk
+  lcx_from_right,       ///< from the right sinus, behind the aorta; an ostium of its own
+  bypass                ///< "SVG", from the ascending aorta to the middle of the LAD
+};
+const char* word(Anatomy anatomy);  ///< "usual", "left-ostium-closed", ...
+/// Throws InvalidInput for a word that is none.
+Anatomy anatomy_of(const std::string& word);
+
 struct CoronaryOptions {
   std::uint64_t seed = 1;
   double disease = 1.0;  ///< scales the number of lesions; 0 is a healthy tree
+  Anatomy anatomy = Anatomy::usual;
 };
 CoronaryTree draw_coronaries(const HeartShape& heart, const CoronaryOptions& options = {});
 
@@ -90,6 +113,14 @@ struct LesionOptions {
 /// Narrows the lumen, moves the outer wall and records stenosis and plaques; the recorded grades are measured
 /// in the profile. Throws InvalidInput for options out of range or a lesion that reaches beyond the vessel.
 void add_lesion(CoronaryVessel& vessel, const LesionOptions& options);
+
+/// Calcium beside that of the lesions. `amount` 0 takes all calcium away (it becomes fibrous), 1 leaves it as
+/// it is, more adds nodules in both halves of the wall along the first two thirds of LAD, LCX and RCA:
+/// (amount - 1) every 12 mm. Throws InvalidInput outside [0, 20].
+void set_calcium(CoronaryTree& tree, double amount, std::uint64_t seed);
+/// A stent of `length_mm` in a vessel, from `s_from_mm` on. Throws InvalidInput where it reaches beyond the
+/// vessel.
+void add_stent(CoronaryVessel& vessel, double s_from_mm, double length_mm);
 
 /// The tree as axes alone: nodes, segments (radius: the mean one) and vessels from each ostium to each end.
 geometry::VesselTree vessel_tree(const CoronaryTree& tree);

@@ -3,6 +3,7 @@
 
 #include "ostia/core/task_context.h"
 #include "ostia/imaging/volume.h"
+#include "ostia/phantom/body.h"
 #include "ostia/phantom/coronary_tree.h"
 #include "ostia/phantom/heart.h"
 #include "ostia/phantom/presets.h"
@@ -17,12 +18,24 @@
 
 namespace ostia::phantom {
 
+/// What differs from the usual patient (docs/phantom-variants.md). The defaults change nothing.
+struct CaseVariant {
+  Anatomy anatomy = Anatomy::usual;
+  double calcium = 1.0;               ///< as set_calcium has it, [0, 20]
+  double stent_mm = 0.0;              ///< length of a stent in the proximal LAD, [0, 40]; 0: none
+  std::optional<double> contrast_hu;  ///< of aorta, left heart and arteries, [80, 1000]; none: drawn
+  /// Share of the arterial contrast above their own that veins, right heart and pulmonary arteries have, [0,
+  /// 1].
+  double venous = 0.0;
+};
+
 /// Everything that decides a case. The same options, the same bytes.
 struct CaseOptions {
   std::uint64_t seed = 1;
   Preset preset = Preset::full;
   double disease = 1.0;  ///< CoronaryOptions::disease, in [0, 5]; 0: no lesion and no diseased section
-  ScanOptions scan;      ///< `grid` and `seed` are set from the preset and the case's seed
+  CaseVariant variant;
+  ScanOptions scan;  ///< `grid` and `seed` are set from the preset and the case's seed
   ContourOptions contours;
   ObserverOptions observers;         ///< `seed` is set from the case's seed
   double surface_spacing_mm = 0.15;  ///< of lumen.vtp and wall.vtp, in [0.05, 1]
@@ -41,6 +54,9 @@ struct CasePlan {
 /// Heart and tree drawn from the seed, lesions added where the sections need them, sections and vessels
 /// chosen. Quick: no surface, no image.
 CasePlan plan_case(const CaseOptions& options);
+
+/// The tissues of a case: drawn from its seed, with the variant's contrast.
+BodyOptions body_of(const CaseOptions& options);
 
 /// The case as the scanner sees it.
 Scan scan_case(const CasePlan& plan, const core::TaskContext& task = core::no_task());

@@ -36,7 +36,8 @@ enum class Label : std::uint8_t {
   fibrous_plaque = 22,
   calcified_plaque = 23,
   oesophagus = 24,
-  skin = 25
+  skin = 25,
+  metal = 26
 };
 
 struct Material {

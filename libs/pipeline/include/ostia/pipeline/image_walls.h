@@ -5,15 +5,22 @@
 #include "ostia/imaging/volume.h"
 #include "ostia/lumen/start_surface.h"
 
+#include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace ostia::pipeline {
 
+/// Where a branch has left the lumen that it comes from, judged by the axes' radii; 0 for a vessel that comes
+/// from none. `axes` in the order of the tree's vessels, of which `vessel` is an index.
+double free_from_mm(const geometry::VesselTree& tree,
+                    const std::vector<std::shared_ptr<const geometry::AxisCurve>>& axes, std::size_t vessel);
+
 /// One wall a vessel, found on rays (segmentation::lumen_boundary) where the vessel runs by itself. At a
-/// take-off the rays of a branch would meet its parent's wall: there it is a tube of the axis' radii, and the
-/// passage is smooth. Warnings go to the log with the vessel's name, and to `said`, a list for each vessel in
-/// the tree's order, where it is given.
+/// take-off the rays of a branch would meet its parent's wall: there it is a tube as wide as the branch is
+/// behind it, and the passage is smooth. Warnings go to the log with the vessel's name, and to `said`, a list
+/// for each vessel in the tree's order, where it is given.
 std::vector<lumen::RadialWall> walls_from_image(const geometry::VesselTree& tree,
                                                 const imaging::ImageVolume& image,
                                                 const core::TaskContext& task,

@@ -11,18 +11,30 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace ostia::pipeline {
+
+/// What a person does to the lines, by places in mm (LPS): cuts first, then removals, then connections, each
+/// in their order. Places may lie off the lines by centerline::PlaceOptions.
+struct SkeletonCommands {
+  std::vector<geometry::Vec3> cuts, removals;
+  std::vector<std::pair<geometry::Vec3, geometry::Vec3>> connections;
+};
 
 struct SkeletonOptions {
   bool fill_cavities = true;
   centerline::PruneOptions prune;
   centerline::EndOptions ends;
   centerline::GapOptions gaps;
+  SkeletonCommands commands;  ///< after the gaps are closed
   centerline::OrientOptions orient;
   std::optional<centerline::SplineOptions> smooth =
       centerline::SplineOptions{};  ///< nothing: lines as thinned
+  /// After the first sections; nothing: junctions stay where thinning put them, ends where the mask's voxels
+  /// end, and points where their sections have their middles.
+  std::optional<centerline::JunctionOptions> settle = centerline::JunctionOptions{};
   centerline::SectionOptions sections;
   double step_mm = 0.5;                ///< between the points of the tree, (0, 10]
   std::vector<geometry::Vec3> inlets;  ///< mm, LPS; none: each component's widest end
@@ -39,8 +51,8 @@ struct SkeletonResult {
 };
 
 /// `image`: the CT that the mask was made of, for the sections; null: the mask's own edges. Throws
-/// InvalidInput (options, a mask without object, an inlet off the lines, an image that does not cover the
-/// mask), GeometryError, ResourceError, Cancelled.
+/// InvalidInput (options, a mask without object, an inlet or a command off the lines, an image that does not
+/// cover the mask), GeometryError, ResourceError, Cancelled.
 SkeletonResult skeleton_of(const imaging::MaskVolume& mask, const imaging::ImageVolume* image,
                            const SkeletonOptions& options = {},
                            const core::TaskContext& task = core::no_task());

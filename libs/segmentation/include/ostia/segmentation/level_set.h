@@ -31,6 +31,13 @@ struct EdgeFeature {
   /// sigma, and the zero of the Laplacian as much outside; half-way between them is the wall (Verbeek and van
   /// Vliet 1994; Bouma et al. 2005).
   bool curvature_correction = true;
+  /// Variances of the image's blur along its axes; only their ratios count. Where they differ, a ridge lies
+  /// tr(S K)/2 inside of the wall, S the blur and K the wall's curvature in the wall's plane.
+  Vec3 blur = Vec3::Ones();
+  /// P from one-sided differences towards what is darker ([Antiga] eq. 4), one least spacing long, at any
+  /// place and not on voxels alone; each is half its length beside its place, and is sampled where it
+  /// belongs.
+  bool upwind = false;
   /// Intensities above this count as this: a stent or a catheter in the lumen shows no wall of its own.
   /// Infinite: off.
   double brightest_hu = std::numeric_limits<double>::infinity();

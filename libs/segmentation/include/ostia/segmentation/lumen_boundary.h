@@ -32,6 +32,8 @@ struct LumenBoundary {
   int around = 0;
   std::vector<double> radius_mm;  ///< row by row
   std::vector<float> confidence;  ///< [0, 1] for each: how clear the edge is
+  /// The lumen's middle (centroid) in the plane of each row, mm; also where the axis lies outside of it.
+  std::vector<geometry::Vec3> middle;
   double lumen_hu = 0.0, lumen_sigma_hu = 0.0;
   std::vector<std::string> warnings;
   int rows() const { return around > 0 ? static_cast<int>(radius_mm.size()) / around : 0; }

@@ -39,7 +39,9 @@ struct MinimalPath {
   std::vector<Vec3> points;  ///< from the junction (or `from`) to the click, equal steps, centred, smooth
   std::vector<double>
       radius_mm;  ///< one a point: where the intensity falls half-way to wall or background, less the blur
-  std::vector<float> contrast;           ///< one a point: 1 the lumen's intensity near by, 0 the background's
+  std::vector<float> contrast;  ///< one a point: 1 the lumen's intensity near by, 0 the background's
+  /// One a point: 1 where calcium lies on the axis or bounds the lumen, so that the axis is a bridge there.
+  std::vector<std::uint8_t> near_calcium;
   std::optional<PathJunction> junction;  ///< of path_to_tree
   double length_mm = 0.0;
   /// [0, 1]: mean over the points of contrast x (share of the directions across that end at an edge).

@@ -9,6 +9,7 @@
 #include "ostia/figure/picture.h"
 #include "ostia/pipeline/manifest.h"
 #include "ostia/session/case_file.h"
+#include "ostia/session/outer_walls.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -25,6 +26,7 @@ struct ReportOptions {
   analysis::ProfileOptions profile;
   analysis::ReferenceOptions reference;
   analysis::StenosisOptions stenosis;
+  OuterWallsOptions walls;
   /// Stenoses of vessels with a thinner reference are listed, but have no say in the patient's category:
   /// CAD-RADS grades coronary vessels from this diameter on (Cury et al. 2022). [0, 5] mm
   double least_graded_mm = 1.5;
@@ -34,14 +36,22 @@ struct ReportOptions {
 };
 void validate(const ReportOptions& options);  ///< throws InvalidInput
 
+/// What lies between lumen and outer wall over a stretch, as the image shows it.
+struct ReportPlaque {
+  double from_mm = 0.0, to_mm = 0.0;  ///< the part of the stretch where the outer wall was looked for
+  analysis::PlaqueVolumes volumes;
+  double seen_share = 0.0;  ///< of the vessel's outer wall that borders on fat; the rest is a bridge
+};
+
 struct ReportVessel {
   std::int32_t id = 0;
   std::string name;
-  double length_mm = 0.0;      ///< from the root
-  double own_from_mm = 0.0;    ///< where its own part begins
-  bool checked = false;        ///< a person is done with it
-  std::string note;            ///< the person's own text
-  double unmeasured_mm = 0.0;  ///< of its own part, where the wall does not close
+  double length_mm = 0.0;              ///< from the root
+  double own_from_mm = 0.0;            ///< where its own part begins
+  bool checked = false;                ///< a person is done with it
+  std::string note;                    ///< the person's own text
+  double unmeasured_mm = 0.0;          ///< of its own part, where the wall does not close
+  std::optional<ReportPlaque> plaque;  ///< of its own part; nothing without an image
 };
 
 /// A standard segment. What could not be measured is nothing.
@@ -63,6 +73,8 @@ struct ReportStenosis {
   analysis::CadRads category = analysis::CadRads::zero;
   bool graded = true;  ///< has a say in the patient's category
   bool checked = false;
+  std::optional<ReportPlaque> plaque;  ///< of the lesion; nothing without an image
+  std::optional<double> remodelling_index;
 };
 
 struct ReportMeasurement {
@@ -95,6 +107,7 @@ struct CaseReport {
   /// By vessel: what the tables were made of, and the pictures are.
   std::map<std::int32_t, analysis::LumenProfile> profiles;
   std::map<std::int32_t, analysis::ReferenceLine> references;
+  std::map<std::int32_t, VesselWalls> walls;  ///< of vessels whose outer wall was looked for
 
   std::vector<std::string> unchecked() const;  ///< names of vessels that no person has checked
 };
@@ -135,6 +148,7 @@ std::string report_pdf(const CaseReport& report, const std::vector<KeyImage>& im
 /// formula has an apostrophe before it.
 std::string segments_csv(const CaseReport& report);
 std::string stenoses_csv(const CaseReport& report);
+std::string plaque_csv(const CaseReport& report);  ///< one line a vessel and, below it, a stenosis of it
 std::string measurements_csv(const CaseReport& report);
 
 /// SHA-256 over what a report is made of: model, annotations, journal, image reference.
@@ -143,10 +157,10 @@ std::string report_digest(const CaseFile& file);
 pipeline::JobKey report_job(const CaseFile& file, bool with_image, const ReportOptions& options,
                             const std::vector<KeyImage>& further = {});
 
-/// report.html, report.pdf, report.json, segments.csv, stenoses.csv, measurements.csv, images/*.png and,
-/// last, manifest.json. The folder appears whole or not at all; the same report gives the same bytes, the
-/// manifest's times aside. Throws InvalidInput for images of the same or an unfit name or a folder that holds
-/// other files, IoError, ResourceError, Cancelled.
+/// report.html, report.pdf, report.json, segments.csv, stenoses.csv, plaque.csv, measurements.csv,
+/// images/*.png and, last, manifest.json. The folder appears whole or not at all; the same report gives the
+/// same bytes, the manifest's times aside. Throws InvalidInput for images of the same or an unfit name or a
+/// folder that holds other files, IoError, ResourceError, Cancelled.
 void write_case_report(const std::filesystem::path& folder, const CaseReport& report,
                        const std::vector<KeyImage>& images, const pipeline::JobKey& job,
                        double seconds_before = 0.0, const core::TaskContext& task = core::no_task());

@@ -5,6 +5,7 @@
 #include "ostia/geometry/contour_set.h"
 #include "ostia/geometry/tri_mesh.h"
 #include "ostia/session/active_time.h"
+#include "ostia/session/ruled_surface.h"
 #include "ostia/session/workbench.h"
 
 #include <filesystem>
@@ -46,13 +47,8 @@ struct WholeError {
 };
 
 /// A section of the truth where the case has it.
-struct TruthSection {
+struct TruthSection : RuledSurface {
   geometry::ContourSection contours;
-  std::int32_t vessel = Workbench::no_vessel;
-  std::vector<double> s_mm;   ///< of each contour on the vessel's axis; empty without a vessel
-  geometry::TriMesh surface;  ///< ruled; contour k's points are the k-th part of its points
-  geometry::Box3 box;
-  std::size_t ring = 0;  ///< points of a contour of `surface`
 };
 
 /// Watches the workbench. A section belongs to the vessel of its name where that runs through its contours

@@ -139,6 +139,7 @@ class Workbench {
   Property<double> beta_deg{60.0,
                             Range<double>{45.0, 90.0, 5.0}};  ///< half-angle within which a stroke dismisses
   Property<double> section_eps_mm{1.5, Range<double>{0.2, 20.0, 0.1}};
+  Property<std::optional<Vec3>> first_end;  ///< of a vessel that is being placed by its two ends
   Property<bool> contours_shown{true};
   Property<bool> marks_shown{true};                ///< measurements
   Property<std::int32_t> selected_measurement{0};  ///< 0: none

@@ -47,6 +47,7 @@ class CurvedView final : public PictureView {
   void size_changed() override { reformation_.reset(); }
   GreyImage make_image() override;
   Vec2 contour_offset() const override { return Vec2(offset_px_, 0.0); }
+  bool is_torn(const Vec2& picture_px) override;
   std::optional<lumen::ViewSurface> contour_surface() override;
   std::vector<Vec2> contour_seeds() override;
   lumen::ContourLineOptions line_options() const override;
@@ -66,6 +67,7 @@ class CurvedView final : public PictureView {
   int shift_px_ = 0;  ///< of the axis to the right of the middle
   int offset_px_ = 0;
   std::unique_ptr<reformat::CurvedReformation> reformation_;
+  std::vector<reformat::CurvedReformation::Row> rows_;  // at the rows' edges; empty: not asked for yet
 };
 
 }  // namespace ostia::view

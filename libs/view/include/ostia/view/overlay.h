@@ -22,6 +22,7 @@ struct GreyImage {
 /// What something over the image means; the app's theme knows its colour and width.
 enum class Role {
   lumen,        ///< the wall
+  outer_wall,   ///< where the vessel's wall ends
   truth,        ///< the wall as somebody else knows it
   axis,         ///< of the selected vessel
   other_axis,   ///< of the others

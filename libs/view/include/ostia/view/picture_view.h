@@ -7,6 +7,7 @@
 #include "ostia/view/handle_hit.h"
 #include "ostia/view/overlay.h"
 
+#include <array>
 #include <chrono>
 #include <functional>
 #include <memory>
@@ -79,7 +80,8 @@ class PictureView {
 
   /// Something of others over the picture, under what the tool shows; asked whenever the overlay is made.
   using Layer = std::function<void(Overlay& overlay)>;
-  void set_layer(Layer layer);
+  enum class LayerPlace { truth, outer_wall };
+  void set_layer(Layer layer, LayerPlace place = LayerPlace::truth);
   void touch_layer() { overlay_stale(); }  ///< the layer shows something else
   /// Another number whenever world and project may mean something else.
   std::uint64_t placement_revision() const { return placement_revision_; }
@@ -102,6 +104,9 @@ class PictureView {
   virtual std::optional<lumen::ViewSurface> contour_surface() = 0;
   virtual std::vector<Vec2> contour_seeds() = 0;
   virtual lumen::ContourLineOptions line_options() const;
+  /// At a place of the contour lines' picture: one row shows there what lies far apart, so that a line would
+  /// be drawn across the picture where there is no wall.
+  virtual bool is_torn(const Vec2&) { return false; }
   virtual void add_to_overlay(Overlay& overlay) = 0;
   /// Measurements' marks whose points lie within `reach_mm` of the view.
   void add_measurements(Overlay& overlay, double reach_mm);
@@ -119,13 +124,14 @@ class PictureView {
     std::chrono::steady_clock::time_point since;
   };
   void bring_contours();
+  void add_contours(Overlay& overlay);
   session::Workbench& bench_;
   int width_ = 0, height_ = 0;
   double density_ = 1.0;
   GreyImage image_;
   Overlay overlay_, tool_overlay_;
   std::uint64_t image_revision_ = 0, placement_revision_ = 0;
-  Layer layer_;
+  std::array<Layer, 2> layers_;  // by LayerPlace
   bool image_fresh_ = false, overlay_fresh_ = false;
   enum class Lines { fresh, moved, anew } lines_state_ = Lines::anew;
   geometry::Box3 lines_changed_;

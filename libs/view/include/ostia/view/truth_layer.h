@@ -16,6 +16,10 @@ std::vector<std::vector<Vec2>> lines_of_cut(const geometry::TriMesh& surface,
                                             const std::vector<std::optional<ViewPlace>>& places,
                                             double most_px);
 
+/// Where a wall of rings meets a view, as lines_of_cut has them: on a curved reformation that of the selected
+/// vessel, on flat views any.
+std::vector<std::vector<Vec2>> lines_on(PictureView& view, const session::RuledSurface& wall);
+
 /// The observer's contours on one view: lines where their ruled surface meets it, so that between two
 /// contours it is what is between them. On a curved reformation those of the selected vessel, at the view's
 /// angle. Made anew when view or truth are others, not when the wall is. As long as the layer lives the view

@@ -1,0 +1,171 @@
+#include "extraction_tables.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace ostia::experiments {
+namespace {
+
+using evaluation::Lesion;
+
+std::string fixed(double value, int decimals) {
+  if (!std::isfinite(value)) return "-";
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f", decimals, value);
+  return text;
+}
+
+const char* word(geometry::Health health) {
+  return health == geometry::Health::diseased ? "diseased" : "healthy";
+}
+
+std::string stretches(const std::vector<std::pair<double, double>>& pieces) {
+  std::string text;
+  for (const auto& [from, to] : pieces)
+    text += (text.empty() ? "" : "; ") + fixed(from, 1) + " to " + fixed(to, 1);
+  return text;
+}
+
+std::vector<std::string> case_row(const std::string& name, const std::vector<ExtractionRun>& runs,
+                                  const ExtractionScoreOptions& options) {
+  const ExtractionSummary s = summarize(runs, options);
+  const evaluation::LesionCounts& lesions = s.stenoses.all;
+  return {
+      name,
+      fixed(s.annotated.ov, 3),
+      fixed(s.annotated.of, 3),
+      fixed(s.annotated.ot, 3),
+      fixed(s.annotated.ai_mm, 3),
+      fixed(s.all.ov, 3),
+      fixed(s.astray_mm, 1),
+      std::to_string(s.right) + "/" + std::to_string(s.wrong) + "/" + std::to_string(s.unnamed + s.missing),
+      fixed(s.healthy.dice, 3),
+      fixed(s.healthy.msd_mm, 3),
+      fixed(s.healthy.max_sd_mm, 2),
+      fixed(s.diseased.dice, 3),
+      fixed(s.diseased.msd_mm, 3),
+      fixed(s.diseased.max_sd_mm, 2),
+      std::to_string(lesions.true_positive) + "/" + std::to_string(lesions.false_negative) + "/" +
+          std::to_string(lesions.false_positive),
+      fixed(s.most_seconds, 1),
+      fixed(s.most_mb / 1024.0, 2)};
+}
+
+std::string place(const Lesion& lesion) {
+  return fixed(lesion.s_throat_mm, 1) + " (" + fixed(lesion.s_from_mm, 1) + " to " +
+         fixed(lesion.s_to_mm, 1) + ")";
+}
+
+}  // namespace
+
+Table case_table(const std::vector<ExtractionRun>& runs, const ExtractionScoreOptions& options) {
+  Table table;
+  table.header = {"case",
+                  "OV",
+                  "OF",
+                  "OT",
+                  "AI, mm",
+                  "OV, all",
+                  "astray, mm",
+                  "names right/wrong/none",
+                  "healthy Dice",
+                  "MSD, mm",
+                  "max, mm",
+                  "diseased Dice",
+                  "MSD, mm",
+                  "max, mm",
+                  "stenoses found/missed/false",
+                  "s",
+                  "GB"};
+  for (const ExtractionRun& run : runs) table.rows.push_back(case_row(run.case_name, {run}, options));
+  if (runs.size() > 1) table.rows.push_back(case_row("all", runs, options));
+  return table;
+}
+
+Table vessel_table(const std::vector<ExtractionRun>& runs) {
+  Table table;
+  table.header = {"case", "vessel", "annotated", "length_mm", "ov",      "of",
+                  "ot",   "ai_mm",  "missed_mm", "named",     "found_as"};
+  for (const ExtractionRun& run : runs)
+    for (const VesselRun& v : run.vessels)
+      table.rows.push_back({run.case_name, v.name, v.annotated ? "yes" : "no", fixed(v.length_mm, 1),
+                            fixed(v.scores.ov, 4), fixed(v.scores.of, 4), fixed(v.scores.ot, 4),
+                            fixed(v.scores.ai_mm, 4), stretches(v.missed_mm), name_of(v.verdict),
+                            v.found_name});
+  return table;
+}
+
+Table section_table(const std::vector<ExtractionRun>& runs) {
+  Table table;
+  table.header = {"case", "section", "vessel",    "health",        "length_mm",
+                  "dice", "msd_mm",  "max_sd_mm", "signed_mean_mm"};
+  for (const ExtractionRun& run : runs)
+    for (const evaluation::SectionScore& s : run.sections)
+      table.rows.push_back({run.case_name, s.section, s.vessel, word(s.health), fixed(s.length_mm, 1),
+                            fixed(s.dice, 4), fixed(s.msd_mm, 4), fixed(s.max_sd_mm, 3),
+                            fixed(s.signed_mean_mm, 4)});
+  return table;
+}
+
+Table stenosis_table(const std::vector<ExtractionRun>& runs, const ExtractionScoreOptions& options) {
+  Table table;
+  table.header = {"case",           "vessel",        "true_place_mm", "true_percent",
+                  "found_place_mm", "found_percent", "verdict"};
+  for (const ExtractionRun& run : runs) {
+    const evaluation::LesionDetection d =
+        evaluation::detect_lesions(run.lesions, run.found_lesions, options.threshold);
+    const auto add = [&](const Lesion* truth, const Lesion* found) {
+      const bool is = truth && truth->grade >= options.threshold;
+      const bool seen = found && found->grade >= options.threshold;
+      if (!is && !seen) return;
+      table.rows.push_back({run.case_name, (truth ? truth : found)->vessel, truth ? place(*truth) : "-",
+                            truth ? fixed(100.0 * truth->grade, 1) : "-", found ? place(*found) : "-",
+                            found ? fixed(100.0 * found->grade, 1) : "-",
+                            is && seen ? "found" : (is ? "missed" : "false")});
+    };
+    for (const evaluation::LesionPair& pair : d.pairs)
+      add(&run.lesions[pair.reference], &run.found_lesions[pair.found]);
+    for (const std::size_t i : d.missed) add(&run.lesions[i], nullptr);
+    for (const std::size_t i : d.unexplained) add(nullptr, &run.found_lesions[i]);
+  }
+  return table;
+}
+
+std::vector<std::string> worst_of(const std::vector<ExtractionRun>& runs,
+                                  const ExtractionScoreOptions& options) {
+  std::vector<std::string> said;
+  for (const ExtractionRun& run : runs)
+    if (!run.failure.empty()) said.push_back(run.case_name + ": nothing was found: " + run.failure);
+  const VesselRun* vessel = nullptr;
+  const evaluation::SectionScore* sections[2] = {nullptr, nullptr};
+  std::string of_vessel, of_section[2];
+  for (const ExtractionRun& run : runs) {
+    for (const VesselRun& one : run.vessels)
+      if (one.annotated && (!vessel || one.scores.ov < vessel->scores.ov))
+        vessel = &one, of_vessel = run.case_name;
+    for (const evaluation::SectionScore& one : run.sections) {
+      const std::size_t kind = one.health == geometry::Health::diseased ? 1 : 0;
+      if (!sections[kind] || one.dice < sections[kind]->dice)
+        sections[kind] = &one, of_section[kind] = run.case_name;
+    }
+  }
+  if (vessel)
+    said.push_back("annotated vessel of the least overlap: " + vessel->name + " of " + of_vessel + ", OV " +
+                   fixed(vessel->scores.ov, 3) +
+                   (vessel->missed_mm.empty() ? "" : ", missed: " + stretches(vessel->missed_mm) + " mm"));
+  for (std::size_t kind = 0; kind < 2; ++kind)
+    if (sections[kind])
+      said.push_back(std::string(word(sections[kind]->health)) +
+                     " section of the least Dice: " + sections[kind]->section + " (" +
+                     sections[kind]->vessel + ") of " + of_section[kind] + ", Dice " +
+                     fixed(sections[kind]->dice, 3) + ", MSD " + fixed(sections[kind]->msd_mm, 3) + " mm");
+  const Table stenoses = stenosis_table(runs, options);
+  for (const std::vector<std::string>& row : stenoses.rows)
+    if (row.back() != "found")
+      said.push_back(row[0] + " " + row[1] + ": stenosis of " + row[3] + " % at " + row[2] + " mm, found " +
+                     row[5] + " % at " + row[4] + " mm");
+  return said;
+}
+
+}  // namespace ostia::experiments

@@ -1,0 +1,109 @@
+#include "ostia/session/outer_walls.h"
+
+#include "report_cases.h"
+
+#include "ostia/core/error.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace ostia::session {
+namespace {
+
+using namespace testing;
+using ::testing::HasSubstr;
+
+constexpr double pi = std::numbers::pi;
+
+TEST(OuterWalls, OfAModelsLumenInItsImage) {
+  const lumen::LumenModel model = narrowed_tube("RCA", 40.0, 1.5, 20.0, 1.5);
+  const imaging::ImageVolume image = walled_image(1.5, 2.6, 60.0);
+  const auto walls = vessel_walls(model, solved_surfaces(model), model.tree.vessels.front().id, image);
+  ASSERT_TRUE(walls);
+  EXPECT_GT(walls->outer.seen_share, 0.99);
+  EXPECT_NEAR(walls->lumen.from_mm, 1.5, 0.1);  // without a radius at the ends
+  EXPECT_NEAR(walls->plaque.to_mm, 38.5, 0.6);
+  for (std::size_t n = 0; n < walls->lumen.radius_mm.size(); ++n) {
+    EXPECT_NEAR(walls->lumen.radius_mm[n], 1.5, 0.03);
+    EXPECT_NEAR(walls->outer.surface.radius_mm[n], 2.6, 0.12);
+  }
+  const analysis::PlaqueVolumes all = analysis::plaque_between(walls->plaque, 10.0, 30.0);
+  EXPECT_NEAR(all.vessel_mm3, pi * 2.6 * 2.6 * 20.0, 0.05 * pi * 2.6 * 2.6 * 20.0);
+  EXPECT_NEAR(all.of(analysis::PlaqueClass::fibrofatty), pi * (2.6 * 2.6 - 2.25) * 20.0,
+              0.10 * pi * (2.6 * 2.6 - 2.25) * 20.0);
+  const std::vector<geometry::Vec3> ring = outer_wall_ring(*walls, 20.0);
+  ASSERT_EQ(ring.size(), 96U);
+  for (const geometry::Vec3& p : ring) EXPECT_NEAR(p.head<2>().norm(), 2.6, 0.12);
+  EXPECT_TRUE(outer_wall_ring(*walls, 0.5).empty());
+}
+
+TEST(OuterWalls, StayWithinTheImageAndSkipWhatIsTooShort) {
+  const lumen::LumenModel model = narrowed_tube("RCA", 40.0, 1.5, 20.0, 1.5);
+  imaging::ImageVolume image = walled_image(1.5, 2.6, 60.0);
+  const std::int32_t vessel = model.tree.vessels.front().id;
+  image.geometry.origin.z() = 30.0;
+  const auto walls = vessel_walls(model, solved_surfaces(model), vessel, image);
+  ASSERT_TRUE(walls);
+  EXPECT_GE(walls->lumen.from_mm, 29.5);
+  image.geometry.origin.z() = 39.0;
+  EXPECT_FALSE(vessel_walls(model, solved_surfaces(model), vessel, image));
+}
+
+TEST(OuterWalls, OfABranchBeginBehindItsTakeOff) {
+  const lumen::LumenModel model = named_y();
+  imaging::ImageVolume image = walled_image(1.5, 2.6, 60.0);
+  image.geometry.origin = {-9.45, -9.45, -17.0};
+  const auto of = [&](std::size_t vessel) {
+    return vessel_walls(model, solved_surfaces(model), model.tree.vessels[vessel].id, image);
+  };
+  const auto first = of(0), second = of(1);
+  ASSERT_TRUE(first && second);
+  EXPECT_LT(first->lumen.from_mm, 2.5);
+  EXPECT_GT(second->lumen.from_mm, 16.0);  // its own segment begins at 15 mm
+}
+
+TEST(OuterWalls, AShutLumenIsAllPlaque) {
+  const lumen::LumenModel model = shut_tube();
+  const imaging::ImageVolume image = walled_image(1.2, 2.3, 60.0);
+  const auto walls = vessel_walls(model, solved_surfaces(model), model.tree.vessels.front().id, image);
+  ASSERT_TRUE(walls);
+  EXPECT_LT(analysis::plaque_between(walls->plaque, 18.0, 22.0).lumen_mm3, 0.1);
+}
+
+TEST(OuterWalls, AReportTellsThem) {
+  const imaging::ImageVolume image = walled_image(1.5, 2.6, 60.0);
+  const CaseReport with = report_of(narrowed_tube("RCA", 40.0, 1.5, 20.0, 0.6), {}, {}, &image);
+  ASSERT_EQ(with.stenoses.size(), 1U);
+  ASSERT_TRUE(with.vessels.front().plaque && with.stenoses.front().plaque);
+  const ReportPlaque& lesion = *with.stenoses.front().plaque;
+  EXPECT_NEAR(lesion.volumes.length_mm, with.stenoses.front().stenosis.length_mm(), 1e-6);
+  EXPECT_GT(lesion.volumes.burden_percent(), with.vessels.front().plaque->volumes.burden_percent());
+  ASSERT_TRUE(with.stenoses.front().remodelling_index);
+  EXPECT_NEAR(*with.stenoses.front().remodelling_index, 1.0, 0.15);  // the image's wall is even
+  const CaseReport without = report_of(narrowed_tube("RCA", 40.0, 1.5, 20.0, 0.6));
+  EXPECT_FALSE(without.vessels.front().plaque || without.stenoses.front().plaque ||
+               without.stenoses.front().remodelling_index);
+}
+
+TEST(OuterWalls, AnImageWithoutContrastSaysSo) {
+  imaging::ImageVolume image = tube_image();
+  for (std::int16_t& hu : image.voxels) hu = 60;
+  const CaseReport report = report_of(narrowed_tube("RCA", 40.0, 1.5, 20.0, 0.6), {}, {}, &image);
+  EXPECT_THAT(report.warnings, ::testing::Contains(HasSubstr("RCA: fat is seen beyond the wall on 0 %")));
+}
+
+TEST(OuterWalls, RefuseWhatMakesNoSense) {
+  const lumen::LumenModel model = tube_model();
+  const imaging::ImageVolume image = tube_image();
+  EXPECT_THROW(vessel_walls(model, solved_surfaces(model), 99, image), InvalidInput);
+  OuterWallsOptions options;
+  options.around = 4;
+  EXPECT_THROW(vessel_walls(model, solved_surfaces(model), model.tree.vessels.front().id, image, options),
+               InvalidInput);
+}
+
+}  // namespace
+}  // namespace ostia::session

@@ -38,6 +38,21 @@ TEST(TreeBuilder, a_y_has_three_segments_and_shared_points) {
   EXPECT_NEAR((b.points.back() - Vec3(-8, 0, 15)).norm(), 0.0, 1e-9);
 }
 
+TEST(TreeBuilder, radii_stay_positive_where_a_lumen_narrows_at_once) {
+  Axis axis;
+  for (int i = 0; i <= 20; ++i) {
+    axis.points.emplace_back(0, 0, 0.5 * i);
+    axis.radius.push_back(i <= 10 ? 2.0 : 0.05);
+  }
+  ChainTree chains;
+  chains.chains.resize(1);
+  chains.chains.front().axis = axis;
+  chains.ends = {{0, axis.points.size() - 1}};
+  const geometry::VesselTree tree = split_tree(chains, 0.2, {}).tree;
+  EXPECT_FALSE(geometry::find_fault(tree).has_value()) << *geometry::find_fault(tree);
+  for (const double radius : tree.segments.front().axis.radius) EXPECT_GE(radius, 0.05);
+}
+
 TEST(TreeBuilder, steps_are_equal_and_frames_run_on) {
   const geometry::VesselTree tree = split_tree(merge_paths(y_paths(), {0, 1}, 0.15), 0.25, {}).tree;
   for (const geometry::TreeSegment& s : tree.segments) {

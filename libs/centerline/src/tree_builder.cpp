@@ -132,24 +132,26 @@ class TreeMaker {
     const geometry::ArcLengthSpline curve(axis.points, axis.radius);
     const std::vector<double> chord = geometry::abscissas(axis.points);
     const double stretch = curve.length() / chord.back();
+    const double least_radius = *std::min_element(axis.radius.begin(), axis.radius.end());
     std::size_t from = 0;
     for (const std::size_t to : cuts_[c].all()) {
       if (to == 0) continue;
       const std::int32_t start = nodes_.at({c, from});
-      add_segment(curve, stretch * chord[from], stretch * chord[to], start, c, to);
+      add_segment(curve, least_radius, stretch * chord[from], stretch * chord[to], start, c, to);
       from = to;
     }
   }
 
-  void add_segment(const geometry::ArcLengthSpline& curve, double from_mm, double to_mm, std::int32_t start,
-                   std::size_t chain, std::size_t to) {
+  void add_segment(const geometry::ArcLengthSpline& curve, double least_radius, double from_mm, double to_mm,
+                   std::int32_t start, std::size_t chain, std::size_t to) {
     const auto pieces =
         static_cast<std::size_t>(std::max(1.0, std::ceil((to_mm - from_mm) / step_mm_ - 1e-6)));
     geometry::TreeSegment segment;
     for (std::size_t i = 0; i <= pieces; ++i) {
       const double s = from_mm + (to_mm - from_mm) * static_cast<double>(i) / static_cast<double>(pieces);
       segment.axis.points.push_back(curve.point(s));
-      segment.axis.radius.push_back(curve.scalar(s));
+      // Where a lumen narrows at once a cubic swings below both radii, and may go below nothing.
+      segment.axis.radius.push_back(std::max(curve.scalar(s), least_radius));
     }
     segment.axis.points.front() = tree_.nodes[static_cast<std::size_t>(start)].position;
     const std::int32_t end = add_node(segment.axis.points.back());

@@ -56,13 +56,6 @@ BelievedAorta aorta_of(const imaging::ImageVolume& image, AortaOptions options,
   throw GeometryError(refusal);
 }
 
-/// Smoothing may take the radii of a stretch that is hardly there below nothing.
-void keep_radii_positive(geometry::VesselTree& tree) {
-  constexpr double least_mm = 0.1;
-  for (geometry::TreeSegment& segment : tree.segments)
-    for (double& radius : segment.axis.radius) radius = std::max(radius, least_mm);
-}
-
 /// Vessels that the image cuts off.
 void tell_borders(Extraction& result, const imaging::Geometry& grid) {
   constexpr double beside_mm = 2.0;
@@ -146,7 +139,6 @@ Extraction extract(const imaging::ImageVolume& image, const ExtractOptions& opti
   CentredTree centred = centred_tree(image, grown, result.ostia, options.axes, task.sub(0.85, 0.98));
   result.warnings.insert(result.warnings.end(), centred.warnings.begin(), centred.warnings.end());
   task.set_stage("naming the vessels");
-  keep_radii_positive(centred.tree);
   result.vessels = label_branches(centred.tree, labels);
   result.notes = in_order_of(result.vessels.tree, centred.notes);
   tell(result);

@@ -117,11 +117,11 @@ EvolvedRegion evolve_region(const imaging::ImageVolume& image, const imaging::Re
     out.balloon_sigma_hu = wanted.balloon->sigma_hu.value_or(own.sigma_hu.value_or(kLeastSigma));
     speed = balloon_speed(image, region, out.balloon_mean_hu, out.balloon_sigma_hu, wanted.balloon->tau);
   }
-  EdgeFeature edge;
-  edge.noise_hu_per_mm = contrast.noise;
-  edge.blur = wall_blur(image, initial.geometry, shell.surface);
   if (feature == WallFeature::edges || feature == WallFeature::upwind) {
     gradient = {};
+    EdgeFeature edge;
+    edge.noise_hu_per_mm = contrast.noise;
+    edge.blur = wall_blur(image, initial.geometry, shell.surface);
     edge.upwind = feature == WallFeature::upwind;
     if (wanted.bright_is_lumen) edge.brightest_hu = lumen_hu;
     out.surface = speed ? level_set(initial, image, edge, *speed, options, rest)

@@ -4,6 +4,7 @@
 #include "boundary_rows.h"
 #include "edge_profile.h"
 #include "lumen_level.h"
+#include "option_range.h"
 #include "ray_fan.h"
 #include "star_surface.h"
 
@@ -24,17 +25,6 @@ constexpr double least_result_mm = 0.05;  // where the axis lies outside the lum
 constexpr double core_mm = 0.4;           // the first look at the lumen's brightness
 constexpr double most_nodes = 1e7;        // of the graph, some 200 bytes each
 constexpr double variation = 0.12;        // total variation against the region's cost, both in mm
-
-void require(bool fine, const char* name, double value, const char* range) {
-  if (fine && std::isfinite(value)) return;
-  char text[200];
-  std::snprintf(text, sizeof text, "lumen boundary: %s is %g; it has to be in %s", name, value, range);
-  throw InvalidInput(text);
-}
-
-bool within(double x, double low, double high) {
-  return x >= low && x <= high;
-}
 
 /// Rows across the axis, the rays' centre moved off it by an offset each.
 struct Rows {
@@ -260,17 +250,18 @@ double cubic(double a, double b, double c, double d, double t) {
 }  // namespace
 
 void validate(const LumenBoundaryOptions& o) {
-  require(within(o.step_mm, 0.1, 2.0), "step_mm", o.step_mm, "[0.1, 2] mm");
-  require(within(o.around, 8, 128), "around", o.around, "[8, 128] rays");
-  require(within(o.radial_step_mm, 0.02, 0.5), "radial_step_mm", o.radial_step_mm, "[0.02, 0.5] mm");
-  require(within(o.largest_radius_mm, 0.5, 20.0), "largest_radius_mm", o.largest_radius_mm, "[0.5, 20] mm");
-  require(within(o.blur_sigma_mm, 0.0, 1.5), "blur_sigma_mm", o.blur_sigma_mm, "[0, 1.5] mm");
-  require(within(o.wall_hu, -100.0, 200.0), "wall_hu", o.wall_hu, "[-100, 200] HU");
-  require(within(o.calcium_hu, 0.0, 4000.0), "calcium_hu", o.calcium_hu, "[0, 4000] HU");
-  require(within(o.largest_slope_along, 0.05, 10.0), "largest_slope_along", o.largest_slope_along,
-          "[0.05, 10]");
-  require(within(o.largest_slope_around, 0.05, 10.0), "largest_slope_around", o.largest_slope_around,
-          "[0.05, 10]");
+  const auto require = [](const char* name, double value, double low, double high, const char* range) {
+    detail::require_range("lumen boundary", name, value, low, high, range);
+  };
+  require("step_mm", o.step_mm, 0.1, 2.0, "[0.1, 2] mm");
+  require("around", o.around, 8, 128, "[8, 128] rays");
+  require("radial_step_mm", o.radial_step_mm, 0.02, 0.5, "[0.02, 0.5] mm");
+  require("largest_radius_mm", o.largest_radius_mm, 0.5, 20.0, "[0.5, 20] mm");
+  require("blur_sigma_mm", o.blur_sigma_mm, 0.0, 1.5, "[0, 1.5] mm");
+  require("wall_hu", o.wall_hu, -100.0, 200.0, "[-100, 200] HU");
+  require("calcium_hu", o.calcium_hu, 0.0, 4000.0, "[0, 4000] HU");
+  require("largest_slope_along", o.largest_slope_along, 0.05, 10.0, "[0.05, 10]");
+  require("largest_slope_around", o.largest_slope_around, 0.05, 10.0, "[0.05, 10]");
 }
 
 double LumenBoundary::at(double s_mm, double theta) const {

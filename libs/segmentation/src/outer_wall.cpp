@@ -3,6 +3,7 @@
 #include "boundary_fit.h"
 #include "boundary_rows.h"
 #include "lumen_level.h"
+#include "option_range.h"
 #include "outer_wall_profile.h"
 #include "outer_wall_start.h"
 #include "ray_fan.h"
@@ -25,17 +26,6 @@ constexpr double fan_step_mm = 0.2;  // of the rays' samples; grows with the blu
 constexpr double core_mm = 0.4;      // the first look at the lumen's brightness
 constexpr double least_lumen_mm = 0.1;
 constexpr double smooth_mm = 1.0;  // of the lumen's middle, along the vessel
-
-void require(bool fine, const char* name, double value, const char* range) {
-  if (fine && std::isfinite(value)) return;
-  char text[200];
-  std::snprintf(text, sizeof text, "outer wall: %s is %g; it has to be in %s", name, value, range);
-  throw InvalidInput(text);
-}
-
-bool within(double x, double low, double high) {
-  return x >= low && x <= high;
-}
 
 /// The lumen's rows with rays from its middle.
 struct Rows {
@@ -156,17 +146,17 @@ void add_warnings(OuterWall& out) {
 }  // namespace
 
 void validate(const OuterWallOptions& o) {
-  require(within(o.radial_step_mm, 0.02, 0.5), "radial_step_mm", o.radial_step_mm, "[0.02, 0.5] mm");
-  require(within(o.least_thickness_mm, 0.0, 1.0), "least_thickness_mm", o.least_thickness_mm, "[0, 1] mm");
-  require(within(o.largest_thickness_mm, 0.5, 6.0), "largest_thickness_mm", o.largest_thickness_mm,
-          "[0.5, 6] mm");
-  require(within(o.blur_sigma_mm, 0.0, 1.5), "blur_sigma_mm", o.blur_sigma_mm, "[0, 1.5] mm");
-  require(within(o.wall_hu, -20.0, 200.0), "wall_hu", o.wall_hu, "[-20, 200] HU");
-  require(within(o.fat_hu, -200.0, -40.0), "fat_hu", o.fat_hu, "[-200, -40] HU");
-  require(within(o.largest_slope_along, 0.05, 10.0), "largest_slope_along", o.largest_slope_along,
-          "[0.05, 10]");
-  require(within(o.largest_slope_around, 0.05, 10.0), "largest_slope_around", o.largest_slope_around,
-          "[0.05, 10]");
+  const auto require = [](const char* name, double value, double low, double high, const char* range) {
+    detail::require_range("outer wall", name, value, low, high, range);
+  };
+  require("radial_step_mm", o.radial_step_mm, 0.02, 0.5, "[0.02, 0.5] mm");
+  require("least_thickness_mm", o.least_thickness_mm, 0.0, 1.0, "[0, 1] mm");
+  require("largest_thickness_mm", o.largest_thickness_mm, 0.5, 6.0, "[0.5, 6] mm");
+  require("blur_sigma_mm", o.blur_sigma_mm, 0.0, 1.5, "[0, 1.5] mm");
+  require("wall_hu", o.wall_hu, -20.0, 200.0, "[-20, 200] HU");
+  require("fat_hu", o.fat_hu, -200.0, -40.0, "[-200, -40] HU");
+  require("largest_slope_along", o.largest_slope_along, 0.05, 10.0, "[0.05, 10]");
+  require("largest_slope_around", o.largest_slope_around, 0.05, 10.0, "[0.05, 10]");
 }
 
 OuterWall outer_wall(const imaging::ImageVolume& image, const geometry::AxisCurve& axis,

@@ -90,8 +90,8 @@ void PictureView::add_contours(Overlay& overlay) {
     OverlayLine shown;
     shown.px.reserve(line.picture_px.size());
     const auto end_piece = [&] {
-      if (shown.px.size() > 1) overlay.lines.push_back(shown);
-      shown.px.clear();
+      if (shown.px.size() > 1) overlay.lines.push_back(std::move(shown));
+      shown = {};
     };
     for (const Vec2& p : line.picture_px) {
       if (is_torn(p))

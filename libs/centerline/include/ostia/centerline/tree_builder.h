@@ -38,9 +38,9 @@ struct SplitTree {
 };
 
 /// Cuts chains where others begin or targets end, and resamples each piece by a cubic spline at equal steps
-/// no longer than `step_mm`. Radii are interpolated; frames run on from parent to child. One vessel a target,
-/// named by `names` or vessel_1, vessel_2, ..., but none for a target on the way to another: a vessel runs to
-/// an end of the tree.
+/// no longer than `step_mm`. Radii are interpolated, never below the chain's least; frames run on from parent
+/// to child. One vessel a target, named by `names` or vessel_1, vessel_2, ..., but none for a target on the
+/// way to another: a vessel runs to an end of the tree.
 SplitTree split_tree(const ChainTree& chains, double step_mm, const std::vector<std::string>& names);
 
 }  // namespace ostia::centerline

@@ -136,7 +136,6 @@ class PictureView {
   enum class Lines { fresh, moved, anew } lines_state_ = Lines::anew;
   geometry::Box3 lines_changed_;
   std::unique_ptr<lumen::ViewContours> contours_;
-  std::vector<lumen::ContourLine> shown_lines_;
   std::vector<Fading> fading_;
   std::vector<session::Subscription> own_;
 };

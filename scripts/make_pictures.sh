@@ -21,6 +21,7 @@ build/release/bin/contour_picture "$work/phantom/dataset00" vessel1 docs/picture
 build/release/bin/boundary_picture "$work/phantom/dataset00" vessel1 s01 docs/pictures/lumen-boundary.png
 build/release/bin/outer_wall_picture "$work/phantom/dataset00" vessel1 s01 docs/pictures/outer-wall.png
 build/release/bin/plaque_picture "$work/phantom/dataset00" 3 LAD docs/pictures/plaque.png
+build/release/bin/layer_picture docs/pictures/boundary-layer.png
 build/release/bin/filters_picture "$work/phantom/dataset00" vessel1 docs/pictures/filters.png
 
 # Some minutes: the tubes scanned in twelve orientations.

@@ -1,5 +1,6 @@
 #include "cli.h"
 
+#include "cli_segment.h"
 #include "commands.h"
 #include "config_file.h"
 #include "evaluate.h"
@@ -7,8 +8,11 @@
 #include "extract.h"
 #include "lumen.h"
 #include "progress_bar.h"
+#include "refusal.h"
 #include "report.h"
+#include "run.h"
 #include "skeleton.h"
+#include "standard_streams.h"
 
 #include "ostia/core/log.h"
 #include "ostia/core/parallel.h"
@@ -19,6 +23,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <memory>
 
 namespace ostia::app {
 namespace {
@@ -42,6 +47,8 @@ struct Commands {
   ReportCommand report;
   SkeletonCommand skeleton;
   ExtractCommand extract;
+  RunCommand chain;
+  BatchCommand batch;
 };
 
 void add_common(CLI::App& app, CommonOptions& o) {
@@ -77,65 +84,6 @@ void add_units(CLI::App& app, InputOptions& o) {
 void add_coords(CLI::App& app, InputOptions& o) {
   app.add_option("--coords", o.coords, "Frame of the points given: lps or ras (mm), ijk (voxels)")
       ->check(CLI::IsMember({"lps", "ras", "ijk"}));
-}
-
-/// What is done to the image before, and the inflation by intensities.
-void add_filters(CLI::App& app, LumenOptions& o) {
-  app.add_flag("--balloon", o.balloon,
-               "Inflate by exp(-(I-m)^2/sigma^2) - tau: outwards where the image is like the vessel, inwards "
-               "elsewhere; its weight is --inflation (0.5 unless given)");
-  app.add_option("--balloon-tau", o.balloon_tau, "tau; left out: 0.2")->check(CLI::Range(0.001, 0.999));
-  app.add_option("--balloon-mean", o.balloon_mean_hu, "m, HU; left out: the vessel's own median");
-  app.add_option("--balloon-sigma", o.balloon_sigma_hu, "sigma, HU; left out: the vessel's own deviation")
-      ->check(CLI::PositiveNumber);
-  app.add_option(
-         "--denoise", o.denoise,
-         "Diffusion of the image that stops at edges: flux (Krissian), gradient (Perona and Malik) or "
-         "curvature (Whitaker and Xue); left out: none")
-      ->check(CLI::IsMember({"flux", "gradient", "curvature"}));
-  app.add_option("--denoise-iterations", o.denoise_iterations, "Steps of it; left out: 5")
-      ->check(CLI::Range(1, 1000));
-  app.add_option("--denoise-contrast", o.denoise_contrast,
-                 "Gradient above which an edge stays, HU/mm; left out: chosen from the noise")
-      ->check(CLI::PositiveNumber);
-  app.add_option("--remove", o.remove,
-                 "Taken out of the image before: bone, calcium, skin, separated by commas; left out: nothing")
-      ->delimiter(',')
-      ->check(CLI::IsMember({"bone", "calcium", "skin"}));
-}
-
-void add_lumen(CLI::App& app, LumenOptions& o) {
-  app.add_option("--branch", o.branches,
-                 "A vessel: from:to or from:through:to, each point x,y,z; repeat for more vessels")
-      ->allow_extra_args(false);
-  app.add_option("--lower", o.lower_hu, "Least HU of the lumen; left out: chosen about the seeds");
-  app.add_option("--upper", o.upper_hu, "Largest HU of the lumen; left out: chosen about the seeds");
-  app.add_option(
-         "--feature", o.feature,
-         "What the surface is pulled to: edges (sub-voxel ridges of the gradient; default), upwind or "
-         "centred (gradient on the voxels), gaussian (derivatives of a Gaussian)")
-      ->check(CLI::IsMember({"edges", "upwind", "centred", "gaussian"}));
-  app.add_option("--sigma", o.gaussian_sigma_mm,
-                 "Of the feature gaussian, mm; left out: the least spacing of the image")
-      ->check(CLI::Range(0.01, 10.0));
-  app.add_option("--inflation", o.inflation, "Weight w1 of the level set's inflation")
-      ->check(CLI::NonNegativeNumber);
-  app.add_option("--curvature", o.curvature, "Weight w2 of the level set's curvature")
-      ->check(CLI::NonNegativeNumber);
-  app.add_option("--curvature-term", o.curvature_term,
-                 "Which curvature that is: mean (default), or minimal (of both principal curvatures the "
-                 "smaller: smooths along a vessel and leaves its radius alone)")
-      ->check(CLI::IsMember({"mean", "minimal"}));
-  app.add_option("--advection", o.advection, "Weight w3 of the pull to the image's edges")
-      ->check(CLI::NonNegativeNumber);
-  app.add_option("--iterations", o.iterations, "Most iterations of the level set")
-      ->check(CLI::NonNegativeNumber);
-  app.add_flag("--whole-volume", o.whole_volume, "Let the fronts run through the whole image");
-  app.add_flag("--bright-is-lumen", o.bright_is_lumen,
-               "What is brighter than the lumen (a stent, a catheter) belongs to it; not for calcium");
-  add_filters(app, o);
-  app.add_option("--smooth", o.smooth, "Iterations of Taubin's smoothing of the surface; 0: none")
-      ->check(CLI::Range(0, 1000));
 }
 
 void add_ends(CLI::App& app, EndOptions& o) {
@@ -243,18 +191,23 @@ void define(CLI::App& app, Commands& c, Run& run) {
   define_report(app, c.report, run);
   define_skeleton(app, c.skeleton, run);
   define_extract(app, c.extract, run, add_dicom);
+  define_run(app, c.chain, c.batch, c.common, run);
 
   CLI::App* segment = command(app, "segment", "The lumen of the vessels between seed points",
-                              "ostia segment heart.nrrd -o lumen.vtp --branch 8,-187,675:6,-178,720");
+                              "ostia segment heart.nrrd -o lumen.vtp --branch 8,-187,675:6,-178,720\n"
+                              "  ostia segment heart.nrrd -o aorta.nrrd --aorta");
   add_input(*segment, c.segment.input, "DICOM folder, image or mask");
   add_dicom(*segment, c.segment.input);
   add_coords(*segment, c.segment.input);
-  add_lumen(*segment, c.segment.lumen);
   segment->add_option("-o,--output", c.segment.output, ".vtp, .stl or .ply")->required();
+  add_lumen(*segment, c.segment.lumen);
   segment->add_option("--levelset", c.segment.level_set,
                       "Also the level set, negative inside, mm: .nrrd, .mhd or .mha");
-  segment->callback(
-      [&] { run = [&](const core::TaskContext& task) { return run_segment(c.segment, task); }; });
+  add_aorta(*segment, c.segment);
+  segment->callback([&, segment] {
+    require_aorta_alone(*segment);
+    run = [&](const core::TaskContext& task) { return run_segment(c.segment, task); };
+  });
 
   CLI::App* centerline =
       command(app, "centerline", "Centerlines of a surface", "ostia centerline lumen.stl -o lines.vtp");
@@ -324,6 +277,7 @@ void keep_paths_out_of_the_log(const Commands& c) {
        {&c.info.input, &c.import.input, &c.segment.input, &c.centerline.input, &c.mesh.input,
         &c.convert.input, &c.model.input, &c.skeleton.input, &c.extract.input}) {
     core::redact_in_logs(input->input.string(), "INPUT");
+    core::redact_in_logs(own_name(input->input), "INPUT");  // refusals have it alone
   }
   for (const std::filesystem::path& path :
        {c.info.preview,       c.import.output,     c.segment.output,     c.segment.level_set,
@@ -335,35 +289,54 @@ void keep_paths_out_of_the_log(const Commands& c) {
         c.lumen.contours,     c.lumen.case_output, c.lumen.lines_output, c.replay.start,
         c.replay.input,       c.replay.output,     c.report.input,       c.report.image,
         c.report.output,      c.skeleton.image,    c.skeleton.output,    c.skeleton.sections,
-        c.extract.output,     c.extract.lines}) {
+        c.extract.output,     c.extract.lines,     c.chain.chain,        c.chain.output,
+        c.batch.table,        c.batch.chain,       c.batch.output}) {
     core::redact_in_logs(path.string(), "FILE");
     core::redact_in_logs(path.parent_path().string(), "FOLDER");
   }
 }
 
+/// What the command line asks for.
+struct Asked {
+  CLI::App app{"Ostia: from a cardiac CT angiogram to a vessel model that a solver can use", "ostia"};
+  Commands commands;
+  Run run;
+  int exit_code = -1;  ///< 0 or more: all was said already (`--help`, a wrong option)
+};
+
+std::unique_ptr<Asked> asked_by(const std::vector<std::string>& arguments) {
+  auto asked = std::make_unique<Asked>();
+  asked->app.set_version_flag("--version", std::string("ostia ") + OSTIA_VERSION);
+  define(asked->app, asked->commands, asked->run);
+  try {
+    std::vector<std::string> words = arguments;
+    std::reverse(words.begin(), words.end());  // as CLI11 takes them
+    asked->app.parse(words);
+  } catch (const CLI::ParseError& error) {
+    asked->exit_code = asked->app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::usage);
+  }
+  return asked;
+}
+
 }  // namespace
 
 int run(const std::vector<std::string>& arguments, const core::TaskContext& job) {
-  CLI::App app("Ostia: from a cardiac CT angiogram to a vessel model that a solver can use", "ostia");
-  app.set_version_flag("--version", std::string("ostia ") + OSTIA_VERSION);
-  Commands commands;
-  Run command_to_run;
-  define(app, commands, command_to_run);
-  try {
-    std::vector<std::string> words = with_config(arguments);
-    std::reverse(words.begin(), words.end());  // as CLI11 takes them
-    app.parse(words);
-  } catch (const CLI::ParseError& error) {
-    const int code = app.exit(error);
-    return code == 0 ? 0 : static_cast<int>(ExitCode::usage);
+  StandardStreams streams(with_config(arguments));
+  std::unique_ptr<Asked> asked = asked_by(streams.arguments());
+  if (asked->exit_code >= 0) return asked->exit_code;
+  if (streams.used()) {
+    streams.open();  // only now: a wrong option is told before the command in front has ended
+    asked = asked_by(streams.arguments());
   }
-  const CommonOptions& common = commands.common;
+  const CommonOptions& common = asked->commands.common;
   core::set_max_threads(common.threads);
   core::set_log(common.log == "json" ? core::LogFormat::json : core::LogFormat::text,
                 common.quiet ? core::LogLevel::error : core::LogLevel::info);
-  if (common.log == "json") keep_paths_out_of_the_log(commands);
+  if (common.log == "json") keep_paths_out_of_the_log(asked->commands);
   const ProgressBar bar(job, common.quiet ? "none" : common.progress);
-  return static_cast<int>(command_to_run(job));
+  const ExitCode code = asked->run(job);
+  if (code == ExitCode::ok || code == ExitCode::quality_failed) streams.deliver();
+  return static_cast<int>(code);
 }
 
 }  // namespace ostia::app

@@ -2,6 +2,7 @@
 #include "extract.h"
 #include "outputs.h"
 #include "points.h"
+#include "refusal.h"
 
 #include "ostia/core/error.h"
 #include "ostia/core/log.h"
@@ -60,15 +61,9 @@ void print(const Json& facts, bool as_json) {
 /// What is refused is told with the file's name, and with the way out that the command line has.
 session::FoundModel found_in(const std::filesystem::path& input, const imaging::ImageVolume& image,
                              const coronary::ExtractOptions& options, const core::TaskContext& task) {
-  const std::string name = input.filename().string() + ": ";
-  try {
-    return session::found_model(image, options, task);
-  } catch (const InvalidInput& error) {
-    throw InvalidInput(name + error.what());
-  } catch (const GeometryError& error) {
-    throw GeometryError(name + error.what() + " (in the workstation, or `ostia model " +
-                        input.filename().string() + " -o DIR --branch P:P`)");
-  }
+  return naming(
+      input, [&] { return session::found_model(image, options, task); },
+      " (in the workstation, or `ostia model " + own_name(input) + " -o DIR --branch P:P`)");
 }
 
 }  // namespace
@@ -81,10 +76,11 @@ ExitCode run_extract(const ExtractCommand& o, const core::TaskContext& task) {
   const pipeline::Source source = pipeline::load(o.input.input, source_options(o.input), task.sub(0.0, 0.1));
   for (const std::string& warning : source.warnings) core::log_warning(warning);
   if (!source.image)
-    throw InvalidInput("cannot find arteries in " + o.input.input.string() + ": it is a " +
-                       name_of(source.kind) + " and no CT image");
+    throw InvalidInput("cannot find arteries in " + o.input.input.string() + ": it is " + a(source.kind) +
+                       " and no CT image");
   coronary::ExtractOptions options;
   options.labels.least_confidence = o.least_confidence;
+  if (o.vesselness == "hessian") options.growth.likeness = segmentation::TubeMethod::hessian;
   const session::FoundModel result = found_in(o.input.input, *source.image, options, task.sub(0.1, 0.98));
   for (const std::string& warning : result.found.warnings) core::log_warning(warning);
   task.throw_if_cancelled();
@@ -110,6 +106,8 @@ void define_extract(CLI::App& app, ExtractCommand& c, std::function<ExitCode(con
       ->add_option("--least-confidence", c.least_confidence,
                    "A vessel that is named with less keeps a number for its name")
       ->check(CLI::Range(0.0, 1.0));
+  extract->add_option("--vesselness", c.vesselness, "How likeness to a tube is measured")
+      ->check(CLI::IsMember({"flux", "hessian"}));
   extract->add_flag("--json", c.json, "One JSON object on standard output");
   extract->callback([&] { run = [&](const core::TaskContext& task) { return run_extract(c, task); }; });
 }

@@ -1,5 +1,6 @@
 #include "outputs.h"
 #include "points.h"
+#include "refusal.h"
 #include "skeleton.h"
 
 #include "ostia/core/files.h"
@@ -44,7 +45,7 @@ pipeline::Source load_mask(const SkeletonCommand& o, const core::TaskContext& ta
   pipeline::Source source = pipeline::load(o.input.input, source_options(o.input), task);
   for (const std::string& warning : source.warnings) core::log_warning(warning);
   if (!source.mask)
-    throw InvalidInput("cannot thin " + o.input.input.string() + ": it is a " + name_of(source.kind) +
+    throw InvalidInput("cannot thin " + o.input.input.string() + ": it is " + a(source.kind) +
                        " and no mask; a mask has two values or a few, such as 0 and 1");
   return source;
 }
@@ -82,8 +83,10 @@ ExitCode run_skeleton(const SkeletonCommand& o, const core::TaskContext& task) {
     grey = pipeline::load(o.image, {}, task.sub(0.1, 0.2));
     if (!grey.image) throw InvalidInput("--image " + o.image.string() + " is no CT image");
   }
-  const pipeline::SkeletonResult result = pipeline::skeleton_of(
-      *source.mask, grey.image.get(), options_of(o, source.mask->geometry), task.sub(0.2, 0.95));
+  const pipeline::SkeletonOptions how = options_of(o, source.mask->geometry);
+  const pipeline::SkeletonResult result = naming(o.input.input, [&] {
+    return pipeline::skeleton_of(*source.mask, grey.image.get(), how, task.sub(0.2, 0.95));
+  });
   for (const std::string& warning : result.warnings) core::log_warning(warning);
   task.throw_if_cancelled();
   io::write_centerlines(o.output, result.tree.tree);

@@ -70,6 +70,7 @@ struct SegmentCommand {
   InputOptions input;
   LumenOptions lumen;
   std::filesystem::path output, level_set;
+  bool aorta = false;  ///< instead of the vessels between seed points
 };
 ExitCode run_segment(const SegmentCommand& options, const core::TaskContext& task);
 

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace CLI {
@@ -18,6 +19,7 @@ struct ExtractCommand {
   std::filesystem::path output;  ///< case
   std::filesystem::path lines;   ///< centerlines; empty: none
   double least_confidence = 0.5;
+  std::string vesselness = "flux";  ///< or "hessian"
   bool json = false;
 };
 ExitCode run_extract(const ExtractCommand& options, const core::TaskContext& task);

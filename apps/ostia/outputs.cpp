@@ -9,12 +9,16 @@
 
 namespace ostia::app {
 
-void require_output(const std::filesystem::path& path, const std::vector<std::string_view>& extensions) {
-  if (path.empty()) return;
+bool has_extension(const std::filesystem::path& path, const std::vector<std::string_view>& extensions) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return std::tolower(c); });
-  if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end()) {
+  return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
+}
+
+void require_output(const std::filesystem::path& path, const std::vector<std::string_view>& extensions) {
+  if (path.empty()) return;
+  if (!has_extension(path, extensions)) {
     std::string known;
     for (const std::string_view one : extensions) known += (known.empty() ? "" : ", ") + std::string(one);
     throw UsageError("cannot write " + path.string() + ": its name must end in one of " + known);

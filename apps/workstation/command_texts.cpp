@@ -85,6 +85,9 @@ const QMap<QString, const char*>& tip_table() {
            "tips",
            "Looks for the outer wall of the selected vessel, draws it on the 2D views and tells "
            "what plaque there is.")},
+      {"view.plaque",
+       QT_TRANSLATE_NOOP(
+           "tips", "Colours what lies between lumen and outer wall on sections and CPRs by its class.")},
       {"view.fit", QT_TRANSLATE_NOOP("tips", "All views show all there is.")},
       {"view.theme", QT_TRANSLATE_NOOP("tips", "Changes between the dark and the light theme.")},
       {"view.qa",

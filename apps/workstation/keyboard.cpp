@@ -70,9 +70,10 @@ int Keyboard::current_station() const {
 void Keyboard::go_to(const QString& name) {
   QWidget* target = station(name);
   if (!target) return;
-  // A list behind another one's tab comes to the front.
-  if (const QWidget* stack = target->parentWidget(); stack && !target->isVisible())
-    if (auto* tabs = qobject_cast<QTabWidget*>(stack->parentWidget())) tabs->setCurrentWidget(target);
+  // What is behind another one's tab comes to the front.
+  for (QWidget* page = target; page && !target->isVisible(); page = page->parentWidget())
+    if (const QWidget* stack = page->parentWidget())
+      if (auto* tabs = qobject_cast<QTabWidget*>(stack->parentWidget())) tabs->setCurrentWidget(page);
   if (target->isVisible()) target->setFocus(Qt::ShortcutFocusReason);
 }
 

@@ -99,6 +99,11 @@ view::Words words_of_views() {
   words.diameter = word(QT_TRANSLATE_NOOP("views", "diameter, mm"));
   words.area = word(QT_TRANSLATE_NOOP("views", "area, mm\302\262"));
   words.from_root = word(QT_TRANSLATE_NOOP("views", "mm from its root"));
+  words.outer_wall = word(QT_TRANSLATE_NOOP("views", "outer wall"));
+  words.low_attenuation = word(QT_TRANSLATE_NOOP("views", "low attenuation"));
+  words.fibrofatty = word(QT_TRANSLATE_NOOP("views", "fibrofatty"));
+  words.fibrous = word(QT_TRANSLATE_NOOP("views", "fibrous"));
+  words.calcified = word(QT_TRANSLATE_NOOP("views", "calcified"));
   words.not_measurable = word(QT_TRANSLATE_NOOP("views", "not measurable"));
   words.off_wall = word(QT_TRANSLATE_NOOP("views", "There is no vessel: click on the wall of one."));
   words.other_vessel =

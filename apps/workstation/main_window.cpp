@@ -1,6 +1,7 @@
 #include "main_window.h"
 
 #include "frame_log.h"
+#include "hanging.h"
 #include "meshing_export.h"
 #include "opening.h"
 #include "outer_walls.h"
@@ -19,6 +20,7 @@
 #include <QCloseEvent>
 #include <QComboBox>
 #include <QCoreApplication>
+#include <QDialog>
 #include <QDragEnterEvent>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -72,7 +74,7 @@ MainWindow::MainWindow(const std::filesystem::path& state_folder)
   meshing_export_ = std::make_unique<MeshingExport>(*this);
   finder_ = std::make_unique<VesselFinder>(*this, *opening_);
   build_views();
-  outer_walls_ = std::make_unique<OuterWalls>(*this, pictures_);
+  outer_walls_ = std::make_unique<OuterWalls>(*this, pictures_, profile_);
   build_actions();
   build_tool_bar();
   new StartPage(*this, "curved");
@@ -96,7 +98,10 @@ MainWindow::MainWindow(const std::filesystem::path& state_folder)
   });
 }
 
-MainWindow::~MainWindow() = default;
+MainWindow::~MainWindow() {
+  // Children go in the order of their making: a dialog that is open would outlive the jobs that it cancels.
+  while (QDialog* dialog = findChild<QDialog*>()) delete dialog;
+}
 
 bool MainWindow::guarded(const std::function<void()>& act, bool loud) {
   try {
@@ -216,7 +221,7 @@ QWidget* MainWindow::section_column() {
   return column;
 }
 
-QWidget* MainWindow::right_column() {
+Panel* MainWindow::right_column() {
   scene_ = new SceneWidget(bench_, guard_);
   scene_->set_dark(current_theme() == Theme::dark);
   connect(scene_, &SceneWidget::volume_wanted, this, [this] {
@@ -253,14 +258,7 @@ QWidget* MainWindow::right_column() {
 QWidget* MainWindow::side_column() {
   auto* column = new QSplitter(Qt::Vertical);
   column->setObjectName("side");
-  const auto color_of = [this](std::int32_t vessel) {
-    try {
-      const view::VesselStyle style = scene_->scene().vessel_style(vessel);
-      return QColor::fromRgbF(style.color.r, style.color.g, style.color.b);
-    } catch (const Error&) {
-      return QColor(Qt::gray);
-    }
-  };
+  const auto color_of = [this](std::int32_t vessel) { return scene_->color_of(vessel); };
   auto* list = new VesselList(bench_, color_of, guard_);
   connect(scene_, &SceneWidget::styles_changed, list, &VesselList::refresh);
   auto* vessels = new Panel(tr("Vessels"), list);
@@ -273,7 +271,7 @@ QWidget* MainWindow::side_column() {
   tabs->addTab(new StepList(bench_, guard_), tr("Steps"));
   column->addWidget(tabs);
   column->setSizes({420, 320});
-  column->setMinimumWidth(38 * fontMetrics().averageCharWidth());  // names and numbers of vessels
+  list->setMinimumWidth(38 * fontMetrics().averageCharWidth());  // names and numbers of vessels
   splitters_.push_back(column);
   return column;
 }
@@ -290,9 +288,11 @@ void MainWindow::build_views() {
   statusBar()->addPermanentWidget(place_);
   place_->setMinimumWidth(
       place_->fontMetrics().horizontalAdvance("-1000 HU   x -000.0  y -000.0  z -0000.0 mm"));
+  connect(statusBar(), &QStatusBar::messageChanged, statusBar(),
+          [bar = statusBar()](const QString& text) { bar->setToolTip(text); });  // a long one is cut off
   auto* columns = new QSplitter(Qt::Horizontal);
   columns->setObjectName("columns");
-  QWidget* tree = right_column();  // first: the list of vessels asks it for colours
+  Panel* tree = right_column();  // first: the list of vessels asks it for colours
   columns->addWidget(side_column());
   columns->addWidget(curved_column());
   columns->addWidget(section_column());
@@ -300,6 +300,10 @@ void MainWindow::build_views() {
   columns->setSizes({300, 560, 330, 380});
   columns->setStretchFactor(0, 0);
   for (int i = 1; i < 4; ++i) columns->setStretchFactor(i, 1);
+  hanging_ = new Hanging(columns, columns->findChild<QTabWidget*>("lists"), tree);
+  connect(hanging_, &Hanging::narrow_changed, place_, [this, wide = place_->minimumWidth()](bool narrow) {
+    place_->setMinimumWidth(narrow ? 0 : wide);  // what a tool says needs the room
+  });
   profile_ = new ProfileWidget(bench_, guard_);
   auto* profile = new Panel(tr("Lumen profile"), profile_);
   connect(profile, &Panel::maximise_wanted, this, [this, profile] { maximise(profile); });
@@ -317,7 +321,9 @@ void MainWindow::build_views() {
 
 void MainWindow::maximise(Panel* panel) {
   alone_ = alone_ == panel ? nullptr : panel;
+  if (alone_) hanging_->rest(true);
   show_alone(centralWidget(), alone_);
+  if (!alone_) hanging_->rest(false);
 }
 
 void MainWindow::remember_layout() {
@@ -327,6 +333,7 @@ void MainWindow::remember_layout() {
   for (const QSplitter* splitter : splitters_)
     settings["splitter." + splitter->objectName().toStdString()] =
         splitter->saveState().toBase64().toStdString();
+  settings["splitter.columns"] = hanging_->sizes().toBase64().toStdString();
   guarded([&] { machine_.set_settings(settings); });
 }
 

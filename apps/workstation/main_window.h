@@ -26,6 +26,7 @@ class Opening;
 class Reporting;
 class MeshingExport;
 class QaPanel;
+class Hanging;
 class VesselFinder;
 class OuterWalls;
 
@@ -69,7 +70,7 @@ class MainWindow final : public QMainWindow {
   Panel* picture_panel(const QString& title, const QString& name, std::unique_ptr<view::PictureView> view);
   QWidget* curved_column();
   QWidget* section_column();
-  QWidget* right_column();
+  Panel* right_column();
   QWidget* side_column();
   void remember_layout();
   void restore_layout();
@@ -102,6 +103,7 @@ class MainWindow final : public QMainWindow {
   ProfileWidget* profile_ = nullptr;
   std::vector<PictureWidget*> pictures_;
   std::vector<QSplitter*> splitters_;
+  Hanging* hanging_ = nullptr;
   Panel* alone_ = nullptr;
   bool must_end_ = false;
   std::unique_ptr<OuterWalls> outer_walls_;  // goes before the views that it draws on

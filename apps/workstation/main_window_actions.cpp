@@ -14,6 +14,7 @@
 
 #include <QActionGroup>
 #include <QCoreApplication>
+#include <QHBoxLayout>
 #include <QLabel>
 #include <QMenu>
 #include <QMenuBar>
@@ -162,6 +163,9 @@ void MainWindow::build_actions() {
   QAction* outer = action("view.outer_wall", tr("Outer wall"), {});
   bind_checked(outer, outer_walls_->board().shown);
   shown->addAction(outer);
+  shown->addAction(action("view.plaque", tr("Plaque"), {}));
+  outer_walls_->set_plaque_command(actions_["view.plaque"]);
+  shown->setToolTipsVisible(true);  // why a command cannot be used
   shown->addAction(action("view.fit", tr("Fit all views"), [this] {
     for (PictureWidget* picture : pictures_) picture->view().fit();
     scene_->go_to(scene_->scene().pose_fitted());
@@ -228,6 +232,10 @@ void MainWindow::build_tool_bar() {
   options->setMovable(false);
   const auto number = [&](const QString& text, const QString& tip, const QString& name,
                           session::Property<double>& property, int decimals) {
+    auto* pair = new QWidget;  // where there is no room for the box its name goes with it
+    auto* row = new QHBoxLayout(pair);
+    row->setContentsMargins(0, 0, 0, 0);
+    row->setSpacing(options->layout()->spacing());
     auto* label = new QLabel(" " + text + " ");
     auto* box = new QDoubleSpinBox;
     box->setObjectName(name);
@@ -238,8 +246,9 @@ void MainWindow::build_tool_bar() {
     box->setFocusPolicy(Qt::ClickFocus);
     label->setBuddy(box);
     bind(box, property);
-    options->addWidget(label);
-    options->addWidget(box);
+    row->addWidget(label);
+    row->addWidget(box);
+    options->addWidget(pair);
   };
   number(tr("Reach"), tr("How far along the vessel a pull reaches"), "reach", bench_.reach_mm, 1);
   number(tr("Ball"), tr("Radius of the brush"), "ball", bench_.brush_mm, 1);

@@ -1,5 +1,7 @@
 #include "manual_dialog.h"
 
+#include "hanging.h"
+
 #include <QApplication>
 #include <QDialogButtonBox>
 #include <QFileInfo>
@@ -63,7 +65,7 @@ QString manual_folder() {
 ManualDialog::ManualDialog(QWidget* parent) : QDialog(parent) {
   setObjectName("manual");
   setWindowTitle(tr("Manual"));
-  resize(1080, 760);
+  resize_within(*this, QSize(1080, 760));
   auto* contents = new QListWidget;
   contents->setObjectName("contents");
   contents->setAccessibleName(tr("Contents"));

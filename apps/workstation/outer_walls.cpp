@@ -1,7 +1,12 @@
 #include "outer_walls.h"
 
+#include "bind.h"
+#include "command_texts.h"
 #include "main_window.h"
 
+#include "ostia/session/plaque_look.h"
+
+#include <QAction>
 #include <any>
 #include <utility>
 
@@ -28,37 +33,80 @@ QString plaque_text(const session::VesselWalls& walls) {
       .arg(100.0 * walls.outer.seen_share, 0, 'f', 0);
 }
 
-OuterWalls::OuterWalls(MainWindow& window, const std::vector<PictureWidget*>& pictures)
-    : QObject(&window), window_(window), board_(window.bench()) {
-  for (PictureWidget* picture : pictures)
+QStringList lesion_text(const session::VesselWalls* walls, const analysis::Stenosis& lesion) {
+  QStringList lines{OuterWalls::tr("Stenosis %1 %").arg(lesion.diameter_percent, 0, 'f', 0)};
+  const auto found = walls ? session::plaque_of(*walls, lesion) : std::nullopt;
+  if (!found) {
+    lines << OuterWalls::tr("its plaque is known with the outer wall (View > Outer wall)");
+    return lines;
+  }
+  using analysis::PlaqueClass;
+  const analysis::PlaqueVolumes& all = found->volumes;
+  const auto mm3 = [&](PlaqueClass one) { return QString::number(all.of(one), 'f', 1); };
+  lines << OuterWalls::tr("plaque %1 mm³").arg(all.plaque_mm3(), 0, 'f', 1);
+  lines << OuterWalls::tr("low attenuation %1, fibrofatty %2, fibrous %3, calcified %4")
+               .arg(mm3(PlaqueClass::low_attenuation), mm3(PlaqueClass::fibrofatty),
+                    mm3(PlaqueClass::fibrous), mm3(PlaqueClass::calcified));
+  lines << OuterWalls::tr("burden %1 %").arg(all.burden_percent(), 0, 'f', 0);
+  if (found->remodelling_index)
+    lines << OuterWalls::tr("remodelling index %1").arg(*found->remodelling_index, 0, 'f', 2);
+  return lines;
+}
+
+OuterWalls::OuterWalls(MainWindow& window, const std::vector<PictureWidget*>& pictures,
+                       ProfileWidget* profile)
+    : QObject(&window), window_(window), board_(window.bench()), profile_(profile) {
+  for (PictureWidget* picture : pictures) {
+    plaque_.push_back(std::make_unique<view::PlaqueLayer>(picture->view(), board_));
     layers_.push_back(std::make_unique<view::OuterWallLayer>(picture->view(), board_));
+  }
+  profile->view().set_walls(&board_);
+  profile->set_lesion_tip([this](const analysis::Stenosis& lesion) {
+    return lesion_text(board_.of_selected(), lesion).join('\n');
+  });
   soon_.setSingleShot(true);
   soon_.setInterval(pause_ms);
   connect(&soon_, &QTimer::timeout, this, &OuterWalls::look);
-  const auto look_soon = [this] {
-    if (board_.shown.get()) soon_.start();
-  };
   session::Workbench& bench = window.bench();
-  own_.push_back(board_.shown.observe([this, look_soon](const bool& on) {
-    if (!on) window_.jobs().cancel(kind);
+  const auto switched = [this](const bool&) {
+    if (!wanted()) window_.jobs().cancel(kind);
     look_soon();
     tell();
-  }));
-  own_.push_back(bench.vessel.observe([this, look_soon](const std::int32_t&) {
+  };
+  own_.push_back(board_.shown.observe(switched));
+  own_.push_back(board_.plaque_shown.observe(switched));
+  own_.push_back(board_.changed.observe([this] { refresh_command(); }));
+  own_.push_back(bench.vessel.observe([this](const std::int32_t&) {
     look_soon();
     tell();
+    refresh_command();
   }));
-  own_.push_back(bench.model_changed.observe([look_soon](const session::ModelEvent&) { look_soon(); }));
-  own_.push_back(bench.image_changed.observe(look_soon));
-  own_.push_back(bench.case_changed.observe([this, look_soon] {
+  own_.push_back(bench.cursor_mm.observe([this](const double&) { tell_lesion(); }));
+  own_.push_back(bench.model_changed.observe([this](const session::ModelEvent&) { look_soon(); }));
+  own_.push_back(bench.image_changed.observe([this] {
+    look_soon();
+    refresh_command();
+  }));
+  own_.push_back(bench.case_changed.observe([this] {
     window_.jobs().cancel(kind);
     look_soon();
+    refresh_command();
   }));
+}
+
+OuterWalls::~OuterWalls() {
+  if (!profile_) return;
+  profile_->set_lesion_tip({});
+  profile_->view().set_walls(nullptr);
+}
+
+void OuterWalls::look_soon() {
+  if (wanted()) soon_.start();
 }
 
 void OuterWalls::look() {
   std::optional<session::OuterWallWork> work = board_.work();
-  if (!board_.shown.get() || !work) return;
+  if (!wanted() || !work) return;
   const auto shared = std::make_shared<const session::OuterWallWork>(std::move(*work));
   window_.jobs().run(
       kind, tr("Outer wall"),
@@ -79,8 +127,46 @@ void OuterWalls::look() {
 }
 
 void OuterWalls::tell() {
-  const session::VesselWalls* walls = board_.shown.get() ? board_.of_selected() : nullptr;
+  const session::VesselWalls* walls = wanted() ? board_.of_selected() : nullptr;
   if (walls) window_.say(plaque_text(*walls));
+}
+
+/// Once for every stenosis that the cursor comes to.
+void OuterWalls::tell_lesion() {
+  const session::VesselWalls* walls = wanted() ? board_.of_selected() : nullptr;
+  const session::Workbench& bench = window_.bench();
+  const double s = bench.cursor_mm.get();
+  std::optional<double> here;
+  if (walls)
+    for (const analysis::Stenosis& one : bench.known_stenoses(bench.vessel.get()))
+      if (s >= one.from_mm && s <= one.to_mm) {
+        here = one.throat_mm;
+        if (told_mm_ != here) window_.say(lesion_text(walls, one).join(QStringLiteral("; ")));
+      }
+  told_mm_ = here;
+}
+
+void OuterWalls::set_plaque_command(QAction* command) {
+  command_ = command;
+  bind_checked(command, board_.plaque_shown);
+  refresh_command();
+}
+
+QString OuterWalls::why_no_plaque() const {
+  const session::Workbench& bench = window_.bench();
+  if (!bench.has_case() || !bench.image().volume) return tr("There is no case with its image.");
+  if (board_.known().contains(bench.vessel.get())) return tr("No outer wall was found along this vessel.");
+  return tr("No outer wall is known along this vessel: switch on Outer wall, and it is looked for.");
+}
+
+void OuterWalls::refresh_command() {
+  if (!command_) return;
+  const bool known = board_.of_selected() != nullptr;
+  const QString tip = known ? command_tip(command_->objectName()) : why_no_plaque();
+  command_->setEnabled(known);
+  command_->setProperty("tip", tip);
+  command_->setStatusTip(tip);
+  command_->setToolTip(plain_text(command_->text()) + '\n' + tip);
 }
 
 }  // namespace ostia::workstation

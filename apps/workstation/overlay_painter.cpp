@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 namespace ostia::workstation {
 namespace {
@@ -86,6 +87,22 @@ void paint_text(QPainter& painter, const view::OverlayText& text, Ground ground)
   painter.setFont(usual);
 }
 
+QImage tint_picture(const view::OverlayTint& tint, Ground ground) {
+  std::vector<QRgb> colors{0};
+  for (const view::Role role : tint.roles) {
+    QColor color = role_color(role, ground);
+    color.setAlphaF(tint.opacity);
+    colors.push_back(qPremultiply(color.rgba()));
+  }
+  QImage made(tint.width, tint.height, QImage::Format_ARGB32_Premultiplied);
+  for (int row = 0; row < tint.height; ++row) {
+    const std::uint8_t* from = tint.what.data() + static_cast<std::ptrdiff_t>(row) * tint.width;
+    auto* to = reinterpret_cast<QRgb*>(made.scanLine(row));
+    for (int column = 0; column < tint.width; ++column) to[column] = colors[from[column]];
+  }
+  return made;
+}
+
 }  // namespace
 
 QImage grey_picture(const view::GreyImage& image, const session::GreyWindow& window, QImage reused) {
@@ -107,6 +124,8 @@ QImage grey_picture(const view::GreyImage& image, const session::GreyWindow& win
 
 void paint_overlay(QPainter& painter, const view::Overlay& overlay, double density, Ground ground) {
   painter.setRenderHint(QPainter::Antialiasing);
+  for (const auto& tint : overlay.tints)
+    painter.drawImage(QPointF(tint->left, tint->top), tint_picture(*tint, ground));
   for (const view::OverlayBand& band : overlay.bands) {
     QColor color = role_color(band.role, ground);
     color.setAlphaF(band.opacity);

@@ -12,6 +12,7 @@
 #include <QPaintEvent>
 #include <QPainter>
 #include <QTimer>
+#include <QToolTip>
 #include <QWheelEvent>
 #include <algorithm>
 #include <cmath>
@@ -288,6 +289,10 @@ void ProfileWidget::hand(const std::function<void()>& act) {
 }
 bool ProfileWidget::event(QEvent* event) {
   if (event->type() == QEvent::WindowBlocked && pointer_.holding()) hand([&] { pointer_.let_go(); });
+  if (event->type() == QEvent::ToolTip) {
+    show_tip(*static_cast<QHelpEvent*>(event));
+    return true;
+  }
   // Escape drops what is in the hand, and is the shortcut for browsing only then.
   if (event->type() == QEvent::ShortcutOverride && pointer_.holding() &&
       static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape) {
@@ -295,6 +300,14 @@ bool ProfileWidget::event(QEvent* event) {
     return true;
   }
   return QWidget::event(event);
+}
+void ProfileWidget::show_tip(const QHelpEvent& event) {
+  const double density = devicePixelRatioF();
+  const auto lesion = view_.lesion_at(view::Vec2(event.x(), event.y()) * density);
+  if (lesion && lesion_tip_)
+    QToolTip::showText(event.globalPos(), lesion_tip_(*lesion), this);
+  else
+    QToolTip::hideText();
 }
 void ProfileWidget::let_go_if_lost(const QMouseEvent& event) {
   if (pointer_.holding() && button_.lost(event)) hand([&] { pointer_.let_go(); });

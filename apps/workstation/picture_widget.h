@@ -86,6 +86,8 @@ class ProfileWidget final : public QWidget {
  public:
   ProfileWidget(session::Workbench& bench, Guard guard, QWidget* parent = nullptr);
   view::ProfileView& view() { return view_; }
+  /// What is said of the stenosis under the mouse.
+  void set_lesion_tip(std::function<QString(const analysis::Stenosis&)> tip) { lesion_tip_ = std::move(tip); }
   QSize minimumSizeHint() const override { return {160, 70}; }
 
  protected:
@@ -102,6 +104,8 @@ class ProfileWidget final : public QWidget {
   view::PointerEvent pointer_event(const QPointF& at, Qt::MouseButton button) const;
   void hand(const std::function<void()>& act);
   void let_go_if_lost(const QMouseEvent& event);
+  void show_tip(const QHelpEvent& event);
+  std::function<QString(const analysis::Stenosis&)> lesion_tip_;
   view::ProfileView view_;
   view::ProfilePointer pointer_;
   Guard guard_;

@@ -1,6 +1,7 @@
 #include "preferences_dialog.h"
 
 #include "command_texts.h"
+#include "hanging.h"
 #include "help.h"
 #include "language.h"
 #include "theme.h"
@@ -34,7 +35,7 @@ PreferencesDialog::PreferencesDialog(MainWindow& window, Help& help, QWidget* pa
     : QDialog(parent), window_(window), help_(help), keys_(help.keys()) {
   setObjectName("preferences");
   setWindowTitle(tr("Preferences"));
-  resize(620, 600);
+  resize_within(*this, QSize(620, 600));
   auto* tabs = new QTabWidget(this);
   tabs->addTab(general_page(), tr("General"));
   tabs->addTab(keys_page(), tr("Keys"));

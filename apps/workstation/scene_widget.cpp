@@ -4,6 +4,8 @@
 #include "hand_events.h"
 #include "paint_queue.h"
 
+#include "ostia/core/error.h"
+#include "ostia/figure/color.h"
 #include "ostia/figure/slice_figure.h"
 #include "ostia/reformat/plane_image.h"
 #include "ostia/view/scene_measurements.h"
@@ -125,6 +127,12 @@ void SceneWidget::resizeEvent(QResizeEvent* event) {
   request_render();
 }
 
+/// What changed while it was hidden, behind a tab or beside a panel that was alone, has not been drawn.
+void SceneWidget::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  request_render();
+}
+
 void SceneWidget::request_render() {
   if (isVisible()) PaintQueue::instance().add_last(this, [this] { refresh(); });
 }
@@ -168,6 +176,18 @@ void SceneWidget::refresh() {
   // The CT is drawn finer and finer while nothing else is to be done.
   if (buttons_ == Qt::NoButton) refining_.start();
   FrameLog::instance().painted(objectName(), static_cast<double>(clock.nsecsElapsed()) / 1e6);
+}
+
+QColor SceneWidget::color_of(std::int32_t vessel) const {
+  const auto shown = [](const figure::Color& color) { return QColor::fromRgbF(color.r, color.g, color.b); };
+  try {
+    return shown(scene_->vessel_style(vessel).color);
+  } catch (const InvalidInput&) {
+    const lumen::LumenModel* model = bench_.model();
+    for (std::size_t i = 0; model && i < model->vessels.size(); ++i)
+      if (model->vessels[i]->vessel == vessel) return shown(figure::palette(i % 7));
+  }
+  return QColor(Qt::gray);
 }
 
 void SceneWidget::set_wall_painter(std::function<void(const geometry::TriMesh&)> painter) {

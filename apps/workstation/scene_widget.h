@@ -7,6 +7,7 @@
 #include "ostia/view/scene_pointer.h"
 #include "ostia/view/tree_scene.h"
 
+#include <QColor>
 #include <QElapsedTimer>
 #include <QPointF>
 #include <QTimer>
@@ -28,6 +29,8 @@ class SceneWidget final : public QWidget {
   ~SceneWidget() override;
   view::TreeScene& scene() { return *scene_; }
   view::ScenePointer& pointer() { return *pointer_; }
+  /// Of a vessel in the tree; where none has been drawn yet, the one that it will have.
+  QColor color_of(std::int32_t vessel) const;
   /// Moves smoothly to another pose.
   void go_to(const view::CameraPose& pose);
   void set_volume_mode(view::VolumeMode mode);
@@ -48,6 +51,7 @@ class SceneWidget final : public QWidget {
   bool eventFilter(QObject* object, QEvent* event) override;
   void paintEvent(QPaintEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
+  void showEvent(QShowEvent* event) override;
 
  private:
   void refresh();

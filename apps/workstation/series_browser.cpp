@@ -1,5 +1,6 @@
 #include "series_browser.h"
 
+#include "hanging.h"
 #include "jobs.h"
 
 #include "ostia/imaging/series_preview.h"
@@ -32,7 +33,7 @@ SeriesBrowser::SeriesBrowser(const imaging::DicomFolder& folder, Jobs& jobs, QWi
     : QDialog(parent), folder_(folder), jobs_(jobs), list_(new QTreeWidget(this)) {
   setObjectName("series");
   setWindowTitle(tr("Series in this folder"));
-  resize(900, 520);
+  resize_within(*this, QSize(900, 520));
   list_->setAccessibleName(tr("Series"));
   list_->setColumnCount(columns);
   list_->setHeaderLabels({QString(), tr("Series"), tr("Slices"), tr("Voxel, mm"), tr("Notes")});

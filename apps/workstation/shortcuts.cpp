@@ -68,6 +68,7 @@ const std::vector<Shortcut>& shortcuts() {
       {"view.thicker", "Ctrl+Alt+Up", "Ctrl+Alt+Up"},
       {"view.contours", "Space", "Space"},
       {"view.outer_wall", "", ""},
+      {"view.plaque", "Shift+P", "Shift+P"},
       {"view.fit", "Ctrl+0", "F"},
       {"view.theme", "", ""},
       {"window.1", "F5", "F5"},

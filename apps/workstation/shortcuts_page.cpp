@@ -1,6 +1,7 @@
 #include "shortcuts_page.h"
 
 #include "command_texts.h"
+#include "hanging.h"
 #include "help.h"
 
 #include <QAction>
@@ -23,7 +24,7 @@ ShortcutsPage::ShortcutsPage(const Help& help, QWidget* parent)
     : QDialog(parent), search_(new QLineEdit(this)), list_(new QTreeWidget(this)) {
   setObjectName("shortcuts_page");
   setWindowTitle(tr("Keys and mouse"));
-  resize(1180, 680);
+  resize_within(*this, QSize(1180, 680));
   search_->setObjectName("search");
   search_->setPlaceholderText(tr("Search: a word, or a key"));
   search_->setAccessibleName(tr("Search"));

@@ -102,11 +102,14 @@ void StartPage::show_or_hide() {
 
 void StartPage::place() {
   const QPoint corner = over_->mapTo(&window_, QPoint(0, 0));
-  const int wide = std::min(widest, over_->width() - 24);
   layout()->activate();
+  // In a narrow window its buttons reach over the views beside, which have nothing to show yet.
+  const int least = std::min(minimumSizeHint().width(), window_.width() - 24);
+  const int wide = std::max(least, std::min(widest, over_->width() - 24));
   const int high = std::max(sizeHint().height(), layout()->totalHeightForWidth(wide));
-  setGeometry(corner.x() + (over_->width() - wide) / 2,
-              corner.y() + std::max(30, (over_->height() - high) / 3), wide, high);
+  const int left =
+      std::clamp(corner.x() + (over_->width() - wide) / 2, 0, std::max(0, window_.width() - wide));
+  setGeometry(left, corner.y() + std::max(30, (over_->height() - high) / 3), wide, high);
   raise();
 }
 

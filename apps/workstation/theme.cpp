@@ -1,6 +1,7 @@
 #include "theme.h"
 
 #include <QApplication>
+#include <QIcon>
 #include <QPainter>
 #include <QProxyStyle>
 #include <QStyleOption>
@@ -27,6 +28,19 @@ class PlainButtons final : public QProxyStyle {
     painter->setBrush(Qt::NoBrush);
     painter->drawRoundedRect(QRectF(option->rect).adjusted(0.5, 0.5, -0.5, -0.5), 2.0, 2.0);
     painter->restore();
+  }
+  /// The arrow of a tool bar that hides commands: the style's own is black.
+  QIcon standardIcon(StandardPixmap which, const QStyleOption* option, const QWidget* widget) const override {
+    if (which != SP_ToolBarHorizontalExtensionButton) return QProxyStyle::standardIcon(which, option, widget);
+    constexpr int side = 32;
+    QPixmap arrows(side, side);
+    arrows.fill(Qt::transparent);
+    QPainter painter(&arrows);
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.setPen(QPen(QColor(128, 134, 142), 3.5));  // seen in both themes: a bar keeps it
+    for (const double x : {8.0, 17.0})
+      painter.drawPolyline(QPolygonF({{x, 7.0}, {x + 7.0, 16.0}, {x, 25.0}}));
+    return QIcon(arrows);
   }
   int styleHint(StyleHint hint, const QStyleOption* option, const QWidget* widget,
                 QStyleHintReturn* data) const override {
@@ -87,7 +101,7 @@ QColor role_color(view::Role role, Ground ground) {
     case Role::lumen:
       return QColor(255, 176, 46);
     case Role::outer_wall:
-      return QColor(240, 228, 66);
+      return bright ? QColor(240, 228, 66) : QColor(130, 115, 0);
     case Role::truth:
       return QColor(102, 219, 255);
     case Role::axis:
@@ -120,6 +134,15 @@ QColor role_color(view::Role role, Ground ground) {
       return bright ? QColor(120, 170, 255) : QColor(40, 80, 190);
     case Role::grid:
       return bright ? QColor(110, 115, 125) : QColor(170, 174, 182);
+    // Told apart by the colour-blind, too, also over grey: warm is soft, blue is hard.
+    case Role::low_attenuation:
+      return QColor(213, 94, 0);
+    case Role::fibrofatty:
+      return QColor(240, 228, 66);
+    case Role::fibrous:
+      return QColor(40, 90, 255);
+    case Role::calcified:
+      return QColor(86, 180, 233);
   }
   return Qt::white;
 }

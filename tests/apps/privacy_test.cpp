@@ -3,6 +3,7 @@
 #include "program.h"
 
 #include "ostia/core/files.h"
+#include "ostia/imaging/image_file.h"
 
 #include <gmock/gmock.h>
 
@@ -49,6 +50,32 @@ TEST(Privacy, BadInput_Row40_NorInALogOfRefusals) {
     const Outcome done = ostia(command + std::vector<std::string>{"--log", "json"});
     EXPECT_EQ(done.code, 3) << command.front();
     EXPECT_THAT(done.out + done.err, Not(HasSubstr("DOE^JANE"))) << command.front();
+  }
+}
+
+TEST(Privacy, BadInput_Row40_NorInALogOfRefusalsOfWhatAnImageHolds) {
+  const auto folder = temporary_folder("DOE^JANE");
+  imaging::ImageVolume image;
+  image.geometry.size = {20, 20, 20};
+  for (int v = 0; v < 8000; ++v) image.voxels.push_back(static_cast<std::int16_t>(v % 500 - 100));
+  imaging::write_image(folder / "DOE^JANE_ct.nrrd", image);
+  imaging::MaskVolume mask{image.geometry, std::vector<std::uint8_t>(8000, 0)};
+  imaging::write_image(folder / "DOE^JANE_mask.nrrd", mask);
+  const std::string ct = (folder / "DOE^JANE_ct.nrrd").string(),
+                    empty = (folder / "DOE^JANE_mask.nrrd").string();
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"extract", ct, "-o", (folder / "a.ostia").string()},
+        {"segment", ct, "-o", (folder / "a.nrrd").string(), "--aorta"},
+        {"segment", ct, "-o", (folder / "a.vtp").string(), "--branch", "1,1,1:900,0,0"},
+        {"segment", empty, "-o", (folder / "a.vtp").string()},
+        {"skeleton", empty, "-o", (folder / "a.vtp").string()}}) {
+    const Outcome plain = ostia(command), logged = ostia(command + std::vector<std::string>{"--log", "json"});
+    EXPECT_EQ(plain.code, 3) << command.front();
+    EXPECT_EQ(logged.code, 3) << command.front();
+    // A person is told which file; a log that is kept is not.
+    EXPECT_THAT(plain.err, HasSubstr("DOE^JANE")) << command.front();
+    EXPECT_THAT(logged.out + logged.err, Not(HasSubstr("DOE^JANE"))) << command.front();
+    EXPECT_THAT(logged.err, HasSubstr("INPUT")) << command.front();
   }
 }
 

@@ -107,6 +107,23 @@ TEST(CentredTree, BesideCalciumTheAxisIsTheBoundarysMiddle) {
   EXPECT_LT(sum / count, 0.15);
 }
 
+TEST(CentredTree, AcrossAClosedStretchItIsStraightAndSaysSo) {
+  const Scene scene = Scene::closed();
+  const imaging::ImageVolume image = scene.image();
+  const CentredTree found =
+      centred_tree(image, grow_tree(image, Scene::aorta(), scene.ostia()), scene.ostia());
+  ASSERT_EQ(found.tree.vessels.size(), 1U);
+  const geometry::Centerline axis = geometry::vessel_axis(found.tree, found.tree.vessels[0]);
+  EXPECT_GT(axis.points.back().x(), 20.0);
+  for (const Vec3& point : axis.points)
+    if (point.x() > -3.0 && point.x() < 9.0) {
+      EXPECT_NEAR(point.y(), 0.0, 0.3) << point.transpose();
+    }
+  const std::vector<std::string>& said = found.notes[0].warnings;
+  EXPECT_TRUE(std::any_of(said.begin(), said.end(),
+                          [](const std::string& one) { return one.starts_with("no lumen is seen for "); }));
+}
+
 TEST(CentredTree, EachOstiumIsARoot) {
   Scene scene;
   scene.arteries = {{{-20.0, -8.0, 20.0}, {10.0, -8.0, 20.0}, 1.4},

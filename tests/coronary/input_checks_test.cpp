@@ -90,6 +90,18 @@ TEST(InputChecks, MetalIsTold) {
   EXPECT_THAT(check_input(image), ::testing::ElementsAre(HasSubstr("ml of metal")));
 }
 
+TEST(InputChecks, ARefusalSaysWhatElseIsOdd) {
+  const imaging::ImageVolume image = made_image(40.0, 60.0, 0.9, [](const geometry::Vec3& at) {
+    return std::hypot(at.x() - 5.0, at.y()) < 3.0 ? 3000.0 : chest_hu(at);
+  });
+  try {
+    extract(image);
+    FAIL() << "a chest without an aorta";
+  } catch (const GeometryError& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("no "), HasSubstr("; besides, "), HasSubstr("ml of metal")));
+  }
+}
+
 /// An upright vessel with three large branches before a spine, in muscle and fat, without lungs.
 double abdomen_hu(const geometry::Vec3& at) {
   if (std::hypot(at.x() / 76.0, at.y() / 66.0) > 1.0) return -1000.0;

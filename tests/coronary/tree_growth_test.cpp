@@ -58,11 +58,88 @@ TEST(TreeGrowth, KnowsHowWideItsVesselsAre) {
   EXPECT_NEAR(median(tree.branches[1].radius_mm), 1.0, 0.25);
 }
 
+TEST(TreeGrowth, ByTheHessianTheArteriesAreFoundToo) {
+  const Scene scene;
+  GrowthOptions options;
+  options.likeness = segmentation::TubeMethod::hessian;
+  const imaging::ImageVolume image = scene.image();
+  const GrownTree tree = grow_tree(image, Scene::aorta(), scene.ostia(), options);
+  EXPECT_LT(nearest(tree, scene.arteries[1].to), 1.5);
+  EXPECT_LT(nearest(tree, scene.arteries[2].to), 1.5);
+  EXPECT_NE(tree.voxels, grow_tree(image, Scene::aorta(), scene.ostia()).voxels) << "another measure";
+}
+
 TEST(TreeGrowth, AShorterLimitTakesTheStubToo) {
   const Scene scene;
   GrowthOptions options;
-  options.least_branch_mm = 2.0;
+  options.least_branch_mm = 4.0;
   EXPECT_EQ(grow_tree(scene.image(), Scene::aorta(), scene.ostia(), options).branches.size(), 3U);
+}
+
+TEST(TreeGrowth, AShortClearEndBehindABranchIsOne) {
+  Scene scene;
+  // Behind the branch 6 mm are left, 4 mm of them beyond its lumen.
+  scene.arteries = {{{-20.0, 0.0, 20.0}, {0.0, 0.0, 20.0}, 1.1},
+                    {{0.0, 0.0, 20.0}, {8.0, 14.0, 28.0}, 1.1},
+                    {{0.0, 0.0, 20.0}, {5.2, 0.0, 20.0}, 0.8}};
+  const GrownTree tree = grow_tree(scene.image(), Scene::aorta(), scene.ostia());
+  ASSERT_EQ(tree.branches.size(), 2U);
+  EXPECT_LT(nearest(tree, {5.2, 0.0, 20.0}), 0.8);
+}
+
+TEST(TreeGrowth, GoesOnBehindAClosedStretch) {
+  const Scene scene = Scene::closed();
+  const imaging::ImageVolume image = scene.image();
+  const GrownTree tree = grow_tree(image, Scene::aorta(), scene.ostia());
+  ASSERT_EQ(tree.branches.size(), 1U);
+  const GrownBranch& branch = tree.branches[0];
+  EXPECT_LT((branch.points.back() - scene.arteries[1].to).norm(), 1.8);
+  for (const Vec3& point : branch.points)
+    EXPECT_LT(std::min(scene.artery_distance(point), scene.plaques[0].distance(point)), 0.3);
+  ASSERT_EQ(branch.gaps.size(), 1U);
+  const auto [first, last] = branch.gaps[0];
+  EXPECT_NEAR(branch.points[first].x(), -1.0, 1.0);
+  EXPECT_NEAR(branch.points[last].x(), 7.0, 1.0);
+
+  GrowthOptions options;
+  options.longest_gap_mm = 0.0;
+  const GrownTree short_one = grow_tree(image, Scene::aorta(), scene.ostia(), options);
+  ASSERT_EQ(short_one.branches.size(), 1U);
+  EXPECT_LT(short_one.branches[0].points.back().x(), 1.0);
+  EXPECT_TRUE(short_one.branches[0].gaps.empty());
+  options.longest_gap_mm = 4.0;  // less than is closed
+  EXPECT_LT(grow_tree(image, Scene::aorta(), scene.ostia(), options).branches[0].points.back().x(), 1.0);
+}
+
+TEST(TreeGrowth, GoesNotOnIntoWhatIsAnother) {
+  const auto farthest_x = [](const Scene& scene) {
+    double most = -1e9;
+    for (const GrownBranch& branch : grow_tree(scene.image(), Scene::aorta(), scene.ostia()).branches)
+      for (const Vec3& point : branch.points) most = std::max(most, point.x());
+    return most;
+  };
+  const Scene closed = Scene::closed();
+  Scene vein = closed;
+  vein.arteries.pop_back();
+  vein.vein = closed.arteries[1];
+  EXPECT_LT(farthest_x(vein), 1.0) << "in line, but fainter";
+  Scene crossing = closed;
+  crossing.arteries[1] = {{8.0, -14.0, 20.5}, {8.0, 14.0, 20.5}, 1.2};
+  EXPECT_LT(farthest_x(crossing), 1.0) << "it passes by";
+  Scene turned = closed;
+  turned.arteries[1] = {{8.0, 0.0, 20.5}, {6.0, 14.0, 25.0}, 1.2};
+  EXPECT_LT(farthest_x(turned), 1.0) << "it leads to the side";
+  Scene wide = closed;
+  wide.arteries[1].radius_mm = 2.6;
+  EXPECT_LT(farthest_x(wide), 1.0) << "twice as wide";
+  Scene chamber = closed;
+  chamber.arteries.pop_back();
+  chamber.chamber = {20.0, 0.0, 20.0};
+  chamber.chamber_radius_mm = 13.0;
+  EXPECT_LT(farthest_x(chamber), 1.0) << "no tube";
+  Scene apart = closed;
+  apart.plaques.clear();
+  EXPECT_LT(farthest_x(apart), 1.0) << "fat between";
 }
 
 TEST(TreeGrowth, TheSameForAnyNumberOfThreads) {

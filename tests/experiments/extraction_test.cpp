@@ -1,8 +1,11 @@
 #include "ostia/experiments/extraction.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/files.h"
 #include "ostia/experiments/extraction_report.h"
 #include "ostia/geometry/polyline.h"
+#include "ostia/io/centerline_file.h"
+#include "ostia/io/contour_file.h"
 #include "ostia/lumen/start_surface.h"
 
 #include <gmock/gmock.h>
@@ -167,6 +170,22 @@ TEST(ExtractionExperiment, SaysWhatASuiteLacks) {
   ExtractionScoreOptions options;
   options.threshold = 1.0;
   EXPECT_THROW(extract_suite(folder, options), InvalidInput);
+}
+
+TEST(ExtractionExperiment, TrueStenosesAreGradedByAreaAsFoundOnesAre) {
+  const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "graded_truth";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  io::write_centerlines(folder / "centerlines.vtp", tree_of({lad}));
+  io::write_contours(folder / "contours.json", truth().contours);
+  // Eccentric: by the mean distance from the axis 58 %, by the lumen's area 1 - sqrt(1 - 0.75).
+  core::write_file(folder / "case.json",
+                   R"({"data_set_vessels": [], "vessels": [{"name": "LAD", "stenoses": [
+      {"s_from_mm": 26, "s_to_mm": 34, "s_throat_mm": 30, "diameter_stenosis": 0.58, "area_stenosis": 0.75}]}]})");
+  const ExtractionTruth read = read_extraction_truth(folder);
+  ASSERT_EQ(read.lesions.size(), 1U);
+  EXPECT_DOUBLE_EQ(read.lesions[0].grade, 0.5);
+  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -1,10 +1,13 @@
 #include "ostia/experiments/robustness.h"
 
+#include "shared_data.h"
+
 #include "ostia/core/error.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <set>
 
 namespace ostia::experiments {
@@ -49,6 +52,19 @@ TEST(Robustness, AClosedOstiumIsMissedAndToldAndAHeartInNoiseRefused) {
   EXPECT_GT(rows[3].main_ov, 0.8);
   EXPECT_LT(rows[3].astray_mm, 5.0);
   EXPECT_THAT(robustness_json(runs, options), HasSubstr("\"kind\": \"robustness\""));
+}
+
+TEST(Robustness, AReportOfVariationsWithoutStepsHasNoPlot) {
+  const auto folder = ostia::testing::temporary_folder("robustness");
+  RobustnessRun run;
+  run.variation = varied("stent", "18 mm in the proximal LAD");
+  run.score.vessels.emplace_back();
+  write_robustness_report(folder, {run});
+  EXPECT_TRUE(std::filesystem::exists(folder / "report.html"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "overlap.png"));
+  run.variation = varied("noise", "40 HU");
+  write_robustness_report(folder, {run});
+  EXPECT_TRUE(std::filesystem::exists(folder / "overlap.png"));
 }
 
 TEST(Robustness, EachStepIsNamedOnceAndTheFirstIsThePatientAsDrawn) {

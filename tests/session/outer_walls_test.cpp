@@ -3,10 +3,12 @@
 #include "report_cases.h"
 
 #include "ostia/core/error.h"
+#include "ostia/session/plaque_look.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -86,6 +88,59 @@ TEST(OuterWalls, AReportTellsThem) {
   const CaseReport without = report_of(narrowed_tube("RCA", 40.0, 1.5, 20.0, 0.6));
   EXPECT_FALSE(without.vessels.front().plaque || without.stenoses.front().plaque ||
                without.stenoses.front().remodelling_index);
+}
+
+TEST(OuterWalls, ShowPieceByPieceWhatTheyCount) {
+  const lumen::LumenModel model = narrowed_tube("RCA", 40.0, 1.5, 20.0, 1.5);
+  const imaging::ImageVolume image = walled_image(1.5, 2.6, 60.0);
+  const std::int32_t vessel = model.tree.vessels.front().id;
+  OuterWallsOptions options;
+  EXPECT_TRUE(vessel_walls(model, solved_surfaces(model), vessel, image, options)->maps.empty());
+  options.maps = true;
+  const auto walls = vessel_walls(model, solved_surfaces(model), vessel, image, options);
+  ASSERT_TRUE(walls);
+  ASSERT_EQ(walls->maps.size(), walls->plaque.slabs.size());
+  // Areas of the pieces that a ray shows, summed over the rays, are the volumes of the slab.
+  for (const double s : {10.0, 20.0}) {
+    std::array<double, analysis::plaque_classes> shown{};
+    constexpr int rays = 720, steps = 400;
+    for (int a = 0; a < rays; ++a) {
+      const auto ray = plaque_ray(*walls, s, 2.0 * pi * (a + 0.5) / rays);
+      ASSERT_TRUE(ray);
+      EXPECT_FALSE(ray->at(ray->lumen_mm - 0.01) || ray->at(ray->outer_mm + 0.01));
+      for (int i = 0; i < steps; ++i) {
+        const double rho = 4.0 * (i + 0.5) / steps;
+        if (const auto one = ray->at(rho))
+          shown[static_cast<std::size_t>(*one)] += rho * 4.0 / steps * 2.0 * pi / rays;
+      }
+    }
+    const analysis::PlaqueVolumes counted = analysis::plaque_between(walls->plaque, s - 0.125, s + 0.125);
+    for (std::size_t i = 0; i < shown.size(); ++i)
+      EXPECT_NEAR(shown[i], counted.class_mm3[i] / 0.25, 0.05 * counted.plaque_mm3() / 0.25) << i;
+  }
+  EXPECT_FALSE(plaque_ray(*walls, 0.5, 0.0));
+  const auto diameters = outer_diameters_mm(*walls);
+  ASSERT_EQ(diameters.size(), walls->plaque.slabs.size());
+  for (const auto& [s, diameter] : diameters) EXPECT_NEAR(diameter, 5.2, 0.24) << s;
+}
+
+TEST(OuterWalls, TellTheSameOfAStenosisAsTheReport) {
+  const lumen::LumenModel model = narrowed_tube("RCA", 40.0, 1.5, 20.0, 0.6);
+  const imaging::ImageVolume image = walled_image(1.5, 2.6, 60.0);
+  const CaseReport report = report_of(model, {}, {}, &image);
+  const auto walls = vessel_walls(model, solved_surfaces(model), model.tree.vessels.front().id, image);
+  ASSERT_TRUE(walls);
+  ASSERT_EQ(report.stenoses.size(), 1U);
+  const ReportStenosis& told = report.stenoses.front();
+  const auto found = plaque_of(*walls, told.stenosis);
+  ASSERT_TRUE(found && told.plaque);
+  EXPECT_DOUBLE_EQ(found->volumes.plaque_mm3(), told.plaque->volumes.plaque_mm3());
+  EXPECT_DOUBLE_EQ(found->volumes.burden_percent(), told.plaque->volumes.burden_percent());
+  EXPECT_EQ(found->remodelling_index, told.remodelling_index);
+  analysis::Stenosis beyond = told.stenosis;
+  beyond.from_mm = 100.0;
+  beyond.to_mm = 110.0;
+  EXPECT_FALSE(plaque_of(*walls, beyond));
 }
 
 TEST(OuterWalls, AnImageWithoutContrastSaysSo) {

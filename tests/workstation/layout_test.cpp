@@ -10,6 +10,7 @@
 
 #include <QAction>
 #include <QCheckBox>
+#include <QDoubleSpinBox>
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
@@ -19,10 +20,14 @@
 #include <QScreen>
 #include <QStatusBar>
 #include <QSurfaceFormat>
+#include <QTabWidget>
 #include <QTest>
+#include <QToolBar>
 #include <QTranslator>
 #include <QTreeWidget>
+#include <array>
 #include <clocale>
+#include <set>
 
 namespace ostia::workstation {
 namespace {
@@ -183,6 +188,123 @@ TEST_P(Layout, EveryMenuFitsOnTheScreen) {
       EXPECT_LT(menu->sizeHint().width(), size().width()) << menu->title().toStdString();
     }
 }
+
+/// A window that fills a small screen, or a larger one at 200 %.
+class SmallScreen : public Layout {
+ protected:
+  const QRect room_{QPoint(0, 0), size()};
+  static constexpr std::array panes{"vessels", "lists", "cpr1", "cpr2",
+                                    "section", "slice", "tree", "profile"};
+  /// Of what can be seen of the window nothing lies outside of it.
+  void expect_within(MainWindow& window, const std::string& where) {
+    EXPECT_EQ(window.size(), room_.size()) << where;
+    EXPECT_LE(window.minimumSizeHint().width(), room_.width()) << where;
+    EXPECT_LE(window.minimumSizeHint().height(), room_.height()) << where;
+    for (const char* name : panes) {
+      const auto* pane = window.findChild<QWidget*>(name);
+      ASSERT_TRUE(pane) << name;
+      if (!pane->isVisible()) continue;
+      const QRect shown(pane->mapTo(&window, QPoint(0, 0)), pane->size());
+      EXPECT_TRUE(room_.contains(shown))
+          << where << ": " << name << " reaches to " << shown.right() << ", " << shown.bottom();
+    }
+    expect_none(QString::fromStdString(where));
+  }
+};
+
+TEST_P(SmallScreen, EveryStateOfTheWindowFits) {
+  for (const std::string state : {"empty", "case", "editing", "section_alone", "profile_alone", "measuring",
+                                  "steps", "truth", "heart"}) {
+    Stage stage(size());
+    stage.enter(state);
+    testing::let_work(250);
+    expect_within(stage.window(), state);
+  }
+}
+
+TEST_P(SmallScreen, EveryDialogAndMenuFits) {
+  for (const std::string state : {"series", "preferences", "preferences_keys", "about", "manual", "keys",
+                                  "report", "tour", "complaint"}) {
+    Stage stage(size());
+    stage.enter(state);
+    testing::let_work(250);
+    for (const QWidget* window : QApplication::topLevelWidgets())
+      if (window->isVisible() && window->windowType() != Qt::ToolTip) {
+        EXPECT_LE(window->width(), room_.width()) << state << ": " << window->objectName().toStdString();
+        EXPECT_LE(window->height(), room_.height()) << state << ": " << window->objectName().toStdString();
+      }
+    expect_none(QString::fromStdString(state));
+  }
+  Stage stage(size());
+  for (const QMenu* menu : stage.window().findChildren<QMenu*>())
+    EXPECT_LT(menu->sizeHint().height(), room_.height()) << menu->title().toStdString();
+}
+
+TEST_P(SmallScreen, TheTreeIsATabBesideTheListsAndComesBackWithTheRoom) {
+  Stage stage(size());
+  stage.enter("case");
+  auto& tree = stage.window().scene();
+  auto* tabs = stage.window().findChild<QTabWidget*>("lists");
+  ASSERT_EQ(tabs->count(), 3);
+  EXPECT_FALSE(tree.isVisible());
+  for (const char* name : {"cpr1", "cpr2", "section", "slice"})
+    EXPECT_GE(stage.window().findChild<QWidget*>(name)->width(), 100) << name;
+  auto* list = stage.window().findChild<QTreeWidget*>("vessels");
+  const auto color = [&] { return list->topLevelItem(0)->icon(0).pixmap(12, 12).toImage().pixelColor(6, 6); };
+  const QColor unseen = color();  // of a vessel that the tree has not drawn yet
+  stage.window().findChild<QAction*>("panel.tree")->trigger();
+  // The tree is drawn, and has the colours that the list shows.
+  const auto colors = [&] {
+    const QImage shown = QGuiApplication::primaryScreen()
+                             ->grabWindow(0, tree.mapToGlobal(QPoint(0, 0)).x(),
+                                          tree.mapToGlobal(QPoint(0, 0)).y(), tree.width(), tree.height())
+                             .toImage();
+    std::set<QRgb> found;
+    for (int y = 0; y < shown.height(); ++y)
+      for (int x = 0; x < shown.width(); ++x) found.insert(shown.pixel(x, y));
+    return found.size();
+  };
+  EXPECT_TRUE(testing::wait_until([&] { return colors() > 50; }, 20000)) << colors();
+  EXPECT_EQ(color(), unseen);
+  EXPECT_TRUE(tree.isVisible());
+  EXPECT_EQ(tabs->currentIndex(), 2);
+  expect_within(stage.window(), "the tree's tab");
+
+  stage.window().resize(1600, 1000);
+  QApplication::processEvents();
+  EXPECT_EQ(tabs->count(), 2);
+  EXPECT_TRUE(tree.isVisible());
+  EXPECT_GT(tree.mapTo(&stage.window(), QPoint(0, 0)).x(),
+            stage.window().findChild<QWidget*>("section")->mapTo(&stage.window(), QPoint(0, 0)).x());
+  stage.window().resize(size());
+  QApplication::processEvents();
+  EXPECT_EQ(tabs->count(), 3);
+  expect_within(stage.window(), "narrow again");
+}
+
+TEST_P(SmallScreen, ToolsThatFindNoPlaceAreBehindTheArrow) {
+  Stage stage(size());
+  stage.enter("case");
+  auto* tools = stage.window().findChild<QToolBar*>("tools");
+  for (const QAction* action : tools->actions()) {
+    const QWidget* button = tools->widgetForAction(const_cast<QAction*>(action));
+    EXPECT_TRUE(button->isVisible()) << action->objectName().toStdString();
+    EXPECT_TRUE(action->isSeparator() || !action->toolTip().isEmpty());
+  }
+  // A box is never seen without its name, nor the name alone.
+  for (const char* name : {"reach", "ball", "slab"}) {
+    auto* box = stage.window().findChild<QDoubleSpinBox*>(name);
+    const QLabel* label = nullptr;
+    for (const auto* one : stage.window().findChildren<QLabel*>())
+      if (one->buddy() == box) label = one;
+    ASSERT_TRUE(label) << name;
+    EXPECT_EQ(label->isVisible(), box->isVisible()) << name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Settings, SmallScreen,
+                         ::testing::Values(Setting{"en", 800, 600}, Setting{"de", 800, 600}),
+                         [](const auto& test) { return std::string(test.param.language); });
 
 INSTANTIATE_TEST_SUITE_P(Settings, Layout,
                          ::testing::Values(Setting{"en", 1280, 800}, Setting{"en", 1600, 1200},

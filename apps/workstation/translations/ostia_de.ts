@@ -636,6 +636,13 @@
     </message>
 </context>
 <context>
+    <name>ostia::workstation::Hanging</name>
+    <message>
+        <source>Tree</source>
+        <translation>Baum</translation>
+    </message>
+</context>
+<context>
     <name>ostia::workstation::Help</name>
     <message>
         <source>&amp;Preferences…</source>
@@ -1167,6 +1174,10 @@
         <source>Outer wall</source>
         <translation>Außenwand</translation>
     </message>
+    <message>
+        <source>Plaque</source>
+        <translation>Plaque</translation>
+    </message>
 </context>
 <context>
     <name>ostia::workstation::ManualDialog</name>
@@ -1555,6 +1566,42 @@
     <message>
         <source>Outer wall</source>
         <translation>Außenwand</translation>
+    </message>
+    <message>
+        <source>Stenosis %1 %</source>
+        <translation>Stenose %1 %</translation>
+    </message>
+    <message>
+        <source>its plaque is known with the outer wall (View &gt; Outer wall)</source>
+        <translation>ihre Plaque ist mit der Außenwand bekannt (Ansicht &gt; Außenwand)</translation>
+    </message>
+    <message>
+        <source>plaque %1 mm³</source>
+        <translation>Plaque %1 mm³</translation>
+    </message>
+    <message>
+        <source>low attenuation %1, fibrofatty %2, fibrous %3, calcified %4</source>
+        <translation>niedrige Dichte %1, fibrofettig %2, fibrös %3, verkalkt %4</translation>
+    </message>
+    <message>
+        <source>burden %1 %</source>
+        <translation>Plaquelast %1 %</translation>
+    </message>
+    <message>
+        <source>remodelling index %1</source>
+        <translation>Remodelling-Index %1</translation>
+    </message>
+    <message>
+        <source>There is no case with its image.</source>
+        <translation>Es ist kein Fall mit seinem Bild geöffnet.</translation>
+    </message>
+    <message>
+        <source>No outer wall was found along this vessel.</source>
+        <translation>An diesem Gefäß wurde keine Außenwand gefunden.</translation>
+    </message>
+    <message>
+        <source>No outer wall is known along this vessel: switch on Outer wall, and it is looked for.</source>
+        <translation>An diesem Gefäß ist keine Außenwand bekannt: Außenwand einschalten, dann wird sie gesucht.</translation>
     </message>
 </context>
 <context>
@@ -2790,6 +2837,10 @@
         <source>Looks for the outer wall of the selected vessel, draws it on the 2D views and tells what plaque there is.</source>
         <translation>Sucht die Außenwand des gewählten Gefäßes, zeichnet sie in die 2D-Ansichten und nennt die Plaque.</translation>
     </message>
+    <message>
+        <source>Colours what lies between lumen and outer wall on sections and CPRs by its class.</source>
+        <translation>Färbt auf Querschnitten und CPRs nach Klassen, was zwischen Lumen und Außenwand liegt.</translation>
+    </message>
 </context>
 <context>
     <name>tools</name>
@@ -2951,6 +3002,26 @@
     <message>
         <source>The lumen is shut or open here: there is nothing to measure across it.</source>
         <translation>Das Lumen ist hier verschlossen oder offen: Quer dazu ist nichts zu messen.</translation>
+    </message>
+    <message>
+        <source>outer wall</source>
+        <translation>Außenwand</translation>
+    </message>
+    <message>
+        <source>low attenuation</source>
+        <translation>niedrige Dichte</translation>
+    </message>
+    <message>
+        <source>fibrofatty</source>
+        <translation>fibrofettig</translation>
+    </message>
+    <message>
+        <source>fibrous</source>
+        <translation>fibrös</translation>
+    </message>
+    <message>
+        <source>calcified</source>
+        <translation>verkalkt</translation>
     </message>
 </context>
 </TS>

@@ -51,6 +51,20 @@ std::vector<Vec3> from_ostium(const GrownBranch& branch, const Ostium& ostium) {
   return line;
 }
 
+/// Where the vessel was found again behind a stretch that shows no lumen.
+void tell_gaps(const GrownBranch& branch, segmentation::MinimalPath& path) {
+  const auto abscissa = [&](std::size_t point) {
+    return geometry::closest(path.points, branch.points[std::min(point, branch.points.size() - 1)]).abscissa;
+  };
+  for (const auto& [first, last] : branch.gaps) {
+    const double from = abscissa(first);
+    path.warnings.push_back(
+        "no lumen is seen for " + in_mm(abscissa(last) - from) + ", " + in_mm(from) +
+        " from its start, and a vessel goes on behind: a tight or closed stretch, if it is "
+        "the same one");
+  }
+}
+
 /// Follows the branches one after the other.
 class Centring {
  public:
@@ -99,6 +113,7 @@ class Centring {
       leave_out(branch, "it is " + in_mm(path.length_mm) + " long");
       return;
     }
+    tell_gaps(branch, path);
     add(std::move(path));
   }
 

@@ -101,11 +101,12 @@ void validate(const ExtractOptions& options) {
   validate(options.labels);
 }
 
-Extraction extract(const imaging::ImageVolume& image, const ExtractOptions& options,
-                   const core::TaskContext& task) {
-  validate(options);
+namespace {
+
+Extraction extracted(const imaging::ImageVolume& image, const ExtractOptions& options,
+                     std::vector<std::string> odd, const core::TaskContext& task) {
   Extraction result;
-  result.warnings = check_input(image);
+  result.warnings = std::move(odd);
   task.set_stage("finding the aorta");
   BelievedAorta believed = aorta_of(image, options.aorta, task.sub(0.0, 0.2));
   result.aorta = std::move(believed.aorta);
@@ -145,6 +146,22 @@ Extraction extract(const imaging::ImageVolume& image, const ExtractOptions& opti
   tell_borders(result, image.geometry);
   task.set_progress(1.0);
   return result;
+}
+
+}  // namespace
+
+Extraction extract(const imaging::ImageVolume& image, const ExtractOptions& options,
+                   const core::TaskContext& task) {
+  validate(options);
+  const std::vector<std::string> odd = check_input(image);
+  try {
+    return extracted(image, options, odd, task);
+  } catch (const GeometryError& error) {
+    // What is odd about the image may be why.
+    std::string what = error.what();
+    for (const std::string& one : odd) what += "; besides, " + one;
+    throw GeometryError(what);
+  }
 }
 
 }  // namespace ostia::coronary

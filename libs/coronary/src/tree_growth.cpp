@@ -1,6 +1,7 @@
 #include "ostia/coronary/tree_growth.h"
 
 #include "candidates.h"
+#include "gap_bridges.h"
 #include "tube_front.h"
 
 #include "ostia/core/error.h"
@@ -11,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <unordered_set>
 #include <utility>
 
 namespace ostia::coronary {
@@ -42,12 +44,18 @@ Vec3 place_of(const imaging::Geometry& grid, std::int64_t voxel) {
                          static_cast<double>(voxel / (grid.size[0] * grid.size[1]))));
 }
 
+using Voxels = std::unordered_set<std::int64_t>;
+
 /// Takes branches off the ways of a front, the longest first.
 class BranchPicker {
  public:
   BranchPicker(const FrontNodes& nodes, const imaging::FloatVolume& tube,
-               const imaging::FloatVolume& radius_mm, double least_branch_mm)
-      : nodes_(nodes), tube_(tube), radius_mm_(radius_mm), least_branch_mm_(least_branch_mm) {
+               const imaging::FloatVolume& radius_mm, const Voxels& unseen, double least_branch_mm)
+      : nodes_(nodes),
+        tube_(tube),
+        radius_mm_(radius_mm),
+        unseen_(unseen),
+        least_branch_mm_(least_branch_mm) {
     covered_.assign(tube.voxels.size(), 0);
   }
 
@@ -73,8 +81,7 @@ class BranchPicker {
       way.push_back(voxel);
       voxel = nodes_.at(voxel).before;
     }
-    const float from_mm = voxel >= 0 ? nodes_.at(voxel).length_mm : 0.0F;
-    if (nodes_.at(end).length_mm - from_mm < least_branch_mm_) {
+    if (!is_branch(end, voxel, way)) {
       // Nothing that hangs on this way is longer.
       for (const std::int64_t passed : way) covered_[static_cast<std::size_t>(passed)] = 1;
       return;
@@ -89,12 +96,40 @@ class BranchPicker {
     }
     std::reverse(way.begin(), way.end());
     for (const std::int64_t passed : way) {
+      if (unseen_.contains(passed)) add_to_gap(branch);
       branch.points.push_back(place_of(tube_.geometry, passed));
       branch.radius_mm.push_back(radius_mm_.voxels[static_cast<std::size_t>(passed)]);
       branch.tube.push_back(tube_.voxels[static_cast<std::size_t>(passed)]);
       cover(passed);
     }
     branches_.push_back(std::move(branch));
+  }
+
+  /// Long enough beyond the lumen it leaves or, where it is a clear tube, from its parent's middle: as far as
+  /// the axis will run.
+  bool is_branch(std::int64_t end, std::int64_t leaves, const std::vector<std::int64_t>& way) const {
+    constexpr float clear_tube = 0.5F;
+    constexpr double least_part = 0.5;  // that must lie beyond the lumen: a bump is no branch
+    if (leaves < 0) return nodes_.at(end).length_mm >= least_branch_mm_;
+    const double beyond_mm = nodes_.at(end).length_mm - nodes_.at(leaves).length_mm;
+    if (beyond_mm >= least_branch_mm_) return true;
+    if (beyond_mm < least_part * least_branch_mm_) return false;
+    const auto [parent, point] = nearest_place(place_of(tube_.geometry, leaves));
+    const Vec3& from = branches_[static_cast<std::size_t>(parent)].points[point];
+    if (beyond_mm + (place_of(tube_.geometry, leaves) - from).norm() < least_branch_mm_) return false;
+    std::vector<float> tube;
+    for (const std::int64_t voxel : way) tube.push_back(tube_.voxels[static_cast<std::size_t>(voxel)]);
+    const auto middle = tube.begin() + static_cast<std::ptrdiff_t>(tube.size() / 2);
+    std::nth_element(tube.begin(), middle, tube.end());
+    return *middle >= clear_tube;
+  }
+
+  /// From the place before to the one behind what is not seen.
+  static void add_to_gap(GrownBranch& branch) {
+    const std::size_t here = branch.points.size();
+    if (branch.gaps.empty() || branch.gaps.back().second != here)
+      branch.gaps.emplace_back(here > 0 ? here - 1 : 0, here);
+    branch.gaps.back().second = here + 1;
   }
 
   /// A straight line from a place of the trunk to just before the voxel where a branch leaves its lumen.
@@ -151,9 +186,76 @@ class BranchPicker {
   const FrontNodes& nodes_;
   const imaging::FloatVolume& tube_;
   const imaging::FloatVolume& radius_mm_;
+  const Voxels& unseen_;
   double least_branch_mm_;
   std::vector<std::uint8_t> covered_;
   std::vector<GrownBranch> branches_;
+};
+
+/// Fronts and their branches; what is found across a gap lets the next front through.
+class Growing {
+ public:
+  Growing(const imaging::ImageVolume& image, const std::vector<Ostium>& ostia, const GrowthOptions& options,
+          const segmentation::VesselnessOptions& tubes, double contrast_hu, segmentation::Vesselness& seen)
+      : image_(image),
+        options_(options),
+        tubes_(tubes),
+        contrast_hu_(contrast_hu),
+        tube_(seen.response_hu),
+        radius_mm_(seen.radius_mm),
+        sources_(sources_at(image.geometry, ostia)) {}
+
+  GrownTree run(const core::TaskContext& task) {
+    constexpr int most_gaps = 16;  // far more than there are in a heart
+    for (int n = 0;; ++n) {
+      const FrontNodes nodes = run_tube_front(tube_, sources_, options_.least_tube, task);
+      GrownTree tree;
+      tree.voxels = static_cast<std::int64_t>(nodes.size());
+      tree.branches = BranchPicker(nodes, tube_, radius_mm_, unseen_, options_.least_branch_mm).pick();
+      if (n == most_gaps || !bridge_one(nodes, tree.branches, task)) return tree;
+    }
+  }
+
+ private:
+  /// The first gap that can be bridged: what lies behind one may have two ways to it.
+  bool bridge_one(const FrontNodes& nodes, const std::vector<GrownBranch>& branches,
+                  const core::TaskContext& task) {
+    if (options_.longest_gap_mm == 0.0) return false;
+    const GrownFront front{image_, tube_,           radius_mm_,   nodes,
+                           tubes_, options_.fat_hu, contrast_hu_, options_.least_tube};
+    for (const GrownBranch& branch : branches) {
+      const Vec3& end = branch.points.back();
+      if (std::find(tried_.begin(), tried_.end(), end) != tried_.end()) continue;
+      const Bridge bridge = bridge_ahead(front, branch, options_.longest_gap_mm, task);
+      if (!bridge.voxels.empty()) {
+        open(bridge);
+        return true;
+      }
+      tried_.push_back(end);
+    }
+    return false;
+  }
+
+  void open(const Bridge& bridge) {
+    const auto least = static_cast<float>(options_.least_tube);
+    for (std::size_t i = 0; i < bridge.voxels.size(); ++i) {
+      const auto at = static_cast<std::size_t>(bridge.voxels[i]);
+      if (tube_.voxels[at] >= least) continue;
+      tube_.voxels[at] = least;
+      radius_mm_.voxels[at] = bridge.radius_mm[i];
+      unseen_.insert(bridge.voxels[i]);
+    }
+  }
+
+  const imaging::ImageVolume& image_;
+  const GrowthOptions& options_;
+  const segmentation::VesselnessOptions& tubes_;
+  double contrast_hu_;
+  imaging::FloatVolume& tube_;
+  imaging::FloatVolume& radius_mm_;
+  std::vector<FrontSource> sources_;
+  Voxels unseen_;
+  std::vector<Vec3> tried_;  // ends behind which there is nothing
 };
 
 }  // namespace
@@ -165,6 +267,7 @@ void validate(const GrowthOptions& options) {
   within("the least likeness to a tube", options.least_tube, 0.1, 0.6, "");
   within("the largest radius", options.largest_radius_mm, 2.0, 8.0, " mm");
   within("the least branch", options.least_branch_mm, 2.0, 50.0, " mm");
+  within("the longest gap", options.longest_gap_mm, 0.0, 20.0, " mm");
 }
 
 GrownTree grow_tree(const imaging::ImageVolume& image, const Aorta& aorta, const std::vector<Ostium>& ostia,
@@ -173,22 +276,18 @@ GrownTree grow_tree(const imaging::ImageVolume& image, const Aorta& aorta, const
   if (ostia.empty()) throw InvalidInput("growth of the coronary tree: there is no ostium to start from");
   const double level = options.wall_hu + options.least_contrast * (aorta.lumen_hu - options.wall_hu);
   const double contrast = aorta.lumen_hu - options.fat_hu;
+  segmentation::VesselnessOptions tubes;
+  tubes.method = options.likeness;
+  tubes.least_hu = options.fat_hu - 30.0;  // lung is no darker wall than fat
+  tubes.most_hu = 1.25 * aorta.lumen_hu;   // nor calcium a brighter lumen
   segmentation::Vesselness seen;
   {
     const imaging::MaskVolume mask =
         vessel_candidates(image, level, options.largest_radius_mm, task.sub(0.0, 0.1));
-    segmentation::VesselnessOptions tubes;
-    tubes.least_hu = options.fat_hu - 30.0;  // lung is no darker wall than fat
-    tubes.most_hu = 1.25 * aorta.lumen_hu;   // nor calcium a brighter lumen
     seen = segmentation::vesselness(image, {.mask = &mask}, tubes, task.sub(0.1, 0.9));
   }
-  imaging::FloatVolume tube = std::move(seen.response_hu);
-  for (float& value : tube.voxels) value /= static_cast<float>(contrast);
-  const FrontNodes nodes =
-      run_tube_front(tube, sources_at(image.geometry, ostia), options.least_tube, task.sub(0.9, 1.0));
-  GrownTree tree;
-  tree.voxels = static_cast<std::int64_t>(nodes.size());
-  tree.branches = BranchPicker(nodes, tube, seen.radius_mm, options.least_branch_mm).pick();
+  for (float& value : seen.response_hu.voxels) value /= static_cast<float>(contrast);
+  GrownTree tree = Growing(image, ostia, options, tubes, contrast, seen).run(task.sub(0.9, 1.0));
   task.set_progress(1.0);
   return tree;
 }

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <map>
 
 namespace ostia::experiments {
@@ -14,12 +15,14 @@ namespace {
 
 using Json = nlohmann::json;
 
+/// As the found ones are graded: by the diameter of the circle with the lumen's area. The case's own
+/// `diameter_stenosis` is of the mean distance from the axis, which in an eccentric lumen is less.
 std::vector<evaluation::Lesion> lesions_of(const Json& facts) {
   std::vector<evaluation::Lesion> lesions;
   for (const Json& vessel : facts.at("vessels"))
     for (const Json& one : vessel.at("stenoses"))
       lesions.push_back({vessel.at("name"), one.at("s_from_mm"), one.at("s_to_mm"), one.at("s_throat_mm"),
-                         one.at("diameter_stenosis")});
+                         1.0 - std::sqrt(1.0 - one.at("area_stenosis").get<double>())});
   return lesions;
 }
 

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <optional>
 #include <set>
 
 namespace ostia::experiments {
@@ -75,7 +76,8 @@ void add(const RobustnessRun& run, const std::set<std::string>& usual, Sums& sum
     if (known.insert(kind_of(warning)).second) row.told.push_back(warning);
 }
 
-figure::Picture overlap_plot(const std::vector<RobustnessRow>& rows) {
+/// Nothing where no row is a step of something that gets worse.
+std::optional<figure::Picture> overlap_plot(const std::vector<RobustnessRow>& rows) {
   std::vector<figure::Series> series;
   for (const RobustnessRow& row : rows) {
     if (row.what == "as drawn" || row.what == "anatomy" || row.what == "stent") continue;
@@ -83,6 +85,7 @@ figure::Picture overlap_plot(const std::vector<RobustnessRow>& rows) {
     series.back().x.push_back(static_cast<double>(series.back().x.size() + 1));
     series.back().y.push_back(row.ov);
   }
+  if (series.empty()) return std::nullopt;
   figure::PlotOptions how;
   how.title = "Overlap as one thing gets worse";
   how.x_label = "step, in the table's order";
@@ -205,8 +208,8 @@ std::string robustness_text(const std::vector<RobustnessRun>& runs) {
 void write_robustness_report(const std::filesystem::path& folder, const std::vector<RobustnessRun>& runs) {
   const std::vector<RobustnessRow> rows = rows_of(runs);
   core::write_file(folder / "runs.csv", csv_of(runs));
-  const figure::Picture plot = overlap_plot(rows);
-  plot.write_png(folder / "overlap.png", 2.0);
+  const std::optional<figure::Picture> plot = overlap_plot(rows);
+  if (plot) plot->write_png(folder / "overlap.png", 2.0);
   figure::HtmlReport page("Where the search for coronary arteries breaks",
                           std::to_string(rows.empty() ? 0 : rows.front().patients) + " synthetic patients");
   page.paragraph(
@@ -219,7 +222,7 @@ void write_robustness_report(const std::filesystem::path& folder, const std::vec
   page.table({"what", "step", "refused", "OV", "OV of LAD, LCX, RCA", "AI, mm",
               "names right / wrong / none / missing", "astray, mm", "verdict", "told besides"},
              cells);
-  page.picture(plot, "Each line is one variation; its steps are those of the table.");
+  if (plot) page.picture(*plot, "Each line is one variation; its steps are those of the table.");
   page.write(folder / "report.html");
 }
 

@@ -13,8 +13,10 @@ namespace ostia::pipeline {
 namespace {
 
 constexpr double step_mm = 0.25;
-constexpr double passage_mm = 1.5;   // from the tube to the image's wall
-constexpr double shortest_mm = 2.0;  // less than this by itself: all tube
+constexpr double passage_mm = 1.5;    // from the tube to the image's wall
+constexpr double look_back_mm = 2.0;  // from an end, for the vessel's own calibre
+constexpr double blur_mm = 0.3;       // the scanner's, which the boundary reckons with
+constexpr double shortest_mm = 2.0;   // less than this by itself: all tube
 
 using Axis = std::shared_ptr<const geometry::AxisCurve>;
 
@@ -25,14 +27,20 @@ double calibre(const segmentation::LumenBoundary& found, double s_mm) {
   return sum / found.around;
 }
 
-/// A take-off is as wide as the branch is behind it: the axis' first radius is its parent's.
-lumen::RadialWall wall_of(const segmentation::LumenBoundary& found, double free_mm) {
+/// A take-off is as wide as the branch is behind it: the axis' first radius is its parent's. An end is as
+/// wide as the vessel a radius and the blur before it: from there on its blunt end is seen, too, and what
+/// shows is narrower than what is there.
+lumen::RadialWall wall_of(const segmentation::LumenBoundary& found, double free_mm, double end_mm) {
   const auto boundary = std::make_shared<const segmentation::LumenBoundary>(found);
-  return [boundary, free_mm, tube = calibre(found, free_mm + passage_mm)](double s_mm, double theta) {
-    if (free_mm <= 0.0) return boundary->at(s_mm, theta);
-    const double t = std::clamp((s_mm - free_mm) / passage_mm, 0.0, 1.0), w = t * t * (3.0 - 2.0 * t);
-    return w > 0.0 ? (1.0 - w) * tube + w * boundary->at(s_mm, theta) : tube;
-  };
+  const double blunt_mm = calibre(found, end_mm - look_back_mm) + blur_mm;
+  const double held_mm = std::max(end_mm - blunt_mm, std::min(end_mm, free_mm + passage_mm));
+  return
+      [boundary, free_mm, held_mm, tube = calibre(found, free_mm + passage_mm)](double at_mm, double theta) {
+        const double s_mm = std::min(at_mm, held_mm);
+        if (free_mm <= 0.0) return boundary->at(s_mm, theta);
+        const double t = std::clamp((s_mm - free_mm) / passage_mm, 0.0, 1.0), w = t * t * (3.0 - 2.0 * t);
+        return w > 0.0 ? (1.0 - w) * tube + w * boundary->at(s_mm, theta) : tube;
+      };
 }
 
 }  // namespace
@@ -79,7 +87,7 @@ std::vector<lumen::RadialWall> walls_from_image(const geometry::VesselTree& tree
     const segmentation::LumenBoundary found = segmentation::lumen_boundary(
         image, *axes[i], free_mm, length, {}, task.sub(done / count, (done + 1.0) / count));
     for (const std::string& warning : found.warnings) warn(i, warning);
-    walls.push_back(wall_of(found, free_mm));
+    walls.push_back(wall_of(found, free_mm, length));
   }
   if (said) *said = std::move(warnings);
   return walls;

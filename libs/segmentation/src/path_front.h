@@ -13,7 +13,7 @@ namespace ostia::segmentation::detail {
 struct PathFrontStop {
   std::function<bool(const Voxel&)> target;
   std::function<bool(const Voxel&)> within;  ///< where the front may go; everywhere where it is empty
-  double max_length_mm = 150.0;
+  double max_length_mm = 250.0;
   std::int64_t most_voxels = 0;
 };
 

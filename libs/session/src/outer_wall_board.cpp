@@ -32,7 +32,9 @@ RuledSurface ruled(const VesselWalls& walls) {
 
 std::optional<VesselWalls> OuterWallWork::found(const core::TaskContext& task) const {
   const auto wall_of = [this](std::int32_t one) { return walls.at(one); };
-  return vessel_walls(*model, wall_of, vessel, *image, {}, task);
+  OuterWallsOptions options;
+  options.maps = true;
+  return vessel_walls(*model, wall_of, vessel, *image, options, task);
 }
 
 OuterWallBoard::OuterWallBoard(Workbench& bench) : bench_(bench) {

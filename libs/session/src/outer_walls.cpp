@@ -117,8 +117,8 @@ std::function<double(double)> along(const segmentation::LumenBoundary& rows, std
   };
 }
 
-analysis::PlaqueProfile plaque_of(const VesselWalls& walls, const imaging::ImageVolume& image,
-                                  const analysis::PlaqueOptions& options, const core::TaskContext& task) {
+void add_plaque(VesselWalls& walls, const imaging::ImageVolume& image, const OuterWallsOptions& options,
+                const core::TaskContext& task) {
   analysis::WallRadii radii;
   radii.from_mm = walls.lumen.from_mm;
   radii.to_mm = walls.lumen.from_mm + (walls.lumen.rows() - 1) * walls.lumen.step_mm;
@@ -126,8 +126,15 @@ analysis::PlaqueProfile plaque_of(const VesselWalls& walls, const imaging::Image
   radii.outer_mm = [&](double s, double theta) { return walls.outer.surface.at(s, theta); };
   radii.lumen_hu = along(walls.lumen, walls.outer.lumen_hu);
   radii.fat_hu = along(walls.lumen, walls.outer.fat_hu);
-  return analysis::plaque_profile(
-      *walls.axis, radii, [&](const Vec3& place) { return imaging::sample(image, place); }, options, task);
+  const auto hu_at = [&](const Vec3& place) { return imaging::sample(image, place); };
+  walls.plaque = analysis::plaque_profile(*walls.axis, radii, hu_at, options.plaque, task);
+  if (!options.maps) return;
+  walls.maps.resize(walls.plaque.slabs.size());
+  core::parallel_for(walls.maps.size(), 8, [&](std::size_t i) {
+    task.throw_if_cancelled();
+    walls.maps[i] =
+        analysis::plaque_map(*walls.axis, radii, walls.plaque.slabs[i].s_mm, hu_at, options.plaque);
+  });
 }
 
 }  // namespace
@@ -156,7 +163,7 @@ std::optional<VesselWalls> vessel_walls(const lumen::LumenModel& model,
   out.lumen = lumen_on_rays(model, surface_of, vessel, stretch, options, task);
   task.set_progress(0.3);
   out.outer = segmentation::outer_wall(image, *out.axis, out.lumen, options.wall, task.sub(0.3, 0.9));
-  out.plaque = plaque_of(out, image, options.plaque, task.sub(0.9, 1.0));
+  add_plaque(out, image, options, task.sub(0.9, 1.0));
   return out;
 }
 

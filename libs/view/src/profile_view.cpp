@@ -4,6 +4,8 @@
 #include "measure_placing.h"
 
 #include "ostia/figure/plot.h"
+#include "ostia/session/outer_wall_board.h"
+#include "ostia/session/plaque_look.h"
 #include "ostia/view/words.h"
 
 #include <algorithm>
@@ -21,6 +23,35 @@ ProfileView::ProfileView(session::Workbench& bench) : bench_(bench) {
   own_.push_back(bench.annotations_changed.observe([this] { touch(); }));
   own_.push_back(bench.selected_measurement.observe(on));
   own_.push_back(area_shown.observe(on));
+}
+
+void ProfileView::set_walls(session::OuterWallBoard* board) {
+  walls_changes_.clear();
+  walls_ = board;
+  if (board) {
+    const auto on = [this](const bool&) { touch(); };
+    walls_changes_.push_back(board->shown.observe(on));
+    walls_changes_.push_back(board->plaque_shown.observe(on));
+    walls_changes_.push_back(board->changed.observe([this] { touch(); }));
+  }
+  touch();
+}
+
+std::vector<std::pair<double, double>> ProfileView::outer_wall() const {
+  if (!walls_ || !(walls_->shown.get() || walls_->plaque_shown.get())) return {};
+  const session::VesselWalls* walls = walls_->of_selected();
+  if (!walls) return {};
+  return session::outer_diameters_mm(*walls);
+}
+
+std::optional<analysis::Stenosis> ProfileView::lesion_at(const Vec2& px) const {
+  if (!ready()) return std::nullopt;
+  const Frame f = frame();
+  if (px.x() < f.left || px.x() > f.right || px.y() < f.top || px.y() > f.bottom) return std::nullopt;
+  const double s = (px.x() - f.left) / (f.right - f.left) * f.length_mm;
+  for (const analysis::Stenosis& one : bench_.known_stenoses(bench_.vessel.get()))
+    if (s >= one.from_mm && s <= one.to_mm) return one;
+  return std::nullopt;
 }
 
 void ProfileView::touch() {
@@ -55,6 +86,7 @@ ProfileView::Frame ProfileView::frame() const {
       widest = std::max(widest, one.diameter_mm);
       largest = std::max(largest, one.area_mm2);
     }
+    for (const auto& [s, diameter] : outer_wall()) widest = std::max(widest, diameter);
     made.most_mm = 1.1 * widest;
     made.most_mm2 = 1.1 * largest;
   }
@@ -80,6 +112,17 @@ std::pair<Vec2, Vec2> ProfileView::end_line(double s_mm) const {
 std::optional<HandleHit> ProfileView::handle_near(const Vec2& px, double reach_px) const {
   if (!ready()) return std::nullopt;
   return end_near(bench_, px, reach_px, [this](double s_mm) { return end_line(s_mm); });
+}
+
+void ProfileView::add_outer_wall(const Frame& f) {
+  OverlayLine line{{}, Role::outer_wall, 0.9, true};
+  for (const auto& [s, diameter] : outer_wall())
+    line.px.emplace_back(f.left + s / f.length_mm * (f.right - f.left),
+                         f.bottom - diameter / f.most_mm * (f.bottom - f.top));
+  if (line.px.size() < 2) return;
+  overlay_.texts.push_back({line.px.back() - Vec2(0.0, 2.0 * density_), words().outer_wall, Role::outer_wall,
+                            Anchor::bottom_right});
+  overlay_.lines.push_back(std::move(line));
 }
 
 const Overlay& ProfileView::overlay() {
@@ -166,6 +209,7 @@ const Overlay& ProfileView::overlay() {
     const auto& one = profile->sections[i];
     return one.found ? one.diameter_mm / f.most_mm : std::nan("");
   });
+  add_outer_wall(f);
   const double s = bench_.cursor_mm.get();
   overlay_.lines.push_back({{Vec2(x(s), f.top), Vec2(x(s), f.bottom)}, Role::cursor});
   text(f.left, 3 * density_, words().diameter, Role::diameter, Anchor::top_left);

@@ -2,9 +2,11 @@
 /// \file The coronary tree, grown from its ostia through what looks like a vessel.
 
 #include "ostia/coronary/ostia.h"
+#include "ostia/segmentation/vesselness.h"
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace ostia::coronary {
@@ -16,8 +18,11 @@ struct GrowthOptions {
   double least_contrast = 0.25;
   /// Share of its contrast above the fat with which a voxel must look like a tube (vesselness), [0.1, 0.6].
   double least_tube = 0.25;
+  segmentation::TubeMethod likeness = segmentation::TubeMethod::flux;  ///< by which it is measured
   double largest_radius_mm = 4.5;  ///< what is bright so far about a voxel is a chamber, [2, 8]
-  double least_branch_mm = 5.0;    ///< beyond the lumen it leaves, [2, 50]
+  double least_branch_mm = 5.0;    ///< from its parent's axis, [2, 50]
+  /// How far ahead of a branch's end it is sought again behind a lumen too narrow to be seen, [0, 20].
+  double longest_gap_mm = 10.0;
 };
 void validate(const GrowthOptions& options);  ///< throws InvalidInput
 
@@ -29,6 +34,8 @@ struct GrownBranch {
   std::vector<Vec3> points;       ///< mm
   std::vector<double> radius_mm;  ///< of the tube that the voxel looks like
   std::vector<double> tube;       ///< how much, as a share of the contrast, [0, 1]
+  /// Places, first and last, between which no lumen was seen: a throat, a closed stretch, or no way at all.
+  std::vector<std::pair<std::size_t, std::size_t>> gaps;
 };
 
 struct GrownTree {
@@ -38,7 +45,9 @@ struct GrownTree {
 
 /// A front from the ostia goes through neighbouring voxels that look like tubes, faster the more they do; the
 /// way to the place farthest along is a branch, and so is each way to the farthest place outside of those
-/// already found, while it is long enough. Deterministic. Throws InvalidInput, Cancelled.
+/// already found, while it is long enough. Where a branch ends and one as wide and as bright goes on ahead of
+/// it, joined by what looks a little like a tube, they are one. Deterministic. Throws InvalidInput,
+/// Cancelled.
 GrownTree grow_tree(const imaging::ImageVolume& image, const Aorta& aorta, const std::vector<Ostium>& ostia,
                     const GrowthOptions& options = {}, const core::TaskContext& task = core::no_task());
 

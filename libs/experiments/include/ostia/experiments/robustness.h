@@ -65,7 +65,7 @@ std::string parameters_json(const std::vector<Variation>& variations, const Robu
 std::string robustness_json(const std::vector<RobustnessRun>& runs, const RobustnessOptions& options);
 /// The table in plain text.
 std::string robustness_text(const std::vector<RobustnessRun>& runs);
-/// Into an existing folder: runs.csv, report.html and overlap.png.
+/// Into an existing folder: runs.csv, report.html and, where something got worse step by step, overlap.png.
 void write_robustness_report(const std::filesystem::path& folder, const std::vector<RobustnessRun>& runs);
 
 }  // namespace ostia::experiments

@@ -17,7 +17,7 @@ using geometry::Vec3;
 
 /// docs/minimal-path.md gives the method and the sources of the defaults.
 struct MinimalPathOptions {
-  double max_length_mm = 150.0;    ///< of the way; a front that has run so far gives up, [1, 1000]
+  double max_length_mm = 250.0;    ///< of the way; a front that has run so far gives up, [1, 1000]
   double step_mm = 0.5;            ///< between the points of the result, [0.1, 5]
   double snap_voxels = 2.0;        ///< how far off the lumen a click may lie, in the largest spacing, [0, 10]
   double largest_radius_mm = 4.0;  ///< of the lumen, [0.5, 10]

@@ -30,8 +30,9 @@ class OuterWallBoard {
   OuterWallBoard(const OuterWallBoard&) = delete;
   OuterWallBoard& operator=(const OuterWallBoard&) = delete;
 
-  Property<bool> shown{false};
-  Signal<> changed;  ///< something is known that was not, or the other way round
+  Property<bool> shown{false};         ///< the walls' lines
+  Property<bool> plaque_shown{false};  ///< what lies between lumen and outer wall, by class
+  Signal<> changed;                    ///< something is known that was not, or the other way round
 
   struct Known {
     std::optional<VesselWalls> walls;  ///< nothing where it was looked for and not found

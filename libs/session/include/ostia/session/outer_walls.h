@@ -20,6 +20,7 @@ struct OuterWallsOptions {
   int around = 32;       ///< rays of a row, [8, 128]
   segmentation::OuterWallOptions wall;
   analysis::PlaqueOptions plaque;
+  bool maps = false;  ///< what each piece of plaque is is kept, to be shown
 };
 void validate(const OuterWallsOptions& options);  ///< throws InvalidInput
 
@@ -31,6 +32,7 @@ struct VesselWalls {
   segmentation::LumenBoundary lumen;  ///< the model's, on rays about the axis; 0.05 mm where it is shut
   segmentation::OuterWall outer;
   analysis::PlaqueProfile plaque;
+  std::vector<analysis::PlaqueMap> maps;  ///< of the slabs of `plaque`, where they were asked for
 };
 
 /// The model's lumen stays as it is; the image shows where the wall about it ends. Nothing for a vessel of

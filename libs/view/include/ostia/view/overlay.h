@@ -5,6 +5,7 @@
 #include "ostia/geometry/vec.h"
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,10 @@ enum class Role {
   diameter,  ///< curves of the profile
   area,
   grid,
+  low_attenuation,  ///< plaque, by class
+  fibrofatty,
+  fibrous,
+  calcified,
 };
 
 struct OverlayLine {
@@ -69,8 +74,17 @@ struct OverlayBand {
   double opacity = 0.25;
 };
 
-/// Painted in this order: bands, lines, marks, texts.
+/// Pixels of the view that are coloured as what they show; the image stays visible below.
+struct OverlayTint {
+  int left = 0, top = 0, width = 0, height = 0;  ///< a rectangle of the view's pixels
+  std::vector<std::uint8_t> what;                ///< rows from the top; 0: nothing, i: roles[i - 1]
+  std::vector<Role> roles;
+  double opacity = 0.38;
+};
+
+/// Painted in this order: tints, bands, lines, marks, texts.
 struct Overlay {
+  std::vector<std::shared_ptr<const OverlayTint>> tints;
   std::vector<OverlayBand> bands;
   std::vector<OverlayLine> lines;
   std::vector<OverlayMark> marks;

@@ -7,14 +7,21 @@
 
 #include <optional>
 #include <utility>
+#include <vector>
+
+namespace ostia::session {
+class OuterWallBoard;
+}
 
 namespace ostia::view {
 
-/// Diameter and area along the vessel, the reference line, lesions and the cursor. Abscissa runs to the
-/// right.
+/// Diameter and area along the vessel, the reference line, lesions and the cursor; the outer wall's diameter
+/// while it or the plaque is shown. Abscissa runs to the right.
 class ProfileView {
  public:
   explicit ProfileView(session::Workbench& bench);
+  /// Where outer walls come from; it has to outlive the view, or null is set before it goes.
+  void set_walls(session::OuterWallBoard* board);
   void set_size(int width, int height, double density);
   const Overlay& overlay();
   session::Signal<> stale;
@@ -25,6 +32,8 @@ class ProfileView {
   /// Of the ends of measurements along the vessel, as short lines above the axis, the nearest within
   /// `reach_px`.
   std::optional<HandleHit> handle_near(const Vec2& px, double reach_px) const;
+  /// The lesion whose band is there; nothing beside the plot.
+  std::optional<analysis::Stenosis> lesion_at(const Vec2& px) const;
   session::Property<bool> area_shown{true};
   session::Workbench& bench() const { return bench_; }
 
@@ -35,13 +44,16 @@ class ProfileView {
   };
   Frame frame() const;
   std::pair<Vec2, Vec2> end_line(double s_mm) const;
+  std::vector<std::pair<double, double>> outer_wall() const;  ///< (s, diameter), where it is shown
+  void add_outer_wall(const Frame& frame);
   void touch();
   session::Workbench& bench_;
   int width_ = 0, height_ = 0;
   double density_ = 1.0;
   bool fresh_ = false;
   Overlay overlay_;
-  std::vector<session::Subscription> own_;
+  session::OuterWallBoard* walls_ = nullptr;
+  std::vector<session::Subscription> own_, walls_changes_;
 };
 
 }  // namespace ostia::view

@@ -11,6 +11,9 @@ struct Words {
   std::string axial = "axial", coronal = "coronal", sagittal = "sagittal", oblique = "oblique";
   std::string diameter = "diameter, mm", area = "area, mm\u00b2";
   std::string from_root = "mm from its root";  ///< after a vessel's name
+  std::string outer_wall = "outer wall";
+  std::string low_attenuation = "low attenuation", fibrofatty = "fibrofatty", fibrous = "fibrous",
+              calcified = "calcified";  ///< plaque, by class
   std::string not_measurable = "not measurable";
   // What the 3D view answers to clicks that place nothing.
   std::string off_wall = "There is no vessel: click on the wall of one.";

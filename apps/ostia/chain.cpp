@@ -1,0 +1,189 @@
+#include "chain.h"
+
+#include "ostia/core/error.h"
+#include "ostia/core/files.h"
+
+#include <nlohmann/json.hpp>
+
+#include <set>
+#include <sstream>
+
+namespace ostia::app {
+namespace fs = std::filesystem;
+namespace {
+
+using nlohmann::json;
+
+class Reader {
+ public:
+  Reader(fs::path file, Variables variables, fs::path folder)
+      : file_(std::move(file)), folder_(std::move(folder)) {
+    chain_.variables = std::move(variables);
+  }
+  Chain read();
+
+ private:
+  [[noreturn]] void refuse(const std::string& what) const;
+  void check_members(const json& object, const std::set<std::string>& known) const;
+  void take_variables(const json& own);
+  void take_step(const json& step);
+  std::string text_of(const json& value, const std::string& member);
+  std::string filled(const std::string& text);
+  std::vector<std::string> texts(const json& step, const std::string& member);
+  std::string input(const std::string& name);
+  std::string output(const std::string& name);
+  void options(const json& step, const std::string& member, std::vector<std::string>& words);
+
+  fs::path file_, folder_;
+  std::string where_;  ///< "step 2 (segment): "
+  std::set<std::string> used_, made_;
+  Chain chain_;
+};
+
+void Reader::refuse(const std::string& what) const {
+  throw InvalidInput("cannot run " + file_.string() + ": " + where_ + what);
+}
+
+void Reader::check_members(const json& object, const std::set<std::string>& known) const {
+  for (const auto& [name, value] : object.items()) {
+    if (known.count(name) != 0) continue;
+    std::string all;
+    for (const std::string& one : known) all += (all.empty() ? "" : ", ") + one;
+    refuse("unknown member \"" + name + "\"; there are " + all);
+  }
+}
+
+/// {name} by the variable's value; {{ and }} are braces.
+std::string Reader::filled(const std::string& text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool doubled = i + 1 < text.size() && text[i + 1] == text[i];
+    if ((text[i] == '{' || text[i] == '}') && doubled) {
+      out += text[i++];
+      continue;
+    }
+    if (text[i] != '{') {
+      out += text[i];
+      continue;
+    }
+    const std::size_t end = text.find('}', i);
+    if (end == std::string::npos) refuse("\"" + text + "\" has a { without its }");
+    const std::string name = text.substr(i + 1, end - i - 1);
+    const auto variable = chain_.variables.find(name);
+    if (variable == chain_.variables.end())
+      refuse("the variable {" + name + "} has no value; give --set " + name + "=VALUE");
+    used_.insert(name);
+    out += variable->second;
+    i = end;
+  }
+  return out;
+}
+
+std::string Reader::text_of(const json& value, const std::string& member) {
+  if (value.is_string()) return filled(value.get<std::string>());
+  if (value.is_number()) return value.dump();
+  refuse("\"" + member + "\" must be a text, a number, true, false or an array of them");
+}
+
+std::vector<std::string> Reader::texts(const json& step, const std::string& member) {
+  std::vector<std::string> out;
+  if (!step.contains(member)) return out;
+  const json& value = step[member];
+  for (const json& one : value.is_array() ? value : json::array({value})) out.push_back(text_of(one, member));
+  return out;
+}
+
+std::string Reader::input(const std::string& name) {
+  if (made_.count(name) != 0) return (folder_ / name).string();
+  const fs::path path = fs::path(name).is_absolute() ? fs::path(name) : file_.parent_path() / name;
+  if (!fs::exists(path))
+    refuse("its input " + name + " is no file, and no earlier step makes it (looked for " + path.string() +
+           ")");
+  chain_.inputs[name] = path;
+  return path.string();
+}
+
+std::string Reader::output(const std::string& name) {
+  const fs::path path = fs::path(name).lexically_normal();
+  if (name.empty() || path.is_absolute() || *path.begin() == "..")
+    refuse("its output \"" + name + "\" must be a name within the folder of results");
+  if (!made_.insert(name).second) refuse("its output " + name + " is made by an earlier step");
+  return (folder_ / name).string();
+}
+
+void Reader::options(const json& step, const std::string& member, std::vector<std::string>& words) {
+  if (!step.contains(member)) return;
+  if (!step[member].is_object()) refuse("\"" + member + "\" must be an object");
+  for (const auto& [name, value] : step[member].items()) {
+    if (value.is_boolean()) {
+      if (value.get<bool>()) words.push_back("--" + name);
+      continue;
+    }
+    for (const json& one : value.is_array() ? value : json::array({value})) {
+      const std::string text = text_of(one, member + "/" + name);
+      words.push_back("--" + name + "=" +
+                      (member == "options"  ? text
+                       : member == "inputs" ? input(text)
+                                            : output(text)));
+    }
+  }
+}
+
+void Reader::take_step(const json& step) {
+  where_ = "step " + std::to_string(chain_.steps.size() + 1) + ": ";
+  if (!step.is_object() || !step.contains("command") || !step["command"].is_string())
+    refuse("it must be an object with a \"command\"");
+  ChainStep made;
+  made.title = step["command"].get<std::string>();
+  where_ = "step " + std::to_string(chain_.steps.size() + 1) + " (" + made.title + "): ";
+  check_members(step, {"command", "input", "inputs", "options", "output", "outputs"});
+  std::istringstream words(made.title);
+  for (std::string word; words >> word;) made.words.push_back(word);
+  if (made.words.empty()) refuse("its \"command\" is empty");
+  if (made.words[0] == "run" || made.words[0] == "batch") refuse("a chain cannot start another one");
+  for (const std::string& name : texts(step, "input")) made.words.push_back(input(name));
+  options(step, "options", made.words);
+  options(step, "inputs", made.words);
+  const std::vector<std::string> outputs = texts(step, "output");
+  if (outputs.size() > 1) refuse("\"output\" must be one name");
+  if (!outputs.empty()) {
+    // `convert` alone has its result's name without an option.
+    if (made.words[0] != "convert") made.words.emplace_back("-o");
+    made.words.push_back(output(outputs[0]));
+  }
+  options(step, "outputs", made.words);
+  chain_.steps.push_back(std::move(made));
+}
+
+void Reader::take_variables(const json& own) {
+  if (!own.is_object()) refuse("\"variables\" must be an object");
+  for (const auto& [name, value] : own.items()) {
+    if (!value.is_string() && !value.is_number())
+      refuse("the variable " + name + " must be text or a number");
+    chain_.variables.try_emplace(name, value.is_string() ? value.get<std::string>() : value.dump());
+    used_.insert(name);  // a default need not be used
+  }
+}
+
+Chain Reader::read() {
+  const json file = json::parse(core::read_file(file_, 16 << 20), nullptr, false);
+  if (file.is_discarded() || !file.is_object()) refuse("it is no JSON object");
+  check_members(file, {"v", "title", "variables", "steps"});
+  if (file.value("v", json(1)) != 1) refuse("its \"v\" must be 1");
+  if (!file.contains("steps") || !file["steps"].is_array() || file["steps"].empty())
+    refuse("it has no \"steps\"");
+  if (file.contains("variables")) take_variables(file["variables"]);
+  for (const json& step : file["steps"]) take_step(step);
+  where_.clear();
+  for (const auto& [name, value] : chain_.variables)
+    if (used_.count(name) == 0) refuse("it has no variable {" + name + "} that a value could be given to");
+  return std::move(chain_);
+}
+
+}  // namespace
+
+Chain read_chain(const fs::path& file, const Variables& given, const fs::path& folder) {
+  return Reader(fs::absolute(file), given, folder).read();
+}
+
+}  // namespace ostia::app

@@ -1,0 +1,32 @@
+#pragma once
+/// \file A chain of commands from a JSON file (docs/pipelines.md; schema docs/schemas/pipeline.schema.json).
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace ostia::app {
+
+/// One command of a chain, ready to run.
+struct ChainStep {
+  std::string title;               ///< "segment", "evaluate lumen"
+  std::vector<std::string> words;  ///< of its command line, without the program's name
+};
+
+struct Chain {
+  std::vector<ChainStep> steps;
+  std::map<std::string, std::filesystem::path> inputs;  ///< what is read from outside, by the name it has
+  std::map<std::string, std::string> variables;         ///< as they are in the end
+};
+
+using Variables = std::map<std::string, std::string>;
+
+/// Reads a chain. `{name}` in its texts are variables: those of `given`, else of the file. A name that a step
+/// gives as its output lies in `folder`, any other relative name beside `file`. Throws InvalidInput that
+/// names the file, the step and the member: for what is no chain, a variable that is not there or is not
+/// used, an input that is neither a file nor made by an earlier step.
+Chain read_chain(const std::filesystem::path& file, const Variables& given,
+                 const std::filesystem::path& folder);
+
+}  // namespace ostia::app

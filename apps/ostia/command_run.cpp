@@ -1,0 +1,131 @@
+#include "chain.h"
+#include "cli.h"
+#include "run.h"
+
+#include "ostia/core/files.h"
+#include "ostia/core/log.h"
+#include "ostia/pipeline/manifest.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <chrono>
+
+namespace ostia::app {
+namespace fs = std::filesystem;
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// A step's refusal with the step's name, and the exit code that it has of itself.
+class StepError : public Error {
+ public:
+  StepError(const std::string& message, ExitCode code) : Error(message), code_(code) {}
+  ExitCode exit_code() const noexcept override { return code_; }
+
+ private:
+  ExitCode code_;
+};
+
+Variables variables_of(const std::vector<std::string>& given) {
+  Variables out;
+  for (const std::string& one : given) {
+    const std::size_t equals = one.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw UsageError("--set takes name=value, not \"" + one + "\"");
+    out[one.substr(0, equals)] = one.substr(equals + 1);
+  }
+  return out;
+}
+
+/// Of a file, or of all files in a folder with their names.
+std::string digest_of(const fs::path& input) {
+  if (!fs::is_directory(input)) return core::sha256_file(input);
+  std::vector<std::string> lines;
+  for (const auto& entry : fs::recursive_directory_iterator(input)) {
+    if (entry.is_regular_file())
+      lines.push_back(fs::relative(entry.path(), input).generic_string() + " " +
+                      core::sha256_file(entry.path()) + "\n");
+  }
+  std::sort(lines.begin(), lines.end());
+  std::string all;
+  for (const std::string& line : lines) all += line;
+  return core::sha256(all);
+}
+
+/// The inputs count by content and place in the chain, variables that are their names do not.
+pipeline::JobKey key_of(const fs::path& file, const Chain& chain) {
+  pipeline::JobKey key{"run", {{"chain", core::sha256_file(file)}}, {}};
+  int n = 0;
+  for (const auto& [name, path] : chain.inputs) key.inputs["input" + std::to_string(++n)] = digest_of(path);
+  nlohmann::json parameters = nlohmann::json::object();
+  for (const auto& [name, value] : chain.variables) {
+    const bool is_input = std::any_of(chain.inputs.begin(), chain.inputs.end(), [&](const auto& input) {
+      return input.first.find(value) != std::string::npos;
+    });
+    if (!is_input) parameters[name] = value;
+  }
+  key.parameters = parameters.dump();
+  return key;
+}
+
+std::vector<std::string> as_told(const CommonOptions& common) {
+  std::vector<std::string> out{"--threads", std::to_string(common.threads), "--log", common.log, "--progress",
+                               "none"};
+  if (common.quiet) out.emplace_back("--quiet");
+  return out;
+}
+
+ExitCode run_step(const ChainStep& step, const std::string& where, const CommonOptions& common,
+                  const core::TaskContext& task) {
+  std::vector<std::string> words = step.words;
+  const std::vector<std::string> told = as_told(common);
+  words.insert(words.end(), told.begin(), told.end());
+  try {
+    const auto code = static_cast<ExitCode>(run(words, task));
+    if (code != ExitCode::ok && code != ExitCode::quality_failed) throw StepError(where + "refused", code);
+    return code;
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const StepError&) {
+    throw;
+  } catch (const Error& error) {
+    throw StepError(where + error.what(), error.exit_code());
+  }
+}
+
+}  // namespace
+
+ExitCode run_chain(const RunCommand& options, const CommonOptions& common, const core::TaskContext& task) {
+  const auto start = Clock::now();
+  pipeline::require_free_folder(options.output);
+  const Variables given = variables_of(options.variables);
+  const pipeline::JobKey key = key_of(options.chain, read_chain(options.chain, given, options.output));
+  if (const auto code = pipeline::already_done(options.output, key)) {
+    core::log_info("done already with the same inputs and variables; nothing to do");
+    return *code;
+  }
+  core::StagedFolder folder(options.output);
+  const Chain chain = read_chain(options.chain, given, folder.temporary());
+  ExitCode worst = ExitCode::ok;
+  std::vector<std::string> warnings;
+  const double share = 1.0 / static_cast<double>(chain.steps.size());
+  for (std::size_t i = 0; i < chain.steps.size(); ++i) {
+    task.throw_if_cancelled();
+    const std::string name = "step " + std::to_string(i + 1) + " (" + chain.steps[i].title + ")";
+    core::log_info(name);
+    const ExitCode code =
+        run_step(chain.steps[i], name + ": ", common,
+                 task.sub(share * static_cast<double>(i), share * static_cast<double>(i + 1)));
+    if (code == ExitCode::ok) continue;
+    worst = code;
+    warnings.push_back(name + ": quality control failed");
+  }
+  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  pipeline::write_manifest(folder.temporary(), {key, worst, seconds, warnings, {}});
+  folder.commit();
+  task.set_progress(1.0);
+  return worst;
+}
+
+}  // namespace ostia::app

@@ -132,6 +132,22 @@ TEST(BadImages, AMirroredOneIsToldAndGetsNoNames) {
     EXPECT_THAT(vessel.name, ::testing::StartsWith("V"));
 }
 
+TEST(BadImages, OneOfExchangedAxesIsToldAndGetsNoNames) {
+  const auto [x, y, z] = heart().image.geometry.size;
+  const Outcome outcome = outcome_of(
+      rearranged(heart().image, {y, x, z},
+                 [](std::int64_t i, std::int64_t j, std::int64_t k) -> std::array<std::int64_t, 3> {
+                   return {j, i, k};
+                 }));
+  if (!outcome.refusal.empty()) {
+    EXPECT_THAT(outcome.refusal, HasSubstr("x and y may be exchanged"));
+    return;
+  }
+  EXPECT_THAT(outcome.found.warnings, Contains(HasSubstr("x and y may be exchanged")));
+  for (const geometry::Vessel& vessel : outcome.found.vessels.tree.vessels)
+    EXPECT_THAT(vessel.name, ::testing::StartsWith("V"));
+}
+
 TEST(BadImages, OnesThatLieOnTheirSideAreRefused) {
   const auto [x, y, z] = heart().image.geometry.size;
   const Outcome about_x = outcome_of(

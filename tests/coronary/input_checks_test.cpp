@@ -50,7 +50,7 @@ imaging::ImageVolume changed(imaging::ImageVolume image, double factor, double s
 }
 
 TEST(InputChecks, AChestInHounsfieldUnitsPasses) {
-  EXPECT_THAT(check_input(made_image(40.0, 60.0, 0.9, chest_hu)), IsEmpty());
+  EXPECT_THAT(check_input(made_image(40.0, 60.0, 0.9, chest_hu)).warnings, IsEmpty());
 }
 
 TEST(InputChecks, WrongUnitsAreNamed) {
@@ -80,14 +80,28 @@ TEST(InputChecks, TooFewAndTooWideVoxelsAreNamed) {
   imaging::ImageVolume thick = chest();
   thick.geometry.spacing.z() = 5.0;
   EXPECT_THAT(refusal_of(thick), AllOf(HasSubstr("voxels of 5.0 mm"), HasSubstr("thinner slices")));
-  EXPECT_THAT(check_input(chest()), ::testing::ElementsAre(HasSubstr("voxels of 2.0 mm are wide")));
+  EXPECT_THAT(check_input(chest()).warnings, ::testing::ElementsAre(HasSubstr("voxels of 2.0 mm are wide")));
+}
+
+TEST(InputChecks, LungsThatAreTooBrightAreNoneInHounsfieldUnits) {
+  EXPECT_THAT(refusal_of(changed(chest(), 0.5, 0.0)),
+              AllOf(HasSubstr("nothing in the image is darker than -500"), HasSubstr("scaled")));
+}
+
+TEST(InputChecks, LungsInFrontAndBehindAreTold) {
+  EXPECT_FALSE(check_input(made_image(80.0, 60.0, 0.9, chest_hu)).turned);
+  const InputNotes notes = check_input(made_image(80.0, 60.0, 0.9, [](const geometry::Vec3& at) {
+    return chest_hu({at.y(), at.x(), at.z()});
+  }));
+  EXPECT_TRUE(notes.turned);
+  EXPECT_THAT(notes.warnings, ::testing::ElementsAre(HasSubstr("x and y may be exchanged")));
 }
 
 TEST(InputChecks, MetalIsTold) {
   imaging::ImageVolume image = made_image(40.0, 60.0, 0.9, [](const geometry::Vec3& at) {
     return std::hypot(at.x() - 5.0, at.y()) < 3.0 ? 3000.0 : chest_hu(at);
   });
-  EXPECT_THAT(check_input(image), ::testing::ElementsAre(HasSubstr("ml of metal")));
+  EXPECT_THAT(check_input(image).warnings, ::testing::ElementsAre(HasSubstr("ml of metal")));
 }
 
 TEST(InputChecks, ARefusalSaysWhatElseIsOdd) {

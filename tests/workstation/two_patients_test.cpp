@@ -252,22 +252,29 @@ TEST_F(TwoPatients, AReadingThatIsGivenUpLeavesNoSliceBehind) {
   large.geometry.size = {384, 384, 200};
   large.voxels.assign(static_cast<std::size_t>(large.geometry.voxels()), 100);
   imaging::write_dicom_series(dicom, large);
-  TestWindow test(state);
-  bool slice_shown = false;
-  const auto watch = test.bench().image_changed.observe([&] {
-    const session::OpenImage& shown = test.bench().image();
-    if (!shown.volume || !shown.reference.sha256.empty()) return;
-    slice_shown = true;
-    click(test, 3.0);  // on an image of which the rest is not there yet
-    click(test, 5.0);
-    test.window().jobs().cancel("open");
-  });
-  test.window().open(dicom);
-  ASSERT_TRUE(wait_until([&] { return slice_shown; }));
-  ASSERT_TRUE(idle(test));
-  EXPECT_FALSE(test.bench().image().volume);
-  EXPECT_EQ(shown_name(test), "");
-  EXPECT_FALSE(test.bench().has_case());
+  // The first slice and the whole are read side by side: on a busy machine the whole may be there first.
+  constexpr int tries = 10;
+  for (int i = 0; i < tries; ++i) {
+    TestWindow test(state);
+    bool slice_shown = false;
+    const auto watch = test.bench().image_changed.observe([&] {
+      const session::OpenImage& shown = test.bench().image();
+      if (!shown.volume || !shown.reference.sha256.empty()) return;
+      slice_shown = true;
+      click(test, 3.0);  // on an image of which the rest is not there yet
+      click(test, 5.0);
+      test.window().jobs().cancel("open");
+    });
+    test.window().open(dicom);
+    ASSERT_TRUE(wait_until([&] { return slice_shown || test.bench().image().volume; }));
+    ASSERT_TRUE(idle(test));
+    if (!slice_shown) continue;
+    EXPECT_FALSE(test.bench().image().volume);
+    EXPECT_EQ(shown_name(test), "");
+    EXPECT_FALSE(test.bench().has_case());
+    return;
+  }
+  FAIL() << "no first slice before the whole in " << tries << " readings";
 }
 
 TEST_F(TwoPatients, TheHeartBehindTheTreeIsThatOfTheImageOnTheTable) {

@@ -104,13 +104,14 @@ void validate(const ExtractOptions& options) {
 namespace {
 
 Extraction extracted(const imaging::ImageVolume& image, const ExtractOptions& options,
-                     std::vector<std::string> odd, const core::TaskContext& task) {
+                     const InputNotes& notes, const core::TaskContext& task) {
   Extraction result;
-  result.warnings = std::move(odd);
+  result.warnings = notes.warnings;
   task.set_stage("finding the aorta");
   BelievedAorta believed = aorta_of(image, options.aorta, task.sub(0.0, 0.2));
   result.aorta = std::move(believed.aorta);
   LabelOptions labels = options.labels;
+  if (notes.turned) labels.least_confidence = no_names;
   if (!believed.warning.empty()) {
     result.warnings.push_back(believed.warning);
     labels.least_confidence = no_names;
@@ -153,13 +154,13 @@ Extraction extracted(const imaging::ImageVolume& image, const ExtractOptions& op
 Extraction extract(const imaging::ImageVolume& image, const ExtractOptions& options,
                    const core::TaskContext& task) {
   validate(options);
-  const std::vector<std::string> odd = check_input(image);
+  const InputNotes notes = check_input(image);
   try {
-    return extracted(image, options, odd, task);
+    return extracted(image, options, notes, task);
   } catch (const GeometryError& error) {
     // What is odd about the image may be why.
     std::string what = error.what();
-    for (const std::string& one : odd) what += "; besides, " + one;
+    for (const std::string& one : notes.warnings) what += "; besides, " + one;
     throw GeometryError(what);
   }
 }

@@ -93,9 +93,16 @@ ProfileView::Frame ProfileView::frame() const {
   return made;
 }
 
+double ProfileView::Frame::x(double s_mm) const {
+  return left + s_mm / length_mm * (right - left);
+}
+
+double ProfileView::Frame::y(double share) const {
+  return bottom - std::clamp(share, 0.0, 1.0) * (bottom - top);
+}
+
 double ProfileView::x_of(double s_mm) const {
-  const Frame f = frame();
-  return f.left + s_mm / f.length_mm * (f.right - f.left);
+  return frame().x(s_mm);
 }
 
 std::optional<double> ProfileView::abscissa_at(double x_px) const {
@@ -114,15 +121,110 @@ std::optional<HandleHit> ProfileView::handle_near(const Vec2& px, double reach_p
   return end_near(bench_, px, reach_px, [this](double s_mm) { return end_line(s_mm); });
 }
 
+void ProfileView::add_text(const Vec2& px, const std::string& what, Role role, Anchor anchor) {
+  overlay_.texts.push_back({px, what, role, anchor});
+}
+
+void ProfileView::add_rows(const Frame& f, double most, bool left, Role role) {
+  const int rows = std::max(2, static_cast<int>((f.bottom - f.top) / (28.0 * density_)));
+  const std::vector<double> values = figure::nice_ticks(0.0, most, rows);
+  const double step = values.size() > 1 ? values[1] - values[0] : 1.0;
+  for (const double value : values) {
+    const double at = f.y(value / most);
+    if (left) overlay_.lines.push_back({{Vec2(f.left, at), Vec2(f.right, at)}, Role::grid, 0.5});
+    add_text(Vec2(left ? f.left - 4 * density_ : f.right + 4 * density_, at), figure::tick_text(value, step),
+             role, left ? Anchor::right : Anchor::left);
+  }
+}
+
+void ProfileView::add_axes(const Frame& f) {
+  add_rows(f, f.most_mm, true, Role::diameter);
+  if (area_shown.get()) add_rows(f, f.most_mm2, false, Role::area);
+  const std::vector<double> along = figure::nice_ticks(
+      0.0, f.length_mm, std::max(2, static_cast<int>((f.right - f.left) / (60.0 * density_))));
+  const double step = along.size() > 1 ? along[1] - along[0] : 1.0;
+  for (const double s : along) {
+    overlay_.lines.push_back({{Vec2(f.x(s), f.top), Vec2(f.x(s), f.bottom)}, Role::grid, 0.3});
+    add_text(Vec2(f.x(s), f.bottom + 3 * density_), figure::tick_text(s, step), Role::information,
+             Anchor::top);
+  }
+  overlay_.lines.push_back(
+      {{Vec2(f.left, f.top), Vec2(f.left, f.bottom), Vec2(f.right, f.bottom)}, Role::grid});
+}
+
+void ProfileView::add_stenoses(const Frame& f) {
+  for (const analysis::Stenosis& one : bench_.stenoses(bench_.vessel.get())) {
+    overlay_.bands.push_back(
+        {Vec2(f.x(one.from_mm), f.top), Vec2(f.x(one.to_mm), f.bottom), Role::stenosis, 0.25});
+    char label[32];
+    std::snprintf(label, sizeof label, "%.0f %%", one.diameter_percent);
+    // Between the curve and its reference, or above both.
+    const double high = f.y(one.reference_diameter_mm / f.most_mm);
+    const double low = f.y(one.least_diameter_mm / f.most_mm);
+    const double height = 14.0 * density_;
+    const double foot = low - high > height ? 0.5 * (low + high + height) : std::max(high, f.top + height);
+    add_text(Vec2(std::clamp(f.x(one.throat_mm), f.left + 14 * density_, f.right - 14 * density_), foot),
+             label, Role::stenosis, Anchor::bottom);
+  }
+}
+
+void ProfileView::add_stretches() {
+  for (const analysis::Measurement& one : stretches_of(bench_)) {
+    const std::vector<double> ends = ends_of(one);
+    const auto from = end_line(ends.front()), to = end_line(ends.back());
+    overlay_.lines.push_back({{from.second, from.first, to.first, to.second}, role_of(bench_, one)});
+  }
+}
+
+void ProfileView::add_curve(const Frame& f, const analysis::LumenProfile& profile, const OverlayLine& style,
+                            const std::vector<double>& shares) {
+  OverlayLine line = style;
+  const auto end = [&] {
+    if (line.px.size() > 1) overlay_.lines.push_back(line);
+    line.px.clear();
+  };
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    if (!std::isfinite(shares[i]))
+      end();
+    else
+      line.px.emplace_back(f.x(profile.sections[i].s_mm), f.y(shares[i]));
+  }
+  end();
+}
+
+void ProfileView::add_curves(const Frame& f, const analysis::LumenProfile& profile) {
+  const std::size_t sections = profile.sections.size();
+  std::vector<double> diameter(sections), area(sections);
+  for (std::size_t i = 0; i < sections; ++i) {
+    const analysis::SectionMeasures& one = profile.sections[i];
+    diameter[i] = one.found ? one.diameter_mm / f.most_mm : std::nan("");
+    area[i] = one.found ? one.area_mm2 / f.most_mm2 : std::nan("");
+  }
+  if (area_shown.get()) add_curve(f, profile, {{}, Role::area, 0.8}, area);
+  const analysis::ReferenceLine* reference = bench_.reference(bench_.vessel.get());
+  if (reference && reference->diameter_mm.size() == sections) {
+    std::vector<double> healthy = reference->diameter_mm;
+    for (double& value : healthy) value /= f.most_mm;
+    add_curve(f, profile, {{}, Role::reference, 0.9, true}, healthy);
+  }
+  add_curve(f, profile, {{}, Role::diameter}, diameter);
+}
+
 void ProfileView::add_outer_wall(const Frame& f) {
   OverlayLine line{{}, Role::outer_wall, 0.9, true};
-  for (const auto& [s, diameter] : outer_wall())
-    line.px.emplace_back(f.left + s / f.length_mm * (f.right - f.left),
-                         f.bottom - diameter / f.most_mm * (f.bottom - f.top));
+  for (const auto& [s, diameter] : outer_wall()) line.px.emplace_back(f.x(s), f.y(diameter / f.most_mm));
   if (line.px.size() < 2) return;
-  overlay_.texts.push_back({line.px.back() - Vec2(0.0, 2.0 * density_), words().outer_wall, Role::outer_wall,
-                            Anchor::bottom_right});
+  add_text(line.px.back() - Vec2(0.0, 2.0 * density_), words().outer_wall, Role::outer_wall,
+           Anchor::bottom_right);
   overlay_.lines.push_back(std::move(line));
+}
+
+void ProfileView::add_titles(const Frame& f) {
+  add_text(Vec2(f.left, 3 * density_), words().diameter, Role::diameter, Anchor::top_left);
+  if (area_shown.get()) add_text(Vec2(f.right, 3 * density_), words().area, Role::area, Anchor::top_right);
+  add_text(Vec2(0.5 * (f.left + f.right), 3 * density_),
+           bench_.vessel_name(bench_.vessel.get()) + ", " + words().from_root, Role::information,
+           Anchor::top);
 }
 
 const Overlay& ProfileView::overlay() {
@@ -132,90 +234,14 @@ const Overlay& ProfileView::overlay() {
   const analysis::LumenProfile* profile = ready() ? bench_.profile(bench_.vessel.get()) : nullptr;
   if (!profile) return overlay_;
   const Frame f = frame();
-  const auto x = [&](double s) { return f.left + s / f.length_mm * (f.right - f.left); };
-  const auto y = [&](double share) { return f.bottom - std::clamp(share, 0.0, 1.0) * (f.bottom - f.top); };
-  const auto text = [&](double px, double py, const std::string& what, Role role, Anchor anchor) {
-    overlay_.texts.push_back({Vec2(px, py), what, role, anchor});
-  };
-
-  const auto ticks = [&](double most, int count, bool left, Role role) {
-    const std::vector<double> values = figure::nice_ticks(0.0, most, count);
-    const double step = values.size() > 1 ? values[1] - values[0] : 1.0;
-    for (const double value : values) {
-      const double at = y(value / most);
-      if (left) overlay_.lines.push_back({{Vec2(f.left, at), Vec2(f.right, at)}, Role::grid, 0.5});
-      text(left ? f.left - 4 * density_ : f.right + 4 * density_, at, figure::tick_text(value, step), role,
-           left ? Anchor::right : Anchor::left);
-    }
-  };
-  const int rows = std::max(2, static_cast<int>((f.bottom - f.top) / (28.0 * density_)));
-  ticks(f.most_mm, rows, true, Role::diameter);
-  if (area_shown.get()) ticks(f.most_mm2, rows, false, Role::area);
-  const std::vector<double> along = figure::nice_ticks(
-      0.0, f.length_mm, std::max(2, static_cast<int>((f.right - f.left) / (60.0 * density_))));
-  const double step = along.size() > 1 ? along[1] - along[0] : 1.0;
-  for (const double s : along) {
-    overlay_.lines.push_back({{Vec2(x(s), f.top), Vec2(x(s), f.bottom)}, Role::grid, 0.3});
-    text(x(s), f.bottom + 3 * density_, figure::tick_text(s, step), Role::information, Anchor::top);
-  }
-  overlay_.lines.push_back(
-      {{Vec2(f.left, f.top), Vec2(f.left, f.bottom), Vec2(f.right, f.bottom)}, Role::grid});
-
-  for (const analysis::Stenosis& one : bench_.stenoses(bench_.vessel.get())) {
-    overlay_.bands.push_back(
-        {Vec2(x(one.from_mm), f.top), Vec2(x(one.to_mm), f.bottom), Role::stenosis, 0.25});
-    char label[32];
-    std::snprintf(label, sizeof label, "%.0f %%", one.diameter_percent);
-    // Between the curve and its reference, or above both.
-    const double high = y(one.reference_diameter_mm / f.most_mm), low = y(one.least_diameter_mm / f.most_mm);
-    const double height = 14.0 * density_;
-    const double foot = low - high > height ? 0.5 * (low + high + height) : std::max(high, f.top + height);
-    text(std::clamp(x(one.throat_mm), f.left + 14 * density_, f.right - 14 * density_), foot, label,
-         Role::stenosis, Anchor::bottom);
-  }
-  for (const analysis::Measurement& one : stretches_of(bench_)) {
-    const std::vector<double> ends = ends_of(one);
-    const auto from = end_line(ends.front()), to = end_line(ends.back());
-    overlay_.lines.push_back({{from.second, from.first, to.first, to.second}, role_of(bench_, one)});
-  }
-  // A curve in pieces: it breaks where no section was found.
-  const auto curve = [&](Role role, bool dashed, double opacity, const auto& share) {
-    OverlayLine line;
-    line.role = role;
-    line.dashed = dashed;
-    line.opacity = opacity;
-    const auto end = [&] {
-      if (line.px.size() > 1) overlay_.lines.push_back(line);
-      line.px.clear();
-    };
-    for (std::size_t i = 0; i < profile->sections.size(); ++i) {
-      const double value = share(i);
-      if (!std::isfinite(value))
-        end();
-      else
-        line.px.emplace_back(x(profile->sections[i].s_mm), y(value));
-    }
-    end();
-  };
-  if (area_shown.get())
-    curve(Role::area, false, 0.8, [&](std::size_t i) {
-      const auto& one = profile->sections[i];
-      return one.found ? one.area_mm2 / f.most_mm2 : std::nan("");
-    });
-  const analysis::ReferenceLine* reference = bench_.reference(bench_.vessel.get());
-  if (reference && reference->diameter_mm.size() == profile->sections.size())
-    curve(Role::reference, true, 0.9, [&](std::size_t i) { return reference->diameter_mm[i] / f.most_mm; });
-  curve(Role::diameter, false, 1.0, [&](std::size_t i) {
-    const auto& one = profile->sections[i];
-    return one.found ? one.diameter_mm / f.most_mm : std::nan("");
-  });
+  add_axes(f);
+  add_stenoses(f);
+  add_stretches();
+  add_curves(f, *profile);
   add_outer_wall(f);
   const double s = bench_.cursor_mm.get();
-  overlay_.lines.push_back({{Vec2(x(s), f.top), Vec2(x(s), f.bottom)}, Role::cursor});
-  text(f.left, 3 * density_, words().diameter, Role::diameter, Anchor::top_left);
-  if (area_shown.get()) text(f.right, 3 * density_, words().area, Role::area, Anchor::top_right);
-  text(0.5 * (f.left + f.right), 3 * density_,
-       bench_.vessel_name(bench_.vessel.get()) + ", " + words().from_root, Role::information, Anchor::top);
+  overlay_.lines.push_back({{Vec2(f.x(s), f.top), Vec2(f.x(s), f.bottom)}, Role::cursor});
+  add_titles(f);
   return overlay_;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// \file Layers of prisms on the wall whose thickness follows the local size ([Antiga] 6.3; Garimella and
+/// \file Layers of prisms on the wall whose thickness follows the local size ([Antiga] 6.2; Garimella and
 /// Shephard 2000; Dyedov et al. 2009). See docs/boundary-layer.md.
 
 #include "ostia/core/task_context.h"

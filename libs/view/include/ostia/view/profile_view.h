@@ -38,14 +38,27 @@ class ProfileView {
   session::Workbench& bench() const { return bench_; }
 
  private:
+  /// Where the plot lies, px, and what its axes reach to.
   struct Frame {
     double left = 0, right = 1, top = 0, bottom = 1;
     double length_mm = 1, most_mm = 1, most_mm2 = 1;
+    double x(double s_mm) const;
+    double y(double share) const;  ///< of an axis' reach; what lies beyond is drawn at its end
   };
   Frame frame() const;
   std::pair<Vec2, Vec2> end_line(double s_mm) const;
   std::vector<std::pair<double, double>> outer_wall() const;  ///< (s, diameter), where it is shown
+  void add_text(const Vec2& px, const std::string& what, Role role, Anchor anchor);
+  void add_rows(const Frame& frame, double most, bool left, Role role);
+  void add_axes(const Frame& frame);
+  void add_stenoses(const Frame& frame);
+  void add_stretches();
+  /// A line through the sections' shares of an axis; it breaks where one is not finite.
+  void add_curve(const Frame& frame, const analysis::LumenProfile& profile, const OverlayLine& style,
+                 const std::vector<double>& shares);
+  void add_curves(const Frame& frame, const analysis::LumenProfile& profile);
   void add_outer_wall(const Frame& frame);
+  void add_titles(const Frame& frame);
   void touch();
   session::Workbench& bench_;
   int width_ = 0, height_ = 0;

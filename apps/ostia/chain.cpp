@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <set>
 #include <sstream>
 
@@ -17,9 +18,7 @@ using nlohmann::json;
 class Reader {
  public:
   Reader(fs::path file, Variables variables, fs::path folder)
-      : file_(std::move(file)), folder_(std::move(folder)) {
-    chain_.variables = std::move(variables);
-  }
+      : file_(std::move(file)), folder_(std::move(folder)), variables_(std::move(variables)) {}
   Chain read();
 
  private:
@@ -30,12 +29,17 @@ class Reader {
   std::string text_of(const json& value, const std::string& member);
   std::string filled(const std::string& text);
   std::vector<std::string> texts(const json& step, const std::string& member);
-  std::string input(const std::string& name);
-  std::string output(const std::string& name);
-  void options(const json& step, const std::string& member, std::vector<std::string>& words);
+  /// A file's name as it is in the command's words, and what it means.
+  struct Name {
+    std::string path, meaning;
+  };
+  Name input(const std::string& name);
+  Name output(const std::string& name);
+  void options(const json& step, const std::string& member, ChainStep& made);
 
   fs::path file_, folder_;
   std::string where_;  ///< "step 2 (segment): "
+  Variables variables_;
   std::set<std::string> used_, made_;
   Chain chain_;
 };
@@ -69,8 +73,8 @@ std::string Reader::filled(const std::string& text) {
     const std::size_t end = text.find('}', i);
     if (end == std::string::npos) refuse("\"" + text + "\" has a { without its }");
     const std::string name = text.substr(i + 1, end - i - 1);
-    const auto variable = chain_.variables.find(name);
-    if (variable == chain_.variables.end())
+    const auto variable = variables_.find(name);
+    if (variable == variables_.end())
       refuse("the variable {" + name + "} has no value; give --set " + name + "=VALUE");
     used_.insert(name);
     out += variable->second;
@@ -93,38 +97,40 @@ std::vector<std::string> Reader::texts(const json& step, const std::string& memb
   return out;
 }
 
-std::string Reader::input(const std::string& name) {
-  if (made_.count(name) != 0) return (folder_ / name).string();
+Reader::Name Reader::input(const std::string& name) {
+  if (made_.count(name) != 0) return {(folder_ / name).string(), name};
   const fs::path path = fs::path(name).is_absolute() ? fs::path(name) : file_.parent_path() / name;
   if (!fs::exists(path))
     refuse("its input " + name + " is no file, and no earlier step makes it (looked for " + path.string() +
            ")");
-  chain_.inputs[name] = path;
-  return path.string();
+  auto known = std::find(chain_.inputs.begin(), chain_.inputs.end(), path);
+  if (known == chain_.inputs.end()) known = chain_.inputs.insert(known, path);
+  return {path.string(), "input " + std::to_string(known - chain_.inputs.begin() + 1)};
 }
 
-std::string Reader::output(const std::string& name) {
+Reader::Name Reader::output(const std::string& name) {
   const fs::path path = fs::path(name).lexically_normal();
   if (name.empty() || path.is_absolute() || *path.begin() == "..")
     refuse("its output \"" + name + "\" must be a name within the folder of results");
   if (!made_.insert(name).second) refuse("its output " + name + " is made by an earlier step");
-  return (folder_ / name).string();
+  return {(folder_ / name).string(), name};
 }
 
-void Reader::options(const json& step, const std::string& member, std::vector<std::string>& words) {
+void Reader::options(const json& step, const std::string& member, ChainStep& made) {
   if (!step.contains(member)) return;
   if (!step[member].is_object()) refuse("\"" + member + "\" must be an object");
   for (const auto& [name, value] : step[member].items()) {
+    const std::string option = "--" + name;
     if (value.is_boolean()) {
-      if (value.get<bool>()) words.push_back("--" + name);
+      if (value.get<bool>()) made.add(option, option);
       continue;
     }
     for (const json& one : value.is_array() ? value : json::array({value})) {
       const std::string text = text_of(one, member + "/" + name);
-      words.push_back("--" + name + "=" +
-                      (member == "options"  ? text
-                       : member == "inputs" ? input(text)
-                                            : output(text)));
+      const Name file = member == "options"  ? Name{text, text}
+                        : member == "inputs" ? input(text)
+                                             : output(text);
+      made.add(option + "=" + file.path, option + "=" + file.meaning);
     }
   }
 }
@@ -138,20 +144,24 @@ void Reader::take_step(const json& step) {
   where_ = "step " + std::to_string(chain_.steps.size() + 1) + " (" + made.title + "): ";
   check_members(step, {"command", "input", "inputs", "options", "output", "outputs"});
   std::istringstream words(made.title);
-  for (std::string word; words >> word;) made.words.push_back(word);
+  for (std::string word; words >> word;) made.add(word, word);
   if (made.words.empty()) refuse("its \"command\" is empty");
   if (made.words[0] == "run" || made.words[0] == "batch") refuse("a chain cannot start another one");
-  for (const std::string& name : texts(step, "input")) made.words.push_back(input(name));
-  options(step, "options", made.words);
-  options(step, "inputs", made.words);
+  for (const std::string& name : texts(step, "input")) {
+    const Name file = input(name);
+    made.add(file.path, file.meaning);
+  }
+  options(step, "options", made);
+  options(step, "inputs", made);
   const std::vector<std::string> outputs = texts(step, "output");
   if (outputs.size() > 1) refuse("\"output\" must be one name");
   if (!outputs.empty()) {
     // `convert` alone has its result's name without an option.
-    if (made.words[0] != "convert") made.words.emplace_back("-o");
-    made.words.push_back(output(outputs[0]));
+    if (made.words[0] != "convert") made.add("-o", "-o");
+    const Name file = output(outputs[0]);
+    made.add(file.path, file.meaning);
   }
-  options(step, "outputs", made.words);
+  options(step, "outputs", made);
   chain_.steps.push_back(std::move(made));
 }
 
@@ -160,7 +170,7 @@ void Reader::take_variables(const json& own) {
   for (const auto& [name, value] : own.items()) {
     if (!value.is_string() && !value.is_number())
       refuse("the variable " + name + " must be text or a number");
-    chain_.variables.try_emplace(name, value.is_string() ? value.get<std::string>() : value.dump());
+    variables_.try_emplace(name, value.is_string() ? value.get<std::string>() : value.dump());
     used_.insert(name);  // a default need not be used
   }
 }
@@ -175,7 +185,7 @@ Chain Reader::read() {
   if (file.contains("variables")) take_variables(file["variables"]);
   for (const json& step : file["steps"]) take_step(step);
   where_.clear();
-  for (const auto& [name, value] : chain_.variables)
+  for (const auto& [name, value] : variables_)
     if (used_.count(name) == 0) refuse("it has no variable {" + name + "} that a value could be given to");
   return std::move(chain_);
 }

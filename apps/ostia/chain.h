@@ -12,12 +12,18 @@ namespace ostia::app {
 struct ChainStep {
   std::string title;               ///< "segment", "evaluate lumen"
   std::vector<std::string> words;  ///< of its command line, without the program's name
+  /// The same words with "input 1", "input 2" (in the order of Chain::inputs) for what is read from outside,
+  /// and bare names for results: what is done, wherever it is done.
+  std::vector<std::string> meaning;
+  void add(const std::string& word, const std::string& means) {
+    words.push_back(word);
+    meaning.push_back(means);
+  }
 };
 
 struct Chain {
   std::vector<ChainStep> steps;
-  std::map<std::string, std::filesystem::path> inputs;  ///< what is read from outside, by the name it has
-  std::map<std::string, std::string> variables;         ///< as they are in the end
+  std::vector<std::filesystem::path> inputs;  ///< what is read from outside
 };
 
 using Variables = std::map<std::string, std::string>;

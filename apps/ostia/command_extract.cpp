@@ -76,8 +76,8 @@ ExitCode run_extract(const ExtractCommand& o, const core::TaskContext& task) {
   const pipeline::Source source = pipeline::load(o.input.input, source_options(o.input), task.sub(0.0, 0.1));
   for (const std::string& warning : source.warnings) core::log_warning(warning);
   if (!source.image)
-    throw InvalidInput("cannot find arteries in " + o.input.input.string() + ": it is " + a(source.kind) +
-                       " and no CT image");
+    throw InvalidInput("cannot find arteries in " + o.input.input.string() + ": it is " +
+                       with_article(source.kind) + " and no CT image");
   coronary::ExtractOptions options;
   options.labels.least_confidence = o.least_confidence;
   if (o.vesselness == "hessian") options.growth.likeness = segmentation::TubeMethod::hessian;

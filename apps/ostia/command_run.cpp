@@ -53,19 +53,14 @@ std::string digest_of(const fs::path& input) {
   return core::sha256(all);
 }
 
-/// The inputs count by content and place in the chain, variables that are their names do not.
-pipeline::JobKey key_of(const fs::path& file, const Chain& chain) {
-  pipeline::JobKey key{"run", {{"chain", core::sha256_file(file)}}, {}};
-  int n = 0;
-  for (const auto& [name, path] : chain.inputs) key.inputs["input" + std::to_string(++n)] = digest_of(path);
-  nlohmann::json parameters = nlohmann::json::object();
-  for (const auto& [name, value] : chain.variables) {
-    const bool is_input = std::any_of(chain.inputs.begin(), chain.inputs.end(), [&](const auto& input) {
-      return input.first.find(value) != std::string::npos;
-    });
-    if (!is_input) parameters[name] = value;
-  }
-  key.parameters = parameters.dump();
+/// Inputs count by content, and what is done with them by its words; how either is called does not matter.
+pipeline::JobKey key_of(const Chain& chain) {
+  pipeline::JobKey key{"run", {}, {}};
+  for (std::size_t i = 0; i < chain.inputs.size(); ++i)
+    key.inputs["input " + std::to_string(i + 1)] = digest_of(chain.inputs[i]);
+  nlohmann::json steps = nlohmann::json::array();
+  for (const ChainStep& step : chain.steps) steps.push_back(step.meaning);
+  key.parameters = nlohmann::json{{"steps", steps}}.dump();
   return key;
 }
 
@@ -100,7 +95,7 @@ ExitCode run_chain(const RunCommand& options, const CommonOptions& common, const
   const auto start = Clock::now();
   pipeline::require_free_folder(options.output);
   const Variables given = variables_of(options.variables);
-  const pipeline::JobKey key = key_of(options.chain, read_chain(options.chain, given, options.output));
+  const pipeline::JobKey key = key_of(read_chain(options.chain, given, options.output));
   if (const auto code = pipeline::already_done(options.output, key)) {
     core::log_info("done already with the same inputs and variables; nothing to do");
     return *code;

@@ -40,7 +40,7 @@ ExitCode segment_aorta(const SegmentCommand& options, const core::TaskContext& t
   for (const std::string& warning : source.warnings) core::log_warning(warning);
   if (!source.image)
     throw InvalidInput("cannot find the aorta in " + options.input.input.string() + ": it is " +
-                       a(source.kind) + " and no CT image");
+                       with_article(source.kind) + " and no CT image");
   task.set_stage("finding the aorta");
   const coronary::Aorta aorta = naming(
       options.input.input, [&] { return coronary::find_aorta(*source.image, {}, task.sub(0.3, 0.7)); },

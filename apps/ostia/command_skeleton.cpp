@@ -45,7 +45,7 @@ pipeline::Source load_mask(const SkeletonCommand& o, const core::TaskContext& ta
   pipeline::Source source = pipeline::load(o.input.input, source_options(o.input), task);
   for (const std::string& warning : source.warnings) core::log_warning(warning);
   if (!source.mask)
-    throw InvalidInput("cannot thin " + o.input.input.string() + ": it is " + a(source.kind) +
+    throw InvalidInput("cannot thin " + o.input.input.string() + ": it is " + with_article(source.kind) +
                        " and no mask; a mask has two values or a few, such as 0 and 1");
   return source;
 }

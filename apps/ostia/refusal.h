@@ -10,7 +10,7 @@
 namespace ostia::app {
 
 /// "an image", "a mask", "a surface", "a DICOM series".
-inline std::string a(pipeline::SourceKind kind) {
+inline std::string with_article(pipeline::SourceKind kind) {
   return (kind == pipeline::SourceKind::image ? "an " : "a ") + name_of(kind);
 }
 

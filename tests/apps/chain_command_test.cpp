@@ -108,6 +108,28 @@ TEST(Chain, RunsEachStepOnWhatTheOneBeforeMade) {
   EXPECT_NEAR(volume_of(folder / "out/b.stl"), 288.0, 1e-3);
 }
 
+TEST(Chain, AnotherValueOfAnyVariableIsAnotherJob) {
+  const fs::path folder = folder_with_surface("variables");
+  fs::rename(folder / "a.ply", folder / "cm.ply");  // both values stand in the input's name
+  Json chain = two_conversions();
+  chain["steps"][1]["options"]["units"] = "{unit}";
+  core::write_file(folder / "pipeline.json", chain.dump());
+  const auto volume = [&](const std::string& unit) {
+    const Outcome done =
+        ostia({"run", "pipeline.json", "-o", "out", "--set", "surface=cm.ply", "--set", "unit=" + unit},
+              {folder, ""});
+    EXPECT_EQ(done.code, 0) << done.err;
+    return volume_of(folder / "out/c.vtp");
+  };
+  EXPECT_NEAR(volume("cm"), 36000.0, 0.1);
+  EXPECT_NEAR(volume("m") / 36e9, 1.0, 1e-5);
+  // What an input is called does not matter, what it holds does.
+  fs::copy_file(folder / "cm.ply", folder / "other.ply");
+  const Outcome same = ostia(
+      {"run", "pipeline.json", "-o", "out", "--set", "surface=other.ply", "--set", "unit=m"}, {folder, ""});
+  EXPECT_THAT(same.err, HasSubstr("done already"));
+}
+
 /// The chain is refused with `what`, and leaves nothing.
 void expect_refused(const fs::path& folder, const Json& chain, const std::vector<std::string>& more,
                     const std::vector<std::string>& what, int code = 3) {

@@ -1,3 +1,4 @@
+#include "coarse_scan.h"
 #include "program.h"
 
 #include "ostia/geometry/mesh_topology.h"
@@ -25,13 +26,7 @@ phantom::Scan coarse_scan() {
   options.seed = 2;
   options.preset = phantom::Preset::small;
   phantom::CasePlan plan = phantom::plan_case(options);
-  phantom::ScanOptions& scan = plan.options.scan;
-  for (std::size_t a = 0; a < 3; ++a)
-    scan.grid.size[a] = static_cast<std::int64_t>(static_cast<double>(scan.grid.size[a]) *
-                                                  scan.grid.spacing[static_cast<Eigen::Index>(a)] / voxel_mm);
-  scan.grid.spacing.setConstant(voxel_mm);
-  scan.psf_fwhm_mm = scan.psf_fwhm_z_mm = voxel_mm;
-  scan.noise_peak_per_mm = 0.0;
+  make_coarse(plan.options.scan, voxel_mm);
   return phantom::scan_case(plan);
 }
 

@@ -1,5 +1,7 @@
 #include "ostia/coronary/aorta_mask.h"
 
+#include "coarse_scan.h"
+
 #include "ostia/core/error.h"
 #include "ostia/phantom/phantom_case.h"
 #include "ostia/phantom/scene.h"
@@ -23,13 +25,7 @@ TEST(AortaMask, IsTheLabelledLumenOfAPhantomBetweenItsEnds) {
   options.seed = 2;
   options.preset = phantom::Preset::small;
   phantom::CasePlan plan = phantom::plan_case(options);
-  phantom::ScanOptions& scan = plan.options.scan;
-  for (std::size_t a = 0; a < 3; ++a)
-    scan.grid.size[a] = static_cast<std::int64_t>(static_cast<double>(scan.grid.size[a]) *
-                                                  scan.grid.spacing[static_cast<Eigen::Index>(a)] / voxel_mm);
-  scan.grid.spacing.setConstant(voxel_mm);
-  scan.psf_fwhm_mm = scan.psf_fwhm_z_mm = voxel_mm;
-  scan.noise_peak_per_mm = 0.0;
+  ostia::testing::make_coarse(plan.options.scan, voxel_mm);
   const phantom::Scan made = phantom::scan_case(plan);
   const Aorta aorta = find_aorta(made.image);
   const imaging::MaskVolume mask = aorta_mask(made.image, aorta);

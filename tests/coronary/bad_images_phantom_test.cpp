@@ -1,5 +1,7 @@
 // Images of a heart that cannot be used as they are: what is said of them, and that no tree is made up.
 
+#include "coarse_scan.h"
+
 #include "ostia/core/error.h"
 #include "ostia/coronary/extract.h"
 #include "ostia/geometry/polyline.h"
@@ -29,14 +31,7 @@ const CoarseHeart& heart() {
     phantom::CaseOptions options;
     options.preset = phantom::Preset::small;
     CoarseHeart result{phantom::plan_case(options), {}};
-    phantom::ScanOptions& scan = result.plan.options.scan;
-    for (std::size_t a = 0; a < 3; ++a)
-      scan.grid.size[a] =
-          static_cast<std::int64_t>(static_cast<double>(scan.grid.size[a]) *
-                                    scan.grid.spacing[static_cast<Eigen::Index>(a)] / voxel_mm);
-    scan.grid.spacing.setConstant(voxel_mm);
-    scan.psf_fwhm_mm = scan.psf_fwhm_z_mm = voxel_mm;
-    scan.noise_peak_per_mm = 0.0;
+    ostia::testing::make_coarse(result.plan.options.scan, voxel_mm);
     result.image = phantom::scan_case(result.plan).image;
     return result;
   }();

@@ -12,10 +12,13 @@
 #include "report.h"
 #include "run.h"
 #include "skeleton.h"
+#include "solver_case.h"
 #include "standard_streams.h"
 
 #include "ostia/core/log.h"
 #include "ostia/core/parallel.h"
+#include "ostia/io/mesh_export.h"
+#include "ostia/io/volume_mesh_file.h"
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -49,6 +52,7 @@ struct Commands {
   ExtractCommand extract;
   RunCommand chain;
   BatchCommand batch;
+  CaseCommand solver_case;
 };
 
 void add_common(CLI::App& app, CommonOptions& o) {
@@ -101,10 +105,45 @@ void add_mesh(CLI::App& app, MeshOptions& o) {
       ->check(CLI::IsMember({"distance", "radius"}));
   app.add_option("--min-edge", o.min_edge_mm, "Shortest edge, mm")->check(CLI::PositiveNumber);
   app.add_option("--max-edge", o.max_edge_mm, "Longest edge, mm")->check(CLI::PositiveNumber);
+  app.add_option("--size-radii", o.most_distance_radii,
+                 "Bound on the distance to the centerline in inscribed radii, 1 or more, for aneurysms; left "
+                 "out: none")
+      ->check(CLI::Range(1.0, 100.0));
+  app.add_option(
+         "--curvature-ratio", o.curvature_ratio,
+         "Edge length over the wall's least radius of curvature, 0.02 to 2, for shorter edges in crotches; "
+         "left out: not looked at")
+      ->check(CLI::Range(0.02, 2.0));
+  app.add_option("--stenosis-edges", o.stenosis_share,
+                 "Edges at stenoses over those of the vessel, 0.05 to 1; default 1")
+      ->check(CLI::Range(0.05, 1.0));
   app.add_option("--volume-size", o.size_factor, "Edges inside over edges of the surface")
       ->check(CLI::PositiveNumber);
   app.add_option("--inset", o.inset_radii, "How far inside its end a vessel is cut, in radii")
       ->check(CLI::NonNegativeNumber);
+  app.add_option("--flow-extensions", o.extensions,
+                 "Tubes that lead the flow in and out, 0.25 to 100 diameters long; left out: none")
+      ->check(CLI::Range(0.25, 100.0));
+  app.add_option("--layers", o.layers, "Layers of prisms on the wall, 1 to 20; 0, the default: none")
+      ->check(CLI::Range(0, 20));
+  app.add_option("--layer-thickness", o.layer_thickness,
+                 "Of all layers together, over the wall's local edge, up to 3; default 0.25")
+      ->check(CLI::Range(1e-3, 3.0));
+  app.add_option("--layer-growth", o.layer_growth,
+                 "Thickness of a layer over that of the next nearer the wall, 1 to 3; default 1.2")
+      ->check(CLI::Range(1.0, 3.0));
+  app.add_flag("--split-prisms", o.split_prisms,
+               "The layers' prisms as tetrahedra, for programs that know one kind of element");
+  app.add_option("--order", o.order,
+                 "Of the elements: 1, the default, or 2 with nodes on the edges, those of the wall on the "
+                 "surface as it was before remeshing")
+      ->check(CLI::IsMember({1, 2}));
+  std::vector<std::string> formats;
+  for (const io::MeshFormat format : io::mesh_formats) formats.emplace_back(io::name_of(format));
+  app.add_option("--export", o.formats, "Formats besides mesh.vtu, separated by commas")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember(formats));
 }
 
 void add_phantom(CLI::App& app, PhantomCommand& o) {
@@ -192,6 +231,7 @@ void define(CLI::App& app, Commands& c, Run& run) {
   define_skeleton(app, c.skeleton, run);
   define_extract(app, c.extract, run, add_dicom);
   define_run(app, c.chain, c.batch, c.common, run);
+  define_case(app, c.solver_case, run);
 
   CLI::App* segment = command(app, "segment", "The lumen of the vessels between seed points",
                               "ostia segment heart.nrrd -o lumen.vtp --branch 8,-187,675:6,-178,720\n"
@@ -221,8 +261,11 @@ void define(CLI::App& app, Commands& c, Run& run) {
   centerline->callback(
       [&] { run = [&](const core::TaskContext& task) { return run_centerline(c.centerline, task); }; });
 
-  CLI::App* mesh = command(app, "mesh", "A tetrahedral mesh with named faces",
-                           "ostia mesh lumen.stl -o mesh --edge-ratio 0.3");
+  CLI::App* mesh = command(app, "mesh", "A volume mesh with named faces, and layers of prisms on the wall",
+                           "ostia mesh lumen.stl -o mesh --edge-ratio 0.3\n"
+                           "  ostia mesh lumen.stl -o mesh --layers 3 --layer-thickness 0.5 --export "
+                           "openfoam,gmsh4\n"
+                           "  ostia mesh --check mesh/mesh.vtu");
   add_input(*mesh, c.mesh.input, "Surface, open or closed, or a case", false);
   add_units(*mesh, c.mesh.input);
   add_coords(*mesh, c.mesh.input);
@@ -230,7 +273,8 @@ void define(CLI::App& app, Commands& c, Run& run) {
   add_mesh(*mesh, c.mesh.mesh);
   mesh->add_option("-o,--output", c.mesh.output, "Folder that is made");
   mesh->add_option("--centerline", c.mesh.centerline, "Centerlines; left out: computed");
-  mesh->add_option("--check", c.mesh.check, "Only judges a surface or a .vtu mesh");
+  mesh->add_option("--check", c.mesh.check,
+                   "Only judges a surface or a volume mesh: " + io::readable_volume_meshes());
   mesh->add_flag("--json", c.mesh.json, "One JSON object on standard output");
   mesh->callback([&] { run = [&](const core::TaskContext& task) { return run_mesh(c.mesh, task); }; });
 
@@ -240,8 +284,20 @@ void define(CLI::App& app, Commands& c, Run& run) {
   convert->add_option("OUTPUT", c.convert.output, "By its extension")->required();
   add_units(*convert, c.convert.input);
   convert->add_flag("--repair", c.convert.repair,
-                    "Surfaces: drop bad triangles and loose parts, join equal points, turn outward, cut "
-                    "self-intersections out");
+                    "Surfaces: drop bad triangles and loose parts, join equal points, take apart what only "
+                    "touches, turn outward, cut self-intersections out");
+  convert->add_option("--fill-holes", c.convert.fill_holes_mm, "Repair: also close holes up to this wide, mm")
+      ->check(CLI::PositiveNumber);
+  convert->add_flag("--keep-parts", c.convert.keep_parts, "Repair: all parts stay, not the largest alone");
+  convert
+      ->add_option("--smooth", c.convert.smooth,
+                   "Surfaces: steps of smoothing without shrinking; 30 is usual")
+      ->check(CLI::Range(1, 1000));
+  convert
+      ->add_option("--subdivide", c.convert.subdivide,
+                   "Surfaces: four smooth triangles of one, so many times")
+      ->check(CLI::Range(1, 8));
+  convert->add_flag("--json", c.convert.json, "What was done as one JSON object on standard output");
   convert->callback(
       [&] { run = [&](const core::TaskContext& task) { return run_convert(c.convert, task); }; });
 
@@ -280,17 +336,29 @@ void keep_paths_out_of_the_log(const Commands& c) {
     core::redact_in_logs(own_name(input->input), "INPUT");  // refusals have it alone
   }
   for (const std::filesystem::path& path :
-       {c.info.preview,       c.import.output,     c.segment.output,     c.segment.level_set,
-        c.centerline.output,  c.centerline.canal,  c.mesh.output,        c.mesh.centerline,
-        c.mesh.check,         c.convert.output,    c.model.output,       c.phantom.output,
-        c.evaluate.reference, c.evaluate.result,   c.evaluate.report,    c.evaluate.picture,
-        c.experiment.suite,   c.experiment.output, c.evaluate.tolerance, c.lumen.input,
-        c.lumen.output,       c.lumen.edits,       c.lumen.image,        c.lumen.surface,
-        c.lumen.contours,     c.lumen.case_output, c.lumen.lines_output, c.replay.start,
-        c.replay.input,       c.replay.output,     c.report.input,       c.report.image,
-        c.report.output,      c.skeleton.image,    c.skeleton.output,    c.skeleton.sections,
-        c.extract.output,     c.extract.lines,     c.chain.chain,        c.chain.output,
-        c.batch.table,        c.batch.chain,       c.batch.output}) {
+       {c.info.preview,       c.import.output,
+        c.segment.output,     c.segment.level_set,
+        c.centerline.output,  c.centerline.canal,
+        c.mesh.output,        c.mesh.centerline,
+        c.mesh.check,         c.convert.output,
+        c.model.output,       c.phantom.output,
+        c.evaluate.reference, c.evaluate.result,
+        c.evaluate.report,    c.evaluate.picture,
+        c.experiment.suite,   c.experiment.output,
+        c.evaluate.tolerance, c.lumen.input,
+        c.lumen.output,       c.lumen.edits,
+        c.lumen.image,        c.lumen.surface,
+        c.lumen.contours,     c.lumen.case_output,
+        c.lumen.lines_output, c.replay.start,
+        c.replay.input,       c.replay.output,
+        c.report.input,       c.report.image,
+        c.report.output,      c.skeleton.image,
+        c.skeleton.output,    c.skeleton.sections,
+        c.extract.output,     c.extract.lines,
+        c.chain.chain,        c.chain.output,
+        c.batch.table,        c.batch.chain,
+        c.batch.output,       c.solver_case.mesh,
+        c.solver_case.output, std::filesystem::path(c.solver_case.waveform)}) {
     core::redact_in_logs(path.string(), "FILE");
     core::redact_in_logs(path.parent_path().string(), "FOLDER");
   }

@@ -73,11 +73,9 @@ ExitCode run_extract(const ExtractCommand& o, const core::TaskContext& task) {
   require_output(o.lines, line_outputs);
   NewCase made(o.output);
   task.set_stage("reading");
-  const pipeline::Source source = pipeline::load(o.input.input, source_options(o.input), task.sub(0.0, 0.1));
+  const pipeline::Source source =
+      pipeline::load_ct(o.input.input, source_options(o.input), task.sub(0.0, 0.1));
   for (const std::string& warning : source.warnings) core::log_warning(warning);
-  if (!source.image)
-    throw InvalidInput("cannot find arteries in " + o.input.input.string() + ": it is " +
-                       with_article(source.kind) + " and no CT image");
   coronary::ExtractOptions options;
   options.labels.least_confidence = o.least_confidence;
   if (o.vesselness == "hessian") options.growth.likeness = segmentation::TubeMethod::hessian;

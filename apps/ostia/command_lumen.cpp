@@ -110,8 +110,7 @@ geometry::ContourSet contours_for(const LumenModelCommand& o, const geometry::Ve
 }
 
 pipeline::Source image_from(const std::filesystem::path& path, const core::TaskContext& task) {
-  pipeline::Source source = pipeline::load(path, {}, task);
-  if (!source.image) throw InvalidInput("--image " + path.string() + " is no CT image");
+  pipeline::Source source = pipeline::load_ct(path, {}, task);
   for (const std::string& warning : source.warnings) core::log_warning(warning);
   return source;
 }

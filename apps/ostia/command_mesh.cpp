@@ -25,16 +25,16 @@ ExitCode verdict(const meshing::QualityVerdict& verdict) {
 }
 
 ExitCode check_file(const MeshCommand& options, const core::TaskContext& task) {
-  if (options.check.extension() == ".vtu") {
-    const geometry::VolumeMesh mesh = io::read_volume_mesh(options.check);
-    const auto volume = meshing::volume_quality(mesh, task);
-    const auto surface = meshing::surface_quality({mesh.points, mesh.boundary}, true, task);
-    meshing::QualityVerdict both = meshing::check(volume);
-    const auto of_surface = meshing::check(surface);
-    both.reasons.insert(both.reasons.end(), of_surface.reasons.begin(), of_surface.reasons.end());
-    std::fputs((pipeline::quality_json(surface, volume, both) + "\n").c_str(), stdout);
-    return verdict(both);
+  task.set_stage("reading");
+  if (io::is_volume_mesh(options.check)) {
+    const pipeline::MeshQuality quality = pipeline::judged(io::read_volume_mesh(options.check), task);
+    std::fputs((pipeline::quality_json(quality) + "\n").c_str(), stdout);
+    return verdict(quality.verdict);
   }
+  if (!io::is_surface_file(options.check))
+    throw InvalidInput("cannot check " + options.check.string() + ": volume meshes are read as " +
+                       io::readable_volume_meshes() +
+                       ", surfaces as STL, PLY, OBJ and VTP; export the mesh as one of these besides");
   const auto quality = meshing::surface_quality(io::read_surface(options.check).surface.mesh, true, task);
   const meshing::QualityVerdict judged = meshing::check(quality);
   std::fputs((pipeline::quality_json(quality, judged) + "\n").c_str(), stdout);
@@ -52,13 +52,14 @@ geometry::VesselTree tree_for(const MeshCommand& options, const pipeline::Source
 ExitCode mesh_case(const MeshCommand& options, const core::TaskContext& task) {
   if (!options.centerline.empty() || !options.ends.source.empty() || !options.ends.targets.empty())
     throw UsageError("a case has its axes: --centerline, --source and --target are for surfaces");
-  task.set_stage("reading");
-  const auto opened = session::CaseFile::open(options.input.input, session::OpenMode::read_only);
   pipeline::ModelOptions how;
   apply(options.mesh, how);
+  task.set_stage("reading");
+  const auto opened = session::CaseFile::open(options.input.input, session::OpenMode::read_only);
   pipeline::MeshExportOptions wanted;
   wanted.sizing = how.sizing;
-  wanted.tetrahedralize = how.tetrahedralize;
+  wanted.extensions = how.extensions;
+  wanted.volume = how.volume;
   if (how.inset_radii) wanted.inset_radii = *how.inset_radii;
   pipeline::require_free_folder(options.output);
   std::optional<ExitCode> code =
@@ -81,6 +82,8 @@ ExitCode run_mesh(const MeshCommand& options, const core::TaskContext& task) {
   if (options.input.input.empty() || options.output.empty())
     throw UsageError("`ostia mesh` needs a surface or a case and -o DIR, or --check FILE");
   if (options.input.input.extension() == ".ostia") return mesh_case(options, task);
+  pipeline::ModelOptions how;
+  apply(options.mesh, how);
   pipeline::require_free_folder(options.output);
   const auto start = std::chrono::steady_clock::now();
   task.set_stage("reading");
@@ -90,9 +93,7 @@ ExitCode run_mesh(const MeshCommand& options, const core::TaskContext& task) {
   if (source.kind != pipeline::SourceKind::surface)
     throw InvalidInput("cannot mesh " + options.input.input.string() +
                        ": it is no surface; `ostia model` goes all the way from an image");
-  pipeline::ModelOptions how;
   apply(options.ends, options.input.coords, nullptr, how);
-  apply(options.mesh, how);
   pipeline::JobKey key{
       "mesh", {{"surface", source.sha256}}, pipeline::parameters_json(how, source_options(options.input))};
   if (!options.centerline.empty()) key.inputs["centerline"] = core::sha256_file(options.centerline);
@@ -106,13 +107,10 @@ ExitCode run_mesh(const MeshCommand& options, const core::TaskContext& task) {
   const pipeline::MeshedLumen meshed = pipeline::mesh_lumen(source.surface, tree, how, task.sub(0.3, 0.95));
   for (const std::string& warning : meshed.warnings) core::log_warning(warning);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  pipeline::write_mesh_folder(options.output, meshed, key, seconds);
-  if (options.json)
-    std::fputs((pipeline::quality_json(meshed.surface_quality, meshed.volume_quality, meshed.verdict) + "\n")
-                   .c_str(),
-               stdout);
+  pipeline::write_mesh_folder(options.output, meshed, how, key, seconds, task.sub(0.95, 1.0));
+  if (options.json) std::fputs((pipeline::quality_json(meshed.quality) + "\n").c_str(), stdout);
   task.set_progress(1.0);
-  return verdict(meshed.verdict);
+  return verdict(meshed.quality.verdict);
 }
 
 }  // namespace ostia::app

@@ -23,21 +23,20 @@ struct Job {
   std::optional<phantom::BuiltinCase> builtin;
 };
 
-Job builtin_job(const ModelCommand& command, const core::TaskContext& task) {
-  Job job;
+void take_builtin(const ModelCommand& command, Job& job, const core::TaskContext& task) {
   phantom::BuiltinOptions options;
   options.seed = command.seed;
   job.builtin = phantom::make_builtin_case(options, task);
   job.source = pipeline::source_of(*job.builtin);
   apply(command.lumen, "lps", nullptr, job.options);
   job.options.branches = pipeline::branches_of(*job.builtin);
-  return job;
 }
 
 Job job_of(const ModelCommand& command, const core::TaskContext& task) {
   Job job;
+  apply(command.mesh, job.options);  // what does not go together is told before anything is read
   if (command.builtin) {
-    job = builtin_job(command, task);
+    take_builtin(command, job, task);
   } else {
     task.set_stage("reading");
     job.source = pipeline::load(command.input.input, source_options(command.input), task);
@@ -47,7 +46,6 @@ Job job_of(const ModelCommand& command, const core::TaskContext& task) {
     apply(command.lumen, command.input.coords, grid, job.options);
     apply(command.ends, command.input.coords, grid, job.options);
   }
-  apply(command.mesh, job.options);
   job.key = {"model",
              {{"input", job.source.sha256}},
              pipeline::parameters_json(job.options, source_options(command.input))};
@@ -55,12 +53,15 @@ Job job_of(const ModelCommand& command, const core::TaskContext& task) {
 }
 
 void print(const pipeline::Model& model, const std::optional<pipeline::TruthErrors>& truth) {
-  const auto& surface = model.meshed.surface_quality;
-  const auto& volume = model.meshed.volume_quality;
+  const auto& surface = model.meshed.quality.surface;
+  const auto& volume = model.meshed.quality.volume;
+  const std::string prisms =
+      volume.prisms.count > 0 ? " and " + std::to_string(volume.prisms.count) + " prisms" : "";
   std::printf(
-      "%zu vessels, %zu triangles (least angle %.1f degrees), %zu tetrahedra (least dihedral %.1f degrees)\n",
+      "%zu vessels, %zu triangles (least angle %.1f degrees), %zu tetrahedra%s (least dihedral %.1f "
+      "degrees)\n",
       model.meshed.centerlines.tree.vessels.size(), surface.triangles, surface.min_angle_deg,
-      volume.tetrahedra, volume.min_dihedral_deg);
+      volume.tetrahedra.count, prisms.c_str(), pipeline::least_dihedral_deg(volume));
   if (!truth) return;
   std::printf(
       "against the truth: lumen %.3f mm off in the mean, radius %.1f %% in the median, %.1f %% in the "
@@ -103,7 +104,8 @@ ExitCode run_model(const ModelCommand& command, const core::TaskContext& task) {
     print(model, truth);
   }
   if (code == ExitCode::quality_failed)
-    core::log_warning("quality control failed, a person must look: " + model.meshed.verdict.summary());
+    core::log_warning("quality control failed, a person must look: " +
+                      model.meshed.quality.verdict.summary());
   return code;
 }
 

@@ -20,8 +20,7 @@ using Clock = std::chrono::steady_clock;
 pipeline::Source image_of(const ReportCommand& o, const session::CaseFile& file,
                           const core::TaskContext& task) {
   task.set_stage("reading");
-  pipeline::Source source = pipeline::load(o.image, {}, task);
-  if (!source.image) throw InvalidInput("--image " + o.image.string() + " is no CT image");
+  pipeline::Source source = pipeline::load_ct(o.image, {}, task);
   for (const std::string& warning : source.warnings) core::log_warning(warning);
   try {
     file.check_image({source.sha256, source.pseudonym});

@@ -12,6 +12,7 @@
 #include "ostia/pipeline/lumen_surface.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace ostia::app {
@@ -21,6 +22,8 @@ double ml_of(const imaging::MaskVolume& mask) {
   const auto inside = std::count_if(mask.voxels.begin(), mask.voxels.end(), [](auto v) { return v != 0; });
   return static_cast<double>(inside) * mask.geometry.spacing.prod() / 1000.0;
 }
+
+constexpr double shortest_in_a_chest_mm = 40.0;  // the ascending part and the arch measure 100 and more
 
 double length_mm(const coronary::Aorta& aorta) {
   double length = 0.0;
@@ -36,15 +39,17 @@ ExitCode segment_aorta(const SegmentCommand& options, const core::TaskContext& t
     throw UsageError("--smooth is for a surface, " + options.output.string() + " will be a mask");
   task.set_stage("reading");
   const pipeline::Source source =
-      pipeline::load(options.input.input, source_options(options.input), task.sub(0.0, 0.3));
+      pipeline::load_ct(options.input.input, source_options(options.input), task.sub(0.0, 0.3));
   for (const std::string& warning : source.warnings) core::log_warning(warning);
-  if (!source.image)
-    throw InvalidInput("cannot find the aorta in " + options.input.input.string() + ": it is " +
-                       with_article(source.kind) + " and no CT image");
   task.set_stage("finding the aorta");
   const coronary::Aorta aorta = naming(
       options.input.input, [&] { return coronary::find_aorta(*source.image, {}, task.sub(0.3, 0.7)); },
       " (`ostia segment` with --branch)");
+  const double length = length_mm(aorta);
+  if (length < shortest_in_a_chest_mm)
+    core::log_warning(
+        own_name(options.input.input) + ": no more than " + std::to_string(std::lround(length)) +
+        " mm of aorta were found; look whether it is the heart's, or name its ends with --branch");
   task.set_stage("segmentation");
   const imaging::MaskVolume mask = coronary::aorta_mask(*source.image, aorta, {}, task.sub(0.7, 0.9));
   if (as_mask) {
@@ -58,7 +63,7 @@ ExitCode segment_aorta(const SegmentCommand& options, const core::TaskContext& t
     io::write_surface(options.output, surface);
   }
   task.set_progress(1.0);
-  std::printf("aorta: %.0f mm, %.1f ml, %.0f HU\n", length_mm(aorta), ml_of(mask), aorta.lumen_hu);
+  std::printf("aorta: %.0f mm, %.1f ml, %.0f HU\n", length, ml_of(mask), aorta.lumen_hu);
   return ExitCode::ok;
 }
 

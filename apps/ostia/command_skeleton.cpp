@@ -79,10 +79,7 @@ ExitCode run_skeleton(const SkeletonCommand& o, const core::TaskContext& task) {
   task.set_stage("reading");
   const pipeline::Source source = load_mask(o, task.sub(0.0, 0.1));
   pipeline::Source grey;
-  if (!o.image.empty()) {
-    grey = pipeline::load(o.image, {}, task.sub(0.1, 0.2));
-    if (!grey.image) throw InvalidInput("--image " + o.image.string() + " is no CT image");
-  }
+  if (!o.image.empty()) grey = pipeline::load_ct(o.image, {}, task.sub(0.1, 0.2));
   const pipeline::SkeletonOptions how = options_of(o, source.mask->geometry);
   const pipeline::SkeletonResult result = naming(o.input.input, [&] {
     return pipeline::skeleton_of(*source.mask, grey.image.get(), how, task.sub(0.2, 0.95));

@@ -91,8 +91,15 @@ struct MeshOptions {
   double edge_ratio = 0.0;  ///< 0: the library's default
   std::string size = "distance";
   double min_edge_mm = 0.0, max_edge_mm = 0.0;
+  std::optional<double> most_distance_radii, curvature_ratio, stenosis_share;
   double size_factor = 0.0;
-  double inset_radii = -1.0;  ///< negative: the library's default
+  double inset_radii = -1.0;         ///< negative: the library's default
+  std::optional<double> extensions;  ///< in diameters
+  int layers = 0;
+  std::optional<double> layer_thickness, layer_growth;  ///< nothing: the library's default
+  bool split_prisms = false;
+  int order = 1;
+  std::vector<std::string> formats;  ///< besides mesh.vtu
 };
 
 struct MeshCommand {
@@ -108,6 +115,11 @@ struct ConvertCommand {
   InputOptions input;
   std::filesystem::path output;
   bool repair = false;
+  double fill_holes_mm = 0.0;  ///< 0: none
+  bool keep_parts = false;
+  int smooth = 0;     ///< Taubin iterations
+  int subdivide = 0;  ///< levels
+  bool json = false;
 };
 ExitCode run_convert(const ConvertCommand& options, const core::TaskContext& task);
 

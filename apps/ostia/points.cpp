@@ -135,13 +135,41 @@ void apply(const EndOptions& from, const std::string& coords, const imaging::Geo
   if (from.step_mm > 0.0) to.centerline.step_mm = from.step_mm;
 }
 
+namespace {
+
+/// Layers, order and formats.
+void apply_volume(const MeshOptions& from, pipeline::VolumeOptions& to) {
+  if (from.layers > 0) {
+    to.layers.emplace();
+    to.layers->layers = from.layers;
+    if (from.layer_thickness) to.layers->thickness = *from.layer_thickness;
+    if (from.layer_growth) to.layers->growth = *from.layer_growth;
+  } else if (from.layer_thickness || from.layer_growth || from.split_prisms) {
+    throw UsageError("--layer-thickness, --layer-growth and --split-prisms need --layers");
+  }
+  to.split_prisms = from.split_prisms;
+  to.order = from.order;
+  for (const std::string& format : from.formats) to.formats.push_back(io::mesh_format(format));
+}
+
+}  // namespace
+
 void apply(const MeshOptions& from, pipeline::ModelOptions& to) {
   if (from.edge_ratio > 0.0) to.sizing.edge_ratio = from.edge_ratio;
   to.sizing.measure = from.size == "radius" ? meshing::SizeMeasure::radius : meshing::SizeMeasure::distance;
   if (from.min_edge_mm > 0.0) to.sizing.min_edge_mm = from.min_edge_mm;
   if (from.max_edge_mm > 0.0) to.sizing.max_edge_mm = from.max_edge_mm;
-  if (from.size_factor > 0.0) to.tetrahedralize.size_factor = from.size_factor;
+  if (from.most_distance_radii) to.sizing.most_distance_radii = *from.most_distance_radii;
+  if (from.curvature_ratio) to.sizing.curvature_ratio = *from.curvature_ratio;
+  if (from.stenosis_share) to.sizing.throat_share = *from.stenosis_share;
+  if (from.size_factor > 0.0) to.volume.tetrahedralize.size_factor = from.size_factor;
   if (from.inset_radii >= 0.0) to.inset_radii = from.inset_radii;
+  if (from.extensions) {
+    to.extensions.emplace();
+    to.extensions->inlet_diameters = to.extensions->outlet_diameters = *from.extensions;
+  }
+  apply_volume(from, to.volume);
+  pipeline::validate(to);  // what does not go together is told before anything is read
 }
 
 }  // namespace ostia::app

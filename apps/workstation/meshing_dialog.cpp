@@ -1,13 +1,11 @@
 #include "meshing_dialog.h"
 
 #include "file_dialogs.h"
-#include "theme.h"
 
 #include "ostia/core/error.h"
 #include "ostia/pipeline/manifest.h"
 #include "ostia/pipeline/vessel_choice.h"
 
-#include <QApplication>
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDialogButtonBox>
@@ -52,27 +50,12 @@ void choose(QComboBox* box, Enum value) {
   box->setCurrentIndex(std::max(0, box->findData(static_cast<int>(value))));
 }
 
-QLabel* field_label(const QString& text, QWidget* field) {
-  auto* label = new QLabel(text);
-  label->setBuddy(field);
-  label->setContentsMargins(0, 0, 2, 0);  // the last letter is wider than its advance at some scales
-  return label;
-}
-
 QLabel* quiet_label(const QString& name) {
   auto* label = new QLabel;
   label->setObjectName(name);
   label->setWordWrap(true);
   label->setEnabled(false);
   return label;
-}
-
-QColor trouble_color() {
-  return current_theme() == Theme::dark ? QColor(255, 150, 60) : QColor(168, 70, 0);
-}
-/// Of a field that has to be changed.
-QColor trouble_ground() {
-  return current_theme() == Theme::dark ? QColor(82, 44, 18) : QColor(255, 224, 200);
 }
 
 /// Two digits that count: "about 120000" rather than "118342".
@@ -98,6 +81,10 @@ MeshingDialog::MeshingDialog(ExportSubject subject, const ExportChoice& last, QW
   add_vessels(form, last);
   if (!mesh) add_ends(form, last);
   add_size(form, last);
+  if (mesh) {
+    volume_ = new VolumeFields(form, last.volume, this);
+    connect(volume_, &VolumeFields::changed, this, &MeshingDialog::check);
+  }
   add_formats(form, last);
   add_folder(form);
   estimate_ = quiet_label("estimate");
@@ -113,26 +100,6 @@ MeshingDialog::MeshingDialog(ExportSubject subject, const ExportChoice& last, QW
   layout->addWidget(buttons);
   go_->setDefault(true);  // once it is in the dialog: else it is the dialog that chooses, and it takes Cancel
   check();
-}
-
-MeshingDialog::Field MeshingDialog::add_field(QFormLayout* form, const QString& text, QWidget* row,
-                                              QWidget* input, const QString& name) {
-  Field field{input, new QLabel};
-  field.trouble->setObjectName(name + "_trouble");
-  field.trouble->setWordWrap(true);
-  QPalette palette = field.trouble->palette();
-  palette.setColor(QPalette::WindowText, trouble_color());
-  field.trouble->setPalette(palette);
-  field.trouble->hide();
-  auto* both = new QWidget;
-  auto* column = new QVBoxLayout(both);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(2);
-  column->addWidget(row);
-  column->addWidget(field.trouble);
-  auto* label = field_label(text, input);
-  form->addRow(label, both);
-  return field;
 }
 
 void MeshingDialog::add_vessels(QFormLayout* form, const ExportChoice& last) {
@@ -152,8 +119,7 @@ void MeshingDialog::add_vessels(QFormLayout* form, const ExportChoice& last) {
   column->setSpacing(2);
   column->addWidget(vessels_);
   column->addWidget(parents_);
-  auto* label = field_label(tr("&Vessels"), vessels_);
-  form->addRow(label, column);
+  form->addRow(export_field_label(tr("&Vessels"), vessels_), column);
   connect(vessels_, QOverload<int>::of(&QComboBox::currentIndexChanged), this, &MeshingDialog::check);
 }
 
@@ -165,8 +131,7 @@ void MeshingDialog::add_ends(QFormLayout* form, const ExportChoice& last) {
   add(ends_, tr("cut flat, open"), SurfaceEnds::open);
   add(ends_, tr("rounded, as in the model"), SurfaceEnds::rounded);
   choose(ends_, last.ends);
-  auto* label = field_label(tr("&Ends"), ends_);
-  form->addRow(label, ends_);
+  form->addRow(export_field_label(tr("&Ends"), ends_), ends_);
   connect(ends_, QOverload<int>::of(&QComboBox::currentIndexChanged), this, &MeshingDialog::check);
 }
 
@@ -202,7 +167,7 @@ void MeshingDialog::add_size(QFormLayout* form, const ExportChoice& last) {
   line->addWidget(size_, 1);
   line->addWidget(edges_);
   line->addWidget(edge_mm_);
-  size_field_ = add_field(form, tr("&Triangles"), row, size_, "size");
+  size_field_ = add_export_field(form, tr("&Triangles"), row, size_, "size");
   connect(size_, QOverload<int>::of(&QComboBox::currentIndexChanged), this, &MeshingDialog::check);
 }
 
@@ -223,11 +188,7 @@ void MeshingDialog::add_formats(QFormLayout* form, const ExportChoice& last) {
     formats_.push_back(box);
   }
   line->addStretch(1);
-  formats_field_ = add_field(form, tr("Surface as"), row, row, "formats");
-  if (subject_.kind == ExportKind::mesh) {
-    auto* always = new QLabel(tr("VTU, with the names of the faces"));
-    form->addRow(field_label(tr("Mesh as"), always), always);
-  }
+  formats_field_ = add_export_field(form, tr("Surface as"), row, row, "formats");
 }
 
 void MeshingDialog::add_folder(QFormLayout* form) {
@@ -241,7 +202,7 @@ void MeshingDialog::add_folder(QFormLayout* form) {
   choose_button->setAutoDefault(false);
   line->addWidget(folder_, 1);
   line->addWidget(choose_button);
-  folder_field_ = add_field(form, tr("&New folder"), row, folder_, "folder");
+  folder_field_ = add_export_field(form, tr("&New folder"), row, folder_, "folder");
   connect(folder_, &QLineEdit::textChanged, this, &MeshingDialog::check);
   connect(choose_button, &QPushButton::clicked, this, &MeshingDialog::choose_folder);
 }
@@ -252,19 +213,6 @@ void MeshingDialog::choose_folder() {
   if (!inside.isEmpty()) folder_->setText(inside + "/" + now.fileName());
 }
 
-bool MeshingDialog::mark(const Field& field, const QString& trouble) {
-  field.trouble->setText(trouble);
-  field.trouble->setVisible(!trouble.isEmpty());
-  QPalette palette = QApplication::palette(field.input);
-  if (!trouble.isEmpty()) {
-    palette.setColor(QPalette::Base, trouble_ground());
-    palette.setColor(QPalette::WindowText, trouble_color());
-  }
-  field.input->setPalette(palette);
-  field.input->setAccessibleDescription(trouble);
-  return trouble.isEmpty();
-}
-
 void MeshingDialog::check() {
   if (!go_) return;  // while it is put together
   const Size size = chosen<Size>(size_);
@@ -272,12 +220,13 @@ void MeshingDialog::check() {
   edge_mm_->setVisible(size == Size::even);
   mark({edges_, size_field_.trouble}, {});
   mark({edge_mm_, size_field_.trouble}, {});
-  Field field = size_field_;
+  ExportField field = size_field_;
   field.input = size == Size::even ? edge_mm_ : size == Size::by_calibre ? edges_ : size_field_.input;
   const bool size_fits = mark(field, size_trouble());
   const bool formats_fit = mark(formats_field_, formats_trouble());
   const bool folder_fits = mark(folder_field_, folder_trouble());
-  go_->setEnabled(size_fits && formats_fit && folder_fits);
+  const bool volume_fits = !volume_ || volume_->check();
+  go_->setEnabled(size_fits && formats_fit && folder_fits && volume_fits);
   const auto chosen_ids = vessel_ids();
   const auto needed = pipeline::with_parents(subject_.model->tree, chosen_ids);
   std::vector<std::int32_t> more;
@@ -330,7 +279,8 @@ QString MeshingDialog::size_trouble() const {
         .arg(longest_mm);
   }
   if (subject_.kind == ExportKind::surface) return {};
-  const double cells = pipeline::estimate_mesh(*subject_.model, vessel_ids(), *sizing()).tetrahedra;
+  const double cells =
+      pipeline::estimate_mesh(*subject_.model, vessel_ids(), *sizing(), volume_->options()).tetrahedra;
   if (cells <= pipeline::most_tetrahedra) return {};
   return tr("About %1 cells; more than %2 do not fit. Choose longer edges, or fewer vessels.")
       .arg(about(cells), about(pipeline::most_tetrahedra));
@@ -356,10 +306,11 @@ QString MeshingDialog::folder_trouble() const {
 void MeshingDialog::show_estimate() {
   QStringList lines;
   if (const auto size = sizing()) {
-    const auto estimate = pipeline::estimate_mesh(*subject_.model, vessel_ids(), *size);
+    const auto estimate = pipeline::estimate_mesh(*subject_.model, vessel_ids(), *size,
+                                                  volume_ ? volume_->options() : pipeline::VolumeOptions());
     lines << (subject_.kind == ExportKind::mesh
                   ? tr("About %1 cells, %2 triangles on their surface.")
-                        .arg(about(estimate.tetrahedra), about(estimate.triangles))
+                        .arg(about(estimate.tetrahedra + estimate.prisms), about(estimate.triangles))
                   : tr("About %1 triangles.").arg(about(estimate.triangles)));
   }
   if (subject_.one_is_running) lines << tr("The export that is under way will be given up for this one.");
@@ -410,6 +361,7 @@ ExportChoice MeshingDialog::choice() const {
   made.formats.clear();
   for (const QCheckBox* box : formats_)
     if (box->isChecked()) made.formats.push_back(box->text().toLower().toStdString());
+  if (volume_) made.volume = volume_->choice();
   made.folder = folder_->text().toStdString();
   return made;
 }
@@ -423,6 +375,7 @@ pipeline::MeshExportOptions MeshingDialog::mesh_options() const {
   pipeline::MeshExportOptions options;
   options.vessels = vessel_ids();
   options.sizing = *sizing();
+  options.volume = volume_->options();
   options.surface_formats = choice().formats;
   return options;
 }

@@ -1,6 +1,8 @@
 #pragma once
 /// \file What is asked before a surface or a mesh is made.
 
+#include "meshing_fields.h"
+
 #include "ostia/pipeline/vessel_export.h"
 
 #include <QDialog>
@@ -40,6 +42,7 @@ struct ExportChoice {
   Size size = Size::by_calibre;
   double edges_around = 16.0, edge_mm = 0.4;
   std::vector<std::string> formats{"vtp", "stl"};
+  VolumeChoice volume;  ///< of a mesh
   std::filesystem::path folder;
 };
 
@@ -58,11 +61,6 @@ class MeshingDialog final : public QDialog {
   void showEvent(QShowEvent* event) override;
 
  private:
-  struct Field {
-    QWidget* input = nullptr;
-    QLabel* trouble = nullptr;
-  };
-  Field add_field(QFormLayout* form, const QString& text, QWidget* row, QWidget* input, const QString& name);
   void add_vessels(QFormLayout* form, const ExportChoice& last);
   void add_ends(QFormLayout* form, const ExportChoice& last);
   void add_size(QFormLayout* form, const ExportChoice& last);
@@ -71,7 +69,6 @@ class MeshingDialog final : public QDialog {
   void choose_folder();
   void check();
   void fit();
-  static bool mark(const Field& field, const QString& trouble);
   QString size_trouble() const;
   QString formats_trouble() const;
   QString folder_trouble() const;
@@ -87,7 +84,8 @@ class MeshingDialog final : public QDialog {
   std::vector<QCheckBox*> formats_;
   QLineEdit* folder_ = nullptr;
   QPushButton* go_ = nullptr;
-  Field size_field_, formats_field_, folder_field_;
+  VolumeFields* volume_ = nullptr;
+  ExportField size_field_, formats_field_, folder_field_;
 };
 
 }  // namespace ostia::workstation

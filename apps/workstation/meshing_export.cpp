@@ -6,6 +6,7 @@
 
 #include <QDesktopServices>
 #include <QUrl>
+#include <cmath>
 #include <new>
 
 namespace ostia::workstation {
@@ -20,8 +21,12 @@ namespace {
     QT_TRANSLATE_NOOP("stages", "caps"),
     QT_TRANSLATE_NOOP("stages", "centerlines of the cut lumen"),
     QT_TRANSLATE_NOOP("stages", "remeshing"),
+    QT_TRANSLATE_NOOP("stages", "flow extensions"),
+    QT_TRANSLATE_NOOP("stages", "boundary layers"),
     QT_TRANSLATE_NOOP("stages", "tetrahedra"),
+    QT_TRANSLATE_NOOP("stages", "quadratic elements"),
     QT_TRANSLATE_NOOP("stages", "quality"),
+    QT_TRANSLATE_NOOP("stages", "mesh quality"),
 };
 
 QString job_name(ExportKind kind) {
@@ -95,13 +100,22 @@ void MeshingExport::start(ExportKind kind, const MeshingDialog& dialog,
       });
 }
 
+QString MeshingExport::mesh_line(const QString& name, const pipeline::ExportSummary& summary) {
+  QStringList parts{tr("%1: %2 cells, least dihedral angle %3\u00b0")
+                        .arg(name)
+                        .arg(summary.tetrahedra + summary.prisms)
+                        .arg(summary.min_dihedral_deg, 0, 'f', 1)};
+  if (summary.full_layers)
+    parts << tr("layers of full thickness on %1 % of the wall")
+                 .arg(std::floor(1000.0 * *summary.full_layers + 1e-6) / 10.0, 0, 'f', 1);
+  parts << (summary.verdict.ok() ? tr("quality passed") : tr("quality not passed"));
+  return parts.join(QStringLiteral(", "));
+}
+
 void MeshingExport::tell(ExportKind kind, const fs::path& folder, const pipeline::ExportSummary& summary) {
   const QString path = QString::fromStdString(folder.string());
   const QString name = QString::fromStdString(folder.filename().string());
-  const QString text = kind == ExportKind::mesh ? tr("%1: %2 cells, least dihedral angle %3\u00b0")
-                                                      .arg(name)
-                                                      .arg(summary.tetrahedra)
-                                                      .arg(summary.min_dihedral_deg, 0, 'f', 1)
+  const QString text = kind == ExportKind::mesh ? mesh_line(name, summary)
                                                 : tr("%1: %2 triangles").arg(name).arg(summary.triangles);
   QStringList notes{path};
   for (const std::string& warning : summary.warnings) notes << QString::fromStdString(warning);

@@ -22,6 +22,7 @@ class MeshingExport final : public QObject {
  private:
   void start(ExportKind kind, const MeshingDialog& dialog,
              const std::shared_ptr<const lumen::LumenModel>& model);
+  static QString mesh_line(const QString& name, const pipeline::ExportSummary& summary);
   void tell(ExportKind kind, const std::filesystem::path& folder, const pipeline::ExportSummary& summary);
   MainWindow& window_;
   std::map<ExportKind, ExportChoice> last_;

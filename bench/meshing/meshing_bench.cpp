@@ -1,6 +1,7 @@
 // From the surface of a coronary-like tree (marching cubes at 0.25 mm, about 60,000 triangles) to a mesh.
 #include "shape_tree.h"
 
+#include "ostia/meshing/boundary_layer.h"
 #include "ostia/meshing/caps.h"
 #include "ostia/meshing/clip.h"
 #include "ostia/meshing/remesh.h"
@@ -55,15 +56,39 @@ void remesh_coronary(benchmark::State& state) {
   state.counters["self_intersections"] = static_cast<double>(quality.self_intersections);
 }
 
-void tetrahedralize_coronary(benchmark::State& state, double ratio) {
-  const auto surface = remesh(coronary().capped, sizes(ratio)).surface;
-  TetrahedralizeReport report;
-  for (auto _ : state) report = tetrahedralize(surface).report;
-  state.counters["triangles_in"] = static_cast<double>(surface.mesh.triangles.size());
+void show(benchmark::State& state, const TetrahedralizeReport& report) {
   state.counters["tetrahedra"] = static_cast<double>(report.quality.tetrahedra);
   state.counters["min_dihedral_deg"] = report.quality.min_dihedral_deg;
+  state.counters["max_dihedral_deg"] = report.quality.max_dihedral_deg;
   state.counters["before_mending_deg"] = report.min_dihedral_before_mending_deg;
+  state.counters["below_10_deg"] = static_cast<double>(report.below_10_deg);
+  state.counters["above_12_deg_share"] =
+      1.0 - static_cast<double>(report.below_12_deg) / static_cast<double>(report.quality.tetrahedra);
   state.counters["min_scaled_jacobian"] = report.quality.min_scaled_jacobian;
+  state.counters["mesher_s"] = report.mesher_seconds;
+  state.counters["mending_s"] = report.mending_seconds;
+  state.counters["mending_over_mesher"] = report.mending_seconds / report.mesher_seconds;
+}
+
+void tetrahedralize_coronary(benchmark::State& state, double ratio, Mesher mesher) {
+  const auto surface = remesh(coronary().capped, sizes(ratio)).surface;
+  TetrahedralizeOptions options;
+  options.mesher = mesher;
+  TetrahedralizeReport report;
+  for (auto _ : state) report = tetrahedralize(surface, options).report;
+  state.counters["triangles_in"] = static_cast<double>(surface.mesh.triangles.size());
+  if (report.surface_meshed_anew) state.counters["deviation_mm"] = report.surface_deviation_mm;
+  show(state, report);
+}
+
+void fill_layers_of_coronary(benchmark::State& state, int layers, double thickness) {
+  const auto surface = remesh(coronary().capped, sizes(ratio_for_44k)).surface;
+  BoundaryLayerOptions options;
+  options.layers = layers;
+  options.thickness = thickness;
+  TetrahedralizeReport report;
+  for (auto _ : state) report = fill_with_layers(surface, options).tetrahedra;
+  show(state, report);
 }
 
 }  // namespace
@@ -75,13 +100,23 @@ BENCHMARK(remesh_coronary)
     ->MeasureProcessCPUTime()
     ->UseRealTime()
     ->Iterations(1);
-BENCHMARK_CAPTURE(tetrahedralize_coronary, 0, 0.4)
+BENCHMARK_CAPTURE(tetrahedralize_coronary, 0, 0.4, Mesher::tetgen)
     ->Name("tetrahedra, 14k triangles")
     ->Unit(benchmark::kSecond)
     ->UseRealTime()
     ->Iterations(1);
-BENCHMARK_CAPTURE(tetrahedralize_coronary, 1, ratio_for_44k)
+BENCHMARK_CAPTURE(tetrahedralize_coronary, 1, ratio_for_44k, Mesher::tetgen)
     ->Name("tetrahedra, 44k triangles")
+    ->Unit(benchmark::kSecond)
+    ->UseRealTime()
+    ->Iterations(1);
+BENCHMARK_CAPTURE(fill_layers_of_coronary, 0, 3, 1.0)
+    ->Name("three layers of prisms and tetrahedra, 44k triangles")
+    ->Unit(benchmark::kSecond)
+    ->UseRealTime()
+    ->Iterations(1);
+BENCHMARK_CAPTURE(tetrahedralize_coronary, 2, 0.4, Mesher::mesh3)
+    ->Name("tetrahedra by the second mesher, 14k triangles")
     ->Unit(benchmark::kSecond)
     ->UseRealTime()
     ->Iterations(1);

@@ -2,6 +2,7 @@
 
 #include "ostia/imaging/image_file.h"
 #include "ostia/io/centerline_file.h"
+#include "ostia/io/surface_file.h"
 #include "ostia/phantom/phantom_case.h"
 #include "ostia/session/case_file.h"
 #include "ostia/session/image_digest.h"
@@ -64,6 +65,18 @@ TEST(ExtractCommand, WhatHoldsNoHeartIsRefusedAndNoCaseIsLeft) {
   EXPECT_EQ(done.code, 3) << done.err;
   EXPECT_THAT(done.err, AllOf(HasSubstr("noise.nrrd"), HasSubstr("the image is noise")));
   EXPECT_THAT(names_in(folder), ::testing::ElementsAre("noise.nrrd"));
+}
+
+TEST(ExtractCommand, ASurfaceIsRefusedAsOneHoweverLargeItIs) {
+  const auto folder = temporary_folder("extract");
+  const geometry::TriMesh corner{{{0.0, 0.0, 0.0}, {0.02, 0.0, 0.0}, {0.0, 0.02, 0.0}, {0.0, 0.0, 0.02}},
+                                 {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};
+  io::write_surface(folder / "in_metres.stl", corner);
+  const Outcome done = ostia({"extract", "in_metres.stl", "-o", "heart.ostia"}, {folder, ""});
+  EXPECT_EQ(done.code, 3);
+  EXPECT_THAT(done.err, AllOf(HasSubstr("in_metres.stl is a surface and no CT image"),
+                              ::testing::Not(HasSubstr("--units"))));
+  EXPECT_THAT(names_in(folder), ::testing::ElementsAre("in_metres.stl"));
 }
 
 }  // namespace

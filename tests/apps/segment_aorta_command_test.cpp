@@ -58,6 +58,21 @@ TEST(SegmentAortaCommand, TheAortaOfAPatientBecomesAMaskOrASurfaceWithoutASeed) 
   EXPECT_NEAR(geometry::volume(io::read_surface(folder / "aorta.stl").surface.mesh) / 1000.0, ml, 0.03 * ml);
 }
 
+TEST(SegmentAortaCommand, LessThanAChestHasIsToldToBeLookedAt) {
+  const auto folder = temporary_folder("aorta");
+  const imaging::ImageVolume heart = coarse_scan().image;
+  const auto& size = heart.geometry.size;
+  const Setting in{folder, ""};
+  for (const std::int64_t mm : {24, 75}) {
+    const auto slices = static_cast<std::int64_t>(static_cast<double>(mm) / heart.geometry.spacing[2]);
+    imaging::write_image(folder / "top.nrrd",
+                         imaging::cropped(heart, {{0, 0, size[2] - slices}, {size[0], size[1], size[2]}}));
+    const Outcome done = ostia({"segment", "top.nrrd", "-o", "aorta.nrrd", "--aorta"}, in);
+    EXPECT_EQ(done.code, 0) << done.err;
+    EXPECT_EQ(done.err.find("of aorta were found; look whether") != std::string::npos, mm < 40) << done.err;
+  }
+}
+
 TEST(SegmentAortaCommand, WhatHasNoAortaIsRefusedByNameAndNothingIsLeft) {
   const auto folder = temporary_folder("aorta");
   imaging::ImageVolume water;

@@ -76,6 +76,46 @@ TEST(SurfaceCommands, RepairTurnsTrianglesAndDropsCopiesAndParts) {
   EXPECT_NEAR(mended["volume_mm3"].get<double>(), 1000.0, 1e-3);
 }
 
+TEST(SurfaceCommands, RepairTellsWhatItDidAsJson) {
+  const auto folder = temporary_folder("repair_json");
+  TriMesh mesh = box();
+  mesh.triangles.pop_back();
+  mesh.triangles.push_back(mesh.triangles[0]);
+  io::write_surface(folder / "a.ply", mesh);
+  const Outcome done =
+      ostia({"convert", "a.ply", "b.ply", "--repair", "--fill-holes", "20", "--json"}, {folder, ""});
+  ASSERT_EQ(done.code, 0) << done.err;
+  const Json told = Json::parse(done.out);
+  EXPECT_EQ(told["triangles"], 12);
+  EXPECT_EQ(told["repair"]["left"], "none");
+  ASSERT_EQ(told["repair"]["steps"].size(), 2u);
+  EXPECT_EQ(told["repair"]["steps"][0]["what"], "duplicate_triangles_dropped");
+  EXPECT_EQ(told["repair"]["steps"][1]["what"], "holes_filled");
+  EXPECT_EQ(told["repair"]["steps"][1]["count"], 1);
+}
+
+TEST(SurfaceCommands, SmoothsAndSubdivides) {
+  const auto folder = temporary_folder("subdivide");
+  io::write_surface(folder / "a.ply", box());
+  const Outcome done =
+      ostia({"convert", "a.ply", "b.ply", "--subdivide", "2", "--smooth", "1", "--json"}, {folder, ""});
+  ASSERT_EQ(done.code, 0) << done.err;
+  EXPECT_EQ(Json::parse(done.out)["subdivided"], 2);
+  EXPECT_EQ(Json::parse(done.out)["smoothed"], 1);
+  const Json fine = Json::parse(ostia({"info", "b.ply", "--json"}, {folder, ""}).out);
+  EXPECT_EQ(fine["triangles"], 12 * 16);
+  EXPECT_EQ(fine["open_edges"], 0);
+  EXPECT_LT(fine["volume_mm3"].get<double>(), 900.0);  // corners are rounded
+  geometry::FacedSurface faced{
+      box(), std::vector<std::int32_t>(12, 1), {{1, "wall", geometry::FaceKind::wall}}};
+  faced.face_ids[0] = faced.face_ids[1] = 2;
+  faced.faces.push_back({2, "inlet_a", geometry::FaceKind::inlet});
+  io::write_surface(folder / "faced.vtp", faced);
+  const Outcome refused = ostia({"convert", "faced.vtp", "c.vtp", "--subdivide", "1"}, {folder, ""});
+  EXPECT_EQ(refused.code, 3);
+  EXPECT_THAT(refused.err, HasSubstr("before the ends are capped"));
+}
+
 TEST(SurfaceCommands, CheckJudgesByItsExitCode) {
   const auto folder = temporary_folder("check");
   TriMesh open = box();

@@ -1,7 +1,7 @@
 #pragma once
 /// \file Small exact shapes for the tests of pictures.
 
-#include "ostia/geometry/tri_mesh.h"
+#include "ostia/geometry/mixed_mesh.h"
 
 #include <array>
 #include <cmath>
@@ -46,8 +46,8 @@ inline geometry::TriMesh sheet(double half_width, double half_height, double y =
 }
 
 /// A box of nx x ny x nz unit cubes from the origin, six tetrahedra each.
-inline geometry::VolumeMesh tetrahedral_box(int nx, int ny, int nz) {
-  geometry::VolumeMesh mesh;
+inline geometry::MixedMesh tetrahedral_box(int nx, int ny, int nz) {
+  geometry::MixedMesh mesh;
   const auto id = [&](int i, int j, int k) { return i + (nx + 1) * (j + (ny + 1) * k); };
   for (int k = 0; k <= nz; ++k) {
     for (int j = 0; j <= ny; ++j) {

@@ -4,7 +4,6 @@
 #include "mesh_export_meshes.h"
 
 #include "ostia/geometry/mixed_mesh_split.h"
-#include "ostia/io/volume_mesh_file.h"
 
 #include <signal.h>
 #include <sys/resource.h>
@@ -103,17 +102,6 @@ TEST(MeshExport, NamesTheVolumeAsTold) {
   EXPECT_NE(core::read_file(path).find("3 8 \"Wall_0\""), std::string::npos);
 }
 
-TEST(MeshExport, TheVtuOfTetrahedraIsOurOwnVolumeMesh) {
-  const MixedMesh mesh = column_of_tetrahedra();
-  const fs::path path = target("m.vtu");
-  export_mesh(mesh, MeshFormat::vtu, path);
-  const geometry::VolumeMesh read = read_volume_mesh(path);
-  EXPECT_EQ(read.points, mesh.points);
-  EXPECT_EQ(read.tetrahedra, mesh.tetrahedra);
-  EXPECT_EQ(read.boundary, mesh.triangles);
-  EXPECT_EQ(read.boundary_face_ids, mesh.triangle_face_ids);
-}
-
 TEST(MeshExport, RefusesWhatAFormatCannotHold) {
   const MixedMesh prisms = column_with_prisms(), curved = quadratic(column_of_tetrahedra());
   expect_export_refused(prisms, MeshFormat::mesh_complete, {"mesh-complete", "prisms", "split"});
@@ -123,6 +111,29 @@ TEST(MeshExport, RefusesWhatAFormatCannotHold) {
     expect_export_refused(quadratic(prisms), format, {std::string(name_of(format)), "18-node", "--order 1"});
   }
   expect_export_refused(quadratic(prisms), MeshFormat::abaqus, {"Abaqus", "18-node prisms", "split"});
+}
+
+TEST(MeshExport, SaysBeforehandWhatAFormatCannotHold) {
+  const MixedMesh prisms = column_with_prisms(), tetrahedra = column_of_tetrahedra();
+  for (const MeshFormat format : mesh_formats) {
+    for (const MixedMesh* linear : {&prisms, &tetrahedra}) {
+      for (const bool second : {false, true}) {
+        const MixedMesh mesh = second ? quadratic(*linear) : *linear;
+        std::string beforehand, writing;
+        try {
+          require_holds(format, !mesh.prisms.empty(), second);
+        } catch (const InvalidInput& error) {
+          beforehand = error.what();
+        }
+        try {
+          export_mesh(mesh, format, target("out"));
+        } catch (const InvalidInput& error) {
+          writing = error.what();
+        }
+        EXPECT_EQ(beforehand, writing) << name_of(format);
+      }
+    }
+  }
 }
 
 TEST(MeshExport, RefusesMeshesThatAreNotSound) {

@@ -1,6 +1,7 @@
 // Layers and tetrahedra as one mesh.
 #include "boundary_layer_shapes.h"
 
+#include "ostia/core/error.h"
 #include "ostia/geometry/mesh_topology.h"
 #include "ostia/meshing/boundary_layer.h"
 
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <map>
+#include <string>
 
 namespace ostia::meshing {
 namespace {
@@ -98,6 +100,8 @@ TEST(FillWithLayers, MakesOneConformingMeshOfAFork) {
   expect_conforming(surface, filled);
   EXPECT_GE(filled.layers.min_scaled_jacobian, 0.1);
   EXPECT_EQ(filled.tetrahedra.quality.inverted, 0u);
+  EXPECT_GT(filled.tetrahedra.quality.min_dihedral_deg, 15.0);  // thick layers squeeze the inner triangles
+  EXPECT_EQ(filled.tetrahedra.below_12_deg, 0u);
   EXPECT_TRUE(std::equal(filled.mesh.triangles.begin(), filled.mesh.triangles.begin() + 100,
                          surface.mesh.triangles.begin()));
   // Each face keeps its id and its area: the wall's triangles, the caps' triangles and quadrilaterals.
@@ -117,6 +121,23 @@ TEST(FillWithLayers, MakesOneConformingMeshOfATightStenosis) {
   options.layers = 5;
   options.thickness = 0.6;
   expect_conforming(surface, fill_with_layers(surface, options));
+}
+
+TEST(FillWithLayers, TellsTheWayOutWhereTheInsideCannotBeFilled) {
+  const geometry::FacedSurface surface = structured_tube(12, 1.0, 0.5, 6);
+  TetrahedralizeOptions inside;
+  inside.mesher = Mesher::mesh3;
+  EXPECT_THROW(fill_with_layers(surface, {}, inside), InvalidInput);
+#if !defined(__SANITIZE_ADDRESS__)
+  inside.mesher = Mesher::automatic;
+  inside.limits.memory_bytes = 12ULL << 20;
+  try {
+    fill_with_layers(surface, {}, inside);
+    FAIL() << "TetGen cannot have run";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("fewer or thinner layers"), std::string::npos) << error.what();
+  }
+#endif
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Layers of prisms in real lumina, remeshed by the pipeline.
+// Layers of prisms in real lumina, remeshed by the pipeline, and the tetrahedra inside them.
 #include "shared_data.h"
 
 #include "ostia/meshing/boundary_layer.h"
@@ -29,11 +29,16 @@ void expect_layers_of_all_settings(const geometry::FacedSurface& surface) {
     BoundaryLayerOptions options;
     options.layers = setting.layers;
     options.thickness = setting.thickness;
-    const BoundaryLayerReport report = boundary_layer(surface, options).report;
+    const FilledWithLayers filled = fill_with_layers(surface, options);
+    const BoundaryLayerReport& report = filled.layers;
     const std::string name = std::to_string(setting.layers) + " layers";
     ::testing::Test::RecordProperty(name + " least scaled Jacobian",
                                     std::to_string(report.min_scaled_jacobian));
     ::testing::Test::RecordProperty(name + " full share", std::to_string(report.full_share));
+    ::testing::Test::RecordProperty(name + " smallest dihedral angle",
+                                    std::to_string(filled.tetrahedra.quality.min_dihedral_deg));
+    EXPECT_EQ(filled.tetrahedra.below_10_deg, 0u) << name;
+    EXPECT_LE(1000 * filled.tetrahedra.below_12_deg, filled.tetrahedra.quality.tetrahedra) << name;
     EXPECT_EQ(report.inverted, 0u) << name;
     EXPECT_GE(report.min_scaled_jacobian, 0.1) << name;
     if (setting.layers == 2) {

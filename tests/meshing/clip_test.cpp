@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 namespace ostia::meshing {
@@ -176,6 +177,42 @@ TEST(ClipEnds, RefuseHolesInsideOutSurfacesAndBadOptions) {
   const core::TaskContext task;
   task.cancel();
   EXPECT_THROW(clip_ends(surface, tree, {}, task), Cancelled);
+}
+
+TEST(ClipEnds, TakesPlanesThatAPersonPlaced) {
+  const auto shape = geometry::straight_tube(20.0, 1.5);
+  for (const bool open : {false, true}) {
+    const auto surface = geometry::surface_of(shape, 0.25, open);
+    ClipOptions options;
+    options.planes.push_back({"outlet_tube", {0.1, 0.0, 12.0}, {0.0, -0.6, -2.0}});
+    const ClippedSurface clipped = clip_ends(surface, tree_of(shape), options);
+    ASSERT_EQ(clipped.ends.size(), 2u);
+    EXPECT_EQ(clipped.ends[0].was_open, open);
+    EXPECT_FALSE(clipped.ends[1].was_open);
+    const Vec3 normal = Vec3(0.0, 0.6, 2.0).normalized();
+    EXPECT_LT((clipped.ends[1].plane.normal - normal).norm(), 1e-12);
+    for (const std::int32_t v : clipped.ends[1].loop) {
+      // Up to its hair's breadth of keeping clear of points, on the plane as it was placed.
+      const Vec3& p = clipped.mesh.points[static_cast<std::size_t>(v)];
+      EXPECT_NEAR((p - Vec3(0.1, 0.0, 12.0)).dot(normal), 0.0, 0.01 * 1.5);
+    }
+  }
+}
+
+TEST(ClipEnds, RefusesPlanesThatCannotBe) {
+  const auto shape = geometry::straight_tube(20.0, 1.5);
+  const auto surface = geometry::surface_of(shape, 0.3, false);
+  const auto clip = [&](const PlacedPlane& plane) {
+    ClipOptions options;
+    options.reach_radii = 100.0;
+    options.planes.push_back(plane);
+    return clip_ends(surface, tree_of(shape), options);
+  };
+  EXPECT_THROW(clip({"outlet_other", {0, 0, 12}, {0, 0, 1}}), InvalidInput);
+  EXPECT_THROW(clip({"outlet_tube", {0, 0, 12}, {0, 0, 0}}), InvalidInput);
+  EXPECT_THROW(clip({"outlet_tube", {0, 0, std::nan("")}, {0, 0, 1}}), InvalidInput);
+  EXPECT_THROW(clip({"outlet_tube", {9, 0, 12}, {0, 0, 1}}), GeometryError);  // beside the lumen
+  EXPECT_THROW(clip({"outlet_tube", {0, 0, 12}, {1, 0, 0}}), GeometryError);  // along it
 }
 
 }  // namespace

@@ -58,6 +58,36 @@ TEST(Remesher, CollapsesToTheTargetLengthAndKeepsTheBorder) {
     }
 }
 
+TEST(Remesher, LeavesAFrozenBorderAsItIs) {
+  const auto shape = geometry::straight_tube(10.0, 1.5);
+  const auto tube = geometry::structured_surface(shape.tubes[0], 30, 0.3);
+  for (const double edge : {0.15, 0.6}) {  // finer and coarser than the borders
+    Remesher remesher(tube, std::vector<double>(tube.points.size(), edge));
+    ASSERT_EQ(remesher.curves().size(), 2u);
+    remesher.freeze(1);
+    for (int i = 0; i < 3; ++i) {
+      remesher.split_long();
+      remesher.collapse_short();
+      remesher.flip_for_valence();
+      remesher.relax();
+    }
+    remesher.mend(32.0);
+    const EditMesh& mesh = remesher.mesh();
+    const auto& frozen = remesher.curves()[1];
+    for (std::size_t i = 0; i < frozen.vertices.size(); ++i) {
+      const std::int32_t v = frozen.vertices[i];
+      ASSERT_TRUE(mesh.alive_vertex(v));
+      EXPECT_EQ(mesh.at(v), frozen.points[i]);
+      EXPECT_EQ(mesh.target(mesh.out(v)), frozen.vertices[(i + 1) % frozen.vertices.size()]);
+    }
+    // The other one has taken the length asked for.
+    std::size_t points = 0;
+    for (const BorderCurve& curve : border_curves(mesh))
+      if (remesher.curve(curve.vertices[0]) == 0) points = curve.vertices.size();
+    EXPECT_NEAR(static_cast<double>(points), 2.0 * std::numbers::pi * 1.5 / edge, 0.3 * 9.42 / edge);
+  }
+}
+
 TEST(Remesher, MendsATriangleWithASmallAngle) {
   // A plane grid with one point pushed near its neighbour.
   auto grid = grid_surface(8);

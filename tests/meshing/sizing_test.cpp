@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <memory>
 #include <random>
 
 namespace ostia::meshing {
@@ -86,6 +88,82 @@ TEST(TargetEdgeLengths, FollowTheRadius) {
     EXPECT_GE(length, 0.4);
     EXPECT_LE(length, 0.45);
   }
+}
+
+TEST(TargetEdgeLengths, OfAnAneurysmCanBeBoundInRadiiOfItsVessel) {
+  const auto tube = geometry::straight_tube(20.0, 1.0);
+  geometry::TriMesh mesh = geometry::structured_surface(tube.tubes[0], 24, 0.4);
+  for (geometry::Vec3& p : mesh.points)
+    if (std::abs(p.z() - 10.0) < 3.0) p.head<2>() *= 3.0;
+  SizingOptions options;
+  options.most_distance_radii = 1.5;
+  for (const double length : target_edge_lengths(mesh, TubeFunction(tree_of(tube)), options))
+    EXPECT_LE(length, 0.4 * 1.5 + 1e-9);
+  options.most_distance_radii = 0.5;
+  EXPECT_THROW(validate(options), InvalidInput);
+}
+
+TEST(TargetEdgeLengths, AreShorterWhereTheSurfaceBendsMoreThanItsVessel) {
+  // A ridge around a tube; on its top it bends by 2 * 0.15 / 0.3^2 = 3.3 / mm, the tube by 1.
+  const auto shape = geometry::straight_tube(20.0, 1.0);
+  auto mesh = geometry::structured_surface(shape.tubes[0], 48, 0.05);
+  for (geometry::Vec3& p : mesh.points)
+    p.head<2>() *= 1.0 + 0.15 * std::exp(-std::pow((p.z() - 10.0) / 0.3, 2));
+  const TubeFunction tube(tree_of(shape));
+  SizingOptions options;
+  options.gradation = 2.0;
+  const auto plain = target_edge_lengths(mesh, tube, options);
+  options.curvature_ratio = options.edge_ratio;
+  options.curvature_reach = 0.2;
+  const auto bent = target_edge_lengths(mesh, tube, options);
+  double most = 1.0;
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    EXPECT_LE(bent[i], plain[i] + 1e-12);
+    const double z = mesh.points[i].z();
+    if (std::abs(z - 6.0) < 2.0) {  // a tube as before
+      EXPECT_NEAR(bent[i], plain[i], 0.03 * plain[i]) << z;
+    }
+    if (std::abs(z - 10.0) < 0.03) most = std::min(most, bent[i] / plain[i]);
+  }
+  EXPECT_LT(most, 0.5);
+  options.curvature_ratio = 0.01;
+  EXPECT_THROW(validate(options), InvalidInput);
+}
+
+TEST(TargetEdgeLengths, AreShorterAtAFocusAndAsBeforeBeyondItsReach) {
+  const auto shape = geometry::straight_tube(30.0, 1.0);
+  const auto mesh = geometry::structured_surface(shape.tubes[0], 24, 0.25);
+  SizingOptions options;
+  options.gradation = 2.0;
+  options.foci = {{geometry::Vec3(0, 0, 15), 5.0, 0.4}};
+  const auto lengths = target_edge_lengths(mesh, TubeFunction(tree_of(shape)), options);
+  for (std::size_t i = 0; i < lengths.size(); ++i) {
+    const double far = (mesh.points[i] - options.foci[0].place).norm() / 5.0;
+    EXPECT_NEAR(lengths[i], 0.4 * (far < 1.0 ? 0.4 + 0.6 * far : 1.0), 0.005);
+  }
+  for (const SizeFocus& bad :
+       {SizeFocus{{0, 0, 0}, 0.0, 0.5}, SizeFocus{{0, 0, 0}, 1.0, 0.0}, SizeFocus{{0, 0, 0}, 1.0, 1.5}}) {
+    options.foci = {bad};
+    EXPECT_THROW(validate(options), InvalidInput);
+  }
+}
+
+TEST(TargetEdgeLengths, AreThoseOfAnArrayOnAnotherSurface) {
+  const auto shape = geometry::straight_tube(20.0, 1.0);
+  SizeArray array{geometry::structured_surface(shape.tubes[0], 32, 0.2), {}};
+  for (const geometry::Vec3& p : array.surface.points) array.edge_mm.push_back(0.1 + 0.01 * p.z());
+  SizingOptions options;
+  options.array = std::make_shared<const SizeArray>(array);
+  const auto mesh = geometry::structured_surface(shape.tubes[0], 20, 0.33);
+  const auto lengths = target_edge_lengths(mesh, TubeFunction(tree_of(shape)), options);
+  for (std::size_t i = 0; i < lengths.size(); ++i)
+    EXPECT_NEAR(lengths[i], 0.1 + 0.01 * mesh.points[i].z(), 1e-3);
+  array.edge_mm[7] = 0.0;
+  options.array = std::make_shared<const SizeArray>(array);
+  EXPECT_THROW(validate(options), InvalidInput);
+  array.edge_mm.pop_back();
+  options.array = std::make_shared<const SizeArray>(array);
+  EXPECT_THROW(validate(options), InvalidInput);
 }
 
 TEST(TargetEdgeLengths, GrowNoFasterThanTheGradation) {

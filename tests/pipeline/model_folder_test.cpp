@@ -58,8 +58,8 @@ TEST(ModelFolder, RefusesWhereItCannotWrite) {
 TEST(ModelFolder, MeshFolderTellsAFailedGate) {
   const fs::path folder = testing::temporary_folder("model") / "mesh";
   MeshedLumen meshed = builtin_model().meshed;
-  meshed.verdict.reasons.push_back("made to fail");
-  EXPECT_EQ(write_mesh_folder(folder, meshed, key(), 1.0), ExitCode::quality_failed);
+  meshed.quality.verdict.reasons.push_back("made to fail");
+  EXPECT_EQ(write_mesh_folder(folder, meshed, builtin_options(), key(), 1.0), ExitCode::quality_failed);
   EXPECT_EQ(already_done(folder, key()), ExitCode::quality_failed);
 }
 

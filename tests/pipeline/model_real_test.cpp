@@ -86,7 +86,7 @@ TEST(ModelReal, AscendingAortaOfACta) {
   ModelOptions options;
   options.branches = {{Vec3(8.5, -187.6, 675.2), std::nullopt, Vec3(5.6, -177.9, 720.2)}};
   const Model model = build_model(load(path), options);
-  EXPECT_TRUE(model.meshed.verdict.ok()) << model.meshed.verdict.summary();
+  EXPECT_TRUE(model.meshed.quality.verdict.ok()) << model.meshed.quality.verdict.summary();
   ASSERT_EQ(model.meshed.centerlines.lines.size(), 1u);
   EXPECT_GT(model.meshed.centerlines.lines[0].abscissa.back(), 25.0);
 }
@@ -97,7 +97,7 @@ TEST(ModelReal, CarotidSurface) {
   EXPECT_THROW(build_model(source, {}), GeometryError);  // six non-manifold edges and a loose part
   source.surface = repaired(source.surface).mesh;
   const Model model = build_model(std::move(source), {});
-  EXPECT_TRUE(model.meshed.verdict.ok()) << model.meshed.verdict.summary();
+  EXPECT_TRUE(model.meshed.quality.verdict.ok()) << model.meshed.quality.verdict.summary();
   EXPECT_EQ(model.meshed.centerlines.tree.vessels.size(), 2u);
 }
 
@@ -106,7 +106,7 @@ TEST(ModelReal, DescendingAortaFromADicomFolder) {
   ModelOptions options;
   options.branches = {{Vec3(-4.3, -12.3, -273.0), std::nullopt, Vec3(-0.2, 8.7, -210.4)}};
   const Model model = build_model(load(testing::unpacked(zip)), options);
-  EXPECT_TRUE(model.meshed.verdict.ok()) << model.meshed.verdict.summary();
+  EXPECT_TRUE(model.meshed.quality.verdict.ok()) << model.meshed.quality.verdict.summary();
 }
 
 TEST(ModelReal, LungArteryHasItsHalfMaximumDiameter) {
@@ -116,7 +116,7 @@ TEST(ModelReal, LungArteryHasItsHalfMaximumDiameter) {
   const Source source = load(testing::unpacked(zip));
   const auto image = source.image;
   const Model model = build_model(source, options);
-  EXPECT_TRUE(model.meshed.verdict.ok()) << model.meshed.verdict.summary();
+  EXPECT_TRUE(model.meshed.quality.verdict.ok()) << model.meshed.quality.verdict.summary();
   const Centerline& axis = model.meshed.centerlines.lines.at(0);
   for (int place = 1; place <= 10; ++place) {
     const std::size_t at = axis.size() * static_cast<std::size_t>(place) / 11;

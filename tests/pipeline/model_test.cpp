@@ -41,12 +41,12 @@ void expect_error(Source source, const ModelOptions& options, ExitCode code, con
 
 TEST(Model, BuiltinCaseBecomesAValidMesh) {
   const Model& model = builtin_model();
-  EXPECT_TRUE(model.meshed.verdict.ok()) << model.meshed.verdict.summary();
+  EXPECT_TRUE(model.meshed.quality.verdict.ok()) << model.meshed.quality.verdict.summary();
   EXPECT_EQ(model.meshed.centerlines.tree.vessels.size(), 2u);
-  EXPECT_EQ(model.meshed.surface_quality.open_edges, 0u);
-  EXPECT_EQ(model.meshed.surface_quality.self_intersections, 0u);
-  EXPECT_GE(model.meshed.surface_quality.min_angle_deg, 20.0);
-  EXPECT_EQ(model.meshed.volume_quality.inverted, 0u);
+  EXPECT_EQ(model.meshed.quality.surface.open_edges, 0u);
+  EXPECT_EQ(model.meshed.quality.surface.self_intersections, 0u);
+  EXPECT_GE(model.meshed.quality.surface.min_angle_deg, 20.0);
+  EXPECT_EQ(model.meshed.quality.volume.inverted(), 0u);
   ASSERT_EQ(model.meshed.mesh.faces.size(), 4u);
   EXPECT_EQ(model.meshed.mesh.faces[0].name, "wall");
   int inlets = 0, outlets = 0;
@@ -60,8 +60,8 @@ TEST(Model, BuiltinCaseBecomesAValidMesh) {
 
 TEST(Model, VolumeIsThatOfItsSurface) {
   const Model& model = builtin_model();
-  EXPECT_NEAR(geometry::volume(model.meshed.mesh), geometry::volume(model.meshed.surface.mesh),
-              1e-6 * geometry::volume(model.meshed.mesh));
+  EXPECT_NEAR(model.meshed.quality.volume.volume_mm3(), geometry::volume(model.meshed.surface.mesh),
+              1e-6 * model.meshed.quality.volume.volume_mm3());
 }
 
 TEST(Model, OpenTubeGoesFromItsEndToItsEnd) {
@@ -69,9 +69,73 @@ TEST(Model, OpenTubeGoesFromItsEndToItsEnd) {
   options.sizing.edge_ratio = 0.25;  // chords of a quarter of the radius take 1 % from a circle's area
   const Model model = build_model(
       surface_source(geometry::surface_of(geometry::straight_tube(20.0, 2.0), 0.4, true)), options);
-  EXPECT_TRUE(model.meshed.verdict.ok()) << model.meshed.verdict.summary();
-  EXPECT_NEAR(geometry::volume(model.meshed.mesh), std::numbers::pi * 4.0 * 20.0,
+  EXPECT_TRUE(model.meshed.quality.verdict.ok()) << model.meshed.quality.verdict.summary();
+  EXPECT_NEAR(model.meshed.quality.volume.volume_mm3(), std::numbers::pi * 4.0 * 20.0,
               0.02 * std::numbers::pi * 80.0);
+}
+
+/// A tube of 20 mm, radius 2 mm, with layers as given.
+Model tube_with(const VolumeOptions& volume) {
+  ModelOptions options;
+  options.volume = volume;
+  return build_model(surface_source(geometry::surface_of(geometry::straight_tube(20.0, 2.0), 0.4, true)),
+                     options);
+}
+
+TEST(Model, LayersArePrismsOnTheWall) {
+  VolumeOptions volume;
+  volume.layers.emplace();
+  volume.layers->layers = 3;
+  volume.layers->thickness = 0.5;
+  const Model model = tube_with(volume);
+  const MeshQuality& quality = model.meshed.quality;
+  EXPECT_TRUE(quality.verdict.ok()) << quality.verdict.summary();
+  const std::size_t wall = wall_of(model.meshed.surface).triangles.size();
+  EXPECT_EQ(model.meshed.mesh.prisms.size(), 3 * wall);
+  ASSERT_TRUE(quality.layers);
+  EXPECT_NEAR(quality.layers->full_share, 1.0, 1e-9);
+  EXPECT_EQ(quality.volume.inverted(), 0u);
+  EXPECT_NEAR(quality.volume.volume_mm3(), geometry::volume(model.meshed.surface.mesh),
+              1e-3 * quality.volume.volume_mm3());
+  ASSERT_EQ(quality.volume.faces.size(), 3u);
+  for (std::size_t cap : {1u, 2u}) {  // 16 chords around take 2.6 % from a circle
+    EXPECT_NEAR(quality.volume.faces[cap].area_mm2, 4.0 * std::numbers::pi, 0.04 * 4.0 * std::numbers::pi);
+    EXPECT_GT(quality.volume.faces[cap].quads, 0u);
+  }
+  volume.split_prisms = true;
+  const Model split = tube_with(volume);
+  EXPECT_TRUE(split.meshed.mesh.prisms.empty());
+  EXPECT_EQ(split.meshed.mesh.tetrahedra.size(), model.meshed.mesh.tetrahedra.size() + 9 * wall);
+  EXPECT_NEAR(split.meshed.quality.volume.volume_mm3(), quality.volume.volume_mm3(), 1e-2);
+}
+
+TEST(Model, WhatCannotBeMeshedIsToldBeforeAnything) {
+  const auto refused = [](const VolumeOptions& volume, const std::string& part) {
+    ModelOptions options;
+    options.volume = volume;
+    Source nothing;  // would be refused as well, but later
+    nothing.kind = SourceKind::surface;
+    expect_error(nothing, options, ExitCode::bad_input, part);
+  };
+  VolumeOptions volume;
+  volume.order = 3;
+  refused(volume, "1 or 2");
+  volume.order = 2;
+  volume.formats = {io::MeshFormat::openfoam};
+  refused(volume, "--order 1");
+  volume = {};
+  volume.split_prisms = true;
+  refused(volume, "no prisms");
+  volume = {};
+  volume.layers.emplace();
+  volume.formats = {io::MeshFormat::mesh_complete};
+  refused(volume, "--split-prisms");
+  volume.formats.clear();
+  volume.layers->thickness = 4.0;
+  refused(volume, "thickness");
+  volume.layers->thickness = 0.5;
+  volume.layers->layers = 21;
+  refused(volume, "layers");
 }
 
 TEST(Model, ClosedSurfaceNeedsItsEnds) {
@@ -80,7 +144,7 @@ TEST(Model, ClosedSurfaceNeedsItsEnds) {
   EXPECT_THROW(build_model(surface_source(closed), options), Error);
   options.source = Vec3(0, 0, 0);
   options.targets = {Vec3(0, 0, 20)};
-  EXPECT_TRUE(build_model(surface_source(closed), options).meshed.verdict.ok());
+  EXPECT_TRUE(build_model(surface_source(closed), options).meshed.quality.verdict.ok());
 }
 
 TEST(Model, IsTheSameForAnyNumberOfThreads) {

@@ -9,6 +9,8 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
+#include <utility>
 
 namespace ostia::pipeline {
 namespace {
@@ -65,6 +67,92 @@ TEST(Repair, CutsAFoldOut) {
   const Repaired out = repaired(bad);
   expect_sound(out.mesh);
   EXPECT_NEAR(geometry::area(out.mesh), geometry::area(tube()), 0.03 * geometry::area(tube()));
+}
+
+std::size_t count_of(const Repaired& out, const std::string& what) {
+  for (const RepairStep& step : out.steps)
+    if (step.what == what) return step.count;
+  return 0;
+}
+
+TEST(Repair, CountsWhatItDid) {
+  TriMesh bad = tube();
+  const auto n = static_cast<std::int32_t>(bad.points.size());
+  bad.points.emplace_back(std::numeric_limits<double>::quiet_NaN(), 0, 0);
+  bad.points.push_back(
+      bad.points[static_cast<std::size_t>(bad.triangles[7][0])]);  // a crack along a triangle's corner
+  bad.points.emplace_back(30, 0, 0);
+  bad.points.emplace_back(31, 0, 0);
+  bad.points.emplace_back(30, 1, 0);
+  bad.triangles[7][0] = n + 1;
+  std::swap(bad.triangles[40][0], bad.triangles[40][1]);
+  std::swap(bad.triangles[80][0], bad.triangles[80][1]);
+  bad.triangles.push_back({0, 1, n});
+  bad.triangles.push_back({0, 2, n});
+  bad.triangles.push_back({n + 2, n + 3, n + 4});
+  bad.triangles.push_back(bad.triangles[3]);
+  bad.triangles.push_back({3, 3, 4});
+  const Repaired out = repaired(bad);
+  expect_sound(out.mesh);
+  EXPECT_EQ(count_of(out, "not_finite_triangles_dropped"), 2u);
+  EXPECT_EQ(count_of(out, "equal_points_joined"), 1u);
+  EXPECT_EQ(count_of(out, "degenerate_triangles_dropped"), 1u);
+  EXPECT_EQ(count_of(out, "duplicate_triangles_dropped"), 1u);
+  EXPECT_EQ(count_of(out, "triangles_turned"), 2u);
+  EXPECT_EQ(count_of(out, "small_parts_triangles_dropped"), 1u);
+  EXPECT_EQ(out.steps.size(), 6u);
+  EXPECT_EQ(out.left, "none");
+  ASSERT_EQ(out.done.size(), out.steps.size());
+  EXPECT_EQ(out.done[0], "triangles with points that are not finite dropped: 2");
+}
+
+TEST(Repair, TurnsAnInwardTubeOutward) {
+  TriMesh inward = tube();
+  for (geometry::Triangle& t : inward.triangles) std::swap(t[1], t[2]);
+  const Repaired out = repaired(inward);
+  EXPECT_EQ(count_of(out, "triangles_turned_outward"), inward.triangles.size());
+  EXPECT_GT(geometry::volume(geometry::fill_holes(out.mesh).mesh), 0.0);
+}
+
+TEST(Repair, TakesApartWhatOnlyTouches) {
+  const TriMesh one = tube();
+  TriMesh other = one;
+  // Side by side, with what lies farthest out in common.
+  std::size_t touching = 0;
+  for (std::size_t p = 0; p < one.points.size(); ++p)
+    if (one.points[p].x() > one.points[touching].x()) touching = p;
+  for (Vec3& p : other.points) p = Vec3(2.0 * one.points[touching].x() - p.x(), p.y(), p.z());
+  for (geometry::Triangle& t : other.triangles) std::swap(t[1], t[2]);
+  const TriMesh both = geometry::welded(geometry::merged(one, other), 1e-9);
+  const geometry::SurfaceFaults faults = geometry::find_faults(both, false);
+  ASSERT_GT(faults.non_manifold_vertices + faults.non_manifold_edges, 0u);
+  RepairOptions options;
+  options.keep_parts = true;
+  const Repaired out = repaired(both, options);
+  EXPECT_GE(count_of(out, "points_split"), 1u);
+  EXPECT_EQ(geometry::find_faults(out.mesh, false).components, 2u);
+  EXPECT_EQ(out.left, "none");
+  expect_sound(repaired(both).mesh);
+}
+
+TEST(Repair, FillsHolesUpToTheWidthAsked) {
+  TriMesh holed = tube();
+  const Vec3 middle(2.0, 0.0, 6.0);
+  std::erase_if(holed.triangles, [&](const geometry::Triangle& t) {
+    return (holed.points[static_cast<std::size_t>(t[0])] - middle).norm() < 0.8;
+  });
+  const auto loops = [](const TriMesh& mesh) { return geometry::boundary_loops(mesh).size(); };
+  EXPECT_EQ(loops(repaired(holed).mesh), 3u);
+  RepairOptions options;
+  options.fill_holes_up_to_mm = 3.0;
+  const Repaired out = repaired(holed, options);
+  expect_sound(out.mesh);
+  EXPECT_EQ(count_of(out, "holes_filled"), 1u);
+  options.fill_holes_up_to_mm = 4.1;  // the ends are 4 mm wide
+  EXPECT_EQ(count_of(repaired(holed, options), "holes_filled"), 3u);
+  EXPECT_EQ(loops(repaired(holed, options).mesh), 0u);
+  options.fill_holes_up_to_mm = -1.0;
+  EXPECT_THROW(repaired(holed, options), InvalidInput);
 }
 
 TEST(Repair, SaysWhenNothingIsLeft) {

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <set>
+
 namespace ostia::pipeline {
 namespace {
 
@@ -28,6 +30,21 @@ TEST(ReportJson, ParametersAreCanonical) {
   EXPECT_EQ(parameters_json(options), parameters_json(builtin_options()));
   options.sizing.edge_ratio = 0.31;
   EXPECT_NE(parameters_json(options), parameters_json(builtin_options()));
+  const auto another = [](const auto& change) {
+    ModelOptions changed = builtin_options();
+    change(changed.volume);
+    return parameters_json(changed);
+  };
+  std::set<std::string> all{parameters_json(builtin_options())};
+  all.insert(another([](VolumeOptions& v) { v.order = 2; }));
+  all.insert(another([](VolumeOptions& v) { v.formats = {io::MeshFormat::openfoam}; }));
+  for (const double thickness : {0.25, 0.5})
+    for (const bool split : {false, true})
+      all.insert(another([&](VolumeOptions& v) {
+        v.layers.emplace().thickness = thickness;
+        v.split_prisms = split;
+      }));
+  EXPECT_EQ(all.size(), 7u);
   SourceOptions reading;
   reading.unit_mm = 10.0;
   EXPECT_NE(parameters_json(builtin_options(), reading), parameters_json(builtin_options()));

@@ -105,15 +105,15 @@ TEST(VesselExport, AMeshHasTheTubesVolumeAndNamedEnds) {
   options.sizing = even_edges(0.2);
   const ExportSummary made = export_mesh(folder, tube(), options);
   EXPECT_TRUE(made.verdict.ok()) << made.verdict.summary();
-  const geometry::VolumeMesh mesh = io::read_volume_mesh(folder / "mesh.vtu");
+  const geometry::MixedMesh mesh = io::read_volume_mesh(folder / "mesh.vtu");
   EXPECT_EQ(mesh.tetrahedra.size(), made.tetrahedra);
   EXPECT_THAT(names(mesh.faces), ElementsAre("wall", "inlet_LAD", "outlet_LAD"));
-  const meshing::VolumeQuality quality = meshing::volume_quality(mesh);
-  EXPECT_NEAR(quality.volume_mm3, model_volume(), 0.01 * model_volume());
-  EXPECT_NEAR(quality.volume_mm3, tube_volume(), 0.02 * tube_volume());
-  EXPECT_EQ(quality.min_dihedral_deg, made.min_dihedral_deg);
+  const meshing::MixedQuality quality = meshing::mixed_quality(mesh);
+  EXPECT_NEAR(quality.volume_mm3(), model_volume(), 0.01 * model_volume());
+  EXPECT_NEAR(quality.volume_mm3(), tube_volume(), 0.02 * tube_volume());
+  EXPECT_EQ(quality.tetrahedra.min_dihedral_deg, made.min_dihedral_deg);
   const auto surface = io::read_surface(folder / "lumen.stl").surface.mesh;
-  EXPECT_NEAR(geometry::volume(surface), quality.volume_mm3, 1e-3 * quality.volume_mm3);
+  EXPECT_NEAR(geometry::volume(surface), quality.volume_mm3(), 1e-3 * quality.volume_mm3());
   EXPECT_FALSE(geometry::find_fault(io::read_centerlines(folder / "centerlines.vtp")));
   EXPECT_EQ(already_done(folder, mesh_job(tube(), options)), ExitCode::ok);
   options.sizing = even_edges(0.5);
@@ -130,7 +130,7 @@ TEST(VesselExport, SeveralTreesGetAFolderEach) {
   EXPECT_THAT(names(right.faces), ElementsAre("wall", "inlet_RCA", "outlet_RCA"));
   EXPECT_EQ(left.tetrahedra.size() + right.tetrahedra.size(), made.tetrahedra);
   EXPECT_TRUE(fs::exists(folder / "manifest.json"));
-  EXPECT_NEAR(meshing::volume_quality(left).volume_mm3 + meshing::volume_quality(right).volume_mm3,
+  EXPECT_NEAR(meshing::mixed_quality(left).volume_mm3() + meshing::mixed_quality(right).volume_mm3(),
               made.volume_mm3, 1e-6);
 }
 
@@ -146,6 +146,32 @@ TEST(VesselExport, TheEstimateIsNearWhatIsMade) {
     EXPECT_NEAR(estimate.tetrahedra / static_cast<double>(made.tetrahedra), 1.0, 0.2);
     EXPECT_NEAR(estimate.triangles / static_cast<double>(made.triangles), 1.0, 0.2);
   }
+}
+
+TEST(VesselExport, LayersAndFormatsOfSeveralTrees) {
+  const fs::path folder = testing::temporary_folder("export") / "mesh";
+  MeshExportOptions options;
+  options.volume.layers.emplace();
+  options.volume.layers->thickness = 0.5;
+  options.volume.formats = {io::MeshFormat::openfoam, io::MeshFormat::gmsh4};
+  const ExportSummary made = export_mesh(folder, heart(), options);
+  EXPECT_TRUE(made.verdict.ok()) << made.verdict.summary();
+  EXPECT_GT(made.prisms, 0U);
+  ASSERT_TRUE(made.full_layers);
+  EXPECT_GT(*made.full_layers, 0.9);
+  std::size_t prisms = 0;
+  for (const char* tree : {"LAD", "RCA"}) {
+    prisms += io::read_volume_mesh(folder / tree / "mesh.vtu").prisms.size();
+    EXPECT_TRUE(fs::exists(folder / tree / "openfoam" / "constant" / "polyMesh" / "faces")) << tree;
+    EXPECT_TRUE(fs::exists(folder / tree / "mesh-gmsh4.msh")) << tree;
+  }
+  EXPECT_EQ(prisms, made.prisms);
+  const MeshEstimate estimate = estimate_mesh(heart(), {}, options.sizing, options.volume);
+  EXPECT_NEAR(estimate.prisms / static_cast<double>(made.prisms), 1.0, 0.2);
+  EXPECT_NEAR(estimate.tetrahedra / static_cast<double>(made.tetrahedra), 1.0, 0.2);
+  EXPECT_EQ(already_done(folder, mesh_job(heart(), options)), ExitCode::ok);
+  options.volume.layers->layers = 3;
+  EXPECT_FALSE(already_done(folder, mesh_job(heart(), options)));
 }
 
 TEST(VesselExport, SurfacesEndAsAsked) {

@@ -63,7 +63,7 @@ TEST_P(RemovedBranches, OfAWholeHeartAreFoundAgain) {
 INSTANTIATE_TEST_SUITE_P(Phantoms, RemovedBranches,
                          ::testing::Values(Heart{1, phantom::Preset::full, 0.2},
                                            Heart{2, phantom::Preset::full, 0.2},
-                                           Heart{1, phantom::Preset::small, 0.35}));
+                                           Heart{1, phantom::Preset::small, 0.2}));
 
 }  // namespace
 }  // namespace ostia::segmentation

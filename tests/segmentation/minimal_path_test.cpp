@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -98,6 +99,14 @@ TEST(MinimalPath, CalciumDoesNotAttract) {
     const Vec3& p = path.points[i];
     EXPECT_LT((geometry::closest(f.branch, p).point - p).norm(), 0.8) << "point " << i;
   }
+}
+
+TEST(MinimalPath, ABranchBrighterThanItsTreeIsNotTakenForCalcium) {
+  Fork f = fork({Pipe{fork().branch, 1.1, 480.0}});
+  const MinimalPath path = path_to_tree(f.image, f.branch.back(), f.tree);
+  EXPECT_LT(mean_distance(path.points, f.branch), 0.15);
+  EXPECT_LT(std::count(path.near_calcium.begin(), path.near_calcium.end(), 1),
+            static_cast<std::ptrdiff_t>(path.points.size() / 10));
 }
 
 TEST(MinimalPath, WayBetweenTwoEndsOfAHelix) {

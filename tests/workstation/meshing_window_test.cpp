@@ -13,7 +13,7 @@
 #include "ostia/io/surface_file.h"
 #include "ostia/io/volume_mesh_file.h"
 #include "ostia/lumen/tree_surface.h"
-#include "ostia/meshing/quality.h"
+#include "ostia/meshing/mixed_quality.h"
 #include "ostia/session/image_digest.h"
 
 #include <gmock/gmock.h>
@@ -24,9 +24,11 @@
 #include <QDoubleSpinBox>
 #include <QLabel>
 #include <QLineEdit>
+#include <QListWidget>
 #include <QMessageBox>
 #include <QPushButton>
 #include <QRegularExpression>
+#include <QSpinBox>
 #include <QTest>
 #include <QToolButton>
 #include <atomic>
@@ -127,17 +129,76 @@ TEST_F(MeshingWindow, AMeshIsMadeByTheDialogWhileTheCaseIsEdited) {
   ASSERT_FALSE(idle());
   test->bench().edit(lumen::VesselRename{4, "RCA"});  // the snapshot keeps its name
   ASSERT_TRUE(wait_until([&] { return idle(); }, 120000));
-  const geometry::VolumeMesh mesh = io::read_volume_mesh(folder / "tube-mesh" / "mesh.vtu");
+  const geometry::MixedMesh mesh = io::read_volume_mesh(folder / "tube-mesh" / "mesh.vtu");
   EXPECT_THAT(names(mesh.faces), ElementsAre("wall", "inlet_LAD", "outlet_LAD"));
-  const meshing::VolumeQuality quality = meshing::volume_quality(mesh);
-  EXPECT_NEAR(quality.volume_mm3, enclosed, 0.01 * enclosed);
+  const meshing::MixedQuality quality = meshing::mixed_quality(mesh);
+  EXPECT_NEAR(quality.volume_mm3(), enclosed, 0.01 * enclosed);
   const auto surface = io::read_surface(folder / "tube-mesh" / "lumen.vtp").surface;
-  EXPECT_NEAR(quality.volume_mm3, geometry::volume(surface.mesh), 0.01 * quality.volume_mm3);
-  EXPECT_GT(quality.min_dihedral_deg, 5.0);
+  EXPECT_NEAR(quality.volume_mm3(), geometry::volume(surface.mesh), 0.01 * quality.volume_mm3());
+  EXPECT_GT(quality.tetrahedra.min_dihedral_deg, 5.0);
   const QString line = left_line("mesh");
   EXPECT_TRUE(line.contains("tube-mesh")) << line.toStdString();
-  EXPECT_TRUE(line.contains(QString::number(quality.tetrahedra))) << line.toStdString();
-  EXPECT_TRUE(line.contains(QString::number(quality.min_dihedral_deg, 'f', 1))) << line.toStdString();
+  EXPECT_TRUE(line.contains(QString::number(quality.tetrahedra.count))) << line.toStdString();
+  EXPECT_TRUE(line.contains(QString::number(quality.tetrahedra.min_dihedral_deg, 'f', 1)))
+      << line.toStdString();
+}
+
+/// Clicks the mark of a row, as a person does.
+void tick(QListWidget* list, const QString& text) {
+  const auto found = list->findItems(text, Qt::MatchStartsWith);
+  ASSERT_EQ(found.size(), 1) << text.toStdString();
+  list->scrollToItem(found[0]);
+  const QRect row = list->visualItemRect(found[0]);
+  const Qt::CheckState before = found[0]->checkState();
+  QTest::mouseClick(list->viewport(), Qt::LeftButton, Qt::NoModifier,
+                    QPoint(row.left() + row.height() / 2, row.center().y()));
+  EXPECT_NE(found[0]->checkState(), before) << text.toStdString();
+}
+
+TEST_F(MeshingWindow, LayersAndFormatsAreAskedForAndTold) {
+  open_case();
+  ask("file.export_mesh");
+  auto* go = in_dialog<QPushButton>("go");
+  auto* formats = in_dialog<QListWidget>("mesh_formats");
+  EXPECT_FALSE(in_dialog<QDoubleSpinBox>("layer_thickness")->isEnabled()) << "there are no layers yet";
+  const QString without = in_dialog<QLabel>("estimate")->text();
+  type(in_dialog<QSpinBox>("layers"), "2");
+  EXPECT_TRUE(in_dialog<QDoubleSpinBox>("layer_thickness")->isEnabled());
+  EXPECT_NE(in_dialog<QLabel>("estimate")->text(), without);
+  type(in_dialog<QDoubleSpinBox>("layer_thickness"), "5");
+  EXPECT_TRUE(trouble("layers").contains("up to 3")) << trouble("layers").toStdString();
+  EXPECT_FALSE(go->isEnabled());
+  type(in_dialog<QDoubleSpinBox>("layer_thickness"), "0.4");
+  EXPECT_TRUE(trouble("layers").isEmpty());
+  type(in_dialog<QSpinBox>("layers"), "50");
+  EXPECT_TRUE(trouble("layers").contains("up to 20")) << trouble("layers").toStdString();
+  type(in_dialog<QSpinBox>("layers"), "2");
+  tick(formats, "SimVascular");
+  EXPECT_TRUE(trouble("mesh_formats").contains("prisms")) << trouble("mesh_formats").toStdString();
+  EXPECT_FALSE(go->isEnabled());
+  tick(formats, "SimVascular");
+  tick(formats, "OpenFOAM");
+  pick(in_dialog<QComboBox>("order"), 1);
+  EXPECT_TRUE(trouble("mesh_formats").contains("quadratic")) << trouble("mesh_formats").toStdString();
+  pick(in_dialog<QComboBox>("order"), 0);
+  EXPECT_TRUE(go->isEnabled());
+  click_go();
+  ASSERT_TRUE(wait_until([&] { return idle() && !left_line("mesh").isEmpty(); }, 120000));
+  const geometry::MixedMesh mesh = io::read_volume_mesh(folder / "tube-mesh" / "mesh.vtu");
+  EXPECT_EQ(mesh.prisms.size(),
+            2 * std::count(mesh.triangle_face_ids.begin(), mesh.triangle_face_ids.end(), 1));
+  EXPECT_TRUE(fs::exists(folder / "tube-mesh" / "openfoam" / "constant" / "polyMesh" / "faces"));
+  const QString line = left_line("mesh");
+  EXPECT_TRUE(line.contains(QString::number(mesh.prisms.size() + mesh.tetrahedra.size())))
+      << line.toStdString();
+  EXPECT_TRUE(line.contains("full thickness on 100.0 %")) << line.toStdString();
+  EXPECT_TRUE(line.contains("quality passed")) << line.toStdString();
+  QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+  ask("file.export_mesh");
+  EXPECT_EQ(in_dialog<QSpinBox>("layers")->value(), 2) << "the choice is kept";
+  EXPECT_EQ(in_dialog<QListWidget>("mesh_formats")->findItems("OpenFOAM", Qt::MatchExactly)[0]->checkState(),
+            Qt::Checked);
+  QTest::keyClick(dialog, Qt::Key_Escape);
 }
 
 TEST_F(MeshingWindow, CancelledMidwayThereAreNoFilesAndTheWindowWasNeverStuck) {

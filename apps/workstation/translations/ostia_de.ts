@@ -1336,14 +1336,6 @@
         <translation>Oberfläche als</translation>
     </message>
     <message>
-        <source>VTU, with the names of the faces</source>
-        <translation>VTU, mit den Namen der Flächen</translation>
-    </message>
-    <message>
-        <source>Mesh as</source>
-        <translation>Netz als</translation>
-    </message>
-    <message>
         <source>Folder that is made</source>
         <translation>Ordner, der gemacht wird</translation>
     </message>
@@ -1457,6 +1449,18 @@
     <message>
         <source>A mesh to look at</source>
         <translation>Ein Netz zum Ansehen</translation>
+    </message>
+    <message>
+        <source>layers of full thickness on %1 % of the wall</source>
+        <translation>Schichten in voller Dicke auf %1 % der Wand</translation>
+    </message>
+    <message>
+        <source>quality passed</source>
+        <translation>Qualität bestanden</translation>
+    </message>
+    <message>
+        <source>quality not passed</source>
+        <translation>Qualität nicht bestanden</translation>
     </message>
 </context>
 <context>
@@ -2415,6 +2419,93 @@
     </message>
 </context>
 <context>
+    <name>ostia::workstation::VolumeFields</name>
+    <message>
+        <source>STL, a file for each face</source>
+        <translation>STL, eine Datei je Fläche</translation>
+    </message>
+    <message>
+        <source>Layers of prisms on the wall</source>
+        <translation>Prismenschichten auf der Wand</translation>
+    </message>
+    <message>
+        <source>none</source>
+        <translation>keine</translation>
+    </message>
+    <message>
+        <source>Flat prisms on the wall, where the shear stress is. Where there is no room they get thinner, never fewer.</source>
+        <translation>Flache Prismen auf der Wand, wo die Schubspannung ist. Wo kein Platz ist, werden sie dünner, nie weniger.</translation>
+    </message>
+    <message>
+        <source>Thickness of all layers</source>
+        <translation>Dicke aller Schichten</translation>
+    </message>
+    <message>
+        <source>thickness </source>
+        <translation>Dicke </translation>
+    </message>
+    <message>
+        <source> of an edge</source>
+        <translation> einer Kante</translation>
+    </message>
+    <message>
+        <source>as tetrahedra</source>
+        <translation>als Tetraeder</translation>
+    </message>
+    <message>
+        <source>Each prism becomes three tetrahedra, for programs that know nothing else</source>
+        <translation>Jedes Prisma wird zu drei Tetraedern, für Programme, die nichts anderes kennen</translation>
+    </message>
+    <message>
+        <source>&amp;Layers</source>
+        <translation>&amp;Schichten</translation>
+    </message>
+    <message>
+        <source>Order of the elements</source>
+        <translation>Ordnung der Elemente</translation>
+    </message>
+    <message>
+        <source>linear</source>
+        <translation>linear</translation>
+    </message>
+    <message>
+        <source>quadratic, curved along the wall</source>
+        <translation>quadratisch, der Wand entlang gekrümmt</translation>
+    </message>
+    <message>
+        <source>Ele&amp;ments</source>
+        <translation>Ele&amp;mente</translation>
+    </message>
+    <message>
+        <source>Formats of the mesh</source>
+        <translation>Formate des Netzes</translation>
+    </message>
+    <message>
+        <source>VTU, which ParaView reads, is always written; it keeps the names of the faces</source>
+        <translation>VTU, das ParaView liest, wird immer geschrieben; es behält die Namen der Flächen</translation>
+    </message>
+    <message>
+        <source>Mesh as VTU, and</source>
+        <translation>Netz als VTU und</translation>
+    </message>
+    <message>
+        <source>%1 layers are too many. Choose up to %2.</source>
+        <translation>%1 Schichten sind zu viele. Wählen Sie höchstens %2.</translation>
+    </message>
+    <message>
+        <source>Layers of %1 edges together cannot be made. Choose a thickness above 0 and up to %2.</source>
+        <translation>Schichten von zusammen %1 Kanten sind nicht möglich. Wählen Sie eine Dicke über 0 bis %2.</translation>
+    </message>
+    <message>
+        <source>%1 cannot hold quadratic elements. Choose linear ones, or take the mark away.</source>
+        <translation>%1 kann keine quadratischen Elemente aufnehmen. Wählen Sie lineare, oder entfernen Sie das Häkchen.</translation>
+    </message>
+    <message>
+        <source>%1 cannot hold these prisms. Choose layers as tetrahedra, or take the mark away.</source>
+        <translation>%1 kann diese Prismen nicht aufnehmen. Wählen Sie Schichten als Tetraeder, oder entfernen Sie das Häkchen.</translation>
+    </message>
+</context>
+<context>
     <name>presets</name>
     <message>
         <source>CTA</source>
@@ -2530,6 +2621,22 @@
     <message>
         <source>quality</source>
         <translation>Güte</translation>
+    </message>
+    <message>
+        <source>flow extensions</source>
+        <translation>Strömungsverlängerungen</translation>
+    </message>
+    <message>
+        <source>boundary layers</source>
+        <translation>Grenzschichten</translation>
+    </message>
+    <message>
+        <source>quadratic elements</source>
+        <translation>quadratische Elemente</translation>
+    </message>
+    <message>
+        <source>mesh quality</source>
+        <translation>Netzqualität</translation>
     </message>
 </context>
 <context>

@@ -4,6 +4,7 @@
 #include "ostia/figure/plot.h"
 #include "ostia/figure/scene.h"
 #include "ostia/figure/slice_figure.h"
+#include "ostia/geometry/mixed_mesh_sides.h"
 #include "ostia/geometry/polyline.h"
 #include "ostia/imaging/image_file.h"
 #include "ostia/io/centerline_file.h"
@@ -27,10 +28,7 @@ const Color golden_color{0.90, 0.62, 0.00};  // Okabe-Ito orange
 const Color result_color{0.34, 0.71, 0.91};  // Okabe-Ito sky blue
 
 TriMesh mesh_of(const std::filesystem::path& path) {
-  if (path.extension() == ".vtu") {
-    geometry::VolumeMesh mesh = io::read_volume_mesh(path);
-    return {std::move(mesh.points), std::move(mesh.boundary)};
-  }
+  if (path.extension() == ".vtu") return geometry::boundary_triangles(io::read_volume_mesh(path));
   return io::read_surface(path).surface.mesh;
 }
 

@@ -7,6 +7,7 @@
 #include "ostia/evaluation/axis_error.h"
 #include "ostia/evaluation/frame_hint.h"
 #include "ostia/evaluation/surface_distance.h"
+#include "ostia/geometry/mixed_mesh_sides.h"
 #include "ostia/geometry/polyline.h"
 #include "ostia/io/centerline_file.h"
 #include "ostia/io/contour_file.h"
@@ -38,10 +39,7 @@ void explain(const std::vector<Vec3>& golden, const std::vector<Vec3>& result, C
 }
 
 TriMesh mesh_of(const std::filesystem::path& path) {
-  if (path.extension() == ".vtu") {
-    geometry::VolumeMesh mesh = io::read_volume_mesh(path);
-    return {std::move(mesh.points), std::move(mesh.boundary)};
-  }
+  if (path.extension() == ".vtu") return geometry::boundary_triangles(io::read_volume_mesh(path));
   return io::read_surface(path).surface.mesh;
 }
 

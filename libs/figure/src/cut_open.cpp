@@ -1,9 +1,9 @@
 #include "ostia/figure/cut_open.h"
 
 #include "ostia/core/error.h"
+#include "ostia/geometry/mixed_mesh_sides.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <string>
@@ -27,31 +27,24 @@ void check_corners(const std::int32_t* corners, std::size_t count, std::size_t p
   }
 }
 
-/// A face of a tetrahedron: its corners sorted, to be found again from the other side, and outward.
-struct TetraFace {
-  geometry::Triangle key, outward;
-  bool kept = false;
-};
-
-std::vector<TetraFace> sorted_faces(const geometry::VolumeMesh& mesh, const std::vector<bool>& kept) {
-  static constexpr std::array<std::array<std::size_t, 3>, 4> kFaces{
-      {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};
-  std::vector<TetraFace> faces;
-  faces.reserve(4 * mesh.tetrahedra.size());
-  for (std::size_t i = 0; i < mesh.tetrahedra.size(); ++i) {
-    for (const auto& corners : kFaces) {
-      TetraFace face;
-      for (std::size_t k = 0; k < 3; ++k) face.outward[k] = mesh.tetrahedra[i][corners[k]];
-      face.key = face.outward;
-      std::sort(face.key.begin(), face.key.end());
-      face.kept = kept[i];
-      faces.push_back(face);
-    }
+/// Which elements lie behind the plane; tetrahedra first, then prisms.
+template <class Element>
+void add_kept(const std::vector<Element>& elements, const std::vector<Vec3>& points, const CutPlane& plane,
+              const Vec3& normal, const char* what, std::vector<bool>& kept) {
+  for (const Element& element : elements) {
+    check_corners(element.data(), element.size(), points.size(), what);
+    Vec3 centroid = Vec3::Zero();
+    for (const std::int32_t corner : element)
+      centroid += points[static_cast<std::size_t>(corner)] / static_cast<double>(element.size());
+    kept.push_back((centroid - plane.point).dot(normal) <= 0.0);
   }
-  std::sort(faces.begin(), faces.end(), [](const TetraFace& a, const TetraFace& b) {
-    return a.key != b.key ? a.key < b.key : a.outward < b.outward;
-  });
-  return faces;
+}
+
+void add_side(const geometry::MeshSide& side, CutPart& part) {
+  const auto& p = side.outward;
+  part.mesh.triangles.push_back({p[0], p[1], p[2]});
+  if (!side.triangle()) part.mesh.triangles.push_back({p[2], p[3], p[0]});
+  part.half_of_quad.resize(part.mesh.triangles.size(), !side.triangle());
 }
 
 /// The triangles with only the points that they use.
@@ -74,41 +67,42 @@ geometry::TriMesh compacted(const std::vector<Vec3>& points, std::vector<geometr
 
 }  // namespace
 
-CutMesh cut_open(const geometry::VolumeMesh& mesh, const CutPlane& plane) {
+CutMesh cut_open(const geometry::MixedMesh& mesh, const CutPlane& plane) {
   const Vec3 normal = unit_normal(plane);
-  if (mesh.tetrahedra.empty()) throw InvalidInput("a mesh without tetrahedra cannot be cut open");
-  std::vector<bool> kept(mesh.tetrahedra.size());
-  for (std::size_t i = 0; i < mesh.tetrahedra.size(); ++i) {
-    check_corners(mesh.tetrahedra[i].data(), 4, mesh.points.size(), "a tetrahedron");
-    Vec3 centroid = Vec3::Zero();
-    for (const std::int32_t corner : mesh.tetrahedra[i])
-      centroid += 0.25 * mesh.points[static_cast<std::size_t>(corner)];
-    kept[i] = (centroid - plane.point).dot(normal) <= 0.0;
-  }
-  const std::vector<TetraFace> faces = sorted_faces(mesh, kept);
-  std::vector<geometry::Triangle> boundary;
-  std::vector<geometry::Triangle> interior;
-  for (std::size_t first = 0; first < faces.size();) {
-    std::size_t last = first + 1;
-    while (last < faces.size() && faces[last].key == faces[first].key) ++last;
+  if (mesh.tetrahedra.empty() && mesh.prisms.empty())
+    throw InvalidInput("a mesh without elements cannot be cut open");
+  std::vector<bool> kept;
+  add_kept(mesh.tetrahedra, mesh.points, plane, normal, "a tetrahedron", kept);
+  add_kept(mesh.prisms, mesh.points, plane, normal, "a prism", kept);
+  const auto is_kept = [&](const geometry::MeshSide& side) {
+    return kept[static_cast<std::size_t>(side.element)];
+  };
+  const auto tetrahedra = static_cast<std::int32_t>(mesh.tetrahedra.size());
+  const std::vector<geometry::MeshSide> sides = geometry::sorted_sides(mesh);
+  CutMesh cut;
+  for (std::size_t first = 0, last = 0; first < sides.size(); first = last) {
+    while (last < sides.size() && sides[last].key == sides[first].key) ++last;
     if (last - first == 1) {
-      if (faces[first].kept) boundary.push_back(faces[first].outward);
-    } else if (faces[first].kept != faces[first + 1].kept) {
-      interior.push_back((faces[first].kept ? faces[first] : faces[first + 1]).outward);
+      if (is_kept(sides[first])) add_side(sides[first], cut.boundary);
+    } else if (is_kept(sides[first]) != is_kept(sides[first + 1])) {
+      const geometry::MeshSide& open = is_kept(sides[first]) ? sides[first] : sides[first + 1];
+      add_side(open, open.element < tetrahedra ? cut.interior : cut.layers);
     }
-    first = last;
   }
-  return {compacted(mesh.points, std::move(boundary)), compacted(mesh.points, std::move(interior))};
+  for (CutPart* part : {&cut.boundary, &cut.interior, &cut.layers})
+    part->mesh = compacted(mesh.points, std::move(part->mesh.triangles));
+  return cut;
 }
 
-std::vector<MeshActor> cut_actors(const geometry::VolumeMesh& mesh, const CutPlane& plane,
-                                  const Color& boundary, const Color& interior) {
+std::vector<MeshActor> cut_actors(const geometry::MixedMesh& mesh, const CutPlane& plane,
+                                  const Color& boundary, const Color& interior, const Color& layers) {
   CutMesh cut = cut_open(mesh, plane);
   std::vector<MeshActor> actors;
-  const auto add = [&](geometry::TriMesh& part, const Color& color, const char* label) {
-    if (part.triangles.empty()) return;
+  const auto add = [&](CutPart& part, const Color& color, const char* label) {
+    if (part.mesh.triangles.empty()) return;
     MeshActor actor;
-    actor.mesh = std::move(part);
+    actor.mesh = std::move(part.mesh);
+    actor.half_of_quad = std::move(part.half_of_quad);
     actor.color = color;
     actor.shading = Shading::flat;
     actor.edges = true;
@@ -116,7 +110,8 @@ std::vector<MeshActor> cut_actors(const geometry::VolumeMesh& mesh, const CutPla
     actors.push_back(std::move(actor));
   };
   add(cut.boundary, boundary, "boundary");
-  add(cut.interior, interior, "cut");
+  add(cut.interior, interior, mesh.prisms.empty() ? "cut" : "tetrahedra");
+  add(cut.layers, layers, "layers of prisms");
   return actors;
 }
 

@@ -158,8 +158,9 @@ class Renderer {
       p[k] = view_.project(actor.mesh.points[static_cast<std::size_t>(triangle[k])]);
     double nearest = INFINITY;
     double longest = 1e-12;
+    const bool half = !actor.half_of_quad.empty() && actor.half_of_quad[hit.triangle];
     for (std::size_t k = 0; k < 3; ++k) {
-      nearest = std::min(nearest, distance_to(at, p[k], p[(k + 1) % 3]));
+      if (k < 2 || !half) nearest = std::min(nearest, distance_to(at, p[k], p[(k + 1) % 3]));
       longest = std::max(longest, (p[(k + 1) % 3] - p[k]).norm());
     }
     const Vec2 a = p[1] - p[0];
@@ -216,6 +217,10 @@ void validate_actor(const MeshActor& actor) {
       }
     }
   }
+  if (!actor.half_of_quad.empty() && actor.half_of_quad.size() != actor.mesh.triangles.size())
+    throw InvalidInput(name + " says of " + std::to_string(actor.half_of_quad.size()) + " triangles of " +
+                       std::to_string(actor.mesh.triangles.size()) +
+                       " whether they are halves of quadrilaterals");
   if (!actor.triangle_colors.empty() && actor.triangle_colors.size() != actor.mesh.triangles.size()) {
     throw InvalidInput(name + " has " + std::to_string(actor.triangle_colors.size()) + " colours for " +
                        std::to_string(actor.mesh.triangles.size()) + " triangles");

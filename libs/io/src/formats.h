@@ -19,6 +19,11 @@ std::string stl_text(const geometry::TriMesh& mesh);
 std::string ply_text(const geometry::TriMesh& mesh);
 std::string vtp_text(const geometry::FacedSurface& surface);
 
+/// A face of a file: what its name begins with says what it is.
+geometry::Face face_named(std::int32_t id, const std::string& name);
+/// One that its file does not name: 1 is the wall.
+geometry::Face face_without_name(std::int32_t id);
+
 /// Throws InvalidInput "cannot read FILE: WHAT".
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& what);
 

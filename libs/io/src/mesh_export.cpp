@@ -52,24 +52,6 @@ const Format& entry(MeshFormat format) {
                      std::string(format.title) + " cannot hold " + element + "; " + way_out);
 }
 
-void check_holds(const Format& format, const MixedMesh& mesh) {
-  const bool prisms = !mesh.prisms.empty();
-  if (mesh.quadratic() && format.second == Second::none) {
-    refuse_format(format,
-                  prisms ? "quadratic elements (10-node tetrahedra, 18-node prisms)"
-                         : "quadratic elements (10-node tetrahedra)",
-                  "mesh with linear ones (--order 1) or take vtu, gmsh4 or xdmf");
-  }
-  if (prisms && !format.prisms)
-    refuse_format(format, "prisms beside tetrahedra (one cell type per mesh)",
-                  "split the prisms into tetrahedra or mesh without layers");
-  if (prisms && mesh.quadratic() && format.second == Second::tetrahedra)
-    refuse_format(
-        format, "18-node prisms",
-        "split the prisms into tetrahedra, mesh with linear elements (--order 1), or take vtu, gmsh4 or "
-        "xdmf");
-}
-
 bool letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
@@ -159,10 +141,27 @@ std::vector<std::string> safe_face_names(const std::vector<geometry::Face>& face
   return names;
 }
 
+void require_holds(MeshFormat format, bool prisms, bool quadratic) {
+  const Format& to = entry(format);
+  if (quadratic && to.second == Second::none) {
+    refuse_format(to,
+                  prisms ? "quadratic elements (10-node tetrahedra, 18-node prisms)"
+                         : "quadratic elements (10-node tetrahedra)",
+                  "mesh with linear ones (--order 1) or take vtu, gmsh4 or xdmf");
+  }
+  if (prisms && !to.prisms)
+    refuse_format(to, "prisms beside tetrahedra (one cell type per mesh)",
+                  "split the prisms into tetrahedra (--split-prisms) or mesh without layers");
+  if (prisms && quadratic && to.second == Second::tetrahedra)
+    refuse_format(to, "18-node prisms",
+                  "split the prisms into tetrahedra (--split-prisms), mesh with linear elements (--order 1), "
+                  "or take vtu, gmsh4 or xdmf");
+}
+
 MeshExportResult export_mesh(const MixedMesh& mesh, MeshFormat format, const fs::path& path,
                              const MeshExportOptions& options) {
   const Format& to = entry(format);
-  check_holds(to, mesh);
+  require_holds(format, !mesh.prisms.empty(), mesh.quadratic());
   const PreparedMesh prepared = prepare(mesh, options.title);
   if (to.extension.empty()) {
     core::StagedFolder folder(path);

@@ -7,11 +7,6 @@ namespace ostia::io {
 namespace fs = std::filesystem;
 namespace {
 
-/// Tetrahedron: the last two edges change places. Prism: edges 01 02 03 12 14 25 34 35 45, then 0143 2035
-/// 1254.
-constexpr NodeOrder gmsh_order = {{0, 1, 2, 3, 4, 5, 6, 7, 9, 8},
-                                  {0, 1, 2, 3, 4, 5, 6, 8, 12, 7, 13, 14, 9, 11, 10, 15, 17, 16}};
-
 int element_type(Shape shape, bool quadratic) {
   constexpr std::array<std::array<int, 2>, 4> types = {{{4, 11}, {6, 13}, {2, 9}, {3, 10}}};
   return types[static_cast<std::size_t>(shape)][quadratic ? 1 : 0];

@@ -1,6 +1,7 @@
 #include "mesh_prepared.h"
 
 #include "ostia/core/error.h"
+#include "ostia/geometry/mixed_mesh_sides.h"
 #include "ostia/io/mesh_export.h"
 
 #include <algorithm>
@@ -12,13 +13,10 @@ namespace ostia::io {
 namespace {
 
 using geometry::MixedMesh;
+using geometry::prism_sides;
+using geometry::tetrahedron_sides;
 
 constexpr std::size_t longest_title = 16;  // formats put the kind of element behind it
-
-constexpr std::array<std::array<int, 4>, 4> tetrahedron_sides = {
-    {{0, 2, 1, -1}, {0, 1, 3, -1}, {1, 2, 3, -1}, {0, 3, 2, -1}}};
-constexpr std::array<std::array<int, 4>, 5> prism_sides = {
-    {{0, 2, 1, -1}, {3, 4, 5, -1}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}}};
 
 [[noreturn]] void refuse_mesh(const std::string& what) {
   throw InvalidInput("cannot export the mesh: " + what);

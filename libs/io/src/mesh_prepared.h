@@ -24,6 +24,10 @@ struct NodeOrder {
 /// VTK's wedge runs the other way round: corners 1 and 2, 4 and 5 change places, and all between them.
 inline constexpr NodeOrder vtk_order = {{0, 1, 2, 3, 4, 5, 6, 7, 8, 9},
                                         {0, 2, 1, 3, 5, 4, 8, 7, 6, 11, 10, 9, 12, 14, 13, 17, 16, 15}};
+/// Gmsh. Tetrahedron: the last two edges change places. Prism: edges 01 02 03 12 14 25 34 35 45, then 0143
+/// 2035 1254.
+inline constexpr NodeOrder gmsh_order = {{0, 1, 2, 3, 4, 5, 6, 7, 9, 8},
+                                         {0, 1, 2, 3, 4, 5, 6, 8, 12, 7, 13, 14, 9, 11, 10, 15, 17, 16}};
 /// Exodus II and CGNS: the edges between a prism's triangles come before those of the second triangle.
 inline constexpr NodeOrder uprights_second_order = {
     {0, 1, 2, 3, 4, 5, 6, 7, 8, 9}, {0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 13, 14, 9, 10, 11, 15, 16, 17}};

@@ -38,6 +38,19 @@ void refuse(const fs::path& path, const std::string& what) {
   throw InvalidInput("cannot read " + path.string() + ": " + what);
 }
 
+geometry::Face face_named(std::int32_t id, const std::string& name) {
+  using geometry::FaceKind;
+  return {id, name,
+          name.starts_with("inlet")    ? FaceKind::inlet
+          : name.starts_with("outlet") ? FaceKind::outlet
+                                       : FaceKind::wall};
+}
+
+geometry::Face face_without_name(std::int32_t id) {
+  using geometry::FaceKind;
+  return {id, id == 1 ? "wall" : "face_" + std::to_string(id), id == 1 ? FaceKind::wall : FaceKind::outlet};
+}
+
 bool is_surface_file(const fs::path& path) {
   static constexpr std::array<std::string_view, 4> known{".stl", ".ply", ".obj", ".vtp"};
   return std::find(known.begin(), known.end(), lower_extension(path)) != known.end();

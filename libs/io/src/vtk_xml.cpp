@@ -297,24 +297,16 @@ void add_faces(vtkDataObject& data, const std::vector<geometry::Face>& faces) {
 }
 
 std::vector<geometry::Face> faces_of(vtkDataObject& data, const std::vector<std::int32_t>& ids) {
-  using geometry::FaceKind;
   std::vector<geometry::Face> faces;
   std::set<std::int32_t> missing(ids.begin(), ids.end());
   auto* numbers = vtkIntArray::SafeDownCast(data.GetFieldData()->GetAbstractArray("FaceIds"));
   auto* names = vtkStringArray::SafeDownCast(data.GetFieldData()->GetAbstractArray("FaceNames"));
   for (vtkIdType i = 0;
        numbers && names && i < std::min(numbers->GetNumberOfTuples(), names->GetNumberOfTuples()); ++i) {
-    const std::string name = names->GetValue(i);
-    const FaceKind kind = name.starts_with("inlet")    ? FaceKind::inlet
-                          : name.starts_with("outlet") ? FaceKind::outlet
-                                                       : FaceKind::wall;
-    faces.push_back({numbers->GetValue(i), name, kind});
+    faces.push_back(face_named(numbers->GetValue(i), names->GetValue(i)));
     missing.erase(numbers->GetValue(i));
   }
-  for (const std::int32_t id : missing) {
-    faces.push_back(
-        {id, id == 1 ? "wall" : "face_" + std::to_string(id), id == 1 ? FaceKind::wall : FaceKind::outlet});
-  }
+  for (const std::int32_t id : missing) faces.push_back(face_without_name(id));
   return faces;
 }
 

@@ -201,11 +201,33 @@ BoundaryLayer boundary_layer(const geometry::FacedSurface& surface, const Bounda
   return layer;
 }
 
+namespace {
+
+/// The prisms need the inner surface as it is: TetGen alone keeps it.
+TetrahedralizedVolume fill_inside(const geometry::FacedSurface& inner, TetrahedralizeOptions how,
+                                  const core::TaskContext& task) {
+  if (how.mesher == Mesher::mesh3)
+    throw InvalidInput(
+        "layers of prisms cannot be filled by Mesh_3, which meshes the surface anew; take TetGen, or no "
+        "layers");
+  how.mesher = Mesher::tetgen;
+  const std::string way_out = "; inside layers of prisms: take fewer or thinner layers";
+  try {
+    return tetrahedralize(inner, how, task);
+  } catch (const GeometryError& error) {
+    throw GeometryError(error.what() + way_out);
+  } catch (const ResourceError& error) {
+    throw ResourceError(error.what() + way_out);
+  }
+}
+
+}  // namespace
+
 FilledWithLayers fill_with_layers(const geometry::FacedSurface& surface, const BoundaryLayerOptions& options,
                                   const TetrahedralizeOptions& inside, const core::TaskContext& task) {
   validate(inside);
   BoundaryLayer layer = boundary_layer(surface, options, task.sub(0.0, 0.3));
-  TetrahedralizedVolume filled = tetrahedralize(layer.inner, inside, task.sub(0.3, 1.0));
+  TetrahedralizedVolume filled = fill_inside(layer.inner, inside, task.sub(0.3, 1.0));
   const auto n = static_cast<std::int32_t>(layer.wall.points.size());
   const auto on_layers = static_cast<std::int32_t>(layer.points.size());
   // The inner wall's points are the last layer's; those inside caps and in the volume come after the layers.

@@ -23,8 +23,7 @@ geometry::FacedSurface cap_ends(const ClippedSurface& clipped, const CapOptions&
   for (std::size_t i = 0; i < clipped.ends.size(); ++i) {
     task.throw_if_cancelled();
     const ClippedEnd& end = clipped.ends[i];
-    const std::string kind = end.plane.kind == geometry::FaceKind::inlet ? "inlet_" : "outlet_";
-    const geometry::Face face{static_cast<std::int32_t>(i) + 2, kind + end.plane.vessel, end.plane.kind};
+    const geometry::Face face{static_cast<std::int32_t>(i) + 2, end_name(end.plane), end.plane.kind};
     surface.faces.push_back(face);
     fill_cap(surface, end.loop, options.edge_factor, face);
   }

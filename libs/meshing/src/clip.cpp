@@ -30,6 +30,10 @@ void validate(const ClipOptions& o) {
   in(o.reach_radii, 1.0, 100.0, "reach_radii");
   in(o.flat_tolerance, 0.0, 1.0, "flat_tolerance");
   in(o.flat_max_angle_deg, 0.0, 90.0, "flat_max_angle_deg");
+  for (const PlacedPlane& plane : o.planes)
+    if (!plane.origin.allFinite() || !plane.normal.allFinite() || plane.normal.isZero(0.0))
+      throw InvalidInput("clipping: the plane for " + plane.end +
+                         " needs an origin and a normal that is not 0");
 }
 
 namespace {
@@ -156,6 +160,10 @@ Vec3 end_position(const geometry::VesselTree& tree, const EndPlane& plane) {
 
 }  // namespace
 
+std::string end_name(const EndPlane& plane) {
+  return (plane.kind == geometry::FaceKind::inlet ? "inlet_" : "outlet_") + plane.vessel;
+}
+
 std::vector<EndPlane> end_planes(const geometry::VesselTree& tree, double inset_radii) {
   if (const auto fault = geometry::find_fault(tree))
     throw InvalidInput("clipping: the tree is not sound: " + *fault);
@@ -194,12 +202,40 @@ std::vector<EndPlane> end_planes(const geometry::VesselTree& tree, double inset_
 
 namespace {
 
+const PlacedPlane* placed_plane(const ClipOptions& options, const EndPlane& plane) {
+  for (const PlacedPlane& placed : options.planes)
+    if (placed.end == end_name(plane)) return &placed;
+  return nullptr;
+}
+
+/// The planes that a person placed, in the places of the program's own.
+void take_placed_planes(std::vector<ClippedEnd>& ends, const ClipOptions& options) {
+  for (const PlacedPlane& placed : options.planes) {
+    std::string all;
+    bool found = false;
+    for (ClippedEnd& end : ends) {
+      all += (all.empty() ? "" : ", ") + end_name(end.plane);
+      if (end_name(end.plane) != placed.end) continue;
+      found = true;
+      const Vec3 normal = placed.normal.normalized();
+      end.plane.origin = placed.origin;
+      end.plane.normal = normal.dot(end.plane.normal) < 0.0 ? Vec3(-normal) : normal;
+    }
+    if (!found)
+      throw InvalidInput("clipping: a plane is given for " + placed.end + ", but the ends are " + all);
+  }
+}
+
 /// Cuts end `i`; where its plane does not cut cleanly (an end torn aslant, say), one radius farther inside at
 /// most.
 void cut_end(ClippedSurface& result, std::size_t i, const geometry::VesselTree& tree,
              const ClipOptions& options, const std::string& name) {
   ClippedEnd& end = result.ends[i];
   const EndPlane wanted = end.plane;
+  if (placed_plane(options, end.plane)) {
+    result.mesh = cut_branch(result.mesh, end.plane, end_position(tree, end.plane), options, name);
+    return;
+  }
   for (const double extra : {0.0, 0.5, 1.0}) {
     if (extra > 0.0) end.plane = end_planes(tree, options.inset_radii + extra)[i];
     try {
@@ -230,12 +266,14 @@ ClippedSurface clip_ends(const geometry::TriMesh& lumen, const geometry::VesselT
   for (EndPlane& plane : end_planes(tree, options.inset_radii))
     result.ends.push_back({std::move(plane), {}, false});
   if (result.ends.empty()) throw InvalidInput("clipping: the tree has no root and no end");
+  take_placed_planes(result.ends, options);
   refuse_inside_out(lumen, tree);
   result.mesh = lumen;
   // Ends that are open already keep their loops, made exactly flat; the search is on the input, before any
   // cut.
   std::vector<OpenLoop> loops = open_loops(lumen);
   for (ClippedEnd& end : result.ends) {
+    if (placed_plane(options, end.plane)) continue;
     OpenLoop* loop = flat_end(loops, end.plane, end_position(tree, end.plane), options);
     if (!loop) continue;
     loop->used = end.was_open = true;

@@ -84,7 +84,8 @@ Remesher::Remesher(const geometry::TriMesh& surface, const std::vector<double>& 
       size_(sizes),
       arc_(sizes.size(), 0.0),
       normal_(reference_.normals()),
-      curve_(sizes.size(), EditMesh::none) {
+      curve_(sizes.size(), EditMesh::none),
+      frozen_(curves_.size(), false) {
   for (std::size_t c = 0; c < curves_.size(); ++c) {
     curve_points_.push_back(curves_[c].vertices.size());
     for (std::size_t i = 0; i < curves_[c].vertices.size(); ++i) {
@@ -147,7 +148,7 @@ std::size_t Remesher::split_long() {
     if (edges.empty()) break;
     task_->throw_if_cancelled();
     for (const auto& [key, h] : edges) {
-      if (ratio(h) <= longest) continue;
+      if (ratio(h) <= longest || (mesh_.twin(h) == EditMesh::none && frozen(mesh_.origin(h)))) continue;
       split_edge(h);
       ++done;
     }
@@ -187,7 +188,7 @@ bool Remesher::collapse_is_good(std::int32_t h, bool mending) const {
 }
 
 bool Remesher::try_collapse(std::int32_t h, bool mending) {
-  if (!collapse_is_good(h, mending) || !mesh_.can_collapse(h)) return false;
+  if (frozen(mesh_.origin(h)) || !collapse_is_good(h, mending) || !mesh_.can_collapse(h)) return false;
   const std::int32_t a = mesh_.origin(h);
   if (curve(a) != EditMesh::none) --curve_points_[static_cast<std::size_t>(curve(a))];
   mesh_.collapse(h);
@@ -207,7 +208,7 @@ std::size_t Remesher::collapse_short() {
         ++in_pass;
         continue;
       }
-      if (t != EditMesh::none) continue;
+      if (t != EditMesh::none || frozen(mesh_.origin(h))) continue;
       // A border edge also collapses the other way: into its origin, by sliding the origin to the target's
       // place.
       const std::int32_t a = mesh_.origin(h), b = mesh_.target(h);
@@ -333,6 +334,7 @@ Remesher::Place Remesher::relaxed_place(std::int32_t v) const {
 }
 
 bool Remesher::move_is_safe(std::int32_t v, const Place& place) const {
+  if (frozen(v)) return false;
   if (place.normal.dot(normal(v)) < 0.0) return false;  // the other side of a thin wall, or another vessel
   bool safe = true;
   mesh_.around(v, [&](std::int32_t e) {

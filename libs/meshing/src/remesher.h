@@ -60,6 +60,8 @@ class Remesher {
   std::size_t mend(double below_angle_deg);
 
   void set_task(const core::TaskContext& task) { task_ = &task; }
+  /// From now on the points of this border curve stay as they are, and its edges are not split.
+  void freeze(std::int32_t curve) { frozen_[static_cast<std::size_t>(curve)] = true; }
   const EditMesh& mesh() const { return mesh_; }
   const std::vector<BorderCurve>& curves() const { return curves_; }
   std::int32_t curve(std::int32_t v) const { return curve_[static_cast<std::size_t>(v)]; }
@@ -72,6 +74,9 @@ class Remesher {
     double size, arc;
   };
   double size(std::int32_t v) const { return size_[static_cast<std::size_t>(v)]; }
+  bool frozen(std::int32_t v) const {
+    return curve(v) != EditMesh::none && frozen_[static_cast<std::size_t>(curve(v))];
+  }
   const geometry::Vec3& normal(std::int32_t v) const { return normal_[static_cast<std::size_t>(v)]; }
   double ratio(std::int32_t h) const { return mesh_.length(h) / (scale_ * target_length(h)); }
   /// Cosine between a triangle and the surface's normals at its corners; -1 when it has no area.
@@ -101,6 +106,7 @@ class Remesher {
   std::vector<geometry::Vec3> normal_;
   std::vector<std::int32_t> curve_;
   std::vector<std::size_t> curve_points_;
+  std::vector<bool> frozen_;  // one a curve
   double scale_ = 1.0;
   const core::TaskContext* task_ = &core::no_task();
 };

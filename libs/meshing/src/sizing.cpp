@@ -2,6 +2,8 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
+#include "ostia/geometry/aabb_tree.h"
+#include "ostia/geometry/curvature.h"
 #include "ostia/geometry/mesh_topology.h"
 
 #include <algorithm>
@@ -15,14 +17,48 @@ namespace ostia::meshing {
 
 using geometry::Vec3;
 
+namespace {
+
+[[noreturn]] void refuse(const std::string& what) {
+  throw InvalidInput("sizing: " + what);
+}
+
+void validate(const SizeFocus& focus) {
+  if (!focus.place.allFinite() || !(focus.reach_mm > 0.0) || !std::isfinite(focus.reach_mm))
+    refuse("a focus must have a finite place and a positive reach_mm");
+  if (!(focus.share >= 0.05 && focus.share <= 1.0))
+    refuse("share " + std::to_string(focus.share) + " of a focus must lie in [0.05, 1]");
+}
+
+void validate(const SizeArray& array) {
+  if (array.edge_mm.size() != array.surface.points.size() || array.surface.triangles.empty())
+    refuse("the array has " + std::to_string(array.edge_mm.size()) + " lengths for " +
+           std::to_string(array.surface.points.size()) + " points; it needs a surface and one a point");
+  for (std::size_t i = 0; i < array.edge_mm.size(); ++i)
+    if (!(array.edge_mm[i] > 0.0) || !std::isfinite(array.edge_mm[i]))
+      refuse("the array's length at point " + std::to_string(i) + " is " + std::to_string(array.edge_mm[i]) +
+             " mm; it must be positive and finite");
+}
+
+}  // namespace
+
 void validate(const SizingOptions& o) {
-  auto refuse = [](const std::string& what) { throw InvalidInput("sizing: " + what); };
   if (!(o.edge_ratio >= 0.02 && o.edge_ratio <= 2.0))
     refuse("edge_ratio " + std::to_string(o.edge_ratio) + " must lie in [0.02, 2]");
   if (!(o.gradation >= 0.01 && o.gradation <= 2.0))
     refuse("gradation " + std::to_string(o.gradation) + " mm per mm must lie in [0.01, 2]");
   if (!(o.min_edge_mm >= 0.0) || !(o.max_edge_mm > o.min_edge_mm))
     refuse("min_edge_mm must be at least 0 and max_edge_mm larger than it");
+  if (!(o.most_distance_radii >= 1.0))
+    refuse("most_distance_radii " + std::to_string(o.most_distance_radii) + " must be 1 or more");
+  if (o.curvature_ratio != 0.0 && !(o.curvature_ratio >= 0.02 && o.curvature_ratio <= 2.0))
+    refuse("curvature_ratio " + std::to_string(o.curvature_ratio) + " must be 0 or lie in [0.02, 2]");
+  if (!(o.curvature_reach >= 0.1 && o.curvature_reach <= 2.0))
+    refuse("curvature_reach " + std::to_string(o.curvature_reach) + " must lie in [0.1, 2]");
+  for (const SizeFocus& focus : o.foci) validate(focus);
+  if (!(o.throat_share >= 0.05 && o.throat_share <= 1.0))
+    refuse("throat_share " + std::to_string(o.throat_share) + " must lie in [0.05, 1]");
+  if (o.array) validate(*o.array);
 }
 
 TubeFunction::TubeFunction(const geometry::VesselTree& tree) {
@@ -120,23 +156,78 @@ void limit_gradation(const geometry::TriMesh& surface, double gradation,
   }
 }
 
-std::vector<double> target_edge_lengths(const geometry::TriMesh& surface, const TubeFunction& tube,
-                                        const SizingOptions& options, const core::TaskContext& task) {
-  validate(options);
-  std::vector<double> lengths(surface.points.size());
-  core::parallel_chunks(lengths.size(), 1024, [&](std::size_t first, std::size_t last) {
+namespace {
+
+/// D_c or R_c at each point of the surface.
+std::vector<double> vessel_sizes(const geometry::TriMesh& surface, const TubeFunction& tube,
+                                 const SizingOptions& options, const core::TaskContext& task) {
+  std::vector<double> sizes(surface.points.size());
+  core::parallel_chunks(sizes.size(), 1024, [&](std::size_t first, std::size_t last) {
     task.throw_if_cancelled();
     for (std::size_t i = first; i < last; ++i) {
       const TubeSize size = tube(surface.points[i]);
-      const double measure = options.measure == SizeMeasure::distance ? size.distance_mm : size.radius_mm;
-      lengths[i] = std::clamp(options.edge_ratio * measure, options.min_edge_mm, options.max_edge_mm);
+      sizes[i] = options.measure == SizeMeasure::radius
+                     ? size.radius_mm
+                     // The middle of a cap lies on the axis, and has no length of its own.
+                     : std::clamp(size.distance_mm, 0.05 * size.radius_mm,
+                                  std::max(0.05, options.most_distance_radii) * size.radius_mm);
     }
   });
-  for (std::size_t i = 0; i < lengths.size(); ++i)
-    if (!(lengths[i] > 0.0) || !std::isfinite(lengths[i]))
+  for (std::size_t i = 0; i < sizes.size(); ++i)
+    if (!(sizes[i] > 0.0) || !std::isfinite(sizes[i]))
       throw GeometryError(
           "point " + std::to_string(i) + " of the surface lies on the axis, so its target edge length is " +
-          std::to_string(lengths[i]) + " mm; check that centerline and surface belong together");
+          std::to_string(sizes[i]) + " mm; check that centerline and surface belong together");
+  return sizes;
+}
+
+std::vector<double> from_array(const geometry::TriMesh& surface, const SizeArray& array) {
+  const geometry::AabbTree tree(array.surface);
+  std::vector<double> lengths(surface.points.size());
+  core::parallel_for(lengths.size(), 1024, [&](std::size_t i) {
+    const geometry::SurfacePoint near = tree.closest(surface.points[i]);
+    const geometry::Triangle& t = array.surface.triangles[static_cast<std::size_t>(near.triangle)];
+    lengths[i] = 0.0;
+    for (std::size_t k = 0; k < 3; ++k)
+      lengths[i] +=
+          near.barycentric[static_cast<Eigen::Index>(k)] * array.edge_mm[static_cast<std::size_t>(t[k])];
+  });
+  return lengths;
+}
+
+void shorten_where_it_bends(const geometry::TriMesh& surface, const std::vector<double>& sizes,
+                            const SizingOptions& options, std::vector<double>& lengths,
+                            const core::TaskContext& task) {
+  std::vector<double> reach = sizes;
+  for (double& mm : reach) mm *= options.curvature_reach;
+  const auto bends = geometry::principal_curvatures(surface, reach, task);
+  for (std::size_t i = 0; i < lengths.size(); ++i)
+    lengths[i] = std::min(lengths[i], options.curvature_ratio / std::abs(bends[i].largest));
+}
+
+void shorten_at(const SizeFocus& focus, const geometry::TriMesh& surface, std::vector<double>& lengths) {
+  for (std::size_t i = 0; i < lengths.size(); ++i) {
+    const double far = (surface.points[i] - focus.place).norm() / focus.reach_mm;
+    if (far < 1.0) lengths[i] *= focus.share + (1.0 - focus.share) * far;
+  }
+}
+
+}  // namespace
+
+std::vector<double> target_edge_lengths(const geometry::TriMesh& surface, const TubeFunction& tube,
+                                        const SizingOptions& options, const core::TaskContext& task) {
+  validate(options);
+  const std::vector<double> sizes = vessel_sizes(surface, tube, options, task);
+  std::vector<double> lengths;
+  if (options.array) {
+    lengths = from_array(surface, *options.array);
+  } else {
+    lengths = sizes;
+    for (double& length : lengths) length *= options.edge_ratio;
+  }
+  if (options.curvature_ratio > 0.0) shorten_where_it_bends(surface, sizes, options, lengths, task);
+  for (const SizeFocus& focus : options.foci) shorten_at(focus, surface, lengths);
+  for (double& length : lengths) length = std::clamp(length, options.min_edge_mm, options.max_edge_mm);
   limit_gradation(surface, options.gradation, lengths);
   return lengths;
 }

@@ -1,6 +1,7 @@
 // The only file that sees TetGen. It may throw an int, call exit or abort, and prints its reasons on standard
 // output: it runs in a child process only.
-#include "tetgen_job.h"
+#include "mesh3_worker.h"
+#include "mesher_job.h"
 
 #include "ostia/core/error.h"
 #include "ostia/meshing/tetrahedralize.h"
@@ -37,7 +38,7 @@ const char* meaning(int code) {
   }
 }
 
-void fill(tetgenio& in, const TetgenJob& job) {
+void fill(tetgenio& in, const MesherJob& job) {
   in.numberofpoints = static_cast<int>(job.points.size());
   in.pointlist = new REAL[3 * job.points.size()];
   in.pointmtrlist = new REAL[job.points.size()];
@@ -59,8 +60,8 @@ void fill(tetgenio& in, const TetgenJob& job) {
   }
 }
 
-TetgenResult collect(const tetgenio& out) {
-  TetgenResult result;
+MesherResult collect(const tetgenio& out) {
+  MesherResult result;
   for (int i = 0; i < out.numberofpoints; ++i)
     result.points.emplace_back(out.pointlist[3 * i], out.pointlist[3 * i + 1], out.pointlist[3 * i + 2]);
   for (int i = 0; i < out.numberoftetrahedra; ++i) {
@@ -111,6 +112,17 @@ void tetrahedralize_without_unwinding(Run& run) {
   pthread_join(thread, nullptr);
 }
 
+MesherResult run_tetgen_job(const MesherJob& job) {
+  // p: of a surface; Y: boundary kept; q: quality; m: size field; J: no point dropped, so that numbers
+  // stay; M: triangles in one plane stay apart; Q: quiet.
+  Run run;
+  run.switches =
+      "pYq" + std::to_string(job.max_radius_edge_ratio) + "/" + std::to_string(job.min_dihedral_deg) + "mJMQ";
+  fill(run.in, job);
+  tetrahedralize_without_unwinding(run);
+  return collect(run.out);
+}
+
 }  // namespace
 
 int tetrahedralize_in_worker(const std::filesystem::path& input, const std::filesystem::path& output) {
@@ -118,20 +130,11 @@ int tetrahedralize_in_worker(const std::filesystem::path& input, const std::file
   std::fflush(stdout);
   if (dup2(STDERR_FILENO, STDOUT_FILENO) < 0) return 6;
   try {
-    const TetgenJob job = read_job(input);
-    // p: of a surface; Y: boundary kept; q: quality; m: size field; J: no point dropped, so that numbers
-    // stay; M: coplanar caps' triangles stay apart; Q: quiet.
-    Run run;
-    // p: of a surface; Y: boundary kept; q: quality; m: size field; J: no point dropped, so that numbers
-    // stay; M: triangles in one plane stay apart; Q: quiet.
-    run.switches = "pYq" + std::to_string(job.max_radius_edge_ratio) + "/" +
-                   std::to_string(job.min_dihedral_deg) + "mJMQ";
-    fill(run.in, job);
-    tetrahedralize_without_unwinding(run);
-    write_result(collect(run.out), output);
+    const MesherJob job = read_job(input);
+    write_result(job.mesher == MesherJob::mesh3 ? run_mesh3(job) : run_tetgen_job(job), output);
     return 0;
   } catch (const std::bad_alloc&) {
-    std::fprintf(stderr, "TetGen stopped: out of memory\n");
+    std::fprintf(stderr, "the mesher ran out of memory\n");
     return 5;
   } catch (const Error& error) {
     std::fprintf(stderr, "%s\n", error.what());

@@ -1,16 +1,18 @@
 #include "ostia/meshing/tetrahedralize.h"
 
-#include "tetgen_job.h"
+#include "mesher_child.h"
 #include "tetrahedra_mending.h"
+#include "tetrahedra_quality.h"
 
 #include "ostia/core/error.h"
-#include "ostia/core/private_folder.h"
+#include "ostia/geometry/aabb_tree.h"
 #include "ostia/geometry/mesh_topology.h"
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <thread>
+#include <cstdio>
+#include <set>
+#include <utility>
 
 namespace ostia::meshing {
 
@@ -27,12 +29,12 @@ void validate(const TetrahedralizeOptions& o) {
   in(o.min_dihedral_deg, 0.0, 18.0, "min_dihedral_deg");
   in(o.mending_rounds, 0, 100, "mending_rounds");
   in(o.mend_below_deg, 0.0, 60.0, "mend_below_deg");
+  in(o.most_growth, 0.0, 1.0, "most_growth");
 }
 
 namespace {
 
-constexpr double tetgen_share = 0.7;         // of the progress
-constexpr double triangles_a_second = 9000;  // measured
+constexpr double mesher_share = 0.7;  // of the progress
 
 void check_surface(const geometry::FacedSurface& surface, bool thorough) {
   const geometry::TriMesh& mesh = surface.mesh;
@@ -84,85 +86,111 @@ std::vector<double> local_sizes(const geometry::TriMesh& mesh, double factor) {
   return sum;
 }
 
-/// TetGen's own words, without the empty lines around them.
-std::string reason(const core::ChildResult& child) {
-  std::string text = child.standard_error;
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  const auto first = text.find_first_not_of(' ');
-  if (first == std::string::npos) return "TetGen " + child.describe();
-  text = text.substr(first, text.find_last_not_of(' ') - first + 1);
-  if (text.size() > 600) text = text.substr(0, 300) + " ... " + text.substr(text.size() - 300);
-  return child.signal == 0 ? text : "TetGen " + child.describe() + " after: " + text;
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// TetGen tells nothing of its progress: what it commonly takes stands for it, ever slower past that.
-class ExpectedProgress {
- public:
-  ExpectedProgress(double expected_s, const core::TaskContext& task)
-      : thread_([expected_s, task](const std::stop_token& stop) {
-          constexpr auto tick = std::chrono::milliseconds(100);
-          constexpr double even = 0.8;  // up to here by the clock
-          const auto start = std::chrono::steady_clock::now();
-          while (!stop.stop_requested()) {
-            const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
-            const double share = passed.count() / expected_s;
-            task.set_progress(share < even
-                                  ? share
-                                  : even + (1.0 - even) * (1.0 - std::exp(-(share - even) / (1.0 - even))));
-            std::this_thread::sleep_for(tick);
-          }
-        }) {}
-
- private:
-  std::jthread thread_;
-};
-
-core::ChildResult run_once(const TetgenJob& job, const core::PrivateFolder& folder,
-                           const core::ChildLimits& limits, const core::TaskContext& task) {
-  const auto input = folder.path() / "surface.bin", output = folder.path() / "tetrahedra.bin";
-  write_job(job, input);
-  const double expected_s = 0.5 + static_cast<double>(job.triangles.size()) / triangles_a_second;
-  const ExpectedProgress progress(expected_s, task.sub(0.0, tetgen_share));
-  return core::run_child(core::worker_program(), {"tetrahedralize", input.string(), output.string()}, limits,
-                         task);
-}
-
-TetgenResult run_tetgen(TetgenJob job, const TetrahedralizeOptions& options, TetrahedralizeReport& report,
-                        const core::TaskContext& task) {
-  const core::PrivateFolder folder;
-  // TetGen's refinement need not end with a fixed boundary. A first run gets about ten times what it commonly
-  // takes; a second asks for less.
-  core::ChildLimits first = options.limits;
-  const auto usual = std::chrono::seconds(15 + static_cast<std::int64_t>(job.triangles.size()) / 700);
-  first.cpu_time = std::min(first.cpu_time, usual);
-  core::ChildResult child = run_once(job, folder, first, task);
-  if (child.out_of_time && first.cpu_time < options.limits.cpu_time) {
-    report.warnings.push_back(
-        "TetGen did not end with radius-edge ratio " + std::to_string(job.max_radius_edge_ratio) +
-        "; the mesh was made with a bound of 2, a larger size, and no bound on dihedral angles");
-    job.max_radius_edge_ratio = std::max(2.0, job.max_radius_edge_ratio);
-    job.min_dihedral_deg = 0.0;
-    for (double& size : job.sizes) size *= 1.5;
-    child = run_once(job, folder, options.limits, task);
-  }
-  if (child.ok()) return read_result(folder.path() / "tetrahedra.bin");
-  const std::string what = "no tetrahedra inside the surface of " + std::to_string(job.triangles.size()) +
-                           " triangles: " + reason(child);
-  if (child.out_of_time || child.exit_code == 5)
-    throw ResourceError(what + "; raise the child's limits or take a larger edge length");
-  throw GeometryError(what + "; check the surface for faults, or remesh it");
-}
-
-void check_boundary(const geometry::FacedSurface& surface, const TetgenResult& result,
-                    const VolumeQuality& quality) {
-  bool same = result.points.size() >= surface.mesh.points.size();
-  for (std::size_t i = 0; same && i < surface.mesh.points.size(); ++i)
-    same = result.points[i] == surface.mesh.points[i];
+/// The mesher's tetrahedra have a volume, and TetGen kept the surface.
+void check_result(const geometry::FacedSurface& surface, const TetrahedralizedVolume& result) {
+  const std::string mesher = result.report.made_by == Mesher::mesh3 ? "Mesh_3" : "TetGen";
+  const VolumeQuality& quality = result.report.quality;
+  const std::vector<Vec3>& points = result.mesh.points;
+  bool same = result.report.made_by == Mesher::mesh3 || points.size() >= surface.mesh.points.size();
+  for (std::size_t i = 0; same && mesher == "TetGen" && i < surface.mesh.points.size(); ++i)
+    same = points[i] == surface.mesh.points[i];
   if (!same)
     throw GeometryError("TetGen moved or dropped points of the surface; remesh the surface and try again");
   if (quality.boundary_mismatches > 0)
-    throw GeometryError("TetGen changed the surface in " + std::to_string(quality.boundary_mismatches) +
+    throw GeometryError(mesher + " changed the surface in " + std::to_string(quality.boundary_mismatches) +
                         " places; remesh the surface and try again");
+  if (quality.inverted > 0)
+    throw GeometryError(mesher + " made " + std::to_string(quality.inverted) +
+                        " tetrahedra without volume; remesh the surface and try again");
+}
+
+/// The largest distance found between two surfaces, mm.
+double largest_distance(const geometry::TriMesh& fresh, const geometry::TriMesh& old) {
+  const geometry::AabbTree to_old(old), to_fresh(fresh);
+  double largest = 0.0;
+  for (const geometry::Triangle& t : fresh.triangles) {
+    const Vec3 &a = fresh.points[static_cast<std::size_t>(t[0])],
+               &b = fresh.points[static_cast<std::size_t>(t[1])],
+               &c = fresh.points[static_cast<std::size_t>(t[2])];
+    for (const Vec3& p :
+         {a, b, c, Vec3(0.5 * (a + b)), Vec3(0.5 * (b + c)), Vec3(0.5 * (c + a)), Vec3((a + b + c) / 3.0)})
+      largest = std::max(largest, to_old.closest(p).distance);
+  }
+  for (const geometry::Triangle& t : old.triangles)
+    for (const std::int32_t v : t)
+      largest = std::max(largest, to_fresh.closest(old.points[static_cast<std::size_t>(v)]).distance);
+  return largest;
+}
+
+/// The faces' ids that have triangles.
+std::set<std::int32_t> ids_of(const std::vector<std::int32_t>& ids) {
+  return {ids.begin(), ids.end()};
+}
+
+void judge_new_surface(const geometry::FacedSurface& surface, const geometry::VolumeMesh& mesh,
+                       TetrahedralizeReport& report) {
+  geometry::TriMesh fresh{mesh.points, mesh.boundary};
+  const geometry::SurfaceFaults faults = geometry::find_faults(fresh, true);
+  if (!faults.closed_manifold() || faults.self_intersections > 0 ||
+      ids_of(mesh.boundary_face_ids) != ids_of(surface.face_ids))
+    throw GeometryError("Mesh_3 did not keep the shape of the surface (" + faults.summary() +
+                        "); take a smaller edge length");
+  report.surface_meshed_anew = true;
+  report.surface_deviation_mm = largest_distance(fresh, surface.mesh);
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "the surface was meshed anew by CGAL Mesh_3: %zu triangles in place of %zu, at most %.3g mm "
+                "from the one given",
+                mesh.boundary.size(), surface.mesh.triangles.size(), report.surface_deviation_mm);
+  report.warnings.emplace_back(text);
+}
+
+void mend(const TetrahedralizeOptions& options, TetrahedralizedVolume& result,
+          const core::TaskContext& task) {
+  const auto start = std::chrono::steady_clock::now();
+  TetrahedralizeReport& report = result.report;
+  report.mending = mend_tetrahedra(
+      result.mesh, {options.mend_below_deg, options.mending_rounds, options.most_growth}, task);
+  report.mending_seconds = seconds_since(start);
+  report.quality = volume_quality(result.mesh, task);
+  const MendingReport& mending = report.mending;
+  constexpr double worth_telling_deg = 10.0;
+  if (mending.least_held_deg >= worth_telling_deg) return;
+  char text[240];
+  std::snprintf(
+      text, sizeof text,
+      "%zu tetrahedra lie in a wedge of the surface whose own angle is their smallest; the sharpest "
+      "has %.3g degrees near %.6g,%.6g,%.6g: smooth the surface there for better elements",
+      mending.held_by_surface, mending.least_held_deg, mending.held_place.x(), mending.held_place.y(),
+      mending.held_place.z());
+  report.warnings.emplace_back(text);
+}
+
+void count_bad(const geometry::VolumeMesh& mesh, TetrahedralizeReport& report) {
+  const auto at = [&](std::int32_t v) -> const Vec3& { return mesh.points[static_cast<std::size_t>(v)]; };
+  const double below_12 = quality_of_angle(12.0);
+  for (const geometry::Tetrahedron& t : mesh.tetrahedra) {
+    // Few are so bad that their angles need be known.
+    if (tetrahedron_quality(at(t[0]), at(t[1]), at(t[2]), at(t[3])) > below_12) continue;
+    const double angle = dihedral_range_deg(at(t[0]), at(t[1]), at(t[2]), at(t[3]))[0];
+    report.below_10_deg += angle < 10.0 ? 1 : 0;
+    report.below_12_deg += angle < 12.0 ? 1 : 0;
+  }
+}
+
+MesherJob job_of(const geometry::FacedSurface& surface, const TetrahedralizeOptions& options) {
+  MesherJob job;
+  job.max_radius_edge_ratio = options.max_radius_edge_ratio;
+  job.min_dihedral_deg = options.min_dihedral_deg;
+  job.points = surface.mesh.points;
+  job.triangles = surface.mesh.triangles;
+  job.face_ids = surface.face_ids;
+  job.sizes = local_sizes(surface.mesh, options.size_factor);
+  return job;
 }
 
 }  // namespace
@@ -173,33 +201,27 @@ TetrahedralizedVolume tetrahedralize(const geometry::FacedSurface& surface,
   task.set_stage("tetrahedra");
   check_surface(surface, options.check_input);
   task.throw_if_cancelled();
-  TetgenJob job;
-  job.max_radius_edge_ratio = options.max_radius_edge_ratio;
-  job.min_dihedral_deg = options.min_dihedral_deg;
-  job.points = surface.mesh.points;
-  job.triangles = surface.mesh.triangles;
-  job.sizes = local_sizes(surface.mesh, options.size_factor);
   TetrahedralizedVolume result;
-  TetgenResult filled = run_tetgen(std::move(job), options, result.report, task);
-  task.set_progress(tetgen_share);
-
+  TetrahedralizeReport& report = result.report;
   geometry::VolumeMesh& mesh = result.mesh;
-  mesh.boundary = surface.mesh.triangles;
-  mesh.boundary_face_ids = surface.face_ids;
+  const auto start = std::chrono::steady_clock::now();
+  MesherResult filled = run_mesher(job_of(surface, options), options, report, task.sub(0.0, mesher_share));
+  report.mesher_seconds = seconds_since(start);
+  task.set_progress(mesher_share);
+
+  const bool anew = report.made_by == Mesher::mesh3;
+  mesh.boundary = anew ? std::move(filled.boundary) : surface.mesh.triangles;
+  mesh.boundary_face_ids = anew ? std::move(filled.boundary_face_ids) : surface.face_ids;
   mesh.faces = surface.faces;
-  mesh.points = filled.points;
+  mesh.points = std::move(filled.points);
   mesh.tetrahedra = std::move(filled.tetrahedra);
-  result.report.quality = volume_quality(mesh, task);
-  check_boundary(surface, filled, result.report.quality);
-  if (result.report.quality.inverted > 0)
-    throw GeometryError("TetGen made " + std::to_string(result.report.quality.inverted) +
-                        " tetrahedra without volume; remesh the surface and try again");
+  report.quality = volume_quality(mesh, task);
+  check_result(surface, result);
+  if (anew) judge_new_surface(surface, mesh, report);
   task.set_progress(0.8);
-  result.report.min_dihedral_before_mending_deg = result.report.quality.min_dihedral_deg;
-  if (options.mending_rounds > 0) {
-    result.report.points_moved = mend_tetrahedra(mesh, options.mend_below_deg, options.mending_rounds, task);
-    result.report.quality = volume_quality(mesh, task);
-  }
+  report.min_dihedral_before_mending_deg = report.quality.min_dihedral_deg;
+  if (options.mending_rounds > 0) mend(options, result, task.sub(0.8, 0.95));
+  count_bad(mesh, report);
   task.set_progress(1.0);
   return result;
 }

@@ -9,56 +9,6 @@
 namespace ostia::pipeline {
 namespace {
 
-/// As if `b` had been counted together with `a`.
-double weighted(double a, std::size_t count_a, double b, std::size_t count_b) {
-  const auto wa = static_cast<double>(count_a), wb = static_cast<double>(count_b);
-  return wa + wb > 0.0 ? (wa * a + wb * b) / (wa + wb) : 0.0;
-}
-
-void add_surface(meshing::SurfaceQuality& all, const meshing::SurfaceQuality& one) {
-  if (all.triangles == 0) {
-    all = one;
-    return;
-  }
-  const auto mean = [&](double a, double b) { return weighted(a, all.triangles, b, one.triangles); };
-  all.min_angle_deg = std::min(all.min_angle_deg, one.min_angle_deg);
-  all.max_frobenius_aspect = std::max(all.max_frobenius_aspect, one.max_frobenius_aspect);
-  all.mean_min_angle_deg = mean(all.mean_min_angle_deg, one.mean_min_angle_deg);
-  all.mean_frobenius_aspect = mean(all.mean_frobenius_aspect, one.mean_frobenius_aspect);
-  all.mean_edge_mm = mean(all.mean_edge_mm, one.mean_edge_mm);
-  for (std::size_t i = 0; i < all.valence.size(); ++i) all.valence[i] += one.valence[i];
-  all.points += one.points;
-  all.triangles += one.triangles;
-  all.open_edges += one.open_edges;
-  all.non_manifold_edges += one.non_manifold_edges;
-  all.inconsistent_edges += one.inconsistent_edges;
-  all.self_intersections += one.self_intersections;
-  all.area_mm2 += one.area_mm2;
-  all.volume_mm3 += one.volume_mm3;
-}
-
-void add_volume(meshing::VolumeQuality& all, const meshing::VolumeQuality& one) {
-  if (all.tetrahedra == 0) {
-    all = one;
-    return;
-  }
-  const auto mean = [&](double a, double b) { return weighted(a, all.tetrahedra, b, one.tetrahedra); };
-  all.min_dihedral_deg = std::min(all.min_dihedral_deg, one.min_dihedral_deg);
-  all.max_dihedral_deg = std::max(all.max_dihedral_deg, one.max_dihedral_deg);
-  all.min_scaled_jacobian = std::min(all.min_scaled_jacobian, one.min_scaled_jacobian);
-  all.mean_min_dihedral_deg = mean(all.mean_min_dihedral_deg, one.mean_min_dihedral_deg);
-  all.mean_scaled_jacobian = mean(all.mean_scaled_jacobian, one.mean_scaled_jacobian);
-  all.mean_edge_mm = mean(all.mean_edge_mm, one.mean_edge_mm);
-  for (std::size_t i = 0; i < all.min_dihedral_histogram.size(); ++i)
-    all.min_dihedral_histogram[i] += one.min_dihedral_histogram[i];
-  all.points += one.points;
-  all.tetrahedra += one.tetrahedra;
-  all.boundary_triangles += one.boundary_triangles;
-  all.inverted += one.inverted;
-  all.boundary_mismatches += one.boundary_mismatches;
-  all.volume_mm3 += one.volume_mm3;
-}
-
 std::string safe_name(const std::string& name) {
   std::string safe;
   for (const char c : name) {
@@ -68,9 +18,13 @@ std::string safe_name(const std::string& name) {
   return safe.empty() ? "tree" : safe.substr(0, 64);
 }
 
-/// A tube's mesh by its edge length: area over that of an equilateral triangle, volume over that of the
-/// tetrahedra as TetGen makes them with the usual bounds.
-MeshEstimate estimate_tree(const geometry::VesselTree& tree, const meshing::SizingOptions& sizing) {
+/// A tube's mesh by its edge length: area over that of an equilateral triangle, volume inside the layers over
+/// that of the tetrahedra as TetGen makes them with the usual bounds.
+MeshEstimate estimate_tree(const geometry::VesselTree& tree, const meshing::SizingOptions& sizing,
+                           const VolumeOptions& volume) {
+  const double layers = volume.layers ? volume.layers->layers : 0.0;
+  const double thickness = volume.layers ? volume.layers->thickness : 0.0;
+  const double most = volume.layers ? volume.layers->largest_fraction_of_radius : 0.0;
   constexpr double triangle = 0.433;     // sqrt(3) / 4 of a squared edge
   constexpr double tetrahedron = 0.118;  // sqrt(2) / 12 of a cubed edge
   MeshEstimate estimate;
@@ -81,9 +35,19 @@ MeshEstimate estimate_tree(const geometry::VesselTree& tree, const meshing::Sizi
       const double radius = 0.5 * (axis.radius[i] + axis.radius[i + 1]);
       const double edge = std::clamp(sizing.edge_ratio * radius, sizing.min_edge_mm, sizing.max_edge_mm);
       if (!(edge > 0.0)) continue;
-      estimate.triangles += 2.0 * M_PI * radius * length / (triangle * edge * edge);
-      estimate.tetrahedra += M_PI * radius * radius * length / (tetrahedron * edge * edge * edge);
+      const double triangles = 2.0 * M_PI * radius * length / (triangle * edge * edge);
+      const double inside = radius - std::min(thickness * edge, most * radius);
+      estimate.triangles += triangles;
+      estimate.prisms += layers * triangles;
+      // The inner surface has the wall's triangles, narrower around the vessel and as long along it.
+      const double edge_inside = edge * std::sqrt(inside / radius);
+      estimate.tetrahedra +=
+          M_PI * inside * inside * length / (tetrahedron * edge_inside * edge_inside * edge_inside);
     }
+  }
+  if (volume.split_prisms) {
+    estimate.tetrahedra += 3.0 * estimate.prisms;
+    estimate.prisms = 0.0;
   }
   return estimate;
 }
@@ -91,9 +55,9 @@ MeshEstimate estimate_tree(const geometry::VesselTree& tree, const meshing::Sizi
 }  // namespace
 
 MeshEstimate estimate_mesh(const lumen::LumenModel& model, const std::vector<std::int32_t>& vessels,
-                           const meshing::SizingOptions& sizing) {
+                           const meshing::SizingOptions& sizing, const VolumeOptions& volume) {
   meshing::validate(sizing);
-  return estimate_tree(vessels.empty() ? model.tree : part_of(model, vessels).tree, sizing);
+  return estimate_tree(vessels.empty() ? model.tree : part_of(model, vessels).tree, sizing, volume);
 }
 
 void append(geometry::FacedSurface& to, const geometry::FacedSurface& surface) {
@@ -136,15 +100,10 @@ std::vector<std::string> folder_names(const std::vector<RootedModel>& parts) {
 std::vector<double> shares_of(const std::vector<RootedModel>& parts, const meshing::SizingOptions& sizing) {
   std::vector<double> shares{0.0};
   for (const RootedModel& part : parts)
-    shares.push_back(shares.back() + std::max(1.0, estimate_tree(part.model.tree, sizing).triangles));
+    shares.push_back(shares.back() + std::max(1.0, estimate_tree(part.model.tree, sizing, {}).triangles));
   const double all = shares.back();
   for (double& share : shares) share /= all;
   return shares;
-}
-
-void MeshTotals::add(const MeshedLumen& meshed) {
-  add_surface(surface, meshed.surface_quality);
-  add_volume(volume, meshed.volume_quality);
 }
 
 std::string name_of(SurfaceEnds ends) {
@@ -152,12 +111,17 @@ std::string name_of(SurfaceEnds ends) {
 }
 
 nlohmann::json sizing_json(const meshing::SizingOptions& sizing) {
+  const auto bound = [](double value) {
+    return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json();
+  };
   return {{"edge_ratio", sizing.edge_ratio},
           {"measure", sizing.measure == meshing::SizeMeasure::distance ? "distance" : "radius"},
           {"gradation", sizing.gradation},
           {"min_edge_mm", sizing.min_edge_mm},
-          {"max_edge_mm",
-           std::isfinite(sizing.max_edge_mm) ? nlohmann::json(sizing.max_edge_mm) : nlohmann::json()}};
+          {"max_edge_mm", bound(sizing.max_edge_mm)},
+          {"most_distance_radii", bound(sizing.most_distance_radii)},
+          {"curvature_ratio", sizing.curvature_ratio},
+          {"throat_share", sizing.throat_share}};
 }
 
 }  // namespace ostia::pipeline

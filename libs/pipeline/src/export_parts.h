@@ -22,12 +22,8 @@ std::vector<std::string> folder_names(const std::vector<RootedModel>& parts);
 /// Where each tree's share of the work begins in [0, 1], and the end of the last one.
 std::vector<double> shares_of(const std::vector<RootedModel>& parts, const meshing::SizingOptions& sizing);
 
-/// Qualities of separate meshes as of one: counts and volumes are added, means weighted by counts.
-struct MeshTotals {
-  meshing::SurfaceQuality surface;
-  meshing::VolumeQuality volume;
-  void add(const MeshedLumen& meshed);
-};
+/// Another mesh's figures to those of all; the verdict is left alone.
+void add(const MeshQuality& one, MeshQuality& all);
 
 std::string name_of(SurfaceEnds ends);
 nlohmann::json sizing_json(const meshing::SizingOptions& sizing);

@@ -4,6 +4,7 @@
 #include "ostia/core/log.h"
 #include "ostia/geometry/mesh_topology.h"
 #include "ostia/meshing/caps.h"
+#include "ostia/meshing/throats.h"
 #include "ostia/pipeline/branch_ends.h"
 #include "ostia/pipeline/lumen_surface.h"
 
@@ -140,6 +141,15 @@ double largest_radius(const centerline::CenterlineResult& centerlines) {
 
 }  // namespace
 
+void validate(const ModelOptions& options) {
+  meshing::validate(options.sizing);
+  meshing::validate(options.remesh);
+  if (options.extensions) meshing::validate(*options.extensions);
+  validate(options.volume);
+  meshing::validate(options.bounds);
+  meshing::validate(options.volume_bounds);
+}
+
 void require_sound_surface(const TriMesh& surface, const std::string& what) {
   geometry::SurfaceFaults faults = geometry::find_faults(surface, true);
   const std::size_t open = faults.open_edges;
@@ -169,14 +179,41 @@ constexpr Shares with_known_axes{0.2, 0.2, 0.21, 0.62, 0.97};
 using AxesOf =
     std::function<centerline::CenterlineResult(const meshing::ClippedSurface&, const core::TaskContext&)>;
 
-/// Remeshed and filled. Sizes follow out.centerlines.
-void mesh_capped(const geometry::FacedSurface& capped, const ModelOptions& options, const Shares& shares,
-                 Stages& stages, MeshedLumen& out) {
+double middle_of_caps(const Shares& shares) {
+  return 0.5 * (shares.axes + shares.caps);
+}
+
+/// The cut lumen and its axes led on beyond its ends.
+void extend(const meshing::FlowExtensionOptions& options, const Shares& shares, Stages& stages,
+            meshing::ClippedSurface& clipped, geometry::VesselTree& axes, MeshedLumen& out) {
+  meshing::ExtendedEnds extended = stages.run(
+      "flow extensions", shares.axes, middle_of_caps(shares),
+      [&](const core::TaskContext& part) { return meshing::extend_ends(clipped, axes, options, part); });
+  clipped = std::move(extended.surface);
+  axes = std::move(extended.tree);
+  append(out.warnings, extended.warnings);
+  out.quality.extensions = std::move(extended.extensions);
+}
+
+/// The gate that a mesh passes before it is written.
+void judge(const geometry::FacedSurface& capped, const ModelOptions& options, const core::TaskContext& task,
+           MeshedLumen& out) {
+  MeshQuality& quality = out.quality;
+  quality.surface = meshing::surface_quality(out.surface.mesh, true, task.sub(0.0, 0.3));
+  quality.volume = meshing::mixed_quality(out.mesh, task.sub(0.3, 0.7));
+  quality.wall_deviation = meshing::wall_deviation(out.mesh, wall_of(capped), task.sub(0.7, 1.0));
+  quality.verdict = meshing::check(quality.surface, options.bounds);
+  append(quality.verdict.reasons, meshing::check(quality.volume, options.volume_bounds).reasons);
+}
+
+/// Remeshed and filled. Sizes follow `axes`.
+void mesh_capped(const geometry::FacedSurface& capped, const geometry::VesselTree& axes,
+                 const ModelOptions& options, const Shares& shares, Stages& stages, MeshedLumen& out) {
   meshing::RemeshedSurface remeshed =
       stages.run("remeshing", shares.caps, shares.remeshing, [&](const core::TaskContext& part) {
-        const meshing::TubeFunction tube(out.centerlines.tree);
-        const std::vector<double> lengths =
-            meshing::target_edge_lengths(capped.mesh, tube, options.sizing, part);
+        const meshing::TubeFunction tube(axes);
+        const std::vector<double> lengths = meshing::target_edge_lengths(
+            capped.mesh, tube, meshing::at_throats(options.sizing, axes, capped.mesh), part);
         return meshing::remesh(capped, lengths, options.remesh, part);
       });
   if (remeshed.report.self_intersections > 0) {
@@ -187,25 +224,26 @@ void mesh_capped(const geometry::FacedSurface& capped, const ModelOptions& optio
   append(out.warnings, remeshed.report.warnings);
   out.surface = std::move(remeshed.surface);
   out.remeshing = remeshed.report;
-  meshing::TetrahedralizedVolume volume =
-      stages.run("tetrahedra", shares.remeshing, shares.tetrahedra, [&](const core::TaskContext& part) {
-        return meshing::tetrahedralize(out.surface, options.tetrahedralize, part);
-      });
-  append(out.warnings, volume.report.warnings);
-  out.mesh = std::move(volume.mesh);
-  out.volume_quality = volume.report.quality;
-  out.surface_quality = stages.run("quality", shares.tetrahedra, 1.0, [&](const core::TaskContext& part) {
-    return meshing::surface_quality(out.surface.mesh, true, part);
+  FilledVolume filled = stages.run(
+      "tetrahedra", shares.remeshing, shares.tetrahedra,
+      [&](const core::TaskContext& part) { return fill_volume(out.surface, capped, options.volume, part); });
+  append(out.warnings, filled.warnings);
+  out.mesh = std::move(filled.mesh);
+  if (filled.new_surface) out.surface = std::move(*filled.new_surface);
+  out.quality.layers = std::move(filled.layers);
+  out.quality.quadratic = std::move(filled.quadratic);
+  stages.run("quality", shares.tetrahedra, 1.0, [&](const core::TaskContext& part) {
+    judge(capped, options, part, out);
+    return 0;
   });
-  out.verdict = meshing::check(out.surface_quality, options.bounds);
-  append(out.verdict.reasons, meshing::check(out.volume_quality, options.bounds).reasons);
 }
 
 MeshedLumen mesh_with(const TriMesh& lumen, const geometry::VesselTree& tree, const ModelOptions& options,
                       const Shares& shares, const AxesOf& axes_of, const core::TaskContext& task) {
+  validate(options);
   MeshedLumen out;
   Stages stages(out.stages, task);
-  const meshing::ClippedSurface clipped =
+  meshing::ClippedSurface clipped =
       stages.run("ends cut", 0.0, shares.cut, [&](const core::TaskContext& part) {
         meshing::ClipOptions clip = options.clip;
         if (options.inset_radii) clip.inset_radii = *options.inset_radii;
@@ -214,10 +252,12 @@ MeshedLumen mesh_with(const TriMesh& lumen, const geometry::VesselTree& tree, co
   append(out.warnings, clipped.warnings);
   out.centerlines = stages.run("centerlines of the cut lumen", shares.cut, shares.axes,
                                [&](const core::TaskContext& part) { return axes_of(clipped, part); });
+  geometry::VesselTree axes = out.centerlines.tree;
+  if (options.extensions) extend(*options.extensions, shares, stages, clipped, axes, out);
   const geometry::FacedSurface capped =
-      stages.run("caps", shares.axes, shares.caps,
+      stages.run("caps", options.extensions ? middle_of_caps(shares) : shares.axes, shares.caps,
                  [&](const core::TaskContext& part) { return meshing::cap_ends(clipped, {}, part); });
-  mesh_capped(capped, options, shares, stages, out);
+  mesh_capped(capped, axes, options, shares, stages, out);
   return out;
 }
 
@@ -242,6 +282,7 @@ MeshedLumen mesh_lumen_about(const TriMesh& lumen, const geometry::VesselTree& a
 }
 
 Model build_model(Source source, const ModelOptions& options, const core::TaskContext& task) {
+  validate(options);
   Model model;
   Stages stages(model.stages, task);
   model.warnings = source.warnings;

@@ -4,35 +4,96 @@
 #include "ostia/core/error.h"
 #include "ostia/geometry/aabb_tree.h"
 #include "ostia/geometry/mesh_topology.h"
+#include "ostia/geometry/non_manifold.h"
 
 #include <algorithm>
 #include <array>
 #include <map>
+#include <numbers>
 #include <set>
+#include <utility>
 
 namespace ostia::pipeline {
 namespace {
 
 using geometry::TriMesh;
 
-constexpr int rounds = 4;  // cutting out one fold can bring the next to light
+constexpr int rounds = 6;  // cutting out one fold can bring the next to light
 
-void note(Repaired& out, std::size_t before, const std::string& what) {
-  const std::size_t after = out.mesh.triangles.size();
-  if (after < before) out.done.push_back(std::to_string(before - after) + " triangles " + what + " dropped");
+void note(Repaired& out, const std::string& what, std::size_t count, const std::string& text) {
+  if (count == 0) return;
+  out.done.push_back(text + ": " + std::to_string(count));
+  out.steps.push_back({what, count, out.done.back()});
+}
+
+/// Keeps some of the triangles, and says how many went.
+void keep_some(Repaired& out, const std::vector<bool>& keep, const std::string& what,
+               const std::string& text) {
+  const auto gone = static_cast<std::size_t>(std::count(keep.begin(), keep.end(), false));
+  if (gone == 0) return;
+  out.mesh = geometry::subset(out.mesh, keep);
+  note(out, what, gone, text);
 }
 
 void drop_not_finite(Repaired& out) {
   const TriMesh& mesh = out.mesh;
-  const std::size_t before = mesh.triangles.size();
   std::vector<bool> keep;
   for (const geometry::Triangle& t : mesh.triangles) {
     keep.push_back(std::all_of(t.begin(), t.end(), [&](std::int32_t p) {
       return mesh.points[static_cast<std::size_t>(p)].allFinite();
     }));
   }
-  out.mesh = geometry::subset(mesh, keep);
-  note(out, before, "with points that are not finite");
+  keep_some(out, keep, "not_finite_triangles_dropped", "triangles with points that are not finite dropped");
+}
+
+/// Equal points, triangles without area, triangles there twice: one function does away with all three, and
+/// the counts are those of the faults it found.
+void weld(Repaired& out) {
+  TriMesh joined = geometry::welded(out.mesh);
+  const geometry::SurfaceFaults before = geometry::find_faults(out.mesh, false);
+  const std::size_t gone =
+      out.mesh.triangles.size() - std::min(out.mesh.triangles.size(), joined.triangles.size());
+  const std::size_t flat = std::min(gone, before.degenerate_triangles);
+  out.mesh = std::move(joined);
+  note(out, "equal_points_joined", before.duplicate_points, "points equal to another one joined");
+  note(out, "degenerate_triangles_dropped", flat, "triangles that were degenerate dropped");
+  note(out, "duplicate_triangles_dropped", gone - flat, "triangles that were there twice dropped");
+  if (out.mesh.triangles.empty())
+    throw GeometryError("nothing of the surface is left after dropping bad triangles");
+}
+
+void take_apart(Repaired& out) {
+  geometry::Separated apart = geometry::separated(out.mesh);
+  out.mesh = std::move(apart.mesh);
+  note(out, "points_split", apart.added_points, "points split where parts of the surface only touched");
+}
+
+/// Volume about the surface's own middle: its sign tells the way an open one faces, too.
+double facing(const TriMesh& mesh) {
+  TriMesh moved = mesh;
+  const geometry::Vec3 middle = geometry::bounds(mesh.points).center();
+  for (geometry::Vec3& p : moved.points) p -= middle;
+  return geometry::volume(moved);
+}
+
+void turn_together(Repaired& out) {
+  TriMesh turned = geometry::oriented(out.mesh);
+  std::size_t count = 0;
+  for (std::size_t t = 0; t < turned.triangles.size(); ++t)
+    count += turned.triangles[t] != out.mesh.triangles[t];
+  out.mesh = std::move(turned);
+  note(out, "triangles_turned", count, "triangles turned the way of the others, or outward");
+}
+
+/// Flaps on edges where three sheets join go, and the whole faces outward.
+void make_simple(Repaired& out) {
+  const std::size_t before = out.mesh.triangles.size();
+  const double faced = facing(out.mesh);
+  out.mesh = centerline::prepare_lumen(out.mesh).wall;
+  note(out, "non_manifold_triangles_dropped", before - std::min(before, out.mesh.triangles.size()),
+       "triangles on non-manifold edges dropped");
+  if (faced * facing(out.mesh) < 0.0 && before == out.mesh.triangles.size())
+    note(out, "triangles_turned_outward", before, "triangles, all of them, turned outward");
 }
 
 void keep_largest_part(Repaired& out) {
@@ -51,19 +112,24 @@ void keep_largest_part(Repaired& out) {
                        })->first;
   std::vector<bool> keep;
   for (const std::int32_t p : part) keep.push_back(p == largest);
-  const std::size_t before = out.mesh.triangles.size();
-  out.mesh = geometry::subset(out.mesh, keep);
-  note(out, before, "of " + std::to_string(areas.size() - 1) + " smaller parts");
+  keep_some(out, keep, "small_parts_triangles_dropped",
+            "triangles of smaller parts (" + std::to_string(areas.size() - 1) + ") dropped");
 }
 
-/// Without the triangles that intersect others, and those around them.
+/// Without the triangles that intersect others, and those `rings` times around them.
 TriMesh without_folds(const TriMesh& mesh, const std::vector<std::pair<std::int32_t, std::int32_t>>& pairs,
-                      std::set<std::array<double, 3>>& rim) {
+                      int rings, std::set<std::array<double, 3>>& rim) {
   std::set<std::int32_t> points;
   for (const auto& [a, b] : pairs) {
     for (const std::int32_t t : {a, b})
       points.insert(mesh.triangles[static_cast<std::size_t>(t)].begin(),
                     mesh.triangles[static_cast<std::size_t>(t)].end());
+  }
+  for (int ring = 1; ring < rings; ++ring) {
+    const std::set<std::int32_t> inner = points;
+    for (const geometry::Triangle& t : mesh.triangles)
+      if (std::any_of(t.begin(), t.end(), [&](std::int32_t p) { return inner.contains(p); }))
+        points.insert(t.begin(), t.end());
   }
   std::vector<bool> keep;
   for (const geometry::Triangle& t : mesh.triangles) {
@@ -78,6 +144,15 @@ TriMesh without_folds(const TriMesh& mesh, const std::vector<std::pair<std::int3
   return geometry::subset(mesh, keep);
 }
 
+/// Closes the holes that are marked, in the order of boundary_loops.
+TriMesh with_some_closed(const TriMesh& mesh, const std::vector<bool>& which) {
+  const geometry::FilledHoles filled = geometry::fill_holes(mesh);
+  std::vector<bool> keep;
+  for (const std::int32_t hole : filled.hole_of_triangle)
+    keep.push_back(hole < 0 || which[static_cast<std::size_t>(hole)]);
+  return geometry::subset(filled.mesh, keep);
+}
+
 /// Closes the holes all of whose points lie on `rim`.
 TriMesh with_rim_closed(const TriMesh& mesh, const std::set<std::array<double, 3>>& rim) {
   const auto loops = geometry::boundary_loops(mesh);
@@ -88,46 +163,71 @@ TriMesh with_rim_closed(const TriMesh& mesh, const std::set<std::array<double, 3
       return rim.contains({x.x(), x.y(), x.z()});
     }));
   }
-  const geometry::FilledHoles filled = geometry::fill_holes(mesh);
-  std::vector<bool> keep;
-  for (const std::int32_t hole : filled.hole_of_triangle)
-    keep.push_back(hole < 0 || ours[static_cast<std::size_t>(hole)]);
-  return geometry::subset(filled.mesh, keep);
+  return with_some_closed(mesh, ours);
 }
 
-void cut_folds_out(Repaired& out, const core::TaskContext& task) {
+void cut_folds_out(Repaired& out, const RepairOptions& options, const core::TaskContext& task) {
   for (int round = 0; round < rounds; ++round) {
     task.throw_if_cancelled();
     const auto pairs = geometry::self_intersections(out.mesh);
     if (pairs.empty()) return;
     std::set<std::array<double, 3>> rim;
-    const TriMesh open = without_folds(out.mesh, pairs, rim);
+    const TriMesh open =
+        without_folds(out.mesh, pairs, 1 + round / 2, rim);  // what comes back is cut out wider
     out.mesh = with_rim_closed(centerline::prepare_lumen(open).wall, rim);
-    out.done.push_back(std::to_string(pairs.size()) + " self-intersections cut out and closed");
-    keep_largest_part(out);
+    note(out, "self_intersections_cut_out", pairs.size(), "self-intersections cut out and closed");
+    if (!options.keep_parts) keep_largest_part(out);
   }
+}
+
+void close_holes(Repaired& out, double up_to_mm) {
+  if (!(up_to_mm > 0.0)) return;
+  const auto loops = geometry::boundary_loops(out.mesh);
+  std::vector<bool> small;
+  for (const auto& loop : loops) {
+    double around = 0.0;
+    for (std::size_t i = 0; i < loop.size(); ++i)
+      around += (out.mesh.points[static_cast<std::size_t>(loop[i])] -
+                 out.mesh.points[static_cast<std::size_t>(loop[(i + 1) % loop.size()])])
+                    .norm();
+    small.push_back(around <= up_to_mm * std::numbers::pi);
+  }
+  const auto count = static_cast<std::size_t>(std::count(small.begin(), small.end(), true));
+  if (count == 0) return;
+  out.mesh = with_some_closed(out.mesh, small);
+  note(out, "holes_filled", count, "holes filled");
 }
 
 }  // namespace
 
-Repaired repaired(const TriMesh& mesh, const core::TaskContext& task) {
+void validate(const RepairOptions& options) {
+  if (!(options.fill_holes_up_to_mm >= 0.0))
+    throw InvalidInput("repair: fill_holes_up_to_mm " + std::to_string(options.fill_holes_up_to_mm) +
+                       " must be 0 or more");
+}
+
+Repaired repaired(const TriMesh& mesh, const RepairOptions& options, const core::TaskContext& task) {
+  validate(options);
   Repaired out;
   out.mesh = mesh;
   drop_not_finite(out);
-  const std::size_t before_weld = out.mesh.triangles.size();
-  out.mesh = geometry::welded(out.mesh);
-  note(out, before_weld, "that were degenerate or there twice");
-  if (out.mesh.triangles.empty())
-    throw GeometryError("nothing of the surface is left after dropping bad triangles");
-  const std::size_t before_flaps = out.mesh.triangles.size();
-  out.mesh = centerline::prepare_lumen(out.mesh).wall;
-  note(out, before_flaps, "on non-manifold edges");
-  keep_largest_part(out);
-  cut_folds_out(out, task);
+  weld(out);
+  task.throw_if_cancelled();
+  take_apart(out);
+  turn_together(out);
+  make_simple(out);
+  take_apart(out);  // dropping flaps can leave borders that touch
+  if (!options.keep_parts) keep_largest_part(out);
+  cut_folds_out(out, options, task);
+  close_holes(out, options.fill_holes_up_to_mm);
   geometry::SurfaceFaults faults = geometry::find_faults(out.mesh, true);
   faults.open_edges = 0;
   out.left = faults.summary();
   return out;
+}
+
+Repaired repaired(const TriMesh& mesh, const core::TaskContext& task) {
+  return repaired(mesh, RepairOptions{}, task);
 }
 
 }  // namespace ostia::pipeline

@@ -128,22 +128,29 @@ void add_figures(HtmlReport& html, const Model& model) {
   }
   html.table({"vessel", "length (mm)", "first diameter (mm)", "last diameter (mm)", "least diameter (mm)"},
              vessels);
-  const auto& s = model.meshed.surface_quality;
-  const auto& v = model.meshed.volume_quality;
-  html.key_values({{"triangles", std::to_string(s.triangles)},
-                   {"least angle", fixed(s.min_angle_deg, 1) + " degrees"},
-                   {"mean of the least angles", fixed(s.mean_min_angle_deg, 1) + " degrees"},
-                   {"open edges, non-manifold edges, self-intersections",
-                    std::to_string(s.open_edges) + ", " + std::to_string(s.non_manifold_edges) + ", " +
-                        std::to_string(s.self_intersections)},
-                   {"tetrahedra", std::to_string(v.tetrahedra)},
-                   {"least dihedral angle", fixed(v.min_dihedral_deg, 1) + " degrees"},
-                   {"inverted tetrahedra", std::to_string(v.inverted)},
-                   {"volume", fixed(v.volume_mm3, 1) + " mm\xc2\xb3"}});
+  const auto& s = model.meshed.quality.surface;
+  const auto& v = model.meshed.quality.volume;
+  html.key_values(
+      {{"triangles", std::to_string(s.triangles)},
+       {"least angle", fixed(s.min_angle_deg, 1) + " degrees"},
+       {"mean of the least angles", fixed(s.mean_min_angle_deg, 1) + " degrees"},
+       {"open edges, non-manifold edges, self-intersections",
+        std::to_string(s.open_edges) + ", " + std::to_string(s.non_manifold_edges) + ", " +
+            std::to_string(s.self_intersections)},
+       {"tetrahedra, prisms", std::to_string(v.tetrahedra.count) + ", " + std::to_string(v.prisms.count)},
+       {"least dihedral angle", fixed(least_dihedral_deg(v), 1) + " degrees"},
+       {"least scaled Jacobian", fixed(least_scaled_jacobian(v), 2)},
+       {"inverted elements", std::to_string(v.inverted())},
+       {"non-orthogonality, skewness (as OpenFOAM has them)",
+        fixed(v.openfoam.max_non_orthogonality_deg, 1) + " degrees, " + fixed(v.openfoam.max_skewness, 2)},
+       {"volume", fixed(v.volume_mm3(), 1) + " mm\xc2\xb3"}});
+  if (const auto& layers = model.meshed.quality.layers)
+    html.key_values({{"wall with layers of full thickness", fixed(100.0 * layers->full_share, 1) + " %"},
+                     {"least scaled Jacobian of the layers", fixed(layers->min_scaled_jacobian, 2)}});
   std::vector<std::vector<std::string>> faces;
-  for (const geometry::Face& face : model.meshed.surface.faces)
-    faces.push_back({std::to_string(face.id), face.name});
-  html.table({"CellEntityIds", "face"}, faces);
+  for (const meshing::FaceQuality& face : v.faces)
+    faces.push_back({std::to_string(face.id), face.name, fixed(face.area_mm2, 2)});
+  html.table({"CellEntityIds", "face", "area (mm\xc2\xb2)"}, faces);
   std::vector<std::vector<std::string>> stages;
   for (const StageTime& stage : model.stages) stages.push_back({stage.name, fixed(stage.seconds, 2)});
   html.table({"stage", "seconds"}, stages);
@@ -164,7 +171,7 @@ std::vector<ReportPicture> report_pictures(const Model& model, const core::TaskC
                  "The lumen's surface, see-through, with the centerlines.", surface(model, task)});
   task.throw_if_cancelled();
   out.push_back({"mesh", "The mesh, cut open",
-                 "Tetrahedra in front of a plane through the vessel are taken away.", mesh(model, task)});
+                 "Elements in front of a plane through the vessel are taken away.", mesh(model, task)});
   out.push_back({"diameter", "Diameter along each vessel", "Diameter of the largest inscribed sphere.",
                  diameters(model)});
   return out;
@@ -174,10 +181,10 @@ void write_report_html(const std::filesystem::path& path, const Model& model,
                        const std::vector<ReportPicture>& pictures, const std::optional<TruthErrors>& truth) {
   HtmlReport html("Vessel model",
                   name_of(model.source.kind) + " " + model.source.pseudonym + ", Ostia " + program_version());
-  if (model.meshed.verdict.ok()) {
+  if (model.meshed.quality.verdict.ok()) {
     html.notice(figure::Notice::good, "The mesh passed the quality gate.");
   } else {
-    html.notice(figure::Notice::bad, "Look at this case: " + model.meshed.verdict.summary());
+    html.notice(figure::Notice::bad, "Look at this case: " + model.meshed.quality.verdict.summary());
   }
   for (const std::string& warning : model.warnings) html.notice(figure::Notice::warning, warning);
   if (truth) add_truth(html, *truth);

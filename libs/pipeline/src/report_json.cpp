@@ -1,3 +1,6 @@
+#include "export_parts.h"
+#include "quality_json.h"
+
 #include "ostia/core/files.h"
 #include "ostia/core/log.h"
 #include "ostia/pipeline/manifest.h"
@@ -13,45 +16,6 @@ namespace {
 
 using nlohmann::json;
 
-json point(const geometry::Vec3& p) {
-  return {p.x(), p.y(), p.z()};
-}
-
-json surface_json(const meshing::SurfaceQuality& q) {
-  return {{"points", q.points},
-          {"triangles", q.triangles},
-          {"min_angle_deg", q.min_angle_deg},
-          {"mean_min_angle_deg", q.mean_min_angle_deg},
-          {"max_frobenius_aspect", q.max_frobenius_aspect},
-          {"mean_frobenius_aspect", q.mean_frobenius_aspect},
-          {"valence", q.valence},
-          {"mean_edge_mm", q.mean_edge_mm},
-          {"open_edges", q.open_edges},
-          {"non_manifold_edges", q.non_manifold_edges},
-          {"self_intersections", q.self_intersections},
-          {"area_mm2", q.area_mm2},
-          {"volume_mm3", q.volume_mm3}};
-}
-
-json volume_json(const meshing::VolumeQuality& q) {
-  return {{"points", q.points},
-          {"tetrahedra", q.tetrahedra},
-          {"prisms", 0},
-          {"min_dihedral_deg", q.min_dihedral_deg},
-          {"max_dihedral_deg", q.max_dihedral_deg},
-          {"mean_min_dihedral_deg", q.mean_min_dihedral_deg},
-          {"min_scaled_jacobian", q.min_scaled_jacobian},
-          {"mean_scaled_jacobian", q.mean_scaled_jacobian},
-          {"inverted", q.inverted},
-          {"boundary_mismatches", q.boundary_mismatches},
-          {"mean_edge_mm", q.mean_edge_mm},
-          {"volume_mm3", q.volume_mm3}};
-}
-
-json verdict_json(const meshing::QualityVerdict& verdict) {
-  return {{"passed", verdict.ok()}, {"reasons", verdict.reasons}};
-}
-
 json vessel_json(const geometry::Vessel& vessel, const geometry::Centerline& axis) {
   const auto least = std::min_element(axis.radius.begin(), axis.radius.end()) - axis.radius.begin();
   double sum = 0.0;
@@ -61,8 +25,8 @@ json vessel_json(const geometry::Vessel& vessel, const geometry::Centerline& axi
           {"mean_diameter_mm", 2.0 * sum / static_cast<double>(axis.size())},
           {"least_diameter_mm", 2.0 * axis.radius[static_cast<std::size_t>(least)]},
           {"least_diameter_at_mm", axis.abscissa[static_cast<std::size_t>(least)]},
-          {"start", point(axis.points.front())},
-          {"end", point(axis.points.back())}};
+          {"start", point_json(axis.points.front())},
+          {"end", point_json(axis.points.back())}};
 }
 
 json truth_json(const TruthErrors& errors) {
@@ -138,20 +102,24 @@ json branch_json(const segmentation::BranchDiagnostics& d) {
           {"touches_border", d.touches_border}};
 }
 
+void add_volume_parameters(const VolumeOptions& options, json& out) {
+  out["tetrahedra"] = {{"size_factor", options.tetrahedralize.size_factor},
+                       {"max_radius_edge_ratio", options.tetrahedralize.max_radius_edge_ratio},
+                       {"min_dihedral_deg", options.tetrahedralize.min_dihedral_deg}};
+  out["layers"] = json();
+  if (options.layers)
+    out["layers"] = {{"count", options.layers->layers},
+                     {"thickness", options.layers->thickness},
+                     {"growth", options.layers->growth},
+                     {"split", options.split_prisms}};
+  out["order"] = options.order;
+  out["export"] = json::array();
+  for (const io::MeshFormat format : io::mesh_formats)
+    if (std::ranges::find(options.formats, format) != options.formats.end())
+      out["export"].push_back(io::name_of(format));
+}
+
 }  // namespace
-
-std::string quality_json(const meshing::SurfaceQuality& surface, const meshing::QualityVerdict& verdict) {
-  return json{{"v", 1}, {"surface", surface_json(surface)}, {"verdict", verdict_json(verdict)}}.dump();
-}
-
-std::string quality_json(const meshing::SurfaceQuality& surface, const meshing::VolumeQuality& volume,
-                         const meshing::QualityVerdict& verdict) {
-  return json{{"v", 1},
-              {"surface", surface_json(surface)},
-              {"volume", volume_json(volume)},
-              {"verdict", verdict_json(verdict)}}
-      .dump();
-}
 
 std::string report_json(const Model& model, const ModelOptions& options,
                         const std::optional<TruthErrors>& truth) {
@@ -173,9 +141,8 @@ std::string report_json(const Model& model, const ModelOptions& options,
   report["faces"] = json::array();
   for (const geometry::Face& face : model.meshed.surface.faces)
     report["faces"].push_back({{"id", face.id}, {"name", face.name}});
-  report["surface"] = surface_json(model.meshed.surface_quality);
-  report["volume"] = volume_json(model.meshed.volume_quality);
-  report["verdict"] = verdict_json(model.meshed.verdict);
+  report.update(figures_json(model.meshed.quality));
+  report["verdict"] = verdict_json(model.meshed.quality.verdict);
   report["truth"] = truth ? truth_json(*truth) : json();
   report["stages"] = json::array();
   for (const StageTime& stage : model.stages)
@@ -196,14 +163,14 @@ std::string parameters_json(const ModelOptions& options, const SourceOptions& re
       {"unit_mm", reading.unit_mm ? json(*reading.unit_mm) : json()}};
   out["branches"] = json::array();
   for (const auto& branch : options.branches) {
-    json points = json::array({point(branch.from)});
-    if (branch.through) points.push_back(point(*branch.through));
-    points.push_back(point(branch.to));
+    json points = json::array({point_json(branch.from)});
+    if (branch.through) points.push_back(point_json(*branch.through));
+    points.push_back(point_json(branch.to));
     out["branches"].push_back(points);
   }
-  out["source"] = options.source ? point(*options.source) : json();
+  out["source"] = options.source ? point_json(*options.source) : json();
   out["targets"] = json::array();
-  for (const auto& target : options.targets) out["targets"].push_back(point(target));
+  for (const auto& target : options.targets) out["targets"].push_back(point_json(target));
   const auto& segment = options.segment;
   out["segment"] = {
       {"lower_hu", segment.fronts.lower_hu ? json(*segment.fronts.lower_hu) : json()},
@@ -225,15 +192,12 @@ std::string parameters_json(const ModelOptions& options, const SourceOptions& re
   out["centerline"] = {{"step_mm", options.centerline.step_mm},
                        {"smoothing_radii", options.centerline.smoothing_radii}};
   out["clip"] = {{"inset_radii", options.inset_radii ? json(*options.inset_radii) : json()}};
-  out["sizing"] = {
-      {"edge_ratio", options.sizing.edge_ratio},
-      {"measure", options.sizing.measure == meshing::SizeMeasure::distance ? "distance" : "radius"},
-      {"gradation", options.sizing.gradation},
-      {"min_edge_mm", options.sizing.min_edge_mm},
-      {"max_edge_mm", std::isfinite(options.sizing.max_edge_mm) ? json(options.sizing.max_edge_mm) : json()}};
-  out["tetrahedra"] = {{"size_factor", options.tetrahedralize.size_factor},
-                       {"max_radius_edge_ratio", options.tetrahedralize.max_radius_edge_ratio},
-                       {"min_dihedral_deg", options.tetrahedralize.min_dihedral_deg}};
+  out["extensions"] = json();
+  if (options.extensions)
+    out["extensions"] = {{"inlet_diameters", options.extensions->inlet_diameters},
+                         {"outlet_diameters", options.extensions->outlet_diameters}};
+  out["sizing"] = sizing_json(options.sizing);
+  add_volume_parameters(options.volume, out);
   return out.dump();
 }
 

@@ -139,4 +139,11 @@ Source load(const fs::path& path, const SourceOptions& options, const core::Task
   return source;
 }
 
+Source load_ct(const fs::path& path, const SourceOptions& options, const core::TaskContext& task) {
+  const SourceKind kind = classify(path);
+  if (kind == SourceKind::mask || kind == SourceKind::surface)
+    throw InvalidInput(path.string() + " is a " + name_of(kind) + " and no CT image");
+  return load(path, options, task);
+}
+
 }  // namespace ostia::pipeline

@@ -7,10 +7,10 @@
 #include "ostia/geometry/mesh_topology.h"
 #include "ostia/io/centerline_file.h"
 #include "ostia/io/surface_file.h"
-#include "ostia/io/volume_mesh_file.h"
 #include "ostia/lumen/tree_surface.h"
 #include "ostia/meshing/caps.h"
 #include "ostia/meshing/remesh.h"
+#include "ostia/meshing/throats.h"
 #include "ostia/pipeline/manifest.h"
 #include "ostia/pipeline/model.h"
 #include "ostia/pipeline/report.h"
@@ -104,7 +104,8 @@ ModelOptions model_options(const MeshExportOptions& options) {
   ModelOptions how;
   how.inset_radii = options.inset_radii;
   how.sizing = options.sizing;
-  how.tetrahedralize = options.tetrahedralize;
+  how.extensions = options.extensions;
+  how.volume = options.volume;
   return how;
 }
 
@@ -135,7 +136,8 @@ FacedSurface surface_of_part(const RootedModel& part, const SurfaceExportOptions
   if (!options.sizing) return surface;
   task.set_stage("remeshing");
   const std::vector<double> lengths = meshing::target_edge_lengths(
-      surface.mesh, meshing::TubeFunction(part.model.tree), *options.sizing, task.sub(0.6, 0.65));
+      surface.mesh, meshing::TubeFunction(part.model.tree),
+      meshing::at_throats(*options.sizing, part.model.tree, surface.mesh), task.sub(0.6, 0.65));
   if (options.ends == SurfaceEnds::capped)
     return meshing::remesh(surface, lengths, {}, task.sub(0.65, 1.0)).surface;
   surface.mesh = meshing::remesh(surface.mesh, lengths, {}, task.sub(0.65, 1.0)).mesh;
@@ -170,7 +172,8 @@ void validate(const SurfaceExportOptions& options) {
 void validate(const MeshExportOptions& options) {
   check_formats(options.surface_formats);
   meshing::validate(options.sizing);
-  meshing::validate(options.tetrahedralize);
+  if (options.extensions) meshing::validate(*options.extensions);
+  validate(options.volume);
   meshing::ClipOptions clip;
   clip.inset_radii = options.inset_radii;
   meshing::validate(clip);
@@ -229,7 +232,7 @@ ExportSummary export_mesh(const fs::path& folder, const LumenModel& whole, const
   const ModelOptions how = model_options(options);
   core::StagedFolder staged(folder);
   const std::vector<std::string> names = folder_names(parts);
-  MeshTotals totals;
+  MeshQuality totals;
   ExportSummary summary;
   summary.trees = parts.size();
   const std::vector<double> shares = shares_of(parts, options.sizing);
@@ -242,25 +245,28 @@ ExportSummary export_mesh(const fs::path& folder, const LumenModel& whole, const
     });
     for (const std::string& warning : meshed.warnings)
       summary.warnings.push_back(tree_text(parts[i], parts.size()) + warning);
-    for (const std::string& reason : meshed.verdict.reasons)
+    for (const std::string& reason : meshed.quality.verdict.reasons)
       summary.verdict.reasons.push_back(tree_text(parts[i], parts.size()) + reason);
     const fs::path place = parts.size() == 1 ? staged.temporary() : staged.temporary() / names[i];
     if (parts.size() > 1) fs::create_directory(place);
     write_surfaces(place, meshed.surface, options.surface_formats);
-    io::write_volume_mesh(place / "mesh.vtu", meshed.mesh);
+    for (const std::string& warning : write_volume_mesh(place, meshed.mesh, options.volume.formats))
+      summary.warnings.push_back(tree_text(parts[i], parts.size()) + warning);
     io::write_centerlines(place / "centerlines.vtp", parts[i].model.tree);
-    core::write_file(place / "quality.json",
-                     quality_json(meshed.surface_quality, meshed.volume_quality, meshed.verdict) + "\n");
-    totals.add(meshed);
+    core::write_file(place / "quality.json", quality_json(meshed.quality) + "\n");
+    add(meshed.quality, totals);
   }
   task.set_stage("writing");
+  totals.verdict = summary.verdict;
   summary.triangles = totals.surface.triangles;
-  summary.tetrahedra = totals.volume.tetrahedra;
-  summary.volume_mm3 = totals.volume.volume_mm3;
-  summary.min_dihedral_deg = totals.volume.min_dihedral_deg;
+  summary.tetrahedra = totals.volume.tetrahedra.count;
+  summary.prisms = totals.volume.prisms.count;
+  if (totals.layers) summary.full_layers = totals.layers->full_share;
+  summary.volume_mm3 = totals.volume.volume_mm3();
+  summary.min_dihedral_deg = least_dihedral_deg(totals.volume);
   summary.min_angle_deg = totals.surface.min_angle_deg;
   const ExitCode code = summary.verdict.ok() ? ExitCode::ok : ExitCode::quality_failed;
-  const std::string figures = quality_json(totals.surface, totals.volume, summary.verdict);
+  const std::string figures = quality_json(totals);
   core::write_file(staged.temporary() / "quality.json", figures + "\n");
   write_manifest(staged.temporary(),
                  {mesh_job(whole, options), code, seconds_since(start), summary.warnings, figures});

@@ -9,6 +9,7 @@
 #include "ostia/core/error.h"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 
 namespace ostia::segmentation {
@@ -83,8 +84,9 @@ MinimalPath path_to_tree(const imaging::ImageVolume& image, const Vec3& click,
   refuse_inside(click);
 
   MinimalPath path;
-  const LumenLevels tree_levels =
-      detail::levels_from(image, target.axis_points_near(click, kNearMm, kFewestPlaces), {click});
+  const LumenLevels tree_levels = detail::calcium_above(
+      detail::levels_from(image, target.axis_points_near(click, kNearMm, kFewestPlaces), {click}), image,
+      target.axis_points_near(click, std::numeric_limits<double>::infinity(), 1));
   TubeSpeed plain(image, tree_levels, options.slowest);
   const Vec3 end = detail::snapped(plain, click, options.snap_voxels, path.warnings);
   refuse_inside(end);

@@ -132,9 +132,24 @@ LumenLevels levels_from(const imaging::ImageVolume& image, const std::vector<Vec
   levels.background_hu = std::min(levels.background_hu, lumen.median - kLeastWidthHu);
   const double width = levels.lumen_hu - levels.background_hu;
   levels.calcium_hu = lumen.median + std::max(3.0 * lumen.sigma, kCalciumAbove * width);
-  levels.calcium_voxel_hu =
-      lumen.median + kCalciumNoise * std::max(kLeastNoiseHu, spread(std::move(voxels)).sigma);
+  const Spread voxel = spread(std::move(voxels));
+  levels.calcium_margin_hu = kCalciumNoise * std::max(kLeastNoiseHu, voxel.sigma);
+  levels.calcium_voxel_hu = voxel.median + levels.calcium_margin_hu;
   return levels;
+}
+
+LumenLevels calcium_above(const LumenLevels& levels, const imaging::ImageVolume& image,
+                          const std::vector<Vec3>& axes) {
+  TubeSpeed plain(image, {1.0, 0.0, 1e9}, 0.5);
+  std::vector<double> values;
+  for (const Vec3& p : axes) values.push_back(plain.smooth(p));
+  const auto quartile = values.begin() + static_cast<std::ptrdiff_t>(values.size() * 3 / 4);
+  std::nth_element(values.begin(), quartile, values.end());
+  const double brighter = std::max(0.0, *quartile - levels.lumen_hu);
+  LumenLevels result = levels;
+  result.calcium_hu += brighter;
+  result.calcium_voxel_hu += brighter;
+  return result;
 }
 
 BrightVoxel brightest_about(TubeSpeed& image, const Vec3& place) {
@@ -224,6 +239,8 @@ void finish(MinimalPath& path, TubeSpeed& speed, const std::vector<Vec3>& rough,
   path.points = geometry::resample(centred, options.step_mm);
   const std::vector<Vec3> tangents = geometry::tangents(path.points);
   const std::vector<double> s = geometry::abscissas(path.points);
+  const std::vector<double> lumen = lumen_along(speed.image(), path.points);
+  RayOptions rays = rays_for(speed, options);
   path.length_mm = s.back();
   const auto measured = [&](std::size_t i) {
     return s[i] >= fixed.start_mm && s[i] <= s.back() - fixed.end_mm;
@@ -235,7 +252,8 @@ void finish(MinimalPath& path, TubeSpeed& speed, const std::vector<Vec3>& rough,
   double sum = 0.0;
   std::size_t counted = 0;
   for (std::size_t i = 0; i < s.size(); ++i) {
-    const PathSection section = look_across(speed, path.points[i], tangents[i], rays_for(speed, options));
+    rays.lumen_voxel_hu = lumen[i];
+    const PathSection section = look_across(speed, path.points[i], tangents[i], rays);
     path.contrast[i] = static_cast<float>(section.contrast);
     if (!measured(i)) continue;
     radius[i] = section.contrast >= kGap ? section.radius_mm : 0.0;

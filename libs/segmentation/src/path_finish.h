@@ -27,6 +27,10 @@ void require_inside(const imaging::ImageVolume& image, const Vec3& place, const 
 /// Lumen, background and calcium: lumen as in `lumen_places` (their median), tissue as about `around`.
 LumenLevels levels_from(const imaging::ImageVolume& image, const std::vector<Vec3>& lumen_places,
                         const std::vector<Vec3>& around);
+/// The same where a tree's wide arteries are brighter than those about the click, which partial volume dims:
+/// calcium is brighter than the upper quartile of all places of its axes.
+LumenLevels calcium_above(const LumenLevels& levels, const imaging::ImageVolume& image,
+                          const std::vector<Vec3>& axes);
 /// The brightest voxel (lightly smoothed) of a place and its 26 neighbours.
 struct BrightVoxel {
   double hu = 0.0;

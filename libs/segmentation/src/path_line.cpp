@@ -22,6 +22,7 @@ constexpr double kSmoothingMm3 = 2.0;  // lets bends of 3 mm and more through
 constexpr std::size_t kFewestEdges = 8;
 constexpr double kBloomMm = 0.8;        // how far behind an edge calcium still changes it
 constexpr int kFewestAtCalcium = 2;     // rays: one sample may be so bright by noise
+constexpr double kLevelMm = 7.5;        // either way, over which a vessel's lumen is as bright as here
 constexpr double kBridgeWeight = 0.02;  // of a place beside calcium, against 1: bridges some 20 mm
 
 /// Where a ray from the centre leaves the lumen, mm; nothing when it does not within the reach.
@@ -41,8 +42,8 @@ double edge_along(TubeSpeed& image, const Vec3& centre, const Vec3& direction, d
 }
 
 /// Whether a ray comes upon calcium before `to_mm`: in the image itself, since a mean hides small nodules.
-bool meets_calcium(const TubeSpeed& image, const Vec3& centre, const Vec3& direction, double to_mm) {
-  const double bound = image.levels().calcium_voxel_hu;
+bool meets_calcium(const TubeSpeed& image, const Vec3& centre, const Vec3& direction, double to_mm,
+                   double bound) {
   for (double r = 0.0; r <= to_mm; r += kRayStepMm)
     if (imaging::sample(image.image(), centre + r * direction, imaging::Interpolation::trilinear) > bound)
       return true;
@@ -85,6 +86,19 @@ double unblurred_radius(double half_mm, double sigma_mm) {
   return sigma_mm * std::max(0.75, a.radius + t * (b.radius - a.radius));
 }
 
+std::vector<double> lumen_along(const imaging::ImageVolume& image, const std::vector<Vec3>& line) {
+  const std::vector<double> s = geometry::abscissas(line);
+  std::vector<double> values, result;
+  for (const Vec3& p : line) values.push_back(imaging::sample(image, p, imaging::Interpolation::trilinear));
+  for (std::size_t i = 0, first = 0, last = 0; i < line.size(); ++i) {
+    while (s[i] - s[first] > kLevelMm) ++first;
+    while (last < line.size() && s[last] - s[i] <= kLevelMm) ++last;
+    result.push_back(median({values.begin() + static_cast<std::ptrdiff_t>(first),
+                             values.begin() + static_cast<std::ptrdiff_t>(last)}));
+  }
+  return result;
+}
+
 PathSection look_across(TubeSpeed& image, const Vec3& centre, const Vec3& tangent, const RayOptions& rays) {
   PathSection section;
   const LumenLevels& levels = image.levels();
@@ -103,12 +117,14 @@ PathSection look_across(TubeSpeed& image, const Vec3& centre, const Vec3& tangen
   std::vector<double> found;
   std::array<double, kRays> radius{};
   int at_calcium = 0;
+  const double calcium_voxel_hu =
+      std::max(levels.calcium_voxel_hu, rays.lumen_voxel_hu + levels.calcium_margin_hu);
   for (int n = 0; n < kRays; ++n) {
     const Vec3 direction = geometry::radial_direction(frame, 2.0 * M_PI * n / kRays);
     const double r = edge_along(image, centre, direction, half, 1.5 * rays.largest_radius_mm);
     radius[static_cast<std::size_t>(n)] = r;
     if (r >= 0.0) found.push_back(r);
-    at_calcium += r >= 0.0 && meets_calcium(image, centre, direction, r + kBloomMm) ? 1 : 0;
+    at_calcium += r >= 0.0 && meets_calcium(image, centre, direction, r + kBloomMm, calcium_voxel_hu) ? 1 : 0;
   }
   section.near_calcium = section.calcium || at_calcium >= kFewestAtCalcium;
   section.edges = static_cast<double>(found.size()) / kRays;
@@ -149,10 +165,13 @@ std::vector<Vec3> centred_line(TubeSpeed& image, std::vector<Vec3> points, doubl
     if (points.size() < 3) return points;
     const std::vector<Vec3> tangents = geometry::tangents(points);
     const std::vector<double> s = geometry::abscissas(points);
+    const std::vector<double> lumen = lumen_along(image.image(), points);
     std::vector<double> weights(points.size(), 1.0);
+    RayOptions here = rays;
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (s[i] < fixed.start_mm || s[i] > s.back() - fixed.end_mm) continue;
-      const PathSection section = look_across(image, points[i], tangents[i], rays);
+      here.lumen_voxel_hu = lumen[i];
+      const PathSection section = look_across(image, points[i], tangents[i], here);
       if (section.near_calcium) weights[i] = kBridgeWeight;
       if (section.radius_mm <= 0.0 || section.near_calcium) continue;
       const double most = std::min(kMostShiftMm, section.radius_mm);

@@ -2,7 +2,7 @@
 /// \file Meshes cut open, so that their inside is seen.
 
 #include "ostia/figure/scene.h"
-#include "ostia/geometry/tri_mesh.h"
+#include "ostia/geometry/mixed_mesh.h"
 
 namespace ostia::figure {
 
@@ -12,18 +12,25 @@ struct CutPlane {
   Vec3 normal = Vec3::UnitY();  ///< any length but 0; points towards what is taken away
 };
 
-/// What is seen of a tetrahedral mesh when the tetrahedra whose centroid lies beyond the plane are taken
-/// away: whole elements, so that their shape can be judged. Outward triangles.
-struct CutMesh {
-  geometry::TriMesh boundary;  ///< faces on the mesh's boundary
-  geometry::TriMesh interior;  ///< faces laid open by the cut
+/// A part of what is seen, outward; half_of_quad as in MeshActor.
+struct CutPart {
+  geometry::TriMesh mesh;
+  std::vector<bool> half_of_quad;
 };
-/// Throws InvalidInput for no tetrahedra, bad indices or a normal of zero. Everything cut away gives two
-/// empty surfaces.
-CutMesh cut_open(const geometry::VolumeMesh& mesh, const CutPlane& plane);
-/// The two parts as actors with their edges drawn; empty parts are left out.
-std::vector<MeshActor> cut_actors(const geometry::VolumeMesh& mesh, const CutPlane& plane,
-                                  const Color& boundary = colors::lumen, const Color& interior = colors::cut);
+/// What is seen of a mesh when the elements whose centroid lies beyond the plane are taken away: whole
+/// elements, so that their shape can be judged. Of quadratic elements the corners count.
+struct CutMesh {
+  CutPart boundary;  ///< sides on the mesh's boundary
+  CutPart interior;  ///< sides of tetrahedra laid open by the cut
+  CutPart layers;    ///< sides of prisms laid open by the cut
+};
+/// Throws InvalidInput for no elements, bad indices or a normal of zero. Everything cut away gives empty
+/// parts.
+CutMesh cut_open(const geometry::MixedMesh& mesh, const CutPlane& plane);
+/// The parts as actors with their edges drawn; empty ones are left out.
+std::vector<MeshActor> cut_actors(const geometry::MixedMesh& mesh, const CutPlane& plane,
+                                  const Color& boundary = colors::lumen, const Color& interior = colors::cut,
+                                  const Color& layers = colors::contour);
 
 /// The part of a surface behind the plane; triangles across it are cut in two, exactly.
 geometry::TriMesh clipped(const geometry::TriMesh& surface, const CutPlane& plane);

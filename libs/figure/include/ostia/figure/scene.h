@@ -28,6 +28,9 @@ struct MeshActor {
   Color edge_color{0.06, 0.07, 0.09, 1.0};
   double edge_width_px = 0.9;
   std::string label{};  ///< named in the legend unless empty
+  /// One a triangle, or none: half of a quadrilateral, whose edge from the third corner to the first is not
+  /// drawn.
+  std::vector<bool> half_of_quad{};
 };
 
 /// A line drawn as a round tube: an axis with its radius, or with a constant one.

@@ -39,6 +39,10 @@ MeshFormat mesh_format(std::string_view name);
 /// The usual extension with its point (`.vtu`); empty for a format that is a folder.
 std::string_view extension_of(MeshFormat format);
 
+/// Throws InvalidInput, as export_mesh does, when the format cannot hold a mesh with prisms or of quadratic
+/// elements: to be asked before a mesh is made.
+void require_holds(MeshFormat format, bool prisms, bool quadratic);
+
 struct MeshExportOptions {
   /// Of the volume: its physical group, zone, block or part, made safe as the faces' names are
   /// and at most 16 characters.

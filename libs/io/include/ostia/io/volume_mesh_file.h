@@ -1,19 +1,22 @@
 #pragma once
-/// \file Tetrahedral meshes as VTU. World LPS, mm.
+/// \file Volume meshes read from files. World LPS, mm. They are written by mesh_export.h.
 
-#include "ostia/geometry/tri_mesh.h"
+#include "ostia/geometry/mixed_mesh.h"
 
 #include <filesystem>
+#include <string>
 
 namespace ostia::io {
 
-/// Tetrahedra and boundary triangles in one file, told apart by the cell array `CellEntityIds` (0 volume, 1
-/// wall, 2 and up the caps); the faces' names in the field arrays `FaceIds`, `FaceNames`. Compressed, whole
-/// or not at all.
-void write_volume_mesh(const std::filesystem::path& path, const geometry::VolumeMesh& mesh);
+/// Whether `path` is named as a volume mesh is that read_volume_mesh knows.
+bool is_volume_mesh(const std::filesystem::path& path);
+/// The formats that can be read, for messages.
+std::string readable_volume_meshes();
 
-/// Reads what `write_volume_mesh` writes, and any VTU of linear tetrahedra and triangles. Cells of other
-/// types are refused by name; ids are checked. Without `CellEntityIds` all triangles are the wall.
-geometry::VolumeMesh read_volume_mesh(const std::filesystem::path& path);
+/// Reads what export_mesh writes as VTU and as Gmsh 2.2 and 4.1, and any such file (Gmsh's in ASCII) of
+/// tetrahedra with 4 or 10 nodes, prisms with 6 or 18, triangles and quadrilaterals. Without ids of faces the
+/// boundary is all wall; without boundary cells it is the elements' free sides. Throws InvalidInput: no sound
+/// file, cells of other types (by name), linear and quadratic elements together, no elements.
+geometry::MixedMesh read_volume_mesh(const std::filesystem::path& path);
 
 }  // namespace ostia::io

@@ -10,6 +10,13 @@
 
 namespace ostia::meshing {
 
+/// A plane that a person has placed at an end.
+struct PlacedPlane {
+  std::string end;                                  ///< `inlet_<vessel>`, `outlet_<vessel>`
+  geometry::Vec3 origin = geometry::Vec3::Zero();   ///< inside the lumen, mm
+  geometry::Vec3 normal = geometry::Vec3::UnitZ();  ///< either way, any length but 0
+};
+
 struct ClipOptions {
   /// How far inside the axis' end the plane stands, in radii of the vessel there; so that a rounded end
   /// disappears. In [0, 10]. At most half of the end's segment.
@@ -22,6 +29,8 @@ struct ClipOptions {
   double flat_tolerance = 0.1;
   /// ... and its normal is within this angle of the axis. In [0, 90].
   double flat_max_angle_deg = 35.0;
+  /// Planes for ends, in place of those that the program would place, and instead of an open end as it is.
+  std::vector<PlacedPlane> planes;
 };
 void validate(const ClipOptions& options);
 
@@ -34,6 +43,9 @@ struct EndPlane {
   geometry::Vec3 normal = geometry::Vec3::UnitZ();       ///< unit
   double radius_mm = 0.0;
 };
+
+/// What the end's face is called: `inlet_<vessel>` or `outlet_<vessel>`.
+std::string end_name(const EndPlane& plane);
 
 /// Where clip_ends puts its planes: roots first, then ends, each in the tree's order.
 std::vector<EndPlane> end_planes(const geometry::VesselTree& tree, double inset_radii);
@@ -54,7 +66,8 @@ struct ClippedSurface {
 /// Cuts the ends of `lumen` (manifold, oriented outward, closed or open) by one plane a root and a leaf of
 /// the tree. A plane cuts only the connected loop of triangles around its own axis, so a neighbouring branch
 /// is never touched. A plane that does not cut cleanly is tried up to a radius farther inside, with a
-/// warning. Loop points lie on their plane to round-off. Throws InvalidInput for bad options or tree,
+/// warning; one that a person placed is taken as it is. Loop points lie on their plane to round-off. Throws
+/// InvalidInput for bad options or tree, or a plane for an end that is not there,
 /// GeometryError naming the end that cannot be cut (plane misses the lumen, loop is not closed, more than the
 /// end would go), or a hole that belongs to no end.
 ClippedSurface clip_ends(const geometry::TriMesh& lumen, const geometry::VesselTree& tree,

@@ -1,11 +1,13 @@
 #pragma once
-/// \file Target edge lengths from the distance to the centerline ([Antiga] 6.1, equations 7-9).
+/// \file Target edge lengths from the distance to the centerline ([Antiga] 6.1, equations 7-9), made shorter
+/// where the surface bends, at chosen places, or as an array of the user's has it.
 
 #include "ostia/core/task_context.h"
 #include "ostia/geometry/tri_mesh.h"
 #include "ostia/geometry/vessel_tree.h"
 
 #include <limits>
+#include <memory>
 #include <vector>
 
 namespace ostia::meshing {
@@ -48,11 +50,40 @@ enum class SizeMeasure {
   radius,    ///< R_c, does not grow on the wall of an aneurysm
 };
 
+/// A place where edges are shorter: by `share` of their length there, by none of it from `reach_mm` on, and
+/// linear between.
+struct SizeFocus {
+  geometry::Vec3 place = geometry::Vec3::Zero();  ///< mm
+  double reach_mm = 1.0;                          ///< > 0
+  double share = 0.5;                             ///< [0.05, 1]
+};
+
+/// Edge lengths that somebody else knows, one a point of a surface that need not be the one to be meshed.
+struct SizeArray {
+  geometry::TriMesh surface;
+  std::vector<double> edge_mm;  ///< each positive and finite
+};
+
 struct SizingOptions {
   /// R_el of equation 9: edge length over vessel size. 0.4, the paper's choice, puts about 2 pi / 0.4 = 16
   /// edges around a vessel whatever its diameter. In [0.02, 2].
   double edge_ratio = 0.4;
   SizeMeasure measure = SizeMeasure::distance;
+  /// Bound on D_c in inscribed radii R_c, so that a saccular aneurysm gets the edges of its vessel without an
+  /// absolute length. >= 1.
+  double most_distance_radii = std::numeric_limits<double>::infinity();
+  /// Edge length over the surface's least radius of curvature; shorter edges than the vessel's size gives,
+  /// where it bends more than around itself. 0: curvature has no say; else in [0.02, 2]. A tube bends by
+  /// 1/D_c, so ratios from edge_ratio on leave it as it is.
+  double curvature_ratio = 0.0;
+  /// Curvature is averaged over this much of the vessel's size around a point: noise bends, too. In [0.1, 2].
+  double curvature_reach = 0.4;
+  std::vector<SizeFocus> foci;
+  /// Share of the edge length at stenoses; `at_throats` (throats.h) makes foci of it. In [0.05, 1].
+  double throat_share = 1.0;
+  /// Where it is given, lengths are interpolated in it at the closest point, and the vessel's size has no
+  /// say.
+  std::shared_ptr<const SizeArray> array;
   /// Bound on the growth of the edge length along the surface, mm per mm (Dunyach et al. 2013). In [0.01, 2].
   double gradation = 0.3;
   double min_edge_mm = 0.0;                                      ///< >= 0
@@ -60,7 +91,8 @@ struct SizingOptions {
 };
 void validate(const SizingOptions& options);
 
-/// Target edge length at each point of the surface, mm.
+/// Target edge length at each point of the surface, mm. Throws InvalidInput (options), GeometryError for a
+/// point on the axis, Cancelled.
 std::vector<double> target_edge_lengths(const geometry::TriMesh& surface, const TubeFunction& tube,
                                         const SizingOptions& options = {},
                                         const core::TaskContext& task = core::no_task());

@@ -5,11 +5,11 @@
 #include "ostia/core/task_context.h"
 #include "ostia/geometry/smoothing.h"
 #include "ostia/meshing/clip.h"
-#include "ostia/meshing/quality.h"
+#include "ostia/meshing/flow_extension.h"
 #include "ostia/meshing/remesh.h"
 #include "ostia/meshing/sizing.h"
-#include "ostia/meshing/tetrahedralize.h"
 #include "ostia/pipeline/source.h"
+#include "ostia/pipeline/volume_mesh.h"
 #include "ostia/segmentation/segment.h"
 
 #include <optional>
@@ -30,11 +30,16 @@ struct ModelOptions {
   /// How far inside its end a vessel is cut, in radii; left out: 0.4 for an image, whose ends were made flat
   /// by the seeds, else 1.
   std::optional<double> inset_radii;
+  std::optional<meshing::FlowExtensionOptions> extensions;  ///< beyond the cut ends; none unless asked for
   meshing::SizingOptions sizing;
   meshing::RemeshOptions remesh;
-  meshing::TetrahedralizeOptions tetrahedralize;
-  meshing::QualityBounds bounds;
+  VolumeOptions volume;
+  meshing::QualityBounds bounds;  ///< of the surface
+  meshing::MixedBounds volume_bounds;
 };
+
+/// Throws InvalidInput for what no input could be meshed with: told before anything is computed.
+void validate(const ModelOptions& options);
 
 /// How long a stage took.
 struct StageTime {
@@ -51,16 +56,14 @@ struct MeshedLumen {
   centerline::CenterlineResult
       centerlines;                 ///< of the cut lumen: from its inlet's centre to its outlets' centres
   geometry::FacedSurface surface;  ///< closed, remeshed, named faces
-  geometry::VolumeMesh mesh;
+  geometry::MixedMesh mesh;
   meshing::RemeshReport remeshing;
-  meshing::SurfaceQuality surface_quality;
-  meshing::VolumeQuality volume_quality;
-  meshing::QualityVerdict verdict;  ///< of both
+  MeshQuality quality;  ///< `surface` is that of the member above
   std::vector<std::string> warnings;
   std::vector<StageTime> stages;
 };
 /// `tree` says where the ends are; sizes follow the centerlines of the cut lumen, whose radii no closed end
-/// narrows.
+/// narrows, led on through flow extensions where there are any.
 MeshedLumen mesh_lumen(const geometry::TriMesh& lumen, const geometry::VesselTree& tree,
                        const ModelOptions& options, const core::TaskContext& task = core::no_task());
 /// The same about axes that are known and run inside the lumen, those of a case: none are extracted, and

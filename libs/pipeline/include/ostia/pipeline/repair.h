@@ -9,17 +9,36 @@
 
 namespace ostia::pipeline {
 
-struct Repaired {
-  geometry::TriMesh mesh;
-  std::vector<std::string>
-      done;          ///< "3 triangles with points that are not finite dropped", in the order of work
-  std::string left;  ///< faults that remain, "none" when there are none; open ends are no fault
+struct RepairOptions {
+  /// Holes whose rim is no wider than this are closed, mm; 0: none, for an open end is a hole, too. A hole's
+  /// width is its rim's length over pi. >= 0.
+  double fill_holes_up_to_mm = 0.0;
+  bool keep_parts = false;  ///< all connected parts stay, not the largest alone
+};
+void validate(const RepairOptions& options);
+
+/// One kind of thing that was done.
+struct RepairStep {
+  std::string what;       ///< key for machines: `degenerate_triangles_dropped`
+  std::size_t count = 0;  ///< > 0
+  std::string text;       ///< for a person: "triangles that were degenerate dropped: 3"
 };
 
-/// Drops triangles with points that are not finite, degenerate and duplicate ones, flaps on non-manifold
-/// edges and all parts but the one of largest area; joins equal points; turns the surface outward; cuts
-/// self-intersecting places out and closes the holes that this leaves. Open ends stay open. Throws
-/// GeometryError when nothing is left.
+struct Repaired {
+  geometry::TriMesh mesh;
+  std::vector<RepairStep> steps;  ///< in the order of work; empty when nothing was wrong
+  std::vector<std::string> done;  ///< the steps' texts
+  std::string left;               ///< faults that remain, "none" when there are none; open ends are no fault
+};
+
+/// Drops triangles with points that are not finite, degenerate and duplicate ones; joins equal points; takes
+/// the surface apart where sheets only touch, at points and along edges; drops flaps on edges where three
+/// sheets join, and all parts but the one of largest area; turns triangles the same way and the whole
+/// outward; cuts self-intersecting places out, with the triangles around them, and closes the holes that this
+/// leaves; closes small holes where asked to. Open ends stay open. Throws InvalidInput (options),
+/// GeometryError when nothing is left, Cancelled.
+Repaired repaired(const geometry::TriMesh& mesh, const RepairOptions& options,
+                  const core::TaskContext& task = core::no_task());
 Repaired repaired(const geometry::TriMesh& mesh, const core::TaskContext& task = core::no_task());
 
 }  // namespace ostia::pipeline

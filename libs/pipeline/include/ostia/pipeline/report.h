@@ -34,9 +34,9 @@ void write_report_html(const std::filesystem::path& path, const Model& model,
 /// Canonical JSON of all options that decide the result; part of the manifest.
 std::string parameters_json(const ModelOptions& options, const SourceOptions& reading = {});
 
-/// JSON objects of the qualities with the names that scripts rely on (docs/schemas/quality.schema.json).
+/// JSON objects of a surface's and a mesh's quality with the names that scripts rely on
+/// (docs/schemas/quality.schema.json).
 std::string quality_json(const meshing::SurfaceQuality& surface, const meshing::QualityVerdict& verdict);
-std::string quality_json(const meshing::SurfaceQuality& surface, const meshing::VolumeQuality& volume,
-                         const meshing::QualityVerdict& verdict);
+std::string quality_json(const MeshQuality& quality);
 
 }  // namespace ostia::pipeline

@@ -46,6 +46,11 @@ struct Source {
 Source load(const std::filesystem::path& path, const SourceOptions& options = {},
             const core::TaskContext& task = core::no_task());
 
+/// A DICOM series or an image. Throws as `load` does, and InvalidInput for a mask or a surface before it is
+/// read.
+Source load_ct(const std::filesystem::path& path, const SourceOptions& options = {},
+               const core::TaskContext& task = core::no_task());
+
 /// Throws InvalidInput when a vessel's surface is wider than 100 mm or thinner than 0.1 mm as it stands
 /// ("give --units").
 void check_vessel_size(double width_mm, const std::string& what);

@@ -1,4 +1,4 @@
-#include "tetgen_job.h"
+#include "mesher_job.h"
 
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
@@ -12,7 +12,7 @@ namespace ostia::meshing {
 
 namespace {
 
-constexpr std::string_view job_magic = "OSTIATJ1", result_magic = "OSTIATR1";
+constexpr std::string_view job_magic = "OSTIATJ2", result_magic = "OSTIATR2";
 
 static_assert(sizeof(geometry::Vec3) == 3 * sizeof(double));
 
@@ -24,6 +24,14 @@ template <class T>
 void put(std::string& bytes, const std::vector<T>& values) {
   put(bytes, static_cast<std::uint64_t>(values.size()));
   bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+}
+
+template <class Elements>
+bool refer_to(std::size_t points, const Elements& elements) {
+  for (const auto& element : elements)
+    for (const std::int32_t v : element)
+      if (v < 0 || static_cast<std::size_t>(v) >= points) return false;
+  return true;
 }
 
 /// Takes values off the front of a file's bytes.
@@ -61,49 +69,54 @@ class Cursor {
 
 }  // namespace
 
-void write_job(const TetgenJob& job, const std::filesystem::path& path) {
+void write_job(const MesherJob& job, const std::filesystem::path& path) {
   std::string bytes(job_magic);
+  put(bytes, job.mesher);
   put(bytes, job.max_radius_edge_ratio);
   put(bytes, job.min_dihedral_deg);
   put(bytes, job.points);
   put(bytes, job.sizes);
   put(bytes, job.triangles);
+  put(bytes, job.face_ids);
   core::write_file(path, bytes);
 }
 
-TetgenJob read_job(const std::filesystem::path& path) {
+MesherJob read_job(const std::filesystem::path& path) {
   Cursor cursor(path, job_magic);
-  TetgenJob job;
+  MesherJob job;
+  cursor.get(job.mesher);
   cursor.get(job.max_radius_edge_ratio);
   cursor.get(job.min_dihedral_deg);
   cursor.get(job.points);
   cursor.get(job.sizes);
   cursor.get(job.triangles);
-  const auto count = static_cast<std::int64_t>(job.points.size());
-  bool sound = job.sizes.size() == job.points.size();
-  for (const geometry::Triangle& t : job.triangles)
-    for (const std::int32_t v : t) sound = sound && v >= 0 && v < count;
+  cursor.get(job.face_ids);
+  bool sound = job.sizes.size() == job.points.size() && job.face_ids.size() == job.triangles.size();
+  sound = sound && refer_to(job.points.size(), job.triangles);
   if (!sound) throw InvalidInput(path.string() + " has a triangle whose corner does not exist");
   return job;
 }
 
-void write_result(const TetgenResult& result, const std::filesystem::path& path) {
+void write_result(const MesherResult& result, const std::filesystem::path& path) {
   std::string bytes(result_magic);
   put(bytes, result.points);
   put(bytes, result.tetrahedra);
+  put(bytes, result.boundary);
+  put(bytes, result.boundary_face_ids);
   core::write_file(path, bytes);
 }
 
-TetgenResult read_result(const std::filesystem::path& path) {
+MesherResult read_result(const std::filesystem::path& path) {
   Cursor cursor(path, result_magic);
-  TetgenResult result;
+  MesherResult result;
   cursor.get(result.points);
   cursor.get(result.tetrahedra);
-  const auto count = static_cast<std::int64_t>(result.points.size());
-  for (const geometry::Tetrahedron& t : result.tetrahedra)
-    for (const std::int32_t v : t)
-      if (v < 0 || v >= count)
-        throw InvalidInput(path.string() + " has a tetrahedron whose corner does not exist");
+  cursor.get(result.boundary);
+  cursor.get(result.boundary_face_ids);
+  if (!refer_to(result.points.size(), result.tetrahedra) ||
+      !refer_to(result.points.size(), result.boundary) ||
+      result.boundary_face_ids.size() != result.boundary.size())
+    throw InvalidInput(path.string() + " has an element whose corner does not exist");
   return result;
 }
 

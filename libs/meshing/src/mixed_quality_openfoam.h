@@ -1,0 +1,14 @@
+#pragma once
+/// \file OpenFOAM's measures of cells and faces.
+
+#include "mixed_quality_sides.h"
+
+#include "ostia/core/task_context.h"
+#include "ostia/meshing/mixed_quality.h"
+
+namespace ostia::meshing {
+
+/// Sets the measures and what the boundary's match with the sides says.
+void measure_sides(const geometry::MixedMesh& mesh, MixedQuality& quality, const core::TaskContext& task);
+
+}  // namespace ostia::meshing

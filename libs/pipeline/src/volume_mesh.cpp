@@ -1,0 +1,149 @@
+#include "ostia/pipeline/volume_mesh.h"
+
+#include "ostia/core/error.h"
+#include "ostia/geometry/mixed_mesh_sides.h"
+#include "ostia/geometry/mixed_mesh_split.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace ostia::pipeline {
+namespace fs = std::filesystem;
+namespace {
+
+void append(std::vector<std::string>& to, const std::vector<std::string>& from) {
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+/// With the points that its triangles use, alone.
+geometry::TriMesh compacted(const geometry::TriMesh& mesh) {
+  geometry::TriMesh out;
+  std::vector<std::int32_t> number(mesh.points.size(), -1);
+  for (geometry::Triangle t : mesh.triangles) {
+    for (std::int32_t& p : t) {
+      std::int32_t& n = number[static_cast<std::size_t>(p)];
+      if (n < 0) {
+        n = static_cast<std::int32_t>(out.points.size());
+        out.points.push_back(mesh.points[static_cast<std::size_t>(p)]);
+      }
+      p = n;
+    }
+    out.triangles.push_back(t);
+  }
+  return out;
+}
+
+template <class Figure>
+double least(const meshing::MixedQuality& quality, const Figure& figure) {
+  if (quality.tetrahedra.count == 0) return figure(quality.prisms);
+  if (quality.prisms.count == 0) return figure(quality.tetrahedra);
+  return std::min(figure(quality.tetrahedra), figure(quality.prisms));
+}
+
+}  // namespace
+
+void validate(const VolumeOptions& options) {
+  meshing::validate(options.tetrahedralize);
+  if (options.layers) meshing::validate(*options.layers);
+  if (options.split_prisms && !options.layers)
+    throw InvalidInput("there are no prisms to split: a mesh has them where it has layers");
+  if (options.order != 1 && options.order != 2)
+    throw InvalidInput("elements of order " + std::to_string(options.order) + "; choose 1 or 2");
+  const bool prisms = options.layers && !options.split_prisms;
+  for (const io::MeshFormat format : options.formats) io::require_holds(format, prisms, options.order == 2);
+}
+
+double least_dihedral_deg(const meshing::MixedQuality& quality) {
+  return least(quality, [](const meshing::ElementQuality& q) { return q.min_dihedral_deg; });
+}
+
+double least_scaled_jacobian(const meshing::MixedQuality& quality) {
+  return least(quality, [](const meshing::ElementQuality& q) { return q.min_scaled_jacobian; });
+}
+
+FilledVolume fill_volume(const geometry::FacedSurface& surface, const geometry::FacedSurface& reference,
+                         const VolumeOptions& options, const core::TaskContext& task) {
+  validate(options);
+  const double filled_share = options.order == 2 ? 0.7 : 1.0;
+  const core::TaskContext filling = task.sub(0.0, filled_share);
+  FilledVolume out;
+  if (options.layers) {
+    meshing::TetrahedralizeOptions inside = options.tetrahedralize;
+    inside.mesher = meshing::Mesher::tetgen;  // another one would not keep the layers' inner surface
+    auto filled = meshing::fill_with_layers(surface, *options.layers, inside, filling);
+    out.mesh = std::move(filled.mesh);
+    append(out.warnings, filled.layers.warnings);
+    append(out.warnings, filled.tetrahedra.warnings);
+    out.layers = std::move(filled.layers);
+  } else {
+    auto filled = meshing::tetrahedralize(surface, options.tetrahedralize, filling);
+    out.mesh = geometry::mixed(filled.mesh);
+    append(out.warnings, filled.report.warnings);
+    if (filled.report.surface_meshed_anew)
+      out.new_surface = {compacted({filled.mesh.points, filled.mesh.boundary}), filled.mesh.boundary_face_ids,
+                         filled.mesh.faces};
+  }
+  if (options.split_prisms) out.mesh = geometry::split_prisms(out.mesh);
+  if (options.order == 2) {
+    task.set_stage("quadratic elements");
+    auto quadratic = meshing::make_quadratic(out.mesh, wall_of(reference), {}, task.sub(filled_share, 1.0));
+    out.mesh = std::move(quadratic.mesh);
+    append(out.warnings, quadratic.report.warnings);
+    out.quadratic = std::move(quadratic.report);
+  }
+  return out;
+}
+
+geometry::TriMesh wall_of(const geometry::FacedSurface& surface) {
+  geometry::TriMesh wall{surface.mesh.points, {}};
+  for (std::size_t i = 0; i < surface.mesh.triangles.size(); ++i) {
+    const auto face = std::ranges::find(surface.faces, surface.face_ids[i], &geometry::Face::id);
+    if (face != surface.faces.end() && face->kind == geometry::FaceKind::wall)
+      wall.triangles.push_back(surface.mesh.triangles[i]);
+  }
+  return wall;
+}
+
+MeshQuality judged(const geometry::MixedMesh& mesh, const core::TaskContext& task) {
+  MeshQuality out;
+  task.set_stage("quality");
+  out.volume = meshing::mixed_quality(mesh, task.sub(0.0, 0.5));
+  const geometry::FacedSurface facets{{mesh.points, mesh.triangles}, mesh.triangle_face_ids, mesh.faces};
+  out.surface =
+      meshing::surface_quality(compacted(geometry::boundary_triangles(mesh)), true, task.sub(0.5, 1.0));
+  const meshing::SurfaceQuality wall = meshing::surface_quality(wall_of(facets), false);
+  if (wall.triangles > 0) {
+    out.surface.min_angle_deg = wall.min_angle_deg;
+    out.surface.mean_min_angle_deg = wall.mean_min_angle_deg;
+    out.surface.max_frobenius_aspect = wall.max_frobenius_aspect;
+    out.surface.mean_frobenius_aspect = wall.mean_frobenius_aspect;
+  }
+  out.verdict = meshing::check(out.surface);
+  append(out.verdict.reasons, meshing::check(out.volume).reasons);
+  return out;
+}
+
+std::string name_in_folder(io::MeshFormat format) {
+  const std::string name(io::name_of(format)), extension(io::extension_of(format));
+  if (extension.empty()) return name;
+  return (extension == ".msh" ? "mesh-" + name : "mesh") + extension;
+}
+
+std::vector<std::string> write_volume_mesh(const fs::path& folder, const geometry::MixedMesh& mesh,
+                                           const std::vector<io::MeshFormat>& formats,
+                                           const core::TaskContext& task) {
+  std::vector<io::MeshFormat> all{io::MeshFormat::vtu};
+  for (const io::MeshFormat format : formats)
+    if (std::ranges::find(all, format) == all.end()) all.push_back(format);
+  std::vector<std::string> warnings;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    task.throw_if_cancelled();
+    const auto written = io::export_mesh(mesh, all[i], folder / name_in_folder(all[i]));
+    for (const std::string& warning : written.warnings)
+      if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(warning);
+    task.set_progress(static_cast<double>(i + 1) / static_cast<double>(all.size()));
+  }
+  return warnings;
+}
+
+}  // namespace ostia::pipeline

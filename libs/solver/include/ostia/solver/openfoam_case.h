@@ -1,0 +1,48 @@
+#pragma once
+/// \file A case of laminar blood flow that OpenFOAM runs as it is (written for v1912, as Debian 12 has it):
+/// simpleFoam when steady, pisoFoam when pulsatile. See docs/solver-cases.md.
+
+#include "ostia/core/task_context.h"
+#include "ostia/solver/boundary_flow.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ostia::solver {
+
+struct OpenfoamCaseOptions {
+  BoundaryFlowOptions flow;  ///< with a waveform the case is pulsatile
+  int processes = 2;         ///< that the decomposed run is prepared for; in [1, 4096]
+  // Steady.
+  int iterations = 2000;    ///< at most; in [1, 1000000]
+  double tolerance = 1e-6;  ///< initial residuals at which it stops; in [1e-12, 1e-2]
+  // Pulsatile.
+  int cycles = 3;                     ///< in [1, 100]
+  int samples_per_cycle = 100;        ///< of the inlet's velocities, straight between; in [10, 1000]
+  int results_per_cycle = 20;         ///< fields written; in [1, 1000]
+  double courant = 0.5;               ///< that the time step is chosen for; in [0.01, 10]
+  std::optional<double> time_step_s;  ///< instead; positive
+};
+void validate(const OpenfoamCaseOptions& options);
+
+struct OpenfoamCaseResult {
+  BoundaryFlow flow;
+  double time_step_s = 0.0;  ///< of a pulsatile case
+  std::vector<std::string> warnings;
+};
+
+/// Writes constant/polyMesh (metres), 0/U, 0/p, constant, system and Allrun (`./Allrun`, or `./Allrun 4` for
+/// four processes), whole or not at all. `folder` must not exist or be empty. Velocities at the inlets are
+/// fully developed profiles of the real section (Womersley's when pulsatile) with exactly the flow asked for
+/// through the mesh's facets. v1912 has no outlet with a resistance that is coupled implicitly; with
+/// Outlets::resistance the outlets' flows are given by 1/R, the largest outlet's pressure is its R times its
+/// flow. Throws InvalidInput and GeometryError before anything is written (options,
+/// what boundary_flow refuses, quadratic elements, a folder that holds something), IoError, ResourceError,
+/// Cancelled.
+OpenfoamCaseResult write_openfoam_case(const geometry::MixedMesh& mesh, const OpenfoamCaseOptions& options,
+                                       const std::filesystem::path& folder,
+                                       const core::TaskContext& task = core::no_task());
+
+}  // namespace ostia::solver

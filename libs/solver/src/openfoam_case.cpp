@@ -1,0 +1,154 @@
+#include "ostia/solver/openfoam_case.h"
+
+#include "case_text.h"
+#include "openfoam_plan.h"
+
+#include "ostia/core/error.h"
+#include "ostia/core/files.h"
+#include "ostia/geometry/mixed_mesh_sides.h"
+#include "ostia/io/mesh_export.h"
+#include "ostia/meshing/boundary_layer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace ostia::solver {
+namespace fs = std::filesystem;
+namespace {
+
+using geometry::MixedMesh;
+using geometry::Vec3;
+
+void require_in(const char* what, double value, double least, double most) {
+  if (!(value >= least && value <= most))
+    throw InvalidInput(std::string(what) + " must be in [" + number(least) + ", " + number(most) + "], not " +
+                       number(value));
+}
+
+/// Area vectors of an element's sides, outward.
+template <class Element, class Sides>
+std::vector<Vec3> side_areas(const MixedMesh& mesh, const Element& element, const Sides& sides) {
+  std::vector<Vec3> areas;
+  for (const std::array<int, 4>& side : sides) {
+    const auto p = [&](std::size_t i) {
+      return mesh.points[static_cast<std::size_t>(element[static_cast<std::size_t>(side[i])])];
+    };
+    areas.emplace_back(side[3] < 0 ? (p(1) - p(0)).cross(p(2) - p(0)) / 2.0
+                                   : (p(2) - p(0)).cross(p(3) - p(1)) / 2.0);
+  }
+  return areas;
+}
+
+/// Largest over the elements of projected area over volume, 1/mm: times velocity and time step it is the
+/// Courant number. In tetrahedra the largest of the projections along the sides' normals; in prisms the mean
+/// over the directions along the wall, since they lie there, and the flow goes along it.
+double largest_crossing_rate(const MixedMesh& mesh) {
+  double largest = 0.0;
+  for (const geometry::Tetrahedron& t : mesh.tetrahedra) {
+    const std::vector<Vec3> areas = side_areas(mesh, t, geometry::tetrahedron_sides);
+    const auto p = [&](std::size_t i) { return mesh.points[static_cast<std::size_t>(t[i])]; };
+    const double volume = (p(1) - p(0)).cross(p(2) - p(0)).dot(p(3) - p(0)) / 6.0;
+    for (const Vec3& along : areas) {
+      double projected = 0.0;
+      for (const Vec3& area : areas) projected += std::abs(area.dot(along)) / (2.0 * along.norm());
+      largest = std::max(largest, projected / volume);
+    }
+  }
+  for (const geometry::Prism& prism : mesh.prisms) {
+    const std::vector<Vec3> areas = side_areas(mesh, prism, geometry::prism_sides);
+    meshing::PrismCorners corners;
+    for (std::size_t i = 0; i < corners.size(); ++i)
+      corners[i] = mesh.points[static_cast<std::size_t>(prism[i])];
+    const double around = areas[2].norm() + areas[3].norm() + areas[4].norm();
+    largest = std::max(largest, around / (std::numbers::pi * meshing::prism_volume(corners)));
+  }
+  return largest;
+}
+
+/// In the middle of the fastest end at the largest flow, mm/s.
+double largest_velocity(const BoundaryFlow& flow) {
+  double most = 0.0, whole = 0.0;
+  for (const Inlet& inlet : flow.inlets) {
+    most = std::max(most, 2e3 * inlet.largest_flow_ml_s() / inlet.section.area_mm2);
+    whole += inlet.largest_flow_ml_s();
+  }
+  for (const Outlet& outlet : flow.outlets)
+    most = std::max(most, 2e3 * outlet.share * whole / outlet.area_mm2);
+  return most;
+}
+
+/// So that a whole number of steps lies between two results.
+double time_step(const MixedMesh& mesh, const BoundaryFlow& flow, const OpenfoamCaseOptions& o,
+                 double period_s) {
+  const double interval = period_s / o.results_per_cycle;
+  const double wanted =
+      o.time_step_s.value_or(o.courant / (largest_crossing_rate(mesh) * largest_velocity(flow)));
+  return interval / std::max(1.0, std::ceil(interval / wanted - 1e-9));
+}
+
+double period_of(const OpenfoamCaseOptions& o) {
+  return o.flow.waveform ? o.flow.waveform->period_s : 0.0;
+}
+
+int longest_axis(const MixedMesh& mesh) {
+  geometry::Box3 box;
+  for (const Vec3& p : mesh.points) box.extend(p);
+  Eigen::Index axis = 0;
+  box.sizes().maxCoeff(&axis);
+  return static_cast<int>(axis);
+}
+
+void write_dictionaries(const CasePlan& plan, const fs::path& folder) {
+  const fs::path system = folder / "system", constant = folder / "constant";
+  write_case_file(system / "controlDict", control_dict(plan));
+  write_case_file(system / "fvSchemes", fv_schemes(plan));
+  write_case_file(system / "fvSolution", fv_solution(plan));
+  write_case_file(system / "decomposeParDict", decompose_dict(plan));
+  write_case_file(constant / "transportProperties", transport_properties(plan));
+  write_case_file(constant / "turbulenceProperties", turbulence_properties());
+  const fs::path script = folder / "Allrun";
+  write_case_file(script, run_script(plan));
+  fs::permissions(script, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
+                  fs::perm_options::add);
+}
+
+}  // namespace
+
+void validate(const OpenfoamCaseOptions& o) {
+  validate(o.flow);
+  require_in("processes", o.processes, 1, 4096);
+  require_in("iterations", o.iterations, 1, 1e6);
+  require_in("tolerance", o.tolerance, 1e-12, 1e-2);
+  require_in("cycles", o.cycles, 1, 100);
+  require_in("samples_per_cycle", o.samples_per_cycle, 10, 1000);
+  require_in("results_per_cycle", o.results_per_cycle, 1, 1000);
+  require_in("courant", o.courant, 0.01, 10.0);
+  if (o.time_step_s) require_in("time_step_s", *o.time_step_s, 1e-9, 1.0);
+}
+
+OpenfoamCaseResult write_openfoam_case(const MixedMesh& mesh, const OpenfoamCaseOptions& options,
+                                       const fs::path& folder, const core::TaskContext& task) {
+  validate(options);
+  require_new_folder(folder);
+  io::require_holds(io::MeshFormat::openfoam, !mesh.prisms.empty(), mesh.quadratic());
+  OpenfoamCaseResult result;
+  result.flow = boundary_flow(mesh, options.flow);
+  result.warnings = result.flow.warnings;
+  CasePlan plan{options, result.flow, period_of(options), 0.0, longest_axis(mesh)};
+  if (plan.pulsatile())
+    result.time_step_s = plan.time_step_s = time_step(mesh, result.flow, options, plan.period_s);
+  task.set_progress(0.1);
+  core::StagedFolder staged(folder);
+  const io::MeshExportResult written = io::export_mesh(mesh, io::MeshFormat::openfoam, staged.temporary());
+  result.warnings.insert(result.warnings.end(), written.warnings.begin(), written.warnings.end());
+  task.set_progress(0.5);
+  task.throw_if_cancelled();
+  write_dictionaries(plan, staged.temporary());
+  write_boundaries(plan, staged.temporary(), task.sub(0.5, 0.95));
+  staged.commit();
+  task.set_progress(1.0);
+  return result;
+}
+
+}  // namespace ostia::solver

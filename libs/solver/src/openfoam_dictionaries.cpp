@@ -1,0 +1,156 @@
+// OpenFOAM's dictionaries of a laminar case (User Guide v1912, chapters 4 and 6).
+
+#include "case_text.h"
+#include "openfoam_plan.h"
+
+namespace ostia::solver {
+namespace {
+
+std::string kinematic(double viscosity_mpa_s, double density) {
+  return number(viscosity_mpa_s / (1e3 * density));
+}
+
+/// A value of one patch, a line a time step or iteration, in postProcessing/<name>.
+std::string of_patch(const std::string& name, const std::string& patch, const std::string& field,
+                     const std::string& operation) {
+  return "    " + name + "_" + patch +
+         "\n    {\n        type            surfaceFieldValue;\n"
+         "        libs            (\"libfieldFunctionObjects.so\");\n"
+         "        regionType      patch;\n        name            " +
+         patch + ";\n        operation       " + operation + ";\n        fields          (" + field +
+         ");\n        writeFields     false;\n        log             false;\n"
+         "        writeControl    timeStep;\n        writeInterval   1;\n    }\n";
+}
+
+std::string functions(const CasePlan& plan) {
+  std::string text =
+      "functions\n{\n"
+      "    // Kinematic, m2/s2: times the density it is in Pa.\n"
+      "    wallShearStress\n    {\n        type            wallShearStress;\n"
+      "        libs            (\"libfieldFunctionObjects.so\");\n"
+      "        executeControl  writeTime;\n        writeControl    writeTime;\n        log             "
+      "false;\n"
+      "    }\n"
+      "    pressureInPascal\n    {\n        type            pressure;\n"
+      "        libs            (\"libfieldFunctionObjects.so\");\n"
+      "        mode            static;\n        rho             rhoInf;\n        rhoInf          " +
+      number(plan.density()) +
+      ";\n        result          pressureInPascal;\n"
+      "        executeControl  writeTime;\n        writeControl    writeTime;\n        log             "
+      "false;\n"
+      "    }\n"
+      "    residuals\n    {\n        type            solverInfo;\n"
+      "        libs            (\"libutilityFunctionObjects.so\");\n        fields          (U p);\n    }\n";
+  const auto add = [&](const std::string& patch) {
+    text += of_patch("flow", patch, "phi", "sum") + of_patch("pressure", patch, "p", "areaAverage");
+  };
+  for (const Inlet& inlet : plan.flow.inlets) add(inlet.name);
+  for (const Outlet& outlet : plan.flow.outlets) add(outlet.name);
+  return text + "}\n";
+}
+
+/// Slices across the longest side of the model.
+std::string slices(const CasePlan& plan, const std::string& count) {
+  std::string text = "(";
+  for (int axis = 0; axis < 3; ++axis) text += (axis > 0 ? " " : "") + (axis == plan.long_axis ? count : "1");
+  return text + ")";
+}
+
+}  // namespace
+
+std::string control_dict(const CasePlan& plan) {
+  const bool pulsatile = plan.pulsatile();
+  const OpenfoamCaseOptions& o = plan.options;
+  return foam_head("dictionary", "system", "controlDict") + "application     " + plan.program() +
+         ";\nstartFrom       latestTime;\nstartTime       0;\nstopAt          endTime;\nendTime         " +
+         (pulsatile ? number(plan.end_time_s()) : std::to_string(o.iterations)) + ";\ndeltaT          " +
+         (pulsatile ? number(plan.time_step_s) : "1") + ";\nwriteControl    " +
+         (pulsatile ? "runTime" : "timeStep") + ";\nwriteInterval   " +
+         (pulsatile ? number(plan.period_s / o.results_per_cycle) : std::to_string(o.iterations)) +
+         ";\npurgeWrite      0;\nwriteFormat     ascii;\nwritePrecision  10;\nwriteCompression off;\n"
+         "timeFormat      general;\ntimePrecision   9;\nrunTimeModifiable no;\n\n" +
+         functions(plan);
+}
+
+std::string fv_schemes(const CasePlan& plan) {
+  return foam_head("dictionary", "system", "fvSchemes") + "ddtSchemes\n{\n    default         " +
+         (plan.pulsatile() ? "backward" : "steadyState") +
+         ";\n}\ngradSchemes\n{\n    default         pointCellsLeastSquares;\n}\ndivSchemes\n{\n    default   "
+         "      "
+         "none;\n"
+         "    div(phi,U)      " +
+         (plan.pulsatile() ? "" : "bounded ") +
+         "Gauss linearUpwind grad(U);\n"
+         "    div((nuEff*dev2(T(grad(U))))) Gauss linear;\n}\nlaplacianSchemes\n{\n"
+         "    default         Gauss linear corrected;\n}\ninterpolationSchemes\n{\n"
+         "    default         linear;\n}\nsnGradSchemes\n{\n    default         corrected;\n}\n";
+}
+
+std::string fv_solution(const CasePlan& plan) {
+  const std::string solver_p =
+      "        solver          GAMG;\n        smoother        GaussSeidel;\n        tolerance       1e-9;\n";
+  const std::string solver_u =
+      "        solver          smoothSolver;\n        smoother        symGaussSeidel;\n"
+      "        tolerance       1e-9;\n";
+  std::string text = foam_head("dictionary", "system", "fvSolution") + "solvers\n{\n    p\n    {\n" +
+                     solver_p + "        relTol          0.02;\n    }\n    pFinal\n    {\n" + solver_p +
+                     "        relTol          0;\n    }\n    \"(U|UFinal)\"\n    {\n" + solver_u +
+                     "        relTol          " + (plan.pulsatile() ? "0" : "0.05") + ";\n    }\n}\n\n";
+  if (plan.pulsatile()) return text + "PISO\n{\n    nCorrectors     3;\n    nNonOrthogonalCorrectors 1;\n}\n";
+  const std::string tolerance = number(plan.options.tolerance);
+  return text +
+         "SIMPLE\n{\n    consistent      yes;\n    nNonOrthogonalCorrectors 1;\n    residualControl\n    {\n"
+         "        p               " +
+         tolerance + ";\n        U               " + tolerance +
+         ";\n    }\n}\n\nrelaxationFactors\n{\n    equations\n    {\n        U               0.9;\n    "
+         "}\n}\n";
+}
+
+std::string decompose_dict(const CasePlan& plan) {
+  // Debian's package has no working graph partitioner (Scotch, Metis).
+  const std::string processes = std::to_string(plan.options.processes);
+  return foam_head("dictionary", "system", "decomposeParDict") + "numberOfSubdomains " + processes +
+         ";\nmethod          simple;\nsimpleCoeffs\n{\n    n           " + slices(plan, processes) +
+         ";\n    delta       0.001;\n}\n";
+}
+
+std::string transport_properties(const CasePlan& plan) {
+  const Blood& blood = plan.options.flow.blood;
+  const std::string head = foam_head("dictionary", "constant", "transportProperties") +
+                           "// Kinematic, m2/s; density " + number(blood.density_kg_m3) + " kg/m3\n";
+  if (blood.rheology == Rheology::newtonian)
+    return head + "transportModel  Newtonian;\nnu              " +
+           kinematic(blood.viscosity_mpa_s, blood.density_kg_m3) + ";\n";
+  return head + "transportModel  BirdCarreau;\nBirdCarreauCoeffs\n{\n    nu0             " +
+         kinematic(CarreauLaw::at_rest_mpa_s, blood.density_kg_m3) + ";\n    nuInf           " +
+         kinematic(CarreauLaw::at_speed_mpa_s, blood.density_kg_m3) + ";\n    k               " +
+         number(CarreauLaw::relaxation_s) + ";\n    n               " + number(CarreauLaw::power) + ";\n}\n";
+}
+
+std::string turbulence_properties() {
+  return foam_head("dictionary", "constant", "turbulenceProperties") + "simulationType  laminar;\n";
+}
+
+std::string run_script(const CasePlan& plan) {
+  const std::string program = plan.program();
+  return "#!/bin/sh\n"
+         "# Runs this case: ./Allrun, or decomposed on N processes: ./Allrun N. What the programs say is in "
+         "log.*\n"
+         "# MPIRUN names another program than mpirun, with its options.\n"
+         "cd \"${0%/*}\" || exit 1\nset -e\n"
+         "# Debian's OpenFOAM finds its settings by this.\n"
+         ": \"${WM_PROJECT_DIR:=/usr/share/openfoam}\"\nexport WM_PROJECT_DIR\n"
+         "n=\"${1:-1}\"\n"
+         "checkMesh > log.checkMesh 2>&1\n"
+         "if [ \"$n\" -gt 1 ]; then\n"
+         "  sed -i \"s/^numberOfSubdomains .*/numberOfSubdomains $n;/; s/^    n  .*/    n           " +
+         slices(plan, "$n") +
+         ";/\" system/decomposeParDict\n"
+         "  decomposePar -force > log.decomposePar 2>&1\n"
+         "  ${MPIRUN:-mpirun} -np \"$n\" " +
+         program + " -parallel > log." + program + " 2>&1\n  reconstructPar " +
+         (plan.pulsatile() ? "" : "-latestTime ") + "> log.reconstructPar 2>&1\nelse\n  " + program +
+         " > log." + program + " 2>&1\nfi\n";
+}
+
+}  // namespace ostia::solver

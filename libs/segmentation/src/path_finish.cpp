@@ -132,9 +132,8 @@ LumenLevels levels_from(const imaging::ImageVolume& image, const std::vector<Vec
   levels.background_hu = std::min(levels.background_hu, lumen.median - kLeastWidthHu);
   const double width = levels.lumen_hu - levels.background_hu;
   levels.calcium_hu = lumen.median + std::max(3.0 * lumen.sigma, kCalciumAbove * width);
-  const Spread voxel = spread(std::move(voxels));
-  levels.calcium_margin_hu = kCalciumNoise * std::max(kLeastNoiseHu, voxel.sigma);
-  levels.calcium_voxel_hu = voxel.median + levels.calcium_margin_hu;
+  levels.calcium_margin_hu = kCalciumNoise * std::max(kLeastNoiseHu, spread(std::move(voxels)).sigma);
+  levels.calcium_voxel_hu = lumen.median + levels.calcium_margin_hu;
   return levels;
 }
 
@@ -239,7 +238,7 @@ void finish(MinimalPath& path, TubeSpeed& speed, const std::vector<Vec3>& rough,
   path.points = geometry::resample(centred, options.step_mm);
   const std::vector<Vec3> tangents = geometry::tangents(path.points);
   const std::vector<double> s = geometry::abscissas(path.points);
-  const std::vector<double> lumen = lumen_along(speed.image(), path.points);
+  const std::vector<double> lumen = lumen_along(speed, path.points);
   RayOptions rays = rays_for(speed, options);
   path.length_mm = s.back();
   const auto measured = [&](std::size_t i) {
@@ -252,7 +251,7 @@ void finish(MinimalPath& path, TubeSpeed& speed, const std::vector<Vec3>& rough,
   double sum = 0.0;
   std::size_t counted = 0;
   for (std::size_t i = 0; i < s.size(); ++i) {
-    rays.lumen_voxel_hu = lumen[i];
+    rays.lumen_hu = lumen[i];
     const PathSection section = look_across(speed, path.points[i], tangents[i], rays);
     path.contrast[i] = static_cast<float>(section.contrast);
     if (!measured(i)) continue;

@@ -86,10 +86,10 @@ double unblurred_radius(double half_mm, double sigma_mm) {
   return sigma_mm * std::max(0.75, a.radius + t * (b.radius - a.radius));
 }
 
-std::vector<double> lumen_along(const imaging::ImageVolume& image, const std::vector<Vec3>& line) {
+std::vector<double> lumen_along(TubeSpeed& image, const std::vector<Vec3>& line) {
   const std::vector<double> s = geometry::abscissas(line);
   std::vector<double> values, result;
-  for (const Vec3& p : line) values.push_back(imaging::sample(image, p, imaging::Interpolation::trilinear));
+  for (const Vec3& p : line) values.push_back(image.smooth(p));
   for (std::size_t i = 0, first = 0, last = 0; i < line.size(); ++i) {
     while (s[i] - s[first] > kLevelMm) ++first;
     while (last < line.size() && s[last] - s[i] <= kLevelMm) ++last;
@@ -117,8 +117,7 @@ PathSection look_across(TubeSpeed& image, const Vec3& centre, const Vec3& tangen
   std::vector<double> found;
   std::array<double, kRays> radius{};
   int at_calcium = 0;
-  const double calcium_voxel_hu =
-      std::max(levels.calcium_voxel_hu, rays.lumen_voxel_hu + levels.calcium_margin_hu);
+  const double calcium_voxel_hu = std::max(levels.calcium_voxel_hu, rays.lumen_hu + levels.calcium_margin_hu);
   for (int n = 0; n < kRays; ++n) {
     const Vec3 direction = geometry::radial_direction(frame, 2.0 * M_PI * n / kRays);
     const double r = edge_along(image, centre, direction, half, 1.5 * rays.largest_radius_mm);
@@ -165,12 +164,12 @@ std::vector<Vec3> centred_line(TubeSpeed& image, std::vector<Vec3> points, doubl
     if (points.size() < 3) return points;
     const std::vector<Vec3> tangents = geometry::tangents(points);
     const std::vector<double> s = geometry::abscissas(points);
-    const std::vector<double> lumen = lumen_along(image.image(), points);
+    const std::vector<double> lumen = lumen_along(image, points);
     std::vector<double> weights(points.size(), 1.0);
     RayOptions here = rays;
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (s[i] < fixed.start_mm || s[i] > s.back() - fixed.end_mm) continue;
-      here.lumen_voxel_hu = lumen[i];
+      here.lumen_hu = lumen[i];
       const PathSection section = look_across(image, points[i], tangents[i], here);
       if (section.near_calcium) weights[i] = kBridgeWeight;
       if (section.radius_mm <= 0.0 || section.near_calcium) continue;

@@ -29,14 +29,13 @@ struct RayOptions {
   double largest_radius_mm = 4.0;
   double blur_sigma_mm = 0.0;  ///< of the intensities that the rays see, all told
   double wall_hu = -1000.0;    ///< what surrounds the lumen, where that is brighter than the background
-  /// Of the lumen's voxels about this place; where they are brighter than the levels', calcium is brighter
-  /// still.
-  double lumen_voxel_hu = -1000.0;
+  /// Of the vessel about this place; where it is brighter than the levels' lumen, calcium is brighter still.
+  double lumen_hu = -1000.0;
 };
 
-/// What the voxels of a vessel's lumen have about each point of its line: the median over 15 mm of the line,
+/// How bright a vessel's lumen is about each point of its line: the median over 15 mm of the line,
 /// so that a nodule in it does not matter. A vessel may be brighter than where its levels were taken.
-std::vector<double> lumen_along(const imaging::ImageVolume& image, const std::vector<Vec3>& line);
+std::vector<double> lumen_along(TubeSpeed& image, const std::vector<Vec3>& line);
 
 /// Rays normal to `tangent`, each to where the intensity has fallen half-way from the centre's to the
 /// background's, or risen half-way to calcium.

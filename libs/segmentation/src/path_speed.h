@@ -18,7 +18,7 @@ struct LumenLevels {
   double calcium_hu = 0.0;     ///< from here on, the contrast falls again: denser than blood
   /// In the image itself: by noise alone hardly any voxel of the lumen is as bright.
   double calcium_voxel_hu = std::numeric_limits<double>::infinity();
-  double calcium_margin_hu = 0.0;  ///< by how much it is above the lumen's voxels
+  double calcium_margin_hu = 0.0;  ///< by how much that is above `lumen_hu`, where both were taken
 
   /// 0 background, 1 lumen, falling again above `calcium_hu`.
   double contrast(double hu) const;

@@ -1,6 +1,7 @@
 #pragma once
 /// \file The edges of a triangle surface, sorted, with the triangles on each.
 
+#include "ostia/geometry/disjoint_sets.h"
 #include "ostia/geometry/tri_mesh.h"
 
 #include <cstdint>
@@ -36,31 +37,6 @@ void for_each_edge(const std::vector<HalfEdge>& table, const Use& use) {
     first = last;
   }
 }
-
-/// Disjoint sets whose representative is their lowest member.
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t count) : parent_(count) {
-    for (std::size_t i = 0; i < count; ++i) parent_[i] = static_cast<std::int32_t>(i);
-  }
-  std::int32_t find(std::int32_t i) {
-    while (parent(i) != i) {
-      parent(i) = parent(parent(i));
-      i = parent(i);
-    }
-    return i;
-  }
-  void join(std::int32_t a, std::int32_t b) {
-    a = find(a);
-    b = find(b);
-    if (a > b) std::swap(a, b);
-    parent(b) = a;
-  }
-
- private:
-  std::int32_t& parent(std::int32_t i) { return parent_[static_cast<std::size_t>(i)]; }
-  std::vector<std::int32_t> parent_;
-};
 
 /// For each point the lowest point with the same coordinates; a point that is not finite stands for itself.
 std::vector<std::int32_t> first_equal_points(const std::vector<Vec3>& points);

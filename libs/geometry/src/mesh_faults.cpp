@@ -116,7 +116,7 @@ void count_edge_faults(const TriMesh& mesh, const std::vector<HalfEdge>& table, 
 /// than one fan.
 void count_vertex_faults(const TriMesh& mesh, const std::vector<HalfEdge>& table, SurfaceFaults& faults,
                          Examples& examples) {
-  detail::DisjointSets corners(3 * mesh.triangles.size());
+  DisjointSets corners(3 * mesh.triangles.size());
   const auto corner_at = [&](const HalfEdge& h, std::int32_t vertex) {
     const std::int32_t side = h.from() == vertex ? h.side : (h.side + 1) % 3;
     return 3 * h.triangle + side;

@@ -134,7 +134,7 @@ std::vector<std::vector<std::int32_t>> boundary_loops(const TriMesh& mesh) {
 
 std::vector<std::int32_t> components(const TriMesh& mesh) {
   detail::check_indices(mesh, "components");
-  detail::DisjointSets sets(mesh.triangles.size());
+  DisjointSets sets(mesh.triangles.size());
   detail::for_each_edge(detail::half_edges(mesh), [&](const HalfEdge* first, const HalfEdge* last) {
     for (const HalfEdge* other = first + 1; other != last; ++other)
       sets.join(first->triangle, other->triangle);

@@ -25,29 +25,18 @@ void add_sides(const std::vector<Element>& elements, const Sides& sides, std::ve
   }
 }
 
-using Edge = std::pair<int, int>;
-constexpr std::array<Edge, 6> tetrahedron_edges = {{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
-constexpr std::array<Edge, 9> prism_edges = {
-    {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}}};
-
-/// The node in the middle of the edge between two of an element's corners.
-template <std::size_t E, std::size_t N>
-std::int32_t middle(const std::array<Edge, E>& edges, const std::array<std::int32_t, N>& nodes, int a,
-                    int b) {
-  const auto found = std::ranges::find_if(edges, [&](const Edge& e) {
-    return e == Edge{a, b} || e == Edge{b, a};
-  });
-  return nodes[static_cast<std::size_t>(found - edges.begin())];
-}
-
-template <std::size_t E, std::size_t N>
-void add_second_order(const std::array<int, 4>& corners, const std::array<Edge, E>& edges,
-                      const std::array<std::int32_t, N>& nodes, std::size_t side, MixedMesh& mesh) {
-  const auto at = [&](std::size_t a, std::size_t b) { return middle(edges, nodes, corners[a], corners[b]); };
-  if (corners[3] < 0)
+void add_second_order(const MeshSide& side, MixedMesh& mesh) {
+  const auto element = static_cast<std::size_t>(side.element);
+  const auto at = [&](std::size_t a, std::size_t b) {
+    return edge_node(mesh, element, side.outward[a], side.outward[b]);
+  };
+  if (side.triangle()) {
     mesh.triangle_nodes.push_back({at(0, 1), at(1, 2), at(2, 0)});
-  else  // a prism's quadrilaterals are its sides 2 to 4, and their middles its nodes 9 to 11
-    mesh.quad_nodes.push_back({at(0, 1), at(1, 2), at(2, 3), at(3, 0), nodes[N - 5 + side]});
+  } else {  // a prism's quadrilaterals are its sides 2 to 4, and their middles its nodes 9 to 11
+    const auto& nodes = mesh.prism_nodes[element - mesh.tetrahedra.size()];
+    mesh.quad_nodes.push_back(
+        {at(0, 1), at(1, 2), at(2, 3), at(3, 0), nodes[7 + static_cast<std::size_t>(side.side)]});
+  }
 }
 
 void add_boundary(const MeshSide& side, MixedMesh& mesh) {
@@ -59,16 +48,29 @@ void add_boundary(const MeshSide& side, MixedMesh& mesh) {
     mesh.quads.push_back(p);
     mesh.quad_face_ids.push_back(1);
   }
-  if (!mesh.quadratic()) return;
-  const auto element = static_cast<std::size_t>(side.element), s = static_cast<std::size_t>(side.side);
-  const std::size_t first = mesh.tetrahedra.size();
-  if (element < first)
-    add_second_order(tetrahedron_sides[s], tetrahedron_edges, mesh.tetrahedron_nodes[element], s, mesh);
-  else
-    add_second_order(prism_sides[s], prism_edges, mesh.prism_nodes[element - first], s, mesh);
+  if (mesh.quadratic()) add_second_order(side, mesh);
+}
+
+/// The same among an element's own corners and nodes.
+template <class Corners, class Nodes, class Edges>
+std::int32_t node_between(const Corners& corners, const Nodes& nodes, const Edges& edges, std::int32_t a,
+                          std::int32_t b) {
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const std::int32_t c = corners[edges[e][0]], d = corners[edges[e][1]];
+    if ((c == a && d == b) || (c == b && d == a)) return nodes[e];
+  }
+  return -1;
 }
 
 }  // namespace
+
+std::int32_t edge_node(const MixedMesh& mesh, std::size_t element, std::int32_t a, std::int32_t b) {
+  const std::size_t tetrahedra = mesh.tetrahedra.size();
+  if (element < tetrahedra)
+    return node_between(mesh.tetrahedra[element], mesh.tetrahedron_nodes[element], tetrahedron_edges, a, b);
+  const std::size_t prism = element - tetrahedra;
+  return node_between(mesh.prisms[prism], mesh.prism_nodes[prism], prism_edges, a, b);
+}
 
 std::vector<MeshSide> sorted_sides(const MixedMesh& mesh) {
   std::vector<MeshSide> sides;

@@ -1,5 +1,7 @@
 #include "ostia/geometry/mixed_mesh_split.h"
 
+#include "ostia/geometry/mixed_mesh_sides.h"
+
 #include <algorithm>
 
 namespace ostia::geometry {
@@ -25,8 +27,6 @@ constexpr std::array<std::array<int, 6>, 6> node_between = {{{-1, 0, 2, 6, 9, 11
                                                              {6, 9, 11, -1, 3, 5},
                                                              {9, 7, 10, 3, -1, 4},
                                                              {11, 10, 8, 5, 4, -1}}};
-constexpr std::array<std::array<int, 2>, 6> tetrahedron_edges = {
-    {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
 
 std::array<std::array<int, 4>, 3> three_of(const Prism& prism) {
   const auto& turn = turned[static_cast<std::size_t>(std::ranges::min_element(prism) - prism.begin())];

@@ -11,7 +11,6 @@
 namespace ostia::geometry {
 namespace {
 
-using detail::DisjointSets;
 using detail::HalfEdge;
 
 constexpr double nudge = 1e-3;

@@ -1,6 +1,7 @@
 #include "mesh_forecast_surface.h"
 
 #include "ostia/core/parallel.h"
+#include "ostia/geometry/disjoint_sets.h"
 #include "ostia/geometry/mesh_topology.h"
 
 #include <algorithm>
@@ -9,7 +10,6 @@
 #include <limits>
 #include <map>
 #include <numbers>
-#include <numeric>
 #include <set>
 #include <tuple>
 
@@ -98,22 +98,6 @@ std::vector<SurfaceEnd> caps_of(const geometry::FacedSurface& surface) {
   return ends;
 }
 
-class Sets {
- public:
-  explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
-  std::size_t find(std::size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::size_t a, std::size_t b) {
-    a = find(a), b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::size_t> parent_;
-};
-
 }  // namespace
 
 ForecastSurface::ForecastSurface(const geometry::FacedSurface& faced, const ForecastOptions& o,
@@ -152,15 +136,16 @@ bool ForecastSurface::on_wall(std::size_t v) const {
 std::vector<std::vector<std::int32_t>> clusters(
     const ForecastSurface& surface, const std::vector<char>& flagged, const std::vector<double>& badness,
     const std::vector<std::pair<std::int32_t, std::int32_t>>& links) {
-  Sets sets(flagged.size());
+  geometry::DisjointSets sets(flagged.size());
   for (std::size_t v = 0; v < flagged.size(); ++v)
     if (flagged[v] != 0)
       for (const std::int32_t u : surface.neighbours[v])
-        if (flagged[static_cast<std::size_t>(u)] != 0) sets.join(v, static_cast<std::size_t>(u));
-  for (const auto& [a, b] : links) sets.join(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
-  std::map<std::size_t, std::vector<std::int32_t>> by_root;
+        if (flagged[static_cast<std::size_t>(u)] != 0) sets.join(static_cast<std::int32_t>(v), u);
+  for (const auto& [a, b] : links) sets.join(a, b);
+  std::map<std::int32_t, std::vector<std::int32_t>> by_root;
   for (std::size_t v = 0; v < flagged.size(); ++v)
-    if (flagged[v] != 0) by_root[sets.find(v)].push_back(static_cast<std::int32_t>(v));
+    if (flagged[v] != 0)
+      by_root[sets.find(static_cast<std::int32_t>(v))].push_back(static_cast<std::int32_t>(v));
   std::vector<std::vector<std::int32_t>> result;
   const auto worse = [&](std::int32_t a, std::int32_t b) {
     return badness[static_cast<std::size_t>(a)] > badness[static_cast<std::size_t>(b)];

@@ -1,7 +1,7 @@
 #pragma once
 /// \file Edges and sides of tetrahedra and prisms, by their corners' places.
 
-#include "ostia/geometry/mixed_mesh.h"
+#include "ostia/geometry/mixed_mesh_sides.h"
 
 #include <array>
 #include <cstddef>
@@ -9,11 +9,9 @@
 
 namespace ostia::meshing {
 
-// In the order of MixedMesh's second-order nodes.
-inline constexpr std::array<std::array<std::size_t, 2>, 6> tetrahedron_edges{
-    {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
-inline constexpr std::array<std::array<std::size_t, 2>, 9> prism_edges{
-    {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}}};
+using geometry::prism_edges;
+using geometry::tetrahedron_edges;
+
 /// Outward.
 inline constexpr std::array<std::array<std::size_t, 4>, 3> prism_quads{
     {{0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}}};

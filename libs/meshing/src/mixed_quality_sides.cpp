@@ -31,21 +31,6 @@ void for_each_side(const MixedMesh& mesh, const Visit& visit) {
   for (std::size_t f = 0; f < facets; ++f) visit(Side{static_cast<std::int32_t>(f), -1});
 }
 
-/// The node in the middle of two corners of an element.
-std::int32_t edge_node(const MixedMesh& mesh, std::size_t element, std::int32_t a, std::int32_t b) {
-  const std::size_t tetrahedra = mesh.tetrahedra.size();
-  const auto find = [&](const auto& corners, const auto& nodes, const auto& edges) {
-    for (std::size_t e = 0; e < edges.size(); ++e) {
-      const std::int32_t c = corners[edges[e][0]], d = corners[edges[e][1]];
-      if ((c == a && d == b) || (c == b && d == a)) return nodes[e];
-    }
-    return std::int32_t{-1};
-  };
-  if (element < tetrahedra)
-    return find(mesh.tetrahedra[element], mesh.tetrahedron_nodes[element], tetrahedron_edges);
-  return find(mesh.prisms[element - tetrahedra], mesh.prism_nodes[element - tetrahedra], prism_edges);
-}
-
 }  // namespace
 
 void check_lists(const MixedMesh& mesh, const std::string& what) {
@@ -124,7 +109,7 @@ bool same_nodes(const MixedMesh& mesh, const Side& element, const Side& facet) {
   for (std::size_t e = 0; e < n; ++e) {
     const std::int32_t node =
         quad ? mesh.quad_nodes[f - mesh.triangles.size()][e] : mesh.triangle_nodes[f][e];
-    if (node != edge_node(mesh, owner, c[e], c[(e + 1) % n])) return false;
+    if (node != geometry::edge_node(mesh, owner, c[e], c[(e + 1) % n])) return false;
   }
   return !quad ||
          mesh.quad_nodes[f - mesh.triangles.size()][4] ==

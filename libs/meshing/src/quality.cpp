@@ -193,10 +193,6 @@ void validate(const QualityBounds& b) {
   if (!(b.min_angle_deg >= 0.0 && b.min_angle_deg < 60.0))
     refuse("min_angle_deg must lie in [0, 60) degrees");
   if (!(b.max_frobenius_aspect >= 1.0)) refuse("max_frobenius_aspect must be at least 1");
-  if (!(b.min_dihedral_deg >= 0.0 && b.min_dihedral_deg < 70.0))
-    refuse("min_dihedral_deg must lie in [0, 70) degrees");
-  if (!(b.min_scaled_jacobian > -1.0 && b.min_scaled_jacobian < 1.0))
-    refuse("min_scaled_jacobian must lie in (-1, 1)");
 }
 
 std::string QualityVerdict::summary() const {
@@ -225,23 +221,6 @@ QualityVerdict check(const SurfaceQuality& q, const QualityBounds& bounds) {
   if (!(q.max_frobenius_aspect <= bounds.max_frobenius_aspect))
     verdict.reasons.push_back("largest Frobenius aspect ratio " + number(q.max_frobenius_aspect) +
                               " is above " + number(bounds.max_frobenius_aspect));
-  return verdict;
-}
-
-QualityVerdict check(const VolumeQuality& q, const QualityBounds& bounds) {
-  validate(bounds);
-  QualityVerdict verdict;
-  if (q.tetrahedra == 0) verdict.reasons.push_back("no tetrahedra");
-  if (q.inverted > 0) verdict.reasons.push_back(std::to_string(q.inverted) + " inverted tetrahedra");
-  if (q.boundary_mismatches > 0)
-    verdict.reasons.push_back(std::to_string(q.boundary_mismatches) +
-                              " triangles where the boundary and the tetrahedra do not match");
-  if (!(q.min_dihedral_deg >= bounds.min_dihedral_deg))
-    verdict.reasons.push_back("smallest dihedral angle " + number(q.min_dihedral_deg) + " degrees is below " +
-                              number(bounds.min_dihedral_deg));
-  if (!(q.min_scaled_jacobian >= bounds.min_scaled_jacobian))
-    verdict.reasons.push_back("smallest scaled Jacobian " + number(q.min_scaled_jacobian) + " is below " +
-                              number(bounds.min_scaled_jacobian));
   return verdict;
 }
 

@@ -1,6 +1,7 @@
 #include "ostia/pipeline/volume_mesh.h"
 
 #include "ostia/core/error.h"
+#include "ostia/geometry/mesh_topology.h"
 #include "ostia/geometry/mixed_mesh_sides.h"
 #include "ostia/geometry/mixed_mesh_split.h"
 
@@ -17,20 +18,7 @@ void append(std::vector<std::string>& to, const std::vector<std::string>& from) 
 
 /// With the points that its triangles use, alone.
 geometry::TriMesh compacted(const geometry::TriMesh& mesh) {
-  geometry::TriMesh out;
-  std::vector<std::int32_t> number(mesh.points.size(), -1);
-  for (geometry::Triangle t : mesh.triangles) {
-    for (std::int32_t& p : t) {
-      std::int32_t& n = number[static_cast<std::size_t>(p)];
-      if (n < 0) {
-        n = static_cast<std::int32_t>(out.points.size());
-        out.points.push_back(mesh.points[static_cast<std::size_t>(p)]);
-      }
-      p = n;
-    }
-    out.triangles.push_back(t);
-  }
-  return out;
+  return geometry::subset(mesh, std::vector<bool>(mesh.triangles.size(), true));
 }
 
 template <class Figure>

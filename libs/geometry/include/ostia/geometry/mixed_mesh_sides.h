@@ -1,9 +1,19 @@
 #pragma once
-/// \file The sides of a volume mesh's elements: which two share one, and which are free.
+/// \file The edges and sides of a volume mesh's elements: which two share a side, and which are free.
 
 #include "ostia/geometry/mixed_mesh.h"
 
 namespace ostia::geometry {
+
+/// Corners of an element's edges by their places in the element, in the order of its second-order nodes.
+inline constexpr std::array<std::array<std::size_t, 2>, 6> tetrahedron_edges = {
+    {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
+inline constexpr std::array<std::array<std::size_t, 2>, 9> prism_edges = {
+    {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}}};
+
+/// The second-order node in the middle of two points of an element (tetrahedra are counted first, then
+/// prisms); -1 where they are no edge of it.
+std::int32_t edge_node(const MixedMesh& mesh, std::size_t element, std::int32_t a, std::int32_t b);
 
 /// Corners of an element's sides, outward, by their places in the element; the fourth of a triangle is -1.
 inline constexpr std::array<std::array<int, 4>, 4> tetrahedron_sides = {

@@ -56,12 +56,10 @@ struct VolumeQuality {
 VolumeQuality volume_quality(const geometry::VolumeMesh& mesh,
                              const core::TaskContext& task = core::no_task());
 
-/// The gate. A bound that is not passed becomes a reason.
+/// The gate of surfaces (that of volumes: mixed_quality.h). A bound that is not passed becomes a reason.
 struct QualityBounds {
   double min_angle_deg = 20.0;        ///< of the surface, [0, 60)
   double max_frobenius_aspect = 3.0;  ///< >= 1
-  double min_dihedral_deg = 5.0;      ///< of the volume, [0, 70)
-  double min_scaled_jacobian = 0.02;  ///< (-1, 1)
 };
 void validate(const QualityBounds& bounds);
 
@@ -73,7 +71,5 @@ struct QualityVerdict {
 /// A surface must be closed, manifold, consistently oriented and outward, free of self-intersections, and
 /// within bounds.
 QualityVerdict check(const SurfaceQuality& quality, const QualityBounds& bounds = {});
-/// A volume mesh must have no inverted tetrahedron, a boundary that is its own, and be within bounds.
-QualityVerdict check(const VolumeQuality& quality, const QualityBounds& bounds = {});
 
 }  // namespace ostia::meshing

@@ -25,6 +25,17 @@ build/release/bin/layer_picture docs/pictures/boundary-layer.png
 build/release/bin/extension_picture sections docs/pictures/flow-extensions.png
 build/release/bin/filters_picture "$work/phantom/dataset00" vessel1 docs/pictures/filters.png
 
+# Where OpenFOAM is installed: the first flow of the researcher's tutorial.
+if command -v simpleFoam > /dev/null; then
+  build/release/bin/ostia mesh "$work/builtin/lumen.vtp" -o "$work/mesh" --centerline "$work/builtin/centerlines.vtp" \
+    --edge-ratio 0.4 --layers 3 --layer-thickness 0.5
+  build/release/bin/ostia case "$work/mesh/mesh.vtu" -o "$work/flow" --flow 1.0 --outlets split
+  "$work/flow/Allrun"
+  build/release/bin/ostia result "$work/flow" -o "$work/flow-result"
+  cp "$work/flow-result/wall_shear_stress.png" docs/pictures/flow-wall-shear-stress.png
+  cp "$work/flow-result/speed.png" docs/pictures/flow-speed.png
+fi
+
 # Some minutes: the tubes scanned in twelve orientations.
 build/release/bin/ostia experiment orientations -o "$work/orientations"
 cp "$work/orientations/length.png" docs/pictures/orientations-length.png

@@ -1,11 +1,14 @@
 #include "cli.h"
 
+#include "cli_mesh.h"
+#include "cli_phantom.h"
 #include "cli_segment.h"
 #include "commands.h"
 #include "config_file.h"
 #include "evaluate.h"
 #include "experiment.h"
 #include "extract.h"
+#include "flow_result.h"
 #include "lumen.h"
 #include "progress_bar.h"
 #include "refusal.h"
@@ -17,8 +20,6 @@
 
 #include "ostia/core/log.h"
 #include "ostia/core/parallel.h"
-#include "ostia/io/mesh_export.h"
-#include "ostia/io/volume_mesh_file.h"
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -53,6 +54,7 @@ struct Commands {
   RunCommand chain;
   BatchCommand batch;
   CaseCommand solver_case;
+  ResultCommand result;
 };
 
 void add_common(CLI::App& app, CommonOptions& o) {
@@ -98,100 +100,6 @@ void add_ends(CLI::App& app, EndOptions& o) {
       ->check(CLI::PositiveNumber);
 }
 
-void add_mesh(CLI::App& app, MeshOptions& o) {
-  app.add_option("--edge-ratio", o.edge_ratio, "Edge length over the distance to the centerline")
-      ->check(CLI::PositiveNumber);
-  app.add_option("--size", o.size, "What the edges follow: distance to the centerline, or inscribed radius")
-      ->check(CLI::IsMember({"distance", "radius"}));
-  app.add_option("--min-edge", o.min_edge_mm, "Shortest edge, mm")->check(CLI::PositiveNumber);
-  app.add_option("--max-edge", o.max_edge_mm, "Longest edge, mm")->check(CLI::PositiveNumber);
-  app.add_option("--size-radii", o.most_distance_radii,
-                 "Bound on the distance to the centerline in inscribed radii, 1 or more, for aneurysms; left "
-                 "out: none")
-      ->check(CLI::Range(1.0, 100.0));
-  app.add_option(
-         "--curvature-ratio", o.curvature_ratio,
-         "Edge length over the wall's least radius of curvature, 0.02 to 2, for shorter edges in crotches; "
-         "left out: not looked at")
-      ->check(CLI::Range(0.02, 2.0));
-  app.add_option("--stenosis-edges", o.stenosis_share,
-                 "Edges at stenoses over those of the vessel, 0.05 to 1; default 1")
-      ->check(CLI::Range(0.05, 1.0));
-  app.add_option("--volume-size", o.size_factor, "Edges inside over edges of the surface")
-      ->check(CLI::PositiveNumber);
-  app.add_option("--inset", o.inset_radii, "How far inside its end a vessel is cut, in radii")
-      ->check(CLI::NonNegativeNumber);
-  app.add_option("--flow-extensions", o.extensions,
-                 "Tubes that lead the flow in and out, 0.25 to 100 diameters long; left out: none")
-      ->check(CLI::Range(0.25, 100.0));
-  app.add_option("--layers", o.layers, "Layers of prisms on the wall, 1 to 20; 0, the default: none")
-      ->check(CLI::Range(0, 20));
-  app.add_option("--layer-thickness", o.layer_thickness,
-                 "Of all layers together, over the wall's local edge, up to 3; default 0.25")
-      ->check(CLI::Range(1e-3, 3.0));
-  app.add_option("--layer-growth", o.layer_growth,
-                 "Thickness of a layer over that of the next nearer the wall, 1 to 3; default 1.2")
-      ->check(CLI::Range(1.0, 3.0));
-  app.add_flag("--split-prisms", o.split_prisms,
-               "The layers' prisms as tetrahedra, for programs that know one kind of element");
-  app.add_option("--order", o.order,
-                 "Of the elements: 1, the default, or 2 with nodes on the edges, those of the wall on the "
-                 "surface as it was before remeshing")
-      ->check(CLI::IsMember({1, 2}));
-  std::vector<std::string> formats;
-  for (const io::MeshFormat format : io::mesh_formats) formats.emplace_back(io::name_of(format));
-  app.add_option("--export", o.formats, "Formats besides mesh.vtu, separated by commas")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->check(CLI::IsMember(formats));
-}
-
-void add_phantom(CLI::App& app, PhantomCommand& o) {
-  app.add_option("-o,--output", o.output, "Folder that is made: dataset00, dataset01, ... and suite.json")
-      ->required();
-  app.add_option("--preset", o.preset,
-                 "full: 512x512x300 voxels; small: voxels twice as large; tiny: about the ostia alone")
-      ->check(CLI::IsMember({"tiny", "small", "full"}));
-  app.add_option("--cases", o.cases, "How many cases, with the seeds from --seed on")
-      ->check(CLI::Range(1, 100));
-  app.add_option("--phases", o.phases, "Phases of the heart's cycle; 1 alone");
-  app.add_flag("--truth-only", o.truth_only, "No images and label volumes");
-  app.add_option("--formats", o.formats, "Of the image: mhd, nrrd, dicom, separated by commas; all")
-      ->delimiter(',')
-      ->check(CLI::IsMember({"mhd", "nrrd", "dicom"}));
-  app.add_option("--disease", o.disease, "Number of lesions, as a multiple of the usual; 0: a healthy tree")
-      ->check(CLI::Range(0.0, 5.0));
-  app.add_option("--anatomy", o.anatomy,
-                 "usual, left-ostium-closed, right-ostium-closed, rca-from-left, lcx-from-right, bypass")
-      ->check(CLI::IsMember({"usual", "left-ostium-closed", "right-ostium-closed", "rca-from-left",
-                             "lcx-from-right", "bypass"}));
-  app.add_option("--calcium", o.calcium, "0: none; 1: that of the lesions; more: nodules along the arteries")
-      ->check(CLI::Range(0.0, 20.0));
-  app.add_option("--stent", o.stent_mm, "Length of a stent in the proximal LAD, mm")
-      ->check(CLI::Range(0.0, 40.0));
-  app.add_option("--contrast", o.contrast_hu, "Of aorta, left heart and arteries, HU")
-      ->check(CLI::Range(80.0, 1000.0));
-  app.add_option("--venous", o.venous, "Contrast in veins and right heart, as a share of the arteries'")
-      ->check(CLI::Range(0.0, 1.0));
-  app.add_option("--noise", o.noise_hu, "Standard deviation of the noise, HU")->check(CLI::Range(0.0, 500.0));
-  app.add_option("--blur", o.blur_mm, "Point spread in the slice, full width at half maximum, mm")
-      ->check(CLI::Range(0.0, 5.0));
-  app.add_option("--blur-z", o.blur_z_mm, "The same along z, mm")->check(CLI::Range(0.0, 5.0));
-  app.add_option("--motion", o.motion_mm, "Blur by the heart's motion: length of the path, mm")
-      ->check(CLI::Range(0.0, 10.0));
-  app.add_option("--stair-step", o.stair_step_mm, "Jump of the heart between blocks of slices, mm")
-      ->check(CLI::Range(0.0, 10.0));
-  app.add_option("--beam-hardening", o.beam_hardening, "Dark streaks beside dense things; 1 is usual")
-      ->check(CLI::Range(0.0, 5.0));
-  app.add_option("--contour-spacing", o.contour_spacing_mm, "Distance between the true contours, mm")
-      ->check(CLI::PositiveNumber);
-  app.add_option("--contour-points", o.contour_points, "Points of a contour")->check(CLI::Range(8, 1024));
-  app.add_option("--surface-spacing", o.surface_spacing_mm, "Edges of the true surfaces, mm")
-      ->check(CLI::Range(0.05, 1.0));
-  app.add_flag("--no-report", o.no_report, "No report.html and no pictures");
-  app.add_flag("--json", o.json, "suite.json on standard output");
-}
-
 CLI::App* command(CLI::App& app, const std::string& name, const std::string& text,
                   const std::string& example) {
   CLI::App* sub = app.add_subcommand(name, text);
@@ -232,6 +140,7 @@ void define(CLI::App& app, Commands& c, Run& run) {
   define_extract(app, c.extract, run, add_dicom);
   define_run(app, c.chain, c.batch, c.common, run);
   define_case(app, c.solver_case, run);
+  define_result(app, c.result, run);
 
   CLI::App* segment = command(app, "segment", "The lumen of the vessels between seed points",
                               "ostia segment heart.nrrd -o lumen.vtp --branch 8,-187,675:6,-178,720\n"
@@ -271,11 +180,7 @@ void define(CLI::App& app, Commands& c, Run& run) {
   add_coords(*mesh, c.mesh.input);
   add_ends(*mesh, c.mesh.ends);
   add_mesh(*mesh, c.mesh.mesh);
-  mesh->add_option("-o,--output", c.mesh.output, "Folder that is made");
-  mesh->add_option("--centerline", c.mesh.centerline, "Centerlines; left out: computed");
-  mesh->add_option("--check", c.mesh.check,
-                   "Only judges a surface or a volume mesh: " + io::readable_volume_meshes());
-  mesh->add_flag("--json", c.mesh.json, "One JSON object on standard output");
+  add_mesh_command(*mesh, c.mesh);
   mesh->callback([&] { run = [&](const core::TaskContext& task) { return run_mesh(c.mesh, task); }; });
 
   CLI::App* convert =
@@ -327,6 +232,11 @@ void define(CLI::App& app, Commands& c, Run& run) {
   });
 }
 
+void keep_out(const std::filesystem::path& path) {
+  core::redact_in_logs(path.string(), "FILE");
+  core::redact_in_logs(path.parent_path().string(), "FOLDER");
+}
+
 /// A log that is kept must not name what a folder or file is called after.
 void keep_paths_out_of_the_log(const Commands& c) {
   for (const InputOptions* input :
@@ -359,8 +269,11 @@ void keep_paths_out_of_the_log(const Commands& c) {
         c.batch.table,        c.batch.chain,
         c.batch.output,       c.solver_case.mesh,
         c.solver_case.output, std::filesystem::path(c.solver_case.waveform)}) {
-    core::redact_in_logs(path.string(), "FILE");
-    core::redact_in_logs(path.parent_path().string(), "FOLDER");
+    keep_out(path);
+  }
+  for (const MeshOptions* mesh : {&c.mesh.mesh, &c.model.mesh}) {
+    keep_out(mesh->planes_file);
+    keep_out(mesh->solver_case.waveform);
   }
 }
 

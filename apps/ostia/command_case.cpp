@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
-#include <functional>
 
 namespace ostia::app {
 namespace {
@@ -60,7 +59,7 @@ solver::FlowWaveform waveform_from(const std::filesystem::path& file, const std:
   return w;
 }
 
-solver::FlowWaveform waveform_of(const CaseCommand& c) {
+solver::FlowWaveform waveform_of(const CaseOptions& c) {
   if (c.waveform.ends_with(".csv")) {
     const std::filesystem::path file = c.waveform;
     return naming(file, [&] {
@@ -86,7 +85,7 @@ void add_flow(const std::string& text, solver::BoundaryFlowOptions& flow) {
   }
 }
 
-solver::BoundaryFlowOptions flow_options(const CaseCommand& c) {
+solver::BoundaryFlowOptions flow_options(const CaseOptions& c) {
   solver::BoundaryFlowOptions flow;
   flow.blood.density_kg_m3 = c.density;
   flow.blood.viscosity_mpa_s = c.viscosity;
@@ -117,48 +116,27 @@ void print(const solver::BoundaryFlow& flow, bool shared) {
   }
 }
 
-void warn(const std::vector<std::string>& warnings) {
-  for (const std::string& warning : warnings) core::log_warning(warning);
-}
-
-/// What is asked for, refused before the mesh is read; then made of the mesh.
-using Make = std::function<void(const geometry::MixedMesh&, const core::TaskContext&)>;
-
-Make openfoam(const CaseCommand& c) {
-  if (c.compliance) throw UsageError("--compliance is for --solver svmultiphysics");
+pipeline::SolverCase openfoam(const CaseOptions& c) {
+  if (c.compliance) throw UsageError("--compliance is for svmultiphysics");
   solver::OpenfoamCaseOptions options;
   options.flow = flow_options(c);
   options.processes = c.processes;
   options.iterations = c.iterations;
   options.cycles = c.cycles;
   options.time_step_s = c.time_step_s;
-  solver::validate(options);
-  return [&c, options](const geometry::MixedMesh& mesh, const core::TaskContext& task) {
-    const auto made = solver::write_openfoam_case(mesh, options, c.output, task);
-    warn(made.warnings);
-    print(made.flow, c.outlets != "zero");
-    if (made.time_step_s > 0.0) std::printf("time step %.3g s\n", made.time_step_s);
-    std::printf("run it: %s/Allrun, or on %d processes %s/Allrun %d\n", c.output.c_str(), c.processes,
-                c.output.c_str(), c.processes);
-  };
+  return options;
 }
 
-Make svmultiphysics(const CaseCommand& c) {
-  if (c.time_step_s) throw UsageError("--time-step is for --solver openfoam");
+pipeline::SolverCase svmultiphysics(const CaseOptions& c) {
+  if (c.time_step_s) throw UsageError("--time-step is for openfoam");
   solver::SvmultiphysicsCaseOptions options;
   options.flow = flow_options(c);
   options.total_compliance_ml_mmhg = c.compliance;
   options.cycles = c.cycles;
-  solver::validate(options);
-  return [&c, options](const geometry::MixedMesh& mesh, const core::TaskContext& task) {
-    const auto made = solver::write_svmultiphysics_case(mesh, options, c.output, task);
-    warn(made.warnings);
-    print(made.flow, c.outlets != "zero");
-    std::printf("run it in %s: svmultiphysics solver.xml\n", c.output.c_str());
-  };
+  return options;
 }
 
-void add_flow_options(CLI::App& app, CaseCommand& c) {
+void add_flow_options(CLI::App& app, CaseOptions& c) {
   app.add_option(
          "--flow", c.flow,
          "Mean flow through each inlet, ml/s, or INLET=ml/s for one of them; repeat. Left out: 1.43 d^2.55 "
@@ -187,14 +165,52 @@ void add_flow_options(CLI::App& app, CaseCommand& c) {
 
 }  // namespace
 
+pipeline::SolverCase solver_case(const CaseOptions& c) {
+  pipeline::SolverCase made = c.solver == "svmultiphysics" ? svmultiphysics(c) : openfoam(c);
+  pipeline::validate(made);
+  return made;
+}
+
+void tell_case(const pipeline::VolumeOptions& options, const std::filesystem::path& folder) {
+  if (!options.solver_case) return;
+  const std::filesystem::path place = folder / pipeline::name_in_folder(*options.solver_case);
+  if (std::holds_alternative<solver::OpenfoamCaseOptions>(*options.solver_case))
+    core::log_info("run the case: " + (place / "Allrun").string());
+  else
+    core::log_info("run the case in " + place.string() + ": svmultiphysics solver.xml");
+}
+
 ExitCode run_case(const CaseCommand& c, const core::TaskContext& task) {
-  const Make make = c.solver == "openfoam" ? openfoam(c) : svmultiphysics(c);
+  const pipeline::SolverCase asked = solver_case(c);  // refused before the mesh is read
   task.set_stage("reading");
   const geometry::MixedMesh mesh = io::read_volume_mesh(c.mesh);
   task.set_progress(0.2);
   task.set_stage("case");
-  naming(c.mesh, [&] { make(mesh, task.sub(0.2, 1.0)); });
+  naming(c.mesh, [&] {
+    const auto made = pipeline::write_solver_case(mesh, asked, c.output, task.sub(0.2, 1.0));
+    for (const std::string& warning : made.warnings) core::log_warning(warning);
+    print(made.flow, c.outlets != "zero");
+    if (made.time_step_s > 0.0) std::printf("time step %.3g s\n", made.time_step_s);
+  });
+  if (c.solver == "openfoam")
+    std::printf("run it: %s/Allrun, or on %d processes %s/Allrun %d\n", c.output.c_str(), c.processes,
+                c.output.c_str(), c.processes);
+  else
+    std::printf("run it in %s: svmultiphysics solver.xml\n", c.output.c_str());
   return ExitCode::ok;
+}
+
+void add_case_options(CLI::App& app, CaseOptions& c, const std::string& iterations) {
+  add_flow_options(app, c);
+  app.add_option("--density", c.density, "Of blood, kg/m3");
+  app.add_option("--viscosity", c.viscosity, "Of blood, mPa s");
+  app.add_option("--rheology", c.rheology, "newton, or carreau: shear-thinning")
+      ->check(CLI::IsMember({"newton", "carreau"}));
+  app.add_option("--cycles", c.cycles, "Of a pulsatile flow");
+  app.add_option("--time-step", c.time_step_s, "s; left out: from the mesh, for a Courant number of 0.5")
+      ->check(CLI::PositiveNumber);
+  app.add_option(iterations, c.iterations, "Of a steady flow, at most");
+  app.add_option("--processes", c.processes, "That the decomposed run is prepared for");
 }
 
 void define_case(CLI::App& app, CaseCommand& c, std::function<ExitCode(const core::TaskContext&)>& run) {
@@ -207,16 +223,7 @@ void define_case(CLI::App& app, CaseCommand& c, std::function<ExitCode(const cor
   sub->add_option("-o,--output", c.output, "Folder that is made")->required();
   sub->add_option("--solver", c.solver, "openfoam or svmultiphysics")
       ->check(CLI::IsMember({"openfoam", "svmultiphysics"}));
-  add_flow_options(*sub, c);
-  sub->add_option("--density", c.density, "Of blood, kg/m3");
-  sub->add_option("--viscosity", c.viscosity, "Of blood, mPa s");
-  sub->add_option("--rheology", c.rheology, "newton, or carreau: shear-thinning")
-      ->check(CLI::IsMember({"newton", "carreau"}));
-  sub->add_option("--cycles", c.cycles, "Of a pulsatile flow");
-  sub->add_option("--time-step", c.time_step_s, "s; left out: from the mesh, for a Courant number of 0.5")
-      ->check(CLI::PositiveNumber);
-  sub->add_option("--iterations", c.iterations, "Of a steady flow, at most");
-  sub->add_option("--processes", c.processes, "That the decomposed run is prepared for");
+  add_case_options(*sub, c, "--iterations");
   sub->callback([&] { run = [&](const core::TaskContext& task) { return run_case(c, task); }; });
 }
 

@@ -1,5 +1,7 @@
 #include "commands.h"
+#include "mesh_input.h"
 #include "points.h"
+#include "solver_case.h"
 
 #include "ostia/core/files.h"
 #include "ostia/core/log.h"
@@ -36,6 +38,7 @@ Job job_of(const ModelCommand& command, const core::TaskContext& task) {
   Job job;
   apply(command.mesh, job.options);  // what does not go together is told before anything is read
   if (command.builtin) {
+    job.options.clip.planes = placed_planes(command.mesh, "lps", nullptr);
     take_builtin(command, job, task);
   } else {
     task.set_stage("reading");
@@ -45,10 +48,13 @@ Job job_of(const ModelCommand& command, const core::TaskContext& task) {
                                                       : nullptr;
     apply(command.lumen, command.input.coords, grid, job.options);
     apply(command.ends, command.input.coords, grid, job.options);
+    job.options.clip.planes = placed_planes(command.mesh, command.input.coords, grid);
+    apply_size_array(command.mesh, command.input, job.source.surface, job.options);
   }
   job.key = {"model",
              {{"input", job.source.sha256}},
              pipeline::parameters_json(job.options, source_options(command.input))};
+  if (job.options.sizing.array) job.key.inputs["size_array"] = core::sha256(command.mesh.size_array);
   return job;
 }
 
@@ -98,6 +104,7 @@ ExitCode run_model(const ModelCommand& command, const core::TaskContext& task) {
   const ExitCode code = pipeline::write_model_folder(command.output, model, job.options, job.key, truth,
                                                      seconds, task.sub(0.9, 1.0));
   task.set_progress(1.0);
+  tell_case(job.options.volume, command.output);
   if (command.json) {
     print_report(command.output);
   } else {

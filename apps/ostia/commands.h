@@ -1,6 +1,8 @@
 #pragma once
 /// \file What each command is told, and what it does. Returns the exit code; throws ostia::Error.
 
+#include "case_options.h"
+
 #include "ostia/core/error.h"
 #include "ostia/core/task_context.h"
 
@@ -99,7 +101,13 @@ struct MeshOptions {
   std::optional<double> layer_thickness, layer_growth;  ///< nothing: the library's default
   bool split_prisms = false;
   int order = 1;
-  std::vector<std::string> formats;  ///< besides mesh.vtu
+  std::vector<std::string> formats;   ///< besides mesh.vtu
+  std::vector<std::string> planes;    ///< [END=]x,y,z:nx,ny,nz
+  std::filesystem::path planes_file;  ///< the same as a table
+  std::string ends = "flat";          ///< flat, round
+  std::string size_array;             ///< of the input's points
+  std::string with_case;              ///< empty: none; else the solver
+  CaseOptions solver_case;
 };
 
 struct MeshCommand {
@@ -107,6 +115,10 @@ struct MeshCommand {
   EndOptions ends;
   MeshOptions mesh;
   std::filesystem::path output, centerline, check;
+  std::filesystem::path refine_from;                                       ///< a solver's result; empty: none
+  std::string refine_by;                                                   ///< its field
+  std::optional<double> refine_error, refine_elements, refine_coarsening;  ///< nothing: the library's default
+  bool forecast = false;
   bool json = false;
 };
 ExitCode run_mesh(const MeshCommand& options, const core::TaskContext& task);

@@ -1,5 +1,7 @@
 #include "points.h"
 
+#include "solver_case.h"
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -137,6 +139,8 @@ void apply(const EndOptions& from, const std::string& coords, const imaging::Geo
 
 namespace {
 
+constexpr double round_end_diameters = 0.25;
+
 /// Layers, order and formats.
 void apply_volume(const MeshOptions& from, pipeline::VolumeOptions& to) {
   if (from.layers > 0) {
@@ -150,6 +154,10 @@ void apply_volume(const MeshOptions& from, pipeline::VolumeOptions& to) {
   to.split_prisms = from.split_prisms;
   to.order = from.order;
   for (const std::string& format : from.formats) to.formats.push_back(io::mesh_format(format));
+  if (from.with_case.empty()) return;
+  CaseOptions asked = from.solver_case;
+  asked.solver = from.with_case;
+  to.solver_case = solver_case(asked);
 }
 
 }  // namespace
@@ -167,6 +175,11 @@ void apply(const MeshOptions& from, pipeline::ModelOptions& to) {
   if (from.extensions) {
     to.extensions.emplace();
     to.extensions->inlet_diameters = to.extensions->outlet_diameters = *from.extensions;
+  } else if (from.ends == "round") {
+    to.extensions.emplace();  // no longer than it takes to become a circle
+    to.extensions->inlet_diameters = to.extensions->outlet_diameters = to.extensions->min_diameters =
+        round_end_diameters;
+    to.extensions->transition_share = 1.0;
   }
   apply_volume(from, to.volume);
   pipeline::validate(to);  // what does not go together is told before anything is read

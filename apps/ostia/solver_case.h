@@ -1,13 +1,14 @@
 #pragma once
-/// \file `ostia case`: what it is told.
+/// \file `ostia case`, and the cases that other commands write with their meshes.
 
+#include "case_options.h"
 #include "commands.h"
+
+#include "ostia/pipeline/volume_mesh.h"
 
 #include <filesystem>
 #include <functional>
-#include <optional>
 #include <string>
-#include <vector>
 
 namespace CLI {
 class App;
@@ -15,23 +16,19 @@ class App;
 
 namespace ostia::app {
 
-struct CaseCommand {
+struct CaseCommand : CaseOptions {
   std::filesystem::path mesh;    ///< volume mesh with named faces
   std::filesystem::path output;  ///< folder that is made
-  std::string solver = "openfoam";
-  std::vector<std::string> flow;  ///< ml/s, or INLET=ml/s
-  std::optional<double> velocity_cm_s, reynolds;
-  std::string waveform;  ///< coronary-left, coronary-right or a table; empty: steady
-  std::optional<double> period_s;
-  std::string outlets = "zero";
-  double split_exponent = 2.27;
-  std::optional<double> resistance, compliance;
-  double density = 1060.0, viscosity = 3.5;
-  std::string rheology = "newton";
-  int cycles = 3, processes = 2, iterations = 2000;
-  std::optional<double> time_step_s;
 };
 ExitCode run_case(const CaseCommand& options, const core::TaskContext& task);
+
+/// Flow, fluid and steps; `iterations` is the name of the option of that name ("--iterations").
+void add_case_options(CLI::App& app, CaseOptions& options, const std::string& iterations);
+/// What the command line has asked for, as the library takes it. Throws UsageError and InvalidInput for what
+/// is out of range or does not go together; reads a waveform's table.
+pipeline::SolverCase solver_case(const CaseOptions& options);
+/// How the case beside a mesh is run; nothing where there is none.
+void tell_case(const pipeline::VolumeOptions& options, const std::filesystem::path& folder);
 
 /// Adds `case`.
 void define_case(CLI::App& app, CaseCommand& command, std::function<ExitCode(const core::TaskContext&)>& run);

@@ -6,6 +6,7 @@
 #include <QLibraryInfo>
 #include <QLocale>
 #include <QTranslator>
+#include <algorithm>
 
 // Outside of any namespace: what rcc makes is there.
 static void init_translations() {
@@ -157,7 +158,9 @@ QString measure_word(const std::string& name) {
 }
 
 QString stage_word(const std::string& stage) {
-  return QCoreApplication::translate("stages", stage.c_str());
+  const std::size_t end = std::min(stage.find(": "), stage.size());  // figures follow the words
+  return QCoreApplication::translate("stages", stage.substr(0, end).c_str()) +
+         QString::fromStdString(stage.substr(end));
 }
 
 }  // namespace ostia::workstation

@@ -1,5 +1,7 @@
 #include "main_window.h"
 
+#include "flow_cases.h"
+#include "flow_results.h"
 #include "frame_log.h"
 #include "hanging.h"
 #include "meshing_export.h"
@@ -74,6 +76,9 @@ MainWindow::MainWindow(const std::filesystem::path& state_folder)
   meshing_export_ = std::make_unique<MeshingExport>(*this);
   finder_ = std::make_unique<VesselFinder>(*this, *opening_);
   build_views();
+  flow_results_ = std::make_unique<FlowResults>(*this);
+  flow_cases_ = std::make_unique<FlowCases>(*this);
+  connect(flow_results_.get(), &FlowResults::pointed, place_, &QLabel::setText);
   outer_walls_ = std::make_unique<OuterWalls>(*this, pictures_, profile_);
   build_actions();
   build_tool_bar();
@@ -278,6 +283,7 @@ QWidget* MainWindow::side_column() {
 
 void MainWindow::build_views() {
   place_ = new QLabel(this);
+  place_->setObjectName("place");
   shown_name_ = new QLabel(this);
   shown_name_->setObjectName("shown_name");
   shown_name_->setContentsMargins(0, 0, 12, 0);
@@ -346,8 +352,11 @@ void MainWindow::restore_layout() {
 
 bool MainWindow::may_close() {
   QStringList unfinished;
-  for (const auto& [kind, title] :
-       {std::pair("report", tr("the report")), {"surface", tr("the surface")}, {"mesh", tr("the mesh")}})
+  for (const auto& [kind, title] : {std::pair("report", tr("the report")),
+                                    {"surface", tr("the surface")},
+                                    {"mesh", tr("the mesh")},
+                                    {"flow_case", tr("the flow case")},
+                                    {"flow_run", tr("the solver's run")}})
     if (jobs_->running(kind)) unfinished << title;
   if (unfinished.isEmpty()) return true;
   QMessageBox box(QMessageBox::Question, QStringLiteral("Ostia"),

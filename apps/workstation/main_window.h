@@ -25,6 +25,8 @@ namespace ostia::workstation {
 class Opening;
 class Reporting;
 class MeshingExport;
+class FlowCases;
+class FlowResults;
 class QaPanel;
 class Hanging;
 class VesselFinder;
@@ -45,6 +47,8 @@ class MainWindow final : public QMainWindow {
   session::MachineState& machine() { return machine_; }
   Jobs& jobs() { return *jobs_; }
   VesselFinder& finder() { return *finder_; }
+  FlowCases& flow_cases() { return *flow_cases_; }
+  FlowResults& flow_results() { return *flow_results_; }
   /// Runs it; what is refused comes up in the status line (or, `loud`, as a dialog) and ends there.
   bool guarded(const std::function<void()>& act, bool loud = false);
   void say(const QString& text);                                  ///< in the status line
@@ -108,6 +112,8 @@ class MainWindow final : public QMainWindow {
   bool must_end_ = false;
   std::unique_ptr<OuterWalls> outer_walls_;  // goes before the views that it draws on
   std::shared_ptr<QaPanel> qa_;              // so does this
+  std::unique_ptr<FlowResults> flow_results_;
+  std::unique_ptr<FlowCases> flow_cases_;
   QLabel* place_ = nullptr;
   QLabel* shown_name_ = nullptr;
   std::map<QString, QAction*> actions_;

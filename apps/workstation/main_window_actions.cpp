@@ -1,5 +1,7 @@
 #include "bind.h"
 #include "connect_menu.h"
+#include "flow_cases.h"
+#include "flow_results.h"
 #include "help.h"
 #include "main_window.h"
 #include "meshing_export.h"
@@ -95,8 +97,12 @@ void MainWindow::build_actions() {
                             [this] { meshing_export_->ask(ExportKind::surface, opening_->case_path()); }));
   exports->addAction(action("file.export_mesh", tr("A &mesh\u2026"),
                             [this] { meshing_export_->ask(ExportKind::mesh, opening_->case_path()); }));
+  exports->addAction(action("file.flow_case", tr("A &flow case\u2026"),
+                            [this] { flow_cases_->ask(opening_->case_path()); }));
   exports->addAction(action("file.export_centerlines", tr("The &centerlines\u2026"),
                             [this] { reporting_->export_centerlines(); }));
+  file->addAction(
+      action("file.flow_results", tr("Open flow res&ults\u2026"), [this] { flow_results_->ask(); }));
   file->addSeparator();
   file->addAction(action("file.quit", tr("&Quit"), [this] { close(); }));
 
@@ -207,6 +213,7 @@ void MainWindow::build_actions() {
     set_theme(current_theme() == Theme::dark ? Theme::light : Theme::dark);
   }));
   shown->addAction(build_qa());
+  shown->addAction(meshing_export_->panel_action());
 
   own_.push_back(bench_.case_changed.observe([this] { refresh_actions(); }));
   own_.push_back(bench_.image_changed.observe([this] { refresh_actions(); }));

@@ -1,6 +1,7 @@
 #include "meshing_dialog.h"
 
 #include "file_dialogs.h"
+#include "folder_trouble.h"
 
 #include "ostia/core/error.h"
 #include "ostia/pipeline/manifest.h"
@@ -9,7 +10,6 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDialogButtonBox>
-#include <QDoubleSpinBox>
 #include <QFileInfo>
 #include <QFormLayout>
 #include <QHBoxLayout>
@@ -17,6 +17,9 @@
 #include <QLineEdit>
 #include <QPushButton>
 #include <QResizeEvent>
+#include <QSignalBlocker>
+#include <QStyle>
+#include <QTabWidget>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
@@ -26,12 +29,8 @@ namespace fs = std::filesystem;
 namespace {
 
 using pipeline::SurfaceEnds;
-using Size = ExportChoice::Size;
 using Vessels = ExportChoice::Vessels;
 
-constexpr double fewest_edges = 6.0, most_edges = 60.0;
-constexpr double shortest_mm = 0.05, longest_mm = 3.0;
-constexpr double field_most = 999.0;  // what can be typed; what is allowed is checked
 constexpr int dialog_width = 560;
 const QStringList surface_formats{"vtp", "stl", "ply"};
 
@@ -76,44 +75,77 @@ MeshingDialog::MeshingDialog(ExportSubject subject, const ExportChoice& last, QW
   setWindowTitle(mesh ? tr("Mesh and export") : tr("Export the surface"));
   setMinimumWidth(std::min(dialog_width, parent ? parent->width() - 40 : dialog_width));
   resize(minimumWidth(), 0);
+  auto* layout = new QVBoxLayout(this);
   auto* form = new QFormLayout;
   form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
-  add_vessels(form, last);
-  if (!mesh) add_ends(form, last);
-  add_size(form, last);
+  layout->addLayout(form);
+  add_vessels(form);
+  fill_vessels(last.vessels);
+  QFormLayout *sizes = form, *formats = form, *below = form;
   if (mesh) {
-    volume_ = new VolumeFields(form, last.volume, this);
+    pages_ = new QTabWidget;
+    pages_->setObjectName("pages");
+    layout->addWidget(pages_, 1);
+    sizes = page(tr("Si&zes"));
+    QFormLayout* elements = page(tr("La&yers and elements"));
+    formats = page(tr("&Formats"));
+    size_ = new SizeFields(sizes, last.size, true, this);
+    volume_ = new VolumeFields(elements, formats, last.volume, this);
     connect(volume_, &VolumeFields::changed, this, &MeshingDialog::check);
+    add_check();
+    below = new QFormLayout;
+    below->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
+    layout->addLayout(below);
+  } else {
+    add_ends(form, last);
+    size_ = new SizeFields(form, last.size, false, this);
   }
-  add_formats(form, last);
-  add_folder(form);
+  connect(size_, &SizeFields::changed, this, &MeshingDialog::check);
+  add_formats(formats, last);
+  add_folder(below);
   estimate_ = quiet_label("estimate");
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
   go_ = buttons->addButton(mesh ? tr("Mesh and export") : tr("Export"), QDialogButtonBox::AcceptRole);
   go_->setObjectName("go");
   connect(buttons, &QDialogButtonBox::accepted, this, &MeshingDialog::accept);
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
-  auto* layout = new QVBoxLayout(this);
-  layout->addLayout(form);
   layout->addWidget(estimate_);
-  layout->addStretch(1);
+  layout->addStretch(mesh ? 0 : 1);
   layout->addWidget(buttons);
   go_->setDefault(true);  // once it is in the dialog: else it is the dialog that chooses, and it takes Cancel
   check();
 }
 
-void MeshingDialog::add_vessels(QFormLayout* form, const ExportChoice& last) {
-  const auto& tree = subject_.model->tree;
+QFormLayout* MeshingDialog::page(const QString& title) {
+  auto* one = new QWidget;
+  auto* form = new QFormLayout(one);
+  form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
+  pages_->addTab(one, title);
+  return form;
+}
+
+void MeshingDialog::add_check() {
+  check_ = new MeshingCheck;
+  pages_->addTab(check_, tr("&Will it mesh?"));
+  connect(check_, &MeshingCheck::repair_wanted, this, &MeshingDialog::repair);
+  connect(check_, &MeshingCheck::chosen, this, &MeshingDialog::fit);
+}
+
+void MeshingDialog::repair(const meshing::ForecastPlace& place) {
+  using meshing::OfferedRepair;
+  if (place.repair == OfferedRepair::smaller_edges)
+    size_->scale_edges(place.factor);
+  else if (place.repair == OfferedRepair::thinner_layers)
+    volume_->scale_layers(place.factor);
+  else if (place.repair == OfferedRepair::drop_layers)
+    volume_->drop_layers();
+}
+
+void MeshingDialog::add_vessels(QFormLayout* form) {
   vessels_ = new QComboBox;
   vessels_->setObjectName("vessels_chosen");
   vessels_->setAccessibleName(tr("Vessels"));
-  add(vessels_, tr("all, %1").arg(tree.vessels.size()), Vessels::all);
-  if (!subject_.visible.empty() && subject_.visible.size() < tree.vessels.size())
-    add(vessels_, tr("those shown in 3D: %1").arg(names_of(subject_.visible)), Vessels::visible);
-  if (tree.vessels.size() > 1)
-    add(vessels_, tr("the selected one: %1").arg(names_of({subject_.selected})), Vessels::selected);
   vessels_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-  choose(vessels_, last.vessels);
   parents_ = quiet_label("parents");
   auto* column = new QVBoxLayout;
   column->setSpacing(2);
@@ -121,6 +153,27 @@ void MeshingDialog::add_vessels(QFormLayout* form, const ExportChoice& last) {
   column->addWidget(parents_);
   form->addRow(export_field_label(tr("&Vessels"), vessels_), column);
   connect(vessels_, QOverload<int>::of(&QComboBox::currentIndexChanged), this, &MeshingDialog::check);
+}
+
+void MeshingDialog::fill_vessels(Vessels chosen_before) {
+  const QSignalBlocker quiet(vessels_);
+  const auto& tree = subject_.model->tree;
+  vessels_->clear();
+  add(vessels_, tr("all, %1").arg(tree.vessels.size()), Vessels::all);
+  if (!subject_.visible.empty() && subject_.visible.size() < tree.vessels.size())
+    add(vessels_, tr("those shown in 3D: %1").arg(names_of(subject_.visible)), Vessels::visible);
+  if (tree.vessels.size() > 1)
+    add(vessels_, tr("the selected one: %1").arg(names_of({subject_.selected})), Vessels::selected);
+  choose(vessels_, chosen_before);
+}
+
+void MeshingDialog::set_model(std::shared_ptr<const lumen::LumenModel> model,
+                              std::vector<std::int32_t> visible, std::int32_t selected) {
+  subject_.model = std::move(model);
+  subject_.visible = std::move(visible);
+  subject_.selected = selected;
+  fill_vessels(chosen<Vessels>(vessels_));
+  check();
 }
 
 void MeshingDialog::add_ends(QFormLayout* form, const ExportChoice& last) {
@@ -133,42 +186,6 @@ void MeshingDialog::add_ends(QFormLayout* form, const ExportChoice& last) {
   choose(ends_, last.ends);
   form->addRow(export_field_label(tr("&Ends"), ends_), ends_);
   connect(ends_, QOverload<int>::of(&QComboBox::currentIndexChanged), this, &MeshingDialog::check);
-}
-
-void MeshingDialog::add_size(QFormLayout* form, const ExportChoice& last) {
-  size_ = new QComboBox;
-  size_->setObjectName("size");
-  size_->setAccessibleName(tr("Size of the triangles"));
-  if (subject_.kind == ExportKind::surface) add(size_, tr("as fine as the model"), Size::as_modelled);
-  add(size_, tr("by the calibre"), Size::by_calibre);
-  add(size_, tr("the same everywhere"), Size::even);
-  size_->setToolTip(
-      tr("By the calibre: as many edges around a thin vessel as around a thick one. The same everywhere: "
-         "shorter only where fewer than eight edges would be around the lumen."));
-  choose(size_, last.size);
-  const auto number = [&](const QString& name, const QString& accessible, int decimals, double value,
-                          const QString& suffix) {
-    auto* box = new QDoubleSpinBox;
-    box->setObjectName(name);
-    box->setAccessibleName(accessible);
-    box->setRange(0.0, field_most);
-    box->setDecimals(decimals);
-    box->setSingleStep(decimals == 0 ? 1.0 : 0.05);
-    box->setValue(value);
-    box->setSuffix(suffix);
-    connect(box, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this, &MeshingDialog::check);
-    return box;
-  };
-  edges_ = number("edges_around", tr("Edges around a vessel"), 0, last.edges_around, tr(" edges around"));
-  edge_mm_ = number("edge_mm", tr("Edge length"), 2, last.edge_mm, tr(" mm"));
-  auto* row = new QWidget;
-  auto* line = new QHBoxLayout(row);
-  line->setContentsMargins(0, 0, 0, 0);
-  line->addWidget(size_, 1);
-  line->addWidget(edges_);
-  line->addWidget(edge_mm_);
-  size_field_ = add_export_field(form, tr("&Triangles"), row, size_, "size");
-  connect(size_, QOverload<int>::of(&QComboBox::currentIndexChanged), this, &MeshingDialog::check);
 }
 
 void MeshingDialog::add_formats(QFormLayout* form, const ExportChoice& last) {
@@ -215,18 +232,17 @@ void MeshingDialog::choose_folder() {
 
 void MeshingDialog::check() {
   if (!go_) return;  // while it is put together
-  const Size size = chosen<Size>(size_);
-  edges_->setVisible(size == Size::by_calibre);
-  edge_mm_->setVisible(size == Size::even);
-  mark({edges_, size_field_.trouble}, {});
-  mark({edge_mm_, size_field_.trouble}, {});
-  ExportField field = size_field_;
-  field.input = size == Size::even ? edge_mm_ : size == Size::by_calibre ? edges_ : size_field_.input;
-  const bool size_fits = mark(field, size_trouble());
-  const bool formats_fit = mark(formats_field_, formats_trouble());
-  const bool folder_fits = mark(folder_field_, folder_trouble());
+  const bool sound_size = size_->sound();
   const bool volume_fits = !volume_ || volume_->check();
+  const bool size_fits = size_->check(sound_size ? count_trouble() : QString());
+  const bool formats_fit = mark(formats_field_, formats_trouble());
+  const bool folder_fits = mark(folder_field_, folder_trouble(folder_->text()));
   go_->setEnabled(size_fits && formats_fit && folder_fits && volume_fits);
+  if (check_) {
+    check_->set_stale();
+    check_->set_possible(size_fits && volume_fits);
+    mark_pages();
+  }
   const auto chosen_ids = vessel_ids();
   const auto needed = pipeline::with_parents(subject_.model->tree, chosen_ids);
   std::vector<std::int32_t> more;
@@ -234,11 +250,22 @@ void MeshingDialog::check() {
     if (std::find(chosen_ids.begin(), chosen_ids.end(), id) == chosen_ids.end()) more.push_back(id);
   parents_->setVisible(!more.empty());
   parents_->setText(tr("together with the vessels that they come from: %1").arg(names_of(more)));
-  if (size_fits)
+  if (sound_size)
     show_estimate();
   else
     estimate_->clear();
   fit();
+}
+
+/// What is wrong on a page that is not shown is seen on its tab.
+void MeshingDialog::mark_pages() {
+  for (int i = 0; i < pages_->count(); ++i) {
+    QString wrong;
+    for (const QLabel* label : pages_->widget(i)->findChildren<QLabel*>())
+      if (label->objectName().endsWith("_trouble") && !label->text().isEmpty()) wrong = label->text();
+    pages_->setTabToolTip(i, wrong);
+    pages_->setTabIcon(i, wrong.isEmpty() ? QIcon() : style()->standardIcon(QStyle::SP_MessageBoxWarning));
+  }
 }
 
 void MeshingDialog::fit() {
@@ -260,27 +287,10 @@ void MeshingDialog::showEvent(QShowEvent* event) {
   fit();
 }
 
-QString MeshingDialog::size_trouble() const {
-  const Size size = chosen<Size>(size_);
-  if (size == Size::by_calibre && !(edges_->value() >= fewest_edges && edges_->value() <= most_edges)) {
-    const bool few = edges_->value() < fewest_edges;
-    return (few ? tr("%1 edges around a vessel are too few. Choose %2 to %3.")
-                : tr("%1 edges around a vessel are too many. Choose %2 to %3."))
-        .arg(edges_->value(), 0, 'f', 0)
-        .arg(fewest_edges)
-        .arg(most_edges);
-  }
-  if (size == Size::even && !(edge_mm_->value() >= shortest_mm && edge_mm_->value() <= longest_mm)) {
-    const bool short_one = edge_mm_->value() < shortest_mm;
-    return (short_one ? tr("Edges of %1 mm are too short. Choose %2 to %3 mm.")
-                      : tr("Edges of %1 mm are too long. Choose %2 to %3 mm."))
-        .arg(edge_mm_->value(), 0, 'f', 2)
-        .arg(shortest_mm)
-        .arg(longest_mm);
-  }
+QString MeshingDialog::count_trouble() const {
   if (subject_.kind == ExportKind::surface) return {};
   const double cells =
-      pipeline::estimate_mesh(*subject_.model, vessel_ids(), *sizing(), volume_->options()).tetrahedra;
+      pipeline::estimate_mesh(*subject_.model, vessel_ids(), *size_->sizing(), volume_->options()).tetrahedra;
   if (cells <= pipeline::most_tetrahedra) return {};
   return tr("About %1 cells; more than %2 do not fit. Choose longer edges, or fewer vessels.")
       .arg(about(cells), about(pipeline::most_tetrahedra));
@@ -291,21 +301,9 @@ QString MeshingDialog::formats_trouble() const {
   return any || subject_.kind == ExportKind::mesh ? QString() : tr("Choose at least one format.");
 }
 
-QString MeshingDialog::folder_trouble() const {
-  const QString path = folder_->text();
-  const QFileInfo folder(path), parent(folder.absolutePath());
-  if (path.isEmpty() || folder.fileName().isEmpty() || folder.fileName() == "." || folder.fileName() == "..")
-    return tr("Name a new folder.");
-  if (folder.exists() && !folder.isDir()) return tr("There is a file of this name. Name another folder.");
-  if (!parent.exists()) return tr("There is no folder %1.").arg(parent.filePath());
-  if (!parent.isDir() || !parent.isWritable())
-    return tr("Nothing can be written in %1. Choose another place.").arg(parent.filePath());
-  return {};
-}
-
 void MeshingDialog::show_estimate() {
   QStringList lines;
-  if (const auto size = sizing()) {
+  if (const auto size = size_->sizing()) {
     const auto estimate = pipeline::estimate_mesh(*subject_.model, vessel_ids(), *size,
                                                   volume_ ? volume_->options() : pipeline::VolumeOptions());
     lines << (subject_.kind == ExportKind::mesh
@@ -339,25 +337,11 @@ QString MeshingDialog::names_of(const std::vector<std::int32_t>& ids) const {
   return names.join(", ");
 }
 
-std::optional<meshing::SizingOptions> MeshingDialog::sizing() const {
-  switch (chosen<Size>(size_)) {
-    case Size::by_calibre:
-      return pipeline::edges_around(edges_->value());
-    case Size::even:
-      return pipeline::even_edges(edge_mm_->value());
-    case Size::as_modelled:
-      break;
-  }
-  return std::nullopt;
-}
-
 ExportChoice MeshingDialog::choice() const {
   ExportChoice made;
   made.vessels = chosen<Vessels>(vessels_);
   if (ends_) made.ends = chosen<SurfaceEnds>(ends_);
-  made.size = chosen<Size>(size_);
-  made.edges_around = edges_->value();
-  made.edge_mm = edge_mm_->value();
+  made.size = size_->choice();
   made.formats.clear();
   for (const QCheckBox* box : formats_)
     if (box->isChecked()) made.formats.push_back(box->text().toLower().toStdString());
@@ -368,13 +352,14 @@ ExportChoice MeshingDialog::choice() const {
 
 pipeline::SurfaceExportOptions MeshingDialog::surface_options() const {
   const ExportChoice made = choice();
-  return {vessel_ids(), made.ends, sizing(), made.formats};
+  return {vessel_ids(), made.ends, size_->sizing(), made.formats};
 }
 
 pipeline::MeshExportOptions MeshingDialog::mesh_options() const {
   pipeline::MeshExportOptions options;
   options.vessels = vessel_ids();
-  options.sizing = *sizing();
+  options.sizing = *size_->sizing();
+  options.extensions = size_->extensions();
   options.volume = volume_->options();
   options.surface_formats = choice().formats;
   return options;

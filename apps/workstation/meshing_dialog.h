@@ -1,23 +1,24 @@
 #pragma once
 /// \file What is asked before a surface or a mesh is made.
 
+#include "meshing_check.h"
 #include "meshing_fields.h"
+#include "meshing_sizes.h"
 
 #include "ostia/pipeline/vessel_export.h"
 
 #include <QDialog>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <vector>
 
 class QCheckBox;
 class QComboBox;
-class QDoubleSpinBox;
 class QFormLayout;
 class QLabel;
 class QLineEdit;
 class QPushButton;
+class QTabWidget;
 
 namespace ostia::workstation {
 
@@ -36,17 +37,16 @@ struct ExportSubject {
 /// What was chosen; kept for the next time.
 struct ExportChoice {
   enum class Vessels { all, visible, selected };
-  enum class Size { as_modelled, by_calibre, even };  ///< the first for a surface alone
   Vessels vessels = Vessels::all;
   pipeline::SurfaceEnds ends = pipeline::SurfaceEnds::capped;
-  Size size = Size::by_calibre;
-  double edges_around = 16.0, edge_mm = 0.4;
+  SizeChoice size;
   std::vector<std::string> formats{"vtp", "stl"};
   VolumeChoice volume;  ///< of a mesh
   std::filesystem::path folder;
 };
 
-/// Checks while it is filled in: what is wrong stands under its field, which is marked, and the button waits.
+/// Checks while it is filled in: what is wrong stands under its field, which is marked as is its page, and
+/// the button waits. A mesh's fields are on pages. Leaves the window to the hand.
 class MeshingDialog final : public QDialog {
   Q_OBJECT
  public:
@@ -54,6 +54,11 @@ class MeshingDialog final : public QDialog {
   ExportChoice choice() const;
   pipeline::SurfaceExportOptions surface_options() const;
   pipeline::MeshExportOptions mesh_options() const;
+  const ExportSubject& subject() const { return subject_; }
+  /// The model was edited: vessels may be others.
+  void set_model(std::shared_ptr<const lumen::LumenModel> model, std::vector<std::int32_t> visible,
+                 std::int32_t selected);
+  MeshingCheck* check_page() { return check_; }  ///< null for a surface
   void accept() override;
 
  protected:
@@ -61,31 +66,35 @@ class MeshingDialog final : public QDialog {
   void showEvent(QShowEvent* event) override;
 
  private:
-  void add_vessels(QFormLayout* form, const ExportChoice& last);
+  QFormLayout* page(const QString& title);
+  void add_vessels(QFormLayout* form);
+  void fill_vessels(ExportChoice::Vessels chosen);
   void add_ends(QFormLayout* form, const ExportChoice& last);
-  void add_size(QFormLayout* form, const ExportChoice& last);
   void add_formats(QFormLayout* form, const ExportChoice& last);
   void add_folder(QFormLayout* form);
+  void add_check();
+  void repair(const meshing::ForecastPlace& place);
   void choose_folder();
   void check();
+  void mark_pages();
   void fit();
-  QString size_trouble() const;
+  QString count_trouble() const;
   QString formats_trouble() const;
-  QString folder_trouble() const;
   void show_estimate();
   std::vector<std::int32_t> vessel_ids() const;
-  std::optional<meshing::SizingOptions> sizing() const;
   QString names_of(const std::vector<std::int32_t>& ids) const;
 
   ExportSubject subject_;
-  QComboBox *vessels_ = nullptr, *ends_ = nullptr, *size_ = nullptr;
+  QComboBox *vessels_ = nullptr, *ends_ = nullptr;
   QLabel *parents_ = nullptr, *estimate_ = nullptr;
-  QDoubleSpinBox *edges_ = nullptr, *edge_mm_ = nullptr;
+  QTabWidget* pages_ = nullptr;
   std::vector<QCheckBox*> formats_;
   QLineEdit* folder_ = nullptr;
   QPushButton* go_ = nullptr;
+  SizeFields* size_ = nullptr;
   VolumeFields* volume_ = nullptr;
-  ExportField size_field_, formats_field_, folder_field_;
+  MeshingCheck* check_ = nullptr;
+  ExportField formats_field_, folder_field_;
 };
 
 }  // namespace ostia::workstation

@@ -1,9 +1,13 @@
 #include "meshing_export.h"
 
+#include "flow_cases.h"
 #include "main_window.h"
+#include "mesh_panel.h"
+#include "meshing_forecast.h"
 
 #include "ostia/core/error.h"
 
+#include <QAction>
 #include <QDesktopServices>
 #include <QUrl>
 #include <cmath>
@@ -27,6 +31,7 @@ namespace {
     QT_TRANSLATE_NOOP("stages", "quadratic elements"),
     QT_TRANSLATE_NOOP("stages", "quality"),
     QT_TRANSLATE_NOOP("stages", "mesh quality"),
+    QT_TRANSLATE_NOOP("stages", "preview"),
 };
 
 QString job_name(ExportKind kind) {
@@ -56,10 +61,36 @@ std::vector<std::int32_t> shown_in_3d(const session::Session& session) {
 }  // namespace
 
 MeshingExport::MeshingExport(MainWindow& window) : QObject(&window), window_(window) {
-  last_[ExportKind::surface].size = ExportChoice::Size::as_modelled;
+  last_[ExportKind::surface].size.size = SizeChoice::Size::as_modelled;
+  session::Workbench& bench = window.bench();
+  own_.push_back(bench.case_changed.observe([this] {
+    window_.jobs().cancel("mesh_preview");
+    if (dialog_) dialog_->reject();
+  }));
+  own_.push_back(bench.model_changed.observe([this](const session::ModelEvent&) {
+    const session::Workbench& now = window_.bench();
+    if (dialog_)
+      dialog_->set_model(now.session().file().model(), shown_in_3d(now.session()), now.vessel.get());
+  }));
+}
+
+QAction* MeshingExport::panel_action() {
+  panel_ = new MeshPanel(window_.bench(), window_.scene(), &window_);
+  window_.addDockWidget(Qt::RightDockWidgetArea, panel_);
+  panel_->hide();
+  QAction* made = panel_->toggleViewAction();
+  made->setText(tr("The &mesh"));
+  made->setObjectName("view.mesh");
+  return made;
 }
 
 void MeshingExport::ask(ExportKind kind, const fs::path& case_file) {
+  if (dialog_ && dialog_->isVisible() && dialog_->subject().kind == kind) {
+    dialog_->raise();
+    dialog_->activateWindow();
+    return;
+  }
+  if (dialog_ && dialog_->isVisible()) dialog_->reject();
   session::Workbench& bench = window_.bench();
   ExportSubject subject;
   subject.kind = kind;
@@ -68,11 +99,13 @@ void MeshingExport::ask(ExportKind kind, const fs::path& case_file) {
   subject.selected = bench.vessel.get();
   subject.folder = free_folder(case_file, kind);
   subject.one_is_running = window_.jobs().running(job_name(kind));
-  const auto model = subject.model;
   auto* dialog = new MeshingDialog(std::move(subject), last_[kind], &window_);
   dialog->setAttribute(Qt::WA_DeleteOnClose);
-  connect(dialog, &QDialog::accepted, this, [this, kind, dialog, model] { start(kind, *dialog, model); });
-  dialog->open();
+  connect(dialog, &QDialog::accepted, this,
+          [this, kind, dialog] { start(kind, *dialog, dialog->subject().model); });
+  if (kind == ExportKind::mesh) new MeshingForecast(window_, *dialog);
+  dialog_ = dialog;
+  dialog->show();
 }
 
 void MeshingExport::start(ExportKind kind, const MeshingDialog& dialog,
@@ -100,6 +133,18 @@ void MeshingExport::start(ExportKind kind, const MeshingDialog& dialog,
       });
 }
 
+void MeshingExport::show_mesh(const fs::path& folder) {
+  window_.jobs().run(
+      "mesh_preview", tr("Preparing the mesh's picture"),
+      [folder](const core::TaskContext& task) { return std::any(preview_of(folder, task)); },
+      [this](const std::any& made) {
+        if (dialog_) dialog_->reject();  // what would fail is no longer of interest
+        panel_->show_mesh(std::any_cast<const std::shared_ptr<const MeshPreview>&>(made));
+        reveal(window_.scene());
+      },
+      [this](const QString& message) { window_.say(message); });
+}
+
 QString MeshingExport::mesh_line(const QString& name, const pipeline::ExportSummary& summary) {
   QStringList parts{tr("%1: %2 cells, least dihedral angle %3\u00b0")
                         .arg(name)
@@ -121,6 +166,10 @@ void MeshingExport::tell(ExportKind kind, const fs::path& folder, const pipeline
   for (const std::string& warning : summary.warnings) notes << QString::fromStdString(warning);
   window_.jobs().leave(job_name(kind), text, notes.join('\n'), tr("Open folder"),
                        [path] { QDesktopServices::openUrl(QUrl::fromLocalFile(path)); });
+  if (kind == ExportKind::mesh) {
+    show_mesh(folder);
+    window_.flow_cases().mesh_made(folder / "mesh.vtu");
+  }
   if (!summary.verdict.ok())
     window_.complain(tr("The mesh is in %1, but it does not pass the quality control: %2. Look at it before "
                         "you compute with it, or mesh again with shorter edges.")

@@ -3,12 +3,19 @@
 
 #include "meshing_dialog.h"
 
+#include "ostia/session/workbench.h"
+
 #include <QObject>
+#include <QPointer>
 #include <map>
+#include <vector>
+
+class QAction;
 
 namespace ostia::workstation {
 
 class MainWindow;
+class MeshPanel;
 
 /// Asks by a MeshingDialog, makes it from a snapshot in the background, and leaves a line that says what was
 /// made and where. A folder appears whole or not at all.
@@ -18,14 +25,20 @@ class MeshingExport final : public QObject {
   explicit MeshingExport(MainWindow& window);
   /// The proposed folder is beside `case_file`.
   void ask(ExportKind kind, const std::filesystem::path& case_file);
+  /// Shows and hides the mesh that was made last.
+  QAction* panel_action();
 
  private:
   void start(ExportKind kind, const MeshingDialog& dialog,
              const std::shared_ptr<const lumen::LumenModel>& model);
   static QString mesh_line(const QString& name, const pipeline::ExportSummary& summary);
+  void show_mesh(const std::filesystem::path& folder);
   void tell(ExportKind kind, const std::filesystem::path& folder, const pipeline::ExportSummary& summary);
   MainWindow& window_;
   std::map<ExportKind, ExportChoice> last_;
+  QPointer<MeshingDialog> dialog_;  // that is open
+  QPointer<MeshPanel> panel_;
+  std::vector<session::Subscription> own_;
 };
 
 }  // namespace ostia::workstation

@@ -14,18 +14,16 @@
 #include <QListWidget>
 #include <QSpinBox>
 #include <algorithm>
+#include <cmath>
 
 namespace ostia::workstation {
 namespace {
 
 constexpr int most_layers = 20;
-constexpr double thickest = 3.0;
+constexpr double thickest = 3.0, least_thickness = 0.01;
 constexpr int field_most = 999;  // what can be typed; what is allowed is checked
 constexpr int rows_shown = 4;
 
-QColor trouble_color() {
-  return current_theme() == Theme::dark ? QColor(255, 150, 60) : QColor(168, 70, 0);
-}
 /// Of a field that has to be changed.
 QColor trouble_ground() {
   return current_theme() == Theme::dark ? QColor(82, 44, 18) : QColor(255, 224, 200);
@@ -71,6 +69,10 @@ bool holds(io::MeshFormat format, bool prisms, bool quadratic) {
 
 }  // namespace
 
+QColor trouble_color() {
+  return current_theme() == Theme::dark ? QColor(255, 150, 60) : QColor(168, 70, 0);
+}
+
 ExportField add_export_field(QFormLayout* form, const QString& text, QWidget* row, QWidget* input,
                              const QString& name) {
   ExportField field{input, new QLabel};
@@ -112,10 +114,12 @@ bool mark(const ExportField& field, const QString& trouble) {
   return trouble.isEmpty();
 }
 
-VolumeFields::VolumeFields(QFormLayout* form, const VolumeChoice& last, QObject* parent) : QObject(parent) {
-  add_layers(form, last);
-  add_order(form, last);
-  add_formats(form, last);
+VolumeFields::VolumeFields(QFormLayout* elements, QFormLayout* formats, const VolumeChoice& last,
+                           QObject* parent)
+    : QObject(parent) {
+  add_layers(elements, last);
+  add_order(elements, last);
+  add_formats(formats, last);
 }
 
 void VolumeFields::add_layers(QFormLayout* form, const VolumeChoice& last) {
@@ -218,6 +222,14 @@ bool VolumeFields::check() {
   if (layers_->value() <= most_layers) field.input = thickness_;
   const bool layers_fit = mark(field, layers_trouble());
   return mark(formats_field_, formats_trouble()) && layers_fit;
+}
+
+void VolumeFields::scale_layers(double factor) {
+  thickness_->setValue(std::max(least_thickness, std::floor(100.0 * thickness_->value() * factor) / 100.0));
+}
+
+void VolumeFields::drop_layers() {
+  layers_->setValue(0);
 }
 
 QString VolumeFields::layers_trouble() const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 class QCheckBox;
+class QColor;
 class QComboBox;
 class QDoubleSpinBox;
 class QFormLayout;
@@ -26,6 +27,8 @@ struct ExportField {
 ExportField add_export_field(QFormLayout* form, const QString& text, QWidget* row, QWidget* input,
                              const QString& name);
 QLabel* export_field_label(const QString& text, QWidget* field);
+/// Of what is wrong, in words and of a field that has to be changed.
+QColor trouble_color();
 /// Colours the field and shows the text; nothing wrong: neither. Returns whether nothing is.
 bool mark(const ExportField& field, const QString& trouble);
 
@@ -42,11 +45,13 @@ struct VolumeChoice {
 class VolumeFields final : public QObject {
   Q_OBJECT
  public:
-  VolumeFields(QFormLayout* form, const VolumeChoice& last, QObject* parent);
+  VolumeFields(QFormLayout* elements, QFormLayout* formats, const VolumeChoice& last, QObject* parent);
   VolumeChoice choice() const;
   pipeline::VolumeOptions options() const;
   /// Marks what is wrong; returns whether nothing is.
   bool check();
+  void scale_layers(double factor);  ///< their thickness
+  void drop_layers();
 
  signals:
   void changed();

@@ -12,6 +12,7 @@
 #include <QPointF>
 #include <QTimer>
 #include <QWidget>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -38,11 +39,21 @@ class SceneWidget final : public QWidget {
   /// Called with each new wall, to colour it.
   void set_wall_painter(std::function<void(const geometry::TriMesh&)> painter);
   void repaint_wall();  ///< the painter would colour it otherwise
-  QSize minimumSizeHint() const override { return {120, 100}; }
+  /// In the wall's place, all of it in the picture; null: the wall again.
+  void show_guest(std::shared_ptr<view::SceneGuest> guest);
+  /// As it is shown, `scale` times as many pixels along each side with texts and lines as much larger. Throws
+  /// as TreeScene::snapshot and figure::Picture::write_png do.
+  void save_picture(const std::filesystem::path& png, double scale);
+  /// Controls below the picture.
+  void add_below(QWidget* controls);
+  QSize minimumSizeHint() const override;
 
  signals:
-  void styles_changed();  ///< vessels have colours now, or others
-  void volume_wanted();   ///< the CT is to be shown and has not been reduced yet
+  void styles_changed();                              ///< vessels have colours now, or others
+  void volume_wanted();                               ///< the CT is to be shown and has not been reduced yet
+  void guest_changed(const view::SceneGuest* guest);  ///< null: the wall is shown
+  void pointed(const geometry::Vec2& display);        ///< the mouse is there, no button held
+  void left();                                        ///< by the mouse
 
  public slots:
   void request_render();  ///< soon, once for many requests

@@ -26,6 +26,8 @@ const std::vector<Shortcut>& shortcuts() {
       {"file.pin", "Ctrl+P", "Ctrl+P"},
       {"file.export_surface", "Ctrl+E", "Ctrl+E"},
       {"file.export_mesh", "Ctrl+M", "Ctrl+M"},
+      {"file.flow_case", "Ctrl+Shift+M", "Ctrl+Shift+M"},
+      {"file.flow_results", "Ctrl+Shift+R", "Ctrl+Shift+R"},
       {"file.export_centerlines", "Ctrl+Shift+E", "Ctrl+Shift+E"},
       {"file.quit", "Ctrl+Q", "Ctrl+Q"},
       {"edit.undo", "Ctrl+Z", "Ctrl+Z"},

@@ -109,7 +109,7 @@ TEST(VolumeMeshFile, RefusesGmshFilesThatAreNotSound) {
   const MixedMesh one = read_volume_mesh(file_with("a.msh", head + nodes + element("1 4 2 7 7 1 2 3 4")));
   EXPECT_EQ(one.tetrahedra.size(), 1u);
   EXPECT_EQ(one.triangles.size(), 4u) << "the free sides";
-  refused("(0 \"a Fluent mesh\")", "no Gmsh mesh");
+  refused("a mesh of another kind", "no Gmsh mesh");
   refused("$MeshFormat\n2.2 1 8\n", "binary");
   refused("$MeshFormat\n4.0 0 8\n", "2.2 and 4.1");
   refused(head + "$Nodes\n99999999999\n", "more than its bytes");

@@ -199,6 +199,22 @@ TEST(ClipEnds, TakesPlanesThatAPersonPlaced) {
   }
 }
 
+TEST(ClipEnds, APlaneWithoutAnEndIsForTheNearest) {
+  const auto shape = geometry::straight_tube(20.0, 1.5);
+  const auto surface = geometry::surface_of(shape, 0.25, false);
+  ClipOptions named, unnamed;
+  named.planes = {{"outlet_tube", {0.1, 0.0, 15.0}, {0.0, -0.2, -2.0}},
+                  {"inlet_tube", {0.1, 0.0, 4.0}, {0.0, 0.0, 1.0}}};
+  unnamed.planes = named.planes;
+  for (PlacedPlane& plane : unnamed.planes) plane.end.clear();
+  const ClippedSurface a = clip_ends(surface, tree_of(shape), named),
+                       b = clip_ends(surface, tree_of(shape), unnamed);
+  EXPECT_EQ(a.mesh.points, b.mesh.points);
+  EXPECT_EQ(a.mesh.triangles, b.mesh.triangles);
+  unnamed.planes[0].origin.z() = 6.0;  // nearer to the inlet, which has one already
+  EXPECT_THROW(clip_ends(surface, tree_of(shape), unnamed), InvalidInput);
+}
+
 TEST(ClipEnds, RefusesPlanesThatCannotBe) {
   const auto shape = geometry::straight_tube(20.0, 1.5);
   const auto surface = geometry::surface_of(shape, 0.3, false);

@@ -22,7 +22,10 @@ MesherJob job_of(const geometry::TriMesh& surface) {
 
 TEST(MesherJob, ComesBackAsItWasWritten) {
   const auto surface = tetrahedron_surface(1.0);
-  const MesherJob job = job_of(surface);
+  MesherJob job = job_of(surface);
+  job.field_points = {{1, 2, 3}, {4, 5, 6}};
+  job.field_sizes = {0.5, 0.6};
+  job.field_gradation = 0.7;
   write_job(job, scratch("job.bin"));
   const MesherJob back = read_job(scratch("job.bin"));
   EXPECT_EQ(back.mesher, MesherJob::mesh3);
@@ -32,6 +35,9 @@ TEST(MesherJob, ComesBackAsItWasWritten) {
   EXPECT_EQ(back.sizes, job.sizes);
   EXPECT_EQ(back.triangles, job.triangles);
   EXPECT_EQ(back.face_ids, job.face_ids);
+  EXPECT_EQ(back.field_points, job.field_points);
+  EXPECT_EQ(back.field_sizes, job.field_sizes);
+  EXPECT_EQ(back.field_gradation, 0.7);
   const MesherResult result{surface.points, {{0, 1, 2, 3}}, surface.triangles, {1, 2, 3, 4}};
   write_result(result, scratch("result.bin"));
   const MesherResult result_back = read_result(scratch("result.bin"));
@@ -55,6 +61,10 @@ TEST(MesherJob, RefusesFilesThatAreNotWhole) {
   corner.triangles[2] = {0, 1, 9};
   write_job(corner, scratch("corner.bin"));
   EXPECT_THROW(read_job(scratch("corner.bin")), InvalidInput);
+  corner = job_of(surface);
+  corner.field_sizes = {1.0};
+  write_job(corner, scratch("lengths.bin"));
+  EXPECT_THROW(read_job(scratch("lengths.bin")), InvalidInput);
   corner = job_of(surface);
   corner.face_ids.pop_back();
   write_job(corner, scratch("ids.bin"));

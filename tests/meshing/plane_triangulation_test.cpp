@@ -45,6 +45,46 @@ TEST(PlaneTriangulation, FillsALoopExactlyWithGoodTriangles) {
   }
 }
 
+double least_angle(const std::vector<Vec3>& loop, const FlatPatch& patch) {
+  std::vector<Vec3> points = loop;
+  points.insert(points.end(), patch.inner_points.begin(), patch.inner_points.end());
+  double least = 180.0;
+  for (const auto& t : patch.triangles)
+    least = std::min(
+        least, min_angle_deg(points[static_cast<std::size_t>(t[0])], points[static_cast<std::size_t>(t[1])],
+                             points[static_cast<std::size_t>(t[2])]));
+  return least;
+}
+
+TEST(PlaneTriangulation, OpensSmallAnglesWhereItIsAskedTo) {
+  // Rings as remeshing leaves them: 9 to 24 edges around an uneven section. One lattice is not good for
+  // all.
+  double worst_of_one = 180.0;
+  for (int n = 9; n <= 24; ++n) {
+    std::vector<Vec3> loop;
+    for (int i = 0; i < n; ++i) {
+      const double b = 2.0 * std::numbers::pi * i / n, a = b + 0.08 * std::sin(2.0 * b + n),
+                   r = 2.0 * (1.0 + 0.15 * std::cos(2.0 * a) + 0.05 * std::cos(3.0 * a + n));
+      loop.emplace_back(r * std::cos(a), r * std::sin(a), 1.0);
+    }
+    worst_of_one = std::min(worst_of_one, least_angle(loop, triangulate_flat(loop, 0.0, "a ring")));
+    const FlatPatch good = triangulate_flat(loop, 0.0, "a ring", 32.0);
+    EXPECT_GE(least_angle(loop, good), 32.0) << n;
+    double area = 0.0;
+    std::vector<Vec3> points = loop;
+    points.insert(points.end(), good.inner_points.begin(), good.inner_points.end());
+    for (const auto& t : good.triangles) {
+      const Vec3& a = points[static_cast<std::size_t>(t[0])];
+      const double doubled =
+          (points[static_cast<std::size_t>(t[1])] - a).cross(points[static_cast<std::size_t>(t[2])] - a).z();
+      EXPECT_GT(doubled, 0.0);
+      area += doubled;
+    }
+    EXPECT_NEAR(area, loop_normal(loop).norm(), 1e-12 * area);
+  }
+  EXPECT_LT(worst_of_one, 31.0);  // which the first lattice alone does not reach
+}
+
 TEST(PlaneTriangulation, CopesWithPointsOnALine) {
   // Squares whose sides carry points to round-off in line: no degenerate triangle may come of them.
   std::vector<Vec3> loop;

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <numbers>
@@ -105,6 +106,8 @@ TEST(Model, LayersArePrismsOnTheWall) {
   volume.split_prisms = true;
   const Model split = tube_with(volume);
   EXPECT_TRUE(split.meshed.mesh.prisms.empty());
+  EXPECT_TRUE(split.meshed.quality.verdict.ok()) << split.meshed.quality.verdict.summary();
+  EXPECT_EQ(std::ranges::count(split.meshed.in_layers, true), 9 * static_cast<std::ptrdiff_t>(wall));
   EXPECT_EQ(split.meshed.mesh.tetrahedra.size(), model.meshed.mesh.tetrahedra.size() + 9 * wall);
   EXPECT_NEAR(split.meshed.quality.volume.volume_mm3(), quality.volume.volume_mm3(), 1e-2);
 }
@@ -131,6 +134,17 @@ TEST(Model, WhatCannotBeMeshedIsToldBeforeAnything) {
   volume.formats = {io::MeshFormat::mesh_complete};
   refused(volume, "--split-prisms");
   volume.formats.clear();
+  volume.solver_case = solver::SvmultiphysicsCaseOptions();
+  refused(volume, "--split-prisms");
+  volume.order = 2;
+  volume.solver_case = solver::OpenfoamCaseOptions();
+  refused(volume, "--order 1");
+  volume.order = 1;
+  solver::OpenfoamCaseOptions wrong;
+  wrong.processes = 0;
+  volume.solver_case = wrong;
+  refused(volume, "processes");
+  volume.solver_case.reset();
   volume.layers->thickness = 4.0;
   refused(volume, "thickness");
   volume.layers->thickness = 0.5;

@@ -44,7 +44,17 @@ TEST(ReportJson, ParametersAreCanonical) {
         v.layers.emplace().thickness = thickness;
         v.split_prisms = split;
       }));
-  EXPECT_EQ(all.size(), 7u);
+  for (const double flow : {0.5, 0.6})
+    all.insert(another([&](VolumeOptions& v) {
+      solver::OpenfoamCaseOptions openfoam;
+      openfoam.flow.flow_ml_s = flow;
+      v.solver_case = openfoam;
+    }));
+  all.insert(another([](VolumeOptions& v) { v.solver_case = solver::SvmultiphysicsCaseOptions(); }));
+  EXPECT_EQ(all.size(), 10u);
+  options = builtin_options();
+  options.clip.planes = {{"inlet_LAD", {1, 2, 3}, {0, 0, 1}}};
+  EXPECT_NE(parameters_json(options), parameters_json(builtin_options()));
   SourceOptions reading;
   reading.unit_mm = 10.0;
   EXPECT_NE(parameters_json(builtin_options(), reading), parameters_json(builtin_options()));

@@ -134,6 +134,32 @@ TEST(VesselExport, SeveralTreesGetAFolderEach) {
               made.volume_mm3, 1e-6);
 }
 
+TEST(VesselExport, PlanesAndFlowsFindTheirTrees) {
+  const fs::path folder = testing::temporary_folder("export") / "mesh";
+  MeshExportOptions options;
+  options.planes = {{"", {30, 0, 11}, {0, 0, 1}}, {"inlet_LAD", {0, 0, 4}, {0, 0, 1}}};
+  solver::OpenfoamCaseOptions flow;
+  flow.flow.inlet_flow_ml_s = {{"inlet_LAD", 1.25}, {"inlet_RCA", 0.75}};
+  options.volume.solver_case = flow;
+  export_mesh(folder, heart(), options);
+  const auto extent = [&](const std::string& tree) {
+    const auto mesh = io::read_volume_mesh(folder / tree / "mesh.vtu");
+    return geometry::bounds(mesh.points);
+  };
+  EXPECT_NEAR(extent("RCA").max().z(), 11.0, 0.01);
+  EXPECT_NEAR(extent("LAD").min().z(), 4.0, 0.01);
+  EXPECT_LT(extent("RCA").min().z(), 1.0) << "the other ends are where they were";
+  EXPECT_GT(extent("LAD").max().z(), 19.0);
+  for (const std::string tree : {"LAD", "RCA"})
+    EXPECT_TRUE(fs::exists(folder / tree / "openfoam-case" / "Allrun")) << tree;
+  flow.flow.inlet_flow_ml_s = {{"inlet_LM", 1.0}};
+  options.volume.solver_case = flow;
+  EXPECT_THROW(export_mesh(folder, heart(), options), InvalidInput);
+  options.volume.solver_case.reset();
+  options.planes = {{"outlet_LM", {0, 0, 4}, {0, 0, 1}}};
+  EXPECT_THROW(export_mesh(folder, heart(), options), InvalidInput);
+}
+
 TEST(VesselExport, TheEstimateIsNearWhatIsMade) {
   const fs::path parent = testing::temporary_folder("export");
   int number = 0;

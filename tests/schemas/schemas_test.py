@@ -151,6 +151,36 @@ class Schemas(unittest.TestCase):
             with self.subTest(field):
                 self.assert_refused("case-report", broken)
 
+    def test_flow(self):
+        holder = pathlib.Path(self.holder.name)
+        run("case", self.folder / "mesh.vtu", "-o", holder / "flow", "--outlets", "resistance")
+        record = json.loads((holder / "flow" / "flow-case.json").read_text())
+        validator("flow-case").validate(record)
+        faces = [*record["resistance_Pa_s_m3"], "inlet_vessel_1"]
+        self.assertEqual(len(faces), 3)
+        for name, kind, value in (("U", "Vector", "(0 0 0.1)"), ("pressureInPascal", "Scalar", "40"), ("wallShearStress", "Vector", "(0 0 -1e-3)")):
+            file = holder / "flow" / "9" / name
+            file.parent.mkdir(exist_ok=True)
+            file.write_text(f"FoamFile {{ format ascii; class vol{kind}Field; }}\ninternalField uniform {value};\n"
+                            f"boundaryField {{ wall {{ type calculated; value uniform {value}; }} }}\n")
+        for face in faces:
+            for name, value in (("flow", -2e-6 if face.startswith("inlet") else 1e-6), ("pressure", 0.01)):
+                file = holder / "flow" / "postProcessing" / f"{name}_{face}" / "0" / "surfaceFieldValue.dat"
+                file.parent.mkdir(parents=True)
+                file.write_text(f"# Time v\n9 {value}\n")
+        (holder / "flow" / "log.simpleFoam").write_text("SIMPLE solution converged in 9 iterations\n")
+        result = json.loads(run("result", holder / "flow", "-o", holder / "flow-result", "--json"))
+        validator("flow-result").validate(result)
+        validator("manifest").validate(json.loads((holder / "flow-result" / "manifest.json").read_text()))
+        for name, document in (("flow-case", record), ("flow-result", result)):
+            for field in document:
+                broken = copy.deepcopy(document)
+                del broken[field]
+                with self.subTest(field):
+                    self.assert_refused(name, broken)
+        result["verdict"] = {"passed": False, "reasons": []}
+        self.assert_refused("flow-result", result)
+
     def test_broken_documents_fail(self):
         for field in self.report:
             broken = copy.deepcopy(self.report)

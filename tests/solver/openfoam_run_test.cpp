@@ -58,5 +58,51 @@ TEST(OpenfoamRun, OutletsResist) {
   }
 }
 
+/// Narrows the branch of a fork on the side of +x to half its radius over 3 mm, about a place of its axis.
+void narrow(geometry::MixedMesh& mesh, double angle_deg) {
+  const double half = angle_deg / 2.0 * std::numbers::pi / 180.0;
+  const geometry::Vec3 along(std::sin(half), 0.0, std::cos(half));
+  // The end of the branch lies on its axis.
+  geometry::Vec3 end = geometry::Vec3::Zero();
+  for (const geometry::Face& face : mesh.faces) {
+    if (face.kind != geometry::FaceKind::outlet) continue;
+    const Section section = section_of(mesh, face.id);
+    geometry::Vec3 centre = geometry::Vec3::Zero();
+    for (const geometry::Vec3& p : section.centres) centre += p / static_cast<double>(section.centres.size());
+    if (centre.x() > end.x()) end = centre;
+  }
+  const geometry::Vec3 throat = end - 2.5 * along;
+  for (geometry::Vec3& p : mesh.points) {
+    const double s = (p - throat).dot(along);
+    const geometry::Vec3 away = p - throat - s * along;
+    if (std::abs(s) < 1.5 && away.norm() < 2.0)
+      p -= 0.25 * (1.0 + std::cos(std::numbers::pi * s / 1.5)) * away;
+  }
+}
+
+TEST(OpenfoamRun, OutletsResistTogetherWithTheModel) {
+  NEEDS_OPENFOAM();
+  geometry::MixedMesh mesh = vessel(geometry::y_junction(5.0, 9.0, 1.5, 1.2, 60.0), 0.6, 0);
+  narrow(mesh, 60.0);
+  OpenfoamCaseOptions options;
+  options.flow.flow_ml_s = 0.5;
+  options.flow.outlets = Outlets::resistance;
+  options.flow.total_resistance_mmhg_s_ml = 0.5;  // about what the throat resists
+  const fs::path folder = run_case(mesh, options);
+  const BoundaryFlow flow = boundary_flow(mesh, options.flow);
+  double sum = 0.0, least = 1.0;
+  for (const Outlet& outlet : flow.outlets) {
+    const double m3_s = last_value(folder, "flow_" + outlet.name),
+                 pressure = 1060.0 * last_value(folder, "pressure_" + outlet.name);
+    EXPECT_NEAR(pressure / (outlet.resistance_pa_s_m3 * m3_s), 1.0, 3e-3) << outlet.name;
+    sum += m3_s;
+    least = std::min(least, m3_s / (outlet.share * 0.5e-6));
+  }
+  EXPECT_NEAR(sum, 0.5e-6, 1e-10);
+  EXPECT_LT(least, 0.95) << "the throat sends blood to the other branch";
+  EXPECT_NE(core::read_file(folder / "log.simpleFoam").find("solution converged"), std::string::npos);
+  EXPECT_EQ(times_of(folder).size(), 1u);
+}
+
 }  // namespace
 }  // namespace ostia::solver

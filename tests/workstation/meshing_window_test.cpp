@@ -1,20 +1,16 @@
 // Surfaces and meshes through the dialog, by mouse and keys.
 
+#include "meshing_window.h"
+
 #include "frame_log.h"
 #include "main_window.h"
-#include "meshing_dialog.h"
-#include "meshing_export.h"
-#include "tube_case.h"
-#include "window_hand.h"
 
 #include "ostia/core/files.h"
 #include "ostia/geometry/mesh_topology.h"
-#include "ostia/imaging/image_file.h"
 #include "ostia/io/surface_file.h"
 #include "ostia/io/volume_mesh_file.h"
 #include "ostia/lumen/tree_surface.h"
 #include "ostia/meshing/mixed_quality.h"
-#include "ostia/session/image_digest.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -40,73 +36,11 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::ElementsAre;
-using testing::TestWindow;
+using testing::MeshingWindow;
 using testing::wait_until;
 
 constexpr double radius_mm = testing::tube_radius_mm;
 constexpr double inset_mm = 0.4 * radius_mm;  // by which both ends are cut
-
-/// A window with the tube's case open, and a hand in its export dialogs.
-struct MeshingWindow : ::testing::Test {
-  testing::Folder folder;
-  fs::path image = folder / "image.nrrd", case_file = folder / "tube.ostia";
-  std::unique_ptr<TestWindow> test;
-  MeshingDialog* dialog = nullptr;
-
-  MeshingWindow() {
-    imaging::write_image(image, testing::tube_image());
-    session::CaseFile::create(case_file, testing::tube_model(), session::image_reference(image));
-    session::MachineState(folder / "state").remember_image(session::image_reference(image).sha256, image);
-  }
-  void open_case() {
-    test = std::make_unique<TestWindow>(folder / "state");
-    test->open(case_file);
-  }
-  void ask(const char* command) {
-    test->window().findChild<QAction*>(command)->trigger();
-    ASSERT_TRUE(wait_until([&] {
-      dialog = test->window().findChild<MeshingDialog*>();
-      return dialog && dialog->isVisible();
-    }));
-    ASSERT_TRUE(QTest::qWaitForWindowExposed(dialog));
-  }
-  template <class Widget>
-  Widget* in_dialog(const char* name) {
-    auto* found = dialog->findChild<Widget*>(name);
-    EXPECT_TRUE(found) << name;
-    return found;
-  }
-  /// Clicks into the field, selects all and types.
-  static void type(QWidget* field, const QString& text) {
-    auto* line = qobject_cast<QLineEdit*>(field);
-    if (!line) line = field->findChild<QLineEdit*>();
-    QTest::mouseClick(line, Qt::LeftButton);
-    QTest::keyClick(line, Qt::Key_A, Qt::ControlModifier);
-    QTest::keyClicks(line, text);
-    QApplication::processEvents();
-  }
-  /// By the keys of a combo box, as a person does.
-  static void pick(QComboBox* box, int index) {
-    box->setFocus();
-    QTest::keyClick(box, Qt::Key_Home);
-    for (int i = 0; i < index; ++i) QTest::keyClick(box, Qt::Key_Down);
-    EXPECT_EQ(box->currentIndex(), index);
-  }
-  void click_go() {
-    QTest::mouseClick(in_dialog<QPushButton>("go"), Qt::LeftButton);
-    QApplication::processEvents();
-  }
-  QString trouble(const char* field) {
-    auto* label = in_dialog<QLabel>((std::string(field) + "_trouble").c_str());
-    return label->isVisible() ? label->text() : QString();
-  }
-  bool idle() { return !test->window().jobs().any(); }
-  QString left_line(const char* kind) {
-    auto* line = test->window().jobs().findChild<QWidget*>(QStringLiteral("left.%1").arg(kind));
-    auto* label = line ? line->findChild<QLabel*>() : nullptr;
-    return label ? label->text() : QString();
-  }
-};
 
 std::vector<std::string> names(const std::vector<geometry::Face>& faces) {
   std::vector<std::string> all;

@@ -9,6 +9,29 @@
     </message>
 </context>
 <context>
+    <name>MeshPreview</name>
+    <message>
+        <source>least dihedral angle, °</source>
+        <translation>kleinster Flächenwinkel, °</translation>
+    </message>
+    <message>
+        <source>scaled Jacobian</source>
+        <translation>skalierte Jacobi-Determinante</translation>
+    </message>
+    <message>
+        <source>non-orthogonality, °</source>
+        <translation>Nicht-Orthogonalität, °</translation>
+    </message>
+    <message>
+        <source>skewness</source>
+        <translation>Schiefe</translation>
+    </message>
+    <message>
+        <source>edge length, mm</source>
+        <translation>Kantenlänge, mm</translation>
+    </message>
+</context>
+<context>
     <name>QApplication</name>
     <message>
         <source>The coronary modelling workstation.</source>
@@ -146,6 +169,45 @@
     <message>
         <source>Tab</source>
         <translation>Tab</translation>
+    </message>
+</context>
+<context>
+    <name>fields</name>
+    <message>
+        <source>wall shear stress</source>
+        <translation>Wandschubspannung</translation>
+    </message>
+    <message>
+        <source>wall shear stress vector</source>
+        <translation>Vektor der Wandschubspannung</translation>
+    </message>
+    <message>
+        <source>pressure</source>
+        <translation>Druck</translation>
+    </message>
+    <message>
+        <source>velocity</source>
+        <translation>Geschwindigkeit</translation>
+    </message>
+    <message>
+        <source>time averaged wall shear stress</source>
+        <translation>zeitlich gemittelte Wandschubspannung</translation>
+    </message>
+    <message>
+        <source>oscillatory shear index</source>
+        <translation>oszillatorischer Scherindex</translation>
+    </message>
+    <message>
+        <source>relative residence time</source>
+        <translation>relative Verweilzeit</translation>
+    </message>
+    <message>
+        <source>%1 (magnitude)</source>
+        <translation>%1 (Betrag)</translation>
+    </message>
+    <message>
+        <source>not known</source>
+        <translation>nicht bekannt</translation>
     </message>
 </context>
 <context>
@@ -636,6 +698,378 @@
     </message>
 </context>
 <context>
+    <name>ostia::workstation::FlowBar</name>
+    <message>
+        <source>Automatic</source>
+        <translation>Automatisch</translation>
+    </message>
+    <message>
+        <source>Result that is shown</source>
+        <translation>Gezeigtes Ergebnis</translation>
+    </message>
+    <message>
+        <source>Colours from the 2nd to the 98th percentile of all values</source>
+        <translation>Farben vom 2. bis zum 98. Perzentil aller Werte</translation>
+    </message>
+    <message>
+        <source>Value of the first colour</source>
+        <translation>Wert der ersten Farbe</translation>
+    </message>
+    <message>
+        <source>Value of the last colour</source>
+        <translation>Wert der letzten Farbe</translation>
+    </message>
+    <message>
+        <source>Save the picture</source>
+        <translation>Das Bild speichern</translation>
+    </message>
+    <message>
+        <source>Hide the result</source>
+        <translation>Das Ergebnis ausblenden</translation>
+    </message>
+    <message>
+        <source>Type two numbers, the smaller one first.</source>
+        <translation>Zwei Zahlen eingeben, die kleinere zuerst.</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::FlowCases</name>
+    <message>
+        <source>Mesh</source>
+        <translation>Netz</translation>
+    </message>
+    <message>
+        <source>Flow case</source>
+        <translation>Strömungsfall</translation>
+    </message>
+    <message>
+        <source>The flow case could not be written</source>
+        <translation>Der Strömungsfall konnte nicht geschrieben werden</translation>
+    </message>
+    <message>
+        <source>%1: flow case written</source>
+        <translation>%1: Strömungsfall geschrieben</translation>
+    </message>
+    <message>
+        <source>Open folder</source>
+        <translation>Ordner öffnen</translation>
+    </message>
+    <message>
+        <source>Run the solver</source>
+        <translation>Löser starten</translation>
+    </message>
+    <message>
+        <source>The solver is running already: cancel it first.</source>
+        <translation>Der Löser läuft schon: zuerst abbrechen.</translation>
+    </message>
+    <message>
+        <source>Solver</source>
+        <translation>Löser</translation>
+    </message>
+    <message>
+        <source>%1 iterations</source>
+        <translation>%1 Iterationen</translation>
+    </message>
+    <message>
+        <source>%1 s</source>
+        <translation>%1 s</translation>
+    </message>
+    <message>
+        <source>%1: converged, %2</source>
+        <translation>%1: konvergiert, %2</translation>
+    </message>
+    <message>
+        <source>%1: not converged, %2</source>
+        <translation>%1: nicht konvergiert, %2</translation>
+    </message>
+    <message>
+        <source>The solver&apos;s run failed</source>
+        <translation>Der Lauf des Lösers ist gescheitert</translation>
+    </message>
+    <message>
+        <source>Show the result</source>
+        <translation>Ergebnis zeigen</translation>
+    </message>
+    <message>
+        <source>The result is shown, but look at it before you use it: %1</source>
+        <translation>Das Ergebnis wird gezeigt, aber sehen Sie es an, bevor Sie es verwenden: %1</translation>
+    </message>
+    <message>
+        <source>A result to look at</source>
+        <translation>Ein Ergebnis zum Ansehen</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::FlowDialog</name>
+    <message>
+        <source>Mesh</source>
+        <translation>Netz</translation>
+    </message>
+    <message>
+        <source>Volume meshes (*.vtu);;All files (*)</source>
+        <translation>Volumennetze (*.vtu);;Alle Dateien (*)</translation>
+    </message>
+    <message>
+        <source>Where the folder is to be</source>
+        <translation>Wo der Ordner sein soll</translation>
+    </message>
+    <message>
+        <source>Choose a mesh: the mesh.vtu of an exported mesh.</source>
+        <translation>Ein Netz wählen: die mesh.vtu eines exportierten Netzes.</translation>
+    </message>
+    <message>
+        <source>There is no file of this name.</source>
+        <translation>Es gibt keine Datei dieses Namens.</translation>
+    </message>
+    <message>
+        <source>Its elements are quadratic, the solvers take linear ones. Export the mesh with linear elements.</source>
+        <translation>Seine Elemente sind quadratisch, die Löser nehmen lineare. Das Netz mit linearen Elementen exportieren.</translation>
+    </message>
+    <message>
+        <source>It has prisms, svMultiPhysics takes tetrahedra alone. Export it with layers as tetrahedra, or choose OpenFOAM.</source>
+        <translation>Es hat Prismen, svMultiPhysics nimmt nur Tetraeder. Mit Schichten als Tetraeder exportieren oder OpenFOAM wählen.</translation>
+    </message>
+    <message>
+        <source>A flow of %1 ml/s is not that of a vessel. Choose %2 to %3 ml/s.</source>
+        <translation>Ein Fluss von %1 ml/s ist nicht der eines Gefäßes. %2 bis %3 ml/s wählen.</translation>
+    </message>
+    <message>
+        <source>svMultiPhysics has no outlets with a given share. Choose pressure 0 or resistances, or OpenFOAM.</source>
+        <translation>svMultiPhysics kennt keine Auslässe mit festem Anteil. Druck 0 oder Widerstände wählen, oder OpenFOAM.</translation>
+    </message>
+    <message>
+        <source>Choose a viscosity of %1 to %2 mPa s.</source>
+        <translation>Eine Viskosität von %1 bis %2 mPa s wählen.</translation>
+    </message>
+    <message>
+        <source>Choose a density of %1 to %2 kg/m³.</source>
+        <translation>Eine Dichte von %1 bis %2 kg/m³ wählen.</translation>
+    </message>
+    <message>
+        <source>The folder holds files. Name another one.</source>
+        <translation>Der Ordner enthält Dateien. Einen anderen nennen.</translation>
+    </message>
+    <message>
+        <source>reading…</source>
+        <translation>wird gelesen…</translation>
+    </message>
+    <message>
+        <source>%1 mm</source>
+        <translation>%1 mm</translation>
+    </message>
+    <message>
+        <source>%1 ml/s</source>
+        <translation>%1 ml/s</translation>
+    </message>
+    <message>
+        <source>computed</source>
+        <translation>berechnet</translation>
+    </message>
+    <message>
+        <source>Run it where svMultiPhysics is installed: svmultiphysics solver.xml in the folder.</source>
+        <translation>Dort starten, wo svMultiPhysics installiert ist: svmultiphysics solver.xml im Ordner.</translation>
+    </message>
+    <message>
+        <source>%1 is not on the PATH. Install OpenFOAM (Debian: apt install openfoam), or run Allrun in the folder where it is installed.</source>
+        <translation>%1 ist nicht im PATH. OpenFOAM installieren (Debian: apt install openfoam), oder Allrun im Ordner dort starten, wo es installiert ist.</translation>
+    </message>
+    <message>
+        <source>Flow case</source>
+        <translation>Strömungsfall</translation>
+    </message>
+    <message>
+        <source>Write the case</source>
+        <translation>Fall schreiben</translation>
+    </message>
+    <message>
+        <source>C&amp;hoose…</source>
+        <translation>Wa&amp;hl…</translation>
+    </message>
+    <message>
+        <source>&amp;Mesh</source>
+        <translation>&amp;Netz</translation>
+    </message>
+    <message>
+        <source>Inlets and outlets</source>
+        <translation>Ein- und Auslässe</translation>
+    </message>
+    <message>
+        <source>Open end</source>
+        <translation>Offenes Ende</translation>
+    </message>
+    <message>
+        <source>Diameter</source>
+        <translation>Durchmesser</translation>
+    </message>
+    <message>
+        <source>Mean flow</source>
+        <translation>Mittlerer Fluss</translation>
+    </message>
+    <message>
+        <source>&amp;Ends</source>
+        <translation>&amp;Enden</translation>
+    </message>
+    <message>
+        <source>Solver</source>
+        <translation>Löser</translation>
+    </message>
+    <message>
+        <source>&amp;Solver</source>
+        <translation>&amp;Löser</translation>
+    </message>
+    <message>
+        <source>Flow through each inlet</source>
+        <translation>Fluss durch jeden Einlass</translation>
+    </message>
+    <message>
+        <source>by its diameter</source>
+        <translation>nach seinem Durchmesser</translation>
+    </message>
+    <message>
+        <source>the same through each inlet</source>
+        <translation>gleich viel durch jeden Einlass</translation>
+    </message>
+    <message>
+        <source>By its diameter: 1.43 d^2.55 (SI), measured in human coronary arteries (van der Giessen 2011)</source>
+        <translation>Nach seinem Durchmesser: 1.43 d^2.55 (SI), gemessen in menschlichen Herzkranzgefäßen (van der Giessen 2011)</translation>
+    </message>
+    <message>
+        <source> ml/s</source>
+        <translation> ml/s</translation>
+    </message>
+    <message>
+        <source>&amp;Flow in</source>
+        <translation>&amp;Zufluss</translation>
+    </message>
+    <message>
+        <source>Course over time</source>
+        <translation>Verlauf über die Zeit</translation>
+    </message>
+    <message>
+        <source>steady</source>
+        <translation>stationär</translation>
+    </message>
+    <message>
+        <source>pulse of a left coronary artery (model)</source>
+        <translation>Puls einer linken Koronararterie (Modell)</translation>
+    </message>
+    <message>
+        <source>pulse of a right coronary artery (model)</source>
+        <translation>Puls einer rechten Koronararterie (Modell)</translation>
+    </message>
+    <message>
+        <source>&amp;Time</source>
+        <translation>&amp;Verlauf</translation>
+    </message>
+    <message>
+        <source>Outlets</source>
+        <translation>Auslässe</translation>
+    </message>
+    <message>
+        <source>a share of the flow each, by diameter</source>
+        <translation>je ein Anteil am Fluss, nach Durchmesser</translation>
+    </message>
+    <message>
+        <source>pressure 0 at each</source>
+        <translation>Druck 0 an jedem</translation>
+    </message>
+    <message>
+        <source>resistances, by diameter</source>
+        <translation>Widerstände, nach Durchmesser</translation>
+    </message>
+    <message>
+        <source>Shares and resistances go as the diameter to 2.27 (van der Giessen 2011); together the resistances take 90 mmHg.</source>
+        <translation>Anteile und Widerstände gehen mit dem Durchmesser hoch 2.27 (van der Giessen 2011); zusammen nehmen die Widerstände 90 mmHg auf.</translation>
+    </message>
+    <message>
+        <source>&amp;Outlets</source>
+        <translation>&amp;Auslässe</translation>
+    </message>
+    <message>
+        <source>Viscosity of blood</source>
+        <translation>Viskosität des Bluts</translation>
+    </message>
+    <message>
+        <source>Newtonian</source>
+        <translation>newtonsch</translation>
+    </message>
+    <message>
+        <source>shear-thinning</source>
+        <translation>scherverdünnend</translation>
+    </message>
+    <message>
+        <source>Shear-thinning: the law of Carreau (Cho and Kensey 1991)</source>
+        <translation>Scherverdünnend: das Gesetz von Carreau (Cho und Kensey 1991)</translation>
+    </message>
+    <message>
+        <source>Viscosity</source>
+        <translation>Viskosität</translation>
+    </message>
+    <message>
+        <source> mPa s</source>
+        <translation> mPa s</translation>
+    </message>
+    <message>
+        <source>Density</source>
+        <translation>Dichte</translation>
+    </message>
+    <message>
+        <source> kg/m³</source>
+        <translation> kg/m³</translation>
+    </message>
+    <message>
+        <source>&amp;Blood</source>
+        <translation>&amp;Blut</translation>
+    </message>
+    <message>
+        <source>Folder that is made</source>
+        <translation>Ordner, der angelegt wird</translation>
+    </message>
+    <message>
+        <source>&amp;Choose…</source>
+        <translation>&amp;Wahl…</translation>
+    </message>
+    <message>
+        <source>&amp;New folder</source>
+        <translation>Neuer O&amp;rdner</translation>
+    </message>
+    <message>
+        <source>&amp;Run the solver when the case is written</source>
+        <translation>Löser &amp;starten, wenn der Fall geschrieben ist</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::FlowResults</name>
+    <message>
+        <source>Open flow results</source>
+        <translation>Strömungsergebnisse öffnen</translation>
+    </message>
+    <message>
+        <source>Surfaces with values (*.vtp *.vtk);;All files (*)</source>
+        <translation>Oberflächen mit Werten (*.vtp *.vtk);;Alle Dateien (*)</translation>
+    </message>
+    <message>
+        <source>Flow results</source>
+        <translation>Strömungsergebnisse</translation>
+    </message>
+    <message>
+        <source>The results could not be opened</source>
+        <translation>Die Ergebnisse konnten nicht geöffnet werden</translation>
+    </message>
+    <message>
+        <source>Save the picture</source>
+        <translation>Das Bild speichern</translation>
+    </message>
+    <message>
+        <source>Pictures (*.png)</source>
+        <translation>Bilder (*.png)</translation>
+    </message>
+    <message>
+        <source>The picture is in %1.</source>
+        <translation>Das Bild liegt in %1.</translation>
+    </message>
+</context>
+<context>
     <name>ostia::workstation::Hanging</name>
     <message>
         <source>Tree</source>
@@ -783,6 +1217,13 @@
     <message>
         <source>No other stenosis in this direction.</source>
         <translation>Keine weitere Stenose in dieser Richtung.</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::HistogramWidget</name>
+    <message>
+        <source>%1 to %2: %3 elements</source>
+        <translation>%1 bis %2: %3 Elemente</translation>
     </message>
 </context>
 <context>
@@ -1178,6 +1619,22 @@
         <source>Plaque</source>
         <translation>Plaque</translation>
     </message>
+    <message>
+        <source>the flow case</source>
+        <translation>der Strömungsfall</translation>
+    </message>
+    <message>
+        <source>the solver&apos;s run</source>
+        <translation>der Lauf des Lösers</translation>
+    </message>
+    <message>
+        <source>A &amp;flow case…</source>
+        <translation>Ein &amp;Strömungsfall…</translation>
+    </message>
+    <message>
+        <source>Open flow res&amp;ults…</source>
+        <translation>Ström&amp;ungsergebnisse öffnen…</translation>
+    </message>
 </context>
 <context>
     <name>ostia::workstation::ManualDialog</name>
@@ -1219,6 +1676,220 @@
     <message>
         <source>Value</source>
         <translation>Wert</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::MeshPanel</name>
+    <message>
+        <source>Mesh</source>
+        <translation>Netz</translation>
+    </message>
+    <message>
+        <source>No mesh has been made yet.</source>
+        <translation>Es wurde noch kein Netz erzeugt.</translation>
+    </message>
+    <message>
+        <source>How many elements have which value</source>
+        <translation>Wie viele Elemente welchen Wert haben</translation>
+    </message>
+    <message>
+        <source>&amp;Worst elements</source>
+        <translation>&amp;Schlechteste Elemente</translation>
+    </message>
+    <message>
+        <source>Worst elements</source>
+        <translation>Schlechteste Elemente</translation>
+    </message>
+    <message>
+        <source>A click shows the element in 3D.</source>
+        <translation>Ein Klick zeigt das Element in 3D.</translation>
+    </message>
+    <message>
+        <source>What the colours show</source>
+        <translation>Was die Farben zeigen</translation>
+    </message>
+    <message>
+        <source>E&amp;dges</source>
+        <translation>&amp;Kanten</translation>
+    </message>
+    <message>
+        <source>&amp;Colours</source>
+        <translation>Fa&amp;rben</translation>
+    </message>
+    <message>
+        <source>How the mesh is cut open</source>
+        <translation>Wie das Netz aufgeschnitten ist</translation>
+    </message>
+    <message>
+        <source>not at all</source>
+        <translation>gar nicht</translation>
+    </message>
+    <message>
+        <source>across the selected vessel</source>
+        <translation>quer zum gewählten Gefäß</translation>
+    </message>
+    <message>
+        <source>left and right</source>
+        <translation>links und rechts</translation>
+    </message>
+    <message>
+        <source>front and back</source>
+        <translation>vorn und hinten</translation>
+    </message>
+    <message>
+        <source>head and feet</source>
+        <translation>Kopf und Füße</translation>
+    </message>
+    <message>
+        <source>towards the viewer</source>
+        <translation>zum Betrachter hin</translation>
+    </message>
+    <message>
+        <source>Place of the cut</source>
+        <translation>Ort des Schnitts</translation>
+    </message>
+    <message>
+        <source>The &amp;other side</source>
+        <translation>Die a&amp;ndere Seite</translation>
+    </message>
+    <message>
+        <source>C&amp;ut</source>
+        <translation>Schn&amp;itt</translation>
+    </message>
+    <message>
+        <source>%1: %2 tetrahedra, %3 prisms</source>
+        <translation>%1: %2 Tetraeder, %3 Prismen</translation>
+    </message>
+    <message>
+        <source>Worst %1, mean %2</source>
+        <translation>Schlechtester %1, Mittel %2</translation>
+    </message>
+    <message>
+        <source>%1 at (%2, %3, %4) mm</source>
+        <translation>%1 bei (%2, %3, %4) mm</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::MeshingCheck</name>
+    <message>
+        <source>Edges %1 times as long</source>
+        <translation>Kanten %1-mal so lang</translation>
+    </message>
+    <message>
+        <source>Layers %1 times as thick</source>
+        <translation>Schichten %1-mal so dick</translation>
+    </message>
+    <message>
+        <source>No layers</source>
+        <translation>Keine Schichten</translation>
+    </message>
+    <message>
+        <source>Change the settings</source>
+        <translation>Einstellungen ändern</translation>
+    </message>
+    <message>
+        <source>The unit looks wrong</source>
+        <translation>Die Einheit scheint falsch</translation>
+    </message>
+    <message>
+        <source>Points without a place</source>
+        <translation>Punkte ohne Ort</translation>
+    </message>
+    <message>
+        <source>A hole in the wall</source>
+        <translation>Ein Loch in der Wand</translation>
+    </message>
+    <message>
+        <source>Edges of more than two triangles</source>
+        <translation>Kanten von mehr als zwei Dreiecken</translation>
+    </message>
+    <message>
+        <source>Triangles that look the wrong way</source>
+        <translation>Dreiecke, die zur falschen Seite zeigen</translation>
+    </message>
+    <message>
+        <source>The wall is inside out</source>
+        <translation>Die Wand ist nach innen gekehrt</translation>
+    </message>
+    <message>
+        <source>The wall crosses itself</source>
+        <translation>Die Wand durchdringt sich</translation>
+    </message>
+    <message>
+        <source>Two walls nearly touch</source>
+        <translation>Zwei Wände berühren sich fast</translation>
+    </message>
+    <message>
+        <source>Few edges across the lumen</source>
+        <translation>Wenige Kanten quer durchs Lumen</translation>
+    </message>
+    <message>
+        <source>An edge length that cannot be</source>
+        <translation>Eine unmögliche Kantenlänge</translation>
+    </message>
+    <message>
+        <source>An end smaller than its elements</source>
+        <translation>Ein Ende, kleiner als seine Elemente</translation>
+    </message>
+    <message>
+        <source>A fold in which layers cannot grow</source>
+        <translation>Eine Falte, in der keine Schichten wachsen</translation>
+    </message>
+    <message>
+        <source>Little room for layers</source>
+        <translation>Wenig Platz für Schichten</translation>
+    </message>
+    <message>
+        <source>Looks for what would fail or come out poor, without meshing; the places are shown in 3D.</source>
+        <translation>Sucht, was scheitern oder schlecht würde, ohne zu vernetzen; die Stellen werden in 3D gezeigt.</translation>
+    </message>
+    <message>
+        <source>Places that would fail or come out poor</source>
+        <translation>Stellen, die scheitern oder schlecht würden</translation>
+    </message>
+    <message>
+        <source>Changes the fields of this dialog; check again afterwards.</source>
+        <translation>Ändert die Felder dieses Dialogs; danach erneut prüfen.</translation>
+    </message>
+    <message>
+        <source>Looking…</source>
+        <translation>Es wird gesucht …</translation>
+    </message>
+    <message>
+        <source>Nothing was found that would fail.</source>
+        <translation>Nichts gefunden, was scheitern würde.</translation>
+    </message>
+    <message>
+        <source>Would fail: %1. Would come out poor: %2.</source>
+        <translation>Würde scheitern: %1. Würde schlecht: %2.</translation>
+    </message>
+    <message>
+        <source>fails: %1</source>
+        <translation>scheitert: %1</translation>
+    </message>
+    <message>
+        <source>poor: %1</source>
+        <translation>schlecht: %1</translation>
+    </message>
+    <message>
+        <source>Shows what would fail before anything is meshed.</source>
+        <translation>Zeigt, was scheitern würde, bevor vernetzt wird.</translation>
+    </message>
+    <message>
+        <source>&amp;Stop</source>
+        <translation>An&amp;halten</translation>
+    </message>
+    <message>
+        <source>Chec&amp;k</source>
+        <translation>&amp;Prüfen</translation>
+    </message>
+    <message>
+        <source>The settings have changed: check again.</source>
+        <translation>Die Einstellungen sind geändert: erneut prüfen.</translation>
+    </message>
+    <message>
+        <source>%1. Way out: %2.</source>
+        <translation>%1. Ausweg: %2.</translation>
     </message>
 </context>
 <context>
@@ -1280,46 +1951,6 @@
         <translation>&amp;Enden</translation>
     </message>
     <message>
-        <source>Size of the triangles</source>
-        <translation>Größe der Dreiecke</translation>
-    </message>
-    <message>
-        <source>as fine as the model</source>
-        <translation>so fein wie das Modell</translation>
-    </message>
-    <message>
-        <source>by the calibre</source>
-        <translation>nach dem Kaliber</translation>
-    </message>
-    <message>
-        <source>the same everywhere</source>
-        <translation>überall gleich</translation>
-    </message>
-    <message>
-        <source>By the calibre: as many edges around a thin vessel as around a thick one. The same everywhere: shorter only where fewer than eight edges would be around the lumen.</source>
-        <translation>Nach dem Kaliber: um ein dünnes Gefäß so viele Kanten wie um ein dickes. Überall gleich: kürzer nur, wo weniger als acht Kanten um das Lumen lägen.</translation>
-    </message>
-    <message>
-        <source>Edges around a vessel</source>
-        <translation>Kanten um ein Gefäß</translation>
-    </message>
-    <message>
-        <source> edges around</source>
-        <translation> Kanten ringsum</translation>
-    </message>
-    <message>
-        <source>Edge length</source>
-        <translation>Kantenlänge</translation>
-    </message>
-    <message>
-        <source> mm</source>
-        <translation> mm</translation>
-    </message>
-    <message>
-        <source>&amp;Triangles</source>
-        <translation>&amp;Dreiecke</translation>
-    </message>
-    <message>
         <source>ParaView, VTK; keeps the names of the faces</source>
         <translation>ParaView, VTK; behält die Namen der Flächen</translation>
     </message>
@@ -1354,22 +1985,6 @@
     <message>
         <source>together with the vessels that they come from: %1</source>
         <translation>zusammen mit den Gefäßen, von denen sie kommen: %1</translation>
-    </message>
-    <message>
-        <source>%1 edges around a vessel are too few. Choose %2 to %3.</source>
-        <translation>%1 Kanten um ein Gefäß sind zu wenige. Wählen Sie %2 bis %3.</translation>
-    </message>
-    <message>
-        <source>%1 edges around a vessel are too many. Choose %2 to %3.</source>
-        <translation>%1 Kanten um ein Gefäß sind zu viele. Wählen Sie %2 bis %3.</translation>
-    </message>
-    <message>
-        <source>Edges of %1 mm are too short. Choose %2 to %3 mm.</source>
-        <translation>Kanten von %1 mm sind zu kurz. Wählen Sie %2 bis %3 mm.</translation>
-    </message>
-    <message>
-        <source>Edges of %1 mm are too long. Choose %2 to %3 mm.</source>
-        <translation>Kanten von %1 mm sind zu lang. Wählen Sie %2 bis %3 mm.</translation>
     </message>
     <message>
         <source>About %1 cells; more than %2 do not fit. Choose longer edges, or fewer vessels.</source>
@@ -1410,6 +2025,22 @@
     <message>
         <source>The folder holds files that are not from an earlier export. Name another one.</source>
         <translation>Im Ordner liegen Dateien, die nicht von einem früheren Export sind. Nennen Sie einen anderen.</translation>
+    </message>
+    <message>
+        <source>Si&amp;zes</source>
+        <translation>&amp;Größen</translation>
+    </message>
+    <message>
+        <source>La&amp;yers and elements</source>
+        <translation>Schich&amp;ten und Elemente</translation>
+    </message>
+    <message>
+        <source>&amp;Formats</source>
+        <translation>&amp;Formate</translation>
+    </message>
+    <message>
+        <source>&amp;Will it mesh?</source>
+        <translation>&amp;Wird es ein Netz?</translation>
     </message>
 </context>
 <context>
@@ -1461,6 +2092,25 @@
     <message>
         <source>quality not passed</source>
         <translation>Qualität nicht bestanden</translation>
+    </message>
+    <message>
+        <source>The &amp;mesh</source>
+        <translation>Das &amp;Netz</translation>
+    </message>
+    <message>
+        <source>Preparing the mesh&apos;s picture</source>
+        <translation>Das Bild des Netzes wird vorbereitet</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::MeshingForecast</name>
+    <message>
+        <source>Will it mesh?</source>
+        <translation>Wird es ein Netz?</translation>
+    </message>
+    <message>
+        <source>It would fail: %1</source>
+        <translation>Es würde scheitern: %1</translation>
     </message>
 </context>
 <context>
@@ -2125,6 +2775,157 @@
     </message>
 </context>
 <context>
+    <name>ostia::workstation::SizeFields</name>
+    <message>
+        <source>Size of the triangles</source>
+        <translation>Größe der Dreiecke</translation>
+    </message>
+    <message>
+        <source>as fine as the model</source>
+        <translation>so fein wie das Modell</translation>
+    </message>
+    <message>
+        <source>by the calibre</source>
+        <translation>nach dem Kaliber</translation>
+    </message>
+    <message>
+        <source>the same everywhere</source>
+        <translation>überall gleich</translation>
+    </message>
+    <message>
+        <source>By the calibre: as many edges around a thin vessel as around a thick one. The same everywhere: shorter only where fewer than eight edges would be around the lumen.</source>
+        <translation>Nach dem Kaliber: um ein dünnes Gefäß so viele Kanten wie um ein dickes. Überall gleich: kürzer nur, wo weniger als acht Kanten um das Lumen lägen.</translation>
+    </message>
+    <message>
+        <source>Edges around a vessel</source>
+        <translation>Kanten um ein Gefäß</translation>
+    </message>
+    <message>
+        <source> edges around</source>
+        <translation> Kanten ringsum</translation>
+    </message>
+    <message>
+        <source>Edge length</source>
+        <translation>Kantenlänge</translation>
+    </message>
+    <message>
+        <source> mm</source>
+        <translation> mm</translation>
+    </message>
+    <message>
+        <source>&amp;Triangles</source>
+        <translation>&amp;Dreiecke</translation>
+    </message>
+    <message>
+        <source>Edges at stenoses over those of the vessel</source>
+        <translation>Kanten an Stenosen gegenüber denen des Gefäßes</translation>
+    </message>
+    <message>
+        <source>edges times </source>
+        <translation>Kanten mal </translation>
+    </message>
+    <message>
+        <source>Shorter edges where the vessel is narrowed by 30 % or more; 0.5 halves them, 1 leaves them.</source>
+        <translation>Kürzere Kanten, wo das Gefäß um 30 % oder mehr verengt ist; 0,5 halbiert sie, 1 lässt sie.</translation>
+    </message>
+    <message>
+        <source>At &amp;stenoses</source>
+        <translation>An &amp;Stenosen</translation>
+    </message>
+    <message>
+        <source>Choose %1 to %2 of the edges’ length.</source>
+        <translation>Wählen Sie %1 bis %2 der Kantenlänge.</translation>
+    </message>
+    <message>
+        <source>Edge over the wall&apos;s radius of curvature</source>
+        <translation>Kante gegenüber dem Krümmungsradius der Wand</translation>
+    </message>
+    <message>
+        <source>not looked at</source>
+        <translation>nicht beachtet</translation>
+    </message>
+    <message>
+        <source> of the bend&apos;s radius</source>
+        <translation> des Krümmungsradius</translation>
+    </message>
+    <message>
+        <source>Shorter edges where the wall bends more than around itself, as in the crotch of a fork; 0.4 is a good start.</source>
+        <translation>Kürzere Kanten, wo sich die Wand stärker krümmt als rings um das Gefäß, etwa im Schritt einer Gabel; 0,4 ist ein guter Anfang.</translation>
+    </message>
+    <message>
+        <source>At &amp;bends</source>
+        <translation>An &amp;Biegungen</translation>
+    </message>
+    <message>
+        <source>Choose %1 to %2, or 0.</source>
+        <translation>Wählen Sie %1 bis %2, oder 0.</translation>
+    </message>
+    <message>
+        <source>Bound on the size of wide places, in radii</source>
+        <translation>Grenze für weite Stellen, in Radien</translation>
+    </message>
+    <message>
+        <source>as wide as they are</source>
+        <translation>so weit, wie sie sind</translation>
+    </message>
+    <message>
+        <source>as if </source>
+        <translation>wie </translation>
+    </message>
+    <message>
+        <source> radii wide</source>
+        <translation> Radien weit</translation>
+    </message>
+    <message>
+        <source>An aneurysm gets the edges of its vessel: the wall counts as at most so many radii away from the axis. 1 or more; 0: no bound.</source>
+        <translation>Ein Aneurysma bekommt die Kanten seines Gefäßes: die Wand gilt als höchstens so viele Radien von der Achse entfernt. 1 oder mehr; 0: keine Grenze.</translation>
+    </message>
+    <message>
+        <source>&amp;Aneurysms</source>
+        <translation>&amp;Aneurysmen</translation>
+    </message>
+    <message>
+        <source>Length of the flow extensions</source>
+        <translation>Länge der Strömungsverlängerungen</translation>
+    </message>
+    <message>
+        <source>none</source>
+        <translation>keine</translation>
+    </message>
+    <message>
+        <source> diameters long</source>
+        <translation> Durchmesser lang</translation>
+    </message>
+    <message>
+        <source>Tubes beyond the cut ends that lead the flow in and out, from each real section to a circle.</source>
+        <translation>Rohre jenseits der Schnittenden, die die Strömung hinein- und hinausführen, von jedem wirklichen Querschnitt zu einem Kreis.</translation>
+    </message>
+    <message>
+        <source>Flow e&amp;xtensions</source>
+        <translation>Ver&amp;längerungen</translation>
+    </message>
+    <message>
+        <source>Choose %1 to %2 diameters, or 0 for none.</source>
+        <translation>Wählen Sie %1 bis %2 Durchmesser, oder 0 für keine.</translation>
+    </message>
+    <message>
+        <source>%1 edges around a vessel are too few. Choose %2 to %3.</source>
+        <translation>%1 Kanten um ein Gefäß sind zu wenige. Wählen Sie %2 bis %3.</translation>
+    </message>
+    <message>
+        <source>%1 edges around a vessel are too many. Choose %2 to %3.</source>
+        <translation>%1 Kanten um ein Gefäß sind zu viele. Wählen Sie %2 bis %3.</translation>
+    </message>
+    <message>
+        <source>Edges of %1 mm are too short. Choose %2 to %3 mm.</source>
+        <translation>Kanten von %1 mm sind zu kurz. Wählen Sie %2 bis %3 mm.</translation>
+    </message>
+    <message>
+        <source>Edges of %1 mm are too long. Choose %2 to %3 mm.</source>
+        <translation>Kanten von %1 mm sind zu lang. Wählen Sie %2 bis %3 mm.</translation>
+    </message>
+</context>
+<context>
     <name>ostia::workstation::StartPage</name>
     <message>
         <source>No case is open</source>
@@ -2638,6 +3439,30 @@
         <source>mesh quality</source>
         <translation>Netzqualität</translation>
     </message>
+    <message>
+        <source>checking the mesh</source>
+        <translation>Netz wird geprüft</translation>
+    </message>
+    <message>
+        <source>iteration, residual</source>
+        <translation>Iteration, Residuum</translation>
+    </message>
+    <message>
+        <source>time, s</source>
+        <translation>Zeit, s</translation>
+    </message>
+    <message>
+        <source>reading the result</source>
+        <translation>Ergebnis wird gelesen</translation>
+    </message>
+    <message>
+        <source>preview</source>
+        <translation>Vorschau</translation>
+    </message>
+    <message>
+        <source>mesh forecast</source>
+        <translation>Vorhersage</translation>
+    </message>
 </context>
 <context>
     <name>steps</name>
@@ -2947,6 +3772,14 @@
     <message>
         <source>Colours what lies between lumen and outer wall on sections and CPRs by its class.</source>
         <translation>Färbt auf Querschnitten und CPRs nach Klassen, was zwischen Lumen und Außenwand liegt.</translation>
+    </message>
+    <message>
+        <source>Writes a case of blood flow in a mesh for a solver, and runs it.</source>
+        <translation>Schreibt einen Fall der Blutströmung in einem Netz für einen Löser und rechnet ihn.</translation>
+    </message>
+    <message>
+        <source>Colours the wall in 3D by a solver&apos;s result, such as its shear stress.</source>
+        <translation>Färbt die Wand in 3D nach dem Ergebnis eines Lösers, etwa der Schubspannung.</translation>
     </message>
 </context>
 <context>

@@ -1,6 +1,9 @@
 #include "mesh_vtk_cells.h"
 
+#include "vtk_xml.h"
+
 #include <vtkCellArray.h>
+#include <vtkCellData.h>
 #include <vtkCellType.h>
 #include <vtkPoints.h>
 
@@ -38,6 +41,41 @@ vtkSmartPointer<vtkUnstructuredGrid> VtkCells::grid(vtkSmartPointer<vtkPoints> p
   grid->SetPoints(points);
   std::vector<int> types = types_;
   grid->SetCells(types.data(), cells_);
+  return grid;
+}
+
+std::optional<Shape> shape_of(int type) {
+  switch (type) {
+    case VTK_TETRA:
+    case VTK_QUADRATIC_TETRA:
+      return Shape::tetrahedron;
+    case VTK_WEDGE:
+    case VTK_BIQUADRATIC_QUADRATIC_WEDGE:
+      return Shape::prism;
+    case VTK_TRIANGLE:
+    case VTK_QUADRATIC_TRIANGLE:
+      return Shape::triangle;
+    case VTK_QUAD:
+    case VTK_BIQUADRATIC_QUAD:
+      return Shape::quad;
+    default:
+      return std::nullopt;
+  }
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> grid_of(const PreparedMesh& mesh) {
+  VtkCells cells;
+  std::vector<std::int32_t> ids(mesh.elements(), 0);
+  for (const Shape shape : volume_shapes)
+    cells.add(shape, mesh.connectivity(shape, vtk_order), mesh.nodes(shape));
+  for (const Shape shape : facet_shapes) cells.add(shape, mesh.connectivity(shape), mesh.nodes(shape));
+  ids.insert(ids.end(), mesh.mesh.triangle_face_ids.begin(), mesh.mesh.triangle_face_ids.end());
+  ids.insert(ids.end(), mesh.mesh.quad_face_ids.begin(), mesh.mesh.quad_face_ids.end());
+  vtkSmartPointer<vtkUnstructuredGrid> grid = cells.grid(to_vtk(mesh.mesh.points));
+  add_array(*grid->GetCellData(), "CellEntityIds", ids);
+  std::vector<geometry::Face> faces = mesh.mesh.faces;
+  for (std::size_t f = 0; f < faces.size(); ++f) faces[f].name = mesh.names[f];
+  add_faces(*grid, faces);
   return grid;
 }
 

@@ -1,16 +1,40 @@
 // Surfaces as VTP.
 
 #include "formats.h"
+#include "vtk_fields.h"
 #include "vtk_xml.h"
+
+#include "ostia/core/files.h"
+#include "ostia/io/surface_fields.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
 #include <vtkCellData.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
 
 namespace ostia::io {
 
 using geometry::FacedSurface;
+
+namespace {
+
+vtkSmartPointer<vtkPolyData> polydata_of(const FacedSurface& surface) {
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(to_vtk(surface.mesh.points));
+  vtkNew<vtkCellArray> polygons;
+  polygons->AllocateExact(static_cast<vtkIdType>(surface.mesh.triangles.size()),
+                          static_cast<vtkIdType>(3 * surface.mesh.triangles.size()));
+  for (const geometry::Triangle& t : surface.mesh.triangles) polygons->InsertNextCell({t[0], t[1], t[2]});
+  data->SetPolys(polygons);
+  if (!surface.face_ids.empty()) {
+    add_array(*data->GetCellData(), "CellEntityIds", surface.face_ids);
+    add_faces(*data, surface.faces);
+  }
+  return data;
+}
+
+}  // namespace
 
 LoadedSurface read_vtp(const std::filesystem::path& path) {
   const vtkSmartPointer<vtkPolyData> data = read_polydata(path);
@@ -45,18 +69,14 @@ LoadedSurface read_vtp(const std::filesystem::path& path) {
 }
 
 std::string vtp_text(const FacedSurface& surface) {
-  vtkNew<vtkPolyData> data;
-  data->SetPoints(to_vtk(surface.mesh.points));
-  vtkNew<vtkCellArray> polygons;
-  polygons->AllocateExact(static_cast<vtkIdType>(surface.mesh.triangles.size()),
-                          static_cast<vtkIdType>(3 * surface.mesh.triangles.size()));
-  for (const geometry::Triangle& t : surface.mesh.triangles) polygons->InsertNextCell({t[0], t[1], t[2]});
-  data->SetPolys(polygons);
-  if (!surface.face_ids.empty()) {
-    add_array(*data->GetCellData(), "CellEntityIds", surface.face_ids);
-    add_faces(*data, surface.faces);
-  }
-  return polydata_text(*data);
+  return polydata_text(*polydata_of(surface));
+}
+
+void write_vtp_with_fields(const std::filesystem::path& path, const FacedSurface& surface,
+                           const PointFields& fields) {
+  const vtkSmartPointer<vtkPolyData> data = polydata_of(surface);
+  add_fields(*data->GetPointData(), fields, surface.mesh.points.size(), surface.mesh.points.size(), "points");
+  core::write_file(path, polydata_text(*data));
 }
 
 }  // namespace ostia::io

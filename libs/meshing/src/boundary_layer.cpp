@@ -145,7 +145,7 @@ void judge_thickness(const Columns& columns, BoundaryLayerReport& report) {
       if (columns.shares[static_cast<std::size_t>(v)] >= 1.0) full += area / 3.0;
     all += area;
   }
-  report.full_share = full / all;
+  report.full_share = std::min(1.0, full / all);  // thirds do not add up to the bit
   report.wanted_mm = columns.wanted_mm;
   for (std::size_t i = 0; i < columns.shares.size(); ++i)
     report.thickness_mm.push_back(columns.shares[i] * columns.wanted_mm[i]);

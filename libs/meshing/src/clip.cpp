@@ -1,5 +1,6 @@
 #include "ostia/meshing/clip.h"
 
+#include "cut_rim.h"
 #include "edit_mesh.h"
 #include "plane_cut.h"
 #include "plane_triangulation.h"
@@ -12,8 +13,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <numbers>
+#include <optional>
+#include <set>
+#include <utility>
 
 namespace ostia::meshing {
 
@@ -37,6 +42,9 @@ void validate(const ClipOptions& o) {
 }
 
 namespace {
+
+/// A cap that meets the wall at less than this makes flat elements.
+constexpr double sharp_rim_deg = 40.0;
 
 /// The vessel whose path begins (root) or ends here, fit for a file name.
 std::string vessel_name(const geometry::VesselTree& tree, std::int32_t segment, bool root,
@@ -200,6 +208,22 @@ std::vector<EndPlane> end_planes(const geometry::VesselTree& tree, double inset_
   return planes;
 }
 
+std::vector<PlacedPlane> with_ends(std::vector<PlacedPlane> planes, const std::vector<EndPlane>& ends) {
+  std::set<std::string> taken;
+  for (PlacedPlane& placed : planes) {
+    if (placed.end.empty() && !ends.empty())
+      placed.end = end_name(*std::ranges::min_element(
+          ends, {}, [&](const EndPlane& end) { return (end.origin - placed.origin).squaredNorm(); }));
+    std::string all;
+    for (const EndPlane& end : ends) all += (all.empty() ? "" : ", ") + end_name(end);
+    if (std::ranges::find(ends, placed.end, end_name) == ends.end())
+      throw InvalidInput("clipping: a plane is given for " + placed.end + ", but the ends are " + all);
+    if (!taken.insert(placed.end).second)
+      throw InvalidInput("clipping: two planes are given for " + placed.end + "; the ends are " + all);
+  }
+  return planes;
+}
+
 namespace {
 
 const PlacedPlane* placed_plane(const ClipOptions& options, const EndPlane& plane) {
@@ -211,61 +235,85 @@ const PlacedPlane* placed_plane(const ClipOptions& options, const EndPlane& plan
 /// The planes that a person placed, in the places of the program's own.
 void take_placed_planes(std::vector<ClippedEnd>& ends, const ClipOptions& options) {
   for (const PlacedPlane& placed : options.planes) {
-    std::string all;
-    bool found = false;
     for (ClippedEnd& end : ends) {
-      all += (all.empty() ? "" : ", ") + end_name(end.plane);
       if (end_name(end.plane) != placed.end) continue;
-      found = true;
       const Vec3 normal = placed.normal.normalized();
       end.plane.origin = placed.origin;
       end.plane.normal = normal.dot(end.plane.normal) < 0.0 ? Vec3(-normal) : normal;
     }
-    if (!found)
-      throw InvalidInput("clipping: a plane is given for " + placed.end + ", but the ends are " + all);
   }
 }
 
-/// Cuts end `i`; where its plane does not cut cleanly (an end torn aslant, say), one radius farther inside at
-/// most.
+/// The surface without one end.
+struct Cut {
+  geometry::TriMesh mesh;
+  EndPlane plane;
+  RimWedge rim;
+};
+Cut cut_at(const geometry::TriMesh& surface, EndPlane plane, const geometry::VesselTree& tree,
+           const ClipOptions& options, const std::string& name) {
+  Cut cut;
+  cut.mesh = cut_branch(surface, plane, end_position(tree, plane), options, name);
+  cut.plane = std::move(plane);
+  cut.rim = sharpest_rim(cut.mesh, cut.plane);
+  return cut;
+}
+
+/// Where a plane does not cut cleanly (an end torn aslant, say), or runs along a wall that flares (into the
+/// aorta, say), it is tried up to one radius farther inside; the cut whose wedge is the least sharp is taken.
+Cut best_cut(const geometry::TriMesh& surface, std::size_t i, const EndPlane& wanted,
+             const geometry::VesselTree& tree, const ClipOptions& options, const std::string& name) {
+  std::optional<Cut> best;
+  std::optional<GeometryError> at_first;
+  for (const double extra : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+    const EndPlane plane = extra > 0.0 ? end_planes(tree, options.inset_radii + extra)[i] : wanted;
+    try {
+      Cut cut = cut_at(surface, plane, tree, options, name);
+      if (!best || cut.rim.angle_deg > best->rim.angle_deg) best = std::move(cut);
+      if (best->rim.angle_deg >= sharp_rim_deg) break;
+    } catch (const GeometryError& error) {
+      if (!at_first) at_first = error;
+    }
+  }
+  if (!best) throw GeometryError(*at_first);
+  return std::move(*best);
+}
+
 void cut_end(ClippedSurface& result, std::size_t i, const geometry::VesselTree& tree,
              const ClipOptions& options, const std::string& name) {
   ClippedEnd& end = result.ends[i];
   const EndPlane wanted = end.plane;
-  if (placed_plane(options, end.plane)) {
-    result.mesh = cut_branch(result.mesh, end.plane, end_position(tree, end.plane), options, name);
-    return;
-  }
-  for (const double extra : {0.0, 0.5, 1.0}) {
-    if (extra > 0.0) end.plane = end_planes(tree, options.inset_radii + extra)[i];
-    try {
-      result.mesh = cut_branch(result.mesh, end.plane, end_position(tree, end.plane), options, name);
-      break;
-    } catch (const GeometryError&) {
-      if (extra == 1.0) {
-        end.plane = wanted;
-        cut_branch(result.mesh, end.plane, end_position(tree, end.plane), options,
-                   name);  // what was wrong at first
-      }
-    }
-  }
+  const bool placed = placed_plane(options, end.plane) != nullptr;
+  Cut cut = placed ? cut_at(result.mesh, wanted, tree, options, name)
+                   : best_cut(result.mesh, i, wanted, tree, options, name);
+  result.mesh = std::move(cut.mesh);
+  end.plane = std::move(cut.plane);
   const double moved = (end.plane.origin - wanted.origin).norm();
-  if (moved > 2e-3 * wanted.radius_mm)
+  if (!placed && moved > 2e-3 * wanted.radius_mm)
     result.warnings.push_back(name + ": the plane was moved inside by " + std::to_string(moved) +
                               " mm to cut cleanly");
+  if (cut.rim.angle_deg >= sharp_rim_deg) return;
+  char text[240];
+  std::snprintf(text, sizeof text,
+                "%s: the plane meets the wall at %.2g degrees near (%.2f, %.2f, %.2f) mm, and elements there "
+                "get as flat; place it farther inside",
+                name.c_str(), cut.rim.angle_deg, cut.rim.at.x(), cut.rim.at.y(), cut.rim.at.z());
+  result.warnings.emplace_back(text);
 }
 
 }  // namespace
 
 ClippedSurface clip_ends(const geometry::TriMesh& lumen, const geometry::VesselTree& tree,
-                         const ClipOptions& options, const core::TaskContext& task) {
-  validate(options);
+                         const ClipOptions& given, const core::TaskContext& task) {
+  validate(given);
   if (lumen.triangles.empty()) throw InvalidInput("clipping: the surface has no triangles");
   task.set_stage("clipping");
   ClippedSurface result;
-  for (EndPlane& plane : end_planes(tree, options.inset_radii))
-    result.ends.push_back({std::move(plane), {}, false});
+  const std::vector<EndPlane> planes = end_planes(tree, given.inset_radii);
+  for (const EndPlane& plane : planes) result.ends.push_back({plane, {}, false});
   if (result.ends.empty()) throw InvalidInput("clipping: the tree has no root and no end");
+  ClipOptions options = given;
+  options.planes = with_ends(given.planes, planes);
   take_placed_planes(result.ends, options);
   refuse_inside_out(lumen, tree);
   result.mesh = lumen;

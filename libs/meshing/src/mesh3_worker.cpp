@@ -2,6 +2,8 @@
 // for the curves). The only file that sees CGAL's Mesh_3.
 #include "mesh3_worker.h"
 
+#include "interior_sizes.h"
+
 #include "ostia/core/error.h"
 #include "ostia/geometry/kd_tree.h"
 
@@ -116,17 +118,20 @@ std::vector<Polyline> curves_of(const MesherJob& job) {
   return curves;
 }
 
-/// A share of the job's size at the nearest point of its surface.
-struct SizeField {
+/// A share of the job's size at the nearest point of its surface, or of its field's.
+struct MeshSize {
   using FT = Kernel::FT;
   using Point_3 = Point;
   using Index = Domain::Index;
   FT operator()(const Point_3& p, int, const Index&) const {
-    return share * (*sizes)[static_cast<std::size_t>(tree->nearest({p.x(), p.y(), p.z()}))];
+    const geometry::Vec3 place(p.x(), p.y(), p.z());
+    if (field) return share * (*field)(place);
+    return share * (*sizes)[static_cast<std::size_t>(tree->nearest(place))];
   }
   std::shared_ptr<const geometry::KdTree> tree;
   const std::vector<double>* sizes = nullptr;
   double share = 1.0;
+  std::shared_ptr<const InteriorSizes> field = {};
 };
 
 /// Points get numbers as they are met; the boundary is told first.
@@ -179,8 +184,9 @@ MesherResult run_mesh3(const MesherJob& job) {
   Domain domain(polyhedron);
   const std::vector<Polyline> curves = curves_of(job);
   domain.add_features(curves.begin(), curves.end());
-  SizeField size{std::make_shared<geometry::KdTree>(job.points), &job.sizes, 1.0};
-  SizeField deviation = size, edge = size;
+  MeshSize size{std::make_shared<geometry::KdTree>(job.points), &job.sizes, 1.0};
+  if (!job.field_points.empty()) size.field = std::make_shared<InteriorSizes>(job);
+  MeshSize deviation = size, edge = size;
   deviation.share = 0.1;  // the triangles of a vessel with 16 edges around stand off by 0.06
   edge.share = 0.75;      // finer along the curves, so that inlets and outlets keep their area
   const Criteria criteria(CGAL::parameters::edge_size = edge, CGAL::parameters::facet_angle = facet_angle_deg,

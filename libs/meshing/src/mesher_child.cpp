@@ -65,7 +65,8 @@ core::ChildResult run_tetgen(MesherJob job, const core::PrivateFolder& folder,
                              const TetrahedralizeOptions& options, TetrahedralizeReport& report,
                              const core::TaskContext& task) {
   core::ChildLimits first = options.limits;
-  const auto usual = std::chrono::seconds(15 + static_cast<std::int64_t>(job.triangles.size()) / 700);
+  const auto usual = std::chrono::seconds(15 + static_cast<std::int64_t>(job.triangles.size()) / 700 +
+                                          static_cast<std::int64_t>(job.field_points.size()) / 400);
   first.cpu_time = std::min(first.cpu_time, usual);
   core::ChildResult child = run_once(job, folder, first, task);
   if (child.ok() || (child.signal == 0 && child.exit_code == refused)) return child;
@@ -75,6 +76,7 @@ core::ChildResult run_tetgen(MesherJob job, const core::PrivateFolder& folder,
   job.max_radius_edge_ratio = std::max(2.0, job.max_radius_edge_ratio);
   job.min_dihedral_deg = 0.0;
   for (double& size : job.sizes) size *= 1.5;
+  for (double& size : job.field_sizes) size *= 1.5;
   child = run_once(job, folder, options.limits, task);
   if (child.ok())
     report.warnings.push_back("TetGen " + failure +

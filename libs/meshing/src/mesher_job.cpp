@@ -12,7 +12,7 @@ namespace ostia::meshing {
 
 namespace {
 
-constexpr std::string_view job_magic = "OSTIATJ2", result_magic = "OSTIATR2";
+constexpr std::string_view job_magic = "OSTIATJ3", result_magic = "OSTIATR2";
 
 static_assert(sizeof(geometry::Vec3) == 3 * sizeof(double));
 
@@ -78,6 +78,9 @@ void write_job(const MesherJob& job, const std::filesystem::path& path) {
   put(bytes, job.sizes);
   put(bytes, job.triangles);
   put(bytes, job.face_ids);
+  put(bytes, job.field_points);
+  put(bytes, job.field_sizes);
+  put(bytes, job.field_gradation);
   core::write_file(path, bytes);
 }
 
@@ -91,6 +94,11 @@ MesherJob read_job(const std::filesystem::path& path) {
   cursor.get(job.sizes);
   cursor.get(job.triangles);
   cursor.get(job.face_ids);
+  cursor.get(job.field_points);
+  cursor.get(job.field_sizes);
+  cursor.get(job.field_gradation);
+  if (job.field_sizes.size() != job.field_points.size())
+    throw InvalidInput(path.string() + " has another number of lengths than of places inside");
   bool sound = job.sizes.size() == job.points.size() && job.face_ids.size() == job.triangles.size();
   sound = sound && refer_to(job.points.size(), job.triangles);
   if (!sound) throw InvalidInput(path.string() + " has a triangle whose corner does not exist");

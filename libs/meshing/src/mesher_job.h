@@ -18,6 +18,10 @@ struct MesherJob {
   std::vector<double> sizes;  ///< bound on circumradii near each point, mm
   std::vector<geometry::Triangle> triangles;
   std::vector<std::int32_t> face_ids;  ///< one a triangle
+  /// Bounds inside, at points of their own; none: they follow the surface's.
+  std::vector<geometry::Vec3> field_points = {};
+  std::vector<double> field_sizes = {};
+  double field_gradation = 0.3;  ///< mm per mm
 
   static constexpr std::int32_t tetgen = 0, mesh3 = 1;
 };

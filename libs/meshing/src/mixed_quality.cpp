@@ -8,6 +8,7 @@
 #include "ostia/core/parallel.h"
 #include "ostia/geometry/mixed_mesh_sides.h"
 #include "ostia/meshing/boundary_layer.h"
+#include "ostia/meshing/element_measures.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +25,7 @@ namespace {
 constexpr std::size_t grain = 2048;
 
 struct ElementValues {
-  double scaled_jacobian = 0.0, ratio = 1.0, volume = 0.0, edges = 0.0, radius_edge = 0.0;
+  double scaled_jacobian = 0.0, ratio = 1.0, volume = 0.0, edges = 0.0, edge_count = 6.0, radius_edge = 0.0;
   std::array<double, 2> dihedral{};
   bool inverted = false;
   Vec3 centre = Vec3::Zero();
@@ -101,6 +102,7 @@ ElementValues prism_values(const MixedMesh& mesh, std::size_t i) {
   set_jacobian(values, element_jacobian(p));
   values.dihedral = prism_dihedral_deg(p);
   values.edges = sum_of_edges(p, prism_edges);
+  values.edge_count = static_cast<double>(prism_edges.size());
   values.centre = centre_of<6>(p);
   return values;
 }
@@ -220,17 +222,50 @@ MixedQuality mixed_quality(const MixedMesh& mesh, const core::TaskContext& task)
   return q;
 }
 
-std::vector<double> element_scaled_jacobians(const MixedMesh& mesh, const core::TaskContext& task) {
+namespace {
+
+/// One number of each element, tetrahedra first.
+template <class Pick>
+std::vector<double> each_element(const MixedMesh& mesh, const Pick& pick, const core::TaskContext& task) {
   check_lists(mesh, "mesh quality");
   const std::size_t tetrahedra = mesh.tetrahedra.size();
   std::vector<double> values(tetrahedra + mesh.prisms.size());
   core::parallel_chunks(values.size(), grain, [&](std::size_t first, std::size_t last) {
     task.throw_if_cancelled();
     for (std::size_t i = first; i < last; ++i)
-      values[i] =
-          (i < tetrahedra ? tetrahedron_values(mesh, i) : prism_values(mesh, i - tetrahedra)).scaled_jacobian;
+      values[i] = pick(i < tetrahedra ? tetrahedron_values(mesh, i) : prism_values(mesh, i - tetrahedra));
   });
   return values;
+}
+
+}  // namespace
+
+std::vector<double> element_scaled_jacobians(const MixedMesh& mesh, const core::TaskContext& task) {
+  return each_element(
+      mesh, [](const ElementValues& v) { return v.scaled_jacobian; }, task);
+}
+
+ElementMeasures element_measures(const MixedMesh& mesh, const core::TaskContext& task) {
+  task.set_stage("mesh quality");
+  ElementMeasures all;
+  const auto take = [&](ElementMeasure measure) -> std::vector<double>& {
+    return all[static_cast<std::size_t>(measure)];
+  };
+  take(ElementMeasure::least_dihedral_deg) = each_element(
+      mesh, [](const ElementValues& v) { return v.dihedral[0]; }, task);
+  task.set_progress(0.2);
+  take(ElementMeasure::scaled_jacobian) = element_scaled_jacobians(mesh, task);
+  task.set_progress(0.4);
+  take(ElementMeasure::mean_edge_mm) = each_element(
+      mesh, [](const ElementValues& v) { return v.edges / v.edge_count; }, task);
+  task.set_progress(0.6);
+  measure_sides_of_elements(mesh, take(ElementMeasure::non_orthogonality_deg), take(ElementMeasure::skewness),
+                            task.sub(0.6, 1.0));
+  return all;
+}
+
+bool larger_is_worse(ElementMeasure measure) {
+  return measure == ElementMeasure::non_orthogonality_deg || measure == ElementMeasure::skewness;
 }
 
 }  // namespace ostia::meshing

@@ -41,11 +41,26 @@ class Reasons {
   QualityVerdict& verdict_;
 };
 
+/// The tetrahedra of the layers, and those that are none.
+void check_layers(const LayerTetrahedra& q, const MixedBounds& bounds, Reasons& reasons) {
+  reasons.at_most(q.max_dihedral_deg, bounds.max_layer_dihedral_deg,
+                  "largest dihedral angle of the layers' tetrahedra", " degrees", &q.bluntest_at);
+  reasons.at_least(q.others_min_dihedral_deg, bounds.min_dihedral_deg,
+                   "smallest dihedral angle of the tetrahedra inside the layers", " degrees",
+                   &q.others_sharpest_at);
+  reasons.at_least(q.others_min_scaled_jacobian, bounds.min_tetrahedron_scaled_jacobian,
+                   "smallest scaled Jacobian of the tetrahedra inside the layers", "", &q.others_worst_at);
+  reasons.at_most(q.others_max_non_orthogonality_deg, bounds.max_non_orthogonality_deg,
+                  "largest non-orthogonality inside the layers", " degrees", &q.others_least_orthogonal_at);
+}
+
 void check_elements(const MixedQuality& q, const MixedBounds& bounds, Reasons& reasons) {
   const auto where = [](const ElementQuality& e) { return ", the worst near " + place_text(e.worst_at); };
   reasons.none(q.tetrahedra.inverted, "inverted tetrahedra" + where(q.tetrahedra));
   reasons.none(q.prisms.inverted, "inverted prisms" + where(q.prisms));
-  if (q.tetrahedra.count > 0) {
+  if (q.layers) {
+    check_layers(*q.layers, bounds, reasons);
+  } else if (q.tetrahedra.count > 0) {
     reasons.at_least(q.tetrahedra.min_dihedral_deg, bounds.min_dihedral_deg,
                      "smallest dihedral angle of the tetrahedra", " degrees", &q.tetrahedra.sharpest_at);
     reasons.at_least(q.tetrahedra.min_scaled_jacobian, bounds.min_tetrahedron_scaled_jacobian,
@@ -66,6 +81,10 @@ void validate(const MixedBounds& b) {
     if (!(bound > -1.0 && bound < 1.0)) refuse("a bound of the scaled Jacobian must lie in (-1, 1)");
   if (!(b.max_non_orthogonality_deg > 0.0 && b.max_non_orthogonality_deg <= 90.0))
     refuse("max_non_orthogonality_deg must lie in (0, 90] degrees");
+  if (!(b.max_layer_non_orthogonality_deg > 0.0 && b.max_layer_non_orthogonality_deg <= 90.0))
+    refuse("max_layer_non_orthogonality_deg must lie in (0, 90] degrees");
+  if (!(b.max_layer_dihedral_deg > 90.0 && b.max_layer_dihedral_deg < 180.0))
+    refuse("max_layer_dihedral_deg must lie in (90, 180) degrees");
   if (!(b.max_skewness > 0.0)) refuse("max_skewness must be above 0");
   if (!(b.max_aspect_ratio >= 1.0)) refuse("max_aspect_ratio must be at least 1");
   if (!(b.min_volume_ratio >= 0.0 && b.min_volume_ratio < 1.0)) refuse("min_volume_ratio must lie in [0, 1)");
@@ -86,7 +105,8 @@ QualityVerdict check(const MixedQuality& q, const MixedBounds& bounds) {
   for (const FaceQuality& face : q.faces)
     if (face.triangles + face.quads == 0) verdict.reasons.push_back("face " + face.name + " has no facet");
   const OpenFoamQuality& foam = q.openfoam;
-  reasons.at_most(foam.max_non_orthogonality_deg, bounds.max_non_orthogonality_deg,
+  reasons.at_most(foam.max_non_orthogonality_deg,
+                  q.layers ? bounds.max_layer_non_orthogonality_deg : bounds.max_non_orthogonality_deg,
                   "largest non-orthogonality", " degrees", &foam.least_orthogonal_at);
   reasons.at_most(foam.max_skewness, bounds.max_skewness, "largest skewness", "", &foam.most_skewed_at);
   reasons.at_most(foam.max_aspect_ratio, bounds.max_aspect_ratio, "largest aspect ratio", "", nullptr);

@@ -191,6 +191,40 @@ void measure_group(const MixedMesh& mesh, const Cells& cells, const SideTable::E
 
 }  // namespace
 
+namespace {
+
+double angle_deg(double cosine) {
+  return 180.0 / std::numbers::pi * std::acos(std::clamp(cosine, -1.0, 1.0));
+}
+
+}  // namespace
+
+void measure_sides_of_elements(const MixedMesh& mesh, std::vector<double>& non_orthogonality_deg,
+                               std::vector<double>& skewness_of, const core::TaskContext& task) {
+  Cells cells;
+  measure_cells(mesh, cells, task);
+  non_orthogonality_deg.assign(cells.volumes.size(), 0.0);
+  skewness_of.assign(cells.volumes.size(), 0.0);
+  task.set_progress(0.3);
+  const SideTable table(mesh);
+  task.set_progress(0.7);
+  // One after another: elements have sides in several groups.
+  for (std::size_t i = 0; i < table.points(); ++i) {
+    if (i % grain == 0) task.throw_if_cancelled();
+    table.for_each_group(i, [&](const SideTable::Entry* begin, const SideTable::Entry* end) {
+      SideSums sums;
+      measure_group(mesh, cells, begin, end, sums);
+      for (const auto* entry = begin; entry != end; ++entry) {
+        if (entry->side.facet()) continue;
+        const auto e = static_cast<std::size_t>(entry->side.owner);
+        non_orthogonality_deg[e] = std::max(non_orthogonality_deg[e], angle_deg(sums.least_cosine));
+        skewness_of[e] = std::max(skewness_of[e], sums.skewness);
+      }
+    });
+  }
+  task.set_progress(1.0);
+}
+
 void measure_sides(const MixedMesh& mesh, MixedQuality& quality, const core::TaskContext& task) {
   Cells cells;
   const CellSums cell_sums = measure_cells(mesh, cells, task);
@@ -209,13 +243,11 @@ void measure_sides(const MixedMesh& mesh, MixedQuality& quality, const core::Tas
         return part;
       },
       [](const SideSums& a, const SideSums& b) { return a + b; });
-  constexpr double degrees = 180.0 / std::numbers::pi;
-  const auto angle = [&](double cosine) { return degrees * std::acos(std::clamp(cosine, -1.0, 1.0)); };
   OpenFoamQuality& q = quality.openfoam;
   if (sums.inner > 0) {
-    q.max_non_orthogonality_deg = angle(sums.least_cosine);
+    q.max_non_orthogonality_deg = angle_deg(sums.least_cosine);
     // Of the mean cosine, as checkMesh has it.
-    q.mean_non_orthogonality_deg = angle(sums.cosines / static_cast<double>(sums.inner));
+    q.mean_non_orthogonality_deg = angle_deg(sums.cosines / static_cast<double>(sums.inner));
   }
   q.severely_non_orthogonal = sums.severe;
   q.max_skewness = sums.skewness;

@@ -1,5 +1,7 @@
 #include "plane_triangulation.h"
 
+#include "remesher.h"
+
 #include "ostia/core/error.h"
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
@@ -9,7 +11,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <set>
+#include <utility>
 
 namespace ostia::meshing {
 
@@ -46,14 +50,14 @@ double distance_to_loop(const std::vector<Vec2>& loop, const Vec2& p) {
   return best;
 }
 
-/// A hexagonal lattice inside the loop, clear of it.
-std::vector<Vec2> lattice(const std::vector<Vec2>& loop, double edge) {
+/// A hexagonal lattice inside the loop, clear of it. `shift`: of its middle, in edges.
+std::vector<Vec2> lattice(const std::vector<Vec2>& loop, double edge, const Vec2& shift) {
   Vec2 low = loop[0], high = loop[0];
   for (const Vec2& p : loop) low = low.cwiseMin(p), high = high.cwiseMax(p);
-  const Vec2 centre = 0.5 * (low + high);
+  const Vec2 centre = 0.5 * (low + high) + edge * shift;
   const double row = edge * std::sqrt(3.0) / 2.0;
-  const auto rows = static_cast<int>(std::ceil((high.y() - low.y()) / 2.0 / row)) + 1;
-  const auto columns = static_cast<int>(std::ceil((high.x() - low.x()) / 2.0 / edge)) + 1;
+  const auto rows = static_cast<int>(std::ceil((high.y() - low.y()) / 2.0 / row)) + 2;
+  const auto columns = static_cast<int>(std::ceil((high.x() - low.x()) / 2.0 / edge)) + 2;
   std::vector<Vec2> points;
   for (int j = -rows; j <= rows; ++j)
     for (int i = -columns; i <= columns; ++i) {
@@ -139,6 +143,107 @@ void relax(const std::vector<Vec2>& loop, const std::vector<geometry::Triangle>&
     if (count[i] > 0.0) inner[i] = sum[i] / count[i];
 }
 
+/// A loop's triangulation in its plane.
+struct Filling {
+  std::vector<Vec2> inner;
+  std::vector<geometry::Triangle> triangles;
+  double min_angle_deg = 0.0;
+};
+
+/// Largest cosine of the angles of a triangle's corners, that of the smallest angle.
+double sharpest(const Vec2& a, const Vec2& b, const Vec2& c) {
+  const auto in_space = [](const Vec2& p) { return Vec3(p.x(), p.y(), 0.0); };
+  return min_angle_cosine(in_space(a), in_space(b), in_space(c));
+}
+
+/// Moves each inner point to where the smallest angle around it is largest, by a pattern search.
+class AngleOpening {
+ public:
+  AngleOpening(const std::vector<Vec2>& loop, Filling& filling)
+      : loop_(loop), filling_(filling), around_(filling.inner.size()) {
+    for (const geometry::Triangle& t : filling.triangles)
+      for (std::size_t i = 0; i < 3; ++i)
+        if (t[i] >= first()) around_[inner(t[i])].push_back({t[(i + 1) % 3], t[(i + 2) % 3]});
+  }
+
+  void run() {
+    for (std::size_t i = 0; i < around_.size(); ++i) open(i);
+  }
+  double min_angle_deg() const {
+    double worst = 0.0;
+    for (const geometry::Triangle& t : filling_.triangles)
+      worst = std::max(worst, sharpest(at(t[0]), at(t[1]), at(t[2])));
+    return std::acos(std::clamp(worst, -1.0, 1.0)) * 180.0 / std::numbers::pi;
+  }
+
+ private:
+  std::int32_t first() const { return static_cast<std::int32_t>(loop_.size()); }
+  std::size_t inner(std::int32_t v) const { return static_cast<std::size_t>(v - first()); }
+  const Vec2& at(std::int32_t v) const {
+    return v < first() ? loop_[static_cast<std::size_t>(v)] : filling_.inner[inner(v)];
+  }
+  double worst_around(std::size_t i, const Vec2& p) const {
+    double worst = 0.0;
+    for (const auto& [a, b] : around_[i])
+      worst = std::max(worst, cross(at(a) - p, at(b) - p) > 0.0 ? sharpest(p, at(a), at(b)) : 2.0);
+    return worst;
+  }
+  void open(std::size_t i) {
+    Vec2& p = filling_.inner[i];
+    double best = worst_around(i, p), edge = 0.0;
+    for (const auto& [a, b] : around_[i]) edge += (at(a) - p).norm() / static_cast<double>(around_[i].size());
+    for (double step = 0.2 * edge; step > 0.01 * edge; step *= 0.5)
+      for (int k = 0; k < 8; ++k) {
+        const double angle = k * std::numbers::pi / 4.0;
+        const Vec2 there = p + step * Vec2(std::cos(angle), std::sin(angle));
+        const double now = worst_around(i, there);
+        if (now < best - 1e-6) best = now, p = there;
+      }
+  }
+
+  const std::vector<Vec2>& loop_;
+  Filling& filling_;
+  std::vector<std::vector<std::pair<std::int32_t, std::int32_t>>> around_;  // edges opposite each inner point
+};
+
+Filling fill(const std::vector<Vec2>& loop, double edge, const Vec2& shift, const std::string& name) {
+  Filling filling;
+  filling.inner = lattice(loop, edge, shift);
+  filling.triangles = delaunay(loop, filling.inner, name);
+  for (int round = 0; round < 20 && !filling.inner.empty(); ++round) {
+    relax(loop, filling.triangles, filling.inner);
+    filling.triangles = delaunay(loop, filling.inner, name);
+  }
+  filling.min_angle_deg = AngleOpening(loop, filling).min_angle_deg();
+  return filling;
+}
+
+/// Delaunay's triangles of points have the largest smallest angle of all, so both steps raise it.
+void open_angles(const std::vector<Vec2>& loop, Filling& filling, const std::string& name) {
+  constexpr int rounds = 8;
+  for (int round = 0; round < rounds && !filling.inner.empty(); ++round) {
+    AngleOpening(loop, filling).run();
+    filling.triangles = delaunay(loop, filling.inner, name);
+  }
+  filling.min_angle_deg = AngleOpening(loop, filling).min_angle_deg();
+}
+
+Filling best_filling(const std::vector<Vec2>& loop, double edge, const std::string& name,
+                     double good_angle_deg) {
+  Filling best = fill(loop, edge, Vec2::Zero(), name);
+  if (best.min_angle_deg >= good_angle_deg) return best;
+  open_angles(loop, best, name);
+  // Other lattices: a point more or fewer in the middle of a small loop decides.
+  for (const double density : {1.0, 1.12, 0.9})
+    for (const Vec2& shift : {Vec2(0.0, 0.0), Vec2(0.5, 0.3), Vec2(0.25, 0.0)}) {
+      if (best.min_angle_deg >= good_angle_deg) return best;
+      Filling other = fill(loop, density * edge, shift, name);
+      open_angles(loop, other, name);
+      if (other.min_angle_deg > best.min_angle_deg) best = std::move(other);
+    }
+  return best;
+}
+
 }  // namespace
 
 Vec3 loop_normal(const std::vector<Vec3>& loop) {
@@ -154,7 +259,8 @@ double mean_edge(const std::vector<Vec3>& loop) {
   return sum / static_cast<double>(loop.size());
 }
 
-FlatPatch triangulate_flat(const std::vector<Vec3>& loop, double edge_mm, const std::string& name) {
+FlatPatch triangulate_flat(const std::vector<Vec3>& loop, double edge_mm, const std::string& name,
+                           double good_angle_deg) {
   if (loop.size() < 3) throw GeometryError("the border of " + name + " has fewer than three points");
   const Vec3 normal = loop_normal(loop).normalized();
   if (!(normal.squaredNorm() > 0.5)) throw GeometryError("the border of " + name + " encloses no area");
@@ -164,14 +270,10 @@ FlatPatch triangulate_flat(const std::vector<Vec3>& loop, double edge_mm, const 
   std::vector<Vec2> flat;
   for (const Vec3& p : loop) flat.emplace_back((p - origin).dot(u), (p - origin).dot(w));
   refuse_crossing(flat, name);
-  std::vector<Vec2> inner = lattice(flat, edge_mm > 0.0 ? edge_mm : mean_edge(loop));
+  const Filling filling = best_filling(flat, edge_mm > 0.0 ? edge_mm : mean_edge(loop), name, good_angle_deg);
   FlatPatch patch;
-  patch.triangles = delaunay(flat, inner, name);
-  for (int round = 0; round < 20 && !inner.empty(); ++round) {
-    relax(flat, patch.triangles, inner);
-    patch.triangles = delaunay(flat, inner, name);
-  }
-  for (const Vec2& p : inner) patch.inner_points.push_back(origin + p.x() * u + p.y() * w);
+  patch.triangles = filling.triangles;
+  for (const Vec2& p : filling.inner) patch.inner_points.push_back(origin + p.x() * u + p.y() * w);
   return patch;
 }
 

@@ -14,8 +14,11 @@ struct FlatPatch {
 };
 
 /// Constrained Delaunay triangulation of the inside of a simple flat loop, with points at about `edge_mm`
-/// (0: the loop's mean edge), relaxed. Throws GeometryError naming `name` when the loop crosses itself.
-FlatPatch triangulate_flat(const std::vector<geometry::Vec3>& loop, double edge_mm, const std::string& name);
+/// (0: the loop's mean edge), relaxed. Where an angle is below `good_angle_deg`, the points move to open the
+/// smallest angles around them, and other lattices are tried; the best is taken. Throws GeometryError naming
+/// `name` when the loop crosses itself.
+FlatPatch triangulate_flat(const std::vector<geometry::Vec3>& loop, double edge_mm, const std::string& name,
+                           double good_angle_deg = 0.0);
 
 /// Normal of a loop by Newell's formula, as long as twice its area.
 geometry::Vec3 loop_normal(const std::vector<geometry::Vec3>& loop);

@@ -246,7 +246,7 @@ RemeshedSurface remesh(const geometry::FacedSurface& surface, const std::vector<
     std::vector<std::int32_t> loop;
     for (const std::int32_t v : ring.vertices) loop.push_back(numbers[static_cast<std::size_t>(v)]);
     const std::int32_t id = caps[static_cast<std::size_t>(remesher.curve(ring.vertices[0]))];
-    fill_cap(result.surface, loop, 1.0, face_of(surface, id));
+    fill_cap(result.surface, loop, 1.0, face_of(surface, id), options.mend_below_angle_deg);
   }
   judge(result.surface.mesh, result.report, task);
   task.set_progress(1.0);

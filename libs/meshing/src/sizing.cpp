@@ -1,5 +1,7 @@
 #include "ostia/meshing/sizing.h"
 
+#include "gradation.h"
+
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
 #include "ostia/geometry/aabb_tree.h"
@@ -8,10 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <queue>
 #include <string>
-#include <utility>
 
 namespace ostia::meshing {
 
@@ -59,6 +58,7 @@ void validate(const SizingOptions& o) {
   if (!(o.throat_share >= 0.05 && o.throat_share <= 1.0))
     refuse("throat_share " + std::to_string(o.throat_share) + " must lie in [0.05, 1]");
   if (o.array) validate(*o.array);
+  if (o.field) validate(*o.field);
 }
 
 TubeFunction::TubeFunction(const geometry::VesselTree& tree) {
@@ -135,25 +135,9 @@ TubeSize TubeFunction::operator()(const Vec3& point) const {
 void limit_gradation(const geometry::TriMesh& surface, double gradation,
                      std::vector<double>& edge_lengths_mm) {
   const auto neighbours = geometry::vertex_neighbours(surface);
-  using Item = std::pair<double, std::int32_t>;
-  std::priority_queue<Item, std::vector<Item>, std::greater<>> queue;
-  for (std::size_t i = 0; i < edge_lengths_mm.size(); ++i)
-    queue.emplace(edge_lengths_mm[i], static_cast<std::int32_t>(i));
-  while (!queue.empty()) {
-    const auto [value, from] = queue.top();
-    queue.pop();
-    if (value > edge_lengths_mm[static_cast<std::size_t>(from)]) continue;
-    for (const std::int32_t to : neighbours[static_cast<std::size_t>(from)]) {
-      const double step =
-          (surface.points[static_cast<std::size_t>(to)] - surface.points[static_cast<std::size_t>(from)])
-              .norm();
-      const double limit = value + gradation * step;
-      if (limit < edge_lengths_mm[static_cast<std::size_t>(to)]) {
-        edge_lengths_mm[static_cast<std::size_t>(to)] = limit;
-        queue.emplace(limit, to);
-      }
-    }
-  }
+  limit_growth(
+      surface.points, [&](std::size_t i) -> const auto& { return neighbours[i]; }, gradation,
+      edge_lengths_mm);
 }
 
 namespace {
@@ -205,6 +189,12 @@ void shorten_where_it_bends(const geometry::TriMesh& surface, const std::vector<
     lengths[i] = std::min(lengths[i], options.curvature_ratio / std::abs(bends[i].largest));
 }
 
+void shorten_to(const SizeField& field, const geometry::TriMesh& surface, std::vector<double>& lengths) {
+  const SizeLookup lookup(field);
+  core::parallel_for(lengths.size(), 1024,
+                     [&](std::size_t i) { lengths[i] = std::min(lengths[i], lookup(surface.points[i])); });
+}
+
 void shorten_at(const SizeFocus& focus, const geometry::TriMesh& surface, std::vector<double>& lengths) {
   for (std::size_t i = 0; i < lengths.size(); ++i) {
     const double far = (surface.points[i] - focus.place).norm() / focus.reach_mm;
@@ -227,6 +217,7 @@ std::vector<double> target_edge_lengths(const geometry::TriMesh& surface, const 
   }
   if (options.curvature_ratio > 0.0) shorten_where_it_bends(surface, sizes, options, lengths, task);
   for (const SizeFocus& focus : options.foci) shorten_at(focus, surface, lengths);
+  if (options.field) shorten_to(*options.field, surface, lengths);
   for (double& length : lengths) length = std::clamp(length, options.min_edge_mm, options.max_edge_mm);
   limit_gradation(surface, options.gradation, lengths);
   return lengths;

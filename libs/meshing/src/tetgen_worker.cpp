@@ -1,5 +1,6 @@
 // The only file that sees TetGen. It may throw an int, call exit or abort, and prints its reasons on standard
 // output: it runs in a child process only.
+#include "interior_sizes.h"
 #include "mesh3_worker.h"
 #include "mesher_job.h"
 
@@ -10,11 +11,15 @@
 #include <tetgen.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <memory>
 #include <new>
 #include <string>
+#include <unordered_map>
+#include <utility>
 
 namespace ostia::meshing {
 
@@ -41,11 +46,12 @@ const char* meaning(int code) {
 void fill(tetgenio& in, const MesherJob& job) {
   in.numberofpoints = static_cast<int>(job.points.size());
   in.pointlist = new REAL[3 * job.points.size()];
-  in.pointmtrlist = new REAL[job.points.size()];
-  in.numberofpointmtrs = 1;
-  for (std::size_t i = 0; i < job.points.size(); ++i) {
+  for (std::size_t i = 0; i < job.points.size(); ++i)
     for (int k = 0; k < 3; ++k) in.pointlist[3 * i + static_cast<std::size_t>(k)] = job.points[i][k];
-    in.pointmtrlist[i] = job.sizes[i];
+  if (job.field_points.empty()) {  // TetGen leads the surface's sizes inside
+    in.pointmtrlist = new REAL[job.points.size()];
+    in.numberofpointmtrs = 1;
+    std::copy(job.sizes.begin(), job.sizes.end(), in.pointmtrlist);
   }
   in.numberoffacets = static_cast<int>(job.triangles.size());
   in.facetlist = new tetgenio::facet[job.triangles.size()];
@@ -58,6 +64,45 @@ void fill(tetgenio& in, const MesherJob& job) {
     facet.polygonlist[0].vertexlist = new int[3];
     for (std::size_t k = 0; k < 3; ++k) facet.polygonlist[0].vertexlist[k] = job.triangles[i][k];
   }
+}
+
+/// Whether a tetrahedron is too large for the field, for TetGen to ask.
+class FieldJudge {
+ public:
+  explicit FieldJudge(const MesherJob& job) : sizes_(job) {}
+  bool too_large(REAL* a, REAL* b, REAL* c, REAL* d) {
+    const geometry::Vec3 p = at(a), u = at(b) - p, v = at(c) - p, w = at(d) - p;
+    const geometry::Vec3 n = v.cross(w);
+    const double six_volumes = u.dot(n);
+    if (six_volumes == 0.0) return false;
+    const geometry::Vec3 centre =
+        (u.squaredNorm() * n + v.squaredNorm() * w.cross(u) + w.squaredNorm() * u.cross(v)) /
+        (2.0 * six_volumes);
+    const double least = std::min({size(a), size(b), size(c), size(d)});
+    return centre.squaredNorm() > least * least;
+  }
+
+ private:
+  static geometry::Vec3 at(const REAL* p) { return {p[0], p[1], p[2]}; }
+  /// Kept for each point of TetGen's, since it asks many times; its memory may become another point's.
+  double size(const REAL* p) {
+    auto& [place, value] = known_[p];
+    if (value == 0.0 || place != at(p)) place = at(p), value = sizes_(place);
+    return value;
+  }
+  struct Known {
+    geometry::Vec3 place = geometry::Vec3::Zero();
+    double value = 0.0;
+  };
+  InteriorSizes sizes_;
+  std::unordered_map<const REAL*, Known> known_;
+};
+
+/// TetGen's question carries nothing of its asker's. The process does one job.
+std::unique_ptr<FieldJudge> judge_of_job;
+
+bool unsuitable(REAL* a, REAL* b, REAL* c, REAL* d, REAL*, REAL) {
+  return judge_of_job->too_large(a, b, c, d);
 }
 
 MesherResult collect(const tetgenio& out) {
@@ -116,9 +161,13 @@ MesherResult run_tetgen_job(const MesherJob& job) {
   // p: of a surface; Y: boundary kept; q: quality; m: size field; J: no point dropped, so that numbers
   // stay; M: triangles in one plane stay apart; Q: quiet.
   Run run;
-  run.switches =
-      "pYq" + std::to_string(job.max_radius_edge_ratio) + "/" + std::to_string(job.min_dihedral_deg) + "mJMQ";
+  run.switches = "pYq" + std::to_string(job.max_radius_edge_ratio) + "/" +
+                 std::to_string(job.min_dihedral_deg) + (job.field_points.empty() ? "mJMQ" : "JMQ");
   fill(run.in, job);
+  if (!job.field_points.empty()) {
+    judge_of_job = std::make_unique<FieldJudge>(job);
+    run.in.tetunsuitable = unsuitable;
+  }
   tetrahedralize_without_unwinding(run);
   return collect(run.out);
 }

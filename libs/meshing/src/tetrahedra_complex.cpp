@@ -67,8 +67,7 @@ void TetrahedraComplex::find_neighbours() {
       }
 }
 
-TetrahedraComplex::Face TetrahedraComplex::face(Id t, std::size_t opposite) const {
-  const Corners& c = corners_[at(t)];
+TetrahedraComplex::Face TetrahedraComplex::face_of(const Corners& c, std::size_t opposite) {
   const std::size_t* f = face_corners[opposite];
   return {c[f[0]], c[f[1]], c[f[2]]};
 }

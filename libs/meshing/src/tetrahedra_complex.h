@@ -33,7 +33,8 @@ class TetrahedraComplex {
   double quality(Id t) const { return quality_[at(t)]; }
   /// Across the face opposite corner `face`; none at the boundary.
   Id neighbour(Id t, std::size_t face) const { return neighbours_[at(t)][face]; }
-  Face face(Id t, std::size_t opposite) const;
+  Face face(Id t, std::size_t opposite) const { return face_of(corners(t), opposite); }
+  static Face face_of(const Corners& corners, std::size_t opposite);
   std::size_t corner_of(Id t, Id point) const;  ///< 4 when it is none of the corners
   double quality_with(const Face& face, const geometry::Vec3& p) const;
   double quality_of(const Corners& t) const;

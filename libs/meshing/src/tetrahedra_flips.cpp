@@ -43,10 +43,13 @@ void TetrahedraFlips::collect(const Choice& choice, std::size_t i, std::size_t j
   collect(choice, k, j);
 }
 
-bool TetrahedraFlips::remove_edge(Id t, Id a, Id b) {
-  if (!mesh_.ring(t, a, b, most_around, old_, around_) || old_.size() < 3) return false;
+bool TetrahedraFlips::find_ring(Id t, Id a, Id b) {
   a_ = a, b_ = b;
-  const double before = least_quality(old_) + margin;
+  return mesh_.ring(t, a, b, most_around, old_, around_) && old_.size() >= 3;
+}
+
+/// The best triangulation of the ring's polygon, if all its tetrahedra are above `floor`.
+bool TetrahedraFlips::fill_ring(double floor) {
   const std::size_t n = around_.size();
   Table best;
   Choice choice{};
@@ -54,7 +57,7 @@ bool TetrahedraFlips::remove_edge(Id t, Id a, Id b) {
   for (std::size_t span = 2; span < n; ++span)
     for (std::size_t i = 0; i + span < n; ++i) {
       const std::size_t j = i + span;
-      best[i][j] = before;
+      best[i][j] = floor;
       for (std::size_t k = i + 1; k < j; ++k) {
         const double parts = std::min(best[i][k], best[k][j]);
         if (parts <= best[i][j]) continue;
@@ -62,11 +65,20 @@ bool TetrahedraFlips::remove_edge(Id t, Id a, Id b) {
         if (q > best[i][j]) best[i][j] = q, choice[i][j] = k;
       }
     }
-  if (!(best[0][n - 1] > before)) return false;
+  if (!(best[0][n - 1] > floor)) return false;
   fresh_.clear();
   collect(choice, 0, n - 1);
+  return true;
+}
+
+bool TetrahedraFlips::remove_edge(Id t, Id a, Id b) {
+  if (!find_ring(t, a, b) || !fill_ring(least_quality(old_) + margin)) return false;
   mesh_.replace(old_, fresh_);
   return true;
+}
+
+bool TetrahedraFlips::plan_edge_removal(Id t, Id a, Id b, double floor) {
+  return find_ring(t, a, b) && fill_ring(floor);
 }
 
 /// The side u-w of the faces taken so far: either it stays, with the tetrahedron on it and the new edge, or
@@ -99,23 +111,33 @@ double TetrahedraFlips::open_side(Id top, Id bottom, Id u, Id w) {
   return stays;
 }
 
-bool TetrahedraFlips::remove_face(Id t, std::size_t opposite) {
+bool TetrahedraFlips::open_face(Id t, std::size_t opposite, double floor) {
   const Id other = mesh_.neighbour(t, opposite);
-  if (other == TetrahedraComplex::none) return false;
   const TetrahedraComplex::Face face = mesh_.face(t, opposite);
   a_ = mesh_.corners(t)[opposite];
   for (std::size_t i = 0; i < 4; ++i)
     if (mesh_.neighbour(other, i) == t) b_ = mesh_.corners(other)[i];
   old_ = {t, other};
   fresh_.clear();
-  const double bound = std::min(mesh_.quality(t), mesh_.quality(other));
   for (std::size_t i = 0; i < 3; ++i)
-    if (open_side(t, other, face[i], face[(i + 1) % 3]) <= bound) return false;
+    if (open_side(t, other, face[i], face[(i + 1) % 3]) <= floor) return false;
+  return true;
+}
+
+bool TetrahedraFlips::remove_face(Id t, std::size_t opposite) {
+  const Id other = mesh_.neighbour(t, opposite);
+  if (other == TetrahedraComplex::none ||
+      !open_face(t, opposite, std::min(mesh_.quality(t), mesh_.quality(other))))
+    return false;
   double after = 1.0;
   for (const TetrahedraComplex::Corners& c : fresh_) after = std::min(after, mesh_.quality_of(c));
   if (!(after > least_quality(old_) + margin)) return false;
   mesh_.replace(old_, fresh_);
   return true;
+}
+
+bool TetrahedraFlips::plan_face_removal(Id t, std::size_t opposite, double floor) {
+  return mesh_.neighbour(t, opposite) != TetrahedraComplex::none && open_face(t, opposite, floor);
 }
 
 }  // namespace ostia::meshing

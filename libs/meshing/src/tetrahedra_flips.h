@@ -25,11 +25,21 @@ class TetrahedraFlips {
   /// that is better.
   bool remove_face(Id t, std::size_t opposite);
 
+  /// The same without doing it: the best exchange whose tetrahedra are all above `floor`, which is then in
+  /// old() and fresh(). False where there is none.
+  bool plan_edge_removal(Id t, Id a, Id b, double floor);
+  bool plan_face_removal(Id t, std::size_t opposite, double floor);
+  const std::vector<Id>& old() const { return old_; }
+  const std::vector<TetrahedraComplex::Corners>& fresh() const { return fresh_; }
+
  private:
   static constexpr std::size_t most_around = 10;
   using Table = std::array<std::array<double, most_around>, most_around>;
   using Choice = std::array<std::array<std::size_t, most_around>, most_around>;
 
+  bool find_ring(Id t, Id a, Id b);
+  bool fill_ring(double floor);
+  bool open_face(Id t, std::size_t opposite, double floor);
   double triangle_quality(std::size_t i, std::size_t k, std::size_t j, double at_least) const;
   void collect(const Choice& choice, std::size_t i, std::size_t j);
   double open_side(Id top, Id bottom, Id u, Id w);

@@ -3,6 +3,7 @@
 #include "tetrahedra_cavity.h"
 #include "tetrahedra_complex.h"
 #include "tetrahedra_flips.h"
+#include "tetrahedra_orthogonality.h"
 #include "tetrahedra_quality.h"
 #include "tetrahedra_smoothing.h"
 
@@ -146,7 +147,14 @@ MendingReport mend_tetrahedra(geometry::VolumeMesh& mesh, const MendingOptions& 
                               const core::TaskContext& task) {
   TetrahedraComplex complex(mesh);
   const std::size_t before = mesh.tetrahedra.size();
-  MendingReport report = Mender(complex, options).run(task);
+  MendingReport report = Mender(complex, options).run(task.sub(0.0, 0.9));
+  const core::TaskContext rest = task.sub(0.9, 1.0);
+  make_orthogonal(complex, options.orthogonal_deg, quality_of_angle(options.goal_deg), report, rest);
+  // What is still far off costs flatter tetrahedra.
+  constexpr double far_deg = 3.0, lower_goal = 0.75;
+  make_orthogonal(complex, options.orthogonal_deg + far_deg, quality_of_angle(lower_goal * options.goal_deg),
+                  report, rest);
+  task.set_progress(1.0);
   report.tetrahedra_before = before;
   find_held(complex, quality_of_angle(options.goal_deg), report);
   complex.write_to(mesh);

@@ -10,16 +10,11 @@ namespace ostia::meshing {
 
 using geometry::Vec3;
 
-namespace {
-
-/// Faces and corners of a cube.
-Vec3 direction(int k) {
+Vec3 search_direction(int k) {
   if (k < 6) return (k % 2 == 0 ? 1.0 : -1.0) * Vec3::Unit(k / 2);
   return Vec3((k & 1) != 0 ? 1.0 : -1.0, ((k - 6) & 2) != 0 ? 1.0 : -1.0, ((k - 6) & 4) != 0 ? 1.0 : -1.0) /
          std::sqrt(3.0);
 }
-
-}  // namespace
 
 void PointSurroundings::add(const TetrahedraComplex& mesh, const TetrahedraComplex::Face& face) {
   faces_.push_back({mesh.point(face[0]), mesh.point(face[1]), mesh.point(face[2])});
@@ -67,12 +62,7 @@ double PointSurroundings::search(Vec3& p, double quality) {
     p = place;
     return true;
   };
-  const double reach = nearest(p);
-  const Vec3 middle = centroid();
-  for (const double t : {1.0, 0.5, 0.25})
-    if (attempt(p + t * (middle - p))) break;
-  for (double step = 0.4 * reach; step > 0.02 * reach; step *= 0.6)
-    for (int k = 0; k < 14; ++k) attempt(p + step * direction(k));
+  pattern_search(p, centroid(), nearest(p), attempt);
   return quality;
 }
 

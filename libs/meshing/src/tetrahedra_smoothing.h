@@ -7,6 +7,21 @@
 
 namespace ostia::meshing {
 
+/// Towards the faces and the corners of a cube, unit, k < 14.
+geometry::Vec3 search_direction(int k);
+
+/// Tries places around a point, farthest and towards `middle` first. `attempt(place)` moves `p`, which it may
+/// refer to, where the place is better, and says whether it did. `reach`: distance to the nearest other
+/// point.
+template <class Attempt>
+void pattern_search(const geometry::Vec3& p, const geometry::Vec3& middle, double reach,
+                    const Attempt& attempt) {
+  for (const double t : {1.0, 0.5, 0.25})
+    if (attempt(p + t * (middle - p))) break;
+  for (double step = 0.4 * reach; step > 0.02 * reach; step *= 0.6)
+    for (int k = 0; k < 14; ++k) attempt(p + step * search_direction(k));
+}
+
 /// Faces around a point, with their corners' coordinates; the worst tetrahedron comes first once known, so
 /// that most places are refused after one.
 class PointSurroundings {

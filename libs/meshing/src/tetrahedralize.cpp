@@ -30,6 +30,7 @@ void validate(const TetrahedralizeOptions& o) {
   in(o.mending_rounds, 0, 100, "mending_rounds");
   in(o.mend_below_deg, 0.0, 60.0, "mend_below_deg");
   in(o.most_growth, 0.0, 1.0, "most_growth");
+  if (o.field) validate(*o.field);
 }
 
 namespace {
@@ -190,6 +191,11 @@ MesherJob job_of(const geometry::FacedSurface& surface, const TetrahedralizeOpti
   job.triangles = surface.mesh.triangles;
   job.face_ids = surface.face_ids;
   job.sizes = local_sizes(surface.mesh, options.size_factor);
+  if (!options.field) return job;
+  job.field_points = options.field->points;
+  job.field_sizes = options.field->edge_mm;
+  for (double& size : job.field_sizes) size *= options.size_factor;
+  job.field_gradation = options.field->gradation;
   return job;
 }
 

@@ -1,10 +1,13 @@
 #include "export_parts.h"
 
+#include "ostia/core/files.h"
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string_view>
 
 namespace ostia::pipeline {
 namespace {
@@ -110,18 +113,32 @@ std::string name_of(SurfaceEnds ends) {
   return ends == SurfaceEnds::rounded ? "rounded" : ends == SurfaceEnds::capped ? "capped" : "open";
 }
 
+namespace {
+
+/// Of the lengths, so that other ones are another job.
+std::string digest_of(const meshing::SizeField& field) {
+  const auto bytes = [](const auto& values) {
+    return std::string_view(reinterpret_cast<const char*>(values.data()), values.size() * sizeof values[0]);
+  };
+  return core::sha256(std::string(bytes(field.points)) + std::string(bytes(field.edge_mm)));
+}
+
+}  // namespace
+
 nlohmann::json sizing_json(const meshing::SizingOptions& sizing) {
   const auto bound = [](double value) {
     return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json();
   };
-  return {{"edge_ratio", sizing.edge_ratio},
-          {"measure", sizing.measure == meshing::SizeMeasure::distance ? "distance" : "radius"},
-          {"gradation", sizing.gradation},
-          {"min_edge_mm", sizing.min_edge_mm},
-          {"max_edge_mm", bound(sizing.max_edge_mm)},
-          {"most_distance_radii", bound(sizing.most_distance_radii)},
-          {"curvature_ratio", sizing.curvature_ratio},
-          {"throat_share", sizing.throat_share}};
+  nlohmann::json out{{"edge_ratio", sizing.edge_ratio},
+                     {"measure", sizing.measure == meshing::SizeMeasure::distance ? "distance" : "radius"},
+                     {"gradation", sizing.gradation},
+                     {"min_edge_mm", sizing.min_edge_mm},
+                     {"max_edge_mm", bound(sizing.max_edge_mm)},
+                     {"most_distance_radii", bound(sizing.most_distance_radii)},
+                     {"curvature_ratio", sizing.curvature_ratio},
+                     {"throat_share", sizing.throat_share}};
+  if (sizing.field) out["field_sha256"] = digest_of(*sizing.field);
+  return out;
 }
 
 }  // namespace ostia::pipeline

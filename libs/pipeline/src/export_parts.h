@@ -25,6 +25,14 @@ std::vector<double> shares_of(const std::vector<RootedModel>& parts, const meshi
 /// Another mesh's figures to those of all; the verdict is left alone.
 void add(const MeshQuality& one, MeshQuality& all);
 
+/// The vessels chosen; none: all of the model.
+std::vector<std::int32_t> all_or(const lumen::LumenModel& model, const std::vector<std::int32_t>& chosen);
+/// The cells of the wall that is remeshed: half of what shows all there is, and no wider than half an edge.
+double cell_for(const lumen::LumenModel& model, const meshing::SizingOptions& sizing);
+/// The wall of one tree, closed and in one piece; where it is too narrow for the cells, with finer ones.
+/// Throws GeometryError where it is neither.
+geometry::TriMesh sound_wall(const RootedModel& part, double cell_mm, const core::TaskContext& task);
+
 std::string name_of(SurfaceEnds ends);
 nlohmann::json sizing_json(const meshing::SizingOptions& sizing);
 

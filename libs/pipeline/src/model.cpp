@@ -183,6 +183,12 @@ double middle_of_caps(const Shares& shares) {
   return 0.5 * (shares.axes + shares.caps);
 }
 
+std::vector<std::string> names_of(const std::vector<meshing::ClippedEnd>& ends) {
+  std::vector<std::string> names;
+  for (const meshing::ClippedEnd& end : ends) names.push_back(meshing::end_name(end.plane));
+  return names;
+}
+
 /// The cut lumen and its axes led on beyond its ends.
 void extend(const meshing::FlowExtensionOptions& options, const Shares& shares, Stages& stages,
             meshing::ClippedSurface& clipped, geometry::VesselTree& axes, MeshedLumen& out) {
@@ -201,6 +207,11 @@ void judge(const geometry::FacedSurface& capped, const ModelOptions& options, co
   MeshQuality& quality = out.quality;
   quality.surface = meshing::surface_quality(out.surface.mesh, true, task.sub(0.0, 0.3));
   quality.volume = meshing::mixed_quality(out.mesh, task.sub(0.3, 0.7));
+  if (!out.in_layers.empty())
+    meshing::mark_layers(out.mesh, out.in_layers, quality.volume, task.sub(0.65, 0.7));
+  quality.refinement = options.volume.refinement;
+  if (quality.refinement)
+    quality.refinement->elements = quality.volume.tetrahedra.count + quality.volume.prisms.count;
   quality.wall_deviation = meshing::wall_deviation(out.mesh, wall_of(capped), task.sub(0.7, 1.0));
   quality.verdict = meshing::check(quality.surface, options.bounds);
   append(quality.verdict.reasons, meshing::check(quality.volume, options.volume_bounds).reasons);
@@ -229,6 +240,7 @@ void mesh_capped(const geometry::FacedSurface& capped, const geometry::VesselTre
       [&](const core::TaskContext& part) { return fill_volume(out.surface, capped, options.volume, part); });
   append(out.warnings, filled.warnings);
   out.mesh = std::move(filled.mesh);
+  out.in_layers = std::move(filled.in_layers);
   if (filled.new_surface) out.surface = std::move(*filled.new_surface);
   out.quality.layers = std::move(filled.layers);
   out.quality.quadratic = std::move(filled.quadratic);
@@ -250,6 +262,7 @@ MeshedLumen mesh_with(const TriMesh& lumen, const geometry::VesselTree& tree, co
         return meshing::clip_ends(lumen, tree, clip, part);
       });
   append(out.warnings, clipped.warnings);
+  if (options.volume.solver_case) require_inlets(*options.volume.solver_case, names_of(clipped.ends));
   out.centerlines = stages.run("centerlines of the cut lumen", shares.cut, shares.axes,
                                [&](const core::TaskContext& part) { return axes_of(clipped, part); });
   geometry::VesselTree axes = out.centerlines.tree;

@@ -17,7 +17,7 @@ void write_meshes(const fs::path& folder, const MeshedLumen& meshed, const Volum
                   std::vector<std::string>& warnings, const core::TaskContext& task) {
   io::write_surface(folder / "lumen.vtp", meshed.surface);
   io::write_surface(folder / "lumen.stl", meshed.surface.mesh);
-  const auto more = write_volume_mesh(folder, meshed.mesh, options.formats, task);
+  const auto more = write_volume_mesh(folder, meshed.mesh, meshed.in_layers, options, task);
   for (const std::string& warning : more) core::log_warning(warning);
   warnings.insert(warnings.end(), more.begin(), more.end());
 }

@@ -67,10 +67,20 @@ double weighted(const meshing::MixedQuality& q, double meshing::ElementQuality::
   return sum / std::max(1.0, tetrahedra + prisms);
 }
 
+json layer_tetrahedra_json(const meshing::LayerTetrahedra& q) {
+  const auto known = [](double value) { return std::isfinite(value) ? json(value) : json(); };
+  return {{"count", q.count},
+          {"max_dihedral_deg", q.max_dihedral_deg},
+          {"bluntest_at", point_json(q.bluntest_at)},
+          {"others_min_dihedral_deg", known(q.others_min_dihedral_deg)},
+          {"others_min_scaled_jacobian", known(q.others_min_scaled_jacobian)},
+          {"others_max_non_orthogonality_deg", q.others_max_non_orthogonality_deg}};
+}
+
 json volume_json(const meshing::MixedQuality& q) {
   json faces = json::array();
   for (const meshing::FaceQuality& face : q.faces) faces.push_back(face_json(face));
-  return {
+  json out = {
       {"points", q.points},
       {"tetrahedra", q.tetrahedra.count},
       {"prisms", q.prisms.count},
@@ -91,6 +101,8 @@ json volume_json(const meshing::MixedQuality& q) {
       {"of_tetrahedra", element_json(q.tetrahedra)},
       {"of_prisms", element_json(q.prisms)},
       {"faces", faces}};
+  if (q.layers) out["of_layers"] = layer_tetrahedra_json(*q.layers);
+  return out;
 }
 
 json layers_json(const meshing::BoundaryLayerReport& r) {
@@ -140,6 +152,34 @@ json extension_json(const meshing::FlowExtension& e) {
           {"seam_angle_deg", e.seam_angle_deg}};
 }
 
+json refinement_json(const RefinementReport& r) {
+  const auto bound = [](double value) { return std::isfinite(value) ? json(value) : json(); };
+  json asked{{"most_refinement", r.asked.most_refinement},
+             {"most_coarsening", r.asked.most_coarsening},
+             {"gradation", r.asked.gradation},
+             {"min_edge_mm", r.asked.min_edge_mm},
+             {"max_edge_mm", bound(r.asked.max_edge_mm)}};
+  if (r.asked.elements) {
+    asked["elements"] = *r.asked.elements;
+  } else {
+    asked["error_share"] = r.asked.error_share;
+  }
+  return {{"field", r.field},
+          {"at", r.at_elements ? "cells" : "points"},
+          {"asked", asked},
+          {"range", r.range},
+          {"largest_error_before", r.largest_error},
+          {"target_error", r.target_error},
+          {"largest_error_foretold", r.reached_error},
+          {"refined_share", r.refined_share},
+          {"held_share", r.held_share},
+          {"least_edge_mm", r.least_edge_mm},
+          {"largest_edge_mm", r.largest_edge_mm},
+          {"elements_before", r.elements_before},
+          {"elements_foretold", r.elements_foretold},
+          {"elements", r.elements}};
+}
+
 json deviation_json(const meshing::WallDeviation& d) {
   return {{"samples", d.samples},
           {"max_mm", d.max_mm},
@@ -179,6 +219,7 @@ json figures_json(const MeshQuality& quality) {
   if (quality.wall_deviation) out["wall_deviation"] = deviation_json(*quality.wall_deviation);
   if (quality.layers) out["layers"] = layers_json(*quality.layers);
   if (quality.quadratic) out["quadratic"] = quadratic_json(*quality.quadratic);
+  if (quality.refinement) out["refinement"] = refinement_json(*quality.refinement);
   for (const meshing::FlowExtension& extension : quality.extensions)
     out["extensions"].push_back(extension_json(extension));
   return out;

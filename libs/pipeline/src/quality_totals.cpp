@@ -79,6 +79,22 @@ void add(meshing::OpenFoamQuality& all, const meshing::OpenFoamQuality& one, std
   all.volume_mm3 += one.volume_mm3;
 }
 
+void add(meshing::LayerTetrahedra& all, const meshing::LayerTetrahedra& one) {
+  if (one.max_dihedral_deg > all.max_dihedral_deg) all.bluntest_at = one.bluntest_at;
+  if (one.others_min_dihedral_deg < all.others_min_dihedral_deg)
+    all.others_sharpest_at = one.others_sharpest_at;
+  if (one.others_min_scaled_jacobian < all.others_min_scaled_jacobian)
+    all.others_worst_at = one.others_worst_at;
+  if (one.others_max_non_orthogonality_deg > all.others_max_non_orthogonality_deg)
+    all.others_least_orthogonal_at = one.others_least_orthogonal_at;
+  all.max_dihedral_deg = std::max(all.max_dihedral_deg, one.max_dihedral_deg);
+  all.others_min_dihedral_deg = std::min(all.others_min_dihedral_deg, one.others_min_dihedral_deg);
+  all.others_min_scaled_jacobian = std::min(all.others_min_scaled_jacobian, one.others_min_scaled_jacobian);
+  all.others_max_non_orthogonality_deg =
+      std::max(all.others_max_non_orthogonality_deg, one.others_max_non_orthogonality_deg);
+  all.count += one.count;
+}
+
 void add(meshing::MixedQuality& all, const meshing::MixedQuality& one) {
   const std::size_t cells_all = all.tetrahedra.count + all.prisms.count,
                     cells_one = one.tetrahedra.count + one.prisms.count;
@@ -90,6 +106,7 @@ void add(meshing::MixedQuality& all, const meshing::MixedQuality& one) {
   add(all.openfoam, one.openfoam, cells_all, cells_one);
   add(all.tetrahedra, one.tetrahedra);
   add(all.prisms, one.prisms);
+  if (all.layers && one.layers) add(*all.layers, *one.layers);
   all.points += one.points;
   all.boundary_mismatches += one.boundary_mismatches;
   all.unnamed_facets += one.unnamed_facets;
@@ -150,6 +167,7 @@ void add(const MeshQuality& one, MeshQuality& all) {
   add_where_known(all.wall_deviation, one.wall_deviation);
   add_where_known(all.layers, one.layers);
   add_where_known(all.quadratic, one.quadratic);
+  if (all.refinement && one.refinement) all.refinement->elements += one.refinement->elements;
   all.extensions.insert(all.extensions.end(), one.extensions.begin(), one.extensions.end());
 }
 

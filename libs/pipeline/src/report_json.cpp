@@ -117,6 +117,7 @@ void add_volume_parameters(const VolumeOptions& options, json& out) {
   for (const io::MeshFormat format : io::mesh_formats)
     if (std::ranges::find(options.formats, format) != options.formats.end())
       out["export"].push_back(io::name_of(format));
+  if (options.solver_case) out["solver_case"] = json::parse(parameters_json(*options.solver_case));
 }
 
 }  // namespace
@@ -192,10 +193,14 @@ std::string parameters_json(const ModelOptions& options, const SourceOptions& re
   out["centerline"] = {{"step_mm", options.centerline.step_mm},
                        {"smoothing_radii", options.centerline.smoothing_radii}};
   out["clip"] = {{"inset_radii", options.inset_radii ? json(*options.inset_radii) : json()}};
+  for (const meshing::PlacedPlane& plane : options.clip.planes)
+    out["clip"]["planes"].push_back(
+        {{"end", plane.end}, {"origin", point_json(plane.origin)}, {"normal", point_json(plane.normal)}});
   out["extensions"] = json();
   if (options.extensions)
     out["extensions"] = {{"inlet_diameters", options.extensions->inlet_diameters},
-                         {"outlet_diameters", options.extensions->outlet_diameters}};
+                         {"outlet_diameters", options.extensions->outlet_diameters},
+                         {"transition_share", options.extensions->transition_share}};
   out["sizing"] = sizing_json(options.sizing);
   add_volume_parameters(options.volume, out);
   return out.dump();

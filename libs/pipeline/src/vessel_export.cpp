@@ -33,48 +33,11 @@ using lumen::LumenModel;
 using nlohmann::json;
 
 constexpr double walls_share = 0.1, meshes_share = 0.98;  // of the progress, measured
-constexpr double finest_cell_mm = 0.1, coarsest_cell_mm = 0.25;
 
 void check_formats(const std::vector<std::string>& formats) {
   for (const std::string& one : formats)
     if (one != "vtp" && one != "stl" && one != "ply")
       throw InvalidInput("a surface cannot be written as \"" + one + "\"; choose vtp, stl or ply");
-}
-
-std::vector<std::int32_t> all_or(const LumenModel& model, const std::vector<std::int32_t>& chosen) {
-  if (!chosen.empty()) return chosen;
-  std::vector<std::int32_t> all;
-  for (const geometry::Vessel& vessel : model.tree.vessels) all.push_back(vessel.id);
-  return all;
-}
-
-/// The cells of the wall that is remeshed: half of what shows all there is, and no wider than half an edge.
-double cell_for(const LumenModel& model, const meshing::SizingOptions& sizing) {
-  const double cell = std::clamp(2.0 * lumen::default_cell_mm(model), finest_cell_mm, coarsest_cell_mm);
-  return std::min(cell, std::max(0.5 * finest_cell_mm, 0.5 * sizing.max_edge_mm));
-}
-
-bool in_one_piece(const TriMesh& wall) {
-  const geometry::SurfaceFaults faults = geometry::find_faults(wall, false);
-  return faults.closed_manifold() && faults.components == 1;
-}
-
-/// The wall of one tree, closed and in one piece; where it is too narrow for the cells, with finer ones.
-TriMesh sound_wall(const RootedModel& part, double cell_mm, const core::TaskContext& task) {
-  task.set_stage("walls");
-  TriMesh wall = lumen::surface_of(part.model, cell_mm, task.sub(0.0, 0.9));
-  const double finest = lumen::default_cell_mm(part.model);
-  if (in_one_piece(wall)) return wall;
-  if (finest < cell_mm) wall = lumen::surface_of(part.model, finest, task.sub(0.9, 1.0));
-  const geometry::SurfaceFaults faults = geometry::find_faults(wall, false);
-  if (faults.components > 1)
-    throw GeometryError(
-        "the wall of the tree of " + part.name + " is in " + std::to_string(faults.components) +
-        " pieces, so nothing flows from one to the other: open the occluded stretch, or leave "
-        "the vessel out");
-  if (!faults.closed_manifold())
-    throw GeometryError("the wall of the tree of " + part.name + " cannot be used: " + faults.summary());
-  return wall;
 }
 
 std::string tree_text(const RootedModel& part, std::size_t count) {
@@ -103,9 +66,42 @@ JobKey key_of(const std::string& command, const LumenModel& model, const json& p
 ModelOptions model_options(const MeshExportOptions& options) {
   ModelOptions how;
   how.inset_radii = options.inset_radii;
+  how.clip.planes = options.planes;
   how.sizing = options.sizing;
   how.extensions = options.extensions;
   how.volume = options.volume;
+  return how;
+}
+
+/// All trees' ends, as they would be cut.
+std::vector<meshing::EndPlane> ends_of(const std::vector<RootedModel>& parts, double inset_radii) {
+  std::vector<meshing::EndPlane> ends;
+  for (const RootedModel& part : parts) {
+    const auto more = meshing::end_planes(part.model.tree, inset_radii);
+    ends.insert(ends.end(), more.begin(), more.end());
+  }
+  return ends;
+}
+
+std::vector<std::string> names_of(const std::vector<meshing::EndPlane>& ends) {
+  std::vector<std::string> names;
+  for (const meshing::EndPlane& end : ends) names.push_back(meshing::end_name(end));
+  return names;
+}
+
+/// What is said of ends by name, of this tree's alone. `how` has each name of some tree.
+ModelOptions for_tree(const RootedModel& part, ModelOptions how) {
+  const std::vector<std::string> names = names_of(meshing::end_planes(part.model.tree, *how.inset_radii));
+  const auto elsewhere = [&](const std::string& name) {
+    return std::ranges::find(names, name) == names.end();
+  };
+  std::erase_if(how.clip.planes, [&](const auto& plane) { return elsewhere(plane.end); });
+  if (how.volume.solver_case)
+    std::visit(
+        [&](auto& one) {
+          std::erase_if(one.flow.inlet_flow_ml_s, [&](const auto& flow) { return elsewhere(flow.first); });
+        },
+        *how.volume.solver_case);
   return how;
 }
 
@@ -144,7 +140,43 @@ FacedSurface surface_of_part(const RootedModel& part, const SurfaceExportOptions
   return surface;
 }
 
+bool in_one_piece(const TriMesh& wall) {
+  const geometry::SurfaceFaults faults = geometry::find_faults(wall, false);
+  return faults.closed_manifold() && faults.components == 1;
+}
+
+constexpr double finest_cell_mm = 0.1, coarsest_cell_mm = 0.25;
+
 }  // namespace
+
+std::vector<std::int32_t> all_or(const LumenModel& model, const std::vector<std::int32_t>& chosen) {
+  if (!chosen.empty()) return chosen;
+  std::vector<std::int32_t> all;
+  for (const geometry::Vessel& vessel : model.tree.vessels) all.push_back(vessel.id);
+  return all;
+}
+
+double cell_for(const LumenModel& model, const meshing::SizingOptions& sizing) {
+  const double cell = std::clamp(2.0 * lumen::default_cell_mm(model), finest_cell_mm, coarsest_cell_mm);
+  return std::min(cell, std::max(0.5 * finest_cell_mm, 0.5 * sizing.max_edge_mm));
+}
+
+TriMesh sound_wall(const RootedModel& part, double cell_mm, const core::TaskContext& task) {
+  task.set_stage("walls");
+  TriMesh wall = lumen::surface_of(part.model, cell_mm, task.sub(0.0, 0.9));
+  const double finest = lumen::default_cell_mm(part.model);
+  if (in_one_piece(wall)) return wall;
+  if (finest < cell_mm) wall = lumen::surface_of(part.model, finest, task.sub(0.9, 1.0));
+  const geometry::SurfaceFaults faults = geometry::find_faults(wall, false);
+  if (faults.components > 1)
+    throw GeometryError(
+        "the wall of the tree of " + part.name + " is in " + std::to_string(faults.components) +
+        " pieces, so nothing flows from one to the other: open the occluded stretch, or leave "
+        "the vessel out");
+  if (!faults.closed_manifold())
+    throw GeometryError("the wall of the tree of " + part.name + " cannot be used: " + faults.summary());
+  return wall;
+}
 
 meshing::SizingOptions edges_around(double edges) {
   if (!(edges >= 6.0 && edges <= 120.0))
@@ -229,19 +261,23 @@ ExportSummary export_mesh(const fs::path& folder, const LumenModel& whole, const
   validate(options);
   require_free_folder(folder);
   const std::vector<RootedModel> parts = rooted_parts(part_of(whole, all_or(whole, options.vessels)));
-  const ModelOptions how = model_options(options);
+  ModelOptions how = model_options(options);
   core::StagedFolder staged(folder);
   const std::vector<std::string> names = folder_names(parts);
   MeshQuality totals;
   ExportSummary summary;
   summary.trees = parts.size();
+  const std::vector<meshing::EndPlane> ends = ends_of(parts, options.inset_radii);
+  how.clip.planes = meshing::with_ends(options.planes, ends);
+  if (how.volume.solver_case) require_inlets(*how.volume.solver_case, names_of(ends));
   const std::vector<double> shares = shares_of(parts, options.sizing);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const core::TaskContext part = task.sub(shares[i] * meshes_share, shares[i + 1] * meshes_share);
     const TriMesh wall =
         sound_wall(parts[i], cell_for(parts[i].model, options.sizing), part.sub(0.0, walls_share));
+    const ModelOptions here = for_tree(parts[i], how);
     const MeshedLumen meshed = naming(tree_text(parts[i], parts.size()), [&] {
-      return mesh_lumen_about(wall, parts[i].model.tree, how, part.sub(walls_share, 1.0));
+      return mesh_lumen_about(wall, parts[i].model.tree, here, part.sub(walls_share, 1.0));
     });
     for (const std::string& warning : meshed.warnings)
       summary.warnings.push_back(tree_text(parts[i], parts.size()) + warning);
@@ -250,7 +286,7 @@ ExportSummary export_mesh(const fs::path& folder, const LumenModel& whole, const
     const fs::path place = parts.size() == 1 ? staged.temporary() : staged.temporary() / names[i];
     if (parts.size() > 1) fs::create_directory(place);
     write_surfaces(place, meshed.surface, options.surface_formats);
-    for (const std::string& warning : write_volume_mesh(place, meshed.mesh, options.volume.formats))
+    for (const std::string& warning : write_volume_mesh(place, meshed.mesh, meshed.in_layers, here.volume))
       summary.warnings.push_back(tree_text(parts[i], parts.size()) + warning);
     io::write_centerlines(place / "centerlines.vtp", parts[i].model.tree);
     core::write_file(place / "quality.json", quality_json(meshed.quality) + "\n");

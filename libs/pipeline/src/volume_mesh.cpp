@@ -4,6 +4,7 @@
 #include "ostia/geometry/mesh_topology.h"
 #include "ostia/geometry/mixed_mesh_sides.h"
 #include "ostia/geometry/mixed_mesh_split.h"
+#include "ostia/io/volume_fields.h"
 
 #include <algorithm>
 #include <utility>
@@ -28,6 +29,15 @@ double least(const meshing::MixedQuality& quality, const Figure& figure) {
   return std::min(figure(quality.tetrahedra), figure(quality.prisms));
 }
 
+constexpr const char* layer_array = "layer";
+
+/// mesh.vtu once more, with the cell array.
+void mark_layers(const fs::path& file, const geometry::MixedMesh& mesh, const std::vector<bool>& in_layers) {
+  io::FieldValues layer;
+  layer.values.assign(in_layers.begin(), in_layers.end());
+  io::write_vtu_with_fields(file, mesh, {{{layer_array, std::move(layer)}}, {}});
+}
+
 }  // namespace
 
 void validate(const VolumeOptions& options) {
@@ -39,6 +49,9 @@ void validate(const VolumeOptions& options) {
     throw InvalidInput("elements of order " + std::to_string(options.order) + "; choose 1 or 2");
   const bool prisms = options.layers && !options.split_prisms;
   for (const io::MeshFormat format : options.formats) io::require_holds(format, prisms, options.order == 2);
+  if (!options.solver_case) return;
+  validate(*options.solver_case);
+  require_takes(*options.solver_case, prisms, options.order == 2);
 }
 
 double least_dihedral_deg(const meshing::MixedQuality& quality) {
@@ -71,7 +84,12 @@ FilledVolume fill_volume(const geometry::FacedSurface& surface, const geometry::
       out.new_surface = {compacted({filled.mesh.points, filled.mesh.boundary}), filled.mesh.boundary_face_ids,
                          filled.mesh.faces};
   }
-  if (options.split_prisms) out.mesh = geometry::split_prisms(out.mesh);
+  if (options.split_prisms) {
+    const std::size_t inside = out.mesh.tetrahedra.size();
+    out.mesh = geometry::split_prisms(out.mesh);  // which puts those of the prisms behind the others
+    out.in_layers.assign(out.mesh.tetrahedra.size(), true);
+    std::fill_n(out.in_layers.begin(), inside, false);
+  }
   if (options.order == 2) {
     task.set_stage("quadratic elements");
     auto quadratic = meshing::make_quadratic(out.mesh, wall_of(reference), {}, task.sub(filled_share, 1.0));
@@ -93,9 +111,18 @@ geometry::TriMesh wall_of(const geometry::FacedSurface& surface) {
 }
 
 MeshQuality judged(const geometry::MixedMesh& mesh, const core::TaskContext& task) {
+  return judged(mesh, {}, task);
+}
+
+MeshQuality judged(const geometry::MixedMesh& mesh, const std::vector<bool>& in_layers,
+                   const core::TaskContext& task) {
   MeshQuality out;
   task.set_stage("quality");
   out.volume = meshing::mixed_quality(mesh, task.sub(0.0, 0.5));
+  if (in_layers.size() >= mesh.tetrahedra.size() && !in_layers.empty()) {
+    const auto tetrahedra = static_cast<std::ptrdiff_t>(mesh.tetrahedra.size());
+    meshing::mark_layers(mesh, {in_layers.begin(), in_layers.begin() + tetrahedra}, out.volume);
+  }
   const geometry::FacedSurface facets{{mesh.points, mesh.triangles}, mesh.triangle_face_ids, mesh.faces};
   out.surface =
       meshing::surface_quality(compacted(geometry::boundary_triangles(mesh)), true, task.sub(0.5, 1.0));
@@ -111,6 +138,16 @@ MeshQuality judged(const geometry::MixedMesh& mesh, const core::TaskContext& tas
   return out;
 }
 
+std::vector<bool> layers_of(const fs::path& file) {
+  if (file.extension() != ".vtu") return {};
+  const io::VolumeFields fields = io::read_vtu_fields(file);
+  const auto layer = fields.cells.find(layer_array);
+  if (layer == fields.cells.end() || layer->second.components != 1) return {};
+  std::vector<bool> in_layers;
+  for (const double value : layer->second.values) in_layers.push_back(value == 1.0);
+  return in_layers;
+}
+
 std::string name_in_folder(io::MeshFormat format) {
   const std::string name(io::name_of(format)), extension(io::extension_of(format));
   if (extension.empty()) return name;
@@ -118,19 +155,27 @@ std::string name_in_folder(io::MeshFormat format) {
 }
 
 std::vector<std::string> write_volume_mesh(const fs::path& folder, const geometry::MixedMesh& mesh,
-                                           const std::vector<io::MeshFormat>& formats,
+                                           const std::vector<bool>& in_layers, const VolumeOptions& options,
                                            const core::TaskContext& task) {
   std::vector<io::MeshFormat> all{io::MeshFormat::vtu};
-  for (const io::MeshFormat format : formats)
+  for (const io::MeshFormat format : options.formats)
     if (std::ranges::find(all, format) == all.end()) all.push_back(format);
+  const double parts = static_cast<double>(all.size()) + (options.solver_case ? 1.0 : 0.0);
   std::vector<std::string> warnings;
+  const auto warn = [&](const std::vector<std::string>& more) {
+    for (const std::string& warning : more)
+      if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(warning);
+  };
   for (std::size_t i = 0; i < all.size(); ++i) {
     task.throw_if_cancelled();
-    const auto written = io::export_mesh(mesh, all[i], folder / name_in_folder(all[i]));
-    for (const std::string& warning : written.warnings)
-      if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(warning);
-    task.set_progress(static_cast<double>(i + 1) / static_cast<double>(all.size()));
+    warn(io::export_mesh(mesh, all[i], folder / name_in_folder(all[i])).warnings);
+    task.set_progress(static_cast<double>(i + 1) / parts);
   }
+  if (!in_layers.empty()) mark_layers(folder / name_in_folder(io::MeshFormat::vtu), mesh, in_layers);
+  if (options.solver_case)
+    warn(write_solver_case(mesh, *options.solver_case, folder / name_in_folder(*options.solver_case),
+                           task.sub(1.0 - 1.0 / parts, 1.0))
+             .warnings);
   return warnings;
 }
 

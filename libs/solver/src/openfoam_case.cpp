@@ -8,6 +8,7 @@
 #include "ostia/geometry/mixed_mesh_sides.h"
 #include "ostia/io/mesh_export.h"
 #include "ostia/meshing/boundary_layer.h"
+#include "ostia/solver/case_record.h"
 
 #include <algorithm>
 #include <cmath>
@@ -107,6 +108,7 @@ void write_dictionaries(const CasePlan& plan, const fs::path& folder) {
   write_case_file(system / "decomposeParDict", decompose_dict(plan));
   write_case_file(constant / "transportProperties", transport_properties(plan));
   write_case_file(constant / "turbulenceProperties", turbulence_properties());
+  if (coupled(plan)) write_case_file(constant / "outletResistances", outlet_resistances(plan));
   const fs::path script = folder / "Allrun";
   write_case_file(script, run_script(plan));
   fs::permissions(script, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
@@ -145,7 +147,9 @@ OpenfoamCaseResult write_openfoam_case(const MixedMesh& mesh, const OpenfoamCase
   task.set_progress(0.5);
   task.throw_if_cancelled();
   write_dictionaries(plan, staged.temporary());
-  write_boundaries(plan, staged.temporary(), task.sub(0.5, 0.95));
+  write_boundaries(plan, staged.temporary(), task.sub(0.5, 0.9));
+  write_case_record(case_record("openfoam", options.flow, result.flow, options.cycles), mesh,
+                    staged.temporary());
   staged.commit();
   task.set_progress(1.0);
   return result;

@@ -49,13 +49,6 @@ std::string functions(const CasePlan& plan) {
   return text + "}\n";
 }
 
-/// Slices across the longest side of the model.
-std::string slices(const CasePlan& plan, const std::string& count) {
-  std::string text = "(";
-  for (int axis = 0; axis < 3; ++axis) text += (axis > 0 ? " " : "") + (axis == plan.long_axis ? count : "1");
-  return text + ")";
-}
-
 }  // namespace
 
 std::string control_dict(const CasePlan& plan) {
@@ -106,6 +99,12 @@ std::string fv_solution(const CasePlan& plan) {
          "}\n}\n";
 }
 
+std::string slices(const CasePlan& plan, const std::string& count) {
+  std::string text = "(";
+  for (int axis = 0; axis < 3; ++axis) text += (axis > 0 ? " " : "") + (axis == plan.long_axis ? count : "1");
+  return text + ")";
+}
+
 std::string decompose_dict(const CasePlan& plan) {
   // Debian's package has no working graph partitioner (Scotch, Metis).
   const std::string processes = std::to_string(plan.options.processes);
@@ -129,28 +128,6 @@ std::string transport_properties(const CasePlan& plan) {
 
 std::string turbulence_properties() {
   return foam_head("dictionary", "constant", "turbulenceProperties") + "simulationType  laminar;\n";
-}
-
-std::string run_script(const CasePlan& plan) {
-  const std::string program = plan.program();
-  return "#!/bin/sh\n"
-         "# Runs this case: ./Allrun, or decomposed on N processes: ./Allrun N. What the programs say is in "
-         "log.*\n"
-         "# MPIRUN names another program than mpirun, with its options.\n"
-         "cd \"${0%/*}\" || exit 1\nset -e\n"
-         "# Debian's OpenFOAM finds its settings by this.\n"
-         ": \"${WM_PROJECT_DIR:=/usr/share/openfoam}\"\nexport WM_PROJECT_DIR\n"
-         "n=\"${1:-1}\"\n"
-         "checkMesh > log.checkMesh 2>&1\n"
-         "if [ \"$n\" -gt 1 ]; then\n"
-         "  sed -i \"s/^numberOfSubdomains .*/numberOfSubdomains $n;/; s/^    n  .*/    n           " +
-         slices(plan, "$n") +
-         ";/\" system/decomposeParDict\n"
-         "  decomposePar -force > log.decomposePar 2>&1\n"
-         "  ${MPIRUN:-mpirun} -np \"$n\" " +
-         program + " -parallel > log." + program + " 2>&1\n  reconstructPar " +
-         (plan.pulsatile() ? "" : "-latestTime ") + "> log.reconstructPar 2>&1\nelse\n  " + program +
-         " > log." + program + " 2>&1\nfi\n";
 }
 
 }  // namespace ostia::solver

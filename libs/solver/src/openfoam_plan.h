@@ -27,7 +27,16 @@ std::string fv_solution(const CasePlan& plan);
 std::string decompose_dict(const CasePlan& plan);
 std::string transport_properties(const CasePlan& plan);
 std::string turbulence_properties();
+/// Slices across the longest side of the model: "(1 1 n)".
+std::string slices(const CasePlan& plan, const std::string& count);
+
+/// Allrun.
 std::string run_script(const CasePlan& plan);
+/// Outlets whose flows and pressures are found by running again and again: a steady case with resistances and
+/// two outlets at least.
+bool coupled(const CasePlan& plan);
+/// constant/outletResistances: each outlet and its resistance over the density, the largest outlet first.
+std::string outlet_resistances(const CasePlan& plan);
 
 /// 0/U, 0/p and, for a pulsatile case, constant/boundaryData.
 void write_boundaries(const CasePlan& plan, const std::filesystem::path& folder,

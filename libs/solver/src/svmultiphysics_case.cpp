@@ -5,6 +5,7 @@
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
 #include "ostia/io/mesh_export.h"
+#include "ostia/solver/case_record.h"
 
 #include <nlohmann/json.hpp>
 
@@ -228,6 +229,7 @@ SvmultiphysicsCaseResult write_svmultiphysics_case(const geometry::MixedMesh& me
                       general_part(options) + mesh_part(result.flow) + equation_part(result.flow, options) +
                       "</svMultiPhysicsFile>\n");
   write_case_file(target / "boundary_conditions.json", conditions_json(result.flow, options));
+  write_case_record(case_record("svmultiphysics", options.flow, result.flow, options.cycles), mesh, target);
   staged.commit();
   task.set_progress(1.0);
   return result;

@@ -149,6 +149,7 @@ DevelopedProfile developed_profile(const Section& section) {
   const double mean = flow / section.area_mm2, largest = nodes.maxCoeff();
   if (!(mean > 0.0)) throw GeometryError("an inlet's section lets nothing through; mesh it finer");
   out.largest = largest / mean;
+  out.conductance_mm2 = mean;
   for (double& w : out.relative) {
     out.radius.push_back(std::sqrt(std::max(0.0, 1.0 - w / largest)));
     w /= mean;

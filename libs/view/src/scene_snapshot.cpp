@@ -60,13 +60,17 @@ figure::Raster TreeScene::snapshot(int width_px, int height_px, std::optional<fi
   check(width_px, height_px);
   vtkNew<vtkRenderer> renderer;
   Marks marks = impl_->marks;
-  OverlaySettings settings = impl_->settings;
+  OverlaySettings settings = impl_->shown_settings();
   marks.look = settings.look = look.value_or(settings.look);
   add_lights(*renderer);
   apply_look(*renderer, settings.look);
   apply_pose(*renderer, pose());
-  renderer->AddViewProp(impl_->wall_actor.twin());
-  renderer->AddViewProp(impl_->moving_actor.twin());
+  if (impl_->guest) {
+    renderer->AddViewProp(impl_->guest->twin());
+  } else {
+    renderer->AddViewProp(impl_->wall_actor.twin());
+    renderer->AddViewProp(impl_->moving_actor.twin());
+  }
   VolumeScene volume;
   volume.copy_from(impl_->volume);
   renderer->AddViewProp(volume.prop());

@@ -102,7 +102,7 @@ TreeScene::Impl::~Impl() {
 void TreeScene::Impl::before_render() {
   const std::array<int, 2> size{renderer->GetSize()[0], renderer->GetSize()[1]};
   const CameraPose pose = pose_of(*renderer);
-  overlay.lay_out(pose, size[0], size[1], settings);
+  overlay.lay_out(pose, size[0], size[1], shown_settings());
   mark_actors.lay_out(pose, size[0], size[1], settings.pixel_ratio);
   set_depths(pose);
   started = std::chrono::steady_clock::now();
@@ -193,6 +193,30 @@ void TreeScene::Impl::make_axes() {
     marks.axes.push_back(std::move(line));
   }
   mark_actors.show_axes(marks);
+}
+
+OverlaySettings TreeScene::Impl::shown_settings() const {
+  OverlaySettings shown = settings;
+  if (guest) shown.color_bar = guest->bar();
+  return shown;
+}
+
+void TreeScene::set_guest(std::shared_ptr<SceneGuest> guest) {
+  Impl& scene = *impl_;
+  if (scene.guest) {
+    scene.renderer->RemoveViewProp(&scene.guest->prop());
+  } else {
+    scene.renderer->RemoveViewProp(scene.wall_actor.prop());
+    scene.front->RemoveViewProp(scene.moving_actor.prop());
+  }
+  scene.guest = std::move(guest);
+  if (scene.guest) {
+    scene.renderer->AddViewProp(&scene.guest->prop());
+  } else {
+    scene.renderer->AddViewProp(scene.wall_actor.prop());
+    scene.front->AddViewProp(scene.moving_actor.prop());
+  }
+  scene.renderer->Modified();  // as many props as before, but others
 }
 
 TreeScene::TreeScene() : impl_(std::make_unique<Impl>()) {}

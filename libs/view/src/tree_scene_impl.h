@@ -43,6 +43,7 @@ struct TreeScene::Impl {
   VolumeScene volume;
   MarkActors mark_actors{*front};
   SceneOverlay overlay{*front};
+  std::shared_ptr<SceneGuest> guest;  // in place of the wall
 
   std::shared_ptr<const geometry::TriMesh> wall;
   std::vector<std::shared_ptr<const lumen::VesselLumen>> vessels;
@@ -83,7 +84,8 @@ struct TreeScene::Impl {
   const lumen::VesselLumen& vessel(std::int32_t id) const;
   std::vector<Vec3> shown_points() const;
   double aspect() const;
-  geometry::Vec2 size_px() const;  // throws InvalidInput without a window
+  geometry::Vec2 size_px() const;          // throws InvalidInput without a window
+  OverlaySettings shown_settings() const;  // with the guest's bar
   void before_render();
   void set_depths(const CameraPose& pose);
   void after_render();

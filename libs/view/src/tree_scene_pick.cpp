@@ -61,6 +61,7 @@ double TreeScene::Impl::aspect() const {
 
 std::vector<Vec3> TreeScene::Impl::shown_points() const {
   std::vector<Vec3> points;
+  if (guest) return guest->outline();
   if (wall)
     for (const geometry::Triangle& t : wall->triangles)
       if (visible(t[0])) points.push_back(wall->points[static_cast<std::size_t>(t[0])]);
@@ -157,7 +158,7 @@ std::optional<std::pair<std::size_t, double>> TreeScene::Impl::first_hit(const V
 
 std::optional<ScenePick> TreeScene::Impl::wall_pick(const Vec3& origin, const Vec3& direction) const {
   constexpr double window_mm = 3.0;
-  if (!wall) return {};
+  if (!wall || guest) return {};
   const auto hit = first_hit(origin, direction);
   if (!hit) return {};
   const Vec3 point = origin + hit->second * direction;
@@ -190,13 +191,17 @@ void TreeScene::Impl::add_measurement_pick(const Vec2& display, std::optional<Sc
   }
 }
 
-std::optional<ScenePick> TreeScene::pick(const Vec2& display) const {
+SceneRay TreeScene::ray(const Vec2& display) const {
   const Vec2 size = impl_->size_px();
   const CameraPose from = pose();
   const Vec2 off = (display - 0.5 * size) * (2.0 * from.half_height_mm / size.y());
   constexpr double far_mm = 1e4;
-  const Vec3 origin = from.target + off.x() * from.right() + off.y() * from.up + far_mm * from.towards;
-  std::optional<ScenePick> found = impl_->wall_pick(origin, -from.towards);
+  return {from.target + off.x() * from.right() + off.y() * from.up + far_mm * from.towards, -from.towards};
+}
+
+std::optional<ScenePick> TreeScene::pick(const Vec2& display) const {
+  const SceneRay from = ray(display);
+  std::optional<ScenePick> found = impl_->wall_pick(from.origin, from.direction);
   impl_->add_measurement_pick(display, found);
   return found;
 }

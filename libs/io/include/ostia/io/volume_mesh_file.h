@@ -13,10 +13,12 @@ bool is_volume_mesh(const std::filesystem::path& path);
 /// The formats that can be read, for messages.
 std::string readable_volume_meshes();
 
-/// Reads what export_mesh writes as VTU and as Gmsh 2.2 and 4.1, and any such file (Gmsh's in ASCII) of
-/// tetrahedra with 4 or 10 nodes, prisms with 6 or 18, triangles and quadrilaterals. Without ids of faces the
-/// boundary is all wall; without boundary cells it is the elements' free sides. Throws InvalidInput: no sound
-/// file, cells of other types (by name), linear and quadratic elements together, no elements.
+/// Reads what export_mesh writes as VTU, Gmsh 2.2 and 4.1, OpenFOAM (the case's folder; its faces get ids
+/// from 1 in the patches' order), Exodus II, Abaqus, Fluent, CGNS and XDMF, and any such file (Gmsh's,
+/// Fluent's and OpenFOAM's in ASCII) of tetrahedra with 4 or 10 nodes, prisms with 6 or 18, triangles and
+/// quadrilaterals. Without ids of faces the boundary is all wall; without boundary cells it is the elements'
+/// free sides. Throws InvalidInput: no sound file, cells of other types (by name), linear and quadratic
+/// elements together, no elements.
 geometry::MixedMesh read_volume_mesh(const std::filesystem::path& path);
 
 }  // namespace ostia::io

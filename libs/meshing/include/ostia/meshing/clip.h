@@ -12,7 +12,7 @@ namespace ostia::meshing {
 
 /// A plane that a person has placed at an end.
 struct PlacedPlane {
-  std::string end;                                  ///< `inlet_<vessel>`, `outlet_<vessel>`
+  std::string end;  ///< `inlet_<vessel>`, `outlet_<vessel>`; empty: the one that would be cut nearest
   geometry::Vec3 origin = geometry::Vec3::Zero();   ///< inside the lumen, mm
   geometry::Vec3 normal = geometry::Vec3::UnitZ();  ///< either way, any length but 0
 };
@@ -50,6 +50,10 @@ std::string end_name(const EndPlane& plane);
 /// Where clip_ends puts its planes: roots first, then ends, each in the tree's order.
 std::vector<EndPlane> end_planes(const geometry::VesselTree& tree, double inset_radii);
 
+/// Gives each plane without an end the one of `ends` that stands nearest to it. Throws InvalidInput where an
+/// end has two planes then, or none of these ends is called so.
+std::vector<PlacedPlane> with_ends(std::vector<PlacedPlane> planes, const std::vector<EndPlane>& ends);
+
 struct ClippedEnd {
   EndPlane plane;  ///< of a kept open end: the plane through its loop
   std::vector<std::int32_t>
@@ -65,11 +69,11 @@ struct ClippedSurface {
 
 /// Cuts the ends of `lumen` (manifold, oriented outward, closed or open) by one plane a root and a leaf of
 /// the tree. A plane cuts only the connected loop of triangles around its own axis, so a neighbouring branch
-/// is never touched. A plane that does not cut cleanly is tried up to a radius farther inside, with a
-/// warning; one that a person placed is taken as it is. Loop points lie on their plane to round-off. Throws
-/// InvalidInput for bad options or tree, or a plane for an end that is not there,
-/// GeometryError naming the end that cannot be cut (plane misses the lumen, loop is not closed, more than the
-/// end would go), or a hole that belongs to no end.
+/// is never touched. A plane that does not cut cleanly, or meets the wall in a wedge of less than 40 degrees,
+/// is tried up to a radius farther inside, with a warning; one that a person placed is taken as it is. Loop
+/// points lie on their plane to round-off. Throws InvalidInput for bad options or tree, or a plane for an end
+/// that is not there, GeometryError naming the end that cannot be cut (plane misses the lumen, loop is not
+/// closed, more than the end would go), or a hole that belongs to no end.
 ClippedSurface clip_ends(const geometry::TriMesh& lumen, const geometry::VesselTree& tree,
                          const ClipOptions& options = {}, const core::TaskContext& task = core::no_task());
 

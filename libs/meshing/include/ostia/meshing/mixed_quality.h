@@ -7,6 +7,7 @@
 #include "ostia/meshing/quality.h"
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -65,6 +66,20 @@ struct FaceQuality {
   geometry::Vec3 centre = geometry::Vec3::Zero();  ///< weighted by area, mm
 };
 
+/// Tetrahedra that came of a layer's prisms: flat on purpose, so that what is small or steep in them is the
+/// layer's own shape. They are judged by their largest angle; the others as all are.
+struct LayerTetrahedra {
+  std::size_t count = 0;
+  double max_dihedral_deg = 0.0;  ///< of the layers' tetrahedra
+  geometry::Vec3 bluntest_at = geometry::Vec3::Zero();
+  /// Of all other tetrahedra; infinite where there are none.
+  double others_min_dihedral_deg = 0.0, others_min_scaled_jacobian = 0.0;
+  geometry::Vec3 others_sharpest_at = geometry::Vec3::Zero(), others_worst_at = geometry::Vec3::Zero();
+  /// Of the sides of elements that have no side in common with a layer's.
+  double others_max_non_orthogonality_deg = 0.0;
+  geometry::Vec3 others_least_orthogonal_at = geometry::Vec3::Zero();
+};
+
 struct MixedQuality {
   std::size_t points = 0;
   bool quadratic = false;
@@ -79,12 +94,18 @@ struct MixedQuality {
   geometry::Vec3 mismatch_at = geometry::Vec3::Zero();  ///< of one of them, mm
   std::size_t unnamed_facets = 0;                       ///< facets whose id no face has
   std::vector<FaceQuality> faces;                       ///< in the order of the mesh's; empty faces too
+  std::optional<LayerTetrahedra> layers;                ///< where it is known which they are (mark_layers)
   double mean_edge_mm = 0.0;                            ///< of the elements' edges, corner to corner
 };
 
 /// Measures a mesh of any origin, linear or quadratic. Throws InvalidInput when it cannot be measured: lists
 /// of different lengths, indices out of range, coordinates that are not finite. Cancelled.
 MixedQuality mixed_quality(const geometry::MixedMesh& mesh, const core::TaskContext& task = core::no_task());
+
+/// Adds what is known of the layers' tetrahedra; `in_layers` has one entry a tetrahedron. Throws InvalidInput
+/// for another number of entries and what mixed_quality throws. Cancelled.
+void mark_layers(const geometry::MixedMesh& mesh, const std::vector<bool>& in_layers, MixedQuality& quality,
+                 const core::TaskContext& task = core::no_task());
 
 /// The scaled Jacobian (ElementQuality::min_scaled_jacobian) of each element, tetrahedra first: for colours.
 std::vector<double> element_scaled_jacobians(const geometry::MixedMesh& mesh,
@@ -109,7 +130,9 @@ struct MixedBounds {
   double min_dihedral_deg = 5.0;                  ///< of tetrahedra, [0, 70)
   double min_tetrahedron_scaled_jacobian = 0.02;  ///< (-1, 1)
   double min_prism_scaled_jacobian = 0.02;        ///< (-1, 1)
+  double max_layer_dihedral_deg = 175.0;          ///< of the layers' tetrahedra, (90, 180)
   double max_non_orthogonality_deg = 70.0;        ///< (0, 90]
+  double max_layer_non_orthogonality_deg = 90.0;  ///< where a layer's tetrahedra are, (0, 90]
   double max_skewness = 4.0;                      ///< > 0
   double max_aspect_ratio = 1000.0;               ///< >= 1
   double min_volume_ratio = 0.01;                 ///< [0, 1)

@@ -5,6 +5,7 @@
 #include "ostia/core/task_context.h"
 #include "ostia/geometry/tri_mesh.h"
 #include "ostia/geometry/vessel_tree.h"
+#include "ostia/meshing/size_field.h"
 
 #include <limits>
 #include <memory>
@@ -84,6 +85,8 @@ struct SizingOptions {
   /// Where it is given, lengths are interpolated in it at the closest point, and the vessel's size has no
   /// say.
   std::shared_ptr<const SizeArray> array;
+  /// Where it is given, no edge is longer than it says (field_sizing.h makes one of a solver's result).
+  std::shared_ptr<const SizeField> field;
   /// Bound on the growth of the edge length along the surface, mm per mm (Dunyach et al. 2013). In [0.01, 2].
   double gradation = 0.3;
   double min_edge_mm = 0.0;                                      ///< >= 0

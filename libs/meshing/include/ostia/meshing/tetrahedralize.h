@@ -5,8 +5,10 @@
 #include "ostia/core/task_context.h"
 #include "ostia/geometry/tri_mesh.h"
 #include "ostia/meshing/quality.h"
+#include "ostia/meshing/size_field.h"
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -24,6 +26,9 @@ struct TetrahedralizeOptions {
   /// 0.8 the mean edge comes out at 1.02 of the surface's. Near the wall it is raised to what the surface's
   /// triangles allow. In [0.1, 10].
   double size_factor = 0.8;
+  /// Edge lengths inside, for the mesher in place of the surface's; near the surface they give way to those
+  /// of its triangles. `remesh` the surface with the same field first (SizingOptions::field).
+  std::shared_ptr<const SizeField> field;
   double max_radius_edge_ratio = 1.4;  ///< TetGen's -q: circumradius over shortest edge; in [1.1, 10]
   double min_dihedral_deg = 10.0;      ///< TetGen's -q, second number; in [0, 18]
   int mending_rounds = 8;              ///< through the tetrahedra that are still bad; in [0, 100], 0: none

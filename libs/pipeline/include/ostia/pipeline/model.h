@@ -57,6 +57,7 @@ struct MeshedLumen {
       centerlines;                 ///< of the cut lumen: from its inlet's centre to its outlets' centres
   geometry::FacedSurface surface;  ///< closed, remeshed, named faces
   geometry::MixedMesh mesh;
+  std::vector<bool> in_layers;  ///< FilledVolume::in_layers
   meshing::RemeshReport remeshing;
   MeshQuality quality;  ///< `surface` is that of the member above
   std::vector<std::string> warnings;

@@ -42,6 +42,7 @@ struct MeshExportOptions {
   /// How far inside its end a vessel is cut, in radii, [0, 10]; walls of cases are straight up to the end of
   /// the axis, where a dome begins.
   double inset_radii = 0.4;
+  std::vector<meshing::PlacedPlane> planes;                 ///< where a person wants ends cut instead
   std::optional<meshing::FlowExtensionOptions> extensions;  ///< beyond the cut ends; none unless asked for
   std::vector<std::string> surface_formats{"vtp", "stl"};   ///< of vtp, stl, ply; may be none
 };

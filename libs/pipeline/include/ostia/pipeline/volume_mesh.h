@@ -9,6 +9,8 @@
 #include "ostia/meshing/mixed_quality.h"
 #include "ostia/meshing/quadratic.h"
 #include "ostia/meshing/tetrahedralize.h"
+#include "ostia/pipeline/refinement.h"
+#include "ostia/pipeline/solver_case.h"
 
 #include <filesystem>
 #include <optional>
@@ -23,6 +25,8 @@ struct VolumeOptions {
   bool split_prisms = false;                            ///< each prism into three tetrahedra; needs layers
   int order = 1;                        ///< of the elements: 1, or 2 with nodes on the wall before remeshing
   std::vector<io::MeshFormat> formats;  ///< besides mesh.vtu, which is always written
+  std::optional<RefinementReport> refinement;  ///< why `tetrahedralize.field` is as it is
+  std::optional<SolverCase> solver_case;       ///< written with the mesh; none unless asked for
 };
 /// Throws InvalidInput for numbers out of range, and for a format that cannot hold the elements: told before
 /// anything is computed.
@@ -36,6 +40,7 @@ struct MeshQuality {
   std::optional<meshing::BoundaryLayerReport> layers;
   std::optional<meshing::QuadraticReport> quadratic;
   std::vector<meshing::FlowExtension> extensions;
+  std::optional<RefinementReport> refinement;
   meshing::QualityVerdict verdict;  ///< of surface and volume
 };
 /// Of tetrahedra and prisms together.
@@ -44,6 +49,7 @@ double least_scaled_jacobian(const meshing::MixedQuality& quality);
 
 struct FilledVolume {
   geometry::MixedMesh mesh;
+  std::vector<bool> in_layers;  ///< tetrahedra that were prisms; empty: none
   std::optional<meshing::BoundaryLayerReport> layers;
   std::optional<meshing::QuadraticReport> quadratic;
   /// The mesh's boundary, where the mesher that took over could not keep the surface.
@@ -62,15 +68,24 @@ geometry::TriMesh wall_of(const geometry::FacedSurface& surface);
 /// surface is; angles are those of the wall's triangles, since a layer's side is thin however good it is.
 /// Throws what mixed_quality throws.
 MeshQuality judged(const geometry::MixedMesh& mesh, const core::TaskContext& task = core::no_task());
+/// The same where it is known which tetrahedra belong to layers: of each element, as layers_of has it.
+MeshQuality judged(const geometry::MixedMesh& mesh, const std::vector<bool>& in_layers,
+                   const core::TaskContext& task = core::no_task());
+
+/// What the cell array `layer` of a VTU file says of its tetrahedra (then prisms, which are told by their
+/// shape); empty where there is none. Throws what read_vtu_fields throws.
+std::vector<bool> layers_of(const std::filesystem::path& file);
 
 /// The file or folder of a format beside others: `mesh.vtu`, `openfoam`, `mesh-gmsh4.msh` (three formats have
 /// the extension .msh), ...
 std::string name_in_folder(io::MeshFormat format);
 
-/// Writes mesh.vtu and the formats into an existing folder. Returns the writers' warnings, each once.
+/// Writes mesh.vtu, the formats and the solver's case into an existing folder. Where tetrahedra belong to
+/// layers mesh.vtu has the cell array `layer` (1 there, 0 elsewhere). Returns the writers' warnings, each
+/// once.
 std::vector<std::string> write_volume_mesh(const std::filesystem::path& folder,
                                            const geometry::MixedMesh& mesh,
-                                           const std::vector<io::MeshFormat>& formats,
+                                           const std::vector<bool>& in_layers, const VolumeOptions& options,
                                            const core::TaskContext& task = core::no_task());
 
 }  // namespace ostia::pipeline

@@ -33,14 +33,15 @@ struct OpenfoamCaseResult {
   std::vector<std::string> warnings;
 };
 
-/// Writes constant/polyMesh (metres), 0/U, 0/p, constant, system and Allrun (`./Allrun`, or `./Allrun 4` for
-/// four processes), whole or not at all. `folder` must not exist or be empty. Velocities at the inlets are
-/// fully developed profiles of the real section (Womersley's when pulsatile) with exactly the flow asked for
-/// through the mesh's facets. v1912 has no outlet with a resistance that is coupled implicitly; with
-/// Outlets::resistance the outlets' flows are given by 1/R, the largest outlet's pressure is its R times its
-/// flow. Throws InvalidInput and GeometryError before anything is written (options,
-/// what boundary_flow refuses, quadratic elements, a folder that holds something), IoError, ResourceError,
-/// Cancelled.
+/// Writes constant/polyMesh (metres), 0/U, 0/p, constant, system, Allrun (`./Allrun`, or `./Allrun 4` for
+/// four processes) and the case's record (case_record.h), whole or not at all. `folder` must not exist or be
+/// empty. Velocities at the inlets are fully developed profiles of the real section (Womersley's when
+/// pulsatile) with exactly the flow asked for through the mesh's facets. v1912 has no outlet with a
+/// resistance that is coupled implicitly; with Outlets::resistance Allrun runs a steady case again and again
+/// until pressure is R times flow at each outlet; in a pulsatile one the outlets' flows are given by 1/R, the
+/// largest outlet's pressure is its R times its flow. Throws InvalidInput and GeometryError before anything
+/// is written (options, what boundary_flow refuses, quadratic elements, a folder that holds something),
+/// IoError, ResourceError, Cancelled.
 OpenfoamCaseResult write_openfoam_case(const geometry::MixedMesh& mesh, const OpenfoamCaseOptions& options,
                                        const std::filesystem::path& folder,
                                        const core::TaskContext& task = core::no_task());

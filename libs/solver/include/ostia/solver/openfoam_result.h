@@ -25,6 +25,14 @@ struct OpenfoamField {
 OpenfoamField read_openfoam_field(const std::filesystem::path& file, std::size_t cells,
                                   const std::map<std::string, std::size_t>& facets);
 
+/// A time (or, in a steady run, an iteration) whose fields have been written.
+struct OpenfoamTime {
+  double time = 0.0;
+  std::filesystem::path folder;
+};
+/// Those after 0, in order. Throws IoError.
+std::vector<OpenfoamTime> times_of(const std::filesystem::path& case_folder);
+
 /// The folder of the last time in a case. Throws InvalidInput when it has none after 0: it has not been run.
 std::filesystem::path last_time(const std::filesystem::path& case_folder);
 

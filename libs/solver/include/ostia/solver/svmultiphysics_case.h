@@ -29,9 +29,9 @@ struct SvmultiphysicsCaseResult {
 };
 
 /// Writes `solver.xml`, `boundary_conditions.json` (docs/schemas/boundary-conditions.schema.json), the flow
-/// of each inlet as `<inlet>.flow`, and `mesh-complete`; whole or not at all. `folder` must not exist or be
-/// empty. Throws as write_openfoam_case does, and InvalidInput for prisms, quadratic elements and
-/// Outlets::split.
+/// of each inlet as `<inlet>.flow`, `mesh-complete`, and the case's record (case_record.h); whole or not at
+/// all. `folder` must not exist or be empty. Throws as write_openfoam_case does, and InvalidInput for prisms,
+/// quadratic elements and Outlets::split.
 SvmultiphysicsCaseResult write_svmultiphysics_case(const geometry::MixedMesh& mesh,
                                                    const SvmultiphysicsCaseOptions& options,
                                                    const std::filesystem::path& folder,

@@ -17,6 +17,9 @@ struct DevelopedProfile {
   /// the rim. On a circle it is r / R, on an ellipse the root of x^2 / a^2 + y^2 / b^2.
   std::vector<double> radius;
   double largest = 0.0;  ///< of the velocity over its mean: 2 on circles and ellipses
+  /// Mean of w over the section: the mean velocity is this times pressure gradient over viscosity. R^2 / 8 on
+  /// a circle.
+  double conductance_mm2 = 0.0;
 };
 
 /// Throws GeometryError when the section has no rim or no room inside it.

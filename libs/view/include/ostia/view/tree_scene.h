@@ -8,6 +8,7 @@
 #include "ostia/lumen/lumen_model.h"
 #include "ostia/view/scene_camera.h"
 #include "ostia/view/scene_colors.h"
+#include "ostia/view/scene_guest.h"
 #include "ostia/view/scene_marks.h"
 #include "ostia/view/volume_scene.h"
 #include "ostia/view/wall_owner.h"
@@ -73,6 +74,9 @@ class TreeScene {
   /// bar beside the picture. Throws InvalidInput where there are not as many values as points.
   void set_wall_values(std::vector<double> values, const ValueScale& scale);
   void clear_wall_values();  ///< back to the vessels' colours
+  /// Something else in the wall's place, with a bar of its own; null: the wall again. A wall that is not
+  /// shown is not picked.
+  void set_guest(std::shared_ptr<SceneGuest> guest);
 
   // Vessels keep their style when the wall changes. A vessel that is new gets the next colour of the palette.
   VesselStyle vessel_style(std::int32_t vessel) const;                   ///< throws InvalidInput
@@ -129,6 +133,8 @@ class TreeScene {
   /// not render. Throws InvalidInput where the scene is in no window.
   std::optional<ScenePick> pick(const geometry::Vec2& display) const;
   geometry::Vec2 project(const Vec3& world) const;  ///< display coordinates; throws InvalidInput as above
+  SceneRay ray(
+      const geometry::Vec2& display) const;  ///< from before all there is; throws InvalidInput as above
 
   // Looks ---------------------------------------------------------------------------------------------------
 

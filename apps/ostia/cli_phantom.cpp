@@ -1,0 +1,57 @@
+// The options that say what synthetic scans are made.
+
+#include "cli_phantom.h"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+namespace ostia::app {
+
+void add_phantom(CLI::App& app, PhantomCommand& o) {
+  app.add_option("-o,--output", o.output, "Folder that is made: dataset00, dataset01, ... and suite.json")
+      ->required();
+  app.add_option("--preset", o.preset,
+                 "full: 512x512x300 voxels; small: voxels twice as large; tiny: about the ostia alone")
+      ->check(CLI::IsMember({"tiny", "small", "full"}));
+  app.add_option("--cases", o.cases, "How many cases, with the seeds from --seed on")
+      ->check(CLI::Range(1, 100));
+  app.add_option("--phases", o.phases, "Phases of the heart's cycle; 1 alone");
+  app.add_flag("--truth-only", o.truth_only, "No images and label volumes");
+  app.add_option("--formats", o.formats, "Of the image: mhd, nrrd, dicom, separated by commas; all")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"mhd", "nrrd", "dicom"}));
+  app.add_option("--disease", o.disease, "Number of lesions, as a multiple of the usual; 0: a healthy tree")
+      ->check(CLI::Range(0.0, 5.0));
+  app.add_option("--anatomy", o.anatomy,
+                 "usual, left-ostium-closed, right-ostium-closed, rca-from-left, lcx-from-right, bypass")
+      ->check(CLI::IsMember({"usual", "left-ostium-closed", "right-ostium-closed", "rca-from-left",
+                             "lcx-from-right", "bypass"}));
+  app.add_option("--calcium", o.calcium, "0: none; 1: that of the lesions; more: nodules along the arteries")
+      ->check(CLI::Range(0.0, 20.0));
+  app.add_option("--stent", o.stent_mm, "Length of a stent in the proximal LAD, mm")
+      ->check(CLI::Range(0.0, 40.0));
+  app.add_option("--contrast", o.contrast_hu, "Of aorta, left heart and arteries, HU")
+      ->check(CLI::Range(80.0, 1000.0));
+  app.add_option("--venous", o.venous, "Contrast in veins and right heart, as a share of the arteries'")
+      ->check(CLI::Range(0.0, 1.0));
+  app.add_option("--noise", o.noise_hu, "Standard deviation of the noise, HU")->check(CLI::Range(0.0, 500.0));
+  app.add_option("--blur", o.blur_mm, "Point spread in the slice, full width at half maximum, mm")
+      ->check(CLI::Range(0.0, 5.0));
+  app.add_option("--blur-z", o.blur_z_mm, "The same along z, mm")->check(CLI::Range(0.0, 5.0));
+  app.add_option("--motion", o.motion_mm, "Blur by the heart's motion: length of the path, mm")
+      ->check(CLI::Range(0.0, 10.0));
+  app.add_option("--stair-step", o.stair_step_mm, "Jump of the heart between blocks of slices, mm")
+      ->check(CLI::Range(0.0, 10.0));
+  app.add_option("--beam-hardening", o.beam_hardening, "Dark streaks beside dense things; 1 is usual")
+      ->check(CLI::Range(0.0, 5.0));
+  app.add_option("--contour-spacing", o.contour_spacing_mm, "Distance between the true contours, mm")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--contour-points", o.contour_points, "Points of a contour")->check(CLI::Range(8, 1024));
+  app.add_option("--surface-spacing", o.surface_spacing_mm, "Edges of the true surfaces, mm")
+      ->check(CLI::Range(0.05, 1.0));
+  app.add_flag("--no-report", o.no_report, "No report.html and no pictures");
+  app.add_flag("--json", o.json, "suite.json on standard output");
+}
+
+}  // namespace ostia::app

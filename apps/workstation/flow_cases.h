@@ -1,0 +1,42 @@
+#pragma once
+/// \file Cases for flow solvers, written and run beside the editing.
+
+#include "flow_dialog.h"
+
+#include "ostia/session/workbench.h"
+
+#include <QObject>
+#include <QStringList>
+#include <filesystem>
+
+namespace ostia::workstation {
+
+class MainWindow;
+
+/// Asks by a FlowDialog, writes the case in the background and, where OpenFOAM is there, runs it and shows
+/// the wall's shear stress. What is cancelled leaves no process; the case that was being run stays.
+class FlowCases final : public QObject {
+  Q_OBJECT
+ public:
+  explicit FlowCases(MainWindow& window);
+  /// Proposed is the mesh that was made last; where none was, the newest that was exported beside
+  /// `case_file`.
+  void ask(const std::filesystem::path& case_file);
+  void run(const std::filesystem::path& case_folder);
+  void mesh_made(const std::filesystem::path& mesh);  ///< of the case that is open
+
+ private:
+  void read_mesh(FlowDialog& dialog, const QString& file);
+  void write(const FlowDialog& dialog);
+  void tell_written(const FlowChoice& made, const std::vector<std::string>& warnings);
+  void leave_case(const std::filesystem::path& folder, const QStringList& notes);
+  void show_result(const std::filesystem::path& folder, const std::filesystem::path& wall,
+                   const QString& outcome, const QString& trouble);
+  MainWindow& window_;
+  FlowChoice last_;
+  std::filesystem::path made_mesh_;
+  std::filesystem::path being_run_;
+  session::Subscription other_case_;
+};
+
+}  // namespace ostia::workstation

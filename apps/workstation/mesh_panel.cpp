@@ -1,0 +1,273 @@
+#include "mesh_panel.h"
+
+#include "histogram_widget.h"
+
+#include <QAbstractItemView>
+#include <QCheckBox>
+#include <QComboBox>
+#include <QFormLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QListWidget>
+#include <QScrollArea>
+#include <QSlider>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <cmath>
+
+namespace ostia::workstation {
+namespace {
+
+using geometry::Vec3;
+using meshing::ElementMeasure;
+
+constexpr int slider_steps = 1000;
+constexpr std::size_t worst_listed = 20;
+constexpr int rows_shown = 3;
+constexpr double elements_seen = 6.0;  // in half of the picture's height, where one is flown to
+
+QString number(double value) {
+  return QString::number(value, 'f', std::abs(value) < 10.0 ? 2 : 1);
+}
+
+}  // namespace
+
+MeshPanel::MeshPanel(session::Workbench& bench, SceneWidget& scene, QWidget* parent)
+    : QDockWidget(tr("Mesh"), parent), bench_(bench), scene_(scene) {
+  setObjectName("mesh");
+  auto* area = new QScrollArea;  // a low window
+  area->setWidgetResizable(true);
+  area->setFrameShape(QFrame::NoFrame);
+  area->setFocusPolicy(Qt::NoFocus);  // what is in it takes the keyboard
+  area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  area->setWidget(rows());
+  area->setMinimumWidth(area->widget()->minimumSizeHint().width() +
+                        area->style()->pixelMetric(QStyle::PM_ScrollBarExtent));
+  setWidget(area);
+  cut_soon_.setSingleShot(true);
+  cut_soon_.setInterval(0);
+  connect(&cut_soon_, &QTimer::timeout, this, &MeshPanel::show_cut);
+  connect(this, &QDockWidget::visibilityChanged, this, [this](bool) { show_in_scene(!isHidden()); });
+  connect(&scene_, &SceneWidget::guest_changed, this, [this](const view::SceneGuest* shown) {
+    if (shown != guest_.get()) guest_.reset();  // another has taken its place
+  });
+  own_.push_back(bench.vessel.observe([this](const std::int32_t&) { cut_soon_.start(); }));
+  own_.push_back(bench.case_changed.observe([this] { clear(); }));
+}
+
+MeshPanel::~MeshPanel() = default;
+
+QWidget* MeshPanel::rows() {
+  auto* all = new QWidget;
+  auto* column = new QVBoxLayout(all);
+  column->setContentsMargins(6, 6, 6, 6);
+  name_ = new QLabel(tr("No mesh has been made yet."));
+  name_->setObjectName("mesh_name");
+  name_->setWordWrap(true);
+  column->addWidget(name_);
+  auto* form = new QFormLayout;
+  form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
+  form->setRowWrapPolicy(QFormLayout::WrapLongRows);
+  column->addLayout(form);
+  add_colors(form);
+  histogram_ = new HistogramWidget;
+  histogram_->setObjectName("mesh_histogram");
+  histogram_->setAccessibleName(tr("How many elements have which value"));
+  form->addRow(histogram_);
+  figures_ = new QLabel;
+  figures_->setObjectName("mesh_figures");
+  figures_->setWordWrap(true);
+  form->addRow(figures_);
+  add_cut(form);
+  auto* title = new QLabel(tr("&Worst elements"));
+  list_ = new QListWidget;
+  list_->setObjectName("mesh_worst");
+  list_->setAccessibleName(tr("Worst elements"));
+  list_->setToolTip(tr("A click shows the element in 3D."));
+  list_->setMinimumHeight(rows_shown * list_->fontMetrics().height() + 8);
+  title->setBuddy(list_);
+  column->addWidget(title);
+  column->addWidget(list_, 1);
+  connect(list_, &QListWidget::currentRowChanged, this, &MeshPanel::fly_to);
+  const auto again = [this](const QListWidgetItem* item) { fly_to(list_->row(item)); };
+  connect(list_, &QListWidget::itemActivated, this, again);
+  connect(list_, &QListWidget::itemClicked, this, again);
+  return all;
+}
+
+void MeshPanel::add_colors(QFormLayout* form) {
+  measure_ = new QComboBox;
+  measure_->setObjectName("mesh_measure");
+  measure_->setAccessibleName(tr("What the colours show"));
+  measure_->setSizeAdjustPolicy(QComboBox::AdjustToContents);  // the dock is as wide as its texts
+  measure_->view()->setAccessibleName(measure_->accessibleName());
+  for (std::size_t m = 0; m < meshing::element_measure_count; ++m)
+    measure_->addItem(title_of(static_cast<ElementMeasure>(m)));
+  edges_ = new QCheckBox(tr("E&dges"));
+  edges_->setObjectName("mesh_edges");
+  edges_->setChecked(true);
+  auto* label = new QLabel(tr("&Colours"));
+  label->setBuddy(measure_);
+  form->addRow(label, measure_);
+  form->addRow(edges_);
+  connect(measure_, QOverload<int>::of(&QComboBox::currentIndexChanged), this, &MeshPanel::show_measure);
+  connect(edges_, &QCheckBox::toggled, this, [this](bool on) {
+    if (guest_) guest_->set_edges_shown(on);
+    scene_.request_render();
+  });
+}
+
+void MeshPanel::add_cut(QFormLayout* form) {
+  cut_ = new QComboBox;
+  cut_->setObjectName("mesh_cut");
+  cut_->setAccessibleName(tr("How the mesh is cut open"));
+  cut_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
+  cut_->view()->setAccessibleName(cut_->accessibleName());
+  for (const auto& [text, by] : {std::pair(tr("not at all"), CutBy::none),
+                                 {tr("across the selected vessel"), CutBy::vessel},
+                                 {tr("left and right"), CutBy::left_right},
+                                 {tr("front and back"), CutBy::front_back},
+                                 {tr("head and feet"), CutBy::head_feet},
+                                 {tr("towards the viewer"), CutBy::view}})
+    cut_->addItem(text, static_cast<int>(by));
+  place_ = new QSlider(Qt::Horizontal);
+  place_->setObjectName("mesh_cut_place");
+  place_->setAccessibleName(tr("Place of the cut"));
+  place_->setRange(0, slider_steps);
+  place_->setPageStep(slider_steps / 20);
+  place_->setSingleStep(slider_steps / 200);
+  place_->setValue(slider_steps / 2);
+  turned_ = new QCheckBox(tr("The &other side"));
+  turned_->setObjectName("mesh_cut_turned");
+  auto* label = new QLabel(tr("C&ut"));
+  label->setBuddy(cut_);
+  form->addRow(label, cut_);
+  form->addRow(place_);
+  form->addRow(turned_);
+  connect(cut_, QOverload<int>::of(&QComboBox::currentIndexChanged), &cut_soon_,
+          QOverload<>::of(&QTimer::start));
+  connect(place_, &QSlider::valueChanged, &cut_soon_, QOverload<>::of(&QTimer::start));
+  connect(turned_, &QCheckBox::toggled, &cut_soon_, QOverload<>::of(&QTimer::start));
+}
+
+void MeshPanel::show_mesh(std::shared_ptr<const MeshPreview> preview) {
+  guest_.reset();
+  preview_ = std::move(preview);
+  const geometry::MixedMesh& mesh = *preview_->mesh->mesh;
+  box_.setEmpty();
+  for (const Vec3& point : mesh.points) box_.extend(point);
+  name_->setText(tr("%1: %2 tetrahedra, %3 prisms")
+                     .arg(QString::fromStdString(preview_->name))
+                     .arg(mesh.tetrahedra.size())
+                     .arg(mesh.prisms.size()));
+  {
+    const QSignalBlocker quiet(cut_);
+    cut_->setCurrentIndex(0);
+  }
+  show_measure();
+  show();
+  raise();
+  show_in_scene(true);
+}
+
+void MeshPanel::clear() {
+  preview_.reset();
+  show_in_scene(false);
+  name_->setText(tr("No mesh has been made yet."));
+  figures_->clear();
+  histogram_->set_values({}, {});
+  list_->clear();
+  worst_.clear();
+  hide();
+}
+
+void MeshPanel::show_in_scene(bool shown) {
+  if (shown && preview_) {
+    if (guest_) return;
+    const auto made = std::make_shared<view::MeshScene>(preview_->mesh);
+    made->set_edges_shown(edges_->isChecked());
+    scene_.show_guest(made);
+    guest_ = made;  // after the signal about the former one
+    show_measure();
+    show_cut();
+  } else if (guest_) {
+    guest_.reset();
+    scene_.show_guest(nullptr);
+  }
+}
+
+ElementMeasure MeshPanel::measure() const {
+  return static_cast<ElementMeasure>(std::max(0, measure_->currentIndex()));
+}
+
+void MeshPanel::show_measure() {
+  if (!preview_) return;
+  const auto values = preview_->measures[static_cast<std::size_t>(measure())];
+  const view::ValueScale scale = scale_of(*preview_, measure());
+  histogram_->set_values(*values, scale);
+  worst_ = worst_elements(*preview_, measure(), worst_listed);
+  double sum = 0.0;
+  for (const double value : *values) sum += value;
+  figures_->setText(
+      tr("Worst %1, mean %2")
+          .arg(number((*values)[worst_.front()]), number(sum / static_cast<double>(values->size()))));
+  {
+    const QSignalBlocker quiet(list_);
+    list_->clear();
+    for (const std::size_t element : worst_) {
+      const Eigen::Vector3f& at = preview_->mesh->centres[element];
+      list_->addItem(tr("%1 at (%2, %3, %4) mm")
+                         .arg(number((*values)[element]), QString::number(at.x(), 'f', 1),
+                              QString::number(at.y(), 'f', 1), QString::number(at.z(), 'f', 1)));
+    }
+  }
+  if (!guest_) return;
+  guest_->set_values(values, scale);
+  guest_->set_highlight({});
+  scene_.request_render();
+}
+
+std::optional<view::MeshCut> MeshPanel::cut() const {
+  const auto by = static_cast<CutBy>(cut_->currentData().toInt());
+  if (by == CutBy::none || !preview_) return {};
+  const double share = static_cast<double>(place_->value()) / slider_steps;
+  view::MeshCut cut;
+  if (by == CutBy::vessel) {
+    const auto axis = bench_.axis();
+    if (!axis) return {};
+    cut.point = axis->point(share * axis->length());
+    cut.normal = axis->frame(share * axis->length()).tangent;
+  } else {
+    cut.normal = by == CutBy::left_right   ? Vec3(Vec3::UnitX())
+                 : by == CutBy::front_back ? Vec3(-Vec3::UnitY())
+                 : by == CutBy::head_feet  ? Vec3(Vec3::UnitZ())
+                                           : scene_.scene().pose().towards;
+    const double half = cut.normal.cwiseAbs().dot(0.5 * box_.sizes());
+    cut.point = box_.center() + (2.0 * share - 1.0) * half * cut.normal;
+  }
+  if (turned_->isChecked()) cut.normal = -cut.normal;
+  return cut;
+}
+
+void MeshPanel::show_cut() {
+  const bool any = static_cast<CutBy>(cut_->currentData().toInt()) != CutBy::none;
+  place_->setEnabled(any);
+  turned_->setEnabled(any);
+  if (!guest_) return;
+  guest_->set_cut(cut());
+  scene_.request_render();
+}
+
+void MeshPanel::fly_to(int row) {
+  if (!guest_ || row < 0 || static_cast<std::size_t>(row) >= worst_.size()) return;
+  const std::size_t element = worst_[static_cast<std::size_t>(row)];
+  guest_->set_highlight(std::span(&element, 1));
+  view::CameraPose pose = scene_.scene().pose();
+  pose.target = preview_->mesh->centres[element].cast<double>();
+  const auto& lengths = *preview_->measures[static_cast<std::size_t>(ElementMeasure::mean_edge_mm)];
+  pose.half_height_mm = elements_seen * lengths[element];
+  scene_.go_to(pose);
+  scene_.request_render();
+}
+
+}  // namespace ostia::workstation

@@ -1,0 +1,20 @@
+#pragma once
+/// \file Tetrahedra and prisms put together of their sides, as formats of faces have them.
+
+#include "mesh_prepared.h"
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+namespace ostia::io {
+
+/// Corners of a side, the fourth of a triangle -1, seen from outside of the cell.
+using CellSide = std::array<std::int32_t, 4>;
+
+/// Nodes in our order of the cell with these sides: 4 of a tetrahedron, 6 of a prism. Empty where they are
+/// the sides of neither.
+std::vector<std::int32_t> nodes_of_sides(const std::vector<CellSide>& sides);
+
+}  // namespace ostia::io

@@ -1,0 +1,46 @@
+#include "mesh_tagged_sides.h"
+
+#include "formats.h"
+
+#include "ostia/geometry/mixed_mesh_sides.h"
+
+#include <algorithm>
+
+namespace ostia::io {
+namespace {
+
+template <class Element>
+std::array<std::int32_t, 4> corners_of(const Element& element, const std::array<int, 4>& side) {
+  std::array<std::int32_t, 4> corners{-1, -1, -1, -1};
+  for (std::size_t i = 0; i < 4; ++i)
+    if (side[i] >= 0) corners[i] = element[static_cast<std::size_t>(side[i])];
+  std::ranges::sort(corners);
+  return corners;
+}
+
+}  // namespace
+
+void TaggedSides::add(const geometry::MixedMesh& mesh, const ElementSide& side, std::int32_t face,
+                      const std::filesystem::path& path) {
+  const std::size_t tetrahedra = mesh.tetrahedra.size(), elements = tetrahedra + mesh.prisms.size();
+  const auto e = static_cast<std::size_t>(side.element), s = static_cast<std::size_t>(side.side);
+  if (side.element < 0 || e >= elements || side.side < 0 || s >= (e < tetrahedra ? 4U : 5U))
+    refuse(path, "a set names side " + std::to_string(side.side + 1) + " of element " +
+                     std::to_string(side.element + 1) + ", which is not there");
+  faces_[e < tetrahedra ? corners_of(mesh.tetrahedra[e], geometry::tetrahedron_sides[s])
+                        : corners_of(mesh.prisms[e - tetrahedra], geometry::prism_sides[s])] = face;
+}
+
+void TaggedSides::apply(geometry::MixedMesh& mesh) const {
+  const auto tag = [&](Corners corners, std::int32_t& id) {
+    std::ranges::sort(corners);
+    if (const auto found = faces_.find(corners); found != faces_.end()) id = found->second;
+  };
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const geometry::Triangle& t = mesh.triangles[i];
+    tag({-1, t[0], t[1], t[2]}, mesh.triangle_face_ids[i]);
+  }
+  for (std::size_t i = 0; i < mesh.quads.size(); ++i) tag(mesh.quads[i], mesh.quad_face_ids[i]);
+}
+
+}  // namespace ostia::io

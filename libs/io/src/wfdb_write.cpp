@@ -1,0 +1,74 @@
+#include "wfdb_beats.h"
+
+#include "ostia/core/error.h"
+#include "ostia/core/files.h"
+#include "ostia/io/wfdb_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+
+namespace ostia::io {
+namespace {
+
+constexpr int sample_step = 1000;  // steps a unit
+
+std::filesystem::path with_extension(std::filesystem::path path, const char* extension) {
+  return path.replace_extension(extension);
+}
+
+/// Samples of 16 bits of a lead among others, and what the header says of it.
+std::string packed(const geometry::EcgLead& lead, std::size_t lead_index, std::size_t leads,
+                   const std::string& name, std::string& bytes) {
+  std::uint32_t sum = 0, first = 0;
+  for (std::size_t i = 0; i < lead.values.size(); ++i) {
+    const double v = lead.values[i];
+    const long step = std::isnan(v) ? -32768 : std::lround(std::clamp(v, -32.0, 32.0) * sample_step);
+    const auto sample = static_cast<std::uint32_t>(step);
+    if (i == 0) first = sample;
+    sum += sample;
+    const std::size_t at = 2 * (i * leads + lead_index);
+    bytes[at] = static_cast<char>(sample & 0xFF);
+    bytes[at + 1] = static_cast<char>(sample >> 8 & 0xFF);
+  }
+  char line[256];
+  std::snprintf(line, sizeof line, "%s.dat 16 %d/%s 16 0 %d %d 0 ", name.c_str(), sample_step,
+                lead.unit.c_str(), static_cast<int>(first),
+                static_cast<int>(static_cast<std::int16_t>(sum & 0xFFFF)));
+  return line + lead.name + "\n";
+}
+
+void validate(const std::filesystem::path& header, const geometry::EcgRecord& record) {
+  const std::string name = header.stem().string();
+  const auto allowed = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+  };
+  if (name.empty() || !std::all_of(name.begin(), name.end(), allowed))
+    throw InvalidInput(header.string() + ": a WFDB record is named by letters, digits, - and _ alone");
+  if (record.samples() == 0 || !(record.samples_per_second > 0.0))
+    throw InvalidInput(header.string() + ": an electrocardiogram without samples or rate cannot be written");
+  for (const geometry::EcgLead& lead : record.leads)
+    if (lead.values.size() != record.samples())
+      throw InvalidInput(header.string() + ": lead " + lead.name + " has another number of samples");
+}
+
+}  // namespace
+
+void write_wfdb(const std::filesystem::path& header, const geometry::EcgRecord& record,
+                const std::vector<geometry::EcgBeat>& beats) {
+  validate(header, record);
+  const std::string name = header.stem().string();
+  const std::size_t leads = record.leads.size();
+  char line[256];
+  std::snprintf(line, sizeof line, "%s %zu %.9g %zu\n", name.c_str(), leads, record.samples_per_second,
+                record.samples());
+  std::string text = line, bytes(2 * leads * record.samples(), '\0');
+  for (std::size_t s = 0; s < leads; ++s) text += packed(record.leads[s], s, leads, name, bytes);
+  const std::string marks = beats.empty() ? std::string() : annotation_bytes(beats);
+  core::write_file(with_extension(header, ".dat"), bytes);
+  if (!beats.empty()) core::write_file(with_extension(header, ".atr"), marks);
+  core::write_file(header, text);
+}
+
+}  // namespace ostia::io

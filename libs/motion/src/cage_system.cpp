@@ -1,0 +1,185 @@
+#include "cage_system.h"
+
+#include "ostia/core/parallel.h"
+
+#include <Eigen/IterativeLinearSolvers>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace ostia::motion {
+namespace {
+
+using geometry::CageCell;
+using geometry::Mat3;
+using geometry::Vec3;
+
+constexpr double point_share = 0.05;  // of a pair's weight, for all directions; the rest is along the normal
+constexpr double solver_tolerance = 1e-4;
+constexpr int follow_sweeps = 40;
+
+/// Calls body(i, j, k) for a cell and those that share a corner with it.
+template <class Body>
+void for_neighbours(int cells, std::size_t cell, const Body& body) {
+  const auto n = static_cast<std::size_t>(cells);
+  const int at[3] = {static_cast<int>(cell % n), static_cast<int>(cell / n % n),
+                     static_cast<int>(cell / n / n)};
+  for (int k = std::max(0, at[2] - 1); k <= std::min(cells - 1, at[2] + 1); ++k)
+    for (int j = std::max(0, at[1] - 1); j <= std::min(cells - 1, at[1] + 1); ++j)
+      for (int i = std::max(0, at[0] - 1); i <= std::min(cells - 1, at[0] + 1); ++i) body(i, j, k);
+}
+
+}  // namespace
+
+CageSystem::CageSystem(const geometry::CageGrid& grid, const std::vector<Vec3>& surface_at_rest,
+                       HyperelasticWeights weights, double data_weight)
+    : grid_(grid),
+      weights_(weights),
+      data_weight_(data_weight),
+      solved_cell_(grid.cell_count(), -1),
+      unknown_(grid.point_count(), -1) {
+  std::vector<char> near(grid.cell_count(), 0);
+  for (const Vec3& p : surface_at_rest)
+    for_neighbours(grid.cells, cage_point(grid, p).cell, [&](int i, int j, int k) {
+      near[static_cast<std::size_t>(i + grid.cells * (j + grid.cells * k))] = 1;
+    });
+  for (std::size_t cell = 0; cell < near.size(); ++cell) {
+    if (near[cell] == 0) continue;
+    solved_cell_[cell] = static_cast<std::int32_t>(cells_.size());
+    cells_.push_back(static_cast<std::uint32_t>(cell));
+    for (const std::int32_t p : grid.corners(cell)) unknown_[static_cast<std::size_t>(p)] = 0;
+  }
+  for (std::int32_t& u : unknown_)
+    if (u == 0) u = static_cast<std::int32_t>(unknowns_++);
+}
+
+std::array<Vec3, 8> CageSystem::corners(std::size_t cell, const std::vector<Vec3>& points) const {
+  std::array<Vec3, 8> corners;
+  const CageCell numbers = grid_.corners(cell);
+  for (std::size_t c = 0; c < 8; ++c) corners[c] = points[static_cast<std::size_t>(numbers[c])];
+  return corners;
+}
+
+CageSystem::Cells CageSystem::pairs_of_cells(const std::vector<SurfacePair>& pairs) const {
+  Cells cells(cells_.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    if (pairs[i].weight > 0.0)
+      cells[static_cast<std::size_t>(solved_cell_[pairs[i].source.cell])].push_back(
+          static_cast<std::uint32_t>(i));
+  return cells;
+}
+
+CellEnergy CageSystem::whole_cell(std::size_t solved, const std::vector<Vec3>& points,
+                                  const std::vector<SurfacePair>& pairs,
+                                  const std::vector<std::uint32_t>& own, Derivatives derivatives) const {
+  const std::array<Vec3, 8> at = corners(cells_[solved], points);
+  CellEnergy out = cell_energy(at, grid_.cell_mm, weights_, derivatives);
+  for (const std::uint32_t i : own) {
+    const SurfacePair& pair = pairs[i];
+    Vec3 off = -pair.target;
+    for (std::size_t c = 0; c < 8; ++c) off += pair.source.weights[c] * at[c];
+    const double weight = data_weight_ * pair.weight;
+    const Mat3 metric = weight * ((1.0 - point_share) * pair.normal * pair.normal.transpose() +
+                                  point_share * Mat3::Identity());
+    const Vec3 force = metric * off;
+    out.energy += 0.5 * off.dot(force);
+    if (derivatives == Derivatives::none) continue;
+    for (std::size_t c = 0; c < 8; ++c) {
+      const auto row = static_cast<Eigen::Index>(3 * c);
+      out.gradient.segment<3>(row) += pair.source.weights[c] * force;
+      if (derivatives == Derivatives::second)
+        for (std::size_t d = 0; d < 8; ++d)
+          out.hessian.block<3, 3>(row, static_cast<Eigen::Index>(3 * d)) +=
+              pair.source.weights[c] * pair.source.weights[d] * metric;
+    }
+  }
+  return out;
+}
+
+double CageSystem::energy(const std::vector<Vec3>& points, const std::vector<SurfacePair>& pairs) const {
+  const Cells own = pairs_of_cells(pairs);
+  return core::parallel_reduce(
+      cells_.size(), 16, 0.0,
+      [&](std::size_t first, std::size_t last) {
+        double sum = 0.0;
+        for (std::size_t i = first; i < last; ++i)
+          sum += whole_cell(i, points, pairs, own[i], Derivatives::none).energy;
+        return sum;
+      },
+      [](double a, double b) { return a + b; });
+}
+
+std::vector<Vec3> CageSystem::step(const std::vector<Vec3>& points,
+                                   const std::vector<SurfacePair>& pairs) const {
+  const Cells own = pairs_of_cells(pairs);
+  std::vector<CellEnergy> energies(cells_.size());
+  core::parallel_for(cells_.size(), 16, [&](std::size_t i) {
+    energies[i] = whole_cell(i, points, pairs, own[i], Derivatives::second);
+  });
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(cells_.size() * 576);
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * unknowns_));
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    const CageCell numbers = grid_.corners(cells_[i]);
+    const auto row = [&](int k) {
+      return 3 * unknown_[static_cast<std::size_t>(numbers[static_cast<std::size_t>(k / 3)])] + k % 3;
+    };
+    for (int a = 0; a < 24; ++a) {
+      gradient[row(a)] += energies[i].gradient[a];
+      for (int b = 0; b < 24; ++b) entries.emplace_back(row(a), row(b), energies[i].hessian(a, b));
+    }
+  }
+  Eigen::SparseMatrix<double, Eigen::RowMajor> matrix(gradient.size(), gradient.size());
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  Eigen::ConjugateGradient<Eigen::SparseMatrix<double, Eigen::RowMajor>, Eigen::Lower | Eigen::Upper> solver;
+  solver.setTolerance(solver_tolerance);
+  solver.compute(matrix);
+  const Eigen::VectorXd solution = solver.solve(-gradient);
+  std::vector<Vec3> step(points.size(), Vec3::Zero());
+  for (std::size_t p = 0; p < points.size(); ++p)
+    if (unknown_[p] >= 0) step[p] = solution.segment<3>(3 * unknown_[p]);
+  return step;
+}
+
+void CageSystem::follow(std::vector<Vec3>& points) const {
+  if (unknowns_ == points.size()) return;
+  const int n = grid_.points_a_side();
+  const auto displacement = [&](int i, int j, int k) -> Vec3 {
+    const std::int32_t p = grid_.point(i, j, k);
+    return points[static_cast<std::size_t>(p)] - grid_.place(p);
+  };
+  for (int sweep = 0; sweep < follow_sweeps; ++sweep)
+    for (int k = 0; k < n; ++k)
+      for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i) {
+          const std::int32_t p = grid_.point(i, j, k);
+          if (unknown_[static_cast<std::size_t>(p)] >= 0) continue;
+          Vec3 sum = Vec3::Zero();
+          int count = 0;
+          const int at[3] = {i, j, k};
+          for (int axis = 0; axis < 3; ++axis)
+            for (const int by : {-1, 1}) {
+              int next[3] = {i, j, k};
+              next[axis] = at[axis] + by;
+              if (next[axis] < 0 || next[axis] >= n) continue;
+              sum += displacement(next[0], next[1], next[2]);
+              ++count;
+            }
+          points[static_cast<std::size_t>(p)] = grid_.place(p) + sum / count;
+        }
+}
+
+double CageSystem::least_jacobian(const std::vector<Vec3>& points) const {
+  return core::parallel_reduce(
+      grid_.cell_count(), 64, std::numeric_limits<double>::infinity(),
+      [&](std::size_t first, std::size_t last) {
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t cell = first; cell < last; ++cell)
+          least = std::min(least, geometry::jacobian_bounds(corners(cell, points), grid_.cell_mm)[0]);
+        return least;
+      },
+      [](double a, double b) { return std::min(a, b); });
+}
+
+}  // namespace ostia::motion

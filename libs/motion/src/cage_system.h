@@ -1,0 +1,50 @@
+#pragma once
+/// \file The cage's control points as unknowns of a least-squares problem with hyperelastic energy.
+
+#include "surface_pairs.h"
+
+#include "ostia/motion/hyperelastic.h"
+
+#include <Eigen/SparseCore>
+
+#include <cstdint>
+#include <vector>
+
+namespace ostia::motion {
+
+/// The cells that are solved for, those with points of a surface and their neighbours, and their corners.
+class CageSystem {
+ public:
+  CageSystem(const geometry::CageGrid& grid, const std::vector<geometry::Vec3>& surface_at_rest,
+             HyperelasticWeights weights, double data_weight);
+
+  /// Energy of the cells plus weighted squared distances of the pairs; infinite where a cell is inverted.
+  double energy(const std::vector<geometry::Vec3>& control_points,
+                const std::vector<SurfacePair>& pairs) const;
+  /// Gauss-Newton step of the solved control points, zero for the others.
+  std::vector<geometry::Vec3> step(const std::vector<geometry::Vec3>& control_points,
+                                   const std::vector<SurfacePair>& pairs) const;
+  /// The others go with their neighbours: their displacements are made harmonic, sweep by sweep.
+  void follow(std::vector<geometry::Vec3>& control_points) const;
+  /// Least bound of the Jacobian over all cells.
+  double least_jacobian(const std::vector<geometry::Vec3>& control_points) const;
+
+ private:
+  using Cells = std::vector<std::vector<std::uint32_t>>;
+  std::array<geometry::Vec3, 8> corners(std::size_t cell, const std::vector<geometry::Vec3>& points) const;
+  Cells pairs_of_cells(const std::vector<SurfacePair>& pairs) const;
+  /// One cell's energy and derivatives, its pairs' included.
+  CellEnergy whole_cell(std::size_t solved, const std::vector<geometry::Vec3>& points,
+                        const std::vector<SurfacePair>& pairs, const std::vector<std::uint32_t>& own,
+                        Derivatives derivatives) const;
+
+  geometry::CageGrid grid_;
+  HyperelasticWeights weights_;
+  double data_weight_;
+  std::vector<std::uint32_t> cells_;       ///< solved
+  std::vector<std::int32_t> solved_cell_;  ///< of each cell its number in cells_, -1: not solved
+  std::vector<std::int32_t> unknown_;      ///< of each control point its number, -1: follows
+  std::size_t unknowns_ = 0;
+};
+
+}  // namespace ostia::motion

@@ -1,0 +1,77 @@
+#include "ostia/pipeline/vessel_forecast.h"
+
+#include "export_parts.h"
+
+#include "ostia/meshing/caps.h"
+#include "ostia/meshing/throats.h"
+
+#include <algorithm>
+
+namespace ostia::pipeline {
+namespace {
+
+using geometry::FacedSurface;
+using meshing::ForecastPlace;
+
+constexpr double walls_share = 0.7, ends_share = 0.8;  // of the progress
+
+/// One tree up to its caps, and what is wrong with it.
+VesselForecast forecast_of(const RootedModel& part, const MeshExportOptions& options,
+                           const core::TaskContext& task) {
+  const geometry::TriMesh wall =
+      sound_wall(part, cell_for(part.model, options.sizing), task.sub(0.0, walls_share));
+  task.set_stage("ends cut");
+  meshing::ClipOptions clip;
+  clip.inset_radii = options.inset_radii;
+  const core::TaskContext ends = task.sub(walls_share, ends_share);
+  meshing::ClippedSurface clipped = meshing::clip_ends(wall, part.model.tree, clip, ends);
+  geometry::VesselTree axes = part.model.tree;
+  if (options.extensions) {
+    task.set_stage("flow extensions");
+    meshing::ExtendedEnds extended = meshing::extend_ends(clipped, axes, *options.extensions, ends);
+    clipped = std::move(extended.surface);
+    axes = std::move(extended.tree);
+  }
+  FacedSurface capped = meshing::cap_ends(clipped, {}, ends);
+  meshing::ForecastOptions asked;
+  asked.tree = &axes;
+  asked.sizing = meshing::at_throats(options.sizing, axes, capped.mesh);
+  asked.layers = options.volume.layers;
+  VesselForecast made;
+  made.forecast = meshing::mesh_forecast(capped, asked, task.sub(ends_share, 1.0));
+  made.surface = std::move(capped.mesh);
+  return made;
+}
+
+void append(VesselForecast& to, VesselForecast one) {
+  const auto points = static_cast<std::int32_t>(to.surface.points.size());
+  const auto triangles = static_cast<std::int32_t>(to.surface.triangles.size());
+  to.surface.points.insert(to.surface.points.end(), one.surface.points.begin(), one.surface.points.end());
+  for (const geometry::Triangle& t : one.surface.triangles)
+    to.surface.triangles.push_back({t[0] + points, t[1] + points, t[2] + points});
+  for (ForecastPlace& place : one.forecast.places) {
+    for (std::int32_t& triangle : place.triangles) triangle += triangles;
+    to.forecast.places.push_back(std::move(place));
+  }
+}
+
+}  // namespace
+
+VesselForecast forecast_mesh(const lumen::LumenModel& whole, const MeshExportOptions& options,
+                             const core::TaskContext& task) {
+  validate(options);
+  const std::vector<RootedModel> parts = rooted_parts(part_of(whole, all_or(whole, options.vessels)));
+  const std::vector<double> shares = shares_of(parts, options.sizing);
+  VesselForecast all;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const std::string tree = parts.size() == 1 ? "" : "the tree of " + parts[i].name + ": ";
+    append(all,
+           naming(tree, [&] { return forecast_of(parts[i], options, task.sub(shares[i], shares[i + 1])); }));
+  }
+  std::stable_sort(all.forecast.places.begin(), all.forecast.places.end(),
+                   [](const ForecastPlace& a, const ForecastPlace& b) { return a.fails && !b.fails; });
+  task.set_progress(1.0);
+  return all;
+}
+
+}  // namespace ostia::pipeline

@@ -1,0 +1,41 @@
+#pragma once
+/// \file A volume mesh in three dimensions, its elements coloured by a number, cut by a plane.
+
+#include "ostia/view/mesh_shell.h"
+#include "ostia/view/scene_guest.h"
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace ostia::view {
+
+/// Elements are flat and have their edges drawn.
+class MeshScene final : public SceneGuest {
+ public:
+  /// In one colour and whole. Throws InvalidInput for null.
+  explicit MeshScene(std::shared_ptr<const ShownMesh> mesh);
+  ~MeshScene() override;
+  /// One value an element, tetrahedra first. Throws InvalidInput for another number of them or a range that
+  /// is none.
+  void set_values(std::shared_ptr<const std::vector<double>> values, const ValueScale& scale);
+  void set_cut(const std::optional<MeshCut>& cut);  ///< throws as shell_of does
+  void set_edges_shown(bool shown);
+  /// Edges of elements, seen through all else. Throws InvalidInput for an element that is not there.
+  void set_highlight(std::span<const std::size_t> elements);
+  std::size_t side_count() const;  ///< that are drawn
+
+  vtkProp& prop() override;
+  vtkSmartPointer<vtkProp> twin() const override;
+  std::vector<geometry::Vec3> outline() const override;
+  std::optional<ValueScale> bar() const override;
+
+ private:
+  void show_shell();
+  void color();
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace ostia::view

@@ -1,0 +1,231 @@
+// Cases for a flow solver written and run through the window, by mouse and keys.
+
+#include "flow_cases.h"
+#include "flow_window.h"
+
+#include "ostia/solver/openfoam_launch.h"
+
+#include <gtest/gtest.h>
+
+#include <QCheckBox>
+#include <QDoubleSpinBox>
+#include <QToolButton>
+#include <QTreeWidget>
+#include <fstream>
+#include <numbers>
+
+namespace ostia::workstation {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::message;
+using testing::radius_mm;
+using testing::wait_until;
+
+struct FlowCaseWindow : testing::FlowWindow {};
+
+/// The environment's PATH with a folder of programs before it; as it was at the end.
+class PathWith {
+ public:
+  explicit PathWith(const fs::path& folder, bool alone = false) : before_(qgetenv("PATH")) {
+    const QByteArray first = QByteArray::fromStdString(folder.string());
+    qputenv("PATH", alone ? first : first + ":" + before_);
+  }
+  ~PathWith() { qputenv("PATH", before_); }
+  PathWith(const PathWith&) = delete;
+  PathWith& operator=(const PathWith&) = delete;
+
+ private:
+  QByteArray before_;
+};
+
+/// A simpleFoam that does what the script says.
+void write_solver(const fs::path& folder, const std::string& script) {
+  fs::create_directory(folder);
+  for (const char* name : {"simpleFoam", "checkMesh"}) {
+    core::write_file(folder / name,
+                     name == std::string("checkMesh") ? "#!/bin/sh\ntrue\n" : "#!/bin/sh\n" + script);
+    fs::permissions(folder / name, fs::perms::owner_all);
+  }
+}
+
+bool openfoam_is_here() {
+  return solver::program_on_path("simpleFoam").has_value();
+}
+
+TEST_F(FlowCaseWindow, TheDialogListsTheEndsAndSaysWhatIsWrong) {
+  write_mesh();
+  const fs::path layered = write_mesh(2, "tubes-mesh");  // newer, but of another case
+  write_mesh(0, "tube-run");                             // newer still, but the mesh that a case keeps
+  core::write_file(folder / "tube-run" / "flow-case.json", "{}");
+  open_case();
+  ask();
+  EXPECT_EQ(part<QLineEdit>("flow_mesh", dialog)->text().toStdString(),
+            (folder / "tube-mesh" / "mesh.vtu").string());
+  EXPECT_EQ(part<QLineEdit>("folder", dialog)->text().toStdString(), (folder / "tube-flow").string());
+  ASSERT_TRUE(ready());
+  auto* ends = part<QTreeWidget>("flow_ends", dialog);
+  ASSERT_EQ(ends->topLevelItemCount(), 2);
+  EXPECT_TRUE(ends->topLevelItem(0)->text(0).startsWith("inlet"));
+  EXPECT_TRUE(ends->topLevelItem(1)->text(0).startsWith("outlet"));
+  const double diameter = ends->topLevelItem(0)->text(1).split(' ')[0].toDouble();
+  EXPECT_NEAR(diameter, 2.0 * radius_mm, 0.12);
+  EXPECT_NEAR(ends->topLevelItem(0)->text(2).split(' ')[0].toDouble(), solver::usual_flow_ml_s(diameter),
+              0.01);
+  auto* go = part<QPushButton>("go", dialog);
+  pick(part<QComboBox>("flow_kind", dialog), 1);
+  type(part<QDoubleSpinBox>("flow_ml_s", dialog), "0");
+  EXPECT_TRUE(trouble("flow").contains("0.001 to 50 ml/s")) << trouble("flow").toStdString();
+  EXPECT_FALSE(go->isEnabled());
+  type(part<QDoubleSpinBox>("flow_ml_s", dialog), "0.5");
+  EXPECT_TRUE(trouble("flow").isEmpty());
+  EXPECT_EQ(ends->topLevelItem(1)->text(2), "0.5 ml/s");
+  pick(part<QComboBox>("flow_outlets", dialog), 1);
+  EXPECT_EQ(ends->topLevelItem(1)->text(2), "computed");
+  pick(part<QComboBox>("flow_outlets", dialog), 0);
+  pick(part<QComboBox>("flow_solver", dialog), 1);
+  EXPECT_TRUE(trouble("outlets").contains("svMultiPhysics")) << trouble("outlets").toStdString();
+  EXPECT_FALSE(part<QCheckBox>("flow_run", dialog)->isEnabled());
+  pick(part<QComboBox>("flow_outlets", dialog), 1);
+  EXPECT_TRUE(go->isEnabled());
+  type(part<QLineEdit>("flow_mesh", dialog), QString::fromStdString(layered.string()));
+  EXPECT_TRUE(wait_until([&] { return trouble("mesh").contains("prisms"); }))
+      << trouble("mesh").toStdString();
+  pick(part<QComboBox>("flow_solver", dialog), 0);
+  EXPECT_TRUE(trouble("mesh").isEmpty());
+  type(part<QDoubleSpinBox>("flow_viscosity", dialog), "1000");
+  EXPECT_TRUE(trouble("blood").contains("viscosity"));
+  pick(part<QComboBox>("flow_rheology", dialog), 1);
+  EXPECT_TRUE(trouble("blood").isEmpty()) << "the law has viscosities of its own";
+  type(part<QDoubleSpinBox>("flow_density", dialog), "1");
+  EXPECT_TRUE(trouble("blood").contains("density"));
+  type(part<QLineEdit>("folder", dialog), QString::fromStdString((folder / "tube-mesh").string()));
+  EXPECT_TRUE(trouble("folder").contains("holds files")) << trouble("folder").toStdString();
+  type(part<QLineEdit>("folder", dialog), "/nowhere/at/all");
+  EXPECT_TRUE(trouble("folder").contains("no folder"));
+  type(part<QLineEdit>("flow_mesh", dialog), "/nowhere/mesh.vtu");
+  EXPECT_TRUE(trouble("mesh").contains("no file"));
+  type(part<QLineEdit>("flow_mesh", dialog), QString::fromStdString(case_file.string()));
+  EXPECT_TRUE(wait_until([&] { return trouble("mesh").contains("tube.ostia"); }))
+      << trouble("mesh").toStdString();
+  EXPECT_FALSE(go->isEnabled());
+  QTest::keyClick(dialog, Qt::Key_Escape);
+  EXPECT_TRUE(wait_until([&] { return idle(); }));
+}
+
+TEST_F(FlowCaseWindow, TheMeshThatWasMadeLastIsProposedForItsCaseAlone) {
+  const fs::path other = write_mesh(0, "elsewhere");
+  const fs::path beside = write_mesh();
+  open_case();
+  window().flow_cases().mesh_made(other);
+  ask();
+  EXPECT_EQ(part<QLineEdit>("flow_mesh", dialog)->text().toStdString(), other.string());
+  EXPECT_EQ(part<QLineEdit>("folder", dialog)->text().toStdString(), (folder / "elsewhere-flow").string());
+  QTest::keyClick(dialog, Qt::Key_Escape);
+  QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+  part<QAction>("file.close")->trigger();
+  ASSERT_TRUE(wait_until([&] { return !test->bench().has_case(); }));
+  test->open(case_file);
+  ask();
+  EXPECT_EQ(part<QLineEdit>("flow_mesh", dialog)->text().toStdString(), beside.string());
+  QTest::keyClick(dialog, Qt::Key_Escape);
+}
+
+TEST_F(FlowCaseWindow, ATubeIsWrittenRunAndItsShearStressShown) {
+  if (!openfoam_is_here()) GTEST_SKIP() << "openfoam is not installed";
+  write_mesh(2);
+  open_case();
+  ask();
+  ASSERT_TRUE(ready());
+  pick(part<QComboBox>("flow_kind", dialog), 1);
+  type(part<QDoubleSpinBox>("flow_ml_s", dialog), "0.5");
+  EXPECT_TRUE(part<QCheckBox>("flow_run", dialog)->isChecked());
+  QTest::keyClick(part<QLineEdit>("folder", dialog), Qt::Key_Return);
+  ASSERT_TRUE(wait_until([&] { return idle() && window().flow_results().shown(); }, 120000))
+      << left_line("flow_case").toStdString();
+  EXPECT_TRUE(left_line("flow_run").contains("converged")) << left_line("flow_run").toStdString();
+  EXPECT_FALSE(left_line("flow_run").contains("not"));
+  const fs::path made = folder / "tube-flow";
+  EXPECT_NE(core::read_file(made / "log.simpleFoam").find("SIMPLE solution converged"), std::string::npos);
+  EXPECT_TRUE(fs::exists(made / "result" / "wall.vtp"));
+  look_from_front();
+  // Poiseuille's, 4 mu Q / (pi r^3); a coarse mesh.
+  const double theory = 4.0 * 3.5e-3 * 0.5e-6 / (std::numbers::pi * std::pow(1e-3 * radius_mm, 3));
+  EXPECT_NEAR(value_told({0.2, -radius_mm, 3.0}), theory, 0.12 * theory);
+}
+
+/// A process that is not a zombie.
+bool alive(int pid) {
+  std::ifstream in("/proc/" + std::to_string(pid) + "/stat");
+  const std::string text((std::istreambuf_iterator<char>(in)), {});
+  const std::size_t end = text.rfind(") ");
+  return end != std::string::npos && text.size() > end + 2 && text[end + 2] != 'Z';
+}
+
+TEST_F(FlowCaseWindow, ARunTellsHowFarItIsAndEndsAllItsProcessesWhenItIsCancelled) {
+  const fs::path pid_file = folder / "pid";
+  write_solver(folder / "bin",
+               "echo\necho 'Time = 7'\necho 'Solving for p, Initial residual = 0.004, Final'\n"
+               "echo 'ExecutionTime = 1 s'\necho $$ > " +
+                   pid_file.string() + "\nsleep 600\ntrue\n");
+  const PathWith path(folder / "bin");
+  write_mesh();
+  open_case();
+  ask();
+  ASSERT_TRUE(ready());
+  click_go();
+  const auto told = [&] {
+    for (const QLabel* label : window().jobs().findChildren<QLabel*>())
+      if (label->text().contains("7, 4e-03")) return true;
+    return false;
+  };
+  ASSERT_TRUE(wait_until(told, 30000));
+  const int pid = std::stoi(core::read_file(pid_file));
+  EXPECT_TRUE(alive(pid));
+  QTest::mouseClick(window().jobs().findChild<QToolButton*>("cancel.flow_run"), Qt::LeftButton);
+  EXPECT_TRUE(wait_until([&] { return idle(); }, 2000));
+  EXPECT_TRUE(wait_until([&] { return !alive(pid); }, 3000));
+  EXPECT_FALSE(window().flow_results().shown());
+  // The case is there, and its line runs it again.
+  EXPECT_TRUE(fs::exists(folder / "tube-flow" / "Allrun"));
+  EXPECT_TRUE(wait_until([&] { return left_line("flow_run").contains("tube-flow"); }));
+  fs::remove(pid_file);
+  QTest::mouseClick(window().jobs().findChild<QToolButton*>("left.flow_run.act"), Qt::LeftButton);
+  EXPECT_TRUE(wait_until([&] { return fs::exists(pid_file); }, 10000));
+  window().jobs().cancel("flow_run");
+  EXPECT_TRUE(wait_until([&] { return idle(); }, 2000));
+}
+
+TEST_F(FlowCaseWindow, ARunThatFailsIsToldWithTheEndOfItsLog) {
+  write_solver(folder / "bin", "echo 'FOAM FATAL ERROR: cannot be'\nexit 1\n");
+  const PathWith path(folder / "bin");
+  write_mesh();
+  open_case();
+  ask();
+  ASSERT_TRUE(ready());
+  click_go();
+  const std::string text = message();
+  EXPECT_NE(text.find("FOAM FATAL ERROR: cannot be"), std::string::npos) << text;
+  EXPECT_NE(text.find("log.simpleFoam"), std::string::npos) << text;
+  EXPECT_FALSE(window().flow_results().shown());
+  EXPECT_TRUE(left_line("flow_run").contains("tube-flow")) << "it can be run again";
+}
+
+TEST_F(FlowCaseWindow, WithoutTheSolverTheCaseIsWrittenAndTheWayOutIsSaid) {
+  const fs::path mesh = write_mesh();
+  fs::create_directory(folder / "empty");
+  open_case();
+  const PathWith path(folder / "empty", true);
+  ask();
+  ASSERT_TRUE(ready());
+  EXPECT_FALSE(part<QCheckBox>("flow_run", dialog)->isEnabled());
+  EXPECT_TRUE(part<QLabel>("flow_note", dialog)->text().contains("apt install openfoam"));
+  EXPECT_TRUE(part<QLabel>("flow_note", dialog)->text().contains("Allrun"));
+  click_go();
+  ASSERT_TRUE(wait_until([&] { return idle() && !left_line("flow_case").isEmpty(); }));
+  EXPECT_TRUE(fs::exists(folder / "tube-flow" / "Allrun"));
+  EXPECT_EQ(window().jobs().findChild<QToolButton*>("left.flow_case.act")->text(), "Open folder");
+}
+
+}  // namespace
+}  // namespace ostia::workstation

@@ -68,9 +68,13 @@ FlowSurface read_flow_surface(const std::filesystem::path& file) {
   for (const auto& [name, field] : read.triangles)
     made.arrays.push_back(array_of(name, field, view::FieldAt::triangles));
   if (made.arrays.empty())
-    throw InvalidInput(file.string() +
-                       " is a surface without values. Open the wall.vtp of a result, which \"ostia result\" "
-                       "writes and which a run from the window leaves");
+    throw InvalidInput(
+        QCoreApplication::translate(
+            "jobs",
+            "%1 is a surface without values. Open the wall.vtp of a result, which \"ostia result\" writes "
+            "and which a run from the window leaves")
+            .arg(QString::fromStdString(file.string()))
+            .toStdString());
   made.surface = std::make_shared<const view::FieldSurface>(std::move(read.mesh));
   return made;
 }

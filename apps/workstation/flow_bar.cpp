@@ -104,8 +104,8 @@ bool FlowBar::automatic() const {
 }
 
 void FlowBar::set_range(const std::pair<double, double>& range) {
-  low_->setText(QString::number(range.first, 'g', 4));
-  high_->setText(QString::number(range.second, 'g', 4));
+  low_->setText(QString::number(range.first, 'g', digits_shown));
+  high_->setText(QString::number(range.second, 'g', digits_shown));
   for (QLineEdit* one : {low_, high_}) one->setCursorPosition(0);
 }
 

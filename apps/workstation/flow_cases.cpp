@@ -10,9 +10,9 @@
 #include "ostia/solver/openfoam_launch.h"
 #include "ostia/solver/svmultiphysics_case.h"
 
+#include <QCoreApplication>
 #include <QDesktopServices>
 #include <QFileInfo>
-#include <QPointer>
 #include <QUrl>
 #include <new>
 #include <tuple>
@@ -30,18 +30,28 @@ namespace {
     QT_TRANSLATE_NOOP("stages", "reading the result"),
 };
 
+/// CASE-mesh, CASE-mesh-2, ...: what the export proposes. CASE-2-mesh is of another case.
+bool is_mesh_folder_of(const std::string& stem, const std::string& name) {
+  const std::string first = stem + "-mesh";
+  if (!name.starts_with(first)) return false;
+  const std::string number = name.substr(first.size());
+  return number.empty() || (number.size() > 1 && number[0] == '-' &&
+                            number.find_first_not_of("0123456789", 1) == std::string::npos);
+}
+
 /// The newest mesh that was exported beside the case, into a folder that bears its name; empty where there is
 /// none.
 fs::path newest_mesh(const fs::path& case_file) {
   std::error_code error;
   fs::path newest;
   fs::file_time_type time;
-  const std::string stem = case_file.stem().string() + "-";
+  const std::string stem = case_file.stem().string();
   for (fs::directory_iterator at(case_file.parent_path(), error), end; !error && at != end;
        at.increment(error)) {
     const fs::path mesh = at->path() / "mesh.vtu";
     if (fs::exists(at->path() / "flow-case.json", error)) continue;  // a case keeps its mesh
-    if (at->path().filename().string().rfind(stem, 0) != 0 || !fs::is_regular_file(mesh, error)) continue;
+    if (!is_mesh_folder_of(stem, at->path().filename().string()) || !fs::is_regular_file(mesh, error))
+      continue;
     const fs::file_time_type written = fs::last_write_time(mesh, error);
     if (newest.empty() || written > time) std::tie(newest, time) = std::pair(mesh, written);
   }
@@ -98,9 +108,15 @@ FlowCases::FlowCases(MainWindow& window) : QObject(&window), window_(window) {
   // A run that was cancelled or failed can be begun again.
   connect(&window.jobs(), &Jobs::changed, this, [this] {
     if (being_run_.empty() || window_.jobs().running("flow_run")) return;
-    leave_case(std::exchange(being_run_, {}), {});
+    leave_case(std::exchange(being_run_, {}), {}, being_run_asked_);
   });
-  other_case_ = window.bench().case_changed.observe([this] { made_mesh_.clear(); });
+  other_case_ = window.bench().case_changed.observe([this] {
+    ++case_;
+    if (dialog_) dialog_->reject();
+    made_mesh_.clear();
+    last_.mesh.clear();
+    last_.flow_ml_s.reset();
+  });
 }
 
 void FlowCases::mesh_made(const fs::path& mesh) {
@@ -118,6 +134,7 @@ void FlowCases::ask(const fs::path& case_file) {
           [this, dialog](const QString& file) { read_mesh(*dialog, file); });
   connect(dialog, &QDialog::accepted, this, [this, dialog] { write(*dialog); });
   connect(dialog, &QDialog::finished, this, [this] { window_.jobs().cancel("flow_mesh"); });
+  dialog_ = dialog;
   dialog->open();
 }
 
@@ -143,52 +160,55 @@ void FlowCases::write(const FlowDialog& dialog) {
         try {
           return std::any(write_case(choice, flow, *mesh, task));
         } catch (const std::bad_alloc&) {
-          throw ResourceError("There is not enough memory for this case: use a coarser mesh.");
+          throw ResourceError(QCoreApplication::translate(
+                                  "jobs", "There is not enough memory for this case: use a coarser mesh.")
+                                  .toStdString());
         }
       },
-      [this, choice = last_](const std::any& warnings) {
-        tell_written(choice, std::any_cast<const Warnings&>(warnings));
+      [this, choice = last_, asked = case_](const std::any& warnings) {
+        tell_written(choice, std::any_cast<const Warnings&>(warnings), asked);
       },
       [this](const QString& message) {
         window_.complain(message, tr("The flow case could not be written"));
       });
 }
 
-void FlowCases::tell_written(const FlowChoice& made, const Warnings& warnings) {
+void FlowCases::tell_written(const FlowChoice& made, const Warnings& warnings, int asked) {
   QStringList notes{as_text(made.folder)};
   for (const std::string& warning : warnings) notes << QString::fromStdString(warning);
   if (!warnings.empty()) window_.say(QString::fromStdString(warnings.front()));
   const std::string program = made.waveform.empty() ? "simpleFoam" : "pisoFoam";
   const bool here = made.solver == FlowSolver::openfoam && solver::program_on_path(program);
   if (here && made.run && !window_.jobs().running("flow_run"))
-    run(made.folder);
+    run(made.folder, asked);
   else if (here)
-    leave_case(made.folder, notes);
+    leave_case(made.folder, notes, asked);
   else
     window_.jobs().leave("flow_case", tr("%1: flow case written").arg(as_text(made.folder.filename())),
                          notes.join('\n'), tr("Open folder"),
                          [folder = made.folder] { open_folder(folder); });
 }
 
-void FlowCases::leave_case(const fs::path& folder, const QStringList& notes) {
+void FlowCases::leave_case(const fs::path& folder, const QStringList& notes, int asked) {
   // Where nothing is being run the line is the run's, which then takes its place.
   window_.jobs().leave(window_.jobs().running("flow_run") ? "flow_case" : "flow_run",
                        tr("%1: flow case written").arg(as_text(folder.filename())),
                        notes.isEmpty() ? as_text(folder) : notes.join('\n'), tr("Run the solver"),
-                       [this, folder] { run(folder); });
+                       [this, folder, asked] { run(folder, asked); });
 }
 
-void FlowCases::run(const fs::path& case_folder) {
+void FlowCases::run(const fs::path& case_folder, int asked) {
   if (window_.jobs().running("flow_run")) {  // a second one would begin before the first has ended
     window_.say(tr("The solver is running already: cancel it first."));
     return;
   }
   const QString name = as_text(case_folder.filename());
   being_run_ = case_folder;
+  being_run_asked_ = asked;
   window_.jobs().run(
       "flow_run", tr("Solver"),
       [case_folder](const core::TaskContext& task) { return std::any(run_case(case_folder, task)); },
-      [this, case_folder, name](const std::any& result) {
+      [this, case_folder, name, asked](const std::any& result) {
         being_run_.clear();
         const Run& made = std::any_cast<const Run&>(result);
         QStringList reasons;
@@ -196,19 +216,21 @@ void FlowCases::run(const fs::path& case_folder) {
         const QString end = made.steady ? tr("%1 iterations").arg(made.last) : tr("%1 s").arg(made.last);
         show_result(case_folder, made.wall,
                     (made.converged ? tr("%1: converged, %2") : tr("%1: not converged, %2")).arg(name, end),
-                    reasons.join('\n'));
+                    reasons.join('\n'), asked);
       },
       [this](const QString& message) { window_.complain(message, tr("The solver's run failed")); });
 }
 
 void FlowCases::show_result(const fs::path& folder, const fs::path& wall, const QString& outcome,
-                            const QString& trouble) {
-  window_.jobs().leave("flow_run", outcome, as_text(folder), tr("Show the result"),
-                       [this, wall] { window_.flow_results().open(wall); });
-  if (!trouble.isEmpty())
-    window_.complain(tr("The result is shown, but look at it before you use it: %1").arg(trouble),
-                     tr("A result to look at"));
-  window_.flow_results().open(wall);
+                            const QString& trouble, int asked) {
+  const auto show = [this, wall, trouble] {
+    if (!trouble.isEmpty())
+      window_.complain(tr("The result is shown, but look at it before you use it: %1").arg(trouble),
+                       tr("A result to look at"));
+    window_.flow_results().open(wall);
+  };
+  window_.jobs().leave("flow_run", outcome, as_text(folder), tr("Show the result"), show);
+  if (asked == case_) show();
 }
 
 }  // namespace ostia::workstation

@@ -6,6 +6,7 @@
 #include "ostia/session/workbench.h"
 
 #include <QObject>
+#include <QPointer>
 #include <QStringList>
 #include <filesystem>
 
@@ -14,7 +15,8 @@ namespace ostia::workstation {
 class MainWindow;
 
 /// Asks by a FlowDialog, writes the case in the background and, where OpenFOAM is there, runs it and shows
-/// the wall's shear stress. What is cancelled leaves no process; the case that was being run stays.
+/// the wall's shear stress. What is cancelled leaves no process; the case that was being run stays. Of a case
+/// that is no longer open there is a line alone: nothing of it is shown over another or proposed for it.
 class FlowCases final : public QObject {
   Q_OBJECT
  public:
@@ -22,20 +24,24 @@ class FlowCases final : public QObject {
   /// Proposed is the mesh that was made last; where none was, the newest that was exported beside
   /// `case_file`.
   void ask(const std::filesystem::path& case_file);
-  void run(const std::filesystem::path& case_folder);
   void mesh_made(const std::filesystem::path& mesh);  ///< of the case that is open
 
  private:
   void read_mesh(FlowDialog& dialog, const QString& file);
   void write(const FlowDialog& dialog);
-  void tell_written(const FlowChoice& made, const std::vector<std::string>& warnings);
-  void leave_case(const std::filesystem::path& folder, const QStringList& notes);
+  // `asked`: case_ when it was asked for
+  void tell_written(const FlowChoice& made, const std::vector<std::string>& warnings, int asked);
+  void leave_case(const std::filesystem::path& folder, const QStringList& notes, int asked);
+  void run(const std::filesystem::path& case_folder, int asked);
   void show_result(const std::filesystem::path& folder, const std::filesystem::path& wall,
-                   const QString& outcome, const QString& trouble);
+                   const QString& outcome, const QString& trouble, int asked);
   MainWindow& window_;
+  int case_ = 0;                 // another number with each case that is opened
+  QPointer<FlowDialog> dialog_;  // that is open
   FlowChoice last_;
   std::filesystem::path made_mesh_;
   std::filesystem::path being_run_;
+  int being_run_asked_ = 0;
   session::Subscription other_case_;
 };
 

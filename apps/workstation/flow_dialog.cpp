@@ -211,7 +211,7 @@ FlowChoice FlowDialog::choice() const {
       rheology_->currentIndex() == 1 ? solver::Rheology::carreau : solver::Rheology::newtonian;
   made.blood.viscosity_mpa_s = viscosity_->value();
   made.blood.density_kg_m3 = density_->value();
-  made.run = run_->isChecked() && run_->isEnabled();
+  made.run = run_->isChecked();  // also where it cannot be run: it is kept for one that can
   return made;
 }
 

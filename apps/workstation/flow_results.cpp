@@ -30,7 +30,10 @@ FlowResults::FlowResults(MainWindow& window) : QObject(&window), window_(window)
     result_ = {};
     bar_->hide();
   });
-  own_.push_back(window.bench().case_changed.observe([this] { hide(); }));
+  own_.push_back(window.bench().case_changed.observe([this] {
+    window_.jobs().cancel("flow_results");  // what is still being read is of the former case
+    hide();
+  }));
 }
 
 void FlowResults::ask() {

@@ -49,7 +49,7 @@ class Jobs final : public QWidget {
   struct Job;
   void poll();
   void take_away(const QString& kind);
-  session::WorkerQueue queue_{3};  // a surface, a mesh, and what editing needs
+  session::WorkerQueue queue_{4};  // a surface, a mesh, a solver's run of hours, and what editing needs
   std::map<session::WorkerQueue::JobId, std::shared_ptr<Job>> running_;
   std::map<QString, QWidget*> left_;  // lines that stay, by kind
   QTimer timer_;

@@ -14,6 +14,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace ostia::workstation {
 namespace {
@@ -47,7 +48,10 @@ MeshPanel::MeshPanel(session::Workbench& bench, SceneWidget& scene, QWidget* par
   cut_soon_.setSingleShot(true);
   cut_soon_.setInterval(0);
   connect(&cut_soon_, &QTimer::timeout, this, &MeshPanel::show_cut);
-  connect(this, &QDockWidget::visibilityChanged, this, [this](bool) { show_in_scene(!isHidden()); });
+  // It also tells of tabs, and of a window that is minimised: what is shown in 3D stays then.
+  connect(this, &QDockWidget::visibilityChanged, this, [this](bool) {
+    if (std::exchange(was_hidden_, isHidden()) != isHidden()) show_in_scene(!isHidden());
+  });
   connect(&scene_, &SceneWidget::guest_changed, this, [this](const view::SceneGuest* shown) {
     if (shown != guest_.get()) guest_.reset();  // another has taken its place
   });

@@ -58,6 +58,7 @@ class MeshPanel final : public QDockWidget {
   QSlider* place_ = nullptr;
   QListWidget* list_ = nullptr;
   QTimer cut_soon_;
+  bool was_hidden_ = true;
   std::vector<session::Subscription> own_;
 };
 

@@ -21,7 +21,10 @@ std::vector<fs::path> meshes_in(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder))
     if (fs::exists(entry.path() / "mesh.vtu")) found.push_back(entry.path() / "mesh.vtu");
   std::sort(found.begin(), found.end());
-  if (found.empty()) throw IoError(folder.string() + " holds no mesh.vtu");
+  if (found.empty())
+    throw IoError(QCoreApplication::translate("jobs", "%1 holds no mesh.vtu")
+                      .arg(QString::fromStdString(folder.string()))
+                      .toStdString());
   return found;
 }
 

@@ -9,6 +9,7 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <utility>
 
 namespace ostia::workstation {
 namespace {
@@ -138,12 +139,15 @@ bool MeshingCheck::eventFilter(QObject* object, QEvent* event) {
 
 void MeshingCheck::show_running() {
   running_ = true;
+  stale_ = changed_ = false;
   state_ = tr("Looking\u2026");
   refresh();
 }
 
 void MeshingCheck::show_forecast(const meshing::MeshForecast& forecast) {
-  running_ = stale_ = false;
+  running_ = false;
+  answered_ = true;
+  stale_ = std::exchange(changed_, false);
   forecast_ = forecast;
   const auto failing = std::ranges::count_if(forecast.places, [](const auto& place) { return place.fails; });
   const auto poor = static_cast<std::ptrdiff_t>(forecast.places.size()) - failing;
@@ -161,7 +165,9 @@ void MeshingCheck::show_forecast(const meshing::MeshForecast& forecast) {
 }
 
 void MeshingCheck::show_failure(const QString& message) {
-  running_ = stale_ = false;
+  running_ = false;
+  answered_ = true;
+  stale_ = std::exchange(changed_, false);
   forecast_ = {};
   list_->clear();
   state_ = message;
@@ -169,11 +175,17 @@ void MeshingCheck::show_failure(const QString& message) {
 }
 
 void MeshingCheck::show_nothing() {
+  changed_ = false;
   show_failure(tr("Shows what would fail before anything is meshed."));
+  answered_ = false;
 }
 
 void MeshingCheck::set_stale() {
-  if (running_ || forecast_.places.empty()) return;
+  if (running_) {
+    changed_ = true;
+    return;
+  }
+  if (!answered_) return;
   stale_ = true;
   refresh();
 }

@@ -46,6 +46,7 @@ class MeshingCheck final : public QWidget {
   meshing::MeshForecast forecast_;
   QString state_;
   bool running_ = false, possible_ = true, stale_ = false;
+  bool answered_ = false, changed_ = false;  // a check has ended; the settings, since it began
   QPushButton *check_ = nullptr, *repair_ = nullptr;
   QLabel *summary_ = nullptr, *detail_ = nullptr;
   QListWidget* list_ = nullptr;

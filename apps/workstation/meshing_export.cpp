@@ -64,6 +64,7 @@ MeshingExport::MeshingExport(MainWindow& window) : QObject(&window), window_(win
   last_[ExportKind::surface].size.size = SizeChoice::Size::as_modelled;
   session::Workbench& bench = window.bench();
   own_.push_back(bench.case_changed.observe([this] {
+    ++case_;
     window_.jobs().cancel("mesh_preview");
     if (dialog_) dialog_->reject();
   }));
@@ -119,13 +120,13 @@ void MeshingExport::start(ExportKind kind, const MeshingDialog& dialog,
       return std::any(kind == ExportKind::mesh ? pipeline::export_mesh(folder, *model, mesh, task)
                                                : pipeline::export_surface(folder, *model, surface, task));
     } catch (const std::bad_alloc&) {
-      throw ResourceError("There is not enough memory for this: choose longer edges, or fewer vessels.");
+      throw ResourceError(too_little_memory());
     }
   };
   window_.jobs().run(
       job_name(kind), kind == ExportKind::mesh ? tr("Mesh") : tr("Surface"), made,
-      [this, kind, folder](const std::any& result) {
-        tell(kind, folder, std::any_cast<const pipeline::ExportSummary&>(result));
+      [this, kind, folder, asked = case_](const std::any& result) {
+        tell(kind, folder, std::any_cast<const pipeline::ExportSummary&>(result), asked == case_);
       },
       [this, kind](const QString& message) {
         window_.complain(message, kind == ExportKind::mesh ? tr("The mesh could not be made")
@@ -138,7 +139,6 @@ void MeshingExport::show_mesh(const fs::path& folder) {
       "mesh_preview", tr("Preparing the mesh's picture"),
       [folder](const core::TaskContext& task) { return std::any(preview_of(folder, task)); },
       [this](const std::any& made) {
-        if (dialog_) dialog_->reject();  // what would fail is no longer of interest
         panel_->show_mesh(std::any_cast<const std::shared_ptr<const MeshPreview>&>(made));
         reveal(window_.scene());
       },
@@ -157,7 +157,8 @@ QString MeshingExport::mesh_line(const QString& name, const pipeline::ExportSumm
   return parts.join(QStringLiteral(", "));
 }
 
-void MeshingExport::tell(ExportKind kind, const fs::path& folder, const pipeline::ExportSummary& summary) {
+void MeshingExport::tell(ExportKind kind, const fs::path& folder, const pipeline::ExportSummary& summary,
+                         bool shown) {
   const QString path = QString::fromStdString(folder.string());
   const QString name = QString::fromStdString(folder.filename().string());
   const QString text = kind == ExportKind::mesh ? mesh_line(name, summary)
@@ -166,7 +167,7 @@ void MeshingExport::tell(ExportKind kind, const fs::path& folder, const pipeline
   for (const std::string& warning : summary.warnings) notes << QString::fromStdString(warning);
   window_.jobs().leave(job_name(kind), text, notes.join('\n'), tr("Open folder"),
                        [path] { QDesktopServices::openUrl(QUrl::fromLocalFile(path)); });
-  if (kind == ExportKind::mesh) {
+  if (kind == ExportKind::mesh && shown) {
     show_mesh(folder);
     window_.flow_cases().mesh_made(folder / "mesh.vtu");
   }

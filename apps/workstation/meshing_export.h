@@ -18,7 +18,8 @@ class MainWindow;
 class MeshPanel;
 
 /// Asks by a MeshingDialog, makes it from a snapshot in the background, and leaves a line that says what was
-/// made and where. A folder appears whole or not at all.
+/// made and where. A folder appears whole or not at all. Of a case that is no longer open there is that line
+/// alone.
 class MeshingExport final : public QObject {
   Q_OBJECT
  public:
@@ -33,8 +34,10 @@ class MeshingExport final : public QObject {
              const std::shared_ptr<const lumen::LumenModel>& model);
   static QString mesh_line(const QString& name, const pipeline::ExportSummary& summary);
   void show_mesh(const std::filesystem::path& folder);
-  void tell(ExportKind kind, const std::filesystem::path& folder, const pipeline::ExportSummary& summary);
+  void tell(ExportKind kind, const std::filesystem::path& folder, const pipeline::ExportSummary& summary,
+            bool shown);
   MainWindow& window_;
+  int case_ = 0;  // another number with each case that is opened
   std::map<ExportKind, ExportChoice> last_;
   QPointer<MeshingDialog> dialog_;  // that is open
   QPointer<MeshPanel> panel_;

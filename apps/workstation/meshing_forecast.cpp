@@ -5,6 +5,7 @@
 
 #include "ostia/core/error.h"
 
+#include <QCoreApplication>
 #include <QPointer>
 #include <QTabWidget>
 #include <QTimer>
@@ -24,6 +25,12 @@ const QString kind = QStringLiteral("mesh_check");
 [[maybe_unused]] const char* const texts_of_job[] = {QT_TRANSLATE_NOOP("stages", "mesh forecast")};
 
 }  // namespace
+
+std::string too_little_memory() {
+  return QCoreApplication::translate(
+             "jobs", "There is not enough memory for this: choose longer edges, or fewer vessels.")
+      .toStdString();
+}
 
 void reveal(QWidget& widget) {
   for (QWidget* page = &widget; page->parentWidget(); page = page->parentWidget()) {
@@ -75,7 +82,7 @@ void MeshingForecast::start() {
           return std::any(std::make_shared<const pipeline::VesselForecast>(
               pipeline::forecast_mesh(*model, options, task)));
         } catch (const std::bad_alloc&) {
-          throw ResourceError("There is not enough memory for this: choose longer edges, or fewer vessels.");
+          throw ResourceError(too_little_memory());
         }
       },
       [self](const std::any& made) {

@@ -8,6 +8,7 @@
 
 #include <QObject>
 #include <memory>
+#include <string>
 
 namespace ostia::workstation {
 
@@ -31,6 +32,9 @@ class MeshingForecast final : public QObject {
   meshing::MeshForecast forecast_;
   std::shared_ptr<view::ForecastScene> guest_;
 };
+
+/// What is said where surfaces and meshes do not fit into the memory; from any thread.
+std::string too_little_memory();
 
 /// Brings a view to the front where it is on a page behind others; alone where there is no room for it else.
 void reveal(QWidget& widget);

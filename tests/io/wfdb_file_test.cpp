@@ -82,6 +82,43 @@ TEST_F(WfdbFile, GivesBackWhatWasWritten) {
   }
 }
 
+TEST_F(WfdbFile, LongNamesKeepTheirLinesWhole) {
+  geometry::EcgRecord record = wave(10);
+  record.leads[0].name = std::string(300, 'n');
+  record.leads[0].unit = std::string(250, 'u');
+  const auto longest = folder / (std::string(100, 'r') + ".hea");
+  write_wfdb(longest, record);
+  const WfdbRecord back = read_wfdb(longest);
+  ASSERT_EQ(back.record.leads.size(), 2U);
+  EXPECT_EQ(back.record.leads[0].name, record.leads[0].name);
+  EXPECT_EQ(back.record.leads[0].unit, record.leads[0].unit);
+  EXPECT_EQ(back.record.leads[1].name, "V 5");
+  EXPECT_EQ(back.record.samples_per_second, 360.0);
+  EXPECT_THROW(write_wfdb(folder / (std::string(101, 'r') + ".hea"), wave(10)), InvalidInput);
+}
+
+TEST_F(WfdbFile, RefusesTextsThatWouldBreakItsLines) {
+  const auto refuses = [&](const std::string& name, const std::string& unit) {
+    geometry::EcgRecord record = wave(10);
+    record.leads[1].name = name;
+    record.leads[1].unit = unit;
+    EXPECT_THROW(write_wfdb(file, record), InvalidInput) << name << ", " << unit;
+    EXPECT_FALSE(std::filesystem::exists(file));
+  };
+  refuses("V\n5", "mV");
+  refuses("V5", "m V");
+  refuses("V5", "mV\n");
+  refuses("V5", "\t");
+}
+
+TEST_F(WfdbFile, LeavesNoBeatsOfAnEarlierRecord) {
+  write_wfdb(file, wave(100), {{3, 'N'}});
+  ASSERT_TRUE(std::filesystem::exists(folder / "made.atr"));
+  write_wfdb(file, wave(100));
+  EXPECT_FALSE(std::filesystem::exists(folder / "made.atr"));
+  EXPECT_NO_THROW(read_wfdb(file));
+}
+
 // The bytes are made by hand from the formats' descriptions.
 TEST_F(WfdbFile, UnpacksEachFormat) {
   EXPECT_THAT(read("made.dat 16 1", bytes({1, 0, 0xFF, 0xFF, 0, 2})), ElementsAre(1, -1, 512));

@@ -168,6 +168,19 @@ TEST_F(CageRegistration, DoesNotDependOnThreads) {
   EXPECT_EQ(one.control_points, all.control_points);
 }
 
+// Triangles longer than cells: pairs of the target lie in cells without a point of the source.
+TEST_F(CageRegistration, TakesTrianglesOfAnyLength) {
+  const geometry::AnalyticShape tube = geometry::straight_tube(60.0, 3.0);
+  const TriMesh coarse = geometry::structured_surface(tube.tubes[0], 6, 60.0);
+  const TriMesh fine = geometry::structured_surface(tube.tubes[0], 24, 1.0);
+  RegistrationOptions options;
+  options.depth = 5;
+  options.max_angle_deg = 60.0;
+  const Registration r = register_cage(coarse, fine, options);
+  EXPECT_GT(r.report.least_jacobian, 0.0);
+  EXPECT_GT(r.report.paired_share, 0.5);
+}
+
 TEST_F(CageRegistration, RefusesAndCancels) {
   RegistrationOptions options;
   options.depth = 6;

@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 
 namespace ostia::motion {
 namespace {
@@ -70,6 +72,28 @@ TEST(HeartPhase, FollowsANewRateAfterThreeBeats) {
   for (int k = 0; k < 30; ++k) heart.beat(t += 1.0);
   for (int k = 0; k < 3; ++k) heart.beat(t += 0.6);
   EXPECT_NEAR(heart.at(t).interval_s, 0.6, 0.01);
+}
+
+TEST(HeartPhase, FollowsARateThatFallsAtOnce) {
+  HeartPhase heart(0.0);
+  double t = 0.0;
+  for (int k = 0; k < 30; ++k) heart.beat(t += 0.33);
+  for (int k = 0; k < 7; ++k) heart.beat(t += 0.92);
+  EXPECT_NEAR(heart.at(t).interval_s, 0.92, 0.01);
+}
+
+// Alternating intervals tell a model of order 8 little: its covariance must stay one.
+TEST(RrPredictor, StaysSoundWhereIntervalsTellLittle) {
+  RrPredictor predictor;
+  std::mt19937 random(5);
+  std::normal_distribution<double> noise(0.0, 0.0005);
+  double worst = 0.0;
+  for (int k = 0; k < 20000; ++k) {
+    const double interval = 0.8 + (k % 2 == 0 ? 0.01 : -0.01) + noise(random);
+    if (k > 500) worst = std::max(worst, std::abs(*predictor.next() - interval));
+    predictor.add(interval);
+  }
+  EXPECT_LT(worst, 0.01);
 }
 
 TEST(RrPredictor, LearnsTheBreathsRhythm) {

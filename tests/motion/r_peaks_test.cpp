@@ -89,6 +89,27 @@ TEST(RPeaks, NeitherGapsNorFlatLinesAreBeats) {
   }
 }
 
+TEST(RPeaks, AreFoundAfterABadStart) {
+  for (const bool flat : {true, false}) {
+    MadeEcg ecg;
+    ecg.beats(75, [](std::size_t) { return 0.8; });
+    std::vector<double> lead = ecg.lead();
+    if (flat)
+      std::fill_n(lead.begin(), 3 * 360, lead[0]);
+    else  // plugged in after a second
+      for (std::size_t i = 0; i < 360; ++i) lead[i] = -20.0;
+    RPeakDetector detector(ecg.rate);
+    std::vector<double> found;
+    for (const double value : lead)
+      if (const auto peak = detector.push(value))
+        found.push_back(static_cast<double>(peak->sample) / ecg.rate);
+    std::erase_if(found, [](double t) { return t < 12.0; });
+    std::erase_if(ecg.r_times, [](double t) { return t < 12.0; });
+    ASSERT_EQ(found.size(), ecg.r_times.size()) << flat;
+    for (std::size_t k = 0; k < found.size(); ++k) EXPECT_NEAR(found[k], ecg.r_times[k], 0.003);
+  }
+}
+
 TEST(RPeaks, AreToldSoon) {
   MadeEcg ecg;
   ecg.beats(50, [](std::size_t) { return 0.8; });

@@ -122,6 +122,8 @@ TEST(Refinement, RefusesWithTheWayOut) {
   EXPECT_THAT(refusal(options, far), AllOf(HasSubstr("of another vessel"), HasSubstr("from 0,100,0")));
   options.result = options.result.parent_path() / "none.vtu";
   EXPECT_THAT(refusal(options, box_of(mesh)), HasSubstr("no such file"));
+  options.result = options.result.parent_path() / (std::string(300, 'n') + ".vtu");  // no name of a file
+  EXPECT_THAT(refusal(options, box_of(mesh)), HasSubstr("no such file"));
   options.result = options.result.parent_path() / "flow.foam";
   EXPECT_THAT(refusal(options, box_of(mesh)), HasSubstr("ostia result CASE"));
   options.result = result_file(box(1000.0));

@@ -164,7 +164,8 @@ class Schemas(unittest.TestCase):
             file.write_text(f"FoamFile {{ format ascii; class vol{kind}Field; }}\ninternalField uniform {value};\n"
                             f"boundaryField {{ wall {{ type calculated; value uniform {value}; }} }}\n")
         for face in faces:
-            for name, value in (("flow", -2e-6 if face.startswith("inlet") else 1e-6), ("pressure", 0.01)):
+            settled = record["resistance_Pa_s_m3"].get(face, 1e7) * 1e-6 / 1060.0  # over the density
+            for name, value in (("flow", -2e-6 if face.startswith("inlet") else 1e-6), ("pressure", settled)):
                 file = holder / "flow" / "postProcessing" / f"{name}_{face}" / "0" / "surfaceFieldValue.dat"
                 file.parent.mkdir(parents=True)
                 file.write_text(f"# Time v\n9 {value}\n")

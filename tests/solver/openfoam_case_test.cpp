@@ -143,6 +143,16 @@ TEST(OpenfoamCase, RefusesBeforeAnythingIsWritten) {
   refused(torn, {}, {"boundary lacks it"});
 }
 
+TEST(OpenfoamCase, SaysThatOpenfoamTakesNoBlanksInAPath) {
+  const fs::path folder = testing::temporary_folder("case") / "two words" / "case";
+  fs::create_directory(folder.parent_path());
+  const OpenfoamCaseResult made = write_openfoam_case(tube(), {}, folder);
+  ASSERT_FALSE(made.warnings.empty());
+  EXPECT_NE(made.warnings.back().find("blanks"), std::string::npos) << made.warnings.back();
+  for (const std::string& warning : write_openfoam_case(tube(), {}, new_case()).warnings)
+    EXPECT_EQ(warning.find("blanks"), std::string::npos) << warning;
+}
+
 TEST(OpenfoamCase, LeavesAFolderWithSomethingInItAlone) {
   const fs::path folder = new_case();
   fs::create_directory(folder);

@@ -5,8 +5,13 @@
 
 #include "solver_test_support.h"
 
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
 #include <fstream>
 #include <future>
+#include <sstream>
 #include <thread>
 
 namespace ostia::solver {
@@ -112,11 +117,50 @@ TEST(OpenfoamLaunch, AFailureEndsWithTheLogsLastLines) {
   }
 }
 
+TEST(OpenfoamLaunch, WhatTheScriptSaysIsToldWithTheLog) {
+  NEEDS_OPENFOAM();
+  const fs::path folder =
+      case_of("cd \"${0%/*}\"; echo round 20 > log.outlets; echo 'they have not settled' >&2; exit 1\n");
+  try {
+    run_openfoam_case(folder);
+    ADD_FAILURE() << "was fine";
+  } catch (const NumericalError& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("have not settled"), std::string::npos) << text;
+    EXPECT_NE(text.find("log.outlets ends with:\nround 20"), std::string::npos) << text;
+  }
+}
+
+TEST(OpenfoamLaunch, AFolderWithBlanksIsRefusedBeforeItRuns) {
+  for (const char* name : {"two words", "a\ttab", "it's", "\"so\""}) {
+    const fs::path folder = testing::temporary_folder("run") / name;
+    fs::create_directory(folder);
+    fs::copy(case_of("touch \"${0%/*}/was-run\"\n"), folder, fs::copy_options::recursive);
+    expect_refusal([&] { run_openfoam_case(folder); }, {folder.string(), "blanks", "move"});
+    EXPECT_FALSE(fs::exists(folder / "was-run"));
+  }
+}
+
+TEST(OpenfoamLaunch, AnotherInstallationKeepsItsSettings) {
+  NEEDS_OPENFOAM();
+  ::setenv("WM_PROJECT_DIR", "/opt/openfoam", 1);
+  ::setenv("PATIENT", "DOE^JANE", 1);
+  const fs::path folder = case_of("env > \"${0%/*}/seen\"\n");
+  run_openfoam_case(folder);
+  ::unsetenv("WM_PROJECT_DIR");
+  ::unsetenv("PATIENT");
+  const std::string seen = core::read_file(folder / "seen");
+  EXPECT_NE(seen.find("WM_PROJECT_DIR=/opt/openfoam"), std::string::npos) << seen;
+  EXPECT_EQ(seen.find("DOE"), std::string::npos) << seen;
+}
+
 /// A process of this id that is not a zombie.
 bool alive(int pid) {
   const fs::path file = "/proc/" + std::to_string(pid) + "/stat";
   std::ifstream in(file);
-  std::string text((std::istreambuf_iterator<char>(in)), {});
+  std::ostringstream read;  // a process that dies meanwhile is an end of file, no exception
+  read << in.rdbuf();
+  const std::string text = read.str();
   const std::size_t end = text.rfind(") ");
   return end != std::string::npos && text.size() > end + 2 && text[end + 2] != 'Z';
 }
@@ -134,6 +178,25 @@ TEST(OpenfoamLaunch, GivenUpItLeavesNoProcess) {
   task.cancel();
   EXPECT_THROW(run.get(), Cancelled);
   for (int i = 0; i < 200 && alive(pid); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_FALSE(alive(pid));
+}
+
+TEST(OpenfoamLaunch, WhereOstiaDiesItsProcessesEnd) {
+  NEEDS_OPENFOAM();
+  const fs::path folder = case_of(
+      "cd \"${0%/*}\"\nsh -c 'echo $$ > pid.part; mv pid.part pid; sleep 600; true' > log.simpleFoam 2>&1\n");
+  const pid_t ostia = ::fork();
+  ASSERT_GE(ostia, 0);
+  if (ostia == 0) {
+    run_openfoam_case(folder);
+    ::_exit(0);
+  }
+  while (!fs::exists(folder / "pid")) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  const int pid = std::stoi(core::read_file(folder / "pid"));
+  EXPECT_TRUE(alive(pid));
+  ::kill(ostia, SIGKILL);
+  ::waitpid(ostia, nullptr, 0);
+  for (int i = 0; i < 1000 && alive(pid); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   EXPECT_FALSE(alive(pid));
 }
 

@@ -9,7 +9,7 @@ namespace fs = std::filesystem;
 
 fs::path field(const std::string& body, const std::string& type = "volVectorField") {
   const fs::path file = testing::temporary_folder("result") / "U";
-  core::write_file(file, "/* head\n */ FoamFile\n{\n version 2.0; format ascii; class " + type +
+  core::write_file(file, "/*/ head\n */ FoamFile\n{\n version 2.0; format ascii; class " + type +
                              "; // a field\n location \"0\"; object U;\n}\ndimensions [0 1 -1 0 0 0 0];\n" +
                              body);
   return file;
@@ -39,6 +39,7 @@ TEST(OpenfoamResult, RefusesByFileAndLine) {
     expect_refusal([&] { read_openfoam_field(file, 2, {{"wall", 1}}); }, parts);
   };
   refused(field("internalField nonuniform List<vector> 1((1 2 3));\n"), {"U", "line 8", "1 values", "2"});
+  refused(field("internalField nonuniform List<vector> 1e300((1 2 3));\n"), {"1e+300 values"});
   refused(field("internalField uniform (nan 0 0);\n"), {"\"nan\"", "diverge"});
   refused(field("internalField uniform (0 0 0);\nboundaryField { wall { value uniform (0 0 0);"), {"ends"});
   refused(field("internalField uniform (0 0 0);\nboundaryField { wall { type {"), {"ends"});

@@ -9,10 +9,13 @@
 
 #include <QCheckBox>
 #include <QDoubleSpinBox>
+#include <QPointer>
 #include <QToolButton>
 #include <QTreeWidget>
+#include <chrono>
 #include <fstream>
 #include <numbers>
+#include <sstream>
 
 namespace ostia::workstation {
 namespace {
@@ -131,6 +134,65 @@ TEST_F(FlowCaseWindow, TheMeshThatWasMadeLastIsProposedForItsCaseAlone) {
   QTest::keyClick(dialog, Qt::Key_Escape);
 }
 
+TEST_F(FlowCaseWindow, TheNewestMeshBesideTheCaseIsOfItsOwnNumberedFolders) {
+  const auto written = fs::file_time_type::clock::now();
+  int age_s = 100;
+  for (const char* name :
+       {"tube-mesh", "tube-mesh-3", "tube-2-mesh", "tube-mesh-x", "tube-mesh-", "tube-mesh2"})
+    fs::last_write_time(write_mesh(0, name), written - std::chrono::seconds(age_s--));
+  open_case();
+  ask();
+  EXPECT_EQ(part<QLineEdit>("flow_mesh", dialog)->text().toStdString(),
+            (folder / "tube-mesh-3" / "mesh.vtu").string());
+  QTest::keyClick(dialog, Qt::Key_Escape);
+}
+
+TEST_F(FlowCaseWindow, WhatWasChosenForACaseIsNotProposedForAnother) {
+  write_mesh();
+  fs::create_directory(folder / "empty");
+  open_case();
+  const PathWith path(folder / "empty", true);
+  ask();
+  ASSERT_TRUE(ready());
+  pick(part<QComboBox>("flow_kind", dialog), 1);
+  type(part<QDoubleSpinBox>("flow_ml_s", dialog), "0.7");
+  type(part<QDoubleSpinBox>("flow_density", dialog), "1055");
+  click_go();
+  ASSERT_TRUE(wait_until([&] { return idle() && !left_line("flow_case").isEmpty(); }));
+  open_other_case();
+  ask();
+  EXPECT_EQ(part<QLineEdit>("flow_mesh", dialog)->text().toStdString(), "");
+  EXPECT_EQ(part<QComboBox>("flow_kind", dialog)->currentIndex(), 0) << "a measured flow is a patient's";
+  EXPECT_EQ(part<QDoubleSpinBox>("flow_density", dialog)->value(), 1055.0) << "blood's choice is kept";
+  EXPECT_TRUE(part<QCheckBox>("flow_run", dialog)->isChecked()) << "so is the run where none was possible";
+  // One that is still open when the case goes, goes with it.
+  QPointer<FlowDialog> open = dialog;
+  part<QAction>("file.close")->trigger();
+  EXPECT_TRUE(!open || !open->isVisible());
+}
+
+TEST_F(FlowCaseWindow, ARunThatEndsOverAnotherCaseLeavesALineAlone) {
+  const auto real = solver::program_on_path("simpleFoam");
+  if (!real) GTEST_SKIP() << "openfoam is not installed";
+  const fs::path go_on = folder / "go_on", begun = folder / "begun";
+  write_solver(folder / "bin", "touch " + begun.string() + "\nwhile [ ! -e " + go_on.string() +
+                                   " ]; do sleep 0.05; done\nexec " + real->string() + " \"$@\"\n");
+  const PathWith path(folder / "bin");
+  write_mesh();
+  open_case();
+  ask();
+  ASSERT_TRUE(ready());
+  click_go();
+  ASSERT_TRUE(wait_until([&] { return fs::exists(begun); }, 30000));
+  open_other_case();
+  core::write_file(go_on, "");
+  ASSERT_TRUE(wait_until([&] { return idle(); }, 120000));
+  settle();
+  EXPECT_TRUE(left_line("flow_run").contains("converged")) << left_line("flow_run").toStdString();
+  EXPECT_FALSE(window().flow_results().shown()) << "it is another patient's";
+  EXPECT_TRUE(testing::open_boxes().empty());
+}
+
 TEST_F(FlowCaseWindow, ATubeIsWrittenRunAndItsShearStressShown) {
   if (!openfoam_is_here()) GTEST_SKIP() << "openfoam is not installed";
   write_mesh(2);
@@ -157,7 +219,9 @@ TEST_F(FlowCaseWindow, ATubeIsWrittenRunAndItsShearStressShown) {
 /// A process that is not a zombie.
 bool alive(int pid) {
   std::ifstream in("/proc/" + std::to_string(pid) + "/stat");
-  const std::string text((std::istreambuf_iterator<char>(in)), {});
+  std::ostringstream read;  // a process that dies meanwhile is an end of file, no exception
+  read << in.rdbuf();
+  const std::string text = read.str();
   const std::size_t end = text.rfind(") ");
   return end != std::string::npos && text.size() > end + 2 && text[end + 2] != 'Z';
 }

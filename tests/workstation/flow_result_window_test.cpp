@@ -105,6 +105,36 @@ TEST_F(FlowResultWindow, ThePictureIsSavedAndTheWallComesBack) {
   EXPECT_TRUE(wait_until([&] { return !window().flow_results().shown(); })) << "it is of another case";
 }
 
+TEST_F(FlowResultWindow, AResultThatIsStillReadGoesWithItsCase) {
+  open_case();
+  write_wall(wall);
+  answer_file_dialog(wall);
+  part<QAction>("file.flow_results")->trigger();
+  ASSERT_TRUE(window().jobs().running("flow_results"));
+  part<QAction>("file.close")->trigger();
+  ASSERT_FALSE(test->bench().has_case());
+  ASSERT_TRUE(wait_until([&] { return idle(); }));
+  settle();
+  EXPECT_FALSE(window().flow_results().shown()) << "another patient may be opened by now";
+  EXPECT_FALSE(part<FlowBar>("flow_bar")->isVisible());
+}
+
+TEST_F(FlowResultWindow, BoundsThatDifferLittleAreShownApart) {
+  open_case();
+  write_wall(wall, 13332.0, 13334.0);
+  window().flow_results().open(wall);
+  ASSERT_TRUE(wait_until([&] { return idle() && window().flow_results().shown(); }));
+  pick(part<QComboBox>("flow_array"), 0);
+  settle();
+  const double low = part<QLineEdit>("flow_low")->text().toDouble(),
+               high = part<QLineEdit>("flow_high")->text().toDouble();
+  EXPECT_NEAR(high - low, 0.975 * 2.0, 0.01) << "from ring 1 to ring 79 of 81";
+  auto* automatic = part<QCheckBox>("flow_automatic");
+  automatic->setFocus();
+  QTest::keyClick(automatic, Qt::Key_Space);
+  EXPECT_FALSE(part<QLabel>("flow_range_trouble")->isVisible());
+}
+
 TEST_F(FlowResultWindow, WhatIsNoResultIsSaidAndNothingChanges) {
   open_case();
   write_wall(wall);

@@ -39,8 +39,9 @@ inline double pressure_pa(double z) {
   return 100.0 - 2.0 * z;
 }
 
-/// The tube's wall, open, with both at its points.
-inline void write_wall(const fs::path& file) {
+/// The tube's wall, open, with both at its points; the pressure may be another one.
+inline void write_wall(const fs::path& file, double first_pa = pressure_pa(0.0),
+                       double last_pa = pressure_pa(40.0)) {
   constexpr int around = 48, along = 80;
   geometry::FacedSurface wall;
   io::PointFields fields;
@@ -50,7 +51,7 @@ inline void write_wall(const fs::path& file) {
       const double angle = 2.0 * M_PI * i / around, z = 40.0 * k / along;
       wall.mesh.points.push_back({radius_mm * std::cos(angle), radius_mm * std::sin(angle), z});
       fields["wall_shear_stress_Pa"].values.push_back(shear_pa(z));
-      fields["pressure_Pa"].values.push_back(pressure_pa(z));
+      fields["pressure_Pa"].values.push_back(first_pa + (last_pa - first_pa) * z / 40.0);
     }
   for (int k = 0; k < along; ++k)
     for (int i = 0; i < around; ++i) {
@@ -83,6 +84,16 @@ struct FlowWindow : ::testing::Test {
     test = std::make_unique<TestWindow>(folder / "state");
     window().resize(size);
     test->open(case_file);
+    settle();
+  }
+  /// Of another patient, beside the tube's.
+  void open_other_case() {
+    const fs::path other = folder / "other.ostia";
+    if (!fs::exists(other)) session::CaseFile::create(other, tube_model(), session::image_reference(image));
+    part<QAction>("file.close")->trigger();
+    ASSERT_FALSE(test->bench().has_case());
+    window().open(other);
+    ASSERT_TRUE(wait_until([&] { return test->bench().has_case(); }));
     settle();
   }
   template <class Widget>

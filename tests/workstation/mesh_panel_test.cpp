@@ -2,6 +2,7 @@
 
 #include "mesh_panel.h"
 
+#include "flow_dialog.h"
 #include "histogram_widget.h"
 #include "layout_faults.h"
 #include "meshing_forecast.h"
@@ -21,9 +22,12 @@
 #include <QSlider>
 #include <QSpinBox>
 #include <QWindow>
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <numeric>
+#include <thread>
 
 namespace ostia::workstation {
 namespace {
@@ -153,6 +157,82 @@ TEST_F(NarrowWindow, ACheckIsGivenUp) {
   EXPECT_NE(check->text(), stop);
   EXPECT_EQ(in_dialog<QListWidget>("check_places")->count(), 0);
   QTest::keyClick(dialog, Qt::Key_Escape);
+}
+
+TEST_F(NarrowWindow, ACheckOfSettingsThatChangedMeanwhileIsOld) {
+  open_case();
+  ask("file.export_mesh");
+  type(in_dialog<QDoubleSpinBox>("edges_around"), "6");
+  type(in_dialog<QSpinBox>("layers"), "3");
+  type(in_dialog<QDoubleSpinBox>("layer_thickness"), "1.5");
+  // All workers are held, so that the check does not end before the settings have changed.
+  std::atomic<bool> held = true;
+  for (int i = 0; i < 8; ++i)
+    test->window().jobs().run(
+        QString("hold %1").arg(i), "hold",
+        [&](const core::TaskContext&) {
+          while (held) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+          return std::any();
+        },
+        [](const std::any&) {}, [](const QString&) {});
+  QTest::mouseClick(in_dialog<QPushButton>("check"), Qt::LeftButton);
+  type(in_dialog<QDoubleSpinBox>("layer_thickness"), "1.2");
+  EXPECT_TRUE(test->window().jobs().running("mesh_check"));
+  held = false;
+  ASSERT_TRUE(wait_until([&] { return idle(); }, 60000));
+  auto* list = in_dialog<QListWidget>("check_places");
+  ASSERT_GT(list->count(), 0);
+  EXPECT_THAT(in_dialog<QLabel>("check_summary")->text().toStdString(), HasSubstr("check again"));
+  for (int i = 0; i < list->count(); ++i) {
+    list->setCurrentRow(i);
+    EXPECT_FALSE(in_dialog<QPushButton>("check_repair")->isEnabled()) << i;
+  }
+  wait_for_check();
+  EXPECT_THAT(in_dialog<QLabel>("check_summary")->text().toStdString(), HasSubstr("Would fail"));
+  QTest::keyClick(dialog, Qt::Key_Escape);
+}
+
+TEST_F(NarrowWindow, AMeshThatIsDoneOverAnotherCaseLeavesALineAlone) {
+  const fs::path other = folder / "other.ostia";
+  session::CaseFile::create(other, testing::tube_model(), session::image_reference(image));
+  open_case();
+  ask("file.export_mesh");
+  type(in_dialog<QDoubleSpinBox>("edges_around"), "12");
+  click_go();
+  ASSERT_TRUE(test->window().jobs().running("mesh"));
+  test->window().findChild<QAction*>("file.close")->trigger();
+  ASSERT_FALSE(test->bench().has_case());
+  test->window().open(other);
+  ASSERT_TRUE(wait_until([&] { return idle() && test->bench().has_case(); }, 120000));
+  EXPECT_TRUE(left_line("mesh").contains("tube-mesh")) << left_line("mesh").toStdString();
+  EXPECT_FALSE(panel().isVisible()) << "it is another patient's";
+  test->window().findChild<QAction*>("file.flow_case")->trigger();
+  auto* flow = test->window().findChild<FlowDialog*>();
+  ASSERT_TRUE(flow);
+  EXPECT_EQ(flow->findChild<QLineEdit*>("flow_mesh")->text().toStdString(), "");
+  QTest::keyClick(flow, Qt::Key_Escape);
+}
+
+TEST_F(NarrowWindow, AMinimisedWindowComesBackWithWhatWasShown) {
+  open_case();
+  make_mesh();
+  SceneWidget& scene = test->window().scene();
+  int changes = 0;
+  QObject::connect(&scene, &SceneWidget::guest_changed, &scene, [&] { ++changes; });
+  scene.show_guest(nullptr);
+  ASSERT_EQ(changes, 1);
+  test->window().hide();  // what the docks see of a window that is minimised
+  wait_until([] { return false; }, 100);
+  test->window().show();
+  wait_until([] { return false; }, 300);
+  EXPECT_TRUE(panel().isVisible());
+  EXPECT_EQ(changes, 1) << "the mesh has taken the view";
+  auto* command = test->window().findChild<QAction*>("view.mesh");
+  command->trigger();
+  ASSERT_TRUE(wait_until([&] { return !panel().isVisible(); }));
+  command->trigger();
+  ASSERT_TRUE(wait_until([&] { return panel().isVisible(); }));
+  EXPECT_EQ(changes, 2) << "asked for, it comes back";
 }
 
 TEST_F(NarrowWindow, AllOfItHasRoomInASmallWindow) {

@@ -267,6 +267,30 @@ TEST_F(MeshingWindow, WhatFailsIsOneMessageWithTheWayOut) {
   EXPECT_TRUE(test->bench().has_case());
 }
 
+TEST(MeshingCheckPage, AnswersWithoutPlacesGrowOldToo) {
+  MeshingCheck page;
+  const auto told = [&] { return page.findChild<QLabel*>("check_summary")->text().toStdString(); };
+  const std::string before = told();
+  page.set_stale();
+  EXPECT_EQ(told(), before) << "nothing has been answered yet";
+  page.show_running();
+  page.show_forecast({});
+  EXPECT_THAT(told(), ::testing::HasSubstr("Nothing was found"));
+  page.set_stale();
+  EXPECT_THAT(told(), ::testing::HasSubstr("check again"));
+  page.show_running();
+  page.show_failure("It would fail: a hole");
+  EXPECT_THAT(told(), ::testing::HasSubstr("a hole"));
+  page.set_stale();
+  EXPECT_THAT(told(), ::testing::HasSubstr("check again"));
+  page.show_running();
+  page.set_stale();
+  page.show_nothing();
+  EXPECT_EQ(told(), before) << "it was given up";
+  page.set_stale();
+  EXPECT_EQ(told(), before);
+}
+
 TEST(Jobs, ANewerOneTakesThePlaceOfOneThatIsDoneButNotYetSeen) {
   Jobs jobs;
   std::atomic<bool> first_ended = false;

@@ -498,6 +498,25 @@
     </message>
 </context>
 <context>
+    <name>jobs</name>
+    <message>
+        <source>%1 is a surface without values. Open the wall.vtp of a result, which &quot;ostia result&quot; writes and which a run from the window leaves</source>
+        <translation>%1 ist eine Oberfläche ohne Werte. Öffnen Sie die wall.vtp eines Ergebnisses, die &quot;ostia result&quot; schreibt und die ein Lauf aus dem Fenster hinterlässt</translation>
+    </message>
+    <message>
+        <source>There is not enough memory for this case: use a coarser mesh.</source>
+        <translation>Für diesen Fall reicht der Speicher nicht: ein gröberes Netz verwenden.</translation>
+    </message>
+    <message>
+        <source>%1 holds no mesh.vtu</source>
+        <translation>%1 enthält keine mesh.vtu</translation>
+    </message>
+    <message>
+        <source>There is not enough memory for this: choose longer edges, or fewer vessels.</source>
+        <translation>Dafür reicht der Speicher nicht: längere Kanten oder weniger Gefäße wählen.</translation>
+    </message>
+</context>
+<context>
     <name>manual</name>
     <message>
         <source>Beginning</source>

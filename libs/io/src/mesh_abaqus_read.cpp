@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <set>
 #include <unordered_map>
 
 namespace ostia::io {
@@ -75,6 +76,11 @@ struct Element {
   bool prism = false;
 };
 
+/// Numbers of elements, as GENERATE has them; one alone from itself to itself.
+struct Range {
+  std::int64_t first = 0, last = 0, step = 1;
+};
+
 /// Element sets by their sides, "S1" from 0.
 struct Surface {
   std::string name;
@@ -98,6 +104,7 @@ class AbaqusFile {
         take(parts_of(line));
       }
     }
+    require_no_element_begun();
     geometry::MixedMesh mesh = mesh_.finish({});
     name_faces(mesh);
     return mesh;
@@ -112,14 +119,18 @@ class AbaqusFile {
     if (id) ids_[std::string(words.next())] = *id;
   }
 
+  void require_no_element_begun() const {
+    if (!left_.empty()) refuse(path_, "element " + std::to_string(left_[0]) + " has too few nodes");
+  }
+
   void begin() {
+    require_no_element_begun();
     if (keyword_.name == "*ELEMENT") {
       const std::string type = upper(keyword_.parameters["TYPE"]);
       const auto kind = kinds.find(type);
       if (kind == kinds.end())
         refuse(path_, "it has elements of type " + type + "; C3D4, C3D10 and C3D6 are read");
       kind_ = kind->second;
-      left_.clear();
     }
     if (keyword_.name == "*SURFACE") surfaces_.push_back({keyword_.parameters["NAME"], {}});
   }
@@ -169,55 +180,66 @@ class AbaqusFile {
 
   /// Names of other sets in a set are of no use to surfaces of sides here.
   void take_set(const std::vector<std::string_view>& parts) {
-    std::vector<std::int64_t>& set = sets_[keyword_.parameters["ELSET"]];
+    const std::string& name = keyword_.parameters["ELSET"];
+    std::vector<Range>& set = sets_[name];
     std::vector<std::int64_t> numbers;
-    for (const std::string_view part : parts)
-      if (const auto one = number<std::int64_t>(part)) numbers.push_back(*one);
-    if (!keyword_.parameters.contains("GENERATE")) {
-      set.insert(set.end(), numbers.begin(), numbers.end());
-    } else if (numbers.size() >= 2) {
-      const std::int64_t step = numbers.size() > 2 ? std::max<std::int64_t>(numbers[2], 1) : 1;
-      const std::int64_t most = numbers[0] + step * static_cast<std::int64_t>(elements_.size());
-      for (std::int64_t e = numbers[0]; e <= std::min(numbers[1], most); e += step) set.push_back(e);
+    for (const std::string_view part : parts) {
+      const auto one = number<std::int64_t>(part);
+      if (one && (*one < INT32_MIN || *one > INT32_MAX))
+        refuse(path_, "set " + name + " has the number " + std::string(part) + ", which is out of range");
+      if (one) numbers.push_back(*one);
     }
+    if (!keyword_.parameters.contains("GENERATE"))
+      for (const std::int64_t one : numbers) set.push_back({one, one});
+    else if (numbers.size() >= 2 && numbers[0] <= numbers[1])
+      set.push_back({numbers[0], numbers[1], numbers.size() > 2 ? std::max<std::int64_t>(numbers[2], 1) : 1});
   }
 
   void take_side(const std::vector<std::string_view>& parts) {
     const std::string side = upper(parts.back());
     const std::optional<std::int32_t> number_of_side =
         side.starts_with("S") ? number<std::int32_t>(std::string_view(side).substr(1)) : std::nullopt;
-    if (parts.size() != 2 || !number_of_side)
+    if (parts.size() != 2 || !number_of_side || *number_of_side < 1 || *number_of_side > 5)
       refuse(path_, "surface " + surfaces_.back().name + " is not of sides of elements (SET, S1 to S5)");
     surfaces_.back().sides.emplace_back(parts[0], *number_of_side - 1);
   }
 
   void name_faces(geometry::MixedMesh& mesh) {
     if (surfaces_.empty()) return;
-    TaggedSides tagged;
     mesh.faces.clear();
-    const auto tetrahedra = static_cast<std::int32_t>(mesh.tetrahedra.size());
+    std::set<std::int32_t> taken;
+    for (const auto& [name, id] : ids_) taken.insert(id);
+    std::int32_t next = 1;
     for (const Surface& surface : surfaces_) {
+      while (taken.contains(next)) ++next;
       const auto known = ids_.find(surface.name);
-      const std::int32_t id =
-          known != ids_.end() ? known->second : static_cast<std::int32_t>(mesh.faces.size()) + 1;
-      mesh.faces.push_back(face_named(id, surface.name));
-      for (const auto& [set, side] : surface.sides) {
-        for (const std::int64_t e : elements_of(set)) {
-          const auto found = elements_.find(e);
-          if (found == elements_.end())
-            refuse(path_, "set " + set + " names element " + std::to_string(e) + ", which is not there");
-          const Element& element = found->second;
-          tagged.add(mesh, {element.number + (element.prism ? tetrahedra : 0), side}, id, path_);
-        }
-      }
+      mesh.faces.push_back(face_named(known != ids_.end() ? known->second : next++, surface.name));
     }
+    TaggedSides tagged;
+    std::size_t left = text_.size();  // a file that names more sides than it has bytes names them again
+    for (std::size_t f = 0; f < surfaces_.size(); ++f)
+      for (const auto& [set, side] : surfaces_[f].sides)
+        for (const Range& range : ranges_of(set))
+          for (std::int64_t e = range.first; e <= range.last; e += range.step) {
+            if (left-- == 0) refuse(path_, "its surfaces name the same sides many times");
+            tagged.add(mesh, {element_at(e, set, mesh), side}, mesh.faces[f].id, path_);
+          }
     tagged.apply(mesh);
   }
 
+  /// Counted as ElementSide does.
+  std::int32_t element_at(std::int64_t e, const std::string& set, const geometry::MixedMesh& mesh) const {
+    const auto found = elements_.find(e);
+    if (found == elements_.end())
+      refuse(path_, "set " + set + " names element " + std::to_string(e) + ", which is not there");
+    const Element& element = found->second;
+    return element.number + (element.prism ? static_cast<std::int32_t>(mesh.tetrahedra.size()) : 0);
+  }
+
   /// Of a set, or the one element that is named instead.
-  std::vector<std::int64_t> elements_of(const std::string& set) const {
+  std::vector<Range> ranges_of(const std::string& set) const {
     if (const auto found = sets_.find(set); found != sets_.end()) return found->second;
-    if (const auto one = number<std::int64_t>(set)) return {*one};
+    if (const auto one = number<std::int32_t>(set)) return {{*one, *one}};
     refuse(path_, "there is no element set " + set);
   }
 
@@ -230,7 +252,7 @@ class AbaqusFile {
   std::array<std::int32_t, 2> counts_{};
   std::unordered_map<std::int64_t, std::int32_t> points_;
   std::unordered_map<std::int64_t, Element> elements_;
-  std::map<std::string, std::vector<std::int64_t>> sets_;
+  std::map<std::string, std::vector<Range>> sets_;
   std::map<std::string, std::int32_t> ids_;
   std::vector<Surface> surfaces_;
 };

@@ -1,5 +1,7 @@
 #include "mesh_cells_of_sides.h"
 
+#include "formats.h"
+
 #include <algorithm>
 
 namespace ostia::io {
@@ -62,6 +64,17 @@ std::vector<std::int32_t> nodes_of_sides(const std::vector<CellSide>& sides) {
   }
   if (!closed(sides, nodes)) return {};
   return nodes;
+}
+
+void add_cells_of_sides(const std::vector<std::vector<CellSide>>& cells, std::size_t first,
+                        const std::filesystem::path& path, MeshBuilder& mesh) {
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    const std::vector<std::int32_t> nodes = nodes_of_sides(cells[c]);
+    if (nodes.empty())
+      refuse(path, "cell " + std::to_string(first + c) + " with " + std::to_string(cells[c].size()) +
+                       " faces is neither a tetrahedron nor a prism");
+    mesh.add(nodes.size() == 4 ? Shape::tetrahedron : Shape::prism, nodes, 0, NodeOrder());
+  }
 }
 
 }  // namespace ostia::io

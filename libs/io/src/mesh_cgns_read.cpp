@@ -4,6 +4,7 @@
 #include "formats.h"
 #include "mesh_builder.h"
 #include "mesh_readers.h"
+#include "mesh_tagged_sides.h"
 
 #include <cgnslib.h>
 
@@ -53,6 +54,10 @@ double millimetres(CGNS_ENUMT(LengthUnits_t) unit) {
       return 10.0;
     case CGNS_ENUMV(Millimeter):
       return 1.0;
+    case CGNS_ENUMV(Foot):
+      return 304.8;
+    case CGNS_ENUMV(Inch):
+      return 25.4;
     default:
       return 0.0;
   }
@@ -85,9 +90,10 @@ class CgnsInput {
     int sections = 0;
     require(cg_nsections(file_, base_, zone_, &sections));
     for (int section = 1; section <= sections; ++section) read_section(section);
-    std::vector<geometry::Face> faces;
-    for (const Condition& condition : conditions_) faces.push_back(condition.face);
-    return mesh_.finish(mesh_.has_boundary() ? std::move(faces) : std::vector<geometry::Face>());
+    if (!mesh_.has_boundary()) return mesh_.finish({});
+    geometry::MixedMesh mesh = mesh_.finish(faces());
+    name_rest(mesh, rest_);
+    return mesh;
   }
 
  private:
@@ -129,6 +135,7 @@ class CgnsInput {
   void read_conditions() {
     int count = 0;
     if (cg_nbocos(file_, base_, zone_, &count) != CG_OK) return;
+    std::vector<std::size_t> without_id;
     for (int i = 1; i <= count; ++i) {
       std::array<char, 64> name{};
       CGNS_ENUMT(BCType_t) type{};
@@ -142,10 +149,13 @@ class CgnsInput {
       if (points != 2 || (set != CGNS_ENUMV(PointRange) && set != CGNS_ENUMV(ElementRange)))
         refuse(path_,
                std::string("boundary condition ") + name.data() + " is no range of elements; such are read");
+      if (set == CGNS_ENUMV(PointRange)) require_elements(i, name.data());
       std::array<cgsize_t, 2> range{};
       require(cg_boco_read(file_, base_, zone_, i, range.data(), nullptr));
       Condition condition;
-      condition.face = face_named(id_of(i), name.data());
+      const std::optional<std::int32_t> id = id_of(i);
+      if (!id) without_id.push_back(conditions_.size());
+      condition.face = face_named(id.value_or(0), name.data());
       if (type == CGNS_ENUMV(BCInflow)) condition.face.kind = geometry::FaceKind::inlet;
       if (type == CGNS_ENUMV(BCOutflow)) condition.face.kind = geometry::FaceKind::outlet;
       if (type == CGNS_ENUMV(BCWall)) condition.face.kind = geometry::FaceKind::wall;
@@ -153,10 +163,27 @@ class CgnsInput {
       condition.last = range[1];
       conditions_.push_back(condition);
     }
+    for (const std::size_t c : without_id) conditions_[c].face.id = unused_face_id(faces());
+    rest_ = unused_face_id(faces());
   }
 
-  /// Its descriptor CellEntityIds; its number where it has none.
-  int id_of(int condition) {
+  std::vector<geometry::Face> faces() const {
+    std::vector<geometry::Face> faces;
+    for (const Condition& condition : conditions_) faces.push_back(condition.face);
+    return faces;
+  }
+
+  /// A range without a location is of vertices (SIDS, 9.3).
+  void require_elements(int condition, const char* name) {
+    CGNS_ENUMT(GridLocation_t) location{};
+    require(cg_boco_gridlocation_read(file_, base_, zone_, condition, &location));
+    if (location == CGNS_ENUMV(Vertex))
+      refuse(path_, std::string("boundary condition ") + name +
+                        " is of points; such of elements are read (GridLocation FaceCenter)");
+  }
+
+  /// Its descriptor CellEntityIds.
+  std::optional<std::int32_t> id_of(int condition) {
     require(cg_goto(file_, base_, "Zone_t", zone_, "ZoneBC_t", 1, "BC_t", condition, "end"));
     int descriptors = 0;
     require(cg_ndescriptors(&descriptors));
@@ -167,9 +194,9 @@ class CgnsInput {
       const std::optional<int> id =
           std::string(name.data()) == "CellEntityIds" ? number<int>(text) : std::nullopt;
       cg_free(text);
-      if (id) return *id;
+      if (id) return id;
     }
-    return condition;
+    return std::nullopt;
   }
 
   void read_section(int section) {
@@ -186,7 +213,9 @@ class CgnsInput {
                         "; tetrahedra, wedges, triangles and quadrilaterals are read");
     require(cg_ElementDataSize(file_, base_, zone_, section, &values));
     const auto elements = static_cast<std::size_t>(std::max<cgsize_t>(last - first + 1, 0));
-    if (values < 0 || static_cast<std::uintmax_t>(values) != elements * kind->nodes)
+    constexpr std::uintmax_t most_compressed = 1100;  // deflate's bound
+    if (values < 0 || static_cast<std::uintmax_t>(values) != elements * kind->nodes ||
+        static_cast<std::uintmax_t>(values) > most_compressed * fs::file_size(path_))
       refuse(path_, std::string("section ") + name.data() + " is not as long as its elements");
     std::vector<cgsize_t> nodes(static_cast<std::size_t>(values));
     require(cg_elements_read(file_, base_, zone_, section, nodes.data(), nullptr));
@@ -199,11 +228,11 @@ class CgnsInput {
     }
   }
 
-  /// 1, the wall, for a facet that no condition names.
+  /// `rest_` for a facet that no condition names.
   std::int32_t face_of(cgsize_t element) const {
     for (const Condition& condition : conditions_)
       if (element >= condition.first && element <= condition.last) return condition.face.id;
-    return 1;
+    return rest_;
   }
 
   void require(int status) const {
@@ -215,6 +244,7 @@ class CgnsInput {
   int file_ = 0;
   static constexpr int base_ = 1, zone_ = 1;
   std::vector<Condition> conditions_;
+  std::int32_t rest_ = 1;
 };
 
 }  // namespace

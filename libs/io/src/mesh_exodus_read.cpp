@@ -86,10 +86,12 @@ class NetCdfInput {
     std::vector<int> dimensions(static_cast<std::size_t>(count));
     require(nc_inq_vardimid(file_, id, dimensions.data()));
     std::size_t values = 1;
+    const std::uintmax_t bytes = fs::file_size(path_);
+    constexpr std::uintmax_t most_compressed = 1100;  // deflate's bound
     for (const int one : dimensions) {
       std::size_t length = 0;
       require(nc_inq_dimlen(file_, one, &length));
-      if (length > fs::file_size(path_) || values > fs::file_size(path_))
+      if (length > bytes || (length > 0 && values > most_compressed * bytes / length))
         refuse(path_, name + " is too large");
       values *= length;
     }
@@ -124,8 +126,10 @@ void read_block(const NetCdfInput& file, std::size_t b, const fs::path& path, Me
                      "; tetrahedra and wedges are read");
   const std::size_t n = file.dimension("num_nod_per_el" + std::to_string(b + 1));
   std::vector<std::int32_t> nodes = file.integers(name);
-  for (std::int32_t& node : nodes) --node;
-  for (std::size_t i = 0; n > 0 && i + n <= nodes.size(); i += n) {
+  if (!nodes.empty() && (n == 0 || nodes.size() % n != 0))
+    refuse(path, "block " + std::to_string(b + 1) + " ends within an element");
+  for (std::int32_t& node : nodes) node = std::max(node, 0) - 1;
+  for (std::size_t i = 0; i < nodes.size(); i += n) {
     if (!mesh.add(prism ? Shape::prism : Shape::tetrahedron, std::span(nodes).subspan(i, n), 0,
                   uprights_second_order))
       refuse(path, "elements of type " + type + " with " + std::to_string(n) +
@@ -147,14 +151,15 @@ void read_side_sets(const NetCdfInput& file, const Numbering& numbering, const f
                     geometry::MixedMesh& mesh) {
   const std::size_t sets = file.dimension("num_side_sets");
   if (sets == 0) return;
-  const std::vector<std::string> names = file.names("ss_names", sets);
   const std::vector<std::int32_t> ids = file.integers("ss_prop1");
+  if (ids.size() != sets) refuse(path, "its side sets and their ids differ in number");
+  const std::vector<std::string> names = file.names("ss_names", sets);
   const auto tetrahedra = static_cast<std::int32_t>(mesh.tetrahedra.size());
   TaggedSides tagged;
   mesh.faces.clear();
   for (std::size_t f = 0; f < sets; ++f) {
     const std::string n = std::to_string(f + 1);
-    const std::int32_t id = f < ids.size() ? ids[f] : static_cast<std::int32_t>(f) + 1;
+    const std::int32_t id = ids[f];
     mesh.faces.push_back(f < names.size() && !names[f].empty() ? face_named(id, names[f])
                                                                : face_without_name(id));
     if (!file.has("elem_ss" + n)) continue;

@@ -38,7 +38,7 @@ class FluentFile {
       }
       skip();
     }
-    add_cells();
+    add_cells_of_sides(cells_, 1, path_, mesh_);
     return mesh_.finish(add_facets());
   }
 
@@ -89,8 +89,7 @@ class FluentFile {
       const std::int64_t value = hexadecimal("a section's head");
       if (i < values.size()) values[i++] = value;
     }
-    const std::int64_t count = values[2] - values[1] + 1;
-    if (values[1] < 1 || count < 0 || static_cast<std::size_t>(count) > text_.size() / 2)
+    if (values[1] < 1 || values[2] < values[1] - 1 || static_cast<std::size_t>(values[2]) > text_.size() / 2)
       refuse(path_, "a section has more entries than its bytes can hold");
     return values;
   }
@@ -166,16 +165,6 @@ class FluentFile {
     if (type.ends_with("-inlet")) face.kind = geometry::FaceKind::inlet;
     if (type.ends_with("-outlet") || type == "outflow") face.kind = geometry::FaceKind::outlet;
     zones_[*id] = face;
-  }
-
-  void add_cells() {
-    for (std::size_t c = 0; c < cells_.size(); ++c) {
-      const std::vector<std::int32_t> nodes = nodes_of_sides(cells_[c]);
-      if (nodes.empty())
-        refuse(path_, "cell " + std::to_string(c + 1) + " with " + std::to_string(cells_[c].size()) +
-                          " faces is neither a tetrahedron nor a prism");
-      mesh_.add(nodes.size() == 4 ? Shape::tetrahedron : Shape::prism, nodes, 0, NodeOrder());
-    }
   }
 
   std::vector<geometry::Face> add_facets() {

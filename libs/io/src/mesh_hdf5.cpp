@@ -11,9 +11,16 @@
 
 namespace ostia::io {
 
-Hdf5File::Hdf5File(std::filesystem::path path) : path_(std::move(path)) {
+QuietHdf5::QuietHdf5() {
   H5Eget_auto2(H5E_DEFAULT, &printer_, &printer_data_);
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // what went wrong is in our own message
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
+QuietHdf5::~QuietHdf5() {
+  H5Eset_auto2(H5E_DEFAULT, printer_, printer_data_);
+}
+
+Hdf5File::Hdf5File(std::filesystem::path path) : path_(std::move(path)) {
   errno = 0;
   file_ = H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
   require(file_ >= 0);
@@ -21,7 +28,6 @@ Hdf5File::Hdf5File(std::filesystem::path path) : path_(std::move(path)) {
 
 Hdf5File::~Hdf5File() {
   if (file_ >= 0) H5Fclose(file_);
-  H5Eset_auto2(H5E_DEFAULT, printer_, printer_data_);
 }
 
 void Hdf5File::require(bool good) const {

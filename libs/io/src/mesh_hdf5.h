@@ -10,6 +10,19 @@
 
 namespace ostia::io {
 
+/// Keeps HDF5 from printing its errors while it lives: what went wrong is in our own message.
+class QuietHdf5 {
+ public:
+  QuietHdf5();
+  ~QuietHdf5();
+  QuietHdf5(const QuietHdf5&) = delete;
+  QuietHdf5& operator=(const QuietHdf5&) = delete;
+
+ private:
+  int (*printer_)(std::int64_t, void*) = nullptr;  ///< of before
+  void* printer_data_ = nullptr;
+};
+
 /// Throws IoError when HDF5 cannot write. Arrays of more than one row are compressed.
 class Hdf5File {
  public:
@@ -27,10 +40,9 @@ class Hdf5File {
   void write(const std::string& name, std::int64_t type, const void* values, std::size_t rows,
              std::size_t columns);
   void require(bool good) const;
+  QuietHdf5 quiet_;
   std::filesystem::path path_;
   std::int64_t file_ = -1;
-  int (*printer_)(std::int64_t, void*) = nullptr;  ///< of HDF5's errors before this file was made
-  void* printer_data_ = nullptr;
 };
 
 }  // namespace ostia::io

@@ -194,14 +194,7 @@ geometry::MixedMesh read_openfoam(const fs::path& path) {
   const auto add = [&](const std::vector<std::int32_t>& nodes, Shape shape, std::int32_t face) {
     mesh.add(shape, nodes, face, NodeOrder());
   };
-  const std::vector<std::vector<CellSide>> cells = cells_of(folder, faces);
-  for (std::size_t c = 0; c < cells.size(); ++c) {
-    const std::vector<std::int32_t> nodes = nodes_of_sides(cells[c]);
-    if (nodes.empty())
-      refuse(path, "cell " + std::to_string(c) + " with " + std::to_string(cells[c].size()) +
-                       " faces is neither a tetrahedron nor a prism");
-    add(nodes, nodes.size() == 4 ? Shape::tetrahedron : Shape::prism, 0);
-  }
+  add_cells_of_sides(cells_of(folder, faces), 0, path, mesh);
   std::vector<geometry::Face> named;
   for (const Patch& patch : patches_in(folder / "boundary")) {
     if (patch.first > faces.size() || patch.faces > faces.size() - patch.first)
@@ -218,8 +211,10 @@ geometry::MixedMesh read_openfoam(const fs::path& path) {
 }
 
 fs::path poly_mesh_in(const fs::path& path) {
+  std::error_code error;
   for (const fs::path& folder : {path, path / "polyMesh", path / "constant" / "polyMesh"})
-    if (fs::is_regular_file(folder / "faces") && fs::is_regular_file(folder / "owner")) return folder;
+    if (fs::is_regular_file(folder / "faces", error) && fs::is_regular_file(folder / "owner", error))
+      return folder;
   return {};
 }
 

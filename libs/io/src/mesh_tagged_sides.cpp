@@ -5,6 +5,7 @@
 #include "ostia/geometry/mixed_mesh_sides.h"
 
 #include <algorithm>
+#include <set>
 
 namespace ostia::io {
 namespace {
@@ -20,6 +21,22 @@ std::array<std::int32_t, 4> corners_of(const Element& element, const std::array<
 
 }  // namespace
 
+std::int32_t unused_face_id(const std::vector<geometry::Face>& faces) {
+  std::set<std::int32_t> used;
+  for (const geometry::Face& face : faces) used.insert(face.id);
+  std::int32_t id = 1;
+  while (used.contains(id)) ++id;
+  return id;
+}
+
+void name_rest(geometry::MixedMesh& mesh, std::int32_t rest) {
+  for (const auto* ids : {&mesh.triangle_face_ids, &mesh.quad_face_ids}) {
+    if (std::ranges::find(*ids, rest) == ids->end()) continue;
+    mesh.faces.push_back({rest, "wall", geometry::FaceKind::wall});
+    return;
+  }
+}
+
 void TaggedSides::add(const geometry::MixedMesh& mesh, const ElementSide& side, std::int32_t face,
                       const std::filesystem::path& path) {
   const std::size_t tetrahedra = mesh.tetrahedra.size(), elements = tetrahedra + mesh.prisms.size();
@@ -32,6 +49,9 @@ void TaggedSides::add(const geometry::MixedMesh& mesh, const ElementSide& side, 
 }
 
 void TaggedSides::apply(geometry::MixedMesh& mesh) const {
+  const std::int32_t rest = unused_face_id(mesh.faces);
+  std::ranges::fill(mesh.triangle_face_ids, rest);
+  std::ranges::fill(mesh.quad_face_ids, rest);
   const auto tag = [&](Corners corners, std::int32_t& id) {
     std::ranges::sort(corners);
     if (const auto found = faces_.find(corners); found != faces_.end()) id = found->second;
@@ -41,6 +61,7 @@ void TaggedSides::apply(geometry::MixedMesh& mesh) const {
     tag({-1, t[0], t[1], t[2]}, mesh.triangle_face_ids[i]);
   }
   for (std::size_t i = 0; i < mesh.quads.size(); ++i) tag(mesh.quads[i], mesh.quad_face_ids[i]);
+  name_rest(mesh, rest);
 }
 
 }  // namespace ostia::io

@@ -3,6 +3,7 @@
 
 #include "formats.h"
 #include "mesh_builder.h"
+#include "mesh_hdf5.h"
 #include "mesh_readers.h"
 
 #include "ostia/core/files.h"
@@ -58,8 +59,6 @@ class Values {
       refuse(xdmf, "its numbers are not in an HDF5 file beside it");
     path_ = xdmf.parent_path() / name;
     Words set(where.substr(colon + 1));
-    H5Eget_auto2(H5E_DEFAULT, &printer_, &printer_data_);
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // what went wrong is in our own message
     file_ = H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
     if (file_ >= 0) set_ = H5Dopen2(file_, std::string(set.next()).c_str(), H5P_DEFAULT);
     if (set_ < 0) {
@@ -80,8 +79,11 @@ class Values {
     const hid_t space = H5Dget_space(set_);
     const hssize_t count = H5Sget_simple_extent_npoints(space);
     H5Sclose(space);
+    const hid_t stored = H5Dget_type(set_);
+    const std::size_t size = std::max<std::size_t>(H5Tget_size(stored), 1);
+    H5Tclose(stored);
     constexpr std::uintmax_t most_compressed = 1100;  // deflate's bound
-    if (count < 0 || static_cast<std::uintmax_t>(count) / most_compressed > fs::file_size(path_))
+    if (count < 0 || static_cast<std::uintmax_t>(count) > most_compressed * H5Dget_storage_size(set_) / size)
       refuse(path_, "a data set is larger than its bytes can hold");
     std::vector<T> values(static_cast<std::size_t>(count));
     if (H5Dread(set_, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
@@ -91,12 +93,10 @@ class Values {
   void close() {
     if (set_ >= 0) H5Dclose(set_);
     if (file_ >= 0) H5Fclose(file_);
-    H5Eset_auto2(H5E_DEFAULT, printer_, printer_data_);
   }
+  QuietHdf5 quiet_;
   fs::path path_;
   hid_t file_ = -1, set_ = -1;
-  H5E_auto2_t printer_ = nullptr;
-  void* printer_data_ = nullptr;
 };
 
 struct Kind {
@@ -123,7 +123,11 @@ class Grid {
   }
 
   std::vector<geometry::Vec3> points() const {
+    const std::vector<Tag> geometry = tags_in(text_, "Geometry");
+    const std::string type = geometry.empty() ? "" : geometry.front().attribute("GeometryType");
+    if (!type.empty() && type != "XYZ") refuse(path_, "its points are of type " + type + "; XYZ is read");
     const std::vector<double> values = Values(path_, item("Geometry")).numbers();
+    if (values.size() % 3 != 0) refuse(path_, "its coordinates are no triples");
     std::vector<geometry::Vec3> points;
     for (std::size_t i = 0; i + 2 < values.size(); i += 3)
       points.emplace_back(values[i], values[i + 1], values[i + 2]);
@@ -182,13 +186,14 @@ class Grid {
 }  // namespace
 
 geometry::MixedMesh read_xdmf(const fs::path& path) {
-  const fs::path file = fs::is_directory(path) ? path / "mesh.xdmf" : path;
+  std::error_code error;
+  const fs::path file = fs::is_directory(path, error) ? path / "mesh.xdmf" : path;
   const Grid elements(file);
   MeshBuilder mesh(path);
   mesh.points() = elements.points();
   elements.add_cells(mesh, {});
   const fs::path beside = file.parent_path() / "facets.xdmf";
-  if (!fs::exists(beside) || mesh.has_boundary()) return mesh.finish({});
+  if (!fs::exists(beside, error) || mesh.has_boundary()) return mesh.finish({});
   const Grid facets(beside);
   facets.add_cells(mesh, facets.ids());
   std::vector<geometry::Face> faces = facets.faces();

@@ -62,9 +62,10 @@ Reader reader_of(const fs::path& path) {
   if (extension == ".inp") return read_abaqus;
   if (extension == ".cgns") return read_cgns;
   if (extension == ".xdmf") return read_xdmf;
-  if (!fs::is_directory(path)) return nullptr;
+  std::error_code error;
+  if (!fs::is_directory(path, error)) return nullptr;
   if (!poly_mesh_in(path).empty()) return read_openfoam;
-  return fs::exists(path / "mesh.xdmf") ? read_xdmf : nullptr;
+  return fs::exists(path / "mesh.xdmf", error) ? read_xdmf : nullptr;
 }
 
 }  // namespace

@@ -192,6 +192,7 @@ std::vector<double> edges_for(const Nodes& nodes, const FieldSizingOptions& o, d
 double elements_with(const Nodes& nodes, const std::vector<double>& edges) {
   std::vector<double> finer(edges.size());
   for (std::size_t i = 0; i < edges.size(); ++i) finer[i] = nodes.old_edge[i] / edges[i];
+  constexpr double thickest = 1.5;  // of their old thickness: there is no room for more
   double tetrahedra = 0.0, prisms = 0.0;
   for (const geometry::Tetrahedron& t : nodes.mesh.tetrahedra)
     for (const std::int32_t v : t) tetrahedra += std::pow(finer[static_cast<std::size_t>(v)], 3) / 4.0;
@@ -200,10 +201,10 @@ double elements_with(const Nodes& nodes, const std::vector<double>& edges) {
       const auto i = static_cast<std::size_t>(v);
       prisms += finer[i] * finer[i] / 6.0;
       if (nodes.tetrahedron_share > 0.0)
-        tetrahedra += nodes.prism_volume[k] / 6.0 * (1.0 - 1.0 / finer[i]) /
+        tetrahedra += nodes.prism_volume[k] / 6.0 * (1.0 - std::min(1.0 / finer[i], thickest)) /
                       (nodes.tetrahedron_share * std::pow(edges[i], 3));
     }
-  return tetrahedra + prisms;
+  return std::max(tetrahedra, 0.0) + prisms;
 }
 
 double largest_error(const Nodes& nodes, const std::vector<double>& edges) {

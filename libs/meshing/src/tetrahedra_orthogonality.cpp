@@ -217,7 +217,7 @@ bool TetrahedraOrthogonality::improve(Id t, std::size_t opposite, MendingReport&
   for (const Id v : {at.first, at.second, at.face[0], at.face[1], at.face[2]})
     if (move(v)) return ++report.points_moved, true;
   if (flip(t, opposite)) return ++report.flips, true;
-  if (report.points_added < most_points && insert(t, opposite)) return ++report.points_added, true;
+  if (added_ < most_points && insert(t, opposite)) return ++added_, ++report.points_added, true;
   return false;
 }
 

@@ -50,6 +50,7 @@ class TetrahedraOrthogonality {
   TetrahedraComplex& mesh_;
   double least_quality_;
   TetrahedraFlips flips_;
+  std::size_t added_ = 0;  // points
   std::vector<Id> star_;
   std::vector<Pair> pairs_;                    // whose cosines change when the point moves
   std::vector<TetrahedraComplex::Face> hull_;  // around the point

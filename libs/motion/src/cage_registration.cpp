@@ -43,7 +43,7 @@ class Depth {
         target_(target),
         grid_(grid),
         options_(options),
-        system_(grid, source.points, options.energy, options.data_weight) {
+        system_(grid, source, options.energy, options.data_weight) {
     for (const Vec3& p : source.points) places_.push_back(cage_point(grid, p));
   }
 
@@ -110,14 +110,21 @@ Points every_nth(const RegistrationOptions& options, const CageGrid& coarse) {
   return points;
 }
 
-/// Half of the way back to `safe`, again and again, until no triangles intersect that did not.
-void take_back(const Depth& depth, const Points& safe, Points& points, RegistrationReport& report) {
-  const auto faults = [&] { return geometry::self_intersections(depth.surface(points)).size(); };
-  report.self_intersections = faults();
-  for (int k = 0; k < most_halvings && report.self_intersections > report.source_self_intersections; ++k) {
+using Pairs = std::vector<std::pair<std::int32_t, std::int32_t>>;
+
+/// Half of the way back to `safe`, again and again, until no triangles intersect but those of `allowed` and
+/// no cell is inverted; `safe` itself is so.
+void take_back(const Depth& depth, const Points& safe, const Pairs& allowed, Points& points,
+               const core::TaskContext& task) {
+  for (int k = 0; k < most_halvings; ++k) {
+    task.throw_if_cancelled();
+    const Pairs now = geometry::self_intersections(depth.surface(points));
+    if (std::includes(allowed.begin(), allowed.end(), now.begin(), now.end()) &&
+        depth.system().least_jacobian(points) >= least_jacobian)
+      return;
     for (std::size_t i = 0; i < points.size(); ++i) points[i] = 0.5 * (points[i] + safe[i]);
-    report.self_intersections = faults();
   }
+  points = safe;
 }
 
 }  // namespace
@@ -143,7 +150,8 @@ Registration register_cage(const TriMesh& source, const TriMesh& target, const R
   Registration result;
   result.grid = geometry::cage_around(source.points, 1, options.margin);
   Points points = options.start.empty() ? rest_points(result.grid) : every_nth(options, result.grid);
-  result.report.source_self_intersections = geometry::self_intersections(source).size();
+  const Pairs allowed = geometry::self_intersections(source);
+  result.report.source_self_intersections = allowed.size();
   for (int d = 1; d <= options.depth; ++d) {
     if (d > 1) {
       points = refined(result.grid, points);
@@ -156,10 +164,11 @@ Registration register_cage(const TriMesh& source, const TriMesh& target, const R
       task.throw_if_cancelled();
       if (depth.round(points, looseness, result.report) < still_mm) break;
     }
+    take_back(depth, safe, allowed, points, task);
     if (d < options.depth) continue;
-    take_back(depth, safe, points, result.report);
     result.report.least_jacobian = depth.system().least_jacobian(points);
     result.surface = depth.surface(points);
+    result.report.self_intersections = geometry::self_intersections(result.surface).size();
   }
   result.control_points = std::move(points);
   return result;

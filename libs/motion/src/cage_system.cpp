@@ -19,20 +19,26 @@ constexpr double point_share = 0.05;  // of a pair's weight, for all directions;
 constexpr double solver_tolerance = 1e-4;
 constexpr int follow_sweeps = 40;
 
-/// Calls body(i, j, k) for a cell and those that share a corner with it.
+/// Calls body(cell) for the cells between those of two points, and those that share a corner with them.
 template <class Body>
-void for_neighbours(int cells, std::size_t cell, const Body& body) {
-  const auto n = static_cast<std::size_t>(cells);
-  const int at[3] = {static_cast<int>(cell % n), static_cast<int>(cell / n % n),
-                     static_cast<int>(cell / n / n)};
-  for (int k = std::max(0, at[2] - 1); k <= std::min(cells - 1, at[2] + 1); ++k)
-    for (int j = std::max(0, at[1] - 1); j <= std::min(cells - 1, at[1] + 1); ++j)
-      for (int i = std::max(0, at[0] - 1); i <= std::min(cells - 1, at[0] + 1); ++i) body(i, j, k);
+void for_cells_about(const geometry::CageGrid& grid, const geometry::Box3& box, const Body& body) {
+  const auto n = static_cast<std::uint32_t>(grid.cells);
+  const std::uint32_t low = cage_point(grid, box.min()).cell, high = cage_point(grid, box.max()).cell;
+  std::array<int, 3> from{}, to{};
+  std::uint32_t stride = 1;
+  for (std::size_t axis = 0; axis < 3; ++axis, stride *= n) {
+    from[axis] = std::max(0, static_cast<int>(low / stride % n) - 1);
+    to[axis] = std::min(grid.cells - 1, static_cast<int>(high / stride % n) + 1);
+  }
+  for (int k = from[2]; k <= to[2]; ++k)
+    for (int j = from[1]; j <= to[1]; ++j)
+      for (int i = from[0]; i <= to[0]; ++i)
+        body(static_cast<std::size_t>(i + grid.cells * (j + grid.cells * k)));
 }
 
 }  // namespace
 
-CageSystem::CageSystem(const geometry::CageGrid& grid, const std::vector<Vec3>& surface_at_rest,
+CageSystem::CageSystem(const geometry::CageGrid& grid, const geometry::TriMesh& surface_at_rest,
                        HyperelasticWeights weights, double data_weight)
     : grid_(grid),
       weights_(weights),
@@ -40,10 +46,11 @@ CageSystem::CageSystem(const geometry::CageGrid& grid, const std::vector<Vec3>& 
       solved_cell_(grid.cell_count(), -1),
       unknown_(grid.point_count(), -1) {
   std::vector<char> near(grid.cell_count(), 0);
-  for (const Vec3& p : surface_at_rest)
-    for_neighbours(grid.cells, cage_point(grid, p).cell, [&](int i, int j, int k) {
-      near[static_cast<std::size_t>(i + grid.cells * (j + grid.cells * k))] = 1;
-    });
+  for (const geometry::Triangle& t : surface_at_rest.triangles) {
+    geometry::Box3 box;
+    for (const std::int32_t p : t) box.extend(surface_at_rest.points[static_cast<std::size_t>(p)]);
+    for_cells_about(grid, box, [&](std::size_t cell) { near[cell] = 1; });
+  }
   for (std::size_t cell = 0; cell < near.size(); ++cell) {
     if (near[cell] == 0) continue;
     solved_cell_[cell] = static_cast<std::int32_t>(cells_.size());

@@ -12,10 +12,11 @@
 
 namespace ostia::motion {
 
-/// The cells that are solved for, those with points of a surface and their neighbours, and their corners.
+/// The cells that are solved for, those that a triangle of a surface may pass and their neighbours, and their
+/// corners.
 class CageSystem {
  public:
-  CageSystem(const geometry::CageGrid& grid, const std::vector<geometry::Vec3>& surface_at_rest,
+  CageSystem(const geometry::CageGrid& grid, const geometry::TriMesh& surface_at_rest,
              HyperelasticWeights weights, double data_weight);
 
   /// Energy of the cells plus weighted squared distances of the pairs; infinite where a cell is inverted.

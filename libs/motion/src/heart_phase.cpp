@@ -10,6 +10,7 @@ namespace ostia::motion {
 namespace {
 
 constexpr double coast_after = 1.5;  // intervals without a beat
+constexpr int most_gaps = 2;         // in a row
 
 }  // namespace
 
@@ -26,8 +27,9 @@ void HeartPhase::beat(double time_s) {
                          std::to_string(*last_) + " s: give them in the order of time");
     const double interval = time_s - *last_;
     const auto expected = intervals_.next();
-    // after a gap an interval is several, and says nothing
-    if (!expected || interval < 2.5 * *expected) intervals_.add(interval);
+    // after a gap an interval is several, and says nothing; gap after gap are none, but a slower heart
+    gaps_ = expected && interval >= 2.5 * *expected ? gaps_ + 1 : 0;
+    if (gaps_ == 0 || gaps_ > most_gaps) intervals_.add(interval);
   }
   last_ = time_s;
 }

@@ -82,8 +82,21 @@ EcgSignal RPeakDetector::signal() const {
 
 void RPeakDetector::learn(double height) {
   beat_height_ = std::max(beat_height_, 0.7 * height);
+  if (height > 0.0) ++learnt_;
   noise_height_ += height / (learning_s * rate_);
-  knows_sizes_ = count_ >= samples(learning_s) && beat_height_ > 0.0;
+  knows_sizes_ = learnt_ >= samples(learning_s);
+}
+
+/// The sizes were those of something else, such as the lead being plugged in, when a good signal has no beats
+/// of that size for long.
+void RPeakDetector::forget_when_in_vain() {
+  if (signal() == EcgSignal::good) ++waited_;
+  if (waited_ < samples(kept_s)) return;
+  knows_sizes_ = false;
+  learnt_ = waited_ = 0;
+  beat_height_ = noise_height_ = counted_height_ = 0.0;
+  bump_ = second_ = {};
+  pending_.reset();
 }
 
 void RPeakDetector::learn_from(const RPeakDetector& other) {
@@ -118,11 +131,13 @@ std::size_t RPeakDetector::refined(const Bump& bump) const {
 RPeak RPeakDetector::told(const Bump& bump) {
   const std::size_t peak = refined(bump);
   const double interval = since_last_beat_s(peak);
-  if (interval < 2.5 * interval_s_.value_or(slowest_interval_s)) {
+  gaps_ = interval >= 2.5 * interval_s_.value_or(slowest_interval_s) ? gaps_ + 1 : 0;
+  if (last_beat_ && (gaps_ == 0 || gaps_ > 2)) {  // gap after gap are a slower heart
     const double mean = interval_s_.value_or(interval);
     interval_s_ = mean + memory * (interval - mean);
   }
   last_beat_ = peak;
+  waited_ = 0;
   second_ = {};
   return {peak, count_ - 1};
 }
@@ -176,6 +191,7 @@ std::optional<RPeak> RPeakDetector::push(double value) {
     learn(height);
     return std::nullopt;
   }
+  forget_when_in_vain();
   if (height > bump_.height) bump_ = {count_ - 1 - long_, height, band > 0.0};
   if (height < ends_below * bump_.height) {
     judge(bump_);

@@ -48,7 +48,11 @@ void RrPredictor::fit(double interval) {
   if (last_.size() < kept) return;
   const double centre = mean();
   std::vector<double> x(order), gain(order, 0.0);
-  double error = interval - centre, scale = forgetting;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < order; ++i) largest = std::max(largest, covariance_[i * order + i]);
+  // where nothing new is learned the covariance would grow without bound: then nothing is forgotten either
+  const double keep = largest >= most_covariance ? 1.0 : forgetting;
+  double error = interval - centre, scale = keep;
   for (std::size_t i = 0; i < order; ++i) {
     x[i] = last_[last_.size() - 1 - i] - centre;
     error -= weights_[i] * x[i];
@@ -60,7 +64,7 @@ void RrPredictor::fit(double interval) {
   for (std::size_t i = 0; i < order; ++i)
     for (std::size_t k = 0; k < order; ++k) {
       double& c = covariance_[i * order + k];
-      c = std::clamp((c - gain[i] * gain[k] / scale) / forgetting, -most_covariance, most_covariance);
+      c = (c - gain[i] * gain[k] / scale) / keep;
     }
 }
 

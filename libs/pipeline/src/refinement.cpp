@@ -14,11 +14,14 @@ namespace {
 
 fs::path file_of(const RefinementOptions& options) {
   if (options.field.empty()) throw InvalidInput("refinement: which field? --by NAME, such as velocity_m_s");
-  const fs::path file = fs::is_directory(options.result) ? options.result / "result.vtu" : options.result;
+  std::error_code error;
+  const fs::path file =
+      fs::is_directory(options.result, error) ? options.result / "result.vtu" : options.result;
   if (file.extension() != ".vtu")
     throw InvalidInput("cannot refine by " + file.string() +
                        ": a result is a VTU file; `ostia result CASE -o DIR` makes one of a solved case");
-  if (!fs::exists(file)) throw InvalidInput("cannot refine by " + file.string() + ": there is no such file");
+  if (!fs::exists(file, error))
+    throw InvalidInput("cannot refine by " + file.string() + ": there is no such file");
   return file;
 }
 

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 namespace ostia::solver {
@@ -17,6 +18,7 @@ using geometry::FaceKind;
 using nlohmann::json;
 
 constexpr double largest_imbalance = 0.01;
+constexpr double largest_misfit = 0.02;  // of an outlet's pressure to R Q; runs that settle come within 0.01
 constexpr double pa_per_mmhg = 133.322387415;
 
 WallFigures figures_of(const WallSurface& wall, const WallSurface::Part& part,
@@ -67,6 +69,19 @@ json wall_json(const WallFigures& wall) {
           {"high_share", wall.high_share}};
 }
 
+/// Of a steady flow whose outlets are coupled: reasons of those that are not at p = R Q.
+void judge_outlets(const FlowResult& result, std::vector<std::string>& reasons) {
+  const std::map<std::string, double>& resistances = result.record.resistance_pa_s_m3;
+  if (result.record.pulsatile() || resistances.size() < 2) return;
+  for (const EndFlow& end : result.ends) {
+    const auto r = resistances.find(end.name);
+    if (r == resistances.end()) continue;
+    const double misfit = std::abs(end.pressure_pa - 1e-6 * r->second * end.flow_ml_s);
+    if (!(misfit <= largest_misfit * std::abs(end.pressure_pa)))
+      reasons.push_back("the outlet " + end.name + " has not settled at its resistance: see log.outlets");
+  }
+}
+
 json or_null(const std::optional<double>& value) {
   return value ? json(*value) : json();
 }
@@ -106,6 +121,7 @@ FlowReport flow_report(const FlowResult& result, const ShearLimits& limits) {
   if (!(imbalance <= largest_imbalance))
     report.reasons.push_back("what flows in and what flows out differ by " +
                              number(std::round(1e3 * imbalance) / 10.0) + " %");
+  judge_outlets(result, report.reasons);
   return report;
 }
 
@@ -137,7 +153,8 @@ std::string report_json(const FlowResult& result, const FlowReport& report) {
       {"walls", walls},
       {"limits_Pa", {{"low", report.limits.low_pa}, {"high", report.limits.high_pa}}},
       {"verdict", {{"passed", report.passed()}, {"reasons", report.reasons}}}};
-  return written.dump(2) + "\n";
+  // Names and reasons may hold what is no UTF-8.
+  return written.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
 std::string faces_csv(const FlowResult& result, const FlowReport& report) {

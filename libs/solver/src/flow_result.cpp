@@ -1,7 +1,6 @@
 #include "ostia/solver/flow_result.h"
 
 #include "case_text.h"
-#include "openfoam_words.h"
 
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
@@ -10,10 +9,12 @@
 #include "ostia/solver/openfoam_result.h"
 #include "ostia/solver/section.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 
 namespace ostia::solver {
 namespace fs = std::filesystem;
@@ -22,7 +23,7 @@ namespace {
 using geometry::FaceKind;
 using geometry::MixedMesh;
 
-constexpr double mm = 1e3, ml = 1e6;    // in a metre, in a cubic metre
+constexpr double ml = 1e6;              // in a cubic metre
 constexpr double same_point_mm = 1e-6;  // of coordinates around 1 m, in double precision
 constexpr double no_stress_pa = 1e-6;   // below which a direction means nothing
 constexpr double same_time = 1e-6;      // of a period
@@ -30,40 +31,72 @@ constexpr const char* velocity = "U";   // m/s
 constexpr const char* pressure = "pressureInPascal";
 constexpr const char* shear = "wallShearStress";  // kinematic, against the flow
 
-/// The points of constant/polyMesh, metres.
-std::vector<Vec3> points_of(const fs::path& case_folder) {
-  const fs::path file = case_folder / "constant" / "polyMesh" / "points";
-  const std::string text = core::read_file(file);
-  OpenfoamWords words(text, file);
-  while (words.peek() != "}") {
-    const std::string_view word = words.next();
-    if (word.empty()) words.refuse("it has no head");
-    if (word == "format" && words.peek() != "ascii") words.refuse("it is binary; Ostia reads ASCII alone");
-  }
-  words.next();
-  const double told = words.number();
-  if (!(told >= 0.0 && told <= static_cast<double>(text.size()))) words.refuse("it has no count of points");
-  std::vector<Vec3> points(static_cast<std::size_t>(told));
-  words.expect("(");
-  for (Vec3& p : points) {
-    words.expect("(");
-    for (double& x : p) x = words.number();
-    words.expect(")");
-  }
-  return points;
+/// Points of each facet, rising, of each face, in the order of its patch: triangles first.
+std::map<std::string, std::vector<geometry::Quad>> facets_of(const MixedMesh& mesh) {
+  const std::vector<std::string> names = io::safe_face_names(mesh.faces);
+  std::map<std::int32_t, std::string> name_of;
+  for (std::size_t f = 0; f < names.size(); ++f) name_of[mesh.faces[f].id] = names[f];
+  std::map<std::string, std::vector<geometry::Quad>> facets;
+  const auto add = [&](const auto& all, const std::vector<std::int32_t>& ids) {
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      geometry::Quad facet{-1, -1, -1, -1};
+      std::ranges::copy(all[i], facet.begin());
+      std::ranges::sort(facet);
+      facets[name_of[ids[i]]].push_back(facet);
+    }
+  };
+  add(mesh.triangles, mesh.triangle_face_ids);
+  add(mesh.quads, mesh.quad_face_ids);
+  return facets;
 }
 
-void require_same_mesh(const fs::path& case_folder, const MixedMesh& mesh, const fs::path& mesh_file) {
-  const std::string other = mesh_file.string() + " is not the mesh of " + case_folder.string() + ": ";
-  const std::vector<Vec3> points = points_of(case_folder);
+/// The number of the first element of other points, if any.
+template <class Element>
+std::optional<std::size_t> first_other(const std::vector<Element>& a, const std::vector<Element>& b) {
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    Element one = a[i], other = b[i];
+    std::ranges::sort(one);
+    std::ranges::sort(other);
+    if (one != other) return i;
+  }
+  return std::nullopt;
+}
+
+void require_same_points(const MixedMesh& of_case, const MixedMesh& mesh, const std::string& other) {
+  const std::vector<Vec3>& points = of_case.points;
   if (points.size() != mesh.points.size())
     throw InvalidInput(other + "it has " + std::to_string(mesh.points.size()) + " points, the case " +
                        std::to_string(points.size()));
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const double away = (mm * points[i] - mesh.points[i]).norm();
+    const double away = (points[i] - mesh.points[i]).norm();
     if (!(away <= same_point_mm * (1.0 + mesh.points[i].norm())))
       throw InvalidInput(other + "its point " + std::to_string(i) + " is " + number(away) +
                          " mm away from the case's");
+  }
+}
+
+/// Values are told by place: elements and facets must be those of the case, in its order.
+void require_same_mesh(const fs::path& case_folder, const MixedMesh& mesh, const fs::path& mesh_file) {
+  const std::string other = mesh_file.string() + " is not the mesh of " + case_folder.string() + ": ";
+  const MixedMesh of_case = io::read_volume_mesh(case_folder);
+  require_same_points(of_case, mesh, other);
+  if (of_case.tetrahedra.size() != mesh.tetrahedra.size() || of_case.prisms.size() != mesh.prisms.size())
+    throw InvalidInput(other + "it has " + std::to_string(mesh.tetrahedra.size()) + " tetrahedra and " +
+                       std::to_string(mesh.prisms.size()) + " prisms, the case " +
+                       std::to_string(of_case.tetrahedra.size()) + " and " +
+                       std::to_string(of_case.prisms.size()));
+  const auto refuse = [&](const std::string& what) {
+    throw InvalidInput(other + what + " the case's, or in another order");
+  };
+  if (const auto i = first_other(mesh.tetrahedra, of_case.tetrahedra))
+    refuse("its tetrahedron " + std::to_string(*i) + " is not");
+  if (const auto i = first_other(mesh.prisms, of_case.prisms))
+    refuse("its prism " + std::to_string(*i) + " is not");
+  const auto patches = facets_of(of_case);
+  for (const auto& [name, facets] : facets_of(mesh)) {
+    const auto patch = patches.find(name);
+    if (patch == patches.end() || patch->second != facets)
+      refuse("the facets of its face " + name + " are not");
   }
 }
 

@@ -9,6 +9,7 @@
 #include "ostia/io/mesh_export.h"
 #include "ostia/meshing/boundary_layer.h"
 #include "ostia/solver/case_record.h"
+#include "ostia/solver/openfoam_launch.h"
 
 #include <algorithm>
 #include <cmath>
@@ -144,6 +145,9 @@ OpenfoamCaseResult write_openfoam_case(const MixedMesh& mesh, const OpenfoamCase
   core::StagedFolder staged(folder);
   const io::MeshExportResult written = io::export_mesh(mesh, io::MeshFormat::openfoam, staged.temporary());
   result.warnings.insert(result.warnings.end(), written.warnings.begin(), written.warnings.end());
+  if (!openfoam_can_work_in(folder))
+    result.warnings.push_back("OpenFOAM cannot work in " + fs::absolute(folder).string() +
+                              ": the path has blanks or quotation marks; move the case before it is run");
   task.set_progress(0.5);
   task.throw_if_cancelled();
   write_dictionaries(plan, staged.temporary());

@@ -28,6 +28,23 @@ constexpr std::streamoff read_bytes = 64 << 10;  // of a log's end: tens of iter
 constexpr std::size_t lines_told = 8;
 constexpr auto look_every = std::chrono::milliseconds(200);
 
+/// Runs the script $1. Where Ostia dies, only its own child dies with it; so a watcher beside the script ends
+/// the whole group then. It keeps no standard error, of whose end Ostia waits.
+constexpr const char* watched_script =
+    "(while kill -0 \"$PPID\"; do sleep 1; done; kill -KILL -$$) > /dev/null 2>&1 &\n"
+    "sh \"$1\"\nended=$?\nkill $!\nexit $ended\n";
+
+/// Arguments of `env` that run a script so. They bring the variables of other installations than Debian's,
+/// which a child is not given otherwise.
+std::vector<std::string> watched(const fs::path& script) {
+  std::vector<std::string> words;
+  for (char** variable = environ; *variable != nullptr; ++variable)
+    for (const char* begin : {"WM_", "FOAM_", "MPI_", "OPAL_", "OMPI_", "HOME="})
+      if (std::string_view(*variable).starts_with(begin)) words.emplace_back(*variable);
+  words.insert(words.end(), {"/bin/sh", "-c", watched_script, "sh", script.string()});
+  return words;
+}
+
 std::optional<double> number_at(std::string_view text) {
   text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
   double value = 0.0;
@@ -112,8 +129,10 @@ std::string last_lines(const std::string& text) {
 [[noreturn]] void refuse_failed(const fs::path& folder, const core::ChildResult& child) {
   const std::string what = "the run of " + folder.string() + " failed: Allrun " + child.describe();
   const fs::path log = last_log(folder);
-  if (log.empty()) throw NumericalError(what + last_lines(child.standard_error));
-  throw NumericalError(what + ". " + log.filename().string() + " ends with:" + last_lines(end_of_log(log)));
+  const std::string told = last_lines(child.standard_error);
+  if (log.empty()) throw NumericalError(what + told);
+  throw NumericalError(what + (told.empty() ? ". " : told + "\n") + log.filename().string() +
+                       " ends with:" + last_lines(end_of_log(log)));
 }
 
 }  // namespace
@@ -172,9 +191,16 @@ std::optional<fs::path> program_on_path(const std::string& name) {
   return std::nullopt;
 }
 
+bool openfoam_can_work_in(const fs::path& folder) {
+  return fs::absolute(folder).string().find_first_of(" \t\n\r\"'") == std::string::npos;
+}
+
 OpenfoamProgress run_openfoam_case(const fs::path& case_folder, const core::TaskContext& task) {
   const OpenfoamRunPlan plan = openfoam_run_plan(case_folder);
   const fs::path script = fs::absolute(case_folder / "Allrun");
+  if (!openfoam_can_work_in(case_folder))
+    throw InvalidInput("OpenFOAM cannot work in " + fs::absolute(case_folder).string() +
+                       ": the path has blanks or quotation marks; move the case");
   if (!program_on_path(plan.program))
     throw IoError(plan.program +
                   " is not on the PATH. Install OpenFOAM (Debian: apt install openfoam), or run " +
@@ -188,7 +214,7 @@ OpenfoamProgress run_openfoam_case(const fs::path& case_folder, const core::Task
   core::ChildResult child;
   {
     const std::jthread watcher([&](const std::stop_token& stop) { watch(stop, log, plan, task); });
-    child = core::run_child("/bin/sh", {script.string()}, limits, task);
+    child = core::run_child("/usr/bin/env", watched(script), limits, task);
   }
   if (!child.ok()) refuse_failed(case_folder, child);
   task.set_progress(1.0);

@@ -33,8 +33,8 @@ std::vector<std::string> words_of(const std::string& line) {
 }
 
 /// `file` in each folder of postProcessing/<function>, by the time at which that part of the run began.
-std::vector<fs::path> parts_of(const fs::path& case_folder, const std::string& function,
-                               const std::string& file) {
+std::vector<std::pair<double, fs::path>> parts_of(const fs::path& case_folder, const std::string& function,
+                                                  const std::string& file) {
   std::error_code error;
   std::vector<std::pair<double, fs::path>> parts;
   for (const auto& entry : fs::directory_iterator(case_folder / "postProcessing" / function, error)) {
@@ -42,9 +42,7 @@ std::vector<fs::path> parts_of(const fs::path& case_folder, const std::string& f
     if (start && fs::exists(entry.path() / file, error)) parts.emplace_back(*start, entry.path() / file);
   }
   std::ranges::sort(parts);
-  std::vector<fs::path> files;
-  for (const auto& [start, path] : parts) files.push_back(path);
-  return files;
+  return parts;
 }
 
 /// Straight between its values.
@@ -59,9 +57,9 @@ double value_at(const OpenfoamSeries& series, double time) {
 
 std::map<std::string, double> last_residuals(const fs::path& case_folder) {
   std::map<std::string, double> residuals;
-  const std::vector<fs::path> parts = parts_of(case_folder, "residuals", "solverInfo.dat");
+  const auto parts = parts_of(case_folder, "residuals", "solverInfo.dat");
   if (parts.empty()) return residuals;
-  std::istringstream text(core::read_file(parts.back()));
+  std::istringstream text(core::read_file(parts.back().second));
   std::vector<std::string> names, values;
   for (std::string line; std::getline(text, line);) {
     if (line.starts_with("# Time"))
@@ -109,11 +107,11 @@ void judge_steady(const std::string& log, const fs::path& log_file, OpenfoamOutc
   run.converged =
       log.find("solution converged in", start == std::string::npos ? 0 : start) != std::string::npos;
   if (run.converged) return;
-  run.not_converged = log.empty()
-                          ? "it is not known whether the run converged: there is no " + log_file.string()
-                          : "the run ended after " + number(run.last) +
-                                " iterations without reaching its bounds of the residuals (endTime and "
-                                "residualControl in system): let it go on, or give --iterations";
+  run.not_converged =
+      log.empty() ? "it is not known whether the run converged: there is no " + log_file.filename().string()
+                  : "the run ended after " + number(run.last) +
+                        " iterations without reaching its bounds of the residuals (endTime and "
+                        "residualControl in system): let it go on, or give --iterations";
 }
 
 void judge_pulsatile(const CaseRecord& record, OpenfoamOutcome& run) {
@@ -132,7 +130,9 @@ void judge_pulsatile(const CaseRecord& record, OpenfoamOutcome& run) {
 
 OpenfoamSeries read_openfoam_series(const fs::path& case_folder, const std::string& function) {
   OpenfoamSeries series;
-  for (const fs::path& file : parts_of(case_folder, function, "surfaceFieldValue.dat")) {
+  for (const auto& [start, file] : parts_of(case_folder, function, "surfaceFieldValue.dat")) {
+    // What an earlier part has beyond, it had not written a result of.
+    series.erase(series.upper_bound(start), series.end());
     std::istringstream text(core::read_file(file));
     for (std::string line; std::getline(text, line);) {
       if (line.starts_with('#')) continue;

@@ -1,5 +1,6 @@
 #include "ostia/solver/openfoam_result.h"
 
+#include "case_text.h"
 #include "openfoam_words.h"
 
 #include "ostia/core/error.h"
@@ -35,8 +36,8 @@ std::vector<double> read_values(Words& words, std::size_t components, std::size_
     words.next();  // List<...>
     const double told = words.number();
     if (told != static_cast<double>(count))
-      words.refuse("it has " + std::to_string(static_cast<long long>(told)) + " values where the mesh has " +
-                   std::to_string(count) + "; was the case made of another mesh?");
+      words.refuse("it has " + solver::number(told) + " values where the mesh has " + std::to_string(count) +
+                   "; was the case made of another mesh?");
     words.expect("(");
     values.reserve(count * components);
     for (std::size_t i = 0; i < count; ++i) read_value(words, components, values);

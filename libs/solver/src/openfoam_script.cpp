@@ -31,10 +31,7 @@ std::string inlets(const CasePlan& plan) {
 std::string coupling_functions(const CasePlan& plan) {
   return R"sh(# The last value that a function of system/controlDict has written.
 value() {
-  awk '!/^#/ && $1 + 0 >= t { t = $1 + 0; v = $2 } END { print v }' "postProcessing/$1"/*/surfaceFieldValue.dat
-}
-newest() {
-  ls | awk '/^[0-9.e+]+$/ && $1 + 0 >= t { t = $1 + 0; name = $1 } END { print name }'
+  awk '!/^#/ && $1 + 0 >= t { t = $1 + 0; v = $2 } END { print v == "" ? "none" : v }' "postProcessing/$1"/*/surfaceFieldValue.dat
 }
 # New flows and pressures of the outlets as `name flow pressure`, then `change` and the largest relative change.
 balance() {
@@ -45,11 +42,14 @@ balance() {
       echo "$outlet $resistance $(value "flow_$outlet") $(value "pressure_$outlet")"
     done < constant/outletResistances
   } | awk '
+    $2 $3 $4 ~ /n/ { none = 1 } # none, nan, inf: they compare as if they were any number
     $1 == "in" { whole -= $2; above -= $2 * $3; next }
     { n++; name[n] = $1; resistance[n] = $2; flow[n] = $3; pressure[n] = $4 }
     END {
+      if (none || whole + 0 == 0) { print "change none"; exit }
       above /= whole
       for (i = 1; i <= n; i++) {
+        if (flow[i] + 0 == 0) { print "change none"; exit }
         all[i] = resistance[i] + (above - pressure[i]) / flow[i]
         sum += 1 / all[i]
       }
@@ -57,10 +57,11 @@ balance() {
         new = whole / sum / all[i]
         by = new / flow[i] - 1
         if (by < 0) by = -by
-        if (!(by <= most)) most = by
+        if (by > most) most = by
+        if (by "" !~ /^[0-9]/) none = 1
         printf "%s %.10e %.10e\n", name[i], new, resistance[i] * new
       }
-      printf "change %.6f\n", most
+      if (none) print "change none"; else printf "change %.6f\n", most
     }'
 }
 # Another value of an entry of a patch: entry FILE PATCH KEY VALUE
@@ -86,6 +87,8 @@ for round in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20; do
   balance > log.round
   { echo "round $round, iteration $time"; cat log.round; } >> log.outlets
   change=$(tail -n 1 log.round)
+  # Where there is no number (an outlet without flow), going on finds none.
+  case "${change#change }" in *[!0-9.e+-]* | "") break ;; esac
   if awk -v change="${change#change }" 'BEGIN { exit !(change < 0.001) }'; then rm log.round; exit 0; fi
   if [ "$before" = "$time" ] || [ "$time" -ge )sh" +
          std::to_string(plan.options.iterations) + R"sh( ]; then break; fi
@@ -100,8 +103,22 @@ for round in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20; do
     first=0
   done < log.round
 done
+rm log.round # log.outlets holds it
 echo "the flows of the outlets have not settled: see log.outlets" >&2
 exit 1
+)sh";
+}
+
+/// The newest time, and measurements from it on removed: an earlier run made them that was given up before it
+/// wrote its result. OpenFOAM would leave them and write beside them.
+std::string fresh_measurements() {
+  return R"sh(newest() {
+  ls | awk '/^[0-9][0-9.e+-]*$/ && $1 + 0 >= t { t = $1 + 0; name = $1 } END { print name }'
+}
+# What an earlier run has measured from here on is not this one's.
+ls -d postProcessing/*/* 2> /dev/null |
+  awk -F / -v from="$(newest)" 'NF == 3 && $3 ~ /^[0-9][0-9.e+-]*$/ && $3 + 0 >= from + 0' |
+  while read -r part; do rm -r "./$part"; done
 )sh";
 }
 
@@ -125,9 +142,10 @@ std::string run_script(const CasePlan& plan) {
          "# Runs this case: ./Allrun, or decomposed on N processes: ./Allrun N. What the programs say is in "
          "log.*\n"
          "# MPIRUN names another program than mpirun, with its options.\n"
-         "cd \"${0%/*}\" || exit 1\nset -e\n"
+         "case \"$0\" in */*) cd \"${0%/*}\" || exit 1 ;; esac\nset -e\n"
          "# Debian's OpenFOAM finds its settings by this.\n"
-         ": \"${WM_PROJECT_DIR:=/usr/share/openfoam}\"\nexport WM_PROJECT_DIR\n"
+         ": \"${WM_PROJECT_DIR:=/usr/share/openfoam}\"\nexport WM_PROJECT_DIR\n" +
+         fresh_measurements() +
          "n=\"${1:-1}\"\n"
          "checkMesh > log.checkMesh 2>&1\n"
          "if [ \"$n\" -gt 1 ]; then\n"

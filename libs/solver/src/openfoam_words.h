@@ -77,7 +77,7 @@ class OpenfoamWords {
       } else if (text_.compare(at_, 2, "//") == 0) {
         at_ = std::min(text_.find('\n', at_), text_.size());
       } else if (text_.compare(at_, 2, "/*") == 0) {
-        const std::size_t end = text_.find("*/", at_);
+        const std::size_t end = text_.find("*/", at_ + 2);
         at_ = end == std::string::npos ? text_.size() : end + 2;
       } else {
         return;

@@ -26,8 +26,9 @@ WfdbRecord read_wfdb(const std::filesystem::path& header);
 std::vector<geometry::EcgBeat> read_wfdb_beats(const std::filesystem::path& annotations);
 
 /// Writes NAME.hea, NAME.dat (format 16, a thousandth of the unit a step) and, where there are beats,
-/// NAME.atr beside them. Values beyond 32 units are cut off; NaN stays missing. Throws InvalidInput (a name
-/// that is no word of letters, digits, - and _; leads of different lengths; no leads), IoError.
+/// NAME.atr beside them (without beats one that is there is removed). Values beyond 32 units are cut off; NaN
+/// stays missing. Throws InvalidInput (a name that is no word of at most 100 letters, digits, - and _; a unit
+/// with blanks, a lead's name with control characters; leads of different lengths; no leads), IoError.
 void write_wfdb(const std::filesystem::path& header, const geometry::EcgRecord& record,
                 const std::vector<geometry::EcgBeat>& beats = {});
 

@@ -45,8 +45,8 @@ struct Registration {
 /// the target to the source), with weights that leave out what is far compared with the rest (Tukey):
 /// branches that only one surface has. At each depth, pairs and cage by turns; steps are shortened until
 /// every cell's Jacobian is positive everywhere and the energy falls. Cells far from the surface follow
-/// smoothly. If triangles intersect that did not before, the last step is taken back until none do.
-/// Deterministic. Throws InvalidInput (options, a surface without triangles, a start of another number of
+/// smoothly. If triangles intersect that did not in the source, a depth is taken back by halves until none
+/// do. Deterministic. Throws InvalidInput (options, a surface without triangles, a start of another number of
 /// points), Cancelled.
 Registration register_cage(const geometry::TriMesh& source, const geometry::TriMesh& target,
                            const RegistrationOptions& options = {},

@@ -61,6 +61,7 @@ class HeartPhase {
  private:
   double latency_s_;
   std::optional<double> last_;
+  int gaps_ = 0;  ///< in a row
   RrPredictor intervals_;
 };
 

@@ -27,7 +27,8 @@ struct RPeak {
 /// (difference of two centred moving averages, of 16 and 90 ms: linear phase) is compared with a threshold
 /// that follows the sizes of beats and of what is between them (after Pan and Tompkins 1985); beats missed
 /// for 1.66 intervals are looked for again with half of it. Missing samples (NaN) are bridged by the last
-/// value. Needs two seconds to learn the sizes; see `r_peaks` for whole records.
+/// value. Needs two seconds to learn the sizes (see `r_peaks` for whole records), and learns anew where four
+/// seconds of good signal have no beat.
 class RPeakDetector {
  public:
   /// Throws InvalidInput outside of 100 to 10000 samples a second.
@@ -52,6 +53,7 @@ class RPeakDetector {
   void watch_signal(double value, bool missing);
   bool cut_off(double value) const;
   void learn(double height);
+  void forget_when_in_vain();
   double threshold(double since_s) const;
   void judge(const Bump& bump);
   std::optional<RPeak> told_pending();
@@ -69,9 +71,11 @@ class RPeakDetector {
   double beat_height_ = 0.0, noise_height_ = 0.0;  // means of the last
   double counted_height_ = 0.0;                    // what the last beat has put into its mean
   bool knows_sizes_ = false;
-  std::optional<double> interval_s_;  // mean of the last
-  Bump bump_, second_;                // now; the greatest since the last beat that was no beat
-  std::optional<Bump> pending_;       // the greatest wave of a beat so far
+  std::size_t learnt_ = 0, waited_ = 0;  // samples: learned from; good ones since the last beat
+  int gaps_ = 0;                         // intervals in a row that were too long
+  std::optional<double> interval_s_;     // mean of the last
+  Bump bump_, second_;                   // now; the greatest since the last beat that was no beat
+  std::optional<Bump> pending_;          // the greatest wave of a beat so far
   std::optional<std::size_t> last_beat_;
   std::size_t equal_ = 0, missing_ = 0;  // samples in a row
   std::optional<std::size_t> clipped_at_;

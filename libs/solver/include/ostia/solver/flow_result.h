@@ -69,7 +69,7 @@ std::filesystem::path result_time(const std::filesystem::path& case_folder);
 /// Reads the last time of a case of write_openfoam_case, and of a pulsatile one all times of its last cycle,
 /// one by one. `mesh_file` stands in for the case's own mesh.vtu where not empty. Throws InvalidInput: no
 /// case, svMultiPhysics, not run, decomposed and not reconstructed, another mesh than the case's (by its
-/// numbers and points), fields missing or binary, a pulsatile run that has not come through one cycle.
+/// cells and points), fields missing or binary, a pulsatile run that has not come through one cycle.
 FlowResult read_flow_result(const std::filesystem::path& case_folder,
                             const std::filesystem::path& mesh_file = {},
                             const core::TaskContext& task = core::no_task());

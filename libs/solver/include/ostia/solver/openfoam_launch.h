@@ -34,10 +34,14 @@ double share_done(const OpenfoamProgress& progress, const OpenfoamRunPlan& plan)
 /// The program of this name in a folder of $PATH; nothing where there is none.
 std::optional<std::filesystem::path> program_on_path(const std::string& name);
 
+/// OpenFOAM strips blanks and quotation marks out of the path of the folder that it works in.
+bool openfoam_can_work_in(const std::filesystem::path& folder);
+
 /// Runs `Allrun` of a case as a child process until it ends. Progress and stage ("iteration, residual: 57,
 /// 3e-04", "time, s: 0.1 / 2.4") come from the program's log. On cancel all its processes are ended before
-/// Cancelled is thrown; the case stays with what was written. Throws IoError where the program is not
-/// installed, NumericalError with the last lines of the log where it fails, ResourceError, and what
+/// Cancelled is thrown; the case stays with what was written; they also end within seconds of this
+/// process's death. Throws InvalidInput where OpenFOAM cannot work in the folder, IoError where the program
+/// is not installed, NumericalError with the last lines of the log where it fails, ResourceError, and what
 /// openfoam_run_plan throws.
 OpenfoamProgress run_openfoam_case(const std::filesystem::path& case_folder,
                                    const core::TaskContext& task = core::no_task());

@@ -12,7 +12,7 @@
 namespace ostia::solver {
 
 /// Values over time (or iterations), as a function object has written them. Where a run was continued, what
-/// it wrote later counts.
+/// it wrote before counts up to there.
 using OpenfoamSeries = std::map<double, double>;
 /// Of postProcessing/<function>/<start>/surfaceFieldValue.dat. Throws InvalidInput where there is none or it
 /// holds no numbers.

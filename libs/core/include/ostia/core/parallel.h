@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <utility>
 #include <vector>
 
 namespace ostia::core {
@@ -40,7 +41,7 @@ T parallel_reduce(std::size_t count, std::size_t grain, T init, const Map& map, 
   parallel_chunks(count, grain,
                   [&](std::size_t first, std::size_t last) { partial[first / grain] = map(first, last); });
   T result = init;
-  for (const T& p : partial) result = combine(result, p);
+  for (const T& p : partial) result = combine(std::move(result), p);
   return result;
 }
 

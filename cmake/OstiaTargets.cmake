@@ -6,7 +6,7 @@ set(OSTIA_ROOMS
     segmentation centerline lumen meshing solver motion analysis
     phantom evaluation coronary pipeline
     session experiments
-    view)
+    glview view)
 
 function(ostia_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor)

@@ -10,6 +10,7 @@
 #include "extract.h"
 #include "flow_result.h"
 #include "lumen.h"
+#include "motion.h"
 #include "progress_bar.h"
 #include "refusal.h"
 #include "report.h"
@@ -55,6 +56,7 @@ struct Commands {
   BatchCommand batch;
   CaseCommand solver_case;
   ResultCommand result;
+  MotionCommands motion;
 };
 
 void add_common(CLI::App& app, CommonOptions& o) {
@@ -141,6 +143,7 @@ void define(CLI::App& app, Commands& c, Run& run) {
   define_run(app, c.chain, c.batch, c.common, run);
   define_case(app, c.solver_case, run);
   define_result(app, c.result, run);
+  define_motion(app, c.motion, run);
 
   CLI::App* segment = command(app, "segment", "The lumen of the vessels between seed points",
                               "ostia segment heart.nrrd -o lumen.vtp --branch 8,-187,675:6,-178,720\n"
@@ -271,6 +274,7 @@ void keep_paths_out_of_the_log(const Commands& c) {
         c.solver_case.output, std::filesystem::path(c.solver_case.waveform)}) {
     keep_out(path);
   }
+  for (const std::filesystem::path& path : paths_of(c.motion)) keep_out(path);
   for (const MeshOptions* mesh : {&c.mesh.mesh, &c.model.mesh}) {
     keep_out(mesh->planes_file);
     keep_out(mesh->solver_case.waveform);

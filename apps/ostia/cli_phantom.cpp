@@ -16,7 +16,8 @@ void add_phantom(CLI::App& app, PhantomCommand& o) {
       ->check(CLI::IsMember({"tiny", "small", "full"}));
   app.add_option("--cases", o.cases, "How many cases, with the seeds from --seed on")
       ->check(CLI::Range(1, 100));
-  app.add_option("--phases", o.phases, "Phases of the heart's cycle; 1 alone");
+  app.add_option("--phases", o.phases,
+                 "Phases of a heartbeat, 1 to 100; 1: the heart stands still in mid-diastole");
   app.add_flag("--truth-only", o.truth_only, "No images and label volumes");
   app.add_option("--formats", o.formats, "Of the image: mhd, nrrd, dicom, separated by commas; all")
       ->delimiter(',')
@@ -48,7 +49,8 @@ void add_phantom(CLI::App& app, PhantomCommand& o) {
   app.add_option("--contour-spacing", o.contour_spacing_mm, "Distance between the true contours, mm")
       ->check(CLI::PositiveNumber);
   app.add_option("--contour-points", o.contour_points, "Points of a contour")->check(CLI::Range(8, 1024));
-  app.add_option("--surface-spacing", o.surface_spacing_mm, "Edges of the true surfaces, mm")
+  app.add_option("--surface-spacing", o.surface_spacing_mm,
+                 "Edges of the true surfaces, mm; 0.15, with phases 0.4")
       ->check(CLI::Range(0.05, 1.0));
   app.add_flag("--no-report", o.no_report, "No report.html and no pictures");
   app.add_flag("--json", o.json, "suite.json on standard output");

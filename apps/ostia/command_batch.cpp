@@ -3,6 +3,7 @@
 #include "table_file.h"
 
 #include "ostia/core/child_process.h"
+#include "ostia/core/csv.h"
 #include "ostia/core/files.h"
 #include "ostia/core/log.h"
 #include "ostia/core/parallel.h"
@@ -132,13 +133,14 @@ Outcome Batch::run_one(const Case& one) const {
 }
 
 void Batch::write_table() const {
-  std::string text = csv_line({"case", "status", "exit_code", "seconds", "message"});
+  std::string text = core::csv_line({"case", "status", "exit_code", "seconds", "message"});
   for (std::size_t i = 0; i < cases_.size(); ++i) {
     const Outcome& one = outcomes_[i];
     char seconds[32];
     std::snprintf(seconds, sizeof seconds, "%.1f", one.seconds);
     if (!one.status.empty())
-      text += csv_line({cases_[i].name, one.status, std::to_string(one.exit_code), seconds, one.message});
+      text +=
+          core::csv_line({cases_[i].name, one.status, std::to_string(one.exit_code), seconds, one.message});
   }
   core::write_file(options_.output / "results.csv", text);
 }

@@ -1,4 +1,5 @@
 #include "evaluate.h"
+#include "motion_input.h"
 
 #include "ostia/core/files.h"
 #include "ostia/evaluation/motion_error.h"
@@ -41,17 +42,6 @@ PointMotion motion_from(const std::filesystem::path& path) {
 
 Json number(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
-/// What tells a phase: the last number in the file's name, without leading zeros, else the whole name.
-std::string phase_of(const std::string& stem) {
-  const std::size_t last = stem.find_last_of("0123456789");
-  if (last == std::string::npos) return stem;
-  const std::size_t before = stem.find_last_not_of("0123456789", last);
-  const std::string run = stem.substr(before == std::string::npos ? 0 : before + 1,
-                                      last - (before == std::string::npos ? 0 : before + 1) + 1);
-  const std::size_t first = run.find_first_not_of('0');
-  return first == std::string::npos ? "0" : run.substr(first);
 }
 
 /// The surfaces of a folder by phase.

@@ -17,7 +17,6 @@
 
 #include <chrono>
 #include <cstdio>
-#include <map>
 #include <optional>
 #include <utility>
 
@@ -38,27 +37,17 @@ geometry::FacedSurface surface_in(const std::filesystem::path& file, const Input
   return surface;
 }
 
-/// The worst place of each kind. What is wrong with the surface itself is told before its centerlines are
-/// sought, sizes once they are known.
-void warn_of(const meshing::MeshForecast& forecast, bool of_the_surface, bool of_sizes) {
-  std::map<meshing::TroubleKind, std::size_t> told;
-  for (const meshing::ForecastPlace& place : forecast.places) ++told[place.kind];
-  for (const meshing::ForecastPlace& place : forecast.places) {
-    const bool surface = place.kind <= meshing::TroubleKind::self_intersections;
-    const std::size_t count = std::exchange(told[place.kind], 0);
-    if (count == 0 || !(surface ? of_the_surface : of_sizes)) continue;
-    core::log_warning(
-        forecast_text(place) +
-        (count > 1 ? "; so at " + std::to_string(count) + " places (--forecast lists them)" : ""));
-  }
-}
-
 ExitCode check_file(const MeshCommand& options, const core::TaskContext& task) {
   task.set_stage("reading");
   if (io::is_volume_mesh(options.check)) {
-    const pipeline::MeshQuality quality =
-        pipeline::judged(io::read_volume_mesh(options.check), pipeline::layers_of(options.check), task);
+    const io::LayeredMesh read = io::read_layered_mesh(options.check);
+    const pipeline::MeshQuality quality = pipeline::judged(read.mesh, read.in_layers, task);
     std::fputs((pipeline::quality_json(quality) + "\n").c_str(), stdout);
+    if (!quality.verdict.ok() && read.mesh.prisms.empty() && read.in_layers.empty())
+      core::log_warning(
+          "the file does not say which tetrahedra are prisms of layers that were split, and all are judged "
+          "as "
+          "tetrahedra; if there are such, check the mesh.vtu that was written beside it");
     return verdict(quality.verdict);
   }
   if (!io::is_surface_file(options.check))
@@ -176,6 +165,8 @@ ExitCode run_mesh(const MeshCommand& options, const core::TaskContext& task) {
     return *code;
   }
   const geometry::FacedSurface wall{source.surface, {}, {}};
+  // What is wrong with the surface itself is told before its centerlines are sought, sizes once they are
+  // known.
   warn_of(forecast_of(wall, nullptr, how, task.sub(0.1, 0.12)), true, false);
   pipeline::require_sound_surface(source.surface, options.input.input.string());
   const geometry::VesselTree tree = tree_for(options, source, how, task.sub(0.12, 0.28));

@@ -8,6 +8,7 @@
 #include "ostia/phantom/builtin_case.h"
 #include "ostia/pipeline/model_folder.h"
 #include "ostia/pipeline/report.h"
+#include "ostia/pipeline/vessel_forecast.h"
 
 #include <chrono>
 #include <cstdio>
@@ -93,7 +94,10 @@ ExitCode run_model(const ModelCommand& command, const core::TaskContext& task) {
     return *code;
   }
   const core::TaskContext building = task.sub(0.1, 0.85);
-  const pipeline::Model model = pipeline::build_model(std::move(job.source), job.options, building);
+  pipeline::LumenWithAxes lumen =
+      pipeline::build_lumen(std::move(job.source), job.options, building.sub(0.0, 0.45));
+  warn_of(pipeline::forecast_model(lumen, job.options, building.sub(0.45, 0.47)).forecast, true, true);
+  const pipeline::Model model = pipeline::mesh_model(std::move(lumen), job.options, building.sub(0.47, 1.0));
   for (const std::string& warning : model.warnings) core::log_warning(warning);
   std::optional<pipeline::TruthErrors> truth;
   if (job.builtin) {

@@ -39,9 +39,13 @@ phantom::SuiteOptions options_of(const PhantomCommand& command) {
   set_if(command.stair_step_mm, scan.stair_step_mm);
   set_if(command.beam_hardening, scan.beam_hardening);
   set_if(command.contour_spacing_mm, options.first.contours.spacing_mm);
+  // Surfaces of many phases: half as many triangles.
+  constexpr double spacing_of_phases_mm = 0.4;
+  if (command.phases > 1) options.first.surface_spacing_mm = spacing_of_phases_mm;
   set_if(command.surface_spacing_mm, options.first.surface_spacing_mm);
   if (command.contour_points > 0) options.first.contours.points = command.contour_points;
   options.cases = command.cases;
+  options.phases = command.phases;
   options.truth_only = command.truth_only;
   options.report = !command.no_report;
   if (!command.formats.empty()) {
@@ -55,10 +59,25 @@ phantom::SuiteOptions options_of(const PhantomCommand& command) {
   return options;
 }
 
+/// How the vessels move, where they do.
+void print_motion(const phantom::SuiteRecord& record) {
+  bool first = true;
+  for (const phantom::CaseRecord& one : record.cases) {
+    for (const phantom::VesselMotion& vessel : one.motion) {
+      if (first) std::printf("case       vessel  displacement (largest), mm  speed (largest), mm/s\n");
+      first = false;
+      std::printf("%-10s %-6s  %12.1f (%7.1f)       %12.0f (%7.0f)\n", one.folder.c_str(),
+                  vessel.vessel.c_str(), vessel.displacement_mm, vessel.largest_displacement_mm,
+                  vessel.speed_mm_per_s, vessel.largest_speed_mm_per_s);
+    }
+  }
+}
+
 void print(const phantom::SuiteRecord& record) {
   std::printf("%zu %s, %d annotated sections: %.1f mm healthy, %.1f mm diseased\n", record.cases.size(),
               record.cases.size() == 1 ? "case" : "cases", record.sections(), record.healthy_mm(),
               record.diseased_mm());
+  print_motion(record);
 }
 
 void print_suite(const std::filesystem::path& folder) {
@@ -76,10 +95,9 @@ std::vector<std::string> warnings_of(const phantom::SuiteRecord& record) {
 
 ExitCode run_phantom(const PhantomCommand& command, const core::TaskContext& task) {
   const auto start = Clock::now();
-  if (command.phases != 1) {
+  if (command.phases < 1 || command.phases > 100) {
     throw UsageError("--phases " + std::to_string(command.phases) +
-                     ": the phantom's heart stands still in mid-diastole, so there is one phase alone; leave "
-                     "--phases out");
+                     ": 1 (the heart stands still in mid-diastole) to 100 phases of a beat can be made");
   }
   const phantom::SuiteOptions options = options_of(command);
   phantom::validate(options);

@@ -47,6 +47,9 @@ void define_experiment_orientations(CLI::App& experiment, const std::uint64_t& s
 void define_experiment_robustness(CLI::App& experiment, const std::uint64_t& seed,
                                   std::function<ExitCode(const core::TaskContext&)>& run);
 
+void define_experiment_motion(CLI::App& experiment, const std::uint64_t& seed,
+                              std::function<ExitCode(const core::TaskContext&)>& run);
+
 void define_experiment_carotid(CLI::App& experiment, const std::uint64_t& seed,
                                std::function<ExitCode(const core::TaskContext&)>& run);
 

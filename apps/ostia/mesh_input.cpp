@@ -4,6 +4,7 @@
 #include "refusal.h"
 #include "table_file.h"
 
+#include "ostia/core/log.h"
 #include "ostia/io/surface_fields.h"
 
 #include <nlohmann/json.hpp>
@@ -11,6 +12,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <utility>
 
 namespace ostia::app {
 namespace {
@@ -164,6 +167,20 @@ std::string forecast_text(const meshing::ForecastPlace& place) {
   const std::string option = option_for(place);
   return place.sentence + (place.fails ? "; meshing may fail there: " : "; ") + place.repair_sentence +
          (option.empty() ? "" : " (" + option + ")");
+}
+
+void warn_of(const meshing::MeshForecast& forecast, bool of_the_surface, bool of_sizes) {
+  std::map<meshing::TroubleKind, std::size_t> told;
+  for (const meshing::ForecastPlace& place : forecast.places) ++told[place.kind];
+  for (const meshing::ForecastPlace& place : forecast.places) {
+    const bool surface = place.kind <= meshing::TroubleKind::self_intersections;
+    const std::size_t count = std::exchange(told[place.kind], 0);
+    if (count == 0 || !(surface ? of_the_surface : of_sizes)) continue;
+    core::log_warning(
+        forecast_text(place) +
+        (count > 1 ? "; so at " + std::to_string(count) + " places (`ostia mesh` with --forecast lists them)"
+                   : ""));
+  }
 }
 
 std::string forecast_json(const meshing::MeshForecast& forecast) {

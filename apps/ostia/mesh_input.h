@@ -26,6 +26,8 @@ meshing::MeshForecast forecast_of(const geometry::FacedSurface& surface, const g
                                   const pipeline::ModelOptions& how, const core::TaskContext& task);
 /// The place's sentence and the way out, as the command line has it.
 std::string forecast_text(const meshing::ForecastPlace& place);
+/// Logs the worst place of each kind, of the surface itself, of sizes and layers, or of both.
+void warn_of(const meshing::MeshForecast& forecast, bool of_the_surface, bool of_sizes);
 /// A JSON object: `fails`, `places`.
 std::string forecast_json(const meshing::MeshForecast& forecast);
 /// A JSON object of a surface's quality with the forecast as the member `forecast`.

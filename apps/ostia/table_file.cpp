@@ -1,10 +1,12 @@
 #include "table_file.h"
 
+#include "ostia/core/csv.h"
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
 
 #include <algorithm>
 #include <set>
+#include <string_view>
 
 namespace ostia::app {
 namespace {
@@ -17,12 +19,12 @@ struct Line {
 /// Goes through the text once, cell by cell.
 class Parser {
  public:
-  Parser(const std::string& text, const std::filesystem::path& file) : text_(text), file_(file) {
-    if (text_.starts_with("\xef\xbb\xbf")) at_ = 3;
+  Parser(std::string_view text, const std::filesystem::path& file) : rest_(text), file_(file) {
+    if (rest_.starts_with("\xef\xbb\xbf")) rest_.remove_prefix(3);
   }
   std::vector<Line> lines() {
     std::vector<Line> out;
-    while (at_ < text_.size()) {
+    while (!rest_.empty()) {
       Line line{{}, number_};
       while (cell(line)) {
       }
@@ -34,37 +36,18 @@ class Parser {
  private:
   /// Adds a cell; false where the line ends behind it.
   bool cell(Line& line) {
-    std::string value;
-    if (at_ < text_.size() && text_[at_] == '"') quoted(line, value);
-    while (at_ < text_.size() && text_[at_] != ',' && text_[at_] != '\n') value += text_[at_++];
-    const bool more = at_ < text_.size() && text_[at_] == ',';
-    if (!more && !value.empty() && value.back() == '\r') value.pop_back();
-    if (at_ < text_.size()) {
-      number_ += more ? 0 : 1;
-      ++at_;
-    }
-    line.cells.push_back(std::move(value));
-    return more;
-  }
-  void quoted(const Line& line, std::string& value) {
-    for (++at_; at_ < text_.size(); ++at_) {
-      if (text_[at_] == '\n') ++number_;
-      if (text_[at_] != '"') {
-        value += text_[at_];
-      } else if (at_ + 1 < text_.size() && text_[at_ + 1] == '"') {
-        value += text_[at_++];
-      } else {
-        ++at_;
-        return;
-      }
-    }
-    throw InvalidInput("cannot use " + file_.string() + ": the quotation in line " +
-                       std::to_string(line.number) + " does not end");
+    core::CsvCell one = core::take_csv_cell(rest_);
+    if (!one.closed)
+      throw InvalidInput("cannot use " + file_.string() + ": the quotation in line " +
+                         std::to_string(line.number) + " does not end");
+    number_ += one.line_ends;
+    line.cells.push_back(std::move(one.text));
+    return !one.last;
   }
 
-  const std::string& text_;
+  std::string_view rest_;
   const std::filesystem::path& file_;
-  std::size_t at_ = 0, number_ = 1;
+  std::size_t number_ = 1;
 };
 
 }  // namespace
@@ -89,21 +72,6 @@ Table read_table(const std::filesystem::path& file) {
     out.lines.push_back(lines[i].number);
   }
   return out;
-}
-
-std::string csv_line(const std::vector<std::string>& cells) {
-  std::string out;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (i > 0) out += ',';
-    if (cells[i].find_first_of(",\"\n\r") == std::string::npos) {
-      out += cells[i];
-      continue;
-    }
-    out += '"';
-    for (const char c : cells[i]) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-    out += '"';
-  }
-  return out + "\n";
 }
 
 }  // namespace ostia::app

@@ -18,7 +18,4 @@ struct Table {
 /// of another width, an open quotation; IoError.
 Table read_table(const std::filesystem::path& file);
 
-/// One line of CSV with its end.
-std::string csv_line(const std::vector<std::string>& cells);
-
 }  // namespace ostia::app

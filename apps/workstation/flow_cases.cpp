@@ -108,10 +108,9 @@ FlowCases::FlowCases(MainWindow& window) : QObject(&window), window_(window) {
   // A run that was cancelled or failed can be begun again.
   connect(&window.jobs(), &Jobs::changed, this, [this] {
     if (being_run_.empty() || window_.jobs().running("flow_run")) return;
-    leave_case(std::exchange(being_run_, {}), {}, being_run_asked_);
+    leave_case(std::exchange(being_run_, {}), {}, being_run_of_);
   });
   other_case_ = window.bench().case_changed.observe([this] {
-    ++case_;
     if (dialog_) dialog_->reject();
     made_mesh_.clear();
     last_.mesh.clear();
@@ -165,50 +164,50 @@ void FlowCases::write(const FlowDialog& dialog) {
                                   .toStdString());
         }
       },
-      [this, choice = last_, asked = case_](const std::any& warnings) {
-        tell_written(choice, std::any_cast<const Warnings&>(warnings), asked);
+      [this, choice = last_, of = window_.case_path()](const std::any& warnings) {
+        tell_written(choice, std::any_cast<const Warnings&>(warnings), of);
       },
       [this](const QString& message) {
         window_.complain(message, tr("The flow case could not be written"));
       });
 }
 
-void FlowCases::tell_written(const FlowChoice& made, const Warnings& warnings, int asked) {
+void FlowCases::tell_written(const FlowChoice& made, const Warnings& warnings, const fs::path& of) {
   QStringList notes{as_text(made.folder)};
   for (const std::string& warning : warnings) notes << QString::fromStdString(warning);
   if (!warnings.empty()) window_.say(QString::fromStdString(warnings.front()));
   const std::string program = made.waveform.empty() ? "simpleFoam" : "pisoFoam";
   const bool here = made.solver == FlowSolver::openfoam && solver::program_on_path(program);
   if (here && made.run && !window_.jobs().running("flow_run"))
-    run(made.folder, asked);
+    run(made.folder, of);
   else if (here)
-    leave_case(made.folder, notes, asked);
+    leave_case(made.folder, notes, of);
   else
     window_.jobs().leave("flow_case", tr("%1: flow case written").arg(as_text(made.folder.filename())),
                          notes.join('\n'), tr("Open folder"),
                          [folder = made.folder] { open_folder(folder); });
 }
 
-void FlowCases::leave_case(const fs::path& folder, const QStringList& notes, int asked) {
+void FlowCases::leave_case(const fs::path& folder, const QStringList& notes, const fs::path& of) {
   // Where nothing is being run the line is the run's, which then takes its place.
   window_.jobs().leave(window_.jobs().running("flow_run") ? "flow_case" : "flow_run",
                        tr("%1: flow case written").arg(as_text(folder.filename())),
                        notes.isEmpty() ? as_text(folder) : notes.join('\n'), tr("Run the solver"),
-                       [this, folder, asked] { run(folder, asked); });
+                       [this, folder, of] { run(folder, of); });
 }
 
-void FlowCases::run(const fs::path& case_folder, int asked) {
+void FlowCases::run(const fs::path& case_folder, const fs::path& of) {
   if (window_.jobs().running("flow_run")) {  // a second one would begin before the first has ended
     window_.say(tr("The solver is running already: cancel it first."));
     return;
   }
   const QString name = as_text(case_folder.filename());
   being_run_ = case_folder;
-  being_run_asked_ = asked;
+  being_run_of_ = of;
   window_.jobs().run(
       "flow_run", tr("Solver"),
       [case_folder](const core::TaskContext& task) { return std::any(run_case(case_folder, task)); },
-      [this, case_folder, name, asked](const std::any& result) {
+      [this, case_folder, name, of](const std::any& result) {
         being_run_.clear();
         const Run& made = std::any_cast<const Run&>(result);
         QStringList reasons;
@@ -216,21 +215,38 @@ void FlowCases::run(const fs::path& case_folder, int asked) {
         const QString end = made.steady ? tr("%1 iterations").arg(made.last) : tr("%1 s").arg(made.last);
         show_result(case_folder, made.wall,
                     (made.converged ? tr("%1: converged, %2") : tr("%1: not converged, %2")).arg(name, end),
-                    reasons.join('\n'), asked);
+                    reasons.join('\n'), of);
       },
       [this](const QString& message) { window_.complain(message, tr("The solver's run failed")); });
 }
 
 void FlowCases::show_result(const fs::path& folder, const fs::path& wall, const QString& outcome,
-                            const QString& trouble, int asked) {
+                            const QString& trouble, const fs::path& of) {
   const auto show = [this, wall, trouble] {
     if (!trouble.isEmpty())
       window_.complain(tr("The result is shown, but look at it before you use it: %1").arg(trouble),
                        tr("A result to look at"));
     window_.flow_results().open(wall);
   };
-  window_.jobs().leave("flow_run", outcome, as_text(folder), tr("Show the result"), show);
-  if (asked == case_) show();
+  window_.jobs().leave("flow_run", outcome, as_text(folder), tr("Show the result"), [this, show, folder, of] {
+    if (of == window_.case_path())
+      show();
+    else
+      refuse_result(folder, of);
+  });
+  if (of == window_.case_path()) show();
+}
+
+void FlowCases::refuse_result(const fs::path& folder, const fs::path& of) {
+  const QString name = as_text(folder.filename());
+  window_.complain(of.empty()
+                       ? tr("The result of %1 was computed while no case was open. Close the case that "
+                            "is open to see it.")
+                             .arg(name)
+                       : tr("The result of %1 belongs to the case %2, which is not open. Open that "
+                            "case, then show the result.")
+                             .arg(name, as_text(of.filename())),
+                   tr("A result of another case"));
 }
 
 }  // namespace ostia::workstation

@@ -1,7 +1,7 @@
 #include "flow_dialog.h"
 
 #include "file_dialogs.h"
-#include "folder_trouble.h"
+#include "new_folder.h"
 
 #include "ostia/io/volume_mesh_file.h"
 #include "ostia/solver/openfoam_launch.h"
@@ -72,25 +72,14 @@ void FlowDialog::choose_mesh() {
   if (!chosen.isEmpty()) mesh_file_->setText(chosen);
 }
 
-void FlowDialog::choose_folder() {
-  const QFileInfo now(folder_->text());
-  const QString inside = ask_folder(this, tr("Where the folder is to be"), now.absolutePath());
-  if (inside.isEmpty()) return;
-  folder_typed_ = true;
-  folder_->setText(inside + "/" + now.fileName());
-}
-
 /// tube-mesh/mesh.vtu: tube-flow, tube-flow-2, ... beside the mesh's folder.
 void FlowDialog::propose_folder() {
-  if (folder_typed_ || mesh_file_->text().isEmpty()) return;
+  if (mesh_file_->text().isEmpty()) return;
   const QFileInfo mesh_folder(QFileInfo(mesh_file_->text()).absolutePath());
   QString name = mesh_folder.fileName();
   const int at = name.lastIndexOf("-mesh");
   name = at > 0 ? name.left(at) : name;
-  const QString first = mesh_folder.absolutePath() + "/" + name + "-flow";
-  QString folder = first;
-  for (int number = 2; QFileInfo::exists(folder); ++number) folder = first + "-" + QString::number(number);
-  folder_->setText(folder);
+  folder_->propose(free_folder((mesh_folder.absolutePath() + "/" + name + "-flow").toStdString()));
 }
 
 QString FlowDialog::mesh_trouble() const {
@@ -139,14 +128,12 @@ void FlowDialog::check() {
   mark({density_, blood_field_.trouble}, {});
   ExportField blood = blood_field_;
   if (!between(density_->value(), least_density, most_density)) blood.input = density_;
-  QString folder = folder_trouble(folder_->text());
-  if (folder.isEmpty() && !QDir(folder_->text()).isEmpty())
-    folder = tr("The folder holds files. Name another one.");
   bool fits = mark(mesh_field_, mesh_trouble());
   fits = mark(flow_field_, flow_trouble()) && fits;
   fits = mark(outlets_field_, outlets_trouble()) && fits;
   fits = mark(blood, blood_trouble()) && fits;
-  fits = mark(folder_field_, folder) && fits;
+  const bool full = !QDir(folder_->text()).isEmpty();
+  fits = folder_->check(full ? tr("The folder holds files. Name another one.") : QString()) && fits;
   go_->setEnabled(fits && mesh_.mesh);
   show_ends();
   show_note();
@@ -202,7 +189,7 @@ FlowSolver FlowDialog::solver() const {
 FlowChoice FlowDialog::choice() const {
   FlowChoice made;
   made.mesh = mesh_file_->text().toStdString();
-  made.folder = folder_->text().toStdString();
+  made.folder = folder_->path();
   made.solver = solver();
   if (flow_->currentIndex() == 1) made.flow_ml_s = flow_ml_s_->value();
   made.waveform = waveform_->currentData().toString().toStdString();

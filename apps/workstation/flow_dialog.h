@@ -1,11 +1,11 @@
 #pragma once
 /// \file What is asked before a solver's case is written.
 
+#include "fitted_dialog.h"
 #include "meshing_fields.h"
 
 #include "ostia/solver/boundary_flow.h"
 
-#include <QDialog>
 #include <QTimer>
 #include <filesystem>
 #include <memory>
@@ -22,6 +22,8 @@ class QPushButton;
 class QTreeWidget;
 
 namespace ostia::workstation {
+
+class NewFolderField;
 
 enum class FlowSolver { openfoam, svmultiphysics };
 
@@ -45,7 +47,7 @@ struct FlowMesh {
 FlowMesh read_flow_mesh(const std::filesystem::path& file);
 
 /// Checks while it is filled in, as MeshingDialog does. The mesh is read by its owner in the background.
-class FlowDialog final : public QDialog {
+class FlowDialog final : public FittedDialog {
   Q_OBJECT
  public:
   FlowDialog(const FlowChoice& last, QWidget* parent);
@@ -60,10 +62,6 @@ class FlowDialog final : public QDialog {
  signals:
   void mesh_wanted(const QString& file);
 
- protected:
-  void resizeEvent(QResizeEvent* event) override;
-  void showEvent(QShowEvent* event) override;
-
  private:
   void add_mesh(QFormLayout* form, const FlowChoice& last);
   void add_ends(QFormLayout* form);
@@ -73,11 +71,9 @@ class FlowDialog final : public QDialog {
   void add_blood(QFormLayout* form, const FlowChoice& last);
   void add_folder(QFormLayout* form, const FlowChoice& last);
   void choose_mesh();
-  void choose_folder();
   void want_mesh();
   void propose_folder();
   void check();
-  void fit();
   void show_ends();
   void show_note();
   QString mesh_trouble() const;
@@ -86,7 +82,8 @@ class FlowDialog final : public QDialog {
   QString blood_trouble() const;
   FlowSolver solver() const;
 
-  QLineEdit *mesh_file_ = nullptr, *folder_ = nullptr;
+  QLineEdit* mesh_file_ = nullptr;
+  NewFolderField* folder_ = nullptr;
   QTreeWidget* ends_ = nullptr;
   QComboBox *solver_ = nullptr, *flow_ = nullptr, *waveform_ = nullptr, *outlets_ = nullptr,
             *rheology_ = nullptr;
@@ -94,10 +91,9 @@ class FlowDialog final : public QDialog {
   QCheckBox* run_ = nullptr;
   QLabel* note_ = nullptr;
   QPushButton* go_ = nullptr;
-  ExportField mesh_field_, flow_field_, outlets_field_, blood_field_, folder_field_;
+  ExportField mesh_field_, flow_field_, outlets_field_, blood_field_;
   FlowMesh mesh_;
   QString mesh_refused_;
-  bool folder_typed_ = false;
   QTimer typing_;
 };
 

@@ -1,17 +1,16 @@
 // The rows of the flow case's dialog.
 #include "flow_dialog.h"
+#include "new_folder.h"
 
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDialogButtonBox>
 #include <QDoubleSpinBox>
 #include <QFormLayout>
-#include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
-#include <QResizeEvent>
 #include <QTreeWidget>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -19,36 +18,14 @@
 namespace ostia::workstation {
 namespace {
 
-constexpr int dialog_width = 560;
 constexpr int rows_shown = 4;
 constexpr int typing_ms = 400;
 constexpr double field_most = 99999.0;  // what can be typed; what is allowed is checked
 constexpr double usual_flow_ml_s = 1.0;
 
-QWidget* in_a_row(const std::vector<QWidget*>& widgets) {
-  auto* row = new QWidget;
-  auto* line = new QHBoxLayout(row);
-  line->setContentsMargins(0, 0, 0, 0);
-  for (QWidget* widget : widgets) line->addWidget(widget, widget == widgets.front() ? 1 : 0);
-  return row;
-}
-
-QPushButton* choose_button(const QString& text, const QString& name) {
-  auto* button = new QPushButton(text);
-  button->setObjectName(name);
-  button->setAutoDefault(false);
-  return button;
-}
-
 QDoubleSpinBox* number(const QString& name, const QString& accessible, int decimals, double value,
                        const QString& suffix) {
-  auto* box = new QDoubleSpinBox;
-  box->setObjectName(name);
-  box->setAccessibleName(accessible);
-  box->setRange(0.0, field_most);
-  box->setDecimals(decimals);
-  box->setSingleStep(decimals == 0 ? 10.0 : 0.1);
-  box->setValue(value);
+  auto* box = number_field(name, accessible, field_most, decimals, decimals == 0 ? 10.0 : 0.1, value);
   box->setSuffix(suffix);
   return box;
 }
@@ -64,11 +41,9 @@ QComboBox* list(const QString& name, const QString& accessible) {
 
 }  // namespace
 
-FlowDialog::FlowDialog(const FlowChoice& last, QWidget* parent) : QDialog(parent) {
+FlowDialog::FlowDialog(const FlowChoice& last, QWidget* parent) : FittedDialog(parent) {
   setObjectName("flow_dialog");
   setWindowTitle(tr("Flow case"));
-  setMinimumWidth(std::min(dialog_width, parent ? parent->width() - 40 : dialog_width));
-  resize(minimumWidth(), 0);
   typing_.setSingleShot(true);
   typing_.setInterval(typing_ms);
   connect(&typing_, &QTimer::timeout, this, [this] { emit mesh_wanted(mesh_file_->text()); });
@@ -104,7 +79,9 @@ void FlowDialog::add_mesh(QFormLayout* form, const FlowChoice& last) {
   mesh_file_ = new QLineEdit(QString::fromStdString(last.mesh.string()));
   mesh_file_->setObjectName("flow_mesh");
   mesh_file_->setAccessibleName(tr("Mesh"));
-  auto* choose = choose_button(tr("C&hoose\u2026"), "choose_mesh");
+  auto* choose = new QPushButton(tr("C&hoose\u2026"));
+  choose->setObjectName("choose_mesh");
+  choose->setAutoDefault(false);
   mesh_field_ = add_export_field(form, tr("&Mesh"), in_a_row({mesh_file_, choose}), mesh_file_, "mesh");
   connect(mesh_file_, &QLineEdit::textChanged, this, &FlowDialog::want_mesh);
   connect(choose, &QPushButton::clicked, this, &FlowDialog::choose_mesh);
@@ -183,36 +160,11 @@ void FlowDialog::add_blood(QFormLayout* form, const FlowChoice& last) {
 }
 
 void FlowDialog::add_folder(QFormLayout* form, const FlowChoice& last) {
-  folder_ = new QLineEdit;
-  folder_->setObjectName("folder");
-  folder_->setAccessibleName(tr("Folder that is made"));
-  auto* choose = choose_button(tr("&Choose\u2026"), "choose_folder");
-  folder_field_ = add_export_field(form, tr("&New folder"), in_a_row({folder_, choose}), folder_, "folder");
-  connect(folder_, &QLineEdit::textChanged, this, &FlowDialog::check);
-  connect(folder_, &QLineEdit::textEdited, this, [this] { folder_typed_ = true; });
-  connect(choose, &QPushButton::clicked, this, &FlowDialog::choose_folder);
+  folder_ = new NewFolderField(form, {}, this);
+  connect(folder_, &NewFolderField::changed, this, &FlowDialog::check);
   run_ = new QCheckBox(tr("&Run the solver when the case is written"));
   run_->setObjectName("flow_run");
   run_->setChecked(last.run);
-}
-
-void FlowDialog::fit() {
-  // Texts that wrap say what height they need for a width; a window does not ask by itself.
-  layout()->activate();
-  const int needed = layout()->hasHeightForWidth() ? layout()->totalHeightForWidth(width())
-                                                   : layout()->totalMinimumSize().height();
-  setMinimumHeight(needed);
-  if (height() < needed) resize(width(), needed);
-}
-
-void FlowDialog::resizeEvent(QResizeEvent* event) {
-  QDialog::resizeEvent(event);
-  if (go_ && event->size().width() != event->oldSize().width()) fit();
-}
-
-void FlowDialog::showEvent(QShowEvent* event) {
-  QDialog::showEvent(event);
-  fit();
 }
 
 }  // namespace ostia::workstation

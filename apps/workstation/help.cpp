@@ -151,14 +151,14 @@ void Help::change_size(double steps) {
 void Help::to_lesion(int direction) {
   session::Workbench& bench = window_.bench();
   constexpr double same_mm = 0.05;
-  const double here = bench.cursor_mm.get();
+  const double here = bench.own_mm(bench.cursor_mm.get());
   std::optional<double> best;
   for (const analysis::Stenosis& one : bench.stenoses(bench.vessel.get())) {
     const double ahead = direction * (one.throat_mm - here);
     if (ahead > same_mm && (!best || ahead < direction * (*best - here))) best = one.throat_mm;
   }
   if (best)
-    bench.cursor_mm.set(*best);
+    bench.cursor_mm.set(bench.here_mm(*best));
   else
     window_.say(tr("No other stenosis in this direction."));
 }

@@ -105,6 +105,8 @@ view::Words words_of_views() {
   words.fibrofatty = word(QT_TRANSLATE_NOOP("views", "fibrofatty"));
   words.fibrous = word(QT_TRANSLATE_NOOP("views", "fibrous"));
   words.calcified = word(QT_TRANSLATE_NOOP("views", "calcified"));
+  words.image = word(QT_TRANSLATE_NOOP("views", "image"));
+  words.tree = word(QT_TRANSLATE_NOOP("views", "tree"));
   words.not_measurable = word(QT_TRANSLATE_NOOP("views", "not measurable"));
   words.off_wall = word(QT_TRANSLATE_NOOP("views", "There is no vessel: click on the wall of one."));
   words.other_vessel =

@@ -1,9 +1,12 @@
 #include "main_window.h"
 
+#include "beating_case.h"
 #include "flow_cases.h"
 #include "flow_results.h"
 #include "frame_log.h"
 #include "hanging.h"
+#include "heart_behind.h"
+#include "mesh_preview.h"
 #include "meshing_export.h"
 #include "opening.h"
 #include "outer_walls.h"
@@ -11,11 +14,11 @@
 #include "reporting.h"
 #include "side_lists.h"
 #include "start_page.h"
+#include "unfinished_work.h"
 #include "vessel_finder.h"
 #include "vessel_list.h"
 
 #include "ostia/core/error.h"
-#include "ostia/imaging/reduced_volume.h"
 #include "ostia/view/curved_view.h"
 #include "ostia/view/plane_view.h"
 
@@ -28,7 +31,6 @@
 #include <QLabel>
 #include <QMessageBox>
 #include <QMimeData>
-#include <QPushButton>
 #include <QScreen>
 #include <QSplitter>
 #include <QStatusBar>
@@ -78,6 +80,7 @@ MainWindow::MainWindow(const std::filesystem::path& state_folder)
   build_views();
   flow_results_ = std::make_unique<FlowResults>(*this);
   flow_cases_ = std::make_unique<FlowCases>(*this);
+  beating_ = new BeatingCase(*this);
   connect(flow_results_.get(), &FlowResults::pointed, place_, &QLabel::setText);
   outer_walls_ = std::make_unique<OuterWalls>(*this, pictures_, profile_);
   build_actions();
@@ -148,11 +151,18 @@ void MainWindow::set_shown_name(const QString& text) {
 }
 
 void MainWindow::open(const std::filesystem::path& path) {
-  opening_->open(path);
+  if (mesh_meant_by(path).empty())
+    opening_->open(path);
+  else
+    meshing_export_->open_mesh(path);
 }
 
 void MainWindow::open_sample() {
   opening_->open_sample();
+}
+
+const std::filesystem::path& MainWindow::case_path() const {
+  return opening_->case_path();
 }
 
 Panel* MainWindow::picture_panel(const QString& title, const QString& name,
@@ -229,34 +239,9 @@ QWidget* MainWindow::section_column() {
 Panel* MainWindow::right_column() {
   scene_ = new SceneWidget(bench_, guard_);
   scene_->set_dark(current_theme() == Theme::dark);
-  connect(scene_, &SceneWidget::volume_wanted, this, [this] {
-    const auto image = bench_.image().volume;
-    if (!image || opening_->reading()) return;
-    jobs_->run(
-        "volume", tr("Preparing the heart"),
-        [image](const core::TaskContext& task) {
-          return std::any(
-              std::make_shared<const imaging::ImageVolume>(imaging::reduced_volume(*image, {}, task)));
-        },
-        [this, image](const std::any& reduced) {
-          if (bench_.image().volume != image) return;  // another heart by now
-          scene_->scene().set_volume(std::any_cast<std::shared_ptr<const imaging::ImageVolume>>(reduced));
-          scene_->request_render();
-        },
-        [this](const QString& message) { say(message); });
-  });
   auto* panel = new Panel(tr("Coronary tree"), scene_);
   connect(panel, &Panel::maximise_wanted, this, [this, panel] { maximise(panel); });
-  auto* heart = new QComboBox;
-  heart->setObjectName("volume_mode");
-  heart->addItem(tr("Tree alone"), static_cast<int>(view::VolumeMode::off));
-  heart->addItem(tr("With the heart"), static_cast<int>(view::VolumeMode::rendering));
-  heart->addItem(tr("With a MIP"), static_cast<int>(view::VolumeMode::mip));
-  heart->setAccessibleName(tr("What is behind the tree"));
-  connect(heart, QOverload<int>::of(&QComboBox::activated), this, [this, heart](int index) {
-    scene_->set_volume_mode(static_cast<view::VolumeMode>(heart->itemData(index).toInt()));
-  });
-  panel->add_control(heart);
+  panel->add_control(heart_behind(*this, *opening_));
   return panel;
 }
 
@@ -350,28 +335,8 @@ void MainWindow::restore_layout() {
     splitter->restoreState(decoded(machine_.setting("splitter." + splitter->objectName().toStdString())));
 }
 
-bool MainWindow::may_close() {
-  QStringList unfinished;
-  for (const auto& [kind, title] : {std::pair("report", tr("the report")),
-                                    {"surface", tr("the surface")},
-                                    {"mesh", tr("the mesh")},
-                                    {"flow_case", tr("the flow case")},
-                                    {"flow_run", tr("the solver's run")}})
-    if (jobs_->running(kind)) unfinished << title;
-  if (unfinished.isEmpty()) return true;
-  QMessageBox box(QMessageBox::Question, QStringLiteral("Ostia"),
-                  tr("Not finished yet: %1. It is lost if the window closes now; the case is safe.")
-                      .arg(unfinished.join(QStringLiteral(", "))),
-                  QMessageBox::NoButton, this);
-  box.setObjectName("unfinished");
-  const QAbstractButton* close_now = box.addButton(tr("Close all the same"), QMessageBox::DestructiveRole);
-  box.setDefaultButton(box.addButton(tr("Go on working"), QMessageBox::RejectRole));
-  box.exec();
-  return box.clickedButton() == close_now;
-}
-
 void MainWindow::closeEvent(QCloseEvent* event) {
-  if (!must_end_ && !may_close()) {
+  if (!must_end_ && !may_be_left(*jobs_, this)) {
     event->ignore();
     return;
   }

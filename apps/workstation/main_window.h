@@ -27,6 +27,7 @@ class Reporting;
 class MeshingExport;
 class FlowCases;
 class FlowResults;
+class BeatingCase;
 class QaPanel;
 class Hanging;
 class VesselFinder;
@@ -39,16 +40,18 @@ class MainWindow final : public QMainWindow {
   explicit MainWindow(const std::filesystem::path& state_folder);
   ~MainWindow() override;
 
-  /// Any of: a case, an image, a DICOM folder or file, a zip of them. In the background; what cannot be
-  /// opened is said in one dialog.
+  /// Any of: a case, an image, a DICOM folder or file, a zip of them, a volume mesh. In the background; what
+  /// cannot be opened is said in one dialog.
   void open(const std::filesystem::path& path);
   void open_sample();
+  const std::filesystem::path& case_path() const;  ///< of the case that is open; empty where none is
   session::Workbench& bench() { return bench_; }
   session::MachineState& machine() { return machine_; }
   Jobs& jobs() { return *jobs_; }
   VesselFinder& finder() { return *finder_; }
   FlowCases& flow_cases() { return *flow_cases_; }
   FlowResults& flow_results() { return *flow_results_; }
+  BeatingCase& beating() { return *beating_; }
   /// Runs it; what is refused comes up in the status line (or, `loud`, as a dialog) and ends there.
   bool guarded(const std::function<void()>& act, bool loud = false);
   void say(const QString& text);                                  ///< in the status line
@@ -91,7 +94,6 @@ class MainWindow final : public QMainWindow {
   void turn(double degrees);
   void walk(double mm);
   void next_vessel(int by);
-  bool may_close();
   void set_theme(Theme theme);
 
   std::filesystem::path state_folder_;
@@ -114,6 +116,7 @@ class MainWindow final : public QMainWindow {
   std::shared_ptr<QaPanel> qa_;              // so does this
   std::unique_ptr<FlowResults> flow_results_;
   std::unique_ptr<FlowCases> flow_cases_;
+  BeatingCase* beating_ = nullptr;
   QLabel* place_ = nullptr;
   QLabel* shown_name_ = nullptr;
   std::map<QString, QAction*> actions_;

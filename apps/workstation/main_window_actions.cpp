@@ -1,3 +1,4 @@
+#include "beating_case.h"
 #include "bind.h"
 #include "connect_menu.h"
 #include "flow_cases.h"
@@ -102,7 +103,10 @@ void MainWindow::build_actions() {
   exports->addAction(action("file.export_centerlines", tr("The &centerlines\u2026"),
                             [this] { reporting_->export_centerlines(); }));
   file->addAction(
+      action("file.open_mesh", tr("Open a &mesh\u2026"), [this] { meshing_export_->ask_for_mesh(); }));
+  file->addAction(
       action("file.flow_results", tr("Open flow res&ults\u2026"), [this] { flow_results_->ask(); }));
+  file->addAction(action("file.motion", tr("Open a mo&tion\u2026"), [this] { beating_->ask(); }));
   file->addSeparator();
   file->addAction(action("file.quit", tr("&Quit"), [this] { close(); }));
 
@@ -141,6 +145,10 @@ void MainWindow::build_actions() {
                         [made, tool = entry.tool](const Tool& now) { made->setChecked(now == tool); }));
     if (entry.tool == Tool::add_vessel) tool_menu->addSeparator();
   }
+  tool_menu->addSeparator();
+  tool_menu->addAction(action("view.play", tr("&Play the heartbeat"), [this] { beating_->toggle(); }));
+  tool_menu->addAction(
+      action("view.own_phase", tr("Back to the case's phase"), [this] { beating_->go_to_own(); }));
 
   QMenu* shown = menuBar()->addMenu(tr("&View"));
   shown->addAction(action("view.turn_left", tr("Turn the CPRs left"), [this] { turn(-5.0); }));
@@ -215,6 +223,7 @@ void MainWindow::build_actions() {
   shown->addAction(build_qa());
   shown->addAction(meshing_export_->panel_action());
 
+  connect(beating_, &BeatingCase::shown_changed, this, &MainWindow::refresh_actions);
   own_.push_back(bench_.case_changed.observe([this] { refresh_actions(); }));
   own_.push_back(bench_.image_changed.observe([this] { refresh_actions(); }));
   own_.push_back(bench_.steps_changed.observe([this] { refresh_actions(); }));
@@ -273,8 +282,9 @@ void MainWindow::refresh_actions() {
   actions_["edit.undo"]->setEnabled(undo.has_value());
   actions_["edit.redo"]->setEnabled(redo.has_value());
   for (const char* id : {"file.save_as", "file.close", "file.report", "file.pin", "file.export_surface",
-                         "file.export_mesh", "file.export_centerlines"})
+                         "file.export_mesh", "file.export_centerlines", "file.motion"})
     actions_[id]->setEnabled(has_case);
+  for (const char* id : {"view.play", "view.own_phase"}) actions_[id]->setEnabled(beating_->shown());
   actions_["vessel.find"]->setEnabled(!has_case && bench_.image().volume);
   actions_["vessel.split"]->setEnabled(has_case && bench_.axis());
   actions_["vessel.cut"]->setEnabled(has_case && bench_.axis());

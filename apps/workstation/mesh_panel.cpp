@@ -10,7 +10,6 @@
 #include <QLabel>
 #include <QListWidget>
 #include <QScrollArea>
-#include <QSlider>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
@@ -22,7 +21,6 @@ namespace {
 using geometry::Vec3;
 using meshing::ElementMeasure;
 
-constexpr int slider_steps = 1000;
 constexpr std::size_t worst_listed = 20;
 constexpr int rows_shown = 3;
 constexpr double elements_seen = 6.0;  // in half of the picture's height, where one is flown to
@@ -34,34 +32,32 @@ QString number(double value) {
 }  // namespace
 
 MeshPanel::MeshPanel(session::Workbench& bench, SceneWidget& scene, QWidget* parent)
-    : QDockWidget(tr("Mesh"), parent), bench_(bench), scene_(scene) {
+    : QDockWidget(tr("Mesh"), parent), scene_(scene) {
   setObjectName("mesh");
   auto* area = new QScrollArea;  // a low window
   area->setWidgetResizable(true);
   area->setFrameShape(QFrame::NoFrame);
   area->setFocusPolicy(Qt::NoFocus);  // what is in it takes the keyboard
   area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  area->setWidget(rows());
+  area->setWidget(rows(bench));
   area->setMinimumWidth(area->widget()->minimumSizeHint().width() +
                         area->style()->pixelMetric(QStyle::PM_ScrollBarExtent));
   setWidget(area);
-  cut_soon_.setSingleShot(true);
-  cut_soon_.setInterval(0);
-  connect(&cut_soon_, &QTimer::timeout, this, &MeshPanel::show_cut);
   // It also tells of tabs, and of a window that is minimised: what is shown in 3D stays then.
   connect(this, &QDockWidget::visibilityChanged, this, [this](bool) {
     if (std::exchange(was_hidden_, isHidden()) != isHidden()) show_in_scene(!isHidden());
   });
   connect(&scene_, &SceneWidget::guest_changed, this, [this](const view::SceneGuest* shown) {
-    if (shown != guest_.get()) guest_.reset();  // another has taken its place
+    if (!guest_ || shown == guest_.get()) return;
+    guest_.reset();  // another has taken its place
+    cut_->set_guest(nullptr, box_);
   });
-  own_.push_back(bench.vessel.observe([this](const std::int32_t&) { cut_soon_.start(); }));
   own_.push_back(bench.case_changed.observe([this] { clear(); }));
 }
 
 MeshPanel::~MeshPanel() = default;
 
-QWidget* MeshPanel::rows() {
+QWidget* MeshPanel::rows(session::Workbench& bench) {
   auto* all = new QWidget;
   auto* column = new QVBoxLayout(all);
   column->setContentsMargins(6, 6, 6, 6);
@@ -69,6 +65,11 @@ QWidget* MeshPanel::rows() {
   name_->setObjectName("mesh_name");
   name_->setWordWrap(true);
   column->addWidget(name_);
+  gate_ = new QLabel;
+  gate_->setObjectName("mesh_gate");
+  gate_->setWordWrap(true);
+  gate_->hide();
+  column->addWidget(gate_);
   auto* form = new QFormLayout;
   form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
   form->setRowWrapPolicy(QFormLayout::WrapLongRows);
@@ -82,7 +83,7 @@ QWidget* MeshPanel::rows() {
   figures_->setObjectName("mesh_figures");
   figures_->setWordWrap(true);
   form->addRow(figures_);
-  add_cut(form);
+  cut_ = new CutFields(form, bench, scene_, this);
   auto* title = new QLabel(tr("&Worst elements"));
   list_ = new QListWidget;
   list_->setObjectName("mesh_worst");
@@ -121,39 +122,6 @@ void MeshPanel::add_colors(QFormLayout* form) {
   });
 }
 
-void MeshPanel::add_cut(QFormLayout* form) {
-  cut_ = new QComboBox;
-  cut_->setObjectName("mesh_cut");
-  cut_->setAccessibleName(tr("How the mesh is cut open"));
-  cut_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
-  cut_->view()->setAccessibleName(cut_->accessibleName());
-  for (const auto& [text, by] : {std::pair(tr("not at all"), CutBy::none),
-                                 {tr("across the selected vessel"), CutBy::vessel},
-                                 {tr("left and right"), CutBy::left_right},
-                                 {tr("front and back"), CutBy::front_back},
-                                 {tr("head and feet"), CutBy::head_feet},
-                                 {tr("towards the viewer"), CutBy::view}})
-    cut_->addItem(text, static_cast<int>(by));
-  place_ = new QSlider(Qt::Horizontal);
-  place_->setObjectName("mesh_cut_place");
-  place_->setAccessibleName(tr("Place of the cut"));
-  place_->setRange(0, slider_steps);
-  place_->setPageStep(slider_steps / 20);
-  place_->setSingleStep(slider_steps / 200);
-  place_->setValue(slider_steps / 2);
-  turned_ = new QCheckBox(tr("The &other side"));
-  turned_->setObjectName("mesh_cut_turned");
-  auto* label = new QLabel(tr("C&ut"));
-  label->setBuddy(cut_);
-  form->addRow(label, cut_);
-  form->addRow(place_);
-  form->addRow(turned_);
-  connect(cut_, QOverload<int>::of(&QComboBox::currentIndexChanged), &cut_soon_,
-          QOverload<>::of(&QTimer::start));
-  connect(place_, &QSlider::valueChanged, &cut_soon_, QOverload<>::of(&QTimer::start));
-  connect(turned_, &QCheckBox::toggled, &cut_soon_, QOverload<>::of(&QTimer::start));
-}
-
 void MeshPanel::show_mesh(std::shared_ptr<const MeshPreview> preview) {
   guest_.reset();
   preview_ = std::move(preview);
@@ -164,20 +132,28 @@ void MeshPanel::show_mesh(std::shared_ptr<const MeshPreview> preview) {
                      .arg(QString::fromStdString(preview_->name))
                      .arg(mesh.tetrahedra.size())
                      .arg(mesh.prisms.size()));
-  {
-    const QSignalBlocker quiet(cut_);
-    cut_->setCurrentIndex(0);
-  }
+  cut_->leave_whole();
+  show_gate();
   show_measure();
   show();
   raise();
   show_in_scene(true);
 }
 
+void MeshPanel::show_gate() {
+  const meshing::QualityVerdict& verdict = preview_->verdict;
+  gate_->setText(
+      verdict.ok()
+          ? tr("Passes the quality control.")
+          : tr("Does not pass the quality control: %1").arg(QString::fromStdString(verdict.summary())));
+  gate_->show();
+}
+
 void MeshPanel::clear() {
   preview_.reset();
   show_in_scene(false);
   name_->setText(tr("No mesh has been made yet."));
+  gate_->hide();
   figures_->clear();
   histogram_->set_values({}, {});
   list_->clear();
@@ -193,9 +169,10 @@ void MeshPanel::show_in_scene(bool shown) {
     scene_.show_guest(made);
     guest_ = made;  // after the signal about the former one
     show_measure();
-    show_cut();
+    cut_->set_guest(guest_, box_);
   } else if (guest_) {
     guest_.reset();
+    cut_->set_guest(nullptr, box_);
     scene_.show_guest(nullptr);
   }
 }
@@ -228,37 +205,6 @@ void MeshPanel::show_measure() {
   if (!guest_) return;
   guest_->set_values(values, scale);
   guest_->set_highlight({});
-  scene_.request_render();
-}
-
-std::optional<view::MeshCut> MeshPanel::cut() const {
-  const auto by = static_cast<CutBy>(cut_->currentData().toInt());
-  if (by == CutBy::none || !preview_) return {};
-  const double share = static_cast<double>(place_->value()) / slider_steps;
-  view::MeshCut cut;
-  if (by == CutBy::vessel) {
-    const auto axis = bench_.axis();
-    if (!axis) return {};
-    cut.point = axis->point(share * axis->length());
-    cut.normal = axis->frame(share * axis->length()).tangent;
-  } else {
-    cut.normal = by == CutBy::left_right   ? Vec3(Vec3::UnitX())
-                 : by == CutBy::front_back ? Vec3(-Vec3::UnitY())
-                 : by == CutBy::head_feet  ? Vec3(Vec3::UnitZ())
-                                           : scene_.scene().pose().towards;
-    const double half = cut.normal.cwiseAbs().dot(0.5 * box_.sizes());
-    cut.point = box_.center() + (2.0 * share - 1.0) * half * cut.normal;
-  }
-  if (turned_->isChecked()) cut.normal = -cut.normal;
-  return cut;
-}
-
-void MeshPanel::show_cut() {
-  const bool any = static_cast<CutBy>(cut_->currentData().toInt()) != CutBy::none;
-  place_->setEnabled(any);
-  turned_->setEnabled(any);
-  if (!guest_) return;
-  guest_->set_cut(cut());
   scene_.request_render();
 }
 

@@ -1,6 +1,8 @@
 #pragma once
-/// \file The mesh that was made: in 3D in the colours of its quality, cut open, with its worst elements.
+/// \file A mesh that was made or opened: in 3D in the colours of its quality, cut open, with its worst
+/// elements.
 
+#include "cut_fields.h"
 #include "mesh_preview.h"
 #include "scene_widget.h"
 
@@ -8,9 +10,7 @@
 #include "ostia/view/mesh_scene.h"
 
 #include <QDockWidget>
-#include <QTimer>
 #include <memory>
-#include <optional>
 #include <vector>
 
 class QCheckBox;
@@ -18,7 +18,6 @@ class QComboBox;
 class QFormLayout;
 class QLabel;
 class QListWidget;
-class QSlider;
 
 namespace ostia::workstation {
 
@@ -33,31 +32,27 @@ class MeshPanel final : public QDockWidget {
   void show_mesh(std::shared_ptr<const MeshPreview> preview);
   void clear();  ///< and closes
   /// What is cut away now; nothing where the mesh is whole.
-  std::optional<view::MeshCut> cut() const;
+  std::optional<view::MeshCut> cut() const { return cut_->cut(); }
 
  private:
-  enum class CutBy { none, vessel, left_right, front_back, head_feet, view };
-  QWidget* rows();
+  QWidget* rows(session::Workbench& bench);
+  void show_gate();
   void add_colors(QFormLayout* form);
-  void add_cut(QFormLayout* form);
   void show_in_scene(bool shown);
   void show_measure();
-  void show_cut();
   void fly_to(int row);
   meshing::ElementMeasure measure() const;
-  session::Workbench& bench_;
   SceneWidget& scene_;
   std::shared_ptr<const MeshPreview> preview_;
   std::shared_ptr<view::MeshScene> guest_;  // while it is shown
   std::vector<std::size_t> worst_;
   geometry::Box3 box_;
-  QLabel *name_ = nullptr, *figures_ = nullptr;
-  QComboBox *measure_ = nullptr, *cut_ = nullptr;
-  QCheckBox *edges_ = nullptr, *turned_ = nullptr;
+  QLabel *name_ = nullptr, *gate_ = nullptr, *figures_ = nullptr;
+  QComboBox* measure_ = nullptr;
+  QCheckBox* edges_ = nullptr;
+  CutFields* cut_ = nullptr;
   HistogramWidget* histogram_ = nullptr;
-  QSlider* place_ = nullptr;
   QListWidget* list_ = nullptr;
-  QTimer cut_soon_;
   bool was_hidden_ = true;
   std::vector<session::Subscription> own_;
 };

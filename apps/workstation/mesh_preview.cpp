@@ -2,6 +2,7 @@
 
 #include "ostia/core/error.h"
 #include "ostia/io/volume_mesh_file.h"
+#include "ostia/pipeline/volume_mesh.h"
 
 #include <QCoreApplication>
 #include <algorithm>
@@ -57,9 +58,27 @@ void join(const std::vector<MixedMesh>& meshes, const std::vector<meshing::Eleme
   }
 }
 
+std::shared_ptr<const MeshPreview> shown(std::string name, std::vector<MixedMesh> meshes,
+                                         std::vector<meshing::ElementMeasures> measures,
+                                         meshing::QualityVerdict verdict, const core::TaskContext& task) {
+  auto mesh = std::make_shared<MixedMesh>();
+  meshing::ElementMeasures all;
+  join(meshes, measures, *mesh, all);
+  meshes.clear();
+  measures.clear();
+  auto preview = std::make_shared<MeshPreview>();
+  preview->name = std::move(name);
+  preview->verdict = std::move(verdict);
+  preview->mesh = view::prepared(std::move(mesh), task);
+  for (std::size_t m = 0; m < all.size(); ++m)
+    preview->measures[m] = std::make_shared<const std::vector<double>>(std::move(all[m]));
+  return preview;
+}
+
 }  // namespace
 
-std::shared_ptr<const MeshPreview> preview_of(const fs::path& folder, const core::TaskContext& task) {
+std::shared_ptr<const MeshPreview> preview_of(const fs::path& folder, meshing::QualityVerdict verdict,
+                                              const core::TaskContext& task) {
   task.set_stage("preview");
   const std::vector<fs::path> files = meshes_in(folder);
   std::vector<MixedMesh> meshes;
@@ -71,17 +90,38 @@ std::shared_ptr<const MeshPreview> preview_of(const fs::path& folder, const core
     task.throw_if_cancelled();
     measures.push_back(meshing::element_measures(meshes.back(), task.sub(from, to)));
   }
-  auto mesh = std::make_shared<MixedMesh>();
-  meshing::ElementMeasures all;
-  join(meshes, measures, *mesh, all);
-  meshes.clear();
-  measures.clear();
-  auto preview = std::make_shared<MeshPreview>();
-  preview->name = folder.filename().string();
-  preview->mesh = view::prepared(std::move(mesh), task.sub(0.7, 1.0));
-  for (std::size_t m = 0; m < all.size(); ++m)
-    preview->measures[m] = std::make_shared<const std::vector<double>>(std::move(all[m]));
-  return preview;
+  return shown(folder.filename().string(), std::move(meshes), std::move(measures), std::move(verdict),
+               task.sub(0.7, 1.0));
+}
+
+fs::path mesh_meant_by(const fs::path& path) {
+  std::error_code ignored;
+  const fs::path whole = fs::absolute(path, ignored);
+  if (whole.parent_path().filename() == "polyMesh") {
+    const fs::path constant = whole.parent_path().parent_path();
+    if (io::is_volume_mesh(constant.parent_path())) return constant.parent_path();
+  }
+  if (io::is_volume_mesh(path)) return path;
+  return fs::is_regular_file(path / "mesh.vtu", ignored) ? path / "mesh.vtu" : fs::path();
+}
+
+std::shared_ptr<const MeshPreview> opened_mesh(const fs::path& path, const core::TaskContext& task) {
+  task.set_stage("reading");
+  const fs::path file = mesh_meant_by(path);
+  if (file.empty())
+    throw InvalidInput(
+        QCoreApplication::translate("jobs", "%1 is no volume mesh. These are read: %2")
+            .arg(QString::fromStdString(path.string()), QString::fromStdString(io::readable_volume_meshes()))
+            .toStdString());
+  std::vector<MixedMesh> meshes;
+  meshes.push_back(io::read_volume_mesh(file));
+  const std::vector<bool> in_layers = pipeline::layers_of(file);
+  task.throw_if_cancelled();
+  meshing::QualityVerdict verdict = pipeline::judged(meshes.front(), in_layers, task.sub(0.2, 0.6)).verdict;
+  std::vector<meshing::ElementMeasures> measures;
+  measures.push_back(meshing::element_measures(meshes.front(), task.sub(0.6, 0.8)));
+  return shown((file.parent_path().filename() / file.filename()).string(), std::move(meshes),
+               std::move(measures), std::move(verdict), task.sub(0.8, 1.0));
 }
 
 QString title_of(ElementMeasure measure) {

@@ -1,7 +1,6 @@
 #include "meshing_dialog.h"
 
-#include "file_dialogs.h"
-#include "folder_trouble.h"
+#include "new_folder.h"
 
 #include "ostia/core/error.h"
 #include "ostia/pipeline/manifest.h"
@@ -14,9 +13,7 @@
 #include <QFormLayout>
 #include <QHBoxLayout>
 #include <QLabel>
-#include <QLineEdit>
 #include <QPushButton>
-#include <QResizeEvent>
 #include <QSignalBlocker>
 #include <QStyle>
 #include <QTabWidget>
@@ -31,7 +28,6 @@ namespace {
 using pipeline::SurfaceEnds;
 using Vessels = ExportChoice::Vessels;
 
-constexpr int dialog_width = 560;
 const QStringList surface_formats{"vtp", "stl", "ply"};
 
 template <class Enum>
@@ -69,12 +65,10 @@ QString about(double count) {
 }  // namespace
 
 MeshingDialog::MeshingDialog(ExportSubject subject, const ExportChoice& last, QWidget* parent)
-    : QDialog(parent), subject_(std::move(subject)) {
+    : FittedDialog(parent), subject_(std::move(subject)) {
   const bool mesh = subject_.kind == ExportKind::mesh;
   setObjectName(mesh ? "mesh_dialog" : "surface_dialog");
   setWindowTitle(mesh ? tr("Mesh and export") : tr("Export the surface"));
-  setMinimumWidth(std::min(dialog_width, parent ? parent->width() - 40 : dialog_width));
-  resize(minimumWidth(), 0);
   auto* layout = new QVBoxLayout(this);
   auto* form = new QFormLayout;
   form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
@@ -102,7 +96,8 @@ MeshingDialog::MeshingDialog(ExportSubject subject, const ExportChoice& last, QW
   }
   connect(size_, &SizeFields::changed, this, &MeshingDialog::check);
   add_formats(formats, last);
-  add_folder(below);
+  folder_ = new NewFolderField(below, subject_.folder, this);
+  connect(folder_, &NewFolderField::changed, this, &MeshingDialog::check);
   estimate_ = quiet_label("estimate");
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
   go_ = buttons->addButton(mesh ? tr("Mesh and export") : tr("Export"), QDialogButtonBox::AcceptRole);
@@ -208,35 +203,13 @@ void MeshingDialog::add_formats(QFormLayout* form, const ExportChoice& last) {
   formats_field_ = add_export_field(form, tr("Surface as"), row, row, "formats");
 }
 
-void MeshingDialog::add_folder(QFormLayout* form) {
-  auto* row = new QWidget;
-  auto* line = new QHBoxLayout(row);
-  line->setContentsMargins(0, 0, 0, 0);
-  folder_ = new QLineEdit(QString::fromStdString(subject_.folder.string()));
-  folder_->setObjectName("folder");
-  folder_->setAccessibleName(tr("Folder that is made"));
-  auto* choose_button = new QPushButton(tr("&Choose\u2026"));
-  choose_button->setAutoDefault(false);
-  line->addWidget(folder_, 1);
-  line->addWidget(choose_button);
-  folder_field_ = add_export_field(form, tr("&New folder"), row, folder_, "folder");
-  connect(folder_, &QLineEdit::textChanged, this, &MeshingDialog::check);
-  connect(choose_button, &QPushButton::clicked, this, &MeshingDialog::choose_folder);
-}
-
-void MeshingDialog::choose_folder() {
-  const QFileInfo now(folder_->text());
-  const QString inside = ask_folder(this, tr("Where the folder is to be"), now.absolutePath());
-  if (!inside.isEmpty()) folder_->setText(inside + "/" + now.fileName());
-}
-
 void MeshingDialog::check() {
   if (!go_) return;  // while it is put together
   const bool sound_size = size_->sound();
   const bool volume_fits = !volume_ || volume_->check();
   const bool size_fits = size_->check(sound_size ? count_trouble() : QString());
   const bool formats_fit = mark(formats_field_, formats_trouble());
-  const bool folder_fits = mark(folder_field_, folder_trouble(folder_->text()));
+  const bool folder_fits = folder_->check();
   go_->setEnabled(size_fits && formats_fit && folder_fits && volume_fits);
   if (check_) {
     check_->set_stale();
@@ -266,25 +239,6 @@ void MeshingDialog::mark_pages() {
     pages_->setTabToolTip(i, wrong);
     pages_->setTabIcon(i, wrong.isEmpty() ? QIcon() : style()->standardIcon(QStyle::SP_MessageBoxWarning));
   }
-}
-
-void MeshingDialog::fit() {
-  // Texts that wrap say what height they need for a width; a window does not ask by itself.
-  layout()->activate();
-  const int needed = layout()->hasHeightForWidth() ? layout()->totalHeightForWidth(width())
-                                                   : layout()->totalMinimumSize().height();
-  setMinimumHeight(needed);
-  if (height() < needed) resize(width(), needed);
-}
-
-void MeshingDialog::resizeEvent(QResizeEvent* event) {
-  QDialog::resizeEvent(event);
-  if (event->size().width() != event->oldSize().width()) fit();
-}
-
-void MeshingDialog::showEvent(QShowEvent* event) {
-  QDialog::showEvent(event);
-  fit();
 }
 
 QString MeshingDialog::count_trouble() const {
@@ -346,7 +300,7 @@ ExportChoice MeshingDialog::choice() const {
   for (const QCheckBox* box : formats_)
     if (box->isChecked()) made.formats.push_back(box->text().toLower().toStdString());
   if (volume_) made.volume = volume_->choice();
-  made.folder = folder_->text().toStdString();
+  made.folder = folder_->path();
   return made;
 }
 
@@ -369,16 +323,17 @@ void MeshingDialog::accept() {
   check();
   if (!go_->isEnabled()) return;
   // A folder is made and taken away again: rights alone do not tell whether that is possible.
+  QString trouble;
   try {
-    pipeline::require_free_folder(folder_->text().toStdString());
+    pipeline::require_free_folder(folder_->path());
   } catch (const IoError&) {
-    mark(folder_field_, tr("Nothing can be written in %1. Choose another place.")
-                            .arg(QFileInfo(folder_->text()).absolutePath()));
+    trouble = tr("Nothing can be written in %1. Choose another place.")
+                  .arg(QFileInfo(folder_->text()).absolutePath());
   } catch (const std::exception&) {
-    mark(folder_field_, tr("The folder holds files that are not from an earlier export. Name another one."));
+    trouble = tr("The folder holds files that are not from an earlier export. Name another one.");
   }
-  if (folder_field_.trouble->isVisibleTo(this)) {
-    folder_->setFocus();
+  if (!folder_->check(trouble)) {
+    folder_->set_focus();
     return;
   }
   QDialog::accept();

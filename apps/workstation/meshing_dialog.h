@@ -1,13 +1,13 @@
 #pragma once
 /// \file What is asked before a surface or a mesh is made.
 
+#include "fitted_dialog.h"
 #include "meshing_check.h"
 #include "meshing_fields.h"
 #include "meshing_sizes.h"
 
 #include "ostia/pipeline/vessel_export.h"
 
-#include <QDialog>
 #include <filesystem>
 #include <memory>
 #include <vector>
@@ -16,11 +16,12 @@ class QCheckBox;
 class QComboBox;
 class QFormLayout;
 class QLabel;
-class QLineEdit;
 class QPushButton;
 class QTabWidget;
 
 namespace ostia::workstation {
+
+class NewFolderField;
 
 enum class ExportKind { surface, mesh };
 
@@ -47,7 +48,7 @@ struct ExportChoice {
 
 /// Checks while it is filled in: what is wrong stands under its field, which is marked as is its page, and
 /// the button waits. A mesh's fields are on pages. Leaves the window to the hand.
-class MeshingDialog final : public QDialog {
+class MeshingDialog final : public FittedDialog {
   Q_OBJECT
  public:
   MeshingDialog(ExportSubject subject, const ExportChoice& last, QWidget* parent);
@@ -61,23 +62,16 @@ class MeshingDialog final : public QDialog {
   MeshingCheck* check_page() { return check_; }  ///< null for a surface
   void accept() override;
 
- protected:
-  void resizeEvent(QResizeEvent* event) override;
-  void showEvent(QShowEvent* event) override;
-
  private:
   QFormLayout* page(const QString& title);
   void add_vessels(QFormLayout* form);
   void fill_vessels(ExportChoice::Vessels chosen);
   void add_ends(QFormLayout* form, const ExportChoice& last);
   void add_formats(QFormLayout* form, const ExportChoice& last);
-  void add_folder(QFormLayout* form);
   void add_check();
   void repair(const meshing::ForecastPlace& place);
-  void choose_folder();
   void check();
   void mark_pages();
-  void fit();
   QString count_trouble() const;
   QString formats_trouble() const;
   void show_estimate();
@@ -89,12 +83,12 @@ class MeshingDialog final : public QDialog {
   QLabel *parents_ = nullptr, *estimate_ = nullptr;
   QTabWidget* pages_ = nullptr;
   std::vector<QCheckBox*> formats_;
-  QLineEdit* folder_ = nullptr;
+  NewFolderField* folder_ = nullptr;
   QPushButton* go_ = nullptr;
   SizeFields* size_ = nullptr;
   VolumeFields* volume_ = nullptr;
   MeshingCheck* check_ = nullptr;
-  ExportField formats_field_, folder_field_;
+  ExportField formats_field_;
 };
 
 }  // namespace ostia::workstation

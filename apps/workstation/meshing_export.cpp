@@ -1,9 +1,11 @@
 #include "meshing_export.h"
 
+#include "file_dialogs.h"
 #include "flow_cases.h"
 #include "main_window.h"
 #include "mesh_panel.h"
 #include "meshing_forecast.h"
+#include "new_folder.h"
 
 #include "ostia/core/error.h"
 
@@ -32,21 +34,11 @@ namespace {
     QT_TRANSLATE_NOOP("stages", "quality"),
     QT_TRANSLATE_NOOP("stages", "mesh quality"),
     QT_TRANSLATE_NOOP("stages", "preview"),
+    QT_TRANSLATE_NOOP("stages", "reading"),
 };
 
 QString job_name(ExportKind kind) {
   return kind == ExportKind::mesh ? QStringLiteral("mesh") : QStringLiteral("surface");
-}
-
-/// CASE-mesh, CASE-mesh-2, ... beside the case.
-fs::path free_folder(const fs::path& case_file, ExportKind kind) {
-  std::error_code ignored;
-  const fs::path first =
-      case_file.parent_path() / (case_file.stem().string() + "-" + job_name(kind).toStdString());
-  fs::path folder = first;
-  for (int number = 2; fs::exists(folder, ignored); ++number)
-    folder = first.string() + "-" + std::to_string(number);
-  return folder;
 }
 
 std::vector<std::int32_t> shown_in_3d(const session::Session& session) {
@@ -98,7 +90,7 @@ void MeshingExport::ask(ExportKind kind, const fs::path& case_file) {
   subject.model = bench.session().file().model();
   subject.visible = shown_in_3d(bench.session());
   subject.selected = bench.vessel.get();
-  subject.folder = free_folder(case_file, kind);
+  subject.folder = free_folder_beside(case_file, job_name(kind).toStdString());
   subject.one_is_running = window_.jobs().running(job_name(kind));
   auto* dialog = new MeshingDialog(std::move(subject), last_[kind], &window_);
   dialog->setAttribute(Qt::WA_DeleteOnClose);
@@ -134,15 +126,35 @@ void MeshingExport::start(ExportKind kind, const MeshingDialog& dialog,
       });
 }
 
-void MeshingExport::show_mesh(const fs::path& folder) {
+void MeshingExport::show_mesh(const QString& title, const MeshWork& work,
+                              const std::function<void(const QString&)>& failed) {
   window_.jobs().run(
-      "mesh_preview", tr("Preparing the mesh's picture"),
-      [folder](const core::TaskContext& task) { return std::any(preview_of(folder, task)); },
+      "mesh_preview", title,
+      [work](const core::TaskContext& task) {
+        try {
+          return std::any(work(task));
+        } catch (const std::bad_alloc&) {
+          throw ResourceError(too_little_memory());
+        }
+      },
       [this](const std::any& made) {
         panel_->show_mesh(std::any_cast<const std::shared_ptr<const MeshPreview>&>(made));
         reveal(window_.scene());
       },
-      [this](const QString& message) { window_.say(message); });
+      failed);
+}
+
+void MeshingExport::ask_for_mesh() {
+  const QString chosen = ask_open_file(
+      &window_, tr("Open a mesh"),
+      tr("Volume meshes (*.vtu *.msh *.exo *.e *.ex2 *.inp *.cgns *.xdmf points);;All files (*)"));
+  if (!chosen.isEmpty()) open_mesh(chosen.toStdString());
+}
+
+void MeshingExport::open_mesh(const fs::path& file) {
+  show_mesh(
+      tr("Opening the mesh"), [file](const core::TaskContext& task) { return opened_mesh(file, task); },
+      [this](const QString& message) { window_.complain(message, tr("The mesh could not be opened")); });
 }
 
 QString MeshingExport::mesh_line(const QString& name, const pipeline::ExportSummary& summary) {
@@ -168,7 +180,12 @@ void MeshingExport::tell(ExportKind kind, const fs::path& folder, const pipeline
   window_.jobs().leave(job_name(kind), text, notes.join('\n'), tr("Open folder"),
                        [path] { QDesktopServices::openUrl(QUrl::fromLocalFile(path)); });
   if (kind == ExportKind::mesh && shown) {
-    show_mesh(folder);
+    show_mesh(
+        tr("Preparing the mesh's picture"),
+        [folder, verdict = summary.verdict](const core::TaskContext& task) {
+          return preview_of(folder, verdict, task);
+        },
+        [this](const QString& message) { window_.say(message); });
     window_.flow_cases().mesh_made(folder / "mesh.vtu");
   }
   if (!summary.verdict.ok())

@@ -101,6 +101,27 @@ QLabel* export_field_label(const QString& text, QWidget* field) {
   return label;
 }
 
+QWidget* in_a_row(const std::vector<QWidget*>& widgets, const QWidget* stretched) {
+  auto* row = new QWidget;
+  auto* line = new QHBoxLayout(row);
+  line->setContentsMargins(0, 0, 0, 0);
+  if (!stretched) stretched = widgets.front();
+  for (QWidget* widget : widgets) line->addWidget(widget, widget == stretched ? 1 : 0);
+  return row;
+}
+
+QDoubleSpinBox* number_field(const QString& name, const QString& accessible, double most, int decimals,
+                             double step, double value) {
+  auto* box = new QDoubleSpinBox;
+  box->setObjectName(name);
+  box->setAccessibleName(accessible);
+  box->setRange(0.0, most);
+  box->setDecimals(decimals);
+  box->setSingleStep(step);
+  box->setValue(value);
+  return box;
+}
+
 bool mark(const ExportField& field, const QString& trouble) {
   field.trouble->setText(trouble);
   field.trouble->setVisible(!trouble.isEmpty());
@@ -132,25 +153,15 @@ void VolumeFields::add_layers(QFormLayout* form, const VolumeChoice& last) {
   layers_->setToolTip(
       tr("Flat prisms on the wall, where the shear stress is. Where there is no room they get "
          "thinner, never fewer."));
-  thickness_ = new QDoubleSpinBox;
-  thickness_->setObjectName("layer_thickness");
-  thickness_->setAccessibleName(tr("Thickness of all layers"));
-  thickness_->setRange(0.0, field_most);
-  thickness_->setDecimals(2);
-  thickness_->setSingleStep(0.05);
+  thickness_ =
+      number_field("layer_thickness", tr("Thickness of all layers"), field_most, 2, 0.05, last.thickness);
   thickness_->setPrefix(tr("thickness "));
   thickness_->setSuffix(tr(" of an edge"));
-  thickness_->setValue(last.thickness);
   split_ = new QCheckBox(tr("as tetrahedra"));
   split_->setObjectName("split_prisms");
   split_->setToolTip(tr("Each prism becomes three tetrahedra, for programs that know nothing else"));
   split_->setChecked(last.split);
-  auto* row = new QWidget;
-  auto* line = new QHBoxLayout(row);
-  line->setContentsMargins(0, 0, 0, 0);
-  line->addWidget(layers_);
-  line->addWidget(thickness_, 1);
-  line->addWidget(split_);
+  QWidget* row = in_a_row({layers_, thickness_, split_}, thickness_);
   layers_field_ = add_export_field(form, tr("&Layers"), row, layers_, "layers");
   connect(layers_, QOverload<int>::of(&QSpinBox::valueChanged), this, &VolumeFields::changed);
   connect(thickness_, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this, &VolumeFields::changed);

@@ -5,7 +5,6 @@
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QFormLayout>
-#include <QHBoxLayout>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -31,13 +30,7 @@ SizeFields::SizeFields(QFormLayout* form, const SizeChoice& last, bool mesh, QOb
 
 QDoubleSpinBox* SizeFields::number(const QString& name, const QString& accessible, int decimals,
                                    double value) {
-  auto* box = new QDoubleSpinBox;
-  box->setObjectName(name);
-  box->setAccessibleName(accessible);
-  box->setRange(0.0, field_most);
-  box->setDecimals(decimals);
-  box->setSingleStep(decimals == 0 ? 1.0 : 0.05);
-  box->setValue(value);
+  auto* box = number_field(name, accessible, field_most, decimals, decimals == 0 ? 1.0 : 0.05, value);
   connect(box, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this, &SizeFields::changed);
   return box;
 }
@@ -58,13 +51,7 @@ void SizeFields::add_triangles(QFormLayout* form, const SizeChoice& last, bool m
   edges_->setSuffix(tr(" edges around"));
   edge_mm_ = number("edge_mm", tr("Edge length"), 2, last.edge_mm);
   edge_mm_->setSuffix(tr(" mm"));
-  auto* row = new QWidget;
-  auto* line = new QHBoxLayout(row);
-  line->setContentsMargins(0, 0, 0, 0);
-  line->addWidget(size_, 1);
-  line->addWidget(edges_);
-  line->addWidget(edge_mm_);
-  size_field_ = add_export_field(form, tr("&Triangles"), row, size_, "size");
+  size_field_ = add_export_field(form, tr("&Triangles"), in_a_row({size_, edges_, edge_mm_}), size_, "size");
   connect(size_, QOverload<int>::of(&QComboBox::currentIndexChanged), this, &SizeFields::changed);
 }
 

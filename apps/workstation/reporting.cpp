@@ -2,6 +2,7 @@
 
 #include "file_dialogs.h"
 #include "main_window.h"
+#include "new_folder.h"
 #include "raster_image.h"
 
 #include "ostia/io/centerline_file.h"
@@ -29,15 +30,6 @@ struct Snapshot {
   pipeline::JobKey job;
 };
 
-fs::path free_folder(const fs::path& case_file) {
-  std::error_code ignored;
-  const fs::path first = case_file.parent_path() / (case_file.stem().string() + "-report");
-  fs::path folder = first;
-  for (int number = 2; fs::exists(folder, ignored); ++number)
-    folder = first.string() + "-" + std::to_string(number);
-  return folder;
-}
-
 void write(const Snapshot& from, const fs::path& folder, const core::TaskContext& task) {
   task.set_stage("walls");
   const analysis::SurfaceOfVessel surface_of = session::solved_surfaces(*from.model, task.sub(0.0, 0.1));
@@ -62,7 +54,7 @@ Reporting::Reporting(MainWindow& window) : QObject(&window), window_(window) {
 }
 
 void Reporting::make_report(const fs::path& case_file) {
-  make_report_in(free_folder(case_file));
+  make_report_in(free_folder_beside(case_file, "report"));
 }
 
 void Reporting::make_report_in(const fs::path& folder) {

@@ -8,6 +8,7 @@
 #include "ostia/figure/picture.h"
 #include "ostia/figure/slice_figure.h"
 #include "ostia/reformat/plane_image.h"
+#include "ostia/session/beating.h"
 #include "ostia/view/scene_measurements.h"
 
 #include <QVTKOpenGLWindow.h>
@@ -83,6 +84,10 @@ SceneWidget::SceneWidget(session::Workbench& bench, Guard guard, QWidget* parent
     cursor_stale_ = true;
     request_render();
   }));
+  own_.push_back(bench.phase_changed.observe([this] {
+    phase_stale_ = cursor_stale_ = marks_stale_ = true;
+    request_render();
+  }));
   own_.push_back(bench.annotations_changed.observe([this] {
     styles_stale_ = marks_stale_ = true;
     request_render();
@@ -136,6 +141,10 @@ void SceneWidget::request_render() {
 void SceneWidget::refresh() {
   QElapsedTimer clock;
   clock.start();
+  if (phase_stale_ && !bench_.other_phase()) {
+    phase_stale_ = false;
+    wall_stale_ = true;  // back where it was
+  }
   if (wall_stale_ && (!wall_unseen_ || styles_stale_)) {
     wall_stale_ = false;
     wall_.reset();
@@ -156,6 +165,7 @@ void SceneWidget::refresh() {
     request_render();
     return;
   }
+  if (phase_stale_) refresh_phase();
   if (styles_stale_) refresh_styles();
   if (cursor_stale_) refresh_cursor();
   if (marks_stale_) refresh_measurements();
@@ -196,6 +206,16 @@ void SceneWidget::repaint_wall() {
   request_render();
 }
 
+void SceneWidget::refresh_phase() {
+  if (wall_stale_) return;  // the wall that is there is not yet the one that moves
+  phase_stale_ = false;
+  const session::ShownPhase* phase = bench_.other_phase();
+  if (!phase || !wall_ || wall_->points.size() != phase->wall()->points.size()) return;
+  std::vector<std::shared_ptr<const geometry::AxisCurve>> axes;
+  for (const auto& vessel : bench_.model()->vessels) axes.push_back(phase->axis(vessel->vessel).curve());
+  scene_->move_wall(phase->wall(), axes);
+}
+
 void SceneWidget::refresh_styles() {
   styles_stale_ = false;
   if (!bench_.has_case()) return;
@@ -233,14 +253,14 @@ void SceneWidget::refresh_cursor() {
 
 void SceneWidget::refresh_section() {
   const auto axis = bench_.axis();
-  if (!axis || !bench_.image().volume) {
+  if (!axis || !bench_.shown_volume()) {
     scene_->set_plane(view::ScenePlane::cross_section, std::nullopt);
     return;
   }
   view::ScenePlanePicture picture;
   picture.plane =
       reformat::cross_section_plane(*axis, bench_.cursor_mm.get(), section_mm, section_mm / section_px);
-  const reformat::PlaneImage image = reformat::slice(*bench_.image().volume, picture.plane);
+  const reformat::PlaneImage image = reformat::slice(*bench_.shown_volume(), picture.plane);
   const session::GreyWindow window = bench_.grey.get();
   picture.gray.reserve(image.values.size());
   for (const float value : image.values)

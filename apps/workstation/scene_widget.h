@@ -2,6 +2,7 @@
 /// \file The tree in three dimensions, in a native window of its own.
 
 #include "picture_widget.h"
+#include "scene_grip.h"
 
 #include "ostia/session/workbench.h"
 #include "ostia/view/scene_pointer.h"
@@ -41,6 +42,8 @@ class SceneWidget final : public QWidget {
   void repaint_wall();  ///< the painter would colour it otherwise
   /// In the wall's place, all of it in the picture; null: the wall again.
   void show_guest(std::shared_ptr<view::SceneGuest> guest);
+  /// What a press of the left button may take hold of; null: nothing. It has to outlive the events.
+  void set_grip(SceneGrip* grip) { grip_ = grip; }
   /// As it is shown, `scale` times as many pixels along each side with texts and lines as much larger. Throws
   /// as TreeScene::snapshot and figure::Picture::write_png do.
   void save_picture(const std::filesystem::path& png, double scale);
@@ -66,6 +69,7 @@ class SceneWidget final : public QWidget {
 
  private:
   void refresh();
+  void refresh_phase();
   void refresh_styles();
   void refresh_cursor();
   void refresh_section();
@@ -90,7 +94,7 @@ class SceneWidget final : public QWidget {
   view::CameraPose from_, to_;
   QElapsedTimer flight_clock_;
   bool wall_stale_ = true, styles_stale_ = true, cursor_stale_ = true, marks_stale_ = true,
-       fit_wanted_ = true;
+       fit_wanted_ = true, phase_stale_ = false;
   view::VolumeMode volume_mode_ = view::VolumeMode::off;
   bool wall_unseen_ = false;  // it was made and not drawn yet
   std::shared_ptr<const geometry::TriMesh> wall_;
@@ -99,6 +103,8 @@ class SceneWidget final : public QWidget {
   Qt::MouseButtons buttons_;
   HeldButton button_;
   bool moved_ = false, holding_ = false;  // the camera; a handle
+  SceneGrip* grip_ = nullptr;
+  bool gripped_ = false;
   std::vector<session::Subscription> own_;
 };
 

@@ -33,13 +33,13 @@ view::PointerEvent SceneWidget::pointer_event(const QPointF& at, Qt::MouseButton
 
 void SceneWidget::hand(const std::function<void()>& act) {
   guard_(act);
-  window_->setCursor(cursor_of(pointer_->shape()));
+  window_->setCursor(gripped_ ? Qt::SizeAllCursor : cursor_of(pointer_->shape()));
 }
 
 /// The button went up unseen: no more is done, and no click comes of it.
 void SceneWidget::let_go() {
   buttons_ = Qt::NoButton;
-  holding_ = false;
+  holding_ = gripped_ = false;
   scene_->set_interacting(false);
   hand([&] { pointer_->let_go(); });
   request_render();
@@ -47,12 +47,24 @@ void SceneWidget::let_go() {
 
 void SceneWidget::mouse_pressed(const QMouseEvent& event) {
   if (buttons_ != Qt::NoButton && button_.lost(event)) let_go();
+  if (gripped_) {  // of another button meanwhile
+    buttons_ = event.buttons();
+    return;
+  }
   if (buttons_ == Qt::NoButton) button_.pressed(event);
   pressed_ = last_ = event.localPos();
   buttons_ = event.buttons();
   moved_ = false;
   refining_.stop();
   container_->setFocus(Qt::MouseFocusReason);
+  gripped_ = event.button() == Qt::LeftButton && event.buttons() == Qt::LeftButton &&
+             !(event.modifiers() & Qt::ShiftModifier) && grip_ && grip_->under(display(event.localPos()));
+  if (gripped_) {
+    holding_ = true;
+    grip_->take(display(event.localPos()));
+    hand([] {});
+    return;
+  }
   hand([&] {
     holding_ = pointer_->press(pointer_event(event.localPos(), event.button(), event.modifiers()));
   });
@@ -62,7 +74,13 @@ void SceneWidget::mouse_moved(const QMouseEvent& event) {
   if (buttons_ != Qt::NoButton && button_.lost(event)) let_go();
   const bool camera = event.buttons() != Qt::NoButton && !holding_;
   if (holding_) FrameLog::instance().event("tree");
+  if (gripped_) {
+    grip_->drag(display(event.localPos()));
+    return;
+  }
   hand([&] { pointer_->move(pointer_event(event.localPos(), Qt::NoButton, event.modifiers())); });
+  if (event.buttons() == Qt::NoButton && grip_ && grip_->under(display(event.localPos())))
+    window_->setCursor(Qt::SizeAllCursor);
   if (camera) turn_camera(event);
   if (event.buttons() == Qt::NoButton) emit pointed(display(event.localPos()));
 }
@@ -87,13 +105,19 @@ void SceneWidget::turn_camera(const QMouseEvent& event) {
 
 void SceneWidget::mouse_released(const QMouseEvent& event) {
   buttons_ = event.buttons();
-  holding_ = false;
+  if (gripped_ && event.button() != Qt::LeftButton) return;  // of another button meanwhile
+  holding_ = gripped_ = false;
   scene_->set_interacting(false);
   hand([&] { pointer_->release(pointer_event(event.localPos(), event.button(), event.modifiers())); });
   request_render();
 }
 
 bool SceneWidget::key_pressed(int key) {
+  if (key == Qt::Key_Escape && gripped_) {
+    gripped_ = false;  // what is moved until the button goes up moves nothing
+    grip_->put_back();
+    return true;
+  }
   if (key == Qt::Key_Escape && pointer_->busy()) {
     hand([&] { pointer_->cancel(); });
     return true;

@@ -228,7 +228,7 @@ void MeasurementList::go_to(std::int32_t measurement) {
   const auto axis = session::needs_vessel(*found) ? bench_.axis(found->vessel) : nullptr;
   if (axis) {
     bench_.vessel.set(found->vessel);
-    bench_.cursor_mm.set(found->points.empty() ? 0.5 * (found->from_mm + found->to_mm)
+    bench_.cursor_mm.set(found->points.empty() ? bench_.here_mm(0.5 * (found->from_mm + found->to_mm))
                                                : axis->nearest_foot(found->points.front()).s_mm);
   } else if (!found->points.empty()) {
     bench_.place.set(found->points.front());

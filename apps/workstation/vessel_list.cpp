@@ -88,7 +88,7 @@ VesselList::VesselList(session::Workbench& bench, std::function<QColor(std::int3
   connect(this, &QTreeWidget::currentItemChanged, this, [this](QTreeWidgetItem* item) {
     if (!item || writing_) return;
     bench_.vessel.set(item->data(0, id_role).toInt());
-    if (item->parent()) bench_.cursor_mm.set(item->data(0, from_role).toDouble());
+    if (item->parent()) bench_.cursor_mm.set(bench_.here_mm(item->data(0, from_role).toDouble()));
   });
   connect(this, &QTreeWidget::itemChanged, this, [this](QTreeWidgetItem* item, int column) {
     if (!writing_ && !item->parent()) edited(item, column);

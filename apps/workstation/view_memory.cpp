@@ -18,7 +18,7 @@ std::string text_of(double value) {
 
 std::map<std::string, std::string> settings_of(const session::Workbench& bench) {
   return {{"view.vessel", std::to_string(bench.vessel.get())},
-          {"view.cursor_mm", text_of(bench.cursor_mm.get())},
+          {"view.cursor_mm", text_of(bench.own_mm(bench.cursor_mm.get()))},
           {"view.theta_deg", text_of(bench.theta_deg.get())},
           {"view.curved_mode", std::to_string(static_cast<int>(bench.curved_mode.get()))},
           {"view.slab", std::to_string(static_cast<int>(bench.slab.get()))},

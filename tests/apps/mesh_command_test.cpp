@@ -1,5 +1,6 @@
 // `ostia mesh` for solvers: layers, second order, formats, the gate.
 
+#include "mesh_refusals.h"
 #include "program.h"
 
 #include "ostia/core/files.h"
@@ -159,27 +160,17 @@ TEST(MeshCommand, CheckReadsPrisms) {
 }
 
 TEST(MeshCommand, WhatDoesNotGoTogetherIsRefusedBeforeAnythingIsRead) {
-  const fs::path folder = temporary_folder("refused");  // without the surface that is named
-  const auto refused = [&](const std::vector<std::string>& more, int code, const std::string& part) {
-    for (const std::string command : {"mesh", "model"}) {
-      const Outcome done =
-          ostia(std::vector<std::string>{command, "tube.ply", "-o", "out"} + more, {folder, ""});
-      EXPECT_EQ(done.code, code) << command << ": " << done.err;
-      EXPECT_THAT(done.err + done.out, HasSubstr(part)) << command;
-    }
-    EXPECT_TRUE(fs::is_empty(folder));
-  };
-  refused({"--layers", "2", "--export", "gmsh4,mesh-complete"}, 3, "--split-prisms");
-  refused({"--order", "2", "--export", "openfoam"}, 3, "--order 1");
-  refused({"--layers", "2", "--order", "2", "--export", "abaqus"}, 3, "18-node prisms");
-  refused({"--export", "step"}, 2, "mesh-complete");
-  refused({"--layers", "21"}, 2, "layers");
-  refused({"--layers", "2", "--layer-thickness", "4"}, 2, "layer-thickness");
-  refused({"--layers", "2", "--layer-growth", "0.5"}, 2, "layer-growth");
-  refused({"--layer-thickness", "0.5"}, 2, "--layers");
-  refused({"--split-prisms"}, 2, "--layers");
-  refused({"--order", "3"}, 2, "order");
-  refused({"--min-edge", "0.3", "--max-edge", "0.2"}, 3, "max_edge_mm");
+  expect_mesh_and_model_refuse({"--layers", "2", "--export", "gmsh4,mesh-complete"}, 3, "--split-prisms");
+  expect_mesh_and_model_refuse({"--order", "2", "--export", "openfoam"}, 3, "--order 1");
+  expect_mesh_and_model_refuse({"--layers", "2", "--order", "2", "--export", "abaqus"}, 3, "18-node prisms");
+  expect_mesh_and_model_refuse({"--export", "step"}, 2, "mesh-complete");
+  expect_mesh_and_model_refuse({"--layers", "21"}, 2, "layers");
+  expect_mesh_and_model_refuse({"--layers", "2", "--layer-thickness", "4"}, 2, "layer-thickness");
+  expect_mesh_and_model_refuse({"--layers", "2", "--layer-growth", "0.5"}, 2, "layer-growth");
+  expect_mesh_and_model_refuse({"--layer-thickness", "0.5"}, 2, "--layers");
+  expect_mesh_and_model_refuse({"--split-prisms"}, 2, "--layers");
+  expect_mesh_and_model_refuse({"--order", "3"}, 2, "order");
+  expect_mesh_and_model_refuse({"--min-edge", "0.3", "--max-edge", "0.2"}, 3, "max_edge_mm");
 }
 
 TEST(MeshCommand, LayersThickerThanTheVesselAreThinnedAndTold) {

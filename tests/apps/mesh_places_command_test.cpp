@@ -1,6 +1,7 @@
 // `ostia mesh` with what goes beside the mesh: a solver's case, placed planes, an array of sizes, a forecast,
 // other programs' files to check.
 
+#include "mesh_refusals.h"
 #include "program.h"
 
 #include "ostia/core/files.h"
@@ -81,25 +82,15 @@ TEST(MeshWithCase, SvmultiphysicsTakesSplitLayers) {
 }
 
 TEST(MeshWithCase, WhatASolverDoesNotTakeIsRefusedBeforeAnythingIsRead) {
-  const fs::path folder = temporary_folder("refused");  // without the surface that is named
-  const auto refused = [&](const std::vector<std::string>& more, int code, const std::string& part) {
-    for (const std::string command : {"mesh", "model"}) {
-      const Outcome done =
-          ostia(std::vector<std::string>{command, "tube.ply", "-o", "out"} + more, {folder, ""});
-      EXPECT_EQ(done.code, code) << command << ": " << done.err;
-      EXPECT_THAT(done.err + done.out, HasSubstr(part)) << command;
-    }
-    EXPECT_TRUE(fs::is_empty(folder));
-  };
-  refused({"--with-case", "openfoam", "--order", "2"}, 3, "--order 1");
-  refused({"--with-case", "svmultiphysics", "--layers", "2"}, 3, "--split-prisms");
-  refused({"--with-case", "svmultiphysics", "--outlets", "split"}, 3, "resistances");
-  refused({"--with-case", "openfoam", "--flow", "-1"}, 3, "flow_ml_s");
-  refused({"--with-case", "openfoam", "--viscosity", "0.0035"}, 3, "viscosity_mpa_s");
-  refused({"--with-case", "openfoam", "--compliance", "1"}, 2, "svmultiphysics");
-  refused({"--with-case", "openfoam", "--waveform", "aorta"}, 3, "coronary-left");
-  refused({"--with-case", "fluent"}, 2, "openfoam");
-  refused({"--flow", "1"}, 2, "--with-case");
+  expect_mesh_and_model_refuse({"--with-case", "openfoam", "--order", "2"}, 3, "--order 1");
+  expect_mesh_and_model_refuse({"--with-case", "svmultiphysics", "--layers", "2"}, 3, "--split-prisms");
+  expect_mesh_and_model_refuse({"--with-case", "svmultiphysics", "--outlets", "split"}, 3, "resistances");
+  expect_mesh_and_model_refuse({"--with-case", "openfoam", "--flow", "-1"}, 3, "flow_ml_s");
+  expect_mesh_and_model_refuse({"--with-case", "openfoam", "--viscosity", "0.0035"}, 3, "viscosity_mpa_s");
+  expect_mesh_and_model_refuse({"--with-case", "openfoam", "--compliance", "1"}, 2, "svmultiphysics");
+  expect_mesh_and_model_refuse({"--with-case", "openfoam", "--waveform", "aorta"}, 3, "coronary-left");
+  expect_mesh_and_model_refuse({"--with-case", "fluent"}, 2, "openfoam");
+  expect_mesh_and_model_refuse({"--flow", "1"}, 2, "--with-case");
 }
 
 TEST(MeshWithCase, AFlowThroughAnInletThatIsNotThereIsToldBeforeMeshing) {
@@ -275,6 +266,16 @@ TEST(MeshForecast, AGoodTubeHasNothingToTell) {
             std::string::npos);
 }
 
+TEST(MeshForecast, AModelIsWarnedAsAMeshIs) {
+  const fs::path folder = folder_with_tube();
+  for (const std::string command : {"mesh", "model"}) {
+    const Outcome done = ostia({command, "tube.ply", "-o", command, "--edge-ratio", "0.9"}, {folder, ""});
+    EXPECT_EQ(done.code, 0) << command << done.err;
+    EXPECT_THAT(done.err, HasSubstr("edges across")) << command;
+    EXPECT_THAT(done.err, HasSubstr("--edge-ratio")) << command;
+  }
+}
+
 TEST(MeshForecast, MetresAreToldWithTheWayOut) {
   const fs::path folder = folder_with_tube(1e-3);
   const Outcome words = ostia({"mesh", "tube.ply", "--forecast"}, {folder, ""});
@@ -341,9 +342,10 @@ TEST(MeshCheck, ReadsWhatWasExported) {
 
 TEST(MeshCheck, SplitLayersPassTheGateAndSayWhichTheyAre) {
   const fs::path folder = folder_with_tube();
-  const Outcome made = ostia({"mesh", "tube.ply", "-o", "out", "--layers", "4", "--layer-thickness", "0.25",
-                              "--split-prisms", "--export", "gmsh4", "--json"},
-                             {folder, ""});
+  const Outcome made =
+      ostia({"mesh", "tube.ply", "-o", "out", "--layers", "4", "--layer-thickness", "0.25", "--split-prisms",
+             "--export", "gmsh2,gmsh4,exodus,abaqus,cgns,xdmf,openfoam,fluent", "--json"},
+            {folder, ""});
   ASSERT_EQ(made.code, 0) << made.err;
   const Json volume = Json::parse(made.out)["volume"];
   EXPECT_EQ(volume["prisms"], 0);
@@ -353,10 +355,17 @@ TEST(MeshCheck, SplitLayersPassTheGateAndSayWhichTheyAre) {
   const Outcome checked = ostia({"mesh", "--check", "out/mesh.vtu", "--json"}, {folder, ""});
   EXPECT_EQ(checked.code, 0) << checked.err;
   EXPECT_EQ(Json::parse(checked.out)["volume"]["of_layers"], volume["of_layers"]);
+  for (const std::string file :
+       {"mesh-gmsh2.msh", "mesh-gmsh4.msh", "mesh.exo", "mesh.inp", "mesh.cgns", "xdmf", "openfoam"}) {
+    const Outcome same = ostia({"mesh", "--check", "out/" + file, "--json"}, {folder, ""});
+    EXPECT_EQ(same.code, 0) << file << same.err;
+    EXPECT_EQ(Json::parse(same.out)["volume"]["of_layers"]["count"], volume["of_layers"]["count"]) << file;
+  }
   // A file that does not say so is judged as any other.
-  const Outcome unknown = ostia({"mesh", "--check", "out/mesh-gmsh4.msh"}, {folder, ""});
+  const Outcome unknown = ostia({"mesh", "--check", "out/mesh-fluent.msh"}, {folder, ""});
   EXPECT_EQ(unknown.code, 4);
   EXPECT_THAT(unknown.err, HasSubstr("dihedral"));
+  EXPECT_THAT(unknown.err, HasSubstr("check the mesh.vtu"));
 }
 
 }  // namespace

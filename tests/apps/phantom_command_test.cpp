@@ -58,11 +58,33 @@ TEST(PhantomCommand, OtherParametersMakeItAnew) {
   EXPECT_TRUE(std::filesystem::exists(folder / "out" / "dataset01" / "case.json"));
 }
 
+TEST(PhantomCommand, PhasesAreReadByWhatComparesMotions) {
+  const auto folder = temporary_folder("phantom");
+  const Outcome made = ostia({"phantom", "--preset", "tiny", "-o", "out", "--phases", "2", "--truth-only",
+                              "--no-report", "--surface-spacing", "1"},
+                             {folder, ""});
+  ASSERT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr("displacement"));
+  EXPECT_THAT(
+      names_in(folder / "out" / "dataset00"),
+      IsSupersetOf({"heartbeat.json", "motion.json", "ecg.hea", "ecg.atr", "lumen.vtp", "lumen/phase-50.vtp",
+                    "phase-00/lumen.vtp", "phase-50/centerlines.vtp", "phase-50/contours.json"}));
+  for (const char* name : {"lumen", "motion.json"}) {
+    const std::string path = std::string("out/dataset00/") + name;
+    const Outcome same = ostia({"evaluate", "motion", path, path, "--json"}, {folder, ""});
+    ASSERT_EQ(same.code, 0) << same.err;
+    const Json figures = Json::parse(same.out);
+    EXPECT_EQ(figures["phases"].size(), 2u);
+    EXPECT_LT(figures[std::string(name) == "lumen" ? "msd_mm" : "mean_mm"].get<double>(), 1e-9);
+  }
+}
+
 TEST(PhantomCommand, WrongUsageIsTwoAndLeavesNothing) {
   const std::vector<std::vector<std::string>> wrong{{"phantom"},
                                                     {"phantom", "-o", "out", "--preset", "huge"},
                                                     {"phantom", "-o", "out", "--cases", "0"},
-                                                    {"phantom", "-o", "out", "--phases", "10"},
+                                                    {"phantom", "-o", "out", "--phases", "0"},
+                                                    {"phantom", "-o", "out", "--phases", "101"},
                                                     {"phantom", "-o", "out", "--formats", "nifti"},
                                                     {"phantom", "-o", "out", "--noise", "-3"},
                                                     {"phantom", "-o", "out", "--contour-points", "2"}};
@@ -72,8 +94,8 @@ TEST(PhantomCommand, WrongUsageIsTwoAndLeavesNothing) {
     EXPECT_EQ(done.code, 2) << words.back() << ": " << done.err;
     EXPECT_THAT(names_in(folder), IsEmpty());
   }
-  const Outcome phases = ostia({"phantom", "-o", "out", "--phases", "10"});
-  EXPECT_THAT(phases.err, HasSubstr("one phase"));
+  const Outcome phases = ostia({"phantom", "-o", "out", "--phases", "101"});
+  EXPECT_THAT(phases.err, HasSubstr("to 100 phases"));
 }
 
 TEST(PhantomCommand, AFolderWithOtherThingsIsNotTouched) {

@@ -68,6 +68,18 @@ TEST(CenterlineFile, RoundTripsCsvOfVessels) {
   EXPECT_EQ(axis.points, geometry::vessel_axis(fork(), fork().vessels[1]).points);
 }
 
+TEST(CenterlineFile, NamesWithCommasAndQuotesComeBackFromCsv) {
+  const auto path = testing::temporary_folder("io") / "lines.csv";
+  VesselTree tree = fork();
+  tree.vessels[1].name = "LCX, the \"second\" one";
+  write_centerlines(path, tree);
+  const VesselTree read = read_centerlines(path);
+  ASSERT_EQ(read.vessels.size(), 2u);
+  EXPECT_EQ(read.vessels[1].name, tree.vessels[1].name);
+  EXPECT_EQ(geometry::vessel_axis(read, read.vessels[1]).points,
+            geometry::vessel_axis(tree, tree.vessels[1]).points);
+}
+
 TEST(CenterlineFile, ReadsPlainCsv) {
   const VesselTree read = read_centerlines(
       file_with("a.csv", "x, y, z, radius\n0,0,0,1.5\n0,0,1,1.25\n\n5,0,0,1\n5,0,1,1\n5,0,2,1\n"));
@@ -83,6 +95,7 @@ TEST(CenterlineFile, RefusesWhatIsNoCenterline) {
       {"x,y,z,radius\n0,0,0,1\n0,0,1,-1\n", "positive"},
       {"x,y,z,radius\n0,0,0,1\n", "fewer than two"},
       {"x,y,z,radius\n", "no points"},
+      {"vessel,x,y,z,radius\na,0,0,0,1\n\"a,0,0,1,1\n", "row 3"},
       {"x,y,z,radius\n0,0,0,1\n0,0,nan,1\n", "row 3"}};
   for (const auto& [content, part] : bad) {
     const auto path = file_with("a.csv", content);

@@ -76,6 +76,7 @@ std::vector<MeshMeasure> read_with(const std::string& script, const std::string&
 struct Case {
   const char* name;
   MixedMesh mesh;
+  std::size_t layer_tetrahedra = 0;
 };
 
 std::vector<Case> linear_cases() {
@@ -85,7 +86,9 @@ std::vector<Case> linear_cases() {
           {"tetrahedra", column_of_tetrahedra()},
           {"prisms and tetrahedra", column_with_prisms()},
           {"prisms", ring_of_prisms()},
-          {"split prisms", geometry::split_prisms(column_with_prisms())}};
+          {"split prisms", geometry::split_prisms(column_with_prisms())},
+          {"split prisms apart", geometry::split_prisms(column_with_prisms()),
+           3 * column_with_prisms().prisms.size()}};
 }
 std::vector<Case> all_cases() {
   std::vector<Case> cases = linear_cases();
@@ -99,15 +102,17 @@ std::vector<Case> tetrahedral_cases() {
           {"split", geometry::split_prisms(column_with_prisms())}};
 }
 
-fs::path exported(const MixedMesh& mesh, MeshFormat format) {
+fs::path exported(const Case& c, MeshFormat format) {
   const fs::path path = testing::temporary_folder("export") / ("m" + std::string(extension_of(format)));
-  export_mesh(mesh, format, path);
+  MeshExportOptions options;
+  options.layer_tetrahedra = c.layer_tetrahedra;
+  export_mesh(c.mesh, format, path, options);
   return path;
 }
 
 std::vector<fs::path> exported(const std::vector<Case>& cases, MeshFormat format) {
   std::vector<fs::path> paths;
-  for (const Case& c : cases) paths.push_back(exported(c.mesh, format));
+  for (const Case& c : cases) paths.push_back(exported(c, format));
   return paths;
 }
 
@@ -192,7 +197,7 @@ TEST(MeshExportReaders, CheckMeshAcceptsThePolyMesh) {
   NEEDS_OPENFOAM();
   for (const Case& c : linear_cases()) {
     SCOPED_TRACE(c.name);
-    const fs::path folder = exported(c.mesh, MeshFormat::openfoam);
+    const fs::path folder = exported(c, MeshFormat::openfoam);
     add_control(folder);
     expect_mesh_ok(folder, c.mesh, 1e-3);
   }
@@ -206,7 +211,7 @@ void expect_converts(const std::string& converter, const std::vector<Case>& case
     folders.push_back(testing::temporary_folder("foam"));
     add_control(folders.back());
     const Shell convert = shell(openfoam + converter + " -case '" + folders.back().string() + "' '" +
-                                exported(c.mesh, format).string() + "'");
+                                exported(c, format).string() + "'");
     ASSERT_TRUE(convert.good) << convert.output;
     expect_mesh_ok(folders.back(), c.mesh, converter.find("-scale") == std::string::npos ? 1.0 : 1e-3);
   }
@@ -306,7 +311,7 @@ TEST(MeshExportReaders, CgnsCheckFindsNoFault) {
   NEEDS("cgns-convert", "command -v cgnscheck");
   for (const Case& c : all_cases()) {
     SCOPED_TRACE(c.name);
-    const Shell check = shell("cgnscheck '" + exported(c.mesh, MeshFormat::cgns).string() + "'");
+    const Shell check = shell("cgnscheck '" + exported(c, MeshFormat::cgns).string() + "'");
     EXPECT_TRUE(check.good) << check.output;
     EXPECT_EQ(check.output.find("ERROR"), std::string::npos) << check.output;
     EXPECT_EQ(check.output.find("WARNING"), std::string::npos) << check.output;

@@ -56,6 +56,14 @@ fs::path abaqus(const std::string& text) {
   return file_with("a.inp", text);
 }
 
+TEST(BadMeshFiles, SurfacesOfOneIdStayTwoFaces) {
+  const MixedMesh mesh = read_volume_mesh(
+      abaqus("** face 2 inlet\n** face 2 outlet\n" + nodes + elements +
+             "*SURFACE, TYPE=ELEMENT, NAME=inlet\n1, S1\n*SURFACE, TYPE=ELEMENT, NAME=outlet\n2, S1\n"));
+  EXPECT_THAT(faces_of(mesh), ElementsAre("inlet 2 1", "outlet 1 1", "wall 3 6"));
+  expect_whole(mesh);
+}
+
 TEST(BadMeshFiles, SidesThatNoAbaqusSurfaceNamesAreWall) {
   const std::string surfaces =
       "*SURFACE, TYPE=ELEMENT, NAME=inlet\n1, S1\n*SURFACE, TYPE=ELEMENT, NAME=outlet\n2, S1\n2, S3\n";
@@ -178,6 +186,22 @@ TEST(BadMeshFiles, SidesThatNoExodusSideSetNamesAreWall) {
   expect_whole(later);
 }
 
+TEST(BadMeshFiles, ExodusSideSetsOfOneIdStayTwoFaces) {
+  const Dimensions dimensions = {
+      {"num_side_sets", 3}, {"len_name", 7}, {"num_side_ss1", 1}, {"num_side_ss2", 1}, {"num_side_ss3", 1}};
+  std::vector<Array> sets = {{"ss_prop1", {"num_side_sets"}, {2, 2, 0}},
+                             {"ss_names", {"num_side_sets", "len_name"}, {}, "inlet  outlet        "}};
+  for (int i = 1; i <= 3; ++i) {
+    const std::string n = std::to_string(i);
+    sets.push_back({"elem_ss" + n, {"num_side_ss" + n}, {1}});
+    sets.push_back({"side_ss" + n, {"num_side_ss" + n}, {static_cast<double>(i)}});
+  }
+  const MixedMesh mesh = read_volume_mesh(exodus(dimensions, sets));
+  EXPECT_THAT(faces_of(mesh), ElementsAre("inlet 2 1", "outlet 1 1", "face_3 3 1", "wall 4 1"));
+  EXPECT_EQ(mesh.faces[1].kind, FaceKind::outlet);
+  expect_whole(mesh);
+}
+
 TEST(BadMeshFiles, SizesThatAnExodusFileCannotHoldAreRefused) {
   EXPECT_EQ(read_volume_mesh(exodus({}, {})).tetrahedra.size(), 1U);
   refused(exodus({{"num_side_sets", 5}, {"one", 1}}, {{"ss_prop1", {"one"}, {1}}}), "differ in number");
@@ -282,6 +306,30 @@ TEST(BadMeshFiles, PointsThatAnXdmfFileDoesNotHoldAreRefused) {
   const fs::path unwritten = xdmf("XYZ", {{"many", 30000}}, {"geometry", {"many"}});
   expect_refusal(unwritten.parent_path() / "mesh.h5", [&] { read_volume_mesh(unwritten); },
                  {"larger than its bytes"});
+}
+
+/// What the column's facets.xdmf has between `from` and `to` becomes `text`.
+MixedMesh with_facets(const std::string& from, const std::string& to, const std::string& text) {
+  const fs::path folder = place("column");
+  export_mesh(column_of_tetrahedra(), MeshFormat::xdmf, folder);
+  std::string facets = core::read_file(folder / "facets.xdmf");
+  const std::size_t begin = facets.find(from), end = facets.find(to, begin);
+  EXPECT_NE(end, std::string::npos) << from << to;
+  core::write_file(folder / "facets.xdmf", facets.replace(begin, end + to.size() - begin, text));
+  return read_volume_mesh(folder);
+}
+
+TEST(BadMeshFiles, FacetsWithoutIdsOfAnXdmfFileAreWall) {
+  const std::size_t facets = column_of_tetrahedra().triangles.size();
+  const MixedMesh mesh = with_facets("<Attribute", "</Attribute>", "");
+  EXPECT_THAT(faces_of(mesh), ElementsAre("wall 1 " + std::to_string(facets)));
+  EXPECT_EQ(mesh.faces[0].kind, FaceKind::wall);
+  expect_whole(mesh);
+}
+
+TEST(BadMeshFiles, IdsThatAreNotOneAFacetOfAnXdmfFileAreRefused) {
+  EXPECT_THROW(with_facets("/facets/CellEntityIds", "<", "/mesh/CellEntityIds<"), InvalidInput);
+  EXPECT_THROW(with_facets("</map>", "<", "</map><map key=\"again\" dim=\"2\">1</map><"), InvalidInput);
 }
 
 // ---- folders

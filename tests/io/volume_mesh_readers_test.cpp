@@ -133,6 +133,55 @@ TEST(VolumeMeshReaders, OpenfoamComesBackWithItsPatchesNumberedInTheirOrder) {
   round_trip(MeshFormat::openfoam, "", linear_samples(), false);
 }
 
+TEST(VolumeMeshReaders, FilesTellTheTetrahedraOfLayers) {
+  const fs::path folder = testing::temporary_folder("readers");
+  const MixedMesh column = column_with_prisms();
+  MeshExportOptions options;
+  options.layer_tetrahedra = 3 * column.prisms.size();
+  for (const MixedMesh& mesh : {geometry::split_prisms(column), geometry::split_prisms(quadratic(column))}) {
+    std::vector<bool> expected(mesh.tetrahedra.size(), false);
+    std::fill(expected.end() - static_cast<std::ptrdiff_t>(options.layer_tetrahedra), expected.end(), true);
+    for (const MeshFormat format :
+         {MeshFormat::vtu, MeshFormat::gmsh2, MeshFormat::gmsh4, MeshFormat::exodus, MeshFormat::abaqus,
+          MeshFormat::cgns, MeshFormat::xdmf, MeshFormat::openfoam}) {
+      if (mesh.quadratic() && format == MeshFormat::openfoam) continue;
+      SCOPED_TRACE(name_of(format));
+      const std::string extension(extension_of(format));
+      const fs::path path = folder / (std::string(name_of(format)) + extension);
+      export_mesh(mesh, format, path, options);
+      const LayeredMesh read = read_layered_mesh(path);
+      EXPECT_EQ(read.in_layers, expected);
+      expect_same(read.mesh, mesh, format != MeshFormat::openfoam);
+      fs::remove_all(path);  // another folder's files are not replaced
+      export_mesh(mesh, format, path);
+      EXPECT_TRUE(read_layered_mesh(path).in_layers.empty());
+      fs::remove_all(path);
+    }
+  }
+}
+
+TEST(VolumeMeshReaders, ZonesOfLayersAreReadAsOpenfoamWritesThem) {
+  const fs::path folder = testing::temporary_folder("readers") / "case";
+  const MixedMesh mesh = column_of_tetrahedra();
+  export_mesh(mesh, MeshFormat::openfoam, folder);
+  const auto with_zones = [&](const std::string& zones) {
+    core::write_file(folder / "constant" / "polyMesh" / "cellZones",
+                     "FoamFile { format ascii; class regIOobject; object cellZones; }\n" + zones);
+    return folder;
+  };
+  const std::vector<bool> marks =
+      read_layered_mesh(with_zones("3 (rotor { type cellZone; cellLabels List<label> 1(2); }\n"
+                                   "a_layers { type cellZone; cellLabels List<label> 2(0 3); }\n"
+                                   "b_layers { type cellZone; cellLabels List<label> 1{1}; })"))
+          .in_layers;
+  ASSERT_EQ(marks.size(), mesh.tetrahedra.size());
+  EXPECT_EQ(std::vector<bool>(marks.begin(), marks.begin() + 5),
+            (std::vector<bool>{true, true, false, true, false}));
+  EXPECT_THROW(
+      read_layered_mesh(with_zones("1 (a_layers { type cellZone; cellLabels List<label> 1(900000); })")),
+      InvalidInput);
+}
+
 TEST(VolumeMeshReaders, NumbersAndElementsAreTheSameToTheBit) {
   const fs::path folder = testing::temporary_folder("readers");
   const MixedMesh mesh = column_with_prisms();

@@ -1,6 +1,8 @@
 #pragma once
 /// \file Small tetrahedral meshes for the tests of mending, and what must hold after it.
 
+#include "box_of_cubes.h"
+
 #include "ostia/geometry/mesh_topology.h"
 #include "ostia/geometry/tri_mesh.h"
 #include "ostia/meshing/quality.h"
@@ -99,27 +101,9 @@ inline geometry::VolumeMesh flat_tetrahedron_under_a_roof() {
   return mesh;
 }
 
-/// A box of n^3 cubes, each of six tetrahedra around a diagonal, with its inner points moved at random as far
-/// as no tetrahedron is inverted.
+/// A box of n^3 cubes with its inner points moved at random as far as no tetrahedron is inverted.
 inline geometry::VolumeMesh random_box(std::int32_t n, unsigned seed) {
-  geometry::VolumeMesh mesh;
-  const std::int32_t m = n + 1;
-  for (std::int32_t k = 0; k < m; ++k)
-    for (std::int32_t j = 0; j < m; ++j)
-      for (std::int32_t i = 0; i < m; ++i) mesh.points.emplace_back(i, j, k);
-  const std::int32_t step[3] = {1, m, m * m};
-  std::array<std::size_t, 3> axes{0, 1, 2};
-  do {
-    for (std::int32_t k = 0; k < n; ++k)
-      for (std::int32_t j = 0; j < n; ++j)
-        for (std::int32_t i = 0; i < n; ++i) {
-          const std::int32_t a = i + m * (j + m * k), b = a + step[axes[0]], c = b + step[axes[1]],
-                             d = c + step[axes[2]];
-          const bool even = axes[0] == (axes[2] + 1) % 3;
-          mesh.tetrahedra.push_back(even ? geometry::Tetrahedron{a, b, c, d}
-                                         : geometry::Tetrahedron{a, c, b, d});
-        }
-  } while (std::next_permutation(axes.begin(), axes.end()));
+  auto mesh = box_of_cubes<geometry::VolumeMesh>(n);
   take_boundary(mesh);
   std::vector<std::vector<std::size_t>> around(mesh.points.size());
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)

@@ -1,14 +1,13 @@
 #include "ostia/motion/cage_registration.h"
 
+#include "moved_tree.h"
+
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
-#include "ostia/geometry/aabb_tree.h"
-#include "ostia/geometry/analytic_shapes.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
 namespace ostia::motion {
 namespace {
@@ -16,72 +15,13 @@ namespace {
 using geometry::TriMesh;
 using geometry::Vec3;
 
-/// As the heart's wall moves: shorter, thinner, turned about its long axis more towards the apex, shifted.
-/// `amount` 1 is about 12 mm at the farthest.
-Vec3 beat(const Vec3& p, double amount) {
-  const Vec3 centre(20.0, 10.0, 30.0);
-  Vec3 q = p - centre;
-  const double turn = amount * 0.2 * (1.0 + q.z() / 40.0);
-  q = Eigen::AngleAxisd(turn, Vec3::UnitZ()) * q;
-  q.x() *= 1.0 - 0.12 * amount;
-  q.y() *= 1.0 - 0.12 * amount;
-  q.z() *= 1.0 - 0.15 * amount;
-  return centre + q + amount * Vec3(2.0 * std::sin(q.z() / 25.0), 3.0, 4.0);
-}
-
-TriMesh moved(TriMesh mesh, double amount) {
-  for (Vec3& p : mesh.points) p = beat(p, amount);
-  return mesh;
-}
-
-TriMesh noisy(TriMesh mesh, double mm) {
-  std::mt19937 random(3);
-  std::normal_distribution<double> noise(0.0, mm);
-  for (Vec3& p : mesh.points) p += Vec3(noise(random), noise(random), noise(random));
-  return mesh;
-}
-
-struct Error {
-  double mean = 0.0, worst = 0.0;
-};
-Error vertex_error(const TriMesh& template_mesh, const TriMesh& result, double amount) {
-  Error e;
-  for (std::size_t i = 0; i < result.points.size(); ++i) {
-    const double off = (result.points[i] - beat(template_mesh.points[i], amount)).norm();
-    e.mean += off / static_cast<double>(result.points.size());
-    e.worst = std::max(e.worst, off);
-  }
-  return e;
-}
-
-/// Mean distance from the target to the result, as in [Yi] 5.1.
-double target_distance(const TriMesh& target, const TriMesh& result) {
-  const geometry::AabbTree tree(result);
-  double sum = 0.0;
-  for (const Vec3& p : target.points) sum += tree.closest(p).distance;
-  return sum / static_cast<double>(target.points.size());
-}
-
-/// Without the triangles of a place: a segmentation that lost a branch there.
-TriMesh without(const TriMesh& mesh, const geometry::Box3& place) {
-  TriMesh out{mesh.points, {}};
-  std::vector<std::int32_t> number(mesh.points.size(), -1);
-  out.points.clear();
-  for (const geometry::Triangle& t : mesh.triangles) {
-    if (place.contains(mesh.points[static_cast<std::size_t>(t[0])])) continue;
-    geometry::Triangle kept{};
-    for (std::size_t i = 0; i < 3; ++i) {
-      std::int32_t& n = number[static_cast<std::size_t>(t[i])];
-      if (n < 0) {
-        n = static_cast<std::int32_t>(out.points.size());
-        out.points.push_back(mesh.points[static_cast<std::size_t>(t[i])]);
-      }
-      kept[i] = n;
-    }
-    out.triangles.push_back(kept);
-  }
-  return out;
-}
+using testing::beat;
+using testing::Error;
+using testing::moved;
+using testing::noisy;
+using testing::target_distance;
+using testing::vertex_error;
+using testing::without;
 
 class CageRegistration : public ::testing::Test {
  protected:
@@ -111,6 +51,20 @@ TEST_F(CageRegistration, FollowsATreeThroughABeat) {
     EXPECT_EQ(r.report.self_intersections, 0U);
     EXPECT_EQ(r.control_points.size(), 4913U);
   }
+}
+
+TEST_F(CageRegistration, DenseSurfacesAreCarriedWholeByCoarserCopies) {
+  const TriMesh target = noisy(moved(other(), 0.6), 0.05);
+  RegistrationOptions options;
+  options.depth = 3;
+  options.most_points = static_cast<int>(source().points.size() / 2);
+  const Registration r = register_cage(source(), target, options);
+  ASSERT_EQ(r.surface.points.size(), source().points.size());
+  EXPECT_EQ(r.surface.triangles, source().triangles);
+  EXPECT_LE(vertex_error(source(), r.surface, 0.6).mean, 0.25);
+  EXPECT_EQ(r.report.self_intersections, 0U);
+  options.most_points = 99;
+  EXPECT_THROW(register_cage(source(), target, options), InvalidInput);
 }
 
 TEST_F(CageRegistration, OfASurfaceOntoItselfIsRest) {

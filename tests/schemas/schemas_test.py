@@ -132,6 +132,20 @@ class Schemas(unittest.TestCase):
                 with self.subTest(field):
                     self.assert_refused(name, broken)
 
+    def test_beating_phantom(self):
+        folder = pathlib.Path(self.holder.name) / "beating"
+        printed = json.loads(run("phantom", "--preset", "tiny", "--truth-only", "--no-report", "--surface-spacing", "1", "--phases", "2", "-o", folder, "--json"))
+        validator("phantom-suite").validate(printed)
+        for schema, file in (("heartbeat", "heartbeat.json"), ("motion", "motion.json"), ("phantom-case", "case.json")):
+            document = json.loads((folder / "dataset00" / file).read_text())
+            validator(schema).validate(document)
+            if schema == "phantom-case": continue
+            for field in document:
+                broken = copy.deepcopy(document)
+                del broken[field]
+                with self.subTest(file + " " + field):
+                    self.assert_refused(schema, broken)
+
     def test_case_report(self):
         holder = pathlib.Path(self.holder.name)
         (holder / "tube.csv").write_text("x,y,z,radius\n" + "".join(f"0,0,{0.5 * i},{0.7 if 24 <= i <= 26 else 1.5}\n" for i in range(49)))
@@ -181,6 +195,57 @@ class Schemas(unittest.TestCase):
                     self.assert_refused(name, broken)
         result["verdict"] = {"passed": False, "reasons": []}
         self.assert_refused("flow-result", result)
+
+    def test_motion(self):
+        holder = pathlib.Path(self.holder.name)
+        (holder / "beat").mkdir()
+        for percent in (10, 40, 75):
+            (holder / "beat" / f"p{percent}.stl").write_bytes((self.folder / "lumen.stl").read_bytes())
+        printed = json.loads(run("motion", "fit", holder / "beat", "-o", holder / "beating", "--depth", "1", "--json"))
+        validator("motion-fit").validate(printed)
+        self.assertEqual(printed, json.loads((holder / "beating" / "report.json").read_text()))
+        validator("manifest").validate(json.loads((holder / "beating" / "manifest.json").read_text()))
+        cage = json.loads((holder / "beating" / "motion.json").read_text())
+        validator("cage-motion").validate(cage)
+        run("motion", "export", holder / "beating", "-o", holder / "moving", "--format", "json", "--times", "3")
+        validator("motion").validate(json.loads((holder / "moving" / "points.json").read_text()))
+        validator("manifest").validate(json.loads((holder / "moving" / "manifest.json").read_text()))
+        validator("evaluate").validate(json.loads(run("motion", "evaluate", holder / "beating", holder / "beat", "--sample", "1", "--json")))
+        for name, document in (("cage-motion", cage), ("motion-fit", printed)):
+            for field in document:
+                broken = copy.deepcopy(document)
+                del broken[field]
+                with self.subTest(field):
+                    self.assert_refused(name, broken)
+        for change in ({"unit": "m"}, {"template": {"percent": 100, "surface": None}}, {"template": {"percent": 75, "surface": "../a.vtp"}}):
+            with self.subTest(change):
+                self.assert_refused("cage-motion", {**cage, **change})
+
+    def test_motion_measures(self):
+        holder = pathlib.Path(self.holder.name)
+        rest = [[x, y, z] for z in (0, 60) for y in (-20, 20) for x in (-20, 20)]
+        cage = {"v": 1, "kind": "cage-motion", "unit": "mm", "axes": "LPS", "template": {"percent": 0, "surface": None},
+                "grid": {"origin_mm": [-20, -20, 0], "cell_mm": [40, 40, 60], "cells": 1},
+                "phases": [{"percent": percent, "origin": "fitted", "control_points": [[x, y, z * share] for x, y, z in rest]}
+                           for percent, share in ((0, 1), (40, 0.8), (70, 0.95))]}
+        validator("cage-motion").validate(cage)
+        (holder / "cage.json").write_text(json.dumps(cage))
+        rows = ["vessel,x,y,z,radius"]
+        rows += [f"LAD,{0.02 * i * i},0,{i},1" for i in range(31)] + [f"RCA,-10,{0.1 * i},{i},1" for i in range(31)]
+        (holder / "two.csv").write_text("\n".join(rows) + "\n")
+        printed = json.loads(run("motion", "measure", holder / "cage.json", holder / "two.csv", "-o", holder / "measures", "--times", "5", "--json"))
+        validator("motion-measures").validate(printed)
+        validator("manifest").validate(json.loads((holder / "measures" / "manifest.json").read_text()))
+        for field in printed:
+            broken = copy.deepcopy(printed)
+            del broken[field]
+            with self.subTest(field):
+                self.assert_refused("motion-measures", broken)
+        for field, unit in (("stretch", "mm"), ("length", ""), ("twist", "rad")):
+            broken = copy.deepcopy(printed)
+            broken["branches"][0]["measures"][field]["unit"] = unit
+            with self.subTest(field):
+                self.assert_refused("motion-measures", broken)
 
     def test_broken_documents_fail(self):
         for field in self.report:

@@ -62,6 +62,20 @@ TEST(MeshSceneGui, WhatIsCutAwayIsNotThere) {
   EXPECT_NEAR(shown.shoot().painted(), whole.painted(), 5);
 }
 
+TEST(MeshSceneGui, TheSameCutAgainChangesNothingAndTheOutlineIsOfTheWholeMesh) {
+  Shown shown;
+  const std::vector<geometry::Vec3> whole = shown.mesh->outline();
+  EXPECT_EQ(whole.size(), 2u * 6 * side * side);
+  const MeshCut cut{{0, 0, 4}, {0, 0, 1}};
+  shown.mesh->set_cut(cut);
+  EXPECT_EQ(shown.mesh->outline(), whole);
+  const auto drawn = shown.mesh->prop().GetMTime();
+  shown.mesh->set_cut(cut);
+  EXPECT_EQ(shown.mesh->prop().GetMTime(), drawn);
+  shown.mesh->set_cut(MeshCut{{0, 0, 2}, {0, 0, 1}});
+  EXPECT_GT(shown.mesh->prop().GetMTime(), drawn);
+}
+
 TEST(MeshSceneGui, EdgesAndAHighlightAreSeenThroughTheMesh) {
   Shown shown;
   const Shot bare = shown.shoot();

@@ -22,7 +22,9 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::message;
+using testing::pick;
 using testing::radius_mm;
+using testing::type;
 using testing::wait_until;
 
 struct FlowCaseWindow : testing::FlowWindow {};
@@ -190,6 +192,25 @@ TEST_F(FlowCaseWindow, ARunThatEndsOverAnotherCaseLeavesALineAlone) {
   settle();
   EXPECT_TRUE(left_line("flow_run").contains("converged")) << left_line("flow_run").toStdString();
   EXPECT_FALSE(window().flow_results().shown()) << "it is another patient's";
+  EXPECT_TRUE(testing::open_boxes().empty());
+  // Nor is it shown when that is asked for, until its own case is open.
+  const auto press = [&] {
+    QTest::mouseClick(window().jobs().findChild<QToolButton*>("left.flow_run.act"), Qt::LeftButton);
+  };
+  press();
+  const std::string refused = message();
+  EXPECT_NE(refused.find("belongs to the case tube.ostia, which is not open"), std::string::npos) << refused;
+  ASSERT_TRUE(wait_until([&] { return idle(); }));
+  settle();
+  EXPECT_FALSE(window().flow_results().shown());
+  part<QAction>("file.close")->trigger();
+  press();
+  EXPECT_NE(message().find("tube.ostia"), std::string::npos) << "with no case open it could be over an image";
+  EXPECT_FALSE(window().flow_results().shown());
+  test->open(case_file);
+  EXPECT_FALSE(window().flow_results().shown());
+  press();
+  EXPECT_TRUE(wait_until([&] { return window().flow_results().shown(); }));
   EXPECT_TRUE(testing::open_boxes().empty());
 }
 

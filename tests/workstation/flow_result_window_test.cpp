@@ -20,9 +20,11 @@ namespace {
 namespace fs = std::filesystem;
 using testing::answer_file_dialog;
 using testing::message;
+using testing::pick;
 using testing::pressure_pa;
 using testing::radius_mm;
 using testing::shear_pa;
+using testing::type;
 using testing::wait_until;
 using testing::write_wall;
 

@@ -33,6 +33,8 @@ namespace ostia::workstation {
 namespace {
 
 using ::testing::HasSubstr;
+using testing::pick;
+using testing::type;
 using testing::wait_until;
 namespace fs = std::filesystem;
 
@@ -193,17 +195,13 @@ TEST_F(NarrowWindow, ACheckOfSettingsThatChangedMeanwhileIsOld) {
 }
 
 TEST_F(NarrowWindow, AMeshThatIsDoneOverAnotherCaseLeavesALineAlone) {
-  const fs::path other = folder / "other.ostia";
-  session::CaseFile::create(other, testing::tube_model(), session::image_reference(image));
   open_case();
   ask("file.export_mesh");
   type(in_dialog<QDoubleSpinBox>("edges_around"), "12");
   click_go();
   ASSERT_TRUE(test->window().jobs().running("mesh"));
-  test->window().findChild<QAction*>("file.close")->trigger();
-  ASSERT_FALSE(test->bench().has_case());
-  test->window().open(other);
-  ASSERT_TRUE(wait_until([&] { return idle() && test->bench().has_case(); }, 120000));
+  open_other_case();
+  ASSERT_TRUE(wait_until([&] { return idle(); }, 120000));
   EXPECT_TRUE(left_line("mesh").contains("tube-mesh")) << left_line("mesh").toStdString();
   EXPECT_FALSE(panel().isVisible()) << "it is another patient's";
   test->window().findChild<QAction*>("file.flow_case")->trigger();

@@ -37,6 +37,8 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::ElementsAre;
 using testing::MeshingWindow;
+using testing::pick;
+using testing::type;
 using testing::wait_until;
 
 constexpr double radius_mm = testing::tube_radius_mm;

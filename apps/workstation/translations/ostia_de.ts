@@ -515,6 +515,10 @@
         <source>There is not enough memory for this: choose longer edges, or fewer vessels.</source>
         <translation>Dafür reicht der Speicher nicht: längere Kanten oder weniger Gefäße wählen.</translation>
     </message>
+    <message>
+        <source>%1 is no volume mesh. These are read: %2</source>
+        <translation>%1 ist kein Volumennetz. Gelesen werden: %2</translation>
+    </message>
 </context>
 <context>
     <name>manual</name>
@@ -717,6 +721,48 @@
     </message>
 </context>
 <context>
+    <name>ostia::workstation::BeatingCase</name>
+    <message>
+        <source>Phase of the heart</source>
+        <translation>Herzphase</translation>
+    </message>
+    <message>
+        <source>Open a motion</source>
+        <translation>Bewegung öffnen</translation>
+    </message>
+    <message>
+        <source>Motions (*.json);;All files (*)</source>
+        <translation>Bewegungen (*.json);;Alle Dateien (*)</translation>
+    </message>
+    <message>
+        <source>Reading the motion</source>
+        <translation>Bewegung wird gelesen</translation>
+    </message>
+    <message>
+        <source>The motion cannot be opened</source>
+        <translation>Die Bewegung kann nicht geöffnet werden</translation>
+    </message>
+    <message>
+        <source>Folder with the images of the phases</source>
+        <translation>Ordner mit den Bildern der Phasen</translation>
+    </message>
+    <message>
+        <source>Looking for the phases</source>
+        <translation>Phasen werden gesucht</translation>
+    </message>
+    <message>
+        <source>The images of the phases cannot be opened</source>
+        <translation>Die Bilder der Phasen können nicht geöffnet werden</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::CutFields</name>
+    <message>
+        <source>The plane can be dragged in 3D by its frame and its arrow.</source>
+        <translation>Die Ebene lässt sich in 3D an ihrem Rahmen und ihrem Pfeil ziehen.</translation>
+    </message>
+</context>
+<context>
     <name>ostia::workstation::FlowBar</name>
     <message>
         <source>Automatic</source>
@@ -817,6 +863,18 @@
         <source>A result to look at</source>
         <translation>Ein Ergebnis zum Ansehen</translation>
     </message>
+    <message>
+        <source>The result of %1 was computed while no case was open. Close the case that is open to see it.</source>
+        <translation>Das Ergebnis von %1 wurde berechnet, als kein Fall offen war. Schließen Sie den offenen Fall, um es zu sehen.</translation>
+    </message>
+    <message>
+        <source>The result of %1 belongs to the case %2, which is not open. Open that case, then show the result.</source>
+        <translation>Das Ergebnis von %1 gehört zum Fall %2, der nicht offen ist. Öffnen Sie diesen Fall, dann zeigen Sie das Ergebnis an.</translation>
+    </message>
+    <message>
+        <source>A result of another case</source>
+        <translation>Ein Ergebnis eines anderen Falls</translation>
+    </message>
 </context>
 <context>
     <name>ostia::workstation::FlowDialog</name>
@@ -827,10 +885,6 @@
     <message>
         <source>Volume meshes (*.vtu);;All files (*)</source>
         <translation>Volumennetze (*.vtu);;Alle Dateien (*)</translation>
-    </message>
-    <message>
-        <source>Where the folder is to be</source>
-        <translation>Wo der Ordner sein soll</translation>
     </message>
     <message>
         <source>Choose a mesh: the mesh.vtu of an exported mesh.</source>
@@ -1039,18 +1093,6 @@
     <message>
         <source>&amp;Blood</source>
         <translation>&amp;Blut</translation>
-    </message>
-    <message>
-        <source>Folder that is made</source>
-        <translation>Ordner, der angelegt wird</translation>
-    </message>
-    <message>
-        <source>&amp;Choose…</source>
-        <translation>&amp;Wahl…</translation>
-    </message>
-    <message>
-        <source>&amp;New folder</source>
-        <translation>Neuer O&amp;rdner</translation>
     </message>
     <message>
         <source>&amp;Run the solver when the case is written</source>
@@ -1654,6 +1696,22 @@
         <source>Open flow res&amp;ults…</source>
         <translation>Ström&amp;ungsergebnisse öffnen…</translation>
     </message>
+    <message>
+        <source>Open a &amp;mesh…</source>
+        <translation>&amp;Netz öffnen…</translation>
+    </message>
+    <message>
+        <source>Open a mo&amp;tion…</source>
+        <translation>Be&amp;wegung öffnen…</translation>
+    </message>
+    <message>
+        <source>&amp;Play the heartbeat</source>
+        <translation>&amp;Herzschlag abspielen</translation>
+    </message>
+    <message>
+        <source>Back to the case&apos;s phase</source>
+        <translation>Zurück zur Phase des Falls</translation>
+    </message>
 </context>
 <context>
     <name>ostia::workstation::ManualDialog</name>
@@ -1786,6 +1844,14 @@
     <message>
         <source>%1 at (%2, %3, %4) mm</source>
         <translation>%1 bei (%2, %3, %4) mm</translation>
+    </message>
+    <message>
+        <source>Passes the quality control.</source>
+        <translation>Besteht die Qualitätskontrolle.</translation>
+    </message>
+    <message>
+        <source>Does not pass the quality control: %1</source>
+        <translation>Besteht die Qualitätskontrolle nicht: %1</translation>
     </message>
 </context>
 <context>
@@ -2120,6 +2186,22 @@
         <source>Preparing the mesh&apos;s picture</source>
         <translation>Das Bild des Netzes wird vorbereitet</translation>
     </message>
+    <message>
+        <source>Open a mesh</source>
+        <translation>Netz öffnen</translation>
+    </message>
+    <message>
+        <source>Volume meshes (*.vtu *.msh *.exo *.e *.ex2 *.inp *.cgns *.xdmf points);;All files (*)</source>
+        <translation>Volumennetze (*.vtu *.msh *.exo *.e *.ex2 *.inp *.cgns *.xdmf points);;Alle Dateien (*)</translation>
+    </message>
+    <message>
+        <source>Opening the mesh</source>
+        <translation>Das Netz wird geöffnet</translation>
+    </message>
+    <message>
+        <source>The mesh could not be opened</source>
+        <translation>Das Netz konnte nicht geöffnet werden</translation>
+    </message>
 </context>
 <context>
     <name>ostia::workstation::MeshingForecast</name>
@@ -2290,6 +2372,141 @@
     <message>
         <source>Maximise %1</source>
         <translation>%1 maximieren</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::PhaseBar</name>
+    <message>
+        <source>Play</source>
+        <translation>Abspielen</translation>
+    </message>
+    <message>
+        <source>Back to the phase that the case is of</source>
+        <translation>Zurück zur Phase des Falls</translation>
+    </message>
+    <message>
+        <source>Chooses the folder with the images of the phases</source>
+        <translation>Wählt den Ordner mit den Bildern der Phasen</translation>
+    </message>
+    <message>
+        <source>Shows the selected vessel&apos;s lumen over the cycle</source>
+        <translation>Zeigt das Lumen des gewählten Gefäßes über den Herzzyklus</translation>
+    </message>
+    <message>
+        <source>Loop</source>
+        <translation>Schleife</translation>
+    </message>
+    <message>
+        <source>Close the motion</source>
+        <translation>Bewegung schließen</translation>
+    </message>
+    <message>
+        <source>Phase, % of RR</source>
+        <translation>Phase, % von RR</translation>
+    </message>
+    <message>
+        <source> %</source>
+        <translation> %</translation>
+    </message>
+    <message>
+        <source>Beats a minute</source>
+        <translation>Schläge pro Minute</translation>
+    </message>
+    <message>
+        <source> /min</source>
+        <translation> /min</translation>
+    </message>
+    <message>
+        <source>4D profile</source>
+        <translation>4D-Profil</translation>
+    </message>
+    <message>
+        <source>Pause</source>
+        <translation>Anhalten</translation>
+    </message>
+    <message>
+        <source>Back to %1</source>
+        <translation>Zurück zu %1</translation>
+    </message>
+    <message>
+        <source>Edited at %1 only:</source>
+        <translation>Bearbeitet wird nur bei %1:</translation>
+    </message>
+    <message>
+        <source>Images…</source>
+        <translation>Bilder…</translation>
+    </message>
+    <message>
+        <source>Images: %1</source>
+        <translation>Bilder: %1</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::PhaseLoader</name>
+    <message>
+        <source>The image of %1 cannot be read: %2</source>
+        <translation>Das Bild bei %1 kann nicht gelesen werden: %2</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::PhaseMap</name>
+    <message>
+        <source>Lumen profile over the cycle</source>
+        <translation>Lumenprofil über den Herzzyklus</translation>
+    </message>
+    <message>
+        <source> mm</source>
+        <translation> mm</translation>
+    </message>
+    <message>
+        <source> mm²</source>
+        <translation> mm²</translation>
+    </message>
+    <message>
+        <source> %</source>
+        <translation> %</translation>
+    </message>
+    <message>
+        <source>Being measured…</source>
+        <translation>Wird vermessen…</translation>
+    </message>
+    <message>
+        <source>%1 mm, %2 %: %3</source>
+        <translation>%1 mm, %2 %: %3</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::PhaseProfile</name>
+    <message>
+        <source>Lumen over the cycle</source>
+        <translation>Lumen über den Herzzyklus</translation>
+    </message>
+    <message>
+        <source>What the colours are</source>
+        <translation>Was die Farben zeigen</translation>
+    </message>
+    <message>
+        <source>Diameter</source>
+        <translation>Durchmesser</translation>
+    </message>
+    <message>
+        <source>Area</source>
+        <translation>Fläche</translation>
+    </message>
+    <message>
+        <source>Change of the diameter</source>
+        <translation>Änderung des Durchmessers</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::PhaseSlider</name>
+    <message>
+        <source>Phase of the heart</source>
+        <translation>Herzphase</translation>
+    </message>
+    <message>
+        <source>Phase of the heart, % of the time between two R peaks</source>
+        <translation>Herzphase, % der Zeit zwischen zwei R-Zacken</translation>
     </message>
 </context>
 <context>
@@ -3482,6 +3699,10 @@
         <source>mesh forecast</source>
         <translation>Vorhersage</translation>
     </message>
+    <message>
+        <source>reading</source>
+        <translation>Lesen</translation>
+    </message>
 </context>
 <context>
     <name>steps</name>
@@ -3800,6 +4021,22 @@
         <source>Colours the wall in 3D by a solver&apos;s result, such as its shear stress.</source>
         <translation>Färbt die Wand in 3D nach dem Ergebnis eines Lösers, etwa der Schubspannung.</translation>
     </message>
+    <message>
+        <source>Shows a mesh made earlier, here or elsewhere, and how good it is.</source>
+        <translation>Zeigt ein früher erzeugtes Netz, von hier oder anderswo, und wie gut es ist.</translation>
+    </message>
+    <message>
+        <source>Shows the case beating: a motion that was fitted to its phases.</source>
+        <translation>Zeigt den Fall schlagend: eine Bewegung, die an seine Phasen angepasst wurde.</translation>
+    </message>
+    <message>
+        <source>Plays the phases of the heart in all views, or pauses; needs a motion.</source>
+        <translation>Spielt die Herzphasen in allen Ansichten ab oder hält an; braucht eine Bewegung.</translation>
+    </message>
+    <message>
+        <source>Shows the phase that the case is of again, at which it can be edited.</source>
+        <translation>Zeigt wieder die Phase des Falls, in der er bearbeitet werden kann.</translation>
+    </message>
 </context>
 <context>
     <name>tools</name>
@@ -3981,6 +4218,14 @@
     <message>
         <source>calcified</source>
         <translation>verkalkt</translation>
+    </message>
+    <message>
+        <source>image</source>
+        <translation>Bild</translation>
+    </message>
+    <message>
+        <source>tree</source>
+        <translation>Baum</translation>
     </message>
 </context>
 </TS>

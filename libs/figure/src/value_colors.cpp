@@ -21,7 +21,18 @@ constexpr std::array<Color, 9> anchors{
     of_bytes(68, 1, 84),    of_bytes(71, 44, 122),  of_bytes(59, 81, 139),
     of_bytes(44, 113, 142), of_bytes(33, 144, 141), of_bytes(39, 173, 129),
     of_bytes(92, 200, 99),  of_bytes(170, 220, 50), of_bytes(253, 231, 37)};
+constexpr std::array<Color, 3> signed_anchors{of_bytes(0, 114, 178), of_bytes(240, 240, 240),
+                                              of_bytes(213, 94, 0)};
 constexpr Color unknown = of_bytes(128, 128, 128);
+
+/// Linear between anchors that are evenly apart.
+template <std::size_t count>
+Color between(const std::array<Color, count>& colors, double t) {
+  if (std::isnan(t)) return unknown;
+  const double place = std::clamp(t, 0.0, 1.0) * static_cast<double>(count - 1);
+  const std::size_t i = std::min(static_cast<std::size_t>(place), count - 2);
+  return mixed(colors[i], colors[i + 1], place - static_cast<double>(i));
+}
 
 constexpr double bar_width = 22.0, above = 52.0, below = 28.0;
 
@@ -51,10 +62,11 @@ std::vector<double> ticks_of(const ValueBar& bar) {
 }  // namespace
 
 Color viridis(double t) {
-  if (std::isnan(t)) return unknown;
-  const double place = std::clamp(t, 0.0, 1.0) * static_cast<double>(anchors.size() - 1);
-  const std::size_t i = std::min(static_cast<std::size_t>(place), anchors.size() - 2);
-  return mixed(anchors[i], anchors[i + 1], place - static_cast<double>(i));
+  return between(anchors, t);
+}
+
+Color blue_to_vermilion(double t) {
+  return between(signed_anchors, t);
 }
 
 Picture value_bar(const ValueBar& bar) {

@@ -3,6 +3,7 @@
 #include "formats.h"
 #include "vtk_xml.h"
 
+#include "ostia/core/csv.h"
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
 
@@ -148,23 +149,23 @@ VesselTree read_polydata_lines(const fs::path& path) {
   return tree_of(lines, vessel_names(*data));
 }
 
-std::vector<std::string_view> columns(std::string_view row) {
-  std::vector<std::string_view> out;
-  while (true) {
-    const std::size_t comma = std::min(row.find(','), row.size());
-    std::string_view cell = row.substr(0, comma);
-    while (!cell.empty() && cell.front() == ' ') cell.remove_prefix(1);
-    while (!cell.empty() && cell.back() == ' ') cell.remove_suffix(1);
-    out.push_back(cell);
-    if (comma == row.size()) return out;
-    row.remove_prefix(comma + 1);
-  }
+/// Without the blanks around them.
+std::vector<std::string> columns(std::string_view row, std::size_t number, const fs::path& path) {
+  std::vector<std::string> out;
+  core::CsvCell cell;
+  do {
+    cell = core::take_csv_cell(row);
+    if (!cell.closed) refuse(path, "the quotation in row " + std::to_string(number) + " does not end");
+    const std::size_t from = std::min(cell.text.find_first_not_of(' '), cell.text.size());
+    out.push_back(cell.text.substr(from, cell.text.find_last_not_of(' ') + 1 - from));
+  } while (!cell.last);
+  return out;
 }
 
 VesselTree read_csv(const fs::path& path) {
   const std::string content = core::read_file(path);
   Words rows(content);
-  const std::vector<std::string_view> header = columns(rows.line());
+  const std::vector<std::string> header = columns(rows.line(), 1, path);
   const auto column = [&](std::string_view name) {
     const auto found = std::find(header.begin(), header.end(), name);
     return found == header.end() ? -1 : static_cast<int>(found - header.begin());
@@ -183,7 +184,7 @@ VesselTree read_csv(const fs::path& path) {
       fresh = true;
       continue;
     }
-    const std::vector<std::string_view> cells = columns(text);
+    const std::vector<std::string> cells = columns(text, row, path);
     std::array<double, 4> values{};
     for (std::size_t i = 0; i < 4; ++i) {
       const auto value = static_cast<std::size_t>(wanted[i]) < cells.size()
@@ -191,7 +192,7 @@ VesselTree read_csv(const fs::path& path) {
                              : std::nullopt;
       if (!value || !std::isfinite(*value))
         refuse(path, "row " + std::to_string(row) + ", column " +
-                         std::string(header[static_cast<std::size_t>(wanted[i])]) + " is no number");
+                         header[static_cast<std::size_t>(wanted[i])] + " is no number");
       values[i] = *value;
     }
     if (!(values[3] > 0.0)) refuse(path, "row " + std::to_string(row) + ": the radius must be positive");
@@ -219,9 +220,10 @@ std::string csv_text(const VesselTree& tree) {
   std::string out = "vessel,x,y,z,radius,abscissa\n";
   for (const Vessel& vessel : tree.vessels) {
     const Centerline axis = geometry::vessel_axis(tree, vessel);
+    const std::string name = core::csv_cell(vessel.name);
     for (std::size_t i = 0; i < axis.size(); ++i) {
       std::array<char, 64> text{};
-      out += vessel.name;
+      out += name;
       for (const double value :
            {axis.points[i].x(), axis.points[i].y(), axis.points[i].z(), axis.radius[i], axis.abscissa[i]}) {
         const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;

@@ -65,4 +65,7 @@ std::optional<T> number(std::string_view word) {
   return value;
 }
 
+/// ASCII's letters in capitals.
+std::string upper(std::string_view text);
+
 }  // namespace ostia::io

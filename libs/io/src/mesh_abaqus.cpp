@@ -35,13 +35,12 @@ std::string_view type_of(Shape shape, bool quadratic) {
 void put_elements(TextFile& out, const PreparedMesh& mesh) {
   std::int32_t number = 0;
   std::string sets;
-  for (const Shape shape : volume_shapes) {
-    const std::size_t n = mesh.nodes(shape);
-    const Numbers nodes = mesh.connectivity(shape);  // Abaqus' orders are ours
-    if (nodes.empty()) continue;
-    const std::string set = mesh.title + (shape == Shape::prism ? "_prisms" : "_tetrahedra");
+  for (const ElementBlock& block : mesh.blocks()) {
+    const std::size_t n = mesh.nodes(block.shape);
+    const Numbers nodes = mesh.connectivity(block);  // Abaqus' orders are ours
+    const std::string set = mesh.name(block);
     sets += (sets.empty() ? "" : ", ") + set;
-    out << "*ELEMENT, TYPE=" << type_of(shape, mesh.mesh.quadratic()) << ", ELSET=" << set << '\n';
+    out << "*ELEMENT, TYPE=" << type_of(block.shape, mesh.mesh.quadratic()) << ", ELSET=" << set << '\n';
     for (std::size_t i = 0; i < nodes.size(); i += n) {
       out << ++number;
       for (std::size_t k = 0; k < n; ++k) out << ", " << nodes[i + k] + 1;

@@ -9,20 +9,12 @@
 #include "ostia/core/files.h"
 
 #include <algorithm>
-#include <cctype>
 #include <map>
-#include <set>
 #include <unordered_map>
 
 namespace ostia::io {
 namespace fs = std::filesystem;
 namespace {
-
-std::string upper(std::string_view text) {
-  std::string all(text);
-  for (char& c : all) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return all;
-}
 
 std::string_view trimmed(std::string_view text) {
   const std::size_t from = text.find_first_not_of(" \t\r");
@@ -71,11 +63,6 @@ const std::map<std::string, Kind> kinds = {{"C3D4", {Shape::tetrahedron, 4}},
                                            {"C3D10M", {Shape::tetrahedron, 10}},
                                            {"C3D6", {Shape::prism, 6}}};
 
-struct Element {
-  std::int32_t number = 0;  ///< among its kind
-  bool prism = false;
-};
-
 /// Numbers of elements, as GENERATE has them; one alone from itself to itself.
 struct Range {
   std::int64_t first = 0, last = 0, step = 1;
@@ -91,7 +78,7 @@ class AbaqusFile {
  public:
   explicit AbaqusFile(const fs::path& path) : path_(path), text_(core::read_file(path)), mesh_(path) {}
 
-  geometry::MixedMesh read() {
+  LayeredMesh read() {
     Words lines(text_);
     while (!lines.empty()) {
       const std::string_view line = trimmed(lines.line());
@@ -105,9 +92,9 @@ class AbaqusFile {
       }
     }
     require_no_element_begun();
-    geometry::MixedMesh mesh = mesh_.finish({});
-    name_faces(mesh);
-    return mesh;
+    LayeredMesh read = mesh_.finish({});
+    name_faces(read.mesh);
+    return read;
   }
 
  private:
@@ -131,6 +118,7 @@ class AbaqusFile {
       if (kind == kinds.end())
         refuse(path_, "it has elements of type " + type + "; C3D4, C3D10 and C3D6 are read");
       kind_ = kind->second;
+      mesh_.set_in_layers(keyword_.parameters["ELSET"].ends_with(layers_suffix));
     }
     if (keyword_.name == "*SURFACE") surfaces_.push_back({keyword_.parameters["NAME"], {}});
   }
@@ -173,8 +161,7 @@ class AbaqusFile {
     if (!mesh_.add(kind_.shape, nodes, 0, NodeOrder()))
       refuse(path_,
              "element " + std::to_string(left_[0]) + " has " + std::to_string(nodes.size()) + " nodes");
-    const bool prism = kind_.shape == Shape::prism;
-    elements_[left_[0]] = {counts_[prism ? 1 : 0]++, prism};
+    elements_[left_[0]] = counts_.next(kind_.shape == Shape::prism);
     left_.clear();
   }
 
@@ -207,14 +194,11 @@ class AbaqusFile {
   void name_faces(geometry::MixedMesh& mesh) {
     if (surfaces_.empty()) return;
     mesh.faces.clear();
-    std::set<std::int32_t> taken;
-    for (const auto& [name, id] : ids_) taken.insert(id);
-    std::int32_t next = 1;
     for (const Surface& surface : surfaces_) {
-      while (taken.contains(next)) ++next;
       const auto known = ids_.find(surface.name);
-      mesh.faces.push_back(face_named(known != ids_.end() ? known->second : next++, surface.name));
+      mesh.faces.push_back(face_named(known != ids_.end() ? known->second : 0, surface.name));
     }
+    make_ids_unique(mesh.faces);
     TaggedSides tagged;
     std::size_t left = text_.size();  // a file that names more sides than it has bytes names them again
     for (std::size_t f = 0; f < surfaces_.size(); ++f)
@@ -232,8 +216,7 @@ class AbaqusFile {
     const auto found = elements_.find(e);
     if (found == elements_.end())
       refuse(path_, "set " + set + " names element " + std::to_string(e) + ", which is not there");
-    const Element& element = found->second;
-    return element.number + (element.prism ? static_cast<std::int32_t>(mesh.tetrahedra.size()) : 0);
+    return index_of(found->second, mesh);
   }
 
   /// Of a set, or the one element that is named instead.
@@ -249,9 +232,9 @@ class AbaqusFile {
   Keyword keyword_;
   Kind kind_{Shape::tetrahedron, 4};
   std::vector<std::int64_t> left_;
-  std::array<std::int32_t, 2> counts_{};
+  ElementCounts counts_;
   std::unordered_map<std::int64_t, std::int32_t> points_;
-  std::unordered_map<std::int64_t, Element> elements_;
+  std::unordered_map<std::int64_t, CountedElement> elements_;
   std::map<std::string, std::vector<Range>> sets_;
   std::map<std::string, std::int32_t> ids_;
   std::vector<Surface> surfaces_;
@@ -259,7 +242,7 @@ class AbaqusFile {
 
 }  // namespace
 
-geometry::MixedMesh read_abaqus(const fs::path& path) {
+LayeredMesh read_abaqus(const fs::path& path) {
   return AbaqusFile(path).read();
 }
 

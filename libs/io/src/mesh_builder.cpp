@@ -46,7 +46,9 @@ bool MeshBuilder::add(Shape shape, std::span<const std::int32_t> nodes, std::int
   }
   switch (shape) {
     case Shape::tetrahedron:
-      return add_cell(nodes, order.tetrahedron, mesh_.tetrahedra, mesh_.tetrahedron_nodes);
+      if (!add_cell(nodes, order.tetrahedron, mesh_.tetrahedra, mesh_.tetrahedron_nodes)) return false;
+      in_layers_.push_back(now_in_layers_);
+      return true;
     case Shape::prism:
       return add_cell(nodes, order.prism, mesh_.prisms, mesh_.prism_nodes);
     case Shape::triangle:
@@ -67,7 +69,7 @@ std::vector<std::int32_t> MeshBuilder::face_ids() const {
   return ids;
 }
 
-MixedMesh MeshBuilder::finish(std::vector<geometry::Face> faces) {
+LayeredMesh MeshBuilder::finish(std::vector<geometry::Face> faces) {
   if (mesh_.tetrahedra.empty() && mesh_.prisms.empty()) refuse(path_, "it has no tetrahedra and no prisms");
   const bool second = mesh_.quadratic();
   const auto of_one_order = [second](std::size_t cells, std::size_t with_nodes) {
@@ -80,7 +82,8 @@ MixedMesh MeshBuilder::finish(std::vector<geometry::Face> faces) {
     refuse(path_, "it has linear and quadratic cells together; a mesh is of one order");
   mesh_.faces = std::move(faces);
   if (!has_boundary()) take_free_sides_as_boundary(mesh_);
-  return std::move(mesh_);
+  if (std::ranges::find(in_layers_, true) == in_layers_.end()) in_layers_.clear();
+  return {std::move(mesh_), std::move(in_layers_)};
 }
 
 }  // namespace ostia::io

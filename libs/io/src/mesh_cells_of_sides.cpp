@@ -67,12 +67,14 @@ std::vector<std::int32_t> nodes_of_sides(const std::vector<CellSide>& sides) {
 }
 
 void add_cells_of_sides(const std::vector<std::vector<CellSide>>& cells, std::size_t first,
-                        const std::filesystem::path& path, MeshBuilder& mesh) {
+                        const std::filesystem::path& path, MeshBuilder& mesh,
+                        const std::vector<bool>& in_layers) {
   for (std::size_t c = 0; c < cells.size(); ++c) {
     const std::vector<std::int32_t> nodes = nodes_of_sides(cells[c]);
     if (nodes.empty())
       refuse(path, "cell " + std::to_string(first + c) + " with " + std::to_string(cells[c].size()) +
                        " faces is neither a tetrahedron nor a prism");
+    mesh.set_in_layers(c < in_layers.size() && in_layers[c]);
     mesh.add(nodes.size() == 4 ? Shape::tetrahedron : Shape::prism, nodes, 0, NodeOrder());
   }
 }

@@ -17,8 +17,9 @@ using CellSide = std::array<std::int32_t, 4>;
 /// the sides of neither.
 std::vector<std::int32_t> nodes_of_sides(const std::vector<CellSide>& sides);
 /// Gives the mesh the cells with these sides. Throws InvalidInput that names the file and the cell, counted
-/// from `first` on, that is neither a tetrahedron nor a prism.
+/// from `first` on, that is neither a tetrahedron nor a prism. `in_layers`: of each cell, or none.
 void add_cells_of_sides(const std::vector<std::vector<CellSide>>& cells, std::size_t first,
-                        const std::filesystem::path& path, MeshBuilder& mesh);
+                        const std::filesystem::path& path, MeshBuilder& mesh,
+                        const std::vector<bool>& in_layers = {});
 
 }  // namespace ostia::io

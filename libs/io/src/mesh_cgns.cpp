@@ -66,12 +66,9 @@ class CgnsFile {
   }
 
   void write_elements() {
-    for (const Shape shape : volume_shapes) {
-      if (mesh_.count(shape) == 0) continue;
-      const std::string name = mesh_.title + (shape == Shape::prism ? "_prisms" : "_tetrahedra");
-      write_section(name, element_type(shape, mesh_.mesh.quadratic()), mesh_.count(shape),
-                    mesh_.connectivity(shape, uprights_second_order));
-    }
+    for (const ElementBlock& block : mesh_.blocks())
+      write_section(mesh_.name(block), element_type(block.shape, mesh_.mesh.quadratic()), block.count,
+                    mesh_.connectivity(block, uprights_second_order));
   }
 
   /// A cap of triangles and quadrilaterals is two sections: checkers and readers stumble over MIXED ones.

@@ -80,7 +80,7 @@ class CgnsInput {
   CgnsInput(const CgnsInput&) = delete;
   CgnsInput& operator=(const CgnsInput&) = delete;
 
-  geometry::MixedMesh read() {
+  LayeredMesh read() {
     int bases = 0, zones = 0;
     require(cg_nbases(file_, &bases));
     if (bases > 0) require(cg_nzones(file_, base_, &zones));
@@ -91,9 +91,9 @@ class CgnsInput {
     require(cg_nsections(file_, base_, zone_, &sections));
     for (int section = 1; section <= sections; ++section) read_section(section);
     if (!mesh_.has_boundary()) return mesh_.finish({});
-    geometry::MixedMesh mesh = mesh_.finish(faces());
-    name_rest(mesh, rest_);
-    return mesh;
+    LayeredMesh read = mesh_.finish(faces());
+    name_rest(read.mesh, rest_);
+    return read;
   }
 
  private:
@@ -135,7 +135,6 @@ class CgnsInput {
   void read_conditions() {
     int count = 0;
     if (cg_nbocos(file_, base_, zone_, &count) != CG_OK) return;
-    std::vector<std::size_t> without_id;
     for (int i = 1; i <= count; ++i) {
       std::array<char, 64> name{};
       CGNS_ENUMT(BCType_t) type{};
@@ -153,9 +152,7 @@ class CgnsInput {
       std::array<cgsize_t, 2> range{};
       require(cg_boco_read(file_, base_, zone_, i, range.data(), nullptr));
       Condition condition;
-      const std::optional<std::int32_t> id = id_of(i);
-      if (!id) without_id.push_back(conditions_.size());
-      condition.face = face_named(id.value_or(0), name.data());
+      condition.face = face_named(id_of(i).value_or(0), name.data());
       if (type == CGNS_ENUMV(BCInflow)) condition.face.kind = geometry::FaceKind::inlet;
       if (type == CGNS_ENUMV(BCOutflow)) condition.face.kind = geometry::FaceKind::outlet;
       if (type == CGNS_ENUMV(BCWall)) condition.face.kind = geometry::FaceKind::wall;
@@ -163,8 +160,10 @@ class CgnsInput {
       condition.last = range[1];
       conditions_.push_back(condition);
     }
-    for (const std::size_t c : without_id) conditions_[c].face.id = unused_face_id(faces());
-    rest_ = unused_face_id(faces());
+    std::vector<geometry::Face> all = faces();
+    make_ids_unique(all);
+    for (std::size_t c = 0; c < conditions_.size(); ++c) conditions_[c].face.id = all[c].id;
+    rest_ = unused_face_id(all);
   }
 
   std::vector<geometry::Face> faces() const {
@@ -217,6 +216,7 @@ class CgnsInput {
     if (values < 0 || static_cast<std::uintmax_t>(values) != elements * kind->nodes ||
         static_cast<std::uintmax_t>(values) > most_compressed * fs::file_size(path_))
       refuse(path_, std::string("section ") + name.data() + " is not as long as its elements");
+    mesh_.set_in_layers(std::string_view(name.data()).ends_with(layers_suffix));
     std::vector<cgsize_t> nodes(static_cast<std::size_t>(values));
     require(cg_elements_read(file_, base_, zone_, section, nodes.data(), nullptr));
     std::vector<std::int32_t> one(kind->nodes);
@@ -249,7 +249,7 @@ class CgnsInput {
 
 }  // namespace
 
-geometry::MixedMesh read_cgns(const fs::path& path) {
+LayeredMesh read_cgns(const fs::path& path) {
   return CgnsInput(path).read();
 }
 

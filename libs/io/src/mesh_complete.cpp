@@ -6,6 +6,8 @@
 #include "mesh_vtk_cells.h"
 #include "vtk_xml.h"
 
+#include "ostia/geometry/faces.h"
+
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkNew.h>
@@ -75,8 +77,7 @@ void write_mesh_complete(const PreparedMesh& mesh, const fs::path& folder) {
   for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
     const std::vector<std::int32_t>& triangles = mesh.facets[f].triangles;
     write_whole(folder / "mesh-surfaces" / (mesh.names[f] + ".vtp"), surface_text(mesh, triangles));
-    if (mesh.mesh.faces[f].kind == geometry::FaceKind::wall)
-      walls.insert(walls.end(), triangles.begin(), triangles.end());
+    if (is_wall(mesh.mesh.faces[f])) walls.insert(walls.end(), triangles.begin(), triangles.end());
   }
   write_whole(folder / "mesh-complete.exterior.vtp", surface_text(mesh, exterior));
   if (!walls.empty()) write_whole(folder / "walls_combined.vtp", surface_text(mesh, walls));

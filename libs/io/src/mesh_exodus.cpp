@@ -102,16 +102,15 @@ Numbers plus_one(Numbers numbers) {
 }
 
 std::vector<Block> blocks_of(const PreparedMesh& mesh) {
-  const bool both = !mesh.mesh.tetrahedra.empty() && !mesh.mesh.prisms.empty(),
-             second = mesh.mesh.quadratic();
+  const std::vector<ElementBlock> parts = mesh.blocks();
+  const bool second = mesh.mesh.quadratic();
   std::vector<Block> blocks;
-  for (const Shape shape : volume_shapes) {
-    const bool prism = shape == Shape::prism;
-    Numbers nodes = plus_one(mesh.connectivity(shape, uprights_second_order));
-    if (nodes.empty()) continue;
+  for (const ElementBlock& part : parts) {
+    const bool prism = part.shape == Shape::prism;
     const std::string type = prism ? (second ? "WEDGE18" : "WEDGE") : (second ? "TETRA10" : "TETRA");
-    const std::string name = both ? mesh.title + (prism ? "_prisms" : "_tetrahedra") : mesh.title;
-    blocks.push_back({name, type, std::move(nodes), mesh.nodes(shape)});
+    const std::string name = parts.size() > 1 || part.of_layers ? mesh.name(part) : mesh.title;
+    blocks.push_back(
+        {name, type, plus_one(mesh.connectivity(part, uprights_second_order)), mesh.nodes(part.shape)});
   }
   return blocks;
 }

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 
 namespace ostia::io {
 namespace fs = std::filesystem;
@@ -104,20 +103,11 @@ class NetCdfInput {
   int file_ = -1;
 };
 
-std::string upper(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return text;
-}
-
-/// Elements are numbered through the blocks from 1, in MixedMesh tetrahedra come before prisms.
-struct Place {
-  std::int32_t number = 0;  ///< among its kind
-  bool prism = false;
-};
-using Numbering = std::vector<Place>;
+/// Elements are numbered through the blocks from 1.
+using Numbering = std::vector<CountedElement>;
 
 void read_block(const NetCdfInput& file, std::size_t b, const fs::path& path, MeshBuilder& mesh,
-                Numbering& numbering, std::array<std::int32_t, 2>& counts) {
+                Numbering& numbering, ElementCounts& counts) {
   const std::string name = "connect" + std::to_string(b + 1);
   const std::string type = upper(file.text(name, "elem_type"));
   const bool prism = type.starts_with("WEDGE"), tetrahedron = type.starts_with("TET");
@@ -134,7 +124,7 @@ void read_block(const NetCdfInput& file, std::size_t b, const fs::path& path, Me
                   uprights_second_order))
       refuse(path, "elements of type " + type + " with " + std::to_string(n) +
                        " nodes are not read; 4 or 10, 6 or 18 are");
-    numbering.push_back({counts[prism ? 1 : 0]++, prism});
+    numbering.push_back(counts.next(prism));
   }
 }
 
@@ -154,14 +144,15 @@ void read_side_sets(const NetCdfInput& file, const Numbering& numbering, const f
   const std::vector<std::int32_t> ids = file.integers("ss_prop1");
   if (ids.size() != sets) refuse(path, "its side sets and their ids differ in number");
   const std::vector<std::string> names = file.names("ss_names", sets);
-  const auto tetrahedra = static_cast<std::int32_t>(mesh.tetrahedra.size());
-  TaggedSides tagged;
   mesh.faces.clear();
+  for (std::size_t f = 0; f < sets; ++f)
+    mesh.faces.push_back(face_named(ids[f], f < names.size() ? names[f] : ""));
+  make_ids_unique(mesh.faces);
+  for (geometry::Face& face : mesh.faces)
+    if (face.name.empty()) face = face_without_name(face.id);
+  TaggedSides tagged;
   for (std::size_t f = 0; f < sets; ++f) {
     const std::string n = std::to_string(f + 1);
-    const std::int32_t id = ids[f];
-    mesh.faces.push_back(f < names.size() && !names[f].empty() ? face_named(id, names[f])
-                                                               : face_without_name(id));
     if (!file.has("elem_ss" + n)) continue;
     const std::vector<std::int32_t> elements = file.integers("elem_ss" + n),
                                     sides = file.integers("side_ss" + n);
@@ -170,9 +161,8 @@ void read_side_sets(const NetCdfInput& file, const Numbering& numbering, const f
       if (elements[i] < 1 || e >= numbering.size())
         refuse(path,
                "side set " + n + " names element " + std::to_string(elements[i]) + ", which is not there");
-      const Place& place = numbering[e];
-      tagged.add(mesh, {place.number + (place.prism ? tetrahedra : 0), our_side(place.prism, sides[i])}, id,
-                 path);
+      tagged.add(mesh, {index_of(numbering[e], mesh), our_side(numbering[e].prism, sides[i])},
+                 mesh.faces[f].id, path);
     }
   }
   tagged.apply(mesh);
@@ -180,7 +170,7 @@ void read_side_sets(const NetCdfInput& file, const Numbering& numbering, const f
 
 }  // namespace
 
-geometry::MixedMesh read_exodus(const fs::path& path) {
+LayeredMesh read_exodus(const fs::path& path) {
   const NetCdfInput file(path);
   MeshBuilder mesh(path);
   const std::vector<double> x = file.numbers("coordx"), y = file.numbers("coordy"),
@@ -188,11 +178,15 @@ geometry::MixedMesh read_exodus(const fs::path& path) {
   if (y.size() != x.size() || z.size() != x.size()) refuse(path, "its coordinates are of different length");
   for (std::size_t i = 0; i < x.size(); ++i) mesh.points().emplace_back(x[i], y[i], z[i]);
   Numbering numbering;
-  std::array<std::int32_t, 2> counts{};
+  ElementCounts counts;
   const std::size_t blocks = file.dimension("num_el_blk");
-  for (std::size_t b = 0; b < blocks; ++b) read_block(file, b, path, mesh, numbering, counts);
-  geometry::MixedMesh made = mesh.finish({});
-  read_side_sets(file, numbering, path, made);
+  const std::vector<std::string> names = file.names("eb_names", blocks);
+  for (std::size_t b = 0; b < blocks; ++b) {
+    mesh.set_in_layers(b < names.size() && names[b].ends_with(layers_suffix));
+    read_block(file, b, path, mesh, numbering, counts);
+  }
+  LayeredMesh made = mesh.finish({});
+  read_side_sets(file, numbering, path, made.mesh);
   return made;
 }
 

@@ -162,7 +162,7 @@ MeshExportResult export_mesh(const MixedMesh& mesh, MeshFormat format, const fs:
                              const MeshExportOptions& options) {
   const Format& to = entry(format);
   require_holds(format, !mesh.prisms.empty(), mesh.quadratic());
-  const PreparedMesh prepared = prepare(mesh, options.title);
+  const PreparedMesh prepared = prepare(mesh, options.title, options.layer_tetrahedra);
   if (to.extension.empty()) {
     core::StagedFolder folder(path);
     write_staged(to, prepared, folder.temporary(), path);

@@ -25,7 +25,7 @@ class FluentFile {
  public:
   explicit FluentFile(const fs::path& path) : path_(path), text_(core::read_file(path)), mesh_(path) {}
 
-  geometry::MixedMesh read() {
+  LayeredMesh read() {
     for (std::string_view word = next(); !word.empty(); word = next()) {
       if (word != "(") refuse(path_, "\"" + std::string(word) + "\" stands where a section begins");
       const std::string_view section = next();
@@ -192,7 +192,7 @@ class FluentFile {
 
 }  // namespace
 
-geometry::MixedMesh read_fluent(const fs::path& path) {
+LayeredMesh read_fluent(const fs::path& path) {
   return FluentFile(path).read();
 }
 

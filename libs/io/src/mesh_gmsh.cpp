@@ -19,7 +19,16 @@ struct Block {
   std::vector<std::int32_t> connectivity;
 };
 
-/// Faces first, then the volume.
+/// Of the volume that the tetrahedra of layers fill.
+int layers_id(const PreparedMesh& mesh) {
+  return volume_id(mesh) + 1;
+}
+
+std::size_t volumes_in(const PreparedMesh& mesh) {
+  return mesh.layer_tetrahedra > 0 ? 2 : 1;
+}
+
+/// Faces first, then the volume, then that of layers.
 std::vector<Block> blocks_of(const PreparedMesh& mesh) {
   std::vector<Block> blocks;
   const auto add = [&](int dimension, int entity, Shape shape, std::vector<std::int32_t> connectivity) {
@@ -31,8 +40,9 @@ std::vector<Block> blocks_of(const PreparedMesh& mesh) {
     for (const Shape shape : facet_shapes)
       add(2, mesh.mesh.faces[f].id, shape, mesh.connectivity(shape, mesh.facets[f].of(shape)));
   }
-  for (const Shape shape : volume_shapes)
-    add(3, volume_id(mesh), shape, mesh.connectivity(shape, gmsh_order));
+  for (const ElementBlock& block : mesh.blocks())
+    add(3, block.of_layers ? layers_id(mesh) : volume_id(mesh), block.shape,
+        mesh.connectivity(block, gmsh_order));
   return blocks;
 }
 
@@ -48,10 +58,13 @@ void put_nodes_of_element(TextFile& out, const Block& block, std::size_t first) 
 }
 
 void put_names(TextFile& out, const PreparedMesh& mesh) {
-  out << "$PhysicalNames\n" << mesh.names.size() + 1 << '\n';
+  out << "$PhysicalNames\n" << mesh.names.size() + volumes_in(mesh) << '\n';
   for (std::size_t f = 0; f < mesh.names.size(); ++f)
     out << "2 " << mesh.mesh.faces[f].id << " \"" << mesh.names[f] << "\"\n";
-  out << "3 " << volume_id(mesh) << " \"" << mesh.title << "\"\n$EndPhysicalNames\n";
+  out << "3 " << volume_id(mesh) << " \"" << mesh.title << "\"\n";
+  if (mesh.layer_tetrahedra > 0)
+    out << "3 " << layers_id(mesh) << " \"" << mesh.title << layers_suffix << "\"\n";
+  out << "$EndPhysicalNames\n";
 }
 
 void put_point(TextFile& out, const geometry::Vec3& p) {
@@ -68,7 +81,7 @@ geometry::Box3 box_of(const PreparedMesh& mesh, const std::vector<Block>& blocks
 }
 
 void put_entities(TextFile& out, const PreparedMesh& mesh, const std::vector<Block>& blocks) {
-  out << "$Entities\n0 0 " << mesh.names.size() << " 1\n";
+  out << "$Entities\n0 0 " << mesh.names.size() << ' ' << volumes_in(mesh) << '\n';
   const auto put = [&](int dimension, int entity) {
     const geometry::Box3 box = box_of(mesh, blocks, dimension, entity);
     out << entity << ' ';
@@ -84,7 +97,12 @@ void put_entities(TextFile& out, const PreparedMesh& mesh, const std::vector<Blo
   put(3, volume_id(mesh));
   out << ' ' << mesh.names.size();
   for (const geometry::Face& face : mesh.mesh.faces) out << ' ' << face.id;
-  out << "\n$EndEntities\n";
+  out << '\n';
+  if (mesh.layer_tetrahedra > 0) {
+    put(3, layers_id(mesh));
+    out << " 0\n";
+  }
+  out << "$EndEntities\n";
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 #include <unordered_map>
+#include <utility>
 
 namespace ostia::io {
 namespace fs = std::filesystem;
@@ -53,7 +54,7 @@ class GmshFile {
   explicit GmshFile(const fs::path& path)
       : path_(path), text_(core::read_file(path)), words_(text_), mesh_(path) {}
 
-  geometry::MixedMesh read() {
+  LayeredMesh read() {
     while (!words_.empty()) {
       const std::string section(words_.next());
       if (section == "$MeshFormat") read_format();
@@ -107,11 +108,13 @@ class GmshFile {
       const std::size_t first = line.find('"'), last = line.rfind('"');
       if (!dimension || !id || first == std::string::npos || last <= first)
         refuse(path_, "\"" + line + "\" is no physical name");
-      if (*dimension == 2) names_[*id] = line.substr(first + 1, last - first - 1);
+      const std::string name = line.substr(first + 1, last - first - 1);
+      if (*dimension == 2) names_[*id] = name;
+      if (*dimension == 3 && name.ends_with(layers_suffix)) layers_.insert(*id);
     }
   }
 
-  /// Which physical group each surface belongs to.
+  /// Which physical group each surface and volume belongs to.
   void read_entities() {
     std::array<std::size_t, 4> counts{};
     for (std::size_t& one : counts) one = count("the number of entities");
@@ -122,7 +125,7 @@ class GmshFile {
         const std::size_t groups = count("the number of groups");
         for (std::size_t k = 0; k < groups; ++k) {
           const auto group = next<std::int32_t>("a group");
-          if (dimension == 2 && k == 0) group_of_[tag] = group;
+          if (k == 0) group_of_[{static_cast<int>(dimension), tag}] = group;
         }
         if (dimension == 0) continue;
         const std::size_t borders = count("the number of borders");
@@ -158,7 +161,7 @@ class GmshFile {
   }
 
   /// The element's nodes stand next.
-  void add_element(int type, std::int32_t face) {
+  void add_element(int type, std::int32_t group) {
     const std::optional<Element> element = element_of(type);
     if (!element) {
       if (!is_below_facets(type))
@@ -177,7 +180,8 @@ class GmshFile {
         refuse(path_, "an element names node " + std::to_string(tag) + ", which is not there");
       nodes[i] = found->second;
     }
-    mesh_.add(element->shape, std::span(nodes).first(element->nodes), face, gmsh_order);
+    mesh_.set_in_layers(layers_.contains(group));
+    mesh_.add(element->shape, std::span(nodes).first(element->nodes), group, gmsh_order);
   }
 
   void read_elements() {
@@ -187,23 +191,23 @@ class GmshFile {
         next<std::int64_t>("an element's number");
         const int type = next<int>("an element's type");
         const std::size_t tags = count("the number of tags");
-        std::int32_t face = 1;
+        std::int32_t group = 1;
         for (std::size_t k = 0; k < tags; ++k) {
           const auto tag = next<std::int32_t>("a tag");
-          if (k == 0) face = tag;
+          if (k == 0) group = tag;
         }
-        add_element(type, face);
+        add_element(type, group);
       }
       return;
     }
     const std::size_t blocks = count("the number of blocks");
     for (int i = 0; i < 3; ++i) next<std::int64_t>("the elements' range");
     for (std::size_t b = 0; b < blocks; ++b) {
-      next<int>("a dimension");
+      const int dimension = next<int>("a dimension");
       const auto entity = next<std::int32_t>("an entity");
       const int type = next<int>("an element's type");
       const std::size_t n = count("the number of elements");
-      const auto group = group_of_.find(entity);
+      const auto group = group_of_.find({dimension, entity});
       for (std::size_t i = 0; i < n; ++i) {
         next<std::int64_t>("an element's number");
         add_element(type, group != group_of_.end() ? group->second : entity);
@@ -217,13 +221,14 @@ class GmshFile {
   MeshBuilder mesh_;
   double version_ = 0.0;
   std::map<std::int32_t, std::string> names_;
-  std::map<std::int32_t, std::int32_t> group_of_;
+  std::set<std::int32_t> layers_;                                  ///< groups of tetrahedra of layers
+  std::map<std::pair<int, std::int32_t>, std::int32_t> group_of_;  ///< by dimension and number
   std::unordered_map<std::int64_t, std::int32_t> point_of_;
 };
 
 }  // namespace
 
-geometry::MixedMesh read_gmsh(const fs::path& path) {
+LayeredMesh read_gmsh(const fs::path& path) {
   return GmshFile(path).read();
 }
 

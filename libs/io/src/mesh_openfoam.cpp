@@ -4,6 +4,8 @@
 #include "mesh_formats.h"
 #include "mesh_text.h"
 
+#include "ostia/geometry/faces.h"
+
 namespace ostia::io {
 namespace fs = std::filesystem;
 namespace {
@@ -76,13 +78,26 @@ void write_boundary(const PreparedMesh& mesh, const fs::path& file) {
   out << mesh.facets.size() << "\n(\n";
   std::size_t start = mesh.inner.size();
   for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
-    const bool wall = mesh.mesh.faces[f].kind == geometry::FaceKind::wall;
+    const bool wall = is_wall(mesh.mesh.faces[f]);
     out << "    " << mesh.names[f] << "\n    {\n        type            " << (wall ? "wall" : "patch")
         << ";\n        nFaces          " << mesh.facets[f].size() << ";\n        startFace       " << start
         << ";\n    }\n";
     start += mesh.facets[f].size();
   }
   out << ")\n";
+  out.close();
+}
+
+/// A zone of the tetrahedra of layers.
+void write_layers(const PreparedMesh& mesh, const fs::path& file) {
+  TextFile out(file);
+  put_header(out, "regIOobject", "cellZones");
+  out << "1\n(\n    " << mesh.title << layers_suffix << "\n    {\n        type            cellZone;\n"
+      << "        cellLabels      List<label>\n"
+      << mesh.layer_tetrahedra << "\n(\n";
+  for (std::size_t i = 0; i < mesh.layer_tetrahedra; ++i)
+    out << mesh.mesh.tetrahedra.size() - mesh.layer_tetrahedra + i << '\n';
+  out << ")\n;\n    }\n)\n";
   out.close();
 }
 
@@ -94,6 +109,7 @@ void write_openfoam(const PreparedMesh& mesh, const fs::path& folder) {
   write_points(mesh, poly_mesh / "points");
   write_faces(mesh, boundary_sides(mesh), poly_mesh);
   write_boundary(mesh, poly_mesh / "boundary");
+  if (mesh.layer_tetrahedra > 0) write_layers(mesh, poly_mesh / "cellZones");
 }
 
 }  // namespace ostia::io

@@ -7,7 +7,7 @@
 #include "mesh_readers.h"
 
 #include "ostia/core/error.h"
-#include "ostia/core/files.h"
+#include "ostia/io/openfoam_words.h"
 
 #include <algorithm>
 #include <map>
@@ -18,114 +18,72 @@ namespace {
 
 constexpr double millimetres = 1e3;
 
-/// The text of an OpenFOAM file without its comments, word by word; brackets and semicolons are words.
-class FoamText {
- public:
-  explicit FoamText(const fs::path& path) : path_(path), text_(core::read_file(path)) {
-    if (next() == "FoamFile")
-      skip_header();
-    else
-      at_ = 0;
+/// Goes behind the header, if there is one.
+void skip_header(OpenfoamWords& words) {
+  if (words.peek() != "FoamFile") return;
+  words.next();
+  words.expect("{");
+  for (std::string_view word = words.next(); word != "}"; word = words.next()) {
+    if (word.empty()) words.refuse("its header has no end");
+    if (word == "format" && words.next() == "binary")
+      words.refuse("it is binary; write it as ASCII (writeFormat ascii, foamFormatConvert)");
   }
-  std::string_view next() {
-    skip_blank();
-    if (at_ == text_.size()) return {};
-    const std::size_t from = at_;
-    if (!is_mark(text_[at_])) {
-      while (at_ < text_.size() && !is_blank(text_[at_]) && !is_mark(text_[at_])) ++at_;
-    } else {
-      ++at_;
-    }
-    return std::string_view(text_).substr(from, at_ - from);
-  }
-  template <class T>
-  T value(const char* what) {
-    const std::string_view word = next();
-    const std::optional<T> read = number<T>(word);
-    if (!read) refuse(path_, std::string(what) + " \"" + std::string(word) + "\" is no number");
-    return *read;
-  }
-  void expect(std::string_view mark) {
-    const std::string_view word = next();
-    if (word != mark)
-      refuse(path_, "\"" + std::string(word) + "\" stands where \"" + std::string(mark) + "\" belongs");
-  }
-  /// How many follow in brackets; each takes two characters or more.
-  std::size_t count(const char* what) {
-    const auto n = value<std::int64_t>(what);
-    if (n < 0 || static_cast<std::size_t>(n) > text_.size() / 2)
-      refuse(path_, std::string(what) + " " + std::to_string(n) + " is more than its bytes can hold");
-    expect("(");
-    return static_cast<std::size_t>(n);
-  }
-  const fs::path& path() const { return path_; }
+}
 
- private:
-  static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
-  static bool is_mark(char c) { return c == '(' || c == ')' || c == '{' || c == '}' || c == ';'; }
-  void skip_blank() {
-    while (at_ < text_.size()) {
-      if (is_blank(text_[at_])) {
-        ++at_;
-      } else if (text_.compare(at_, 2, "//") == 0) {
-        at_ = std::min(text_.find('\n', at_), text_.size());
-      } else if (text_.compare(at_, 2, "/*") == 0) {
-        const std::size_t end = text_.find("*/", at_ + 2);
-        at_ = end == std::string::npos ? text_.size() : end + 2;
-      } else {
-        return;
-      }
-    }
-  }
-  void skip_header() {
-    expect("{");
-    for (std::string_view word = next(); word != "}"; word = next()) {
-      if (word.empty()) refuse(path_, "its header has no end");
-      if (word == "format" && next() == "binary")
-        refuse(path_, "it is binary; write it as ASCII (writeFormat ascii, foamFormatConvert)");
-    }
-  }
-  fs::path path_;
-  std::string text_;
-  std::size_t at_ = 0;
-};
+template <class T>
+T value(OpenfoamWords& words, const char* what) {
+  const std::string_view word = words.next();
+  const std::optional<T> read = number<T>(word);
+  if (!read) words.refuse(std::string(what) + " \"" + OpenfoamWords::shown(word) + "\" is no number");
+  return *read;
+}
+
+/// How many follow in brackets behind the header; each takes two characters or more.
+std::size_t begin_list(OpenfoamWords& words, const char* what) {
+  skip_header(words);
+  const auto n = value<std::int64_t>(words, what);
+  if (n < 0 || static_cast<std::size_t>(n) > words.bytes() / 2)
+    words.refuse(std::string(what) + " " + std::to_string(n) + " is more than its bytes can hold");
+  words.expect("(");
+  return static_cast<std::size_t>(n);
+}
 
 std::vector<geometry::Vec3> points_of(const fs::path& file) {
-  FoamText text(file);
-  std::vector<geometry::Vec3> points(text.count("the number of points"));
+  OpenfoamWords words(file);
+  std::vector<geometry::Vec3> points(begin_list(words, "the number of points"));
   for (geometry::Vec3& p : points) {
-    text.expect("(");
-    for (int k = 0; k < 3; ++k) p[k] = millimetres * text.value<double>("a coordinate");
-    text.expect(")");
+    words.expect("(");
+    for (int k = 0; k < 3; ++k) p[k] = millimetres * value<double>(words, "a coordinate");
+    words.expect(")");
   }
   return points;
 }
 
 std::vector<CellSide> faces_in(const fs::path& file, std::size_t points) {
-  FoamText text(file);
-  std::vector<CellSide> faces(text.count("the number of faces"), {-1, -1, -1, -1});
+  OpenfoamWords words(file);
+  std::vector<CellSide> faces(begin_list(words, "the number of faces"), {-1, -1, -1, -1});
   for (std::size_t f = 0; f < faces.size(); ++f) {
-    const auto n = text.value<std::int32_t>("a face's number of points");
+    const auto n = value<std::int32_t>(words, "a face's number of points");
     if (n != 3 && n != 4)
-      refuse(file, "face " + std::to_string(f) + " has " + std::to_string(n) +
-                       " corners; meshes of tetrahedra and prisms are read");
-    text.expect("(");
+      words.refuse("face " + std::to_string(f) + " has " + std::to_string(n) +
+                   " corners; meshes of tetrahedra and prisms are read");
+    words.expect("(");
     for (int k = 0; k < n; ++k) {
-      const auto p = text.value<std::int32_t>("a point");
+      const auto p = value<std::int32_t>(words, "a point");
       if (p < 0 || static_cast<std::size_t>(p) >= points)
-        refuse(file, "face " + std::to_string(f) + " names point " + std::to_string(p) + " of " +
-                         std::to_string(points));
+        words.refuse("face " + std::to_string(f) + " names point " + std::to_string(p) + " of " +
+                     std::to_string(points));
       faces[f][static_cast<std::size_t>(k)] = p;
     }
-    text.expect(")");
+    words.expect(")");
   }
   return faces;
 }
 
 std::vector<std::int32_t> labels_in(const fs::path& file) {
-  FoamText text(file);
-  std::vector<std::int32_t> labels(text.count("the number of labels"));
-  for (std::int32_t& label : labels) label = text.value<std::int32_t>("a cell's number");
+  OpenfoamWords words(file);
+  std::vector<std::int32_t> labels(begin_list(words, "the number of labels"));
+  for (std::int32_t& label : labels) label = value<std::int32_t>(words, "a cell's number");
   return labels;
 }
 
@@ -135,16 +93,16 @@ struct Patch {
 };
 
 std::vector<Patch> patches_in(const fs::path& file) {
-  FoamText text(file);
-  std::vector<Patch> patches(text.count("the number of patches"));
+  OpenfoamWords words(file);
+  std::vector<Patch> patches(begin_list(words, "the number of patches"));
   for (Patch& patch : patches) {
-    patch.name = text.next();
-    text.expect("{");
-    for (std::string_view word = text.next(); word != "}"; word = text.next()) {
-      if (word.empty()) refuse(file, "patch " + patch.name + " has no end");
-      if (word == "type") patch.type = text.next();
-      if (word == "nFaces") patch.faces = text.value<std::size_t>("a patch's number of faces");
-      if (word == "startFace") patch.first = text.value<std::size_t>("a patch's first face");
+    patch.name = words.next();
+    words.expect("{");
+    for (std::string_view word = words.next(); word != "}"; word = words.next()) {
+      if (word.empty()) words.refuse("patch " + patch.name + " has no end");
+      if (word == "type") patch.type = words.next();
+      if (word == "nFaces") patch.faces = value<std::size_t>(words, "a patch's number of faces");
+      if (word == "startFace") patch.first = value<std::size_t>(words, "a patch's first face");
     }
   }
   return patches;
@@ -176,6 +134,43 @@ std::vector<std::vector<CellSide>> cells_of(const fs::path& folder, const std::v
   return cells;
 }
 
+/// The cells that a zone lists: `List<label> n(...)`, or `n{...}` where they are all one.
+void mark_zone(OpenfoamWords& words, std::vector<bool>& marks) {
+  words.next();  // List<label>
+  const auto n = value<std::size_t>(words, "a zone's number of cells");
+  const bool same = words.peek() == "{";
+  words.expect(same ? "{" : "(");
+  for (std::size_t i = 0; i < (same ? 1 : n); ++i) {
+    const auto cell = value<std::int32_t>(words, "a cell's number");
+    if (cell < 0 || static_cast<std::size_t>(cell) >= marks.size())
+      words.refuse("a zone names cell " + std::to_string(cell) + " of " + std::to_string(marks.size()));
+    marks[static_cast<std::size_t>(cell)] = true;
+  }
+  words.expect(same ? "}" : ")");
+  words.expect(";");
+}
+
+/// Of each cell, whether it is in a zone of layers.
+std::vector<bool> layers_in(const fs::path& file, std::size_t cells) {
+  std::vector<bool> marks(cells, false);
+  std::error_code error;
+  if (!fs::exists(file, error)) return marks;
+  OpenfoamWords words(file);
+  const std::size_t zones = begin_list(words, "the number of zones");
+  for (std::size_t z = 0; z < zones; ++z) {
+    const bool layers = words.next().ends_with(layers_suffix);
+    words.expect("{");
+    while (words.peek() != "}") {
+      if (words.next() == "cellLabels" && layers)
+        mark_zone(words, marks);
+      else
+        words.skip_entry();
+    }
+    words.expect("}");
+  }
+  return marks;
+}
+
 geometry::Face face_of(const Patch& patch, std::int32_t id) {
   geometry::Face face = face_named(id, patch.name);
   if (patch.type == "wall") face.kind = geometry::FaceKind::wall;
@@ -184,7 +179,7 @@ geometry::Face face_of(const Patch& patch, std::int32_t id) {
 
 }  // namespace
 
-geometry::MixedMesh read_openfoam(const fs::path& path) {
+LayeredMesh read_openfoam(const fs::path& path) {
   const fs::path folder = poly_mesh_in(path);
   if (folder.empty())
     throw InvalidInput("cannot read " + path.string() + ": it is no case of OpenFOAM (no constant/polyMesh)");
@@ -194,7 +189,8 @@ geometry::MixedMesh read_openfoam(const fs::path& path) {
   const auto add = [&](const std::vector<std::int32_t>& nodes, Shape shape, std::int32_t face) {
     mesh.add(shape, nodes, face, NodeOrder());
   };
-  add_cells_of_sides(cells_of(folder, faces), 0, path, mesh);
+  const std::vector<std::vector<CellSide>> cells = cells_of(folder, faces);
+  add_cells_of_sides(cells, 0, path, mesh, layers_in(folder / "cellZones", cells.size()));
   std::vector<geometry::Face> named;
   for (const Patch& patch : patches_in(folder / "boundary")) {
     if (patch.first > faces.size() || patch.faces > faces.size() - patch.first)

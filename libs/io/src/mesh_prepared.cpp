@@ -303,6 +303,26 @@ std::vector<std::int32_t> PreparedMesh::connectivity(Shape shape,
   return out;
 }
 
+std::vector<ElementBlock> PreparedMesh::blocks() const {
+  const std::size_t own = mesh.tetrahedra.size() - layer_tetrahedra;
+  std::vector<ElementBlock> all{{Shape::tetrahedron, false, 0, own},
+                                {Shape::tetrahedron, true, own, layer_tetrahedra},
+                                {Shape::prism, false, 0, mesh.prisms.size()}};
+  std::erase_if(all, [](const ElementBlock& block) { return block.count == 0; });
+  return all;
+}
+
+std::string PreparedMesh::name(const ElementBlock& block) const {
+  return title + (block.of_layers ? layers_suffix : block.shape == Shape::prism ? "_prisms" : "_tetrahedra");
+}
+
+std::vector<std::int32_t> PreparedMesh::connectivity(const ElementBlock& block,
+                                                     const NodeOrder& order) const {
+  const std::vector<std::int32_t> all = connectivity(block.shape, order);
+  const auto from = all.begin() + static_cast<std::ptrdiff_t>(block.first * nodes(block.shape));
+  return {from, from + static_cast<std::ptrdiff_t>(block.count * nodes(block.shape))};
+}
+
 std::array<std::int32_t, 4> PreparedMesh::corners(const ElementSide& side) const {
   const auto e = static_cast<std::size_t>(side.element);
   const std::size_t first = mesh.tetrahedra.size();
@@ -314,8 +334,11 @@ std::array<std::int32_t, 4> PreparedMesh::corners(const ElementSide& side) const
   return out;
 }
 
-PreparedMesh prepare(const MixedMesh& mesh, const std::string& title) {
+PreparedMesh prepare(const MixedMesh& mesh, const std::string& title, std::size_t layer_tetrahedra) {
   check_counts(mesh);
+  if (layer_tetrahedra > mesh.tetrahedra.size())
+    refuse_mesh(std::to_string(layer_tetrahedra) + " of its " + std::to_string(mesh.tetrahedra.size()) +
+                " tetrahedra are said to be of layers");
   check_points(mesh);
   std::vector<PreparedMesh::Facets> facets = facets_of(mesh);
   std::vector<geometry::Face> all = mesh.faces;
@@ -323,7 +346,7 @@ PreparedMesh prepare(const MixedMesh& mesh, const std::string& title) {
   std::vector<std::string> names = safe_face_names(all);
   const std::string volume = names.back();
   names.pop_back();
-  PreparedMesh prepared{mesh, volume, std::move(names), std::move(facets), {}, {}, {}};
+  PreparedMesh prepared{mesh, volume, std::move(names), std::move(facets), {}, {}, {}, layer_tetrahedra};
   join_sides(prepared);
   check_facet_nodes(mesh, mesh.triangle_nodes, prepared.triangle_parents, "triangle");
   check_facet_nodes(mesh, mesh.quad_nodes, prepared.quad_parents, "quadrilateral");

@@ -43,6 +43,19 @@ struct InnerSide {
   ElementSide first, second;
 };
 
+/// Behind the title, in the name of what holds the tetrahedra of layers.
+inline constexpr const char* layers_suffix = "_layers";
+
+/// A cell array: 1 for these tetrahedra, 0 for the other elements.
+inline constexpr const char* layer_array = "layer";
+
+/// Elements of one shape that formats name together.
+struct ElementBlock {
+  Shape shape;
+  bool of_layers;  ///< tetrahedra that were prisms
+  std::size_t first, count;
+};
+
 struct PreparedMesh {
   const geometry::MixedMesh& mesh;
   std::string title;
@@ -60,6 +73,13 @@ struct PreparedMesh {
   std::vector<ElementSide> triangle_parents, quad_parents;  ///< whose side each boundary facet is
   std::vector<InnerSide> inner;                             ///< by first element, then by second
 
+  std::size_t layer_tetrahedra = 0;  ///< the last ones
+
+  /// Tetrahedra, those of layers, prisms; none is empty.
+  std::vector<ElementBlock> blocks() const;
+  /// The title with `_tetrahedra`, `_layers` or `_prisms`.
+  std::string name(const ElementBlock& block) const;
+  std::vector<std::int32_t> connectivity(const ElementBlock& block, const NodeOrder& order = {}) const;
   std::size_t elements() const { return mesh.tetrahedra.size() + mesh.prisms.size(); }
   std::size_t count(Shape shape) const;
   /// Nodes of one element: 4 or 10, 6 or 18, 3 or 6, 4 or 9.
@@ -76,6 +96,7 @@ struct PreparedMesh {
 };
 
 /// Throws InvalidInput as export_mesh does. `mesh` must outlive the result.
-PreparedMesh prepare(const geometry::MixedMesh& mesh, const std::string& title);
+PreparedMesh prepare(const geometry::MixedMesh& mesh, const std::string& title,
+                     std::size_t layer_tetrahedra = 0);
 
 }  // namespace ostia::io

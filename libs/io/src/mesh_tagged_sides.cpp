@@ -29,6 +29,22 @@ std::int32_t unused_face_id(const std::vector<geometry::Face>& faces) {
   return id;
 }
 
+void make_ids_unique(std::vector<geometry::Face>& faces) {
+  std::set<std::int32_t> used;
+  std::vector<geometry::Face*> without;
+  for (geometry::Face& face : faces)
+    if (face.id < 1 || !used.insert(face.id).second) without.push_back(&face);
+  std::int32_t id = 1;
+  for (geometry::Face* face : without) {
+    while (!used.insert(id).second) ++id;
+    face->id = id;
+  }
+}
+
+std::int32_t index_of(const CountedElement& element, const geometry::MixedMesh& mesh) {
+  return element.number + (element.prism ? static_cast<std::int32_t>(mesh.tetrahedra.size()) : 0);
+}
+
 void name_rest(geometry::MixedMesh& mesh, std::int32_t rest) {
   for (const auto* ids : {&mesh.triangle_face_ids, &mesh.quad_face_ids}) {
     if (std::ranges::find(*ids, rest) == ids->end()) continue;

@@ -7,6 +7,8 @@
 #include <vtkCellType.h>
 #include <vtkPoints.h>
 
+#include <limits>
+
 namespace ostia::io {
 namespace {
 
@@ -73,6 +75,12 @@ vtkSmartPointer<vtkUnstructuredGrid> grid_of(const PreparedMesh& mesh) {
   ids.insert(ids.end(), mesh.mesh.quad_face_ids.begin(), mesh.mesh.quad_face_ids.end());
   vtkSmartPointer<vtkUnstructuredGrid> grid = cells.grid(to_vtk(mesh.mesh.points));
   add_array(*grid->GetCellData(), "CellEntityIds", ids);
+  if (mesh.layer_tetrahedra > 0) {
+    std::vector<double> layer(ids.size(), std::numeric_limits<double>::quiet_NaN());
+    for (std::size_t i = 0; i < mesh.elements(); ++i)
+      layer[i] = i < mesh.mesh.tetrahedra.size() && i + mesh.layer_tetrahedra >= mesh.mesh.tetrahedra.size();
+    add_array(*grid->GetCellData(), layer_array, layer);
+  }
   std::vector<geometry::Face> faces = mesh.mesh.faces;
   for (std::size_t f = 0; f < faces.size(); ++f) faces[f].name = mesh.names[f];
   add_faces(*grid, faces);

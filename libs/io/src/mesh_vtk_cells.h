@@ -3,6 +3,8 @@
 
 #include "mesh_prepared.h"
 
+#include "ostia/io/volume_mesh_file.h"
+
 #include <vtkSmartPointer.h>
 #include <vtkUnstructuredGrid.h>
 
@@ -27,7 +29,7 @@ class VtkCells {
 std::optional<Shape> shape_of(int vtk_type);
 
 /// The mesh that a file's grid is. Throws InvalidInput as read_volume_mesh does.
-geometry::MixedMesh mesh_of(vtkUnstructuredGrid& data, const std::filesystem::path& path);
+LayeredMesh mesh_of(vtkUnstructuredGrid& data, const std::filesystem::path& path);
 
 /// The other way: tetrahedra, prisms, then the boundary's triangles and quadrilaterals, told apart by
 /// CellEntityIds, with the faces' names as field data.

@@ -59,11 +59,12 @@ class Grid {
     out << "</Topology>\n";
   }
 
-  void put_tags(TextFile& out, const std::vector<std::int32_t>& tags) {
-    const std::string set = "/" + name_ + "/CellEntityIds";
-    data_.write(set, tags, 1);
-    out << "<Attribute Name=\"CellEntityIds\" AttributeType=\"Scalar\" Center=\"Cell\">\n";
-    put_item(out, "Int", std::to_string(tags.size()), 4, set.c_str());
+  /// One number a cell.
+  void put_attribute(TextFile& out, const std::string& name, const std::vector<std::int32_t>& values) {
+    const std::string set = "/" + name_ + "/" + name;
+    data_.write(set, values, 1);
+    out << "<Attribute Name=\"" << name << "\" AttributeType=\"Scalar\" Center=\"Cell\">\n";
+    put_item(out, "Int", std::to_string(values.size()), 4, set.c_str());
     out << "</Attribute>\n";
   }
 
@@ -99,6 +100,14 @@ void put_names(TextFile& out, const PreparedMesh& mesh, bool facets) {
   out << "</main>]]></Information>\n";
 }
 
+/// 1 for the tetrahedra of layers, 0 for the others and for prisms.
+std::vector<std::int32_t> layer_of_elements(const PreparedMesh& mesh) {
+  std::vector<std::int32_t> layer(mesh.elements(), 0);
+  const auto end = layer.begin() + static_cast<std::ptrdiff_t>(mesh.mesh.tetrahedra.size());
+  std::fill(end - static_cast<std::ptrdiff_t>(mesh.layer_tetrahedra), end, 1);
+  return layer;
+}
+
 template <std::size_t N>
 void write_grid(const PreparedMesh& mesh, Hdf5File& data, const fs::path& file, const char* name,
                 const std::array<Shape, N>& shapes, const std::vector<std::int32_t>& tags) {
@@ -112,7 +121,9 @@ void write_grid(const PreparedMesh& mesh, Hdf5File& data, const fs::path& file, 
   put_item(out, "Float", std::to_string(mesh.mesh.points.size()) + " 3", 8, "/geometry");
   out << "</Geometry>\n";
   grid.put_topology(out, shapes);
-  grid.put_tags(out, tags);
+  grid.put_attribute(out, "CellEntityIds", tags);
+  if (mesh.layer_tetrahedra > 0 && N > 0 && shapes[0] == Shape::tetrahedron)
+    grid.put_attribute(out, layer_array, layer_of_elements(mesh));
   out << "</Grid>\n</Domain>\n</Xdmf>\n";
   out.close();
 }

@@ -139,6 +139,7 @@ class Grid {
     const Tag topology = tags_in(text_, "Topology").front();
     const std::string type = topology.attribute("TopologyType");
     const std::vector<std::int32_t> list = Values(path_, item("Topology")).integers();
+    const std::vector<std::int32_t> layer = of_cells(layer_array);
     std::size_t cell = 0;
     for (std::size_t i = 0; i < list.size(); ++cell) {
       const auto kind = type == "Mixed" ? std::ranges::find(kinds, list[i++], &Kind::number)
@@ -146,15 +147,20 @@ class Grid {
       if (kind == kinds.end() || i + kind->nodes > list.size())
         refuse(path_, "cells of type " + (type == "Mixed" ? std::to_string(list[i - 1]) : type) +
                           " are not read; tetrahedra, wedges, triangles and quadrilaterals are");
+      mesh.set_in_layers(cell < layer.size() && layer[cell] == 1);
       mesh.add(kind->shape, std::span(list).subspan(i, kind->nodes), cell < ids.size() ? ids[cell] : 1,
                vtk_order);
       i += kind->nodes;
     }
+    if (!ids.empty() && ids.size() != cell)
+      refuse(path_, "it has " + std::to_string(ids.size()) + " CellEntityIds for " + std::to_string(cell) +
+                        " cells; one a cell is needed");
   }
 
-  std::vector<std::int32_t> ids() const {
+  /// One number a cell; none where there is no such attribute.
+  std::vector<std::int32_t> of_cells(const std::string& name) const {
     for (const Tag& attribute : tags_in(text_, "Attribute"))
-      if (attribute.attribute("Name") == "CellEntityIds") return Values(path_, item_in(attribute)).integers();
+      if (attribute.attribute("Name") == name) return Values(path_, item_in(attribute)).integers();
     return {};
   }
 
@@ -162,7 +168,10 @@ class Grid {
     std::vector<geometry::Face> faces;
     for (const Tag& name : tags_in(text_, "map")) {
       const std::optional<std::int32_t> id = number<std::int32_t>(name.content());
-      if (id && name.attribute("dim") == "2") faces.push_back(face_named(*id, name.attribute("key")));
+      if (!id || name.attribute("dim") != "2") continue;
+      if (std::ranges::find(faces, *id, &geometry::Face::id) != faces.end())
+        refuse(path_, "it names the face " + std::to_string(*id) + " twice");
+      faces.push_back(face_named(*id, name.attribute("key")));
     }
     return faces;
   }
@@ -183,24 +192,30 @@ class Grid {
   std::string text_;
 };
 
-}  // namespace
-
-geometry::MixedMesh read_xdmf(const fs::path& path) {
-  std::error_code error;
-  const fs::path file = fs::is_directory(path, error) ? path / "mesh.xdmf" : path;
-  const Grid elements(file);
-  MeshBuilder mesh(path);
-  mesh.points() = elements.points();
-  elements.add_cells(mesh, {});
-  const fs::path beside = file.parent_path() / "facets.xdmf";
-  if (!fs::exists(beside, error) || mesh.has_boundary()) return mesh.finish({});
-  const Grid facets(beside);
-  facets.add_cells(mesh, facets.ids());
-  std::vector<geometry::Face> faces = facets.faces();
+/// A grid's cells; returns the faces of its facets. Without ids they are all wall.
+std::vector<geometry::Face> add(const Grid& grid, MeshBuilder& mesh) {
+  const std::vector<std::int32_t> tags = grid.of_cells("CellEntityIds");
+  grid.add_cells(mesh, tags);
+  std::vector<geometry::Face> faces;
+  if (!tags.empty()) faces = grid.faces();
   const std::vector<std::int32_t> ids = mesh.face_ids();
   for (const std::int32_t id : std::set<std::int32_t>(ids.begin(), ids.end()))
     if (std::ranges::find(faces, id, &geometry::Face::id) == faces.end())
       faces.push_back(face_without_name(id));
+  return faces;
+}
+
+}  // namespace
+
+LayeredMesh read_xdmf(const fs::path& path) {
+  std::error_code error;
+  const fs::path file = fs::is_directory(path, error) ? path / "mesh.xdmf" : path;
+  MeshBuilder mesh(path);
+  const Grid elements(file);
+  mesh.points() = elements.points();
+  std::vector<geometry::Face> faces = add(elements, mesh);
+  const fs::path beside = file.parent_path() / "facets.xdmf";
+  if (!mesh.has_boundary() && fs::exists(beside, error)) faces = add(Grid(beside), mesh);
   return mesh.finish(std::move(faces));
 }
 

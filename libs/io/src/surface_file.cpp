@@ -38,6 +38,13 @@ void refuse(const fs::path& path, const std::string& what) {
   throw InvalidInput("cannot read " + path.string() + ": " + what);
 }
 
+std::string upper(std::string_view text) {
+  std::string all(text);
+  for (char& c : all)
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  return all;
+}
+
 geometry::Face face_named(std::int32_t id, const std::string& name) {
   using geometry::FaceKind;
   return {id, name,
@@ -72,7 +79,8 @@ LoadedSurface read_surface(const fs::path& path) {
     loaded = read_vtp(path);
   else
     refuse(path, "a surface ends in .stl, .ply, .obj or .vtp");
-  if (loaded.surface.mesh.triangles.empty()) refuse(path, "it has no triangles");
+  if (loaded.surface.mesh.triangles.empty())
+    throw EmptySurface("cannot read " + path.string() + ": it has no triangles");
   check_indices(loaded, path);
   return loaded;
 }

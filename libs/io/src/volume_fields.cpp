@@ -39,7 +39,7 @@ void write_vtu_with_fields(const fs::path& path, const geometry::MixedMesh& mesh
 
 VolumeFields read_vtu_fields(const fs::path& path) {
   const vtkSmartPointer<vtkUnstructuredGrid> grid = read_grid(path);
-  const std::size_t points = mesh_of(*grid, path).points.size();  // refuses what is no mesh
+  const std::size_t points = mesh_of(*grid, path).mesh.points.size();  // refuses what is no mesh
   const std::vector<std::size_t> elements = elements_of(*grid);
   return {fields_of(*grid->GetCellData(), elements.size(), [&](std::size_t i) { return elements[i]; }),
           fields_of(*grid->GetPointData(), points, [](std::size_t i) { return i; })};

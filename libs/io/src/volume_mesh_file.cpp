@@ -17,10 +17,12 @@ namespace fs = std::filesystem;
 
 using geometry::MixedMesh;
 
-MixedMesh mesh_of(vtkUnstructuredGrid& data, const fs::path& path) {
+LayeredMesh mesh_of(vtkUnstructuredGrid& data, const fs::path& path) {
   MeshBuilder mesh(path);
   mesh.points() = from_vtk(data.GetPoints());
   vtkDataArray* ids = data.GetCellData()->GetArray("CellEntityIds");
+  vtkDataArray* layer = data.GetCellData()->GetArray(layer_array);
+  if (layer && layer->GetNumberOfComponents() != 1) layer = nullptr;
   std::vector<std::int32_t> nodes;
   for (vtkIdType c = 0; c < data.GetNumberOfCells(); ++c) {
     vtkIdType count = 0;
@@ -29,6 +31,7 @@ MixedMesh mesh_of(vtkUnstructuredGrid& data, const fs::path& path) {
     nodes.assign(p, p + count);
     const std::optional<Shape> shape = shape_of(data.GetCellType(c));
     const std::int32_t face = ids ? static_cast<std::int32_t>(ids->GetTuple1(c)) : 1;
+    mesh.set_in_layers(layer && layer->GetTuple1(c) == 1.0);
     if (!shape || !mesh.add(*shape, nodes, face, vtk_order))
       refuse(path, "cell " + std::to_string(c) + " is of VTK type " + std::to_string(data.GetCellType(c)) +
                        " with " + std::to_string(count) +
@@ -38,13 +41,13 @@ MixedMesh mesh_of(vtkUnstructuredGrid& data, const fs::path& path) {
   return mesh.finish(mesh.has_boundary() ? faces_of(data, mesh.face_ids()) : std::vector<geometry::Face>());
 }
 
-MixedMesh read_vtu(const fs::path& path) {
+LayeredMesh read_vtu(const fs::path& path) {
   return mesh_of(*read_grid(path), path);
 }
 
 namespace {
 
-using Reader = MixedMesh (*)(const fs::path&);
+using Reader = LayeredMesh (*)(const fs::path&);
 
 /// Gmsh's and Fluent's files have the same extension; Fluent's is all in brackets.
 bool begins_with_bracket(const fs::path& path) {
@@ -81,6 +84,10 @@ std::string readable_volume_meshes() {
 }
 
 MixedMesh read_volume_mesh(const fs::path& path) {
+  return read_layered_mesh(path).mesh;
+}
+
+LayeredMesh read_layered_mesh(const fs::path& path) {
   const Reader reader = reader_of(path);
   return reader ? reader(path) : read_vtu(path);
 }

@@ -3,6 +3,7 @@
 #include "plane_triangulation.h"
 
 #include "ostia/core/error.h"
+#include "ostia/geometry/faces.h"
 #include "ostia/geometry/mesh_topology.h"
 
 #include <cmath>
@@ -21,10 +22,11 @@ namespace {
 using DirectedEdges = std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t>;
 
 const geometry::Face& face_of(const geometry::FacedSurface& surface, std::int32_t id) {
-  for (const geometry::Face& face : surface.faces)
-    if (face.id == id) return face;
-  throw InvalidInput("boundary layers: triangles carry face id " + std::to_string(id) +
-                     ", which no face of the surface has");
+  return geometry::face_of(surface, id, "boundary layers");
+}
+
+bool of_wall(const geometry::FacedSurface& surface, std::size_t triangle) {
+  return is_wall(face_of(surface, surface.face_ids[triangle]));
 }
 
 void check_surface(const geometry::FacedSurface& surface) {
@@ -48,7 +50,7 @@ void check_surface(const geometry::FacedSurface& surface) {
 void take_wall(const geometry::FacedSurface& surface, LayerWall& wall, std::vector<std::int32_t>& numbers) {
   numbers.assign(surface.mesh.points.size(), -1);
   for (std::size_t i = 0; i < surface.mesh.triangles.size(); ++i) {
-    if (face_of(surface, surface.face_ids[i]).kind != geometry::FaceKind::wall) continue;
+    if (!of_wall(surface, i)) continue;
     wall.mesh.triangles.push_back(surface.mesh.triangles[i]);
     wall.face_ids.push_back(surface.face_ids[i]);
     for (const std::int32_t v : surface.mesh.triangles[i]) numbers[static_cast<std::size_t>(v)] = 0;
@@ -68,7 +70,7 @@ void take_wall(const geometry::FacedSurface& surface, LayerWall& wall, std::vect
 DirectedEdges cap_edges(const geometry::FacedSurface& surface, const std::vector<std::int32_t>& numbers) {
   DirectedEdges edges;
   for (std::size_t i = 0; i < surface.mesh.triangles.size(); ++i) {
-    if (face_of(surface, surface.face_ids[i]).kind == geometry::FaceKind::wall) continue;
+    if (of_wall(surface, i)) continue;
     const geometry::Triangle& t = surface.mesh.triangles[i];
     for (std::size_t k = 0; k < 3; ++k) {
       const std::int32_t a = numbers[static_cast<std::size_t>(t[k])],

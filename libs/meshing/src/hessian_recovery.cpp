@@ -1,6 +1,7 @@
 #include "hessian_recovery.h"
 
 #include "ostia/core/parallel.h"
+#include "ostia/geometry/element_centres.h"
 #include "ostia/geometry/mixed_mesh_sides.h"
 
 #include <Eigen/Dense>
@@ -48,21 +49,9 @@ void add_corners(const std::vector<Element>& elements, std::int32_t& number,
   }
 }
 
-template <class Element>
-Vec3 centroid(const Element& element, const std::vector<Vec3>& points) {
-  Vec3 sum = Vec3::Zero();
-  for (const std::int32_t v : element) sum += points[static_cast<std::size_t>(v)];
-  return sum / static_cast<double>(element.size());
-}
-
 /// Where the field's values are.
 std::vector<Vec3> places_of(const geometry::MixedMesh& mesh, const MeshField& field) {
-  if (!field.at_elements) return mesh.points;
-  std::vector<Vec3> places;
-  places.reserve(mesh.tetrahedra.size() + mesh.prisms.size());
-  for (const auto& t : mesh.tetrahedra) places.push_back(centroid(t, mesh.points));
-  for (const auto& p : mesh.prisms) places.push_back(centroid(p, mesh.points));
-  return places;
+  return field.at_elements ? geometry::element_centres(mesh) : mesh.points;
 }
 
 constexpr int unknowns = 10;

@@ -2,6 +2,7 @@
 
 #include "ostia/core/parallel.h"
 #include "ostia/geometry/disjoint_sets.h"
+#include "ostia/geometry/faces.h"
 #include "ostia/geometry/mesh_topology.h"
 
 #include <algorithm>
@@ -20,12 +21,10 @@ using geometry::Vec3;
 namespace {
 
 std::vector<char> wall_triangles(const geometry::FacedSurface& surface) {
-  std::set<std::int32_t> caps;
-  for (const geometry::Face& face : surface.faces)
-    if (face.kind != geometry::FaceKind::wall) caps.insert(face.id);
+  const geometry::FacesByKind faces(surface.faces);
   std::vector<char> wall(surface.mesh.triangles.size(), 1);
   for (std::size_t i = 0; i < surface.face_ids.size(); ++i)
-    if (caps.contains(surface.face_ids[i])) wall[i] = 0;
+    if (faces.cap(surface.face_ids[i])) wall[i] = 0;
   return wall;
 }
 
@@ -73,7 +72,7 @@ std::vector<double> own_edges(const geometry::TriMesh& mesh,
 std::vector<SurfaceEnd> caps_of(const geometry::FacedSurface& surface) {
   std::vector<SurfaceEnd> ends;
   for (const geometry::Face& face : surface.faces) {
-    if (face.kind == geometry::FaceKind::wall) continue;
+    if (is_wall(face)) continue;
     SurfaceEnd end;
     end.name = face.name;
     double area = 0.0;

@@ -4,11 +4,11 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
+#include "ostia/geometry/faces.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 #include <vector>
 
 namespace ostia::meshing {
@@ -167,20 +167,18 @@ void measure_faces(const MixedMesh& mesh, MixedQuality& quality) {
 WallDeviation wall_deviation(const MixedMesh& mesh, const geometry::AabbTree& reference,
                              const core::TaskContext& task) {
   check_lists(mesh, "wall deviation");
-  std::set<std::int32_t> walls;
-  for (const geometry::Face& face : mesh.faces)
-    if (face.kind == geometry::FaceKind::wall) walls.insert(face.id);
+  const geometry::FacesByKind faces(mesh.faces);
   std::vector<std::int32_t> used;
   std::vector<Vec3> samples;
   const auto use = [&](const auto& nodes) { used.insert(used.end(), nodes.begin(), nodes.end()); };
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    if (!walls.contains(mesh.triangle_face_ids[i])) continue;
+    if (!faces.wall(mesh.triangle_face_ids[i])) continue;
     use(mesh.triangles[i]);
     if (mesh.quadratic()) use(mesh.triangle_nodes[i]);
     samples.push_back(sample(triangle_nodes(mesh, i), 1.0 / 3.0, 1.0 / 3.0).position);
   }
   for (std::size_t i = 0; i < mesh.quads.size(); ++i) {
-    if (!walls.contains(mesh.quad_face_ids[i])) continue;
+    if (!faces.wall(mesh.quad_face_ids[i])) continue;
     use(mesh.quads[i]);
     if (mesh.quadratic()) use(mesh.quad_nodes[i]);
     samples.push_back(sample(quad_nodes(mesh, i), 0.5, 0.5).position);

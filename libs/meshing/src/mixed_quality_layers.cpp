@@ -2,6 +2,7 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
+#include "ostia/geometry/element_centres.h"
 #include "ostia/meshing/element_measures.h"
 #include "ostia/meshing/mixed_quality.h"
 
@@ -14,16 +15,6 @@ using geometry::MixedMesh;
 using geometry::Vec3;
 
 namespace {
-
-Vec3 centre_of(const MixedMesh& mesh, std::size_t element) {
-  const auto mean = [&](const auto& corners) {
-    Vec3 sum = Vec3::Zero();
-    for (const std::int32_t p : corners) sum += mesh.points[static_cast<std::size_t>(p)];
-    return Vec3(sum / static_cast<double>(corners.size()));
-  };
-  return element < mesh.tetrahedra.size() ? mean(mesh.tetrahedra[element])
-                                          : mean(mesh.prisms[element - mesh.tetrahedra.size()]);
-}
 
 /// Elements that share a point with no element of a layer, and prisms.
 std::vector<bool> away_from_layers(const MixedMesh& mesh, const std::vector<bool>& in_layers) {
@@ -61,7 +52,7 @@ void mark_layers(const MixedMesh& mesh, const std::vector<bool>& in_layers, Mixe
     if (value > most) most = value, at = here;
   };
   for (std::size_t i = 0; i < away.size(); ++i) {
-    const Vec3 here = centre_of(mesh, i);
+    const Vec3 here = geometry::element_centre(mesh, i);
     const bool tetrahedron = i < in_layers.size();
     if (tetrahedron && in_layers[i]) {
       ++layers.count;

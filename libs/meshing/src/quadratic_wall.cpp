@@ -1,5 +1,7 @@
 #include "quadratic_nodes.h"
 
+#include "ostia/geometry/faces.h"
+
 #include <algorithm>
 #include <map>
 #include <utility>
@@ -10,12 +12,6 @@ using geometry::MixedMesh;
 using geometry::Vec3;
 
 namespace {
-
-bool is_wall(const MixedMesh& mesh, std::int32_t id) {
-  for (const geometry::Face& face : mesh.faces)
-    if (face.id == id) return face.kind == geometry::FaceKind::wall;
-  return true;  // nothing is known of it
-}
 
 /// Collects the wall's nodes, each once, in the order in which they are met.
 class WallNodes {
@@ -96,13 +92,10 @@ class PrismsOnTriangles {
 std::vector<WallNode> wall_nodes(const SecondOrder& second) {
   const MixedMesh& mesh = second.mesh;
   WallNodes wall(mesh);
-  std::vector<char> of_wall;
-  for (const std::int32_t id : mesh.triangle_face_ids) of_wall.push_back(is_wall(mesh, id));
-  for (const std::int32_t id : mesh.quad_face_ids) of_wall.push_back(is_wall(mesh, id));
-  const std::size_t triangles = mesh.triangles.size();
+  const geometry::FacesByKind faces(mesh.faces);  // one that is not known is wall
   for (const bool caps : {false, true}) {
-    for (std::size_t i = 0; i < triangles; ++i) {
-      if ((of_wall[i] == 0) != caps) continue;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+      if (faces.cap(mesh.triangle_face_ids[i]) != caps) continue;
       const geometry::Triangle& t = mesh.triangles[i];
       const Vec3 area = wall.step(t[0], t[1]).cross(wall.step(t[0], t[2]));
       for (std::size_t e = 0; e < 3; ++e) {
@@ -114,7 +107,7 @@ std::vector<WallNode> wall_nodes(const SecondOrder& second) {
       }
     }
     for (std::size_t i = 0; i < mesh.quads.size(); ++i) {
-      if ((of_wall[triangles + i] == 0) != caps) continue;
+      if (faces.cap(mesh.quad_face_ids[i]) != caps) continue;
       const geometry::Quad& q = mesh.quads[i];
       const Vec3 area = wall.step(q[0], q[2]).cross(wall.step(q[1], q[3]));
       for (std::size_t e = 0; e < 4; ++e) {
@@ -139,9 +132,10 @@ std::vector<LayerNode> layer_nodes(const SecondOrder& second, const EdgeNumbers&
   for (std::size_t i = 0; i < wall.size(); ++i)
     driver[static_cast<std::size_t>(wall[i].node)] = static_cast<std::int32_t>(i);
   const PrismsOnTriangles prisms(mesh);
+  const geometry::FacesByKind faces(mesh.faces);
   std::vector<LayerNode> nodes;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    if (!is_wall(mesh, mesh.triangle_face_ids[i])) continue;
+    if (faces.cap(mesh.triangle_face_ids[i])) continue;
     std::array<std::vector<LayerNode>, 3> columns;
     std::array<double, 3> depth{};
     TriangleKey corners = mesh.triangles[i];

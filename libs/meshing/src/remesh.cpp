@@ -4,6 +4,7 @@
 #include "remesher.h"
 
 #include "ostia/core/error.h"
+#include "ostia/geometry/faces.h"
 #include "ostia/geometry/mesh_topology.h"
 #include "ostia/meshing/quality.h"
 
@@ -110,17 +111,14 @@ struct Wall {
 };
 
 const geometry::Face& face_of(const geometry::FacedSurface& surface, std::int32_t id) {
-  for (const geometry::Face& face : surface.faces)
-    if (face.id == id) return face;
-  throw InvalidInput("remeshing: triangles carry face id " + std::to_string(id) +
-                     ", which no face of the surface has");
+  return geometry::face_of(surface, id, "remeshing");
 }
 
 Wall wall_of(const geometry::FacedSurface& surface, const std::vector<double>& sizes) {
   Wall wall;
   std::vector<std::int32_t> number(surface.mesh.points.size(), -1);
   for (std::size_t i = 0; i < surface.mesh.triangles.size(); ++i) {
-    if (face_of(surface, surface.face_ids[i]).kind != geometry::FaceKind::wall) continue;
+    if (!is_wall(face_of(surface, surface.face_ids[i]))) continue;
     geometry::Triangle t = surface.mesh.triangles[i];
     for (std::int32_t& v : t) {
       const auto old = static_cast<std::size_t>(v);
@@ -147,7 +145,7 @@ std::vector<std::int32_t> caps_across(const geometry::FacedSurface& surface, con
   std::map<std::int32_t, std::vector<Vec3>> cap_points;
   for (std::size_t i = 0; i < surface.mesh.triangles.size(); ++i) {
     const std::int32_t id = surface.face_ids[i];
-    if (face_of(surface, id).kind == geometry::FaceKind::wall) continue;
+    if (is_wall(face_of(surface, id))) continue;
     const geometry::Triangle& t = surface.mesh.triangles[i];
     for (std::size_t k = 0; k < 3; ++k) {
       directed[{t[k], t[(k + 1) % 3]}] = id;

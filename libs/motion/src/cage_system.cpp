@@ -15,7 +15,6 @@ using geometry::CageCell;
 using geometry::Mat3;
 using geometry::Vec3;
 
-constexpr double point_share = 0.05;  // of a pair's weight, for all directions; the rest is along the normal
 constexpr double solver_tolerance = 1e-4;
 constexpr int follow_sweeps = 40;
 
@@ -39,10 +38,10 @@ void for_cells_about(const geometry::CageGrid& grid, const geometry::Box3& box, 
 }  // namespace
 
 CageSystem::CageSystem(const geometry::CageGrid& grid, const geometry::TriMesh& surface_at_rest,
-                       HyperelasticWeights weights, double data_weight)
+                       const CageCost& cost)
     : grid_(grid),
-      weights_(weights),
-      data_weight_(data_weight),
+      cost_(cost),
+      cell_(grid.cell_mm),
       solved_cell_(grid.cell_count(), -1),
       unknown_(grid.point_count(), -1) {
   std::vector<char> near(grid.cell_count(), 0);
@@ -81,14 +80,15 @@ CellEnergy CageSystem::whole_cell(std::size_t solved, const std::vector<Vec3>& p
                                   const std::vector<SurfacePair>& pairs,
                                   const std::vector<std::uint32_t>& own, Derivatives derivatives) const {
   const std::array<Vec3, 8> at = corners(cells_[solved], points);
-  CellEnergy out = cell_energy(at, grid_.cell_mm, weights_, derivatives);
+  CellEnergy out;
+  if (cost_.elastic) out = cell_.energy(at, cost_.energy, derivatives);
   for (const std::uint32_t i : own) {
     const SurfacePair& pair = pairs[i];
     Vec3 off = -pair.target;
     for (std::size_t c = 0; c < 8; ++c) off += pair.source.weights[c] * at[c];
-    const double weight = data_weight_ * pair.weight;
-    const Mat3 metric = weight * ((1.0 - point_share) * pair.normal * pair.normal.transpose() +
-                                  point_share * Mat3::Identity());
+    const double weight = cost_.data_weight * pair.weight;
+    const Mat3 metric = weight * ((1.0 - cost_.point_share) * pair.normal * pair.normal.transpose() +
+                                  cost_.point_share * Mat3::Identity());
     const Vec3 force = metric * off;
     out.energy += 0.5 * off.dot(force);
     if (derivatives == Derivatives::none) continue;
@@ -115,6 +115,34 @@ double CageSystem::energy(const std::vector<Vec3>& points, const std::vector<Sur
         return sum;
       },
       [](double a, double b) { return a + b; });
+}
+
+std::vector<Vec3> CageSystem::gradient(const std::vector<Vec3>& points,
+                                       const std::vector<SurfacePair>& pairs) const {
+  const Cells own = pairs_of_cells(pairs);
+  std::vector<Eigen::Matrix<double, 24, 1>> by_cells(cells_.size());
+  core::parallel_for(cells_.size(), 16, [&](std::size_t i) {
+    by_cells[i] = whole_cell(i, points, pairs, own[i], Derivatives::first).gradient;
+  });
+  std::vector<Vec3> gradient(points.size(), Vec3::Zero());
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    const CageCell numbers = grid_.corners(cells_[i]);
+    for (std::size_t c = 0; c < 8; ++c)
+      gradient[static_cast<std::size_t>(numbers[c])] +=
+          by_cells[i].segment<3>(static_cast<Eigen::Index>(3 * c));
+  }
+  return gradient;
+}
+
+double CageSystem::greatest_curvature(const std::vector<SurfacePair>& pairs) const {
+  std::vector<double> sums(grid_.point_count(), 0.0);  // a row's, since a point's weights add up to 1
+  for (const SurfacePair& pair : pairs) {
+    const CageCell numbers = grid_.corners(pair.source.cell);
+    for (std::size_t c = 0; c < 8; ++c)
+      sums[static_cast<std::size_t>(numbers[c])] += cost_.data_weight * pair.weight * pair.source.weights[c];
+  }
+  const double greatest = *std::max_element(sums.begin(), sums.end());
+  return greatest > 0.0 ? greatest : 1.0;
 }
 
 std::vector<Vec3> CageSystem::step(const std::vector<Vec3>& points,

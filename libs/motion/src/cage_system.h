@@ -12,16 +12,29 @@
 
 namespace ostia::motion {
 
+/// What a deformation costs.
+struct CageCost {
+  HyperelasticWeights energy;
+  bool elastic = true;        ///< false: only distances count
+  double data_weight = 1.0;   ///< half of it times a pair's weight times the squared distance is its cost
+  double point_share = 0.05;  ///< of that, for all directions; the rest is along the target's normal
+};
+
 /// The cells that are solved for, those that a triangle of a surface may pass and their neighbours, and their
 /// corners.
 class CageSystem {
  public:
-  CageSystem(const geometry::CageGrid& grid, const geometry::TriMesh& surface_at_rest,
-             HyperelasticWeights weights, double data_weight);
+  CageSystem(const geometry::CageGrid& grid, const geometry::TriMesh& surface_at_rest, const CageCost& cost);
 
   /// Energy of the cells plus weighted squared distances of the pairs; infinite where a cell is inverted.
   double energy(const std::vector<geometry::Vec3>& control_points,
                 const std::vector<SurfacePair>& pairs) const;
+  /// Its derivative by all control points, zero for those that follow.
+  std::vector<geometry::Vec3> gradient(const std::vector<geometry::Vec3>& control_points,
+                                       const std::vector<SurfacePair>& pairs) const;
+  /// Bound of the second derivative of the pairs' distances in any direction (Gershgorin); 1 where there are
+  /// no pairs.
+  double greatest_curvature(const std::vector<SurfacePair>& pairs) const;
   /// Gauss-Newton step of the solved control points, zero for the others.
   std::vector<geometry::Vec3> step(const std::vector<geometry::Vec3>& control_points,
                                    const std::vector<SurfacePair>& pairs) const;
@@ -40,8 +53,8 @@ class CageSystem {
                         Derivatives derivatives) const;
 
   geometry::CageGrid grid_;
-  HyperelasticWeights weights_;
-  double data_weight_;
+  CageCost cost_;
+  ElasticCell cell_;
   std::vector<std::uint32_t> cells_;       ///< solved
   std::vector<std::int32_t> solved_cell_;  ///< of each cell its number in cells_, -1: not solved
   std::vector<std::int32_t> unknown_;      ///< of each control point its number, -1: follows

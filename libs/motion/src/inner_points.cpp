@@ -1,6 +1,9 @@
 #include "inner_points.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
+
+#include <cmath>
 
 namespace ostia::motion {
 namespace {
@@ -9,10 +12,13 @@ using geometry::Mat3;
 using geometry::Vec3;
 using Quad = std::array<Vec3, 4>;
 
-Mat3 cross_matrix(const Vec3& v) {
-  Mat3 m;
-  m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return m;
+/// m times the matrix that takes x to x cross v.
+Mat3 columns_crossed(const Mat3& m, const Vec3& v) {
+  Mat3 out;
+  out.col(0) = m.col(2) * v.y() - m.col(1) * v.z();
+  out.col(1) = m.col(0) * v.z() - m.col(2) * v.x();
+  out.col(2) = m.col(1) * v.x() - m.col(0) * v.y();
+  return out;
 }
 
 /// Side e = q[i+1] - q[i] squares the area with p as (p - q[i])^T side_square (p - q[i]).
@@ -23,7 +29,10 @@ Mat3 side_square(const Vec3& e) {
 /// Small cells and flat quadrilaterals have no unique point: then the one nearest the mean.
 Mat3 inverse_of(Mat3 m) {
   m.diagonal().array() += 1e-12 * m.trace() + 1e-300;
-  return m.ldlt().solve(Mat3::Identity());
+  Mat3 inverse;
+  bool well = false;
+  m.computeInverseWithCheck(inverse, well, 1e-9 * std::pow(m.trace(), 3));
+  return well ? inverse : Mat3(m.ldlt().solve(Mat3::Identity()));
 }
 
 Quad face_quad(const CellPoints& points, std::size_t face) {
@@ -103,25 +112,32 @@ CellPoints cell_points(const std::array<Vec3, 8>& corners) {
   return points;
 }
 
-PointMotion point_motion(const CellPoints& points) {
-  PointMotion motion = PointMotion::Zero();
-  motion.topRows<24>().setIdentity();
+InnerMotion inner_motion(const CellPoints& points) {
+  InnerMotion motion;
+  Eigen::Matrix<double, 3, 24> sum = Eigen::Matrix<double, 3, 24>::Zero();
+  Mat3 square = Mat3::Zero();
+  const auto of_corner = [&](int corner) { return sum.middleCols<3>(3 * corner); };
   for (std::size_t face = 0; face < 6; ++face) {
-    const auto by = face_point_motion(face_quad(points, face), points[8 + face]);
+    motion.face[face] = face_point_motion(face_quad(points, face), points[8 + face]);
+    Mat3 by_face_point = Mat3::Zero();
+    for (std::size_t i = 0; i < 4; ++i) {
+      const int a = cell_faces[face][i], b = cell_faces[face][(i + 1) % 4];
+      const Vec3 &corner = points[static_cast<std::size_t>(a)], &next = points[static_cast<std::size_t>(b)];
+      const Vec3 side = next - corner, up = points[8 + face] - corner, n = side.cross(up);
+      const Vec3 w = corner - points[14];
+      // d(n (n.w)) = (n.w) dn + n (w.dn) + n (n.da)
+      const Mat3 by_normal = n.dot(w) * Mat3::Identity() + n * w.transpose();
+      const Mat3 by_side = columns_crossed(by_normal, up), by_up = columns_crossed(by_normal, -side);
+      const Mat3 own = n * n.transpose();
+      square += own;
+      of_corner(b) += by_side;
+      of_corner(a) += own - by_side - by_up;
+      by_face_point += by_up;
+    }
     for (std::size_t i = 0; i < 4; ++i)
-      motion.block<3, 3>(static_cast<Eigen::Index>(24 + 3 * face), 3 * cell_faces[face][i]) = by[i];
+      of_corner(cell_faces[face][i]) += by_face_point.lazyProduct(motion.face[face][i]);
   }
-  Eigen::Matrix<double, 3, 24> volume_point = Eigen::Matrix<double, 3, 24>::Zero();
-  for_bases([&](std::size_t a, std::size_t b, std::size_t f) {
-    const Vec3 side = points[b] - points[a], up = points[f] - points[a], n = side.cross(up);
-    const Vec3 w = points[a] - points[14];
-    // d(n (n.w)) = (n.w) dn + n (w.dn) + n (n.da)
-    const Mat3 by_normal = n.dot(w) * Mat3::Identity() + n * w.transpose();
-    const Mat3 by_side = by_normal * -cross_matrix(up), by_up = by_normal * cross_matrix(side);
-    const auto rows = [&](std::size_t p) { return motion.middleRows<3>(static_cast<Eigen::Index>(3 * p)); };
-    volume_point += by_side * rows(b) + by_up * rows(f) + (n * n.transpose() - by_side - by_up) * rows(a);
-  });
-  motion.bottomRows<3>() = inverse_of(volume_matrix(points)) * volume_point;
+  motion.volume = inverse_of(square).lazyProduct(sum);
   return motion;
 }
 

@@ -9,9 +9,12 @@ namespace ostia::motion {
 inline constexpr std::array<std::array<int, 4>, 6> cell_faces = {
     {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
 
-using PointMotion = Eigen::Matrix<double, 45, 24>;  ///< of CellPoints by the corners
-
-/// Derivatives of `points`, which cell_points has made, by the corners.
-PointMotion point_motion(const CellPoints& points);
+/// Derivatives of the inner points by the corners.
+struct InnerMotion {
+  std::array<std::array<geometry::Mat3, 4>, 6> face;  ///< of a face's point by the corners in cell_faces
+  Eigen::Matrix<double, 3, 24> volume;                ///< of the volume point, by all corners
+};
+/// For `points`, which cell_points has made.
+InnerMotion inner_motion(const CellPoints& points);
 
 }  // namespace ostia::motion

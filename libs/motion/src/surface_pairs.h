@@ -3,6 +3,7 @@
 
 #include "ostia/geometry/aabb_tree.h"
 #include "ostia/geometry/cage.h"
+#include "ostia/geometry/kd_tree.h"
 #include "ostia/geometry/tri_mesh.h"
 
 #include <vector>
@@ -37,5 +38,18 @@ std::vector<double> point_areas(const geometry::TriMesh& mesh);
 std::vector<SurfacePair> surface_pairs(const geometry::TriMesh& carried, const geometry::TriMesh& at_rest,
                                        const geometry::CageGrid& grid, const PairingTarget& target,
                                        double max_angle_deg, double looseness);
+
+/// The target's vertices and their normals.
+struct PairingVertices {
+  explicit PairingVertices(const geometry::TriMesh& mesh);
+  geometry::KdTree tree;
+  std::vector<geometry::Vec3> normals;
+};
+
+/// Each of the source's points, as carried, with the closest of the target's vertices; weight 1, or 0 where
+/// the vertices' normals differ by more. `places`: the points in the cage at rest.
+std::vector<SurfacePair> vertex_pairs(const geometry::TriMesh& carried,
+                                      const std::vector<geometry::CagePoint>& places,
+                                      const PairingVertices& target, double max_angle_deg);
 
 }  // namespace ostia::motion

@@ -1,13 +1,12 @@
 #include "ostia/phantom/case_folder.h"
 
+#include "case_parts.h"
+
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
 #include "ostia/core/parallel.h"
-#include "ostia/imaging/dicom_writer.h"
-#include "ostia/imaging/image_file.h"
 #include "ostia/io/centerline_file.h"
 #include "ostia/io/contour_file.h"
-#include "ostia/io/rotterdam_file.h"
 #include "ostia/io/surface_file.h"
 #include "ostia/phantom/case_report.h"
 #include "ostia/phantom/vessel_field.h"
@@ -17,42 +16,6 @@ namespace fs = std::filesystem;
 namespace {
 
 using geometry::Health;
-
-std::string two_digits(int number) {
-  return (number < 10 ? "0" : "") + std::to_string(number);
-}
-
-void write_vessel(const fs::path& folder, const ChallengeVessel& vessel) {
-  fs::create_directory(folder);
-  io::write_rotterdam_reference(folder / "reference.txt", vessel.reference);
-  io::write_rotterdam_point(folder / "pointA.txt", vessel.point_a);
-  io::write_rotterdam_point(folder / "pointB.txt", vessel.point_b);
-  io::write_rotterdam_point(folder / "pointS.txt", vessel.point_s);
-  io::write_rotterdam_point(folder / "pointE.txt", vessel.point_e);
-  for (std::size_t i = 0; i < vessel.observers.size(); ++i) {
-    io::write_rotterdam_line(folder / ("observer" + std::to_string(i + 1) + ".txt"), vessel.observers[i]);
-  }
-}
-
-void write_image(const fs::path& folder, int number, const SuiteOptions& options, const CasePlan& plan,
-                 const Scan& scan, const core::TaskContext& task) {
-  const std::string name = "image" + two_digits(number);
-  if (options.mhd) imaging::write_image(folder / (name + ".mhd"), scan.image);
-  task.set_progress(0.2);
-  task.throw_if_cancelled();
-  if (options.nrrd) imaging::write_image(folder / (name + ".nrrd"), scan.image);
-  task.set_progress(0.6);
-  task.throw_if_cancelled();
-  if (options.dicom) {
-    imaging::DicomSeriesOptions series;
-    series.uid_seed = parameters_json(plan.options);
-    series.patient_id = "OSTIA-PHANTOM-" + std::to_string(plan.options.seed);
-    imaging::write_dicom_series(folder / "dicom", scan.image, series, task.sub(0.6, 0.9));
-  }
-  task.throw_if_cancelled();
-  imaging::write_image(folder / "labels.nrrd", scan.labels);
-  task.set_progress(1.0);
-}
 
 struct Surfaces {
   geometry::TriMesh lumen, wall;
@@ -87,9 +50,11 @@ Surfaces make_surfaces(const CasePlan& plan, const std::function<void()>& meanwh
 }
 
 void write_report(const fs::path& folder, const CasePlan& plan, const Scan* scan,
-                  const geometry::TriMesh& lumen, const core::TaskContext& task) {
+                  const geometry::TriMesh& lumen, const std::vector<VesselMotion>& motion,
+                  const core::TaskContext& task) {
   task.set_stage("report");
-  const std::vector<CasePicture> pictures = case_pictures(plan, scan, lumen, task.sub(0.0, 0.8));
+  std::vector<CasePicture> pictures = case_pictures(plan, scan, lumen, task.sub(0.0, 0.8));
+  if (!motion.empty()) pictures.push_back(motion_picture(motion));
   write_case_report(folder / "report.html", plan, scan, pictures);
   fs::create_directory(folder / "report");
   for (const CasePicture& one : pictures) {
@@ -120,21 +85,33 @@ CaseRecord write_case(const fs::path& folder, int number, const SuiteOptions& op
   const CasePlan plan = plan_case(own);
   task.throw_if_cancelled();
   fs::create_directory(folder);
+  const bool beats = options.phases > 1;
   std::optional<Scan> scan;
-  if (!options.truth_only) {
+  if (!options.truth_only && !beats) {
     task.set_stage("case " + std::to_string(number + 1) + ": image");
     scan = scan_case(plan, task.sub(0.02, 0.6));
   }
   task.set_stage("case " + std::to_string(number + 1) + ": truth");
   const auto meanwhile = [&] {
-    if (scan) write_image(folder, number, options, plan, *scan, task.sub(0.6, 0.8));
+    if (scan) write_image(folder, number, options, plan, *scan, {}, task.sub(0.6, 0.8));
   };
-  const Surfaces surfaces = make_surfaces(plan, meanwhile, task.sub(scan ? 0.6 : 0.05, 0.8));
-  write_truth(folder, plan, surfaces, task.sub(0.8, 0.9));
-  if (options.report) write_report(folder, plan, scan ? &*scan : nullptr, surfaces.lumen, task.sub(0.9, 1.0));
-  core::write_file(folder / "case.json", case_json(plan, number, scan.has_value()));
+  // Of a case that beats, the phases take most of the time.
+  const core::TaskContext still = beats ? task.sub(0.0, options.truth_only ? 0.3 : 0.05) : task;
+  const Surfaces surfaces = make_surfaces(plan, meanwhile, still.sub(scan ? 0.6 : 0.05, 0.8));
+  write_truth(folder, plan, surfaces, still.sub(0.8, 0.9));
+  CaseRecord record = record_of(plan, folder.filename().string());
+  if (beats) {
+    task.set_stage("case " + std::to_string(number + 1) + ": phases");
+    record.motion = write_phases(folder, number, options, plan, surfaces.lumen,
+                                 task.sub(options.truth_only ? 0.3 : 0.05, 0.95));
+  }
+  if (options.report) {
+    const core::TaskContext last = beats ? task.sub(0.95, 1.0) : task.sub(0.9, 1.0);
+    write_report(folder, plan, scan ? &*scan : nullptr, surfaces.lumen, record.motion, last);
+  }
+  core::write_file(folder / "case.json", case_json(plan, number, !options.truth_only, options.phases));
   task.set_progress(1.0);
-  return record_of(plan, folder.filename().string());
+  return record;
 }
 
 }  // namespace
@@ -143,6 +120,8 @@ void validate(const SuiteOptions& options) {
   validate(options.first);
   if (options.cases < 1 || options.cases > 100)
     throw InvalidInput("the number of cases is " + std::to_string(options.cases) + "; it must be 1 to 100");
+  if (options.phases < 1 || options.phases > 100)
+    throw InvalidInput("the number of phases is " + std::to_string(options.phases) + "; it must be 1 to 100");
   if (!options.truth_only && !options.mhd && !options.nrrd && !options.dicom)
     throw InvalidInput("no image format is asked for; name one of mhd, nrrd, dicom, or make the truth alone");
 }

@@ -1,7 +1,10 @@
 #include "axis_place.h"
+#include "case_parts.h"
+#include "motion_json.h"
 
 #include "ostia/phantom/body.h"
 #include "ostia/phantom/case_folder.h"
+#include "ostia/phantom/moving_case.h"
 
 #include <nlohmann/json.hpp>
 
@@ -222,8 +225,19 @@ json challenge_json(const CasePlan& plan) {
   return out;
 }
 
-std::string two_digits(int number) {
-  return (number < 10 ? "0" : "") + std::to_string(number);
+json phases_json(const std::string& image, bool with_image, int phases) {
+  json out = json::array();
+  if (phases == 1) {
+    out.push_back({{"percent", nullptr}, {"image", with_image ? json(image) : json(nullptr)}});
+    return out;
+  }
+  for (const double percent : phase_percents(phases)) {
+    const std::string folder = phase_name(percent);
+    out.push_back({{"percent", rounded(percent)},
+                   {"folder", folder},
+                   {"image", with_image ? json(folder + "/" + image) : json(nullptr)}});
+  }
+  return out;
 }
 
 }  // namespace
@@ -242,11 +256,11 @@ std::string parameters_json(const SuiteOptions& options) {
   all["truth_only"] = options.truth_only;
   all["formats"] = formats;
   all["report"] = options.report;
-  all["phases"] = 1;
+  all["phases"] = options.phases;
   return all.dump();
 }
 
-std::string case_json(const CasePlan& plan, int number, bool with_image) {
+std::string case_json(const CasePlan& plan, int number, bool with_image, int phases) {
   const std::string name = "image" + two_digits(number);
   json out;
   out["v"] = 1;
@@ -258,7 +272,7 @@ std::string case_json(const CasePlan& plan, int number, bool with_image) {
   out["tissue_hu"] = tissue_json(plan.options);
   out["grid"] = grid_json(plan.options.scan.grid);
   // One entry a phase of the heart's cycle.
-  out["phases"] = json::array({{{"percent", nullptr}, {"image", with_image ? json(name) : json(nullptr)}}});
+  out["phases"] = phases_json(name, with_image, phases);
   out["ostia"] = ostia_json(plan.tree);
   out["vessels"] = vessels_json(plan.tree);
   out["data_set_vessels"] = challenge_json(plan);
@@ -270,12 +284,14 @@ std::string case_json(const CasePlan& plan, int number, bool with_image) {
 std::string suite_json(const SuiteOptions& options, const SuiteRecord& record) {
   json cases = json::array();
   for (const CaseRecord& one : record.cases) {
-    cases.push_back({{"folder", one.folder},
-                     {"seed", one.seed},
-                     {"sections", one.healthy + one.diseased},
-                     {"healthy_mm", rounded(one.healthy_mm)},
-                     {"diseased_mm", rounded(one.diseased_mm)},
-                     {"warnings", one.warnings}});
+    json made{{"folder", one.folder},
+              {"seed", one.seed},
+              {"sections", one.healthy + one.diseased},
+              {"healthy_mm", rounded(one.healthy_mm)},
+              {"diseased_mm", rounded(one.diseased_mm)},
+              {"warnings", one.warnings}};
+    if (!one.motion.empty()) made["motion"] = vessel_motion_json(one.motion);
+    cases.push_back(std::move(made));
   }
   const json out{{"v", 1},
                  {"units", "mm"},

@@ -229,6 +229,28 @@ std::vector<CasePicture> case_pictures(const CasePlan& plan, const Scan* scan, c
   return out;
 }
 
+CasePicture motion_picture(const std::vector<VesselMotion>& vessels) {
+  std::vector<figure::Series> series;
+  for (const VesselMotion& vessel : vessels) {
+    figure::Series one;
+    one.name = vessel.vessel;
+    const std::size_t n = vessel.distance_mm.size();
+    for (std::size_t i = 0; i <= n; ++i) {
+      one.x.push_back(100.0 * static_cast<double>(i) / static_cast<double>(n));
+      one.y.push_back(vessel.distance_mm[i % n]);
+    }
+    series.push_back(std::move(one));
+  }
+  figure::PlotOptions options;
+  options.title = "Mean distance from the place at 75 % of RR";
+  options.x_label = "phase (% of RR)";
+  options.y_label = "distance (mm)";
+  options.y_from_zero = true;
+  return {"motion", "Motion",
+          "How far the points of a vessel's axis are from where they are in mid-diastole.",
+          figure::line_plot(series, options)};
+}
+
 void write_case_report(const std::filesystem::path& path, const CasePlan& plan, const Scan* scan,
                        const std::vector<CasePicture>& pictures) {
   figure::HtmlReport report("Synthetic coronary CT angiogram", "seed " + std::to_string(plan.options.seed));

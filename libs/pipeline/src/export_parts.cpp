@@ -1,6 +1,7 @@
 #include "export_parts.h"
 
 #include "ostia/core/files.h"
+#include "ostia/geometry/faces.h"
 
 #include <nlohmann/json.hpp>
 
@@ -75,7 +76,7 @@ void append(geometry::FacedSurface& to, const geometry::FacedSurface& surface) {
   std::vector<std::pair<std::int32_t, std::int32_t>> ids;
   for (geometry::Face face : surface.faces) {
     const auto same = std::find_if(to.faces.begin(), to.faces.end(), [&](const geometry::Face& other) {
-      return face.kind == geometry::FaceKind::wall && other.kind == face.kind;
+      return is_wall(face) && is_wall(other);
     });
     const std::int32_t id = same != to.faces.end() ? same->id : next;
     ids.emplace_back(face.id, id);

@@ -64,7 +64,7 @@ struct Lumen {
 
 Lumen lumen_of_image(const Source& source, const ModelOptions& options, Model& model, Stages& stages) {
   const BranchEnds ends = ends_of(options.branches);
-  auto segmented = stages.run("segmentation", 0.0, 0.2, [&](const core::TaskContext& task) {
+  auto segmented = stages.run("segmentation", 0.0, 0.44, [&](const core::TaskContext& task) {
     return segmentation::segment_vessels(*source.image, options.branches, options.segment, task);
   });
   append(model.warnings, segmented.warnings);
@@ -72,7 +72,7 @@ Lumen lumen_of_image(const Source& source, const ModelOptions& options, Model& m
   std::vector<geometry::Vec3> seeds{ends.source};
   seeds.insert(seeds.end(), ends.targets.begin(), ends.targets.end());
   Lumen lumen;
-  LumenSurface surface = stages.run("surface", 0.2, 0.25, [&](const core::TaskContext& task) {
+  LumenSurface surface = stages.run("surface", 0.44, 0.55, [&](const core::TaskContext& task) {
     return lumen_surface(segmented.level_set, seeds, task);
   });
   append(model.warnings, surface.warnings);
@@ -92,7 +92,7 @@ Lumen lumen_without_image(Source& source, const ModelOptions& options, Stages& s
   if (options.source) lumen.source = options.source;
   if (!options.targets.empty()) lumen.targets = options.targets;
   if (source.kind == SourceKind::mask) {
-    lumen.surface = stages.run("surface", 0.0, 0.25, [&](const core::TaskContext& task) {
+    lumen.surface = stages.run("surface", 0.0, 0.55, [&](const core::TaskContext& task) {
       return segmentation::segment_mask(*source.mask, {}, task);
     });
   } else {
@@ -294,9 +294,19 @@ MeshedLumen mesh_lumen_about(const TriMesh& lumen, const geometry::VesselTree& a
   return mesh_with(lumen, axes, options, with_known_axes, known, task);
 }
 
-Model build_model(Source source, const ModelOptions& options, const core::TaskContext& task) {
+meshing::ClipOptions clip_of(const Source& source, const ModelOptions& options) {
+  meshing::ClipOptions clip = options.clip;
+  if (options.inset_radii)
+    clip.inset_radii = *options.inset_radii;
+  else if (source.image)
+    clip.inset_radii = image_inset_radii;
+  return clip;
+}
+
+LumenWithAxes build_lumen(Source source, const ModelOptions& options, const core::TaskContext& task) {
   validate(options);
-  Model model;
+  LumenWithAxes made;
+  Model& model = made.model;
   Stages stages(model.stages, task);
   model.warnings = source.warnings;
   if (source.image && options.branches.empty()) {
@@ -307,17 +317,17 @@ Model build_model(Source source, const ModelOptions& options, const core::TaskCo
   Lumen lumen = source.image ? lumen_of_image(source, options, model, stages)
                              : lumen_without_image(source, options, stages);
   if (options.smoothing) {
-    lumen.surface = stages.run("smoothing", 0.25, 0.27, [&](const core::TaskContext& part) {
+    lumen.surface = stages.run("smoothing", 0.55, 0.6, [&](const core::TaskContext& part) {
       return geometry::taubin_smoothed(lumen.surface, *options.smoothing, part);
     });
   }
-  stages.run("surface check", 0.27, 0.3, [&](const core::TaskContext&) {
+  stages.run("surface check", 0.6, 0.67, [&](const core::TaskContext&) {
     require_sound_surface(lumen.surface,
                           source.kind == SourceKind::surface ? "the surface" : "the lumen's surface");
     return 0;
   });
-  const centerline::CenterlineResult centerlines =
-      stages.run("centerlines", 0.3, 0.45, [&](const core::TaskContext& part) {
+  centerline::CenterlineResult centerlines =
+      stages.run("centerlines", 0.67, 1.0, [&](const core::TaskContext& part) {
         return centerline::extract_centerlines(lumen.surface, lumen.source, lumen.targets, options.centerline,
                                                part);
       });
@@ -325,13 +335,26 @@ Model build_model(Source source, const ModelOptions& options, const core::TaskCo
   if (source.kind == SourceKind::surface && !source.unit_given)
     check_vessel_size(2.0 * largest_radius(centerlines), "the surface");
   model.lumen = std::move(lumen.surface);
+  model.source = std::move(source);
+  made.axes = std::move(centerlines.tree);
+  return made;
+}
+
+Model mesh_model(LumenWithAxes lumen, const ModelOptions& options, const core::TaskContext& task) {
+  Model model = std::move(lumen.model);
   ModelOptions meshing_options = options;
-  if (source.image && !options.inset_radii) meshing_options.inset_radii = image_inset_radii;
-  model.meshed = mesh_lumen(model.lumen, centerlines.tree, meshing_options, task.sub(0.45, 1.0));
+  meshing_options.clip = clip_of(model.source, options);
+  meshing_options.inset_radii.reset();
+  model.meshed = mesh_lumen(model.lumen, lumen.axes, meshing_options, task);
   append(model.warnings, model.meshed.warnings);
   model.stages.insert(model.stages.end(), model.meshed.stages.begin(), model.meshed.stages.end());
-  model.source = std::move(source);
   return model;
+}
+
+Model build_model(Source source, const ModelOptions& options, const core::TaskContext& task) {
+  constexpr double lumen_share = 0.45;
+  return mesh_model(build_lumen(std::move(source), options, task.sub(0.0, lumen_share)), options,
+                    task.sub(lumen_share, 1.0));
 }
 
 }  // namespace ostia::pipeline

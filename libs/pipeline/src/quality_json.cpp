@@ -1,5 +1,6 @@
 #include "quality_json.h"
 
+#include "ostia/geometry/faces.h"
 #include "ostia/pipeline/report.h"
 
 #include <nlohmann/json.hpp>
@@ -44,14 +45,10 @@ json openfoam_json(const meshing::OpenFoamQuality& q) {
           {"most_skewed_at", point_json(q.most_skewed_at)}};
 }
 
-std::string kind_name(geometry::FaceKind kind) {
-  return kind == geometry::FaceKind::inlet ? "inlet" : kind == geometry::FaceKind::outlet ? "outlet" : "wall";
-}
-
 json face_json(const meshing::FaceQuality& face) {
   return {{"id", face.id},
           {"name", face.name},
-          {"kind", kind_name(face.kind)},
+          {"kind", name_of(face.kind)},
           {"triangles", face.triangles},
           {"quads", face.quads},
           {"area_mm2", face.area_mm2},

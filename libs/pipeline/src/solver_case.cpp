@@ -30,16 +30,14 @@ json waveform_json(const solver::FlowWaveform& w) {
 json flow_json(const solver::BoundaryFlowOptions& o) {
   return {{"density_kg_m3", o.blood.density_kg_m3},
           {"viscosity_mpa_s", o.blood.viscosity_mpa_s},
-          {"rheology", o.blood.rheology == solver::Rheology::carreau ? "carreau" : "newton"},
+          {"rheology", name_of(o.blood.rheology)},
           {"flow_ml_s", given(o.flow_ml_s)},
           {"mean_velocity_cm_s", given(o.mean_velocity_cm_s)},
           {"reynolds", given(o.reynolds)},
           {"inlet_flow_ml_s", o.inlet_flow_ml_s},
           {"waveform", o.waveform ? waveform_json(*o.waveform) : json()},
           {"harmonics", o.harmonics},
-          {"outlets", o.outlets == solver::Outlets::split        ? "split"
-                      : o.outlets == solver::Outlets::resistance ? "resistance"
-                                                                 : "zero"},
+          {"outlets", name_of(o.outlets)},
           {"split_exponent", o.split_exponent},
           {"total_resistance_mmhg_s_ml", given(o.total_resistance_mmhg_s_ml)}};
 }

@@ -13,34 +13,48 @@ namespace {
 using geometry::FacedSurface;
 using meshing::ForecastPlace;
 
-constexpr double walls_share = 0.7, ends_share = 0.8;  // of the progress
+constexpr double walls_share = 0.7;  // of the progress
 
-/// One tree up to its caps, and what is wrong with it.
-VesselForecast forecast_of(const RootedModel& part, const MeshExportOptions& options,
-                           const core::TaskContext& task) {
-  const geometry::TriMesh wall =
-      sound_wall(part, cell_for(part.model, options.sizing), task.sub(0.0, walls_share));
-  task.set_stage("ends cut");
+struct Meshing {
   meshing::ClipOptions clip;
-  clip.inset_radii = options.inset_radii;
-  const core::TaskContext ends = task.sub(walls_share, ends_share);
-  meshing::ClippedSurface clipped = meshing::clip_ends(wall, part.model.tree, clip, ends);
-  geometry::VesselTree axes = part.model.tree;
-  if (options.extensions) {
+  std::optional<meshing::FlowExtensionOptions> extensions;
+  meshing::SizingOptions sizing;
+  std::optional<meshing::BoundaryLayerOptions> layers;
+};
+
+/// A wall with its ends cut and capped, as it is before it is remeshed, and what is wrong with it.
+VesselForecast forecast_cut(const geometry::TriMesh& wall, geometry::VesselTree axes, const Meshing& how,
+                            const core::TaskContext& task) {
+  task.set_stage("ends cut");
+  const core::TaskContext ends = task.sub(0.0, 1.0 / 3.0);
+  meshing::ClippedSurface clipped = meshing::clip_ends(wall, axes, how.clip, ends);
+  if (how.extensions) {
     task.set_stage("flow extensions");
-    meshing::ExtendedEnds extended = meshing::extend_ends(clipped, axes, *options.extensions, ends);
+    meshing::ExtendedEnds extended = meshing::extend_ends(clipped, axes, *how.extensions, ends);
     clipped = std::move(extended.surface);
     axes = std::move(extended.tree);
   }
   FacedSurface capped = meshing::cap_ends(clipped, {}, ends);
   meshing::ForecastOptions asked;
   asked.tree = &axes;
-  asked.sizing = meshing::at_throats(options.sizing, axes, capped.mesh);
-  asked.layers = options.volume.layers;
+  asked.sizing = meshing::at_throats(how.sizing, axes, capped.mesh);
+  asked.layers = how.layers;
   VesselForecast made;
-  made.forecast = meshing::mesh_forecast(capped, asked, task.sub(ends_share, 1.0));
+  made.forecast = meshing::mesh_forecast(capped, asked, task.sub(1.0 / 3.0, 1.0));
   made.surface = std::move(capped.mesh);
   return made;
+}
+
+/// One tree up to its caps.
+VesselForecast forecast_of(const RootedModel& part, const MeshExportOptions& options,
+                           const core::TaskContext& task) {
+  const geometry::TriMesh wall =
+      sound_wall(part, cell_for(part.model, options.sizing), task.sub(0.0, walls_share));
+  meshing::ClipOptions clip;
+  clip.inset_radii = options.inset_radii;
+  return forecast_cut(wall, part.model.tree,
+                      {clip, options.extensions, options.sizing, options.volume.layers},
+                      task.sub(walls_share, 1.0));
 }
 
 void append(VesselForecast& to, VesselForecast one) {
@@ -56,6 +70,14 @@ void append(VesselForecast& to, VesselForecast one) {
 }
 
 }  // namespace
+
+VesselForecast forecast_model(const LumenWithAxes& lumen, const ModelOptions& options,
+                              const core::TaskContext& task) {
+  return forecast_cut(
+      lumen.model.lumen, lumen.axes,
+      {clip_of(lumen.model.source, options), options.extensions, options.sizing, options.volume.layers},
+      task);
+}
 
 VesselForecast forecast_mesh(const lumen::LumenModel& whole, const MeshExportOptions& options,
                              const core::TaskContext& task) {

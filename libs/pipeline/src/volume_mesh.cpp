@@ -1,10 +1,11 @@
 #include "ostia/pipeline/volume_mesh.h"
 
 #include "ostia/core/error.h"
+#include "ostia/geometry/faces.h"
 #include "ostia/geometry/mesh_topology.h"
 #include "ostia/geometry/mixed_mesh_sides.h"
 #include "ostia/geometry/mixed_mesh_split.h"
-#include "ostia/io/volume_fields.h"
+#include "ostia/io/volume_mesh_file.h"
 
 #include <algorithm>
 #include <utility>
@@ -27,15 +28,6 @@ double least(const meshing::MixedQuality& quality, const Figure& figure) {
   if (quality.tetrahedra.count == 0) return figure(quality.prisms);
   if (quality.prisms.count == 0) return figure(quality.tetrahedra);
   return std::min(figure(quality.tetrahedra), figure(quality.prisms));
-}
-
-constexpr const char* layer_array = "layer";
-
-/// mesh.vtu once more, with the cell array.
-void mark_layers(const fs::path& file, const geometry::MixedMesh& mesh, const std::vector<bool>& in_layers) {
-  io::FieldValues layer;
-  layer.values.assign(in_layers.begin(), in_layers.end());
-  io::write_vtu_with_fields(file, mesh, {{{layer_array, std::move(layer)}}, {}});
 }
 
 }  // namespace
@@ -102,11 +94,9 @@ FilledVolume fill_volume(const geometry::FacedSurface& surface, const geometry::
 
 geometry::TriMesh wall_of(const geometry::FacedSurface& surface) {
   geometry::TriMesh wall{surface.mesh.points, {}};
-  for (std::size_t i = 0; i < surface.mesh.triangles.size(); ++i) {
-    const auto face = std::ranges::find(surface.faces, surface.face_ids[i], &geometry::Face::id);
-    if (face != surface.faces.end() && face->kind == geometry::FaceKind::wall)
-      wall.triangles.push_back(surface.mesh.triangles[i]);
-  }
+  const geometry::FacesByKind faces(surface.faces);
+  for (std::size_t i = 0; i < surface.mesh.triangles.size(); ++i)
+    if (faces.wall(surface.face_ids[i])) wall.triangles.push_back(surface.mesh.triangles[i]);
   return wall;
 }
 
@@ -139,13 +129,7 @@ MeshQuality judged(const geometry::MixedMesh& mesh, const std::vector<bool>& in_
 }
 
 std::vector<bool> layers_of(const fs::path& file) {
-  if (file.extension() != ".vtu") return {};
-  const io::VolumeFields fields = io::read_vtu_fields(file);
-  const auto layer = fields.cells.find(layer_array);
-  if (layer == fields.cells.end() || layer->second.components != 1) return {};
-  std::vector<bool> in_layers;
-  for (const double value : layer->second.values) in_layers.push_back(value == 1.0);
-  return in_layers;
+  return io::read_layered_mesh(file).in_layers;
 }
 
 std::string name_in_folder(io::MeshFormat format) {
@@ -166,12 +150,13 @@ std::vector<std::string> write_volume_mesh(const fs::path& folder, const geometr
     for (const std::string& warning : more)
       if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(warning);
   };
+  io::MeshExportOptions how;
+  how.layer_tetrahedra = static_cast<std::size_t>(std::ranges::count(in_layers, true));
   for (std::size_t i = 0; i < all.size(); ++i) {
     task.throw_if_cancelled();
-    warn(io::export_mesh(mesh, all[i], folder / name_in_folder(all[i])).warnings);
+    warn(io::export_mesh(mesh, all[i], folder / name_in_folder(all[i]), how).warnings);
     task.set_progress(static_cast<double>(i + 1) / parts);
   }
-  if (!in_layers.empty()) mark_layers(folder / name_in_folder(io::MeshFormat::vtu), mesh, in_layers);
   if (options.solver_case)
     warn(write_solver_case(mesh, *options.solver_case, folder / name_in_folder(*options.solver_case),
                            task.sub(1.0 - 1.0 / parts, 1.0))

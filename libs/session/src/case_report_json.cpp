@@ -2,6 +2,7 @@
 
 #include "case_report_text.h"
 
+#include "ostia/core/csv.h"
 #include "ostia/core/log.h"
 #include "ostia/session/case_report.h"
 
@@ -136,14 +137,7 @@ class Line {
   Line& add(const std::string& cell) {
     if (!line_.empty() || !first_) line_ += ',';
     first_ = false;
-    const std::string shown = core::redacted(cell);
-    if (shown.find_first_of(",\"\r\n") == std::string::npos) {
-      line_ += shown;
-      return *this;
-    }
-    line_ += '"';
-    for (const char c : shown) line_ += c == '"' ? "\"\"" : std::string(1, c);
-    line_ += '"';
+    line_ += core::csv_cell(core::redacted(cell));
     return *this;
   }
   /// What a person wrote: never a spreadsheet's formula.

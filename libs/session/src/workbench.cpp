@@ -1,6 +1,7 @@
 #include "ostia/session/workbench.h"
 
 #include "ostia/core/error.h"
+#include "ostia/session/beating.h"
 
 #include <algorithm>
 #include <cmath>
@@ -122,6 +123,7 @@ void Workbench::close_image() {
 
 void Workbench::set_session(Session session) {
   if (image_.volume) session.file().check_image(image_.reference);
+  leave_phase();
   session_ = std::make_unique<Session>(std::move(session));
   measured_.clear();
   selected_measurement.set(0);
@@ -132,6 +134,7 @@ void Workbench::set_session(Session session) {
 }
 
 void Workbench::close_case() {
+  leave_phase();
   session_.reset();
   measured_.clear();
   selected_measurement.set(0);
@@ -158,6 +161,7 @@ std::shared_ptr<const geometry::AxisCurve> Workbench::axis() const {
 std::shared_ptr<const geometry::AxisCurve> Workbench::axis(std::int32_t id) const {
   const lumen::LumenModel* shown = model();
   if (!shown || !has_vessel(*shown, id)) return nullptr;
+  if (phase_) return phase_->axis(id).curve();
   return lumen::vessel(*shown, id).axis;
 }
 
@@ -245,7 +249,7 @@ const std::vector<analysis::Stenosis>& Workbench::known_stenoses(std::int32_t id
 }
 std::optional<analysis::SectionMeasures> Workbench::section(std::int32_t id, double s_mm) const {
   const lumen::LumenModel* shown = model();
-  if (!shown || !has_vessel(*shown, id)) return std::nullopt;
+  if (phase_ || !shown || !has_vessel(*shown, id)) return std::nullopt;
   const auto surface_of = [this](std::int32_t one) { return session_->live().surface(one); };
   return analysis::measured_section(*shown, surface_of, id, s_mm).measures;
 }
@@ -264,42 +268,49 @@ std::vector<analysis::MeasuredValue> Workbench::measured(const analysis::Measure
 }
 
 Session::Done Workbench::edit(const lumen::Edit& change) {
+  require_own_phase();
   const std::shared_ptr<const lumen::LumenModel> before = session().file().model();
   Session::Done done = session().apply(change);
   follow(done, *before);
   return done;
 }
 Session::Done Workbench::edit_merged(const lumen::Edit& change) {
+  require_own_phase();
   const std::shared_ptr<const lumen::LumenModel> before = session().file().model();
   Session::Done done = session().apply_merged(change);
   follow(done, *before);
   return done;
 }
 Session::Done Workbench::annotate(const AnnotationCommand& command) {
+  if (!std::holds_alternative<MarkVessel>(command)) require_own_phase();
   const std::shared_ptr<const lumen::LumenModel> before = session().file().model();
   Session::Done done = session().annotate(command);
   follow(done, *before);
   return done;
 }
 Session::Done Workbench::annotate_merged(const AnnotationCommand& command, std::int64_t drag) {
+  if (!std::holds_alternative<MarkVessel>(command)) require_own_phase();
   const std::shared_ptr<const lumen::LumenModel> before = session().file().model();
   Session::Done done = session().annotate_merged(command, drag);
   follow(done, *before);
   return done;
 }
 bool Workbench::undo() {
+  require_own_phase();
   const std::shared_ptr<const lumen::LumenModel> before = session().file().model();
   const std::optional<Session::Done> done = session().undo();
   if (done) follow(*done, *before);
   return done.has_value();
 }
 bool Workbench::redo() {
+  require_own_phase();
   const std::shared_ptr<const lumen::LumenModel> before = session().file().model();
   const std::optional<Session::Done> done = session().redo();
   if (done) follow(*done, *before);
   return done.has_value();
 }
 void Workbench::go_to_step(std::int64_t number) {
+  require_own_phase();
   const std::shared_ptr<const lumen::LumenModel> before = session().file().model();
   if (const std::optional<Session::Done> done = session().go_to_step(number)) follow(*done, *before);
 }
@@ -342,6 +353,7 @@ void Workbench::cursor_to_vessel() {
 }
 
 void Workbench::cursor_to_place() {
+  if (place_stays_) return;
   if (const std::shared_ptr<const geometry::AxisCurve> curve = axis())
     place.set(curve->point(cursor_mm.get()));
 }

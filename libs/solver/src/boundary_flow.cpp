@@ -1,6 +1,7 @@
 #include "ostia/solver/boundary_flow.h"
 
 #include "ostia/core/error.h"
+#include "ostia/geometry/faces.h"
 #include "ostia/io/mesh_export.h"
 #include "ostia/meshing/boundary_layer.h"
 
@@ -59,15 +60,13 @@ void require_positive_volumes(const MixedMesh& mesh) {
 }
 
 void require_faces(const MixedMesh& mesh, const std::vector<std::string>& names) {
-  const std::pair<FaceKind, const char*> kinds[] = {
-      {FaceKind::inlet, "inlet"}, {FaceKind::outlet, "outlet"}, {FaceKind::wall, "wall"}};
-  for (const auto& [kind, word] : kinds) {
+  for (const FaceKind kind : {FaceKind::inlet, FaceKind::outlet, FaceKind::wall}) {
     if (std::ranges::find(mesh.faces, kind, &geometry::Face::kind) != mesh.faces.end()) continue;
     std::string there;
     for (const std::string& name : names) there += (there.empty() ? "" : ", ") + name;
-    throw InvalidInput("the mesh has no " + std::string(word) + ", only the faces " +
-                       (there.empty() ? "(none)" : there) + "; name a face " + word +
-                       (kind == FaceKind::wall ? "" : "_...") + " when meshing");
+    const std::string word(name_of(kind));
+    throw InvalidInput("the mesh has no " + word + ", only the faces " + (there.empty() ? "(none)" : there) +
+                       "; name a face " + word + (kind == FaceKind::wall ? "" : "_...") + " when meshing");
   }
 }
 
@@ -125,6 +124,14 @@ void share_flow(BoundaryFlow& flow, const BoundaryFlowOptions& o) {
 
 }  // namespace
 
+std::string_view name_of(Rheology rheology) {
+  return rheology == Rheology::carreau ? "carreau" : "newton";
+}
+
+std::string_view name_of(Outlets outlets) {
+  return outlets == Outlets::split ? "split" : outlets == Outlets::resistance ? "resistance" : "zero";
+}
+
 double usual_flow_ml_s(double diameter_mm) {
   return 1e6 * 1.43 * std::pow(1e-3 * diameter_mm, 2.55);
 }
@@ -166,7 +173,7 @@ BoundaryFlow boundary_flow(const MixedMesh& mesh, const BoundaryFlowOptions& o) 
   BoundaryFlow flow;
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     const geometry::Face& face = mesh.faces[f];
-    if (face.kind == FaceKind::wall) {
+    if (is_wall(face)) {
       flow.walls.push_back(names[f]);
     } else if (face.kind == FaceKind::inlet) {
       flow.inlets.push_back(inlet_of(mesh, face, names[f], o, flow.warnings));

@@ -19,10 +19,6 @@ using nlohmann::json;
 
 constexpr const char* record_name = "flow-case.json";
 
-std::string outlets_name(Outlets outlets) {
-  return outlets == Outlets::zero_pressure ? "zero" : outlets == Outlets::split ? "split" : "resistance";
-}
-
 /// A field of a record, or a refusal that names it.
 template <class T>
 T field(const json& record, const char* name, const fs::path& file) {
@@ -42,12 +38,12 @@ CaseRecord case_record(const std::string& solver, const BoundaryFlowOptions& opt
   record.solver = solver;
   record.density_kg_m3 = options.blood.density_kg_m3;
   record.viscosity_mpa_s = options.blood.viscosity_mpa_s;
-  record.rheology = options.blood.rheology == Rheology::carreau ? "carreau" : "newton";
+  record.rheology = name_of(options.blood.rheology);
   if (options.waveform) {
     record.period_s = options.waveform->period_s;
     record.cycles = cycles;
   }
-  record.outlets = outlets_name(options.outlets);
+  record.outlets = name_of(options.outlets);
   if (options.outlets == Outlets::resistance)
     for (const Outlet& outlet : flow.outlets)
       record.resistance_pa_s_m3[outlet.name] = outlet.resistance_pa_s_m3;

@@ -2,7 +2,9 @@
 
 #include "case_text.h"
 
+#include "ostia/core/csv.h"
 #include "ostia/core/error.h"
+#include "ostia/geometry/faces.h"
 
 #include <nlohmann/json.hpp>
 
@@ -49,7 +51,7 @@ WallFigures figures_of(const WallSurface& wall, const WallSurface::Part& part,
 
 json face_json(const EndFlow& end) {
   return {{"name", end.name},
-          {"kind", end.kind == FaceKind::inlet ? "inlet" : "outlet"},
+          {"kind", name_of(end.kind)},
           {"area_mm2", end.area_mm2},
           {"flow_ml_s", end.flow_ml_s},
           {"pressure_Pa", end.pressure_pa},
@@ -162,11 +164,11 @@ std::string faces_csv(const FlowResult& result, const FlowReport& report) {
       "face,kind,area_mm2,flow_ml_s,pressure_Pa,pressure_mmHg,shear_mean_Pa,shear_least_Pa,shear_p05_Pa,"
       "shear_p95_Pa,shear_greatest_Pa,low_share,high_share\n";
   for (const EndFlow& end : result.ends)
-    text += end.name + (end.kind == FaceKind::inlet ? ",inlet," : ",outlet,") + number(end.area_mm2) + "," +
-            number(end.flow_ml_s) + "," + number(end.pressure_pa) + "," +
+    text += core::csv_cell(end.name) + "," + std::string(name_of(end.kind)) + "," + number(end.area_mm2) +
+            "," + number(end.flow_ml_s) + "," + number(end.pressure_pa) + "," +
             number(end.pressure_pa / pa_per_mmhg) + ",,,,,,,\n";
   for (const WallFigures& wall : report.walls) {
-    text += wall.name + ",wall," + number(wall.area_mm2) + ",,,";
+    text += core::csv_cell(wall.name) + ",wall," + number(wall.area_mm2) + ",,,";
     for (const double value : {wall.mean_pa, wall.least_pa, wall.p05_pa, wall.p95_pa, wall.greatest_pa,
                                wall.low_share, wall.high_share})
       text += "," + number(value);

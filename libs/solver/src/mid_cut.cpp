@@ -2,6 +2,8 @@
 
 #include "ostia/core/parallel.h"
 #include "ostia/geometry/aabb_tree.h"
+#include "ostia/geometry/element_centres.h"
+#include "ostia/geometry/mixed_mesh_sides.h"
 #include "ostia/solver/wall_surface.h"
 
 #include <algorithm>
@@ -15,33 +17,12 @@ namespace {
 using geometry::MixedMesh;
 using geometry::TriMesh;
 
-TriMesh boundary_of(const MixedMesh& mesh) {
-  TriMesh surface{mesh.points, mesh.triangles};
-  for (const geometry::Quad& q : mesh.quads) {
-    surface.triangles.push_back({q[0], q[1], q[2]});
-    surface.triangles.push_back({q[0], q[2], q[3]});
-  }
-  return surface;
-}
-
-std::vector<Vec3> centroids(const MixedMesh& mesh) {
-  std::vector<Vec3> centres;
-  const auto add = [&](const auto& corners) {
-    Vec3 sum = Vec3::Zero();
-    for (const std::int32_t p : corners) sum += mesh.points[static_cast<std::size_t>(p)];
-    centres.push_back(sum / static_cast<double>(corners.size()));
-  };
-  for (const geometry::Tetrahedron& t : mesh.tetrahedra) add(t);
-  for (const geometry::Prism& p : mesh.prisms) add(p);
-  return centres;
-}
-
 /// How much farther the wall in front is than that behind, mm, at the mesh's points: carried there from the
-/// elements' centroids, which lie inside for certain.
+/// elements' centres, which lie inside for certain.
 std::vector<double> behind_the_middle(const MixedMesh& mesh, const Vec3& sight,
                                       const core::TaskContext& task) {
-  const geometry::AabbTree tree(boundary_of(mesh));
-  const std::vector<Vec3> centres = centroids(mesh);
+  const geometry::AabbTree tree(geometry::boundary_triangles(mesh));
+  const std::vector<Vec3> centres = geometry::element_centres(mesh);
   std::vector<double> depth(centres.size());
   core::parallel_for(centres.size(), 512, [&](std::size_t i) {
     if (i % 512 == 0) task.throw_if_cancelled();

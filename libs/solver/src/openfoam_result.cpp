@@ -1,10 +1,9 @@
 #include "ostia/solver/openfoam_result.h"
 
 #include "case_text.h"
-#include "openfoam_words.h"
 
 #include "ostia/core/error.h"
-#include "ostia/core/files.h"
+#include "ostia/io/openfoam_words.h"
 
 #include <algorithm>
 #include <charconv>
@@ -16,11 +15,20 @@ namespace ostia::solver {
 namespace fs = std::filesystem;
 namespace {
 
-using Words = OpenfoamWords;
+using Words = io::OpenfoamWords;
+
+double value_in(Words& words) {
+  const std::string_view word = words.next();
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (word.empty() || error != std::errc() || end != word.data() + word.size() || !std::isfinite(value))
+    words.refuse("\"" + Words::shown(word) + "\" is no finite number; did the run diverge?");
+  return value;
+}
 
 void read_value(Words& words, std::size_t components, std::vector<double>& out) {
   if (components == 3) words.expect("(");
-  for (std::size_t c = 0; c < components; ++c) out.push_back(words.number());
+  for (std::size_t c = 0; c < components; ++c) out.push_back(value_in(words));
   if (components == 3) words.expect(")");
 }
 
@@ -34,7 +42,7 @@ std::vector<double> read_values(Words& words, std::size_t components, std::size_
     for (std::size_t i = 0; i < count; ++i) values.insert(values.end(), one.begin(), one.end());
   } else if (how == "nonuniform") {
     words.next();  // List<...>
-    const double told = words.number();
+    const double told = value_in(words);
     if (told != static_cast<double>(count))
       words.refuse("it has " + solver::number(told) + " values where the mesh has " + std::to_string(count) +
                    "; was the case made of another mesh?");
@@ -85,8 +93,7 @@ double OpenfoamField::magnitude(const std::vector<double>& values, std::size_t i
 
 OpenfoamField read_openfoam_field(const fs::path& file, std::size_t cells,
                                   const std::map<std::string, std::size_t>& facets) {
-  const std::string text = core::read_file(file);
-  Words words(text, file);
+  Words words(file);
   OpenfoamField field;
   field.components = components_of(words);
   for (std::string_view word = words.next(); word != "internalField"; word = words.next())

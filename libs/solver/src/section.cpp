@@ -1,10 +1,12 @@
 #include "ostia/solver/section.h"
 
+#include "facets.h"
+
 #include "ostia/core/error.h"
 
 #include <cmath>
-#include <map>
 #include <numbers>
+#include <span>
 #include <string>
 
 namespace ostia::solver {
@@ -16,15 +18,15 @@ using geometry::Vec3;
 /// Takes the facets of one face over with points of their own.
 class Collector {
  public:
-  Collector(const MixedMesh& mesh, Section& section) : mesh_(mesh), section_(section) {}
+  Collector(const MixedMesh& mesh, Section& section) : section_(section), local_(mesh, section.points) {}
 
-  void add(const std::int32_t* corners, std::size_t count) {
+  void add(std::span<const std::int32_t> corners) {
     std::array<std::int32_t, 4> facet = {-1, -1, -1, -1};
-    for (std::size_t i = 0; i < count; ++i) facet[i] = local(corners[i]);
+    for (std::size_t i = 0; i < corners.size(); ++i) facet[i] = local_(corners[i]);
     section_.facets.push_back(facet);
     const auto p = [&](std::size_t i) { return section_.points[static_cast<std::size_t>(facet[i])]; };
     const Vec3 first = (p(1) - p(0)).cross(p(2) - p(0)) / 2.0;
-    if (count == 3) {
+    if (corners.size() == 3) {
       section_.area_vectors_mm2.push_back(first);
       section_.centres.emplace_back((p(0) + p(1) + p(2)) / 3.0);
       return;
@@ -36,14 +38,8 @@ class Collector {
   }
 
  private:
-  std::int32_t local(std::int32_t point) {
-    const auto [place, fresh] = places_.emplace(point, static_cast<std::int32_t>(section_.points.size()));
-    if (fresh) section_.points.push_back(mesh_.points[static_cast<std::size_t>(point)]);
-    return place->second;
-  }
-  const MixedMesh& mesh_;
   Section& section_;
-  std::map<std::int32_t, std::int32_t> places_;
+  OwnPoints local_;
 };
 
 }  // namespace
@@ -55,10 +51,7 @@ double Section::diameter_mm() const {
 Section section_of(const MixedMesh& mesh, std::int32_t face_id) {
   Section section;
   Collector collector(mesh, section);
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-    if (mesh.triangle_face_ids[i] == face_id) collector.add(mesh.triangles[i].data(), 3);
-  for (std::size_t i = 0; i < mesh.quads.size(); ++i)
-    if (mesh.quad_face_ids[i] == face_id) collector.add(mesh.quads[i].data(), 4);
+  for_facets_of(mesh, face_id, [&](const auto& corners) { collector.add(corners); });
   if (section.facets.empty())
     throw InvalidInput("the mesh's face " + std::to_string(face_id) + " has no facets");
   Vec3 sum = Vec3::Zero();

@@ -1,6 +1,9 @@
 #include "ostia/solver/wall_surface.h"
 
+#include "facets.h"
+
 #include "ostia/core/error.h"
+#include "ostia/geometry/faces.h"
 #include "ostia/io/mesh_export.h"
 #include "ostia/meshing/boundary_layer.h"
 
@@ -30,17 +33,17 @@ class Carrier {
   std::vector<double> sums_, weights_;
 };
 
+/// Takes the facets of walls over.
 class Collector {
  public:
-  Collector(const MixedMesh& mesh, WallSurface& wall)
-      : mesh_(mesh), wall_(wall), places_(mesh.points.size(), -1) {}
+  Collector(const MixedMesh& mesh, WallSurface& wall) : wall_(wall), local_(mesh, wall.surface.mesh.points) {}
 
   template <std::size_t N>
   void add(const std::array<std::int32_t, N>& corners, std::int32_t face) {
     const auto facet = static_cast<std::int32_t>(wall_.areas_mm2.size());
     double area = 0.0;
     for (std::size_t i = 2; i < N; ++i) {
-      const geometry::Triangle t{local(corners[0]), local(corners[i - 1]), local(corners[i])};
+      const geometry::Triangle t{local_(corners[0]), local_(corners[i - 1]), local_(corners[i])};
       const auto p = [&](std::size_t k) { return wall_.surface.mesh.points[static_cast<std::size_t>(t[k])]; };
       area += (p(1) - p(0)).cross(p(2) - p(0)).norm() / 2.0;
       wall_.surface.mesh.triangles.push_back(t);
@@ -49,20 +52,11 @@ class Collector {
     }
     wall_.areas_mm2.push_back(area);
   }
+  const std::vector<std::int32_t>& taken() const { return local_.taken(); }
 
  private:
-  std::int32_t local(std::int32_t point) {
-    std::int32_t& place = places_[static_cast<std::size_t>(point)];
-    if (place < 0) {
-      place = static_cast<std::int32_t>(wall_.mesh_points.size());
-      wall_.mesh_points.push_back(point);
-      wall_.surface.mesh.points.push_back(mesh_.points[static_cast<std::size_t>(point)]);
-    }
-    return place;
-  }
-  const MixedMesh& mesh_;
   WallSurface& wall_;
-  std::vector<std::int32_t> places_;
+  OwnPoints local_;
 };
 
 }  // namespace
@@ -73,18 +67,16 @@ WallSurface wall_surface(const MixedMesh& mesh) {
   const std::vector<std::string> names = io::safe_face_names(mesh.faces);
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     const geometry::Face& face = mesh.faces[f];
-    if (face.kind != geometry::FaceKind::wall) continue;
+    if (!geometry::is_wall(face)) continue;
     WallSurface::Part part{names[f], wall.areas_mm2.size(), 0};
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-      if (mesh.triangle_face_ids[i] == face.id) collector.add(mesh.triangles[i], face.id);
-    for (std::size_t i = 0; i < mesh.quads.size(); ++i)
-      if (mesh.quad_face_ids[i] == face.id) collector.add(mesh.quads[i], face.id);
+    for_facets_of(mesh, face.id, [&](const auto& corners) { collector.add(corners, face.id); });
     part.count = wall.areas_mm2.size() - part.first;
     if (part.count == 0) continue;
     wall.parts.push_back(part);
     wall.surface.faces.push_back({face.id, names[f], face.kind});
   }
   if (wall.parts.empty()) throw InvalidInput("the mesh has no wall");
+  wall.mesh_points = collector.taken();
   return wall;
 }
 

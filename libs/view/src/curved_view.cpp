@@ -2,8 +2,10 @@
 
 #include "measure_marks.h"
 #include "measure_placing.h"
+#include "wall_cut.h"
 
 #include "ostia/lumen/views.h"
+#include "ostia/session/beating.h"
 #include "ostia/view/words.h"
 
 #include <algorithm>
@@ -214,7 +216,7 @@ void CurvedView::scroll(double steps) {
 GreyImage CurvedView::make_image() {
   const reformat::CurvedReformation* shown = reformation();
   if (!shown) return {};
-  reformat::CurvedImage wide = reformat::reformatted(*bench().image().volume, *shown);
+  reformat::CurvedImage wide = reformat::reformatted(*bench().shown_volume(), *shown);
   if (wide.width == width()) return {wide.width, wide.height, std::move(wide.values)};
   GreyImage cut{width(), height(), {}};
   cut.values.reserve(static_cast<std::size_t>(width()) * static_cast<std::size_t>(height()));
@@ -242,6 +244,42 @@ std::vector<Vec2> CurvedView::contour_seeds() {
   for (std::size_t i = 0; i < all.size(); i += step) seeds.push_back(all[i]);
   if (!all.empty()) seeds.push_back(all.back());
   return seeds;
+}
+
+std::vector<double> CurvedView::about_out_mm(const session::ShownPhase& phase) {
+  constexpr double margin_px = 40.0;  // feet of another phase are off by less
+  const reformat::CurvedReformation* shown = reformation();
+  const std::vector<Vec3>& points = phase.wall()->points;
+  const std::vector<double>& feet = phase.beating().wall_feet(bench().vessel.get());
+  const session::CarriedAxis& axis = phase.axis(bench().vessel.get());
+  std::vector<reformat::CurvedReformation::Row> rows;
+  const int first = -static_cast<int>(margin_px), last = height() + static_cast<int>(margin_px);
+  for (int row = first; row <= last; ++row) rows.push_back(shown->row(row));
+  std::vector<double> out_mm(points.size(), std::nan(""));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (std::isnan(feet[i])) continue;
+    const double row = shown->row_at_abscissa(axis.here(feet[i]));
+    if (row < first || row > last) continue;
+    const reformat::CurvedReformation::Row& at = rows[static_cast<std::size_t>(std::lround(row) - first)];
+    out_mm[i] = (points[i] - at.start).dot(at.across);
+  }
+  return out_mm;
+}
+
+std::vector<lumen::ContourLine> CurvedView::cut(const session::ShownPhase& phase) {
+  constexpr double slack_mm = 0.4;   // by which a foot of the case's own phase may be off across the view
+  constexpr double widest_mm = 2.0;  // of a triangle in the picture, several times its size
+  const reformat::CurvedReformation* shown = reformation();
+  if (!shown) return {};
+  const session::CarriedAxis& axis = phase.axis(bench().vessel.get());
+  const std::vector<double>& feet = phase.beating().wall_feet(bench().vessel.get());
+  const std::vector<Vec3>& points = phase.wall()->points;
+  return wall_cut(*phase.wall(), about_out_mm(phase), slack_mm, widest_mm / shown->options().pixel_mm,
+                  [&](std::size_t i) -> std::optional<SeenCorner> {
+                    const auto at = shown->project(points[i], axis.here(feet[i]));
+                    if (!at) return std::nullopt;
+                    return SeenCorner{at->picture_px, at->out_mm};
+                  });
 }
 
 lumen::ContourLineOptions CurvedView::line_options() const {
@@ -292,7 +330,8 @@ void CurvedView::add_to_overlay(Overlay& overlay) {
     overlay.lines.push_back({{Vec2(middle + gap, row), Vec2(width(), row)}, Role::cursor});
   }
   for (const analysis::Stenosis& one : bench().known_stenoses(bench().vessel.get())) {
-    const double from = shown->row_at_abscissa(one.from_mm), to = shown->row_at_abscissa(one.to_mm);
+    const double from = shown->row_at_abscissa(bench().here_mm(one.from_mm)),
+                 to = shown->row_at_abscissa(bench().here_mm(one.to_mm));
     overlay.bands.push_back({Vec2(0.0, from), Vec2(units(5.0), to), Role::stenosis, 0.8});
   }
   if (bench().tool.get() == session::Tool::axis)

@@ -30,7 +30,7 @@ Role role_of(const session::Workbench& bench, const analysis::Measurement& measu
 
 std::vector<analysis::Measurement> stretches_of(const session::Workbench& bench) {
   std::vector<analysis::Measurement> found;
-  if (!bench.has_case() || !bench.marks_shown.get()) return found;
+  if (!bench.has_case() || !bench.marks_shown.get() || bench.other_phase()) return found;
   for (const analysis::Measurement& one : bench.session().file().annotations()->measurements)
     if (one.points.empty() && one.vessel == bench.vessel.get()) found.push_back(one);
   return found;

@@ -21,7 +21,8 @@ using geometry::Vec3;
 
 constexpr figure::Color uncolored{0.72, 0.74, 0.78, 1.0};
 constexpr figure::Color pointed_at{1.0, 0.25, 0.85, 1.0};  // no colour of the scales
-constexpr double pointed_at_px = 3.0;
+constexpr figure::Color taken_hold_of{1.0, 0.55, 0.1, 1.0};
+constexpr double line_px = 3.0;
 
 }  // namespace
 
@@ -31,7 +32,15 @@ struct MeshScene::Impl {
   std::optional<ValueScale> scale;
   std::optional<MeshCut> cut;
   std::vector<ShellSide> shell;
+  std::vector<Vec3> outline;  // of the whole mesh
+  std::vector<SceneLine> highlight, handle;
   FlatGuest drawn;
+
+  void show_lines() {
+    std::vector<SceneLine> lines = highlight;
+    lines.insert(lines.end(), handle.begin(), handle.end());
+    drawn.set_lines(lines, line_px);
+  }
 };
 
 MeshScene::MeshScene(std::shared_ptr<const ShownMesh> mesh) : impl_(std::make_unique<Impl>()) {
@@ -39,6 +48,10 @@ MeshScene::MeshScene(std::shared_ptr<const ShownMesh> mesh) : impl_(std::make_un
   impl_->mesh = std::move(mesh);
   impl_->drawn.surface->GetProperty()->EdgeVisibilityOn();
   set_flat_points(*impl_->drawn.sides, impl_->mesh->mesh->points);
+  impl_->shell = shell_of(*impl_->mesh);
+  impl_->outline.reserve(impl_->shell.size());
+  for (const ShellSide& side : impl_->shell)
+    impl_->outline.push_back(impl_->mesh->mesh->points[static_cast<std::size_t>(side.corners[0])]);
   show_shell();
 }
 
@@ -56,6 +69,7 @@ void MeshScene::set_values(std::shared_ptr<const std::vector<double>> values, co
 }
 
 void MeshScene::set_cut(const std::optional<MeshCut>& cut) {
+  if (cut == impl_->cut) return;
   std::vector<ShellSide> shell = shell_of(*impl_->mesh, cut);
   impl_->cut = cut;
   impl_->shell = std::move(shell);
@@ -85,7 +99,14 @@ void MeshScene::set_highlight(std::span<const std::size_t> elements) {
     else
       for (const auto& edge : geometry::prism_edges) add(edge);
   }
-  impl_->drawn.set_lines(lines, pointed_at_px);
+  impl_->highlight = std::move(lines);
+  impl_->show_lines();
+}
+
+void MeshScene::set_handle(std::span<const std::vector<Vec3>> lines) {
+  impl_->handle.clear();
+  for (const std::vector<Vec3>& line : lines) impl_->handle.push_back({line, false, taken_hold_of});
+  impl_->show_lines();
 }
 
 std::size_t MeshScene::side_count() const {
@@ -101,10 +122,7 @@ vtkSmartPointer<vtkProp> MeshScene::twin() const {
 }
 
 std::vector<Vec3> MeshScene::outline() const {
-  std::vector<Vec3> points;
-  for (const ShellSide& side : shell_of(*impl_->mesh))
-    points.push_back(impl_->mesh->mesh->points[static_cast<std::size_t>(side.corners[0])]);
-  return points;
+  return impl_->outline;
 }
 
 std::optional<ValueScale> MeshScene::bar() const {
@@ -112,7 +130,6 @@ std::optional<ValueScale> MeshScene::bar() const {
 }
 
 void MeshScene::show_shell() {
-  if (impl_->shell.empty() && !impl_->cut) impl_->shell = shell_of(*impl_->mesh);
   std::vector<std::array<std::int32_t, 4>> sides;
   sides.reserve(impl_->shell.size());
   for (const ShellSide& side : impl_->shell) sides.push_back(side.corners);

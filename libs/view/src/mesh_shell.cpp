@@ -2,6 +2,7 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
+#include "ostia/geometry/element_centres.h"
 #include "ostia/geometry/mixed_mesh_sides.h"
 
 #include <span>
@@ -91,10 +92,7 @@ std::shared_ptr<const ShownMesh> prepared(std::shared_ptr<const MixedMesh> mesh,
   task.throw_if_cancelled();
   shown->centres.resize(element_count(*shown->mesh));
   core::parallel_for(shown->centres.size(), grain, [&](std::size_t e) {
-    const auto corners = corners_of(*shown->mesh, e);
-    Vec3 sum = Vec3::Zero();
-    for (const std::int32_t corner : corners) sum += shown->mesh->points[static_cast<std::size_t>(corner)];
-    shown->centres[e] = (sum / static_cast<double>(corners.size())).cast<float>();
+    shown->centres[e] = geometry::element_centre(*shown->mesh, e).cast<float>();
   });
   task.set_progress(1.0);
   return shown;

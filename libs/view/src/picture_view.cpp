@@ -4,6 +4,8 @@
 
 #include "ostia/core/parallel.h"
 #include "ostia/reformat/plane.h"
+#include "ostia/session/beating.h"
+#include "ostia/view/words.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +14,8 @@ namespace ostia::view {
 namespace {
 
 constexpr double fading_s = 0.8;
+constexpr double least_with_phase_units = 110.0;  // of a view's width: narrower ones have a label beside them
+constexpr double same_phase = 0.005;              // of the cycle
 // Points lie on the wall in any case; chords between them may leave it by a tenth of a pixel.
 constexpr lumen::ContourLineOptions screen_lines{.step_px = 3.0, .largest_mm = 0.4, .bend_px = 0.1};
 
@@ -24,6 +28,11 @@ PictureView::PictureView(session::Workbench& bench) : bench_(bench) {
     contours_stale();
   }));
   keep(bench.model_changed.observe([this](const session::ModelEvent& event) { on_model_changed(event); }));
+  keep(bench.phase_changed.observe([this] {
+    cut_.clear();
+    size_changed();  // the axis is another, whatever was laid out along it
+    image_stale();
+  }));
   keep(bench.annotations_changed.observe([this] { overlay_stale(); }));
   keep(bench.slab.observe([this](const reformat::Slab&) { image_stale(); }));
   keep(bench.slab_mm.observe([this](const double&) {
@@ -47,7 +56,7 @@ void PictureView::set_size(int width, int height, double density) {
 
 const GreyImage& PictureView::image() {
   if (image_fresh_) return image_;
-  image_ = ready() && width_ > 0 && height_ > 0 && bench_.image().volume ? make_image() : GreyImage{};
+  image_ = ready() && width_ > 0 && height_ > 0 && bench_.shown_volume() ? make_image() : GreyImage{};
   image_fresh_ = true;
   ++image_revision_;
   return image_;
@@ -72,9 +81,10 @@ const Overlay& PictureView::overlay() {
   overlay_ = {};
   if (ready() && width_ > 0 && height_ > 0) {
     if (bench_.contours_shown.get()) add_contours(overlay_);
-    for (const Layer& layer : layers_)
-      if (layer) layer(overlay_);
+    for (const Layer& layer : layers_)  // of the case's own phase
+      if (layer && !bench_.other_phase()) layer(overlay_);
     add_to_overlay(overlay_);
+    add_phase(overlay_);
     const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
     append(overlay_.bands, tool_overlay_.bands);
     append(overlay_.lines, tool_overlay_.lines);
@@ -143,8 +153,11 @@ void PictureView::on_model_changed(const session::ModelEvent& event) {
 void PictureView::bring_contours() {
   if (lines_state_ == Lines::fresh) return;
   const bool shown = bench_.has_case() && ready();
-  if (!shown) {
+  const session::ShownPhase* phase = bench_.other_phase();
+  cut_.clear();
+  if (!shown || phase) {
     contours_.reset();
+    if (shown) cut_ = cut(*phase);
   } else if (lines_state_ == Lines::moved && contours_) {
     contours_->update(*bench_.session().live().field(), lines_changed_);
   } else {
@@ -165,6 +178,7 @@ void PictureView::bring_contours() {
 const std::vector<lumen::ContourLine>& PictureView::contour_lines() {
   static const std::vector<lumen::ContourLine> none;
   bring_contours();
+  if (!cut_.empty()) return cut_;
   return contours_ ? contours_->lines() : none;
 }
 
@@ -196,7 +210,7 @@ void PictureView::set_tool_overlay(Overlay overlay) {
 }
 
 std::optional<HandleHit> PictureView::handle_near(const Vec2& px, double reach_px) {
-  if (!bench_.has_case() || !bench_.marks_shown.get()) return std::nullopt;
+  if (!bench_.has_case() || !bench_.marks_shown.get() || bench_.other_phase()) return std::nullopt;
   std::optional<HandleHit> best;
   double nearest = reach_px;
   for (const analysis::Measurement& one : bench_.session().file().annotations()->measurements)
@@ -212,7 +226,7 @@ std::optional<HandleHit> PictureView::handle_near(const Vec2& px, double reach_p
 }
 
 void PictureView::add_measurements(Overlay& overlay, double reach_mm) {
-  if (!bench_.has_case() || !bench_.marks_shown.get()) return;
+  if (!bench_.has_case() || !bench_.marks_shown.get() || bench_.other_phase()) return;
   for (const analysis::Measurement& one : bench_.session().file().annotations()->measurements)
     if (!one.points.empty()) add_measurement_marks(overlay, *this, one, reach_mm);
 }
@@ -235,6 +249,17 @@ void PictureView::add_scale_bar(Overlay& overlay) {
       {{Vec2(x - bar.length_px, y - tick), Vec2(x - bar.length_px, y), Vec2(x, y), Vec2(x, y - tick)},
        Role::information});
   overlay.texts.push_back({Vec2(x, y - units(6.0)), bar.text, Role::information, Anchor::bottom_right});
+}
+
+void PictureView::add_phase(Overlay& overlay) {
+  const session::ShownPhase* phase = bench_.other_phase();
+  if (!phase || width() < units(least_with_phase_units)) return;
+  const double image = bench_.image_phase();
+  std::string text = session::percent_of_cycle(phase->phase());
+  const bool same = session::phase_distance(image, phase->phase()) < same_phase || !bench_.shown_volume();
+  if (!same) text = words().image + " " + session::percent_of_cycle(image) + ", " + words().tree + " " + text;
+  overlay.texts.push_back({Vec2(units(6.0), height() - units(6.0)), text,
+                           same ? Role::information : Role::warning, Anchor::bottom_left});
 }
 
 void PictureView::add_letters(Overlay& overlay, const Vec3& right, const Vec3& down) {

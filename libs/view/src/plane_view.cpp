@@ -2,10 +2,12 @@
 
 #include "measure_marks.h"
 #include "slice_seeds.h"
+#include "wall_cut.h"
 
 #include "ostia/geometry/frame.h"
 #include "ostia/lumen/views.h"
 #include "ostia/reformat/plane_image.h"
+#include "ostia/session/beating.h"
 #include "ostia/view/words.h"
 
 #include <algorithm>
@@ -89,7 +91,7 @@ GreyImage PlaneView::make_image() {
   const std::optional<reformat::Plane>& shown = plane();
   if (!shown) return {};
   const reformat::Slab slab = bench().slab.get();
-  const imaging::ImageVolume& image = *bench().image().volume;
+  const imaging::ImageVolume& image = *bench().shown_volume();
   reformat::PlaneImage made = slab == reformat::Slab::none
                                   ? reformat::slice(image, *shown)
                                   : reformat::slab_slice(image, *shown, slab, bench().slab_mm.get());
@@ -107,6 +109,28 @@ std::vector<Vec2> PlaneView::contour_seeds() {
   const lumen::LumenModel* model = bench().model();
   if (!shown || !model) return {};
   return slice_seeds(*model, *bench().session().live().field(), *shown);
+}
+
+std::vector<lumen::ContourLine> PlaneView::cut(const session::ShownPhase& phase) {
+  const std::optional<reformat::Plane>& shown = plane();
+  if (!shown) return {};
+  const std::vector<Vec3>& points = phase.wall()->points;
+  const Vec3 normal = shown->normal();
+  std::vector<double> out_mm(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) out_mm[i] = (points[i] - shown->origin).dot(normal);
+  std::vector<lumen::ContourLine> lines =
+      wall_cut(*phase.wall(), out_mm, 0.0, 1e9, [&](std::size_t i) -> std::optional<SeenCorner> {
+        const reformat::PlanePoint at = reformat::project(*shown, points[i]);
+        return SeenCorner{at.picture_px, out_mm[i]};
+      });
+  // Views across or through the tree show little of it.
+  const double w = shown->width, h = shown->height;
+  std::erase_if(lines, [&](const lumen::ContourLine& line) {
+    return std::none_of(line.picture_px.begin(), line.picture_px.end(), [&](const Vec2& p) {
+      return p.x() >= 0.0 && p.y() >= 0.0 && p.x() <= w && p.y() <= h;
+    });
+  });
+  return lines;
 }
 
 SectionView::SectionView(session::Workbench& bench, double offset_mm, double side_mm)
@@ -174,7 +198,7 @@ void SectionView::add_to_overlay(Overlay& overlay) {
   overlay.marks.push_back({centre, Role::axis, bench().tool.get() == session::Tool::axis ? 4.0 : 2.0});
   char text[64];
   if (main)
-    std::snprintf(text, sizeof text, "%.1f mm", s_mm());
+    std::snprintf(text, sizeof text, "%.1f mm", bench().own_mm(s_mm()));
   else
     std::snprintf(text, sizeof text, "%+.0f", offset_mm_);
   overlay.texts.push_back({Vec2(units(6.0), units(6.0)), text, Role::information, Anchor::top_left});
@@ -289,7 +313,7 @@ void SliceView::add_to_overlay(Overlay& overlay) {
   line({at.x(), edge}, {at.x(), at.y() - gap});
   line({at.x(), at.y() + gap}, {at.x(), h - edge});
   if (const lumen::LumenModel* model = bench().model())
-    for (const AxisCrossing& one : crossings(*model, *shown))
+    for (const AxisCrossing& one : crossings(*model, *shown, bench().other_phase()))
       overlay.marks.push_back(
           {one.px, one.vessel == bench().vessel.get() ? Role::axis : Role::other_axis, 2.0});
   if (const auto& begun = bench().first_end.get()) {

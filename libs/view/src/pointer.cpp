@@ -175,6 +175,9 @@ void Pointer::press(const PointerEvent& event) {
   const Telling telling(*this, {HandAct::Kind::press, event, 0.0});
   if (gesture_ || !view_.ready()) return;
   taken_.reset();
+  // At another phase of the heart the view can be turned, moved and walked through.
+  if (event.button == Button::left && !event.shift && view_.bench().tool.get() != Tool::browse)
+    view_.bench().require_own_phase();
   if (event.button == Button::left && !event.shift && !handle_at(event) && click_of_tool(event)) return;
   last_ = event;
   gesture_ = gesture_of(event);
@@ -217,6 +220,7 @@ void Pointer::hover(const PointerEvent& event) {
     shape_ = CursorShape::turn;
     return;
   }
+  if (view_.bench().other_phase()) return;
   if (handle_at(event)) {
     shape_ = CursorShape::grab;
   } else if (tool == Tool::drag && view_.bench().has_case()) {
@@ -243,7 +247,7 @@ void Pointer::hover(const PointerEvent& event) {
 void Pointer::double_click(const PointerEvent& event) {
   const Telling telling(*this, {HandAct::Kind::double_click, event, 0.0});
   session::Workbench& bench = view_.bench();
-  if (bench.tool.get() != Tool::axis || !bench.has_case()) return;
+  if (bench.tool.get() != Tool::axis || !bench.has_case() || bench.other_phase()) return;
   const std::optional<Vec3> place = view_.world(event.px);
   if (!place) return;
   const NearestAxis nearest = nearest_axis(bench, *place);

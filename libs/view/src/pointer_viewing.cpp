@@ -24,7 +24,7 @@ NearestAxis nearest_axis(const session::Workbench& bench, const Vec3& place) {
   };
   // The selected vessel first: of several that share a stretch it is the one that is meant.
   if (const auto axis = bench.axis()) offer(bench.vessel.get(), *axis);
-  for (const auto& vessel : model->vessels) offer(vessel->vessel, *vessel->axis);
+  for (const auto& vessel : model->vessels) offer(vessel->vessel, *bench.axis(vessel->vessel));
   return best;
 }
 

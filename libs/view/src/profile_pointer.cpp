@@ -41,7 +41,8 @@ std::optional<HandleHit> ProfilePointer::handle_near(const Vec2& px) const {
 }
 
 void ProfilePointer::go_to(const Vec2& px) {
-  if (const std::optional<double> s = view_.abscissa_at(px.x())) view_.bench().cursor_mm.set(*s);
+  if (const std::optional<double> s = view_.abscissa_at(px.x()))
+    view_.bench().cursor_mm.set(view_.bench().here_mm(*s));
 }
 
 void ProfilePointer::hover(const Vec2& px) {

@@ -239,7 +239,7 @@ const Overlay& ProfileView::overlay() {
   add_stretches();
   add_curves(f, *profile);
   add_outer_wall(f);
-  const double s = bench_.cursor_mm.get();
+  const double s = bench_.own_mm(bench_.cursor_mm.get());
   overlay_.lines.push_back({{Vec2(f.x(s), f.top), Vec2(f.x(s), f.bottom)}, Role::cursor});
   add_titles(f);
   return overlay_;

@@ -91,7 +91,7 @@ std::optional<SceneMeasurement> in_scene(const session::Workbench& bench, const 
 
 std::vector<SceneMeasurement> scene_measurements(const session::Workbench& bench) {
   std::vector<SceneMeasurement> all;
-  if (!bench.has_case() || !bench.marks_shown.get()) return all;
+  if (!bench.has_case() || !bench.marks_shown.get() || bench.other_phase()) return all;
   for (const Measurement& one : bench.session().file().annotations()->measurements)
     if (std::optional<SceneMeasurement> shown = in_scene(bench, one)) {
       shown->label = label_of(bench, one);

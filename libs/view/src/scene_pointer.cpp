@@ -212,6 +212,7 @@ void ScenePointer::choose(const std::optional<ScenePick>& hit) {
 }
 
 void ScenePointer::place(MeasureKind kind, const ScenePick& hit) {
+  bench_.require_own_phase();
   if (!clicked_.empty() && (scene_.project(clicked_.back().point) - scene_.project(hit.point)).norm() <
                                trembling_units * scene_.pixel_ratio())
     return;  // the second half of a double click
@@ -238,7 +239,7 @@ void ScenePointer::hover(const Vec2& px) {
     show_draft(std::optional<ScenePick>());
     return;
   }
-  if (!kind) return;
+  if (!kind || bench_.other_phase()) return;
   std::optional<ScenePick> hit = scene_.pick(px);
   if (hit && !hit->vessel) hit.reset();
   if (hit) shape_ = CursorShape::cross;

@@ -1,5 +1,7 @@
 #include "slice_seeds.h"
 
+#include "ostia/session/beating.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -105,12 +107,26 @@ void add_seeds(std::vector<Foot>::const_iterator first, std::vector<Foot>::const
 
 }  // namespace
 
-std::vector<AxisCrossing> crossings(const lumen::LumenModel& model, const reformat::Plane& plane) {
+std::vector<AxisCrossing> crossings(const lumen::LumenModel& model, const reformat::Plane& plane,
+                                    const session::ShownPhase* phase) {
   std::vector<AxisCrossing> found;
-  for_axes(model, [&](const geometry::Centerline& axis, std::int32_t vessel) {
+  const auto add = [&](const geometry::Centerline& axis, std::int32_t vessel) {
     for (const Foot& foot : feet_of(axis, plane))
       if (foot.crossing) found.push_back({foot.px, vessel});
-  });
+  };
+  if (!phase) {
+    for_axes(model, add);
+    return found;
+  }
+  constexpr double step_mm = 0.5;
+  for (const auto& vessel : model.vessels) {
+    const session::CarriedAxis& carried = phase->axis(vessel->vessel);
+    const double from = carried.here(vessel->own_from_mm), length = carried.curve()->length();
+    geometry::Centerline own;  // before it the axis is another vessel's
+    for (double s = from; s < length + step_mm; s += step_mm)
+      own.points.push_back(carried.curve()->point(std::min(s, length)));
+    add(own, vessel->vessel);
+  }
   return found;
 }
 

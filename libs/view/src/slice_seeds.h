@@ -8,6 +8,10 @@
 #include <cstdint>
 #include <vector>
 
+namespace ostia::session {
+class ShownPhase;
+}
+
 namespace ostia::view {
 
 using geometry::Vec2;
@@ -18,8 +22,9 @@ struct AxisCrossing {
   Vec2 px = Vec2::Zero();
   std::int32_t vessel = 0;
 };
-/// Those within the picture.
-std::vector<AxisCrossing> crossings(const lumen::LumenModel& model, const reformat::Plane& plane);
+/// Those within the picture, of axes as the model has them, or where a phase of the heart has carried them.
+std::vector<AxisCrossing> crossings(const lumen::LumenModel& model, const reformat::Plane& plane,
+                                    const session::ShownPhase* phase = nullptr);
 
 /// Places of the picture from which the lines of all lumens are found that the plane cuts: where axes cross
 /// it and, of an axis that runs beside it within its lumen, the foot of the nearest point and others some

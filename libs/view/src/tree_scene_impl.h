@@ -49,6 +49,7 @@ struct TreeScene::Impl {
   std::vector<std::shared_ptr<const lumen::VesselLumen>> vessels;
   std::unique_ptr<const WallOwner> owner;
   std::vector<WallPlace> places;
+  bool moved = false;  // the wall is at another phase than its owner and its places' abscissas
   std::vector<std::size_t> place_vessel;  // index in `vessels`, one a point
   std::vector<double> values;
   ValueScale scale;

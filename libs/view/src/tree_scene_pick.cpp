@@ -163,11 +163,13 @@ std::optional<ScenePick> TreeScene::Impl::wall_pick(const Vec3& origin, const Ve
   if (!hit) return {};
   const Vec3 point = origin + hit->second * direction;
   // A triangle is drawn or not by its first corner; so is it told whose it is where it lies between two.
-  WallPlace place = owner->at(point);
+  WallPlace place =
+      moved ? places[static_cast<std::size_t>(wall->triangles[hit->first][0])] : owner->at(point);
   if (!styles.at(place.vessel).visible)
     place = places[static_cast<std::size_t>(wall->triangles[hit->first][0])];
   const geometry::AxisCurve& axis = *vessel(place.vessel).axis;
-  const auto foot = axis.foot_near(point, place.s_mm, window_mm);
+  const auto foot =
+      moved ? std::optional<geometry::AxisFoot>() : axis.foot_near(point, place.s_mm, window_mm);
   return ScenePick{point, place.vessel, foot ? foot->s_mm : axis.nearest_foot(point).s_mm, {}};
 }
 

@@ -50,7 +50,8 @@ void TreeScene::set_wall(std::shared_ptr<const geometry::TriMesh> wall, const lu
   if (!wall) throw InvalidInput("there is no wall to be shown; clear_wall takes the former one away");
   check(*wall);
   Impl& scene = *impl_;
-  const std::shared_ptr<const geometry::TriMesh> former = std::exchange(scene.wall, std::move(wall));
+  std::shared_ptr<const geometry::TriMesh> former = std::exchange(scene.wall, std::move(wall));
+  if (std::exchange(scene.moved, false)) former.reset();  // what is drawn is at another phase
   std::optional<WallChange> change;
   if (former && same_axes(scene.vessels, model.vessels)) change = change_between(*former, *scene.wall);
   // Of the same points it may still have other triangles.
@@ -58,6 +59,26 @@ void TreeScene::set_wall(std::shared_ptr<const geometry::TriMesh> wall, const lu
   scene.take_places(model, former, change);
   if (scene.values.size() != scene.places.size()) clear_wall_values();
   if (!change || !scene.show_moved(*former, *change)) scene.show_wall();
+}
+
+void TreeScene::move_wall(std::shared_ptr<const geometry::TriMesh> moved,
+                          const std::vector<std::shared_ptr<const geometry::AxisCurve>>& axes) {
+  Impl& scene = *impl_;
+  if (!moved || !scene.wall || moved->points.size() != scene.wall->points.size() ||
+      axes.size() != scene.vessels.size())
+    throw InvalidInput("the wall at another phase is not the one that is shown");
+  if (!scene.moving_box.isEmpty()) scene.show_wall();
+  scene.wall = std::move(moved);
+  scene.moved = true;
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    lumen::VesselLumen carried;  // without samples: nothing asks for them
+    carried.vessel = scene.vessels[i]->vessel;
+    carried.axis = axes[i];
+    carried.own_from_mm = scene.vessels[i]->own_from_mm;
+    scene.vessels[i] = std::make_shared<const lumen::VesselLumen>(std::move(carried));
+  }
+  scene.wall_actor.set_points(*scene.wall, smooth_normals(*scene.wall));
+  scene.make_axes();
 }
 
 /// Whose each point is: kept for points that were there before and lie away from the change.

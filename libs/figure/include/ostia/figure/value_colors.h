@@ -10,6 +10,8 @@ namespace ostia::figure {
 /// Viridis (van der Walt and Smith 2015), evenly brighter from dark blue to yellow, at `t` in [0, 1],
 /// clamped; grey where it is not a number.
 Color viridis(double t);
+/// Blue, nearly white in the middle, vermilion, for signed values about zero; `t` as above.
+Color blue_to_vermilion(double t);
 
 struct ValueBar {
   std::string title;             ///< with its unit: "wall shear stress, Pa"

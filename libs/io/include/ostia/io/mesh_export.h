@@ -47,6 +47,9 @@ struct MeshExportOptions {
   /// Of the volume: its physical group, zone, block or part, made safe as the faces' names are
   /// and at most 16 characters.
   std::string title = "mesh";
+  /// How many of the tetrahedra, the last ones, are layers' prisms that were split; formats that have a place
+  /// for it tell them apart: docs/mesh-formats.md.
+  std::size_t layer_tetrahedra = 0;
 };
 
 struct MeshExportResult {

@@ -1,6 +1,7 @@
 #pragma once
 /// \file Surfaces: STL, PLY, OBJ and VTP in; STL, PLY and VTP out. World LPS, mm.
 
+#include "ostia/core/error.h"
 #include "ostia/geometry/tri_mesh.h"
 
 #include <filesystem>
@@ -15,13 +16,19 @@ struct LoadedSurface {
   std::vector<std::string> warnings;  ///< "12 quadrilaterals split into triangles"
 };
 
+/// A sound file without a triangle: where several are read, one of them may hold nothing.
+class EmptySurface : public InvalidInput {
+ public:
+  using InvalidInput::InvalidInput;
+};
+
 /// True for an extension that `read_surface` knows.
 bool is_surface_file(const std::filesystem::path& path);
 
 /// Reads by extension and content. Points of an STL that are equal bit for bit are one point. Checked before
 /// anything is allocated by it: triangle counts against the file's size, indices against the number of
-/// points, XML for entities. Throws InvalidInput naming the file and the field, IoError when it cannot be
-/// read.
+/// points, XML for entities. Throws InvalidInput naming the file and the field (EmptySurface where there is
+/// no triangle), IoError when it cannot be read.
 LoadedSurface read_surface(const std::filesystem::path& path);
 
 /// Writes by extension, whole or not at all. STL: binary, single precision. VTP: `CellEntityIds` and the

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace ostia::io {
 
@@ -20,5 +21,14 @@ std::string readable_volume_meshes();
 /// free sides. Throws InvalidInput: no sound file, cells of other types (by name), linear and quadratic
 /// elements together, no elements.
 geometry::MixedMesh read_volume_mesh(const std::filesystem::path& path);
+
+struct LayeredMesh {
+  geometry::MixedMesh mesh;
+  std::vector<bool> in_layers;  ///< each tetrahedron: whether it was a layer's prism; empty: not told
+};
+/// The same with what the file says of layers: VTU's and XDMF's cell array `layer`; a volume group of Gmsh, a
+/// block of Exodus II, an element set of Abaqus, a section of CGNS or a cell zone of OpenFOAM whose name ends
+/// with `_layers`.
+LayeredMesh read_layered_mesh(const std::filesystem::path& path);
 
 }  // namespace ostia::io

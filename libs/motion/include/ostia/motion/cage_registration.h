@@ -19,6 +19,9 @@ struct RegistrationOptions {
   /// Weight of squared distances, times the surface they stand for, against the energy, 1/mm. > 0.
   double data_weight = 1e4;
   int most_rounds = 12;  ///< of pairing and solving at each depth; in [1, 1000]
+  /// Surfaces of more points are paired by coarser copies of about that many; all points are carried in the
+  /// end. At least 100.
+  int most_points = 30000;
   /// Control points of a neighbouring phase, at full depth: the coarsest cage starts at these. The cage is
   /// that around the source, so this is for several targets of one source. Empty: at rest.
   std::vector<geometry::Vec3> start;

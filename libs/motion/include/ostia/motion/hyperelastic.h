@@ -37,13 +37,23 @@ struct CellEnergy {
 
 enum class Derivatives { none, first, second };
 
-/// Hyperelastic energy of a box of `cell_mm` deformed to eight corners: the integral over its 24 tetrahedra,
-/// with constant deformation gradient F in each, of (Burger, Modersitzki and Ruthotto 2013)
+/// Hyperelastic energy of a deformed box: the integral over its 24 tetrahedra, with constant deformation
+/// gradient F in each, of (Burger, Modersitzki and Ruthotto 2013)
 ///
 ///     length/2 |F - 1|^2 + area sum_i max(|cof F e_i|^2 - 1, 0)^2 + volume ((det F - 1)^2 / det F)^2.
 ///
 /// Gradients are exact, with the motion of face and volume points in them.
-CellEnergy cell_energy(const std::array<geometry::Vec3, 8>& corners, const geometry::Vec3& cell_mm,
-                       const HyperelasticWeights& weights, Derivatives derivatives);
+class ElasticCell {
+ public:
+  /// The size of the box at rest: what all cells of a grid have in common.
+  explicit ElasticCell(const geometry::Vec3& cell_mm);
+  /// Of the box deformed to eight corners.
+  CellEnergy energy(const std::array<geometry::Vec3, 8>& corners, const HyperelasticWeights& weights,
+                    Derivatives derivatives) const;
+
+ private:
+  double tetrahedron_mm3_;
+  std::array<geometry::Mat3, 24> inverse_;  ///< of the tetrahedra's edges
+};
 
 }  // namespace ostia::motion

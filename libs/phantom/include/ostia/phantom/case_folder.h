@@ -3,6 +3,7 @@
 
 #include "ostia/core/task_context.h"
 #include "ostia/phantom/phantom_case.h"
+#include "ostia/phantom/vessel_motion.h"
 
 #include <filesystem>
 #include <functional>
@@ -18,6 +19,8 @@ struct SuiteOptions {
   bool truth_only = false;  ///< no image and no label volume
   bool mhd = true, nrrd = true, dicom = true;
   bool report = true;  ///< report.html and report/*.png
+  /// Of the heart's beat, at equal distances, 1 to 100; 1: the heart stands still (docs/phantom-motion.md).
+  int phases = 1;
 };
 void validate(const SuiteOptions& options);  ///< throws InvalidInput
 std::string parameters_json(const SuiteOptions& options);
@@ -28,6 +31,7 @@ struct CaseRecord {
   int healthy = 0, diseased = 0;  ///< sections
   double healthy_mm = 0.0, diseased_mm = 0.0;
   std::vector<std::string> warnings;
+  std::vector<VesselMotion> motion;  ///< empty where the heart stands still
 };
 struct SuiteRecord {
   std::vector<CaseRecord> cases;
@@ -38,7 +42,7 @@ struct SuiteRecord {
 
 /// `case.json` (docs/schemas/phantom-case.schema.json) and `suite.json`
 /// (docs/schemas/phantom-suite.schema.json).
-std::string case_json(const CasePlan& plan, int number, bool with_image);
+std::string case_json(const CasePlan& plan, int number, bool with_image, int phases = 1);
 std::string suite_json(const SuiteOptions& options, const SuiteRecord& record);
 
 /// Writes dataset00, dataset01, ... and suite.json into a folder beside `folder`, calls `finish` with that

@@ -83,6 +83,21 @@ struct Model {
   std::vector<StageTime> stages;
 };
 
+/// How its ends are cut: see ModelOptions::inset_radii.
+meshing::ClipOptions clip_of(const Source& source, const ModelOptions& options);
+
+/// A model up to its mesh, and the lumen's axes from end to end.
+struct LumenWithAxes {
+  Model model;  ///< without `meshed`
+  geometry::VesselTree axes;
+};
+/// The stages before meshing, and those after: build_model has both. Throws what the stages throw; nothing
+/// is written.
+LumenWithAxes build_lumen(Source source, const ModelOptions& options,
+                          const core::TaskContext& task = core::no_task());
+Model mesh_model(LumenWithAxes lumen, const ModelOptions& options,
+                 const core::TaskContext& task = core::no_task());
+
 /// Runs all stages. Throws what they throw; nothing is written.
 Model build_model(Source source, const ModelOptions& options,
                   const core::TaskContext& task = core::no_task());

@@ -49,7 +49,7 @@ double least_scaled_jacobian(const meshing::MixedQuality& quality);
 
 struct FilledVolume {
   geometry::MixedMesh mesh;
-  std::vector<bool> in_layers;  ///< tetrahedra that were prisms; empty: none
+  std::vector<bool> in_layers;  ///< tetrahedra that were prisms, the last ones; empty: none
   std::optional<meshing::BoundaryLayerReport> layers;
   std::optional<meshing::QuadraticReport> quadratic;
   /// The mesh's boundary, where the mesher that took over could not keep the surface.
@@ -68,12 +68,11 @@ geometry::TriMesh wall_of(const geometry::FacedSurface& surface);
 /// surface is; angles are those of the wall's triangles, since a layer's side is thin however good it is.
 /// Throws what mixed_quality throws.
 MeshQuality judged(const geometry::MixedMesh& mesh, const core::TaskContext& task = core::no_task());
-/// The same where it is known which tetrahedra belong to layers: of each element, as layers_of has it.
+/// The same where it is known which tetrahedra belong to layers: of each tetrahedron.
 MeshQuality judged(const geometry::MixedMesh& mesh, const std::vector<bool>& in_layers,
                    const core::TaskContext& task = core::no_task());
 
-/// What the cell array `layer` of a VTU file says of its tetrahedra (then prisms, which are told by their
-/// shape); empty where there is none. Throws what read_vtu_fields throws.
+/// What io::read_layered_mesh says of a file's tetrahedra, for one whose mesh is at hand already.
 std::vector<bool> layers_of(const std::filesystem::path& file);
 
 /// The file or folder of a format beside others: `mesh.vtu`, `openfoam`, `mesh-gmsh4.msh` (three formats have
@@ -81,8 +80,8 @@ std::vector<bool> layers_of(const std::filesystem::path& file);
 std::string name_in_folder(io::MeshFormat format);
 
 /// Writes mesh.vtu, the formats and the solver's case into an existing folder. Where tetrahedra belong to
-/// layers mesh.vtu has the cell array `layer` (1 there, 0 elsewhere). Returns the writers' warnings, each
-/// once.
+/// layers, formats that can say so do (io::MeshExportOptions::layer_tetrahedra). Returns the writers'
+/// warnings, each once.
 std::vector<std::string> write_volume_mesh(const std::filesystem::path& folder,
                                            const geometry::MixedMesh& mesh,
                                            const std::vector<bool>& in_layers, const VolumeOptions& options,

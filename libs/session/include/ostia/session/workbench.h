@@ -18,6 +18,8 @@
 namespace ostia::session {
 
 using geometry::Vec3;
+class ShownPhase;   // beating.h
+struct PhaseImage;  // beating.h
 
 /// What the mouse's main button does in a view.
 enum class Tool {
@@ -112,6 +114,23 @@ class Workbench {
   std::optional<analysis::SectionMeasures> section(std::int32_t vessel, double s_mm) const;
   std::vector<analysis::MeasuredValue> measured(const analysis::Measurement& measurement) const;
 
+  // -- another phase of the heart than the one that the case is of: axes and places are then that phase's,
+  // and commands that change the case are refused (but for vessels' marks)
+  /// Null: the case's own phase. The cursor stays at the same place of the vessel. Throws InvalidInput
+  /// without a case, and for a phase of another model.
+  void show_phase(std::shared_ptr<const ShownPhase> phase, std::shared_ptr<const PhaseImage> image = {});
+  /// Null where the case's own phase is shown.
+  const ShownPhase* other_phase() const { return phase_.get(); }
+  /// What views show: the phase's image where there is one, else the case's; null without any.
+  const imaging::ImageVolume* shown_volume() const;
+  /// The phase that `shown_volume` is of: the case's own where there is no other.
+  double image_phase() const;  ///< only with other_phase()
+  /// Abscissas on the selected vessel as it is shown, for those at the case's own phase, and back.
+  double here_mm(double own_mm) const;
+  double own_mm(double here_mm) const;
+  /// Throws InvalidInput while another phase is shown, and tells it before.
+  void require_own_phase() const;
+
   // -- commands: each is in the case file when it returns
   Session::Done edit(const lumen::Edit& edit);
   Session::Done edit_merged(const lumen::Edit& edit);
@@ -151,6 +170,8 @@ class Workbench {
   Signal<> annotations_changed;
   mutable Signal<> stenoses_changed;  ///< of any vessel
   Signal<> steps_changed;             ///< the journal has another line
+  Signal<> phase_changed;             ///< another phase of the heart is shown, or with another image
+  mutable Signal<> phase_refused;     ///< a command was refused because of the phase that is shown
   Signal<const std::string&> noted;   ///< what the person should know of an edit
 
  private:
@@ -158,8 +179,12 @@ class Workbench {
   void follow(const Session::Done& done, const lumen::LumenModel& before);
   void cursor_to_vessel();
   void cursor_to_place();
+  void leave_phase();
   OpenImage image_;
   std::unique_ptr<Session> session_;
+  std::shared_ptr<const ShownPhase> phase_;
+  std::shared_ptr<const PhaseImage> phase_image_;
+  bool place_stays_ = false;
   mutable std::map<std::int32_t, std::unique_ptr<Measured>> measured_;
   std::vector<Subscription> own_;
   Measured* measured_of(std::int32_t vessel) const;

@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace ostia::solver {
@@ -15,6 +16,9 @@ enum class Rheology {
   newtonian,
   carreau,  ///< shear-thinning: CarreauLaw
 };
+
+/// "newton", "carreau".
+std::string_view name_of(Rheology rheology);
 
 /// Viscosity of blood at a shear rate g: at_speed + (at_rest - at_speed) (1 + (relaxation g)^2)^((power - 1)
 /// / 2) (Cho and Kensey, Biorheology 1991).
@@ -35,6 +39,9 @@ enum class Outlets {
   split,          ///< a share of the flow each: its diameter to `split_exponent`
   resistance,     ///< pressure = resistance x flow; resistances as diameter to -`split_exponent`
 };
+
+/// "zero", "split", "resistance".
+std::string_view name_of(Outlets outlets);
 
 struct BoundaryFlowOptions {
   Blood blood;

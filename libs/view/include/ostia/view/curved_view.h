@@ -50,12 +50,15 @@ class CurvedView final : public PictureView {
   bool is_torn(const Vec2& picture_px) override;
   std::optional<lumen::ViewSurface> contour_surface() override;
   std::vector<Vec2> contour_seeds() override;
+  std::vector<lumen::ContourLine> cut(const session::ShownPhase& phase) override;
   lumen::ContourLineOptions line_options() const override;
   void add_to_overlay(Overlay& overlay) override;
 
  private:
   const reformat::CurvedReformation* reformation();
   std::pair<Vec2, Vec2> end_line(double s_mm);
+  /// Of each point of the wall, about how far out of the view it lies; NaN above, below and far beside it.
+  std::vector<double> about_out_mm(const session::ShownPhase& phase);
   void add_stretches(Overlay& overlay);
   void moved();
   void read();    ///< large enough to see the wall, about the cursor

@@ -24,6 +24,8 @@ class MeshScene final : public SceneGuest {
   void set_edges_shown(bool shown);
   /// Edges of elements, seen through all else. Throws InvalidInput for an element that is not there.
   void set_highlight(std::span<const std::size_t> elements);
+  /// What the hand takes hold of: polylines, mm, seen through all else.
+  void set_handle(std::span<const std::vector<geometry::Vec3>> lines);
   std::size_t side_count() const;  ///< that are drawn
 
   vtkProp& prop() override;

@@ -28,6 +28,7 @@ std::shared_ptr<const ShownMesh> prepared(std::shared_ptr<const geometry::MixedM
 /// Elements whose centre lies on the side that `normal` points to are taken away.
 struct MeshCut {
   geometry::Vec3 point = geometry::Vec3::Zero(), normal = geometry::Vec3::UnitZ();
+  bool operator==(const MeshCut&) const = default;
 };
 
 /// A side of an element that is seen.

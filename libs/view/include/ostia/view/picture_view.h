@@ -14,6 +14,10 @@
 #include <optional>
 #include <vector>
 
+namespace ostia::session {
+class ShownPhase;
+}
+
 namespace ostia::view {
 
 /// Where a place of the patient appears, and how far in front of or behind the view it lies.
@@ -103,6 +107,8 @@ class PictureView {
   virtual Vec2 contour_offset() const { return Vec2::Zero(); }
   virtual std::optional<lumen::ViewSurface> contour_surface() = 0;
   virtual std::vector<Vec2> contour_seeds() = 0;
+  /// The lines of the wall at another phase of the heart.
+  virtual std::vector<lumen::ContourLine> cut(const session::ShownPhase& phase) = 0;
   virtual lumen::ContourLineOptions line_options() const;
   /// At a place of the contour lines' picture: one row shows there what lies far apart, so that a line would
   /// be drawn across the picture where there is no wall.
@@ -112,6 +118,8 @@ class PictureView {
   void add_measurements(Overlay& overlay, double reach_mm);
   void add_fading(Overlay& overlay, double reach_mm);
   void add_scale_bar(Overlay& overlay);
+  /// At another phase of the heart: which, and of which phase the image is.
+  void add_phase(Overlay& overlay);
   void add_letters(Overlay& overlay, const Vec3& right, const Vec3& down);
   double units(double length) const { return length * density_; }
   /// Keeps observing the workbench as long as the view lives.
@@ -136,6 +144,7 @@ class PictureView {
   enum class Lines { fresh, moved, anew } lines_state_ = Lines::anew;
   geometry::Box3 lines_changed_;
   std::unique_ptr<lumen::ViewContours> contours_;
+  std::vector<lumen::ContourLine> cut_;  // in their place at another phase
   std::vector<Fading> fading_;
   std::vector<session::Subscription> own_;
 };

@@ -31,10 +31,12 @@ class PlaneView : public PictureView {
     double side_mm = 20.0;  ///< shown in the smaller direction when fitted
   };
   virtual std::optional<Placement> placement() const = 0;
+  void size_changed() override { plane_fresh_ = false; }
   void moved();  ///< the placement is another
   GreyImage make_image() override;
   std::optional<lumen::ViewSurface> contour_surface() override;
   std::vector<Vec2> contour_seeds() override;
+  std::vector<lumen::ContourLine> cut(const session::ShownPhase& phase) override;
   Vec2 pan_px_ = Vec2::Zero();
   double zoom_ = 1.0;
 

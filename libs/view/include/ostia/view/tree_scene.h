@@ -68,6 +68,10 @@ class TreeScene {
   /// points that are not there, points that are not finite, or a model without vessels.
   void set_wall(std::shared_ptr<const geometry::TriMesh> wall, const lumen::LumenModel& model);
   void clear_wall();
+  /// The wall and its axes at another phase of the heart: its points only, as many as there were, and all of
+  /// them drawn; set_wall brings the wall back. Throws InvalidInput for another number of points or axes.
+  void move_wall(std::shared_ptr<const geometry::TriMesh> moved,
+                 const std::vector<std::shared_ptr<const geometry::AxisCurve>>& axes);
   /// Of each point of the wall, whose it is.
   std::span<const WallPlace> wall_places() const;
   /// Colours the wall by a value a point (a diameter, a distance from the truth, in mm; NaN is grey), with a

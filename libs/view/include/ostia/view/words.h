@@ -15,6 +15,7 @@ struct Words {
   std::string low_attenuation = "low attenuation", fibrofatty = "fibrofatty", fibrous = "fibrous",
               calcified = "calcified";  ///< plaque, by class
   std::string not_measurable = "not measurable";
+  std::string image = "image", tree = "tree";  ///< each before the phase of the heart that it is of
   // What the 3D view answers to clicks that place nothing.
   std::string off_wall = "There is no vessel: click on the wall of one.";
   std::string other_vessel = "This is another vessel: both places have to lie along one.";

@@ -1,0 +1,214 @@
+#include "viewer.h"
+
+#include "ecg_strip.h"
+#include "look_of_windows.h"
+#include "panel.h"
+
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace ostia::live {
+namespace {
+
+using glview::SurfaceValue;
+
+constexpr double phase_step = 0.01, seek_step_s = 5.0, zoom_step = 1.12;
+
+std::optional<EcgFeed> feed_of(const LiveInput& input) {
+  if (!input.ecg) return {};
+  return EcgFeed(input.ecg->lead.values, input.ecg->samples_per_second);
+}
+
+/// Of the surface at all phases, so that nothing leaves the picture.
+std::vector<geometry::Vec3> places_of(const LiveInput& input, const motion::MovingCage& cage) {
+  const motion::CarriedPoints carried(input.motion.grid, input.surface.points);
+  std::vector<geometry::Vec3> all;
+  for (int k = 0; k < 10; ++k) {
+    const auto places = carried.places(cage.at(k / 10.0));
+    all.insert(all.end(), places.begin(), places.end());
+  }
+  return all;
+}
+
+/// What panel and strip leave of the window.
+glview::Viewport scene_of(int width, int height, bool panels, bool ecg) {
+  const int bottom = panels && ecg ? strip_height : 0;
+  return {0, bottom, std::max(16, width - (panels ? panel_width : 0)), std::max(16, height - bottom)};
+}
+
+int next(SurfaceValue value) {
+  return (static_cast<int>(value) + 1) % static_cast<int>(glview::all_values.size());
+}
+
+}  // namespace
+
+const std::vector<NamedView>& named_views() {
+  static const std::vector<NamedView> views{{"AP", {0, 0}},
+                                            {"LAO 30 CRA 20", {30, 20}},
+                                            {"RAO 30", {-30, 0}},
+                                            {"RAO 30 CAU 25", {-30, -25}},
+                                            {"RAO 20 CRA 35", {-20, 35}},
+                                            {"LAO 45 CAU 30", {45, -30}},
+                                            {"LAO 50 CRA 30", {50, 30}},
+                                            {"LAT (LAO 90)", {90, 0}}};
+  return views;
+}
+
+Viewer::Viewer(const LiveInput& input, const Options& options)
+    : aspect_(scene_of(options.width, options.height, options.panels, input.ecg.has_value()).aspect()),
+      playback_(feed_of(input), options.start_s),
+      notices_(input.warnings) {
+  const motion::MovingCage cage(input.motion);
+  const glview::ShownSurface surface = glview::shown_surface(input.surface, input.motion.grid);
+  const glview::BendingTable bending = glview::bending_table(surface, cage);
+  for (const SurfaceValue value : glview::all_values)
+    ranges_[static_cast<std::size_t>(value)] = glview::value_range(surface, cage, value, &bending);
+  places_ = places_of(input, cage);
+  scene_ = std::make_unique<glview::BeatingScene>(surface, cage);
+  scene_->set_bending(bending);
+  shown_.panels = options.panels;
+  shown_.camera = glview::camera_on(places_, options.view, aspect_);
+  if (options.x_ray) shown_.camera.projection = glview::Projection::x_ray;
+  set_value(options.value);
+  playback_.set_speed(options.speed);
+  if (options.phase) playback_.scrub(*options.phase);
+}
+
+void Viewer::set_value(SurfaceValue value) {
+  shown_.look.value = value;
+  shown_.look.range = ranges_[static_cast<std::size_t>(value)];
+}
+
+void Viewer::look_from(const glview::CarmAngles& angles) {
+  const auto projection = shown_.camera.projection;
+  shown_.camera = glview::camera_on(places_, angles, aspect_);
+  shown_.camera.projection = projection;
+}
+
+bool Viewer::key(int key, bool shift) {
+  Playback& play = playback_;
+  if (key >= GLFW_KEY_1 && key < GLFW_KEY_1 + static_cast<int>(named_views().size()))
+    look_from(named_views()[static_cast<std::size_t>(key - GLFW_KEY_1)].angles);
+  switch (key) {
+    case GLFW_KEY_ESCAPE:
+      if (!shown_.help) return true;
+      shown_.help = false;
+      break;
+    case GLFW_KEY_Q:
+      return true;
+    case GLFW_KEY_SPACE:
+      play.pause(!play.paused());
+      break;
+    case GLFW_KEY_LEFT:
+      play.scrub(play.phase() - (shift ? 10.0 : 1.0) * phase_step);
+      break;
+    case GLFW_KEY_RIGHT:
+      play.scrub(play.phase() + (shift ? 10.0 : 1.0) * phase_step);
+      break;
+    case GLFW_KEY_UP:
+      play.set_speed(play.speed() * 1.25);
+      break;
+    case GLFW_KEY_DOWN:
+      play.set_speed(play.speed() / 1.25);
+      break;
+    case GLFW_KEY_PAGE_UP:
+      play.seek(play.stream_s() - seek_step_s);
+      break;
+    case GLFW_KEY_PAGE_DOWN:
+      play.seek(play.stream_s() + seek_step_s);
+      break;
+    case GLFW_KEY_HOME:
+      look_from(shown_.camera.angles);
+      break;
+    case GLFW_KEY_BACKSPACE:
+      play.set_speed(1.0);
+      break;
+    case GLFW_KEY_C:
+      set_value(static_cast<SurfaceValue>(next(shown_.look.value)));
+      break;
+    case GLFW_KEY_E:
+      play.follow_ecg(!play.follows_ecg());
+      break;
+    case GLFW_KEY_X:
+      shown_.camera.projection = shown_.camera.projection == glview::Projection::lit
+                                     ? glview::Projection::x_ray
+                                     : glview::Projection::lit;
+      break;
+    case GLFW_KEY_S:
+      wishes_.screenshot = true;
+      break;
+    case GLFW_KEY_TAB:
+      shown_.panels = !shown_.panels;
+      break;
+    case GLFW_KEY_F1:
+    case GLFW_KEY_H:
+      shown_.help = !shown_.help;
+      break;
+    default:
+      break;
+  }
+  return false;
+}
+
+void Viewer::mouse(const glview::Viewport& scene, int height) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const double x = static_cast<double>(io.MousePos.x), y = height - static_cast<double>(io.MousePos.y);
+  const bool over = !io.WantCaptureMouse && x >= scene.x && x < scene.x + scene.width && y >= scene.y &&
+                    y < scene.y + scene.height;
+  const bool down = io.MouseDown[0] || io.MouseDown[1] || io.MouseDown[2];
+  if (!down) grabbed_ = false;
+  const bool clicked = ImGui::IsMouseClicked(0) || ImGui::IsMouseClicked(1) || ImGui::IsMouseClicked(2);
+  if (over && clicked) grabbed_ = true;
+  glview::Camera& camera = shown_.camera;
+  if (over && io.MouseWheel != 0.0F)
+    camera = glview::enlarged(camera, std::pow(zoom_step, static_cast<double>(io.MouseWheel)));
+  if (!grabbed_ || clicked) return;  // the way to where it is grabbed is none of it
+  const double right = static_cast<double>(io.MouseDelta.x), up = -static_cast<double>(io.MouseDelta.y);
+  if (io.MouseDown[2] || (io.MouseDown[0] && io.KeyShift))
+    camera = glview::shifted(camera, right, up, scene.height);
+  else if (io.MouseDown[0])
+    camera = glview::turned(camera, right, up, scene.height);
+  else
+    camera = glview::enlarged(camera, std::pow(zoom_step, up / 20.0));
+}
+
+void Viewer::draw(int width, int height, double frames_per_second) {
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui::NewFrame();
+  const glview::Viewport scene = scene_of(width, height, shown_.panels, playback_.has_ecg());
+  aspect_ = scene.aspect();
+  mouse(scene, height);
+  if (shown_.panels) {
+    PanelTalk talk{shown_,
+                   playback_,
+                   wishes_,
+                   notices_,
+                   frames_per_second,
+                   [this](const glview::CarmAngles& angles) { look_from(angles); },
+                   [this](SurfaceValue value) { set_value(value); }};
+    draw_panel(talk, width, height);
+    if (playback_.has_ecg()) draw_ecg_strip(playback_, scene.width, height);
+  }
+  draw_scene_texts(shown_, playback_, scene, height);
+  if (shown_.help) draw_help(scene);
+  ImGui::Render();
+  scene_->set_phase(playback_.phase(), playback_.interval_s());
+  scene_->draw(shown_.camera, shown_.look, scene);
+  if (shown_.panels) {
+    glview::fill({scene.width, 0, width - scene.width, height}, panel_background);
+    glview::fill({0, 0, scene.width, scene.y}, strip_background);
+  }
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+Wishes Viewer::take_wishes() {
+  const Wishes wishes = wishes_;
+  wishes_ = {};
+  return wishes;
+}
+
+}  // namespace ostia::live

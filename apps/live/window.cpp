@@ -1,0 +1,133 @@
+#include "window.h"
+
+#include "look_of_windows.h"
+#include "measurements.h"
+#include "pictures.h"
+#include "viewer.h"
+
+#include "ostia/core/error.h"
+
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+
+namespace ostia::live {
+namespace {
+
+constexpr const char* way_out =
+    " The live viewer needs OpenGL 3.3: update the graphics driver, or draw without the graphics card "
+    "(install "
+    "Mesa's software renderer, package libgl1-mesa-dri, and start with LIBGL_ALWAYS_SOFTWARE=1). Pictures "
+    "and "
+    "videos (--screenshot, --video) need no display.";
+constexpr double longest_step_s = 0.5;  // after the machine slept
+constexpr double paused_wait_s = 1.0 / 30.0;
+
+std::string last_error;
+
+void on_error(int, const char* text) {
+  last_error = text;
+}
+
+/// GLFW's library, its window and their end.
+class GlWindow {
+ public:
+  explicit GlWindow(const Options& options) {
+    glfwSetErrorCallback(on_error);
+    if (glfwInit() != GLFW_TRUE)
+      throw ResourceError("There is no display to open a window on (" + last_error + ")." + way_out);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+    window = glfwCreateWindow(options.width, options.height, "Ostia live", nullptr, nullptr);
+    if (window == nullptr) {
+      const std::string why = last_error;
+      glfwTerminate();
+      throw ResourceError("No window with OpenGL 3.3 can be opened (" + why + ")." + way_out);
+    }
+    glfwMakeContextCurrent(window);
+    glfwSwapInterval(options.vsync ? 1 : 0);
+  }
+  ~GlWindow() {
+    glfwDestroyWindow(window);
+    glfwTerminate();
+  }
+  GlWindow(const GlWindow&) = delete;
+  GlWindow& operator=(const GlWindow&) = delete;
+  GLFWwindow* window = nullptr;
+};
+
+/// Dear ImGui's part of the window's events.
+class Events {
+ public:
+  Events(GLFWwindow* window, Viewer& viewer) {
+    glfwSetWindowUserPointer(window, &viewer);
+    glfwSetKeyCallback(window, [](GLFWwindow* of, int key, int, int action, int mods) {
+      const bool steps =
+          key == GLFW_KEY_LEFT || key == GLFW_KEY_RIGHT || key == GLFW_KEY_UP || key == GLFW_KEY_DOWN;
+      if (action == GLFW_RELEASE || (action == GLFW_REPEAT && !steps)) return;
+      if (ImGui::GetIO().WantTextInput) return;  // a number is typed into a slider
+      auto& shown = *static_cast<Viewer*>(glfwGetWindowUserPointer(of));
+      if (shown.key(key, (mods & GLFW_MOD_SHIFT) != 0)) glfwSetWindowShouldClose(of, GLFW_TRUE);
+    });
+    ImGui_ImplGlfw_InitForOpenGL(window, true);  // calls the callback above, too
+  }
+  ~Events() { ImGui_ImplGlfw_Shutdown(); }
+  Events(const Events&) = delete;
+  Events& operator=(const Events&) = delete;
+};
+
+}  // namespace
+
+void show_window(const LiveInput& input, const Options& options,
+                 const volatile std::sig_atomic_t& asked_to_end) {
+  const GlWindow held(options);
+  GLFWwindow* window = held.window;
+  if (!glview::has_opengl_33()) throw ResourceError("There is " + glview::renderer_name() + "." + way_out);
+  const Windows windows;
+  Viewer viewer(input, options);
+  const Events events(window, viewer);
+  Screenshots screenshots(options.pictures);
+  FrameMeter meter;
+  // The first picture takes longest: the driver compiles. The stream begins with the second.
+  ImGui_ImplGlfw_NewFrame();
+  viewer.draw(options.width, options.height, 0.0);
+  glfwSwapBuffers(window);
+  finish_drawing();
+  const double start = glfwGetTime();
+  double before = start;
+  while (glfwWindowShouldClose(window) == GLFW_FALSE && asked_to_end == 0) {
+    if (viewer.playback().paused())
+      glfwWaitEventsTimeout(paused_wait_s);  // a still picture needs no processor
+    else
+      glfwPollEvents();
+    const double now = glfwGetTime();
+    if (options.seconds && now - start >= *options.seconds) break;
+    const std::size_t samples = viewer.advance(std::min(now - before, longest_step_s));
+    before = now;
+    int width = 0, height = 0;
+    glfwGetFramebufferSize(window, &width, &height);
+    ImGui_ImplGlfw_NewFrame();
+    viewer.draw(width, height, meter.recent_frames_per_second());
+    if (viewer.take_wishes().screenshot) viewer.notice(screenshots.take(glview::read_pixels(width, height)));
+    glfwSwapBuffers(window);
+    if (options.measure) finish_drawing();
+    const Playback& play = viewer.playback();
+    const double apart = play.feed() ? 1.0 / play.feed()->samples_per_second() / play.speed() : 0.0;
+    const double newest = play.feed() ? now - (play.stream_s() - play.feed()->time_s()) / play.speed() : now;
+    meter.shown(glfwGetTime(), samples, newest, apart);
+  }
+  if (const std::string trouble = screenshots.finish(); !trouble.empty())
+    std::fprintf(stderr, "ostia-live: %s\n", trouble.c_str());
+  if (options.measure) {
+    int width = 0, height = 0;
+    glfwGetFramebufferSize(window, &width, &height);
+    std::printf("%s\n", measurements_json(viewer, meter, width, height, screenshots.count()).c_str());
+  }
+}
+
+}  // namespace ostia::live

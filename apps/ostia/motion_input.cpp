@@ -1,0 +1,206 @@
+#include "motion_input.h"
+
+#include "refusal.h"
+
+#include "ostia/core/files.h"
+#include "ostia/core/log.h"
+#include "ostia/io/surface_fields.h"
+#include "ostia/io/surface_file.h"
+#include "ostia/pipeline/source.h"
+#include "ostia/segmentation/segment.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <optional>
+
+namespace ostia::app {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* lumen_of_a_phase = "lumen.vtp";  // in a folder of a phase
+
+bool is_image_name(const std::string& name) {
+  for (const std::string_view end : {".nrrd", ".nhdr", ".mhd", ".mha", ".nii", ".nii.gz"})
+    if (name.ends_with(end)) return true;
+  return false;
+}
+
+bool is_phase_file(const fs::path& path) {
+  return io::is_surface_file(path) || path.extension() == ".vtk" || is_image_name(path.filename().string());
+}
+
+bool is_phase_folder(const fs::path& path) {
+  return path.filename().string().starts_with("phase-") && fs::exists(path / lumen_of_a_phase);
+}
+
+/// Without all extensions that are no part of a number: "p12.5.nii.gz" is "p12.5".
+std::string stem_of(const fs::path& path) {
+  const fs::path name = path.filename();
+  return name.extension() == ".gz" ? name.stem().stem().string() : name.stem().string();
+}
+
+struct NumberedFile {
+  double number = 0.0;
+  std::string name;  ///< for messages
+  fs::path file;
+};
+
+/// A synthetic case says its phases exactly: a folder's name has whole percents alone.
+std::map<std::string, double> exact_percents(const fs::path& folder) {
+  std::map<std::string, double> out;
+  if (!fs::is_regular_file(folder / "heartbeat.json")) return out;
+  const auto beat = nlohmann::json::parse(core::read_file(folder / "heartbeat.json"), nullptr, false);
+  if (!beat.is_object() || !beat.contains("phases")) return out;
+  for (const auto& phase : beat["phases"])
+    if (phase.is_object() && phase.contains("folder") && phase.contains("percent") &&
+        phase["folder"].is_string() && phase["percent"].is_number())
+      out[phase["folder"].get<std::string>()] = phase["percent"].get<double>();
+  return out;
+}
+
+std::optional<double> number_in(const std::string& stem) {
+  const std::string text = phase_of(stem);
+  double value = 0.0;
+  const auto end = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (end.ec != std::errc() || end.ptr != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+std::vector<NumberedFile> numbered_files(const fs::path& folder) {
+  if (!fs::is_directory(folder))
+    throw InvalidInput(folder.string() +
+                       " is no folder: a motion is fitted to a folder of surfaces or masks, "
+                       "one a phase");
+  std::vector<NumberedFile> files, in_folders;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const fs::path& path = entry.path();
+    const bool of_phase = entry.is_directory() && is_phase_folder(path);
+    if (!of_phase && !(entry.is_regular_file() && is_phase_file(path))) continue;
+    const std::string name = path.filename().string();
+    if (core::log_format() == core::LogFormat::json) core::redact_in_logs(name, "FILE");
+    const auto number = number_in(of_phase ? name : stem_of(path));
+    if (!number) {
+      core::log_info(name + " has no number in its name: it is taken for no phase");
+      continue;
+    }
+    (of_phase ? in_folders : files).push_back({*number, name, of_phase ? path / lumen_of_a_phase : path});
+  }
+  if (!in_folders.empty()) {
+    const auto exact = exact_percents(folder);
+    for (NumberedFile& one : in_folders)
+      if (const auto found = exact.find(one.name); found != exact.end()) one.number = found->second;
+    files = std::move(in_folders);
+  }
+  if (files.empty())
+    throw InvalidInput(
+        folder.string() +
+        " holds no phases: one surface (.vtp .stl .ply .obj .vtk) or mask a phase is expected, "
+        "its percent of the cycle in its name, as in phase_35.vtp");
+  std::ranges::sort(files, [](const NumberedFile& a, const NumberedFile& b) {
+    return a.number != b.number ? a.number < b.number : a.name < b.name;
+  });
+  return files;
+}
+
+/// Names count 0, 1, 2, ... or 1, 2, 3, ...: percents are never so.
+void require_percents(const fs::path& folder, const std::vector<NumberedFile>& files) {
+  if (files.size() < 3 || files.front().number > 1.0) return;
+  for (std::size_t k = 0; k < files.size(); ++k)
+    if (files[k].number != files.front().number + static_cast<double>(k)) return;
+  throw InvalidInput(folder.string() + ": the names' numbers are 1 apart, from " + files.front().name +
+                     " to " + files.back().name +
+                     "; if they count frames of one cycle, say so with --frames " +
+                     std::to_string(files.size()) + ", if they are percent, with --frames 100");
+}
+
+geometry::TriMesh mask_surface(const fs::path& path) {
+  if (pipeline::classify(path) == pipeline::SourceKind::image)
+    throw InvalidInput(path.string() +
+                       " is an image and no mask: make its lumen's surface first, with `ostia segment`");
+  const pipeline::Source source = pipeline::load(path);
+  if (std::ranges::none_of(source.mask->voxels, [](auto v) { return v != 0; })) return {};
+  return naming(path, [&] { return segmentation::segment_mask(*source.mask); });
+}
+
+geometry::TriMesh surface_in(const fs::path& path, double unit_mm) {
+  geometry::TriMesh mesh;
+  if (is_image_name(path.filename().string())) return mask_surface(path);
+  try {
+    mesh = path.extension() == ".vtk" ? io::read_surface_with_fields(path).mesh
+                                      : io::read_surface(path).surface.mesh;
+  } catch (const io::EmptySurface&) {
+    return {};
+  }
+  for (geometry::Vec3& p : mesh.points) p *= unit_mm;
+  return mesh;
+}
+
+}  // namespace
+
+std::string phase_of(const std::string& stem) {
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  const std::size_t last = stem.find_last_of("0123456789");
+  if (last == std::string::npos) return stem;
+  std::size_t from = last;
+  while (from > 0 && is_digit(stem[from - 1])) --from;
+  if (from > 1 && stem[from - 1] == '.' && is_digit(stem[from - 2])) {  // "12.5"
+    from -= 2;
+    while (from > 0 && is_digit(stem[from - 1])) --from;
+  }
+  while (from < last && stem[from] == '0' && is_digit(stem[from + 1])) ++from;
+  return stem.substr(from, last - from + 1);
+}
+
+std::vector<PhaseFile> phase_files(const fs::path& folder, int frames) {
+  const std::vector<NumberedFile> files = numbered_files(folder);
+  if (frames == 0) require_percents(folder, files);
+  const double whole = frames == 0 ? 100.0 : frames;
+  std::vector<PhaseFile> phases;
+  for (const NumberedFile& one : files) {
+    if (one.number > whole)
+      throw InvalidInput((folder / one.name).string() + ": its number is beyond " +
+                         (frames == 0 ? "100 percent of the cycle; if it counts frames, say how many a cycle "
+                                        "has with --frames"
+                                      : "the " + std::to_string(frames) + " frames of a cycle"));
+    phases.push_back({one.number == whole ? 0.0 : one.number / whole, one.file});
+  }
+  std::ranges::stable_sort(phases, {}, &PhaseFile::phase);
+  for (std::size_t k = 1; k < phases.size(); ++k)
+    if (phases[k].phase == phases[k - 1].phase)
+      throw InvalidInput(folder.string() + ": " + phases[k - 1].file.lexically_relative(folder).string() +
+                         " and " + phases[k].file.lexically_relative(folder).string() + " are both phase " +
+                         pipeline::percent_text(phases[k].phase) + "; leave one of the two out");
+  return phases;
+}
+
+std::vector<pipeline::PhaseSurface> read_phases(const std::vector<PhaseFile>& files, const std::string& units,
+                                                const core::TaskContext& task) {
+  const double unit_mm = units == "m" ? 1000.0 : units == "cm" ? 10.0 : 1.0;
+  std::vector<pipeline::PhaseSurface> phases;
+  for (const PhaseFile& one : files) {
+    task.throw_if_cancelled();
+    const std::string name = one.file.filename() == lumen_of_a_phase
+                                 ? (one.file.parent_path().filename() / lumen_of_a_phase).string()
+                                 : one.file.filename().string();
+    phases.push_back({one.phase, name, surface_in(one.file, unit_mm)});
+    task.set_progress(static_cast<double>(phases.size()) / static_cast<double>(files.size()));
+  }
+  return phases;
+}
+
+fs::path motion_path(const fs::path& motion) {
+  return fs::is_directory(motion) ? motion / "motion.json" : motion;
+}
+
+fs::path template_path(const fs::path& motion, const io::CageMotionFile& file, const fs::path& surface) {
+  if (!surface.empty()) return surface;
+  if (file.surface.empty())
+    throw InvalidInput(motion.string() + " names no surface of the template; name one with --surface");
+  return motion_path(motion).parent_path() / file.surface;
+}
+
+}  // namespace ostia::app

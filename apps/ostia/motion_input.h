@@ -1,0 +1,40 @@
+#pragma once
+/// \file What `ostia motion` reads: surfaces by phase, and a motion.
+
+#include "ostia/core/task_context.h"
+#include "ostia/geometry/tri_mesh.h"
+#include "ostia/io/cage_motion_file.h"
+#include "ostia/pipeline/motion_fit.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace ostia::app {
+
+/// What tells a phase: the last number in a file's name, without leading zeros ("7" of "heart2-007"), else
+/// the whole name.
+std::string phase_of(const std::string& stem);
+
+struct PhaseFile {
+  double phase = 0.0;  ///< share of the cycle, in [0, 1)
+  std::filesystem::path file;
+};
+/// The surfaces (.vtp .stl .ply .obj .vtk) and masks of a folder, or lumen.vtp of its subfolders phase-NN,
+/// one a phase, rising. `frames`: the numbers in names count frames, so many a cycle; 0: they are percent.
+/// Throws InvalidInput that names the file: no phases, a number that is none of the cycle's, numbers that
+/// seem to count frames; IoError.
+std::vector<PhaseFile> phase_files(const std::filesystem::path& folder, int frames);
+
+/// Reads them; a mask becomes a surface, a file without triangles or voxels a phase without a vessel. `units`
+/// is "", "m", "cm" or "mm". Throws InvalidInput that names the file for an image that is no mask.
+std::vector<pipeline::PhaseSurface> read_phases(const std::vector<PhaseFile>& files, const std::string& units,
+                                                const core::TaskContext& task);
+
+/// motion.json, or the folder that holds it.
+std::filesystem::path motion_path(const std::filesystem::path& motion);
+/// `surface` where it is named, else the template beside the motion. Throws InvalidInput where there is none.
+std::filesystem::path template_path(const std::filesystem::path& motion, const io::CageMotionFile& file,
+                                    const std::filesystem::path& surface);
+
+}  // namespace ostia::app

@@ -1,0 +1,43 @@
+#pragma once
+/// \file A surface as the graphics card takes it: each vertex with its cell of the cage.
+
+#include "ostia/geometry/cage.h"
+#include "ostia/geometry/tri_mesh.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace ostia::glview {
+
+using geometry::Vec3;
+
+/// As it lies in a vertex buffer.
+struct ShownVertex {
+  std::int32_t corner = 0;        ///< the least control point of its cell
+  std::array<float, 3> local{};   ///< within the cell, in [0, 1]: its trilinear weights
+  std::array<float, 3> rest{};    ///< at the template's phase, mm
+  std::array<float, 3> normal{};  ///< there, unit, outward
+  std::array<float, 3> along{};   ///< there, unit, along the vessel; either way
+};
+
+struct ShownSurface {
+  geometry::CageGrid grid;
+  std::vector<ShownVertex> vertices;  ///< one a point of the mesh, in its order
+  std::vector<geometry::Triangle> triangles;
+  std::size_t open_triangles = 0;  ///< so many first; those after them close the surface's open ends
+  bool closed = false;             ///< with them; then it is turned outward, too
+};
+
+/// Prepares a template. `along` is the direction in which normals change least within `reach_mm` of a point
+/// (the axis of a tube). Holes are closed where that is possible (a manifold). Throws InvalidInput for a
+/// surface without triangles, with indices out of range or points that are not finite.
+ShownSurface shown_surface(const geometry::TriMesh& mesh, const geometry::CageGrid& grid,
+                           double reach_mm = 3.0);
+
+/// How the cage deforms space at each vertex: dx/dX of the trilinear map of its cell.
+std::vector<Eigen::Matrix3d> gradients(const ShownSurface& surface, const std::vector<Vec3>& control_points);
+
+}  // namespace ostia::glview

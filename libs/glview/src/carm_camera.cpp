@@ -1,0 +1,182 @@
+#include "ostia/glview/carm_camera.h"
+
+#include "ostia/core/error.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+namespace ostia::glview {
+namespace {
+
+constexpr double radians = std::numbers::pi / 180.0;
+constexpr double room = 1.08;  // around what is looked at
+
+/// Reads "LAO30CRA20" from the left.
+class Reader {
+ public:
+  explicit Reader(std::string_view text) {
+    for (const char c : text)
+      if (c != ' ' && c != ',') rest_ += static_cast<char>(c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c);
+  }
+  bool ended() const { return at_ == rest_.size(); }
+  bool word(std::string_view wanted) {
+    if (rest_.compare(at_, wanted.size(), wanted) != 0) return false;
+    at_ += wanted.size();
+    return true;
+  }
+  std::optional<double> number() {
+    double value = 0.0;
+    const char* end = rest_.data() + rest_.size();
+    const auto [stop, error] = std::from_chars(rest_.data() + at_, end, value, std::chars_format::fixed);
+    if (error != std::errc() || !(value >= 0.0)) return {};
+    at_ = static_cast<std::size_t>(stop - rest_.data());
+    return value;
+  }
+
+ private:
+  std::string rest_;
+  std::size_t at_ = 0;
+};
+
+std::optional<CarmAngles> read_angles(std::string_view text) {
+  Reader reader(text);
+  CarmAngles angles;
+  if (reader.ended()) return {};
+  if (reader.word("AP")) {
+  } else if (reader.word("LAT")) {
+    angles.lao_deg = 90.0;
+  } else if (const double sign = reader.word("LAO") ? 1.0 : reader.word("RAO") ? -1.0 : 0.0; sign != 0.0) {
+    const auto value = reader.number();
+    if (!value || *value > 180.0) return {};
+    angles.lao_deg = sign * *value;
+  }
+  if (const double sign = reader.word("CRA") ? 1.0 : reader.word("CAU") ? -1.0 : 0.0; sign != 0.0) {
+    const auto value = reader.number();
+    if (!value || *value > 90.0) return {};
+    angles.cranial_deg = sign * *value;
+  }
+  return reader.ended() ? std::optional(angles) : std::nullopt;
+}
+
+/// The bounds of depths within which a scene is drawn; generous, since vessels are not far from the
+/// isocentre.
+struct Depths {
+  double nearest, farthest;
+};
+Depths depths(double distance) {
+  return {0.05 * distance, 6.0 * distance};
+}
+
+}  // namespace
+
+CarmAngles carm_angles(std::string_view text) {
+  if (const auto angles = read_angles(text)) return *angles;
+  throw UsageError("the view \"" + std::string(text) +
+                   "\" is not understood: write AP, LAT, or angles such as LAO30CRA20, RAO30, CAU25 (LAO and "
+                   "RAO up to 180, CRA and CAU up to 90 degrees)");
+}
+
+std::string text_of(const CarmAngles& angles) {
+  const auto lao = std::lround(angles.lao_deg), cranial = std::lround(angles.cranial_deg);
+  std::string text;
+  if (lao != 0) text = (lao > 0 ? "LAO " : "RAO ") + std::to_string(std::abs(lao));
+  if (cranial != 0)
+    text += (text.empty() ? "" : " ") + std::string(cranial > 0 ? "CRA " : "CAU ") +
+            std::to_string(std::abs(cranial));
+  return text.empty() ? "AP" : text;
+}
+
+Vec3 Camera::towards() const {
+  const double lao = angles.lao_deg * radians, cranial = angles.cranial_deg * radians;
+  return {std::sin(lao) * std::cos(cranial), -std::cos(lao) * std::cos(cranial), std::sin(cranial)};
+}
+
+Vec3 Camera::up() const {
+  const double lao = angles.lao_deg * radians, cranial = angles.cranial_deg * radians;
+  return {-std::sin(lao) * std::sin(cranial), std::cos(lao) * std::sin(cranial), std::cos(cranial)};
+}
+
+Vec3 Camera::right() const {
+  return up().cross(towards());
+}
+
+Vec3 Camera::centre_of_projection() const {
+  return projection == Projection::lit ? Vec3(isocentre + eye_mm * towards())
+                                       : Vec3(isocentre - source_mm * towards());
+}
+
+Eigen::Matrix4f Camera::clip_of_world(double aspect) const {
+  const bool lit = projection == Projection::lit;
+  const double distance = lit ? eye_mm : source_mm;
+  const Vec3 centre = centre_of_projection(), backwards = lit ? towards() : Vec3(-towards());
+  Eigen::Matrix4d camera_of_world = Eigen::Matrix4d::Identity();
+  camera_of_world.block<1, 3>(0, 0) = right().transpose();
+  camera_of_world.block<1, 3>(1, 0) = up().transpose();
+  camera_of_world.block<1, 3>(2, 0) = backwards.transpose();
+  camera_of_world.block<3, 1>(0, 3) = -(camera_of_world.block<3, 3>(0, 0) * centre);
+  const auto [nearest, farthest] = depths(distance);
+  Eigen::Matrix4d clip_of_camera = Eigen::Matrix4d::Zero();
+  clip_of_camera(0, 0) = distance / (half_height_mm * aspect);
+  clip_of_camera(1, 1) = distance / half_height_mm;
+  clip_of_camera(2, 2) = -(farthest + nearest) / (farthest - nearest);
+  clip_of_camera(2, 3) = -2.0 * farthest * nearest / (farthest - nearest);
+  clip_of_camera(3, 2) = -1.0;
+  return (clip_of_camera * camera_of_world).cast<float>();
+}
+
+Vec2 Camera::project(const Vec3& point, double width_px, double height_px) const {
+  const Vec3 from = point - centre_of_projection();
+  const double depth = from.dot(isocentre - centre_of_projection());
+  const double distance = projection == Projection::lit ? eye_mm : source_mm;
+  const double px_a_mm = height_px / (2.0 * half_height_mm) * distance * distance / depth;
+  return {width_px / 2.0 + px_a_mm * from.dot(right()), height_px / 2.0 - px_a_mm * from.dot(up())};
+}
+
+Camera camera_on(const std::vector<Vec3>& points, const CarmAngles& angles, double aspect) {
+  Camera camera;
+  camera.angles = angles;
+  geometry::Box3 box;
+  for (const Vec3& p : points) box.extend(p);
+  if (box.isEmpty()) return camera;
+  camera.isocentre = box.center();
+  camera.eye_mm = std::max(camera.eye_mm, 3.0 * box.diagonal().norm());
+  // What is nearer to the eye, or to the source, is larger.
+  const double distance = std::min(camera.eye_mm, camera.source_mm);
+  const Vec3 up = camera.up(), right = camera.right(), towards = camera.towards();
+  double half = 1.0;
+  for (const Vec3& p : points) {
+    const Vec3 from = p - camera.isocentre;
+    const double larger = distance / std::max(0.1 * distance, distance - std::abs(from.dot(towards)));
+    half = std::max({half, larger * std::abs(from.dot(up)), larger * std::abs(from.dot(right)) / aspect});
+  }
+  camera.half_height_mm = half * room;
+  return camera;
+}
+
+Camera turned(const Camera& camera, double right_px, double up_px, double height_px) {
+  Camera result = camera;
+  const double degrees_a_px = 180.0 / height_px;
+  result.angles.lao_deg = std::remainder(camera.angles.lao_deg - right_px * degrees_a_px, 360.0);
+  result.angles.cranial_deg = std::clamp(camera.angles.cranial_deg - up_px * degrees_a_px, -90.0, 90.0);
+  return result;
+}
+
+Camera shifted(const Camera& camera, double right_px, double up_px, double height_px) {
+  Camera result = camera;
+  const double mm_a_px = 2.0 * camera.half_height_mm / height_px;
+  result.isocentre -= mm_a_px * (right_px * camera.right() + up_px * camera.up());
+  return result;
+}
+
+Camera enlarged(const Camera& camera, double factor) {
+  Camera result = camera;
+  result.half_height_mm = std::clamp(camera.half_height_mm / factor, 1.0, 1000.0);
+  return result;
+}
+
+}  // namespace ostia::glview

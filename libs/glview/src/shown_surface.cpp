@@ -1,0 +1,134 @@
+#include "ostia/glview/shown_surface.h"
+
+#include "neighbourhood.h"
+
+#include "ostia/core/error.h"
+#include "ostia/core/parallel.h"
+#include "ostia/geometry/mesh_topology.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <string>
+
+namespace ostia::glview {
+namespace {
+
+std::array<float, 3> floats(const Vec3& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
+
+void validate(const geometry::TriMesh& mesh) {
+  if (mesh.triangles.empty()) throw InvalidInput("the surface to be shown has no triangles");
+  for (const Vec3& p : mesh.points)
+    if (!p.allFinite()) throw InvalidInput("the surface to be shown has points that are not finite");
+  for (const geometry::Triangle& t : mesh.triangles)
+    for (const std::int32_t i : t)
+      if (i < 0 || static_cast<std::size_t>(i) >= mesh.points.size())
+        throw InvalidInput("a triangle of the surface to be shown names the point " + std::to_string(i) +
+                           " of " + std::to_string(mesh.points.size()));
+}
+
+/// Across a tube normals point everywhere but along its axis.
+std::vector<Vec3> directions_along(const geometry::TriMesh& mesh, const std::vector<Vec3>& normals,
+                                   double reach_mm) {
+  Neighbourhood around(mesh);
+  std::vector<Vec3> along(mesh.points.size());
+  for (std::size_t i = 0; i < along.size(); ++i) {
+    geometry::Mat3 spread = geometry::Mat3::Zero();
+    for (const std::int32_t k : around.of(static_cast<std::int32_t>(i), reach_mm)) {
+      const Vec3& n = normals[static_cast<std::size_t>(k)];
+      spread += n * n.transpose();
+    }
+    // the vertex' own normal is across, whatever its surroundings say
+    const Vec3& own = normals[i];
+    spread += spread.trace() * own * own.transpose();
+    along[i] = Eigen::SelfAdjointEigenSolver<geometry::Mat3>(spread).eigenvectors().col(0);
+    along[i] -= along[i].dot(own) * own;
+    if (along[i].norm() > 1e-9) along[i].normalize();
+  }
+  return along;
+}
+
+ShownVertex placed(const geometry::CageGrid& grid, const Vec3& point) {
+  ShownVertex vertex;
+  std::array<int, 3> cell{};
+  for (int axis = 0; axis < 3; ++axis) {
+    const double at = std::clamp((point[axis] - grid.origin[axis]) / grid.cell_mm[axis], 0.0,
+                                 static_cast<double>(grid.cells));
+    const auto k = static_cast<std::size_t>(axis);
+    cell[k] = std::min(static_cast<int>(at), grid.cells - 1);
+    vertex.local[k] = static_cast<float>(at - cell[k]);
+  }
+  vertex.corner = grid.point(cell[0], cell[1], cell[2]);
+  vertex.rest = floats(point);
+  return vertex;
+}
+
+/// The mesh's triangles, turned outward, and those that close its holes behind them.
+void close(const geometry::TriMesh& mesh, ShownSurface& shown) {
+  shown.triangles = mesh.triangles;
+  shown.open_triangles = mesh.triangles.size();
+  try {
+    const geometry::FilledHoles filled = geometry::fill_holes(mesh);
+    // a fan about a new point would need a vertex of its own: such a hole stays open
+    if (filled.mesh.points.size() > mesh.points.size()) return;
+    shown.triangles = filled.mesh.triangles;
+    shown.closed = geometry::boundary_loops(filled.mesh).empty();
+    if (shown.closed && geometry::volume(filled.mesh) < 0.0)
+      for (geometry::Triangle& t : shown.triangles) std::swap(t[1], t[2]);
+  } catch (const GeometryError&) {  // no manifold: both of its sides are drawn, and projections have streaks
+  }
+}
+
+geometry::TriMesh open_part(const geometry::TriMesh& mesh, const ShownSurface& shown) {
+  return {
+      mesh.points,
+      {shown.triangles.begin(), shown.triangles.begin() + static_cast<std::ptrdiff_t>(shown.open_triangles)}};
+}
+
+}  // namespace
+
+ShownSurface shown_surface(const geometry::TriMesh& mesh, const geometry::CageGrid& grid, double reach_mm) {
+  validate(mesh);
+  ShownSurface shown;
+  shown.grid = grid;
+  close(mesh, shown);
+  const std::vector<Vec3> normals = geometry::vertex_normals(open_part(mesh, shown));
+  const std::vector<Vec3> along = directions_along(mesh, normals, reach_mm);
+  shown.vertices.resize(mesh.points.size());
+  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+    shown.vertices[i] = placed(grid, mesh.points[i]);
+    shown.vertices[i].normal = floats(normals[i]);
+    shown.vertices[i].along = floats(along[i]);
+  }
+  return shown;
+}
+
+std::vector<Eigen::Matrix3d> gradients(const ShownSurface& surface, const std::vector<Vec3>& control_points) {
+  const geometry::CageGrid& grid = surface.grid;
+  const int side = grid.points_a_side();
+  std::vector<Eigen::Matrix3d> result(surface.vertices.size());
+  core::parallel_for(result.size(), 2048, [&](std::size_t i) {
+    const ShownVertex& vertex = surface.vertices[i];
+    Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
+    for (int c = 0; c < 8; ++c) {
+      const std::array<int, 3> step{c & 1, c >> 1 & 1, c >> 2};
+      const Vec3& p = control_points[static_cast<std::size_t>(vertex.corner + step[0] +
+                                                              side * (step[1] + side * step[2]))];
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        double slope = step[axis] == 1 ? 1.0 : -1.0;
+        for (std::size_t other = 0; other < 3; ++other) {
+          const double at = static_cast<double>(vertex.local[other]);
+          if (other != axis) slope *= step[other] == 1 ? at : 1.0 - at;
+        }
+        const auto column = static_cast<Eigen::Index>(axis);
+        gradient.col(column) += slope / grid.cell_mm[column] * p;
+      }
+    }
+    result[i] = gradient;
+  });
+  return result;
+}
+
+}  // namespace ostia::glview

@@ -1,5 +1,7 @@
 #include "ecg_feed.h"
 
+#include "ostia/core/error.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -57,6 +59,39 @@ motion::HeartPhaseNow EcgFeed::phase() const {
 
 motion::EcgSignal EcgFeed::signal() const {
   return detector_.signal();
+}
+
+std::vector<std::vector<LinePoint>> lines_of(const EcgFeed& feed, std::size_t first, double column_s) {
+  if (!(column_s > 0.0)) throw InvalidInput("a column of the strip has no width");
+  std::vector<std::vector<LinePoint>> lines(1);
+  // Columns are counted in the record's time, so that the picture does not shimmer as it moves.
+  double column = -1.0;
+  LinePoint least, most;
+  const auto put = [&] {
+    if (column < 0.0) return;
+    const bool least_first = least.time_s <= most.time_s;
+    lines.back().push_back(least_first ? least : most);
+    if (least.time_s != most.time_s) lines.back().push_back(least_first ? most : least);
+    column = -1.0;
+  };
+  for (std::size_t i = first; i < feed.samples(); ++i) {
+    const LinePoint point{static_cast<double>(i) / feed.samples_per_second(), feed.value(i)};
+    if (std::isnan(point.value)) {
+      put();
+      if (!lines.back().empty()) lines.emplace_back();
+      continue;
+    }
+    if (const double now = std::floor(point.time_s / column_s); now != column) {
+      put();
+      column = now;
+      least = most = point;
+    }
+    if (point.value < least.value) least = point;
+    if (point.value > most.value) most = point;
+  }
+  put();
+  if (lines.back().empty()) lines.pop_back();
+  return lines;
 }
 
 }  // namespace ostia::live

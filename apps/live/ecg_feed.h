@@ -43,4 +43,12 @@ class EcgFeed {
   std::vector<double> peaks_;
 };
 
+struct LinePoint {
+  double time_s = 0.0, value = 0.0;
+};
+/// The samples that have come in, from `first` on, as lines to be drawn `column_s` seconds to a column: where
+/// more than two fall on one, its least and its greatest alone, in their order. A new line after samples that
+/// are missing. Throws InvalidInput for columns without width.
+std::vector<std::vector<LinePoint>> lines_of(const EcgFeed& feed, std::size_t first, double column_s);
+
 }  // namespace ostia::live

@@ -44,20 +44,15 @@ void fit_values(const EcgFeed& feed, std::size_t first, Frame& frame) {
 }
 
 void draw_line(ImDrawList& draw, const EcgFeed& feed, std::size_t first, const Frame& frame) {
+  const double column_s =
+      (frame.to_s - frame.from_s) / std::max(1.0, static_cast<double>(frame.high.x - frame.low.x));
   std::vector<ImVec2> points;
-  const auto end = [&] {
+  for (const std::vector<LinePoint>& line : lines_of(feed, first, column_s)) {
+    points.clear();
+    for (const LinePoint& point : line) points.push_back({frame.x(point.time_s), frame.y(point.value)});
     if (points.size() > 1)
       draw.AddPolyline(points.data(), static_cast<int>(points.size()), ecg_color, ImDrawFlags_None, 1.6F);
-    points.clear();
-  };
-  for (std::size_t i = first; i < feed.samples(); ++i) {
-    const double v = feed.value(i);
-    if (std::isnan(v))
-      end();
-    else
-      points.push_back({frame.x(static_cast<double>(i) / feed.samples_per_second()), frame.y(v)});
   }
-  end();
 }
 
 void draw_phase(ImDrawList& draw, const Playback& playback, const Frame& frame) {

@@ -25,6 +25,10 @@ Spread spread_of(std::vector<double> seconds) {
 
 void FrameMeter::shown(double time_s, std::size_t samples, double newest_s, double apart_s) {
   times_.push_back(time_s);
+  if (!keeps_all_) {
+    times_.erase(times_.begin(), std::lower_bound(times_.begin(), times_.end(), time_s - 1.0));
+    return;
+  }
   for (std::size_t k = 0; k < samples; ++k)
     latencies_.push_back(time_s - newest_s + static_cast<double>(k) * apart_s);
 }

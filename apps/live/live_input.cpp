@@ -15,6 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double learning_s = 10.0;
+
 void read_model(const Options& options, LiveInput& input) {
   if (options.motion.empty()) {
     glview::SampleHeart heart = glview::sample_heart();
@@ -22,7 +24,7 @@ void read_model(const Options& options, LiveInput& input) {
     input.motion = std::move(heart.motion);
     return;
   }
-  const fs::path file = fs::is_directory(options.motion) ? options.motion / "motion.json" : options.motion;
+  const fs::path file = motion_file(options);
   io::CageMotionFile motion = io::read_cage_motion(file);
   fs::path surface = options.surface;
   if (surface.empty()) {
@@ -74,11 +76,22 @@ void read_ecg(const Options& options, LiveInput& input) {
 
 }  // namespace
 
+fs::path motion_file(const Options& options) {
+  return fs::is_directory(options.motion) ? options.motion / "motion.json" : options.motion;
+}
+
 LiveInput read_input(const Options& options) {
   LiveInput input;
   read_model(options, input);
   read_ecg(options, input);
   return input;
+}
+
+double first_picture_s(const LiveInput& input, const Options& options) {
+  if (options.phase || !input.ecg || options.start_s > 0.0) return options.start_s;
+  const double length =
+      static_cast<double>(input.ecg->lead.values.size()) / std::max(1e-9, input.ecg->samples_per_second);
+  return std::min(learning_s, 0.5 * length);
 }
 
 }  // namespace ostia::live

@@ -30,4 +30,10 @@ struct LiveInput {
 /// cannot be used is a warning: the tree beats in a loop.
 LiveInput read_input(const Options& options);
 
+/// The file of the motion, empty for the sample heart.
+std::filesystem::path motion_file(const Options& options);
+/// Where in the record pictures without a window begin: a stream that has just begun has no phase yet, so
+/// that, unless a start or a phase is told, it is 10 s later, or half of a record shorter than 20 s.
+double first_picture_s(const LiveInput& input, const Options& options);
+
 }  // namespace ostia::live

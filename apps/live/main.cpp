@@ -37,10 +37,13 @@ int run(const std::vector<std::string>& arguments) {
   if (!options) return 0;
   const ostia::live::LiveInput input = ostia::live::read_input(*options);
   for (const std::string& warning : input.warnings) std::fprintf(stderr, "ostia-live: %s\n", warning.c_str());
-  if (options->screenshot.empty() && options->video.empty())
+  job.throw_if_cancelled();
+  if (options->screenshot.empty() && options->video.empty()) {
     ostia::live::show_window(input, *options, caught);
-  else
+    if (caught != 0) return 128 + static_cast<int>(caught);
+  } else {
     ostia::live::write_pictures(input, *options, job);
+  }
   return static_cast<int>(input.ecg_failed ? ostia::ExitCode::quality_failed : ostia::ExitCode::ok);
 }
 

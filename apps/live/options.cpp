@@ -7,8 +7,10 @@
 #include <CLI/Formatter.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <map>
+#include <utility>
 
 namespace ostia::live {
 namespace {
@@ -74,6 +76,13 @@ void add_output(CLI::App& app, Options& o, Words& words) {
 }
 
 void settle(Options& o, const Words& words) {
+  // A range's check lets pass what is no number.
+  for (const auto& [name, value] : {std::pair("--start", o.start_s),
+                                    {"--speed", o.speed},
+                                    {"--phase", words.phase},
+                                    {"--fps", o.frames_per_second},
+                                    {"--seconds", words.seconds}})
+    if (!std::isfinite(value)) throw UsageError(std::string(name) + " is not a number");
   if (words.demo != o.motion.empty())
     throw UsageError(words.demo ? "give a motion or --demo, not both"
                                 : "which motion is to be shown? Give its file or folder, or --demo");

@@ -8,18 +8,20 @@
 #include "ostia/core/files.h"
 #include "ostia/core/log.h"
 #include "ostia/glview/offscreen.h"
+#include "ostia/pipeline/manifest.h"
 
+#include <nlohmann/json.hpp>
+
+#include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <sstream>
 
 namespace ostia::live {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double ecg_video_s = 10.0, learning_s = 10.0;
+constexpr double ecg_video_s = 10.0;
 
 std::string numbered(const char* form, int number) {
   char name[64];
@@ -55,13 +57,11 @@ class Easel {
   Viewer viewer;
 };
 
-fs::path program_on_path(const std::string& name) {
-  const char* path = std::getenv("PATH");
-  std::istringstream folders(path == nullptr ? "" : path);
-  std::error_code ignored;
-  for (std::string folder; std::getline(folders, folder, ':');)
-    if (fs::is_regular_file(fs::path(folder) / name, ignored)) return fs::path(folder) / name;
-  return {};
+/// For ffmpeg, to which a percent in the folder's name would be a number's place.
+std::string pattern_in(const fs::path& folder) {
+  std::string pattern;
+  for (const char c : fs::absolute(folder).string()) pattern += c == '%' ? "%%" : std::string(1, c);
+  return pattern + "/frame-%05d.png";
 }
 
 /// Sides of a video are even.
@@ -70,20 +70,19 @@ std::string even_sides() {
 }
 
 void make_mp4(const fs::path& folder, double frames_per_second, const core::TaskContext& task) {
-  const fs::path ffmpeg = program_on_path("ffmpeg");
-  if (ffmpeg.empty()) {
+  const std::optional<fs::path> ffmpeg = core::program_on_path("ffmpeg");
+  if (!ffmpeg) {
     core::log_info("ffmpeg is not on the PATH: the video is its pictures alone");
     return;
   }
   const fs::path file = folder / "video.mp4";
   core::ChildLimits limits;
   limits.cpu_time = std::chrono::seconds(3600);
-  const core::ChildResult result =
-      core::run_child(ffmpeg,
-                      {"-y", "-loglevel", "error", "-framerate", std::to_string(frames_per_second), "-i",
-                       (folder / "frame-%05d.png").string(), "-vf", even_sides(), "-c:v", "libx264", "-crf",
-                       "18", "-pix_fmt", "yuv420p", file.string()},
-                      limits, task);
+  const core::ChildResult result = core::run_child(
+      *ffmpeg,
+      {"-y", "-loglevel", "error", "-framerate", std::to_string(frames_per_second), "-i", pattern_in(folder),
+       "-vf", even_sides(), "-c:v", "libx264", "-crf", "18", "-pix_fmt", "yuv420p", file.string()},
+      limits, task);
   std::error_code ignored;
   if (result.ok()) return;
   fs::remove(file, ignored);
@@ -91,7 +90,34 @@ void make_mp4(const fs::path& folder, double frames_per_second, const core::Task
                     result.standard_error);
 }
 
+pipeline::JobKey key_of(const Options& o) {
+  pipeline::JobKey key{"ostia-live --video", {}, ""};
+  const auto add = [&](const char* role, const fs::path& file) {
+    if (!file.empty()) key.inputs[role] = core::sha256_file(file);
+  };
+  add("motion", motion_file(o));
+  add("template", o.surface);
+  add("ecg", o.ecg);
+  nlohmann::json said{{"lead", o.lead},
+                      {"speed", o.speed},
+                      {"start_s", o.start_s},
+                      {"view_deg", {o.view.lao_deg, o.view.cranial_deg}},
+                      {"color", glview::title(o.value)},
+                      {"x_ray", o.x_ray},
+                      {"panels", o.panels},
+                      {"size_px", {o.width, o.height}},
+                      {"frames", o.frames},
+                      {"frames_per_second", o.frames_per_second}};
+  if (o.phase) said["phase"] = *o.phase;
+  key.parameters = said.dump();
+  return key;
+}
+
 void write_video(const LiveInput& input, const Options& options, const core::TaskContext& task) {
+  pipeline::require_free_folder(options.video);  // it is replaced as a whole
+  pipeline::ManifestRecord record{key_of(options), ExitCode::ok, 0.0, input.warnings, ""};
+  if (input.ecg_failed) record.exit_code = ExitCode::quality_failed;
+  const auto start = std::chrono::steady_clock::now();
   Easel easel(input, options);
   const double step = 1.0 / options.frames_per_second;
   const Playback& play = easel.viewer.playback();
@@ -105,43 +131,51 @@ void write_video(const LiveInput& input, const Options& options, const core::Tas
     easel.viewer.advance(step);
   }
   make_mp4(folder.temporary(), options.frames_per_second, task);
+  record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  pipeline::write_manifest(folder.temporary(), record);
   folder.commit();
 }
 
 }  // namespace
 
-std::string Screenshots::take(figure::Raster raster) {
-  if (std::string trouble = finish(); !trouble.empty()) return trouble;
-  fs::path file;
+std::vector<Screenshots::News> Screenshots::take(figure::Raster raster) {
+  std::vector<News> news = finish();
   std::error_code ignored;
-  do file = folder_ / numbered("ostia-live-%04d.png", ++number_);
-  while (fs::exists(file, ignored));
-  ++count_;
-  writing_ = std::async(std::launch::async,
-                        [file, picture = std::move(raster)] { figure::picture_of(picture).write_png(file); });
-  return "picture: " + file.string();
+  do file_ = folder_ / numbered("ostia-live-%04d.png", ++number_);
+  while (fs::exists(file_, ignored));
+  writing_ = std::async(std::launch::async, [file = file_, picture = std::move(raster)] {
+    figure::picture_of(picture).write_png(file);
+  });
+  return news;
 }
 
-std::string Screenshots::finish() {
+std::vector<Screenshots::News> Screenshots::news() {
+  if (!writing_.valid() || writing_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return {};
+  return finish();
+}
+
+std::vector<Screenshots::News> Screenshots::finish() {
+  if (!writing_.valid()) return {};
   try {
-    if (writing_.valid()) writing_.get();
+    writing_.get();
   } catch (const Error& error) {
-    --count_;
-    return error.what();
+    return {{error.what(), true}};
   }
-  return "";
+  ++count_;
+  return {{"picture: " + file_.string(), false}};
 }
 
 void write_pictures(const LiveInput& input, const Options& options, const core::TaskContext& task) {
+  Options settled = options;
+  settled.start_s = first_picture_s(input, options);
   if (!options.video.empty()) {
-    write_video(input, options, task);
+    write_video(input, settled, task);
     return;
   }
-  Options settled = options;
-  // A stream that has just begun has no phase yet: a picture of one is taken once beats are known.
-  if (!options.phase && input.ecg && options.start_s <= 0.0) settled.start_s = learning_s;
   Easel easel(input, settled);
-  figure::picture_of(easel.picture()).write_png(options.screenshot);
+  const figure::Picture picture = figure::picture_of(easel.picture());
+  task.throw_if_cancelled();
+  picture.write_png(options.screenshot);
 }
 
 }  // namespace ostia::live

@@ -17,14 +17,20 @@ namespace ostia::live {
 class Screenshots {
  public:
   explicit Screenshots(std::filesystem::path folder) : folder_(std::move(folder)) {}
-  /// Returns at once, with what is to be told.
-  std::string take(figure::Raster raster);
-  /// Waits; what the last one failed with, or empty.
-  std::string finish();
-  int count() const { return count_; }
+  /// What became of a picture.
+  struct News {
+    std::string text;
+    bool failed = false;
+  };
+  /// Writes it while the window goes on. Where the one before is still being written it waits for that one.
+  std::vector<News> take(figure::Raster raster);
+  std::vector<News> news();             ///< of the one that has been written since; does not wait
+  std::vector<News> finish();           ///< waits
+  int count() const { return count_; }  ///< that have been written
 
  private:
   std::filesystem::path folder_;
+  std::filesystem::path file_;
   std::future<void> writing_;
   int number_ = 0, count_ = 0;
 };

@@ -4,6 +4,9 @@
 #include "look_of_windows.h"
 #include "panel.h"
 
+#include "ostia/core/error.h"
+#include "ostia/core/log.h"
+
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
@@ -40,6 +43,15 @@ glview::Viewport scene_of(int width, int height, bool panels, bool ecg) {
   return {0, bottom, std::max(16, width - (panels ? panel_width : 0)), std::max(16, height - bottom)};
 }
 
+/// In the pixels of the framebuffer, of which a window's unit may have several.
+glview::Viewport in_pixels(const glview::Viewport& part) {
+  const ImVec2 scale = ImGui::GetIO().DisplayFramebufferScale;
+  const auto px = [](int units, float each) {
+    return static_cast<int>(std::lround(static_cast<double>(units) * static_cast<double>(each)));
+  };
+  return {px(part.x, scale.x), px(part.y, scale.y), px(part.width, scale.x), px(part.height, scale.y)};
+}
+
 int next(SurfaceValue value) {
   return (static_cast<int>(value) + 1) % static_cast<int>(glview::all_values.size());
 }
@@ -59,17 +71,20 @@ const std::vector<NamedView>& named_views() {
 }
 
 Viewer::Viewer(const LiveInput& input, const Options& options)
-    : aspect_(scene_of(options.width, options.height, options.panels, input.ecg.has_value()).aspect()),
+    : cage_(input.motion),
+      surface_(glview::shown_surface(input.surface, input.motion.grid)),
+      aspect_(scene_of(options.width, options.height, options.panels, input.ecg.has_value()).aspect()),
       playback_(feed_of(input), options.start_s),
       notices_(input.warnings) {
-  const motion::MovingCage cage(input.motion);
-  const glview::ShownSurface surface = glview::shown_surface(input.surface, input.motion.grid);
-  const glview::BendingTable bending = glview::bending_table(surface, cage);
   for (const SurfaceValue value : glview::all_values)
-    ranges_[static_cast<std::size_t>(value)] = glview::value_range(surface, cage, value, &bending);
-  places_ = places_of(input, cage);
-  scene_ = std::make_unique<glview::BeatingScene>(surface, cage);
-  scene_->set_bending(bending);
+    if (value != SurfaceValue::bending)
+      ranges_[static_cast<std::size_t>(value)] = glview::value_range(surface_, cage_, value);
+  places_ = places_of(input, cage_);
+  scene_ = std::make_unique<glview::BeatingScene>(surface_, cage_);
+  if (!surface_.closed) {
+    notice("the surface cannot be closed: its X-ray projection has streaks");
+    core::log_warning(notices_.back());
+  }
   shown_.panels = options.panels;
   shown_.camera = glview::camera_on(places_, options.view, aspect_);
   if (options.x_ray) shown_.camera.projection = glview::Projection::x_ray;
@@ -78,7 +93,23 @@ Viewer::Viewer(const LiveInput& input, const Options& options)
   if (options.phase) playback_.scrub(*options.phase);
 }
 
+bool Viewer::make_bending() {
+  if (bending_made_) return true;
+  const glview::BendingTable table = glview::bending_table(surface_, cage_);
+  try {
+    scene_->set_bending(table);
+  } catch (const ResourceError& error) {
+    notice(std::string("curvatures cannot be shown: ") + error.what());
+    core::log_warning(notices_.back());
+    return false;
+  }
+  ranges_[static_cast<std::size_t>(SurfaceValue::bending)] =
+      glview::value_range(surface_, cage_, SurfaceValue::bending, &table);
+  return bending_made_ = true;
+}
+
 void Viewer::set_value(SurfaceValue value) {
+  if (value == SurfaceValue::bending && !make_bending()) value = SurfaceValue::none;
   shown_.look.value = value;
   shown_.look.range = ranges_[static_cast<std::size_t>(value)];
 }
@@ -197,10 +228,10 @@ void Viewer::draw(int width, int height, double frames_per_second) {
   if (shown_.help) draw_help(scene);
   ImGui::Render();
   scene_->set_phase(playback_.phase(), playback_.interval_s());
-  scene_->draw(shown_.camera, shown_.look, scene);
+  scene_->draw(shown_.camera, shown_.look, in_pixels(scene));
   if (shown_.panels) {
-    glview::fill({scene.width, 0, width - scene.width, height}, panel_background);
-    glview::fill({0, 0, scene.width, scene.y}, strip_background);
+    glview::fill(in_pixels({scene.width, 0, width - scene.width, height}), panel_background);
+    glview::fill(in_pixels({0, 0, scene.width, scene.y}), strip_background);
   }
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }

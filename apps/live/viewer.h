@@ -41,7 +41,8 @@ class Viewer {
   bool key(int key, bool shift);
   /// Moves on by seconds of the wall's clock; returns how many samples came in.
   std::size_t advance(double seconds) { return playback_.advance(seconds); }
-  /// Draws into what is bound. The platform's part of Dear ImGui's frame has begun.
+  /// Draws into what is bound: a window of this size, which has Dear ImGui's DisplayFramebufferScale times as
+  /// many pixels. The platform's part of Dear ImGui's frame has begun.
   void draw(int width, int height, double frames_per_second);
 
   Wishes take_wishes();
@@ -54,6 +55,11 @@ class Viewer {
   void mouse(const glview::Viewport& scene, int height);
   void look_from(const glview::CarmAngles& angles);
   void set_value(glview::SurfaceValue value);
+  /// Takes its time, once. False, and told, where the graphics card has no room for the table.
+  bool make_bending();
+  motion::MovingCage cage_;
+  glview::ShownSurface surface_;
+  bool bending_made_ = false;
   std::vector<geometry::Vec3> places_;  // of the surface over the cycle
   double aspect_;
   Playback playback_;

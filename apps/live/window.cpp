@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <string>
+#include <vector>
 
 namespace ostia::live {
 namespace {
@@ -81,6 +82,13 @@ class Events {
   Events& operator=(const Events&) = delete;
 };
 
+void tell(Viewer& viewer, const std::vector<Screenshots::News>& news) {
+  for (const Screenshots::News& one : news) {
+    if (one.failed) std::fprintf(stderr, "ostia-live: %s\n", one.text.c_str());
+    viewer.notice(one.text);
+  }
+}
+
 }  // namespace
 
 void show_window(const LiveInput& input, const Options& options,
@@ -92,7 +100,7 @@ void show_window(const LiveInput& input, const Options& options,
   Viewer viewer(input, options);
   const Events events(window, viewer);
   Screenshots screenshots(options.pictures);
-  FrameMeter meter;
+  FrameMeter meter(options.measure);
   // The first picture takes longest: the driver compiles. The stream begins with the second.
   ImGui_ImplGlfw_NewFrame();
   viewer.draw(options.width, options.height, 0.0);
@@ -109,11 +117,18 @@ void show_window(const LiveInput& input, const Options& options,
     if (options.seconds && now - start >= *options.seconds) break;
     const std::size_t samples = viewer.advance(std::min(now - before, longest_step_s));
     before = now;
-    int width = 0, height = 0;
-    glfwGetFramebufferSize(window, &width, &height);
+    tell(viewer, screenshots.news());
+    int width = 0, height = 0, wide_px = 0, high_px = 0;
+    glfwGetWindowSize(window, &width, &height);
+    glfwGetFramebufferSize(window, &wide_px, &high_px);
+    if (width <= 0 || height <= 0 || wide_px <= 0 || high_px <= 0) {  // to an icon
+      glfwWaitEventsTimeout(paused_wait_s);
+      continue;
+    }
     ImGui_ImplGlfw_NewFrame();
     viewer.draw(width, height, meter.recent_frames_per_second());
-    if (viewer.take_wishes().screenshot) viewer.notice(screenshots.take(glview::read_pixels(width, height)));
+    if (viewer.take_wishes().screenshot)
+      tell(viewer, screenshots.take(glview::read_pixels(wide_px, high_px)));
     glfwSwapBuffers(window);
     if (options.measure) finish_drawing();
     const Playback& play = viewer.playback();
@@ -121,8 +136,7 @@ void show_window(const LiveInput& input, const Options& options,
     const double newest = play.feed() ? now - (play.stream_s() - play.feed()->time_s()) / play.speed() : now;
     meter.shown(glfwGetTime(), samples, newest, apart);
   }
-  if (const std::string trouble = screenshots.finish(); !trouble.empty())
-    std::fprintf(stderr, "ostia-live: %s\n", trouble.c_str());
+  tell(viewer, screenshots.finish());
   if (options.measure) {
     int width = 0, height = 0;
     glfwGetFramebufferSize(window, &width, &height);

@@ -34,8 +34,8 @@ void add_frames(CLI::App& app, int& frames) {
       ->check(CLI::Range(3, 1000));
 }
 
-void add_units(CLI::App& app, std::string& units) {
-  app.add_option("--units", units, "Unit of length of the surfaces")->check(CLI::IsMember({"m", "cm", "mm"}));
+void add_units(CLI::App& app, std::string& units, const char* text = "Unit of length of the surfaces") {
+  app.add_option("--units", units, text)->check(CLI::IsMember({"m", "cm", "mm"}));
 }
 
 void add_fit(CLI::App& motion, MotionFitCommand& c, Run& run) {
@@ -76,6 +76,7 @@ void add_apply(CLI::App& motion, MotionApplyCommand& c, Run& run) {
                    ".vtp, .stl or .ply for a surface, .vtu for a mesh, .vtp or .csv for lines")
       ->required();
   apply->add_option("--phase", c.percent, "Percent of the cycle since the R peak; 125 is 25")->required();
+  add_units(*apply, c.units, "Unit of length of the input; what is written is in mm");
 }
 
 void add_evaluate(CLI::App& motion, MotionEvaluateCommand& c, Run& run) {
@@ -115,6 +116,7 @@ void add_export(CLI::App& motion, MotionExportCommand& c, Run& run) {
   out->add_option("-o,--output", c.output, "Folder that is made")->required();
   out->add_option("--mesh", c.mesh, "A volume mesh at the template's phase, for vtu and openfoam");
   out->add_option("--surface", c.surface, "What is carried; left out: the template beside the motion");
+  add_units(*out, c.units, "Unit of length of the --surface");
   out->add_option("--format", c.formats,
                   "vtp and stl: the surface; vtu and openfoam: the mesh; csv: displacements; json: points; "
                   "separated by commas. Default vtp, with a mesh vtu")

@@ -35,12 +35,22 @@ experiments::MotionOptions options_of(const MotionCommand& command) {
     options.compared_phases.clear();
     for (const double percent : command.compared_percent) options.compared_phases.push_back(percent / 100.0);
   }
-  experiments::validate(options);
   return options;
 }
 
+/// What the options ask for must be possible before anything is begun.
+experiments::MotionOptions checked(const MotionCommand& command) {
+  try {
+    experiments::MotionOptions options = options_of(command);
+    experiments::validate(options);
+    return options;
+  } catch (const InvalidInput& error) {
+    throw UsageError(std::string("experiment motion: ") + error.what());
+  }
+}
+
 ExitCode run_experiment_motion(const MotionCommand& command, const core::TaskContext& task) {
-  const experiments::MotionOptions options = options_of(command);
+  const experiments::MotionOptions options = checked(command);
   std::vector<experiments::MotionRun> runs;
   const ExitCode code = run_experiment(
       command.output, {"experiment motion", {}, experiments::parameters_json(options)}, command.json,

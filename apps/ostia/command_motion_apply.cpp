@@ -4,6 +4,7 @@
 #include "refusal.h"
 
 #include "ostia/core/log.h"
+#include "ostia/geometry/mesh_topology.h"
 #include "ostia/io/centerline_file.h"
 #include "ostia/io/mesh_export.h"
 #include "ostia/io/surface_file.h"
@@ -11,6 +12,7 @@
 #include "ostia/motion/moving_cage.h"
 #include "ostia/pipeline/motion_export.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -26,18 +28,14 @@ class AtPhase {
  public:
   AtPhase(const motion::MovingCage& cage, double phase) : grid_(cage.grid()), control_(cage.at(phase)) {}
 
-  /// Throws InvalidInput where none of the points lies in the cage; warns of those that do not.
+  /// Throws InvalidInput where a point is not finite or most lie outside of the cage; warns where some do.
   Points carried(const Points& points, const fs::path& of) const {
-    const motion::CarriedPoints carried(grid_, points);
-    if (!points.empty() && carried.outside() == points.size())
-      throw InvalidInput(own_name(of) +
-                         ": none of its points lies in the motion's cage; it is of another heart, unit or "
-                         "frame");
-    if (carried.outside() > 0)
-      core::log_warning(own_name(of) + ": " + std::to_string(carried.outside()) + " of " +
-                        std::to_string(points.size()) +
-                        " points lie outside of the motion's cage; they go as its nearest place does");
-    return carried.places(control_);
+    return naming(of, [&] {
+      const motion::CarriedPoints carried(grid_, points);
+      const std::string warning = motion::judge_outside(carried, "its points");
+      if (!warning.empty()) core::log_warning(own_name(of) + ": " + warning);
+      return carried.places(control_);
+    });
   }
 
  private:
@@ -45,12 +43,25 @@ class AtPhase {
   Points control_;
 };
 
+/// Into mm. Throws InvalidInput where no unit was given and the size is hardly that of millimetres.
+void bring_to_mm(Points& points, const MotionApplyCommand& c, bool own_template) {
+  constexpr double widest_mm = 100.0;  // hearts are wider than vessels
+  for (Vec3& p : points) p *= unit_mm(c.units);
+  // A point that is none is told when it is carried, by its number.
+  const bool sound = std::ranges::all_of(points, [](const Vec3& p) { return p.allFinite(); });
+  if (c.units.empty() && !own_template && sound)
+    pipeline::check_vessel_size(std::min(geometry::bounds(points).sizes().minCoeff(), widest_mm),
+                                c.input.string());
+}
+
 ExitCode apply_to_mesh(const MotionApplyCommand& c, const AtPhase& cage) {
   require_output(c.output, {".vtu"});
-  geometry::MixedMesh mesh = io::read_volume_mesh(c.input);
+  io::LayeredMesh layered = io::read_layered_mesh(c.input);
+  geometry::MixedMesh& mesh = layered.mesh;
+  bring_to_mm(mesh.points, c, false);
   mesh.points = cage.carried(mesh.points, c.input);
   const pipeline::CarriedQuality quality = pipeline::carried_quality(mesh);
-  io::export_mesh(mesh, io::MeshFormat::vtu, c.output);
+  io::export_mesh(mesh, io::MeshFormat::vtu, c.output, {.layer_tetrahedra = layers_at_end(layered)});
   if (quality.inverted == 0) return ExitCode::ok;
   core::log_warning("quality control failed: " + std::to_string(quality.inverted) +
                     " elements are inverted at this phase");
@@ -59,7 +70,7 @@ ExitCode apply_to_mesh(const MotionApplyCommand& c, const AtPhase& cage) {
 
 ExitCode apply_to_lines(const MotionApplyCommand& c, const AtPhase& cage) {
   require_output(c.output, line_outputs);
-  geometry::VesselTree tree = io::read_centerlines(c.input);
+  geometry::VesselTree tree = lines_from(c.input, c.units);
   Points all;  // nodes first, so that they and the ends of axes stay together
   for (const geometry::TreeNode& node : tree.nodes) all.push_back(node.position);
   for (const geometry::TreeSegment& segment : tree.segments)
@@ -85,6 +96,12 @@ std::optional<geometry::FacedSurface> surface_of(const fs::path& path) {
   }
 }
 
+bool is_template(const MotionApplyCommand& c, const io::CageMotionFile& file) {
+  if (file.surface.empty()) return false;
+  std::error_code none;
+  return fs::equivalent(c.input, template_path(c.motion, file, {}), none);
+}
+
 }  // namespace
 
 ExitCode run_motion_apply(const MotionApplyCommand& c, const core::TaskContext& task) {
@@ -98,11 +115,9 @@ ExitCode run_motion_apply(const MotionApplyCommand& c, const core::TaskContext& 
   ExitCode code = ExitCode::ok;
   if (auto surface = surface_of(c.input)) {
     require_output(c.output, surface_outputs);
+    bring_to_mm(surface->mesh.points, c, is_template(c, file));
     surface->mesh.points = cage.carried(surface->mesh.points, c.input);
-    if (has_extension(c.output, {".vtp"}))
-      io::write_surface(c.output, *surface);
-    else
-      io::write_surface(c.output, surface->mesh);
+    io::write_surface(c.output, *surface);
   } else if (io::is_volume_mesh(c.input)) {
     code = apply_to_mesh(c, cage);
   } else {

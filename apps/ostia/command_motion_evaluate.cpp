@@ -18,9 +18,27 @@ using geometry::CageMotion;
 using geometry::PhaseOrigin;
 
 constexpr double same_phase = 1e-6;
+constexpr double told_phase = 1e-4;  // messages have percents to two digits
+
+double off(const geometry::CagePhase& one, double phase) {
+  const double d = std::abs(one.phase - phase);
+  return std::min(d, 1.0 - d);
+}
 
 bool is_at(const geometry::CagePhase& one, double phase) {
-  return std::abs(one.phase - phase) < same_phase;
+  return off(one, phase) < same_phase;
+}
+
+/// The motion's phase that a user has written, as messages have it perhaps.
+const geometry::CagePhase& phase_at(const CageMotion& motion, double percent) {
+  const double phase = percent / 100.0 - std::floor(percent / 100.0);
+  const auto nearest =
+      std::ranges::min_element(motion.phases, {}, [&](const auto& one) { return off(one, phase); });
+  if (off(*nearest, phase) <= told_phase) return *nearest;
+  std::string all;
+  for (const geometry::CagePhase& one : motion.phases)
+    all += (all.empty() ? "" : ", ") + pipeline::percent_text(one.phase);
+  throw InvalidInput("--keep: the motion has no phase " + pipeline::percent_text(phase) + "; it has " + all);
 }
 
 /// The motion with those phases alone that are asked for.
@@ -28,12 +46,10 @@ CageMotion kept(const CageMotion& motion, const MotionEvaluateCommand& c) {
   CageMotion out = motion;
   out.phases.clear();
   for (const double percent : c.keep) {
-    const double phase = percent / 100.0 - std::floor(percent / 100.0);
-    const auto found = std::ranges::find_if(motion.phases, [&](const auto& p) { return is_at(p, phase); });
-    if (found == motion.phases.end())
-      throw InvalidInput("--keep: the motion has no phase " + pipeline::percent_text(phase));
-    if (std::ranges::none_of(out.phases, [&](const auto& p) { return is_at(p, phase); }))
-      out.phases.push_back(*found);
+    if (!std::isfinite(percent)) throw UsageError("--keep takes percents of the cycle, numbers");
+    const geometry::CagePhase& found = phase_at(motion, percent);
+    if (std::ranges::none_of(out.phases, [&](const auto& p) { return p.phase == found.phase; }))
+      out.phases.push_back(found);
   }
   std::ranges::sort(out.phases, {}, &geometry::CagePhase::phase);
   if (c.keep.empty())

@@ -1,3 +1,4 @@
+#include "input_digest.h"
 #include "motion.h"
 #include "motion_input.h"
 #include "refusal.h"
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 
 namespace ostia::app {
@@ -21,6 +23,7 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 pipeline::MotionExportOptions options_of(const MotionExportCommand& c) {
+  if (!std::isfinite(c.rr_seconds)) throw UsageError("--rr is the length of the cycle in seconds, a number");
   pipeline::MotionExportOptions options;
   options.times = c.times;
   options.rr_seconds = c.rr_seconds;
@@ -34,11 +37,12 @@ pipeline::JobKey job_of(const MotionExportCommand& c, const pipeline::MotionExpo
                         const fs::path& surface) {
   Json formats = Json::array();
   for (const pipeline::MotionFormat one : options.formats) formats.push_back(pipeline::name_of(one));
-  const Json parameters{{"formats", formats}, {"times", c.times}, {"rr_seconds", c.rr_seconds}};
+  const Json parameters{
+      {"formats", formats}, {"times", c.times}, {"rr_seconds", c.rr_seconds}, {"units", c.units}};
   pipeline::JobKey key{"motion export", {}, parameters.dump()};
   key.inputs["motion"] = core::sha256_file(motion_path(c.motion));
   key.inputs["surface"] = core::sha256_file(surface);
-  if (fs::is_regular_file(c.mesh)) key.inputs["mesh"] = core::sha256_file(c.mesh);
+  if (fs::exists(c.mesh)) key.inputs["mesh"] = digest_of(c.mesh);
   return key;
 }
 
@@ -69,18 +73,21 @@ void print(const Json& result) {
       result["times"].size(), farthest, result["inverted"].get<int>(), least);
 }
 
-pipeline::MotionExport make(const MotionExportCommand& c, const pipeline::MotionExportOptions& options,
+pipeline::MotionExport make(const MotionExportCommand& c, pipeline::MotionExportOptions options,
                             const fs::path& surface_path, const fs::path& folder,
                             const core::TaskContext& task) {
   const io::CageMotionFile file = io::read_cage_motion(motion_path(c.motion));
   const motion::MovingCage cage(file.motion);
-  const geometry::TriMesh surface = surface_from(surface_path, "mm");
-  std::optional<geometry::MixedMesh> mesh;
-  if (!c.mesh.empty()) mesh = io::read_volume_mesh(c.mesh);
+  const geometry::TriMesh surface = surface_from(surface_path, c.surface.empty() ? "mm" : c.units);
+  std::optional<io::LayeredMesh> layered;
+  if (!c.mesh.empty()) layered = io::read_layered_mesh(c.mesh);
+  options.surface_name = own_name(surface_path);
+  if (layered) {
+    options.mesh_name = own_name(c.mesh);
+    options.layer_tetrahedra = layers_at_end(*layered);
+  }
   task.set_stage("writing");
-  return naming(c.mesh.empty() ? surface_path : c.mesh, [&] {
-    return pipeline::export_motion(folder, cage, surface, mesh ? &*mesh : nullptr, options, task);
-  });
+  return pipeline::export_motion(folder, cage, surface, layered ? &layered->mesh : nullptr, options, task);
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+#include "input_digest.h"
 #include "motion.h"
 #include "motion_input.h"
 
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 
 namespace ostia::app {
@@ -24,6 +26,8 @@ using pipeline::PhaseFit;
 constexpr const char* template_name = "template.vtp";
 
 pipeline::MotionFitOptions options_of(const MotionFitCommand& c) {
+  if (!std::isfinite(c.template_percent))
+    throw UsageError("--template-phase is percent of the cycle, a number");
   pipeline::MotionFitOptions options;
   options.template_phase = c.template_percent >= 100.0 ? 0.0 : c.template_percent / 100.0;
   if (c.method == "gradient-descent") options.method = pipeline::MotionMethod::gradient_descent;
@@ -48,7 +52,7 @@ pipeline::JobKey job_of(const MotionFitCommand& c, const pipeline::MotionFitOpti
                         {"units", c.units}};
   pipeline::JobKey key{"motion fit", {}, parameters.dump()};
   for (const PhaseFile& one : files)
-    key.inputs["phase " + pipeline::percent_text(one.phase)] = core::sha256_file(one.file);
+    key.inputs["phase " + pipeline::percent_text(one.phase)] = digest_of(one.file);
   return key;
 }
 
@@ -63,12 +67,8 @@ const char* origin_name(PhaseOrigin origin) {
   }
 }
 
-double percent_of(double phase) {
-  return std::round(phase * 1e11) / 1e9;
-}
-
 Json phase_json(const PhaseFit& one) {
-  Json out{{"percent", percent_of(one.phase)},
+  Json out{{"percent", io::percent_of(one.phase)},
            {"origin", origin_name(one.origin)},
            {"why", one.why.empty() ? Json(nullptr) : Json(one.why)},
            {"stiffness", one.stiffness},
@@ -110,7 +110,7 @@ Json report_of(const MotionFit& fit) {
   const Sums sums = sums_of(fit);
   Json out{{"v", 1},
            {"kind", "motion-fit"},
-           {"template_percent", percent_of(fit.motion.template_phase)},
+           {"template_percent", io::percent_of(fit.motion.template_phase)},
            {"template_points", fit.template_shape.points.size()},
            {"template_triangles", fit.template_shape.triangles.size()},
            {"cells", fit.motion.grid.cells},

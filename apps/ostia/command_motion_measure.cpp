@@ -27,6 +27,7 @@ geometry::VesselTree tree_in(const fs::path& path) {
 }
 
 analysis::MotionMeasureOptions options_of(const MotionMeasureCommand& c) {
+  if (!std::isfinite(c.rr_seconds)) throw UsageError("--rr is the length of the cycle in seconds, a number");
   analysis::MotionMeasureOptions options;
   options.rr_s = c.rr_seconds;
   if (c.reach_mm) options.reach_mm = *c.reach_mm;

@@ -1,5 +1,6 @@
 #include "chain.h"
 #include "cli.h"
+#include "input_digest.h"
 #include "run.h"
 
 #include "ostia/core/files.h"
@@ -36,21 +37,6 @@ Variables variables_of(const std::vector<std::string>& given) {
     out[one.substr(0, equals)] = one.substr(equals + 1);
   }
   return out;
-}
-
-/// Of a file, or of all files in a folder with their names.
-std::string digest_of(const fs::path& input) {
-  if (!fs::is_directory(input)) return core::sha256_file(input);
-  std::vector<std::string> lines;
-  for (const auto& entry : fs::recursive_directory_iterator(input)) {
-    if (entry.is_regular_file())
-      lines.push_back(fs::relative(entry.path(), input).generic_string() + " " +
-                      core::sha256_file(entry.path()) + "\n");
-  }
-  std::sort(lines.begin(), lines.end());
-  std::string all;
-  for (const std::string& line : lines) all += line;
-  return core::sha256(all);
 }
 
 /// Inputs count by content, and what is done with them by its words; how either is called does not matter.

@@ -32,6 +32,7 @@ ExitCode run_motion_fit(const MotionFitCommand& options, const core::TaskContext
 struct MotionApplyCommand {
   std::filesystem::path motion, input, output;
   double percent = 0.0;
+  std::string units;  ///< of the input
 };
 ExitCode run_motion_apply(const MotionApplyCommand& options, const core::TaskContext& task);
 
@@ -49,6 +50,7 @@ struct MotionExportCommand {
   std::vector<std::string> formats;  ///< none: vtp, with a mesh vtu
   int times = 20;
   double rr_seconds = 0.8;
+  std::string units;  ///< of `surface`
   bool json = false;
 };
 ExitCode run_motion_export(const MotionExportCommand& options, const core::TaskContext& task);

@@ -47,6 +47,7 @@ struct NumberedFile {
   double number = 0.0;
   std::string name;  ///< for messages
   fs::path file;
+  bool exact = false;  ///< percent of the cycle, said elsewhere than in the name
 };
 
 /// A synthetic case says its phases exactly: a folder's name has whole percents alone.
@@ -87,12 +88,16 @@ std::vector<NumberedFile> numbered_files(const fs::path& folder) {
       core::log_info(name + " has no number in its name: it is taken for no phase");
       continue;
     }
-    (of_phase ? in_folders : files).push_back({*number, name, of_phase ? path / lumen_of_a_phase : path});
+    (of_phase ? in_folders : files)
+        .push_back({*number, name, of_phase ? path / lumen_of_a_phase : path, false});
   }
   if (!in_folders.empty()) {
     const auto exact = exact_percents(folder);
     for (NumberedFile& one : in_folders)
-      if (const auto found = exact.find(one.name); found != exact.end()) one.number = found->second;
+      if (const auto found = exact.find(one.name); found != exact.end()) {
+        one.number = found->second;
+        one.exact = true;
+      }
     files = std::move(in_folders);
   }
   if (files.empty())
@@ -106,15 +111,42 @@ std::vector<NumberedFile> numbered_files(const fs::path& folder) {
   return files;
 }
 
-/// Names count 0, 1, 2, ... or 1, 2, 3, ...: percents are never so.
+/// Names count 0, 1, 2, ... or 1, 2, 3, ..., some left out perhaps: percents of a whole cycle are never so.
+bool seem_frames(const std::vector<NumberedFile>& files) {
+  constexpr double fewest_percents = 50.0;  // a cycle's last phase lies beyond
+  if (files.size() < 3 || files.front().number > 1.0) return false;
+  double least = 100.0, most = 0.0;  // of the steps
+  for (std::size_t k = 0; k < files.size(); ++k) {
+    if (files[k].exact || files[k].number != std::floor(files[k].number)) return false;
+    if (k == 0 || files[k].number == files[k - 1].number) continue;  // twice: told elsewhere
+    least = std::min(least, files[k].number - files[k - 1].number);
+    most = std::max(most, files[k].number - files[k - 1].number);
+  }
+  return least == 1.0 && (most == 1.0 || files.back().number < fewest_percents);
+}
+
 void require_percents(const fs::path& folder, const std::vector<NumberedFile>& files) {
-  if (files.size() < 3 || files.front().number > 1.0) return;
-  for (std::size_t k = 0; k < files.size(); ++k)
-    if (files[k].number != files.front().number + static_cast<double>(k)) return;
+  if (!seem_frames(files)) return;
+  const double first = files.front().number, last = files.back().number;
+  const std::string percents =
+      first == 1.0 && last == 100.0 ? ", name the last one 0" : ", with --frames 100";
   throw InvalidInput(folder.string() + ": the names' numbers are 1 apart, from " + files.front().name +
                      " to " + files.back().name +
                      "; if they count frames of one cycle, say so with --frames " +
-                     std::to_string(files.size()) + ", if they are percent, with --frames 100");
+                     std::to_string(std::lround(last - first + 1.0)) + ", if they are percent" + percents);
+}
+
+/// The number of the R peak's frame.
+double first_frame(const std::vector<NumberedFile>& files, int frames) {
+  double least = frames, most = 0.0;
+  for (const NumberedFile& one : files) {
+    if (one.exact) continue;
+    least = std::min(least, one.number);
+    most = std::max(most, one.number);
+  }
+  if (frames == 0 || least != 1.0 || most <= frames - 1.0) return 0.0;
+  core::log_info("frames are counted from 1 to " + std::to_string(frames) + ": frame 1 is phase 0 %");
+  return 1.0;
 }
 
 geometry::TriMesh mask_surface(const fs::path& path) {
@@ -126,7 +158,7 @@ geometry::TriMesh mask_surface(const fs::path& path) {
   return naming(path, [&] { return segmentation::segment_mask(*source.mask); });
 }
 
-geometry::TriMesh surface_in(const fs::path& path, double unit_mm) {
+geometry::TriMesh surface_in(const fs::path& path, double mm) {
   geometry::TriMesh mesh;
   if (is_image_name(path.filename().string())) return mask_surface(path);
   try {
@@ -135,7 +167,7 @@ geometry::TriMesh surface_in(const fs::path& path, double unit_mm) {
   } catch (const io::EmptySurface&) {
     return {};
   }
-  for (geometry::Vec3& p : mesh.points) p *= unit_mm;
+  for (geometry::Vec3& p : mesh.points) p *= mm;
   return mesh;
 }
 
@@ -158,15 +190,18 @@ std::string phase_of(const std::string& stem) {
 std::vector<PhaseFile> phase_files(const fs::path& folder, int frames) {
   const std::vector<NumberedFile> files = numbered_files(folder);
   if (frames == 0) require_percents(folder, files);
-  const double whole = frames == 0 ? 100.0 : frames;
+  const double first = first_frame(files, frames);
   std::vector<PhaseFile> phases;
   for (const NumberedFile& one : files) {
+    const double whole = frames == 0 || one.exact ? 100.0 : frames;
     if (one.number > whole)
       throw InvalidInput((folder / one.name).string() + ": its number is beyond " +
-                         (frames == 0 ? "100 percent of the cycle; if it counts frames, say how many a cycle "
-                                        "has with --frames"
-                                      : "the " + std::to_string(frames) + " frames of a cycle"));
-    phases.push_back({one.number == whole ? 0.0 : one.number / whole, one.file});
+                         (whole == 100.0
+                              ? "100 percent of the cycle; if it counts frames, say how many a cycle "
+                                "has with --frames"
+                              : "the " + std::to_string(frames) + " frames of a cycle"));
+    const double count = one.exact ? one.number : one.number - first;
+    phases.push_back({count == whole ? 0.0 : count / whole, one.file});
   }
   std::ranges::stable_sort(phases, {}, &PhaseFile::phase);
   for (std::size_t k = 1; k < phases.size(); ++k)
@@ -179,17 +214,29 @@ std::vector<PhaseFile> phase_files(const fs::path& folder, int frames) {
 
 std::vector<pipeline::PhaseSurface> read_phases(const std::vector<PhaseFile>& files, const std::string& units,
                                                 const core::TaskContext& task) {
-  const double unit_mm = units == "m" ? 1000.0 : units == "cm" ? 10.0 : 1.0;
   std::vector<pipeline::PhaseSurface> phases;
   for (const PhaseFile& one : files) {
     task.throw_if_cancelled();
     const std::string name = one.file.filename() == lumen_of_a_phase
                                  ? (one.file.parent_path().filename() / lumen_of_a_phase).string()
                                  : one.file.filename().string();
-    phases.push_back({one.phase, name, surface_in(one.file, unit_mm)});
+    phases.push_back({one.phase, name, surface_in(one.file, unit_mm(units))});
     task.set_progress(static_cast<double>(phases.size()) / static_cast<double>(files.size()));
   }
   return phases;
+}
+
+double unit_mm(const std::string& units) {
+  return units == "m" ? 1000.0 : units == "cm" ? 10.0 : 1.0;
+}
+
+std::size_t layers_at_end(const io::LayeredMesh& layered) {
+  const std::size_t all = std::min(layered.in_layers.size(), layered.mesh.tetrahedra.size());
+  const auto begin = layered.in_layers.begin(), end = begin + static_cast<std::ptrdiff_t>(all);
+  const auto first = std::find(begin, end, true);
+  if (std::find(first, end, false) == end) return static_cast<std::size_t>(end - first);
+  core::log_info("the mesh's marks of layers are not kept: its tetrahedra are in another order");
+  return 0;
 }
 
 fs::path motion_path(const fs::path& motion) {

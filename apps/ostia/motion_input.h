@@ -4,6 +4,7 @@
 #include "ostia/core/task_context.h"
 #include "ostia/geometry/tri_mesh.h"
 #include "ostia/io/cage_motion_file.h"
+#include "ostia/io/volume_mesh_file.h"
 #include "ostia/pipeline/motion_fit.h"
 
 #include <filesystem>
@@ -21,15 +22,23 @@ struct PhaseFile {
   std::filesystem::path file;
 };
 /// The surfaces (.vtp .stl .ply .obj .vtk) and masks of a folder, or lumen.vtp of its subfolders phase-NN,
-/// one a phase, rising. `frames`: the numbers in names count frames, so many a cycle; 0: they are percent.
-/// Throws InvalidInput that names the file: no phases, a number that is none of the cycle's, numbers that
-/// seem to count frames; IoError.
+/// one a phase, rising. `frames`: the numbers in names count frames, so many a cycle, from 0 or, where they
+/// are 1 to `frames`, from 1; 0: they are percent. Percents of a heartbeat.json stay what they are. Throws
+/// InvalidInput that names the file: no phases, a number that is none of the cycle's, numbers that seem to
+/// count frames; IoError.
 std::vector<PhaseFile> phase_files(const std::filesystem::path& folder, int frames);
 
 /// Reads them; a mask becomes a surface, a file without triangles or voxels a phase without a vessel. `units`
 /// is "", "m", "cm" or "mm". Throws InvalidInput that names the file for an image that is no mask.
 std::vector<pipeline::PhaseSurface> read_phases(const std::vector<PhaseFile>& files, const std::string& units,
                                                 const core::TaskContext& task);
+
+/// How many mm the unit of length is: "m", "cm", "mm"; "" is mm.
+double unit_mm(const std::string& units);
+
+/// Of tetrahedra, the last ones, how many are of layers (io::MeshExportOptions::layer_tetrahedra); 0, with a
+/// line in the log, where others are of layers too.
+std::size_t layers_at_end(const io::LayeredMesh& mesh);
 
 /// motion.json, or the folder that holds it.
 std::filesystem::path motion_path(const std::filesystem::path& motion);

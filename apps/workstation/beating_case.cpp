@@ -134,7 +134,7 @@ void BeatingCase::close() {
   beating_.reset();
   window_.jobs().cancel("phase_images");
   images_.clear();
-  window_.bench().show_phase(nullptr);
+  window_.guarded([this] { window_.bench().show_phase(nullptr); });  // what follows is done all the same
   room_->hide();
   profile_->hide();
   profile_->refresh();

@@ -3,6 +3,7 @@
 #include "flow_results.h"
 #include "main_window.h"
 
+#include "ostia/core/child_process.h"
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
 #include "ostia/solver/flow_files.h"
@@ -177,7 +178,7 @@ void FlowCases::tell_written(const FlowChoice& made, const Warnings& warnings, c
   for (const std::string& warning : warnings) notes << QString::fromStdString(warning);
   if (!warnings.empty()) window_.say(QString::fromStdString(warnings.front()));
   const std::string program = made.waveform.empty() ? "simpleFoam" : "pisoFoam";
-  const bool here = made.solver == FlowSolver::openfoam && solver::program_on_path(program);
+  const bool here = made.solver == FlowSolver::openfoam && core::program_on_path(program);
   if (here && made.run && !window_.jobs().running("flow_run"))
     run(made.folder, of);
   else if (here)

@@ -3,6 +3,7 @@
 #include "file_dialogs.h"
 #include "new_folder.h"
 
+#include "ostia/core/child_process.h"
 #include "ostia/io/volume_mesh_file.h"
 #include "ostia/solver/openfoam_launch.h"
 
@@ -168,7 +169,7 @@ void FlowDialog::show_note() {
   const FlowChoice now = choice();
   const QString program = program_of(!now.waveform.empty());
   const bool openfoam = now.solver == FlowSolver::openfoam;
-  const bool here = openfoam && solver::program_on_path(program.toStdString());
+  const bool here = openfoam && core::program_on_path(program.toStdString());
   run_->setEnabled(here);
   if (!openfoam)
     note_->setText(tr("Run it where svMultiPhysics is installed: svmultiphysics solver.xml in the folder."));

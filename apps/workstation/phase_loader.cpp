@@ -23,7 +23,7 @@ void PhaseLoader::set(std::vector<session::PhaseSource> sources, double own_phas
 }
 
 void PhaseLoader::clear() {
-  if (job_) queue_.cancel(*job_);
+  if (job_) queue_.forget(*job_);
   job_.reset();
   timer_.stop();
   images_.reset();
@@ -67,6 +67,7 @@ void PhaseLoader::poll() {
       images_->take(job_source_, std::move(*image), phase_);
     emit arrived();
   } else {
+    queue_.forget(*job);
     images_->failed(job_source_);
     emit failed(tr("The image of %1 cannot be read: %2")
                     .arg(QString::fromStdString(session::percent_of_cycle(phase)),

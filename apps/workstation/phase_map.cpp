@@ -89,11 +89,12 @@ void PhaseMap::color() {
     high_ = std::max({std::abs(low_), std::abs(high_), 1.0});
     low_ = -high_;
   }
-  picture_ = QImage(static_cast<int>(columns), static_cast<int>(rows), QImage::Format_RGB32);
-  for (std::size_t k = 0; k < rows; ++k)
+  // The first phase is below the last, too, where the cycle ends.
+  picture_ = QImage(static_cast<int>(columns), static_cast<int>(rows + 1), QImage::Format_RGB32);
+  for (std::size_t k = 0; k <= rows; ++k)
     for (std::size_t i = 0; i < columns; ++i)
       picture_.setPixel(static_cast<int>(i), static_cast<int>(k),
-                        shown(scale_of(value_), (all[k * columns + i] - low_) / (high_ - low_)));
+                        shown(scale_of(value_), (all[k % rows * columns + i] - low_) / (high_ - low_)));
 }
 
 QRect PhaseMap::plot() const {
@@ -109,6 +110,16 @@ QString PhaseMap::value_text(double value) const {
   return number + (value_ == PhaseMapValue::diameter ? tr(" mm")
                    : value_ == PhaseMapValue::area   ? tr(" mm\u00b2")
                                                      : tr(" %"));
+}
+
+/// Each sample's middle where its phase and its abscissa are: the outer ones are cut in half.
+void PhaseMap::paint_picture(QPainter& painter, const QRect& at) const {
+  const double wide = static_cast<double>(at.width()) / std::max(1, picture_.width() - 1);
+  const double high = static_cast<double>(at.height()) / std::max(1, picture_.height() - 1);
+  painter.save();
+  painter.setClipRect(at);
+  painter.drawImage(QRectF(at).adjusted(-wide / 2.0, -high / 2.0, wide / 2.0, high / 2.0), picture_);
+  painter.restore();
 }
 
 void PhaseMap::paint_axes(QPainter& painter, const QRect& at) const {
@@ -153,7 +164,7 @@ void PhaseMap::paintEvent(QPaintEvent*) {
     return;
   }
   painter.setRenderHint(QPainter::SmoothPixmapTransform);
-  painter.drawImage(at, picture_);
+  paint_picture(painter, at);
   paint_axes(painter, at);
   paint_bar(painter, at);
   const auto across = [&](double share, Qt::PenStyle style) {

@@ -39,6 +39,7 @@ class PhaseMap final : public QWidget {
  private:
   double value(std::size_t phase, std::size_t section) const;
   void color();
+  void paint_picture(QPainter& painter, const QRect& at) const;
   void paint_axes(QPainter& painter, const QRect& at) const;
   void paint_bar(QPainter& painter, const QRect& at) const;
   void go_to(const QPoint& place);

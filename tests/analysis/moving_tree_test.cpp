@@ -87,7 +87,7 @@ TEST(MovingTree, TellsHowMuchLiesOutsideOfTheCage) {
   EXPECT_THAT(carried_tree(rest, around(90.0), even_phases(4)).warnings,
               ElementsAre(HasSubstr("10.0 % of the axes lie outside of the motion's cage, up to 10.0 mm")));
   EXPECT_THAT(refusal([&] { carried_tree(rest, around(40.0), even_phases(4)); }),
-              HasSubstr("up to 60.0 mm: give the axes of the same heart"));
+              HasSubstr("up to 60.0 mm: they must be of the same heart"));
 }
 
 TEST(MovingTree, RefusesWhatCannotBeFollowed) {

@@ -45,7 +45,7 @@ void expect_refused(const TriMesh& mesh, const std::string& what) {
 }
 
 TEST(SurfaceCommands, BadInput_Row35_RefusesSeveralParts) {
-  expect_refused(both(box(), box({30, 0, 0})), "separate parts");
+  expect_refused(both(box(), box({30, 0, 0})), "as it is: it has 2 separate parts");
 }
 
 TEST(SurfaceCommands, BadInput_Row35_RefusesSelfIntersections) {

@@ -47,6 +47,13 @@ TEST(Csv, CellsAreTakenOneAfterAnother) {
   EXPECT_EQ(two, "d");
 }
 
+TEST(Csv, AReturnWithinQuotesStaysAndOneBeforeTheLinesEndGoes) {
+  EXPECT_THAT(cells_of("a,\"b\r\"\n"), ElementsAre("a", "b\r"));
+  EXPECT_THAT(cells_of("a,\"b\r\"\r\n"), ElementsAre("a", "b\r"));
+  EXPECT_THAT(cells_of("a,\"b\"\r\n"), ElementsAre("a", "b"));
+  EXPECT_THAT(cells_of("a,b\r\n"), ElementsAre("a", "b"));
+}
+
 TEST(Csv, AQuotationThatDoesNotEndIsTold) {
   std::string_view open = "\"a,b\nc";
   const CsvCell cell = take_csv_cell(open);

@@ -1,6 +1,7 @@
 #include "ostia/experiments/motion.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/parallel.h"
 #include "ostia/geometry/aabb_tree.h"
 #include "ostia/phantom/heartbeat.h"
 
@@ -125,11 +126,14 @@ TEST(MotionExperiment, RegistrationBringsTheTreeOverTheTruth) {
   for (const MotionRow& row : compared) EXPECT_EQ(row.runs, 1U) << word(row.method) << row.depth;
 }
 
-TEST(MotionExperiment, TheSameRunsTwice) {
+TEST(MotionExperiment, TheSameForAnyNumberOfThreads) {
   MotionOptions options = quick();
   options.depths = {2};
   options.methods.clear();
-  const auto once = run_motion(options), again = run_motion(options);
+  core::set_max_threads(1);
+  const auto once = run_motion(options);
+  core::set_max_threads(0);
+  const auto again = run_motion(options);
   ASSERT_EQ(once.size(), again.size());
   for (std::size_t i = 0; i < once.size(); ++i) {
     EXPECT_EQ(once[i].distance_mm, again[i].distance_mm);
@@ -162,6 +166,14 @@ TEST(MotionExperiment, WhatCannotBeStudiedIsRefused) {
   EXPECT_THROW(run_motion(options), InvalidInput);
   options = quick();
   options.depths = {0, 2};
+  EXPECT_THROW(run_motion(options), InvalidInput);
+  options = quick();
+  options.depths = {2, 5};
+  options.depth = 5;
+  options.methods = {MotionMethod::tps_kc};
+  EXPECT_THROW(run_motion(options), InvalidInput);
+  options = quick();
+  options.compared_phases = {0.15};  // not among the four
   EXPECT_THROW(run_motion(options), InvalidInput);
   EXPECT_THROW(motion_method_of("magic"), InvalidInput);
   EXPECT_EQ(motion_method_of("grbf-kc"), MotionMethod::grbf_kc);

@@ -57,6 +57,26 @@ TEST(ShownSurface, ClosesOpenEndsBehindTheTrianglesOfTheSurface) {
   EXPECT_EQ(turned.vertices[100].normal, shown.vertices[100].normal);
 }
 
+TEST(ShownSurface, ClosesAnEndOfManyVerticesByOneVertexMore) {
+  TriMesh mesh;  // one end of 600 vertices; the other a point
+  constexpr int around = 600;
+  for (int i = 0; i < around; ++i) {
+    const double angle = 2.0 * 3.14159265358979 * i / around;
+    mesh.points.emplace_back(20.0 * std::cos(angle), 20.0 * std::sin(angle), 0.0);
+    mesh.triangles.push_back({i, (i + 1) % around, around});
+  }
+  mesh.points.emplace_back(0.0, 0.0, 15.0);
+  const ShownSurface shown = shown_surface(mesh, geometry::cage_around(mesh.points, 2));
+  EXPECT_TRUE(shown.closed);
+  ASSERT_EQ(shown.vertices.size(), mesh.points.size() + 1);
+  EXPECT_EQ(shown.triangles.size(), 2U * around);
+  const ShownVertex& centre = shown.vertices.back();
+  EXPECT_NEAR(centre.rest[0], 0.0, 1e-5);
+  EXPECT_NEAR(centre.rest[2], 0.0, 1e-5);
+  EXPECT_NEAR(centre.normal[2], -1.0, 1e-5);
+  EXPECT_NEAR(centre.along[2], 0.0, 1e-5);
+}
+
 TEST(ShownSurface, GradientsAreThoseOfALinearMap) {
   const Tube tube;
   const ShownSurface shown = shown_surface(tube.mesh, tube.motion.grid);

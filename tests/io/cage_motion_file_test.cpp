@@ -100,6 +100,9 @@ TEST(CageMotionFile, RefusesByFileAndField) {
   EXPECT_THAT(told([](Json& j) { j["template"]["percent"] = 100; }), HasSubstr("template"));
   EXPECT_THAT(told([](Json& j) { j["template"]["surface"] = "../a.vtp"; }), HasSubstr("template.surface"));
   EXPECT_THAT(told([](Json& j) { j["phases"] = 3; }), HasSubstr("phases is no list"));
+  EXPECT_THAT(told([](Json& j) { j["phases"].erase(j["phases"].begin() + 2, j["phases"].end()); }),
+              HasSubstr("phases are 2; a cycle has three at least"));
+  EXPECT_THAT(told([](Json& j) { j["phases"] = Json(1001, 0); }), HasSubstr("phases are 1001"));
   EXPECT_THAT(told([](Json& j) { j["phases"][4]["origin"] = "guessed"; }), HasSubstr("phases[4].origin"));
   EXPECT_THAT(told([](Json& j) { j["phases"][4]["percent"] = 10; }), HasSubstr("rise"));
   EXPECT_THAT(told([](Json& j) {
@@ -113,6 +116,17 @@ TEST(CageMotionFile, RefusesByFileAndField) {
   EXPECT_THROW(read_cage_motion(folder / "missing.json"), IoError);
 }
 
+TEST(CageMotionFile, NoPhaseIsWrittenAsTheNextCycles) {
+  EXPECT_EQ(percent_of(0.35), 35.0);
+  EXPECT_EQ(percent_of(1.0 / 3.0), 33.333333333);
+  EXPECT_EQ(percent_of(1.0 - 0x1p-53), 99.999999999);
+  const auto path = testing::temporary_folder("motion") / "motion.json";
+  CageMotionFile file = some_motion();
+  file.motion.phases.back().phase = 1.0 - 0x1p-53;
+  write_cage_motion(path, file);
+  EXPECT_NEAR(read_cage_motion(path).motion.phases.back().phase, 1.0, 1e-10);
+}
+
 TEST(CageMotionFile, WritesNothingThatCouldNotBeRead) {
   const auto path = testing::temporary_folder("motion") / "motion.json";
   CageMotionFile file = some_motion();
@@ -120,6 +134,9 @@ TEST(CageMotionFile, WritesNothingThatCouldNotBeRead) {
   EXPECT_THROW(write_cage_motion(path, file), InvalidInput);
   file = some_motion();
   file.motion.phases[7].control_points.pop_back();
+  EXPECT_THROW(write_cage_motion(path, file), InvalidInput);
+  file = some_motion();
+  file.motion.phases.resize(2);
   EXPECT_THROW(write_cage_motion(path, file), InvalidInput);
   EXPECT_FALSE(std::filesystem::exists(path));
 }

@@ -332,6 +332,28 @@ TEST(BadMeshFiles, IdsThatAreNotOneAFacetOfAnXdmfFileAreRefused) {
   EXPECT_THROW(with_facets("</map>", "<", "</map><map key=\"again\" dim=\"2\">1</map><"), InvalidInput);
 }
 
+/// An attribute "layer" beside the cells of the column's mesh.xdmf.
+fs::path with_layer(const std::string& center, const std::string& item) {
+  const fs::path folder = place("column");
+  export_mesh(column_of_tetrahedra(), MeshFormat::xdmf, folder);
+  std::string text = core::read_file(folder / "mesh.xdmf");
+  const std::size_t end = text.find("</Grid>");
+  EXPECT_NE(end, std::string::npos);
+  text.insert(end, "<Attribute Name=\"layer\" AttributeType=\"Scalar\" Center=\"" + center + "\">\n" + item +
+                       "\n</Attribute>\n");
+  core::write_file(folder / "mesh.xdmf", text);
+  return folder;
+}
+
+TEST(BadMeshFiles, LayersOfAnXdmfFileAreOneNumberACell) {
+  const fs::path of_points = with_layer("Node", "<DataItem Dimensions=\"2\" Format=\"XML\">1 1</DataItem>");
+  expect_whole(read_volume_mesh(of_points));
+  const fs::path other =
+      with_layer("Cell", "<DataItem Dimensions=\"4\" Format=\"HDF\">mesh.h5:/mesh/topology</DataItem>");
+  expect_refusal(other / "mesh.xdmf", [&] { read_volume_mesh(other); },
+                 {"numbers of layer for", "one a cell is needed"});
+}
+
 // ---- folders
 
 TEST(BadMeshFiles, PlacesThatCannotBeLookedIntoAreNoMeshes) {

@@ -41,6 +41,32 @@ TEST(EcgFeed, FollowsEvenBeats) {
   EXPECT_EQ(feed.signal(), EcgSignal::good);
 }
 
+TEST(EcgFeed, LinesHaveTheLeastAndTheGreatestOfEachColumn) {
+  std::vector<double> values(40000);  // 8 s of 5 kHz
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = std::sin(0.37 * static_cast<double>(i));
+  values[20000] = 7.0;
+  for (std::size_t i = 30000; i < 30100; ++i) values[i] = std::numeric_limits<double>::quiet_NaN();
+  EcgFeed feed(values, 5000.0);
+  feed.advance_to(7.9);
+  const auto lines = lines_of(feed, 10000, 0.01);
+  ASSERT_EQ(lines.size(), 2U) << "missing samples part them";
+  std::size_t points = 0, peaks = 0;
+  double before = 0.0;
+  for (const auto& line : lines)
+    for (const LinePoint& point : line) {
+      EXPECT_GT(point.time_s, before);
+      before = point.time_s;
+      EXPECT_DOUBLE_EQ(point.value, values[static_cast<std::size_t>(std::lround(point.time_s * 5000.0))]);
+      peaks += point.value > 6.0 ? 1U : 0U;
+      ++points;
+    }
+  EXPECT_EQ(peaks, 1U);
+  EXPECT_LE(points, 2U * 592U);
+  EXPECT_GT(points, 1100U);
+  // Where no column has more than two, all are drawn.
+  EXPECT_EQ(lines_of(feed, 39000, 0.0003).front().size(), feed.samples() - 39000);
+}
+
 TEST(EcgFeed, KnowsNoMoreThanHasComeIn) {
   const motion::MadeEcg ecg = even_beats(20);
   EcgFeed feed(ecg.lead(), rate);

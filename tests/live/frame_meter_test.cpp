@@ -22,5 +22,13 @@ TEST(FrameMeter, CountsPicturesAndAges) {
   EXPECT_NEAR(meter.latency_ms().max, 9.0, 1e-6);
 }
 
+TEST(FrameMeter, KeepsOneSecondAloneWhereNothingIsMeasured) {
+  FrameMeter meter(false);
+  for (int k = 0; k <= 5000; ++k) meter.shown(0.01 * k, 3, 0.01 * k, 0.002);
+  EXPECT_LE(meter.frames(), 102U);
+  EXPECT_EQ(meter.latency_ms().count, 0U);
+  EXPECT_NEAR(meter.recent_frames_per_second(), 100.0, 1.1);
+}
+
 }  // namespace
 }  // namespace ostia::live

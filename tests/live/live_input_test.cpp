@@ -122,5 +122,21 @@ TEST_F(LiveInputFiles, GoesOnWithARecordThatEndsEarly) {
   EXPECT_FALSE(input.warnings.empty());
 }
 
+TEST(LiveInput, PicturesBeginWhereBeatsAreKnown) {
+  LiveInput input;
+  Options options;
+  EXPECT_DOUBLE_EQ(first_picture_s(input, options), 0.0) << "without an ECG";
+  input.ecg = LiveEcg{{}, 100.0};
+  input.ecg->lead.values.assign(6000, 0.0);
+  EXPECT_DOUBLE_EQ(first_picture_s(input, options), 10.0);
+  input.ecg->lead.values.resize(800);
+  EXPECT_DOUBLE_EQ(first_picture_s(input, options), 4.0) << "within the record";
+  options.start_s = 3.0;
+  EXPECT_DOUBLE_EQ(first_picture_s(input, options), 3.0);
+  options.start_s = 0.0;
+  options.phase = 0.4;
+  EXPECT_DOUBLE_EQ(first_picture_s(input, options), 0.0);
+}
+
 }  // namespace
 }  // namespace ostia::live

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <sys/wait.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
@@ -127,7 +128,7 @@ TEST_F(LiveProgramGui, EndsByItselfAndOnASignal) {
   EXPECT_GT(timed.json()["frames"].get<int>(), 3);
   const Outcome asked =
       shell("\"$live\" --demo --measure --seconds 30 & p=$!; sleep 2; kill -TERM $p; wait $p");
-  EXPECT_EQ(asked.code, 0) << asked.err;
+  EXPECT_EQ(asked.code, 128 + SIGTERM) << asked.err;
   EXPECT_GT(asked.json()["frames"].get<int>(), 3);
 }
 
@@ -157,6 +158,27 @@ TEST_F(LiveProgramGui, AVideoIsItsPicturesAndAFilmWhereFfmpegIs) {
   EXPECT_EQ(without.code, 0);
   EXPECT_FALSE(fs::exists(folder / "plain" / "video.mp4"));
   EXPECT_TRUE(fs::exists(folder / "plain" / "frame-00001.png"));
+}
+
+TEST_F(LiveProgramGui, AVideoTakesNoFolderWithOtherThings) {
+  REQUIRE_OPENGL();
+  fs::create_directories(folder / "beats");
+  core::write_file(folder / "beats" / "mine", "kept");
+  const Outcome refused = live("--demo --video beats --frames 2");
+  EXPECT_EQ(refused.code, 3);
+  EXPECT_THAT(refused.err, HasSubstr("beats"));
+  EXPECT_EQ(core::read_file(folder / "beats" / "mine"), "kept");
+  EXPECT_FALSE(fs::exists(folder / "beats" / "frame-00000.png"));
+  fs::remove(folder / "beats" / "mine");
+  for (const int frames : {3, 2}) {  // an earlier video is replaced
+    const Outcome outcome =
+        live("--demo --video beats --width 320 --height 240 --frames " + std::to_string(frames));
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+  }
+  EXPECT_FALSE(fs::exists(folder / "beats" / "frame-00002.png"));
+  const auto manifest = nlohmann::json::parse(core::read_file(folder / "beats" / "manifest.json"));
+  EXPECT_TRUE(manifest["outputs"].contains("frame-00001.png"));
+  EXPECT_EQ(manifest["parameters"]["frames"], 2);
 }
 
 TEST_F(LiveProgramGui, ShowsAMotionOfAFileAndGoesOnWithoutABadEcg) {

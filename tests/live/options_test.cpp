@@ -35,6 +35,11 @@ TEST(LiveOptions, RefusesWhatMakesNoSense) {
                                                     {"--demo", "--screenshot", "a.png", "--video", "v"},
                                                     {"--demo", "--frames", "0"},
                                                     {"--demo", "--width", "10"},
+                                                    {"--demo", "--start", "nan"},
+                                                    {"--demo", "--speed", "nan"},
+                                                    {"--demo", "--phase", "nan"},
+                                                    {"--demo", "--fps", "nan"},
+                                                    {"--demo", "--seconds", "nan"},
                                                     {"--demo", "--nonsense"}};
   for (const auto& arguments : wrong)
     EXPECT_THROW(options_of(arguments), UsageError) << (arguments.empty() ? "" : arguments.back());

@@ -5,7 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <numbers>
+#include <string>
 
 namespace ostia::motion {
 namespace {
@@ -74,6 +77,42 @@ TEST(MovingCage, WhatIsOutsideKeepsItsPlaceBesideTheCage) {
   EXPECT_LT((places[1] - places[0] - Vec3(3, 0, 0)).norm(), 1e-12);
   const auto rest = carried.places(geometry::rest_points(motion.grid));
   EXPECT_LT((rest[1] - outside).norm(), 1e-12);
+}
+
+std::string refusal(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const InvalidInput& error) {
+    return error.what();
+  }
+  return "not refused";
+}
+
+TEST(MovingCage, RefusesAPointThatIsNotANumberByItsNumber) {
+  const CageMotion motion = cage_of_affine_motion();
+  for (const double value : {std::nan(""), std::numeric_limits<double>::infinity()})
+    EXPECT_EQ(refusal([&] {
+                CarriedPoints(motion.grid, {Vec3(0, 0, 0), Vec3(0, value, 0)});
+              }),
+              "point 1 is not a number");
+}
+
+TEST(MovingCage, OneRuleJudgesWhatIsOutside) {
+  const CageMotion motion = cage_of_affine_motion();
+  const Vec3 end = motion.grid.origin + motion.grid.cells * motion.grid.cell_mm;
+  const Vec3 inside(0, 0, 0), outside = end + Vec3(0.0, 3.0, 4.0);
+  const auto judged = [&](const std::vector<Vec3>& points) {
+    return judge_outside(CarriedPoints(motion.grid, points), "the axes");
+  };
+  EXPECT_EQ(judged({}), "");
+  EXPECT_EQ(judged({inside, inside}), "");
+  EXPECT_EQ(judged({inside, outside}),
+            "50.0 % of the axes lie outside of the motion's cage, up to 5.0 mm; they go as its nearest place "
+            "does");
+  std::vector<Vec3> many(10000, inside);
+  many.push_back(outside);
+  EXPECT_EQ(judged(many).substr(0, 6), "0.01 %");  // never none
+  EXPECT_EQ(refusal([&] { judged({inside, outside, outside}); }).substr(0, 18), "66.7 % of the axes");
 }
 
 TEST(MovingCage, NeedsThreePhases) {

@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 namespace ostia::pipeline {
@@ -149,6 +150,50 @@ TEST(MotionExport, CountsElementsThatAreTurnedInsideOut) {
   EXPECT_THAT(made.warnings, ::testing::Contains(HasSubstr("50 % of the cycle) 48 elements are inverted")));
 }
 
+std::string refusal(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const InvalidInput& error) {
+    return error.what();
+  }
+  return "not refused";
+}
+
+// The surface is judged beside a mesh that is in the cage too.
+TEST(MotionExport, JudgesSurfaceAndMesh) {
+  const fs::path folder = temporary_folder("export");
+  const MixedMesh mesh = cubes();
+  const motion::MovingCage cage(lifting_cage());
+  MotionExportOptions options;
+  options.times = 1;
+  options.surface_name = "lumen.vtp";
+  TriMesh surface = wall(mesh);
+  surface.points[4].x() += 100.0;
+  EXPECT_THAT(export_motion(folder, cage, surface, &mesh, options).warnings,
+              ::testing::ElementsAre(HasSubstr("lumen.vtp: 3.7 % of its points lie outside")));
+  for (std::size_t i = 0; i < 14; ++i) surface.points[i].x() = 100.0;  // of 27
+  EXPECT_THAT(refusal([&] { export_motion(folder, cage, surface, &mesh, options); }),
+              HasSubstr("lumen.vtp: 51.9 % of its points lie outside"));
+  surface = wall(mesh);
+  surface.points[5].y() = std::nan("");
+  EXPECT_EQ(refusal([&] { export_motion(folder, cage, surface, &mesh, options); }),
+            "lumen.vtp: point 5 is not a number");
+}
+
+TEST(MotionExport, TellsHowFarItIsWithinATime) {
+  const fs::path folder = temporary_folder("export");
+  fs::create_directory(folder / "displacement_000.csv");  // cannot be written, after surface and mesh
+  const MixedMesh mesh = cubes();
+  MotionExportOptions options;
+  options.formats = {MotionFormat::vtu, MotionFormat::csv};
+  options.times = 1;
+  core::TaskContext task;
+  EXPECT_ANY_THROW(
+      export_motion(folder, motion::MovingCage(lifting_cage()), wall(mesh), &mesh, options, task));
+  EXPECT_GT(task.progress(), 0.5);
+  EXPECT_LT(task.progress(), 1.0);
+}
+
 TEST(MotionExport, RefusesWhatItCannotWrite) {
   const fs::path folder = temporary_folder("export");
   const MixedMesh mesh = cubes();
@@ -168,7 +213,7 @@ TEST(MotionExport, RefusesWhatItCannotWrite) {
   EXPECT_THROW(export_motion(folder, cage, far, nullptr, options), InvalidInput);
   for (std::size_t i = 0; i + 1 < far.points.size(); ++i) far.points[i].x() -= 100.0;
   EXPECT_THAT(export_motion(folder, cage, far, nullptr, options).warnings,
-              ::testing::ElementsAre(HasSubstr("1 of 27 points lie outside")));
+              ::testing::ElementsAre(HasSubstr("the surface: 3.7 % of its points lie outside")));
   EXPECT_THROW(motion_format("avi"), InvalidInput);
   for (const MotionFormat format : {MotionFormat::vtp, MotionFormat::openfoam})
     EXPECT_EQ(motion_format(name_of(format)), format);

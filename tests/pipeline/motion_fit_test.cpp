@@ -9,7 +9,10 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <atomic>
 #include <functional>
+#include <string>
+#include <thread>
 
 namespace ostia::pipeline {
 namespace {
@@ -99,6 +102,48 @@ TEST_F(MotionFitting, DoesNotDependOnOrderOrThreads) {
   const MotionFit all = fit_motion(phases, coarse());
   for (std::size_t k = 0; k < 4; ++k)
     EXPECT_EQ(one.motion.phases[k].control_points, all.motion.phases[k].control_points);
+}
+
+// Phase 20 % is half a cycle off the template at 70 %, ahead and behind, to within rounding.
+TEST_F(MotionFitting, RegistersAPhaseHalfACycleOffOnOneWayAlone) {
+  MotionFitOptions options = coarse();
+  options.template_phase = 0.7;
+  options.registration.depth = options.registration.most_rounds = 2;
+  const std::vector<PhaseSurface> ten = beating_tree(10);
+  std::vector<PhaseSurface> phases = {ten[0], ten[2], ten[3], ten[7]};
+  core::set_max_threads(1);
+  const MotionFit all = fit_motion(phases, options);
+  phases[2].surface = {};  // the other way
+  const MotionFit ahead = fit_motion(phases, options);
+  core::set_max_threads(0);
+  ASSERT_EQ(all.motion.template_phase, 0.7);
+  ASSERT_EQ(all.phases[1].origin, PhaseOrigin::fitted);
+  EXPECT_EQ(all.motion.phases[1].control_points, ahead.motion.phases[1].control_points);
+  EXPECT_NE(all.motion.phases[2].control_points, ahead.motion.phases[2].control_points);
+}
+
+TEST_F(MotionFitting, EachPhaseHasItsPartOfTheProgress) {
+  core::TaskContext task;
+  std::atomic<bool> done{false};
+  double least = 1.0;  // in any phase but the first
+  std::thread watcher([&] {
+    std::string first;
+    while (!done) {
+      const std::string stage = task.stage();
+      if (!stage.starts_with("registering ")) continue;
+      if (first.empty()) first = stage;
+      if (stage != first) least = std::min(least, task.progress());
+    }
+  });
+  core::set_max_threads(1);
+  MotionFitOptions options = coarse();
+  options.registration.depth = 2;
+  fit_motion(beating_tree(5), options, task);
+  core::set_max_threads(0);
+  done = true;
+  watcher.join();
+  EXPECT_LT(least, 0.9);
+  EXPECT_EQ(task.progress(), 1.0);
 }
 
 TEST_F(MotionFitting, BadInput_Row29_MarksAndBridgesAGap) {
@@ -201,6 +246,9 @@ TEST(MissingPhases, AreFoundInEvenlySpacedOnesAlone) {
   EXPECT_THAT(missing_phases(twenty),
               ElementsAre(::testing::DoubleNear(0.0, 1e-12), ::testing::DoubleNear(0.35, 1e-12)));
   EXPECT_THAT(missing_phases({0.0, 0.25, 0.5, 0.75}), IsEmpty());
+  std::vector<double> sixths;  // 1/6 + 5 * 1/6 is 1 - 2^-53
+  for (int k = 1; k < 6; ++k) sixths.push_back(k / 6.0);
+  EXPECT_THAT(missing_phases(sixths), ElementsAre(0.0)) << "no phase just below the cycle's end";
   EXPECT_THAT(missing_phases({0.0, 0.3, 0.47, 0.9}), IsEmpty()) << "not evenly spaced";
   EXPECT_THAT(missing_phases({0.7, 0.75, 0.8}), IsEmpty()) << "a window of the cycle";
 }

@@ -106,6 +106,21 @@ TEST_F(BeatingTube, TheCursorStaysAtItsPlaceOfTheVessel) {
   EXPECT_FALSE(bench.other_phase());
 }
 
+TEST_F(BeatingTube, APhaseWithoutAnAxisLeavesWhatWasShown) {
+  geometry::CageMotion wild = motion();
+  for (Vec3& p : wild.phases[5].control_points) p = Vec3(1.0, 2.0, 3.0);  // all in one point
+  const auto beats = Beating::made(wild, bench.session().file().model(), wall());
+  bench.cursor_mm.set(12.0);
+  bench.show_phase(beats->at(0.75));
+  EXPECT_ANY_THROW(bench.show_phase(beats->at(0.25)));
+  ASSERT_TRUE(bench.other_phase());
+  EXPECT_DOUBLE_EQ(bench.other_phase()->phase(), 0.75);
+  EXPECT_NO_THROW(bench.axis());
+  bench.show_phase(nullptr);
+  EXPECT_FALSE(bench.other_phase());
+  EXPECT_NEAR(bench.cursor_mm.get(), 12.0, 1e-6);
+}
+
 TEST_F(BeatingTube, ASliceThatWasScrolledAwayFromTheVesselStays) {
   const Vec3 away(7.0, 3.0, 5.0);
   bench.place.set(away);

@@ -57,8 +57,54 @@ TEST(PhaseImages, LabelsOfDicomTellThePhase) {
                   {"trigger time 0 ms", "trigger time 200 ms", "trigger time 600 ms", "trigger time 400 ms"}),
               ElementsAre(DoubleNear(0.0, 1e-12), DoubleNear(0.25, 1e-12), DoubleNear(0.75, 1e-12),
                           DoubleNear(0.5, 1e-12)));
+  EXPECT_THAT(phases_of_labels({"phase 3 of 4", "phase 4 of 4"}), ElementsAre(0.5, 0.75)) << "of all four";
+  EXPECT_THAT(phases_of_labels({"trigger time 0 ms", "trigger time 100 ms", "trigger time 200 ms",
+                                "trigger time 300 ms", "trigger time 700 ms"}),
+              ElementsAre(0.0, DoubleNear(0.125, 1e-12), DoubleNear(0.25, 1e-12), DoubleNear(0.375, 1e-12),
+                          DoubleNear(0.875, 1e-12)))
+      << "with a gap";
   EXPECT_THAT(phases_of_labels({"acquisition 1", "acquisition 2"}), IsEmpty());
   EXPECT_THAT(phases_of_labels({}), IsEmpty());
+}
+
+TEST(PhaseImages, TriggerTimesOfAPartOfTheCycleAreRefusedWithTheWayOut) {
+  try {
+    phases_of_labels({"trigger time 300 ms", "trigger time 350 ms", "trigger time 400 ms"});
+    FAIL() << "nobody knows how long the cycle is";
+  } catch (const InvalidInput& error) {
+    EXPECT_THAT(error.what(), HasSubstr("begin 300 ms"));
+    EXPECT_THAT(error.what(), HasSubstr("phase_35.nrrd"));
+  }
+}
+
+TEST(PhaseImages, AreFoundOneFolderDownByTheFoldersName) {
+  const TempFolder folder;
+  for (const int percent : {5, 35}) {
+    const auto below = folder / ("phase-" + std::to_string(percent));
+    std::filesystem::create_directories(below);
+    imaging::write_image(below / "image00.nrrd", image_of(static_cast<std::int16_t>(percent)));
+  }
+  const auto found = find_phase_images(folder.path());
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_DOUBLE_EQ(found[0].phase, 0.05);
+  EXPECT_DOUBLE_EQ(found[1].phase, 0.35);
+  EXPECT_EQ(read_phase_image(found[1]).volume->voxels.front(), 35);
+}
+
+TEST(PhaseImages, SeriesThatEachHaveAPhaseOfTheirOwnAreFound) {
+  const TempFolder folder;
+  for (const int percent : {0, 40, 75}) {
+    imaging::DicomSeriesOptions options;
+    options.series_description = "CTA";
+    options.cardiac_phase_percent = percent;
+    options.uid_seed = std::to_string(percent);
+    imaging::write_dicom_series(folder / std::to_string(percent),
+                                image_of(static_cast<std::int16_t>(percent)), options);
+  }
+  const auto found = find_phase_images(folder.path());
+  ASSERT_EQ(found.size(), 3U);
+  EXPECT_DOUBLE_EQ(found[1].phase, 0.40);
+  EXPECT_EQ(read_phase_image(found[2]).volume->voxels.front(), 75);
 }
 
 TEST(PhaseImages, AreFoundInAFolderAndRead) {

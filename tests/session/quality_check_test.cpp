@@ -1,10 +1,12 @@
 #include "ostia/session/quality_check.h"
 
 #include "case_tools.h"
+#include "known_motion.h"
 
 #include "ostia/core/error.h"
 #include "ostia/evaluation/lumen_scores.h"
 #include "ostia/io/contour_file.h"
+#include "ostia/session/beating.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -153,6 +155,21 @@ TEST_F(QualityCheckTest, GoesFromTheWorstToTheNext) {
   EXPECT_EQ(check_.next_worst(), 1U);  // and round again
   check_.close();
   EXPECT_FALSE(check_.next_worst().has_value());
+}
+
+TEST_F(QualityCheckTest, GoesToTheSamePlaceOfTheVesselAtAnotherPhase) {
+  check_.set_truth(truth());
+  check_.go_to(1);
+  const double own = bench_.cursor_mm.get();
+  geometry::TriMesh wall = bench_.session().live().wall(0.35);
+  geometry::Box3 box;
+  for (const Vec3& p : wall.points) box.extend(p);
+  const Vec3 by = Vec3::Constant(3.0);
+  const auto beats = Beating::made(testing::known_motion(box.min() - by, box.max() + by),
+                                   bench_.session().file().model(), std::move(wall));
+  bench_.show_phase(beats->at(0.25));
+  check_.go_to(1);
+  EXPECT_NEAR(bench_.own_mm(bench_.cursor_mm.get()), own, 1e-6);
 }
 
 TEST_F(QualityCheckTest, TellsTheWallsSignedDistance) {

@@ -3,6 +3,7 @@
 #include "flow_cases.h"
 #include "flow_window.h"
 
+#include "ostia/core/child_process.h"
 #include "ostia/solver/openfoam_launch.h"
 
 #include <gtest/gtest.h>
@@ -55,7 +56,7 @@ void write_solver(const fs::path& folder, const std::string& script) {
 }
 
 bool openfoam_is_here() {
-  return solver::program_on_path("simpleFoam").has_value();
+  return core::program_on_path("simpleFoam").has_value();
 }
 
 TEST_F(FlowCaseWindow, TheDialogListsTheEndsAndSaysWhatIsWrong) {
@@ -174,7 +175,7 @@ TEST_F(FlowCaseWindow, WhatWasChosenForACaseIsNotProposedForAnother) {
 }
 
 TEST_F(FlowCaseWindow, ARunThatEndsOverAnotherCaseLeavesALineAlone) {
-  const auto real = solver::program_on_path("simpleFoam");
+  const auto real = core::program_on_path("simpleFoam");
   if (!real) GTEST_SKIP() << "openfoam is not installed";
   const fs::path go_on = folder / "go_on", begun = folder / "begun";
   write_solver(folder / "bin", "touch " + begun.string() + "\nwhile [ ! -e " + go_on.string() +

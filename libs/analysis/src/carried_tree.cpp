@@ -10,15 +10,14 @@
 #include "ostia/geometry/frame.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
+#include <string>
+#include <utility>
 
 namespace ostia::analysis {
 namespace {
 
 constexpr double least_pieces = 16.0;  // of a branch: a polynomial of degree 5 has points to spare
-constexpr double most_outside = 0.5;
 
 /// All branches' points in one row, and points beside them.
 struct Cloud {
@@ -44,25 +43,6 @@ void add_branch(const BranchPath& path, double step_mm, MovingTree& tree, Cloud&
   }
   tree.branches.push_back(
       {path.vessel, path.name, sampled.abscissa, sampled.radius, sampled.points, {}, {}, {}, {}});
-}
-
-/// Warns of points outside of the cage, or throws where most are.
-void judge_outside(const geometry::CageGrid& grid, const std::vector<Vec3>& points, std::size_t outside,
-                   std::vector<std::string>& warnings) {
-  if (outside == 0) return;
-  double farthest = 0.0;
-  const Vec3 end = grid.origin + grid.cells * grid.cell_mm;
-  for (const Vec3& p : points)
-    farthest = std::max(farthest, (p - p.cwiseMax(grid.origin).cwiseMin(end)).norm());
-  const double share = static_cast<double>(outside) / static_cast<double>(points.size());
-  std::array<char, 160> text{};
-  std::snprintf(text.data(), text.size(),
-                "%.1f %% of the axes lie outside of the motion's cage, up to %.1f mm", 100.0 * share,
-                farthest);
-  if (share > most_outside)
-    throw InvalidInput(std::string(text.data()) +
-                       ": give the axes of the same heart at the template's phase, in LPS and mm");
-  warnings.push_back(std::string(text.data()) + "; they go as the cage's border does");
 }
 
 std::vector<Vec3> cut(const std::vector<Vec3>& all, std::size_t first, std::size_t count) {
@@ -107,7 +87,8 @@ MovingTree carried_tree(const geometry::VesselTree& rest, const motion::MovingCa
   tree.joints = joints_of(paths, node_s, tree.branches);
 
   const motion::CarriedPoints carried(cage.grid(), cloud.axis);
-  judge_outside(cage.grid(), cloud.axis, carried.outside(), tree.warnings);
+  if (std::string warning = motion::judge_outside(carried, "the axes"); !warning.empty())
+    tree.warnings.push_back(std::move(warning));
   const SmoothlyCarried axis(cage.grid(), cloud.axis), beside(cage.grid(), cloud.beside);
   const std::vector<Vec3> at_rest = geometry::rest_points(cage.grid());
   for (std::size_t k = 0; k < phases.size(); ++k) {

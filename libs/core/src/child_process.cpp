@@ -14,6 +14,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <sstream>
 #include <system_error>
 
 extern char** environ;  // NOLINT(readability-redundant-declaration)
@@ -164,6 +165,17 @@ ChildResult run_child(const fs::path& program, const std::vector<std::string>& a
     result.out_of_time = result.signal == SIGXCPU;
   }
   return result;
+}
+
+std::optional<fs::path> program_on_path(const std::string& name) {
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path ? path : "");
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    const fs::path program = fs::path(folder.empty() ? "." : folder) / name;
+    std::error_code ignored;
+    if (fs::is_regular_file(program, ignored) && ::access(program.c_str(), X_OK) == 0) return program;
+  }
+  return std::nullopt;
 }
 
 fs::path worker_program() {

@@ -32,9 +32,11 @@ CsvCell take_csv_cell(std::string_view& rest) {
     }
   }
   const std::size_t end = std::min(rest.find_first_of(",\n", at), rest.size());
-  cell.text += rest.substr(at, end - at);
+  std::string_view unquoted = rest.substr(at, end - at);
   cell.last = end == rest.size() || rest[end] == '\n';
-  if (cell.last && cell.text.ends_with('\r')) cell.text.pop_back();
+  // One within quotes belongs to the text.
+  if (cell.last && unquoted.ends_with('\r')) unquoted.remove_suffix(1);
+  cell.text += unquoted;
   if (end < rest.size() && cell.last) ++cell.line_ends;
   rest.remove_prefix(std::min(end + 1, rest.size()));
   return cell;

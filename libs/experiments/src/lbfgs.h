@@ -21,7 +21,8 @@ struct Minimum {
 
 /// Limited-memory BFGS (Nocedal 1980; what L-BFGS-B of Byrd, Lu, Nocedal and Zhu 1995 is without bounds), the
 /// last eight steps kept, steps by the weak Wolfe conditions. Converged when an iteration lowers the value by
-/// less than `tolerance` of it, or of 1 if that is more, or the gradient is zero. Throws Cancelled.
+/// less than `tolerance` of it, or of 1 if that is more, the gradient is zero, or no step against it lowers
+/// the value. Throws Cancelled.
 Minimum minimise(const SmoothFunction& function, Eigen::VectorXd start, int most_iterations, double tolerance,
                  const core::TaskContext& task);
 

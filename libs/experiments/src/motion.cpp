@@ -60,12 +60,13 @@ class HeartRuns {
   }
 
   void run(std::vector<MotionRun>& runs, const core::TaskContext& task) {
-    for (const HeartPhaseModel& phase : heart_.phases) runs.push_back(scored(phase, heart_.model.points, {}));
+    for (const HeartPhaseModel& phase : heart_.phases)
+      runs.push_back(scored(phase, heart_.model.points, {}, task));
     const double parts = static_cast<double>(options_.depths.size()) + 1.0;
     for (std::size_t d = 0; d < options_.depths.size(); ++d)
       all_phases(options_.depths[d], runs,
                  task.sub(static_cast<double>(d) / parts, static_cast<double>(d + 1) / parts));
-    sampled(runs);
+    sampled(runs, task);
     if (number_ < options_.compared_hearts) compare(runs, task.sub(1.0 - 1.0 / parts, 1.0));
   }
 
@@ -76,9 +77,12 @@ class HeartRuns {
     return beating_heart(one, task.sub(0.0, 0.1));
   }
 
-  MotionRun scored(const HeartPhaseModel& phase, const Points& points, MotionRun run) const {
+  MotionRun scored(const HeartPhaseModel& phase, const Points& points, MotionRun run,
+                   const core::TaskContext& task) const {
+    task.throw_if_cancelled();
     if (run.sampling.empty()) run.sampling = "all";
-    score(heart_, phase, points, template_intersections_, options_.dice_resolution_mm, run);
+    score(heart_, phase, points, template_intersections_, options_.dice_resolution_mm, run,
+          task.sub(0.0, 0.0));
     return run;
   }
 
@@ -102,7 +106,7 @@ class HeartRuns {
       run.depth = depth;
       run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
       run.inverted_cells = inverted_cells(found[k].grid, found[k].control_points);
-      mine[k] = scored(heart_.phases[k], found[k].surface.points, run);
+      mine[k] = scored(heart_.phases[k], found[k].surface.points, run, task);
     }
     runs.insert(runs.end(), mine.begin(), mine.end());
     if (depth != options_.depth) return;
@@ -112,14 +116,13 @@ class HeartRuns {
   }
 
   /// Some phases known, all the others from their splines ([Yi] 5.1.3).
-  void sampled(std::vector<MotionRun>& runs) const {
+  void sampled(std::vector<MotionRun>& runs, const core::TaskContext& task) const {
     struct Sampling {
       const char* name;
       std::size_t from, step;
     };
     const std::size_t n = heart_.phases.size();
-    for (const Sampling& s :
-         {Sampling{"odd 10", 1, 2}, {"even 10", 0, 2}, {"odd 5", 1, 4}, {"even 5", 0, 4}}) {
+    for (const Sampling& s : {Sampling{"odd", 1, 2}, {"even", 0, 2}, {"odd", 1, 4}, {"even", 0, 4}}) {
       std::vector<double> phases;
       std::vector<Points> places;
       for (std::size_t k = s.from; k < n; k += s.step) {
@@ -134,9 +137,9 @@ class HeartRuns {
         MotionRun run;
         run.method = MotionMethod::cage;
         run.depth = options_.depth;
-        run.sampling = s.name;
+        run.sampling = std::string(s.name) + " " + std::to_string(phases.size());
         run.inverted_cells = inverted_cells(grid_, points);
-        runs.push_back(scored(phase, carried.places(points), run));
+        runs.push_back(scored(phase, carried.places(points), run, task));
       }
     }
   }
@@ -170,7 +173,7 @@ class HeartRuns {
           motion::register_cage_by_descent(heart_.model, phase.segmented, how, task);
       stop();
       run.inverted_cells = inverted_cells(found.grid, found.control_points);
-      return scored(phase, found.surface.points, run);
+      return scored(phase, found.surface.points, run, task);
     }
     MixtureOptions how;
     how.depth = options_.depth;
@@ -181,7 +184,7 @@ class HeartRuns {
                    : MixtureCost::kernel_correlation;
     const MixtureDeformation found = deform_by_mixtures(heart_.model, phase.segmented, how, task);
     stop();
-    return scored(phase, found.surface.points, run);
+    return scored(phase, found.surface.points, run, task);
   }
 
   const MotionOptions& options_;
@@ -216,6 +219,17 @@ void validate(const MotionOptions& o) {
   for (const MotionMethod method : o.methods)
     if (method <= MotionMethod::cage)
       throw InvalidInput(std::string("the method ") + word(method) + " is run anyway: leave it out");
+  const bool mixtures = std::any_of(o.methods.begin(), o.methods.end(),
+                                    [](MotionMethod method) { return method >= MotionMethod::tps_l2; });
+  if (mixtures && o.depth > 4)
+    throw InvalidInput("thin-plate splines and Gaussian basis functions go to depth 4, not " +
+                       std::to_string(o.depth));
+  for (const double phase : o.compared_phases) {
+    const double number = phase * o.heart.phases;
+    if (!(phase >= 0.0 && phase < 1.0) || std::abs(number - std::round(number)) > 1e-6)
+      throw InvalidInput("methods cannot be compared at " + std::to_string(100.0 * phase) + " %: there are " +
+                         std::to_string(o.heart.phases) + " phases, from 0 % on");
+  }
   for (const int depth : o.depths)
     if (depth < 1 || depth > 5) throw InvalidInput("a cage's depth must lie in [1, 5]");
   if (std::find(o.depths.begin(), o.depths.end(), o.depth) == o.depths.end())

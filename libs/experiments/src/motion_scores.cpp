@@ -44,13 +44,14 @@ std::size_t inverted_cells(const geometry::CageGrid& grid, const std::vector<Vec
 }
 
 void score(const BeatingHeart& heart, const HeartPhaseModel& phase, const std::vector<Vec3>& points,
-           std::size_t template_intersections, double dice_resolution_mm, MotionRun& run) {
+           std::size_t template_intersections, double dice_resolution_mm, MotionRun& run,
+           const core::TaskContext& task) {
   run.heart = heart.name;
   run.phase = phase.phase;
   run.lost = phase.lost;
   const TriMesh result{points, heart.model.triangles}, truth{phase.truth, heart.model.triangles};
   run.distance_mm = mean_distance(phase.segmented.points, result);
-  run.dice = evaluation::compare_enclosed(truth, result, dice_resolution_mm).dice;
+  run.dice = evaluation::compare_enclosed(truth, result, dice_resolution_mm, {}, task).dice;
   double sum = 0.0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double off = (points[i] - phase.truth[i]).norm();

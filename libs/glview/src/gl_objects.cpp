@@ -84,6 +84,12 @@ void set_uniform(const GlObject& program, const char* name, float x, float y, fl
 }
 
 void BufferTexture::fill(const float* values, std::size_t count) {
+  GLint most = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
+  const std::size_t entries = format == GL_RGBA32F ? count / 4 : count;
+  if (most > 0 && entries > static_cast<std::size_t>(most))
+    throw ResourceError("the graphics card reads " + std::to_string(most) +
+                        " entries of a table at most, and " + std::to_string(entries) + " are asked for");
   const auto bytes = static_cast<GLsizeiptr>(count * sizeof(float));
   glBindBuffer(GL_TEXTURE_BUFFER, buffer.name());
   // Fresh memory each time, so that the picture before, which may still be drawn, is not waited for.

@@ -50,6 +50,7 @@ struct BufferTexture {
   GlObject buffer = new_buffer(), texture = new_texture();
   GLenum format = GL_RGBA32F;
   explicit BufferTexture(GLenum of) : format(of) {}
+  /// Throws ResourceError where shaders cannot read so much.
   void fill(const float* values, std::size_t count);
   void bind(int unit) const;
 };

@@ -65,20 +65,22 @@ ShownVertex placed(const geometry::CageGrid& grid, const Vec3& point) {
   return vertex;
 }
 
-/// The mesh's triangles, turned outward, and those that close its holes behind them.
-void close(const geometry::TriMesh& mesh, ShownSurface& shown) {
+/// The mesh's triangles, turned outward, and those that close its holes behind them. Returns the points that
+/// closing adds.
+std::vector<Vec3> close(const geometry::TriMesh& mesh, ShownSurface& shown) {
   shown.triangles = mesh.triangles;
   shown.open_triangles = mesh.triangles.size();
   try {
     const geometry::FilledHoles filled = geometry::fill_holes(mesh);
-    // a fan about a new point would need a vertex of its own: such a hole stays open
-    if (filled.mesh.points.size() > mesh.points.size()) return;
     shown.triangles = filled.mesh.triangles;
     shown.closed = geometry::boundary_loops(filled.mesh).empty();
     if (shown.closed && geometry::volume(filled.mesh) < 0.0)
       for (geometry::Triangle& t : shown.triangles) std::swap(t[1], t[2]);
+    return {filled.mesh.points.begin() + static_cast<std::ptrdiff_t>(mesh.points.size()),
+            filled.mesh.points.end()};
   } catch (const GeometryError&) {  // no manifold: both of its sides are drawn, and projections have streaks
   }
+  return {};
 }
 
 geometry::TriMesh open_part(const geometry::TriMesh& mesh, const ShownSurface& shown) {
@@ -93,7 +95,7 @@ ShownSurface shown_surface(const geometry::TriMesh& mesh, const geometry::CageGr
   validate(mesh);
   ShownSurface shown;
   shown.grid = grid;
-  close(mesh, shown);
+  const std::vector<Vec3> centres = close(mesh, shown);
   const std::vector<Vec3> normals = geometry::vertex_normals(open_part(mesh, shown));
   const std::vector<Vec3> along = directions_along(mesh, normals, reach_mm);
   shown.vertices.resize(mesh.points.size());
@@ -101,6 +103,15 @@ ShownSurface shown_surface(const geometry::TriMesh& mesh, const geometry::CageGr
     shown.vertices[i] = placed(grid, mesh.points[i]);
     shown.vertices[i].normal = floats(normals[i]);
     shown.vertices[i].along = floats(along[i]);
+  }
+  if (centres.empty()) return shown;
+  geometry::TriMesh whole{mesh.points, shown.triangles};
+  whole.points.insert(whole.points.end(), centres.begin(), centres.end());
+  const std::vector<Vec3> whole_normals = geometry::vertex_normals(whole);
+  for (std::size_t i = mesh.points.size(); i < whole.points.size(); ++i) {
+    shown.vertices.push_back(placed(grid, whole.points[i]));
+    shown.vertices.back().normal = floats(whole_normals[i]);
+    shown.vertices.back().along = floats(whole_normals[i].unitOrthogonal());
   }
   return shown;
 }

@@ -194,6 +194,10 @@ DicomSeriesDetail described(std::vector<DicomSlice> slices, const std::string& l
     summary.warnings.push_back("no RescaleIntercept: stored values are taken as Hounsfield units");
   }
   place_slices(series);
+  const std::optional<double> percent = series.slices.front().info().cardiac_percent;
+  if (std::all_of(series.slices.begin(), series.slices.end(),
+                  [&](const DicomSlice& slice) { return slice.info().cardiac_percent == percent; }))
+    summary.cardiac_percent = percent;
   std::map<const DicomHeader*, std::int64_t> frames;
   for (const DicomSlice& slice : series.slices) {
     summary.files.push_back(slice.header->path);

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -18,6 +19,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::uint64_t most_bytes = 2ULL << 30;
 constexpr double percents_digits = 1e9;  // kept behind the point
+constexpr std::size_t least_phases = 3;  // of a periodic spline
+constexpr std::size_t most_phases = 1000;
 
 constexpr std::array<std::pair<PhaseOrigin, const char*>, 3> origins = {
     {{PhaseOrigin::at_rest, "at_rest"}, {PhaseOrigin::fitted, "fitted"}, {PhaseOrigin::bridged, "bridged"}}};
@@ -106,11 +109,21 @@ Json written(const Vec3& v) {
   return {v.x(), v.y(), v.z()};
 }
 
-double percent_of(double phase) {
-  return std::round(phase * 100.0 * percents_digits) / percents_digits;
+bool is_count_of_phases(std::size_t count) {
+  return count >= least_phases && count <= most_phases;
+}
+
+std::string wrong_count(std::size_t count) {
+  return "are " + std::to_string(count) + "; a cycle has three at least and " + std::to_string(most_phases) +
+         " at most";
 }
 
 }  // namespace
+
+double percent_of(double phase) {
+  const double percent = std::round(phase * 100.0 * percents_digits) / percents_digits;
+  return std::min(percent, 100.0 - 1.0 / percents_digits);
+}
 
 CageMotionFile read_cage_motion(const std::filesystem::path& path) {
   const Reader reader(path);
@@ -130,6 +143,7 @@ CageMotionFile read_cage_motion(const std::filesystem::path& path) {
   if (surface.is_string()) file.surface = surface.get<std::string>();
   const Json& phases = reader.member(all, "", "phases");
   if (!phases.is_array()) reader.refuse("phases", "is no list");
+  if (!is_count_of_phases(phases.size())) reader.refuse("phases", wrong_count(phases.size()));
   for (const Json& phase : phases)
     file.motion.phases.push_back(
         phase_from(reader, phase, "phases[" + std::to_string(file.motion.phases.size()) + "]"));
@@ -139,6 +153,9 @@ CageMotionFile read_cage_motion(const std::filesystem::path& path) {
 
 void write_cage_motion(const std::filesystem::path& path, const CageMotionFile& file) {
   geometry::validate(file.motion, "cannot write " + path.string() + ": the motion");
+  if (!is_count_of_phases(file.motion.phases.size()))
+    throw InvalidInput("cannot write " + path.string() + ": the phases " +
+                       wrong_count(file.motion.phases.size()));
   if (!is_plain_name(file.surface))
     throw InvalidInput("cannot write " + path.string() + ": the template's surface is no file beside it");
   const geometry::CageGrid& grid = file.motion.grid;

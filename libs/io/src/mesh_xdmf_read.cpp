@@ -152,15 +152,15 @@ class Grid {
                vtk_order);
       i += kind->nodes;
     }
-    if (!ids.empty() && ids.size() != cell)
-      refuse(path_, "it has " + std::to_string(ids.size()) + " CellEntityIds for " + std::to_string(cell) +
-                        " cells; one a cell is needed");
+    require_one_a_cell(ids, "CellEntityIds", cell);
+    require_one_a_cell(layer, std::string("numbers of ") + layer_array, cell);
   }
 
-  /// One number a cell; none where there is no such attribute.
+  /// Of the cells; none where there is no such attribute, or only one of the points.
   std::vector<std::int32_t> of_cells(const std::string& name) const {
     for (const Tag& attribute : tags_in(text_, "Attribute"))
-      if (attribute.attribute("Name") == name) return Values(path_, item_in(attribute)).integers();
+      if (attribute.attribute("Name") == name && attribute.attribute("Center") == "Cell")
+        return Values(path_, item_in(attribute)).integers();
     return {};
   }
 
@@ -177,6 +177,12 @@ class Grid {
   }
 
  private:
+  void require_one_a_cell(const std::vector<std::int32_t>& values, const std::string& what,
+                          std::size_t cells) const {
+    if (!values.empty() && values.size() != cells)
+      refuse(path_, "it has " + std::to_string(values.size()) + " " + what + " for " + std::to_string(cells) +
+                        " cells; one a cell is needed");
+  }
   std::string_view item_in(const Tag& tag) const {
     const std::vector<Tag> items = tags_in(tag.content(), "DataItem");
     if (items.size() != 1 || items[0].attribute("Format") != "HDF")

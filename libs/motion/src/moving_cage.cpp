@@ -1,11 +1,18 @@
 #include "ostia/motion/moving_cage.h"
 
+#include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
 
 namespace ostia::motion {
 namespace {
 
 using geometry::Vec3;
+
+constexpr double most_outside = 0.5;  // of all points: above it they belong to another cage
 
 CyclicSpline spline_of(const geometry::CageMotion& motion) {
   geometry::validate(motion);
@@ -27,10 +34,17 @@ CarriedPoints::CarriedPoints(const geometry::CageGrid& grid, const std::vector<V
     : grid_(grid), points_(points.size()), beyond_(points.size()) {
   const Vec3 end = grid.origin + grid.cells * grid.cell_mm;
   for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!points[i].allFinite()) throw InvalidInput("point " + std::to_string(i) + " is not a number");
     points_[i] = geometry::cage_point(grid_, points[i]);
     beyond_[i] = points[i] - points[i].cwiseMax(grid.origin).cwiseMin(end);
     if (!beyond_[i].isZero()) ++outside_;
   }
+}
+
+double CarriedPoints::farthest_outside_mm() const {
+  double farthest = 0.0;
+  for (const Vec3& off : beyond_) farthest = std::max(farthest, off.norm());
+  return farthest;
 }
 
 std::vector<Vec3> CarriedPoints::rates(const std::vector<Vec3>& control_rates) const {
@@ -44,6 +58,19 @@ std::vector<Vec3> CarriedPoints::places(const std::vector<Vec3>& control_points)
   std::vector<Vec3> places = rates(control_points);
   for (std::size_t i = 0; i < places.size(); ++i) places[i] += beyond_[i];
   return places;
+}
+
+std::string judge_outside(const CarriedPoints& points, const std::string& what) {
+  if (points.outside() == 0) return {};
+  const double share = static_cast<double>(points.outside()) / static_cast<double>(points.size());
+  std::array<char, 32> percent{}, distance{};
+  std::snprintf(percent.data(), percent.size(), share < 0.001 ? "%.1g %%" : "%.1f %%", 100.0 * share);
+  std::snprintf(distance.data(), distance.size(), "%.1f mm", points.farthest_outside_mm());
+  const std::string told = std::string(percent.data()) + " of " + what +
+                           " lie outside of the motion's cage, up to " + distance.data();
+  if (share > most_outside)
+    throw InvalidInput(told + ": they must be of the same heart at the template's phase, in LPS and mm");
+  return told + "; they go as its nearest place does";
 }
 
 }  // namespace ostia::motion

@@ -155,9 +155,11 @@ void require_sound_surface(const TriMesh& surface, const std::string& what) {
   const std::size_t open = faults.open_edges;
   faults.open_edges = 0;  // open ends are welcome
   if (faults.closed_manifold() && faults.components <= 1) return;
-  std::string message = what + " cannot be used as it is: " + faults.summary();
+  std::string message = what + " cannot be used as it is: ";
+  if (!faults.closed_manifold()) message += faults.summary() + (faults.components > 1 ? "; " : "");
   if (faults.components > 1)
-    message += "; it has " + std::to_string(faults.components) + " separate parts, and a lumen is one";
+    message += "it has " + std::to_string(faults.components) +
+               " separate parts, and a lumen is one (the largest stays when it is mended)";
   if (!faults.examples.empty()) {
     message += "; for example at";
     for (const geometry::Vec3& p : faults.examples) message += " " + place(p);

@@ -42,6 +42,16 @@ bool asked(const MotionExportOptions& options, MotionFormat format) {
   return std::ranges::find(options.formats, format) != options.formats.end();
 }
 
+/// Does `work`; what it refuses is told with `name` in front.
+template <class Work>
+auto named(const std::string& name, const Work& work) {
+  try {
+    return work();
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(name + ": " + error.what());
+  }
+}
+
 template <class... Values>
 std::string formatted(const char* format, Values... values) {
   std::array<char, 400> text{};
@@ -70,9 +80,15 @@ struct Carried {
 
 class Travellers {
  public:
-  Travellers(const geometry::CageGrid& grid, const Points& rest) : rest_(rest), carried_(grid, rest) {}
+  /// `name` is in messages.
+  Travellers(const geometry::CageGrid& grid, const Points& rest, const std::string& name)
+      : rest_(rest),
+        carried_(named(name, [&] { return motion::CarriedPoints(grid, rest); })),
+        warning_(named(name, [&] { return motion::judge_outside(carried_, "its points"); })) {
+    if (!warning_.empty()) warning_ = name + ": " + warning_;
+  }
+  const std::string& warning() const { return warning_; }  ///< of points outside of the cage
   std::size_t outside() const { return carried_.outside(); }
-  std::size_t size() const { return rest_.size(); }
   Carried at(const Points& control_points, const Points& control_rates) const {
     Carried out{carried_.places(control_points), {}, carried_.rates(control_rates)};
     out.displacements.reserve(rest_.size());
@@ -83,6 +99,7 @@ class Travellers {
  private:
   const Points& rest_;
   motion::CarriedPoints carried_;
+  std::string warning_;
 };
 
 void tell(const Carried& now, MotionTime& time) {
@@ -128,18 +145,27 @@ class Export {
         cage_(cage),
         options_(options),
         surface_(surface),
-        on_surface_(cage.grid(), surface.points) {
+        on_surface_(cage.grid(), surface.points, options.surface_name) {
     if (mesh == nullptr) return;
     mesh_ = *mesh;
     rest_ = mesh->points;
-    in_mesh_.emplace(cage.grid(), rest_);
+    in_mesh_.emplace(cage.grid(), rest_, options.mesh_name);
   }
 
-  const Travellers& main() const { return in_mesh_ ? *in_mesh_ : on_surface_; }
+  std::size_t outside() const { return (in_mesh_ ? *in_mesh_ : on_surface_).outside(); }
+  std::vector<std::string> warnings() const {
+    std::vector<std::string> all;
+    for (const Travellers* one : {&on_surface_, in_mesh_ ? &*in_mesh_ : nullptr})
+      if (one != nullptr && !one->warning().empty()) all.push_back(one->warning());
+    return all;
+  }
 
   void begin() {
     if (!asked(options_, MotionFormat::openfoam)) return;
-    io::export_mesh(*mesh_, io::MeshFormat::openfoam, folder_ / "openfoam");
+    named(options_.mesh_name, [&] {
+      io::export_mesh(*mesh_, io::MeshFormat::openfoam, folder_ / "openfoam",
+                      {.layer_tetrahedra = options_.layer_tetrahedra});
+    });
     const double step = options_.rr_seconds / options_.times;
     io::write_openfoam_times(folder_ / "openfoam", step, step * (options_.times - 1));
   }
@@ -151,9 +177,13 @@ class Export {
     const Points places = cage_.at(time.phase), rates = cage_.rate(time.phase);
     const Carried surface = on_surface_.at(places, rates);
     write_surface(number, time.seconds, surface);
+    task.set_progress(0.1);
+    task.throw_if_cancelled();
     if (in_mesh_) {
       const Carried inside = in_mesh_->at(places, rates);
       write_mesh(number, time, inside, task);
+      task.set_progress(0.8);
+      task.throw_if_cancelled();
       write_points(number, time, inside);
     } else {
       write_points(number, time, surface);
@@ -176,6 +206,16 @@ class Export {
             {"velocity_mm_s", field(now.rates, 1.0 / options_.rr_seconds)}};
   }
 
+  /// The cell array that export_mesh writes, so that it is read back.
+  std::map<std::string, io::FieldValues> layers() const {
+    if (options_.layer_tetrahedra == 0) return {};
+    io::FieldValues layer;
+    layer.values.assign(mesh_->tetrahedra.size() + mesh_->prisms.size(), 0.0);
+    const auto end = layer.values.begin() + static_cast<std::ptrdiff_t>(mesh_->tetrahedra.size());
+    std::fill(end - static_cast<std::ptrdiff_t>(options_.layer_tetrahedra), end, 1.0);
+    return {{"layer", std::move(layer)}};
+  }
+
   void write_surface(int number, double seconds, const Carried& now) {
     const TriMesh moved{now.places, surface_.triangles};
     if (asked(options_, MotionFormat::vtp)) {
@@ -189,12 +229,14 @@ class Export {
 
   void write_mesh(int number, MotionTime& time, const Carried& now, const core::TaskContext& task) {
     mesh_->points = now.places;
-    const CarriedQuality quality = carried_quality(*mesh_, task);
+    const CarriedQuality quality = carried_quality(*mesh_, task.sub(0.1, 0.4));
     time.inverted = quality.inverted;
     time.min_scaled_jacobian = quality.min_scaled_jacobian;
+    task.set_progress(0.4);
+    task.throw_if_cancelled();
     if (asked(options_, MotionFormat::vtu)) {
       const std::string name = numbered("mesh", number, ".vtu");
-      io::write_vtu_with_fields(folder_ / name, *mesh_, {{}, fields(now)});
+      io::write_vtu_with_fields(folder_ / name, *mesh_, {layers(), fields(now)});
       meshes_.push_back({time.seconds, name});
     }
     mesh_->points = rest_;
@@ -251,7 +293,10 @@ void validate(const MotionExportOptions& options, const MixedMesh* mesh) {
     if (asked(options, format) && mesh == nullptr)
       refuse("the format " + std::string(name_of(format)) + " is of a volume mesh; name one with --mesh");
   if (mesh != nullptr && asked(options, MotionFormat::openfoam))
-    io::require_holds(io::MeshFormat::openfoam, !mesh->prisms.empty(), mesh->quadratic());
+    named(options.mesh_name,
+          [&] { io::require_holds(io::MeshFormat::openfoam, !mesh->prisms.empty(), mesh->quadratic()); });
+  if (mesh != nullptr && options.layer_tetrahedra > mesh->tetrahedra.size())
+    refuse("it has fewer tetrahedra than those of layers");
 }
 
 std::size_t MotionExport::inverted() const {
@@ -275,17 +320,15 @@ MotionExport export_motion(const fs::path& folder, const motion::MovingCage& cag
   validate(options, mesh);
   Export writing(folder, cage, surface, mesh, options);
   MotionExport out;
-  out.outside = writing.main().outside();
-  if (out.outside == writing.main().size())
-    refuse("none of its points lies in the motion's cage: it is of another heart, unit or frame");
-  if (out.outside > 0)
-    out.warnings.push_back(std::to_string(out.outside) + " of " + std::to_string(writing.main().size()) +
-                           " points lie outside of the motion's cage; they go as its nearest place does");
+  out.outside = writing.outside();
+  out.warnings = writing.warnings();
   writing.begin();
   for (int k = 0; k < options.times; ++k) {
     task.throw_if_cancelled();
-    out.times.push_back(writing.write(k, core::no_task()));
-    task.set_progress(static_cast<double>(k + 1) / options.times);
+    const double share = 1.0 / options.times;
+    const core::TaskContext own = task.sub(k * share, std::min((k + 1) * share, 1.0));
+    out.times.push_back(writing.write(k, own));
+    own.set_progress(1.0);
   }
   writing.end(out.times);
   for (const MotionTime& time : out.times)

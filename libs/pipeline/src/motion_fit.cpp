@@ -54,16 +54,21 @@ struct Way {
   std::vector<std::size_t> phases;  ///< in the order in which they are registered
 };
 
-/// Both ways, until they meet: each phase belongs to the nearer one.
+/// How far ahead of the template a phase is, in [0, 1).
+double time_ahead(const PhaseSurface& one, const PhaseSurface& shape) {
+  const double d = one.phase - shape.phase;
+  return d - std::floor(d);
+}
+
+/// Both ways, until they meet: each phase belongs to the nearer one, and to that alone. One measure decides:
+/// the times ahead and behind, both rounded, may both be half a cycle.
 std::array<Way, 2> ways(const std::vector<PhaseSurface>& phases, std::size_t from) {
   std::array<Way, 2> out;
   const std::size_t n = phases.size();
   for (std::size_t k = 1; k < n; ++k) {
     const std::size_t later = (from + k) % n, earlier = (from + n - k) % n;
-    const double ahead = phases[later].phase - phases[from].phase;
-    if (ahead - std::floor(ahead) <= 0.5) out[0].phases.push_back(later);
-    const double behind = phases[from].phase - phases[earlier].phase;
-    if (behind - std::floor(behind) < 0.5) out[1].phases.push_back(earlier);
+    if (time_ahead(phases[later], phases[from]) <= 0.5) out[0].phases.push_back(later);
+    if (time_ahead(phases[earlier], phases[from]) > 0.5) out[1].phases.push_back(earlier);
   }
   return out;
 }
@@ -122,14 +127,19 @@ Fitted registered(const TriMesh& shape, const TriMesh& target, const motion::Reg
   return best;
 }
 
+/// Each registration has its own part of the whole, in the order in which they begin.
 class Progress {
  public:
-  Progress(std::size_t count, const core::TaskContext& task) : count_(count), task_(task) {}
-  void one_more() { task_.set_progress(static_cast<double>(++done_) / static_cast<double>(count_)); }
+  Progress(std::size_t count, const core::TaskContext& task)
+      : count_(static_cast<double>(count)), task_(task) {}
+  core::TaskContext next() {
+    const auto begun = static_cast<double>(begun_++);
+    return task_.sub(begun / count_, std::min((begun + 1.0) / count_, 1.0));
+  }
 
  private:
-  std::atomic<std::size_t> done_{0};
-  std::size_t count_;
+  std::atomic<std::size_t> begun_{0};
+  double count_;
   const core::TaskContext& task_;
 };
 
@@ -142,12 +152,12 @@ void register_way(const std::vector<PhaseSurface>& phases, const TriMesh& shape,
   before.paired_share = 1.0;
   for (const std::size_t i : way.phases) {
     task.throw_if_cancelled();
-    progress.one_more();
+    const core::TaskContext own = progress.next();
     if (phases[i].surface.triangles.empty()) continue;
     task.set_stage("registering " + percent_text(phases[i].phase));
     fitted[i] = options.method == MotionMethod::gradient_descent
-                    ? descended(shape, phases[i].surface, how, task)
-                    : registered(shape, phases[i].surface, how, task);
+                    ? descended(shape, phases[i].surface, how, own)
+                    : registered(shape, phases[i].surface, how, own);
     if (!can_lead(fitted[i].report, before)) continue;
     before = fitted[i].report;
     how.start = fitted[i].control_points;
@@ -305,7 +315,7 @@ MotionFit fit_motion(std::vector<PhaseSurface> phases, const MotionFitOptions& o
   require_like(phases, shape);
   std::vector<Fitted> fitted(phases.size());
   const std::array<Way, 2> both = ways(phases, shape);
-  Progress progress(phases.size(), task);
+  Progress progress(phases.size() - 1, task);  // the template is there already
   core::parallel_for(2, 1, [&](std::size_t k) {
     register_way(phases, phases[shape].surface, both[k], options, fitted, progress, task);
   });

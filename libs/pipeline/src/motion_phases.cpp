@@ -101,6 +101,7 @@ void require_enough(const std::vector<PhaseFit>& phases, std::size_t usable) {
 std::vector<double> missing_phases(const std::vector<double>& phases) {
   constexpr double tolerance = 0.002;  // of the cycle
   constexpr double least_there = 2.0 / 3.0;
+  constexpr double rounding = 1e-9;  // of the cycle
   if (phases.size() < least_phases) return {};
   double step = 1.0;
   for (std::size_t k = 0; k < phases.size(); ++k) {
@@ -117,7 +118,8 @@ std::vector<double> missing_phases(const std::vector<double>& phases) {
     if (next < phases.size() && std::abs(phases[next] - phase) < tolerance) {
       ++next;
     } else {
-      missing.push_back(phase - std::floor(phase));
+      const double within = phase - std::floor(phase);
+      missing.push_back(within > 1.0 - rounding ? 0.0 : within);
     }
   }
   if (next != phases.size()) return {};

@@ -54,6 +54,24 @@ std::vector<Number> numbers_in(const std::string& text) {
   return found;
 }
 
+/// Of times after the R peak, ms, that a whole cycle's even steps make, some of which may be missing.
+std::vector<double> phases_of_trigger_times(std::vector<double> times) {
+  std::vector<double> sorted = times, steps;
+  std::sort(sorted.begin(), sorted.end());
+  for (std::size_t i = 1; i < sorted.size(); ++i) steps.push_back(sorted[i] - sorted[i - 1]);
+  std::sort(steps.begin(), steps.end());
+  const double step = steps[steps.size() / 2];
+  if (!(step > 0.0)) return {};
+  if (sorted.front() > 0.5 * step)
+    throw InvalidInput(
+        "the images' trigger times begin " + std::to_string(std::lround(sorted.front())) +
+        " ms after the R peak, so that they do not tell how long the cycle is: write the images "
+        "into files named by their percent of the cycle, as in phase_35.nrrd");
+  const double cycle = sorted.back() - sorted.front() + step;
+  for (double& time : times) time = time / cycle - std::floor(time / cycle);
+  return times;
+}
+
 double share_of(double percent) {
   return percent >= 100.0 ? 0.0 : percent / 100.0;
 }
@@ -75,10 +93,35 @@ std::vector<PhaseSource> image_files(const fs::path& folder) {
   return found;
 }
 
+/// One folder down: `phase-35/image00.nrrd`. A folder with two images says nothing of which is meant.
+std::vector<PhaseSource> image_folders(const fs::path& folder) {
+  std::vector<PhaseSource> found;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const auto phase = entry.is_directory() ? phase_of_name(entry.path().filename().string()) : std::nullopt;
+    if (!phase) continue;
+    std::vector<fs::path> images;
+    for (const fs::directory_entry& file : fs::directory_iterator(entry.path()))
+      if (file.is_regular_file() && stem_of_image(file.path())) images.push_back(file.path());
+    if (images.size() == 1) found.push_back({*phase, images.front(), {}});
+  }
+  return found;
+}
+
+/// Series that each have a phase of their own, or were split by it.
+std::vector<PhaseSource> series_by_percent(const std::vector<imaging::DicomSeries>& all) {
+  std::vector<PhaseSource> found;
+  for (const imaging::DicomSeries& one : all)
+    if (one.cardiac_percent && *one.cardiac_percent >= 0.0 && *one.cardiac_percent <= 100.0)
+      found.push_back({share_of(*one.cardiac_percent), {}, one});
+  // One reconstruction with a percent among others that have none is no set of phases.
+  return found.size() > 1 || found.size() == all.size() ? found : std::vector<PhaseSource>{};
+}
+
 std::vector<PhaseSource> dicom_series(const fs::path& folder, const core::TaskContext& task) {
   std::vector<imaging::DicomSeries> all = imaging::scan_dicom(folder, task).series;
   std::erase_if(all, [](const imaging::DicomSeries& one) { return !one.faults.empty(); });
-  std::vector<PhaseSource> found;
+  std::vector<PhaseSource> found = series_by_percent(all);
+  if (!found.empty()) return found;
   std::vector<imaging::DicomSeries> labelled;
   std::vector<std::string> labels;
   for (const imaging::DicomSeries& one : all)
@@ -116,24 +159,24 @@ std::vector<double> phases_of_labels(const std::vector<std::string>& labels) {
     return std::all_of(labels.begin(), labels.end(),
                        [&](const std::string& label) { return label.starts_with(words); });
   };
-  std::vector<double> values;
+  std::vector<double> values, totals;
   for (const std::string& label : labels) {
     const std::vector<Number> numbers = numbers_in(label);
     if (numbers.empty()) return {};
     values.push_back(numbers.front().value);
+    totals.push_back(numbers.back().value);
   }
   if (values.empty()) return {};
   if (all_begin("cardiac phase")) {
     std::transform(values.begin(), values.end(), values.begin(), share_of);
   } else if (all_begin("phase ")) {
-    const auto count = static_cast<double>(values.size());
-    for (double& value : values) value = (value - 1.0) / count;
+    // Of all that there were, of which some may be left out.
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (values[i] < 1.0 || values[i] > totals[i]) return {};
+      values[i] = (values[i] - 1.0) / totals[i];
+    }
   } else if (all_begin("trigger time") && values.size() > 1) {
-    const auto [least, most] = std::minmax_element(values.begin(), values.end());
-    const auto count = static_cast<double>(values.size());
-    const double cycle = (*most - *least) * count / (count - 1.0);
-    if (!(cycle > 0.0)) return {};
-    for (double& value : values) value = value / cycle - std::floor(value / cycle);
+    values = phases_of_trigger_times(values);
   } else {
     return {};
   }
@@ -144,6 +187,7 @@ std::vector<PhaseSource> find_phase_images(const fs::path& folder, const core::T
   if (!fs::is_directory(folder))
     throw IoError("the images of the phases are looked for in a folder; this is none");
   std::vector<PhaseSource> found = image_files(folder);
+  if (found.empty()) found = image_folders(folder);
   if (found.empty()) found = dicom_series(folder, task);
   if (found.empty())
     throw InvalidInput(

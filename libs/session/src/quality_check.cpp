@@ -427,7 +427,7 @@ void QualityCheck::go_to(std::size_t section) {
       s = c.s_mm;
     }
   bench_.vessel.set(one.vessel);
-  bench_.cursor_mm.set(s);
+  bench_.cursor_mm.set(bench_.here_mm(s));
 }
 
 std::vector<double> QualityCheck::wall_errors(const std::vector<Vec3>& points,

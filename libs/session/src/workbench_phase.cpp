@@ -3,6 +3,8 @@
 #include "ostia/session/beating.h"
 #include "ostia/session/workbench.h"
 
+#include <exception>
+
 namespace ostia::session {
 namespace {
 
@@ -15,10 +17,17 @@ void Workbench::show_phase(std::shared_ptr<const ShownPhase> phase, std::shared_
   if (phase && &phase->beating().model() != session_->file().model().get())
     throw InvalidInput("the tree has been edited since its motion was prepared: prepare it anew");
   if (!phase && !phase_) return;
-  const std::shared_ptr<const geometry::AxisCurve> before = axis();
-  const double own = own_mm(cursor_mm.get());
-  // A slice that was scrolled away from the vessel stays where it is.
-  const bool follows = before && (before->point(cursor_mm.get()) - place.get()).norm() < on_axis_mm;
+  // Axes are made when they are first asked for, which may fail: then what was shown stays.
+  if (phase && vessel.get() != no_vessel) phase->axis(vessel.get());
+  double own = cursor_mm.get();
+  bool follows = true;
+  try {
+    const std::shared_ptr<const geometry::AxisCurve> before = axis();
+    own = own_mm(cursor_mm.get());
+    // A slice that was scrolled away from the vessel stays where it is.
+    follows = before && (before->point(cursor_mm.get()) - place.get()).norm() < on_axis_mm;
+  } catch (const std::exception&) {  // another vessel was chosen, which has no axis at the phase that is left
+  }
   phase_ = std::move(phase);
   phase_image_ = phase_ ? std::move(image) : nullptr;
   phase_changed.tell();

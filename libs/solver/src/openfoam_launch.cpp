@@ -4,15 +4,12 @@
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <fstream>
 #include <limits>
 #include <sstream>
@@ -180,17 +177,6 @@ double share_done(const OpenfoamProgress& progress, const OpenfoamRunPlan& plan)
   return std::max(share, std::clamp(std::log(*progress.residual) / std::log(plan.tolerance), 0.0, 1.0));
 }
 
-std::optional<fs::path> program_on_path(const std::string& name) {
-  const char* path = std::getenv("PATH");
-  std::istringstream folders(path ? path : "");
-  for (std::string folder; std::getline(folders, folder, ':');) {
-    const fs::path program = fs::path(folder.empty() ? "." : folder) / name;
-    std::error_code ignored;
-    if (fs::is_regular_file(program, ignored) && ::access(program.c_str(), X_OK) == 0) return program;
-  }
-  return std::nullopt;
-}
-
 bool openfoam_can_work_in(const fs::path& folder) {
   return fs::absolute(folder).string().find_first_of(" \t\n\r\"'") == std::string::npos;
 }
@@ -201,7 +187,7 @@ OpenfoamProgress run_openfoam_case(const fs::path& case_folder, const core::Task
   if (!openfoam_can_work_in(case_folder))
     throw InvalidInput("OpenFOAM cannot work in " + fs::absolute(case_folder).string() +
                        ": the path has blanks or quotation marks; move the case");
-  if (!program_on_path(plan.program))
+  if (!core::program_on_path(plan.program))
     throw IoError(plan.program +
                   " is not on the PATH. Install OpenFOAM (Debian: apt install openfoam), or run " +
                   script.string() + " where it is installed");

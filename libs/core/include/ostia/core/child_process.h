@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,9 @@ struct ChildResult {
 /// IoError when the program is not there.
 ChildResult run_child(const std::filesystem::path& program, const std::vector<std::string>& arguments,
                       const ChildLimits& limits = {}, const TaskContext& task = no_task());
+
+/// As a shell would find it; nothing where it is not there or cannot be run.
+std::optional<std::filesystem::path> program_on_path(const std::string& name);
 
 /// The worker program: $OSTIA_WORKER if set, else `ostia-worker` beside the running program, else the build's
 /// own.

@@ -47,7 +47,7 @@ struct MotionRun {
   double phase = 0.0;
   MotionMethod method = MotionMethod::none;
   int depth = 0;             ///< 0: none
-  std::string sampling;      ///< phases that were known: "all", "odd 10", "even 10", "odd 5", "even 5"
+  std::string sampling;      ///< phases that were known: "all", "odd 10", "even 10", "odd 5", "even 5" of 20
   std::string lost;          ///< branch that the target lacks
   double seconds = 0.0;      ///< of the registration; wall clock
   double distance_mm = 0.0;  ///< mean from the target's points to the result, as in [Yi] 5.1

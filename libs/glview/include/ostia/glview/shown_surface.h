@@ -25,15 +25,16 @@ struct ShownVertex {
 
 struct ShownSurface {
   geometry::CageGrid grid;
-  std::vector<ShownVertex> vertices;  ///< one a point of the mesh, in its order
+  std::vector<ShownVertex> vertices;  ///< one a point of the mesh, in its order, then centres of large holes
   std::vector<geometry::Triangle> triangles;
   std::size_t open_triangles = 0;  ///< so many first; those after them close the surface's open ends
   bool closed = false;             ///< with them; then it is turned outward, too
 };
 
 /// Prepares a template. `along` is the direction in which normals change least within `reach_mm` of a point
-/// (the axis of a tube). Holes are closed where that is possible (a manifold). Throws InvalidInput for a
-/// surface without triangles, with indices out of range or points that are not finite.
+/// (the axis of a tube). Holes are closed where that is possible (a manifold), those of more than 500
+/// vertices by a fan about one vertex more. Throws InvalidInput for a surface without triangles, with indices
+/// out of range or points that are not finite.
 ShownSurface shown_surface(const geometry::TriMesh& mesh, const geometry::CageGrid& grid,
                            double reach_mm = 3.0);
 

@@ -23,7 +23,9 @@ struct DicomSeries {
   std::string uid;                    ///< SeriesInstanceUID, with "#2", ... where it had to be split
   std::string modality, description;  ///< for the terminal and the window alone: never saved
   std::string transfer_syntax;
-  std::string phase;                         ///< "cardiac phase 40 %" where a series had to be split by it
+  std::string phase;  ///< "cardiac phase 40 %" where a series had to be split by it
+  std::optional<double>
+      cardiac_percent;  ///< NominalPercentageOfCardiacPhase, where all slices have one value
   std::vector<std::filesystem::path> files;  ///< one a slice, by position along the normal
   std::vector<std::int64_t> frames;          ///< of the slice in its file, from 0
   bool whole_files = true;                   ///< its files hold no frame of another series

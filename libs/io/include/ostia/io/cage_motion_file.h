@@ -14,14 +14,18 @@ struct CageMotionFile {
   std::string surface;
 };
 
+/// A phase as the percent of the cycle that files have, to nine digits behind the point; never 100, which is
+/// the next cycle's 0.
+double percent_of(double phase);
+
 /// Throws InvalidInput that names the file and the field (no JSON, another version, unit or axes, a member
-/// that is missing or of another kind, what geometry::validate refuses, a surface's name with a folder),
-/// IoError.
+/// that is missing or of another kind, fewer than 3 or more than 1000 phases, what geometry::validate
+/// refuses, a surface's name with a folder), IoError.
 CageMotionFile read_cage_motion(const std::filesystem::path& path);
 
 /// Whole or not at all. Numbers are read back as they were; phases, written as percent of the cycle, to
-/// within 1e-11. Throws InvalidInput as geometry::validate does, and for a surface's name with a folder;
-/// IoError, ResourceError.
+/// within 1e-11. Throws InvalidInput for what could not be read again (geometry::validate, the number of
+/// phases, a surface's name with a folder); IoError, ResourceError.
 void write_cage_motion(const std::filesystem::path& path, const CageMotionFile& file);
 
 }  // namespace ostia::io

@@ -4,6 +4,7 @@
 #include "ostia/geometry/cage_motion.h"
 #include "ostia/motion/cyclic_spline.h"
 
+#include <string>
 #include <vector>
 
 namespace ostia::motion {
@@ -30,10 +31,12 @@ class MovingCage {
 /// nearest place in the cage does.
 class CarriedPoints {
  public:
+  /// Throws InvalidInput with the number, from 0 on, of a point that is not finite.
   CarriedPoints(const geometry::CageGrid& grid, const std::vector<geometry::Vec3>& points);
   std::size_t size() const { return points_.size(); }
   const std::vector<geometry::CagePoint>& weights() const { return points_; }
   std::size_t outside() const { return outside_; }
+  double farthest_outside_mm() const;  ///< from the cage; 0 where none is outside
   /// Their places for these control points, mm.
   std::vector<geometry::Vec3> places(const std::vector<geometry::Vec3>& control_points) const;
   /// Their velocities for those of the control points (MovingCage::rate), in the same unit.
@@ -45,5 +48,9 @@ class CarriedPoints {
   std::vector<geometry::Vec3> beyond_;  ///< from the nearest place in the cage
   std::size_t outside_ = 0;
 };
+
+/// Empty where all points lie in the cage, else a warning with the share that does not and how far off it is.
+/// `what` are the points ("the axes"). Throws InvalidInput where more than half of them are outside.
+std::string judge_outside(const CarriedPoints& points, const std::string& what);
 
 }  // namespace ostia::motion

@@ -29,6 +29,9 @@ struct MotionExportOptions {
   std::vector<MotionFormat> formats = {MotionFormat::vtp};
   int times = 20;           ///< evenly spaced over the cycle from the R peak on; in [1, 10000]
   double rr_seconds = 0.8;  ///< length of the cycle, in [0.1, 10]
+  std::string surface_name = "the surface", mesh_name = "the mesh";  ///< in messages
+  /// Of the mesh's tetrahedra, the last ones: layers' prisms that were split (io::MeshExportOptions).
+  std::size_t layer_tetrahedra = 0;
 };
 /// Throws InvalidInput; for a mesh that OpenFOAM cannot hold, and formats of a mesh without one, too.
 void validate(const MotionExportOptions& options, const geometry::MixedMesh* mesh);
@@ -58,8 +61,9 @@ CarriedQuality carried_quality(const geometry::MixedMesh& mesh,
 
 /// Writes into `folder`, which exists, and times.csv with a row a time. `surface` and `mesh` (null: none) are
 /// as the template's phase has them; triangles and elements stay the same over all times. Point data:
-/// `displacement_mm` from there, `velocity_mm_s`. Throws as `validate`; InvalidInput where no point lies in
-/// the cage, IoError, ResourceError, Cancelled.
+/// `displacement_mm` from there, `velocity_mm_s`. Warns where points of either lie outside of the cage.
+/// Throws as `validate`; InvalidInput where more than half of them do (motion::judge_outside) and for a point
+/// that is not finite, IoError, ResourceError, Cancelled.
 MotionExport export_motion(const std::filesystem::path& folder, const motion::MovingCage& cage,
                            const geometry::TriMesh& surface, const geometry::MixedMesh* mesh,
                            const MotionExportOptions& options,

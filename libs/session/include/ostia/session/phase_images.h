@@ -26,11 +26,14 @@ struct PhaseSource {
 std::optional<double> phase_of_name(const std::string& name);
 /// Of several labels of imaging::DicomSeries::phase, in the same order: percents as they are, trigger times
 /// against the cycle that their even steps make, "phase 3 of 10" as 20 %. Empty where they are none of these.
+/// Throws InvalidInput for trigger times that begin half a step after the R peak or later: a part of a cycle.
 std::vector<double> phases_of_labels(const std::vector<std::string>& labels);
 
 /// The images in a folder by phase, rising: image files (.nrrd .mhd .mha .nii .nii.gz) by their names, else
-/// the series of DICOM files that were told apart by the heart's phase, or whose descriptions have a percent.
-/// Throws InvalidInput that names the folder's trouble (no image with a phase, two of one phase), IoError.
+/// those one folder down by their folders' (phase-35/image00.nrrd), else DICOM series by the percent of the
+/// cycle in their files, those that were told apart by the heart's phase, or whose descriptions have a
+/// percent. Throws InvalidInput that names the folder's trouble (no image with a phase, two of one phase),
+/// IoError.
 std::vector<PhaseSource> find_phase_images(const std::filesystem::path& folder,
                                            const core::TaskContext& task = core::no_task());
 /// Reads one. Throws what the readers throw.

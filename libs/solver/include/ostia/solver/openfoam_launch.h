@@ -31,9 +31,6 @@ OpenfoamProgress progress_of_log(std::string_view log_end);
 /// In [0, 1]: a steady run's by its iterations or, where that is more, by the logarithm of its residual.
 double share_done(const OpenfoamProgress& progress, const OpenfoamRunPlan& plan);
 
-/// The program of this name in a folder of $PATH; nothing where there is none.
-std::optional<std::filesystem::path> program_on_path(const std::string& name);
-
 /// OpenFOAM strips blanks and quotation marks out of the path of the folder that it works in.
 bool openfoam_can_work_in(const std::filesystem::path& folder);
 

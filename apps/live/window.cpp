@@ -91,8 +91,7 @@ void tell(Viewer& viewer, const std::vector<Screenshots::News>& news) {
 
 }  // namespace
 
-void show_window(const LiveInput& input, const Options& options,
-                 const volatile std::sig_atomic_t& asked_to_end) {
+void show_window(const LiveInput& input, const Options& options, const core::TaskContext& task) {
   const GlWindow held(options);
   GLFWwindow* window = held.window;
   if (!glview::has_opengl_33()) throw ResourceError("There is " + glview::renderer_name() + "." + way_out);
@@ -108,7 +107,7 @@ void show_window(const LiveInput& input, const Options& options,
   finish_drawing();
   const double start = glfwGetTime();
   double before = start;
-  while (glfwWindowShouldClose(window) == GLFW_FALSE && asked_to_end == 0) {
+  while (glfwWindowShouldClose(window) == GLFW_FALSE && !task.cancelled()) {
     if (viewer.playback().paused())
       glfwWaitEventsTimeout(paused_wait_s);  // a still picture needs no processor
     else

@@ -43,11 +43,12 @@ ExitCode check_file(const MeshCommand& options, const core::TaskContext& task) {
     const io::LayeredMesh read = io::read_layered_mesh(options.check);
     const pipeline::MeshQuality quality = pipeline::judged(read.mesh, read.in_layers, task);
     std::fputs((pipeline::quality_json(quality) + "\n").c_str(), stdout);
-    if (!quality.verdict.ok() && read.mesh.prisms.empty() && read.in_layers.empty())
+    const bool could_tell = options.check.extension() == ".vtu";
+    if (!quality.verdict.ok() && read.mesh.prisms.empty() && read.in_layers.empty() && !could_tell)
       core::log_warning(
-          "the file does not say which tetrahedra are prisms of layers that were split, and all are judged "
-          "as "
-          "tetrahedra; if there are such, check the mesh.vtu that was written beside it");
+          options.check.string() +
+          " does not say which tetrahedra are prisms of layers that were split, and all are "
+          "judged as tetrahedra; if there are such, check the mesh.vtu that was written beside it");
     return verdict(quality.verdict);
   }
   if (!io::is_surface_file(options.check))

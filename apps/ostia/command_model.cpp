@@ -96,7 +96,11 @@ ExitCode run_model(const ModelCommand& command, const core::TaskContext& task) {
   const core::TaskContext building = task.sub(0.1, 0.85);
   pipeline::LumenWithAxes lumen =
       pipeline::build_lumen(std::move(job.source), job.options, building.sub(0.0, 0.45));
-  warn_of(pipeline::forecast_model(lumen, job.options, building.sub(0.45, 0.47)).forecast, true, true);
+  try {
+    warn_of(pipeline::forecast_model(lumen, job.options, building.sub(0.45, 0.47)).forecast, true, true);
+  } catch (const GeometryError& error) {  // a forecast is a warning: the model itself may still succeed
+    core::log_warning(std::string("the mesh cannot be foretold: ") + error.what());
+  }
   const pipeline::Model model = pipeline::mesh_model(std::move(lumen), job.options, building.sub(0.47, 1.0));
   for (const std::string& warning : model.warnings) core::log_warning(warning);
   std::optional<pipeline::TruthErrors> truth;

@@ -114,10 +114,11 @@ std::shared_ptr<const MeshPreview> opened_mesh(const fs::path& path, const core:
             .arg(QString::fromStdString(path.string()), QString::fromStdString(io::readable_volume_meshes()))
             .toStdString());
   std::vector<MixedMesh> meshes;
-  meshes.push_back(io::read_volume_mesh(file));
-  const std::vector<bool> in_layers = pipeline::layers_of(file);
+  io::LayeredMesh read = io::read_layered_mesh(file);
+  meshes.push_back(std::move(read.mesh));
   task.throw_if_cancelled();
-  meshing::QualityVerdict verdict = pipeline::judged(meshes.front(), in_layers, task.sub(0.2, 0.6)).verdict;
+  meshing::QualityVerdict verdict =
+      pipeline::judged(meshes.front(), read.in_layers, task.sub(0.2, 0.6)).verdict;
   std::vector<meshing::ElementMeasures> measures;
   measures.push_back(meshing::element_measures(meshes.front(), task.sub(0.6, 0.8)));
   return shown((file.parent_path().filename() / file.filename()).string(), std::move(meshes),

@@ -30,43 +30,33 @@ void tell(benchmark::State& state, const motion::Registration& r, const geometry
 }
 
 /// The argument: the motion, in per cent of 13.2 mm at the farthest.
-void register_cage(benchmark::State& state) {
+template <class Method>
+void run(benchmark::State& state, const Method& method) {
   const double amount = static_cast<double>(state.range(0)) / 100.0;
   const geometry::TriMesh target = target_tree(amount);
   motion::Registration r;
   for (auto _ : state) {
-    r = motion::register_cage(template_tree(), target);
+    r = method(target);
     benchmark::DoNotOptimize(r.surface.points.data());
   }
   tell(state, r, target, amount);
 }
-BENCHMARK(register_cage)
-    ->Arg(25)
-    ->Arg(50)
-    ->Arg(75)
-    ->Arg(100)
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime()
-    ->MeasureProcessCPUTime();
+void motions(benchmark::internal::Benchmark* bench) {
+  bench->Arg(25)->Arg(50)->Arg(75)->Arg(100);
+  bench->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime();
+}
+
+void register_cage(benchmark::State& state) {
+  run(state, [](const geometry::TriMesh& target) { return motion::register_cage(template_tree(), target); });
+}
+BENCHMARK(register_cage)->Apply(motions);
 
 void register_cage_by_descent(benchmark::State& state) {
-  const double amount = static_cast<double>(state.range(0)) / 100.0;
-  const geometry::TriMesh target = target_tree(amount);
-  motion::Registration r;
-  for (auto _ : state) {
-    r = motion::register_cage_by_descent(template_tree(), target);
-    benchmark::DoNotOptimize(r.surface.points.data());
-  }
-  tell(state, r, target, amount);
+  run(state, [](const geometry::TriMesh& target) {
+    return motion::register_cage_by_descent(template_tree(), target);
+  });
 }
-BENCHMARK(register_cage_by_descent)
-    ->Arg(25)
-    ->Arg(50)
-    ->Arg(75)
-    ->Arg(100)
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime()
-    ->MeasureProcessCPUTime();
+BENCHMARK(register_cage_by_descent)->Apply(motions);
 
 }  // namespace
 

@@ -80,6 +80,14 @@ TEST(CenterlineFile, NamesWithCommasAndQuotesComeBackFromCsv) {
             geometry::vessel_axis(tree, tree.vessels[1]).points);
 }
 
+TEST(CenterlineFile, ANameWithALinesEndIsRefusedForCsv) {
+  const auto path = testing::temporary_folder("io") / "lines.csv";
+  VesselTree tree = fork();
+  tree.vessels[1].name = "LCX\nx";
+  EXPECT_THROW(write_centerlines(path, tree), InvalidInput);
+  EXPECT_FALSE(std::filesystem::exists(path));
+}
+
 TEST(CenterlineFile, ReadsPlainCsv) {
   const VesselTree read = read_centerlines(
       file_with("a.csv", "x, y, z, radius\n0,0,0,1.5\n0,0,1,1.25\n\n5,0,0,1\n5,0,1,1\n5,0,2,1\n"));

@@ -5,16 +5,13 @@
 #include <cmath>
 
 namespace ostia::geometry {
-namespace {
 
-std::string percent(double phase) {
+std::string percent_text(double phase) {
   std::string text = std::to_string(std::round(phase * 1e4) / 1e2);
   text.erase(text.find_last_not_of('0') + 1);
   if (text.back() == '.') text.pop_back();
   return text + " %";
 }
-
-}  // namespace
 
 void validate(const CageMotion& motion, const std::string& name) {
   const CageGrid& grid = motion.grid;
@@ -31,12 +28,12 @@ void validate(const CageMotion& motion, const std::string& name) {
       throw InvalidInput(name + ": phases must rise from 0 to below 1; one is " + std::to_string(one.phase));
     before = one.phase;
     if (one.control_points.size() != grid.point_count())
-      throw InvalidInput(name + ": the phase " + percent(one.phase) + " has " +
+      throw InvalidInput(name + ": the phase " + percent_text(one.phase) + " has " +
                          std::to_string(one.control_points.size()) + " control points, the grid has " +
                          std::to_string(grid.point_count()));
     for (const Vec3& p : one.control_points)
       if (!p.allFinite())
-        throw InvalidInput(name + ": the phase " + percent(one.phase) +
+        throw InvalidInput(name + ": the phase " + percent_text(one.phase) +
                            " has a control point that is not a number");
   }
 }

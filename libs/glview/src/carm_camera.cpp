@@ -13,7 +13,6 @@
 namespace ostia::glview {
 namespace {
 
-constexpr double radians = std::numbers::pi / 180.0;
 constexpr double room = 1.08;  // around what is looked at
 
 /// Reads "LAO30CRA20" from the left.
@@ -92,13 +91,11 @@ std::string text_of(const CarmAngles& angles) {
 }
 
 Vec3 Camera::towards() const {
-  const double lao = angles.lao_deg * radians, cranial = angles.cranial_deg * radians;
-  return {std::sin(lao) * std::cos(cranial), -std::cos(lao) * std::cos(cranial), std::sin(cranial)};
+  return geometry::towards_receptor(angles);
 }
 
 Vec3 Camera::up() const {
-  const double lao = angles.lao_deg * radians, cranial = angles.cranial_deg * radians;
-  return {-std::sin(lao) * std::sin(cranial), std::cos(lao) * std::sin(cranial), std::cos(cranial)};
+  return geometry::receptor_up(angles);
 }
 
 Vec3 Camera::right() const {

@@ -220,6 +220,10 @@ std::string csv_text(const VesselTree& tree) {
   std::string out = "vessel,x,y,z,radius,abscissa\n";
   for (const Vessel& vessel : tree.vessels) {
     const Centerline axis = geometry::vessel_axis(tree, vessel);
+    if (vessel.name.find_first_of("\r\n") != std::string::npos)
+      throw InvalidInput(
+          "the vessel name " + core::csv_cell(vessel.name) +
+          " has a line's end, which CSV files of centerlines cannot hold: rename it, or write .vtp");
     const std::string name = core::csv_cell(vessel.name);
     for (std::size_t i = 0; i < axis.size(); ++i) {
       std::array<char, 64> text{};

@@ -118,7 +118,7 @@ class AbaqusFile {
       if (kind == kinds.end())
         refuse(path_, "it has elements of type " + type + "; C3D4, C3D10 and C3D6 are read");
       kind_ = kind->second;
-      mesh_.set_in_layers(keyword_.parameters["ELSET"].ends_with(layers_suffix));
+      mesh_.set_in_layers(upper(keyword_.parameters["ELSET"]).ends_with(upper(layers_suffix)));
     }
     if (keyword_.name == "*SURFACE") surfaces_.push_back({keyword_.parameters["NAME"], {}});
   }

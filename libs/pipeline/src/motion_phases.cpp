@@ -39,13 +39,6 @@ std::string mm(double value) {
 
 }  // namespace
 
-std::string percent_text(double phase) {
-  std::string text = std::to_string(std::round(phase * 1e4) / 1e2);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.back() == '.') text.pop_back();
-  return text + " %";
-}
-
 void require_phases(const std::vector<PhaseSurface>& phases) {
   std::size_t with_surface = 0;
   for (const PhaseSurface& one : phases) {

@@ -128,10 +128,6 @@ MeshQuality judged(const geometry::MixedMesh& mesh, const std::vector<bool>& in_
   return out;
 }
 
-std::vector<bool> layers_of(const fs::path& file) {
-  return io::read_layered_mesh(file).in_layers;
-}
-
 std::string name_in_folder(io::MeshFormat format) {
   const std::string name(io::name_of(format)), extension(io::extension_of(format));
   if (extension.empty()) return name;

@@ -80,11 +80,7 @@ CameraPose pose_from(ViewFrom from, const Vec3& target, double half_height_mm) {
 }
 
 CameraPose pose_of_carm(const CarmAngles& angles, const Vec3& target, double half_height_mm) {
-  const double lao = degree * angles.lao_deg, cranial = degree * angles.cranial_deg;
-  const Vec3 receptor(std::sin(lao) * std::cos(cranial), -std::cos(lao) * std::cos(cranial),
-                      std::sin(cranial));
-  const Vec3 up(-std::sin(lao) * std::sin(cranial), std::cos(lao) * std::sin(cranial), std::cos(cranial));
-  return looking(target, receptor, up, half_height_mm);
+  return looking(target, geometry::towards_receptor(angles), geometry::receptor_up(angles), half_height_mm);
 }
 
 CarmAngles carm_angles(const CameraPose& pose) {

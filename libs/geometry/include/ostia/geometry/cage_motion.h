@@ -30,6 +30,9 @@ struct CageMotion {
   std::vector<CagePhase> phases;  ///< rising
 };
 
+/// A share of the cycle as people say it: "35 %", "12.5 %"; to a hundredth of a percent.
+std::string percent_text(double phase);
+
 /// Throws InvalidInput that names the phase: no phases, phases that do not rise from 0 to below 1, another
 /// number of points than the grid has, values that are not finite, a grid without size, more than 2^8 cells a
 /// side. `name` begins the message.

@@ -1,7 +1,7 @@
 #pragma once
 /// \file Cameras that are told as a C-arm's angles. See docs/live.md.
 
-#include "ostia/geometry/vec.h"
+#include "ostia/geometry/carm_angles.h"
 
 #include <Eigen/Core>
 
@@ -11,16 +11,10 @@
 
 namespace ostia::glview {
 
+using geometry::CarmAngles;
 using geometry::Vec2;
 using geometry::Vec3;
 
-/// Where the image receptor stands, seen from an anterior one, as it is read in the catheter laboratory.
-/// World is LPS (x to the patient's left, y to the back, z to the head), so that the way from the heart to
-/// the receptor is (sin lao cos cra, -cos lao cos cra, sin cra): LAO 90 is the patient's left side, +x.
-struct CarmAngles {
-  double lao_deg = 0.0;      ///< to the patient's left; negative: RAO
-  double cranial_deg = 0.0;  ///< towards the head; negative: caudal
-};
 /// "LAO30CRA20", "RAO 30 CAU 25", "AP", "LAT" (LAO 90), in any case. Throws UsageError that says what can be
 /// written; angles are to be within 180 and 90 degrees.
 CarmAngles carm_angles(std::string_view text);

@@ -64,7 +64,6 @@ std::vector<double> missing_phases(const std::vector<double>& phases);
 MotionFit fit_motion(std::vector<PhaseSurface> phases, const MotionFitOptions& options = {},
                      const core::TaskContext& task = core::no_task());
 
-/// "35 %".
-std::string percent_text(double phase);
+using geometry::percent_text;
 
 }  // namespace ostia::pipeline

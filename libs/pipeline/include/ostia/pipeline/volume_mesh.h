@@ -72,9 +72,6 @@ MeshQuality judged(const geometry::MixedMesh& mesh, const core::TaskContext& tas
 MeshQuality judged(const geometry::MixedMesh& mesh, const std::vector<bool>& in_layers,
                    const core::TaskContext& task = core::no_task());
 
-/// What io::read_layered_mesh says of a file's tetrahedra, for one whose mesh is at hand already.
-std::vector<bool> layers_of(const std::filesystem::path& file);
-
 /// The file or folder of a format beside others: `mesh.vtu`, `openfoam`, `mesh-gmsh4.msh` (three formats have
 /// the extension .msh), ...
 std::string name_in_folder(io::MeshFormat format);

@@ -1,6 +1,7 @@
 #pragma once
 /// \file Where one looks at the tree from: poses of a camera with parallel rays, as plain values.
 
+#include "ostia/geometry/carm_angles.h"
 #include "ostia/geometry/vec.h"
 
 #include <span>
@@ -24,12 +25,7 @@ void validate(const CameraPose& pose);
 
 enum class ViewFrom { anterior, posterior, left, right, cranial, caudal };
 
-/// Angles of a C-arm as they are read in the catheter laboratory: where the image receptor stands, seen from
-/// an anterior one. The picture is what one who stands at the receptor sees, the patient's left on its right.
-struct CarmAngles {
-  double lao_deg = 0.0;      ///< to the patient's left; negative: RAO
-  double cranial_deg = 0.0;  ///< towards the head; negative: caudal
-};
+using geometry::CarmAngles;
 
 // Poses that look at a target with the half height given; the head is up (in cranial and caudal views the
 // chest, anterior, is up).

@@ -18,6 +18,7 @@
 #include "skeleton.h"
 #include "solver_case.h"
 #include "standard_streams.h"
+#include "validators.h"
 
 #include "ostia/core/log.h"
 #include "ostia/core/parallel.h"
@@ -80,9 +81,9 @@ void add_dicom(CLI::App& app, InputOptions& o) {
   app.add_option("--series", o.series, "UID of the DICOM series, where the folder holds several");
   app.add_flag("--resample", o.resample, "Interpolate over missing or uneven slices");
   app.add_option("--pixel-spacing", o.pixel_spacing_mm, "mm, where the DICOM files have none")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   app.add_option("--slice-spacing", o.slice_spacing_mm, "mm, where the DICOM files have no positions")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
 }
 
 void add_units(CLI::App& app, InputOptions& o) {
@@ -98,8 +99,7 @@ void add_ends(CLI::App& app, EndOptions& o) {
   app.add_option("--source", o.source, "Where the centerlines begin, x,y,z; left out: the largest open end");
   app.add_option("--target", o.targets, "Where a centerline ends; repeat; left out: the other open ends")
       ->allow_extra_args(false);
-  app.add_option("--step", o.step_mm, "Distance between the centerline's points, mm")
-      ->check(CLI::PositiveNumber);
+  app.add_option("--step", o.step_mm, "Distance between the centerline's points, mm")->check(above_zero());
 }
 
 CLI::App* command(CLI::App& app, const std::string& name, const std::string& text,
@@ -195,7 +195,7 @@ void define(CLI::App& app, Commands& c, Run& run) {
                     "Surfaces: drop bad triangles and loose parts, join equal points, take apart what only "
                     "touches, turn outward, cut self-intersections out");
   convert->add_option("--fill-holes", c.convert.fill_holes_mm, "Repair: also close holes up to this wide, mm")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   convert->add_flag("--keep-parts", c.convert.keep_parts, "Repair: all parts stay, not the largest alone");
   convert
       ->add_option("--smooth", c.convert.smooth,

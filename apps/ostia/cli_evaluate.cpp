@@ -1,6 +1,7 @@
 // The options of `ostia evaluate` and its subcommands.
 
 #include "evaluate.h"
+#include "validators.h"
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -99,7 +100,7 @@ void add_shapes(CLI::App& evaluate, EvaluateCommand& c,
                     "Only where the result's centerlines run: for a model of some vessels of a whole tree");
   surface->add_flag("--curvature", c.curvature, "Also the root mean squares of the principal curvatures");
   surface->add_option("--sample", c.sample_mm, "Density of the points that are asked, mm")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   CLI::App* volume =
       add(evaluate, c,
           {"volume", "Overlap of two masks, or of what two closed surfaces enclose",
@@ -110,7 +111,7 @@ void add_shapes(CLI::App& evaluate, EvaluateCommand& c,
   add_requirements(*volume, c);
   volume->add_flag("--covered", c.covered_only, "Only where the result's centerlines run");
   volume->add_option("--resolution", c.resolution_mm, "Voxels in which surfaces are compared, mm")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // The options of `ostia experiment` and its subcommands.
 
 #include "experiment.h"
+#include "validators.h"
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -29,10 +30,10 @@ void define_experiment(CLI::App& app, ExperimentCommand& c, const std::uint64_t&
       "--start-excess", c.start_excess_mm,
       "How much wider than the section's mean radius the tube is that editing starts from, mm");
   editing->add_option("--pointing-error", c.pointing_mm, "Standard deviation of a click, mm")
-      ->check(CLI::NonNegativeNumber);
+      ->check(zero_or_above());
   editing->add_option("--points", c.points, "Of a stroke, at most")->check(CLI::Range(4, 100));
   editing->add_option("--visible", c.visible_px, "Disagreements of more pixels are seen")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   editing->add_flag("--json", c.json, "The figures as JSON on standard output");
   editing->callback([&c, &seed, &run] {
     c.seed = seed;

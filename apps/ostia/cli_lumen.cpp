@@ -1,6 +1,7 @@
 // The options of `ostia lumen` and `ostia replay`.
 
 #include "lumen.h"
+#include "validators.h"
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -30,7 +31,7 @@ void define_lumen(CLI::App& app, LumenModelCommand& c, ReplayCommand& r,
   lumen->add_option("--observer", c.observer, "Whose contours, where the file has several observers'");
   lumen->add_option("--vessel", c.vessel, "Name of the vessel that a Rotterdam line is, LAD say");
   lumen->add_option("--radius", c.radius_mm, "Radius of the starting tube, mm; left out: the centerlines'")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   lumen->add_option("--spacing", c.spacing_mm, "Distance between samples of an even wall, mm")
       ->check(CLI::Range(0.1, 5.0));
   lumen->add_option("--kernel", c.kernel, "Radial basis function between the samples")

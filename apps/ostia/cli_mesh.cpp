@@ -3,6 +3,7 @@
 #include "cli_mesh.h"
 
 #include "solver_case.h"
+#include "validators.h"
 
 #include "ostia/io/mesh_export.h"
 #include "ostia/io/volume_mesh_file.h"
@@ -45,12 +46,12 @@ void add_with_case(CLI::App& app, MeshOptions& o) {
 }  // namespace
 
 void add_mesh(CLI::App& app, MeshOptions& o) {
-  app.add_option("--edge-ratio", o.edge_ratio, "Edge length over the distance to the centerline")
-      ->check(CLI::PositiveNumber);
+  app.add_option("--edge-ratio", o.edge_ratio, "Edge length over the distance to the centerline, 0.02 to 2")
+      ->check(CLI::Range(0.02, 2.0));
   app.add_option("--size", o.size, "What the edges follow: distance to the centerline, or inscribed radius")
       ->check(CLI::IsMember({"distance", "radius"}));
-  app.add_option("--min-edge", o.min_edge_mm, "Shortest edge, mm")->check(CLI::PositiveNumber);
-  app.add_option("--max-edge", o.max_edge_mm, "Longest edge, mm")->check(CLI::PositiveNumber);
+  app.add_option("--min-edge", o.min_edge_mm, "Shortest edge, mm")->check(above_zero());
+  app.add_option("--max-edge", o.max_edge_mm, "Longest edge, mm")->check(above_zero());
   app.add_option("--size-radii", o.most_distance_radii,
                  "Bound on the distance to the centerline in inscribed radii, 1 or more, for aneurysms; left "
                  "out: none")
@@ -64,9 +65,9 @@ void add_mesh(CLI::App& app, MeshOptions& o) {
                  "Edges at stenoses over those of the vessel, 0.05 to 1; default 1")
       ->check(CLI::Range(0.05, 1.0));
   app.add_option("--volume-size", o.size_factor, "Edges inside over edges of the surface")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   app.add_option("--inset", o.inset_radii, "How far inside its end a vessel is cut, in radii")
-      ->check(CLI::NonNegativeNumber);
+      ->check(zero_or_above());
   app.add_option("--flow-extensions", o.extensions,
                  "Tubes that lead the flow in and out, 0.25 to 100 diameters long; left out: none")
       ->check(CLI::Range(0.25, 100.0));

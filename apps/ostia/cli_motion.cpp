@@ -1,6 +1,7 @@
 // The options of `ostia motion` and its subcommands.
 
 #include "motion.h"
+#include "validators.h"
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -55,7 +56,7 @@ void add_fit(CLI::App& motion, MotionFitCommand& c, Run& run) {
          "--weights", c.weights,
          "Of the cage's energy: length,area,volume, or one number for all three; default 10, more is stiffer")
       ->delimiter(',')
-      ->check(CLI::NonNegativeNumber);
+      ->check(zero_or_above());
   fit->add_option("--method", c.method,
                   "How a phase is registered: gauss-newton, or gradient-descent, slow, to compare with")
       ->check(CLI::IsMember({"gauss-newton", "gradient-descent"}));
@@ -96,9 +97,9 @@ void add_evaluate(CLI::App& motion, MotionEvaluateCommand& c, Run& run) {
   add_frames(*evaluate, c.frames);
   add_units(*evaluate, c.common.units);
   evaluate->add_option("--sample", c.common.sample_mm, "Density of the points that are asked, mm")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   evaluate->add_option("--resolution", c.common.resolution_mm, "Voxels in which the insides are compared, mm")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   evaluate
       ->add_option("--require", c.common.requirements,
                    "FIGURE<=NUMBER or FIGURE>=NUMBER, as in msd_mm<=0.3; repeat. Exit code 4 where one is "

@@ -2,6 +2,8 @@
 
 #include "cli_phantom.h"
 
+#include "validators.h"
+
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -47,7 +49,7 @@ void add_phantom(CLI::App& app, PhantomCommand& o) {
   app.add_option("--beam-hardening", o.beam_hardening, "Dark streaks beside dense things; 1 is usual")
       ->check(CLI::Range(0.0, 5.0));
   app.add_option("--contour-spacing", o.contour_spacing_mm, "Distance between the true contours, mm")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   app.add_option("--contour-points", o.contour_points, "Points of a contour")->check(CLI::Range(8, 1024));
   app.add_option("--surface-spacing", o.surface_spacing_mm,
                  "Edges of the true surfaces, mm; 0.15, with phases 0.4")

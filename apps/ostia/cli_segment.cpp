@@ -2,6 +2,8 @@
 
 #include "cli_segment.h"
 
+#include "validators.h"
+
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -19,7 +21,7 @@ void add_filters(CLI::App& app, LumenOptions& o) {
   app.add_option("--balloon-tau", o.balloon_tau, "tau; left out: 0.2")->check(CLI::Range(0.001, 0.999));
   app.add_option("--balloon-mean", o.balloon_mean_hu, "m, HU; left out: the vessel's own median");
   app.add_option("--balloon-sigma", o.balloon_sigma_hu, "sigma, HU; left out: the vessel's own deviation")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   app.add_option(
          "--denoise", o.denoise,
          "Diffusion of the image that stops at edges: flux (Krissian), gradient (Perona and Malik) or "
@@ -29,7 +31,7 @@ void add_filters(CLI::App& app, LumenOptions& o) {
       ->check(CLI::Range(1, 1000));
   app.add_option("--denoise-contrast", o.denoise_contrast,
                  "Gradient above which an edge stays, HU/mm; left out: chosen from the noise")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   app.add_option("--remove", o.remove,
                  "Taken out of the image before: bone, calcium, skin, separated by commas; left out: nothing")
       ->delimiter(',')
@@ -53,17 +55,16 @@ void add_lumen(CLI::App& app, LumenOptions& o) {
                  "Of the feature gaussian, mm; left out: the least spacing of the image")
       ->check(CLI::Range(0.01, 10.0));
   app.add_option("--inflation", o.inflation, "Weight w1 of the level set's inflation")
-      ->check(CLI::NonNegativeNumber);
+      ->check(zero_or_above());
   app.add_option("--curvature", o.curvature, "Weight w2 of the level set's curvature")
-      ->check(CLI::NonNegativeNumber);
+      ->check(zero_or_above());
   app.add_option("--curvature-term", o.curvature_term,
                  "Which curvature that is: mean (default), or minimal (of both principal curvatures the "
                  "smaller: smooths along a vessel and leaves its radius alone)")
       ->check(CLI::IsMember({"mean", "minimal"}));
   app.add_option("--advection", o.advection, "Weight w3 of the pull to the image's edges")
-      ->check(CLI::NonNegativeNumber);
-  app.add_option("--iterations", o.iterations, "Most iterations of the level set")
-      ->check(CLI::NonNegativeNumber);
+      ->check(zero_or_above());
+  app.add_option("--iterations", o.iterations, "Most iterations of the level set")->check(zero_or_above());
   app.add_flag("--whole-volume", o.whole_volume, "Let the fronts run through the whole image");
   app.add_flag("--bright-is-lumen", o.bright_is_lumen,
                "What is brighter than the lumen (a stent, a catheter) belongs to it; not for calcium");

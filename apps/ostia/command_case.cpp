@@ -1,6 +1,7 @@
 #include "refusal.h"
 #include "solver_case.h"
 #include "table_file.h"
+#include "validators.h"
 
 #include "ostia/core/log.h"
 #include "ostia/io/volume_mesh_file.h"
@@ -143,14 +144,13 @@ void add_flow_options(CLI::App& app, CaseOptions& c) {
          "(SI) of its diameter")
       ->allow_extra_args(false);
   app.add_option("--velocity", c.velocity_cm_s, "Instead: mean velocity at each inlet, cm/s")
-      ->check(CLI::PositiveNumber);
-  app.add_option("--reynolds", c.reynolds, "Instead: Reynolds number at each inlet")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
+  app.add_option("--reynolds", c.reynolds, "Instead: Reynolds number at each inlet")->check(above_zero());
   app.add_option(
       "--waveform", c.waveform,
       "Pulsatile: coronary-left, coronary-right, or a .csv with the columns time_s,flow_ml_s of one "
       "cycle; scaled to the mean flow where one is given");
-  app.add_option("--period", c.period_s, "Of the waveform, s")->check(CLI::PositiveNumber);
+  app.add_option("--period", c.period_s, "Of the waveform, s")->check(above_zero());
   app.add_option("--outlets", c.outlets,
                  "zero: the same pressure at each; split: a share of the flow each; resistance: pressure is "
                  "resistance times flow")
@@ -158,9 +158,9 @@ void add_flow_options(CLI::App& app, CaseOptions& c) {
   app.add_option("--split-exponent", c.split_exponent, "Flow goes as the diameter to this; Murray's is 3");
   app.add_option("--resistance", c.resistance,
                  "Of all outlets together, mmHg s / ml; left out: 90 mmHg over the mean flow")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   app.add_option("--compliance", c.compliance, "Of all outlets together, ml / mmHg (svMultiPhysics alone)")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
 }
 
 }  // namespace
@@ -208,7 +208,7 @@ void add_case_options(CLI::App& app, CaseOptions& c, const std::string& iteratio
       ->check(CLI::IsMember({"newton", "carreau"}));
   app.add_option("--cycles", c.cycles, "Of a pulsatile flow");
   app.add_option("--time-step", c.time_step_s, "s; left out: from the mesh, for a Courant number of 0.5")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   app.add_option(iterations, c.iterations, "Of a steady flow, at most");
   app.add_option("--processes", c.processes, "That the decomposed run is prepared for");
 }

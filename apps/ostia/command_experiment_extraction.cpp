@@ -1,6 +1,7 @@
 // `ostia experiment extraction`: the tree and the lumen found without a click, held against the truth.
 
 #include "experiment.h"
+#include "validators.h"
 
 #include "ostia/core/files.h"
 #include "ostia/experiments/extraction_report.h"
@@ -78,7 +79,7 @@ void define_experiment_extraction(CLI::App& experiment,
   extraction
       ->add_option("--astray", command->options.astray_mm,
                    "A found axis so far outside of every true lumen follows no artery, mm")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   extraction->add_option("--threshold", command->options.threshold, "Diameter stenosis that is to be found")
       ->check(CLI::Range(0.01, 0.99));
   extraction->add_flag("--json", command->json, "The figures as JSON on standard output");

@@ -2,6 +2,7 @@
 // motion is known, by depth, by method and by the phases that are known.
 
 #include "experiment.h"
+#include "validators.h"
 
 #include "ostia/core/error.h"
 #include "ostia/experiments/motion.h"
@@ -87,7 +88,7 @@ void define_experiment_motion(CLI::App& experiment, const std::uint64_t& seed,
       ->delimiter(',');
   sub->add_option("--compared-phases", command->compared_percent, "At these, % of RR")->delimiter(',');
   sub->add_option("--compared-hearts", o.compared_hearts, "Of the first so many hearts")
-      ->check(CLI::NonNegativeNumber);
+      ->check(zero_or_above());
   sub->add_flag("--json", command->json, "The figures as JSON on standard output");
   sub->callback([command, &seed, &run] {
     command->options.heart.seed = seed;

@@ -1,6 +1,7 @@
 // `ostia experiment orientations`: one phantom scanned in twelve orientations, its tubes measured in each.
 
 #include "experiment.h"
+#include "validators.h"
 
 #include "ostia/core/error.h"
 #include "ostia/experiments/orientations_report.h"
@@ -57,12 +58,12 @@ void define_experiment_orientations(CLI::App& experiment, const std::uint64_t& s
       ->check(CLI::Range(2, 12));
   sub->add_option("--noise", o.scan.noise_hu, "Standard deviation in the scans, HU")
       ->check(CLI::Range(0.0, 500.0));
-  sub->add_option("--iterations", o.iterations, "Of the level set, at most")->check(CLI::NonNegativeNumber);
+  sub->add_option("--iterations", o.iterations, "Of the level set, at most")->check(zero_or_above());
   sub->add_option("--inflation", o.inflation, "Weight of the balloon of intensities");
-  sub->add_option("--prune", o.prune_mm, "Leaves shorter than this go, mm")->check(CLI::NonNegativeNumber);
-  sub->add_option("--gap", o.gap_mm, "Gaps up to this are closed, mm")->check(CLI::NonNegativeNumber);
+  sub->add_option("--prune", o.prune_mm, "Leaves shorter than this go, mm")->check(zero_or_above());
+  sub->add_option("--gap", o.gap_mm, "Gaps up to this are closed, mm")->check(zero_or_above());
   sub->add_option("--sigma", o.sigma_mm, "Of the Gaussian that the walls are found with, mm")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   sub->add_flag("!--as-thinned", o.settle, "Junctions and ends stay where thinning leaves them");
   sub->add_flag("--json", command->json, "The figures as JSON on standard output");
   sub->callback([command, &seed, &run] {

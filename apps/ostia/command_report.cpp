@@ -1,4 +1,5 @@
 #include "report.h"
+#include "validators.h"
 
 #include "ostia/core/files.h"
 #include "ostia/core/log.h"
@@ -98,7 +99,7 @@ void define_report(CLI::App& app, ReportCommand& c, std::function<ExitCode(const
   report->add_option("--theta", c.theta_deg,
                      "Angle of the first reformation, degrees; the second is at + 90");
   report->add_option("--level", c.level_hu, "Centre of the grey window, HU");
-  report->add_option("--window", c.window_hu, "Width of the grey window, HU")->check(CLI::PositiveNumber);
+  report->add_option("--window", c.window_hu, "Width of the grey window, HU")->check(above_zero());
   report->add_flag("--json", c.json, "report.json on standard output");
   report->callback([&] { run = [&](const core::TaskContext& task) { return run_report(c, task); }; });
 }

@@ -2,6 +2,7 @@
 #include "points.h"
 #include "refusal.h"
 #include "skeleton.h"
+#include "validators.h"
 
 #include "ostia/core/files.h"
 #include "ostia/core/log.h"
@@ -117,17 +118,16 @@ void define_skeleton(CLI::App& app, SkeletonCommand& c,
       ->allow_extra_args(false);
   skeleton->add_option("--coords", c.input.coords, "Frame of the points given: lps or ras (mm), ijk (voxels)")
       ->check(CLI::IsMember({"lps", "ras", "ijk"}));
-  skeleton->add_option("--prune", c.prune_mm, "Leaves shorter than this go, mm")
-      ->check(CLI::NonNegativeNumber);
-  skeleton->add_option("--gap", c.gap_mm, "Gaps up to this are closed, mm")->check(CLI::NonNegativeNumber);
+  skeleton->add_option("--prune", c.prune_mm, "Leaves shorter than this go, mm")->check(zero_or_above());
+  skeleton->add_option("--gap", c.gap_mm, "Gaps up to this are closed, mm")->check(zero_or_above());
   skeleton->add_option("--sigma", c.sigma_mm, "Of the Gaussian that the walls are found with, mm")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   skeleton->add_option("--blur", c.blur_mm, "Standard deviation of the image's own blur, mm")
-      ->check(CLI::NonNegativeNumber);
+      ->check(zero_or_above());
   skeleton->add_option("--knots", c.knots_mm, "Distance between the knots of the smooth lines, mm")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   skeleton->add_option("--step", c.step_mm, "Distance between the points of the lines, mm")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   skeleton->add_flag("--keep-cavities", c.keep_cavities,
                      "Cavities inside the object are not filled; one is then refused");
   skeleton->add_flag("--json", c.json, "One JSON object on standard output");

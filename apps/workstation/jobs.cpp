@@ -18,6 +18,7 @@ constexpr double estimate_from = 0.05;
 constexpr qint64 estimate_from_ms = 2000;
 constexpr qint64 shown_after_ms = 150;  // what is done by then needs no line
 constexpr int bar_width = 220, bar_height = 14;
+constexpr int spared_px = 1;  // of a button's frame: the status bar is to stay low
 
 QString time_left(double progress, qint64 elapsed_ms) {
   const auto left = seconds_left(progress, elapsed_ms);
@@ -32,6 +33,7 @@ QToolButton* cross(QWidget* parent, const QString& tip, const QString& name) {
   button->setAutoRaise(true);
   button->setToolTip(tip);
   button->setAccessibleName(name);
+  button->setFixedHeight(button->sizeHint().height() - spared_px);
   return button;
 }
 
@@ -97,7 +99,7 @@ void Jobs::run(const QString& kind, const QString& title, Work work, Done done, 
 
 int Jobs::line_height() const {
   const std::unique_ptr<QToolButton> one(cross(nullptr, {}, {}));
-  return one->sizeHint().height();
+  return one->maximumHeight();
 }
 
 bool Jobs::running(const QString& kind) const {
@@ -132,6 +134,7 @@ void Jobs::leave(const QString& kind, const QString& text, const QString& tip, c
   auto* open = new QToolButton(line);
   open->setObjectName("left." + kind + ".act");
   open->setText(button);
+  open->setMaximumHeight(line_height());
   auto* close = cross(line, tr("Close"), tr("Close %1").arg(text));
   connect(open, &QToolButton::clicked, this, std::move(act));
   connect(close, &QToolButton::clicked, this, [this, kind] { take_away(kind); });

@@ -48,7 +48,6 @@ constexpr int heartbeat_ms = 20;
 constexpr double blocked_ms = 50.0;
 constexpr int message_ms = 8000;
 constexpr double strip_step_mm = 1.0;
-constexpr int status_margin = 4;
 constexpr int strip_px = 56;  // of a neighbour at least
 
 QStringList local_files(const QMimeData& data) {
@@ -274,7 +273,8 @@ void MainWindow::build_views() {
   shown_name_->setContentsMargins(0, 0, 12, 0);
   jobs_ = new Jobs(this);
   statusBar()->addPermanentWidget(jobs_);
-  statusBar()->setMinimumHeight(jobs_->line_height() + status_margin);
+  // A strut and not the bar's own minimum, which would hold it at one line however many jobs run.
+  place_->setMinimumHeight(jobs_->line_height());
   statusBar()->addPermanentWidget(shown_name_);
   statusBar()->addPermanentWidget(place_);
   place_->setMinimumWidth(

@@ -316,6 +316,27 @@ TEST(Jobs, ANewerOneTakesThePlaceOfOneThatIsDoneButNotYetSeen) {
   EXPECT_EQ(second, 1);
 }
 
+TEST_F(MeshingWindow, EachOfSeveralJobsHasALineOfItsHeight) {
+  open_case();
+  std::atomic<bool> enough = false;
+  const int one_line = window().jobs().line_height();
+  for (const char* kind : {"first", "second", "third"})
+    window().jobs().run(
+        kind, kind,
+        [&enough](const core::TaskContext&) {
+          while (!enough) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+          return std::any();
+        },
+        [](const std::any&) {}, [](const QString&) {});
+  ASSERT_TRUE(wait_until([&] { return part<QToolButton>("cancel.third")->isVisible(); }));
+  settle();
+  for (const char* button : {"cancel.first", "cancel.second", "cancel.third"})
+    EXPECT_GE(part<QToolButton>(button)->height(), one_line) << button;
+  EXPECT_GE(window().jobs().height(), 3 * one_line);
+  enough = true;
+  ASSERT_TRUE(wait_until([&] { return !window().jobs().any(); }));
+}
+
 TEST(JobsTime, IsExtrapolatedAndNotGuessed) {
   EXPECT_FALSE(seconds_left(0.5, 1900));
   EXPECT_FALSE(seconds_left(0.04, 60000));

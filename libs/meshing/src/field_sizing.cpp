@@ -33,7 +33,9 @@ void validate(const FieldSizingOptions& o) {
   in(o.most_coarsening, 1.0, 20.0, "most_coarsening");
   in(o.gradation, 0.01, 2.0, "gradation");
   if (!(o.min_edge_mm >= 0.0) || !(o.max_edge_mm > o.min_edge_mm))
-    throw InvalidInput("refinement: min_edge_mm must be at least 0 and max_edge_mm larger than it");
+    throw InvalidInput(
+        "refinement: the shortest edge (min_edge_mm) must be at least 0 and the longest (max_edge_mm) larger "
+        "than it");
 }
 
 namespace {

@@ -44,7 +44,7 @@ std::vector<SightCone> inward_normals(const LayerWall& wall) {
 
 std::string percent(double share) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.2g %%", 100.0 * share);
+  std::snprintf(text, sizeof text, share < 0.0995 ? "%.2g %%" : "%.0f %%", 100.0 * share);
   return text;
 }
 

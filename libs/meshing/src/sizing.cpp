@@ -47,7 +47,7 @@ void validate(const SizingOptions& o) {
   if (!(o.gradation >= 0.01 && o.gradation <= 2.0))
     refuse("gradation " + std::to_string(o.gradation) + " mm per mm must lie in [0.01, 2]");
   if (!(o.min_edge_mm >= 0.0) || !(o.max_edge_mm > o.min_edge_mm))
-    refuse("min_edge_mm must be at least 0 and max_edge_mm larger than it");
+    refuse("the shortest edge (min_edge_mm) must be at least 0 and the longest (max_edge_mm) larger than it");
   if (!(o.most_distance_radii >= 1.0))
     refuse("most_distance_radii " + std::to_string(o.most_distance_radii) + " must be 1 or more");
   if (o.curvature_ratio != 0.0 && !(o.curvature_ratio >= 0.02 && o.curvature_ratio <= 2.0))

@@ -3,7 +3,7 @@
 set(OSTIA_ROOMS
     core geometry
     imaging reformat io figure
-    segmentation centerline lumen meshing solver motion analysis
+    segmentation centerline reconstruction lumen meshing solver motion analysis
     phantom evaluation coronary pipeline
     session experiments
     glview view)

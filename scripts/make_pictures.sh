@@ -52,6 +52,17 @@ build/release/bin/ostia phantom -o "$work/scans18" --preset full --cases 18 --fo
 build/release/bin/ostia experiment extraction --suite "$work/scans18" -o "$work/extraction"
 cp "$work/extraction/diameters.png" docs/pictures/extraction-diameters.png
 
+# Hours, of which the comparison of methods takes most: hearts whose motion is known. Runs that are finished are kept in
+# $MOTION_RUNS, where it is set, and a second start goes on from there.
+build/release/bin/ostia experiment motion -o "$work/motion" --keep "${MOTION_RUNS:-$work/motion-runs}"
+cp "$work/motion/samplings.png" docs/pictures/motion-samplings.png
+
+# The live viewer on record 100 of the MIT-BIH database, where $RECORD_100 names its 100.hea.
+if [ -n "${RECORD_100:-}" ]; then
+  build/release/bin/ostia-live --demo --view RAO30 --ecg "$RECORD_100" --start 10.22 --color displacement \
+    --screenshot docs/pictures/live.png
+fi
+
 # How much the segmentation depends on its parameters; and, where a lumen with open ends is given in $CAROTID, the carotid phantom.
 build/release/bin/ostia experiment sensitivity -o "$work/sensitivity"
 cp "$work/sensitivity/sensitivity.png" docs/pictures/sensitivity.png

@@ -9,6 +9,7 @@
 #include "experiment.h"
 #include "extract.h"
 #include "flow_result.h"
+#include "grow.h"
 #include "lumen.h"
 #include "motion.h"
 #include "progress_bar.h"
@@ -52,6 +53,7 @@ struct Commands {
   ReplayCommand replay;
   ReportCommand report;
   SkeletonCommand skeleton;
+  GrowCommand grow;
   ExtractCommand extract;
   RunCommand chain;
   BatchCommand batch;
@@ -114,9 +116,9 @@ void define(CLI::App& app, Commands& c, Run& run) {
   app.require_subcommand(1);
   add_common(app, c.common);
 
-  CLI::App* info = command(app, "info", "What an image, a DICOM folder or a surface is",
+  CLI::App* info = command(app, "info", "What an image, a DICOM folder, a surface or a tree is",
                            "ostia info CT/ --preview slices");
-  add_input(*info, c.info.input, "DICOM folder, image or surface");
+  add_input(*info, c.info.input, "DICOM folder, image, surface or tree of vessels");
   add_dicom(*info, c.info.input);
   add_coords(*info, c.info.input);
   info->add_flag("--json", c.info.json, "One JSON object on standard output");
@@ -139,6 +141,7 @@ void define(CLI::App& app, Commands& c, Run& run) {
   define_lumen(app, c.lumen, c.replay, run);
   define_report(app, c.report, run);
   define_skeleton(app, c.skeleton, run);
+  define_grow(app, c.grow, c.common.seed, run);
   define_extract(app, c.extract, run, add_dicom);
   define_run(app, c.chain, c.batch, c.common, run);
   define_case(app, c.solver_case, run);
@@ -186,14 +189,26 @@ void define(CLI::App& app, Commands& c, Run& run) {
   add_mesh_command(*mesh, c.mesh);
   mesh->callback([&] { run = [&](const core::TaskContext& task) { return run_mesh(c.mesh, task); }; });
 
-  CLI::App* convert =
-      command(app, "convert", "One file format as another", "ostia convert lumen.vtp lumen.stl");
-  add_input(*convert, c.convert.input, "Image, surface or centerlines");
+  CLI::App* convert = command(app, "convert", "One file format as another",
+                              "ostia convert lumen.vtp lumen.stl\n"
+                              "  ostia convert grown.gxl tree.vtp --repair");
+  add_input(*convert, c.convert.input, "Image, surface, centerlines or tree");
   convert->add_option("OUTPUT", c.convert.output, "By its extension")->required();
   add_units(*convert, c.convert.input);
-  convert->add_flag("--repair", c.convert.repair,
-                    "Surfaces: drop bad triangles and loose parts, join equal points, take apart what only "
-                    "touches, turn outward, cut self-intersections out");
+  convert->add_flag(
+      "--repair", c.convert.repair,
+      "Surfaces: drop bad triangles and loose parts, join equal points, take apart what only "
+      "touches, turn outward, cut self-intersections out. Trees: drop bad segments, join equal points, "
+      "fill missing radii in, turn and order the segments from the root");
+  convert
+      ->add_option("--radius-units", c.convert.radius_units, "Trees: unit of radii that is not the places'")
+      ->check(CLI::IsMember({"m", "cm", "mm"}));
+  convert->add_option("--root", c.convert.roots, "Repair of trees: where one begins, x,y,z; repeat")
+      ->allow_extra_args(false);
+  convert->add_option("--join-within", c.convert.merge_mm, "Repair of trees: also join points this near, mm")
+      ->check(above_zero());
+  convert->add_flag("--keep-directions", c.convert.keep_directions,
+                    "Repair of trees: turn no segments, but those of a --root");
   convert->add_option("--fill-holes", c.convert.fill_holes_mm, "Repair: also close holes up to this wide, mm")
       ->check(above_zero());
   convert->add_flag("--keep-parts", c.convert.keep_parts, "Repair: all parts stay, not the largest alone");
@@ -275,6 +290,7 @@ void keep_paths_out_of_the_log(const Commands& c) {
     keep_out(path);
   }
   for (const std::filesystem::path& path : paths_of(c.motion)) keep_out(path);
+  for (const std::filesystem::path& path : {c.grow.input, c.grow.output, c.grow.domain}) keep_out(path);
   for (const MeshOptions* mesh : {&c.mesh.mesh, &c.model.mesh}) {
     keep_out(mesh->planes_file);
     keep_out(mesh->solver_case.waveform);

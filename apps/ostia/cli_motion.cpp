@@ -40,13 +40,19 @@ void add_units(CLI::App& app, std::string& units, const char* text = "Unit of le
 }
 
 void add_fit(CLI::App& motion, MotionFitCommand& c, Run& run) {
-  CLI::App* fit = add(motion, "fit", "From surfaces or masks at several phases to one surface that beats",
-                      "ostia motion fit phases/ -o beating --depth 4", c, run_motion_fit, run);
-  fit->add_option("INPUT", c.input,
-                  "Folder of surfaces or masks, one a phase, or of folders phase-NN with lumen.vtp; the last "
-                  "number in a name is its phase")
+  CLI::App* fit =
+      add(motion, "fit", "From images, surfaces, masks or cases at several phases to one surface that beats",
+          "ostia motion fit phases/ -o beating --depth 4", c, run_motion_fit, run);
+  fit->add_option(
+         "INPUT", c.input,
+         "Folder of surfaces, masks, cases (.ostia) or images, one a phase, of folders phase-NN with "
+         "lumen.vtp or an image, or of DICOM files of several phases; the last number in a name is "
+         "its phase")
       ->required();
   fit->add_option("-o,--output", c.output, "Folder that is made")->required();
+  fit->add_option("--template", c.shape,
+                  "Surface, mask or case at --template-phase: it is what is carried, and in images it is "
+                  "looked for, phase by phase");
   fit->add_option("--template-phase", c.template_percent,
                   "Percent of the cycle: the nearest phase's surface is carried to the others; default 75")
       ->check(CLI::Range(0.0, 100.0));
@@ -169,9 +175,10 @@ void define_motion(CLI::App& app, MotionCommands& c, Run& run) {
 }
 
 std::vector<std::filesystem::path> paths_of(const MotionCommands& c) {
-  return {c.fit.input,       c.fit.output,         c.apply.motion,     c.apply.input,   c.apply.output,
-          c.evaluate.motion, c.evaluate.reference, c.evaluate.surface, c.out.motion,    c.out.surface,
-          c.out.mesh,        c.out.output,         c.measure.motion,   c.measure.input, c.measure.output};
+  return {c.fit.input,        c.fit.output,     c.fit.shape,       c.apply.motion,
+          c.apply.input,      c.apply.output,   c.evaluate.motion, c.evaluate.reference,
+          c.evaluate.surface, c.out.motion,     c.out.surface,     c.out.mesh,
+          c.out.output,       c.measure.motion, c.measure.input,   c.measure.output};
 }
 
 }  // namespace ostia::app

@@ -1,5 +1,6 @@
 #include "commands.h"
 #include "points.h"
+#include "tree_commands.h"
 
 #include "ostia/core/log.h"
 #include "ostia/geometry/smoothing.h"
@@ -107,6 +108,10 @@ bool is_lines(const std::filesystem::path& path) {
 
 ExitCode run_convert(const ConvertCommand& options, const core::TaskContext& task) {
   const std::filesystem::path& input = options.input.input;
+  if (converts_tree(options)) return convert_tree(options, task);
+  if (!options.roots.empty() || options.merge_mm > 0.0 || options.keep_directions ||
+      !options.radius_units.empty())
+    throw UsageError("--root, --join-within, --keep-directions and --radius-units are for trees");
   if (is_lines(input) || options.output.extension() == ".csv") {
     refuse_surface_options(options);
     io::write_centerlines(options.output, io::read_centerlines(input));

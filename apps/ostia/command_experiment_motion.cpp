@@ -52,16 +52,16 @@ experiments::MotionOptions checked(const MotionCommand& command) {
 
 ExitCode run_experiment_motion(const MotionCommand& command, const core::TaskContext& task) {
   const experiments::MotionOptions options = checked(command);
-  std::vector<experiments::MotionRun> runs;
+  experiments::MotionResults results;
   const ExitCode code = run_experiment(
       command.output, {"experiment motion", {}, experiments::parameters_json(options)}, command.json,
       [&](const std::filesystem::path& folder, const core::TaskContext& part) {
-        runs = experiments::run_motion(options, part);
-        experiments::write_motion_report(folder, runs, options);
-        return experiments::motion_json(runs, options);
+        results = experiments::run_motion(options, part);
+        experiments::write_motion_report(folder, results, options);
+        return experiments::motion_json(results, options);
       },
       task);
-  if (!command.json && !runs.empty()) std::fputs(experiments::motion_text(runs).c_str(), stdout);
+  if (!command.json && !results.runs.empty()) std::fputs(experiments::motion_text(results).c_str(), stdout);
   return code;
 }
 
@@ -84,11 +84,13 @@ void define_experiment_motion(CLI::App& experiment, const std::uint64_t& seed,
   sub->add_option("--depths", o.depths, "Of the cage")->delimiter(',');
   sub->add_option("--depth", o.depth, "Of the cage in all that is compared otherwise");
   sub->add_option("--methods", command->methods,
-                  "To compare: descent, descent-free, tps-l2, tps-kc, grbf-l2, grbf-kc; or none")
+                  "To compare: cage-rest, descent, descent-free, tps-l2, tps-kc, grbf-l2, grbf-kc; or none")
       ->delimiter(',');
   sub->add_option("--compared-phases", command->compared_percent, "At these, % of RR")->delimiter(',');
   sub->add_option("--compared-hearts", o.compared_hearts, "Of the first so many hearts")
       ->check(zero_or_above());
+  sub->add_option("--keep", o.keep,
+                  "Folder that keeps each run as it is finished: what is in it is not run again");
   sub->add_flag("--json", command->json, "The figures as JSON on standard output");
   sub->callback([command, &seed, &run] {
     command->options.heart.seed = seed;

@@ -1,10 +1,12 @@
 #include "commands.h"
 #include "json_output.h"
 #include "points.h"
+#include "tree_commands.h"
 
 #include "ostia/core/log.h"
 #include "ostia/imaging/dicom.h"
 #include "ostia/imaging/image_file.h"
+#include "ostia/io/graph_file.h"
 #include "ostia/io/surface_file.h"
 #include "ostia/pipeline/source.h"
 #include "ostia/pipeline/volume_preview.h"
@@ -55,6 +57,7 @@ ExitCode surface_info(const InfoOptions& options) {
 }  // namespace
 
 ExitCode run_info(const InfoOptions& options, const core::TaskContext& task) {
+  if (io::is_graph_file(options.input.input)) return tree_info(options, task);
   const pipeline::SourceKind kind = pipeline::classify(options.input.input);
   if (kind == pipeline::SourceKind::surface) return surface_info(options);
   if (kind == pipeline::SourceKind::dicom && options.preview.empty()) {

@@ -1,6 +1,8 @@
 #include "input_digest.h"
 #include "motion.h"
+#include "motion_images.h"
 #include "motion_input.h"
+#include "refusal.h"
 
 #include "ostia/core/files.h"
 #include "ostia/core/log.h"
@@ -42,7 +44,7 @@ pipeline::MotionFitOptions options_of(const MotionFitCommand& c) {
 }
 
 pipeline::JobKey job_of(const MotionFitCommand& c, const pipeline::MotionFitOptions& options,
-                        const std::vector<PhaseFile>& files) {
+                        const std::vector<PhaseFile>& files, const core::TaskContext& task) {
   const auto& energy = options.registration.energy;
   const Json parameters{{"template_percent", c.template_percent},
                         {"depth", c.depth},
@@ -52,8 +54,35 @@ pipeline::JobKey job_of(const MotionFitCommand& c, const pipeline::MotionFitOpti
                         {"units", c.units}};
   pipeline::JobKey key{"motion fit", {}, parameters.dump()};
   for (const PhaseFile& one : files)
-    key.inputs["phase " + pipeline::percent_text(one.phase)] = digest_of(one.file);
+    key.inputs["phase " + pipeline::percent_text(one.phase)] = digest_of(one, task);
+  if (!c.shape.empty()) key.inputs["template"] = digest_of(c.shape);
   return key;
+}
+
+/// The phases' surfaces, and how they were found where they come from images.
+struct Phases {
+  std::vector<pipeline::PhaseSurface> surfaces;
+  std::vector<pipeline::ImagePhase> found;  ///< none where surfaces were read
+  std::vector<std::string> warnings;
+};
+
+Phases phases_of(const MotionFitCommand& c, const pipeline::MotionFitOptions& options,
+                 const std::vector<PhaseFile>& files, const core::TaskContext& task) {
+  const bool images = !c.shape.empty() && are_images(files);
+  if (!images) {
+    Phases phases{read_phases(files, c.units, task.sub(0.0, 0.2)), {}, {}};
+    if (!c.shape.empty())
+      put_template(phase_surface(c.shape, c.units), options.template_phase, own_name(c.shape),
+                   phases.surfaces);
+    return phases;
+  }
+  pipeline::ImagePhasesOptions how;
+  how.template_phase = options.template_phase;
+  how.depth = options.registration.depth;
+  how.margin = options.registration.margin;
+  const geometry::TriMesh shape = phase_surface(c.shape, c.units);
+  pipeline::ImagePhases all = phases_in_images(files, shape, how, task);
+  return {std::move(all.surfaces), std::move(all.found), std::move(all.warnings)};
 }
 
 const char* origin_name(PhaseOrigin origin) {
@@ -67,7 +96,7 @@ const char* origin_name(PhaseOrigin origin) {
   }
 }
 
-Json phase_json(const PhaseFit& one) {
+Json phase_json(const PhaseFit& one, const std::vector<pipeline::ImagePhase>& images) {
   Json out{{"percent", io::percent_of(one.phase)},
            {"origin", origin_name(one.origin)},
            {"why", one.why.empty() ? Json(nullptr) : Json(one.why)},
@@ -78,6 +107,11 @@ Json phase_json(const PhaseFit& one) {
            {"least_jacobian", one.report.least_jacobian},
            {"self_intersections", one.report.self_intersections},
            {"source_self_intersections", one.report.source_self_intersections}};
+  for (const pipeline::ImagePhase& image : images)
+    if (image.phase == one.phase)
+      out["image"] = {{"likeness", image.likeness},
+                      {"inside_share", image.inside_share},
+                      {"wall_shift_mm", image.wall_shift_mm}};
   return out;
 }
 
@@ -106,7 +140,7 @@ Sums sums_of(const MotionFit& fit) {
   return sums;
 }
 
-Json report_of(const MotionFit& fit) {
+Json report_of(const MotionFit& fit, const std::vector<pipeline::ImagePhase>& images) {
   const Sums sums = sums_of(fit);
   Json out{{"v", 1},
            {"kind", "motion-fit"},
@@ -123,7 +157,7 @@ Json report_of(const MotionFit& fit) {
            {"least_jacobian", sums.least_jacobian},
            {"new_self_intersections", sums.new_intersections},
            {"phases", Json::array()}};
-  for (const PhaseFit& one : fit.phases) out["phases"].push_back(phase_json(one));
+  for (const PhaseFit& one : fit.phases) out["phases"].push_back(phase_json(one, images));
   return out;
 }
 
@@ -165,13 +199,24 @@ void print(const Json& report) {
               report["least_jacobian"].get<double>(), report["new_self_intersections"].get<int>());
 }
 
-void write(const fs::path& output, const MotionFit& fit, const pipeline::JobKey& key, ExitCode code,
-           const Clock::time_point& start) {
+/// The lumens that were found in images, named so that they are phases themselves.
+void write_lumens(const fs::path& folder, const std::vector<pipeline::PhaseSurface>& surfaces) {
+  fs::create_directory(folder);
+  for (const pipeline::PhaseSurface& one : surfaces) {
+    const std::string percent = pipeline::percent_text(one.phase);
+    if (!one.surface.triangles.empty())
+      io::write_surface(folder / ("lumen_" + percent.substr(0, percent.find(' ')) + ".vtp"), one.surface);
+  }
+}
+
+void write(const fs::path& output, const MotionFit& fit, const Phases& phases, const pipeline::JobKey& key,
+           ExitCode code, const Clock::time_point& start) {
   core::StagedFolder staged(output);
   const fs::path folder = staged.temporary();
-  const Json report = report_of(fit);
+  const Json report = report_of(fit, phases.found);
   io::write_surface(folder / template_name, fit.template_shape);
   io::write_cage_motion(folder / "motion.json", {fit.motion, template_name});
+  if (!phases.found.empty()) write_lumens(folder / "lumen", phases.surfaces);
   core::write_file(folder / "report.json", report.dump(2) + "\n");
   core::write_file(folder / "report.csv", report_table(report));
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
@@ -188,19 +233,21 @@ ExitCode run_motion_fit(const MotionFitCommand& c, const core::TaskContext& task
   const pipeline::MotionFitOptions options = options_of(c);
   pipeline::require_free_folder(c.output);
   task.set_stage("reading");
-  const std::vector<PhaseFile> files = phase_files(c.input, c.frames);
-  const pipeline::JobKey key = job_of(c, options, files);
+  const std::vector<PhaseFile> files =
+      phase_files(c.input, c.frames, c.shape.empty() ? PhaseContent::surfaces : PhaseContent::images, task);
+  const pipeline::JobKey key = job_of(c, options, files, task);
   std::optional<ExitCode> code = pipeline::already_done(c.output, key);
   if (code) {
     core::log_info("done already with the same phases and parameters; nothing to do");
   } else {
-    const MotionFit fit =
-        pipeline::fit_motion(read_phases(files, c.units, task.sub(0.0, 0.1)), options, task.sub(0.1, 0.95));
+    Phases phases = phases_of(c, options, files, task.sub(0.0, 0.5));
+    MotionFit fit = pipeline::fit_motion(phases.surfaces, options, task.sub(0.5, 0.95));
+    fit.warnings.insert(fit.warnings.begin(), phases.warnings.begin(), phases.warnings.end());
     for (const std::string& warning : fit.warnings) core::log_warning(warning);
     task.throw_if_cancelled();
     task.set_stage("writing");
     code = verdict(sums_of(fit));
-    write(c.output, fit, key, *code, start);
+    write(c.output, fit, phases, key, *code, start);
   }
   const std::string report = core::read_file(c.output / "report.json");
   if (c.json)

@@ -129,8 +129,12 @@ struct ConvertCommand {
   bool repair = false;
   double fill_holes_mm = 0.0;  ///< 0: none
   bool keep_parts = false;
-  int smooth = 0;     ///< Taubin iterations
-  int subdivide = 0;  ///< levels
+  int smooth = 0;                  ///< Taubin iterations
+  int subdivide = 0;               ///< levels
+  std::vector<std::string> roots;  ///< trees, x,y,z
+  double merge_mm = 0.0;           ///< trees: points no further apart are one
+  std::string radius_units;        ///< trees; empty: as the places
+  bool keep_directions = false;    ///< trees
   bool json = false;
 };
 ExitCode run_convert(const ConvertCommand& options, const core::TaskContext& task);

@@ -19,6 +19,9 @@ namespace ostia::app {
 struct MotionFitCommand {
   std::filesystem::path input;  ///< folder of phases
   std::filesystem::path output;
+  /// Surface, mask or case at that phase: carried to the others instead of the folder's own, and looked for
+  /// in images. Empty: the folder's own.
+  std::filesystem::path shape;
   double template_percent = 75.0;
   int depth = 4;
   std::vector<double> weights;          ///< of length, area and volume, or one of all; none: the library's

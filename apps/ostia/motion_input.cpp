@@ -6,8 +6,11 @@
 #include "ostia/core/log.h"
 #include "ostia/io/surface_fields.h"
 #include "ostia/io/surface_file.h"
+#include "ostia/lumen/tree_surface.h"
 #include "ostia/pipeline/source.h"
 #include "ostia/segmentation/segment.h"
+#include "ostia/session/case_file.h"
+#include "ostia/session/phase_images.h"
 
 #include <nlohmann/json.hpp>
 
@@ -30,11 +33,35 @@ bool is_image_name(const std::string& name) {
 }
 
 bool is_phase_file(const fs::path& path) {
-  return io::is_surface_file(path) || path.extension() == ".vtk" || is_image_name(path.filename().string());
+  return io::is_surface_file(path) || path.extension() == ".vtk" || path.extension() == ".ostia" ||
+         is_image_name(path.filename().string());
 }
 
-bool is_phase_folder(const fs::path& path) {
-  return path.filename().string().starts_with("phase-") && fs::exists(path / lumen_of_a_phase);
+/// The image in a folder of a phase, not the labels beside it; empty where there is none.
+fs::path image_in(const fs::path& folder) {
+  std::vector<fs::path> images;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (entry.is_regular_file() && is_image_name(name) && !name.starts_with("labels"))
+      images.push_back(entry.path());
+  }
+  std::ranges::sort(images);
+  // The same image may be there in several formats.
+  for (const fs::path& one : images)
+    if (one.stem().stem() != images.front().stem().stem())
+      throw InvalidInput(folder.string() + " holds several images, " + images.front().filename().string() +
+                         " and " + one.filename().string() + "; a phase has one");
+  if (!images.empty()) return images.front();
+  return fs::is_directory(folder / "dicom") ? folder / "dicom" : fs::path();
+}
+
+/// What a folder holds of its phase; empty where it is none.
+fs::path content_of(const fs::path& folder, PhaseContent content) {
+  if (!folder.filename().string().starts_with("phase-")) return {};
+  const fs::path lumen = fs::exists(folder / lumen_of_a_phase) ? folder / lumen_of_a_phase : fs::path();
+  if (content == PhaseContent::surfaces) return lumen;
+  const fs::path image = image_in(folder);
+  return image.empty() ? lumen : image;
 }
 
 /// Without all extensions that are no part of a number: "p12.5.nii.gz" is "p12.5".
@@ -71,25 +98,24 @@ std::optional<double> number_in(const std::string& stem) {
   return value;
 }
 
-std::vector<NumberedFile> numbered_files(const fs::path& folder) {
+std::vector<NumberedFile> numbered_files(const fs::path& folder, PhaseContent content) {
   if (!fs::is_directory(folder))
     throw InvalidInput(folder.string() +
-                       " is no folder: a motion is fitted to a folder of surfaces or masks, "
+                       " is no folder: a motion is fitted to a folder of surfaces, masks, cases or images, "
                        "one a phase");
   std::vector<NumberedFile> files, in_folders;
   for (const auto& entry : fs::directory_iterator(folder)) {
     const fs::path& path = entry.path();
-    const bool of_phase = entry.is_directory() && is_phase_folder(path);
-    if (!of_phase && !(entry.is_regular_file() && is_phase_file(path))) continue;
+    const fs::path inside = entry.is_directory() ? content_of(path, content) : fs::path();
+    if (inside.empty() && !(entry.is_regular_file() && is_phase_file(path))) continue;
     const std::string name = path.filename().string();
     if (core::log_format() == core::LogFormat::json) core::redact_in_logs(name, "FILE");
-    const auto number = number_in(of_phase ? name : stem_of(path));
+    const auto number = number_in(inside.empty() ? stem_of(path) : name);
     if (!number) {
       core::log_info(name + " has no number in its name: it is taken for no phase");
       continue;
     }
-    (of_phase ? in_folders : files)
-        .push_back({*number, name, of_phase ? path / lumen_of_a_phase : path, false});
+    (inside.empty() ? files : in_folders).push_back({*number, name, inside.empty() ? path : inside, false});
   }
   if (!in_folders.empty()) {
     const auto exact = exact_percents(folder);
@@ -100,15 +126,18 @@ std::vector<NumberedFile> numbered_files(const fs::path& folder) {
       }
     files = std::move(in_folders);
   }
-  if (files.empty())
-    throw InvalidInput(
-        folder.string() +
-        " holds no phases: one surface (.vtp .stl .ply .obj .vtk) or mask a phase is expected, "
-        "its percent of the cycle in its name, as in phase_35.vtp");
   std::ranges::sort(files, [](const NumberedFile& a, const NumberedFile& b) {
     return a.number != b.number ? a.number < b.number : a.name < b.name;
   });
   return files;
+}
+
+/// The phases that DICOM files tell.
+std::vector<PhaseFile> dicom_phases(const fs::path& folder, const core::TaskContext& task) {
+  std::vector<PhaseFile> phases;
+  for (session::PhaseSource& one : naming(folder, [&] { return session::find_phase_images(folder, task); }))
+    phases.push_back({one.phase, one.series ? folder : one.file, std::move(one.series)});
+  return phases;
 }
 
 /// Names count 0, 1, 2, ... or 1, 2, 3, ..., some left out perhaps: percents of a whole cycle are never so.
@@ -152,23 +181,17 @@ double first_frame(const std::vector<NumberedFile>& files, int frames) {
 geometry::TriMesh mask_surface(const fs::path& path) {
   if (pipeline::classify(path) == pipeline::SourceKind::image)
     throw InvalidInput(path.string() +
-                       " is an image and no mask: make its lumen's surface first, with `ostia segment`");
+                       " is an image and no mask: give the lumen's surface at one phase with --template, or "
+                       "make one of each, with `ostia segment`");
   const pipeline::Source source = pipeline::load(path);
   if (std::ranges::none_of(source.mask->voxels, [](auto v) { return v != 0; })) return {};
   return naming(path, [&] { return segmentation::segment_mask(*source.mask); });
 }
 
-geometry::TriMesh surface_in(const fs::path& path, double mm) {
-  geometry::TriMesh mesh;
-  if (is_image_name(path.filename().string())) return mask_surface(path);
-  try {
-    mesh = path.extension() == ".vtk" ? io::read_surface_with_fields(path).mesh
-                                      : io::read_surface(path).surface.mesh;
-  } catch (const io::EmptySurface&) {
-    return {};
-  }
-  for (geometry::Vec3& p : mesh.points) p *= mm;
-  return mesh;
+geometry::TriMesh case_surface(const fs::path& path) {
+  const auto model = session::CaseFile::open(path, session::OpenMode::read_only).model();
+  if (!model || model->vessels.empty()) return {};
+  return naming(path, [&] { return lumen::surface_of(*model); });
 }
 
 }  // namespace
@@ -187,8 +210,31 @@ std::string phase_of(const std::string& stem) {
   return stem.substr(from, last - from + 1);
 }
 
-std::vector<PhaseFile> phase_files(const fs::path& folder, int frames) {
-  const std::vector<NumberedFile> files = numbered_files(folder);
+geometry::TriMesh phase_surface(const fs::path& path, const std::string& units) {
+  if (is_image_name(path.filename().string())) return mask_surface(path);
+  if (path.extension() == ".ostia") return case_surface(path);
+  geometry::TriMesh mesh;
+  try {
+    mesh = path.extension() == ".vtk" ? io::read_surface_with_fields(path).mesh
+                                      : io::read_surface(path).surface.mesh;
+  } catch (const io::EmptySurface&) {
+    return {};
+  }
+  for (geometry::Vec3& p : mesh.points) p *= unit_mm(units);
+  return mesh;
+}
+
+std::vector<PhaseFile> phase_files(const fs::path& folder, int frames, PhaseContent content,
+                                   const core::TaskContext& task) {
+  const std::vector<NumberedFile> files = numbered_files(folder, content);
+  if (files.empty() && content == PhaseContent::images) return dicom_phases(folder, task);
+  if (files.empty())
+    throw InvalidInput(
+        folder.string() +
+        " holds no phases: one surface (.vtp .stl .ply .obj .vtk), case (.ostia) or mask a phase is "
+        "expected, "
+        "its percent of the cycle in its name, as in phase_35.vtp; images need --template FILE, the lumen's "
+        "surface at one of the phases");
   if (frames == 0) require_percents(folder, files);
   const double first = first_frame(files, frames);
   std::vector<PhaseFile> phases;
@@ -217,13 +263,17 @@ std::vector<pipeline::PhaseSurface> read_phases(const std::vector<PhaseFile>& fi
   std::vector<pipeline::PhaseSurface> phases;
   for (const PhaseFile& one : files) {
     task.throw_if_cancelled();
-    const std::string name = one.file.filename() == lumen_of_a_phase
-                                 ? (one.file.parent_path().filename() / lumen_of_a_phase).string()
-                                 : one.file.filename().string();
-    phases.push_back({one.phase, name, surface_in(one.file, unit_mm(units))});
+    phases.push_back({one.phase, name_of(one), phase_surface(one.file, units)});
     task.set_progress(static_cast<double>(phases.size()) / static_cast<double>(files.size()));
   }
   return phases;
+}
+
+std::string name_of(const PhaseFile& one) {
+  if (one.series) return one.series->phase;
+  const fs::path parent = one.file.parent_path().filename();
+  const bool in_folder = parent.string().starts_with("phase-");
+  return ((in_folder ? parent : fs::path()) / one.file.filename()).string();
 }
 
 double unit_mm(const std::string& units) {

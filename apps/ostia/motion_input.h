@@ -3,11 +3,13 @@
 
 #include "ostia/core/task_context.h"
 #include "ostia/geometry/tri_mesh.h"
+#include "ostia/imaging/dicom.h"
 #include "ostia/io/cage_motion_file.h"
 #include "ostia/io/volume_mesh_file.h"
 #include "ostia/pipeline/motion_fit.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,18 +22,31 @@ std::string phase_of(const std::string& stem);
 struct PhaseFile {
   double phase = 0.0;  ///< share of the cycle, in [0, 1)
   std::filesystem::path file;
+  std::optional<imaging::DicomSeries> series = {};  ///< in `file`, a folder
 };
-/// The surfaces (.vtp .stl .ply .obj .vtk) and masks of a folder, or lumen.vtp of its subfolders phase-NN,
-/// one a phase, rising. `frames`: the numbers in names count frames, so many a cycle, from 0 or, where they
-/// are 1 to `frames`, from 1; 0: they are percent. Percents of a heartbeat.json stay what they are. Throws
-/// InvalidInput that names the file: no phases, a number that is none of the cycle's, numbers that seem to
-/// count frames; IoError.
-std::vector<PhaseFile> phase_files(const std::filesystem::path& folder, int frames);
 
-/// Reads them; a mask becomes a surface, a file without triangles or voxels a phase without a vessel. `units`
-/// is "", "m", "cm" or "mm". Throws InvalidInput that names the file for an image that is no mask.
+/// What is taken of folders of a phase, `phase-35`: lumen.vtp, or the image that is there (image*.nrrd and
+/// the like, or a folder dicom).
+enum class PhaseContent { surfaces, images };
+
+/// The surfaces (.vtp .stl .ply .obj .vtk), cases (.ostia), masks and images of a folder, or those of its
+/// subfolders phase-NN, one a phase, rising; for `images` the phases of DICOM series where there are no such
+/// files. `frames`: the numbers in names count frames, so many a cycle, from 0 or, where they are 1 to
+/// `frames`, from 1; 0: they are percent. Percents of a heartbeat.json and of DICOM files stay what they are.
+/// Throws InvalidInput that names the file: no phases, a number that is none of the cycle's, numbers that
+/// seem to count frames; IoError.
+std::vector<PhaseFile> phase_files(const std::filesystem::path& folder, int frames,
+                                   PhaseContent content = PhaseContent::surfaces,
+                                   const core::TaskContext& task = core::no_task());
+
+/// A surface; a mask's, a case's. Empty where there are no triangles, voxels or vessels. `units` is "", "m",
+/// "cm" or "mm". Throws InvalidInput that names the file for an image that is no mask.
+geometry::TriMesh phase_surface(const std::filesystem::path& file, const std::string& units);
+/// Reads them all. As phase_surface.
 std::vector<pipeline::PhaseSurface> read_phases(const std::vector<PhaseFile>& files, const std::string& units,
                                                 const core::TaskContext& task);
+/// What messages call it.
+std::string name_of(const PhaseFile& one);
 
 /// How many mm the unit of length is: "m", "cm", "mm"; "" is mm.
 double unit_mm(const std::string& units);

@@ -5,7 +5,7 @@
 
 namespace ostia::app {
 
-/// A number above 0 (CLI::PositiveNumber names the largest double as the other bound).
+/// A number above 0 (above_zero() names the largest double as the other bound).
 CLI::Validator above_zero();
 CLI::Validator zero_or_above();
 

@@ -1,15 +1,20 @@
 #include "ostia/experiments/motion.h"
 
+#include "motion_branches.h"
+
 #include "ostia/core/error.h"
+#include "ostia/core/files.h"
 #include "ostia/core/parallel.h"
 #include "ostia/geometry/aabb_tree.h"
 #include "ostia/phantom/heartbeat.h"
+#include "ostia/phantom/phantom_case.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 namespace ostia::experiments {
 namespace {
@@ -108,7 +113,7 @@ TEST(BeatingHeart, PhasesWithLossLackTheBranchThatIsNamed) {
 
 TEST(MotionExperiment, RegistrationBringsTheTreeOverTheTruth) {
   const MotionOptions options = quick();
-  const std::vector<MotionRun> runs = run_motion(options);
+  const std::vector<MotionRun> runs = run_motion(options).runs;
   const std::vector<MotionRow> rows = rows_of(runs, false);
   ASSERT_EQ(rows.front().method, MotionMethod::none);
   const auto deepest = std::find_if(rows.begin(), rows.end(), [](const MotionRow& row) {
@@ -131,9 +136,9 @@ TEST(MotionExperiment, TheSameForAnyNumberOfThreads) {
   options.depths = {2};
   options.methods.clear();
   core::set_max_threads(1);
-  const auto once = run_motion(options);
+  const auto once = run_motion(options).runs;
   core::set_max_threads(0);
-  const auto again = run_motion(options);
+  const auto again = run_motion(options).runs;
   ASSERT_EQ(once.size(), again.size());
   for (std::size_t i = 0; i < once.size(); ++i) {
     EXPECT_EQ(once[i].distance_mm, again[i].distance_mm);
@@ -151,10 +156,11 @@ TEST(MotionExperiment, TheReportHoldsAllRows) {
   after.depth = 4;
   after.dice = 0.95;
   const MotionOptions options;
-  const auto json = nlohmann::json::parse(motion_json({before, after}, options));
+  const MotionResults results{{before, after}, {}};
+  const auto json = nlohmann::json::parse(motion_json(results, options));
   ASSERT_EQ(json.at("rows").size(), 2U);
   EXPECT_EQ(json.at("rows")[1].at("dice"), 0.95);
-  EXPECT_NE(motion_text({before, after}).find("before registration"), std::string::npos);
+  EXPECT_NE(motion_text(results).find("before registration"), std::string::npos);
 }
 
 TEST(MotionExperiment, WhatCannotBeStudiedIsRefused) {
@@ -177,6 +183,143 @@ TEST(MotionExperiment, WhatCannotBeStudiedIsRefused) {
   EXPECT_THROW(run_motion(options), InvalidInput);
   EXPECT_THROW(motion_method_of("magic"), InvalidInput);
   EXPECT_EQ(motion_method_of("grbf-kc"), MotionMethod::grbf_kc);
+}
+
+/// A folder of the test's own, gone with it.
+class Folder {
+ public:
+  explicit Folder(const std::string& name)
+      : path_(std::filesystem::temp_directory_path() / ("ostia-motion-" + name)) {
+    std::filesystem::remove_all(path_);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  ~Folder() { std::filesystem::remove_all(path_); }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+MotionOptions kept(const std::filesystem::path& folder) {
+  MotionOptions options = quick();
+  options.depths = {1};
+  options.depth = 1;
+  options.methods = {MotionMethod::cage_rest};
+  options.dice_resolution_mm = 0.8;
+  options.keep = folder;
+  return options;
+}
+
+TEST(MotionExperiment, GoesOnWhereItWasStopped) {
+  const Folder folder("keep");
+  const MotionOptions options = kept(folder.path());
+  const MotionResults once = run_motion(options);
+  ASSERT_FALSE(once.branches.empty());
+  // Nothing is run again: the seconds are those that were kept.
+  const MotionResults again = run_motion(options);
+  ASSERT_EQ(again.runs.size(), once.runs.size());
+  ASSERT_EQ(again.branches.size(), once.branches.size());
+  for (std::size_t i = 0; i < once.runs.size(); ++i) {
+    EXPECT_NEAR(again.runs[i].seconds, once.runs[i].seconds, 1e-6);
+    EXPECT_EQ(word(again.runs[i].method), word(once.runs[i].method));
+  }
+  // As if it had been stopped in the middle of a line, two lines from the end.
+  const std::filesystem::path table = folder.path() / "runs.csv";
+  std::string text = core::read_file(table);
+  for (int lines = 0; lines < 2; ++lines) text.resize(text.rfind('\n', text.size() - 2) + 1);
+  core::write_file(table, text + "heart 1,75,ca");
+  const MotionResults mended = run_motion(options);
+  ASSERT_EQ(mended.runs.size(), once.runs.size());
+  for (const MotionRun& run : once.runs)
+    EXPECT_TRUE(std::any_of(mended.runs.begin(), mended.runs.end(),
+                            [&](const MotionRun& other) {
+                              return other.method == run.method && other.sampling == run.sampling &&
+                                     std::abs(other.phase - run.phase) < 1e-9 &&
+                                     std::abs(other.dice - run.dice) < 1e-6;
+                            }))
+        << word(run.method) << run.phase;
+}
+
+TEST(MotionExperiment, KeptRunsOfOtherHeartsAreRefused) {
+  const Folder folder("other");
+  std::filesystem::create_directories(folder.path());
+  MotionOptions options = kept(folder.path());
+  core::write_file(folder.path() / "hearts.json", "{}\n");
+  EXPECT_THROW(run_motion(options), InvalidInput);
+  std::filesystem::remove(folder.path() / "hearts.json");
+  core::write_file(folder.path() / "runs.csv", "a,b\n1,2\n");
+  EXPECT_THROW(run_motion(options), InvalidInput);
+}
+
+TEST(MotionExperiment, MethodsAreComparedWhereEachWasRun) {
+  std::vector<MotionRun> runs;
+  const auto add = [&](MotionMethod method, double phase, double dice) {
+    MotionRun run;
+    run.heart = "heart 1";
+    run.sampling = "all";
+    run.method = method;
+    run.phase = phase;
+    run.depth = 4;
+    run.dice = dice;
+    runs.push_back(run);
+  };
+  add(MotionMethod::tps_l2, 0.15, 0.8);
+  add(MotionMethod::cage, 0.15, 0.9);
+  add(MotionMethod::cage, 0.35, 0.5);
+  add(MotionMethod::descent, 0.15, 0.7);
+  add(MotionMethod::descent, 0.35, 0.1);  // thin-plate splines were not run here
+  const std::vector<MotionRow> rows = rows_of(runs, true);
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(rows[0].method, MotionMethod::cage);
+  EXPECT_EQ(rows[1].method, MotionMethod::descent);
+  EXPECT_EQ(rows[2].method, MotionMethod::tps_l2);
+  for (const MotionRow& row : rows) EXPECT_EQ(row.runs, 1U);
+  EXPECT_NEAR(rows[1].dice, 0.7, 1e-12);
+}
+
+TEST(BranchRuns, ACageThatGoesWithTheHeartHasItsStretchAndTorsion) {
+  BeatingHeartOptions options = coarse();
+  options.phases = 8;
+  const BeatingHeart heart = beating_heart(options);
+  const geometry::CageGrid grid = geometry::cage_around(heart.model.points, 4);
+  const std::vector<Vec3> rest = geometry::rest_points(grid);
+  phantom::CaseOptions patient;
+  patient.seed = options.seed;
+  const phantom::Heartbeat beat = phantom::draw_heartbeat(phantom::plan_case(patient).heart, options.seed);
+  std::vector<std::vector<Vec3>> places;
+  for (const HeartPhaseModel& phase : heart.phases)
+    places.push_back(phantom::moved(rest, beat.phase(100.0 * phase.phase)));
+  const std::vector<BranchRun> branches = branch_runs(heart, grid, places, {});
+  ASSERT_GE(branches.size(), 8U * 4U);
+  const BranchAgreements near = agreement(branches);
+  EXPECT_LT(near.stretch.worst, 0.02);
+  EXPECT_LT(near.torsion.median, 0.05);
+  double shortest = 1.0;
+  for (const BranchRun& run : branches) shortest = std::min(shortest, run.true_stretch);
+  EXPECT_LT(shortest, 0.97);
+}
+
+TEST(BranchRuns, AgreementIsReckonedByHand) {
+  const auto run = [](double phase, double fitted, double truth) {
+    BranchRun one;
+    one.heart = "heart 1";
+    one.branch = "LAD";
+    one.phase = phase;
+    one.stretch = fitted;
+    one.true_stretch = truth;
+    one.torsion = one.true_torsion = std::nan("");
+    one.curvature = one.true_curvature = 0.1;
+    return one;
+  };
+  const BranchAgreements near = agreement({run(0.0, 1.0, 1.0), run(0.5, 0.99, 0.9), run(0.7, 0.99, 1.0)});
+  EXPECT_EQ(near.stretch.count, 3U);
+  EXPECT_NEAR(near.stretch.worst, 0.1, 1e-9);
+  EXPECT_NEAR(near.stretch.median, 0.01, 1e-9);
+  EXPECT_NEAR(near.stretch.within_5_percent, 2.0 / 3.0, 1e-9);
+  EXPECT_NEAR(near.stretch.of_change, (0.09 + 0.01) / 0.1 / 3.0, 1e-9);
+  EXPECT_EQ(near.torsion.count, 0U);
+  EXPECT_EQ(near.curvature.worst, 0.0);
 }
 
 TEST(MotionExperiment, StopsWhenCancelled) {

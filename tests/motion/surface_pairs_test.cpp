@@ -34,8 +34,8 @@ Weights weights(double looseness, bool target_lacks) {
   for (Vec3& p : moved.points) p += Vec3(0.0, 0.8, 0.0);
   const TriMesh& source = target_lacks ? both : first;
   const geometry::CageGrid grid = geometry::cage_around(both.points, 1);
-  const PairingTarget target(moved);
-  const auto pairs = surface_pairs(source, source, grid, target, 30.0, looseness);
+  PairedSurface from(source), to(moved);
+  const auto pairs = surface_pairs(from, to, grid, {30.0, looseness, 1});
   Weights sums;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const Vec3& place = i < source.points.size() ? source.points[i] : moved.points[i - source.points.size()];
@@ -66,10 +66,10 @@ TEST(SurfacePairs, WhatLiesFarButBelongsTogetherIsPairedWhenLoose) {
   for (Vec3& p : target_mesh.points)
     p.y() += 0.3 + 6.0 * std::pow(std::clamp((p.z() - 18.0) / 12.0, 0.0, 1.0), 2);
   const geometry::CageGrid grid = geometry::cage_around(source.points, 1);
-  const PairingTarget target(target_mesh);
+  PairedSurface from(source), to(target_mesh);
   const auto sum_far = [&](double looseness) {
     double sum = 0.0;
-    const auto pairs = surface_pairs(source, source, grid, target, 180.0, looseness);
+    const auto pairs = surface_pairs(from, to, grid, {180.0, looseness, 1});
     for (std::size_t i = 0; i < source.points.size(); ++i)
       if (source.points[i].z() > 28.0) sum += pairs[i].weight;
     return sum;

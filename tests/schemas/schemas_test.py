@@ -69,6 +69,9 @@ class Schemas(unittest.TestCase):
 
     def test_info(self):
         validator("info").validate(json.loads(run("info", self.folder / "lumen.stl", "--json")))
+        network = self.folder.parent / "network.swc"
+        network.write_text("1 2 0 0 0 1 -1\n2 2 0 0 5 0.8 1\n3 2 1 0 9 0.5 2\n4 2 -1 0 9 0.6 2\n")
+        validator("info").validate(json.loads(run("info", network, "--json")))
         image = pathlib.Path(self.holder.name) / "image.nrrd"
         header = ("NRRD0004\ntype: short\ndimension: 3\nspace: left-posterior-superior\nsizes: 3 4 5\n"
                   "space directions: (1,0,0) (0,1,0) (0,0,1)\nkinds: domain domain domain\nendian: little\n"

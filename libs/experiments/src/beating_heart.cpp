@@ -5,6 +5,7 @@
 #include "ostia/geometry/mesh_topology.h"
 #include "ostia/meshing/remesh.h"
 #include "ostia/phantom/heartbeat.h"
+#include "ostia/phantom/moving_case.h"
 #include "ostia/phantom/noise.h"
 #include "ostia/phantom/phantom_case.h"
 #include "ostia/phantom/vessel_field.h"
@@ -19,7 +20,8 @@ namespace {
 using geometry::TriMesh;
 using geometry::Vec3;
 
-constexpr double fine_mm = 0.4;  // of the exact surface before it gets even triangles
+constexpr double fine_mm = 0.4;       // of the exact surface before it gets even triangles
+constexpr double axis_step_mm = 0.5;  // as analysis::carried_tree's
 
 /// The vessels of the left ostium alone.
 phantom::CoronaryTree left_tree(const phantom::CoronaryTree& whole) {
@@ -135,6 +137,10 @@ std::function<double(const Vec3&)> smooth_field(std::uint64_t seed, double lengt
   };
 }
 
+std::string heart_name(const BeatingHeartOptions& options) {
+  return "heart " + std::to_string(options.seed);
+}
+
 BeatingHeart beating_heart(const BeatingHeartOptions& options, const core::TaskContext& task) {
   validate(options);
   phantom::CaseOptions patient;
@@ -144,8 +150,11 @@ BeatingHeart beating_heart(const BeatingHeartOptions& options, const core::TaskC
   const phantom::VesselField field(tree);
   const phantom::Heartbeat beat = phantom::draw_heartbeat(plan.heart, options.seed);
   BeatingHeart heart;
-  heart.name = "heart " + std::to_string(options.seed);
+  heart.name = heart_name(options);
   heart.template_phase = phantom::template_percent / 100.0;
+  heart.axes = phantom::vessel_tree(tree);
+  for (geometry::TreeSegment& segment : heart.axes.segments)
+    segment.axis = geometry::resample(segment.axis, axis_step_mm);
   const TriMesh exact = phantom::tree_surface(field, phantom::Boundary::lumen, fine_mm, task.sub(0.0, 0.3));
   heart.model = with_points(exact, options.template_points, task.sub(0.3, 0.5));
   const TriMesh other = with_points(exact, options.target_points, task.sub(0.5, 0.7));
@@ -167,6 +176,7 @@ BeatingHeart beating_heart(const BeatingHeartOptions& options, const core::TaskC
     one.segmented = phantom::moved(one.segmented, now);
     add_noise(one.segmented, seed_of(options, k, 2), options);
     one.truth = phantom::moved(heart.model.points, now);
+    one.axes = phantom::moved(heart.axes, now);
     heart.phases.push_back(std::move(one));
     task.sub(0.7, 1.0).set_progress(static_cast<double>(k + 1) / options.phases);
   }

@@ -1,13 +1,20 @@
+#include "motion_keep.h"
+
 #include "ostia/core/files.h"
 #include "ostia/experiments/motion.h"
+#include "ostia/figure/color.h"
 #include "ostia/figure/html_report.h"
 #include "ostia/figure/plot.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdio>
 #include <functional>
+#include <iterator>
+#include <utility>
 
 namespace ostia::experiments {
 namespace {
@@ -34,13 +41,14 @@ std::string name_of(const MotionRow& row) {
   return name_of(row.method, row.depth, row.sampling);
 }
 
-const std::vector<std::string> header{"method",         "runs",         "seconds",    "distance, mm",
-                                      "Dice",           "least Dice",   "points, mm", "worst, mm",
-                                      "inverted cells", "intersections"};
+const std::vector<std::string> header{"method",       "runs",           "seconds",      "processor, s",
+                                      "distance, mm", "Dice",           "least Dice",   "points, mm",
+                                      "worst, mm",    "inverted cells", "intersections"};
 std::vector<std::string> cells(const MotionRow& row) {
   return {name_of(row),
           std::to_string(row.runs),
           row.seconds > 0.0 ? fixed(row.seconds, 2) : "-",
+          row.seconds > 0.0 ? fixed(row.processor_seconds, 2) : "-",
           fixed(row.distance_mm, 3) + " ± " + fixed(row.distance_sd_mm, 3),
           fixed(row.dice, 3) + " ± " + fixed(row.dice_sd, 3),
           fixed(row.least_dice, 3),
@@ -56,6 +64,7 @@ Json row_json(const MotionRow& r) {
           {"sampling", r.sampling},
           {"runs", r.runs},
           {"seconds", r.seconds},
+          {"processor_seconds", r.processor_seconds},
           {"distance_mm", r.distance_mm},
           {"distance_sd_mm", r.distance_sd_mm},
           {"dice", r.dice},
@@ -121,6 +130,9 @@ figure::Picture pair_of_plots(const std::vector<MotionRun>& runs, const std::str
   return figure::grid(panels, {.columns = 2, .look = figure::Look::light});
 }
 
+bool by_method(const MotionRun& run, int depth) {
+  return run.sampling == "all" && (run.method == MotionMethod::none || run.depth == depth);
+}
 bool by_depth(const MotionRun& run) {
   return run.sampling == "all" && run.method <= MotionMethod::cage;
 }
@@ -135,18 +147,6 @@ std::vector<std::string> hearts_of(const std::vector<MotionRun>& runs) {
   return hearts;
 }
 
-std::string csv(const std::vector<MotionRun>& runs) {
-  std::string text =
-      "heart,phase_percent,method,depth,sampling,lost,seconds,distance_mm,dice,vertex_mm,vertex_worst_mm,"
-      "inverted_cells,new_intersections\n";
-  for (const MotionRun& r : runs)
-    text += r.heart + "," + fixed(100.0 * r.phase, 1) + "," + word(r.method) + "," + std::to_string(r.depth) +
-            "," + r.sampling + "," + r.lost + "," + fixed(r.seconds, 3) + "," + fixed(r.distance_mm, 4) +
-            "," + fixed(r.dice, 4) + "," + fixed(r.vertex_mm, 4) + "," + fixed(r.vertex_worst_mm, 4) + "," +
-            std::to_string(r.inverted_cells) + "," + std::to_string(r.new_intersections) + "\n";
-  return text;
-}
-
 void add_table(figure::HtmlReport& page, const std::string& title, const std::vector<MotionRow>& rows,
                const std::string& note) {
   std::vector<std::vector<std::string>> lines;
@@ -159,6 +159,77 @@ void save(figure::HtmlReport& page, const std::filesystem::path& folder, const s
           const figure::Picture& picture, const std::string& caption) {
   picture.write_png(folder / file, 2.0);
   page.picture(picture, caption);
+}
+
+constexpr std::size_t named_branches = 4;
+
+/// The longest branches of the first heart there is, each a colour.
+figure::Picture branch_plots(const std::vector<BranchRun>& branches) {
+  std::vector<BranchRun> longest;
+  for (const BranchRun& run : branches)
+    if (run.heart == branches.front().heart && run.phase == branches.front().phase) longest.push_back(run);
+  std::stable_sort(longest.begin(), longest.end(),
+                   [](const BranchRun& a, const BranchRun& b) { return a.length_mm > b.length_mm; });
+  longest.resize(std::min(longest.size(), named_branches));
+  const auto plot = [&](const std::string& title, const std::string& unit, const auto& known,
+                        const auto& fitted) {
+    std::vector<figure::Series> series;
+    for (std::size_t i = 0; i < longest.size(); ++i) {
+      figure::Series truth, found;
+      truth.name = longest[i].branch;
+      found.name = longest[i].branch + ", fitted";
+      found.style = figure::LineStyle::dashed;
+      truth.color = found.color = figure::palette(i);
+      for (const BranchRun& run : branches) {
+        if (run.heart != longest[i].heart || run.branch != longest[i].branch || !std::isfinite(known(run)) ||
+            !std::isfinite(fitted(run)))
+          continue;
+        truth.x.push_back(100.0 * run.phase);
+        truth.y.push_back(known(run));
+        found.y.push_back(fitted(run));
+      }
+      found.x = truth.x;
+      if (truth.x.empty()) continue;
+      series.push_back(std::move(truth));
+      series.push_back(std::move(found));
+    }
+    figure::PlotOptions how;
+    how.title = branches.front().heart + ": " + title;
+    how.x_label = "phase, % of RR";
+    how.y_label = unit;
+    return figure::line_plot(series, how);
+  };
+  return figure::grid({plot(
+                           "stretch", "", [](const BranchRun& r) { return r.true_stretch; },
+                           [](const BranchRun& r) { return r.stretch; }),
+                       plot(
+                           "mean torsion", "1/mm", [](const BranchRun& r) { return r.true_torsion; },
+                           [](const BranchRun& r) { return r.torsion; })},
+                      {.columns = 2, .look = figure::Look::light});
+}
+
+using NamedAgreements = std::array<std::pair<const char*, BranchAgreement>, 3>;
+NamedAgreements named(const BranchAgreements& near) {
+  return {{{"stretch", near.stretch}, {"torsion", near.torsion}, {"curvature", near.curvature}}};
+}
+
+Json agreement_json(const BranchAgreement& a) {
+  return {{"count", a.count}, {"median", a.median},       {"p95", a.p95},
+          {"worst", a.worst}, {"of_change", a.of_change}, {"within_5_percent", a.within_5_percent}};
+}
+
+void add_branches(figure::HtmlReport& page, const std::vector<BranchRun>& branches) {
+  if (branches.empty()) return;
+  std::vector<std::vector<std::string>> lines;
+  for (const auto& [name, one] : named(agreement(branches)))
+    lines.push_back({name, std::to_string(one.count), fixed(100.0 * one.median, 2), fixed(100.0 * one.p95, 2),
+                     fixed(100.0 * one.worst, 1), fixed(100.0 * one.within_5_percent, 1),
+                     fixed(100.0 * one.of_change, 1)});
+  page.section("Stretch and torsion of the branches");
+  page.table(
+      {"measure", "values", "median, %", "95 %, %", "worst, %", "within 5 %, %", "of the change, %"}, lines,
+      "Fitted against known, branch by branch and phase by phase; torsion where it is 0.005/mm or more; "
+      "of the change: mean error over the branch's largest change from the template.");
 }
 
 }  // namespace
@@ -183,42 +254,59 @@ std::string parameters_json(const MotionOptions& o) {
       .dump();
 }
 
-std::string motion_json(const std::vector<MotionRun>& runs, const MotionOptions& options) {
+std::string motion_json(const MotionResults& results, const MotionOptions& options) {
   Json out{{"v", 1}, {"kind", "motion"}};
   out["parameters"] = Json::parse(parameters_json(options));
   out["rows"] = Json::array();
-  for (const MotionRow& row : rows_of(runs, false)) out["rows"].push_back(row_json(row));
+  for (const MotionRow& row : rows_of(results.runs, false)) out["rows"].push_back(row_json(row));
   out["compared"] = Json::array();
-  for (const MotionRow& row : rows_of(runs, true)) out["compared"].push_back(row_json(row));
+  for (const MotionRow& row : rows_of(results.runs, true)) out["compared"].push_back(row_json(row));
+  const BranchAgreements near = agreement(results.branches);
+  out["branches"] = Json{{"stretch", agreement_json(near.stretch)},
+                         {"torsion", agreement_json(near.torsion)},
+                         {"curvature", agreement_json(near.curvature)}};
   return out.dump(1) + "\n";
 }
 
-std::string motion_text(const std::vector<MotionRun>& runs) {
+std::string motion_text(const MotionResults& results) {
   std::string text;
   char line[256];
-  std::snprintf(line, sizeof line, "%-28s %5s %8s %16s %14s %8s %8s %5s %5s\n", "method", "runs", "seconds",
-                "distance, mm", "Dice", "least", "points", "inv.", "sect.");
+  std::snprintf(line, sizeof line, "%-28s %5s %8s %8s %16s %14s %8s %8s %5s %5s\n", "method", "runs",
+                "seconds", "proc. s", "distance, mm", "Dice", "least", "points", "inv.", "sect.");
+  const std::string head = line;
   for (const bool compared : {false, true}) {
-    const std::vector<MotionRow> rows = rows_of(runs, compared);
+    const std::vector<MotionRow> rows = rows_of(results.runs, compared);
     if (rows.empty()) continue;
-    text += compared ? "Where all methods were run:\n" : "";
-    text += line;
+    text += (compared ? "Where all methods were run:\n" : "") + head;
     for (const MotionRow& row : rows) {
-      char cells_line[256];
-      std::snprintf(cells_line, sizeof cells_line,
-                    "%-28s %5zu %8.2f %7.3f +- %5.3f %5.3f +- %5.3f %8.3f %8.3f %5zu %5zu\n",
-                    name_of(row).c_str(), row.runs, row.seconds, row.distance_mm, row.distance_sd_mm,
-                    row.dice, row.dice_sd, row.least_dice, row.vertex_mm, row.inverted_cells,
-                    row.new_intersections);
-      text += cells_line;
+      std::snprintf(line, sizeof line,
+                    "%-28s %5zu %8.2f %8.2f %7.3f +- %5.3f %5.3f +- %5.3f %8.3f %8.3f %5zu %5zu\n",
+                    name_of(row).c_str(), row.runs, row.seconds, row.processor_seconds, row.distance_mm,
+                    row.distance_sd_mm, row.dice, row.dice_sd, row.least_dice, row.vertex_mm,
+                    row.inverted_cells, row.new_intersections);
+      text += line;
     }
+  }
+  if (results.branches.empty()) return text;
+  const BranchAgreements near = agreement(results.branches);
+  text += "Branches of the fitted motion against the known one:\n";
+  for (const auto& [name, one] : named(near)) {
+    std::snprintf(
+        line, sizeof line,
+        "%-10s %5zu values, error: median %.2f %%, 95 %% below %.2f %%, worst %.1f %%; within 5 %%: "
+        "%.1f %%; of the change: %.1f %%\n",
+        name, one.count, 100.0 * one.median, 100.0 * one.p95, 100.0 * one.worst, 100.0 * one.within_5_percent,
+        100.0 * one.of_change);
+    text += line;
   }
   return text;
 }
 
-void write_motion_report(const std::filesystem::path& folder, const std::vector<MotionRun>& runs,
+void write_motion_report(const std::filesystem::path& folder, const MotionResults& results,
                          const MotionOptions& options) {
-  core::write_file(folder / "runs.csv", csv(runs));
+  const std::vector<MotionRun>& runs = results.runs;
+  core::write_file(folder / "runs.csv", runs_csv(runs));
+  core::write_file(folder / "branches.csv", branches_csv(results.branches));
   figure::HtmlReport page("Motion of coronary trees");
   add_table(page, "All phases of all hearts", rows_of(runs, false),
             "Means and standard deviations over phases and hearts; points: to where the known motion carries "
@@ -226,11 +314,25 @@ void write_motion_report(const std::filesystem::path& folder, const std::vector<
   const std::vector<MotionRow> compared = rows_of(runs, true);
   if (!compared.empty())
     add_table(page, "Methods compared", compared, "Phases and hearts at which all methods were run.");
+  std::vector<MotionRun> lossy;
+  std::copy_if(runs.begin(), runs.end(), std::back_inserter(lossy),
+               [](const MotionRun& run) { return !run.lost.empty(); });
+  if (!lossy.empty())
+    add_table(page, "Phases that lack a branch", rows_of(lossy, false),
+              "The same, where the target is without one of its side branches: what the energy is for.");
+  add_branches(page, results.branches);
   save(page, folder, "depths.png", pair_of_plots(runs, "Depth of the cage", by_depth),
        "Mean over the hearts, by the depth of the cage.");
   save(page, folder, "samplings.png",
        pair_of_plots(runs, "Phases known", [&](const MotionRun& r) { return by_sampling(r, options.depth); }),
        "All phases from splines through some of them.");
+  if (!compared.empty())
+    save(page, folder, "methods.png",
+         pair_of_plots(runs, "Methods", [&](const MotionRun& r) { return by_method(r, options.depth); }),
+         "Mean over the hearts, by method, at the phases at which each was run.");
+  if (!results.branches.empty())
+    save(page, folder, "branches.png", branch_plots(results.branches),
+         "Stretch and mean torsion of the longest branches: known (solid) and fitted (dashed).");
   page.section("Heart by heart");
   for (const std::string& heart : hearts_of(runs)) {
     std::string file = heart + ".png";
@@ -241,6 +343,11 @@ void write_motion_report(const std::filesystem::path& folder, const std::vector<
     panels.push_back(pair_of_plots(runs, heart + ", phases known", [&](const MotionRun& r) {
       return mine(r) && by_sampling(r, options.depth);
     }));
+    if (std::any_of(runs.begin(), runs.end(),
+                    [&](const MotionRun& r) { return mine(r) && r.method > MotionMethod::cage; }))
+      panels.push_back(pair_of_plots(runs, heart + ", methods", [&](const MotionRun& r) {
+        return mine(r) && by_method(r, options.depth);
+      }));
     save(page, folder, file, figure::grid(panels, {.columns = 1, .look = figure::Look::light}), heart);
   }
   page.write(folder / "report.html");

@@ -2,6 +2,7 @@
 
 #include "bvh.h"
 #include "mesh_checks.h"
+#include "nearest_on_triangle.h"
 #include "winding.h"
 
 #include "ostia/core/error.h"
@@ -20,79 +21,6 @@ using detail::BvhNode;
 using detail::CornerPoints;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-struct Nearest {
-  double squared = infinity;
-  Vec3 weights = Vec3::Zero();
-};
-
-/// Keeps the point of segment (corner i, corner j) nearest to `query` when it beats `best`.
-void consider_segment(const CornerPoints& p, int i, int j, const Vec3& query, Nearest& best) {
-  const Vec3 direction = p[j] - p[i];
-  const double length2 = direction.squaredNorm();
-  double t = length2 > 0.0 ? (query - p[i]).dot(direction) / length2 : 0.0;
-  t = std::clamp(t, 0.0, 1.0);
-  const double squared = (query - ((1.0 - t) * p[i] + t * p[j])).squaredNorm();
-  if (squared >= best.squared) return;
-  best.squared = squared;
-  best.weights.setZero();
-  best.weights[i] = 1.0 - t;
-  best.weights[j] += t;
-}
-
-Nearest nearest_on_edges(const CornerPoints& p, const Vec3& query) {
-  Nearest best;
-  consider_segment(p, 0, 1, query, best);
-  consider_segment(p, 1, 2, query, best);
-  consider_segment(p, 2, 0, query, best);
-  return best;
-}
-
-/// Nearest point of a triangle by the Voronoi regions of its corners, edges and interior. A triangle flagged
-/// as a needle has no interior worth the name: the quotient of two roundings there could land anywhere.
-Nearest nearest_on_triangle(const CornerPoints& p, bool needle, const Vec3& query) {
-  if (needle) return nearest_on_edges(p, query);
-  const Vec3 ab = p[1] - p[0], ac = p[2] - p[0];
-  const Vec3 aq = query - p[0], bq = query - p[1], cq = query - p[2];
-  const double d1 = ab.dot(aq), d2 = ac.dot(aq);
-  const double d3 = ab.dot(bq), d4 = ac.dot(bq);
-  const double d5 = ab.dot(cq), d6 = ac.dot(cq);
-  const double to_c = d1 * d4 - d3 * d2;
-  const double to_b = d5 * d2 - d1 * d6;
-  const double to_a = d3 * d6 - d5 * d4;
-  Nearest result;
-  if (d1 <= 0.0 && d2 <= 0.0) {
-    result.weights = {1.0, 0.0, 0.0};
-  } else if (d3 >= 0.0 && d4 <= d3) {
-    result.weights = {0.0, 1.0, 0.0};
-  } else if (d6 >= 0.0 && d5 <= d6) {
-    result.weights = {0.0, 0.0, 1.0};
-  } else if (to_c <= 0.0 && d1 >= 0.0 && d3 <= 0.0) {
-    const double t = d1 / (d1 - d3);
-    result.weights = {1.0 - t, t, 0.0};
-  } else if (to_b <= 0.0 && d2 >= 0.0 && d6 <= 0.0) {
-    const double t = d2 / (d2 - d6);
-    result.weights = {1.0 - t, 0.0, t};
-  } else if (to_a <= 0.0 && d4 >= d3 && d5 >= d6) {
-    const double t = (d4 - d3) / ((d4 - d3) + (d5 - d6));
-    result.weights = {0.0, 1.0 - t, t};
-  } else {
-    const double sum = to_a + to_b + to_c;
-    result.weights = {to_a / sum, to_b / sum, to_c / sum};
-    if (!(result.weights.minCoeff() >= 0.0)) return nearest_on_edges(p, query);
-  }
-  const Vec3 point = result.weights[0] * p[0] + result.weights[1] * p[1] + result.weights[2] * p[2];
-  result.squared = (query - point).squaredNorm();
-  return result;
-}
-
-/// Below this ratio of area to squared longest edge the interior's barycentric coordinates are mostly
-/// rounding.
-bool is_needle(const CornerPoints& p) {
-  const Vec3 u = p[1] - p[0], v = p[2] - p[1], w = p[0] - p[2];
-  const double longest2 = std::max({u.squaredNorm(), v.squaredNorm(), w.squaredNorm()});
-  return !(u.cross(v).norm() > 1e-10 * longest2);
-}
 
 /// A ray in the frame where it starts at the origin and runs along +z (Woop, Benthin and Wald 2013).
 struct Ray {
@@ -188,7 +116,7 @@ struct AabbTree::Impl {
     for (std::size_t place = 0; place < boxes.size(); ++place) {
       const Triangle& triangle = mesh.triangles[static_cast<std::size_t>(bvh.order[place])];
       for (int i = 0; i < 3; ++i) triangles[place][i] = detail::corner(mesh, triangle, i);
-      needles[place] = is_needle(triangles[place]) ? 1 : 0;
+      needles[place] = detail::is_needle(triangles[place]) ? 1 : 0;
     }
     winding = detail::WindingTree(bvh, triangles);
   }
@@ -207,45 +135,11 @@ AabbTree::AabbTree(AabbTree&&) noexcept = default;
 AabbTree& AabbTree::operator=(AabbTree&&) noexcept = default;
 
 SurfacePoint AabbTree::Impl::nearest(const Vec3& query, double bound) const {
-  struct Waiting {
-    std::int32_t node;
-    double squared;
-  };
-  Waiting stack[detail::bvh_stack_size];
-  int size = 0;
-  Nearest best;
+  detail::Nearest best;
   best.squared = bound;
-  std::int32_t best_place = -1;
-  stack[size++] = {0, bvh.nodes[0].box.squared_distance(query)};
-  while (size > 0) {
-    const Waiting top = stack[--size];
-    if (!(top.squared < best.squared)) continue;
-    const BvhNode& node = bvh.nodes[static_cast<std::size_t>(top.node)];
-    if (node.count > 0) {
-      for (std::int32_t place = node.next; place < node.next + node.count; ++place) {
-        const auto i = static_cast<std::size_t>(place);
-        const Nearest candidate = nearest_on_triangle(triangles[i], needles[i] != 0, query);
-        if (candidate.squared < best.squared) {
-          best = candidate;
-          best_place = place;
-        }
-      }
-      continue;
-    }
-    Waiting near{top.node + 1, bvh.nodes[static_cast<std::size_t>(top.node) + 1].box.squared_distance(query)};
-    Waiting far{node.next, bvh.nodes[static_cast<std::size_t>(node.next)].box.squared_distance(query)};
-    if (far.squared < near.squared) std::swap(near, far);
-    if (far.squared < best.squared) stack[size++] = far;
-    if (near.squared < best.squared) stack[size++] = near;
-  }
-  SurfacePoint result;
-  if (best_place < 0) return result;
-  const CornerPoints& p = triangles[static_cast<std::size_t>(best_place)];
-  result.triangle = bvh.order[static_cast<std::size_t>(best_place)];
-  result.barycentric = best.weights;
-  result.point = best.weights[0] * p[0] + best.weights[1] * p[1] + best.weights[2] * p[2];
-  result.distance = (query - result.point).norm();
-  return result;
+  std::int32_t place = -1;
+  detail::search_nearest(bvh, triangles, needles, query, best, place);
+  return detail::surface_point(bvh, triangles, query, best, place);
 }
 
 template <class Found>

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 namespace ostia::motion {
 namespace {
@@ -17,29 +18,41 @@ using geometry::TriMesh;
 using geometry::Vec3;
 using Points = std::vector<Vec3>;
 
-constexpr double still_mm = 0.01;     // a step below ends a depth
+constexpr double still_mm = 0.01;                                   // a step below ends the last depth
+constexpr double strained_jacobian = 0.05, fine_distance_mm = 0.1;  // see is_stuck
+constexpr double careful_weight = 0.1;  // of the distances, when a registration is repeated
 constexpr double point_share = 0.05;  // of a pair's weight, for all directions; the rest is along the normal
+
+/// Where a depth's rounds end, and how much of the surfaces they look at.
+struct Schedule {
+  double looseness, still_mm;
+  std::size_t every;
+};
+Schedule schedule_of(int depth, int last) {
+  const int left = last - depth;
+  return {std::exp2(2.0 * left), still_mm * std::exp2(left), std::size_t{1} << std::min(left, 2)};
+}
 
 /// One depth of the hierarchy.
 class Depth {
  public:
-  Depth(const TriMesh& source, const PairingTarget& target, const CageGrid& grid,
+  Depth(PairedSurface& source, PairedSurface& target, const CageGrid& grid,
         const RegistrationOptions& options)
       : source_(source),
         target_(target),
         grid_(grid),
-        options_(options),
-        system_(grid, source, {options.energy, true, options.data_weight, point_share}),
-        places_(cage_points(grid, source.points)) {}
+        max_angle_deg_(options.max_angle_deg),
+        system_(grid, source.at_rest, {options.energy, true, options.data_weight, point_share}),
+        places_(cage_points(grid, source.at_rest.points)) {}
 
-  TriMesh surface(const Points& points) const { return carried_mesh(source_, places_, grid_, points); }
   const CageSystem& system() const { return system_; }
 
   /// Returns the largest way that a control point has gone.
-  double round(Points& points, double looseness, RegistrationReport& report) const {
+  double round(Points& points, const Schedule& schedule, RegistrationReport& report) {
+    source_.move(carried_points(places_, grid_, points));
     const std::vector<SurfacePair> pairs =
-        surface_pairs(surface(points), source_, grid_, target_, options_.max_angle_deg, looseness);
-    tell_pairs(source_, pairs, report);
+        surface_pairs(source_, target_, grid_, {max_angle_deg_, schedule.looseness, schedule.every});
+    tell_pairs(source_.at_rest, pairs, report);
     ++report.rounds;
     const Points step = system_.step(points, pairs);
     const double before = system_.energy(points, pairs);
@@ -59,10 +72,9 @@ class Depth {
   }
 
  private:
-  const TriMesh& source_;
-  const PairingTarget& target_;
+  PairedSurface &source_, &target_;
   CageGrid grid_;
-  const RegistrationOptions& options_;
+  double max_angle_deg_;
   CageSystem system_;
   std::vector<geometry::CagePoint> places_;
 };
@@ -85,20 +97,86 @@ Points every_nth(const RegistrationOptions& options, const CageGrid& coarse) {
 
 using Pairs = std::vector<std::pair<std::int32_t, std::int32_t>>;
 
-/// Half of the way back to `safe`, again and again, until no triangles intersect but those of `allowed` and
-/// no cell is inverted; `safe` itself is so.
-template <class Surface>
-void take_back(const Depth& depth, const Surface& surface, const Points& safe, const Pairs& allowed,
-               Points& points, const core::TaskContext& task) {
-  for (int k = 0; k < most_halvings; ++k) {
+Points at_depth(CageGrid grid, Points points, int cells) {
+  for (; grid.cells < cells; grid = refined(grid)) points = refined(grid, points);
+  return points;
+}
+
+Points halfway(Points from, const Points& to) {
+  for (std::size_t i = 0; i < from.size(); ++i) from[i] = 0.5 * (from[i] + to[i]);
+  return from;
+}
+
+/// What the depths began with, each with its own grid.
+struct Stage {
+  CageGrid grid;
+  Points points;
+};
+/// Half of the way back to where the last depth began, again and again, until no triangles of the whole
+/// surface intersect but those of `allowed`, then towards where the depths before began, at last to rest.
+void take_back(const TriMesh& source, const Pairs& allowed, const std::vector<Stage>& stages,
+               const CageSystem& system, const core::TaskContext& task, Registration& result) {
+  const std::vector<geometry::CagePoint> places = cage_points(result.grid, source.points);
+  const auto sound = [&] {
     task.throw_if_cancelled();
-    const Pairs now = geometry::self_intersections(surface(points));
-    if (std::includes(allowed.begin(), allowed.end(), now.begin(), now.end()) &&
-        depth.system().least_jacobian(points) >= least_jacobian_allowed)
-      return;
-    for (std::size_t i = 0; i < points.size(); ++i) points[i] = 0.5 * (points[i] + safe[i]);
+    if (system.least_jacobian(result.control_points) < least_jacobian_allowed) return false;
+    result.surface = carried_mesh(source, places, result.grid, result.control_points);
+    const Pairs now = geometry::self_intersections(result.surface);
+    result.report.self_intersections = now.size();
+    return std::includes(allowed.begin(), allowed.end(), now.begin(), now.end());
+  };
+  for (auto stage = stages.rbegin(); stage != stages.rend(); ++stage) {
+    const Points safe = at_depth(stage->grid, stage->points, result.grid.cells);
+    for (int k = 0; k < most_halvings; ++k) {
+      if (sound()) return;
+      result.control_points = halfway(result.control_points, safe);
+    }
+    result.control_points = safe;
   }
-  points = safe;
+  if (sound()) return;
+  result.control_points = rest_points(result.grid);
+  result.surface = source;
+  result.report.self_intersections = allowed.size();
+}
+
+/// Through all depths once.
+Registration through_depths(const TriMesh& source, const TriMesh& target, const RegistrationOptions& options,
+                            const core::TaskContext& task) {
+  const auto most = static_cast<std::size_t>(options.most_points);
+  const TriMesh thin_source = thinned(source, most), thin_target = thinned(target, most);
+  PairedSurface from(thin_source), to(thin_target);
+  Registration result;
+  result.grid = geometry::cage_around(source.points, 1, options.margin);
+  Points& points = result.control_points;
+  points = options.start.empty() ? rest_points(result.grid) : every_nth(options, result.grid);
+  std::vector<Stage> stages;
+  for (int d = 1; d <= options.depth; ++d) {
+    if (d > 1) {
+      points = refined(result.grid, points);
+      result.grid = refined(result.grid);
+    }
+    Depth depth(from, to, result.grid, options);
+    // A start that bends the fine cells alone may fold the coarse ones.
+    for (int k = 0; d == 1 && depth.system().least_jacobian(points) < least_jacobian_allowed; ++k)
+      points = k < most_halvings ? halfway(points, rest_points(result.grid)) : rest_points(result.grid);
+    stages.push_back({result.grid, points});
+    const Schedule schedule = schedule_of(d, options.depth);
+    for (int k = 0; k < options.most_rounds; ++k) {
+      task.throw_if_cancelled();
+      if (depth.round(points, schedule, result.report) < schedule.still_mm) break;
+    }
+    if (d < options.depth) continue;
+    const Pairs allowed = geometry::self_intersections(source);
+    result.report.source_self_intersections = allowed.size();
+    take_back(source, allowed, stages, depth.system(), task, result);
+    result.report.least_jacobian = depth.system().least_jacobian(points);
+  }
+  return result;
+}
+
+/// A cell that cannot be pressed further has ended the rounds too early.
+bool is_stuck(const RegistrationReport& report) {
+  return report.least_jacobian < strained_jacobian && report.mean_distance_mm > fine_distance_mm;
 }
 
 }  // namespace
@@ -116,41 +194,18 @@ Registration register_cage(const TriMesh& source, const TriMesh& target, const R
                            const core::TaskContext& task) {
   validate(options);
   check_surfaces(source, target);
-  const auto most = static_cast<std::size_t>(options.most_points);
-  const TriMesh thin_target = thinned(target, most), thin = thinned(source, most);
-  const PairingTarget prepared(thin_target);
-  Registration result;
-  result.grid = geometry::cage_around(source.points, 1, options.margin);
-  Points points = options.start.empty() ? rest_points(result.grid) : every_nth(options, result.grid);
-  const Pairs allowed = geometry::self_intersections(source),
-              allowed_thin = geometry::self_intersections(thin);
-  result.report.source_self_intersections = allowed.size();
-  for (int d = 1; d <= options.depth; ++d) {
-    if (d > 1) {
-      points = refined(result.grid, points);
-      result.grid = refined(result.grid);
-    }
-    const Depth depth(thin, prepared, result.grid, options);
-    const Points safe = points;
-    const double looseness = std::exp2(2.0 * (options.depth - d));
-    for (int k = 0; k < options.most_rounds; ++k) {
-      task.throw_if_cancelled();
-      if (depth.round(points, looseness, result.report) < still_mm) break;
-    }
-    if (d < options.depth) {
-      take_back(
-          depth, [&](const Points& p) { return depth.surface(p); }, safe, allowed_thin, points, task);
-      continue;
-    }
-    const std::vector<geometry::CagePoint> places = cage_points(result.grid, source.points);
-    const auto whole = [&](const Points& p) { return carried_mesh(source, places, result.grid, p); };
-    take_back(depth, whole, safe, allowed, points, task);
-    result.report.least_jacobian = depth.system().least_jacobian(points);
-    result.surface = whole(points);
-    result.report.self_intersections = geometry::self_intersections(result.surface).size();
-  }
-  result.control_points = std::move(points);
-  return result;
+  Registration best = through_depths(source, target, options, task);
+  if (!is_stuck(best.report)) return best;
+  // Pairs that are wrong at first, as where a branch is lost near another one, press cells less when they
+  // weigh less; from there on they are right.
+  RegistrationOptions again = options;
+  again.data_weight *= careful_weight;
+  again.start = through_depths(source, target, again, task).control_points;
+  again.data_weight = options.data_weight;
+  Registration other = through_depths(source, target, again, task);
+  const bool better = other.report.mean_distance_mm < best.report.mean_distance_mm &&
+                      other.report.paired_share >= best.report.paired_share;
+  return better ? other : best;
 }
 
 }  // namespace ostia::motion

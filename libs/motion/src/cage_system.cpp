@@ -2,8 +2,6 @@
 
 #include "ostia/core/parallel.h"
 
-#include <Eigen/IterativeLinearSolvers>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,6 +14,7 @@ using geometry::Mat3;
 using geometry::Vec3;
 
 constexpr double solver_tolerance = 1e-4;
+constexpr int most_solver_steps = 2000;
 constexpr int follow_sweeps = 40;
 
 /// Calls body(cell) for the cells between those of two points, and those that share a corner with them.
@@ -33,6 +32,14 @@ void for_cells_about(const geometry::CageGrid& grid, const geometry::Box3& box, 
     for (int j = from[1]; j <= to[1]; ++j)
       for (int i = from[0]; i <= to[0]; ++i)
         body(static_cast<std::size_t>(i + grid.cells * (j + grid.cells * k)));
+}
+
+/// Of a cell's corner `c` with its corner `d`.
+std::size_t block_between(std::size_t c, std::size_t d) {
+  const auto step = [&](unsigned axis) {
+    return static_cast<int>(d >> axis & 1U) - static_cast<int>(c >> axis & 1U);
+  };
+  return block_at(step(0), step(1), step(2));
 }
 
 }  // namespace
@@ -58,6 +65,36 @@ CageSystem::CageSystem(const geometry::CageGrid& grid, const geometry::TriMesh& 
   }
   for (std::int32_t& u : unknown_)
     if (u == 0) u = static_cast<std::int32_t>(unknowns_++);
+  find_neighbours();
+}
+
+void CageSystem::find_neighbours() {
+  cells_about_.resize(unknowns_);
+  neighbours_.resize(unknowns_);
+  for (auto& cells : cells_about_) cells.fill(-1);
+  for (auto& row : neighbours_) row.fill(-1);
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    const CageCell numbers = grid_.corners(cells_[i]);
+    for (std::size_t c = 0; c < 8; ++c) {
+      const auto row = static_cast<std::size_t>(unknown_[static_cast<std::size_t>(numbers[c])]);
+      cells_about_[row][c] = static_cast<std::int32_t>(i);
+      for (std::size_t d = 0; d < 8; ++d)
+        neighbours_[row][block_between(c, d)] = unknown_[static_cast<std::size_t>(numbers[d])];
+    }
+  }
+  const int n = grid_.points_a_side();
+  for (std::int32_t p = 0; p < static_cast<std::int32_t>(unknown_.size()); ++p) {
+    if (unknown_[static_cast<std::size_t>(p)] >= 0) continue;
+    Follower follower;
+    follower.point = p;
+    std::int32_t stride = 1;
+    for (int axis = 0; axis < 3; ++axis, stride *= n) {
+      const int at = p / stride % n;
+      if (at > 0) follower.beside[static_cast<std::size_t>(follower.count++)] = p - stride;
+      if (at < n - 1) follower.beside[static_cast<std::size_t>(follower.count++)] = p + stride;
+    }
+    followers_.push_back(follower);
+  }
 }
 
 std::array<Vec3, 8> CageSystem::corners(std::size_t cell, const std::vector<Vec3>& points) const {
@@ -82,25 +119,28 @@ CellEnergy CageSystem::whole_cell(std::size_t solved, const std::vector<Vec3>& p
   const std::array<Vec3, 8> at = corners(cells_[solved], points);
   CellEnergy out;
   if (cost_.elastic) out = cell_.energy(at, cost_.energy, derivatives);
+  const double along = cost_.data_weight * (1.0 - cost_.point_share);
+  const double all_ways = cost_.data_weight * cost_.point_share;
+  Eigen::Matrix<double, 8, 8> products = Eigen::Matrix<double, 8, 8>::Zero();  // the same along each axis
   for (const std::uint32_t i : own) {
     const SurfacePair& pair = pairs[i];
     Vec3 off = -pair.target;
     for (std::size_t c = 0; c < 8; ++c) off += pair.source.weights[c] * at[c];
-    const double weight = cost_.data_weight * pair.weight;
-    const Mat3 metric = weight * ((1.0 - cost_.point_share) * pair.normal * pair.normal.transpose() +
-                                  cost_.point_share * Mat3::Identity());
-    const Vec3 force = metric * off;
+    const double height = pair.normal.dot(off);
+    const Vec3 force = pair.weight * (along * height * pair.normal + all_ways * off);
     out.energy += 0.5 * off.dot(force);
     if (derivatives == Derivatives::none) continue;
-    for (std::size_t c = 0; c < 8; ++c) {
-      const auto row = static_cast<Eigen::Index>(3 * c);
-      out.gradient.segment<3>(row) += pair.source.weights[c] * force;
-      if (derivatives == Derivatives::second)
-        for (std::size_t d = 0; d < 8; ++d)
-          out.hessian.block<3, 3>(row, static_cast<Eigen::Index>(3 * d)) +=
-              pair.source.weights[c] * pair.source.weights[d] * metric;
-    }
+    const Eigen::Map<const Eigen::Matrix<double, 8, 1>> weights(pair.source.weights.data());
+    out.gradient += (force * weights.transpose()).reshaped();
+    if (derivatives != Derivatives::second) continue;
+    const Eigen::Matrix<double, 24, 1> lever = (pair.normal * weights.transpose()).reshaped();
+    out.hessian.noalias() += (along * pair.weight * lever) * lever.transpose();
+    products.noalias() += (all_ways * pair.weight * weights) * weights.transpose();
   }
+  if (derivatives == Derivatives::second)
+    for (Eigen::Index c = 0; c < 8; ++c)
+      for (Eigen::Index d = 0; d < 8; ++d)
+        out.hessian.block<3, 3>(3 * c, 3 * d).diagonal().array() += products(c, d);
   return out;
 }
 
@@ -152,57 +192,43 @@ std::vector<Vec3> CageSystem::step(const std::vector<Vec3>& points,
   core::parallel_for(cells_.size(), 16, [&](std::size_t i) {
     energies[i] = whole_cell(i, points, pairs, own[i], Derivatives::second);
   });
-  std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(cells_.size() * 576);
-  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * unknowns_));
-  for (std::size_t i = 0; i < cells_.size(); ++i) {
-    const CageCell numbers = grid_.corners(cells_[i]);
-    const auto row = [&](int k) {
-      return 3 * unknown_[static_cast<std::size_t>(numbers[static_cast<std::size_t>(k / 3)])] + k % 3;
-    };
-    for (int a = 0; a < 24; ++a) {
-      gradient[row(a)] += energies[i].gradient[a];
-      for (int b = 0; b < 24; ++b) entries.emplace_back(row(a), row(b), energies[i].hessian(a, b));
+  GridMatrix matrix(neighbours_);
+  std::vector<Vec3> force(unknowns_, Vec3::Zero());
+  core::parallel_for(unknowns_, 64, [&](std::size_t row) {
+    for (std::size_t c = 0; c < 8; ++c) {
+      const std::int32_t cell = cells_about_[row][c];
+      if (cell < 0) continue;
+      const CellEnergy& one = energies[static_cast<std::size_t>(cell)];
+      const auto at = static_cast<Eigen::Index>(3 * c);
+      force[row] -= one.gradient.segment<3>(at);
+      for (std::size_t d = 0; d < 8; ++d)
+        matrix.blocks[GridMatrix::row_blocks * row + block_between(c, d)] +=
+            one.hessian.block<3, 3>(at, static_cast<Eigen::Index>(3 * d));
     }
-  }
-  Eigen::SparseMatrix<double, Eigen::RowMajor> matrix(gradient.size(), gradient.size());
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  Eigen::ConjugateGradient<Eigen::SparseMatrix<double, Eigen::RowMajor>, Eigen::Lower | Eigen::Upper> solver;
-  solver.setTolerance(solver_tolerance);
-  solver.compute(matrix);
-  const Eigen::VectorXd solution = solver.solve(-gradient);
+  });
+  const std::vector<Vec3> solution = solved(matrix, force, solver_tolerance, most_solver_steps);
   std::vector<Vec3> step(points.size(), Vec3::Zero());
   for (std::size_t p = 0; p < points.size(); ++p)
-    if (unknown_[p] >= 0) step[p] = solution.segment<3>(3 * unknown_[p]);
+    if (unknown_[p] >= 0) step[p] = solution[static_cast<std::size_t>(unknown_[p])];
   return step;
 }
 
 void CageSystem::follow(std::vector<Vec3>& points) const {
-  if (unknowns_ == points.size()) return;
-  const int n = grid_.points_a_side();
-  const auto displacement = [&](int i, int j, int k) -> Vec3 {
-    const std::int32_t p = grid_.point(i, j, k);
-    return points[static_cast<std::size_t>(p)] - grid_.place(p);
-  };
+  if (followers_.empty()) return;
+  std::vector<Vec3> displacements(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    displacements[i] = points[i] - grid_.place(static_cast<std::int32_t>(i));
   for (int sweep = 0; sweep < follow_sweeps; ++sweep)
-    for (int k = 0; k < n; ++k)
-      for (int j = 0; j < n; ++j)
-        for (int i = 0; i < n; ++i) {
-          const std::int32_t p = grid_.point(i, j, k);
-          if (unknown_[static_cast<std::size_t>(p)] >= 0) continue;
-          Vec3 sum = Vec3::Zero();
-          int count = 0;
-          const int at[3] = {i, j, k};
-          for (int axis = 0; axis < 3; ++axis)
-            for (const int by : {-1, 1}) {
-              int next[3] = {i, j, k};
-              next[axis] = at[axis] + by;
-              if (next[axis] < 0 || next[axis] >= n) continue;
-              sum += displacement(next[0], next[1], next[2]);
-              ++count;
-            }
-          points[static_cast<std::size_t>(p)] = grid_.place(p) + sum / count;
-        }
+    for (const Follower& one : followers_) {
+      Vec3 sum = Vec3::Zero();
+      for (int k = 0; k < one.count; ++k)
+        sum += displacements[static_cast<std::size_t>(one.beside[static_cast<std::size_t>(k)])];
+      displacements[static_cast<std::size_t>(one.point)] = sum / one.count;
+    }
+  for (const Follower& one : followers_) {
+    const auto p = static_cast<std::size_t>(one.point);
+    points[p] = grid_.place(one.point) + displacements[p];
+  }
 }
 
 double CageSystem::least_jacobian(const std::vector<Vec3>& points) const {

@@ -1,11 +1,10 @@
 #pragma once
 /// \file The cage's control points as unknowns of a least-squares problem with hyperelastic energy.
 
+#include "grid_matrix.h"
 #include "surface_pairs.h"
 
 #include "ostia/motion/hyperelastic.h"
-
-#include <Eigen/SparseCore>
 
 #include <cstdint>
 #include <vector>
@@ -51,6 +50,7 @@ class CageSystem {
   CellEnergy whole_cell(std::size_t solved, const std::vector<geometry::Vec3>& points,
                         const std::vector<SurfacePair>& pairs, const std::vector<std::uint32_t>& own,
                         Derivatives derivatives) const;
+  void find_neighbours();
 
   geometry::CageGrid grid_;
   CageCost cost_;
@@ -59,6 +59,15 @@ class CageSystem {
   std::vector<std::int32_t> solved_cell_;  ///< of each cell its number in cells_, -1: not solved
   std::vector<std::int32_t> unknown_;      ///< of each control point its number, -1: follows
   std::size_t unknowns_ = 0;
+  /// Of each unknown: the solved cells of which it is corner 0 to 7, -1: none.
+  std::vector<std::array<std::int32_t, 8>> cells_about_;
+  std::vector<std::array<std::int32_t, GridMatrix::row_blocks>> neighbours_;  ///< of each unknown
+  struct Follower {
+    std::int32_t point = 0;
+    std::array<std::int32_t, 6> beside{};  ///< the first `count` are points
+    int count = 0;
+  };
+  std::vector<Follower> followers_;
 };
 
 }  // namespace ostia::motion

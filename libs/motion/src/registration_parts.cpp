@@ -1,6 +1,7 @@
 #include "registration_parts.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/parallel.h"
 
 namespace ostia::motion {
 
@@ -35,17 +36,21 @@ std::vector<geometry::CagePoint> cage_points(const geometry::CageGrid& grid,
   return places;
 }
 
+std::vector<Vec3> carried_points(const std::vector<geometry::CagePoint>& places,
+                                 const geometry::CageGrid& grid, const std::vector<Vec3>& control_points) {
+  std::vector<Vec3> points(places.size());
+  core::parallel_for(places.size(), 1024,
+                     [&](std::size_t i) { points[i] = carried(grid, places[i], control_points); });
+  return points;
+}
+
 TriMesh carried_mesh(const TriMesh& mesh, const std::vector<geometry::CagePoint>& places,
                      const geometry::CageGrid& grid, const std::vector<Vec3>& control_points) {
-  TriMesh out;
-  out.triangles = mesh.triangles;
-  out.points.reserve(places.size());
-  for (const geometry::CagePoint& p : places) out.points.push_back(carried(grid, p, control_points));
-  return out;
+  return {carried_points(places, grid, control_points), mesh.triangles};
 }
 
 void tell_pairs(const TriMesh& source, const std::vector<SurfacePair>& pairs, RegistrationReport& report) {
-  const std::vector<double> areas = point_areas(source);
+  const std::vector<double> areas = SurfaceFrames(source).point_areas;
   double all = 0.0, paired = 0.0, sum = 0.0;
   for (std::size_t i = 0; i < source.points.size(); ++i) {
     all += areas[i];

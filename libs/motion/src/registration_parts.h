@@ -21,6 +21,9 @@ void check_surfaces(const geometry::TriMesh& source, const geometry::TriMesh& ta
 
 std::vector<geometry::CagePoint> cage_points(const geometry::CageGrid& grid,
                                              const std::vector<geometry::Vec3>& points);
+std::vector<geometry::Vec3> carried_points(const std::vector<geometry::CagePoint>& places,
+                                           const geometry::CageGrid& grid,
+                                           const std::vector<geometry::Vec3>& control_points);
 geometry::TriMesh carried_mesh(const geometry::TriMesh& mesh, const std::vector<geometry::CagePoint>& places,
                                const geometry::CageGrid& grid,
                                const std::vector<geometry::Vec3>& control_points);

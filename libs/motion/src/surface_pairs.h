@@ -1,9 +1,9 @@
 #pragma once
 /// \file Which place of a surface belongs to which of another, by distance and normals ([Yi] equation 13).
 
-#include "ostia/geometry/aabb_tree.h"
 #include "ostia/geometry/cage.h"
 #include "ostia/geometry/kd_tree.h"
+#include "ostia/geometry/moving_surface.h"
 #include "ostia/geometry/tri_mesh.h"
 
 #include <vector>
@@ -17,27 +17,36 @@ struct SurfacePair {
   double weight = 0.0;  ///< mm2 of surface, less for what stands out; 0: no pair
 };
 
-/// What of the target is needed in every round.
-struct PairingTarget {
-  explicit PairingTarget(const geometry::TriMesh& mesh);
-  const geometry::TriMesh& mesh;
-  geometry::AabbTree tree;
-  std::vector<geometry::Vec3> triangle_normals, point_normals;
-  std::vector<double> point_areas;
+/// Normals and surface of a mesh's parts.
+struct SurfaceFrames {
+  explicit SurfaceFrames(const geometry::TriMesh& mesh);
+  std::vector<geometry::Vec3> triangle_normals;  ///< unit, or zero where there is none
+  std::vector<geometry::Vec3> point_normals;     ///< by the triangles' areas; unit, or zero
+  std::vector<double> point_areas;               ///< a third of the triangles about each point, mm2
 };
 
-std::vector<geometry::Vec3> unit_triangle_normals(const geometry::TriMesh& mesh);
-/// By the triangles' areas; unit, or zero where there is none.
-std::vector<geometry::Vec3> unit_point_normals(const geometry::TriMesh& mesh);
-/// A third of the triangles about each point, mm2.
-std::vector<double> point_areas(const geometry::TriMesh& mesh);
+/// One of two surfaces that are paired round by round.
+struct PairedSurface {
+  explicit PairedSurface(const geometry::TriMesh& at_rest);
+  void move(const std::vector<geometry::Vec3>& points);
 
-/// Pairs of each of the source's points, then of each of the target's. `carried` is the source as it is now;
-/// `at_rest` and `grid` say where a place of it is in the cage. `looseness` multiplies the distance from
-/// which pairs have no weight.
-std::vector<SurfacePair> surface_pairs(const geometry::TriMesh& carried, const geometry::TriMesh& at_rest,
-                                       const geometry::CageGrid& grid, const PairingTarget& target,
-                                       double max_angle_deg, double looseness);
+  const geometry::TriMesh& at_rest;
+  geometry::TriMesh now;
+  geometry::MovingSurface tree;  ///< as all that follows, of `now`
+  SurfaceFrames frames;
+  std::vector<std::int32_t> meet;  ///< each point's triangle on the other surface in the last round
+};
+
+struct PairingRules {
+  double max_angle_deg = 30.0;  ///< between normals
+  double looseness = 1.0;       ///< multiplies the distance from which pairs have no weight
+  /// One point of so many has a pair, and stands for the others, as long as 2000 of a surface have.
+  std::size_t every = 1;
+};
+
+/// Pairs of each of the source's points, then of each of the target's. `grid` is the source's at rest.
+std::vector<SurfacePair> surface_pairs(PairedSurface& source, PairedSurface& target,
+                                       const geometry::CageGrid& grid, const PairingRules& rules);
 
 /// The target's vertices and their normals.
 struct PairingVertices {

@@ -49,30 +49,6 @@ std::size_t template_of(const std::vector<PhaseSurface>& phases, double wanted) 
   return best;
 }
 
-/// One way from the template through the cycle.
-struct Way {
-  std::vector<std::size_t> phases;  ///< in the order in which they are registered
-};
-
-/// How far ahead of the template a phase is, in [0, 1).
-double time_ahead(const PhaseSurface& one, const PhaseSurface& shape) {
-  const double d = one.phase - shape.phase;
-  return d - std::floor(d);
-}
-
-/// Both ways, until they meet: each phase belongs to the nearer one, and to that alone. One measure decides:
-/// the times ahead and behind, both rounded, may both be half a cycle.
-std::array<Way, 2> ways(const std::vector<PhaseSurface>& phases, std::size_t from) {
-  std::array<Way, 2> out;
-  const std::size_t n = phases.size();
-  for (std::size_t k = 1; k < n; ++k) {
-    const std::size_t later = (from + k) % n, earlier = (from + n - k) % n;
-    if (time_ahead(phases[later], phases[from]) <= 0.5) out[0].phases.push_back(later);
-    if (time_ahead(phases[earlier], phases[from]) > 0.5) out[1].phases.push_back(earlier);
-  }
-  return out;
-}
-
 struct Fitted {
   motion::RegistrationReport report;
   Points control_points;  ///< empty: not registered
@@ -155,6 +131,7 @@ void register_way(const std::vector<PhaseSurface>& phases, const TriMesh& shape,
     const core::TaskContext own = progress.next();
     if (phases[i].surface.triangles.empty()) continue;
     task.set_stage("registering " + percent_text(phases[i].phase));
+    if (!phases[i].start.empty()) how.start = phases[i].start;
     fitted[i] = options.method == MotionMethod::gradient_descent
                     ? descended(shape, phases[i].surface, how, own)
                     : registered(shape, phases[i].surface, how, own);
@@ -207,7 +184,9 @@ PhaseFit told(const PhaseSurface& phase, const Fitted& fitted, const Usual& usua
   one.name = phase.name;
   one.report = fitted.report;
   one.stiffness = fitted.stiffness;
-  one.why = fitted.control_points.empty() ? "no vessel" : failure(fitted.report, usual);
+  one.why = !fitted.control_points.empty() ? failure(fitted.report, usual)
+            : phase.why.empty()            ? "no vessel"
+                                           : phase.why;
   if (!one.why.empty()) one.origin = PhaseOrigin::bridged;
   return one;
 }
@@ -314,7 +293,9 @@ MotionFit fit_motion(std::vector<PhaseSurface> phases, const MotionFitOptions& o
   const std::size_t shape = template_of(phases, options.template_phase);
   require_like(phases, shape);
   std::vector<Fitted> fitted(phases.size());
-  const std::array<Way, 2> both = ways(phases, shape);
+  std::vector<double> times;
+  for (const PhaseSurface& one : phases) times.push_back(one.phase);
+  const std::array<Way, 2> both = ways(times, shape);
   Progress progress(phases.size() - 1, task);  // the template is there already
   core::parallel_for(2, 1, [&](std::size_t k) {
     register_way(phases, phases[shape].surface, both[k], options, fitted, progress, task);

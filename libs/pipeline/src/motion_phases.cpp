@@ -11,7 +11,6 @@ namespace {
 using geometry::Box3;
 using geometry::Vec3;
 
-constexpr std::size_t least_phases = 3;  // of a periodic spline
 // Across the whole surface, mm: from a short piece of a vessel to more than a chest.
 constexpr double smallest_mm = 2.0, largest_mm = 1000.0;
 constexpr double most_ratio = 4.0;  // of two phases' sizes: no heart, another unit or another thing
@@ -37,7 +36,25 @@ std::string mm(double value) {
   return text + " mm";
 }
 
+/// How far ahead of another phase one is, in [0, 1).
+double time_ahead(double one, double other) {
+  const double d = one - other;
+  return d - std::floor(d);
+}
+
 }  // namespace
+
+// One measure decides: the times ahead and behind, both rounded, may both be half a cycle.
+std::array<Way, 2> ways(const std::vector<double>& phases, std::size_t from) {
+  std::array<Way, 2> out;
+  const std::size_t n = phases.size();
+  for (std::size_t k = 1; k < n; ++k) {
+    const std::size_t later = (from + k) % n, earlier = (from + n - k) % n;
+    if (time_ahead(phases[later], phases[from]) <= 0.5) out[0].phases.push_back(later);
+    if (time_ahead(phases[earlier], phases[from]) > 0.5) out[1].phases.push_back(earlier);
+  }
+  return out;
+}
 
 void require_phases(const std::vector<PhaseSurface>& phases) {
   std::size_t with_surface = 0;

@@ -4,6 +4,7 @@
 
 #include "ostia/core/task_context.h"
 #include "ostia/geometry/tri_mesh.h"
+#include "ostia/geometry/vessel_tree.h"
 
 #include <cstdint>
 #include <functional>
@@ -30,14 +31,19 @@ struct HeartPhaseModel {
   geometry::TriMesh segmented;        ///< as a segmentation would have it: own triangles, noise, loss
   std::string lost;                   ///< the branch that is missing; empty: none
   std::vector<geometry::Vec3> truth;  ///< where the template's points are at this phase
+  geometry::VesselTree axes;          ///< where those of the template are
 };
 
 struct BeatingHeart {
   std::string name;                     ///< "heart 1"
   geometry::TriMesh model;              ///< the template, at phantom::template_percent
+  geometry::VesselTree axes;            ///< of the template, a point every 0.5 mm or less
   double template_phase = 0.75;         ///< phantom::template_percent
   std::vector<HeartPhaseModel> phases;  ///< rising
 };
+
+/// "heart 3": by the patient's seed.
+std::string heart_name(const BeatingHeartOptions& options);
 
 /// The left tree (LM, LAD, LCX and their branches), as in [Yi] 2. Deterministic. Throws InvalidInput,
 /// Cancelled.

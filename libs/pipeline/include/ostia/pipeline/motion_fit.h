@@ -16,6 +16,10 @@ struct PhaseSurface {
   double phase = 0.0;  ///< share of the cycle since the R peak, in [0, 1)
   std::string name;    ///< of its file, for messages
   geometry::TriMesh surface;
+  /// Control points of geometry::cage_around(template, depth, margin) that are near it already; empty: its
+  /// neighbour's are the start.
+  std::vector<geometry::Vec3> start = {};
+  std::string why = {};  ///< why there are no triangles; empty: "no vessel"
 };
 
 enum class MotionMethod {

@@ -1,0 +1,87 @@
+#include "grow.h"
+#include "outputs.h"
+#include "validators.h"
+
+#include "ostia/analysis/tree_growth.h"
+#include "ostia/core/log.h"
+#include "ostia/geometry/graph_faults.h"
+#include "ostia/io/graph_file.h"
+#include "ostia/io/surface_file.h"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+
+namespace ostia::app {
+namespace {
+
+analysis::CoronaryArtery artery_of(const std::string& name) {
+  if (name == "rca") return analysis::CoronaryArtery::right;
+  return name == "lad" ? analysis::CoronaryArtery::left_anterior : analysis::CoronaryArtery::circumflex;
+}
+
+analysis::GrowthDomain domain_of(const GrowCommand& o, const geometry::VesselGraph& tree) {
+  if (o.domain.empty()) return analysis::domain_of(analysis::shell_about(tree, o.wall_mm));
+  const io::LoadedSurface loaded = io::read_surface(o.domain);
+  for (const std::string& warning : loaded.warnings) core::log_warning(warning);
+  return analysis::domain_of(loaded.surface.mesh);
+}
+
+void print(const analysis::GrownTree& grown, std::size_t scanned, bool as_json) {
+  if (!as_json) {
+    std::printf(
+        "%zu segments, %zu of them grown; %lld elements, %lld left out for want of room, %lld shorter\n",
+        grown.graph.edges.size(), grown.graph.edges.size() - scanned, static_cast<long long>(grown.elements),
+        static_cast<long long>(grown.elements_left_out), static_cast<long long>(grown.elements_shortened));
+    return;
+  }
+  const nlohmann::json facts{{"v", 1},
+                             {"segments", grown.graph.edges.size()},
+                             {"grown_segments", grown.graph.edges.size() - scanned},
+                             {"elements", grown.elements},
+                             {"elements_left_out", grown.elements_left_out},
+                             {"elements_shortened", grown.elements_shortened}};
+  std::puts(facts.dump(2).c_str());
+}
+
+}  // namespace
+
+ExitCode run_grow(const GrowCommand& o, std::uint64_t seed, const core::TaskContext& task) {
+  require_output(o.output, {".vtp", ".swc", ".csv"});
+  task.set_stage("reading");
+  const io::LoadedGraph loaded = io::read_graph(o.input, task.sub(0.0, 0.05));
+  for (const std::string& warning : loaded.warnings) core::log_warning(warning);
+  geometry::require_sound(loaded.graph, o.input.filename().string(), true, task);
+  const analysis::GrownTree grown =
+      analysis::grow_tree(loaded.graph, domain_of(o, loaded.graph),
+                          {artery_of(o.artery), seed, o.most_segments}, task.sub(0.05, 0.9));
+  task.set_stage("writing");
+  for (const std::string& lost : io::write_graph(o.output, grown.graph, task.sub(0.9, 1.0)))
+    core::log_warning(lost);
+  print(grown, loaded.graph.edges.size(), o.json);
+  return ExitCode::ok;
+}
+
+void define_grow(CLI::App& app, GrowCommand& c, const std::uint64_t& seed,
+                 std::function<ExitCode(const core::TaskContext&)>& run) {
+  CLI::App* grow = app.add_subcommand(
+      "grow", "From the ends of a tree down to the capillaries, by published morphometry of pigs' hearts");
+  grow->footer("Example:\n  ostia grow tree.vtp -o grown.vtp --domain myocardium.stl --artery lad --seed 7");
+  grow->fallthrough();
+  grow->add_option("TREE", c.input, "Tree of vessels in mm: .vtp, .vtk, .swc, .csv, .gxl")->required();
+  grow->add_option("-o,--output", c.output, ".vtp, .swc or .csv")->required();
+  grow->add_option("--domain", c.domain,
+                   "Closed surface in which vessels may grow; left out: a spherical shell about the tree");
+  grow->add_option("--wall", c.wall_mm, "Thickness of that shell, mm")->check(above_zero());
+  grow->add_option("--artery", c.artery, "Whose table: rca, lad or lcx")
+      ->check(CLI::IsMember({"rca", "lad", "lcx"}));
+  grow->add_option("--most-segments", c.most_segments, "More than this are refused")
+      ->check(above_zero());
+  grow->add_flag("--json", c.json, "One JSON object on standard output");
+  grow->callback([&] { run = [&](const core::TaskContext& task) { return run_grow(c, seed, task); }; });
+}
+
+}  // namespace ostia::app

@@ -1,0 +1,119 @@
+#include "ostia/analysis/graph_overlaps.h"
+
+#include "cone_tree.h"
+#include "joint_rule.h"
+#include "round_cones.h"
+
+#include "ostia/core/error.h"
+#include "ostia/core/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+
+namespace ostia::analysis {
+namespace {
+
+using geometry::GraphIncidence;
+using geometry::VesselGraph;
+
+void check_numbers(const VesselGraph& graph) {
+  for (std::size_t e = 0; e < graph.edges.size(); ++e) {
+    const RoundCone cone = round_cone(graph, static_cast<std::int32_t>(e));
+    const double least = std::min(cone.radius_from, cone.radius_to);
+    if (!cone.from.allFinite() || !cone.to.allFinite() || !std::isfinite(cone.radius_from + cone.radius_to) ||
+        !(least >= 0.0))
+      throw InvalidInput(
+          "segment " + std::to_string(e) +
+          " has a place or radius that is not a finite number, or a radius below 0: overlaps " +
+          "cannot be found; ostia convert --repair mends what can be mended");
+  }
+}
+
+/// The edge that arrives at each point, the first of several; -1: none.
+std::vector<std::int32_t> arriving_edges(const VesselGraph& graph, const GraphIncidence& incidence) {
+  std::vector<std::int32_t> result(graph.points.size(), -1);
+  for (std::size_t p = 0; p < result.size(); ++p) {
+    const auto arriving = incidence.arriving(static_cast<std::int32_t>(p));
+    if (!arriving.empty()) result[p] = arriving[0];
+  }
+  return result;
+}
+
+class OverlapFinder {
+ public:
+  OverlapFinder(const VesselGraph& graph, const GraphIncidence& incidence, const OverlapOptions& options)
+      : graph_(graph),
+        arriving_(arriving_edges(graph, incidence)),
+        joints_(graph, arriving_, options),
+        least_depth_(options.least_depth),
+        tree_(graph) {}
+  OverlapFinder(const OverlapFinder&) = delete;
+
+  std::vector<GraphOverlap> of(std::int32_t edge, std::vector<std::int32_t>& scratch) const {
+    scratch.clear();
+    tree_.partners(edge, scratch);
+    std::sort(scratch.begin(), scratch.end());
+    std::vector<GraphOverlap> found;
+    const RoundCone cone = round_cone(graph_, edge);
+    for (const std::int32_t other : scratch) {
+      if (joints_.share_a_point(edge, other)) continue;
+      const RoundCone against = round_cone(graph_, other);
+      const std::optional<ConeContact> hit = contact(cone, against);
+      const double thinner = std::min(std::max(cone.radius_from, cone.radius_to),
+                                      std::max(against.radius_from, against.radius_to));
+      if (!hit || hit->depth <= least_depth_ * thinner) continue;
+      if (!joints_.covers(edge, other, *hit)) found.push_back({edge, other, hit->depth, hit->place});
+    }
+    return found;
+  }
+
+ private:
+  const VesselGraph& graph_;
+  std::vector<std::int32_t> arriving_;
+  JointRule joints_;
+  double least_depth_;
+  ConeTree tree_;
+};
+
+}  // namespace
+
+void validate(const OverlapOptions& options) {
+  const auto check = [](double value, const char* name) {
+    if (!std::isfinite(value) || value < 0.0)
+      throw InvalidInput(std::string("overlaps: ") + name + " is " + std::to_string(value) +
+                         "; give a finite number, 0 or more");
+  };
+  check(options.bend_reach, "the reach along a bend");
+  check(options.fork_reach, "the reach round a fork");
+  check(options.least_depth, "the least depth");
+}
+
+std::vector<GraphOverlap> find_overlaps(const VesselGraph& graph, const GraphIncidence& incidence,
+                                        const OverlapOptions& options, const core::TaskContext& task) {
+  validate(options);
+  check_numbers(graph);
+  task.throw_if_cancelled();
+  if (graph.edges.empty()) return {};
+  const OverlapFinder finder(graph, incidence, options);
+  using List = std::vector<GraphOverlap>;
+  return core::parallel_reduce<List>(
+      graph.edges.size(), 4096, {},
+      [&](std::size_t first, std::size_t last) {
+        task.throw_if_cancelled();
+        List list;
+        std::vector<std::int32_t> scratch;
+        for (std::size_t e = first; e < last; ++e) {
+          const List own = finder.of(static_cast<std::int32_t>(e), scratch);
+          list.insert(list.end(), own.begin(), own.end());
+        }
+        return list;
+      },
+      [](List all, const List& more) {
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+      });
+}
+
+}  // namespace ostia::analysis

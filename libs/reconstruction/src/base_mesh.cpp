@@ -1,0 +1,178 @@
+#include "base_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace ostia::reconstruction {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+using Ring = std::vector<std::int32_t>;
+
+class Builder {
+ public:
+  Builder(const std::vector<Tube>& tubes, const std::vector<Joint>& joints,
+          const ReconstructionOptions& options)
+      : tubes_(tubes), options_(options), ends_(tubes.size()) {
+    const double side = 2.0 * pi / options.sides;
+    scale_ = std::sqrt(side / std::sin(side));  // a polygon with the circle's area
+    for (std::size_t j = 0; j < joints.size(); ++j) add_joint(joints[j], static_cast<std::int32_t>(j));
+  }
+
+  QuadMesh built() {
+    for (std::size_t i = 0; i < tubes_.size(); ++i) add_tube(i);
+    return std::move(mesh_);
+  }
+
+ private:
+  struct End {
+    Ring ring;  ///< counter-clockwise about the tube's tangent; empty at an open end
+    double clearance = 0.0;
+  };
+
+  std::int32_t add(const Vec3& point, const Tag& tag) {
+    mesh_.points.push_back(point);
+    mesh_.tags.push_back(tag);
+    return static_cast<std::int32_t>(mesh_.points.size() - 1);
+  }
+
+  void add_joint(const Joint& joint, std::int32_t index) {
+    const Tag tag{Place::joint, index, 0.0};
+    const std::int32_t north = add(joint.poles[0], tag), south = add(joint.poles[1], tag);
+    std::vector<Ring> arcs;
+    for (const auto& points : joint.arcs) {
+      Ring& arc = arcs.emplace_back();
+      for (const Vec3& point : points) arc.push_back(add(point, tag));
+    }
+    const std::size_t n = joint.slots.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      const Ring &left = arcs[(i + n - 1) % n], &right = arcs[i];
+      Ring ring{north};
+      ring.insert(ring.end(), left.begin(), left.end());
+      ring.push_back(south);
+      ring.insert(ring.end(), right.rbegin(), right.rend());
+      if (joint.slots[i].distal) std::reverse(ring.begin(), ring.end());
+      End& end = ends_[static_cast<std::size_t>(joint.slots[i].tube)][joint.slots[i].distal ? 1 : 0];
+      end = {std::move(ring), joint.clearance[i]};
+    }
+  }
+
+  /// The mean angle by which a ring is turned against a regular one in the frame.
+  double turn_of(const Ring& ring, const TubePlace& place) const {
+    double c = 0.0, s = 0.0;
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      const Vec3 d = mesh_.points[static_cast<std::size_t>(ring[k])] - place.point;
+      const double angle = std::atan2(d.dot(place.frame.binormal), d.dot(place.frame.normal)) -
+                           2.0 * pi * static_cast<double>(k) / static_cast<double>(ring.size());
+      c += std::cos(angle);
+      s += std::sin(angle);
+    }
+    return std::atan2(s, c);
+  }
+
+  Ring section(std::size_t tube, double abscissa, double turn, Place kind) {
+    const TubePlace place = at(tubes_[tube], abscissa);
+    Ring ring;
+    for (int k = 0; k < options_.sides; ++k) {
+      const double angle = turn + 2.0 * pi * k / options_.sides;
+      const Vec3 out = std::cos(angle) * place.frame.normal + std::sin(angle) * place.frame.binormal;
+      ring.push_back(
+          add(place.point + scale_ * place.radius * out, {kind, static_cast<std::int32_t>(tube), abscissa}));
+    }
+    return ring;
+  }
+
+  void add_quad(const geometry::Quad& quad, std::size_t tube, std::uint8_t face) {
+    mesh_.quads.push_back(quad);
+    mesh_.branch_of_quad.push_back(static_cast<std::int32_t>(tube));
+    mesh_.face_of_quad.push_back(face);
+  }
+
+  void connect(const Ring& a, const Ring& b, std::size_t tube) {
+    for (std::size_t k = 0; k < a.size(); ++k) {
+      const std::size_t next = (k + 1) % a.size();
+      add_quad({a[k], a[next], b[next], b[k]}, tube, 0);
+    }
+  }
+
+  void close(const Ring& ring, std::size_t tube, bool distal) {
+    const std::uint8_t face = distal ? 2 : 1;
+    const auto turned = [&](geometry::Quad q) { return distal ? q : geometry::Quad{q[3], q[2], q[1], q[0]}; };
+    if (ring.size() == 4) return add_quad(turned({ring[0], ring[1], ring[2], ring[3]}), tube, face);
+    const double s = distal ? tubes_[tube].length() : 0.0;
+    const std::int32_t middle =
+        add(at(tubes_[tube], s).point, {Place::cap, static_cast<std::int32_t>(tube), s});
+    for (std::size_t k = 0; k < ring.size(); k += 2)
+      add_quad(turned({middle, ring[k], ring[k + 1], ring[(k + 2) % ring.size()]}), tube, face);
+  }
+
+  /// Abscissas of the rings that are the branch's own; the first and last lie clear of the joints.
+  std::vector<double> own_sections(const Tube& tube, const End& start, const End& end) const {
+    const double length = tube.length();
+    const bool both = !start.ring.empty() && !end.ring.empty();
+    const auto clear = [&](const End& e, double radius) {
+      if (e.ring.empty()) return 0.0;
+      return std::min(std::max(e.clearance, 0.0) + 0.7 * radius, (both ? 0.42 : 0.75) * length);
+    };
+    const double from = clear(start, tube.radius.front()), to = length - clear(end, tube.radius.back());
+    std::vector<double> s, r, c;
+    for (std::size_t i = 0; i < tube.points.size(); ++i) {
+      const double x = tube.abscissa[i];
+      if (x > from && x < to) {
+        if (s.empty()) s.push_back(from), r.push_back(at(tube, from).radius), c.push_back(tube.curvature[i]);
+        s.push_back(x);
+        r.push_back(tube.radius[i] * tube.factor[i]);
+        c.push_back(tube.curvature[i]);
+      }
+    }
+    if (s.empty()) s.push_back(from), r.push_back(at(tube, from).radius), c.push_back(0.0);
+    s.push_back(to);
+    r.push_back(at(tube, to).radius);
+    c.push_back(c.back());
+    return section_abscissas(s, r, c, options_.spacing, options_.bending);
+  }
+
+  void add_tube(std::size_t i) {
+    const Tube& tube = tubes_[i];
+    End &start = ends_[i][0], &end = ends_[i][1];
+    double first = start.ring.empty() ? 0.0 : turn_of(start.ring, at(tube, 0.0));
+    double last = end.ring.empty() ? first : turn_of(end.ring, at(tube, tube.length()));
+    if (start.ring.empty()) first = last;
+    // The end's ring begins at the point that leaves the least twist, and the rest is spread evenly.
+    const double step = 2.0 * pi / options_.sides;
+    const auto shift = static_cast<std::ptrdiff_t>(std::lround((last - first) / step));
+    last -= step * static_cast<double>(shift);
+    if (!end.ring.empty()) {
+      const auto n = static_cast<std::ptrdiff_t>(end.ring.size());
+      std::rotate(end.ring.begin(), end.ring.begin() + (((n - shift) % n) + n) % n, end.ring.end());
+    }
+    Ring before = start.ring;
+    const std::vector<double> sections = own_sections(tube, start, end);
+    for (std::size_t k = 0; k < sections.size(); ++k) {
+      const bool rim = (k == 0 && start.ring.empty()) || (k + 1 == sections.size() && end.ring.empty());
+      const double t = sections[k] / tube.length();
+      const Ring ring = section(i, sections[k], (1.0 - t) * first + t * last, rim ? Place::rim : Place::wall);
+      if (!before.empty()) connect(before, ring, i);
+      if (k == 0 && start.ring.empty()) close(ring, i, false);
+      if (k + 1 == sections.size() && end.ring.empty()) close(ring, i, true);
+      before = ring;
+    }
+    if (!end.ring.empty()) connect(before, end.ring, i);
+  }
+
+  const std::vector<Tube>& tubes_;
+  const ReconstructionOptions& options_;
+  std::vector<std::array<End, 2>> ends_;
+  double scale_ = 1.0;
+  QuadMesh mesh_;
+};
+
+}  // namespace
+
+QuadMesh base_mesh(const std::vector<Tube>& tubes, const std::vector<Joint>& joints,
+                   const ReconstructionOptions& options) {
+  return Builder(tubes, joints, options).built();
+}
+
+}  // namespace ostia::reconstruction

@@ -1,0 +1,38 @@
+#pragma once
+/// \file The coarse mesh of quadrilaterals: rings along the branches, joints between them, ends closed.
+
+#include "joint.h"
+
+#include "ostia/geometry/mixed_mesh.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace ostia::reconstruction {
+
+enum class Place : std::uint8_t {
+  joint,  ///< on the union of the vessels of a joint
+  wall,   ///< on one branch, at an abscissa
+  rim,    ///< on the edge of an open end
+  cap     ///< inside an open end
+};
+
+/// Where a point of the mesh belongs.
+struct Tag {
+  Place place = Place::wall;
+  std::int32_t owner = 0;  ///< the joint, or the branch
+  double abscissa = 0.0;   ///< of wall and rim, mm
+};
+
+struct QuadMesh {
+  std::vector<Vec3> points;
+  std::vector<Tag> tags;
+  std::vector<geometry::Quad> quads;
+  std::vector<std::int32_t> branch_of_quad;
+  std::vector<std::uint8_t> face_of_quad;  ///< 0 wall, 1 the branch's proximal end, 2 its distal end
+};
+
+QuadMesh base_mesh(const std::vector<Tube>& tubes, const std::vector<Joint>& joints,
+                   const ReconstructionOptions& options);
+
+}  // namespace ostia::reconstruction

@@ -1,0 +1,36 @@
+#pragma once
+/// \file The branches of a network as smooth axes with radii.
+
+#include "ostia/geometry/frame.h"
+#include "ostia/geometry/vessel_graph.h"
+
+#include <vector>
+
+namespace ostia::reconstruction {
+
+using geometry::Vec3;
+
+/// One branch, sampled finely from its proximal to its distal end.
+struct Tube {
+  std::int32_t start = 0, end = 0;  ///< points of the graph
+  std::vector<Vec3> points;
+  std::vector<double> radius, abscissa, curvature;
+  std::vector<double> factor;  ///< of the radius, where it had to be narrowed; 1 elsewhere
+  std::vector<geometry::Frame> frames;
+  bool inlet = false, outlet = false;  ///< nothing else joins at its start or end
+
+  double length() const { return abscissa.back(); }
+};
+
+struct TubePlace {
+  Vec3 point = Vec3::Zero();
+  double radius = 0.0;
+  geometry::Frame frame;
+};
+TubePlace at(const Tube& tube, double abscissa);
+
+std::vector<Tube> tubes_of(const geometry::VesselGraph& graph);
+/// Abscissas, frames and curvatures anew, from the points.
+void measure(Tube& tube);
+
+}  // namespace ostia::reconstruction

@@ -1,0 +1,58 @@
+#include "program.h"
+
+#include "ostia/core/files.h"
+#include "ostia/io/graph_file.h"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+
+namespace ostia::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// A fork on a sphere of radius 40 mm about the origin: its ends have the diameter of order 5.
+constexpr const char* fork =
+    "id,x,y,z,radius,parent\n"
+    "1,40,0,0,0.2,-1\n"
+    "2,38.637033,10.352762,0,0.15,1\n"
+    "3,34.641016,17.320508,10,0.033,2\n"
+    "4,34.641016,17.320508,-10,0.033,2\n";
+
+TEST(GrowCommand, ATreeGrowsAndIsTheSameForItsSeed) {
+  const auto folder = temporary_folder("grow");
+  core::write_file(folder / "tree.csv", fork);
+  const Setting in{folder, ""};
+  const Outcome done = ostia({"grow", "tree.csv", "-o", "grown.vtp", "--seed", "3", "--json"}, in);
+  ASSERT_EQ(done.code, 0) << done.err;
+  const auto facts = nlohmann::json::parse(done.out);
+  const auto segments = facts["segments"].get<std::size_t>();
+  EXPECT_GT(segments, 100U);
+  EXPECT_EQ(facts["grown_segments"].get<std::size_t>(), segments - 3);
+  EXPECT_EQ(io::read_graph(folder / "grown.vtp").graph.edges.size(), segments);
+  const std::string first = core::read_file(folder / "grown.vtp");
+  ASSERT_EQ(ostia({"grow", "tree.csv", "-o", "again.vtp", "--seed", "3"}, in).code, 0);
+  EXPECT_EQ(core::read_file(folder / "again.vtp"), first);
+}
+
+TEST(GrowCommand, RefusesWhatIsNoTreeAndWrongWords) {
+  const auto folder = temporary_folder("grow_bad");
+  core::write_file(folder / "line.csv", "id,x,y,z,radius,parent\n1,0,0,0,1,-1\n2,0,0,1,1,1\n");
+  core::write_file(folder / "bad.csv", "id,x,y,z,radius,parent\n1,0,0,0,1,-1\n2,0,0,1,-4,1\n");
+  core::write_file(folder / "tree.csv", fork);
+  const Setting in{folder, ""};
+  const Outcome flat = ostia({"grow", "line.csv", "-o", "grown.vtp"}, in);
+  EXPECT_EQ(flat.code, 3);
+  EXPECT_THAT(flat.err, HasSubstr("sphere"));
+  const Outcome bad = ostia({"grow", "bad.csv", "-o", "grown.vtp"}, in);
+  EXPECT_EQ(bad.code, 3);
+  EXPECT_THAT(bad.err, HasSubstr("--repair"));
+  EXPECT_EQ(ostia({"grow", "tree.csv", "-o", "grown.vtp", "--artery", "aorta"}, in).code, 2);
+  EXPECT_EQ(ostia({"grow", "tree.csv", "-o", "grown.vtp", "--most-segments", "10"}, in).code, 5);
+  EXPECT_FALSE(std::filesystem::exists(folder / "grown.vtp"));
+}
+
+}  // namespace
+}  // namespace ostia::testing

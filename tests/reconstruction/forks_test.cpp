@@ -1,0 +1,86 @@
+#include "test_graphs.h"
+
+#include "ostia/geometry/aabb_tree.h"
+#include "ostia/geometry/mesh_topology.h"
+#include "ostia/reconstruction/surface.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace {
+
+using namespace ostia;
+using namespace ostia::reconstruction;
+using namespace ostia::reconstruction::testing;
+
+/// Area of the star around an axis in the plane across it: less than the section's only where it is not
+/// star-shaped, so that what passes is no bottleneck.
+double clear_area(const geometry::AabbTree& tree, const Vec3& centre, const Vec3& axis) {
+  const Vec3 u = axis.unitOrthogonal(), v = axis.cross(u);
+  constexpr int rays = 64;
+  std::vector<double> r;
+  for (int k = 0; k < rays; ++k) {
+    const double t = 2.0 * std::numbers::pi * k / rays;
+    const auto hit = tree.first_hit(centre, std::cos(t) * u + std::sin(t) * v);
+    r.push_back(hit ? hit->t : 0.0);
+  }
+  double area = 0.0;
+  for (int k = 0; k < rays; ++k)
+    area += 0.5 * r[static_cast<std::size_t>(k)] * r[static_cast<std::size_t>((k + 1) % rays)] *
+            std::sin(2.0 * std::numbers::pi / rays);
+  return area;
+}
+
+void expect_open_and_sound(const VesselGraph& graph, int level) {
+  ReconstructionOptions options;
+  options.level = level;
+  const auto made = reconstruct_surface(graph, options);
+  const auto faults = geometry::find_faults(made.surface.mesh, true);
+  EXPECT_TRUE(faults.closed_manifold()) << faults.summary();
+  EXPECT_EQ(faults.self_intersections, 0u);
+  EXPECT_EQ(faults.components, 1u);
+  EXPECT_TRUE(made.narrowed.empty()) << made.narrowed.size() << " narrowed";
+  const geometry::AabbTree tree(made.surface.mesh);
+  for (const geometry::GraphEdge& edge : graph.edges) {
+    const Vec3 from = graph.points[static_cast<std::size_t>(edge.from)];
+    const Vec3 along = graph.points[static_cast<std::size_t>(edge.to)] - from;
+    const double whole = std::numbers::pi * edge.radius_from * edge.radius_from;
+    for (double t = 0.02; t < 1.0; t += 0.04)
+      EXPECT_GE(clear_area(tree, from + t * along, along.normalized()), 0.9 * whole) << "at " << t;
+  }
+}
+
+struct Case {
+  double angle, ratio;
+};
+class Forks : public ::testing::TestWithParam<Case> {};
+
+TEST_P(Forks, ASideBranchIsOpenAndSound) {
+  expect_open_and_sound(side_branch(GetParam().angle, GetParam().ratio), 1);
+}
+
+TEST_P(Forks, TwoEqualChildrenAreOpenAndSound) {
+  expect_open_and_sound(y_fork(GetParam().angle, GetParam().ratio), 1);
+}
+
+std::vector<Case> grid() {
+  std::vector<Case> cases;
+  for (const double angle : {30.0, 60.0, 90.0, 120.0, 150.0})
+    for (const double ratio : {0.1, 0.4, 0.7, 1.0}) cases.push_back({angle, ratio});
+  for (const double angle : {10.0, 170.0})
+    for (const double ratio : {0.4, 0.7, 1.0}) cases.push_back({angle, ratio});
+  return cases;
+}
+INSTANTIATE_TEST_SUITE_P(Grid, Forks, ::testing::ValuesIn(grid()), [](const auto& at) {
+  return "angle" + std::to_string(static_cast<int>(at.param.angle)) + "ratio" +
+         std::to_string(static_cast<int>(100.0 * at.param.ratio));
+});
+
+TEST(Joint, AChildMayLieAtAnyRollAboutTheTrunk) {
+  for (const double roll : {0.0, 22.5, 45.0, 67.5, 90.0})
+    expect_open_and_sound(side_branch(70.0, 0.6, roll), 1);
+}
+
+}  // namespace

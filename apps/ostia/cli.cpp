@@ -11,6 +11,7 @@
 #include "flow_result.h"
 #include "grow.h"
 #include "lumen.h"
+#include "measure.h"
 #include "motion.h"
 #include "progress_bar.h"
 #include "refusal.h"
@@ -54,6 +55,7 @@ struct Commands {
   ReportCommand report;
   SkeletonCommand skeleton;
   GrowCommand grow;
+  MeasureCommand measure;
   ExtractCommand extract;
   RunCommand chain;
   BatchCommand batch;
@@ -224,6 +226,18 @@ void define(CLI::App& app, Commands& c, Run& run) {
   convert->callback(
       [&] { run = [&](const core::TaskContext& task) { return run_convert(c.convert, task); }; });
 
+  CLI::App* measure =
+      command(app, "measure", "Lengths, areas, volumes, orders, angles, scaling laws and overlaps of a tree",
+              "ostia measure tree.vtp -o measures");
+  add_input(*measure, c.measure.input, "Tree of vessels (.vtp, .vtk, .swc, .csv, .gxl), case or surface");
+  add_units(*measure, c.measure.input);
+  add_coords(*measure, c.measure.input);
+  add_ends(*measure, c.measure.ends);
+  measure->add_option("-o,--output", c.measure.output, "Folder that is made")->required();
+  measure->add_flag("--json", c.measure.json, "measures.json on standard output");
+  measure->callback(
+      [&] { run = [&](const core::TaskContext& task) { return run_measure(c.measure, task); }; });
+
   CLI::App* model = command(app, "model", "From an image, a mask or a surface to a mesh with named faces",
                             "ostia model CT/ -o out --branch 8,-187,675:6,-178,720");
   add_input(*model, c.model.input, "DICOM folder, image, mask or surface", false);
@@ -259,7 +273,7 @@ void keep_out(const std::filesystem::path& path) {
 void keep_paths_out_of_the_log(const Commands& c) {
   for (const InputOptions* input :
        {&c.info.input, &c.import.input, &c.segment.input, &c.centerline.input, &c.mesh.input,
-        &c.convert.input, &c.model.input, &c.skeleton.input, &c.extract.input}) {
+        &c.convert.input, &c.model.input, &c.skeleton.input, &c.extract.input, &c.measure.input}) {
     core::redact_in_logs(input->input.string(), "INPUT");
     core::redact_in_logs(own_name(input->input), "INPUT");  // refusals have it alone
   }
@@ -290,7 +304,8 @@ void keep_paths_out_of_the_log(const Commands& c) {
     keep_out(path);
   }
   for (const std::filesystem::path& path : paths_of(c.motion)) keep_out(path);
-  for (const std::filesystem::path& path : {c.grow.input, c.grow.output, c.grow.domain}) keep_out(path);
+  for (const std::filesystem::path& path : {c.grow.input, c.grow.output, c.grow.domain, c.measure.output})
+    keep_out(path);
   for (const MeshOptions* mesh : {&c.mesh.mesh, &c.model.mesh}) {
     keep_out(mesh->planes_file);
     keep_out(mesh->solver_case.waveform);

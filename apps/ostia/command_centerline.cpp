@@ -1,6 +1,7 @@
 #include "commands.h"
 #include "outputs.h"
 #include "points.h"
+#include "surface_axes.h"
 
 #include "ostia/centerline/canal_surface.h"
 #include "ostia/core/log.h"
@@ -11,22 +12,28 @@
 
 namespace ostia::app {
 
+centerline::CenterlineResult axes_of_surface(const InputOptions& input, const EndOptions& ends,
+                                             const core::TaskContext& task) {
+  task.set_stage("reading");
+  const pipeline::Source source = pipeline::load(input.input, source_options(input), task.sub(0.0, 0.1));
+  for (const std::string& warning : source.warnings) core::log_warning(warning);
+  if (source.kind != pipeline::SourceKind::surface)
+    throw InvalidInput("cannot take centerlines of " + input.input.string() +
+                       ": it is no surface; `ostia segment` makes one of an image");
+  pipeline::ModelOptions how;
+  apply(ends, input.coords, nullptr, how);
+  task.set_stage("centerlines");
+  centerline::CenterlineResult result = centerline::extract_centerlines(
+      source.surface, how.source, how.targets, how.centerline, task.sub(0.1, 1.0));
+  for (const std::string& warning : result.diagnostics.warnings) core::log_warning(warning);
+  return result;
+}
+
 ExitCode run_centerline(const CenterlineCommand& options, const core::TaskContext& task) {
   require_output(options.output, line_outputs);
   require_output(options.canal, surface_outputs);
-  task.set_stage("reading");
-  const pipeline::Source source =
-      pipeline::load(options.input.input, source_options(options.input), task.sub(0.0, 0.1));
-  for (const std::string& warning : source.warnings) core::log_warning(warning);
-  if (source.kind != pipeline::SourceKind::surface)
-    throw InvalidInput("cannot take centerlines of " + options.input.input.string() +
-                       ": it is no surface; `ostia segment` makes one of an image");
-  pipeline::ModelOptions how;
-  apply(options.ends, options.input.coords, nullptr, how);
-  task.set_stage("centerlines");
-  const auto result = centerline::extract_centerlines(source.surface, how.source, how.targets, how.centerline,
-                                                      task.sub(0.1, 0.8));
-  for (const std::string& warning : result.diagnostics.warnings) core::log_warning(warning);
+  const centerline::CenterlineResult result =
+      axes_of_surface(options.input, options.ends, task.sub(0.0, 0.8));
   if (!options.canal.empty()) {
     task.set_stage("canal surface");
     double least = result.source_radius;

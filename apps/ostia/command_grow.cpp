@@ -5,6 +5,7 @@
 #include "ostia/analysis/tree_growth.h"
 #include "ostia/core/log.h"
 #include "ostia/geometry/graph_faults.h"
+#include "ostia/geometry/mesh_topology.h"
 #include "ostia/io/graph_file.h"
 #include "ostia/io/surface_file.h"
 
@@ -18,6 +19,8 @@
 namespace ostia::app {
 namespace {
 
+constexpr double most_left_out = 0.1;  // of all elements; a growth that fails is told by its exit code
+
 analysis::CoronaryArtery artery_of(const std::string& name) {
   if (name == "rca") return analysis::CoronaryArtery::right;
   return name == "lad" ? analysis::CoronaryArtery::left_anterior : analysis::CoronaryArtery::circumflex;
@@ -27,6 +30,11 @@ analysis::GrowthDomain domain_of(const GrowCommand& o, const geometry::VesselGra
   if (o.domain.empty()) return analysis::domain_of(analysis::shell_about(tree, o.wall_mm));
   const io::LoadedSurface loaded = io::read_surface(o.domain);
   for (const std::string& warning : loaded.warnings) core::log_warning(warning);
+  const geometry::SurfaceFaults facts = geometry::find_faults(loaded.surface.mesh, false);
+  if (facts.open_edges > 0)
+    throw InvalidInput(o.domain.filename().string() + " has " + std::to_string(facts.open_edges) +
+                       " open edges: an open surface has no inside to grow in; `ostia convert --repair "
+                       "--fill-holes MM` closes it");
   return analysis::domain_of(loaded.surface.mesh);
 }
 
@@ -62,7 +70,12 @@ ExitCode run_grow(const GrowCommand& o, std::uint64_t seed, const core::TaskCont
   for (const std::string& lost : io::write_graph(o.output, grown.graph, task.sub(0.9, 1.0)))
     core::log_warning(lost);
   print(grown, loaded.graph.edges.size(), o.json);
-  return ExitCode::ok;
+  if (static_cast<double>(grown.elements_left_out) <= most_left_out * static_cast<double>(grown.elements))
+    return ExitCode::ok;
+  core::log_warning(std::to_string(grown.elements_left_out) + " of " + std::to_string(grown.elements) +
+                    " elements had no room: do the tree's ends lie in the domain? give a thicker --wall, or "
+                    "the surface of the myocardium (--domain)");
+  return ExitCode::quality_failed;
 }
 
 void define_grow(CLI::App& app, GrowCommand& c, const std::uint64_t& seed,
@@ -78,8 +91,7 @@ void define_grow(CLI::App& app, GrowCommand& c, const std::uint64_t& seed,
   grow->add_option("--wall", c.wall_mm, "Thickness of that shell, mm")->check(above_zero());
   grow->add_option("--artery", c.artery, "Whose table: rca, lad or lcx")
       ->check(CLI::IsMember({"rca", "lad", "lcx"}));
-  grow->add_option("--most-segments", c.most_segments, "More than this are refused")
-      ->check(above_zero());
+  grow->add_option("--most-segments", c.most_segments, "More than this are refused")->check(above_zero());
   grow->add_flag("--json", c.json, "One JSON object on standard output");
   grow->callback([&] { run = [&](const core::TaskContext& task) { return run_grow(c, seed, task); }; });
 }

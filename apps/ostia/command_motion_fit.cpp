@@ -127,7 +127,7 @@ Sums sums_of(const MotionFit& fit) {
     const auto& r = one.report;
     sums.least_jacobian = std::min(sums.least_jacobian, r.least_jacobian);
     if (one.origin == PhaseOrigin::bridged) {
-      ++(one.name.empty() ? sums.gaps : sums.bridged);
+      ++(one.gap ? sums.gaps : sums.bridged);
     } else if (one.origin == PhaseOrigin::fitted) {
       ++sums.fitted;
       sums.distance += r.mean_distance_mm;
@@ -241,9 +241,10 @@ ExitCode run_motion_fit(const MotionFitCommand& c, const core::TaskContext& task
     core::log_info("done already with the same phases and parameters; nothing to do");
   } else {
     Phases phases = phases_of(c, options, files, task.sub(0.0, 0.5));
+    for (const std::string& warning : phases.warnings) core::log_warning(warning);
     MotionFit fit = pipeline::fit_motion(phases.surfaces, options, task.sub(0.5, 0.95));
-    fit.warnings.insert(fit.warnings.begin(), phases.warnings.begin(), phases.warnings.end());
     for (const std::string& warning : fit.warnings) core::log_warning(warning);
+    fit.warnings.insert(fit.warnings.begin(), phases.warnings.begin(), phases.warnings.end());
     task.throw_if_cancelled();
     task.set_stage("writing");
     code = verdict(sums_of(fit));

@@ -20,9 +20,12 @@ bool is_image(const PhaseFile& one) {
 }
 
 std::shared_ptr<const imaging::ImageVolume> image_of(const PhaseFile& one, const core::TaskContext& task) {
-  if (one.series)
-    return std::make_shared<const imaging::ImageVolume>(
-        imaging::read_dicom_series(*one.series, {}, task).volume);
+  if (one.series) {
+    imaging::LoadedImage<std::int16_t> loaded = imaging::read_dicom_series(*one.series, {}, task);
+    for (const std::string& warning : loaded.header.warnings)
+      core::log_warning(name_of(one) + ": " + warning);
+    return std::make_shared<const imaging::ImageVolume>(std::move(loaded.volume));
+  }
   pipeline::Source source = pipeline::load_ct(one.file, {}, task);
   for (const std::string& warning : source.warnings) core::log_warning(name_of(one) + ": " + warning);
   return source.image;
@@ -58,8 +61,12 @@ pipeline::ImagePhases phases_in_images(const std::vector<PhaseFile>& files, cons
 void put_template(geometry::TriMesh shape, double phase, const std::string& name,
                   std::vector<pipeline::PhaseSurface>& phases) {
   if (shape.triangles.empty()) throw InvalidInput(name + ": the template holds no vessel");
-  std::erase_if(phases,
-                [&](const pipeline::PhaseSurface& one) { return std::abs(one.phase - phase) < 1e-6; });
+  // Percents are given rounded: what is of the same moment is replaced, and keeps its own phase.
+  for (pipeline::PhaseSurface& one : phases)
+    if (pipeline::is_same_phase(one.phase, phase)) {
+      one = {one.phase, name, std::move(shape)};
+      return;
+    }
   phases.push_back({phase, name, std::move(shape)});
 }
 

@@ -37,6 +37,12 @@ bool is_phase_file(const fs::path& path) {
          is_image_name(path.filename().string());
 }
 
+/// Without all extensions that are no part of a number: "p12.5.nii.gz" is "p12.5".
+std::string stem_of(const fs::path& path) {
+  const fs::path name = path.filename();
+  return name.extension() == ".gz" ? name.stem().stem().string() : name.stem().string();
+}
+
 /// The image in a folder of a phase, not the labels beside it; empty where there is none.
 fs::path image_in(const fs::path& folder) {
   std::vector<fs::path> images;
@@ -48,7 +54,7 @@ fs::path image_in(const fs::path& folder) {
   std::ranges::sort(images);
   // The same image may be there in several formats.
   for (const fs::path& one : images)
-    if (one.stem().stem() != images.front().stem().stem())
+    if (stem_of(one) != stem_of(images.front()))
       throw InvalidInput(folder.string() + " holds several images, " + images.front().filename().string() +
                          " and " + one.filename().string() + "; a phase has one");
   if (!images.empty()) return images.front();
@@ -62,12 +68,6 @@ fs::path content_of(const fs::path& folder, PhaseContent content) {
   if (content == PhaseContent::surfaces) return lumen;
   const fs::path image = image_in(folder);
   return image.empty() ? lumen : image;
-}
-
-/// Without all extensions that are no part of a number: "p12.5.nii.gz" is "p12.5".
-std::string stem_of(const fs::path& path) {
-  const fs::path name = path.filename();
-  return name.extension() == ".gz" ? name.stem().stem().string() : name.stem().string();
 }
 
 struct NumberedFile {
@@ -270,7 +270,7 @@ std::vector<pipeline::PhaseSurface> read_phases(const std::vector<PhaseFile>& fi
 }
 
 std::string name_of(const PhaseFile& one) {
-  if (one.series) return one.series->phase;
+  if (one.series) return one.series->phase.empty() ? "a DICOM series" : one.series->phase;
   const fs::path parent = one.file.parent_path().filename();
   const bool in_folder = parent.string().starts_with("phase-");
   return ((in_folder ? parent : fs::path()) / one.file.filename()).string();

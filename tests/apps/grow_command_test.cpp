@@ -1,7 +1,9 @@
 #include "program.h"
 
 #include "ostia/core/files.h"
+#include "ostia/geometry/analytic_shapes.h"
 #include "ostia/io/graph_file.h"
+#include "ostia/io/surface_file.h"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -52,6 +54,20 @@ TEST(GrowCommand, RefusesWhatIsNoTreeAndWrongWords) {
   EXPECT_EQ(ostia({"grow", "tree.csv", "-o", "grown.vtp", "--artery", "aorta"}, in).code, 2);
   EXPECT_EQ(ostia({"grow", "tree.csv", "-o", "grown.vtp", "--most-segments", "10"}, in).code, 5);
   EXPECT_FALSE(std::filesystem::exists(folder / "grown.vtp"));
+}
+
+TEST(GrowCommand, AnOpenDomainAndAGrowthWithoutRoomAreTold) {
+  const auto folder = temporary_folder("grow_room");
+  core::write_file(folder / "tree.csv", fork);
+  io::write_surface(folder / "open.stl", geometry::structured_surface(
+                                             geometry::straight_tube(80.0, 60.0).tubes.front(), 24, 10.0));
+  const Setting in{folder, ""};
+  const Outcome open = ostia({"grow", "tree.csv", "-o", "grown.vtp", "--domain", "open.stl"}, in);
+  EXPECT_EQ(open.code, 3);
+  EXPECT_THAT(open.err, HasSubstr("open edges"));
+  const Outcome narrow = ostia({"grow", "tree.csv", "-o", "grown.vtp", "--wall", "0.001"}, in);
+  EXPECT_EQ(narrow.code, 4);
+  EXPECT_THAT(narrow.err, HasSubstr("--wall"));
 }
 
 }  // namespace

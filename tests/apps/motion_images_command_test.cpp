@@ -131,6 +131,11 @@ TEST(MotionImagesCommand, TakesATemplateInsteadOfItsPhasesOwnSurface) {
   EXPECT_EQ(io::read_surface(folder / "out" / "template.vtp").surface.mesh.points.size(),
             still_tree().points.size());
   EXPECT_FALSE(fs::exists(folder / "out" / "lumen"));
+  // A percent that is given rounded is the phase that is there, and not one more beside it.
+  const std::size_t phases =
+      nlohmann::json::parse(core::read_file(folder / "out" / "report.json"))["phases"].size();
+  ASSERT_EQ(fitted(folder, {"--template", "lumen.vtp", "--template-phase", "75.1"}).code, 0);
+  EXPECT_EQ(nlohmann::json::parse(core::read_file(folder / "out" / "report.json"))["phases"].size(), phases);
 }
 
 /// A vessel of 20 mm along z, `up` higher.

@@ -241,6 +241,28 @@ TEST(MotionExperiment, GoesOnWhereItWasStopped) {
         << word(run.method) << run.phase;
 }
 
+TEST(MotionExperiment, BranchesOfTwoDepthsAreKeptApart) {
+  const Folder folder("keep_depths");
+  MotionOptions options = kept(folder.path());
+  options.methods.clear();
+  const MotionResults first = run_motion(options);
+  MotionOptions other = options;
+  other.depth = options.depth + 1;
+  other.depths = {other.depth};
+  const MotionResults finer = run_motion(other);
+  const MotionResults again = run_motion(options);
+  ASSERT_EQ(again.branches.size(), first.branches.size());
+  ASSERT_EQ(finer.branches.size(), first.branches.size());
+  double difference = 0.0;
+  for (std::size_t i = 0; i < first.branches.size(); ++i) {
+    EXPECT_EQ(again.branches[i].depth, options.depth);
+    EXPECT_EQ(finer.branches[i].depth, other.depth);
+    EXPECT_NEAR(again.branches[i].stretch, first.branches[i].stretch, 1e-7);
+    difference = std::max(difference, std::abs(finer.branches[i].stretch - first.branches[i].stretch));
+  }
+  EXPECT_GT(difference, 1e-6);
+}
+
 TEST(MotionExperiment, KeptRunsOfOtherHeartsAreRefused) {
   const Folder folder("other");
   std::filesystem::create_directories(folder.path());

@@ -224,6 +224,15 @@ class Schemas(unittest.TestCase):
             with self.subTest(change):
                 self.assert_refused("cage-motion", {**cage, **change})
 
+    def test_tree_measures(self):
+        network = self.folder.parent / "measured.swc"
+        network.write_text("1 2 0 0 0 1 -1\n2 2 0 0 5 0.8 1\n3 2 1 0 9 0.5 2\n4 2 -1 0 9 0.6 2\n")
+        printed = json.loads(run("measure", network, "-o", self.folder.parent / "measures", "--json"))
+        validator("tree-measures").validate(printed)
+        for change in ({"kind": "tree"}, {"segments": -1}, {"fits": {}}):
+            with self.subTest(change):
+                self.assert_refused("tree-measures", {**printed, **change})
+
     def test_motion_measures(self):
         holder = pathlib.Path(self.holder.name)
         rest = [[x, y, z] for z in (0, 60) for y in (-20, 20) for x in (-20, 20)]

@@ -8,6 +8,7 @@
 #include "ostia/core/parallel.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -18,16 +19,19 @@ namespace {
 using geometry::GraphIncidence;
 using geometry::VesselGraph;
 
+constexpr double largest = 1e30;  // boxes are in single precision
+
 void check_numbers(const VesselGraph& graph) {
   for (std::size_t e = 0; e < graph.edges.size(); ++e) {
     const RoundCone cone = round_cone(graph, static_cast<std::int32_t>(e));
     const double least = std::min(cone.radius_from, cone.radius_to);
     if (!cone.from.allFinite() || !cone.to.allFinite() || !std::isfinite(cone.radius_from + cone.radius_to) ||
-        !(least >= 0.0))
-      throw InvalidInput(
-          "segment " + std::to_string(e) +
-          " has a place or radius that is not a finite number, or a radius below 0: overlaps " +
-          "cannot be found; ostia convert --repair mends what can be mended");
+        !(least >= 0.0) || cone.from.cwiseAbs().maxCoeff() > largest ||
+        cone.to.cwiseAbs().maxCoeff() > largest || std::max(cone.radius_from, cone.radius_to) > largest)
+      throw InvalidInput("segment " + std::to_string(e) +
+                         " has a place or radius that is not a finite number of a sensible size, or a radius "
+                         "below 0: overlaps " +
+                         "cannot be found; ostia convert --repair mends what can be mended");
   }
 }
 
@@ -41,13 +45,38 @@ std::vector<std::int32_t> arriving_edges(const VesselGraph& graph, const GraphIn
   return result;
 }
 
+/// Where an edge lies along its branch, mm.
+struct Along {
+  std::int32_t branch = -1;
+  double begin = 0.0, end = 0.0;
+};
+std::vector<Along> places_along(const VesselGraph& graph, const GraphIncidence& incidence) {
+  std::vector<Along> result(graph.edges.size());
+  std::int32_t number = 0;
+  for (const geometry::GraphBranch& branch : geometry::branches(graph, incidence)) {
+    double way = 0.0;
+    for (const std::int32_t e : branch.edges) {
+      const geometry::GraphEdge& edge = graph.edges[static_cast<std::size_t>(e)];
+      const double begin = way;
+      way += (graph.points[static_cast<std::size_t>(edge.to)] -
+              graph.points[static_cast<std::size_t>(edge.from)])
+                 .norm();
+      result[static_cast<std::size_t>(e)] = {number, begin, way};
+    }
+    ++number;
+  }
+  return result;
+}
+
 class OverlapFinder {
  public:
   OverlapFinder(const VesselGraph& graph, const GraphIncidence& incidence, const OverlapOptions& options)
       : graph_(graph),
         arriving_(arriving_edges(graph, incidence)),
         joints_(graph, arriving_, options),
+        bend_reach_(options.bend_reach),
         least_depth_(options.least_depth),
+        along_(places_along(graph, incidence)),
         tree_(graph) {}
   OverlapFinder(const OverlapFinder&) = delete;
 
@@ -58,7 +87,7 @@ class OverlapFinder {
     std::vector<GraphOverlap> found;
     const RoundCone cone = round_cone(graph_, edge);
     for (const std::int32_t other : scratch) {
-      if (joints_.share_a_point(edge, other)) continue;
+      if (joints_.share_a_point(edge, other) || are_of_one_bend(edge, other)) continue;
       const RoundCone against = round_cone(graph_, other);
       const std::optional<ConeContact> hit = contact(cone, against);
       const double thinner = std::min(std::max(cone.radius_from, cone.radius_to),
@@ -70,10 +99,22 @@ class OverlapFinder {
   }
 
  private:
+  /// Whatever their contact is like, the way along their branch is short enough. Finely sampled lines have
+  /// hundreds of such pairs for each segment: they are told without looking at the cones.
+  bool are_of_one_bend(std::int32_t a, std::int32_t b) const {
+    const Along &one = along_[static_cast<std::size_t>(a)], &other = along_[static_cast<std::size_t>(b)];
+    if (one.branch != other.branch) return false;
+    const geometry::GraphEdge &e = graph_.edges[static_cast<std::size_t>(a)],
+                              &f = graph_.edges[static_cast<std::size_t>(b)];
+    const double radii = std::max(e.radius_from, e.radius_to) + std::max(f.radius_from, f.radius_to);
+    return std::max(one.end, other.end) - std::min(one.begin, other.begin) <= bend_reach_ * radii;
+  }
+
   const VesselGraph& graph_;
   std::vector<std::int32_t> arriving_;
   JointRule joints_;
-  double least_depth_;
+  double bend_reach_, least_depth_;
+  std::vector<Along> along_;
   ConeTree tree_;
 };
 
@@ -98,15 +139,20 @@ std::vector<GraphOverlap> find_overlaps(const VesselGraph& graph, const GraphInc
   if (graph.edges.empty()) return {};
   const OverlapFinder finder(graph, incidence, options);
   using List = std::vector<GraphOverlap>;
+  std::atomic<std::int64_t> count = 0;
   return core::parallel_reduce<List>(
       graph.edges.size(), 4096, {},
       [&](std::size_t first, std::size_t last) {
-        task.throw_if_cancelled();
         List list;
         std::vector<std::int32_t> scratch;
         for (std::size_t e = first; e < last; ++e) {
+          task.throw_if_cancelled();
           const List own = finder.of(static_cast<std::int32_t>(e), scratch);
           list.insert(list.end(), own.begin(), own.end());
+          if ((count += static_cast<std::int64_t>(own.size())) > options.most)
+            throw ResourceError("more than " + std::to_string(options.most) +
+                                " pairs of segments run into each other: are places and radii in one unit? "
+                                "`ostia convert --units m --radius-units mm` brings both to mm");
         }
         return list;
       },

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace ostia::analysis {
 namespace {
@@ -34,7 +35,9 @@ void gather_exponents(TreeReport& report) {
     by_order[static_cast<std::size_t>(order - 1)].push_back(*fork.k);
   }
   report.murray_median = median(std::move(all));
-  for (std::vector<double>& values : by_order) report.murray_by_order.push_back(median(std::move(values)));
+  for (std::vector<double>& values : by_order)
+    report.murray_by_order.push_back(values.empty() ? std::numeric_limits<double>::quiet_NaN()
+                                                    : median(std::move(values)));
 }
 
 void sum_roots(TreeReport& report) {

@@ -29,9 +29,11 @@ GrowthDomain domain_of(const MyocardialShell& shell) {
   const double least = std::min(shell.length_mm, shell.radius_mm);
   if (!shell.base.allFinite() || !(shell.axis.norm() > 0.0) || !std::isfinite(shell.axis.norm()) ||
       !(shell.wall_mm > 0.0) || !(least > shell.wall_mm) || !std::isfinite(shell.length_mm + shell.radius_mm))
-    throw InvalidInput("a wall of " + std::to_string(shell.wall_mm) + " mm in a heart of length " +
-                       std::to_string(shell.length_mm) + " mm and radius " + std::to_string(shell.radius_mm) +
-                       " mm makes no shell; the wall must be the least of the three, and above 0");
+    throw InvalidInput(
+        "a wall of " + std::to_string(shell.wall_mm) + " mm in a heart of length " +
+        std::to_string(shell.length_mm) + " mm and radius " + std::to_string(shell.radius_mm) +
+        " mm makes no shell; the wall must be the least of the three, and above 0. Is the tree in mm? "
+        "`ostia convert --units m --radius-units mm` brings it there");
   const Vec3 axis = shell.axis.normalized();
   return [shell, axis](const Vec3& point) {
     const Vec3 off = point - shell.base;

@@ -1,5 +1,5 @@
 #pragma once
-/// \file Numbers for growth: the same for the same seed on every machine.
+/// \file Numbers for growth: the same for the same seed, as far as log and cos are.
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,8 @@ class GrowthRandom {
   double uniform() { return (static_cast<double>(next() >> 11U) + 0.5) * 0x1p-53; }
   double between(double low, double high) { return low + (high - low) * uniform(); }
   double normal() {
-    return std::sqrt(-2.0 * std::log(uniform())) * std::cos(2.0 * std::numbers::pi * uniform());
+    const double size = uniform(), angle = uniform();  // one after the other: the order is part of the result
+    return std::sqrt(-2.0 * std::log(size)) * std::cos(2.0 * std::numbers::pi * angle);
   }
   /// Of mean 1 and standard deviation `sd` > 0 (Marsaglia and Tsang 2000).
   double gamma(double sd) {

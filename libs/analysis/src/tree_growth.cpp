@@ -215,8 +215,9 @@ class TreeGrower {
     bool looked = false;
     for (int round = 0; round < 4; ++round, length *= 0.6)
       for (int k = 0; k < most_tries; ++k) {
-        Vec3 along = turned(tip.along, tip.angle + std::abs(random.normal()) * (8.0 + 2.0 * k) * degree,
-                            tip.azimuth + (k == 0 ? 0.0 : random.between(0.0, 2.0 * std::numbers::pi)));
+        const double angle = tip.angle + std::abs(random.normal()) * (8.0 + 2.0 * k) * degree;
+        const double turn = k == 0 ? 0.0 : random.between(0.0, 2.0 * std::numbers::pi);
+        Vec3 along = turned(tip.along, angle, tip.azimuth + turn);
         const bool near_border = depth < length || k > 2;
         if (!looked && (near_border || element.order >= epicardial_order)) {
           inward = inwards(domain_, from);

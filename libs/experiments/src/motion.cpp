@@ -112,7 +112,7 @@ class HeartRuns {
     if (depth != options_.depth) return true;
     for (const Sampling& s : samplings(options_.heart.phases))
       if (keep_.count(name_, MotionMethod::cage, depth, s.name) < all) return false;
-    return keep_.has_branches(name_);
+    return keep_.has_branches(name_, depth);
   }
 
   const BeatingHeart& heart(const core::TaskContext& task) {
@@ -293,7 +293,8 @@ void validate(const MotionOptions& o) {
                        std::to_string(o.depth));
   for (const double phase : o.compared_phases) {
     const double number = phase * o.heart.phases;
-    if (!(phase >= 0.0 && phase < 1.0) || std::abs(number - std::round(number)) > 1e-6)
+    if (!(phase >= 0.0 && phase < 1.0) || std::abs(number - std::round(number)) > 1e-6 ||
+        std::lround(number) >= o.heart.phases)
       throw InvalidInput("methods cannot be compared at " + std::to_string(100.0 * phase) + " %: there are " +
                          std::to_string(o.heart.phases) + " phases, from 0 % on");
   }
@@ -313,7 +314,9 @@ MotionResults run_motion(const MotionOptions& options, const core::TaskContext& 
     part.set_stage("heart " + std::to_string(i + 1) + " of " + std::to_string(options.hearts));
     HeartRuns(options, i, keep).run(part);
   }
-  return keep.results();
+  MotionResults results = keep.results();
+  std::erase_if(results.branches, [&](const BranchRun& run) { return run.depth != options.depth; });
+  return results;
 }
 
 }  // namespace ostia::experiments

@@ -94,6 +94,7 @@ std::vector<BranchRun> branch_runs(const BeatingHeart& heart, const geometry::Ca
                                    const core::TaskContext& task) {
   const analysis::TreeMotion truth = known_motion(heart, task.sub(0.0, 0.5));
   const analysis::TreeMotion fitted = fitted_motion(heart, grid, control_points, task.sub(0.5, 1.0));
+  const int depth = static_cast<int>(std::lround(std::log2(grid.cells)));
   std::vector<BranchRun> runs;
   for (const analysis::BranchMotion& known : truth.branches) {
     const auto same = std::find_if(fitted.branches.begin(), fitted.branches.end(),
@@ -107,6 +108,7 @@ std::vector<BranchRun> branch_runs(const BeatingHeart& heart, const geometry::Ca
       BranchRun run;
       run.heart = heart.name;
       run.phase = heart.phases[k].phase;
+      run.depth = depth;
       run.branch = known.name;
       run.length_mm = known.length_mm;
       run.stretch = value(*same, BranchMeasure::stretch);

@@ -22,9 +22,19 @@ const Cells run_header{
     "heart",          "phase_percent",     "method",      "depth", "sampling",  "lost",
     "seconds",        "processor_seconds", "distance_mm", "dice",  "vertex_mm", "vertex_worst_mm",
     "inverted_cells", "new_intersections"};
-const Cells branch_header{
-    "heart",   "phase_percent", "branch",           "length_mm", "stretch",        "true_stretch",
-    "torsion", "true_torsion",  "template_torsion", "curvature", "true_curvature", "template_curvature"};
+const Cells branch_header{"heart",
+                          "phase_percent",
+                          "depth",
+                          "branch",
+                          "length_mm",
+                          "stretch",
+                          "true_stretch",
+                          "torsion",
+                          "true_torsion",
+                          "template_torsion",
+                          "curvature",
+                          "true_curvature",
+                          "template_curvature"};
 
 std::string number(double value) {
   char text[64];
@@ -40,10 +50,10 @@ std::string line_of(const MotionRun& r) {
                          std::to_string(r.new_intersections)});
 }
 std::string line_of(const BranchRun& r) {
-  return core::csv_line({r.heart, number(100.0 * r.phase), r.branch, number(r.length_mm), number(r.stretch),
-                         number(r.true_stretch), number(r.torsion), number(r.true_torsion),
-                         number(r.template_torsion), number(r.curvature), number(r.true_curvature),
-                         number(r.template_curvature)});
+  return core::csv_line({r.heart, number(100.0 * r.phase), std::to_string(r.depth), r.branch,
+                         number(r.length_mm), number(r.stretch), number(r.true_stretch), number(r.torsion),
+                         number(r.true_torsion), number(r.template_torsion), number(r.curvature),
+                         number(r.true_curvature), number(r.template_curvature)});
 }
 
 /// The cells of one line, by the order of the header.
@@ -84,7 +94,12 @@ MotionRun run_of(Line& line) {
   MotionRun r;
   r.heart = line.text();
   r.phase = line.phase();
-  r.method = motion_method_of(line.text());
+  const std::string method = line.text();
+  try {
+    r.method = motion_method_of(method);
+  } catch (const InvalidInput&) {
+    line.fail("has \"" + method + "\" as method");
+  }
   r.depth = static_cast<int>(line.count());
   r.sampling = line.text();
   r.lost = line.text();
@@ -99,6 +114,7 @@ BranchRun branch_of(Line& line) {
   BranchRun r;
   r.heart = line.text();
   r.phase = line.phase();
+  r.depth = static_cast<int>(line.count());
   r.branch = line.text();
   for (double* value : {&r.length_mm, &r.stretch, &r.true_stretch, &r.torsion, &r.true_torsion,
                         &r.template_torsion, &r.curvature, &r.true_curvature, &r.template_curvature})
@@ -184,8 +200,9 @@ MotionKeep::MotionKeep(const MotionOptions& options) : folder_(options.keep) {
   const fs::path made_of = folder_ / "hearts.json";
   if (!fs::exists(made_of)) core::write_file(made_of, hearts);
   if (const std::string before = core::read_file(made_of); before != hearts)
-    throw InvalidInput("the runs kept in " + folder_.string() + " are of other hearts: " + before +
-                       "give the same --phases, --noise and --loss, or another folder to keep runs in");
+    throw InvalidInput("the runs kept in " + folder_.string() +
+                       " are of other hearts: " + before.substr(0, before.find('\n')) +
+                       "; give the same --phases, --noise and --loss, or another folder to keep runs in");
   read_table(folder_ / "runs.csv", run_header, [&](Line& line) { put(run_of(line)); });
   read_table(folder_ / "branches.csv", branch_header, [&](Line& line) { put(branch_of(line)); });
 }
@@ -199,9 +216,9 @@ std::size_t MotionKeep::count(const std::string& heart, MotionMethod method, int
       }));
 }
 
-bool MotionKeep::has_branches(const std::string& heart) const {
+bool MotionKeep::has_branches(const std::string& heart, int depth) const {
   return std::any_of(results_.branches.begin(), results_.branches.end(),
-                     [&](const BranchRun& r) { return r.heart == heart; });
+                     [&](const BranchRun& r) { return r.heart == heart && r.depth == depth; });
 }
 
 void MotionKeep::add(const std::vector<MotionRun>& runs, const std::vector<BranchRun>& branches) {
@@ -227,7 +244,7 @@ void MotionKeep::put(const MotionRun& run) {
 
 void MotionKeep::put(const BranchRun& run) {
   const auto same = std::find_if(results_.branches.begin(), results_.branches.end(), [&](const BranchRun& r) {
-    return r.heart == run.heart && r.branch == run.branch && near(r.phase, run.phase);
+    return r.heart == run.heart && r.depth == run.depth && r.branch == run.branch && near(r.phase, run.phase);
   });
   if (same == results_.branches.end())
     results_.branches.push_back(run);

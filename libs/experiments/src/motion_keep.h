@@ -22,7 +22,7 @@ class MotionKeep {
   /// it is negative.
   std::size_t count(const std::string& heart, MotionMethod method, int depth, const std::string& sampling,
                     double phase = -1.0) const;
-  bool has_branches(const std::string& heart) const;
+  bool has_branches(const std::string& heart, int depth) const;
   /// What is there of the same kind, heart and phase is replaced. Throws IoError.
   void add(const std::vector<MotionRun>& runs, const std::vector<BranchRun>& branches = {});
 

@@ -21,15 +21,18 @@ Place place_of(const MotionRun& run) {
 }
 
 /// Hearts and phases at which every method was run that was run at all, beside the cage over all phases.
+/// A method at another depth is another method.
 std::set<Place> common_places(const std::vector<MotionRun>& runs) {
-  std::set<MotionMethod> methods;
+  using Method = std::pair<MotionMethod, int>;
+  std::set<Method> methods;
   for (const MotionRun& run : runs)
-    if (run.method > MotionMethod::cage) methods.insert(run.method);
+    if (run.method > MotionMethod::cage) methods.insert({run.method, run.depth});
   std::set<Place> common;
   for (const MotionRun& run : runs) {
-    const auto there = [&](MotionMethod method) {
+    const auto there = [&](const Method& method) {
       return std::any_of(runs.begin(), runs.end(), [&](const MotionRun& other) {
-        return other.method == method && place_of(other) == place_of(run);
+        return other.method == method.first && other.depth == method.second &&
+               place_of(other) == place_of(run);
       });
     };
     if (!methods.empty() && std::all_of(methods.begin(), methods.end(), there)) common.insert(place_of(run));

@@ -47,12 +47,17 @@ class Depth {
 
   const CageSystem& system() const { return system_; }
 
+  /// Of the surfaces as they lie now, all points.
+  void tell(const Points& points, RegistrationReport& report) {
+    source_.move(carried_points(places_, grid_, points));
+    tell_pairs(source_.at_rest, surface_pairs(source_, target_, grid_, {max_angle_deg_, 1.0, 1}), report);
+  }
+
   /// Returns the largest way that a control point has gone.
   double round(Points& points, const Schedule& schedule, RegistrationReport& report) {
     source_.move(carried_points(places_, grid_, points));
     const std::vector<SurfacePair> pairs =
         surface_pairs(source_, target_, grid_, {max_angle_deg_, schedule.looseness, schedule.every});
-    tell_pairs(source_.at_rest, pairs, report);
     ++report.rounds;
     const Points step = system_.step(points, pairs);
     const double before = system_.energy(points, pairs);
@@ -170,6 +175,7 @@ Registration through_depths(const TriMesh& source, const TriMesh& target, const 
     result.report.source_self_intersections = allowed.size();
     take_back(source, allowed, stages, depth.system(), task, result);
     result.report.least_jacobian = depth.system().least_jacobian(points);
+    depth.tell(points, result.report);
   }
   return result;
 }

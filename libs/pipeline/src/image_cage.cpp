@@ -123,7 +123,7 @@ class ImageCage::Solver {
       solver.setTolerance(solver_tolerance);
       solver.compute(matrix);
       const Eigen::VectorXd step = solver.solve(right);
-      double share = 1.0;
+      double share = 1.0, taken = 0.0;
       bool better = false;
       for (int halving = 0; halving <= most_halvings && !better; ++halving, share *= 0.5) {
         Points next = moved;
@@ -134,12 +134,13 @@ class ImageCage::Solver {
         const double now_cost = cost_of(now, noise);
         if (now_cost >= cost || least_jacobian_of(whole_, places) < least_jacobian) continue;
         better = true;
+        taken = share;
         cost = now_cost;
         moved = std::move(next);
         control_points = std::move(places);
         off = std::move(now);
       }
-      if (!better || share * step.cwiseAbs().maxCoeff() < small_step_mm) return;
+      if (!better || taken * step.cwiseAbs().maxCoeff() < small_step_mm) return;
     }
   }
 
@@ -350,6 +351,7 @@ ImageCageFit ImageCage::fitted(const imaging::ImageVolume& image, const std::vec
     const Solver solver(level, grids_[static_cast<std::size_t>(level.depth)], grid(), blurred);
     for (const Points& start : starts) {
       if (k > 0) break;
+      if (&start != &starts.front() && least_jacobian_of(grid(), start) < least_jacobian) continue;
       const double cost = Solver::cost_of(solver.differences(start), least_noise_hu);
       if (cost >= least) continue;
       least = cost;

@@ -225,6 +225,7 @@ void add_gaps(std::vector<PhaseFit>& phases) {
     PhaseFit gap;
     gap.phase = phase;
     gap.origin = PhaseOrigin::bridged;
+    gap.gap = true;
     gap.why = "a gap: there is no such phase";
     phases.push_back(std::move(gap));
   }

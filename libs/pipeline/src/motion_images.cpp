@@ -23,7 +23,6 @@ using imaging::FloatVolume;
 using imaging::ImageVolume;
 using Points = std::vector<Vec3>;
 
-constexpr double same_phase = 0.002;      // of the cycle
 constexpr double least_inside = 0.9;      // of the template, in its own image
 constexpr double least_seen = 0.7;        // of it, in another phase's
 constexpr double wall_sigma_mm = 0.5;     // against noise, for the profiles
@@ -42,8 +41,7 @@ std::string percents(double share) {
 std::size_t own_view(const std::vector<PhaseView>& views, double phase) {
   std::string all;
   for (std::size_t i = 0; i < views.size(); ++i) {
-    const double off = std::abs(views[i].phase - phase);
-    if (std::min(off, 1.0 - off) < same_phase) return i;
+    if (is_same_phase(views[i].phase, phase)) return i;  // the only one: require_views has seen to it
     all += (all.empty() ? "" : ", ") + percent_text(views[i].phase);
   }
   throw InvalidInput(
@@ -59,8 +57,9 @@ void require_views(const TriMesh& shape, const std::vector<PhaseView>& views) {
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (!(views[i].phase >= 0.0 && views[i].phase < 1.0))
       throw InvalidInput(named(views[i]) + ": phases are from 0 to below 100 % of the cycle");
-    if (i > 0 && views[i].phase - views[i - 1].phase < 1e-6)
-      throw InvalidInput(named(views[i - 1]) + " and " + named(views[i]) +
+    const PhaseView& before = views[i > 0 ? i - 1 : views.size() - 1];  // they rise
+    if (is_same_phase(before.phase, views[i].phase))
+      throw InvalidInput(named(before) + " and " + named(views[i]) +
                          " are the same phase; leave one of the two out");
   }
 }

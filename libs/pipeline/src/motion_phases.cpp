@@ -56,13 +56,19 @@ std::array<Way, 2> ways(const std::vector<double>& phases, std::size_t from) {
   return out;
 }
 
+bool is_same_phase(double a, double b) {
+  constexpr double moment = 0.002;
+  const double off = std::abs(a - b);
+  return std::min(off, 1.0 - off) < moment;
+}
+
 void require_phases(const std::vector<PhaseSurface>& phases) {
   std::size_t with_surface = 0;
   for (const PhaseSurface& one : phases) {
     if (!(one.phase >= 0.0 && one.phase < 1.0))
       throw InvalidInput(named(one) + ": phases are from 0 to below 100 % of the cycle");
     for (const PhaseSurface& other : phases)
-      if (&other < &one && std::abs(other.phase - one.phase) < 1e-6)
+      if (&other < &one && is_same_phase(other.phase, one.phase))
         throw InvalidInput(named(other) + " and " + named(one) +
                            " are the same phase; leave one of the two out");
     if (one.surface.triangles.empty()) continue;
@@ -73,10 +79,13 @@ void require_phases(const std::vector<PhaseSurface>& phases) {
                          " across: its unit is hardly the millimetre; say which it is with --units m, cm or "
                          "mm");
   }
-  if (with_surface < least_phases)
-    throw InvalidInput("a motion needs three phases with a surface at least; there " +
-                       std::string(with_surface == 1 ? "is " : "are ") + std::to_string(with_surface) + " (" +
-                       std::to_string(phases.size()) + " in all)");
+  if (with_surface >= least_phases) return;
+  std::string reasons;
+  for (const PhaseSurface& one : phases)
+    if (!one.why.empty()) reasons += "; " + percent_text(one.phase) + ": " + one.why;
+  throw InvalidInput("a motion needs three phases with a surface at least; there " +
+                     std::string(with_surface == 1 ? "is " : "are ") + std::to_string(with_surface) + " (" +
+                     std::to_string(phases.size()) + " in all)" + reasons);
 }
 
 void require_like(const std::vector<PhaseSurface>& phases, std::size_t template_index) {

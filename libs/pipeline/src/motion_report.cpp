@@ -238,12 +238,7 @@ void write_motion_report(const fs::path& folder, const TreeMotion& motion, const
   core::write_file(staged.temporary() / "along.csv", motion_along_csv(motion));
   task.throw_if_cancelled();
   const std::vector<ReportPicture> pictures = motion_pictures(motion);
-  fs::create_directory(staged.temporary() / "pictures");
-  for (const ReportPicture& one : pictures) {
-    task.throw_if_cancelled();
-    one.picture.write_png(staged.temporary() / "pictures" / (one.name + ".png"), 2.0);
-    one.picture.write_svg(staged.temporary() / "pictures" / (one.name + ".svg"));
-  }
+  write_pictures(staged.temporary(), pictures, task);
   write_html(staged.temporary() / "report.html", motion, pictures);
   const double seconds =
       seconds_before + std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

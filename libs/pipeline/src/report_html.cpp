@@ -177,6 +177,16 @@ std::vector<ReportPicture> report_pictures(const Model& model, const core::TaskC
   return out;
 }
 
+void write_pictures(const std::filesystem::path& folder, const std::vector<ReportPicture>& pictures,
+                    const core::TaskContext& task) {
+  std::filesystem::create_directory(folder / "pictures");
+  for (const ReportPicture& one : pictures) {
+    task.throw_if_cancelled();
+    one.picture.write_png(folder / "pictures" / (one.name + ".png"), 2.0);
+    one.picture.write_svg(folder / "pictures" / (one.name + ".svg"));
+  }
+}
+
 void write_report_html(const std::filesystem::path& path, const Model& model,
                        const std::vector<ReportPicture>& pictures, const std::optional<TruthErrors>& truth) {
   HtmlReport html("Vessel model",

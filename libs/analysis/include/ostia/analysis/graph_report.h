@@ -42,7 +42,7 @@ struct TreeReport {
   std::vector<ForkAngles> angles;
   std::vector<ForkExponent> exponents;
   double murray_median = 0.0;                   ///< of the forks that have an exponent; 0 without any
-  std::vector<double> murray_by_order;          ///< the same by the parent's order, from 1
+  std::vector<double> murray_by_order;          ///< the same by the parent's order, from 1; NaN without any
   LogFit diameter_fit, length_fit, number_fit;  ///< of elements, by order; mm
   SubtreeTotals total;
 };

@@ -41,7 +41,7 @@ struct GrownTree {
   geometry::VesselGraph graph;
   std::vector<std::int32_t> order;     ///< of each segment; 0: scanned
   std::vector<std::int32_t> element;   ///< of each segment: its element's number, from 0; -1: scanned
-  std::int64_t elements = 0;           ///< that were begun
+  std::int64_t elements = 0;           ///< that were asked for, with those left out
   std::int64_t elements_left_out = 0;  ///< that had no room, with all behind them
   std::int64_t elements_shortened = 0;
 };

@@ -67,6 +67,7 @@ struct MotionRun {
 struct BranchRun {
   std::string heart;
   double phase = 0.0;
+  int depth = 0;  ///< of the cage
   std::string branch;
   double length_mm = 0.0;                        ///< at the template
   double stretch = 0.0, true_stretch = 0.0;      ///< length over that at the template

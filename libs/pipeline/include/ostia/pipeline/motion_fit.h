@@ -37,9 +37,10 @@ struct MotionFitOptions {
 /// What came of one phase.
 struct PhaseFit {
   double phase = 0.0;
-  std::string name;  ///< empty: a gap among the phases
+  std::string name;  ///< may be empty
   geometry::PhaseOrigin origin = geometry::PhaseOrigin::fitted;
   std::string why;                    ///< bridged: the reason
+  bool gap = false;                   ///< bridged: there was nothing of this phase
   motion::RegistrationReport report;  ///< all zero where nothing was registered
   double stiffness = 1.0;  ///< factor of the energy's weights, above 1 where a softer cage was stuck
 };
@@ -51,6 +52,9 @@ struct MotionFit {
   std::vector<PhaseFit> phases;      ///< as those of the motion
   std::vector<std::string> warnings;
 };
+
+/// Whether two shares of the cycle mean one moment: within 0.2 % of the cycle, across its end as well.
+bool is_same_phase(double a, double b);
 
 /// Phases that are missing between others that are evenly spaced: they are multiples of one step, of which
 /// a whole number makes the cycle and at least two thirds are there. Empty where there is no such step.

@@ -27,6 +27,10 @@ struct ReportPicture {
 std::vector<ReportPicture> report_pictures(const Model& model,
                                            const core::TaskContext& task = core::no_task());
 
+/// `pictures/<name>.png` and `.svg` in the folder. Throws IoError, Cancelled.
+void write_pictures(const std::filesystem::path& folder, const std::vector<ReportPicture>& pictures,
+                    const core::TaskContext& task = core::no_task());
+
 /// `report.html`: one file with the pictures and the figures in tables.
 void write_report_html(const std::filesystem::path& path, const Model& model,
                        const std::vector<ReportPicture>& pictures, const std::optional<TruthErrors>& truth);

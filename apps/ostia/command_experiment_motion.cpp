@@ -5,6 +5,7 @@
 #include "validators.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/files.h"
 #include "ostia/experiments/motion.h"
 
 #include <CLI/App.hpp>
@@ -12,6 +13,7 @@
 #include <CLI/Formatter.hpp>
 
 #include <cstdio>
+#include <map>
 #include <memory>
 
 namespace ostia::app {
@@ -50,14 +52,25 @@ experiments::MotionOptions checked(const MotionCommand& command) {
   }
 }
 
+/// What is kept, by content: a report of it is done again where there is more than it was made of.
+std::map<std::string, std::string> kept_inputs(const std::filesystem::path& keep) {
+  std::map<std::string, std::string> inputs;
+  if (keep.empty()) return inputs;
+  for (const char* name : {"runs.csv", "branches.csv"})
+    if (std::filesystem::is_regular_file(keep / name)) inputs[name] = core::sha256_file(keep / name);
+  return inputs;
+}
+
 ExitCode run_experiment_motion(const MotionCommand& command, const core::TaskContext& task) {
   const experiments::MotionOptions options = checked(command);
   experiments::MotionResults results;
+  pipeline::JobKey key{"experiment motion", kept_inputs(options.keep), experiments::parameters_json(options)};
   const ExitCode code = run_experiment(
-      command.output, {"experiment motion", {}, experiments::parameters_json(options)}, command.json,
+      command.output, key, command.json,
       [&](const std::filesystem::path& folder, const core::TaskContext& part) {
         results = experiments::run_motion(options, part);
         experiments::write_motion_report(folder, results, options);
+        key.inputs = kept_inputs(options.keep);  // this run's among them
         return experiments::motion_json(results, options);
       },
       task);

@@ -139,6 +139,7 @@ QString command_group(const QString& id) {
       {"edit", QT_TRANSLATE_NOOP("gestures", "Edit")},
       {"vessel", QT_TRANSLATE_NOOP("gestures", "Vessel")},
       {"tool", QT_TRANSLATE_NOOP("gestures", "Tools")},
+      {"tree", QT_TRANSLATE_NOOP("gestures", "Vessel tree")},
       {"view", QT_TRANSLATE_NOOP("gestures", "Views")},
       {"window", QT_TRANSLATE_NOOP("gestures", "Grey levels")},
       {"panel", QT_TRANSLATE_NOOP("gestures", "Panels")},

@@ -14,6 +14,7 @@
 #include "reporting.h"
 #include "side_lists.h"
 #include "start_page.h"
+#include "tree_opening.h"
 #include "unfinished_work.h"
 #include "vessel_finder.h"
 #include "vessel_list.h"
@@ -88,7 +89,9 @@ MainWindow::MainWindow(const std::filesystem::path& state_folder)
   restore_layout();
   own_.push_back(bench_.image_changed.observe([this] {
     if (!bench_.image().volume) set_shown_name({});
+    trees_->close();  // what was opened last is shown
   }));
+  own_.push_back(bench_.case_changed.observe([this] { trees_->close(); }));
   own_.push_back(
       bench_.noted.observe([this](const std::string& note) { say(QString::fromStdString(note)); }));
   for (const std::string& notice : machine_.take_notices()) say(QString::fromStdString(notice));
@@ -150,10 +153,12 @@ void MainWindow::set_shown_name(const QString& text) {
 }
 
 void MainWindow::open(const std::filesystem::path& path) {
-  if (mesh_meant_by(path).empty())
-    opening_->open(path);
-  else
+  if (!mesh_meant_by(path).empty())
     meshing_export_->open_mesh(path);
+  else if (TreeOpening::takes(path))
+    trees_->open(path);
+  else
+    opening_->open(path);
 }
 
 void MainWindow::open_sample() {

@@ -32,6 +32,7 @@ class QaPanel;
 class Hanging;
 class VesselFinder;
 class OuterWalls;
+class TreeOpening;
 
 class MainWindow final : public QMainWindow {
   Q_OBJECT
@@ -52,6 +53,7 @@ class MainWindow final : public QMainWindow {
   FlowCases& flow_cases() { return *flow_cases_; }
   FlowResults& flow_results() { return *flow_results_; }
   BeatingCase& beating() { return *beating_; }
+  TreeOpening& trees() { return *trees_; }
   /// Runs it; what is refused comes up in the status line (or, `loud`, as a dialog) and ends there.
   bool guarded(const std::function<void()>& act, bool loud = false);
   void say(const QString& text);                                  ///< in the status line
@@ -85,7 +87,8 @@ class MainWindow final : public QMainWindow {
   // menus (main_window_actions.cpp)
   void build_actions();
   void build_tool_bar();
-  QAction* build_qa();  // main_window_qa.cpp
+  QAction* build_qa();                  // main_window_qa.cpp
+  void build_tree_menu(QMenu* tools);  // main_window_trees.cpp
   QAction* action(const QString& id, const QString& text, const std::function<void()>& run);
   void refresh_actions();
   void join_with_parent();
@@ -116,6 +119,7 @@ class MainWindow final : public QMainWindow {
   std::shared_ptr<QaPanel> qa_;              // so does this
   std::unique_ptr<FlowResults> flow_results_;
   std::unique_ptr<FlowCases> flow_cases_;
+  std::unique_ptr<TreeOpening> trees_;
   BeatingCase* beating_ = nullptr;
   QLabel* place_ = nullptr;
   QLabel* shown_name_ = nullptr;

@@ -150,6 +150,8 @@ void MainWindow::build_actions() {
   tool_menu->addAction(
       action("view.own_phase", tr("Back to the case's phase"), [this] { beating_->go_to_own(); }));
 
+  build_tree_menu(tool_menu);
+
   QMenu* shown = menuBar()->addMenu(tr("&View"));
   shown->addAction(action("view.turn_left", tr("Turn the CPRs left"), [this] { turn(-5.0); }));
   shown->addAction(action("view.turn_right", tr("Turn the CPRs right"), [this] { turn(5.0); }));

@@ -42,8 +42,9 @@ fs::path Opening::state_folder() const {
 void Opening::choose_file() {
   const QString chosen = ask_open_file(
       &window_, tr("Open"),
-      tr("Cases and images (*.ostia *.nrrd *.mhd *.mha *.nii *.nii.gz *.dcm *.zip);;All files (*)"));
-  if (!chosen.isEmpty()) open(path_of(chosen));
+      tr("Cases and images (*.ostia *.nrrd *.mhd *.mha *.nii *.nii.gz *.dcm *.zip);;All files (*)") +
+          QStringLiteral(";;") + tr("Vessel trees (*.vtp *.vtk *.swc *.csv *.gxl *.xml *.dat)"));
+  if (!chosen.isEmpty()) window_.open(path_of(chosen));
 }
 
 void Opening::choose_folder() {

@@ -276,6 +276,69 @@ TEST(MotionMeasures, RefusesOptionsThatMakeNoSense) {
     EXPECT_THROW(measure_motion(tree, options), InvalidInput);
 }
 
+/// A tree about a heart: helices of several radii, as arteries go.
+std::vector<Helix> helices_about_a_heart() {
+  std::vector<Helix> helices;
+  for (const double radius : {18.0, 22.0, 26.0, 30.0})
+    helices.push_back({radius, testing::whole_turn / (100.0 + 2.0 * radius)});
+  return helices;
+}
+geometry::VesselTree tree_of(const std::vector<Helix>& helices) {
+  std::vector<std::vector<Vec3>> lines;
+  for (const Helix& helix : helices) lines.push_back(helix.points(70.0));
+  return testing::apart(lines);
+}
+
+/// Places that a fit errs by: waves of `mm` and `length_mm`, along each branch and at each phase others.
+MovingTree disturbed(MovingTree tree, double mm, double length_mm) {
+  for (std::size_t b = 0; b < tree.branches.size(); ++b) {
+    MovingBranch& branch = tree.branches[b];
+    for (std::size_t k = 0; k < branch.places.size(); ++k)
+      for (std::size_t i = 0; i < branch.places[k].size(); ++i) {
+        const double wave = testing::whole_turn * branch.s_mm[i] / length_mm;
+        const auto turn = static_cast<double>(5 * b + 3 * k);
+        branch.places[k][i] += mm * Vec3(std::sin(wave + turn), std::cos(1.1 * wave + 2.0 * turn),
+                                         std::sin(0.9 * wave + 3.0 * turn));
+      }
+  }
+  return tree;
+}
+
+TEST(TorsionSize, StaysWhereErrorsOfAFitSpoilTheTorsion) {
+  const std::vector<Helix> helices = helices_about_a_heart();
+  const geometry::VesselTree rest = tree_of(helices);
+  const HeartBeat beat;
+  const MovingTree exact = testing::followed(rest, beat);
+  const TreeMotion truth = measure_motion(exact);
+  const TreeMotion fitted = measure_motion(disturbed(exact, 0.05, 12.0));
+  double worst = 0.0, worst_mean = 0.0, changes = 0.0;
+  for (std::size_t b = 0; b < truth.branches.size(); ++b) {
+    for (std::size_t k = 0; k < truth.phases.size(); ++k) {
+      const double known = beat(helices[b], truth.phases[k]).torsion();
+      const auto off = [&](const TreeMotion& motion, M measure) {
+        return std::abs(motion.branches[b][measure].values[k] / known - 1.0);
+      };
+      EXPECT_LT(off(truth, M::torsion_size), 0.05) << "branch " << b << ", phase " << k;
+      worst = std::max(worst, off(fitted, M::torsion_size));
+      worst_mean = std::max(worst_mean, off(fitted, M::torsion_mean));
+      changes = std::max(changes, std::abs(known / helices[b].torsion() - 1.0));
+    }
+  }
+  RecordProperty("worst", std::to_string(worst));
+  RecordProperty("worst_mean", std::to_string(worst_mean));
+  EXPECT_GT(changes, 0.1);  // the template's own would be off by more
+  EXPECT_LT(worst, 0.05);
+  EXPECT_GT(worst_mean, 0.5);
+}
+
+TEST(TorsionSize, IsThatOfTheHelixAtTheTemplateAndInTheMirror) {
+  const Helix right, left{right.a, -right.k};
+  const TreeMotion motion =
+      measure_motion(testing::followed(testing::apart({right.points(80.0), left.points(80.0)}), HeartBeat{}));
+  for (const BranchMotion& branch : motion.branches)
+    EXPECT_NEAR(branch[M::torsion_size].at_template, right.torsion(), 1e-3 * right.torsion());
+}
+
 TEST(MotionMeasures, EveryMeasureHasANameOfItsOwn) {
   std::vector<std::string> names;
   for (std::size_t m = 0; m < branch_measure_count; ++m) names.push_back(name_of(static_cast<M>(m)).name);

@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include <csignal>
+#include <set>
 
 namespace ostia::testing {
 namespace {
@@ -298,6 +299,32 @@ TEST(MotionCommand, LeavesNothingWhenInterrupted) {
                   {folder, ""}, SIGINT, 1.0, seconds);
   EXPECT_EQ(done.code, 130) << done.err;
   EXPECT_THAT(names_in(folder), ::testing::IsEmpty());
+}
+
+TEST(MotionExperimentCommand, DoesTheReportAgainWhereMoreIsKept) {
+  const fs::path folder = temporary_folder("motion-experiment");
+  const auto run = [&](const std::string& out, const std::string& depths) {
+    return ostia(
+        {"experiment", "motion", "-o", out, "--keep", "runs", "--hearts", "1", "--phases", "4", "--depths",
+         depths, "--depth", "1", "--methods", "none", "--compared-phases", "25", "--json"},
+        {folder, ""});
+  };
+  const auto depths_of = [](const Outcome& done) {
+    EXPECT_EQ(done.code, 0) << done.err;
+    std::set<int> depths;
+    const Json all = Json::parse(done.out);
+    for (const Json& row : all["rows"]) depths.insert(row["depth"].get<int>());
+    depths.erase(0);
+    return depths;
+  };
+  EXPECT_EQ(depths_of(run("first", "1")), (std::set<int>{1}));
+  const Outcome same = run("first", "1");
+  EXPECT_EQ(depths_of(same), (std::set<int>{1}));
+  EXPECT_NE(same.err.find("nothing to do"), std::string::npos) << same.err;
+  EXPECT_EQ(depths_of(run("second", "1,2")), (std::set<int>{1, 2}));
+  const Outcome again = run("first", "1");
+  EXPECT_EQ(depths_of(again), (std::set<int>{1, 2})) << "of all that is kept";
+  EXPECT_EQ(again.err.find("nothing to do"), std::string::npos) << again.err;
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // `ostia motion fit --template`: images of a beating tree by phase, as files, in folders, as DICOM; cases.
 
+#include "../imaging/dicom_writer.h"
 #include "beating_images.h"
 #include "program.h"
 
@@ -14,6 +15,8 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace ostia::testing {
@@ -170,6 +173,61 @@ TEST(MotionImagesCommand, ReadsACaseAPhaseAndACaseAsTheTemplate) {
     return geometry::bounds(io::read_surface(file).surface.mesh.points).max().z();
   };
   EXPECT_NEAR(top(folder / "moved.vtp") - top(folder / "out" / "template.vtp"), 1.5, 0.1);
+}
+
+/// One series of all phases, told apart by their trigger times, 800 ms a cycle.
+void write_by_trigger_time(const fs::path& folder, const std::vector<int>& all) {
+  int number = 0;
+  for (const int percent : all) {
+    const imaging::ImageVolume& image = image_at(percent);
+    const auto& grid = image.geometry;
+    for (std::int64_t k = 0; k < grid.size[2]; ++k) {
+      CtSlice slice;
+      const Vec3 at = grid.world({0.0, 0.0, static_cast<double>(k)});
+      const auto text = [](double value) { return std::to_string(value); };
+      slice.position = text(at.x()) + "\\" + text(at.y()) + "\\" + text(at.z());
+      slice.pixel_spacing = text(grid.spacing.y()) + "\\" + text(grid.spacing.x());
+      slice.thickness = text(grid.spacing.z());
+      slice.columns = static_cast<unsigned>(grid.size[0]);
+      slice.rows = static_cast<unsigned>(grid.size[1]);
+      slice.instance = std::to_string(++number);
+      slice.sop_instance = "1.2.3.4." + slice.instance;
+      slice.trigger_time = std::to_string(8 * percent);
+      slice.value = [&](int i, int j) {
+        return 1024 + image.voxels[static_cast<std::size_t>((k * grid.size[1] + j) * grid.size[0] + i)];
+      };
+      write_bytes(folder / (slice.instance + ".dcm"), part10(slice.transfer_syntax, slice.data_set()));
+    }
+  }
+}
+
+/// The lumen found nearest to a phase.
+fs::path lumen_near(const fs::path& folder, double percent) {
+  fs::path best;
+  double least = 1.0;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const double off = std::abs(std::stod(entry.path().stem().string().substr(6)) - percent);
+    if (off < least) best = entry.path();
+    least = std::min(least, off);
+  }
+  return best;
+}
+
+TEST(MotionImagesCommand, ReadsThePhasesOfOneSeriesByItsTriggerTimes) {
+  const fs::path folder = folder_with_template();
+  const std::vector<int> all{0, 15, 30, 45, 60, 75, 90};
+  write_by_trigger_time(folder / "heart", all);
+  // Steps of 120 ms, seven of them: the cycle that they make is 840 ms long.
+  const Outcome done = fitted(folder, {"--template", "lumen.vtp", "--template-phase", "71.428571"});
+  ASSERT_EQ(done.code, 0) << done.err;
+  const Json report = Json::parse(core::read_file(folder / "out" / "report.json"));
+  ASSERT_EQ(report["phases"].size(), all.size());
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    EXPECT_NEAR(report["phases"][k]["percent"].get<double>(), 100.0 * static_cast<double>(k) / 7.0, 1e-6);
+    EXPECT_EQ(report["phases"][k]["origin"], k == 5 ? "at_rest" : "fitted");
+  }
+  EXPECT_LT(error_of(lumen_near(folder / "out" / "lumen", 600.0 / 7.0), 90), 0.2);
+  EXPECT_LT(error_of(lumen_near(folder / "out" / "lumen", 400.0 / 7.0), 60), 0.2);
 }
 
 TEST(MotionImagesCommand, BadInput_Row29_IsToldByFile) {

@@ -317,6 +317,8 @@ TEST(BranchRuns, ACageThatGoesWithTheHeartHasItsStretchAndTorsion) {
   const BranchAgreements near = agreement(branches);
   EXPECT_LT(near.stretch.worst, 0.02);
   EXPECT_LT(near.torsion.median, 0.05);
+  EXPECT_LT(near.torsion_size.median, 0.02);
+  EXPECT_GT(near.torsion_size.within_5_percent, 0.9);
   double shortest = 1.0;
   for (const BranchRun& run : branches) shortest = std::min(shortest, run.true_stretch);
   EXPECT_LT(shortest, 0.97);
@@ -330,7 +332,7 @@ TEST(BranchRuns, AgreementIsReckonedByHand) {
     one.phase = phase;
     one.stretch = fitted;
     one.true_stretch = truth;
-    one.torsion = one.true_torsion = std::nan("");
+    one.torsion = one.true_torsion = one.true_size = std::nan("");
     one.curvature = one.true_curvature = 0.1;
     return one;
   };
@@ -341,6 +343,7 @@ TEST(BranchRuns, AgreementIsReckonedByHand) {
   EXPECT_NEAR(near.stretch.within_5_percent, 2.0 / 3.0, 1e-9);
   EXPECT_NEAR(near.stretch.of_change, (0.09 + 0.01) / 0.1 / 3.0, 1e-9);
   EXPECT_EQ(near.torsion.count, 0U);
+  EXPECT_EQ(near.torsion_size.count, 0U);
   EXPECT_EQ(near.curvature.worst, 0.0);
 }
 

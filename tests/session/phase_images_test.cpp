@@ -1,6 +1,7 @@
 #include "ostia/session/phase_images.h"
 
 #include "case_tools.h"
+#include "dicom_writer.h"
 
 #include "ostia/core/error.h"
 #include "ostia/imaging/dicom_writer.h"
@@ -15,6 +16,9 @@ namespace ostia::session {
 namespace {
 
 using namespace testing;
+using ::ostia::testing::CtSlice;
+using ::ostia::testing::part10;
+using ::ostia::testing::write_bytes;
 using ::testing::DoubleNear;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -141,6 +145,48 @@ TEST(PhaseImages, SeriesWithAPercentInTheirDescriptionAreFound) {
   ASSERT_EQ(found.size(), 2U);
   EXPECT_DOUBLE_EQ(found[0].phase, 0.40);
   EXPECT_EQ(read_phase_image(found[1]).volume->voxels.front(), 75);
+}
+
+std::string refusal_of(const std::filesystem::path& folder) {
+  try {
+    find_phase_images(folder);
+  } catch (const InvalidInput& error) {
+    return error.what();
+  }
+  return "not refused";
+}
+
+TEST(PhaseImages, CineImagesOfSinglePositionsAreRefusedWithTheReason) {
+  const TempFolder folder;
+  for (int position = 0; position < 2; ++position)
+    for (int time = 0; time < 5; ++time) {
+      const std::string number = std::to_string(10 * position + time);
+      CtSlice slice;
+      slice.modality = "MR";
+      slice.series = "1.2.3." + std::to_string(position);
+      slice.sop_instance = "1.2.3.4." + number;
+      slice.instance = number;
+      slice.position = "0\\0\\" + std::to_string(8 * position);
+      slice.trigger_time = std::to_string(40 * time);
+      write_bytes(folder / (number + ".dcm"), part10(slice.transfer_syntax, slice.data_set()));
+    }
+  const std::string told = refusal_of(folder.path());
+  EXPECT_THAT(told, HasSubstr("10 single slices"));
+  EXPECT_THAT(told, HasSubstr("a phase needs a volume"));
+  EXPECT_THAT(told, HasSubstr("phase_35.nrrd"));
+}
+
+TEST(PhaseImages, SeriesThatSayNoPhaseAreRefusedWithWhatWasLookedFor) {
+  const TempFolder folder;
+  for (const char* name : {"one", "two"}) {
+    imaging::DicomSeriesOptions options;
+    options.series_description = "CTA";
+    options.uid_seed = name;
+    imaging::write_dicom_series(folder / name, image_of(1), options);
+  }
+  const std::string told = refusal_of(folder.path());
+  EXPECT_THAT(told, HasSubstr("none of the folder's 2 DICOM series says its phase"));
+  EXPECT_THAT(told, HasSubstr("0020,9241"));
 }
 
 TEST(PhaseImages, AFolderWithoutPhasesIsRefusedWithTheWayOut) {

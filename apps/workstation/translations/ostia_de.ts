@@ -496,6 +496,10 @@
         <source>rename, colour, cut off, split, cut, delete, join, connect</source>
         <translation>umbenennen, färben, abschneiden, teilen, durchtrennen, löschen, anschließen, verbinden</translation>
     </message>
+    <message>
+        <source>Vessel tree</source>
+        <translation>Gefäßbaum</translation>
+    </message>
 </context>
 <context>
     <name>jobs</name>
@@ -1712,6 +1716,106 @@
         <source>Back to the case&apos;s phase</source>
         <translation>Zurück zur Phase des Falls</translation>
     </message>
+    <message>
+        <source>Vessel t&amp;ree</source>
+        <translation>Gefäß&amp;baum</translation>
+    </message>
+    <message>
+        <source>Choose a segment</source>
+        <translation>Segment auswählen</translation>
+    </message>
+    <message>
+        <source>A click on a segment shows its facts.</source>
+        <translation>Ein Klick auf ein Segment zeigt seine Daten.</translation>
+    </message>
+    <message>
+        <source>Straight distance</source>
+        <translation>Gerader Abstand</translation>
+    </message>
+    <message>
+        <source>Click two places on the vessels&apos; walls.</source>
+        <translation>Klicken Sie auf zwei Stellen der Gefäßwände.</translation>
+    </message>
+    <message>
+        <source>Distance along the tree</source>
+        <translation>Abstand entlang des Baums</translation>
+    </message>
+    <message>
+        <source>Click two places; the way is along the vessels&apos; axes.</source>
+        <translation>Klicken Sie auf zwei Stellen; der Weg geht entlang der Gefäßachsen.</translation>
+    </message>
+    <message>
+        <source>Angle of two segments</source>
+        <translation>Winkel zweier Segmente</translation>
+    </message>
+    <message>
+        <source>Click two segments; between their distal directions.</source>
+        <translation>Klicken Sie auf zwei Segmente; zwischen ihren distalen Richtungen.</translation>
+    </message>
+    <message>
+        <source>Region</source>
+        <translation>Region</translation>
+    </message>
+    <message>
+        <source>Click the centre of a ball; what lies in it is added up.</source>
+        <translation>Klicken Sie auf die Mitte einer Kugel; was darin liegt, wird zusammengezählt.</translation>
+    </message>
+    <message>
+        <source>Coordinate grid</source>
+        <translation>Koordinatengitter</translation>
+    </message>
+    <message>
+        <source>Lines at round coordinates.</source>
+        <translation>Linien an runden Koordinaten.</translation>
+    </message>
+    <message>
+        <source>Subtree only</source>
+        <translation>Nur der Teilbaum</translation>
+    </message>
+    <message>
+        <source>Shows the chosen segment and all behind it alone.</source>
+        <translation>Zeigt nur das gewählte Segment und alles dahinter.</translation>
+    </message>
+    <message>
+        <source>All of the tree</source>
+        <translation>Ganzer Baum</translation>
+    </message>
+    <message>
+        <source>Shows all of the vessel tree.</source>
+        <translation>Zeigt den ganzen Gefäßbaum.</translation>
+    </message>
+    <message>
+        <source>Copy the values</source>
+        <translation>Werte kopieren</translation>
+    </message>
+    <message>
+        <source>Puts what was measured on the clipboard, as a table.</source>
+        <translation>Legt das Gemessene als Tabelle in die Zwischenablage.</translation>
+    </message>
+    <message>
+        <source>Save the values…</source>
+        <translation>Werte speichern…</translation>
+    </message>
+    <message>
+        <source>Writes what was measured as a table (CSV).</source>
+        <translation>Schreibt das Gemessene als Tabelle (CSV).</translation>
+    </message>
+    <message>
+        <source>Forget the values</source>
+        <translation>Werte verwerfen</translation>
+    </message>
+    <message>
+        <source>Takes all that was measured in the tree away.</source>
+        <translation>Entfernt alles, was im Baum gemessen wurde.</translation>
+    </message>
+    <message>
+        <source>Close the tree</source>
+        <translation>Baum schließen</translation>
+    </message>
+    <message>
+        <source>Closes the vessel tree; the case&apos;s views come back.</source>
+        <translation>Schließt den Gefäßbaum; die Ansichten des Falls kommen zurück.</translation>
+    </message>
 </context>
 <context>
     <name>ostia::workstation::ManualDialog</name>
@@ -2310,6 +2414,10 @@
             <numerusform>Das Programm endete, ohne diesen Fall und %n weiteren zu schließen, der unter den letzten Fällen steht.</numerusform>
             <numerusform>Das Programm endete, ohne diesen Fall und %n weitere zu schließen, die unter den letzten Fällen stehen.</numerusform>
         </translation>
+    </message>
+    <message>
+        <source>Vessel trees (*.vtp *.vtk *.swc *.csv *.gxl *.xml *.dat)</source>
+        <translation>Gefäßbäume (*.vtp *.vtk *.swc *.csv *.gxl *.xml *.dat)</translation>
     </message>
 </context>
 <context>
@@ -3316,6 +3424,164 @@
     <message>
         <source>%1 makes the report with key images, segments, stenoses and measurements. %2 shows all keys and mouse gestures, Help &gt; Manual leads from DICOM to the report, Help &gt; Tour repeats this tour. Ostia is research software, not a medical device.</source>
         <translation>%1 erstellt den Befund mit Schlüsselbildern, Segmenten, Stenosen und Messungen. %2 zeigt alle Tasten und Mausgesten, Hilfe &gt; Handbuch führt von DICOM zum Befund, Hilfe &gt; Rundgang wiederholt diesen Rundgang. Ostia ist Forschungssoftware, kein Medizinprodukt.</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::TreeOpening</name>
+    <message>
+        <source>Reading the vessel tree</source>
+        <translation>Gefäßbaum wird gelesen</translation>
+    </message>
+    <message>
+        <source>The tree cannot be opened</source>
+        <translation>Der Baum kann nicht geöffnet werden</translation>
+    </message>
+    <message>
+        <source>Faults in the tree</source>
+        <translation>Fehler im Baum</translation>
+    </message>
+    <message>
+        <source>%1 has faults: %2.
+
+A repair changes what is shown, never the file.</source>
+        <translation>%1 hat Fehler: %2.
+
+Eine Reparatur ändert, was gezeigt wird, nie die Datei.</translation>
+    </message>
+    <message>
+        <source>Repair and open</source>
+        <translation>Reparieren und öffnen</translation>
+    </message>
+    <message>
+        <source>Open as it is</source>
+        <translation>Unverändert öffnen</translation>
+    </message>
+    <message>
+        <source>Measuring the vessel tree</source>
+        <translation>Gefäßbaum wird vermessen</translation>
+    </message>
+    <message>
+        <source>No vessel tree is open: open a file of one first.</source>
+        <translation>Kein Gefäßbaum ist geöffnet: Öffnen Sie zuerst eine Datei mit einem.</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::TreePage</name>
+    <message>
+        <source>Radius of a region</source>
+        <translation>Radius einer Region</translation>
+    </message>
+    <message>
+        <source> mm</source>
+        <translation> mm</translation>
+    </message>
+    <message>
+        <source>Measured</source>
+        <translation>Gemessen</translation>
+    </message>
+    <message>
+        <source>Value</source>
+        <translation>Wert</translation>
+    </message>
+    <message>
+        <source>Measured values</source>
+        <translation>Messwerte</translation>
+    </message>
+    <message>
+        <source>Click a segment first: what lies behind it is then shown alone.</source>
+        <translation>Klicken Sie zuerst auf ein Segment: Nur was dahinter liegt, wird dann gezeigt.</translation>
+    </message>
+    <message>
+        <source>Save the measured values as</source>
+        <translation>Messwerte speichern unter</translation>
+    </message>
+    <message>
+        <source>Tables (*.csv)</source>
+        <translation>Tabellen (*.csv)</translation>
+    </message>
+    <message>
+        <source>%1 degrees</source>
+        <translation>%1 Grad</translation>
+    </message>
+    <message>
+        <source>%1 mm</source>
+        <translation>%1 mm</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n segment(s), %1 mm, %2 mm², %3 mm³</source>
+        <translation>
+            <numerusform>%n Segment, %1 mm, %2 mm², %3 mm³</numerusform>
+            <numerusform>%n Segmente, %1 mm, %2 mm², %3 mm³</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n segment(s)</source>
+        <translation>
+            <numerusform>%n Segment</numerusform>
+            <numerusform>%n Segmente</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Click a segment to see its facts.</source>
+        <translation>Klicken Sie auf ein Segment, um seine Daten zu sehen.</translation>
+    </message>
+    <message>
+        <source>Length %1 mm</source>
+        <translation>Länge %1 mm</translation>
+    </message>
+    <message>
+        <source>Radius %1 to %2 mm</source>
+        <translation>Radius %1 bis %2 mm</translation>
+    </message>
+    <message>
+        <source>Lateral area %1 mm²</source>
+        <translation>Mantelfläche %1 mm²</translation>
+    </message>
+    <message>
+        <source>Volume %1 mm³</source>
+        <translation>Volumen %1 mm³</translation>
+    </message>
+    <message>
+        <source>Strahler order %1, by diameter %2</source>
+        <translation>Ordnung nach Strahler %1, nach Durchmesser %2</translation>
+    </message>
+    <message>
+        <source>From the root %1 mm</source>
+        <translation>Von der Wurzel %1 mm</translation>
+    </message>
+    <message numerus="yes">
+        <source>With all behind it: %n segment(s),</source>
+        <translation>
+            <numerusform>Mit allem dahinter: %n Segment,</numerusform>
+            <numerusform>Mit allem dahinter: %n Segmente,</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>%1 mm, %2 mm², %3 mm³</source>
+        <translation>%1 mm, %2 mm², %3 mm³</translation>
+    </message>
+    <message>
+        <source>At its fork %1° between the two, %2° and %3° from the parent</source>
+        <translation>An seiner Gabel %1° zwischen beiden, %2° und %3° vom Stamm</translation>
+    </message>
+    <message>
+        <source>Orders and what lies behind it are known of trees alone.</source>
+        <translation>Ordnungen und was dahinter liegt sind nur bei Bäumen bekannt.</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::TreeView</name>
+    <message>
+        <source>Vessel tree</source>
+        <translation>Gefäßbaum</translation>
+    </message>
+    <message>
+        <source>The display&apos;s OpenGL is older than 3.3: the tree cannot be drawn.</source>
+        <translation>Das OpenGL der Anzeige ist älter als 3.3: Der Baum kann nicht gezeichnet werden.</translation>
+    </message>
+    <message>
+        <source>The graphics driver refuses the tree&apos;s drawing: %1</source>
+        <translation>Der Grafiktreiber lehnt das Zeichnen des Baums ab: %1</translation>
     </message>
 </context>
 <context>

@@ -44,6 +44,21 @@ Bends bends_of(const std::vector<Vec3>& points, const LineDerivatives& derivativ
   return bends;
 }
 
+/// Mean of the torsion's size, weighted by the curvature squared: both parts are polynomials of derivatives,
+/// so that straight pieces neither count nor spoil it.
+double torsion_size(const std::vector<Vec3>& points, const LineDerivatives& derivatives,
+                    const std::vector<double>& shares) {
+  const auto d = derivatives(points);
+  double sum = 0.0, weight = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec3 across = d[0][i].cross(d[1][i]);
+    const double share = shares[i] / std::max(std::pow(d[0][i].squaredNorm(), 3), 1e-12);
+    sum += share * std::abs(across.dot(d[2][i]));
+    weight += share * across.squaredNorm();
+  }
+  return weight > 0.0 ? sum / weight : not_measured;
+}
+
 /// Degrees that places beside the axis have turned about it, against a frame that does not turn.
 std::vector<double> twist_of(const std::vector<Vec3>& axis, const std::vector<Vec3>& beside) {
   // Tangents from neighbours alone: those of fitted polynomials cut sharp bends short, which frames would
@@ -62,9 +77,9 @@ std::vector<double> twist_of(const std::vector<Vec3>& axis, const std::vector<Ve
 
 class Measurer {
  public:
-  Measurer(const MovingBranch& branch, const MotionMeasureOptions& options,
+  Measurer(const MovingBranch& branch, const PhasePoints& common, const MotionMeasureOptions& options,
            std::vector<std::string>& warnings)
-      : branch_(branch), options_(options), shares_(length_shares(branch.s_mm)) {
+      : branch_(branch), common_(common), options_(options), shares_(length_shares(branch.s_mm)) {
     const double length = branch.s_mm.back();
     limits_.shape = branch.rest.size() >= least_points;
     limits_.curvature = limits_.shape && length >= options.reach_mm;
@@ -85,6 +100,7 @@ class Measurer {
     const std::vector<double> still(branch_.rest.size(), 0.0);
     displaced(still, still, true);
     shaped(branch_.rest, {}, true);
+    sized(branch_.rest, true);
     for (std::size_t k = 0; k < branch_.places.size(); ++k) {
       std::vector<double> displacement, speed;
       for (std::size_t i = 0; i < branch_.rest.size(); ++i) {
@@ -93,6 +109,7 @@ class Measurer {
       }
       displaced(displacement, speed, false);
       shaped(shape_of(branch_)[k], branch_.beside.empty() ? std::vector<Vec3>{} : branch_.beside[k], false);
+      sized(common_[k], false);
     }
     return std::move(motion_);
   }
@@ -163,6 +180,13 @@ class Measurer {
     set(LocalMeasure::twist, twist, at_template);
   }
 
+  void sized(const std::vector<Vec3>& points, bool at_template) {
+    const bool bends =
+        limits_.torsion && motion_[BranchMeasure::curvature_max].at_template >= limits_.least_curvature;
+    set(BranchMeasure::torsion_size, bends ? torsion_size(points, *derivatives_, shares_) : not_measured,
+        at_template);
+  }
+
   void stretched(const std::vector<Vec3>& points, const Bends& bends, bool at_template) {
     std::vector<double> stretch;
     for (std::size_t i = 0; i < bends.speed.size(); ++i)
@@ -196,6 +220,7 @@ class Measurer {
   }
 
   const MovingBranch& branch_;
+  const PhasePoints& common_;
   const MotionMeasureOptions& options_;
   std::vector<double> shares_;
   Limits limits_;
@@ -220,9 +245,9 @@ std::vector<double> length_shares(const std::vector<double>& s_mm) {
   return shares;
 }
 
-BranchMotion branch_motion(const MovingBranch& branch, const MotionMeasureOptions& options,
-                           std::vector<std::string>& warnings) {
-  return Measurer(branch, options, warnings).measured();
+BranchMotion branch_motion(const MovingBranch& branch, const PhasePoints& common,
+                           const MotionMeasureOptions& options, std::vector<std::string>& warnings) {
+  return Measurer(branch, common, options, warnings).measured();
 }
 
 }  // namespace ostia::analysis

@@ -1,6 +1,7 @@
 #include "ostia/analysis/motion_measures.h"
 
 #include "motion_parts.h"
+#include "smooth_motion.h"
 
 #include "ostia/core/error.h"
 
@@ -40,6 +41,7 @@ const MeasureName& name_of(BranchMeasure measure) {
        {"torsion_mean", "1/mm", "mean torsion"},
        {"torsion_change", "1/mm", "mean change of torsion"},
        {"torsion_total", "deg", "total torsion"},
+       {"torsion_size", "1/mm", "size of the torsion"},
        {"torsion_share", "", "share with torsion"},
        {"twist", "deg", "twist"}}};
   return names.at(static_cast<std::size_t>(measure));
@@ -75,11 +77,12 @@ TreeMotion measure_motion(const MovingTree& tree, const MotionMeasureOptions& op
   motion.warnings = tree.warnings;
   double length = 0.0;
   for (const MovingBranch& branch : tree.branches) length += branch.s_mm.back();
+  const std::vector<PhasePoints> common = smooth_motion(tree, task);
   PhaseDistances together;
   for (std::size_t b = 0; b < tree.branches.size(); ++b) {
     task.throw_if_cancelled();
     const MovingBranch& branch = tree.branches[b];
-    motion.branches.push_back(branch_motion(branch, options, motion.warnings));
+    motion.branches.push_back(branch_motion(branch, common[b], options, motion.warnings));
     const PhaseDistances distances = phase_distances(branch);
     motion.branches.back().rests = rest_periods(distances, tree.phases, options.rest_mm);
     add(together, distances, branch.s_mm.back() / length);

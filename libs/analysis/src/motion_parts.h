@@ -11,9 +11,10 @@ const PhasePoints& shape_of(const MovingBranch& branch);
 /// Each point's share of the branch's length at the template; their sum is 1.
 std::vector<double> length_shares(const std::vector<double>& s_mm);
 
-/// Everything but rest periods.
-BranchMotion branch_motion(const MovingBranch& branch, const MotionMeasureOptions& options,
-                           std::vector<std::string>& warnings);
+/// Everything but rest periods. `common`: its points by the motion that all branches have in common
+/// (smooth_motion).
+BranchMotion branch_motion(const MovingBranch& branch, const PhasePoints& common,
+                           const MotionMeasureOptions& options, std::vector<std::string>& warnings);
 
 /// Mean distance between places at each two phases, weighted by length: [phase][phase], mm.
 using PhaseDistances = std::vector<std::vector<double>>;

@@ -116,6 +116,9 @@ std::vector<BranchRun> branch_runs(const BeatingHeart& heart, const geometry::Ca
       run.torsion = value(*same, BranchMeasure::torsion_mean);
       run.true_torsion = value(known, BranchMeasure::torsion_mean);
       run.template_torsion = known[BranchMeasure::torsion_mean].at_template;
+      run.size = value(*same, BranchMeasure::torsion_size);
+      run.true_size = value(known, BranchMeasure::torsion_size);
+      run.template_size = known[BranchMeasure::torsion_size].at_template;
       run.curvature = value(*same, BranchMeasure::curvature_mean);
       run.true_curvature = value(known, BranchMeasure::curvature_mean);
       run.template_curvature = known[BranchMeasure::curvature_mean].at_template;
@@ -126,14 +129,15 @@ std::vector<BranchRun> branch_runs(const BeatingHeart& heart, const geometry::Ca
 }
 
 BranchAgreements agreement(const std::vector<BranchRun>& branches) {
-  Errors stretch, torsion, curvature;
+  Errors stretch, torsion, size, curvature;
   for (const BranchRun& run : branches) {
     const std::string branch = run.heart + " " + run.branch;
     stretch.add(branch, run.stretch, run.true_stretch, 1.0, 0.0);
     torsion.add(branch, run.torsion, run.true_torsion, run.template_torsion, least_torsion_per_mm);
+    size.add(branch, run.size, run.true_size, run.template_size, least_torsion_per_mm);
     curvature.add(branch, run.curvature, run.true_curvature, run.template_curvature, 0.0);
   }
-  return {stretch.result(), torsion.result(), curvature.result()};
+  return {stretch.result(), torsion.result(), size.result(), curvature.result()};
 }
 
 }  // namespace ostia::experiments

@@ -32,6 +32,9 @@ const Cells branch_header{"heart",
                           "torsion",
                           "true_torsion",
                           "template_torsion",
+                          "torsion_size",
+                          "true_torsion_size",
+                          "template_torsion_size",
                           "curvature",
                           "true_curvature",
                           "template_curvature"};
@@ -52,7 +55,8 @@ std::string line_of(const MotionRun& r) {
 std::string line_of(const BranchRun& r) {
   return core::csv_line({r.heart, number(100.0 * r.phase), std::to_string(r.depth), r.branch,
                          number(r.length_mm), number(r.stretch), number(r.true_stretch), number(r.torsion),
-                         number(r.true_torsion), number(r.template_torsion), number(r.curvature),
+                         number(r.true_torsion), number(r.template_torsion), number(r.size),
+                         number(r.true_size), number(r.template_size), number(r.curvature),
                          number(r.true_curvature), number(r.template_curvature)});
 }
 
@@ -116,8 +120,9 @@ BranchRun branch_of(Line& line) {
   r.phase = line.phase();
   r.depth = static_cast<int>(line.count());
   r.branch = line.text();
-  for (double* value : {&r.length_mm, &r.stretch, &r.true_stretch, &r.torsion, &r.true_torsion,
-                        &r.template_torsion, &r.curvature, &r.true_curvature, &r.template_curvature})
+  for (double* value :
+       {&r.length_mm, &r.stretch, &r.true_stretch, &r.torsion, &r.true_torsion, &r.template_torsion, &r.size,
+        &r.true_size, &r.template_size, &r.curvature, &r.true_curvature, &r.template_curvature})
     *value = line.value();
   return r;
 }

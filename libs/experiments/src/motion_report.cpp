@@ -203,14 +203,17 @@ figure::Picture branch_plots(const std::vector<BranchRun>& branches) {
                            "stretch", "", [](const BranchRun& r) { return r.true_stretch; },
                            [](const BranchRun& r) { return r.stretch; }),
                        plot(
-                           "mean torsion", "1/mm", [](const BranchRun& r) { return r.true_torsion; },
-                           [](const BranchRun& r) { return r.torsion; })},
+                           "size of the torsion", "1/mm", [](const BranchRun& r) { return r.true_size; },
+                           [](const BranchRun& r) { return r.size; })},
                       {.columns = 2, .look = figure::Look::light});
 }
 
-using NamedAgreements = std::array<std::pair<const char*, BranchAgreement>, 3>;
+using NamedAgreements = std::array<std::pair<const char*, BranchAgreement>, 4>;
 NamedAgreements named(const BranchAgreements& near) {
-  return {{{"stretch", near.stretch}, {"torsion", near.torsion}, {"curvature", near.curvature}}};
+  return {{{"stretch", near.stretch},
+           {"torsion", near.torsion},
+           {"torsion size", near.torsion_size},
+           {"curvature", near.curvature}}};
 }
 
 Json agreement_json(const BranchAgreement& a) {
@@ -229,6 +232,7 @@ void add_branches(figure::HtmlReport& page, const std::vector<BranchRun>& branch
   page.table(
       {"measure", "values", "median, %", "95 %, %", "worst, %", "within 5 %, %", "of the change, %"}, lines,
       "Fitted against known, branch by branch and phase by phase; torsion where it is 0.005/mm or more; "
+      "torsion: the mean with its sign; its size: of the motion that all branches have in common; "
       "of the change: mean error over the branch's largest change from the template.");
 }
 
@@ -264,6 +268,7 @@ std::string motion_json(const MotionResults& results, const MotionOptions& optio
   const BranchAgreements near = agreement(results.branches);
   out["branches"] = Json{{"stretch", agreement_json(near.stretch)},
                          {"torsion", agreement_json(near.torsion)},
+                         {"torsion_size", agreement_json(near.torsion_size)},
                          {"curvature", agreement_json(near.curvature)}};
   return out.dump(1) + "\n";
 }
@@ -293,7 +298,7 @@ std::string motion_text(const MotionResults& results) {
   for (const auto& [name, one] : named(near)) {
     std::snprintf(
         line, sizeof line,
-        "%-10s %5zu values, error: median %.2f %%, 95 %% below %.2f %%, worst %.1f %%; within 5 %%: "
+        "%-12s %5zu values, error: median %.2f %%, 95 %% below %.2f %%, worst %.1f %%; within 5 %%: "
         "%.1f %%; of the change: %.1f %%\n",
         name, one.count, 100.0 * one.median, 100.0 * one.p95, 100.0 * one.worst, 100.0 * one.within_5_percent,
         100.0 * one.of_change);
@@ -332,7 +337,7 @@ void write_motion_report(const std::filesystem::path& folder, const MotionResult
          "Mean over the hearts, by method, at the phases at which each was run.");
   if (!results.branches.empty())
     save(page, folder, "branches.png", branch_plots(results.branches),
-         "Stretch and mean torsion of the longest branches: known (solid) and fitted (dashed).");
+         "Stretch and size of the torsion of the longest branches: known (solid) and fitted (dashed).");
   page.section("Heart by heart");
   for (const std::string& heart : hearts_of(runs)) {
     std::string file = heart + ".png";

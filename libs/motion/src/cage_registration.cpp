@@ -180,12 +180,11 @@ Registration through_depths(const TriMesh& source, const TriMesh& target, const 
   return result;
 }
 
-/// A cell that cannot be pressed further has ended the rounds too early.
+}  // namespace
+
 bool is_stuck(const RegistrationReport& report) {
   return report.least_jacobian < strained_jacobian && report.mean_distance_mm > fine_distance_mm;
 }
-
-}  // namespace
 
 void validate(const RegistrationOptions& options) {
   check_cage_options(options.depth, options.margin, options.max_angle_deg, options.energy);

@@ -1,11 +1,12 @@
 #include "image_cage.h"
 
+#include "cancellable_solve.h"
+
 #include "ostia/core/parallel.h"
 #include "ostia/geometry/mesh_topology.h"
 #include "ostia/imaging/filters.h"
 #include "ostia/imaging/sampling.h"
 
-#include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseCore>
 
 #include <algorithm>
@@ -115,14 +116,12 @@ class ImageCage::Solver {
     Points moved(grid_.point_count(), Vec3::Zero());
     std::vector<double> off = differences(begin);
     const double noise = std::max(least_noise_hu, 1.4826 * median_size(off));
-    double cost = cost_of(off, noise);
     for (int round = 0; round < most_rounds; ++round) {
       task.throw_if_cancelled();
-      const auto [matrix, right] = system(begin, control_points, moved, off, noise);
-      Eigen::ConjugateGradient<Matrix, Eigen::Lower | Eigen::Upper> solver;
-      solver.setTolerance(solver_tolerance);
-      solver.compute(matrix);
-      const Eigen::VectorXd step = solver.solve(right);
+      const System system = system_of(begin, control_points, moved, off, noise);
+      const Eigen::VectorXd step = solved(system.matrix, system.right, solver_tolerance, task);
+      // Of the same springs before and after: their stiffness follows the images' terms, round by round.
+      const double cost = cost_of(off, noise) + spring_energy(system.stiffness, begin, moved);
       double share = 1.0, taken = 0.0;
       bool better = false;
       for (int halving = 0; halving <= most_halvings && !better; ++halving, share *= 0.5) {
@@ -131,11 +130,10 @@ class ImageCage::Solver {
           next[p] += share * step.segment<3>(static_cast<Eigen::Index>(3 * p));
         Points places = added(begin, next);
         std::vector<double> now = differences(places);
-        const double now_cost = cost_of(now, noise);
+        const double now_cost = cost_of(now, noise) + spring_energy(system.stiffness, begin, next);
         if (now_cost >= cost || least_jacobian_of(whole_, places) < least_jacobian) continue;
         better = true;
         taken = share;
-        cost = now_cost;
         moved = std::move(next);
         control_points = std::move(places);
         off = std::move(now);
@@ -168,6 +166,11 @@ class ImageCage::Solver {
 
  private:
   using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+  struct System {
+    Matrix matrix;
+    Eigen::VectorXd right;
+    double stiffness = 0.0;  ///< of the springs: the mean diagonal of the images' terms
+  };
   struct CellTerms {
     Eigen::Matrix<double, 24, 24> hessian = Eigen::Matrix<double, 24, 24>::Zero();
     Eigen::Matrix<double, 24, 1> gradient = Eigen::Matrix<double, 24, 1>::Zero();
@@ -206,9 +209,8 @@ class ImageCage::Solver {
   }
 
   /// Gauss-Newton's equations with springs between neighbouring control points.
-  std::pair<Matrix, Eigen::VectorXd> system(const Points& begin, const Points& control_points,
-                                            const Points& moved, const std::vector<double>& off,
-                                            double noise) const {
+  System system_of(const Points& begin, const Points& control_points, const Points& moved,
+                   const std::vector<double>& off, double noise) const {
     std::vector<CellTerms> terms(grid_.cell_count());
     core::parallel_for(terms.size(), 4, [&](std::size_t cell) {
       if (!level_.of[cell].empty()) terms[cell] = terms_of(cell, control_points, off, noise);
@@ -230,10 +232,13 @@ class ImageCage::Solver {
       }
     }
     const auto known = static_cast<double>(std::max<std::ptrdiff_t>(1, std::ranges::count(seen, true)));
-    add_springs(std::max(1e-9, trace / (3.0 * known)), begin, moved, entries, right);
+    const double stiffness = std::max(1e-9, trace / (3.0 * known));
+    for_springs(stiffness, begin, moved, [&](const Spring& spring, const Points& displaced) {
+      add_spring(spring, displaced, entries, right);
+    });
     Matrix matrix(size, size);
     matrix.setFromTriplets(entries.begin(), entries.end());
-    return {std::move(matrix), std::move(right)};
+    return {std::move(matrix), std::move(right), stiffness};
   }
 
   /// A term `stiffness` |sum of factors times displacements|^2 / 2.
@@ -242,11 +247,15 @@ class ImageCage::Solver {
     std::array<double, 3> factors{};
     double stiffness = 0.0;
   };
-  static void add_spring(const Spring& one, const Points& displaced,
-                         std::vector<Eigen::Triplet<double>>& entries, Eigen::VectorXd& right) {
+  static Vec3 sum_of(const Spring& one, const Points& displaced) {
     Vec3 sum = Vec3::Zero();
     for (std::size_t p = 0; p < 3; ++p)
       sum += one.factors[p] * displaced[static_cast<std::size_t>(one.points[p])];
+    return sum;
+  }
+  static void add_spring(const Spring& one, const Points& displaced,
+                         std::vector<Eigen::Triplet<double>>& entries, Eigen::VectorXd& right) {
+    const Vec3 sum = sum_of(one, displaced);
     for (std::size_t p = 0; p < 3; ++p)
       for (int a = 0; a < 3; ++a) {
         right[3 * one.points[p] + a] -= one.stiffness * one.factors[p] * sum[a];
@@ -270,9 +279,18 @@ class ImageCage::Solver {
     return out;
   }
 
+  /// Twice that of all springs, as cost_of is twice that of the images' terms.
+  double spring_energy(double stiffness, const Points& begin, const Points& moved) const {
+    double sum = 0.0;
+    for_springs(stiffness, begin, moved, [&](const Spring& spring, const Points& displaced) {
+      sum += spring.stiffness * sum_of(spring, displaced).squaredNorm();
+    });
+    return sum;
+  }
+
   /// Against bending of the whole displacement and stretching of this level's.
-  void add_springs(double stiffness, const Points& begin, const Points& moved,
-                   std::vector<Eigen::Triplet<double>>& entries, Eigen::VectorXd& right) const {
+  template <class Take>
+  void for_springs(double stiffness, const Points& begin, const Points& moved, const Take& take) const {
     const int n = grid_.points_a_side();
     const Points whole = whole_displacement(begin, moved);
     for (int k = 0; k < n; ++k)
@@ -280,14 +298,13 @@ class ImageCage::Solver {
         for (int i = 0; i < n; ++i) {
           const std::array<int, 3> at{i, j, k};
           const std::int32_t p = grid_.point(i, j, k);
-          add_spring({{p, p, p}, {1.0, 0.0, 0.0}, ridge * stiffness}, moved, entries, right);
+          take(Spring{{p, p, p}, {1.0, 0.0, 0.0}, ridge * stiffness}, moved);
           for (std::size_t a = 0; a < 3; ++a) {
             const std::int32_t step = a == 0 ? 1 : a == 1 ? n : n * n;
             if (at[a] + 1 < n)
-              add_spring({{p, p + step, p}, {-1.0, 1.0, 0.0}, stretching * stiffness}, moved, entries, right);
+              take(Spring{{p, p + step, p}, {-1.0, 1.0, 0.0}, stretching * stiffness}, moved);
             if (at[a] > 0 && at[a] + 1 < n)
-              add_spring({{p - step, p, p + step}, {1.0, -2.0, 1.0}, bending * stiffness}, whole, entries,
-                         right);
+              take(Spring{{p - step, p, p + step}, {1.0, -2.0, 1.0}, bending * stiffness}, whole);
           }
         }
   }

@@ -28,7 +28,6 @@ constexpr double least_share = 0.5;
 constexpr double most_distance = 4.0;
 constexpr double fine_distance_mm = 0.1;  // never worth a word
 constexpr double failed_share = 0.01;     // of the template's size: a distance above it is a failure
-constexpr double strained_jacobian = 0.05;
 constexpr double fine_jacobian = 1e-6;
 
 double time_between(double a, double b) {
@@ -60,11 +59,6 @@ bool can_lead(const motion::RegistrationReport& report, const motion::Registrati
   return report.paired_share >= least_share * before.paired_share;
 }
 
-/// A cell that cannot be pressed further has ended the registration too early.
-bool is_stuck(const motion::RegistrationReport& report) {
-  return report.least_jacobian < strained_jacobian && report.mean_distance_mm > fine_distance_mm;
-}
-
 Fitted descended(const TriMesh& shape, const TriMesh& target, const motion::RegistrationOptions& options,
                  const core::TaskContext& task) {
   motion::DescentOptions how;
@@ -92,7 +86,7 @@ Fitted registered(const TriMesh& shape, const TriMesh& target, const motion::Reg
   Fitted best = fitted(1.0, false);
   for (const double stiffness : {10.0, 100.0}) {
     for (const bool from_rest : {false, true}) {
-      if (!is_stuck(best.report)) return best;
+      if (!motion::is_stuck(best.report)) return best;
       if (from_rest && options.start.empty()) continue;
       Fitted other = fitted(stiffness, from_rest);
       const double least = least_share * best.report.paired_share;

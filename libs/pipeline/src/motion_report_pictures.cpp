@@ -68,6 +68,8 @@ const std::vector<PlotOf>& plots() {
       {BranchMeasure::curvature_mean, true, "Mean curvature of the axis."},
       {BranchMeasure::curvature_change, true, "Mean of the local absolute changes from the template."},
       {BranchMeasure::torsion_mean, false, "Mean torsion of the axis; positive: a right-handed screw."},
+      {BranchMeasure::torsion_size, false,
+       "Mean size of the torsion, of the motion that all branches have in common."},
       {BranchMeasure::torsion_total, false, "Degrees that the osculating plane turns from end to end."},
       {BranchMeasure::twist, false,
        "Degrees that the distal end has turned about the axis against the proximal one."}};

@@ -117,8 +117,37 @@ std::vector<PhaseSource> series_by_percent(const std::vector<imaging::DicomSerie
   return found.size() > 1 || found.size() == all.size() ? found : std::vector<PhaseSource>{};
 }
 
+constexpr const char* way_out = "files named by their percent of the cycle, as in phase_35.nrrd";
+
+/// Why none of the DICOM series is of a phase, and the way out.
+std::string no_phases(const std::vector<imaging::DicomSeries>& all) {
+  const std::string count = std::to_string(all.size());
+  const auto is_slice = [](const imaging::DicomSeries& one) { return one.files.size() == 1; };
+  const auto is_faulty = [](const imaging::DicomSeries& one) { return !one.faults.empty(); };
+  if (all.empty())
+    return std::string("no image in the folder says its phase: name image ") + way_out +
+           ", or choose a DICOM series with several cardiac phases";
+  if (std::all_of(all.begin(), all.end(), is_slice))
+    return "the folder's DICOM images are " + count +
+           " single slices, each of a position and a time of its own, as cine images of a few positions are; "
+           "a phase needs a volume: export series that cover the heart at each phase, or write the volumes "
+           "into " +
+           way_out;
+  if (std::all_of(all.begin(), all.end(), is_faulty))
+    return "none of the folder's " + count +
+           " DICOM series can be read as a volume: `ostia info` says of each why not; mend that, or write "
+           "the "
+           "volumes into " +
+           way_out;
+  return "none of the folder's " + count +
+         " DICOM series says its phase: there is no percent of the cardiac phase (0020,9241), no trigger "
+         "times within a series (0018,1060) and no percent in a description; write the volumes into " +
+         way_out;
+}
+
 std::vector<PhaseSource> dicom_series(const fs::path& folder, const core::TaskContext& task) {
   std::vector<imaging::DicomSeries> all = imaging::scan_dicom(folder, task).series;
+  const std::string why = no_phases(all);
   std::erase_if(all, [](const imaging::DicomSeries& one) { return !one.faults.empty(); });
   std::vector<PhaseSource> found = series_by_percent(all);
   if (!found.empty()) return found;
@@ -138,6 +167,7 @@ std::vector<PhaseSource> dicom_series(const fs::path& folder, const core::TaskCo
         found.push_back({share_of(number.value), {}, one});
         break;
       }
+  if (found.empty()) throw InvalidInput(why);
   return found;
 }
 
@@ -189,10 +219,6 @@ std::vector<PhaseSource> find_phase_images(const fs::path& folder, const core::T
   std::vector<PhaseSource> found = image_files(folder);
   if (found.empty()) found = image_folders(folder);
   if (found.empty()) found = dicom_series(folder, task);
-  if (found.empty())
-    throw InvalidInput(
-        "no image in the folder says its phase: name image files by their percent of the cycle, as in "
-        "phase_35.nrrd, or choose a DICOM series with several cardiac phases");
   std::sort(found.begin(), found.end(),
             [](const PhaseSource& a, const PhaseSource& b) { return a.phase < b.phase; });
   for (std::size_t i = 1; i < found.size(); ++i)

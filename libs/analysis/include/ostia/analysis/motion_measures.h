@@ -38,10 +38,13 @@ enum class BranchMeasure {
   torsion_mean,      ///< 1/mm, of Frenet and Serret, positive for a right-handed screw
   torsion_change,    ///< 1/mm: mean of the local absolute changes
   torsion_total,     ///< degrees that the osculating plane turns over the branch
-  torsion_share,     ///< of the branch on which it bends enough for torsion
-  twist,             ///< degrees that the distal end has turned about the axis against the proximal one
+  torsion_size,   ///< 1/mm: mean of the torsion without its sign, weighted by the curvature squared, of the
+                  ///< axis moved by what all branches' motion has in common over 80 mm: what a fitted
+                  ///< motion tells
+  torsion_share,  ///< of the branch on which it bends enough for torsion
+  twist,          ///< degrees that the distal end has turned about the axis against the proximal one
 };
-inline constexpr std::size_t branch_measure_count = 16;
+inline constexpr std::size_t branch_measure_count = 17;
 
 /// What is measured along a branch, one value a phase and point.
 enum class LocalMeasure { displacement, speed, stretch, curvature, torsion, twist };

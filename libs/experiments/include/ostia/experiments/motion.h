@@ -73,6 +73,8 @@ struct BranchRun {
   double stretch = 0.0, true_stretch = 0.0;      ///< length over that at the template
   double torsion = 0.0, true_torsion = 0.0;      ///< of the axis, 1/mm
   double template_torsion = 0.0;                 ///< 1/mm
+  double size = 0.0, true_size = 0.0;            ///< of the torsion (BranchMeasure::torsion_size), 1/mm
+  double template_size = 0.0;                    ///< 1/mm
   double curvature = 0.0, true_curvature = 0.0;  ///< 1/mm
   double template_curvature = 0.0;
 };
@@ -108,9 +110,9 @@ struct BranchAgreement {
   double within_5_percent = 0.0;                ///< share of them
   double of_change = 0.0;  ///< mean |fitted - true| over the branch's largest true change from the template
 };
-/// Torsion is compared where the true one is at least 0.005/mm: the rest bends in a plane.
+/// Torsion and its size are compared where the true one is at least 0.005/mm: the rest bends in a plane.
 struct BranchAgreements {
-  BranchAgreement stretch, torsion, curvature;
+  BranchAgreement stretch, torsion, torsion_size, curvature;
 };
 BranchAgreements agreement(const std::vector<BranchRun>& branches);
 

@@ -37,6 +37,10 @@ struct RegistrationReport {
   std::size_t self_intersections = 0, source_self_intersections = 0;
 };
 
+/// Whether a cell that cannot be pressed further has ended the rounds too early: the least Jacobian is below
+/// 0.05, and the surface still more than 0.1 mm off.
+bool is_stuck(const RegistrationReport& report);
+
 struct Registration {
   geometry::CageGrid grid;
   std::vector<geometry::Vec3> control_points;

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <numbers>
 #include <random>
 
@@ -157,6 +158,55 @@ TEST(TreeRays, TakesWhatIsNearestToTheEye) {
   EXPECT_FALSE(rays.first({{14.0, 0.0, 20.0}, -Vec3::UnitZ(), 0.0}, shown));
   EXPECT_FALSE(rays.first({{14.0, 0.0, 20.0}, Vec3::UnitZ(), 0.0})) << "behind the eye";
   EXPECT_EQ(rays.first({{-5.0, 0.0, 0.0}, 3.0 * Vec3::UnitX(), 0.0})->place.edge, 0) << "end on";
+}
+
+TEST(TreeRays, EntersAConeWhereTheFirstOfItsBallsIs) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> spread(-4.0, 4.0), radii(0.1, 2.0);
+  int hits = 0, on_walls = 0, grazed = 0;
+  for (int i = 0; i < 400; ++i) {
+    VesselGraph cone;
+    cone.points = {{spread(random), spread(random), spread(random)},
+                   {spread(random), spread(random), spread(random)}};
+    cone.edges = {{0, 1, radii(random), radii(random)}};
+    const Vec3 eye(spread(random), spread(random), 40.0);
+    const Vec3 aim = 0.5 * (cone.points[0] + cone.points[1]) +
+                     0.4 * Vec3(spread(random), spread(random), spread(random));
+    const TreeRay ray{eye, (aim - eye).normalized(), 0.0};
+    const auto& e = cone.edges[0];
+    double least = std::numeric_limits<double>::infinity();
+    constexpr int balls = 20000;
+    for (int k = 0; k <= balls; ++k) {
+      const double t = static_cast<double>(k) / balls;
+      const Vec3 away = ray.origin - ((1.0 - t) * cone.points[0] + t * cone.points[1]);
+      const double r = (1.0 - t) * e.radius_from + t * e.radius_to, f = ray.direction.dot(away);
+      const double h = f * f - away.squaredNorm() + r * r;
+      if (h >= 0.0) least = std::min(least, -f - std::sqrt(h));
+    }
+    const auto hit = TreeRays(shared(cone)).first(ray);
+    if (std::isinf(least)) {  // a graze between two of the balls that were tried is no fault
+      if (hit) ++grazed;
+      continue;
+    }
+    ASSERT_TRUE(hit) << i;
+    EXPECT_LE(hit->depth_mm, least + 1e-9) << i;
+    EXPECT_NEAR(hit->depth_mm, least, 1e-3) << i;
+    ++hits;
+    on_walls += hit->place.t > 0.0 && hit->place.t < 1.0 ? 1 : 0;
+  }
+  EXPECT_GT(hits, 100);
+  EXPECT_GT(on_walls, 60);
+  EXPECT_LE(grazed, 1);
+}
+
+TEST(TreeRays, AnEyeInAVesselSeesItAtOnce) {
+  VesselGraph tube;
+  tube.points = {Vec3::Zero(), Vec3(10.0, 0.0, 0.0)};
+  tube.edges = {{0, 1, 1.0, 1.0}};
+  const TreeRays rays(shared(tube));
+  EXPECT_EQ(rays.first({{5.0, 0.5, 0.0}, Vec3::UnitY(), 0.0})->depth_mm, 0.0);
+  EXPECT_FALSE(rays.first({{5.0, 1.5, 0.0}, Vec3::UnitY(), 0.0}));
+  EXPECT_FALSE(rays.first({{11.5, 0.0, 0.0}, Vec3::UnitX(), 0.0}));
 }
 
 TEST(TreeRays, SlackReachesThinVessels) {

@@ -67,10 +67,8 @@ TEST_P(Forks, TwoEqualChildrenAreOpenAndSound) {
 
 std::vector<Case> grid() {
   std::vector<Case> cases;
-  for (const double angle : {30.0, 60.0, 90.0, 120.0, 150.0})
+  for (const double angle : {10.0, 30.0, 60.0, 90.0, 120.0, 150.0, 170.0})
     for (const double ratio : {0.1, 0.4, 0.7, 1.0}) cases.push_back({angle, ratio});
-  for (const double angle : {10.0, 170.0})
-    for (const double ratio : {0.4, 0.7, 1.0}) cases.push_back({angle, ratio});
   return cases;
 }
 INSTANTIATE_TEST_SUITE_P(Grid, Forks, ::testing::ValuesIn(grid()), [](const auto& at) {
@@ -81,6 +79,65 @@ INSTANTIATE_TEST_SUITE_P(Grid, Forks, ::testing::ValuesIn(grid()), [](const auto
 TEST(Joint, AChildMayLieAtAnyRollAboutTheTrunk) {
   for (const double roll : {0.0, 22.5, 45.0, 67.5, 90.0})
     expect_open_and_sound(side_branch(70.0, 0.6, roll), 1);
+}
+
+class ForksOfThree : public ::testing::TestWithParam<Case> {};
+
+/// Each child makes this angle with the trunk's direction.
+TEST_P(ForksOfThree, SpreadEvenlyAboutTheTrunkTheyAreOpenAndSound) {
+  const auto [angle, ratio] = GetParam();
+  const double length = clear_length(angle, 1.0);
+  std::vector<Child> children;
+  for (const double roll : {0.0, 120.0, 240.0}) children.push_back({direction(angle, roll), ratio, length});
+  expect_open_and_sound(fork(1.0, length, children), 1);
+}
+
+TEST_P(ForksOfThree, TwoBesideATrunkThatGoesOnAreOpenAndSound) {
+  const auto [angle, ratio] = GetParam();
+  for (const double roll : {60.0, 120.0, 180.0}) {
+    const double between = 2.0 * std::asin(std::sin(angle * std::numbers::pi / 180.0) *
+                                           std::sin(roll * std::numbers::pi / 360.0));
+    const double length = clear_length(std::min(angle, between * 180.0 / std::numbers::pi), 1.0);
+    SCOPED_TRACE("roll " + std::to_string(roll));
+    expect_open_and_sound(fork(1.0, length,
+                               {{Vec3::UnitX(), 1.0, length},
+                                {direction(angle), ratio, length},
+                                {direction(angle, roll), ratio, length}}),
+                          1);
+  }
+}
+
+std::vector<Case> grid_of_three() {
+  std::vector<Case> cases;
+  for (const double angle : {10.0, 30.0, 60.0, 90.0})
+    for (const double ratio : {0.1, 0.2, 0.4, 0.7, 1.0}) cases.push_back({angle, ratio});
+  return cases;
+}
+INSTANTIATE_TEST_SUITE_P(Grid, ForksOfThree, ::testing::ValuesIn(grid_of_three()), [](const auto& at) {
+  return "angle" + std::to_string(static_cast<int>(at.param.angle)) + "ratio" +
+         std::to_string(static_cast<int>(100.0 * at.param.ratio));
+});
+
+TEST(ForksOfThreeFine, AreOpenAndSoundAtLevelTwo) {
+  for (const double angle : {30.0, 60.0, 90.0})
+    for (const double ratio : {0.4, 0.7, 1.0}) {
+      SCOPED_TRACE(std::to_string(angle) + " degrees, ratio " + std::to_string(ratio));
+      const double length = clear_length(angle, 1.0);
+      std::vector<Child> children;
+      for (const double roll : {0.0, 120.0, 240.0})
+        children.push_back({direction(angle, roll), ratio, length});
+      expect_open_and_sound(fork(1.0, length, children), 2);
+    }
+}
+
+TEST(Joint, TwoNearForksShareTheRoomBetweenThem) {
+  // Two side branches 1.2 radii apart on a trunk, on opposite sides, thin ones that must leave its wall.
+  VesselGraph graph = fork(1.0, 8.0, {{Vec3::UnitX(), 1.0, 1.2}, {Vec3::UnitY(), 0.2, 6.0}});
+  graph.points.emplace_back(9.2, 0.0, 0.0);
+  graph.edges.push_back({2, 4, 1.0, 1.0});
+  graph.points.emplace_back(1.2, -6.0, 0.0);
+  graph.edges.push_back({2, 5, 0.2, 0.2});
+  expect_open_and_sound(graph, 1);
 }
 
 }  // namespace

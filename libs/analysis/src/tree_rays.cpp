@@ -18,8 +18,13 @@ double width(double radius) {
   return std::isfinite(radius) && radius > 0.0 ? radius : 0.0;
 }
 
-/// Where the ray is nearest to the segment: t on the segment, s >= 0 along the ray.
-std::pair<double, double> nearest(const Vec3& from, const Vec3& to, const Vec3& origin, const Vec3& unit) {
+/// A place on a segment's axis and one on the ray, mm from its origin.
+struct Along {
+  double t = 0.0, depth = 0.0;
+};
+
+/// Where the ray is nearest to the segment: the depth is at least 0.
+Along nearest(const Vec3& from, const Vec3& to, const Vec3& origin, const Vec3& unit) {
   const Vec3 along = to - from, away = origin - from;
   const double a = along.squaredNorm(), b = along.dot(unit), c = along.dot(away), f = unit.dot(away);
   const double across = a - b * b;
@@ -28,7 +33,53 @@ std::pair<double, double> nearest(const Vec3& from, const Vec3& to, const Vec3& 
     t = std::clamp((c - b * f) / across, 0.0, 1.0);
   else if (b < 0.0)
     t = 1.0;  // seen end on: the end that is nearer to the eye
+  if (t * b < f && a > 0.0) t = std::clamp(c / a, 0.0, 1.0);  // behind the eye: the nearest to the eye
   return {t, std::max(0.0, t * b - f)};
+}
+
+/// Where the ray enters a ball.
+std::optional<double> into_ball(const Vec3& centre, double radius, const Vec3& origin, const Vec3& unit) {
+  const Vec3 away = origin - centre;
+  const double f = unit.dot(away), h = f * f - away.squaredNorm() + radius * radius;
+  if (h < 0.0) return std::nullopt;
+  return -f - std::sqrt(h);
+}
+
+/// Where the ray's whole line enters the balls whose centres and radii run evenly from one end to the other:
+/// of the depths at which it enters each of them, the least is on the cone that touches them all, unless its
+/// ball lies beyond an end.
+std::optional<Along> entry(const Vec3& from, const Vec3& to, double r_from, double r_to, const Vec3& origin,
+                           const Vec3& unit) {
+  const Vec3 axis = to - from, away = origin - from;
+  const double taper = r_from - r_to, whole = axis.squaredNorm() - taper * taper;
+  if (whole > 0.0) {
+    const double m1 = axis.dot(away), m2 = axis.dot(unit), m3 = unit.dot(away);
+    const double k2 = whole - m2 * m2, k1 = whole * m3 - m1 * m2 + m2 * taper * r_from,
+                 k0 = whole * away.squaredNorm() - m1 * m1 + 2.0 * m1 * taper * r_from -
+                      axis.squaredNorm() * r_from * r_from;
+    const double h = k1 * k1 - k0 * k2;
+    if (h >= 0.0 && std::abs(k2) > 1e-12 * whole) {
+      const double depth = (-std::sqrt(h) - k1) / k2;
+      const double t = (m1 - r_from * taper + depth * m2) / whole;
+      if (t > 0.0 && t < 1.0) return Along{t, depth};
+    }
+  }
+  const auto first = into_ball(from, r_from, origin, unit), last = into_ball(to, r_to, origin, unit);
+  if (!first && !last) return std::nullopt;
+  return !last || (first && *first <= *last) ? Along{0.0, *first} : Along{1.0, *last};
+}
+
+/// What a ray hits of a segment: its wall, or without that the axis's nearest place where that is near
+/// enough.
+std::optional<Along> hit_of(const GraphEdge& e, const Vec3& from, const Vec3& to, const TreeRay& ray,
+                            const Vec3& unit) {
+  const Along near = nearest(from, to, ray.origin, unit);
+  const double r_from = width(e.radius_from), r_to = width(e.radius_to);
+  const auto wall = entry(from, to, r_from, r_to, ray.origin, unit);
+  if (wall && wall->depth >= 0.0) return wall;
+  const double apart = (ray.origin + near.depth * unit - (1.0 - near.t) * from - near.t * to).norm();
+  if (apart > (1.0 - near.t) * r_from + near.t * r_to + ray.slack * near.depth) return std::nullopt;
+  return wall ? Along{near.t, 0.0} : near;  // a wall behind the eye: the eye is in the vessel
 }
 
 }  // namespace
@@ -144,14 +195,11 @@ std::optional<TreeRayHit> TreeRays::first(const TreeRay& ray, std::span<const st
     const GraphEdge& e = graph_->edges[static_cast<std::size_t>(edge)];
     const Vec3 &from = graph_->points[static_cast<std::size_t>(e.from)],
                &to = graph_->points[static_cast<std::size_t>(e.to)];
-    const auto [t, s] = nearest(from, to, ray.origin, unit);
-    const Vec3 on_ray = ray.origin + s * unit, on_axis = (1.0 - t) * from + t * to;
-    const double radius = (1.0 - t) * width(e.radius_from) + t * width(e.radius_to);
-    const double apart = (on_ray - on_axis).norm();
-    if (apart > radius + ray.slack * s) return;
-    const double depth = std::max(0.0, s - std::sqrt(std::max(0.0, radius * radius - apart * apart)));
+    const auto hit = hit_of(e, from, to, ray, unit);
+    if (!hit) return;
+    const double depth = hit->depth;
     if (best && (depth > best->depth_mm || (depth == best->depth_mm && edge > best->place.edge))) return;
-    best = TreeRayHit{{edge, t}, ray.origin + depth * unit, depth};
+    best = TreeRayHit{{edge, hit->t}, ray.origin + depth * unit, depth};
   };
   std::vector<std::int32_t> waiting{0};
   while (!waiting.empty()) {

@@ -8,6 +8,7 @@ namespace ostia::reconstruction {
 namespace {
 
 constexpr double pi = std::numbers::pi;
+constexpr double most_gaps = 0.8;  // of what two joints leave of a branch
 using Ring = std::vector<std::int32_t>;
 
 class Builder {
@@ -27,8 +28,8 @@ class Builder {
 
  private:
   struct End {
-    Ring ring;  ///< counter-clockwise about the tube's tangent; empty at an open end
-    double clearance = 0.0;
+    Ring ring;                          ///< counter-clockwise about the tube's tangent; empty at an open end
+    double clearance = 0.0, gap = 0.0;  ///< mm, and radii
   };
 
   std::int32_t add(const Vec3& point, const Tag& tag) {
@@ -38,23 +39,14 @@ class Builder {
   }
 
   void add_joint(const Joint& joint, std::int32_t index) {
-    const Tag tag{Place::joint, index, 0.0};
-    const std::int32_t north = add(joint.poles[0], tag), south = add(joint.poles[1], tag);
-    std::vector<Ring> arcs;
-    for (const auto& points : joint.arcs) {
-      Ring& arc = arcs.emplace_back();
-      for (const Vec3& point : points) arc.push_back(add(point, tag));
-    }
-    const std::size_t n = joint.slots.size();
-    for (std::size_t i = 0; i < n; ++i) {
-      const Ring &left = arcs[(i + n - 1) % n], &right = arcs[i];
-      Ring ring{north};
-      ring.insert(ring.end(), left.begin(), left.end());
-      ring.push_back(south);
-      ring.insert(ring.end(), right.rbegin(), right.rend());
+    const auto first = static_cast<std::int32_t>(mesh_.points.size());
+    for (const Vec3& point : joint.points) add(point, {Place::joint, index, 0.0});
+    for (std::size_t i = 0; i < joint.slots.size(); ++i) {
+      Ring ring = joint.rings[i];
+      for (std::int32_t& point : ring) point += first;
       if (joint.slots[i].distal) std::reverse(ring.begin(), ring.end());
       End& end = ends_[static_cast<std::size_t>(joint.slots[i].tube)][joint.slots[i].distal ? 1 : 0];
-      end = {std::move(ring), joint.clearance[i]};
+      end = {std::move(ring), joint.clearance[i], joint.style.gap};
     }
   }
 
@@ -110,12 +102,12 @@ class Builder {
   /// Abscissas of the rings that are the branch's own; the first and last lie clear of the joints.
   std::vector<double> own_sections(const Tube& tube, const End& start, const End& end) const {
     const double length = tube.length();
-    const bool both = !start.ring.empty() && !end.ring.empty();
-    const auto clear = [&](const End& e, double radius) {
-      if (e.ring.empty()) return 0.0;
-      return std::min(std::max(e.clearance, 0.0) + 0.7 * radius, (both ? 0.42 : 0.75) * length);
-    };
-    const double from = clear(start, tube.radius.front()), to = length - clear(end, tube.radius.back());
+    const auto wanted = [&](const End& e, double radius) { return e.ring.empty() ? 0.0 : e.gap * radius; };
+    const double first = std::max(start.clearance, 0.0), last = std::max(end.clearance, 0.0);
+    const double gaps = wanted(start, tube.radius.front()) + wanted(end, tube.radius.back());
+    const double fit = gaps > 0.0 ? std::min(1.0, most_gaps * (length - first - last) / gaps) : 0.0;
+    const double from = first + fit * wanted(start, tube.radius.front()),
+                 to = length - last - fit * wanted(end, tube.radius.back());
     std::vector<double> s, r, c;
     for (std::size_t i = 0; i < tube.points.size(); ++i) {
       const double x = tube.abscissa[i];
@@ -169,6 +161,30 @@ class Builder {
 };
 
 }  // namespace
+
+double polygon_scale(const ReconstructionOptions& options, int level) {
+  const double side = 2.0 * std::numbers::pi / (options.sides << level);
+  return std::sqrt(side / std::sin(side));
+}
+
+std::vector<geometry::Triangle> triangles_of(const QuadMesh& mesh) {
+  std::vector<geometry::Triangle> triangles;
+  triangles.reserve(2 * mesh.quads.size());
+  const auto squared = [&](std::int32_t a, std::int32_t b) {
+    return (mesh.points[static_cast<std::size_t>(a)] - mesh.points[static_cast<std::size_t>(b)])
+        .squaredNorm();
+  };
+  for (const geometry::Quad& q : mesh.quads) {
+    if (squared(q[0], q[2]) <= squared(q[1], q[3])) {
+      triangles.push_back({q[0], q[1], q[2]});
+      triangles.push_back({q[0], q[2], q[3]});
+    } else {
+      triangles.push_back({q[1], q[2], q[3]});
+      triangles.push_back({q[1], q[3], q[0]});
+    }
+  }
+  return triangles;
+}
 
 QuadMesh base_mesh(const std::vector<Tube>& tubes, const std::vector<Joint>& joints,
                    const ReconstructionOptions& options) {

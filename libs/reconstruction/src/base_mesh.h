@@ -32,6 +32,10 @@ struct QuadMesh {
   std::vector<std::uint8_t> face_of_quad;  ///< 0 wall, 1 the branch's proximal end, 2 its distal end
 };
 
+/// Makes the polygon of a section have its circle's area.
+double polygon_scale(const ReconstructionOptions& options, int level);
+/// Two of each quadrilateral, along its shorter diagonal.
+std::vector<geometry::Triangle> triangles_of(const QuadMesh& mesh);
 QuadMesh base_mesh(const std::vector<Tube>& tubes, const std::vector<Joint>& joints,
                    const ReconstructionOptions& options);
 

@@ -13,6 +13,7 @@ struct Slot {
   bool distal = false;            ///< the branch arrives here
   Vec3 direction = Vec3::Zero();  ///< unit, away from the joint
   double radius = 0.0;            ///< near the joint
+  double reach = 0.0;             ///< how far along the branch the joint may go, mm
   std::int32_t group = 0;         ///< the trunk's two ends are one vessel
 };
 

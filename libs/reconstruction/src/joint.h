@@ -1,28 +1,37 @@
 #pragma once
-/// \file Where vessels meet: two poles and one arc of points between each two neighbours round the axis.
+/// \file Where vessels meet: rings of points that the branches share.
 
-#include "field.h"
+#include "joint_rings.h"
 
 #include "ostia/reconstruction/surface.h"
 
-#include <array>
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <vector>
 
 namespace ostia::reconstruction {
 
 struct Joint {
+  std::int32_t point = 0;  ///< of the graph
   Vec3 centre = Vec3::Zero();
-  std::vector<Slot> slots;  ///< counter-clockwise about the axis
+  JointStyle style;
+  std::vector<Slot> slots;
   std::optional<JointField> field;
-  std::array<Vec3, 2> poles{Vec3::Zero(), Vec3::Zero()};
-  /// arcs[i] runs from the first pole to the second, between slots i and i + 1: sides / 2 - 1 points.
-  std::vector<std::vector<Vec3>> arcs;
+  std::vector<Vec3> points;
+  /// Of each slot, `sides` of the points, counter-clockwise about the slot's direction.
+  std::vector<std::vector<std::int32_t>> rings;
   std::vector<double> clearance;  ///< how far along each slot's direction its ring reaches, mm
 };
 
-/// Slots of each point of the graph where branches end that are not open; in the order of the points.
+/// By the graph's point; `JointStyle()` for those that are not there.
+using JointStyles = std::map<std::int32_t, JointStyle>;
+
+/// Of all points of the graph where branches end that are not open, in the order of the points.
 std::vector<Joint> joints_of(const std::vector<Tube>& tubes, const geometry::VesselGraph& graph,
-                             const ReconstructionOptions& options);
+                             const ReconstructionOptions& options, const JointStyles& styles);
+/// The slots' tubes are indices into `tubes`.
+Joint joint_at(const Vec3& centre, std::vector<Slot> slots, const std::vector<Tube>& tubes,
+               const ReconstructionOptions& options, const JointStyle& style);
 
 }  // namespace ostia::reconstruction

@@ -41,7 +41,7 @@ struct ReconstructedSurface {
 
 /// The surface of a directed graph ([Luboz] 2.2): loops, several roots and parents, and points with one
 /// parent and one child are all allowed. Sections are circles placed by eq. 2; joints are shared rings about
-/// two poles; Catmull-Clark subdivision with the points brought onto the vessels after each level, so that
+/// two or four poles; Catmull-Clark subdivision with the points brought onto the vessels after each level, so that
 /// radii are kept. Closed where untangling succeeds (`self_intersections` is 0). Throws InvalidInput for
 /// options, for a graph that is not sound, and for one that is empty; Cancelled.
 ReconstructedSurface reconstruct_surface(const geometry::VesselGraph& graph,

@@ -52,7 +52,7 @@ if(OSTIA_WITH_IMAGE_LIBRARIES)
   find_package(embree 3 REQUIRED)
   find_package(Qt5 5.15 REQUIRED COMPONENTS Widgets)
   find_package(VTK 9.1 REQUIRED
-    COMPONENTS CommonCore CommonDataModel CommonMisc CommonMath CommonTransforms IOXML IOLegacy
+    COMPONENTS CommonCore CommonDataModel CommonExecutionModel CommonMisc CommonMath CommonTransforms FiltersCore IOXML IOLegacy
                RenderingCore RenderingOpenGL2 RenderingFreeType RenderingVolume RenderingVolumeOpenGL2 GUISupportQt)
 endif()
 

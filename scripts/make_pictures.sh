@@ -41,6 +41,11 @@ build/release/bin/ostia experiment orientations -o "$work/orientations"
 cp "$work/orientations/length.png" docs/pictures/orientations-length.png
 cp "$work/orientations/radius.png" docs/pictures/orientations-radius.png
 
+# Some minutes: the same tubes reconstructed.
+build/release/bin/ostia experiment smoothness -o "$work/smoothness"
+cp "$work/smoothness/distance.png" docs/pictures/smoothness-distance.png
+cp "$work/smoothness/smoothness.png" docs/pictures/smoothness-curvature.png
+
 # Half an hour: the editing experiment on 78 sections.
 build/release/bin/ostia phantom -o "$work/suite18" --cases 18 --truth-only
 build/release/bin/ostia experiment editing --suite "$work/suite18" -o "$work/editing"

@@ -14,12 +14,14 @@
 #include "measure.h"
 #include "motion.h"
 #include "progress_bar.h"
+#include "reconstruct.h"
 #include "refusal.h"
 #include "report.h"
 #include "run.h"
 #include "skeleton.h"
 #include "solver_case.h"
 #include "standard_streams.h"
+#include "tree_input.h"
 #include "validators.h"
 
 #include "ostia/core/log.h"
@@ -55,6 +57,7 @@ struct Commands {
   ReportCommand report;
   SkeletonCommand skeleton;
   GrowCommand grow;
+  ReconstructCommand reconstruct;
   MeasureCommand measure;
   ExtractCommand extract;
   RunCommand chain;
@@ -144,6 +147,7 @@ void define(CLI::App& app, Commands& c, Run& run) {
   define_report(app, c.report, run);
   define_skeleton(app, c.skeleton, run);
   define_grow(app, c.grow, c.common.seed, run);
+  define_reconstruct(app, c.reconstruct, run);
   define_extract(app, c.extract, run, add_dicom);
   define_run(app, c.chain, c.batch, c.common, run);
   define_case(app, c.solver_case, run);
@@ -198,19 +202,11 @@ void define(CLI::App& app, Commands& c, Run& run) {
   convert->add_option("OUTPUT", c.convert.output, "By its extension")->required();
   add_units(*convert, c.convert.input);
   convert->add_flag(
-      "--repair", c.convert.repair,
+      "--repair", c.convert.tree.repair,
       "Surfaces: drop bad triangles and loose parts, join equal points, take apart what only "
       "touches, turn outward, cut self-intersections out. Trees: drop bad segments, join equal points, "
       "fill missing radii in, turn and order the segments from the root");
-  convert
-      ->add_option("--radius-units", c.convert.radius_units, "Trees: unit of radii that is not the places'")
-      ->check(CLI::IsMember({"m", "cm", "mm"}));
-  convert->add_option("--root", c.convert.roots, "Repair of trees: where one begins, x,y,z; repeat")
-      ->allow_extra_args(false);
-  convert->add_option("--join-within", c.convert.merge_mm, "Repair of trees: also join points this near, mm")
-      ->check(above_zero());
-  convert->add_flag("--keep-directions", c.convert.keep_directions,
-                    "Repair of trees: turn no segments, but those of a --root");
+  add_tree_input(*convert, c.convert.tree, "Trees: ", "Repair of trees: ");
   convert->add_option("--fill-holes", c.convert.fill_holes_mm, "Repair: also close holes up to this wide, mm")
       ->check(above_zero());
   convert->add_flag("--keep-parts", c.convert.keep_parts, "Repair: all parts stay, not the largest alone");
@@ -271,9 +267,9 @@ void keep_out(const std::filesystem::path& path) {
 
 /// A log that is kept must not name what a folder or file is called after.
 void keep_paths_out_of_the_log(const Commands& c) {
-  for (const InputOptions* input :
-       {&c.info.input, &c.import.input, &c.segment.input, &c.centerline.input, &c.mesh.input,
-        &c.convert.input, &c.model.input, &c.skeleton.input, &c.extract.input, &c.measure.input}) {
+  for (const InputOptions* input : {&c.info.input, &c.import.input, &c.segment.input, &c.centerline.input,
+                                    &c.mesh.input, &c.convert.input, &c.model.input, &c.skeleton.input,
+                                    &c.extract.input, &c.measure.input, &c.reconstruct.input}) {
     core::redact_in_logs(input->input.string(), "INPUT");
     core::redact_in_logs(own_name(input->input), "INPUT");  // refusals have it alone
   }
@@ -304,7 +300,8 @@ void keep_paths_out_of_the_log(const Commands& c) {
     keep_out(path);
   }
   for (const std::filesystem::path& path : paths_of(c.motion)) keep_out(path);
-  for (const std::filesystem::path& path : {c.grow.input, c.grow.output, c.grow.domain, c.measure.output})
+  for (const std::filesystem::path& path :
+       {c.grow.input, c.grow.output, c.grow.domain, c.measure.output, c.reconstruct.output})
     keep_out(path);
   for (const MeshOptions* mesh : {&c.mesh.mesh, &c.model.mesh}) {
     keep_out(mesh->planes_file);

@@ -71,7 +71,7 @@ void convert_surface(const ConvertCommand& options, const core::TaskContext& tas
     for (geometry::Vec3& p : loaded.surface.mesh.points) p *= *unit;
   }
   Json done = Json::object();
-  const bool repairs = options.repair || options.keep_parts || options.fill_holes_mm > 0.0;
+  const bool repairs = options.tree.repair || options.keep_parts || options.fill_holes_mm > 0.0;
   if (repairs) repair(options, loaded.surface, done, task.sub(0.0, 0.3));
   refine(options, loaded.surface, done, task);
   if (repairs) {
@@ -86,7 +86,7 @@ void convert_surface(const ConvertCommand& options, const core::TaskContext& tas
 
 /// Options for surfaces say nothing about images and lines.
 void refuse_surface_options(const ConvertCommand& options) {
-  if (options.repair || options.keep_parts || options.json || options.fill_holes_mm > 0.0 ||
+  if (options.tree.repair || options.keep_parts || options.json || options.fill_holes_mm > 0.0 ||
       options.smooth > 0 || options.subdivide > 0)
     throw UsageError(
         "--repair, --fill-holes, --keep-parts, --smooth, --subdivide and --json are for surfaces");
@@ -109,8 +109,8 @@ bool is_lines(const std::filesystem::path& path) {
 ExitCode run_convert(const ConvertCommand& options, const core::TaskContext& task) {
   const std::filesystem::path& input = options.input.input;
   if (converts_tree(options)) return convert_tree(options, task);
-  if (!options.roots.empty() || options.merge_mm > 0.0 || options.keep_directions ||
-      !options.radius_units.empty())
+  if (!options.tree.roots.empty() || options.tree.merge_mm > 0.0 || options.tree.keep_directions ||
+      !options.tree.radius_units.empty())
     throw UsageError("--root, --join-within, --keep-directions and --radius-units are for trees");
   if (is_lines(input) || options.output.extension() == ".csv") {
     refuse_surface_options(options);

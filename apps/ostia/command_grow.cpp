@@ -15,6 +15,8 @@
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
+#include <utility>
+#include <vector>
 
 namespace ostia::app {
 namespace {
@@ -62,12 +64,14 @@ ExitCode run_grow(const GrowCommand& o, std::uint64_t seed, const core::TaskCont
   task.set_stage("reading");
   const io::LoadedGraph loaded = io::read_graph(o.input, task.sub(0.0, 0.05));
   for (const std::string& warning : loaded.warnings) core::log_warning(warning);
-  geometry::require_sound(loaded.graph, o.input.filename().string(), true, task);
-  const analysis::GrownTree grown =
+  geometry::require_sound(loaded.graph, o.input.filename().string(), true, task, loaded.reference_name);
+  analysis::GrownTree grown =
       analysis::grow_tree(loaded.graph, domain_of(o, loaded.graph),
                           {artery_of(o.artery), seed, o.most_segments}, task.sub(0.05, 0.9));
   task.set_stage("writing");
-  for (const std::string& lost : io::write_graph(o.output, grown.graph, task.sub(0.9, 1.0)))
+  const std::vector<io::SegmentValues> values{{"Order", std::move(grown.order)},
+                                              {"Element", std::move(grown.element)}};
+  for (const std::string& lost : io::write_graph(o.output, grown.graph, values, task.sub(0.9, 1.0)))
     core::log_warning(lost);
   print(grown, loaded.graph.edges.size(), o.json);
   if (static_cast<double>(grown.elements_left_out) <= most_left_out * static_cast<double>(grown.elements))
@@ -85,7 +89,9 @@ void define_grow(CLI::App& app, GrowCommand& c, const std::uint64_t& seed,
   grow->footer("Example:\n  ostia grow tree.vtp -o grown.vtp --domain myocardium.stl --artery lad --seed 7");
   grow->fallthrough();
   grow->add_option("TREE", c.input, "Tree of vessels in mm: .vtp, .vtk, .swc, .csv, .gxl")->required();
-  grow->add_option("-o,--output", c.output, ".vtp, .swc or .csv")->required();
+  grow->add_option("-o,--output", c.output,
+                   ".vtp, .csv, with the Order and the Element of each segment; or .swc, without")
+      ->required();
   grow->add_option("--domain", c.domain,
                    "Closed surface in which vessels may grow; left out: a spherical shell about the tree");
   grow->add_option("--wall", c.wall_mm, "Thickness of that shell, mm")->check(above_zero());

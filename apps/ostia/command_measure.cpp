@@ -63,7 +63,7 @@ void measure(const MeasureCommand& c, const pipeline::JobKey& key, const core::T
   const auto start = Clock::now();
   task.set_stage("reading");
   NamedGraph read = graph_in(c, task.sub(0.0, 0.3));
-  geometry::require_sound(read.graph, c.input.input.filename().string(), true, task);
+  geometry::require_sound(read.graph, c.input.input.filename().string(), true, task, read.reference_name);
   pipeline::MeasuredTree tree = pipeline::measured(std::move(read.graph), task.sub(0.3, 0.7));
   tree.reference_name = read.reference_name;
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();

@@ -1,9 +1,9 @@
-#include "points.h"
 #include "tree_commands.h"
+#include "tree_input.h"
 
 #include "ostia/core/files.h"
 #include "ostia/core/log.h"
-#include "ostia/geometry/graph_repair.h"
+#include "ostia/geometry/graph_faults.h"
 #include "ostia/io/graph_file.h"
 
 #include <nlohmann/json.hpp>
@@ -19,7 +19,6 @@ namespace {
 using geometry::GraphFacts;
 using geometry::GraphFaults;
 using geometry::Vec3;
-using geometry::VesselGraph;
 using Json = nlohmann::ordered_json;
 
 Json array(const Vec3& v) {
@@ -139,36 +138,6 @@ void refuse_surface_options(const ConvertCommand& options) {
         "--fill-holes, --keep-parts, --smooth and --subdivide are for surfaces, and this is a tree");
 }
 
-/// Some grown trees have their places in metres and their radii in millimetres.
-void scale(const ConvertCommand& options, VesselGraph& graph) {
-  InputOptions radii = options.input;
-  if (!options.radius_units.empty()) radii.units = options.radius_units;
-  const double place_mm = source_options(options.input).unit_mm.value_or(1.0);
-  const double radius_mm = source_options(radii).unit_mm.value_or(1.0);
-  for (Vec3& p : graph.points) p *= place_mm;
-  for (geometry::GraphEdge& edge : graph.edges) {
-    edge.radius_from *= radius_mm;
-    edge.radius_to *= radius_mm;
-  }
-}
-
-Json repair(const ConvertCommand& options, VesselGraph& graph, const core::TaskContext& task) {
-  geometry::GraphRepairOptions how;
-  how.merge_within_mm = options.merge_mm;
-  how.keep_directions = options.keep_directions;
-  for (const std::string& root : options.roots) how.roots.push_back(parse_point(root, "lps", nullptr));
-  geometry::RepairedGraph fixed = geometry::repaired(std::move(graph), how, task);
-  Json steps = Json::array();
-  for (const geometry::GraphRepairStep& step : fixed.steps) {
-    core::log_info(step.text);
-    steps.push_back({{"what", step.what}, {"count", step.count}, {"text", step.text}});
-  }
-  const std::string left = geometry::summary(fixed.left, fixed.graph, "reference");
-  core::log_info("faults left: " + left);
-  graph = std::move(fixed.graph);
-  return {{"steps", steps}, {"left", left}};
-}
-
 }  // namespace
 
 ExitCode tree_info(const InfoOptions& options, const core::TaskContext& task) {
@@ -189,21 +158,17 @@ bool converts_tree(const ConvertCommand& options) {
   if (!io::is_graph_file(options.input.input)) return false;
   const std::string from = options.input.input.extension().string();
   const std::string to = options.output.extension().string();
-  const bool told = options.repair || options.json || options.merge_mm > 0.0 || !options.roots.empty() ||
-                    options.keep_directions || !options.radius_units.empty();
+  const TreeInputOptions& tree = options.tree;
+  const bool told = tree.repair || options.json || tree.merge_mm > 0.0 || !tree.roots.empty() ||
+                    tree.keep_directions || !tree.radius_units.empty();
   const bool lines = to == ".csv" || (to == ".vtp" && from != ".vtp");
   return told || !lines || !is_centerline_file(options.input.input);
 }
 
 ExitCode convert_tree(const ConvertCommand& options, const core::TaskContext& task) {
   refuse_surface_options(options);
-  if (!options.repair && (options.merge_mm > 0.0 || !options.roots.empty() || options.keep_directions))
-    throw UsageError("--root, --join-within and --keep-directions are for --repair");
-  io::LoadedGraph loaded = io::read_graph(options.input.input, task.sub(0.0, 0.5));
-  for (const std::string& warning : loaded.warnings) core::log_warning(warning);
-  scale(options, loaded.graph);
   Json done = Json::object();
-  if (options.repair) done["repair"] = repair(options, loaded.graph, task.sub(0.5, 0.8));
+  const io::LoadedGraph loaded = read_tree(options.input, options.tree, done, task.sub(0.0, 0.8));
   for (const std::string& warning : io::write_graph(options.output, loaded.graph, task.sub(0.8, 1.0)))
     core::log_warning(warning);
   done["points"] = loaded.graph.points.size();

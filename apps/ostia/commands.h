@@ -123,18 +123,23 @@ struct MeshCommand {
 };
 ExitCode run_mesh(const MeshCommand& options, const core::TaskContext& task);
 
+/// How a tree of vessels is to be read.
+struct TreeInputOptions {
+  bool repair = false;
+  std::vector<std::string> roots;  ///< x,y,z
+  double merge_mm = 0.0;           ///< points no further apart are one
+  std::string radius_units;        ///< empty: as the places
+  bool keep_directions = false;
+};
+
 struct ConvertCommand {
   InputOptions input;
   std::filesystem::path output;
-  bool repair = false;
+  TreeInputOptions tree;       ///< its `repair` is for surfaces, too
   double fill_holes_mm = 0.0;  ///< 0: none
   bool keep_parts = false;
-  int smooth = 0;                  ///< Taubin iterations
-  int subdivide = 0;               ///< levels
-  std::vector<std::string> roots;  ///< trees, x,y,z
-  double merge_mm = 0.0;           ///< trees: points no further apart are one
-  std::string radius_units;        ///< trees; empty: as the places
-  bool keep_directions = false;    ///< trees
+  int smooth = 0;     ///< Taubin iterations
+  int subdivide = 0;  ///< levels
   bool json = false;
 };
 ExitCode run_convert(const ConvertCommand& options, const core::TaskContext& task);

@@ -44,6 +44,9 @@ void define_experiment_extraction(CLI::App& experiment,
 void define_experiment_orientations(CLI::App& experiment, const std::uint64_t& seed,
                                     std::function<ExitCode(const core::TaskContext&)>& run);
 
+void define_experiment_smoothness(CLI::App& experiment, const std::uint64_t& seed,
+                                  std::function<ExitCode(const core::TaskContext&)>& run);
+
 void define_experiment_robustness(CLI::App& experiment, const std::uint64_t& seed,
                                   std::function<ExitCode(const core::TaskContext&)>& run);
 

@@ -15,6 +15,7 @@ bool has_extension(const std::filesystem::path& path, const std::vector<std::str
 void require_output(const std::filesystem::path& path, const std::vector<std::string_view>& extensions);
 
 inline const std::vector<std::string_view> surface_outputs{".vtp", ".stl", ".ply"};
+inline const std::vector<std::string_view> quad_outputs{".vtp", ".vtk", ".ply", ".obj", ".stl"};
 inline const std::vector<std::string_view> image_outputs{".nrrd", ".mhd", ".mha"};
 inline const std::vector<std::string_view> aorta_outputs{".nrrd", ".mhd", ".mha", ".vtp", ".stl", ".ply"};
 inline const std::vector<std::string_view> line_outputs{".vtp", ".csv"};

@@ -38,9 +38,9 @@ std::size_t place_of_command(const std::vector<std::string>& arguments) {
 /// What a command writes when nobody says as what; "" for a folder.
 std::string usual_output(const std::string& command, const std::vector<std::string>& arguments) {
   static const std::map<std::string, std::string> usual{
-      {"import", ".nrrd"},  {"segment", ".vtp"},   {"centerline", ".vtp"},
-      {"skeleton", ".vtp"}, {"lumen", ".vtp"},     {"convert", ".vtp"},
-      {"grow", ".vtp"},     {"extract", ".ostia"}, {"replay", ".ostia"}};
+      {"import", ".nrrd"},  {"segment", ".vtp"},    {"centerline", ".vtp"}, {"skeleton", ".vtp"},
+      {"lumen", ".vtp"},    {"convert", ".vtp"},    {"grow", ".vtp"},       {"extract", ".ostia"},
+      {"replay", ".ostia"}, {"reconstruct", ".vtp"}};
   if (command == "segment" && std::find(arguments.begin(), arguments.end(), "--aorta") != arguments.end())
     return ".nrrd";
   const auto found = usual.find(command);

@@ -113,6 +113,42 @@ TEST_F(GrownTreeTest, NothingRunsIntoAnything) {
   EXPECT_LT(tree_->elements_shortened, tree_->elements / 100);
 }
 
+double distance(const Vec3& place, const Vec3& from, const Vec3& to) {
+  const Vec3 along = to - from;
+  const double t = std::clamp((place - from).dot(along) / along.squaredNorm(), 0.0, 1.0);
+  return (place - from - t * along).norm();
+}
+
+// A fine vessel that leaves a wide one is longer than the wide one's radius, whatever the table's mean is.
+TEST_F(GrownTreeTest, NoVesselEndsWithinTheOneItSpringsFrom) {
+  const VesselGraph& graph = tree_->graph;
+  std::vector<std::int32_t> arriving(graph.points.size(), -1);
+  std::vector<std::vector<std::int32_t>> segments(static_cast<std::size_t>(tree_->elements));
+  for (std::size_t e = 0; e < graph.edges.size(); ++e) {
+    arriving[static_cast<std::size_t>(graph.edges[e].to)] = static_cast<std::int32_t>(e);
+    if (tree_->element[e] >= 0)
+      segments[static_cast<std::size_t>(tree_->element[e])].push_back(static_cast<std::int32_t>(e));
+  }
+  std::size_t daughters = 0, inside = 0;
+  for (const std::vector<std::int32_t>& own : segments) {
+    if (own.empty()) continue;
+    const auto edge = [&](std::int32_t e) { return graph.edges[static_cast<std::size_t>(e)]; };
+    const std::int32_t stem =
+        tree_->element[static_cast<std::size_t>(arriving[static_cast<std::size_t>(edge(own[0]).from)])];
+    if (stem < 0) continue;
+    ++daughters;
+    const Vec3 end = graph.points[static_cast<std::size_t>(edge(own.back()).to)];
+    for (const std::int32_t s : segments[static_cast<std::size_t>(stem)])
+      if (distance(end, graph.points[static_cast<std::size_t>(edge(s).from)],
+                   graph.points[static_cast<std::size_t>(edge(s).to)]) < edge(s).radius_to) {
+        ++inside;
+        break;
+      }
+  }
+  EXPECT_GT(daughters, 20'000U);
+  EXPECT_EQ(inside, 0U);
+}
+
 TEST_F(GrownTreeTest, LiesInTheWall) {
   const GrowthDomain depth = domain_of(MyocardialShell{});
   std::size_t outside = 0;

@@ -13,7 +13,9 @@
 namespace ostia::testing {
 namespace {
 
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 /// A fork on a sphere of radius 40 mm about the origin: its ends have the diameter of order 5.
 constexpr const char* fork =
@@ -39,6 +41,26 @@ TEST(GrowCommand, ATreeGrowsAndIsTheSameForItsSeed) {
   EXPECT_EQ(core::read_file(folder / "again.vtp"), first);
 }
 
+// Each grown segment's order and element; 0 and -1 for what was there before.
+TEST(GrowCommand, OrdersAndElementsAreKept) {
+  const auto folder = temporary_folder("grow_orders");
+  core::write_file(folder / "tree.csv", fork);
+  const Setting in{folder, ""};
+  ASSERT_EQ(ostia({"grow", "tree.csv", "-o", "grown.csv"}, in).code, 0);
+  const std::string table = core::read_file(folder / "grown.csv");
+  EXPECT_THAT(table, StartsWith("x1,y1,z1,radius1,x2,y2,z2,radius2,Order,Element\n40,0,0,0.2,"));
+  EXPECT_THAT(table.substr(0, table.find('\n', table.find("40,0,0"))), EndsWith(",0,-1"));
+  EXPECT_THAT(table, HasSubstr(",5,0\n"));
+  EXPECT_THAT(table, HasSubstr(",1,"));
+  ASSERT_EQ(ostia({"grow", "tree.csv", "-o", "grown.vtp"}, in).code, 0);
+  const std::string vtp = core::read_file(folder / "grown.vtp");
+  EXPECT_THAT(vtp, HasSubstr("Name=\"Order\""));
+  EXPECT_THAT(vtp, HasSubstr("Name=\"Element\""));
+  const Outcome swc = ostia({"grow", "tree.csv", "-o", "grown.swc"}, in);
+  ASSERT_EQ(swc.code, 0);
+  EXPECT_THAT(swc.err, HasSubstr("SWC has no place for the segments' Order"));
+}
+
 TEST(GrowCommand, RefusesWhatIsNoTreeAndWrongWords) {
   const auto folder = temporary_folder("grow_bad");
   core::write_file(folder / "line.csv", "id,x,y,z,radius,parent\n1,0,0,0,1,-1\n2,0,0,1,1,1\n");
@@ -51,6 +73,7 @@ TEST(GrowCommand, RefusesWhatIsNoTreeAndWrongWords) {
   const Outcome bad = ostia({"grow", "bad.csv", "-o", "grown.vtp"}, in);
   EXPECT_EQ(bad.code, 3);
   EXPECT_THAT(bad.err, HasSubstr("--repair"));
+  EXPECT_THAT(bad.err, HasSubstr("(line 3)"));
   EXPECT_EQ(ostia({"grow", "tree.csv", "-o", "grown.vtp", "--artery", "aorta"}, in).code, 2);
   EXPECT_EQ(ostia({"grow", "tree.csv", "-o", "grown.vtp", "--most-segments", "10"}, in).code, 5);
   EXPECT_FALSE(std::filesystem::exists(folder / "grown.vtp"));

@@ -89,7 +89,7 @@ TEST(TreeCommands, TurnsFromAGivenRoot) {
   std::string header, first;
   std::getline(in, header);
   std::getline(in, first);
-  EXPECT_EQ(first, "3,4,12,1.5,3,4,0,2");
+  EXPECT_EQ(first, "3,4,12,1.5,3,4,0,2,3");
 }
 
 // Places in metres, radii in millimetres: told, and settled by the user.

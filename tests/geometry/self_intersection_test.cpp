@@ -107,6 +107,32 @@ Pairs of_two(const std::vector<Vec3>& points, const Triangle& a, const Triangle&
   return self_intersections(TriMesh{points, {a, b}});
 }
 
+TEST(SelfIntersections, MarksKeepThePairsOfMarkedTriangles) {
+  TriMesh mesh;
+  for (int k = 0; k < 400; ++k) {
+    const auto first = static_cast<std::int32_t>(mesh.points.size());
+    for (int c = 0; c < 3; ++c)
+      mesh.points.emplace_back(std::sin(1.7 * k) + 0.3 * std::sin(5.0 * c + k),
+                               std::cos(2.3 * k) + 0.3 * std::cos(3.0 * c + 2.0 * k),
+                               std::sin(0.9 * k + 1.0) + 0.3 * std::sin(4.0 * c - k));
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+  const Pairs all = self_intersections(mesh);
+  ASSERT_GT(all.size(), 100U);
+  for (const int step : {1, 7, 50, 1000}) {
+    std::vector<std::uint8_t> marks(mesh.triangles.size(), 0);
+    for (std::size_t t = 3; t < marks.size(); t += static_cast<std::size_t>(step)) marks[t] = 1;
+    Pairs truth;
+    for (const auto& pair : all)
+      if (marks[static_cast<std::size_t>(pair.first)] != 0 ||
+          marks[static_cast<std::size_t>(pair.second)] != 0)
+        truth.push_back(pair);
+    EXPECT_EQ(self_intersections(mesh, marks), truth) << step;
+  }
+  EXPECT_THAT(self_intersections(mesh, std::vector<std::uint8_t>(mesh.triangles.size(), 0)), IsEmpty());
+  EXPECT_THROW(self_intersections(mesh, std::vector<std::uint8_t>(3, 1)), InvalidInput);
+}
+
 TEST(SelfIntersections, TrianglesApart) {
   const std::vector<Vec3> touching{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 0}, {2, 2, 3}, {1, 2, 3}};
   EXPECT_THAT(of_two(touching, {0, 1, 2}, {3, 4, 5}), ElementsAre(Pair(0, 1)));  // a corner on the face

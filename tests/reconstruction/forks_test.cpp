@@ -130,6 +130,14 @@ TEST(ForksOfThreeFine, AreOpenAndSoundAtLevelTwo) {
     }
 }
 
+TEST(ForksFine, ThinSideBranchesAreOpenAndSoundAtLevelTwo) {
+  for (const double angle : {10.0, 20.0, 30.0, 50.0, 90.0, 130.0, 150.0, 170.0})
+    for (const double ratio : {0.1, 0.15, 0.2}) {
+      SCOPED_TRACE(std::to_string(angle) + " degrees, ratio " + std::to_string(ratio));
+      expect_open_and_sound(side_branch(angle, ratio, 30.0), 2);
+    }
+}
+
 TEST(Joint, TwoNearForksShareTheRoomBetweenThem) {
   // Two side branches 1.2 radii apart on a trunk, on opposite sides, thin ones that must leave its wall.
   VesselGraph graph = fork(1.0, 8.0, {{Vec3::UnitX(), 1.0, 1.2}, {Vec3::UnitY(), 0.2, 6.0}});

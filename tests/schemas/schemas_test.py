@@ -72,6 +72,11 @@ class Schemas(unittest.TestCase):
         network = self.folder.parent / "network.swc"
         network.write_text("1 2 0 0 0 1 -1\n2 2 0 0 5 0.8 1\n3 2 1 0 9 0.5 2\n4 2 -1 0 9 0.6 2\n")
         validator("info").validate(json.loads(run("info", network, "--json")))
+        for more in ([], ["--repair"], ["--frusta"]):
+            made = json.loads(run("reconstruct", network, "-o", network.with_suffix(".vtp"), "--json", *more))
+            validator("reconstruct").validate(made)
+        made.pop("segments")
+        self.assert_refused("reconstruct", made)
         image = pathlib.Path(self.holder.name) / "image.nrrd"
         header = ("NRRD0004\ntype: short\ndimension: 3\nspace: left-posterior-superior\nsizes: 3 4 5\n"
                   "space directions: (1,0,0) (0,1,0) (0,0,1)\nkinds: domain domain domain\nendian: little\n"
@@ -94,6 +99,13 @@ class Schemas(unittest.TestCase):
             (phases / phase).write_bytes(lumen.read_bytes())
         validator("evaluate").validate(json.loads(run("evaluate", "motion", phases, phases, "--json")))
         self.assert_refused("evaluate", {"v": 1, "kind": "surface"})
+
+    def test_experiment_smoothness(self):
+        out = pathlib.Path(self.holder.name) / "smoothness"
+        printed = json.loads(run("experiment", "smoothness", "-o", out, "--orientations", "1", "--levels", "1", "--json"))
+        validator("experiment-smoothness").validate(printed)
+        self.assertEqual(printed, json.loads((out / "experiment.json").read_text()))
+        self.assert_refused("experiment-smoothness", {"v": 1, "kind": "smoothness"})
 
     def test_experiment_orientations(self):
         out = pathlib.Path(self.holder.name) / "orientations"

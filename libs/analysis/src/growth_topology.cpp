@@ -142,19 +142,21 @@ class TopologyMaker {
     std::vector<double> least(made_.elements.size() - first);
     for (std::size_t e = first; e < made_.elements.size(); ++e) {
       GrowthElement& own = made_.elements[e];
-      // The element begins on its parent's axis: it must at least come out of it, and have room for its
-      // forks.
+      // The element begins on its parent's axis: it must come out of it, however wide that is, and should
+      // have room for its forks.
       const double parent =
           own.parent < 0 ? 0.0 : made_.elements[static_cast<std::size_t>(own.parent)].diameter_mm;
+      const double out = 0.6 * parent + own.diameter_mm;
       least[e - first] =
-          std::min(0.6 * parent + own.diameter_mm * (1.0 + 1.5 * (own.segments - 1)), 0.9 * row.length_mm);
+          std::max(own.parent < 0 ? 0.0 : out,
+                   std::min(out + 1.5 * own.diameter_mm * (own.segments - 1), 0.9 * row.length_mm));
       own.length_mm = row.length_mm * (spread > 0.0 ? random.gamma(std::min(spread, 0.95)) : 1.0);
       own.length_mm = std::max(own.length_mm - least[e - first], 0.0);
       sum += least[e - first];
       free += own.length_mm;
     }
     const auto count = static_cast<double>(made_.elements.size() - first);
-    const double scale = free > 0.0 ? (count * row.length_mm - sum) / free : 0.0;
+    const double scale = free > 0.0 ? std::max(count * row.length_mm - sum, 0.0) / free : 0.0;
     for (std::size_t e = first; e < made_.elements.size(); ++e)
       made_.elements[e].length_mm = least[e - first] + scale * made_.elements[e].length_mm;
   }

@@ -48,12 +48,18 @@ bool runs_along(const RoundCone& cone, const RoundCone& other) {
   return contact(end, {other.from, other.to, 0.0, 0.0}).has_value();
 }
 
+/// Its end lies within the other one's wall.
+bool ends_within(const RoundCone& cone, const RoundCone& other) {
+  return contact({cone.to, cone.to, 0.0, 0.0}, other).has_value();
+}
+
 /// What an element's next segment starts from.
 struct Tip {
   std::int32_t point;
-  Vec3 along;      ///< unit
-  double angle;    ///< about which it turns away from there
-  double azimuth;  ///< where it turns to first
+  Vec3 along;             ///< unit
+  double angle;           ///< about which it turns away from there
+  double azimuth;         ///< where it turns to first
+  double least_mm = 0.0;  ///< > 0: it leaves a stem, and is to end outside it
 };
 
 class TreeGrower {
@@ -188,6 +194,7 @@ class TreeGrower {
     }
     const double parent_radius =
         own.parent < 0 ? 0.0 : 0.5 * plan.elements[static_cast<std::size_t>(own.parent)].diameter_mm;
+    if (own.parent >= 0) tip.least_mm = parent_radius + 0.5 * own.diameter_mm;
     double owed = 0.0;
     first_point_[e] = static_cast<std::int32_t>(tree_.graph.points.size());
     for (const double length : cut(own, parent_radius, random)) {
@@ -213,7 +220,7 @@ class TreeGrower {
     const double depth = domain_(from);
     Vec3 inward = Vec3::Zero();
     bool looked = false;
-    for (int round = 0; round < 4; ++round, length *= 0.6)
+    for (int round = 0; round < 4 && (round == 0 || length >= tip.least_mm); ++round, length *= 0.6)
       for (int k = 0; k < most_tries; ++k) {
         const double angle = tip.angle + std::abs(random.normal()) * (8.0 + 2.0 * k) * degree;
         const double turn = k == 0 ? 0.0 : random.between(0.0, 2.0 * std::numbers::pi);
@@ -229,13 +236,14 @@ class TreeGrower {
           along -= random.between(1.0, 2.0) * along.dot(inward) * inward;
         if (depth < element.diameter_mm) along += random.uniform() * inward;
         if (!(along.squaredNorm() > 1e-12)) continue;
-        if (fits(tip.point, from + length * along.normalized(), depth, element)) return length;
+        if (fits(tip, from + length * along.normalized(), depth, element)) return length;
       }
     return 0.0;
   }
 
   /// Keeps the segment where it lies inside and meets nothing.
-  bool fits(std::int32_t point, const Vec3& to, double depth, const GrowthElement& element) {
+  bool fits(const Tip& tip, const Vec3& to, double depth, const GrowthElement& element) {
+    const std::int32_t point = tip.point;
     const double radius = 0.5 * element.diameter_mm;
     const Vec3& from = tree_.graph.points[static_cast<std::size_t>(point)];
     const double needed = std::min(radius, depth + 0.2 * (to - from).norm());
@@ -247,8 +255,10 @@ class TreeGrower {
     tree_.graph.points.push_back(to);
     arriving_.push_back(index);
     const bool meets = grid_.any_near(cone, [&](std::int32_t other) {
-      if (joints_.share_a_point(index, other)) return runs_along(cone, round_cone(tree_.graph, other));
-      const std::optional<ConeContact> hit = contact(cone, round_cone(tree_.graph, other));
+      const RoundCone near = round_cone(tree_.graph, other);
+      if (joints_.share_a_point(index, other))
+        return runs_along(cone, near) || (tip.least_mm > 0.0 && ends_within(cone, near));
+      const std::optional<ConeContact> hit = contact(cone, near);
       return hit && !joints_.covers(index, other, *hit);
     });
     if (meets) {

@@ -1,11 +1,10 @@
 #include "ostia/experiments/orientations.h"
 
+#include "orientation_lines.h"
+
 #include "ostia/centerline/skeleton_radius.h"
 #include "ostia/core/error.h"
 #include "ostia/geometry/polyline.h"
-#include "ostia/imaging/diffusion.h"
-#include "ostia/segmentation/feature.h"
-#include "ostia/segmentation/level_set.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,36 +14,6 @@ namespace {
 
 using centerline::MeasuredSkeleton;
 using centerline::SkeletonEdge;
-
-/// Negative where the image is brighter than `threshold_hu`.
-imaging::FloatVolume start_above(const imaging::ImageVolume& image, double threshold_hu) {
-  imaging::FloatVolume start{image.geometry, std::vector<float>(image.voxels.size())};
-  std::transform(image.voxels.begin(), image.voxels.end(), start.voxels.begin(), [&](std::int16_t hu) {
-    return static_cast<float>((threshold_hu - hu) / std::max(1.0, std::abs(threshold_hu)));
-  });
-  return start;
-}
-
-imaging::Region whole(const imaging::Geometry& grid) {
-  return {{0, 0, 0}, grid.size};
-}
-
-segmentation::LevelSetResult segmented(const imaging::ImageVolume& image, const OrientationsOptions& options,
-                                       const core::TaskContext& task) {
-  const TubeScanOptions& scan = options.scan;
-  // The paper gives one pair of numbers for start and balloon: what is within one deviation of the mean.
-  const imaging::FloatVolume start = start_above(image, scan.lumen_hu - options.vessel_sigma_hu);
-  const imaging::FloatVolume speed = segmentation::balloon_speed(image, whole(image.geometry), scan.lumen_hu,
-                                                                 options.vessel_sigma_hu, options.tau);
-  segmentation::EdgeFeature edge;
-  edge.noise_hu_per_mm = 0.1 * (scan.lumen_hu - scan.gel_hu) / scan.psf_fwhm_z_mm;
-  segmentation::LevelSetOptions how;
-  how.inflation = options.inflation;
-  how.curvature = options.curvature;
-  how.curvature_term = segmentation::CurvatureTerm::minimal;
-  how.iterations_max = options.iterations;
-  return segmentation::level_set(start, image, edge, speed, how, task);
-}
 
 double distance_of(const PhantomTube& tube, const Mat3& turn, const Vec3& point) {
   const std::vector<Vec3> axis{turn * tube.from, turn * tube.to};
@@ -142,31 +111,11 @@ void validate(const OrientationsOptions& o) {
 OrientationRun measure_orientation(const std::vector<PhantomTube>& tubes, const Orientation& orientation,
                                    const OrientationsOptions& options, const core::TaskContext& task) {
   validate(options);
-  task.set_stage("scanning");
-  imaging::ImageVolume image = scan_of(tubes, orientation, options.scan, task.sub(0.0, 0.15));
-  const imaging::ImageVolume scanned = image;
-  if (options.diffusion_iterations > 0) {
-    imaging::DiffusionOptions how;
-    how.iterations = options.diffusion_iterations;
-    image = imaging::diffused(image, how, task.sub(0.15, 0.25));
-  }
-  task.set_stage("level set");
-  const segmentation::LevelSetResult surface = segmented(image, options, task.sub(0.25, 0.7));
-  imaging::MaskVolume mask{image.geometry, std::vector<std::uint8_t>(image.voxels.size())};
-  std::transform(surface.level_set.voxels.begin(), surface.level_set.voxels.end(), mask.voxels.begin(),
-                 [](float phi) { return static_cast<std::uint8_t>(phi < 0.0F ? 1 : 0); });
-  pipeline::SkeletonOptions how;
-  how.prune.length_mm = options.prune_mm;
-  how.gaps.distance_mm = options.gap_mm;
-  how.sections.sigma_mm = options.sigma_mm;
-  how.smooth->knot_spacing_mm = options.knots_mm;
-  if (!options.settle) how.settle.reset();
-  task.set_stage("skeleton");
-  const pipeline::SkeletonResult lines = pipeline::skeleton_of(mask, nullptr, how, task.sub(0.7, 0.9));
+  const ScannedLines found = scanned_lines(tubes, orientation, options, task.sub(0.0, 0.9));
   const MeasuredSkeleton grey =
-      centerline::measured(lines.skeleton.graph, scanned, how.sections, task.sub(0.9, 1.0));
-  OrientationRun run = measured_run(tubes, orientation, lines, grey);
-  run.iterations = surface.iterations;
+      centerline::measured(found.lines.skeleton.graph, found.scanned, found.sections, task.sub(0.9, 1.0));
+  OrientationRun run = measured_run(tubes, orientation, found.lines, grey);
+  run.iterations = found.surface.iterations;
   return run;
 }
 

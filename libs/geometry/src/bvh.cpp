@@ -1,8 +1,9 @@
 #include "bvh.h"
 
+#include "ostia/core/parallel.h"
+
 #include <algorithm>
 #include <limits>
-#include <numeric>
 
 namespace ostia::geometry::detail {
 namespace {
@@ -10,6 +11,7 @@ namespace {
 constexpr int bin_count = 12;
 // From this depth on the splits are at the median, so that the depth stays within the traversal stacks.
 constexpr int balanced_from_depth = 60;
+constexpr std::size_t parallel_from = 1u << 15;  // items; below, a task costs more than it gains
 
 struct Item {
   BvhBox box;
@@ -24,10 +26,11 @@ struct Split {
   double scale = 0.0;
 };
 
+using Nodes = std::vector<BvhNode>;
+
 struct Builder {
   std::vector<Item> items;
   int leaf_size = 4;
-  Bvh bvh;
 
   int bin_of(const Item& item, const Split& split) const {
     return std::min(bin_count - 1, static_cast<int>((item.middle[split.axis] - split.lower) * split.scale));
@@ -86,57 +89,62 @@ struct Builder {
     return half;
   }
 
-  void build(std::size_t first, std::size_t last, int depth) {
+  /// The first item of the right side.
+  std::size_t halve(std::size_t first, std::size_t last, int depth, const BvhBox& middles) {
+    const Split split = depth < balanced_from_depth ? best_split(first, last, middles) : Split{};
+    if (split.axis < 0) return split_at_median(first, last, middles);
+    const auto begin = items.begin();
+    const auto middle =
+        std::partition(begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(last),
+                       [&](const Item& item) { return bin_of(item, split) < split.bin; });
+    return static_cast<std::size_t>(middle - begin);
+  }
+
+  /// Appends the tree of these items, whose indices of nodes count from the start of `nodes`.
+  void build(std::size_t first, std::size_t last, int depth, Nodes& nodes) {
     BvhNode node{BvhBox::nothing(), 0, 0};
     BvhBox middles = BvhBox::nothing();
     for (std::size_t i = first; i < last; ++i) {
       node.box.extend(items[i].box);
       middles.extend(items[i].middle);
     }
-    const std::size_t self = bvh.nodes.size();
-    bvh.nodes.push_back(node);
+    const std::size_t self = nodes.size();
+    nodes.push_back(node);
     if (last - first <= static_cast<std::size_t>(leaf_size)) {
-      bvh.nodes[self].next = static_cast<std::int32_t>(first);
-      bvh.nodes[self].count = static_cast<std::int32_t>(last - first);
+      nodes[self].next = static_cast<std::int32_t>(first);
+      nodes[self].count = static_cast<std::int32_t>(last - first);
       return;
     }
-    const Split split = depth < balanced_from_depth ? best_split(first, last, middles) : Split{};
-    std::size_t half = 0;
-    if (split.axis < 0) {
-      half = split_at_median(first, last, middles);
-    } else {
-      const auto begin = items.begin();
-      const auto middle = std::partition(begin + static_cast<std::ptrdiff_t>(first),
-                                         begin + static_cast<std::ptrdiff_t>(last),
-                                         [&](const Item& item) { return bin_of(item, split) < split.bin; });
-      half = static_cast<std::size_t>(middle - begin);
+    const std::size_t half = halve(first, last, depth, middles);
+    if (last - first < parallel_from) {
+      build(first, half, depth + 1, nodes);
+      nodes[self].next = static_cast<std::int32_t>(nodes.size());
+      build(half, last, depth + 1, nodes);
+      return;
     }
-    build(first, half, depth + 1);
-    bvh.nodes[self].next = static_cast<std::int32_t>(bvh.nodes.size());
-    build(half, last, depth + 1);
+    Nodes sides[2];
+    core::parallel_for(2, 1, [&](std::size_t side) {
+      sides[side].reserve(last - first);
+      if (side == 0)
+        build(first, half, depth + 1, sides[0]);
+      else
+        build(half, last, depth + 1, sides[1]);
+    });
+    append(sides[0], nodes);
+    nodes[self].next = static_cast<std::int32_t>(nodes.size());
+    append(sides[1], nodes);
+  }
+
+  static void append(const Nodes& more, Nodes& nodes) {
+    const auto offset = static_cast<std::int32_t>(nodes.size());
+    for (BvhNode node : more) {
+      if (node.count == 0) node.next += offset;
+      nodes.push_back(node);
+    }
   }
 };
 
 }  // namespace
-
-BvhBox BvhBox::nothing() {
-  constexpr double inf = std::numeric_limits<double>::infinity();
-  return {{inf, inf, inf}, {-inf, -inf, -inf}};
-}
-
-void BvhBox::extend(const double* point) {
-  for (int a = 0; a < 3; ++a) {
-    lower[a] = std::min(lower[a], point[a]);
-    upper[a] = std::max(upper[a], point[a]);
-  }
-}
-
-void BvhBox::extend(const BvhBox& other) {
-  for (int a = 0; a < 3; ++a) {
-    lower[a] = std::min(lower[a], other.lower[a]);
-    upper[a] = std::max(upper[a], other.upper[a]);
-  }
-}
 
 double BvhBox::half_area() const {
   const double x = upper[0] - lower[0], y = upper[1] - lower[1], z = upper[2] - lower[2];
@@ -154,11 +162,12 @@ Bvh build_bvh(const std::vector<BvhBox>& boxes, int leaf_size) {
     item.index = static_cast<std::int32_t>(i);
     for (int a = 0; a < 3; ++a) item.middle[a] = 0.5 * boxes[i].lower[a] + 0.5 * boxes[i].upper[a];
   }
-  builder.bvh.nodes.reserve(boxes.size());
-  builder.build(0, boxes.size(), 0);
-  builder.bvh.order.resize(boxes.size());
-  for (std::size_t i = 0; i < boxes.size(); ++i) builder.bvh.order[i] = builder.items[i].index;
-  return std::move(builder.bvh);
+  Bvh bvh;
+  bvh.nodes.reserve(boxes.size());
+  builder.build(0, boxes.size(), 0, bvh.nodes);
+  bvh.order.resize(boxes.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) bvh.order[i] = builder.items[i].index;
+  return bvh;
 }
 
 }  // namespace ostia::geometry::detail

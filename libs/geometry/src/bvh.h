@@ -4,6 +4,7 @@
 #include "ostia/geometry/vec.h"
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace ostia::geometry::detail {
@@ -13,9 +14,22 @@ struct BvhBox {
   double lower[3];
   double upper[3];
 
-  static BvhBox nothing();
-  void extend(const double* point);
-  void extend(const BvhBox& other);
+  static BvhBox nothing() {
+    constexpr double inf = std::numeric_limits<double>::infinity();
+    return {{inf, inf, inf}, {-inf, -inf, -inf}};
+  }
+  void extend(const double* point) {
+    for (int a = 0; a < 3; ++a) {
+      lower[a] = point[a] < lower[a] ? point[a] : lower[a];
+      upper[a] = point[a] > upper[a] ? point[a] : upper[a];
+    }
+  }
+  void extend(const BvhBox& other) {
+    for (int a = 0; a < 3; ++a) {
+      lower[a] = other.lower[a] < lower[a] ? other.lower[a] : lower[a];
+      upper[a] = other.upper[a] > upper[a] ? other.upper[a] : upper[a];
+    }
+  }
   double half_area() const;
   bool overlaps(const BvhBox& other) const {
     return lower[0] <= other.upper[0] && other.lower[0] <= upper[0] && lower[1] <= other.upper[1] &&
@@ -49,7 +63,7 @@ struct Bvh {
 };
 
 /// Splits by the surface-area heuristic in bins (Wald 2007). `boxes` must be finite; none gives no nodes.
-/// The same input gives the same tree.
+/// The same input gives the same tree. On all cores; from within a parallel loop too.
 Bvh build_bvh(const std::vector<BvhBox>& boxes, int leaf_size = 4);
 
 }  // namespace ostia::geometry::detail

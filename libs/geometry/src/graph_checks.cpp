@@ -47,7 +47,7 @@ std::vector<std::int32_t> first_at_its_place(const std::vector<Vec3>& points,
   return first;
 }
 
-std::vector<bool> repeated_edges(const VesselGraph& graph) {
+std::vector<std::int32_t> first_between_its_points(const VesselGraph& graph) {
   std::vector<std::int32_t> order;
   order.reserve(graph.edges.size());
   for (std::size_t e = 0; e < graph.edges.size(); ++e)
@@ -60,10 +60,12 @@ std::vector<bool> repeated_edges(const VesselGraph& graph) {
   std::sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
     return std::make_pair(ends(a), a) < std::make_pair(ends(b), b);
   });
-  std::vector<bool> repeated(graph.edges.size(), false);
+  std::vector<std::int32_t> first(graph.edges.size());
+  std::iota(first.begin(), first.end(), 0);
   for (std::size_t i = 1; i < order.size(); ++i)
-    if (ends(order[i]) == ends(order[i - 1])) repeated[static_cast<std::size_t>(order[i])] = true;
-  return repeated;
+    if (ends(order[i]) == ends(order[i - 1]))
+      first[static_cast<std::size_t>(order[i])] = first[static_cast<std::size_t>(order[i - 1])];
+  return first;
 }
 
 Degrees degrees_of(const VesselGraph& graph) {

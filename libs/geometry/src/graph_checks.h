@@ -23,9 +23,9 @@ std::vector<bool> finite_points(const VesselGraph& graph);
 std::vector<std::int32_t> first_at_its_place(const std::vector<Vec3>& points,
                                              const std::vector<bool>& finite);
 
-/// Edges whose two points are also those of an edge before, in either direction; none from a point to itself
-/// or out of range.
-std::vector<bool> repeated_edges(const VesselGraph& graph);
+/// The first of all edges between the two points of each, in either direction; itself for those from a point
+/// to itself or out of range.
+std::vector<std::int32_t> first_between_its_points(const VesselGraph& graph);
 
 /// How many edges leave and reach each point.
 struct Degrees {

@@ -42,16 +42,38 @@ std::string_view name_of(GraphFaultKind kind) {
   return words_of(kind).key;
 }
 
+namespace {
+
+/// The segment that reaches each of the points, or else the first that leaves it; -1 without any.
+std::vector<std::int32_t> segments_at(const VesselGraph& graph, const std::vector<std::int32_t>& points) {
+  std::vector<std::int32_t> reaching(points.size(), -1), leaving(points.size(), -1);
+  if (points.empty()) return reaching;
+  for (std::size_t e = 0; e < graph.edges.size(); ++e)
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const auto index = static_cast<std::int32_t>(e);
+      if (graph.edges[e].to == points[i] && reaching[i] < 0) reaching[i] = index;
+      if (graph.edges[e].from == points[i] && leaving[i] < 0) leaving[i] = index;
+    }
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (reaching[i] < 0) reaching[i] = leaving[i];
+  return reaching;
+}
+
+}  // namespace
+
 std::string text_of(const GraphFault& fault, const VesselGraph& graph, const std::string& reference_name) {
   std::string places;
   const auto add = [&](const std::string& place) { places += (places.empty() ? "" : ", ") + place; };
-  for (const std::int32_t e : fault.edges) {
-    const auto at = static_cast<std::size_t>(e);
-    add(graph.references.size() == graph.edges.size()
-            ? reference_name + " " + std::to_string(graph.references[at])
-            : "segment " + std::to_string(at));
-  }
-  for (const std::int32_t p : fault.points) add("point " + std::to_string(p));
+  const bool referenced = graph.references.size() == graph.edges.size();
+  const auto named = [&](std::int32_t e) {
+    return referenced ? reference_name + " " + std::to_string(graph.references[static_cast<std::size_t>(e)])
+                      : "segment " + std::to_string(e);
+  };
+  for (const std::int32_t e : fault.edges) add(named(e));
+  const std::vector<std::int32_t> segments = segments_at(graph, fault.points);
+  for (std::size_t i = 0; i < fault.points.size(); ++i)
+    add("point " + std::to_string(fault.points[i]) +
+        (referenced && segments[i] >= 0 ? " of " + named(segments[i]) : ""));
   const std::size_t shown = fault.edges.size() + fault.points.size();
   if (shown < fault.count) add("...");
   const Words& said = words_of(fault.kind);
@@ -67,11 +89,12 @@ std::string summary(const GraphFaults& faults, const VesselGraph& graph, const s
 }
 
 void require_sound(const VesselGraph& graph, const std::string& what, bool tree,
-                   const core::TaskContext& task) {
+                   const core::TaskContext& task, const std::string& reference_name) {
   const GraphFaults faults = find_faults(graph, task);
   if (graph.edges.empty()) throw InvalidInput(what + " has no segments");
   if (tree ? faults.sound_trees() : faults.sound()) return;
-  throw InvalidInput(what + " is no sound " + (tree ? "tree" : "network") + ": " + summary(faults, graph) +
+  throw InvalidInput(what + " is no sound " + (tree ? "tree" : "network") + ": " +
+                     summary(faults, graph, reference_name) +
                      "; `ostia convert --repair` mends what can be mended");
 }
 

@@ -60,9 +60,9 @@ void check_repeats(const VesselGraph& graph, const std::vector<bool>& finite, Co
   const std::vector<std::int32_t> same = first_at_its_place(graph.points, finite);
   for (std::size_t i = 0; i < same.size(); ++i)
     if (same[i] != static_cast<std::int32_t>(i)) counter.point(Kind::duplicate_point, i);
-  const std::vector<bool> repeated = repeated_edges(graph);
-  for (std::size_t e = 0; e < repeated.size(); ++e)
-    if (repeated[e]) counter.edge(Kind::duplicate_segment, e);
+  const std::vector<std::int32_t> twins = first_between_its_points(graph);
+  for (std::size_t e = 0; e < twins.size(); ++e)
+    if (twins[e] != static_cast<std::int32_t>(e)) counter.edge(Kind::duplicate_segment, e);
 }
 
 void check_parents(const VesselGraph& graph, const Degrees& degrees, Counter& counter) {

@@ -30,7 +30,7 @@ class Turner {
     find_parts();
     const std::vector<std::int32_t> starts = choose_starts();
     if (starts.empty()) return 0;
-    return turn(distances(starts));
+    return turn(ranks(starts));
   }
 
  private:
@@ -100,8 +100,11 @@ class Turner {
     return starts;
   }
 
-  /// Along the segments from the nearest start, mm; infinite in parts that have none.
-  std::vector<double> distances(const std::vector<std::int32_t>& starts) const {
+  /// Points in the order of their way along the segments from the nearest start (Dijkstra); the last of all
+  /// in parts that have none. A way that a segment is too short to lengthen still comes after the one before.
+  std::vector<std::int32_t> ranks(const std::vector<std::int32_t>& starts) const {
+    std::vector<std::int32_t> rank(graph_.points.size(), std::numeric_limits<std::int32_t>::max());
+    std::int32_t next = 0;
     std::vector<double> distance(graph_.points.size(), std::numeric_limits<double>::infinity());
     const GraphIncidence incidence(graph_);
     using Reached = std::pair<double, std::int32_t>;
@@ -116,18 +119,17 @@ class Turner {
       const auto [d, point] = front.top();
       front.pop();
       if (d > distance[static_cast<std::size_t>(point)]) continue;
+      rank[static_cast<std::size_t>(point)] = next++;
       for (const std::int32_t e : incidence.leaving(point)) reach(edge(e).to, d + length(edge(e)));
       for (const std::int32_t e : incidence.arriving(point)) reach(edge(e).from, d + length(edge(e)));
     }
-    return distance;
+    return rank;
   }
 
-  std::size_t turn(const std::vector<double>& distance) {
+  std::size_t turn(const std::vector<std::int32_t>& rank) {
     std::size_t count = 0;
     for (GraphEdge& edge : graph_.edges) {
-      const double from = distance[static_cast<std::size_t>(edge.from)];
-      const double to = distance[static_cast<std::size_t>(edge.to)];
-      if (!(to < from)) continue;
+      if (rank[static_cast<std::size_t>(edge.to)] >= rank[static_cast<std::size_t>(edge.from)]) continue;
       std::swap(edge.from, edge.to);
       std::swap(edge.radius_from, edge.radius_to);
       ++count;

@@ -30,7 +30,7 @@ std::size_t keep_edges(VesselGraph& graph, const Keep& keep) {
 }
 
 /// The point that each one becomes: the first of those at its place.
-std::vector<std::int32_t> joined(const VesselGraph& graph, double within_mm) {
+std::vector<std::int32_t> joined(const VesselGraph& graph, double within_mm, const core::TaskContext& task) {
   const std::vector<bool> finite = finite_points(graph);
   std::vector<std::int32_t> first = first_at_its_place(graph.points, finite);
   if (within_mm <= 0.0) return first;
@@ -44,15 +44,17 @@ std::vector<std::int32_t> joined(const VesselGraph& graph, double within_mm) {
   if (places.empty()) return first;
   DisjointSets sets(graph.points.size());
   const KdTree tree(places);
-  for (std::size_t i = 0; i < places.size(); ++i)
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    task.throw_if_cancelled();  // a distance as wide as the network makes each of these long
     for (const std::int32_t near : tree.within(places[i], within_mm))
       sets.join(whose[i], whose[static_cast<std::size_t>(near)]);
+  }
   for (std::int32_t& f : first) f = sets.find(f);
   return first;
 }
 
-std::size_t join_points(VesselGraph& graph, double within_mm) {
-  const std::vector<std::int32_t> first = joined(graph, within_mm);
+std::size_t join_points(VesselGraph& graph, double within_mm, const core::TaskContext& task) {
+  const std::vector<std::int32_t> first = joined(graph, within_mm, task);
   std::size_t count = 0;
   for (std::size_t i = 0; i < first.size(); ++i) count += first[i] != static_cast<std::int32_t>(i);
   if (count == 0) return 0;
@@ -61,6 +63,55 @@ std::size_t join_points(VesselGraph& graph, double within_mm) {
     edge.to = first[static_cast<std::size_t>(edge.to)];
   }
   return count;
+}
+
+bool has_length(const GraphEdge& edge) {
+  return edge.from != edge.to;
+}
+
+PointRadii radii_without_length(const VesselGraph& graph) {
+  PointRadii radii(graph.points.size());
+  for (const GraphEdge& edge : graph.edges) {
+    if (has_length(edge)) continue;
+    radii.add(edge.from, edge.radius_from);
+    radii.add(edge.to, edge.radius_to);
+  }
+  return radii;
+}
+
+std::size_t count_lacking(const VesselGraph& graph, const std::vector<std::int32_t>& twins) {
+  std::size_t count = 0;
+  for (std::size_t e = 0; e < twins.size(); ++e)
+    count += twins[e] == static_cast<std::int32_t>(e) && lacks_radius(graph.edges[e]);
+  return count;
+}
+
+/// Gives each first edge between two points the radii that it lacks and the next one between them has.
+void take_from_twins(VesselGraph& graph, const std::vector<std::int32_t>& twins) {
+  for (std::size_t e = 0; e < twins.size(); ++e) {
+    const GraphEdge& twin = graph.edges[e];
+    GraphEdge& first = graph.edges[static_cast<std::size_t>(twins[e])];
+    const bool along = twin.from == first.from;
+    if (!known_radius(first.radius_from)) first.radius_from = along ? twin.radius_from : twin.radius_to;
+    if (!known_radius(first.radius_to)) first.radius_to = along ? twin.radius_to : twin.radius_from;
+  }
+}
+
+/// Drops segments without length and repeated ones, and fills radii from all that were there.
+template <class Done>
+void drop_and_fill(VesselGraph& graph, const Done& done, const core::TaskContext& task) {
+  const PointRadii spare = radii_without_length(graph);
+  done("zero_length_dropped", keep_edges(graph, [&](std::size_t e) { return has_length(graph.edges[e]); }),
+       "segments without length dropped");
+  const std::vector<std::int32_t> twins = first_between_its_points(graph);
+  std::size_t lacking = count_lacking(graph, twins);
+  take_from_twins(graph, twins);
+  done("duplicate_dropped",
+       keep_edges(graph, [&](std::size_t e) { return twins[e] == static_cast<std::int32_t>(e); }),
+       "segments that were there already dropped");
+  fill_radii(graph, spare, task);
+  for (const GraphEdge& edge : graph.edges) lacking -= lacks_radius(edge) ? 1 : 0;
+  done("radii_filled", lacking, "segments whose radii were taken from their neighbours");
 }
 
 }  // namespace
@@ -93,17 +144,10 @@ RepairedGraph repaired(VesselGraph graph, const GraphRepairOptions& options, con
        keep_edges(graph,
                   [&](std::size_t e) { return finite(graph.edges[e].from) && finite(graph.edges[e].to); }),
        "segments at points that are not finite dropped");
-  done("points_joined", join_points(graph, options.merge_within_mm), "points at one place joined");
+  done("points_joined", join_points(graph, options.merge_within_mm, task), "points at one place joined");
   task.set_progress(0.2);
-  // Before what has no length goes: its radius may be the only one that is known at its place.
-  done("radii_filled", fill_radii(graph, task), "segments whose radii were taken from their neighbours");
-  task.set_progress(0.4);
-  done("zero_length_dropped",
-       keep_edges(graph, [&](std::size_t e) { return graph.edges[e].from != graph.edges[e].to; }),
-       "segments without length dropped");
-  const std::vector<bool> repeated = repeated_edges(graph);
-  done("duplicate_dropped", keep_edges(graph, [&](std::size_t e) { return !repeated[e]; }),
-       "segments that were there already dropped");
+  drop_and_fill(graph, done, task);
+  task.set_progress(0.5);
   if (graph.edges.empty()) throw InvalidInput("the network has no segment left after its repair");
   done("turned", turn_from_roots(graph, options), "segments turned away from their root");
   task.set_progress(0.6);

@@ -1,7 +1,8 @@
-#include "bvh.h"
 #include "edge_table.h"
 #include "mesh_checks.h"
+#include "morton_leaves.h"
 
+#include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
 #include "ostia/geometry/aabb_tree.h"
 
@@ -16,9 +17,7 @@
 namespace ostia::geometry {
 namespace {
 
-using detail::Bvh;
 using detail::BvhBox;
-using detail::BvhNode;
 
 // Its predicates are exact: the sign of a determinant of the doubles as they are.
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -132,62 +131,87 @@ bool wings_meet(const Corners& a, const Corners& b) {
   return side(a, *b[2]) == 0 && CGAL::coplanar_orientation(*a[0], *a[1], *a[2], *b[2]) == CGAL::POSITIVE;
 }
 
+/// What a triangle is where it counts: it has an area, and finite points.
+struct Candidate {
+  BvhBox box;
+  Triangle corners;        // the first of equal points
+  std::int32_t name = -1;  // its index in the mesh
+  bool wanted = true;
+};
+
 class Search {
  public:
-  explicit Search(const TriMesh& mesh) : same_(detail::first_equal_points(mesh.points)) {
+  /// Of pairs of which at least one triangle is marked; no marks: of all pairs.
+  Search(const TriMesh& mesh, const std::vector<std::uint8_t>* marks) {
     points_.reserve(mesh.points.size());
     for (const Vec3& p : mesh.points) points_.emplace_back(p.x(), p.y(), p.z());
-    std::vector<BvhBox> boxes;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-      Triangle corners = mesh.triangles[t];
-      bool finite = true;
-      BvhBox box = BvhBox::nothing();
-      for (std::int32_t& p : corners) {
-        p = same_[static_cast<std::size_t>(p)];
-        finite = finite && mesh.points[static_cast<std::size_t>(p)].allFinite();
-        box.extend(mesh.points[static_cast<std::size_t>(p)].data());
-      }
-      if (!finite || detail::repeats_a_corner(corners) ||
-          CGAL::collinear(at(corners[0]), at(corners[1]), at(corners[2]))) {
-        continue;
-      }
-      corners_.push_back(corners);
-      names_.push_back(static_cast<std::int32_t>(t));
-      boxes.push_back(box);
-    }
-    bvh_ = detail::build_bvh(boxes);
-    boxes_ = std::move(boxes);
+    const std::vector<Candidate> candidates = candidates_of(mesh, marks);
+    std::vector<BvhBox> boxes(candidates.size());
+    for (std::size_t i = 0; i < candidates.size(); ++i) boxes[i] = candidates[i].box;
+    leaves_ = detail::morton_leaves(boxes);
+    // In the order of the leaves: then a leaf's triangles lie side by side in memory.
+    items_.resize(candidates.size());
+    core::parallel_for(items_.size(), 4096, [&](std::size_t i) {
+      items_[i] = candidates[static_cast<std::size_t>(leaves_.order[i])];
+    });
+    if (marks != nullptr) mark_levels();
   }
 
-  std::size_t size() const { return corners_.size(); }
+  std::size_t leaves() const { return leaves_.leaves(); }
 
-  /// Appends the pairs of triangle `i` with later ones, ascending.
-  void add_pairs(std::size_t i, std::vector<Pair>& pairs) const {
-    const std::size_t before = pairs.size();
-    std::int32_t stack[detail::bvh_stack_size];
-    int size = 0;
-    stack[size++] = 0;
-    while (size > 0) {
-      const std::int32_t index = stack[--size];
-      const BvhNode& node = bvh_.nodes[static_cast<std::size_t>(index)];
-      if (!node.box.overlaps(boxes_[i])) continue;
-      if (node.count == 0) {
-        stack[size++] = node.next;
-        stack[size++] = index + 1;
-        continue;
-      }
-      for (std::int32_t place = node.next; place < node.next + node.count; ++place) {
-        const auto j = static_cast<std::size_t>(bvh_.order[static_cast<std::size_t>(place)]);
-        if (j > i && boxes_[i].overlaps(boxes_[j]) && meet(corners_[i], corners_[j])) {
-          pairs.emplace_back(names_[i], names_[j]);
-        }
-      }
-    }
-    std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(before), pairs.end());
+  /// Appends the pairs of a leaf's triangles with each other and with those of later leaves.
+  void add_pairs(std::size_t leaf, std::vector<Pair>& pairs) const {
+    const bool all = wanted_.empty() || wanted_[0][leaf] != 0;
+    detail::for_later_leaves(
+        leaves_, leaf,
+        [&](std::size_t level, std::size_t index) { return all || wanted_[level][index] != 0; },
+        [&](std::size_t other) { add_pairs(leaf, other, pairs); });
   }
 
  private:
   const Point3& at(std::int32_t p) const { return points_[static_cast<std::size_t>(p)]; }
+
+  std::vector<Candidate> candidates_of(const TriMesh& mesh, const std::vector<std::uint8_t>* marks) const {
+    const std::vector<std::int32_t> same = detail::first_equal_points(mesh.points);
+    std::vector<Candidate> candidates(mesh.triangles.size());
+    core::parallel_for(mesh.triangles.size(), 4096, [&](std::size_t t) {
+      Candidate candidate{BvhBox::nothing(), mesh.triangles[t], static_cast<std::int32_t>(t),
+                          marks == nullptr || (*marks)[t] != 0};
+      bool counts = true;
+      for (std::int32_t& p : candidate.corners) {
+        p = same[static_cast<std::size_t>(p)];
+        counts = counts && mesh.points[static_cast<std::size_t>(p)].allFinite();
+        candidate.box.extend(mesh.points[static_cast<std::size_t>(p)].data());
+      }
+      const Triangle& c = candidate.corners;
+      counts = counts && !detail::repeats_a_corner(c) && !CGAL::collinear(at(c[0]), at(c[1]), at(c[2]));
+      if (!counts) candidate.name = -1;
+      candidates[t] = candidate;
+    });
+    std::erase_if(candidates, [](const Candidate& candidate) { return candidate.name < 0; });
+    return candidates;
+  }
+
+  void mark_levels() {
+    for (const auto& level : leaves_.levels) wanted_.emplace_back(level.size(), 0);
+    for (std::size_t i = 0; i < items_.size(); ++i) {
+      if (!items_[i].wanted) continue;
+      const std::size_t leaf = i / detail::MortonLeaves::per_leaf;
+      for (std::size_t k = 0; k < wanted_.size(); ++k) wanted_[k][leaf >> k] = 1;
+    }
+  }
+
+  void add_pairs(std::size_t leaf, std::size_t other, std::vector<Pair>& pairs) const {
+    for (std::size_t i = leaves_.first(leaf); i < leaves_.last(leaf); ++i) {
+      const Candidate& one = items_[i];
+      if (!one.box.overlaps(leaves_.levels[0][other])) continue;
+      for (std::size_t j = std::max(i + 1, leaves_.first(other)); j < leaves_.last(other); ++j) {
+        const Candidate& two = items_[j];
+        if (one.box.overlaps(two.box) && (one.wanted || two.wanted) && meet(one.corners, two.corners))
+          pairs.emplace_back(std::min(one.name, two.name), std::max(one.name, two.name));
+      }
+    }
+  }
 
   /// Tells how many corners the triangles share, with those first.
   bool meet(Triangle a, Triangle b) const {
@@ -208,36 +232,44 @@ class Search {
   }
 
   std::vector<Point3> points_;
-  std::vector<std::int32_t> same_;
-  std::vector<Triangle> corners_;    // of the triangles with an area
-  std::vector<std::int32_t> names_;  // their indices in the mesh
-  std::vector<BvhBox> boxes_;
-  Bvh bvh_;
+  detail::MortonLeaves leaves_;
+  std::vector<Candidate> items_;                   // in the leaves' order
+  std::vector<std::vector<std::uint8_t>> wanted_;  // by level and node; empty: all are
 };
+
+std::vector<Pair> pairs_of(const Search& search, std::size_t max_pairs) {
+  std::vector<Pair> pairs;
+  constexpr std::size_t grain = 64;
+  // In rounds, so that a search that may end early does; the rounds do not depend on the number of threads.
+  const std::size_t round = max_pairs == 0 ? search.leaves() : 64 * grain;
+  for (std::size_t start = 0; start < search.leaves(); start += round) {
+    const std::size_t count = std::min(round, search.leaves() - start);
+    std::vector<std::vector<Pair>> found((count + grain - 1) / grain);
+    core::parallel_chunks(count, grain, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) search.add_pairs(start + i, found[first / grain]);
+    });
+    for (const auto& part : found) pairs.insert(pairs.end(), part.begin(), part.end());
+    if (max_pairs > 0 && pairs.size() >= max_pairs) break;
+  }
+  std::sort(pairs.begin(), pairs.end());
+  if (max_pairs > 0 && pairs.size() > max_pairs) pairs.resize(max_pairs);
+  return pairs;
+}
 
 }  // namespace
 
 std::vector<std::pair<std::int32_t, std::int32_t>> self_intersections(const TriMesh& mesh,
                                                                       std::size_t max_pairs) {
   detail::check_indices(mesh, "self-intersections");
-  const Search search(mesh);
-  std::vector<Pair> pairs;
-  constexpr std::size_t grain = 256;
-  // In rounds, so that a search that may end early does; the rounds do not depend on the number of threads.
-  const std::size_t round = max_pairs == 0 ? search.size() : 64 * grain;
-  for (std::size_t start = 0; start < search.size(); start += round) {
-    const std::size_t count = std::min(round, search.size() - start);
-    std::vector<std::vector<Pair>> found((count + grain - 1) / grain);
-    core::parallel_chunks(count, grain, [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) search.add_pairs(start + i, found[first / grain]);
-    });
-    for (const auto& part : found) pairs.insert(pairs.end(), part.begin(), part.end());
-    if (max_pairs > 0 && pairs.size() >= max_pairs) {
-      pairs.resize(max_pairs);
-      break;
-    }
-  }
-  return pairs;
+  return pairs_of(Search(mesh, nullptr), max_pairs);
+}
+
+std::vector<std::pair<std::int32_t, std::int32_t>> self_intersections(
+    const TriMesh& mesh, const std::vector<std::uint8_t>& marks) {
+  detail::check_indices(mesh, "self-intersections");
+  if (marks.size() != mesh.triangles.size())
+    throw InvalidInput("self-intersections: there must be a mark for each triangle");
+  return pairs_of(Search(mesh, &marks), 0);
 }
 
 }  // namespace ostia::geometry

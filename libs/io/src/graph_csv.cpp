@@ -65,15 +65,18 @@ class TableReader {
     std::string_view line;
     while (reader_.line(line) && trimmed(line).empty()) {
     }
-    if (line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
+    line = without_byte_order_mark(line);
     const bool named = take_header(cells_.of(line, reader_));
-    if (column("x1") >= 0)
+    if (column("x1") >= 0) {
+      if (column("reference") >= 0) loaded_.reference_name = "reference";
       read_rows({"x1", "y1", "z1", "x2", "y2", "z2"},
-                {{"radius1", "r1", "radius"}, {"radius2", "r2", "radius"}}, &TableReader::segment);
-    else if (column("parent") >= 0)
+                {{"radius1", "r1", "radius"}, {"radius2", "r2", "radius"}, {"reference"}},
+                &TableReader::segment);
+    } else if (column("parent") >= 0) {
       read_rows({"x", "y", "z", "id", "parent"}, {{"radius", "r"}}, &TableReader::sample);
-    else
+    } else {
       read_points(named ? std::string_view{} : line);
+    }
     if (samples_.size() > 0) loaded_ = samples_.graph();
     warn_if_cut(reader_, loaded_);
     return std::move(loaded_);
@@ -173,14 +176,16 @@ class TableReader {
   }
   std::int64_t line_number() const { return static_cast<std::int64_t>(reader_.line_number()); }
 
-  void add_edge(std::int32_t from, std::int32_t to, double radius_from, double radius_to) {
+  void add_edge(std::int32_t from, std::int32_t to, double radius_from, double radius_to,
+                std::int64_t reference) {
     loaded_.graph.edges.push_back({from, to, radius_from, radius_to});
-    loaded_.graph.references.push_back(line_number());
+    loaded_.graph.references.push_back(reference);
   }
 
   void segment(const Row& row) {
     const std::int32_t from = table_.index_of(place(row, 0));
-    add_edge(from, table_.index_of(place(row, 3)), value(row, 6), value(row, 7));
+    add_edge(from, table_.index_of(place(row, 3)), value(row, 6), value(row, 7),
+             columns_[8] < 0 ? line_number() : whole(row, 8));
   }
 
   void sample(const Row& row) {
@@ -205,7 +210,7 @@ class TableReader {
     const double radius = value(row, 3);
     const std::string_view name = cell(row, 4);
     const std::int32_t index = table_.index_of(here);
-    if (last_ >= 0 && name == vessel_) add_edge(last_, index, last_radius_, radius);
+    if (last_ >= 0 && name == vessel_) add_edge(last_, index, last_radius_, radius, line_number());
     last_ = index;
     last_radius_ = radius;
     vessel_ = name;
@@ -231,15 +236,25 @@ LoadedGraph read_graph_csv(const fs::path& path, const core::TaskContext& task) 
 }
 
 void write_graph_csv(const fs::path& path, const geometry::VesselGraph& graph,
-                     const core::TaskContext& task) {
+                     const std::vector<SegmentValues>& values, const core::TaskContext& task) {
   TextWriter out(path, task);
-  out.text("x1,y1,z1,radius1,x2,y2,z2,radius2\n");
-  for (const geometry::GraphEdge& edge : graph.edges) {
+  out.text("x1,y1,z1,radius1,x2,y2,z2,radius2");
+  if (!graph.references.empty()) out.text(",reference");
+  for (const SegmentValues& value : values) out.text("," + value.name);
+  out.text("\n");
+  for (std::size_t e = 0; e < graph.edges.size(); ++e) {
+    const geometry::GraphEdge& edge = graph.edges[e];
     const Vec3& a = graph.points[static_cast<std::size_t>(edge.from)];
     const Vec3& b = graph.points[static_cast<std::size_t>(edge.to)];
     out.first_number(a.x());
     for (const double x : {a.y(), a.z(), edge.radius_from, b.x(), b.y(), b.z(), edge.radius_to})
       out.number(',', x);
+    const auto add = [&](std::int64_t whole) {
+      out.text(",");
+      out.whole(whole);
+    };
+    if (!graph.references.empty()) add(graph.references[e]);
+    for (const SegmentValues& value : values) add(value.values[e]);
     out.text("\n");
   }
   out.commit();

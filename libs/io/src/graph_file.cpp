@@ -124,6 +124,19 @@ LoadedGraph read_graph(const fs::path& path, const core::TaskContext& task) {
 
 std::vector<std::string> write_graph(const fs::path& path, const geometry::VesselGraph& graph,
                                      const core::TaskContext& task) {
+  return write_graph(path, graph, {}, task);
+}
+
+std::vector<std::string> write_graph(const fs::path& path, const geometry::VesselGraph& graph,
+                                     const std::vector<SegmentValues>& values,
+                                     const core::TaskContext& task) {
+  const auto check = [&](const std::string& what, std::size_t there) {
+    if (there != graph.edges.size())
+      throw InvalidInput("cannot write " + path.string() + ": there are " + std::to_string(there) + " " +
+                         what + " for " + std::to_string(graph.edges.size()) + " segments");
+  };
+  if (!graph.references.empty()) check("references", graph.references.size());
+  for (const SegmentValues& value : values) check("values of " + value.name, value.values.size());
   const auto count = static_cast<std::int64_t>(graph.points.size());
   for (std::size_t e = 0; e < graph.edges.size(); ++e)
     for (const std::int32_t point : {graph.edges[e].from, graph.edges[e].to})
@@ -131,11 +144,16 @@ std::vector<std::string> write_graph(const fs::path& path, const geometry::Vesse
         throw InvalidInput("cannot write " + path.string() + ": segment " + std::to_string(e) +
                            " names a point that is not there; repair the network first");
   const std::string extension = upper(path.extension().string());
-  if (extension == ".SWC") return write_graph_swc(path, graph, task);
+  if (extension == ".SWC") {
+    std::vector<std::string> told = write_graph_swc(path, graph, task);
+    for (const SegmentValues& value : values)
+      told.push_back("SWC has no place for the segments' " + value.name);
+    return told;
+  }
   if (extension == ".VTP")
-    write_graph_vtp(path, graph);
+    write_graph_vtp(path, graph, values);
   else if (extension == ".CSV")
-    write_graph_csv(path, graph, task);
+    write_graph_csv(path, graph, values, task);
   else
     throw InvalidInput("cannot write " + path.string() + ": a tree is written as .vtp, .swc or .csv");
   return {};

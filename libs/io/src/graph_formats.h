@@ -17,11 +17,12 @@ LoadedGraph read_graph_swc(const std::filesystem::path& path, const core::TaskCo
 LoadedGraph read_graph_csv(const std::filesystem::path& path, const core::TaskContext& task);
 LoadedGraph read_graph_gxl(const std::filesystem::path& path, const core::TaskContext& task);
 LoadedGraph read_graph_tables(const std::filesystem::path& path, const core::TaskContext& task);
-void write_graph_vtp(const std::filesystem::path& path, const geometry::VesselGraph& graph);
+void write_graph_vtp(const std::filesystem::path& path, const geometry::VesselGraph& graph,
+                     const std::vector<SegmentValues>& values);
 std::vector<std::string> write_graph_swc(const std::filesystem::path& path, geometry::VesselGraph graph,
                                          const core::TaskContext& task);
 void write_graph_csv(const std::filesystem::path& path, const geometry::VesselGraph& graph,
-                     const core::TaskContext& task);
+                     const std::vector<SegmentValues>& values, const core::TaskContext& task);
 
 /// A number; NaN for "", "nan", "inf" and what else is no finite one. Nothing for what is no number at all.
 std::optional<double> number_or_nan(std::string_view word);
@@ -30,7 +31,7 @@ std::optional<double> number_or_nan(std::string_view word);
 class SampleTree {
  public:
   struct Sample {
-    std::int64_t id = 0, parent = -1;  ///< a negative parent: a root
+    std::int64_t id = 0, parent = -1;  ///< the parent -1: a root
     geometry::Vec3 place;
     double radius = 0.0;
     std::int64_t line = 0;
@@ -59,6 +60,12 @@ class PointTable {
   std::vector<std::int32_t> slots_;  // open addressing; -1: free
   std::size_t used_ = 0;
 };
+
+/// Some editors begin a text with these three bytes.
+inline std::string_view without_byte_order_mark(std::string_view first_line) {
+  if (first_line.starts_with("\xEF\xBB\xBF")) first_line.remove_prefix(3);
+  return first_line;
+}
 
 /// Adds a warning where the last line of a file has no end.
 void warn_if_cut(const PieceReader& reader, LoadedGraph& loaded);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <unordered_map>
 
 namespace ostia::io {
@@ -56,16 +57,35 @@ class GxlReader {
       else
         take_tag(tag);
     }
-    for (std::size_t e = 0; e < loaded_.graph.edges.size(); ++e) {
-      geometry::GraphEdge& edge = loaded_.graph.edges[e];
-      for (std::int32_t* point : {&edge.from, &edge.to})
-        if (!defined_[static_cast<std::size_t>(*point)]) *point = -1;
-    }
+    drop_undefined();
+    name_edges_of_one_line();
     return std::move(loaded_);
   }
 
  private:
   enum class Inside { graph, node, edge };
+
+  /// Points that edges name and no node is: no points, and -1 for the edges.
+  void drop_undefined() {
+    std::vector<std::int32_t> number(defined_.size(), -1);
+    std::int32_t kept = 0;
+    for (std::size_t i = 0; i < defined_.size(); ++i) {
+      if (!defined_[i]) continue;
+      loaded_.graph.points[static_cast<std::size_t>(kept)] = loaded_.graph.points[i];
+      number[i] = kept++;
+    }
+    loaded_.graph.points.resize(static_cast<std::size_t>(kept));
+    for (geometry::GraphEdge& edge : loaded_.graph.edges)
+      for (std::int32_t* point : {&edge.from, &edge.to}) *point = number[static_cast<std::size_t>(*point)];
+  }
+
+  /// Lines tell nothing apart in a file that has only one.
+  void name_edges_of_one_line() {
+    std::vector<std::int64_t>& references = loaded_.graph.references;
+    if (references.size() < 2 || references.front() != references.back()) return;
+    loaded_.reference_name = "edge";
+    std::iota(references.begin(), references.end(), 1);
+  }
 
   std::string so_far() const {
     return std::to_string(nodes_) + " nodes and " + std::to_string(loaded_.graph.edges.size()) +

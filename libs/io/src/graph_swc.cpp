@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace ostia::io {
@@ -31,7 +32,9 @@ std::string shown(std::string_view word) {
 class IdTable {
  public:
   explicit IdTable(const std::vector<std::int64_t>& ids) : ids_(ids) {
-    for (std::size_t i = 1; i < ids.size() && counted_; ++i) counted_ = ids[i] == ids[i - 1] + 1;
+    constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
+    for (std::size_t i = 1; i < ids.size() && counted_; ++i)
+      counted_ = ids[i - 1] < most && ids[i] == ids[i - 1] + 1;
     if (counted_) return;
     order_.resize(ids.size());
     std::iota(order_.begin(), order_.end(), 0);
@@ -96,6 +99,13 @@ SampleTree::Sample sample_of(std::string_view line, const PieceReader& reader, s
   return sample;
 }
 
+/// Lines one after the other, as SWC itself would have them.
+bool counted_up(const std::vector<std::int64_t>& references) {
+  return std::adjacent_find(references.begin(), references.end(), [](std::int64_t a, std::int64_t b) {
+           return b <= a || b != a + 1;
+         }) == references.end();
+}
+
 }  // namespace
 
 void SampleTree::add(const Sample& sample) {
@@ -113,7 +123,7 @@ LoadedGraph SampleTree::graph() {
   loaded.graph.edges.reserve(ids_.size());
   loaded.graph.references.reserve(ids_.size());
   for (std::size_t i = 0; i < ids_.size(); ++i) {
-    if (parents_[i] < 0) continue;
+    if (parents_[i] == -1) continue;
     const std::int32_t parent = table.index_of(parents_[i]);
     const double radius = parent >= 0 ? radii_[static_cast<std::size_t>(parent)] : radii_[i];
     loaded.graph.edges.push_back({parent, static_cast<std::int32_t>(i), radius, radii_[i]});
@@ -133,6 +143,7 @@ LoadedGraph read_graph_swc(const fs::path& path, const core::TaskContext& task) 
   SampleTree tree;
   std::string_view line;
   while (reader.line(line)) {
+    if (reader.line_number() == 1) line = without_byte_order_mark(line);
     const std::size_t first = line.find_first_not_of(" \t");
     if (first == std::string_view::npos || line[first] == '#') continue;
     tree.add(sample_of(line, reader, tree.size()));
@@ -150,6 +161,8 @@ std::vector<std::string> write_graph_swc(const fs::path& path, VesselGraph graph
   if (graph.points.size() < points)
     warnings.push_back(std::to_string(points - graph.points.size()) +
                        " points of no segment were left out: an SWC sample would be a root");
+  if (!counted_up(graph.references))
+    warnings.push_back("SWC has no place for the segments' references; .vtp and .csv keep them");
   std::vector<std::int32_t> arriving(graph.points.size(), -1);
   std::vector<double> radius(graph.points.size(), -1.0);
   for (std::size_t e = 0; e < graph.edges.size(); ++e) {

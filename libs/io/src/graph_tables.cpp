@@ -16,7 +16,7 @@ namespace {
 
 /// Rows of at least `Columns` numbers; those beyond are left, and so are lines that begin with #.
 template <std::size_t Columns, class Take>
-void read_rows(const fs::path& path, const core::TaskContext& task, const Take& take) {
+void read_rows(const fs::path& path, LoadedGraph& loaded, const core::TaskContext& task, const Take& take) {
   if (!fs::exists(path))
     refuse(path,
            "there is no such file, and a tree of tables needs vertex.dat, edges.dat and radius.dat in one "
@@ -25,6 +25,7 @@ void read_rows(const fs::path& path, const core::TaskContext& task, const Take& 
   std::string_view line;
   std::size_t rows = 0;
   while (reader.line(line)) {
+    if (reader.line_number() == 1) line = without_byte_order_mark(line);
     Words words(line);
     std::array<double, Columns> values{};
     std::string_view word = words.next();
@@ -40,6 +41,10 @@ void read_rows(const fs::path& path, const core::TaskContext& task, const Take& 
     take(values, static_cast<std::int64_t>(reader.line_number()));
     ++rows;
   }
+  const std::size_t before = loaded.warnings.size();
+  warn_if_cut(reader, loaded);
+  if (loaded.warnings.size() > before)
+    loaded.warnings.back() = path.filename().string() + ": " + loaded.warnings.back();
 }
 
 std::int32_t index_of(double value, std::size_t points) {
@@ -54,12 +59,12 @@ LoadedGraph read_graph_tables(const fs::path& path, const core::TaskContext& tas
   LoadedGraph loaded;
   loaded.reference_name = "line";
   geometry::VesselGraph& graph = loaded.graph;
-  read_rows<3>(folder / "vertex.dat", task.sub(0.0, 0.4),
+  read_rows<3>(folder / "vertex.dat", loaded, task.sub(0.0, 0.4),
                [&](const auto& p, std::int64_t) { graph.points.emplace_back(p[0], p[1], p[2]); });
   std::vector<double> radii;
-  read_rows<1>(folder / "radius.dat", task.sub(0.4, 0.6),
+  read_rows<1>(folder / "radius.dat", loaded, task.sub(0.4, 0.6),
                [&](const auto& r, std::int64_t) { radii.push_back(r[0]); });
-  read_rows<2>(folder / "edges.dat", task.sub(0.6, 1.0), [&](const auto& e, std::int64_t line) {
+  read_rows<2>(folder / "edges.dat", loaded, task.sub(0.6, 1.0), [&](const auto& e, std::int64_t line) {
     const std::int32_t to = index_of(e[1], graph.points.size());
     const double radius =
         to >= 0 && radii.size() == graph.points.size() ? radii[static_cast<std::size_t>(to)] : std::nan("");

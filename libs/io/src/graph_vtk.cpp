@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 namespace ostia::io {
@@ -80,6 +81,12 @@ std::string names_of(vtkPolyData& data) {
   return all.empty() ? "it has no array" : "its arrays are " + all;
 }
 
+/// What no whole number can be is -1.
+std::int64_t whole(double value) {
+  constexpr double most = 9.0e18;
+  return std::abs(value) < most ? static_cast<std::int64_t>(value) : -1;
+}
+
 void add_line(const vtkIdType* ids, vtkIdType count, vtkIdType cell, const RadiusSource& source,
               LoadedGraph& loaded, std::int64_t reference) {
   for (vtkIdType i = 1; i < count; ++i) {
@@ -128,13 +135,14 @@ LoadedGraph read_graph_vtk(const fs::path& path, const core::TaskContext& task) 
     const vtkIdType* ids = nullptr;
     lines->GetCellAtId(c, count, ids);
     add_line(ids, count, first + c, source, loaded,
-             references ? static_cast<std::int64_t>(references->GetTuple1(first + c)) : first + c);
+             references ? whole(references->GetTuple1(first + c)) : first + c);
   }
   loaded.graph.points = from_vtk(data->GetPoints());
   return loaded;
 }
 
-void write_graph_vtp(const fs::path& path, const geometry::VesselGraph& graph) {
+void write_graph_vtp(const fs::path& path, const geometry::VesselGraph& graph,
+                     const std::vector<SegmentValues>& values) {
   vtkNew<vtkPolyData> data;
   data->SetPoints(to_vtk(graph.points));
   vtkNew<vtkCellArray> lines;
@@ -162,6 +170,7 @@ void write_graph_vtp(const fs::path& path, const geometry::VesselGraph& graph) {
     std::copy(graph.references.begin(), graph.references.end(), references->GetPointer(0));
     data->GetCellData()->AddArray(references);
   }
+  for (const SegmentValues& value : values) add_array(*data->GetCellData(), value.name.c_str(), value.values);
   core::write_file(path, polydata_text(*data));
 }
 

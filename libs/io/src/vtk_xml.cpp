@@ -1,22 +1,16 @@
 #include "vtk_xml.h"
 
 #include "formats.h"
+#include "vtk_trial.h"
 
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
 
-#include <signal.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
-#include <vtkCallbackCommand.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
-#include <vtkErrorCode.h>
 #include <vtkFieldData.h>
 #include <vtkIntArray.h>
-#include <vtkLogger.h>
 #include <vtkPointData.h>
 #include <vtkPolyDataReader.h>
 #include <vtkStringArray.h>
@@ -25,8 +19,6 @@
 #include <vtkXMLUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
-#include <cerrno>
-#include <fstream>
 #include <set>
 
 namespace ostia::io {
@@ -74,82 +66,24 @@ void check_xml(const fs::path& path, std::string_view type) {
   }
 }
 
-/// Collects what VTK's reader says instead of letting it go to the terminal.
-class Complaints {
- public:
-  explicit Complaints(vtkObject& reader) {
-    callback_->SetClientData(this);
-    callback_->SetCallback([](vtkObject*, unsigned long, void* self, void* text) {
-      std::string& first = static_cast<Complaints*>(self)->first_;
-      if (first.empty() && text) first = static_cast<const char*>(text);
-    });
-    reader.AddObserver(vtkCommand::ErrorEvent, callback_);
-    reader.AddObserver(vtkCommand::WarningEvent, callback_);
-  }
-  std::string text() const {
-    std::string one_line = first_.substr(0, 300);
-    for (char& c : one_line) c = c == '\n' ? ' ' : c;
-    const std::size_t colon = one_line.find("): ");
-    return colon == std::string::npos ? one_line : one_line.substr(colon + 3);
-  }
-  bool any() const { return !first_.empty(); }
-
- private:
-  vtkNew<vtkCallbackCommand> callback_;
-  std::string first_;
-};
-
-/// Memory that reading a file may take: meshes are not packed a hundredfold, a damaged size can ask for
-/// anything.
-void limit_memory(const fs::path& path) {
-  long pages = 0;
-  if (std::ifstream("/proc/self/statm") >> pages && pages > 0) {
-    const auto in_use = static_cast<rlim_t>(pages) * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE));
-    const rlim_t limit = in_use + (rlim_t{1} << 30) + 100 * static_cast<rlim_t>(fs::file_size(path));
-    const rlimit both{limit, limit};
-    ::setrlimit(RLIMIT_AS, &both);
-  }
-}
-
-/// VTK's readers end the process over some damaged files (a type that does not exist, a text without its end,
-/// an array that cannot be unpacked). A child tries first; when it dies, this process has lost nothing.
-template <class Reader>
-void survive_reading(const fs::path& path) {
-  const pid_t child = ::fork();
-  if (child < 0) throw ResourceError("cannot read " + path.string() + ": no memory for a second process");
-  if (child == 0) {
-    for (const int number : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGINT, SIGTERM})
-      ::signal(number, SIG_DFL);
-    const rlimit none{0, 0};
-    ::setrlimit(RLIMIT_CORE, &none);
-    ::alarm(600);  // a lock that another thread held at the fork must not hold the parent for ever
-    try {
-      limit_memory(path);
-      vtkNew<Reader> reader;
-      reader->SetFileName(path.c_str());
-      const Complaints unheard(*reader);
-      reader->Update();
-    } catch (...) {
-      ::_exit(1);
+/// The counts of a legacy file's header words, before VTK reserves memory for them: it takes a negative one
+/// for none, and each number that is counted has a byte at least.
+void check_legacy(const std::string& content, const fs::path& path) {
+  if (content.compare(0, 5, "# vtk") != 0) refuse(path, "it is no legacy VTK file (no \"# vtk\")");
+  for (const std::string_view name : {"POINTS", "VERTICES", "LINES", "POLYGONS", "TRIANGLE_STRIPS"}) {
+    const std::string words = "\n" + std::string(name) + " ";
+    for (std::size_t at = content.find(words); at != std::string::npos; at = content.find(words, at + 1)) {
+      Words line(std::string_view(content).substr(at + words.size(), 80));
+      Words counts(line.line());
+      for (std::string_view word = counts.next(); !word.empty(); word = counts.next()) {
+        const auto count = number<std::int64_t>(word);
+        if (!count && name == "POINTS") break;  // its second word is a type
+        if (!count || *count < 0 || static_cast<std::uint64_t>(*count) > content.size())
+          refuse(path, "its " + std::string(name) + " " + std::string(word.substr(0, 40)) +
+                           " is no count that its " + std::to_string(content.size()) + " bytes can hold");
+      }
     }
-    ::_exit(0);
   }
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  if (status != 0) refuse(path, "it is damaged (VTK's reader breaks down over it)");
-}
-
-template <class Reader>
-void run(Reader& reader, const fs::path& path) {
-  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);  // what it has to say is in the refusal
-  survive_reading<Reader>(path);
-  const Complaints complaints(reader);
-  reader.SetFileName(path.c_str());
-  reader.Update();
-  if (complaints.any()) refuse(path, complaints.text());
-  if (reader.GetErrorCode() != vtkErrorCode::NoError)
-    refuse(path, vtkErrorCode::GetStringFromErrorCode(reader.GetErrorCode()));
 }
 
 void check_cells(vtkCellArray* cells, vtkIdType points, const char* kind, const fs::path& path) {
@@ -208,9 +142,8 @@ std::string text_of(Data& data) {
 
 vtkSmartPointer<vtkPolyData> read_polydata(const fs::path& path) {
   vtkSmartPointer<vtkPolyData> data;
-  if (path.extension() == ".vtk") {
-    const std::string content = core::read_file(path);
-    if (content.compare(0, 5, "# vtk") != 0) refuse(path, "it is no legacy VTK file (no \"# vtk\")");
+  if (upper(path.extension().string()) == ".VTK") {
+    check_legacy(core::read_file(path), path);
     vtkNew<vtkPolyDataReader> reader;
     run(*reader, path);
     data = reader->GetOutput();

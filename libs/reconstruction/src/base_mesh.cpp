@@ -1,5 +1,7 @@
 #include "base_mesh.h"
 
+#include "ostia/core/parallel.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -21,8 +23,14 @@ class Builder {
     for (std::size_t j = 0; j < joints.size(); ++j) add_joint(joints[j], static_cast<std::int32_t>(j));
   }
 
-  QuadMesh built() {
-    for (std::size_t i = 0; i < tubes_.size(); ++i) add_tube(i);
+  QuadMesh built(const std::vector<std::int32_t>& wanted) {
+    std::vector<std::vector<double>> sections(wanted.size());
+    core::parallel_for(wanted.size(), 16, [&](std::size_t i) {
+      const auto tube = static_cast<std::size_t>(wanted[i]);
+      sections[i] = own_sections(tubes_[tube], ends_[tube][0], ends_[tube][1]);
+    });
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+      add_tube(static_cast<std::size_t>(wanted[i]), sections[i]);
     return std::move(mesh_);
   }
 
@@ -125,7 +133,7 @@ class Builder {
     return section_abscissas(s, r, c, options_.spacing, options_.bending);
   }
 
-  void add_tube(std::size_t i) {
+  void add_tube(std::size_t i, const std::vector<double>& sections) {
     const Tube& tube = tubes_[i];
     End &start = ends_[i][0], &end = ends_[i][1];
     double first = start.ring.empty() ? 0.0 : turn_of(start.ring, at(tube, 0.0));
@@ -140,7 +148,6 @@ class Builder {
       std::rotate(end.ring.begin(), end.ring.begin() + (((n - shift) % n) + n) % n, end.ring.end());
     }
     Ring before = start.ring;
-    const std::vector<double> sections = own_sections(tube, start, end);
     for (std::size_t k = 0; k < sections.size(); ++k) {
       const bool rim = (k == 0 && start.ring.empty()) || (k + 1 == sections.size() && end.ring.empty());
       const double t = sections[k] / tube.length();
@@ -186,9 +193,9 @@ std::vector<geometry::Triangle> triangles_of(const QuadMesh& mesh) {
   return triangles;
 }
 
-QuadMesh base_mesh(const std::vector<Tube>& tubes, const std::vector<Joint>& joints,
-                   const ReconstructionOptions& options) {
-  return Builder(tubes, joints, options).built();
+QuadMesh base_mesh(const std::vector<Tube>& tubes, const std::vector<std::int32_t>& wanted,
+                   const std::vector<Joint>& joints, const ReconstructionOptions& options) {
+  return Builder(tubes, joints, options).built(wanted);
 }
 
 }  // namespace ostia::reconstruction

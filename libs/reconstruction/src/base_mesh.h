@@ -36,7 +36,8 @@ struct QuadMesh {
 double polygon_scale(const ReconstructionOptions& options, int level);
 /// Two of each quadrilateral, along its shorter diagonal.
 std::vector<geometry::Triangle> triangles_of(const QuadMesh& mesh);
-QuadMesh base_mesh(const std::vector<Tube>& tubes, const std::vector<Joint>& joints,
-                   const ReconstructionOptions& options);
+/// Of these tubes (ascending); their ends without a joint are closed.
+QuadMesh base_mesh(const std::vector<Tube>& tubes, const std::vector<std::int32_t>& wanted,
+                   const std::vector<Joint>& joints, const ReconstructionOptions& options);
 
 }  // namespace ostia::reconstruction

@@ -10,21 +10,12 @@
 namespace ostia::reconstruction {
 namespace {
 
-constexpr double own_room = 0.85;    // of a branch's length, for the one joint that it has
-constexpr double shared_room = 0.8;  // for the two
-
-Slot slot_of(const std::vector<Tube>& tubes, std::int32_t index, bool distal) {
-  const Tube& tube = tubes[static_cast<std::size_t>(index)];
-  Slot slot;
-  slot.tube = index;
-  slot.distal = distal;
-  slot.radius = distal ? tube.radius.back() * tube.factor.back() : tube.radius.front() * tube.factor.front();
-  const double ahead = std::min(2.0 * slot.radius, 0.5 * tube.length());
-  slot.reach = own_room * tube.length();
-  const Vec3 here = distal ? tube.points.back() : tube.points.front();
-  slot.direction = (at(tube, distal ? tube.length() - ahead : ahead).point - here).normalized();
-  return slot;
+/// Of a branch's length, what its joints may take: all but a share of it, or of its radius where it is long.
+double room_of(const Tube& tube, double share) {
+  const double radius = std::min(tube.radius.front(), tube.radius.back());
+  return tube.length() - std::min(share * tube.length(), 2.0 * share * radius);
 }
+constexpr double kept_of_own = 0.15, kept_of_shared = 0.2;
 
 /// Puts the trunk's two ends into one group.
 void group_trunk(std::vector<Slot>& slots, double lambda) {
@@ -76,7 +67,7 @@ std::vector<std::uint8_t> share_room(std::vector<Joint>& joints, const std::vect
     std::array<double, 2> wanted{};
     for (std::size_t e = 0; e < 2; ++e)
       wanted[e] = joints[static_cast<std::size_t>(ends[t][e].first)].clearance[ends[t][e].second];
-    const double room = shared_room * tubes[t].length();
+    const double room = room_of(tubes[t], kept_of_shared);
     if (wanted[0] + wanted[1] <= room) continue;
     for (std::size_t e = 0; e < 2; ++e) {
       const auto joint = static_cast<std::size_t>(ends[t][e].first);
@@ -89,6 +80,19 @@ std::vector<std::uint8_t> share_room(std::vector<Joint>& joints, const std::vect
 
 }  // namespace
 
+Slot slot_of(const std::vector<Tube>& tubes, std::int32_t index, bool distal) {
+  const Tube& tube = tubes[static_cast<std::size_t>(index)];
+  Slot slot;
+  slot.tube = index;
+  slot.distal = distal;
+  slot.radius = distal ? tube.radius.back() * tube.factor.back() : tube.radius.front() * tube.factor.front();
+  const double ahead = std::min(2.0 * slot.radius, 0.5 * tube.length());
+  slot.reach = room_of(tube, kept_of_own);
+  const Vec3 here = distal ? tube.points.back() : tube.points.front();
+  slot.direction = (at(tube, distal ? tube.length() - ahead : ahead).point - here).normalized();
+  return slot;
+}
+
 Joint joint_at(const Vec3& centre, std::vector<Slot> slots, const std::vector<Tube>& tubes,
                const ReconstructionOptions& options, const JointStyle& style) {
   Joint joint;
@@ -99,13 +103,16 @@ Joint joint_at(const Vec3& centre, std::vector<Slot> slots, const std::vector<Tu
   joint.field.emplace(tubes, joint.slots, style.blend * options.blend);
   const double side = 2.0 * std::numbers::pi / options.sides;
   const double scale = std::sqrt(side / std::sin(side));
-  JointRings about = rings_about(joint.slots, options.sides, style, [&](const Vec3& direction) {
+  const auto exit = [&](const Vec3& direction) {
     const double s = allowed(joint.slots, direction, joint.field->exit(joint.centre, direction, scale));
     return Vec3(joint.centre + s * direction);
-  });
+  };
+  const auto onto = [&](const Vec3& point) { return joint.field->onto(point, scale); };
+  JointRings about = rings_about(joint.slots, options.sides, style, {joint.centre, exit, onto});
   joint.points = std::move(about.points);
   joint.rings = std::move(about.rings);
-  for (std::size_t i = 0; i < joint.slots.size(); ++i) {
+  joint.clearance = std::move(about.clearance);
+  for (std::size_t i = joint.clearance.size(); i < joint.slots.size(); ++i) {
     double most = 0.0;
     for (const std::int32_t p : joint.rings[i])
       most = std::max(
@@ -115,22 +122,21 @@ Joint joint_at(const Vec3& centre, std::vector<Slot> slots, const std::vector<Tu
   return joint;
 }
 
-std::vector<Joint> joints_of(const std::vector<Tube>& tubes, const geometry::VesselGraph& graph,
+std::vector<Joint> joints_of(const std::vector<Tube>& tubes, const TubeEnds& ends,
+                             const std::vector<std::int32_t>& points, const geometry::VesselGraph& graph,
                              const ReconstructionOptions& options, const JointStyles& styles) {
-  std::map<std::int32_t, std::vector<Slot>> at_point;
-  for (std::size_t i = 0; i < tubes.size(); ++i) {
-    const auto index = static_cast<std::int32_t>(i);
-    if (!tubes[i].inlet) at_point[tubes[i].start].push_back(slot_of(tubes, index, false));
-    if (!tubes[i].outlet) at_point[tubes[i].end].push_back(slot_of(tubes, index, true));
-  }
-  std::vector<Joint> joints(at_point.size());
-  const std::vector<std::pair<std::int32_t, std::vector<Slot>>> all(at_point.begin(), at_point.end());
-  core::parallel_for(all.size(), 8, [&](std::size_t j) {
-    const auto& [point, slots] = all[j];
-    const auto style = styles.find(point);
-    joints[j] = joint_at(graph.points[static_cast<std::size_t>(point)], slots, tubes, options,
+  std::vector<std::int32_t> meeting;
+  for (const std::int32_t point : points)
+    if (!ends[static_cast<std::size_t>(point)].empty()) meeting.push_back(point);
+  std::vector<Joint> joints(meeting.size());
+  core::parallel_for(meeting.size(), 8, [&](std::size_t j) {
+    std::vector<Slot> slots;
+    for (const TubeEnd& end : ends[static_cast<std::size_t>(meeting[j])])
+      slots.push_back(slot_of(tubes, end.tube, end.distal));
+    const auto style = styles.find(meeting[j]);
+    joints[j] = joint_at(graph.points[static_cast<std::size_t>(meeting[j])], std::move(slots), tubes, options,
                          style == styles.end() ? JointStyle() : style->second);
-    joints[j].point = point;
+    joints[j].point = meeting[j];
   });
   const std::vector<std::uint8_t> changed = share_room(joints, tubes);
   core::parallel_for(joints.size(), 8, [&](std::size_t j) {

@@ -27,8 +27,10 @@ struct Joint {
 /// By the graph's point; `JointStyle()` for those that are not there.
 using JointStyles = std::map<std::int32_t, JointStyle>;
 
-/// Of all points of the graph where branches end that are not open, in the order of the points.
-std::vector<Joint> joints_of(const std::vector<Tube>& tubes, const geometry::VesselGraph& graph,
+Slot slot_of(const std::vector<Tube>& tubes, std::int32_t tube, bool distal);
+/// At these points of the graph (ascending; those where no branches meet are left out), in their order.
+std::vector<Joint> joints_of(const std::vector<Tube>& tubes, const TubeEnds& ends,
+                             const std::vector<std::int32_t>& points, const geometry::VesselGraph& graph,
                              const ReconstructionOptions& options, const JointStyles& styles);
 /// The slots' tubes are indices into `tubes`.
 Joint joint_at(const Vec3& centre, std::vector<Slot> slots, const std::vector<Tube>& tubes,

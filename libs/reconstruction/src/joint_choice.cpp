@@ -9,24 +9,28 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <numeric>
 
 namespace ostia::reconstruction {
 namespace {
 
 /// In the order in which they are tried: without poles that are not needed, rounder, with more room.
-constexpr std::array<JointStyle, 14> styles{{{},
+constexpr std::array<JointStyle, 17> styles{{{},
+                                             {.gap = 2.0},
                                              {.blend = 2.0},
                                              {.blend = 3.3},
+                                             {.disc = false},
+                                             {.disc = false, .blend = 2.0},
                                              {.four_poles = false},
                                              {.four_poles = false, .even = false},
-                                             {.even = false},
-                                             {.gap = 2.0},
+                                             {.disc = false, .even = false},
+                                             {.disc = false, .gap = 2.0},
                                              {.blend = 3.3, .gap = 2.0},
                                              {.four_poles = false, .blend = 3.3},
                                              {.four_poles = false, .even = false, .blend = 3.3},
-                                             {.gap = 5.0},
-                                             {.even = false, .gap = 5.0},
-                                             {.blend = 3.3, .gap = 5.0},
+                                             {.disc = false, .gap = 5.0},
+                                             {.disc = false, .even = false, .gap = 5.0},
+                                             {.disc = false, .blend = 3.3, .gap = 5.0},
                                              {.four_poles = false, .gap = 5.0}}};
 
 /// The part of a branch next to the joint.
@@ -71,7 +75,9 @@ Patch patch_of(const Joint& joint, const std::vector<Tube>& tubes) {
 std::size_t crossings(const Patch& patch, const Vec3& centre, const ReconstructionOptions& options,
                       const JointStyle& style) {
   const std::vector<Joint> joints{joint_at(centre, patch.slots, patch.tubes, options, style)};
-  QuadMesh mesh = base_mesh(patch.tubes, joints, options);
+  std::vector<std::int32_t> all(patch.tubes.size());
+  std::iota(all.begin(), all.end(), 0);
+  QuadMesh mesh = base_mesh(patch.tubes, all, joints, options);
   place(mesh, patch.tubes, joints, polygon_scale(options, 0));
   for (int level = 1; level <= std::max(1, options.level); ++level) {
     mesh = subdivided(mesh);

@@ -1,5 +1,7 @@
 #include "joint_rings.h"
 
+#include "thin_branch.h"
+
 #include "ostia/geometry/frame.h"
 #include "ostia/geometry/polyline.h"
 
@@ -302,10 +304,12 @@ std::optional<JointRings> four_poles(const std::vector<Slot>& slots, int sides, 
 }  // namespace
 
 JointRings rings_about(const std::vector<Slot>& slots, int sides, const JointStyle& style,
-                       const SurfacePoint& surface) {
+                       const JointSurface& surface) {
+  if (style.disc)
+    if (auto made = about_thin_branch(slots, sides, surface)) return std::move(*made);
   if (style.four_poles && slots.size() == 4)
-    if (auto made = four_poles(slots, sides, style.even, surface)) return std::move(*made);
-  return two_poles(slots, sides, style.even, surface);
+    if (auto made = four_poles(slots, sides, style.even, surface.at)) return std::move(*made);
+  return two_poles(slots, sides, style.even, surface.at);
 }
 
 }  // namespace ostia::reconstruction

@@ -17,11 +17,18 @@ class Weight {
     for (std::size_t i = 0; i < at.size(); ++i)
       values_[i] = radii[i] / (1.0 + bending * radii[i] * curvatures[i]);
   }
-  double operator()(double x) const {
-    const auto next = std::upper_bound(at_.begin() + 1, at_.end() - 1, x);
-    const auto i = static_cast<std::size_t>(next - at_.begin());
-    const double t = std::clamp((x - at_[i - 1]) / (at_[i] - at_[i - 1]), 0.0, 1.0);
-    return (1.0 - t) * values_[i - 1] + t * values_[i];
+  /// The least root y > x of y - x - a (w(x) + w(y)), which is linear from sample to sample; beyond the last
+  /// one w stays as it is. `segment` is that of x, and then that of y.
+  double next_after(double x, double a, std::size_t& segment) const {
+    const double own = value(x, segment);
+    double low = x, below = -2.0 * a * own;
+    for (; segment + 1 < at_.size(); ++segment) {
+      const double high = at_[segment + 1], above = high - x - a * (own + values_[segment + 1]);
+      if (above >= 0.0) return low + (high - low) * below / (below - above);
+      low = high;
+      below = above;
+    }
+    return x + a * (own + values_.back());
   }
   /// The integral of 1 / (2 w): how many pieces there are at a spacing of 1.
   double pieces() const {
@@ -31,25 +38,19 @@ class Weight {
   }
 
  private:
+  double value(double x, std::size_t segment) const {
+    if (segment + 1 >= at_.size()) return values_.back();
+    const double t = std::clamp((x - at_[segment]) / (at_[segment + 1] - at_[segment]), 0.0, 1.0);
+    return (1.0 - t) * values_[segment] + t * values_[segment + 1];
+  }
   const std::vector<double>& at_;
   std::vector<double> values_;
 };
 
-/// The next section after x: the root of y - x - a (w(x) + w(y)), which is negative at x.
-double next_after(double x, double a, double end, const Weight& w) {
-  const auto excess = [&](double y) { return y - x - a * (w(x) + w(y)); };
-  double low = x, high = x + a * w(x);
-  while (excess(high) < 0.0 && high < end) high += a * w(x);
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (low + high);
-    (excess(middle) < 0.0 ? low : high) = middle;
-  }
-  return high;
-}
-
-std::vector<double> marched(double begin, double end, double a, int pieces, const Weight& w) {
+std::vector<double> marched(double begin, double a, int pieces, const Weight& w) {
   std::vector<double> x{begin};
-  for (int i = 0; i < pieces; ++i) x.push_back(next_after(x.back(), a, end, w));
+  std::size_t segment = 0;
+  for (int i = 0; i < pieces; ++i) x.push_back(w.next_after(x.back(), a, segment));
   return x;
 }
 
@@ -63,12 +64,12 @@ std::vector<double> section_abscissas(const std::vector<double>& abscissas, cons
   const int pieces = std::max(least, static_cast<int>(std::lround(w.pieces() / spacing)));
   // With the spacing itself as the last unknown, the last section lies further on the larger it is.
   double low = 0.0, high = 2.0 * w.pieces() / pieces;
-  while (marched(begin, end, high, pieces, w).back() < end) high *= 2.0;
+  while (marched(begin, high, pieces, w).back() < end) high *= 2.0;
   for (int i = 0; i < 50; ++i) {
     const double middle = 0.5 * (low + high);
-    (marched(begin, end, middle, pieces, w).back() < end ? low : high) = middle;
+    (marched(begin, middle, pieces, w).back() < end ? low : high) = middle;
   }
-  std::vector<double> x = marched(begin, end, high, pieces, w);
+  std::vector<double> x = marched(begin, high, pieces, w);
   x.back() = end;
   return x;
 }

@@ -1,12 +1,8 @@
 #include "ostia/reconstruction/surface.h"
 
-#include "base_mesh.h"
-#include "catmull_clark.h"
-#include "joint_choice.h"
-#include "untangle.h"
+#include "assembly.h"
 
 #include "ostia/core/error.h"
-#include "ostia/geometry/aabb_tree.h"
 #include "ostia/geometry/graph_faults.h"
 
 #include <algorithm>
@@ -20,93 +16,6 @@ namespace {
 void require(bool fine, const std::string& field, const std::string& bounds) {
   if (!fine) throw InvalidInput("reconstruction: " + field + " must be " + bounds);
 }
-
-struct Made {
-  QuadMesh mesh;
-  std::vector<std::pair<std::int32_t, std::int32_t>> crossings;
-};
-
-/// Points of the graph at which branches that meet there cross each other or themselves.
-std::vector<std::int32_t> crossed_joints(const Made& made, const std::vector<Tube>& tubes) {
-  std::vector<std::int32_t> points;
-  for (const auto& [one, other] : made.crossings) {
-    const auto branch = [&](std::int32_t triangle) -> const Tube& {
-      return tubes[static_cast<std::size_t>(
-          made.mesh.branch_of_quad[static_cast<std::size_t>(triangle / 2)])];
-    };
-    const Tube &a = branch(one), &b = branch(other);
-    for (const std::int32_t point : {a.start, a.end})
-      if (point == b.start || point == b.end) points.push_back(point);
-  }
-  std::sort(points.begin(), points.end());
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  return points;
-}
-
-class Maker {
- public:
-  Maker(const geometry::VesselGraph& graph, const ReconstructionOptions& options,
-        const core::TaskContext& task)
-      : graph_(graph), options_(options), task_(task), tubes_(tubes_of(graph)) {}
-
-  /// Joints that cross are made another way; then what still crosses gives way. Coarse rounds first, since
-  /// they are quick.
-  Made untangled() {
-    int rounds = options_.untangling;
-    for (int level = std::min(1, options_.level);; level = options_.level) {
-      bool restyled = rounds == 0;
-      for (;;) {
-        Made made = made_at(level);
-        const bool done = made.crossings.empty() || rounds == 0;
-        task_.set_progress(0.9 * (1.0 - static_cast<double>(rounds) / (options_.untangling + 1.0)));
-        if (done && level == options_.level) return made;
-        if (done) break;
-        if (!restyled) {
-          restyled = true;
-          if (restyle(made)) continue;
-        }
-        give_way(tubes_, made.mesh, made.crossings);
-        --rounds;
-      }
-    }
-  }
-  const std::vector<Tube>& tubes() const { return tubes_; }
-
- private:
-  Made made_at(int level) const {
-    const std::vector<Joint> joints = joints_of(tubes_, graph_, options_, styles_);
-    task_.throw_if_cancelled();
-    Made made;
-    made.mesh = base_mesh(tubes_, joints, options_);
-    place(made.mesh, tubes_, joints, polygon_scale(options_, 0));
-    for (int l = 1; l <= level; ++l) {
-      task_.throw_if_cancelled();
-      made.mesh = subdivided(made.mesh);
-      place(made.mesh, tubes_, joints, polygon_scale(options_, l));
-    }
-    task_.throw_if_cancelled();
-    made.crossings = geometry::self_intersections({made.mesh.points, triangles_of(made.mesh)});
-    return made;
-  }
-
-  /// True if any joint is now made another way.
-  bool restyle(const Made& made) {
-    std::vector<std::int32_t> points = crossed_joints(made, tubes_);
-    std::erase_if(points, [&](std::int32_t point) { return styles_.count(point) > 0; });
-    if (points.empty()) return false;
-    JointStyles found =
-        chosen_styles(joints_of(tubes_, graph_, options_, {}), points, tubes_, options_, task_);
-    const bool any = !found.empty();
-    styles_.merge(found);
-    return any;
-  }
-
-  const geometry::VesselGraph& graph_;
-  const ReconstructionOptions& options_;
-  const core::TaskContext& task_;
-  std::vector<Tube> tubes_;
-  JointStyles styles_;
-};
 
 ReconstructedSurface result_of(Made&& made, const std::vector<Tube>& tubes) {
   ReconstructedSurface result;
@@ -161,9 +70,11 @@ ReconstructedSurface reconstruct_surface(const geometry::VesselGraph& graph,
     throw InvalidInput("the network of vessels has no segments: nothing to make a surface of");
   geometry::require_sound(graph, "the network of vessels", false, task.sub(0.0, 0.05));
   const core::TaskContext making = task.sub(0.05, 0.95);
-  Maker maker(graph, options, making);
-  Made made = maker.untangled();
-  ReconstructedSurface result = result_of(std::move(made), maker.tubes());
+  Assembly assembly(graph, options, making);
+  Made made = assembly.made();
+  ReconstructedSurface result = result_of(std::move(made), assembly.tubes());
+  for (std::size_t i = 0; i < assembly.moved().size(); ++i)
+    if (assembly.moved()[i] != 0) result.moved.push_back(static_cast<std::int32_t>(i));
   task.set_progress(1.0);
   return result;
 }

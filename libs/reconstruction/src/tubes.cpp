@@ -125,4 +125,14 @@ std::vector<Tube> tubes_of(const geometry::VesselGraph& graph) {
   return tubes;
 }
 
+TubeEnds ends_of(const std::vector<Tube>& tubes, std::size_t points) {
+  TubeEnds ends(points);
+  for (std::size_t i = 0; i < tubes.size(); ++i) {
+    const auto index = static_cast<std::int32_t>(i);
+    if (!tubes[i].inlet) ends[static_cast<std::size_t>(tubes[i].start)].push_back({index, false});
+    if (!tubes[i].outlet) ends[static_cast<std::size_t>(tubes[i].end)].push_back({index, true});
+  }
+  return ends;
+}
+
 }  // namespace ostia::reconstruction

@@ -30,6 +30,15 @@ struct TubePlace {
 TubePlace at(const Tube& tube, double abscissa);
 
 std::vector<Tube> tubes_of(const geometry::VesselGraph& graph);
+
+/// One end of a branch.
+struct TubeEnd {
+  std::int32_t tube = 0;
+  bool distal = false;
+};
+/// Of each point of the graph the ends of branches that meet there; none where a vessel only begins or ends.
+using TubeEnds = std::vector<std::vector<TubeEnd>>;
+TubeEnds ends_of(const std::vector<Tube>& tubes, std::size_t points);
 /// Abscissas, frames and curvatures anew, from the points.
 void measure(Tube& tube);
 

@@ -57,8 +57,13 @@ class AabbTree {
 /// Pairs of triangles that intersect or touch beyond the vertices and edges they share, each pair once, lower
 /// index first, sorted. Points with equal coordinates count as one vertex, so an unwelded surface is judged
 /// as a welded one. Exact predicates. Triangles without area or with points that are not finite are left out:
-/// find_faults counts them. `max_pairs` ends the search early with the first that many (0: all).
+/// find_faults counts them. `max_pairs` ends the search early with that many (0: all).
 std::vector<std::pair<std::int32_t, std::int32_t>> self_intersections(const TriMesh& mesh,
                                                                       std::size_t max_pairs = 0);
+
+/// Of these pairs only those of which at least one triangle is marked (not 0), as where only a part of a
+/// surface has changed. Throws InvalidInput where there is not a mark for each triangle.
+std::vector<std::pair<std::int32_t, std::int32_t>> self_intersections(const TriMesh& mesh,
+                                                                      const std::vector<std::uint8_t>& marks);
 
 }  // namespace ostia::geometry

@@ -47,17 +47,19 @@ struct GraphFaults {
 /// of range are left out of what is said about points and parts. Throws Cancelled.
 GraphFaults find_faults(const VesselGraph& graph, const core::TaskContext& task = core::no_task());
 
-/// "3 segments of zero length (line 17, line 20, line 44)"; places by the graph's references, called
-/// `reference_name`, or by index without references.
+/// "3 segments of zero length (line 17, line 20, line 44)"; segments by the graph's references, called
+/// `reference_name`, or by index without references; points by index and, with references, by the segment
+/// that reaches them or else the first that leaves them: "point 6 of line 7".
 std::string text_of(const GraphFault& fault, const VesselGraph& graph,
                     const std::string& reference_name = "segment");
 /// All of them in one line, "none" without any.
 std::string summary(const GraphFaults& faults, const VesselGraph& graph,
                     const std::string& reference_name = "segment");
 /// Throws InvalidInput that names `what` and its faults, and says that `ostia convert --repair` mends them,
-/// unless the graph is sound (`tree`: as a tree or several ones).
+/// unless the graph is sound (`tree`: as a tree or several ones). Places as in text_of.
 void require_sound(const VesselGraph& graph, const std::string& what, bool tree,
-                   const core::TaskContext& task = core::no_task());
+                   const core::TaskContext& task = core::no_task(),
+                   const std::string& reference_name = "segment");
 
 /// What there is in a network. Edges out of range are left out.
 struct GraphFacts {

@@ -11,11 +11,19 @@
 
 namespace ostia::io {
 
+/// A whole number for each segment, beside what a network has anyway: `Order`, `Element`.
+struct SegmentValues {
+  std::string name;
+  std::vector<std::int32_t> values;  ///< as many as segments
+};
+
 /// A network as its file has it: faults are kept, for geometry::find_faults to count. A radius that the file
 /// does not have is NaN; a segment that names a point which is not there names -1.
 struct LoadedGraph {
-  geometry::VesselGraph graph;        ///< with the segments' references
-  std::string reference_name;         ///< what the references are: "line", or "cell" of a VTK file
+  geometry::VesselGraph graph;  ///< with the segments' references
+  /// What the references are: "line"; "cell" of a VTK file; "edge", from 1, of a GXL file in a single line;
+  /// "reference" where the file has references of its own.
+  std::string reference_name;
   std::vector<std::string> warnings;  ///< "the last line has no end: the file may be cut short"
 };
 
@@ -28,8 +36,9 @@ bool is_graph_file(const std::filesystem::path& path);
 /// or
 ///   in an array of the points or cells called `MaximumInscribedSphereRadius`, `radius` or `raio` (in any
 ///   case; `diameter`, too). The point ids say what is joined.
-/// - .swc: seven columns `id type x y z radius parent`.
+/// - .swc: seven columns `id type x y z radius parent`; the parent -1 makes a root.
 /// - .csv by its header: `x1,y1,z1,radius1,x2,y2,z2,radius2`, a segment a row (`radius` for both);
+///   with a column `reference` that is the segments' reference;
 ///   `id,x,y,z,radius,parent`, a sample a row as in SWC; `x,y,z,radius`, points along a line, several ones
 ///   separated by an empty row or told apart by a column `vessel`. Points of the first and the last kind that
 ///   are equal bit for bit are one.
@@ -38,9 +47,14 @@ bool is_graph_file(const std::filesystem::path& path);
 /// Throws InvalidInput that names the file, the line and what was read up to it; IoError; Cancelled.
 LoadedGraph read_graph(const std::filesystem::path& path, const core::TaskContext& task = core::no_task());
 
-/// Writes by extension, whole or not at all. What the format could not hold is told: SWC has one radius for a
-/// point, the one of the segment that arrives. Throws InvalidInput for another extension, for indices out of
-/// range and, for SWC, where a point has several parents or segments run in a circle; IoError; Cancelled.
+/// Writes by extension, whole or not at all. References become the array `Reference` of VTP's cells, the
+/// column `reference` of CSV; so do `values` by their names. What the format could not hold is told: SWC has
+/// one radius for a point, the one of the segment that arrives, no references and no values. Throws
+/// InvalidInput for another extension, for indices out of range, for values or references that are not one a
+/// segment and, for SWC, where a point has several parents or segments run in a circle; IoError; Cancelled.
+std::vector<std::string> write_graph(const std::filesystem::path& path, const geometry::VesselGraph& graph,
+                                     const std::vector<SegmentValues>& values,
+                                     const core::TaskContext& task = core::no_task());
 std::vector<std::string> write_graph(const std::filesystem::path& path, const geometry::VesselGraph& graph,
                                      const core::TaskContext& task = core::no_task());
 

@@ -36,6 +36,8 @@ struct ReconstructedSurface {
   /// The same points, two triangles a quadrilateral in their order; faces `wall`, `inlet_<n>`, `outlet_<n>`.
   geometry::FacedSurface surface;
   std::vector<Narrowing> narrowed;     ///< by branch
+  /// Branches whose axes were moved or stretched, since forks stood too close or vessels left side by side.
+  std::vector<std::int32_t> moved;
   std::size_t self_intersections = 0;  ///< pairs left after the last round of untangling
 };
 

@@ -1,0 +1,29 @@
+#pragma once
+/// \file Trees and other networks of vessels as inputs: their units, and how they are mended.
+
+#include "commands.h"
+
+#include "ostia/io/graph_file.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace CLI {
+class App;
+}
+
+namespace ostia::app {
+
+/// `--repair` is declared by the command, which may have surfaces to mend, too.
+/// `of_trees` stands before each text where the command has other inputs as well: "Trees: ".
+void add_tree_input(CLI::App& app, TreeInputOptions& options, const std::string& of_trees,
+                    const std::string& of_repair);
+
+/// Throws UsageError for options of the repair without it.
+void require_repair(const TreeInputOptions& options);
+
+/// Reads a network, brings it into mm and mends it where that is asked for; warnings go to the log. `done`
+/// gets what the repair did. Throws what io::read_graph and geometry::repaired throw.
+io::LoadedGraph read_tree(const InputOptions& input, const TreeInputOptions& options,
+                          nlohmann::ordered_json& done, const core::TaskContext& task);
+
+}  // namespace ostia::app

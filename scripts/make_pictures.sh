@@ -46,6 +46,13 @@ build/release/bin/ostia experiment smoothness -o "$work/smoothness"
 cp "$work/smoothness/distance.png" docs/pictures/smoothness-distance.png
 cp "$work/smoothness/smoothness.png" docs/pictures/smoothness-curvature.png
 
+# A minute: a tree grown down to the last arterioles, and its measures.
+build/release/bin/ostia phantom -o "$work/heart" --preset small --truth-only
+build/release/bin/ostia convert "$work/heart/dataset00/centerlines.vtp" "$work/scanned.vtp" --repair
+build/release/bin/ostia grow "$work/scanned.vtp" -o "$work/grown.vtp" --artery lad --seed 7
+build/release/bin/ostia measure "$work/grown.vtp" -o "$work/measures"
+cp "$work/measures/pictures/diameter-by-order.png" docs/pictures/tutorial-trees-diameters.png
+
 # Half an hour: the editing experiment on 78 sections.
 build/release/bin/ostia phantom -o "$work/suite18" --cases 18 --truth-only
 build/release/bin/ostia experiment editing --suite "$work/suite18" -o "$work/editing"

@@ -50,6 +50,7 @@ cp "$work/smoothness/smoothness.png" docs/pictures/smoothness-curvature.png
 build/release/bin/ostia phantom -o "$work/heart" --preset small --truth-only
 build/release/bin/ostia convert "$work/heart/dataset00/centerlines.vtp" "$work/scanned.vtp" --repair
 build/release/bin/ostia grow "$work/scanned.vtp" -o "$work/grown.vtp" --artery lad --seed 7
+build/release/bin/ostia-live "$work/grown.vtp" --screenshot docs/pictures/huge-trees.png
 build/release/bin/ostia measure "$work/grown.vtp" -o "$work/measures"
 cp "$work/measures/pictures/diameter-by-order.png" docs/pictures/tutorial-trees-diameters.png
 

@@ -1,6 +1,7 @@
 #include "options.h"
 
 #include "ostia/core/error.h"
+#include "ostia/io/graph_file.h"
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -22,7 +23,8 @@ constexpr const char* examples = R"(Examples:
   ostia-live motion/ --ecg 100.hea                          a fitted motion, by the ECG as it runs
   ostia-live motion/ --view LAO30CRA20 --x-ray              as on the monitor of the catheter laboratory
   ostia-live motion/ --screenshot systole.png --phase 38    a picture at 38 % of the cycle; needs no display
-  ostia-live motion/ --ecg 100.hea --video beats --frames 300)";
+  ostia-live motion/ --ecg 100.hea --video beats --frames 300
+  ostia-live grown.vtp                                      a vessel tree, to look into and to measure)";
 
 const std::map<std::string, SurfaceValue> values{{"plain", SurfaceValue::none},
                                                  {"displacement", SurfaceValue::displacement},
@@ -37,7 +39,10 @@ struct Words {
 };
 
 void add_input(CLI::App& app, Options& o, Words& words) {
-  app.add_option("motion", o.motion, "The motion: motion.json, or the folder that has it");
+  app.add_option(
+      "motion", o.motion,
+      "The motion: motion.json, or the folder that has it; or a vessel tree (.vtp .vtk .swc .csv .gxl "
+      ".xml .dat) of up to millions of segments");
   app.add_flag("--demo", words.demo, "A sample heart instead of a motion");
   app.add_option("--template", o.surface, "The surface that it carries, at the template's phase")
       ->type_name("FILE");
@@ -58,6 +63,7 @@ void add_view(CLI::App& app, Options& o, Words& words) {
   app.add_option("--width", o.width, "Of the window or picture, pixels")->check(CLI::Range(320, 8192));
   app.add_option("--height", o.height, "Of the window or picture, pixels")->check(CLI::Range(240, 8192));
   app.add_flag("--no-panels", words.no_panels, "The tree alone");
+  app.add_flag("--turn", o.turning, "A vessel tree turns by itself until something in it is chosen");
 }
 
 void add_output(CLI::App& app, Options& o, Words& words) {
@@ -75,6 +81,21 @@ void add_output(CLI::App& app, Options& o, Words& words) {
                "Draws as fast as it can, and prints times and the last state as JSON at the end");
 }
 
+/// What has no meaning for a tree that stands still.
+void require_of_tree(const Options& o, const Words& words) {
+  for (const auto& [name, given] : {std::pair("--template", !o.surface.empty()),
+                                    {"--ecg", !o.ecg.empty()},
+                                    {"--lead", !o.lead.empty()},
+                                    {"--start", o.start_s != 0.0},
+                                    {"--speed", o.speed != 1.0},
+                                    {"--phase", words.phase >= 0.0},
+                                    {"--color", words.color != "plain"},
+                                    {"--x-ray", o.x_ray}})
+    if (given)
+      throw UsageError(std::string(name) + " is of hearts that beat, and " + o.motion.string() +
+                       " is a vessel tree: leave it out");
+}
+
 void settle(Options& o, const Words& words) {
   // A range's check lets pass what is no number.
   for (const auto& [name, value] : {std::pair("--start", o.start_s),
@@ -86,6 +107,9 @@ void settle(Options& o, const Words& words) {
   if (words.demo != o.motion.empty())
     throw UsageError(words.demo ? "give a motion or --demo, not both"
                                 : "which motion is to be shown? Give its file or folder, or --demo");
+  o.tree = !o.motion.empty() && std::filesystem::is_regular_file(o.motion) && io::is_graph_file(o.motion);
+  if (o.tree) require_of_tree(o, words);
+  if (o.turning && !o.tree) throw UsageError("--turn is of vessel trees; a heart beats: leave it out");
   if (words.demo && !o.surface.empty())
     throw UsageError("--demo has a surface of its own: leave out --template");
   if (!o.screenshot.empty() && !o.video.empty()) throw UsageError("give --screenshot or --video, not both");
@@ -102,7 +126,10 @@ void settle(Options& o, const Words& words) {
 std::optional<Options> options_of(const std::vector<std::string>& arguments) {
   Options o;
   Words words;
-  CLI::App app("Shows a coronary tree that beats, by an electrocardiogram or in a loop.", "ostia-live");
+  CLI::App app(
+      "Shows a coronary tree that beats, by an electrocardiogram or in a loop, or a vessel tree of "
+      "up to millions of segments.",
+      "ostia-live");
   app.set_version_flag("--version", std::string("ostia-live ") + OSTIA_VERSION);
   app.footer(examples);
   add_input(app, o, words);

@@ -13,6 +13,7 @@ namespace ostia::live {
 
 struct Options {
   std::filesystem::path motion;   ///< a file or a folder with motion.json; empty: the sample heart
+  bool tree = false;              ///< `motion` is a file of a vessel tree
   std::filesystem::path surface;  ///< the template; empty: the one that the motion names
   std::filesystem::path ecg;      ///< a header of WFDB; empty: none
   std::string lead;               ///< number from 1, or name; empty: the clearest
@@ -21,6 +22,7 @@ struct Options {
   glview::CarmAngles view{30.0, 20.0};
   glview::SurfaceValue value = glview::SurfaceValue::none;
   bool x_ray = false, panels = true, vsync = true, measure = false;
+  bool turning = false;  ///< a vessel tree, by itself
   int width = 1024, height = 768;
   std::optional<double> phase;           ///< paused there
   std::optional<double> seconds;         ///< then it ends

@@ -1,6 +1,8 @@
 #include "pictures.h"
 
 #include "look_of_windows.h"
+#include "tree_viewer.h"
+#include "tree_window.h"
 #include "viewer.h"
 
 #include "ostia/core/child_process.h"
@@ -22,6 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double ecg_video_s = 10.0;
+constexpr double turn_s = 10.0;  // about a tree
 
 std::string numbered(const char* form, int number) {
   char name[64];
@@ -29,10 +32,11 @@ std::string numbered(const char* form, int number) {
   return name;
 }
 
-/// A viewer that draws into memory.
+/// A Viewer or TreeViewer that draws into memory.
+template <class Shows, class Input>
 class Easel {
  public:
-  Easel(const LiveInput& input, const Options& options)
+  Easel(const Input& input, const Options& options)
       : offscreen_(options.width, options.height), viewer(input, options) {
     ImGuiIO& io = ImGui::GetIO();
     io.DisplaySize = {static_cast<float>(options.width), static_cast<float>(options.height)};
@@ -54,8 +58,10 @@ class Easel {
   int width_ = 0, height_ = 0;
 
  public:
-  Viewer viewer;
+  Shows viewer;
 };
+using HeartEasel = Easel<Viewer, LiveInput>;
+using TreeEasel = Easel<TreeViewer, TreeInput>;
 
 /// For ffmpeg, to which a percent in the folder's name would be a number's place.
 std::string pattern_in(const fs::path& folder) {
@@ -95,7 +101,7 @@ pipeline::JobKey key_of(const Options& o) {
   const auto add = [&](const char* role, const fs::path& file) {
     if (!file.empty()) key.inputs[role] = core::sha256_file(file);
   };
-  add("motion", motion_file(o));
+  add(o.tree ? "tree" : "motion", o.tree ? o.motion : motion_file(o));
   add("template", o.surface);
   add("ecg", o.ecg);
   nlohmann::json said{{"lead", o.lead},
@@ -113,27 +119,52 @@ pipeline::JobKey key_of(const Options& o) {
   return key;
 }
 
-void write_video(const LiveInput& input, const Options& options, const core::TaskContext& task) {
-  pipeline::require_free_folder(options.video);  // it is replaced as a whole
-  pipeline::ManifestRecord record{key_of(options), ExitCode::ok, 0.0, input.warnings, ""};
-  if (input.ecg_failed) record.exit_code = ExitCode::quality_failed;
+struct VideoNews {
+  ExitCode code = ExitCode::ok;
+  std::vector<std::string> warnings;
+};
+
+/// Pictures, and `advance` between them, as a whole or not at all.
+template <class Canvas, class Advance>
+void write_video(Canvas& easel, const Options& options, int frames, const VideoNews& news,
+                 const Advance& advance, const core::TaskContext& task) {
+  pipeline::ManifestRecord record{key_of(options), news.code, 0.0, news.warnings, ""};
   const auto start = std::chrono::steady_clock::now();
-  Easel easel(input, options);
-  const double step = 1.0 / options.frames_per_second;
-  const Playback& play = easel.viewer.playback();
-  const double seconds = play.follows_ecg() ? ecg_video_s : play.loop_interval_s() / play.speed();
-  const int frames =
-      options.frames > 0 ? options.frames : std::max(1, static_cast<int>(std::lround(seconds / step)));
   core::StagedFolder folder(options.video);
   for (int k = 0; k < frames; ++k) {
     task.throw_if_cancelled();
+    task.set_progress(static_cast<double>(k) / frames);
     figure::picture_of(easel.picture()).write_png(folder.temporary() / numbered("frame-%05d.png", k));
-    easel.viewer.advance(step);
+    advance();
   }
   make_mp4(folder.temporary(), options.frames_per_second, task);
   record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   pipeline::write_manifest(folder.temporary(), record);
   folder.commit();
+}
+
+void write_heart_video(const LiveInput& input, const Options& options, const core::TaskContext& task) {
+  pipeline::require_free_folder(options.video);  // it is replaced as a whole
+  HeartEasel easel(input, options);
+  const double step = 1.0 / options.frames_per_second;
+  const Playback& play = easel.viewer.playback();
+  const double seconds = play.follows_ecg() ? ecg_video_s : play.loop_interval_s() / play.speed();
+  const int frames =
+      options.frames > 0 ? options.frames : std::max(1, static_cast<int>(std::lround(seconds / step)));
+  write_video(
+      easel, options, frames, {input.ecg_failed ? ExitCode::quality_failed : ExitCode::ok, input.warnings},
+      [&] { easel.viewer.advance(step); }, task);
+}
+
+void write_tree_video(const TreeInput& input, const Options& options, const core::TaskContext& task) {
+  pipeline::require_free_folder(options.video);
+  TreeEasel easel(input, options);
+  const int frames = options.frames > 0
+                         ? options.frames
+                         : std::max(1, static_cast<int>(std::lround(turn_s * options.frames_per_second)));
+  write_video(
+      easel, options, frames, {ExitCode::ok, input.warnings},
+      [&] { easel.viewer.turn(glview::whole_turn_px / frames); }, task);
 }
 
 }  // namespace
@@ -169,10 +200,21 @@ void write_pictures(const LiveInput& input, const Options& options, const core::
   Options settled = options;
   settled.start_s = first_picture_s(input, options);
   if (!options.video.empty()) {
-    write_video(input, settled, task);
+    write_heart_video(input, settled, task);
     return;
   }
-  Easel easel(input, settled);
+  HeartEasel easel(input, settled);
+  const figure::Picture picture = figure::picture_of(easel.picture());
+  task.throw_if_cancelled();
+  picture.write_png(options.screenshot);
+}
+
+void write_tree_pictures(const TreeInput& input, const Options& options, const core::TaskContext& task) {
+  if (!options.video.empty()) {
+    write_tree_video(input, options, task);
+    return;
+  }
+  TreeEasel easel(input, options);
   const figure::Picture picture = figure::picture_of(easel.picture());
   task.throw_if_cancelled();
   picture.write_png(options.screenshot);

@@ -1,5 +1,6 @@
 #include "window.h"
 
+#include "gl_window.h"
 #include "look_of_windows.h"
 #include "measurements.h"
 #include "pictures.h"
@@ -18,49 +19,8 @@
 namespace ostia::live {
 namespace {
 
-constexpr const char* way_out =
-    " The live viewer needs OpenGL 3.3: update the graphics driver, or draw without the graphics card "
-    "(install "
-    "Mesa's software renderer, package libgl1-mesa-dri, and start with LIBGL_ALWAYS_SOFTWARE=1). Pictures "
-    "and "
-    "videos (--screenshot, --video) need no display.";
 constexpr double longest_step_s = 0.5;  // after the machine slept
 constexpr double paused_wait_s = 1.0 / 30.0;
-
-std::string last_error;
-
-void on_error(int, const char* text) {
-  last_error = text;
-}
-
-/// GLFW's library, its window and their end.
-class GlWindow {
- public:
-  explicit GlWindow(const Options& options) {
-    glfwSetErrorCallback(on_error);
-    if (glfwInit() != GLFW_TRUE)
-      throw ResourceError("There is no display to open a window on (" + last_error + ")." + way_out);
-    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
-    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
-    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-    glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
-    window = glfwCreateWindow(options.width, options.height, "Ostia live", nullptr, nullptr);
-    if (window == nullptr) {
-      const std::string why = last_error;
-      glfwTerminate();
-      throw ResourceError("No window with OpenGL 3.3 can be opened (" + why + ")." + way_out);
-    }
-    glfwMakeContextCurrent(window);
-    glfwSwapInterval(options.vsync ? 1 : 0);
-  }
-  ~GlWindow() {
-    glfwDestroyWindow(window);
-    glfwTerminate();
-  }
-  GlWindow(const GlWindow&) = delete;
-  GlWindow& operator=(const GlWindow&) = delete;
-  GLFWwindow* window = nullptr;
-};
 
 /// Dear ImGui's part of the window's events.
 class Events {
@@ -94,7 +54,6 @@ void tell(Viewer& viewer, const std::vector<Screenshots::News>& news) {
 void show_window(const LiveInput& input, const Options& options, const core::TaskContext& task) {
   const GlWindow held(options);
   GLFWwindow* window = held.window;
-  if (!glview::has_opengl_33()) throw ResourceError("There is " + glview::renderer_name() + "." + way_out);
   const Windows windows;
   Viewer viewer(input, options);
   const Events events(window, viewer);

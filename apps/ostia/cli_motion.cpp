@@ -66,6 +66,9 @@ void add_fit(CLI::App& motion, MotionFitCommand& c, Run& run) {
   fit->add_option("--method", c.method,
                   "How a phase is registered: gauss-newton, or gradient-descent, slow, to compare with")
       ->check(CLI::IsMember({"gauss-newton", "gradient-descent"}));
+  fit->add_option("--surface", c.surface,
+                  "How masks get their surface: isosurface, or poisson, smoother, through that one's points")
+      ->check(CLI::IsMember({"isosurface", "poisson"}));
   add_frames(*fit, c.frames);
   add_units(*fit, c.units);
   fit->add_flag("--json", c.json, "The report as JSON on standard output");

@@ -1,6 +1,7 @@
 #include "motion.h"
 #include "motion_input.h"
 #include "outputs.h"
+#include "phase_surface.h"
 #include "refusal.h"
 
 #include "ostia/core/log.h"

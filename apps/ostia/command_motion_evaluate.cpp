@@ -1,5 +1,6 @@
 #include "motion.h"
 #include "motion_input.h"
+#include "phase_surface.h"
 
 #include "ostia/core/log.h"
 #include "ostia/evaluation/surface_motion.h"
@@ -107,7 +108,7 @@ evaluation::SurfaceMotionError compared(const CageMotion& motion, const geometry
 
 std::vector<pipeline::PhaseSurface> reference_of(const MotionEvaluateCommand& c,
                                                  const core::TaskContext& task) {
-  auto truth = read_phases(phase_files(c.reference, c.frames), c.common.units, task);
+  auto truth = read_phases(phase_files(c.reference, c.frames), c.common.units, MaskSurface::isosurface, task);
   std::erase_if(truth, [](const pipeline::PhaseSurface& one) {
     if (one.surface.triangles.empty())
       core::log_warning("phase " + pipeline::percent_text(one.phase) +

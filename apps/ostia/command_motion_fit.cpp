@@ -1,7 +1,9 @@
 #include "input_digest.h"
 #include "motion.h"
+#include "motion_fit_report.h"
 #include "motion_images.h"
 #include "motion_input.h"
+#include "phase_surface.h"
 #include "refusal.h"
 
 #include "ostia/core/files.h"
@@ -21,9 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
-using geometry::PhaseOrigin;
 using pipeline::MotionFit;
-using pipeline::PhaseFit;
 
 constexpr const char* template_name = "template.vtp";
 
@@ -51,12 +51,29 @@ pipeline::JobKey job_of(const MotionFitCommand& c, const pipeline::MotionFitOpti
                         {"weights", {energy.length, energy.area, energy.volume}},
                         {"method", c.method},
                         {"frames", c.frames},
+                        {"surface", c.surface},
                         {"units", c.units}};
   pipeline::JobKey key{"motion fit", {}, parameters.dump()};
   for (const PhaseFile& one : files)
     key.inputs["phase " + pipeline::percent_text(one.phase)] = digest_of(one, task);
   if (!c.shape.empty()) key.inputs["template"] = digest_of(c.shape);
   return key;
+}
+
+MaskSurface how_of(const MotionFitCommand& c) {
+  return c.surface == "poisson" ? MaskSurface::poisson : MaskSurface::isosurface;
+}
+
+/// Poisson reconstruction is asked for where nothing is a mask: better said than left undone.
+void require_mask(const MotionFitCommand& c, const std::vector<PhaseFile>& files) {
+  const auto is_volume = [](const fs::path& path) { return is_image_name(path.filename().string()); };
+  const bool phases_are_masks = c.shape.empty() || !are_images(files);
+  if (how_of(c) == MaskSurface::isosurface || is_volume(c.shape) ||
+      (phases_are_masks &&
+       std::ranges::any_of(files, [&](const PhaseFile& one) { return is_volume(one.file); })))
+    return;
+  throw UsageError("--surface poisson is how masks get their surface, and there is no mask in " +
+                   c.input.string() + "; leave it out");
 }
 
 /// The phases' surfaces, and how they were found where they come from images.
@@ -70,133 +87,19 @@ Phases phases_of(const MotionFitCommand& c, const pipeline::MotionFitOptions& op
                  const std::vector<PhaseFile>& files, const core::TaskContext& task) {
   const bool images = !c.shape.empty() && are_images(files);
   if (!images) {
-    Phases phases{read_phases(files, c.units, task.sub(0.0, 0.2)), {}, {}};
+    Phases phases{read_phases(files, c.units, how_of(c), task.sub(0.0, 0.2)), {}, {}};
     if (!c.shape.empty())
-      put_template(phase_surface(c.shape, c.units), options.template_phase, own_name(c.shape),
-                   phases.surfaces);
+      put_template(phase_surface(c.shape, c.units, how_of(c), task), options.template_phase,
+                   own_name(c.shape), phases.surfaces);
     return phases;
   }
   pipeline::ImagePhasesOptions how;
   how.template_phase = options.template_phase;
   how.depth = options.registration.depth;
   how.margin = options.registration.margin;
-  const geometry::TriMesh shape = phase_surface(c.shape, c.units);
+  const geometry::TriMesh shape = phase_surface(c.shape, c.units, how_of(c), task.sub(0.0, 0.1));
   pipeline::ImagePhases all = phases_in_images(files, shape, how, task);
   return {std::move(all.surfaces), std::move(all.found), std::move(all.warnings)};
-}
-
-const char* origin_name(PhaseOrigin origin) {
-  switch (origin) {
-    case PhaseOrigin::at_rest:
-      return "at_rest";
-    case PhaseOrigin::bridged:
-      return "bridged";
-    default:
-      return "fitted";
-  }
-}
-
-Json phase_json(const PhaseFit& one, const std::vector<pipeline::ImagePhase>& images) {
-  Json out{{"percent", io::percent_of(one.phase)},
-           {"origin", origin_name(one.origin)},
-           {"why", one.why.empty() ? Json(nullptr) : Json(one.why)},
-           {"stiffness", one.stiffness},
-           {"rounds", one.report.rounds},
-           {"paired_share", one.report.paired_share},
-           {"mean_distance_mm", one.report.mean_distance_mm},
-           {"least_jacobian", one.report.least_jacobian},
-           {"self_intersections", one.report.self_intersections},
-           {"source_self_intersections", one.report.source_self_intersections}};
-  for (const pipeline::ImagePhase& image : images)
-    if (image.phase == one.phase)
-      out["image"] = {{"likeness", image.likeness},
-                      {"inside_share", image.inside_share},
-                      {"wall_shift_mm", image.wall_shift_mm}};
-  return out;
-}
-
-/// Of all phases together.
-struct Sums {
-  std::size_t fitted = 0, bridged = 0, gaps = 0, new_intersections = 0;
-  double distance = 0.0, least_share = 1.0, least_jacobian = 1.0;
-};
-
-Sums sums_of(const MotionFit& fit) {
-  Sums sums;
-  for (const PhaseFit& one : fit.phases) {
-    const auto& r = one.report;
-    sums.least_jacobian = std::min(sums.least_jacobian, r.least_jacobian);
-    if (one.origin == PhaseOrigin::bridged) {
-      ++(one.gap ? sums.gaps : sums.bridged);
-    } else if (one.origin == PhaseOrigin::fitted) {
-      ++sums.fitted;
-      sums.distance += r.mean_distance_mm;
-      sums.least_share = std::min(sums.least_share, r.paired_share);
-      if (r.self_intersections > r.source_self_intersections)
-        sums.new_intersections += r.self_intersections - r.source_self_intersections;
-    }
-  }
-  if (sums.fitted > 0) sums.distance /= static_cast<double>(sums.fitted);
-  return sums;
-}
-
-Json report_of(const MotionFit& fit, const std::vector<pipeline::ImagePhase>& images) {
-  const Sums sums = sums_of(fit);
-  Json out{{"v", 1},
-           {"kind", "motion-fit"},
-           {"template_percent", io::percent_of(fit.motion.template_phase)},
-           {"template_points", fit.template_shape.points.size()},
-           {"template_triangles", fit.template_shape.triangles.size()},
-           {"cells", fit.motion.grid.cells},
-           {"control_points", fit.motion.grid.point_count()},
-           {"fitted", sums.fitted},
-           {"bridged", sums.bridged},
-           {"gaps", sums.gaps},
-           {"mean_distance_mm", sums.distance},
-           {"least_paired_share", sums.least_share},
-           {"least_jacobian", sums.least_jacobian},
-           {"new_self_intersections", sums.new_intersections},
-           {"phases", Json::array()}};
-  for (const PhaseFit& one : fit.phases) out["phases"].push_back(phase_json(one, images));
-  return out;
-}
-
-std::string report_table(const Json& report) {
-  const std::vector<std::string> columns{"percent",
-                                         "origin",
-                                         "stiffness",
-                                         "rounds",
-                                         "paired_share",
-                                         "mean_distance_mm",
-                                         "least_jacobian",
-                                         "self_intersections",
-                                         "source_self_intersections"};
-  std::string text;
-  for (const std::string& column : columns) text += (text.empty() ? "" : ",") + column;
-  for (const Json& phase : report["phases"]) {
-    std::string line;
-    for (const std::string& column : columns) {
-      const Json& value = phase[column];
-      line += (line.empty() ? "" : ",") + (value.is_string() ? value.get<std::string>() : value.dump());
-    }
-    text += "\n" + line;
-  }
-  return text + "\n";
-}
-
-/// Gaps are as they are; all else that was bridged, inverted or intersects is for a person to look at.
-ExitCode verdict(const Sums& sums) {
-  const bool fine = sums.bridged == 0 && sums.least_jacobian > 0.0 && sums.new_intersections == 0;
-  return fine ? ExitCode::ok : ExitCode::quality_failed;
-}
-
-void print(const Json& report) {
-  std::printf("%zu phases: %d fitted to %s %% at %d control points, %d bridged, %d gaps\n",
-              report["phases"].size(), report["fitted"].get<int>(), report["template_percent"].dump().c_str(),
-              report["control_points"].get<int>(), report["bridged"].get<int>(), report["gaps"].get<int>());
-  std::printf("mean distance %.3f mm, least paired share %.3f, least Jacobian %.3f, %d new intersections\n",
-              report["mean_distance_mm"].get<double>(), report["least_paired_share"].get<double>(),
-              report["least_jacobian"].get<double>(), report["new_self_intersections"].get<int>());
 }
 
 /// The lumens that were found in images, named so that they are phases themselves.
@@ -213,12 +116,12 @@ void write(const fs::path& output, const MotionFit& fit, const Phases& phases, c
            ExitCode code, const Clock::time_point& start) {
   core::StagedFolder staged(output);
   const fs::path folder = staged.temporary();
-  const Json report = report_of(fit, phases.found);
+  const Json report = motion_fit_report(fit, phases.found);
   io::write_surface(folder / template_name, fit.template_shape);
   io::write_cage_motion(folder / "motion.json", {fit.motion, template_name});
   if (!phases.found.empty()) write_lumens(folder / "lumen", phases.surfaces);
   core::write_file(folder / "report.json", report.dump(2) + "\n");
-  core::write_file(folder / "report.csv", report_table(report));
+  core::write_file(folder / "report.csv", motion_fit_table(report));
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
   Json quality = report;
   quality.erase("phases");
@@ -235,6 +138,7 @@ ExitCode run_motion_fit(const MotionFitCommand& c, const core::TaskContext& task
   task.set_stage("reading");
   const std::vector<PhaseFile> files =
       phase_files(c.input, c.frames, c.shape.empty() ? PhaseContent::surfaces : PhaseContent::images, task);
+  require_mask(c, files);
   const pipeline::JobKey key = job_of(c, options, files, task);
   std::optional<ExitCode> code = pipeline::already_done(c.output, key);
   if (code) {
@@ -247,14 +151,14 @@ ExitCode run_motion_fit(const MotionFitCommand& c, const core::TaskContext& task
     fit.warnings.insert(fit.warnings.begin(), phases.warnings.begin(), phases.warnings.end());
     task.throw_if_cancelled();
     task.set_stage("writing");
-    code = verdict(sums_of(fit));
+    code = verdict_of(fit);
     write(c.output, fit, phases, key, *code, start);
   }
   const std::string report = core::read_file(c.output / "report.json");
   if (c.json)
     std::fputs(report.c_str(), stdout);
   else
-    print(Json::parse(report));
+    print_motion_fit(Json::parse(report));
   task.set_progress(1.0);
   return *code;
 }

@@ -3,6 +3,7 @@
 #include "tree_input.h"
 #include "validators.h"
 
+#include "ostia/core/error.h"
 #include "ostia/core/log.h"
 #include "ostia/geometry/graph_faults.h"
 #include "ostia/geometry/mesh_topology.h"
@@ -17,6 +18,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
+#include <string>
 #include <utility>
 
 namespace ostia::app {
@@ -42,6 +44,23 @@ geometry::VesselGraph network_of(const ReconstructCommand& c, Json& done, const 
   done["segments"] = facts.segments;
   done["branches"] = facts.branches;
   return std::move(loaded.graph);
+}
+
+/// Around the network with circles of its radii, or with elliptic sections as `--wall` has them.
+ReconstructedSurface surface_of(const ReconstructCommand& c, const geometry::VesselGraph& graph,
+                                const reconstruction::ReconstructionOptions& options, Json& done,
+                                const core::TaskContext& task) {
+  if (c.wall.empty()) return reconstruction::reconstruct_surface(graph, options, task);
+  const geometry::TriMesh wall = io::read_surface(c.wall).surface.mesh;
+  const reconstruction::FittedSections fit =
+      reconstruction::fit_elliptic_sections(graph, wall, {}, task.sub(0.0, 0.3));
+  if (fit.used == 0)
+    throw InvalidInput(
+        c.wall.filename().string() + ": of " + std::to_string(fit.cut) +
+        " sections across the vessels none is closed, elliptic and of about the tree's radius: "
+        "--wall must be a surface in millimetres around this tree");
+  done["sections"] = {{"cut", fit.cut}, {"used", fit.used}};
+  return reconstruction::reconstruct_surface(fit.graph, fit.sections, options, task.sub(0.3, 1.0));
 }
 
 /// The surface with each quadrilateral from such a corner on that readers split it as the library did.
@@ -87,6 +106,9 @@ void print(const Json& done, bool as_json) {
                 done["closed"].get<bool>() ? "closed" : "not closed");
     std::printf("self-intersections: %zu; branches narrowed: %zu, moved: %zu\n",
                 done["self_intersections"].get<std::size_t>(), done["narrowed"].size(), done["moved"].size());
+    if (done.contains("sections"))
+      std::printf("elliptic sections: %zu cut, %zu used\n", done["sections"]["cut"].get<std::size_t>(),
+                  done["sections"]["used"].get<std::size_t>());
   }
 }
 
@@ -125,7 +147,7 @@ ExitCode run_reconstruct(const ReconstructCommand& c, const core::TaskContext& t
   reconstruction::validate(options);
   const geometry::VesselGraph graph = network_of(c, done, task.sub(0.0, 0.1));
   task.set_stage("reconstructing");
-  ReconstructedSurface made = reconstruction::reconstruct_surface(graph, options, task.sub(0.1, 0.9));
+  ReconstructedSurface made = surface_of(c, graph, options, done, task.sub(0.1, 0.9));
   done["level"] = options.level;
   tell(made, done);
   task.set_stage("writing");
@@ -161,6 +183,8 @@ void define_reconstruct(CLI::App& app, ReconstructCommand& c,
       "--frusta", c.frusta, "Truncated cones along smooth axes instead, which overlap at forks: to draw");
   const auto own = [frusta](CLI::Option* option) { frusta->excludes(option); };
   own(level);
+  own(sub->add_option("--wall", c.wall,
+                      "Surface around the tree, in mm: sections are ellipses as it has them, not circles"));
   own(sub->add_option("--spacing", o.spacing, "Half the distance of sections, in radii")
           ->check(CLI::Range(0.1, 10.0)));
   own(sub->add_option("--bending", o.bending, "How much closer sections are in bends")

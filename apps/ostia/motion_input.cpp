@@ -1,15 +1,11 @@
 #include "motion_input.h"
 
+#include "phase_surface.h"
 #include "refusal.h"
 
 #include "ostia/core/files.h"
 #include "ostia/core/log.h"
-#include "ostia/io/surface_fields.h"
 #include "ostia/io/surface_file.h"
-#include "ostia/lumen/tree_surface.h"
-#include "ostia/pipeline/source.h"
-#include "ostia/segmentation/segment.h"
-#include "ostia/session/case_file.h"
 #include "ostia/session/phase_images.h"
 
 #include <nlohmann/json.hpp>
@@ -25,12 +21,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* lumen_of_a_phase = "lumen.vtp";  // in a folder of a phase
-
-bool is_image_name(const std::string& name) {
-  for (const std::string_view end : {".nrrd", ".nhdr", ".mhd", ".mha", ".nii", ".nii.gz"})
-    if (name.ends_with(end)) return true;
-  return false;
-}
 
 bool is_phase_file(const fs::path& path) {
   return io::is_surface_file(path) || path.extension() == ".vtk" || path.extension() == ".ostia" ||
@@ -178,22 +168,6 @@ double first_frame(const std::vector<NumberedFile>& files, int frames) {
   return 1.0;
 }
 
-geometry::TriMesh mask_surface(const fs::path& path) {
-  if (pipeline::classify(path) == pipeline::SourceKind::image)
-    throw InvalidInput(path.string() +
-                       " is an image and no mask: give the lumen's surface at one phase with --template, or "
-                       "make one of each, with `ostia segment`");
-  const pipeline::Source source = pipeline::load(path);
-  if (std::ranges::none_of(source.mask->voxels, [](auto v) { return v != 0; })) return {};
-  return naming(path, [&] { return segmentation::segment_mask(*source.mask); });
-}
-
-geometry::TriMesh case_surface(const fs::path& path) {
-  const auto model = session::CaseFile::open(path, session::OpenMode::read_only).model();
-  if (!model || model->vessels.empty()) return {};
-  return naming(path, [&] { return lumen::surface_of(*model); });
-}
-
 }  // namespace
 
 std::string phase_of(const std::string& stem) {
@@ -208,20 +182,6 @@ std::string phase_of(const std::string& stem) {
   }
   while (from < last && stem[from] == '0' && is_digit(stem[from + 1])) ++from;
   return stem.substr(from, last - from + 1);
-}
-
-geometry::TriMesh phase_surface(const fs::path& path, const std::string& units) {
-  if (is_image_name(path.filename().string())) return mask_surface(path);
-  if (path.extension() == ".ostia") return case_surface(path);
-  geometry::TriMesh mesh;
-  try {
-    mesh = path.extension() == ".vtk" ? io::read_surface_with_fields(path).mesh
-                                      : io::read_surface(path).surface.mesh;
-  } catch (const io::EmptySurface&) {
-    return {};
-  }
-  for (geometry::Vec3& p : mesh.points) p *= unit_mm(units);
-  return mesh;
 }
 
 std::vector<PhaseFile> phase_files(const fs::path& folder, int frames, PhaseContent content,
@@ -258,26 +218,11 @@ std::vector<PhaseFile> phase_files(const fs::path& folder, int frames, PhaseCont
   return phases;
 }
 
-std::vector<pipeline::PhaseSurface> read_phases(const std::vector<PhaseFile>& files, const std::string& units,
-                                                const core::TaskContext& task) {
-  std::vector<pipeline::PhaseSurface> phases;
-  for (const PhaseFile& one : files) {
-    task.throw_if_cancelled();
-    phases.push_back({one.phase, name_of(one), phase_surface(one.file, units)});
-    task.set_progress(static_cast<double>(phases.size()) / static_cast<double>(files.size()));
-  }
-  return phases;
-}
-
 std::string name_of(const PhaseFile& one) {
   if (one.series) return one.series->phase.empty() ? "a DICOM series" : one.series->phase;
   const fs::path parent = one.file.parent_path().filename();
   const bool in_folder = parent.string().starts_with("phase-");
   return ((in_folder ? parent : fs::path()) / one.file.filename()).string();
-}
-
-double unit_mm(const std::string& units) {
-  return units == "m" ? 1000.0 : units == "cm" ? 10.0 : 1.0;
 }
 
 std::size_t layers_at_end(const io::LayeredMesh& layered) {

@@ -1,12 +1,10 @@
 #pragma once
-/// \file What `ostia motion` reads: surfaces by phase, and a motion.
+/// \file What `ostia motion` reads: files by phase, and a motion.
 
 #include "ostia/core/task_context.h"
-#include "ostia/geometry/tri_mesh.h"
 #include "ostia/imaging/dicom.h"
 #include "ostia/io/cage_motion_file.h"
 #include "ostia/io/volume_mesh_file.h"
-#include "ostia/pipeline/motion_fit.h"
 
 #include <filesystem>
 #include <optional>
@@ -39,17 +37,8 @@ std::vector<PhaseFile> phase_files(const std::filesystem::path& folder, int fram
                                    PhaseContent content = PhaseContent::surfaces,
                                    const core::TaskContext& task = core::no_task());
 
-/// A surface; a mask's, a case's. Empty where there are no triangles, voxels or vessels. `units` is "", "m",
-/// "cm" or "mm". Throws InvalidInput that names the file for an image that is no mask.
-geometry::TriMesh phase_surface(const std::filesystem::path& file, const std::string& units);
-/// Reads them all. As phase_surface.
-std::vector<pipeline::PhaseSurface> read_phases(const std::vector<PhaseFile>& files, const std::string& units,
-                                                const core::TaskContext& task);
 /// What messages call it.
 std::string name_of(const PhaseFile& one);
-
-/// How many mm the unit of length is: "m", "cm", "mm"; "" is mm.
-double unit_mm(const std::string& units);
 
 /// Of tetrahedra, the last ones, how many are of layers (io::MeshExportOptions::layer_tetrahedra); 0, with a
 /// line in the log, where others are of layers too.

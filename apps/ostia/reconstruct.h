@@ -19,6 +19,7 @@ struct ReconstructCommand {
   InputOptions input;
   TreeInputOptions tree;
   std::filesystem::path output;
+  std::filesystem::path wall;  ///< empty: circles of the tree's radii
   reconstruction::ReconstructionOptions options;
   std::optional<int> sides;  ///< nothing: the library's default
   bool frusta = false;       ///< truncated cones instead

@@ -39,7 +39,8 @@ OpenTree prepared(const io::LoadedGraph& loaded, bool repair, const core::TaskCo
   }
   tree.graph = std::make_shared<const geometry::VesselGraph>(std::move(graph));
   tree.ruler = std::make_shared<const analysis::TreeRuler>(tree.graph, task.sub(0.3, 0.8));
-  tree.rays = std::make_shared<const analysis::TreeRays>(tree.graph, task.sub(0.8, 1.0));
+  tree.rays = std::make_shared<const analysis::TreeRays>(tree.graph, task.sub(0.8, 0.9));
+  tree.blocks = std::make_shared<const geometry::SegmentBlocks>(*tree.graph, task.sub(0.9, 1.0));
   if (!tree.ruler->why_no_tree().empty())
     tree.notes += (tree.notes.empty() ? "" : "\n") + tree.ruler->why_no_tree();
   return tree;

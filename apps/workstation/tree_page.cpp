@@ -45,7 +45,7 @@ TreePage::TreePage(MainWindow& window, OpenTree tree)
   setAutoFillBackground(true);
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(0, 0, 0, 0);
-  view_ = new TreeView(tree_.graph, tree_.rays);
+  view_ = new TreeView(tree_.blocks, tree_.rays);
   row->addWidget(view_, 1);
   row->addWidget(build_panel());
   connect(view_, &TreeView::clicked, this, &TreePage::click);

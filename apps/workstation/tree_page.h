@@ -20,6 +20,7 @@ struct OpenTree {
   std::shared_ptr<const geometry::VesselGraph> graph;
   std::shared_ptr<const analysis::TreeRuler> ruler;
   std::shared_ptr<const analysis::TreeRays> rays;
+  std::shared_ptr<const geometry::SegmentBlocks> blocks;
   std::string name;            ///< of the file
   std::string reference_name;  ///< what its references are: "line", "cell"
   std::string notes;           ///< faults that are left, what was repaired

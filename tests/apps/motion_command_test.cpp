@@ -176,6 +176,19 @@ TEST(MotionCommand, ExportsTimes) {
   EXPECT_THAT(ostia(command, {folder, ""}).err, HasSubstr("nothing to do"));
 }
 
+/// That of the masks below at 75 %, half axes 6, 5 and 4 mm about (10, 10, 11.5): distance from it, mm, RMS,
+/// to first order.
+void expect_ellipsoid(const TriMesh& mesh, double within) {
+  double squares = 0.0;
+  for (const Vec3& point : mesh.points) {
+    const Vec3 p = point - Vec3(10.0, 10.0, 11.5), half(6.0, 5.0, 4.0);
+    const double k = p.cwiseQuotient(half).norm();
+    const double slope = p.cwiseQuotient(half.cwiseProduct(half)).norm() / k;
+    squares += std::pow((k - 1.0) / slope, 2) / static_cast<double>(mesh.points.size());
+  }
+  EXPECT_LT(std::sqrt(squares), within);
+}
+
 TEST(MotionCommand, TakesMasksAndFoldersOfASuiteCase) {
   const fs::path folder = temporary_folder("inputs");
   fs::create_directories(folder / "masks");
@@ -200,6 +213,14 @@ TEST(MotionCommand, TakesMasksAndFoldersOfASuiteCase) {
   EXPECT_EQ(masks.code, 4) << masks.err;
   EXPECT_THAT(masks.err, AllOf(HasSubstr("phase 25 %"), HasSubstr("no vessel"), HasSubstr("bridged")));
   EXPECT_EQ(Json::parse(masks.out)["bridged"], 1);
+  const Outcome smooth =
+      ostia({"motion", "fit", "masks", "-o", "smooth", "--depth", "2", "--surface", "poisson", "--json"},
+            {folder, ""});
+  EXPECT_EQ(smooth.code, 4) << smooth.err;
+  EXPECT_EQ(Json::parse(smooth.out)["bridged"], 1);
+  expect_ellipsoid(io::read_surface(folder / "from-masks" / "template.vtp").surface.mesh, 0.12);
+  expect_ellipsoid(io::read_surface(folder / "smooth" / "template.vtp").surface.mesh,
+                   0.08);  // without stairs
   for (const auto& one : motion::testing::beating_tree(3)) {
     const fs::path phase = folder / "case" / ("phase-" + std::to_string(static_cast<int>(100.0 * one.phase)));
     fs::create_directories(phase);
@@ -212,6 +233,9 @@ TEST(MotionCommand, TakesMasksAndFoldersOfASuiteCase) {
   EXPECT_EQ(suite.code, 0) << suite.err;
   EXPECT_EQ(Json::parse(suite.out)["phases"][1]["percent"], 33.5);
   EXPECT_THAT(suite.err, HasSubstr("there is no phase 75 %: 66 % is the template"));
+  const Outcome none = ostia({"motion", "fit", "case", "-o", "no", "--surface", "poisson"}, {folder, ""});
+  EXPECT_EQ(none.code, 2);
+  EXPECT_THAT(none.err, AllOf(HasSubstr("--surface poisson"), HasSubstr("no mask")));
 }
 
 TEST(MotionCommand, FramesAreCountedWhereThatIsSaid) {

@@ -1,6 +1,7 @@
 #include "program.h"
 
 #include "ostia/core/files.h"
+#include "ostia/geometry/isosurface.h"
 #include "ostia/geometry/mesh_topology.h"
 #include "ostia/io/surface_fields.h"
 #include "ostia/io/surface_file.h"
@@ -9,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <numbers>
 
@@ -91,6 +93,41 @@ TEST(ReconstructCommand, WhatStillCrossesIsToldAndWritten) {
   EXPECT_GT(told["self_intersections"].get<int>(), 0);
   EXPECT_THAT(done.err, HasSubstr("cross: " + told["self_intersections"].dump()));
   EXPECT_TRUE(std::filesystem::exists(folder.path / "a.vtp"));
+}
+
+/// Semi-axes 3 and 1.5 mm along z, scaled.
+void write_elliptic_wall(const std::filesystem::path& file, double scale) {
+  const auto inside = [scale](const geometry::Vec3& p) {
+    return std::hypot(p.x() / (3.0 * scale), p.y() / (1.5 * scale)) - 1.0;
+  };
+  const geometry::Box3 box(geometry::Vec3(-4.0 * scale, -2.0 * scale, -1.0),
+                           geometry::Vec3(4.0 * scale, 2.0 * scale, 21.0));
+  io::write_surface(file, geometry::isosurface(inside, box, 0.2 * scale));
+}
+
+TEST(ReconstructCommand, SectionsAreThoseOfAWall) {
+  const Folder folder(line);
+  write_elliptic_wall(folder.path / "wall.stl", 1.0);
+  const Outcome done = folder.run({"tree.csv", "-o", "tube.vtp", "--wall", "wall.stl", "--json"});
+  ASSERT_EQ(done.code, 0) << done.err;
+  const Json told = Json::parse(done.out);
+  EXPECT_GT(told["sections"]["cut"].get<int>(), 20);
+  EXPECT_EQ(told["sections"]["used"], told["sections"]["cut"]);
+  const double volume = 20.0 * 4.5 * std::numbers::pi;
+  EXPECT_NEAR(told["volume_mm3"].get<double>(), volume, 0.01 * volume);
+  geometry::Box3 box;
+  for (const auto& p : io::read_surface(folder.path / "tube.vtp").surface.mesh.points) box.extend(p);
+  EXPECT_NEAR(box.sizes().x(), 6.0, 0.15);  // polygons of the ellipse's area reach a little beyond it
+  EXPECT_NEAR(box.sizes().y(), 3.0, 0.1);
+
+  write_elliptic_wall(folder.path / "far.stl", 3.0);
+  const Outcome none = folder.run({"tree.csv", "-o", "none.vtp", "--wall", "far.stl"});
+  EXPECT_EQ(none.code, 3);
+  EXPECT_THAT(none.err, HasSubstr("far.stl"));
+  EXPECT_THAT(none.err, HasSubstr("--wall"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path / "none.vtp"));
+  EXPECT_EQ(folder.run({"tree.csv", "-o", "none.vtp", "--wall", "missing.stl"}).code, 3);
+  EXPECT_EQ(folder.run({"tree.csv", "-o", "none.vtp", "--wall", "wall.stl", "--frusta"}).code, 2);
 }
 
 TEST(ReconstructCommand, ConesForDrawing) {

@@ -117,7 +117,7 @@ TEST(Smoothness, ReconstructedTubesAreSmootherThanTheirIsosurface) {
   options.smoothings = {20};
   const std::vector<SurfaceFigures> all =
       measure_smoothness(three_tubes(), {twelve_orientations()[6]}, options);
-  ASSERT_EQ(all.size(), 6U);
+  ASSERT_EQ(all.size(), 8U);
   const SurfaceFigures& isosurface = all[0];
   EXPECT_EQ(isosurface.rms_mm, 0.0);
   for (const SurfaceFigures& s : {all[1], all[2]}) {
@@ -130,9 +130,17 @@ TEST(Smoothness, ReconstructedTubesAreSmootherThanTheirIsosurface) {
     EXPECT_LT(s.rms_mm, 0.45);
     EXPECT_LT(s.true_rms_mm, 0.5);
   }
-  EXPECT_LT(all[3].triangles, isosurface.triangles);
-  EXPECT_EQ(all[4].triangles, all[5].triangles);
-  EXPECT_EQ(all[5].parameter, 20.0);
+  const SurfaceFigures &circles = all[2], &areas = all[3], &ellipses = all[4];
+  EXPECT_EQ(areas.kind, SurfaceKind::areas);
+  EXPECT_EQ(ellipses.kind, SurfaceKind::elliptic);
+  EXPECT_EQ(ellipses.parameter, 1.0);
+  EXPECT_TRUE(ellipses.closed);
+  EXPECT_EQ(ellipses.self_intersections, 0U);
+  EXPECT_LT(ellipses.tubes_rms_mm, areas.tubes_rms_mm);
+  EXPECT_LT(ellipses.tubes_rms_mm, circles.tubes_rms_mm);
+  EXPECT_LT(all[5].triangles, isosurface.triangles);
+  EXPECT_EQ(all[6].triangles, all[7].triangles);
+  EXPECT_EQ(all[7].parameter, 20.0);
 }
 
 /// Two scans at two levels, and what VTK makes of the second.
@@ -169,6 +177,17 @@ TEST(SmoothnessReport, SummarisesTheLevels) {
   EXPECT_EQ(levels[1].worst_rms_mm, 0.3);
   EXPECT_EQ(levels[1].worst_kappa1_tubes, 0.05);
   EXPECT_EQ(levels[1].not_closed, 0U);
+
+  std::vector<SurfaceFigures> more = made_figures();
+  more.push_back(more[2]);
+  more.back().kind = SurfaceKind::elliptic;
+  more.back().rms_mm = 0.05;
+  const std::vector<LevelSummary> with = summarize(more);
+  ASSERT_EQ(with.size(), 3U);
+  EXPECT_EQ(with[1].worst_rms_mm, 0.3);
+  EXPECT_EQ(with[2].kind, SurfaceKind::elliptic);
+  EXPECT_EQ(with[2].worst_rms_mm, 0.05);
+  EXPECT_EQ(name_of(more.back()), "L1 elliptic");
 }
 
 TEST(SmoothnessReport, WritesTablesAndPlots) {

@@ -4,7 +4,10 @@
 
 #include <gmock/gmock.h>
 
+#include <array>
 #include <limits>
+#include <map>
+#include <vector>
 
 namespace ostia::geometry::detail {
 namespace {
@@ -46,6 +49,18 @@ TEST(EdgeTable, EqualPoints) {
   EXPECT_THAT(
       first_equal_points({{1, 0, 0}, {next, 0, 0}, {1, -0.0, 0}, {nan, 0, 0}, {nan, 0, 0}, {next, 0, 0}}),
       testing::ElementsAre(0, 1, 0, 3, 4, 1));
+}
+
+TEST(EdgeTable, EqualPointsAmongMany) {
+  std::vector<Vec3> points;
+  for (int i = 0; i < 150000; ++i) points.emplace_back(i % 4099 * 0.1, i % 7, -(i % 3));
+  std::map<std::array<double, 3>, std::int32_t> known;
+  std::vector<std::int32_t> truth;
+  for (const Vec3& p : points)
+    truth.push_back(known.emplace(std::array{p.x(), p.y(), p.z()}, static_cast<std::int32_t>(truth.size()))
+                        .first->second);
+  ASSERT_LT(known.size(), points.size());
+  EXPECT_EQ(first_equal_points(points), truth);
 }
 
 }  // namespace

@@ -210,5 +210,37 @@ TEST(SelfIntersections, CollapsedTubeWallsCrossEachOther) {
   }
 }
 
+/// The pairs by the triangles' names before they were put into another order.
+Pairs renamed(const Pairs& pairs, const std::vector<std::int32_t>& names) {
+  Pairs out;
+  for (const auto& [a, b] : pairs)
+    out.push_back(std::minmax(names[static_cast<std::size_t>(a)], names[static_cast<std::size_t>(b)]));
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+// Neighbours that follow each other are searched in another order than triangles from all over.
+TEST(SelfIntersections, NeitherOrderNorScaleMatters) {
+  TriMesh other = test::tube(40, 20);
+  for (Vec3& p : other.points) p += Vec3(1.9, 0.01, 0.013);
+  const TriMesh both = merged(test::tube(40, 20), other);
+  const Pairs truth = self_intersections(both);
+  ASSERT_GT(truth.size(), 20U);
+
+  std::vector<std::int32_t> names(both.triangles.size());
+  TriMesh shuffled{both.points, {}};
+  for (std::size_t i = 0; i < names.size(); ++i) {  // 3040 and 1009 have no common divisor
+    names[i] = static_cast<std::int32_t>(i * 1009 % names.size());
+    shuffled.triangles.push_back(both.triangles[static_cast<std::size_t>(names[i])]);
+  }
+  EXPECT_EQ(renamed(self_intersections(shuffled), names), truth);
+
+  for (const int exponent : {-330, -200, 200, 330}) {
+    TriMesh scaled = both;
+    for (Vec3& p : scaled.points) p *= std::ldexp(1.0, exponent);
+    EXPECT_EQ(self_intersections(scaled), truth) << exponent;
+  }
+}
+
 }  // namespace
 }  // namespace ostia::geometry

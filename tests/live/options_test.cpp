@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 namespace ostia::live {
 namespace {
 
@@ -40,9 +42,31 @@ TEST(LiveOptions, RefusesWhatMakesNoSense) {
                                                     {"--demo", "--phase", "nan"},
                                                     {"--demo", "--fps", "nan"},
                                                     {"--demo", "--seconds", "nan"},
+                                                    {"--demo", "--turn"},
                                                     {"--demo", "--nonsense"}};
   for (const auto& arguments : wrong)
     EXPECT_THROW(options_of(arguments), UsageError) << (arguments.empty() ? "" : arguments.back());
+}
+
+TEST(LiveOptions, OfATreeRefuseWhatIsOfHearts) {
+  const std::string tree = ::testing::TempDir() + "live_options_tree.swc";
+  std::ofstream(tree) << "1 0 0 0 0 1 -1\n2 0 0 0 5 1 1\n";
+  EXPECT_TRUE(options_of({tree})->tree);
+  EXPECT_TRUE(options_of({tree, "--view", "AP", "--screenshot", "a.png"})->tree);
+  EXPECT_FALSE(options_of({"--demo"})->tree);
+  const std::vector<std::vector<std::string>> wrong{
+      {"--ecg", "100.hea"}, {"--lead", "2"},        {"--phase", "0"}, {"--speed", "2"},
+      {"--start", "3"},     {"--color", "stretch"}, {"--x-ray"},      {"--template", "t.vtp"}};
+  for (std::vector<std::string> one : wrong) {
+    const std::string name = one.front();
+    one.insert(one.begin(), tree);
+    try {
+      options_of(one);
+      ADD_FAILURE() << name << " was taken";
+    } catch (const UsageError& error) {
+      EXPECT_NE(std::string(error.what()).find(name + " is of hearts"), std::string::npos) << error.what();
+    }
+  }
 }
 
 }  // namespace

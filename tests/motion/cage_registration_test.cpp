@@ -4,6 +4,9 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
+#include "ostia/geometry/aabb_tree.h"
+#include "ostia/geometry/isosurface.h"
+#include "ostia/geometry/mesh_topology.h"
 
 #include <gtest/gtest.h>
 
@@ -174,6 +177,46 @@ TEST_F(CageRegistration, RefusesAndCancels) {
   core::TaskContext task;
   task.cancel();
   EXPECT_THROW(register_cage(source(), source(), {}, task), Cancelled);
+}
+
+/// A box of twelve triangles, 20 x 20 x 2 mm below z = 0, and a ball of 2 mm radius `gap` above it.
+TriMesh ball_over_box(double gap) {
+  TriMesh box;
+  for (int c = 0; c < 8; ++c)
+    box.points.emplace_back(c & 1 ? 10.0 : -10.0, c & 2 ? 10.0 : -10.0, c & 4 ? 0.0 : -2.0);
+  box.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                   {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  const Vec3 centre(1.0, 0.5, 2.0 + gap);
+  const geometry::Box3 about(centre - Vec3::Constant(2.5), centre + Vec3::Constant(2.5));
+  return geometry::merged(
+      box, geometry::isosurface([&](const Vec3& p) { return (p - centre).norm() - 2.0; }, about, 0.4));
+}
+
+// Cells that keep their sense keep smooth surfaces apart, but the box has corners alone: it does not give way
+// to the ball, whose target lies in it. What is reported is of the surface that was taken back.
+TEST_F(CageRegistration, TellsOfTheSurfaceThatItTookBackFromCrossing) {
+  const TriMesh start = ball_over_box(0.5), target = ball_over_box(-0.7);
+  ASSERT_TRUE(geometry::self_intersections(start).empty());
+  ASSERT_FALSE(geometry::self_intersections(target).empty());
+  const Registration r = register_cage(start, target);
+  EXPECT_TRUE(geometry::self_intersections(r.surface).empty());
+  EXPECT_EQ(r.report.self_intersections, 0U);
+  double lowest = 10.0;
+  for (std::size_t i = 8; i < r.surface.points.size(); ++i)
+    lowest = std::min(lowest, r.surface.points[i].z());
+  EXPECT_GT(lowest, 0.0);
+  EXPECT_LT(lowest, 0.4);  // and it went as far as it could
+  const geometry::AabbTree tree(target);
+  double sum = 0.0, all = 0.0;
+  for (const geometry::Triangle& t : r.surface.triangles) {
+    const Vec3 a = r.surface.points[static_cast<std::size_t>(t[0])],
+               b = r.surface.points[static_cast<std::size_t>(t[1])],
+               c = r.surface.points[static_cast<std::size_t>(t[2])];
+    const double area = 0.5 * (b - a).cross(c - a).norm();
+    sum += area * (tree.closest(a).distance + tree.closest(b).distance + tree.closest(c).distance) / 3.0;
+    all += area;
+  }
+  EXPECT_NEAR(r.report.mean_distance_mm, sum / all, 0.2 * sum / all);
 }
 
 }  // namespace

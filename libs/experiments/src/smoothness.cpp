@@ -100,6 +100,22 @@ class Judge {
   double clear_mm_;
 };
 
+/// The skeleton's network with sections as the isosurface has them, as circles and as ellipses.
+void add_sections(const geometry::VesselGraph& network, const TriMesh& isosurface, const Judge& judge,
+                  const SmoothnessOptions& options, std::vector<SurfaceFigures>& out,
+                  const core::TaskContext& task) {
+  const reconstruction::FittedSections fit =
+      reconstruction::fit_elliptic_sections(network, isosurface, {}, task.sub(0.0, 0.2));
+  reconstruction::ReconstructionOptions how;
+  how.level = level_of_sections(options);
+  const TriMesh circles =
+      reconstruction::reconstruct_surface(fit.graph, how, task.sub(0.2, 0.4)).surface.mesh;
+  out.push_back(judge.figures(circles, SurfaceKind::areas, how.level, task.sub(0.4, 0.6)));
+  const TriMesh ellipses =
+      reconstruction::reconstruct_surface(fit.graph, fit.sections, how, task.sub(0.6, 0.8)).surface.mesh;
+  out.push_back(judge.figures(ellipses, SurfaceKind::elliptic, how.level, task.sub(0.8, 1.0)));
+}
+
 /// What VTK makes of the isosurface; smoothed from about as many triangles as `triangles` on.
 void add_vtk(const TriMesh& isosurface, std::size_t triangles, const Judge& judge,
              const SmoothnessOptions& options, std::vector<SurfaceFigures>& out,
@@ -123,6 +139,10 @@ void add_vtk(const TriMesh& isosurface, std::size_t triangles, const Judge& judg
 }
 
 }  // namespace
+
+int level_of_sections(const SmoothnessOptions& options) {
+  return std::min(1, options.levels - 1);
+}
 
 void validate(const SmoothnessOptions& o) {
   validate(o.scans);
@@ -155,7 +175,7 @@ std::vector<SurfaceFigures> measure_smoothness(const std::vector<PhantomTube>& t
   std::size_t alike = 0;
   task.set_stage("reconstructing");
   for (int level = 0; level < options.levels; ++level) {
-    const double at = 0.55 + 0.25 * level / options.levels, step = 0.25 / options.levels;
+    const double at = 0.55 + 0.2 * level / options.levels, step = 0.2 / options.levels;
     reconstruction::ReconstructionOptions how;
     how.level = level;
     const TriMesh mesh =
@@ -163,6 +183,7 @@ std::vector<SurfaceFigures> measure_smoothness(const std::vector<PhantomTube>& t
     if (level <= 1) alike = mesh.triangles.size();
     out.push_back(judge.figures(mesh, SurfaceKind::level, level, task.sub(at + 0.7 * step, at + step)));
   }
+  add_sections(network, isosurface, judge, options, out, task.sub(0.75, 0.8));
   task.set_stage("decimating and smoothing");
   if (vtk) add_vtk(isosurface, alike, judge, options, out, task.sub(0.8, 1.0));
   return out;

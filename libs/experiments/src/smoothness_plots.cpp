@@ -4,6 +4,7 @@
 #include "ostia/figure/plot.h"
 
 #include <map>
+#include <utility>
 
 namespace ostia::experiments {
 
@@ -51,16 +52,16 @@ double iterations(const SurfaceFigures& s) {
 
 /// Figure 5(a): each scan's distance at each level.
 figure::Picture scans_plot(const Figures& surfaces) {
-  std::map<int, figure::Series> levels;
+  std::map<std::pair<SurfaceKind, double>, figure::Series> levels;
   for (const SurfaceFigures& s : surfaces) {
-    if (s.kind != SurfaceKind::level) continue;
-    figure::Series& series = levels[static_cast<int>(s.parameter)];
+    if (s.kind != SurfaceKind::level && s.kind != SurfaceKind::elliptic) continue;
+    figure::Series& series = levels[{s.kind, s.parameter}];
     series.name = name_of(s);
     series.x.push_back(static_cast<double>(series.x.size() + 1));
     series.y.push_back(s.rms_mm);
   }
   std::vector<figure::Series> all;
-  for (auto& [level, series] : levels) all.push_back(std::move(series));
+  for (auto& [key, series] : levels) all.push_back(std::move(series));
   figure::PlotOptions how;
   how.title = "Distance from the isosurface";
   how.x_label = "scan";

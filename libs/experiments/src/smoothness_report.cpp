@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <utility>
 
 namespace ostia::experiments {
 namespace fs = std::filesystem;
@@ -32,11 +33,24 @@ const char* key_of(SurfaceKind kind) {
       return "isosurface";
     case SurfaceKind::level:
       return "level";
+    case SurfaceKind::areas:
+      return "areas";
+    case SurfaceKind::elliptic:
+      return "elliptic";
     case SurfaceKind::decimated:
       return "decimated";
     default:
       return "smoothed";
   }
+}
+
+bool is_reconstructed(SurfaceKind kind) {
+  return kind == SurfaceKind::level || kind == SurfaceKind::areas || kind == SurfaceKind::elliptic;
+}
+
+std::string level_name(SurfaceKind kind, int level) {
+  return "L" + std::to_string(level) +
+         (kind == SurfaceKind::level ? std::string() : std::string(" ") + key_of(kind));
 }
 
 /// NaN is no number in JSON.
@@ -86,7 +100,7 @@ std::string rows_of(const Figures& surfaces) {
 void add_tables(figure::HtmlReport& page, const Figures& surfaces) {
   std::vector<std::vector<std::string>> rows;
   for (const LevelSummary& l : summarize(surfaces))
-    rows.push_back({"L" + std::to_string(l.level), std::to_string(l.scans), fixed(l.mean_rms_mm, 3),
+    rows.push_back({level_name(l.kind, l.level), std::to_string(l.scans), fixed(l.mean_rms_mm, 3),
                     fixed(l.worst_rms_mm, 3), fixed(l.worst_hausdorff_mm, 2), fixed(l.worst_tubes_rms_mm, 3),
                     fixed(l.worst_true_rms_mm, 3), fixed(l.worst_kappa1_tubes, 3),
                     fixed(l.worst_kappa1_wall, 3), fixed(l.worst_kappa1, 3),
@@ -115,7 +129,9 @@ std::string name_of(const SurfaceFigures& s) {
     case SurfaceKind::isosurface:
       return "S0";
     case SurfaceKind::level:
-      return "L" + number;
+    case SurfaceKind::areas:
+    case SurfaceKind::elliptic:
+      return level_name(s.kind, static_cast<int>(s.parameter));
     case SurfaceKind::decimated:
       return "S0 less " + std::to_string(static_cast<int>(std::lround(100.0 * s.parameter))) + " %";
     default:
@@ -124,10 +140,11 @@ std::string name_of(const SurfaceFigures& s) {
 }
 
 std::vector<LevelSummary> summarize(const Figures& surfaces) {
-  std::map<int, LevelSummary> levels;
+  std::map<std::pair<SurfaceKind, int>, LevelSummary> levels;
   for (const SurfaceFigures& s : surfaces) {
-    if (s.kind != SurfaceKind::level) continue;
-    LevelSummary& l = levels[static_cast<int>(s.parameter)];
+    if (!is_reconstructed(s.kind)) continue;
+    LevelSummary& l = levels[{s.kind, static_cast<int>(s.parameter)}];
+    l.kind = s.kind;
     l.level = static_cast<int>(s.parameter);
     ++l.scans;
     l.mean_rms_mm += s.rms_mm;
@@ -142,7 +159,7 @@ std::vector<LevelSummary> summarize(const Figures& surfaces) {
     l.not_closed += s.closed ? 0U : 1U;
   }
   std::vector<LevelSummary> out;
-  for (auto& [level, l] : levels) {
+  for (auto& [key, l] : levels) {
     l.mean_rms_mm /= static_cast<double>(l.scans);
     out.push_back(l);
   }
@@ -166,7 +183,8 @@ std::string smoothness_json(const Figures& surfaces, const SmoothnessOptions& op
   out["parameters"] = Json::parse(parameters_json(options, orientations));
   out["levels"] = Json::array();
   for (const LevelSummary& l : summarize(surfaces))
-    out["levels"].push_back({{"level", l.level},
+    out["levels"].push_back({{"kind", key_of(l.kind)},
+                             {"level", l.level},
                              {"scans", l.scans},
                              {"mean_rms_sd_mm", l.mean_rms_mm},
                              {"worst_rms_sd_mm", l.worst_rms_mm},
@@ -208,7 +226,10 @@ void write_smoothness_report(const fs::path& folder, const Figures& surfaces,
                           "The phantom of tubes; VTK's filters on the scan " + compared_at(surfaces));
   page.paragraph(
       "Each scan is segmented; S0 is the isosurface of its level set, L0, L1, ... are reconstructed from its "
-      "skeleton. kappa1 is the lesser principal curvature, 0 along a straight tube, by a quadric over each "
+      "skeleton, with circles of its radii; L1 areas and L1 elliptic from circles with the areas and "
+      "ellipses "
+      "with the second moments of S0's sections. kappa1 is the lesser principal curvature, 0 along a "
+      "straight tube, by a quadric over each "
       "vertex and its direct neighbours. Tubes: what is farther than " +
       fixed(options.clear_mm, 1) + " mm from a joint and from a free end.");
   page.picture(distances, "Left: each scan at each level. Right: one scan, against the number of triangles.");

@@ -2,10 +2,14 @@
 
 #include "mesh_checks.h"
 
+#include "ostia/core/parallel.h"
+
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 namespace ostia::geometry::detail {
 
@@ -38,28 +42,79 @@ std::vector<HalfEdge> half_edges(const TriMesh& mesh) {
   return table;
 }
 
-std::vector<std::int32_t> first_equal_points(const std::vector<Vec3>& points) {
-  // Open addressing over a table of twice the size: several times quicker than the standard map.
-  const std::size_t capacity = std::bit_ceil(2 * points.size() + 1);
-  std::vector<std::int32_t> slots(capacity, -1);
-  std::vector<std::int32_t> first(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto own = static_cast<std::int32_t>(i);
-    first[i] = own;
-    if (!points[i].allFinite()) continue;
-    std::uint64_t hash = 0;
-    for (int a = 0; a < 3; ++a) {
-      hash =
-          (hash ^ std::bit_cast<std::uint64_t>(points[i][a] + 0.0)) * 0x9E3779B97F4A7C15ULL;  // -0 + 0 is +0
-      hash ^= hash >> 29;
-    }
-    std::size_t slot = hash & (capacity - 1);
-    while (slots[slot] >= 0 && points[static_cast<std::size_t>(slots[slot])] != points[i]) {
-      slot = (slot + 1) & (capacity - 1);
-    }
-    if (slots[slot] < 0) slots[slot] = own;
-    first[i] = slots[slot];
+namespace {
+
+constexpr std::size_t parts = 32, grain = 1 << 16;
+
+std::uint64_t hash_of(const Vec3& point) {
+  std::uint64_t hash = 0;
+  for (int a = 0; a < 3; ++a) {
+    hash = (hash ^ std::bit_cast<std::uint64_t>(point[a] + 0.0)) * 0x9E3779B97F4A7C15ULL;  // -0 + 0 is +0
+    hash ^= hash >> 29;
   }
+  return hash;
+}
+
+/// Points of equal hashes, ascending.
+struct PointParts {
+  std::vector<std::int32_t> points;
+  std::vector<std::size_t> first;  ///< of each part; and the end
+};
+
+PointParts parted(const std::vector<std::uint32_t>& hashes) {
+  const std::size_t chunks = (hashes.size() + grain - 1) / grain;
+  std::vector<std::array<std::size_t, parts>> next(chunks);
+  core::parallel_chunks(hashes.size(), grain, [&](std::size_t begin, std::size_t end) {
+    auto& counts = next[begin / grain];
+    counts.fill(0);
+    for (std::size_t i = begin; i < end; ++i) ++counts[hashes[i] % parts];
+  });
+  PointParts sorted;
+  std::size_t sum = 0;
+  for (std::size_t part = 0; part < parts; ++part) {
+    sorted.first.push_back(sum);
+    for (auto& counts : next) sum += std::exchange(counts[part], sum);
+  }
+  sorted.first.push_back(sum);
+  sorted.points.resize(sum);
+  core::parallel_chunks(hashes.size(), grain, [&](std::size_t begin, std::size_t end) {
+    auto& at = next[begin / grain];
+    for (std::size_t i = begin; i < end; ++i)
+      sorted.points[at[hashes[i] % parts]++] = static_cast<std::int32_t>(i);
+  });
+  return sorted;
+}
+
+/// Among points that are equal only to each other. Open addressing over a table of twice the size: several
+/// times quicker than the standard map.
+void find_first(const std::vector<Vec3>& points, const std::int32_t* begin, const std::int32_t* end,
+                const std::vector<std::uint32_t>& hashes, std::vector<std::int32_t>& first) {
+  const std::size_t capacity = std::bit_ceil(2 * static_cast<std::size_t>(end - begin) + 1);
+  std::vector<std::int32_t> slots(capacity, -1);
+  for (; begin != end; ++begin) {
+    const auto own = static_cast<std::size_t>(*begin);
+    first[own] = *begin;
+    if (!points[own].allFinite()) continue;
+    std::size_t slot = hashes[own] / parts & (capacity - 1);
+    while (slots[slot] >= 0 && points[static_cast<std::size_t>(slots[slot])] != points[own])
+      slot = (slot + 1) & (capacity - 1);
+    if (slots[slot] < 0) slots[slot] = *begin;
+    first[own] = slots[slot];
+  }
+}
+
+}  // namespace
+
+std::vector<std::int32_t> first_equal_points(const std::vector<Vec3>& points) {
+  std::vector<std::uint32_t> hashes(points.size());
+  core::parallel_for(points.size(), grain,
+                     [&](std::size_t i) { hashes[i] = static_cast<std::uint32_t>(hash_of(points[i])); });
+  const PointParts sorted = parted(hashes);
+  std::vector<std::int32_t> first(points.size());
+  core::parallel_for(parts, 1, [&](std::size_t part) {
+    find_first(points, sorted.points.data() + sorted.first[part],
+               sorted.points.data() + sorted.first[part + 1], hashes, first);
+  });
   return first;
 }
 

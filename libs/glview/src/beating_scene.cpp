@@ -286,6 +286,16 @@ void fill(const Viewport& viewport, const figure::Color& color) {
   glDisable(GL_SCISSOR_TEST);
 }
 
+void begin_part(const Viewport& viewport, const figure::Color& color) {
+  glViewport(viewport.x, viewport.y, viewport.width, viewport.height);
+  fill(viewport, color);
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(viewport.x, viewport.y, viewport.width, viewport.height);
+  glDepthMask(GL_TRUE);
+  glClear(GL_DEPTH_BUFFER_BIT);
+  glDisable(GL_SCISSOR_TEST);
+}
+
 figure::Raster read_pixels(int width, int height) {
   figure::Raster raster{width, height, {}};
   const std::size_t row = 4 * static_cast<std::size_t>(width);

@@ -14,6 +14,17 @@ namespace ostia::pipeline {
 imaging::FloatVolume part_about(const imaging::ImageVolume& image, const geometry::Box3& box,
                                 double margin_mm);
 
+/// Where images are compared while a cage of one depth moves.
+struct ImageCageLevel {
+  int depth = 0;
+  double sigma_mm = 0.0;
+  std::vector<geometry::Vec3> places;         ///< in the template's image
+  std::vector<double> values;                 ///< there
+  std::vector<geometry::CagePoint> fine;      ///< in the whole grid
+  std::vector<geometry::CagePoint> own;       ///< in this level's grid
+  std::vector<std::vector<std::int32_t>> of;  ///< places of each cell of this level's grid
+};
+
 struct ImageCageFit {
   std::vector<geometry::Vec3> control_points;  ///< of the whole grid
   double likeness = 0.0;                       ///< correlation of the values about the wall
@@ -33,18 +44,8 @@ class ImageCage {
                       const core::TaskContext& task) const;
 
  private:
-  struct Level {
-    int depth = 0;
-    double sigma_mm = 0.0;
-    std::vector<geometry::Vec3> places;         ///< in the template's image
-    std::vector<double> values;                 ///< there
-    std::vector<geometry::CagePoint> fine;      ///< in the whole grid
-    std::vector<geometry::CagePoint> own;       ///< in this level's grid
-    std::vector<std::vector<std::int32_t>> of;  ///< places of each cell of this level's grid
-  };
-  class Solver;
   std::vector<geometry::CageGrid> grids_;  ///< of depth 0, 1, ...
-  std::vector<Level> levels_;
+  std::vector<ImageCageLevel> levels_;
   std::vector<geometry::Vec3> points_;  ///< some of the template's
 };
 

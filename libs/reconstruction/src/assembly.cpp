@@ -47,8 +47,9 @@ std::vector<std::uint8_t> changed_triangles(const Made& before, const QuadMesh& 
     changed[b] = (old[b + 1] - old[b] == now[b + 1] - now[b] && std::equal(from, to, at, same)) ? 0 : 1;
   });
   std::vector<std::uint8_t> marks(2 * after.quads.size());
-  for (std::size_t t = 0; t < marks.size(); ++t)
+  core::parallel_for(marks.size(), 1 << 16, [&](std::size_t t) {
     marks[t] = changed[static_cast<std::size_t>(after.branch_of_quad[t / 2])];
+  });
   return marks;
 }
 
@@ -58,12 +59,13 @@ std::vector<std::int32_t> list(const std::set<std::int32_t>& items) {
 
 }  // namespace
 
-Assembly::Assembly(const geometry::VesselGraph& graph, const ReconstructionOptions& options,
-                   const core::TaskContext& task)
-    : options_(options),
+Assembly::Assembly(const geometry::VesselGraph& graph, const EllipticSections* sections,
+                   const ReconstructionOptions& options, const core::TaskContext& task)
+    : sections_(sections),
+      options_(options),
       task_(task),
       network_(graph),
-      tubes_(tubes_of(graph)),
+      tubes_(tubes_of(graph, sections)),
       ends_(ends_of(tubes_, graph.points.size())),
       moved_(tubes_.size(), 0),
       rounds_(options.untangling) {}
@@ -156,7 +158,7 @@ void Assembly::restyle(const std::vector<std::int32_t>& points) {
 
 void Assembly::move_apart(const std::vector<std::int32_t>& points) {
   const std::vector<std::int32_t> changed = make_room(network_, tubes_, ends_, points);
-  std::vector<Tube> anew = tubes_of(network_.graph);
+  std::vector<Tube> anew = tubes_of(network_.graph, sections_);
   std::set<std::int32_t> joints(points.begin(), points.end());
   for (const std::int32_t branch : changed) {
     Tube& tube = tubes_[static_cast<std::size_t>(branch)];

@@ -23,8 +23,9 @@ struct Made {
 /// are made anew, until they are clear; then the whole again, since they may have met others. Coarse first.
 class Assembly {
  public:
-  Assembly(const geometry::VesselGraph& graph, const ReconstructionOptions& options,
-           const core::TaskContext& task);
+  /// Without `sections`: circles.
+  Assembly(const geometry::VesselGraph& graph, const EllipticSections* sections,
+           const ReconstructionOptions& options, const core::TaskContext& task);
 
   Made made();
   const std::vector<Tube>& tubes() const { return tubes_; }
@@ -47,6 +48,7 @@ class Assembly {
   void restyle(const std::vector<std::int32_t>& points);
   void move_apart(const std::vector<std::int32_t>& points);
 
+  const EllipticSections* sections_;
   const ReconstructionOptions& options_;
   const core::TaskContext& task_;
   Network network_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace ostia::reconstruction {
@@ -29,6 +30,7 @@ class Builder {
       const auto tube = static_cast<std::size_t>(wanted[i]);
       sections[i] = own_sections(tubes_[tube], ends_[tube][0], ends_[tube][1]);
     });
+    set_clear(wanted, sections);
     for (std::size_t i = 0; i < wanted.size(); ++i)
       add_tube(static_cast<std::size_t>(wanted[i]), sections[i]);
     return std::move(mesh_);
@@ -39,6 +41,16 @@ class Builder {
     Ring ring;                          ///< counter-clockwise about the tube's tangent; empty at an open end
     double clearance = 0.0, gap = 0.0;  ///< mm, and radii
   };
+
+  void set_clear(const std::vector<std::int32_t>& wanted, const std::vector<std::vector<double>>& sections) {
+    constexpr double far = std::numeric_limits<double>::infinity();
+    mesh_.clear.assign(tubes_.size(), {-far, far});
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      const auto tube = static_cast<std::size_t>(wanted[i]);
+      if (!ends_[tube][0].ring.empty()) mesh_.clear[tube][0] = sections[i].front();
+      if (!ends_[tube][1].ring.empty()) mesh_.clear[tube][1] = sections[i].back();
+    }
+  }
 
   std::int32_t add(const Vec3& point, const Tag& tag) {
     mesh_.points.push_back(point);
@@ -73,10 +85,13 @@ class Builder {
 
   Ring section(std::size_t tube, double abscissa, double turn, Place kind) {
     const TubePlace place = at(tubes_[tube], abscissa);
+    const Stretch stretch = clear_stretch(place, abscissa, mesh_.clear[tube]);
     Ring ring;
     for (int k = 0; k < options_.sides; ++k) {
       const double angle = turn + 2.0 * pi * k / options_.sides;
-      const Vec3 out = std::cos(angle) * place.frame.normal + std::sin(angle) * place.frame.binormal;
+      geometry::Vec2 on(std::cos(angle), std::sin(angle));
+      if (!stretch.round()) on = stretched(stretch, on);
+      const Vec3 out = on.x() * place.frame.normal + on.y() * place.frame.binormal;
       ring.push_back(
           add(place.point + scale_ * place.radius * out, {kind, static_cast<std::int32_t>(tube), abscissa}));
     }
@@ -169,27 +184,32 @@ class Builder {
 
 }  // namespace
 
+Stretch clear_stretch(const TubePlace& place, double abscissa, const std::array<double, 2>& clear) {
+  constexpr double length = 2.0;  // of the blend, in radii
+  if (place.stretch.round()) return place.stretch;
+  const double from_joint = std::min(abscissa - clear[0], clear[1] - abscissa);
+  const double t = std::clamp(from_joint / (length * place.radius), 0.0, 1.0);
+  return place.stretch * (t * t * (3.0 - 2.0 * t));
+}
+
 double polygon_scale(const ReconstructionOptions& options, int level) {
   const double side = 2.0 * std::numbers::pi / (options.sides << level);
   return std::sqrt(side / std::sin(side));
 }
 
 std::vector<geometry::Triangle> triangles_of(const QuadMesh& mesh) {
-  std::vector<geometry::Triangle> triangles;
-  triangles.reserve(2 * mesh.quads.size());
+  std::vector<geometry::Triangle> triangles(2 * mesh.quads.size());
   const auto squared = [&](std::int32_t a, std::int32_t b) {
     return (mesh.points[static_cast<std::size_t>(a)] - mesh.points[static_cast<std::size_t>(b)])
         .squaredNorm();
   };
-  for (const geometry::Quad& q : mesh.quads) {
-    if (squared(q[0], q[2]) <= squared(q[1], q[3])) {
-      triangles.push_back({q[0], q[1], q[2]});
-      triangles.push_back({q[0], q[2], q[3]});
-    } else {
-      triangles.push_back({q[1], q[2], q[3]});
-      triangles.push_back({q[1], q[3], q[0]});
-    }
-  }
+  core::parallel_for(mesh.quads.size(), 4096, [&](std::size_t i) {
+    const geometry::Quad& q = mesh.quads[i];
+    const bool first = squared(q[0], q[2]) <= squared(q[1], q[3]);
+    triangles[2 * i] = first ? geometry::Triangle{q[0], q[1], q[2]} : geometry::Triangle{q[1], q[2], q[3]};
+    triangles[2 * i + 1] =
+        first ? geometry::Triangle{q[0], q[2], q[3]} : geometry::Triangle{q[1], q[3], q[0]};
+  });
   return triangles;
 }
 

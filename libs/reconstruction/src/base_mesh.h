@@ -5,6 +5,7 @@
 
 #include "ostia/geometry/mixed_mesh.h"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -29,9 +30,14 @@ struct QuadMesh {
   std::vector<Tag> tags;
   std::vector<geometry::Quad> quads;
   std::vector<std::int32_t> branch_of_quad;
+  /// Of each tube, between which abscissas its own sections lie, where it has joints: beyond them the wall
+  /// is made of circles.
+  std::vector<std::array<double, 2>> clear;
   std::vector<std::uint8_t> face_of_quad;  ///< 0 wall, 1 the branch's proximal end, 2 its distal end
 };
 
+/// The ellipse of a place on a tube whose own sections lie within `clear`: near them it becomes a circle.
+Stretch clear_stretch(const TubePlace& place, double abscissa, const std::array<double, 2>& clear);
 /// Makes the polygon of a section have its circle's area.
 double polygon_scale(const ReconstructionOptions& options, int level);
 /// Two of each quadrilateral, along its shorter diagonal.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace ostia::reconstruction {
 namespace {
@@ -22,42 +23,61 @@ JointField::JointField(const std::vector<Tube>& tubes, const std::vector<Slot>& 
   reach_ = reach_in_radii * widest;
   for (std::int32_t g = 0; g < groups; ++g) {
     Group group;
-    group.first = cones_.size();
     for (const Slot& slot : slots) {
       if (slot.group != g) continue;
       group.radius = std::max(group.radius, slot.radius);
       const Tube& tube = tubes[static_cast<std::size_t>(slot.tube)];
       const double most = std::max(std::min(reach_, 0.6 * tube.length()), tube.abscissa[1]);
-      for (std::size_t i = 0; i + 1 < tube.points.size(); ++i) {
-        const bool near = slot.distal ? tube.length() - tube.abscissa[i + 1] < most : tube.abscissa[i] < most;
-        if (!near) continue;
-        const Vec3 axis = tube.points[i + 1] - tube.points[i];
-        cones_.push_back({tube.points[i], axis, tube.radius[i] * tube.factor[i],
-                          tube.radius[i + 1] * tube.factor[i + 1], 1.0 / axis.squaredNorm()});
-      }
+      group.runs.push_back(add_run(tube, slot.distal, most));
     }
-    group.last = cones_.size();
-    if (group.last > group.first) groups_.push_back(group);
+    if (!group.runs.empty()) groups_.push_back(std::move(group));
   }
 }
 
-FieldValue JointField::of(const Group& group, const Vec3& point, double scale) const {
-  double least = std::numeric_limits<double>::infinity();
-  Vec3 best = Vec3::UnitX();
-  double best_length = 1.0;
-  for (std::size_t i = group.first; i < group.last; ++i) {
+JointField::Run JointField::add_run(const Tube& tube, bool distal, double most) {
+  Run run{cones_.size(), 0, 0.0, distal};
+  const std::size_t segments = tube.points.size() - 1;
+  for (std::size_t k = 0; k < segments; ++k) {
+    const std::size_t i = distal ? segments - 1 - k : k;
+    const double near = distal ? tube.length() - tube.abscissa[i + 1] : tube.abscissa[i];
+    if (near >= most) break;
+    const Vec3 axis = tube.points[i + 1] - tube.points[i];
+    const double ra = tube.radius[i] * tube.factor[i], rb = tube.radius[i + 1] * tube.factor[i + 1];
+    cones_.push_back({tube.points[i], axis, ra, rb, 1.0 / axis.squaredNorm(), near,
+                      near + tube.abscissa[i + 1] - tube.abscissa[i]});
+    run.widest = std::max({run.widest, ra, rb});
+  }
+  run.last = cones_.size();
+  return run;
+}
+
+/// Of cones that are equally near, the first along the branch, then the first branch.
+void JointField::look(const Run& run, const Vec3& point, double scale, Nearest& nearest) const {
+  Nearest own{nearest.value, 1.0, Vec3::Zero()};
+  bool found = false;
+  double clear = 0.0;  // all cones that end before are further away than the nearest so far
+  for (std::size_t i = run.first; i < run.last; ++i) {
     const Cone& cone = cones_[i];
+    if (cone.far < clear) continue;
     const Vec3 d = point - cone.a;
     const double t = std::clamp(d.dot(cone.axis) * cone.inverse_square, 0.0, 1.0);
     const Vec3 away = d - t * cone.axis;
     const double length = away.norm();
     const double value = length - scale * ((1.0 - t) * cone.ra + t * cone.rb);
-    if (value >= least) continue;
-    least = value;
-    best = away;
-    best_length = length;
+    if (value < own.value || (found && run.distal && value == own.value)) {
+      own = {value, length, away};
+      found = true;
+    }
+    // Along the branch the distance falls no quicker than one goes; a little less, for rounding.
+    clear = cone.near + (1.0 - 1e-6) * (length - scale * run.widest - own.value);
   }
-  return {least, best_length > 0.0 ? Vec3(best / best_length) : Vec3::UnitX()};
+  if (found) nearest = own;
+}
+
+FieldValue JointField::of(const Group& group, const Vec3& point, double scale) const {
+  Nearest nearest{std::numeric_limits<double>::infinity(), 1.0, Vec3::UnitX()};
+  for (const Run& run : group.runs) look(run, point, scale, nearest);
+  return {nearest.value, nearest.length > 0.0 ? Vec3(nearest.away / nearest.length) : Vec3::UnitX()};
 }
 
 FieldValue JointField::operator()(const Vec3& point, double scale) const {

@@ -35,11 +35,24 @@ class JointField {
   struct Cone {
     Vec3 a = Vec3::Zero(), axis = Vec3::Zero();
     double ra = 0.0, rb = 0.0, inverse_square = 0.0;
+    double near = 0.0, far = 0.0;  ///< where it begins and ends, along the branch from the joint
+  };
+  /// The cones of one branch, from the joint on.
+  struct Run {
+    std::size_t first = 0, last = 0;
+    double widest = 0.0;
+    bool distal = false;
   };
   struct Group {
-    std::size_t first = 0, last = 0;  ///< its cones
+    std::vector<Run> runs;
     double radius = 0.0;
   };
+  struct Nearest {
+    double value, length;
+    Vec3 away;
+  };
+  Run add_run(const Tube& tube, bool distal, double most);
+  void look(const Run& run, const Vec3& point, double scale, Nearest& nearest) const;
   FieldValue of(const Group& group, const Vec3& point, double scale) const;
   std::vector<Cone> cones_;
   std::vector<Group> groups_;

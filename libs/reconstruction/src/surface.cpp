@@ -3,6 +3,7 @@
 #include "assembly.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/parallel.h"
 #include "ostia/geometry/graph_faults.h"
 
 #include <algorithm>
@@ -31,12 +32,13 @@ ReconstructedSurface result_of(Made&& made, const std::vector<Tube>& tubes) {
     if (tubes[i].inlet) ids[i][0] = add("inlet_" + std::to_string(i), geometry::FaceKind::inlet);
   for (std::size_t i = 0; i < tubes.size(); ++i)
     if (tubes[i].outlet) ids[i][1] = add("outlet_" + std::to_string(i), geometry::FaceKind::outlet);
-  for (std::size_t i = 0; i < made.mesh.quads.size(); ++i) {
+  result.surface.face_ids.resize(2 * made.mesh.quads.size());
+  core::parallel_for(made.mesh.quads.size(), 4096, [&](std::size_t i) {
     const int face = made.mesh.face_of_quad[i];
     const auto& own = ids[static_cast<std::size_t>(made.mesh.branch_of_quad[i])];
     const std::int32_t id = face == 0 ? 1 : own[static_cast<std::size_t>(face - 1)];
-    result.surface.face_ids.insert(result.surface.face_ids.end(), 2, id);
-  }
+    result.surface.face_ids[2 * i] = result.surface.face_ids[2 * i + 1] = id;
+  });
   for (std::size_t i = 0; i < tubes.size(); ++i) {
     const double least = *std::min_element(tubes[i].factor.begin(), tubes[i].factor.end());
     if (least < 1.0) result.narrowed.push_back({static_cast<std::int32_t>(i), least});
@@ -46,6 +48,23 @@ ReconstructedSurface result_of(Made&& made, const std::vector<Tube>& tubes) {
   result.points = std::move(made.mesh.points);
   result.quads = std::move(made.mesh.quads);
   result.branch_of_quad = std::move(made.mesh.branch_of_quad);
+  return result;
+}
+
+ReconstructedSurface made_of(const geometry::VesselGraph& graph, const EllipticSections* sections,
+                             const ReconstructionOptions& options, const core::TaskContext& task) {
+  validate(options);
+  task.throw_if_cancelled();
+  if (graph.edges.empty())
+    throw InvalidInput("the network of vessels has no segments: nothing to make a surface of");
+  geometry::require_sound(graph, "the network of vessels", false, task.sub(0.0, 0.05));
+  const core::TaskContext making = task.sub(0.05, 0.95);
+  Assembly assembly(graph, sections, options, making);
+  Made made = assembly.made();
+  ReconstructedSurface result = result_of(std::move(made), assembly.tubes());
+  for (std::size_t i = 0; i < assembly.moved().size(); ++i)
+    if (assembly.moved()[i] != 0) result.moved.push_back(static_cast<std::int32_t>(i));
+  task.set_progress(1.0);
   return result;
 }
 
@@ -64,19 +83,14 @@ void validate(const ReconstructionOptions& o) {
 ReconstructedSurface reconstruct_surface(const geometry::VesselGraph& graph,
                                          const ReconstructionOptions& options,
                                          const core::TaskContext& task) {
-  validate(options);
-  task.throw_if_cancelled();
-  if (graph.edges.empty())
-    throw InvalidInput("the network of vessels has no segments: nothing to make a surface of");
-  geometry::require_sound(graph, "the network of vessels", false, task.sub(0.0, 0.05));
-  const core::TaskContext making = task.sub(0.05, 0.95);
-  Assembly assembly(graph, options, making);
-  Made made = assembly.made();
-  ReconstructedSurface result = result_of(std::move(made), assembly.tubes());
-  for (std::size_t i = 0; i < assembly.moved().size(); ++i)
-    if (assembly.moved()[i] != 0) result.moved.push_back(static_cast<std::int32_t>(i));
-  task.set_progress(1.0);
-  return result;
+  return made_of(graph, nullptr, options, task);
+}
+
+ReconstructedSurface reconstruct_surface(const geometry::VesselGraph& graph, const EllipticSections& sections,
+                                         const ReconstructionOptions& options,
+                                         const core::TaskContext& task) {
+  validate(sections, graph);
+  return made_of(graph, &sections, options, task);
 }
 
 }  // namespace ostia::reconstruction

@@ -59,6 +59,7 @@ Tube tube_of(const Line& given, bool circle) {
   const double stretch = chord.back() > 0.0 ? spline.length() / chord.back() : 1.0;
   for (std::size_t i = 0; i < arc.size(); ++i) arc[i] = chord[i] * stretch;
   for (std::size_t i = beyond; i < last; ++i) {
+    tube.knots.push_back(tube.points.size());
     const double r = std::min(line.radius[i], line.radius[i + 1]);
     const int steps = std::clamp(static_cast<int>(std::ceil((chord[i + 1] - chord[i]) / (0.75 * r))), 1, 400);
     for (int k = 0; k < steps; ++k) {
@@ -69,14 +70,44 @@ Tube tube_of(const Line& given, bool circle) {
       add(p, (1.0 - t) * line.radius[i] + t * line.radius[i + 1]);
     }
   }
+  tube.knots.push_back(tube.points.size());
   add(line.points[last], line.radius[last]);
   if (tube.points.size() == 2) {  // a place to narrow
     tube.points.insert(tube.points.begin() + 1, 0.5 * (tube.points[0] + tube.points[1]));
     tube.radius.insert(tube.radius.begin() + 1, 0.5 * (tube.radius[0] + tube.radius[1]));
+    tube.knots.back() = 2;
   }
   tube.factor.assign(tube.points.size(), 1.0);
   measure(tube);
   return tube;
+}
+
+/// At a point of the branch; between two edges the mean of theirs.
+Stretch stretch_at(const EllipticSections& sections, const geometry::GraphBranch& branch, std::size_t knot,
+                   const geometry::Frame& frame) {
+  const auto of = [&](std::size_t edge, std::size_t end) {
+    return stretch_of(sections.of_edge[static_cast<std::size_t>(branch.edges[edge])][end], frame);
+  };
+  if (knot == 0) return of(0, 0);
+  if (knot == branch.edges.size()) return of(knot - 1, 1);
+  return of(knot - 1, 1) * 0.5 + of(knot, 0) * 0.5;
+}
+
+/// From one of the graph's points to the next evenly, in frames that do not turn about the axis. A branch of
+/// circles stays as it is.
+void add_shapes(Tube& tube, const EllipticSections& sections, const geometry::GraphBranch& branch) {
+  std::vector<Stretch> given;
+  for (std::size_t k = 0; k < tube.knots.size(); ++k)
+    given.push_back(stretch_at(sections, branch, k, tube.frames[tube.knots[k]]));
+  if (std::all_of(given.begin(), given.end(), [](const Stretch& s) { return s.round(); })) return;
+  tube.shapes.resize(tube.points.size());
+  for (std::size_t k = 0; k + 1 < given.size(); ++k)
+    for (std::size_t i = tube.knots[k]; i <= tube.knots[k + 1]; ++i) {
+      const double t =
+          static_cast<double>(i - tube.knots[k]) / static_cast<double>(tube.knots[k + 1] - tube.knots[k]);
+      tube.shapes[i] = section_of(given[k] * (1.0 - t) + given[k + 1] * t, tube.frames[i]);
+    }
+  measure(tube);
 }
 
 }  // namespace
@@ -93,6 +124,9 @@ void measure(Tube& tube) {
   }
   tube.curvature.front() = tube.curvature[1];
   tube.curvature.back() = tube.curvature[n - 2];
+  tube.stretch.resize(tube.shapes.size());
+  for (std::size_t i = 0; i < tube.shapes.size(); ++i)
+    tube.stretch[i] = stretch_of(tube.shapes[i], tube.frames[i]);
 }
 
 TubePlace at(const Tube& tube, double abscissa) {
@@ -101,12 +135,14 @@ TubePlace at(const Tube& tube, double abscissa) {
   const double t =
       std::clamp((abscissa - tube.abscissa[i - 1]) / (tube.abscissa[i] - tube.abscissa[i - 1]), 0.0, 1.0);
   const auto mix = [&](double a, double b) { return (1.0 - t) * a + t * b; };
+  const Stretch stretch =
+      tube.stretch.empty() ? Stretch() : tube.stretch[i - 1] * (1.0 - t) + tube.stretch[i] * t;
   return {(1.0 - t) * tube.points[i - 1] + t * tube.points[i],
           mix(tube.radius[i - 1] * tube.factor[i - 1], tube.radius[i] * tube.factor[i]),
-          geometry::interpolated(tube.frames[i - 1], tube.frames[i], t)};
+          geometry::interpolated(tube.frames[i - 1], tube.frames[i], t), stretch};
 }
 
-std::vector<Tube> tubes_of(const geometry::VesselGraph& graph) {
+std::vector<Tube> tubes_of(const geometry::VesselGraph& graph, const EllipticSections* sections) {
   const geometry::GraphIncidence incidence(graph);
   const std::vector<geometry::GraphBranch> branches = geometry::branches(graph, incidence);
   std::vector<Tube> tubes(branches.size());
@@ -117,6 +153,7 @@ std::vector<Tube> tubes_of(const geometry::VesselGraph& graph) {
     const std::int32_t start = graph.edges[static_cast<std::size_t>(branches[b].edges.front())].from;
     const std::int32_t end = graph.edges[static_cast<std::size_t>(branches[b].edges.back())].to;
     tubes[b] = tube_of(line_of(graph, branches[b]), start == end && joined(start) == 2);
+    if (sections != nullptr) add_shapes(tubes[b], *sections, branches[b]);
     tubes[b].start = start;
     tubes[b].end = end;
     tubes[b].inlet = joined(start) == 1;

@@ -47,12 +47,17 @@ enum class PhantomPlace { tube, joint, end };
 /// `clear_mm`, or else a tube.
 PhantomPlace place_of(const std::vector<PhantomTube>& tubes, const Vec3& point, double clear_mm);
 
-enum class SurfaceKind { isosurface, level, decimated, smoothed };
+/// Reconstructed with circles of the skeleton's radii at each level; at the level of the comparison with
+/// circles of the isosurface's sections' areas, and with ellipses of their second moments as well.
+enum class SurfaceKind { isosurface, level, areas, elliptic, decimated, smoothed };
+/// Where sections are compared: level 1, or 0 without it.
+int level_of_sections(const SmoothnessOptions& options);
 /// One surface of one scan.
 struct SurfaceFigures {
   std::string orientation;
   SurfaceKind kind = SurfaceKind::isosurface;
-  double parameter = 0.0;  ///< level; share of the triangles that went; iterations
+  double parameter =
+      0.0;  ///< level (of areas and elliptic, too); share of the triangles that went; iterations
   std::size_t triangles = 0;
   Bending tubes;  ///< away from joints and free ends
   Bending wall;   ///< away from free ends
@@ -74,8 +79,8 @@ geometry::VesselGraph network_of(const centerline::SkeletonGraph& skeleton, doub
 /// inside. Exact outside of joints and near the wall.
 double distance_to_phantom(const std::vector<PhantomTube>& tubes, const Vec3& point);
 
-/// One scan: segmented, its isosurface, its skeleton reconstructed at each level; with `vtk`, what VTK makes
-/// of the isosurface as well. Deterministic. Throws what the steps throw.
+/// One scan: segmented, its isosurface, its skeleton reconstructed at each level and from elliptic sections;
+/// with `vtk`, what VTK makes of the isosurface as well. Deterministic. Throws what the steps throw.
 std::vector<SurfaceFigures> measure_smoothness(const std::vector<PhantomTube>& tubes,
                                                const Orientation& orientation, bool vtk,
                                                const SmoothnessOptions& options = {},

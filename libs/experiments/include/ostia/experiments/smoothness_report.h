@@ -9,11 +9,12 @@
 
 namespace ostia::experiments {
 
-/// "S0", "L1", "S0 less 70 %", "S0 smoothed 100 times".
+/// "S0", "L1", "L1 areas", "L1 elliptic", "S0 less 70 %", "S0 smoothed 100 times".
 std::string name_of(const SurfaceFigures& surface);
 
-/// Over all orientations at one level.
+/// Over all orientations at one level, with sections of one kind.
 struct LevelSummary {
+  SurfaceKind kind = SurfaceKind::level;
   int level = 0;
   std::size_t scans = 0;
   double worst_rms_mm = 0.0, mean_rms_mm = 0.0, worst_hausdorff_mm = 0.0;

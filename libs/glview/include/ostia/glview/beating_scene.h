@@ -59,6 +59,8 @@ bool has_opengl_33();
 std::string renderer_name();
 /// One colour over a part of the bound framebuffer: the cheapest background.
 void fill(const Viewport& viewport, const figure::Color& color);
+/// The same, with nothing in its depths; it is where TreeDrawing draws next.
+void begin_part(const Viewport& viewport, const figure::Color& color);
 /// What stands in the bound framebuffer.
 figure::Raster read_pixels(int width, int height);
 

@@ -5,6 +5,7 @@
 #include "ostia/geometry/mixed_mesh.h"
 #include "ostia/geometry/tri_mesh.h"
 #include "ostia/geometry/vessel_graph.h"
+#include "ostia/reconstruction/elliptic_sections.h"
 
 #include <cstdint>
 #include <vector>
@@ -35,7 +36,7 @@ struct ReconstructedSurface {
   std::vector<std::int32_t> branch_of_quad;  ///< index into geometry::branches()
   /// The same points, two triangles a quadrilateral in their order; faces `wall`, `inlet_<n>`, `outlet_<n>`.
   geometry::FacedSurface surface;
-  std::vector<Narrowing> narrowed;     ///< by branch
+  std::vector<Narrowing> narrowed;  ///< by branch
   /// Branches whose axes were moved or stretched, since forks stood too close or vessels left side by side.
   std::vector<std::int32_t> moved;
   std::size_t self_intersections = 0;  ///< pairs left after the last round of untangling
@@ -43,10 +44,15 @@ struct ReconstructedSurface {
 
 /// The surface of a directed graph ([Luboz] 2.2): loops, several roots and parents, and points with one
 /// parent and one child are all allowed. Sections are circles placed by eq. 2; joints are shared rings about
-/// two or four poles; Catmull-Clark subdivision with the points brought onto the vessels after each level, so that
-/// radii are kept. Closed where untangling succeeds (`self_intersections` is 0). Throws InvalidInput for
+/// two or four poles; Catmull-Clark subdivision with the points brought onto the vessels after each level, so
+/// that radii are kept. Closed where untangling succeeds (`self_intersections` is 0). Throws InvalidInput for
 /// options, for a graph that is not sound, and for one that is empty; Cancelled.
 ReconstructedSurface reconstruct_surface(const geometry::VesselGraph& graph,
+                                         const ReconstructionOptions& options = {},
+                                         const core::TaskContext& task = core::no_task());
+/// The same with sections that are ellipses of the radii's areas. They become circles over the last two radii
+/// before the ring of a fork, so that joints stay as they are; circles make the same surface as without.
+ReconstructedSurface reconstruct_surface(const geometry::VesselGraph& graph, const EllipticSections& sections,
                                          const ReconstructionOptions& options = {},
                                          const core::TaskContext& task = core::no_task());
 

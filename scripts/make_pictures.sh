@@ -46,6 +46,13 @@ build/release/bin/ostia experiment smoothness -o "$work/smoothness"
 cp "$work/smoothness/distance.png" docs/pictures/smoothness-distance.png
 cp "$work/smoothness/smoothness.png" docs/pictures/smoothness-curvature.png
 
+# A minute: the whole chain on a synthetic heart, its coronary arteries against the aorta.
+build/release/bin/ostia phantom -o "$work/chain-heart" --preset small --formats nrrd --no-report
+build/release/bin/ostia experiment chain "$work/chain-heart/dataset00/image00.nrrd" -o "$work/chain" --thinnest 1 --least 180 \
+  --seed 20.7,-6.4,29.0 --seed 35.4,-16.5,31.3 --seed 20.5,-3.4,28.5 --seed 31.9,10.7,35.3 --rival 3.2,-4.7,18.3 \
+  --seed=-17.0,-34.7,14.7 --seed=-29.6,-39.7,5.8 --rival=-5.4,-17.8,12.9
+cp "$work/chain/figure.png" docs/pictures/chain.png
+
 # A minute: a tree grown down to the last arterioles, and its measures.
 build/release/bin/ostia phantom -o "$work/heart" --preset small --truth-only
 build/release/bin/ostia convert "$work/heart/dataset00/centerlines.vtp" "$work/scanned.vtp" --repair

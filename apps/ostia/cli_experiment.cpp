@@ -42,6 +42,7 @@ void define_experiment(CLI::App& app, ExperimentCommand& c, const std::uint64_t&
   define_experiment_extraction(*experiment, run);
   define_experiment_orientations(*experiment, seed, run);
   define_experiment_smoothness(*experiment, seed, run);
+  define_experiment_chain(*experiment, run);
   define_experiment_carotid(*experiment, seed, run);
   define_experiment_sensitivity(*experiment, seed, run);
   define_experiment_robustness(*experiment, seed, run);

@@ -23,6 +23,7 @@ pipeline::SkeletonOptions options_of(const SkeletonCommand& o, const imaging::Ge
   pipeline::SkeletonOptions how;
   how.fill_cavities = !o.keep_cavities;
   how.prune.length_mm = o.prune_mm;
+  how.open_loops = o.no_loops;
   how.gaps.distance_mm = o.gap_mm;
   how.sections.sigma_mm = o.sigma_mm;
   how.sections.image_blur_mm = o.blur_mm;
@@ -119,6 +120,7 @@ void define_skeleton(CLI::App& app, SkeletonCommand& c,
   skeleton->add_option("--coords", c.input.coords, "Frame of the points given: lps or ras (mm), ijk (voxels)")
       ->check(CLI::IsMember({"lps", "ras", "ijk"}));
   skeleton->add_option("--prune", c.prune_mm, "Leaves shorter than this go, mm")->check(zero_or_above());
+  skeleton->add_flag("--no-loops", c.no_loops, "Of each loop the thinnest line goes: vessels that touch");
   skeleton->add_option("--gap", c.gap_mm, "Gaps up to this are closed, mm")->check(zero_or_above());
   skeleton->add_option("--sigma", c.sigma_mm, "Of the Gaussian that the walls are found with, mm")
       ->check(above_zero());

@@ -47,6 +47,8 @@ void define_experiment_orientations(CLI::App& experiment, const std::uint64_t& s
 void define_experiment_smoothness(CLI::App& experiment, const std::uint64_t& seed,
                                   std::function<ExitCode(const core::TaskContext&)>& run);
 
+void define_experiment_chain(CLI::App& experiment, std::function<ExitCode(const core::TaskContext&)>& run);
+
 void define_experiment_robustness(CLI::App& experiment, const std::uint64_t& seed,
                                   std::function<ExitCode(const core::TaskContext&)>& run);
 

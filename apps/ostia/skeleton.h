@@ -22,7 +22,7 @@ struct SkeletonCommand {
   std::vector<std::string> inlets;
   std::vector<std::string> cuts, removals, connections;  ///< x,y,z; connections x,y,z:x,y,z
   double prune_mm = 5.0, gap_mm = 2.0, sigma_mm = 0.4, blur_mm = 0.0, knots_mm = 4.0, step_mm = 0.5;
-  bool keep_cavities = false;
+  bool no_loops = false, keep_cavities = false;
   bool json = false;
 };
 ExitCode run_skeleton(const SkeletonCommand& options, const core::TaskContext& task);

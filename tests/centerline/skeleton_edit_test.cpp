@@ -106,6 +106,16 @@ TEST(EndsExtended, ATubeGetsItsLength) {
   }
 }
 
+TEST(EndsExtended, AStubReachesTheWallToo) {
+  const Vec3 middle = Vec3::Constant(6.0);
+  const MaskVolume ball = mask_of(grid_of(25, 25, 25, Vec3::Constant(0.5)),
+                                  [&](const Vec3& p) { return (p - middle).norm() <= 4.0; });
+  const SkeletonGraph stub = drawn({{middle - Vec3(1, 0, 0), middle, middle + Vec3(1, 0, 0)}}, 4.0);
+  const SkeletonGraph longer = ends_extended(stub, ball);
+  EXPECT_EQ(find_fault(longer), std::nullopt);
+  for (const SkeletonNode& end : longer.nodes) EXPECT_NEAR((end.position - middle).norm(), 4.0, 0.3);
+}
+
 TEST(GapsClosed, AGapOfATubeByItsWidth) {
   for (const double gap : {1.5, 3.0}) {
     const Vec3 a(6.0, 6.0, 3.0), direction = Vec3(0.1, 0.05, 1.0).normalized();
@@ -181,6 +191,45 @@ TEST(Removed, AnEdgeAndWhatOnlyItHad) {
   ASSERT_EQ(less.edges.size(), 1U);
   EXPECT_EQ(less.nodes.size(), 2U);
   EXPECT_TRUE(removed(less, 0).nodes.empty());
+}
+
+TEST(LoopsOpened, TheThinnestLineOfEachLoopGoes) {
+  // A trunk, two ways from (0, 0, 10) to (0, 0, 30), the longer one thin, and a thin leaf, which stays.
+  SkeletonGraph graph = drawn({{{0, 0, 0}, {0, 0, 10}},
+                               {{0, 0, 10}, {0, 0, 30}},
+                               {{0, 0, 10}, {9, 0, 20}, {0, 0, 30}},
+                               {{0, 0, 30}, {0, 0, 40}},
+                               {{0, 0, 30}, {0, 9, 30}}});
+  graph.edges[2].radius_mm = {1.0, 0.2, 1.0};
+  graph.edges[4].radius_mm = {0.1, 0.1};
+  const SkeletonGraph open = loops_opened(graph);
+  EXPECT_EQ(find_fault(open), std::nullopt);
+  EXPECT_EQ(loop_count(open), 0);
+  EXPECT_EQ(component_count(open), 1);
+  EXPECT_NEAR(test::total_length(open), 49.0, 1e-9);
+  EXPECT_EQ(open.edges.size(), 3U) << "what is left on both sides of (0, 0, 10) is one line";
+}
+
+TEST(LoopsOpened, LinesThatOnlyBecomeOneByItKeepTheirOwnRadii) {
+  // Two loops that share the node (0, 0, 0): after the first is open, its node has three lines.
+  SkeletonGraph graph = drawn({{{0, 0, 0}, {9, 0, 0}},
+                               {{0, 0, 0}, {5, 5, 0}, {9, 0, 0}},
+                               {{0, 0, 0}, {-9, 0, 0}},
+                               {{0, 0, 0}, {-5, 5, 0}, {-9, 0, 0}}});
+  for (const std::size_t thin : {1U, 3U}) graph.edges[thin].radius_mm = {0.5, 0.5, 0.5};
+  const SkeletonGraph open = loops_opened(graph);
+  EXPECT_EQ(find_fault(open), std::nullopt);
+  EXPECT_EQ(loop_count(open), 0);
+  ASSERT_EQ(open.edges.size(), 1U);
+  EXPECT_NEAR(length_mm(open.edges[0]), 18.0, 1e-9);
+}
+
+TEST(LoopsOpened, ATreeStaysAndAClosedLineGoesWhole) {
+  const SkeletonGraph tree = drawn({trunk_low, trunk_high, {{0, 0, 10}, {9, 0, 10}}});
+  EXPECT_EQ(loops_opened(tree).edges.size(), 3U);
+  const SkeletonGraph ring = drawn({{{0, 0, 0}, {9, 0, 0}, {9, 9, 0}, {0, 9, 0}, {0, 0, 0}}});
+  EXPECT_TRUE(loops_opened(ring).edges.empty());
+  EXPECT_TRUE(loops_opened(ring).nodes.empty());
 }
 
 TEST(EdgeAt, IsTheNearestLineAlsoAtItsEnds) {

@@ -3,6 +3,7 @@
 #include "ostia/centerline/skeleton_edit.h"
 #include "ostia/centerline/skeleton_radius.h"
 #include "ostia/core/error.h"
+#include "ostia/geometry/polyline.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -53,6 +54,19 @@ TEST(JunctionsSettled, LieWhereTheLinesThatGoOnMeet) {
     EXPECT_EQ(settled.edges[i].points.front(), graph.edges[i].points.front());
     EXPECT_NEAR(length_mm(settled.edges[i]), (crossing - settled.edges[i].points.front()).norm(), 0.06);
     for (const double r : settled.edges[i].radius_mm) EXPECT_DOUBLE_EQ(r, 1.5);
+  }
+}
+
+TEST(JunctionsSettled, SmoothLinesDoNotSwingOnTheStraightWays) {
+  const SkeletonGraph graph =
+      star({{1, 2, -20}, {14, 2, 18}, {-12, 6, 15}}, Vec3(1.0, 2.0, 3.0), Vec3(1.6, 1.5, 3.8), 3.0);
+  const SkeletonGraph settled = junctions_settled(graph);
+  const SkeletonGraph smooth = smoothed(settled, {.knot_spacing_mm = 1.0});
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::vector<Vec3>& line = settled.edges[i].points;
+    for (std::size_t k = 1; k < line.size(); ++k) EXPECT_LT((line[k] - line[k - 1]).norm(), 0.6);
+    for (const Vec3& p : smooth.edges[i].points)
+      EXPECT_LT((geometry::closest(line, p).point - p).norm(), 0.1);
   }
 }
 

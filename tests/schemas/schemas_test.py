@@ -107,6 +107,20 @@ class Schemas(unittest.TestCase):
         self.assertEqual(printed, json.loads((out / "experiment.json").read_text()))
         self.assert_refused("experiment-smoothness", {"v": 1, "kind": "smoothness"})
 
+    def test_experiment_chain(self):
+        # A bright tube of 4 mm along z, in voxels of 1 mm.
+        image = pathlib.Path(self.holder.name) / "tube.nrrd"
+        header = ("NRRD0004\ntype: short\ndimension: 3\nspace: left-posterior-superior\nsizes: 16 16 30\n"
+                  "space directions: (1,0,0) (0,1,0) (0,0,1)\nkinds: domain domain domain\nendian: little\n"
+                  "encoding: raw\nspace origin: (0,0,0)\n\n")
+        voxels = [300 if (x - 8) ** 2 + (y - 8) ** 2 < 5 else -800 for _ in range(30) for y in range(16) for x in range(16)]
+        image.write_bytes(header.encode() + b"".join(v.to_bytes(2, "little", signed=True) for v in voxels))
+        out = pathlib.Path(self.holder.name) / "chain"
+        printed = json.loads(run("experiment", "chain", image, "-o", out, "--seed", "8,8,15", "--mesh", "4:1.2:0", "--json"))
+        validator("experiment-chain").validate(printed)
+        self.assertEqual(printed, json.loads((out / "experiment.json").read_text()))
+        self.assert_refused("experiment-chain", {"v": 1, "kind": "chain"})
+
     def test_experiment_orientations(self):
         out = pathlib.Path(self.holder.name) / "orientations"
         printed = json.loads(run("experiment", "orientations", "-o", out, "--orientations", "2", "--json"))

@@ -75,6 +75,15 @@ LineEnd line_end(const SkeletonEdge& edge, bool at_first, double length_mm) {
   return end;
 }
 
+std::vector<Vec3> straight_way(const Vec3& from, const Vec3& to) {
+  constexpr double step_mm = 0.5;
+  const int pieces = std::max(1, static_cast<int>(std::ceil((to - from).norm() / step_mm)));
+  std::vector<Vec3> points;
+  for (int i = 0; i < pieces; ++i) points.push_back(from + (static_cast<double>(i) / pieces) * (to - from));
+  points.push_back(to);
+  return points;
+}
+
 GraphEditor::GraphEditor(const SkeletonGraph& graph) {
   for (const SkeletonNode& n : graph.nodes) {
     nodes_[n.id] = n;

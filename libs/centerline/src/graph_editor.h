@@ -33,6 +33,10 @@ struct LineEnd {
 };
 LineEnd line_end(const SkeletonEdge& edge, bool at_first, double length_mm);
 
+// The straight way between two places with both ends, its points as dense as those of lines that were found:
+// smoothing would make a swing of two points.
+std::vector<Vec3> straight_way(const Vec3& from, const Vec3& to);
+
 // Nodes and edges by id, and which edges meet at each node (an edge from a node to itself twice).
 class GraphEditor {
  public:

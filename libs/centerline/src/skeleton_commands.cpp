@@ -14,8 +14,6 @@ namespace {
 using detail::GraphEditor;
 using detail::GraphPlace;
 
-constexpr double connection_step_mm = 0.5;
-
 GraphPlace place_on(const GraphEditor& editor, const Vec3& place, const PlaceOptions& options,
                     const std::string& command) {
   if (!place.allFinite()) throw InvalidInput(command + ": a place is not finite");
@@ -51,17 +49,12 @@ SkeletonGraph connected(const SkeletonGraph& graph, const Vec3& from, const Vec3
     throw InvalidInput("connect: both places are the same one of the skeleton, " +
                        detail::text(first.position) + ": give two that are further apart than " +
                        std::to_string(options.snap_mm) + " mm");
-  // As dense as a line that was found: smoothing would make a swing of two points.
-  const Vec3 way = last.position - first.position;
-  const int pieces = std::max(1, static_cast<int>(std::ceil(way.norm() / connection_step_mm)));
-  std::vector<Vec3> points;
+  std::vector<Vec3> points = detail::straight_way(first.position, last.position);
   std::vector<double> radius_mm;
-  for (int i = 0; i <= pieces; ++i) {
-    const double t = static_cast<double>(i) / pieces;
-    points.push_back(first.position + t * way);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double t = static_cast<double>(i) / static_cast<double>(points.size() - 1);
     radius_mm.push_back((1.0 - t) * first.radius_mm + t * last.radius_mm);
   }
-  points.back() = last.position;
   editor.add_edge(a, b, std::move(points), std::move(radius_mm));
   for (const std::int32_t n : {a, b}) editor.join_at(n);
   return editor.graph();

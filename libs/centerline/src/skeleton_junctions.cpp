@@ -85,6 +85,14 @@ Vec3 meeting_place(const GraphEditor& editor, const SkeletonNode& node, const Ju
   return node.position + (moved.norm() > most ? Vec3(moved * (most / moved.norm())) : moved);
 }
 
+// A straight way from a place to the line's first point, with the radius there.
+void lead_from(const Vec3& place, SkeletonEdge& line) {
+  std::vector<Vec3> way = detail::straight_way(place, line.points.front());
+  way.pop_back();
+  line.points.insert(line.points.begin(), way.begin(), way.end());
+  line.radius_mm.insert(line.radius_mm.begin(), way.size(), line.radius_mm.front());
+}
+
 // The line with straight ways from where its own course begins and ends to its junctions.
 void lead_to_junctions(GraphEditor& editor, std::int32_t id, const std::map<std::int32_t, Vec3>& moved,
                        const JunctionOptions& options) {
@@ -95,13 +103,13 @@ void lead_to_junctions(GraphEditor& editor, std::int32_t id, const std::map<std:
     return end == moved.end() ? 0.0 : trimmed_at(line, editor.nodes().at(node).radius_mm, options);
   };
   SkeletonEdge kept = part_of(line, cut(from, line.from), length_mm(line) - cut(to, line.to));
-  if (from != moved.end()) {
-    kept.points.insert(kept.points.begin(), from->second);
-    kept.radius_mm.insert(kept.radius_mm.begin(), kept.radius_mm.front());
-  }
+  if (from != moved.end()) lead_from(from->second, kept);
   if (to != moved.end()) {
-    kept.points.push_back(to->second);
-    kept.radius_mm.push_back(kept.radius_mm.back());
+    std::reverse(kept.points.begin(), kept.points.end());
+    std::reverse(kept.radius_mm.begin(), kept.radius_mm.end());
+    lead_from(to->second, kept);
+    std::reverse(kept.points.begin(), kept.points.end());
+    std::reverse(kept.radius_mm.begin(), kept.radius_mm.end());
   }
   editor.replace_line(id, std::move(kept.points), std::move(kept.radius_mm));
 }

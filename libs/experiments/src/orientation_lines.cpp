@@ -1,5 +1,7 @@
 #include "orientation_lines.h"
 
+#include "level_set_image.h"
+
 #include "ostia/imaging/diffusion.h"
 #include "ostia/segmentation/feature.h"
 
@@ -54,10 +56,7 @@ ScannedLines scanned_lines(const std::vector<PhantomTube>& tubes, const Orientat
   }
   task.set_stage("level set");
   out.surface = segmented(image, options, task.sub(0.28, 0.78));
-  imaging::MaskVolume mask{image.geometry, std::vector<std::uint8_t>(image.voxels.size())};
-  std::transform(out.surface.level_set.voxels.begin(), out.surface.level_set.voxels.end(),
-                 mask.voxels.begin(),
-                 [](float phi) { return static_cast<std::uint8_t>(phi < 0.0F ? 1 : 0); });
+  const imaging::MaskVolume mask = mask_inside(out.surface.level_set);
   pipeline::SkeletonOptions how;
   how.prune.length_mm = options.prune_mm;
   how.gaps.distance_mm = options.gap_mm;

@@ -1,12 +1,12 @@
 #include "ostia/experiments/smoothness.h"
 
+#include "level_set_image.h"
 #include "orientation_lines.h"
 #include "vtk_filters.h"
 
 #include "ostia/core/error.h"
 #include "ostia/evaluation/surface_distance.h"
 #include "ostia/geometry/aabb_tree.h"
-#include "ostia/geometry/isosurface.h"
 #include "ostia/geometry/mesh_topology.h"
 #include "ostia/reconstruction/surface.h"
 
@@ -17,30 +17,6 @@ namespace ostia::experiments {
 namespace {
 
 using geometry::TriMesh;
-
-/// Half the ramp of `share_inside`: as far as half the longest side of a voxel.
-double ramp_mm(const imaging::Geometry& grid) {
-  return 0.5 * grid.spacing.maxCoeff();
-}
-
-/// 1,000 inside and 0 outside of the surface, with a ramp across it: what a mask rounds away is seen.
-imaging::FloatVolume share_inside(const imaging::FloatVolume& level_set) {
-  const double ramp = ramp_mm(level_set.geometry);
-  imaging::FloatVolume share{level_set.geometry, std::vector<float>(level_set.voxels.size())};
-  std::transform(level_set.voxels.begin(), level_set.voxels.end(), share.voxels.begin(), [&](float phi) {
-    return static_cast<float>(1000.0 * std::clamp(0.5 - 0.5 * phi / ramp, 0.0, 1.0));
-  });
-  return share;
-}
-
-TriMesh isosurface_of(const imaging::FloatVolume& level_set, const core::TaskContext& task) {
-  geometry::ScalarGrid grid;
-  grid.size = level_set.geometry.size;
-  grid.values = level_set.voxels.data();
-  grid.origin = level_set.geometry.origin;
-  grid.axes = level_set.geometry.direction * level_set.geometry.spacing.asDiagonal();
-  return geometry::isosurface(grid, 0.0F, true, task);
-}
 
 /// Holds surfaces of one scan against its isosurface and the truth.
 class Judge {

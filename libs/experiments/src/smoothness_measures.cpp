@@ -16,7 +16,15 @@ using geometry::TriMesh;
 
 namespace {
 
-/// Mean of values along a line about `at`, falling to nothing over `reach`.
+template <class Value>
+Value value_at(const std::vector<double>& s, const std::vector<Value>& values, double at) {
+  const std::size_t i = std::clamp<std::size_t>(
+      static_cast<std::size_t>(std::upper_bound(s.begin(), s.end(), at) - s.begin()), 1, s.size() - 1);
+  const double share = (at - s[i - 1]) / (s[i] - s[i - 1]);
+  return (1.0 - share) * values[i - 1] + share * values[i];
+}
+
+/// Mean of values along a line about `at`, falling to nothing over `reach`; between two where none is there.
 double mean_about(const std::vector<double>& s, const std::vector<double>& values, double at, double reach) {
   double sum = 0.0, weight = 0.0;
   for (std::size_t i = 0; i < s.size(); ++i) {
@@ -24,7 +32,7 @@ double mean_about(const std::vector<double>& s, const std::vector<double>& value
     sum += near * values[i];
     weight += near;
   }
-  return sum / weight;
+  return weight > 0.0 ? sum / weight : value_at(s, values, at);
 }
 
 using WeightedSquare = std::pair<double, double>;
@@ -40,13 +48,6 @@ double trimmed_rms(std::vector<WeightedSquare> squares, double less) {
     weight += kept;
   }
   return weight > 0.0 ? std::sqrt(sum / weight) : std::numeric_limits<double>::quiet_NaN();
-}
-
-Vec3 place_at(const std::vector<double>& s, const std::vector<Vec3>& points, double at) {
-  const std::size_t i = std::clamp<std::size_t>(
-      static_cast<std::size_t>(std::upper_bound(s.begin(), s.end(), at) - s.begin()), 1, s.size() - 1);
-  const double share = (at - s[i - 1]) / (s[i] - s[i - 1]);
-  return (1.0 - share) * points[i - 1] + share * points[i];
 }
 
 }  // namespace
@@ -111,7 +112,7 @@ geometry::VesselGraph network_of(const centerline::SkeletonGraph& skeleton, doub
     for (int i = 1; i <= pieces; ++i) {
       const std::int32_t next =
           i == pieces ? point_of_node.at(edge.to) : static_cast<std::int32_t>(out.points.size());
-      if (i < pieces) out.points.push_back(place_at(s, edge.points, i * step));
+      if (i < pieces) out.points.push_back(value_at(s, edge.points, i * step));
       const double then = mean_about(s, edge.radius_mm, i * step, step);
       out.edges.push_back({before, next, radius, then});
       before = next;

@@ -79,6 +79,7 @@ SkeletonResult skeleton_of(const imaging::MaskVolume& mask, const imaging::Image
   task.set_stage("lines");
   SkeletonGraph graph = centerline::skeleton_graph(thin, task.sub(0.4, 0.5));
   graph = centerline::pruned(graph, options.prune);
+  if (options.open_loops) graph = centerline::pruned(centerline::loops_opened(graph), options.prune);
   if (graph.edges.empty())
     throw InvalidInput("nothing of the skeleton is longer than " + std::to_string(options.prune.length_mm) +
                        " mm; prune less");

@@ -21,6 +21,11 @@ void validate(const PruneOptions& options);  ///< throws InvalidInput
 /// junction that is left with two lines becomes part of one line, whose length then counts. Loops stay.
 SkeletonGraph pruned(const SkeletonGraph& graph, const PruneOptions& options = {});
 
+/// Without loops: of each the line with the smallest mean radius goes, so that components stay what they are
+/// (the lines that are left are a spanning forest of the widest). Where vessels touch, that is the bridge
+/// between them. A closed line on its own goes whole. Two lines left at a node become one.
+SkeletonGraph loops_opened(const SkeletonGraph& graph);
+
 struct EndOptions {
   /// The end's own course is given up over this many radii (thinning leads it to an edge of the cap), [0, 3].
   double trimmed_radii = 1.0;
@@ -30,8 +35,8 @@ struct EndOptions {
 };
 void validate(const EndOptions& options);  ///< throws InvalidInput
 /// Thinning ends a line about a radius inside the object. Here each end's last part gives way to a straight
-/// line to where the mask, linear between voxels, falls to one half. Ends on lines shorter than what is
-/// trimmed, and ends outside the mask, stay.
+/// line to where the mask, linear between voxels, falls to one half. Of a short line half is trimmed at most;
+/// ends outside the mask stay.
 SkeletonGraph ends_extended(const SkeletonGraph& graph, const imaging::MaskVolume& mask,
                             const EndOptions& options = {});
 

@@ -21,11 +21,13 @@ class DisjointSets {
     }
     return i;
   }
-  void join(std::int32_t a, std::int32_t b) {
+  /// Whether they were apart.
+  bool join(std::int32_t a, std::int32_t b) {
     a = find(a);
     b = find(b);
     if (a > b) std::swap(a, b);
     parent(b) = a;
+    return a != b;
   }
 
  private:

@@ -26,6 +26,7 @@ struct SkeletonCommands {
 struct SkeletonOptions {
   bool fill_cavities = true;
   centerline::PruneOptions prune;
+  bool open_loops = false;  ///< then: `loops_opened`, for vessels that touch but do not join
   centerline::EndOptions ends;
   centerline::GapOptions gaps;
   SkeletonCommands commands;  ///< after the gaps are closed

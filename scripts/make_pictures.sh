@@ -22,6 +22,7 @@ build/release/bin/boundary_picture "$work/phantom/dataset00" vessel1 s01 docs/pi
 build/release/bin/outer_wall_picture "$work/phantom/dataset00" vessel1 s01 docs/pictures/outer-wall.png
 build/release/bin/plaque_picture "$work/phantom/dataset00" 3 LAD docs/pictures/plaque.png
 build/release/bin/layer_picture docs/pictures/boundary-layer.png
+build/release/bin/hexahedra_picture docs/pictures/hexahedra.png
 build/release/bin/extension_picture sections docs/pictures/flow-extensions.png
 build/release/bin/filters_picture "$work/phantom/dataset00" vessel1 docs/pictures/filters.png
 

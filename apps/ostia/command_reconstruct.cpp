@@ -7,6 +7,7 @@
 #include "ostia/core/log.h"
 #include "ostia/geometry/graph_faults.h"
 #include "ostia/geometry/mesh_topology.h"
+#include "ostia/io/hex_mesh_file.h"
 #include "ostia/io/quad_surface_file.h"
 #include "ostia/io/surface_fields.h"
 #include "ostia/io/surface_file.h"
@@ -106,10 +107,38 @@ void print(const Json& done, bool as_json) {
                 done["closed"].get<bool>() ? "closed" : "not closed");
     std::printf("self-intersections: %zu; branches narrowed: %zu, moved: %zu\n",
                 done["self_intersections"].get<std::size_t>(), done["narrowed"].size(), done["moved"].size());
+    if (done.contains("hexahedra"))
+      std::printf("%zu hexahedra; scaled Jacobian at least %.3f, in the mean %.3f; folded: %zu\n",
+                  done["hexahedra"]["count"].get<std::size_t>(),
+                  done["hexahedra"]["least_scaled_jacobian"].get<double>(),
+                  done["hexahedra"]["mean_scaled_jacobian"].get<double>(),
+                  done["hexahedra"]["folded"].get<std::size_t>());
     if (done.contains("sections"))
       std::printf("elliptic sections: %zu cut, %zu used\n", done["sections"]["cut"].get<std::size_t>(),
                   done["sections"]["used"].get<std::size_t>());
   }
+}
+
+/// The mesh within, if asked for; whether it can be used.
+bool write_hexahedra(const ReconstructCommand& c, const ReconstructedSurface& made, Json& done,
+                     const core::TaskContext& task) {
+  if (c.hexahedra.empty()) return true;
+  task.set_stage("sweeping");
+  const reconstruction::SweptHexahedra swept =
+      reconstruction::sweep_hexahedra(made, c.sweep, task.sub(0.0, 0.8));
+  io::write_hex_mesh(c.hexahedra, swept.mesh, task.sub(0.8, 1.0));
+  done["hexahedra"] = {{"count", swept.mesh.hexahedra.size()},
+                       {"points", swept.mesh.points.size()},
+                       {"volume_mm3", swept.volume_mm3},
+                       {"least_scaled_jacobian", swept.least_jacobian},
+                       {"mean_scaled_jacobian", swept.mean_jacobian},
+                       {"folded", swept.folded}};
+  if (swept.folded > 0)
+    core::log_warning(
+        std::to_string(swept.folded) + " of " + std::to_string(swept.mesh.hexahedra.size()) +
+        " hexahedra are folded, as where a thin branch leaves at a small angle: no solver takes "
+        "them; try --sides 4, another --level, or `ostia mesh` on the surface");
+  return swept.folded == 0;
 }
 
 ExitCode write_frusta(const ReconstructCommand& c, Json& done, const core::TaskContext& task) {
@@ -145,15 +174,20 @@ ExitCode run_reconstruct(const ReconstructCommand& c, const core::TaskContext& t
   Json done{{"v", 1}, {"kind", c.frusta ? "frusta" : "reconstruction"}};
   if (c.frusta) return write_frusta(c, done, task);
   reconstruction::validate(options);
+  reconstruction::validate(c.sweep);
+  if (!c.hexahedra.empty() && options.level < 1)
+    throw UsageError("--hexahedra: sections of level 0 have no middle of a side; give --level 1 or more");
+  if (c.hexahedra.has_extension()) require_output(c.hexahedra, {".vtu"});
   const geometry::VesselGraph graph = network_of(c, done, task.sub(0.0, 0.1));
   task.set_stage("reconstructing");
-  ReconstructedSurface made = surface_of(c, graph, options, done, task.sub(0.1, 0.9));
+  ReconstructedSurface made = surface_of(c, graph, options, done, task.sub(0.1, 0.8));
   done["level"] = options.level;
   tell(made, done);
+  const bool usable = write_hexahedra(c, made, done, task.sub(0.8, 0.9));
   task.set_stage("writing");
   warn(io::write_quad_surface(c.output, quads_of(std::move(made)), task.sub(0.9, 1.0)));
   print(done, c.json);
-  if (done["closed"].get<bool>()) return ExitCode::ok;
+  if (done["closed"].get<bool>()) return usable ? ExitCode::ok : ExitCode::quality_failed;
   core::log_warning("pairs of triangles that still cross: " + done["self_intersections"].dump() +
                     "; vessels that overlap need more rounds (--untangling), or other radii");
   return ExitCode::quality_failed;
@@ -166,6 +200,7 @@ void define_reconstruct(CLI::App& app, ReconstructCommand& c,
       "reconstruct", "A smooth closed surface of quadrilaterals around a tree or another network of vessels");
   sub->footer(
       "Example:\n  ostia reconstruct tree.vtp -o surface.vtp --level 2\n"
+      "  ostia reconstruct tree.vtp -o surface.vtp --sides 4 --level 2 --hexahedra case\n"
       "  ostia reconstruct grown.vtk -o cones.vtp --frusta --units m --radius-units mm");
   sub->fallthrough();
   sub->add_option("TREE", c.input.input, "Network of vessels: .vtp, .vtk, .swc, .csv, .gxl")->required();
@@ -195,6 +230,12 @@ void define_reconstruct(CLI::App& app, ReconstructCommand& c,
           ->check(CLI::Range(0.0, 1.0)));
   own(sub->add_option("--untangling", o.untangling, "Rounds in which vessels that overlap are narrowed")
           ->check(CLI::Range(0, 200)));
+  own(sub->add_option("--hexahedra", c.hexahedra,
+                      "Also hexahedra swept along the vessels: .vtu, or a folder for OpenFOAM"));
+  own(sub->add_option("--layers", c.sweep.layers, "Of hexahedra along the wall; 2^(level - 1)")
+          ->check(CLI::Range(1, 32)));
+  own(sub->add_option("--layer-growth", c.sweep.growth, "From layer to layer, away from the wall")
+          ->check(CLI::Range(1.0, 2.0)));
   sub->add_flag("--json", c.json, "One JSON object on standard output");
   sub->callback(
       [&c, &run] { run = [&c](const core::TaskContext& task) { return run_reconstruct(c, task); }; });

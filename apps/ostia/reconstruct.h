@@ -3,6 +3,7 @@
 
 #include "commands.h"
 
+#include "ostia/reconstruction/hexahedra.h"
 #include "ostia/reconstruction/surface.h"
 
 #include <filesystem>
@@ -21,8 +22,10 @@ struct ReconstructCommand {
   std::filesystem::path output;
   std::filesystem::path wall;  ///< empty: circles of the tree's radii
   reconstruction::ReconstructionOptions options;
-  std::optional<int> sides;  ///< nothing: the library's default
-  bool frusta = false;       ///< truncated cones instead
+  std::optional<int> sides;         ///< nothing: the library's default
+  std::filesystem::path hexahedra;  ///< empty: none
+  reconstruction::HexahedraOptions sweep;
+  bool frusta = false;  ///< truncated cones instead
   bool json = false;
 };
 /// quality_failed where vessels still run through each other: the surface is there, and is not closed.

@@ -130,6 +130,51 @@ TEST(ReconstructCommand, SectionsAreThoseOfAWall) {
   EXPECT_EQ(folder.run({"tree.csv", "-o", "none.vtp", "--wall", "wall.stl", "--frusta"}).code, 2);
 }
 
+TEST(ReconstructCommand, HexahedraFillTheSurface) {
+  const Folder folder(fork);
+  const Outcome done = folder.run({"tree.csv", "-o", "a.vtp", "--sides", "4", "--level", "2", "--hexahedra",
+                                   "case", "--layers", "4", "--layer-growth", "1.3", "--json"});
+  ASSERT_EQ(done.code, 0) << done.err;
+  const Json told = Json::parse(done.out), hexahedra = told["hexahedra"];
+  EXPECT_EQ(hexahedra["folded"], 0);
+  EXPECT_GT(hexahedra["least_scaled_jacobian"].get<double>(), 0.25);
+  EXPECT_NEAR(hexahedra["volume_mm3"].get<double>(), told["volume_mm3"].get<double>(),
+              0.01 * told["volume_mm3"].get<double>());
+  // 16 around in four layers, and four squares of 2 x 2 within.
+  EXPECT_EQ(hexahedra["count"].get<int>() % (4 * 16 + 16), 0);
+  const std::string boundary = core::read_file(folder.path / "case/constant/polyMesh/boundary");
+  for (const char* name : {"wall", "inlet_0", "outlet_1", "outlet_2"}) EXPECT_THAT(boundary, HasSubstr(name));
+  const Outcome vtu = folder.run({"tree.csv", "-o", "a.vtp", "--hexahedra", "a.vtu"});
+  EXPECT_EQ(vtu.code, 0) << vtu.err;
+  EXPECT_THAT(vtu.out, HasSubstr("hexahedra; scaled Jacobian at least 0."));
+  EXPECT_TRUE(std::filesystem::exists(folder.path / "a.vtu"));
+}
+
+// A thin branch of eight sides at a small angle.
+TEST(ReconstructCommand, FoldedHexahedraAreTold) {
+  const Folder folder(
+      "id,x,y,z,radius,parent\n1,0,0,0,2,-1\n2,0,0,20,2,1\n3,0,0,40,2,2\n4,0,0.342,20.94,0.4,2\n5,0,6.84,38.8,0.4,4\n");
+  const Outcome done =
+      folder.run({"tree.csv", "-o", "a.vtp", "--level", "2", "--hexahedra", "a.vtu", "--json"});
+  ASSERT_EQ(done.code, 4) << done.err;
+  EXPECT_GT(Json::parse(done.out)["hexahedra"]["folded"].get<int>(), 0);
+  EXPECT_EQ(Json::parse(done.out)["closed"], true);
+  EXPECT_THAT(done.err, HasSubstr("folded"));
+  EXPECT_TRUE(std::filesystem::exists(folder.path / "a.vtu"));
+}
+
+TEST(ReconstructCommand, HexahedraNeedALevelAndAFormat) {
+  const Folder folder(fork);
+  const auto code = [&](std::vector<std::string> rest) {
+    return folder.run(std::vector<std::string>{"tree.csv", "-o", "a.vtp"} + rest).code;
+  };
+  EXPECT_EQ(code({"--hexahedra", "a.vtu", "--level", "0"}), 2);
+  EXPECT_EQ(code({"--hexahedra", "a.msh"}), 2);
+  EXPECT_EQ(code({"--hexahedra", "a.vtu", "--layers", "0"}), 2);
+  EXPECT_EQ(code({"--hexahedra", "a.vtu", "--frusta"}), 2);
+  EXPECT_FALSE(std::filesystem::exists(folder.path / "a.vtp"));
+}
+
 TEST(ReconstructCommand, ConesForDrawing) {
   const Folder folder(fork);
   const Outcome done = folder.run({"tree.csv", "-o", "a.vtp", "--frusta", "--sides", "6", "--json"});

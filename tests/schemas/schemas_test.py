@@ -72,7 +72,7 @@ class Schemas(unittest.TestCase):
         network = self.folder.parent / "network.swc"
         network.write_text("1 2 0 0 0 1 -1\n2 2 0 0 5 0.8 1\n3 2 1 0 9 0.5 2\n4 2 -1 0 9 0.6 2\n")
         validator("info").validate(json.loads(run("info", network, "--json")))
-        for more in ([], ["--repair"], ["--frusta"]):
+        for more in ([], ["--repair"], ["--hexahedra", self.folder.parent / "hexahedra.vtu"], ["--frusta"]):
             made = json.loads(run("reconstruct", network, "-o", network.with_suffix(".vtp"), "--json", *more))
             validator("reconstruct").validate(made)
         made.pop("segments")

@@ -1,6 +1,7 @@
 #include "ostia/io/mesh_export.h"
 
 #include "mesh_formats.h"
+#include "replaced_folder.h"
 
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
@@ -90,18 +91,6 @@ void write_staged(const Format& format, const PreparedMesh& mesh, const fs::path
   }
 }
 
-/// A folder that holds something else, such as a case's settings, is not taken away with the old mesh.
-void check_replaced(const Format& format, const fs::path& staged, const fs::path& path) {
-  if (!fs::is_directory(path)) return;
-  for (const auto& found : fs::recursive_directory_iterator(path)) {
-    const fs::path inside = found.path().lexically_relative(path);
-    if (!fs::exists(staged / inside))
-      throw InvalidInput("cannot export the mesh as " + std::string(format.name) + " to " + path.string() +
-                         ": the folder holds " + inside.string() +
-                         ", which would be lost; name a new folder");
-  }
-}
-
 std::string lower(std::string text) {
   std::ranges::transform(text, text.begin(),
                          [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
@@ -166,7 +155,7 @@ MeshExportResult export_mesh(const MixedMesh& mesh, MeshFormat format, const fs:
   if (to.extension.empty()) {
     core::StagedFolder folder(path);
     write_staged(to, prepared, folder.temporary(), path);
-    check_replaced(to, folder.temporary(), path);
+    require_nothing_lost(folder.temporary(), path, "cannot export the mesh as " + std::string(to.name));
     folder.commit();
   } else {
     core::StagedFile file(path);

@@ -39,6 +39,7 @@ ReconstructedSurface result_of(Made&& made, const std::vector<Tube>& tubes) {
     const std::int32_t id = face == 0 ? 1 : own[static_cast<std::size_t>(face - 1)];
     result.surface.face_ids[2 * i] = result.surface.face_ids[2 * i + 1] = id;
   });
+  for (const Tube& tube : tubes) result.axis_ends.push_back({tube.points.front(), tube.points.back()});
   for (std::size_t i = 0; i < tubes.size(); ++i) {
     const double least = *std::min_element(tubes[i].factor.begin(), tubes[i].factor.end());
     if (least < 1.0) result.narrowed.push_back({static_cast<std::int32_t>(i), least});
@@ -62,6 +63,8 @@ ReconstructedSurface made_of(const geometry::VesselGraph& graph, const EllipticS
   Assembly assembly(graph, sections, options, making);
   Made made = assembly.made();
   ReconstructedSurface result = result_of(std::move(made), assembly.tubes());
+  result.sides = options.sides;
+  result.level = options.level;
   for (std::size_t i = 0; i < assembly.moved().size(); ++i)
     if (assembly.moved()[i] != 0) result.moved.push_back(static_cast<std::int32_t>(i));
   task.set_progress(1.0);

@@ -7,6 +7,7 @@
 #include "ostia/geometry/vessel_graph.h"
 #include "ostia/reconstruction/elliptic_sections.h"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -31,11 +32,16 @@ struct Narrowing {
 };
 
 struct ReconstructedSurface {
+  int sides = 0, level = 0;  ///< as in the options
   std::vector<geometry::Vec3> points;
-  std::vector<geometry::Quad> quads;         ///< counter-clockwise seen from outside; the whole surface
+  /// Counter-clockwise seen from outside; the whole surface. Each 4^level in a row are one of level 0; those
+  /// of a branch's wall follow each other ring by ring, from its proximal end on.
+  std::vector<geometry::Quad> quads;
   std::vector<std::int32_t> branch_of_quad;  ///< index into geometry::branches()
   /// The same points, two triangles a quadrilateral in their order; faces `wall`, `inlet_<n>`, `outlet_<n>`.
   geometry::FacedSurface surface;
+  /// Where the axis of each branch begins and ends: at a fork its centre.
+  std::vector<std::array<geometry::Vec3, 2>> axis_ends;
   std::vector<Narrowing> narrowed;  ///< by branch
   /// Branches whose axes were moved or stretched, since forks stood too close or vessels left side by side.
   std::vector<std::int32_t> moved;

@@ -1,16 +1,15 @@
 // A fork filled with layers of prisms and tetrahedra, cut open along its plane.
 
+#include "cut_scene.h"
 #include "picture.h"
 #include "test_surfaces.h"
 
-#include "ostia/figure/scene.h"
 #include "ostia/meshing/boundary_layer.h"
 #include "ostia/meshing/remesh.h"
 #include "ostia/meshing/sizing.h"
 
 #include <algorithm>
 #include <map>
-#include <set>
 #include <utility>
 
 namespace {
@@ -54,31 +53,9 @@ std::vector<Side> laid_open(const geometry::MixedMesh& mesh) {
 }
 
 figure::Scene scene_of(const geometry::MixedMesh& mesh) {
-  figure::MeshActor layers, inside;
-  layers.color = figure::colors::cut;
-  layers.label = "layers of prisms";
-  inside.color = figure::colors::lumen;
-  inside.label = "tetrahedra";
-  std::set<std::pair<std::int32_t, std::int32_t>> edges;
-  for (const Side& side : laid_open(mesh)) {
-    const Face& f = side.face;
-    auto& triangles = (side.prism ? layers : inside).mesh.triangles;
-    triangles.push_back({f[0], f[1], f[2]});
-    if (f.size() == 4) triangles.push_back({f[0], f[2], f[3]});
-    for (std::size_t i = 0; i < f.size(); ++i) edges.insert(std::minmax({f[i], f[(i + 1) % f.size()]}));
-  }
-  figure::Scene scene;
-  for (figure::MeshActor* actor : {&layers, &inside}) {
-    actor->mesh.points = mesh.points;
-    actor->shading = figure::Shading::flat;
-    scene.meshes.push_back(std::move(*actor));
-  }
-  for (const auto& [a, b] : edges)
-    scene.tubes.push_back(
-        {{mesh.points[static_cast<std::size_t>(a)], mesh.points[static_cast<std::size_t>(b)]},
-         {0.012},
-         {0.06, 0.07, 0.09, 1.0}});
-  return scene;
+  bench::CutPart layers{"layers of prisms", figure::colors::cut}, inside{"tetrahedra", figure::colors::lumen};
+  for (const Side& side : laid_open(mesh)) (side.prism ? layers : inside).faces.push_back(side.face);
+  return bench::cut_scene(mesh.points, {layers, inside});
 }
 
 void make(const std::string& file) {

@@ -1,14 +1,13 @@
 // A fork filled with swept hexahedra, cut open along its plane.
 
+#include "cut_scene.h"
 #include "picture.h"
 #include "test_graphs.h"
 
-#include "ostia/figure/scene.h"
 #include "ostia/reconstruction/hexahedra.h"
 
 #include <algorithm>
 #include <map>
-#include <set>
 #include <utility>
 
 namespace {
@@ -46,31 +45,11 @@ std::vector<Side> laid_open(const geometry::HexMesh& mesh, std::size_t layers, s
 }
 
 figure::Scene scene_of(const geometry::HexMesh& mesh, std::size_t layers, std::size_t in_ring) {
-  figure::MeshActor along, inside;
-  along.color = figure::colors::cut;
-  along.label = "layers along the wall";
-  inside.color = figure::colors::lumen;
-  inside.label = "squares about the axis";
-  std::set<std::pair<std::int32_t, std::int32_t>> edges;
-  for (const Side& side : laid_open(mesh, layers, in_ring)) {
-    const Quad& q = side.corners;
-    auto& triangles = (side.layer ? along : inside).mesh.triangles;
-    triangles.push_back({q[0], q[1], q[2]});
-    triangles.push_back({q[0], q[2], q[3]});
-    for (std::size_t i = 0; i < 4; ++i) edges.insert(std::minmax({q[i], q[(i + 1) % 4]}));
-  }
-  figure::Scene scene;
-  for (figure::MeshActor* actor : {&along, &inside}) {
-    actor->mesh.points = mesh.points;
-    actor->shading = figure::Shading::flat;
-    scene.meshes.push_back(std::move(*actor));
-  }
-  for (const auto& [a, b] : edges)
-    scene.tubes.push_back(
-        {{mesh.points[static_cast<std::size_t>(a)], mesh.points[static_cast<std::size_t>(b)]},
-         {0.012},
-         {0.06, 0.07, 0.09, 1.0}});
-  return scene;
+  bench::CutPart along{"layers along the wall", figure::colors::cut},
+      inside{"squares about the axis", figure::colors::lumen};
+  for (const Side& side : laid_open(mesh, layers, in_ring))
+    (side.layer ? along : inside).faces.emplace_back(side.corners.begin(), side.corners.end());
+  return bench::cut_scene(mesh.points, {along, inside});
 }
 
 void make(const std::string& file) {

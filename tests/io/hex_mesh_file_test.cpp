@@ -1,6 +1,7 @@
 #include "ostia/io/hex_mesh_file.h"
 
 #include "io_test_support.h"
+#include "openfoam_case.h"
 
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
@@ -110,17 +111,7 @@ TEST(HexMeshFile, CheckMeshAcceptsThePolyMesh) {
   if (std::system("command -v checkMesh > /dev/null") != 0) GTEST_SKIP() << "openfoam is not installed";
   const fs::path path = target("case");
   write_hex_mesh(path, column());
-  const std::string head = "FoamFile { version 2.0; format ascii; class dictionary; object ";
-  fs::create_directories(path / "system");
-  core::write_file(path / "system" / "controlDict",
-                   head +
-                       "controlDict; }\napplication checkMesh; startFrom startTime; startTime 0; stopAt "
-                       "endTime; endTime 1; deltaT 1; writeControl timeStep; writeInterval 1;\n");
-  core::write_file(path / "system" / "fvSchemes",
-                   head +
-                       "fvSchemes; }\nddtSchemes{} gradSchemes{} divSchemes{} laplacianSchemes{} "
-                       "interpolationSchemes{} snGradSchemes{}\n");
-  core::write_file(path / "system" / "fvSolution", head + "fvSolution; }\n");
+  add_control(path);
   const std::string line = "WM_PROJECT_DIR=/usr/share/openfoam checkMesh -allTopology -case '" +
                            path.string() + "' > '" + (path / "log").string() + "' 2>&1";
   ASSERT_EQ(std::system(line.c_str()), 0);

@@ -3,6 +3,7 @@
 
 #include "io_test_support.h"
 #include "mesh_export_meshes.h"
+#include "openfoam_case.h"
 
 #include "ostia/core/child_process.h"
 #include "ostia/geometry/mixed_mesh_split.h"
@@ -162,22 +163,6 @@ TEST(MeshExportReaders, VtkReadsMeshComplete) {
 TEST(MeshExportReaders, VtkReadsThePolyMesh) {
   NEEDS_VTK();
   round_trip(linear_cases(), MeshFormat::openfoam, "read_vtk.py", false);
-}
-
-/// A case around constant/polyMesh, as far as OpenFOAM's tools ask for one.
-void add_control(const fs::path& folder) {
-  fs::create_directories(folder / "system");
-  const std::string head = "FoamFile { version 2.0; format ascii; class dictionary; object ";
-  core::write_file(
-      folder / "system" / "controlDict",
-      head +
-          "controlDict; }\napplication checkMesh; startFrom startTime; startTime 0; stopAt endTime;"
-          " endTime 1; deltaT 1; writeControl timeStep; writeInterval 1; writePrecision 12;\n");
-  core::write_file(folder / "system" / "fvSchemes",
-                   head +
-                       "fvSchemes; }\nddtSchemes{} gradSchemes{} divSchemes{} laplacianSchemes{}"
-                       " interpolationSchemes{} snGradSchemes{}\n");
-  core::write_file(folder / "system" / "fvSolution", head + "fvSolution; }\n");
 }
 
 void expect_mesh_ok(const fs::path& folder, const MixedMesh& mesh, double metres_a_unit) {

@@ -43,10 +43,12 @@ class Relaxation {
   }
 
   /// Whether anything was moved.
-  bool round() {
+  bool round(const core::TaskContext& task) {
     bool moved = false;
-    for (std::size_t node = 0; node < around_.size(); ++node)
+    for (std::size_t node = 0; node < around_.size(); ++node) {
+      if (node % 1024 == 0) task.throw_if_cancelled();
       if (!around_[node].empty()) moved = improve(node) || moved;
+    }
     return moved;
   }
 
@@ -128,10 +130,11 @@ class Relaxation {
 
 }  // namespace
 
-void relax(HexMesh& mesh, const LayerLines& layers, double wanted, int rounds) {
+void relax(HexMesh& mesh, const LayerLines& layers, double wanted, int rounds,
+           const core::TaskContext& task) {
   Relaxation relaxation(mesh, layers, wanted);
-  for (int i = 0; i < rounds && relaxation.round(); ++i) {
-  }
+  for (int i = 0; i < rounds && relaxation.round(task); ++i)
+    task.set_progress(static_cast<double>(i + 1) / static_cast<double>(rounds));
 }
 
 }  // namespace ostia::reconstruction

@@ -306,8 +306,9 @@ SweptHexahedra sweep_hexahedra(const ReconstructedSurface& surface, const Hexahe
     throw InvalidInput("hexahedra: the surface must be of level 1 at least; reconstruct it with level 1");
   SweptHexahedra out;
   Sweep sweep(surface, options);
-  out.mesh = sweep.swept(task.sub(0.0, 0.6));
-  relax(out.mesh, std::move(sweep).layers(), options.wanted_jacobian, options.relaxations);
+  out.mesh = sweep.swept(task.sub(0.0, 0.1));
+  relax(out.mesh, std::move(sweep).layers(), options.wanted_jacobian, options.relaxations,
+        task.sub(0.1, 1.0));
   task.throw_if_cancelled();
   judge(out);
   return out;

@@ -114,6 +114,7 @@ void TreeViewer::panel(int width, int height, double frames_per_second) {
   measures();
   heading("PICTURE");
   ImGui::Text("%zu drawn, %zu too small", choice().chosen, choice().left_out);
+  if (choice().hidden > 0) ImGui::Text("%zu behind others", choice().hidden);
   if (frames_per_second > 0.0) ImGui::TextColored(muted_color, "%.0f pictures/s", frames_per_second);
   ImGui::Checkbox("grid", &grid_);
   ImGui::SameLine();

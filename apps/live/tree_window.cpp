@@ -61,6 +61,7 @@ std::string measured(const TreeViewer& viewer, const FrameMeter& meter, const Tr
       {"shown", viewer.shown_segments()},
       {"drawn", viewer.choice().chosen},
       {"left_out", viewer.choice().left_out},
+      {"hidden", viewer.choice().hidden},
       {"outside", viewer.choice().outside},
       {"distance_mm", viewer.eye().distance_mm},
       {"picked", nlohmann::json::array()}};

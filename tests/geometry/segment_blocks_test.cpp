@@ -109,6 +109,57 @@ TEST(SegmentBlocks, CloseUpEveryVisibleSegmentIsThere) {
   EXPECT_GT(visible, 100U);
 }
 
+/// Rods of 2 mm along z, thick enough to be seen: `count` of them at random in a slab of 100 x 100 mm whose
+/// middle is at that depth, none within 10 mm of the y axis where there is a hole.
+void add_slab(VesselGraph& graph, std::mt19937& random, int count, double depth, bool hole) {
+  std::uniform_real_distribution<double> place(-50.0, 50.0), thickness(-5.0, 5.0);
+  while (count > 0) {
+    const Vec3 at(place(random), depth + thickness(random), place(random));
+    if (hole && std::hypot(at.x(), at.z()) < 10.0) continue;
+    const auto first = static_cast<std::int32_t>(graph.points.size());
+    graph.points.push_back(at - Vec3(0.0, 0.0, 1.0));
+    graph.points.push_back(at + Vec3(0.0, 0.0, 1.0));
+    graph.edges.push_back({first, first + 1, 0.3, 0.3});
+    --count;
+  }
+}
+
+TEST(SegmentBlocks, WhatManyHideIsLeftOutWhereThereIsTooMuch) {
+  VesselGraph graph;
+  std::mt19937 random(3);
+  constexpr std::int32_t before = 150000, behind = 10000;
+  add_slab(graph, random, before, 0.0, true);
+  add_slab(graph, random, behind, 100.0, false);
+  const SegmentBlocks blocks(graph);
+  const BlockView view = from_distance(150.0);
+  std::vector<DrawnSegment> drawn;
+  const BlockChoice choice = blocks.choose(view, {}, 100000, drawn);
+  EXPECT_EQ(choice.chosen + choice.left_out + choice.outside + choice.hidden, graph.edges.size());
+  EXPECT_LT(choice.chosen, 100000U);
+  const std::set<std::int32_t> edges = edges_of(drawn);
+  EXPECT_EQ(edges.size(), drawn.size());  // none twice
+  std::size_t in_hole = 0, hidden = 0;
+  for (std::int32_t e = before; e < before + behind; ++e) {
+    const Vec3& at = graph.points[static_cast<std::size_t>(2 * e)];
+    // The slab's hole is 10 mm at 145 to 155 mm from the eye; tiles are 16 pixels.
+    const double from_middle = std::hypot(at.x(), at.z()) * 150.0 / (at.y() + 150.0);
+    if (from_middle < 6.0) {
+      EXPECT_EQ(edges.count(e), 1U) << e;
+      ++in_hole;
+    }
+    if (from_middle > 14.0 && std::max(std::abs(at.x()), std::abs(at.z())) < 45.0) {
+      EXPECT_EQ(edges.count(e), 0U) << e;
+      ++hidden;
+    }
+  }
+  EXPECT_GT(in_hole, 200U);
+  EXPECT_GT(hidden, 4000U);
+  // Nearest first, but for slices of depth.
+  for (std::size_t i = 1; i < drawn.size(); ++i) EXPECT_GT(drawn[i].from[1], drawn[i - 1].from[1] - 0.5f);
+  // Where there is room for all, all are there.
+  EXPECT_EQ(blocks.choose(view, {}, graph.edges.size(), drawn).hidden, 0U);
+}
+
 TEST(SegmentBlocks, LeavesOutWhatIsNotWanted) {
   const VesselGraph graph = bush(50000);
   const SegmentBlocks blocks(graph);

@@ -120,7 +120,7 @@ TEST(TreeCover, AFewOfABushCoverWhatAllOfItCovers) {
   REQUIRE_OPENGL();
   Easel easel(test_bush(400'000));
   const TreeEye overview = easel.eye;
-  for (const double away : {8.0, 4.0, 2.0, 1.0, 0.5, 0.25, 0.1}) {
+  for (const double away : {8.0, 4.0, 2.0, 1.0, 0.5, 0.25, 0.125, 0.1}) {
     easel.eye = overview;
     easel.eye.distance_mm *= away;
     easel.drawing.set_most(SegmentBlocks::everything);

@@ -11,16 +11,9 @@ namespace ostia::geometry {
 namespace {
 
 constexpr std::size_t block_size = 256;
-constexpr double thick_px = 0.5;  // radius from which a segment is always drawn
-constexpr double line_px = 1.2;   // width of what is thinner
-constexpr double cover = 1.5;     // times a block's place in the picture that its thin segments cover
 
 float radius_of(double radius) {
   return std::isfinite(radius) && radius > 0.0 ? static_cast<float>(radius) : 0.0f;
-}
-
-float thickness(const DrawnSegment& one) {
-  return std::max(one.radius_from, one.radius_to);
 }
 
 float length(const DrawnSegment& one) {
@@ -98,7 +91,7 @@ SegmentBlocks::SegmentBlocks(const VesselGraph& graph, const core::TaskContext& 
 void SegmentBlocks::fill_block(Block& block) {
   const auto begin = segments_.begin() + block.first, end = begin + block.count;
   std::sort(begin, end, [](const DrawnSegment& a, const DrawnSegment& b) {
-    return thickness(a) != thickness(b) ? thickness(a) > thickness(b) : a.edge < b.edge;
+    return a.thickness() != b.thickness() ? a.thickness() > b.thickness() : a.edge < b.edge;
   });
   std::array<float, 3> lower = begin->from, upper = begin->from;
   float lengths = 0.0f;
@@ -120,78 +113,6 @@ const DrawnSegment* SegmentBlocks::segment(std::int32_t edge) const {
   if (edge < 0 || static_cast<std::size_t>(edge) >= place_.size()) return nullptr;
   const std::int32_t place = place_[static_cast<std::size_t>(edge)];
   return place < 0 ? nullptr : &segments_[static_cast<std::size_t>(place)];
-}
-
-std::vector<SegmentBlocks::Wanted> SegmentBlocks::wanted(const BlockView& view, BlockChoice& choice) const {
-  const Vec3 eye = view.eye - centre_;
-  // Outward from the picture's four sides, through the eye.
-  const std::array<Vec3, 4> sides{(view.right + view.half_width * view.back).normalized(),
-                                  (-view.right + view.half_width * view.back).normalized(),
-                                  (view.up + view.half_height * view.back).normalized(),
-                                  (-view.up + view.half_height * view.back).normalized()};
-  std::vector<Wanted> all;
-  for (std::size_t b = 0; b < blocks_.size(); ++b) {
-    const Block& block = blocks_[b];
-    const Vec3 at = Vec3(block.middle[0], block.middle[1], block.middle[2]) - eye,
-               half(block.half[0], block.half[1], block.half[2]);
-    const auto beyond = [&](const Vec3& outward) { return at.dot(outward) > half.dot(outward.cwiseAbs()); };
-    if (beyond(view.back) || std::any_of(sides.begin(), sides.end(), beyond)) {
-      choice.outside += block.count;
-      continue;
-    }
-    const double depth = -at.dot(view.back) - half.dot(view.back.cwiseAbs());
-    Wanted one{static_cast<std::uint32_t>(b), block.count, 0};
-    if (depth > 0.0) {
-      const double px = view.height_px / (2.0 * view.half_height * depth);  // a mm, at the nearest
-      const auto begin = segments_.begin() + block.first;
-      one.thick = static_cast<std::uint32_t>(
-          std::partition_point(begin, begin + block.count,
-                               [&](const DrawnSegment& s) { return thickness(s) * px >= thick_px; }) -
-          begin);
-      // A box's shadow is a quarter of its surface, in the mean over all directions (Cauchy).
-      const double area = 2.0 * (half.x() * half.y() + half.y() * half.z() + half.z() * half.x()) * px * px;
-      const double enough = cover * area / std::max(1.0, line_px * block.mean_length * px);
-      one.thin = static_cast<std::uint32_t>(
-          std::min(std::ceil(enough) + 1.0, static_cast<double>(block.count - one.thick)));
-    }
-    all.push_back(one);
-  }
-  return all;
-}
-
-BlockChoice SegmentBlocks::choose(const BlockView& view, std::span<const std::uint8_t> shown,
-                                  std::size_t most, std::vector<DrawnSegment>& segments) const {
-  BlockChoice choice;
-  segments.clear();
-  std::vector<Wanted> all = wanted(view, choice);
-  if (most == everything)
-    for (Wanted& one : all) one.thin = blocks_[one.block].count - one.thick;
-  std::size_t thick = 0, thin = 0;
-  for (const Wanted& one : all) thick += one.thick, thin += one.thin;
-  const double room = static_cast<double>(most > thick ? most - thick : 0);
-  const double share = thin == 0 ? 1.0 : std::min(1.0, room / static_cast<double>(thin));
-  segments.reserve(thick + static_cast<std::size_t>(share * static_cast<double>(thin)) + all.size());
-  for (const Wanted& one : all) {
-    const Block& block = blocks_[one.block];
-    const std::size_t count =
-        one.thick + static_cast<std::size_t>(std::ceil(share * static_cast<double>(one.thin)));
-    const auto begin = segments_.begin() + block.first, end = begin + block.count;
-    if (shown.empty()) {
-      segments.insert(segments.end(), begin, begin + static_cast<std::ptrdiff_t>(count));
-      choice.left_out += block.count - count;
-      continue;
-    }
-    std::size_t taken = 0;
-    for (auto at = begin; at != end; ++at) {
-      if (shown[static_cast<std::size_t>(at->edge)] == 0) continue;
-      if (taken++ < count)
-        segments.push_back(*at);
-      else
-        ++choice.left_out;
-    }
-  }
-  choice.chosen = segments.size();
-  return choice;
 }
 
 }  // namespace ostia::geometry

@@ -15,6 +15,8 @@ using geometry::Vec3;
 
 namespace {
 
+constexpr float line_px = 0.75f;  // radius below which a segment is drawn as a line of one pixel
+
 // A strip that faces the eye along the segment, longer by a half disc at either end: seen along the segment,
 // or at a bend, the vessel stays round.
 constexpr const char* vertex_code = R"(#version 330 core
@@ -68,6 +70,23 @@ void main() {
 }
 )";
 
+// What is about a pixel wide: as bright as the strip is in the mean over its width.
+constexpr const char* line_vertex_code = R"(#version 330 core
+layout(location = 0) in vec4 from;
+layout(location = 1) in vec4 to;
+uniform mat4 view, projection;
+void main() {
+  gl_Position = projection * (view * vec4(gl_VertexID == 0 ? from.xyz : to.xyz, 1));
+}
+)";
+
+constexpr const char* line_fragment_code = R"(#version 330 core
+out vec4 result;
+void main() {
+  result = vec4(0.86 * vec3(0.80, 0.27, 0.23), 1);
+}
+)";
+
 /// World, from the blocks' centre, to the eye's space.
 Eigen::Matrix4f view_of(const TreeEye& eye, const Vec3& centre) {
   Eigen::Matrix4d view = Eigen::Matrix4d::Identity();
@@ -97,18 +116,16 @@ void set_matrix(const GlObject& program, const char* name, const Eigen::Matrix4f
 struct TreeDrawing::Impl {
   std::shared_ptr<const geometry::SegmentBlocks> blocks;
   GlObject program = new_program(vertex_code, fragment_code);
+  GlObject line_program = new_program(line_vertex_code, line_fragment_code);
   GlObject array = new_vertex_array(), buffer = new_buffer();
-  std::vector<DrawnSegment> drawn;
+  std::vector<DrawnSegment> drawn, lines;
+  std::size_t strips = 0;
   geometry::BlockChoice choice;
   std::size_t most = most_segments;
 
   explicit Impl(std::shared_ptr<const geometry::SegmentBlocks> all) : blocks(std::move(all)) {
     glBindVertexArray(array.name());
     glBindBuffer(GL_ARRAY_BUFFER, buffer.name());
-    const auto offset = [](std::size_t bytes) { return reinterpret_cast<const void*>(bytes); };
-    glVertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, sizeof(DrawnSegment), offset(0));
-    glVertexAttribPointer(1, 4, GL_FLOAT, GL_FALSE, sizeof(DrawnSegment), offset(offsetof(DrawnSegment, to)));
-    glVertexAttribIPointer(2, 1, GL_INT, sizeof(DrawnSegment), offset(offsetof(DrawnSegment, edge)));
     for (unsigned int i = 0; i < 3; ++i) {
       glEnableVertexAttribArray(i);
       glVertexAttribDivisor(i, 1);
@@ -116,11 +133,42 @@ struct TreeDrawing::Impl {
     glBindVertexArray(0);
   }
 
+  /// From the buffer's segment with that number on.
+  void read_from(std::size_t first) {
+    const auto offset = [first](std::size_t bytes) {
+      return reinterpret_cast<const void*>(first * sizeof(DrawnSegment) + bytes);
+    };
+    glVertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, sizeof(DrawnSegment), offset(0));
+    glVertexAttribPointer(1, 4, GL_FLOAT, GL_FALSE, sizeof(DrawnSegment), offset(offsetof(DrawnSegment, to)));
+    glVertexAttribIPointer(2, 1, GL_INT, sizeof(DrawnSegment), offset(offsetof(DrawnSegment, edge)));
+  }
+
+  /// Those that are drawn as strips come first.
+  void part(const geometry::BlockView& view) {
+    const Eigen::Vector3f eye = (view.eye - blocks->centre()).cast<float>(), back = view.back.cast<float>();
+    const float pixel = static_cast<float>(2.0 * view.half_height / view.height_px);
+    lines.clear();
+    strips = 0;
+    for (const DrawnSegment& one : drawn) {
+      const float from = back.dot(eye - Eigen::Vector3f(one.from[0], one.from[1], one.from[2])),
+                  to = back.dot(eye - Eigen::Vector3f(one.to[0], one.to[1], one.to[2]));
+      const bool line = one.thickness() < line_px * pixel * std::min(from, to);
+      if (line)
+        lines.push_back(one);
+      else
+        drawn[strips++] = one;
+    }
+    drawn.resize(strips);
+  }
+
   void fill(const geometry::BlockView& view, std::span<const std::uint8_t> shown, std::int32_t highlight) {
     choice = blocks->choose(view, shown, most, drawn);
+    part(view);
     const DrawnSegment* chosen = blocks->segment(highlight);
     if (chosen != nullptr && (shown.empty() || shown[static_cast<std::size_t>(highlight)] != 0))
       drawn.push_back(*chosen);
+    strips = drawn.size();
+    drawn.insert(drawn.end(), lines.begin(), lines.end());
     glBindBuffer(GL_ARRAY_BUFFER, buffer.name());
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(drawn.size() * sizeof(DrawnSegment)), drawn.data(),
                  GL_STREAM_DRAW);
@@ -156,7 +204,13 @@ void TreeDrawing::draw(const TreeEye& eye, double pixel_ratio, std::span<const s
   set_uniform(impl_->program, "pixel", static_cast<float>(2.0 * view.half_height / view.height_px));
   set_uniform(impl_->program, "highlight", highlight);
   glBindVertexArray(impl_->array.name());
-  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(impl_->drawn.size()));
+  impl_->read_from(0);
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(impl_->strips));
+  glUseProgram(impl_->line_program.name());
+  set_matrix(impl_->line_program, "view", view_of(eye, blocks.centre()));
+  set_matrix(impl_->line_program, "projection", projection_of(view, near, far));
+  impl_->read_from(impl_->strips);
+  glDrawArraysInstanced(GL_LINES, 0, 2, static_cast<GLsizei>(impl_->drawn.size() - impl_->strips));
   glBindVertexArray(0);
   glUseProgram(0);
   glDisable(GL_DEPTH_TEST);

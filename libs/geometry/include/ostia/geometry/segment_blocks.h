@@ -5,6 +5,7 @@
 #include "ostia/core/task_context.h"
 #include "ostia/geometry/vessel_graph.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -20,6 +21,7 @@ struct DrawnSegment {
   std::array<float, 3> to{};
   float radius_to = 0.0f;
   std::int32_t edge = -1;
+  float thickness() const { return std::max(radius_from, radius_to); }
 };
 
 /// A picture in perspective. Directions are unit; `back` points from what is seen to the eye. Half sizes are
@@ -34,6 +36,7 @@ struct BlockChoice {
   std::size_t chosen = 0;
   std::size_t left_out = 0;  ///< wanted, of blocks in the picture: too small to be told apart
   std::size_t outside = 0;   ///< of blocks beside the picture, wanted or not
+  std::size_t hidden = 0;    ///< of those wanted, behind others
 };
 
 /// Blocks of 256 segments along a space-filling curve, thick ones first in each. Segments without finite
@@ -50,9 +53,10 @@ class SegmentBlocks {
 
   /// What a picture needs: of each block that it meets, all segments whose radius is half a pixel or more,
   /// and of the others, thick ones first, as many as cover the block's place in the picture. Where that is
-  /// more than `most` in all, fewer of the thin ones; thick ones are never left out. With `everything`, all
-  /// segments of the blocks that it meets. `shown`, where it is not empty, has 0 for edges that are not
-  /// wanted. Replaces `segments`; the same for the same view.
+  /// more than `most` in all, fewer of the thin ones are taken; where the thick ones alone are more, those
+  /// that nearer ones hide are left out, and the others come nearest first. Thick ones that are seen are
+  /// never left out. With `everything`, all segments of the blocks that it meets. `shown`, where it is not
+  /// empty, has 0 for edges that are not wanted. Replaces `segments`; the same for the same view.
   static constexpr std::size_t everything = static_cast<std::size_t>(-1);
   BlockChoice choose(const BlockView& view, std::span<const std::uint8_t> shown, std::size_t most,
                      std::vector<DrawnSegment>& segments) const;
@@ -65,9 +69,15 @@ class SegmentBlocks {
   };
   struct Wanted {
     std::uint32_t block, thick, thin;
+    float nearest, farthest;  ///< depths of its box, mm
   };
   void fill_block(Block& block);
   std::vector<Wanted> wanted(const BlockView& view, BlockChoice& choice) const;
+  void take(const Wanted& one, double share, std::span<const std::uint8_t> shown,
+            std::vector<DrawnSegment>& segments, BlockChoice& choice) const;
+  void take_seen(const std::vector<Wanted>& all, double share, const BlockView& view,
+                 std::span<const std::uint8_t> shown, std::vector<DrawnSegment>& segments,
+                 BlockChoice& choice) const;
   Vec3 centre_ = Vec3::Zero(), low_ = Vec3::Zero(), high_ = Vec3::Zero();
   std::vector<DrawnSegment> segments_;
   std::vector<std::int32_t> place_;  ///< of each edge in segments_; -1: none

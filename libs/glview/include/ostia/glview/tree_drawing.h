@@ -26,7 +26,7 @@ class TreeDrawing {
             std::int32_t highlight);
   const geometry::BlockChoice& choice() const;  ///< of the last picture
   /// Segments in a picture, but for thick ones, of which none is left out.
-  static constexpr std::size_t most_segments = 150000;
+  static constexpr std::size_t most_segments = 170000;
   void set_most(std::size_t segments);  ///< or SegmentBlocks::everything
 
  private:

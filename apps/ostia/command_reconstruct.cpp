@@ -232,7 +232,7 @@ void define_reconstruct(CLI::App& app, ReconstructCommand& c,
           ->check(CLI::Range(0, 200)));
   own(sub->add_option("--hexahedra", c.hexahedra,
                       "Also hexahedra swept along the vessels: .vtu, or a folder for OpenFOAM"));
-  own(sub->add_option("--layers", c.sweep.layers, "Of hexahedra along the wall; 2^(level - 1)")
+  own(sub->add_option("--layers", c.sweep.layers, "Of hexahedra along the wall; default 2^(level - 1)")
           ->check(CLI::Range(1, 32)));
   own(sub->add_option("--layer-growth", c.sweep.growth, "From layer to layer, away from the wall")
           ->check(CLI::Range(1.0, 2.0)));

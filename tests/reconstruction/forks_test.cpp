@@ -81,6 +81,13 @@ TEST(Joint, AChildMayLieAtAnyRollAboutTheTrunk) {
     expect_open_and_sound(side_branch(70.0, 0.6, roll), 1);
 }
 
+/// Of two children beside a trunk that goes on, this angle from it and that one about it.
+double length_beside(double angle, double roll) {
+  const double between =
+      2.0 * std::asin(std::sin(angle * std::numbers::pi / 180.0) * std::sin(roll * std::numbers::pi / 360.0));
+  return clear_length(std::min(angle, between * 180.0 / std::numbers::pi), 1.0);
+}
+
 class ForksOfThree : public ::testing::TestWithParam<Case> {};
 
 /// Each child makes this angle with the trunk's direction.
@@ -95,9 +102,7 @@ TEST_P(ForksOfThree, SpreadEvenlyAboutTheTrunkTheyAreOpenAndSound) {
 TEST_P(ForksOfThree, TwoBesideATrunkThatGoesOnAreOpenAndSound) {
   const auto [angle, ratio] = GetParam();
   for (const double roll : {60.0, 120.0, 180.0}) {
-    const double between = 2.0 * std::asin(std::sin(angle * std::numbers::pi / 180.0) *
-                                           std::sin(roll * std::numbers::pi / 360.0));
-    const double length = clear_length(std::min(angle, between * 180.0 / std::numbers::pi), 1.0);
+    const double length = length_beside(angle, roll);
     SCOPED_TRACE("roll " + std::to_string(roll));
     expect_open_and_sound(fork(1.0, length,
                                {{Vec3::UnitX(), 1.0, length},
@@ -128,6 +133,50 @@ TEST(ForksOfThreeFine, AreOpenAndSoundAtLevelTwo) {
         children.push_back({direction(angle, roll), ratio, length});
       expect_open_and_sound(fork(1.0, length, children), 2);
     }
+}
+
+/// Without crossings and as they were: what joints that stay as at level 1 are for.
+TEST(ForksOfThreeFine, ThinChildrenBesideATrunkAreSoundAtLevelTwo) {
+  ReconstructionOptions options;
+  options.level = 2;
+  for (const double angle : {10.0, 20.0, 30.0, 50.0})
+    for (const double ratio : {0.1, 0.2, 0.3})
+      for (const double roll : {60.0, 120.0, 180.0}) {
+        SCOPED_TRACE(std::to_string(angle) + " degrees, ratio " + std::to_string(ratio) + ", roll " +
+                     std::to_string(roll));
+        const double length = length_beside(angle, roll);
+        const auto made = reconstruct_surface(fork(1.0, length,
+                                                   {{Vec3::UnitX(), 1.0, length},
+                                                    {direction(angle), ratio, length},
+                                                    {direction(angle, roll), ratio, length}}),
+                                              options);
+        const auto faults = geometry::find_faults(made.surface.mesh, true);
+        EXPECT_TRUE(faults.closed_manifold()) << faults.summary();
+        EXPECT_EQ(faults.self_intersections, 0u);
+        EXPECT_TRUE(made.narrowed.empty());
+        EXPECT_TRUE(made.moved.empty());
+      }
+}
+
+TEST(ForksFine, ThinChildrenNearEachOtherAreSoundAtLevelTwo) {
+  ReconstructionOptions options;
+  options.level = 2;
+  for (const double apart : {2.0, 3.0})
+    for (const double angle : {20.0, 30.0, 60.0})
+      for (const double roll : {60.0, 180.0}) {
+        SCOPED_TRACE(std::to_string(apart) + " radii, " + std::to_string(angle) + " degrees, roll " +
+                     std::to_string(roll));
+        const double length = length_beside(angle, roll);
+        VesselGraph graph;
+        graph.points = {{-length, 0, 0}, {0, 0, 0}, {apart, 0, 0}, {length, 0, 0}};
+        graph.points.push_back(length * direction(angle));
+        graph.points.push_back(length * direction(angle, roll));
+        graph.edges = {{0, 1, 1, 1}, {1, 2, 1, 1}, {2, 3, 1, 1}, {1, 4, 0.1, 0.1}, {2, 5, 0.1, 0.1}};
+        const auto made = reconstruct_surface(graph, options);
+        const auto faults = geometry::find_faults(made.surface.mesh, true);
+        EXPECT_TRUE(faults.closed_manifold()) << faults.summary();
+        EXPECT_EQ(faults.self_intersections, 0u);
+      }
 }
 
 TEST(ForksFine, ThinSideBranchesAreOpenAndSoundAtLevelTwo) {

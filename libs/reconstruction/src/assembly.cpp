@@ -8,14 +8,23 @@
 #include "ostia/geometry/aabb_tree.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <set>
+#include <span>
 
 namespace ostia::reconstruction {
 namespace {
 
+enum class Step { restyle, flatten, move };
 // What is done for a joint that crosses, by how often it did; after that its branches are narrowed.
-constexpr int to_restyle = 0, to_move = 1, to_restyle_again = 2;
+constexpr std::array coarse_steps{Step::restyle, Step::move, Step::restyle};
+constexpr std::array fine_steps{Step::restyle, Step::flatten, Step::move, Step::restyle, Step::flatten};
+
+std::span<const Step> steps_at(int level) {
+  if (level < 2) return coarse_steps;
+  return fine_steps;
+}
 
 /// Where the quadrilaterals of each branch begin, which stand together; and where the last one's end.
 std::vector<std::size_t> starts_of(const QuadMesh& mesh, std::size_t branches) {
@@ -143,7 +152,7 @@ std::vector<std::int32_t> Assembly::crossed_joints(const Made& made) const {
   return list(points);
 }
 
-void Assembly::restyle(const std::vector<std::int32_t>& points) {
+void Assembly::restyle(const std::vector<std::int32_t>& points, int level) {
   std::set<std::int32_t> with_neighbours;
   for (const std::int32_t point : points)
     for (const TubeEnd& end : ends_[static_cast<std::size_t>(point)]) {
@@ -153,21 +162,20 @@ void Assembly::restyle(const std::vector<std::int32_t>& points) {
   const std::vector<Joint> joints =
       joints_of(tubes_, ends_, list(with_neighbours), network_.graph, options_, {});
   for (const std::int32_t point : points) styles_.erase(point);
-  styles_.merge(chosen_styles(joints, points, tubes_, options_, task_));
+  styles_.merge(chosen_styles(joints, points, tubes_, options_, level, task_));
 }
 
 void Assembly::move_apart(const std::vector<std::int32_t>& points) {
   const std::vector<std::int32_t> changed = make_room(network_, tubes_, ends_, points);
   std::vector<Tube> anew = tubes_of(network_.graph, sections_);
   std::set<std::int32_t> joints(points.begin(), points.end());
+  splayed_.insert(points.begin(), points.end());
   for (const std::int32_t branch : changed) {
     Tube& tube = tubes_[static_cast<std::size_t>(branch)];
     tube = std::move(anew[static_cast<std::size_t>(branch)]);
     moved_[static_cast<std::size_t>(branch)] = 1;
-    for (const std::int32_t point : {tube.start, tube.end}) {
-      const auto count = tried_.find(point);
-      if (count != tried_.end() && count->second > to_move) joints.insert(point);
-    }
+    for (const std::int32_t point : {tube.start, tube.end})
+      if (splayed_.count(point) != 0) joints.insert(point);
   }
   splay(tubes_, ends_, list(joints));
   for (const std::int32_t point : points)
@@ -175,16 +183,27 @@ void Assembly::move_apart(const std::vector<std::int32_t>& points) {
       moved_[static_cast<std::size_t>(end.tube)] = 1;
 }
 
-void Assembly::give_room(const Made& made) {
+/// As it was when the coarse mesh was clear, and no rounder.
+void Assembly::flatten(std::int32_t point) {
+  const auto before = coarse_styles_.find(point);
+  JointStyle style = before == coarse_styles_.end() ? JointStyle() : before->second;
+  style.flat = true;
+  styles_[point] = style;
+}
+
+void Assembly::give_room(const Made& made, int level) {
   const std::vector<std::int32_t> joints = crossed_joints(made);
+  const std::span<const Step> steps = steps_at(level);
   std::vector<std::int32_t> others, crowded;
   for (const std::int32_t point : joints) {
-    const int count = tried_[point]++;
-    if (count == to_move) crowded.push_back(point);
-    if (count == to_restyle || count == to_restyle_again) others.push_back(point);
+    const auto count = static_cast<std::size_t>(tried_[point]++);
+    if (count >= steps.size()) continue;
+    if (steps[count] == Step::move) crowded.push_back(point);
+    if (steps[count] == Step::restyle) others.push_back(point);
+    if (steps[count] == Step::flatten) flatten(point);
   }
   if (!crowded.empty()) move_apart(crowded);
-  if (!others.empty()) restyle(others);
+  if (!others.empty()) restyle(others, level);
   // Pairs that are being tried another way stay as wide as they are.
   std::vector<std::pair<std::int32_t, std::int32_t>> pressed;
   for (const auto& pair : made.crossings) {
@@ -197,7 +216,7 @@ void Assembly::give_room(const Made& made) {
     for (const std::int32_t point : {a.start, a.end}) {
       const auto count = tried_.find(point);
       const bool shared = point == b.start || point == b.end;
-      trying = trying || (shared && count != tried_.end() && count->second <= to_restyle_again + 1);
+      trying = trying || (shared && count != tried_.end() && count->second <= static_cast<int>(steps.size()));
     }
     if (!trying) pressed.push_back(pair);
   }
@@ -208,7 +227,7 @@ void Assembly::clear(const Made& whole, int level) {
   Made part = whole;
   while (!part.crossings.empty() && rounds_ > 0) {
     const Part near = around(part);
-    give_room(part);
+    give_room(part, level);
     --rounds_;
     task_.set_progress(0.9 * (1.0 - static_cast<double>(rounds_) / (options_.untangling + 1.0)));
     part = checked(mesh_at(level, near));
@@ -216,10 +235,11 @@ void Assembly::clear(const Made& whole, int level) {
 }
 
 Made Assembly::made() {
-  const int coarse = std::min(1, options_.level);
-  Made made = checked(mesh_at(coarse, whole()));
-  if (coarse < options_.level) {
-    clear(made, coarse);
+  Made made = checked(mesh_at(coarse(), whole()));
+  if (coarse() < options_.level) {
+    clear(made, coarse());
+    coarse_styles_ = styles_;
+    tried_.clear();
     made = checked(mesh_at(options_.level, whole()));
   }
   while (!made.crossings.empty() && rounds_ > 0) {

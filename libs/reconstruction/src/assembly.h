@@ -6,8 +6,10 @@
 
 #include "ostia/core/task_context.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -44,8 +46,10 @@ class Assembly {
   Made again(const Made& before, int level) const;
   void clear(const Made& whole, int level);
   std::vector<std::int32_t> crossed_joints(const Made& made) const;
-  void give_room(const Made& made);
-  void restyle(const std::vector<std::int32_t>& points);
+  int coarse() const { return std::min(1, options_.level); }
+  void give_room(const Made& made, int level);
+  void flatten(std::int32_t point);
+  void restyle(const std::vector<std::int32_t>& points, int level);
   void move_apart(const std::vector<std::int32_t>& points);
 
   const EllipticSections* sections_;
@@ -55,7 +59,9 @@ class Assembly {
   std::vector<Tube> tubes_;
   TubeEnds ends_;
   JointStyles styles_;
-  std::map<std::int32_t, int> tried_;  ///< of a joint: how often it crossed
+  JointStyles coarse_styles_;          ///< those with which the coarse mesh was clear
+  std::map<std::int32_t, int> tried_;  ///< of a joint: how often it crossed at this level
+  std::set<std::int32_t> splayed_;     ///< joints whose branches were bent apart
   std::vector<std::uint8_t> moved_;
   int rounds_ = 0;
 };

@@ -61,6 +61,7 @@ class Builder {
   void add_joint(const Joint& joint, std::int32_t index) {
     const auto first = static_cast<std::int32_t>(mesh_.points.size());
     for (const Vec3& point : joint.points) add(point, {Place::joint, index, 0.0});
+    mesh_.flat_joints.push_back(joint.style.flat ? 1 : 0);
     for (std::size_t i = 0; i < joint.slots.size(); ++i) {
       Ring ring = joint.rings[i];
       for (std::int32_t& point : ring) point += first;
@@ -197,15 +198,19 @@ double polygon_scale(const ReconstructionOptions& options, int level) {
   return std::sqrt(side / std::sin(side));
 }
 
-std::vector<geometry::Triangle> triangles_of(const QuadMesh& mesh) {
-  std::vector<geometry::Triangle> triangles(2 * mesh.quads.size());
+bool along_first_diagonal(const QuadMesh& mesh, const geometry::Quad& q) {
   const auto squared = [&](std::int32_t a, std::int32_t b) {
     return (mesh.points[static_cast<std::size_t>(a)] - mesh.points[static_cast<std::size_t>(b)])
         .squaredNorm();
   };
+  return squared(q[0], q[2]) <= squared(q[1], q[3]);
+}
+
+std::vector<geometry::Triangle> triangles_of(const QuadMesh& mesh) {
+  std::vector<geometry::Triangle> triangles(2 * mesh.quads.size());
   core::parallel_for(mesh.quads.size(), 4096, [&](std::size_t i) {
     const geometry::Quad& q = mesh.quads[i];
-    const bool first = squared(q[0], q[2]) <= squared(q[1], q[3]);
+    const bool first = along_first_diagonal(mesh, q);
     triangles[2 * i] = first ? geometry::Triangle{q[0], q[1], q[2]} : geometry::Triangle{q[1], q[2], q[3]};
     triangles[2 * i + 1] =
         first ? geometry::Triangle{q[0], q[2], q[3]} : geometry::Triangle{q[1], q[3], q[0]};

@@ -34,12 +34,18 @@ struct QuadMesh {
   /// is made of circles.
   std::vector<std::array<double, 2>> clear;
   std::vector<std::uint8_t> face_of_quad;  ///< 0 wall, 1 the branch's proximal end, 2 its distal end
+  std::vector<std::uint8_t> flat_joints;   ///< of each joint its style's `flat`
+  int level = 0;
+  /// From level 2 on, of quadrilaterals at flat joints and of their points: they are no longer rounded.
+  std::vector<std::uint8_t> flat_quads, fixed_points;
 };
 
 /// The ellipse of a place on a tube whose own sections lie within `clear`: near them it becomes a circle.
 Stretch clear_stretch(const TubePlace& place, double abscissa, const std::array<double, 2>& clear);
 /// Makes the polygon of a section have its circle's area.
 double polygon_scale(const ReconstructionOptions& options, int level);
+/// Whether the diagonal from the first corner is the shorter one.
+bool along_first_diagonal(const QuadMesh& mesh, const geometry::Quad& quad);
 /// Two of each quadrilateral, along its shorter diagonal.
 std::vector<geometry::Triangle> triangles_of(const QuadMesh& mesh);
 /// Of these tubes (ascending); their ends without a joint are closed.

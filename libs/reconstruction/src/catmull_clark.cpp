@@ -120,6 +120,38 @@ bool is_crease(const QuadMesh& mesh, const Edge& edge) {
          mesh.face_of_quad[static_cast<std::size_t>(edge.quads[1])];
 }
 
+/// The mesh with what is fixed in it: nothing before level 1; then what touches a flat joint, and what it
+/// becomes.
+struct Flat {
+  std::vector<std::uint8_t> quads, points;
+
+  bool quad(std::size_t i) const { return !quads.empty() && quads[i] != 0; }
+  bool point(std::size_t i) const { return !points.empty() && points[i] != 0; }
+  bool edge(const Edge& edge) const {
+    return quad(static_cast<std::size_t>(edge.quads[0])) || quad(static_cast<std::size_t>(edge.quads[1]));
+  }
+};
+
+Flat flat_in(const QuadMesh& mesh) {
+  if (mesh.level == 0 || std::none_of(mesh.flat_joints.begin(), mesh.flat_joints.end(),
+                                      [](std::uint8_t flat) { return flat != 0; }))
+    return {};
+  if (mesh.level > 1) return {mesh.flat_quads, mesh.fixed_points};
+  Flat flat{std::vector<std::uint8_t>(mesh.quads.size(), 0),
+            std::vector<std::uint8_t>(mesh.points.size(), 0)};
+  for (std::size_t i = 0; i < mesh.quads.size(); ++i) {
+    const geometry::Quad& q = mesh.quads[i];
+    const bool touches = std::any_of(q.begin(), q.end(), [&](std::int32_t v) {
+      const Tag& tag = mesh.tags[static_cast<std::size_t>(v)];
+      return tag.place == Place::joint && mesh.flat_joints[static_cast<std::size_t>(tag.owner)] != 0;
+    });
+    if (!touches) continue;
+    flat.quads[i] = 1;
+    for (const std::int32_t v : q) flat.points[static_cast<std::size_t>(v)] = 1;
+  }
+  return flat;
+}
+
 /// What is summed up about an old point.
 struct Around {
   Vec3 faces = Vec3::Zero(), middles = Vec3::Zero(), crease = Vec3::Zero();
@@ -149,11 +181,15 @@ Around around(std::size_t v, const QuadMesh& mesh, const Corners& corners, const
 }
 
 /// The moved old points: (Q + 2 R + (n - 3) S) / n, and (a + 6 S + b) / 8 along creases.
-void move_old(const QuadMesh& mesh, const Corners& corners, const Edges& edges, QuadMesh& fine,
-              std::size_t first_face) {
+void move_old(const QuadMesh& mesh, const Corners& corners, const Edges& edges, const Flat& flat,
+              QuadMesh& fine, std::size_t first_face) {
   core::parallel_chunks(mesh.points.size(), grain, [&](std::size_t first, std::size_t last) {
     std::vector<std::int32_t> ids;
     for (std::size_t v = first; v < last; ++v) {
+      if (flat.point(v)) {
+        fine.points[v] = mesh.points[v];
+        continue;
+      }
       const double n = static_cast<double>(corners.count(v));
       const Around sum = around(v, mesh, corners, edges, fine.points.data() + first_face, ids);
       fine.points[v] = mesh.tags[v].place == Place::rim
@@ -163,20 +199,22 @@ void move_old(const QuadMesh& mesh, const Corners& corners, const Edges& edges, 
   });
 }
 
-void add_faces(const QuadMesh& mesh, QuadMesh& fine, std::size_t first_face) {
+void add_faces(const QuadMesh& mesh, const Flat& flat, QuadMesh& fine, std::size_t first_face) {
   core::parallel_for(mesh.quads.size(), grain, [&](std::size_t i) {
     const geometry::Quad& q = mesh.quads[i];
     const auto point = [&](std::size_t k) -> const Vec3& {
       return mesh.points[static_cast<std::size_t>(q[k])];
     };
-    fine.points[first_face + i] = 0.25 * (point(0) + point(1) + point(2) + point(3));
+    const std::size_t k = along_first_diagonal(mesh, q) ? 0 : 1;
+    fine.points[first_face + i] = flat.quad(i) ? Vec3(0.5 * (point(k) + point(k + 2)))
+                                               : Vec3(0.25 * (point(0) + point(1) + point(2) + point(3)));
     fine.tags[first_face + i] = tag_of(mesh, q.data(), 4, false);
     if (mesh.face_of_quad[i] != 0) fine.tags[first_face + i].place = Place::cap;
   });
 }
 
-void add_edges(const QuadMesh& mesh, const Edges& edges, QuadMesh& fine, std::size_t first_edge,
-               std::size_t first_face) {
+void add_edges(const QuadMesh& mesh, const Edges& edges, const Flat& flat, QuadMesh& fine,
+               std::size_t first_edge, std::size_t first_face) {
   core::parallel_for(edges.all.size(), grain, [&](std::size_t e) {
     const Edge& edge = edges.all[e];
     const bool crease = is_crease(mesh, edge);
@@ -184,7 +222,7 @@ void add_edges(const QuadMesh& mesh, const Edges& edges, QuadMesh& fine, std::si
         0.5 * (mesh.points[static_cast<std::size_t>(edge.a)] + mesh.points[static_cast<std::size_t>(edge.b)]);
     const Vec3 beside = 0.5 * (fine.points[first_face + static_cast<std::size_t>(edge.quads[0])] +
                                fine.points[first_face + static_cast<std::size_t>(edge.quads[1])]);
-    fine.points[first_edge + e] = crease ? middle : Vec3(0.5 * (middle + beside));
+    fine.points[first_edge + e] = crease || flat.edge(edge) ? middle : Vec3(0.5 * (middle + beside));
     const std::int32_t ends[2] = {edge.a, edge.b};
     fine.tags[first_edge + e] = tag_of(mesh, ends, 2, crease);
   });
@@ -208,6 +246,19 @@ void divide(const QuadMesh& mesh, const Edges& edges, QuadMesh& fine, std::size_
   });
 }
 
+/// What is fixed in the finer mesh.
+void pass_on(const QuadMesh& mesh, const Edges& edges, const Flat& flat, QuadMesh& fine,
+             std::size_t first_edge, std::size_t first_face) {
+  if (flat.quads.empty()) return;
+  fine.flat_quads.resize(fine.quads.size());
+  for (std::size_t c = 0; c < fine.quads.size(); ++c) fine.flat_quads[c] = flat.quads[c / 4];
+  fine.fixed_points = flat.points;
+  fine.fixed_points.resize(fine.points.size());
+  for (std::size_t e = 0; e < edges.all.size(); ++e)
+    fine.fixed_points[first_edge + e] = flat.edge(edges.all[e]) ? 1 : 0;
+  for (std::size_t i = 0; i < mesh.quads.size(); ++i) fine.fixed_points[first_face + i] = flat.quads[i];
+}
+
 /// How long a vector across the vessel would be if the ellipse were a circle.
 double unstretched_length(const Stretch& stretch, const Vec3& out, const geometry::Frame& frame) {
   if (stretch.round()) return out.norm();
@@ -222,13 +273,17 @@ QuadMesh subdivided(const QuadMesh& mesh) {
   const std::size_t first_edge = mesh.points.size(), first_face = first_edge + edges.all.size();
   QuadMesh fine;
   fine.clear = mesh.clear;
+  fine.flat_joints = mesh.flat_joints;
+  fine.level = mesh.level + 1;
   fine.points.resize(first_face + mesh.quads.size());
   fine.tags = mesh.tags;
   fine.tags.resize(fine.points.size());
-  add_faces(mesh, fine, first_face);
-  add_edges(mesh, edges, fine, first_edge, first_face);
-  move_old(mesh, corners, edges, fine, first_face);
+  const Flat flat = flat_in(mesh);
+  add_faces(mesh, flat, fine, first_face);
+  add_edges(mesh, edges, flat, fine, first_edge, first_face);
+  move_old(mesh, corners, edges, flat, fine, first_face);
   divide(mesh, edges, fine, first_edge, first_face);
+  pass_on(mesh, edges, flat, fine, first_edge, first_face);
   return fine;
 }
 
@@ -236,6 +291,7 @@ void place(QuadMesh& mesh, const std::vector<Tube>& tubes, const std::vector<Joi
   core::parallel_for(mesh.points.size(), 1024, [&](std::size_t i) {
     const Tag& tag = mesh.tags[i];
     Vec3& point = mesh.points[i];
+    if (!mesh.fixed_points.empty() && mesh.fixed_points[i] != 0) return;
     if (tag.place == Place::joint) {
       point = joints[static_cast<std::size_t>(tag.owner)].field->onto(point, scale);
     } else if (tag.place != Place::cap) {

@@ -6,7 +6,8 @@
 namespace ostia::reconstruction {
 
 /// One level: quadrilateral i becomes 4 i to 4 i + 3; points keep their indices. The edges of open ends are
-/// creases.
+/// creases. What touches a flat joint is from level 1 on divided along the diagonals of triangles_of, so that
+/// its triangles cover the same places, and no longer moved.
 QuadMesh subdivided(const QuadMesh& mesh);
 
 /// Brings every point onto its vessel or joint, radii `scale` times as large: what an approximating scheme

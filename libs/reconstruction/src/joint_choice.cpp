@@ -73,26 +73,27 @@ Patch patch_of(const Joint& joint, const std::vector<Tube>& tubes) {
 }
 
 std::size_t crossings(const Patch& patch, const Vec3& centre, const ReconstructionOptions& options,
-                      const JointStyle& style) {
+                      const JointStyle& style, int level) {
   const std::vector<Joint> joints{joint_at(centre, patch.slots, patch.tubes, options, style)};
   std::vector<std::int32_t> all(patch.tubes.size());
   std::iota(all.begin(), all.end(), 0);
   QuadMesh mesh = base_mesh(patch.tubes, all, joints, options);
   place(mesh, patch.tubes, joints, polygon_scale(options, 0));
-  for (int level = 1; level <= std::max(1, options.level); ++level) {
+  for (int l = 1; l <= std::max(1, level); ++l) {
     mesh = subdivided(mesh);
-    place(mesh, patch.tubes, joints, polygon_scale(options, level));
+    place(mesh, patch.tubes, joints, polygon_scale(options, l));
   }
   return geometry::self_intersections({mesh.points, triangles_of(mesh)}).size();
 }
 
-JointStyle chosen(const Joint& joint, const std::vector<Tube>& tubes, const ReconstructionOptions& options) {
+JointStyle chosen(const Joint& joint, const std::vector<Tube>& tubes, const ReconstructionOptions& options,
+                  int level) {
   const Patch patch = patch_of(joint, tubes);
   JointStyle best;
   std::size_t least = std::numeric_limits<std::size_t>::max();
   for (const JointStyle& style : styles) {
     if (joint.slots.size() != 4 && !style.four_poles) continue;
-    const std::size_t count = crossings(patch, joint.centre, options, style);
+    const std::size_t count = crossings(patch, joint.centre, options, style, level);
     if (count >= least) continue;
     best = style;
     least = count;
@@ -104,7 +105,7 @@ JointStyle chosen(const Joint& joint, const std::vector<Tube>& tubes, const Reco
 }  // namespace
 
 JointStyles chosen_styles(const std::vector<Joint>& joints, const std::vector<std::int32_t>& points,
-                          const std::vector<Tube>& tubes, const ReconstructionOptions& options,
+                          const std::vector<Tube>& tubes, const ReconstructionOptions& options, int level,
                           const core::TaskContext& task) {
   std::vector<const Joint*> wanted;
   for (const Joint& joint : joints)
@@ -112,7 +113,7 @@ JointStyles chosen_styles(const std::vector<Joint>& joints, const std::vector<st
   std::vector<JointStyle> found(wanted.size());
   core::parallel_for(wanted.size(), 1, [&](std::size_t i) {
     task.throw_if_cancelled();
-    found[i] = chosen(*wanted[i], tubes, options);
+    found[i] = chosen(*wanted[i], tubes, options, level);
   });
   JointStyles made;
   for (std::size_t i = 0; i < wanted.size(); ++i)

@@ -33,6 +33,7 @@ struct JointStyle {
   bool even = true;        ///< arcs' points evenly along the surface, else evenly in angle
   double blend = 1.0;      ///< of the options' rounding
   double gap = 0.7;        ///< from the joint's ring to the branch's first own section, in radii
+  bool flat = false;       ///< beyond level 1 its quadrilaterals are divided as they are
   bool operator==(const JointStyle&) const = default;
 };
 

@@ -1,6 +1,8 @@
 #include "ostia/analysis/tree_growth.h"
 
 #include "graph_trees.h"
+#include "growth_stubs.h"
+#include "published_sizes.h"
 
 #include "ostia/analysis/graph_overlaps.h"
 #include "ostia/analysis/graph_report.h"
@@ -16,19 +18,6 @@ namespace {
 using namespace ostia;
 using namespace ostia::analysis;
 using namespace ostia::analysis::testing;
-
-/// Short vessels on the outer surface of the default shell that point inwards, spread about it.
-VesselGraph stubs(int count, double radius) {
-  VesselGraph graph;
-  for (int i = 0; i < count; ++i) {
-    const double phi = i * 2.399963, z = 8.0 + 65.0 * (i + 0.5) / count;
-    const double r = 40.0 * std::sqrt(1.0 - z * z / 8100.0);
-    for (const double scale : {1.03, 0.95})
-      graph.points.emplace_back(scale * r * std::cos(phi), scale * r * std::sin(phi), z);
-    graph.edges.push_back({2 * i, 2 * i + 1, radius, radius});
-  }
-  return graph;
-}
 
 TEST(GrowthDomain, KnowsTheDepthInAShell) {
   MyocardialShell sphere;
@@ -158,29 +147,7 @@ TEST_F(GrownTreeTest, LiesInTheWall) {
 }
 
 TEST_F(GrownTreeTest, HasThePublishedSizesAndConnectivity) {
-  // Measured anew from places and radii alone, with the table's bounds between the orders.
-  const Morphometry& table = coronary_morphometry(CoronaryArtery::left_anterior);
-  const TreeLinks links = link_tree(tree_->graph, geometry::GraphIncidence(tree_->graph));
-  const std::vector<BranchMeasure> branches = measure_branches(tree_->graph, links);
-  std::vector<double> upper;
-  for (std::int32_t n = 1; n <= table.highest(); ++n) upper.push_back(table.upper_mm(n));
-  const TreeElements elements = tree_elements(links, branches, orders_by_bounds(links, branches, upper));
-  const std::vector<OrderMeasure> rows = measure_orders(elements, branches);
-  const ConnectivityMatrix matrix = connectivity_matrix(elements);
-  ASSERT_EQ(rows.size(), 8U);
-  for (const OrderMeasure& row : rows) {
-    const Morphometry::Order& known = table.order(row.order);
-    if (row.order == 8) continue;  // the six that continue scanned vessels, whose length theirs is, too
-    EXPECT_NEAR(row.element_diameter_mm.mean, known.diameter_mm, 0.05 * known.diameter_mm) << row.order;
-    EXPECT_NEAR(row.element_length_mm.mean, known.length_mm, 0.05 * known.length_mm) << row.order;
-    for (std::int32_t m = 1; m <= row.order; ++m) {
-      const double known_ratio = table.springs(m, row.order);
-      const auto parents = static_cast<double>(matrix.elements[static_cast<std::size_t>(row.order - 1)]);
-      // No closer than whole daughters allow.
-      EXPECT_NEAR(matrix.at(m, row.order), known_ratio, std::max(0.05 * known_ratio, 1.5 / parents))
-          << m << " from " << row.order;
-    }
-  }
+  expect_published_sizes(*tree_);
 }
 
 TEST(TreeGrowth, IsThatOfItsSeed) {

@@ -123,7 +123,7 @@ void define(CLI::App& app, Commands& c, Run& run) {
 
   CLI::App* info = command(app, "info", "What an image, a DICOM folder, a surface or a tree is",
                            "ostia info CT/ --preview slices");
-  add_input(*info, c.info.input, "DICOM folder, image, surface or tree of vessels");
+  add_input(*info, c.info.input, "DICOM folder or zip, image, surface or tree of vessels");
   add_dicom(*info, c.info.input);
   add_coords(*info, c.info.input);
   info->add_flag("--json", c.info.json, "One JSON object on standard output");
@@ -136,7 +136,7 @@ void define(CLI::App& app, Commands& c, Run& run) {
 
   CLI::App* volume =
       command(app, "import", "A DICOM series as one volume in HU", "ostia import CT/ -o heart.nrrd");
-  add_input(*volume, c.import.input, "DICOM folder or image");
+  add_input(*volume, c.import.input, "DICOM folder or zip, or image");
   add_dicom(*volume, c.import.input);
   volume->add_option("-o,--output", c.import.output, ".nrrd, .mhd or .mha")->required();
   volume->callback([&] { run = [&](const core::TaskContext& task) { return run_import(c.import, task); }; });
@@ -157,7 +157,7 @@ void define(CLI::App& app, Commands& c, Run& run) {
   CLI::App* segment = command(app, "segment", "The lumen of the vessels between seed points",
                               "ostia segment heart.nrrd -o lumen.vtp --branch 8,-187,675:6,-178,720\n"
                               "  ostia segment heart.nrrd -o aorta.nrrd --aorta");
-  add_input(*segment, c.segment.input, "DICOM folder, image or mask");
+  add_input(*segment, c.segment.input, "DICOM folder or zip, image or mask");
   add_dicom(*segment, c.segment.input);
   add_coords(*segment, c.segment.input);
   segment->add_option("-o,--output", c.segment.output, ".vtp, .stl or .ply")->required();
@@ -236,7 +236,7 @@ void define(CLI::App& app, Commands& c, Run& run) {
 
   CLI::App* model = command(app, "model", "From an image, a mask or a surface to a mesh with named faces",
                             "ostia model CT/ -o out --branch 8,-187,675:6,-178,720");
-  add_input(*model, c.model.input, "DICOM folder, image, mask or surface", false);
+  add_input(*model, c.model.input, "DICOM folder or zip, image, mask or surface", false);
   add_dicom(*model, c.model.input);
   add_units(*model, c.model.input);
   add_coords(*model, c.model.input);

@@ -81,7 +81,7 @@ void define_experiment_chain(CLI::App& experiment, std::function<ExitCode(const 
   sub->footer(
       "Example:\n  ostia experiment chain CT/ -o out --coords ijk --seed 366,276,88 --rival 352,253,88");
   sub->fallthrough();
-  sub->add_option("INPUT", command->input.input, "DICOM folder or image")->required();
+  sub->add_option("INPUT", command->input.input, "DICOM folder or zip, or image")->required();
   sub->add_option("--series", command->input.series,
                   "UID of the DICOM series, where the folder holds several");
   sub->add_option("-o,--output", command->output, "Folder that is made")->required();

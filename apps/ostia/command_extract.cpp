@@ -96,7 +96,7 @@ void define_extract(CLI::App& app, ExtractCommand& c, std::function<ExitCode(con
       "extract", "The coronary tree of a CT angiogram found by itself: a case to be checked");
   extract->footer("Example:\n  ostia extract CT/ -o heart.ostia");
   extract->fallthrough();
-  extract->add_option("INPUT", c.input.input, "DICOM folder or image")->required();
+  extract->add_option("INPUT", c.input.input, "DICOM folder or zip, or image")->required();
   add_dicom(*extract, c.input);
   extract->add_option("-o,--output", c.output, "Case with labelled, editable vessels, .ostia")->required();
   extract->add_option("--lines", c.lines, "Also the centerlines: .vtp or .csv");

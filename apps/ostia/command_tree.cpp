@@ -46,7 +46,8 @@ Json faults_json(const GraphFaults& faults, const io::LoadedGraph& loaded) {
     all.push_back({{"what", geometry::name_of(fault.kind)},
                    {"count", fault.count},
                    {"first", places},
-                   {"places", fault.points.empty() ? loaded.reference_name : "point"}});
+                   {"places", fault.points.empty() ? loaded.reference_name : "point"},
+                   {"text", geometry::text_of(fault, loaded.graph, loaded.reference_name)}});
   }
   return all;
 }

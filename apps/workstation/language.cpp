@@ -147,10 +147,9 @@ QString use_language(const std::optional<std::string>& setting) {
   QLocale numbers = QLocale::c();
   numbers.setNumberOptions(QLocale::OmitGroupSeparator);
   QLocale::setDefault(numbers);
-  if (code != languages().front().code) {
+  if (code != languages().front().code)
     install("qtbase_" + code, QLibraryInfo::location(QLibraryInfo::TranslationsPath));
-    install("ostia_" + code, ":/translations");
-  }
+  install("ostia_" + code, ":/translations");  // of English the plurals
   view::set_words(words_of_views());
   return code;
 }

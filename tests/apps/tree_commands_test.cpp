@@ -54,6 +54,8 @@ TEST(TreeCommands, InfoNamesFaultsByTheirLines) {
   EXPECT_EQ(info["is_tree"], false);
   EXPECT_EQ(info["faults"][0]["what"], "zero_length");
   EXPECT_EQ(info["faults"][0]["first"], Json::parse("[5]"));
+  for (const Json& fault : info["faults"])
+    EXPECT_THAT(fault["text"].get<std::string>(), HasSubstr("line ")) << fault.dump();
 }
 
 TEST(TreeCommands, ConvertsBetweenFormats) {

@@ -2,6 +2,7 @@
 
 #include "dicom_writer.h"
 #include "shared_data.h"
+#include "zip_writer.h"
 
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
@@ -54,6 +55,21 @@ TEST(Source, IsKnownByADigestAndNotByItsPath) {
   EXPECT_EQ(source.pseudonym, "image-" + source.sha256.substr(0, 8));
   EXPECT_EQ(source.image->voxels, ramp().voxels);
   EXPECT_EQ(core::redacted("reading " + (folder / "ct.nrrd").string()).find("DOE_JANE"), std::string::npos);
+}
+
+TEST(Source, AZipIsWhatItsFolderIs) {
+  const fs::path folder = testing::temporary_folder("zipped") / "series";
+  fs::create_directory(folder);
+  testing::write_series(folder, 4, 0.5, [](testing::CtSlice&, int) {});
+  std::vector<testing::ZipMember> members;
+  for (const auto& entry : fs::directory_iterator(folder))
+    members.push_back({entry.path().filename().string(), core::read_file(entry.path()), true});
+  const fs::path zip = folder.parent_path() / "anything";  // known by its first bytes
+  core::write_file(zip, testing::zip_bytes(members));
+  EXPECT_EQ(classify(zip), SourceKind::dicom);
+  const Source of_zip = load(zip), of_folder = load(folder);
+  EXPECT_EQ(of_zip.sha256, of_folder.sha256);
+  EXPECT_EQ(of_zip.image->voxels, of_folder.image->voxels);
 }
 
 TEST(Source, ADicomFolderIsKnownByTheSeriesChosen) {

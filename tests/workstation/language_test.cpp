@@ -63,6 +63,18 @@ TEST(Language, GermanIsComplete) {
   }
 }
 
+TEST(Language, EnglishHasThePluralsThatGermanHas) {
+  QStringList english, german;
+  for (const Text& one : texts_of("en")) {
+    EXPECT_TRUE(one.finished) << one.source.toStdString();
+    EXPECT_FALSE(one.translations.join(' ').contains("(s)")) << one.source.toStdString();
+    english << one.source;
+  }
+  for (const Text& one : texts_of("de"))
+    if (one.source.contains("%n")) german << one.source;
+  EXPECT_EQ(english, german);
+}
+
 TEST(Language, TranslationsKeepThePlacesOfNumbersAndNames) {
   const QRegularExpression place("%[1-9n]");
   for (const Text& one : texts_of("de")) {

@@ -11,12 +11,16 @@
 #include <QAction>
 #include <QApplication>
 #include <QClipboard>
+#include <QDoubleSpinBox>
 #include <QLabel>
 #include <QPushButton>
 #include <QScreen>
+#include <QStatusBar>
 #include <QTableWidget>
+#include <QToolButton>
 #include <QtTest>
 #include <cstdlib>
+#include <numbers>
 
 namespace ostia::workstation {
 namespace {
@@ -60,6 +64,13 @@ struct TreePageTest : ::testing::Test {
   }
   void keys(int key) {
     QTest::keyClick(&page()->view(), static_cast<Qt::Key>(key), Qt::ControlModifier | Qt::AltModifier);
+  }
+  /// Whether the tree is drawn there.
+  bool red_at(const Vec3& point) {
+    const QImage picture = page()->view().grabFramebuffer();
+    const double ratio = page()->view().devicePixelRatioF();
+    const QColor c = picture.pixelColor((*page()->view().place_of(point) * ratio).toPoint());
+    return c.red() > 80 && c.red() > 2 * c.blue();
   }
   std::string facts() { return page()->findChild<QLabel*>("tree_facts")->text().toStdString(); }
   /// Kept where OSTIA_PICTURES says.
@@ -122,6 +133,67 @@ TEST_F(TreePageTest, TheTreeIsDrawnAndTurnsWithTheMouse) {
   testing::sweep(page()->view(), {middle, middle + QPoint(60, 0), middle + QPoint(120, 10)});
   EXPECT_GT((*page()->view().place_of({6, 0, 10}) - before).manhattanLength(), 10.0);
   EXPECT_EQ(page()->chosen(), -1) << "a drag is no click";
+}
+
+TEST_F(TreePageTest, ASubtreeIsShownAloneAndComesBack) {
+  open_tree();
+  const Vec3 trunk(0, 0, 5), branch(3, 0, 10), end(0, 0, 14);
+  press("tree.subtree");
+  EXPECT_THAT(test.window().statusBar()->currentMessage().toStdString(), HasSubstr("Click a segment first"));
+  EXPECT_FALSE(test.window().findChild<QAction*>("tree.subtree")->isChecked());
+  for (const Vec3& place : {trunk, branch, end}) EXPECT_TRUE(red_at(place)) << place.transpose();
+  click(end);
+  EXPECT_THAT(facts(), HasSubstr("With all behind it: 1 "));
+  press("tree.subtree");
+  EXPECT_FALSE(red_at(trunk));
+  EXPECT_FALSE(red_at(branch));
+  EXPECT_TRUE(red_at(end));
+  click(branch);
+  EXPECT_EQ(page()->chosen(), -1) << "what is not shown is not there to be clicked";
+  press("tree.subtree");
+  for (const Vec3& place : {trunk, branch, end}) EXPECT_TRUE(red_at(place)) << place.transpose();
+  click(trunk);
+  EXPECT_THAT(facts(), HasSubstr("With all behind it: 3 "));
+}
+
+TEST_F(TreePageTest, ARegionHasWhatLiesWithinItsRadiusAndGoesToAFile) {
+  open_tree();
+  auto* radius = page()->findChild<QDoubleSpinBox*>("tree_region_radius");
+  radius->setFocus();
+  radius->selectAll();
+  QTest::keyClicks(radius, "3");
+  QTest::keyClick(radius, Qt::Key_Return);
+  press("tree.region");
+  click({0, 0, 5});
+  const auto& measured = page()->measuring().measured();
+  ASSERT_EQ(measured.size(), 1u);
+  EXPECT_EQ(measured[0].value, 3.0);
+  ASSERT_TRUE(measured[0].totals);
+  EXPECT_EQ(measured[0].totals->segments, 1);
+  EXPECT_NEAR(measured[0].totals->length_mm, 6.0, 1e-9);
+  EXPECT_NEAR(measured[0].totals->volume_mm3, 6.0 * std::numbers::pi, 1e-9);
+  testing::answer_file_dialog(folder / "measured.csv");
+  press("tree.export");
+  const std::string file = core::read_file(folder / "measured.csv");
+  EXPECT_EQ(file, measured_csv(measured));
+  EXPECT_THAT(file, HasSubstr("\nregion,3,mm,"));
+  press("tree.clear");
+  EXPECT_TRUE(measured.empty());
+  EXPECT_EQ(page()->findChild<QTableWidget*>("tree_measured")->rowCount(), 0);
+}
+
+TEST_F(TreePageTest, ReadingALargeTreeCanBeCancelled) {
+  std::string rows = "x1,y1,z1,radius1,x2,y2,z2,radius2\n";
+  for (int i = 0; i < 400000; ++i) rows += std::to_string(i) + ",0,0,1," + std::to_string(i + 1) + ",0,0,1\n";
+  open(rows.c_str());
+  auto* cross = test.window().jobs().findChild<QToolButton*>("cancel.open");
+  ASSERT_TRUE(cross);
+  ASSERT_TRUE(wait_until([&] { return cross->isVisible(); }));
+  QTest::mouseClick(cross, Qt::LeftButton);
+  ASSERT_TRUE(wait_until([&] { return !test.window().jobs().any(); }));
+  EXPECT_FALSE(page());
+  EXPECT_TRUE(testing::open_boxes().empty()) << "who cancelled need not be told";
+  open_tree();  // the window is as it was
 }
 
 TEST_F(TreePageTest, KeysRunTheCommands) {

@@ -5,6 +5,7 @@
 #include "ostia/core/files.h"
 #include "ostia/core/log.h"
 #include "ostia/geometry/mesh_topology.h"
+#include "ostia/imaging/archive.h"
 #include "ostia/imaging/image_file.h"
 #include "ostia/io/surface_file.h"
 
@@ -92,9 +93,10 @@ SourceKind classify(const fs::path& path) {
     throw InvalidInput("cannot read " + path.string() + ": it is neither a file nor a folder");
   if (io::is_surface_file(path)) return SourceKind::surface;
   if (is_image_name(path)) return imaging::looks_like_mask(path) ? SourceKind::mask : SourceKind::image;
-  if (path.extension() == ".dcm" || has_dicom_mark(path)) return SourceKind::dicom;
+  if (path.extension() == ".dcm" || has_dicom_mark(path) || imaging::is_zip_archive(path))
+    return SourceKind::dicom;
   throw InvalidInput("cannot read " + path.string() +
-                     ": it is no DICOM folder, no image (.nrrd .nhdr .mhd .mha .nii .nii.gz) and no surface "
+                     ": it is no DICOM folder, file or zip, no image (.nrrd .nhdr .mhd .mha .nii .nii.gz) and no surface "
                      "(.stl .ply .obj .vtp)");
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// \file What a job starts from: a DICOM folder, an image, a mask or a surface.
+/// \file What a job starts from: a DICOM folder or a zip of one, an image, a mask or a surface.
 
 #include "ostia/core/task_context.h"
 #include "ostia/geometry/tri_mesh.h"
@@ -17,7 +17,7 @@ namespace ostia::pipeline {
 enum class SourceKind { dicom, image, mask, surface };
 std::string name_of(SourceKind kind);
 
-/// By what is there: a folder or a file with a DICOM header, a surface's or an image's extension; an image of
+/// By what is there: a folder, a file with a DICOM header or a zip, a surface's or an image's extension; an image of
 /// few different values is a mask. Throws IoError when there is nothing, InvalidInput when it is none of
 /// these.
 SourceKind classify(const std::filesystem::path& path);

@@ -1,0 +1,75 @@
+<?xml version="1.0" encoding="utf-8"?>
+<!DOCTYPE TS>
+<TS version="2.1" language="en" sourcelanguage="en">
+<context>
+    <name>ostia::workstation::Opening</name>
+    <message numerus="yes">
+        <source>The program ended without closing this case and %n more, which are among the recent ones.</source>
+        <translation>
+            <numerusform>The program ended without closing this case and one more, which is among the recent ones.</numerusform>
+            <numerusform>The program ended without closing this case and %n more, which are among the recent ones.</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::QaPanel</name>
+    <message numerus="yes">
+        <source>%n movement(s) were recorded.</source>
+        <translation>
+            <numerusform>One movement was recorded.</numerusform>
+            <numerusform>%n movements were recorded.</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::SeriesBrowser</name>
+    <message numerus="yes">
+        <source>%n damaged file(s)</source>
+        <translation>
+            <numerusform>%n damaged file</numerusform>
+            <numerusform>%n damaged files</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n file(s) that are no images</source>
+        <translation>
+            <numerusform>%n file that is no image</numerusform>
+            <numerusform>%n files that are no images</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::TreePage</name>
+    <message numerus="yes">
+        <source>%n segment(s), %1 mm, %2 mm², %3 mm³</source>
+        <translation>
+            <numerusform>%n segment, %1 mm, %2 mm², %3 mm³</numerusform>
+            <numerusform>%n segments, %1 mm, %2 mm², %3 mm³</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n segment(s)</source>
+        <translation>
+            <numerusform>%n segment</numerusform>
+            <numerusform>%n segments</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>With all behind it: %n segment(s),</source>
+        <translation>
+            <numerusform>With all behind it: %n segment,</numerusform>
+            <numerusform>With all behind it: %n segments,</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::VesselFinder</name>
+    <message numerus="yes">
+        <source>%n vessel(s) were found. Look at each before you trust it; a question mark in the list says where the program is not sure.</source>
+        <translation>
+            <numerusform>One vessel was found. Look at it before you trust it; a question mark in the list says where the program is not sure.</numerusform>
+            <numerusform>%n vessels were found. Look at each before you trust it; a question mark in the list says where the program is not sure.</numerusform>
+        </translation>
+    </message>
+</context>
+</TS>

@@ -105,6 +105,7 @@ QWidget* TreePage::build_panel() {
   table_ = new QTableWidget(0, 2);
   table_->setObjectName("tree_measured");
   table_->setHorizontalHeaderLabels({tr("Measured"), tr("Value")});
+  table_->horizontalHeader()->setSectionResizeMode(0, QHeaderView::ResizeToContents);
   table_->horizontalHeader()->setStretchLastSection(true);
   table_->verticalHeader()->hide();
   table_->setAccessibleName(tr("Measured values"));

@@ -11,6 +11,8 @@
 #include <QPainter>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 namespace ostia::workstation {
 using geometry::Vec3;
@@ -95,32 +97,48 @@ void TreeView::draw_grid(QPainter& painter) const {
     }
 }
 
-void TreeView::draw_marks(QPainter& painter) const {
-  for (const TreeMark& mark : marks_) {
-    std::optional<QPointF> before;
-    QPointF words;
-    int seen = 0;
-    painter.setPen(QPen(QColor(255, 220, 60), 2.0));
-    painter.setBrush(QColor(255, 220, 60));
-    for (const Vec3& point : mark.points) {
-      const auto at = place_of(point);
-      if (!at) continue;
-      painter.drawEllipse(*at, 3.0, 3.0);
-      if (before) painter.drawLine(*before, *at);
-      before = at;
-      words += *at;
-      ++seen;
-    }
-    if (seen == 0 || mark.text.isEmpty()) continue;
-    const QPointF at = words / seen + QPointF(8, -8);
-    const QRectF box =
-        painter.fontMetrics().boundingRect(mark.text).translated(at.toPoint()).adjusted(-3, -2, 3, 2);
+namespace {
+
+void draw_labels(QPainter& painter, const std::vector<std::pair<QPointF, QString>>& labels) {
+  std::vector<QRect> taken;
+  for (const auto& [wanted, text] : labels) {
+    QRect box = painter.fontMetrics().boundingRect(text).translated(wanted.toPoint()).adjusted(-3, -2, 3, 2);
+    const QPoint place = box.topLeft();
+    const auto crowded = [&](const QRect& other) { return other.intersects(box); };
+    // Below what is there already.
+    for (auto in = std::find_if(taken.begin(), taken.end(), crowded); in != taken.end();
+         in = std::find_if(taken.begin(), taken.end(), crowded))
+      box.moveTop(in->bottom() + 1);
+    taken.push_back(box);
     painter.setPen(Qt::NoPen);
     painter.setBrush(QColor(0, 0, 0, 170));
     painter.drawRect(box);
     painter.setPen(Qt::white);
-    painter.drawText(at, mark.text);
+    painter.drawText(wanted.toPoint() + (box.topLeft() - place), text);
   }
+}
+
+}  // namespace
+
+void TreeView::draw_marks(QPainter& painter) const {
+  std::vector<std::pair<QPointF, QString>> labels;
+  for (const TreeMark& mark : marks_) {
+    QPolygonF way;
+    for (const Vec3& point : mark.points)
+      if (const auto at = place_of(point)) way << *at;
+    if (way.isEmpty()) continue;
+    // The dark edge tells it from the segment that is chosen, which is yellow, too.
+    for (const auto& [color, edge] : {std::pair(QColor(0, 0, 0, 190), 2.0), {QColor(255, 220, 60), 0.0}}) {
+      painter.setPen(QPen(color, 2.0 + edge));
+      painter.setBrush(color);
+      painter.drawPolyline(way);
+      for (const QPointF& at : way) painter.drawEllipse(at, 3.0 + 0.5 * edge, 3.0 + 0.5 * edge);
+    }
+    if (mark.text.isEmpty()) continue;
+    const QPointF sum = std::accumulate(way.begin(), way.end(), QPointF());
+    labels.emplace_back(sum / way.size() + QPointF(8, -8), mark.text);
+  }
+  draw_labels(painter, labels);
 }
 
 }  // namespace ostia::workstation

@@ -1,6 +1,8 @@
 // A tree of 1.4 million segments, 1024 x 768 pixels, turning, without a window: all of it from afar, and
 // close up. What draws stands in the label.
 
+#include "overview.h"
+
 #include "ostia/core/task_context.h"
 #include "ostia/glview/beating_scene.h"
 #include "ostia/glview/offscreen.h"
@@ -58,11 +60,7 @@ void tree_picture(benchmark::State& state) {
   }
   glview::Offscreen offscreen(width, height);
   glview::TreeDrawing drawing(blocks());
-  glview::TreeEye eye;
-  eye.width_px = width;
-  eye.height_px = height;
-  eye = glview::fitted(eye, blocks()->low(), blocks()->high());
-  if (state.range(0) != 0) eye.distance_mm /= static_cast<double>(state.range(0));
+  glview::TreeEye eye = glview::overview(*blocks(), width, height, static_cast<double>(state.range(0)));
   for (auto _ : state) {
     eye = glview::turned(eye, {5.0, 1.0});
     offscreen.bind();

@@ -1,6 +1,7 @@
 // A bush of 1.4 million segments, 1024 x 768 pixels, without a window: with as many segments as the picture
 // needs, and with all that lie in it.
 
+#include "overview.h"
 #include "test_bush.h"
 
 #include "ostia/glview/beating_scene.h"
@@ -33,11 +34,7 @@ void draw_turning(benchmark::State& state, const std::shared_ptr<const geometry:
   glview::Offscreen offscreen(width, height);
   glview::TreeDrawing drawing(blocks);
   if (state.range(1) != 0) drawing.set_most(geometry::SegmentBlocks::everything);
-  glview::TreeEye eye;
-  eye.width_px = width;
-  eye.height_px = height;
-  eye = glview::fitted(eye, blocks->low(), blocks->high());
-  eye.distance_mm /= static_cast<double>(state.range(0));
+  glview::TreeEye eye = glview::overview(*blocks, width, height, static_cast<double>(state.range(0)));
   for (auto _ : state) {
     eye = glview::turned(eye, {3.0, 1.0});
     offscreen.bind();

@@ -1,6 +1,7 @@
 // A click into a bush of 1.4 million segments: which segment lies under it, its facts, and the picture that
 // shows it highlighted. 1024 x 768 pixels, places over the middle half of the picture.
 
+#include "overview.h"
 #include "test_bush.h"
 
 #include "ostia/analysis/tree_ruler.h"
@@ -32,14 +33,7 @@ struct Bush {
     static const Bush made;
     return made;
   }
-  glview::TreeEye eye(double nearer) const {
-    glview::TreeEye eye;
-    eye.width_px = width;
-    eye.height_px = height;
-    eye = glview::fitted(eye, blocks->low(), blocks->high());
-    eye.distance_mm /= nearer;
-    return eye;
-  }
+  glview::TreeEye eye(double nearer) const { return glview::overview(*blocks, width, height, nearer); }
 };
 
 /// The next place is another one.

@@ -111,7 +111,7 @@ TEST(HexMeshFile, CheckMeshAcceptsThePolyMesh) {
   if (std::system("command -v checkMesh > /dev/null") != 0) GTEST_SKIP() << "openfoam is not installed";
   const fs::path path = target("case");
   write_hex_mesh(path, column());
-  add_control(path);
+  testing::add_control(path);
   const std::string line = "WM_PROJECT_DIR=/usr/share/openfoam checkMesh -allTopology -case '" +
                            path.string() + "' > '" + (path / "log").string() + "' 2>&1";
   ASSERT_EQ(std::system(line.c_str()), 0);

@@ -183,7 +183,7 @@ TEST(MeshExportReaders, CheckMeshAcceptsThePolyMesh) {
   for (const Case& c : linear_cases()) {
     SCOPED_TRACE(c.name);
     const fs::path folder = exported(c, MeshFormat::openfoam);
-    add_control(folder);
+    testing::add_control(folder);
     expect_mesh_ok(folder, c.mesh, 1e-3);
   }
 }
@@ -194,7 +194,7 @@ void expect_converts(const std::string& converter, const std::vector<Case>& case
   for (const Case& c : cases) {
     SCOPED_TRACE(c.name);
     folders.push_back(testing::temporary_folder("foam"));
-    add_control(folders.back());
+    testing::add_control(folders.back());
     const Shell convert = shell(openfoam + converter + " -case '" + folders.back().string() + "' '" +
                                 exported(c, format).string() + "'");
     ASSERT_TRUE(convert.good) << convert.output;

@@ -3,6 +3,7 @@
 
 #include "../io/mesh_export_meshes.h"
 #include "mixed_shapes.h"
+#include "openfoam_case.h"
 #include "shared_data.h"
 
 #include "ostia/core/child_process.h"
@@ -254,17 +255,7 @@ TEST(MixedQuality, RefusesWhatCannotBeMeasured) {
 std::string check_mesh_output(const MixedMesh& mesh, const std::string& options) {
   const std::filesystem::path folder = testing::temporary_folder("check") / "case";
   io::export_mesh(mesh, io::MeshFormat::openfoam, folder);
-  std::filesystem::create_directories(folder / "system");
-  const std::string head = "FoamFile { version 2.0; format ascii; class dictionary; object ";
-  core::write_file(folder / "system" / "controlDict",
-                   head +
-                       "controlDict; }\napplication checkMesh; startFrom startTime; startTime 0;"
-                       " stopAt endTime; endTime 1; deltaT 1; writeControl timeStep; writeInterval 1;\n");
-  core::write_file(folder / "system" / "fvSchemes",
-                   head +
-                       "fvSchemes; }\nddtSchemes{} gradSchemes{} divSchemes{} laplacianSchemes{}"
-                       " interpolationSchemes{} snGradSchemes{}\n");
-  core::write_file(folder / "system" / "fvSolution", head + "fvSolution; }\n");
+  testing::add_control(folder);
   const std::filesystem::path log = folder / "log";
   core::run_child("/bin/sh", {"-c", "WM_PROJECT_DIR=/usr/share/openfoam checkMesh " + options + " -case '" +
                                         folder.string() + "' > '" + log.string() + "' 2>&1"});

@@ -1,5 +1,6 @@
 // A file of a vessel tree in the window: opened, clicked, measured, repaired, closed, by mouse and keys.
 
+#include "language.h"
 #include "tree_opening.h"
 #include "window_hand.h"
 
@@ -39,6 +40,7 @@ constexpr const char* loop_csv =
 
 struct TreePageTest : ::testing::Test {
   testing::Folder folder;
+  const QString language = use_language(std::string("en"));
   testing::TestWindow test{folder / "state"};
 
   TreePage* page() { return test.window().trees().page(); }
@@ -143,7 +145,8 @@ TEST_F(TreePageTest, ASubtreeIsShownAloneAndComesBack) {
   EXPECT_FALSE(test.window().findChild<QAction*>("tree.subtree")->isChecked());
   for (const Vec3& place : {trunk, branch, end}) EXPECT_TRUE(red_at(place)) << place.transpose();
   click(end);
-  EXPECT_THAT(facts(), HasSubstr("With all behind it: 1 "));
+  EXPECT_THAT(facts(), HasSubstr("3 segments\n"));
+  EXPECT_THAT(facts(), HasSubstr("With all behind it: 1 segment,"));
   press("tree.subtree");
   EXPECT_FALSE(red_at(trunk));
   EXPECT_FALSE(red_at(branch));
@@ -153,7 +156,7 @@ TEST_F(TreePageTest, ASubtreeIsShownAloneAndComesBack) {
   press("tree.subtree");
   for (const Vec3& place : {trunk, branch, end}) EXPECT_TRUE(red_at(place)) << place.transpose();
   click(trunk);
-  EXPECT_THAT(facts(), HasSubstr("With all behind it: 3 "));
+  EXPECT_THAT(facts(), HasSubstr("With all behind it: 3 segments,"));
 }
 
 TEST_F(TreePageTest, ARegionHasWhatLiesWithinItsRadiusAndGoesToAFile) {

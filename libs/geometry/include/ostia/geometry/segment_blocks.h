@@ -36,7 +36,7 @@ struct BlockChoice {
   std::size_t chosen = 0;
   std::size_t left_out = 0;  ///< wanted, of blocks in the picture: too small to be told apart
   std::size_t outside = 0;   ///< of blocks beside the picture, wanted or not
-  std::size_t hidden = 0;    ///< of those wanted, behind others
+  std::size_t hidden = 0;    ///< behind others; of whole blocks there, wanted or not
 };
 
 /// Blocks of 256 segments along a space-filling curve, thick ones first in each. Segments without finite

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-namespace ostia::io {
+namespace ostia::testing {
 
 /// A case around constant/polyMesh, as far as OpenFOAM's tools ask for one.
 inline void add_control(const std::filesystem::path& folder) {
@@ -24,4 +24,4 @@ inline void add_control(const std::filesystem::path& folder) {
   core::write_file(folder / "system" / "fvSolution", head + "fvSolution; }\n");
 }
 
-}  // namespace ostia::io
+}  // namespace ostia::testing

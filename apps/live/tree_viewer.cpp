@@ -22,10 +22,10 @@ using geometry::Vec3;
 
 constexpr double zoom_step = 1.12, reach_px = 3.0;
 constexpr float click_px = 4.0F;
-glview::TreeEye eye_of(const Options& options) {
+glview::TreeCamera eye_of(const Options& options) {
   glview::Camera camera;
   camera.angles = options.view;
-  glview::TreeEye eye;
+  glview::TreeCamera eye;
   eye.back = camera.towards();
   eye.right = camera.right();
   eye.up = eye.back.cross(eye.right);
@@ -100,7 +100,7 @@ void TreeViewer::turn(double right_px) {
 }
 
 void TreeViewer::pick(const Vec2& place) {
-  const glview::EyeRay ray = eye_.ray(place);
+  const glview::CameraRay ray = eye_.ray(place);
   const auto hit = input_.rays->first({ray.origin, ray.direction, reach_px * ray.pixel}, shown_);
   if (!hit) return;
   if (picked_.size() == 2) picked_.erase(picked_.begin());

@@ -3,8 +3,8 @@
 
 #include "tree_input.h"
 
+#include "ostia/glview/tree_camera.h"
 #include "ostia/glview/tree_drawing.h"
-#include "ostia/glview/tree_eye.h"
 
 #include <cstdint>
 #include <optional>
@@ -24,7 +24,7 @@ class TreeViewer {
   bool take_screenshot_wish();
   void notice(std::string text) { notices_.push_back(std::move(text)); }
 
-  const glview::TreeEye& eye() const { return eye_; }
+  const glview::TreeCamera& eye() const { return eye_; }
   const std::vector<analysis::TreePlace>& picked() const {
     return picked_;
   }  ///< at most two, the last one last
@@ -44,7 +44,7 @@ class TreeViewer {
   void grid();
   const TreeInput& input_;
   glview::TreeDrawing drawing_;
-  glview::TreeEye eye_;
+  glview::TreeCamera eye_;
   std::vector<analysis::TreePlace> picked_;
   std::vector<std::uint8_t> shown_;  // empty: all
   std::size_t shown_segments_ = 0;

@@ -87,7 +87,7 @@ class MainWindow final : public QMainWindow {
   // menus (main_window_actions.cpp)
   void build_actions();
   void build_tool_bar();
-  QAction* build_qa();                  // main_window_qa.cpp
+  QAction* build_qa();                 // main_window_qa.cpp
   void build_tree_menu(QMenu* tools);  // main_window_trees.cpp
   QAction* action(const QString& id, const QString& text, const std::function<void()>& run);
   void refresh_actions();

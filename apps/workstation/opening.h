@@ -3,7 +3,7 @@
 
 #include "view_memory.h"
 
-#include "ostia/core/beside.h"
+#include "ostia/core/background_task.h"
 #include "ostia/imaging/dicom.h"
 #include "ostia/session/machine_state.h"
 #include "ostia/session/open_mark.h"
@@ -60,7 +60,7 @@ class Opening final : public QObject {
     std::optional<session::GreyWindow> window;
   };
   /// An image file of this machine that is being read.
-  using ImageBeside = std::shared_ptr<core::Beside<Loaded>>;
+  using ImageBeside = std::shared_ptr<core::BackgroundTask<Loaded>>;
   struct OpenedCase {
     std::shared_ptr<session::Session> session;
     ImageBeside image;  // the case's; null where it is open already or no such file is known

@@ -148,7 +148,7 @@ Opening::Loaded Opening::read_file(const fs::path& path, const core::TaskContext
 
 Opening::ImageBeside Opening::read_beside(const std::optional<session::KnownImage>& image) {
   if (!image || !is_volume_file(image->path)) return {};
-  return std::make_shared<core::Beside<Loaded>>(
+  return std::make_shared<core::BackgroundTask<Loaded>>(
       [path = image->path](const core::TaskContext& task) { return read_file(path, task); });
 }
 

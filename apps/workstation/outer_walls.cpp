@@ -4,7 +4,7 @@
 #include "command_texts.h"
 #include "main_window.h"
 
-#include "ostia/session/plaque_look.h"
+#include "ostia/session/plaque_sampling.h"
 
 #include <QAction>
 #include <any>

@@ -66,7 +66,7 @@ void TreeView::set_shown(std::vector<std::uint8_t> shown) {
 }
 
 std::optional<analysis::TreeRayHit> TreeView::under(const QPointF& place) const {
-  const glview::EyeRay ray = eye_.ray({place.x(), place.y()});
+  const glview::CameraRay ray = eye_.ray({place.x(), place.y()});
   return rays_->first({ray.origin, ray.direction, reach_px * ray.pixel}, shown_);
 }
 

@@ -3,8 +3,8 @@
 
 #include "ostia/analysis/tree_ruler.h"
 #include "ostia/geometry/segment_blocks.h"
+#include "ostia/glview/tree_camera.h"
 #include "ostia/glview/tree_drawing.h"
-#include "ostia/glview/tree_eye.h"
 
 #include <QOpenGLWidget>
 #include <memory>
@@ -39,7 +39,7 @@ class TreeView final : public QOpenGLWidget {
   std::optional<analysis::TreeRayHit> under(const QPointF& place) const;
   /// Where a point of the tree is on the widget; none behind the eye.
   std::optional<QPointF> place_of(const geometry::Vec3& point) const;
-  const glview::TreeEye& eye() const { return eye_; }
+  const glview::TreeCamera& eye() const { return eye_; }
   QString trouble() const { return trouble_; }
 
  signals:
@@ -64,7 +64,7 @@ class TreeView final : public QOpenGLWidget {
   std::vector<std::uint8_t> shown_;
   std::vector<TreeMark> marks_;
   geometry::Vec3 low_, high_;
-  glview::TreeEye eye_;
+  glview::TreeCamera eye_;
   bool grid_ = false, moved_ = false;
   std::int32_t highlight_ = -1;
   QPointF pressed_, last_;

@@ -60,7 +60,7 @@ void tree_picture(benchmark::State& state) {
   }
   glview::Offscreen offscreen(width, height);
   glview::TreeDrawing drawing(blocks());
-  glview::TreeEye eye = glview::overview(*blocks(), width, height, static_cast<double>(state.range(0)));
+  glview::TreeCamera eye = glview::overview(*blocks(), width, height, static_cast<double>(state.range(0)));
   for (auto _ : state) {
     eye = glview::turned(eye, {5.0, 1.0});
     offscreen.bind();

@@ -34,7 +34,7 @@ void draw_turning(benchmark::State& state, const std::shared_ptr<const geometry:
   glview::Offscreen offscreen(width, height);
   glview::TreeDrawing drawing(blocks);
   if (state.range(1) != 0) drawing.set_most(geometry::SegmentBlocks::everything);
-  glview::TreeEye eye = glview::overview(*blocks, width, height, static_cast<double>(state.range(0)));
+  glview::TreeCamera eye = glview::overview(*blocks, width, height, static_cast<double>(state.range(0)));
   for (auto _ : state) {
     eye = glview::turned(eye, {3.0, 1.0});
     offscreen.bind();

@@ -33,7 +33,7 @@ struct Bush {
     static const Bush made;
     return made;
   }
-  glview::TreeEye eye(double nearer) const { return glview::overview(*blocks, width, height, nearer); }
+  glview::TreeCamera eye(double nearer) const { return glview::overview(*blocks, width, height, nearer); }
 };
 
 /// The next place is another one.
@@ -46,8 +46,8 @@ struct Clicks {
 };
 
 /// -1: nothing is there.
-std::int32_t pick(const Bush& bush, const glview::TreeEye& eye, const Vec2& at) {
-  const glview::EyeRay ray = eye.ray(at);
+std::int32_t pick(const Bush& bush, const glview::TreeCamera& eye, const Vec2& at) {
+  const glview::CameraRay ray = eye.ray(at);
   const auto hit = bush.rays.first({ray.origin, ray.direction, ray.pixel});
   if (!hit) return -1;
   benchmark::DoNotOptimize(bush.ruler.facts(hit->place.edge));
@@ -56,7 +56,7 @@ std::int32_t pick(const Bush& bush, const glview::TreeEye& eye, const Vec2& at) 
 
 void tree_pick(benchmark::State& state) {
   const Bush& bush = Bush::one();
-  const glview::TreeEye eye = bush.eye(static_cast<double>(state.range(0)));
+  const glview::TreeCamera eye = bush.eye(static_cast<double>(state.range(0)));
   Clicks clicks;
   std::size_t found = 0;
   for (auto _ : state) found += pick(bush, eye, clicks.next()) >= 0 ? 1 : 0;
@@ -70,7 +70,7 @@ void tree_pick_and_highlight(benchmark::State& state) {
     return;
   }
   const Bush& bush = Bush::one();
-  const glview::TreeEye eye = bush.eye(static_cast<double>(state.range(0)));
+  const glview::TreeCamera eye = bush.eye(static_cast<double>(state.range(0)));
   glview::Offscreen offscreen(width, height);
   glview::TreeDrawing drawing(bush.blocks);
   Clicks clicks;

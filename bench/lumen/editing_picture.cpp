@@ -1,8 +1,8 @@
 // Makes the picture of docs/editing.md: editing_picture OUT.png
 // What a stroke does to a wall, like figure 2 of [Wels]: the tangent frame bundle T* of the axis and the
 // stroke, the samples that it dismisses for several beta, and the wall before and after.
-#include "dismissal.h"
 #include "edited_walls.h"
+#include "editing/dismissal.h"
 #include "picture.h"
 
 #include "ostia/figure/plot.h"

@@ -1,7 +1,7 @@
 // One edit of a wall solved up to date, the fresh solution beside it, and kernels compared on walls known
 // exactly.
 
-#include "constraints.h"
+#include "interpolation/constraints.h"
 #include "tube_samples.h"
 
 #include "ostia/lumen/incremental_surface.h"

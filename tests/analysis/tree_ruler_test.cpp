@@ -170,8 +170,8 @@ TEST(TreeRays, EntersAConeWhereTheFirstOfItsBallsIs) {
                    {spread(random), spread(random), spread(random)}};
     cone.edges = {{0, 1, radii(random), radii(random)}};
     const Vec3 eye(spread(random), spread(random), 40.0);
-    const Vec3 aim = 0.5 * (cone.points[0] + cone.points[1]) +
-                     0.4 * Vec3(spread(random), spread(random), spread(random));
+    const Vec3 aim =
+        0.5 * (cone.points[0] + cone.points[1]) + 0.4 * Vec3(spread(random), spread(random), spread(random));
     const TreeRay ray{eye, (aim - eye).normalized(), 0.0};
     const auto& e = cone.edges[0];
     double least = std::numeric_limits<double>::infinity();

@@ -153,7 +153,8 @@ TEST(ReconstructCommand, HexahedraFillTheSurface) {
 // A thin branch of eight sides at a small angle.
 TEST(ReconstructCommand, FoldedHexahedraAreTold) {
   const Folder folder(
-      "id,x,y,z,radius,parent\n1,0,0,0,2,-1\n2,0,0,20,2,1\n3,0,0,40,2,2\n4,0,0.342,20.94,0.4,2\n5,0,6.84,38.8,0.4,4\n");
+      "id,x,y,z,radius,parent\n1,0,0,0,2,-1\n2,0,0,20,2,1\n3,0,0,40,2,2\n4,0,0.342,20.94,0.4,2\n5,0,6.84,38."
+      "8,0.4,4\n");
   const Outcome done =
       folder.run({"tree.csv", "-o", "a.vtp", "--level", "2", "--hexahedra", "a.vtu", "--json"});
   ASSERT_EQ(done.code, 4) << done.err;

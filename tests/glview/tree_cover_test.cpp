@@ -31,7 +31,7 @@ struct Easel {
   Offscreen offscreen{width, height};
   std::shared_ptr<const SegmentBlocks> blocks;
   TreeDrawing drawing;
-  TreeEye eye;
+  TreeCamera eye;
 
   explicit Easel(const VesselGraph& graph)
       : blocks(std::make_shared<const SegmentBlocks>(graph)), drawing(blocks) {
@@ -119,7 +119,7 @@ TEST(TreeCover, BendsHaveNoGap) {
 TEST(TreeCover, AFewOfABushCoverWhatAllOfItCovers) {
   REQUIRE_OPENGL();
   Easel easel(test_bush(400'000));
-  const TreeEye overview = easel.eye;
+  const TreeCamera overview = easel.eye;
   for (const double away : {8.0, 4.0, 2.0, 1.0, 0.5, 0.25, 0.125, 0.1}) {
     easel.eye = overview;
     easel.eye.distance_mm *= away;
@@ -148,7 +148,7 @@ TEST(TreeCover, AFewOfABushCoverWhatAllOfItCovers) {
 TEST(TreeCover, PicturesComeBackToWhatTheyWere) {
   REQUIRE_OPENGL();
   Easel easel(test_bush(50'000));
-  const TreeEye before = easel.eye;
+  const TreeCamera before = easel.eye;
   const auto first = easel.picture().rgba;
   easel.eye = turned(easel.eye, {100, 0});
   EXPECT_NE(easel.picture().rgba, first);

@@ -45,7 +45,7 @@ class Picture {
     drawing_.draw(eye, 1.0, shown, highlight);
     return offscreen_.read();
   }
-  TreeEye eye;
+  TreeCamera eye;
 
  private:
   Offscreen offscreen_;

@@ -1,4 +1,4 @@
-#include "constraints.h"
+#include "interpolation/constraints.h"
 
 #include "tube_samples.h"
 

@@ -1,5 +1,5 @@
-#include "dismissal.h"
 #include "edited_walls.h"
+#include "editing/dismissal.h"
 
 #include "ostia/core/error.h"
 

@@ -1,4 +1,4 @@
-#include "dismissal.h"
+#include "editing/dismissal.h"
 
 #include "edited_walls.h"
 

@@ -1,6 +1,6 @@
 #include "ostia/lumen/implicit_surface.h"
 
-#include "kernel_sums.h"
+#include "interpolation/kernel_sums.h"
 
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"

@@ -1,4 +1,4 @@
-#include "sparse_factor.h"
+#include "interpolation/sparse_factor.h"
 
 #include "ostia/core/error.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 /// \file Surfaces that the tests of boundary layers grow on.
 
-#include "cap_filling.h"
+#include "cutting/cap_filling.h"
 #include "test_surfaces.h"
 
 #include "ostia/meshing/remesh.h"

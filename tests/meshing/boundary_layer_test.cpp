@@ -1,6 +1,6 @@
 #include "ostia/meshing/boundary_layer.h"
 
-#include "boundary_layer_march.h"
+#include "boundary_layer/march.h"
 #include "boundary_layer_shapes.h"
 
 #include "ostia/core/error.h"

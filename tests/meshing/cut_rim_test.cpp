@@ -1,5 +1,5 @@
 // Ends that flare, as a coronary does into the aorta: where a plane meets the wall in a sharp wedge.
-#include "cut_rim.h"
+#include "cutting/cut_rim.h"
 
 #include "test_surfaces.h"
 

@@ -1,4 +1,4 @@
-#include "edit_mesh.h"
+#include "remeshing/edit_mesh.h"
 
 #include "test_surfaces.h"
 

@@ -1,7 +1,7 @@
 #include "ostia/meshing/field_sizing.h"
 
 #include "boundary_layer_shapes.h"
-#include "hessian_recovery.h"
+#include "sizing/hessian_recovery.h"
 #include "tetrahedra_samples.h"
 
 #include "ostia/core/error.h"

@@ -1,8 +1,8 @@
 #include "ostia/meshing/flow_extension.h"
 
+#include "cutting/seam.h"
 #include "extension_checks.h"
 #include "extension_shapes.h"
-#include "seam.h"
 #include "test_surfaces.h"
 
 #include "ostia/core/error.h"

@@ -1,4 +1,4 @@
-#include "mesher_job.h"
+#include "mesher/mesher_job.h"
 
 #include "test_surfaces.h"
 

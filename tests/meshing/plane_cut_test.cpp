@@ -1,4 +1,4 @@
-#include "plane_cut.h"
+#include "cutting/plane_cut.h"
 
 #include "test_surfaces.h"
 

@@ -1,4 +1,4 @@
-#include "plane_triangulation.h"
+#include "cutting/plane_triangulation.h"
 
 #include "ostia/core/error.h"
 #include "ostia/meshing/quality.h"

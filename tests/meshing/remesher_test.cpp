@@ -1,4 +1,4 @@
-#include "remesher.h"
+#include "remeshing/remesher.h"
 
 #include "test_surfaces.h"
 

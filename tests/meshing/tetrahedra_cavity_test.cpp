@@ -1,8 +1,7 @@
 // The changes of connectivity one by one.
-#include "tetrahedra_cavity.h"
-
-#include "tetrahedra_flips.h"
-#include "tetrahedra_quality.h"
+#include "tetrahedra/cavity.h"
+#include "tetrahedra/flips.h"
+#include "tetrahedra/quality.h"
 #include "tetrahedra_samples.h"
 
 #include "ostia/core/error.h"

@@ -1,7 +1,6 @@
-#include "tetrahedra_mending.h"
-
 #include "test_surfaces.h"
-#include "tetrahedra_quality.h"
+#include "tetrahedra/mending.h"
+#include "tetrahedra/quality.h"
 #include "tetrahedra_samples.h"
 
 #include "ostia/core/error.h"

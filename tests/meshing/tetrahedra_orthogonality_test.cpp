@@ -1,8 +1,7 @@
-#include "tetrahedra_orthogonality.h"
-
 #include "test_surfaces.h"
-#include "tetrahedra_mending.h"
-#include "tetrahedra_quality.h"
+#include "tetrahedra/mending.h"
+#include "tetrahedra/orthogonality.h"
+#include "tetrahedra/quality.h"
 #include "tetrahedra_samples.h"
 
 #include "ostia/geometry/mixed_mesh_split.h"

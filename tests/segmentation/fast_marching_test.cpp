@@ -1,4 +1,4 @@
-#include "fast_marching.h"
+#include "fronts/fast_marching.h"
 
 #include "ostia/core/error.h"
 

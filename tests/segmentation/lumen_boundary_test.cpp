@@ -1,9 +1,9 @@
 #include "ostia/segmentation/lumen_boundary.h"
 
-#include "boundary_rows.h"
-#include "edge_profile.h"
+#include "boundary/boundary_rows.h"
+#include "boundary/edge_profile.h"
+#include "boundary/star_surface.h"
 #include "scanned_scene.h"
-#include "star_surface.h"
 
 #include "ostia/core/error.h"
 

@@ -1,4 +1,4 @@
-#include "sparse_field.h"
+#include "level_set/sparse_field.h"
 
 #include <gtest/gtest.h>
 

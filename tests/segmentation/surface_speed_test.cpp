@@ -1,4 +1,4 @@
-#include "surface_speed.h"
+#include "level_set/surface_speed.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 namespace ostia::segmentation::detail {
 namespace {
 
-class Ramp : public Pull {  // a feature that grows along x by one a mm
+class Ramp : public FeatureForce {  // a feature that grows along x by one a mm
  public:
   Sample at(const Vec3&, const Vec3&) const override { return {3.0, Vec3(1, 0, 0)}; }
 };

@@ -1,8 +1,8 @@
 #include "ostia/segmentation/vesselness.h"
 
 #include "tube_images.h"
-#include "tube_loops.h"
-#include "tube_scales.h"
+#include "vesselness/tube_loops.h"
+#include "vesselness/tube_scales.h"
 
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
@@ -204,7 +204,7 @@ TEST(vesselness, flux_separates_neighbours_a_voxel_apart) {
   EXPECT_LT(hessian.response_hu(26, 30, 20), 0.85F * 300.0F);
 }
 
-/// Beside a chamber: a half-space of the same contrast whose wall is 0.4 mm from the tube's.
+/// BackgroundTask a chamber: a half-space of the same contrast whose wall is 0.4 mm from the tube's.
 TEST(vesselness, flux_stays_on_the_axis_beside_a_chamber) {
   const ImageVolume image = painted({61, 61, 40}, kSpacing, [&](const Vec3& p) {
     return std::max(edge(1.6 - std::hypot(p[0] - 12.0, p[1] - 12.0)), edge(p[0] - 12.0 - 2.0));

@@ -1,4 +1,4 @@
-#include "wall_blur.h"
+#include "outer_wall/wall_blur.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include "report_cases.h"
 
 #include "ostia/core/error.h"
-#include "ostia/session/plaque_look.h"
+#include "ostia/session/plaque_sampling.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 
 #include "bench_case.h"
 
-#include "ostia/session/plaque_look.h"
+#include "ostia/session/plaque_sampling.h"
 #include "ostia/view/curved_view.h"
 #include "ostia/view/plane_view.h"
 #include "ostia/view/profile_view.h"

@@ -8,7 +8,7 @@
 #include "ostia/imaging/image_file.h"
 #include "ostia/session/image_digest.h"
 #include "ostia/session/machine_state.h"
-#include "ostia/session/plaque_look.h"
+#include "ostia/session/plaque_sampling.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@ namespace {
 
 constexpr float tile_px = 16.0f;
 constexpr float least_px = 1.0f;  // that a segment is drawn wide
-constexpr float enough = 4.0f;     // times: exp(-4) is two hundredths
+constexpr float enough = 4.0f;    // times: exp(-4) is two hundredths
 
 /// What of a segment is in one tile, about.
 struct Piece {

@@ -88,7 +88,7 @@ void main() {
 )";
 
 /// World, from the blocks' centre, to the eye's space.
-Eigen::Matrix4f view_of(const TreeEye& eye, const Vec3& centre) {
+Eigen::Matrix4f view_of(const TreeCamera& eye, const Vec3& centre) {
   Eigen::Matrix4d view = Eigen::Matrix4d::Identity();
   view.block<1, 3>(0, 0) = eye.right.transpose();
   view.block<1, 3>(1, 0) = eye.up.transpose();
@@ -188,7 +188,7 @@ void TreeDrawing::set_most(std::size_t segments) {
   impl_->most = segments;
 }
 
-void TreeDrawing::draw(const TreeEye& eye, double pixel_ratio, std::span<const std::uint8_t> shown,
+void TreeDrawing::draw(const TreeCamera& eye, double pixel_ratio, std::span<const std::uint8_t> shown,
                        std::int32_t highlight) {
   const geometry::BlockView view = eye.view(pixel_ratio);
   impl_->fill(view, shown, highlight);

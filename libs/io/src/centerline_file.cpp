@@ -1,7 +1,7 @@
 #include "ostia/io/centerline_file.h"
 
 #include "formats.h"
-#include "vtk_xml.h"
+#include "vtk/xml.h"
 
 #include "ostia/core/csv.h"
 #include "ostia/core/error.h"

@@ -2,7 +2,7 @@
 
 #include "cage_system.h"
 #include "registration_parts.h"
-#include "thinned.h"
+#include "vertex_clustering.h"
 
 #include "ostia/geometry/aabb_tree.h"
 
@@ -148,7 +148,7 @@ void take_back(const TriMesh& source, const Pairs& allowed, const std::vector<St
 Registration through_depths(const TriMesh& source, const TriMesh& target, const RegistrationOptions& options,
                             const core::TaskContext& task) {
   const auto most = static_cast<std::size_t>(options.most_points);
-  const TriMesh thin_source = thinned(source, most), thin_target = thinned(target, most);
+  const TriMesh thin_source = clustered(source, most), thin_target = clustered(target, most);
   PairedSurface from(thin_source), to(thin_target);
   Registration result;
   result.grid = geometry::cage_around(source.points, 1, options.margin);

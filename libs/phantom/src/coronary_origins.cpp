@@ -31,8 +31,8 @@ Course* find(CoursePlan& plan, const char* name) {
   return at == plan.courses.end() ? nullptr : &*at;
 }
 
-/// Beside the root: `out_mm` beyond the widest sinus, at an angle from the left sinus towards the right one
-/// (the short way where `share` runs from 0 to 1).
+/// BackgroundTask the root: `out_mm` beyond the widest sinus, at an angle from the left sinus towards the
+/// right one (the short way where `share` runs from 0 to 1).
 Vec3 beside_root(const AorticRoot& root, double angle, double out_mm) {
   const Vec3 side = root.axis.cross(root.left_sinus);
   return root.annulus + height_share * root.sinus_height_mm * root.axis +

@@ -4,7 +4,7 @@
 #include "ostia/core/log.h"
 #include "ostia/geometry/mesh_topology.h"
 #include "ostia/meshing/caps.h"
-#include "ostia/meshing/throats.h"
+#include "ostia/meshing/stenosis_sizing.h"
 #include "ostia/pipeline/branch_ends.h"
 #include "ostia/pipeline/lumen_surface.h"
 

@@ -1,6 +1,6 @@
 #include "ostia/pipeline/source.h"
 
-#include "ostia/core/beside.h"
+#include "ostia/core/background_task.h"
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
 #include "ostia/core/log.h"
@@ -95,16 +95,17 @@ SourceKind classify(const fs::path& path) {
   if (is_image_name(path)) return imaging::looks_like_mask(path) ? SourceKind::mask : SourceKind::image;
   if (path.extension() == ".dcm" || has_dicom_mark(path) || imaging::is_zip_archive(path))
     return SourceKind::dicom;
-  throw InvalidInput("cannot read " + path.string() +
-                     ": it is no DICOM folder, file or zip, no image (.nrrd .nhdr .mhd .mha .nii .nii.gz) and no surface "
-                     "(.stl .ply .obj .vtp)");
+  throw InvalidInput(
+      "cannot read " + path.string() +
+      ": it is no DICOM folder, file or zip, no image (.nrrd .nhdr .mhd .mha .nii .nii.gz) and no surface "
+      "(.stl .ply .obj .vtp)");
 }
 
 Source load(const fs::path& path, const SourceOptions& options, const core::TaskContext& task) {
   Source source;
   source.kind = classify(path);
   core::redact_in_logs(path.string(), "image");  // until its pseudonym is known
-  std::optional<core::Beside<std::string>> sha256;
+  std::optional<core::BackgroundTask<std::string>> sha256;
   if (source.kind != SourceKind::dicom)
     sha256.emplace([path](const core::TaskContext&) { return core::sha256_file(path); });
   switch (source.kind) {

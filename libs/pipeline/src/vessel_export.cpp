@@ -10,7 +10,7 @@
 #include "ostia/lumen/tree_surface.h"
 #include "ostia/meshing/caps.h"
 #include "ostia/meshing/remesh.h"
-#include "ostia/meshing/throats.h"
+#include "ostia/meshing/stenosis_sizing.h"
 #include "ostia/pipeline/manifest.h"
 #include "ostia/pipeline/model.h"
 #include "ostia/pipeline/report.h"

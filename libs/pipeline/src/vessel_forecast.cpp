@@ -3,7 +3,7 @@
 #include "export_parts.h"
 
 #include "ostia/meshing/caps.h"
-#include "ostia/meshing/throats.h"
+#include "ostia/meshing/stenosis_sizing.h"
 
 #include <algorithm>
 

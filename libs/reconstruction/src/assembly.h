@@ -2,7 +2,7 @@
 /// \file The mesh of a whole network, made so that it does not cross itself.
 
 #include "base_mesh.h"
-#include "room.h"
+#include "fork_spacing.h"
 
 #include "ostia/core/task_context.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 /// \file Which intensities are lumen, from the image about the seeds.
 
-#include "fast_marching.h"
+#include "fronts/fast_marching.h"
 
 #include "ostia/imaging/volume.h"
 #include "ostia/segmentation/seeds.h"

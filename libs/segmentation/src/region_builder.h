@@ -2,7 +2,7 @@
 /// \file Collects an initial region voxel by voxel.
 
 #include "block_grid.h"
-#include "fast_marching.h"
+#include "fronts/fast_marching.h"
 
 #include "ostia/segmentation/colliding_fronts.h"
 

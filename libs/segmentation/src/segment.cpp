@@ -1,7 +1,7 @@
 #include "ostia/segmentation/segment.h"
 
-#include "evolve_region.h"
-#include "prepared_image.h"
+#include "level_set/evolve_region.h"
+#include "path/prepared_image.h"
 
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"

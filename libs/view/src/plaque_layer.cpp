@@ -1,7 +1,7 @@
 #include "ostia/view/plaque_layer.h"
 
 #include "ostia/core/parallel.h"
-#include "ostia/session/plaque_look.h"
+#include "ostia/session/plaque_sampling.h"
 #include "ostia/view/curved_view.h"
 #include "ostia/view/plane_view.h"
 #include "ostia/view/words.h"

@@ -5,7 +5,7 @@
 
 #include "ostia/figure/plot.h"
 #include "ostia/session/outer_wall_board.h"
-#include "ostia/session/plaque_look.h"
+#include "ostia/session/plaque_sampling.h"
 #include "ostia/view/words.h"
 
 #include <algorithm>

@@ -76,7 +76,7 @@ struct TreeRay {
   double slack = 0.0;
 };
 struct TreeRayHit {
-  TreePlace place;         ///< on the axis: the ball about it is the first of the segment's that the ray enters
+  TreePlace place;  ///< on the axis: the ball about it is the first of the segment's that the ray enters
   geometry::Vec3 surface;  ///< on the ray, where it does; beside a thin vessel, the place nearest to its axis
   double depth_mm = 0.0;   ///< of `surface`, from the ray's origin
 };

@@ -2,7 +2,7 @@
 /// \file A vessel tree of up to millions of segments, drawn by OpenGL. See docs/huge-trees.md.
 
 #include "ostia/geometry/segment_blocks.h"
-#include "ostia/glview/tree_eye.h"
+#include "ostia/glview/tree_camera.h"
 
 #include <cstdint>
 #include <memory>
@@ -22,7 +22,7 @@ class TreeDrawing {
   TreeDrawing& operator=(const TreeDrawing&) = delete;
   /// Into the viewport, whose depths it uses; colours and depths are to be cleared before. `shown` as in
   /// SegmentBlocks::choose; `highlight` is drawn thicker, in yellow, however small it is; -1: none.
-  void draw(const TreeEye& eye, double pixel_ratio, std::span<const std::uint8_t> shown,
+  void draw(const TreeCamera& eye, double pixel_ratio, std::span<const std::uint8_t> shown,
             std::int32_t highlight);
   const geometry::BlockChoice& choice() const;  ///< of the last picture
   /// Segments in a picture, but for thick ones, of which none is left out.

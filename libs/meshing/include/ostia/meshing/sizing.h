@@ -80,7 +80,7 @@ struct SizingOptions {
   /// Curvature is averaged over this much of the vessel's size around a point: noise bends, too. In [0.1, 2].
   double curvature_reach = 0.4;
   std::vector<SizeFocus> foci;
-  /// Share of the edge length at stenoses; `at_throats` (throats.h) makes foci of it. In [0.05, 1].
+  /// Share of the edge length at stenoses; `at_throats` (stenosis_sizing.h) makes foci of it. In [0.05, 1].
   double throat_share = 1.0;
   /// Where it is given, lengths are interpolated in it at the closest point, and the vessel's size has no
   /// say.

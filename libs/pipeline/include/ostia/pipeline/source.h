@@ -17,9 +17,9 @@ namespace ostia::pipeline {
 enum class SourceKind { dicom, image, mask, surface };
 std::string name_of(SourceKind kind);
 
-/// By what is there: a folder, a file with a DICOM header or a zip, a surface's or an image's extension; an image of
-/// few different values is a mask. Throws IoError when there is nothing, InvalidInput when it is none of
-/// these.
+/// By what is there: a folder, a file with a DICOM header or a zip, a surface's or an image's extension; an
+/// image of few different values is a mask. Throws IoError when there is nothing, InvalidInput when it is
+/// none of these.
 SourceKind classify(const std::filesystem::path& path);
 
 struct SourceOptions {

@@ -70,8 +70,8 @@ MinimalPath path_between(const imaging::ImageVolume& image, const Vec3& from, co
 /// How a rough line is followed.
 struct PathAlongOptions {
   MinimalPathOptions path;  ///< its bounds of the front are not asked: the line is one
-  /// Beside the line, within which the cheapest way is sought; 0: none is, the line itself is centred, which
-  /// asks for a line within the lumen, [0, 10].
+  /// BackgroundTask the line, within which the cheapest way is sought; 0: none is, the line itself is
+  /// centred, which asks for a line within the lumen, [0, 10].
   double corridor_mm = 3.0;
   /// Of the line's beginning and end that the image does not move or measure (they are smoothed with the
   /// rest); where it is more than 0, the end point stays exactly, [0, 1000].

@@ -1,0 +1,82 @@
+// Surfaces as VTP.
+
+#include "formats.h"
+#include "vtk/fields.h"
+#include "vtk/xml.h"
+
+#include "ostia/core/files.h"
+#include "ostia/io/surface_fields.h"
+
+#include <vtkCellArray.h>
+#include <vtkCellArrayIterator.h>
+#include <vtkCellData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+
+namespace ostia::io {
+
+using geometry::FacedSurface;
+
+namespace {
+
+vtkSmartPointer<vtkPolyData> polydata_of(const FacedSurface& surface) {
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(to_vtk(surface.mesh.points));
+  vtkNew<vtkCellArray> polygons;
+  polygons->AllocateExact(static_cast<vtkIdType>(surface.mesh.triangles.size()),
+                          static_cast<vtkIdType>(3 * surface.mesh.triangles.size()));
+  for (const geometry::Triangle& t : surface.mesh.triangles) polygons->InsertNextCell({t[0], t[1], t[2]});
+  data->SetPolys(polygons);
+  if (!surface.face_ids.empty()) {
+    add_array(*data->GetCellData(), "CellEntityIds", surface.face_ids);
+    add_faces(*data, surface.faces);
+  }
+  return data;
+}
+
+}  // namespace
+
+LoadedSurface read_vtp(const std::filesystem::path& path) {
+  const vtkSmartPointer<vtkPolyData> data = read_polydata(path);
+  LoadedSurface loaded;
+  loaded.surface.mesh.points = from_vtk(data->GetPoints());
+  if (data->GetNumberOfStrips() > 0) refuse(path, "it has triangle strips; write it with plain triangles");
+  // Cell data run over vertices, lines and polygons in this order.
+  const vtkIdType first = data->GetNumberOfVerts() + data->GetNumberOfLines();
+  vtkDataArray* ids = data->GetCellData()->GetArray("CellEntityIds");
+  std::size_t polygons = 0;
+  const auto cells = vtk::TakeSmartPointer(data->GetPolys()->NewIterator());
+  for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell()) {
+    vtkIdType count = 0;
+    const vtkIdType* corners = nullptr;
+    cells->GetCurrentCell(count, corners);
+    if (count < 3)
+      refuse(path, "polygon " + std::to_string(cells->GetCurrentCellId()) + " has fewer than three corners");
+    polygons += count > 3;
+    for (vtkIdType i = 2; i < count; ++i) {
+      loaded.surface.mesh.triangles.push_back({static_cast<std::int32_t>(corners[0]),
+                                               static_cast<std::int32_t>(corners[i - 1]),
+                                               static_cast<std::int32_t>(corners[i])});
+      if (ids)
+        loaded.surface.face_ids.push_back(
+            static_cast<std::int32_t>(ids->GetTuple1(first + cells->GetCurrentCellId())));
+    }
+  }
+  if (polygons > 0)
+    loaded.warnings.push_back(std::to_string(polygons) + " polygons were split into triangles");
+  if (ids) loaded.surface.faces = faces_of(*data, loaded.surface.face_ids);
+  return loaded;
+}
+
+std::string vtp_text(const FacedSurface& surface) {
+  return polydata_text(*polydata_of(surface));
+}
+
+void write_vtp_with_fields(const std::filesystem::path& path, const FacedSurface& surface,
+                           const PointFields& fields) {
+  const vtkSmartPointer<vtkPolyData> data = polydata_of(surface);
+  add_fields(*data->GetPointData(), fields, surface.mesh.points.size(), surface.mesh.points.size(), "points");
+  core::write_file(path, polydata_text(*data));
+}
+
+}  // namespace ostia::io

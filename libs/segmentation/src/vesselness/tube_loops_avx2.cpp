@@ -1,0 +1,10 @@
+// Compiled with -mavx2 on x86-64 (CMakeLists.txt).
+#include "vesselness/tube_loops_rows.h"
+
+namespace ostia::segmentation::detail {
+
+TubeLoops tube_loops_avx2() {
+  return loops_here();
+}
+
+}  // namespace ostia::segmentation::detail

@@ -15,7 +15,7 @@ namespace {
 
 using geometry::Vec3;
 
-constexpr std::array<std::array<const char*, 2>, 14> keys{
+constexpr std::array<std::array<const char*, 2>, 14> tree_keys{
     {{"drag", "turn"},
      {"Shift + drag", "move"},
      {"wheel", "nearer, to what is under the mouse"},
@@ -31,7 +31,7 @@ constexpr std::array<std::array<const char*, 2>, 14> keys{
      {"H", "this help"},
      {"Q", "quit"}}};
 
-void heading(const char* text) {
+void tree_heading(const char* text) {
   ImGui::Dummy({0.0F, 5.0F});
   ImGui::TextColored(muted_color, "%s", text);
   ImGui::Separator();
@@ -54,7 +54,7 @@ ImVec2 at(const geometry::Vec2& place) {
 }  // namespace
 
 void TreeViewer::facts() {
-  heading("CHOSEN");
+  tree_heading("CHOSEN");
   if (picked_.empty()) {
     ImGui::TextWrapped("Click a segment to see its facts.");
     return;
@@ -75,7 +75,7 @@ void TreeViewer::facts() {
   if (const analysis::ForkAngles* fork = input_.ruler->fork_behind(picked_.back().edge))
     ImGui::TextWrapped("At its fork %.1f degrees between the two, %.1f and %.1f from the parent",
                        degrees(fork->between_rad), degrees(fork->wide_rad), degrees(fork->narrow_rad));
-  heading("WITH ALL BEHIND IT");
+  tree_heading("WITH ALL BEHIND IT");
   totals(one.behind);
   if (ImGui::Button("Go there", {110.0F, 0.0F})) go_to_subtree();
   ImGui::SameLine();
@@ -84,7 +84,7 @@ void TreeViewer::facts() {
 
 void TreeViewer::measures() {
   if (picked_.size() == 2) {
-    heading("FROM THE PLACE BEFORE");
+    tree_heading("FROM THE PLACE BEFORE");
     ImGui::Text("straight %.6g mm", input_.ruler->straight_mm(picked_[0], picked_[1]));
     if (const auto along = input_.ruler->along_mm(picked_[0], picked_[1]))
       ImGui::Text("along the tree %.6g mm", *along);
@@ -92,7 +92,7 @@ void TreeViewer::measures() {
       ImGui::Text("between the two %.2f degrees", degrees(*angle));
   }
   if (!region_ || picked_.empty()) return;
-  heading("IN A BALL ABOUT THE PLACE");
+  tree_heading("IN A BALL ABOUT THE PLACE");
   ImGui::SetNextItemWidth(-70.0F);
   const bool other = ImGui::InputFloat("mm", &region_mm_, 0.0F, 0.0F, "%.4g");
   if (!(region_mm_ >= 0.0F)) region_mm_ = 0.0F;
@@ -107,12 +107,12 @@ void TreeViewer::panel(int width, int height, double frames_per_second) {
   ImGui::Begin("panel", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoBringToFrontOnFocus);
-  heading("TREE");
+  tree_heading("TREE");
   ImGui::TextWrapped("%s", input_.name.c_str());
   ImGui::Text("%zu segment%s", shown_segments_, shown_segments_ == 1 ? "" : "s");
   facts();
   measures();
-  heading("PICTURE");
+  tree_heading("PICTURE");
   ImGui::Text("%zu drawn, %zu too small", choice().chosen, choice().left_out);
   if (choice().hidden > 0) ImGui::Text("%zu behind others", choice().hidden);
   if (frames_per_second > 0.0) ImGui::TextColored(muted_color, "%.0f pictures/s", frames_per_second);
@@ -163,7 +163,7 @@ void TreeViewer::marks(int width, int height) {
   ImGui::Begin("help", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize);
   if (ImGui::BeginTable("keys", 2)) {
-    for (const auto& [key, what] : keys) {
+    for (const auto& [key, what] : tree_keys) {
       ImGui::TableNextColumn();
       ImGui::TextColored(accent_color, "%s", key);
       ImGui::TableNextColumn();

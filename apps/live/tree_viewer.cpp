@@ -20,7 +20,7 @@ namespace {
 using geometry::Vec2;
 using geometry::Vec3;
 
-constexpr double zoom_step = 1.12, reach_px = 3.0;
+constexpr double tree_zoom_step = 1.12, reach_px = 3.0;
 constexpr float click_px = 4.0F;
 glview::TreeCamera eye_of(const Options& options) {
   glview::Camera camera;
@@ -137,7 +137,7 @@ void TreeViewer::mouse(int width, int height) {
   const bool over =
       !io.WantCaptureMouse && at.x() >= 0.0 && at.y() >= 0.0 && at.x() < width && at.y() < height;
   if (over && io.MouseWheel != 0.0F) {
-    eye_ = glview::nearer(eye_, std::pow(zoom_step, -static_cast<double>(io.MouseWheel)), at);
+    eye_ = glview::nearer(eye_, std::pow(tree_zoom_step, -static_cast<double>(io.MouseWheel)), at);
     moved_ = true;
   }
   if (over && (ImGui::IsMouseClicked(0) || ImGui::IsMouseClicked(1) || ImGui::IsMouseClicked(2))) {
@@ -155,7 +155,7 @@ void TreeViewer::mouse(int width, int height) {
     else if (io.MouseDown[0])
       eye_ = glview::turned(eye_, by);
     else if (io.MouseDown[1])
-      eye_ = glview::nearer(eye_, std::pow(zoom_step, by.y() / 20.0));
+      eye_ = glview::nearer(eye_, std::pow(tree_zoom_step, by.y() / 20.0));
   }
   if (io.MouseDown[0] || io.MouseDown[1] || io.MouseDown[2]) return;
   grabbed_ = false;

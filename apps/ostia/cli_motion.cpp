@@ -10,11 +10,11 @@
 namespace ostia::app {
 namespace {
 
-using Run = std::function<ExitCode(const core::TaskContext&)>;
+using MotionRun = std::function<ExitCode(const core::TaskContext&)>;
 
 template <class Command>
 CLI::App* add(CLI::App& motion, const char* name, const char* text, const char* example, Command& command,
-              ExitCode (*one)(const Command&, const core::TaskContext&), Run& run) {
+              ExitCode (*one)(const Command&, const core::TaskContext&), MotionRun& run) {
   CLI::App* sub = motion.add_subcommand(name, text);
   sub->footer(std::string("Example:\n  ") + example);
   sub->fallthrough();
@@ -39,7 +39,7 @@ void add_units(CLI::App& app, std::string& units, const char* text = "Unit of le
   app.add_option("--units", units, text)->check(CLI::IsMember({"m", "cm", "mm"}));
 }
 
-void add_fit(CLI::App& motion, MotionFitCommand& c, Run& run) {
+void add_fit(CLI::App& motion, MotionFitCommand& c, MotionRun& run) {
   CLI::App* fit =
       add(motion, "fit", "From images, surfaces, masks or cases at several phases to one surface that beats",
           "ostia motion fit phases/ -o beating --depth 4", c, run_motion_fit, run);
@@ -74,7 +74,7 @@ void add_fit(CLI::App& motion, MotionFitCommand& c, Run& run) {
   fit->add_flag("--json", c.json, "The report as JSON on standard output");
 }
 
-void add_apply(CLI::App& motion, MotionApplyCommand& c, Run& run) {
+void add_apply(CLI::App& motion, MotionApplyCommand& c, MotionRun& run) {
   CLI::App* apply =
       add(motion, "apply", "A surface, a volume mesh or centerlines at any time of the cycle",
           "ostia motion apply beating lumen.vtp -o systole.vtp --phase 37.5", c, run_motion_apply, run);
@@ -89,7 +89,7 @@ void add_apply(CLI::App& motion, MotionApplyCommand& c, Run& run) {
   add_units(*apply, c.units, "Unit of length of the input; what is written is in mm");
 }
 
-void add_evaluate(CLI::App& motion, MotionEvaluateCommand& c, Run& run) {
+void add_evaluate(CLI::App& motion, MotionEvaluateCommand& c, MotionRun& run) {
   CLI::App* evaluate = add(motion, "evaluate", "A motion against surfaces by phase, those left out of it too",
                            "ostia motion evaluate beating phases/ --every 2", c, run_motion_evaluate, run);
   add_motion(*evaluate, c.motion);
@@ -117,7 +117,7 @@ void add_evaluate(CLI::App& motion, MotionEvaluateCommand& c, Run& run) {
   evaluate->add_flag("--json", c.common.json, "One JSON object on standard output");
 }
 
-void add_export(CLI::App& motion, MotionExportCommand& c, Run& run) {
+void add_export(CLI::App& motion, MotionExportCommand& c, MotionRun& run) {
   CLI::App* out =
       add(motion, "export", "The same triangles or elements at many times, for solvers and pictures",
           "ostia motion export beating --mesh mesh/mesh.vtu -o moving --format vtu,openfoam --rr 0.8", c,
@@ -138,7 +138,7 @@ void add_export(CLI::App& motion, MotionExportCommand& c, Run& run) {
   out->add_flag("--json", c.json, "One JSON object on standard output");
 }
 
-void add_measure(CLI::App& motion, MotionMeasureCommand& c, Run& run) {
+void add_measure(CLI::App& motion, MotionMeasureCommand& c, MotionRun& run) {
   CLI::App* measure =
       add(motion, "measure",
           "How a tree's branches move: displacement, speed, stretch, curvature, torsion, twist, "
@@ -165,7 +165,7 @@ void add_measure(CLI::App& motion, MotionMeasureCommand& c, Run& run) {
 
 }  // namespace
 
-void define_motion(CLI::App& app, MotionCommands& c, Run& run) {
+void define_motion(CLI::App& app, MotionCommands& c, MotionRun& run) {
   CLI::App* motion = app.add_subcommand("motion", "A vessel that beats: fitted, applied, judged, exported");
   motion->footer("Example:\n  ostia motion fit phases/ -o beating");
   motion->fallthrough();

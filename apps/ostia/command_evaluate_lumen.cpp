@@ -101,7 +101,7 @@ void score_observers(const std::string& case_name, const ContourSet& reference, 
   }
 }
 
-Json number(double value) {
+Json lumen_number(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
@@ -119,10 +119,10 @@ Json section_row(const Compared& c) {
   row["observer"] = s.observer;
   row["length_mm"] = s.length_mm;
   row["dice"] = s.dice;
-  row["msd_mm"] = number(s.msd_mm);
-  row["rms_sd_mm"] = number(s.rms_sd_mm);
-  row["max_sd_mm"] = number(s.max_sd_mm);
-  row["signed_mean_mm"] = number(s.signed_mean_mm);
+  row["msd_mm"] = lumen_number(s.msd_mm);
+  row["rms_sd_mm"] = lumen_number(s.rms_sd_mm);
+  row["max_sd_mm"] = lumen_number(s.max_sd_mm);
+  row["signed_mean_mm"] = lumen_number(s.signed_mean_mm);
   row["floor_mm"] = s.floor_mm;
   return row;
 }
@@ -140,9 +140,9 @@ Json summary_of(const std::vector<Compared>& all) {
                     {"missing", s.missing},
                     {"length_mm", s.length_mm},
                     {"dice", s.dice},
-                    {"msd_mm", number(s.msd_mm)},
-                    {"rms_sd_mm", number(s.rms_sd_mm)},
-                    {"max_sd_mm", number(s.max_sd_mm)}});
+                    {"msd_mm", lumen_number(s.msd_mm)},
+                    {"rms_sd_mm", lumen_number(s.rms_sd_mm)},
+                    {"max_sd_mm", lumen_number(s.max_sd_mm)}});
   }
   return rows;
 }
@@ -179,7 +179,7 @@ Json agreement_of(const RadiusPairs& pairs) {
           {"sd_mm", a.sd},
           {"lower_limit_mm", a.lower_limit},
           {"upper_limit_mm", a.upper_limit},
-          {"correlation", number(a.correlation)}};
+          {"correlation", lumen_number(a.correlation)}};
 }
 
 Json stenoses_of(const std::vector<Compared>& all, const std::string& observer, double threshold) {
@@ -207,10 +207,10 @@ Json stenoses_of(const std::vector<Compared>& all, const std::string& observer, 
           {"false_positive", d.false_positive},
           {"false_negative", d.false_negative},
           {"true_negative", d.true_negative},
-          {"sensitivity", number(d.sensitivity)},
-          {"ppv", number(d.ppv)},
+          {"sensitivity", lumen_number(d.sensitivity)},
+          {"ppv", lumen_number(d.ppv)},
           {"mean_grade_difference", d.mean_grade_difference},
-          {"weighted_kappa", number(d.weighted_kappa)},
+          {"weighted_kappa", lumen_number(d.weighted_kappa)},
           {"sections", rows}};
 }
 

@@ -40,7 +40,7 @@ PointMotion motion_from(const std::filesystem::path& path) {
   }
 }
 
-Json number(double value) {
+Json motion_number(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
@@ -69,9 +69,9 @@ void require_phases(const std::map<std::string, fs::path>& phases, const fs::pat
 }
 
 Json cycle_json(const evaluation::CycleFigures& cycle) {
-  return {{"path_mm", number(cycle.path_mm)},
-          {"amplitude_mm", number(cycle.amplitude_mm)},
-          {"closing_ratio", number(cycle.closing_ratio)}};
+  return {{"path_mm", motion_number(cycle.path_mm)},
+          {"amplitude_mm", motion_number(cycle.amplitude_mm)},
+          {"closing_ratio", motion_number(cycle.closing_ratio)}};
 }
 
 /// Folders of surfaces, one a phase.
@@ -96,9 +96,9 @@ Json surfaces_compared(const EvaluateCommand& command, const core::TaskContext& 
            {"corresponding", e.corresponding},
            {"msd_mm", e.msd_mm},
            {"hausdorff_mm", e.max_sd_mm},
-           {"dice", number(e.dice)},
-           {"displacement_mm", number(e.displacement_mm)},
-           {"path_difference_mm", number(e.path_difference_mm)},
+           {"dice", motion_number(e.dice)},
+           {"displacement_mm", motion_number(e.displacement_mm)},
+           {"path_difference_mm", motion_number(e.path_difference_mm)},
            {"reference", cycle_json(e.reference)},
            {"result", cycle_json(e.result)}};
   out["phases"] = Json::array();
@@ -106,9 +106,9 @@ Json surfaces_compared(const EvaluateCommand& command, const core::TaskContext& 
     out["phases"].push_back({{"phase", p.name},
                              {"msd_mm", p.msd_mm},
                              {"hausdorff_mm", p.max_sd_mm},
-                             {"dice", number(p.dice)},
-                             {"displacement_mm", number(p.displacement_mm)},
-                             {"max_displacement_mm", number(p.max_displacement_mm)}});
+                             {"dice", motion_number(p.dice)},
+                             {"displacement_mm", motion_number(p.displacement_mm)},
+                             {"max_displacement_mm", motion_number(p.max_displacement_mm)}});
   return out;
 }
 
@@ -134,7 +134,7 @@ ExitCode run_evaluate_motion(const EvaluateCommand& command, const core::TaskCon
            {"rms_mm", error.rms_mm},
            {"max_mm", error.max_mm},
            {"amplitude_mm", error.amplitude_mm},
-           {"relative", number(error.relative)}};
+           {"relative", motion_number(error.relative)}};
   out["phases"] = Json::array();
   for (const evaluation::PhaseError& p : error.phases)
     out["phases"].push_back(

@@ -27,20 +27,20 @@ Json figures(const evaluation::VolumeOverlap& v) {
           {"relative_difference", v.relative_difference}};
 }
 
-Json number(double value) {
+Json volume_number(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
 Json label_row(const evaluation::LabelScore& score) {
   Json row{{"label", score.label}, {"in_reference", score.in_reference}, {"in_result", score.in_result}};
   row.update(figures(score.overlap));
-  row["relative_difference"] = number(score.overlap.relative_difference);
+  row["relative_difference"] = volume_number(score.overlap.relative_difference);
   row["difference_mm3"] = score.difference_mm3;
-  row["msd_mm"] = number(score.boundary.msd_mm);
-  row["rms_sd_mm"] = number(score.boundary.rms_sd_mm);
-  row["hd95_mm"] = number(score.boundary.hd95_mm);
-  row["hausdorff_mm"] = number(score.boundary.max_sd_mm);
-  row["signed_mean_mm"] = number(score.boundary.signed_mean_mm);
+  row["msd_mm"] = volume_number(score.boundary.msd_mm);
+  row["rms_sd_mm"] = volume_number(score.boundary.rms_sd_mm);
+  row["hd95_mm"] = volume_number(score.boundary.hd95_mm);
+  row["hausdorff_mm"] = volume_number(score.boundary.max_sd_mm);
+  row["signed_mean_mm"] = volume_number(score.boundary.signed_mean_mm);
   return row;
 }
 

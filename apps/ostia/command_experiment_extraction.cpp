@@ -25,7 +25,7 @@ struct ExtractionCommand {
 };
 
 /// What the experiment reads of a suite, by content.
-std::map<std::string, std::string> inputs_of(const fs::path& suite) {
+std::map<std::string, std::string> extraction_inputs(const fs::path& suite) {
   std::map<std::string, std::string> inputs;
   if (!fs::is_directory(suite)) return inputs;
   const auto add = [&](const fs::path& file) {
@@ -48,7 +48,8 @@ ExitCode run_experiment_extraction(const ExtractionCommand& command, const core:
   std::vector<experiments::ExtractionRun> runs;
   const ExitCode code = run_experiment(
       command.output,
-      {"experiment extraction", inputs_of(command.suite), experiments::parameters_json(command.options)},
+      {"experiment extraction", extraction_inputs(command.suite),
+       experiments::parameters_json(command.options)},
       command.json,
       [&](const fs::path& folder, const core::TaskContext& part) {
         runs = experiments::extract_suite(command.suite, command.options, part);

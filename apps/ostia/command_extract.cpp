@@ -44,7 +44,7 @@ Json facts_of(const session::FoundModel& result) {
           {"warnings", found.warnings}};
 }
 
-void print(const Json& facts, bool as_json) {
+void print_extracted(const Json& facts, bool as_json) {
   if (as_json) {
     std::puts(facts.dump(2).c_str());
     return;
@@ -86,7 +86,7 @@ ExitCode run_extract(const ExtractCommand& o, const core::TaskContext& task) {
   if (!o.lines.empty()) io::write_centerlines(o.lines, result.model.tree);
   made.commit();
   task.set_progress(1.0);
-  print(facts_of(result), o.json);
+  print_extracted(facts_of(result), o.json);
   return ExitCode::ok;
 }
 

@@ -62,7 +62,7 @@ CageMotion kept(const CageMotion& motion, const MotionEvaluateCommand& c) {
   return out;
 }
 
-Json number(double value) {
+Json fit_number(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
@@ -85,7 +85,7 @@ struct Means {
             {"msd_mm", msd / n},
             {"worst_msd_mm", worst_msd},
             {"hausdorff_mm", largest},
-            {"dice", number(dice / n)}};
+            {"dice", fit_number(dice / n)}};
   }
 };
 
@@ -141,8 +141,8 @@ ExitCode run_motion_evaluate(const MotionEvaluateCommand& c, const core::TaskCon
            {"corresponding", e.corresponding},
            {"msd_mm", e.msd_mm},
            {"hausdorff_mm", e.max_sd_mm},
-           {"dice", number(e.dice)},
-           {"displacement_mm", number(e.displacement_mm)}};
+           {"dice", fit_number(e.dice)},
+           {"displacement_mm", fit_number(e.displacement_mm)}};
   Means of_kept, of_left_out;
   Json phases = Json::array();
   for (std::size_t k = 0; k < e.phases.size(); ++k) {
@@ -152,8 +152,8 @@ ExitCode run_motion_evaluate(const MotionEvaluateCommand& c, const core::TaskCon
                       {"kept", static_cast<bool>(was_kept[k])},
                       {"msd_mm", p.msd_mm},
                       {"hausdorff_mm", p.max_sd_mm},
-                      {"dice", number(p.dice)},
-                      {"displacement_mm", number(p.displacement_mm)}});
+                      {"dice", fit_number(p.dice)},
+                      {"displacement_mm", fit_number(p.displacement_mm)}});
   }
   out["kept"] = of_kept.json();
   out["left_out"] = of_left_out.json();

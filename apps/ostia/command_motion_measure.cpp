@@ -55,7 +55,7 @@ double farthest(const Json& measure, double from) {
   return most;
 }
 
-void print(const Json& result) {
+void print_measures(const Json& result) {
   for (const Json& branch : result["branches"]) {
     const Json& m = branch["measures"];
     std::printf("%s: %.1f mm long, moves up to %.1f mm, at most %.0f mm/s; length changes by up to %.1f %%\n",
@@ -99,7 +99,7 @@ ExitCode run_motion_measure(const MotionMeasureCommand& c, const core::TaskConte
   if (c.json)
     std::fputs(result.c_str(), stdout);
   else
-    print(Json::parse(result));
+    print_measures(Json::parse(result));
   task.set_progress(1.0);
   return ExitCode::ok;
 }

@@ -21,7 +21,7 @@ using geometry::GraphFaults;
 using geometry::Vec3;
 using Json = nlohmann::ordered_json;
 
-Json array(const Vec3& v) {
+Json json_point(const Vec3& v) {
   return {v.x(), v.y(), v.z()};
 }
 
@@ -72,7 +72,7 @@ std::string json_text(const GraphFacts& f, const GraphFaults& faults, const io::
            {"is_tree", faults.sound_tree()},
            {"faults", faults_json(faults, loaded)},
            {"warnings", loaded.warnings}};
-  if (!f.box.isEmpty()) out["box_mm"] = {array(f.box.min()), array(f.box.max())};
+  if (!f.box.isEmpty()) out["box_mm"] = {json_point(f.box.min()), json_point(f.box.max())};
   return out.dump(2) + "\n";
 }
 
@@ -133,7 +133,7 @@ bool is_centerline_file(const std::filesystem::path& path) {
          !head_has(path, "parent");
 }
 
-void refuse_surface_options(const ConvertCommand& options) {
+void refuse_options_of_surfaces(const ConvertCommand& options) {
   if (options.keep_parts || options.fill_holes_mm > 0.0 || options.smooth > 0 || options.subdivide > 0)
     throw UsageError(
         "--fill-holes, --keep-parts, --smooth and --subdivide are for surfaces, and this is a tree");
@@ -167,7 +167,7 @@ bool converts_tree(const ConvertCommand& options) {
 }
 
 ExitCode convert_tree(const ConvertCommand& options, const core::TaskContext& task) {
-  refuse_surface_options(options);
+  refuse_options_of_surfaces(options);
   Json done = Json::object();
   const io::LoadedGraph loaded = read_tree(options.input, options.tree, done, task.sub(0.0, 0.8));
   for (const std::string& warning : io::write_graph(options.output, loaded.graph, task.sub(0.8, 1.0)))

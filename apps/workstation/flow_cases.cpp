@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // Stages of these jobs, which the libraries name.
-[[maybe_unused]] const char* const texts_of_jobs[] = {
+[[maybe_unused]] const char* const texts_of_flow_jobs[] = {
     QT_TRANSLATE_NOOP("stages", "checking the mesh"),
     QT_TRANSLATE_NOOP("stages", "iteration, residual"),
     QT_TRANSLATE_NOOP("stages", "time, s"),

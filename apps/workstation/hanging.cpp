@@ -11,7 +11,7 @@
 namespace ostia::workstation {
 namespace {
 
-enum Column { side_column, curved_column, section_column, tree_column, columns };
+enum ColumnState { side_column, curved_column, section_column, tree_column, columns };
 constexpr int comfort = 100;          // units of the interface that the CPRs get beyond their least
 constexpr int lists_comfort = 24;     // that the lists get: a scroll bar beside their columns
 constexpr double curved_share = 0.6;  // of what CPRs and sections share

@@ -21,6 +21,8 @@ _ostia_resource(ostia_help manual ${OSTIA_MANUAL})
 qt5_add_resources(OSTIA_RESOURCES "${CMAKE_CURRENT_BINARY_DIR}/ostia_translations.qrc"
                   "${CMAKE_CURRENT_BINARY_DIR}/ostia_help.qrc")
 target_sources(ostia_workstation PRIVATE ${OSTIA_RESOURCES} ${OSTIA_QM})
+# Each has the same names in it.
+set_source_files_properties(${OSTIA_RESOURCES} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 target_compile_definitions(ostia_workstation PRIVATE OSTIA_MANUAL_SOURCES="${PROJECT_SOURCE_DIR}/docs/manual")
 
 file(GLOB OSTIA_WINDOW_SOURCES CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp" "${CMAKE_CURRENT_SOURCE_DIR}/*.h")

@@ -22,7 +22,7 @@ using geometry::Vec3;
 using meshing::ElementMeasure;
 
 constexpr std::size_t worst_listed = 20;
-constexpr int rows_shown = 3;
+constexpr int panel_rows_shown = 3;
 constexpr double elements_seen = 6.0;  // in half of the picture's height, where one is flown to
 
 QString number(double value) {
@@ -89,7 +89,7 @@ QWidget* MeshPanel::rows(session::Workbench& bench) {
   list_->setObjectName("mesh_worst");
   list_->setAccessibleName(tr("Worst elements"));
   list_->setToolTip(tr("A click shows the element in 3D."));
-  list_->setMinimumHeight(rows_shown * list_->fontMetrics().height() + 8);
+  list_->setMinimumHeight(panel_rows_shown * list_->fontMetrics().height() + 8);
   title->setBuddy(list_);
   column->addWidget(title);
   column->addWidget(list_, 1);

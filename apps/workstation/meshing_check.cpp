@@ -18,7 +18,7 @@ using meshing::ForecastPlace;
 using meshing::OfferedRepair;
 using meshing::TroubleKind;
 
-constexpr int rows_shown = 3;
+constexpr int check_rows_shown = 3;
 
 QString repair_text(const ForecastPlace& place) {
   switch (place.repair) {
@@ -103,7 +103,7 @@ MeshingCheck::MeshingCheck(QWidget* parent) : QWidget(parent) {
   layout->addLayout(top);
   layout->addWidget(list_, 1);
   layout->addLayout(bottom);
-  list_->setMinimumHeight(rows_shown * list_->fontMetrics().height() + 8);
+  list_->setMinimumHeight(check_rows_shown * list_->fontMetrics().height() + 8);
   detail_->setMinimumHeight(3 * detail_->fontMetrics().lineSpacing());
   connect(check_, &QPushButton::clicked, this, [this] {
     if (running_)

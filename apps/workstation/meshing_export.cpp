@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // Stages of these jobs, which the libraries name.
-[[maybe_unused]] const char* const texts_of_jobs[] = {
+[[maybe_unused]] const char* const texts_of_mesh_jobs[] = {
     QT_TRANSLATE_NOOP("stages", "walls"),
     QT_TRANSLATE_NOOP("stages", "ends cut"),
     QT_TRANSLATE_NOOP("stages", "clipping"),

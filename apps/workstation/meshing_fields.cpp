@@ -21,8 +21,8 @@ namespace {
 
 constexpr int most_layers = 20;
 constexpr double thickest = 3.0, least_thickness = 0.01;
-constexpr int field_most = 999;  // what can be typed; what is allowed is checked
-constexpr int rows_shown = 4;
+constexpr int meshing_field_most = 999;  // what can be typed; what is allowed is checked
+constexpr int meshing_rows_shown = 4;
 
 /// Of a field that has to be changed.
 QColor trouble_ground() {
@@ -147,14 +147,14 @@ void VolumeFields::add_layers(QFormLayout* form, const VolumeChoice& last) {
   layers_ = new QSpinBox;
   layers_->setObjectName("layers");
   layers_->setAccessibleName(tr("Layers of prisms on the wall"));
-  layers_->setRange(0, field_most);
+  layers_->setRange(0, meshing_field_most);
   layers_->setSpecialValueText(tr("none"));
   layers_->setValue(last.layers);
   layers_->setToolTip(
       tr("Flat prisms on the wall, where the shear stress is. Where there is no room they get "
          "thinner, never fewer."));
-  thickness_ =
-      number_field("layer_thickness", tr("Thickness of all layers"), field_most, 2, 0.05, last.thickness);
+  thickness_ = number_field("layer_thickness", tr("Thickness of all layers"), meshing_field_most, 2, 0.05,
+                            last.thickness);
   thickness_->setPrefix(tr("thickness "));
   thickness_->setSuffix(tr(" of an edge"));
   split_ = new QCheckBox(tr("as tetrahedra"));
@@ -193,7 +193,7 @@ void VolumeFields::add_formats(QFormLayout* form, const VolumeChoice& last) {
     item->setCheckState(chosen ? Qt::Checked : Qt::Unchecked);
   }
   formats_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-  formats_->setFixedHeight(rows_shown * formats_->sizeHintForRow(0) + 2 * formats_->frameWidth());
+  formats_->setFixedHeight(meshing_rows_shown * formats_->sizeHintForRow(0) + 2 * formats_->frameWidth());
   formats_field_ = add_export_field(form, tr("Mesh as VTU, and"), formats_, formats_, "mesh_formats");
   connect(formats_, &QListWidget::itemChanged, this, &VolumeFields::changed);
 }

@@ -16,7 +16,7 @@ using Size = SizeChoice::Size;
 
 constexpr double fewest_edges = 6.0, most_edges = 60.0;
 constexpr double shortest_mm = 0.05, longest_mm = 3.0;
-constexpr double field_most = 999.0;  // what can be typed; what is allowed is checked
+constexpr double size_field_most = 999.0;  // what can be typed; what is allowed is checked
 
 }  // namespace
 
@@ -30,7 +30,7 @@ SizeFields::SizeFields(QFormLayout* form, const SizeChoice& last, bool mesh, QOb
 
 QDoubleSpinBox* SizeFields::number(const QString& name, const QString& accessible, int decimals,
                                    double value) {
-  auto* box = number_field(name, accessible, field_most, decimals, decimals == 0 ? 1.0 : 0.05, value);
+  auto* box = number_field(name, accessible, size_field_most, decimals, decimals == 0 ? 1.0 : 0.05, value);
   connect(box, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this, &SizeFields::changed);
   return box;
 }

@@ -14,7 +14,7 @@ namespace ostia::workstation {
 namespace {
 
 constexpr int pause_ms = 400;  // a hand that edits lets the wall alone that long before it is looked for
-const char* const kind = "outer_wall";
+const char* const wall_job_kind = "outer_wall";
 
 }  // namespace
 
@@ -69,7 +69,7 @@ OuterWalls::OuterWalls(MainWindow& window, const std::vector<PictureWidget*>& pi
   connect(&soon_, &QTimer::timeout, this, &OuterWalls::look);
   session::Workbench& bench = window.bench();
   const auto switched = [this](const bool&) {
-    if (!wanted()) window_.jobs().cancel(kind);
+    if (!wanted()) window_.jobs().cancel(wall_job_kind);
     look_soon();
     tell();
   };
@@ -88,7 +88,7 @@ OuterWalls::OuterWalls(MainWindow& window, const std::vector<PictureWidget*>& pi
     refresh_command();
   }));
   own_.push_back(bench.case_changed.observe([this] {
-    window_.jobs().cancel(kind);
+    window_.jobs().cancel(wall_job_kind);
     look_soon();
     refresh_command();
   }));
@@ -109,7 +109,7 @@ void OuterWalls::look() {
   if (!wanted() || !work) return;
   const auto shared = std::make_shared<const session::OuterWallWork>(std::move(*work));
   window_.jobs().run(
-      kind, tr("Outer wall"),
+      wall_job_kind, tr("Outer wall"),
       [shared](const core::TaskContext& task) -> std::any {
         return std::make_shared<std::optional<session::VesselWalls>>(shared->found(task));
       },

@@ -6,12 +6,12 @@
 namespace ostia::workstation {
 namespace {
 
-constexpr int poll_ms = 30;
+constexpr int loader_poll_ms = 30;
 
 }  // namespace
 
 PhaseLoader::PhaseLoader(QObject* parent) : QObject(parent) {
-  timer_.setInterval(poll_ms);
+  timer_.setInterval(loader_poll_ms);
   connect(&timer_, &QTimer::timeout, this, &PhaseLoader::poll);
 }
 

@@ -21,7 +21,7 @@
 namespace ostia::workstation {
 namespace {
 
-constexpr int id_role = Qt::UserRole;
+constexpr int command_id_role = Qt::UserRole;
 
 QString shown(const QList<QKeySequence>& keys) {
   QStringList texts;
@@ -150,7 +150,7 @@ void PreferencesDialog::fill_keys() {
       groups[title] = group;
     }
     auto* line = new QTreeWidgetItem(groups[title], {plain_text(action->text())});
-    line->setData(0, id_role, action->objectName());
+    line->setData(0, command_id_role, action->objectName());
     line->setToolTip(0, action->property("tip").toString());
   }
   show_keys();
@@ -161,7 +161,7 @@ void PreferencesDialog::show_keys() {
   for (int i = 0; i < list_->topLevelItemCount(); ++i)
     for (int j = 0; j < list_->topLevelItem(i)->childCount(); ++j) {
       QTreeWidgetItem* line = list_->topLevelItem(i)->child(j);
-      const QString id = line->data(0, id_role).toString();
+      const QString id = line->data(0, command_id_role).toString();
       line->setText(1, shown(keys_.keys(id)));
       QFont font = line->font(1);
       font.setBold(keys_.is_changed(id));
@@ -171,7 +171,7 @@ void PreferencesDialog::show_keys() {
 
 QString PreferencesDialog::current() const {
   const QTreeWidgetItem* line = list_->currentItem();
-  return line ? line->data(0, id_role).toString() : QString();
+  return line ? line->data(0, command_id_role).toString() : QString();
 }
 
 QString PreferencesDialog::name_of(const QString& id) const {

@@ -25,7 +25,7 @@ constexpr double figures_budget_ms = 30.0;  // at once
 constexpr double worst_mm = 0.5;            // a mean distance with the last colour of the scale
 constexpr int wide_window = 1500, wide_panel = 345, narrow_panel = 240;  // units of the interface
 constexpr int section_role = Qt::UserRole;
-enum Column { name_column, vessel_column, msd_column, max_column, area_column, dice_column };
+enum ScoreColumn { name_column, vessel_column, msd_column, max_column, area_column, dice_column };
 
 QString millimetres(double value, int decimals = 2) {
   return std::isfinite(value) ? QString::number(value, 'f', decimals) : QStringLiteral("\u2013");
@@ -49,7 +49,7 @@ QString text_of(const session::WholeError& error) {
   return text;
 }
 
-QPushButton* button(const QString& text, const QString& name, const QString& tip) {
+QPushButton* tool_button(const QString& text, const QString& name, const QString& tip) {
   auto* made = new QPushButton(text);
   made->setObjectName(name);
   made->setToolTip(tip);
@@ -114,7 +114,7 @@ QWidget* QaPanel::truth_rows() {
   auto* rows = new QVBoxLayout(all);
   rows->setContentsMargins(0, 0, 0, 0);
   auto* first = new QHBoxLayout;
-  open_ = button(tr("Open truth\u2026"), "qa_open", tr("Contours that the case is held against"));
+  open_ = tool_button(tr("Open truth\u2026"), "qa_open", tr("Contours that the case is held against"));
   connect(open_, &QPushButton::clicked, this, &QaPanel::choose_truth);
   observer_ = new QComboBox;
   observer_->setObjectName("qa_observer");
@@ -150,8 +150,8 @@ QWidget* QaPanel::truth_rows() {
   connect(list_, &QTreeWidget::itemClicked, this,
           [this](QTreeWidgetItem* item) { check_.go_to(item->data(name_column, section_role).toUInt()); });
   rows->addWidget(list_, 1);
-  next_ = button(tr("Next worst section"), "qa_next",
-                 tr("To the worst place of the section that is farthest off"));
+  next_ = tool_button(tr("Next worst section"), "qa_next",
+                      tr("To the worst place of the section that is farthest off"));
   connect(next_, &QPushButton::clicked, this, [this] {
     if (const auto section = check_.next_worst())
       if (QTreeWidgetItem* item = list_->topLevelItem(static_cast<int>(*section)))
@@ -177,13 +177,13 @@ QWidget* QaPanel::session_rows() {
   clock_ = new QLabel;
   clock_->setObjectName("qa_clock");
   clock_->setToolTip(tr("Time at work: it stops when nothing was done for a minute"));
-  run_ = button(tr("Pause"), "qa_run", tr("Stop or go on counting"));
+  run_ = tool_button(tr("Pause"), "qa_run", tr("Stop or go on counting"));
   connect(run_, &QPushButton::clicked, this, [this] {
     session::ActiveTime& timer = check_.timer();
     timer.running() ? timer.pause() : timer.start();
     show_time();
   });
-  auto* zero = button(tr("Zero"), "qa_zero", tr("Count from zero"));
+  auto* zero = tool_button(tr("Zero"), "qa_zero", tr("Count from zero"));
   connect(zero, &QPushButton::clicked, this, [this] {
     check_.timer().reset();
     show_time();
@@ -193,9 +193,9 @@ QWidget* QaPanel::session_rows() {
   time->addWidget(zero);
   rows->addLayout(time);
   auto* hand = new QHBoxLayout;
-  record_ = button(tr("Record\u2026"), "qa_record", tr("Write down what the hand does in the views"));
+  record_ = tool_button(tr("Record\u2026"), "qa_record", tr("Write down what the hand does in the views"));
   connect(record_, &QPushButton::clicked, this, &QaPanel::choose_recording);
-  again_ = button(tr("Replay\u2026"), "qa_replay", tr("Do again what was recorded, on the same case"));
+  again_ = tool_button(tr("Replay\u2026"), "qa_replay", tr("Do again what was recorded, on the same case"));
   connect(again_, &QPushButton::clicked, this, &QaPanel::choose_replay);
   speed_ = new QComboBox;
   speed_->setObjectName("qa_speed");
@@ -209,7 +209,7 @@ QWidget* QaPanel::session_rows() {
   auto* run = new QHBoxLayout;
   progress_ = new QProgressBar;
   progress_->setObjectName("qa_progress");
-  cancel_ = button(tr("Cancel"), "qa_cancel", tr("End the replay here"));
+  cancel_ = tool_button(tr("Cancel"), "qa_cancel", tr("End the replay here"));
   connect(cancel_, &QPushButton::clicked, this, &QaPanel::cancel_replay);
   run->addWidget(progress_, 1);
   run->addWidget(cancel_);

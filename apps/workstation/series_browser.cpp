@@ -17,7 +17,7 @@
 namespace ostia::workstation {
 namespace {
 
-enum Column { picture_column, series_column, slices_column, voxel_column, notes_column, columns };
+enum SeriesColumn { picture_column, series_column, slices_column, voxel_column, notes_column, columns };
 constexpr int thumbnail_px = 96;
 
 QString notes_of(const imaging::DicomSeries& series) {

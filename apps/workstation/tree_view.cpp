@@ -11,7 +11,7 @@ namespace {
 
 using geometry::Vec3;
 
-constexpr double click_px = 4.0;
+constexpr double tree_click_px = 4.0;
 constexpr double reach_px = 3.0;  // a click this far beside a vessel still takes it
 
 }  // namespace
@@ -91,7 +91,7 @@ void TreeView::mousePressEvent(QMouseEvent* event) {
 
 void TreeView::mouseMoveEvent(QMouseEvent* event) {
   const QPointF by = event->localPos() - last_;
-  if (!moved_ && (event->localPos() - pressed_).manhattanLength() < click_px) return;
+  if (!moved_ && (event->localPos() - pressed_).manhattanLength() < tree_click_px) return;
   moved_ = true;
   FrameLog::instance().event("drag");
   last_ = event->localPos();

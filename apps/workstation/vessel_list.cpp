@@ -21,8 +21,15 @@
 namespace ostia::workstation {
 namespace {
 
-enum Column { name_column, length_column, edited_column, stenosis_column, checked_column, columns };
-constexpr int id_role = Qt::UserRole;
+enum VesselColumn {
+  name_column,
+  length_column,
+  edited_column,
+  stenosis_column,
+  checked_column,
+  vessel_columns
+};
+constexpr int vessel_id_role = Qt::UserRole;
 constexpr int refresh_after_ms = 120;         // of an edit
 constexpr int from_role = Qt::UserRole + 1;   // of a segment: its first abscissa
 constexpr int color_role = Qt::UserRole + 2;  // of the icon
@@ -47,7 +54,7 @@ VesselList::VesselList(session::Workbench& bench, std::function<QColor(std::int3
     : QTreeWidget(parent), bench_(bench), color_of_(std::move(color_of)), guard_(std::move(guard)) {
   setObjectName("vessels");
   setAccessibleName(tr("Vessels"));
-  setColumnCount(columns);
+  setColumnCount(vessel_columns);
   setHeaderLabels({tr("Vessel"), tr("mm"), tr("Edits"), tr("Worst"), tr("Done")});
   headerItem()->setToolTip(edited_column, tr("Samples of the wall that a person placed"));
   headerItem()->setToolTip(stenosis_column, tr("Largest narrowing, percent of diameter"));
@@ -87,7 +94,7 @@ VesselList::VesselList(session::Workbench& bench, std::function<QColor(std::int3
   measurer_.setMaxThreadCount(1);
   connect(this, &QTreeWidget::currentItemChanged, this, [this](QTreeWidgetItem* item) {
     if (!item || writing_) return;
-    bench_.vessel.set(item->data(0, id_role).toInt());
+    bench_.vessel.set(item->data(0, vessel_id_role).toInt());
     if (item->parent()) bench_.cursor_mm.set(bench_.here_mm(item->data(0, from_role).toDouble()));
   });
   connect(this, &QTreeWidget::itemChanged, this, [this](QTreeWidgetItem* item, int column) {
@@ -120,18 +127,18 @@ void VesselList::fill() {
 
 QTreeWidgetItem* VesselList::item_of(std::int32_t vessel) const {
   for (int i = 0; i < topLevelItemCount(); ++i)
-    if (topLevelItem(i)->data(0, id_role).toInt() == vessel) return topLevelItem(i);
+    if (topLevelItem(i)->data(0, vessel_id_role).toInt() == vessel) return topLevelItem(i);
   return nullptr;
 }
 
 void VesselList::show_segments(QTreeWidgetItem& item, const std::vector<analysis::VesselSegment>& segments) {
-  const std::int32_t vessel = item.data(0, id_role).toInt();
+  const std::int32_t vessel = item.data(0, vessel_id_role).toInt();
   int parts = 0;
   for (const analysis::VesselSegment& segment : segments) {
     if (segment.vessel != vessel || !segment.aha) continue;
     QTreeWidgetItem* part = parts < item.childCount() ? item.child(parts) : new QTreeWidgetItem(&item);
     ++parts;
-    part->setData(0, id_role, vessel);
+    part->setData(0, vessel_id_role, vessel);
     part->setData(0, from_role, segment.from_mm);
     part->setText(name_column, QString::fromStdString(segment.label));
     part->setText(length_column, QString::number(segment.to_mm - segment.from_mm, 'f', 0));
@@ -194,12 +201,12 @@ void VesselList::refresh() {
   const QScopedValueRollback<bool> writing(writing_, true);
   for (int i = 0; i < topLevelItemCount(); ++i) {
     QTreeWidgetItem* item = topLevelItem(i);
-    const std::int32_t id = item->data(0, id_role).toInt();
+    const std::int32_t id = item->data(0, vessel_id_role).toInt();
     if (!bench_.axis(id)) continue;  // deleted just now; the list is filled anew next
     show_vessel(*item, id);
     show_narrowing(*item, id);
     if (id == bench_.vessel.get() && state() != EditingState &&
-        (!currentItem() || currentItem()->data(0, id_role).toInt() != id))
+        (!currentItem() || currentItem()->data(0, vessel_id_role).toInt() != id))
       setCurrentItem(item);
   }
   share_width();
@@ -279,7 +286,7 @@ void VesselList::closeEditor(QWidget* editor, QAbstractItemDelegate::EndEditHint
 }
 
 void VesselList::edited(QTreeWidgetItem* item, int column) {
-  const std::int32_t id = item->data(0, id_role).toInt();
+  const std::int32_t id = item->data(0, vessel_id_role).toInt();
   session::VesselMark mark = mark_of(id);
   const bool visible = item->checkState(name_column) == Qt::Checked;
   const bool checked = item->checkState(checked_column) == Qt::Checked;
@@ -311,7 +318,7 @@ void VesselList::contextMenuEvent(QContextMenuEvent* event) {
   QTreeWidgetItem* item = currentItem();
   if (!item) return;
   if (item->parent()) item = item->parent();
-  const std::int32_t id = item->data(0, id_role).toInt();
+  const std::int32_t id = item->data(0, vessel_id_role).toInt();
   QMenu menu(this);
   menu.setToolTipsVisible(true);
   // The list may be another while the menu is open.
@@ -365,7 +372,7 @@ void VesselList::contextMenuEvent(QContextMenuEvent* event) {
 
 void VesselList::keyPressEvent(QKeyEvent* event) {
   if (event->key() == Qt::Key_Delete && currentItem()) {
-    const std::int32_t id = currentItem()->data(0, id_role).toInt();
+    const std::int32_t id = currentItem()->data(0, vessel_id_role).toInt();
     guard_([&] { bench_.edit(lumen::BranchDelete{id}); });
     return;
   }

@@ -9,29 +9,29 @@
 namespace ostia::workstation {
 namespace {
 
-constexpr int rest_ms = 1000;
+constexpr int quiet_ms = 1000;
 constexpr const char* grey_key = "view.level_hu";
 
-std::string text_of(double value) {
+std::string stored_text(double value) {
   return QString::number(value, 'g', 8).toStdString();
 }
 
 std::map<std::string, std::string> settings_of(const session::Workbench& bench) {
   return {{"view.vessel", std::to_string(bench.vessel.get())},
-          {"view.cursor_mm", text_of(bench.own_mm(bench.cursor_mm.get()))},
-          {"view.theta_deg", text_of(bench.theta_deg.get())},
+          {"view.cursor_mm", stored_text(bench.own_mm(bench.cursor_mm.get()))},
+          {"view.theta_deg", stored_text(bench.theta_deg.get())},
           {"view.curved_mode", std::to_string(static_cast<int>(bench.curved_mode.get()))},
           {"view.slab", std::to_string(static_cast<int>(bench.slab.get()))},
-          {"view.slab_mm", text_of(bench.slab_mm.get())},
-          {grey_key, text_of(bench.grey.get().level_hu)},
-          {"view.window_hu", text_of(bench.grey.get().width_hu)}};
+          {"view.slab_mm", stored_text(bench.slab_mm.get())},
+          {grey_key, stored_text(bench.grey.get().level_hu)},
+          {"view.window_hu", stored_text(bench.grey.get().width_hu)}};
 }
 
 }  // namespace
 
 ViewMemory::ViewMemory(session::Workbench& bench, QObject* parent) : QObject(parent), bench_(bench) {
   resting_.setSingleShot(true);
-  resting_.setInterval(rest_ms);
+  resting_.setInterval(quiet_ms);
   connect(&resting_, &QTimer::timeout, this, [this] {
     try {
       keep();

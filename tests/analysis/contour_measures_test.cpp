@@ -11,7 +11,7 @@
 namespace ostia::analysis {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 std::vector<Vec2> ellipse(double a, double b, int count, const Vec2& centre = Vec2::Zero(),
                           double turn = 0.0) {

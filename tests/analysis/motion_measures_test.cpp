@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 using testing::HeartBeat;
 using testing::Helix;
 using testing::Motion;
-using M = BranchMeasure;
+using M = MotionMeasure;
 using L = LocalMeasure;
 
 TEST(MotionMeasures, AFollowedHelixIsMeasuredExactly) {

@@ -14,7 +14,7 @@ namespace {
 
 using geometry::Vec2;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Along +z from the origin; theta = 0 is +x.
 geometry::AxisCurve straight(double length_mm) {

@@ -14,7 +14,7 @@
 namespace ostia::analysis {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 using lumen::testing::FunctionField;
 using State = SectionContour::State;
 

@@ -18,7 +18,7 @@ using geometry::Vec3;
 using geometry::VesselGraph;
 using testing::graph_of;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 std::shared_ptr<const VesselGraph> shared(VesselGraph graph) {
   return std::make_shared<const VesselGraph>(std::move(graph));

@@ -17,7 +17,7 @@
 
 namespace ostia::analysis::testing {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// A model and its solved walls.
 struct Solved {

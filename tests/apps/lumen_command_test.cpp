@@ -31,7 +31,7 @@ using ::testing::Not;
 using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 geometry::Centerline line(const Vec3& from, const Vec3& to, double radius) {
   geometry::Centerline axis;

@@ -19,7 +19,7 @@ using nlohmann::json;
 using ::testing::HasSubstr;
 
 /// A trunk of 10 mm, two children of 5 mm each, all as wide as Murray's law wants; a stray vessel across one.
-constexpr const char* fork =
+constexpr const char* measure_fork =
     "x1,y1,z1,radius1,x2,y2,z2,radius2\n"
     "0,0,0,1,0,0,10,1\n"
     "0,0,10,0.793700526,3,0,14,0.793700526\n"
@@ -27,7 +27,7 @@ constexpr const char* fork =
 
 TEST(MeasureCommand, AForkIsMeasuredAsItIs) {
   const auto folder = temporary_folder("measure");
-  core::write_file(folder / "tree.csv", fork);
+  core::write_file(folder / "tree.csv", measure_fork);
   const Setting in{folder, ""};
   const Outcome done = ostia({"measure", "tree.csv", "-o", "out", "--json"}, in);
   ASSERT_EQ(done.code, 0) << done.err;
@@ -51,7 +51,7 @@ TEST(MeasureCommand, AForkIsMeasuredAsItIs) {
 
 TEST(MeasureCommand, VesselsThatCrossAreListedByTheirLines) {
   const auto folder = temporary_folder("measure_cross");
-  core::write_file(folder / "tree.csv", std::string(fork) + "-5,0,5,0.5,5,0,5,0.5\n");
+  core::write_file(folder / "tree.csv", std::string(measure_fork) + "-5,0,5,0.5,5,0,5,0.5\n");
   const Setting in{folder, ""};
   const Outcome done = ostia({"measure", "tree.csv", "-o", "out", "--json"}, in);
   ASSERT_EQ(done.code, 0) << done.err;
@@ -76,7 +76,7 @@ TEST(MeasureCommand, ASurfaceIsMeasuredByItsCenterlines) {
 TEST(MeasureCommand, WhatCannotBeMeasuredIsToldAndLeavesNothing) {
   const auto folder = temporary_folder("measure_bad");
   core::write_file(folder / "bad.csv", "x1,y1,z1,radius1,x2,y2,z2,radius2\n0,0,0,1,0,0,0,1\n");
-  core::write_file(folder / "tree.csv", fork);
+  core::write_file(folder / "tree.csv", measure_fork);
   const Setting in{folder, ""};
   const Outcome bad = ostia({"measure", "bad.csv", "-o", "out"}, in);
   EXPECT_EQ(bad.code, 3);

@@ -24,17 +24,18 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using Json = nlohmann::json;
 
-constexpr double radius_mm = 2.0, length_mm = 12.0;
+constexpr double mesh_places_radius_mm = 2.0, mesh_places_length_mm = 12.0;
 
-fs::path folder_with_tube(double unit = 1.0) {
+fs::path folder_with_narrowed_tube(double unit = 1.0) {
   const fs::path folder = temporary_folder("mesh");
-  geometry::TriMesh tube = geometry::surface_of(geometry::straight_tube(length_mm, radius_mm), 0.4, true);
+  geometry::TriMesh tube =
+      geometry::surface_of(geometry::straight_tube(mesh_places_length_mm, mesh_places_radius_mm), 0.4, true);
   for (geometry::Vec3& p : tube.points) p *= unit;
   io::write_surface(folder / "tube.ply", tube);
   return folder;
 }
 
-Json manifest(const fs::path& folder) {
+Json mesh_places_manifest(const fs::path& folder) {
   return Json::parse(core::read_file(folder / "manifest.json"));
 }
 
@@ -45,7 +46,7 @@ std::pair<double, double> z_range(const geometry::MixedMesh& mesh) {
 }
 
 TEST(MeshWithCase, OpenfoamsCaseStandsInTheFolder) {
-  const fs::path folder = folder_with_tube();
+  const fs::path folder = folder_with_narrowed_tube();
   const std::vector<std::string> command{
       "mesh",   "tube.ply", "-o",        "out",        "--layers", "2", "--with-case", "openfoam",
       "--flow", "0.7",      "--outlets", "resistance", "--cycles", "2", "--waveform",  "coronary-left"};
@@ -60,7 +61,7 @@ TEST(MeshWithCase, OpenfoamsCaseStandsInTheFolder) {
                             of_case = io::read_volume_mesh(made);
   EXPECT_EQ(of_case.tetrahedra.size(), mesh.tetrahedra.size());
   EXPECT_EQ(of_case.prisms.size(), mesh.prisms.size());
-  const Json record = manifest(folder / "out");
+  const Json record = mesh_places_manifest(folder / "out");
   EXPECT_EQ(record["parameters"]["solver_case"]["solver"], "openfoam");
   EXPECT_EQ(record["parameters"]["solver_case"]["flow"]["flow_ml_s"], 0.7);
   EXPECT_TRUE(record["outputs"].contains("openfoam-case/0/U"));
@@ -72,7 +73,7 @@ TEST(MeshWithCase, OpenfoamsCaseStandsInTheFolder) {
 }
 
 TEST(MeshWithCase, SvmultiphysicsTakesSplitLayers) {
-  const fs::path folder = folder_with_tube();
+  const fs::path folder = folder_with_narrowed_tube();
   const Outcome done = ostia({"mesh", "tube.ply", "-o", "out", "--layers", "2", "--layer-thickness", "0.5",
                               "--split-prisms", "--with-case", "svmultiphysics", "--outlets", "resistance"},
                              {folder, ""});
@@ -94,7 +95,7 @@ TEST(MeshWithCase, WhatASolverDoesNotTakeIsRefusedBeforeAnythingIsRead) {
 }
 
 TEST(MeshWithCase, AFlowThroughAnInletThatIsNotThereIsToldBeforeMeshing) {
-  const fs::path folder = folder_with_tube();
+  const fs::path folder = folder_with_narrowed_tube();
   const Outcome done = ostia({"mesh", "tube.ply", "-o", "out", "--with-case", "openfoam", "--flow",
                               "inlet_moon=1", "--progress", "plain"},
                              {folder, ""});
@@ -106,14 +107,14 @@ TEST(MeshWithCase, AFlowThroughAnInletThatIsNotThereIsToldBeforeMeshing) {
 }
 
 TEST(MeshPlanes, AnEndIsCutWhereAPersonWantsIt) {
-  const fs::path folder = folder_with_tube();
+  const fs::path folder = folder_with_narrowed_tube();
   // The tube runs from z = 0 to 12; the nearest end of each plane is the one that is meant.
   const Outcome done = ostia(
       {"mesh", "tube.ply", "-o", "out", "--plane", "0,0,3:0,0,1", "--plane", "0.1,0,9:0,0.2,-1", "--json"},
       {folder, ""});
   ASSERT_EQ(done.code, 0) << done.err;
   const Json faces = Json::parse(done.out)["volume"]["faces"];
-  const double circle = std::numbers::pi * radius_mm * radius_mm;
+  const double circle = std::numbers::pi * mesh_places_radius_mm * mesh_places_radius_mm;
   for (const std::size_t cap : {1U, 2U}) {
     const bool straight = std::abs(faces[cap]["centre"][2].get<double>() - 3.0) < 0.1;
     const double cosine = straight ? 1.0 : 1.0 / std::hypot(0.2, 1.0);
@@ -121,11 +122,11 @@ TEST(MeshPlanes, AnEndIsCutWhereAPersonWantsIt) {
     EXPECT_NEAR(faces[cap]["area_mm2"].get<double>(), circle / cosine, 0.04 * circle);  // 16 chords
     EXPECT_NEAR(faces[cap]["centre"][2].get<double>(), straight ? 3.0 : 9.0, 0.1);
   }
-  EXPECT_EQ(manifest(folder / "out")["parameters"]["clip"]["planes"].size(), 2U);
+  EXPECT_EQ(mesh_places_manifest(folder / "out")["parameters"]["clip"]["planes"].size(), 2U);
 }
 
 TEST(MeshPlanes, ATableNamesTheEnds) {
-  const fs::path folder = folder_with_tube();
+  const fs::path folder = folder_with_narrowed_tube();
   const Outcome plain = ostia({"mesh", "tube.ply", "-o", "plain", "--json"}, {folder, ""});
   const std::string outlet = Json::parse(plain.out)["volume"]["faces"][2]["name"];
   const double at = Json::parse(plain.out)["volume"]["faces"][2]["centre"][2];
@@ -135,7 +136,8 @@ TEST(MeshPlanes, ATableNamesTheEnds) {
   ASSERT_EQ(ostia({"mesh", "tube.ply", "-o", "out", "--planes", "planes.csv"}, {folder, ""}).code, 0);
   const auto [low, high] = z_range(io::read_volume_mesh(folder / "out" / "mesh.vtu"));
   EXPECT_NEAR(at > 6.0 ? high : low, wanted, 0.01);
-  EXPECT_NEAR(at > 6.0 ? low : high, at > 6.0 ? 0.0 : length_mm, 0.05) << "the other end is left alone";
+  EXPECT_NEAR(at > 6.0 ? low : high, at > 6.0 ? 0.0 : mesh_places_length_mm, 0.05)
+      << "the other end is left alone";
 }
 
 TEST(MeshPlanes, ACaseOfTheWindowTakesPlanesAndASolversCaseToo) {
@@ -152,7 +154,7 @@ TEST(MeshPlanes, ACaseOfTheWindowTakesPlanesAndASolversCaseToo) {
   const auto [low, high] = z_range(io::read_volume_mesh(folder / "out" / "mesh.vtu"));
   EXPECT_NEAR(high, 9.0, 0.01);  // it keeps clear of points
   EXPECT_LT(low, 1.5);
-  EXPECT_TRUE(manifest(folder / "out")["outputs"].contains("openfoam-case/system/controlDict"));
+  EXPECT_TRUE(mesh_places_manifest(folder / "out")["outputs"].contains("openfoam-case/system/controlDict"));
   const Outcome refused =
       ostia({"mesh", "tube.ostia", "-o", "other", "--plane", "outlet_moon=0,0,9:0,0,1"}, {folder, ""});
   EXPECT_EQ(refused.code, 3);
@@ -161,7 +163,7 @@ TEST(MeshPlanes, ACaseOfTheWindowTakesPlanesAndASolversCaseToo) {
 }
 
 TEST(MeshPlanes, WhatIsNoPlaneIsRefused) {
-  const fs::path folder = folder_with_tube();
+  const fs::path folder = folder_with_narrowed_tube();
   const auto refused = [&](const std::vector<std::string>& more, const std::string& part) {
     const Outcome done =
         ostia(std::vector<std::string>{"mesh", "tube.ply", "-o", "out"} + more, {folder, ""});
@@ -180,7 +182,8 @@ TEST(MeshPlanes, WhatIsNoPlaneIsRefused) {
 
 TEST(MeshPlanes, RoundEndsAreCirclesOfTheSectionsArea) {
   const fs::path folder = temporary_folder("mesh");
-  geometry::TriMesh tube = geometry::surface_of(geometry::straight_tube(length_mm, radius_mm), 0.4, true);
+  geometry::TriMesh tube =
+      geometry::surface_of(geometry::straight_tube(mesh_places_length_mm, mesh_places_radius_mm), 0.4, true);
   for (geometry::Vec3& p : tube.points) p.x() *= 1.5;  // an ellipse of 3 x 2 mm
   io::write_surface(folder / "tube.ply", tube);
   const auto spread = [&](const std::string& out, const std::vector<std::string>& more) {
@@ -208,7 +211,7 @@ TEST(MeshPlanes, RoundEndsAreCirclesOfTheSectionsArea) {
 TEST(MeshSizeArray, LengthsAreTakenFromThePoints) {
   const fs::path folder = temporary_folder("mesh");
   const geometry::TriMesh tube =
-      geometry::surface_of(geometry::straight_tube(length_mm, radius_mm), 0.4, true);
+      geometry::surface_of(geometry::straight_tube(mesh_places_length_mm, mesh_places_radius_mm), 0.4, true);
   io::FieldValues length;
   for (const geometry::Vec3& p : tube.points) length.values.push_back(0.4 + 0.04 * p.z());
   io::write_vtp_with_fields(folder / "tube.vtp", {tube, {}, {}}, {{"edge_mm", length}});
@@ -230,13 +233,13 @@ TEST(MeshSizeArray, LengthsAreTakenFromThePoints) {
   }
   EXPECT_NEAR(near / static_cast<double>(near_count), 0.46, 0.08);
   EXPECT_NEAR(far / static_cast<double>(far_count), 0.82, 0.12);
-  EXPECT_TRUE(manifest(folder / "out")["inputs"].contains("size_array"));
+  EXPECT_TRUE(mesh_places_manifest(folder / "out")["inputs"].contains("size_array"));
 }
 
 TEST(MeshSizeArray, WhatIsNoArrayOfLengthsIsRefused) {
   const fs::path folder = temporary_folder("mesh");
   const geometry::TriMesh tube =
-      geometry::surface_of(geometry::straight_tube(length_mm, radius_mm), 0.4, true);
+      geometry::surface_of(geometry::straight_tube(mesh_places_length_mm, mesh_places_radius_mm), 0.4, true);
   io::FieldValues good, bad;
   good.values.assign(tube.points.size(), 0.5);
   bad.values = good.values;
@@ -256,7 +259,7 @@ TEST(MeshSizeArray, WhatIsNoArrayOfLengthsIsRefused) {
 }
 
 TEST(MeshForecast, AGoodTubeHasNothingToTell) {
-  const fs::path folder = folder_with_tube();
+  const fs::path folder = folder_with_narrowed_tube();
   const Outcome words = ostia({"mesh", "tube.ply", "--forecast"}, {folder, ""});
   EXPECT_EQ(words.code, 0) << words.out << words.err;
   EXPECT_THAT(words.out, HasSubstr("nothing found"));
@@ -267,7 +270,7 @@ TEST(MeshForecast, AGoodTubeHasNothingToTell) {
 }
 
 TEST(MeshForecast, AModelIsWarnedAsAMeshIs) {
-  const fs::path folder = folder_with_tube();
+  const fs::path folder = folder_with_narrowed_tube();
   for (const std::string command : {"mesh", "model"}) {
     const Outcome done = ostia({command, "tube.ply", "-o", command, "--edge-ratio", "0.9"}, {folder, ""});
     EXPECT_EQ(done.code, 0) << command << done.err;
@@ -277,7 +280,7 @@ TEST(MeshForecast, AModelIsWarnedAsAMeshIs) {
 }
 
 TEST(MeshForecast, MetresAreToldWithTheWayOut) {
-  const fs::path folder = folder_with_tube(1e-3);
+  const fs::path folder = folder_with_narrowed_tube(1e-3);
   const Outcome words = ostia({"mesh", "tube.ply", "--forecast"}, {folder, ""});
   EXPECT_EQ(words.code, 4);
   EXPECT_THAT(words.out, HasSubstr("looks like metres"));
@@ -291,7 +294,8 @@ TEST(MeshForecast, MetresAreToldWithTheWayOut) {
 
 TEST(MeshForecast, AHoleIsToldByPlaceBeforeItIsRefused) {
   const fs::path folder = temporary_folder("mesh");
-  geometry::TriMesh tube = geometry::surface_of(geometry::straight_tube(length_mm, radius_mm), 0.4, true);
+  geometry::TriMesh tube =
+      geometry::surface_of(geometry::straight_tube(mesh_places_length_mm, mesh_places_radius_mm), 0.4, true);
   // A pair of triangles turned round on the wall, and a hole in its middle.
   const auto in_middle = [&](const geometry::Triangle& t) {
     const geometry::Vec3& p = tube.points[static_cast<std::size_t>(t[0])];
@@ -316,7 +320,7 @@ TEST(MeshForecast, NeedsASurface) {
 }
 
 TEST(MeshCheck, ReadsWhatWasExported) {
-  const fs::path folder = folder_with_tube();
+  const fs::path folder = folder_with_narrowed_tube();
   const Outcome made = ostia({"mesh", "tube.ply", "-o", "out", "--layers", "2", "--export",
                               "openfoam,exodus,cgns,xdmf,abaqus,fluent", "--json"},
                              {folder, ""});
@@ -341,7 +345,7 @@ TEST(MeshCheck, ReadsWhatWasExported) {
 }
 
 TEST(MeshCheck, SplitLayersPassTheGateAndSayWhichTheyAre) {
-  const fs::path folder = folder_with_tube();
+  const fs::path folder = folder_with_narrowed_tube();
   const Outcome made =
       ostia({"mesh", "tube.ply", "-o", "out", "--layers", "4", "--layer-thickness", "0.25", "--split-prisms",
              "--export", "gmsh2,gmsh4,exodus,abaqus,cgns,xdmf,openfoam,fluent", "--json"},

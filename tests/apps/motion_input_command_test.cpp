@@ -79,7 +79,8 @@ Outcome evaluated(const fs::path& folder, const std::vector<std::string>& more) 
                {folder, ""});
 }
 
-std::string refusal(const std::vector<std::string>& arguments, const fs::path& folder, int code = 3) {
+std::string motion_input_refusal(const std::vector<std::string>& arguments, const fs::path& folder,
+                                 int code = 3) {
   const Outcome done = ostia(arguments, {folder, ""});
   EXPECT_EQ(done.code, code) << done.err;
   return done.err;
@@ -104,7 +105,7 @@ TEST(MotionInputCommand, FramesWithOneMissingAreNoPercents) {
     if (k != 12)
       io::write_surface(folder / "phases" / ("f" + std::to_string(100 + k).substr(1) + ".ply"),
                         small_surface());
-  EXPECT_THAT(refusal({"motion", "fit", "phases", "-o", "out"}, folder),
+  EXPECT_THAT(motion_input_refusal({"motion", "fit", "phases", "-o", "out"}, folder),
               AllOf(HasSubstr("f00.ply"), HasSubstr("f24.ply"), HasSubstr("--frames 25")));
 }
 
@@ -138,13 +139,15 @@ TEST(MotionInputCommand, PhasesAreKeptAsMessagesCallThem) {
 
 TEST(MotionInputCommand, NumbersThatAreNoneAreWrongUsage) {
   const fs::path folder = folder_with_motion();
-  EXPECT_THAT(refusal({"motion", "fit", "phases", "-o", "out", "--template-phase", "nan"}, folder, 2),
-              HasSubstr("--template-phase"));
-  EXPECT_THAT(refusal({"motion", "export", "motion.json", "-o", "out", "--rr", "nan"}, folder, 2),
-              HasSubstr("--rr"));
   EXPECT_THAT(
-      refusal({"motion", "measure", "motion.json", "at-rest.vtp", "-o", "out", "--rr", "nan"}, folder, 2),
+      motion_input_refusal({"motion", "fit", "phases", "-o", "out", "--template-phase", "nan"}, folder, 2),
+      HasSubstr("--template-phase"));
+  EXPECT_THAT(
+      motion_input_refusal({"motion", "export", "motion.json", "-o", "out", "--rr", "nan"}, folder, 2),
       HasSubstr("--rr"));
+  EXPECT_THAT(motion_input_refusal(
+                  {"motion", "measure", "motion.json", "at-rest.vtp", "-o", "out", "--rr", "nan"}, folder, 2),
+              HasSubstr("--rr"));
 }
 
 TEST(MotionInputCommand, UnitsAreAskedForWhereTheyAreHardlyMillimetres) {
@@ -154,13 +157,13 @@ TEST(MotionInputCommand, UnitsAreAskedForWhereTheyAreHardlyMillimetres) {
   io::write_surface(folder / "metres.ply", metres);
   const std::vector<std::string> apply{"motion", "apply",   "motion.json", "metres.ply",
                                        "-o",     "out.ply", "--phase",     "25"};
-  EXPECT_THAT(refusal(apply, folder), AllOf(HasSubstr("metres.ply"), HasSubstr("--units")));
+  EXPECT_THAT(motion_input_refusal(apply, folder), AllOf(HasSubstr("metres.ply"), HasSubstr("--units")));
   ASSERT_EQ(ostia(apply + std::vector<std::string>{"--units", "m"}, {folder, ""}).code, 0);
   const TriMesh moved = io::read_surface(folder / "out.ply").surface.mesh;
   EXPECT_LT((moved.points[3] - Vec3(3, 3, 8)).norm(), 1e-9);
   const std::vector<std::string> out{"motion",  "export", "motion.json", "-o",        "out",
                                      "--times", "1",      "--surface",   "metres.ply"};
-  EXPECT_THAT(refusal(out, folder), AllOf(HasSubstr("metres.ply"), HasSubstr("--units")));
+  EXPECT_THAT(motion_input_refusal(out, folder), AllOf(HasSubstr("metres.ply"), HasSubstr("--units")));
   EXPECT_EQ(ostia(out + std::vector<std::string>{"--units", "m"}, {folder, ""}).code, 0);
 }
 
@@ -170,7 +173,8 @@ TEST(MotionInputCommand, RefusesPointsByFileAndNumber) {
   mesh.points[2].y() = std::numeric_limits<double>::quiet_NaN();
   io::write_surface(folder / "broken.ply", mesh);
   const auto apply = [&](const std::string& file) {
-    return refusal({"motion", "apply", "motion.json", file, "-o", "out.ply", "--phase", "0"}, folder);
+    return motion_input_refusal({"motion", "apply", "motion.json", file, "-o", "out.ply", "--phase", "0"},
+                                folder);
   };
   EXPECT_THAT(apply("broken.ply"), AllOf(HasSubstr("broken.ply"), HasSubstr("point 2 is not a number")));
   mesh = small_surface();
@@ -183,9 +187,9 @@ TEST(MotionInputCommand, FacesAndLayersAreKeptOrRefused) {
   const fs::path folder = folder_with_motion();
   const geometry::FacedSurface faced{small_surface(), {1, 1, 1, 2}, {{1, "wall", {}}, {2, "inlet", {}}}};
   io::write_surface(folder / "faced.vtp", faced);
-  EXPECT_THAT(
-      refusal({"motion", "apply", "motion.json", "faced.vtp", "-o", "out.stl", "--phase", "0"}, folder),
-      AllOf(HasSubstr("out.stl"), HasSubstr("named faces")));
+  EXPECT_THAT(motion_input_refusal(
+                  {"motion", "apply", "motion.json", "faced.vtp", "-o", "out.stl", "--phase", "0"}, folder),
+              AllOf(HasSubstr("out.stl"), HasSubstr("named faces")));
   io::export_mesh(small_mesh(), io::MeshFormat::vtu, folder / "mesh.vtu", {.layer_tetrahedra = 1});
   ASSERT_EQ(
       ostia({"motion", "apply", "motion.json", "mesh.vtu", "-o", "moved.vtu", "--phase", "25"}, {folder, ""})

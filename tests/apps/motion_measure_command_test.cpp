@@ -33,7 +33,8 @@ fs::path beating_helix(int phases = 20) {
   return folder;
 }
 
-std::string refusal(const std::vector<std::string>& arguments, const fs::path& folder, int code = 3) {
+std::string motion_measure_refusal(const std::vector<std::string>& arguments, const fs::path& folder,
+                                   int code = 3) {
   const Outcome done = ostia(arguments, {folder, ""});
   EXPECT_EQ(done.code, code) << done.err;
   return done.err;
@@ -89,17 +90,19 @@ TEST(MotionMeasureCommand, RefusesInOneMessage) {
   two["phases"].erase(3);
   two["phases"].erase(2);
   core::write_file(folder / "motion.json", two.dump());
-  EXPECT_THAT(refusal({"motion", "measure", "motion.json", "lines.vtp", "-o", "out"}, folder),
+  EXPECT_THAT(motion_measure_refusal({"motion", "measure", "motion.json", "lines.vtp", "-o", "out"}, folder),
               HasSubstr("three at least"));
   const fs::path sound = beating_helix(4);
-  EXPECT_THAT(refusal({"motion", "measure", "none.json", "lines.vtp", "-o", "out"}, sound),
+  EXPECT_THAT(motion_measure_refusal({"motion", "measure", "none.json", "lines.vtp", "-o", "out"}, sound),
               HasSubstr("none.json"));
   core::write_file(sound / "far.csv", "x,y,z,radius\n500,0,0,1\n500,0,10,1\n500,0,20,1\n");
-  EXPECT_THAT(refusal({"motion", "measure", "motion.json", "far.csv", "-o", "out"}, sound),
+  EXPECT_THAT(motion_measure_refusal({"motion", "measure", "motion.json", "far.csv", "-o", "out"}, sound),
               HasSubstr("far.csv: 100.0 % of the axes lie outside of the motion's cage"));
   EXPECT_FALSE(fs::exists(sound / "out"));
-  refusal({"motion", "measure", "motion.json", "lines.vtp", "-o", "out", "--times", "2"}, sound, 2);
-  refusal({"motion", "measure", "motion.json", "lines.vtp", "-o", "out", "--rr", "0"}, sound, 2);
+  motion_measure_refusal({"motion", "measure", "motion.json", "lines.vtp", "-o", "out", "--times", "2"},
+                         sound, 2);
+  motion_measure_refusal({"motion", "measure", "motion.json", "lines.vtp", "-o", "out", "--rr", "0"}, sound,
+                         2);
 }
 
 }  // namespace

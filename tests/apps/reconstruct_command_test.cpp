@@ -21,8 +21,8 @@ using ::testing::HasSubstr;
 using Json = nlohmann::json;
 
 /// A straight vessel of 20 mm and radius 2 mm: its volume is 80 pi mm3.
-constexpr const char* line = "id,x,y,z,radius,parent\n1,0,0,0,2,-1\n2,0,0,20,2,1\n";
-constexpr const char* fork =
+constexpr const char* one_line = "id,x,y,z,radius,parent\n1,0,0,0,2,-1\n2,0,0,20,2,1\n";
+constexpr const char* reconstruct_fork =
     "id,x,y,z,radius,parent\n1,0,0,0,2,-1\n2,0,0,20,2,1\n3,8,0,34,1.4,2\n4,-6,0,36,1.2,2\n";
 
 struct Folder {
@@ -34,7 +34,7 @@ struct Folder {
 };
 
 TEST(ReconstructCommand, AStraightVesselHasItsVolume) {
-  const Folder folder(line);
+  const Folder folder(one_line);
   const Outcome done = folder.run({"tree.csv", "-o", "tube.vtp", "--level", "2", "--json"});
   ASSERT_EQ(done.code, 0) << done.err;
   const Json told = Json::parse(done.out);
@@ -54,7 +54,7 @@ TEST(ReconstructCommand, AStraightVesselHasItsVolume) {
 }
 
 TEST(ReconstructCommand, AllFormatsHoldTheSameClosedSurface) {
-  const Folder folder(fork);
+  const Folder folder(reconstruct_fork);
   for (const char* name : {"a.vtp", "a.ply", "a.obj", "a.stl"}) {
     SCOPED_TRACE(name);
     const Outcome done = folder.run({"tree.csv", "-o", name});
@@ -106,7 +106,7 @@ void write_elliptic_wall(const std::filesystem::path& file, double scale) {
 }
 
 TEST(ReconstructCommand, SectionsAreThoseOfAWall) {
-  const Folder folder(line);
+  const Folder folder(one_line);
   write_elliptic_wall(folder.path / "wall.stl", 1.0);
   const Outcome done = folder.run({"tree.csv", "-o", "tube.vtp", "--wall", "wall.stl", "--json"});
   ASSERT_EQ(done.code, 0) << done.err;
@@ -131,7 +131,7 @@ TEST(ReconstructCommand, SectionsAreThoseOfAWall) {
 }
 
 TEST(ReconstructCommand, HexahedraFillTheSurface) {
-  const Folder folder(fork);
+  const Folder folder(reconstruct_fork);
   const Outcome done = folder.run({"tree.csv", "-o", "a.vtp", "--sides", "4", "--level", "2", "--hexahedra",
                                    "case", "--layers", "4", "--layer-growth", "1.3", "--json"});
   ASSERT_EQ(done.code, 0) << done.err;
@@ -165,7 +165,7 @@ TEST(ReconstructCommand, FoldedHexahedraAreTold) {
 }
 
 TEST(ReconstructCommand, HexahedraNeedALevelAndAFormat) {
-  const Folder folder(fork);
+  const Folder folder(reconstruct_fork);
   const auto code = [&](std::vector<std::string> rest) {
     return folder.run(std::vector<std::string>{"tree.csv", "-o", "a.vtp"} + rest).code;
   };
@@ -177,7 +177,7 @@ TEST(ReconstructCommand, HexahedraNeedALevelAndAFormat) {
 }
 
 TEST(ReconstructCommand, ConesForDrawing) {
-  const Folder folder(fork);
+  const Folder folder(reconstruct_fork);
   const Outcome done = folder.run({"tree.csv", "-o", "a.vtp", "--frusta", "--sides", "6", "--json"});
   ASSERT_EQ(done.code, 0) << done.err;
   EXPECT_EQ(Json::parse(done.out)["triangles"], 3 * 2 * 6);
@@ -189,7 +189,7 @@ TEST(ReconstructCommand, ConesForDrawing) {
 }
 
 TEST(ReconstructCommand, RefusesWrongWordsAndBadTrees) {
-  const Folder folder(fork);
+  const Folder folder(reconstruct_fork);
   for (const std::vector<std::string>& wrong : std::vector<std::vector<std::string>>{
            {"--level", "4"}, {"--sides", "7"}, {"--untangling", "-1"}, {"--root", "0,0,0"}})
     EXPECT_EQ(folder.run(std::vector<std::string>{"tree.csv", "-o", "a.vtp"} + wrong).code, 2) << wrong[0];

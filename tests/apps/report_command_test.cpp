@@ -55,7 +55,7 @@ imaging::ImageVolume image(std::int16_t lumen_hu = 400) {
 }
 
 /// A folder with `heart.nrrd`, and `heart.ostia` made with it.
-fs::path case_folder(const std::string& name = "heart") {
+fs::path report_case_folder(const std::string& name = "heart") {
   const fs::path folder = temporary_folder("report");
   imaging::write_image(folder / (name + ".nrrd"), image());
   session::CaseFile file = session::CaseFile::create(folder / (name + ".ostia"), model(),
@@ -68,7 +68,7 @@ fs::path case_folder(const std::string& name = "heart") {
 }
 
 TEST(ReportCommand, MakesTheFolderOnce) {
-  const fs::path folder = case_folder();
+  const fs::path folder = report_case_folder();
   const std::vector<std::string> command{"report", "heart.ostia", "--image", "heart.nrrd",
                                          "-o",     "out",         "--date",  "2026-01-31"};
   const Outcome made = ostia(command, {folder, ""});
@@ -94,7 +94,7 @@ TEST(ReportCommand, MakesTheFolderOnce) {
 }
 
 TEST(ReportCommand, DoesWithoutAnImageAndSaysSo) {
-  const fs::path folder = case_folder();
+  const fs::path folder = report_case_folder();
   const Outcome made = ostia({"report", "heart.ostia", "-o", "out", "--json"}, {folder, ""});
   ASSERT_EQ(made.code, 0) << made.err;
   const Json report = Json::parse(made.out);
@@ -103,7 +103,7 @@ TEST(ReportCommand, DoesWithoutAnImageAndSaysSo) {
 }
 
 TEST(ReportCommand, RefusesBadInputAndLeavesNothing) {
-  const fs::path folder = case_folder();
+  const fs::path folder = report_case_folder();
   imaging::write_image(folder / "other.nrrd", image(390));
   core::write_file(folder / "no.ostia", "not a case");
   fs::create_directory(folder / "full");
@@ -128,7 +128,7 @@ TEST(ReportCommand, RefusesBadInputAndLeavesNothing) {
 }
 
 TEST(ReportCommand, BadInput_Row40_NoNameOfAFileIsWritten) {
-  const fs::path folder = case_folder("DOE^JANE");
+  const fs::path folder = report_case_folder("DOE^JANE");
   const Outcome made = ostia({"report", "DOE^JANE.ostia", "--image", (folder / "DOE^JANE.nrrd").string(),
                               "-o", "out", "--log", "json"},
                              {folder, ""});
@@ -145,7 +145,7 @@ TEST(ReportCommand, BadInput_Row40_NoNameOfAFileIsWritten) {
 }
 
 TEST(ReportCommand, AnInterruptLeavesNothing) {
-  const fs::path folder = case_folder();
+  const fs::path folder = report_case_folder();
   const std::vector<std::string> before = names_in(folder);
   double seconds = 0.0;
   const Outcome done =

@@ -22,15 +22,15 @@ constexpr const char* faulty_swc =
     "1 0 0 0 0 2 -1\n2 0 3 4 0 2 1\n3 0 3 4 12 1.5 2\n4 0 3 7 0 -1 2\n5 0 3 7 0 0.5 4\n6 0 50 0 0 1 -1\n7 0 "
     "50 1 0 1 6\n";
 
-struct Folder {
-  explicit Folder(const char* swc) { core::write_file(path / "tree.swc", swc); }
+struct TreeCommandsFolder {
+  explicit TreeCommandsFolder(const char* swc) { core::write_file(path / "tree.swc", swc); }
   Outcome run(const std::vector<std::string>& command) const { return ostia(command, {path, ""}); }
   Json info(const std::string& file) const { return Json::parse(run({"info", file, "--json"}).out); }
   std::filesystem::path path = temporary_folder("tree");
 };
 
 TEST(TreeCommands, InfoAsTextAndAsJson) {
-  const Folder folder(sound_swc);
+  const TreeCommandsFolder folder(sound_swc);
   const Outcome text = folder.run({"info", "tree.swc"});
   EXPECT_EQ(text.code, 0) << text.err;
   for (const char* row :
@@ -46,7 +46,7 @@ TEST(TreeCommands, InfoAsTextAndAsJson) {
 }
 
 TEST(TreeCommands, InfoNamesFaultsByTheirLines) {
-  const Folder folder(faulty_swc);
+  const TreeCommandsFolder folder(faulty_swc);
   EXPECT_THAT(folder.run({"info", "tree.swc"}).out,
               HasSubstr("fault         1 segment has no length (line 5)"));
   const Json info = folder.info("tree.swc");
@@ -59,7 +59,7 @@ TEST(TreeCommands, InfoNamesFaultsByTheirLines) {
 }
 
 TEST(TreeCommands, ConvertsBetweenFormats) {
-  const Folder folder(sound_swc);
+  const TreeCommandsFolder folder(sound_swc);
   std::string from = "tree.swc";
   for (const std::string to : {"a.vtp", "b.csv", "c.vtp", "d.swc"}) {
     const Outcome done = folder.run({"convert", from, to});
@@ -72,7 +72,7 @@ TEST(TreeCommands, ConvertsBetweenFormats) {
 }
 
 TEST(TreeCommands, RepairsAndTells) {
-  const Folder folder(faulty_swc);
+  const TreeCommandsFolder folder(faulty_swc);
   const Outcome done = folder.run({"convert", "tree.swc", "mended.csv", "--repair", "--json"});
   ASSERT_EQ(done.code, 0) << done.err;
   const Json told = Json::parse(done.out);
@@ -85,7 +85,7 @@ TEST(TreeCommands, RepairsAndTells) {
 }
 
 TEST(TreeCommands, TurnsFromAGivenRoot) {
-  const Folder folder(sound_swc);
+  const TreeCommandsFolder folder(sound_swc);
   ASSERT_EQ(folder.run({"convert", "tree.swc", "turned.csv", "--repair", "--root", "3,4,12"}).code, 0);
   std::ifstream in(folder.path / "turned.csv");
   std::string header, first;
@@ -96,7 +96,7 @@ TEST(TreeCommands, TurnsFromAGivenRoot) {
 
 // Places in metres, radii in millimetres: told, and settled by the user.
 TEST(TreeCommands, RadiiInAnotherUnit) {
-  const Folder folder("1 0 0 0 0 2 -1\n2 0 0.003 0.004 0 1.5 1\n");
+  const TreeCommandsFolder folder("1 0 0 0 0 2 -1\n2 0 0.003 0.004 0 1.5 1\n");
   EXPECT_THAT(folder.run({"info", "tree.swc"}).out, HasSubstr("different units"));
   ASSERT_EQ(folder.run({"convert", "tree.swc", "a.swc", "--units", "m", "--radius-units", "mm"}).code, 0);
   const Json info = folder.info("a.swc");
@@ -106,7 +106,7 @@ TEST(TreeCommands, RadiiInAnotherUnit) {
 }
 
 TEST(TreeCommands, RefusesWhatMakesNoSense) {
-  const Folder folder(sound_swc);
+  const TreeCommandsFolder folder(sound_swc);
   EXPECT_EQ(folder.run({"convert", "tree.swc", "a.csv", "--root", "0,0,0"}).code, 2);
   EXPECT_EQ(folder.run({"convert", "tree.swc", "a.csv", "--smooth", "3"}).code, 2);
   EXPECT_EQ(folder.run({"convert", "tree.swc", "a.stl"}).code, 3);
@@ -119,7 +119,7 @@ TEST(TreeCommands, RefusesWhatMakesNoSense) {
 
 // A table of points along vessels stays one of centerlines between the formats of centerlines.
 TEST(TreeCommands, CenterlinesKeepTheirNames) {
-  const Folder folder(sound_swc);
+  const TreeCommandsFolder folder(sound_swc);
   core::write_file(folder.path / "lines.csv", "vessel,x,y,z,radius\nLAD,0,0,0,1\nLAD,1,0,0,1\nLAD,2,0,0,1\n");
   ASSERT_EQ(folder.run({"convert", "lines.csv", "lines.vtp"}).code, 0);
   ASSERT_EQ(folder.run({"convert", "lines.vtp", "again.csv"}).code, 0);

@@ -53,7 +53,7 @@ SkeletonGraph drawn(const std::vector<std::vector<Vec3>>& lines, double radius =
 
 const std::vector<Vec3> trunk_low{{0, 0, 0}, {0, 0, 10}}, trunk_high{{0, 0, 10}, {0, 0, 30}};
 
-std::string message_of(const std::function<void()>& command) {
+std::string edit_message(const std::function<void()>& command) {
   try {
     command();
   } catch (const InvalidInput& e) {
@@ -238,24 +238,24 @@ TEST(EdgeAt, IsTheNearestLineAlsoAtItsEnds) {
   EXPECT_EQ(edge_at(graph, Vec3(0.4, 0, 25)), 1);
   EXPECT_EQ(edge_at(graph, Vec3(9.5, 0, 10)), 2);
   EXPECT_EQ(edge_at(graph, Vec3(0, 0, 33)), 1);
-  EXPECT_THAT(message_of([&] { edge_at(graph, Vec3(40, 0, 0)); }), HasSubstr("off the skeleton"));
+  EXPECT_THAT(edit_message([&] { edge_at(graph, Vec3(40, 0, 0)); }), HasSubstr("off the skeleton"));
 }
 
 TEST(Commands, RefuseWhatMakesNoSense) {
   const SkeletonGraph graph = drawn({trunk_low, trunk_high, {{0, 0, 10}, {9, 0, 10}}});
   const Vec3 far(40, 0, 0), bad(std::nan(""), 0, 0);
-  EXPECT_THAT(message_of([&] { connected(graph, far, Vec3::Zero()); }), HasSubstr("off the skeleton"));
-  EXPECT_THAT(message_of([&] { connected(graph, Vec3(0, 0, 0.2), Vec3::Zero()); }),
+  EXPECT_THAT(edit_message([&] { connected(graph, far, Vec3::Zero()); }), HasSubstr("off the skeleton"));
+  EXPECT_THAT(edit_message([&] { connected(graph, Vec3(0, 0, 0.2), Vec3::Zero()); }),
               HasSubstr("the same one"));
-  EXPECT_THAT(message_of([&] { connected(graph, bad, Vec3::Zero()); }), HasSubstr("not finite"));
-  EXPECT_THAT(message_of([&] { cut(graph, Vec3(0, 0, 10.2)); }), HasSubstr("away from its nodes"));
-  EXPECT_THAT(message_of([&] { cut(graph, far); }), HasSubstr("off the skeleton"));
-  EXPECT_THAT(message_of([&] { cut(SkeletonGraph{}, far); }), HasSubstr("empty"));
-  EXPECT_THAT(message_of([&] { removed(graph, 99); }), HasSubstr("no edge 99"));
-  EXPECT_THAT(message_of([&] { pruned(graph, {.length_mm = -1.0}); }), HasSubstr("length_mm is -1"));
-  EXPECT_THAT(message_of([&] { gaps_closed(graph, {.angle_deg = 0.0}); }), HasSubstr("angle_deg is 0"));
-  EXPECT_THAT(message_of([&] { ends_extended(graph, {}); }), HasSubstr("does not fit"));
-  EXPECT_THAT(message_of([&] { smoothed(graph, {.knot_spacing_mm = 0.0}); }),
+  EXPECT_THAT(edit_message([&] { connected(graph, bad, Vec3::Zero()); }), HasSubstr("not finite"));
+  EXPECT_THAT(edit_message([&] { cut(graph, Vec3(0, 0, 10.2)); }), HasSubstr("away from its nodes"));
+  EXPECT_THAT(edit_message([&] { cut(graph, far); }), HasSubstr("off the skeleton"));
+  EXPECT_THAT(edit_message([&] { cut(SkeletonGraph{}, far); }), HasSubstr("empty"));
+  EXPECT_THAT(edit_message([&] { removed(graph, 99); }), HasSubstr("no edge 99"));
+  EXPECT_THAT(edit_message([&] { pruned(graph, {.length_mm = -1.0}); }), HasSubstr("length_mm is -1"));
+  EXPECT_THAT(edit_message([&] { gaps_closed(graph, {.angle_deg = 0.0}); }), HasSubstr("angle_deg is 0"));
+  EXPECT_THAT(edit_message([&] { ends_extended(graph, {}); }), HasSubstr("does not fit"));
+  EXPECT_THAT(edit_message([&] { smoothed(graph, {.knot_spacing_mm = 0.0}); }),
               HasSubstr("knot_spacing_mm is 0"));
 }
 

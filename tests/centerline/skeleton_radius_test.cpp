@@ -24,13 +24,13 @@ using test::mask_of;
 
 const Vec3 ct_voxel(0.6, 0.6, 1.25);
 
-struct Tube {
+struct SkeletonRadiusTube {
   Vec3 a, b;
 };
 
 /// 30 mm of tube, in a box that fits it.
 struct Scanned {
-  Tube tube;
+  SkeletonRadiusTube tube;
   imaging::Geometry grid;
 };
 Scanned scanned(const Vec3& direction, const Vec3& spacing, const Vec3& shift) {

@@ -12,7 +12,7 @@ namespace {
 using ostia::testing::made_image;
 using ostia::testing::ramp;
 
-constexpr double muscle_hu = 60.0, contrast_hu = 400.0;
+constexpr double muscle_hu = 60.0, disc_fit_contrast_hu = 400.0;
 
 double in_column(const Vec3& at, double x, double y, double radius_mm) {
   return ramp(std::hypot(at.x() - x, at.y() - y) - radius_mm);
@@ -22,7 +22,7 @@ TEST(DiscFit, MeasuresAColumnFromAPlaceOffItsMiddle) {
   for (const double radius : {9.0, 14.0, 21.0}) {
     SCOPED_TRACE(radius);
     const auto image = made_image(40.0, 10.0, 1.5, [&](const Vec3& at) {
-      return muscle_hu + (contrast_hu - muscle_hu) * in_column(at, 3.0, -2.0, radius);
+      return muscle_hu + (disc_fit_contrast_hu - muscle_hu) * in_column(at, 3.0, -2.0, radius);
     });
     const Vec3 off(3.0 + 0.4 * radius, -2.0 - 0.3 * radius, 5.0);
     const auto disc = fit_disc(image, {off, Vec3::UnitX(), Vec3::UnitY()}, {});
@@ -31,7 +31,7 @@ TEST(DiscFit, MeasuresAColumnFromAPlaceOffItsMiddle) {
     // An edge counts where a third of the contrast is gone, so the disc is a little smaller.
     EXPECT_NEAR(disc->radius_mm, radius - 0.2, 0.3);
     EXPECT_EQ(disc->round, 1.0);
-    EXPECT_NEAR(disc->hu, contrast_hu, 1.0);
+    EXPECT_NEAR(disc->hu, disc_fit_contrast_hu, 1.0);
     EXPECT_LT(disc->sd_hu, 1.0);
   }
 }
@@ -40,7 +40,7 @@ TEST(DiscFit, PassesOverAChamberThatTouches) {
   // A wider chamber as bright touches over a fifth of the circumference.
   const auto image = made_image(60.0, 6.0, 1.5, [&](const Vec3& at) {
     const double inside = std::max(in_column(at, 0.0, 0.0, 14.0), in_column(at, 37.0, 0.0, 25.0));
-    return muscle_hu + (contrast_hu - muscle_hu) * inside;
+    return muscle_hu + (disc_fit_contrast_hu - muscle_hu) * inside;
   });
   const auto disc = fit_disc(image, {Vec3(-2.0, 1.0, 3.0), Vec3::UnitX(), Vec3::UnitY()}, {});
   ASSERT_TRUE(disc);
@@ -51,7 +51,7 @@ TEST(DiscFit, PassesOverAChamberThatTouches) {
 
 TEST(DiscFit, FindsNothingInASlabOrWithoutContrast) {
   const auto slab = made_image(60.0, 6.0, 1.5, [&](const Vec3& at) {
-    return muscle_hu + (contrast_hu - muscle_hu) * ramp(std::abs(at.x()) - 10.0);
+    return muscle_hu + (disc_fit_contrast_hu - muscle_hu) * ramp(std::abs(at.x()) - 10.0);
   });
   EXPECT_FALSE(fit_disc(slab, {Vec3(0.0, 0.0, 3.0), Vec3::UnitX(), Vec3::UnitY()}, {}));
   const auto plain = made_image(30.0, 6.0, 1.5, [](const Vec3&) { return muscle_hu; });

@@ -25,7 +25,7 @@ struct Heart {
   phantom::CasePlan plan;
   imaging::ImageVolume image;
 };
-const Heart& heart() {
+const Heart& extract_phantom_heart() {
   static const Heart made = [] {
     phantom::CaseOptions options;
     options.preset = phantom::Preset::small;
@@ -51,17 +51,17 @@ const geometry::Vessel* named(const geometry::VesselTree& tree, const std::strin
 
 TEST(ExtractFromAPhantom, FindsCentresAndNamesTheArteries) {
   core::TaskContext task;
-  const Extraction found = extract(heart().image, {}, task);
+  const Extraction found = extract(extract_phantom_heart().image, {}, task);
   EXPECT_EQ(task.progress(), 1.0);
   EXPECT_EQ(task.stage(), "naming the vessels");
   const geometry::VesselTree& tree = found.vessels.tree;
-  const geometry::VesselTree truth = phantom::vessel_tree(heart().plan.tree);
+  const geometry::VesselTree truth = phantom::vessel_tree(extract_phantom_heart().plan.tree);
   EXPECT_EQ(geometry::find_fault(tree).value_or("none"), "none");
   EXPECT_EQ(geometry::roots(tree).size(), 2U);
   EXPECT_EQ(found.notes.size(), tree.vessels.size());
 
   double asked = 0.0, reached = 0.0;
-  for (const phantom::CoronaryVessel& vessel : heart().plan.tree.vessels)
+  for (const phantom::CoronaryVessel& vessel : extract_phantom_heart().plan.tree.vessels)
     for (std::size_t i = 0; i < vessel.axis.size(); i += 5) {
       if (vessel.axis.radius[i] < 0.5) continue;
       asked += 1.0;
@@ -82,21 +82,22 @@ TEST(ExtractFromAPhantom, FindsCentresAndNamesTheArteries) {
   EXPECT_LT(off / points, 0.12);
 
   int right = 0;
-  for (const phantom::CoronaryVessel& vessel : heart().plan.tree.vessels) {
+  for (const phantom::CoronaryVessel& vessel : extract_phantom_heart().plan.tree.vessels) {
     const geometry::Vessel* const same = named(tree, vessel.name);
     if (same == nullptr) continue;
     const Vec3 end = geometry::vessel_axis(tree, *same).points.back();
     right += (geometry::closest(vessel.axis.points, end).point - end).norm() < 1.0 ? 1 : 0;
   }
-  EXPECT_EQ(right, static_cast<int>(heart().plan.tree.vessels.size())) << "vessels with their right names";
+  EXPECT_EQ(right, static_cast<int>(extract_phantom_heart().plan.tree.vessels.size()))
+      << "vessels with their right names";
   EXPECT_EQ(found.vessels.dominance, CoronaryDominance::right);
 }
 
 TEST(ExtractFromAPhantom, TheSameForAnyNumberOfThreads) {
   core::set_max_threads(1);
-  const Extraction alone = extract(heart().image);
+  const Extraction alone = extract(extract_phantom_heart().image);
   core::set_max_threads(3);
-  const Extraction together = extract(heart().image);
+  const Extraction together = extract(extract_phantom_heart().image);
   core::set_max_threads(0);
   EXPECT_EQ(alone.warnings, together.warnings);
   ASSERT_EQ(alone.vessels.tree.vessels.size(), together.vessels.tree.vessels.size());
@@ -110,7 +111,7 @@ TEST(ExtractFromAPhantom, TheSameForAnyNumberOfThreads) {
 }
 
 TEST(ExtractFromAPhantom, AMissingRightCoronaryIsTold) {
-  Heart half = heart();
+  Heart half = extract_phantom_heart();
   const imaging::Geometry& grid = half.image.geometry;
   for (const phantom::CoronaryVessel& vessel : half.plan.tree.vessels) {
     if (vessel.name != "RCA") continue;
@@ -134,15 +135,15 @@ TEST(ExtractFromAPhantom, AMissingRightCoronaryIsTold) {
 TEST(ExtractFromAPhantom, RefusesWhatItCannotUseAndStopsWhenTold) {
   ExtractOptions options;
   options.axes.step_mm = 0.0;
-  EXPECT_THROW(extract(heart().image, options), InvalidInput);
+  EXPECT_THROW(extract(extract_phantom_heart().image, options), InvalidInput);
   options = {};
   options.labels.least_confidence = 2.0;
-  EXPECT_THROW(extract(heart().image, options), InvalidInput);
+  EXPECT_THROW(extract(extract_phantom_heart().image, options), InvalidInput);
   EXPECT_THROW(extract({}), InvalidInput);
   core::TaskContext task;
   task.cancel();
-  EXPECT_THROW(extract(heart().image, {}, task), Cancelled);
-  imaging::ImageVolume muscle = heart().image;
+  EXPECT_THROW(extract(extract_phantom_heart().image, {}, task), Cancelled);
+  imaging::ImageVolume muscle = extract_phantom_heart().image;
   std::fill(muscle.voxels.begin(), muscle.voxels.end(), static_cast<std::int16_t>(60));
   EXPECT_THROW(extract(muscle), InvalidInput);
 }

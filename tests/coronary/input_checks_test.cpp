@@ -22,7 +22,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 /// What the search says of an image in which it must find nothing.
-std::string refusal_of(const imaging::ImageVolume& image) {
+std::string input_checks_refusal_of(const imaging::ImageVolume& image) {
   try {
     extract(image);
   } catch (const Error& error) {
@@ -54,37 +54,41 @@ TEST(InputChecks, AChestInHounsfieldUnitsPasses) {
 }
 
 TEST(InputChecks, WrongUnitsAreNamed) {
-  EXPECT_THAT(refusal_of(changed(chest(), 1.0, 1024.0)), HasSubstr("1024 may not have been subtracted"));
-  EXPECT_THAT(refusal_of(changed(chest(), 1.0, -1024.0)), HasSubstr("subtracted twice"));
-  EXPECT_THAT(refusal_of(changed(chest(), 1.0 / 1045.0, 1000.0 / 1045.0)),
+  EXPECT_THAT(input_checks_refusal_of(changed(chest(), 1.0, 1024.0)),
+              HasSubstr("1024 may not have been subtracted"));
+  EXPECT_THAT(input_checks_refusal_of(changed(chest(), 1.0, -1024.0)), HasSubstr("subtracted twice"));
+  EXPECT_THAT(input_checks_refusal_of(changed(chest(), 1.0 / 1045.0, 1000.0 / 1045.0)),
               HasSubstr("convert it back to HU"));
-  EXPECT_THAT(refusal_of(changed(chest(), 255.0 / 1045.0, 244.0)), HasSubstr("256 grey levels"));
-  EXPECT_THAT(refusal_of(changed(chest(), 10.0, 0.0)), HasSubstr("far beyond CT numbers"));
-  EXPECT_THAT(refusal_of(changed(chest(), 0.1, 0.0)), HasSubstr("scaled"));
+  EXPECT_THAT(input_checks_refusal_of(changed(chest(), 255.0 / 1045.0, 244.0)), HasSubstr("256 grey levels"));
+  EXPECT_THAT(input_checks_refusal_of(changed(chest(), 10.0, 0.0)), HasSubstr("far beyond CT numbers"));
+  EXPECT_THAT(input_checks_refusal_of(changed(chest(), 0.1, 0.0)), HasSubstr("scaled"));
 }
 
 TEST(InputChecks, NoiseAndNothingAreNamed) {
   std::mt19937 random(11);
   std::normal_distribution<double> hu(100.0, 300.0);
-  EXPECT_THAT(refusal_of(made_image(60.0, 60.0, 1.5, [&](const geometry::Vec3&) { return hu(random); })),
-              HasSubstr("the image is noise"));
-  EXPECT_THAT(refusal_of(made_image(60.0, 60.0, 1.5, [](const geometry::Vec3&) { return 60.0; })),
-              HasSubstr("every voxel is 60"));
+  EXPECT_THAT(
+      input_checks_refusal_of(made_image(60.0, 60.0, 1.5, [&](const geometry::Vec3&) { return hu(random); })),
+      HasSubstr("the image is noise"));
+  EXPECT_THAT(
+      input_checks_refusal_of(made_image(60.0, 60.0, 1.5, [](const geometry::Vec3&) { return 60.0; })),
+      HasSubstr("every voxel is 60"));
 }
 
 TEST(InputChecks, TooFewAndTooWideVoxelsAreNamed) {
   imaging::ImageVolume three;
   three.geometry.size = {3, 3, 3};
   three.voxels = std::vector<std::int16_t>(27, 100);
-  EXPECT_THAT(refusal_of(three), AllOf(HasSubstr("3 x 3 x 3 voxels"), HasSubstr("too small")));
+  EXPECT_THAT(input_checks_refusal_of(three), AllOf(HasSubstr("3 x 3 x 3 voxels"), HasSubstr("too small")));
   imaging::ImageVolume thick = chest();
   thick.geometry.spacing.z() = 5.0;
-  EXPECT_THAT(refusal_of(thick), AllOf(HasSubstr("voxels of 5.0 mm"), HasSubstr("thinner slices")));
+  EXPECT_THAT(input_checks_refusal_of(thick),
+              AllOf(HasSubstr("voxels of 5.0 mm"), HasSubstr("thinner slices")));
   EXPECT_THAT(check_input(chest()).warnings, ::testing::ElementsAre(HasSubstr("voxels of 2.0 mm are wide")));
 }
 
 TEST(InputChecks, LungsThatAreTooBrightAreNoneInHounsfieldUnits) {
-  EXPECT_THAT(refusal_of(changed(chest(), 0.5, 0.0)),
+  EXPECT_THAT(input_checks_refusal_of(changed(chest(), 0.5, 0.0)),
               AllOf(HasSubstr("nothing in the image is darker than -500"), HasSubstr("scaled")));
 }
 
@@ -129,15 +133,15 @@ double abdomen_hu(const geometry::Vec3& at) {
 }
 
 TEST(InputChecks, AnAbdomenIsNoChestAndItsAortaNotOneOfAHeart) {
-  EXPECT_THAT(refusal_of(made_image(80.0, 90.0, 1.2, abdomen_hu)),
+  EXPECT_THAT(input_checks_refusal_of(made_image(80.0, 90.0, 1.2, abdomen_hu)),
               AllOf(HasSubstr("no chest"), HasSubstr("draw a first vessel by its two ends")));
   // Cut so close that no lung could be expected, it has an aorta and arteries that leave it, but no heart.
-  EXPECT_THAT(refusal_of(made_image(45.0, 90.0, 1.0, abdomen_hu)),
+  EXPECT_THAT(input_checks_refusal_of(made_image(45.0, 90.0, 1.0, abdomen_hu)),
               AllOf(HasSubstr("no heart was found below the aorta"), HasSubstr("first vessel")));
 }
 
 TEST(InputChecks, WithoutContrastItSaysWhatWasSeen) {
-  const std::string said = refusal_of(made_image(70.0, 70.0, 2.0, chest_hu));
+  const std::string said = input_checks_refusal_of(made_image(70.0, 70.0, 2.0, chest_hu));
   EXPECT_THAT(said, AllOf(HasSubstr("has 45 HU, as blood without contrast agent"),
                           HasSubstr("draw a first vessel by its two ends")));
 }

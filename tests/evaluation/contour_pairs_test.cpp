@@ -13,7 +13,7 @@
 namespace ostia::evaluation {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 std::vector<Vec3> circle(double radius, double z, int points = 64, const Vec3& middle = Vec3::Zero()) {
   std::vector<Vec3> out;

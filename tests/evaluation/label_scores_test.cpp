@@ -16,7 +16,8 @@ namespace {
 using imaging::ImageVolume;
 using imaging::Vec3;
 
-constexpr double pi = std::numbers::pi, spacing_mm = 0.2;
+using std::numbers::pi;
+constexpr double spacing_mm = 0.2;
 
 ImageVolume nothing(std::int64_t n = 60) {
   imaging::Geometry g;
@@ -37,7 +38,7 @@ void paint(ImageVolume& image, double radius_mm, const Vec3& centre, std::int16_
       }
 }
 
-ImageVolume ball(double radius_mm, const Vec3& centre = Vec3::Zero(), std::int16_t label = 1) {
+ImageVolume label_ball(double radius_mm, const Vec3& centre = Vec3::Zero(), std::int16_t label = 1) {
   ImageVolume image = nothing();
   paint(image, radius_mm, centre, label);
   return image;
@@ -48,16 +49,16 @@ double ball_mm3(double r) {
 }
 
 TEST(BoundaryOf, ABallIsClosedAndWithinAVoxel) {
-  const geometry::TriMesh mesh = boundary_of(ball(4.0), 1);
+  const geometry::TriMesh mesh = boundary_of(label_ball(4.0), 1);
   EXPECT_EQ(geometry::find_faults(mesh, false).open_edges, 0u);
   EXPECT_NEAR(geometry::volume(mesh), ball_mm3(4.0), 0.03 * ball_mm3(4.0));
   for (const Vec3& p : mesh.points)
     EXPECT_NEAR(p.norm(), 4.0, 0.87 * spacing_mm) << "half a voxel's diagonal";
-  EXPECT_TRUE(boundary_of(ball(4.0), 2).triangles.empty());
+  EXPECT_TRUE(boundary_of(label_ball(4.0), 2).triangles.empty());
 }
 
 TEST(CompareLabels, ConcentricBalls) {
-  const std::vector<LabelScore> scores = compare_labels(ball(4.0), ball(4.6));
+  const std::vector<LabelScore> scores = compare_labels(label_ball(4.0), label_ball(4.6));
   ASSERT_EQ(scores.size(), 1u);
   const LabelScore& s = scores.front();
   const double a = ball_mm3(4.0), b = ball_mm3(4.6);
@@ -75,7 +76,7 @@ TEST(CompareLabels, ConcentricBalls) {
 
 TEST(CompareLabels, ShiftedBallsShareALens) {
   const double r = 3.0, d = 1.0;  // whole voxels: both are painted alike
-  const LabelScore s = compare_labels(ball(r), ball(r, Vec3(d, 0.0, 0.0))).front();
+  const LabelScore s = compare_labels(label_ball(r), label_ball(r, Vec3(d, 0.0, 0.0))).front();
   const double lens = pi * (4.0 * r + d) * (2.0 * r - d) * (2.0 * r - d) / 12.0;
   EXPECT_NEAR(s.overlap.dice, lens / ball_mm3(r), 0.01);
   EXPECT_NEAR(s.difference_mm3, 0.0, 1e-9);
@@ -90,14 +91,14 @@ TEST(CompareLabels, ShiftedBallsShareALens) {
 }
 
 TEST(CompareLabels, TheSameIsTheSame) {
-  const LabelScore s = compare_labels(ball(3.0), ball(3.0)).front();
+  const LabelScore s = compare_labels(label_ball(3.0), label_ball(3.0)).front();
   EXPECT_DOUBLE_EQ(s.overlap.dice, 1.0);
   EXPECT_DOUBLE_EQ(s.overlap.jaccard, 1.0);
   EXPECT_NEAR(s.boundary.max_sd_mm, 0.0, 1e-9);
 }
 
 TEST(CompareLabels, LabelByLabel) {
-  ImageVolume a = ball(2.0, Vec3(-3.0, 0.0, 0.0), 3), b = ball(2.0, Vec3(-3.0, 0.0, 0.0), 3);
+  ImageVolume a = label_ball(2.0, Vec3(-3.0, 0.0, 0.0), 3), b = label_ball(2.0, Vec3(-3.0, 0.0, 0.0), 3);
   paint(a, 1.0, Vec3(3.0, 0.0, 0.0), 7);
   paint(b, 1.0, Vec3(3.0, 0.0, 0.0), 9);
   const std::vector<LabelScore> scores = compare_labels(a, b);
@@ -113,7 +114,7 @@ TEST(CompareLabels, LabelByLabel) {
 }
 
 TEST(CompareLabels, ABallAtTheBorderIsClosedThere) {
-  const ImageVolume cut = ball(3.0, Vec3(6.0, 0.0, 0.0));
+  const ImageVolume cut = label_ball(3.0, Vec3(6.0, 0.0, 0.0));
   EXPECT_EQ(geometry::find_faults(boundary_of(cut, 1), false).open_edges, 0u);
   EXPECT_NEAR(compare_labels(cut, cut).front().boundary.max_sd_mm, 0.0, 1e-9);
 }
@@ -128,16 +129,16 @@ std::string refusal(const ImageVolume& a, const ImageVolume& b) {
 }
 
 TEST(CompareLabels, BadInputIsNamed) {
-  ImageVolume moved = ball(3.0);
+  ImageVolume moved = label_ball(3.0);
   moved.geometry.origin.x() += 0.1;
-  EXPECT_NE(refusal(ball(3.0), moved).find("grids"), std::string::npos);
-  EXPECT_NE(refusal(ball(3.0), nothing(50)).find("grids"), std::string::npos);
+  EXPECT_NE(refusal(label_ball(3.0), moved).find("grids"), std::string::npos);
+  EXPECT_NE(refusal(label_ball(3.0), nothing(50)).find("grids"), std::string::npos);
   EXPECT_NE(refusal(nothing(), nothing()).find("empty"), std::string::npos);
-  EXPECT_NE(refusal(nothing(), ball(3.0)).find("swapped"), std::string::npos);
+  EXPECT_NE(refusal(nothing(), label_ball(3.0)).find("swapped"), std::string::npos);
   ImageVolume grey = nothing();
   for (std::size_t i = 0; i < grey.voxels.size(); ++i) grey.voxels[i] = static_cast<std::int16_t>(i % 500);
   EXPECT_NE(refusal(grey, grey).find("grey"), std::string::npos);
-  EXPECT_EQ(compare_labels(ball(3.0), nothing()).front().overlap.dice, 0.0) << "an empty result counts";
+  EXPECT_EQ(compare_labels(label_ball(3.0), nothing()).front().overlap.dice, 0.0) << "an empty result counts";
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ using geometry::Contour;
 using geometry::ContourSection;
 using geometry::Vec3;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Along +z from z = from, counter-clockwise looking along +z.
 ContourSection cylinder(double radius_mm, double from = 5.0, double to = 15.0, int points = 128,

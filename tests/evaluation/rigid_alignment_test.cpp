@@ -11,7 +11,7 @@ namespace {
 
 using geometry::Vec3;
 
-geometry::TriMesh fork() {
+geometry::TriMesh rigid_alignment_fork() {
   return geometry::surface_of(geometry::y_junction(15.0, 15.0, 2.0, 1.5, 70.0), 0.5, false);
 }
 
@@ -24,7 +24,7 @@ RigidMotion small_motion() {
 }
 
 TEST(RigidAlignment, FindsTheMotionBack) {
-  const geometry::TriMesh mesh = fork();
+  const geometry::TriMesh mesh = rigid_alignment_fork();
   const RigidMotion moved = small_motion();
   std::vector<Vec3> points;
   for (const Vec3& p : mesh.points) points.push_back(moved(p));
@@ -38,7 +38,7 @@ TEST(RigidAlignment, FindsTheMotionBack) {
 }
 
 TEST(RigidAlignment, LeavesWhatNoMotionMends) {
-  const geometry::TriMesh mesh = fork();
+  const geometry::TriMesh mesh = rigid_alignment_fork();
   const RigidAlignment still = align_to(geometry::AabbTree(mesh), mesh.points);
   EXPECT_TRUE(still.converged);
   EXPECT_LT(angle_deg(still.motion), 1e-6);
@@ -46,7 +46,7 @@ TEST(RigidAlignment, LeavesWhatNoMotionMends) {
 }
 
 TEST(RigidAlignment, NeverMakesTheDistanceLarger) {
-  const geometry::TriMesh mesh = fork();
+  const geometry::TriMesh mesh = rigid_alignment_fork();
   std::vector<Vec3> points;
   for (const Vec3& p : mesh.points) points.push_back(1.3 * p + Vec3(4.0, 2.0, -3.0));
   const RigidAlignment found = align_to(geometry::AabbTree(mesh), points);
@@ -55,7 +55,7 @@ TEST(RigidAlignment, NeverMakesTheDistanceLarger) {
 }
 
 TEST(RigidAlignment, RefusesWhatHasNoMotion) {
-  const geometry::AabbTree surface(fork());
+  const geometry::AabbTree surface(rigid_alignment_fork());
   EXPECT_THROW(align_to(surface, std::vector<Vec3>(5, Vec3::Zero())), InvalidInput);
   EXPECT_THROW(align_to(surface, std::vector<Vec3>(9, Vec3::Constant(NAN))), InvalidInput);
   AlignmentOptions options;

@@ -17,10 +17,11 @@ namespace {
 using geometry::TriMesh;
 using geometry::Vec3;
 
-constexpr double pi = std::numbers::pi, r0 = 5.0, amplitude_mm = 1.0;
+using std::numbers::pi;
+constexpr double r0 = 5.0, amplitude_mm = 1.0;
 constexpr int phase_count = 10;
 
-TriMesh ball(double radius_mm) {
+TriMesh beating_ball(double radius_mm) {
   const auto f = [=](const Vec3& p) { return p.norm() - radius_mm; };
   const Vec3 far = Vec3::Constant(radius_mm + 0.5);
   TriMesh mesh = geometry::isosurface(f, geometry::Box3(-far, far), 0.3);
@@ -34,7 +35,7 @@ double radius_at(int phase) {
 
 /// The same triangles in every phase, radius r(t) + offset.
 SurfaceMotion pulsating(double offset_mm = 0.0) {
-  const TriMesh unit = ball(1.0 * r0);
+  const TriMesh unit = beating_ball(1.0 * r0);
   SurfaceMotion motion;
   for (int k = 0; k < phase_count; ++k) {
     motion.names.push_back("phase" + std::to_string(k));
@@ -75,7 +76,7 @@ TEST(SurfaceMotion, AResultThatIsTooWide) {
 TEST(SurfaceMotion, OtherTrianglesAreComparedByClosestPoints) {
   SurfaceMotion remeshed = pulsating();
   for (int k = 0; k < phase_count; ++k)
-    remeshed.phases[static_cast<std::size_t>(k)] = ball(radius_at(k) + 0.25);
+    remeshed.phases[static_cast<std::size_t>(k)] = beating_ball(radius_at(k) + 0.25);
   const SurfaceMotionError e = compare_surface_motion(pulsating(), remeshed);
   EXPECT_FALSE(e.corresponding);
   EXPECT_NEAR(e.msd_mm, 0.25, 0.0075) << "two triangulations of 0.3 mm";

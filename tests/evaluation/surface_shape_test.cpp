@@ -16,7 +16,7 @@ namespace {
 using geometry::TriMesh;
 using geometry::Vec3;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// A grid of m x n points on a torus, outward.
 TriMesh torus(double ring, double radius, int m, int n) {

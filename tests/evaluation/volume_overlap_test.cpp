@@ -16,7 +16,7 @@ namespace {
 using geometry::TriMesh;
 using geometry::Vec3;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 TriMesh ball(double radius_mm, const Vec3& centre) {
   const auto f = [=](const Vec3& p) { return (p - centre).norm() - radius_mm; };

@@ -14,7 +14,7 @@
 namespace ostia::experiments {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double length_mm = 30.0;
 
 /// A straight vessel whose lumen is oval and narrows in the middle.
@@ -122,7 +122,7 @@ TEST(Editing, ReadsASuite) {
     edit_suite(folder, options);
     FAIL();
   } catch (const InvalidInput& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("ostia phantom"));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("ostia phantom"));
   }
 }
 

@@ -19,7 +19,7 @@ using geometry::Vec3;
 constexpr DeformationKind kinds[] = {DeformationKind::thin_plate_spline, DeformationKind::gaussian_basis};
 constexpr MixtureCost costs[] = {MixtureCost::l2, MixtureCost::kernel_correlation};
 
-const TriMesh& tree() {
+const TriMesh& mixture_deformation_tree() {
   static const TriMesh mesh = geometry::surface_of(geometry::coronary_like_tree(), 1.2, false);
   return mesh;
 }
@@ -44,14 +44,14 @@ double mean_error(const TriMesh& result, const TriMesh& truth) {
 }
 
 TEST(MixtureDeformation, ThinPlatesFindAnAffineMotion) {
-  const TriMesh target = moved(tree(), [](const Vec3& p) {
+  const TriMesh target = moved(mixture_deformation_tree(), [](const Vec3& p) {
     return Vec3(0.95 * p.x() + 1.0, 0.9 * p.y() + 0.05 * p.x() + 2.0, 1.05 * p.z() - 1.5);
   });
-  ASSERT_GT(mean_error(tree(), target), 2.0);
+  ASSERT_GT(mean_error(mixture_deformation_tree(), target), 2.0);
   for (const MixtureCost cost : costs) {
     MixtureOptions options = coarse();
     options.cost = cost;
-    const MixtureDeformation found = deform_by_mixtures(tree(), target, options);
+    const MixtureDeformation found = deform_by_mixtures(mixture_deformation_tree(), target, options);
     EXPECT_LT(mean_error(found.surface, target), 0.1);
     EXPECT_TRUE(found.report.converged);
     EXPECT_LT(found.report.cost, 0.05);
@@ -60,22 +60,22 @@ TEST(MixtureDeformation, ThinPlatesFindAnAffineMotion) {
 
 TEST(MixtureDeformation, AllFourFindASmoothBending) {
   geometry::Box3 box;
-  for (const Vec3& p : tree().points) box.extend(p);
+  for (const Vec3& p : mixture_deformation_tree().points) box.extend(p);
   std::vector<Vec3> from, to;
   for (int c = 0; c < 8; ++c) {
     from.push_back(box.corner(static_cast<geometry::Box3::CornerType>(c)));
     to.push_back(from.back() + 5.0 * Vec3(std::sin(c), std::cos(2.0 * c), std::sin(3.0 * c)));
   }
   const geometry::ThinPlateSpline bend(from, to);
-  const TriMesh target = moved(tree(), bend);
-  const double before = mean_error(tree(), target);
+  const TriMesh target = moved(mixture_deformation_tree(), bend);
+  const double before = mean_error(mixture_deformation_tree(), target);
   ASSERT_GT(before, 1.0);
   for (const DeformationKind kind : kinds)
     for (const MixtureCost cost : costs) {
       MixtureOptions options = coarse();
       options.kind = kind;
       options.cost = cost;
-      const MixtureDeformation found = deform_by_mixtures(tree(), target, options);
+      const MixtureDeformation found = deform_by_mixtures(mixture_deformation_tree(), target, options);
       EXPECT_LT(mean_error(found.surface, target), 0.25 * before);
       EXPECT_GT(found.report.iterations, 4);
       EXPECT_GE(found.report.evaluations, found.report.iterations);
@@ -86,17 +86,19 @@ TEST(MixtureDeformation, OfASurfaceOntoItselfIsRest) {
   for (const DeformationKind kind : kinds) {
     MixtureOptions options = coarse();
     options.kind = kind;
-    const MixtureDeformation found = deform_by_mixtures(tree(), tree(), options);
-    EXPECT_LT(mean_error(found.surface, tree()), 1e-6);
+    const MixtureDeformation found =
+        deform_by_mixtures(mixture_deformation_tree(), mixture_deformation_tree(), options);
+    EXPECT_LT(mean_error(found.surface, mixture_deformation_tree()), 1e-6);
     EXPECT_TRUE(found.report.converged);
-    EXPECT_EQ(found.surface.triangles, tree().triangles);
+    EXPECT_EQ(found.surface.triangles, mixture_deformation_tree().triangles);
   }
 }
 
 TEST(MixtureDeformation, TellsThatItWasStopped) {
   MixtureOptions options = coarse();
   options.most_iterations = 2;
-  const MixtureDeformation found = deform_by_mixtures(tree(), motion::testing::moved(tree(), 0.3), options);
+  const MixtureDeformation found = deform_by_mixtures(
+      mixture_deformation_tree(), motion::testing::moved(mixture_deformation_tree(), 0.3), options);
   EXPECT_FALSE(found.report.converged);
   EXPECT_EQ(found.report.iterations, 8);
 }
@@ -104,11 +106,11 @@ TEST(MixtureDeformation, TellsThatItWasStopped) {
 TEST(MixtureDeformation, DoesNotDependOnThreads) {
   MixtureOptions options = coarse();
   options.most_iterations = 10;
-  const TriMesh target = motion::testing::moved(tree(), 0.3);
+  const TriMesh target = motion::testing::moved(mixture_deformation_tree(), 0.3);
   core::set_max_threads(1);
-  const MixtureDeformation one = deform_by_mixtures(tree(), target, options);
+  const MixtureDeformation one = deform_by_mixtures(mixture_deformation_tree(), target, options);
   core::set_max_threads(2);
-  const MixtureDeformation two = deform_by_mixtures(tree(), target, options);
+  const MixtureDeformation two = deform_by_mixtures(mixture_deformation_tree(), target, options);
   core::set_max_threads(0);
   EXPECT_EQ(one.surface.points, two.surface.points);
 }
@@ -117,7 +119,8 @@ TEST(MixtureDeformation, RefusesAndCancels) {
   const auto refused = [](auto change) {
     MixtureOptions options;
     change(options);
-    EXPECT_THROW(deform_by_mixtures(tree(), tree(), options), InvalidInput);
+    EXPECT_THROW(deform_by_mixtures(mixture_deformation_tree(), mixture_deformation_tree(), options),
+                 InvalidInput);
   };
   refused([](MixtureOptions& o) { o.depth = 0; });
   refused([](MixtureOptions& o) { o.depth = 5; });
@@ -129,11 +132,12 @@ TEST(MixtureDeformation, RefusesAndCancels) {
   refused([](MixtureOptions& o) { o.basis_width_cells = 0.0; });
   refused([](MixtureOptions& o) { o.most_iterations = 0; });
   refused([](MixtureOptions& o) { o.tolerance = 0.0; });
-  EXPECT_THROW(deform_by_mixtures({}, tree()), InvalidInput);
-  EXPECT_THROW(deform_by_mixtures(tree(), {}), InvalidInput);
+  EXPECT_THROW(deform_by_mixtures({}, mixture_deformation_tree()), InvalidInput);
+  EXPECT_THROW(deform_by_mixtures(mixture_deformation_tree(), {}), InvalidInput);
   core::TaskContext task;
   task.cancel();
-  EXPECT_THROW(deform_by_mixtures(tree(), tree(), coarse(), task), Cancelled);
+  EXPECT_THROW(deform_by_mixtures(mixture_deformation_tree(), mixture_deformation_tree(), coarse(), task),
+               Cancelled);
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ namespace {
 
 using geometry::Vec3;
 
-BeatingHeartOptions coarse() {
+BeatingHeartOptions motion_coarse() {
   BeatingHeartOptions options;
   options.phases = 4;
   options.template_points = 3000;
@@ -33,7 +33,7 @@ BeatingHeartOptions coarse() {
 MotionOptions quick() {
   MotionOptions options;
   options.hearts = 1;
-  options.heart = coarse();
+  options.heart = motion_coarse();
   options.heart.phases_with_loss = 0.5;
   options.depths = {1, 2};
   options.depth = 2;
@@ -63,7 +63,7 @@ TEST(SmoothField, HasDeviationOneAndItsLength) {
 }
 
 TEST(BeatingHeart, TheTemplatesPhaseIsTheTemplate) {
-  const BeatingHeart heart = beating_heart(coarse());
+  const BeatingHeart heart = beating_heart(motion_coarse());
   ASSERT_EQ(heart.phases.size(), 4U);
   EXPECT_EQ(heart.template_phase, phantom::template_percent / 100.0);
   for (const HeartPhaseModel& phase : heart.phases) {
@@ -79,7 +79,7 @@ TEST(BeatingHeart, TheTemplatesPhaseIsTheTemplate) {
 }
 
 TEST(BeatingHeart, TheNoiseIsAsAskedFor) {
-  BeatingHeartOptions options = coarse();
+  BeatingHeartOptions options = motion_coarse();
   options.noise_mm = 0.2;
   const BeatingHeart noisy = beating_heart(options);
   options.noise_mm = 0.0;
@@ -93,7 +93,7 @@ TEST(BeatingHeart, TheNoiseIsAsAskedFor) {
 }
 
 TEST(BeatingHeart, PhasesWithLossLackTheBranchThatIsNamed) {
-  BeatingHeartOptions options = coarse();
+  BeatingHeartOptions options = motion_coarse();
   options.noise_mm = 0.0;
   const BeatingHeart whole = beating_heart(options);
   options.phases_with_loss = 1.0;
@@ -301,7 +301,7 @@ TEST(MotionExperiment, MethodsAreComparedWhereEachWasRun) {
 }
 
 TEST(BranchRuns, ACageThatGoesWithTheHeartHasItsStretchAndTorsion) {
-  BeatingHeartOptions options = coarse();
+  BeatingHeartOptions options = motion_coarse();
   options.phases = 8;
   const BeatingHeart heart = beating_heart(options);
   const geometry::CageGrid grid = geometry::cage_around(heart.model.points, 4);

@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A wide tube and a thin one beside it.
-std::vector<PhantomTube> small_phantom() {
+std::vector<PhantomTube> orientations_small_phantom() {
   return {{"wide", Vec3(0.0, 0.0, -12.0), Vec3(3.0, 4.0, 10.0), 1.56},
           {"thin", Vec3(-9.0, -8.0, -10.0), Vec3(-6.0, 9.0, 6.0), 0.78}};
 }
@@ -67,12 +67,12 @@ TEST(TubeScan, ShowsTheTurnedTubesInTheGel) {
   TubeScanOptions options;
   options.noise_hu = 0.0;
   const Orientation turned = twelve_orientations()[2];  // X90
-  const imaging::ImageVolume image = scan_of(small_phantom(), turned, options);
+  const imaging::ImageVolume image = scan_of(orientations_small_phantom(), turned, options);
   EXPECT_EQ(image.geometry.spacing, Vec3(0.6, 0.6, 1.25));
   const auto at = [&](const Vec3& in_phantom) {
     return imaging::sample(image, Vec3(turned.turn * in_phantom), imaging::Interpolation::trilinear);
   };
-  const PhantomTube wide = small_phantom()[0];
+  const PhantomTube wide = orientations_small_phantom()[0];
   const Vec3 middle = 0.5 * (wide.from + wide.to), along = (wide.to - wide.from).normalized();
   const Vec3 across = along.unitOrthogonal();
   EXPECT_NEAR(at(middle), options.lumen_hu, 80.0);
@@ -83,7 +83,8 @@ TEST(TubeScan, ShowsTheTurnedTubesInTheGel) {
 
 TEST(Orientations, TwoTubesInTwoOrientationsHaveTheirLengthsAndRadii) {
   const std::vector<Orientation> all = twelve_orientations();
-  const std::vector<OrientationRun> runs = measure_orientations(small_phantom(), {all[0], all[7]});
+  const std::vector<OrientationRun> runs =
+      measure_orientations(orientations_small_phantom(), {all[0], all[7]});
   ASSERT_EQ(runs.size(), 2U);
   for (const OrientationRun& run : runs) {
     EXPECT_EQ(run.components, 2) << run.name;
@@ -97,7 +98,7 @@ TEST(Orientations, TwoTubesInTwoOrientationsHaveTheirLengthsAndRadii) {
       EXPECT_NEAR(tube.grey_radius_mm, tube.true_radius_mm, 0.12) << run.name << " " << tube.tube;
     }
   }
-  const OrientationRun again = measure_orientation(small_phantom(), all[7]);
+  const OrientationRun again = measure_orientation(orientations_small_phantom(), all[7]);
   for (std::size_t t = 0; t < 2; ++t) {
     EXPECT_EQ(again.tubes[t].length_mm, runs[1].tubes[t].length_mm);
     EXPECT_EQ(again.tubes[t].grey_radius_mm, runs[1].tubes[t].grey_radius_mm);
@@ -155,7 +156,8 @@ TEST(Orientations, RefusesOptionsOutOfRange) {
   EXPECT_THROW(validate(options), InvalidInput);
   options = {};
   options.scan.lumen_hu = options.scan.gel_hu;
-  EXPECT_THROW(measure_orientations(small_phantom(), twelve_orientations(), options), InvalidInput);
+  EXPECT_THROW(measure_orientations(orientations_small_phantom(), twelve_orientations(), options),
+               InvalidInput);
 }
 
 }  // namespace

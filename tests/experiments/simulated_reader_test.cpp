@@ -12,7 +12,7 @@
 namespace ostia::experiments {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// A tube about the z axis whose radius is 1.6 mm but for a bulge between z = 18 and 22.
 class Tube final : public lumen::ScalarField {

@@ -9,13 +9,13 @@
 namespace ostia::figure {
 namespace {
 
-double luminance(const Color& c) {
+double scale_luminance(const Color& c) {
   return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b;
 }
 
 TEST(ValueColors, GetBrighterAllTheWay) {
   for (int i = 0; i < 50; ++i)
-    EXPECT_LT(luminance(viridis(i / 50.0)), luminance(viridis((i + 1) / 50.0))) << i;
+    EXPECT_LT(scale_luminance(viridis(i / 50.0)), scale_luminance(viridis((i + 1) / 50.0))) << i;
   EXPECT_EQ(hex(viridis(-1.0)), "#440154");
   EXPECT_EQ(hex(viridis(9.0)), "#fde725");
   EXPECT_EQ(hex(viridis(std::nan(""))), "#808080");

@@ -11,7 +11,7 @@
 namespace ostia::geometry {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 void expect_sound(const AnalyticShape& shape) {
   for (const AnalyticTube& tube : shape.tubes) {

@@ -14,7 +14,7 @@ namespace {
 
 using test::expect_closed_manifold;
 using test::topology_of;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 double largest_distance(const AnalyticShape& shape, const TriMesh& mesh) {
   const TubeDistance f(shape);

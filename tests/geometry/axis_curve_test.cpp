@@ -11,7 +11,7 @@
 namespace ostia::geometry {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 AxisCurve helix() {
   return AxisCurve(helix_tube(10.0, 12.0, 2.0, 1.0, 0.1).tubes[0].axis);

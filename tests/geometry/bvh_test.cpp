@@ -46,7 +46,7 @@ void expect_sound(const std::vector<BvhBox>& boxes, int deepest) {
   const Bvh bvh = build_bvh(boxes);
   std::vector<int> seen(boxes.size(), 0);
   EXPECT_LE(check(bvh, boxes, 0, seen), deepest);
-  EXPECT_THAT(seen, testing::Each(1));
+  EXPECT_THAT(seen, ::testing::Each(1));
 }
 
 TEST(Bvh, HoldsEveryItemOnce) {

@@ -48,7 +48,7 @@ TEST(EdgeTable, EqualPoints) {
   const double next = std::nextafter(1.0, 2.0);
   EXPECT_THAT(
       first_equal_points({{1, 0, 0}, {next, 0, 0}, {1, -0.0, 0}, {nan, 0, 0}, {nan, 0, 0}, {next, 0, 0}}),
-      testing::ElementsAre(0, 1, 0, 3, 4, 1));
+      ::testing::ElementsAre(0, 1, 0, 3, 4, 1));
 }
 
 TEST(EdgeTable, EqualPointsAmongMany) {

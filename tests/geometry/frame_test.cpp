@@ -10,7 +10,7 @@
 namespace ostia::geometry {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // A helix of radius a and rise b per radian, with its Frenet frame. Its torsion is b / (a^2 + b^2)
 // everywhere.

@@ -12,7 +12,7 @@ namespace ostia::geometry {
 namespace {
 
 using Kind = GraphFaultKind;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double nan_graph_faults = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 const GraphFault& fault(const GraphFaults& faults, Kind kind) {
@@ -35,7 +35,7 @@ TEST(GraphFaults, ASoundTreeHasNone) {
 
 TEST(GraphFaults, RadiiAreCountedByKind) {
   VesselGraph graph = y_graph();
-  graph.edges[0].radius_from = nan;
+  graph.edges[0].radius_from = nan_graph_faults;
   graph.edges[1].radius_to = infinite;
   graph.edges[2].radius_to = -1.0;
   graph.edges[3].radius_from = graph.edges[3].radius_to = 0.0;
@@ -49,9 +49,9 @@ TEST(GraphFaults, RadiiAreCountedByKind) {
 
 TEST(GraphFaults, PlacesAndLengths) {
   VesselGraph graph = y_graph();
-  graph.points.push_back({3, 5, 13});    // 6, at 5's place, and joined to it
-  graph.points.push_back({-0.0, 0, 0});  // 7, at 0's place: a loose one
-  graph.points.push_back({nan, 0, 0});   // 8
+  graph.points.push_back({3, 5, 13});                // 6, at 5's place, and joined to it
+  graph.points.push_back({-0.0, 0, 0});              // 7, at 0's place: a loose one
+  graph.points.push_back({nan_graph_faults, 0, 0});  // 8
   graph.edges.push_back({5, 6, 0.2, 0.2});
   graph.edges.push_back({3, 3, 1.0, 1.0});
   graph.edges.push_back({3, 8, 1.0, 1.0});

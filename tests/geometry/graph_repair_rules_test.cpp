@@ -14,7 +14,7 @@
 namespace ostia::geometry {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double nan_graph_repair_rules = std::numeric_limits<double>::quiet_NaN();
 
 std::size_t step(const RepairedGraph& fixed, const std::string& what) {
   for (const GraphRepairStep& s : fixed.steps)
@@ -40,7 +40,8 @@ TEST(GraphRepairRules, OfSegmentsThatAreThereTwiceTheFirstStays) {
 // What the first one lacks, the next one that has it gives, end for end.
 TEST(GraphRepairRules, ASegmentTakesTheRadiiOfItsTwins) {
   VesselGraph graph = y_graph();
-  graph.edges[1].radius_to = nan;           // 1 to 2; without twins: the mean of what leaves point 2
+  graph.edges[1].radius_to =
+      nan_graph_repair_rules;               // 1 to 2; without twins: the mean of what leaves point 2
   graph.edges.push_back({2, 1, 0.0, 9.0});  // has none at 2, either
   graph.edges.push_back({2, 1, 1.4, 9.0});
   graph.edges.push_back({1, 2, 9.0, 1.3});
@@ -54,9 +55,9 @@ TEST(GraphRepairRules, ASegmentTakesTheRadiiOfItsTwins) {
 // A vessel without length has a radius that stands for nothing where others are known.
 TEST(GraphRepairRules, DroppedSegmentsCountOnlyWhereNothingElseIsKnown) {
   VesselGraph graph = y_graph();
-  graph.edges[2].radius_from = nan;  // at the fork 1.5 arrives and 0.75 leaves
+  graph.edges[2].radius_from = nan_graph_repair_rules;  // at the fork 1.5 arrives and 0.75 leaves
   graph.edges.push_back({2, 2, 9.0, 9.0});
-  graph.edges.push_back({3, 3, nan, nan});
+  graph.edges.push_back({3, 3, nan_graph_repair_rules, nan_graph_repair_rules});
   graph.references.insert(graph.references.end(), {16, 17});
   const RepairedGraph fixed = repaired(graph);
   EXPECT_DOUBLE_EQ(fixed.graph.edges[2].radius_from, 1.125);
@@ -122,10 +123,10 @@ TEST(GraphRepairRules, NothingRunsInACircleOnceItIsTurned) {
 TEST(GraphRepairRules, PlacesAreNamedByTheLineOfOneOfTheirSegments) {
   VesselGraph graph = y_graph();
   graph.points[5] = graph.points[3];
-  graph.points.push_back({nan, 0, 0});
+  graph.points.push_back({nan_graph_repair_rules, 0, 0});
   graph.edges.push_back({6, 0, 1, 1});
   graph.references.push_back(16);
-  graph.points.push_back({nan, 0, 0});
+  graph.points.push_back({nan_graph_repair_rules, 0, 0});
   const std::string said = summary(find_faults(graph), graph, "line");
   EXPECT_NE(said.find("2 points have coordinates that are no finite numbers (point 6 of line 16, point 7)"),
             std::string::npos)

@@ -12,9 +12,9 @@
 namespace ostia::geometry {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double nan_graph_repair = std::numeric_limits<double>::quiet_NaN();
 
-std::size_t step(const RepairedGraph& fixed, const std::string& what) {
+std::size_t graph_repair_step(const RepairedGraph& fixed, const std::string& what) {
   for (const GraphRepairStep& s : fixed.steps)
     if (s.what == what) return s.count;
   return 0;
@@ -57,8 +57,8 @@ TEST(GraphRepair, PutsATreeTogetherAgain) {
     apart.references.push_back(whole.references[e]);
   }
   const RepairedGraph fixed = repaired(apart);
-  EXPECT_EQ(step(fixed, "points_joined"), 4u);
-  EXPECT_EQ(step(fixed, "turned"), 3u);
+  EXPECT_EQ(graph_repair_step(fixed, "points_joined"), 4u);
+  EXPECT_EQ(graph_repair_step(fixed, "turned"), 3u);
   EXPECT_TRUE(fixed.left.sound_tree());
   EXPECT_EQ(facts_of(fixed.graph).forks, 1u);
   EXPECT_EQ(facts_of(fixed.graph).largest_radius_mm, 2.0);
@@ -71,17 +71,17 @@ TEST(GraphRepair, PutsATreeTogetherAgain) {
 
 TEST(GraphRepair, DropsWhatIsNoSegment) {
   VesselGraph graph = y_graph();
-  graph.points.push_back({nan, 0, 0});
+  graph.points.push_back({nan_graph_repair, 0, 0});
   graph.edges.push_back({2, 6, 1, 1});
   graph.edges.push_back({-1, 0, 1, 1});
   graph.edges.push_back({4, 4, 1, 1});
   graph.edges.push_back({1, 0, 1, 1});
   graph.references.insert(graph.references.end(), {1, 2, 3, 4});
   const RepairedGraph fixed = repaired(graph);
-  EXPECT_EQ(step(fixed, "non_finite_dropped"), 1u);
-  EXPECT_EQ(step(fixed, "index_out_of_range_dropped"), 1u);
-  EXPECT_EQ(step(fixed, "zero_length_dropped"), 1u);
-  EXPECT_EQ(step(fixed, "duplicate_dropped"), 1u);
+  EXPECT_EQ(graph_repair_step(fixed, "non_finite_dropped"), 1u);
+  EXPECT_EQ(graph_repair_step(fixed, "index_out_of_range_dropped"), 1u);
+  EXPECT_EQ(graph_repair_step(fixed, "zero_length_dropped"), 1u);
+  EXPECT_EQ(graph_repair_step(fixed, "duplicate_dropped"), 1u);
   EXPECT_EQ(fixed.steps.front().text, "segments that named points which are not there dropped: 1");
   expect_same(fixed.graph, y_graph());
 }
@@ -102,9 +102,9 @@ TEST(GraphRepair, FillsRadiiFromNeighbours) {
   VesselGraph graph = y_graph();
   graph.edges[2].radius_from = -3.0;  // at the fork 1.5 arrives and 0.75 leaves
   graph.edges[4].radius_to = 0.0;     // an end: the segment's own other radius
-  graph.edges[1] = {1, 2, nan, 1.5};
+  graph.edges[1] = {1, 2, nan_graph_repair, 1.5};
   const RepairedGraph fixed = repaired(graph);
-  EXPECT_EQ(step(fixed, "radii_filled"), 3u);
+  EXPECT_EQ(graph_repair_step(fixed, "radii_filled"), 3u);
   EXPECT_DOUBLE_EQ(fixed.graph.edges[2].radius_from, 1.125);
   EXPECT_DOUBLE_EQ(fixed.graph.edges[4].radius_to, 0.5);
   EXPECT_DOUBLE_EQ(fixed.graph.edges[1].radius_from, 1.75);
@@ -118,7 +118,7 @@ TEST(GraphRepair, TakesTheRadiusOfWhatItDrops) {
   graph.edges.push_back({5, 5, 0.125, 0.125});
   graph.references.push_back(16);
   const RepairedGraph fixed = repaired(graph);
-  EXPECT_EQ(step(fixed, "zero_length_dropped"), 1u);
+  EXPECT_EQ(graph_repair_step(fixed, "zero_length_dropped"), 1u);
   EXPECT_EQ(fixed.graph.edges[4].radius_to, 0.125);
 }
 
@@ -126,12 +126,13 @@ TEST(GraphRepair, TakesTheRadiusOfWhatItDrops) {
 TEST(GraphRepair, RadiiReachAlongALongChainAndNoFurther) {
   VesselGraph graph;
   for (int i = 0; i < 50000; ++i) graph.points.emplace_back(i, 0, 0);
-  for (std::int32_t i = 0; i + 1 < 50000; ++i) graph.edges.push_back({i, i + 1, nan, nan});
+  for (std::int32_t i = 0; i + 1 < 50000; ++i)
+    graph.edges.push_back({i, i + 1, nan_graph_repair, nan_graph_repair});
   graph.edges.back().radius_to = 0.5;
   graph.points.insert(graph.points.end(), {{0, 9, 0}, {1, 9, 0}});
-  graph.edges.push_back({50000, 50001, 0.0, nan});
+  graph.edges.push_back({50000, 50001, 0.0, nan_graph_repair});
   const RepairedGraph fixed = repaired(graph);
-  EXPECT_EQ(step(fixed, "radii_filled"), 49999u);
+  EXPECT_EQ(graph_repair_step(fixed, "radii_filled"), 49999u);
   EXPECT_EQ(fixed.graph.edges[0].radius_from, 0.5);
   EXPECT_EQ(fixed.left.count(GraphFaultKind::zero_radius), 1u);
   EXPECT_EQ(fixed.left.count(GraphFaultKind::missing_radius), 1u);
@@ -141,7 +142,7 @@ TEST(GraphRepair, TurnsAwayFromAGivenRoot) {
   GraphRepairOptions options;
   options.roots = {Vec3(3.1, 4, 14)};  // near point 3
   const RepairedGraph fixed = repaired(y_graph(), options);
-  EXPECT_EQ(step(fixed, "turned"), 3u);
+  EXPECT_EQ(graph_repair_step(fixed, "turned"), 3u);
   EXPECT_EQ(fixed.graph.points[0], Vec3(3, 4, 14));
   EXPECT_EQ(fixed.graph.edges[0].radius_from, 1.0);
   EXPECT_EQ(fixed.graph.edges[0].radius_to, 1.25);
@@ -155,9 +156,9 @@ TEST(GraphRepair, KeepsDirectionsWhenAskedTo) {
   graph.edges = {{0, 2, 1, 1}, {1, 2, 0.9, 0.9}, {2, 3, 1.2, 1.2}};
   GraphRepairOptions options;
   options.keep_directions = true;
-  EXPECT_EQ(step(repaired(graph, options), "turned"), 0u);
+  EXPECT_EQ(graph_repair_step(repaired(graph, options), "turned"), 0u);
   const RepairedGraph turned = repaired(graph);
-  EXPECT_EQ(step(turned, "turned"), 3u);
+  EXPECT_EQ(graph_repair_step(turned, "turned"), 3u);
   EXPECT_EQ(turned.graph.points[0], Vec3(1, 2, 0));
 }
 
@@ -192,7 +193,7 @@ TEST(GraphRepair, RefusesOptionsAndNothing) {
   options.merge_within_mm = -1.0;
   EXPECT_THROW(repaired(y_graph(), options), InvalidInput);
   options.merge_within_mm = 0.0;
-  options.roots = {Vec3(nan, 0, 0)};
+  options.roots = {Vec3(nan_graph_repair, 0, 0)};
   EXPECT_THROW(repaired(y_graph(), options), InvalidInput);
   VesselGraph nothing;
   nothing.points = {{0, 0, 0}};

@@ -14,7 +14,7 @@ namespace {
 
 using std::numbers::pi;
 using test::tube;
-using testing::IsEmpty;
+using ::testing::IsEmpty;
 
 double filled_area(const FilledHoles& filled) {
   std::vector<bool> added;
@@ -119,7 +119,7 @@ TEST(FillHoles, NothingToDoOnAClosedSurface) {
   const TriMesh ball = test::icosphere(2);
   const FilledHoles filled = fill_holes(ball);
   EXPECT_EQ(filled.mesh.triangles, ball.triangles);
-  EXPECT_THAT(filled.hole_of_triangle, testing::Each(-1));
+  EXPECT_THAT(filled.hole_of_triangle, ::testing::Each(-1));
   EXPECT_THAT(fill_holes(TriMesh{}).hole_of_triangle, IsEmpty());
 }
 

@@ -16,9 +16,9 @@
 namespace ostia::geometry {
 namespace {
 
+using std::numbers::pi;
 using test::expect_closed_manifold;
 using test::topology_of;
-constexpr double pi = std::numbers::pi;
 
 struct Samples {
   ScalarGrid grid;
@@ -45,7 +45,7 @@ struct Samples {
 double sphere(const Vec3& p) {
   return p.norm() - 5.0;
 }
-double torus(const Vec3& p) {
+double torus_field(const Vec3& p) {
   return std::hypot(std::hypot(p.x(), p.y()) - 6.0, p.z()) - 2.0;
 }
 
@@ -66,7 +66,7 @@ TEST(Isosurface, SphereIsClosedOutwardAndOfSecondOrder) {
 }
 
 TEST(Isosurface, TorusHasAHole) {
-  const TriMesh mesh = isosurface(torus, Box3(Vec3(-9, -9, -3), Vec3(9, 9, 3)), 0.4);
+  const TriMesh mesh = isosurface(torus_field, Box3(Vec3(-9, -9, -3), Vec3(9, 9, 3)), 0.4);
   expect_closed_manifold(mesh, 0);
   EXPECT_NEAR(test::volume_of(mesh), 2.0 * pi * pi * 6.0 * 4.0, 5.0);
 }
@@ -209,7 +209,7 @@ TEST(Isosurface, SameForAnyNumberOfThreads) {
 }
 
 TEST(Isosurface, EveryPointIsUsedAndThereOnce) {
-  const TriMesh mesh = isosurface(torus, Box3(Vec3(-9, -9, -3), Vec3(9, 9, 3)), 0.5);
+  const TriMesh mesh = isosurface(torus_field, Box3(Vec3(-9, -9, -3), Vec3(9, 9, 3)), 0.5);
   std::vector<bool> used(mesh.points.size(), false);
   for (const Triangle& t : mesh.triangles) {
     for (const std::int32_t v : t) used[static_cast<std::size_t>(v)] = true;

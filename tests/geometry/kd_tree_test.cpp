@@ -14,8 +14,8 @@ namespace ostia::geometry {
 namespace {
 
 using test::random_points;
-using testing::ElementsAre;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
 std::vector<std::int32_t> by_distance(const std::vector<Vec3>& points, const Vec3& query) {
   std::vector<std::int32_t> order(points.size());

@@ -14,9 +14,9 @@ namespace {
 
 using test::box;
 using test::icosphere;
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double nan_mesh_repair = std::numeric_limits<double>::quiet_NaN();
 
 /// Every triangle with corners of its own, moved by up to `noise`, as STL files have them.
 TriMesh soup_of(const TriMesh& mesh, double noise = 0.0) {
@@ -59,7 +59,7 @@ TEST(Welded, ToleranceIsInclusiveAndTheFirstPointStays) {
 
 TEST(Welded, DropsWhatAMesherChokesOn) {
   TriMesh mesh = box({0, 0, 0}, {1, 1, 1});
-  mesh.points.push_back({nan, 0, 0});
+  mesh.points.push_back({nan_mesh_repair, 0, 0});
   mesh.points.push_back({5, 5, 5});
   mesh.triangles.insert(mesh.triangles.begin(), {{0, 0, 1}, {2, 3, 0}, {0, 1, 8}});
   mesh.triangles.push_back({3, 2, 0});
@@ -85,7 +85,7 @@ TEST(Welded, FlatTriangleInTheSurfaceGoesWithoutLeavingACrack) {
 
 TEST(Welded, RefusesBadInput) {
   EXPECT_THROW(welded(box({0, 0, 0}, {1, 1, 1}), -1.0), InvalidInput);
-  EXPECT_THROW(welded(box({0, 0, 0}, {1, 1, 1}), nan), InvalidInput);
+  EXPECT_THROW(welded(box({0, 0, 0}, {1, 1, 1}), nan_mesh_repair), InvalidInput);
   EXPECT_THROW(welded({{}, {{0, 1, 2}}}), InvalidInput);
 }
 

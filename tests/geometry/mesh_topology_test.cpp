@@ -14,9 +14,9 @@ namespace ostia::geometry {
 namespace {
 
 using std::numbers::pi;
-using testing::Each;
-using testing::ElementsAre;
-using testing::IsEmpty;
+using ::testing::Each;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
 TEST(MeshTopology, AreasAndVolumes) {
   const TriMesh cuboid = test::box({-1, -2, -3}, {1, 2, 3});

@@ -14,9 +14,9 @@
 namespace ostia::geometry {
 namespace {
 
-using testing::ElementsAre;
-using testing::IsEmpty;
-using testing::Pair;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using ::testing::Pair;
 using Pairs = std::vector<std::pair<std::int32_t, std::int32_t>>;
 
 TEST(SelfIntersections, CleanSurfacesHaveNone) {

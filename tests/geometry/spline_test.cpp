@@ -12,7 +12,7 @@
 namespace ostia::geometry {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 std::vector<Vec3> circle_points(double radius, int n) {
   std::vector<Vec3> points;

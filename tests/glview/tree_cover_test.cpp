@@ -22,26 +22,26 @@ using geometry::SegmentBlocks;
 using geometry::Vec3;
 using geometry::VesselGraph;
 
-constexpr int width = 640, height = 480;
+constexpr int tree_cover_width = 640, tree_cover_height = 480;
 
 #define REQUIRE_OPENGL() \
   if (const std::string why = offscreen_trouble(); !why.empty()) GTEST_SKIP() << why
 
 struct Easel {
-  Offscreen offscreen{width, height};
+  Offscreen offscreen{tree_cover_width, tree_cover_height};
   std::shared_ptr<const SegmentBlocks> blocks;
   TreeDrawing drawing;
   TreeCamera eye;
 
   explicit Easel(const VesselGraph& graph)
       : blocks(std::make_shared<const SegmentBlocks>(graph)), drawing(blocks) {
-    eye.width_px = width;
-    eye.height_px = height;
+    eye.width_px = tree_cover_width;
+    eye.height_px = tree_cover_height;
     eye = fitted(eye, blocks->low(), blocks->high());
   }
   figure::Raster picture(const std::vector<std::uint8_t>& shown = {}) {
     offscreen.bind();
-    glViewport(0, 0, width, height);
+    glViewport(0, 0, tree_cover_width, tree_cover_height);
     glClearColor(1, 1, 1, 1);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     drawing.draw(eye, 1.0, shown, -1);
@@ -80,7 +80,8 @@ TEST(TreeCover, VesselsOfAnySizeAreAsWideAsTheyAre) {
   REQUIRE_OPENGL();
   for (const double scale : {0.01, 1.0, 1000.0}) {
     Easel easel(rod(20.0 * scale, scale));
-    EXPECT_NEAR(covered_in_row(easel.picture(), height / 2), 2.0 * scale / easel.eye.pixel_mm(), 1.01)
+    EXPECT_NEAR(covered_in_row(easel.picture(), tree_cover_height / 2), 2.0 * scale / easel.eye.pixel_mm(),
+                1.01)
         << scale;
   }
 }
@@ -91,7 +92,7 @@ TEST(TreeCover, VesselsAreNeverThinnerThanAPixel) {
   const figure::Raster raster = easel.picture();
   const int half = static_cast<int>(10.0 / easel.eye.pixel_mm()) - 2;
   ASSERT_GT(half, 100);
-  for (int y = height / 2 - half; y < height / 2 + half; ++y) {
+  for (int y = tree_cover_height / 2 - half; y < tree_cover_height / 2 + half; ++y) {
     EXPECT_GE(covered_in_row(raster, y), 1) << y;
     EXPECT_LE(covered_in_row(raster, y), 2) << y;
   }

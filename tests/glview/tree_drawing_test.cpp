@@ -18,7 +18,7 @@ namespace {
 using geometry::Vec2;
 using geometry::Vec3;
 
-constexpr int width = 640, height = 480;
+constexpr int tree_drawing_width = 640, tree_drawing_height = 480;
 
 #define REQUIRE_OPENGL() \
   if (const std::string why = offscreen_trouble(); !why.empty()) GTEST_SKIP() << why
@@ -35,13 +35,14 @@ std::vector<std::array<int, 2>> drawn(const figure::Raster& picture) {
 class Picture {
  public:
   explicit Picture(geometry::VesselGraph graph)
-      : offscreen_(width, height), drawing_(std::make_shared<const geometry::SegmentBlocks>(graph)) {
-    eye.width_px = width;
-    eye.height_px = height;
+      : offscreen_(tree_drawing_width, tree_drawing_height),
+        drawing_(std::make_shared<const geometry::SegmentBlocks>(graph)) {
+    eye.width_px = tree_drawing_width;
+    eye.height_px = tree_drawing_height;
   }
   figure::Raster taken(std::span<const std::uint8_t> shown = {}, std::int32_t highlight = -1) {
     offscreen_.bind();
-    begin_part({0, 0, width, height}, {0.0, 0.0, 0.0, 1.0});
+    begin_part({0, 0, tree_drawing_width, tree_drawing_height}, {0.0, 0.0, 0.0, 1.0});
     drawing_.draw(eye, 1.0, shown, highlight);
     return offscreen_.read();
   }
@@ -144,7 +145,7 @@ TEST(TreeDrawingGui, FewSegmentsFromAfarCoverWhatAllCover) {
   picture.eye.distance_mm = 100.0;
   const double few = static_cast<double>(drawn(picture.taken()).size());
   // All of it: in parts so small that none is left out.
-  std::vector<std::uint8_t> covered(static_cast<std::size_t>(width * height), 0);
+  std::vector<std::uint8_t> covered(static_cast<std::size_t>(tree_drawing_width * tree_drawing_height), 0);
   for (int part = 0; part < 8; ++part) {
     geometry::VesselGraph piece;
     for (int i = part * 50000; i < (part + 1) * 50000; ++i) {
@@ -155,7 +156,8 @@ TEST(TreeDrawingGui, FewSegmentsFromAfarCoverWhatAllCover) {
     }
     Picture apart(piece);
     apart.eye = picture.eye;
-    for (const auto& [x, y] : drawn(apart.taken())) covered[static_cast<std::size_t>(y * width + x)] = 1;
+    for (const auto& [x, y] : drawn(apart.taken()))
+      covered[static_cast<std::size_t>(y * tree_drawing_width + x)] = 1;
   }
   const double all = static_cast<double>(std::count(covered.begin(), covered.end(), 1));
   EXPECT_GT(few / all, 0.75);

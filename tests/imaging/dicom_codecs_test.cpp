@@ -59,13 +59,14 @@ CtSlice compressed(const char* syntax, bool is_signed, const std::function<int(i
   return slice;
 }
 
-std::vector<std::int32_t> decoded(const CtSlice& slice) {
+std::vector<std::int32_t> decoded_codec(const CtSlice& slice) {
   auto file = parse_dicom(DicomSource::memory(slice.file()));
   if (!file) throw InvalidInput("not parsed");
   return decode_frame(*file, 0);
 }
 
-std::int32_t worst(const std::vector<std::int32_t>& voxels, const std::function<int(int, int)>& value) {
+std::int32_t worst_difference(const std::vector<std::int32_t>& voxels,
+                              const std::function<int(int, int)>& value) {
   std::int32_t largest = 0;
   for (int j = 0; j < kRows; ++j) {
     for (int i = 0; i < kColumns; ++i) {
@@ -81,13 +82,13 @@ constexpr const char* kLossless[] = {"1.2.840.10008.1.2.4.57", "1.2.840.10008.1.
 
 TEST(DicomCodecs, LosslessOnesGiveEveryValueBack) {
   for (const char* syntax : kLossless)
-    EXPECT_EQ(worst(decoded(compressed(syntax, false)), picture), 0) << syntax;
+    EXPECT_EQ(worst_difference(decoded_codec(compressed(syntax, false)), picture), 0) << syntax;
 }
 
 TEST(DicomCodecs, NegativeValuesToo) {
   const auto value = [](int i, int j) { return picture(i, j) - 1500; };
   for (const char* syntax : kLossless)
-    EXPECT_EQ(worst(decoded(compressed(syntax, true, value)), value), 0) << syntax;
+    EXPECT_EQ(worst_difference(decoded_codec(compressed(syntax, true, value)), value), 0) << syntax;
 }
 
 TEST(DicomCodecs, TheHeaderDecidesOnTheSignWhereJpeg2000SaysOtherwise) {
@@ -95,7 +96,7 @@ TEST(DicomCodecs, TheHeaderDecidesOnTheSignWhereJpeg2000SaysOtherwise) {
   // The stream holds two's complement as unsigned words; the header says they are signed.
   CtSlice slice = compressed("1.2.840.10008.1.2.4.90", false, value);
   slice.is_signed = 1;
-  EXPECT_EQ(worst(decoded(slice), value), 0);
+  EXPECT_EQ(worst_difference(decoded_codec(slice), value), 0);
 }
 
 TEST(DicomCodecs, Row28StreamsCutShortAreRefused) {
@@ -105,7 +106,7 @@ TEST(DicomCodecs, Row28StreamsCutShortAreRefused) {
     for (const double part : {0.02, 0.3, 0.7, 0.98}) {
       slice.streams = {whole.substr(
           0, static_cast<std::size_t>(part * static_cast<double>(whole.size())) & ~std::size_t{1})};
-      EXPECT_THROW(decoded(slice), InvalidInput) << syntax << " at " << part;
+      EXPECT_THROW(decoded_codec(slice), InvalidInput) << syntax << " at " << part;
     }
   }
 }
@@ -126,7 +127,7 @@ TEST(DicomCodecs, Row28NoiseInsideAStreamIsRefused) {
       for (std::size_t i = stream.size() / 4; i < stream.size() - 100; ++i) {
         stream[i] = lost ? '\0' : static_cast<char>(random());
       }
-      EXPECT_THROW(decoded(slice), InvalidInput) << syntax << (lost ? ", a block lost" : ", noise");
+      EXPECT_THROW(decoded_codec(slice), InvalidInput) << syntax << (lost ? ", a block lost" : ", noise");
     }
   }
 }
@@ -135,7 +136,7 @@ TEST(DicomCodecs, StreamsOfAnotherSizeAreRefused) {
   for (const char* syntax : kLossless) {
     CtSlice slice = compressed(syntax, false);
     slice.rows = kRows * 2;
-    EXPECT_THROW(decoded(slice), InvalidInput) << syntax;
+    EXPECT_THROW(decoded_codec(slice), InvalidInput) << syntax;
   }
 }
 

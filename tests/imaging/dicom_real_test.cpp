@@ -36,7 +36,7 @@ std::vector<std::int32_t> decoded(const fs::path& path) {
 TEST(DicomReal, ChestAngiogramIsTheSameAsItsHeartInNrrd) {
   OSTIA_REQUIRE_SHARED(zip, "cta/rider-pilot-chest-pe-cta/dicom-series-95.zip");
   OSTIA_REQUIRE_SHARED(nrrd, "cta/rider-pilot-chest-pe-cta/heart-crop.nrrd");
-  const auto image = read_dicom(testing::unpacked(zip));
+  const auto image = read_dicom(ostia::testing::unpacked(zip));
   EXPECT_EQ(image.volume.geometry.size, (std::array<std::int64_t, 3>{512, 512, 95}));
   EXPECT_NEAR(image.volume.geometry.spacing[0], 0.64453125, 1e-6);
   EXPECT_NEAR(image.volume.geometry.spacing[2], 0.8, 1e-6);
@@ -69,7 +69,7 @@ TEST(DicomReal, JpegTwoThousandSeries) {
 
 TEST(DicomReal, TiltedGantryWithUnevenSlices) {
   OSTIA_REQUIRE_SHARED(zip, "dicom/ge-gantry-tilt-variable-spacing/ge-28.zip");
-  const fs::path folder = testing::unpacked(zip);
+  const fs::path folder = ostia::testing::unpacked(zip);
   EXPECT_THAT(refusal(folder), AllOf(HasSubstr("unevenly"), HasSubstr("--resample")));
   const DicomFolder found = scan_dicom(folder);
   ASSERT_EQ(found.series.size(), 1u);
@@ -108,7 +108,7 @@ TEST(DicomReal, TruncatedLastSliceIsRefusedByName) {
 
 TEST(DicomReal, CineIsTakenApartByTriggerTime) {
   OSTIA_REQUIRE_SHARED(zip, "dicom/cine-mr-4d/cine-2slices-25phases.zip");
-  const DicomFolder found = scan_dicom(testing::unpacked(zip));
+  const DicomFolder found = scan_dicom(ostia::testing::unpacked(zip));
   std::map<std::string, int> phases;  // by the UID without its number
   for (const DicomSeries& series : found.series) {
     EXPECT_THAT(series.phase, HasSubstr("trigger time"));
@@ -117,7 +117,7 @@ TEST(DicomReal, CineIsTakenApartByTriggerTime) {
   ASSERT_EQ(phases.size(), 2u);
   for (const auto& [uid, count] : phases) EXPECT_EQ(count, 25);
   // One slice a phase is no volume.
-  EXPECT_THAT(refusal(testing::unpacked(zip)), HasSubstr("single slice"));
+  EXPECT_THAT(refusal(ostia::testing::unpacked(zip)), HasSubstr("single slice"));
 }
 
 TEST(DicomReal, OneImageInEverySyntaxIsOneImage) {
@@ -149,7 +149,7 @@ TEST(DicomReal, EveryOddFileIsReadOrRefusedWithAMessage) {
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     if (!entry.is_regular_file()) continue;
     ++files;
-    const fs::path alone = testing::temporary_folder("alone");
+    const fs::path alone = ostia::testing::temporary_folder("alone");
     fs::copy_file(entry.path(), alone / "file");
     try {
       read_dicom(alone);
@@ -165,7 +165,7 @@ TEST(DicomReal, EveryOddFileIsReadOrRefusedWithAMessage) {
 
 TEST(DicomReal, EveryOddFileIsDecodedByTheChildOrRefused) {
   OSTIA_REQUIRE_SHARED(folder, "dicom/pydicom");
-  const fs::path work = testing::temporary_folder("decode");
+  const fs::path work = ostia::testing::temporary_folder("decode");
   std::size_t decoded_files = 0;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     if (!entry.is_regular_file()) continue;

@@ -25,7 +25,7 @@ DicomSeries only(const fs::path& folder) {
   return found.series.empty() ? DicomSeries{} : found.series.front();
 }
 
-fs::path series_folder(
+fs::path dicom_series_series_folder(
     int count, double spacing, const std::function<void(CtSlice&, int)>& change = [](CtSlice&, int) {}) {
   const fs::path folder = testing::temporary_folder("series");
   write_series(folder, count, spacing, change);
@@ -34,7 +34,7 @@ fs::path series_folder(
 
 TEST(DicomSeries, SlicesAreSortedByPositionAndSpacedByIt) {
   // Names, instance numbers and SliceThickness all say something else.
-  const fs::path folder = series_folder(6, 0.0, [](CtSlice& s, int k) {
+  const fs::path folder = dicom_series_series_folder(6, 0.0, [](CtSlice& s, int k) {
     s.position = "-10\\-20\\" + std::to_string(100.0 - 0.75 * k);
     s.thickness = "3";
   });
@@ -50,7 +50,7 @@ TEST(DicomSeries, SlicesAreSortedByPositionAndSpacedByIt) {
 
 TEST(DicomSeries, PixelSpacingIsBetweenRowsFirst) {
   const DicomSeries series =
-      only(series_folder(3, 1.0, [](CtSlice& s, int) { s.pixel_spacing = "0.7\\0.4"; }));
+      only(dicom_series_series_folder(3, 1.0, [](CtSlice& s, int) { s.pixel_spacing = "0.7\\0.4"; }));
   EXPECT_EQ(series.geometry.spacing[0], 0.4);
   EXPECT_EQ(series.geometry.spacing[1], 0.7);
 }
@@ -58,7 +58,7 @@ TEST(DicomSeries, PixelSpacingIsBetweenRowsFirst) {
 TEST(DicomSeries, AxesAreRightHandedWhateverTheOrientation) {
   for (const char* orientation :
        {"1\\0\\0\\0\\1\\0", "-1\\0\\0\\0\\1\\0", "0\\1\\0\\0\\0\\-1", "0.8\\0.6\\0\\-0.6\\0.8\\0"}) {
-    const DicomSeries series = only(series_folder(4, 0.0, [&](CtSlice& s, int k) {
+    const DicomSeries series = only(dicom_series_series_folder(4, 0.0, [&](CtSlice& s, int k) {
       s.orientation = orientation;
       s.position = std::to_string(2.0 * k) + "\\" + std::to_string(2.0 * k) + "\\" + std::to_string(2.0 * k);
     }));
@@ -68,19 +68,21 @@ TEST(DicomSeries, AxesAreRightHandedWhateverTheOrientation) {
 }
 
 TEST(DicomSeries, Row20PixelSpacingMissingOrZero) {
-  EXPECT_THAT(only(series_folder(3, 1.0, [](CtSlice& s, int) { s.pixel_spacing = ""; })).faults,
+  EXPECT_THAT(only(dicom_series_series_folder(3, 1.0, [](CtSlice& s, int) { s.pixel_spacing = ""; })).faults,
               ElementsAre(HasSubstr("PixelSpacing is missing in 'slice0.dcm'")));
-  EXPECT_THAT(only(series_folder(3, 1.0, [](CtSlice& s, int) { s.pixel_spacing = "0\\0"; })).faults,
-              ElementsAre(HasSubstr("must be positive")));
+  EXPECT_THAT(
+      only(dicom_series_series_folder(3, 1.0, [](CtSlice& s, int) { s.pixel_spacing = "0\\0"; })).faults,
+      ElementsAre(HasSubstr("must be positive")));
 }
 
 TEST(DicomSeries, Row22NoPositionIsAskedForAndNeverThickness) {
-  const DicomSeries series = only(series_folder(3, 1.0, [](CtSlice& s, int) { s.position = ""; }));
+  const DicomSeries series =
+      only(dicom_series_series_folder(3, 1.0, [](CtSlice& s, int) { s.position = ""; }));
   EXPECT_THAT(series.faults, ElementsAre(HasSubstr("ImagePositionPatient is missing")));
 }
 
 TEST(DicomSeries, Row23MissingSlicesAreShown) {
-  const fs::path folder = series_folder(10, 0.8);
+  const fs::path folder = dicom_series_series_folder(10, 0.8);
   fs::remove(folder / "slice4.dcm");
   fs::remove(folder / "slice5.dcm");
   const DicomSeries series = only(folder);
@@ -91,7 +93,7 @@ TEST(DicomSeries, Row23MissingSlicesAreShown) {
 }
 
 TEST(DicomSeries, Row23ThinSlicesToo) {
-  const fs::path folder = series_folder(10, 0.15);
+  const fs::path folder = dicom_series_series_folder(10, 0.15);
   fs::remove(folder / "slice4.dcm");
   EXPECT_TRUE(only(folder).uneven);
 }
@@ -102,13 +104,13 @@ TEST(DicomSeries, Row24UnevenDistances) {
       if (k == 3) s.position = "-10\\-20\\" + std::to_string(100.0 + 2.0 * k + by);
     };
   };
-  EXPECT_TRUE(only(series_folder(8, 2.0, moved(0.3))).uneven);
-  EXPECT_FALSE(only(series_folder(8, 2.0, moved(0.1))).uneven);
+  EXPECT_TRUE(only(dicom_series_series_folder(8, 2.0, moved(0.3))).uneven);
+  EXPECT_FALSE(only(dicom_series_series_folder(8, 2.0, moved(0.1))).uneven);
 }
 
 TEST(DicomSeries, Row24DistancesThatDriftApart) {
   // Each distance is within 0.2 mm of the typical one, but the middle lies 0.5 mm off the even grid.
-  const DicomSeries series = only(series_folder(21, 0.0, [](CtSlice& s, int k) {
+  const DicomSeries series = only(dicom_series_series_folder(21, 0.0, [](CtSlice& s, int k) {
     s.position = "0\\0\\" + std::to_string(k <= 10 ? 2.0 * k : 20.0 + 2.1 * (k - 10));
   }));
   EXPECT_TRUE(series.uneven);
@@ -116,7 +118,7 @@ TEST(DicomSeries, Row24DistancesThatDriftApart) {
 
 TEST(DicomSeries, Row25GantryTiltIsMeasured) {
   const double tilt = 20.0 * M_PI / 180.0;
-  const DicomSeries series = only(series_folder(8, 0.0, [&](CtSlice& s, int k) {
+  const DicomSeries series = only(dicom_series_series_folder(8, 0.0, [&](CtSlice& s, int k) {
     s.orientation = "1\\0\\0\\0\\" + std::to_string(std::cos(tilt)) + "\\" + std::to_string(std::sin(tilt));
     s.position = "0\\0\\" + std::to_string(3.0 * k);
   }));
@@ -143,14 +145,14 @@ TEST(DicomSeries, Row26DuplicatesAreSplitByTimeOrRefused) {
   EXPECT_EQ(found.series[0].phase, "trigger time 50 ms");
   EXPECT_TRUE(found.series[0].faults.empty() && found.series[1].faults.empty());
 
-  const fs::path copied = series_folder(4, 1.0);
+  const fs::path copied = dicom_series_series_folder(4, 1.0);
   fs::copy_file(copied / "slice2.dcm", copied / "copy.dcm");
   EXPECT_THAT(only(copied).faults,
               ElementsAre(HasSubstr("'copy.dcm' and 'slice2.dcm' are the same image twice")));
 }
 
 TEST(DicomSeries, Row27SeriesAndSizesAreSplit) {
-  const fs::path folder = series_folder(5, 1.0);
+  const fs::path folder = dicom_series_series_folder(5, 1.0);
   fs::create_directory(folder / "more");
   write_series(folder / "more", 3, 1.0, [](CtSlice& s, int) { s.rows = 8; });
   fs::create_directory(folder / "other");
@@ -163,7 +165,7 @@ TEST(DicomSeries, Row27SeriesAndSizesAreSplit) {
 }
 
 TEST(DicomSeries, LocalizersAreSetApart) {
-  const fs::path folder = series_folder(5, 1.0, [](CtSlice& s, int k) {
+  const fs::path folder = dicom_series_series_folder(5, 1.0, [](CtSlice& s, int k) {
     if (k == 4) s.image_type = "ORIGINAL\\PRIMARY\\LOCALIZER";
   });
   const DicomFolder found = scan_dicom(folder);
@@ -174,7 +176,7 @@ TEST(DicomSeries, LocalizersAreSetApart) {
 }
 
 TEST(DicomSeries, Row16ACutFileIsAFaultOfItsSeries) {
-  const fs::path folder = series_folder(5, 1.0);
+  const fs::path folder = dicom_series_series_folder(5, 1.0);
   fs::resize_file(folder / "slice3.dcm", fs::file_size(folder / "slice3.dcm") - 6);
   EXPECT_THAT(only(folder).faults, ElementsAre(HasSubstr("'slice3.dcm': pixel data cut short")));
   fs::resize_file(folder / "slice3.dcm", fs::file_size(folder / "slice3.dcm") - 101);
@@ -182,14 +184,14 @@ TEST(DicomSeries, Row16ACutFileIsAFaultOfItsSeries) {
 }
 
 TEST(DicomSeries, OtherFilesAreCounted) {
-  const fs::path folder = series_folder(3, 1.0);
+  const fs::path folder = dicom_series_series_folder(3, 1.0);
   testing::write_bytes(folder / "notes.txt", "not an image");
   testing::write_bytes(folder / "empty", "");
   EXPECT_EQ(scan_dicom(folder).skipped, 2u);
 }
 
 TEST(DicomSeries, AFileGivesItsSeries) {
-  const fs::path folder = series_folder(3, 1.0);
+  const fs::path folder = dicom_series_series_folder(3, 1.0);
   fs::create_directory(folder / "below");
   write_series(folder / "below", 2, 1.0, [](CtSlice& s, int) { s.series = "1.2.99"; });
   const DicomFolder found = scan_dicom(folder / "slice1.dcm");
@@ -208,7 +210,7 @@ TEST(DicomSeries, Row36NamesWithSpacesAndUmlautsAndLongOnes) {
 }
 
 TEST(DicomSeries, Row40WarningsNameNoPatient) {
-  const fs::path folder = series_folder(10, 0.8);
+  const fs::path folder = dicom_series_series_folder(10, 0.8);
   fs::remove(folder / "slice4.dcm");
   for (const std::string& warning : only(folder).warnings) {
     EXPECT_EQ(warning.find("DOE"), std::string::npos);
@@ -220,7 +222,7 @@ TEST(DicomSeries, Row40WarningsNameNoPatient) {
 TEST(DicomSeries, CanBeCancelled) {
   const core::TaskContext task;
   task.cancel();
-  EXPECT_THROW(scan_dicom(series_folder(3, 1.0), task), Cancelled);
+  EXPECT_THROW(scan_dicom(dicom_series_series_folder(3, 1.0), task), Cancelled);
 }
 
 }  // namespace

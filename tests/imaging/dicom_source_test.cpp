@@ -36,7 +36,7 @@ std::string deflated(const std::string& bytes) {
 
 TEST(DicomSource, FileAndMemoryGiveTheSameBytesAcrossWindows) {
   const std::string bytes = pattern(300'000);
-  const auto path = testing::temporary_folder("source") / "bytes";
+  const auto path = ostia::testing::temporary_folder("source") / "bytes";
   std::ofstream(path, std::ios::binary) << bytes;
   DicomSource file = DicomSource::file(path), memory = DicomSource::memory(bytes);
   for (const std::size_t offset : {0u, 1u, 65'533u, 65'536u, 200'000u, 299'990u, 5u}) {
@@ -59,7 +59,7 @@ TEST(DicomSource, ReadsNothingBeyondTheEnd) {
 }
 
 TEST(DicomSource, RefusesWhatIsNoRegularFile) {
-  const auto folder = testing::temporary_folder("source");
+  const auto folder = ostia::testing::temporary_folder("source");
   EXPECT_THROW(DicomSource::file(folder / "absent"), IoError);
   EXPECT_THROW(DicomSource::file(folder), IoError);
   ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);

@@ -15,7 +15,7 @@ namespace ostia::imaging {
 namespace {
 using namespace testing;
 
-fs::path folder() {
+fs::path image_write_folder() {
   return ostia::testing::temporary_folder("write");
 }
 
@@ -29,7 +29,7 @@ template <class T, class Read>
 void expect_round_trip(const Read& read) {
   for (const char* name : {"a.nrrd", "a.mhd", "a.mha"}) {
     const Volume<T> image = patterned<T>(oblique_grid(13, 11, 7));
-    const fs::path path = folder() / name;
+    const fs::path path = image_write_folder() / name;
     write_image(path, image);
     const Volume<T> again = read(path).volume;
     EXPECT_EQ(again.voxels, image.voxels) << name;
@@ -47,7 +47,7 @@ TEST(WriteImage, EveryFormatGivesBackTheSameMask) {
   MaskVolume mask = patterned<std::uint8_t>(oblique_grid(13, 11, 7));
   for (std::uint8_t& v : mask.voxels) v = v > 200 ? 1 : 0;
   for (const char* name : {"a.nrrd", "a.mhd", "a.mha"}) {
-    const fs::path path = folder() / name;
+    const fs::path path = image_write_folder() / name;
     write_image(path, mask);
     EXPECT_EQ(read_mask(path).volume.voxels, mask.voxels) << name;
     EXPECT_TRUE(looks_like_mask(path)) << name;
@@ -61,7 +61,7 @@ TEST(WriteImage, GeometryOnTheAxesIsKeptBitForBit) {
   image.geometry.spacing = Vec3(0.3, 1.0 / 3.0, 0.625);
   image.geometry.origin = Vec3(-0.1, 1e-7, 1234.56789012345);
   for (const char* name : {"a.nrrd", "a.mhd", "a.mha"}) {
-    const fs::path path = folder() / name;
+    const fs::path path = image_write_folder() / name;
     write_image(path, image);
     const Geometry grid = read_image_header(path).geometry;
     EXPECT_EQ(grid.spacing, image.geometry.spacing) << name;
@@ -71,7 +71,7 @@ TEST(WriteImage, GeometryOnTheAxesIsKeptBitForBit) {
 }
 
 TEST(WriteImage, SaysAxesAndUnit) {
-  const fs::path here = folder();
+  const fs::path here = image_write_folder();
   write_image(here / "a.nrrd", patterned<std::int16_t>(oblique_grid(4, 3, 2)));
   const std::string nrrd = read_bytes(here / "a.nrrd");
   EXPECT_NE(nrrd.find("space: left-posterior-superior\n"), std::string::npos);
@@ -85,7 +85,7 @@ TEST(WriteImage, SaysAxesAndUnit) {
 }
 
 TEST(WriteImage, PacksManyBlocksIntoOneStreamTheSameForAnyNumberOfThreads) {
-  const fs::path here = folder();
+  const fs::path here = image_write_folder();
   const ImageVolume image = patterned<std::int16_t>(oblique_grid(128, 128, 100));  // 3.1 blocks
   core::set_max_threads(1);
   write_image(here / "one.nrrd", image);
@@ -96,7 +96,7 @@ TEST(WriteImage, PacksManyBlocksIntoOneStreamTheSameForAnyNumberOfThreads) {
 }
 
 TEST(WriteImage, LeavesOnlyItsFiles) {
-  const fs::path here = folder();
+  const fs::path here = image_write_folder();
   const ImageVolume image = patterned<std::int16_t>(oblique_grid(4, 3, 2));
   write_image(here / "a.nrrd", image);
   write_image(here / "b.mhd", image);
@@ -104,7 +104,7 @@ TEST(WriteImage, LeavesOnlyItsFiles) {
 }
 
 TEST(WriteImage, ANewPairNeverTouchesTheVoxelsOfTheOldOne) {
-  const fs::path here = folder(), other = folder();
+  const fs::path here = image_write_folder(), other = image_write_folder();
   const ImageVolume first = patterned<std::int16_t>(oblique_grid(4, 3, 2)),
                     second = patterned<std::int16_t>(oblique_grid(5, 5, 5));
   write_image(here / "a.mhd", first);
@@ -119,7 +119,7 @@ TEST(WriteImage, ANewPairNeverTouchesTheVoxelsOfTheOldOne) {
 }
 
 TEST(WriteImage, DoesNotDeleteVoxelsThatAreNotItsOwn) {
-  const fs::path here = folder();
+  const fs::path here = image_write_folder();
   write_bytes(here / "a.mhd", meta_header({{"ElementDataFile", "scan.raw"}}));
   write_bytes(here / "scan.raw", bytes_of(counted(24)));
   write_image(here / "a.mhd", patterned<std::int16_t>(oblique_grid(4, 3, 2)));
@@ -127,7 +127,7 @@ TEST(WriteImage, DoesNotDeleteVoxelsThatAreNotItsOwn) {
 }
 
 TEST(WriteImage, RefusesWhatItCannotWrite) {
-  const fs::path here = folder();
+  const fs::path here = image_write_folder();
   const ImageVolume image = patterned<std::int16_t>(oblique_grid(4, 3, 2));
   EXPECT_NE(refusal([&] { write_image(here / "a.nii", image); }).find("extension"), std::string::npos);
   ImageVolume bad = image;
@@ -160,7 +160,7 @@ class FileSizeLimit {
 };
 
 TEST(WriteImage, BadInput_Row37_WithoutRoomTheOldImageStays) {
-  const fs::path here = folder();
+  const fs::path here = image_write_folder();
   const ImageVolume old = patterned<std::int16_t>(oblique_grid(4, 3, 2)),
                     large = patterned<std::int16_t>(oblique_grid(64, 64, 64));
   for (const char* name : {"a.nrrd", "b.mhd", "c.mha"}) write_image(here / name, old);
@@ -177,7 +177,7 @@ TEST(WriteImage, BadInput_Row37_WithoutRoomTheOldImageStays) {
 
 TEST(WriteImage, BadInput_Row37_InAReadOnlyFolderTheOldImageStays) {
   if (::geteuid() == 0) GTEST_SKIP() << "root may write anywhere";
-  const fs::path here = folder();
+  const fs::path here = image_write_folder();
   const ImageVolume old = patterned<std::int16_t>(oblique_grid(4, 3, 2));
   write_image(here / "a.nrrd", old);
   fs::permissions(here, fs::perms::owner_read | fs::perms::owner_exec);

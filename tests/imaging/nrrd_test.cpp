@@ -8,18 +8,18 @@
 namespace ostia::imaging {
 namespace {
 using namespace testing;
-using Changes = std::map<std::string, std::string>;
+using NrrdChanges = std::map<std::string, std::string>;
 
 struct NrrdTest : ::testing::Test {
   fs::path here = ostia::testing::temporary_folder("nrrd");
   fs::path path = here / "image.nrrd";
   std::vector<std::int16_t> voxels = counted(24);
 
-  LoadedImage<std::int16_t> read(const Changes& changes, const std::string& data) {
+  LoadedImage<std::int16_t> read(const NrrdChanges& changes, const std::string& data) {
     write_bytes(path, nrrd_header(changes) + data);
     return read_image(path);
   }
-  std::string refused(const Changes& changes) {
+  std::string refused(const NrrdChanges& changes) {
     write_bytes(path, nrrd_header(changes) + bytes_of(voxels));
     return refusal([&] { read_image(path); });
   }
@@ -58,10 +58,10 @@ TEST_F(NrrdTest, EveryScalarType) {
 }
 
 TEST_F(NrrdTest, SpacesBecomeLps) {
-  const Changes turned = {{"space directions", "(-1,0,0) (0,-2,0) (0,0,3)"},
-                          {"space origin", "(-10,-20,30)"}};
+  const NrrdChanges turned = {{"space directions", "(-1,0,0) (0,-2,0) (0,0,3)"},
+                              {"space origin", "(-10,-20,30)"}};
   for (const char* space : {"right-anterior-superior", "RAS"}) {
-    Changes changes = turned;
+    NrrdChanges changes = turned;
     changes["space"] = space;
     const auto image = read(changes, bytes_of(voxels));
     EXPECT_EQ(image.volume.geometry.origin, Vec3(10, 20, 30));
@@ -134,7 +134,7 @@ TEST_F(NrrdTest, LineEndsOfWindowsAreRead) {
 }
 
 TEST_F(NrrdTest, RefusalsNameTheField) {
-  const std::pair<Changes, const char*> cases[] = {
+  const std::pair<NrrdChanges, const char*> cases[] = {
       {{{"dimension", "2"}}, "dimension"},
       {{{"type", "block"}}, "type"},
       {{{"type", ""}}, "type"},

@@ -21,12 +21,12 @@ namespace {
 namespace fs = std::filesystem;
 using geometry::MixedMesh;
 
-fs::path target(const std::string& name) {
+fs::path mesh_export_target(const std::string& name) {
   return testing::temporary_folder("export") / name;
 }
 
 void expect_export_refused(const MixedMesh& mesh, MeshFormat format, const std::vector<std::string>& parts) {
-  const fs::path path = target("out");
+  const fs::path path = mesh_export_target("out");
   try {
     export_mesh(mesh, format, path);
     ADD_FAILURE() << name_of(format) << " accepted it";
@@ -84,7 +84,7 @@ TEST(MeshExport, TellsWhichNamesItChanged) {
   MixedMesh mesh = column_of_tetrahedra();
   mesh.faces[1].name = "inlet of 'RCA'";
   for (const MeshFormat format : mesh_formats) {
-    const MeshExportResult result = export_mesh(mesh, format, target("out"));
+    const MeshExportResult result = export_mesh(mesh, format, mesh_export_target("out"));
     EXPECT_EQ(result.face_names[1], "inlet_of__RCA_") << name_of(format);
     ASSERT_EQ(result.warnings.size(), 1u);
     EXPECT_EQ(result.warnings[0], "face 4 'inlet of 'RCA'' is written as inlet_of__RCA_");
@@ -92,7 +92,7 @@ TEST(MeshExport, TellsWhichNamesItChanged) {
 }
 
 TEST(MeshExport, NamesTheVolumeAsTold) {
-  const fs::path path = target("m.msh");
+  const fs::path path = mesh_export_target("m.msh");
   MeshExportOptions options;
   options.title = "left coronary artery";
   export_mesh(column_of_tetrahedra(), MeshFormat::gmsh2, path, options);
@@ -126,7 +126,7 @@ TEST(MeshExport, SaysBeforehandWhatAFormatCannotHold) {
           beforehand = error.what();
         }
         try {
-          export_mesh(mesh, format, target("out"));
+          export_mesh(mesh, format, mesh_export_target("out"));
         } catch (const InvalidInput& error) {
           writing = error.what();
         }
@@ -176,7 +176,7 @@ TEST(MeshExport, LeavesWhatItCannotReplace) {
   const MixedMesh mesh = column_of_tetrahedra();
   for (const MeshFormat format : mesh_formats)
     EXPECT_THROW(export_mesh(mesh, format, "/nowhere/at/all"), IoError) << name_of(format);
-  const fs::path folder = target("case");
+  const fs::path folder = mesh_export_target("case");
   fs::create_directories(folder / "system");
   core::write_file(folder / "system" / "controlDict", "mine");
   try {
@@ -224,7 +224,7 @@ int export_without_room(const MixedMesh& mesh, MeshFormat format, const fs::path
 
 TEST(MeshExport, KeepsTheOldOneWhenTheDiskIsFull) {
   for (const MeshFormat format : mesh_formats) {
-    const fs::path path = target("out");
+    const fs::path path = mesh_export_target("out");
     export_mesh(column_of_tetrahedra(), format, path);
     const std::string before = all_of(path);
     const MixedMesh other = geometry::split_prisms(column_with_prisms());
@@ -237,7 +237,7 @@ TEST(MeshExport, KeepsTheOldOneWhenTheDiskIsFull) {
 
 TEST(MeshExport, ReplacesItsOwnAndIsTheSameEachTime) {
   const MixedMesh mesh = column_with_prisms();
-  const fs::path a = target("a.msh"), folder = target("case");
+  const fs::path a = mesh_export_target("a.msh"), folder = mesh_export_target("case");
   export_mesh(column_of_tetrahedra(), MeshFormat::gmsh4, a);
   export_mesh(mesh, MeshFormat::gmsh4, a);
   const std::string first = core::read_file(a);

@@ -16,20 +16,20 @@ using geometry::MixedMesh;
 
 constexpr double tolerance = 1e-6;  // relative
 
-struct Sample {
+struct VolumeMeshReadersSample {
   std::string name;
   MixedMesh mesh;
 };
 
-std::vector<Sample> linear_samples() {
+std::vector<VolumeMeshReadersSample> linear_samples() {
   return {{"tetrahedra", column_of_tetrahedra()},
           {"both", column_with_prisms()},
           {"prisms", ring_of_prisms()},
           {"split", geometry::split_prisms(column_with_prisms())}};
 }
 
-std::vector<Sample> all_samples() {
-  std::vector<Sample> samples = linear_samples();
+std::vector<VolumeMeshReadersSample> all_samples() {
+  std::vector<VolumeMeshReadersSample> samples = linear_samples();
   for (std::size_t i = 0; i < 4; ++i)
     samples.push_back({"quadratic " + samples[i].name, quadratic(samples[i].mesh)});
   return samples;
@@ -58,7 +58,8 @@ void expect_same(const MixedMesh& read, const MixedMesh& mesh, bool ids) {
   }
 }
 
-void round_trip(MeshFormat format, const std::string& file, const std::vector<Sample>& samples, bool ids) {
+void round_trip(MeshFormat format, const std::string& file,
+                const std::vector<VolumeMeshReadersSample>& samples, bool ids) {
   const fs::path folder = testing::temporary_folder("readers");
   for (std::size_t i = 0; i < samples.size(); ++i) {
     SCOPED_TRACE(samples[i].name);
@@ -94,7 +95,7 @@ TEST(VolumeMeshReaders, ExodusComesBackAsItWas) {
 }
 
 TEST(VolumeMeshReaders, AbaqusComesBackAsItWas) {
-  std::vector<Sample> samples = linear_samples();  // it has no prism of 18 nodes
+  std::vector<VolumeMeshReadersSample> samples = linear_samples();  // it has no prism of 18 nodes
   samples.push_back({"quadratic tetrahedra", quadratic(column_of_tetrahedra())});
   round_trip(MeshFormat::abaqus, ".inp", samples, true);
 }

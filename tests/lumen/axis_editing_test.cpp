@@ -27,7 +27,7 @@ LumenModel coronary() {
 }
 
 /// An edit that must leave a sound model and account for all samples in its changes.
-EditOutcome applied(const LumenModel& model, const Edit& edit) {
+EditOutcome applied_soundly(const LumenModel& model, const Edit& edit) {
   const std::string before = digest(model);
   EditOutcome outcome = apply(model, edit);
   EXPECT_EQ(digest(model), before);
@@ -77,7 +77,7 @@ double worst_foot_error(const VesselLumen& lumen) {
 TEST(AxisMove, TakesTheWallWithIt) {
   const LumenModel model = straight();
   const AxisMove move{4, Vec3(0, 0, 15), Vec3(1.2, 0.5, 15), 8.0};
-  const EditOutcome outcome = applied(model, move);
+  const EditOutcome outcome = applied_soundly(model, move);
   const VesselLumen &before = *model.vessels[0], &after = *outcome.model.vessels[0];
   EXPECT_LT((after.axis->nearest_foot(Vec3(1.2, 0.5, 15)).rho_mm), 1e-3);
   EXPECT_GT(after.axis->length(), before.axis->length());
@@ -108,8 +108,8 @@ TEST(AxisMove, TakesTheWallWithIt) {
 TEST(AxisMove, MovedBackIsNearlyAsBefore) {
   const LumenModel model = straight();
   const Vec3 a(0, 0, 15), b(0.8, -0.4, 15);
-  const EditOutcome there = applied(model, AxisMove{4, a, b, 6.0});
-  const EditOutcome back = applied(there.model, AxisMove{4, b, a, 6.0});
+  const EditOutcome there = applied_soundly(model, AxisMove{4, a, b, 6.0});
+  const EditOutcome back = applied_soundly(there.model, AxisMove{4, b, a, 6.0});
   for (const SurfaceSample& s : model.vessels[0]->samples) {
     const SurfaceSample& now = sample(back.model, 4, s.id);
     EXPECT_LT((now.position - s.position).norm(), 0.06) << s.s_mm;
@@ -120,7 +120,7 @@ TEST(AxisMove, MovedBackIsNearlyAsBefore) {
 
 TEST(AxisMove, MovesAnAxisOfFewPoints) {
   const LumenModel model = model_of_tubes(straight_vessel(30.0, 1.5, 6.0));
-  const EditOutcome outcome = applied(model, AxisMove{4, Vec3(0, 0, 15), Vec3(1.0, 0, 15), 4.0});
+  const EditOutcome outcome = applied_soundly(model, AxisMove{4, Vec3(0, 0, 15), Vec3(1.0, 0, 15), 4.0});
   const auto& axis = *outcome.model.vessels[0]->axis;
   EXPECT_LT(axis.nearest_foot(Vec3(1.0, 0, 15)).rho_mm, 0.02);
   EXPECT_LT(std::abs(axis.point(9.0).x()), 0.02);
@@ -131,7 +131,7 @@ TEST(AxisMove, AtAJunctionTakesAllBranchesAlong) {
   const std::int32_t trunk = model.tree.vessels[0].id, branch = model.tree.vessels[1].id;
   const double at = vessel(model, branch).own_from_mm;
   const Vec3 from = vessel(model, trunk).axis->point(at), to = from + Vec3(0.0, 0.7, 0.3);
-  const EditOutcome outcome = applied(model, AxisMove{trunk, from, to, 6.0});
+  const EditOutcome outcome = applied_soundly(model, AxisMove{trunk, from, to, 6.0});
   EXPECT_EQ(outcome.changes.size(), 4U);
   for (const auto& lumen : outcome.model.vessels) EXPECT_LT(worst_foot_error(*lumen), 1e-6);
   const auto& moved = vessel(outcome.model, branch);
@@ -155,7 +155,7 @@ TEST(AxisMove, OnABranchLeavesOtherVesselsAsTheyAre) {
   const LumenModel model = coronary();
   const std::int32_t branch = model.tree.vessels[2].id;
   const Vec3 from = vessel(model, branch).axis->point(vessel(model, branch).own_from_mm + 15.0);
-  const EditOutcome outcome = applied(model, AxisMove{branch, from, from + Vec3(0.4, 0, 0.4), 5.0});
+  const EditOutcome outcome = applied_soundly(model, AxisMove{branch, from, from + Vec3(0.4, 0, 0.4), 5.0});
   ASSERT_EQ(outcome.changes.size(), 1U);
   EXPECT_EQ(outcome.model.vessels[0], model.vessels[0]);
   EXPECT_EQ(outcome.model.vessels[1], model.vessels[1]);
@@ -173,7 +173,7 @@ TEST(AxisMove, InATightBendSamplesStayOnTheirSide) {
   const LumenModel model = model_of_tubes(tree_of(line));
   const VesselLumen& before = *model.vessels[0];
   const Vec3 top = before.axis->point(0.5 * before.axis->length());
-  const EditOutcome outcome = applied(model, AxisMove{4, top, top + Vec3(0.0, 0.6, 0.4), 6.0});
+  const EditOutcome outcome = applied_soundly(model, AxisMove{4, top, top + Vec3(0.0, 0.6, 0.4), 6.0});
   const VesselLumen& after = *outcome.model.vessels[0];
   const double longer = after.axis->length() - before.axis->length();
   ASSERT_GT(longer, 0.0);
@@ -198,7 +198,7 @@ TEST(AxisMove, RefusesFoldsAndFarPlaces) {
 TEST(AxisInsert, BendsTheAxisToThePointAndLeavesTheWall) {
   const LumenModel model = straight();
   const Vec3 point(0.4, 0.2, 12.1);
-  const EditOutcome outcome = applied(model, AxisInsert{4, point});
+  const EditOutcome outcome = applied_soundly(model, AxisInsert{4, point});
   const VesselLumen& after = *outcome.model.vessels[0];
   EXPECT_LT(after.axis->nearest_foot(point).rho_mm, 1e-6);
   EXPECT_LT(worst_foot_error(after), 1e-6);
@@ -215,13 +215,13 @@ TEST(AxisInsert, BendsTheAxisToThePointAndLeavesTheWall) {
 
 TEST(AxisInsert, OnTheAxisChangesNothingButItsPoints) {
   const LumenModel model = straight();
-  const EditOutcome outcome = applied(model, AxisInsert{4, Vec3(0, 0, 12.2)});
+  const EditOutcome outcome = applied_soundly(model, AxisInsert{4, Vec3(0, 0, 12.2)});
   EXPECT_EQ(outcome.model.tree.segments[0].axis.size(), model.tree.segments[0].axis.size() + 1);
   EXPECT_NEAR(outcome.model.vessels[0]->axis->length(), 30.0, 1e-9);
   const EditOutcome again = apply(outcome.model, AxisInsert{4, Vec3(0, 0, 12.2)});
   EXPECT_EQ(digest(again.model), digest(outcome.model));
   ASSERT_EQ(again.notes.size(), 1U);
-  const EditOutcome back = applied(outcome.model, AxisDelete{4, Vec3(0.1, 0, 12.2)});
+  const EditOutcome back = applied_soundly(outcome.model, AxisDelete{4, Vec3(0.1, 0, 12.2)});
   EXPECT_EQ(back.model.tree.segments[0].axis.points, model.tree.segments[0].axis.points);
 }
 
@@ -246,7 +246,7 @@ TEST(AxisDelete, RefusesEndsAndJoints) {
 TEST(AxisExtend, RunsOnWithTheLastRadiusAndANewCap) {
   const LumenModel model = straight();
   const EditOutcome outcome =
-      applied(model, AxisExtend{4, {Vec3(0, 0.3, 33), Vec3(0, 1.2, 36), Vec3(0, 2.5, 39)}});
+      applied_soundly(model, AxisExtend{4, {Vec3(0, 0.3, 33), Vec3(0, 1.2, 36), Vec3(0, 2.5, 39)}});
   const VesselLumen& after = *outcome.model.vessels[0];
   EXPECT_GT(after.axis->length(), 39.0);
   EXPECT_LT(worst_foot_error(after), 1e-6);
@@ -267,7 +267,7 @@ TEST(AxisExtend, RunsOnWithTheLastRadiusAndANewCap) {
   EXPECT_GT(cap, 4);
   EXPECT_EQ(outcome.model.tree.nodes[1].position, Vec3(0, 2.5, 39));
   // Trimmed where it ended before, it is as it was: the wall in all that was not made anew, to the spacing.
-  const EditOutcome back = applied(outcome.model, AxisTrim{4, 30.0});
+  const EditOutcome back = applied_soundly(outcome.model, AxisTrim{4, 30.0});
   EXPECT_NEAR(back.model.vessels[0]->axis->length(), 30.0, 0.05);
   for (const SurfaceSample& s : model.vessels[0]->samples) {
     if (s.s_mm < 28.5) {
@@ -286,7 +286,7 @@ TEST(AxisExtend, RefusesTurnsAndNothing) {
 
 TEST(AxisTrim, ClosesTheVesselThere) {
   const LumenModel model = straight();
-  const EditOutcome outcome = applied(model, AxisTrim{4, 20.25});
+  const EditOutcome outcome = applied_soundly(model, AxisTrim{4, 20.25});
   const VesselLumen& after = *outcome.model.vessels[0];
   EXPECT_NEAR(after.axis->length(), 20.25, 0.31);
   const double end = after.axis->length();
@@ -314,7 +314,7 @@ TEST(AxisTrim, ClosesTheVesselThere) {
 TEST(AxisTrim, TakesBranchesBeyondAndLeavesThoseBefore) {
   const LumenModel model = coronary();
   const std::int32_t trunk = model.tree.vessels[0].id;
-  const EditOutcome outcome = applied(model, AxisTrim{trunk, 35.0});
+  const EditOutcome outcome = applied_soundly(model, AxisTrim{trunk, 35.0});
   ASSERT_EQ(outcome.model.vessels.size(), 3U);
   EXPECT_EQ(outcome.notes.size(), 1U);
   EXPECT_EQ(outcome.model.vessels[1], model.vessels[1]);

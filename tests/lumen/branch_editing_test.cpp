@@ -20,10 +20,10 @@ using testing::expect_refused;
 using testing::straight_vessel;
 using testing::tree_of;
 
-LumenModel straight() {
+LumenModel branch_editing_straight() {
   return model_of_tubes(straight_vessel(40.0, 1.8));
 }
-LumenModel coronary() {
+LumenModel branch_editing_coronary() {
   static const LumenModel model = model_of_tubes(tree_of(geometry::coronary_like_tree(0.25)));
   return model;
 }
@@ -42,7 +42,7 @@ BranchAdd side_branch(double z, double angle_deg) {
 
 TEST(BranchAdd, MakesATubeThatBeginsInsideItsParent) {
   for (const double angle : {35.0, 60.0, 90.0, 110.0}) {
-    const LumenModel model = straight();
+    const LumenModel model = branch_editing_straight();
     const EditOutcome outcome = applied(model, side_branch(20.0, angle));
     ASSERT_EQ(outcome.model.vessels.size(), 2U) << angle;
     EXPECT_EQ(outcome.model.vessels[0], model.vessels[0]);
@@ -70,7 +70,7 @@ TEST(BranchAdd, MakesATubeThatBeginsInsideItsParent) {
 }
 
 TEST(BranchAdd, AndDeleteLeaveTheParentAsItWas) {
-  const LumenModel model = straight();
+  const LumenModel model = branch_editing_straight();
   const EditOutcome added = applied(model, side_branch(20.0, 60.0));
   const std::int32_t id = added.model.tree.vessels[1].id;
   const EditOutcome deleted = applied(added.model, BranchDelete{id});
@@ -101,7 +101,7 @@ TEST(BranchAdd, SplitsAnAxisOfFewPointsWhereItIs) {
 }
 
 TEST(BranchAdd, OnABranchOfABranch) {
-  const LumenModel model = coronary();
+  const LumenModel model = branch_editing_coronary();
   BranchAdd add;
   add.parent = model.tree.vessels[2].id;
   add.name = "twig";
@@ -119,7 +119,7 @@ TEST(BranchAdd, OnABranchOfABranch) {
 }
 
 TEST(BranchAdd, RefusesWhatCannotBeABranch) {
-  const LumenModel model = straight();
+  const LumenModel model = branch_editing_straight();
   const auto with = [](const std::function<void(BranchAdd&)>& change) {
     BranchAdd add = side_branch(20.0, 60.0);
     change(add);
@@ -148,7 +148,7 @@ TEST(BranchAdd, RefusesWhatCannotBeABranch) {
 }
 
 TEST(BranchDelete, TakesWhatLeavesItAndKeepsTheLast) {
-  const LumenModel model = coronary();
+  const LumenModel model = branch_editing_coronary();
   BranchAdd add;
   add.parent = model.tree.vessels[1].id;
   add.name = "twig";
@@ -167,12 +167,12 @@ TEST(BranchDelete, TakesWhatLeavesItAndKeepsTheLast) {
   EXPECT_NE(outcome.notes[0].find("twig"), std::string::npos);
   EXPECT_EQ(outcome.model.vessels[0], model.vessels[0]);
   expect_refused(model, BranchDelete{model.tree.vessels[0].id}, {"branch.delete", "last"});
-  expect_refused(straight(), BranchDelete{4}, {"last"});
+  expect_refused(branch_editing_straight(), BranchDelete{4}, {"last"});
   expect_refused(model, BranchDelete{999}, {"999"});
 }
 
 TEST(BranchAttach, JoinsTheVesselElsewhereAndItsSamplesFollow) {
-  const LumenModel model = coronary();
+  const LumenModel model = branch_editing_coronary();
   const std::int32_t trunk = model.tree.vessels[0].id, branch = model.tree.vessels[2].id;
   const VesselLumen& before = vessel(model, branch);
   const Vec3 at = vessel(model, trunk).axis->point(before.own_from_mm + 7.0);
@@ -198,7 +198,7 @@ TEST(BranchAttach, JoinsTheVesselElsewhereAndItsSamplesFollow) {
 }
 
 TEST(BranchAttach, ToALaterVesselChangesTheOrderOfOwners) {
-  LumenModel model = straight();
+  LumenModel model = branch_editing_straight();
   for (const double z : {17.0, 21.0}) {
     BranchAdd add = side_branch(z, 60.0);
     add.name = z < 20.0 ? "D1" : "D2";
@@ -221,14 +221,14 @@ TEST(BranchAttach, ToALaterVesselChangesTheOrderOfOwners) {
 }
 
 TEST(BranchAttach, RefusesToTearAVesselFarFromWhereItWas) {
-  const LumenModel model = coronary();
+  const LumenModel model = branch_editing_coronary();
   const std::int32_t trunk = model.tree.vessels[0].id, branch = model.tree.vessels[1].id;
   const Vec3 far = vessel(model, trunk).axis->point(45.0);
   expect_refused(model, BranchAttach{branch, trunk, far}, {"branch.attach", "would move by", "too far"});
 }
 
 TEST(BranchAttach, RefusesLoops) {
-  const LumenModel model = coronary();
+  const LumenModel model = branch_editing_coronary();
   const std::int32_t trunk = model.tree.vessels[0].id, branch = model.tree.vessels[1].id;
   const Vec3 on_branch = vessel(model, branch).axis->point(vessel(model, branch).own_from_mm + 8.0);
   expect_refused(model, BranchAttach{trunk, branch, on_branch}, {"branch.attach", "loop"});
@@ -238,7 +238,7 @@ TEST(BranchAttach, RefusesLoops) {
 }
 
 TEST(VesselRename, ChangesTheNameAlone) {
-  const LumenModel model = coronary();
+  const LumenModel model = branch_editing_coronary();
   const std::int32_t id = model.tree.vessels[1].id;
   const EditOutcome outcome = applied(model, VesselRename{id, "D1"});
   EXPECT_EQ(outcome.model.tree.vessels[1].name, "D1");

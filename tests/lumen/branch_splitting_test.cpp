@@ -27,7 +27,7 @@ using testing::pi;
 using testing::radius_on_ray;
 using testing::side_vessel;
 
-std::shared_ptr<const TreeField> field_of(const LumenModel& model) {
+std::shared_ptr<const TreeField> branch_splitting_field_of(const LumenModel& model) {
   return LiveModel(std::make_shared<const LumenModel>(model)).field();
 }
 
@@ -61,7 +61,7 @@ struct Moved {
 };
 Moved moved(const LumenModel& before, const LumenModel& after, const geometry::AxisCurve& axis,
             double seam_mm, double near_mm, double most_x = 2.0) {
-  const auto was = field_of(before), is = field_of(after);
+  const auto was = branch_splitting_field_of(before), is = branch_splitting_field_of(after);
   Moved most;
   for (double s = 0.5; s < axis.length() - 0.5; s += 0.25) {
     for (int k = 0; k < 12; ++k) {
@@ -255,7 +255,7 @@ TEST(BranchSplit, EditsOfThePartsAndTheLiveModelFollow) {
   }
   follow(AxisMove{distal, vessel(live.model(), distal).axis->point(21.0),
                   vessel(live.model(), distal).axis->point(21.0) + Vec3(0.0, 0.3, 0.2), 6.0});
-  const auto solved_anew = field_of(live.model());
+  const auto solved_anew = branch_splitting_field_of(live.model());
   const auto& axis = *vessel(live.model(), distal).axis;
   for (double s = 1.0; s < axis.length() - 1.0; s += 0.7)
     for (const double theta : {0.0, 2.0, 4.0})

@@ -23,7 +23,7 @@ using testing::FunctionField;
 using testing::longest_step;
 using testing::torus;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 TEST(ContourLines, BallIsACircleToItsTolerance) {
   const FunctionField field(ball({0.3, -0.2, 0.4}, 1.5));

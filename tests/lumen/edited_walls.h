@@ -14,7 +14,7 @@ namespace ostia::lumen::testing {
 
 using geometry::AxisCurve;
 
-inline constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 inline constexpr std::int32_t main_vessel = 4, side_vessel = 7;
 
 using WallRadius = std::function<double(double s, double theta)>;

@@ -7,7 +7,7 @@
 namespace ostia::lumen {
 namespace {
 
-class EveryKernel : public testing::TestWithParam<Kernel> {};
+class EveryKernel : public ::testing::TestWithParam<Kernel> {};
 
 TEST_P(EveryKernel, IsOneAtItsCentreAndZeroBeyondItsSupport) {
   EXPECT_EQ(phi(GetParam(), 0.0), 1.0);
@@ -30,7 +30,7 @@ TEST_P(EveryKernel, IsFoundByItsName) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kernels, EveryKernel,
-                         testing::Values(Kernel::morse_c0, Kernel::wendland_c2, Kernel::wendland_c4));
+                         ::testing::Values(Kernel::morse_c0, Kernel::wendland_c2, Kernel::wendland_c4));
 
 TEST(Kernel, SmoothOnesAreFlatAtTheirCentre) {
   EXPECT_EQ(phi_slope(Kernel::wendland_c2, 0.0), 0.0);

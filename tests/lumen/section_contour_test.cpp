@@ -11,14 +11,14 @@ namespace {
 using namespace testing;
 using ::testing::HasSubstr;
 
-const WallRadius oval = [](double, double theta) {
+const WallRadius oval_wall = [](double, double theta) {
   return 1.3 * 1.7 / std::hypot(1.3 * std::cos(theta - 0.5), 1.7 * std::sin(theta - 0.5));
 };
 
 TEST(SectionContour, TheWallPassesThroughTheContourDrawnInEitherSense) {
   const LumenModel model = bent_model(24.0, 2.0);
   const AxisCurve& axis = axis_of(model);
-  SectionContour contour = contour_around(axis, oval, 11.2, 10);
+  SectionContour contour = contour_around(axis, oval_wall, 11.2, 10);
   for (const bool reversed : {false, true}) {
     if (reversed) std::reverse(contour.points.begin(), contour.points.end());
     const EditOutcome outcome = apply(model, contour);
@@ -27,7 +27,7 @@ TEST(SectionContour, TheWallPassesThroughTheContourDrawnInEitherSense) {
     for (const Vec3& point : contour.points) EXPECT_NEAR(field.value(point), 0.0, 1e-6);
     for (int k = 0; k < 24; ++k) {
       const double theta = 2.0 * pi * k / 24.0;
-      EXPECT_NEAR(radius_on_ray(field, axis, 11.2, theta), oval(0.0, theta), 0.03) << theta;
+      EXPECT_NEAR(radius_on_ray(field, axis, 11.2, theta), oval_wall(0.0, theta), 0.03) << theta;
       EXPECT_NEAR(radius_on_ray(field, axis, 7.5, theta), 2.0, 0.03);
       EXPECT_NEAR(radius_on_ray(field, axis, 15.0, theta), 2.0, 0.03);
     }
@@ -97,7 +97,7 @@ TEST(SectionContour, NormalsLeanWithTheWallAlongTheVessel) {
 TEST(SectionContour, TwiceIsOnceAndTheLaterWins) {
   const LumenModel model = bent_model(20.0, 2.0);
   const AxisCurve& axis = axis_of(model);
-  const SectionContour contour = contour_around(axis, oval, 9.0, 11);
+  const SectionContour contour = contour_around(axis, oval_wall, 9.0, 11);
   const LumenModel once = apply(model, contour).model, twice = apply(once, contour).model;
   EXPECT_LT(difference(geometry_of(*once.vessels[0]), geometry_of(*twice.vessels[0])), 1e-9);
   const SectionContour round = contour_around(

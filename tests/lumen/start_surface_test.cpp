@@ -19,7 +19,7 @@ namespace {
 using geometry::AxisCurve;
 using testing::straight_vessel;
 using testing::tree_of;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 std::string message_of(const std::function<void()>& call) {
   try {

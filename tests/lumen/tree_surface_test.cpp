@@ -24,7 +24,7 @@ using test::capsule;
 using test::Field;
 using test::torus;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 TriMesh wall_of(std::shared_ptr<const ScalarField> field, const std::vector<Vec3>& seeds,
                 double cell_mm = 0.25) {
@@ -97,7 +97,7 @@ TEST(TreeSurface, ATubeIsClosedByItsCapsWhereverItRuns) {
 }
 
 // Two branches out of a trunk.
-std::vector<std::shared_ptr<const ScalarField>> fork() {
+std::vector<std::shared_ptr<const ScalarField>> tree_surface_fork() {
   return {capsule({0, 0, -12}, {0, 0, 8}, 1.6), capsule({0, 0, 0}, {7, 1, 9}, 1.1),
           capsule({0, 0, -5}, {-6, 2, 1}, 0.8)};
 }
@@ -105,7 +105,7 @@ const std::vector<Vec3> fork_seeds{{1.6, 0, -9}, {0, 0, 9.6}};
 
 TEST(TreeSurface, AForkIsSoundHoweverItsBranchesAreJoined) {
   for (const JointShape joints : {JointShape::sharp, JointShape::smooth}) {
-    const auto field = std::make_shared<const TreeField>(fork(), BlendOptions{0.25, joints});
+    const auto field = std::make_shared<const TreeField>(tree_surface_fork(), BlendOptions{0.25, joints});
     const TriMesh mesh = wall_of(field, fork_seeds);
     expect_sound(mesh);
     EXPECT_EQ(euler(mesh), 2);
@@ -114,7 +114,7 @@ TEST(TreeSurface, AForkIsSoundHoweverItsBranchesAreJoined) {
 }
 
 TEST(TreeSurface, TheSharpForkIsTheExactUnion) {
-  const auto branches = fork();
+  const auto branches = tree_surface_fork();
   const auto field = std::make_shared<const TreeField>(branches, BlendOptions{0.25, JointShape::sharp});
   for (const Vec3& p : wall_of(field, fork_seeds).points) {
     double least = 1e9;
@@ -143,7 +143,7 @@ TEST(TreeSurface, ASeedBesideTheWallFindsIt) {
 }
 
 TEST(TreeSurface, TheSameForAnyNumberOfThreads) {
-  const auto field = std::make_shared<const TreeField>(fork(), BlendOptions{});
+  const auto field = std::make_shared<const TreeField>(tree_surface_fork(), BlendOptions{});
   const int threads = core::max_threads();
   core::set_max_threads(1);
   const TriMesh one = wall_of(field, fork_seeds);
@@ -154,7 +154,7 @@ TEST(TreeSurface, TheSameForAnyNumberOfThreads) {
 }
 
 TEST(TreeSurface, TheSameFromOtherSeedsOnTheSameWall) {
-  const auto field = std::make_shared<const TreeField>(fork(), BlendOptions{});
+  const auto field = std::make_shared<const TreeField>(tree_surface_fork(), BlendOptions{});
   EXPECT_TRUE(same(wall_of(field, fork_seeds), wall_of(field, {{0, -1.6, 5}})));
 }
 
@@ -166,7 +166,7 @@ struct Bumps {
   };
   std::vector<Bump> all;
   std::shared_ptr<const ScalarField> base =
-      std::make_shared<const TreeField>(fork(), BlendOptions{1.0, JointShape::smooth});
+      std::make_shared<const TreeField>(tree_surface_fork(), BlendOptions{1.0, JointShape::smooth});
 
   Field field() const {
     return std::make_shared<test::Formula>(

@@ -115,7 +115,7 @@ TEST(MeshForecast, FindsTrianglesThatAreNotJoined) {
   const auto found = of_kind(forecast, TroubleKind::open_edges);
   ASSERT_EQ(found.size(), 10u);
   EXPECT_EQ(found[0].repair, OfferedRepair::repair_surface);
-  EXPECT_THAT(found.back().sentence, testing::HasSubstr("more places)"));
+  EXPECT_THAT(found.back().sentence, ::testing::HasSubstr("more places)"));
 }
 
 TEST(MeshForecast, FindsAFin) {
@@ -173,7 +173,7 @@ TEST(MeshForecast, FindsTwoVesselsThatTouch) {
       expect_only(mesh_forecast(plain(mesh)), TroubleKind::touching_walls, {0, 0, 6}, 6.1);
   EXPECT_LE(std::hypot(place.point.x(), place.point.y()), 0.5);
   EXPECT_TRUE(place.fails);
-  EXPECT_THAT(place.sentence, testing::HasSubstr("as close as 0.05 mm outside"));
+  EXPECT_THAT(place.sentence, ::testing::HasSubstr("as close as 0.05 mm outside"));
   const TriMesh apart = geometry::merged(open_tube(1.5, -2.0), open_tube(1.5, 2.0));
   EXPECT_EQ(mesh_forecast(plain(apart)).summary(), "nothing found");
 }
@@ -207,7 +207,7 @@ TEST(MeshForecast, FindsAnEndSmallerThanAnEdge) {
     EXPECT_EQ(place.repair, OfferedRepair::smaller_edges);
     EXPECT_LT(place.factor, 1.0);
     if (capped_ends) {
-      EXPECT_THAT(place.sentence, testing::HasSubstr("outlet_"));
+      EXPECT_THAT(place.sentence, ::testing::HasSubstr("outlet_"));
     }
   }
 }
@@ -225,7 +225,7 @@ TEST(MeshForecast, FindsANarrowLumen) {
   const auto larger = of_kind(mesh_forecast(surface, options), TroubleKind::edge_size);
   ASSERT_EQ(larger.size(), 1u);
   EXPECT_TRUE(larger[0].fails);
-  EXPECT_THAT(larger[0].sentence, testing::HasSubstr("the edge is larger than the vessel"));
+  EXPECT_THAT(larger[0].sentence, ::testing::HasSubstr("the edge is larger than the vessel"));
   // Edges that follow the vessel's size pass through.
   const geometry::VesselTree tree = tree_of(shape);
   ForecastOptions sized;
@@ -300,7 +300,7 @@ TEST(MeshForecast, FindsUnitsThatAreNotMillimetres) {
       expect_only(mesh_forecast(plain(mesh)), TroubleKind::units, {0, 0, 0.03}, 1e-3);
   EXPECT_EQ(metres.factor, 1000.0);
   EXPECT_EQ(metres.repair, OfferedRepair::convert_units);
-  EXPECT_THAT(metres.sentence, testing::HasSubstr("that looks like metres"));
+  EXPECT_THAT(metres.sentence, ::testing::HasSubstr("that looks like metres"));
   for (Vec3& p : mesh.points) p *= 1e6;
   EXPECT_EQ(expect_only(mesh_forecast(plain(mesh)), TroubleKind::units, {0, 0, 3e4}, 1e3).factor, 0.001);
 }

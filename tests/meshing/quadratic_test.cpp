@@ -25,7 +25,7 @@ namespace {
 using geometry::MixedMesh;
 using geometry::Vec3;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 TetrahedronNodes tilted_tetrahedron() {
   return straight(std::array<Vec3, 4>{Vec3(0.1, 0.2, 0.3), Vec3(1.3, 0.1, 0.2), Vec3(0.2, 1.1, 0.5),

@@ -84,7 +84,7 @@ TEST(SurfaceQuality, GateNamesEveryFault) {
   EXPECT_FALSE(check(SurfaceQuality{}).ok());
 }
 
-geometry::VolumeMesh one_tetrahedron() {
+geometry::VolumeMesh quality_one_tetrahedron() {
   const auto surface = tetrahedron_surface(1.0);
   geometry::VolumeMesh mesh;
   mesh.points = surface.points;
@@ -102,7 +102,7 @@ QualityVerdict gate(const geometry::VolumeMesh& mesh) {
 }
 
 TEST(VolumeQuality, SeesInversionAndForeignBoundaries) {
-  geometry::VolumeMesh mesh = one_tetrahedron();
+  geometry::VolumeMesh mesh = quality_one_tetrahedron();
   VolumeQuality quality = volume_quality(mesh);
   EXPECT_EQ(quality.inverted, 0u);
   EXPECT_EQ(quality.boundary_mismatches, 0u);
@@ -114,7 +114,7 @@ TEST(VolumeQuality, SeesInversionAndForeignBoundaries) {
   EXPECT_EQ(volume_quality(mesh).boundary_mismatches, 1u);
   mesh.boundary.erase(mesh.boundary.begin());
   EXPECT_EQ(volume_quality(mesh).boundary_mismatches, 1u);
-  mesh = one_tetrahedron();
+  mesh = quality_one_tetrahedron();
   std::swap(mesh.tetrahedra[0][0], mesh.tetrahedra[0][1]);
   quality = volume_quality(mesh);
   EXPECT_EQ(quality.inverted, 1u);

@@ -31,7 +31,7 @@ double non_orthogonality(const VolumeMesh& mesh) {
   return mixed_quality(geometry::mixed(mesh)).openfoam.max_non_orthogonality_deg;
 }
 
-double least_quality(const VolumeMesh& mesh) {
+double tetrahedra_orthogonality_least_quality(const VolumeMesh& mesh) {
   double least = 1.0;
   const auto at = [&](std::int32_t v) { return mesh.points[static_cast<std::size_t>(v)]; };
   for (const auto& t : mesh.tetrahedra)
@@ -80,12 +80,12 @@ TEST(TetrahedraOrthogonality, MovesPointsAndKeepsWhatTheTetrahedraAreWorth) {
   for (const unsigned seed : {1u, 2u, 3u}) {
     VolumeMesh mesh = random_box(5, seed);
     const VolumeMesh old = mesh;
-    const double before = non_orthogonality(mesh), quality = least_quality(mesh);
+    const double before = non_orthogonality(mesh), quality = tetrahedra_orthogonality_least_quality(mesh);
     ASSERT_GT(before, 70.0);
     const MendingReport report = orthogonal(mesh, 50.0, quality);
     EXPECT_GT(report.points_moved, 0u);
     EXPECT_LT(non_orthogonality(mesh), before - 10.0);
-    EXPECT_GE(least_quality(mesh), quality);
+    EXPECT_GE(tetrahedra_orthogonality_least_quality(mesh), quality);
     expect_sound(mesh, old);
   }
 }

@@ -21,7 +21,7 @@ void expect_beats(const MadeEcg& ecg, const std::vector<std::size_t>& peaks, dou
 TEST(RPeaks, AreFoundAtEveryRateOfBeatsAndSamples) {
   for (const double rate : {128.0, 250.0, 360.0, 1000.0, 2000.0})
     for (const double interval : {0.35, 0.6, 1.0, 1.6}) {
-      SCOPED_TRACE(testing::Message() << rate << " Hz, " << interval << " s");
+      SCOPED_TRACE(::testing::Message() << rate << " Hz, " << interval << " s");
       MadeEcg ecg;
       ecg.rate = rate;
       ecg.beats(40, [&](std::size_t) { return interval; });

@@ -16,7 +16,7 @@ namespace {
 using geometry::Box3;
 using ::testing::ElementsAre;
 
-CaseOptions tiny(std::uint64_t seed = 1) {
+CaseOptions tiny_case(std::uint64_t seed = 1) {
   CaseOptions options;
   options.seed = seed;
   options.preset = Preset::tiny;
@@ -56,7 +56,7 @@ TEST(MovingCase, AMovedBallIsWhereItsCentreWentAndKeepsItsVolumeTimesTheJacobian
 }
 
 TEST(MovingCase, WhatIsMetDoesNotDependOnTheBox) {
-  const CasePlan plan = plan_case(tiny());
+  const CasePlan plan = plan_case(tiny_case());
   const Body body(plan.heart, plan.tree, body_of(plan.options));
   const MovedScene scene(body, heartbeat_of(plan).phase(20.0));
   const Vec3 middle = plan.options.scan.grid.world(Vec3(48, 48, 40));
@@ -124,7 +124,7 @@ double share_in_lumen(const CasePlan& plan, const Scan& scan, const BeatPhase& p
 }
 
 TEST(MovingCase, TheImageOfAPhaseShowsTheLumenWhereItsAxisIsThen) {
-  const CasePlan plan = plan_case(tiny());
+  const CasePlan plan = plan_case(tiny_case());
   const Body body(plan.heart, plan.tree, body_of(plan.options));
   const BeatPhase phase = heartbeat_of(plan).phase(35.0), still;
   const Scan scan = scan_phase(plan, body, phase);
@@ -133,7 +133,7 @@ TEST(MovingCase, TheImageOfAPhaseShowsTheLumenWhereItsAxisIsThen) {
 }
 
 TEST(MovingCase, TheTemplatesPhaseShowsTheStillHeartUnderAnotherNoise) {
-  const CasePlan plan = plan_case(tiny());
+  const CasePlan plan = plan_case(tiny_case());
   const Body body(plan.heart, plan.tree, body_of(plan.options));
   const Scan still = scan_case(plan), phase = scan_phase(plan, body, heartbeat_of(plan).phase(75.0));
   std::size_t other = 0;
@@ -152,7 +152,7 @@ TEST(MovingCase, TheTemplatesPhaseShowsTheStillHeartUnderAnotherNoise) {
 }
 
 TEST(MovingCase, AxesContoursAndReferenceLinesGoWithTheMap) {
-  CaseOptions options = tiny(3);
+  CaseOptions options = tiny_case(3);
   options.preset = Preset::small;
   const CasePlan plan = plan_case(options);
   const BeatPhase phase = heartbeat_of(plan).phase(25.0);

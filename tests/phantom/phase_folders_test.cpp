@@ -38,7 +38,7 @@ SuiteOptions moving(int phases) {
   return options;
 }
 
-std::map<std::string, std::string> digests(const fs::path& folder) {
+std::map<std::string, std::string> phase_folders_digests(const fs::path& folder) {
   std::map<std::string, std::string> out;
   for (const auto& entry : fs::recursive_directory_iterator(folder))
     if (entry.is_regular_file())
@@ -121,9 +121,9 @@ TEST(PhaseFolders, ACaseThatBeatsIsAtRestTheStillCase) {
   const fs::path folder = testing::temporary_folder("phases");
   write_suite(folder / "beating", moving(2), {});
   write_suite(folder / "still", moving(1), {});
-  std::map<std::string, std::string> beating = digests(folder / "beating");
+  std::map<std::string, std::string> beating = phase_folders_digests(folder / "beating");
   std::size_t files = 0;
-  for (const auto& [name, digest] : digests(folder / "still")) {
+  for (const auto& [name, digest] : phase_folders_digests(folder / "still")) {
     EXPECT_EQ(name.find("phase-"), std::string::npos) << name;
     for (const char* other : {"heartbeat.json", "motion.json", "ecg.hea"})
       EXPECT_EQ(name.find(other), std::string::npos) << name;
@@ -150,8 +150,8 @@ TEST(PhaseFolders, ImagesAreInThePhasesAndTheSameForAnyNumberOfThreads) {
   core::set_max_threads(2);
   write_suite(folder / "two", options, {});
   core::set_max_threads(0);
-  const auto made = digests(folder / "two");
-  EXPECT_EQ(digests(folder / "one"), made);
+  const auto made = phase_folders_digests(folder / "two");
+  EXPECT_EQ(phase_folders_digests(folder / "one"), made);
   EXPECT_EQ(made.count("dataset00/phase-50/dicom/CT0001.dcm"), 1u);
   EXPECT_EQ(made.count("dataset00/phase-00/labels.nrrd"), 1u);
   EXPECT_EQ(made.count("dataset00/labels.nrrd"), 0u);

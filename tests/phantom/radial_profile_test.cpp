@@ -14,7 +14,7 @@
 namespace ostia::phantom {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 double ellipse(double a, double b, double theta) {
   return a * b / std::hypot(b * std::cos(theta), a * std::sin(theta));

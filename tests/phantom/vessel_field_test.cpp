@@ -15,7 +15,7 @@
 namespace ostia::phantom {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 CoronaryTree one_tube(const std::function<double(double, double)>& radius) {
   CoronaryTree tree;

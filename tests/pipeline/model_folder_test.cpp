@@ -18,19 +18,20 @@ namespace ostia::pipeline {
 namespace {
 namespace fs = std::filesystem;
 
-JobKey key() {
+JobKey model_folder_key() {
   return {"model", {{"input", builtin_model().source.sha256}}, parameters_json(builtin_options())};
 }
 
 TEST(ModelFolder, HoldsEverythingAndIsDone) {
   const fs::path folder = testing::temporary_folder("model") / "out";
-  EXPECT_EQ(write_model_folder(folder, builtin_model(), builtin_options(), key(), std::nullopt, 1.0),
-            ExitCode::ok);
+  EXPECT_EQ(
+      write_model_folder(folder, builtin_model(), builtin_options(), model_folder_key(), std::nullopt, 1.0),
+      ExitCode::ok);
   for (const char* name : {"lumen.vtp", "lumen.stl", "centerlines.vtp", "mesh.vtu", "report.json",
                            "report.html", "manifest.json"}) {
     EXPECT_TRUE(fs::exists(folder / name)) << name;
   }
-  EXPECT_EQ(already_done(folder, key()), ExitCode::ok);
+  EXPECT_EQ(already_done(folder, model_folder_key()), ExitCode::ok);
   const auto mesh = io::read_volume_mesh(folder / "mesh.vtu");
   EXPECT_EQ(mesh.tetrahedra.size(), builtin_model().meshed.mesh.tetrahedra.size());
   EXPECT_EQ(mesh.faces.size(), 4u);
@@ -43,24 +44,25 @@ TEST(ModelFolder, LeavesNothingWhenCancelled) {
   const fs::path parent = testing::temporary_folder("model");
   const core::TaskContext task;
   task.cancel();
-  EXPECT_THROW(
-      write_model_folder(parent / "out", builtin_model(), builtin_options(), key(), std::nullopt, 1.0, task),
-      Cancelled);
+  EXPECT_THROW(write_model_folder(parent / "out", builtin_model(), builtin_options(), model_folder_key(),
+                                  std::nullopt, 1.0, task),
+               Cancelled);
   EXPECT_TRUE(fs::is_empty(parent));
 }
 
 TEST(ModelFolder, RefusesWhereItCannotWrite) {
-  EXPECT_THROW(
-      write_model_folder("/nonexistent/out", builtin_model(), builtin_options(), key(), std::nullopt, 1.0),
-      IoError);
+  EXPECT_THROW(write_model_folder("/nonexistent/out", builtin_model(), builtin_options(), model_folder_key(),
+                                  std::nullopt, 1.0),
+               IoError);
 }
 
 TEST(ModelFolder, MeshFolderTellsAFailedGate) {
   const fs::path folder = testing::temporary_folder("model") / "mesh";
   MeshedLumen meshed = builtin_model().meshed;
   meshed.quality.verdict.reasons.push_back("made to fail");
-  EXPECT_EQ(write_mesh_folder(folder, meshed, builtin_options(), key(), 1.0), ExitCode::quality_failed);
-  EXPECT_EQ(already_done(folder, key()), ExitCode::quality_failed);
+  EXPECT_EQ(write_mesh_folder(folder, meshed, builtin_options(), model_folder_key(), 1.0),
+            ExitCode::quality_failed);
+  EXPECT_EQ(already_done(folder, model_folder_key()), ExitCode::quality_failed);
 }
 
 }  // namespace

@@ -188,7 +188,7 @@ TEST_F(MotionFitting, TakesTheNearestPhaseAsTheTemplateAndSaysSo) {
   EXPECT_THAT(fit.warnings, ::testing::Contains(HasSubstr("nothing between the phases 37.5 % and 0 %")));
 }
 
-std::string refusal(const std::function<void()>& call) {
+std::string motion_fit_refusal(const std::function<void()>& call) {
   try {
     call();
   } catch (const InvalidInput& error) {
@@ -201,7 +201,7 @@ TEST_F(MotionFitting, RefusesWhatIsNoCycleOfOneHeart) {
   const auto told = [](const std::function<void(std::vector<PhaseSurface>&)>& change) {
     std::vector<PhaseSurface> phases = beating_tree(4);
     change(phases);
-    return refusal([&] { fit_motion(phases, coarse()); });
+    return motion_fit_refusal([&] { fit_motion(phases, coarse()); });
   };
   using Phases = std::vector<PhaseSurface>;
   EXPECT_THAT(told([](Phases& p) { p.resize(1); }), HasSubstr("three phases"));
@@ -227,7 +227,7 @@ TEST_F(MotionFitting, RefusesWhatIsNoCycleOfOneHeart) {
               AllOf(HasSubstr("phase_25.vtp"), HasSubstr("not a number")));
   MotionFitOptions options = coarse();
   options.registration.depth = 9;
-  EXPECT_THAT(refusal([&] { fit_motion(beating_tree(4), options); }), HasSubstr("depth"));
+  EXPECT_THAT(motion_fit_refusal([&] { fit_motion(beating_tree(4), options); }), HasSubstr("depth"));
 }
 
 TEST_F(MotionFitting, Cancels) {

@@ -50,7 +50,7 @@ const std::vector<double>& eight() {
   return phases;
 }
 
-ImagePhasesOptions coarse() {
+ImagePhasesOptions motion_images_coarse() {
   ImagePhasesOptions options;
   options.depth = 3;
   return options;
@@ -76,7 +76,8 @@ TEST(MotionImages, TheTestsInverseIsOne) {
 class InImages : public ::testing::Test {
  protected:
   static const ImagePhases& whole() {
-    static const ImagePhases found = surfaces_from_images(still_tree(), beating_views(eight()), coarse());
+    static const ImagePhases found =
+        surfaces_from_images(still_tree(), beating_views(eight()), motion_images_coarse());
     return found;
   }
 };
@@ -127,7 +128,7 @@ TEST_F(InImages, BadInput_Row29_MayLieOnUnequalGrids) {
                                                     static_cast<double>(turned.size[2])));
   std::vector<PhaseView> views = beating_views({0.75, 0.875});
   views.push_back(view_of(0.625, std::make_shared<const ImageVolume>(beating_image(0.625, turned))));
-  const ImagePhases found = surfaces_from_images(still_tree(), std::move(views), coarse());
+  const ImagePhases found = surfaces_from_images(still_tree(), std::move(views), motion_images_coarse());
   ASSERT_TRUE(found.found[0].found) << found.surfaces[0].why;
   EXPECT_LT(surface_error(found.surfaces[0].surface, 0.625), 0.15);
 }
@@ -137,7 +138,7 @@ TEST_F(InImages, FindTheWallOfAVesselThatSwells) {
   std::vector<PhaseView> views = beating_views({0.75, 0.625});
   views.push_back(view_of(
       0.875, std::make_shared<const ImageVolume>(beating_image(0.875, beating_grid(spacing_mm), 0.3))));
-  const ImagePhases found = surfaces_from_images(still_tree(), std::move(views), coarse());
+  const ImagePhases found = surfaces_from_images(still_tree(), std::move(views), motion_images_coarse());
   const auto swollen = [&](std::size_t k) {
     const geometry::TubeDistance tree(motion::testing::tree_shape());
     double sum = 0.0;
@@ -168,7 +169,7 @@ TEST_F(InImages, BadInput_Row29_MarksAPhaseWithoutTheVesselAndGoesOn) {
   std::vector<PhaseView> views = beating_views({0.75, 0.0, 0.5, 0.625});
   views.push_back(view_of(0.875, empty_image()));
   views.push_back(view_of(0.375, short_image(0.375)));
-  const ImagePhases found = surfaces_from_images(still_tree(), std::move(views), coarse());
+  const ImagePhases found = surfaces_from_images(still_tree(), std::move(views), motion_images_coarse());
   ASSERT_EQ(found.surfaces.size(), 6U);
   EXPECT_THAT(found.surfaces[5].why, HasSubstr("does not show the vessel"));
   EXPECT_TRUE(found.surfaces[5].surface.triangles.empty());
@@ -183,7 +184,7 @@ TEST_F(InImages, BadInput_Row29_MarksAPhaseWithoutTheVesselAndGoesOn) {
   EXPECT_THAT(fit.phases.back().why, HasSubstr("correlation"));
 }
 
-std::string refusal(const std::function<void()>& call) {
+std::string motion_images_refusal(const std::function<void()>& call) {
   try {
     call();
   } catch (const InvalidInput& error) {
@@ -195,9 +196,9 @@ std::string refusal(const std::function<void()>& call) {
 TEST_F(InImages, RefusesWhatCannotBeCompared) {
   const auto told = [](const std::vector<double>& phases, const geometry::TriMesh& shape,
                        double template_phase = 0.75) {
-    ImagePhasesOptions options = coarse();
+    ImagePhasesOptions options = motion_images_coarse();
     options.template_phase = template_phase;
-    return refusal([&] { surfaces_from_images(shape, beating_views(phases), options); });
+    return motion_images_refusal([&] { surfaces_from_images(shape, beating_views(phases), options); });
   };
   EXPECT_THAT(told({0.75, 0.0}, still_tree()), HasSubstr("three phases at least; there are 2"));
   EXPECT_THAT(told({0.75, 0.0, 0.5}, still_tree(), 0.7), HasSubstr("there are 0 %, 50 %, 75 %"));
@@ -210,14 +211,14 @@ TEST_F(InImages, RefusesWhatCannotBeCompared) {
 }
 
 TEST_F(InImages, WarnsOfATemplateOfAnotherPhase) {
-  ImagePhasesOptions options = coarse();
+  ImagePhasesOptions options = motion_images_coarse();
   options.depth = 1;
   const ImagePhases found = surfaces_from_images(true_tree(0.25), beating_views({0.75, 0.0, 0.5}), options);
   EXPECT_THAT(found.warnings, ::testing::ElementsAre(HasSubstr("is it the surface of that phase?")));
 }
 
 TEST_F(InImages, DoNotDependOnOrderOrThreads) {
-  ImagePhasesOptions options = coarse();
+  ImagePhasesOptions options = motion_images_coarse();
   options.depth = 2;
   core::set_max_threads(1);
   const ImagePhases one = surfaces_from_images(still_tree(), beating_views({0.625, 0.75, 0.875}), options);
@@ -237,7 +238,7 @@ TEST_F(InImages, CanBeCancelled) {
     task.cancel();
     return read(own);
   };
-  EXPECT_THROW(surfaces_from_images(still_tree(), std::move(views), coarse(), task), Cancelled);
+  EXPECT_THROW(surfaces_from_images(still_tree(), std::move(views), motion_images_coarse(), task), Cancelled);
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ using nlohmann::json;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using M = analysis::BranchMeasure;
+using M = analysis::MotionMeasure;
 
 /// A fork of straight arms (no torsion) whose wall turns.
 const TreeMotion& beating_fork() {

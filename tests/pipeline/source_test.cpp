@@ -26,7 +26,7 @@ imaging::ImageVolume ramp() {
   return image;
 }
 
-geometry::TriMesh tube() {
+geometry::TriMesh source_tube() {
   return geometry::surface_of(geometry::straight_tube(10.0, 1.5), 0.5, true);
 }
 
@@ -36,7 +36,7 @@ TEST(Source, KnowsWhatAFileIs) {
   imaging::MaskVolume mask{ramp().geometry, std::vector<std::uint8_t>(8 * 7 * 6, 1)};
   mask.voxels[3] = 0;
   imaging::write_image(folder / "mask.nrrd", mask);
-  io::write_surface(folder / "a.stl", tube());
+  io::write_surface(folder / "a.stl", source_tube());
   core::write_file(folder / "a.txt", "hello");
   EXPECT_EQ(classify(folder / "ct.nrrd"), SourceKind::image);
   EXPECT_EQ(classify(folder / "mask.nrrd"), SourceKind::mask);
@@ -93,7 +93,7 @@ TEST(Source, ADicomFolderIsKnownByTheSeriesChosen) {
 
 TEST(Source, DoesNotGuessTheUnit) {
   const fs::path folder = testing::temporary_folder("source");
-  geometry::TriMesh metres = tube();
+  geometry::TriMesh metres = source_tube();
   for (geometry::Vec3& p : metres.points) p *= 0.001;
   io::write_surface(folder / "m.stl", metres);
   try {
@@ -104,8 +104,8 @@ TEST(Source, DoesNotGuessTheUnit) {
   }
   SourceOptions options;
   options.unit_mm = 1000.0;
-  EXPECT_NEAR(load(folder / "m.stl", options).surface.points.front().norm(), tube().points.front().norm(),
-              1e-3);
+  EXPECT_NEAR(load(folder / "m.stl", options).surface.points.front().norm(),
+              source_tube().points.front().norm(), 1e-3);
   EXPECT_THROW(check_vessel_size(120.0, "x"), InvalidInput);
   EXPECT_NO_THROW(check_vessel_size(40.0, "x"));
 }

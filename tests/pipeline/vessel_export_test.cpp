@@ -29,12 +29,12 @@ using geometry::Vec3;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-geometry::Centerline line(const Vec3& from, const Vec3& to, double radius_mm) {
+geometry::Centerline export_line(const Vec3& from, const Vec3& to, double radius) {
   geometry::Centerline axis;
   const int count = static_cast<int>(std::ceil((to - from).norm() / 0.5));
   for (int i = 0; i <= count; ++i) {
     axis.points.push_back(from + (to - from) * i / count);
-    axis.radius.push_back(radius_mm);
+    axis.radius.push_back(radius);
   }
   geometry::complete(axis);
   return axis;
@@ -45,31 +45,31 @@ lumen::LumenModel heart() {
   const Vec3 root(0, 0, 0), fork(0, 0, 10), end(0, 0, 20), side(8, 0, 16), other(30, 0, 0), far(30, 0, 15);
   geometry::VesselTree tree;
   tree.nodes = {{1, root}, {2, fork}, {3, end}, {4, side}, {5, other}, {6, far}};
-  tree.segments = {{11, 1, 2, line(root, fork, 1.5)},
-                   {12, 2, 3, line(fork, end, 1.5)},
-                   {13, 2, 4, line(fork, side, 1.0)},
-                   {14, 5, 6, line(other, far, 1.2)}};
+  tree.segments = {{11, 1, 2, export_line(root, fork, 1.5)},
+                   {12, 2, 3, export_line(fork, end, 1.5)},
+                   {13, 2, 4, export_line(fork, side, 1.0)},
+                   {14, 5, 6, export_line(other, far, 1.2)}};
   tree.vessels = {{21, "LAD", {11, 12}}, {22, "D1", {11, 13}}, {23, "RCA", {14}}};
   return lumen::model_of_tubes(tree);
 }
 
 /// A straight tube alone; between the cuts it is length - 2 * 0.4 * radius long.
-constexpr double radius_mm = 1.5, length_mm = 20.0;
-lumen::LumenModel tube() {
+constexpr double tube_radius_mm = 1.5, length_mm = 20.0;
+lumen::LumenModel vessel_export_tube() {
   geometry::VesselTree tree;
   const Vec3 from(0, 0, 0), to(0, 0, length_mm);
   tree.nodes = {{1, from}, {2, to}};
-  tree.segments = {{3, 1, 2, line(from, to, radius_mm)}};
+  tree.segments = {{3, 1, 2, export_line(from, to, tube_radius_mm)}};
   tree.vessels = {{4, "LAD", {3}}};
   return lumen::model_of_tubes(tree);
 }
 double tube_volume() {
-  return M_PI * radius_mm * radius_mm * (length_mm - 0.8 * radius_mm);
+  return M_PI * tube_radius_mm * tube_radius_mm * (length_mm - 0.8 * tube_radius_mm);
 }
 /// The same of the model, whose wall is interpolated: what its fine wall encloses, less what is cut off.
 double model_volume() {
-  const double cut = M_PI * radius_mm * radius_mm * (0.4 + 2.0 / 3.0) * radius_mm;
-  return geometry::volume(lumen::surface_of(tube(), 0.08)) - 2.0 * cut;
+  const double cut = M_PI * tube_radius_mm * tube_radius_mm * (0.4 + 2.0 / 3.0) * tube_radius_mm;
+  return geometry::volume(lumen::surface_of(vessel_export_tube(), 0.08)) - 2.0 * cut;
 }
 
 std::vector<std::string> names(const std::vector<geometry::Face>& faces) {
@@ -103,7 +103,7 @@ TEST(VesselExport, AMeshHasTheTubesVolumeAndNamedEnds) {
   const fs::path folder = testing::temporary_folder("export") / "mesh";
   MeshExportOptions options;
   options.sizing = even_edges(0.2);
-  const ExportSummary made = export_mesh(folder, tube(), options);
+  const ExportSummary made = export_mesh(folder, vessel_export_tube(), options);
   EXPECT_TRUE(made.verdict.ok()) << made.verdict.summary();
   const geometry::MixedMesh mesh = io::read_volume_mesh(folder / "mesh.vtu");
   EXPECT_EQ(mesh.tetrahedra.size(), made.tetrahedra);
@@ -115,9 +115,9 @@ TEST(VesselExport, AMeshHasTheTubesVolumeAndNamedEnds) {
   const auto surface = io::read_surface(folder / "lumen.stl").surface.mesh;
   EXPECT_NEAR(geometry::volume(surface), quality.volume_mm3(), 1e-3 * quality.volume_mm3());
   EXPECT_FALSE(geometry::find_fault(io::read_centerlines(folder / "centerlines.vtp")));
-  EXPECT_EQ(already_done(folder, mesh_job(tube(), options)), ExitCode::ok);
+  EXPECT_EQ(already_done(folder, mesh_job(vessel_export_tube(), options)), ExitCode::ok);
   options.sizing = even_edges(0.5);
-  EXPECT_FALSE(already_done(folder, mesh_job(tube(), options)));
+  EXPECT_FALSE(already_done(folder, mesh_job(vessel_export_tube(), options)));
 }
 
 TEST(VesselExport, SeveralTreesGetAFolderEach) {
@@ -205,7 +205,7 @@ TEST(VesselExport, SurfacesEndAsAsked) {
   SurfaceExportOptions options;
   options.formats = {"vtp", "stl", "ply"};
   options.sizing = even_edges(0.2);
-  export_surface(parent / "capped", tube(), options);
+  export_surface(parent / "capped", vessel_export_tube(), options);
   const auto capped = io::read_surface(parent / "capped" / "lumen.vtp").surface;
   EXPECT_THAT(names(capped.faces), ElementsAre("wall", "inlet_LAD", "outlet_LAD"));
   EXPECT_NEAR(geometry::volume(capped.mesh), model_volume(), 0.01 * model_volume());
@@ -216,17 +216,17 @@ TEST(VesselExport, SurfacesEndAsAsked) {
 
   options.ends = SurfaceEnds::open;
   options.sizing.reset();
-  export_surface(parent / "open", tube(), options);
+  export_surface(parent / "open", vessel_export_tube(), options);
   const auto open = io::read_surface(parent / "open" / "lumen.vtp").surface.mesh;
   EXPECT_GT(geometry::find_faults(open, false).open_edges, 20U);
-  EXPECT_NEAR(geometry::area(open), 2.0 * M_PI * radius_mm * (length_mm - 0.8 * radius_mm), 2.0);
+  EXPECT_NEAR(geometry::area(open), 2.0 * M_PI * tube_radius_mm * (length_mm - 0.8 * tube_radius_mm), 2.0);
 
   options.ends = SurfaceEnds::rounded;
-  const ExportSummary made = export_surface(parent / "rounded", tube(), options);
+  const ExportSummary made = export_surface(parent / "rounded", vessel_export_tube(), options);
   const auto rounded = io::read_surface(parent / "rounded" / "lumen.vtp").surface.mesh;
   EXPECT_TRUE(geometry::find_faults(rounded, false).closed_manifold());
   const double with_domes =
-      M_PI * radius_mm * radius_mm * length_mm + 4.0 / 3.0 * M_PI * std::pow(radius_mm, 3);
+      M_PI * tube_radius_mm * tube_radius_mm * length_mm + 4.0 / 3.0 * M_PI * std::pow(tube_radius_mm, 3);
   EXPECT_NEAR(made.volume_mm3, with_domes, 0.02 * with_domes);
 }
 
@@ -261,12 +261,14 @@ TEST(VesselExport, WhatCannotBeIsRefusedByName) {
   EXPECT_THAT(refusal([] { edges_around(2); }), HasSubstr("6 to 120"));
   SurfaceExportOptions surface;
   surface.formats = {"obj"};
-  EXPECT_THAT(refusal([&] { export_surface(parent / "a", tube(), surface); }), HasSubstr("vtp, stl or ply"));
+  EXPECT_THAT(refusal([&] { export_surface(parent / "a", vessel_export_tube(), surface); }),
+              HasSubstr("vtp, stl or ply"));
   surface.formats.clear();
-  EXPECT_THAT(refusal([&] { export_surface(parent / "a", tube(), surface); }), HasSubstr("at least one"));
+  EXPECT_THAT(refusal([&] { export_surface(parent / "a", vessel_export_tube(), surface); }),
+              HasSubstr("at least one"));
   core::write_file(parent / "mine.txt", "mine");
-  EXPECT_THAT(refusal([&] { export_mesh(parent, tube()); }), HasSubstr("holds files"));
-  EXPECT_THROW(export_mesh("/proc/ostia-mesh", tube()), IoError);
+  EXPECT_THAT(refusal([&] { export_mesh(parent, vessel_export_tube()); }), HasSubstr("holds files"));
+  EXPECT_THROW(export_mesh("/proc/ostia-mesh", vessel_export_tube()), IoError);
   EXPECT_EQ(std::distance(fs::directory_iterator(parent), fs::directory_iterator()), 1);
 }
 
@@ -281,7 +283,7 @@ TEST(VesselExport, CancelledAnywhereItLeavesNothing) {
     });
     MeshExportOptions options;
     options.sizing = even_edges(0.2);
-    EXPECT_THROW(export_mesh(parent / "mesh", tube(), options, task), Cancelled) << at;
+    EXPECT_THROW(export_mesh(parent / "mesh", vessel_export_tube(), options, task), Cancelled) << at;
     ended = true;
     watcher.join();
     EXPECT_TRUE(fs::is_empty(parent)) << at;

@@ -16,15 +16,16 @@ namespace {
 using geometry::Vec3;
 using meshing::TroubleKind;
 
-constexpr double radius_mm = 1.5, throat_mm = 12.0, length_mm = 24.0;
+constexpr double vessel_forecast_radius_mm = 1.5, throat_mm = 12.0, vessel_forecast_length_mm = 24.0;
 
 /// Along z; `narrowing` is the share of the radius that is missing at the throat.
 geometry::Centerline axis_at(double x_mm, double narrowing) {
   geometry::Centerline axis;
-  for (double z = 0.0; z <= length_mm; z += 0.5) {
+  for (double z = 0.0; z <= vessel_forecast_length_mm; z += 0.5) {
     const double from_throat = std::min(1.0, std::abs(z - throat_mm) / 4.0);
     axis.points.push_back({x_mm, 0.0, z});
-    axis.radius.push_back(radius_mm * (1.0 - 0.5 * narrowing * (1.0 + std::cos(M_PI * from_throat))));
+    axis.radius.push_back(vessel_forecast_radius_mm *
+                          (1.0 - 0.5 * narrowing * (1.0 + std::cos(M_PI * from_throat))));
   }
   geometry::complete(axis);
   return axis;
@@ -89,7 +90,10 @@ TEST(VesselForecast, FollowsTheSettings) {
   const VesselForecast longer = forecast_mesh(model, one);
   geometry::Box3 box;
   for (const Vec3& point : longer.surface.points) box.extend(point);
-  EXPECT_NEAR(box.sizes().z(), length_mm - 2 * 0.4 * radius_mm + 2 * 3.0 * 2.0 * radius_mm, 0.5);
+  EXPECT_NEAR(box.sizes().z(),
+              vessel_forecast_length_mm - 2 * 0.4 * vessel_forecast_radius_mm +
+                  2 * 3.0 * 2.0 * vessel_forecast_radius_mm,
+              0.5);
   EXPECT_LT(box.max().x(), 2.0) << "the other vessel was not asked for";
 }
 

@@ -19,7 +19,7 @@ using namespace ostia;
 using namespace ostia::reconstruction;
 using geometry::Vec3;
 using reconstruction::testing::tube;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Semi-axes 2 and 1, the major one turned from y to z by 35 degrees: across a vessel along x.
 const double radius = std::sqrt(2.0);

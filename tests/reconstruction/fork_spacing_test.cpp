@@ -22,7 +22,7 @@ ReconstructedSurface made_of(const VesselGraph& graph, int level) {
   return reconstruct_surface(graph, options);
 }
 
-void expect_sound(const ReconstructedSurface& made) {
+void fork_spacing_expect_sound(const ReconstructedSurface& made) {
   const auto faults = geometry::find_faults(made.surface.mesh, true);
   EXPECT_TRUE(faults.closed_manifold()) << faults.summary();
   EXPECT_EQ(faults.self_intersections, 0u);
@@ -61,7 +61,7 @@ TEST_P(Room, ChildrenSideBySideArePartedAndEndWhereTheyShould) {
     const VesselGraph graph =
         fork(1.0, 12.0, {{direction(0.5 * degrees), 0.8, 60.0}, {direction(-0.5 * degrees), 0.8, 80.0}});
     const auto made = made_of(graph, GetParam());
-    expect_sound(made);
+    fork_spacing_expect_sound(made);
     // The longer one's end lies clear of the other: it is where it was. A cap's ring is a radius away.
     EXPECT_LT(distance_to(made, graph.points[3]), 1e-6) << degrees;
     EXPECT_LT(distance_to(made, graph.points[0]), 1e-6) << degrees;
@@ -74,7 +74,7 @@ TEST_P(Room, ABranchThatForksWithinAWideVesselIsBroughtOutOfIt) {
                   {0.0, 2.5, 0.0},   {-1.0, 12.0, 0.0}, {1.5, 14.0, 0.0}};
   graph.edges = {{0, 1, 4.0, 4.0}, {1, 2, 4.0, 4.0}, {1, 3, 0.4, 0.4}, {3, 4, 0.4, 0.4}, {3, 5, 0.3, 0.3}};
   const auto made = made_of(graph, GetParam());
-  expect_sound(made);
+  fork_spacing_expect_sound(made);
   EXPECT_THAT(made.moved, ::testing::Contains(2));
   EXPECT_LT(distance_to(made, graph.points[2]), 1e-6);
 }
@@ -82,7 +82,7 @@ TEST_P(Room, ABranchThatForksWithinAWideVesselIsBroughtOutOfIt) {
 TEST_P(Room, ForksInARowAreSpreadAlongTheTrunk) {
   for (const double spacing : {0.4, 0.8}) {
     const auto made = made_of(crowded(spacing, 0.5), GetParam());
-    expect_sound(made);
+    fork_spacing_expect_sound(made);
     EXPECT_FALSE(made.moved.empty());
   }
 }
@@ -93,7 +93,7 @@ TEST(Room, NothingIsMovedWhereNothingCrosses) {
   EXPECT_TRUE(made_of(y_fork(70.0, 0.8), 1).moved.empty());
   EXPECT_TRUE(made_of(side_branch(80.0, 0.5), 1).moved.empty());
   const auto spread = made_of(crowded(6.0, 0.5), 1);
-  expect_sound(spread);
+  fork_spacing_expect_sound(spread);
   EXPECT_TRUE(spread.moved.empty());
   EXPECT_TRUE(spread.narrowed.empty());
 }

@@ -23,7 +23,7 @@ using geometry::Quad;
 using geometry::Vec3;
 using geometry::VesselGraph;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 ReconstructedSurface surface_of(const VesselGraph& graph, int level = 1, int sides = 8) {
   ReconstructionOptions options;

@@ -20,9 +20,9 @@ using namespace ostia;
 using namespace ostia::reconstruction;
 using reconstruction::testing::torus;
 using reconstruction::testing::tube;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
-ReconstructionOptions at_level(int level) {
+ReconstructionOptions surface_at_level(int level) {
   ReconstructionOptions options;
   options.level = level;
   return options;
@@ -31,7 +31,7 @@ ReconstructionOptions at_level(int level) {
 class Levels : public ::testing::TestWithParam<int> {};
 
 TEST_P(Levels, AStraightTubeHasItsVolumeAndIsClosed) {
-  const auto made = reconstruct_surface(tube(20.0, 1.0), at_level(GetParam()));
+  const auto made = reconstruct_surface(tube(20.0, 1.0), surface_at_level(GetParam()));
   const auto faults = geometry::find_faults(made.surface.mesh, true);
   EXPECT_TRUE(faults.closed_manifold()) << faults.summary();
   EXPECT_EQ(faults.components, 1u);
@@ -42,7 +42,7 @@ TEST_P(Levels, AStraightTubeHasItsVolumeAndIsClosed) {
 }
 
 TEST_P(Levels, ALoopIsATorus) {
-  const auto made = reconstruct_surface(torus(10.0, 1.0, 48), at_level(GetParam()));
+  const auto made = reconstruct_surface(torus(10.0, 1.0, 48), surface_at_level(GetParam()));
   const auto faults = geometry::find_faults(made.surface.mesh, true);
   EXPECT_TRUE(faults.closed_manifold()) << faults.summary();
   const double truth = 2.0 * pi * pi * 10.0;
@@ -58,9 +58,9 @@ INSTANTIATE_TEST_SUITE_P(All, Levels, ::testing::Range(0, 4));
 TEST(Surface, IsTheSameForAnyNumberOfThreads) {
   const auto graph = reconstruction::testing::y_fork(60.0, 0.8);
   core::set_max_threads(1);
-  const auto one = reconstruct_surface(graph, at_level(2));
+  const auto one = reconstruct_surface(graph, surface_at_level(2));
   core::set_max_threads(4);
-  const auto four = reconstruct_surface(graph, at_level(2));
+  const auto four = reconstruct_surface(graph, surface_at_level(2));
   core::set_max_threads(0);
   EXPECT_EQ(one.quads, four.quads);
   EXPECT_EQ(one.points, four.points);
@@ -71,7 +71,7 @@ TEST(Surface, KeepsPartsAndSeveralRootsApart) {
   graph.points.emplace_back(0.0, 10.0, 0.0);
   graph.points.emplace_back(20.0, 10.0, 0.0);
   graph.edges.push_back({3, 2, 0.5, 0.5});
-  const auto made = reconstruct_surface(graph, at_level(1));
+  const auto made = reconstruct_surface(graph, surface_at_level(1));
   const auto faults = geometry::find_faults(made.surface.mesh, true);
   EXPECT_TRUE(faults.closed_manifold()) << faults.summary();
   EXPECT_EQ(faults.components, 2u);
@@ -81,7 +81,7 @@ TEST(Surface, KeepsPartsAndSeveralRootsApart) {
 TEST(Surface, JoinsTwoVesselsThatArriveAtOnePoint) {
   geometry::VesselGraph graph = tube(20.0, 1.0, 2);
   std::swap(graph.edges[1].from, graph.edges[1].to);  // both run to the middle
-  const auto made = reconstruct_surface(graph, at_level(1));
+  const auto made = reconstruct_surface(graph, surface_at_level(1));
   const auto faults = geometry::find_faults(made.surface.mesh, true);
   EXPECT_TRUE(faults.closed_manifold()) << faults.summary();
   EXPECT_EQ(faults.components, 1u);

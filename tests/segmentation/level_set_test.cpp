@@ -42,14 +42,14 @@ double radius_of(const imaging::FloatVolume& phi) {
   return std::cbrt(volume * phi.geometry.spacing.prod() * 3.0 / (4.0 * 3.14159265358979));
 }
 
-const std::array<std::int64_t, 3> kSize{44, 44, 44};
-const Vec3 kSpacing = Vec3::Constant(0.5);
+const std::array<std::int64_t, 3> kLevelSetSize{44, 44, 44};
+const Vec3 kLevelSetSpacing = Vec3::Constant(0.5);
 
 TEST(LevelSet, WithoutForcesTheSurfaceStays) {
-  const auto initial = sphere(6.0, kSize, kSpacing);
+  const auto initial = sphere(6.0, kLevelSetSize, kLevelSetSpacing);
   LevelSetOptions options;
   options.curvature = 0.0;
-  const auto flat = field(kSize, kSpacing, [](const Vec3&) { return 1.0; });
+  const auto flat = field(kLevelSetSize, kLevelSetSpacing, [](const Vec3&) { return 1.0; });
   const LevelSetResult result = level_set(initial, flat, options);
   EXPECT_TRUE(result.converged);
   EXPECT_NEAR(radius_of(result.level_set), 6.0, 0.03);
@@ -65,8 +65,8 @@ TEST(LevelSet, CurvatureShrinksASphereAtItsRate) {
   options.curvature = 0.3;
   options.iterations_max = 150;
   options.rms_tolerance_voxels = 0.0;
-  const auto flat = field(kSize, kSpacing, [](const Vec3&) { return 1.0; });
-  const LevelSetResult result = level_set(sphere(8.0, kSize, kSpacing), flat, options);
+  const auto flat = field(kLevelSetSize, kLevelSetSpacing, [](const Vec3&) { return 1.0; });
+  const LevelSetResult result = level_set(sphere(8.0, kLevelSetSize, kLevelSetSpacing), flat, options);
   const double expected = std::sqrt(64.0 - 4.0 * 0.3 * 0.25 * 0.4 * 150);
   EXPECT_NEAR(radius_of(result.level_set), expected, 0.1);
 }
@@ -211,10 +211,10 @@ TEST(LevelSet, MinimalCurvatureMovesATorusLikeTheCurveInIt) {
 
 TEST(LevelSet, KeptPointsStayInside) {
   // Curvature eats up a thin rod, but not the row of voxels that is to be kept.
-  const auto rod = field(kSize, kSpacing, [](const Vec3& p) {
+  const auto rod = field(kLevelSetSize, kLevelSetSpacing, [](const Vec3& p) {
     return std::hypot(p.x() - 0.25, p.y() - 0.25, std::max(0.0, std::abs(p.z()) - 6.0)) - 1.2;
   });
-  const auto flat = field(kSize, kSpacing, [](const Vec3&) { return 1.0; });
+  const auto flat = field(kLevelSetSize, kLevelSetSpacing, [](const Vec3&) { return 1.0; });
   LevelSetOptions options;
   options.advection = 0.0;
   options.curvature = 1.0;
@@ -244,28 +244,31 @@ TEST(LevelSet, InflationMovesOutwardsAtItsSpeed) {
   options.curvature = 0.0;
   options.advection = 0.0;
   options.iterations_max = 30;
-  const auto flat = field(kSize, kSpacing, [](const Vec3&) { return 0.0; });  // G = 1/(1 + 0)
-  const double expected = 6.0 + 30 * 0.4 * 0.5 * 0.5;                         // steps, step, w1, h
-  EXPECT_NEAR(radius_of(level_set(sphere(6.0, kSize, kSpacing), flat, options).level_set), expected, 0.15);
+  const auto flat = field(kLevelSetSize, kLevelSetSpacing, [](const Vec3&) { return 0.0; });  // G = 1/(1 + 0)
+  const double expected = 6.0 + 30 * 0.4 * 0.5 * 0.5;  // steps, step, w1, h
+  EXPECT_NEAR(radius_of(level_set(sphere(6.0, kLevelSetSize, kLevelSetSpacing), flat, options).level_set),
+              expected, 0.15);
   // An own speed image: nothing moves where it is 0.
-  const auto still = field(kSize, kSpacing, [](const Vec3&) { return 0.0; });
-  EXPECT_NEAR(radius_of(level_set(sphere(6.0, kSize, kSpacing), flat, still, options).level_set), 6.0, 0.03);
+  const auto still = field(kLevelSetSize, kLevelSetSpacing, [](const Vec3&) { return 0.0; });
+  EXPECT_NEAR(
+      radius_of(level_set(sphere(6.0, kLevelSetSize, kLevelSetSpacing), flat, still, options).level_set), 6.0,
+      0.03);
 }
 
 TEST(LevelSet, IsTheSameWhateverTheNumberOfThreads) {
-  const auto feature =
-      field(kSize, kSpacing, [](const Vec3& p) { return std::sin(3 * p.x()) + std::cos(2 * p.y() * p.z()); });
+  const auto feature = field(kLevelSetSize, kLevelSetSpacing,
+                             [](const Vec3& p) { return std::sin(3 * p.x()) + std::cos(2 * p.y() * p.z()); });
   core::set_max_threads(1);
-  const auto one = level_set(sphere(6.0, kSize, kSpacing), feature);
+  const auto one = level_set(sphere(6.0, kLevelSetSize, kLevelSetSpacing), feature);
   core::set_max_threads(0);
-  const auto many = level_set(sphere(6.0, kSize, kSpacing), feature);
+  const auto many = level_set(sphere(6.0, kLevelSetSize, kLevelSetSpacing), feature);
   EXPECT_EQ(one.level_set.voxels, many.level_set.voxels);
   EXPECT_EQ(one.iterations, many.iterations);
 }
 
 TEST(LevelSet, RefusesWhatItCannotUse) {
-  const auto initial = sphere(6.0, kSize, kSpacing);
-  const auto feature = field(kSize, kSpacing, [](const Vec3&) { return 1.0; });
+  const auto initial = sphere(6.0, kLevelSetSize, kLevelSetSpacing);
+  const auto feature = field(kLevelSetSize, kLevelSetSpacing, [](const Vec3&) { return 1.0; });
   auto bad = feature;
   bad.voxels[17] = std::numeric_limits<float>::quiet_NaN();
   EXPECT_THROW(level_set(initial, bad), InvalidInput);
@@ -292,15 +295,15 @@ TEST(LevelSet, ASurfaceThatVanishesIsAnError) {
   options.curvature = 1.0;
   options.iterations_max = 3000;
   options.rms_tolerance_voxels = 0.0;
-  const auto flat = field(kSize, kSpacing, [](const Vec3&) { return 1.0; });
-  EXPECT_THROW(level_set(sphere(1.2, kSize, kSpacing), flat, options), NumericalError);
+  const auto flat = field(kLevelSetSize, kLevelSetSpacing, [](const Vec3&) { return 1.0; });
+  EXPECT_THROW(level_set(sphere(1.2, kLevelSetSize, kLevelSetSpacing), flat, options), NumericalError);
 }
 
 TEST(LevelSet, CanBeCancelled) {
   const core::TaskContext task;
   task.cancel();
-  const auto feature = field(kSize, kSpacing, [](const Vec3&) { return 1.0; });
-  EXPECT_THROW(level_set(sphere(6.0, kSize, kSpacing), feature, {}, task), Cancelled);
+  const auto feature = field(kLevelSetSize, kLevelSetSpacing, [](const Vec3&) { return 1.0; });
+  EXPECT_THROW(level_set(sphere(6.0, kLevelSetSize, kLevelSetSpacing), feature, {}, task), Cancelled);
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ using testing::scan;
 using testing::Scene;
 using testing::Shot;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double lumen_hu = 380.0, wall_hu = 45.0, fat_hu = -90.0;
 
 /// Lumen inside a signed distance, a thin wall, fat.

@@ -21,8 +21,9 @@ using testing::scan;
 using testing::Scene;
 using testing::Shot;
 
-constexpr double pi = std::numbers::pi;
-constexpr double lumen_hu = 380.0, wall_hu = 45.0, fat_hu = -90.0, muscle_hu = 105.0;
+using std::numbers::pi;
+constexpr double outer_wall_lumen_hu = 380.0, outer_wall_wall_hu = 45.0, outer_wall_fat_hu = -90.0,
+                 muscle_hu = 105.0;
 constexpr double first_mm = 0.45;  // of the axis in the scene
 
 using Radius = std::function<double(double s, double theta)>;
@@ -45,13 +46,13 @@ OuterWall find(const Shot& shot, const Radius& lumen, const OuterWallOptions& op
   return outer_wall(shot.image, axis, lumen_of(axis, lumen), options);
 }
 
-struct Deviation {
+struct OuterWallDeviation {
   double mean = 0.0, absolute = 0.0, largest = 0.0;
 };
-Deviation deviation(
+OuterWallDeviation deviation(
     const OuterWall& found, const Radius& radius,
     const std::function<bool(double theta)>& counts = [](double) { return true; }) {
-  Deviation out;
+  OuterWallDeviation out;
   int count = 0;
   const LumenBoundary& surface = found.surface;
   for (int row = 0; row < surface.rows(); ++row) {
@@ -78,10 +79,10 @@ Radius constant(double mm) {
 }
 
 /// A round lumen in a round wall of one tissue, fat beyond.
-Scene tube(double radius, double outer, double tissue_hu = wall_hu) {
+Scene tube(double radius, double outer, double tissue_hu = outer_wall_wall_hu) {
   return [=](const Vec3& p) {
     const double rho = p.head<2>().norm();
-    return rho < radius ? lumen_hu : rho < outer ? tissue_hu : fat_hu;
+    return rho < radius ? outer_wall_lumen_hu : rho < outer ? tissue_hu : outer_wall_fat_hu;
   };
 }
 
@@ -90,13 +91,13 @@ class HealthyWall : public ::testing::TestWithParam<double> {};
 TEST_P(HealthyWall, IsFoundThinnerThanTheBlur) {
   const double thickness = GetParam(), radius = 1.4;
   const OuterWall found = find(scan(tube(radius, radius + thickness), 25.0), constant(radius));
-  const Deviation off = deviation(found, constant(radius + thickness));
+  const OuterWallDeviation off = deviation(found, constant(radius + thickness));
   EXPECT_LT(std::abs(off.mean), 0.10);
   EXPECT_LT(off.absolute, 0.12);
   EXPECT_GT(found.seen_share, 0.95);
   EXPECT_TRUE(found.surface.warnings.empty());
-  EXPECT_NEAR(found.fat_hu[found.fat_hu.size() / 2], fat_hu, 20.0);
-  EXPECT_NEAR(found.lumen_hu[found.lumen_hu.size() / 2], lumen_hu, 20.0);
+  EXPECT_NEAR(found.fat_hu[found.fat_hu.size() / 2], outer_wall_fat_hu, 20.0);
+  EXPECT_NEAR(found.lumen_hu[found.lumen_hu.size() / 2], outer_wall_lumen_hu, 20.0);
 }
 INSTANTIATE_TEST_SUITE_P(Thickness, HealthyWall, ::testing::Values(0.3, 0.5, 0.8));
 
@@ -109,7 +110,7 @@ TEST_P(ThickPlaque, OuterBorderHasLittleBias) {
   const Tissue plaque = GetParam();
   const double radius = 1.1, outer = radius + plaque.thickness_mm;
   const OuterWall found = find(scan(tube(radius, outer, plaque.hu), 25.0), constant(radius));
-  const Deviation off = deviation(found, constant(outer));
+  const OuterWallDeviation off = deviation(found, constant(outer));
   EXPECT_LT(std::abs(off.mean), 0.08);
   EXPECT_LT(off.absolute, 0.10);
 }
@@ -122,13 +123,15 @@ TEST(OuterWall, EccentricPlaque) {
   const double radius = 1.0, outer = 1.9, off_mm = 0.6;
   const Scene scene = [=](const Vec3& p) {
     const double rho = p.head<2>().norm();
-    return rho < radius ? lumen_hu : (p.head<2>() - Vec2(off_mm, 0.0)).norm() < outer ? 70.0 : fat_hu;
+    return rho < radius                                       ? outer_wall_lumen_hu
+           : (p.head<2>() - Vec2(off_mm, 0.0)).norm() < outer ? 70.0
+                                                              : outer_wall_fat_hu;
   };
   const Radius truth = [=](double, double theta) {
     const double across = off_mm * std::sin(theta);
     return off_mm * std::cos(theta) + std::sqrt(outer * outer - across * across);
   };
-  const Deviation off = deviation(find(scan(scene, 25.0), constant(radius)), truth);
+  const OuterWallDeviation off = deviation(find(scan(scene, 25.0), constant(radius)), truth);
   EXPECT_LT(off.absolute, 0.12);
   EXPECT_LT(std::abs(off.mean), 0.08);
 }
@@ -138,11 +141,11 @@ TEST(OuterWall, CalciumStaysInside) {
   const double radius = 1.2, outer = 2.2;
   const Scene scene = [=](const Vec3& p) {
     const double rho = p.head<2>().norm(), theta = std::atan2(p.y(), p.x());
-    if (rho < radius) return lumen_hu;
-    if (rho > outer) return fat_hu;
+    if (rho < radius) return outer_wall_lumen_hu;
+    if (rho > outer) return outer_wall_fat_hu;
     return std::abs(theta) < 0.7 && rho > 1.5 && rho < 2.0 ? 900.0 : 70.0;
   };
-  const Deviation off = deviation(find(scan(scene, 25.0), constant(radius)), constant(outer));
+  const OuterWallDeviation off = deviation(find(scan(scene, 25.0), constant(radius)), constant(outer));
   EXPECT_LT(off.absolute, 0.12);
   EXPECT_LT(off.largest, 0.45);
 }
@@ -153,9 +156,9 @@ TEST(OuterWall, MuscleIsBridgedAndSaidToBe) {
   const auto in_muscle = [](double theta) { return std::abs(std::remainder(theta, 2.0 * pi)) < 0.87; };
   const Scene scene = [=](const Vec3& p) {
     const double rho = p.head<2>().norm();
-    if (rho < radius) return lumen_hu;
-    if (rho < outer) return wall_hu;
-    return in_muscle(std::atan2(p.y(), p.x())) ? muscle_hu : fat_hu;
+    if (rho < radius) return outer_wall_lumen_hu;
+    if (rho < outer) return outer_wall_wall_hu;
+    return in_muscle(std::atan2(p.y(), p.x())) ? muscle_hu : outer_wall_fat_hu;
   };
   const OuterWall found = find(scan(scene, 25.0), constant(radius));
   EXPECT_LT(deviation(found, constant(outer), [&](double t) { return !in_muscle(t); }).absolute, 0.12);
@@ -169,12 +172,14 @@ TEST(OuterWall, MuscleIsBridgedAndSaidToBe) {
 
 TEST(OuterWall, NoFatAnywhereIsABridgeWithAWarning) {
   const double radius = 1.4;
-  const Scene scene = [=](const Vec3& p) { return p.head<2>().norm() < radius ? lumen_hu : muscle_hu; };
+  const Scene scene = [=](const Vec3& p) {
+    return p.head<2>().norm() < radius ? outer_wall_lumen_hu : muscle_hu;
+  };
   const OuterWall found = find(scan(scene, 25.0), constant(radius));
   EXPECT_LT(found.seen_share, 0.05);
   ASSERT_FALSE(found.surface.warnings.empty());
   EXPECT_NE(found.surface.warnings.front().find("bridge"), std::string::npos);
-  const Deviation off = deviation(found, constant(radius + 0.4));
+  const OuterWallDeviation off = deviation(found, constant(radius + 0.4));
   EXPECT_LT(off.largest, 0.5);  // it stays a wall
 }
 

@@ -18,8 +18,8 @@ using ::testing::ThrowsMessage;
 using testing::Tube;
 
 constexpr double kVoxel = 0.4;
-const std::array<std::int64_t, 3> kSize{60, 60, 60};
-const Vec3 kSpacing = Vec3::Constant(kVoxel);
+const std::array<std::int64_t, 3> kSegmentFiltersSize{60, 60, 60};
+const Vec3 kSegmentFiltersSpacing = Vec3::Constant(kVoxel);
 constexpr double kNoise = 25.0;
 
 Tube oblique(double radius_mm) {
@@ -44,7 +44,7 @@ double spread(const testing::WallError& e) {
 
 TEST(SegmentFilters, EachCurvatureFindsTheWallAndMinimalAllowsMoreWeight) {
   const Tube tube = oblique(1.5);
-  const auto image = testing::tube_image({tube}, kSize, kSpacing, 0.8 * kVoxel);
+  const auto image = testing::tube_image({tube}, kSegmentFiltersSize, kSegmentFiltersSpacing, 0.8 * kVoxel);
   SegmentOptions options;
   options.level_set.curvature_term = CurvatureTerm::minimal;
   EXPECT_LT(std::abs(wall(image, tube, options).mean), 0.05 * kVoxel);
@@ -58,7 +58,8 @@ TEST(SegmentFilters, EachCurvatureFindsTheWallAndMinimalAllowsMoreWeight) {
 
 TEST(SegmentFilters, DenoisingSmoothsTheWallAndLeavesItInPlace) {
   const Tube tube = oblique(1.6);
-  const auto image = testing::tube_image({tube}, kSize, kSpacing, 0.8 * kVoxel, kNoise);
+  const auto image =
+      testing::tube_image({tube}, kSegmentFiltersSize, kSegmentFiltersSpacing, 0.8 * kVoxel, kNoise);
   const testing::WallError before = wall(image, tube, {});
   for (const imaging::Diffusion method :
        {imaging::Diffusion::flux, imaging::Diffusion::gradient, imaging::Diffusion::curvature}) {
@@ -78,14 +79,15 @@ TEST(SegmentFilters, GaussianDerivativesRestOnTheirRidge) {
   options.level_set.curvature = 0.0;
   // The ridge of a wall blurred by s lies s^2 / 2 times its curvature inside of it (Verbeek and van Vliet
   // 1994).
-  const auto clear = testing::tube_image({tube}, kSize, kSpacing, 0.8 * kVoxel);
+  const auto clear = testing::tube_image({tube}, kSegmentFiltersSize, kSegmentFiltersSpacing, 0.8 * kVoxel);
   for (const double sigma : {0.4, 0.7}) {
     options.gaussian_sigma_mm = sigma;
     const double blur = std::hypot(0.8 * kVoxel, sigma);
     EXPECT_NEAR(wall(clear, tube, options).mean, -0.5 * blur * blur / tube.radius, 0.2 * kVoxel) << sigma;
   }
   // Noise of a twelfth of the contrast troubles it less than differences between voxels.
-  const auto noisy = testing::tube_image({tube}, kSize, kSpacing, 0.8 * kVoxel, kNoise);
+  const auto noisy =
+      testing::tube_image({tube}, kSegmentFiltersSize, kSegmentFiltersSpacing, 0.8 * kVoxel, kNoise);
   const double smooth = spread(wall(noisy, tube, options));
   options.feature = WallFeature::centred;
   EXPECT_LT(smooth, 0.7 * spread(wall(noisy, tube, options)));
@@ -94,7 +96,7 @@ TEST(SegmentFilters, GaussianDerivativesRestOnTheirRidge) {
 /// A tube of 350 HU with a hole in its wall: a pouch of fainter blood beside it, joined without an edge to
 /// speak of.
 imaging::ImageVolume leaking(const Tube& tube) {
-  auto image = testing::tube_image({tube}, kSize, kSpacing, 0.8 * kVoxel, 10.0);
+  auto image = testing::tube_image({tube}, kSegmentFiltersSize, kSegmentFiltersSpacing, 0.8 * kVoxel, 10.0);
   const Vec3 middle = 0.5 * (tube.from + tube.to);
   const Vec3 axis = (tube.to - tube.from).normalized();
   for (std::int64_t n = 0; n < image.geometry.voxels(); ++n) {
@@ -140,7 +142,8 @@ TEST(SegmentFilters, TheBalloonStopsInALeakWherePlainInflationRunsOut) {
   EXPECT_LT(held.balloon_sigma_hu, 40.0);
   // The wall elsewhere is where it was.
   const Tube whole = oblique(1.6);
-  const auto closed = testing::tube_image({whole}, kSize, kSpacing, 0.8 * kVoxel, 10.0);
+  const auto closed =
+      testing::tube_image({whole}, kSegmentFiltersSize, kSegmentFiltersSpacing, 0.8 * kVoxel, 10.0);
   EXPECT_LT(std::abs(wall(closed, whole, options).mean), 0.25 * kVoxel);
 }
 
@@ -148,7 +151,8 @@ TEST(SegmentFilters, TheBalloonFillsAVesselFromItsCore) {
   // Fronts that run in the brightest part alone begin with a core; without inflation the wall is out of
   // reach.
   const Tube tube = oblique(3.2);
-  const auto image = testing::tube_image({tube}, kSize, kSpacing, 0.8 * kVoxel, 15.0);
+  const auto image =
+      testing::tube_image({tube}, kSegmentFiltersSize, kSegmentFiltersSpacing, 0.8 * kVoxel, 15.0);
   SegmentOptions options;
   options.fronts.lower_hu = 343.0;
   options.level_set.advection = 0.5;
@@ -161,7 +165,7 @@ TEST(SegmentFilters, TheBalloonFillsAVesselFromItsCore) {
 
 TEST(SegmentFilters, CalciumTakenOutLeavesTheLumenBesideIt) {
   const Tube tube = oblique(2.0);
-  auto image = testing::tube_image({tube}, kSize, kSpacing, 0.8 * kVoxel);
+  auto image = testing::tube_image({tube}, kSegmentFiltersSize, kSegmentFiltersSpacing, 0.8 * kVoxel);
   const Vec3 spot = 0.5 * (tube.from + tube.to) + Vec3(2.0, 0.0, 0.0);
   for (std::int64_t n = 0; n < image.geometry.voxels(); ++n) {
     const Vec3 p = image.geometry.world(
@@ -183,7 +187,7 @@ TEST(SegmentFilters, CalciumTakenOutLeavesTheLumenBesideIt) {
 
 TEST(SegmentFilters, RefusesBadOptionsByName) {
   const Tube tube = oblique(1.6);
-  const auto image = testing::tube_image({tube}, kSize, kSpacing, 0.8 * kVoxel);
+  const auto image = testing::tube_image({tube}, kSegmentFiltersSize, kSegmentFiltersSpacing, 0.8 * kVoxel);
   const auto refused = [&](const SegmentOptions& options, const char* name) {
     EXPECT_THAT([&] { segmented(image, tube, options); }, ThrowsMessage<InvalidInput>(HasSubstr(name)));
   };

@@ -15,15 +15,15 @@ using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 using testing::Tube;
 
-constexpr double kVoxel = 0.4;
-const std::array<std::int64_t, 3> kSize{60, 60, 60};
-const Vec3 kSpacing = Vec3::Constant(kVoxel);
+constexpr double kSegmentVoxel = 0.4;
+const std::array<std::int64_t, 3> kSegmentSize{60, 60, 60};
+const Vec3 kSegmentSpacing = Vec3::Constant(kSegmentVoxel);
 
 /// A tube oblique to the grid, its ends outside of the image, seeds well inside.
 Tube oblique(double radius_voxels) {
   const Vec3 a(10.6, 11.2, 0.0);
   const Vec3 b(12.3, 13.1, 23.6);
-  return {a + 0.15 * (b - a), a + 0.85 * (b - a), radius_voxels * kVoxel};
+  return {a + 0.15 * (b - a), a + 0.85 * (b - a), radius_voxels * kSegmentVoxel};
 }
 
 testing::WallError segmented_wall(const imaging::ImageVolume& image, const Tube& tube,
@@ -36,10 +36,11 @@ class SegmentTube : public ::testing::TestWithParam<double> {};
 
 TEST_P(SegmentTube, FindsTheWallBelowAVoxel) {
   const Tube tube = oblique(GetParam());
-  const auto error = segmented_wall(testing::tube_image({tube}, kSize, kSpacing, 0.8 * kVoxel), tube);
+  const auto error =
+      segmented_wall(testing::tube_image({tube}, kSegmentSize, kSegmentSpacing, 0.8 * kSegmentVoxel), tube);
   ASSERT_GT(error.count, 100U);
-  EXPECT_LT(std::abs(error.mean), 0.05 * kVoxel);
-  EXPECT_LT(error.rms, 0.08 * kVoxel);
+  EXPECT_LT(std::abs(error.mean), 0.05 * kSegmentVoxel);
+  EXPECT_LT(error.rms, 0.08 * kSegmentVoxel);
 }
 
 INSTANTIATE_TEST_SUITE_P(RadiiInVoxels, SegmentTube, ::testing::Values(2.5, 4.0, 8.0));
@@ -48,7 +49,7 @@ TEST(Segment, ThinVesselsKeepTheirLength) {
   // Two and three voxels across.
   for (const double radius : {1.0, 1.5}) {
     const Tube tube = oblique(radius);
-    const auto image = testing::tube_image({tube}, kSize, kSpacing, 0.6 * kVoxel);
+    const auto image = testing::tube_image({tube}, kSegmentSize, kSegmentSpacing, 0.6 * kSegmentVoxel);
     const SegmentationResult result = segment_vessels(image, {{tube.from, std::nullopt, tube.to}});
     const geometry::TriMesh mesh = surface_of(result.level_set, {tube.from});
     const Vec3 axis = (tube.to - tube.from).normalized();
@@ -60,11 +61,11 @@ TEST(Segment, ThinVesselsKeepTheirLength) {
     }
     const double length = (tube.to - tube.from).norm();
     // Nothing is lost; the end of so thin a vessel may run on by some voxels.
-    EXPECT_LT(first, 2.0 * kVoxel) << radius;
-    EXPECT_GT(first, -7.0 * kVoxel) << radius;
-    EXPECT_GT(last, length - 2.0 * kVoxel) << radius;
-    EXPECT_LT(last, length + 7.0 * kVoxel) << radius;
-    EXPECT_LT(std::abs(testing::wall_error(mesh.points, tube, 2.5).mean), 0.3 * kVoxel) << radius;
+    EXPECT_LT(first, 2.0 * kSegmentVoxel) << radius;
+    EXPECT_GT(first, -7.0 * kSegmentVoxel) << radius;
+    EXPECT_GT(last, length - 2.0 * kSegmentVoxel) << radius;
+    EXPECT_LT(last, length + 7.0 * kSegmentVoxel) << radius;
+    EXPECT_LT(std::abs(testing::wall_error(mesh.points, tube, 2.5).mean), 0.3 * kSegmentVoxel) << radius;
   }
 }
 
@@ -84,8 +85,9 @@ TEST(Segment, ThinVesselsDoNotBreakHoweverTheyLie) {
   for (const Vec3& way : {Vec3(0, 0, 1), Vec3(1, 1, 1), Vec3(1, 0, 1), Vec3(0.2, -0.7, 1)}) {
     for (const double radius : {1.0, 1.25, 1.5}) {
       const Vec3 half = 8.0 * way.normalized();
-      const Tube tube{centre - half, centre + half, radius * kVoxel};
-      const auto image = testing::tube_image({tube}, kSize, kSpacing, 0.6 * kVoxel, 15.0);
+      const Tube tube{centre - half, centre + half, radius * kSegmentVoxel};
+      const auto image =
+          testing::tube_image({tube}, kSegmentSize, kSegmentSpacing, 0.6 * kSegmentVoxel, 15.0);
       for (const WallFeature feature : {WallFeature::edges, WallFeature::upwind}) {
         SegmentOptions options;
         options.feature = feature;
@@ -93,11 +95,11 @@ TEST(Segment, ThinVesselsDoNotBreakHoweverTheyLie) {
             segment_vessels(image, {{tube.from, std::nullopt, tube.to}}, options);
         const geometry::TriMesh mesh = surface_of(result.level_set, {tube.from});
         const std::array<double, 2> ends = overhang(mesh, tube);
-        EXPECT_GT(ends[0], -1.0 * kVoxel) << radius << " along " << way.transpose();
-        EXPECT_GT(ends[1], -1.0 * kVoxel) << radius << " along " << way.transpose();
+        EXPECT_GT(ends[0], -1.0 * kSegmentVoxel) << radius << " along " << way.transpose();
+        EXPECT_GT(ends[1], -1.0 * kSegmentVoxel) << radius << " along " << way.transpose();
         const auto error = testing::wall_error(mesh.points, tube, 1.5);
         if (feature == WallFeature::edges) {
-          EXPECT_LT(std::abs(error.mean), 0.35 * kVoxel) << radius << " along " << way.transpose();
+          EXPECT_LT(std::abs(error.mean), 0.35 * kSegmentVoxel) << radius << " along " << way.transpose();
         }
       }
     }
@@ -106,7 +108,7 @@ TEST(Segment, ThinVesselsDoNotBreakHoweverTheyLie) {
 
 TEST(Segment, ComesToRestInNoise) {
   const Tube tube = oblique(8.0);
-  const auto image = testing::tube_image({tube}, kSize, kSpacing, 0.8 * kVoxel, 30.0);
+  const auto image = testing::tube_image({tube}, kSegmentSize, kSegmentSpacing, 0.8 * kSegmentVoxel, 30.0);
   const SegmentationResult result = segment_vessels(image, {{tube.from, std::nullopt, tube.to}});
   EXPECT_TRUE(result.converged) << result.rms_voxels;
   EXPECT_TRUE(result.warnings.empty()) << result.warnings.front();
@@ -114,7 +116,7 @@ TEST(Segment, ComesToRestInNoise) {
 
 TEST(Segment, SaysHowFarTheSurfaceStillMovesWhenItIsStoppedEarly) {
   const Tube tube = oblique(4.0);
-  const auto image = testing::tube_image({tube}, kSize, kSpacing, 0.8 * kVoxel);
+  const auto image = testing::tube_image({tube}, kSegmentSize, kSegmentSpacing, 0.8 * kSegmentVoxel);
   SegmentOptions options;
   options.level_set.iterations_max = 6;
   const SegmentationResult result = segment_vessels(image, {{tube.from, std::nullopt, tube.to}}, options);
@@ -125,40 +127,42 @@ TEST(Segment, SaysHowFarTheSurfaceStillMovesWhenItIsStoppedEarly) {
 
 TEST(Segment, FreeEndsAreFlatAndAtTheirSeedsInNoise) {
   const Tube tube = oblique(8.0);
-  const auto image = testing::tube_image({tube}, kSize, kSpacing, 0.8 * kVoxel, 40.0);
+  const auto image = testing::tube_image({tube}, kSegmentSize, kSegmentSpacing, 0.8 * kSegmentVoxel, 40.0);
   const SegmentationResult result = segment_vessels(image, {{tube.from, std::nullopt, tube.to}});
   const geometry::TriMesh mesh = surface_of(result.level_set, {tube.from});
   for (const double end : overhang(mesh, tube)) {
-    EXPECT_GT(end, -0.5 * kVoxel);
-    EXPECT_LT(end, 2.0 * kVoxel);
+    EXPECT_GT(end, -0.5 * kSegmentVoxel);
+    EXPECT_LT(end, 2.0 * kSegmentVoxel);
   }
   // Across the open lumen it is a plane: nothing but the end itself lies there.
   const Vec3 axis = (tube.to - tube.from).normalized();
   double lowest = 1e9;
   for (const Vec3& p : mesh.points) {
-    if (testing::distance_to_axis(tube, p) < 0.6 * tube.radius && (p - tube.to).dot(axis) > -8.0 * kVoxel)
+    if (testing::distance_to_axis(tube, p) < 0.6 * tube.radius &&
+        (p - tube.to).dot(axis) > -8.0 * kSegmentVoxel)
       lowest = std::min(lowest, (p - tube.to).dot(axis));
   }
-  EXPECT_GT(lowest, -2.5 * kVoxel);  // dimples at most
+  EXPECT_GT(lowest, -2.5 * kSegmentVoxel);  // dimples at most
 }
 
 TEST(Segment, TheVoxelFeaturesOfThePaperFindTheWallToo) {
   const Tube tube = oblique(5.0);
-  const auto image = testing::tube_image({tube}, kSize, kSpacing, 0.8 * kVoxel);
+  const auto image = testing::tube_image({tube}, kSegmentSize, kSegmentSpacing, 0.8 * kSegmentVoxel);
   for (const WallFeature feature : {WallFeature::upwind, WallFeature::centred}) {
     SegmentOptions options;
     options.feature = feature;
     const auto error = segmented_wall(image, tube, options);
-    EXPECT_LT(std::abs(error.mean), 0.25 * kVoxel);
-    EXPECT_LT(error.rms, 0.25 * kVoxel);
+    EXPECT_LT(std::abs(error.mean), 0.25 * kSegmentVoxel);
+    EXPECT_LT(error.rms, 0.25 * kSegmentVoxel);
   }
 }
 
 TEST(Segment, NoiseDoesNotMoveTheWallOnAverage) {
   const Tube tube = oblique(4.0);
-  const auto error = segmented_wall(testing::tube_image({tube}, kSize, kSpacing, 0.8 * kVoxel, 25.0), tube);
-  EXPECT_LT(std::abs(error.mean), 0.1 * kVoxel);
-  EXPECT_LT(error.rms, 0.35 * kVoxel);
+  const auto error = segmented_wall(
+      testing::tube_image({tube}, kSegmentSize, kSegmentSpacing, 0.8 * kSegmentVoxel, 25.0), tube);
+  EXPECT_LT(std::abs(error.mean), 0.1 * kSegmentVoxel);
+  EXPECT_LT(error.rms, 0.35 * kSegmentVoxel);
 }
 
 TEST(Segment, ThinSlicesAndThickOnes) {
@@ -171,21 +175,21 @@ TEST(Segment, ThinSlicesAndThickOnes) {
 
 TEST(Segment, TheThresholdOfTheFrontsDoesNotMatter) {
   const Tube tube = oblique(4.0);
-  const auto image = testing::tube_image({tube}, kSize, kSpacing, 0.8 * kVoxel);
+  const auto image = testing::tube_image({tube}, kSegmentSize, kSegmentSpacing, 0.8 * kSegmentVoxel);
   std::vector<double> means;
   for (const double lower : {130.0, 180.0, 230.0, 280.0}) {
     SegmentOptions options;
     options.fronts.lower_hu = lower;
     means.push_back(segmented_wall(image, tube, options).mean);
   }
-  for (const double mean : means) EXPECT_NEAR(mean, means.front(), 0.02 * kVoxel);
+  for (const double mean : means) EXPECT_NEAR(mean, means.front(), 0.02 * kSegmentVoxel);
 }
 
 TEST(Segment, BranchesThatMeetBecomeOneSurfaceWithoutASeam) {
   const Tube trunk{{12, 12, 3}, {12, 12, 12}, 1.6, true};
   const Tube left{{12, 12, 12}, {6, 12, 20}, 1.3, true};
   const Tube right{{12, 12, 12}, {18, 12, 20}, 1.3, true};
-  const auto image = testing::tube_image({trunk, left, right}, kSize, kSpacing, 0.3);
+  const auto image = testing::tube_image({trunk, left, right}, kSegmentSize, kSegmentSpacing, 0.3);
   const std::vector<BranchSeeds> branches{{Vec3(12, 12, 4), std::nullopt, Vec3(12, 12, 10)},
                                           {Vec3(12, 12, 10), std::nullopt, Vec3(7, 12, 18.7)},
                                           {Vec3(12, 12, 10), std::nullopt, Vec3(17, 12, 18.7)}};
@@ -207,7 +211,7 @@ TEST(Segment, BranchesThatMeetBecomeOneSurfaceWithoutASeam) {
 
 TEST(Segment, BrightThingsInTheLumenAreLumenWhereAsked) {
   const Tube tube = oblique(6.0);
-  auto image = testing::tube_image({tube}, kSize, kSpacing, 0.8 * kVoxel);
+  auto image = testing::tube_image({tube}, kSegmentSize, kSegmentSpacing, 0.8 * kSegmentVoxel);
   const Vec3 axis = (tube.to - tube.from).normalized();
   for (std::int64_t n = 0; n < image.geometry.voxels(); ++n) {  // a ring of a stent just inside the wall
     const Vec3 p = image.geometry.world(
@@ -221,12 +225,12 @@ TEST(Segment, BrightThingsInTheLumenAreLumenWhereAsked) {
   options.bright_is_lumen = true;
   const auto with = segmented_wall(image, tube, options);
   EXPECT_LT(with.rms, 0.5 * without.rms);
-  EXPECT_LT(std::abs(with.mean), 0.15 * kVoxel);
+  EXPECT_LT(std::abs(with.mean), 0.15 * kSegmentVoxel);
 }
 
 TEST(Segment, SaysWhichBranchIsWrongAndWhatItMet) {
   const Tube tube = oblique(4.0);
-  const auto image = testing::tube_image({tube}, kSize, kSpacing, 0.8 * kVoxel);
+  const auto image = testing::tube_image({tube}, kSegmentSize, kSegmentSpacing, 0.8 * kSegmentVoxel);
   EXPECT_THROW(segment_vessels(image, {}), InvalidInput);
   EXPECT_THAT(
       [&] {

@@ -23,7 +23,7 @@ using imaging::Vec3;
 using testing::Tube;
 
 constexpr double kBlur = 0.3;  // of the images' edges
-const Vec3 kSpacing(0.4, 0.4, 0.5);
+const Vec3 kVesselnessSpacing(0.4, 0.4, 0.5);
 
 VesselnessOptions with(TubeMethod method, TubeAxes axes = TubeAxes::none) {
   VesselnessOptions options;
@@ -123,7 +123,7 @@ TEST_P(BothMethods, a_tube_answers_with_its_contrast_radius_and_axis) {
     for (const double radius : {0.8, 1.2, 1.8, 2.5}) {
       SCOPED_TRACE(std::to_string(radius) + " mm, dz " + std::to_string(direction[2]));
       const Tube tube = tube_through(Vec3(11.9, 12.2, 11.3), direction, radius);
-      const ImageVolume image = testing::tube_image({tube}, {60, 61, 46}, kSpacing, kBlur);
+      const ImageVolume image = testing::tube_image({tube}, {60, 61, 46}, kVesselnessSpacing, kBlur);
       const OnAxis found = on_axis(vesselness(image, {}, with(GetParam(), TubeAxes::computed)), tube);
       EXPECT_LT(found.radius_error, 0.08);
       EXPECT_LT(found.angle, 2.0);
@@ -136,7 +136,7 @@ TEST_P(BothMethods, a_tube_answers_with_its_contrast_radius_and_axis) {
 
 TEST_P(BothMethods, noise_leaves_radius_and_axis) {
   const Tube tube = tube_through(Vec3(11.9, 12.2, 11.3), Vec3(1, -0.7, 1.2), 1.2);
-  const ImageVolume image = testing::tube_image({tube}, {60, 61, 46}, kSpacing, kBlur, 25.0);
+  const ImageVolume image = testing::tube_image({tube}, {60, 61, 46}, kVesselnessSpacing, kBlur, 25.0);
   const OnAxis found = on_axis(vesselness(image, {}, with(GetParam(), TubeAxes::computed)), tube);
   EXPECT_LT(found.radius_error, 0.15);
   EXPECT_LT(found.angle, 5.0);
@@ -145,7 +145,7 @@ TEST_P(BothMethods, noise_leaves_radius_and_axis) {
 
 TEST_P(BothMethods, directions_are_of_the_world) {
   const Tube tube = tube_through(Vec3(11.9, 12.2, 11.3), Vec3(1, 0.5, 1.2), 1.2);
-  ImageVolume image = testing::tube_image({tube}, {60, 61, 46}, kSpacing, kBlur);
+  ImageVolume image = testing::tube_image({tube}, {60, 61, 46}, kVesselnessSpacing, kBlur);
   image.geometry.direction = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
   image.geometry.origin = Vec3(-40, 100, 7);
   const Vesselness v = vesselness(image, {}, with(GetParam(), TubeAxes::computed));
@@ -159,14 +159,14 @@ TEST_P(BothMethods, plates_and_blobs_answer_far_less) {
   const std::array<std::int64_t, 3> size{60, 60, 48};
   const Vec3 centre(12.0, 11.9, 11.7), normal = Vec3(1, 2, 2).normalized();
   for (const double half : {0.8, 1.5}) {
-    const ImageVolume plate = painted(size, kSpacing, [&](const Vec3& p) {
+    const ImageVolume plate = painted(size, kVesselnessSpacing, [&](const Vec3& p) {
       const double at = (p - centre).dot(normal);
       return edge(half - at) * edge(half + at);
     });
     const ImageVolume ball =
-        painted(size, kSpacing, [&](const Vec3& p) { return edge(half - (p - centre).norm()); });
+        painted(size, kVesselnessSpacing, [&](const Vec3& p) { return edge(half - (p - centre).norm()); });
     const ImageVolume step =
-        painted(size, kSpacing, [&](const Vec3& p) { return edge((p - centre).dot(normal)); });
+        painted(size, kVesselnessSpacing, [&](const Vec3& p) { return edge((p - centre).dot(normal)); });
     // A tube answers 300. Away from a ball's centre its three eigenvalues are no longer alike.
     EXPECT_LT(largest(vesselness(plate, {}, with(GetParam())).response_hu, 12), 0.05F * 300.0F);
     EXPECT_LT(largest(vesselness(step, {}, with(GetParam())).response_hu, 12), 0.05F * 300.0F);
@@ -185,7 +185,7 @@ TEST(vesselness, flux_separates_neighbours_a_voxel_apart) {
   // Axes 8 voxels apart, walls 0.4 mm: one voxel.
   const Tube left{Vec3(10.4, 12, 0), Vec3(10.4, 12, 1), 1.4},
       right{Vec3(13.6, 12, 0), Vec3(13.6, 12, 1), 1.4};
-  const ImageVolume image = testing::tube_image({left, right}, {61, 61, 40}, kSpacing, kBlur);
+  const ImageVolume image = testing::tube_image({left, right}, {61, 61, 40}, kVesselnessSpacing, kBlur);
   const auto at_scale = [&](TubeMethod method, std::vector<double> radii) {
     VesselnessOptions options = with(method);
     options.radii_mm = std::move(radii);
@@ -206,7 +206,7 @@ TEST(vesselness, flux_separates_neighbours_a_voxel_apart) {
 
 /// BackgroundTask a chamber: a half-space of the same contrast whose wall is 0.4 mm from the tube's.
 TEST(vesselness, flux_stays_on_the_axis_beside_a_chamber) {
-  const ImageVolume image = painted({61, 61, 40}, kSpacing, [&](const Vec3& p) {
+  const ImageVolume image = painted({61, 61, 40}, kVesselnessSpacing, [&](const Vec3& p) {
     return std::max(edge(1.6 - std::hypot(p[0] - 12.0, p[1] - 12.0)), edge(p[0] - 12.0 - 2.0));
   });
   const Vesselness flux = vesselness(image), hessian = vesselness(image, {}, with(TubeMethod::hessian));
@@ -224,7 +224,7 @@ TEST(vesselness, flux_stays_on_the_axis_beside_a_chamber) {
 
 TEST_P(BothMethods, an_offset_and_shading_change_nothing) {
   const Tube tube = tube_through(Vec3(11.9, 12.2, 11.3), Vec3(1, 0.5, 1.2), 1.2);
-  const ImageVolume image = testing::tube_image({tube}, {60, 61, 46}, kSpacing, kBlur);
+  const ImageVolume image = testing::tube_image({tube}, {60, 61, 46}, kVesselnessSpacing, kBlur);
   ImageVolume shaded = image;
   for_inner(image.geometry, 0, [&](auto i, auto j, auto k) {
     shaded(i, j, k) = static_cast<std::int16_t>(shaded(i, j, k) - 900 + 3 * i - 2 * j + 4 * k);
@@ -251,7 +251,7 @@ TEST(vesselness, a_constant_image_has_no_vessels) {
 ImageVolume noise_image(const std::array<std::int64_t, 3>& size) {
   ImageVolume image;
   image.geometry.size = size;
-  image.geometry.spacing = kSpacing;
+  image.geometry.spacing = kVesselnessSpacing;
   std::mt19937 generator(5);
   for (std::int64_t n = 0; n < image.geometry.voxels(); ++n)
     image.voxels.push_back(static_cast<std::int16_t>(generator() % 400));
@@ -326,7 +326,7 @@ TEST(vesselness, radii_below_the_resolution_become_one) {
 TEST(vesselness, a_ceiling_dims_calcium) {
   const Vec3 centre(12.0, 12.0, 11.5);
   const Tube tube = tube_through(centre, Vec3(0, 0, 1), 1.2);
-  ImageVolume image = testing::tube_image({tube}, {61, 61, 46}, kSpacing, kBlur);
+  ImageVolume image = testing::tube_image({tube}, {61, 61, 46}, kVesselnessSpacing, kBlur);
   for_inner(image.geometry, 0, [&](auto i, auto j, auto k) {
     const double inside = 0.7 - (place_of(image.geometry, i, j, k) - centre).norm();
     image(i, j, k) = static_cast<std::int16_t>(image(i, j, k) + 1000.0 * edge(inside));
@@ -428,9 +428,9 @@ TEST(tube_scales, flux_of_a_tube_agrees_with_the_surface_integral) {
 
 TEST(tube_scales, each_scale_answers_most_to_its_own_tube) {
   VesselnessOptions options;
-  const detail::TubeScales scales(options, kSpacing);
+  const detail::TubeScales scales(options, kVesselnessSpacing);
   const double blur =
-      std::hypot(options.image_blur_mm, options.flux_blur_voxels * std::cbrt(kSpacing.prod()));
+      std::hypot(options.image_blur_mm, options.flux_blur_voxels * std::cbrt(kVesselnessSpacing.prod()));
   ASSERT_EQ(scales.list().size(), 5U);
   for (const detail::TubeScale& s : scales.list()) {
     const double own = detail::flux_of_tube(s.ball_mm, s.radius_mm, blur);

@@ -21,7 +21,7 @@ const testing::Schema& schema() {
   return loaded;
 }
 
-std::vector<AnnotationCommand> one_of_each() {
+std::vector<AnnotationCommand> one_annotation_of_each() {
   const MarkVessel plain{{0, true, false, std::nullopt, ""}};
   std::vector<AnnotationCommand> commands{MeasureDelete{2147483647},
                                           testing::marked("\"calcified\"\n\xC3\xA9"), plain};
@@ -35,7 +35,7 @@ std::vector<AnnotationCommand> one_of_each() {
 }
 
 TEST(AnnotationJson, EveryCommandComesBackAsItWas) {
-  for (const AnnotationCommand& command : one_of_each()) {
+  for (const AnnotationCommand& command : one_annotation_of_each()) {
     const std::string line = to_json(command);
     SCOPED_TRACE(line);
     EXPECT_EQ(line.find('\n'), std::string::npos);
@@ -85,7 +85,7 @@ TEST(AnnotationSchema, KnowsEveryCommandAndEveryFieldThatIsWritten) {
   std::set<std::string> listed, written;
   for (const Json& one : schema()["oneOf"])
     listed.insert(schema().resolved(one)["properties"]["op"]["const"]);
-  for (const AnnotationCommand& command : one_of_each()) {
+  for (const AnnotationCommand& command : one_annotation_of_each()) {
     const std::string op = op_name(command);
     const Json line = Json::parse(to_json(command));
     SCOPED_TRACE(line.dump());
@@ -112,7 +112,7 @@ bool is_read(const Json& line) {
 }
 
 TEST(AnnotationSchema, AsksForWhatTheReaderAsksFor) {
-  for (const AnnotationCommand& command : one_of_each()) {
+  for (const AnnotationCommand& command : one_annotation_of_each()) {
     const Json whole = Json::parse(to_json(command));
     const Json& kind = schema().definition(op_name(command));
     for (const std::string& field : names_in(whole)) {
@@ -141,7 +141,7 @@ TEST(AnnotationSchema, AsksForWhatTheReaderAsksFor) {
 
 TEST(AnnotationSchema, HasTheDefaultsOfTheProgram) {
   int defaults = 0;
-  for (const AnnotationCommand& command : one_of_each()) {
+  for (const AnnotationCommand& command : one_annotation_of_each()) {
     const Json whole = Json::parse(to_json(command));
     for (const auto& [field, rules] : schema().definition(op_name(command))["properties"].items()) {
       if (!schema().resolved(rules).contains("default")) continue;

@@ -22,7 +22,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 TEST(CaseReport, TellsAHealthyTubesSizes) {
   const CaseReport report = report_of(lumen::model_of_tubes(

@@ -16,7 +16,7 @@ using namespace testing;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-void sql(const fs::path& path, const std::string& text) {
+void case_version_sql(const fs::path& path, const std::string& text) {
   Database(path.string(), SQLITE_OPEN_READWRITE, path.string()).execute(text);
 }
 
@@ -35,7 +35,8 @@ class CaseVersion : public ::testing::Test {
       file.undo();
       digest = lumen::digest(*file.model());
     }
-    sql(path, "DROP TABLE annotation; DROP TABLE measurement; DROP TABLE mark; PRAGMA user_version = 1");
+    case_version_sql(
+        path, "DROP TABLE annotation; DROP TABLE measurement; DROP TABLE mark; PRAGMA user_version = 1");
     ASSERT_EQ(version_of(path), "1");
     bytes = bytes_of_file(path);
   }
@@ -77,7 +78,7 @@ TEST_F(CaseVersion, ADamagedOneIsNotChanged) {
   for (const char* damage : {"CREATE TABLE mark(x)", "DROP TABLE setting", "CREATE TABLE more(x)",
                              "ALTER TABLE node ADD COLUMN x"}) {
     write_bytes(path, bytes);
-    sql(path, damage);
+    case_version_sql(path, damage);
     EXPECT_THROW(CaseFile::open(path), InvalidInput) << damage;
     EXPECT_EQ(version_of(path), "1") << damage;
     EXPECT_EQ(Database(path.string(), SQLITE_OPEN_READONLY, "")
@@ -88,7 +89,7 @@ TEST_F(CaseVersion, ADamagedOneIsNotChanged) {
 }
 
 TEST_F(CaseVersion, ANewerOneIsRefused) {
-  sql(path, "PRAGMA user_version = " + std::to_string(schema_version + 1));
+  case_version_sql(path, "PRAGMA user_version = " + std::to_string(schema_version + 1));
   for (const OpenMode mode : {OpenMode::read_only, OpenMode::read_write}) {
     try {
       CaseFile::open(path, mode);

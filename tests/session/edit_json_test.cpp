@@ -41,7 +41,7 @@ TEST(EditJson, DefaultsMayBeLeftOut) {
   EXPECT_EQ(std::get<lumen::WallDrag>(edit).reach_mm, lumen::WallDrag{}.reach_mm);
 }
 
-void expect_refused(const std::string& line, const std::string& part) {
+void edit_json_expect_refused(const std::string& line, const std::string& part) {
   try {
     edit_of_json(line);
     FAIL() << line;
@@ -51,26 +51,28 @@ void expect_refused(const std::string& line, const std::string& part) {
 }
 
 TEST(EditJson, SaysWhatIsWrong) {
-  expect_refused("{", "not JSON");
-  expect_refused("[1]", "JSON object");
-  expect_refused(R"({"op":"axis.trim","vessel":1,"s_mm":1})", "\"v\" missing");
-  expect_refused(R"({"v":2,"op":"axis.trim","vessel":1,"s_mm":1})", "version 1");
-  expect_refused(R"({"v":1.0,"op":"axis.trim","vessel":1,"s_mm":1})", "\"v\"");
-  expect_refused(R"({"v":1,"op":"axis.cut","vessel":1})", "axis.trim");
-  expect_refused(R"({"v":1,"op":"axis.trim","vessel":1})", "no \"s_mm\"");
-  expect_refused(R"({"v":1,"op":"axis.trim","vessel":1,"s_mm":1,"s":2})", "unknown field \"s\"");
-  expect_refused(R"({"v":1,"op":"axis.trim","vessel":1,"s_mm":1,"s_mm":2})", "\"s_mm\" twice");
-  expect_refused(R"({"v":1,"op":"axis.trim","vessel":"1","s_mm":1})", "\"vessel\" is string");
-  expect_refused(R"({"v":1,"op":"axis.trim","vessel":1.5,"s_mm":1})", "whole number");
-  expect_refused(R"({"v":1,"op":"axis.trim","vessel":-1,"s_mm":1})", "ids are");
-  expect_refused(R"({"v":1,"op":"axis.trim","vessel":4294967300,"s_mm":1})", "ids are");
-  expect_refused(R"({"v":1,"op":"axis.trim","vessel":1,"s_mm":NaN})", "not JSON");
-  expect_refused(R"({"v":1,"op":"axis.trim","vessel":1,"s_mm":1e999})", "");
-  expect_refused(R"({"v":1,"op":"axis.trim","vessel":1,"s_mm":null})", "\"s_mm\" is null");
-  expect_refused(R"({"v":1,"op":"axis.insert","vessel":1,"point":[1,2]})", "\"point\" must be a point");
-  expect_refused(R"({"v":1,"op":"axis.extend","vessel":1,"points":[[1,2,3],[1,"a",3]]})", "points[1][1]");
-  expect_refused(R"({"v":1,"op":"cpr.stroke","vessel":1,"points":[],"mode":"bent","theta_deg":0})",
-                 "straightened");
+  edit_json_expect_refused("{", "not JSON");
+  edit_json_expect_refused("[1]", "JSON object");
+  edit_json_expect_refused(R"({"op":"axis.trim","vessel":1,"s_mm":1})", "\"v\" missing");
+  edit_json_expect_refused(R"({"v":2,"op":"axis.trim","vessel":1,"s_mm":1})", "version 1");
+  edit_json_expect_refused(R"({"v":1.0,"op":"axis.trim","vessel":1,"s_mm":1})", "\"v\"");
+  edit_json_expect_refused(R"({"v":1,"op":"axis.cut","vessel":1})", "axis.trim");
+  edit_json_expect_refused(R"({"v":1,"op":"axis.trim","vessel":1})", "no \"s_mm\"");
+  edit_json_expect_refused(R"({"v":1,"op":"axis.trim","vessel":1,"s_mm":1,"s":2})", "unknown field \"s\"");
+  edit_json_expect_refused(R"({"v":1,"op":"axis.trim","vessel":1,"s_mm":1,"s_mm":2})", "\"s_mm\" twice");
+  edit_json_expect_refused(R"({"v":1,"op":"axis.trim","vessel":"1","s_mm":1})", "\"vessel\" is string");
+  edit_json_expect_refused(R"({"v":1,"op":"axis.trim","vessel":1.5,"s_mm":1})", "whole number");
+  edit_json_expect_refused(R"({"v":1,"op":"axis.trim","vessel":-1,"s_mm":1})", "ids are");
+  edit_json_expect_refused(R"({"v":1,"op":"axis.trim","vessel":4294967300,"s_mm":1})", "ids are");
+  edit_json_expect_refused(R"({"v":1,"op":"axis.trim","vessel":1,"s_mm":NaN})", "not JSON");
+  edit_json_expect_refused(R"({"v":1,"op":"axis.trim","vessel":1,"s_mm":1e999})", "");
+  edit_json_expect_refused(R"({"v":1,"op":"axis.trim","vessel":1,"s_mm":null})", "\"s_mm\" is null");
+  edit_json_expect_refused(R"({"v":1,"op":"axis.insert","vessel":1,"point":[1,2]})",
+                           "\"point\" must be a point");
+  edit_json_expect_refused(R"({"v":1,"op":"axis.extend","vessel":1,"points":[[1,2,3],[1,"a",3]]})",
+                           "points[1][1]");
+  edit_json_expect_refused(R"({"v":1,"op":"cpr.stroke","vessel":1,"points":[],"mode":"bent","theta_deg":0})",
+                           "straightened");
 }
 
 TEST(EditJson, WhatIsNotFiniteIsNotWritten) {

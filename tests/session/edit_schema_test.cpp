@@ -17,12 +17,12 @@ using testing::Json;
 using testing::names_in;
 using testing::Schema;
 
-const Schema& schema() {
+const Schema& edit_schema_schema() {
   static const Schema loaded("edit.schema.json");
   return loaded;
 }
 
-bool is_read(const Json& line) {
+bool edit_schema_is_read(const Json& line) {
   try {
     edit_of_json(line.dump());
     return true;
@@ -33,18 +33,18 @@ bool is_read(const Json& line) {
 
 TEST(EditSchema, KnowsEveryEditAndEveryFieldThatIsWritten) {
   std::set<std::string> listed, written;
-  for (const Json& one : schema()["oneOf"])
-    listed.insert(schema().resolved(one)["properties"]["op"]["const"]);
+  for (const Json& one : edit_schema_schema()["oneOf"])
+    listed.insert(edit_schema_schema().resolved(one)["properties"]["op"]["const"]);
   for (const lumen::Edit& edit : testing::one_of_each()) {
     const std::string op = lumen::op_name(edit);
     SCOPED_TRACE(op);
     written.insert(op);
     const Json line = Json::parse(to_json(edit));
-    const Json& kind = schema().definition(op);
-    EXPECT_TRUE(schema().is_valid(kind, line));
+    const Json& kind = edit_schema_schema().definition(op);
+    EXPECT_TRUE(edit_schema_schema().is_valid(kind, line));
     EXPECT_EQ(names_in(kind["properties"]), names_in(line));
-    for (const Json& other : schema()["oneOf"]) {
-      EXPECT_EQ(schema().is_valid(other, line), &schema().resolved(other) == &kind);
+    for (const Json& other : edit_schema_schema()["oneOf"]) {
+      EXPECT_EQ(edit_schema_schema().is_valid(other, line), &edit_schema_schema().resolved(other) == &kind);
     }
   }
   EXPECT_EQ(listed, written);
@@ -53,29 +53,29 @@ TEST(EditSchema, KnowsEveryEditAndEveryFieldThatIsWritten) {
 TEST(EditSchema, AsksForWhatTheReaderAsksFor) {
   for (const lumen::Edit& edit : testing::one_of_each()) {
     const Json whole = Json::parse(to_json(edit));
-    const Json& kind = schema().definition(lumen::op_name(edit));
+    const Json& kind = edit_schema_schema().definition(lumen::op_name(edit));
     for (const std::string& field : names_in(whole)) {
       SCOPED_TRACE(lumen::op_name(edit) + " " + field);
       Json without = whole;
       without.erase(field);
-      EXPECT_EQ(schema().is_valid(kind, without), is_read(without));
+      EXPECT_EQ(edit_schema_schema().is_valid(kind, without), edit_schema_is_read(without));
       for (const Json& wrong :
            {Json(), Json("x"), Json(-1), Json(0.5), Json::array({1, 2}), Json::object()}) {
         Json broken = whole;
         broken[field] = wrong;
         // Ranges are the model's to judge: what is not valid may be read, but never the other way round.
-        if (schema().is_valid(kind, broken)) {
-          EXPECT_TRUE(is_read(broken)) << wrong;
+        if (edit_schema_schema().is_valid(kind, broken)) {
+          EXPECT_TRUE(edit_schema_is_read(broken)) << wrong;
         }
         if (wrong.is_null() || wrong.is_object()) {
-          EXPECT_FALSE(is_read(broken)) << wrong;
+          EXPECT_FALSE(edit_schema_is_read(broken)) << wrong;
         }
       }
     }
     Json more = whole;
     more["pixels"] = 1;
-    EXPECT_FALSE(schema().is_valid(kind, more));
-    EXPECT_FALSE(is_read(more));
+    EXPECT_FALSE(edit_schema_schema().is_valid(kind, more));
+    EXPECT_FALSE(edit_schema_is_read(more));
   }
 }
 
@@ -83,7 +83,8 @@ TEST(EditSchema, HasTheDefaultsOfTheProgram) {
   int defaults = 0;
   for (const lumen::Edit& edit : testing::one_of_each()) {
     const Json whole = Json::parse(to_json(edit));
-    for (const auto& [field, rules] : schema().definition(lumen::op_name(edit))["properties"].items()) {
+    for (const auto& [field, rules] :
+         edit_schema_schema().definition(lumen::op_name(edit))["properties"].items()) {
       if (!rules.contains("default")) continue;
       ++defaults;
       Json without = whole;
@@ -102,7 +103,7 @@ TEST(EditSchema, ItsRangesAreTheModels) {
     line["v"] = 1;
     line["op"] = op;
     line["vessel"] = testing::tube_vessel;
-    EXPECT_FALSE(schema().is_valid(schema().definition(op), line)) << line;
+    EXPECT_FALSE(edit_schema_schema().is_valid(edit_schema_schema().definition(op), line)) << line;
     try {
       lumen::apply(model, edit_of_json(line.dump()));
     } catch (const InvalidInput& e) {

@@ -18,7 +18,7 @@ namespace {
 using namespace testing;
 using ::testing::HasSubstr;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 TEST(OuterWalls, OfAModelsLumenInItsImage) {
   const lumen::LumenModel model = narrowed_tube("RCA", 40.0, 1.5, 20.0, 1.5);

@@ -11,7 +11,7 @@
 namespace ostia::session {
 namespace {
 
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 TEST(Property, TellsAChangeOnceAndNothingWhereTheValueIsTheSame) {
   Property<std::string> name("LAD");

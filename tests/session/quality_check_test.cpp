@@ -21,7 +21,7 @@ namespace {
 using ::testing::HasSubstr;
 using testing::tube_vessel;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double wall_mm = 1.5;  // of the case's tube
 
 geometry::ContourSection section(const std::string& name, const std::string& observer, double from, double to,

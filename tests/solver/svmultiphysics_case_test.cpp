@@ -9,14 +9,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const geometry::MixedMesh& fork() {
+const geometry::MixedMesh& svmultiphysics_case_fork() {
   static const geometry::MixedMesh mesh = vessel(geometry::y_junction(6.0, 6.0, 1.5, 1.2, 60.0), 0.6, 0);
   return mesh;
 }
 
 fs::path made(const SvmultiphysicsCaseOptions& options) {
   const fs::path folder = testing::temporary_folder("sv") / "case";
-  write_svmultiphysics_case(fork(), options, folder);
+  write_svmultiphysics_case(svmultiphysics_case_fork(), options, folder);
   return folder;
 }
 
@@ -83,7 +83,7 @@ TEST(SvmultiphysicsCase, FlowFilesHoldTheWholeCycleInward) {
   options.flow.waveform = builtin_waveform("coronary-right");
   options.flow.flow_ml_s = 0.5;
   const fs::path folder = made(options);
-  const BoundaryFlow flow = boundary_flow(fork(), options.flow);
+  const BoundaryFlow flow = boundary_flow(svmultiphysics_case_fork(), options.flow);
   std::istringstream in(core::read_file(folder / (flow.inlets[0].name + ".flow")));
   std::size_t count = 0, modes = 0;
   in >> count >> modes;
@@ -124,13 +124,13 @@ TEST(SvmultiphysicsCase, RefusesWhatTheSolverCannotTake) {
   };
   SvmultiphysicsCaseOptions options;
   options.flow.outlets = Outlets::split;
-  refused(fork(), options, {"svMultiPhysics", "resistances"});
+  refused(svmultiphysics_case_fork(), options, {"svMultiPhysics", "resistances"});
   options = {};
   options.total_compliance_ml_mmhg = 0.1;
-  refused(fork(), options, {"total compliance", "resistance"});
+  refused(svmultiphysics_case_fork(), options, {"total compliance", "resistance"});
   options = {};
   options.steps_per_cycle = 2;
-  refused(fork(), options, {"steps_per_cycle"});
+  refused(svmultiphysics_case_fork(), options, {"steps_per_cycle"});
   refused(vessel(geometry::straight_tube(6.0, 1.5), 0.6, 2, 0.3), {}, {"prisms", "split"});
 }
 

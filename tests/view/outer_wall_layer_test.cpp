@@ -14,7 +14,7 @@
 namespace ostia::view {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Grows along the vessel, so that between rows it is between them.
 double outer(double s) {

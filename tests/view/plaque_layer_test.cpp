@@ -20,7 +20,7 @@ namespace {
 
 using analysis::PlaqueClass;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double lumen_mm = 1.5, outer_mm = 2.7, from_mm = 5.0, to_mm = 25.0;
 constexpr std::array class_hu{0.0, 80.0, 200.0, 700.0};
 
@@ -31,7 +31,7 @@ int true_class(double s_mm, double theta) {
 }
 
 /// Walls and plaque as of an image without blur.
-session::VesselWalls walls_of(const session::OuterWallWork& work) {
+session::VesselWalls plaque_layer_walls_of(const session::OuterWallWork& work) {
   session::VesselWalls walls;
   walls.vessel = work.vessel;
   walls.axis = lumen::vessel(*work.model, work.vessel).axis;
@@ -64,7 +64,7 @@ class PlaqueLayerTest : public ::testing::Test {
   void find() {
     const auto work = board_.work();
     ASSERT_TRUE(work);
-    ASSERT_TRUE(board_.take(*work, walls_of(*work)));
+    ASSERT_TRUE(board_.take(*work, plaque_layer_walls_of(*work)));
   }
   /// Every pixel of the view against what is truly there; those within a pixel and a half of a border between
   /// two of them may be either. Counts what is coloured.
@@ -201,7 +201,7 @@ TEST_F(PlaqueLayerTest, WhileAHandTurnsAStretchedReformationItWaits) {
 TEST_F(PlaqueLayerTest, AThinWallHasNoColour) {
   const auto work = board_.work();
   ASSERT_TRUE(work);
-  session::VesselWalls walls = walls_of(*work);
+  session::VesselWalls walls = plaque_layer_walls_of(*work);
   for (analysis::PlaqueMap& map : walls.maps) std::fill(map.pieces.begin(), map.pieces.end(), std::nullopt);
   ASSERT_TRUE(board_.take(*work, std::move(walls)));
   SectionView view(bench(), 0.0);

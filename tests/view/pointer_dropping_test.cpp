@@ -17,7 +17,7 @@ namespace {
 using session::Tool;
 using testing::TubeCase;
 
-PointerEvent at(const Vec2& px, Button button = Button::none) {
+PointerEvent pointer_dropping_at(const Vec2& px, Button button = Button::none) {
   PointerEvent event;
   event.px = px;
   event.button = button;
@@ -47,8 +47,8 @@ struct Begun : ::testing::Test {
   /// The wall is pulled and the button is still down.
   void begin_pull() {
     bench.tool.set(Tool::drag);
-    on_cpr.press(at(wall(), Button::left));
-    for (const double by : {4.0, 8.0}) on_cpr.move(at(wall() + Vec2(by, 0.0)));
+    on_cpr.press(pointer_dropping_at(wall(), Button::left));
+    for (const double by : {4.0, 8.0}) on_cpr.move(pointer_dropping_at(wall() + Vec2(by, 0.0)));
   }
   std::string digest() const { return lumen::digest(*bench.model()); }
   std::size_t edits() const { return bench.session().file().edits().size(); }
@@ -66,16 +66,16 @@ struct Begun : ::testing::Test {
 /// lets go does nothing.
 void expect_taken_back(Begun& on, Pointer& hand, const std::vector<Vec2>& way) {
   const std::string before = on.digest();
-  hand.press(at(way.front(), Button::left));
-  for (const Vec2& px : way) hand.move(at(px));
+  hand.press(pointer_dropping_at(way.front(), Button::left));
+  for (const Vec2& px : way) hand.move(pointer_dropping_at(px));
   const std::string pulled = on.digest();
   ASSERT_NE(pulled, before);
   ASSERT_EQ(on.edits(), 1U);
   hand.cancel();
   EXPECT_EQ(on.digest(), before);
   EXPECT_FALSE(hand.busy());
-  hand.move(at(way.back() + Vec2(6.0, 0.0)));
-  hand.release(at(way.back() + Vec2(6.0, 0.0), Button::left));
+  hand.move(pointer_dropping_at(way.back() + Vec2(6.0, 0.0)));
+  hand.release(pointer_dropping_at(way.back() + Vec2(6.0, 0.0), Button::left));
   EXPECT_EQ(on.digest(), before);
   EXPECT_EQ(on.edits(), 0U);
   ASSERT_TRUE(on.bench.redo());
@@ -104,34 +104,34 @@ TEST_F(Begun, EscapeTakesAMoveOfTheCenterlineBack) {
 
 TEST_F(Begun, EscapeTakesTheEndOfAMeasurementBack) {
   bench.tool.set(Tool::distance);
-  on_slice.press(at({100.0, 100.0}, Button::left));
-  on_slice.release(at({200.0, 100.0}, Button::left));
+  on_slice.press(pointer_dropping_at({100.0, 100.0}, Button::left));
+  on_slice.release(pointer_dropping_at({200.0, 100.0}, Button::left));
   ASSERT_EQ(made().size(), 1U);
   const Vec3 end = made()[0].points[1];
-  on_slice.press(at({200.0, 100.0}, Button::left));
-  on_slice.move(at({220.0, 130.0}));
-  on_slice.move(at({240.0, 150.0}));
+  on_slice.press(pointer_dropping_at({200.0, 100.0}, Button::left));
+  on_slice.move(pointer_dropping_at({220.0, 130.0}));
+  on_slice.move(pointer_dropping_at({240.0, 150.0}));
   ASSERT_GT((made()[0].points[1] - end).norm(), 1.0);
   on_slice.cancel();
-  on_slice.move(at({260.0, 150.0}));
-  on_slice.release(at({260.0, 150.0}, Button::left));
+  on_slice.move(pointer_dropping_at({260.0, 150.0}));
+  on_slice.release(pointer_dropping_at({260.0, 150.0}, Button::left));
   ASSERT_EQ(made().size(), 1U);
   EXPECT_EQ(made()[0].points[1], end);
 }
 
 TEST_F(Begun, EscapeTakesNothingBackThatTheDragHasNotDone) {
   begin_pull();
-  on_cpr.release(at(wall() + Vec2(8.0, 0.0), Button::left));
+  on_cpr.release(pointer_dropping_at(wall() + Vec2(8.0, 0.0), Button::left));
   const std::string pulled = digest();
   bench.cursor_mm.set(6.0);
-  on_cpr.press(at({20.0, cpr.row_of(24.0)}, Button::left));  // beside the wall: the cursor
+  on_cpr.press(pointer_dropping_at({20.0, cpr.row_of(24.0)}, Button::left));  // beside the wall: the cursor
   on_cpr.cancel();
   const auto hit = cpr.wall_near(
       cpr.project(bench.axis()->place(24.0, cpr.theta_deg() * M_PI / 180.0, testing::tube_radius_mm))->px,
       20.0);
   ASSERT_TRUE(hit);
-  on_cpr.press(at(hit->px, Button::left));
-  on_cpr.move(at(hit->px + Vec2(0.5, 0.0)));  // trembles
+  on_cpr.press(pointer_dropping_at(hit->px, Button::left));
+  on_cpr.move(pointer_dropping_at(hit->px + Vec2(0.5, 0.0)));  // trembles
   on_cpr.cancel();
   EXPECT_EQ(digest(), pulled);
   EXPECT_EQ(edits(), 1U);
@@ -152,8 +152,8 @@ TEST_F(Begun, AButtonThatWentUpUnseenLeavesThePullAsItIs) {
   ASSERT_TRUE(on_cpr.holding());
   on_cpr.let_go();
   EXPECT_FALSE(on_cpr.holding());
-  on_cpr.move(at(wall() + Vec2(30.0, 0.0)));
-  on_cpr.release(at(wall() + Vec2(30.0, 0.0), Button::left));
+  on_cpr.move(pointer_dropping_at(wall() + Vec2(30.0, 0.0)));
+  on_cpr.release(pointer_dropping_at(wall() + Vec2(30.0, 0.0), Button::left));
   EXPECT_EQ(digest(), pulled);
   EXPECT_EQ(edits(), 1U);
 }
@@ -168,29 +168,31 @@ TEST_F(Begun, LettingGoAfterAnotherStepAddsNone) {
 TEST_F(Begun, ClicksGoOnWithoutAButton) {
   bench.tool.set(Tool::angle);
   for (const Vec2& px : {Vec2(100.0, 100.0), Vec2(200.0, 100.0)}) {
-    on_slice.press(at(px, Button::left));
-    on_slice.release(at(px, Button::left));
+    on_slice.press(pointer_dropping_at(px, Button::left));
+    on_slice.release(pointer_dropping_at(px, Button::left));
   }
   EXPECT_FALSE(on_slice.holding());
   on_slice.let_go();
   EXPECT_TRUE(on_slice.busy());
-  on_slice.press(at({200.0, 200.0}, Button::left));
+  on_slice.press(pointer_dropping_at({200.0, 200.0}, Button::left));
   ASSERT_EQ(made().size(), 1U);
   EXPECT_NEAR(bench.measured(made()[0]).front().value, 90.0, 0.1);
 }
 
 TEST_F(Begun, AnAngleDoesNotGoOnInAnotherCase) {
   bench.tool.set(Tool::angle);
-  for (const Vec2& px : {Vec2(100.0, 100.0), Vec2(200.0, 100.0)}) on_slice.press(at(px, Button::left));
+  for (const Vec2& px : {Vec2(100.0, 100.0), Vec2(200.0, 100.0)})
+    on_slice.press(pointer_dropping_at(px, Button::left));
   open_another(1.2);
   EXPECT_FALSE(on_slice.busy());
-  on_slice.press(at({200.0, 200.0}, Button::left));
+  on_slice.press(pointer_dropping_at({200.0, 200.0}, Button::left));
   EXPECT_TRUE(made().empty());
 }
 
 TEST_F(Begun, AnAngleDoesNotGoOnInAnotherImage) {
   bench.tool.set(Tool::angle);
-  for (const Vec2& px : {Vec2(100.0, 100.0), Vec2(200.0, 100.0)}) on_slice.press(at(px, Button::left));
+  for (const Vec2& px : {Vec2(100.0, 100.0), Vec2(200.0, 100.0)})
+    on_slice.press(pointer_dropping_at(px, Button::left));
   bench.close_image();
   EXPECT_FALSE(on_slice.busy());
 }
@@ -200,7 +202,7 @@ TEST_F(Begun, APullDoesNotGoOnInAnotherCase) {
   open_another(testing::tube_radius_mm);
   const std::string before = digest();
   EXPECT_FALSE(on_cpr.busy());
-  on_cpr.move(at(wall() + Vec2(20.0, 0.0)));
+  on_cpr.move(pointer_dropping_at(wall() + Vec2(20.0, 0.0)));
   on_cpr.cancel();
   EXPECT_EQ(digest(), before);
   EXPECT_EQ(edits(), 0U);
@@ -217,21 +219,22 @@ TEST_F(BegunOnY, AnotherVesselEndsAPullInItsPictureAndLeavesWhatWasDone) {
   const auto hit =
       cpr.wall_near(cpr.project(bench.axis()->place(10.0, cpr.theta_deg() * M_PI / 180.0, 2.0))->px, 20.0);
   ASSERT_TRUE(hit);
-  on_cpr.press(at(hit->px, Button::left));
-  on_cpr.move(at(hit->px + Vec2(6.0, 0.0)));
+  on_cpr.press(pointer_dropping_at(hit->px, Button::left));
+  on_cpr.move(pointer_dropping_at(hit->px + Vec2(6.0, 0.0)));
   ASSERT_EQ(edits(), 1U);
   const std::string pulled = digest();
   bench.vessel.set(other());
   EXPECT_FALSE(on_cpr.busy());
-  on_cpr.move(at(hit->px + Vec2(20.0, 0.0)));
-  on_cpr.release(at(hit->px + Vec2(20.0, 0.0), Button::left));
+  on_cpr.move(pointer_dropping_at(hit->px + Vec2(20.0, 0.0)));
+  on_cpr.release(pointer_dropping_at(hit->px + Vec2(20.0, 0.0), Button::left));
   EXPECT_EQ(digest(), pulled);
 }
 
 TEST_F(BegunOnY, ASliceIsNoVesselsPictureAndItsAngleGoesOn) {
   bench.tool.set(Tool::angle);
-  for (const Vec2& px : {Vec2(100.0, 100.0), Vec2(200.0, 100.0)}) on_slice.press(at(px, Button::left));
-  on_section.press(at({200.0, 200.0}, Button::left));
+  for (const Vec2& px : {Vec2(100.0, 100.0), Vec2(200.0, 100.0)})
+    on_slice.press(pointer_dropping_at(px, Button::left));
+  on_section.press(pointer_dropping_at({200.0, 200.0}, Button::left));
   bench.vessel.set(other());
   EXPECT_TRUE(on_slice.busy());
   EXPECT_FALSE(on_section.busy());

@@ -135,9 +135,9 @@ TEST_F(Lists, OfACaseThatIsClosedNothingStaysOnTheScreen) {
   }
 }
 
-struct Truth : Lists {
+struct ListsTruth : Lists {
   fs::path truth = folder / "truth.json";
-  Truth() {
+  ListsTruth() {
     geometry::ContourSection section;
     section.section = "s01";
     section.vessel = "LAD";
@@ -153,7 +153,7 @@ struct Truth : Lists {
   static int rows(TestWindow& test) { return list<QTreeWidget>(test, "qa_sections").topLevelItemCount(); }
 };
 
-TEST_F(Truth, IsThatOfOnePatient) {
+TEST_F(ListsTruth, IsThatOfOnePatient) {
   TestWindow test(state);
   open(test, case_file);
   QaPanel& qa = test.window().qa();
@@ -174,7 +174,7 @@ TEST_F(Truth, IsThatOfOnePatient) {
   EXPECT_FALSE(qa.check().has_truth());
 }
 
-TEST_F(Truth, GoesWithItsImage) {
+TEST_F(ListsTruth, GoesWithItsImage) {
   TestWindow test(state);
   open(test, case_file);
   QaPanel& qa = test.window().qa();
@@ -188,7 +188,7 @@ TEST_F(Truth, GoesWithItsImage) {
   EXPECT_TRUE(qa.check().has_truth());
 }
 
-TEST_F(Truth, OfACaseWithoutAnImageIsThatOfTheCase) {
+TEST_F(ListsTruth, OfACaseWithoutAnImageIsThatOfTheCase) {
   const fs::path bare = folder / "bare.ostia", other_bare = folder / "bare2.ostia";
   session::CaseFile::create(bare, tube_model());
   session::CaseFile::create(other_bare, tube_model(0.3));

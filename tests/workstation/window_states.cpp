@@ -34,11 +34,11 @@ namespace ostia::workstation::testing {
 namespace {
 
 constexpr const char* font_folder = "/usr/share/fonts/truetype/dejavu";  // package fonts-dejavu-core
-constexpr double narrowing = 0.5;
+constexpr double window_states_narrowing = 0.5;
 constexpr int settle_ms = 20000, look_ms = 200, looks_alike = 4, quiet_ms = 400;
 
 geometry::ContourSection true_section(const std::string& name, double from_mm, double to_mm, double larger) {
-  const lumen::LumenModel model = tube_model(narrowing);
+  const lumen::LumenModel model = tube_model(window_states_narrowing);
   const geometry::AxisCurve axis(model.tree.segments[0].axis);
   geometry::ContourSection out;
   out.section = name;
@@ -47,7 +47,8 @@ geometry::ContourSection true_section(const std::string& name, double from_mm, d
   for (double s = from_mm; s <= to_mm; s += 1.0) {
     geometry::Contour contour{s, {}};
     for (int i = 0; i < 48; ++i)
-      contour.points.push_back(axis.place(s, 2 * M_PI * i / 48, larger * tube_radius(s, narrowing)));
+      contour.points.push_back(
+          axis.place(s, 2 * M_PI * i / 48, larger * tube_radius(s, window_states_narrowing)));
     out.contours.push_back(contour);
   }
   return out;
@@ -107,9 +108,9 @@ void let_work(int ms) {
 }
 
 Stage::Stage(const QSize& size) : size_(size) {
-  imaging::write_image(folder_ / "image.nrrd", tube_image(narrowing));
+  imaging::write_image(folder_ / "image.nrrd", tube_image(window_states_narrowing));
   const session::ImageReference reference = session::image_reference(folder_ / "image.nrrd");
-  session::CaseFile::create(folder_ / "tube.ostia", tube_model(narrowing), reference);
+  session::CaseFile::create(folder_ / "tube.ostia", tube_model(window_states_narrowing), reference);
   session::MachineState(folder_ / "state").remember_image(reference.sha256, folder_ / "image.nrrd");
   window_ = std::make_unique<MainWindow>(folder_ / "state");
   window_->setGeometry(QRect(QPoint(0, 0), size));
@@ -273,7 +274,7 @@ void Stage::open_series() {
   imaging::DicomSeriesOptions options;
   options.series_description = "CTA 75 %";
   options.uid_seed = "first";
-  imaging::write_dicom_series(all / "first", tube_image(narrowing), options);
+  imaging::write_dicom_series(all / "first", tube_image(window_states_narrowing), options);
   options.series_description = "CTA 40 %";
   options.uid_seed = "second";
   imaging::write_dicom_series(all / "second", tube_image(), options);

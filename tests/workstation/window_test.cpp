@@ -38,7 +38,7 @@ using testing::wait_until;
 using view::Vec2;
 using view::Vec3;
 
-constexpr double radius_mm = testing::tube_radius_mm;
+constexpr double window_radius_mm = testing::tube_radius_mm;
 
 struct WindowTest : ::testing::Test {
   testing::Folder folder;
@@ -63,7 +63,7 @@ QPoint point(const Vec2& px) {
 QPoint wall_on(PictureWidget& picture, double s_mm) {
   auto& cpr = static_cast<view::CurvedView&>(picture.view());
   const auto axis = cpr.bench().axis();
-  return point(cpr.project(axis->place(s_mm, cpr.theta_deg() * M_PI / 180.0, radius_mm))->px);
+  return point(cpr.project(axis->place(s_mm, cpr.theta_deg() * M_PI / 180.0, window_radius_mm))->px);
 }
 
 TEST_F(WindowTest, OpensACaseWithItsImageAndShowsAllViews) {
@@ -260,7 +260,8 @@ TEST_F(WindowTest, TheFirstVesselIsMadeByTwoClicks) {
   }
   ASSERT_TRUE(wait_until([&] { return test.bench().has_case(); }));
   EXPECT_NEAR(test.bench().axis()->length(), 33.0, 2.0);
-  EXPECT_NEAR(test.bench().section(test.bench().vessel.get(), 15.0)->diameter_mm, 2.0 * radius_mm, 0.3);
+  EXPECT_NEAR(test.bench().section(test.bench().vessel.get(), 15.0)->diameter_mm, 2.0 * window_radius_mm,
+              0.3);
 }
 
 TEST_F(WindowTest, ASecondWindowOnTheCaseIsToldSo) {

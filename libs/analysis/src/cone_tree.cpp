@@ -7,7 +7,7 @@
 namespace ostia::analysis {
 namespace {
 
-constexpr std::size_t leaf_size = 4;
+constexpr std::size_t cones_per_leaf = 4;
 
 ConeTree::Box box_of(const RoundCone& cone) {
   constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -63,7 +63,7 @@ void ConeTree::build() {
     if (part.left_of >= 0) nodes_[static_cast<std::size_t>(part.left_of)].next = index;
     nodes_.push_back(node_of(part.first, part.last));
     Node& node = nodes_.back();
-    if (part.last - part.first <= leaf_size) {
+    if (part.last - part.first <= cones_per_leaf) {
       node.next = static_cast<std::int32_t>(part.first);
       node.count = static_cast<std::int32_t>(part.last - part.first);
       continue;

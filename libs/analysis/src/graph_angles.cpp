@@ -1,5 +1,7 @@
 #include "ostia/analysis/graph_angles.h"
 
+#include "graph_edges.h"
+
 #include "ostia/core/error.h"
 
 #include <algorithm>
@@ -13,10 +15,6 @@ using geometry::GraphEdge;
 using geometry::GraphIncidence;
 using geometry::Vec3;
 using geometry::VesselGraph;
-
-const GraphEdge& edge_at(const VesselGraph& graph, std::int32_t edge) {
-  return graph.edges[static_cast<std::size_t>(edge)];
-}
 
 /// From a fork along one of its branches, away from the fork.
 Vec3 reached(const VesselGraph& graph, const TreeLinks& links, std::int32_t edge, bool outward,

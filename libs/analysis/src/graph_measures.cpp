@@ -1,5 +1,7 @@
 #include "ostia/analysis/graph_measures.h"
 
+#include "graph_edges.h"
+
 #include "ostia/core/error.h"
 
 #include <cmath>
@@ -10,10 +12,6 @@ namespace {
 
 using geometry::GraphEdge;
 using geometry::VesselGraph;
-
-const GraphEdge& edge_at(const VesselGraph& graph, std::int32_t edge) {
-  return graph.edges[static_cast<std::size_t>(edge)];
-}
 
 void add(SubtreeTotals& to, const SubtreeTotals& more) {
   to.length_mm += more.length_mm;

@@ -21,7 +21,7 @@ using geometry::VesselGraph;
 
 constexpr double largest = 1e30;  // boxes are in single precision
 
-void check_numbers(const VesselGraph& graph) {
+void check_cones(const VesselGraph& graph) {
   for (std::size_t e = 0; e < graph.edges.size(); ++e) {
     const RoundCone cone = round_cone(graph, static_cast<std::int32_t>(e));
     const double least = std::min(cone.radius_from, cone.radius_to);
@@ -46,12 +46,12 @@ std::vector<std::int32_t> arriving_edges(const VesselGraph& graph, const GraphIn
 }
 
 /// Where an edge lies along its branch, mm.
-struct Along {
+struct PlaceAlong {
   std::int32_t branch = -1;
   double begin = 0.0, end = 0.0;
 };
-std::vector<Along> places_along(const VesselGraph& graph, const GraphIncidence& incidence) {
-  std::vector<Along> result(graph.edges.size());
+std::vector<PlaceAlong> places_along(const VesselGraph& graph, const GraphIncidence& incidence) {
+  std::vector<PlaceAlong> result(graph.edges.size());
   std::int32_t number = 0;
   for (const geometry::GraphBranch& branch : geometry::branches(graph, incidence)) {
     double way = 0.0;
@@ -102,7 +102,7 @@ class OverlapFinder {
   /// Whatever their contact is like, the way along their branch is short enough. Finely sampled lines have
   /// hundreds of such pairs for each segment: they are told without looking at the cones.
   bool are_of_one_bend(std::int32_t a, std::int32_t b) const {
-    const Along &one = along_[static_cast<std::size_t>(a)], &other = along_[static_cast<std::size_t>(b)];
+    const PlaceAlong &one = along_[static_cast<std::size_t>(a)], &other = along_[static_cast<std::size_t>(b)];
     if (one.branch != other.branch) return false;
     const geometry::GraphEdge &e = graph_.edges[static_cast<std::size_t>(a)],
                               &f = graph_.edges[static_cast<std::size_t>(b)];
@@ -114,7 +114,7 @@ class OverlapFinder {
   std::vector<std::int32_t> arriving_;
   JointRule joints_;
   double bend_reach_, least_depth_;
-  std::vector<Along> along_;
+  std::vector<PlaceAlong> along_;
   ConeTree tree_;
 };
 
@@ -134,7 +134,7 @@ void validate(const OverlapOptions& options) {
 std::vector<GraphOverlap> find_overlaps(const VesselGraph& graph, const GraphIncidence& incidence,
                                         const OverlapOptions& options, const core::TaskContext& task) {
   validate(options);
-  check_numbers(graph);
+  check_cones(graph);
   task.throw_if_cancelled();
   if (graph.edges.empty()) return {};
   const OverlapFinder finder(graph, incidence, options);

@@ -1,3 +1,5 @@
+#include "degrees.h"
+
 #include "ostia/analysis/graph_report.h"
 #include "ostia/core/csv.h"
 
@@ -13,8 +15,6 @@ namespace {
 using geometry::GraphEdge;
 using geometry::VesselGraph;
 using Column = GraphTable::Column;
-
-constexpr double degrees = 180.0 / std::numbers::pi;
 
 GraphTable segment_table(const VesselGraph& graph, const TreeReport& report) {
   GraphTable table{"segments", graph.edges.size(), {}};

@@ -1,5 +1,6 @@
 // Distances between branches, and angles where they join.
 
+#include "degrees.h"
 #include "motion_parts.h"
 #include "tree_paths.h"
 
@@ -14,7 +15,6 @@ namespace ostia::analysis {
 namespace {
 
 constexpr double least_arm_mm = 1.0;
-constexpr double degrees = 180.0 / std::numbers::pi;
 
 /// How far it is along the tree from a place on one branch to a place on another:
 /// base + |s_first - first| + |s_second - second|.
@@ -77,13 +77,13 @@ struct Nearest {
 };
 
 /// A branch at one time.
-struct Line {
+struct AxisPair {
   const std::vector<double>& s_mm;
   const std::vector<Vec3>& points;
 };
 
 /// Of two pieces from `i` to `i + 1` on one line and `j` to `j + 1` on the other (Ericson 2005, 5.1.9).
-void pieces(const Line& a, std::size_t i, const Line& b, std::size_t j, Nearest& nearest) {
+void pieces(const AxisPair& a, std::size_t i, const AxisPair& b, std::size_t j, Nearest& nearest) {
   const Vec3 u = a.points[i + 1] - a.points[i], v = b.points[j + 1] - b.points[j];
   const Vec3 r = a.points[i] - b.points[j];
   const double uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v), ur = u.dot(r), vr = v.dot(r);
@@ -98,7 +98,8 @@ void pieces(const Line& a, std::size_t i, const Line& b, std::size_t j, Nearest&
                b.s_mm[j] + t * (b.s_mm[j + 1] - b.s_mm[j])};
 }
 
-Nearest nearest_places(const Line& a, const Line& b, const std::optional<Way>& way, double least_way_mm) {
+Nearest nearest_places(const AxisPair& a, const AxisPair& b, const std::optional<Way>& way,
+                       double least_way_mm) {
   double least = std::numeric_limits<double>::infinity();
   std::size_t at_a = 0, at_b = 0;
   for (std::size_t i = 0; i < a.points.size(); ++i)

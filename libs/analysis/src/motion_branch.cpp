@@ -1,5 +1,6 @@
 // What is measured of one branch.
 
+#include "degrees.h"
 #include "line_derivatives.h"
 #include "motion_parts.h"
 
@@ -15,7 +16,6 @@ namespace ostia::analysis {
 namespace {
 
 constexpr std::size_t least_points = 6;  // of a polynomial of degree 5
-constexpr double degrees = 180.0 / std::numbers::pi;
 
 /// The branch's bends at one time, point by point; lists are empty where it is too short.
 struct Bends {
@@ -115,7 +115,7 @@ class Measurer {
   }
 
  private:
-  void set(BranchMeasure m, double value, bool at_template) {
+  void set(MotionMeasure m, double value, bool at_template) {
     TimeCurve& curve = motion_.over_time[static_cast<std::size_t>(m)];
     if (at_template)
       curve.at_template = value;
@@ -152,12 +152,12 @@ class Measurer {
 
   void displaced(const std::vector<double>& displacement, const std::vector<double>& speed,
                  bool at_template) {
-    set(BranchMeasure::displacement_mean, mean(displacement), at_template);
-    set(BranchMeasure::displacement_max, largest(displacement), at_template);
+    set(MotionMeasure::displacement_mean, mean(displacement), at_template);
+    set(MotionMeasure::displacement_max, largest(displacement), at_template);
     set(LocalMeasure::displacement, displacement, at_template);
     if (at_template) return;  // the template is a place, not a time: it has no speed
-    set(BranchMeasure::speed_mean, mean(speed), false);
-    set(BranchMeasure::speed_max, largest(speed), false);
+    set(MotionMeasure::speed_mean, mean(speed), false);
+    set(MotionMeasure::speed_max, largest(speed), false);
     set(LocalMeasure::speed, speed, false);
   }
 
@@ -165,25 +165,25 @@ class Measurer {
     const Bends bends = limits_.shape ? bends_of(points, *derivatives_, limits_) : Bends{};
     if (at_template) rest_ = bends;
     stretched(points, bends, at_template);
-    set(BranchMeasure::curvature_mean, mean(bends.curvature), at_template);
-    set(BranchMeasure::curvature_max, largest(bends.curvature), at_template);
-    set(BranchMeasure::curvature_change, mean_change(bends.curvature, rest_.curvature), at_template);
+    set(MotionMeasure::curvature_mean, mean(bends.curvature), at_template);
+    set(MotionMeasure::curvature_max, largest(bends.curvature), at_template);
+    set(MotionMeasure::curvature_change, mean_change(bends.curvature, rest_.curvature), at_template);
     set(LocalMeasure::curvature, bends.curvature, at_template);
-    set(BranchMeasure::torsion_mean, mean(bends.torsion), at_template);
-    set(BranchMeasure::torsion_change, mean_change(bends.torsion, rest_.torsion), at_template);
+    set(MotionMeasure::torsion_mean, mean(bends.torsion), at_template);
+    set(MotionMeasure::torsion_change, mean_change(bends.torsion, rest_.torsion), at_template);
     turned(bends, at_template);
     set(LocalMeasure::torsion, bends.torsion, at_template);
     std::vector<double> twist;
     if (limits_.shape && !branch_.beside.empty())
       twist = at_template ? std::vector<double>(points.size(), 0.0) : twist_of(points, beside);
-    set(BranchMeasure::twist, twist.empty() ? not_measured : twist.back(), at_template);
+    set(MotionMeasure::twist, twist.empty() ? not_measured : twist.back(), at_template);
     set(LocalMeasure::twist, twist, at_template);
   }
 
   void sized(const std::vector<Vec3>& points, bool at_template) {
     const bool bends =
-        limits_.torsion && motion_[BranchMeasure::curvature_max].at_template >= limits_.least_curvature;
-    set(BranchMeasure::torsion_size, bends ? torsion_size(points, *derivatives_, shares_) : not_measured,
+        limits_.torsion && motion_[MotionMeasure::curvature_max].at_template >= limits_.least_curvature;
+    set(MotionMeasure::torsion_size, bends ? torsion_size(points, *derivatives_, shares_) : not_measured,
         at_template);
   }
 
@@ -194,10 +194,10 @@ class Measurer {
     const double whole = stretch.empty()
                              ? geometry::length(points) / std::max(geometry::length(branch_.rest), 1e-12)
                              : mean(stretch);
-    set(BranchMeasure::length, whole * motion_.length_mm, at_template);
-    set(BranchMeasure::stretch, whole, at_template);
-    set(BranchMeasure::stretch_largest, largest(stretch), at_template);
-    set(BranchMeasure::stretch_least,
+    set(MotionMeasure::length, whole * motion_.length_mm, at_template);
+    set(MotionMeasure::stretch, whole, at_template);
+    set(MotionMeasure::stretch_largest, largest(stretch), at_template);
+    set(MotionMeasure::stretch_least,
         stretch.empty() ? not_measured : *std::min_element(stretch.begin(), stretch.end()), at_template);
     set(LocalMeasure::stretch, stretch, at_template);
   }
@@ -205,8 +205,8 @@ class Measurer {
   /// The integral of the torsion over the arc, and where there is any.
   void turned(const Bends& bends, bool at_template) {
     if (bends.torsion.empty()) {
-      set(BranchMeasure::torsion_total, not_measured, at_template);
-      set(BranchMeasure::torsion_share, not_measured, at_template);
+      set(MotionMeasure::torsion_total, not_measured, at_template);
+      set(MotionMeasure::torsion_share, not_measured, at_template);
       return;
     }
     double total = 0.0, share = 0.0;
@@ -215,8 +215,8 @@ class Measurer {
       total += bends.torsion[i] * bends.speed[i] * shares_[i] * motion_.length_mm;
       share += shares_[i];
     }
-    set(BranchMeasure::torsion_total, share > 0.0 ? degrees * total : not_measured, at_template);
-    set(BranchMeasure::torsion_share, share, at_template);
+    set(MotionMeasure::torsion_total, share > 0.0 ? degrees * total : not_measured, at_template);
+    set(MotionMeasure::torsion_share, share, at_template);
   }
 
   const MovingBranch& branch_;

@@ -25,7 +25,7 @@ void add(PhaseDistances& sum, const PhaseDistances& one, double share) {
 
 }  // namespace
 
-const MeasureName& name_of(BranchMeasure measure) {
+const MeasureName& name_of(MotionMeasure measure) {
   static const std::array<MeasureName, branch_measure_count> names{
       {{"displacement_mean", "mm", "mean displacement"},
        {"displacement_max", "mm", "largest displacement"},

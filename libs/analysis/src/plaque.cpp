@@ -11,7 +11,7 @@
 namespace ostia::analysis {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 // How far tissue may be from the ray's mean against the image's noise: what a piece that the blur leaves
 // little of is drawn to the mean by.
 constexpr double ridge = 0.0625;  // (25 HU / 100 HU)^2

@@ -12,7 +12,7 @@
 namespace ostia::analysis {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double on_wall_mm = 1e-6;
 constexpr int most_rounds = 400;
 // Steps along a ray: as far as the field says, a little more to get behind the wall, never less than this.

@@ -16,7 +16,7 @@ namespace {
 constexpr double across_mm = 0.3, along_mm = 1.0;  // deviations of the displacements
 constexpr double bending_mm = 10.0;                // deviation of what is not affine
 constexpr double shift_mm = 100.0, slope = 1.0;    // of the affine part: hardly a bound
-constexpr double least_step_mm = 2.5;
+constexpr double least_axis_step_mm = 2.5;
 constexpr double most_places = 250.0;
 
 struct Place {
@@ -27,7 +27,7 @@ struct Place {
 std::vector<Place> places_of(const MovingTree& tree) {
   double length = 0.0;
   for (const MovingBranch& branch : tree.branches) length += branch.s_mm.back();
-  const double step = std::max(least_step_mm, length / most_places);
+  const double step = std::max(least_axis_step_mm, length / most_places);
   std::vector<Place> places;
   double before = 0.0, next = 0.0;
   for (std::size_t b = 0; b < tree.branches.size(); ++b) {

@@ -22,7 +22,7 @@ constexpr double healthy_share = 0.05, healthy_within_mm = 10.0;
 double circle_area(double diameter) {
   return 0.25 * std::numbers::pi * diameter * diameter;
 }
-std::string mm(double value) {
+std::string mm_text(double value) {
   return std::to_string(value) + " mm";
 }
 
@@ -169,7 +169,7 @@ void validate(const StenosisOptions& options) {
     throw InvalidInput("a stenosis counts from " + std::to_string(options.least_percent) +
                        " % of the diameter on; choose 5 to 95 %");
   if (!(options.least_length_mm >= 0.0 && options.least_length_mm <= 100.0))
-    throw InvalidInput("a stenosis counts from " + mm(options.least_length_mm) +
+    throw InvalidInput("a stenosis counts from " + mm_text(options.least_length_mm) +
                        " of length on; choose 0 to 100 mm");
 }
 
@@ -182,7 +182,7 @@ std::vector<SectionMeasures> sections_between(const LumenProfile& profile, doubl
   sections.push_back(at(profile, to));
   for (const SectionMeasures& section : sections) {
     if (!section.found)
-      throw InvalidInput("the lumen is not measured at " + mm(section.s_mm) +
+      throw InvalidInput("the lumen is not measured at " + mm_text(section.s_mm) +
                          ", between the two places of reference; choose a stretch without gaps");
   }
   return sections;
@@ -192,15 +192,15 @@ std::vector<SectionMeasures> sections_between(const LumenProfile& profile, doubl
 
 Stenosis stenosis_between(const LumenProfile& profile, double proximal_mm, double distal_mm) {
   if (!(proximal_mm >= 0.0 && distal_mm <= profile.length_mm + 1e-6 && proximal_mm < distal_mm))
-    throw InvalidInput("the places of reference, " + mm(proximal_mm) + " and " + mm(distal_mm) +
-                       ", must lie on the vessel, " + mm(profile.length_mm) +
+    throw InvalidInput("the places of reference, " + mm_text(proximal_mm) + " and " + mm_text(distal_mm) +
+                       ", must lie on the vessel, " + mm_text(profile.length_mm) +
                        " long, the proximal one first");
   const auto sections = sections_between(profile, proximal_mm, distal_mm);
   const auto enclosed =
       std::count_if(profile.sections.begin(), profile.sections.end(),
                     [&](const SectionMeasures& a) { return a.s_mm >= proximal_mm && a.s_mm <= distal_mm; });
   if (enclosed < 2)
-    throw InvalidInput("the places of reference, " + mm(proximal_mm) + " and " + mm(distal_mm) +
+    throw InvalidInput("the places of reference, " + mm_text(proximal_mm) + " and " + mm_text(distal_mm) +
                        ", do not enclose two sections of the profile; choose them farther apart");
   const SectionMeasures &a = sections.front(), &b = sections.back();
   const auto share = [&](double s) { return (s - proximal_mm) / (distal_mm - proximal_mm); };

@@ -19,7 +19,7 @@ std::string named(const VesselGraph& graph, std::size_t edge) {
   return "segment " + index + " (" + std::to_string(graph.references[edge]) + " in its file)";
 }
 
-void check_numbers(const VesselGraph& graph) {
+void check_links(const VesselGraph& graph) {
   if (graph.edges.empty()) throw InvalidInput("a tree without segments cannot be measured");
   for (std::size_t e = 0; e < graph.edges.size(); ++e) {
     const GraphEdge& edge = graph.edges[e];
@@ -88,7 +88,7 @@ void link_branches(TreeLinks& links) {
 
 TreeLinks link_tree(const VesselGraph& graph, const GraphIncidence& incidence,
                     const core::TaskContext& task) {
-  check_numbers(graph);
+  check_links(graph);
   TreeLinks links;
   walk_outward(graph, incidence, links);
   refuse_loops(graph, links);

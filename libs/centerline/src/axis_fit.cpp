@@ -20,7 +20,7 @@ namespace {
 using geometry::Vec2;
 using geometry::Vec3;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // A point of the wall seen from the axis: unfolded to abscissa, distance and direction in the normal plane.
 struct WallSample {

@@ -127,7 +127,7 @@ struct Ray {
 };
 
 // A stub, too, keeps a part that tells where it leads.
-constexpr double most_of_line = 0.5;
+constexpr double most_of_branch = 0.5;
 
 // The line whose last point is the node: what is kept, at least two points, with the end moved to the wall.
 void lead_out(GraphEditor& editor, std::int32_t id, std::int32_t node, const imaging::MaskVolume& mask,
@@ -139,7 +139,7 @@ void lead_out(GraphEditor& editor, std::int32_t id, std::int32_t node, const ima
   double radius = line.radius_mm.back();
   for (std::size_t i = line.points.size(); i-- > 0 && whole - s[i] <= 2.0 * radius;)
     radius = std::max(radius, line.radius_mm[i]);
-  const double trimmed = std::min(options.trimmed_radii * radius, most_of_line * whole);
+  const double trimmed = std::min(options.trimmed_radii * radius, most_of_branch * whole);
   const geometry::PolylineLocation last = geometry::at_abscissa(line.points, whole - trimmed);
   SkeletonEdge kept = line;
   kept.points.resize(last.segment + 1);

@@ -1,6 +1,7 @@
 #include "ostia/coronary/aorta.h"
 
 #include "axial_discs.h"
+#include "median.h"
 #include "tube_following.h"
 #include "working_image.h"
 
@@ -33,12 +34,6 @@ ColumnOptions column_options(const AortaOptions& options) {
   columns.disc.largest_radius_mm = options.largest_radius_mm;
   columns.least_length_mm = options.least_column_mm;
   return columns;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 double unevenness(const DiscColumn& column) {
@@ -88,15 +83,15 @@ const DiscColumn* ascending(const imaging::ImageVolume& image, const std::vector
   return nullptr;
 }
 
-std::string whole(double value) {
+std::string rounded_hu(double value) {
   return std::to_string(static_cast<int>(std::lround(value)));
 }
 
 std::string seen(const imaging::ImageVolume& image, const std::vector<DiscColumn>& columns) {
   if (columns.empty()) return "no upright tube of contrast is there";
   const DiscColumn& longest = columns.front();
-  return "the longest upright tube has a radius of " + whole(longest.mean_radius_mm()) + " mm and " +
-         whole(longest.mean_hu()) + " HU" +
+  return "the longest upright tube has a radius of " + rounded_hu(longest.mean_radius_mm()) + " mm and " +
+         rounded_hu(longest.mean_hu()) + " HU" +
          (lung_behind(image, longest) < most_lung ? " and is not even enough"
                                                   : ", and lung behind it as the descending aorta has");
 }
@@ -129,9 +124,10 @@ Aorta find_aorta(const imaging::ImageVolume& image, const AortaOptions& options,
   const DiscColumn* column = ascending(work, columns, options.most_hu);
   if (column == nullptr)
     throw GeometryError("no ascending aorta was found (an upright, evenly enhanced tube of " +
-                        whole(options.smallest_radius_mm) + " to " + whole(options.largest_radius_mm) +
-                        " mm radius above " + whole(options.least_hu) + " HU, at least " +
-                        whole(options.least_column_mm) + " mm long): " + seen(work, columns) +
+                        rounded_hu(options.smallest_radius_mm) + " to " +
+                        rounded_hu(options.largest_radius_mm) + " mm radius above " +
+                        rounded_hu(options.least_hu) + " HU, at least " +
+                        rounded_hu(options.least_column_mm) + " mm long): " + seen(work, columns) +
                         "; draw a first vessel by its two ends instead");
   FollowOptions follow;
   follow.disc = column_options(options).disc;

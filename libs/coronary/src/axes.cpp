@@ -16,7 +16,7 @@
 namespace ostia::coronary {
 namespace {
 
-void within(const char* name, double value, double low, double high, const char* unit) {
+void check_centring_option(const char* name, double value, double low, double high, const char* unit) {
   if (!(value >= low && value <= high))
     throw InvalidInput(std::string("centring of the coronary tree: ") + name + " is " +
                        std::to_string(value) + unit + "; give " + std::to_string(low) + " to " +
@@ -225,12 +225,12 @@ class Centring {
 }  // namespace
 
 void validate(const AxesOptions& options) {
-  within("the step", options.step_mm, 0.1, 2.0, " mm");
-  within("the largest radius", options.largest_radius_mm, 0.5, 10.0, " mm");
-  within("the blur", options.blur_sigma_mm, 0.0, 1.5, " mm");
-  within("the wall's intensity", options.wall_hu, -100.0, 200.0, " HU");
-  within("the least branch", options.least_branch_mm, 1.0, 50.0, " mm");
-  within("the stretch behind the ostium", options.ostium_mm, 0.5, 10.0, " mm");
+  check_centring_option("the step", options.step_mm, 0.1, 2.0, " mm");
+  check_centring_option("the largest radius", options.largest_radius_mm, 0.5, 10.0, " mm");
+  check_centring_option("the blur", options.blur_sigma_mm, 0.0, 1.5, " mm");
+  check_centring_option("the wall's intensity", options.wall_hu, -100.0, 200.0, " HU");
+  check_centring_option("the least branch", options.least_branch_mm, 1.0, 50.0, " mm");
+  check_centring_option("the stretch behind the ostium", options.ostium_mm, 0.5, 10.0, " mm");
 }
 
 CentredTree centred_tree(const imaging::ImageVolume& image, const GrownTree& grown,

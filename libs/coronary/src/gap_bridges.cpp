@@ -1,5 +1,7 @@
 #include "gap_bridges.h"
 
+#include "median.h"
+
 #include "ostia/geometry/polyline.h"
 
 #include <algorithm>
@@ -24,12 +26,6 @@ constexpr double far_least_mm = 5.0;     // it is at least so long
 constexpr double far_one_sided = 0.6;    // 1: all of it lies ahead; 0: it passes by
 constexpr double far_turn_deg = 50.0;
 constexpr double detour = 1.35, detour_mm = 1.0;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 double angle_deg(const Vec3& a, const Vec3& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b)) / degrees;

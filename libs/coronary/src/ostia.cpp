@@ -133,7 +133,7 @@ Growth grown_from(const imaging::ImageVolume& image, const AorticWall& wall, con
   return growth;
 }
 
-void within(const char* name, double value, double low, double high, const char* unit) {
+void check_ostium_search_option(const char* name, double value, double low, double high, const char* unit) {
   if (!(value >= low && value <= high))
     throw InvalidInput(std::string("search for ostia: ") + name + " is " + std::to_string(value) + unit +
                        "; give " + std::to_string(low) + " to " + std::to_string(high));
@@ -142,13 +142,14 @@ void within(const char* name, double value, double low, double high, const char*
 }  // namespace
 
 void validate(const OstiaOptions& options) {
-  within("the stretch of aorta", options.upwards_mm, 10.0, 120.0, " mm");
-  within("the wall's intensity", options.wall_hu, -100.0, 150.0, " HU");
-  within("the level", options.level, 0.3, 0.8, "");
-  within("the smallest radius", options.smallest_radius_mm, 0.3, 2.0, " mm");
-  within("the largest radius", options.largest_radius_mm, options.smallest_radius_mm, 8.0, " mm");
-  within("the least reach", options.least_reach_mm, 3.0, 30.0, " mm");
-  within("the largest section", options.largest_section_mm2, 5.0, 200.0, " mm2");
+  check_ostium_search_option("the stretch of aorta", options.upwards_mm, 10.0, 120.0, " mm");
+  check_ostium_search_option("the wall's intensity", options.wall_hu, -100.0, 150.0, " HU");
+  check_ostium_search_option("the level", options.level, 0.3, 0.8, "");
+  check_ostium_search_option("the smallest radius", options.smallest_radius_mm, 0.3, 2.0, " mm");
+  check_ostium_search_option("the largest radius", options.largest_radius_mm, options.smallest_radius_mm, 8.0,
+                             " mm");
+  check_ostium_search_option("the least reach", options.least_reach_mm, 3.0, 30.0, " mm");
+  check_ostium_search_option("the largest section", options.largest_section_mm2, 5.0, 200.0, " mm2");
 }
 
 std::vector<Ostium> find_ostia(const imaging::ImageVolume& image, const Aorta& aorta,

@@ -18,7 +18,7 @@
 namespace ostia::coronary {
 namespace {
 
-void within(const char* name, double value, double low, double high, const char* unit) {
+void check_growth_option(const char* name, double value, double low, double high, const char* unit) {
   if (!(value >= low && value <= high))
     throw InvalidInput(std::string("growth of the coronary tree: ") + name + " is " + std::to_string(value) +
                        unit + "; give " + std::to_string(low) + " to " + std::to_string(high));
@@ -38,7 +38,7 @@ std::vector<FrontSource> sources_at(const imaging::Geometry& grid, const std::ve
   return sources;
 }
 
-Vec3 place_of(const imaging::Geometry& grid, std::int64_t voxel) {
+Vec3 world_of(const imaging::Geometry& grid, std::int64_t voxel) {
   return grid.world(Vec3(static_cast<double>(voxel % grid.size[0]),
                          static_cast<double>(voxel / grid.size[0] % grid.size[1]),
                          static_cast<double>(voxel / (grid.size[0] * grid.size[1]))));
@@ -89,7 +89,7 @@ class BranchPicker {
     GrownBranch branch;
     branch.ostium = static_cast<std::size_t>(nodes_.at(end).of);
     if (voxel >= 0) {
-      const auto [parent, point] = nearest_place(place_of(tube_.geometry, voxel));
+      const auto [parent, point] = nearest_place(world_of(tube_.geometry, voxel));
       branch.parent = parent;
       branch.parent_point = point;
       lead_out(branches_[static_cast<std::size_t>(parent)], point, way.back(), branch);
@@ -97,7 +97,7 @@ class BranchPicker {
     std::reverse(way.begin(), way.end());
     for (const std::int64_t passed : way) {
       if (unseen_.contains(passed)) add_to_gap(branch);
-      branch.points.push_back(place_of(tube_.geometry, passed));
+      branch.points.push_back(world_of(tube_.geometry, passed));
       branch.radius_mm.push_back(radius_mm_.voxels[static_cast<std::size_t>(passed)]);
       branch.tube.push_back(tube_.voxels[static_cast<std::size_t>(passed)]);
       cover(passed);
@@ -114,9 +114,9 @@ class BranchPicker {
     const double beyond_mm = nodes_.at(end).length_mm - nodes_.at(leaves).length_mm;
     if (beyond_mm >= least_branch_mm_) return true;
     if (beyond_mm < least_part * least_branch_mm_) return false;
-    const auto [parent, point] = nearest_place(place_of(tube_.geometry, leaves));
+    const auto [parent, point] = nearest_place(world_of(tube_.geometry, leaves));
     const Vec3& from = branches_[static_cast<std::size_t>(parent)].points[point];
-    if (beyond_mm + (place_of(tube_.geometry, leaves) - from).norm() < least_branch_mm_) return false;
+    if (beyond_mm + (world_of(tube_.geometry, leaves) - from).norm() < least_branch_mm_) return false;
     std::vector<float> tube;
     for (const std::int64_t voxel : way) tube.push_back(tube_.voxels[static_cast<std::size_t>(voxel)]);
     const auto middle = tube.begin() + static_cast<std::ptrdiff_t>(tube.size() / 2);
@@ -135,7 +135,7 @@ class BranchPicker {
   /// A straight line from a place of the trunk to just before the voxel where a branch leaves its lumen.
   void lead_out(const GrownBranch& trunk, std::size_t point, std::int64_t to, GrownBranch& branch) const {
     constexpr double step_mm = 0.5;
-    const Vec3 from = trunk.points[point], way = place_of(tube_.geometry, to) - from;
+    const Vec3 from = trunk.points[point], way = world_of(tube_.geometry, to) - from;
     const double width = radius_mm_.voxels[static_cast<std::size_t>(to)];
     const double likeness = tube_.voxels[static_cast<std::size_t>(to)];
     const auto steps = std::max<std::size_t>(1, static_cast<std::size_t>(way.norm() / step_mm));
@@ -261,13 +261,13 @@ class Growing {
 }  // namespace
 
 void validate(const GrowthOptions& options) {
-  within("the wall's intensity", options.wall_hu, -100.0, 150.0, " HU");
-  within("the fat's intensity", options.fat_hu, -200.0, 50.0, " HU");
-  within("the least contrast", options.least_contrast, 0.1, 0.6, "");
-  within("the least likeness to a tube", options.least_tube, 0.1, 0.6, "");
-  within("the largest radius", options.largest_radius_mm, 2.0, 8.0, " mm");
-  within("the least branch", options.least_branch_mm, 2.0, 50.0, " mm");
-  within("the longest gap", options.longest_gap_mm, 0.0, 20.0, " mm");
+  check_growth_option("the wall's intensity", options.wall_hu, -100.0, 150.0, " HU");
+  check_growth_option("the fat's intensity", options.fat_hu, -200.0, 50.0, " HU");
+  check_growth_option("the least contrast", options.least_contrast, 0.1, 0.6, "");
+  check_growth_option("the least likeness to a tube", options.least_tube, 0.1, 0.6, "");
+  check_growth_option("the largest radius", options.largest_radius_mm, 2.0, 8.0, " mm");
+  check_growth_option("the least branch", options.least_branch_mm, 2.0, 50.0, " mm");
+  check_growth_option("the longest gap", options.longest_gap_mm, 0.0, 20.0, " mm");
 }
 
 GrownTree grow_tree(const imaging::ImageVolume& image, const Aorta& aorta, const std::vector<Ostium>& ostia,

@@ -12,7 +12,7 @@
 namespace ostia::evaluation {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 double mean_of(const std::vector<double>& values) {
   double sum = 0.0;
@@ -48,7 +48,7 @@ void require_pairs(const std::vector<double>& reference, const std::vector<doubl
 void add_regression(const std::vector<double>& means, const std::vector<double>& differences,
                     BlandAltman& out) {
   const Moments m = moments_of(means, differences);
-  out.slope = out.intercept = out.slope_error = none;
+  out.slope = out.intercept = out.slope_error = not_known;
   if (!(m.aa > 0.0)) return;
   out.slope = m.ab / m.aa;
   out.intercept = m.mean_b - out.slope * m.mean_a;
@@ -73,7 +73,7 @@ double central_probability(double t, std::size_t degrees) {
 }
 
 double share(std::size_t part, std::size_t rest) {
-  return part + rest > 0 ? static_cast<double>(part) / static_cast<double>(part + rest) : none;
+  return part + rest > 0 ? static_cast<double>(part) / static_cast<double>(part + rest) : not_known;
 }
 
 }  // namespace
@@ -119,7 +119,7 @@ BlandAltman bland_altman(const std::vector<double>& reference, const std::vector
   out.lower_limit_interval = around(out.lower_limit, out.limit_error);
   out.upper_limit_interval = around(out.upper_limit, out.limit_error);
   const Moments m = moments_of(reference, result);
-  out.correlation = m.aa > 0.0 && m.bb > 0.0 ? m.ab / std::sqrt(m.aa * m.bb) : none;
+  out.correlation = m.aa > 0.0 && m.bb > 0.0 ? m.ab / std::sqrt(m.aa * m.bb) : not_known;
   add_regression(means, differences, out);
   return out;
 }
@@ -129,7 +129,7 @@ double concordance_correlation(const std::vector<double>& a, const std::vector<d
   const Moments m = moments_of(a, b);
   const double shift = m.mean_a - m.mean_b;
   const double all = m.aa + m.bb + static_cast<double>(a.size()) * shift * shift;
-  return all > 0.0 ? 2.0 * m.ab / all : none;
+  return all > 0.0 ? 2.0 * m.ab / all : not_known;
 }
 
 double intraclass_correlation(const std::vector<std::vector<double>>& ratings) {
@@ -155,7 +155,7 @@ double intraclass_correlation(const std::vector<std::vector<double>>& ratings) {
       rest += e * e / ((n - 1.0) * (k - 1.0));
     }
   const double all = between_rows + (k - 1.0) * rest + k / n * (between_raters - rest);
-  return all > 0.0 ? (between_rows - rest) / all : none;
+  return all > 0.0 ? (between_rows - rest) / all : not_known;
 }
 
 int grade_category(double stenosis) {
@@ -189,7 +189,7 @@ double weighted_kappa(const std::vector<std::array<int, 2>>& ratings, int catego
   for (int a = 0; a < categories; ++a)
     for (int b = 0; b < categories; ++b)
       expected += weight(a, b) * first[static_cast<std::size_t>(a)] * second[static_cast<std::size_t>(b)] / n;
-  return expected > 0.0 ? 1.0 - observed / expected : none;
+  return expected > 0.0 ? 1.0 - observed / expected : not_known;
 }
 
 StenosisDetection detect_stenoses(const std::vector<GradedPlace>& places, double threshold) {

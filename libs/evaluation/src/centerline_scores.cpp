@@ -16,7 +16,7 @@ using geometry::Vec3;
 
 constexpr double spacing_tolerance = 1e-3;
 constexpr double most_times_longer = 50.0;
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_score = std::numeric_limits<double>::quiet_NaN();
 
 void require_line(const std::vector<Vec3>& points, const char* what) {
   if (points.size() < 2)
@@ -215,7 +215,7 @@ double overlap_where_wide(const io::RotterdamReference& reference, const std::ve
                           double least_radius_mm) {
   for (std::size_t i = reference.radius.size(); i-- > 0;)
     if (reference.radius[i] >= least_radius_mm) return counted(pairs, i).overlap();
-  return none;
+  return no_score;
 }
 
 void add_accuracy(const io::RotterdamReference& reference, CenterlineScores& scores) {
@@ -228,9 +228,9 @@ void add_accuracy(const io::RotterdamReference& reference, CenterlineScores& sco
       score += distance_score(p.distance_mm, reference.observer_spread[p.reference]);
     ++count;
   }
-  scores.ai_mm = count > 0 ? sum / static_cast<double>(count) : none;
+  scores.ai_mm = count > 0 ? sum / static_cast<double>(count) : no_score;
   scores.ai_score =
-      count > 0 && !reference.observer_spread.empty() ? score / static_cast<double>(count) : none;
+      count > 0 && !reference.observer_spread.empty() ? score / static_cast<double>(count) : no_score;
 }
 
 /// The OV that a line could have were each of its points free to choose its partner.
@@ -350,7 +350,7 @@ MeanCenterlineScores mean_scores(const std::vector<CenterlineScores>& vessels) {
       sum += v.*score;
       ++count;
     }
-    return count > 0 ? sum / count : none;
+    return count > 0 ? sum / count : no_score;
   };
   MeanCenterlineScores out;
   out.vessels = vessels.size();

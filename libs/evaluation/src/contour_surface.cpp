@@ -19,7 +19,7 @@ using geometry::TriMesh;
 using geometry::Vec3;
 using Ring = std::vector<Vec3>;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Ring resampled(const Ring& ring, std::size_t count) {
   if (ring.size() == count) return ring;

@@ -41,12 +41,12 @@ imaging::Region box_of(const ImageVolume& labels, std::int16_t label) {
   return box;
 }
 
-struct Counts {
+struct VoxelCounts {
   std::int64_t reference = 0, result = 0, both = 0;
 };
 
-std::map<std::int16_t, Counts> count(const ImageVolume& reference, const ImageVolume& result) {
-  std::map<std::int16_t, Counts> counts;
+std::map<std::int16_t, VoxelCounts> count(const ImageVolume& reference, const ImageVolume& result) {
+  std::map<std::int16_t, VoxelCounts> counts;
   for (std::size_t i = 0; i < reference.voxels.size(); ++i) {
     const std::int16_t a = reference.voxels[i], b = result.voxels[i];
     if (a == 0 && b == 0) continue;
@@ -65,7 +65,7 @@ SurfaceDistances no_distances() {
   return {none, none, none, none, none, none};
 }
 
-LabelScore score_of(std::int16_t label, const Counts& counts, double voxel_mm3) {
+LabelScore score_of(std::int16_t label, const VoxelCounts& counts, double voxel_mm3) {
   LabelScore score;
   score.label = label;
   score.in_reference = counts.reference > 0;
@@ -111,7 +111,7 @@ std::vector<LabelScore> compare_labels(const ImageVolume& reference, const Image
     throw InvalidInput(
         "the two volumes lie on different grids: other sizes, spacings, origins or axes; "
         "resample one onto the other's grid");
-  const std::map<std::int16_t, Counts> counts = count(reference, result);
+  const std::map<std::int16_t, VoxelCounts> counts = count(reference, result);
   const bool any_reference =
       std::any_of(counts.begin(), counts.end(), [](const auto& one) { return one.second.reference > 0; });
   const bool any_result =

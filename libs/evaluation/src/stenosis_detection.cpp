@@ -9,7 +9,7 @@
 namespace ostia::evaluation {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_share = std::numeric_limits<double>::quiet_NaN();
 
 void require_sound(const std::vector<Lesion>& lesions, const std::string& whose) {
   for (std::size_t i = 0; i < lesions.size(); ++i) {
@@ -67,21 +67,21 @@ void add_differences(const std::vector<Lesion>& reference, const std::vector<Les
     throats += std::abs(found[p.found].s_throat_mm - reference[p.reference].s_throat_mm);
   }
   const auto n = static_cast<double>(out.pairs.size());
-  out.mean_grade_difference = n > 0.0 ? sum / n : none;
-  out.rms_grade_difference = n > 0.0 ? std::sqrt(squares / n) : none;
-  out.mean_throat_distance_mm = n > 0.0 ? throats / n : none;
+  out.mean_grade_difference = n > 0.0 ? sum / n : no_share;
+  out.rms_grade_difference = n > 0.0 ? std::sqrt(squares / n) : no_share;
+  out.mean_throat_distance_mm = n > 0.0 ? throats / n : no_share;
 }
 
 }  // namespace
 
 double LesionCounts::sensitivity() const {
   const auto there = static_cast<double>(true_positive + false_negative);
-  return there > 0.0 ? static_cast<double>(true_positive) / there : none;
+  return there > 0.0 ? static_cast<double>(true_positive) / there : no_share;
 }
 
 double LesionCounts::ppv() const {
   const auto found = static_cast<double>(true_positive + false_positive);
-  return found > 0.0 ? static_cast<double>(true_positive) / found : none;
+  return found > 0.0 ? static_cast<double>(true_positive) / found : no_share;
 }
 
 LesionDetection detect_lesions(const std::vector<Lesion>& reference, const std::vector<Lesion>& found,
@@ -124,7 +124,7 @@ LesionDetection detect_lesions(const std::vector<Lesion>& reference, const std::
     meet(found[j].vessel, 0.0, found[j].grade);
   }
   add_differences(reference, found, out);
-  out.weighted_kappa = categories.empty() ? none : weighted_kappa(categories, grade_categories);
+  out.weighted_kappa = categories.empty() ? no_share : weighted_kappa(categories, grade_categories);
   return out;
 }
 

@@ -18,8 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr FindingKind kinds[] = {FindingKind::regression, FindingKind::missing, FindingKind::improvement,
-                                 FindingKind::change, FindingKind::extra};
+constexpr FindingKind shown_kinds[] = {FindingKind::regression, FindingKind::missing,
+                                       FindingKind::improvement, FindingKind::change, FindingKind::extra};
 
 std::string text_of(double value) {
   char text[32];
@@ -44,7 +44,8 @@ void add_verdict(figure::HtmlReport& page, const SuiteResult& suite) {
   std::vector<std::pair<std::string, std::string>> rows{
       {"files compared", std::to_string(suite.files.size())},
       {"figures compared", std::to_string(suite.figures)}};
-  for (const FindingKind kind : kinds) rows.emplace_back(name_of(kind), std::to_string(suite.count(kind)));
+  for (const FindingKind kind : shown_kinds)
+    rows.emplace_back(name_of(kind), std::to_string(suite.count(kind)));
   page.key_values(rows);
   page.paragraph(
       "regression: worse than the tolerance allows, or unreadable. missing: the golden run has it, the "

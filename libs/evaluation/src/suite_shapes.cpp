@@ -38,7 +38,7 @@ void explain(const std::vector<Vec3>& golden, const std::vector<Vec3>& result, C
   if (!hint.empty()) note(FindingKind::regression, "", hint, file, findings);
 }
 
-TriMesh mesh_of(const std::filesystem::path& path) {
+TriMesh read_mesh(const std::filesystem::path& path) {
   if (path.extension() == ".vtu") return geometry::boundary_triangles(io::read_volume_mesh(path));
   return io::read_surface(path).surface.mesh;
 }
@@ -166,7 +166,7 @@ geometry::Centerline line_of(const std::vector<std::vector<double>>& rows) {
 
 void compare_surface_files(const FilePair& pair, const Tolerances& tolerances, ComparedFile& file,
                            std::vector<Finding>& findings, const core::TaskContext& task) {
-  const TriMesh golden = mesh_of(pair.golden), result = mesh_of(pair.result);
+  const TriMesh golden = read_mesh(pair.golden), result = read_mesh(pair.result);
   explain(golden.points, result.points, file, findings);
   const SurfaceDistances d = compare_surfaces(golden, result, {}, task);
   const ShapeRule rule = rule_for(tolerances.surfaces, pair.name);

@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::uint64_t most_bytes = 16ULL << 20;
+constexpr std::uint64_t most_tolerance_bytes = 16ULL << 20;
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& member,
                          const std::string& what) {
@@ -175,7 +175,7 @@ void validate(const Tolerances& tolerances) {
 Tolerances read_tolerances(const std::filesystem::path& path) {
   json all;
   try {
-    all = json::parse(core::read_file(path, most_bytes));
+    all = json::parse(core::read_file(path, most_tolerance_bytes));
   } catch (const json::exception& error) {
     throw InvalidInput(path.string() + ": is no JSON: " + error.what());
   }

@@ -16,15 +16,15 @@ namespace {
 using geometry::TriMesh;
 using geometry::Vec3;
 
-struct Sample {
+struct SurfacePoint {
   Vec3 point = Vec3::Zero();
   double weight = 0.0;    // area, mm^2
   double distance = 0.0;  // mm
   double sign = 1.0;      // of the distance
 };
 
-std::vector<Sample> samples_of(const TriMesh& mesh, double sample_mm, const Region& counts) {
-  std::vector<Sample> out;
+std::vector<SurfacePoint> samples_of(const TriMesh& mesh, double sample_mm, const Region& counts) {
+  std::vector<SurfacePoint> out;
   for (const geometry::Triangle& t : mesh.triangles) {
     for_each_sample(mesh, t, sample_mm, [&](const Vec3& point, double area) {
       if (!counts || counts(point)) out.push_back({point, area, 0.0, 1.0});
@@ -55,14 +55,14 @@ double side_by_winding(const geometry::AabbTree& to, const Vec3& point) {
 /// near: by the triangle inequality its distance bounds how far the search has to look. The side is that of
 /// the nearest triangle; every 16th sample asks the winding number too, and where the two ever disagree (the
 /// reference overlaps itself, or is turned) all samples of the chunk go by the winding number.
-void measure_chunk(Sample* first, Sample* last, const TriMesh& mesh, const geometry::AabbTree& to,
+void measure_chunk(SurfacePoint* first, SurfacePoint* last, const TriMesh& mesh, const geometry::AabbTree& to,
                    bool with_sign) {
   constexpr double rounding = 1.0 + 1e-9;
   bool trusted = true;
-  for (Sample* s = first; s != last; ++s) {
+  for (SurfacePoint* s = first; s != last; ++s) {
     std::optional<geometry::SurfacePoint> near;
     if (s != first) {
-      const Sample& before = *(s - 1);
+      const SurfacePoint& before = *(s - 1);
       near = to.closest_within(s->point, (before.distance + (s->point - before.point).norm()) * rounding);
     }
     if (!near) near = to.closest(s->point);
@@ -74,10 +74,10 @@ void measure_chunk(Sample* first, Sample* last, const TriMesh& mesh, const geome
     if (asked && side != 0.0 && near->distance > 1e-9 && s->sign != side) trusted = false;
   }
   if (!with_sign || trusted) return;
-  for (Sample* s = first; s != last; ++s) s->sign = side_by_winding(to, s->point);
+  for (SurfacePoint* s = first; s != last; ++s) s->sign = side_by_winding(to, s->point);
 }
 
-void measure(std::vector<Sample>& samples, const TriMesh& mesh, bool with_sign,
+void measure(std::vector<SurfacePoint>& samples, const TriMesh& mesh, bool with_sign,
              const core::TaskContext& task) {
   const geometry::AabbTree to(mesh);
   core::parallel_chunks(samples.size(), 1024, [&](std::size_t first, std::size_t last) {
@@ -86,26 +86,26 @@ void measure(std::vector<Sample>& samples, const TriMesh& mesh, bool with_sign,
   });
 }
 
-double quantile_95(std::vector<Sample> samples) {
+double quantile_95(std::vector<SurfacePoint> samples) {
   std::sort(samples.begin(), samples.end(),
-            [](const Sample& a, const Sample& b) { return a.distance < b.distance; });
+            [](const SurfacePoint& a, const SurfacePoint& b) { return a.distance < b.distance; });
   double total = 0.0;
-  for (const Sample& s : samples) total += s.weight;
+  for (const SurfacePoint& s : samples) total += s.weight;
   double reached = 0.0;
-  for (const Sample& s : samples) {
+  for (const SurfacePoint& s : samples) {
     reached += s.weight;
     if (reached >= 0.95 * total) return s.distance;
   }
   return samples.back().distance;
 }
 
-double largest(const std::vector<Sample>& samples) {
+double largest(const std::vector<SurfacePoint>& samples) {
   double out = 0.0;
-  for (const Sample& s : samples) out = std::max(out, s.distance);
+  for (const SurfacePoint& s : samples) out = std::max(out, s.distance);
   return out;
 }
 
-struct Moments {
+struct DistanceMoments {
   double weight = 0.0, first = 0.0, second = 0.0;
   void add(double value, double w) {
     weight += w;
@@ -122,8 +122,8 @@ struct Moments {
 SurfaceDistances compare_surfaces(const TriMesh& reference, const TriMesh& result,
                                   const SurfaceDistanceOptions& options, const core::TaskContext& task) {
   if (!(options.sample_mm > 0.0)) throw InvalidInput("sample_mm must be positive");
-  std::vector<Sample> of_reference = samples_of(reference, options.sample_mm, options.reference_region);
-  std::vector<Sample> of_result = samples_of(result, options.sample_mm, options.result_region);
+  std::vector<SurfacePoint> of_reference = samples_of(reference, options.sample_mm, options.reference_region);
+  std::vector<SurfacePoint> of_result = samples_of(result, options.sample_mm, options.result_region);
   if (of_reference.empty() || of_result.empty())
     throw InvalidInput("nothing to compare: a surface has no point in the region that counts");
   measure(of_reference, result, false, task);
@@ -131,9 +131,9 @@ SurfaceDistances compare_surfaces(const TriMesh& reference, const TriMesh& resul
   measure(of_result, reference, true, task);
   task.set_progress(1.0);
 
-  Moments both, with_sign;
-  for (const Sample& s : of_reference) both.add(s.distance, s.weight);
-  for (const Sample& s : of_result) {
+  DistanceMoments both, with_sign;
+  for (const SurfacePoint& s : of_reference) both.add(s.distance, s.weight);
+  for (const SurfacePoint& s : of_result) {
     both.add(s.distance, s.weight);
     with_sign.add(s.sign * s.distance, s.weight);
   }

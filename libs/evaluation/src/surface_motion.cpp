@@ -13,7 +13,7 @@ namespace {
 
 using geometry::TriMesh;
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_distance = std::numeric_limits<double>::quiet_NaN();
 
 void check(const SurfaceMotion& motion, const std::string& what) {
   if (motion.names.size() != motion.phases.size())
@@ -47,7 +47,7 @@ double mean_step(const TriMesh& a, const TriMesh& b) {
 
 CycleFigures cycle_of(const SurfaceMotion& motion) {
   const TriMesh& first = motion.phases.front();
-  if (!corresponds(motion, first)) return {none, none, none};
+  if (!corresponds(motion, first)) return {no_distance, no_distance, no_distance};
   CycleFigures out;
   double largest = 0.0;
   for (std::size_t k = 0; k + 1 < motion.phases.size(); ++k) {
@@ -60,7 +60,7 @@ CycleFigures cycle_of(const SurfaceMotion& motion) {
   }
   const double closing = mean_step(motion.phases.back(), first);
   out.path_mm += closing;
-  out.closing_ratio = largest > 0.0 ? closing / largest : none;
+  out.closing_ratio = largest > 0.0 ? closing / largest : no_distance;
   return out;
 }
 
@@ -73,7 +73,7 @@ SurfacePhaseError phase_error(const TriMesh& reference, const TriMesh& result, b
   SurfaceDistanceOptions how;
   how.sample_mm = options.sample_mm;
   const SurfaceDistances d = compare_surfaces(reference, result, how);
-  SurfacePhaseError out{"", d.msd_mm, d.max_sd_mm, none, none, none};
+  SurfacePhaseError out{"", d.msd_mm, d.max_sd_mm, no_distance, no_distance, no_distance};
   task.throw_if_cancelled();
   if (closed(reference) && closed(result))
     out.dice = compare_enclosed(reference, result, options.resolution_mm, {}).dice;

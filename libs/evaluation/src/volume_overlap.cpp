@@ -14,7 +14,7 @@ namespace {
 using geometry::TriMesh;
 using geometry::Vec3;
 
-struct Interval {
+struct Stretch {
   double from = 0.0, to = 0.0;
 };
 
@@ -61,8 +61,8 @@ TriMesh turned(TriMesh mesh, const geometry::Mat3& by) {
 }
 
 /// Where a line runs inside: between places where the number of surfaces entered rises above nothing.
-std::vector<Interval> inside(const geometry::AabbTree& tree, const TriMesh& mesh, const Vec3& start) {
-  std::vector<Interval> out;
+std::vector<Stretch> inside(const geometry::AabbTree& tree, const TriMesh& mesh, const Vec3& start) {
+  std::vector<Stretch> out;
   int depth = 0;
   double from = 0.0;
   for (const geometry::RayHit& hit : tree.all_hits(start, Vec3::UnitZ())) {
@@ -78,27 +78,27 @@ std::vector<Interval> inside(const geometry::AabbTree& tree, const TriMesh& mesh
   return out;
 }
 
-double length_of(const std::vector<Interval>& all) {
+double length_of(const std::vector<Stretch>& all) {
   double sum = 0.0;
-  for (const Interval& i : all) sum += i.to - i.from;
+  for (const Stretch& i : all) sum += i.to - i.from;
   return sum;
 }
 
-std::vector<Interval> shared(const std::vector<Interval>& a, const std::vector<Interval>& b) {
-  std::vector<Interval> out;
-  for (const Interval& i : a)
-    for (const Interval& j : b)
+std::vector<Stretch> shared(const std::vector<Stretch>& a, const std::vector<Stretch>& b) {
+  std::vector<Stretch> out;
+  for (const Stretch& i : a)
+    for (const Stretch& j : b)
       if (std::min(i.to, j.to) > std::max(i.from, j.from))
         out.push_back({std::max(i.from, j.from), std::min(i.to, j.to)});
   return out;
 }
 
 /// The parts of intervals where a place counts, in pieces of `step`.
-std::vector<Interval> counted(const std::vector<Interval>& all, const Vec3& start, double step,
-                              const Region& counts) {
+std::vector<Stretch> counted(const std::vector<Stretch>& all, const Vec3& start, double step,
+                             const Region& counts) {
   if (!counts) return all;
-  std::vector<Interval> out;
-  for (const Interval& i : all) {
+  std::vector<Stretch> out;
+  for (const Stretch& i : all) {
     const auto pieces = static_cast<int>(std::ceil((i.to - i.from) / step));
     const double piece = (i.to - i.from) / std::max(pieces, 1);
     for (int k = 0; k < pieces; ++k) {

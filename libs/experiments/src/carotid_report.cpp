@@ -56,14 +56,14 @@ geometry::TriMesh in_phantom_frame(const CarotidRun& run) {
 }
 
 /// How far along the lumen's length a height lies is not needed here: by radius, in steps of half a mm.
-struct Calibre {
+struct CalibreColumn {
   double from_mm = 0.0;
   Spread spread;
 };
 
-std::vector<Calibre> by_calibre(const CarotidRun& run) {
+std::vector<CalibreColumn> by_calibre(const CarotidRun& run) {
   constexpr double step_mm = 0.5;
-  std::vector<Calibre> out;
+  std::vector<CalibreColumn> out;
   for (double from = 0.0; from < 5.0; from += step_mm) {
     std::vector<double> there;
     for (std::size_t i = 0; i < run.radius_mm.size(); ++i)
@@ -78,7 +78,7 @@ figure::Picture calibre_plot(const CarotidResult& result, CarotidScan scan) {
   for (const CarotidRun& run : result.runs) {
     if (run.scan != scan) continue;
     figure::Series line{feature_name(run.feature)};
-    for (const Calibre& c : by_calibre(run)) {
+    for (const CalibreColumn& c : by_calibre(run)) {
       line.x.push_back(c.from_mm + 0.25);
       line.y.push_back(c.spread.mean);
     }
@@ -192,7 +192,7 @@ std::string table_csv(const CarotidResult& result) {
 std::string calibre_csv(const CarotidResult& result) {
   std::string text = "scan,feature,radius_from_mm,points,mean_mm,sd_mm\n";
   for (const CarotidRun& run : result.runs) {
-    for (const Calibre& c : by_calibre(run)) {
+    for (const CalibreColumn& c : by_calibre(run)) {
       char row[160];
       std::snprintf(row, sizeof row, "%s,%s,%.1f,%zu,%.4f,%.4f\n", name_of(run.scan),
                     feature_name(run.feature), c.from_mm, c.spread.points, c.spread.mean, c.spread.sd);

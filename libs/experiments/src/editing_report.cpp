@@ -18,7 +18,7 @@ namespace {
 
 using geometry::Health;
 using Json = nlohmann::ordered_json;
-using Step = SectionRun::Step;
+using SectionStep = SectionRun::Step;
 
 std::string fixed(double value, int decimals = 3) {
   char text[64];
@@ -98,7 +98,7 @@ std::string step_rows(const std::vector<SectionRun>& runs) {
   std::string text =
       "case,section,health,strokes,seconds,msd_mm,max_sd_mm,to_truth_msd_mm,to_truth_max_sd_mm\n";
   for (const SectionRun& r : runs) {
-    for (const Step& s : r.steps) {
+    for (const SectionStep& s : r.steps) {
       text += r.case_name + "," + r.section + "," + name_of(r.health) + "," + std::to_string(s.strokes) +
               "," + fixed(s.seconds, 1) + "," + fixed(s.to_observer.msd_mm, 4) + "," +
               fixed(s.to_observer.max_sd_mm, 4) + "," + fixed(s.to_truth.msd_mm, 4) + "," +
@@ -111,7 +111,7 @@ std::string step_rows(const std::vector<SectionRun>& runs) {
 /// A section's MSD at a modelled time: that of the last stroke done by then.
 double msd_at(const SectionRun& run, double seconds) {
   double msd = run.first().to_observer.msd_mm;
-  for (const Step& step : run.steps)
+  for (const SectionStep& step : run.steps)
     if (step.seconds <= seconds) msd = step.to_observer.msd_mm;
   return msd;
 }
@@ -169,7 +169,7 @@ const SectionRun* example(const std::vector<SectionRun>& runs) {
 
 figure::Picture section_plot(const SectionRun& run) {
   figure::Series mean{"mean surface distance"}, most{"maximum surface distance"};
-  for (const Step& step : run.steps) {
+  for (const SectionStep& step : run.steps) {
     mean.x.push_back(step.seconds);
     mean.y.push_back(step.to_observer.msd_mm);
     most.x.push_back(step.seconds);

@@ -18,20 +18,23 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(double value) {
+Json json_number(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
 Json json_of(const evaluation::MeanCenterlineScores& mean) {
-  return {{"vessels", mean.vessels}, {"missing", mean.missed}, {"ov", mean.ov},
-          {"of", mean.of},           {"ot", number(mean.ot)},  {"ai_mm", number(mean.ai_mm)}};
+  return {{"vessels", mean.vessels}, {"missing", mean.missed},     {"ov", mean.ov},
+          {"of", mean.of},           {"ot", json_number(mean.ot)}, {"ai_mm", json_number(mean.ai_mm)}};
 }
 
 Json json_of(const evaluation::LumenSummary& s) {
-  return {{"sections", s.sections},          {"missing", s.missing},
-          {"length_mm", s.length_mm},        {"dice", s.dice},
-          {"msd_mm", number(s.msd_mm)},      {"rms_sd_mm", number(s.rms_sd_mm)},
-          {"max_sd_mm", number(s.max_sd_mm)}};
+  return {{"sections", s.sections},
+          {"missing", s.missing},
+          {"length_mm", s.length_mm},
+          {"dice", s.dice},
+          {"msd_mm", json_number(s.msd_mm)},
+          {"rms_sd_mm", json_number(s.rms_sd_mm)},
+          {"max_sd_mm", json_number(s.max_sd_mm)}};
 }
 
 Json json_of(const ExtractionSummary& s) {
@@ -47,10 +50,10 @@ Json json_of(const ExtractionSummary& s) {
            {{"true_positive", d.all.true_positive},
             {"false_negative", d.all.false_negative},
             {"false_positive", d.all.false_positive},
-            {"sensitivity", number(d.all.sensitivity())},
-            {"ppv", number(d.all.ppv())},
-            {"mean_grade_difference", number(d.mean_grade_difference)},
-            {"weighted_kappa", number(d.weighted_kappa)}}},
+            {"sensitivity", json_number(d.all.sensitivity())},
+            {"ppv", json_number(d.all.ppv())},
+            {"mean_grade_difference", json_number(d.mean_grade_difference)},
+            {"weighted_kappa", json_number(d.weighted_kappa)}}},
           {"most_seconds", s.most_seconds},
           {"most_mb", s.most_mb}};
 }

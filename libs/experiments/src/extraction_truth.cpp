@@ -13,14 +13,14 @@ namespace ostia::experiments {
 namespace fs = std::filesystem;
 namespace {
 
-using Json = nlohmann::json;
+using TruthJson = nlohmann::json;
 
 /// As the found ones are graded: by the diameter of the circle with the lumen's area. The case's own
 /// `diameter_stenosis` is of the mean distance from the axis, which in an eccentric lumen is less.
-std::vector<evaluation::Lesion> lesions_of(const Json& facts) {
+std::vector<evaluation::Lesion> lesions_of(const TruthJson& facts) {
   std::vector<evaluation::Lesion> lesions;
-  for (const Json& vessel : facts.at("vessels"))
-    for (const Json& one : vessel.at("stenoses"))
+  for (const TruthJson& vessel : facts.at("vessels"))
+    for (const TruthJson& one : vessel.at("stenoses"))
       lesions.push_back({vessel.at("name"), one.at("s_from_mm"), one.at("s_to_mm"), one.at("s_throat_mm"),
                          1.0 - std::sqrt(1.0 - one.at("area_stenosis").get<double>())});
   return lesions;
@@ -49,11 +49,11 @@ ExtractionTruth read_extraction_truth(const fs::path& folder) {
   truth.contours = io::read_contours(folder / "contours.json");
   std::map<std::string, fs::path> annotated;
   try {
-    const Json facts = Json::parse(core::read_file(folder / "case.json"));
+    const TruthJson facts = TruthJson::parse(core::read_file(folder / "case.json"));
     truth.lesions = lesions_of(facts);
-    for (const Json& one : facts.at("data_set_vessels"))
+    for (const TruthJson& one : facts.at("data_set_vessels"))
       annotated[one.at("vessel")] = folder / one.at("folder").get<std::string>() / "reference.txt";
-  } catch (const Json::exception& error) {
+  } catch (const TruthJson::exception& error) {
     throw InvalidInput(truth.case_name + "/case.json: " + error.what());
   }
   for (const geometry::Vessel& vessel : truth.tree.vessels) {

@@ -14,13 +14,13 @@ constexpr std::size_t kept_steps = 8;
 constexpr double enough_descent = 1e-4, enough_bend = 0.9;  // of the Wolfe conditions
 constexpr int most_trials = 40;
 
-struct Step {
+struct LineStep {
   VectorXd way, change;  // of place and gradient
   double inverse = 0.0;  // of their product
 };
 
 /// The two loops of Nocedal 1980: minus the approximate inverse of the second derivatives times the gradient.
-VectorXd direction(const std::deque<Step>& steps, const VectorXd& gradient) {
+VectorXd direction(const std::deque<LineStep>& steps, const VectorXd& gradient) {
   if (steps.empty()) return -gradient / gradient.norm();
   VectorXd d = -gradient;
   std::vector<double> shares(steps.size());
@@ -70,7 +70,7 @@ Minimum minimise(const SmoothFunction& function, VectorXd start, int most_iterat
   VectorXd gradient(at.place.size());
   at.value = function(at.place, gradient);
   ++at.evaluations;
-  std::deque<Step> steps;
+  std::deque<LineStep> steps;
   while (at.iterations < most_iterations) {
     task.throw_if_cancelled();
     task.set_progress(static_cast<double>(at.iterations) / most_iterations);
@@ -86,7 +86,7 @@ Minimum minimise(const SmoothFunction& function, VectorXd start, int most_iterat
       continue;
     }
     ++at.iterations;
-    Step step{at.place - place, gradient - slope};
+    LineStep step{at.place - place, gradient - slope};
     const double product = step.way.dot(step.change);
     if (product > 0.0) {
       step.inverse = 1.0 / product;

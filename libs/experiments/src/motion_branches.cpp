@@ -10,7 +10,7 @@
 
 namespace ostia::experiments {
 
-using analysis::BranchMeasure;
+using analysis::MotionMeasure;
 using geometry::Vec3;
 
 namespace {
@@ -101,7 +101,7 @@ std::vector<BranchRun> branch_runs(const BeatingHeart& heart, const geometry::Ca
                                    [&](const auto& branch) { return branch.name == known.name; });
     if (same == fitted.branches.end()) continue;
     for (std::size_t k = 0; k < heart.phases.size(); ++k) {
-      const auto value = [&](const analysis::BranchMotion& of, BranchMeasure measure) {
+      const auto value = [&](const analysis::BranchMotion& of, MotionMeasure measure) {
         const std::vector<double>& values = of[measure].values;
         return k < values.size() ? values[k] : analysis::not_measured;
       };
@@ -111,17 +111,17 @@ std::vector<BranchRun> branch_runs(const BeatingHeart& heart, const geometry::Ca
       run.depth = depth;
       run.branch = known.name;
       run.length_mm = known.length_mm;
-      run.stretch = value(*same, BranchMeasure::stretch);
-      run.true_stretch = value(known, BranchMeasure::stretch);
-      run.torsion = value(*same, BranchMeasure::torsion_mean);
-      run.true_torsion = value(known, BranchMeasure::torsion_mean);
-      run.template_torsion = known[BranchMeasure::torsion_mean].at_template;
-      run.size = value(*same, BranchMeasure::torsion_size);
-      run.true_size = value(known, BranchMeasure::torsion_size);
-      run.template_size = known[BranchMeasure::torsion_size].at_template;
-      run.curvature = value(*same, BranchMeasure::curvature_mean);
-      run.true_curvature = value(known, BranchMeasure::curvature_mean);
-      run.template_curvature = known[BranchMeasure::curvature_mean].at_template;
+      run.stretch = value(*same, MotionMeasure::stretch);
+      run.true_stretch = value(known, MotionMeasure::stretch);
+      run.torsion = value(*same, MotionMeasure::torsion_mean);
+      run.true_torsion = value(known, MotionMeasure::torsion_mean);
+      run.template_torsion = known[MotionMeasure::torsion_mean].at_template;
+      run.size = value(*same, MotionMeasure::torsion_size);
+      run.true_size = value(known, MotionMeasure::torsion_size);
+      run.template_size = known[MotionMeasure::torsion_size].at_template;
+      run.curvature = value(*same, MotionMeasure::curvature_mean);
+      run.true_curvature = value(known, MotionMeasure::curvature_mean);
+      run.template_curvature = known[MotionMeasure::curvature_mean].at_template;
       runs.push_back(run);
     }
   }

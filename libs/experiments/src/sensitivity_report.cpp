@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string fixed(double value, int decimals) {
+std::string signed_number(double value, int decimals) {
   char text[48];
   std::snprintf(text, sizeof text, "%+.*f", decimals, value);
   return text;
@@ -129,9 +129,10 @@ void add_table(figure::HtmlReport& page, const std::vector<ParameterRun>& runs,
       std::vector<std::string> row{run.name, s.setting.name + (v == run.standard ? " (default)" : "")};
       for (std::size_t c = 0; c < s.cases.size(); ++c) {
         const LumenFigures &f = s.cases[c], &t = result.truth[c];
-        row.insert(row.end(), {fixed(percent(f.volume_mm3, t.volume_mm3), 2),
-                               fixed(f.mean_diameter_mm - t.mean_diameter_mm, 3),
-                               fixed(f.least_diameter_mm - t.least_diameter_mm, 3), fixed(f.axis_mm, 3)});
+        row.insert(row.end(), {signed_number(percent(f.volume_mm3, t.volume_mm3), 2),
+                               signed_number(f.mean_diameter_mm - t.mean_diameter_mm, 3),
+                               signed_number(f.least_diameter_mm - t.least_diameter_mm, 3),
+                               signed_number(f.axis_mm, 3)});
       }
       row.push_back(s.failure.empty() ? (v == run.standard ? run.verdict : "") : s.failure);
       rows.push_back(std::move(row));

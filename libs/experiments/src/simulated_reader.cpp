@@ -19,7 +19,7 @@ namespace {
 using geometry::AxisCurve;
 using geometry::Vec2;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
 constexpr double farthest_mm = 8.0;    // a wall is looked for so far from the axis
 constexpr double beyond_mm = 1.5;      // a stroke that reaches an end of the overlay runs on so far

@@ -18,11 +18,11 @@ std::string compared_at(const Figures& surfaces) {
 
 namespace {
 
-using Value = double (*)(const SurfaceFigures&);
+using FigureValue = double (*)(const SurfaceFigures&);
 
 /// One curve over those of a kind in one orientation.
-figure::Series curve(const Figures& surfaces, SurfaceKind kind, const std::string& orientation, Value x,
-                     Value y, const std::string& name) {
+figure::Series curve(const Figures& surfaces, SurfaceKind kind, const std::string& orientation, FigureValue x,
+                     FigureValue y, const std::string& name) {
   figure::Series out;
   out.name = name;
   for (const SurfaceFigures& s : surfaces) {
@@ -71,7 +71,8 @@ figure::Picture scans_plot(const Figures& surfaces) {
 }
 
 /// Figures 5(b) and 5(c).
-figure::Picture triangles_plot(const Figures& surfaces, Value value, const char* title, const char* label) {
+figure::Picture triangles_plot(const Figures& surfaces, FigureValue value, const char* title,
+                               const char* label) {
   const std::string at = compared_at(surfaces);
   figure::PlotOptions how;
   how.title = title;

@@ -21,7 +21,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Figures = std::vector<SurfaceFigures>;
 
-std::string fixed(double value, int decimals) {
+std::string smoothness_number(double value, int decimals) {
   char text[64];
   std::snprintf(text, sizeof text, "%.*f", decimals, value);
   return text;
@@ -54,7 +54,7 @@ std::string level_name(SurfaceKind kind, int level) {
 }
 
 /// NaN is no number in JSON.
-Json number(double value) {
+Json json_figure(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
@@ -64,10 +64,10 @@ Json json_of(const SurfaceFigures& s) {
            {"parameter", s.parameter},
            {"triangles", s.triangles}};
   for (const auto& [name, bend] : {std::pair{"tubes", &s.tubes}, {"wall", &s.wall}, {"whole", &s.whole}})
-    out[name] = {{"rms_kappa1_per_mm", number(bend->rms_kappa1)},
-                 {"rms_kappa2_per_mm", number(bend->rms_kappa2)},
-                 {"trimmed_kappa1_per_mm", number(bend->trimmed_kappa1)},
-                 {"trimmed_kappa2_per_mm", number(bend->trimmed_kappa2)},
+    out[name] = {{"rms_kappa1_per_mm", json_figure(bend->rms_kappa1)},
+                 {"rms_kappa2_per_mm", json_figure(bend->rms_kappa2)},
+                 {"trimmed_kappa1_per_mm", json_figure(bend->trimmed_kappa1)},
+                 {"trimmed_kappa2_per_mm", json_figure(bend->trimmed_kappa2)},
                  {"vertices", bend->vertices}};
   out["rms_sd_mm"] = s.rms_mm;
   out["hausdorff_mm"] = s.hausdorff_mm;
@@ -88,10 +88,10 @@ std::string rows_of(const Figures& surfaces) {
   for (const SurfaceFigures& s : surfaces) {
     text += s.orientation + "," + name_of(s) + "," + std::to_string(s.triangles);
     for (const Bending* b : {&s.tubes, &s.wall, &s.whole})
-      text += "," + fixed(b->rms_kappa1, 5) + "," + fixed(b->rms_kappa2, 5);
-    text += "," + fixed(s.tubes.trimmed_kappa1, 5);
+      text += "," + smoothness_number(b->rms_kappa1, 5) + "," + smoothness_number(b->rms_kappa2, 5);
+    text += "," + smoothness_number(s.tubes.trimmed_kappa1, 5);
     for (const double d : {s.rms_mm, s.hausdorff_mm, s.tubes_rms_mm, s.true_rms_mm, s.tubes_true_mean_mm})
-      text += "," + fixed(d, 4);
+      text += "," + smoothness_number(d, 4);
     text += std::string(s.closed ? ",yes," : ",no,") + std::to_string(s.self_intersections) + "\n";
   }
   return text;
@@ -100,20 +100,22 @@ std::string rows_of(const Figures& surfaces) {
 void add_tables(figure::HtmlReport& page, const Figures& surfaces) {
   std::vector<std::vector<std::string>> rows;
   for (const LevelSummary& l : summarize(surfaces))
-    rows.push_back({level_name(l.kind, l.level), std::to_string(l.scans), fixed(l.mean_rms_mm, 3),
-                    fixed(l.worst_rms_mm, 3), fixed(l.worst_hausdorff_mm, 2), fixed(l.worst_tubes_rms_mm, 3),
-                    fixed(l.worst_true_rms_mm, 3), fixed(l.worst_kappa1_tubes, 3),
-                    fixed(l.worst_kappa1_wall, 3), fixed(l.worst_kappa1, 3),
-                    std::to_string(l.self_intersections)});
+    rows.push_back({level_name(l.kind, l.level), std::to_string(l.scans), smoothness_number(l.mean_rms_mm, 3),
+                    smoothness_number(l.worst_rms_mm, 3), smoothness_number(l.worst_hausdorff_mm, 2),
+                    smoothness_number(l.worst_tubes_rms_mm, 3), smoothness_number(l.worst_true_rms_mm, 3),
+                    smoothness_number(l.worst_kappa1_tubes, 3), smoothness_number(l.worst_kappa1_wall, 3),
+                    smoothness_number(l.worst_kappa1, 3), std::to_string(l.self_intersections)});
   page.table({"level", "scans", "RMS distance: mean", "worst", "Hausdorff", "RMS of the tubes",
               "to the truth", "kappa1: tubes", "with joints", "with ends", "self-intersections"},
              rows, "Distances from the scan's isosurface in mm, curvatures in 1/mm; the worst of all scans.");
   rows.clear();
   for (const SurfaceFigures& s : surfaces)
-    rows.push_back({s.orientation, name_of(s), std::to_string(s.triangles), fixed(s.tubes.rms_kappa1, 3),
-                    fixed(s.tubes.trimmed_kappa1, 3), fixed(s.tubes.rms_kappa2, 3),
-                    fixed(s.wall.rms_kappa1, 3), fixed(s.whole.rms_kappa1, 3), fixed(s.rms_mm, 3),
-                    fixed(s.hausdorff_mm, 2), fixed(s.true_rms_mm, 3), fixed(s.tubes_true_mean_mm, 3)});
+    rows.push_back({s.orientation, name_of(s), std::to_string(s.triangles),
+                    smoothness_number(s.tubes.rms_kappa1, 3), smoothness_number(s.tubes.trimmed_kappa1, 3),
+                    smoothness_number(s.tubes.rms_kappa2, 3), smoothness_number(s.wall.rms_kappa1, 3),
+                    smoothness_number(s.whole.rms_kappa1, 3), smoothness_number(s.rms_mm, 3),
+                    smoothness_number(s.hausdorff_mm, 2), smoothness_number(s.true_rms_mm, 3),
+                    smoothness_number(s.tubes_true_mean_mm, 3)});
   page.section("Surface by surface");
   page.table({"orientation", "surface", "triangles", "kappa1: tubes", "without 1 %", "kappa2: tubes",
               "kappa1 with joints", "kappa1 with ends", "RMS distance", "Hausdorff", "to the truth",
@@ -124,7 +126,7 @@ void add_tables(figure::HtmlReport& page, const Figures& surfaces) {
 }  // namespace
 
 std::string name_of(const SurfaceFigures& s) {
-  const std::string number = std::to_string(static_cast<int>(std::lround(s.parameter)));
+  const std::string json_figure = std::to_string(static_cast<int>(std::lround(s.parameter)));
   switch (s.kind) {
     case SurfaceKind::isosurface:
       return "S0";
@@ -135,7 +137,7 @@ std::string name_of(const SurfaceFigures& s) {
     case SurfaceKind::decimated:
       return "S0 less " + std::to_string(static_cast<int>(std::lround(100.0 * s.parameter))) + " %";
     default:
-      return "S0 smoothed " + number + " times";
+      return "S0 smoothed " + json_figure + " times";
   }
 }
 
@@ -231,8 +233,9 @@ void write_smoothness_report(const fs::path& folder, const Figures& surfaces,
       "with the second moments of S0's sections. kappa1 is the lesser principal curvature, 0 along a "
       "straight tube, by a quadric over each "
       "vertex and its direct neighbours. Tubes: what is farther than " +
-      fixed(options.clear_mm, 1) + " mm from a joint and from a free end.");
-  page.picture(distances, "Left: each scan at each level. Right: one scan, against the number of triangles.");
+      smoothness_number(options.clear_mm, 1) + " mm from a joint and from a free end.");
+  page.picture(distances,
+               "Left: each scan at each level. Right: one scan, against the number of triangles.");
   page.picture(bends,
                "Left: curvature against triangles. Right: an isosurface with the triangles of L1, smoothed.");
   add_tables(page, surfaces);

@@ -20,7 +20,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string fixed(double value, int decimals) {
+std::string chain_number(double value, int decimals) {
   char text[64];
   std::snprintf(text, sizeof text, "%.*f", decimals, value);
   return text;
@@ -55,11 +55,11 @@ std::string rows_of(const ChainResult& result) {
       "sides,spacing,level,triangles,share,rms_sd_mm,msd_mm,hd95_mm,hausdorff_mm,signed_mean_mm,closed,self_"
       "intersections\n";
   for (const ChainSurface& s : result.surfaces) {
-    text += std::to_string(s.how.sides) + "," + fixed(s.how.spacing, 2) + "," + std::to_string(s.how.level) +
-            "," + std::to_string(s.triangles) + "," + fixed(s.share, 5);
+    text += std::to_string(s.how.sides) + "," + chain_number(s.how.spacing, 2) + "," +
+            std::to_string(s.how.level) + "," + std::to_string(s.triangles) + "," + chain_number(s.share, 5);
     for (const double d :
          {s.apart.rms_sd_mm, s.apart.msd_mm, s.apart.hd95_mm, s.apart.max_sd_mm, s.apart.signed_mean_mm})
-      text += "," + fixed(d, 4);
+      text += "," + chain_number(d, 4);
     text += std::string(s.closed ? ",yes," : ",no,") + std::to_string(s.self_intersections) + "\n";
   }
   return text;
@@ -72,7 +72,7 @@ const ChainSurface& shown(const ChainResult& result) {
 }
 
 /// Distances beyond this have the last colour, as in the paper.
-constexpr double farthest_mm = 3.0;
+constexpr double farthest_shown_mm = 3.0;
 
 /// Blue, green, red, as the paper's figure 6 has them.
 figure::Color distance_color(double t) {
@@ -88,7 +88,8 @@ figure::Picture isosurface_panel(const ChainResult& result, const ChainSurface& 
       evaluation::signed_distances(surface.made.surface.mesh, result.isosurface, task.sub(0.0, 0.3));
   figure::MeshActor actor;
   actor.mesh = result.isosurface;
-  for (const double d : distance) actor.triangle_colors.push_back(distance_color(std::abs(d) / farthest_mm));
+  for (const double d : distance)
+    actor.triangle_colors.push_back(distance_color(std::abs(d) / farthest_shown_mm));
   figure::RenderOptions options = how;
   options.title = "isosurface, " + std::to_string(result.isosurface.triangles.size()) +
                   " triangles; distance 0 (blue) to 3 mm (red)";
@@ -115,8 +116,8 @@ figure::Picture surface_panel(const ChainSurface& surface, const figure::Camera&
                               const figure::RenderOptions& how, const core::TaskContext& task) {
   figure::RenderOptions options = how;
   options.title = "level " + std::to_string(surface.how.level) + ", " + std::to_string(surface.triangles) +
-                  " triangles (" + fixed(100.0 * surface.share, 1) +
-                  " %): " + fixed(surface.apart.rms_sd_mm, 2) + " mm RMS";
+                  " triangles (" + chain_number(100.0 * surface.share, 1) +
+                  " %): " + chain_number(surface.apart.rms_sd_mm, 2) + " mm RMS";
   figure::Scene scene;
   scene.meshes.push_back(actor_of(surface.made));
   return figure::scene_figure(scene, camera, options, task);
@@ -185,7 +186,7 @@ std::string chain_json(const ChainResult& r, const ChainOptions& options, const 
 }
 
 std::string chain_text(const ChainResult& r) {
-  std::string text = std::to_string(r.lines) + " lines, " + fixed(r.length_mm, 0) + " mm, " +
+  std::string text = std::to_string(r.lines) + " lines, " + chain_number(r.length_mm, 0) + " mm, " +
                      std::to_string(r.components) + " part(s), " + std::to_string(r.loops) +
                      " loop(s); isosurface of " + std::to_string(r.isosurface.triangles.size()) +
                      " triangles\n"
@@ -206,7 +207,7 @@ void write_chain_report(const fs::path& folder, const ChainResult& result, const
   const figure::Picture picture = figure_of(result, task);
   picture.write_png(folder / "figure.png", 2.0);
   figure::HtmlReport page("From a scan to a surface of quadrilaterals", "The whole chain on one scan");
-  page.paragraph(std::to_string(result.lines) + " vessels, " + fixed(result.length_mm, 0) +
+  page.paragraph(std::to_string(result.lines) + " vessels, " + chain_number(result.length_mm, 0) +
                  " mm of them, in " + std::to_string(result.components) +
                  " part(s). Distances go both ways between the isosurface and what is reconstructed from its "
                  "skeleton, ends and joints included.");
@@ -215,9 +216,10 @@ void write_chain_report(const fs::path& folder, const ChainResult& result, const
       "The isosurface, coloured by its distance from the next surface; that; and the nearest of all.");
   std::vector<std::vector<std::string>> rows;
   for (const ChainSurface& s : result.surfaces)
-    rows.push_back({std::to_string(s.how.sides), fixed(s.how.spacing, 1), std::to_string(s.how.level),
-                    std::to_string(s.triangles), fixed(100.0 * s.share, 1), fixed(s.apart.rms_sd_mm, 3),
-                    fixed(s.apart.hd95_mm, 2), fixed(s.apart.max_sd_mm, 2), s.closed ? "yes" : "no",
+    rows.push_back({std::to_string(s.how.sides), chain_number(s.how.spacing, 1), std::to_string(s.how.level),
+                    std::to_string(s.triangles), chain_number(100.0 * s.share, 1),
+                    chain_number(s.apart.rms_sd_mm, 3), chain_number(s.apart.hd95_mm, 2),
+                    chain_number(s.apart.max_sd_mm, 2), s.closed ? "yes" : "no",
                     std::to_string(s.self_intersections)});
   page.table({"sides", "spacing", "level", "triangles", "% of the isosurface's", "RMS distance", "95 %",
               "Hausdorff", "closed", "self-intersections"},

@@ -38,12 +38,12 @@ NoticeLook look_of(Notice kind) {
   return {"Note", kAccent};
 }
 
-struct Release {
+struct ReleasePdf {
   void operator()(cairo_surface_t* p) const { cairo_surface_destroy(p); }
   void operator()(cairo_t* p) const { cairo_destroy(p); }
 };
 
-cairo_status_t append(void* text, const unsigned char* bytes, unsigned int count) {
+cairo_status_t append_pdf(void* text, const unsigned char* bytes, unsigned int count) {
   try {
     static_cast<std::string*>(text)->append(reinterpret_cast<const char*>(bytes), count);
   } catch (...) {
@@ -52,7 +52,7 @@ cairo_status_t append(void* text, const unsigned char* bytes, unsigned int count
   return CAIRO_STATUS_SUCCESS;
 }
 
-void check(cairo_status_t status) {
+void check_pdf(cairo_status_t status) {
   if (status != CAIRO_STATUS_SUCCESS)
     throw ResourceError(std::string("a PDF could not be made: ") + cairo_status_to_string(status));
 }
@@ -210,8 +210,8 @@ std::string PdfDocument::pdf() const {
   PageFlow set = impl_->flow;
   set.finish();
   std::string bytes;
-  const std::unique_ptr<cairo_surface_t, Release> surface(
-      cairo_pdf_surface_create_for_stream(append, &bytes, kPoints * page_width_px, kPoints * page_height_px));
+  const std::unique_ptr<cairo_surface_t, ReleasePdf> surface(cairo_pdf_surface_create_for_stream(
+      append_pdf, &bytes, kPoints * page_width_px, kPoints * page_height_px));
   // Cairo would write the time of day, and with it no two files would be the same.
   cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE, "");
   const std::string title = cut_to(impl_->title, 10.0, false, 4000.0);
@@ -225,16 +225,16 @@ std::string PdfDocument::pdf() const {
                                   CAIRO_PDF_OUTLINE_FLAG_OPEN);
   }
   {
-    const std::unique_ptr<cairo_t, Release> context(cairo_create(surface.get()));
+    const std::unique_ptr<cairo_t, ReleasePdf> context(cairo_create(surface.get()));
     cairo_scale(context.get(), kPoints, kPoints);
     for (std::size_t i = 0; i < set.pages().size(); ++i) {
       impl_->page(set, i).drawing().replay(context.get());
       cairo_show_page(context.get());
-      check(cairo_status(context.get()));
+      check_pdf(cairo_status(context.get()));
     }
   }
   cairo_surface_finish(surface.get());
-  check(cairo_surface_status(surface.get()));
+  check_pdf(cairo_surface_status(surface.get()));
   return bytes;
 }
 

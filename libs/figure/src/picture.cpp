@@ -18,14 +18,14 @@
 namespace ostia::figure {
 namespace {
 
-struct Release {
+struct ReleasePicture {
   void operator()(cairo_surface_t* p) const { cairo_surface_destroy(p); }
   void operator()(cairo_t* p) const { cairo_destroy(p); }
 };
-using Surface = std::unique_ptr<cairo_surface_t, Release>;
-using Context = std::unique_ptr<cairo_t, Release>;
+using Surface = std::unique_ptr<cairo_surface_t, ReleasePicture>;
+using Context = std::unique_ptr<cairo_t, ReleasePicture>;
 
-cairo_status_t append(void* text, const unsigned char* bytes, unsigned int count) {
+cairo_status_t append_picture(void* text, const unsigned char* bytes, unsigned int count) {
   try {
     static_cast<std::string*>(text)->append(reinterpret_cast<const char*>(bytes), count);
   } catch (...) {
@@ -34,7 +34,7 @@ cairo_status_t append(void* text, const unsigned char* bytes, unsigned int count
   return CAIRO_STATUS_SUCCESS;
 }
 
-void check(cairo_status_t status) {
+void check_picture(cairo_status_t status) {
   if (status != CAIRO_STATUS_SUCCESS) {
     throw ResourceError(std::string("a figure could not be drawn: ") + cairo_status_to_string(status));
   }
@@ -55,7 +55,7 @@ Surface painted(const Drawing& drawing, double density, cairo_format_t format) {
   }
   cairo_scale(context.get(), density, density);
   drawing.replay(context.get());
-  check(cairo_status(context.get()));
+  check_picture(cairo_status(context.get()));
   cairo_surface_flush(surface.get());
   return surface;
 }
@@ -69,10 +69,10 @@ std::string vector_file(const Drawing& drawing, double unit, const Create& creat
     const Context context(cairo_create(surface.get()));
     cairo_scale(context.get(), unit, unit);
     drawing.replay(context.get());
-    check(cairo_status(context.get()));
+    check_picture(cairo_status(context.get()));
   }
   cairo_surface_finish(surface.get());
-  check(cairo_surface_status(surface.get()));
+  check_picture(cairo_surface_status(surface.get()));
   return bytes;
 }
 
@@ -142,13 +142,13 @@ Raster Picture::raster(double density) const {
 std::string Picture::png(double density) const {
   const Surface surface = painted(*drawing_, density, CAIRO_FORMAT_RGB24);
   std::string bytes;
-  check(cairo_surface_write_to_png_stream(surface.get(), append, &bytes));
+  check_picture(cairo_surface_write_to_png_stream(surface.get(), append_picture, &bytes));
   return bytes;
 }
 
 std::string Picture::svg() const {
   return renumbered(vector_file(*drawing_, 1.0, [](std::string* bytes, double width, double height) {
-    cairo_surface_t* surface = cairo_svg_surface_create_for_stream(append, bytes, width, height);
+    cairo_surface_t* surface = cairo_svg_surface_create_for_stream(append_picture, bytes, width, height);
     cairo_svg_surface_set_document_unit(surface, CAIRO_SVG_UNIT_PX);
     return surface;
   }));
@@ -157,7 +157,7 @@ std::string Picture::svg() const {
 std::string Picture::pdf() const {
   constexpr double kPointsPerPixel = 0.75;
   return vector_file(*drawing_, kPointsPerPixel, [](std::string* bytes, double width, double height) {
-    cairo_surface_t* surface = cairo_pdf_surface_create_for_stream(append, bytes, width, height);
+    cairo_surface_t* surface = cairo_pdf_surface_create_for_stream(append_picture, bytes, width, height);
     // Cairo would write the time of day, and with it no two files would be the same.
     cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, "");
     return surface;

@@ -37,13 +37,13 @@ void validate(const reformat::PlaneImage& image, const SliceFigureOptions& optio
 }
 
 /// Where the image lies in the figure.
-struct Layout {
+struct SliceLayout {
   double left = 0, top = 0, width = 0, height = 0;
   double zoom = 1.0;  ///< figure pixels an image pixel
   Vec2 at(const Vec2& picture_px) const { return Vec2(left, top) + zoom * picture_px; }
 };
 
-void draw_rulers(Canvas& canvas, const reformat::Plane& plane, const Layout& layout, const Theme& look) {
+void draw_rulers(Canvas& canvas, const reformat::Plane& plane, const SliceLayout& layout, const Theme& look) {
   const double bottom = layout.top + layout.height;
   const auto count = [](double length_px) { return std::max(2, static_cast<int>(length_px / 75.0)); };
   const Ruler across = horizontal_ruler(plane, count(layout.width));
@@ -73,7 +73,7 @@ void draw_rulers(Canvas& canvas, const reformat::Plane& plane, const Layout& lay
               {.size_px = 11.5, .color = look.muted, .across = Align::middle, .upwards = true});
 }
 
-void draw_contours(Canvas& canvas, const reformat::Plane& plane, const Layout& layout,
+void draw_contours(Canvas& canvas, const reformat::Plane& plane, const SliceLayout& layout,
                    const std::vector<SliceContour>& contours) {
   for (const SliceContour& contour : contours) {
     for (const auto& line : contour.lines) {
@@ -84,7 +84,7 @@ void draw_contours(Canvas& canvas, const reformat::Plane& plane, const Layout& l
   }
 }
 
-void draw_points(Canvas& canvas, const reformat::Plane& plane, const Layout& layout,
+void draw_points(Canvas& canvas, const reformat::Plane& plane, const SliceLayout& layout,
                  const std::vector<SlicePoint>& points, double reach_mm) {
   for (const SlicePoint& point : points) {
     const reformat::PlanePoint at = reformat::project(plane, point.position);
@@ -98,7 +98,7 @@ void draw_points(Canvas& canvas, const reformat::Plane& plane, const Layout& lay
   }
 }
 
-void draw_crosshair(Canvas& canvas, const reformat::Plane& plane, const Layout& layout,
+void draw_crosshair(Canvas& canvas, const reformat::Plane& plane, const SliceLayout& layout,
                     const Vec3& position) {
   const Vec2 at = layout.at(reformat::project(plane, position).picture_px);
   const Color color{0.35, 0.75, 0.95, 0.65};
@@ -109,7 +109,7 @@ void draw_crosshair(Canvas& canvas, const reformat::Plane& plane, const Layout& 
   canvas.line({at.x(), at.y() + kGap}, {at.x(), layout.top + layout.height}, color, 0.9);
 }
 
-void draw_letters(Canvas& canvas, const reformat::Plane& plane, const Layout& layout) {
+void draw_letters(Canvas& canvas, const reformat::Plane& plane, const SliceLayout& layout) {
   const auto letter = [&](double x, double y, const Vec3& direction, Align across, Align along) {
     canvas.text(
         {layout.left + x, layout.top + y}, reformat::patient_letters(direction),
@@ -134,7 +134,7 @@ std::string plane_name(const reformat::Plane& plane) {
   return {};
 }
 
-void draw_notes(Canvas& canvas, const reformat::Plane& plane, const Layout& layout,
+void draw_notes(Canvas& canvas, const reformat::Plane& plane, const SliceLayout& layout,
                 const std::vector<SliceContour>& contours, const SliceFigureOptions& options) {
   const TextStyle note{.size_px = 11.5, .color = kOnImage, .halo = kHalo};
   if (options.plane_name) canvas.text({layout.left + 8.0, layout.top + 6.0}, plane_name(plane), note);
@@ -179,7 +179,7 @@ Raster grey_raster(const reformat::PlaneImage& image, double level_hu, double wi
 Picture slice_figure(const reformat::PlaneImage& image, const std::vector<SliceContour>& contours,
                      const std::vector<SlicePoint>& points, const SliceFigureOptions& options) {
   validate(image, options);
-  Layout layout;
+  SliceLayout layout;
   layout.zoom = static_cast<double>(options.image_width_px) / image.plane.width;
   layout.width = options.image_width_px;
   layout.height = std::max(1.0, std::round(layout.zoom * image.plane.height));

@@ -41,7 +41,7 @@ Raster grey(const StripPanel& panel, const StripFigureOptions& options) {
 }
 
 /// Where things lie.
-struct Layout {
+struct StripLayout {
   double top = 0.0, height = 0.0, zoom = 1.0, first_mm = 0.0, px_per_mm = 1.0;
   std::vector<double> left, width;
   double right() const { return left.back() + width.back(); }
@@ -49,8 +49,8 @@ struct Layout {
   double last_mm() const { return first_mm + height / px_per_mm; }
 };
 
-Layout layout_of(const std::vector<StripPanel>& panels, const StripFigureOptions& options) {
-  Layout layout;
+StripLayout layout_of(const std::vector<StripPanel>& panels, const StripFigureOptions& options) {
+  StripLayout layout;
   layout.zoom = options.pixel_mm * options.px_per_mm;
   layout.first_mm = options.first_mm;
   layout.px_per_mm = options.px_per_mm;
@@ -68,7 +68,7 @@ Layout layout_of(const std::vector<StripPanel>& panels, const StripFigureOptions
   return layout;
 }
 
-void draw_panel(Canvas& canvas, const StripPanel& panel, const Raster& image, const Layout& layout,
+void draw_panel(Canvas& canvas, const StripPanel& panel, const Raster& image, const StripLayout& layout,
                 std::size_t n, const StripFigureOptions& options) {
   const double left = layout.left[n], width = layout.width[n];
   if (!panel.title.empty())
@@ -84,7 +84,7 @@ void draw_panel(Canvas& canvas, const StripPanel& panel, const Raster& image, co
   }
 }
 
-void draw_ruler(Canvas& canvas, const Layout& layout, const Theme& look) {
+void draw_ruler(Canvas& canvas, const StripLayout& layout, const Theme& look) {
   const int count = std::max(2, static_cast<int>(layout.height / 45.0));
   const std::vector<double> ticks = nice_ticks(layout.first_mm, layout.last_mm(), count);
   const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : 1.0;
@@ -98,7 +98,7 @@ void draw_ruler(Canvas& canvas, const Layout& layout, const Theme& look) {
 }
 
 /// Brackets right of the panels, with their labels moved apart where they would overlap.
-void draw_marks(Canvas& canvas, const std::vector<StripMark>& marks, const Layout& layout) {
+void draw_marks(Canvas& canvas, const std::vector<StripMark>& marks, const StripLayout& layout) {
   std::vector<StripMark> sorted = marks;
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const StripMark& a, const StripMark& b) { return a.at_mm < b.at_mm; });
@@ -131,7 +131,7 @@ void draw_marks(Canvas& canvas, const std::vector<StripMark>& marks, const Layou
 Picture strip_figure(const std::vector<StripPanel>& panels, const std::vector<StripMark>& marks,
                      const StripFigureOptions& options) {
   validate(panels, options);
-  const Layout layout = layout_of(panels, options);
+  const StripLayout layout = layout_of(panels, options);
   const Theme look = theme(options.look);
   double label = 0.0;
   for (const StripMark& mark : marks)

@@ -66,11 +66,11 @@ struct Ray {
 /// Twice the signed area of (ray, a, b) in the plane across the ray. A zero is settled as if the ray stood a
 /// hair off towards +x and a hair of a hair towards +y, the same for every triangle: a ray through an edge or
 /// a corner then hits one triangle of the fan, no more and no less.
-struct Side {
+struct BoxSide {
   double value;
   int sign;
 };
-Side side(const Vec2& a, const Vec2& b) {
+BoxSide side(const Vec2& a, const Vec2& b) {
   const double value = a.x() * b.y() - a.y() * b.x();
   if (value != 0.0) return {value, value > 0.0 ? 1 : -1};
   if (a.y() != b.y()) return {0.0, a.y() > b.y() ? 1 : -1};
@@ -87,7 +87,7 @@ double crossing(const Ray& ray, const CornerPoints& p) {
     flat[i] = {q[ray.kx] - ray.sx * q[ray.kz], q[ray.ky] - ray.sy * q[ray.kz]};
     depth[i] = ray.sz * q[ray.kz];
   }
-  const Side u = side(flat[1], flat[2]), v = side(flat[2], flat[0]), w = side(flat[0], flat[1]);
+  const BoxSide u = side(flat[1], flat[2]), v = side(flat[2], flat[0]), w = side(flat[0], flat[1]);
   if (u.sign == 0 || u.sign != v.sign || v.sign != w.sign) return -1.0;
   const double sum = u.value + v.value + w.value;
   if (sum == 0.0) return -1.0;

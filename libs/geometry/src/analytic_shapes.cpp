@@ -10,7 +10,7 @@
 namespace ostia::geometry {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double radians(double degrees) {
   return degrees * pi / 180.0;
 }

@@ -13,7 +13,7 @@ constexpr int bin_count = 12;
 constexpr int balanced_from_depth = 60;
 constexpr std::size_t parallel_from = 1u << 15;  // items; below, a task costs more than it gains
 
-struct Item {
+struct BoxItem {
   BvhBox box;
   double middle[3];
   std::int32_t index;
@@ -29,10 +29,10 @@ struct Split {
 using Nodes = std::vector<BvhNode>;
 
 struct Builder {
-  std::vector<Item> items;
+  std::vector<BoxItem> items;
   int leaf_size = 4;
 
-  int bin_of(const Item& item, const Split& split) const {
+  int bin_of(const BoxItem& item, const Split& split) const {
     return std::min(bin_count - 1, static_cast<int>((item.middle[split.axis] - split.lower) * split.scale));
   }
 
@@ -83,7 +83,7 @@ struct Builder {
     }
     const std::size_t half = first + (last - first) / 2;
     const auto at = [&](std::size_t i) { return items.begin() + static_cast<std::ptrdiff_t>(i); };
-    std::nth_element(at(first), at(half), at(last), [axis](const Item& a, const Item& b) {
+    std::nth_element(at(first), at(half), at(last), [axis](const BoxItem& a, const BoxItem& b) {
       return a.middle[axis] < b.middle[axis] || (a.middle[axis] == b.middle[axis] && a.index < b.index);
     });
     return half;
@@ -96,7 +96,7 @@ struct Builder {
     const auto begin = items.begin();
     const auto middle =
         std::partition(begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(last),
-                       [&](const Item& item) { return bin_of(item, split) < split.bin; });
+                       [&](const BoxItem& item) { return bin_of(item, split) < split.bin; });
     return static_cast<std::size_t>(middle - begin);
   }
 
@@ -157,7 +157,7 @@ Bvh build_bvh(const std::vector<BvhBox>& boxes, int leaf_size) {
   builder.leaf_size = leaf_size;
   builder.items.resize(boxes.size());
   for (std::size_t i = 0; i < boxes.size(); ++i) {
-    Item& item = builder.items[i];
+    BoxItem& item = builder.items[i];
     item.box = boxes[i];
     item.index = static_cast<std::int32_t>(i);
     for (int a = 0; a < 3; ++a) item.middle[a] = 0.5 * boxes[i].lower[a] + 0.5 * boxes[i].upper[a];

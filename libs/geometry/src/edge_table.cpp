@@ -44,7 +44,7 @@ std::vector<HalfEdge> half_edges(const TriMesh& mesh) {
 
 namespace {
 
-constexpr std::size_t parts = 32, grain = 1 << 16;
+constexpr std::size_t parts = 32, edge_grain = 1 << 16;
 
 std::uint64_t hash_of(const Vec3& point) {
   std::uint64_t hash = 0;
@@ -62,10 +62,10 @@ struct PointParts {
 };
 
 PointParts parted(const std::vector<std::uint32_t>& hashes) {
-  const std::size_t chunks = (hashes.size() + grain - 1) / grain;
+  const std::size_t chunks = (hashes.size() + edge_grain - 1) / edge_grain;
   std::vector<std::array<std::size_t, parts>> next(chunks);
-  core::parallel_chunks(hashes.size(), grain, [&](std::size_t begin, std::size_t end) {
-    auto& counts = next[begin / grain];
+  core::parallel_chunks(hashes.size(), edge_grain, [&](std::size_t begin, std::size_t end) {
+    auto& counts = next[begin / edge_grain];
     counts.fill(0);
     for (std::size_t i = begin; i < end; ++i) ++counts[hashes[i] % parts];
   });
@@ -77,8 +77,8 @@ PointParts parted(const std::vector<std::uint32_t>& hashes) {
   }
   sorted.first.push_back(sum);
   sorted.points.resize(sum);
-  core::parallel_chunks(hashes.size(), grain, [&](std::size_t begin, std::size_t end) {
-    auto& at = next[begin / grain];
+  core::parallel_chunks(hashes.size(), edge_grain, [&](std::size_t begin, std::size_t end) {
+    auto& at = next[begin / edge_grain];
     for (std::size_t i = begin; i < end; ++i)
       sorted.points[at[hashes[i] % parts]++] = static_cast<std::int32_t>(i);
   });
@@ -107,7 +107,7 @@ void find_first(const std::vector<Vec3>& points, const std::int32_t* begin, cons
 
 std::vector<std::int32_t> first_equal_points(const std::vector<Vec3>& points) {
   std::vector<std::uint32_t> hashes(points.size());
-  core::parallel_for(points.size(), grain,
+  core::parallel_for(points.size(), edge_grain,
                      [&](std::size_t i) { hashes[i] = static_cast<std::uint32_t>(hash_of(points[i])); });
   const PointParts sorted = parted(hashes);
   std::vector<std::int32_t> first(points.size());

@@ -17,7 +17,7 @@ constexpr std::int64_t chunk_height = 8;
 
 /// Vertices and triangles of one chunk. Vertices in the first slice come first, those in the last slice last,
 /// both in the order of the scan: so the last of one chunk are the first of the next.
-struct Part {
+struct SlabPart {
   std::vector<Vec3> points;
   std::vector<Triangle> triangles;
   std::int32_t before_last_slice = 0;
@@ -39,7 +39,7 @@ class Chunk {
     along_z_.resize(static_cast<std::size_t>(nx_ * ny_));
   }
 
-  Part run() {
+  SlabPart run() {
     slice_vertices(0, 0);
     for (std::int64_t k = 0; k + 1 < slices_; ++k) {
       upright_vertices(k);
@@ -141,13 +141,13 @@ class Chunk {
   // Vertex on the edge that begins at a node; only read where the edge is crossed, so never cleared.
   std::array<std::vector<std::int32_t>, 2> across_x_, across_y_;
   std::vector<std::int32_t> along_z_;
-  Part part_;
+  SlabPart part_;
 };
 
-TriMesh join(std::vector<Part>& parts) {
+TriMesh join(std::vector<SlabPart>& parts) {
   std::size_t points = 0, triangles = 0;
   for (std::size_t c = 0; c < parts.size(); ++c) {
-    const Part& part = parts[c];
+    const SlabPart& part = parts[c];
     points += c + 1 < parts.size() ? static_cast<std::size_t>(part.before_last_slice) : part.points.size();
     triangles += part.triangles.size();
   }
@@ -158,7 +158,7 @@ TriMesh join(std::vector<Part>& parts) {
   mesh.points.reserve(points);
   mesh.triangles.reserve(triangles);
   for (std::size_t c = 0; c < parts.size(); ++c) {
-    Part& part = parts[c];
+    SlabPart& part = parts[c];
     // A vertex in the last slice is the next chunk's at the same place in the scan.
     const auto offset = static_cast<std::int32_t>(mesh.points.size());
     const bool shares = c + 1 < parts.size();
@@ -167,7 +167,7 @@ TriMesh join(std::vector<Part>& parts) {
     for (const Triangle& t : part.triangles) {
       mesh.triangles.push_back({offset + t[0], offset + t[1], offset + t[2]});
     }
-    part = Part{};
+    part = SlabPart{};
   }
   return mesh;
 }
@@ -185,7 +185,7 @@ TriMesh march(const MarchingCubes& job, const core::TaskContext& task) {
   const auto [nx, ny, nz] = job.size;
   if (nx < 2 || ny < 2 || nz < 2) return {};
   const auto chunks = static_cast<std::size_t>((nz - 1 + chunk_height - 1) / chunk_height);
-  std::vector<Part> parts(chunks);
+  std::vector<SlabPart> parts(chunks);
   std::atomic<std::size_t> done{0};
   core::parallel_for(chunks, 1, [&](std::size_t c) {
     task.throw_if_cancelled();

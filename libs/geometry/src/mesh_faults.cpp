@@ -39,7 +39,7 @@ class Examples {
   std::vector<std::vector<Vec3>> places_;
 };
 
-enum Kind : std::size_t {
+enum FaultKind : std::size_t {
   self_intersection,
   open_edge,
   non_manifold_edge,

@@ -21,12 +21,12 @@ constexpr Three along_15 = {{{0, 1, 2, 5}, {0, 1, 5, 4}, {0, 4, 5, 3}}};
 constexpr Three along_24 = {{{0, 1, 2, 4}, {0, 4, 2, 5}, {0, 4, 5, 3}}};
 
 /// Where a prism has its node between two corners: an edge's middle, or a quadrilateral's for its diagonals.
-constexpr std::array<std::array<int, 6>, 6> node_between = {{{-1, 0, 2, 6, 9, 11},
-                                                             {0, -1, 1, 9, 7, 10},
-                                                             {2, 1, -1, 11, 10, 8},
-                                                             {6, 9, 11, -1, 3, 5},
-                                                             {9, 7, 10, 3, -1, 4},
-                                                             {11, 10, 8, 5, 4, -1}}};
+constexpr std::array<std::array<int, 6>, 6> prism_node_between = {{{-1, 0, 2, 6, 9, 11},
+                                                                   {0, -1, 1, 9, 7, 10},
+                                                                   {2, 1, -1, 11, 10, 8},
+                                                                   {6, 9, 11, -1, 3, 5},
+                                                                   {9, 7, 10, 3, -1, 4},
+                                                                   {11, 10, 8, 5, 4, -1}}};
 
 std::array<std::array<int, 4>, 3> three_of(const Prism& prism) {
   const auto& turn = turned[static_cast<std::size_t>(std::ranges::min_element(prism) - prism.begin())];
@@ -45,7 +45,8 @@ void split_prism(const MixedMesh& mesh, std::size_t p, MixedMesh& out) {
     if (mesh.prism_nodes.empty()) continue;
     auto& nodes = out.tetrahedron_nodes.emplace_back();
     for (std::size_t e = 0; e < 6; ++e)
-      nodes[e] = mesh.prism_nodes[p][node_between[t[tetrahedron_edges[e][0]]][t[tetrahedron_edges[e][1]]]];
+      nodes[e] =
+          mesh.prism_nodes[p][prism_node_between[t[tetrahedron_edges[e][0]]][t[tetrahedron_edges[e][1]]]];
   }
 }
 

@@ -10,12 +10,12 @@ namespace {
 
 constexpr int bits = 20;  // of each axis
 constexpr int bucket_bits = 9;
-constexpr std::size_t grain = 4096;
+constexpr std::size_t leaf_grain = 4096;
 
-struct Item {
+struct MortonItem {
   std::uint64_t key;
   std::int32_t index;
-  bool operator<(const Item& other) const {
+  bool operator<(const MortonItem& other) const {
     return key < other.key || (key == other.key && index < other.index);
   }
 };
@@ -29,10 +29,10 @@ std::uint64_t spread(std::uint64_t x) {
   return (x | x << 2) & 0x1249249249249249ULL;
 }
 
-std::vector<Item> keyed(const std::vector<FloatBox>& boxes) {
+std::vector<MortonItem> keyed(const std::vector<FloatBox>& boxes) {
   constexpr float most = static_cast<float>(1 << bits) - 1.0f;
-  std::vector<Item> items(boxes.size());
-  core::parallel_for(boxes.size(), grain, [&](std::size_t i) {
+  std::vector<MortonItem> items(boxes.size());
+  core::parallel_for(boxes.size(), leaf_grain, [&](std::size_t i) {
     std::uint64_t key = 0;
     for (int a = 0; a < 3; ++a) {
       const float middle = 0.25f * (boxes[i].lower[a] + boxes[i].upper[a]) + 0.5f;
@@ -44,17 +44,17 @@ std::vector<Item> keyed(const std::vector<FloatBox>& boxes) {
 }
 
 /// Into buckets by the highest bits, which are then sorted side by side.
-std::vector<Item> sorted(const std::vector<Item>& items) {
+std::vector<MortonItem> sorted(const std::vector<MortonItem>& items) {
   constexpr std::size_t buckets = 1u << bucket_bits;
-  const auto bucket = [](const Item& item) {
+  const auto bucket = [](const MortonItem& item) {
     return static_cast<std::size_t>(item.key >> (3 * bits - bucket_bits));
   };
   std::vector<std::size_t> first(buckets + 1, 0);
-  for (const Item& item : items) ++first[bucket(item) + 1];
+  for (const MortonItem& item : items) ++first[bucket(item) + 1];
   for (std::size_t b = 0; b < buckets; ++b) first[b + 1] += first[b];
   std::vector<std::size_t> next(first.begin(), first.end() - 1);
-  std::vector<Item> result(items.size());
-  for (const Item& item : items) result[next[bucket(item)]++] = item;
+  std::vector<MortonItem> result(items.size());
+  for (const MortonItem& item : items) result[next[bucket(item)]++] = item;
   core::parallel_for(buckets, 1, [&](std::size_t b) {
     std::sort(result.begin() + static_cast<std::ptrdiff_t>(first[b]),
               result.begin() + static_cast<std::ptrdiff_t>(first[b + 1]));
@@ -63,7 +63,7 @@ std::vector<Item> sorted(const std::vector<Item>& items) {
 }
 
 std::vector<std::int32_t> morton_order(const std::vector<FloatBox>& boxes) {
-  const std::vector<Item> items = sorted(keyed(boxes));
+  const std::vector<MortonItem> items = sorted(keyed(boxes));
   std::vector<std::int32_t> order(items.size());
   for (std::size_t i = 0; i < items.size(); ++i) order[i] = items[i].index;
   return order;
@@ -87,7 +87,7 @@ double sum_of_areas(const std::vector<FloatBox>& boxes) {
     for (std::size_t i = first; i < last; ++i) part += boxes[i].half_area();
     return part;
   };
-  return core::parallel_reduce(boxes.size(), grain, 0.0, sum, [](double a, double b) { return a + b; });
+  return core::parallel_reduce(boxes.size(), leaf_grain, 0.0, sum, [](double a, double b) { return a + b; });
 }
 
 /// The items of each block in a row, the blocks in Morton order but for the last, which may have fewer.
@@ -97,7 +97,7 @@ std::vector<std::int32_t> order_of_blocks(std::vector<FloatBox> blocks, std::siz
   std::vector<std::int32_t> leaves = morton_order(blocks);
   leaves.push_back(last);
   std::vector<std::int32_t> order(count);
-  core::parallel_for(count, grain, [&](std::size_t i) {
+  core::parallel_for(count, leaf_grain, [&](std::size_t i) {
     order[i] =
         static_cast<std::int32_t>(per_leaf) * leaves[i / per_leaf] + static_cast<std::int32_t>(i % per_leaf);
   });

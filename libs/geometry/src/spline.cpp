@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector4d;
 
 // One cubic piece over [0, h] by its end values and second derivatives.
-struct Piece {
+struct SplinePiece {
   const Vector4d& p0;
   const Vector4d& p1;
   const Vector4d& m0;
@@ -35,7 +35,7 @@ struct Piece {
   double speed(double u) const { return first(u).head<3>().norm(); }
 };
 
-double gauss(const Piece& piece, double from, double to) {
+double gauss(const SplinePiece& piece, double from, double to) {
   constexpr std::array<double, 3> node{0.238619186083196909, 0.661209386466264514, 0.932469514203152028};
   constexpr std::array<double, 3> weight{0.467913934572691047, 0.360761573048138608, 0.171324492379170345};
   const double centre = 0.5 * (from + to), half = 0.5 * (to - from);
@@ -47,14 +47,14 @@ double gauss(const Piece& piece, double from, double to) {
 }
 
 // Halves until both halves agree with the whole; only a piece that nearly stops (a cusp) needs that.
-double arc_length(const Piece& piece, double from, double to, double whole, int depth) {
+double arc_length(const SplinePiece& piece, double from, double to, double whole, int depth) {
   const double middle = 0.5 * (from + to);
   const double left = gauss(piece, from, middle), right = gauss(piece, middle, to);
   if (depth == 0 || std::abs(left + right - whole) <= 1e-10 * piece.h) return left + right;
   return arc_length(piece, from, middle, left, depth - 1) + arc_length(piece, middle, to, right, depth - 1);
 }
 
-double arc_length(const Piece& piece, double to) {
+double arc_length(const SplinePiece& piece, double to) {
   return to > 0.0 ? arc_length(piece, 0.0, to, gauss(piece, 0.0, to), 16) : 0.0;
 }
 
@@ -104,7 +104,8 @@ ArcLengthSpline::ArcLengthSpline(const std::vector<Vec3>& points, const std::vec
   second_ = natural_second(knots_, values_);
   arc_.assign(1, 0.0);
   for (std::size_t i = 0; i + 1 < knots_.size(); ++i) {
-    const Piece piece{values_[i], values_[i + 1], second_[i], second_[i + 1], knots_[i + 1] - knots_[i]};
+    const SplinePiece piece{values_[i], values_[i + 1], second_[i], second_[i + 1],
+                            knots_[i + 1] - knots_[i]};
     arc_.push_back(arc_.back() + arc_length(piece, piece.h));
   }
 }
@@ -116,7 +117,7 @@ double ArcLengthSpline::length() const {
 double ArcLengthSpline::parameter(double abscissa_mm) const {
   const double s = std::clamp(abscissa_mm, 0.0, arc_.back());
   const std::size_t i = interval(arc_, s);
-  const Piece piece{values_[i], values_[i + 1], second_[i], second_[i + 1], knots_[i + 1] - knots_[i]};
+  const SplinePiece piece{values_[i], values_[i + 1], second_[i], second_[i + 1], knots_[i + 1] - knots_[i]};
   const double target = s - arc_[i], whole = arc_[i + 1] - arc_[i];
   if (target <= 0.0) return knots_[i];
   if (target >= whole) return knots_[i + 1];
@@ -134,21 +135,21 @@ double ArcLengthSpline::parameter(double abscissa_mm) const {
 Vec3 ArcLengthSpline::point(double abscissa_mm) const {
   const double t = parameter(abscissa_mm);
   const std::size_t i = interval(knots_, t);
-  const Piece piece{values_[i], values_[i + 1], second_[i], second_[i + 1], knots_[i + 1] - knots_[i]};
+  const SplinePiece piece{values_[i], values_[i + 1], second_[i], second_[i + 1], knots_[i + 1] - knots_[i]};
   return piece.value(t - knots_[i]).head<3>();
 }
 
 double ArcLengthSpline::scalar(double abscissa_mm) const {
   const double t = parameter(abscissa_mm);
   const std::size_t i = interval(knots_, t);
-  const Piece piece{values_[i], values_[i + 1], second_[i], second_[i + 1], knots_[i + 1] - knots_[i]};
+  const SplinePiece piece{values_[i], values_[i + 1], second_[i], second_[i + 1], knots_[i + 1] - knots_[i]};
   return piece.value(t - knots_[i])[3];
 }
 
 Vec3 ArcLengthSpline::tangent(double abscissa_mm) const {
   const double t = parameter(abscissa_mm);
   const std::size_t i = interval(knots_, t);
-  const Piece piece{values_[i], values_[i + 1], second_[i], second_[i + 1], knots_[i + 1] - knots_[i]};
+  const SplinePiece piece{values_[i], values_[i + 1], second_[i], second_[i + 1], knots_[i + 1] - knots_[i]};
   const Vec3 derivative = piece.first(t - knots_[i]).head<3>();
   // The speed is about 1; where it vanishes (a cusp) the chord stands in.
   if (derivative.norm() > 1e-9) return derivative.normalized();
@@ -158,7 +159,7 @@ Vec3 ArcLengthSpline::tangent(double abscissa_mm) const {
 Vec3 ArcLengthSpline::curvature_vector(double abscissa_mm) const {
   const double t = parameter(abscissa_mm);
   const std::size_t i = interval(knots_, t);
-  const Piece piece{values_[i], values_[i + 1], second_[i], second_[i + 1], knots_[i + 1] - knots_[i]};
+  const SplinePiece piece{values_[i], values_[i + 1], second_[i], second_[i + 1], knots_[i + 1] - knots_[i]};
   const Vec3 derivative = piece.first(t - knots_[i]).head<3>();
   const Vec3 second = piece.second(t - knots_[i]).head<3>();
   const double squared = std::max(derivative.squaredNorm(), 1e-18);

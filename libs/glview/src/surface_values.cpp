@@ -13,14 +13,14 @@ constexpr int range_phases = 20;
 constexpr double share_in_range = 0.99;
 constexpr double mm_a_cm = 10.0;
 
-Vec3 vec(const std::array<float, 3>& v) {
+Vec3 vector_of(const std::array<float, 3>& v) {
   return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
 }
 
 std::vector<Vec3> rest_places(const ShownSurface& surface) {
   std::vector<Vec3> places;
   places.reserve(surface.vertices.size());
-  for (const ShownVertex& vertex : surface.vertices) places.push_back(vec(vertex.rest));
+  for (const ShownVertex& vertex : surface.vertices) places.push_back(vector_of(vertex.rest));
   return places;
 }
 
@@ -44,7 +44,7 @@ std::vector<double> stretches(const ShownSurface& surface, const motion::MovingC
   const auto gradient = gradients(surface, cage.at(phase));
   std::vector<double> values(gradient.size());
   for (std::size_t i = 0; i < gradient.size(); ++i)
-    values[i] = 100.0 * ((gradient[i] * vec(surface.vertices[i].along)).norm() - 1.0);
+    values[i] = 100.0 * ((gradient[i] * vector_of(surface.vertices[i].along)).norm() - 1.0);
   return values;
 }
 

@@ -40,7 +40,7 @@ constexpr std::uint32_t kDataSet[] = {kImageType,      kSopClass,     kSopInstan
                                       kBitsStored,     kHighBit,      kPixelRepresentation, kIntercept,
                                       kSlope,          kWindowCentre, kWindowWidth};
 
-std::string_view trimmed(std::string_view text) {
+std::string_view trimmed_value(std::string_view text) {
   const auto blank = [](char c) { return c == ' ' || c == '\0' || c == '\t' || c == '\r' || c == '\n'; };
   while (!text.empty() && blank(text.front())) text.remove_prefix(1);
   while (!text.empty() && blank(text.back())) text.remove_suffix(1);
@@ -49,7 +49,7 @@ std::string_view trimmed(std::string_view text) {
 
 /// Text without control characters: it is shown on terminals.
 std::string plain(std::string_view text) {
-  std::string result(trimmed(text).substr(0, 256));
+  std::string result(trimmed_value(text).substr(0, 256));
   for (char& c : result) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
   }
@@ -60,7 +60,7 @@ std::string plain(std::string_view text) {
 template <std::size_t count>
 std::optional<std::array<double, count>> decimals(std::uint32_t tag, const char* name,
                                                   std::string_view text) {
-  text = trimmed(text);
+  text = trimmed_value(text);
   if (text.empty()) return std::nullopt;
   const auto wrong = [&]() -> DicomDamage {
     return {std::string(name) + " " + tag_name(tag) + " is '" + plain(text) + "', not " +
@@ -132,7 +132,7 @@ void assign(std::optional<T>& to, const std::optional<T>& value) {
 }  // namespace
 
 std::optional<double> parse_decimal(std::string_view text) {
-  text = trimmed(text);
+  text = trimmed_value(text);
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);

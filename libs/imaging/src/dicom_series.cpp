@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kMaxFiles = 200'000;
 constexpr int kMaxFolders = 32;
 
-using Header = std::shared_ptr<const DicomHeader>;
+using SharedHeader = std::shared_ptr<const DicomHeader>;
 
 std::vector<fs::path> files_below(const fs::path& folder, bool recursive) {
   std::vector<fs::path> files;
@@ -43,13 +43,13 @@ std::vector<fs::path> files_below(const fs::path& folder, bool recursive) {
 }
 
 struct Files {
-  std::vector<Header> images;
-  std::vector<Header> damaged;
+  std::vector<SharedHeader> images;
+  std::vector<SharedHeader> damaged;
   std::size_t skipped = 0;
 };
 
 Files read_headers(const std::vector<fs::path>& paths, const core::TaskContext& task) {
-  std::vector<Header> headers(paths.size());
+  std::vector<SharedHeader> headers(paths.size());
   const std::size_t block = 64;
   for (std::size_t first = 0; first < paths.size(); first += block) {
     task.throw_if_cancelled();
@@ -68,7 +68,7 @@ Files read_headers(const std::vector<fs::path>& paths, const core::TaskContext& 
     });
   }
   Files files;
-  for (const Header& header : headers) {
+  for (const SharedHeader& header : headers) {
     if (header && !header->damage.empty()) {
       files.damaged.push_back(header);
     } else if (header && header->is_image()) {
@@ -105,9 +105,9 @@ bool belong_together(const DicomSlice& a, const DicomSlice& b) {
          near(a.info().pixel_spacing, b.info().pixel_spacing, 1e-4);
 }
 
-std::vector<std::vector<DicomSlice>> grouped(const std::vector<Header>& headers) {
+std::vector<std::vector<DicomSlice>> grouped(const std::vector<SharedHeader>& headers) {
   std::map<std::string, std::vector<std::vector<DicomSlice>>> by_uid;
-  for (const Header& header : headers) {
+  for (const SharedHeader& header : headers) {
     auto& groups = by_uid[header->series_uid];
     for (std::int64_t frame = 0; frame < header->frame_count; ++frame) {
       DicomSlice slice;
@@ -154,7 +154,7 @@ void add_pixel_faults(DicomSeriesDetail& series) {
 }
 
 /// What the user gave in the place of missing attributes.
-Header completed(const Header& header, const DicomReadOptions& options) {
+SharedHeader completed(const SharedHeader& header, const DicomReadOptions& options) {
   const bool lacks_spacing =
       std::any_of(header->frames.begin(), header->frames.end(), [](const DicomFrame& f) {
         return !f.pixel_spacing || !((*f.pixel_spacing)[0] > 0.0 && (*f.pixel_spacing)[1] > 0.0);
@@ -210,9 +210,9 @@ DicomSeriesDetail described(std::vector<DicomSlice> slices, const std::string& l
 }
 
 std::vector<DicomSeriesDetail> series_of(const Files& files, const DicomReadOptions& options) {
-  std::vector<Header> images;
+  std::vector<SharedHeader> images;
   bool stacked = false;
-  for (const Header& header : files.images) {
+  for (const SharedHeader& header : files.images) {
     images.push_back(completed(header, options));
     stacked = stacked || (!header->frames.front().position && images.back()->frames.front().position);
   }
@@ -276,7 +276,7 @@ DicomScan scan_dicom_slices(const fs::path& folder_or_file, const DicomReadOptio
   DicomScan scan;
   scan.skipped = files.skipped;
   scan.series = series_of(files, options);
-  for (const Header& header : files.damaged) {
+  for (const SharedHeader& header : files.damaged) {
     const std::string message = "'" + header->path.filename().string() + "' is damaged: " + header->damage;
     bool known = false;
     for (DicomSeriesDetail& series : scan.series) {

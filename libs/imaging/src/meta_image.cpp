@@ -11,11 +11,11 @@ namespace ostia::imaging {
 namespace fs = std::filesystem;
 namespace {
 
-struct TypeName {
+struct MetaType {
   const char* name;
   PixelType type;
 };
-constexpr TypeName type_names[] = {{"met_char", PixelType::int8},       {"met_uchar", PixelType::uint8},
+constexpr MetaType meta_types[] = {{"met_char", PixelType::int8},       {"met_uchar", PixelType::uint8},
                                    {"met_short", PixelType::int16},     {"met_ushort", PixelType::uint16},
                                    {"met_int", PixelType::int32},       {"met_uint", PixelType::uint32},
                                    {"met_long", PixelType::int32},      {"met_ulong", PixelType::uint32},
@@ -48,9 +48,9 @@ std::string present(const HeaderFields& fields, std::initializer_list<const char
   return {};
 }
 
-PixelType pixel_type(const fs::path& path, const HeaderFields& fields) {
+PixelType meta_pixel_type(const fs::path& path, const HeaderFields& fields) {
   const std::string name = lower_case(fields.require("ElementType"));
-  for (const TypeName& known : type_names)
+  for (const MetaType& known : meta_types)
     if (name == known.name) return known.type;
   refuse(path, "ElementType",
          "'" + fields.require("ElementType") + "' is not a scalar type that can be read");
@@ -65,7 +65,8 @@ double unit_mm(const fs::path& path, const HeaderFields& fields, std::vector<std
   return *unit == "cm" ? 10.0 : 1e-3;
 }
 
-void set_axes(const fs::path& path, const HeaderFields& fields, std::size_t dimension, ImageSource& source) {
+void set_meta_axes(const fs::path& path, const HeaderFields& fields, std::size_t dimension,
+                   ImageSource& source) {
   const std::vector<std::int64_t> sizes = fields.integers("DimSize", dimension);
   if (dimension == 4 && sizes[3] != 1)
     refuse(path, "DimSize", "a fourth dimension of " + std::to_string(sizes[3]) + "; one volume is read");
@@ -162,8 +163,8 @@ ImageSource parse_meta_image(const fs::path& path, const std::string& head) {
     refuse(path, "NDims", std::to_string(dimension) + "; 3 is read, or 4 with one sample in the fourth");
   if (fields.find("ElementNumberOfChannels") && fields.integer("ElementNumberOfChannels") != 1)
     refuse(path, "ElementNumberOfChannels", "one scalar a voxel is read");
-  source.pixel_type = pixel_type(path, fields);
-  set_axes(path, fields, static_cast<std::size_t>(dimension), source);
+  source.pixel_type = meta_pixel_type(path, fields);
+  set_meta_axes(path, fields, static_cast<std::size_t>(dimension), source);
   set_scale(path, fields, source);
   set_data(path, fields, header_end, source);
   return source;

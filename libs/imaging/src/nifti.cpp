@@ -48,14 +48,14 @@ Kind kind_of(const std::string& head) {
 }
 
 /// The fields of either version that matter, in their widest types.
-struct Header {
+struct NiftiHeader {
   std::int64_t dim[8];
   double pixdim[8], vox_offset, slope, intercept, quatern[3], qoffset[3], srow[3][4];
   int datatype, bitpix, qform_code, sform_code, xyzt_units;
 };
 
-Header parsed(const std::string& head, const Kind& kind) {
-  Header h{};
+NiftiHeader parsed(const std::string& head, const Kind& kind) {
+  NiftiHeader h{};
   const bool one = kind.version == 1, swap = kind.swap;
   const auto real = [&](std::size_t at1, std::size_t at2, std::size_t index = 0) {
     return one ? static_cast<double>(number_at<float>(head, at1 + 4 * index, swap))
@@ -87,7 +87,7 @@ Header parsed(const std::string& head, const Kind& kind) {
   return h;
 }
 
-PixelType pixel_type(const fs::path& path, const Header& h) {
+PixelType pixel_type(const fs::path& path, const NiftiHeader& h) {
   struct Code {
     int datatype;
     PixelType type;
@@ -106,7 +106,7 @@ PixelType pixel_type(const fs::path& path, const Header& h) {
   refuse(path, "datatype", "code " + std::to_string(h.datatype) + " is not a scalar type that can be read");
 }
 
-void set_sizes(const fs::path& path, const Header& h, ImageSource& source) {
+void set_sizes(const fs::path& path, const NiftiHeader& h, ImageSource& source) {
   if (h.dim[0] < 3 || h.dim[0] > 7)
     refuse(path, "dim[0]", std::to_string(h.dim[0]) + " dimensions; 3 are read");
   for (std::int64_t i = 4; i <= h.dim[0]; ++i)
@@ -117,7 +117,7 @@ void set_sizes(const fs::path& path, const Header& h, ImageSource& source) {
   check_sizes(path, "dim", source.size);
 }
 
-double unit_mm(const fs::path& path, const Header& h, std::vector<std::string>& warnings) {
+double unit_mm(const fs::path& path, const NiftiHeader& h, std::vector<std::string>& warnings) {
   const int unit = h.xyzt_units & 7;
   if (unit == 2) return 1.0;
   if (unit == 1) return 1000.0;
@@ -132,7 +132,7 @@ struct Affine {
   Vec3 origin;
 };
 
-Affine by_sform(const Header& h) {
+Affine by_sform(const NiftiHeader& h) {
   Affine a;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) a.step(i, j) = h.srow[i][j];
@@ -141,7 +141,7 @@ Affine by_sform(const Header& h) {
   return a;
 }
 
-Affine by_qform(const fs::path& path, const Header& h) {
+Affine by_qform(const fs::path& path, const NiftiHeader& h) {
   Vec3 v(h.quatern[0], h.quatern[1], h.quatern[2]);
   const double length = v.squaredNorm();
   if (!(length <= 1.01))
@@ -163,7 +163,7 @@ Affine by_qform(const fs::path& path, const Header& h) {
   return result;
 }
 
-void set_axes(const fs::path& path, const Header& h, ImageSource& source) {
+void set_axes(const fs::path& path, const NiftiHeader& h, ImageSource& source) {
   for (int i = 1; i <= 3; ++i) check_spacing(path, "pixdim[" + std::to_string(i) + "]", h.pixdim[i]);
   Affine ras;
   if (h.sform_code > 0) {
@@ -195,7 +195,7 @@ void set_axes(const fs::path& path, const Header& h, ImageSource& source) {
   source.origin = to_lps.cwiseProduct(ras.origin);
 }
 
-void set_data(const fs::path& path, const Header& h, const Kind& kind, Encoding encoding,
+void set_data(const fs::path& path, const NiftiHeader& h, const Kind& kind, Encoding encoding,
               ImageSource& source) {
   source.big_endian = kind.swap != (std::endian::native == std::endian::big);
   const double least = kind.pair ? 0.0 : kind.version == 1 ? 352.0 : 544.0;
@@ -222,7 +222,7 @@ bool is_nifti(const std::string& head) {
 
 ImageSource parse_nifti(const fs::path& path, const std::string& head, Encoding encoding) {
   const Kind kind = kind_of(head);
-  const Header h = parsed(head, kind);
+  const NiftiHeader h = parsed(head, kind);
   ImageSource source;
   source.format = kind.version == 1 ? "NIfTI-1" : "NIfTI-2";
   source.header_path = path;

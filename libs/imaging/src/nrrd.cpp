@@ -11,11 +11,11 @@ namespace ostia::imaging {
 namespace fs = std::filesystem;
 namespace {
 
-struct TypeName {
+struct NrrdType {
   const char* name;
   PixelType type;
 };
-constexpr TypeName type_names[] = {{"signed char", PixelType::int8},
+constexpr NrrdType nrrd_types[] = {{"signed char", PixelType::int8},
                                    {"int8", PixelType::int8},
                                    {"int8_t", PixelType::int8},
                                    {"uchar", PixelType::uint8},
@@ -57,14 +57,14 @@ constexpr TypeName type_names[] = {{"signed char", PixelType::int8},
                                    {"double", PixelType::float64}};
 
 /// The fields of the header and where the data begin in this file (its end where there is no blank line).
-struct Header {
+struct NrrdHeader {
   HeaderFields fields;
   std::size_t end = 0;
   bool blank_line = false;
 };
 
-Header split_header(const fs::path& path, const std::string& head) {
-  Header header{HeaderFields(path)};
+NrrdHeader split_header(const fs::path& path, const std::string& head) {
+  NrrdHeader header{HeaderFields(path)};
   std::size_t at = 0;
   for (bool first = true; at < head.size(); first = false) {
     const std::size_t stop = std::min(head.find('\n', at), head.size());
@@ -95,9 +95,9 @@ Header split_header(const fs::path& path, const std::string& head) {
   return header;
 }
 
-PixelType pixel_type(const fs::path& path, const HeaderFields& fields) {
+PixelType nrrd_pixel_type(const fs::path& path, const HeaderFields& fields) {
   const std::string name = lower_case(fields.require("type"));
-  for (const TypeName& known : type_names)
+  for (const NrrdType& known : nrrd_types)
     if (name == known.name) return known.type;
   refuse(path, "type", "'" + name + "' is not a scalar type that can be read");
 }
@@ -217,7 +217,8 @@ double unit_mm(const fs::path& path, const HeaderFields& fields, const std::stri
   return result > 0.0 ? result : 1.0;
 }
 
-void set_axes(const fs::path& path, const HeaderFields& fields, std::size_t dimension, ImageSource& source) {
+void set_nrrd_axes(const fs::path& path, const HeaderFields& fields, std::size_t dimension,
+                   ImageSource& source) {
   const std::vector<std::int64_t> sizes = fields.integers("sizes", dimension);
   std::vector<std::optional<Vec3>> directions;
   if (const std::string* text = fields.find("space directions"))
@@ -279,7 +280,7 @@ std::uint64_t after_lines(const fs::path& file, std::uint64_t offset, std::int64
   return at;
 }
 
-void set_data(const fs::path& path, const Header& header, ImageSource& source) {
+void set_data(const fs::path& path, const NrrdHeader& header, ImageSource& source) {
   const HeaderFields& fields = header.fields;
   const std::string encoding = lower_case(fields.require("encoding"));
   if (encoding == "raw")
@@ -330,7 +331,7 @@ void set_data(const fs::path& path, const Header& header, ImageSource& source) {
 }  // namespace
 
 ImageSource parse_nrrd(const fs::path& path, const std::string& head) {
-  const Header header = split_header(path, head);
+  const NrrdHeader header = split_header(path, head);
   ImageSource source;
   source.format = "NRRD";
   source.header_path = path;
@@ -338,8 +339,8 @@ ImageSource parse_nrrd(const fs::path& path, const std::string& head) {
   if (dimension != 3 && dimension != 4)
     refuse(path, "dimension",
            std::to_string(dimension) + "; 3 is read, or 4 with one axis of a single sample");
-  source.pixel_type = pixel_type(path, header.fields);
-  set_axes(path, header.fields, static_cast<std::size_t>(dimension), source);
+  source.pixel_type = nrrd_pixel_type(path, header.fields);
+  set_nrrd_axes(path, header.fields, static_cast<std::size_t>(dimension), source);
   set_data(path, header, source);
   return source;
 }

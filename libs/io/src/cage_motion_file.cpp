@@ -17,7 +17,7 @@ using geometry::PhaseOrigin;
 using geometry::Vec3;
 using Json = nlohmann::ordered_json;
 
-constexpr std::uint64_t most_bytes = 2ULL << 30;
+constexpr std::uint64_t most_cage_bytes = 2ULL << 30;
 constexpr double percents_digits = 1e9;  // kept behind the point
 constexpr std::size_t least_phases = 3;  // of a periodic spline
 constexpr std::size_t most_phases = 1000;
@@ -127,7 +127,7 @@ double percent_of(double phase) {
 
 CageMotionFile read_cage_motion(const std::filesystem::path& path) {
   const Reader reader(path);
-  const Json all = Json::parse(core::read_file(path, most_bytes), nullptr, false);
+  const Json all = Json::parse(core::read_file(path, most_cage_bytes), nullptr, false);
   if (all.is_discarded()) reader.refuse("the whole", "is no JSON");
   if (reader.member(all, "", "kind") != "cage-motion") reader.refuse("kind", "is not cage-motion");
   if (reader.member(all, "", "v") != 1) reader.refuse("v", "is not 1: it was written by another version");

@@ -1,6 +1,6 @@
 #include "ostia/io/centerline_file.h"
 
-#include "formats.h"
+#include "surface_formats.h"
 #include "vtk/xml.h"
 
 #include "ostia/core/csv.h"

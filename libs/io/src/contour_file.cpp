@@ -16,7 +16,7 @@ using geometry::ContourSection;
 using geometry::Vec3;
 using nlohmann::json;
 
-constexpr std::uint64_t most_bytes = 2ULL << 30;
+constexpr std::uint64_t most_contour_bytes = 2ULL << 30;
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& field,
                          const std::string& what) {
@@ -86,7 +86,7 @@ void require_text(const std::filesystem::path& path, const json& all, const char
     refuse(path, name, "must be " + std::string(value) + ", is " + found.dump() + "; convert the file first");
 }
 
-void add_number(std::string& out, double value) {
+void add_coordinate(std::string& out, double value) {
   char text[40];
   // Fixed notation with six decimals, without the locale; trailing zeros say nothing.
   const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, 6).ptr;
@@ -105,7 +105,7 @@ void add_section(std::string& out, const ContourSection& section) {
   for (const Contour& contour : section.contours) {
     out += first_contour ? "\n{\"s_mm\":" : ",\n{\"s_mm\":";
     first_contour = false;
-    add_number(out, contour.s_mm);
+    add_coordinate(out, contour.s_mm);
     out += ",\"points\":[";
     bool first_point = true;
     for (const Vec3& p : contour.points) {
@@ -113,7 +113,7 @@ void add_section(std::string& out, const ContourSection& section) {
       first_point = false;
       for (int axis = 0; axis < 3; ++axis) {
         if (axis > 0) out += ',';
-        add_number(out, p[axis]);
+        add_coordinate(out, p[axis]);
       }
       out += ']';
     }
@@ -125,7 +125,7 @@ void add_section(std::string& out, const ContourSection& section) {
 }  // namespace
 
 geometry::ContourSet read_contours(const std::filesystem::path& path) {
-  const std::string text = core::read_file(path, most_bytes);
+  const std::string text = core::read_file(path, most_contour_bytes);
   if (text.empty()) throw InvalidInput(path.string() + " is empty; a file of contours is expected");
   json all;
   try {

@@ -12,7 +12,7 @@ bool blank(char c) {
   return c == ' ' || c == '\t' || c == '\r';
 }
 
-std::string_view trimmed(std::string_view text) {
+std::string_view trimmed_row(std::string_view text) {
   while (!text.empty() && blank(text.front())) text.remove_prefix(1);
   while (!text.empty() && blank(text.back())) text.remove_suffix(1);
   return text;
@@ -20,14 +20,14 @@ std::string_view trimmed(std::string_view text) {
 
 std::vector<std::string_view> words_of(std::string_view line, char separator) {
   std::vector<std::string_view> words;
-  line = trimmed(line);
+  line = trimmed_row(line);
   while (!line.empty()) {
     std::size_t end = 0;
     while (end < line.size() && !(separator == ' ' ? blank(line[end]) : line[end] == separator)) ++end;
-    words.push_back(trimmed(line.substr(0, end)));
+    words.push_back(trimmed_row(line.substr(0, end)));
     if (end == line.size()) break;
     line.remove_prefix(end + 1);
-    if (separator == ' ') line = trimmed(line);
+    if (separator == ' ') line = trimmed_row(line);
   }
   return words;
 }

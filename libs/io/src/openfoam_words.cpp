@@ -1,6 +1,6 @@
 #include "ostia/io/openfoam_words.h"
 
-#include "formats.h"
+#include "surface_formats.h"
 
 #include "ostia/core/files.h"
 

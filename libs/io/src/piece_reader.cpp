@@ -1,6 +1,6 @@
 #include "piece_reader.h"
 
-#include "formats.h"
+#include "surface_formats.h"
 
 #include <algorithm>
 #include <cstring>

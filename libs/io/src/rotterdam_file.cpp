@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t most_bytes = 1ULL << 30;
+constexpr std::uint64_t most_rotterdam_bytes = 1ULL << 30;
 
 [[noreturn]] void refuse(const fs::path& path, std::size_t line, const std::string& what) {
   throw InvalidInput(path.string() + ": line " + std::to_string(line) + ": " + what);
@@ -26,7 +26,7 @@ struct Table {
 
 Table table_of(const fs::path& path, std::size_t least_columns, std::size_t most_columns,
                const std::string& columns) {
-  const std::string text = core::read_file(path, most_bytes);
+  const std::string text = core::read_file(path, most_rotterdam_bytes);
   Table table;
   for (const NumberRow& row : rows_of(text)) {
     if (row.words.size() < least_columns || row.words.size() > most_columns)

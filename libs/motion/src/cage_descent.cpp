@@ -19,7 +19,7 @@ using Points = std::vector<Vec3>;
 
 constexpr double enough_descent = 1e-4;  // of what the gradient promises (Armijo)
 constexpr int most_descent_halvings = 30;
-constexpr double still_mm = 1e-6;  // no control point goes farther: the depth is done
+constexpr double settled_mm = 1e-6;  // no control point goes farther: the depth is done
 
 double dot(const Points& a, const Points& b) {
   double sum = 0.0;
@@ -78,7 +78,8 @@ class Descent {
     last_points_ = points;
     last_gradient_ = gradient;
     const double before = system_.energy(points, pairs);
-    for (int k = 0; k < most_descent_halvings && length * steepest(gradient) > still_mm; ++k, length /= 2.0) {
+    for (int k = 0; k < most_descent_halvings && length * steepest(gradient) > settled_mm;
+         ++k, length /= 2.0) {
       Points moved = points;
       for (std::size_t i = 0; i < moved.size(); ++i) moved[i] -= length * gradient[i];
       if (!(system_.energy(moved, pairs) <= before - enough_descent * length * squared)) continue;

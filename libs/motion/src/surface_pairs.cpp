@@ -12,7 +12,7 @@ namespace {
 using geometry::TriMesh;
 using geometry::Vec3;
 
-constexpr std::size_t grain = 256;
+constexpr std::size_t pair_grain = 256;
 constexpr std::size_t enough_points = 2000;                // of a surface to be paired
 constexpr double least_scale_mm = 0.1;                     // distances below are never far
 constexpr double alien_share = 0.05, mutual_share = 0.15;  // see trust
@@ -63,7 +63,7 @@ void weigh(SurfacePair* pairs, const std::vector<Meeting>& met, const geometry::
   const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
   std::nth_element(distances.begin(), middle, distances.end());
   const double far = tukey * std::max(least_scale_mm, 1.4826 * *middle);
-  core::parallel_for(met.size(), grain, [&](std::size_t i) {
+  core::parallel_for(met.size(), pair_grain, [&](std::size_t i) {
     SurfacePair& pair = pairs[i];
     if (pair.weight == 0.0) return;
     const bool asked = looseness > 1.0 && pair.distance > 0.5 * far;
@@ -108,7 +108,7 @@ std::vector<SurfacePair> surface_pairs(PairedSurface& source, PairedSurface& tar
   std::vector<Meeting> met(own), met_by_target(other);
   const std::size_t own_stride = stride_of(source.now, rules.every),
                     other_stride = stride_of(target.now, rules.every);
-  core::parallel_for(own, grain, [&](std::size_t i) {
+  core::parallel_for(own, pair_grain, [&](std::size_t i) {
     if (i % own_stride != 0) return;
     const Meeting at = target.tree.closest(source.now.points[i], source.meet[i]);
     source.meet[i] = at.triangle;
@@ -118,7 +118,7 @@ std::vector<SurfacePair> surface_pairs(PairedSurface& source, PairedSurface& tar
     pairs[i] = {cage_point(grid, source.at_rest.points[i]), at.point, normal, at.distance,
                 static_cast<double>(own_stride) * source.frames.point_areas[i]};
   });
-  core::parallel_for(other, grain, [&](std::size_t i) {
+  core::parallel_for(other, pair_grain, [&](std::size_t i) {
     if (i % other_stride != 0) return;
     const Meeting at = source.tree.closest(target.now.points[i], target.meet[i]);
     target.meet[i] = at.triangle;
@@ -142,7 +142,7 @@ std::vector<SurfacePair> vertex_pairs(const TriMesh& carried, const std::vector<
   const double least_cosine = least_cosine_of(max_angle_deg);
   const std::vector<Vec3> normals = SurfaceFrames(carried).point_normals;
   std::vector<SurfacePair> pairs(carried.points.size());
-  core::parallel_for(pairs.size(), grain, [&](std::size_t i) {
+  core::parallel_for(pairs.size(), pair_grain, [&](std::size_t i) {
     const auto closest = static_cast<std::size_t>(target.tree.nearest(carried.points[i]));
     const Vec3 &place = target.tree.points()[closest], &normal = target.normals[closest];
     if (normal.dot(normals[i]) < least_cosine) return;

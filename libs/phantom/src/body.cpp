@@ -175,7 +175,7 @@ class BodyPart : public ScenePart {
   Capsules capsules_;
 };
 
-void require(bool good, const char* what) {
+void require_body(bool good, const char* what) {
   if (!good) throw InvalidInput(std::string("body: ") + what);
 }
 
@@ -205,13 +205,13 @@ BodyOptions draw_body(std::uint64_t seed) {
 }
 
 Body::Body(const HeartShape& heart, const CoronaryTree& tree, const BodyOptions& options) {
-  require(options.texture >= 0.0 && options.texture <= largest_texture, "texture must lie in [0, 3]");
+  require_body(options.texture >= 0.0 && options.texture <= largest_texture, "texture must lie in [0, 3]");
   const TissueHu& hu = options.hu;
   for (const float value :
        {hu.arterial, hu.right_heart, hu.pulmonary, hu.vein, hu.superior_vena_cava, hu.blood, hu.myocardium,
         hu.muscle, hu.fat, hu.epicardial_fat, hu.lung, hu.marrow, hu.bone, hu.liver})
-    require(value >= -1024.0f && value <= 3071.0f, "CT numbers must lie in [-1024, 3071] HU");
-  require(hu.coronary_drop >= 0.0f && hu.coronary_drop <= 0.6f, "coronary_drop must lie in [0, 0.6]");
+    require_body(value >= -1024.0f && value <= 3071.0f, "CT numbers must lie in [-1024, 3071] HU");
+  require_body(hu.coronary_drop >= 0.0f && hu.coronary_drop <= 0.6f, "coronary_drop must lie in [0, 0.6]");
   impl_ = std::make_unique<const Impl>(heart, tree, options);
 }
 

@@ -26,7 +26,7 @@ constexpr double fwhm_per_sigma = 2.354820045;
 constexpr double main_start_radius = 2.2, main_end_radius = 1.5;
 constexpr double branch_start_radius = 1.7, branch_end_radius = 1.4;
 
-void require(bool good, const char* what) {
+void require_builtin(bool good, const char* what) {
   if (!good) throw InvalidInput(std::string("built-in case: ") + what);
 }
 
@@ -222,11 +222,12 @@ FloatVolume noise(const imaging::Geometry& grid, const BuiltinOptions& options,
 }  // namespace
 
 void validate(const BuiltinOptions& options) {
-  require(options.spacing_mm >= 0.1 && options.spacing_mm <= 2.0, "spacing_mm must lie in [0.1, 2]");
-  require(options.blur_fwhm_mm >= 0.0 && options.blur_fwhm_mm <= 5.0, "blur_fwhm_mm must lie in [0, 5]");
-  require(options.noise_hu >= 0.0 && options.noise_hu <= 500.0, "noise_hu must lie in [0, 500]");
-  require(options.noise_grain_mm >= 0.0 && options.noise_grain_mm <= 5.0,
-          "noise_grain_mm must lie in [0, 5]");
+  require_builtin(options.spacing_mm >= 0.1 && options.spacing_mm <= 2.0, "spacing_mm must lie in [0.1, 2]");
+  require_builtin(options.blur_fwhm_mm >= 0.0 && options.blur_fwhm_mm <= 5.0,
+                  "blur_fwhm_mm must lie in [0, 5]");
+  require_builtin(options.noise_hu >= 0.0 && options.noise_hu <= 500.0, "noise_hu must lie in [0, 500]");
+  require_builtin(options.noise_grain_mm >= 0.0 && options.noise_grain_mm <= 5.0,
+                  "noise_grain_mm must lie in [0, 5]");
 }
 
 BuiltinCase make_builtin_case(const BuiltinOptions& options, const core::TaskContext& task) {

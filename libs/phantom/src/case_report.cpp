@@ -19,7 +19,7 @@ namespace {
 
 using figure::Picture;
 
-std::string text(const char* format, double value) {
+std::string case_text(const char* format, double value) {
   char out[64];
   std::snprintf(out, sizeof out, format, value);
   return out;
@@ -180,9 +180,9 @@ std::vector<std::vector<std::string>> vessel_rows(const CasePlan& plan) {
       segments += (segments.empty() ? "" : ", ") + std::to_string(span.aha);
     const double length = vessel.axis.abscissa.back();
     rows.push_back({vessel.name, vessel.parent < 0 ? "aorta" : vessel_of(plan.tree, vessel.parent).name,
-                    segments, text("%.1f", length - vessel.s_free_mm),
-                    text("%.2f", 2.0 * vessel.lumen.mean_at(vessel.s_free_mm)),
-                    text("%.2f", 2.0 * vessel.lumen.mean_at(length))});
+                    segments, case_text("%.1f", length - vessel.s_free_mm),
+                    case_text("%.2f", 2.0 * vessel.lumen.mean_at(vessel.s_free_mm)),
+                    case_text("%.2f", 2.0 * vessel.lumen.mean_at(length))});
   }
   return rows;
 }
@@ -191,10 +191,11 @@ std::vector<std::vector<std::string>> stenosis_rows(const CasePlan& plan) {
   std::vector<std::vector<std::string>> rows;
   for (const CoronaryVessel& vessel : plan.tree.vessels) {
     for (const Stenosis& one : vessel.stenoses) {
-      rows.push_back({vessel.name, text("%.1f", one.s_throat_mm), text("%.1f", one.s_to_mm - one.s_from_mm),
-                      text("%.0f", 100.0 * one.diameter_stenosis), text("%.0f", 100.0 * one.area_stenosis),
-                      text("%.2f", one.eccentricity), word(one.kind),
-                      std::to_string(stenosis_category(one.diameter_stenosis))});
+      rows.push_back({vessel.name, case_text("%.1f", one.s_throat_mm),
+                      case_text("%.1f", one.s_to_mm - one.s_from_mm),
+                      case_text("%.0f", 100.0 * one.diameter_stenosis),
+                      case_text("%.0f", 100.0 * one.area_stenosis), case_text("%.2f", one.eccentricity),
+                      word(one.kind), std::to_string(stenosis_category(one.diameter_stenosis))});
     }
   }
   return rows;
@@ -203,8 +204,8 @@ std::vector<std::vector<std::string>> stenosis_rows(const CasePlan& plan) {
 std::vector<std::vector<std::string>> section_rows(const CasePlan& plan) {
   std::vector<std::vector<std::string>> rows;
   for (const AnnotatedSection& one : plan.sections.sections) {
-    rows.push_back({one.key, vessel_of(plan.tree, one.vessel).name, text("%.1f", one.s_from_mm),
-                    text("%.1f", one.s_to_mm), text("%.1f", one.length_mm()),
+    rows.push_back({one.key, vessel_of(plan.tree, one.vessel).name, case_text("%.1f", one.s_from_mm),
+                    case_text("%.1f", one.s_to_mm), case_text("%.1f", one.length_mm()),
                     one.health == geometry::Health::healthy ? "healthy" : "diseased"});
   }
   return rows;
@@ -265,12 +266,12 @@ void write_case_report(const std::filesystem::path& path, const CasePlan& plan, 
   report.key_values(
       {{"Voxels", std::to_string(grid.size[0]) + " x " + std::to_string(grid.size[1]) + " x " +
                       std::to_string(grid.size[2])},
-       {"Voxel size (mm)", text("%.3f x ", grid.spacing.x()) + text("%.3f x ", grid.spacing.y()) +
-                               text("%.3f", grid.spacing.z())},
-       {"Noise (HU)", text("%.1f", plan.options.scan.noise_hu)},
+       {"Voxel size (mm)", case_text("%.3f x ", grid.spacing.x()) + case_text("%.3f x ", grid.spacing.y()) +
+                               case_text("%.3f", grid.spacing.z())},
+       {"Noise (HU)", case_text("%.1f", plan.options.scan.noise_hu)},
        {"Point spread, full width at half maximum (mm)",
-        text("%.2f in the slice, ", plan.options.scan.psf_fwhm_mm) +
-            text("%.2f along z", plan.options.scan.psf_fwhm_z_mm)},
+        case_text("%.2f in the slice, ", plan.options.scan.psf_fwhm_mm) +
+            case_text("%.2f along z", plan.options.scan.psf_fwhm_z_mm)},
        {"Image", scan != nullptr ? "made" : "left out (truth alone)"}});
   report.section("Vessels");
   report.table({"vessel", "from", "AHA segments", "length (mm)", "first diameter (mm)", "last diameter (mm)"},

@@ -73,14 +73,12 @@ std::pair<std::size_t, std::size_t> longest_inside(const Centerline& line,
                                                    const std::optional<imaging::Geometry>& image) {
   if (!image) return {0, line.size() - 1};
   std::pair<std::size_t, std::size_t> best{0, 0};
-  std::optional<std::size_t> begin;
-  for (std::size_t i = 0; i <= line.size(); ++i) {
-    const bool inside = i < line.size() && within(*image, line.points[i]);
-    if (inside && !begin) begin = i;
-    if (!inside && begin) {
-      if (i - 1 - *begin > best.second - best.first) best = {*begin, i - 1};
-      begin.reset();
-    }
+  for (std::size_t begin = 0; begin < line.size(); ++begin) {
+    std::size_t end = begin;
+    while (end < line.size() && within(*image, line.points[end])) ++end;
+    if (end == begin) continue;
+    if (end - 1 - begin > best.second - best.first) best = {begin, end - 1};
+    begin = end;  // outside
   }
   return best;
 }

@@ -10,7 +10,7 @@
 namespace ostia::phantom {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 double smooth_step(double x) {
   x = std::clamp(x, 0.0, 1.0);

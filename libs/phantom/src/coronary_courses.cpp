@@ -14,7 +14,7 @@ namespace {
 using geometry::ArcLengthSpline;
 using geometry::Centerline;
 
-constexpr double axis_step_mm = 0.1;
+constexpr double course_step_mm = 0.1;
 constexpr double degrees = std::numbers::pi / 180.0;
 
 /// Random numbers of one vessel: a stream of the seed and the vessel's name.
@@ -264,7 +264,7 @@ Centerline draw_axis(const HeartShape& heart, const Course& course, const Center
   Centerline axis;
   for (double stiffness = 120.0; stiffness < 1e5; stiffness *= 8.0) {
     const ArcLengthSpline spline(geometry::smoothing_spline(t, even, weights, stiffness, true));
-    const auto steps = static_cast<std::size_t>(std::ceil(spline.length() / axis_step_mm));
+    const auto steps = static_cast<std::size_t>(std::ceil(spline.length() / course_step_mm));
     axis.points.clear();
     for (std::size_t i = 0; i <= steps; ++i)
       axis.points.push_back(

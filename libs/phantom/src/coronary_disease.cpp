@@ -13,7 +13,7 @@
 namespace ostia::phantom {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr std::uint64_t disease_stream = 0x4449534500000000;
 
 /// 1 at the throat, 0 from the shoulders on; smooth, with a short plateau.

@@ -29,7 +29,7 @@ constexpr std::array<Wave, 5> waves{{{-0.165, 0.024, true, {0.14, 0.09}},
                                      {0.031, 0.010, false, {-0.22, -0.30}},
                                      {0.290, 0.052, true, {0.28, 0.36}}}};
 
-void require(double value, double least, double most, const char* what) {
+void require_ecg(double value, double least, double most, const char* what) {
   if (!(value >= least && value <= most))
     throw InvalidInput(std::string("electrocardiogram: ") + what + " is " + std::to_string(value) +
                        "; it must lie in [" + std::to_string(least) + ", " + std::to_string(most) + "]");
@@ -73,11 +73,11 @@ void add_beat(const Beat& beat, const EcgOptions& o, std::size_t lead, std::vect
 }  // namespace
 
 HeartEcg draw_ecg(double heart_rate_per_min, std::uint64_t seed, const EcgOptions& o) {
-  require(heart_rate_per_min, 20.0, 240.0, "the heart rate (1/min)");
-  require(o.seconds, 2.0, 3600.0, "its length (s)");
-  require(o.samples_per_second, 100.0, 10000.0, "the number of samples a second");
-  require(o.noise_mv, 0.0, 1.0, "the noise (mV)");
-  require(o.breathing_per_min, 4.0, 60.0, "the number of breaths a minute");
+  require_ecg(heart_rate_per_min, 20.0, 240.0, "the heart rate (1/min)");
+  require_ecg(o.seconds, 2.0, 3600.0, "its length (s)");
+  require_ecg(o.samples_per_second, 100.0, 10000.0, "the number of samples a second");
+  require_ecg(o.noise_mv, 0.0, 1.0, "the noise (mV)");
+  require_ecg(o.breathing_per_min, 4.0, 60.0, "the number of breaths a minute");
   const auto samples = static_cast<std::size_t>(std::lround(o.seconds * o.samples_per_second));
   const std::vector<Beat> beats = beats_of(heart_rate_per_min, seed, o);
   HeartEcg out;

@@ -24,10 +24,10 @@ constexpr double untwisting_lasts = 17.0;
 /// Slow filling in mid-diastole, as a share of the whole path.
 constexpr double slow_share = 0.03;
 
-constexpr std::uint64_t first_index = 0x42454154000000;  // of the seed's numbers
+constexpr std::uint64_t first_beat_index = 0x42454154000000;  // of the seed's numbers
 constexpr double difference_mm = 1e-3;
 
-void require(double value, double least, double most, const char* what) {
+void require_beat(double value, double least, double most, const char* what) {
   if (!(value >= least && value <= most))
     throw InvalidInput(std::string("heartbeat: ") + what + " is " + std::to_string(value) +
                        "; it must lie in [" + std::to_string(least) + ", " + std::to_string(most) + "]");
@@ -40,7 +40,7 @@ double step(double x, double from, double to) {
 }  // namespace
 
 BeatAmplitudes draw_beat(std::uint64_t seed) {
-  std::uint64_t index = first_index;
+  std::uint64_t index = first_beat_index;
   const auto about = [&](double mean, double deviation) {
     return mean + deviation * std::clamp(normal(seed, index++), -2.0, 2.0);
   };
@@ -59,16 +59,16 @@ BeatAmplitudes draw_beat(std::uint64_t seed) {
 }
 
 void validate(const BeatAmplitudes& a) {
-  require(a.heart_rate_per_min, 20.0, 240.0, "the heart rate (1/min)");
-  require(a.left_excursion_mm, 0.0, 20.0, "the path of the left base (mm)");
-  require(a.right_excursion_mm, 0.0, 28.0, "the path of the right base (mm)");
-  require(a.atrial_share, 0.0, 0.4, "the share of the atria's contraction");
-  require(a.epicardial_contraction, 0.0, 0.2, "the epicardium's contraction");
-  require(a.endocardial_contraction, a.epicardial_contraction, 0.5, "the endocardium's contraction");
-  require(a.base_rotation_deg, -20.0, 20.0, "the base's rotation (degrees)");
-  require(a.apex_rotation_deg, -30.0, 30.0, "the apex's rotation (degrees)");
-  require(a.shift_mm.norm(), 0.0, 8.0, "the shift (mm)");
-  require(a.end_systole_percent, 30.0, 38.5, "the end of systole (percent)");
+  require_beat(a.heart_rate_per_min, 20.0, 240.0, "the heart rate (1/min)");
+  require_beat(a.left_excursion_mm, 0.0, 20.0, "the path of the left base (mm)");
+  require_beat(a.right_excursion_mm, 0.0, 28.0, "the path of the right base (mm)");
+  require_beat(a.atrial_share, 0.0, 0.4, "the share of the atria's contraction");
+  require_beat(a.epicardial_contraction, 0.0, 0.2, "the epicardium's contraction");
+  require_beat(a.endocardial_contraction, a.epicardial_contraction, 0.5, "the endocardium's contraction");
+  require_beat(a.base_rotation_deg, -20.0, 20.0, "the base's rotation (degrees)");
+  require_beat(a.apex_rotation_deg, -30.0, 30.0, "the apex's rotation (degrees)");
+  require_beat(a.shift_mm.norm(), 0.0, 8.0, "the shift (mm)");
+  require_beat(a.end_systole_percent, 30.0, 38.5, "the end of systole (percent)");
 }
 
 BeatState beat_state(const BeatAmplitudes& a, double percent) {

@@ -10,12 +10,12 @@ namespace ostia::phantom {
 namespace {
 
 /// Waves about the vessel from `lowest` to `highest` periods a turn.
-struct Waves {
+struct ObserverWaves {
   int lowest = 0, highest = 0;
   double share = 0.0;  // of the variance
   double length_mm = 0.0;
 };
-constexpr std::array<Waves, 4> waves{
+constexpr std::array<ObserverWaves, 4> observer_waves{
     {{1, 1, 0.35, 8.0}, {0, 0, 0.30, 5.0}, {2, 3, 0.25, 4.0}, {4, 6, 0.10, 2.0}}};
 
 }  // namespace
@@ -44,7 +44,7 @@ RadialDeviation radial_deviation(const CoronaryVessel& vessel, int observer, dou
   const double share = disease_at(vessel, s_mm);
   const double deviation = options.healthy_mm + share * (options.diseased_mm - options.healthy_mm);
   RadialDeviation out;
-  for (const Waves& group : waves) {
+  for (const ObserverWaves& group : observer_waves) {
     const double size = deviation * std::sqrt(group.share / (group.highest - group.lowest + 1));
     for (int n = group.lowest; n <= group.highest; ++n) {
       const std::uint64_t stream = (key << 4) + 2 * static_cast<std::uint64_t>(n);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double tiny_share = 0.18;  // of the sections' lengths, for an image that holds little of the tree
 
-void require(bool good, const char* what) {
+void require_case(bool good, const char* what) {
   if (!good) throw InvalidInput(std::string("phantom case: ") + what);
 }
 
@@ -80,15 +80,15 @@ void stent_the_lad(CoronaryTree& tree, double length_mm) {
 }  // namespace
 
 void validate(const CaseOptions& options) {
-  require(options.disease >= 0.0 && options.disease <= 5.0, "the share of disease must be 0 to 5");
-  require(options.surface_spacing_mm >= 0.05 && options.surface_spacing_mm <= 1.0,
-          "the surfaces' spacing must be 0.05 to 1 mm");
+  require_case(options.disease >= 0.0 && options.disease <= 5.0, "the share of disease must be 0 to 5");
+  require_case(options.surface_spacing_mm >= 0.05 && options.surface_spacing_mm <= 1.0,
+               "the surfaces' spacing must be 0.05 to 1 mm");
   const CaseVariant& variant = options.variant;
-  require(variant.calcium >= 0.0 && variant.calcium <= 20.0, "calcium must be 0 to 20");
-  require(variant.stent_mm >= 0.0 && variant.stent_mm <= 40.0, "a stent must be 0 to 40 mm long");
-  require(!variant.contrast_hu || (*variant.contrast_hu >= 80.0 && *variant.contrast_hu <= 1000.0),
-          "the contrast must be 80 to 1000 HU");
-  require(variant.venous >= 0.0 && variant.venous <= 1.0, "the share of venous contrast must be 0 to 1");
+  require_case(variant.calcium >= 0.0 && variant.calcium <= 20.0, "calcium must be 0 to 20");
+  require_case(variant.stent_mm >= 0.0 && variant.stent_mm <= 40.0, "a stent must be 0 to 40 mm long");
+  require_case(!variant.contrast_hu || (*variant.contrast_hu >= 80.0 && *variant.contrast_hu <= 1000.0),
+               "the contrast must be 80 to 1000 HU");
+  require_case(variant.venous >= 0.0 && variant.venous <= 1.0, "the share of venous contrast must be 0 to 1");
   validate(options.contours);
   validate(options.observers);
 }

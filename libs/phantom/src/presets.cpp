@@ -12,7 +12,7 @@ namespace {
 
 using geometry::Box3;
 
-constexpr double clear_mm = 5.0;      // between the tree and the border
+constexpr double border_mm = 5.0;     // between the tree and the border
 constexpr double proximal_mm = 25.0;  // of vessel from an ostium that the tiny grid would hold
 
 imaging::Geometry grid_about(const Vec3& centre, std::array<std::int64_t, 3> size, const Vec3& spacing) {
@@ -51,8 +51,8 @@ Box3 needed_box(const HeartShape& heart, const CoronaryTree* tree) {
   if (tree == nullptr) return box;
   for (const CoronaryVessel& vessel : tree->vessels) {
     for (const Vec3& p : vessel.axis.points) {
-      box.extend(p - Vec3::Constant(clear_mm));
-      box.extend(p + Vec3::Constant(clear_mm));
+      box.extend(p - Vec3::Constant(border_mm));
+      box.extend(p + Vec3::Constant(border_mm));
     }
   }
   return box;
@@ -94,7 +94,7 @@ Vec3 middle_of_ostia(const HeartShape& heart, const CoronaryTree* tree, const Ve
     for (double length_mm = proximal_mm; length_mm >= 0.0; length_mm -= 1.0) {
       const Box3 box = box_of_ostia(*tree, length_mm);
       if (box.isEmpty()) break;
-      if ((box.sizes().array() <= field_mm.array() - 2.0 * clear_mm).all() || length_mm < 1.0)
+      if ((box.sizes().array() <= field_mm.array() - 2.0 * border_mm).all() || length_mm < 1.0)
         return box.center();
     }
   }

@@ -151,7 +151,7 @@ std::vector<VesselRoom> rooms(const CoronaryTree& tree, const SectionOptions& op
 }
 
 /// A window over disease on one vessel.
-struct Window {
+struct SectionWindow {
   std::size_t room = 0;
   Stretch stretch;
   double diseased_mm = 0.0;
@@ -164,29 +164,29 @@ double diseased_length(const VesselRoom& room, const Stretch& window) {
 }
 
 /// Stretches of healthy lumen, the longest first.
-std::vector<Window> healthy_room(const std::vector<VesselRoom>& all, const std::vector<Window>& diseased,
-                                 double least) {
-  std::vector<Window> out;
+std::vector<SectionWindow> healthy_room(const std::vector<VesselRoom>& all,
+                                        const std::vector<SectionWindow>& diseased, double least) {
+  std::vector<SectionWindow> out;
   for (std::size_t r = 0; r < all.size(); ++r) {
     std::vector<Stretch> taken = all[r].diseased;
-    for (const Window& one : diseased) {
+    for (const SectionWindow& one : diseased) {
       if (one.room == r)
         taken.push_back({one.stretch.from_mm - section_gap_mm, one.stretch.to_mm + section_gap_mm});
     }
     for (const Stretch& one : without(all[r].free, joined(taken, 0.0)))
       if (one.length_mm() >= least) out.push_back({r, one, 0.0});
   }
-  std::stable_sort(out.begin(), out.end(), [](const Window& a, const Window& b) {
+  std::stable_sort(out.begin(), out.end(), [](const SectionWindow& a, const SectionWindow& b) {
     return a.stretch.length_mm() > b.stretch.length_mm();
   });
   return out;
 }
 
 /// How much healthy lumen the longest stretches hold that are left beside these windows.
-double healthy_capacity(const std::vector<VesselRoom>& all, const std::vector<Window>& diseased,
+double healthy_capacity(const std::vector<VesselRoom>& all, const std::vector<SectionWindow>& diseased,
                         const SectionOptions& options) {
   double sum = 0.0;
-  const std::vector<Window> room = healthy_room(all, diseased, options.least_length_mm);
+  const std::vector<SectionWindow> room = healthy_room(all, diseased, options.least_length_mm);
   for (std::size_t i = 0; i < room.size() && i < static_cast<std::size_t>(options.quota.healthy); ++i)
     sum += room[i].stretch.length_mm();
   return std::min(sum, options.quota.healthy_mm);
@@ -206,14 +206,14 @@ std::vector<Stretch> windows_over(const Stretch& lesion, const Stretch& free, do
 
 /// The window of `length` (or as long as the room is) that leaves the healthy sections their room and holds
 /// most disease.
-std::optional<Window> best_window(const std::vector<VesselRoom>& all, double length,
-                                  const SectionOptions& options, std::vector<Window> chosen) {
+std::optional<SectionWindow> best_window(const std::vector<VesselRoom>& all, double length,
+                                         const SectionOptions& options, std::vector<SectionWindow> chosen) {
   constexpr double weight_of_healthy = 3.0;
-  std::optional<Window> best;
+  std::optional<SectionWindow> best;
   double best_score = 0.0;
   for (std::size_t r = 0; r < all.size(); ++r) {
     std::vector<Stretch> taken;
-    for (const Window& one : chosen) {
+    for (const SectionWindow& one : chosen) {
       if (one.room == r)
         taken.push_back({one.stretch.from_mm - section_gap_mm, one.stretch.to_mm + section_gap_mm});
     }
@@ -231,7 +231,7 @@ std::optional<Window> best_window(const std::vector<VesselRoom>& all, double len
           chosen.pop_back();
           const double score = weight_of_healthy * std::min(1.0, healthy) + share;
           if (score > best_score) {
-            best = Window{r, window, diseased};
+            best = SectionWindow{r, window, diseased};
             best_score = score;
           }
         }
@@ -241,8 +241,9 @@ std::optional<Window> best_window(const std::vector<VesselRoom>& all, double len
   return best;
 }
 
-std::vector<Window> diseased_windows(const std::vector<VesselRoom>& all, const SectionOptions& options) {
-  std::vector<Window> chosen;
+std::vector<SectionWindow> diseased_windows(const std::vector<VesselRoom>& all,
+                                            const SectionOptions& options) {
+  std::vector<SectionWindow> chosen;
   double left = options.quota.diseased_mm;
   for (int i = 0; i < options.quota.diseased; ++i) {
     const double length = left / (options.quota.diseased - i);
@@ -255,7 +256,7 @@ std::vector<Window> diseased_windows(const std::vector<VesselRoom>& all, const S
 }
 
 /// Shares `total` among rooms of these sizes as evenly as they allow.
-std::vector<double> shared_out(const std::vector<Window>& room, double total) {
+std::vector<double> shared_out(const std::vector<SectionWindow>& room, double total) {
   std::vector<double> out(room.size(), 0.0);
   std::vector<std::size_t> order(room.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -272,13 +273,14 @@ std::vector<double> shared_out(const std::vector<Window>& room, double total) {
 }
 
 /// Cuts the longest stretches in two until there are `count`, or none is long enough.
-void split_to(std::vector<Window>& room, std::size_t count, double least) {
+void split_to(std::vector<SectionWindow>& room, std::size_t count, double least) {
   while (room.size() < count) {
-    const auto longest = std::max_element(room.begin(), room.end(), [](const Window& a, const Window& b) {
-      return a.stretch.length_mm() < b.stretch.length_mm();
-    });
+    const auto longest =
+        std::max_element(room.begin(), room.end(), [](const SectionWindow& a, const SectionWindow& b) {
+          return a.stretch.length_mm() < b.stretch.length_mm();
+        });
     if (longest == room.end() || longest->stretch.length_mm() < 2.0 * least + section_gap_mm) return;
-    Window second = *longest;
+    SectionWindow second = *longest;
     const double middle = 0.5 * (longest->stretch.from_mm + longest->stretch.to_mm);
     longest->stretch.to_mm = middle - 0.5 * section_gap_mm;
     second.stretch.from_mm = middle + 0.5 * section_gap_mm;
@@ -286,9 +288,10 @@ void split_to(std::vector<Window>& room, std::size_t count, double least) {
   }
 }
 
-std::vector<Window> healthy_windows(const std::vector<VesselRoom>& all, const std::vector<Window>& diseased,
-                                    const SectionOptions& options) {
-  std::vector<Window> room = healthy_room(all, diseased, options.least_length_mm);
+std::vector<SectionWindow> healthy_windows(const std::vector<VesselRoom>& all,
+                                           const std::vector<SectionWindow>& diseased,
+                                           const SectionOptions& options) {
+  std::vector<SectionWindow> room = healthy_room(all, diseased, options.least_length_mm);
   const auto count = static_cast<std::size_t>(options.quota.healthy);
   if (room.size() > count) room.resize(count);
   split_to(room, count, options.least_length_mm);
@@ -302,8 +305,8 @@ std::vector<Window> healthy_windows(const std::vector<VesselRoom>& all, const st
 }
 
 void add(std::vector<AnnotatedSection>& out, const std::vector<VesselRoom>& all,
-         const std::vector<Window>& windows, Health health) {
-  for (const Window& one : windows) {
+         const std::vector<SectionWindow>& windows, Health health) {
+  for (const SectionWindow& one : windows) {
     AnnotatedSection section;
     section.vessel = all[one.room].vessel->id;
     section.s_from_mm = one.stretch.from_mm;
@@ -405,7 +408,7 @@ SectionQuota section_quota(std::uint64_t seed) {
 SectionPlan plan_sections(const CoronaryTree& tree, const SectionOptions& options) {
   validate(options);
   const std::vector<VesselRoom> all = rooms(tree, options);
-  const std::vector<Window> diseased = diseased_windows(all, options);
+  const std::vector<SectionWindow> diseased = diseased_windows(all, options);
   SectionPlan plan;
   add(plan.sections, all, diseased, Health::diseased);
   add(plan.sections, all, healthy_windows(all, diseased, options), Health::healthy);
@@ -429,17 +432,17 @@ std::vector<LesionSite> missing_lesions(const CoronaryTree& tree, const SectionO
   std::vector<LesionSite> sites;
   const int wanted = options.quota.diseased;
   while (static_cast<int>(sites.size()) < wanted) {
-    const std::vector<Window> found = diseased_windows(all, options);
+    const std::vector<SectionWindow> found = diseased_windows(all, options);
     double length_found = 0.0;
-    for (const Window& one : found) length_found += one.stretch.length_mm();
+    for (const SectionWindow& one : found) length_found += one.stretch.length_mm();
     if (static_cast<int>(found.size()) == wanted && length_found > options.quota.diseased_mm - 0.05) break;
     // The stretch of healthy lumen on which a section fits with least healthy lumen lost: the shortest that
     // is long enough, else the longest.
     const double length = options.quota.diseased_mm / std::max(1, wanted);
-    const std::vector<Window> room = healthy_room(all, found, options.least_length_mm);
+    const std::vector<SectionWindow> room = healthy_room(all, found, options.least_length_mm);
     if (room.empty()) break;
-    const Window* best = &room.front();
-    for (const Window& one : room)
+    const SectionWindow* best = &room.front();
+    for (const SectionWindow& one : room)
       if (one.stretch.length_mm() >= length + 2.0) best = &one;
     const double size = std::min(length, best->stretch.length_mm());
     const double spare = best->stretch.length_mm() - size;

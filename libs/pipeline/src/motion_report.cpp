@@ -16,7 +16,7 @@
 
 namespace ostia::pipeline {
 namespace fs = std::filesystem;
-using analysis::BranchMeasure;
+using analysis::MotionMeasure;
 using analysis::LocalMeasure;
 using analysis::TimeCurve;
 using analysis::TreeMotion;
@@ -79,7 +79,7 @@ json rests_json(const std::vector<analysis::RestPeriod>& rests, double rr_s) {
 json branch_json(const analysis::BranchMotion& branch, double rr_s) {
   json measures = json::object();
   for (std::size_t m = 0; m < analysis::branch_measure_count; ++m) {
-    const analysis::MeasureName& name = analysis::name_of(static_cast<BranchMeasure>(m));
+    const analysis::MeasureName& name = analysis::name_of(static_cast<MotionMeasure>(m));
     measures[name.name] = curve_json(branch.over_time[m], name.unit);
   }
   return {{"name", branch.name},
@@ -135,10 +135,10 @@ void add_table(figure::HtmlReport& html, const TreeMotion& motion) {
   std::vector<std::vector<std::string>> rows;
   for (const analysis::BranchMotion& b : motion.branches)
     rows.push_back({b.name, fixed(b.length_mm, 1),
-                    fixed(range(b[BranchMeasure::displacement_max].values).second, 1),
-                    fixed(range(b[BranchMeasure::speed_mean].values).second, 0),
-                    range_text(b[BranchMeasure::stretch], 3), range_text(b[BranchMeasure::curvature_mean], 3),
-                    range_text(b[BranchMeasure::torsion_mean], 3), range_text(b[BranchMeasure::twist], 1),
+                    fixed(range(b[MotionMeasure::displacement_max].values).second, 1),
+                    fixed(range(b[MotionMeasure::speed_mean].values).second, 0),
+                    range_text(b[MotionMeasure::stretch], 3), range_text(b[MotionMeasure::curvature_mean], 3),
+                    range_text(b[MotionMeasure::torsion_mean], 3), range_text(b[MotionMeasure::twist], 1),
                     rests_text(b.rests, motion.options.rr_s)});
   html.section("Branches over the cycle");
   html.table({"branch", "length (mm)", "largest displacement (mm)", "peak of the mean speed (mm/s)",
@@ -194,7 +194,7 @@ std::string motion_measures_csv(const TreeMotion& motion) {
       core::csv_line({"branch", "percent", "time_s", "measure", "value", "unit", "at_template"});
   for (const analysis::BranchMotion& branch : motion.branches)
     for (std::size_t m = 0; m < analysis::branch_measure_count; ++m) {
-      const analysis::MeasureName& name = analysis::name_of(static_cast<BranchMeasure>(m));
+      const analysis::MeasureName& name = analysis::name_of(static_cast<MotionMeasure>(m));
       add_rows(branch.name, name.name, name.unit, branch.over_time[m], motion, csv);
     }
   for (const analysis::BranchDistance& pair : motion.distances) {

@@ -12,7 +12,7 @@
 namespace ostia::pipeline {
 namespace {
 
-using analysis::BranchMeasure;
+using analysis::MotionMeasure;
 using analysis::TimeCurve;
 using analysis::TreeMotion;
 using figure::Series;
@@ -54,24 +54,24 @@ figure::PlotOptions options_of(const TreeMotion& motion, const std::string& labe
 }
 
 struct PlotOf {
-  BranchMeasure measure;
+  MotionMeasure measure;
   bool from_zero;
   const char* caption;
 };
 
 const std::vector<PlotOf>& plots() {
   static const std::vector<PlotOf> all{
-      {BranchMeasure::displacement_mean, true,
+      {MotionMeasure::displacement_mean, true,
        "Mean distance of a branch's points from the template's place."},
-      {BranchMeasure::speed_mean, true, "Mean speed of a branch's points."},
-      {BranchMeasure::stretch, false, "Length of the axis over that at the template."},
-      {BranchMeasure::curvature_mean, true, "Mean curvature of the axis."},
-      {BranchMeasure::curvature_change, true, "Mean of the local absolute changes from the template."},
-      {BranchMeasure::torsion_mean, false, "Mean torsion of the axis; positive: a right-handed screw."},
-      {BranchMeasure::torsion_size, false,
+      {MotionMeasure::speed_mean, true, "Mean speed of a branch's points."},
+      {MotionMeasure::stretch, false, "Length of the axis over that at the template."},
+      {MotionMeasure::curvature_mean, true, "Mean curvature of the axis."},
+      {MotionMeasure::curvature_change, true, "Mean of the local absolute changes from the template."},
+      {MotionMeasure::torsion_mean, false, "Mean torsion of the axis; positive: a right-handed screw."},
+      {MotionMeasure::torsion_size, false,
        "Mean size of the torsion, of the motion that all branches have in common."},
-      {BranchMeasure::torsion_total, false, "Degrees that the osculating plane turns from end to end."},
-      {BranchMeasure::twist, false,
+      {MotionMeasure::torsion_total, false, "Degrees that the osculating plane turns from end to end."},
+      {MotionMeasure::twist, false,
        "Degrees that the distal end has turned about the axis against the proximal one."}};
   return all;
 }

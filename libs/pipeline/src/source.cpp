@@ -37,14 +37,14 @@ bool is_image_name(const fs::path& path) {
   return false;
 }
 
-void append(std::vector<std::string>& to, const std::vector<std::string>& from) {
+void append_warnings(std::vector<std::string>& to, const std::vector<std::string>& from) {
   to.insert(to.end(), from.begin(), from.end());
 }
 
 geometry::TriMesh load_surface(const fs::path& path, const SourceOptions& options,
                                std::vector<std::string>& warnings) {
   io::LoadedSurface loaded = io::read_surface(path);
-  append(warnings, loaded.warnings);
+  append_warnings(warnings, loaded.warnings);
   geometry::TriMesh mesh = std::move(loaded.surface.mesh);
   for (std::size_t i = 0; i < mesh.points.size(); ++i) {
     if (!mesh.points[i].allFinite()) {
@@ -113,19 +113,19 @@ Source load(const fs::path& path, const SourceOptions& options, const core::Task
       auto loaded = imaging::read_dicom(path, options.dicom, task, [&](const imaging::DicomSeries& series) {
         sha256.emplace([series](const core::TaskContext& beside) { return series_digest(series, beside); });
       });
-      append(source.warnings, loaded.header.warnings);
+      append_warnings(source.warnings, loaded.header.warnings);
       source.image = std::make_shared<const imaging::ImageVolume>(std::move(loaded.volume));
       break;
     }
     case SourceKind::image: {
       auto loaded = imaging::read_image(path, task);
-      append(source.warnings, loaded.header.warnings);
+      append_warnings(source.warnings, loaded.header.warnings);
       source.image = std::make_shared<const imaging::ImageVolume>(std::move(loaded.volume));
       break;
     }
     case SourceKind::mask: {
       auto loaded = imaging::read_mask(path, task);
-      append(source.warnings, loaded.header.warnings);
+      append_warnings(source.warnings, loaded.header.warnings);
       source.mask = std::make_shared<const imaging::MaskVolume>(std::move(loaded.volume));
       break;
     }

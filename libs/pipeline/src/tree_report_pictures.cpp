@@ -16,7 +16,7 @@ using analysis::OrderMeasure;
 using analysis::TreeReport;
 using figure::Series;
 
-constexpr double degrees = 180.0 / std::numbers::pi;
+constexpr double degrees_per_radian = 180.0 / std::numbers::pi;
 constexpr int bins = 48;
 constexpr double widest_exponent = 8.0;  // beyond lie forks with a child nearly as wide as its parent
 
@@ -100,7 +100,8 @@ std::vector<ReportPicture> tree_pictures(const MeasuredTree& tree) {
   std::vector<double> exponents, angles;
   for (const analysis::ForkExponent& one : report.exponents)
     if (one.k) exponents.push_back(*one.k);
-  for (const analysis::ForkAngles& one : report.angles) angles.push_back(degrees * one.between_rad);
+  for (const analysis::ForkAngles& one : report.angles)
+    angles.push_back(degrees_per_radian * one.between_rad);
   add_histogram("murray", "Murray's exponent", "k of r^k = sum of the children's r^k",
                 "One value a fork; forks with a child as wide as its parent have none, those above " +
                     std::to_string(static_cast<int>(widest_exponent)) + " are not shown.",

@@ -13,7 +13,7 @@ namespace {
 using geometry::FacedSurface;
 using meshing::ForecastPlace;
 
-constexpr double walls_share = 0.7;  // of the progress
+constexpr double forecast_walls_share = 0.7;  // of the progress
 
 struct Meshing {
   meshing::ClipOptions clip;
@@ -49,12 +49,12 @@ VesselForecast forecast_cut(const geometry::TriMesh& wall, geometry::VesselTree 
 VesselForecast forecast_of(const RootedModel& part, const MeshExportOptions& options,
                            const core::TaskContext& task) {
   const geometry::TriMesh wall =
-      sound_wall(part, cell_for(part.model, options.sizing), task.sub(0.0, walls_share));
+      sound_wall(part, cell_for(part.model, options.sizing), task.sub(0.0, forecast_walls_share));
   meshing::ClipOptions clip;
   clip.inset_radii = options.inset_radii;
   return forecast_cut(wall, part.model.tree,
                       {clip, options.extensions, options.sizing, options.volume.layers},
-                      task.sub(walls_share, 1.0));
+                      task.sub(forecast_walls_share, 1.0));
 }
 
 void append(VesselForecast& to, VesselForecast one) {

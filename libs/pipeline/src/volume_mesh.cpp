@@ -14,7 +14,7 @@ namespace ostia::pipeline {
 namespace fs = std::filesystem;
 namespace {
 
-void append(std::vector<std::string>& to, const std::vector<std::string>& from) {
+void append_notes(std::vector<std::string>& to, const std::vector<std::string>& from) {
   to.insert(to.end(), from.begin(), from.end());
 }
 
@@ -65,13 +65,13 @@ FilledVolume fill_volume(const geometry::FacedSurface& surface, const geometry::
     inside.mesher = meshing::Mesher::tetgen;  // another one would not keep the layers' inner surface
     auto filled = meshing::fill_with_layers(surface, *options.layers, inside, filling);
     out.mesh = std::move(filled.mesh);
-    append(out.warnings, filled.layers.warnings);
-    append(out.warnings, filled.tetrahedra.warnings);
+    append_notes(out.warnings, filled.layers.warnings);
+    append_notes(out.warnings, filled.tetrahedra.warnings);
     out.layers = std::move(filled.layers);
   } else {
     auto filled = meshing::tetrahedralize(surface, options.tetrahedralize, filling);
     out.mesh = geometry::mixed(filled.mesh);
-    append(out.warnings, filled.report.warnings);
+    append_notes(out.warnings, filled.report.warnings);
     if (filled.report.surface_meshed_anew)
       out.new_surface = {compacted({filled.mesh.points, filled.mesh.boundary}), filled.mesh.boundary_face_ids,
                          filled.mesh.faces};
@@ -86,7 +86,7 @@ FilledVolume fill_volume(const geometry::FacedSurface& surface, const geometry::
     task.set_stage("quadratic elements");
     auto quadratic = meshing::make_quadratic(out.mesh, wall_of(reference), {}, task.sub(filled_share, 1.0));
     out.mesh = std::move(quadratic.mesh);
-    append(out.warnings, quadratic.report.warnings);
+    append_notes(out.warnings, quadratic.report.warnings);
     out.quadratic = std::move(quadratic.report);
   }
   return out;
@@ -124,7 +124,7 @@ MeshQuality judged(const geometry::MixedMesh& mesh, const std::vector<bool>& in_
     out.surface.mean_frobenius_aspect = wall.mean_frobenius_aspect;
   }
   out.verdict = meshing::check(out.surface);
-  append(out.verdict.reasons, meshing::check(out.volume).reasons);
+  append_notes(out.verdict.reasons, meshing::check(out.volume).reasons);
   return out;
 }
 

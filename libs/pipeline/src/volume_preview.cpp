@@ -20,7 +20,7 @@ Vec3 centre_of(const imaging::Geometry& grid) {
                     2.0);
 }
 
-std::string mm(double value) {
+std::string preview_mm(double value) {
   return std::to_string(static_cast<long>(std::lround(value)));
 }
 
@@ -48,7 +48,7 @@ std::vector<std::string> write_preview(const imaging::ImageVolume& image, const 
   const double low = std::min(first.z(), last.z()), high = std::max(first.z(), last.z());
   for (int i = 0; i < options.axial_slices; ++i) {
     const double z = low + (high - low) * (i + 0.5) / options.axial_slices;
-    look.title = "axial, z = " + mm(z) + " mm";
+    look.title = "axial, z = " + preview_mm(z) + " mm";
     const auto plane = reformat::axial_plane(image.geometry, Vec3(centre.x(), centre.y(), z));
     std::string number = std::to_string(i + 1);
     number.insert(0, 3 - number.size(), '0');

@@ -14,7 +14,7 @@ namespace {
 using geometry::TriMesh;
 using geometry::Vec3;
 
-constexpr double step_mm = 0.1;
+constexpr double profile_step_mm = 0.1;
 // Not further inside: the other wall of a narrow vessel would be compared, too.
 constexpr int inner_steps = 6, outer_steps = 8;
 constexpr int rows = inner_steps + outer_steps + 1;
@@ -32,7 +32,8 @@ std::vector<float> along_normals(const TriMesh& mesh, const imaging::FloatVolume
     for (int k = 0; k < count; ++k)
       values[i * static_cast<std::size_t>(count) + static_cast<std::size_t>(k)] =
           static_cast<float>(imaging::sample(
-              image, mesh.points[i] + step_mm * static_cast<double>(k - inner_steps - more) * normals[i]));
+              image,
+              mesh.points[i] + profile_step_mm * static_cast<double>(k - inner_steps - more) * normals[i]));
   });
   return values;
 }
@@ -106,8 +107,8 @@ FoundWall found_wall(const TriMesh& carried, const WallProfiles& wanted, const i
   FoundWall found;
   found.points = carried.points;
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    found.points[i] += step_mm * steps[i] * normals[i];
-    found.mean_shift_mm += step_mm * std::abs(steps[i]) / static_cast<double>(steps.size());
+    found.points[i] += profile_step_mm * steps[i] * normals[i];
+    found.mean_shift_mm += profile_step_mm * std::abs(steps[i]) / static_cast<double>(steps.size());
   }
   return found;
 }

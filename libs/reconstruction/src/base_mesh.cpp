@@ -10,7 +10,7 @@
 namespace ostia::reconstruction {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double most_gaps = 0.8;  // of what two joints leave of a branch
 using Ring = std::vector<std::int32_t>;
 

@@ -50,13 +50,13 @@ Tube cut(const Tube& whole, bool distal, double length) {
   return part;
 }
 
-struct Patch {
+struct JointPatch {
   std::vector<Tube> tubes;
   std::vector<Slot> slots;
 };
 
-Patch patch_of(const Joint& joint, const std::vector<Tube>& tubes) {
-  Patch patch;
+JointPatch patch_of(const Joint& joint, const std::vector<Tube>& tubes) {
+  JointPatch patch;
   for (std::size_t i = 0; i < joint.slots.size(); ++i) {
     Slot slot = joint.slots[i];
     const Tube& whole = tubes[static_cast<std::size_t>(slot.tube)];
@@ -72,7 +72,7 @@ Patch patch_of(const Joint& joint, const std::vector<Tube>& tubes) {
   return patch;
 }
 
-std::size_t crossings(const Patch& patch, const Vec3& centre, const ReconstructionOptions& options,
+std::size_t crossings(const JointPatch& patch, const Vec3& centre, const ReconstructionOptions& options,
                       const JointStyle& style, int level) {
   const std::vector<Joint> joints{joint_at(centre, patch.slots, patch.tubes, options, style)};
   std::vector<std::int32_t> all(patch.tubes.size());
@@ -88,7 +88,7 @@ std::size_t crossings(const Patch& patch, const Vec3& centre, const Reconstructi
 
 JointStyle chosen(const Joint& joint, const std::vector<Tube>& tubes, const ReconstructionOptions& options,
                   int level) {
-  const Patch patch = patch_of(joint, tubes);
+  const JointPatch patch = patch_of(joint, tubes);
   JointStyle best;
   std::size_t least = std::numeric_limits<std::size_t>::max();
   for (const JointStyle& style : styles) {

@@ -15,7 +15,7 @@
 namespace ostia::reconstruction {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Two unit vectors that make a right-handed frame with the axis.
 std::array<Vec3, 2> across(const Vec3& axis) {

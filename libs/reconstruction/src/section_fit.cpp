@@ -19,7 +19,7 @@ namespace {
 
 using geometry::Vec2;
 using Mat2 = Eigen::Matrix2d;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 struct Ellipse {
   double radius = 0.0;  // of the circle with its area

@@ -7,7 +7,7 @@
 namespace ostia::reconstruction {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double thin = 0.15;         // of the wide vessel's radius, at most
 constexpr double disc = 0.7;          // its radius, of the wide vessel's
 constexpr double bent = -0.17364818;  // cosine of 100 degrees

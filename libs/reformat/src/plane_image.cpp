@@ -9,17 +9,17 @@
 namespace ostia::reformat {
 namespace {
 
-constexpr double thickest_mm = 100.0;
+constexpr double thickest_slab_mm = 100.0;
 
 template <class T>
 PlaneImage sliced(const imaging::Volume<T>& image, const Plane& plane, const SlabShape& shape,
                   imaging::Interpolation how, const core::TaskContext& task) {
   validate(plane);
   require_voxels(image, "slice");
-  if (shape.slab != Slab::none && !(shape.thickness_mm > 0.0 && shape.thickness_mm <= thickest_mm)) {
+  if (shape.slab != Slab::none && !(shape.thickness_mm > 0.0 && shape.thickness_mm <= thickest_slab_mm)) {
     throw InvalidInput("a slab of " + std::to_string(shape.thickness_mm) +
-                       " mm cannot be pictured; give more than 0 and at most " + std::to_string(thickest_mm) +
-                       " mm, or no slab");
+                       " mm cannot be pictured; give more than 0 and at most " +
+                       std::to_string(thickest_slab_mm) + " mm, or no slab");
   }
   const auto row_of = [&](std::size_t j) {
     return StraightRow{world(plane, Vec2(0.5, static_cast<double>(j) + 0.5)), plane.pixel_mm * plane.u,

@@ -12,7 +12,7 @@ namespace ostia::segmentation {
 namespace detail {
 namespace {
 
-constexpr double kAirHu = -300.0;
+constexpr double kNoVesselHu = -300.0;
 constexpr int kDarkestTissueHu = -150;  // fat and its mixtures with lung lie below
 constexpr double kTissueHu = 50.0;      // where the neighbourhood shows no background
 constexpr double kNeighbourhoodMm = 20.0;
@@ -136,7 +136,7 @@ SeedIntensities seed_intensities(const imaging::ImageVolume& image, const std::v
                          text(image.geometry.world(last)) + " mm (LPS): place it inside");
     }
     const double hu = cross_median(image, nearest_voxel(image.geometry, seed));
-    if (hu < kAirHu) {
+    if (hu < kNoVesselHu) {
       throw InvalidInput("seed " + text(seed) + " mm lies in air (" + number(hu) +
                          " HU): place it in the contrast-filled lumen");
     }

@@ -18,15 +18,15 @@ namespace {
 using imaging::ImageVolume;
 using imaging::MaskVolume;
 
-constexpr double kCoarse = 1.0;            // mm, of the voxels on which bones are told from vessels
-constexpr double kRim = 2.4;               // mm: where a bone has its shell
-constexpr double kBeside = 1.5;            // mm about a coarse part in which its surface lies
-constexpr double kShellOverMiddle = 1.2;   // a bone's rim is brighter than its middle by this
-constexpr double kShellPart = 0.75;        // the percentile of the rim that is its shell
-constexpr std::size_t kMiddleVoxels = 20;  // fewer have no middle to speak of
-constexpr double kLeastBone = 100.0;       // mm^3
-constexpr double kAirHu = -940.0;          // air about the body; lungs are brighter
-constexpr double kMarrowHu = 100.0;        // a hole in a bone that is darker is none of it
+constexpr double kCoarse = 1.0;             // mm, of the voxels on which bones are told from vessels
+constexpr double kRim = 2.4;                // mm: where a bone has its shell
+constexpr double kBeside = 1.5;             // mm about a coarse part in which its surface lies
+constexpr double kShellOverMiddle = 1.2;    // a bone's rim is brighter than its middle by this
+constexpr double kShellPart = 0.75;         // the percentile of the rim that is its shell
+constexpr std::size_t kMiddleVoxels = 20;   // fewer have no middle to speak of
+constexpr double kLeastBone = 100.0;        // mm^3
+constexpr double kAirAboutBodyHu = -940.0;  // air about the body; lungs are brighter
+constexpr double kMarrowHu = 100.0;         // a hole in a bone that is darker is none of it
 
 template <class Test>
 MaskVolume where(const ImageVolume& image, const Test& test) {
@@ -203,7 +203,7 @@ MaskVolume calcium_mask(const ImageVolume& image, const std::vector<Vec3>& lumen
 MaskVolume skin_mask(const ImageVolume& image, const TissueOptions& options, const core::TaskContext& task) {
   const ImageVolume coarse = coarse_of(image, task);
   const imaging::Components air =
-      imaging::components(where(coarse, [&](std::size_t n) { return coarse.voxels[n] < kAirHu; }));
+      imaging::components(where(coarse, [&](std::size_t n) { return coarse.voxels[n] < kAirAboutBodyHu; }));
   std::vector<std::uint8_t> outside(air.voxels.size(), 0);
   const auto& size = coarse.geometry.size;
   for (std::int64_t k = 0; k < size[2]; ++k) {
@@ -225,7 +225,7 @@ MaskVolume skin_mask(const ImageVolume& image, const TissueOptions& options, con
   const auto& fine = image.geometry.size;
   return where(image, [&](std::size_t n) {
     const auto at = static_cast<std::int64_t>(n);
-    return image.voxels[n] > kAirHu &&
+    return image.voxels[n] > kAirAboutBodyHu &&
            near(places[0][static_cast<std::size_t>(at % fine[0])],
                 places[1][static_cast<std::size_t>(at / fine[0] % fine[1])],
                 places[2][static_cast<std::size_t>(at / (fine[0] * fine[1]))]) != 0;

@@ -1,5 +1,7 @@
 #include "ostia/session/annotation.h"
 
+#include "same_bits.h"
+
 #include "ostia/core/error.h"
 #include "ostia/session/annotation_json.h"
 
@@ -18,10 +20,6 @@ using lumen::LumenModel;
 
 constexpr std::array<const char*, std::variant_size_v<AnnotationCommand>> op_names{
     "measure.add", "measure.change", "measure.delete", "vessel.mark"};
-
-bool same_bits(double a, double b) {
-  return std::memcmp(&a, &b, sizeof a) == 0;
-}
 
 std::int32_t key_of(const Measurement& measurement) {
   return measurement.id;

@@ -1,5 +1,6 @@
 #include "annotation_rows.h"
 
+#include "case_damage.h"
 #include "model_blob.h"
 
 #include "ostia/core/error.h"
@@ -8,10 +9,6 @@ namespace ostia::session {
 namespace {
 
 using analysis::Measurement;
-
-[[noreturn]] void damaged(const std::string& what) {
-  throw InvalidInput("the case is damaged: " + what + "; take a copy of it from a backup");
-}
 
 std::int32_t id_of(std::int64_t value) {
   if (value < 0 || value != static_cast<std::int32_t>(value))
@@ -24,7 +21,7 @@ bool flag_of(std::int64_t value) {
   return value == 1;
 }
 
-analysis::MeasureKind kind_of(const std::string& name) {
+analysis::MeasureKind measure_kind_of(const std::string& name) {
   try {
     return analysis::measure_kind(name);
   } catch (const InvalidInput&) {
@@ -132,7 +129,7 @@ Annotations AnnotationRows::read() {
   while (m.step()) {
     Measurement one;
     one.id = id_of(m.integer(0));
-    one.kind = kind_of(m.text(1));
+    one.kind = measure_kind_of(m.text(1));
     one.name = m.text(2);
     one.points = points_of(m.bytes(3));
     one.vessel = id_of(m.integer(4));

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double step_mm = 1.0;
 constexpr double half_chord_mm = 0.25;  // of the axis, for its direction
-constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
 /// Of the surface within an outline, its length being the area.
 Vec3 vector_area(const std::vector<Vec3>& outline, std::size_t first, std::size_t count) {
@@ -71,7 +71,7 @@ BeatingProfile beating_profile(const LumenRings& rings, const Beating& beating, 
   for (std::size_t k = 0; k < phases; ++k) {
     made.phases.push_back(static_cast<double>(k) / static_cast<double>(phases));
     const std::vector<Vec3> places = carried.places(beating.cage().at(made.phases.back()));
-    std::vector<double> area(sections, not_known);
+    std::vector<double> area(sections, no_value);
     std::size_t first = 0;
     for (std::size_t i = 0; i < sections; ++i) {
       const std::size_t count = rings.rings[i].size();

@@ -13,7 +13,7 @@
 namespace ostia::session::report_text {
 namespace {
 
-using Json = nlohmann::json;
+using ReportJson = nlohmann::json;
 
 struct OpWords {
   const char *op, *words;
@@ -43,18 +43,18 @@ constexpr std::array<OpWords, 22> kWords{{
     {"vessel.mark", "vessel's mark set"},
 }};
 
-std::string text_at(const Json& object, const char* name) {
+std::string text_at(const ReportJson& object, const char* name) {
   const auto found = object.find(name);
   return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
-bool flag_at(const Json& object, const char* name) {
+bool flag_at(const ReportJson& object, const char* name) {
   const auto found = object.find(name);
   return found != object.end() && found->is_boolean() && found->get<bool>();
 }
 
 /// What tells this step from others of its kind.
-std::string detail_of(const std::string& op, const Json& given) {
+std::string detail_of(const std::string& op, const ReportJson& given) {
   if (op == "vessel.mark") return flag_at(given, "checked") ? ": checked" : ": not checked";
   if (op == "vessel.rename" || op == "branch.add") return ": " + text_at(given, "name");
   if (op.rfind("measure.", 0) == 0) {
@@ -68,7 +68,7 @@ std::string detail_of(const std::string& op, const Json& given) {
 }
 
 /// The vessel that a step names; a measurement of points has none.
-std::optional<std::int32_t> vessel_of(const std::string& op, const Json& given) {
+std::optional<std::int32_t> vessel_of(const std::string& op, const ReportJson& given) {
   const auto found = given.find(op == "branch.add" ? "parent" : "vessel");
   if (found == given.end() || !found->is_number_integer()) return std::nullopt;
   if (op == "measure.add" || op == "measure.change") {
@@ -128,7 +128,7 @@ ReportStep step_of(const JournalEntry& entry, const lumen::LumenModel& model) {
   const auto known =
       std::find_if(kWords.begin(), kWords.end(), [&](const OpWords& one) { return entry.op == one.op; });
   if (known != kWords.end()) step.words = known->words;
-  const Json given = Json::parse(entry.parameters, nullptr, false);
+  const ReportJson given = ReportJson::parse(entry.parameters, nullptr, false);
   if (!given.is_object()) return step;
   step.words += detail_of(entry.op, given);
   if (const auto vessel = vessel_of(entry.op, given)) step.vessel = vessel_name(model, *vessel);

@@ -1,5 +1,6 @@
 #include "journal.h"
 
+#include "case_damage.h"
 #include "model_blob.h"
 
 #include "ostia/core/error.h"
@@ -12,10 +13,6 @@ namespace {
 #define OSTIA_JOURNAL_COLUMNS "number, op, parameters, state, notes, changeset, checksum"
 #define OSTIA_JOURNAL_HEAD "number, op, parameters, state, notes"
 #define OSTIA_JOURNAL_STEPS "op NOT IN ('case.begin', 'undo', 'redo')"
-
-[[noreturn]] void damaged(const std::string& what) {
-  throw InvalidInput("the case is damaged: " + what + "; take a copy of it from a backup");
-}
 
 std::string notes_json(const std::vector<std::string>& notes) {
   return nlohmann::json(notes).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);

@@ -19,7 +19,7 @@ namespace ostia::session {
 namespace fs = std::filesystem;
 namespace {
 
-using Json = nlohmann::json;
+using MachineJson = nlohmann::json;
 
 constexpr std::uint64_t largest_file = 16U << 20;
 constexpr auto longest_wait = std::chrono::seconds(2);
@@ -63,14 +63,14 @@ std::string unescaped(const std::string& text) {
   throw IoError(message);
 }
 
-class Descriptor {
+class MachineDescriptor {
  public:
-  Descriptor(const fs::path& path, int flags) : fd_(::open(path.c_str(), flags | O_CLOEXEC, 0600)) {
+  MachineDescriptor(const fs::path& path, int flags) : fd_(::open(path.c_str(), flags | O_CLOEXEC, 0600)) {
     if (fd_ < 0) raise("cannot open", path, errno);
   }
-  ~Descriptor() { ::close(fd_); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
+  ~MachineDescriptor() { ::close(fd_); }
+  MachineDescriptor(const MachineDescriptor&) = delete;
+  MachineDescriptor& operator=(const MachineDescriptor&) = delete;
   int get() const { return fd_; }
 
  private:
@@ -100,13 +100,13 @@ class Lock {
   }
 
  private:
-  Descriptor file_;
+  MachineDescriptor file_;
 };
 
 void write_private(const fs::path& path, const std::string& text) {
   core::StagedFile staged(path);
   {
-    const Descriptor out(staged.temporary(), O_WRONLY | O_CREAT | O_EXCL);
+    const MachineDescriptor out(staged.temporary(), O_WRONLY | O_CREAT | O_EXCL);
     for (std::size_t done = 0; done < text.size();) {
       const ssize_t wrote = ::write(out.get(), text.data() + done, text.size() - done);
       if (wrote < 0 && errno == EINTR) continue;
@@ -126,19 +126,19 @@ fs::path free_name(const fs::path& path) {
   }
 }
 
-RecentCase recent_case(const Json& in) {
+RecentCase recent_case(const MachineJson& in) {
   return {unescaped(in.at("path").get<std::string>()), in.at("pseudonym").get<std::string>(),
           in.at("opened").get<std::int64_t>()};
 }
 
-MachineContent content_of(const Json& in) {
+MachineContent content_of(const MachineJson& in) {
   if (in.at("v") != 1) throw InvalidInput("it is of version " + in.at("v").dump() + ", this program reads 1");
   MachineContent content;
   for (const auto& [sha256, image] : in.at("images").items())
     content.images[sha256] = {unescaped(image.at("path").get<std::string>()),
                               image.at("seen").get<std::int64_t>(),
                               unescaped(image.value("series", std::string()))};
-  for (const Json& one : in.at("recent")) content.recent.push_back(recent_case(one));
+  for (const MachineJson& one : in.at("recent")) content.recent.push_back(recent_case(one));
   if (content.recent.size() > MachineState::most_recent_cases)
     content.recent.resize(MachineState::most_recent_cases);
   content.settings = in.at("settings").get<std::map<std::string, std::string>>();
@@ -148,9 +148,12 @@ MachineContent content_of(const Json& in) {
 }  // namespace
 
 std::string machine_json(const MachineContent& content) {
-  Json out{{"v", 1}, {"images", Json::object()}, {"recent", Json::array()}, {"settings", content.settings}};
+  MachineJson out{{"v", 1},
+                  {"images", MachineJson::object()},
+                  {"recent", MachineJson::array()},
+                  {"settings", content.settings}};
   for (const auto& [sha256, image] : content.images) {
-    Json& one = out["images"][sha256] = {{"path", escaped(image.path.string())}, {"seen", image.seen}};
+    MachineJson& one = out["images"][sha256] = {{"path", escaped(image.path.string())}, {"seen", image.seen}};
     if (!image.series_uid.empty()) one["series"] = escaped(image.series_uid);
   }
   for (const RecentCase& one : content.recent)
@@ -158,15 +161,15 @@ std::string machine_json(const MachineContent& content) {
         {{"path", escaped(one.path.string())}, {"pseudonym", one.pseudonym}, {"opened", one.opened}});
   try {
     return out.dump(1) + "\n";
-  } catch (const Json::exception&) {
+  } catch (const MachineJson::exception&) {
     throw InvalidInput("a setting or a pseudonym is not UTF-8 and cannot be kept");
   }
 }
 
 MachineContent machine_content(const std::string& json) {
   try {
-    return content_of(Json::parse(json));
-  } catch (const Json::exception& e) {
+    return content_of(MachineJson::parse(json));
+  } catch (const MachineJson::exception& e) {
     throw InvalidInput(e.what());
   }
 }

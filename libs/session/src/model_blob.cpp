@@ -19,13 +19,13 @@ using lumen::LumenModel;
 using lumen::SurfaceSample;
 using lumen::VesselLumen;
 
-[[noreturn]] void damaged(const std::string& what) {
+[[noreturn]] void damaged_blob(const std::string& what) {
   throw InvalidInput("the case is damaged: " + what);
 }
 
 template <class Value>
 std::vector<Value> values_of(std::string_view bytes) {
-  if (bytes.size() % sizeof(Value) != 0) damaged("a list of numbers is cut short");
+  if (bytes.size() % sizeof(Value) != 0) damaged_blob("a list of numbers is cut short");
   std::vector<Value> values(bytes.size() / sizeof(Value));
   if (!bytes.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
   return values;
@@ -41,9 +41,9 @@ std::string raw(const std::vector<Value>& values) {
 constexpr std::string_view blob_magic = "ostia-model-1\n";
 constexpr std::uint64_t largest_model = 2ULL << 30;
 
-class Writer {
+class BlobWriter {
  public:
-  explicit Writer(std::string& out) : out_(&out) {}
+  explicit BlobWriter(std::string& out) : out_(&out) {}
   template <class Value>
   void number(Value value) {
     char bytes[sizeof(Value)];
@@ -59,9 +59,9 @@ class Writer {
   std::string* out_;
 };
 
-class Reader {
+class BlobReader {
  public:
-  explicit Reader(std::string_view bytes) : rest_(bytes) {}
+  explicit BlobReader(std::string_view bytes) : rest_(bytes) {}
   template <class Value>
   Value number() {
     Value value;
@@ -71,14 +71,14 @@ class Reader {
   std::string_view text() { return take(number<std::uint64_t>()); }
   std::size_t count(std::size_t least_bytes_each) {
     const auto n = number<std::uint64_t>();
-    if (n > rest_.size() / least_bytes_each) damaged("a list is longer than the model");
+    if (n > rest_.size() / least_bytes_each) damaged_blob("a list is longer than the model");
     return n;
   }
   bool done() const { return rest_.empty(); }
 
  private:
   std::string_view take(std::uint64_t size) {
-    if (size > rest_.size()) damaged("the model is cut short");
+    if (size > rest_.size()) damaged_blob("the model is cut short");
     const std::string_view taken = rest_.substr(0, size);
     rest_.remove_prefix(size);
     return taken;
@@ -86,7 +86,7 @@ class Reader {
   std::string_view rest_;
 };
 
-void write_tree(Writer& out, const geometry::VesselTree& tree) {
+void write_tree(BlobWriter& out, const geometry::VesselTree& tree) {
   out.number(static_cast<std::uint64_t>(tree.nodes.size()));
   for (const auto& n : tree.nodes) {
     out.number(n.id);
@@ -108,7 +108,7 @@ void write_tree(Writer& out, const geometry::VesselTree& tree) {
   }
 }
 
-geometry::VesselTree read_tree(Reader& in) {
+geometry::VesselTree read_tree(BlobReader& in) {
   geometry::VesselTree tree;
   tree.nodes.resize(in.count(12));
   for (auto& n : tree.nodes) {
@@ -134,7 +134,7 @@ geometry::VesselTree read_tree(Reader& in) {
   return tree;
 }
 
-void write_lumen(Writer& out, const VesselLumen& lumen) {
+void write_lumen(BlobWriter& out, const VesselLumen& lumen) {
   out.number(lumen.vessel);
   out.number(lumen.own_from_mm);
   out.number(static_cast<std::int32_t>(lumen.interpolation.kernel));
@@ -154,11 +154,11 @@ void write_lumen(Writer& out, const VesselLumen& lumen) {
 template <class Enum>
 Enum enum_of(std::int64_t value, Enum last) {
   if (value < 0 || value > static_cast<std::int64_t>(last))
-    damaged("an unknown choice " + std::to_string(value));
+    damaged_blob("an unknown choice " + std::to_string(value));
   return static_cast<Enum>(value);
 }
 
-VesselLumen read_lumen(Reader& in) {
+VesselLumen read_lumen(BlobReader& in) {
   VesselLumen lumen;
   lumen.vessel = in.number<std::int32_t>();
   lumen.own_from_mm = in.number<double>();
@@ -178,16 +178,17 @@ VesselLumen read_lumen(Reader& in) {
 }
 
 std::string inflated(std::string_view bytes) {
-  if (bytes.size() < 8) damaged("the starting model is cut short");
+  if (bytes.size() < 8) damaged_blob("the starting model is cut short");
   std::uint64_t size = 0;
   std::memcpy(&size, bytes.data(), 8);
   // zlib cannot shrink more than about a thousandfold.
-  if (size > largest_model || size > 1100 * bytes.size()) damaged("the starting model's size is impossible");
+  if (size > largest_model || size > 1100 * bytes.size())
+    damaged_blob("the starting model's size is impossible");
   std::string out(size, '\0');
   uLongf length = size;
   const int code = uncompress(reinterpret_cast<Bytef*>(out.data()), &length,
                               reinterpret_cast<const Bytef*>(bytes.data() + 8), bytes.size() - 8);
-  if (code != Z_OK || length != size) damaged("the starting model cannot be decompressed");
+  if (code != Z_OK || length != size) damaged_blob("the starting model cannot be decompressed");
   return out;
 }
 
@@ -216,14 +217,14 @@ std::string bytes_of(const std::vector<std::int32_t>& ids) {
 }
 
 Vec3 vec_of(std::string_view bytes) {
-  if (bytes.size() != 3 * sizeof(double)) damaged("a point has not three coordinates");
+  if (bytes.size() != 3 * sizeof(double)) damaged_blob("a point has not three coordinates");
   Vec3 v;
   std::memcpy(v.data(), bytes.data(), bytes.size());
   return v;
 }
 std::vector<Vec3> points_of(std::string_view bytes) {
   const std::vector<double> values = doubles_of(bytes);
-  if (values.size() % 3 != 0) damaged("a list of points is cut short");
+  if (values.size() % 3 != 0) damaged_blob("a list of points is cut short");
   std::vector<Vec3> points;
   points.reserve(values.size() / 3);
   for (std::size_t i = 0; i < values.size(); i += 3)
@@ -235,7 +236,7 @@ std::vector<double> doubles_of(std::string_view bytes) {
 }
 std::vector<Frame> frames_of(std::string_view bytes) {
   const std::vector<Vec3> vectors = points_of(bytes);
-  if (vectors.size() % 3 != 0) damaged("a list of frames is cut short");
+  if (vectors.size() % 3 != 0) damaged_blob("a list of frames is cut short");
   std::vector<Frame> frames;
   frames.reserve(vectors.size() / 3);
   for (std::size_t i = 0; i < vectors.size(); i += 3)
@@ -253,7 +254,7 @@ std::shared_ptr<const geometry::AxisCurve> axis_of(const geometry::VesselTree& t
 
 std::string packed(const LumenModel& model) {
   std::string plain(blob_magic);
-  Writer out(plain);
+  BlobWriter out(plain);
   write_tree(out, model.tree);
   out.number(static_cast<std::uint64_t>(model.vessels.size()));
   for (const auto& lumen : model.vessels) write_lumen(out, *lumen);
@@ -274,13 +275,13 @@ std::string packed(const LumenModel& model) {
 
 LumenModel unpacked(std::string_view bytes) {
   const std::string plain = inflated(bytes);
-  if (!plain.starts_with(blob_magic)) damaged("the starting model is none");
-  Reader in(std::string_view(plain).substr(blob_magic.size()));
+  if (!plain.starts_with(blob_magic)) damaged_blob("the starting model is none");
+  BlobReader in(std::string_view(plain).substr(blob_magic.size()));
   LumenModel model;
   model.tree = read_tree(in);
-  if (const auto fault = geometry::find_fault(model.tree)) damaged("of the starting model " + *fault);
+  if (const auto fault = geometry::find_fault(model.tree)) damaged_blob("of the starting model " + *fault);
   const std::size_t vessels = in.count(44);
-  if (vessels != model.tree.vessels.size()) damaged("the starting model's walls are not its tree's");
+  if (vessels != model.tree.vessels.size()) damaged_blob("the starting model's walls are not its tree's");
   for (std::size_t i = 0; i < vessels; ++i) {
     VesselLumen lumen = read_lumen(in);
     lumen.axis = axis_of(model.tree, model.tree.vessels[i]);
@@ -290,8 +291,8 @@ LumenModel unpacked(std::string_view bytes) {
   model.blend.joints = enum_of(in.number<std::int32_t>(), lumen::JointShape::smooth);
   model.next_sample_id = in.number<std::int64_t>();
   model.next_tree_id = in.number<std::int32_t>();
-  if (!in.done()) damaged("the starting model is longer than it says");
-  if (const auto fault = lumen::find_fault(model)) damaged("of the starting model " + *fault);
+  if (!in.done()) damaged_blob("the starting model is longer than it says");
+  if (const auto fault = lumen::find_fault(model)) damaged_blob("of the starting model " + *fault);
   return model;
 }
 

@@ -1,5 +1,7 @@
 #include "ostia/session/model_changes.h"
 
+#include "same_bits.h"
+
 #include <algorithm>
 #include <cstring>
 #include <unordered_map>
@@ -15,10 +17,6 @@ using lumen::VesselLumen;
 
 bool same(const Vec3& a, const Vec3& b) {
   return std::memcmp(a.data(), b.data(), 3 * sizeof(double)) == 0;
-}
-
-bool same_bits(double a, double b) {
-  return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
 template <class Items, class Same>

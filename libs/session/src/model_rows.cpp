@@ -18,32 +18,32 @@ std::string_view view_of(const Vec3& v) {
   return {reinterpret_cast<const char*>(v.data()), 3 * sizeof(double)};
 }
 
-[[noreturn]] void damaged(const std::string& what) {
+[[noreturn]] void damaged_model(const std::string& what) {
   throw InvalidInput("the case is damaged: " + what);
 }
 
 std::int32_t small(std::int64_t value) {
-  if (value != static_cast<std::int32_t>(value)) damaged("an id of " + std::to_string(value));
+  if (value != static_cast<std::int32_t>(value)) damaged_model("an id of " + std::to_string(value));
   return static_cast<std::int32_t>(value);
 }
 
 lumen::FarField far_field_named(const std::string& name) {
   for (const auto choice : {lumen::FarField::constant, lumen::FarField::linear})
     if (name_of(choice) == name) return choice;
-  damaged("an unknown far field");
+  damaged_model("an unknown far field");
 }
 
 lumen::JointShape joints_named(const std::string& name) {
   for (const auto choice : {lumen::JointShape::sharp, lumen::JointShape::smooth})
     if (name_of(choice) == name) return choice;
-  damaged("an unknown shape of joints");
+  damaged_model("an unknown shape of joints");
 }
 
 lumen::Kernel kernel_of(const std::string& name) {
   try {
     return lumen::kernel_named(name);
   } catch (const InvalidInput&) {
-    damaged("an unknown kernel");
+    damaged_model("an unknown kernel");
   }
 }
 
@@ -212,7 +212,7 @@ void ModelRows::update(const SurfaceSample& sample, std::int32_t vessel) {
 }
 
 ModelRow ModelRows::read_model(std::uint64_t& checksum) {
-  if (!read_model_.with().step()) damaged("it holds no model");
+  if (!read_model_.with().step()) damaged_model("it holds no model");
   ModelRow row;
   row.next_sample_id = read_model_.integer(0);
   row.next_tree_id = small(read_model_.integer(1));
@@ -255,7 +255,7 @@ std::vector<SurfaceSample> ModelRows::read_samples(std::int32_t vessel) {
   while (row.step()) {
     const std::int64_t origin = row.integer(4);
     if (origin < 0 || origin > static_cast<std::int64_t>(lumen::SampleOrigin::edit))
-      damaged("a sample of unknown origin");
+      damaged_model("a sample of unknown origin");
     samples.push_back({row.integer(0), vec_of(row.bytes(2)), vec_of(row.bytes(3)), row.real(1),
                        static_cast<lumen::SampleOrigin>(origin)});
   }

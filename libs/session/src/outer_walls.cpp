@@ -19,7 +19,7 @@ using geometry::Vec3;
 constexpr double shortest_mm = 2.0;   // a stretch that is looked at
 constexpr double shut_mm = 0.05;      // of a lumen that is not there
 constexpr double usual_end_mm = 1.0;  // left out at an end whose radius is not known
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 struct Stretch {
   double from_mm = 0.0, to_mm = 0.0;

@@ -1,5 +1,7 @@
 #include "ostia/solver/boundary_flow.h"
 
+#include "pressure_units.h"
+
 #include "ostia/core/error.h"
 #include "ostia/geometry/faces.h"
 #include "ostia/io/mesh_export.h"
@@ -20,7 +22,6 @@ using geometry::Vec3;
 constexpr double turbulent_above = 2000.0;
 constexpr double smallest_inlet_mm = 0.1, largest_inlet_mm = 100.0;
 constexpr double usual_pressure_mmhg = 90.0;
-constexpr double pa_per_mmhg = 133.322387415;
 
 std::string shown(double value) {
   std::array<char, 32> text{};

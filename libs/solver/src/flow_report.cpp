@@ -1,6 +1,7 @@
 #include "ostia/solver/flow_report.h"
 
 #include "case_text.h"
+#include "pressure_units.h"
 
 #include "ostia/core/csv.h"
 #include "ostia/core/error.h"
@@ -21,7 +22,6 @@ using nlohmann::json;
 
 constexpr double largest_imbalance = 0.01;
 constexpr double largest_misfit = 0.02;  // of an outlet's pressure to R Q; runs that settle come within 0.01
-constexpr double pa_per_mmhg = 133.322387415;
 
 WallFigures figures_of(const WallSurface& wall, const WallSurface::Part& part,
                        const std::vector<double>& shear, const ShearLimits& limits) {

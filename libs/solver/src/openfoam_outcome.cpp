@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double largest_cycle_change = 0.01;
-constexpr double same_time = 1e-6;  // of a period
+constexpr double same_outcome_time = 1e-6;  // of a period
 
 std::optional<double> as_number(const std::string& word) {
   double value = 0.0;
@@ -90,7 +90,7 @@ std::optional<double> largest_courant(const std::string& log) {
 /// Relative change of the inlets' mean pressures from the last cycle but one to the last.
 std::optional<double> change_of_cycle(const fs::path& case_folder, const std::vector<std::string>& inlets,
                                       double last, double period) {
-  if (last < 2.0 * period * (1.0 - same_time)) return std::nullopt;
+  if (last < 2.0 * period * (1.0 - same_outcome_time)) return std::nullopt;
   double largest = 0.0;
   for (const std::string& inlet : inlets) {
     const OpenfoamSeries pressure = read_openfoam_series(case_folder, "pressure_" + inlet);
@@ -116,7 +116,7 @@ void judge_steady(const std::string& log, const fs::path& log_file, OpenfoamOutc
 
 void judge_pulsatile(const CaseRecord& record, OpenfoamOutcome& run) {
   const double end = record.period_s * record.cycles;
-  if (run.last < end * (1.0 - same_time)) {
+  if (run.last < end * (1.0 - same_outcome_time)) {
     run.not_converged =
         "the run has reached " + number(run.last) + " s of its " + number(std::round(1e6 * end) / 1e6) + " s";
   } else if (run.cycle_change && *run.cycle_change > largest_cycle_change) {
@@ -150,7 +150,7 @@ OpenfoamSeries read_openfoam_series(const fs::path& case_folder, const std::stri
 }
 
 double cycle_mean(const OpenfoamSeries& series, double last, double period) {
-  const double first = last - period, slack = same_time * period;
+  const double first = last - period, slack = same_outcome_time * period;
   const double from_start = series.empty() ? last : series.begin()->first;
   // The first step is not at 0; what lies before it is as it.
   const double step = series.size() > 1 ? std::next(series.begin())->first - from_start : 0.0;

@@ -1,6 +1,7 @@
 #include "ostia/solver/svmultiphysics_case.h"
 
 #include "case_text.h"
+#include "pressure_units.h"
 
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
@@ -18,7 +19,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double mm3_per_ml = 1e3;
-constexpr double pa_per_mmhg = 133.322387415;
+
 constexpr double proximal_share = 0.09;  // of a Windkessel's resistance: a usual choice
 constexpr int flow_samples = 200;
 

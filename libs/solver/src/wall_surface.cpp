@@ -34,9 +34,10 @@ class Carrier {
 };
 
 /// Takes the facets of walls over.
-class Collector {
+class WallCollector {
  public:
-  Collector(const MixedMesh& mesh, WallSurface& wall) : wall_(wall), local_(mesh, wall.surface.mesh.points) {}
+  WallCollector(const MixedMesh& mesh, WallSurface& wall)
+      : wall_(wall), local_(mesh, wall.surface.mesh.points) {}
 
   template <std::size_t N>
   void add(const std::array<std::int32_t, N>& corners, std::int32_t face) {
@@ -63,7 +64,7 @@ class Collector {
 
 WallSurface wall_surface(const MixedMesh& mesh) {
   WallSurface wall;
-  Collector collector(mesh, wall);
+  WallCollector collector(mesh, wall);
   const std::vector<std::string> names = io::safe_face_names(mesh.faces);
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     const geometry::Face& face = mesh.faces[f];

@@ -17,7 +17,7 @@
 namespace ostia::view {
 namespace {
 
-constexpr double fading_reach_mm = 1.0;
+constexpr double fading_depth_mm = 1.0;
 
 }  // namespace
 
@@ -212,7 +212,7 @@ void SectionView::add_to_overlay(Overlay& overlay) {
       }
     }
   add_measurements(overlay, main ? mark_reach_mm : 0.5);
-  add_fading(overlay, fading_reach_mm);
+  add_fading(overlay, fading_depth_mm);
 }
 
 std::string to_string(SliceKind kind) {
@@ -332,7 +332,7 @@ void SliceView::add_to_overlay(Overlay& overlay) {
     std::snprintf(text, sizeof text, "%s  %.1f mm", word_of(kind_).c_str(), depth);
   overlay.texts.push_back({Vec2(units(6.0), units(6.0)), text, Role::information, Anchor::top_left});
   add_measurements(overlay, mark_reach_mm);
-  add_fading(overlay, fading_reach_mm);
+  add_fading(overlay, fading_depth_mm);
 }
 
 }  // namespace ostia::view

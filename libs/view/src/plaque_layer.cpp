@@ -16,7 +16,7 @@
 namespace ostia::view {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr int rays = 720;  // of a section: half a degree is less than a pixel of any wall
 constexpr double legend_wide = 125.0, legend_high = 170.0;  // a smaller view has no room for one
 constexpr std::array roles{Role::low_attenuation, Role::fibrofatty, Role::fibrous, Role::calcified};

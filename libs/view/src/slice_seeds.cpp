@@ -12,7 +12,7 @@ namespace {
 
 constexpr double farthest_radii = 3.0;  // from its axis that a lumen reaches
 // Along an axis: a lumen that a narrowing takes off the slice goes on beyond it.
-constexpr double seed_step_mm = 5.0;
+constexpr double axis_seed_step_mm = 5.0;
 
 std::optional<Vec2> in_picture(const reformat::Plane& plane, const Vec3& place) {
   const Vec2 px = reformat::project(plane, place).picture_px;
@@ -85,7 +85,7 @@ void ask_wall(const lumen::ScalarField& wall, std::vector<Foot>& feet) {
 }
 
 /// Of feet side by side all crossings and, where there is none, the one nearest to its axis; of the others
-/// as many as are seed_step_mm from those.
+/// as many as are axis_seed_step_mm from those.
 void add_seeds(std::vector<Foot>::const_iterator first, std::vector<Foot>::const_iterator last,
                std::vector<Vec2>& seeds) {
   std::vector<double> taken;
@@ -100,7 +100,7 @@ void add_seeds(std::vector<Foot>::const_iterator first, std::vector<Foot>::const
     take(*std::min_element(first, last, [](const Foot& a, const Foot& b) { return a.radii < b.radii; }));
   std::for_each(first, last, [&](const Foot& foot) {
     if (std::all_of(taken.begin(), taken.end(),
-                    [&](double s) { return std::abs(s - foot.s_mm) >= seed_step_mm; }))
+                    [&](double s) { return std::abs(s - foot.s_mm) >= axis_seed_step_mm; }))
       take(foot);
   });
 }

@@ -20,7 +20,7 @@
 namespace ostia::view {
 namespace {
 
-constexpr std::size_t grain = 8192;
+constexpr std::size_t wall_grain = 8192;
 
 vtkSmartPointer<vtkPolyDataMapper> mapper_of(vtkPolyData* surface) {
   auto mapper = vtkSmartPointer<vtkPolyDataMapper>::New();
@@ -30,7 +30,7 @@ vtkSmartPointer<vtkPolyDataMapper> mapper_of(vtkPolyData* surface) {
   return mapper;
 }
 
-std::uint8_t byte(double component) {
+std::uint8_t color_byte(double component) {
   return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(component, 0.0, 1.0)));
 }
 
@@ -139,11 +139,11 @@ void WallActor::take_corners(vtkIdType kept) {
 void WallActor::set_colors(std::size_t count, const std::function<figure::Color(std::size_t)>& color_of) {
   colors_->SetNumberOfTuples(static_cast<vtkIdType>(count));
   unsigned char* out = colors_->GetPointer(0);
-  core::parallel_for(count, grain, [&](std::size_t i) {
+  core::parallel_for(count, wall_grain, [&](std::size_t i) {
     const figure::Color color = color_of(i);
-    out[3 * i] = byte(color.r);
-    out[3 * i + 1] = byte(color.g);
-    out[3 * i + 2] = byte(color.b);
+    out[3 * i] = color_byte(color.r);
+    out[3 * i + 1] = color_byte(color.g);
+    out[3 * i + 2] = color_byte(color.b);
   });
   colors_->Modified();
   surface_->Modified();

@@ -2,7 +2,7 @@
 
 #include "ostia/core/csv.h"
 
-#include "formats.h"
+#include "surface_formats.h"
 #include "graph/formats.h"
 #include "text_writer.h"
 
@@ -19,7 +19,7 @@ using geometry::Vec3;
 
 namespace {
 
-std::string_view trimmed(std::string_view text) {
+std::string_view trimmed_cell(std::string_view text) {
   const std::size_t from = text.find_first_not_of(" \t");
   if (from == std::string_view::npos) return {};
   return text.substr(from, text.find_last_not_of(" \t") + 1 - from);
@@ -33,7 +33,7 @@ class Cells {
     if (row.find('"') != std::string_view::npos) return quoted(row, reader);
     for (;;) {
       const std::size_t comma = row.find(',');
-      cells_.push_back(trimmed(row.substr(0, comma)));
+      cells_.push_back(trimmed_cell(row.substr(0, comma)));
       if (comma == std::string_view::npos) return cells_;
       row.remove_prefix(comma + 1);
     }
@@ -48,7 +48,7 @@ class Cells {
       if (!cell.closed) reader.refuse_line("its quotation does not end", "");
       texts_.push_back(cell.text);
     } while (!cell.last);
-    for (const std::string& text : texts_) cells_.push_back(trimmed(text));
+    for (const std::string& text : texts_) cells_.push_back(trimmed_cell(text));
     return cells_;
   }
   std::vector<std::string_view> cells_;
@@ -64,7 +64,7 @@ class TableReader {
 
   LoadedGraph read() {
     std::string_view line;
-    while (reader_.line(line) && trimmed(line).empty()) {
+    while (reader_.line(line) && trimmed_cell(line).empty()) {
     }
     line = without_byte_order_mark(line);
     const bool named = take_header(cells_.of(line, reader_));
@@ -116,7 +116,7 @@ class TableReader {
     find_columns(needed, wished);
     std::string_view line;
     while (reader_.line(line)) {
-      if (trimmed(line).empty()) continue;
+      if (trimmed_cell(line).empty()) continue;
       (this->*take)(cells_.of(line, reader_));
     }
   }
@@ -199,7 +199,7 @@ class TableReader {
     if (!first.empty()) point(cells_.of(first, reader_));
     std::string_view line;
     while (reader_.line(line)) {
-      if (trimmed(line).empty())
+      if (trimmed_cell(line).empty())
         last_ = -1;
       else
         point(cells_.of(line, reader_));

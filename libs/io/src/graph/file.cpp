@@ -1,4 +1,4 @@
-#include "formats.h"
+#include "surface_formats.h"
 #include "graph/formats.h"
 
 #include "ostia/core/error.h"

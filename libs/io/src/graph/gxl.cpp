@@ -1,7 +1,7 @@
 // Grown trees as GXL: <node> with an attribute `position`, <edge from to> with `radius`. Read tag by tag, for
 // such a file has half a kilobyte for each segment.
 
-#include "formats.h"
+#include "surface_formats.h"
 #include "graph/formats.h"
 
 #include "ostia/core/error.h"
@@ -18,9 +18,9 @@ using geometry::Vec3;
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_radius = std::numeric_limits<double>::quiet_NaN();
 
-std::string_view trimmed(std::string_view text) {
+std::string_view trimmed_text(std::string_view text) {
   const std::size_t from = text.find_first_not_of(" \t\r\n");
   if (from == std::string_view::npos) return {};
   return text.substr(from, text.find_last_not_of(" \t\r\n") + 1 - from);
@@ -30,12 +30,12 @@ std::string_view trimmed(std::string_view text) {
 std::string_view attribute(std::string_view tag, std::string_view name) {
   for (std::size_t at = tag.find(name); at != std::string_view::npos; at = tag.find(name, at + 1)) {
     if (at == 0 || (tag[at - 1] != ' ' && tag[at - 1] != '\t' && tag[at - 1] != '\n')) continue;
-    const std::string_view rest = trimmed(tag.substr(at + name.size()));
+    const std::string_view rest = trimmed_text(tag.substr(at + name.size()));
     if (rest.empty() || rest.front() != '=') continue;
-    const std::string_view quoted = trimmed(rest.substr(1));
+    const std::string_view quoted = trimmed_text(rest.substr(1));
     if (quoted.empty() || (quoted.front() != '"' && quoted.front() != '\'')) continue;
     const std::size_t end = quoted.find(quoted.front(), 1);
-    if (end != std::string_view::npos) return trimmed(quoted.substr(1, end - 1));
+    if (end != std::string_view::npos) return trimmed_text(quoted.substr(1, end - 1));
   }
   return {};
 }
@@ -50,7 +50,7 @@ class GxlReader {
     std::string_view text, tag;
     while (!ended_) {
       if (!reader_.take('<', text) || !reader_.stopped()) refuse_end();
-      if (numbers_wanted_ && in_number_) take_number(trimmed(text));
+      if (numbers_wanted_ && in_number_) take_number(trimmed_text(text));
       if (!reader_.take('>', tag) || !reader_.stopped()) refuse_end();
       if (tag.starts_with("!--"))
         skip_comment(tag);
@@ -144,7 +144,7 @@ class GxlReader {
     const auto [at, added] =
         indices_.try_emplace(std::string(id), static_cast<std::int32_t>(loaded_.graph.points.size()));
     if (added) {
-      loaded_.graph.points.emplace_back(nan, nan, nan);
+      loaded_.graph.points.emplace_back(no_radius, no_radius, no_radius);
       defined_.push_back(false);
     }
     return at->second;
@@ -165,7 +165,7 @@ class GxlReader {
     const std::string_view from = attribute(tag, "from"), to = attribute(tag, "to");
     if (from.empty() || to.empty()) reader_.refuse_line("its edge lacks from or to", so_far());
     const std::int32_t a = index_of(from);
-    loaded_.graph.edges.push_back({a, index_of(to), nan, nan});
+    loaded_.graph.edges.push_back({a, index_of(to), no_radius, no_radius});
     loaded_.graph.references.push_back(static_cast<std::int64_t>(reader_.line_number()));
     if (!tag.ends_with("/")) inside_ = Inside::edge;
   }

@@ -1,6 +1,6 @@
 // Samples that name their parents: SWC.
 
-#include "formats.h"
+#include "surface_formats.h"
 #include "graph/formats.h"
 #include "text_writer.h"
 

@@ -1,6 +1,6 @@
 // The three tables that OpenCCO's tools write: places, pairs of points, radii.
 
-#include "formats.h"
+#include "surface_formats.h"
 #include "graph/formats.h"
 
 #include "ostia/core/error.h"

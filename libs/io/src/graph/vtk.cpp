@@ -1,6 +1,6 @@
 // Networks as lines of VTK polydata.
 
-#include "formats.h"
+#include "surface_formats.h"
 #include "graph/formats.h"
 #include "vtk/xml.h"
 

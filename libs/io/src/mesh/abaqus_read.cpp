@@ -1,7 +1,7 @@
 // Abaqus' input file, read: nodes, elements C3D4, C3D10 and C3D6, element sets, and surfaces of element
 // sides.
 
-#include "formats.h"
+#include "surface_formats.h"
 #include "mesh/builder.h"
 #include "mesh/readers.h"
 #include "mesh/tagged_sides.h"
@@ -16,7 +16,7 @@ namespace ostia::io {
 namespace fs = std::filesystem;
 namespace {
 
-std::string_view trimmed(std::string_view text) {
+std::string_view trimmed_word(std::string_view text) {
   const std::size_t from = text.find_first_not_of(" \t\r");
   if (from == std::string_view::npos) return {};
   return text.substr(from, text.find_last_not_of(" \t\r") - from + 1);
@@ -26,7 +26,7 @@ std::vector<std::string_view> parts_of(std::string_view line) {
   std::vector<std::string_view> parts;
   while (true) {
     const std::size_t comma = std::min(line.find(','), line.size());
-    parts.push_back(trimmed(line.substr(0, comma)));
+    parts.push_back(trimmed_word(line.substr(0, comma)));
     if (comma == line.size()) break;
     line.remove_prefix(comma + 1);
   }
@@ -47,21 +47,21 @@ Keyword keyword_of(std::string_view line) {
     if (keyword.name.empty())
       keyword.name = upper(part);
     else if (equals != std::string_view::npos)
-      keyword.parameters[upper(trimmed(part.substr(0, equals)))] = trimmed(part.substr(equals + 1));
+      keyword.parameters[upper(trimmed_word(part.substr(0, equals)))] = trimmed_word(part.substr(equals + 1));
     else
       keyword.parameters[upper(part)] = "";
   }
   return keyword;
 }
 
-struct Kind {
+struct AbaqusKind {
   Shape shape;
   std::size_t nodes;
 };
-const std::map<std::string, Kind> kinds = {{"C3D4", {Shape::tetrahedron, 4}},
-                                           {"C3D10", {Shape::tetrahedron, 10}},
-                                           {"C3D10M", {Shape::tetrahedron, 10}},
-                                           {"C3D6", {Shape::prism, 6}}};
+const std::map<std::string, AbaqusKind> abaqus_kinds = {{"C3D4", {Shape::tetrahedron, 4}},
+                                                        {"C3D10", {Shape::tetrahedron, 10}},
+                                                        {"C3D10M", {Shape::tetrahedron, 10}},
+                                                        {"C3D6", {Shape::prism, 6}}};
 
 /// Numbers of elements, as GENERATE has them; one alone from itself to itself.
 struct Range {
@@ -81,7 +81,7 @@ class AbaqusFile {
   LayeredMesh read() {
     Words lines(text_);
     while (!lines.empty()) {
-      const std::string_view line = trimmed(lines.line());
+      const std::string_view line = trimmed_word(lines.line());
       if (line.starts_with("**")) {
         take_comment(line);
       } else if (line.starts_with("*")) {
@@ -114,8 +114,8 @@ class AbaqusFile {
     require_no_element_begun();
     if (keyword_.name == "*ELEMENT") {
       const std::string type = upper(keyword_.parameters["TYPE"]);
-      const auto kind = kinds.find(type);
-      if (kind == kinds.end())
+      const auto kind = abaqus_kinds.find(type);
+      if (kind == abaqus_kinds.end())
         refuse(path_, "it has elements of type " + type + "; C3D4, C3D10 and C3D6 are read");
       kind_ = kind->second;
       mesh_.set_in_layers(upper(keyword_.parameters["ELSET"]).ends_with(upper(layers_suffix)));
@@ -230,7 +230,7 @@ class AbaqusFile {
   std::string text_;
   MeshBuilder mesh_;
   Keyword keyword_;
-  Kind kind_{Shape::tetrahedron, 4};
+  AbaqusKind kind_{Shape::tetrahedron, 4};
   std::vector<std::int64_t> left_;
   ElementCounts counts_;
   std::unordered_map<std::int64_t, std::int32_t> points_;

@@ -1,6 +1,6 @@
 #include "mesh/cells_of_sides.h"
 
-#include "formats.h"
+#include "surface_formats.h"
 
 #include <algorithm>
 

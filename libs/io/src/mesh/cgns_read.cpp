@@ -1,7 +1,7 @@
 // CGNS, read: one unstructured zone; sections of tetrahedra and wedges, and of triangles and quadrilaterals
 // that boundary conditions name.
 
-#include "formats.h"
+#include "surface_formats.h"
 #include "mesh/builder.h"
 #include "mesh/readers.h"
 #include "mesh/tagged_sides.h"
@@ -17,29 +17,29 @@ namespace ostia::io {
 namespace fs = std::filesystem;
 namespace {
 
-struct Kind {
+struct CgnsKind {
   Shape shape;
   std::size_t nodes;
 };
 
-std::optional<Kind> kind_of(CGNS_ENUMT(ElementType_t) type) {
+std::optional<CgnsKind> kind_of(CGNS_ENUMT(ElementType_t) type) {
   switch (type) {
     case CGNS_ENUMV(TETRA_4):
-      return Kind{Shape::tetrahedron, 4};
+      return CgnsKind{Shape::tetrahedron, 4};
     case CGNS_ENUMV(TETRA_10):
-      return Kind{Shape::tetrahedron, 10};
+      return CgnsKind{Shape::tetrahedron, 10};
     case CGNS_ENUMV(PENTA_6):
-      return Kind{Shape::prism, 6};
+      return CgnsKind{Shape::prism, 6};
     case CGNS_ENUMV(PENTA_18):
-      return Kind{Shape::prism, 18};
+      return CgnsKind{Shape::prism, 18};
     case CGNS_ENUMV(TRI_3):
-      return Kind{Shape::triangle, 3};
+      return CgnsKind{Shape::triangle, 3};
     case CGNS_ENUMV(TRI_6):
-      return Kind{Shape::triangle, 6};
+      return CgnsKind{Shape::triangle, 6};
     case CGNS_ENUMV(QUAD_4):
-      return Kind{Shape::quad, 4};
+      return CgnsKind{Shape::quad, 4};
     case CGNS_ENUMV(QUAD_9):
-      return Kind{Shape::quad, 9};
+      return CgnsKind{Shape::quad, 9};
     default:
       return std::nullopt;
   }
@@ -205,7 +205,7 @@ class CgnsInput {
     int boundary = 0, parents = 0;
     require(cg_section_read(file_, base_, zone_, section, name.data(), &type, &first, &last, &boundary,
                             &parents));
-    const std::optional<Kind> kind = kind_of(type);
+    const std::optional<CgnsKind> kind = kind_of(type);
     if (!kind)
       refuse(path_, std::string("section ") + name.data() + " has elements of type " +
                         cg_ElementTypeName(type) +

@@ -80,14 +80,14 @@ class NetCdf {
   bool open_ = false;
 };
 
-struct Block {
+struct ExodusBlock {
   std::string name, type;
   Numbers nodes;
   std::size_t per_element;
 };
 
 /// Entities of one kind, numbered from 1: element blocks (eb), side sets (ss), node sets (ns).
-struct Kind {
+struct ExodusKind {
   int names, status, ids;
 };
 
@@ -101,10 +101,10 @@ Numbers plus_one(Numbers numbers) {
   return numbers;
 }
 
-std::vector<Block> blocks_of(const PreparedMesh& mesh) {
+std::vector<ExodusBlock> exodus_blocks(const PreparedMesh& mesh) {
   const std::vector<ElementBlock> parts = mesh.blocks();
   const bool second = mesh.mesh.quadratic();
-  std::vector<Block> blocks;
+  std::vector<ExodusBlock> blocks;
   for (const ElementBlock& part : parts) {
     const bool prism = part.shape == Shape::prism;
     const std::string type = prism ? (second ? "WEDGE18" : "WEDGE") : (second ? "TETRA10" : "TETRA");
@@ -137,15 +137,16 @@ Set set_of(const PreparedMesh& mesh, std::size_t f) {
   return set;
 }
 
-Kind define_kind(NetCdf& file, const std::string& prefix, int count, int name_dimension) {
-  const Kind kind{file.variable(prefix + "_names", NC_CHAR, {count, name_dimension}),
-                  file.variable(prefix + "_status", NC_INT, {count}),
-                  file.variable(prefix + "_prop1", NC_INT, {count})};
+ExodusKind define_kind(NetCdf& file, const std::string& prefix, int count, int name_dimension) {
+  const ExodusKind kind{file.variable(prefix + "_names", NC_CHAR, {count, name_dimension}),
+                        file.variable(prefix + "_status", NC_INT, {count}),
+                        file.variable(prefix + "_prop1", NC_INT, {count})};
   file.text(kind.ids, "name", "ID");
   return kind;
 }
 
-void put_kind(NetCdf& file, const Kind& kind, const std::vector<std::string>& names, const Numbers& ids) {
+void put_kind(NetCdf& file, const ExodusKind& kind, const std::vector<std::string>& names,
+              const Numbers& ids) {
   file.put(kind.names, names);
   file.put(kind.status, Numbers(ids.size(), 1));
   file.put(kind.ids, ids);
@@ -167,7 +168,7 @@ void put_globals(NetCdf& file, const PreparedMesh& mesh) {
   file.text(NC_GLOBAL, "title", mesh.title + ", axes LPS, unit mm");
 }
 
-std::vector<int> define_blocks(NetCdf& file, const std::vector<Block>& blocks) {
+std::vector<int> define_blocks(NetCdf& file, const std::vector<ExodusBlock>& blocks) {
   std::vector<int> variables;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const std::string n = std::to_string(b + 1);
@@ -193,7 +194,7 @@ void define_sets(NetCdf& file, std::vector<Set>& sets) {
 }  // namespace
 
 void write_exodus(const PreparedMesh& mesh, const fs::path& path) {
-  const std::vector<Block> blocks = blocks_of(mesh);
+  const std::vector<ExodusBlock> blocks = exodus_blocks(mesh);
   std::vector<Set> sets;
   for (std::size_t f = 0; f < mesh.facets.size(); ++f) sets.push_back(set_of(mesh, f));
   NetCdf file(path);
@@ -206,9 +207,9 @@ void write_exodus(const PreparedMesh& mesh, const fs::path& path) {
   file.variable("time_whole", NC_DOUBLE, {time});
   const int points = file.dimension("num_nodes", mesh.mesh.points.size());
   file.dimension("num_elem", mesh.elements());
-  const Kind block_kind = define_kind(file, "eb", file.dimension("num_el_blk", blocks.size()), name);
-  const Kind side_kind = define_kind(file, "ss", file.dimension("num_side_sets", sets.size()), name);
-  const Kind node_kind = define_kind(file, "ns", file.dimension("num_node_sets", sets.size()), name);
+  const ExodusKind block_kind = define_kind(file, "eb", file.dimension("num_el_blk", blocks.size()), name);
+  const ExodusKind side_kind = define_kind(file, "ss", file.dimension("num_side_sets", sets.size()), name);
+  const ExodusKind node_kind = define_kind(file, "ns", file.dimension("num_node_sets", sets.size()), name);
   const int axis_names = file.variable("coor_names", NC_CHAR, {axes, name});
   std::array<int, 3> coordinate{};
   for (std::size_t a = 0; a < 3; ++a)

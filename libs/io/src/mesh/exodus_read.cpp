@@ -1,6 +1,6 @@
 // Exodus II, read: blocks of tetrahedra and wedges, and the side sets that name the boundary.
 
-#include "formats.h"
+#include "surface_formats.h"
 #include "mesh/builder.h"
 #include "mesh/readers.h"
 #include "mesh/tagged_sides.h"

@@ -7,13 +7,13 @@ namespace ostia::io {
 namespace fs = std::filesystem;
 namespace {
 
-int element_type(Shape shape, bool quadratic) {
+int gmsh_type(Shape shape, bool quadratic) {
   constexpr std::array<std::array<int, 2>, 4> types = {{{4, 11}, {6, 13}, {2, 9}, {3, 10}}};
   return types[static_cast<std::size_t>(shape)][quadratic ? 1 : 0];
 }
 
 /// Elements of one shape that belong to one entity.
-struct Block {
+struct GmshBlock {
   int dimension, entity, type;
   std::size_t nodes;
   std::vector<std::int32_t> connectivity;
@@ -29,11 +29,11 @@ std::size_t volumes_in(const PreparedMesh& mesh) {
 }
 
 /// Faces first, then the volume, then that of layers.
-std::vector<Block> blocks_of(const PreparedMesh& mesh) {
-  std::vector<Block> blocks;
+std::vector<GmshBlock> gmsh_blocks(const PreparedMesh& mesh) {
+  std::vector<GmshBlock> blocks;
   const auto add = [&](int dimension, int entity, Shape shape, std::vector<std::int32_t> connectivity) {
     if (connectivity.empty()) return;
-    blocks.push_back({dimension, entity, element_type(shape, mesh.mesh.quadratic()), mesh.nodes(shape),
+    blocks.push_back({dimension, entity, gmsh_type(shape, mesh.mesh.quadratic()), mesh.nodes(shape),
                       std::move(connectivity)});
   };
   for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
@@ -46,13 +46,13 @@ std::vector<Block> blocks_of(const PreparedMesh& mesh) {
   return blocks;
 }
 
-std::size_t elements_in(const std::vector<Block>& blocks) {
+std::size_t elements_in(const std::vector<GmshBlock>& blocks) {
   std::size_t elements = 0;
-  for (const Block& block : blocks) elements += block.connectivity.size() / block.nodes;
+  for (const GmshBlock& block : blocks) elements += block.connectivity.size() / block.nodes;
   return elements;
 }
 
-void put_nodes_of_element(TextFile& out, const Block& block, std::size_t first) {
+void put_nodes_of_element(TextFile& out, const GmshBlock& block, std::size_t first) {
   for (std::size_t i = 0; i < block.nodes; ++i) out << ' ' << block.connectivity[first + i] + 1;
   out << '\n';
 }
@@ -71,16 +71,17 @@ void put_point(TextFile& out, const geometry::Vec3& p) {
   out << p[0] << ' ' << p[1] << ' ' << p[2];
 }
 
-geometry::Box3 box_of(const PreparedMesh& mesh, const std::vector<Block>& blocks, int dimension, int entity) {
+geometry::Box3 box_of(const PreparedMesh& mesh, const std::vector<GmshBlock>& blocks, int dimension,
+                      int entity) {
   geometry::Box3 box;
-  for (const Block& block : blocks) {
+  for (const GmshBlock& block : blocks) {
     if (block.dimension != dimension || block.entity != entity) continue;
     for (const std::int32_t p : block.connectivity) box.extend(mesh.mesh.points[static_cast<std::size_t>(p)]);
   }
   return box;
 }
 
-void put_entities(TextFile& out, const PreparedMesh& mesh, const std::vector<Block>& blocks) {
+void put_entities(TextFile& out, const PreparedMesh& mesh, const std::vector<GmshBlock>& blocks) {
   out << "$Entities\n0 0 " << mesh.names.size() << ' ' << volumes_in(mesh) << '\n';
   const auto put = [&](int dimension, int entity) {
     const geometry::Box3 box = box_of(mesh, blocks, dimension, entity);
@@ -108,7 +109,7 @@ void put_entities(TextFile& out, const PreparedMesh& mesh, const std::vector<Blo
 }  // namespace
 
 void write_gmsh2(const PreparedMesh& mesh, const fs::path& file) {
-  const std::vector<Block> blocks = blocks_of(mesh);
+  const std::vector<GmshBlock> blocks = gmsh_blocks(mesh);
   TextFile out(file);
   out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
   put_names(out, mesh);
@@ -120,7 +121,7 @@ void write_gmsh2(const PreparedMesh& mesh, const fs::path& file) {
   }
   out << "$EndNodes\n$Elements\n" << elements_in(blocks) << '\n';
   std::size_t number = 0;
-  for (const Block& block : blocks) {
+  for (const GmshBlock& block : blocks) {
     for (std::size_t i = 0; i < block.connectivity.size(); i += block.nodes) {
       out << ++number << ' ' << block.type << " 2 " << block.entity << ' ' << block.entity;
       put_nodes_of_element(out, block, i);
@@ -131,7 +132,7 @@ void write_gmsh2(const PreparedMesh& mesh, const fs::path& file) {
 }
 
 void write_gmsh4(const PreparedMesh& mesh, const fs::path& file) {
-  const std::vector<Block> blocks = blocks_of(mesh);
+  const std::vector<GmshBlock> blocks = gmsh_blocks(mesh);
   const std::size_t nodes = mesh.mesh.points.size();
   TextFile out(file);
   out << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
@@ -146,7 +147,7 @@ void write_gmsh4(const PreparedMesh& mesh, const fs::path& file) {
   const std::size_t elements = elements_in(blocks);
   out << "$EndNodes\n$Elements\n" << blocks.size() << ' ' << elements << " 1 " << elements << '\n';
   std::size_t number = 0;
-  for (const Block& block : blocks) {
+  for (const GmshBlock& block : blocks) {
     out << block.dimension << ' ' << block.entity << ' ' << block.type << ' '
         << block.connectivity.size() / block.nodes << '\n';
     for (std::size_t i = 0; i < block.connectivity.size(); i += block.nodes) {

@@ -1,6 +1,6 @@
 // Gmsh's MSH 2.2 and 4.1, ASCII, read (Gmsh Reference Manual, "File formats").
 
-#include "formats.h"
+#include "surface_formats.h"
 #include "mesh/builder.h"
 #include "mesh/readers.h"
 
@@ -15,30 +15,30 @@ namespace ostia::io {
 namespace fs = std::filesystem;
 namespace {
 
-struct Element {
+struct GmshElement {
   Shape shape;
   std::size_t nodes;
 };
 
 /// Of Gmsh's number of a type; nothing for those that are no part of a mesh here.
-std::optional<Element> element_of(int type) {
+std::optional<GmshElement> element_of(int type) {
   switch (type) {
     case 2:
-      return Element{Shape::triangle, 3};
+      return GmshElement{Shape::triangle, 3};
     case 9:
-      return Element{Shape::triangle, 6};
+      return GmshElement{Shape::triangle, 6};
     case 3:
-      return Element{Shape::quad, 4};
+      return GmshElement{Shape::quad, 4};
     case 10:
-      return Element{Shape::quad, 9};
+      return GmshElement{Shape::quad, 9};
     case 4:
-      return Element{Shape::tetrahedron, 4};
+      return GmshElement{Shape::tetrahedron, 4};
     case 11:
-      return Element{Shape::tetrahedron, 10};
+      return GmshElement{Shape::tetrahedron, 10};
     case 6:
-      return Element{Shape::prism, 6};
+      return GmshElement{Shape::prism, 6};
     case 13:
-      return Element{Shape::prism, 18};
+      return GmshElement{Shape::prism, 18};
     default:
       return std::nullopt;
   }
@@ -162,7 +162,7 @@ class GmshFile {
 
   /// The element's nodes stand next.
   void add_element(int type, std::int32_t group) {
-    const std::optional<Element> element = element_of(type);
+    const std::optional<GmshElement> element = element_of(type);
     if (!element) {
       if (!is_below_facets(type))
         refuse(path_,

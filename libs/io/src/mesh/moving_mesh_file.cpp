@@ -14,7 +14,7 @@ namespace {
 
 using geometry::Vec3;
 
-constexpr double metres = 1e-3;
+constexpr double metres_per_mm = 1e-3;
 constexpr int time_digits = 10;
 
 void put_header(TextFile& out, const std::string& type, const std::string& location,
@@ -26,7 +26,7 @@ void put_header(TextFile& out, const std::string& type, const std::string& locat
 void put_vectors(TextFile& out, const std::vector<Vec3>& values) {
   out << values.size() << "\n(\n";
   for (const Vec3& v : values)
-    out << '(' << v[0] * metres << ' ' << v[1] * metres << ' ' << v[2] * metres << ")\n";
+    out << '(' << v[0] * metres_per_mm << ' ' << v[1] * metres_per_mm << ' ' << v[2] * metres_per_mm << ")\n";
   out << ')';
 }
 

@@ -1,7 +1,7 @@
 // OpenFOAM's polyMesh in ASCII, read: cells are put together of the faces that they own and that they
 // neighbour.
 
-#include "formats.h"
+#include "surface_formats.h"
 #include "mesh/builder.h"
 #include "mesh/cells_of_sides.h"
 #include "mesh/readers.h"
@@ -16,7 +16,7 @@ namespace ostia::io {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr double millimetres = 1e3;
+constexpr double millimetres_per_metre = 1e3;
 
 /// Goes behind the header, if there is one.
 void skip_header(OpenfoamWords& words) {
@@ -53,7 +53,7 @@ std::vector<geometry::Vec3> points_of(const fs::path& file) {
   std::vector<geometry::Vec3> points(begin_list(words, "the number of points"));
   for (geometry::Vec3& p : points) {
     words.expect("(");
-    for (int k = 0; k < 3; ++k) p[k] = millimetres * value<double>(words, "a coordinate");
+    for (int k = 0; k < 3; ++k) p[k] = millimetres_per_metre * value<double>(words, "a coordinate");
     words.expect(")");
   }
   return points;

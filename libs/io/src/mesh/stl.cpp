@@ -1,6 +1,6 @@
 // One binary STL for each face.
 
-#include "formats.h"
+#include "surface_formats.h"
 #include "mesh/formats.h"
 #include "mesh/text.h"
 

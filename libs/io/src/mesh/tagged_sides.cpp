@@ -1,6 +1,6 @@
 #include "mesh/tagged_sides.h"
 
-#include "formats.h"
+#include "surface_formats.h"
 
 #include "ostia/geometry/mixed_mesh_sides.h"
 

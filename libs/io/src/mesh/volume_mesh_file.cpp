@@ -1,6 +1,6 @@
 #include "ostia/io/volume_mesh_file.h"
 
-#include "formats.h"
+#include "surface_formats.h"
 #include "mesh/builder.h"
 #include "mesh/readers.h"
 #include "mesh/vtk_cells.h"
@@ -47,7 +47,7 @@ LayeredMesh read_vtu(const fs::path& path) {
 
 namespace {
 
-using Reader = LayeredMesh (*)(const fs::path&);
+using MeshReader = LayeredMesh (*)(const fs::path&);
 
 /// Gmsh's and Fluent's files have the same extension; Fluent's is all in brackets.
 bool begins_with_bracket(const fs::path& path) {
@@ -57,7 +57,7 @@ bool begins_with_bracket(const fs::path& path) {
 }
 
 /// Nothing for what is no volume mesh.
-Reader reader_of(const fs::path& path) {
+MeshReader reader_of(const fs::path& path) {
   const fs::path extension = path.extension();
   if (extension == ".vtu") return read_vtu;
   if (extension == ".msh") return begins_with_bracket(path) ? read_fluent : read_gmsh;
@@ -88,7 +88,7 @@ MixedMesh read_volume_mesh(const fs::path& path) {
 }
 
 LayeredMesh read_layered_mesh(const fs::path& path) {
-  const Reader reader = reader_of(path);
+  const MeshReader reader = reader_of(path);
   return reader ? reader(path) : read_vtu(path);
 }
 

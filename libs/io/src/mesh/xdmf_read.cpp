@@ -1,7 +1,7 @@
 // XDMF 3 with HDF5 as it is written here, read: mesh.xdmf with the elements, facets.xdmf beside it with the
 // boundary.
 
-#include "formats.h"
+#include "surface_formats.h"
 #include "mesh/builder.h"
 #include "mesh/hdf5.h"
 #include "mesh/readers.h"
@@ -99,25 +99,25 @@ class Values {
   hid_t file_ = -1, set_ = -1;
 };
 
-struct Kind {
+struct XdmfKind {
   std::string_view name;
   std::int32_t number;  ///< in a list of mixed cells
   Shape shape;
   std::size_t nodes;
 };
-constexpr std::array<Kind, 8> kinds = {{{"Tetrahedron", 6, Shape::tetrahedron, 4},
-                                        {"Tetrahedron_10", 38, Shape::tetrahedron, 10},
-                                        {"Wedge", 8, Shape::prism, 6},
-                                        {"Wedge_18", 41, Shape::prism, 18},
-                                        {"Triangle", 4, Shape::triangle, 3},
-                                        {"Triangle_6", 36, Shape::triangle, 6},
-                                        {"Quadrilateral", 5, Shape::quad, 4},
-                                        {"Quadrilateral_9", 35, Shape::quad, 9}}};
+constexpr std::array<XdmfKind, 8> xdmf_kinds = {{{"Tetrahedron", 6, Shape::tetrahedron, 4},
+                                                 {"Tetrahedron_10", 38, Shape::tetrahedron, 10},
+                                                 {"Wedge", 8, Shape::prism, 6},
+                                                 {"Wedge_18", 41, Shape::prism, 18},
+                                                 {"Triangle", 4, Shape::triangle, 3},
+                                                 {"Triangle_6", 36, Shape::triangle, 6},
+                                                 {"Quadrilateral", 5, Shape::quad, 4},
+                                                 {"Quadrilateral_9", 35, Shape::quad, 9}}};
 
 /// One XDMF file: a uniform grid.
-class Grid {
+class XdmfGrid {
  public:
-  explicit Grid(const fs::path& path) : path_(path), text_(core::read_file(path)) {
+  explicit XdmfGrid(const fs::path& path) : path_(path), text_(core::read_file(path)) {
     if (text_.find("<Xdmf") == std::string::npos) refuse(path_, "it is no XDMF file");
     if (tags_in(text_, "Topology").size() != 1) refuse(path_, "it has other than one grid; one is read");
   }
@@ -142,9 +142,9 @@ class Grid {
     const std::vector<std::int32_t> layer = of_cells(layer_array);
     std::size_t cell = 0;
     for (std::size_t i = 0; i < list.size(); ++cell) {
-      const auto kind = type == "Mixed" ? std::ranges::find(kinds, list[i++], &Kind::number)
-                                        : std::ranges::find(kinds, type, &Kind::name);
-      if (kind == kinds.end() || i + kind->nodes > list.size())
+      const auto kind = type == "Mixed" ? std::ranges::find(xdmf_kinds, list[i++], &XdmfKind::number)
+                                        : std::ranges::find(xdmf_kinds, type, &XdmfKind::name);
+      if (kind == xdmf_kinds.end() || i + kind->nodes > list.size())
         refuse(path_, "cells of type " + (type == "Mixed" ? std::to_string(list[i - 1]) : type) +
                           " are not read; tetrahedra, wedges, triangles and quadrilaterals are");
       mesh.set_in_layers(cell < layer.size() && layer[cell] == 1);
@@ -199,7 +199,7 @@ class Grid {
 };
 
 /// A grid's cells; returns the faces of its facets. Without ids they are all wall.
-std::vector<geometry::Face> add(const Grid& grid, MeshBuilder& mesh) {
+std::vector<geometry::Face> add(const XdmfGrid& grid, MeshBuilder& mesh) {
   const std::vector<std::int32_t> tags = grid.of_cells("CellEntityIds");
   grid.add_cells(mesh, tags);
   std::vector<geometry::Face> faces;
@@ -217,11 +217,11 @@ LayeredMesh read_xdmf(const fs::path& path) {
   std::error_code error;
   const fs::path file = fs::is_directory(path, error) ? path / "mesh.xdmf" : path;
   MeshBuilder mesh(path);
-  const Grid elements(file);
+  const XdmfGrid elements(file);
   mesh.points() = elements.points();
   std::vector<geometry::Face> faces = add(elements, mesh);
   const fs::path beside = file.parent_path() / "facets.xdmf";
-  if (!mesh.has_boundary() && fs::exists(beside, error)) faces = add(Grid(beside), mesh);
+  if (!mesh.has_boundary() && fs::exists(beside, error)) faces = add(XdmfGrid(beside), mesh);
   return mesh.finish(std::move(faces));
 }
 

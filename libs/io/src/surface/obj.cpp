@@ -1,6 +1,6 @@
 // Wavefront OBJ: vertices and faces; everything else is passed over.
 
-#include "formats.h"
+#include "surface_formats.h"
 
 #include "ostia/core/files.h"
 

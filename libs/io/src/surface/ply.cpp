@@ -1,6 +1,6 @@
 // Polygon files (Turk 1994), ASCII and binary of both byte orders.
 
-#include "formats.h"
+#include "surface_formats.h"
 
 #include "ostia/core/files.h"
 

@@ -1,6 +1,6 @@
 #include "ostia/io/quad_surface_file.h"
 
-#include "formats.h"
+#include "surface_formats.h"
 #include "text_writer.h"
 #include "vtk/xml.h"
 

@@ -1,6 +1,6 @@
 // Stereolithography files, ASCII and binary (3D Systems 1989).
 
-#include "formats.h"
+#include "surface_formats.h"
 
 #include "ostia/core/files.h"
 

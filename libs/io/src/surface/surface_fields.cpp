@@ -1,6 +1,6 @@
 #include "ostia/io/surface_fields.h"
 
-#include "formats.h"
+#include "surface_formats.h"
 #include "vtk/fields.h"
 #include "vtk/xml.h"
 

@@ -1,6 +1,6 @@
 #include "ostia/io/surface_file.h"
 
-#include "formats.h"
+#include "surface_formats.h"
 
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"

@@ -1,6 +1,6 @@
 // Surfaces as VTP.
 
-#include "formats.h"
+#include "surface_formats.h"
 #include "vtk/fields.h"
 #include "vtk/xml.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 /// \file VTK's readers, tried first in a process that may die.
 
-#include "formats.h"
+#include "surface_formats.h"
 
 #include "ostia/core/error.h"
 

@@ -1,6 +1,6 @@
 #include "vtk/xml.h"
 
-#include "formats.h"
+#include "surface_formats.h"
 #include "vtk/trial.h"
 
 #include "ostia/core/error.h"

@@ -13,13 +13,13 @@ constexpr int deepest = 6;
 using Seed = std::optional<std::pair<Vec2, double>>;
 
 // A zero on the way around, and whether the lumen ends there.
-struct Turn {
+struct CornerTurn {
   int zero = 0;
   bool lumen_ends = false;
 };
 
-std::vector<Turn> turns_around(const CellOutline& cell) {
-  std::vector<Turn> turns;
+std::vector<CornerTurn> turns_around(const CellOutline& cell) {
+  std::vector<CornerTurn> turns;
   bool in = inside(cell.value[0]);
   for (const std::vector<int>& edge : cell.zeros) {
     for (const int zero : edge) {
@@ -40,7 +40,7 @@ class Splitter {
   explicit Splitter(const CellField& field) : field_(field) {}
 
   void join(const CellOutline& cell, const Seed& seed, int depth) {
-    const std::vector<Turn> turns = turns_around(cell);
+    const std::vector<CornerTurn> turns = turns_around(cell);
     const bool hidden = turns.empty() && seed && inside(seed->second) != inside(cell.value[0]);
     if (turns.empty() && !hidden) return;
     if (turns.size() == 2) return add(turns[0], turns[1]);
@@ -51,7 +51,7 @@ class Splitter {
   /// Stretches joined to lines: those that begin and end on the outline, then closed ones.
   std::vector<CellLine> lines(const CellOutline& outline) {
     std::vector<CellLine> found;
-    for (const Turn& turn : turns_around(outline))
+    for (const CornerTurn& turn : turns_around(outline))
       if (!turn.lumen_ends) found.push_back(line_from(turn.zero));
     while (!next_.empty()) found.push_back(line_from(next_.begin()->first));
     std::erase_if(found, [](const CellLine& line) { return line.zeros.size() < 2; });
@@ -60,7 +60,7 @@ class Splitter {
 
  private:
   // Lines begin where, going around clockwise, the lumen begins, and end where it ends.
-  void add(const Turn& p, const Turn& q) {
+  void add(const CornerTurn& p, const CornerTurn& q) {
     if (p.lumen_ends)
       next_[q.zero] = p.zero;
     else
@@ -69,11 +69,11 @@ class Splitter {
 
   // Saddles below the smallest cell: the value in the middle tells whether the lumen or what is outside it
   // runs through.
-  void join_many(const CellOutline& cell, const std::vector<Turn>& turns) {
+  void join_many(const CellOutline& cell, const std::vector<CornerTurn>& turns) {
     const bool through =
         inside(field_.value(0.25 * (cell.corner[0] + cell.corner[1] + cell.corner[2] + cell.corner[3])));
     for (std::size_t i = 0; i < turns.size(); ++i) {
-      const Turn& after = turns[(i + 1) % turns.size()];
+      const CornerTurn& after = turns[(i + 1) % turns.size()];
       if (turns[i].lumen_ends == through) add(turns[i], after);
     }
   }

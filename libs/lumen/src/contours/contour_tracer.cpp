@@ -9,7 +9,7 @@
 namespace ostia::lumen {
 namespace {
 
-constexpr std::size_t places_per_task = 64;
+constexpr std::size_t cells_per_task = 64;
 // Between two places f is taken to change by no more than this times its slope on the wall.
 constexpr double safe_rise = 1.5;
 constexpr double longest_stride = 16.0;  // cells
@@ -351,7 +351,7 @@ void ContourTracer::solve_edges() {
     for (std::size_t i = 0; i < open.size(); ++i)
       if (const Edge& edge = edges_[static_cast<std::size_t>(open[i].edge)]; !edge.upright)
         places[i] = place_on_edge(edge, asked[i]);
-    core::parallel_for(open.size(), places_per_task, [&](std::size_t i) {
+    core::parallel_for(open.size(), cells_per_task, [&](std::size_t i) {
       const Edge& edge = edges_[static_cast<std::size_t>(open[i].edge)];
       if (edge.upright) places[i] = grid_.place(on_edge(edge, asked[i]));
     });

@@ -11,7 +11,7 @@
 namespace ostia::lumen {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 /// A turn of more than this within two thirds of the radius is a kink.
 constexpr double kink_rad = pi / 3.0;
 /// An axis that comes back to itself nearer than this share of its radius makes a loop.

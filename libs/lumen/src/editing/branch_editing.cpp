@@ -18,7 +18,7 @@ constexpr double bow_share = 1.5;
 constexpr double widest_turn = 130.0 * std::numbers::pi / 180.0;
 /// A branch begins no wider than this share of its parent, so that its end stays within the parent's lumen.
 constexpr double start_share = 0.9;
-constexpr double same_point_mm = 1e-3;
+constexpr double same_joint_mm = 1e-3;
 constexpr double bridge_step_mm = 1.0;
 constexpr double longest_bridge_mm = 100.0;
 
@@ -55,9 +55,9 @@ Junction junction_of(const AxisCurve& parent, double foot_mm, const geometry::Ce
     const double t = static_cast<double>(i) / pieces, u = 1.0 - t;
     junction.way.points.push_back(u * u * start + 2.0 * t * u * corner + t * t * joined);
     junction.way.radius.push_back(u * first + t * radius_at(leg));
-    if (leg < same_point_mm) break;
+    if (leg < same_joint_mm) break;
   }
-  if (leg >= same_point_mm) {
+  if (leg >= same_joint_mm) {
     junction.way.points.push_back(joined);
     junction.way.radius.push_back(radius_at(leg));
     junction.bow_mm = geometry::length(junction.way.points);
@@ -92,7 +92,7 @@ geometry::Centerline path_from(const Vec3& foot, const BranchAdd& edit, std::vec
   path.radius.push_back(edit.radius_mm.front());
   int merged = 0;
   for (std::size_t i = 0; i < edit.points.size(); ++i) {
-    if ((edit.points[i] - path.points.back()).norm() < same_point_mm) {
+    if ((edit.points[i] - path.points.back()).norm() < same_joint_mm) {
       merged += i > 0 ? 1 : 0;
       continue;
     }
@@ -100,7 +100,7 @@ geometry::Centerline path_from(const Vec3& foot, const BranchAdd& edit, std::vec
     path.radius.push_back(edit.radius_mm[i]);
   }
   const bool one_place = std::all_of(edit.points.begin(), edit.points.end(), [&](const Vec3& p) {
-    return (p - edit.points.front()).norm() < same_point_mm;
+    return (p - edit.points.front()).norm() < same_joint_mm;
   });
   if (one_place) throw InvalidInput(what + ": all points of the path coincide");
   if (merged > 0)
@@ -329,7 +329,7 @@ EditOutcome apply_to(const LumenModel& model, const BranchConnect& edit) {
   const std::int32_t first = join.own.front();
   const Vec3 foot = parent.point(join.place.s_mm);
   const double gap = (tree.segment(first).axis.points.front() - foot).norm();
-  if (gap < same_point_mm)
+  if (gap < same_joint_mm)
     throw InvalidInput(tree.what() + ": it begins at that place of vessel " + std::to_string(edit.parent) +
                        " already");
   if (gap > longest_bridge_mm)

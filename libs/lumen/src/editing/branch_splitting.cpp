@@ -13,7 +13,7 @@
 namespace ostia::lumen {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 /// So far, in spacings of the samples, a part's wall runs on within the other one before it closes.
 constexpr double overlap_spacings = 2.0;
 constexpr double wall_window_mm = 1.5, wall_step_mm = 0.25;

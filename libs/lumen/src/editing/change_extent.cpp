@@ -13,7 +13,7 @@ namespace {
 
 using Cell = Eigen::Array3i;
 
-constexpr double told_mm = 1e-6;
+constexpr double least_change_mm = 1e-6;
 constexpr double in_hand = 0.1;  // places between those evaluated
 constexpr double surely = 0.1;   // mm: a bound so great leaves no hope
 constexpr std::size_t most_cells = 4'000'000;
@@ -129,7 +129,7 @@ ChangeExtent extent_of(const std::vector<WeightChange>& changes, Kernel kernel, 
   for (cell.z() = 0; cell.z() < cells.count.z(); ++cell.z())
     for (cell.y() = 0; cell.y() < cells.count.y(); ++cell.y())
       for (cell.x() = 0; cell.x() < cells.count.x(); ++cell.x()) {
-        if (!(bound[cells.index(cell)] > told_mm)) continue;
+        if (!(bound[cells.index(cell)] > least_change_mm)) continue;
         if (bound[cells.index(cell)] > surely) {
           marked.push_back(cell);
           continue;
@@ -145,7 +145,7 @@ ChangeExtent extent_of(const std::vector<WeightChange>& changes, Kernel kernel, 
   for (std::size_t i = 0; i < doubtful.size(); ++i)
     if (std::any_of(values.begin() + static_cast<std::ptrdiff_t>(8 * i),
                     values.begin() + static_cast<std::ptrdiff_t>(8 * i + 8),
-                    [](double value) { return !(std::abs(value) <= in_hand * told_mm); }))
+                    [](double value) { return !(std::abs(value) <= in_hand * least_change_mm); }))
       marked.push_back(doubtful[i]);
   return around(marked, cells, changes);
 }

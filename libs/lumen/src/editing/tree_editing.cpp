@@ -21,7 +21,7 @@ constexpr double node_snap_mm = 0.3;
 /// Abscissas that differ by less are the same: the rounding of a foot found twice.
 constexpr double same_abscissa_mm = 1e-9;
 /// New wall keeps this share of the spacing from what stands.
-constexpr double free_share = 0.55;
+constexpr double free_end_share = 0.55;
 
 template <class Items>
 auto& item(Items& items, std::int32_t id, const char* kind) {
@@ -356,7 +356,7 @@ void grow(TreeEdit& edit, const VesselLumen& lumen, const NewStretch& stretch,
   options.spacing_mm = std::clamp(sample_spacing_mm(lumen, mean), 0.2, 5.0);
   options.least_spacing_mm = std::min(options.least_spacing_mm, options.spacing_mm);
   const double around = 2.0 * std::numbers::pi * mean / options.least_around;
-  const double least = free_share * std::min(options.spacing_mm, around);
+  const double least = free_end_share * std::min(options.spacing_mm, around);
   const std::size_t standing = samples.size();
   const double middle = 0.5 * (stretch.from_mm + stretch.to_mm);
   for (SurfaceSample sample :

@@ -15,7 +15,7 @@ using geometry::AxisFoot;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Walk {

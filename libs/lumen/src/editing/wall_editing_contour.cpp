@@ -12,7 +12,7 @@
 namespace ostia::lumen {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double least_gap_mm = 0.15;  // between points of a contour
 constexpr double crowded_share = 0.3;
 constexpr double steepest_slope = 1.5;  // of the wall along the axis, mm / mm

@@ -11,7 +11,7 @@
 namespace ostia::lumen {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double pushed_radius_mm = 0.2;  // a wall pushed inwards stops there
 constexpr double present_share = 0.65;    // of the spacing: a sample that near stands for a place
 constexpr double contact_mm = 1e-9;
@@ -133,11 +133,11 @@ std::optional<Estimate> wall_at(const std::vector<WallPlace>& wall, const AxisCu
   return Estimate{centre + rho / sum * ray, normal.normalized()};
 }
 
-struct Stretch {
+struct PushedStretch {
   double from_mm = 0.0, to_mm = 0.0;  // abscissas that the ball can touch
 };
 
-void push_samples(WallChange& change, const OwnedStretch& owned, const Stretch& reach, const Ball& ball,
+void push_samples(WallChange& change, const OwnedStretch& owned, const PushedStretch& reach, const Ball& ball,
                   int& stopped) {
   const VesselLumen& vessel = change.vessel();
   const AxisCurve& axis = *vessel.axis;
@@ -162,7 +162,8 @@ void push_samples(WallChange& change, const OwnedStretch& owned, const Stretch& 
 
 // Samples where the pushed wall has none: the ball may be smaller than their distance, and the wall before it
 // is longer than it was.
-void add_between(WallChange& change, const OwnedStretch& owned, const Stretch& reach, const Ball& ball) {
+void add_between(WallChange& change, const OwnedStretch& owned, const PushedStretch& reach,
+                 const Ball& ball) {
   const VesselLumen& vessel = change.vessel();
   const AxisCurve& axis = *vessel.axis;
   const double from = std::max({0.0, owned.from_mm, reach.from_mm});
@@ -202,9 +203,9 @@ void add_between(WallChange& change, const OwnedStretch& owned, const Stretch& r
 
 // The abscissas that the ball can touch: those of its way's feet, by its radius and a little more; in a bend
 // the wall on the inner side is shorter than the axis.
-Stretch reach_of(const AxisCurve& axis, const WallPush& edit, const std::string& what) {
+PushedStretch reach_of(const AxisCurve& axis, const WallPush& edit, const std::string& what) {
   const std::vector<geometry::AxisFoot> feet = feet_along(axis, edit.path, std::nullopt, what);
-  Stretch reach{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  PushedStretch reach{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   for (const geometry::AxisFoot& foot : feet) {
     const double bend = foot.rho_mm * axis.curvature_vector(foot.s_mm).norm();
     const double most = 1.0 + edit.radius_mm * (1.0 + std::min(2.0, bend));
@@ -219,7 +220,7 @@ Stretch reach_of(const AxisCurve& axis, const WallPush& edit, const std::string&
 EditOutcome apply_to(const LumenModel& model, const WallPush& edit) {
   WallEdit work(model, edit.vessel, "wall.push");
   check(edit, work.what());
-  const Stretch reach = reach_of(*vessel(model, edit.vessel).axis, edit, work.what());
+  const PushedStretch reach = reach_of(*vessel(model, edit.vessel).axis, edit, work.what());
   const Ball ball{edit.path, edit.radius_mm,
                   side_of(work, edit.path.front()) < 0.0 ? Push::outwards : Push::inwards};
   int stopped = 0;

@@ -15,11 +15,11 @@ using geometry::AxisFoot;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr double least_gap_mm = 0.25;   // between points of a stroke: nearer ones are one shaky hand
-constexpr double back_mm = 0.25;        // so much may a stroke run back along the vessel
-constexpr double dense_step_mm = 0.05;  // of the line that T* is made from
-constexpr double crowded_share = 0.3;
+using std::numbers::pi;
+constexpr double least_stroke_gap_mm = 0.25;  // between points of a stroke: nearer ones are one shaky hand
+constexpr double back_mm = 0.25;              // so much may a stroke run back along the vessel
+constexpr double dense_step_mm = 0.05;        // of the line that T* is made from
+constexpr double crowded_stroke_share = 0.3;
 
 void check(const CprStroke& edit, const std::string& what) {
   check_points(edit.points, 2, what);
@@ -41,16 +41,16 @@ std::vector<Vec3> coordinates_of(const CprStroke& edit, const AxisCurve& axis, c
                                  std::vector<std::string>& notes) {
   std::optional<double> plane;
   if (edit.mode == ReformationMode::straightened) plane = edit.theta_deg / 180.0 * pi;
-  std::vector<Vec3> points = merged_neighbours(edit.points, least_gap_mm, false);
+  std::vector<Vec3> points = merged_neighbours(edit.points, least_stroke_gap_mm, false);
   const std::vector<AxisFoot> feet = feet_along(axis, points, plane, what);
   for (std::size_t i = 0; i < points.size(); ++i) points[i] = straightened(axis, points[i], feet[i]);
   if (points.front().x() > points.back().x()) std::reverse(points.begin(), points.end());
-  if (points.size() < 2 || points.back().x() - points.front().x() < least_gap_mm)
-    throw InvalidInput(what + " covers less than " + in_mm(least_gap_mm) +
+  if (points.size() < 2 || points.back().x() - points.front().x() < least_stroke_gap_mm)
+    throw InvalidInput(what + " covers less than " + in_mm(least_stroke_gap_mm) +
                        " of the vessel's length; draw it along the vessel, or use section.contour");
   if (points.size() < edit.points.size())
     notes.push_back(std::to_string(edit.points.size() - points.size()) +
-                    " points of the stroke were nearer than " + in_mm(least_gap_mm) +
+                    " points of the stroke were nearer than " + in_mm(least_stroke_gap_mm) +
                     " to their neighbours and were merged");
   return points;
 }
@@ -187,7 +187,7 @@ void redraw(WallChange& change, const OwnedStretch& stretch, const Stroke& strok
   for (const SurfaceSample& sample : drawn) change.add(sample);
   for (const SurfaceSample& sample : samples_between(axis, kept, drawn, spacing)) change.add(sample);
   renew_caps(change);
-  change.remove_crowded(crowded_share);
+  change.remove_crowded(crowded_stroke_share);
 }
 
 }  // namespace

@@ -20,10 +20,10 @@ constexpr std::size_t block_size = 24;
 constexpr double largest_bytes = 2.0 * (1ULL << 30);
 constexpr double same_factor = 1e-12;  // entries of L are at most 1
 constexpr double negligible = 1e-13;   // of the largest entry of a right-hand side
-constexpr double enough_mm = 1e-11, tolerance_mm = 1e-7;
-constexpr int refinements = 6;
-constexpr double told_mm = 1e-6;
-constexpr double unit_mm = 10.0;  // of the polynomial's terms
+constexpr double enough_profile_mm = 1e-11, profile_tolerance_mm = 1e-7;
+constexpr int profile_refinements = 6;
+constexpr double profile_told_mm = 1e-6;
+constexpr double profile_unit_mm = 10.0;  // of the polynomial's terms
 
 [[noreturn]] void not_definite(double s_mm) {
   throw NumericalError("the system of the wall is not positive definite near " + std::to_string(s_mm) +
@@ -82,7 +82,7 @@ void ProfileSystem::set_members(Row& row, std::vector<Constraint> members) const
   for (Index i = 0; i < n; ++i) {
     const Constraint& c = members[static_cast<std::size_t>(i)];
     row.box.extend(c.place);
-    const Vec3 p = (c.place - centre_) / unit_mm;
+    const Vec3 p = (c.place - centre_) / profile_unit_mm;
     if (linear)
       row.right.row(i) << c.value, 1.0, p.x(), p.y(), p.z();
     else
@@ -246,11 +246,11 @@ void ProfileSystem::refine(std::vector<char> stale) {
     for (const Row& row : rows_)
       if (row.rest.size() > 0)
         residual_ = std::max(residual_, row.rest.allFinite() ? row.rest.cwiseAbs().maxCoeff() : 1e300);
-    if (residual_ <= enough_mm || round == refinements || !(residual_ < 0.5 * former)) break;
+    if (residual_ <= enough_profile_mm || round == profile_refinements || !(residual_ < 0.5 * former)) break;
     former = residual_;
     stale = coupled_with(correct());
   }
-  if (!(residual_ <= tolerance_mm))
+  if (!(residual_ <= profile_tolerance_mm))
     throw NumericalError("the wall misses its samples by " + std::to_string(residual_) +
                          " mm: samples contradict each other or lie too near; remove some");
   set_weights();
@@ -365,7 +365,7 @@ ImplicitCoefficients ProfileSystem::coefficients() const {
     for (const Constraint& c : row.members) out.centres.push_back(c.place);
     out.weights.insert(out.weights.end(), row.weights.begin(), row.weights.end());
   }
-  const Vec3 slope = q_.tail<3>() / unit_mm;
+  const Vec3 slope = q_.tail<3>() / profile_unit_mm;
   if (options_.far_field == FarField::linear)
     out.polynomial = {q_[0] - slope.dot(centre_), slope.x(), slope.y(), slope.z()};
   else
@@ -413,8 +413,8 @@ ChangeExtent ProfileSystem::extent_since(const Journal& journal) const {
   const Vec3 half = 0.5 * all.sizes() + Vec3::Constant(options_.support_radius_mm);
   const Eigen::Vector4d moved = q_ - journal.q;
   if (std::abs(moved[0]) +
-          moved.tail<3>().cwiseAbs().dot(half + (all.center() - centre_).cwiseAbs()) / unit_mm <=
-      0.1 * told_mm)
+          moved.tail<3>().cwiseAbs().dot(half + (all.center() - centre_).cwiseAbs()) / profile_unit_mm <=
+      0.1 * profile_told_mm)
     return extent_of(changes, options_.kernel, options_.support_radius_mm);
   // The polynomial has changed, and f with it wherever there is anything.
   ChangeExtent extent;

@@ -12,7 +12,7 @@ namespace {
 
 using geometry::Box3;
 
-std::vector<std::int64_t> ids_of(const std::vector<SurfaceSample>& samples) {
+std::vector<std::int64_t> ids_of_samples(const std::vector<SurfaceSample>& samples) {
   std::vector<std::int64_t> ids;
   for (const SurfaceSample& sample : samples) ids.push_back(sample.id);
   return ids;
@@ -99,7 +99,7 @@ LiveChange LiveModel::follow(const EditOutcome& outcome) {
   } catch (...) {
     for (const VesselChange* change : changed) {
       IncrementalSurface& surface = impl_->solved.at(change->vessel);
-      surface.change(ids_of(change->added),
+      surface.change(ids_of_samples(change->added),
                      samples_named(lumen::vessel(*impl_->model, change->vessel), change->removed));
     }
     throw;

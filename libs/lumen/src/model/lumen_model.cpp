@@ -30,7 +30,7 @@ const geometry::Vessel& tree_vessel(const geometry::VesselTree& tree, std::int32
   refuse_unknown(tree, id);
 }
 
-std::int32_t owner_of(const geometry::VesselTree& tree, std::int32_t segment) {
+std::int32_t owning_vessel(const geometry::VesselTree& tree, std::int32_t segment) {
   for (const geometry::Vessel& v : tree.vessels) {
     if (std::find(v.segments.begin(), v.segments.end(), segment) != v.segments.end()) return v.id;
   }
@@ -195,7 +195,7 @@ const VesselLumen& vessel(const LumenModel& model, std::int32_t id) {
 double own_from_mm(const geometry::VesselTree& tree, std::int32_t vessel) {
   const geometry::Vessel& path = tree_vessel(tree, vessel);
   std::size_t shared = 0;
-  while (shared < path.segments.size() && owner_of(tree, path.segments[shared]) != vessel) ++shared;
+  while (shared < path.segments.size() && owning_vessel(tree, path.segments[shared]) != vessel) ++shared;
   return way(tree, path, shared);
 }
 
@@ -203,7 +203,7 @@ std::int32_t owner_at(const geometry::VesselTree& tree, std::int32_t vessel, dou
   const geometry::Vessel& path = tree_vessel(tree, vessel);
   std::int32_t owner = vessel;
   for (std::size_t i = path.segments.size(); i-- > 0;) {
-    owner = owner_of(tree, path.segments[i]);
+    owner = owning_vessel(tree, path.segments[i]);
     if (s_mm >= way(tree, path, i)) break;
   }
   return owner;

@@ -15,7 +15,7 @@ namespace {
 // Places that are asked together: few enough to lie near one another, and to be one task of a branch's.
 constexpr std::size_t batch = 128;
 // Fewer places than this are not worth a thread of their own (who follows a wall asks for few at a time).
-constexpr std::size_t places_per_task = 32 * batch;
+constexpr std::size_t field_places_per_task = 32 * batch;
 
 // S of the header: how much of the fillet is taken, by the cosine between the walls' directions.
 double share(double cosine) {
@@ -190,7 +190,7 @@ Vec3 TreeField::gradient(const Vec3& place) const {
 }
 
 void TreeField::values(std::span<const Vec3> places, std::span<double> out) const {
-  core::parallel_chunks(places.size(), places_per_task, [&](std::size_t first, std::size_t last) {
+  core::parallel_chunks(places.size(), field_places_per_task, [&](std::size_t first, std::size_t last) {
     for (std::size_t from = first; from < last; from += batch) {
       const std::size_t count = std::min(batch, last - from);
       batch_values(places.subspan(from, count), out.subspan(from, count));

@@ -9,7 +9,7 @@
 namespace ostia::lumen {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr int angles = 96;
 constexpr double passage_mm = 3.0;  ///< from the last contour to the tube
 /// A contour's plane may meet the axis so far from where the contour says it is, or from its middle's foot.

@@ -7,7 +7,7 @@
 namespace ostia::lumen {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double ring_step_mm = 0.25;
 constexpr int rays_around = 32;
 // A ray that runs so many times farther than the median of the rings about it has left through a side branch:

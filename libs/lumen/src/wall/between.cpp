@@ -11,7 +11,7 @@
 namespace ostia::lumen {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double together_rad = 0.2;  // samples seen so near to each other are one knot
 constexpr double gap_share = 1.6;     // of the spacing: a longer way around without samples is a gap
 

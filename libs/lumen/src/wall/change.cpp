@@ -47,7 +47,7 @@ bool depends_on(const WallBlock& block, const Box3& box, double cell_mm) {
 }
 
 /// A place where a block knows what the field was.
-struct Sample {
+struct ChangeSample {
   Vec3 place;
   double value = 0.0;
   std::size_t brick = 0;
@@ -61,11 +61,11 @@ class Sampling {
 
   // Points of the wall: values at nodes may be clamped and hide a change. One crossing in four, and one node
   // of bricks without a crossing (around seeds off the wall, and behind it).
-  std::vector<Sample> samples() {
-    each_crossing([&](const Sample& sample, const Place& node) {
+  std::vector<ChangeSample> samples() {
+    each_crossing([&](const ChangeSample& sample, const Place& node) {
       if ((node[0] & 1) == (node[1] & 1) && (node[1] & 1) == (node[2] & 1)) take(sample);
     });
-    each_crossing([&](const Sample& sample, const Place&) { take_first(sample); });
+    each_crossing([&](const ChangeSample& sample, const Place&) { take_first(sample); });
     for (const auto& [code, value] : block_.kept.nodes) {
       const Place node = place_of_node(code);
       take_first({job_.node(in_grid(node, block_.index)), value, Bricks::of(node)});
@@ -82,19 +82,19 @@ class Sampling {
       visit({job_.place(in_grid(node, block_.index), code % 3, fraction), 0.0, Bricks::of(node)}, node);
     }
   }
-  void take(const Sample& sample) {
+  void take(const ChangeSample& sample) {
     if (!box_.contains(sample.place)) return;
     samples_.push_back(sample);
     sampled_.set(sample.brick);
   }
-  void take_first(const Sample& sample) {
+  void take_first(const ChangeSample& sample) {
     if (!sampled_.test(sample.brick)) take(sample);
   }
 
   const WallJob& job_;
   const WallBlock& block_;
   const Box3& box_;
-  std::vector<Sample> samples_;
+  std::vector<ChangeSample> samples_;
   BrickSet sampled_;
 };
 
@@ -105,10 +105,10 @@ struct Probe {
 };
 
 void look(WallJob& job, Probe& probe, const Box3& box, double tolerance) {
-  const std::vector<Sample> samples = Sampling(job, *probe.block, box).samples();
+  const std::vector<ChangeSample> samples = Sampling(job, *probe.block, box).samples();
   std::vector<Vec3> places;
   places.reserve(samples.size());
-  for (const Sample& sample : samples) places.push_back(sample.place);
+  for (const ChangeSample& sample : samples) places.push_back(sample.place);
   const std::vector<double> values = job.ask(places);
   for (std::size_t i = 0; i < samples.size(); ++i)
     if (!(std::abs(values[i] - samples[i].value) <= tolerance)) probe.changed.set(samples[i].brick);

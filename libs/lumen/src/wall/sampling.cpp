@@ -10,7 +10,7 @@
 namespace ostia::lumen {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double slope_step_mm = 0.05, slope_step_rad = 0.02;
 constexpr double grid_step_mm = 0.1;  // the density of rings is found at these steps
 constexpr int around_table = 64;
@@ -19,7 +19,7 @@ constexpr double sag_share = 0.01;
 // How fast the distance between rings may change along the vessel.
 constexpr double spacing_slope = 0.5;
 // A sample nearer to another than this share of the spacing tells nothing new.
-constexpr double crowded_share = 0.45;
+constexpr double crowded_ring_share = 0.45;
 // A place this deep inside another ring's wall is not on the vessel's wall.
 constexpr double covered_mm = 1e-3;
 
@@ -93,12 +93,12 @@ double wanted_spacing(const Wall& wall, double s, const SamplingOptions& options
   return std::clamp(wanted, options.least_spacing_mm, options.spacing_mm);
 }
 
-struct Ring {
+struct SampleRing {
   double s = 0.0, spacing = 0.0;
 };
 
 /// Rings from end to end, as many as the density's integral asks for.
-std::vector<Ring> rings_of(const Wall& wall, double from, double to, const SamplingOptions& options) {
+std::vector<SampleRing> rings_of(const Wall& wall, double from, double to, const SamplingOptions& options) {
   const auto cells =
       std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil((to - from) / grid_step_mm)));
   const double step = (to - from) / static_cast<double>(cells);
@@ -114,7 +114,7 @@ std::vector<Ring> rings_of(const Wall& wall, double from, double to, const Sampl
   for (std::size_t i = 1; i <= cells; ++i)
     passed[i] = passed[i - 1] + 0.5 * step * (1.0 / spacing[i - 1] + 1.0 / spacing[i]);
   const auto count = std::max<std::size_t>(2, static_cast<std::size_t>(std::ceil(passed.back() - 1e-9)));
-  std::vector<Ring> rings;
+  std::vector<SampleRing> rings;
   std::size_t i = 1;
   for (std::size_t k = 0; k <= count; ++k) {
     const double want = passed.back() * static_cast<double>(k) / static_cast<double>(count);
@@ -127,7 +127,7 @@ std::vector<Ring> rings_of(const Wall& wall, double from, double to, const Sampl
 }
 
 /// Angles of a ring, equally far apart on the wall; odd rings lie between even ones.
-std::vector<double> angles_of(const Wall& wall, const Ring& ring, bool odd, int least_around) {
+std::vector<double> angles_of(const Wall& wall, const SampleRing& ring, bool odd, int least_around) {
   std::array<double, around_table + 1> length{};
   const auto place = [&](int k) {
     const double theta = 2.0 * pi * k / around_table, r = wall.radius(ring.s, theta);
@@ -268,10 +268,10 @@ std::vector<SurfaceSample> samples_of(const AxisCurve& axis, const RadialWall& r
   check_stretch(axis, from_mm, to_mm);
   to_mm = std::min(to_mm, axis.length());
   const Wall wall(axis, radius);
-  const std::vector<Ring> rings = rings_of(wall, from_mm, to_mm, options);
+  const std::vector<SampleRing> rings = rings_of(wall, from_mm, to_mm, options);
   std::vector<SurfaceSample> samples;
   const auto keep = [&](const SurfaceSample& sample, double gap) {
-    if (covered(wall, sample, from_mm, to_mm) || crowded(samples, sample, crowded_share * gap)) return;
+    if (covered(wall, sample, from_mm, to_mm) || crowded(samples, sample, crowded_ring_share * gap)) return;
     samples.push_back(sample);
   };
   const auto cap = [&](double at, CapSide side, double spacing) {
@@ -279,7 +279,7 @@ std::vector<SurfaceSample> samples_of(const AxisCurve& axis, const RadialWall& r
       keep(sample, spacing);
   };
   for (std::size_t k = 0; k < rings.size(); ++k) {
-    const Ring& ring = rings[k];
+    const SampleRing& ring = rings[k];
     const std::vector<double> angles = angles_of(wall, ring, k % 2 == 1, options.least_around);
     const double gap =
         std::min(ring.spacing, 2.0 * pi * wall.mean(ring.s) / static_cast<double>(angles.size()));

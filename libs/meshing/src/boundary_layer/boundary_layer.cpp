@@ -63,7 +63,7 @@ void validate(const BoundaryLayerOptions& o) {
 
 namespace {
 
-std::string text(const char* format, double a, double b) {
+std::string warning_text(const char* format, double a, double b) {
   char buffer[160];
   std::snprintf(buffer, sizeof buffer, format, a, b);
   return buffer;
@@ -156,21 +156,21 @@ void add_warnings(const Columns& columns, BoundaryLayerReport& report) {
   if (!report.thin_places.empty()) {
     const ThinPlace& place = report.thin_places[0];
     report.warnings.push_back("the layers are thinner than asked on " +
-                              text("%.3g %% of the wall", 100.0 * (1.0 - report.full_share), 0.0) +
+                              warning_text("%.3g %% of the wall", 100.0 * (1.0 - report.full_share), 0.0) +
                               ", where there is no room or prisms would be badly shaped; most so near " +
                               place_text(place.point) + ": " +
-                              text("%.3g of %.3g mm", place.thickness_mm, place.wanted_mm));
+                              warning_text("%.3g of %.3g mm", place.thickness_mm, place.wanted_mm));
   }
   const double bound = columns.options.min_scaled_jacobian;
   if (report.min_scaled_jacobian >= bound) return;
   std::size_t worst = 0;
   for (std::size_t f = 0; f < columns.wall.mesh.triangles.size(); ++f)
     if (columns.quality(f) < columns.quality(worst)) worst = f;
-  report.warnings.push_back(
-      "the wall folds so sharply, or has such a needle, near " +
-      place_text(columns.wall.point(columns.wall.mesh.triangles[worst][0])) +
-      ", that prisms there have a scaled Jacobian of " +
-      text("%.3f at any thickness, less than %.3g; smooth or remesh it", report.min_scaled_jacobian, bound));
+  report.warnings.push_back("the wall folds so sharply, or has such a needle, near " +
+                            place_text(columns.wall.point(columns.wall.mesh.triangles[worst][0])) +
+                            ", that prisms there have a scaled Jacobian of " +
+                            warning_text("%.3f at any thickness, less than %.3g; smooth or remesh it",
+                                         report.min_scaled_jacobian, bound));
 }
 
 }  // namespace

@@ -21,12 +21,12 @@ namespace {
 
 using DirectedEdges = std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t>;
 
-const geometry::Face& face_of(const geometry::FacedSurface& surface, std::int32_t id) {
+const geometry::Face& wall_face(const geometry::FacedSurface& surface, std::int32_t id) {
   return geometry::face_of(surface, id, "boundary layers");
 }
 
 bool of_wall(const geometry::FacedSurface& surface, std::size_t triangle) {
-  return is_wall(face_of(surface, surface.face_ids[triangle]));
+  return is_wall(wall_face(surface, surface.face_ids[triangle]));
 }
 
 void check_surface(const geometry::FacedSurface& surface) {
@@ -110,10 +110,10 @@ void find_rings(const geometry::FacedSurface& surface, const std::vector<std::in
       points.push_back(wall.point(loop[i]));
       wall.ring_of[static_cast<std::size_t>(loop[i])] = static_cast<std::int32_t>(wall.rings.size());
     }
-    ring.cap = face_of(surface, *ids.begin());
+    ring.cap = wall_face(surface, *ids.begin());
     if (ids.size() > 1)
       throw GeometryError("boundary layers: faces " + ring.cap.name + " and " +
-                          face_of(surface, *ids.rbegin()).name +
+                          wall_face(surface, *ids.rbegin()).name +
                           " share a ring; a cap needs a ring of its own");
     if (!seen.insert(ring.cap.id).second)
       throw GeometryError("boundary layers: " + ring.cap.name + " has more than one ring");

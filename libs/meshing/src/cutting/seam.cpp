@@ -94,15 +94,15 @@ double typical_edge(const TriMesh& mesh) {
 }
 
 /// The band as a mesh of its own, with the numbers its points have in the whole.
-struct Band {
+struct SeamBand {
   TriMesh mesh;
   std::vector<std::int32_t> whole;
   std::vector<double> sizes;
 };
 
-Band band_of(const TriMesh& mesh, const std::vector<bool>& inside, const std::vector<double>& distance,
-             double edge_on_loop, double width) {
-  Band band;
+SeamBand band_of(const TriMesh& mesh, const std::vector<bool>& inside, const std::vector<double>& distance,
+                 double edge_on_loop, double width) {
+  SeamBand band;
   std::vector<std::int32_t> number(mesh.points.size(), -1);
   for (std::size_t i = 0; i < inside.size(); ++i) {
     if (!inside[i]) continue;
@@ -142,7 +142,7 @@ void run(Remesher& remesher) {
 }
 
 /// The whole with its band exchanged for the remeshed one.
-EvenSeam exchanged(const TriMesh& mesh, const std::vector<bool>& inside, const Band& band,
+EvenSeam exchanged(const TriMesh& mesh, const std::vector<bool>& inside, const SeamBand& band,
                    const Remesher& remesher, std::int32_t own) {
   std::vector<std::int32_t> kept(mesh.points.size(), -1);  // old numbers that stay in use
   for (std::size_t i = 0; i < inside.size(); ++i)
@@ -247,7 +247,7 @@ std::optional<EvenSeam> even_seam(const TriMesh& mesh, const std::vector<std::in
   for (int attempt = 0; attempt < 5; ++attempt, width *= 1.3) {
     const std::vector<double> distance = distances(mesh, loop, width);
     const std::vector<bool> inside = within(mesh, distance);
-    const Band band = band_of(mesh, inside, distance, edge, width);
+    const SeamBand band = band_of(mesh, inside, distance, edge, width);
     if (band.mesh.triangles.empty()) continue;
     try {
       Remesher remesher(band.mesh, band.sizes);
@@ -276,7 +276,7 @@ std::optional<EvenSeam> mended_seam(const TriMesh& mesh, const std::vector<std::
   for (const double width : {4.0 * edge, 5.5 * edge, 7.0 * edge}) {
     const std::vector<double> distance = distances(mesh, loop, width);
     const std::vector<bool> inside = within(mesh, distance);
-    const Band band = band_of(mesh, inside, distance, edge, width);
+    const SeamBand band = band_of(mesh, inside, distance, edge, width);
     try {
       Remesher remesher(band.mesh, band.sizes);
       for (std::int32_t c = 0; c < static_cast<std::int32_t>(remesher.curves().size()); ++c)

@@ -18,7 +18,7 @@ using geometry::Vec3;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr std::size_t most_landmarks_on_section = 192, landmarks_on_circle = 48;
 
 double smooth_step(double t) {

@@ -38,7 +38,7 @@ using Polyline = std::vector<Point>;
 
 constexpr double facet_angle_deg = 25.0, cell_radius_edge_ratio = 2.0;
 
-Point point_of(const geometry::Vec3& p) {
+Point cgal_point(const geometry::Vec3& p) {
   return {p.x(), p.y(), p.z()};
 }
 
@@ -48,7 +48,7 @@ class Builder : public CGAL::Modifier_base<Polyhedron::HalfedgeDS> {
   void operator()(Polyhedron::HalfedgeDS& structure) override {
     CGAL::Polyhedron_incremental_builder_3<Polyhedron::HalfedgeDS> builder(structure, false);
     builder.begin_surface(job_.points.size(), job_.triangles.size());
-    for (const geometry::Vec3& p : job_.points) builder.add_vertex(point_of(p));
+    for (const geometry::Vec3& p : job_.points) builder.add_vertex(cgal_point(p));
     for (const geometry::Triangle& t : job_.triangles) {
       builder.begin_facet();
       for (const std::int32_t v : t) builder.add_vertex_to_facet(static_cast<std::size_t>(v));
@@ -93,7 +93,7 @@ std::vector<Polyline> curves_of(const MesherJob& job) {
     next[b].push_back(a);
   }
   std::vector<Polyline> curves;
-  const auto at = [&](std::int32_t v) { return point_of(job.points[static_cast<std::size_t>(v)]); };
+  const auto at = [&](std::int32_t v) { return cgal_point(job.points[static_cast<std::size_t>(v)]); };
   const auto take = [&](std::int32_t a, std::int32_t b) {
     auto& ends = next[a];
     ends.erase(std::find(ends.begin(), ends.end(), b));

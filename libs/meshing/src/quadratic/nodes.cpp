@@ -17,7 +17,7 @@ using geometry::Vec3;
 
 namespace {
 
-constexpr std::size_t grain = 8192;
+constexpr std::size_t node_grain = 8192;
 
 const Vec3& at(const MixedMesh& mesh, std::int32_t p) {
   return mesh.points[static_cast<std::size_t>(p)];
@@ -92,13 +92,13 @@ class NodeNumbers {
 
 void add_lists(MixedMesh& mesh, const NodeNumbers& node) {
   mesh.tetrahedron_nodes.resize(mesh.tetrahedra.size());
-  core::parallel_for(mesh.tetrahedra.size(), grain, [&](std::size_t i) {
+  core::parallel_for(mesh.tetrahedra.size(), node_grain, [&](std::size_t i) {
     const geometry::Tetrahedron& t = mesh.tetrahedra[i];
     for (std::size_t e = 0; e < 6; ++e)
       mesh.tetrahedron_nodes[i][e] = node.edge(t[tetrahedron_edges[e][0]], t[tetrahedron_edges[e][1]]);
   });
   mesh.prism_nodes.resize(mesh.prisms.size());
-  core::parallel_for(mesh.prisms.size(), grain, [&](std::size_t i) {
+  core::parallel_for(mesh.prisms.size(), node_grain, [&](std::size_t i) {
     const geometry::Prism& p = mesh.prisms[i];
     for (std::size_t e = 0; e < 9; ++e)
       mesh.prism_nodes[i][e] = node.edge(p[prism_edges[e][0]], p[prism_edges[e][1]]);
@@ -124,7 +124,7 @@ EdgeNumbers::EdgeNumbers(const MixedMesh& mesh) {
     higher[next[static_cast<std::size_t>(std::min(a, b))]++] = std::max(a, b);
   });
   std::vector<std::size_t> kept(mesh.points.size());
-  core::parallel_for(kept.size(), grain, [&](std::size_t i) {
+  core::parallel_for(kept.size(), node_grain, [&](std::size_t i) {
     const auto begin = higher.begin() + static_cast<std::ptrdiff_t>(first[i]),
                end = higher.begin() + static_cast<std::ptrdiff_t>(first[i + 1]);
     std::sort(begin, end);
@@ -166,13 +166,13 @@ SecondOrder with_straight_nodes(const MixedMesh& linear, const EdgeNumbers& edge
   second.first_quad_node = second.first_edge_node + static_cast<std::int32_t>(edges.size());
   second.mesh.points.resize(nodes);
   task.throw_if_cancelled();
-  core::parallel_for(edges.size(), grain, [&](std::size_t e) {
+  core::parallel_for(edges.size(), node_grain, [&](std::size_t e) {
     const auto [a, b] = edges.ends(static_cast<std::int32_t>(e));
     second.mesh.points[linear.points.size() + e] = 0.5 * (at(linear, a) + at(linear, b));
   });
   const NodeNumbers numbers(second, edges, quads);
   second.quad_edges.resize(quads.keys.size());
-  core::parallel_for(quads.keys.size(), grain, [&](std::size_t i) {
+  core::parallel_for(quads.keys.size(), node_grain, [&](std::size_t i) {
     const auto& [a, b, c, d] = quads.corners[i];
     second.mesh.points[static_cast<std::size_t>(second.first_quad_node) + i] =
         0.25 * ((at(linear, a) + at(linear, c)) + (at(linear, b) + at(linear, d)));

@@ -36,7 +36,7 @@ void validate(const QuadraticOptions& o) {
 
 namespace {
 
-constexpr std::size_t grain = 2048;
+constexpr std::size_t element_grain = 2048;
 
 /// The wall's nodes on their way to the reference, with all that follows them.
 class Bending {
@@ -117,11 +117,11 @@ void Bending::bend() {
     const auto i = static_cast<std::size_t>(w);
     return (share_[i] * factor_[node]) * ways_[i].displacement;
   };
-  core::parallel_for(quads - first, grain, [&](std::size_t e) {
+  core::parallel_for(quads - first, element_grain, [&](std::size_t e) {
     const std::size_t node = first + e;
     if (wall_of_[node] >= 0) mesh.points[node] = straight_[node] + displaced(node);
   });
-  core::parallel_for(second_.quad_edges.size(), grain, [&](std::size_t q) {
+  core::parallel_for(second_.quad_edges.size(), element_grain, [&](std::size_t q) {
     const std::size_t node = quads + q;
     Vec3 way = displaced(node);
     // The middle of the surface blended between its four edges (Coons).
@@ -190,7 +190,7 @@ int Bending::untangle(const core::TaskContext& task) {
   }
 }
 
-std::string text(const char* format, double a, double b) {
+std::string formatted(const char* format, double a, double b) {
   char buffer[160];
   std::snprintf(buffer, sizeof buffer, format, a, b);
   return buffer;
@@ -233,7 +233,7 @@ struct ElementSums {
 template <class Nodes>
 ElementSums sums_of(std::size_t count, const Nodes& nodes_of, const core::TaskContext& task) {
   return core::parallel_reduce(
-      count, grain, ElementSums{},
+      count, element_grain, ElementSums{},
       [&](std::size_t first, std::size_t last) {
         task.throw_if_cancelled();
         ElementSums sums;
@@ -269,7 +269,7 @@ void report_elements(const MixedMesh& mesh, QuadraticReport& report, const core:
 void add_warnings(QuadraticReport& report) {
   const std::string where = report.places.empty() ? "" : " near " + place_text(report.places[0].point);
   const std::string farthest =
-      text("; the farthest is %.3g mm from the reference", report.max_distance_mm, 0.0) + where;
+      formatted("; the farthest is %.3g mm from the reference", report.max_distance_mm, 0.0) + where;
   const std::string of_nodes = " of " + std::to_string(report.wall_nodes) + " nodes of the wall ";
   if (report.moved_back > 0)
     report.warnings.push_back(std::to_string(report.moved_back) + of_nodes +

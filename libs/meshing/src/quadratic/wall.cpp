@@ -47,7 +47,7 @@ class WallNodes {
 };
 
 using TriangleKey = std::array<std::int32_t, 3>;
-TriangleKey key_of(TriangleKey corners) {
+TriangleKey triangle_key(TriangleKey corners) {
   std::sort(corners.begin(), corners.end());
   return corners;
 }
@@ -59,14 +59,14 @@ class PrismsOnTriangles {
     entries_.reserve(2 * mesh.prisms.size());
     for (std::size_t i = 0; i < mesh.prisms.size(); ++i) {
       const geometry::Prism& p = mesh.prisms[i];
-      entries_.push_back({key_of({p[0], p[1], p[2]}), static_cast<std::int32_t>(i)});
-      entries_.push_back({key_of({p[3], p[4], p[5]}), static_cast<std::int32_t>(i)});
+      entries_.push_back({triangle_key({p[0], p[1], p[2]}), static_cast<std::int32_t>(i)});
+      entries_.push_back({triangle_key({p[3], p[4], p[5]}), static_cast<std::int32_t>(i)});
     }
     std::sort(entries_.begin(), entries_.end());
   }
   /// Another one than `last`; -1 for none.
   std::int32_t next(const TriangleKey& corners, std::int32_t last) const {
-    const TriangleKey key = key_of(corners);
+    const TriangleKey key = triangle_key(corners);
     auto found = std::lower_bound(entries_.begin(), entries_.end(), std::pair{key, std::int32_t{-1}});
     for (; found != entries_.end() && found->first == key; ++found)
       if (found->second != last) return found->second;

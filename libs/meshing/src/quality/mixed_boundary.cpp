@@ -44,14 +44,14 @@ QuadNodes quad_nodes(const MixedMesh& mesh, std::size_t i) {
   return nodes;
 }
 
-struct Sample {
+struct BoundarySample {
   Vec3 position = Vec3::Zero(), normal = Vec3::Zero();  // the normal with the map's size
 };
 
-Sample sample(const TriangleNodes& n, double u, double v) {
+BoundarySample sample(const TriangleNodes& n, double u, double v) {
   const std::array<double, 3> l{1.0 - u - v, u, v};
   Vec3 along_u = Vec3::Zero(), along_v = Vec3::Zero();
-  Sample s;
+  BoundarySample s;
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t next = (k + 1) % 3;
     // Weight l (2l - 1) of a corner, 4 l l' of a middle; u moves from corner 0 to 1, v from 0 to 2.
@@ -68,7 +68,7 @@ Sample sample(const TriangleNodes& n, double u, double v) {
   return s;
 }
 
-Sample sample(const QuadNodes& n, double u, double v) {
+BoundarySample sample(const QuadNodes& n, double u, double v) {
   struct Line {
     std::array<double, 3> value, slope;
   };
@@ -81,7 +81,7 @@ Sample sample(const QuadNodes& n, double u, double v) {
       {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {2, 0}, {1, 2}, {2, 1}, {0, 2}, {2, 2}}};
   const Line a = line(u), b = line(v);
   Vec3 along_u = Vec3::Zero(), along_v = Vec3::Zero();
-  Sample s;
+  BoundarySample s;
   for (std::size_t k = 0; k < 9; ++k) {
     const auto& [i, j] = places[k];
     s.position += a.value[i] * b.value[j] * n[k];
@@ -121,7 +121,7 @@ std::vector<Weighted> quad_rule() {
 template <class Nodes>
 void add(FaceQuality& face, const Nodes& nodes, const std::vector<Weighted>& rule) {
   for (const auto& [u, v, weight] : rule) {
-    const Sample s = sample(nodes, u, v);
+    const BoundarySample s = sample(nodes, u, v);
     const double area = weight * s.normal.norm();
     face.area_mm2 += area;
     face.mean_normal += weight * s.normal;

@@ -11,7 +11,7 @@ using geometry::Vec3;
 
 namespace {
 
-std::string number(double value) {
+std::string shown_number(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.4g", value);
   return text;
@@ -35,8 +35,8 @@ class Reasons {
  private:
   void add(const std::string& what, double value, const std::string& unit, const char* side, double bound,
            const Vec3* at) {
-    verdict_.reasons.push_back(what + " " + number(value) + unit + " is " + side + " " + number(bound) +
-                               (at ? ", near " + place_text(*at) : ""));
+    verdict_.reasons.push_back(what + " " + shown_number(value) + unit + " is " + side + " " +
+                               shown_number(bound) + (at ? ", near " + place_text(*at) : ""));
   }
   QualityVerdict& verdict_;
 };

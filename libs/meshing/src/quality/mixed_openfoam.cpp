@@ -16,7 +16,7 @@ using geometry::Vec3;
 
 namespace {
 
-constexpr std::size_t grain = 4096;
+constexpr std::size_t side_grain = 4096;
 constexpr double tiny = 1e-150;  // OpenFOAM's ROOTVSMALL
 
 struct FaceGeometry {
@@ -88,7 +88,7 @@ CellSums measure_cells(const MixedMesh& mesh, Cells& cells, const core::TaskCont
   cells.centres.resize(count);
   cells.volumes.resize(count);
   return core::parallel_reduce(
-      count, grain, CellSums{},
+      count, side_grain, CellSums{},
       [&](std::size_t first, std::size_t last) {
         task.throw_if_cancelled();
         CellSums sums;
@@ -210,7 +210,7 @@ void measure_sides_of_elements(const MixedMesh& mesh, std::vector<double>& non_o
   task.set_progress(0.7);
   // One after another: elements have sides in several groups.
   for (std::size_t i = 0; i < table.points(); ++i) {
-    if (i % grain == 0) task.throw_if_cancelled();
+    if (i % side_grain == 0) task.throw_if_cancelled();
     table.for_each_group(i, [&](const SideTable::Entry* begin, const SideTable::Entry* end) {
       SideSums sums;
       measure_group(mesh, cells, begin, end, sums);
@@ -232,7 +232,7 @@ void measure_sides(const MixedMesh& mesh, MixedQuality& quality, const core::Tas
   const SideTable table(mesh);
   task.set_progress(0.7);
   const SideSums sums = core::parallel_reduce(
-      table.points(), grain, SideSums{},
+      table.points(), side_grain, SideSums{},
       [&](std::size_t first, std::size_t last) {
         task.throw_if_cancelled();
         SideSums part;

@@ -7,7 +7,7 @@
 namespace ostia::meshing {
 
 namespace {
-constexpr double margin = 1e-6;  // of quality, so that no exchange is undone by round-off
+constexpr double flip_margin = 1e-6;  // of quality, so that no exchange is undone by round-off
 }  // namespace
 
 bool TetrahedraFlips::improve(Id t) {
@@ -72,7 +72,7 @@ bool TetrahedraFlips::fill_ring(double floor) {
 }
 
 bool TetrahedraFlips::remove_edge(Id t, Id a, Id b) {
-  if (!find_ring(t, a, b) || !fill_ring(least_quality(old_) + margin)) return false;
+  if (!find_ring(t, a, b) || !fill_ring(least_quality(old_) + flip_margin)) return false;
   mesh_.replace(old_, fresh_);
   return true;
 }
@@ -131,7 +131,7 @@ bool TetrahedraFlips::remove_face(Id t, std::size_t opposite) {
     return false;
   double after = 1.0;
   for (const TetrahedraComplex::Corners& c : fresh_) after = std::min(after, mesh_.quality_of(c));
-  if (!(after > least_quality(old_) + margin)) return false;
+  if (!(after > least_quality(old_) + flip_margin)) return false;
   mesh_.replace(old_, fresh_);
   return true;
 }

@@ -21,14 +21,14 @@ namespace {
 
 using geometry::Vec3;
 
-constexpr double most_nodes = 1e7;   // of the graph, some 200 bytes each
-constexpr double fan_step_mm = 0.2;  // of the rays' samples; grows with the blur
-constexpr double core_mm = 0.4;      // the first look at the lumen's brightness
+constexpr double most_wall_nodes = 1e7;  // of the graph, some 200 bytes each
+constexpr double fan_step_mm = 0.2;      // of the rays' samples; grows with the blur
+constexpr double first_core_mm = 0.4;    // the first look at the lumen's brightness
 constexpr double least_lumen_mm = 0.1;
 constexpr double smooth_mm = 1.0;  // of the lumen's middle, along the vessel
 
 /// The lumen's rows with rays from its middle.
-struct Rows {
+struct WallRows {
   std::vector<RayRow> row;
   std::vector<Vec2> offset;      // of the middle from the axis
   std::vector<double> lumen_mm;  // from there
@@ -48,13 +48,14 @@ void check(const imaging::ImageVolume& image, const geometry::AxisCurve& axis, c
       throw InvalidInput("outer wall: a radius of the lumen is not positive and finite");
 }
 
-Rows rows_of(const imaging::ImageVolume& image, const geometry::AxisCurve& axis, const LumenBoundary& lumen) {
+WallRows rows_of(const imaging::ImageVolume& image, const geometry::AxisCurve& axis,
+                 const LumenBoundary& lumen) {
   const int n = lumen.rows(), around = lumen.around;
   std::vector<Vec2> middle(static_cast<std::size_t>(n));
   for (int r = 0; r < n; ++r)
     middle[r] = centroid_of(lumen.radius_mm.data() + static_cast<std::size_t>(r) * around, around);
   const int reach = std::max(1, static_cast<int>(std::lround(smooth_mm / lumen.step_mm)));
-  Rows rows;
+  WallRows rows;
   for (int r = 0; r < n; ++r) {
     Vec2 sum = Vec2::Zero();
     const int half = std::min({reach, r, n - 1 - r});
@@ -74,18 +75,18 @@ Rows rows_of(const imaging::ImageVolume& image, const geometry::AxisCurve& axis,
   return rows;
 }
 
-RadiusGrid grid_for(const Rows& rows, int around, const OuterWallOptions& options) {
+RadiusGrid grid_for(const WallRows& rows, int around, const OuterWallOptions& options) {
   RadiusGrid grid{0.2, options.radial_step_mm, 0};
   const double largest = *std::max_element(rows.lumen_mm.begin(), rows.lumen_mm.end());
   grid.count = 1 + static_cast<int>(
                        std::ceil((largest + options.largest_thickness_mm - grid.first_mm) / grid.step_mm));
   const double nodes = static_cast<double>(rows.row.size()) * around * grid.count;
-  if (nodes <= most_nodes) return grid;
+  if (nodes <= most_wall_nodes) return grid;
   char text[200];
   std::snprintf(text, sizeof text,
                 "outer wall: %.3g candidates are more than %.3g; make radial_step_mm larger or "
                 "largest_thickness_mm smaller, or go by shorter stretches",
-                nodes, most_nodes);
+                nodes, most_wall_nodes);
   throw InvalidInput(text);
 }
 
@@ -115,7 +116,7 @@ BoundaryFit fitted(const WallScene& scene, const WallStart& start, const WallPro
 }
 
 /// The wall seen from the axis again, outside the lumen everywhere.
-void put_on_axis(const Rows& rows, const BoundaryFit& fit, const LumenBoundary& lumen,
+void put_on_axis(const WallRows& rows, const BoundaryFit& fit, const LumenBoundary& lumen,
                  const OuterWallOptions& options, LumenBoundary& out) {
   const int around = lumen.around;
   for (std::size_t r = 0; r < rows.row.size(); ++r) {
@@ -166,7 +167,7 @@ OuterWall outer_wall(const imaging::ImageVolume& image, const geometry::AxisCurv
   check(image, axis, lumen);
   task.set_stage("outer wall");
   task.throw_if_cancelled();
-  const Rows rows = rows_of(image, axis, lumen);
+  const WallRows rows = rows_of(image, axis, lumen);
   const RadiusGrid grid = grid_for(rows, lumen.around, options);
   const double blur = std::max(0.05, options.blur_sigma_mm), coarser = std::max(1.0, blur / 0.3);
   const double step = fan_step_mm * coarser, reach = grid.at(grid.count) + 2.5 * coarser;
@@ -175,7 +176,7 @@ OuterWall outer_wall(const imaging::ImageVolume& image, const geometry::AxisCurv
   scene.lumen_mm = rows.lumen_mm;
   scene.fan = sample_rays(image, rows.row, lumen.around, static_cast<int>(reach / step) + 1, step, task);
   const LumenLevel level = lumen_level(scene.fan, scene.lumen_mm, {blur, options.wall_hu}, lumen.step_mm,
-                                       lumen_level(scene.fan, core_mm, lumen.step_mm));
+                                       lumen_level(scene.fan, first_core_mm, lumen.step_mm));
   scene.lumen_hu = level.hu;
   scene.fat_hu = fat_levels(scene, options.fat_hu);
   task.set_progress(0.2);

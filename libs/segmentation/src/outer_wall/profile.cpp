@@ -14,9 +14,10 @@
 namespace ostia::segmentation {
 namespace {
 
-constexpr double disc_step_mm = 0.05;     // of the table of blurred discs
-constexpr double noise_length_mm = 0.6;   // of the noise's Gaussian correlation
-constexpr double model_error_hu = 10.0;   // of layered discs as a model, independent from sample to sample
+constexpr double wall_disc_step_mm = 0.05;  // of the table of blurred discs
+constexpr double noise_length_mm = 0.6;     // of the noise's Gaussian correlation
+constexpr double wall_model_error_hu =
+    10.0;                                 // of layered discs as a model, independent from sample to sample
 constexpr double lumen_spread_hu = 15.0;  // of the lumen's level
 constexpr double lumen_place_mm = 0.05;   // of the lumen's own edge
 constexpr double fat_spread_hu = 20.0;    // of the fat's level
@@ -45,16 +46,17 @@ Matrix correlated(double spread, double length_mm, double step_mm) {
 
 BlurredDiscs::BlurredDiscs(double largest_radius_mm, double reach_mm, double step_mm, double sigma_mm)
     : samples_(static_cast<int>(reach_mm / step_mm) + 2),
-      radii_(static_cast<int>(largest_radius_mm / disc_step_mm) + 3) {
+      radii_(static_cast<int>(largest_radius_mm / wall_disc_step_mm) + 3) {
   share_.resize(static_cast<std::size_t>(samples_) * radii_);
   core::parallel_for(static_cast<std::size_t>(radii_), 8, [&](std::size_t r) {
     for (int i = 0; i < samples_; ++i)
-      share_[r * samples_ + i] = blurred_disc(static_cast<double>(r) * disc_step_mm, i * step_mm, sigma_mm);
+      share_[r * samples_ + i] =
+          blurred_disc(static_cast<double>(r) * wall_disc_step_mm, i * step_mm, sigma_mm);
   });
 }
 
 double BlurredDiscs::at(double radius_mm, int sample) const {
-  const double x = std::clamp(radius_mm / disc_step_mm, 0.0, radii_ - 1.001);
+  const double x = std::clamp(radius_mm / wall_disc_step_mm, 0.0, radii_ - 1.001);
   const int r = static_cast<int>(x);
   const double* column =
       share_.data() + static_cast<std::size_t>(r) * samples_ + std::min(sample, samples_ - 1);
@@ -73,7 +75,7 @@ WallProfile::WallProfile(const WallProfileOptions& options)
              options.sample_step_mm, options.blur_sigma_mm) {
   const double step = options.sample_step_mm, scale = step / 0.2;
   const Matrix noise = correlated(options.noise_hu, noise_length_mm * scale, step) +
-                       model_error_hu * model_error_hu * Matrix::Identity();
+                       wall_model_error_hu * wall_model_error_hu * Matrix::Identity();
   const Matrix anything = noise + correlated(anything_spread_hu, anything_length_mm * scale, step) +
                           anything_spread_hu * anything_spread_hu * Matrix::Ones();
   const Eigen::LLT<Matrix> factor(noise), other(anything);

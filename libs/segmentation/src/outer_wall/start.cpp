@@ -10,11 +10,11 @@
 namespace ostia::segmentation {
 namespace {
 
-constexpr double variation = 0.12;       // total variation against the region's cost, both in mm
-constexpr double run_mm = 0.4;           // of darkness on a ray that counts as fat
-constexpr double surely_fat_hu = -20.0;  // darker than any wall
-constexpr double usual_mm = 0.5;         // of a healthy wall
-constexpr float forbidden = 100.0F;      // of a border within the lumen, for each candidate too far in
+constexpr double start_variation = 0.12;  // total variation against the region's cost, both in mm
+constexpr double run_mm = 0.4;            // of darkness on a ray that counts as fat
+constexpr double surely_fat_hu = -20.0;   // darker than any wall
+constexpr double usual_mm = 0.5;          // of a healthy wall
+constexpr float forbidden = 100.0F;       // of a border within the lumen, for each candidate too far in
 
 /// The ray without what the lumen's blur adds to it.
 std::vector<double> without_lumen(const WallScene& scene, const BlurredDiscs& discs, int row, int a,
@@ -144,7 +144,7 @@ WallStart first_outer_wall(const WallScene& scene, const BlurredDiscs& discs, co
   }
   const std::vector<int> surface =
       least_cost_surface(cost, fan.rows, fan.around, grid, scene.row_step_mm,
-                         {options.largest_slope_along, options.largest_slope_around}, variation, task);
+                         {options.largest_slope_along, options.largest_slope_around}, start_variation, task);
   for (std::size_t n = 0; n < surface.size(); ++n)
     out.radius_mm.push_back(std::max(grid.at(surface[n]), scene.lumen_mm[n] + options.least_thickness_mm));
   return out;

@@ -20,7 +20,7 @@ using detail::TubeSpeed;
 using detail::Voxel;
 using detail::worded;
 
-constexpr double kAirHu = -500.0;
+constexpr double kAirAlongHu = -500.0;
 constexpr double kStationMm = 1.0;
 constexpr std::size_t kSurroundings = 6;  // places about which tissue is looked at
 constexpr double kShortestMm = 1.0;
@@ -50,7 +50,7 @@ LumenLevels levels_along(const imaging::ImageVolume& image, const std::vector<Ve
   for (const Vec3& place : places) bright.push_back(detail::brightest_about(looking, place));
   std::stable_sort(bright.begin(), bright.end(),
                    [](const detail::BrightVoxel& a, const detail::BrightVoxel& b) { return a.hu > b.hu; });
-  if (bright.front().hu < kAirHu)
+  if (bright.front().hu < kAirAlongHu)
     throw InvalidInput("the line lies in air: draw it along the contrast-filled lumen");
   std::vector<Vec3> lumen, around;
   for (std::size_t i = 0; i < (bright.size() + 1) / 2; ++i) lumen.push_back(bright[i].place);

@@ -17,15 +17,15 @@
 namespace ostia::segmentation::detail {
 namespace {
 
-constexpr double kAirHu = -500.0;
-constexpr double kLeastContrast = 0.33;  // of the tree's, at the click
-constexpr double kLeastFull = 0.5;       // a thin vessel's full contrast as a part of the tree's
-constexpr double kLeastWidthHu = 60.0;   // between background and lumen
-constexpr double kCalciumAbove = 0.5;    // of the contrast, above the lumen
-constexpr double kCalciumNoise = 4.0;    // deviations of the noise by which a voxel of calcium is brighter
-constexpr double kLeastNoiseHu = 16.0;   // no scan of the coronaries has less
-constexpr double kGap = 0.35;            // contrast below which the way is out of the lumen
-constexpr double kGapMm = 1.0;           // shorter ones are not worth a word
+constexpr double kAirAtEndHu = -500.0;
+constexpr double kLeastEndContrast = 0.33;  // of the tree's, at the click
+constexpr double kLeastFull = 0.5;          // a thin vessel's full contrast as a part of the tree's
+constexpr double kLeastWidthHu = 60.0;      // between background and lumen
+constexpr double kCalciumAbove = 0.5;       // of the contrast, above the lumen
+constexpr double kCalciumNoise = 4.0;       // deviations of the noise by which a voxel of calcium is brighter
+constexpr double kLeastNoiseHu = 16.0;      // no scan of the coronaries has less
+constexpr double kGap = 0.35;               // contrast below which the way is out of the lumen
+constexpr double kGapMm = 1.0;              // shorter ones are not worth a word
 constexpr double kFallbackRadiusMm = 0.6;
 constexpr double kRadiusSmoothingMm3 = 1.0;
 
@@ -196,9 +196,9 @@ Vec3 snapped(TubeSpeed& speed, const Vec3& click, double snap_voxels, std::vecto
     }
   }
   const double hu = speed.smooth(best);
-  if (speed.levels().contrast(hu) < kLeastContrast) {
+  if (speed.levels().contrast(hu) < kLeastEndContrast) {
     const double at_click = speed.smooth(centre);
-    if (at_click < kAirHu) {
+    if (at_click < kAirAtEndHu) {
       throw InvalidInput("the click " + text(click) + worded(" mm lies in air (%.0f HU)", at_click) +
                          ": click in the contrast-filled lumen");
     }

@@ -9,7 +9,7 @@
 namespace ostia::segmentation::detail {
 namespace {
 
-struct Node {
+struct FrontNode {
   float time = kUnreached;
   float length = 0.0F;
   bool settled = false;
@@ -18,18 +18,18 @@ struct Node {
 class Front {
  public:
   explicit Front(TubeSpeed& speed)
-      : speed_(speed), geometry_(speed.image().geometry), nodes_(geometry_.size, Node{}) {}
+      : speed_(speed), geometry_(speed.image().geometry), nodes_(geometry_.size, FrontNode{}) {}
 
   void start(const Vec3& source_mm);
   PathFront run(const PathFrontStop& stop, const core::TaskContext& task);
 
  private:
   void offer(const Voxel& v, float time, float length);
-  Node update(const Voxel& v) const;
+  FrontNode update(const Voxel& v) const;
 
   TubeSpeed& speed_;
   const imaging::Geometry& geometry_;
-  BlockGrid<Node> nodes_;
+  BlockGrid<FrontNode> nodes_;
   std::priority_queue<Trial, std::vector<Trial>, std::greater<>> band_;
 };
 
@@ -44,14 +44,14 @@ void Front::start(const Vec3& source_mm) {
 }
 
 void Front::offer(const Voxel& v, float time, float length) {
-  Node& node = nodes_.at(v);
+  FrontNode& node = nodes_.at(v);
   if (node.settled || time >= node.time) return;
   node.time = time;
   node.length = length;
   band_.push({time, v});
 }
 
-Node Front::update(const Voxel& v) const {
+FrontNode Front::update(const Voxel& v) const {
   struct Axis {
     double time, length, weight;
   };
@@ -64,7 +64,7 @@ Node Front::update(const Voxel& v) const {
       Voxel n = v;
       n[d] += side;
       if (n[d] < 0 || n[d] >= geometry_.size[d]) continue;
-      const Node& node = nodes_.get(n);
+      const FrontNode& node = nodes_.get(n);
       if (!node.settled || !(node.time < best.time)) continue;
       best.time = node.time;
       best.length = node.length;
@@ -99,7 +99,7 @@ PathFront Front::run(const PathFrontStop& stop, const core::TaskContext& task) {
   while (!band_.empty()) {
     const Trial next = band_.top();
     band_.pop();
-    Node& node = nodes_.at(next.voxel);
+    FrontNode& node = nodes_.at(next.voxel);
     if (node.settled) continue;
     node.settled = true;
     result.times.at(next.voxel) = next.time;
@@ -127,7 +127,7 @@ PathFront Front::run(const PathFrontStop& stop, const core::TaskContext& task) {
         n[d] += side;
         if (n[d] < 0 || n[d] >= geometry_.size[d] || nodes_.get(n).settled) continue;
         if (stop.within && !stop.within(n)) continue;
-        const Node better = update(n);
+        const FrontNode better = update(n);
         offer(n, better.time, better.length);
       }
     }

@@ -23,7 +23,7 @@ struct MotionMeasureOptions {
 void validate(const MotionMeasureOptions& options);  ///< throws InvalidInput
 
 /// What is measured of a branch, one value a phase. Means are over its length at the template.
-enum class BranchMeasure {
+enum class MotionMeasure {
   displacement_mean,  ///< mm, from the template's place
   displacement_max,
   speed_mean,  ///< mm/s
@@ -56,7 +56,7 @@ struct MeasureName {
   std::string unit;  ///< "1/mm"; empty for ratios
   std::string text;  ///< "mean torsion"
 };
-const MeasureName& name_of(BranchMeasure measure);
+const MeasureName& name_of(MotionMeasure measure);
 const MeasureName& name_of(LocalMeasure measure);
 
 inline constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
@@ -88,7 +88,7 @@ struct BranchMotion {
   std::array<AlongCurve, local_measure_count> along;
   std::vector<RestPeriod> rests;  ///< the longest first
 
-  const TimeCurve& operator[](BranchMeasure m) const { return over_time[static_cast<std::size_t>(m)]; }
+  const TimeCurve& operator[](MotionMeasure m) const { return over_time[static_cast<std::size_t>(m)]; }
   const AlongCurve& operator[](LocalMeasure m) const { return along[static_cast<std::size_t>(m)]; }
 };
 

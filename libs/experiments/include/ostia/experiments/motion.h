@@ -73,7 +73,7 @@ struct BranchRun {
   double stretch = 0.0, true_stretch = 0.0;      ///< length over that at the template
   double torsion = 0.0, true_torsion = 0.0;      ///< of the axis, 1/mm
   double template_torsion = 0.0;                 ///< 1/mm
-  double size = 0.0, true_size = 0.0;            ///< of the torsion (BranchMeasure::torsion_size), 1/mm
+  double size = 0.0, true_size = 0.0;            ///< of the torsion (MotionMeasure::torsion_size), 1/mm
   double template_size = 0.0;                    ///< 1/mm
   double curvature = 0.0, true_curvature = 0.0;  ///< 1/mm
   double template_curvature = 0.0;

@@ -3,7 +3,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 out=${1:-out/demo}
-scripts/build.sh release
+scripts/build.sh release programs
 mkdir -p "$(dirname "$out")"
 build/release/bin/ostia model --builtin -o "$out"
 echo

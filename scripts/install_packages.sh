@@ -1,13 +1,15 @@
 #!/usr/bin/env bash
-# Installs the Debian packages that building, testing and running need (scripts/packages.txt). Does nothing when they are there.
+# Installs Debian packages that are missing: scripts/install_packages.sh [LIST ...]
+# A list is a file of names, one a line; without one, what building and running need (scripts/packages.txt).
 set -euo pipefail
 cd "$(dirname "$0")/.."
+[ $# -gt 0 ] || set -- scripts/packages.txt
 
 missing=()
 while read -r package; do
   [ -n "$package" ] || continue
   [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)" = installed ] || missing+=("$package")
-done < scripts/packages.txt
+done < <(cat "$@")
 [ ${#missing[@]} -gt 0 ] || exit 0
 
 as_root=()

@@ -14,8 +14,8 @@
 namespace ostia::analysis {
 namespace {
 
-using std::numbers::pi;
 using lumen::testing::FunctionField;
+using std::numbers::pi;
 using State = SectionContour::State;
 
 geometry::AxisCurve along_z(double length_mm = 40.0) {

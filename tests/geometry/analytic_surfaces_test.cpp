@@ -12,9 +12,9 @@
 namespace ostia::geometry {
 namespace {
 
+using std::numbers::pi;
 using test::expect_closed_manifold;
 using test::topology_of;
-using std::numbers::pi;
 
 double largest_distance(const AnalyticShape& shape, const TriMesh& mesh) {
   const TubeDistance f(shape);

@@ -17,9 +17,9 @@ namespace ostia::lumen {
 namespace {
 
 using geometry::AxisCurve;
+using std::numbers::pi;
 using testing::straight_vessel;
 using testing::tree_of;
-using std::numbers::pi;
 
 std::string message_of(const std::function<void()>& call) {
   try {

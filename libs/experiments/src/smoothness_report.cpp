@@ -234,8 +234,7 @@ void write_smoothness_report(const fs::path& folder, const Figures& surfaces,
       "straight tube, by a quadric over each "
       "vertex and its direct neighbours. Tubes: what is farther than " +
       smoothness_number(options.clear_mm, 1) + " mm from a joint and from a free end.");
-  page.picture(distances,
-               "Left: each scan at each level. Right: one scan, against the number of triangles.");
+  page.picture(distances, "Left: each scan at each level. Right: one scan, against the number of triangles.");
   page.picture(bends,
                "Left: curvature against triangles. Right: an isosurface with the triangles of L1, smoothed.");
   add_tables(page, surfaces);

@@ -16,8 +16,8 @@
 
 namespace ostia::pipeline {
 namespace fs = std::filesystem;
-using analysis::MotionMeasure;
 using analysis::LocalMeasure;
+using analysis::MotionMeasure;
 using analysis::TimeCurve;
 using analysis::TreeMotion;
 

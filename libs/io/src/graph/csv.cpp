@@ -2,8 +2,8 @@
 
 #include "ostia/core/csv.h"
 
-#include "surface_formats.h"
 #include "graph/formats.h"
+#include "surface_formats.h"
 #include "text_writer.h"
 
 #include "ostia/core/error.h"

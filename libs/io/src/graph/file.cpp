@@ -1,5 +1,5 @@
-#include "surface_formats.h"
 #include "graph/formats.h"
+#include "surface_formats.h"
 
 #include "ostia/core/error.h"
 #include "ostia/io/graph_file.h"

@@ -1,8 +1,8 @@
 // Grown trees as GXL: <node> with an attribute `position`, <edge from to> with `radius`. Read tag by tag, for
 // such a file has half a kilobyte for each segment.
 
-#include "surface_formats.h"
 #include "graph/formats.h"
+#include "surface_formats.h"
 
 #include "ostia/core/error.h"
 

@@ -1,7 +1,7 @@
 // Samples that name their parents: SWC.
 
-#include "surface_formats.h"
 #include "graph/formats.h"
+#include "surface_formats.h"
 #include "text_writer.h"
 
 #include "ostia/core/error.h"

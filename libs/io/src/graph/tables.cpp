@@ -1,7 +1,7 @@
 // The three tables that OpenCCO's tools write: places, pairs of points, radii.
 
-#include "surface_formats.h"
 #include "graph/formats.h"
+#include "surface_formats.h"
 
 #include "ostia/core/error.h"
 

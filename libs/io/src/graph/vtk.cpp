@@ -1,7 +1,7 @@
 // Networks as lines of VTK polydata.
 
-#include "surface_formats.h"
 #include "graph/formats.h"
+#include "surface_formats.h"
 #include "vtk/xml.h"
 
 #include "ostia/core/error.h"

@@ -1,10 +1,10 @@
 // Abaqus' input file, read: nodes, elements C3D4, C3D10 and C3D6, element sets, and surfaces of element
 // sides.
 
-#include "surface_formats.h"
 #include "mesh/builder.h"
 #include "mesh/readers.h"
 #include "mesh/tagged_sides.h"
+#include "surface_formats.h"
 
 #include "ostia/core/files.h"
 

@@ -1,10 +1,10 @@
 // CGNS, read: one unstructured zone; sections of tetrahedra and wedges, and of triangles and quadrilaterals
 // that boundary conditions name.
 
-#include "surface_formats.h"
 #include "mesh/builder.h"
 #include "mesh/readers.h"
 #include "mesh/tagged_sides.h"
+#include "surface_formats.h"
 
 #include <cgnslib.h>
 

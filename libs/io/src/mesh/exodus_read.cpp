@@ -1,9 +1,9 @@
 // Exodus II, read: blocks of tetrahedra and wedges, and the side sets that name the boundary.
 
-#include "surface_formats.h"
 #include "mesh/builder.h"
 #include "mesh/readers.h"
 #include "mesh/tagged_sides.h"
+#include "surface_formats.h"
 
 #include <netcdf.h>
 

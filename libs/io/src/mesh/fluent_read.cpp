@@ -1,10 +1,10 @@
 // Fluent's mesh in ASCII, read: cells are put together of the faces on their sides. Lengths are taken as they
 // are, for mm.
 
-#include "surface_formats.h"
 #include "mesh/builder.h"
 #include "mesh/cells_of_sides.h"
 #include "mesh/readers.h"
+#include "surface_formats.h"
 
 #include "ostia/core/files.h"
 

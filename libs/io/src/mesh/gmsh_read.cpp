@@ -1,8 +1,8 @@
 // Gmsh's MSH 2.2 and 4.1, ASCII, read (Gmsh Reference Manual, "File formats").
 
-#include "surface_formats.h"
 #include "mesh/builder.h"
 #include "mesh/readers.h"
+#include "surface_formats.h"
 
 #include "ostia/core/files.h"
 

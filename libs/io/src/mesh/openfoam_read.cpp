@@ -1,10 +1,10 @@
 // OpenFOAM's polyMesh in ASCII, read: cells are put together of the faces that they own and that they
 // neighbour.
 
-#include "surface_formats.h"
 #include "mesh/builder.h"
 #include "mesh/cells_of_sides.h"
 #include "mesh/readers.h"
+#include "surface_formats.h"
 
 #include "ostia/core/error.h"
 #include "ostia/io/openfoam_words.h"

@@ -1,8 +1,8 @@
 // One binary STL for each face.
 
-#include "surface_formats.h"
 #include "mesh/formats.h"
 #include "mesh/text.h"
+#include "surface_formats.h"
 
 #include "ostia/geometry/mixed_mesh_split.h"
 

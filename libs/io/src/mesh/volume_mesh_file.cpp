@@ -1,9 +1,9 @@
 #include "ostia/io/volume_mesh_file.h"
 
-#include "surface_formats.h"
 #include "mesh/builder.h"
 #include "mesh/readers.h"
 #include "mesh/vtk_cells.h"
+#include "surface_formats.h"
 #include "vtk/xml.h"
 
 #include <vtkCellArray.h>

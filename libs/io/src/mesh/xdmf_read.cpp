@@ -1,10 +1,10 @@
 // XDMF 3 with HDF5 as it is written here, read: mesh.xdmf with the elements, facets.xdmf beside it with the
 // boundary.
 
-#include "surface_formats.h"
 #include "mesh/builder.h"
 #include "mesh/hdf5.h"
 #include "mesh/readers.h"
+#include "surface_formats.h"
 
 #include "ostia/core/files.h"
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Renews the tables of docs/accuracy.md from the figures of the golden suite.
+"""Renews the tables of docs/experiments/accuracy.md from the figures of the golden suite.
 
 Usage: accuracy_tables.py FIGURES DOCUMENT. What stands between the marks <!-- figures --> and <!-- end of figures --> is replaced.
 """

@@ -6,7 +6,7 @@
 #   --bin DIR   where the programs are (default build/release/bin); nothing is built
 #   --out DIR   keeps models, figures and the report there (default: a folder that is removed at the end)
 #   --update    takes the new figures as the expected ones, data/golden/expected
-#   --docs      renews the tables and pictures of docs/accuracy.md
+#   --docs      renews the tables and pictures of docs/experiments/accuracy.md
 #
 # Exit codes are those of `ostia evaluate suite`: 0 as good as expected, 4 something is worse or missing.
 set -euo pipefail
@@ -84,7 +84,7 @@ if [ "$update" = yes ]; then
   cp -r "$out/figures" "$golden/expected"
 fi
 if [ "$docs" = yes ]; then
-  python3 scripts/accuracy_tables.py "$out/figures" docs/accuracy.md
+  python3 scripts/accuracy_tables.py "$out/figures" docs/experiments/accuracy.md
   mkdir -p docs/pictures
   for picture in "$out"/dataset*-surface.png; do
     cp "$picture" "docs/pictures/accuracy-$(basename "$picture" -surface.png).png"

@@ -29,7 +29,7 @@ std::vector<experiments::Variation> chosen(const std::vector<std::string>& only)
   for (const std::string& one : only)
     if (std::none_of(all.begin(), all.end(), [&](const auto& known) { return known.what == one; }))
       throw UsageError("--only " + one +
-                       ": there is no such variation; docs/experiment-robustness.md lists them");
+                       ": there is no such variation; docs/experiments/robustness.md lists them");
   if (!only.empty())
     std::erase_if(all, [&](const experiments::Variation& one) {
       return one.what != all.front().what && std::find(only.begin(), only.end(), one.what) == only.end();

@@ -1,4 +1,4 @@
-// The picture of docs/lumen-contours.md: contours of a vessel's wall over both reformations and a
+// The picture of docs/methods/lumen-contours.md: contours of a vessel's wall over both reformations and a
 // cross-section of a data set, before and after an edit.
 //   contour_picture DATASET_FOLDER VESSEL_FOLDER OUTPUT.png
 

@@ -1,4 +1,4 @@
-// Makes the picture of docs/editing.md: editing_picture OUT.png
+// Makes the picture of docs/methods/editing.md: editing_picture OUT.png
 // What a stroke does to a wall, like figure 2 of [Wels]: the tangent frame bundle T* of the axis and the
 // stroke, the samples that it dismisses for several beta, and the wall before and after.
 #include "edited_walls.h"

@@ -1,4 +1,4 @@
-// The picture of docs/lumen-tree.md: the wall of a drawn coronary tree, and one of its joints sharp and with
+// The picture of docs/methods/lumen-tree.md: the wall of a drawn coronary tree, and one of its joints sharp and with
 // fillets.
 
 #include "picture.h"

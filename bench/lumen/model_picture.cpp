@@ -1,4 +1,4 @@
-// Makes the picture of docs/lumen-model.md: model_picture OUT.png
+// Makes the picture of docs/methods/lumen-model.md: model_picture OUT.png
 // f across a stenosed vessel and along its wall, for each kernel, beside what is exact.
 #include "picture.h"
 #include "tube_samples.h"

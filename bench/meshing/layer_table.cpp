@@ -1,4 +1,4 @@
-// The tables of docs/boundary-layer.md and docs/tetrahedra.md: layers of prisms on analytic shapes and on
+// The tables of docs/methods/boundary-layer.md and docs/methods/tetrahedra.md: layers of prisms on analytic shapes and on
 // synthetic coronary trees (`layers`, with `fill` the tetrahedra inside too), and what the gate says of these
 // trees (`gate`).
 

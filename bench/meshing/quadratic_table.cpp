@@ -1,4 +1,4 @@
-// The table of docs/quadratic-elements.md: elements of second order on analytic shapes.
+// The table of docs/methods/quadratic-elements.md: elements of second order on analytic shapes.
 
 #include "mixed_shapes.h"
 #include "picture.h"

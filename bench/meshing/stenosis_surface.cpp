@@ -1,4 +1,4 @@
-// A stenosed tube along z as an STL file, open at both ends, for docs/flow-refinement.md.
+// A stenosed tube along z as an STL file, open at both ends, for docs/methods/flow-refinement.md.
 
 #include "picture.h"
 

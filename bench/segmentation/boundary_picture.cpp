@@ -1,4 +1,4 @@
-// The picture of docs/lumen-boundary.md: the found boundary and the true one over both straightened
+// The picture of docs/methods/lumen-boundary.md: the found boundary and the true one over both straightened
 // reformations and four cross-sections of an annotated section of a phantom's data set.
 //   boundary_picture DATASET_FOLDER VESSEL_FOLDER SECTION OUTPUT.png
 

@@ -1,4 +1,4 @@
-// The picture of docs/filters.md: a slice of a phantom's data set as it is, without bones, and what each
+// The picture of docs/methods/filters.md: a slice of a phantom's data set as it is, without bones, and what each
 // diffusion makes of a piece of it.
 //   filters_picture DATASET_FOLDER VESSEL_FOLDER OUTPUT.png
 

@@ -1,4 +1,4 @@
-// The picture of docs/outer-wall.md: outer wall and lumen as found and as they are, over both straightened
+// The picture of docs/methods/outer-wall.md: outer wall and lumen as found and as they are, over both straightened
 // reformations and four cross-sections of an annotated section of a phantom's data set.
 //   outer_wall_picture DATASET_FOLDER VESSEL_FOLDER SECTION OUTPUT.png
 

@@ -155,7 +155,7 @@ TEST(SectionContour, OfAFlatLumenHasItsWidths) {
 }
 
 TEST(SectionContour, AHoleInTheMiddleIsPartOfTheLumen) {
-  // What stands within the lumen without touching its wall is not taken off (docs/analysis.md).
+  // What stands within the lumen without touching its wall is not taken off (docs/methods/analysis.md).
   const FunctionField field([](const Vec3& p) {
     return std::max(std::hypot(p.x(), p.y()) - 2.0, 0.5 - std::hypot(p.x() - 0.9, p.y()));
   });

@@ -15,7 +15,7 @@ std::vector<Vec3> places(const imaging::Geometry& grid, const std::vector<Vec3>&
   return out;
 }
 
-// [Luboz] 3.3: less than 0.4 mm with 5 % of the triangles. The places are those of docs/experiment-chain.md.
+// [Luboz] 3.3: less than 0.4 mm with 5 % of the triangles. The places are those of docs/experiments/chain.md.
 TEST(VesselChainReal, ArteriesOfALungWithOneTriangleInTwenty) {
   OSTIA_REQUIRE_SHARED(zip, "cta/rider-pilot-chest-pe-cta/dicom-series-95.zip");
   const auto scan = imaging::read_dicom(testing::unpacked(zip)).volume;

@@ -92,7 +92,7 @@ TEST_F(ContourFile, BadInputIsNamed) {
   EXPECT_THROW(read_contours(file.parent_path() / "none.json"), IoError);
 }
 
-/// docs/contours.md, "What is refused", one by one.
+/// docs/reference/contours.md, "What is refused", one by one.
 TEST_F(ContourFile, EveryMemberThatIsMissingOrOfAnotherTypeIsNamed) {
   refused("\"v\":1,", "", "v: is missing");
   refused("\"unit\":\"mm\",", "", "unit: is missing");

@@ -1,5 +1,5 @@
 // All branches of whole phantom hearts, taken away one after the other and found again by one click each: the
-// figures of docs/minimal-path.md.
+// figures of docs/methods/minimal-path.md.
 
 #include "removed_branches.h"
 

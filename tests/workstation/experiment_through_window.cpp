@@ -1,4 +1,4 @@
-// The editing experiment (docs/experiment-editing.md) through the window's own mouse events: the simulated
+// The editing experiment (docs/experiments/editing.md) through the window's own mouse events: the simulated
 // reader's hand moves over the CPR and the cross-section of the program's window, from whole pixel to whole
 // pixel, and what it reaches is what it reaches without a window.
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file What an image must be like before coronary arteries are looked for in it
-/// (docs/coronary-input.md has the table).
+/// (docs/methods/coronary-input.md has the table).
 
 #include "ostia/imaging/volume.h"
 

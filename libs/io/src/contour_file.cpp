@@ -21,7 +21,7 @@ constexpr std::uint64_t most_contour_bytes = 2ULL << 30;
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& field,
                          const std::string& what) {
   throw InvalidInput(path.string() + ": " + field + ": " + what +
-                     "; the format is described in docs/contours.md");
+                     "; the format is described in docs/reference/contours.md");
 }
 
 const json& member(const std::filesystem::path& path, const json& object, const std::string& where,

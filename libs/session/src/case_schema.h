@@ -1,5 +1,5 @@
 #pragma once
-/// \file The tables of a case file, and how older ones become today's (docs/case-file.md).
+/// \file The tables of a case file, and how older ones become today's (docs/reference/case-file.md).
 
 #include "database.h"
 

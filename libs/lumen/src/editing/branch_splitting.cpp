@@ -1,4 +1,4 @@
-// Vessels cut in two, and two made one (docs/axis-editing.md).
+// Vessels cut in two, and two made one (docs/methods/axis-editing.md).
 
 #include "editing/edit_kinds.h"
 #include "editing/tree_editing.h"

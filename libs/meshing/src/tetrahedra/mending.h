@@ -1,6 +1,6 @@
 #pragma once
 /// \file Bad tetrahedra made better by moving points and by changing connectivity (Freitag and Ollivier-Gooch
-/// 1997; Klingner and Shewchuk 2007). See docs/tetrahedra.md.
+/// 1997; Klingner and Shewchuk 2007). See docs/methods/tetrahedra.md.
 
 #include "ostia/core/task_context.h"
 #include "ostia/geometry/tri_mesh.h"

@@ -1,6 +1,6 @@
 #pragma once
 /// \file Faces between tetrahedra made more orthogonal to the line between their centres, which finite
-/// volumes want (OpenFOAM's non-orthogonality). See docs/tetrahedra.md.
+/// volumes want (OpenFOAM's non-orthogonality). See docs/methods/tetrahedra.md.
 
 #include "tetrahedra/complex.h"
 #include "tetrahedra/flips.h"

@@ -1,5 +1,5 @@
 #pragma once
-/// \file Angles where a tree forks, and how its radii divide there. See docs/tree-measures.md.
+/// \file Angles where a tree forks, and how its radii divide there. See docs/methods/tree-measures.md.
 
 #include "ostia/analysis/graph_measures.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-/// \file Where vessels of a tree run into each other. See docs/tree-measures.md.
+/// \file Where vessels of a tree run into each other. See docs/methods/tree-measures.md.
 
 #include "ostia/geometry/vessel_graph.h"
 

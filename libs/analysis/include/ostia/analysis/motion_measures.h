@@ -1,7 +1,7 @@
 #pragma once
 /// \file How a coronary tree moves over the beat: displacement, speed, stretch, curvature, torsion and twist
 /// of its branches, their distances, the angles between them, and when they rest. See
-/// docs/motion-measures.md.
+/// docs/methods/motion-measures.md.
 
 #include "ostia/analysis/moving_tree.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-/// \file What lies between a vessel's lumen and its outer wall (docs/plaque.md).
+/// \file What lies between a vessel's lumen and its outer wall (docs/methods/plaque.md).
 
 #include "ostia/analysis/stenosis.h"
 #include "ostia/core/task_context.h"

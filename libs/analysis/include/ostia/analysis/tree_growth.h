@@ -1,6 +1,6 @@
 #pragma once
 /// \file From the ends of a scanned tree down to the capillaries, by published morphometry. See
-/// docs/tree-growth.md.
+/// docs/methods/tree-growth.md.
 
 #include "ostia/analysis/coronary_morphometry.h"
 #include "ostia/geometry/tri_mesh.h"

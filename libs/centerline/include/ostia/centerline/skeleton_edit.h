@@ -1,5 +1,5 @@
 #pragma once
-/// \file What is done to a skeleton's graph. All functions return a new graph; docs/skeleton.md gives the
+/// \file What is done to a skeleton's graph. All functions return a new graph; docs/methods/skeleton.md gives the
 /// order in which they are used.
 
 #include "ostia/centerline/skeleton_graph.h"

@@ -9,7 +9,7 @@
 
 namespace ostia::centerline {
 
-/// docs/skeleton.md gives the method.
+/// docs/methods/skeleton.md gives the method.
 struct ThinningOptions {
   /// Voxels with one neighbour stay. Without, components shrink to points and loops.
   bool keep_ends = true;

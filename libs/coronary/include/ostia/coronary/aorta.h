@@ -10,7 +10,7 @@ namespace ostia::coronary {
 
 using geometry::Vec3;
 
-/// docs/coronary-aorta.md gives the method and where the defaults come from.
+/// docs/methods/coronary-aorta.md gives the method and where the defaults come from.
 struct AortaOptions {
   double least_hu = 150.0;  ///< mean intensity that counts as contrast, [100, 400]
   /// Of the aorta, (least, 4000]: what is brighter is undiluted contrast in a vein.

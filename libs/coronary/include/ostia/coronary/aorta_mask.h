@@ -5,7 +5,7 @@
 
 namespace ostia::coronary {
 
-/// docs/coronary-aorta.md gives the method.
+/// docs/methods/coronary-aorta.md gives the method.
 struct AortaMaskOptions {
   double wall_hu = 60.0;  ///< usual intensity of the wall and what is about it, [-100, 150]
 };

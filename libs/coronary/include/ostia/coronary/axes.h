@@ -10,7 +10,7 @@
 
 namespace ostia::coronary {
 
-/// docs/coronary-tree.md gives the method.
+/// docs/methods/coronary-tree.md gives the method.
 struct AxesOptions {
   double step_mm = 0.5;            ///< between points of the axes, at most, [0.1, 2]
   double largest_radius_mm = 4.0;  ///< of the lumen, [0.5, 10]

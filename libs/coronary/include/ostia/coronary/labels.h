@@ -17,7 +17,7 @@ struct HeartLandmarks {
   std::optional<Vec3> long_axis;  ///< base to apex, LPS, any length; estimated where it is not given
 };
 
-/// docs/coronary-labels.md gives the rules and where their bounds come from.
+/// docs/methods/coronary-labels.md gives the rules and where their bounds come from.
 struct LabelOptions {
   HeartLandmarks heart;
   double least_confidence = 0.5;  ///< a vessel of less keeps a number for its name, [0, 1]

@@ -7,7 +7,7 @@
 
 namespace ostia::coronary {
 
-/// docs/coronary-aorta.md gives the method and where the defaults come from.
+/// docs/methods/coronary-aorta.md gives the method and where the defaults come from.
 struct OstiaOptions {
   double upwards_mm = 60.0;           ///< of aorta that is searched from its lower end, [10, 120]
   double wall_hu = 60.0;              ///< usual intensity of vessels' walls and muscle, [-100, 150]

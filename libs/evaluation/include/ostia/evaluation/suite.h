@@ -3,7 +3,7 @@
 ///
 /// A run is a folder tree; files that bear the same relative path belong together. What a file holds is
 /// compared in its own terms: figures by rules of their own, surfaces, lines and contours in millimetres,
-/// masks by Dice, images in HU. Bytes are never compared. See docs/evaluate-suite.md.
+/// masks by Dice, images in HU. Bytes are never compared. See docs/methods/evaluate-suite.md.
 
 #include "ostia/core/task_context.h"
 

@@ -20,7 +20,7 @@ enum class MixtureCost {
 
 /// What [Yi] says: the four combinations, 4,913 control points, L-BFGS-B. Where it is silent: the control
 /// points are those of the cage of that depth; the Gaussians' width goes from wide to narrow as in Jian and
-/// Vemuri; for the other values see docs/experiment-motion-methods.md. Nothing bounds the unknowns, so that
+/// Vemuri; for the other values see docs/experiments/motion-methods.md. Nothing bounds the unknowns, so that
 /// L-BFGS-B takes the steps of L-BFGS.
 struct MixtureOptions {
   DeformationKind kind = DeformationKind::thin_plate_spline;

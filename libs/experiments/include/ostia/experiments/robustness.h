@@ -21,7 +21,7 @@ struct Variation {
   double slice_mm = 0.9;
   double kept = 1.0;  ///< of the image's height, from the top (with the root), (0, 1]
 };
-/// What docs/experiment-robustness.md lists; the first one is the patient as drawn.
+/// What docs/experiments/robustness.md lists; the first one is the patient as drawn.
 std::vector<Variation> usual_variations();
 
 struct RobustnessOptions {

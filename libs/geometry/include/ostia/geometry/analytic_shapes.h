@@ -83,7 +83,7 @@ class TubeDistance {
 /// the exact root on its grid edge, or beside it on the surface where that root is next to a grid node. With
 /// `open_ends` each tube's free ends (not inside another tube, not closed) are cut flat by the plane through
 /// the axis' end point normal to it; the holes' borders lie on that plane and on the surface. Throws
-/// InvalidInput for a spacing that is not positive. See docs/isosurface.md.
+/// InvalidInput for a spacing that is not positive. See docs/methods/isosurface.md.
 TriMesh surface_of(const AnalyticShape& shape, double spacing_mm, bool open_ends);
 /// The same by marching cubes alone (vertices by linear interpolation): the raw surface with needle triangles
 /// that real data give.

@@ -1,6 +1,6 @@
 #pragma once
 /// \file How a surface passes through one cube, for each of the 256 sign patterns of its corners: the table
-/// of marching cubes that is consistent across faces (docs/isosurface.md).
+/// of marching cubes that is consistent across faces (docs/methods/isosurface.md).
 
 #include <array>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #pragma once
 /// \file How a triangle surface bends (Cohen-Steiner and Morvan, Restricted Delaunay triangulations and
-/// normal cycle, SoCG 2003). See docs/meshing.md.
+/// normal cycle, SoCG 2003). See docs/methods/meshing.md.
 
 #include "ostia/core/task_context.h"
 #include "ostia/geometry/tri_mesh.h"

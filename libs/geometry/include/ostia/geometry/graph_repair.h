@@ -32,7 +32,7 @@ struct RepairedGraph {
 /// place (0 and -0 are one; the first of them keeps its place); drops segments without length; of segments
 /// between the same two points, in either direction, keeps the first, with the radii it lacks from the next
 /// one that has them; fills radii that are missing, zero or negative from their neighbours (see
-/// docs/vessel-graph.md); turns the segments of each part that is no rooted tree
+/// docs/methods/vessel-graph.md); turns the segments of each part that is no rooted tree
 /// away from its root, the end of greatest radius (of a part with loops only where it has no root, or one was
 /// given); puts the segments in order, each behind those that reach its first point, drops points of no
 /// segment and numbers the rest as they come. Throws InvalidInput (options; nothing left), Cancelled.

@@ -1,6 +1,6 @@
 #pragma once
 /// \file Segments of a large vessel tree in blocks, for pictures that take no longer than what is seen of it.
-/// See docs/huge-trees.md.
+/// See docs/methods/huge-trees.md.
 
 #include "ostia/core/task_context.h"
 #include "ostia/geometry/vessel_graph.h"

@@ -1,5 +1,5 @@
 #pragma once
-/// \file A vessel tree that beats on the graphics card: OpenGL 3.3. See docs/live.md.
+/// \file A vessel tree that beats on the graphics card: OpenGL 3.3. See docs/reference/live.md.
 
 #include "ostia/figure/picture.h"
 #include "ostia/glview/carm_camera.h"

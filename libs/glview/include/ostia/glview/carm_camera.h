@@ -1,5 +1,5 @@
 #pragma once
-/// \file Cameras that are told as a C-arm's angles. See docs/live.md.
+/// \file Cameras that are told as a C-arm's angles. See docs/reference/live.md.
 
 #include "ostia/geometry/carm_angles.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-/// \file What a beating wall can be coloured by. See docs/live.md.
+/// \file What a beating wall can be coloured by. See docs/reference/live.md.
 
 #include "ostia/figure/color.h"
 #include "ostia/glview/shown_surface.h"

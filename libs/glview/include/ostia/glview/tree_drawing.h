@@ -1,5 +1,5 @@
 #pragma once
-/// \file A vessel tree of up to millions of segments, drawn by OpenGL. See docs/huge-trees.md.
+/// \file A vessel tree of up to millions of segments, drawn by OpenGL. See docs/methods/huge-trees.md.
 
 #include "ostia/geometry/segment_blocks.h"
 #include "ostia/glview/tree_camera.h"

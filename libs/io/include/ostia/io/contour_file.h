@@ -1,5 +1,5 @@
 #pragma once
-/// \file Contour files: JSON, docs/schemas/contours.schema.json and docs/contours.md.
+/// \file Contour files: JSON, docs/schemas/contours.schema.json and docs/reference/contours.md.
 
 #include "ostia/geometry/contour_set.h"
 

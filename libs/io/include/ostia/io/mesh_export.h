@@ -1,5 +1,5 @@
 #pragma once
-/// \file Volume meshes for solvers: one mesh to all formats. What each keeps: docs/mesh-formats.md.
+/// \file Volume meshes for solvers: one mesh to all formats. What each keeps: docs/reference/mesh-formats.md.
 
 #include "ostia/geometry/mixed_mesh.h"
 
@@ -48,7 +48,7 @@ struct MeshExportOptions {
   /// and at most 16 characters.
   std::string title = "mesh";
   /// How many of the tetrahedra, the last ones, are layers' prisms that were split; formats that have a place
-  /// for it tell them apart: docs/mesh-formats.md.
+  /// for it tell them apart: docs/reference/mesh-formats.md.
   std::size_t layer_tetrahedra = 0;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-/// \file Electrocardiograms in PhysioNet's format, WFDB. See docs/ecg.md.
+/// \file Electrocardiograms in PhysioNet's format, WFDB. See docs/methods/ecg.md.
 
 #include "ostia/geometry/ecg_record.h"
 

@@ -33,7 +33,7 @@ struct VesselLumen {
   InterpolationOptions interpolation;
 };
 
-/// The support radius that a vessel's samples ask for (docs/lumen-model.md gives the reason).
+/// The support radius that a vessel's samples ask for (docs/methods/lumen-model.md gives the reason).
 double default_support_radius(const std::vector<SurfaceSample>& samples);
 
 /// f of a vessel, solved afresh in canonical order: depends on the stored model alone, not on the way that

@@ -1,6 +1,6 @@
 #pragma once
 /// \file Layers of prisms on the wall whose thickness follows the local size ([Antiga] 6.2; Garimella and
-/// Shephard 2000; Dyedov et al. 2009). See docs/boundary-layer.md.
+/// Shephard 2000; Dyedov et al. 2009). See docs/methods/boundary-layer.md.
 
 #include "ostia/core/task_context.h"
 #include "ostia/geometry/mixed_mesh.h"

@@ -1,5 +1,5 @@
 #pragma once
-/// \file How good each element of a mesh is, for pictures. See docs/mesh-quality.md.
+/// \file How good each element of a mesh is, for pictures. See docs/methods/mesh-quality.md.
 
 #include "ostia/core/task_context.h"
 #include "ostia/geometry/mixed_mesh.h"

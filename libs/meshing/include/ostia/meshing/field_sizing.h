@@ -1,7 +1,7 @@
 #pragma once
 /// \file Edge lengths from a field that a solver has computed, so that each element has its share of the
 /// error and no more ([Antiga] 7; equidistribution of the interpolation error, Zienkiewicz and Zhu 1987;
-/// Alauzet and Loseille 2016). See docs/flow-refinement.md.
+/// Alauzet and Loseille 2016). See docs/methods/flow-refinement.md.
 
 #include "ostia/core/task_context.h"
 #include "ostia/geometry/mixed_mesh.h"

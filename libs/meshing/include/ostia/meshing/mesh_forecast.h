@@ -1,6 +1,6 @@
 #pragma once
 /// \file Will it mesh? What would fail or come out poor, and where, before anything is meshed.
-/// See docs/mesh-quality.md.
+/// See docs/methods/mesh-quality.md.
 
 #include "ostia/core/task_context.h"
 #include "ostia/geometry/tri_mesh.h"

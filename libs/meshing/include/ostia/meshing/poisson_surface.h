@@ -1,5 +1,5 @@
 #pragma once
-/// \file Surfaces from points with normals. See docs/poisson-surface.md.
+/// \file Surfaces from points with normals. See docs/methods/poisson-surface.md.
 
 #include "ostia/core/task_context.h"
 #include "ostia/geometry/tri_mesh.h"

@@ -1,6 +1,6 @@
 #pragma once
 /// \file Elements of second order whose Jacobian is positive everywhere (Johnen, Remacle and Geuzaine 2013).
-/// See docs/quadratic-elements.md.
+/// See docs/methods/quadratic-elements.md.
 
 #include "ostia/core/task_context.h"
 #include "ostia/geometry/mixed_mesh.h"

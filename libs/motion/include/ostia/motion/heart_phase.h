@@ -1,5 +1,5 @@
 #pragma once
-/// \file Where in its cycle the heart is now, from the R peaks so far. See docs/ecg.md.
+/// \file Where in its cycle the heart is now, from the R peaks so far. See docs/methods/ecg.md.
 
 #include <cstddef>
 #include <optional>

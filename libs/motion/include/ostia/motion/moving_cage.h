@@ -1,5 +1,5 @@
 #pragma once
-/// \file A cage at any time of the cycle, and what it carries. See docs/motion.md.
+/// \file A cage at any time of the cycle, and what it carries. See docs/methods/motion.md.
 
 #include "ostia/geometry/cage_motion.h"
 #include "ostia/motion/cyclic_spline.h"

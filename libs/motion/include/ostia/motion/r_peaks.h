@@ -1,5 +1,5 @@
 #pragma once
-/// \file R peaks in a running electrocardiogram. See docs/ecg.md.
+/// \file R peaks in a running electrocardiogram. See docs/methods/ecg.md.
 
 #include "ostia/geometry/ecg_record.h"
 

@@ -10,7 +10,7 @@
 
 namespace ostia::phantom {
 
-/// CT numbers in the arterial phase at 120 kV (usual values; docs/phantom-anatomy.md).
+/// CT numbers in the arterial phase at 120 kV (usual values; docs/methods/phantom-anatomy.md).
 struct TissueHu {
   float arterial = 400.0f;  ///< left heart, aorta; 250 to 600
   float coronary_drop =

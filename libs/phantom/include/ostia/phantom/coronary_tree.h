@@ -79,7 +79,7 @@ struct CoronaryTree {
   std::vector<CoronaryVessel> vessels;  ///< parents before children
 };
 
-/// How the arteries leave the aorta (docs/phantom-variants.md).
+/// How the arteries leave the aorta (docs/methods/phantom-variants.md).
 enum class Anatomy {
   usual,
   left_ostium_closed,   ///< the left tree begins 6 mm beyond the aorta's wall

@@ -1,6 +1,6 @@
 #pragma once
 /// \file One beat of the heart: where every place of the still phantom is at each phase
-/// (docs/phantom-motion.md).
+/// (docs/methods/phantom-motion.md).
 
 #include "ostia/geometry/tri_mesh.h"
 #include "ostia/geometry/vec.h"

@@ -18,7 +18,7 @@
 
 namespace ostia::phantom {
 
-/// What differs from the usual patient (docs/phantom-variants.md). The defaults change nothing.
+/// What differs from the usual patient (docs/methods/phantom-variants.md). The defaults change nothing.
 struct CaseVariant {
   Anatomy anatomy = Anatomy::usual;
   double calcium = 1.0;               ///< as set_calcium has it, [0, 20]

@@ -1,6 +1,6 @@
 #pragma once
 /// \file A surface and a volume mesh over one beat, time by time, for solvers and pictures. See
-/// docs/motion.md.
+/// docs/methods/motion.md.
 
 #include "ostia/core/task_context.h"
 #include "ostia/geometry/mixed_mesh.h"

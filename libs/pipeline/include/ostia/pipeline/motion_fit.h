@@ -1,5 +1,5 @@
 #pragma once
-/// \file From surfaces at several phases to one surface that beats. See docs/motion.md.
+/// \file From surfaces at several phases to one surface that beats. See docs/methods/motion.md.
 
 #include "ostia/core/task_context.h"
 #include "ostia/geometry/cage_motion.h"

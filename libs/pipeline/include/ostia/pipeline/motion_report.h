@@ -1,5 +1,5 @@
 #pragma once
-/// \file The measures of a beating tree as a folder. See docs/motion-measures.md.
+/// \file The measures of a beating tree as a folder. See docs/methods/motion-measures.md.
 
 #include "ostia/analysis/motion_measures.h"
 #include "ostia/core/task_context.h"

@@ -1,6 +1,6 @@
 #pragma once
 /// \file The measures of a tree of vessels as a folder of tables, plots and a page. See
-/// docs/tree-measures.md.
+/// docs/methods/tree-measures.md.
 
 #include "ostia/analysis/graph_overlaps.h"
 #include "ostia/analysis/graph_report.h"

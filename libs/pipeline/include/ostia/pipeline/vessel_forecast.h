@@ -1,5 +1,5 @@
 #pragma once
-/// \file Will the vessels of a lumen model mesh? See docs/mesh-quality.md.
+/// \file Will the vessels of a lumen model mesh? See docs/methods/mesh-quality.md.
 
 #include "ostia/core/task_context.h"
 #include "ostia/geometry/tri_mesh.h"

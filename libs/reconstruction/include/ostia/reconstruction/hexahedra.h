@@ -1,6 +1,6 @@
 #pragma once
 /// \file Structured meshes of hexahedra inside of a reconstructed surface ([Luboz] 2.2 keeps quadrilaterals
-/// for them). See docs/hexahedra.md.
+/// for them). See docs/methods/hexahedra.md.
 
 #include "ostia/core/task_context.h"
 #include "ostia/geometry/hex_mesh.h"

@@ -11,7 +11,7 @@
 
 namespace ostia::segmentation {
 
-/// docs/lumen-boundary.md gives the method and the sources of the defaults.
+/// docs/methods/lumen-boundary.md gives the method and the sources of the defaults.
 struct LumenBoundaryOptions {
   double step_mm = 0.5;            ///< along the axis, [0.1, 2]
   int around = 32;                 ///< rays of a ring, [8, 128]

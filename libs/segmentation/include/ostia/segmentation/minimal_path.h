@@ -15,7 +15,7 @@ namespace ostia::segmentation {
 
 using geometry::Vec3;
 
-/// docs/minimal-path.md gives the method and the sources of the defaults.
+/// docs/methods/minimal-path.md gives the method and the sources of the defaults.
 struct MinimalPathOptions {
   double max_length_mm = 250.0;    ///< of the way; a front that has run so far gives up, [1, 1000]
   double step_mm = 0.5;            ///< between the points of the result, [0.1, 5]

@@ -8,7 +8,7 @@
 
 namespace ostia::segmentation {
 
-/// docs/outer-wall.md gives the method and the sources of the defaults.
+/// docs/methods/outer-wall.md gives the method and the sources of the defaults.
 struct OuterWallOptions {
   double radial_step_mm = 0.1;        ///< of the grid of candidate radii, [0.02, 0.5]
   double least_thickness_mm = 0.1;    ///< [0, 1]

@@ -1,5 +1,5 @@
 #pragma once
-/// \file A case's wall and axes at any phase of the heart, carried by a cage. See docs/workstation.md, "The
+/// \file A case's wall and axes at any phase of the heart, carried by a cage. See docs/reference/workstation.md, "The
 /// beating case".
 
 #include "ostia/geometry/axis_curve.h"

@@ -1,6 +1,6 @@
 #pragma once
 /// \file The case file: one SQLite database with the model, what a person noted beside it, the journal of
-/// commands, and their changesets (docs/case-file.md).
+/// commands, and their changesets (docs/reference/case-file.md).
 
 #include "ostia/lumen/edit.h"
 #include "ostia/session/annotation.h"

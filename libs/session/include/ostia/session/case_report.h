@@ -1,6 +1,6 @@
 #pragma once
 /// \file The report of a case: what the model says of the patient's coronaries, for a person and for scripts
-/// (docs/report.md).
+/// (docs/reference/report.md).
 
 #include "ostia/analysis/aha_segments.h"
 #include "ostia/analysis/measurement.h"

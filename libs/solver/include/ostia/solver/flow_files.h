@@ -1,5 +1,5 @@
 #pragma once
-/// \file The files of a finished run: fields, wall, tables, pictures. See docs/flow-results.md.
+/// \file The files of a finished run: fields, wall, tables, pictures. See docs/reference/flow-results.md.
 
 #include "ostia/core/task_context.h"
 #include "ostia/io/surface_fields.h"

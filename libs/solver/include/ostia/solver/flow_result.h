@@ -1,5 +1,5 @@
 #pragma once
-/// \file A finished run of a case, read back in Pa, mm and ml/s. See docs/flow-results.md.
+/// \file A finished run of a case, read back in Pa, mm and ml/s. See docs/reference/flow-results.md.
 
 #include "ostia/core/task_context.h"
 #include "ostia/solver/case_record.h"

@@ -1,6 +1,6 @@
 #pragma once
 /// \file A case of laminar blood flow that OpenFOAM runs as it is (written for v1912, as Debian 12 has it):
-/// simpleFoam when steady, pisoFoam when pulsatile. See docs/solver-cases.md.
+/// simpleFoam when steady, pisoFoam when pulsatile. See docs/reference/solver-cases.md.
 
 #include "ostia/core/task_context.h"
 #include "ostia/solver/boundary_flow.h"

@@ -1,6 +1,6 @@
 #pragma once
 /// \file Input of SimVascular's svMultiPhysics (once svFSIplus), in mm, g and s, in which pressure is in Pa.
-/// See docs/solver-cases.md for what of it was tested.
+/// See docs/reference/solver-cases.md for what of it was tested.
 
 #include "ostia/core/task_context.h"
 #include "ostia/solver/boundary_flow.h"

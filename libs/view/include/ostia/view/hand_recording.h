@@ -1,5 +1,5 @@
 #pragma once
-/// \file What a hand did in the 2D views, written down and done again (docs/qa-mode.md,
+/// \file What a hand did in the 2D views, written down and done again (docs/reference/qa-mode.md,
 /// docs/schemas/hand-recording.schema.json).
 
 #include "ostia/view/pointer.h"

@@ -1,5 +1,6 @@
 #pragma once
-/// \file A chain of commands from a JSON file (docs/reference/pipelines.md; schema docs/schemas/pipeline.schema.json).
+/// \file A chain of commands from a JSON file (docs/reference/pipelines.md; schema
+/// docs/schemas/pipeline.schema.json).
 
 #include <filesystem>
 #include <map>

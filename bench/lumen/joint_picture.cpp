@@ -1,5 +1,5 @@
-// The picture of docs/methods/lumen-tree.md: the wall of a drawn coronary tree, and one of its joints sharp and with
-// fillets.
+// The picture of docs/methods/lumen-tree.md: the wall of a drawn coronary tree, and one of its joints sharp
+// and with fillets.
 
 #include "picture.h"
 

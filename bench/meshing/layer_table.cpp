@@ -1,6 +1,6 @@
-// The tables of docs/methods/boundary-layer.md and docs/methods/tetrahedra.md: layers of prisms on analytic shapes and on
-// synthetic coronary trees (`layers`, with `fill` the tetrahedra inside too), and what the gate says of these
-// trees (`gate`).
+// The tables of docs/methods/boundary-layer.md and docs/methods/tetrahedra.md: layers of prisms on analytic
+// shapes and on synthetic coronary trees (`layers`, with `fill` the tetrahedra inside too), and what the gate
+// says of these trees (`gate`).
 
 #include "boundary_layer_shapes.h"
 #include "picture.h"

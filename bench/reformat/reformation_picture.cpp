@@ -1,4 +1,5 @@
-// The picture of docs/methods/reformations.md: a vessel of a data set straightened and stretched, with the twins.
+// The picture of docs/methods/reformations.md: a vessel of a data set straightened and stretched, with the
+// twins.
 //   reformation_picture DATASET_FOLDER VESSEL_FOLDER OUTPUT.png
 
 #include "dataset.h"

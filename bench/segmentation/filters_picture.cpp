@@ -1,5 +1,5 @@
-// The picture of docs/methods/filters.md: a slice of a phantom's data set as it is, without bones, and what each
-// diffusion makes of a piece of it.
+// The picture of docs/methods/filters.md: a slice of a phantom's data set as it is, without bones, and what
+// each diffusion makes of a piece of it.
 //   filters_picture DATASET_FOLDER VESSEL_FOLDER OUTPUT.png
 
 #include "dataset.h"

@@ -1,5 +1,5 @@
-// The picture of docs/methods/outer-wall.md: outer wall and lumen as found and as they are, over both straightened
-// reformations and four cross-sections of an annotated section of a phantom's data set.
+// The picture of docs/methods/outer-wall.md: outer wall and lumen as found and as they are, over both
+// straightened reformations and four cross-sections of an annotated section of a phantom's data set.
 //   outer_wall_picture DATASET_FOLDER VESSEL_FOLDER SECTION OUTPUT.png
 
 #include "boundary_views.h"

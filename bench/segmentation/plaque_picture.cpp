@@ -1,5 +1,5 @@
-// The picture of docs/methods/plaque.md: cross-sections of the tightest stenosis of a phantom's vessel, with the
-// classes of plaque as they are and as they were measured between found walls.
+// The picture of docs/methods/plaque.md: cross-sections of the tightest stenosis of a phantom's vessel, with
+// the classes of plaque as they are and as they were measured between found walls.
 //   plaque_picture DATASET_FOLDER SEED VESSEL OUTPUT.png      (the data set is that of the seed, preset full)
 
 #include "boundary_views.h"

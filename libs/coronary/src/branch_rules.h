@@ -1,5 +1,6 @@
 #pragma once
-/// \file Rules by which paths of a coronary tree get their names; docs/methods/coronary-labels.md explains them.
+/// \file Rules by which paths of a coronary tree get their names; docs/methods/coronary-labels.md explains
+/// them.
 
 #include "tree_paths.h"
 

@@ -1,5 +1,6 @@
 #pragma once
-/// \file What must lie about an aorta before it is believed to be one of a heart (docs/methods/coronary-input.md).
+/// \file What must lie about an aorta before it is believed to be one of a heart
+/// (docs/methods/coronary-input.md).
 
 #include "ostia/coronary/aorta.h"
 

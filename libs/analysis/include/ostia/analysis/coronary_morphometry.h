@@ -1,5 +1,6 @@
 #pragma once
-/// \file What is known of the sizes and branching of pigs' coronary arteries. See docs/methods/tree-growth.md.
+/// \file What is known of the sizes and branching of pigs' coronary arteries. See
+/// docs/methods/tree-growth.md.
 
 #include <array>
 #include <cstdint>

@@ -1,6 +1,7 @@
 #pragma once
-/// \file Lengths, areas, volumes and totals of trees of vessels as plain arrays. See docs/methods/tree-measures.md.
-/// All take time and memory in proportion to the tree, and none calls itself: a tree may be a million deep.
+/// \file Lengths, areas, volumes and totals of trees of vessels as plain arrays. See
+/// docs/methods/tree-measures.md. All take time and memory in proportion to the tree, and none calls itself:
+/// a tree may be a million deep.
 
 #include "ostia/geometry/vessel_graph.h"
 

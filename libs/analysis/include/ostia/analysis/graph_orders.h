@@ -1,7 +1,7 @@
 #pragma once
-/// \file Orders of a tree's branches, its elements, and which springs from which. See docs/methods/tree-measures.md.
-/// Branches, from fork to fork, are what Kassab et al. 1993 (Am J Physiol 265:H350) call segments; branches
-/// of one order in series are an element.
+/// \file Orders of a tree's branches, its elements, and which springs from which. See
+/// docs/methods/tree-measures.md. Branches, from fork to fork, are what Kassab et al. 1993 (Am J Physiol
+/// 265:H350) call segments; branches of one order in series are an element.
 
 #include "ostia/analysis/graph_measures.h"
 

@@ -1,5 +1,6 @@
 #pragma once
-/// \file All measures of a tree at once, its scaling laws, and tables of them. See docs/methods/tree-measures.md.
+/// \file All measures of a tree at once, its scaling laws, and tables of them. See
+/// docs/methods/tree-measures.md.
 
 #include "ostia/analysis/graph_angles.h"
 #include "ostia/analysis/graph_orders.h"

@@ -1,5 +1,6 @@
 #pragma once
-/// \file A tree's axes over the cycle of the heart: what motion is measured on. See docs/methods/motion-measures.md.
+/// \file A tree's axes over the cycle of the heart: what motion is measured on. See
+/// docs/methods/motion-measures.md.
 
 #include "ostia/core/task_context.h"
 #include "ostia/geometry/vessel_tree.h"

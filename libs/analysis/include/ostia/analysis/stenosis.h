@@ -18,11 +18,11 @@ struct ReferenceOptions {
   /// have lines of their own, since a side branch may be half as wide. Outside the vessel: one line.
   double own_from_mm = 0.0;
 };
-/// A robust line through the healthy parts of the profile (docs/methods/analysis.md): penalised least squares (Eilers
-/// 2003), reweighted so that neither narrowings nor ectasias have a say. It never rises, and may step down
-/// where a branch leaves (`branches_mm`, abscissas of the vessel's bifurcations; those beyond its ends do not
-/// matter). All 0 where no section was found. Throws InvalidInput for bad options, a profile of fewer than
-/// two sections or a branch that is not finite.
+/// A robust line through the healthy parts of the profile (docs/methods/analysis.md): penalised least squares
+/// (Eilers 2003), reweighted so that neither narrowings nor ectasias have a say. It never rises, and may step
+/// down where a branch leaves (`branches_mm`, abscissas of the vessel's bifurcations; those beyond its ends
+/// do not matter). All 0 where no section was found. Throws InvalidInput for bad options, a profile of fewer
+/// than two sections or a branch that is not finite.
 ReferenceLine reference_line(const LumenProfile& profile, const std::vector<double>& branches_mm,
                              const ReferenceOptions& options = {});
 /// Where other segments leave a vessel's way, ascending; throws InvalidInput for a vessel that is not there.

@@ -1,7 +1,7 @@
 #pragma once
 /// \file What a person asks of a tree with a mouse in the hand: facts of a segment, distances along it,
-/// angles, what lies in a sphere, and what is under a ray. See docs/methods/tree-measures.md, "Asking one tree many
-/// times".
+/// angles, what lies in a sphere, and what is under a ray. See docs/methods/tree-measures.md, "Asking one
+/// tree many times".
 
 #include "ostia/analysis/graph_report.h"
 

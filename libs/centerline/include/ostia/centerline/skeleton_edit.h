@@ -1,6 +1,6 @@
 #pragma once
-/// \file What is done to a skeleton's graph. All functions return a new graph; docs/methods/skeleton.md gives the
-/// order in which they are used.
+/// \file What is done to a skeleton's graph. All functions return a new graph; docs/methods/skeleton.md gives
+/// the order in which they are used.
 
 #include "ostia/centerline/skeleton_graph.h"
 #include "ostia/imaging/volume.h"

@@ -27,8 +27,8 @@ struct Extraction {
   std::vector<std::string> warnings;  ///< of all steps, in plain words
 };
 
-/// Looks first whether the image can hold a coronary tree (docs/methods/coronary-input.md); then aorta, ostia,
-/// growth, axes, names, each step as its own header has it; the task's stage says which one runs.
+/// Looks first whether the image can hold a coronary tree (docs/methods/coronary-input.md); then aorta,
+/// ostia, growth, axes, names, each step as its own header has it; the task's stage says which one runs.
 /// Deterministic, the same for any number of threads. Throws InvalidInput for options out of range and for an
 /// image that is too small, too coarse, noise or not in HU, GeometryError where there is no chest, no aorta,
 /// no heart below it, no ostium or no artery (what was looked for and what to do), Cancelled.

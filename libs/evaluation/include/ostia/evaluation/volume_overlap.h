@@ -19,9 +19,9 @@ VolumeOverlap compare_masks(const imaging::MaskVolume& reference, const imaging:
 
 /// What two closed outward surfaces enclose, along parallel lines that stand `resolution_mm` apart, tilted
 /// against all axes: exact along them. For tubes the error is a few per mille of the volume at an eighth of
-/// the radius (docs/methods/evaluate-surface.md). Only places where `counts` (all when empty; asked every half
-/// resolution along a line). Throws InvalidInput for surfaces without triangles or with open edges, and where
-/// neither encloses anything.
+/// the radius (docs/methods/evaluate-surface.md). Only places where `counts` (all when empty; asked every
+/// half resolution along a line). Throws InvalidInput for surfaces without triangles or with open edges, and
+/// where neither encloses anything.
 VolumeOverlap compare_enclosed(const geometry::TriMesh& reference, const geometry::TriMesh& result,
                                double resolution_mm = 0.2, const Region& counts = {},
                                const core::TaskContext& task = core::no_task());

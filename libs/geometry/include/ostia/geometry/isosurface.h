@@ -20,12 +20,12 @@ struct ScalarGrid {
 };
 
 /// Surface where the values cross `level`, outward towards larger values (value < level is inside). Marching
-/// cubes with a table that is consistent across faces (docs/methods/isosurface.md): the surface is a 2-manifold,
-/// oriented whatever the handedness of the axes, and open in the faces of the grid only. Points are shared,
-/// and kept 1e-3 of a step off the voxels so that no triangle is degenerate. With `closed_at_border` all
-/// beyond the grid is outside and the result is closed there too, half a step beyond the border's voxels.
-/// Infinite values are allowed. The same for any number of threads. Throws InvalidInput for NaN, flat axes or
-/// an empty grid.
+/// cubes with a table that is consistent across faces (docs/methods/isosurface.md): the surface is a
+/// 2-manifold, oriented whatever the handedness of the axes, and open in the faces of the grid only. Points
+/// are shared, and kept 1e-3 of a step off the voxels so that no triangle is degenerate. With
+/// `closed_at_border` all beyond the grid is outside and the result is closed there too, half a step beyond
+/// the border's voxels. Infinite values are allowed. The same for any number of threads. Throws InvalidInput
+/// for NaN, flat axes or an empty grid.
 TriMesh isosurface(const ScalarGrid& grid, float level, bool closed_at_border,
                    const core::TaskContext& task = core::no_task());
 

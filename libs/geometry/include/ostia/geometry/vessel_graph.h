@@ -1,5 +1,6 @@
 #pragma once
-/// \file Networks of vessels as plain arrays, for trees of millions of segments. See docs/methods/vessel-graph.md.
+/// \file Networks of vessels as plain arrays, for trees of millions of segments. See
+/// docs/methods/vessel-graph.md.
 
 #include "ostia/core/task_context.h"
 #include "ostia/geometry/vec.h"

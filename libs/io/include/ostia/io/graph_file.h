@@ -1,6 +1,7 @@
 #pragma once
 /// \file Networks of vessels: VTP, legacy VTK, SWC, CSV and GXL in, and OpenCCO's tables; VTP, SWC and CSV
-/// out. In the file's own space and unit. The table of what each format keeps is in docs/methods/vessel-graph.md.
+/// out. In the file's own space and unit. The table of what each format keeps is in
+/// docs/methods/vessel-graph.md.
 
 #include "ostia/core/task_context.h"
 #include "ostia/geometry/vessel_graph.h"

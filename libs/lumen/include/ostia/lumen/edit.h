@@ -1,5 +1,6 @@
 #pragma once
-/// \file What a person can do to a model: plain values in world coordinates, never pixels (docs/methods/editing.md).
+/// \file What a person can do to a model: plain values in world coordinates, never pixels
+/// (docs/methods/editing.md).
 
 #include "ostia/lumen/lumen_model.h"
 

@@ -29,10 +29,10 @@ std::vector<SurfaceSample> samples_of(const geometry::AxisCurve& axis, const Rad
                                       double to_mm, std::int64_t first_id,
                                       const SamplingOptions& options = {});
 
-/// Models of a whole tree (docs/methods/start-surface.md). Throw InvalidInput for a tree with a fault, a vessel of
-/// fewer than three points, without a segment of its own or shorter than its radius, an axis with a kink or a
-/// loop (naming the vessel and the abscissa), or radii that are not positive. Tube: of the axes' own radii,
-/// or of one regular radius.
+/// Models of a whole tree (docs/methods/start-surface.md). Throw InvalidInput for a tree with a fault, a
+/// vessel of fewer than three points, without a segment of its own or shorter than its radius, an axis with a
+/// kink or a loop (naming the vessel and the abscissa), or radii that are not positive. Tube: of the axes'
+/// own radii, or of one regular radius.
 LumenModel model_of_tubes(const geometry::VesselTree& tree, std::optional<double> radius_mm = {},
                           const SamplingOptions& options = {});
 /// From radial walls, one a vessel of the tree (an image's boundary on rays); a vessel without one starts as

@@ -1,5 +1,6 @@
 #pragma once
-/// \file How good a mesh of tetrahedra and prisms is, and whether a solver may have it. docs/methods/mesh-quality.md.
+/// \file How good a mesh of tetrahedra and prisms is, and whether a solver may have it.
+/// docs/methods/mesh-quality.md.
 
 #include "ostia/core/task_context.h"
 #include "ostia/geometry/aabb_tree.h"

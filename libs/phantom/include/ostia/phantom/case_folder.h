@@ -1,5 +1,6 @@
 #pragma once
-/// \file Cases on disk, in the layout of the Rotterdam centerline challenge and ours (docs/methods/phantom-cases.md).
+/// \file Cases on disk, in the layout of the Rotterdam centerline challenge and ours
+/// (docs/methods/phantom-cases.md).
 
 #include "ostia/core/task_context.h"
 #include "ostia/phantom/phantom_case.h"
@@ -19,7 +20,8 @@ struct SuiteOptions {
   bool truth_only = false;  ///< no image and no label volume
   bool mhd = true, nrrd = true, dicom = true;
   bool report = true;  ///< report.html and report/*.png
-  /// Of the heart's beat, at equal distances, 1 to 100; 1: the heart stands still (docs/methods/phantom-motion.md).
+  /// Of the heart's beat, at equal distances, 1 to 100; 1: the heart stands still
+  /// (docs/methods/phantom-motion.md).
   int phases = 1;
 };
 void validate(const SuiteOptions& options);  ///< throws InvalidInput

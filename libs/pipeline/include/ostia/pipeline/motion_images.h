@@ -1,5 +1,6 @@
 #pragma once
-/// \file A template's lumen found in the images of other phases of the heart. See docs/methods/motion-images.md.
+/// \file A template's lumen found in the images of other phases of the heart. See
+/// docs/methods/motion-images.md.
 
 #include "ostia/core/task_context.h"
 #include "ostia/imaging/volume.h"

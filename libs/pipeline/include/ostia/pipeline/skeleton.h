@@ -1,5 +1,6 @@
 #pragma once
-/// \file From a mask to a tree of centerlines by its skeleton ([Luboz] 2.1): all steps of docs/methods/skeleton.md.
+/// \file From a mask to a tree of centerlines by its skeleton ([Luboz] 2.1): all steps of
+/// docs/methods/skeleton.md.
 
 #include "ostia/centerline/skeleton_edit.h"
 #include "ostia/centerline/skeleton_graph.h"

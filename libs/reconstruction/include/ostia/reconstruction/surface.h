@@ -1,5 +1,6 @@
 #pragma once
-/// \file Smooth closed surfaces of quadrilaterals around networks of vessels. See docs/methods/reconstruction.md.
+/// \file Smooth closed surfaces of quadrilaterals around networks of vessels. See
+/// docs/methods/reconstruction.md.
 
 #include "ostia/core/task_context.h"
 #include "ostia/geometry/mixed_mesh.h"

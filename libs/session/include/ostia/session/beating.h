@@ -1,6 +1,6 @@
 #pragma once
-/// \file A case's wall and axes at any phase of the heart, carried by a cage. See docs/reference/workstation.md, "The
-/// beating case".
+/// \file A case's wall and axes at any phase of the heart, carried by a cage. See
+/// docs/reference/workstation.md, "The beating case".
 
 #include "ostia/geometry/axis_curve.h"
 #include "ostia/geometry/cage_motion.h"

@@ -1,5 +1,6 @@
 #pragma once
-/// \file A case held against the contours of somebody who knows, while it is edited (docs/reference/qa-mode.md).
+/// \file A case held against the contours of somebody who knows, while it is edited
+/// (docs/reference/qa-mode.md).
 
 #include "ostia/evaluation/contour_pairs.h"
 #include "ostia/geometry/contour_set.h"

@@ -1,5 +1,6 @@
 #pragma once
-/// \file What flows through the open ends of a model, and what it flows against. See docs/reference/solver-cases.md.
+/// \file What flows through the open ends of a model, and what it flows against. See
+/// docs/reference/solver-cases.md.
 
 #include "ostia/solver/section.h"
 #include "ostia/solver/waveform.h"

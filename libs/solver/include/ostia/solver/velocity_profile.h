@@ -1,5 +1,6 @@
 #pragma once
-/// \file Velocity profiles of laminar flow on the real section of a vessel. See docs/reference/solver-cases.md.
+/// \file Velocity profiles of laminar flow on the real section of a vessel. See
+/// docs/reference/solver-cases.md.
 
 #include "ostia/solver/section.h"
 

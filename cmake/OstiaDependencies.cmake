@@ -1,68 +1,49 @@
-find_package(Threads REQUIRED)
-find_package(Eigen3 3.4 REQUIRED NO_MODULE)
-find_package(TBB REQUIRED)
-find_package(spdlog REQUIRED)
-find_package(fmt REQUIRED)
-find_package(OpenSSL REQUIRED COMPONENTS Crypto)
-find_package(ZLIB REQUIRED)
-find_package(nlohmann_json REQUIRED)
-find_package(CLI11 REQUIRED)
-find_package(CGAL REQUIRED QUIET)
-
-# Debian ships nanoflann's config where CMake does not look.
-find_package(nanoflann REQUIRED PATHS /usr/share/nanoflann/cmake)
-
-# TetGen comes without a CMake config. It is AGPL-3: linked into the worker only.
-find_path(TETGEN_INCLUDE_DIR tetgen.h REQUIRED)
-find_library(TETGEN_LIBRARY tet REQUIRED)
-add_library(ostia_tetgen INTERFACE)
-target_include_directories(ostia_tetgen SYSTEM INTERFACE "${TETGEN_INCLUDE_DIR}")
-target_compile_definitions(ostia_tetgen INTERFACE TETLIBRARY)
-target_link_libraries(ostia_tetgen INTERFACE "${TETGEN_LIBRARY}")
-
-# SuiteSparse's CHOLMOD comes without a CMake config. Its Modify and Supernodal modules are GPL.
-find_path(CHOLMOD_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse REQUIRED)
-find_library(CHOLMOD_LIBRARY cholmod REQUIRED)
-add_library(ostia_cholmod INTERFACE)
-target_include_directories(ostia_cholmod SYSTEM INTERFACE "${CHOLMOD_INCLUDE_DIR}")
-target_link_libraries(ostia_cholmod INTERFACE "${CHOLMOD_LIBRARY}")
-
-find_package(SQLite3 REQUIRED)
-
-# libzip's own config asks for its command line tools, which Debian ships in other packages.
-find_path(ZIP_INCLUDE_DIR zip.h REQUIRED)
-find_library(ZIP_LIBRARY zip REQUIRED)
-add_library(ostia_zip INTERFACE)
-target_include_directories(ostia_zip SYSTEM INTERFACE "${ZIP_INCLUDE_DIR}")
-target_link_libraries(ostia_zip INTERFACE "${ZIP_LIBRARY}")
-
-find_path(ISAL_INCLUDE_DIR isa-l/igzip_lib.h REQUIRED)
-find_library(ISAL_LIBRARY isal REQUIRED)
-add_library(ostia_isal INTERFACE)
-target_include_directories(ostia_isal SYSTEM INTERFACE "${ISAL_INCLUDE_DIR}")
-target_link_libraries(ostia_isal INTERFACE "${ISAL_LIBRARY}")
-
-# CGAL's target without the compile options and definitions of its own that it would spread.
-add_library(ostia_cgal INTERFACE)
-target_link_libraries(ostia_cgal INTERFACE CGAL::CGAL)
-
-if(OSTIA_WITH_IMAGE_LIBRARIES)
-  find_package(PkgConfig REQUIRED)
-  pkg_check_modules(PANGOCAIRO REQUIRED IMPORTED_TARGET pangocairo cairo cairo-pdf cairo-svg)
-  find_package(embree 3 REQUIRED)
-  find_package(Qt5 5.15 REQUIRED COMPONENTS Widgets)
-  find_package(VTK 9.1 REQUIRED
-    COMPONENTS CommonCore CommonDataModel CommonExecutionModel CommonMisc CommonMath CommonTransforms FiltersCore IOXML IOLegacy
-               RenderingCore RenderingOpenGL2 RenderingFreeType RenderingVolume RenderingVolumeOpenGL2 GUISupportQt)
+include(OstiaThirdParty)
+if(NOT PROJECT_IS_TOP_LEVEL)
+  set(CMAKE_FIND_PACKAGE_TARGETS_GLOBAL ON)  # the project around this one links them, too
 endif()
 
-if(OSTIA_TESTS)
-  find_package(GTest REQUIRED)
-  include(GoogleTest)
-  if(OSTIA_WITH_IMAGE_LIBRARIES)
-    find_program(OSTIA_XVFB_RUN xvfb-run REQUIRED)
+set(_ostia_needed
+    Threads::Threads Eigen3::Eigen TBB::tbb spdlog::spdlog fmt::fmt OpenSSL::Crypto ZLIB::ZLIB nlohmann_json::nlohmann_json
+    CGAL::CGAL nanoflann::nanoflann SQLite::SQLite3 OstiaThirdParty::tetgen OstiaThirdParty::cholmod OstiaThirdParty::zip
+    OstiaThirdParty::isal)
+if(OSTIA_APPS)
+  list(APPEND _ostia_needed CLI11::CLI11)
+endif()
+if(OSTIA_WITH_IMAGE_LIBRARIES)
+  list(APPEND _ostia_needed PkgConfig::PANGOCAIRO PkgConfig::HDF5_SERIAL PkgConfig::NETCDF embree OstiaThirdParty::gdcm
+       OstiaThirdParty::cgns)
+  foreach(module IN ITEMS CommonCore CommonDataModel CommonExecutionModel CommonMisc CommonMath CommonTransforms FiltersCore
+          IOXML IOLegacy RenderingCore RenderingOpenGL2 RenderingFreeType RenderingVolume RenderingVolumeOpenGL2)
+    list(APPEND _ostia_needed VTK::${module})
+  endforeach()
+  if(OSTIA_APPS)
+    list(APPEND _ostia_needed Qt5::Widgets Qt5::lrelease VTK::GUISupportQt)
   endif()
 endif()
-if(OSTIA_BENCHMARKS)
-  find_package(benchmark REQUIRED)
+if(OSTIA_TESTS)
+  list(APPEND _ostia_needed GTest::gtest)
 endif()
+if(OSTIA_BENCHMARKS)
+  list(APPEND _ostia_needed benchmark::benchmark)
+endif()
+
+ostia_find_third_parties(_ostia_missing ${_ostia_needed})
+if(OSTIA_TESTS AND OSTIA_WITH_IMAGE_LIBRARIES)
+  find_program(OSTIA_XVFB_RUN xvfb-run)
+  if(NOT OSTIA_XVFB_RUN)
+    list(APPEND _ostia_missing xvfb)
+  endif()
+endif()
+if(_ostia_missing)
+  list(JOIN _ostia_missing " " _ostia_missing)
+  message(FATAL_ERROR "Packages are missing. Install them by scripts/install_packages.sh, or by: apt install ${_ostia_missing}")
+endif()
+if(OSTIA_TESTS)
+  include(GoogleTest)
+endif()
+target_compile_definitions(OstiaThirdParty::tetgen INTERFACE TETLIBRARY)
+
+# CGAL's headers are compiled into our libraries. Who links those installed needs only what is below CGAL.
+add_library(ostia_cgal INTERFACE)
+target_link_libraries(ostia_cgal INTERFACE CGAL::CGAL)

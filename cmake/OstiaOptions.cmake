@@ -2,16 +2,25 @@ set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
-set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bin")
-if(NOT CMAKE_BUILD_TYPE)
-  set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
+# What concerns all of a build is decided by the project that is built. The rest of this file holds for Ostia's own
+# folders alone, also where it is part of another project.
+if(PROJECT_IS_TOP_LEVEL)
+  if(NOT CMAKE_BUILD_TYPE)
+    set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
+  endif()
+  # -O2: -O3 costs build time and gains nothing measurable here.
+  set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
+  set(OSTIA_PREFIX "")
+else()
+  set(OSTIA_PREFIX ostia_)  # of targets with a common name
 endif()
-# -O2: -O3 costs build time and gains nothing measurable here.
-set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
 
-option(OSTIA_TESTS "Build the tests" ON)
-option(OSTIA_BENCHMARKS "Offer the benchmarks, built by the target of that name" ON)
-option(OSTIA_WERROR "Treat warnings as errors" ON)
+option(OSTIA_TESTS "Build the tests" ${PROJECT_IS_TOP_LEVEL})
+option(OSTIA_BENCHMARKS "Offer the benchmarks, built by the target of that name" ${PROJECT_IS_TOP_LEVEL})
+option(OSTIA_WERROR "Treat warnings as errors" ${PROJECT_IS_TOP_LEVEL})
+option(OSTIA_APPS "Build the programs, not only the libraries and their worker" ${PROJECT_IS_TOP_LEVEL})
+option(OSTIA_INSTALL "Offer to install what is built" ${PROJECT_IS_TOP_LEVEL})
 option(OSTIA_WITH_IMAGE_LIBRARIES "Build what needs VTK, GDCM, Cairo or Embree" ON)
 option(OSTIA_ASAN "AddressSanitizer and UndefinedBehaviorSanitizer in our own libraries" OFF)
 

@@ -6,14 +6,18 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 preset=${1:-release}
 [ $# -eq 0 ] || shift
-lists=(scripts/packages.txt)
-options=()
-if [ "$*" != programs ]; then
-  lists+=(scripts/packages-test.txt)
-  options=(-DOSTIA_TESTS=ON -DOSTIA_BENCHMARKS=ON)
-elif [ ! -e "build/$preset/CMakeCache.txt" ]; then
-  options=(-DOSTIA_TESTS=OFF -DOSTIA_BENCHMARKS=OFF)
+if [ "$*" = programs ]; then
+  lists=(scripts/packages.txt) needed_gb=2
+else
+  lists=(scripts/packages.txt scripts/packages-test.txt) needed_gb=6
 fi
 scripts/install_packages.sh "${lists[@]}"
-cmake --preset "$preset" "${options[@]}"
-cmake --build --preset "$preset" ${*:+--target "$@"}
+fresh=$(scripts/check_build.sh before "$preset" $needed_gb)
+options=()
+if [ "$*" != programs ]; then
+  options=(-DOSTIA_TESTS=ON -DOSTIA_BENCHMARKS=ON)
+elif [ -n "$fresh" ] || [ ! -e "build/$preset/CMakeCache.txt" ]; then
+  options=(-DOSTIA_TESTS=OFF -DOSTIA_BENCHMARKS=OFF)
+fi
+cmake --preset "$preset" $fresh "${options[@]}"
+cmake --build --preset "$preset" ${*:+--target "$@"} || { scripts/check_build.sh after "$preset"; exit 1; }

@@ -1,6 +1,9 @@
 #include "options.h"
 
+#include "description_files.h"
+
 #include "ostia/core/error.h"
+#include "ostia/core/version.h"
 #include "ostia/io/graph_file.h"
 
 #include <CLI/App.hpp>
@@ -130,11 +133,15 @@ std::optional<Options> options_of(const std::vector<std::string>& arguments) {
       "Shows a coronary tree that beats, by an electrocardiogram or in a loop, or a vessel tree of "
       "up to millions of segments.",
       "ostia-live");
-  app.set_version_flag("--version", std::string("ostia-live ") + OSTIA_VERSION);
+  app.set_version_flag("--version", "ostia-live " + core::version());
   app.footer(examples);
   add_input(app, o, words);
   add_view(app, o, words);
   add_output(app, o, words);
+  if (const auto folder = command_line::described_into(arguments)) {
+    command_line::write_description_files(command_line::describe(app), *folder);
+    return {};
+  }
   std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());
   try {
     app.parse(reversed);

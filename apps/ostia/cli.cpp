@@ -5,6 +5,7 @@
 #include "cli_segment.h"
 #include "commands.h"
 #include "config_file.h"
+#include "description_files.h"
 #include "evaluate.h"
 #include "experiment.h"
 #include "extract.h"
@@ -26,6 +27,7 @@
 
 #include "ostia/core/log.h"
 #include "ostia/core/parallel.h"
+#include "ostia/core/version.h"
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -319,7 +321,7 @@ struct Asked {
 
 std::unique_ptr<Asked> asked_by(const std::vector<std::string>& arguments) {
   auto asked = std::make_unique<Asked>();
-  asked->app.set_version_flag("--version", std::string("ostia ") + OSTIA_VERSION);
+  asked->app.set_version_flag("--version", "ostia " + core::version());
   define(asked->app, asked->commands, asked->run);
   try {
     std::vector<std::string> words = arguments;
@@ -334,6 +336,12 @@ std::unique_ptr<Asked> asked_by(const std::vector<std::string>& arguments) {
 }  // namespace
 
 int run(const std::vector<std::string>& arguments, const core::TaskContext& job) {
+  if (const auto folder = command_line::described_into(arguments)) {
+    Asked asked;
+    define(asked.app, asked.commands, asked.run);
+    command_line::write_description_files(command_line::describe(asked.app), *folder);
+    return 0;
+  }
   StandardStreams streams(with_config(arguments));
   std::unique_ptr<Asked> asked = asked_by(streams.arguments());
   if (asked->exit_code >= 0) return asked->exit_code;

@@ -23,7 +23,9 @@ qt5_add_resources(OSTIA_RESOURCES "${CMAKE_CURRENT_BINARY_DIR}/ostia_translation
 target_sources(ostia_workstation PRIVATE ${OSTIA_RESOURCES} ${OSTIA_QM})
 # Each has the same names in it.
 set_source_files_properties(${OSTIA_RESOURCES} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-target_compile_definitions(ostia_workstation PRIVATE OSTIA_MANUAL_SOURCES="${PROJECT_SOURCE_DIR}/docs/manual")
+# With its pictures the window finds the manual where it is when installed: in share/ostia, seen from the program.
+file(MAKE_DIRECTORY "${PROJECT_BINARY_DIR}/share")
+file(CREATE_LINK "${PROJECT_SOURCE_DIR}/docs" "${PROJECT_BINARY_DIR}/share/ostia" SYMBOLIC)
 
 file(GLOB OSTIA_WINDOW_SOURCES CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp" "${CMAKE_CURRENT_SOURCE_DIR}/*.h")
 add_custom_target(ostia_translations_update

@@ -1,3 +1,4 @@
+#include "description_files.h"
 #include "ending_signals.h"
 #include "frame_log.h"
 #include "help.h"
@@ -6,6 +7,7 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/log.h"
+#include "ostia/core/version.h"
 #include "ostia/view/opengl_check.h"
 
 #include <QVTKOpenGLNativeWidget.h>
@@ -62,8 +64,10 @@ struct CommandLine {
     parser.addVersionOption();
     parser.addPositionalArgument(
         "what", QApplication::tr("A case, an image, a DICOM folder, or a zip of one."), "[what]");
-    parser.addOptions({state, frames, sample, no_tour});
+    for (const QCommandLineOption& option : options()) parser.addOption(option);
   }
+  /// As QCommandLineParser has no list of them.
+  std::vector<QCommandLineOption> options() const { return {state, frames, sample, no_tour}; }
   std::string state_folder() const { return parser.value(state).toStdString(); }
   /// Before any window is made.
   void use_language() const {
@@ -71,6 +75,26 @@ struct CommandLine {
         ostia::session::MachineState(state_folder()).setting(ostia::workstation::language_setting));
   }
 };
+
+/// For the manual page and the completions.
+ostia::command_line::CommandDescription description_of(const CommandLine& said) {
+  ostia::command_line::CommandDescription program;
+  program.words = {"ostia-workstation"};
+  program.text = "the window in which coronary trees are looked at, corrected and measured";
+  program.options.push_back(
+      {{"WHAT"}, "FILE", {}, {}, "A case, an image, a DICOM folder, or a zip of one", false, false});
+  program.options.push_back({{"-h", "--help"}, {}, {}, {}, "Prints the options and ends", false, false});
+  program.options.push_back({{"-v", "--version"}, {}, {}, {}, "Prints the version and ends", false, false});
+  for (const QCommandLineOption& option : said.options()) {
+    ostia::command_line::OptionDescription described;
+    for (const QString& name : option.names()) described.names.push_back("--" + name.toStdString());
+    described.value = option.valueName().toUpper().toStdString();
+    described.text = option.description().toStdString();
+    if (!described.text.empty() && described.text.back() == '.') described.text.pop_back();
+    program.options.push_back(described);
+  }
+  return program;
+}
 
 /// What needs no display, so that a script can ask for it anywhere; true where it was all that was wanted.
 bool answered(int argc, char** argv) {
@@ -80,7 +104,12 @@ bool answered(int argc, char** argv) {
     return false;
   };
   if (asked({"--version", "-v"})) {
-    std::printf("ostia-workstation %s\n", OSTIA_VERSION);
+    std::printf("ostia-workstation %s\n", ostia::core::version().c_str());
+    return true;
+  }
+  if (const auto folder =
+          ostia::command_line::described_into(std::vector<std::string>(argv + 1, argv + argc))) {
+    ostia::command_line::write_description_files(description_of(CommandLine()), *folder);
     return true;
   }
   if (!asked({"--help", "-h", "--help-all"})) return false;
@@ -159,16 +188,18 @@ int run(const CommandLine& said) {
 
 int main(int argc, char** argv) {
   QCoreApplication::setApplicationName("ostia");
-  QCoreApplication::setApplicationVersion(OSTIA_VERSION);
+  QCoreApplication::setApplicationVersion(QString::fromStdString(ostia::core::version()));
   if (answered(argc, argv)) return 0;
   QApplication::setAttribute(Qt::AA_EnableHighDpiScaling);
   QApplication::setAttribute(Qt::AA_UseHighDpiPixmaps);
   QApplication::setAttribute(Qt::AA_DontCreateNativeWidgetSiblings);
   QGuiApplication::setApplicationDisplayName("Ostia");
+  QGuiApplication::setDesktopFileName("io.github.ostia.Workstation");
   if (const auto trouble = ostia::view::check_opengl()) return refuse(*trouble, argc, argv);
   std::signal(SIGXFSZ, SIG_IGN);  // a limit of a file's size is an error that is said, not the program's end
   QSurfaceFormat::setDefaultFormat(QVTKOpenGLNativeWidget::defaultFormat());
   Application application(argc, argv);
+  QApplication::setWindowIcon(QIcon::fromTheme("io.github.ostia.Workstation"));
   std::setlocale(LC_NUMERIC, "C");
   CommandLine said;
   said.parser.process(application);

@@ -56,9 +56,8 @@ class Reader final : public QTextBrowser {
 
 QString manual_folder() {
   init_manual();
-  for (const QString& folder :
-       {QApplication::applicationDirPath() + "/../share/doc/ostia/manual", QString(OSTIA_MANUAL_SOURCES)})
-    if (QFileInfo::exists(folder + "/index.md")) return QFileInfo(folder).canonicalFilePath();
+  const QString folder = QApplication::applicationDirPath() + "/../share/ostia/manual";
+  if (QFileInfo::exists(folder + "/index.md")) return QFileInfo(folder).canonicalFilePath();
   return QStringLiteral(":/manual");
 }
 

@@ -85,16 +85,5 @@ TEST(ChildProcess, NamesAMissingProgram) {
   EXPECT_THROW(run_child("/nonexistent/ostia-worker", {}), IoError);
 }
 
-TEST(ChildProcess, FindsTheWorkerByEnvironment) {
-  const char* before = std::getenv("OSTIA_WORKER");
-  const std::string saved = before ? before : "";
-  ::setenv("OSTIA_WORKER", "/somewhere/worker", 1);
-  EXPECT_EQ(worker_program(), "/somewhere/worker");
-  if (before)
-    ::setenv("OSTIA_WORKER", saved.c_str(), 1);
-  else
-    ::unsetenv("OSTIA_WORKER");
-}
-
 }  // namespace
 }  // namespace ostia::core

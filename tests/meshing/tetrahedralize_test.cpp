@@ -3,9 +3,9 @@
 #include "test_surfaces.h"
 #include "tetrahedra_samples.h"
 
-#include "ostia/core/child_process.h"
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
+#include "ostia/core/worker_program.h"
 #include "ostia/geometry/mesh_topology.h"
 #include "ostia/meshing/mixed_quality.h"
 #include "ostia/meshing/remesh.h"

@@ -4,6 +4,7 @@
 
 #include "ostia/core/files.h"
 #include "ostia/core/log.h"
+#include "ostia/core/version.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -30,7 +31,7 @@ TEST(Manifest, SaysWhatWasDone) {
   EXPECT_EQ(manifest["v"], 1);
   EXPECT_EQ(manifest["outputs"]["mesh.vtu"], core::sha256("mesh"));
   EXPECT_EQ(manifest["quality"]["dice"], 1);
-  EXPECT_EQ(manifest["program"]["version"], program_version());
+  EXPECT_EQ(manifest["program"]["version"], core::version());
   EXPECT_GT(manifest["peak_mb"].get<double>(), 1.0);
   EXPECT_EQ(text.find("DOE"), std::string::npos);
 }

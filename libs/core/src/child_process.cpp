@@ -178,12 +178,4 @@ std::optional<fs::path> program_on_path(const std::string& name) {
   return std::nullopt;
 }
 
-fs::path worker_program() {
-  if (const char* given = std::getenv("OSTIA_WORKER")) return given;
-  std::error_code error;
-  const fs::path beside = fs::read_symlink("/proc/self/exe", error).parent_path() / "ostia-worker";
-  if (!error && fs::exists(beside)) return beside;
-  return OSTIA_BUILD_WORKER;
-}
-
 }  // namespace ostia::core

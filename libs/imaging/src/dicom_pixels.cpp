@@ -5,6 +5,7 @@
 #include "ostia/core/child_process.h"
 #include "ostia/core/error.h"
 #include "ostia/core/private_folder.h"
+#include "ostia/core/worker_program.h"
 
 #include <algorithm>
 #include <atomic>

@@ -2,6 +2,7 @@
 
 #include "ostia/core/files.h"
 #include "ostia/core/log.h"
+#include "ostia/core/version.h"
 
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
@@ -86,15 +87,10 @@ double peak_memory_mb() {
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
-std::string program_version() {
-  return OSTIA_VERSION;
-}
-
 void write_manifest(const fs::path& folder, const ManifestRecord& record) {
   json manifest = key_of(record.key);
   manifest["v"] = 1;
-  manifest["program"] = {
-      {"name", "ostia"}, {"version", program_version()}, {"libraries", library_versions()}};
+  manifest["program"] = {{"name", "ostia"}, {"version", core::version()}, {"libraries", library_versions()}};
   manifest["exit_code"] = static_cast<int>(record.exit_code);
   manifest["finished"] = utc_now();
   manifest["seconds"] = record.seconds;
@@ -113,8 +109,7 @@ std::optional<ExitCode> already_done(const fs::path& folder, const JobKey& key) 
   for (const char* field : {"command", "inputs", "parameters"}) {
     if (manifest.value(field, json()) != wanted[field]) return std::nullopt;
   }
-  if (manifest.value("/program/version"_json_pointer, std::string()) != program_version())
-    return std::nullopt;
+  if (manifest.value("/program/version"_json_pointer, std::string()) != core::version()) return std::nullopt;
   const json outputs = manifest.value("outputs", json::object());
   for (const auto& [name, digest] : outputs.items()) {
     if (!fs::exists(folder / name) || core::sha256_file(folder / name) != digest) return std::nullopt;

@@ -4,6 +4,7 @@
 
 #include "ostia/core/csv.h"
 #include "ostia/core/files.h"
+#include "ostia/core/version.h"
 #include "ostia/figure/html_report.h"
 
 #include <nlohmann/json.hpp>
@@ -150,7 +151,7 @@ void add_table(figure::HtmlReport& html, const TreeMotion& motion) {
 void write_html(const fs::path& path, const TreeMotion& motion, const std::vector<ReportPicture>& pictures) {
   figure::HtmlReport html("Motion over the beat", std::to_string(motion.branches.size()) + " branches, " +
                                                       std::to_string(motion.phases.size()) +
-                                                      " times, Ostia " + program_version());
+                                                      " times, Ostia " + core::version());
   for (const std::string& warning : motion.warnings) html.notice(figure::Notice::warning, warning);
   add_table(html, motion);
   for (const ReportPicture& one : pictures) {

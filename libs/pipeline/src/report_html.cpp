@@ -1,3 +1,4 @@
+#include "ostia/core/version.h"
 #include "ostia/figure/cut_open.h"
 #include "ostia/figure/html_report.h"
 #include "ostia/figure/plot.h"
@@ -190,7 +191,7 @@ void write_pictures(const std::filesystem::path& folder, const std::vector<Repor
 void write_report_html(const std::filesystem::path& path, const Model& model,
                        const std::vector<ReportPicture>& pictures, const std::optional<TruthErrors>& truth) {
   HtmlReport html("Vessel model",
-                  name_of(model.source.kind) + " " + model.source.pseudonym + ", Ostia " + program_version());
+                  name_of(model.source.kind) + " " + model.source.pseudonym + ", Ostia " + core::version());
   if (model.meshed.quality.verdict.ok()) {
     html.notice(figure::Notice::good, "The mesh passed the quality gate.");
   } else {

@@ -3,6 +3,7 @@
 
 #include "ostia/core/files.h"
 #include "ostia/core/log.h"
+#include "ostia/core/version.h"
 #include "ostia/pipeline/manifest.h"
 #include "ostia/pipeline/report.h"
 
@@ -125,7 +126,7 @@ void add_volume_parameters(const VolumeOptions& options, json& out) {
 std::string report_json(const Model& model, const ModelOptions& options,
                         const std::optional<TruthErrors>& truth) {
   json report{{"v", 1},
-              {"program", {{"name", "ostia"}, {"version", program_version()}}},
+              {"program", {{"name", "ostia"}, {"version", core::version()}}},
               {"axes", "LPS"},
               {"unit", "mm"}};
   report["source"] = {{"kind", pipeline::name_of(model.source.kind)},

@@ -2,6 +2,7 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
+#include "ostia/core/version.h"
 #include "ostia/figure/html_report.h"
 
 #include <nlohmann/json.hpp>
@@ -153,7 +154,7 @@ void add_overlaps(const MeasuredTree& tree, figure::HtmlReport& html) {
 void write_html(const fs::path& path, const MeasuredTree& tree, const std::vector<ReportPicture>& pictures) {
   const analysis::TreeReport& r = tree.report;
   figure::HtmlReport html("Measures of a tree",
-                          std::to_string(tree.graph.edges.size()) + " segments, Ostia " + program_version());
+                          std::to_string(tree.graph.edges.size()) + " segments, Ostia " + core::version());
   html.section("The whole tree");
   html.key_values({{"Branches", std::to_string(r.branches.size())},
                    {"Ends", std::to_string(r.total.ends)},

@@ -5,6 +5,7 @@
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
 #include "ostia/core/private_folder.h"
+#include "ostia/core/version.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -113,7 +114,8 @@ void check_header(const fs::path& path, const Descriptor& file) {
   if (header.version > schema_version) {
     const std::string needed = needed_version(path);
     refuse(path, "its format " + std::to_string(header.version) + " is newer than this program's (" +
-                     std::to_string(schema_version) + ", Ostia " OSTIA_VERSION "); open it with Ostia " +
+                     std::to_string(schema_version) + ", Ostia " + core::version() +
+                     "); open it with Ostia " +
                      (needed.empty() ? "of a newer version" : needed + " or newer"));
   }
   const std::uint64_t expected = std::uint64_t{header.page_size} * header.pages;

@@ -3,6 +3,7 @@
 #include "case_report_text.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/version.h"
 
 #include <algorithm>
 #include <cmath>
@@ -85,7 +86,7 @@ class Maker {
         annotations_(annotations),
         cut_(analysis::segments_of(model)) {
     report_.options = options;
-    report_.program_version = pipeline::program_version();
+    report_.program_version = core::version();
     report_.model_digest = lumen::digest(model);
   }
 

@@ -3,6 +3,7 @@
 #include "annotation_rows.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/version.h"
 
 #include <array>
 #include <string>
@@ -62,7 +63,7 @@ void create_schema(Database& database) {
   database.execute(tables);
   create_annotations(database);
   // Read by programs that are too old for the file: they can name the version that is needed.
-  database.execute("INSERT INTO meta VALUES('made_with', '" OSTIA_VERSION "'), ('needs', '0.1.0')");
+  database.execute("INSERT INTO meta VALUES('made_with', '" + core::version() + "'), ('needs', '0.1.0')");
   set_version(database, schema_version);
 }
 

@@ -2,6 +2,7 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/private_folder.h"
+#include "ostia/core/worker_program.h"
 
 #include <algorithm>
 #include <chrono>

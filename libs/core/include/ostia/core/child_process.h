@@ -39,8 +39,4 @@ ChildResult run_child(const std::filesystem::path& program, const std::vector<st
 /// As a shell would find it; nothing where it is not there or cannot be run.
 std::optional<std::filesystem::path> program_on_path(const std::string& name);
 
-/// The worker program: $OSTIA_WORKER if set, else `ostia-worker` beside the running program, else the build's
-/// own.
-std::filesystem::path worker_program();
-
 }  // namespace ostia::core

@@ -40,6 +40,5 @@ void require_free_folder(const std::filesystem::path& folder);
 
 /// Most memory this process has had resident, MB.
 double peak_memory_mb();
-std::string program_version();
 
 }  // namespace ostia::pipeline

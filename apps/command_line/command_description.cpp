@@ -18,7 +18,8 @@ void read_value(const std::string& type, OptionDescription& option) {
   const std::string checked = type.substr(colon + 1);
   const auto open = checked.find('{'), close = checked.find('}');
   if (open == std::string::npos || close == std::string::npos || close < open) {
-    option.limits = checked;
+    const std::string kind = option.value + " ";  // "INT in [0 - 10]"
+    option.limits = checked.starts_with(kind) ? checked.substr(kind.size()) : checked;
     return;
   }
   std::istringstream words(checked.substr(open + 1, close - open - 1));

@@ -15,7 +15,7 @@ struct OptionDescription {
   std::vector<std::string> names;    ///< "-o", "--output"; one without dashes for a positional argument
   std::string value;                 ///< what it takes: "TEXT", "INT", "FILE"; empty: nothing
   std::vector<std::string> choices;  ///< the words that it takes, where these are all
-  std::string limits;                ///< in words, such as "above 0"; may be empty
+  std::string limits;                ///< in words, "above 0", "in [0 - 10]"; may be empty
   std::string text;
   bool required = false;
   bool repeats = false;

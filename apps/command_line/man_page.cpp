@@ -63,7 +63,7 @@ void write_option(std::ostream& out, const OptionDescription& option) {
   }
   out << "\n" << plain(option.text) << ".\n";
   if (!option.choices.empty()) out << "One of " << plain(joined(option.choices, ", ")) << ".\n";
-  if (!option.limits.empty()) out << "Its value: " << plain(option.limits) << ".\n";
+  if (!option.limits.empty()) out << "Its value is " << plain(option.limits) << ".\n";
   if (option.required && !option.positional()) out << "Required.\n";
 }
 

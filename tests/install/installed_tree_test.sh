@@ -17,7 +17,7 @@ diff "$work/public" "$work/installed" || fail "the headers installed are not tho
 mv "$work/first" "$work/moved"
 PATH=$work/moved/bin:$PATH
 [ ! -e "$work/moved/bin/ostia-worker" ] || fail "the worker is no command"
-(cd "$work" && ostia model --builtin -o model --quiet) || fail "ostia model --builtin in an installed tree"
+(cd "$work" && ostia model --builtin -o model --quiet > /dev/null) || fail "ostia model --builtin in an installed tree"
 [ -s "$work/model/mesh.vtu" ] || fail "no mesh"
 
 share=$work/moved/share

@@ -39,8 +39,9 @@ ostia ($version-1) unstable; urgency=medium
  -- $(sed -n 's/^Maintainer: //p' packaging/debian/control)  $(git log -1 --format=%cD 2>/dev/null || date -R)
 END
 (cd "$stage/ostia" &&
-  OSTIA_BUILD=$build OSTIA_SOURCE=$source dpkg-buildpackage --build=binary --no-sign -rfakeroot > "$stage/log" 2>&1) ||
+  DEB_BUILD_OPTIONS=noautodbgsym OSTIA_BUILD=$build OSTIA_SOURCE=$source dpkg-buildpackage --build=binary --no-sign -rfakeroot > "$stage/log" 2>&1) ||
   { tail -20 "$stage/log" >&2; fail "dpkg-buildpackage failed (its last lines are above)"; }
+rm -f "$out"/ostia_* "$out"/ostia-*.deb "$out"/libostia-dev_*.deb  # of an earlier version
 mv "$stage"/*.deb "$stage"/*.changes "$stage"/*.buildinfo "$out"
 lintian --fail-on error "$out/ostia_${version}-1_$(dpkg --print-architecture).changes"
 echo

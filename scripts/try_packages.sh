@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Tries the packages of scripts/package.sh in a clean Debian 12: scripts/try_packages.sh [PACKAGE_FOLDER] [OUTPUT_FOLDER]
-# Installs them, runs the first model and the workstation (a picture of its window), builds the example against
-# libostia-dev where that is among the packages, purges all of it and compares the files left with those before.
-# Needs root and the network; some 3 GB of disk. Ends with 1 where something is not as it must be.
+# Installs them, makes the first model, opens a case in the workstation (a picture of its window), builds the example
+# with libostia-dev, purges all of it and looks for what is left.
+# Needs root and the network; some 5 GB of disk. Ends with 1 where something is not as it must be.
 # Nothing of this machine is mounted into the clean Debian; its /proc is mounted in a namespace of its own.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -36,10 +36,9 @@ inside() {
   unshare --mount --pid --fork bash -c 'mount -t proc proc "$1/proc" && exec chroot "$1" env -i HOME=/root \
     PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 bash -ec "$2"' _ "$root" "$1"
 }
-# Without what apt, dpkg and the packages below ours keep for themselves.
+# All but what we put there and what the runs of the programs make.
 files() {
-  (cd "$root" && find . -xdev \( -path ./proc -o -path ./tmp -o -path ./var/lib/apt -o -path ./var/lib/dpkg -o -path ./var/cache \
-    -o -path ./var/log -o -path ./root -o -path ./packages \) -prune -o -print) | sort
+  (cd "$root" && find . -xdev \( -path ./proc -o -path ./tmp -o -path ./root -o -path ./packages \) -prune -o -print) | sort
 }
 
 echo "A clean Debian 12 ..."
@@ -66,22 +65,31 @@ inside 'for page in ostia ostia-model ostia-live ostia-workstation; do [ -s /usr
   complain "manual pages or completions"
 
 echo "The workstation ..."
+inside 'cd /root && ostia lumen model/centerlines.vtp -o lumen.vtp --case first.ostia --quiet > /dev/null'
+grep -q "application/x-ostia-case:\*.ostia" "$root/usr/share/mime/globs2" || complain "the type of *.ostia is not known"
 inside 'apt-get install -q -y --no-install-recommends xvfb' >> "$out/install.log" 2>&1
 inside 'mkdir /tmp/screen; Xvfb :7 -screen 0 1600x1000x24 -fbdir /tmp/screen -noreset > /tmp/xvfb.log 2>&1 & sleep 3
-        export DISPLAY=:7 LIBGL_ALWAYS_SOFTWARE=1; ostia-workstation --no-tour > /tmp/workstation.log 2>&1 & program=$!
+        export DISPLAY=:7 LIBGL_ALWAYS_SOFTWARE=1; ostia-workstation --no-tour /root/first.ostia > /tmp/workstation.log 2>&1 & program=$!
         sleep 20; kill -0 $program; cp /tmp/screen/Xvfb_screen0 /tmp/picture.xwd; kill $program' || complain "the workstation: $(cat "$root/tmp/workstation.log")"
 if [ -s "$root/tmp/picture.xwd" ]; then
   python3 scripts/screen_to_png.py "$root/tmp/picture.xwd" "$out/workstation.png"
   [ "$(stat -c %s "$out/workstation.png")" -gt 10000 ] || complain "the workstation's window is empty ($out/workstation.png)"
 fi
 
+echo "The libraries ..."
+inside 'apt-get install -q -y --no-install-recommends /packages/libostia-dev_*.deb cmake g++ make' >> "$out/install.log" 2>&1 || complain "apt install libostia-dev"
+inside 'cmake -S /usr/share/doc/libostia-dev/examples/consumer -B /tmp/example && cmake --build /tmp/example &&
+        /tmp/example/layered_mesh /root/model/lumen.vtp /tmp/layered.vtu && ostia mesh --check /tmp/layered.vtu' > "$out/example.log" 2>&1 || complain "the example: $(tail -3 "$out/example.log")"
+
 echo "apt purge ..."
-inside 'apt-get purge -q -y "ostia*" xvfb && apt-get autoremove -q -y --purge' > "$out/purge.log" 2>&1 || complain "apt purge"
+for package in "$packages"/*.deb; do dpkg-deb --fsys-tarfile "$package" | tar -t | grep -v '/$' | sed 's#/$##'; done | sort > "$base/ours"
+inside 'apt-get purge -q -y "ostia*" libostia-dev xvfb && apt-get autoremove -q -y --purge' > "$out/purge.log" 2>&1 || complain "apt purge"
 files > "$base/after"
-comm -13 "$base/before" "$base/after" > "$out/left.txt"
-comm -23 "$base/before" "$base/after" > "$out/gone.txt"
-if [ -s "$out/left.txt" ] || [ -s "$out/gone.txt" ]; then
-  complain "files left or gone after the purge, $out/left.txt and gone.txt: $(head -3 "$out/left.txt" "$out/gone.txt" | tr '\n' ' ')"
-fi
+comm -23 "$base/before" "$base/after" > "$base/gone"
+[ ! -s "$base/gone" ] || complain "the purge took what was there before: $(head -3 "$base/gone")"
+# Debian's own packages leave some of their files; of ours nothing may be left, nor be known to dpkg.
+comm -13 "$base/before" "$base/after" > "$base/left"
+{ comm -12 "$base/left" "$base/ours"; grep -i ostia "$base/left" || true; grep -A1 -i '^Package: .*ostia' "$root/var/lib/dpkg/status" || true; } | sort -u > "$out/left.txt"
+[ ! -s "$out/left.txt" ] || complain "this is left after the purge: $(head -5 "$out/left.txt")"
 [ "$failed" = 0 ] && echo "All is well; logs and the picture are in $out"
 exit "$failed"

@@ -5,16 +5,14 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 out=${1:-out/packages}
 source=$PWD build=$PWD/build/release
-scripts/install_packages.sh scripts/packages.txt scripts/packages-packaging.txt
+scripts/install_packages.sh scripts/packages-packaging.txt
 
 fail() {
   echo "package.sh: $1" >&2
   exit 1
 }
 
-fresh=$(scripts/check_build.sh before release 3)
-cmake --preset release $fresh > /dev/null
-cmake --build --preset release --target programs || { scripts/check_build.sh after release; exit 1; }
+scripts/build.sh release programs
 if grep -q 'OSTIA_WITH_IMAGE_LIBRARIES:BOOL=OFF' "$build/CMakeCache.txt" || [ ! -x "$build/bin/ostia-live" ]; then
   fail "build/release lacks some of the programs; configure it anew: cmake --fresh --preset release"
 fi
@@ -27,8 +25,8 @@ out=$(realpath "$out")
 
 stage=$(mktemp -d)
 trap 'rm -rf "$stage"' EXIT
-[ "$(df --output=avail -BM "$stage" | tail -1 | tr -dc 0-9)" -ge 1024 ] ||
-  fail "packing needs 1 GB in $stage; make room there or set TMPDIR to a larger disk"
+free_mb() { df --output=avail -BM "$stage" | tail -1 | tr -dc 0-9; }
+[ "$(free_mb)" -ge 1024 ] || fail "packing needs 1 GB in $stage; make room there or set TMPDIR to a larger disk"
 mkdir "$stage/ostia"
 cp -r packaging/debian "$stage/ostia/debian"
 cat > "$stage/ostia/debian/changelog" <<END
@@ -40,7 +38,11 @@ ostia ($version-1) unstable; urgency=medium
 END
 (cd "$stage/ostia" &&
   DEB_BUILD_OPTIONS=noautodbgsym OSTIA_BUILD=$build OSTIA_SOURCE=$source dpkg-buildpackage --build=binary --no-sign -rfakeroot > "$stage/log" 2>&1) ||
-  { tail -20 "$stage/log" >&2; fail "dpkg-buildpackage failed (its last lines are above)"; }
+  {
+    [ "$(free_mb)" -ge 50 ] || fail "the disk that holds $stage is full; make room there or set TMPDIR to a larger disk"
+    tail -20 "$stage/log" >&2
+    fail "dpkg-buildpackage failed (its last lines are above)"
+  }
 rm -f "$out"/ostia_* "$out"/ostia-*.deb "$out"/libostia-dev_*.deb  # of an earlier version
 mv "$stage"/*.deb "$stage"/*.changes "$stage"/*.buildinfo "$out"
 lintian --fail-on error "$out/ostia_${version}-1_$(dpkg --print-architecture).changes"

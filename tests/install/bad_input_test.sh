@@ -39,5 +39,5 @@ expect_refusal "the disk that holds build/release is full; make room and run the
 rm "$work/bin/df"
 
 # A package that is missing.
-expect_refusal "Install them by scripts/install_packages.sh, or by: apt install libspdlog-dev" \
+expect_refusal "scripts/build.sh installs what it needs, or install them by: apt install libspdlog-dev" \
   cmake -G Ninja -S "$source" -B "$work/missing" -DCMAKE_DISABLE_FIND_PACKAGE_spdlog=ON -DOSTIA_WITH_IMAGE_LIBRARIES=OFF

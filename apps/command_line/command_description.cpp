@@ -31,7 +31,10 @@ OptionDescription describe(const CLI::Option& given) {
   for (const std::string& name : given.get_snames()) option.names.push_back("-" + name);
   for (const std::string& name : given.get_lnames()) option.names.push_back("--" + name);
   if (option.names.empty()) option.names.push_back(given.get_single_name());
-  if (given.get_items_expected_max() > 0) read_value(given.get_type_name(), option);
+  if (given.get_items_expected_max() > 0) {
+    read_value(given.get_type_name(), option);
+    if (option.value.empty()) option.value = "TEXT";  // it is read by no variable
+  }
   option.text = given.get_description();
   option.required = given.get_required();
   option.repeats = given.get_items_expected_max() > 1;

@@ -44,16 +44,23 @@ void write_specification(std::ostream& out, const OptionDescription& option) {
         << value << "' \\\n";
 }
 
+bool has_option(const CommandDescription& command, const std::string& name) {
+  return std::any_of(command.options.begin(), command.options.end(), [&](const OptionDescription& option) {
+    return std::find(option.names.begin(), option.names.end(), name) != option.names.end();
+  });
+}
+
 void write_function(std::ostream& out, const CommandDescription& command, const CommandDescription& program) {
   for (const CommandDescription& below : command.commands) write_function(out, below, program);
   out << zsh_function(command) << "() {\n";
   if (!command.commands.empty()) out << "  local line state\n";
   out << "  _arguments " << (command.commands.empty() ? "" : "-C ") << "\\\n";
+  const bool whole = command.words == program.words;
   for (const OptionDescription& option : program.options)
-    if (!option.positional()) write_specification(out, option);
-  if (command.words != program.words)
-    for (const OptionDescription& option : command.options)
-      if (!option.positional()) write_specification(out, option);
+    if (!option.positional() && (whole || !has_option(command, option.names.back())))
+      write_specification(out, option);
+  for (const OptionDescription& option : command.options)
+    if (!option.positional() && !whole) write_specification(out, option);
   if (command.commands.empty()) {
     out << "    '*:file:_files'\n}\n\n";
     return;

@@ -80,7 +80,7 @@ struct CommandLine {
 ostia::command_line::CommandDescription description_of(const CommandLine& said) {
   ostia::command_line::CommandDescription program;
   program.words = {"ostia-workstation"};
-  program.text = "the window in which coronary trees are looked at, corrected and measured";
+  program.text = "The window in which coronary trees are looked at, corrected and measured";
   program.options.push_back(
       {{"WHAT"}, "FILE", {}, {}, "A case, an image, a DICOM folder, or a zip of one", false, false});
   program.options.push_back({{"-h", "--help"}, {}, {}, {}, "Prints the options and ends", false, false});

@@ -24,6 +24,7 @@ struct Program {
     app.set_help_flag("-h,--help", "Print this help message and exit");
     app.add_option("--log", log, "Format of the log")->check(CLI::IsMember({"text", "json"}));
     app.add_option("--threads", threads, "Threads to use")->check(CLI::Range(0, 1024));
+    app.add_option("--config", "A file of options");
     app.add_option("--secret", log, "Of no use to people")->group("");
     CLI::App* measure = app.add_subcommand("measure", "What a thing's [size] is: its \\ and 'more'");
     CLI::App* length = measure->add_subcommand("length", "How long it is");
@@ -41,10 +42,11 @@ struct Program {
 TEST(Description, HasCommandsAndOptions) {
   const CommandDescription program = describe(Program().app);
   EXPECT_EQ(program.text, "Measures things");
-  ASSERT_EQ(program.options.size(), 3u);  // help, log, threads, not what is hidden
+  ASSERT_EQ(program.options.size(), 4u);  // help, log, threads, config, not what is hidden
   EXPECT_THAT(program.options[1].choices, ElementsAre("text", "json"));
   EXPECT_FALSE(program.options[1].takes_path());
   EXPECT_EQ(program.options[2].limits, "in [0 - 1024]");
+  EXPECT_TRUE(program.options[3].takes_path());
   ASSERT_EQ(program.commands.size(), 1u);
   const CommandDescription& length = program.commands.front().commands.front();
   EXPECT_EQ(length.joined("-"), "thing-measure-length");

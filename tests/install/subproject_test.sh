@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# subproject_test.sh SOURCE: Ostia as a part of another project leaves that project's settings alone.
+# subproject_test.sh SOURCE IMAGES: Ostia as a part of another project leaves that project's settings alone. IMAGES is ON where
+# VTK and its like are installed; without them it is tried in any case.
 source "$(dirname "$0")/common.sh"
-source=$1
+source=$1 images=$2
 mkdir "$work/parent"
 cat > "$work/parent/CMakeLists.txt" <<'END'
 cmake_minimum_required(VERSION 3.25)
@@ -35,8 +36,12 @@ foreach(target IN ITEMS Ostia::lumen ostia::lumen ostia-worker)
   endif()
 endforeach()
 END
-cmake -G Ninja -S "$work/parent" -B "$work/build" -DOSTIA_SOURCE="$source" -DOSTIA_WITH_IMAGE_LIBRARIES=OFF > "$work/log" 2>&1 ||
-  { cat "$work/log"; fail "the project around Ostia is not configured"; }
+configure() {
+  cmake -G Ninja -S "$work/parent" -B "$work/build" -DOSTIA_SOURCE="$source" -DOSTIA_WITH_IMAGE_LIBRARIES="$1" > "$work/log" 2>&1 ||
+    { cat "$work/log"; fail "the project around Ostia is not configured (image libraries $1)"; }
+}
+[ "$images" != ON ] || configure ON
+configure OFF
 grep -q '\-ffp-contract=off.*core/src/version.cpp' <(ninja -C "$work/build" -t commands ostia_core) || fail "Ostia's own flags are not used for its own sources"
 if ninja -C "$work/build" -t commands program | grep main.cpp | grep -q -e -ffp-contract; then fail "Ostia's flags are used for the program"; fi
 if ninja -C "$work/build" -t targets all | grep -q '^install:'; then

@@ -5,6 +5,8 @@
 
 #include "ostia/core/files.h"
 
+#include <nlohmann/json.hpp>
+
 namespace ostia::command_line {
 namespace {
 
@@ -19,6 +21,21 @@ void write_man_pages(const CommandDescription& command, const CommandDescription
   for (const CommandDescription& below : command.commands) write_man_pages(below, program, folder);
 }
 
+nlohmann::ordered_json json_of(const CommandDescription& command) {
+  nlohmann::ordered_json options = nlohmann::ordered_json::array(),
+                         commands = nlohmann::ordered_json::array();
+  for (const OptionDescription& option : command.options)
+    options.push_back({{"names", option.names},
+                       {"value", option.value},
+                       {"choices", option.choices},
+                       {"limits", option.limits},
+                       {"text", option.text},
+                       {"required", option.required},
+                       {"repeats", option.repeats}});
+  for (const CommandDescription& below : command.commands) commands.push_back(json_of(below));
+  return {{"words", command.words}, {"text", command.text}, {"options", options}, {"commands", commands}};
+}
+
 }  // namespace
 
 std::optional<std::filesystem::path> described_into(const std::vector<std::string>& arguments) {
@@ -30,6 +47,9 @@ void write_description_files(const CommandDescription& program, const std::files
   const std::string& name = program.words.front();
   write_man_pages(program, program, folder / "man" / "man1");
   write(folder / "bash-completion" / "completions" / name, bash_completion(program));
+  nlohmann::ordered_json json = json_of(program);
+  json["v"] = 1;
+  write(folder / (name + "-commands.json"), json.dump(1) + "\n");
   write(folder / "zsh" / "site-functions" / ("_" + name), zsh_completion(program));
 }
 

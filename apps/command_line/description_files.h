@@ -15,7 +15,7 @@ namespace ostia::command_line {
 std::optional<std::filesystem::path> described_into(const std::vector<std::string>& arguments);
 
 /// Manual pages (man/man1/*.1, one for each command) and completions for bash and zsh, as folders of `share`
-/// have them. Throws IoError.
+/// have them, and all that a CommandDescription holds as PROGRAM-commands.json. Throws IoError.
 void write_description_files(const CommandDescription& program, const std::filesystem::path& folder);
 
 }  // namespace ostia::command_line

@@ -14,9 +14,9 @@
 #include "lumen.h"
 #include "measure.h"
 #include "motion.h"
+#include "private_words.h"
 #include "progress_bar.h"
 #include "reconstruct.h"
-#include "refusal.h"
 #include "report.h"
 #include "run.h"
 #include "skeleton.h"
@@ -35,7 +35,9 @@
 
 #include <algorithm>
 #include <functional>
+#include <iostream>
 #include <memory>
+#include <sstream>
 
 namespace ostia::app {
 namespace {
@@ -262,55 +264,6 @@ void define(CLI::App& app, Commands& c, Run& run) {
   });
 }
 
-void keep_out(const std::filesystem::path& path) {
-  core::redact_in_logs(path.string(), "FILE");
-  core::redact_in_logs(path.parent_path().string(), "FOLDER");
-}
-
-/// A log that is kept must not name what a folder or file is called after.
-void keep_paths_out_of_the_log(const Commands& c) {
-  for (const InputOptions* input : {&c.info.input, &c.import.input, &c.segment.input, &c.centerline.input,
-                                    &c.mesh.input, &c.convert.input, &c.model.input, &c.skeleton.input,
-                                    &c.extract.input, &c.measure.input, &c.reconstruct.input}) {
-    core::redact_in_logs(input->input.string(), "INPUT");
-    core::redact_in_logs(own_name(input->input), "INPUT");  // refusals have it alone
-  }
-  for (const std::filesystem::path& path :
-       {c.info.preview,       c.import.output,
-        c.segment.output,     c.segment.level_set,
-        c.centerline.output,  c.centerline.canal,
-        c.mesh.output,        c.mesh.centerline,
-        c.mesh.check,         c.convert.output,
-        c.model.output,       c.phantom.output,
-        c.evaluate.reference, c.evaluate.result,
-        c.evaluate.report,    c.evaluate.picture,
-        c.experiment.suite,   c.experiment.output,
-        c.evaluate.tolerance, c.lumen.input,
-        c.lumen.output,       c.lumen.edits,
-        c.lumen.image,        c.lumen.surface,
-        c.lumen.contours,     c.lumen.case_output,
-        c.lumen.lines_output, c.replay.start,
-        c.replay.input,       c.replay.output,
-        c.report.input,       c.report.image,
-        c.report.output,      c.skeleton.image,
-        c.skeleton.output,    c.skeleton.sections,
-        c.extract.output,     c.extract.lines,
-        c.chain.chain,        c.chain.output,
-        c.batch.table,        c.batch.chain,
-        c.batch.output,       c.solver_case.mesh,
-        c.solver_case.output, std::filesystem::path(c.solver_case.waveform)}) {
-    keep_out(path);
-  }
-  for (const std::filesystem::path& path : paths_of(c.motion)) keep_out(path);
-  for (const std::filesystem::path& path :
-       {c.grow.input, c.grow.output, c.grow.domain, c.measure.output, c.reconstruct.output})
-    keep_out(path);
-  for (const MeshOptions* mesh : {&c.mesh.mesh, &c.model.mesh}) {
-    keep_out(mesh->planes_file);
-    keep_out(mesh->solver_case.waveform);
-  }
-}
-
 /// What the command line asks for.
 struct Asked {
   CLI::App app{"Ostia: from a cardiac CT angiogram to a vessel model that a solver can use", "ostia"};
@@ -318,6 +271,16 @@ struct Asked {
   Run run;
   int exit_code = -1;  ///< 0 or more: all was said already (`--help`, a wrong option)
 };
+
+/// A log that is kept must not name what a folder, a file or anything else was called. Whatever is written
+/// from now on leaves it out, what the parser and the reading of options refuse among it.
+void keep_out_of_the_log(const std::vector<std::string>& arguments) {
+  if (command_line::value_of("--log", arguments) != "json") return;
+  Asked asked;
+  define(asked.app, asked.commands, asked.run);
+  for (const auto& [text, alias] : command_line::private_words(command_line::describe(asked.app), arguments))
+    core::redact_in_logs(text, alias);
+}
 
 std::unique_ptr<Asked> asked_by(const std::vector<std::string>& arguments) {
   auto asked = std::make_unique<Asked>();
@@ -328,7 +291,10 @@ std::unique_ptr<Asked> asked_by(const std::vector<std::string>& arguments) {
     std::reverse(words.begin(), words.end());  // as CLI11 takes them
     asked->app.parse(words);
   } catch (const CLI::ParseError& error) {
-    asked->exit_code = asked->app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::usage);
+    std::ostringstream refusal;
+    asked->exit_code =
+        asked->app.exit(error, std::cout, refusal) == 0 ? 0 : static_cast<int>(ExitCode::usage);
+    std::cerr << core::redacted(refusal.str());
   }
   return asked;
 }
@@ -342,7 +308,10 @@ int run(const std::vector<std::string>& arguments, const core::TaskContext& job)
     command_line::write_description_files(command_line::describe(asked.app), *folder);
     return 0;
   }
-  StandardStreams streams(with_config(arguments));
+  keep_out_of_the_log(arguments);
+  const std::vector<std::string> all_arguments = with_config(arguments);
+  keep_out_of_the_log(all_arguments);
+  StandardStreams streams(all_arguments);
   std::unique_ptr<Asked> asked = asked_by(streams.arguments());
   if (asked->exit_code >= 0) return asked->exit_code;
   if (streams.used()) {
@@ -353,7 +322,6 @@ int run(const std::vector<std::string>& arguments, const core::TaskContext& job)
   core::set_max_threads(common.threads);
   core::set_log(common.log == "json" ? core::LogFormat::json : core::LogFormat::text,
                 common.quiet ? core::LogLevel::error : core::LogLevel::info);
-  if (common.log == "json") keep_paths_out_of_the_log(asked->commands);
   const ProgressBar bar(job, common.quiet ? "none" : common.progress);
   const ExitCode code = asked->run(job);
   if (code == ExitCode::ok || code == ExitCode::quality_failed) streams.deliver();

@@ -177,11 +177,4 @@ void define_motion(CLI::App& app, MotionCommands& c, MotionRun& run) {
   add_measure(*motion, c.measure, run);
 }
 
-std::vector<std::filesystem::path> paths_of(const MotionCommands& c) {
-  return {c.fit.input,        c.fit.output,     c.fit.shape,       c.apply.motion,
-          c.apply.input,      c.apply.output,   c.evaluate.motion, c.evaluate.reference,
-          c.evaluate.surface, c.out.motion,     c.out.surface,     c.out.mesh,
-          c.out.output,       c.measure.motion, c.measure.input,   c.measure.output};
-}
-
 }  // namespace ostia::app

@@ -78,7 +78,5 @@ struct MotionCommands {
 /// Adds `motion` and its subcommands.
 void define_motion(CLI::App& app, MotionCommands& commands,
                    std::function<ExitCode(const core::TaskContext&)>& run);
-/// What the user named, for what must not be in a log.
-std::vector<std::filesystem::path> paths_of(const MotionCommands& commands);
 
 }  // namespace ostia::app

@@ -77,7 +77,7 @@ TEST(EveryOption, NamesNobodyInALogThatIsKept) {
   ASSERT_GT(all.size(), 300u) << "the tree of commands is not walked";
   std::mutex mutex;
   std::size_t refused = 0;
-  core::parallel_for(all.size(), 1, [&](std::size_t from, std::size_t to) {
+  core::parallel_chunks(all.size(), 1, [&](std::size_t from, std::size_t to) {
     for (std::size_t i = from; i < to; ++i) {
       // Some go on to long work with what they were given; what they say before is enough.
       const Outcome done = ostia(all[i].arguments, {folder, "timeout -k 1 -s INT 1"});

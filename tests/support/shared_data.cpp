@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <map>
+#include <mutex>
 #include <stdexcept>
 #include <vector>
 
@@ -40,6 +41,8 @@ std::optional<fs::path> shared_data(const std::string& relative) {
 }
 
 fs::path temporary_folder(const std::string& name) {
+  static std::mutex mutex;
+  const std::lock_guard lock(mutex);
   static int count = 0;
   const fs::path folder = fs::temp_directory_path() / ("ostia-test-" + std::to_string(::getpid()) + "-" +
                                                        std::to_string(count++) + "-" + name);

@@ -27,7 +27,7 @@ set_source_files_properties(${OSTIA_RESOURCES} PROPERTIES SKIP_UNITY_BUILD_INCLU
 file(MAKE_DIRECTORY "${PROJECT_BINARY_DIR}/share")
 file(CREATE_LINK "${PROJECT_SOURCE_DIR}/docs" "${PROJECT_BINARY_DIR}/share/ostia" SYMBOLIC)
 
-file(GLOB OSTIA_WINDOW_SOURCES CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp" "${CMAKE_CURRENT_SOURCE_DIR}/*.h")
+file(GLOB_RECURSE OSTIA_WINDOW_SOURCES CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp" "${CMAKE_CURRENT_SOURCE_DIR}/*.h")
 add_custom_target(ostia_translations_update
   COMMAND Qt5::lupdate -locations none -no-obsolete -silent ${OSTIA_WINDOW_SOURCES}
           -ts "${CMAKE_CURRENT_SOURCE_DIR}/translations/ostia_de.ts"

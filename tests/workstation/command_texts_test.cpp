@@ -1,7 +1,6 @@
-#include "command_texts.h"
-
-#include "shortcuts.h"
-#include "tour.h"
+#include "commands/shortcuts.h"
+#include "commands/texts.h"
+#include "help/tour.h"
 
 #include <gtest/gtest.h>
 

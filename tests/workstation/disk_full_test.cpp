@@ -2,8 +2,8 @@
 // same way. Once within this process, where texts can be read, and once on the program itself with real
 // events.
 
+#include "measuring/reporting.h"
 #include "real_program.h"
-#include "reporting.h"
 #include "tube_case.h"
 
 #include "ostia/core/files.h"

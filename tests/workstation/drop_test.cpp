@@ -1,6 +1,6 @@
 // What is dropped on the window. The events are Qt's, sent to the window: no drag begins in another program.
 
-#include "series_browser.h"
+#include "opening/series_browser.h"
 #include "tube_case.h"
 #include "window_hand.h"
 

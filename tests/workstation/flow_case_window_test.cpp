@@ -1,6 +1,6 @@
 // Cases for a flow solver written and run through the window, by mouse and keys.
 
-#include "flow_cases.h"
+#include "flow/cases.h"
 #include "flow_window.h"
 
 #include "ostia/core/child_process.h"

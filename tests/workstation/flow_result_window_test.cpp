@@ -1,9 +1,9 @@
 // Results of a flow computation in the 3D view, by mouse and keys.
 
-#include "flow_bar.h"
+#include "flow/bar.h"
 #include "flow_window.h"
-#include "language.h"
 #include "layout_faults.h"
+#include "shell/language.h"
 
 #include "ostia/io/surface_file.h"
 

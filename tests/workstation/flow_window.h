@@ -1,8 +1,8 @@
 #pragma once
 /// \file The window with a tube in it, a hand in its flow dialog and its results, and a wall of known values.
 
-#include "flow_dialog.h"
-#include "flow_results.h"
+#include "flow/dialog.h"
+#include "flow/results.h"
 #include "tube_mesh.h"
 #include "tube_window.h"
 

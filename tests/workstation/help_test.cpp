@@ -1,11 +1,11 @@
 // The window with its help, on a screen.
-#include "help.h"
+#include "help/help.h"
 
-#include "keyboard.h"
-#include "manual_dialog.h"
-#include "preferences_dialog.h"
-#include "shortcuts_page.h"
-#include "tour.h"
+#include "commands/keyboard.h"
+#include "commands/shortcuts_page.h"
+#include "help/manual_dialog.h"
+#include "help/tour.h"
+#include "shell/preferences_dialog.h"
 
 #include <QVTKOpenGLNativeWidget.h>
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // Everything in the window can be seen and read: in each of its states, in every language, in a small and a
 // large window. Run once more with QT_SCALE_FACTOR=2.
-#include "language.h"
+#include "help/tour.h"
 #include "layout_faults.h"
-#include "tour.h"
+#include "shell/language.h"
 #include "window_states.h"
 
 #include <QVTKOpenGLNativeWidget.h>

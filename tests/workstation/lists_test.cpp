@@ -1,10 +1,10 @@
 // The lists at the window's side: what they show when the case is another, and what an edit leaves as a
 // person had it.
 
-#include "qa_panel.h"
-#include "side_lists.h"
+#include "measuring/side_lists.h"
+#include "qa/panel.h"
 #include "tube_case.h"
-#include "vessel_list.h"
+#include "vessels/list.h"
 #include "window_hand.h"
 
 #include "ostia/imaging/image_file.h"

@@ -1,7 +1,7 @@
 // Meshes made earlier, here or elsewhere, in the mesh's panel; the plane that cuts them, by the mouse in 3D.
 
-#include "histogram_widget.h"
-#include "mesh_panel.h"
+#include "meshing/histogram.h"
+#include "meshing/panel.h"
 #include "tube_mesh.h"
 #include "tube_window.h"
 

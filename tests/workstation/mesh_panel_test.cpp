@@ -1,11 +1,10 @@
 // What would fail is shown before meshing, and the mesh after it: by mouse and keys.
 
-#include "mesh_panel.h"
-
-#include "flow_dialog.h"
-#include "histogram_widget.h"
+#include "flow/dialog.h"
 #include "layout_faults.h"
-#include "meshing_forecast.h"
+#include "meshing/forecast.h"
+#include "meshing/histogram.h"
+#include "meshing/panel.h"
 #include "meshing_window.h"
 
 #include "ostia/io/volume_mesh_file.h"

@@ -1,7 +1,7 @@
 #pragma once
 /// \file The window with a small case, and a hand in its export dialogs.
 
-#include "meshing_dialog.h"
+#include "meshing/dialog.h"
 #include "tube_window.h"
 
 #include <QTabBar>

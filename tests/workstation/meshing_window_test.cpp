@@ -2,8 +2,8 @@
 
 #include "meshing_window.h"
 
-#include "frame_log.h"
-#include "main_window.h"
+#include "shell/main_window.h"
+#include "views/frame_log.h"
 
 #include "ostia/core/files.h"
 #include "ostia/geometry/mesh_topology.h"

@@ -1,7 +1,7 @@
 // The program where no OpenGL, or no display, is to be had: said, never a crash.
 
-#include "language.h"
 #include "real_program.h"
+#include "shell/language.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // The outer wall in the window: switched on in the View menu by the mouse, drawn, found again after an edit.
 
-#include "outer_walls.h"
-#include "shortcuts.h"
+#include "commands/shortcuts.h"
 #include "tube_case.h"
+#include "vessels/outer_walls.h"
 #include "window_hand.h"
 
 #include "ostia/imaging/image_file.h"

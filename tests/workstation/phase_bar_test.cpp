@@ -1,12 +1,11 @@
 // The beating case, driven by mouse and keys: a motion is opened, the phase is dragged and played in all
 // views, and nothing is edited at another phase than the case's.
 
-#include "phase_bar.h"
-
-#include "beating_case.h"
 #include "known_motion.h"
 #include "layout_faults.h"
-#include "phase_map.h"
+#include "phases/bar.h"
+#include "phases/beating_case.h"
+#include "phases/map.h"
 #include "tube_window.h"
 
 #include "ostia/io/cage_motion_file.h"

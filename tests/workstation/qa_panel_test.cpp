@@ -1,5 +1,4 @@
-#include "qa_panel.h"
-
+#include "qa/panel.h"
 #include "window_hand.h"
 
 #include "ostia/core/error.h"

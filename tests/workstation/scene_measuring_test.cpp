@@ -1,5 +1,5 @@
-#include "main_window.h"
-#include "side_lists.h"
+#include "measuring/side_lists.h"
+#include "shell/main_window.h"
 #include "tube_case.h"
 #include "window_hand.h"
 

@@ -1,5 +1,5 @@
 // What the window shows in each of its states, held against accepted pictures.
-#include "raster_image.h"
+#include "views/raster_image.h"
 #include "window_states.h"
 
 #include "ostia/figure/picture_difference.h"

@@ -1,4 +1,4 @@
-#include "shortcuts.h"
+#include "commands/shortcuts.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "theme.h"
+#include "shell/theme.h"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // A file of a vessel tree in the window: opened, clicked, measured, repaired, closed, by mouse and keys.
 
-#include "language.h"
-#include "tree_opening.h"
+#include "shell/language.h"
+#include "trees/opening.h"
 #include "window_hand.h"
 
 #include "ostia/core/files.h"

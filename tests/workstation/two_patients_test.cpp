@@ -1,10 +1,10 @@
 // One window, one patient after the other: nothing of the one stays for the other, and what was begun on one
 // table does not end on another.
 
-#include "reporting.h"
-#include "series_browser.h"
+#include "measuring/reporting.h"
+#include "opening/series_browser.h"
 #include "tube_case.h"
-#include "vessel_finder.h"
+#include "vessels/finder.h"
 #include "window_hand.h"
 
 #include "ostia/imaging/dicom.h"

@@ -1,8 +1,8 @@
 // Vessels split and joined from the window's menu and list.
 
-#include "side_lists.h"
+#include "measuring/side_lists.h"
 #include "tube_case.h"
-#include "vessel_list.h"
+#include "vessels/list.h"
 #include "window_hand.h"
 
 #include "ostia/imaging/image_file.h"

@@ -1,9 +1,8 @@
 // The tree that is found upon opening an image, and that it stays out of a person's way.
 
-#include "vessel_finder.h"
-
 #include "tube_case.h"
-#include "vessel_list.h"
+#include "vessels/finder.h"
+#include "vessels/list.h"
 #include "window_hand.h"
 
 #include "ostia/imaging/image_file.h"

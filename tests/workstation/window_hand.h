@@ -1,7 +1,7 @@
 #pragma once
 /// \file The program's window for tests, and a hand that moves over it.
 
-#include "main_window.h"
+#include "shell/main_window.h"
 
 #include <unistd.h>
 

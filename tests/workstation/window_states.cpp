@@ -1,10 +1,10 @@
 #include "window_states.h"
 
-#include "panel.h"
-#include "qa_panel.h"
-#include "reporting.h"
-#include "side_lists.h"
-#include "tour.h"
+#include "help/tour.h"
+#include "measuring/reporting.h"
+#include "measuring/side_lists.h"
+#include "qa/panel.h"
+#include "shell/panel.h"
 #include "tube_case.h"
 
 #include "ostia/core/files.h"

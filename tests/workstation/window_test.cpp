@@ -1,8 +1,8 @@
-#include "main_window.h"
-#include "reporting.h"
-#include "side_lists.h"
+#include "measuring/reporting.h"
+#include "measuring/side_lists.h"
+#include "shell/main_window.h"
 #include "tube_case.h"
-#include "vessel_list.h"
+#include "vessels/list.h"
 #include "window_hand.h"
 
 #include "ostia/core/files.h"

@@ -1,0 +1,253 @@
+#include "flow/cases.h"
+
+#include "flow/results.h"
+#include "shell/main_window.h"
+
+#include "ostia/core/child_process.h"
+#include "ostia/core/error.h"
+#include "ostia/core/files.h"
+#include "ostia/solver/flow_files.h"
+#include "ostia/solver/openfoam_case.h"
+#include "ostia/solver/openfoam_launch.h"
+#include "ostia/solver/svmultiphysics_case.h"
+
+#include <QCoreApplication>
+#include <QDesktopServices>
+#include <QFileInfo>
+#include <QUrl>
+#include <new>
+#include <tuple>
+#include <utility>
+
+namespace ostia::workstation {
+namespace fs = std::filesystem;
+namespace {
+
+// Stages of these jobs, which the libraries name.
+[[maybe_unused]] const char* const texts_of_flow_jobs[] = {
+    QT_TRANSLATE_NOOP("stages", "checking the mesh"),
+    QT_TRANSLATE_NOOP("stages", "iteration, residual"),
+    QT_TRANSLATE_NOOP("stages", "time, s"),
+    QT_TRANSLATE_NOOP("stages", "reading the result"),
+};
+
+/// CASE-mesh, CASE-mesh-2, ...: what the export proposes. CASE-2-mesh is of another case.
+bool is_mesh_folder_of(const std::string& stem, const std::string& name) {
+  const std::string first = stem + "-mesh";
+  if (!name.starts_with(first)) return false;
+  const std::string number = name.substr(first.size());
+  return number.empty() || (number.size() > 1 && number[0] == '-' &&
+                            number.find_first_not_of("0123456789", 1) == std::string::npos);
+}
+
+/// The newest mesh that was exported beside the case, into a folder that bears its name; empty where there is
+/// none.
+fs::path newest_mesh(const fs::path& case_file) {
+  std::error_code error;
+  fs::path newest;
+  fs::file_time_type time;
+  const std::string stem = case_file.stem().string();
+  for (fs::directory_iterator at(case_file.parent_path(), error), end; !error && at != end;
+       at.increment(error)) {
+    const fs::path mesh = at->path() / "mesh.vtu";
+    if (fs::exists(at->path() / "flow-case.json", error)) continue;  // a case keeps its mesh
+    if (!is_mesh_folder_of(stem, at->path().filename().string()) || !fs::is_regular_file(mesh, error))
+      continue;
+    const fs::file_time_type written = fs::last_write_time(mesh, error);
+    if (newest.empty() || written > time) std::tie(newest, time) = std::pair(mesh, written);
+  }
+  return newest;
+}
+
+using Warnings = std::vector<std::string>;
+
+Warnings write_case(const FlowChoice& choice, const solver::BoundaryFlowOptions& flow,
+                    const geometry::MixedMesh& mesh, const core::TaskContext& task) {
+  if (choice.solver == FlowSolver::svmultiphysics) {
+    solver::SvmultiphysicsCaseOptions options;
+    options.flow = flow;
+    return solver::write_svmultiphysics_case(mesh, options, choice.folder, task).warnings;
+  }
+  solver::OpenfoamCaseOptions options;
+  options.flow = flow;
+  return solver::write_openfoam_case(mesh, options, choice.folder, task).warnings;
+}
+
+struct Run {
+  fs::path wall;
+  solver::FlowReport report;
+  bool converged = false;
+  double last = 0.0;  ///< iteration, or s
+  bool steady = true;
+};
+
+/// Runs the case, and writes what was computed into the folder `result` within it.
+Run run_case(const fs::path& folder, const core::TaskContext& task) {
+  const solver::OpenfoamRunPlan plan = solver::openfoam_run_plan(folder);
+  const solver::OpenfoamProgress done = solver::run_openfoam_case(folder, task.sub(0.0, 0.9));
+  task.set_stage("reading the result");
+  const solver::FlowResult result = solver::read_flow_result(folder, {}, task.sub(0.9, 0.95));
+  Run run{folder / "result" / "wall.vtp", solver::flow_report(result), result.run.converged, done.time,
+          plan.steady()};
+  core::StagedFolder staged(folder / "result");
+  solver::write_flow_files(result, run.report, staged.temporary(), task.sub(0.95, 1.0));
+  staged.commit();
+  return run;
+}
+
+void open_folder(const fs::path& folder) {
+  QDesktopServices::openUrl(QUrl::fromLocalFile(QString::fromStdString(folder.string())));
+}
+
+QString as_text(const fs::path& path) {
+  return QString::fromStdString(path.string());
+}
+
+}  // namespace
+
+FlowCases::FlowCases(MainWindow& window) : QObject(&window), window_(window) {
+  // A run that was cancelled or failed can be begun again.
+  connect(&window.jobs(), &Jobs::changed, this, [this] {
+    if (being_run_.empty() || window_.jobs().running("flow_run")) return;
+    leave_case(std::exchange(being_run_, {}), {}, being_run_of_);
+  });
+  other_case_ = window.bench().case_changed.observe([this] {
+    if (dialog_) dialog_->reject();
+    made_mesh_.clear();
+    last_.mesh.clear();
+    last_.flow_ml_s.reset();
+  });
+}
+
+void FlowCases::mesh_made(const fs::path& mesh) {
+  made_mesh_ = mesh;
+}
+
+void FlowCases::ask(const fs::path& case_file) {
+  FlowChoice proposed = last_;
+  const fs::path newest = case_file.empty() ? fs::path() : newest_mesh(case_file);
+  if (!newest.empty()) proposed.mesh = newest;
+  if (std::error_code ignored; fs::exists(made_mesh_, ignored)) proposed.mesh = made_mesh_;
+  auto* dialog = new FlowDialog(proposed, &window_);
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  connect(dialog, &FlowDialog::mesh_wanted, this,
+          [this, dialog](const QString& file) { read_mesh(*dialog, file); });
+  connect(dialog, &QDialog::accepted, this, [this, dialog] { write(*dialog); });
+  connect(dialog, &QDialog::finished, this, [this] { window_.jobs().cancel("flow_mesh"); });
+  dialog_ = dialog;
+  dialog->open();
+}
+
+void FlowCases::read_mesh(FlowDialog& dialog, const QString& file) {
+  window_.jobs().cancel("flow_mesh");
+  if (!QFileInfo(file).isFile()) return;
+  const fs::path path = file.toStdString();
+  window_.jobs().run(
+      "flow_mesh", tr("Mesh"), [path](const core::TaskContext&) { return std::any(read_flow_mesh(path)); },
+      [asked = QPointer(&dialog), path](const std::any& mesh) {
+        if (asked) asked->set_mesh(path, std::any_cast<const FlowMesh&>(mesh));
+      },
+      [asked = QPointer(&dialog), path](const QString& message) {
+        if (asked) asked->set_mesh_trouble(path, message);
+      });
+}
+
+void FlowCases::write(const FlowDialog& dialog) {
+  last_ = dialog.choice();
+  window_.jobs().run(
+      "flow_case", tr("Flow case"),
+      [choice = last_, flow = dialog.flow_options(), mesh = dialog.mesh()](const core::TaskContext& task) {
+        try {
+          return std::any(write_case(choice, flow, *mesh, task));
+        } catch (const std::bad_alloc&) {
+          throw ResourceError(QCoreApplication::translate(
+                                  "jobs", "There is not enough memory for this case: use a coarser mesh.")
+                                  .toStdString());
+        }
+      },
+      [this, choice = last_, of = window_.case_path()](const std::any& warnings) {
+        tell_written(choice, std::any_cast<const Warnings&>(warnings), of);
+      },
+      [this](const QString& message) {
+        window_.complain(message, tr("The flow case could not be written"));
+      });
+}
+
+void FlowCases::tell_written(const FlowChoice& made, const Warnings& warnings, const fs::path& of) {
+  QStringList notes{as_text(made.folder)};
+  for (const std::string& warning : warnings) notes << QString::fromStdString(warning);
+  if (!warnings.empty()) window_.say(QString::fromStdString(warnings.front()));
+  const std::string program = made.waveform.empty() ? "simpleFoam" : "pisoFoam";
+  const bool here = made.solver == FlowSolver::openfoam && core::program_on_path(program);
+  if (here && made.run && !window_.jobs().running("flow_run"))
+    run(made.folder, of);
+  else if (here)
+    leave_case(made.folder, notes, of);
+  else
+    window_.jobs().leave("flow_case", tr("%1: flow case written").arg(as_text(made.folder.filename())),
+                         notes.join('\n'), tr("Open folder"),
+                         [folder = made.folder] { open_folder(folder); });
+}
+
+void FlowCases::leave_case(const fs::path& folder, const QStringList& notes, const fs::path& of) {
+  // Where nothing is being run the line is the run's, which then takes its place.
+  window_.jobs().leave(window_.jobs().running("flow_run") ? "flow_case" : "flow_run",
+                       tr("%1: flow case written").arg(as_text(folder.filename())),
+                       notes.isEmpty() ? as_text(folder) : notes.join('\n'), tr("Run the solver"),
+                       [this, folder, of] { run(folder, of); });
+}
+
+void FlowCases::run(const fs::path& case_folder, const fs::path& of) {
+  if (window_.jobs().running("flow_run")) {  // a second one would begin before the first has ended
+    window_.say(tr("The solver is running already: cancel it first."));
+    return;
+  }
+  const QString name = as_text(case_folder.filename());
+  being_run_ = case_folder;
+  being_run_of_ = of;
+  window_.jobs().run(
+      "flow_run", tr("Solver"),
+      [case_folder](const core::TaskContext& task) { return std::any(run_case(case_folder, task)); },
+      [this, case_folder, name, of](const std::any& result) {
+        being_run_.clear();
+        const Run& made = std::any_cast<const Run&>(result);
+        QStringList reasons;
+        for (const std::string& reason : made.report.reasons) reasons << QString::fromStdString(reason);
+        const QString end = made.steady ? tr("%1 iterations").arg(made.last) : tr("%1 s").arg(made.last);
+        show_result(case_folder, made.wall,
+                    (made.converged ? tr("%1: converged, %2") : tr("%1: not converged, %2")).arg(name, end),
+                    reasons.join('\n'), of);
+      },
+      [this](const QString& message) { window_.complain(message, tr("The solver's run failed")); });
+}
+
+void FlowCases::show_result(const fs::path& folder, const fs::path& wall, const QString& outcome,
+                            const QString& trouble, const fs::path& of) {
+  const auto show = [this, wall, trouble] {
+    if (!trouble.isEmpty())
+      window_.complain(tr("The result is shown, but look at it before you use it: %1").arg(trouble),
+                       tr("A result to look at"));
+    window_.flow_results().open(wall);
+  };
+  window_.jobs().leave("flow_run", outcome, as_text(folder), tr("Show the result"), [this, show, folder, of] {
+    if (of == window_.case_path())
+      show();
+    else
+      refuse_result(folder, of);
+  });
+  if (of == window_.case_path()) show();
+}
+
+void FlowCases::refuse_result(const fs::path& folder, const fs::path& of) {
+  const QString name = as_text(folder.filename());
+  window_.complain(of.empty()
+                       ? tr("The result of %1 was computed while no case was open. Close the case that "
+                            "is open to see it.")
+                             .arg(name)
+                       : tr("The result of %1 belongs to the case %2, which is not open. Open that "
+                            "case, then show the result.")
+                             .arg(name, as_text(of.filename())),
+                   tr("A result of another case"));
+}
+
+}  // namespace ostia::workstation

@@ -1,0 +1,100 @@
+#pragma once
+/// \file What is asked before a solver's case is written.
+
+#include "meshing/fields.h"
+#include "shell/fitted_dialog.h"
+
+#include "ostia/solver/boundary_flow.h"
+
+#include <QTimer>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+class QCheckBox;
+class QComboBox;
+class QDoubleSpinBox;
+class QFormLayout;
+class QLabel;
+class QLineEdit;
+class QPushButton;
+class QTreeWidget;
+
+namespace ostia::workstation {
+
+class NewFolderField;
+
+enum class FlowSolver { openfoam, svmultiphysics };
+
+/// What was chosen; kept for the next time.
+struct FlowChoice {
+  std::filesystem::path mesh, folder;
+  FlowSolver solver = FlowSolver::openfoam;
+  std::optional<double> flow_ml_s;  ///< through each inlet; nothing: by its diameter
+  std::string waveform;             ///< as solver::builtin_waveform knows it; empty: steady
+  solver::Outlets outlets = solver::Outlets::split;
+  solver::Blood blood;
+  bool run = true;
+};
+
+/// A mesh with its open ends, as they were found.
+struct FlowMesh {
+  std::shared_ptr<const geometry::MixedMesh> mesh;
+  solver::BoundaryFlow ends;
+};
+/// Reads it. Throws what io::read_volume_mesh and solver::boundary_flow throw.
+FlowMesh read_flow_mesh(const std::filesystem::path& file);
+
+/// Checks while it is filled in, as MeshingDialog does. The mesh is read by its owner in the background.
+class FlowDialog final : public FittedDialog {
+  Q_OBJECT
+ public:
+  FlowDialog(const FlowChoice& last, QWidget* parent);
+  FlowChoice choice() const;
+  solver::BoundaryFlowOptions flow_options() const;
+  std::shared_ptr<const geometry::MixedMesh> mesh() const { return mesh_.mesh; }
+  /// The answer to `mesh_wanted`; one for a file that is no longer wanted is ignored.
+  void set_mesh(const std::filesystem::path& file, FlowMesh mesh);
+  void set_mesh_trouble(const std::filesystem::path& file, const QString& trouble);
+  void accept() override;
+
+ signals:
+  void mesh_wanted(const QString& file);
+
+ private:
+  void add_mesh(QFormLayout* form, const FlowChoice& last);
+  void add_ends(QFormLayout* form);
+  void add_solver(QFormLayout* form, const FlowChoice& last);
+  void add_flow(QFormLayout* form, const FlowChoice& last);
+  void add_outlets(QFormLayout* form, const FlowChoice& last);
+  void add_blood(QFormLayout* form, const FlowChoice& last);
+  void add_folder(QFormLayout* form, const FlowChoice& last);
+  void choose_mesh();
+  void want_mesh();
+  void propose_folder();
+  void check();
+  void show_ends();
+  void show_note();
+  QString mesh_trouble() const;
+  QString flow_trouble() const;
+  QString outlets_trouble() const;
+  QString blood_trouble() const;
+  FlowSolver solver() const;
+
+  QLineEdit* mesh_file_ = nullptr;
+  NewFolderField* folder_ = nullptr;
+  QTreeWidget* ends_ = nullptr;
+  QComboBox *solver_ = nullptr, *flow_ = nullptr, *waveform_ = nullptr, *outlets_ = nullptr,
+            *rheology_ = nullptr;
+  QDoubleSpinBox *flow_ml_s_ = nullptr, *viscosity_ = nullptr, *density_ = nullptr;
+  QCheckBox* run_ = nullptr;
+  QLabel* note_ = nullptr;
+  QPushButton* go_ = nullptr;
+  ExportField mesh_field_, flow_field_, outlets_field_, blood_field_;
+  FlowMesh mesh_;
+  QString mesh_refused_;
+  QTimer typing_;
+};
+
+}  // namespace ostia::workstation

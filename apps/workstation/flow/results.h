@@ -1,0 +1,46 @@
+#pragma once
+/// \file Results of a flow computation on the wall, in the 3D view.
+
+#include "flow/arrays.h"
+
+#include "ostia/session/workbench.h"
+
+#include <QObject>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+namespace ostia::workstation {
+
+class FlowBar;
+class MainWindow;
+
+/// Reads a surface with values in the background and shows it in the wall's place, coloured by one of its
+/// arrays, with a bar of controls below the picture. It goes with the case, and when something else is shown
+/// there.
+class FlowResults final : public QObject {
+  Q_OBJECT
+ public:
+  explicit FlowResults(MainWindow& window);
+  void ask();  ///< for the file
+  void open(const std::filesystem::path& file);
+  void show(FlowSurface result);
+  void hide();
+  bool shown() const { return scene_ != nullptr; }
+
+ signals:
+  void pointed(const QString& value);  ///< under the mouse; empty beside the surface
+
+ private:
+  void show_array();
+  void color();
+  void tell(const geometry::Vec2& display);
+  void save_picture();
+  MainWindow& window_;
+  FlowBar* bar_;
+  FlowSurface result_;
+  std::shared_ptr<view::SurfaceFieldScene> scene_;
+  std::vector<session::Subscription> own_;
+};
+
+}  // namespace ostia::workstation

@@ -1,0 +1,131 @@
+#include "measuring/reporting.h"
+
+#include "shell/file_dialogs.h"
+#include "shell/main_window.h"
+#include "shell/new_folder.h"
+#include "views/raster_image.h"
+
+#include "ostia/io/centerline_file.h"
+
+#include <QDate>
+#include <QDesktopServices>
+#include <QMessageBox>
+#include <QPixmap>
+#include <QPushButton>
+#include <QUrl>
+#include <memory>
+
+namespace ostia::workstation {
+namespace fs = std::filesystem;
+namespace {
+
+/// What a report is made of, held while the person goes on.
+struct Snapshot {
+  std::shared_ptr<const lumen::LumenModel> model;
+  std::shared_ptr<const session::Annotations> annotations;
+  std::vector<session::JournalEntry> journal;
+  std::shared_ptr<const imaging::ImageVolume> image;
+  session::ReportOptions options;
+  std::vector<session::KeyImage> pinned;
+  pipeline::JobKey job;
+};
+
+void write(const Snapshot& from, const fs::path& folder, const core::TaskContext& task) {
+  task.set_stage("walls");
+  const analysis::SurfaceOfVessel surface_of = session::solved_surfaces(*from.model, task.sub(0.0, 0.1));
+  task.set_stage("measuring");
+  const session::CaseReport report =
+      session::make_case_report(*from.model, surface_of, *from.annotations, from.journal, from.image.get(),
+                                from.options, task.sub(0.1, 0.3));
+  task.set_stage("pictures");
+  std::vector<session::KeyImage> images =
+      session::key_images(report, *from.model, surface_of, from.image.get(), task.sub(0.3, 0.8));
+  images.insert(images.end(), from.pinned.begin(), from.pinned.end());
+  session::write_case_report(folder, report, images, from.job, 0.0, task.sub(0.8, 1.0));
+}
+
+}  // namespace
+
+Reporting::Reporting(MainWindow& window) : QObject(&window), window_(window) {
+  other_case_ = window.bench().case_changed.observe([this] {
+    ++cases_;
+    pinned_.clear();
+  });
+}
+
+void Reporting::make_report(const fs::path& case_file) {
+  make_report_in(free_folder_beside(case_file, "report"));
+}
+
+void Reporting::make_report_in(const fs::path& folder) {
+  session::Workbench& bench = window_.bench();
+  const session::CaseFile& file = bench.session().file();
+  Snapshot from;
+  from.model = file.model();
+  from.annotations = file.annotations();
+  from.journal = file.journal();
+  from.image = bench.image().volume;
+  from.options.image = file.image();
+  from.options.date = QDate::currentDate().toString(Qt::ISODate).toStdString();
+  from.options.theta_deg = bench.theta_deg.get();
+  from.options.level_hu = bench.grey.get().level_hu;
+  from.options.window_hu = bench.grey.get().width_hu;
+  from.pinned = pinned_;
+  for (std::size_t i = 0; i < from.pinned.size(); ++i)
+    from.pinned[i].name = "pinned-" + std::to_string(i + 1);
+  from.job = session::report_job(file, from.image != nullptr, from.options, from.pinned);
+  window_.jobs().run(
+      "report", tr("Report"),
+      [from, folder](const core::TaskContext& task) {
+        write(from, folder, task);
+        return std::any(true);
+      },
+      [this, folder, of_case = cases_, used = pinned_.size()](const std::any&) {
+        // What was pinned meanwhile waits for the next report.
+        if (of_case == cases_)
+          pinned_.erase(pinned_.begin(), pinned_.begin() + static_cast<std::ptrdiff_t>(used));
+        show_made(folder);
+        emit report_made(QString::fromStdString(folder.string()));
+      },
+      [this](const QString& message) { window_.complain(message, tr("The report could not be made")); });
+}
+
+void Reporting::show_made(const fs::path& folder) {
+  const QString path = QString::fromStdString(folder.string());
+  auto* box = new QMessageBox(QMessageBox::Information, tr("Report"), tr("The report is in %1.").arg(path),
+                              QMessageBox::Close, &window_);
+  box->setObjectName("report_made");
+  box->setAttribute(Qt::WA_DeleteOnClose);
+  box->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
+  for (const auto& [text, name] :
+       {std::pair(tr("Open the PDF"), "report.pdf"), {tr("Open the HTML"), "report.html"}}) {
+    QPushButton* button = box->addButton(text, QMessageBox::ActionRole);
+    connect(button, &QPushButton::clicked, box, [path, name = QString(name)] {
+      QDesktopServices::openUrl(QUrl::fromLocalFile(path + "/" + name));
+    });
+  }
+  box->open();
+}
+
+void Reporting::pin(PictureWidget& view) {
+  const QImage shown = view.grab().toImage();
+  pinned_.push_back({"",
+                     tr("Pinned by the reader: %1")
+                         .arg(view.toolTip().isEmpty() ? view.accessibleName() : view.toolTip())
+                         .toStdString(),
+                     figure::picture_of(raster_of(shown), shown.width() / view.devicePixelRatioF())});
+  window_.say(tr("This view will be key image %1 of the next report.").arg(pinned_.size()));
+}
+
+void Reporting::export_centerlines() {
+  const QString chosen = ask_save_file(&window_, tr("Export the centerlines"), tr("Centerlines (*.vtp)"));
+  if (chosen.isEmpty()) return;
+  window_.guarded(
+      [&] {
+        io::write_centerlines(chosen.toStdString(), window_.bench().session().file().model()->tree);
+        window_.say(tr("The centerlines are in %1.").arg(chosen));
+      },
+      true);
+}
+
+}  // namespace ostia::workstation

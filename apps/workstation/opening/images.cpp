@@ -1,0 +1,193 @@
+#include "opening/opening.h"
+#include "opening/series_browser.h"
+#include "shell/main_window.h"
+#include "vessels/finder.h"
+
+#include "ostia/core/error.h"
+#include "ostia/core/log.h"
+#include "ostia/imaging/archive.h"
+#include "ostia/imaging/series_preview.h"
+#include "ostia/pipeline/source.h"
+#include "ostia/session/image_digest.h"
+
+namespace ostia::workstation {
+namespace fs = std::filesystem;
+namespace {
+
+bool is_volume_file(const fs::path& path) {
+  const std::string name = path.filename().string();
+  for (const char* end : {".nrrd", ".mhd", ".mha", ".nii", ".nii.gz"})
+    if (name.ends_with(end)) return true;
+  return false;
+}
+
+/// What stands in the window and nowhere else.
+QString shown_name(const imaging::ShownIdentity& shown) {
+  QStringList parts;
+  for (const std::string& part : {shown.patient_name, shown.study_date, shown.series_description})
+    if (!part.empty()) parts << QString::fromStdString(part);
+  return parts.join(QStringLiteral("  \u00b7  "));
+}
+
+struct FirstSlice {
+  imaging::SeriesSlice slice;
+  imaging::ShownIdentity shown;
+};
+
+}  // namespace
+
+void Opening::open_image(const session::KnownImage& image) {
+  // From here on the log knows the path, which may name the patient, as "the image".
+  core::redact_in_logs(image.path.string(), "the image");
+  if (is_volume_file(image.path))
+    load_file(image.path);
+  else
+    scan(image);
+}
+
+void Opening::scan(const session::KnownImage& image) {
+  window_.jobs().cancel("first slice");
+  window_.jobs().run(
+      "open", tr("Looking for series"),
+      [path = image.path](const core::TaskContext& task) {
+        return std::any(imaging::scan_dicom(path, task));
+      },
+      [this, image](const std::any& result) {
+        choose_series(image, std::any_cast<const imaging::DicomFolder&>(result));
+      },
+      [this](const QString& message) { window_.complain(message, tr("This cannot be opened")); });
+}
+
+void Opening::choose_series(const session::KnownImage& image, const imaging::DicomFolder& folder) {
+  const auto readable = [](const imaging::DicomSeries& one) { return one.faults.empty() && !one.uneven; };
+  for (const imaging::DicomSeries& one : folder.series) {
+    const bool known = !image.series_uid.empty() && one.uid == image.series_uid;
+    const bool alone = folder.series.size() == 1 && folder.damaged.empty() && one.warnings.empty();
+    if (!readable(one) || !(known || alone)) continue;
+    load_series(image.path, one, {});
+    return;
+  }
+  auto* browser = new SeriesBrowser(folder, window_.jobs(), &window_);
+  browser->setAttribute(Qt::WA_DeleteOnClose);
+  connect(browser, &SeriesBrowser::chosen, this,
+          [this, path = image.path](const imaging::DicomSeries& series,
+                                    const imaging::DicomReadOptions& options) {
+            load_series(path, series, options);
+          });
+  browser->open();
+}
+
+void Opening::load_series(const fs::path& path, const imaging::DicomSeries& series,
+                          const imaging::DicomReadOptions& options) {
+  show_first_slice(series);
+  window_.jobs().run(
+      "open", tr("Reading the image"),
+      [series, options](const core::TaskContext& task) {
+        Loaded loaded;
+        loaded.series_uid = series.uid;
+        loaded.image.reference = session::image_reference(series, task.sub(0.0, 0.2));
+        auto read = imaging::read_dicom_series(series, options, task.sub(0.2, 1.0));
+        loaded.image.volume = std::make_shared<const imaging::ImageVolume>(std::move(read.volume));
+        loaded.warnings = read.header.warnings;
+        return std::any(loaded);
+      },
+      [this, path](const std::any& result) { show(std::any_cast<const Loaded&>(result), path); },
+      [this](const QString& message) { window_.complain(message, tr("The image cannot be opened")); });
+}
+
+void Opening::show_first_slice(const imaging::DicomSeries& series) {
+  window_.jobs().run(
+      "first slice", tr("First slice"),
+      [series](const core::TaskContext& task) {
+        return std::any(
+            FirstSlice{imaging::first_slice(series, -1, task), imaging::preview(series, 16, task).shown});
+      },
+      [this, uid = series.uid](const std::any& result) {
+        const auto& first = std::any_cast<const FirstSlice&>(result);
+        first_sight_ = {uid, shown_name(first.shown), std::nullopt};
+        if (const auto& window = first.slice.window; window.from_file)
+          first_sight_->window = session::GreyWindow{window.centre_hu, window.width_hu};
+        session::Workbench& bench = window_.bench();
+        const bool whole_is_there = bench.image().volume && series_uid_ == uid;
+        // What is on the table stays there until the whole image has come.
+        const bool table_is_free = !bench.has_case() && !bench.image().volume;
+        if (!whole_is_there && table_is_free && window_.jobs().running("open")) {
+          window_.guarded([&] {
+            bench.set_image({std::make_shared<const imaging::ImageVolume>(first.slice.image), {}});
+            series_uid_ = uid;
+          });
+          connect(&window_.jobs(), &Jobs::changed, this, &Opening::drop_unread, Qt::UniqueConnection);
+        }
+        take_first_sight();
+      },
+      [](const QString&) {});  // the reading of the whole says what is wrong
+}
+
+void Opening::take_first_sight() {
+  if (!first_sight_ || !window_.bench().image().volume || first_sight_->series_uid != series_uid_) return;
+  window_.set_shown_name(first_sight_->name);
+  // Once: from then on the grey is the person's, as it is where the case knows one.
+  if (first_sight_->window && !memory_.knows_grey()) window_.bench().grey.set(*first_sight_->window);
+  first_sight_->window.reset();
+}
+
+bool Opening::reading() const {
+  const session::OpenImage& image = window_.bench().image();
+  return image.volume && image.reference.sha256.empty();
+}
+
+void Opening::drop_unread() {
+  if (reading() && !window_.jobs().running("open")) window_.bench().close_image();
+}
+
+Opening::Loaded Opening::read_file(const fs::path& path, const core::TaskContext& task) {
+  const pipeline::Source source = pipeline::load(path, {}, task);
+  if (!source.image) throw InvalidInput(path.string() + " is no CT image: open an angiogram");
+  return {{source.image, {source.sha256, source.pseudonym}}, path.filename().string(), {}, source.warnings};
+}
+
+Opening::ImageBeside Opening::read_beside(const std::optional<session::KnownImage>& image) {
+  if (!image || !is_volume_file(image->path)) return {};
+  return std::make_shared<core::BackgroundTask<Loaded>>(
+      [path = image->path](const core::TaskContext& task) { return read_file(path, task); });
+}
+
+void Opening::load_file(const fs::path& path, const ImageBeside& beside) {
+  window_.jobs().cancel("first slice");
+  window_.jobs().run(
+      "open", tr("Reading the image"),
+      [path, beside](const core::TaskContext& task) {
+        return std::any(beside ? beside->get(task) : read_file(path, task));
+      },
+      [this, path](const std::any& result) { show(std::any_cast<const Loaded&>(result), path); },
+      [this](const QString& message) { window_.complain(message, tr("The image cannot be opened")); });
+}
+
+void Opening::show(const Loaded& loaded, const fs::path& path) {
+  session::Workbench& bench = window_.bench();
+  const session::ImageReference& reference = loaded.image.reference;
+  if (bench.has_case()) {
+    const auto wanted = bench.session().file().image();
+    const bool other = !wanted || wanted->sha256 != reference.sha256;
+    // A case that waits for its image refuses another; one that has it makes room.
+    if (other && wanted && !bench.image().volume) {
+      image_missing(*wanted, tr("What was chosen is another image."));
+      return;
+    }
+    if (other) close_case();
+  }
+  const bool shown_now = window_.guarded(
+      [&] {
+        bench.set_image(loaded.image);
+        series_uid_ = loaded.series_uid;
+        window_.set_shown_name(QString::fromStdString(loaded.name));
+        take_first_sight();
+        window_.machine().remember_image(reference.sha256, path, loaded.series_uid);
+      },
+      true);
+  if (!shown_now) return;
+  if (!loaded.warnings.empty()) window_.say(QString::fromStdString(loaded.warnings.front()));
+  if (!bench.has_case()) window_.finder().find_tree();
+}
+
+}  // namespace ostia::workstation

@@ -1,0 +1,237 @@
+#include "opening/opening.h"
+
+#include "shell/file_dialogs.h"
+#include "shell/main_window.h"
+
+#include "ostia/core/error.h"
+#include "ostia/session/sample_case.h"
+
+#include <QMessageBox>
+#include <QPushButton>
+#include <chrono>
+#include <string>
+
+namespace ostia::workstation {
+namespace fs = std::filesystem;
+namespace {
+
+using session::ImageReference;
+
+QString shown(const fs::path& path) {
+  return QString::fromStdString(path.string());
+}
+
+fs::path path_of(const QString& text) {
+  return fs::path(text.toStdString());
+}
+
+std::int64_t now_s() {
+  return std::chrono::duration_cast<std::chrono::seconds>(std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
+}  // namespace
+
+Opening::Opening(MainWindow& window)
+    : QObject(&window), window_(window), memory_(window.bench()), mark_(window.state_folder()) {}
+
+fs::path Opening::state_folder() const {
+  return window_.state_folder();
+}
+
+void Opening::choose_file() {
+  const QString chosen = ask_open_file(
+      &window_, tr("Open"),
+      tr("Cases and images (*.ostia *.nrrd *.mhd *.mha *.nii *.nii.gz *.dcm *.zip);;All files (*)") +
+          QStringLiteral(";;") + tr("Vessel trees (*.vtp *.vtk *.swc *.csv *.gxl *.xml *.dat)"));
+  if (!chosen.isEmpty()) window_.open(path_of(chosen));
+}
+
+void Opening::choose_folder() {
+  const QString chosen = ask_folder(&window_, tr("Open a folder of DICOM files"));
+  if (!chosen.isEmpty()) open(path_of(chosen));
+}
+
+void Opening::open(const fs::path& path) {
+  std::error_code ignored;
+  if (!fs::exists(path, ignored)) {
+    window_.complain(tr("There is no file or folder %1.").arg(shown(path)));
+    return;
+  }
+  const fs::path whole = fs::absolute(path);
+  if (path.extension() == ".ostia")
+    open_case(whole);
+  else
+    open_image({whole, {}});
+}
+
+void Opening::open_sample() {
+  const fs::path folder = state_folder() / "sample";
+  window_.jobs().run(
+      "open", tr("Sample case"),
+      [folder](const core::TaskContext& task) {
+        return std::any(session::sample_case(folder, phantom::Preset::full, task));
+      },
+      [this](const std::any& result) {
+        const auto sample = std::any_cast<session::SampleCase>(result);
+        window_.guarded([&] {
+          const auto opened = session::CaseFile::open(sample.case_file, session::OpenMode::read_only);
+          if (const auto image = opened.image())
+            window_.machine().remember_image(image->sha256, sample.image);
+        });
+        open_case(sample.case_file);
+      },
+      [this](const QString& message) { window_.complain(message); });
+}
+
+void Opening::open_case(const fs::path& path) {
+  window_.jobs().cancel("first slice");
+  if (window_.bench().has_case() && path == case_path_) {
+    window_.jobs().cancel("open");  // whoever changes their mind keeps what is there
+    return;
+  }
+  const bool editable = session::can_be_edited(path);
+  window_.jobs().run(
+      "open", tr("Opening the case"),
+      [path, editable, state = state_folder(),
+       shown = window_.bench().image().reference.sha256](const core::TaskContext&) {
+        session::CaseFile file = session::CaseFile::open(
+            path, editable ? session::OpenMode::read_write : session::OpenMode::read_only);
+        OpenedCase opened;
+        if (const auto image = file.image(); image && image->sha256 != shown)
+          opened.image = read_beside(session::MachineState(state).find_image(image->sha256));
+        opened.session = std::make_shared<session::Session>(std::move(file));
+        opened.session->live().wall(
+            SceneWidget::screen_cell_mm);  // made here, so that the window need not wait for it
+        return std::any(opened);
+      },
+      [this, path, editable](const std::any& result) {
+        const auto& opened = std::any_cast<const OpenedCase&>(result);
+        show_case(std::move(*opened.session), path, opened.image);
+        if (!editable)
+          window_.say(
+              tr("This case can be looked at and not changed: its file or folder is read-only. "
+                 "Save it as another to edit it."));
+      },
+      [this](const QString& message) { window_.complain(message, tr("The case cannot be opened")); });
+}
+
+void Opening::show_case(session::Session session, const fs::path& path, const ImageBeside& image_beside) {
+  session::Workbench& bench = window_.bench();
+  const std::optional<ImageReference> image = session.file().image();
+  const bool other_image = bench.image().volume && image && bench.image().reference.sha256 != image->sha256;
+  const bool shown_now = window_.guarded(
+      [&] {
+        keep_view();
+        if (other_image) {
+          bench.close_case();
+          bench.close_image();
+        }
+        bench.set_session(std::move(session));
+        case_path_ = path;
+        window_.machine().remember_case({path, image ? image->pseudonym : std::string(), now_s()});
+        mark_.set(path);
+      },
+      true);
+  if (!shown_now) return;
+  memory_.restore();
+  if (image && !bench.image().volume) open_image_of(*image, image_beside);
+}
+
+void Opening::open_image_of(const ImageReference& image, const ImageBeside& beside) {
+  const std::optional<session::KnownImage> known = window_.machine().find_image(image.sha256);
+  if (known && beside)
+    load_file(known->path, beside);
+  else if (known)
+    open_image(*known);
+  else
+    image_missing(image);
+}
+
+void Opening::image_missing(const ImageReference& image, const QString& reason) {
+  auto* box = new QMessageBox(
+      QMessageBox::Question, tr("The image of this case"),
+      (reason.isEmpty() ? reason : reason + "\n\n") +
+          tr("The image that this case was made on (%1) is not where it was, or has never been opened on "
+             "this computer. The case can be looked at without it.")
+              .arg(QString::fromStdString(image.pseudonym)),
+      QMessageBox::NoButton, &window_);
+  box->setAttribute(Qt::WA_DeleteOnClose);
+  const QAbstractButton* file = box->addButton(tr("Find the file\u2026"), QMessageBox::AcceptRole);
+  const QAbstractButton* folder = box->addButton(tr("Find the DICOM folder\u2026"), QMessageBox::AcceptRole);
+  box->addButton(tr("Go on without"), QMessageBox::RejectRole);
+  connect(box, &QMessageBox::buttonClicked, this, [this, file, folder](QAbstractButton* button) {
+    QString chosen;
+    if (button == file) chosen = ask_open_file(&window_, tr("The image of this case"));
+    if (button == folder) chosen = ask_folder(&window_, tr("The image of this case"));
+    if (!chosen.isEmpty()) open_image({path_of(chosen), {}});
+  });
+  box->open();
+}
+
+void Opening::save_as() {
+  if (!window_.bench().has_case()) return;
+  const QString chosen = ask_save_file(&window_, tr("Save the case as"), tr("Cases (*.ostia)"));
+  if (chosen.isEmpty()) return;
+  fs::path to = path_of(chosen);
+  if (to.extension() != ".ostia") to += ".ostia";
+  keep_view();
+  if (!window_.guarded([&] { window_.bench().session().file().copy_to(to); }, true)) return;
+  // What was done between the copying and the copy's opening would stay behind in the other file.
+  window_.setEnabled(false);
+  connect(&window_.jobs(), &Jobs::changed, this, &Opening::go_on, Qt::UniqueConnection);
+  open_case(fs::absolute(to));
+}
+
+void Opening::go_on() {
+  if (!window_.jobs().running("open")) window_.setEnabled(true);
+}
+
+void Opening::start_case(const ImageReference& image,
+                         const std::function<session::CaseFile(const fs::path&)>& make) {
+  const fs::path folder = state_folder() / "cases";
+  window_.guarded(
+      [&] {
+        fs::create_directories(folder);
+        std::error_code ignored;
+        fs::path path;
+        for (int number = 1; path.empty() || fs::exists(path, ignored); ++number)
+          path = folder / (image.pseudonym + "-" + std::to_string(number) + ".ostia");
+        show_case(session::Session(make(path)), path);
+      },
+      true);
+}
+
+void Opening::close_case() {
+  keep_view();
+  window_.bench().close_case();
+  case_path_.clear();
+  mark_.clear();
+}
+
+void Opening::keep_view() {
+  try {
+    memory_.keep();
+  } catch (const Error& error) {
+    // Nobody asked for it: a line, and the message is left to what was asked for.
+    window_.say(QString::fromStdString(error.what()));
+  }
+}
+
+void Opening::recover() {
+  std::vector<fs::path> left = mark_.take_left();
+  std::erase_if(left, [](const fs::path& path) {
+    std::error_code ignored;
+    return !fs::exists(path, ignored);
+  });
+  if (left.empty()) return;
+  const int more = static_cast<int>(left.size()) - 1;
+  window_.say(
+      more == 0
+          ? tr("The program ended without closing this case; it is opened where it was.")
+          : tr("The program ended without closing this case and %n more, which are among the recent ones.",
+               nullptr, more));
+  open_case(left.front());
+}
+
+}  // namespace ostia::workstation

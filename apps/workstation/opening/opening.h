@@ -1,0 +1,100 @@
+#pragma once
+/// \file What the person opens: cases, images, series, the sample.
+
+#include "opening/view_memory.h"
+
+#include "ostia/core/background_task.h"
+#include "ostia/imaging/dicom.h"
+#include "ostia/session/machine_state.h"
+#include "ostia/session/open_mark.h"
+#include "ostia/session/workbench.h"
+
+#include <QObject>
+#include <QString>
+#include <any>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ostia::workstation {
+
+class MainWindow;
+
+/// Reads in the background and puts on the workbench what was read. What cannot be opened comes up as one
+/// dialog, and what was open stays open.
+class Opening final : public QObject {
+  Q_OBJECT
+ public:
+  explicit Opening(MainWindow& window);
+  void open(const std::filesystem::path& path);
+  void open_sample();
+  /// Asks for a file, or a folder of DICOM.
+  void choose_file();
+  void choose_folder();
+  /// Another file with the same case, which is then the open one.
+  void save_as();
+  const std::filesystem::path& case_path() const { return case_path_; }
+  /// A new case of an image, in the folder of this machine's cases.
+  void start_case(const session::ImageReference& image,
+                  const std::function<session::CaseFile(const std::filesystem::path&)>& make);
+  void close_case();
+  /// The case that was open when a program ended without closing it.
+  void recover();
+  /// What is on the table is one slice of an image that is still being read.
+  bool reading() const;
+
+ private:
+  struct Loaded {
+    session::OpenImage image;
+    std::string name;        ///< for the window alone
+    std::string series_uid;  ///< empty where it is no series
+    std::vector<std::string> warnings;
+  };
+  /// What is known of a series before it has been read.
+  struct FirstSight {
+    std::string series_uid;
+    QString name;
+    std::optional<session::GreyWindow> window;
+  };
+  /// An image file of this machine that is being read.
+  using ImageBeside = std::shared_ptr<core::BackgroundTask<Loaded>>;
+  struct OpenedCase {
+    std::shared_ptr<session::Session> session;
+    ImageBeside image;  // the case's; null where it is open already or no such file is known
+  };
+  void open_case(const std::filesystem::path& path);
+  void show_case(session::Session session, const std::filesystem::path& path,
+                 const ImageBeside& image_beside = {});
+  void open_image_of(const session::ImageReference& image, const ImageBeside& beside);
+  /// `reason`: why what was chosen is not it.
+  void image_missing(const session::ImageReference& image, const QString& reason = {});
+  void keep_view();
+  // images (opening_images.cpp)
+  void open_image(const session::KnownImage& image);
+  void scan(const session::KnownImage& image);
+  void choose_series(const session::KnownImage& image, const imaging::DicomFolder& folder);
+  void load_series(const std::filesystem::path& path, const imaging::DicomSeries& series,
+                   const imaging::DicomReadOptions& options);
+  void show_first_slice(const imaging::DicomSeries& series);
+  void take_first_sight();
+  static Loaded read_file(const std::filesystem::path& path, const core::TaskContext& task);
+  static ImageBeside read_beside(const std::optional<session::KnownImage>& image);
+  void load_file(const std::filesystem::path& path, const ImageBeside& beside = {});
+  void show(const Loaded& loaded, const std::filesystem::path& path);
+  std::filesystem::path state_folder() const;
+  MainWindow& window_;
+  ViewMemory memory_;
+  session::OpenMark mark_;
+  std::filesystem::path case_path_;
+  std::optional<FirstSight> first_sight_;
+  std::string series_uid_;  // of the image on the table
+
+ private slots:
+  void drop_unread();
+  void go_on();
+};
+
+}  // namespace ostia::workstation

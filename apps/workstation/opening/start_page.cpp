@@ -1,0 +1,123 @@
+#include "opening/start_page.h"
+
+#include "commands/texts.h"
+
+#include <QAction>
+#include <QEvent>
+#include <QLabel>
+#include <QPushButton>
+#include <QVBoxLayout>
+#include <algorithm>
+
+namespace ostia::workstation {
+namespace {
+
+constexpr int widest = 380;  // units of the interface
+constexpr std::size_t most_recent = 4;
+
+QLabel* line(const QString& text) {
+  auto* made = new QLabel(text);
+  made->setWordWrap(true);
+  return made;
+}
+
+}  // namespace
+
+StartPage::StartPage(MainWindow& window, const QString& over)
+    : QFrame(&window), window_(window), over_(window.findChild<QWidget*>(over)) {
+  setObjectName("start_page");
+  setAutoFillBackground(true);
+  setFrameShape(QFrame::StyledPanel);
+  build();
+  over_->installEventFilter(this);
+  own_.push_back(window.bench().case_changed.observe([this] { refresh(); }));
+  own_.push_back(window.bench().image_changed.observe([this] { refresh(); }));
+  refresh();
+}
+
+void StartPage::build() {
+  auto* rows = new QVBoxLayout(this);
+  rows->setContentsMargins(18, 16, 18, 16);
+  rows->setSpacing(8);
+  auto* title = line(tr("No case is open"));
+  QFont large = font();
+  large.setPointSizeF(1.3 * large.pointSizeF());
+  large.setBold(true);
+  title->setFont(large);
+  rows->addWidget(title);
+  rows->addWidget(line(tr("Drop a DICOM folder, an image or a case on this window, or:")));
+  for (const char* id : {"file.open", "file.open_folder", "file.sample"}) {
+    auto* action = window_.findChild<QAction*>(id);
+    QString text = plain_text(action->text());
+    const QString keys = action->shortcut().toString(QKeySequence::NativeText);
+    if (!keys.isEmpty()) text += QStringLiteral("   %1").arg(keys);
+    auto* button = new QPushButton(text);
+    button->setObjectName(QStringLiteral("start.") + id);
+    button->setToolTip(action->toolTip());
+    button->setFocusPolicy(Qt::TabFocus);
+    connect(button, &QPushButton::clicked, action, &QAction::trigger);
+    rows->addWidget(button);
+  }
+  recent_ = new QVBoxLayout;
+  recent_->setSpacing(4);
+  rows->addLayout(recent_);
+}
+
+void StartPage::fill_recent() {
+  while (QLayoutItem* item = recent_->takeAt(0)) {
+    delete item->widget();
+    delete item;
+  }
+  std::size_t shown = 0;
+  for (const session::RecentCase& one : window_.machine().recent_cases()) {
+    std::error_code ignored;
+    if (shown == most_recent || !std::filesystem::exists(one.path, ignored)) continue;
+    if (shown++ == 0) recent_->addWidget(line(tr("Recent cases:")));
+    const QString path = QString::fromStdString(one.path.string());
+    auto* button = new QPushButton;
+    button->setText(button->fontMetrics().elidedText(QString::fromStdString(one.path.filename().string()),
+                                                     Qt::ElideMiddle, widest - 80));
+    button->setToolTip(path);
+    button->setFocusPolicy(Qt::TabFocus);
+    button->setFlat(true);
+    connect(button, &QPushButton::clicked, this, [this, path] { window_.open(path.toStdString()); });
+    recent_->addWidget(button);
+  }
+}
+
+void StartPage::refresh() {
+  wanted_ = !window_.bench().has_case() && !window_.bench().image().volume;
+  if (wanted_) fill_recent();
+  show_or_hide();
+}
+
+void StartPage::show_or_hide() {
+  const bool shown = wanted_ && over_->isVisibleTo(over_->window());
+  setVisible(shown);
+  if (shown)
+    place();
+  else  // all of each view, not the uncovered part alone
+    for (QWidget* view : over_->findChildren<QWidget*>()) view->update();
+}
+
+void StartPage::place() {
+  const QPoint corner = over_->mapTo(&window_, QPoint(0, 0));
+  layout()->activate();
+  // In a narrow window its buttons reach over the views beside, which have nothing to show yet.
+  const int least = std::min(minimumSizeHint().width(), window_.width() - 24);
+  const int wide = std::max(least, std::min(widest, over_->width() - 24));
+  const int high = std::max(sizeHint().height(), layout()->totalHeightForWidth(wide));
+  const int left =
+      std::clamp(corner.x() + (over_->width() - wide) / 2, 0, std::max(0, window_.width() - wide));
+  setGeometry(left, corner.y() + std::max(30, (over_->height() - high) / 3), wide, high);
+  raise();
+}
+
+bool StartPage::eventFilter(QObject* object, QEvent* event) {
+  const bool other_room =
+      event->type() == QEvent::Resize || event->type() == QEvent::Show || event->type() == QEvent::Hide;
+  if (object == over_ && other_room) show_or_hide();  // the case is not asked: the window may be going
+  return QFrame::eventFilter(object, event);
+}
+
+}  // namespace ostia::workstation

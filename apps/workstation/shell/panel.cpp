@@ -1,0 +1,69 @@
+#include "shell/panel.h"
+
+#include "commands/icons.h"
+
+#include <QEvent>
+#include <QHBoxLayout>
+#include <QSplitter>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+namespace ostia::workstation {
+
+Panel::Panel(const QString& title, QWidget* content, QWidget* parent) : QFrame(parent), content_(content) {
+  setFrameShape(QFrame::NoFrame);
+  setAccessibleName(title);
+  bar_ = new QWidget(this);
+  bar_->installEventFilter(this);
+  bar_->setToolTip(tr("Double click: this view alone, and back"));
+  title_ = new QLabel(title, bar_);
+  auto* largest = new QToolButton(bar_);
+  largest->setIcon(command_icon(QStringLiteral("panel.alone")));
+  largest->setIconSize(QSize(14, 14));
+  largest->setAutoRaise(true);
+  largest->setToolTip(tr("This view alone, and back"));
+  largest->setAccessibleName(tr("Maximise %1").arg(title));
+  connect(largest, &QToolButton::clicked, this, &Panel::maximise_wanted);
+  auto* line = new QHBoxLayout(bar_);
+  line->setContentsMargins(6, 1, 2, 1);
+  line->setSpacing(4);
+  line->addWidget(title_);
+  line->addStretch(1);
+  line->addWidget(largest);
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(0);
+  layout->addWidget(bar_);
+  layout->addWidget(content, 1);
+}
+
+void Panel::set_title(const QString& title) {
+  title_->setText(title);
+}
+
+void Panel::add_control(QWidget* control) {
+  auto* line = static_cast<QHBoxLayout*>(bar_->layout());
+  line->insertWidget(line->count() - 1, control);
+}
+
+bool Panel::eventFilter(QObject* object, QEvent* event) {
+  if (object == bar_ && event->type() == QEvent::MouseButtonDblClick) {
+    emit maximise_wanted();
+    return true;
+  }
+  return QFrame::eventFilter(object, event);
+}
+
+void show_alone(QWidget* root, Panel* alone) {
+  QList<QSplitter*> splitters = root->findChildren<QSplitter*>();
+  if (auto* outermost = qobject_cast<QSplitter*>(root)) splitters.prepend(outermost);
+  // Whatever stands beside the panel would keep its room: other panels, columns of them, lists. From within,
+  // so that a splitter that is shown again finds its parts there, and with them its sizes.
+  for (auto splitter = splitters.crbegin(); splitter != splitters.crend(); ++splitter)
+    for (int i = 0; i < (*splitter)->count(); ++i) {
+      QWidget* part = (*splitter)->widget(i);
+      part->setVisible(!alone || part == alone || part->isAncestorOf(alone));
+    }
+}
+
+}  // namespace ostia::workstation

@@ -1,0 +1,233 @@
+#include "shell/preferences_dialog.h"
+
+#include "commands/texts.h"
+#include "help/help.h"
+#include "shell/hanging.h"
+#include "shell/language.h"
+#include "shell/theme.h"
+
+#include <QAction>
+#include <QComboBox>
+#include <QDialogButtonBox>
+#include <QFormLayout>
+#include <QHeaderView>
+#include <QKeySequenceEdit>
+#include <QLabel>
+#include <QPushButton>
+#include <QTabWidget>
+#include <QTreeWidget>
+#include <QVBoxLayout>
+
+namespace ostia::workstation {
+namespace {
+
+constexpr int command_id_role = Qt::UserRole;
+
+QString shown(const QList<QKeySequence>& keys) {
+  QStringList texts;
+  for (const QKeySequence& one : keys) texts << one.toString(QKeySequence::NativeText);
+  return texts.join(", ");
+}
+
+}  // namespace
+
+PreferencesDialog::PreferencesDialog(MainWindow& window, Help& help, QWidget* parent)
+    : QDialog(parent), window_(window), help_(help), keys_(help.keys()) {
+  setObjectName("preferences");
+  setWindowTitle(tr("Preferences"));
+  resize_within(*this, QSize(620, 600));
+  auto* tabs = new QTabWidget(this);
+  tabs->addTab(general_page(), tr("General"));
+  tabs->addTab(keys_page(), tr("Keys"));
+  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
+  connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+  auto* layout = new QVBoxLayout(this);
+  layout->addWidget(tabs, 1);
+  layout->addWidget(buttons);
+}
+
+QWidget* PreferencesDialog::general_page() {
+  auto* page = new QWidget;
+  auto* form = new QFormLayout(page);
+  auto* theme = new QComboBox;
+  theme->setObjectName("theme");
+  theme->addItems({tr("Dark"), tr("Light")});
+  theme->setCurrentIndex(current_theme() == Theme::dark ? 0 : 1);
+  theme->setToolTip(tr("Images are dark in both"));
+  connect(theme, QOverload<int>::of(&QComboBox::activated), this, [this](int index) {
+    if ((index == 0) != (current_theme() == Theme::dark))
+      if (auto* action = window_.findChild<QAction*>("view.theme")) action->trigger();
+  });
+  form->addRow(tr("Theme"), theme);
+  auto* language = new QComboBox;
+  language->setObjectName("language");
+  language->addItem(tr("As the system has it"), QString());
+  for (const Language& one : languages()) language->addItem(one.name, one.code);
+  const auto chosen = window_.machine().setting(language_setting);
+  language->setCurrentIndex(chosen ? std::max(0, language->findData(QString::fromStdString(*chosen))) : 0);
+  auto* note =
+      new QLabel(tr("Another language is used from the next start on. Numbers keep the decimal "
+                    "point in every language, as in reports and files."));
+  note->setWordWrap(true);
+  connect(language, QOverload<int>::of(&QComboBox::activated), this, [this, language](int index) {
+    window_.guarded([&] {
+      window_.machine().set_setting(language_setting, language->itemData(index).toString().toStdString());
+    });
+  });
+  form->addRow(tr("Language"), language);
+  form->addRow(QString(), note);
+  return page;
+}
+
+QWidget* PreferencesDialog::keys_page() {
+  auto* page = new QWidget;
+  auto* layout = new QVBoxLayout(page);
+  auto* form = new QFormLayout;
+  scheme_ = new QComboBox;
+  scheme_->setObjectName("scheme");
+  scheme_->addItem(tr("As on a PACS station"), static_cast<int>(ShortcutScheme::pacs));
+  scheme_->addItem(tr("As in research software"), static_cast<int>(ShortcutScheme::research));
+  scheme_->setToolTip(tr("Choosing one gives all commands its keys"));
+  connect(scheme_, QOverload<int>::of(&QComboBox::activated), this, &PreferencesDialog::choose_scheme);
+  form->addRow(tr("Scheme"), scheme_);
+  layout->addLayout(form);
+  list_ = new QTreeWidget;
+  list_->setObjectName("commands");
+  list_->setAccessibleName(tr("Commands and their keys"));
+  list_->setColumnCount(2);
+  list_->setHeaderLabels({tr("Command"), tr("Keys")});
+  list_->setRootIsDecorated(false);
+  list_->header()->setSectionResizeMode(0, QHeaderView::Stretch);
+  list_->header()->setSectionResizeMode(1, QHeaderView::ResizeToContents);
+  list_->header()->setStretchLastSection(false);
+  layout->addWidget(list_, 1);
+  editor_ = new QKeySequenceEdit;
+  editor_->setObjectName("keys");
+  editor_->setAccessibleName(tr("New keys"));
+  editor_->setToolTip(tr("Click here and press the keys for the selected command"));
+  auto* none = new QPushButton(tr("No key"));
+  none->setToolTip(tr("The command is then in menus alone"));
+  auto* reset_one = new QPushButton(tr("As in the scheme"));
+  auto* all = new QPushButton(tr("All as in the scheme"));
+  for (QPushButton* button : {none, reset_one, all}) button->setAutoDefault(false);
+  auto* row = new QHBoxLayout;
+  row->addWidget(new QLabel(tr("New keys:")));
+  row->addWidget(editor_, 1);
+  row->addWidget(none);
+  row->addWidget(reset_one);
+  row->addWidget(all);
+  layout->addLayout(row);
+  trouble_ = new QLabel;
+  trouble_->setObjectName("trouble");
+  trouble_->setWordWrap(true);
+  trouble_->setMinimumHeight(2 * trouble_->fontMetrics().height());
+  layout->addWidget(trouble_);
+  connect(editor_, &QKeySequenceEdit::editingFinished, this, [this] {
+    if (!editor_->keySequence().isEmpty()) take(QKeySequence(editor_->keySequence()[0]));
+  });
+  connect(none, &QPushButton::clicked, this, [this] { take({}); });
+  connect(reset_one, &QPushButton::clicked, this, &PreferencesDialog::reset);
+  connect(all, &QPushButton::clicked, this, &PreferencesDialog::reset_all);
+  connect(list_, &QTreeWidget::currentItemChanged, this, [this] {
+    editor_->clear();
+    trouble_->clear();
+  });
+  fill_keys();
+  return page;
+}
+
+void PreferencesDialog::fill_keys() {
+  QMap<QString, QTreeWidgetItem*> groups;
+  for (const QAction* action : help_.commands()) {
+    const QString title = command_group(action->objectName());
+    if (!groups.contains(title)) {
+      auto* group = new QTreeWidgetItem(list_, {title});
+      QFont bold = font();
+      bold.setBold(true);
+      group->setFont(0, bold);
+      group->setFlags(Qt::ItemIsEnabled);
+      group->setExpanded(true);
+      groups[title] = group;
+    }
+    auto* line = new QTreeWidgetItem(groups[title], {plain_text(action->text())});
+    line->setData(0, command_id_role, action->objectName());
+    line->setToolTip(0, action->property("tip").toString());
+  }
+  show_keys();
+}
+
+void PreferencesDialog::show_keys() {
+  scheme_->setCurrentIndex(scheme_->findData(static_cast<int>(keys_.scheme())));
+  for (int i = 0; i < list_->topLevelItemCount(); ++i)
+    for (int j = 0; j < list_->topLevelItem(i)->childCount(); ++j) {
+      QTreeWidgetItem* line = list_->topLevelItem(i)->child(j);
+      const QString id = line->data(0, command_id_role).toString();
+      line->setText(1, shown(keys_.keys(id)));
+      QFont font = line->font(1);
+      font.setBold(keys_.is_changed(id));
+      line->setFont(1, font);
+    }
+}
+
+QString PreferencesDialog::current() const {
+  const QTreeWidgetItem* line = list_->currentItem();
+  return line ? line->data(0, command_id_role).toString() : QString();
+}
+
+QString PreferencesDialog::name_of(const QString& id) const {
+  const auto* action = window_.findChild<QAction*>(id);
+  return action ? plain_text(action->text()) : id;
+}
+
+void PreferencesDialog::complain(const QString& text) {
+  QPalette palette = trouble_->palette();
+  palette.setColor(QPalette::WindowText, role_color(view::Role::stenosis, Ground::paper));
+  trouble_->setPalette(palette);
+  trouble_->setText(text);
+}
+
+void PreferencesDialog::take(const QKeySequence& keys) {
+  const QString id = current();
+  trouble_->clear();
+  editor_->clear();
+  if (id.isEmpty()) {
+    complain(tr("Choose a command in the list first."));
+    return;
+  }
+  if (!keys_.change(id, keys)) {
+    const QString key = keys.toString(QKeySequence::NativeText);
+    if (const auto other = keys_.taken_by(keys, id))
+      complain(tr("%1 belongs to \"%2\". Choose another key, or take it from that command first.")
+                   .arg(key, name_of(*other)));
+    else
+      complain(tr("%1 moves through views and lists and can run no command. Choose another key.").arg(key));
+    return;
+  }
+  help_.set_keys(keys_);
+  show_keys();
+}
+
+void PreferencesDialog::reset() {
+  const QString id = current();
+  trouble_->clear();
+  if (id.isEmpty()) return complain(tr("Choose a command in the list first."));
+  if (!keys_.reset(id)) return complain(tr("Another command has been given this command's key."));
+  help_.set_keys(keys_);
+  show_keys();
+}
+
+void PreferencesDialog::reset_all() {
+  trouble_->clear();
+  keys_.reset_all();
+  help_.set_keys(keys_);
+  show_keys();
+}
+
+void PreferencesDialog::choose_scheme(int index) {
+  trouble_->clear();
+  keys_ = ShortcutKeys(static_cast<ShortcutScheme>(scheme_->itemData(index).toInt()));
+  help_.set_keys(keys_);
+  show_keys();
+}
+
+}  // namespace ostia::workstation

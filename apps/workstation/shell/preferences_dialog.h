@@ -1,0 +1,46 @@
+#pragma once
+/// \file Preferences: keys, theme, language.
+
+#include "commands/shortcuts.h"
+
+#include <QDialog>
+
+class QComboBox;
+class QKeySequenceEdit;
+class QLabel;
+class QTreeWidget;
+class QTreeWidgetItem;
+
+namespace ostia::workstation {
+
+class Help;
+class MainWindow;
+
+/// What is changed holds at once; a language from the next start on.
+class PreferencesDialog final : public QDialog {
+  Q_OBJECT
+ public:
+  PreferencesDialog(MainWindow& window, Help& help, QWidget* parent);
+
+ private:
+  QWidget* general_page();
+  QWidget* keys_page();
+  void fill_keys();
+  void show_keys();
+  QString current() const;
+  QString name_of(const QString& id) const;
+  void take(const QKeySequence& keys);
+  void reset();
+  void reset_all();
+  void choose_scheme(int index);
+  void complain(const QString& text);
+  MainWindow& window_;
+  Help& help_;
+  ShortcutKeys keys_;
+  QComboBox* scheme_ = nullptr;
+  QTreeWidget* list_ = nullptr;
+  QKeySequenceEdit* editor_ = nullptr;
+  QLabel* trouble_ = nullptr;
+};
+
+}  // namespace ostia::workstation

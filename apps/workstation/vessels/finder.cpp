@@ -1,0 +1,142 @@
+#include "vessels/finder.h"
+
+#include "opening/opening.h"
+#include "shell/main_window.h"
+
+#include "ostia/core/error.h"
+#include "ostia/session/found_model.h"
+#include "ostia/session/new_vessel.h"
+
+#include <cmath>
+#include <memory>
+#include <string>
+
+namespace ostia::workstation {
+namespace {
+
+constexpr double least_lumen_hu = 100.0;  // of blood with any contrast agent; without, it has 40
+
+/// What is a little brighter than the fat about it would do for a way.
+void require_contrast(const segmentation::MinimalPath& way) {
+  if (way.lumen_hu < least_lumen_hu)
+    throw GeometryError("there is no contrast along the way between the two places (" +
+                        std::to_string(std::lround(way.lumen_hu)) +
+                        " HU); click into the vessel's lumen at both ends");
+}
+
+}  // namespace
+
+VesselFinder::VesselFinder(MainWindow& window, Opening& opening)
+    : QObject(&window), window_(window), opening_(opening) {
+  own_.push_back(window.bench().case_changed.observe([this] { drop_begun(); }));
+  own_.push_back(window.bench().image_changed.observe([this] { drop_begun(); }));
+  own_.push_back(window.bench().tool.observe([this](const session::Tool& tool) {
+    window_.bench().first_end.set({});
+    if (tool == session::Tool::add_vessel && !window_.bench().has_case() && window_.bench().image().volume)
+      window_.say(tr("Click the ostium of the first vessel, then its distal end."));
+  }));
+}
+
+void VesselFinder::drop_begun() {
+  window_.jobs().cancel("tree");
+  window_.jobs().cancel("path");
+  window_.bench().first_end.set({});
+}
+
+bool VesselFinder::image_is_there() {
+  if (!window_.bench().image().volume)
+    window_.say(tr("A vessel is found in the image: open the image of this case first."));
+  else if (opening_.reading())
+    window_.say(tr("The image is still being read."));
+  else
+    return true;
+  return false;
+}
+
+void VesselFinder::find_tree() {
+  if (!image_is_there()) return;
+  const session::OpenImage image = window_.bench().image();
+  using Found = std::shared_ptr<const session::FoundModel>;
+  window_.jobs().run(
+      "tree", tr("Finding the coronary arteries"),
+      [volume = image.volume](const core::TaskContext& task) {
+        return std::any(
+            Found(std::make_shared<const session::FoundModel>(session::found_model(*volume, {}, task))));
+      },
+      [this, reference = image.reference](const std::any& result) {
+        const Found found = std::any_cast<Found>(result);
+        opening_.start_case(reference, [&](const std::filesystem::path& path) {
+          return session::create_case(path, *found, reference);
+        });
+        window_.say(
+            tr("%n vessel(s) were found. Look at each before you trust it; a question mark in the "
+               "list says where the program is not sure.",
+               nullptr, static_cast<int>(found->model.tree.vessels.size())));
+      },
+      [this](const QString& message) {
+        window_.say(tr("The arteries were not found by themselves: %1").arg(message));
+      });
+}
+
+void VesselFinder::find_vessel(const geometry::Vec3& end) {
+  if (!image_is_there()) return;
+  const session::OpenImage image = window_.bench().image();
+  if (!window_.bench().has_case()) {
+    first_vessel(image, end);
+    return;
+  }
+  window_.jobs().run(
+      "path", tr("Way back to the tree"),
+      [volume = image.volume, model = window_.bench().session().file().model(),
+       end](const core::TaskContext& task) {
+        return std::any(segmentation::path_to_tree(*volume, end, model->tree, {}, task));
+      },
+      [this](const std::any& found) {
+        window_.guarded([&] { join_way(std::any_cast<const segmentation::MinimalPath&>(found)); }, true);
+      },
+      [this](const QString& message) { window_.complain(message, tr("No vessel found")); });
+}
+
+void VesselFinder::first_vessel(const session::OpenImage& image, const geometry::Vec3& end) {
+  window_.jobs().cancel("tree");  // a person begins the tree
+  session::Workbench& bench = window_.bench();
+  if (!bench.first_end.get()) {
+    bench.first_end.set(end);
+    window_.say(tr("Now click the distal end of this vessel."));
+    return;
+  }
+  const geometry::Vec3 from = *bench.first_end.get();
+  bench.first_end.set({});
+  window_.jobs().run(
+      "path", tr("First vessel"),
+      [volume = image.volume, from, end](const core::TaskContext& task) {
+        const segmentation::MinimalPath way =
+            segmentation::path_between(*volume, from, end, {}, task.sub(0.0, 0.5));
+        require_contrast(way);
+        return std::any(
+            session::model_of_way(way, session::unused_name(nullptr), *volume, task.sub(0.5, 1.0)));
+      },
+      [this, reference = image.reference](const std::any& result) {
+        const auto& model = std::any_cast<const lumen::LumenModel&>(result);
+        opening_.start_case(reference, [&](const std::filesystem::path& path) {
+          return session::CaseFile::create(path, model, reference);
+        });
+      },
+      [this](const QString& message) { window_.complain(message, tr("No vessel found")); });
+}
+
+void VesselFinder::join_way(const segmentation::MinimalPath& way) {
+  session::Workbench& bench = window_.bench();
+  if (const auto extension = session::extension_of(way, *bench.model())) {
+    bench.edit(*extension);
+    bench.vessel.set(extension->vessel);
+    window_.say(tr("%1 was lengthened: the way came to its end.")
+                    .arg(QString::fromStdString(bench.vessel_name(extension->vessel))));
+  } else {
+    bench.edit(session::branch_of(way, session::unused_name(bench.model())));
+    bench.vessel.set(bench.model()->tree.vessels.back().id);
+  }
+  if (!way.warnings.empty()) window_.say(QString::fromStdString(way.warnings.front()));
+}
+
+}  // namespace ostia::workstation

@@ -1,0 +1,91 @@
+#include "views/paint_queue.h"
+
+#include <QCoreApplication>
+#include <QScopedValueRollback>
+#include <algorithm>
+#include <utility>
+
+namespace ostia::workstation {
+namespace {
+
+constexpr qint64 longest_wait_ms = 60;        // of a 2D view
+constexpr qint64 longest_last_wait_ms = 110;  // of the tree, which may lag behind
+constexpr qint64 longest_serving_ms = 15;     // of overdue views, before the hand is heard again
+
+}  // namespace
+
+PaintQueue& PaintQueue::instance() {
+  static auto* queue = new PaintQueue;  // goes with the application, whose timers it needs
+  return *queue;
+}
+
+PaintQueue::PaintQueue() : QObject(QCoreApplication::instance()) {
+  timer_.setInterval(0);
+  connect(&timer_, &QTimer::timeout, this, &PaintQueue::next);
+}
+
+void PaintQueue::add(QWidget* view) {
+  if (views_.isEmpty()) views_waiting_.start();
+  if (!views_.contains(view)) views_.append(view);
+  prepared_ = false;
+  timer_.start();
+}
+
+void PaintQueue::add_last(QObject* owner, std::function<void()> work) {
+  if (last_.isEmpty() && !in_last_) last_waiting_.start();
+  const bool known =
+      std::any_of(last_.begin(), last_.end(), [&](const Last& one) { return one.owner == owner; });
+  if (!known) last_.append({owner, std::move(work)});
+  timer_.start();
+}
+
+// Not all in one event, which would block the window for as long as they take together.
+void PaintQueue::serve_overdue() {
+  const bool views = !views_.isEmpty() && views_waiting_.elapsed() > longest_wait_ms;
+  const bool last = !last_.isEmpty() && last_waiting_.elapsed() > longest_last_wait_ms;
+  const bool views_turn = views && !(last && views_were_served_);
+  QElapsedTimer served;
+  served.start();
+  if (views_turn)
+    while (served.elapsed() < longest_serving_ms && next_view()) continue;
+  else if (last)
+    next_last();
+  if (views || last) views_were_served_ = views_turn;
+}
+
+void PaintQueue::prepare_all() {
+  if (prepared_ || !prepare_) return;
+  prepared_ = true;
+  QList<QWidget*> shown;
+  for (const QPointer<QWidget>& view : views_)
+    if (view && view->isVisible()) shown.append(view);
+  if (shown.size() > 1) prepare_(shown);
+}
+
+bool PaintQueue::next_view() {
+  prepare_all();
+  while (!views_.isEmpty()) {
+    const QPointer<QWidget> view = views_.takeFirst();
+    if (!view || !view->isVisible()) continue;
+    view->repaint();
+    return true;
+  }
+  return false;
+}
+
+bool PaintQueue::next_last() {
+  while (!last_.isEmpty()) {
+    const Last work = last_.takeFirst();
+    if (!work.owner) continue;
+    const QScopedValueRollback<bool> inside(in_last_, true);
+    work.work();
+    return true;
+  }
+  return false;
+}
+
+void PaintQueue::next() {
+  if (!next_view() && !next_last()) timer_.stop();
+}
+
+}  // namespace ostia::workstation

@@ -27,6 +27,8 @@ QUARANTINE = {
     "cholmod.h": re.compile(r"libs/lumen/src/interpolation/sparse_factor\.cpp$"),
     "sqlite3.h": re.compile(r"libs/session/src/\w+\.(cpp|h)$"),
 }
+# The workstation: a folder for what a user does; the window that puts them together is known in one of them.
+WORKSTATION = {"shell", "commands", "opening", "views", "vessels", "measuring", "meshing", "flow", "trees", "phases", "qa", "help"}
 
 
 def position(room):
@@ -67,6 +69,21 @@ def check_file(root, path, breaches):
                 breaches.append(f"{relative}:{number}: {header} may not be included here")
 
 
+def check_workstation(root, breaches):
+    house = root / "apps" / "workstation"
+    for path in sorted(p for p in house.rglob("*") if p.suffix in {".h", ".cpp"}):
+        relative = path.relative_to(root).as_posix()
+        folders = path.relative_to(house).parts[:-1]
+        if folders == () and path.name == "main.cpp":
+            continue
+        if len(folders) != 1 or folders[0] not in WORKSTATION:
+            breaches.append(f"{relative}:1: the workstation's sources live in its folders: {', '.join(sorted(WORKSTATION))}")
+        elif folders[0] != "shell":
+            for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+                if re.search(r"(?<![A-Za-z])MainWindow|main_window\.h", line):
+                    breaches.append(f"{relative}:{number}: only shell knows MainWindow; take a Desk, or what is needed of it")
+
+
 def main():
     root = pathlib.Path(sys.argv[1]).resolve()
     breaches = []
@@ -78,6 +95,7 @@ def main():
     for folder in sorted((root / "libs").iterdir()):
         if folder.is_dir() and not any(folder.rglob("*.cpp")):
             breaches.append(f"libs/{folder.name}: an empty room")
+    check_workstation(root, breaches)
     print("\n".join(breaches) if breaches else f"{len(sources)} files, no breach")
     return 1 if breaches else 0
 

@@ -29,9 +29,9 @@ file(CREATE_LINK "${PROJECT_SOURCE_DIR}/docs" "${PROJECT_BINARY_DIR}/share/ostia
 
 file(GLOB_RECURSE OSTIA_WINDOW_SOURCES CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp" "${CMAKE_CURRENT_SOURCE_DIR}/*.h")
 add_custom_target(ostia_translations_update
-  COMMAND Qt5::lupdate -locations none -no-obsolete -silent ${OSTIA_WINDOW_SOURCES}
+  COMMAND Qt5::lupdate -I "${CMAKE_CURRENT_SOURCE_DIR}" -locations none -no-obsolete -silent ${OSTIA_WINDOW_SOURCES}
           -ts "${CMAKE_CURRENT_SOURCE_DIR}/translations/ostia_de.ts"
   # English texts stand in the sources, but for their plurals.
-  COMMAND Qt5::lupdate -locations none -no-obsolete -silent -pluralonly ${OSTIA_WINDOW_SOURCES}
+  COMMAND Qt5::lupdate -I "${CMAKE_CURRENT_SOURCE_DIR}" -locations none -no-obsolete -silent -pluralonly ${OSTIA_WINDOW_SOURCES}
           -ts "${CMAKE_CURRENT_SOURCE_DIR}/translations/ostia_en.ts"
   COMMENT "Translations: new and changed texts")

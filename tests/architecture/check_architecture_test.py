@@ -13,8 +13,17 @@ CASES = {
     "Qt in a library": ("libs/io/src/a.cpp", "#include <QString>\n", "Qt belongs"),
     "TetGen outside its file": ("libs/meshing/src/caps.cpp", "#include <tetgen.h>\n", "tetgen.h may not"),
     "unknown room": ("libs/utils/src/a.cpp", "\n", "no place in the picture"),
+    "workstation's source in no folder": ("apps/workstation/a.cpp", "\n", "live in its folders"),
+    "workstation's folder that is unknown": ("apps/workstation/misc/a.cpp", "\n", "live in its folders"),
+    "MainWindow outside the shell": ("apps/workstation/flow/a.h", "class MainWindow;\n", "only shell knows MainWindow"),
+    "its header outside the shell": ("apps/workstation/flow/a.cpp", '#include "shell/main_window.h"\n', "only shell knows MainWindow"),
 }
-SOUND = ("libs/meshing/src/a.cpp", '#include "ostia/centerline/a.h"\n#include "ostia/core/error.h"\n')
+SOUND = [
+    ("libs/meshing/src/a.cpp", '#include "ostia/centerline/a.h"\n#include "ostia/core/error.h"\n'),
+    ("apps/workstation/shell/a.h", "class MainWindow;\n"),
+    ("apps/workstation/flow/a.h", "class QMainWindow;\n"),
+    ("apps/workstation/main.cpp", '#include "shell/main_window.h"\n'),
+]
 
 
 def run(check, name, text):
@@ -22,7 +31,7 @@ def run(check, name, text):
         path = pathlib.Path(folder) / name
         path.parent.mkdir(parents=True)
         path.write_text(text)
-        room = pathlib.Path(*pathlib.PurePosixPath(name).parts[:2])
+        room = pathlib.Path(*pathlib.PurePosixPath(name).parts[:2]) if name.startswith("libs/") else pathlib.Path("libs/core")
         source = pathlib.Path(folder) / room / "src" / "other.cpp"
         source.parent.mkdir(parents=True, exist_ok=True)
         source.write_text("\n")
@@ -37,10 +46,11 @@ def main():
         if result.returncode != 1 or expected not in result.stdout:
             print(f"not found: {title}: {result.stdout}")
             failed += 1
-    sound = run(check, *SOUND)
-    if sound.returncode != 0:
-        print(f"a sound tree was refused: {sound.stdout}")
-        failed += 1
+    for name, text in SOUND:
+        sound = run(check, name, text)
+        if sound.returncode != 0:
+            print(f"a sound tree was refused: {name}: {sound.stdout}")
+            failed += 1
     return 1 if failed else 0
 
 

@@ -3,8 +3,10 @@
 
 #include "commands/keyboard.h"
 #include "commands/shortcuts_page.h"
+#include "commands/table.h"
 #include "help/manual_dialog.h"
 #include "help/tour.h"
+#include "shell/main_window.h"
 #include "shell/preferences_dialog.h"
 
 #include <QVTKOpenGLNativeWidget.h>
@@ -50,26 +52,6 @@ class HelpTest : public ::testing::Test {
   std::unique_ptr<MainWindow> window_;
   Help* help_ = nullptr;
 };
-
-TEST_F(HelpTest, EveryCommandOfTheTableIsThere) {
-  std::set<QString> there;
-  for (const QAction* action : help_->commands()) {
-    EXPECT_TRUE(there.insert(action->objectName()).second) << action->objectName().toStdString();
-    EXPECT_FALSE(action->text().isEmpty());
-    EXPECT_FALSE(action->toolTip().isEmpty());
-  }
-  for (const Shortcut& one : shortcuts()) EXPECT_TRUE(there.count(one.id)) << one.id.toStdString();
-}
-
-TEST_F(HelpTest, NoTwoCommandsOfTheWindowAnswerToOneKey) {
-  std::map<QString, QString> owner;
-  for (const QAction* action : help_->commands())
-    for (const QKeySequence& key : action->shortcuts()) {
-      const auto [at, fresh] = owner.emplace(key.toString(), action->objectName());
-      EXPECT_TRUE(fresh) << key.toString().toStdString() << ": " << at->second.toStdString() << ", "
-                         << action->objectName().toStdString();
-    }
-}
 
 TEST_F(HelpTest, WhatTakesTheKeyboardHasANameForScreenReaders) {
   for (const QWidget* widget : window_->findChildren<QWidget*>()) {
@@ -122,18 +104,18 @@ TEST_F(HelpTest, SpaceOnAButtonPressesIt) {
 }
 
 TEST_F(HelpTest, KeysOfTheOtherSchemeHoldAtOnceAndAreKept) {
-  help_->set_keys(ShortcutKeys(ShortcutScheme::research));
+  window_->commands().set_keys(window_->commands().keys().in_scheme(ShortcutScheme::research));
   child<QWidget>("cpr1")->setFocus();
   QTest::keyClick(window_->windowHandle(), Qt::Key_W);
   EXPECT_EQ(tool(), session::Tool::drag);
   EXPECT_TRUE(child<QAction>("tool.drag")->toolTip().contains("[W]"));
   start();
-  EXPECT_EQ(help_->keys().scheme(), ShortcutScheme::research);
+  EXPECT_EQ(window_->commands().keys().scheme(), ShortcutScheme::research);
   EXPECT_EQ(child<QAction>("tool.drag")->shortcut(), QKeySequence("W"));
 }
 
 TEST_F(HelpTest, TheDialogRefusesAKeyThatIsTaken) {
-  help_->show_preferences();
+  child<QAction>("edit.preferences")->trigger();
   auto* dialog = window_->findChild<PreferencesDialog*>();
   auto* list = dialog->findChild<QTreeWidget*>("commands");
   const auto found = list->findItems("Draw", Qt::MatchExactly | Qt::MatchRecursive);
@@ -187,7 +169,7 @@ TEST_F(HelpTest, ThePageOfKeysIsSearched) {
     return count;
   };
   const int all = shown();
-  EXPECT_GT(all, static_cast<int>(help_->commands().size()));
+  EXPECT_GT(all, static_cast<int>(window_->commands().all().size()));
   page->findChild<QLineEdit*>("search")->setText("ctrl wheel");
   EXPECT_EQ(shown(), 1);
   page->findChild<QLineEdit*>("search")->setText("no such thing");

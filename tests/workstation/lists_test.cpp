@@ -1,8 +1,8 @@
 // The lists at the window's side: what they show when the case is another, and what an edit leaves as a
 // person had it.
 
-#include "measuring/side_lists.h"
 #include "qa/panel.h"
+#include "shell/step_list.h"
 #include "tube_case.h"
 #include "vessels/list.h"
 #include "window_hand.h"

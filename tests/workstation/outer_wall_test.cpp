@@ -1,6 +1,6 @@
 // The outer wall in the window: switched on in the View menu by the mouse, drawn, found again after an edit.
 
-#include "commands/shortcuts.h"
+#include "commands/table.h"
 #include "tube_case.h"
 #include "vessels/outer_walls.h"
 #include "window_hand.h"
@@ -187,7 +187,8 @@ TEST_F(OuterWallWindow, PlaqueIsColouredOnceTheOuterWallIsKnown) {
 
   // The key switches it off and on, in both schemes the same.
   for (const ShortcutScheme scheme : {ShortcutScheme::pacs, ShortcutScheme::research})
-    EXPECT_EQ(keys_of("view.plaque", scheme), QList<QKeySequence>{QKeySequence("Shift+P")});
+    EXPECT_EQ(test->window().commands().keys().in_scheme(scheme).keys("view.plaque"),
+              QList<QKeySequence>{QKeySequence("Shift+P")});
   test->window().activateWindow();
   ASSERT_TRUE(QTest::qWaitForWindowActive(&test->window()));
   section.setFocus();

@@ -1,4 +1,4 @@
-#include "measuring/side_lists.h"
+#include "measuring/list.h"
 #include "shell/main_window.h"
 #include "tube_case.h"
 #include "window_hand.h"

@@ -1,6 +1,6 @@
 // Vessels split and joined from the window's menu and list.
 
-#include "measuring/side_lists.h"
+#include "shell/step_list.h"
 #include "tube_case.h"
 #include "vessels/list.h"
 #include "window_hand.h"

@@ -1,8 +1,8 @@
 #include "window_states.h"
 
 #include "help/tour.h"
+#include "measuring/list.h"
 #include "measuring/reporting.h"
-#include "measuring/side_lists.h"
 #include "qa/panel.h"
 #include "shell/panel.h"
 #include "tube_case.h"

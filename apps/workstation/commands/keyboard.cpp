@@ -13,7 +13,6 @@
 #include <QDateTime>
 #include <QKeyEvent>
 #include <QLineEdit>
-#include <QMainWindow>
 #include <QTabWidget>
 #include <QTextEdit>
 #include <QWindow>
@@ -38,7 +37,7 @@ bool is_navigation(int key) {
 
 }  // namespace
 
-Keyboard::Keyboard(QMainWindow* window) : QObject(window), window_(window) {
+Keyboard::Keyboard(QWidget* window) : QObject(window), window_(window) {
   qApp->installEventFilter(this);
 }
 

@@ -4,7 +4,7 @@
 #include <QObject>
 #include <QStringList>
 
-class QMainWindow;
+class QWidget;
 class QPoint;
 
 namespace ostia::workstation {
@@ -18,7 +18,7 @@ class Keyboard final : public QObject {
   Q_OBJECT
  public:
   /// Watches all events of the application; a child of the window.
-  explicit Keyboard(QMainWindow* window);
+  explicit Keyboard(QWidget* window);
   /// The names of the widgets that take the focus, in the order of the panels.
   static const QStringList& stations();
   void go_to(const QString& station);  ///< nothing happens where it is hidden
@@ -37,7 +37,7 @@ class Keyboard final : public QObject {
   bool key_for_tree(int key);
   bool key_for_profile(int key);
   bool send_mouse(int type, const QPoint& at);
-  QMainWindow* window_;
+  QWidget* window_;
   qint64 last_move_ms_ = 0;
   int speed_ = 1;
   bool held_ = false;

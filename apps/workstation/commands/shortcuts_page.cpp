@@ -1,10 +1,9 @@
 #include "commands/shortcuts_page.h"
 
+#include "commands/table.h"
 #include "commands/texts.h"
-#include "help/help.h"
 #include "shell/hanging.h"
 
-#include <QAction>
 #include <QDialogButtonBox>
 #include <QHeaderView>
 #include <QLabel>
@@ -20,7 +19,7 @@ constexpr int keys_width = 230;
 
 }  // namespace
 
-ShortcutsPage::ShortcutsPage(const Help& help, QWidget* parent)
+ShortcutsPage::ShortcutsPage(const CommandTable& commands, QWidget* parent)
     : QDialog(parent), search_(new QLineEdit(this)), list_(new QTreeWidget(this)) {
   setObjectName("shortcuts_page");
   setWindowTitle(tr("Keys and mouse"));
@@ -36,7 +35,7 @@ ShortcutsPage::ShortcutsPage(const Help& help, QWidget* parent)
   list_->setRootIsDecorated(false);
   list_->setSelectionMode(QAbstractItemView::SingleSelection);
   list_->setWordWrap(true);
-  fill(help);
+  fill(commands);
   list_->header()->setSectionResizeMode(0, QHeaderView::ResizeToContents);
   list_->header()->resizeSection(1, keys_width);
   list_->header()->setStretchLastSection(true);
@@ -50,7 +49,7 @@ ShortcutsPage::ShortcutsPage(const Help& help, QWidget* parent)
   search_->setFocus();
 }
 
-void ShortcutsPage::fill(const Help& help) {
+void ShortcutsPage::fill(const CommandTable& commands) {
   QTreeWidgetItem* group = nullptr;
   const auto head = [&](const QString& title) {
     if (group && group->text(0) == title) return;
@@ -65,13 +64,13 @@ void ShortcutsPage::fill(const Help& help) {
     group->setFlags(Qt::ItemIsEnabled);
     group->setExpanded(true);
   };
-  for (const QAction* action : help.commands()) {
-    head(command_group(action->objectName()));
+  for (const Command& command : commands.all()) {
+    head(command_group(command.id));
     QStringList keys;
-    for (const QKeySequence& one : action->shortcuts()) keys << one.toString(QKeySequence::NativeText);
-    const QString tip = action->property("tip").toString();
-    auto* line = new QTreeWidgetItem(group, {plain_text(action->text()), keys.join(", "), tip});
-    line->setToolTip(2, tip);
+    for (const QKeySequence& one : command.action->shortcuts())
+      keys << one.toString(QKeySequence::NativeText);
+    auto* line = new QTreeWidgetItem(group, {plain_text(command.text), keys.join(", "), command.tip});
+    line->setToolTip(2, command.tip);
   }
   for (const MouseGesture& one : mouse_gestures()) {
     head(tr("Mouse and keys in the views"));

@@ -8,15 +8,15 @@ class QTreeWidget;
 
 namespace ostia::workstation {
 
-class Help;
+class CommandTable;
 
 class ShortcutsPage final : public QDialog {
   Q_OBJECT
  public:
-  ShortcutsPage(const Help& help, QWidget* parent);
+  ShortcutsPage(const CommandTable& commands, QWidget* parent);
 
  private:
-  void fill(const Help& help);
+  void fill(const CommandTable& commands);
   void search(const QString& text);
   QLineEdit* search_;
   QTreeWidget* list_;

@@ -1,13 +1,11 @@
 #pragma once
-/// \file What commands and gestures do, in words.
+/// \file Groups of commands, and what gestures do, in words.
 
 #include <QString>
 #include <vector>
 
 namespace ostia::workstation {
 
-/// One sentence on a command; empty for one that needs none.
-QString command_tip(const QString& id);
 /// The part of the interface that a command belongs to ("Tools"), for lists.
 QString command_group(const QString& id);
 /// A menu's text without mnemonic and dots.

@@ -1,7 +1,7 @@
 #include "flow/cases.h"
 
 #include "flow/results.h"
-#include "shell/main_window.h"
+#include "shell/desk.h"
 
 #include "ostia/core/child_process.h"
 #include "ostia/core/error.h"
@@ -105,13 +105,14 @@ QString as_text(const fs::path& path) {
 
 }  // namespace
 
-FlowCases::FlowCases(MainWindow& window) : QObject(&window), window_(window) {
+FlowCases::FlowCases(Desk& desk, FlowResults& results)
+    : QObject(&desk.window), desk_(desk), results_(results) {
   // A run that was cancelled or failed can be begun again.
-  connect(&window.jobs(), &Jobs::changed, this, [this] {
-    if (being_run_.empty() || window_.jobs().running("flow_run")) return;
+  connect(&desk.jobs, &Jobs::changed, this, [this] {
+    if (being_run_.empty() || desk_.jobs.running("flow_run")) return;
     leave_case(std::exchange(being_run_, {}), {}, being_run_of_);
   });
-  other_case_ = window.bench().case_changed.observe([this] {
+  other_case_ = desk.bench.case_changed.observe([this] {
     if (dialog_) dialog_->reject();
     made_mesh_.clear();
     last_.mesh.clear();
@@ -128,21 +129,21 @@ void FlowCases::ask(const fs::path& case_file) {
   const fs::path newest = case_file.empty() ? fs::path() : newest_mesh(case_file);
   if (!newest.empty()) proposed.mesh = newest;
   if (std::error_code ignored; fs::exists(made_mesh_, ignored)) proposed.mesh = made_mesh_;
-  auto* dialog = new FlowDialog(proposed, &window_);
+  auto* dialog = new FlowDialog(proposed, &desk_.window);
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   connect(dialog, &FlowDialog::mesh_wanted, this,
           [this, dialog](const QString& file) { read_mesh(*dialog, file); });
   connect(dialog, &QDialog::accepted, this, [this, dialog] { write(*dialog); });
-  connect(dialog, &QDialog::finished, this, [this] { window_.jobs().cancel("flow_mesh"); });
+  connect(dialog, &QDialog::finished, this, [this] { desk_.jobs.cancel("flow_mesh"); });
   dialog_ = dialog;
   dialog->open();
 }
 
 void FlowCases::read_mesh(FlowDialog& dialog, const QString& file) {
-  window_.jobs().cancel("flow_mesh");
+  desk_.jobs.cancel("flow_mesh");
   if (!QFileInfo(file).isFile()) return;
   const fs::path path = file.toStdString();
-  window_.jobs().run(
+  desk_.jobs.run(
       "flow_mesh", tr("Mesh"), [path](const core::TaskContext&) { return std::any(read_flow_mesh(path)); },
       [asked = QPointer(&dialog), path](const std::any& mesh) {
         if (asked) asked->set_mesh(path, std::any_cast<const FlowMesh&>(mesh));
@@ -154,7 +155,7 @@ void FlowCases::read_mesh(FlowDialog& dialog, const QString& file) {
 
 void FlowCases::write(const FlowDialog& dialog) {
   last_ = dialog.choice();
-  window_.jobs().run(
+  desk_.jobs.run(
       "flow_case", tr("Flow case"),
       [choice = last_, flow = dialog.flow_options(), mesh = dialog.mesh()](const core::TaskContext& task) {
         try {
@@ -165,47 +166,46 @@ void FlowCases::write(const FlowDialog& dialog) {
                                   .toStdString());
         }
       },
-      [this, choice = last_, of = window_.case_path()](const std::any& warnings) {
+      [this, choice = last_, of = desk_.case_path](const std::any& warnings) {
         tell_written(choice, std::any_cast<const Warnings&>(warnings), of);
       },
       [this](const QString& message) {
-        window_.complain(message, tr("The flow case could not be written"));
+        desk_.messages.complain(message, tr("The flow case could not be written"));
       });
 }
 
 void FlowCases::tell_written(const FlowChoice& made, const Warnings& warnings, const fs::path& of) {
   QStringList notes{as_text(made.folder)};
   for (const std::string& warning : warnings) notes << QString::fromStdString(warning);
-  if (!warnings.empty()) window_.say(QString::fromStdString(warnings.front()));
+  if (!warnings.empty()) desk_.messages.say(QString::fromStdString(warnings.front()));
   const std::string program = made.waveform.empty() ? "simpleFoam" : "pisoFoam";
   const bool here = made.solver == FlowSolver::openfoam && core::program_on_path(program);
-  if (here && made.run && !window_.jobs().running("flow_run"))
+  if (here && made.run && !desk_.jobs.running("flow_run"))
     run(made.folder, of);
   else if (here)
     leave_case(made.folder, notes, of);
   else
-    window_.jobs().leave("flow_case", tr("%1: flow case written").arg(as_text(made.folder.filename())),
-                         notes.join('\n'), tr("Open folder"),
-                         [folder = made.folder] { open_folder(folder); });
+    desk_.jobs.leave("flow_case", tr("%1: flow case written").arg(as_text(made.folder.filename())),
+                     notes.join('\n'), tr("Open folder"), [folder = made.folder] { open_folder(folder); });
 }
 
 void FlowCases::leave_case(const fs::path& folder, const QStringList& notes, const fs::path& of) {
   // Where nothing is being run the line is the run's, which then takes its place.
-  window_.jobs().leave(window_.jobs().running("flow_run") ? "flow_case" : "flow_run",
-                       tr("%1: flow case written").arg(as_text(folder.filename())),
-                       notes.isEmpty() ? as_text(folder) : notes.join('\n'), tr("Run the solver"),
-                       [this, folder, of] { run(folder, of); });
+  desk_.jobs.leave(desk_.jobs.running("flow_run") ? "flow_case" : "flow_run",
+                   tr("%1: flow case written").arg(as_text(folder.filename())),
+                   notes.isEmpty() ? as_text(folder) : notes.join('\n'), tr("Run the solver"),
+                   [this, folder, of] { run(folder, of); });
 }
 
 void FlowCases::run(const fs::path& case_folder, const fs::path& of) {
-  if (window_.jobs().running("flow_run")) {  // a second one would begin before the first has ended
-    window_.say(tr("The solver is running already: cancel it first."));
+  if (desk_.jobs.running("flow_run")) {  // a second one would begin before the first has ended
+    desk_.messages.say(tr("The solver is running already: cancel it first."));
     return;
   }
   const QString name = as_text(case_folder.filename());
   being_run_ = case_folder;
   being_run_of_ = of;
-  window_.jobs().run(
+  desk_.jobs.run(
       "flow_run", tr("Solver"),
       [case_folder](const core::TaskContext& task) { return std::any(run_case(case_folder, task)); },
       [this, case_folder, name, of](const std::any& result) {
@@ -218,36 +218,36 @@ void FlowCases::run(const fs::path& case_folder, const fs::path& of) {
                     (made.converged ? tr("%1: converged, %2") : tr("%1: not converged, %2")).arg(name, end),
                     reasons.join('\n'), of);
       },
-      [this](const QString& message) { window_.complain(message, tr("The solver's run failed")); });
+      [this](const QString& message) { desk_.messages.complain(message, tr("The solver's run failed")); });
 }
 
 void FlowCases::show_result(const fs::path& folder, const fs::path& wall, const QString& outcome,
                             const QString& trouble, const fs::path& of) {
   const auto show = [this, wall, trouble] {
     if (!trouble.isEmpty())
-      window_.complain(tr("The result is shown, but look at it before you use it: %1").arg(trouble),
-                       tr("A result to look at"));
-    window_.flow_results().open(wall);
+      desk_.messages.complain(tr("The result is shown, but look at it before you use it: %1").arg(trouble),
+                              tr("A result to look at"));
+    results_.open(wall);
   };
-  window_.jobs().leave("flow_run", outcome, as_text(folder), tr("Show the result"), [this, show, folder, of] {
-    if (of == window_.case_path())
+  desk_.jobs.leave("flow_run", outcome, as_text(folder), tr("Show the result"), [this, show, folder, of] {
+    if (of == desk_.case_path)
       show();
     else
       refuse_result(folder, of);
   });
-  if (of == window_.case_path()) show();
+  if (of == desk_.case_path) show();
 }
 
 void FlowCases::refuse_result(const fs::path& folder, const fs::path& of) {
   const QString name = as_text(folder.filename());
-  window_.complain(of.empty()
-                       ? tr("The result of %1 was computed while no case was open. Close the case that "
-                            "is open to see it.")
-                             .arg(name)
-                       : tr("The result of %1 belongs to the case %2, which is not open. Open that "
-                            "case, then show the result.")
-                             .arg(name, as_text(of.filename())),
-                   tr("A result of another case"));
+  desk_.messages.complain(
+      of.empty() ? tr("The result of %1 was computed while no case was open. Close the case that "
+                      "is open to see it.")
+                       .arg(name)
+                 : tr("The result of %1 belongs to the case %2, which is not open. Open that "
+                      "case, then show the result.")
+                       .arg(name, as_text(of.filename())),
+      tr("A result of another case"));
 }
 
 }  // namespace ostia::workstation

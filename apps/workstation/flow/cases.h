@@ -12,7 +12,8 @@
 
 namespace ostia::workstation {
 
-class MainWindow;
+struct Desk;
+class FlowResults;
 
 /// Asks by a FlowDialog, writes the case in the background and, where OpenFOAM is there, runs it and shows
 /// the wall's shear stress. What is cancelled leaves no process; the case that was being run stays. Of a case
@@ -21,7 +22,7 @@ class MainWindow;
 class FlowCases final : public QObject {
   Q_OBJECT
  public:
-  explicit FlowCases(MainWindow& window);
+  FlowCases(Desk& desk, FlowResults& results);
   /// Proposed is the mesh that was made last; where none was, the newest that was exported beside
   /// `case_file`.
   void ask(const std::filesystem::path& case_file);
@@ -39,7 +40,8 @@ class FlowCases final : public QObject {
   void show_result(const std::filesystem::path& folder, const std::filesystem::path& wall,
                    const QString& outcome, const QString& trouble, const std::filesystem::path& of);
   void refuse_result(const std::filesystem::path& folder, const std::filesystem::path& of);
-  MainWindow& window_;
+  Desk& desk_;
+  FlowResults& results_;
   QPointer<FlowDialog> dialog_;  // that is open
   FlowChoice last_;
   std::filesystem::path made_mesh_;

@@ -1,9 +1,10 @@
 #include "flow/results.h"
 
 #include "flow/bar.h"
-#include "meshing/forecast.h"
+#include "shell/desk.h"
 #include "shell/file_dialogs.h"
-#include "shell/main_window.h"
+#include "shell/panel.h"
+#include "views/scene_widget.h"
 
 namespace ostia::workstation {
 namespace {
@@ -12,42 +13,44 @@ constexpr int picture_scale = 2;  // pixels of a saved picture over those of the
 
 }  // namespace
 
-FlowResults::FlowResults(MainWindow& window) : QObject(&window), window_(window), bar_(new FlowBar) {
-  SceneWidget& scene = window.scene();
+FlowResults::FlowResults(Desk& desk, SceneWidget& view)
+    : QObject(&desk.window), desk_(desk), view_(view), bar_(new FlowBar) {
   bar_->hide();
-  scene.add_below(bar_);
+  view.add_below(bar_);
   connect(bar_, &FlowBar::array_changed, this, &FlowResults::show_array);
   connect(bar_, &FlowBar::range_changed, this, &FlowResults::color);
   connect(bar_, &FlowBar::hide_wanted, this, &FlowResults::hide);
   connect(bar_, &FlowBar::save_wanted, this, &FlowResults::save_picture);
-  connect(&scene, &SceneWidget::pointed, this, &FlowResults::tell);
-  connect(&scene, &SceneWidget::left, this, [this] {
+  connect(&view, &SceneWidget::pointed, this, &FlowResults::tell);
+  connect(&view, &SceneWidget::left, this, [this] {
     if (scene_) emit pointed({});
   });
-  connect(&scene, &SceneWidget::guest_changed, this, [this](const view::SceneGuest* guest) {
+  connect(&view, &SceneWidget::guest_changed, this, [this](const view::SceneGuest* guest) {
     if (guest == scene_.get()) return;
     scene_.reset();
     result_ = {};
     bar_->hide();
   });
-  own_.push_back(window.bench().case_changed.observe([this] {
-    window_.jobs().cancel("flow_results");  // what is still being read is of the former case
+  own_.push_back(desk.bench.case_changed.observe([this] {
+    desk_.jobs.cancel("flow_results");  // what is still being read is of the former case
     hide();
   }));
 }
 
 void FlowResults::ask() {
-  const QString chosen = ask_open_file(&window_, tr("Open flow results"),
+  const QString chosen = ask_open_file(&desk_.window, tr("Open flow results"),
                                        tr("Surfaces with values (*.vtp *.vtk);;All files (*)"));
   if (!chosen.isEmpty()) open(chosen.toStdString());
 }
 
 void FlowResults::open(const std::filesystem::path& file) {
-  window_.jobs().run(
+  desk_.jobs.run(
       "flow_results", tr("Flow results"),
       [file](const core::TaskContext&) { return std::any(read_flow_surface(file)); },
       [this](const std::any& read) { show(std::any_cast<const FlowSurface&>(read)); },
-      [this](const QString& message) { window_.complain(message, tr("The results could not be opened")); });
+      [this](const QString& message) {
+        desk_.messages.complain(message, tr("The results could not be opened"));
+      });
 }
 
 void FlowResults::show(FlowSurface result) {
@@ -57,12 +60,12 @@ void FlowResults::show(FlowSurface result) {
   bar_->set_arrays(result_.arrays, first_shown(result_.arrays));
   show_array();
   bar_->show();
-  reveal(window_.scene());
-  window_.scene().show_guest(scene);
+  reveal(view_);
+  view_.show_guest(scene);
 }
 
 void FlowResults::hide() {
-  if (scene_) window_.scene().show_guest(nullptr);
+  if (scene_) view_.show_guest(nullptr);
 }
 
 void FlowResults::show_array() {
@@ -83,23 +86,23 @@ void FlowResults::color() {
   scene_->set_values(
       array.values, array.at,
       {title_with_unit(array).toStdString(), range->first, range->second, view::ColorScale::sequential});
-  window_.scene().request_render();
+  view_.request_render();
 }
 
 void FlowResults::tell(const geometry::Vec2& display) {
   if (!scene_) return;
-  const auto value = scene_->value_at(window_.scene().scene().ray(display));
+  const auto value = scene_->value_at(view_.scene().ray(display));
   const FlowArray& array = result_.arrays[bar_->array()];
   emit pointed(value ? title_of_array(array) + " " + value_text(*value, array) : QString());
 }
 
 void FlowResults::save_picture() {
-  const QString chosen = ask_save_file(&window_, tr("Save the picture"), tr("Pictures (*.png)"));
+  const QString chosen = ask_save_file(&desk_.window, tr("Save the picture"), tr("Pictures (*.png)"));
   if (chosen.isEmpty() || !scene_) return;
-  window_.guarded(
+  desk_.messages.guarded(
       [&] {
-        window_.scene().save_picture(chosen.toStdString(), picture_scale);
-        window_.say(tr("The picture is in %1.").arg(chosen));
+        view_.save_picture(chosen.toStdString(), picture_scale);
+        desk_.messages.say(tr("The picture is in %1.").arg(chosen));
       },
       true);
 }

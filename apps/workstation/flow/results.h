@@ -13,7 +13,8 @@
 namespace ostia::workstation {
 
 class FlowBar;
-class MainWindow;
+struct Desk;
+class SceneWidget;
 
 /// Reads a surface with values in the background and shows it in the wall's place, coloured by one of its
 /// arrays, with a bar of controls below the picture. It goes with the case, and when something else is shown
@@ -21,7 +22,7 @@ class MainWindow;
 class FlowResults final : public QObject {
   Q_OBJECT
  public:
-  explicit FlowResults(MainWindow& window);
+  FlowResults(Desk& desk, SceneWidget& view);
   void ask();  ///< for the file
   void open(const std::filesystem::path& file);
   void show(FlowSurface result);
@@ -36,7 +37,8 @@ class FlowResults final : public QObject {
   void color();
   void tell(const geometry::Vec2& display);
   void save_picture();
-  MainWindow& window_;
+  Desk& desk_;
+  SceneWidget& view_;
   FlowBar* bar_;
   FlowSurface result_;
   std::shared_ptr<view::SurfaceFieldScene> scene_;

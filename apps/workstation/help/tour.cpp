@@ -5,7 +5,6 @@
 #include <QHBoxLayout>
 #include <QKeyEvent>
 #include <QLabel>
-#include <QMainWindow>
 #include <QPainter>
 #include <QPushButton>
 #include <QToolButton>
@@ -105,7 +104,7 @@ void TourRing::paintEvent(QPaintEvent*) {
   QPainter(this).fillRect(rect(), QColor(255, 176, 46));
 }
 
-Tour::Tour(QMainWindow& window, const ShortcutKeys& keys)
+Tour::Tour(QWidget& window, const ShortcutKeys& keys)
     : QFrame(&window), window_(window), steps_(tour_steps(keys)), ring_(new TourRing(&window)) {
   setObjectName("tour");
   setAccessibleName(tr("Tour"));

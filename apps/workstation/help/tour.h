@@ -9,7 +9,7 @@
 
 class QCheckBox;
 class QLabel;
-class QMainWindow;
+class QWidget;
 class QPushButton;
 
 namespace ostia::workstation {
@@ -36,7 +36,7 @@ class TourRing final : public QWidget {
 class Tour final : public QFrame {
   Q_OBJECT
  public:
-  Tour(QMainWindow& window, const ShortcutKeys& keys);
+  Tour(QWidget& window, const ShortcutKeys& keys);
   void begin();
   void go(int step);
   int step() const { return step_; }
@@ -56,7 +56,7 @@ class Tour final : public QFrame {
   void place();
   bool take_key(int key);
   QRect target() const;
-  QMainWindow& window_;
+  QWidget& window_;
   std::vector<TourStep> steps_;
   int step_ = 0;
   TourRing* ring_;

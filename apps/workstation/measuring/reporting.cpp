@@ -1,8 +1,9 @@
 #include "measuring/reporting.h"
 
+#include "shell/desk.h"
 #include "shell/file_dialogs.h"
-#include "shell/main_window.h"
 #include "shell/new_folder.h"
+#include "views/picture_widget.h"
 #include "views/raster_image.h"
 
 #include "ostia/io/centerline_file.h"
@@ -46,8 +47,8 @@ void write(const Snapshot& from, const fs::path& folder, const core::TaskContext
 
 }  // namespace
 
-Reporting::Reporting(MainWindow& window) : QObject(&window), window_(window) {
-  other_case_ = window.bench().case_changed.observe([this] {
+Reporting::Reporting(Desk& desk) : QObject(&desk.window), desk_(desk) {
+  other_case_ = desk.bench.case_changed.observe([this] {
     ++cases_;
     pinned_.clear();
   });
@@ -58,7 +59,7 @@ void Reporting::make_report(const fs::path& case_file) {
 }
 
 void Reporting::make_report_in(const fs::path& folder) {
-  session::Workbench& bench = window_.bench();
+  session::Workbench& bench = desk_.bench;
   const session::CaseFile& file = bench.session().file();
   Snapshot from;
   from.model = file.model();
@@ -74,7 +75,7 @@ void Reporting::make_report_in(const fs::path& folder) {
   for (std::size_t i = 0; i < from.pinned.size(); ++i)
     from.pinned[i].name = "pinned-" + std::to_string(i + 1);
   from.job = session::report_job(file, from.image != nullptr, from.options, from.pinned);
-  window_.jobs().run(
+  desk_.jobs.run(
       "report", tr("Report"),
       [from, folder](const core::TaskContext& task) {
         write(from, folder, task);
@@ -87,13 +88,15 @@ void Reporting::make_report_in(const fs::path& folder) {
         show_made(folder);
         emit report_made(QString::fromStdString(folder.string()));
       },
-      [this](const QString& message) { window_.complain(message, tr("The report could not be made")); });
+      [this](const QString& message) {
+        desk_.messages.complain(message, tr("The report could not be made"));
+      });
 }
 
 void Reporting::show_made(const fs::path& folder) {
   const QString path = QString::fromStdString(folder.string());
   auto* box = new QMessageBox(QMessageBox::Information, tr("Report"), tr("The report is in %1.").arg(path),
-                              QMessageBox::Close, &window_);
+                              QMessageBox::Close, &desk_.window);
   box->setObjectName("report_made");
   box->setAttribute(Qt::WA_DeleteOnClose);
   box->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
@@ -114,16 +117,17 @@ void Reporting::pin(PictureWidget& view) {
                          .arg(view.toolTip().isEmpty() ? view.accessibleName() : view.toolTip())
                          .toStdString(),
                      figure::picture_of(raster_of(shown), shown.width() / view.devicePixelRatioF())});
-  window_.say(tr("This view will be key image %1 of the next report.").arg(pinned_.size()));
+  desk_.messages.say(tr("This view will be key image %1 of the next report.").arg(pinned_.size()));
 }
 
 void Reporting::export_centerlines() {
-  const QString chosen = ask_save_file(&window_, tr("Export the centerlines"), tr("Centerlines (*.vtp)"));
+  const QString chosen =
+      ask_save_file(&desk_.window, tr("Export the centerlines"), tr("Centerlines (*.vtp)"));
   if (chosen.isEmpty()) return;
-  window_.guarded(
+  desk_.messages.guarded(
       [&] {
-        io::write_centerlines(chosen.toStdString(), window_.bench().session().file().model()->tree);
-        window_.say(tr("The centerlines are in %1.").arg(chosen));
+        io::write_centerlines(chosen.toStdString(), desk_.bench.session().file().model()->tree);
+        desk_.messages.say(tr("The centerlines are in %1.").arg(chosen));
       },
       true);
 }

@@ -10,14 +10,14 @@
 
 namespace ostia::workstation {
 
-class MainWindow;
+struct Desk;
 class PictureWidget;
 
 /// Made in the background from a snapshot of the case; editing goes on meanwhile.
 class Reporting final : public QObject {
   Q_OBJECT
  public:
-  explicit Reporting(MainWindow& window);
+  explicit Reporting(Desk& desk);
   /// The report of the case as it is now, in a folder beside the case file (CASE-report, then CASE-report-2,
   /// ...). Tells when it is there, and opens it on demand.
   void make_report(const std::filesystem::path& case_file);
@@ -33,7 +33,7 @@ class Reporting final : public QObject {
 
  private:
   void show_made(const std::filesystem::path& folder);
-  MainWindow& window_;
+  Desk& desk_;
   std::vector<session::KeyImage> pinned_;  // of this case alone
   int cases_ = 0;                          // that were on the table so far
   session::Subscription other_case_;

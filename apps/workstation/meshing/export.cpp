@@ -1,15 +1,15 @@
 #include "meshing/export.h"
 
-#include "flow/cases.h"
 #include "meshing/forecast.h"
 #include "meshing/panel.h"
+#include "shell/desk.h"
 #include "shell/file_dialogs.h"
-#include "shell/main_window.h"
 #include "shell/new_folder.h"
+#include "shell/panel.h"
+#include "views/scene_widget.h"
 
 #include "ostia/core/error.h"
 
-#include <QAction>
 #include <QDesktopServices>
 #include <QUrl>
 #include <cmath>
@@ -52,29 +52,24 @@ std::vector<std::int32_t> shown_in_3d(const session::Session& session) {
 
 }  // namespace
 
-MeshingExport::MeshingExport(MainWindow& window) : QObject(&window), window_(window) {
+MeshingExport::MeshingExport(Desk& desk, SceneWidget& scene)
+    : QObject(&desk.window),
+      desk_(desk),
+      scene_(scene),
+      panel_(new MeshPanel(desk.bench, scene, &desk.window)) {
+  panel_->hide();
   last_[ExportKind::surface].size.size = SizeChoice::Size::as_modelled;
-  session::Workbench& bench = window.bench();
+  session::Workbench& bench = desk.bench;
   own_.push_back(bench.case_changed.observe([this] {
     ++case_;
-    window_.jobs().cancel("mesh_preview");
+    desk_.jobs.cancel("mesh_preview");
     if (dialog_) dialog_->reject();
   }));
   own_.push_back(bench.model_changed.observe([this](const session::ModelEvent&) {
-    const session::Workbench& now = window_.bench();
+    const session::Workbench& now = desk_.bench;
     if (dialog_)
       dialog_->set_model(now.session().file().model(), shown_in_3d(now.session()), now.vessel.get());
   }));
-}
-
-QAction* MeshingExport::panel_action() {
-  panel_ = new MeshPanel(window_.bench(), window_.scene(), &window_);
-  window_.addDockWidget(Qt::RightDockWidgetArea, panel_);
-  panel_->hide();
-  QAction* made = panel_->toggleViewAction();
-  made->setText(tr("The &mesh"));
-  made->setObjectName("view.mesh");
-  return made;
 }
 
 void MeshingExport::ask(ExportKind kind, const fs::path& case_file) {
@@ -84,19 +79,19 @@ void MeshingExport::ask(ExportKind kind, const fs::path& case_file) {
     return;
   }
   if (dialog_ && dialog_->isVisible()) dialog_->reject();
-  session::Workbench& bench = window_.bench();
+  session::Workbench& bench = desk_.bench;
   ExportSubject subject;
   subject.kind = kind;
   subject.model = bench.session().file().model();
   subject.visible = shown_in_3d(bench.session());
   subject.selected = bench.vessel.get();
   subject.folder = free_folder_beside(case_file, job_name(kind).toStdString());
-  subject.one_is_running = window_.jobs().running(job_name(kind));
-  auto* dialog = new MeshingDialog(std::move(subject), last_[kind], &window_);
+  subject.one_is_running = desk_.jobs.running(job_name(kind));
+  auto* dialog = new MeshingDialog(std::move(subject), last_[kind], &desk_.window);
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   connect(dialog, &QDialog::accepted, this,
           [this, kind, dialog] { start(kind, *dialog, dialog->subject().model); });
-  if (kind == ExportKind::mesh) new MeshingForecast(window_, *dialog);
+  if (kind == ExportKind::mesh) new MeshingForecast(desk_, scene_, *dialog);
   dialog_ = dialog;
   dialog->show();
 }
@@ -115,20 +110,20 @@ void MeshingExport::start(ExportKind kind, const MeshingDialog& dialog,
       throw ResourceError(too_little_memory());
     }
   };
-  window_.jobs().run(
+  desk_.jobs.run(
       job_name(kind), kind == ExportKind::mesh ? tr("Mesh") : tr("Surface"), made,
       [this, kind, folder, asked = case_](const std::any& result) {
         tell(kind, folder, std::any_cast<const pipeline::ExportSummary&>(result), asked == case_);
       },
       [this, kind](const QString& message) {
-        window_.complain(message, kind == ExportKind::mesh ? tr("The mesh could not be made")
-                                                           : tr("The surface could not be exported"));
+        desk_.messages.complain(message, kind == ExportKind::mesh ? tr("The mesh could not be made")
+                                                                  : tr("The surface could not be exported"));
       });
 }
 
 void MeshingExport::show_mesh(const QString& title, const MeshWork& work,
                               const std::function<void(const QString&)>& failed) {
-  window_.jobs().run(
+  desk_.jobs.run(
       "mesh_preview", title,
       [work](const core::TaskContext& task) {
         try {
@@ -139,14 +134,14 @@ void MeshingExport::show_mesh(const QString& title, const MeshWork& work,
       },
       [this](const std::any& made) {
         panel_->show_mesh(std::any_cast<const std::shared_ptr<const MeshPreview>&>(made));
-        reveal(window_.scene());
+        reveal(scene_);
       },
       failed);
 }
 
 void MeshingExport::ask_for_mesh() {
   const QString chosen = ask_open_file(
-      &window_, tr("Open a mesh"),
+      &desk_.window, tr("Open a mesh"),
       tr("Volume meshes (*.vtu *.msh *.exo *.e *.ex2 *.inp *.cgns *.xdmf points);;All files (*)"));
   if (!chosen.isEmpty()) open_mesh(chosen.toStdString());
 }
@@ -154,7 +149,9 @@ void MeshingExport::ask_for_mesh() {
 void MeshingExport::open_mesh(const fs::path& file) {
   show_mesh(
       tr("Opening the mesh"), [file](const core::TaskContext& task) { return opened_mesh(file, task); },
-      [this](const QString& message) { window_.complain(message, tr("The mesh could not be opened")); });
+      [this](const QString& message) {
+        desk_.messages.complain(message, tr("The mesh could not be opened"));
+      });
 }
 
 QString MeshingExport::mesh_line(const QString& name, const pipeline::ExportSummary& summary) {
@@ -177,22 +174,23 @@ void MeshingExport::tell(ExportKind kind, const fs::path& folder, const pipeline
                                                 : tr("%1: %2 triangles").arg(name).arg(summary.triangles);
   QStringList notes{path};
   for (const std::string& warning : summary.warnings) notes << QString::fromStdString(warning);
-  window_.jobs().leave(job_name(kind), text, notes.join('\n'), tr("Open folder"),
-                       [path] { QDesktopServices::openUrl(QUrl::fromLocalFile(path)); });
+  desk_.jobs.leave(job_name(kind), text, notes.join('\n'), tr("Open folder"),
+                   [path] { QDesktopServices::openUrl(QUrl::fromLocalFile(path)); });
   if (kind == ExportKind::mesh && shown) {
     show_mesh(
         tr("Preparing the mesh's picture"),
         [folder, verdict = summary.verdict](const core::TaskContext& task) {
           return preview_of(folder, verdict, task);
         },
-        [this](const QString& message) { window_.say(message); });
-    window_.flow_cases().mesh_made(folder / "mesh.vtu");
+        [this](const QString& message) { desk_.messages.say(message); });
+    emit mesh_made(QString::fromStdString((folder / "mesh.vtu").string()));
   }
   if (!summary.verdict.ok())
-    window_.complain(tr("The mesh is in %1, but it does not pass the quality control: %2. Look at it before "
-                        "you compute with it, or mesh again with shorter edges.")
-                         .arg(path, QString::fromStdString(summary.verdict.summary())),
-                     tr("A mesh to look at"));
+    desk_.messages.complain(
+        tr("The mesh is in %1, but it does not pass the quality control: %2. Look at it before "
+           "you compute with it, or mesh again with shorter edges.")
+            .arg(path, QString::fromStdString(summary.verdict.summary())),
+        tr("A mesh to look at"));
 }
 
 }  // namespace ostia::workstation

@@ -11,13 +11,12 @@
 #include <map>
 #include <vector>
 
-class QAction;
-
 namespace ostia::workstation {
 
-class MainWindow;
+struct Desk;
 class MeshPanel;
 struct MeshPreview;
+class SceneWidget;
 
 /// Asks by a MeshingDialog, makes it from a snapshot in the background, and leaves a line that says what was
 /// made and where. A folder appears whole or not at all. Of a case that is no longer open there is that line
@@ -25,14 +24,17 @@ struct MeshPreview;
 class MeshingExport final : public QObject {
   Q_OBJECT
  public:
-  explicit MeshingExport(MainWindow& window);
+  MeshingExport(Desk& desk, SceneWidget& scene);
   /// The proposed folder is beside `case_file`.
   void ask(ExportKind kind, const std::filesystem::path& case_file);
   /// Asks for a mesh made earlier, here or elsewhere, and shows it as one that was made.
   void ask_for_mesh();
   void open_mesh(const std::filesystem::path& file);
-  /// Shows and hides the mesh that was made or opened last.
-  QAction* panel_action();
+  /// The dock with the mesh that was made or opened last, hidden at first; for the window to take in.
+  MeshPanel& panel() { return *panel_; }
+
+ signals:
+  void mesh_made(const QString& file);  ///< of the case that is open
 
  private:
   using MeshWork = std::function<std::shared_ptr<const MeshPreview>(const core::TaskContext&)>;
@@ -43,11 +45,12 @@ class MeshingExport final : public QObject {
                  const std::function<void(const QString&)>& failed);
   void tell(ExportKind kind, const std::filesystem::path& folder, const pipeline::ExportSummary& summary,
             bool shown);
-  MainWindow& window_;
+  Desk& desk_;
+  SceneWidget& scene_;
   int case_ = 0;  // another number with each case that is opened
   std::map<ExportKind, ExportChoice> last_;
   QPointer<MeshingDialog> dialog_;  // that is open
-  QPointer<MeshPanel> panel_;
+  MeshPanel* panel_;
   std::vector<session::Subscription> own_;
 };
 

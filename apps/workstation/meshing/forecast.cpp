@@ -1,14 +1,13 @@
 #include "meshing/forecast.h"
 
-#include "shell/main_window.h"
+#include "shell/desk.h"
 #include "shell/panel.h"
+#include "views/scene_widget.h"
 
 #include "ostia/core/error.h"
 
 #include <QCoreApplication>
 #include <QPointer>
-#include <QTabWidget>
-#include <QTimer>
 #include <algorithm>
 #include <cmath>
 #include <new>
@@ -19,7 +18,6 @@ namespace {
 constexpr figure::Color fails_color{0.835, 0.369, 0.0, 1.0};  // vermilion and yellow: told apart by all
 constexpr figure::Color poor_color{0.941, 0.894, 0.259, 1.0};
 constexpr double least_half_height_mm = 3.0, most_half_height_mm = 8.0;
-constexpr int settled_ms = 100;  // until the columns have taken their places
 const QString kind = QStringLiteral("mesh_check");
 
 [[maybe_unused]] const char* const texts_of_job[] = {QT_TRANSLATE_NOOP("stages", "mesh forecast")};
@@ -32,41 +30,28 @@ std::string too_little_memory() {
       .toStdString();
 }
 
-void reveal(QWidget& widget) {
-  for (QWidget* page = &widget; page->parentWidget(); page = page->parentWidget()) {
-    auto* tabs = qobject_cast<QTabWidget*>(page->parentWidget()->parentWidget());
-    if (tabs && tabs->indexOf(page) >= 0) tabs->setCurrentWidget(page);
-  }
-  // A small window may have no room for it beside a dock that has just come: then it is shown alone.
-  QTimer::singleShot(settled_ms, &widget, [&widget] {
-    if (widget.isVisible() || !widget.window()->isVisible()) return;
-    for (QWidget* above = widget.parentWidget(); above; above = above->parentWidget())
-      if (auto* panel = qobject_cast<Panel*>(above)) return emit panel->maximise_wanted();
-  });
-}
-
-MeshingForecast::MeshingForecast(MainWindow& window, MeshingDialog& dialog)
-    : QObject(&dialog), window_(window), dialog_(dialog) {
+MeshingForecast::MeshingForecast(Desk& desk, SceneWidget& scene, MeshingDialog& dialog)
+    : QObject(&dialog), desk_(desk), scene_(scene), dialog_(dialog) {
   MeshingCheck* page = dialog.check_page();
   connect(page, &MeshingCheck::wanted, this, &MeshingForecast::start);
   connect(page, &MeshingCheck::given_up, this, &MeshingForecast::give_up);
   connect(page, &MeshingCheck::chosen, this, &MeshingForecast::fly_to);
-  connect(&window.scene(), &SceneWidget::guest_changed, this, [this](const view::SceneGuest* shown) {
+  connect(&scene, &SceneWidget::guest_changed, this, [this](const view::SceneGuest* shown) {
     if (shown != guest_.get()) guest_.reset();  // another has taken its place
   });
   // The cross of the job's line gives it up without a word.
-  connect(&window.jobs(), &Jobs::changed, this, [this] {
-    if (dialog_.check_page()->running() && !window_.jobs().running(kind)) give_up();
+  connect(&desk.jobs, &Jobs::changed, this, [this] {
+    if (dialog_.check_page()->running() && !desk_.jobs.running(kind)) give_up();
   });
 }
 
 MeshingForecast::~MeshingForecast() {
-  window_.jobs().cancel(kind);
+  desk_.jobs.cancel(kind);
   take_away();
 }
 
 void MeshingForecast::take_away() {
-  if (guest_) window_.scene().show_guest(nullptr);
+  if (guest_) scene_.show_guest(nullptr);
   guest_.reset();
 }
 
@@ -75,7 +60,7 @@ void MeshingForecast::start() {
   const auto options = dialog_.mesh_options();
   dialog_.check_page()->show_running();
   const QPointer<MeshingForecast> self(this);
-  window_.jobs().run(
+  desk_.jobs.run(
       kind, tr("Will it mesh?"),
       [model, options](const core::TaskContext& task) {
         try {
@@ -96,7 +81,7 @@ void MeshingForecast::start() {
 }
 
 void MeshingForecast::give_up() {
-  window_.jobs().cancel(kind);
+  desk_.jobs.cancel(kind);
   forecast_ = {};
   take_away();
   dialog_.check_page()->show_nothing();
@@ -109,19 +94,19 @@ void MeshingForecast::show(const pipeline::VesselForecast& made) {
   for (const meshing::ForecastPlace& place : forecast_.places)
     places.push_back({place.point, place.extent_mm, place.triangles, place.fails ? fails_color : poor_color});
   guest_ = std::make_shared<view::ForecastScene>(made.surface, std::move(places));
-  reveal(window_.scene());
-  window_.scene().show_guest(guest_);
+  reveal(scene_);
+  scene_.show_guest(guest_);
 }
 
 void MeshingForecast::fly_to(int row) {
   if (!guest_ || row < 0 || static_cast<std::size_t>(row) >= forecast_.places.size()) return;
   const meshing::ForecastPlace& place = forecast_.places[static_cast<std::size_t>(row)];
   guest_->choose(static_cast<std::size_t>(row));
-  view::CameraPose pose = window_.scene().scene().pose();
+  view::CameraPose pose = scene_.scene().pose();
   pose.target = place.point;
   pose.half_height_mm = std::clamp(3.0 * place.extent_mm, least_half_height_mm, most_half_height_mm);
-  window_.scene().go_to(pose);
-  window_.scene().request_render();
+  scene_.go_to(pose);
+  scene_.request_render();
 }
 
 }  // namespace ostia::workstation

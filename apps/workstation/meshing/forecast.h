@@ -12,13 +12,14 @@
 
 namespace ostia::workstation {
 
-class MainWindow;
+struct Desk;
+class SceneWidget;
 
 /// Between a mesh's dialog and the window: a child of the dialog, and gone with it, as is what it shows.
 class MeshingForecast final : public QObject {
   Q_OBJECT
  public:
-  MeshingForecast(MainWindow& window, MeshingDialog& dialog);
+  MeshingForecast(Desk& desk, SceneWidget& scene, MeshingDialog& dialog);
   ~MeshingForecast() override;
 
  private:
@@ -27,7 +28,8 @@ class MeshingForecast final : public QObject {
   void show(const pipeline::VesselForecast& made);
   void fly_to(int place);
   void take_away();
-  MainWindow& window_;
+  Desk& desk_;
+  SceneWidget& scene_;
   MeshingDialog& dialog_;
   meshing::MeshForecast forecast_;
   std::shared_ptr<view::ForecastScene> guest_;
@@ -35,8 +37,5 @@ class MeshingForecast final : public QObject {
 
 /// What is said where surfaces and meshes do not fit into the memory; from any thread.
 std::string too_little_memory();
-
-/// Brings a view to the front where it is on a page behind others; alone where there is no room for it else.
-void reveal(QWidget& widget);
 
 }  // namespace ostia::workstation

@@ -1,7 +1,6 @@
 #include "opening/opening.h"
 #include "opening/series_browser.h"
-#include "shell/main_window.h"
-#include "vessels/finder.h"
+#include "shell/desk.h"
 
 #include "ostia/core/error.h"
 #include "ostia/core/log.h"
@@ -46,8 +45,8 @@ void Opening::open_image(const session::KnownImage& image) {
 }
 
 void Opening::scan(const session::KnownImage& image) {
-  window_.jobs().cancel("first slice");
-  window_.jobs().run(
+  desk_.jobs.cancel("first slice");
+  desk_.jobs.run(
       "open", tr("Looking for series"),
       [path = image.path](const core::TaskContext& task) {
         return std::any(imaging::scan_dicom(path, task));
@@ -55,7 +54,7 @@ void Opening::scan(const session::KnownImage& image) {
       [this, image](const std::any& result) {
         choose_series(image, std::any_cast<const imaging::DicomFolder&>(result));
       },
-      [this](const QString& message) { window_.complain(message, tr("This cannot be opened")); });
+      [this](const QString& message) { desk_.messages.complain(message, tr("This cannot be opened")); });
 }
 
 void Opening::choose_series(const session::KnownImage& image, const imaging::DicomFolder& folder) {
@@ -67,7 +66,7 @@ void Opening::choose_series(const session::KnownImage& image, const imaging::Dic
     load_series(image.path, one, {});
     return;
   }
-  auto* browser = new SeriesBrowser(folder, window_.jobs(), &window_);
+  auto* browser = new SeriesBrowser(folder, desk_.jobs, &desk_.window);
   browser->setAttribute(Qt::WA_DeleteOnClose);
   connect(browser, &SeriesBrowser::chosen, this,
           [this, path = image.path](const imaging::DicomSeries& series,
@@ -80,7 +79,7 @@ void Opening::choose_series(const session::KnownImage& image, const imaging::Dic
 void Opening::load_series(const fs::path& path, const imaging::DicomSeries& series,
                           const imaging::DicomReadOptions& options) {
   show_first_slice(series);
-  window_.jobs().run(
+  desk_.jobs.run(
       "open", tr("Reading the image"),
       [series, options](const core::TaskContext& task) {
         Loaded loaded;
@@ -92,11 +91,11 @@ void Opening::load_series(const fs::path& path, const imaging::DicomSeries& seri
         return std::any(loaded);
       },
       [this, path](const std::any& result) { show(std::any_cast<const Loaded&>(result), path); },
-      [this](const QString& message) { window_.complain(message, tr("The image cannot be opened")); });
+      [this](const QString& message) { desk_.messages.complain(message, tr("The image cannot be opened")); });
 }
 
 void Opening::show_first_slice(const imaging::DicomSeries& series) {
-  window_.jobs().run(
+  desk_.jobs.run(
       "first slice", tr("First slice"),
       [series](const core::TaskContext& task) {
         return std::any(
@@ -107,16 +106,16 @@ void Opening::show_first_slice(const imaging::DicomSeries& series) {
         first_sight_ = {uid, shown_name(first.shown), std::nullopt};
         if (const auto& window = first.slice.window; window.from_file)
           first_sight_->window = session::GreyWindow{window.centre_hu, window.width_hu};
-        session::Workbench& bench = window_.bench();
+        session::Workbench& bench = desk_.bench;
         const bool whole_is_there = bench.image().volume && series_uid_ == uid;
         // What is on the table stays there until the whole image has come.
         const bool table_is_free = !bench.has_case() && !bench.image().volume;
-        if (!whole_is_there && table_is_free && window_.jobs().running("open")) {
-          window_.guarded([&] {
+        if (!whole_is_there && table_is_free && desk_.jobs.running("open")) {
+          desk_.messages.guarded([&] {
             bench.set_image({std::make_shared<const imaging::ImageVolume>(first.slice.image), {}});
             series_uid_ = uid;
           });
-          connect(&window_.jobs(), &Jobs::changed, this, &Opening::drop_unread, Qt::UniqueConnection);
+          connect(&desk_.jobs, &Jobs::changed, this, &Opening::drop_unread, Qt::UniqueConnection);
         }
         take_first_sight();
       },
@@ -124,20 +123,20 @@ void Opening::show_first_slice(const imaging::DicomSeries& series) {
 }
 
 void Opening::take_first_sight() {
-  if (!first_sight_ || !window_.bench().image().volume || first_sight_->series_uid != series_uid_) return;
-  window_.set_shown_name(first_sight_->name);
+  if (!first_sight_ || !desk_.bench.image().volume || first_sight_->series_uid != series_uid_) return;
+  desk_.messages.set_shown_name(first_sight_->name);
   // Once: from then on the grey is the person's, as it is where the case knows one.
-  if (first_sight_->window && !memory_.knows_grey()) window_.bench().grey.set(*first_sight_->window);
+  if (first_sight_->window && !memory_.knows_grey()) desk_.bench.grey.set(*first_sight_->window);
   first_sight_->window.reset();
 }
 
 bool Opening::reading() const {
-  const session::OpenImage& image = window_.bench().image();
+  const session::OpenImage& image = desk_.bench.image();
   return image.volume && image.reference.sha256.empty();
 }
 
 void Opening::drop_unread() {
-  if (reading() && !window_.jobs().running("open")) window_.bench().close_image();
+  if (reading() && !desk_.jobs.running("open")) desk_.bench.close_image();
 }
 
 Opening::Loaded Opening::read_file(const fs::path& path, const core::TaskContext& task) {
@@ -153,18 +152,18 @@ Opening::ImageBeside Opening::read_beside(const std::optional<session::KnownImag
 }
 
 void Opening::load_file(const fs::path& path, const ImageBeside& beside) {
-  window_.jobs().cancel("first slice");
-  window_.jobs().run(
+  desk_.jobs.cancel("first slice");
+  desk_.jobs.run(
       "open", tr("Reading the image"),
       [path, beside](const core::TaskContext& task) {
         return std::any(beside ? beside->get(task) : read_file(path, task));
       },
       [this, path](const std::any& result) { show(std::any_cast<const Loaded&>(result), path); },
-      [this](const QString& message) { window_.complain(message, tr("The image cannot be opened")); });
+      [this](const QString& message) { desk_.messages.complain(message, tr("The image cannot be opened")); });
 }
 
 void Opening::show(const Loaded& loaded, const fs::path& path) {
-  session::Workbench& bench = window_.bench();
+  session::Workbench& bench = desk_.bench;
   const session::ImageReference& reference = loaded.image.reference;
   if (bench.has_case()) {
     const auto wanted = bench.session().file().image();
@@ -176,18 +175,18 @@ void Opening::show(const Loaded& loaded, const fs::path& path) {
     }
     if (other) close_case();
   }
-  const bool shown_now = window_.guarded(
+  const bool shown_now = desk_.messages.guarded(
       [&] {
         bench.set_image(loaded.image);
         series_uid_ = loaded.series_uid;
-        window_.set_shown_name(QString::fromStdString(loaded.name));
+        desk_.messages.set_shown_name(QString::fromStdString(loaded.name));
         take_first_sight();
-        window_.machine().remember_image(reference.sha256, path, loaded.series_uid);
+        desk_.machine.remember_image(reference.sha256, path, loaded.series_uid);
       },
       true);
   if (!shown_now) return;
-  if (!loaded.warnings.empty()) window_.say(QString::fromStdString(loaded.warnings.front()));
-  if (!bench.has_case()) window_.finder().find_tree();
+  if (!loaded.warnings.empty()) desk_.messages.say(QString::fromStdString(loaded.warnings.front()));
+  if (!bench.has_case()) emit image_without_case();
 }
 
 }  // namespace ostia::workstation

@@ -1,7 +1,8 @@
 #include "opening/opening.h"
 
+#include "shell/desk.h"
 #include "shell/file_dialogs.h"
-#include "shell/main_window.h"
+#include "views/scene_widget.h"
 
 #include "ostia/core/error.h"
 #include "ostia/session/sample_case.h"
@@ -32,30 +33,26 @@ std::int64_t now_s() {
 
 }  // namespace
 
-Opening::Opening(MainWindow& window)
-    : QObject(&window), window_(window), memory_(window.bench()), mark_(window.state_folder()) {}
-
-fs::path Opening::state_folder() const {
-  return window_.state_folder();
-}
+Opening::Opening(Desk& desk)
+    : QObject(&desk.window), desk_(desk), memory_(desk.bench), mark_(desk.state_folder) {}
 
 void Opening::choose_file() {
   const QString chosen = ask_open_file(
-      &window_, tr("Open"),
+      &desk_.window, tr("Open"),
       tr("Cases and images (*.ostia *.nrrd *.mhd *.mha *.nii *.nii.gz *.dcm *.zip);;All files (*)") +
           QStringLiteral(";;") + tr("Vessel trees (*.vtp *.vtk *.swc *.csv *.gxl *.xml *.dat)"));
-  if (!chosen.isEmpty()) window_.open(path_of(chosen));
+  if (!chosen.isEmpty()) emit file_chosen(chosen);
 }
 
 void Opening::choose_folder() {
-  const QString chosen = ask_folder(&window_, tr("Open a folder of DICOM files"));
+  const QString chosen = ask_folder(&desk_.window, tr("Open a folder of DICOM files"));
   if (!chosen.isEmpty()) open(path_of(chosen));
 }
 
 void Opening::open(const fs::path& path) {
   std::error_code ignored;
   if (!fs::exists(path, ignored)) {
-    window_.complain(tr("There is no file or folder %1.").arg(shown(path)));
+    desk_.messages.complain(tr("There is no file or folder %1.").arg(shown(path)));
     return;
   }
   const fs::path whole = fs::absolute(path);
@@ -66,35 +63,34 @@ void Opening::open(const fs::path& path) {
 }
 
 void Opening::open_sample() {
-  const fs::path folder = state_folder() / "sample";
-  window_.jobs().run(
+  const fs::path folder = desk_.state_folder / "sample";
+  desk_.jobs.run(
       "open", tr("Sample case"),
       [folder](const core::TaskContext& task) {
         return std::any(session::sample_case(folder, phantom::Preset::full, task));
       },
       [this](const std::any& result) {
         const auto sample = std::any_cast<session::SampleCase>(result);
-        window_.guarded([&] {
+        desk_.messages.guarded([&] {
           const auto opened = session::CaseFile::open(sample.case_file, session::OpenMode::read_only);
-          if (const auto image = opened.image())
-            window_.machine().remember_image(image->sha256, sample.image);
+          if (const auto image = opened.image()) desk_.machine.remember_image(image->sha256, sample.image);
         });
         open_case(sample.case_file);
       },
-      [this](const QString& message) { window_.complain(message); });
+      [this](const QString& message) { desk_.messages.complain(message); });
 }
 
 void Opening::open_case(const fs::path& path) {
-  window_.jobs().cancel("first slice");
-  if (window_.bench().has_case() && path == case_path_) {
-    window_.jobs().cancel("open");  // whoever changes their mind keeps what is there
+  desk_.jobs.cancel("first slice");
+  if (desk_.bench.has_case() && path == desk_.case_path) {
+    desk_.jobs.cancel("open");  // whoever changes their mind keeps what is there
     return;
   }
   const bool editable = session::can_be_edited(path);
-  window_.jobs().run(
+  desk_.jobs.run(
       "open", tr("Opening the case"),
-      [path, editable, state = state_folder(),
-       shown = window_.bench().image().reference.sha256](const core::TaskContext&) {
+      [path, editable, state = desk_.state_folder,
+       shown = desk_.bench.image().reference.sha256](const core::TaskContext&) {
         session::CaseFile file = session::CaseFile::open(
             path, editable ? session::OpenMode::read_write : session::OpenMode::read_only);
         OpenedCase opened;
@@ -109,18 +105,18 @@ void Opening::open_case(const fs::path& path) {
         const auto& opened = std::any_cast<const OpenedCase&>(result);
         show_case(std::move(*opened.session), path, opened.image);
         if (!editable)
-          window_.say(
+          desk_.messages.say(
               tr("This case can be looked at and not changed: its file or folder is read-only. "
                  "Save it as another to edit it."));
       },
-      [this](const QString& message) { window_.complain(message, tr("The case cannot be opened")); });
+      [this](const QString& message) { desk_.messages.complain(message, tr("The case cannot be opened")); });
 }
 
 void Opening::show_case(session::Session session, const fs::path& path, const ImageBeside& image_beside) {
-  session::Workbench& bench = window_.bench();
+  session::Workbench& bench = desk_.bench;
   const std::optional<ImageReference> image = session.file().image();
   const bool other_image = bench.image().volume && image && bench.image().reference.sha256 != image->sha256;
-  const bool shown_now = window_.guarded(
+  const bool shown_now = desk_.messages.guarded(
       [&] {
         keep_view();
         if (other_image) {
@@ -128,8 +124,8 @@ void Opening::show_case(session::Session session, const fs::path& path, const Im
           bench.close_image();
         }
         bench.set_session(std::move(session));
-        case_path_ = path;
-        window_.machine().remember_case({path, image ? image->pseudonym : std::string(), now_s()});
+        desk_.case_path = path;
+        desk_.machine.remember_case({path, image ? image->pseudonym : std::string(), now_s()});
         mark_.set(path);
       },
       true);
@@ -139,7 +135,7 @@ void Opening::show_case(session::Session session, const fs::path& path, const Im
 }
 
 void Opening::open_image_of(const ImageReference& image, const ImageBeside& beside) {
-  const std::optional<session::KnownImage> known = window_.machine().find_image(image.sha256);
+  const std::optional<session::KnownImage> known = desk_.machine.find_image(image.sha256);
   if (known && beside)
     load_file(known->path, beside);
   else if (known)
@@ -155,42 +151,42 @@ void Opening::image_missing(const ImageReference& image, const QString& reason) 
           tr("The image that this case was made on (%1) is not where it was, or has never been opened on "
              "this computer. The case can be looked at without it.")
               .arg(QString::fromStdString(image.pseudonym)),
-      QMessageBox::NoButton, &window_);
+      QMessageBox::NoButton, &desk_.window);
   box->setAttribute(Qt::WA_DeleteOnClose);
   const QAbstractButton* file = box->addButton(tr("Find the file\u2026"), QMessageBox::AcceptRole);
   const QAbstractButton* folder = box->addButton(tr("Find the DICOM folder\u2026"), QMessageBox::AcceptRole);
   box->addButton(tr("Go on without"), QMessageBox::RejectRole);
   connect(box, &QMessageBox::buttonClicked, this, [this, file, folder](QAbstractButton* button) {
     QString chosen;
-    if (button == file) chosen = ask_open_file(&window_, tr("The image of this case"));
-    if (button == folder) chosen = ask_folder(&window_, tr("The image of this case"));
+    if (button == file) chosen = ask_open_file(&desk_.window, tr("The image of this case"));
+    if (button == folder) chosen = ask_folder(&desk_.window, tr("The image of this case"));
     if (!chosen.isEmpty()) open_image({path_of(chosen), {}});
   });
   box->open();
 }
 
 void Opening::save_as() {
-  if (!window_.bench().has_case()) return;
-  const QString chosen = ask_save_file(&window_, tr("Save the case as"), tr("Cases (*.ostia)"));
+  if (!desk_.bench.has_case()) return;
+  const QString chosen = ask_save_file(&desk_.window, tr("Save the case as"), tr("Cases (*.ostia)"));
   if (chosen.isEmpty()) return;
   fs::path to = path_of(chosen);
   if (to.extension() != ".ostia") to += ".ostia";
   keep_view();
-  if (!window_.guarded([&] { window_.bench().session().file().copy_to(to); }, true)) return;
+  if (!desk_.messages.guarded([&] { desk_.bench.session().file().copy_to(to); }, true)) return;
   // What was done between the copying and the copy's opening would stay behind in the other file.
-  window_.setEnabled(false);
-  connect(&window_.jobs(), &Jobs::changed, this, &Opening::go_on, Qt::UniqueConnection);
+  desk_.window.setEnabled(false);
+  connect(&desk_.jobs, &Jobs::changed, this, &Opening::go_on, Qt::UniqueConnection);
   open_case(fs::absolute(to));
 }
 
 void Opening::go_on() {
-  if (!window_.jobs().running("open")) window_.setEnabled(true);
+  if (!desk_.jobs.running("open")) desk_.window.setEnabled(true);
 }
 
 void Opening::start_case(const ImageReference& image,
                          const std::function<session::CaseFile(const fs::path&)>& make) {
-  const fs::path folder = state_folder() / "cases";
-  window_.guarded(
+  const fs::path folder = desk_.state_folder / "cases";
+  desk_.messages.guarded(
       [&] {
         fs::create_directories(folder);
         std::error_code ignored;
@@ -204,8 +200,8 @@ void Opening::start_case(const ImageReference& image,
 
 void Opening::close_case() {
   keep_view();
-  window_.bench().close_case();
-  case_path_.clear();
+  desk_.bench.close_case();
+  desk_.case_path.clear();
   mark_.clear();
 }
 
@@ -214,7 +210,7 @@ void Opening::keep_view() {
     memory_.keep();
   } catch (const Error& error) {
     // Nobody asked for it: a line, and the message is left to what was asked for.
-    window_.say(QString::fromStdString(error.what()));
+    desk_.messages.say(QString::fromStdString(error.what()));
   }
 }
 
@@ -226,7 +222,7 @@ void Opening::recover() {
   });
   if (left.empty()) return;
   const int more = static_cast<int>(left.size()) - 1;
-  window_.say(
+  desk_.messages.say(
       more == 0
           ? tr("The program ended without closing this case; it is opened where it was.")
           : tr("The program ended without closing this case and %n more, which are among the recent ones.",

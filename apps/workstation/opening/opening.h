@@ -21,14 +21,14 @@
 
 namespace ostia::workstation {
 
-class MainWindow;
+struct Desk;
 
 /// Reads in the background and puts on the workbench what was read. What cannot be opened comes up as one
 /// dialog, and what was open stays open.
 class Opening final : public QObject {
   Q_OBJECT
  public:
-  explicit Opening(MainWindow& window);
+  explicit Opening(Desk& desk);
   void open(const std::filesystem::path& path);
   void open_sample();
   /// Asks for a file, or a folder of DICOM.
@@ -36,7 +36,6 @@ class Opening final : public QObject {
   void choose_folder();
   /// Another file with the same case, which is then the open one.
   void save_as();
-  const std::filesystem::path& case_path() const { return case_path_; }
   /// A new case of an image, in the folder of this machine's cases.
   void start_case(const session::ImageReference& image,
                   const std::function<session::CaseFile(const std::filesystem::path&)>& make);
@@ -45,6 +44,12 @@ class Opening final : public QObject {
   void recover();
   /// What is on the table is one slice of an image that is still being read.
   bool reading() const;
+
+ signals:
+  /// A file that the person chose: of a case or an image, or of what others open.
+  void file_chosen(const QString& path);
+  /// A whole image is on the table, and no case of it.
+  void image_without_case();
 
  private:
   struct Loaded {
@@ -84,11 +89,9 @@ class Opening final : public QObject {
   static ImageBeside read_beside(const std::optional<session::KnownImage>& image);
   void load_file(const std::filesystem::path& path, const ImageBeside& beside = {});
   void show(const Loaded& loaded, const std::filesystem::path& path);
-  std::filesystem::path state_folder() const;
-  MainWindow& window_;
+  Desk& desk_;
   ViewMemory memory_;
   session::OpenMark mark_;
-  std::filesystem::path case_path_;
   std::optional<FirstSight> first_sight_;
   std::string series_uid_;  // of the image on the table
 

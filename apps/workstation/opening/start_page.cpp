@@ -1,6 +1,8 @@
 #include "opening/start_page.h"
 
+#include "commands/table.h"
 #include "commands/texts.h"
+#include "shell/desk.h"
 
 #include <QAction>
 #include <QEvent>
@@ -23,19 +25,19 @@ QLabel* line(const QString& text) {
 
 }  // namespace
 
-StartPage::StartPage(MainWindow& window, const QString& over)
-    : QFrame(&window), window_(window), over_(window.findChild<QWidget*>(over)) {
+StartPage::StartPage(Desk& desk, const CommandTable& commands, QWidget& over)
+    : QFrame(&desk.window), desk_(desk), over_(&over) {
   setObjectName("start_page");
   setAutoFillBackground(true);
   setFrameShape(QFrame::StyledPanel);
-  build();
+  build(commands);
   over_->installEventFilter(this);
-  own_.push_back(window.bench().case_changed.observe([this] { refresh(); }));
-  own_.push_back(window.bench().image_changed.observe([this] { refresh(); }));
+  own_.push_back(desk.bench.case_changed.observe([this] { refresh(); }));
+  own_.push_back(desk.bench.image_changed.observe([this] { refresh(); }));
   refresh();
 }
 
-void StartPage::build() {
+void StartPage::build(const CommandTable& commands) {
   auto* rows = new QVBoxLayout(this);
   rows->setContentsMargins(18, 16, 18, 16);
   rows->setSpacing(8);
@@ -47,7 +49,7 @@ void StartPage::build() {
   rows->addWidget(title);
   rows->addWidget(line(tr("Drop a DICOM folder, an image or a case on this window, or:")));
   for (const char* id : {"file.open", "file.open_folder", "file.sample"}) {
-    auto* action = window_.findChild<QAction*>(id);
+    QAction* action = &commands.action(id);
     QString text = plain_text(action->text());
     const QString keys = action->shortcut().toString(QKeySequence::NativeText);
     if (!keys.isEmpty()) text += QStringLiteral("   %1").arg(keys);
@@ -69,7 +71,7 @@ void StartPage::fill_recent() {
     delete item;
   }
   std::size_t shown = 0;
-  for (const session::RecentCase& one : window_.machine().recent_cases()) {
+  for (const session::RecentCase& one : desk_.machine.recent_cases()) {
     std::error_code ignored;
     if (shown == most_recent || !std::filesystem::exists(one.path, ignored)) continue;
     if (shown++ == 0) recent_->addWidget(line(tr("Recent cases:")));
@@ -80,13 +82,13 @@ void StartPage::fill_recent() {
     button->setToolTip(path);
     button->setFocusPolicy(Qt::TabFocus);
     button->setFlat(true);
-    connect(button, &QPushButton::clicked, this, [this, path] { window_.open(path.toStdString()); });
+    connect(button, &QPushButton::clicked, this, [this, path] { emit file_chosen(path); });
     recent_->addWidget(button);
   }
 }
 
 void StartPage::refresh() {
-  wanted_ = !window_.bench().has_case() && !window_.bench().image().volume;
+  wanted_ = !desk_.bench.has_case() && !desk_.bench.image().volume;
   if (wanted_) fill_recent();
   show_or_hide();
 }
@@ -101,14 +103,14 @@ void StartPage::show_or_hide() {
 }
 
 void StartPage::place() {
-  const QPoint corner = over_->mapTo(&window_, QPoint(0, 0));
+  const QPoint corner = over_->mapTo(&desk_.window, QPoint(0, 0));
   layout()->activate();
   // In a narrow window its buttons reach over the views beside, which have nothing to show yet.
-  const int least = std::min(minimumSizeHint().width(), window_.width() - 24);
+  const int least = std::min(minimumSizeHint().width(), desk_.window.width() - 24);
   const int wide = std::max(least, std::min(widest, over_->width() - 24));
   const int high = std::max(sizeHint().height(), layout()->totalHeightForWidth(wide));
   const int left =
-      std::clamp(corner.x() + (over_->width() - wide) / 2, 0, std::max(0, window_.width() - wide));
+      std::clamp(corner.x() + (over_->width() - wide) / 2, 0, std::max(0, desk_.window.width() - wide));
   setGeometry(left, corner.y() + std::max(30, (over_->height() - high) / 3), wide, high);
   raise();
 }

@@ -55,7 +55,7 @@ ViewMemory::ViewMemory(session::Workbench& bench, QObject* parent) : QObject(par
 
 void ViewMemory::keep() {
   resting_.stop();
-  if (!bench_.has_case()) return;
+  if (!bench_.has_case() || !bench_.session().file().editable()) return;
   const std::map<std::string, std::string> now = settings_of(bench_);
   if (now == kept_) return;
   bench_.session().file().set_settings(now);

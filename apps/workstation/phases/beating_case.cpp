@@ -2,13 +2,15 @@
 
 #include "phases/bar.h"
 #include "phases/profile.h"
+#include "shell/desk.h"
 #include "shell/file_dialogs.h"
-#include "shell/main_window.h"
 #include "views/paint_queue.h"
+#include "views/scene_widget.h"
 
 #include "ostia/core/log.h"
 #include "ostia/io/cage_motion_file.h"
 
+#include <QMainWindow>
 #include <QToolBar>
 #include <QToolButton>
 #include <algorithm>
@@ -23,8 +25,8 @@ constexpr double own_phase_percent = 0.05;  // the slider's step, halved
 
 }  // namespace
 
-BeatingCase::BeatingCase(MainWindow& window)
-    : QObject(&window), window_(window), room_(new QToolBar), bar_(new PhaseBar(clock_)) {
+BeatingCase::BeatingCase(Desk& desk, QMainWindow& window)
+    : QObject(&window), desk_(desk), room_(new QToolBar), bar_(new PhaseBar(clock_)) {
   room_->setObjectName("phase_room");
   room_->setWindowTitle(tr("Phase of the heart"));
   room_->setMovable(false);
@@ -32,40 +34,40 @@ BeatingCase::BeatingCase(MainWindow& window)
   room_->addWidget(bar_);
   window.addToolBar(Qt::BottomToolBarArea, room_);
   room_->hide();
-  profile_ = new PhaseProfile(window, clock_, [this] {
+  profile_ = new PhaseProfile(desk, clock_, [this] {
     std::shared_ptr<const session::Beating> now;
-    if (motion_) window_.guarded([&] { now = beating(); });
+    if (motion_) desk_.messages.guarded([&] { now = beating(); });
     return now;
   });
   window.addDockWidget(Qt::BottomDockWidgetArea, profile_);
   profile_->hide();
   profile_->toggleViewAction()->setVisible(false);
-  connect(&bar_->profile_button(), &QToolButton::clicked, profile_, [this](bool wanted) {
+  connect(&bar_->profile_button(), &QToolButton::clicked, profile_, [this, &window](bool wanted) {
     profile_->setVisible(wanted);
     if (wanted)
-      window_.resizeDocks({profile_}, {profile_->fontMetrics().height() * profile_lines}, Qt::Vertical);
+      window.resizeDocks({profile_}, {profile_->fontMetrics().height() * profile_lines}, Qt::Vertical);
   });
   connect(profile_, &QDockWidget::visibilityChanged, &bar_->profile_button(), &QToolButton::setChecked);
   connect(bar_, &PhaseBar::images_wanted, this, &BeatingCase::ask_images);
   connect(&images_, &PhaseLoader::arrived, this, &BeatingCase::show);
-  connect(&images_, &PhaseLoader::failed, &window, &MainWindow::say);
+  connect(&images_, &PhaseLoader::failed, this, [this](const QString& why) { desk_.messages.say(why); });
   frame_.setSingleShot(true);
   frame_.setTimerType(Qt::PreciseTimer);
   connect(&frame_, &QTimer::timeout, this, &BeatingCase::next_frame);
   connect(bar_, &PhaseBar::back_wanted, this, &BeatingCase::go_to_own);
   connect(bar_, &PhaseBar::close_wanted, this, &BeatingCase::close);
-  session::Workbench& bench = window.bench();
+  session::Workbench& bench = desk.bench;
   own_.push_back(clock_.percent.observe([this](const double&) { show(); }));
   own_.push_back(clock_.playing.observe([this](const bool& playing) {
     since_frame_.start();
     playing ? frame_.start(0) : frame_.stop();
   }));
   own_.push_back(bench.case_changed.observe([this] {
-    window_.jobs().cancel("motion");  // what is still being read is for the former case
+    desk_.jobs.cancel("motion");  // what is still being read is for the former case
     close();
   }));
   own_.push_back(bench.model_changed.observe([this](const session::ModelEvent&) { beating_.reset(); }));
-  own_.push_back(bench.phase_changed.observe([this] { bar_->set_away(window_.bench().other_phase()); }));
+  own_.push_back(bench.phase_changed.observe([this] { bar_->set_away(desk_.bench.other_phase()); }));
   own_.push_back(bench.phase_refused.observe([this] {
     clock_.playing.set(false);
     bar_->offer_way_back();
@@ -75,19 +77,22 @@ BeatingCase::BeatingCase(MainWindow& window)
 BeatingCase::~BeatingCase() = default;
 
 void BeatingCase::ask() {
-  const QString chosen = ask_open_file(&window_, tr("Open a motion"), tr("Motions (*.json);;All files (*)"));
+  const QString chosen =
+      ask_open_file(&desk_.window, tr("Open a motion"), tr("Motions (*.json);;All files (*)"));
   if (!chosen.isEmpty()) open(chosen.toStdString());
 }
 
 void BeatingCase::open(const std::filesystem::path& file) {
-  window_.jobs().run(
+  desk_.jobs.run(
       "motion", tr("Reading the motion"),
       [file](const core::TaskContext&) { return std::any(io::read_cage_motion(file).motion); },
       [this](const std::any& read) {
-        if (!window_.bench().has_case()) return;
-        window_.guarded([&] { take(std::any_cast<const geometry::CageMotion&>(read)); }, true);
+        if (!desk_.bench.has_case()) return;
+        desk_.messages.guarded([&] { take(std::any_cast<const geometry::CageMotion&>(read)); }, true);
       },
-      [this](const QString& message) { window_.complain(message, tr("The motion cannot be opened")); });
+      [this](const QString& message) {
+        desk_.messages.complain(message, tr("The motion cannot be opened"));
+      });
 }
 
 void BeatingCase::take(const geometry::CageMotion& motion) {
@@ -107,13 +112,13 @@ void BeatingCase::take(const geometry::CageMotion& motion) {
 }
 
 void BeatingCase::ask_images() {
-  const QString chosen = ask_folder(&window_, tr("Folder with the images of the phases"));
+  const QString chosen = ask_folder(&desk_.window, tr("Folder with the images of the phases"));
   if (!chosen.isEmpty()) open_images(chosen.toStdString());
 }
 
 void BeatingCase::open_images(const std::filesystem::path& folder) {
   core::redact_in_logs(folder.string(), "the phases");  // it may name the patient
-  window_.jobs().run(
+  desk_.jobs.run(
       "phase_images", tr("Looking for the phases"),
       [folder](const core::TaskContext& task) { return std::any(session::find_phase_images(folder, task)); },
       [this](const std::any& found) {
@@ -124,7 +129,7 @@ void BeatingCase::open_images(const std::filesystem::path& folder) {
         show();
       },
       [this](const QString& message) {
-        window_.complain(message, tr("The images of the phases cannot be opened"));
+        desk_.messages.complain(message, tr("The images of the phases cannot be opened"));
       });
 }
 
@@ -132,9 +137,9 @@ void BeatingCase::close() {
   clock_.playing.set(false);
   motion_.reset();
   beating_.reset();
-  window_.jobs().cancel("phase_images");
+  desk_.jobs.cancel("phase_images");
   images_.clear();
-  window_.guarded([this] { window_.bench().show_phase(nullptr); });  // what follows is done all the same
+  desk_.messages.guarded([this] { desk_.bench.show_phase(nullptr); });  // what follows is done all the same
   room_->hide();
   profile_->hide();
   profile_->refresh();
@@ -154,7 +159,7 @@ void BeatingCase::go_to_own() {
 
 const std::shared_ptr<const session::Beating>& BeatingCase::beating() {
   if (!beating_) {
-    session::Session& session = window_.bench().session();
+    session::Session& session = desk_.bench.session();
     beating_ = session::Beating::made(*motion_, session.file().model(),
                                       session.live().wall(SceneWidget::screen_cell_mm));
   }
@@ -162,14 +167,14 @@ const std::shared_ptr<const session::Beating>& BeatingCase::beating() {
 }
 
 void BeatingCase::show() {
-  if (!motion_ || !window_.bench().has_case()) return;
-  const bool shown = window_.guarded([&] {
+  if (!motion_ || !desk_.bench.has_case()) return;
+  const bool shown = desk_.messages.guarded([&] {
     // While it plays it goes through its own phase as through the others.
     if (!clock_.playing.get() &&
         100.0 * session::phase_distance(clock_.phase(), motion_->template_phase) < own_phase_percent)
-      window_.bench().show_phase(nullptr);
+      desk_.bench.show_phase(nullptr);
     else
-      window_.bench().show_phase(beating()->at(clock_.phase()), images_.image_for(clock_.phase()));
+      desk_.bench.show_phase(beating()->at(clock_.phase()), images_.image_for(clock_.phase()));
   });
   if (!shown) clock_.playing.set(false);
 }

@@ -16,11 +16,12 @@
 #include <optional>
 #include <vector>
 
+class QMainWindow;
 class QToolBar;
 
 namespace ostia::workstation {
 
-class MainWindow;
+struct Desk;
 class PhaseBar;
 class PhaseProfile;
 
@@ -29,7 +30,8 @@ class PhaseProfile;
 class BeatingCase final : public QObject {
   Q_OBJECT
  public:
-  explicit BeatingCase(MainWindow& window);
+  /// Its tool bar and its dock are put into `window`, hidden until there is a motion.
+  BeatingCase(Desk& desk, QMainWindow& window);
   ~BeatingCase() override;
   void ask();  ///< for the file
   void open(const std::filesystem::path& file);
@@ -50,7 +52,7 @@ class BeatingCase final : public QObject {
   void show();  // the clock's phase
   void next_frame();
   const std::shared_ptr<const session::Beating>& beating();
-  MainWindow& window_;
+  Desk& desk_;
   session::PhaseClock clock_;
   void ask_images();
   QToolBar* room_;

@@ -1,6 +1,6 @@
 #include "phases/profile.h"
 
-#include "shell/main_window.h"
+#include "shell/desk.h"
 
 #include <QAbstractItemView>
 #include <QComboBox>
@@ -15,11 +15,11 @@ constexpr int rest_ms = 300;
 
 }  // namespace
 
-PhaseProfile::PhaseProfile(MainWindow& window, session::PhaseClock& clock, Source beating)
-    : QDockWidget(tr("Lumen over the cycle"), &window),
-      window_(window),
+PhaseProfile::PhaseProfile(Desk& desk, session::PhaseClock& clock, Source beating)
+    : QDockWidget(tr("Lumen over the cycle"), &desk.window),
+      desk_(desk),
       beating_(std::move(beating)),
-      map_(new PhaseMap(window.bench(), clock)) {
+      map_(new PhaseMap(desk.bench, clock)) {
   setObjectName("phase_profile");
   auto* value = new QComboBox;
   value->setObjectName("phase_value");
@@ -46,23 +46,23 @@ PhaseProfile::PhaseProfile(MainWindow& window, session::PhaseClock& clock, Sourc
   rest_.setSingleShot(true);
   rest_.setInterval(rest_ms);
   connect(&rest_, &QTimer::timeout, this, &PhaseProfile::measure);
-  session::Workbench& bench = window.bench();
+  session::Workbench& bench = desk.bench;
   own_.push_back(bench.vessel.observe([this](const std::int32_t&) { refresh(); }));
   own_.push_back(bench.model_changed.observe([this](const session::ModelEvent&) { refresh(); }));
 }
 
 void PhaseProfile::refresh() {
-  window_.jobs().cancel("phase_profile");
+  desk_.jobs.cancel("phase_profile");
   map_->set_profile(std::nullopt, 0.0);
   if (isVisible()) rest_.start();
 }
 
 void PhaseProfile::measure() {
-  const session::Workbench& bench = window_.bench();
+  const session::Workbench& bench = desk_.bench;
   if (!isVisible() || !bench.has_case() || !bench.axis()) return;
   const auto beating = beating_();
   if (!beating) return;
-  window_.jobs().run(
+  desk_.jobs.run(
       "phase_profile", tr("Lumen over the cycle"),
       [beating,
        work = session::ring_work(bench.session(), bench.vessel.get())](const core::TaskContext& task) {
@@ -73,7 +73,7 @@ void PhaseProfile::measure() {
         map_->set_profile(std::any_cast<const session::BeatingProfile&>(made),
                           beating->motion().template_phase);
       },
-      [this](const QString& message) { window_.say(message); });
+      [this](const QString& message) { desk_.messages.say(message); });
 }
 
 }  // namespace ostia::workstation

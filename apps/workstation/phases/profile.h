@@ -11,7 +11,7 @@
 
 namespace ostia::workstation {
 
-class MainWindow;
+struct Desk;
 
 /// Outlines are taken in the background while it is open; what the motion makes of them comes at once.
 class PhaseProfile final : public QDockWidget {
@@ -19,12 +19,12 @@ class PhaseProfile final : public QDockWidget {
  public:
   /// `beating`: of the case as it is; null where there is none.
   using Source = std::function<std::shared_ptr<const session::Beating>()>;
-  PhaseProfile(MainWindow& window, session::PhaseClock& clock, Source beating);
+  PhaseProfile(Desk& desk, session::PhaseClock& clock, Source beating);
   void refresh();  ///< another motion, or none
 
  private:
   void measure();
-  MainWindow& window_;
+  Desk& desk_;
   Source beating_;
   PhaseMap* map_;
   QTimer rest_;  // an edit goes on: not for each of its steps

@@ -46,6 +46,22 @@ void bind_checked(Button* button, session::Property<bool>& property) {
   QObject::connect(button, &Button::toggled, button, [&property](bool value) { property.set(value); });
 }
 
+/// An action that is checked while the property has this value.
+template <class T>
+void bind_value(QAction* action, session::Property<T>& property, T value) {
+  const auto show = [action, value](const T& now) { action->setChecked(now == value); };
+  show(property.get());
+  keep_with(action, property.observe(show));
+}
+
+/// An action that switches the property between two values.
+template <class T>
+void bind_switch(QAction* action, session::Property<T>& property, T off, T on) {
+  bind_value(action, property, on);
+  QObject::connect(action, &QAction::triggered, action,
+                   [&property, off, on](bool checked) { property.set(checked ? on : off); });
+}
+
 /// A combo box whose items' data are the values as int.
 template <class Enum>
 void bind(QComboBox* box, session::Property<Enum>& property) {

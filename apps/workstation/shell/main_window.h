@@ -1,38 +1,33 @@
 #pragma once
-/// \file The window: panels, menus, and what goes from one to the other.
+/// \file The window: puts the parts together, and says what goes from one to the other.
 
-#include "shell/jobs.h"
-#include "shell/panel.h"
-#include "shell/theme.h"
-#include "views/picture_widget.h"
+#include "shell/desk.h"
+#include "shell/panes.h"
 #include "views/scene_widget.h"
 
-#include "ostia/session/machine_state.h"
-#include "ostia/session/workbench.h"
-
+#include <QElapsedTimer>
 #include <QMainWindow>
+#include <QTimer>
 #include <filesystem>
-#include <map>
 #include <memory>
-#include <optional>
-#include <string>
+#include <vector>
 
+class QActionGroup;
 class QLabel;
-class QSplitter;
 
 namespace ostia::workstation {
 
-class Opening;
-class Reporting;
-class MeshingExport;
+class BeatingCase;
+class CommandTable;
 class FlowCases;
 class FlowResults;
-class BeatingCase;
-class QaPanel;
-class Hanging;
-class VesselFinder;
+class MeshingExport;
+class Opening;
 class OuterWalls;
+class QaPanel;
+class Reporting;
 class TreeOpening;
+class VesselFinder;
 
 class MainWindow final : public QMainWindow {
   Q_OBJECT
@@ -45,28 +40,24 @@ class MainWindow final : public QMainWindow {
   /// cannot be opened is said in one dialog.
   void open(const std::filesystem::path& path);
   void open_sample();
-  const std::filesystem::path& case_path() const;  ///< of the case that is open; empty where none is
-  session::Workbench& bench() { return bench_; }
-  session::MachineState& machine() { return machine_; }
-  Jobs& jobs() { return *jobs_; }
+  /// As if a person closed it, but without a question: work that is not finished is given up, the case is
+  /// safe.
+  void end();
+  void complain(const QString& text, const QString& title = {}) { desk_.messages.complain(text, title); }
+  Desk& desk() { return desk_; }
+  session::Workbench& bench() { return desk_.bench; }
+  session::MachineState& machine() { return desk_.machine; }
+  Jobs& jobs() { return desk_.jobs; }
+  CommandTable& commands() { return *commands_; }
+  SceneWidget& scene() { return panes_->scene(); }
   VesselFinder& finder() { return *finder_; }
+  Reporting& reporting() { return *reporting_; }
   FlowCases& flow_cases() { return *flow_cases_; }
   FlowResults& flow_results() { return *flow_results_; }
   BeatingCase& beating() { return *beating_; }
   TreeOpening& trees() { return *trees_; }
-  /// Runs it; what is refused comes up in the status line (or, `loud`, as a dialog) and ends there.
-  bool guarded(const std::function<void()>& act, bool loud = false);
-  void say(const QString& text);                                  ///< in the status line
-  void complain(const QString& text, const QString& title = {});  ///< one dialog
-  void set_shown_name(const QString& text);                       ///< patient and series, in the window alone
-  /// As if a person closed it, but without a question: work that is not finished is given up, the case is
-  /// safe.
-  void end();
-  SceneWidget& scene() { return *scene_; }
-  Reporting& reporting() { return *reporting_; }
   QaPanel& qa() { return *qa_; }
   OuterWalls& outer_walls() { return *outer_walls_; }
-  const std::filesystem::path& state_folder() const { return state_folder_; }
 
  protected:
   void closeEvent(QCloseEvent* event) override;
@@ -74,46 +65,24 @@ class MainWindow final : public QMainWindow {
   void dropEvent(QDropEvent* event) override;
 
  private:
-  // layout (main_window.cpp)
-  void build_views();
-  Panel* picture_panel(const QString& title, const QString& name, std::unique_ptr<view::PictureView> view);
-  QWidget* curved_column();
-  QWidget* section_column();
-  Panel* right_column();
-  QWidget* side_column();
+  void build_status_bar();
+  void build_parts();
+  void build_qa();
+  void build_commands();
+  void connect_parts();
+  void watch_case();
+  void show_whether_editable();
   void remember_layout();
   void restore_layout();
-  void maximise(Panel* panel);
-  // menus (main_window_actions.cpp)
-  void build_actions();
-  void build_tool_bar();
-  QAction* build_qa();                 // main_window_qa.cpp
-  void build_tree_menu(QMenu* tools);  // main_window_trees.cpp
-  QAction* action(const QString& id, const QString& text, const std::function<void()>& run);
-  void refresh_actions();
-  void join_with_parent();
-  void fill_recent(QMenu* menu);
-  void pin_view();
-  void turn(double degrees);
-  void walk(double mm);
-  void next_vessel(int by);
-  void set_theme(Theme theme);
+  void count_blocks();
 
-  std::filesystem::path state_folder_;
-  session::Workbench bench_;
-  session::MachineState machine_;
-  Guard guard_;
-  Jobs* jobs_ = nullptr;
+  Desk desk_;
+  QLabel *place_ = nullptr, *shown_name_ = nullptr, *read_only_ = nullptr;
   std::unique_ptr<Opening> opening_;
   std::unique_ptr<Reporting> reporting_;
   std::unique_ptr<VesselFinder> finder_;
-  std::unique_ptr<MeshingExport> meshing_export_;
-  SceneWidget* scene_ = nullptr;
-  ProfileWidget* profile_ = nullptr;
-  std::vector<PictureWidget*> pictures_;
-  std::vector<QSplitter*> splitters_;
-  Hanging* hanging_ = nullptr;
-  Panel* alone_ = nullptr;
+  Panes* panes_ = nullptr;
+  std::unique_ptr<MeshingExport> meshing_;
   bool must_end_ = false;
   std::unique_ptr<OuterWalls> outer_walls_;  // goes before the views that it draws on
   std::shared_ptr<QaPanel> qa_;              // so does this
@@ -121,9 +90,7 @@ class MainWindow final : public QMainWindow {
   std::unique_ptr<FlowCases> flow_cases_;
   std::unique_ptr<TreeOpening> trees_;
   BeatingCase* beating_ = nullptr;
-  QLabel* place_ = nullptr;
-  QLabel* shown_name_ = nullptr;
-  std::map<QString, QAction*> actions_;
+  CommandTable* commands_ = nullptr;
   QTimer heartbeat_;
   QElapsedTimer beat_;
   std::vector<session::Subscription> own_;

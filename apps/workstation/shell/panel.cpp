@@ -5,10 +5,17 @@
 #include <QEvent>
 #include <QHBoxLayout>
 #include <QSplitter>
+#include <QTabWidget>
+#include <QTimer>
 #include <QToolButton>
 #include <QVBoxLayout>
 
 namespace ostia::workstation {
+namespace {
+
+constexpr int settled_ms = 100;  // until the columns have taken their places
+
+}  // namespace
 
 Panel::Panel(const QString& title, QWidget* content, QWidget* parent) : QFrame(parent), content_(content) {
   setFrameShape(QFrame::NoFrame);
@@ -64,6 +71,19 @@ void show_alone(QWidget* root, Panel* alone) {
       QWidget* part = (*splitter)->widget(i);
       part->setVisible(!alone || part == alone || part->isAncestorOf(alone));
     }
+}
+
+void reveal(QWidget& widget) {
+  for (QWidget* page = &widget; page->parentWidget(); page = page->parentWidget()) {
+    auto* tabs = qobject_cast<QTabWidget*>(page->parentWidget()->parentWidget());
+    if (tabs && tabs->indexOf(page) >= 0) tabs->setCurrentWidget(page);
+  }
+  // A small window may have no room for it beside a dock that has just come: then it is shown alone.
+  QTimer::singleShot(settled_ms, &widget, [&widget] {
+    if (widget.isVisible() || !widget.window()->isVisible()) return;
+    for (QWidget* above = widget.parentWidget(); above; above = above->parentWidget())
+      if (auto* panel = qobject_cast<Panel*>(above)) return emit panel->maximise_wanted();
+  });
 }
 
 }  // namespace ostia::workstation

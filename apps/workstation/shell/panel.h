@@ -33,4 +33,7 @@ class Panel final : public QFrame {
 /// Shows one panel alone among all below `root`, or all again where `alone` is null.
 void show_alone(QWidget* root, Panel* alone);
 
+/// Brings a view to the front where it is on a page behind others; alone where there is no room for it else.
+void reveal(QWidget& widget);
+
 }  // namespace ostia::workstation

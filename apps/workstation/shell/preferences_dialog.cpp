@@ -1,12 +1,12 @@
 #include "shell/preferences_dialog.h"
 
+#include "commands/table.h"
 #include "commands/texts.h"
-#include "help/help.h"
+#include "shell/desk.h"
 #include "shell/hanging.h"
 #include "shell/language.h"
 #include "shell/theme.h"
 
-#include <QAction>
 #include <QComboBox>
 #include <QDialogButtonBox>
 #include <QFormLayout>
@@ -31,8 +31,8 @@ QString shown(const QList<QKeySequence>& keys) {
 
 }  // namespace
 
-PreferencesDialog::PreferencesDialog(MainWindow& window, Help& help, QWidget* parent)
-    : QDialog(parent), window_(window), help_(help), keys_(help.keys()) {
+PreferencesDialog::PreferencesDialog(Desk& desk, CommandTable& commands)
+    : QDialog(&desk.window), desk_(desk), commands_(commands), keys_(commands.keys()) {
   setObjectName("preferences");
   setWindowTitle(tr("Preferences"));
   resize_within(*this, QSize(620, 600));
@@ -55,23 +55,22 @@ QWidget* PreferencesDialog::general_page() {
   theme->setCurrentIndex(current_theme() == Theme::dark ? 0 : 1);
   theme->setToolTip(tr("Images are dark in both"));
   connect(theme, QOverload<int>::of(&QComboBox::activated), this, [this](int index) {
-    if ((index == 0) != (current_theme() == Theme::dark))
-      if (auto* action = window_.findChild<QAction*>("view.theme")) action->trigger();
+    if ((index == 0) != (current_theme() == Theme::dark)) commands_.action("view.theme").trigger();
   });
   form->addRow(tr("Theme"), theme);
   auto* language = new QComboBox;
   language->setObjectName("language");
   language->addItem(tr("As the system has it"), QString());
   for (const Language& one : languages()) language->addItem(one.name, one.code);
-  const auto chosen = window_.machine().setting(language_setting);
+  const auto chosen = desk_.machine.setting(language_setting);
   language->setCurrentIndex(chosen ? std::max(0, language->findData(QString::fromStdString(*chosen))) : 0);
   auto* note =
       new QLabel(tr("Another language is used from the next start on. Numbers keep the decimal "
                     "point in every language, as in reports and files."));
   note->setWordWrap(true);
   connect(language, QOverload<int>::of(&QComboBox::activated), this, [this, language](int index) {
-    window_.guarded([&] {
-      window_.machine().set_setting(language_setting, language->itemData(index).toString().toStdString());
+    desk_.messages.guarded([&] {
+      desk_.machine.set_setting(language_setting, language->itemData(index).toString().toStdString());
     });
   });
   form->addRow(tr("Language"), language);
@@ -138,8 +137,8 @@ QWidget* PreferencesDialog::keys_page() {
 
 void PreferencesDialog::fill_keys() {
   QMap<QString, QTreeWidgetItem*> groups;
-  for (const QAction* action : help_.commands()) {
-    const QString title = command_group(action->objectName());
+  for (const Command& command : commands_.all()) {
+    const QString title = command_group(command.id);
     if (!groups.contains(title)) {
       auto* group = new QTreeWidgetItem(list_, {title});
       QFont bold = font();
@@ -149,9 +148,9 @@ void PreferencesDialog::fill_keys() {
       group->setExpanded(true);
       groups[title] = group;
     }
-    auto* line = new QTreeWidgetItem(groups[title], {plain_text(action->text())});
-    line->setData(0, command_id_role, action->objectName());
-    line->setToolTip(0, action->property("tip").toString());
+    auto* line = new QTreeWidgetItem(groups[title], {plain_text(command.text)});
+    line->setData(0, command_id_role, command.id);
+    line->setToolTip(0, command.tip);
   }
   show_keys();
 }
@@ -175,8 +174,8 @@ QString PreferencesDialog::current() const {
 }
 
 QString PreferencesDialog::name_of(const QString& id) const {
-  const auto* action = window_.findChild<QAction*>(id);
-  return action ? plain_text(action->text()) : id;
+  const Command* command = commands_.find(id);
+  return command ? plain_text(command->text) : id;
 }
 
 void PreferencesDialog::complain(const QString& text) {
@@ -203,7 +202,7 @@ void PreferencesDialog::take(const QKeySequence& keys) {
       complain(tr("%1 moves through views and lists and can run no command. Choose another key.").arg(key));
     return;
   }
-  help_.set_keys(keys_);
+  commands_.set_keys(keys_);
   show_keys();
 }
 
@@ -212,21 +211,21 @@ void PreferencesDialog::reset() {
   trouble_->clear();
   if (id.isEmpty()) return complain(tr("Choose a command in the list first."));
   if (!keys_.reset(id)) return complain(tr("Another command has been given this command's key."));
-  help_.set_keys(keys_);
+  commands_.set_keys(keys_);
   show_keys();
 }
 
 void PreferencesDialog::reset_all() {
   trouble_->clear();
   keys_.reset_all();
-  help_.set_keys(keys_);
+  commands_.set_keys(keys_);
   show_keys();
 }
 
 void PreferencesDialog::choose_scheme(int index) {
   trouble_->clear();
-  keys_ = ShortcutKeys(static_cast<ShortcutScheme>(scheme_->itemData(index).toInt()));
-  help_.set_keys(keys_);
+  keys_ = keys_.in_scheme(static_cast<ShortcutScheme>(scheme_->itemData(index).toInt()));
+  commands_.set_keys(keys_);
   show_keys();
 }
 

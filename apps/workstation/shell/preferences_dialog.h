@@ -13,14 +13,14 @@ class QTreeWidgetItem;
 
 namespace ostia::workstation {
 
-class Help;
-class MainWindow;
+class CommandTable;
+struct Desk;
 
 /// What is changed holds at once; a language from the next start on.
 class PreferencesDialog final : public QDialog {
   Q_OBJECT
  public:
-  PreferencesDialog(MainWindow& window, Help& help, QWidget* parent);
+  PreferencesDialog(Desk& desk, CommandTable& commands);
 
  private:
   QWidget* general_page();
@@ -34,8 +34,8 @@ class PreferencesDialog final : public QDialog {
   void reset_all();
   void choose_scheme(int index);
   void complain(const QString& text);
-  MainWindow& window_;
-  Help& help_;
+  Desk& desk_;
+  CommandTable& commands_;
   ShortcutKeys keys_;
   QComboBox* scheme_ = nullptr;
   QTreeWidget* list_ = nullptr;

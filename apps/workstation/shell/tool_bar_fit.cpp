@@ -1,7 +1,6 @@
 #include "shell/tool_bar_fit.h"
 
 #include <QEvent>
-#include <QMainWindow>
 #include <QToolBar>
 #include <QToolButton>
 #include <algorithm>
@@ -14,7 +13,7 @@ constexpr int slack = 24;  // for what a style puts between bars
 
 }  // namespace
 
-ToolBarFit::ToolBarFit(QMainWindow* window, QToolBar* tools, QToolBar* others)
+ToolBarFit::ToolBarFit(QWidget* window, QToolBar* tools, QToolBar* others)
     : QObject(window), window_(window), tools_(tools), others_(others) {
   tools->setIconSize(QSize(icon_size, icon_size));
   window->installEventFilter(this);

@@ -3,7 +3,7 @@
 
 #include <QObject>
 
-class QMainWindow;
+class QWidget;
 class QToolBar;
 
 namespace ostia::workstation {
@@ -13,7 +13,7 @@ namespace ostia::workstation {
 class ToolBarFit final : public QObject {
   Q_OBJECT
  public:
-  ToolBarFit(QMainWindow* window, QToolBar* tools, QToolBar* others);
+  ToolBarFit(QWidget* window, QToolBar* tools, QToolBar* others);
 
  protected:
   bool eventFilter(QObject* object, QEvent* event) override;
@@ -21,7 +21,7 @@ class ToolBarFit final : public QObject {
  private:
   void fit();
   int width_with_words() const;
-  QMainWindow* window_;
+  QWidget* window_;
   QToolBar *tools_, *others_;
 };
 

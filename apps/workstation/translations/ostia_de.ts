@@ -500,6 +500,10 @@
         <source>Vessel tree</source>
         <translation>Gefäßbaum</translation>
     </message>
+    <message>
+        <source>Camera</source>
+        <translation>Kamera</translation>
+    </message>
 </context>
 <context>
     <name>jobs</name>
@@ -757,6 +761,817 @@
     <message>
         <source>The images of the phases cannot be opened</source>
         <translation>Die Bilder der Phasen können nicht geöffnet werden</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::Command</name>
+    <message>
+        <source>Next panel</source>
+        <translation>Nächstes Feld</translation>
+    </message>
+    <message>
+        <source>The keyboard goes to the next panel.</source>
+        <translation>Die Tastatur geht zum nächsten Feld.</translation>
+    </message>
+    <message>
+        <source>Previous panel</source>
+        <translation>Voriges Feld</translation>
+    </message>
+    <message>
+        <source>The keyboard goes to the previous panel.</source>
+        <translation>Die Tastatur geht zum vorigen Feld.</translation>
+    </message>
+    <message>
+        <source>This panel alone</source>
+        <translation>Dieses Feld allein</translation>
+    </message>
+    <message>
+        <source>The panel with the keyboard fills the window; again: all panels.</source>
+        <translation>Das Feld mit der Tastatur füllt das Fenster; nochmals: alle Felder.</translation>
+    </message>
+    <message>
+        <source>Vessels</source>
+        <translation>Gefäße</translation>
+    </message>
+    <message>
+        <source>CPR</source>
+        <translation>CPR</translation>
+    </message>
+    <message>
+        <source>CPR + 90°</source>
+        <translation>CPR + 90°</translation>
+    </message>
+    <message>
+        <source>Cross-section</source>
+        <translation>Querschnitt</translation>
+    </message>
+    <message>
+        <source>Slice</source>
+        <translation>Schichtbild</translation>
+    </message>
+    <message>
+        <source>Coronary tree</source>
+        <translation>Koronarbaum</translation>
+    </message>
+    <message>
+        <source>Lumen profile</source>
+        <translation>Lumenprofil</translation>
+    </message>
+    <message>
+        <source>Measurements</source>
+        <translation>Messungen</translation>
+    </message>
+    <message>
+        <source>Steps</source>
+        <translation>Schritte</translation>
+    </message>
+    <message>
+        <source>Pointer to the left</source>
+        <translation>Zeiger nach links</translation>
+    </message>
+    <message>
+        <source>Moves the mouse pointer by one pixel; held down, faster.</source>
+        <translation>Bewegt den Mauszeiger um einen Bildpunkt; gehalten schneller.</translation>
+    </message>
+    <message>
+        <source>Pointer to the right</source>
+        <translation>Zeiger nach rechts</translation>
+    </message>
+    <message>
+        <source>Pointer up</source>
+        <translation>Zeiger nach oben</translation>
+    </message>
+    <message>
+        <source>Pointer down</source>
+        <translation>Zeiger nach unten</translation>
+    </message>
+    <message>
+        <source>Press or let go</source>
+        <translation>Drücken oder loslassen</translation>
+    </message>
+    <message>
+        <source>Presses the main mouse button and holds it; again: lets it go.</source>
+        <translation>Drückt die Maustaste und hält sie; nochmals: lässt sie los.</translation>
+    </message>
+    <message>
+        <source>No case is open.</source>
+        <translation>Es ist kein Fall geöffnet.</translation>
+    </message>
+    <message>
+        <source>A &amp;flow case…</source>
+        <translation>Ein &amp;Strömungsfall…</translation>
+    </message>
+    <message>
+        <source>Writes a case of blood flow in a mesh for a solver, and runs it.</source>
+        <translation>Schreibt einen Fall der Blutströmung in einem Netz für einen Löser und rechnet ihn.</translation>
+    </message>
+    <message>
+        <source>Open flow res&amp;ults…</source>
+        <translation>Ström&amp;ungsergebnisse öffnen…</translation>
+    </message>
+    <message>
+        <source>Colours the wall in 3D by a solver&apos;s result, such as its shear stress.</source>
+        <translation>Färbt die Wand in 3D nach dem Ergebnis eines Lösers, etwa der Schubspannung.</translation>
+    </message>
+    <message>
+        <source>&amp;Find a command…</source>
+        <translation>Be&amp;fehl suchen…</translation>
+    </message>
+    <message>
+        <source>Type what you want to do; shows the command, its key and its menu, and runs it.</source>
+        <translation>Tippen, was man tun will: zeigt den Befehl, seine Taste und sein Menü und führt ihn aus.</translation>
+    </message>
+    <message>
+        <source>&amp;Manual</source>
+        <translation>&amp;Handbuch</translation>
+    </message>
+    <message>
+        <source>The user&apos;s manual; needs no network.</source>
+        <translation>Das Handbuch; braucht kein Netz.</translation>
+    </message>
+    <message>
+        <source>&amp;Keys and mouse</source>
+        <translation>&amp;Tasten und Maus</translation>
+    </message>
+    <message>
+        <source>All keys and mouse gestures, to be searched.</source>
+        <translation>Alle Tasten und Mausgesten, mit Suche.</translation>
+    </message>
+    <message>
+        <source>&amp;Tour</source>
+        <translation>&amp;Rundgang</translation>
+    </message>
+    <message>
+        <source>Goes through the parts of the window.</source>
+        <translation>Geht durch die Teile des Fensters.</translation>
+    </message>
+    <message>
+        <source>&amp;About Ostia</source>
+        <translation>Ü&amp;ber Ostia</translation>
+    </message>
+    <message>
+        <source>Version, licences, and what the program is not.</source>
+        <translation>Version, Lizenzen, und was das Programm nicht ist.</translation>
+    </message>
+    <message>
+        <source>&amp;Report (PDF, HTML, tables)</source>
+        <translation>&amp;Befund (PDF, HTML, Tabellen)</translation>
+    </message>
+    <message>
+        <source>Makes the report of the case as it is now, in a folder beside it.</source>
+        <translation>Erstellt den Befund des Falls, wie er jetzt ist, in einem Ordner daneben.</translation>
+    </message>
+    <message>
+        <source>&amp;Pin this view to the report</source>
+        <translation>Diese Ansicht an den Befund an&amp;heften</translation>
+    </message>
+    <message>
+        <source>The view that was clicked last becomes a key image of the next report.</source>
+        <translation>Die zuletzt angeklickte Ansicht wird ein Schlüsselbild des nächsten Befunds.</translation>
+    </message>
+    <message>
+        <source>The &amp;centerlines…</source>
+        <translation>Die &amp;Mittellinien…</translation>
+    </message>
+    <message>
+        <source>Writes the centerlines with their radii (VTP).</source>
+        <translation>Schreibt die Mittellinien mit ihren Radien (VTP).</translation>
+    </message>
+    <message>
+        <source>Distance</source>
+        <translation>Abstand</translation>
+    </message>
+    <message>
+        <source>Drag from one place to the other.</source>
+        <translation>Von einer Stelle zur anderen ziehen.</translation>
+    </message>
+    <message>
+        <source>Angle</source>
+        <translation>Winkel</translation>
+    </message>
+    <message>
+        <source>Click three places, the vertex second.</source>
+        <translation>Drei Stellen anklicken, den Scheitel als zweite.</translation>
+    </message>
+    <message>
+        <source>Area</source>
+        <translation>Fläche</translation>
+    </message>
+    <message>
+        <source>Draw around it.</source>
+        <translation>Umfahren.</translation>
+    </message>
+    <message>
+        <source>Diameter</source>
+        <translation>Durchmesser</translation>
+    </message>
+    <message>
+        <source>Drag across the lumen.</source>
+        <translation>Quer über das Lumen ziehen.</translation>
+    </message>
+    <message>
+        <source>Stenosis</source>
+        <translation>Stenose</translation>
+    </message>
+    <message>
+        <source>On a CPR, drag from the proximal to the distal place of reference.</source>
+        <translation>Auf einer CPR von der proximalen zur distalen Referenzstelle ziehen.</translation>
+    </message>
+    <message>
+        <source>Volume</source>
+        <translation>Volumen</translation>
+    </message>
+    <message>
+        <source>On a CPR, drag along the stretch of the vessel.</source>
+        <translation>Auf einer CPR am Abschnitt des Gefäßes entlang ziehen.</translation>
+    </message>
+    <message>
+        <source>HU ring</source>
+        <translation>HU-Ring</translation>
+    </message>
+    <message>
+        <source>Click where CT numbers about the lumen are wanted.</source>
+        <translation>Klicken, wo CT-Werte um das Lumen gewünscht sind.</translation>
+    </message>
+    <message>
+        <source>The &amp;wall…</source>
+        <translation>Die &amp;Wand…</translation>
+    </message>
+    <message>
+        <source>Makes a surface of the wall (VTP, STL, PLY) in the background.</source>
+        <translation>Macht im Hintergrund eine Oberfläche der Wand (VTP, STL, PLY).</translation>
+    </message>
+    <message>
+        <source>A &amp;mesh…</source>
+        <translation>Ein &amp;Netz…</translation>
+    </message>
+    <message>
+        <source>Fills the lumen with tetrahedra for a solver, in the background.</source>
+        <translation>Füllt das Lumen im Hintergrund mit Tetraedern für einen Löser.</translation>
+    </message>
+    <message>
+        <source>Open a &amp;mesh…</source>
+        <translation>&amp;Netz öffnen…</translation>
+    </message>
+    <message>
+        <source>Shows a mesh made earlier, here or elsewhere, and how good it is.</source>
+        <translation>Zeigt ein früher erzeugtes Netz, von hier oder anderswo, und wie gut es ist.</translation>
+    </message>
+    <message>
+        <source>The &amp;mesh</source>
+        <translation>Das &amp;Netz</translation>
+    </message>
+    <message>
+        <source>Shows and hides the mesh that was made or opened last.</source>
+        <translation>Zeigt und verbirgt das Netz, das zuletzt erzeugt oder geöffnet wurde.</translation>
+    </message>
+    <message>
+        <source>&amp;Open a case or image…</source>
+        <translation>Fall oder Bild ö&amp;ffnen…</translation>
+    </message>
+    <message>
+        <source>Opens a case, an image file, or a zip of DICOM files; dropping it on the window does the same.</source>
+        <translation>Öffnet einen Fall, eine Bilddatei oder ein ZIP mit DICOM-Dateien; auf das Fenster ziehen geht auch.</translation>
+    </message>
+    <message>
+        <source>Open a DICOM &amp;folder…</source>
+        <translation>DICOM-&amp;Ordner öffnen…</translation>
+    </message>
+    <message>
+        <source>Looks for CT series in a folder of DICOM files.</source>
+        <translation>Sucht CT-Serien in einem Ordner mit DICOM-Dateien.</translation>
+    </message>
+    <message>
+        <source>The &amp;sample case</source>
+        <translation>&amp;Beispielfall</translation>
+    </message>
+    <message>
+        <source>Opens a computed patient with disease, made on the first use.</source>
+        <translation>Öffnet einen berechneten kranken Patienten; beim ersten Mal wird er erzeugt.</translation>
+    </message>
+    <message>
+        <source>Save the case &amp;as…</source>
+        <translation>Fall &amp;speichern als…</translation>
+    </message>
+    <message>
+        <source>Makes a copy of the case and goes on in it. A case is always saved.</source>
+        <translation>Legt eine Kopie des Falls an und arbeitet in ihr weiter. Ein Fall ist immer gespeichert.</translation>
+    </message>
+    <message>
+        <source>&amp;Close the case</source>
+        <translation>Fall s&amp;chließen</translation>
+    </message>
+    <message>
+        <source>Closes the case; nothing is lost.</source>
+        <translation>Schließt den Fall; nichts geht verloren.</translation>
+    </message>
+    <message>
+        <source>No motion is open.</source>
+        <translation>Es ist keine Bewegung geöffnet.</translation>
+    </message>
+    <message>
+        <source>Open a mo&amp;tion…</source>
+        <translation>Be&amp;wegung öffnen…</translation>
+    </message>
+    <message>
+        <source>Shows the case beating: a motion that was fitted to its phases.</source>
+        <translation>Zeigt den Fall schlagend: eine Bewegung, die an seine Phasen angepasst wurde.</translation>
+    </message>
+    <message>
+        <source>&amp;Play the heartbeat</source>
+        <translation>&amp;Herzschlag abspielen</translation>
+    </message>
+    <message>
+        <source>Plays the phases of the heart in all views, or pauses; needs a motion.</source>
+        <translation>Spielt die Herzphasen in allen Ansichten ab oder hält an; braucht eine Bewegung.</translation>
+    </message>
+    <message>
+        <source>Back to the case&apos;s phase</source>
+        <translation>Zurück zur Phase des Falls</translation>
+    </message>
+    <message>
+        <source>Shows the phase that the case is of again, at which it can be edited.</source>
+        <translation>Zeigt wieder die Phase des Falls, in der er bearbeitet werden kann.</translation>
+    </message>
+    <message>
+        <source>&amp;QA mode</source>
+        <translation>&amp;Qualitätsmodus</translation>
+    </message>
+    <message>
+        <source>Holds the case against contours that somebody else knows to be right.</source>
+        <translation>Hält den Fall gegen Konturen, von denen jemand weiß, dass sie richtig sind.</translation>
+    </message>
+    <message>
+        <source>&amp;Quit</source>
+        <translation>&amp;Beenden</translation>
+    </message>
+    <message>
+        <source>Ends the program; nothing is lost.</source>
+        <translation>Beendet das Programm; nichts geht verloren.</translation>
+    </message>
+    <message>
+        <source>&amp;Undo</source>
+        <translation>&amp;Rückgängig</translation>
+    </message>
+    <message>
+        <source>Takes the last step back.</source>
+        <translation>Nimmt den letzten Schritt zurück.</translation>
+    </message>
+    <message>
+        <source>There is no step to take back.</source>
+        <translation>Es gibt keinen Schritt, der zurückgenommen werden kann.</translation>
+    </message>
+    <message>
+        <source>&amp;Redo</source>
+        <translation>&amp;Wiederholen</translation>
+    </message>
+    <message>
+        <source>Does again what was taken back.</source>
+        <translation>Wiederholt, was zurückgenommen wurde.</translation>
+    </message>
+    <message>
+        <source>No step was taken back.</source>
+        <translation>Es wurde kein Schritt zurückgenommen.</translation>
+    </message>
+    <message>
+        <source>&amp;Preferences…</source>
+        <translation>&amp;Einstellungen…</translation>
+    </message>
+    <message>
+        <source>Keys, theme and language.</source>
+        <translation>Tasten, Farben und Sprache.</translation>
+    </message>
+    <message>
+        <source>Light or dark</source>
+        <translation>Hell oder dunkel</translation>
+    </message>
+    <message>
+        <source>Changes between the dark and the light theme.</source>
+        <translation>Wechselt zwischen dunklen und hellen Farben.</translation>
+    </message>
+    <message>
+        <source>Choose a segment</source>
+        <translation>Segment auswählen</translation>
+    </message>
+    <message>
+        <source>A click on a segment shows its facts.</source>
+        <translation>Ein Klick auf ein Segment zeigt seine Daten.</translation>
+    </message>
+    <message>
+        <source>Straight distance</source>
+        <translation>Gerader Abstand</translation>
+    </message>
+    <message>
+        <source>Click two places on the vessels&apos; walls.</source>
+        <translation>Klicken Sie auf zwei Stellen der Gefäßwände.</translation>
+    </message>
+    <message>
+        <source>Distance along the tree</source>
+        <translation>Abstand entlang des Baums</translation>
+    </message>
+    <message>
+        <source>Click two places; the way is along the vessels&apos; axes.</source>
+        <translation>Klicken Sie auf zwei Stellen; der Weg geht entlang der Gefäßachsen.</translation>
+    </message>
+    <message>
+        <source>Angle of two segments</source>
+        <translation>Winkel zweier Segmente</translation>
+    </message>
+    <message>
+        <source>Click two segments; between their distal directions.</source>
+        <translation>Klicken Sie auf zwei Segmente; zwischen ihren distalen Richtungen.</translation>
+    </message>
+    <message>
+        <source>Region</source>
+        <translation>Region</translation>
+    </message>
+    <message>
+        <source>Click the centre of a ball; what lies in it is added up.</source>
+        <translation>Klicken Sie auf die Mitte einer Kugel; was darin liegt, wird zusammengezählt.</translation>
+    </message>
+    <message>
+        <source>Coordinate grid</source>
+        <translation>Koordinatengitter</translation>
+    </message>
+    <message>
+        <source>Lines at round coordinates.</source>
+        <translation>Linien an runden Koordinaten.</translation>
+    </message>
+    <message>
+        <source>Subtree only</source>
+        <translation>Nur der Teilbaum</translation>
+    </message>
+    <message>
+        <source>Shows the chosen segment and all behind it alone.</source>
+        <translation>Zeigt nur das gewählte Segment und alles dahinter.</translation>
+    </message>
+    <message>
+        <source>All of the tree</source>
+        <translation>Ganzer Baum</translation>
+    </message>
+    <message>
+        <source>Shows all of the vessel tree.</source>
+        <translation>Zeigt den ganzen Gefäßbaum.</translation>
+    </message>
+    <message>
+        <source>Copy the values</source>
+        <translation>Werte kopieren</translation>
+    </message>
+    <message>
+        <source>Puts what was measured on the clipboard, as a table.</source>
+        <translation>Legt das Gemessene als Tabelle in die Zwischenablage.</translation>
+    </message>
+    <message>
+        <source>Save the values…</source>
+        <translation>Werte speichern…</translation>
+    </message>
+    <message>
+        <source>Writes what was measured as a table (CSV).</source>
+        <translation>Schreibt das Gemessene als Tabelle (CSV).</translation>
+    </message>
+    <message>
+        <source>Forget the values</source>
+        <translation>Werte verwerfen</translation>
+    </message>
+    <message>
+        <source>Takes all that was measured in the tree away.</source>
+        <translation>Entfernt alles, was im Baum gemessen wurde.</translation>
+    </message>
+    <message>
+        <source>Close the tree</source>
+        <translation>Baum schließen</translation>
+    </message>
+    <message>
+        <source>Closes the vessel tree; the case&apos;s views come back.</source>
+        <translation>Schließt den Gefäßbaum; die Ansichten des Falls kommen zurück.</translation>
+    </message>
+    <message>
+        <source>No vessel is selected.</source>
+        <translation>Es ist kein Gefäß ausgewählt.</translation>
+    </message>
+    <message>
+        <source>The case has one vessel alone.</source>
+        <translation>Der Fall hat nur ein einziges Gefäß.</translation>
+    </message>
+    <message>
+        <source>This vessel does not go on from the end of another.</source>
+        <translation>Dieses Gefäß setzt kein anderes an dessen Ende fort.</translation>
+    </message>
+    <message>
+        <source>A case is open already: close it first.</source>
+        <translation>Es ist schon ein Fall geöffnet: Schließen Sie ihn zuerst.</translation>
+    </message>
+    <message>
+        <source>No image is open.</source>
+        <translation>Es ist kein Bild geöffnet.</translation>
+    </message>
+    <message>
+        <source>Pull</source>
+        <translation>Ziehen</translation>
+    </message>
+    <message>
+        <source>Take the contour and pull it. Shift and wheel: how far the pull reaches.</source>
+        <translation>Die Kontur greifen und ziehen. Umschalt und Rad: wie weit der Zug reicht.</translation>
+    </message>
+    <message>
+        <source>Draw</source>
+        <translation>Zeichnen</translation>
+    </message>
+    <message>
+        <source>Draw the wall anew, on a CPR or around the lumen on the cross-section.</source>
+        <translation>Die Wand neu zeichnen, auf einer CPR oder um das Lumen im Querschnitt.</translation>
+    </message>
+    <message>
+        <source>Brush</source>
+        <translation>Pinsel</translation>
+    </message>
+    <message>
+        <source>A ball that pushes the wall: outwards from within, inwards from without.</source>
+        <translation>Eine Kugel, die die Wand schiebt: von innen nach außen, von außen nach innen.</translation>
+    </message>
+    <message>
+        <source>Centerline</source>
+        <translation>Mittellinie</translation>
+    </message>
+    <message>
+        <source>Pull the centerline. Double click adds a control point, Delete takes one away.</source>
+        <translation>Die Mittellinie ziehen. Doppelklick setzt einen Stützpunkt, Entf löscht einen.</translation>
+    </message>
+    <message>
+        <source>Add vessel</source>
+        <translation>Neues Gefäß</translation>
+    </message>
+    <message>
+        <source>Click the distal end of a vessel; the way back to the tree is found.</source>
+        <translation>Auf das distale Ende eines Gefäßes klicken; der Weg zurück zum Baum wird gesucht.</translation>
+    </message>
+    <message>
+        <source>Smaller ball, shorter reach</source>
+        <translation>Kleinere Kugel, kürzere Reichweite</translation>
+    </message>
+    <message>
+        <source>Makes the brush&apos;s ball smaller, or the reach of a pull shorter.</source>
+        <translation>Macht die Kugel des Pinsels kleiner oder die Reichweite des Zugs kürzer.</translation>
+    </message>
+    <message>
+        <source>Larger ball, longer reach</source>
+        <translation>Größere Kugel, längere Reichweite</translation>
+    </message>
+    <message>
+        <source>Makes the brush&apos;s ball larger, or the reach of a pull longer.</source>
+        <translation>Macht die Kugel des Pinsels größer oder die Reichweite des Zugs länger.</translation>
+    </message>
+    <message>
+        <source>Outer wall</source>
+        <translation>Außenwand</translation>
+    </message>
+    <message>
+        <source>Looks for the outer wall of the selected vessel, draws it on the 2D views and tells what plaque there is.</source>
+        <translation>Sucht die Außenwand des gewählten Gefäßes, zeichnet sie in die 2D-Ansichten und nennt die Plaque.</translation>
+    </message>
+    <message>
+        <source>Plaque</source>
+        <translation>Plaque</translation>
+    </message>
+    <message>
+        <source>Colours what lies between lumen and outer wall on sections and CPRs by its class.</source>
+        <translation>Färbt auf Querschnitten und CPRs nach Klassen, was zwischen Lumen und Außenwand liegt.</translation>
+    </message>
+    <message>
+        <source>&amp;Find the coronary arteries</source>
+        <translation>Koronararterien &amp;finden</translation>
+    </message>
+    <message>
+        <source>Finds aorta, ostia and arteries in the image, and names them.</source>
+        <translation>Findet Aorta, Ostien und Arterien im Bild und benennt sie.</translation>
+    </message>
+    <message>
+        <source>&amp;Split at the cursor</source>
+        <translation>Am Cursor &amp;teilen</translation>
+    </message>
+    <message>
+        <source>Makes two vessels of this one; the second begins at the cursor and takes the side branches from there on.</source>
+        <translation>Macht aus diesem Gefäß zwei; das zweite beginnt am Cursor und übernimmt die Seitenäste ab dort.</translation>
+    </message>
+    <message>
+        <source>&amp;Join with parent vessel</source>
+        <translation>Mit dem &amp;Muttergefäß verbinden</translation>
+    </message>
+    <message>
+        <source>Makes this vessel part of the one from whose end it goes on; takes a split back.</source>
+        <translation>Macht dieses Gefäß zu einem Teil dessen, an dessen Ende es anschließt; nimmt eine Teilung zurück.</translation>
+    </message>
+    <message>
+        <source>Cut in &amp;two at the cursor</source>
+        <translation>Am Cursor &amp;durchtrennen</translation>
+    </message>
+    <message>
+        <source>Cuts the vessel in two; what lies distal of the cursor, with its branches, is a tree of its own.</source>
+        <translation>Durchtrennt das Gefäß; was distal des Cursors liegt, mit seinen Ästen, ist ein eigener Baum.</translation>
+    </message>
+    <message>
+        <source>&amp;Connect to the cursor…</source>
+        <translation>Mit dem Cursor &amp;verbinden…</translation>
+    </message>
+    <message>
+        <source>A new piece of vessel leads from the cursor to where the vessel that you choose begins.</source>
+        <translation>Ein neues Gefäßstück führt vom Cursor dorthin, wo das gewählte Gefäß beginnt.</translation>
+    </message>
+    <message>
+        <source>caudal</source>
+        <translation>kaudal</translation>
+    </message>
+    <message>
+        <source>cranial</source>
+        <translation>kranial</translation>
+    </message>
+    <message>
+        <source>Turns the tree in 3D so that it is seen from there.</source>
+        <translation>Dreht den Baum in 3D so, dass er von dort gesehen wird.</translation>
+    </message>
+    <message>
+        <source>the front</source>
+        <translation>vorn</translation>
+    </message>
+    <message>
+        <source>the left</source>
+        <translation>links</translation>
+    </message>
+    <message>
+        <source>the right</source>
+        <translation>rechts</translation>
+    </message>
+    <message>
+        <source>above</source>
+        <translation>oben</translation>
+    </message>
+    <message>
+        <source>broadside of the vessel</source>
+        <translation>der Breitseite des Gefäßes</translation>
+    </message>
+    <message>
+        <source>No other stenosis in this direction.</source>
+        <translation>Keine weitere Stenose in dieser Richtung.</translation>
+    </message>
+    <message>
+        <source>Turn the CPRs left</source>
+        <translation>CPRs nach links drehen</translation>
+    </message>
+    <message>
+        <source>Turns both CPRs by five degrees about the vessel&apos;s axis.</source>
+        <translation>Dreht beide CPRs um fünf Grad um die Gefäßachse.</translation>
+    </message>
+    <message>
+        <source>Turn the CPRs right</source>
+        <translation>CPRs nach rechts drehen</translation>
+    </message>
+    <message>
+        <source>To proximal</source>
+        <translation>Nach proximal</translation>
+    </message>
+    <message>
+        <source>The cursor goes half a millimetre towards the ostium.</source>
+        <translation>Der Cursor geht einen halben Millimeter zum Ostium hin.</translation>
+    </message>
+    <message>
+        <source>To distal</source>
+        <translation>Nach distal</translation>
+    </message>
+    <message>
+        <source>The cursor goes half a millimetre towards the vessel&apos;s end.</source>
+        <translation>Der Cursor geht einen halben Millimeter zum Ende des Gefäßes hin.</translation>
+    </message>
+    <message>
+        <source>Next vessel</source>
+        <translation>Nächstes Gefäß</translation>
+    </message>
+    <message>
+        <source>Shows the next vessel of the list.</source>
+        <translation>Zeigt das nächste Gefäß der Liste.</translation>
+    </message>
+    <message>
+        <source>Previous vessel</source>
+        <translation>Voriges Gefäß</translation>
+    </message>
+    <message>
+        <source>Shows the previous vessel of the list.</source>
+        <translation>Zeigt das vorige Gefäß der Liste.</translation>
+    </message>
+    <message>
+        <source>Beginning of the vessel</source>
+        <translation>Anfang des Gefäßes</translation>
+    </message>
+    <message>
+        <source>The cursor goes to where the vessel begins.</source>
+        <translation>Der Cursor geht zum Anfang des Gefäßes.</translation>
+    </message>
+    <message>
+        <source>End of the vessel</source>
+        <translation>Ende des Gefäßes</translation>
+    </message>
+    <message>
+        <source>The cursor goes to where the vessel ends.</source>
+        <translation>Der Cursor geht zum Ende des Gefäßes.</translation>
+    </message>
+    <message>
+        <source>Next stenosis</source>
+        <translation>Nächste Stenose</translation>
+    </message>
+    <message>
+        <source>The cursor goes to the narrowest place of the next stenosis distally.</source>
+        <translation>Der Cursor geht zur engsten Stelle der nächsten Stenose distal.</translation>
+    </message>
+    <message>
+        <source>Previous stenosis</source>
+        <translation>Vorige Stenose</translation>
+    </message>
+    <message>
+        <source>The cursor goes to the narrowest place of the next stenosis proximally.</source>
+        <translation>Der Cursor geht zur engsten Stelle der nächsten Stenose proximal.</translation>
+    </message>
+    <message>
+        <source>Stretched CPR</source>
+        <translation>Gestreckte CPR</translation>
+    </message>
+    <message>
+        <source>The CPRs keep the vessel&apos;s bends in one direction instead of none.</source>
+        <translation>Die CPRs behalten die Biegungen des Gefäßes in einer Richtung statt in keiner.</translation>
+    </message>
+    <message>
+        <source>Slab: maximum</source>
+        <translation>Schicht: Maximum</translation>
+    </message>
+    <message>
+        <source>2D views show the largest CT number within the slab&apos;s thickness.</source>
+        <translation>2D-Ansichten zeigen den größten CT-Wert innerhalb der Schichtdicke.</translation>
+    </message>
+    <message>
+        <source>Slab: mean</source>
+        <translation>Schicht: Mittelwert</translation>
+    </message>
+    <message>
+        <source>2D views show the mean CT number within the slab&apos;s thickness.</source>
+        <translation>2D-Ansichten zeigen den mittleren CT-Wert innerhalb der Schichtdicke.</translation>
+    </message>
+    <message>
+        <source>Thinner slab</source>
+        <translation>Dünnere Schicht</translation>
+    </message>
+    <message>
+        <source>Makes the slab of the 2D views thinner.</source>
+        <translation>Macht die Schicht der 2D-Ansichten dünner.</translation>
+    </message>
+    <message>
+        <source>Thicker slab</source>
+        <translation>Dickere Schicht</translation>
+    </message>
+    <message>
+        <source>Makes the slab of the 2D views thicker.</source>
+        <translation>Macht die Schicht der 2D-Ansichten dicker.</translation>
+    </message>
+    <message>
+        <source>Contours</source>
+        <translation>Konturen</translation>
+    </message>
+    <message>
+        <source>Shows or hides the lumen&apos;s contour on all views.</source>
+        <translation>Zeigt oder verbirgt die Kontur des Lumens in allen Ansichten.</translation>
+    </message>
+    <message>
+        <source>Grey levels for contrast-filled vessels.</source>
+        <translation>Graustufen für kontrastgefüllte Gefäße.</translation>
+    </message>
+    <message>
+        <source>Grey levels for muscle, fat and thrombus.</source>
+        <translation>Graustufen für Muskel, Fett und Thrombus.</translation>
+    </message>
+    <message>
+        <source>Grey levels for the lungs.</source>
+        <translation>Graustufen für die Lunge.</translation>
+    </message>
+    <message>
+        <source>Grey levels for bone and calcium.</source>
+        <translation>Graustufen für Knochen und Kalk.</translation>
+    </message>
+    <message>
+        <source>Window: %1</source>
+        <translation>Fensterung: %1</translation>
+    </message>
+    <message>
+        <source>Browse</source>
+        <translation>Betrachten</translation>
+    </message>
+    <message>
+        <source>The cursor goes where you click. Shift and drag: turn the CPR.</source>
+        <translation>Der Cursor geht, wohin Sie klicken. Umschalt und Ziehen: CPR drehen.</translation>
+    </message>
+    <message>
+        <source>Fit all views</source>
+        <translation>Alle Ansichten einpassen</translation>
+    </message>
+    <message>
+        <source>All views show all there is.</source>
+        <translation>Alle Ansichten zeigen alles, was da ist.</translation>
     </message>
 </context>
 <context>
@@ -1142,149 +1957,6 @@
     </message>
 </context>
 <context>
-    <name>ostia::workstation::Help</name>
-    <message>
-        <source>&amp;Preferences…</source>
-        <translation>&amp;Einstellungen…</translation>
-    </message>
-    <message>
-        <source>&amp;Help</source>
-        <translation>&amp;Hilfe</translation>
-    </message>
-    <message>
-        <source>&amp;Manual</source>
-        <translation>&amp;Handbuch</translation>
-    </message>
-    <message>
-        <source>&amp;Keys and mouse</source>
-        <translation>&amp;Tasten und Maus</translation>
-    </message>
-    <message>
-        <source>&amp;Tour</source>
-        <translation>&amp;Rundgang</translation>
-    </message>
-    <message>
-        <source>&amp;About Ostia</source>
-        <translation>Ü&amp;ber Ostia</translation>
-    </message>
-    <message>
-        <source>Smaller ball, shorter reach</source>
-        <translation>Kleinere Kugel, kürzere Reichweite</translation>
-    </message>
-    <message>
-        <source>Larger ball, longer reach</source>
-        <translation>Größere Kugel, längere Reichweite</translation>
-    </message>
-    <message>
-        <source>Mouse by keys</source>
-        <translation>Maus mit Tasten</translation>
-    </message>
-    <message>
-        <source>Pointer to the left</source>
-        <translation>Zeiger nach links</translation>
-    </message>
-    <message>
-        <source>Pointer to the right</source>
-        <translation>Zeiger nach rechts</translation>
-    </message>
-    <message>
-        <source>Pointer up</source>
-        <translation>Zeiger nach oben</translation>
-    </message>
-    <message>
-        <source>Pointer down</source>
-        <translation>Zeiger nach unten</translation>
-    </message>
-    <message>
-        <source>Press or let go</source>
-        <translation>Drücken oder loslassen</translation>
-    </message>
-    <message>
-        <source>Go to</source>
-        <translation>Gehe zu</translation>
-    </message>
-    <message>
-        <source>Beginning of the vessel</source>
-        <translation>Anfang des Gefäßes</translation>
-    </message>
-    <message>
-        <source>End of the vessel</source>
-        <translation>Ende des Gefäßes</translation>
-    </message>
-    <message>
-        <source>Next stenosis</source>
-        <translation>Nächste Stenose</translation>
-    </message>
-    <message>
-        <source>Previous stenosis</source>
-        <translation>Vorige Stenose</translation>
-    </message>
-    <message>
-        <source>Thinner slab</source>
-        <translation>Dünnere Schicht</translation>
-    </message>
-    <message>
-        <source>Thicker slab</source>
-        <translation>Dickere Schicht</translation>
-    </message>
-    <message>
-        <source>Panels</source>
-        <translation>Felder</translation>
-    </message>
-    <message>
-        <source>Next panel</source>
-        <translation>Nächstes Feld</translation>
-    </message>
-    <message>
-        <source>Previous panel</source>
-        <translation>Voriges Feld</translation>
-    </message>
-    <message>
-        <source>This panel alone</source>
-        <translation>Dieses Feld allein</translation>
-    </message>
-    <message>
-        <source>Vessels</source>
-        <translation>Gefäße</translation>
-    </message>
-    <message>
-        <source>CPR</source>
-        <translation>CPR</translation>
-    </message>
-    <message>
-        <source>CPR + 90°</source>
-        <translation>CPR + 90°</translation>
-    </message>
-    <message>
-        <source>Cross-section</source>
-        <translation>Querschnitt</translation>
-    </message>
-    <message>
-        <source>Slice</source>
-        <translation>Schichtbild</translation>
-    </message>
-    <message>
-        <source>Coronary tree</source>
-        <translation>Koronarbaum</translation>
-    </message>
-    <message>
-        <source>Lumen profile</source>
-        <translation>Lumenprofil</translation>
-    </message>
-    <message>
-        <source>Measurements</source>
-        <translation>Messungen</translation>
-    </message>
-    <message>
-        <source>Steps</source>
-        <translation>Schritte</translation>
-    </message>
-    <message>
-        <source>No other stenosis in this direction.</source>
-        <translation>Keine weitere Stenose in dieser Richtung.</translation>
-    </message>
-</context>
-<context>
     <name>ostia::workstation::HistogramWidget</name>
     <message>
         <source>%1 to %2: %3 elements</source>
@@ -1317,325 +1989,6 @@
         <source>Close %1</source>
         <translation>%1 schließen</translation>
     </message>
-</context>
-<context>
-    <name>ostia::workstation::MainWindow</name>
-    <message>
-        <source>There is not enough memory for this. The case is unchanged.</source>
-        <translation>Dafür reicht der Arbeitsspeicher nicht. Der Fall ist unverändert.</translation>
-    </message>
-    <message>
-        <source>CPR</source>
-        <translation>CPR</translation>
-    </message>
-    <message>
-        <source>CPR + 90°</source>
-        <translation>CPR + 90°</translation>
-    </message>
-    <message>
-        <source>Cross-section</source>
-        <translation>Querschnitt</translation>
-    </message>
-    <message>
-        <source>Neighbours, every %1 mm</source>
-        <translation>Nachbarn, alle %1 mm</translation>
-    </message>
-    <message>
-        <source>Slice</source>
-        <translation>Schichtbild</translation>
-    </message>
-    <message>
-        <source>Axial</source>
-        <translation>Axial</translation>
-    </message>
-    <message>
-        <source>Coronal</source>
-        <translation>Koronar</translation>
-    </message>
-    <message>
-        <source>Sagittal</source>
-        <translation>Sagittal</translation>
-    </message>
-    <message>
-        <source>Oblique</source>
-        <translation>Schräg</translation>
-    </message>
-    <message>
-        <source>Oblique: Shift and drag turns it</source>
-        <translation>Schräg: Umschalt und Ziehen dreht</translation>
-    </message>
-    <message>
-        <source>Orientation of the slice</source>
-        <translation>Ausrichtung der Schicht</translation>
-    </message>
-    <message>
-        <source>Preparing the heart</source>
-        <translation>Herz wird vorbereitet</translation>
-    </message>
-    <message>
-        <source>Coronary tree</source>
-        <translation>Koronarbaum</translation>
-    </message>
-    <message>
-        <source>Tree alone</source>
-        <translation>Nur der Baum</translation>
-    </message>
-    <message>
-        <source>With the heart</source>
-        <translation>Mit dem Herzen</translation>
-    </message>
-    <message>
-        <source>With a MIP</source>
-        <translation>Mit einer MIP</translation>
-    </message>
-    <message>
-        <source>What is behind the tree</source>
-        <translation>Was hinter dem Baum zu sehen ist</translation>
-    </message>
-    <message>
-        <source>Vessels</source>
-        <translation>Gefäße</translation>
-    </message>
-    <message>
-        <source>Measurements</source>
-        <translation>Messungen</translation>
-    </message>
-    <message>
-        <source>Steps</source>
-        <translation>Schritte</translation>
-    </message>
-    <message>
-        <source>Lumen profile</source>
-        <translation>Lumenprofil</translation>
-    </message>
-    <message>
-        <source>&amp;File</source>
-        <translation>&amp;Datei</translation>
-    </message>
-    <message>
-        <source>&amp;Open a case or image…</source>
-        <translation>Fall oder Bild ö&amp;ffnen…</translation>
-    </message>
-    <message>
-        <source>Open a DICOM &amp;folder…</source>
-        <translation>DICOM-&amp;Ordner öffnen…</translation>
-    </message>
-    <message>
-        <source>&amp;Recent cases</source>
-        <translation>&amp;Letzte Fälle</translation>
-    </message>
-    <message>
-        <source>The &amp;sample case</source>
-        <translation>&amp;Beispielfall</translation>
-    </message>
-    <message>
-        <source>Save the case &amp;as…</source>
-        <translation>Fall &amp;speichern als…</translation>
-    </message>
-    <message>
-        <source>&amp;Close the case</source>
-        <translation>Fall s&amp;chließen</translation>
-    </message>
-    <message>
-        <source>&amp;Quit</source>
-        <translation>&amp;Beenden</translation>
-    </message>
-    <message>
-        <source>&amp;Edit</source>
-        <translation>&amp;Bearbeiten</translation>
-    </message>
-    <message>
-        <source>&amp;Undo</source>
-        <translation>&amp;Rückgängig</translation>
-    </message>
-    <message>
-        <source>&amp;Redo</source>
-        <translation>&amp;Wiederholen</translation>
-    </message>
-    <message>
-        <source>&amp;Tools</source>
-        <translation>&amp;Werkzeuge</translation>
-    </message>
-    <message>
-        <source>&amp;View</source>
-        <translation>&amp;Ansicht</translation>
-    </message>
-    <message>
-        <source>Turn the CPRs left</source>
-        <translation>CPRs nach links drehen</translation>
-    </message>
-    <message>
-        <source>Turn the CPRs right</source>
-        <translation>CPRs nach rechts drehen</translation>
-    </message>
-    <message>
-        <source>To proximal</source>
-        <translation>Nach proximal</translation>
-    </message>
-    <message>
-        <source>To distal</source>
-        <translation>Nach distal</translation>
-    </message>
-    <message>
-        <source>Next vessel</source>
-        <translation>Nächstes Gefäß</translation>
-    </message>
-    <message>
-        <source>Previous vessel</source>
-        <translation>Voriges Gefäß</translation>
-    </message>
-    <message>
-        <source>Stretched CPR</source>
-        <translation>Gestreckte CPR</translation>
-    </message>
-    <message>
-        <source>Slab: maximum</source>
-        <translation>Schicht: Maximum</translation>
-    </message>
-    <message>
-        <source>Slab: mean</source>
-        <translation>Schicht: Mittelwert</translation>
-    </message>
-    <message>
-        <source>Contours</source>
-        <translation>Konturen</translation>
-    </message>
-    <message>
-        <source>Fit all views</source>
-        <translation>Alle Ansichten einpassen</translation>
-    </message>
-    <message>
-        <source>Window: %1</source>
-        <translation>Fensterung: %1</translation>
-    </message>
-    <message>
-        <source>Look at the tree from</source>
-        <translation>Den Baum ansehen von</translation>
-    </message>
-    <message>
-        <source>the front</source>
-        <translation>vorn</translation>
-    </message>
-    <message>
-        <source>the left</source>
-        <translation>links</translation>
-    </message>
-    <message>
-        <source>the right</source>
-        <translation>rechts</translation>
-    </message>
-    <message>
-        <source>above</source>
-        <translation>oben</translation>
-    </message>
-    <message>
-        <source>caudal</source>
-        <translation>kaudal</translation>
-    </message>
-    <message>
-        <source>cranial</source>
-        <translation>kranial</translation>
-    </message>
-    <message>
-        <source>broadside of the vessel</source>
-        <translation>der Breitseite des Gefäßes</translation>
-    </message>
-    <message>
-        <source>Light or dark</source>
-        <translation>Hell oder dunkel</translation>
-    </message>
-    <message>
-        <source>Tools</source>
-        <translation>Werkzeuge</translation>
-    </message>
-    <message>
-        <source>Options</source>
-        <translation>Optionen</translation>
-    </message>
-    <message>
-        <source> mm</source>
-        <translation> mm</translation>
-    </message>
-    <message>
-        <source>Reach</source>
-        <translation>Reichweite</translation>
-    </message>
-    <message>
-        <source>How far along the vessel a pull reaches</source>
-        <translation>Wie weit ein Zug entlang des Gefäßes reicht</translation>
-    </message>
-    <message>
-        <source>Ball</source>
-        <translation>Kugel</translation>
-    </message>
-    <message>
-        <source>Radius of the brush</source>
-        <translation>Radius des Pinsels</translation>
-    </message>
-    <message>
-        <source>Slab</source>
-        <translation>Schicht</translation>
-    </message>
-    <message>
-        <source>Thickness of the slab in 2D views, where one is shown</source>
-        <translation>Dicke der Schicht in den 2D-Ansichten, wo eine gezeigt wird</translation>
-    </message>
-    <message>
-        <source>none yet</source>
-        <translation>noch keine</translation>
-    </message>
-    <message>
-        <source>&amp;QA mode</source>
-        <translation>&amp;Qualitätsmodus</translation>
-    </message>
-    <message>
-        <source>&amp;Report (PDF, HTML, tables)</source>
-        <translation>&amp;Befund (PDF, HTML, Tabellen)</translation>
-    </message>
-    <message>
-        <source>&amp;Pin this view to the report</source>
-        <translation>Diese Ansicht an den Befund an&amp;heften</translation>
-    </message>
-    <message>
-        <source>&amp;Export</source>
-        <translation>&amp;Exportieren</translation>
-    </message>
-    <message>
-        <source>The &amp;wall…</source>
-        <translation>Die &amp;Wand…</translation>
-    </message>
-    <message>
-        <source>The &amp;centerlines…</source>
-        <translation>Die &amp;Mittellinien…</translation>
-    </message>
-    <message>
-        <source>The truth cannot be opened</source>
-        <translation>Die Wahrheit lässt sich nicht öffnen</translation>
-    </message>
-    <message>
-        <source>Ve&amp;ssel</source>
-        <translation>&amp;Gefäß</translation>
-    </message>
-    <message>
-        <source>&amp;Split at the cursor</source>
-        <translation>Am Cursor &amp;teilen</translation>
-    </message>
-    <message>
-        <source>&amp;Join with parent vessel</source>
-        <translation>Mit dem &amp;Muttergefäß verbinden</translation>
-    </message>
-    <message>
-        <source>Drop one case, image or folder at a time; of a DICOM series drop its folder.</source>
-        <translation>Bitte nur einen Fall, ein Bild oder einen Ordner auf einmal ablegen, von einer DICOM-Serie ihren Ordner.</translation>
-    </message>
-    <message>
-        <source>A &amp;mesh…</source>
-        <translation>Ein &amp;Netz…</translation>
-    </message>
-    <message>
-        <source>Cross-section, %1 mm on</source>
-        <translation>Querschnitt, %1 mm weiter</translation>
-    </message>
     <message>
         <source>the report</source>
         <translation>der Bericht</translation>
@@ -1649,6 +2002,14 @@
         <translation>das Netz</translation>
     </message>
     <message>
+        <source>the flow case</source>
+        <translation>der Strömungsfall</translation>
+    </message>
+    <message>
+        <source>the solver&apos;s run</source>
+        <translation>der Lauf des Lösers</translation>
+    </message>
+    <message>
         <source>Not finished yet: %1. It is lost if the window closes now; the case is safe.</source>
         <translation>Noch nicht fertig: %1. Es geht verloren, wenn das Fenster jetzt geschlossen wird; der Fall ist sicher.</translation>
     </message>
@@ -1660,161 +2021,28 @@
         <source>Go on working</source>
         <translation>Weiterarbeiten</translation>
     </message>
+</context>
+<context>
+    <name>ostia::workstation::MainWindow</name>
     <message>
-        <source>&amp;Find the coronary arteries</source>
-        <translation>Koronararterien &amp;finden</translation>
+        <source>The truth cannot be opened</source>
+        <translation>Die Wahrheit lässt sich nicht öffnen</translation>
     </message>
     <message>
-        <source>Click into the CPR, section or slice to be pinned first.</source>
-        <translation>Klicken Sie zuerst in die CPR, den Querschnitt oder die Schicht, die angeheftet werden soll.</translation>
+        <source>Drop one case, image or folder at a time; of a DICOM series drop its folder.</source>
+        <translation>Bitte nur einen Fall, ein Bild oder einen Ordner auf einmal ablegen, von einer DICOM-Serie ihren Ordner.</translation>
     </message>
     <message>
-        <source>Cut in &amp;two at the cursor</source>
-        <translation>Am Cursor &amp;durchtrennen</translation>
+        <source>Read-only</source>
+        <translation>Schreibgeschützt</translation>
     </message>
     <message>
-        <source>&amp;Connect to the cursor…</source>
-        <translation>Mit dem Cursor &amp;verbinden…</translation>
+        <source>The case&apos;s file or its folder may not be written. File &gt; Save the case as makes a copy that can be edited.</source>
+        <translation>Die Datei des Falls oder ihr Ordner darf nicht beschrieben werden. Datei &gt; Fall speichern als legt eine Kopie an, die sich bearbeiten lässt.</translation>
     </message>
     <message>
-        <source>Outer wall</source>
-        <translation>Außenwand</translation>
-    </message>
-    <message>
-        <source>Plaque</source>
-        <translation>Plaque</translation>
-    </message>
-    <message>
-        <source>the flow case</source>
-        <translation>der Strömungsfall</translation>
-    </message>
-    <message>
-        <source>the solver&apos;s run</source>
-        <translation>der Lauf des Lösers</translation>
-    </message>
-    <message>
-        <source>A &amp;flow case…</source>
-        <translation>Ein &amp;Strömungsfall…</translation>
-    </message>
-    <message>
-        <source>Open flow res&amp;ults…</source>
-        <translation>Ström&amp;ungsergebnisse öffnen…</translation>
-    </message>
-    <message>
-        <source>Open a &amp;mesh…</source>
-        <translation>&amp;Netz öffnen…</translation>
-    </message>
-    <message>
-        <source>Open a mo&amp;tion…</source>
-        <translation>Be&amp;wegung öffnen…</translation>
-    </message>
-    <message>
-        <source>&amp;Play the heartbeat</source>
-        <translation>&amp;Herzschlag abspielen</translation>
-    </message>
-    <message>
-        <source>Back to the case&apos;s phase</source>
-        <translation>Zurück zur Phase des Falls</translation>
-    </message>
-    <message>
-        <source>Vessel t&amp;ree</source>
-        <translation>Gefäß&amp;baum</translation>
-    </message>
-    <message>
-        <source>Choose a segment</source>
-        <translation>Segment auswählen</translation>
-    </message>
-    <message>
-        <source>A click on a segment shows its facts.</source>
-        <translation>Ein Klick auf ein Segment zeigt seine Daten.</translation>
-    </message>
-    <message>
-        <source>Straight distance</source>
-        <translation>Gerader Abstand</translation>
-    </message>
-    <message>
-        <source>Click two places on the vessels&apos; walls.</source>
-        <translation>Klicken Sie auf zwei Stellen der Gefäßwände.</translation>
-    </message>
-    <message>
-        <source>Distance along the tree</source>
-        <translation>Abstand entlang des Baums</translation>
-    </message>
-    <message>
-        <source>Click two places; the way is along the vessels&apos; axes.</source>
-        <translation>Klicken Sie auf zwei Stellen; der Weg geht entlang der Gefäßachsen.</translation>
-    </message>
-    <message>
-        <source>Angle of two segments</source>
-        <translation>Winkel zweier Segmente</translation>
-    </message>
-    <message>
-        <source>Click two segments; between their distal directions.</source>
-        <translation>Klicken Sie auf zwei Segmente; zwischen ihren distalen Richtungen.</translation>
-    </message>
-    <message>
-        <source>Region</source>
-        <translation>Region</translation>
-    </message>
-    <message>
-        <source>Click the centre of a ball; what lies in it is added up.</source>
-        <translation>Klicken Sie auf die Mitte einer Kugel; was darin liegt, wird zusammengezählt.</translation>
-    </message>
-    <message>
-        <source>Coordinate grid</source>
-        <translation>Koordinatengitter</translation>
-    </message>
-    <message>
-        <source>Lines at round coordinates.</source>
-        <translation>Linien an runden Koordinaten.</translation>
-    </message>
-    <message>
-        <source>Subtree only</source>
-        <translation>Nur der Teilbaum</translation>
-    </message>
-    <message>
-        <source>Shows the chosen segment and all behind it alone.</source>
-        <translation>Zeigt nur das gewählte Segment und alles dahinter.</translation>
-    </message>
-    <message>
-        <source>All of the tree</source>
-        <translation>Ganzer Baum</translation>
-    </message>
-    <message>
-        <source>Shows all of the vessel tree.</source>
-        <translation>Zeigt den ganzen Gefäßbaum.</translation>
-    </message>
-    <message>
-        <source>Copy the values</source>
-        <translation>Werte kopieren</translation>
-    </message>
-    <message>
-        <source>Puts what was measured on the clipboard, as a table.</source>
-        <translation>Legt das Gemessene als Tabelle in die Zwischenablage.</translation>
-    </message>
-    <message>
-        <source>Save the values…</source>
-        <translation>Werte speichern…</translation>
-    </message>
-    <message>
-        <source>Writes what was measured as a table (CSV).</source>
-        <translation>Schreibt das Gemessene als Tabelle (CSV).</translation>
-    </message>
-    <message>
-        <source>Forget the values</source>
-        <translation>Werte verwerfen</translation>
-    </message>
-    <message>
-        <source>Takes all that was measured in the tree away.</source>
-        <translation>Entfernt alles, was im Baum gemessen wurde.</translation>
-    </message>
-    <message>
-        <source>Close the tree</source>
-        <translation>Baum schließen</translation>
-    </message>
-    <message>
-        <source>Closes the vessel tree; the case&apos;s views come back.</source>
-        <translation>Schließt den Gefäßbaum; die Ansichten des Falls kommen zurück.</translation>
+        <source>Ostia – read-only</source>
+        <translation>Ostia – schreibgeschützt</translation>
     </message>
 </context>
 <context>
@@ -1857,6 +2085,61 @@
     <message>
         <source>Value</source>
         <translation>Wert</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::Menus</name>
+    <message>
+        <source>&amp;File</source>
+        <translation>&amp;Datei</translation>
+    </message>
+    <message>
+        <source>&amp;Recent cases</source>
+        <translation>&amp;Letzte Fälle</translation>
+    </message>
+    <message>
+        <source>&amp;Export</source>
+        <translation>&amp;Exportieren</translation>
+    </message>
+    <message>
+        <source>&amp;Edit</source>
+        <translation>&amp;Bearbeiten</translation>
+    </message>
+    <message>
+        <source>Ve&amp;ssel</source>
+        <translation>&amp;Gefäß</translation>
+    </message>
+    <message>
+        <source>&amp;Tools</source>
+        <translation>&amp;Werkzeuge</translation>
+    </message>
+    <message>
+        <source>Vessel t&amp;ree</source>
+        <translation>Gefäß&amp;baum</translation>
+    </message>
+    <message>
+        <source>Mouse by keys</source>
+        <translation>Maus mit Tasten</translation>
+    </message>
+    <message>
+        <source>&amp;View</source>
+        <translation>&amp;Ansicht</translation>
+    </message>
+    <message>
+        <source>Look at the tree from</source>
+        <translation>Den Baum ansehen von</translation>
+    </message>
+    <message>
+        <source>Go to</source>
+        <translation>Gehe zu</translation>
+    </message>
+    <message>
+        <source>Panels</source>
+        <translation>Felder</translation>
+    </message>
+    <message>
+        <source>&amp;Help</source>
+        <translation>&amp;Hilfe</translation>
     </message>
 </context>
 <context>
@@ -2283,10 +2566,6 @@
         <translation>Qualität nicht bestanden</translation>
     </message>
     <message>
-        <source>The &amp;mesh</source>
-        <translation>Das &amp;Netz</translation>
-    </message>
-    <message>
         <source>Preparing the mesh&apos;s picture</source>
         <translation>Das Bild des Netzes wird vorbereitet</translation>
     </message>
@@ -2316,6 +2595,21 @@
     <message>
         <source>It would fail: %1</source>
         <translation>Es würde scheitern: %1</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::Messages</name>
+    <message>
+        <source>There is not enough memory for this. The case is unchanged.</source>
+        <translation>Dafür reicht der Arbeitsspeicher nicht. Der Fall ist unverändert.</translation>
+    </message>
+    <message>
+        <source>This case can be looked at and not changed: its file or folder may not be written. Choose File &gt; Save the case as, and go on in the copy.</source>
+        <translation>Dieser Fall kann angesehen, aber nicht geändert werden: Seine Datei oder sein Ordner darf nicht beschrieben werden. Wählen Sie Datei &gt; Fall speichern als und arbeiten Sie in der Kopie weiter.</translation>
+    </message>
+    <message>
+        <source>A read-only case</source>
+        <translation>Ein schreibgeschützter Fall</translation>
     </message>
 </context>
 <context>
@@ -2419,6 +2713,10 @@
         <source>Vessel trees (*.vtp *.vtk *.swc *.csv *.gxl *.xml *.dat)</source>
         <translation>Gefäßbäume (*.vtp *.vtk *.swc *.csv *.gxl *.xml *.dat)</translation>
     </message>
+    <message>
+        <source>none yet</source>
+        <translation>noch keine</translation>
+    </message>
 </context>
 <context>
     <name>ostia::workstation::OuterWalls</name>
@@ -2468,6 +2766,36 @@
     </message>
 </context>
 <context>
+    <name>ostia::workstation::Palette</name>
+    <message>
+        <source>Find a command</source>
+        <translation>Befehl suchen</translation>
+    </message>
+    <message>
+        <source>Type what you want to do</source>
+        <translation>Tippen Sie, was Sie tun wollen</translation>
+    </message>
+    <message>
+        <source>What you want to do</source>
+        <translation>Was Sie tun wollen</translation>
+    </message>
+    <message>
+        <source>Commands that fit</source>
+        <translation>Passende Befehle</translation>
+    </message>
+    <message>
+        <source>No command fits.</source>
+        <translation>Kein Befehl passt.</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n command(s)   ·   ↑ ↓ choose   ·   Enter runs it   ·   Esc closes</source>
+        <translation>
+            <numerusform>%n Befehl   ·   ↑ ↓ wählen   ·   Eingabe führt aus   ·   Esc schließt</numerusform>
+            <numerusform>%n Befehle   ·   ↑ ↓ wählen   ·   Eingabe führt aus   ·   Esc schließt</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>ostia::workstation::Panel</name>
     <message>
         <source>Double click: this view alone, and back</source>
@@ -2480,6 +2808,77 @@
     <message>
         <source>Maximise %1</source>
         <translation>%1 maximieren</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::Panes</name>
+    <message>
+        <source>Lumen profile</source>
+        <translation>Lumenprofil</translation>
+    </message>
+    <message>
+        <source>CPR</source>
+        <translation>CPR</translation>
+    </message>
+    <message>
+        <source>CPR + 90°</source>
+        <translation>CPR + 90°</translation>
+    </message>
+    <message>
+        <source>Cross-section, %1 mm on</source>
+        <translation>Querschnitt, %1 mm weiter</translation>
+    </message>
+    <message>
+        <source>Slice</source>
+        <translation>Schichtbild</translation>
+    </message>
+    <message>
+        <source>Axial</source>
+        <translation>Axial</translation>
+    </message>
+    <message>
+        <source>Coronal</source>
+        <translation>Koronar</translation>
+    </message>
+    <message>
+        <source>Sagittal</source>
+        <translation>Sagittal</translation>
+    </message>
+    <message>
+        <source>Oblique</source>
+        <translation>Schräg</translation>
+    </message>
+    <message>
+        <source>Oblique: Shift and drag turns it</source>
+        <translation>Schräg: Umschalt und Ziehen dreht</translation>
+    </message>
+    <message>
+        <source>Orientation of the slice</source>
+        <translation>Ausrichtung der Schicht</translation>
+    </message>
+    <message>
+        <source>Cross-section</source>
+        <translation>Querschnitt</translation>
+    </message>
+    <message>
+        <source>Neighbours, every %1 mm</source>
+        <translation>Nachbarn, alle %1 mm</translation>
+    </message>
+    <message>
+        <source>Coronary tree</source>
+        <translation>Koronarbaum</translation>
+    </message>
+    <message>
+        <source>Vessels</source>
+        <translation>Gefäße</translation>
+    </message>
+    <message>
+        <source>Measurements</source>
+        <translation>Messungen</translation>
+    </message>
+    <message>
+        <source>Steps</source>
+        <translation>Schritte</translation>
     </message>
 </context>
 <context>
@@ -3018,12 +3417,36 @@
         <source>The centerlines are in %1.</source>
         <translation>Die Mittellinien liegen in %1.</translation>
     </message>
+    <message>
+        <source>Click into the CPR, section or slice to be pinned first.</source>
+        <translation>Klicken Sie zuerst in die CPR, den Querschnitt oder die Schicht, die angeheftet werden soll.</translation>
+    </message>
 </context>
 <context>
     <name>ostia::workstation::SceneWidget</name>
     <message>
         <source>Coronary tree</source>
         <translation>Koronarbaum</translation>
+    </message>
+    <message>
+        <source>Preparing the heart</source>
+        <translation>Herz wird vorbereitet</translation>
+    </message>
+    <message>
+        <source>Tree alone</source>
+        <translation>Nur der Baum</translation>
+    </message>
+    <message>
+        <source>With the heart</source>
+        <translation>Mit dem Herzen</translation>
+    </message>
+    <message>
+        <source>With a MIP</source>
+        <translation>Mit einer MIP</translation>
+    </message>
+    <message>
+        <source>What is behind the tree</source>
+        <translation>Was hinter dem Baum zu sehen ist</translation>
     </message>
 </context>
 <context>
@@ -3293,6 +3716,45 @@
     <message>
         <source>Click: go back or forth to this step</source>
         <translation>Klick: zu diesem Schritt zurück oder vor</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::ToolBars</name>
+    <message>
+        <source>Reach</source>
+        <translation>Reichweite</translation>
+    </message>
+    <message>
+        <source>How far along the vessel a pull reaches</source>
+        <translation>Wie weit ein Zug entlang des Gefäßes reicht</translation>
+    </message>
+    <message>
+        <source>Ball</source>
+        <translation>Kugel</translation>
+    </message>
+    <message>
+        <source>Radius of the brush</source>
+        <translation>Radius des Pinsels</translation>
+    </message>
+    <message>
+        <source>Slab</source>
+        <translation>Schicht</translation>
+    </message>
+    <message>
+        <source>Thickness of the slab in 2D views, where one is shown</source>
+        <translation>Dicke der Schicht in den 2D-Ansichten, wo eine gezeigt wird</translation>
+    </message>
+    <message>
+        <source>Options</source>
+        <translation>Optionen</translation>
+    </message>
+    <message>
+        <source>Tools</source>
+        <translation>Werkzeuge</translation>
+    </message>
+    <message>
+        <source> mm</source>
+        <translation> mm</translation>
     </message>
 </context>
 <context>
@@ -4059,356 +4521,6 @@ Eine Reparatur ändert, was gezeigt wird, nie die Datei.</translation>
     <message>
         <source>Connect a vessel</source>
         <translation>Gefäß verbinden</translation>
-    </message>
-</context>
-<context>
-    <name>tips</name>
-    <message>
-        <source>Opens a case, an image file, or a zip of DICOM files; dropping it on the window does the same.</source>
-        <translation>Öffnet einen Fall, eine Bilddatei oder ein ZIP mit DICOM-Dateien; auf das Fenster ziehen geht auch.</translation>
-    </message>
-    <message>
-        <source>Looks for CT series in a folder of DICOM files.</source>
-        <translation>Sucht CT-Serien in einem Ordner mit DICOM-Dateien.</translation>
-    </message>
-    <message>
-        <source>Opens a computed patient with disease, made on the first use.</source>
-        <translation>Öffnet einen berechneten kranken Patienten; beim ersten Mal wird er erzeugt.</translation>
-    </message>
-    <message>
-        <source>Makes a copy of the case and goes on in it. A case is always saved.</source>
-        <translation>Legt eine Kopie des Falls an und arbeitet in ihr weiter. Ein Fall ist immer gespeichert.</translation>
-    </message>
-    <message>
-        <source>Closes the case; nothing is lost.</source>
-        <translation>Schließt den Fall; nichts geht verloren.</translation>
-    </message>
-    <message>
-        <source>Ends the program; nothing is lost.</source>
-        <translation>Beendet das Programm; nichts geht verloren.</translation>
-    </message>
-    <message>
-        <source>Takes the last step back.</source>
-        <translation>Nimmt den letzten Schritt zurück.</translation>
-    </message>
-    <message>
-        <source>Does again what was taken back.</source>
-        <translation>Wiederholt, was zurückgenommen wurde.</translation>
-    </message>
-    <message>
-        <source>Keys, theme and language.</source>
-        <translation>Tasten, Farben und Sprache.</translation>
-    </message>
-    <message>
-        <source>Makes the brush&apos;s ball smaller, or the reach of a pull shorter.</source>
-        <translation>Macht die Kugel des Pinsels kleiner oder die Reichweite des Zugs kürzer.</translation>
-    </message>
-    <message>
-        <source>Makes the brush&apos;s ball larger, or the reach of a pull longer.</source>
-        <translation>Macht die Kugel des Pinsels größer oder die Reichweite des Zugs länger.</translation>
-    </message>
-    <message>
-        <source>Turns both CPRs by five degrees about the vessel&apos;s axis.</source>
-        <translation>Dreht beide CPRs um fünf Grad um die Gefäßachse.</translation>
-    </message>
-    <message>
-        <source>The cursor goes half a millimetre towards the ostium.</source>
-        <translation>Der Cursor geht einen halben Millimeter zum Ostium hin.</translation>
-    </message>
-    <message>
-        <source>The cursor goes half a millimetre towards the vessel&apos;s end.</source>
-        <translation>Der Cursor geht einen halben Millimeter zum Ende des Gefäßes hin.</translation>
-    </message>
-    <message>
-        <source>The cursor goes to where the vessel begins.</source>
-        <translation>Der Cursor geht zum Anfang des Gefäßes.</translation>
-    </message>
-    <message>
-        <source>The cursor goes to where the vessel ends.</source>
-        <translation>Der Cursor geht zum Ende des Gefäßes.</translation>
-    </message>
-    <message>
-        <source>The cursor goes to the narrowest place of the next stenosis distally.</source>
-        <translation>Der Cursor geht zur engsten Stelle der nächsten Stenose distal.</translation>
-    </message>
-    <message>
-        <source>The cursor goes to the narrowest place of the next stenosis proximally.</source>
-        <translation>Der Cursor geht zur engsten Stelle der nächsten Stenose proximal.</translation>
-    </message>
-    <message>
-        <source>Shows the next vessel of the list.</source>
-        <translation>Zeigt das nächste Gefäß der Liste.</translation>
-    </message>
-    <message>
-        <source>Shows the previous vessel of the list.</source>
-        <translation>Zeigt das vorige Gefäß der Liste.</translation>
-    </message>
-    <message>
-        <source>The CPRs keep the vessel&apos;s bends in one direction instead of none.</source>
-        <translation>Die CPRs behalten die Biegungen des Gefäßes in einer Richtung statt in keiner.</translation>
-    </message>
-    <message>
-        <source>2D views show the largest CT number within the slab&apos;s thickness.</source>
-        <translation>2D-Ansichten zeigen den größten CT-Wert innerhalb der Schichtdicke.</translation>
-    </message>
-    <message>
-        <source>2D views show the mean CT number within the slab&apos;s thickness.</source>
-        <translation>2D-Ansichten zeigen den mittleren CT-Wert innerhalb der Schichtdicke.</translation>
-    </message>
-    <message>
-        <source>Makes the slab of the 2D views thinner.</source>
-        <translation>Macht die Schicht der 2D-Ansichten dünner.</translation>
-    </message>
-    <message>
-        <source>Makes the slab of the 2D views thicker.</source>
-        <translation>Macht die Schicht der 2D-Ansichten dicker.</translation>
-    </message>
-    <message>
-        <source>Shows or hides the lumen&apos;s contour on all views.</source>
-        <translation>Zeigt oder verbirgt die Kontur des Lumens in allen Ansichten.</translation>
-    </message>
-    <message>
-        <source>All views show all there is.</source>
-        <translation>Alle Ansichten zeigen alles, was da ist.</translation>
-    </message>
-    <message>
-        <source>Changes between the dark and the light theme.</source>
-        <translation>Wechselt zwischen dunklen und hellen Farben.</translation>
-    </message>
-    <message>
-        <source>Grey levels for contrast-filled vessels.</source>
-        <translation>Graustufen für kontrastgefüllte Gefäße.</translation>
-    </message>
-    <message>
-        <source>Grey levels for muscle, fat and thrombus.</source>
-        <translation>Graustufen für Muskel, Fett und Thrombus.</translation>
-    </message>
-    <message>
-        <source>Grey levels for the lungs.</source>
-        <translation>Graustufen für die Lunge.</translation>
-    </message>
-    <message>
-        <source>Grey levels for bone and calcium.</source>
-        <translation>Graustufen für Knochen und Kalk.</translation>
-    </message>
-    <message>
-        <source>The keyboard goes to the next panel.</source>
-        <translation>Die Tastatur geht zum nächsten Feld.</translation>
-    </message>
-    <message>
-        <source>The keyboard goes to the previous panel.</source>
-        <translation>Die Tastatur geht zum vorigen Feld.</translation>
-    </message>
-    <message>
-        <source>The panel with the keyboard fills the window; again: all panels.</source>
-        <translation>Das Feld mit der Tastatur füllt das Fenster; nochmals: alle Felder.</translation>
-    </message>
-    <message>
-        <source>Moves the mouse pointer by one pixel; held down, faster.</source>
-        <translation>Bewegt den Mauszeiger um einen Bildpunkt; gehalten schneller.</translation>
-    </message>
-    <message>
-        <source>Presses the main mouse button and holds it; again: lets it go.</source>
-        <translation>Drückt die Maustaste und hält sie; nochmals: lässt sie los.</translation>
-    </message>
-    <message>
-        <source>The user&apos;s manual; needs no network.</source>
-        <translation>Das Handbuch; braucht kein Netz.</translation>
-    </message>
-    <message>
-        <source>All keys and mouse gestures, to be searched.</source>
-        <translation>Alle Tasten und Mausgesten, mit Suche.</translation>
-    </message>
-    <message>
-        <source>Goes through the parts of the window.</source>
-        <translation>Geht durch die Teile des Fensters.</translation>
-    </message>
-    <message>
-        <source>Version, licences, and what the program is not.</source>
-        <translation>Version, Lizenzen, und was das Programm nicht ist.</translation>
-    </message>
-    <message>
-        <source>Makes the report of the case as it is now, in a folder beside it.</source>
-        <translation>Erstellt den Befund des Falls, wie er jetzt ist, in einem Ordner daneben.</translation>
-    </message>
-    <message>
-        <source>The view that was clicked last becomes a key image of the next report.</source>
-        <translation>Die zuletzt angeklickte Ansicht wird ein Schlüsselbild des nächsten Befunds.</translation>
-    </message>
-    <message>
-        <source>Writes the centerlines with their radii (VTP).</source>
-        <translation>Schreibt die Mittellinien mit ihren Radien (VTP).</translation>
-    </message>
-    <message>
-        <source>Holds the case against contours that somebody else knows to be right.</source>
-        <translation>Hält den Fall gegen Konturen, von denen jemand weiß, dass sie richtig sind.</translation>
-    </message>
-    <message>
-        <source>Makes two vessels of this one; the second begins at the cursor and takes the side branches from there on.</source>
-        <translation>Macht aus diesem Gefäß zwei; das zweite beginnt am Cursor und übernimmt die Seitenäste ab dort.</translation>
-    </message>
-    <message>
-        <source>Makes this vessel part of the one from whose end it goes on; takes a split back.</source>
-        <translation>Macht dieses Gefäß zu einem Teil dessen, an dessen Ende es anschließt; nimmt eine Teilung zurück.</translation>
-    </message>
-    <message>
-        <source>Makes a surface of the wall (VTP, STL, PLY) in the background.</source>
-        <translation>Macht im Hintergrund eine Oberfläche der Wand (VTP, STL, PLY).</translation>
-    </message>
-    <message>
-        <source>Fills the lumen with tetrahedra for a solver, in the background.</source>
-        <translation>Füllt das Lumen im Hintergrund mit Tetraedern für einen Löser.</translation>
-    </message>
-    <message>
-        <source>Finds aorta, ostia and arteries in the image, and names them.</source>
-        <translation>Findet Aorta, Ostien und Arterien im Bild und benennt sie.</translation>
-    </message>
-    <message>
-        <source>Cuts the vessel in two; what lies distal of the cursor, with its branches, is a tree of its own.</source>
-        <translation>Durchtrennt das Gefäß; was distal des Cursors liegt, mit seinen Ästen, ist ein eigener Baum.</translation>
-    </message>
-    <message>
-        <source>A new piece of vessel leads from the cursor to where the vessel that you choose begins.</source>
-        <translation>Ein neues Gefäßstück führt vom Cursor dorthin, wo das gewählte Gefäß beginnt.</translation>
-    </message>
-    <message>
-        <source>Looks for the outer wall of the selected vessel, draws it on the 2D views and tells what plaque there is.</source>
-        <translation>Sucht die Außenwand des gewählten Gefäßes, zeichnet sie in die 2D-Ansichten und nennt die Plaque.</translation>
-    </message>
-    <message>
-        <source>Colours what lies between lumen and outer wall on sections and CPRs by its class.</source>
-        <translation>Färbt auf Querschnitten und CPRs nach Klassen, was zwischen Lumen und Außenwand liegt.</translation>
-    </message>
-    <message>
-        <source>Writes a case of blood flow in a mesh for a solver, and runs it.</source>
-        <translation>Schreibt einen Fall der Blutströmung in einem Netz für einen Löser und rechnet ihn.</translation>
-    </message>
-    <message>
-        <source>Colours the wall in 3D by a solver&apos;s result, such as its shear stress.</source>
-        <translation>Färbt die Wand in 3D nach dem Ergebnis eines Lösers, etwa der Schubspannung.</translation>
-    </message>
-    <message>
-        <source>Shows a mesh made earlier, here or elsewhere, and how good it is.</source>
-        <translation>Zeigt ein früher erzeugtes Netz, von hier oder anderswo, und wie gut es ist.</translation>
-    </message>
-    <message>
-        <source>Shows the case beating: a motion that was fitted to its phases.</source>
-        <translation>Zeigt den Fall schlagend: eine Bewegung, die an seine Phasen angepasst wurde.</translation>
-    </message>
-    <message>
-        <source>Plays the phases of the heart in all views, or pauses; needs a motion.</source>
-        <translation>Spielt die Herzphasen in allen Ansichten ab oder hält an; braucht eine Bewegung.</translation>
-    </message>
-    <message>
-        <source>Shows the phase that the case is of again, at which it can be edited.</source>
-        <translation>Zeigt wieder die Phase des Falls, in der er bearbeitet werden kann.</translation>
-    </message>
-</context>
-<context>
-    <name>tools</name>
-    <message>
-        <source>Browse</source>
-        <translation>Betrachten</translation>
-    </message>
-    <message>
-        <source>The cursor goes where you click. Shift and drag: turn the CPR.</source>
-        <translation>Der Cursor geht, wohin Sie klicken. Umschalt und Ziehen: CPR drehen.</translation>
-    </message>
-    <message>
-        <source>Pull</source>
-        <translation>Ziehen</translation>
-    </message>
-    <message>
-        <source>Take the contour and pull it. Shift and wheel: how far the pull reaches.</source>
-        <translation>Die Kontur greifen und ziehen. Umschalt und Rad: wie weit der Zug reicht.</translation>
-    </message>
-    <message>
-        <source>Draw</source>
-        <translation>Zeichnen</translation>
-    </message>
-    <message>
-        <source>Draw the wall anew, on a CPR or around the lumen on the cross-section.</source>
-        <translation>Die Wand neu zeichnen, auf einer CPR oder um das Lumen im Querschnitt.</translation>
-    </message>
-    <message>
-        <source>Brush</source>
-        <translation>Pinsel</translation>
-    </message>
-    <message>
-        <source>A ball that pushes the wall: outwards from within, inwards from without.</source>
-        <translation>Eine Kugel, die die Wand schiebt: von innen nach außen, von außen nach innen.</translation>
-    </message>
-    <message>
-        <source>Centerline</source>
-        <translation>Mittellinie</translation>
-    </message>
-    <message>
-        <source>Pull the centerline. Double click adds a control point, Delete takes one away.</source>
-        <translation>Die Mittellinie ziehen. Doppelklick setzt einen Stützpunkt, Entf löscht einen.</translation>
-    </message>
-    <message>
-        <source>Add vessel</source>
-        <translation>Neues Gefäß</translation>
-    </message>
-    <message>
-        <source>Click the distal end of a vessel; the way back to the tree is found.</source>
-        <translation>Auf das distale Ende eines Gefäßes klicken; der Weg zurück zum Baum wird gesucht.</translation>
-    </message>
-    <message>
-        <source>Distance</source>
-        <translation>Abstand</translation>
-    </message>
-    <message>
-        <source>Drag from one place to the other.</source>
-        <translation>Von einer Stelle zur anderen ziehen.</translation>
-    </message>
-    <message>
-        <source>Angle</source>
-        <translation>Winkel</translation>
-    </message>
-    <message>
-        <source>Click three places, the vertex second.</source>
-        <translation>Drei Stellen anklicken, den Scheitel als zweite.</translation>
-    </message>
-    <message>
-        <source>Area</source>
-        <translation>Fläche</translation>
-    </message>
-    <message>
-        <source>Draw around it.</source>
-        <translation>Umfahren.</translation>
-    </message>
-    <message>
-        <source>Diameter</source>
-        <translation>Durchmesser</translation>
-    </message>
-    <message>
-        <source>Drag across the lumen.</source>
-        <translation>Quer über das Lumen ziehen.</translation>
-    </message>
-    <message>
-        <source>Stenosis</source>
-        <translation>Stenose</translation>
-    </message>
-    <message>
-        <source>On a CPR, drag from the proximal to the distal place of reference.</source>
-        <translation>Auf einer CPR von der proximalen zur distalen Referenzstelle ziehen.</translation>
-    </message>
-    <message>
-        <source>Volume</source>
-        <translation>Volumen</translation>
-    </message>
-    <message>
-        <source>On a CPR, drag along the stretch of the vessel.</source>
-        <translation>Auf einer CPR am Abschnitt des Gefäßes entlang ziehen.</translation>
-    </message>
-    <message>
-        <source>HU ring</source>
-        <translation>HU-Ring</translation>
-    </message>
-    <message>
-        <source>Click where CT numbers about the lumen are wanted.</source>
-        <translation>Klicken, wo CT-Werte um das Lumen gewünscht sind.</translation>
     </message>
 </context>
 <context>

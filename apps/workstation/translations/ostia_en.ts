@@ -12,6 +12,16 @@
     </message>
 </context>
 <context>
+    <name>ostia::workstation::Palette</name>
+    <message numerus="yes">
+        <source>%n command(s)   ·   ↑ ↓ choose   ·   Enter runs it   ·   Esc closes</source>
+        <translation>
+            <numerusform>%n command   ·   ↑ ↓ choose   ·   Enter runs it   ·   Esc closes</numerusform>
+            <numerusform>%n commands   ·   ↑ ↓ choose   ·   Enter runs it   ·   Esc closes</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>ostia::workstation::QaPanel</name>
     <message numerus="yes">
         <source>%n movement(s) were recorded.</source>

@@ -1,11 +1,11 @@
 #include "trees/opening.h"
 
-#include "shell/main_window.h"
+#include "commands/table.h"
+#include "shell/desk.h"
 
 #include "ostia/core/error.h"
 #include "ostia/geometry/graph_repair.h"
 
-#include <QAction>
 #include <QMessageBox>
 #include <QPushButton>
 
@@ -57,18 +57,19 @@ bool TreeOpening::takes(const fs::path& path) {
 }
 
 void TreeOpening::open(const fs::path& path) {
-  window_.jobs().run(
+  desk_.jobs.run(
       "open", tr("Reading the vessel tree"),
       [path](const core::TaskContext& task) { return std::any(read(path, task)); },
       [this, path](const std::any& result) {
         const auto& made = std::any_cast<const ReadTree&>(result);
-        for (const std::string& warning : made.loaded->warnings) window_.say(QString::fromStdString(warning));
+        for (const std::string& warning : made.loaded->warnings)
+          desk_.messages.say(QString::fromStdString(warning));
         if (made.faults.empty())
           prepare(made.loaded, path, {}, false);
         else
           ask(made.loaded, path, QString::fromStdString(made.faults), made.usable);
       },
-      [this](const QString& message) { window_.complain(message, tr("The tree cannot be opened")); });
+      [this](const QString& message) { desk_.messages.complain(message, tr("The tree cannot be opened")); });
 }
 
 void TreeOpening::ask(const std::shared_ptr<const io::LoadedGraph>& loaded, const fs::path& path,
@@ -76,7 +77,7 @@ void TreeOpening::ask(const std::shared_ptr<const io::LoadedGraph>& loaded, cons
   auto* box = new QMessageBox(QMessageBox::Question, tr("Faults in the tree"),
                               tr("%1 has faults: %2.\n\nA repair changes what is shown, never the file.")
                                   .arg(QString::fromStdString(path.filename().string()), faults),
-                              QMessageBox::NoButton, &window_);
+                              QMessageBox::NoButton, &desk_.window);
   box->setObjectName("tree_faults");
   box->setAttribute(Qt::WA_DeleteOnClose);
   const QAbstractButton* mend = box->addButton(tr("Repair and open"), QMessageBox::AcceptRole);
@@ -93,7 +94,7 @@ void TreeOpening::ask(const std::shared_ptr<const io::LoadedGraph>& loaded, cons
 
 void TreeOpening::prepare(const std::shared_ptr<const io::LoadedGraph>& loaded, const fs::path& path,
                           const std::string& faults, bool repair) {
-  window_.jobs().run(
+  desk_.jobs.run(
       "open", tr("Measuring the vessel tree"),
       [loaded, repair](const core::TaskContext& task) { return std::any(prepared(*loaded, repair, task)); },
       [this, path, faults, repair](const std::any& result) {
@@ -101,23 +102,23 @@ void TreeOpening::prepare(const std::shared_ptr<const io::LoadedGraph>& loaded, 
         tree.name = path.filename().string();
         if (!repair && !faults.empty()) tree.notes = faults;
         close();
-        page_ = new TreePage(window_, std::move(tree));
+        page_ = new TreePage(desk_, window_, commands_, std::move(tree));
       },
-      [this](const QString& message) { window_.complain(message, tr("The tree cannot be opened")); });
+      [this](const QString& message) { desk_.messages.complain(message, tr("The tree cannot be opened")); });
 }
 
 void TreeOpening::close() {
   if (!page_) return;
   delete page_.data();
-  for (const char* id : {"tree.grid", "tree.subtree"}) window_.findChild<QAction*>(id)->setChecked(false);
-  window_.findChild<QAction*>("tree.select")->setChecked(true);
+  for (const char* id : {"tree.grid", "tree.subtree"}) commands_.action(id).setChecked(false);
+  commands_.action("tree.select").setChecked(true);
 }
 
 void TreeOpening::with_page(const std::function<void(TreePage&)>& act) {
   if (page_)
     act(*page_);
   else
-    window_.say(tr("No vessel tree is open: open a file of one first."));
+    desk_.messages.say(tr("No vessel tree is open: open a file of one first."));
 }
 
 }  // namespace ostia::workstation

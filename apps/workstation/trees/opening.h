@@ -14,7 +14,9 @@ namespace ostia::workstation {
 class TreeOpening final : public QObject {
   Q_OBJECT
  public:
-  explicit TreeOpening(MainWindow& window) : window_(window) {}
+  /// Trees are shown over the views of `window`, with the commands of `commands` beside them.
+  TreeOpening(Desk& desk, QMainWindow& window, const CommandTable& commands)
+      : desk_(desk), window_(window), commands_(commands) {}
   /// True for a file that io::is_graph_file takes; what cannot be looked into is none.
   static bool takes(const std::filesystem::path& path);
   void open(const std::filesystem::path& path);
@@ -28,7 +30,9 @@ class TreeOpening final : public QObject {
            const QString& faults, bool usable);
   void prepare(const std::shared_ptr<const io::LoadedGraph>& loaded, const std::filesystem::path& path,
                const std::string& faults, bool repair);
-  MainWindow& window_;
+  Desk& desk_;
+  QMainWindow& window_;
+  const CommandTable& commands_;
   QPointer<TreePage> page_;
 };
 

@@ -1,7 +1,8 @@
 #include "trees/page.h"
 
+#include "commands/table.h"
+#include "shell/desk.h"
 #include "shell/file_dialogs.h"
-#include "shell/main_window.h"
 
 #include "ostia/core/files.h"
 
@@ -14,6 +15,7 @@
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
+#include <QMainWindow>
 #include <QMenuBar>
 #include <QStatusBar>
 #include <QTableWidget>
@@ -27,9 +29,9 @@ namespace {
 
 constexpr int panel_width = 390;
 
-const char* const commands[] = {"tree.select", "tree.straight", "tree.along",   "tree.angle",
-                                "tree.region", "tree.grid",     "tree.subtree", "tree.fit",
-                                "tree.copy",   "tree.export",   "tree.clear",   "tree.close"};
+const char* const button_commands[] = {"tree.select", "tree.straight", "tree.along",   "tree.angle",
+                                       "tree.region", "tree.grid",     "tree.subtree", "tree.fit",
+                                       "tree.copy",   "tree.export",   "tree.clear",   "tree.close"};
 
 QTableWidgetItem* cell(const QString& text) {
   auto* made = new QTableWidgetItem(text);
@@ -39,8 +41,13 @@ QTableWidgetItem* cell(const QString& text) {
 
 }  // namespace
 
-TreePage::TreePage(MainWindow& window, OpenTree tree)
-    : QFrame(&window), window_(window), tree_(std::move(tree)), measuring_(tree_.ruler) {
+TreePage::TreePage(Desk& desk, QMainWindow& window, const CommandTable& commands, OpenTree tree)
+    : QFrame(&window),
+      desk_(desk),
+      window_(window),
+      commands_(commands),
+      tree_(std::move(tree)),
+      measuring_(tree_.ruler) {
   setObjectName("tree_page");
   setAutoFillBackground(true);
   auto* row = new QHBoxLayout(this);
@@ -70,11 +77,11 @@ QWidget* TreePage::build_panel() {
   auto* rows = new QVBoxLayout(panel);
   auto* buttons = new QGridLayout;
   int number = 0;
-  for (const char* id : commands) {
+  for (const char* id : button_commands) {
     auto* button = new QToolButton;
     button->setObjectName(QStringLiteral("button.") + id);
     button->setToolButtonStyle(Qt::ToolButtonTextOnly);
-    button->setDefaultAction(window_.findChild<QAction*>(id));
+    button->setDefaultAction(&commands_.action(id));
     button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
     buttons->addWidget(button, number / 2, number % 2);
     ++number;
@@ -139,9 +146,9 @@ void TreePage::show_grid(bool shown) {
 
 void TreePage::show_subtree(bool only) {
   if (only && (chosen_ < 0 || !tree_.ruler->report())) {
-    window_.say(chosen_ < 0 ? tr("Click a segment first: what lies behind it is then shown alone.")
-                            : QString::fromStdString(tree_.ruler->why_no_tree()));
-    window_.findChild<QAction*>("tree.subtree")->setChecked(false);
+    desk_.messages.say(chosen_ < 0 ? tr("Click a segment first: what lies behind it is then shown alone.")
+                                   : QString::fromStdString(tree_.ruler->why_no_tree()));
+    commands_.action("tree.subtree").setChecked(false);
     only = false;
   }
   view_->set_shown(only ? tree_.ruler->subtree(chosen_) : std::vector<std::uint8_t>());
@@ -168,7 +175,7 @@ void TreePage::export_csv() {
 }
 
 void TreePage::click(const QPointF& at) {
-  window_.guarded([&] {
+  desk_.messages.guarded([&] {
     const auto hit = view_->under(at);
     if (!hit) {
       if (measuring_.tool() == TreeTool::select) choose_segment(-1);
@@ -191,9 +198,9 @@ void TreePage::show_measured() {
   table_->setRowCount(static_cast<int>(all.size()));
   for (std::size_t i = 0; i < all.size(); ++i) {
     const int row = static_cast<int>(i);
-    const auto* command =
-        window_.findChild<QAction*>(QString::fromLatin1(commands[static_cast<int>(all[i].tool)]));
-    table_->setItem(row, 0, cell(command->text().remove('&')));
+    const QAction& command =
+        commands_.action(QString::fromLatin1(button_commands[static_cast<int>(all[i].tool)]));
+    table_->setItem(row, 0, cell(command.text().remove('&')));
     table_->setItem(row, 1, cell(text_of(all[i])));
   }
   table_->scrollToBottom();

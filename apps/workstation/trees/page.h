@@ -9,11 +9,13 @@
 
 class QDoubleSpinBox;
 class QLabel;
+class QMainWindow;
 class QTableWidget;
 
 namespace ostia::workstation {
 
-class MainWindow;
+class CommandTable;
+struct Desk;
 
 /// What the page shows, made in the background.
 struct OpenTree {
@@ -30,7 +32,7 @@ class TreePage final : public QFrame {
   Q_OBJECT
  public:
   /// Lies over the window's views, which come back when it goes.
-  TreePage(MainWindow& window, OpenTree tree);
+  TreePage(Desk& desk, QMainWindow& window, const CommandTable& commands, OpenTree tree);
   ~TreePage() override;
   void choose(TreeTool tool);
   void show_grid(bool shown);
@@ -55,7 +57,9 @@ class TreePage final : public QFrame {
   void show_measured();
   void show_marks();
   QString text_of(const TreeMeasured& one) const;
-  MainWindow& window_;
+  Desk& desk_;
+  QMainWindow& window_;
+  const CommandTable& commands_;
   OpenTree tree_;
   TreeMeasuring measuring_;
   std::int32_t chosen_ = -1;

@@ -1,7 +1,7 @@
 #include "vessels/finder.h"
 
 #include "opening/opening.h"
-#include "shell/main_window.h"
+#include "shell/desk.h"
 
 #include "ostia/core/error.h"
 #include "ostia/session/found_model.h"
@@ -26,28 +26,28 @@ void require_contrast(const segmentation::MinimalPath& way) {
 
 }  // namespace
 
-VesselFinder::VesselFinder(MainWindow& window, Opening& opening)
-    : QObject(&window), window_(window), opening_(opening) {
-  own_.push_back(window.bench().case_changed.observe([this] { drop_begun(); }));
-  own_.push_back(window.bench().image_changed.observe([this] { drop_begun(); }));
-  own_.push_back(window.bench().tool.observe([this](const session::Tool& tool) {
-    window_.bench().first_end.set({});
-    if (tool == session::Tool::add_vessel && !window_.bench().has_case() && window_.bench().image().volume)
-      window_.say(tr("Click the ostium of the first vessel, then its distal end."));
+VesselFinder::VesselFinder(Desk& desk, Opening& opening)
+    : QObject(&desk.window), desk_(desk), opening_(opening) {
+  own_.push_back(desk.bench.case_changed.observe([this] { drop_begun(); }));
+  own_.push_back(desk.bench.image_changed.observe([this] { drop_begun(); }));
+  own_.push_back(desk.bench.tool.observe([this](const session::Tool& tool) {
+    desk_.bench.first_end.set({});
+    if (tool == session::Tool::add_vessel && !desk_.bench.has_case() && desk_.bench.image().volume)
+      desk_.messages.say(tr("Click the ostium of the first vessel, then its distal end."));
   }));
 }
 
 void VesselFinder::drop_begun() {
-  window_.jobs().cancel("tree");
-  window_.jobs().cancel("path");
-  window_.bench().first_end.set({});
+  desk_.jobs.cancel("tree");
+  desk_.jobs.cancel("path");
+  desk_.bench.first_end.set({});
 }
 
 bool VesselFinder::image_is_there() {
-  if (!window_.bench().image().volume)
-    window_.say(tr("A vessel is found in the image: open the image of this case first."));
+  if (!desk_.bench.image().volume)
+    desk_.messages.say(tr("A vessel is found in the image: open the image of this case first."));
   else if (opening_.reading())
-    window_.say(tr("The image is still being read."));
+    desk_.messages.say(tr("The image is still being read."));
   else
     return true;
   return false;
@@ -55,9 +55,9 @@ bool VesselFinder::image_is_there() {
 
 void VesselFinder::find_tree() {
   if (!image_is_there()) return;
-  const session::OpenImage image = window_.bench().image();
+  const session::OpenImage image = desk_.bench.image();
   using Found = std::shared_ptr<const session::FoundModel>;
-  window_.jobs().run(
+  desk_.jobs.run(
       "tree", tr("Finding the coronary arteries"),
       [volume = image.volume](const core::TaskContext& task) {
         return std::any(
@@ -68,46 +68,47 @@ void VesselFinder::find_tree() {
         opening_.start_case(reference, [&](const std::filesystem::path& path) {
           return session::create_case(path, *found, reference);
         });
-        window_.say(
+        desk_.messages.say(
             tr("%n vessel(s) were found. Look at each before you trust it; a question mark in the "
                "list says where the program is not sure.",
                nullptr, static_cast<int>(found->model.tree.vessels.size())));
       },
       [this](const QString& message) {
-        window_.say(tr("The arteries were not found by themselves: %1").arg(message));
+        desk_.messages.say(tr("The arteries were not found by themselves: %1").arg(message));
       });
 }
 
 void VesselFinder::find_vessel(const geometry::Vec3& end) {
   if (!image_is_there()) return;
-  const session::OpenImage image = window_.bench().image();
-  if (!window_.bench().has_case()) {
+  const session::OpenImage image = desk_.bench.image();
+  if (!desk_.bench.has_case()) {
     first_vessel(image, end);
     return;
   }
-  window_.jobs().run(
+  desk_.jobs.run(
       "path", tr("Way back to the tree"),
-      [volume = image.volume, model = window_.bench().session().file().model(),
+      [volume = image.volume, model = desk_.bench.session().file().model(),
        end](const core::TaskContext& task) {
         return std::any(segmentation::path_to_tree(*volume, end, model->tree, {}, task));
       },
       [this](const std::any& found) {
-        window_.guarded([&] { join_way(std::any_cast<const segmentation::MinimalPath&>(found)); }, true);
+        desk_.messages.guarded([&] { join_way(std::any_cast<const segmentation::MinimalPath&>(found)); },
+                               true);
       },
-      [this](const QString& message) { window_.complain(message, tr("No vessel found")); });
+      [this](const QString& message) { desk_.messages.complain(message, tr("No vessel found")); });
 }
 
 void VesselFinder::first_vessel(const session::OpenImage& image, const geometry::Vec3& end) {
-  window_.jobs().cancel("tree");  // a person begins the tree
-  session::Workbench& bench = window_.bench();
+  desk_.jobs.cancel("tree");  // a person begins the tree
+  session::Workbench& bench = desk_.bench;
   if (!bench.first_end.get()) {
     bench.first_end.set(end);
-    window_.say(tr("Now click the distal end of this vessel."));
+    desk_.messages.say(tr("Now click the distal end of this vessel."));
     return;
   }
   const geometry::Vec3 from = *bench.first_end.get();
   bench.first_end.set({});
-  window_.jobs().run(
+  desk_.jobs.run(
       "path", tr("First vessel"),
       [volume = image.volume, from, end](const core::TaskContext& task) {
         const segmentation::MinimalPath way =
@@ -122,21 +123,21 @@ void VesselFinder::first_vessel(const session::OpenImage& image, const geometry:
           return session::CaseFile::create(path, model, reference);
         });
       },
-      [this](const QString& message) { window_.complain(message, tr("No vessel found")); });
+      [this](const QString& message) { desk_.messages.complain(message, tr("No vessel found")); });
 }
 
 void VesselFinder::join_way(const segmentation::MinimalPath& way) {
-  session::Workbench& bench = window_.bench();
+  session::Workbench& bench = desk_.bench;
   if (const auto extension = session::extension_of(way, *bench.model())) {
     bench.edit(*extension);
     bench.vessel.set(extension->vessel);
-    window_.say(tr("%1 was lengthened: the way came to its end.")
-                    .arg(QString::fromStdString(bench.vessel_name(extension->vessel))));
+    desk_.messages.say(tr("%1 was lengthened: the way came to its end.")
+                           .arg(QString::fromStdString(bench.vessel_name(extension->vessel))));
   } else {
     bench.edit(session::branch_of(way, session::unused_name(bench.model())));
     bench.vessel.set(bench.model()->tree.vessels.back().id);
   }
-  if (!way.warnings.empty()) window_.say(QString::fromStdString(way.warnings.front()));
+  if (!way.warnings.empty()) desk_.messages.say(QString::fromStdString(way.warnings.front()));
 }
 
 }  // namespace ostia::workstation

@@ -9,14 +9,14 @@
 
 namespace ostia::workstation {
 
-class MainWindow;
+struct Desk;
 class Opening;
 
 /// In the background. What was begun on one case or image does not end on another: it is dropped.
 class VesselFinder final : public QObject {
   Q_OBJECT
  public:
-  VesselFinder(MainWindow& window, Opening& opening);
+  VesselFinder(Desk& desk, Opening& opening);
   /// A first case of the open image, with labelled vessels. Where nothing is found, a line says why, and the
   /// guided way is open.
   void find_tree();
@@ -28,7 +28,7 @@ class VesselFinder final : public QObject {
   void join_way(const segmentation::MinimalPath& way);
   bool image_is_there();
   void drop_begun();
-  MainWindow& window_;
+  Desk& desk_;
   Opening& opening_;
   std::vector<session::Subscription> own_;
 };

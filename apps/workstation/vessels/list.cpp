@@ -1,8 +1,8 @@
 #include "vessels/list.h"
 
-#include "commands/texts.h"
-#include "measuring/side_lists.h"
+#include "shell/list_rows.h"
 #include "vessels/connect_menu.h"
+#include "vessels/tips.h"
 
 #include "ostia/core/parallel.h"
 
@@ -333,7 +333,7 @@ void VesselList::contextMenuEvent(QContextMenuEvent* event) {
   QAction* split = menu.addAction(tr("Split at the cursor"), this, [this, id] {
     guard_([&] { bench_.edit(lumen::BranchSplit{id, bench_.cursor_mm.get(), {}}); });
   });
-  split->setToolTip(command_tip("vessel.split"));
+  split->setToolTip(vessel_tips::split());
   const auto parent = lumen::merge_parent(bench_.model()->tree, id);
   QAction* merge = menu.addAction(tr("Join with parent vessel"), this, [this, id, parent] {
     guard_([&] {
@@ -343,15 +343,15 @@ void VesselList::contextMenuEvent(QContextMenuEvent* event) {
       bench_.cursor_mm.set(cursor);
     });
   });
-  merge->setToolTip(command_tip("vessel.merge"));
+  merge->setToolTip(vessel_tips::merge());
   merge->setEnabled(parent.has_value());
   QAction* cut = menu.addAction(tr("Cut in two at the cursor"), this, [this, id] {
     guard_([&] { bench_.edit(lumen::BranchCut{id, bench_.cursor_mm.get(), {}}); });
   });
-  cut->setToolTip(command_tip("vessel.cut"));
+  cut->setToolTip(vessel_tips::cut());
   QMenu* connect = connect_menu(bench_, guard_, &menu);
   connect->setTitle(tr("Connect to the cursor"));
-  menu.addMenu(connect)->setToolTip(command_tip("vessel.connect"));
+  menu.addMenu(connect)->setToolTip(vessel_tips::connect());
   menu.addAction(tr("Delete with its branches"), this,
                  [this, id] { guard_([&] { bench_.edit(lumen::BranchDelete{id}); }); });
   auto* joints = menu.addMenu(tr("Join to"));

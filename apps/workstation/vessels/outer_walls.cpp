@@ -1,12 +1,10 @@
 #include "vessels/outer_walls.h"
 
-#include "commands/texts.h"
-#include "shell/bind.h"
-#include "shell/main_window.h"
+#include "shell/desk.h"
+#include "views/picture_widget.h"
 
 #include "ostia/session/plaque_sampling.h"
 
-#include <QAction>
 #include <any>
 #include <utility>
 
@@ -53,9 +51,8 @@ QStringList lesion_text(const session::VesselWalls* walls, const analysis::Steno
   return lines;
 }
 
-OuterWalls::OuterWalls(MainWindow& window, const std::vector<PictureWidget*>& pictures,
-                       ProfileWidget* profile)
-    : QObject(&window), window_(window), board_(window.bench()), profile_(profile) {
+OuterWalls::OuterWalls(Desk& desk, const std::vector<PictureWidget*>& pictures, ProfileWidget* profile)
+    : QObject(&desk.window), desk_(desk), board_(desk.bench), profile_(profile) {
   for (PictureWidget* picture : pictures) {
     plaque_.push_back(std::make_unique<view::PlaqueLayer>(picture->view(), board_));
     layers_.push_back(std::make_unique<view::OuterWallLayer>(picture->view(), board_));
@@ -67,30 +64,24 @@ OuterWalls::OuterWalls(MainWindow& window, const std::vector<PictureWidget*>& pi
   soon_.setSingleShot(true);
   soon_.setInterval(pause_ms);
   connect(&soon_, &QTimer::timeout, this, &OuterWalls::look);
-  session::Workbench& bench = window.bench();
+  session::Workbench& bench = desk.bench;
   const auto switched = [this](const bool&) {
-    if (!wanted()) window_.jobs().cancel(wall_job_kind);
+    if (!wanted()) desk_.jobs.cancel(wall_job_kind);
     look_soon();
     tell();
   };
   own_.push_back(board_.shown.observe(switched));
   own_.push_back(board_.plaque_shown.observe(switched));
-  own_.push_back(board_.changed.observe([this] { refresh_command(); }));
   own_.push_back(bench.vessel.observe([this](const std::int32_t&) {
     look_soon();
     tell();
-    refresh_command();
   }));
   own_.push_back(bench.cursor_mm.observe([this](const double&) { tell_lesion(); }));
   own_.push_back(bench.model_changed.observe([this](const session::ModelEvent&) { look_soon(); }));
-  own_.push_back(bench.image_changed.observe([this] {
-    look_soon();
-    refresh_command();
-  }));
+  own_.push_back(bench.image_changed.observe([this] { look_soon(); }));
   own_.push_back(bench.case_changed.observe([this] {
-    window_.jobs().cancel(wall_job_kind);
+    desk_.jobs.cancel(wall_job_kind);
     look_soon();
-    refresh_command();
   }));
 }
 
@@ -108,7 +99,7 @@ void OuterWalls::look() {
   std::optional<session::OuterWallWork> work = board_.work();
   if (!wanted() || !work) return;
   const auto shared = std::make_shared<const session::OuterWallWork>(std::move(*work));
-  window_.jobs().run(
+  desk_.jobs.run(
       wall_job_kind, tr("Outer wall"),
       [shared](const core::TaskContext& task) -> std::any {
         return std::make_shared<std::optional<session::VesselWalls>>(shared->found(task));
@@ -122,51 +113,36 @@ void OuterWalls::look() {
       },
       [this, shared](const QString& why) {
         board_.take(*shared, std::nullopt);
-        window_.say(why);
+        desk_.messages.say(why);
       });
 }
 
 void OuterWalls::tell() {
   const session::VesselWalls* walls = wanted() ? board_.of_selected() : nullptr;
-  if (walls) window_.say(plaque_text(*walls));
+  if (walls) desk_.messages.say(plaque_text(*walls));
 }
 
 /// Once for every stenosis that the cursor comes to.
 void OuterWalls::tell_lesion() {
   const session::VesselWalls* walls = wanted() ? board_.of_selected() : nullptr;
-  const session::Workbench& bench = window_.bench();
+  const session::Workbench& bench = desk_.bench;
   const double s = bench.cursor_mm.get();
   std::optional<double> here;
   if (walls)
     for (const analysis::Stenosis& one : bench.known_stenoses(bench.vessel.get()))
       if (s >= one.from_mm && s <= one.to_mm) {
         here = one.throat_mm;
-        if (told_mm_ != here) window_.say(lesion_text(walls, one).join(QStringLiteral("; ")));
+        if (told_mm_ != here) desk_.messages.say(lesion_text(walls, one).join(QStringLiteral("; ")));
       }
   told_mm_ = here;
 }
 
-void OuterWalls::set_plaque_command(QAction* command) {
-  command_ = command;
-  bind_checked(command, board_.plaque_shown);
-  refresh_command();
-}
-
 QString OuterWalls::why_no_plaque() const {
-  const session::Workbench& bench = window_.bench();
+  if (board_.of_selected()) return {};
+  const session::Workbench& bench = desk_.bench;
   if (!bench.has_case() || !bench.image().volume) return tr("There is no case with its image.");
   if (board_.known().contains(bench.vessel.get())) return tr("No outer wall was found along this vessel.");
   return tr("No outer wall is known along this vessel: switch on Outer wall, and it is looked for.");
-}
-
-void OuterWalls::refresh_command() {
-  if (!command_) return;
-  const bool known = board_.of_selected() != nullptr;
-  const QString tip = known ? command_tip(command_->objectName()) : why_no_plaque();
-  command_->setEnabled(known);
-  command_->setProperty("tip", tip);
-  command_->setStatusTip(tip);
-  command_->setToolTip(plain_text(command_->text()) + '\n' + tip);
 }
 
 }  // namespace ostia::workstation

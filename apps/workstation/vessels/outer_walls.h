@@ -13,11 +13,9 @@
 #include <optional>
 #include <vector>
 
-class QAction;
-
 namespace ostia::workstation {
 
-class MainWindow;
+struct Desk;
 class PictureWidget;
 class ProfileWidget;
 
@@ -32,11 +30,11 @@ QStringList lesion_text(const session::VesselWalls* walls, const analysis::Steno
 class OuterWalls final : public QObject {
   Q_OBJECT
  public:
-  OuterWalls(MainWindow& window, const std::vector<PictureWidget*>& pictures, ProfileWidget* profile);
+  OuterWalls(Desk& desk, const std::vector<PictureWidget*>& pictures, ProfileWidget* profile);
   ~OuterWalls() override;
   session::OuterWallBoard& board() { return board_; }
-  /// The command that shows plaque: it can be used where an outer wall is known, and else says why not.
-  void set_plaque_command(QAction* command);
+  /// Why the selected vessel's plaque cannot be shown: its outer wall is not known. Empty where it is.
+  QString why_no_plaque() const;
 
  private:
   bool wanted() const { return board_.shown.get() || board_.plaque_shown.get(); }
@@ -44,12 +42,9 @@ class OuterWalls final : public QObject {
   void look();
   void tell();
   void tell_lesion();
-  void refresh_command();
-  QString why_no_plaque() const;
-  MainWindow& window_;
+  Desk& desk_;
   session::OuterWallBoard board_;
   QPointer<ProfileWidget> profile_;
-  QPointer<QAction> command_;
   std::vector<std::unique_ptr<view::OuterWallLayer>> layers_;
   std::vector<std::unique_ptr<view::PlaqueLayer>> plaque_;
   std::optional<double> told_mm_;  // throat of the stenosis that was told of last

@@ -5,11 +5,12 @@ class QComboBox;
 
 namespace ostia::workstation {
 
-class MainWindow;
+struct Desk;
 class Opening;
+class SceneWidget;
 
 /// The list that chooses what is behind the tree. The CT is reduced in the background once it is to be shown
 /// and all of it has been read.
-QComboBox* heart_behind(MainWindow& window, const Opening& opening);
+QComboBox* heart_behind(Desk& desk, SceneWidget& scene, const Opening& opening);
 
 }  // namespace ostia::workstation

@@ -201,8 +201,8 @@ struct CaseFile::Impl {
 
   void require_writable() const {
     if (mode == OpenMode::read_only)
-      throw IoError("the case " + database.shown() +
-                    " is open for reading only; open it for editing, or edit a copy of it");
+      throw CaseIsReadOnly("the case " + database.shown() +
+                           " is open for reading only; open it for editing, or edit a copy of it");
   }
 
   /// The model after the step, in rows, journal and memory; all or nothing.
@@ -469,6 +469,10 @@ std::vector<Edit> CaseFile::edits() const {
   for (const JournalEntry& entry : impl_->steps.entries())
     if (entry.kind == StepKind::edit && !entry.undone) edits.push_back(edit_of_json(entry.parameters));
   return edits;
+}
+
+bool CaseFile::editable() const {
+  return impl_->mode == OpenMode::read_write;
 }
 
 void CaseFile::set_setting(const std::string& key, const std::string& value) {

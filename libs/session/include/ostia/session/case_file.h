@@ -2,6 +2,7 @@
 /// \file The case file: one SQLite database with the model, what a person noted beside it, the journal of
 /// commands, and their changesets (docs/reference/case-file.md).
 
+#include "ostia/core/error.h"
 #include "ostia/lumen/edit.h"
 #include "ostia/session/annotation.h"
 
@@ -61,10 +62,16 @@ bool mergeable(const lumen::Edit& last, const lumen::Edit& next);
 /// Whether file and folder may be written by this user: where not, a case can be opened for reading only.
 bool can_be_edited(const std::filesystem::path& path);
 
+/// A change of a case that was opened for reading only.
+class CaseIsReadOnly : public IoError {
+ public:
+  using IoError::IoError;
+};
+
 /// An open case. Every command is one transaction: model, journal and changeset together, durable when the
 /// call returns. One process writes at a time. Not safe from several threads at once. Whatever a command
 /// throws, the case is what it was: InvalidInput (the edit), ResourceError (disk or memory full), IoError
-/// (opened for reading only, the file cannot be written).
+/// (CaseIsReadOnly where it was opened so; the file cannot be written).
 class CaseFile {
  public:
   /// Makes a new case from a model (journal entry "case.begin" points to it whole, so that a replay starts
@@ -77,6 +84,8 @@ class CaseFile {
   ~CaseFile();
   CaseFile(CaseFile&&) noexcept;
   CaseFile& operator=(CaseFile&&) noexcept;
+
+  bool editable() const;  ///< false where it was opened for reading only
 
   /// Another case with the same content, journal and all. Throws IoError where there is a file already,
   /// ResourceError (disk or memory full).

@@ -1,0 +1,102 @@
+#include "measuring/commands.h"
+
+#include "commands/kinds.h"
+#include "commands/table.h"
+#include "measuring/reporting.h"
+#include "shell/desk.h"
+#include "views/picture_widget.h"
+
+namespace ostia::workstation {
+namespace {
+
+using session::Tool;
+
+void pin_view(const Desk& desk, Reporting& reporting) {
+  if (auto* view = qobject_cast<PictureWidget*>(desk.window.focusWidget()))
+    reporting.pin(*view);
+  else
+    desk.messages.say(Reporting::tr("Click into the CPR, section or slice to be pinned first."));
+}
+
+}  // namespace
+
+void add_measuring_commands(CommandTable& table, Desk& desk, Reporting& reporting, QActionGroup& tools) {
+  table.add(
+      needs_case({.id = "file.report",
+                  .text = Command::tr("&Report (PDF, HTML, tables)"),
+                  .tip = Command::tr("Makes the report of the case as it is now, in a folder beside it."),
+                  .keys = {"Ctrl+R"},
+                  .run = [&desk, &reporting] { reporting.make_report(desk.case_path); }},
+                 desk));
+  table.add(needs_case(
+      {.id = "file.pin",
+       .text = Command::tr("&Pin this view to the report"),
+       .tip = Command::tr("The view that was clicked last becomes a key image of the next report."),
+       .keys = {"Ctrl+P"},
+       .run = [&desk, &reporting] { pin_view(desk, reporting); }},
+      desk));
+  table.add(needs_case({.id = "file.export_centerlines",
+                        .text = Command::tr("The &centerlines\u2026"),
+                        .tip = Command::tr("Writes the centerlines with their radii (VTP)."),
+                        .keys = {"Ctrl+Shift+E"},
+                        .run = [&reporting] { reporting.export_centerlines(); }},
+                       desk));
+  table.add(tool_command(
+      {
+          .id = "tool.distance",
+          .text = Command::tr("Distance"),
+          .tip = Command::tr("Drag from one place to the other."),
+          .keys = {"D", "1"},
+      },
+      Tool::distance, desk, tools));
+  table.add(tool_command(
+      {
+          .id = "tool.angle",
+          .text = Command::tr("Angle"),
+          .tip = Command::tr("Click three places, the vertex second."),
+          .keys = {"A", "2"},
+      },
+      Tool::angle, desk, tools));
+  table.add(tool_command(
+      {
+          .id = "tool.area",
+          .text = Command::tr("Area"),
+          .tip = Command::tr("Draw around it."),
+          .keys = {"R", "3"},
+      },
+      Tool::area, desk, tools));
+  table.add(tool_command(
+      {
+          .id = "tool.diameter",
+          .text = Command::tr("Diameter"),
+          .tip = Command::tr("Drag across the lumen."),
+          .keys = {"F", "4"},
+      },
+      Tool::diameter, desk, tools));
+  table.add(tool_command(
+      {
+          .id = "tool.stenosis",
+          .text = Command::tr("Stenosis"),
+          .tip = Command::tr("On a CPR, drag from the proximal to the distal place of reference."),
+          .keys = {"S", "5"},
+      },
+      Tool::stenosis, desk, tools));
+  table.add(tool_command(
+      {
+          .id = "tool.volume",
+          .text = Command::tr("Volume"),
+          .tip = Command::tr("On a CPR, drag along the stretch of the vessel."),
+          .keys = {"U", "6"},
+      },
+      Tool::volume, desk, tools));
+  table.add(tool_command(
+      {
+          .id = "tool.ring_hu",
+          .text = Command::tr("HU ring"),
+          .tip = Command::tr("Click where CT numbers about the lumen are wanted."),
+          .keys = {"H", "7"},
+      },
+      Tool::ring_hu, desk, tools));
+}
+
+}  // namespace ostia::workstation

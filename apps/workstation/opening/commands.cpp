@@ -1,0 +1,42 @@
+#include "opening/commands.h"
+
+#include "commands/kinds.h"
+#include "commands/table.h"
+#include "opening/opening.h"
+#include "shell/desk.h"
+
+namespace ostia::workstation {
+
+void add_opening_commands(CommandTable& table, const Desk& desk, Opening& opening) {
+  table.add(
+      {.id = "file.open",
+       .text = Command::tr("&Open a case or image\u2026"),
+       .tip = Command::tr(
+           "Opens a case, an image file, or a zip of DICOM files; dropping it on the window does the same."),
+       .keys = {"Ctrl+O"},
+       .run = [&opening] { opening.choose_file(); }});
+  table.add({.id = "file.open_folder",
+             .text = Command::tr("Open a DICOM &folder\u2026"),
+             .tip = Command::tr("Looks for CT series in a folder of DICOM files."),
+             .keys = {"Ctrl+Shift+O"},
+             .run = [&opening] { opening.choose_folder(); }});
+  table.add({.id = "file.sample",
+             .text = Command::tr("The &sample case"),
+             .tip = Command::tr("Opens a computed patient with disease, made on the first use."),
+             .run = [&opening] { opening.open_sample(); }});
+  table.add(
+      needs_case({.id = "file.save_as",
+                  .text = Command::tr("Save the case &as\u2026"),
+                  .tip = Command::tr("Makes a copy of the case and goes on in it. A case is always saved."),
+                  .keys = {"Ctrl+Shift+S"},
+                  .run = [&opening] { opening.save_as(); }},
+                 desk));
+  table.add(needs_case({.id = "file.close",
+                        .text = Command::tr("&Close the case"),
+                        .tip = Command::tr("Closes the case; nothing is lost."),
+                        .keys = {"Ctrl+W"},
+                        .run = [&opening] { opening.close_case(); }},
+                       desk));
+}
+
+}  // namespace ostia::workstation

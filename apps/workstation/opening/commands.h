@@ -1,0 +1,12 @@
+#pragma once
+/// \file Commands that open, copy and close cases and images.
+
+namespace ostia::workstation {
+
+class CommandTable;
+struct Desk;
+class Opening;
+
+void add_opening_commands(CommandTable& table, const Desk& desk, Opening& opening);
+
+}  // namespace ostia::workstation

@@ -1,0 +1,15 @@
+#pragma once
+/// \file Rows of lists that are written anew while they are being used.
+
+#include <QTreeWidget>
+#include <cstdint>
+
+namespace ostia::workstation {
+
+constexpr int row_id_role = Qt::UserRole;  ///< of a row's first column: the id of what it shows
+
+/// The item of this id at this row of a list that is written anew from the top: the one that is there, in
+/// front of which those that are of nothing any more go, or a new one.
+QTreeWidgetItem& row_of(QTreeWidget& list, std::int32_t id, int row);
+
+}  // namespace ostia::workstation

@@ -1,0 +1,65 @@
+// The commands of all parts, and what is made of them.
+
+#include "commands/keyboard.h"
+#include "commands/keyboard_commands.h"
+#include "commands/table.h"
+#include "flow/commands.h"
+#include "help/commands.h"
+#include "help/help.h"
+#include "measuring/commands.h"
+#include "meshing/commands.h"
+#include "opening/commands.h"
+#include "opening/recent_cases.h"
+#include "phases/commands.h"
+#include "qa/commands.h"
+#include "qa/panel.h"
+#include "shell/commands.h"
+#include "shell/main_window.h"
+#include "shell/menus.h"
+#include "shell/tool_bars.h"
+#include "trees/commands.h"
+#include "trees/opening.h"
+#include "vessels/commands.h"
+#include "views/commands.h"
+
+#include <QActionGroup>
+#include <QMenuBar>
+
+namespace ostia::workstation {
+
+void MainWindow::build_qa() {
+  const Guard loud = [this](const std::function<void()>& act) { desk_.messages.guarded(act, true); };
+  qa_ = std::make_shared<QaPanel>(desk_.bench, panes_->pictures(), panes_->scene(), desk_.jobs, loud, this);
+  connect(qa_.get(), &QaPanel::said, this, [this](const QString& text) { desk_.messages.say(text); });
+  connect(qa_.get(), &QaPanel::refused, this,
+          [this](const QString& why) { desk_.messages.complain(why, tr("The truth cannot be opened")); });
+  addDockWidget(Qt::RightDockWidgetArea, qa_.get());
+  qa_->hide();
+}
+
+void MainWindow::build_commands() {
+  commands_ = new CommandTable(desk_);
+  trees_ = std::make_unique<TreeOpening>(desk_, *this, *commands_);
+  auto& tools = *new QActionGroup(commands_);
+  auto* keyboard = new Keyboard(this);
+  auto* help = new Help(desk_, *commands_);
+  add_shell_commands(*commands_, desk_, panes_->scene());
+  add_keyboard_commands(*commands_, *keyboard);
+  add_opening_commands(*commands_, desk_, *opening_);
+  add_view_commands(*commands_, desk_, panes_->pictures(), panes_->scene(), tools);
+  add_vessel_commands(*commands_, desk_, *finder_, *outer_walls_, tools);
+  add_measuring_commands(*commands_, desk_, *reporting_, tools);
+  add_meshing_commands(*commands_, desk_, *meshing_);
+  add_flow_commands(*commands_, desk_, *flow_cases_, *flow_results_);
+  add_tree_commands(*commands_, *trees_);
+  add_phase_commands(*commands_, desk_, *beating_);
+  add_qa_commands(*commands_, *qa_);
+  add_help_commands(*commands_, *help);
+  const BuiltMenus menus = build_menus(*menuBar(), *commands_);
+  list_recent_cases(*menus.recent, desk_, [this](const QString& path) { open(path.toStdString()); });
+  commands_->arrange(menus.order);
+  commands_->dress();
+  build_tool_bars(*this, *commands_, desk_);
+}
+
+}  // namespace ostia::workstation

@@ -1,0 +1,117 @@
+#include "shell/menus.h"
+
+#include "commands/table.h"
+
+#include <QMenu>
+#include <QMenuBar>
+#include <initializer_list>
+#include <stdexcept>
+
+namespace ostia::workstation {
+namespace {
+
+constexpr const char* line = "";  // between commands
+
+class MenuBuilder {
+  Q_DECLARE_TR_FUNCTIONS(ostia::workstation::Menus)
+ public:
+  MenuBuilder(QMenuBar& bar, const CommandTable& commands) : bar_(bar), commands_(commands) {}
+  void file() {
+    QMenu* menu = bar_.addMenu(tr("&File"));
+    fill(menu, {"file.open", "file.open_folder"});
+    made.recent = menu->addMenu(tr("&Recent cases"));
+    fill(menu, {"file.sample", line, "file.save_as", "file.close", line, "file.report", "file.pin"});
+    fill(menu->addMenu(tr("&Export")),
+         {"file.export_surface", "file.export_mesh", "file.flow_case", "file.export_centerlines"});
+    fill(menu, {"file.open_mesh", "file.flow_results", "file.motion", line, "file.quit"});
+  }
+  void edit() { fill(bar_.addMenu(tr("&Edit")), {"edit.undo", "edit.redo", line, "edit.preferences"}); }
+  void vessel() {
+    fill(bar_.addMenu(tr("Ve&ssel")),
+         {"vessel.find", "vessel.split", "vessel.merge", "vessel.cut", "vessel.connect"});
+  }
+  void tools() {
+    QMenu* menu = bar_.addMenu(tr("&Tools"));
+    fill(menu, {"tool.browse", "tool.drag", "tool.draw", "tool.brush", "tool.axis", "tool.add_vessel", line,
+                "tool.distance", "tool.angle", "tool.area", "tool.diameter", "tool.stenosis", "tool.volume",
+                "tool.ring_hu", line, "view.play", "view.own_phase"});
+    fill(menu->addMenu(tr("Vessel t&ree")),
+         {"tree.select", "tree.straight", "tree.along", "tree.angle", "tree.region", line, "tree.grid",
+          "tree.subtree", line, "tree.fit", "tree.copy", "tree.export", "tree.clear", "tree.close"});
+    fill(menu, {line, "tool.smaller", "tool.larger"});
+    fill(menu->addMenu(tr("Mouse by keys")),
+         {"mouse.left", "mouse.right", "mouse.up", "mouse.down", "mouse.press"});
+  }
+  void view() {
+    QMenu* menu = bar_.addMenu(tr("&View"));
+    menu->setToolTipsVisible(true);  // why a command cannot be used
+    fill(menu, {"view.turn_left",
+                "view.turn_right",
+                "view.proximal",
+                "view.distal",
+                "view.next_vessel",
+                "view.previous_vessel",
+                line,
+                "view.stretched",
+                "view.mip",
+                "view.mean",
+                "view.contours",
+                "view.outer_wall",
+                "view.plaque",
+                "view.fit",
+                line,
+                "window.1",
+                "window.2",
+                "window.3",
+                "window.4",
+                line});
+    fill(menu->addMenu(tr("Look at the tree from")),
+         {"camera.front", "camera.left", "camera.right", "camera.above", "camera.rao30_cranial20",
+          "camera.rao30_caudal20", "camera.lao40_cranial20", "camera.lao45_caudal25", "camera.ap0_cranial30",
+          "camera.broadside"});
+    fill(menu, {line, "view.theme", "view.qa", "view.mesh"});
+    fill(menu->addMenu(tr("Go to")), {"view.root", "view.end", "view.next_lesion", "view.previous_lesion"});
+    fill(menu, {"view.thinner", "view.thicker"});
+    fill(menu->addMenu(tr("Panels")), {"panel.next", "panel.previous", "panel.alone", line, "panel.vessels",
+                                       "panel.cpr1", "panel.cpr2", "panel.section", "panel.slice",
+                                       "panel.tree", "panel.profile", "panel.measurements", "panel.steps"});
+  }
+  void help() {
+    fill(bar_.addMenu(tr("&Help")),
+         {"help.find_command", "help.manual", "help.shortcuts", "help.tour", line, "help.about"});
+  }
+  BuiltMenus made;
+
+ private:
+  void fill(QMenu* menu, std::initializer_list<const char*> ids) {
+    for (const char* id : ids) {
+      if (!*id) {
+        menu->addSeparator();
+        continue;
+      }
+      menu->addAction(&commands_.action(id));
+      made.order << id;
+    }
+  }
+  QMenuBar& bar_;
+  const CommandTable& commands_;
+};
+
+}  // namespace
+
+BuiltMenus build_menus(QMenuBar& bar, const CommandTable& commands) {
+  bar.setObjectName("menus");
+  MenuBuilder builder(bar, commands);
+  builder.file();
+  builder.edit();
+  builder.vessel();
+  builder.tools();
+  builder.view();
+  builder.help();
+  for (const Command& one : commands.all())
+    if (!builder.made.order.contains(one.id))
+      throw std::logic_error("no menu has the command " + one.id.toStdString());
+  return builder.made;
+}
+
+}  // namespace ostia::workstation

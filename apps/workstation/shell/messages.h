@@ -1,0 +1,30 @@
+#pragma once
+/// \file What the window says to the person: in a line, or in a dialog.
+
+#include <QCoreApplication>
+#include <QString>
+#include <functional>
+
+class QWidget;
+
+namespace ostia::workstation {
+
+class Messages {
+  Q_DECLARE_TR_FUNCTIONS(ostia::workstation::Messages)
+ public:
+  using Line = std::function<void(const QString&)>;
+  /// Dialogs belong to `over`. `status` shows a line for a while; `shown_name` shows whose image it is.
+  explicit Messages(QWidget& over, Line status = {}, Line shown_name = {});
+  void say(const QString& text) const;                                  ///< in the status line
+  void complain(const QString& text, const QString& title = {}) const;  ///< one dialog
+  /// Runs it; what is refused comes up in the status line (or, `loud`, as a dialog) and ends there: false.
+  bool guarded(const std::function<void()>& act, bool loud = false) const;
+  /// Patient and series, in the window alone.
+  void set_shown_name(const QString& text) const;
+
+ private:
+  QWidget& over_;
+  Line status_, shown_name_;
+};
+
+}  // namespace ostia::workstation

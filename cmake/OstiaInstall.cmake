@@ -14,7 +14,7 @@ function(ostia_install_description program component)
     DEPENDS ${program} COMMENT "Manual pages and completions of ${program}" VERBATIM)
   add_custom_target(${program}-description ALL DEPENDS "${share}.made")
   add_dependencies(${OSTIA_PREFIX}programs ${program}-description)
-  install(DIRECTORY "${share}/" DESTINATION "${CMAKE_INSTALL_DATADIR}" COMPONENT ${component})
+  install(DIRECTORY "${share}/" DESTINATION "${CMAKE_INSTALL_DATADIR}" COMPONENT ${component} PATTERN "*-commands.json" EXCLUDE)
 endfunction()
 
 # The window's manual, and of the pictures of docs/ those that it shows.

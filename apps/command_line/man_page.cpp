@@ -35,7 +35,7 @@ std::string italic(const std::string& text) {
   return "\\fI" + plain(text) + "\\fR";
 }
 
-std::string upper(std::string text) {
+std::string in_capitals(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::toupper(c); });
   return text;
 }
@@ -124,7 +124,7 @@ std::string man_page(const CommandDescription& command, const CommandDescription
   std::ostringstream out;
   const std::string name = command.joined("-");
   out << ".\\\" Made of the program's own descriptions of its options.\n"
-      << ".TH " << plain(upper(name)) << " 1 \"\" \"Ostia " << core::version() << "\" \"Ostia\"\n"
+      << ".TH " << plain(in_capitals(name)) << " 1 \"\" \"Ostia " << core::version() << "\" \"Ostia\"\n"
       << ".SH NAME\n"
       << plain(name) << " \\- " << plain(command.text) << "\n";
   write_synopsis(out, command);

@@ -185,6 +185,25 @@ TEST_F(PaletteTest, WhatFitsNothingIsSaid) {
   EXPECT_EQ(hand.count(), 5);
 }
 
+TEST_F(PaletteTest, ScatteredCharactersFitOnlyWhereNothingElseDoes) {
+  begin();
+  hand.type("nst");  // "Next stenosis"; "Next vessel" has them not
+  ASSERT_EQ(hand.count(), 1);
+  hand.press(Qt::Key_Escape);
+  ASSERT_TRUE(hand.gone());
+  begin();
+  hand.type("ne");  // within "Next"; scattered in "Open a case"
+  EXPECT_EQ(hand.count(), 2);
+}
+
+TEST_F(PaletteTest, IsAsHighAsItsLinesNeed) {
+  begin();
+  const int whole = hand.palette()->height();
+  hand.type("next");
+  EXPECT_LT(hand.palette()->height(), whole);
+  EXPECT_EQ(hand.list()->height(), 2 * hand.list()->sizeHintForRow(0));
+}
+
 TEST_F(PaletteTest, StaysInANarrowWindow) {
   test.window().resize(420, 360);
   QApplication::processEvents();

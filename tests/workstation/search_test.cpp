@@ -46,6 +46,7 @@ TEST(CommandSearch, TheMenusCountAndAreNotMarked) {
 TEST(CommandSearch, CharactersFitInTheirOrder) {
   const auto found = match("nxst", "Next stenosis", {});
   ASSERT_TRUE(found);
+  EXPECT_TRUE(found->scattered);
   EXPECT_THAT(found->marks, ElementsAre(0, 2, 5, 6));
   EXPECT_FALSE(match("stnx", "Next stenosis", {})) << "the other way round";
   EXPECT_FALSE(match("nextt stenosiss", "Next stenosis", {}));

@@ -10,6 +10,7 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QListView>
+#include <QPalette>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <utility>
@@ -29,6 +30,9 @@ std::vector<PaletteLine> palette_lines(const CommandTable& commands, const QStri
     if (auto found = match(typed, plain_text(one.text), menus_of(*one.action)))
       lines.push_back({&one, std::move(*found)});
   }
+  // Scattered characters fit much; they are of use where nothing else fits.
+  const auto scattered = [](const PaletteLine& line) { return line.match.scattered; };
+  if (!std::all_of(lines.begin(), lines.end(), scattered)) std::erase_if(lines, scattered);
   const auto place = [](const PaletteLine& line) {
     return std::pair(line.match.rank, line.command->action->isEnabled() ? 0 : 1);
   };
@@ -82,7 +86,8 @@ class PaletteModel final : public QAbstractListModel {
   static QString below(const Command& command) {
     const QString menus = menus_of(*command.action).join(QStringLiteral(" \u203a "));
     const QString why = CommandTable::why_not(command);
-    return why.isEmpty() ? menus : menus + QStringLiteral("  \u2013  ") + why;
+    const QString more = why.isEmpty() ? command.tip : why;
+    return more.isEmpty() ? menus : menus + QStringLiteral("  \u2013  ") + more;
   }
   static QStringList keys(const QAction& action) {
     QStringList texts;
@@ -103,7 +108,10 @@ Palette::Palette(const CommandTable& commands, QWidget& window)
   setObjectName("palette");
   setAccessibleName(tr("Find a command"));
   setAttribute(Qt::WA_DeleteOnClose);
-  setFrameShape(QFrame::StyledPanel);
+  setFrameStyle(QFrame::Box | QFrame::Plain);
+  QPalette edge = palette();  // seen on what is below in both themes
+  edge.setColor(QPalette::WindowText, edge.color(QPalette::Disabled, QPalette::WindowText));
+  setPalette(edge);
   line_->setObjectName("palette_line");
   line_->setPlaceholderText(tr("Type what you want to do"));
   line_->setAccessibleName(tr("What you want to do"));
@@ -111,6 +119,7 @@ Palette::Palette(const CommandTable& commands, QWidget& window)
   QFont larger = line_->font();
   larger.setPointSizeF(1.2 * larger.pointSizeF());
   line_->setFont(larger);
+  line_->setTextMargins(6, 3, 6, 3);
   line_->installEventFilter(this);
   list_->setObjectName("palette_list");
   list_->setAccessibleName(tr("Commands that fit"));
@@ -129,7 +138,7 @@ Palette::Palette(const CommandTable& commands, QWidget& window)
   rows->setContentsMargins(gap, gap, gap, 4);
   rows->setSpacing(gap / 2);
   rows->addWidget(line_);
-  rows->addWidget(list_, 1);
+  rows->addWidget(list_);
   rows->addWidget(hint_);
   connect(line_, &QLineEdit::textChanged, this, &Palette::fill);
   connect(list_, &QListView::entered, list_, &QListView::setCurrentIndex);
@@ -143,15 +152,17 @@ void Palette::begin() {
   line_->setFocus(Qt::PopupFocusReason);
 }
 
+/// As high as its lines need, up to some.
 void Palette::place() {
   const int width = std::min(wide, window_.width() - 2 * gap);
-  const int row = list_->sizeHintForRow(0);
-  const int high =
-      std::min(rows_shown * row + line_->sizeHint().height() + hint_->sizeHint().height() + 5 * gap,
-               window_.height() - 2 * gap);
-  const int top = std::min(window_.height() / from_top_share, window_.height() - high - gap);
-  setGeometry(QRect(window_.mapToGlobal(QPoint((window_.width() - width) / 2, std::max(gap, top))),
-                    QSize(width, high)));
+  const int top = std::max(gap, window_.height() / from_top_share);
+  const int row = std::max(1, list_->sizeHintForRow(0));
+  const int others = layout()->minimumSize().height() - list_->minimumHeight();
+  const int room = std::max(1, (window_.height() - top - others - gap) / row);
+  const int lines = std::min({model_->rowCount(), rows_shown, room});
+  list_->setFixedHeight(lines * row);
+  setGeometry(QRect(window_.mapToGlobal(QPoint((window_.width() - width) / 2, top)),
+                    QSize(width, others + lines * row)));
 }
 
 void Palette::fill(const QString& typed) {
@@ -159,6 +170,7 @@ void Palette::fill(const QString& typed) {
   if (model_->rowCount() > 0) list_->setCurrentIndex(model_->index(0, 0));
   list_->scrollToTop();
   show_hint();
+  if (isVisible()) place();
 }
 
 void Palette::show_hint() {

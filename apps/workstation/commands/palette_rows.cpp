@@ -9,7 +9,7 @@ namespace ostia::workstation {
 namespace {
 
 constexpr int margin = 10, between_lines = 2, above = 5;  // units of the interface
-constexpr int tick_width = 16;
+constexpr int tick_width = 20;
 constexpr int key_pad = 6, between_keys = 5;
 constexpr double small_font = 0.9;
 
@@ -103,9 +103,10 @@ void PaletteRows::paint(QPainter* painter, const QStyleOptionViewItem& option,
   QRect room = option.rect.adjusted(margin, above, -margin, -above);
   painter->setFont(smaller(option.font));
   room.setRight(room.right() - draw_keys(*painter, room, index.data(palette_keys).toStringList(), colors));
-  if (index.data(palette_checked).toBool())
-    draw_tick(*painter, QRect(room.left(), room.top(), tick_width, room.height()), colors.text);
-  room.setLeft(room.left() + tick_width + 4);
+  if (index.data(palette_checked).toBool()) {
+    room.setRight(room.right() - tick_width);
+    draw_tick(*painter, QRect(room.right(), room.top(), tick_width, room.height()), colors.text);
+  }
   const int high = QFontMetrics(option.font).height();
   painter->setFont(option.font);
   draw_text(*painter, QRect(room.left(), room.top(), room.width(), high), index.data(palette_text).toString(),

@@ -5,7 +5,7 @@
 namespace ostia::workstation {
 namespace {
 
-enum Rank { begins, word_begins, within, in_menus, scattered };
+enum Rank { begins, word_begins, within, in_menus, single_characters };
 
 bool begins_word(const QString& text, int at) {
   return at == 0 || !text[at - 1].isLetterOrNumber();
@@ -40,7 +40,7 @@ std::optional<Match> words_in(const QStringList& words, const QString& text, con
 }
 
 std::optional<Match> characters_in(const QString& characters, const QString& text) {
-  Match found{scattered, {}};
+  Match found{single_characters, true, {}};
   int at = 0;
   for (const QChar one : characters) {
     at = text.indexOf(one, at, Qt::CaseInsensitive);

@@ -11,6 +11,7 @@ namespace ostia::workstation {
 /// How well something fits what was typed.
 struct Match {
   int rank = 0;            ///< 0 is best
+  bool scattered = false;  ///< by single characters alone
   std::vector<int> marks;  ///< places of the text's characters that were typed, ascending
 };
 

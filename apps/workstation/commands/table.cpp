@@ -107,7 +107,7 @@ void CommandTable::set_keys(const ShortcutKeys& keys) {
 
 QStringList menus_of(const QAction& action) {
   for (const QWidget* widget : action.associatedWidgets())
-    if (const auto* menu = qobject_cast<const QMenu*>(widget))
+    if (const auto* menu = qobject_cast<const QMenu*>(widget); menu && !menu->title().isEmpty())
       return menus_of(*menu->menuAction()) << plain_text(menu->title());
   return {};
 }

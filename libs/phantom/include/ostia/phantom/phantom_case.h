@@ -10,6 +10,7 @@
 #include "ostia/phantom/scan.h"
 #include "ostia/phantom/sections.h"
 #include "ostia/phantom/truth.h"
+#include "ostia/phantom/variant.h"
 
 #include <cstdint>
 #include <optional>
@@ -17,17 +18,6 @@
 #include <vector>
 
 namespace ostia::phantom {
-
-/// What differs from the usual patient (docs/methods/phantom-variants.md). The defaults change nothing.
-struct CaseVariant {
-  Anatomy anatomy = Anatomy::usual;
-  double calcium = 1.0;               ///< as set_calcium has it, [0, 20]
-  double stent_mm = 0.0;              ///< length of a stent in the proximal LAD, [0, 40]; 0: none
-  std::optional<double> contrast_hu;  ///< of aorta, left heart and arteries, [80, 1000]; none: drawn
-  /// Share of the arterial contrast above their own that veins, right heart and pulmonary arteries have, [0,
-  /// 1].
-  double venous = 0.0;
-};
 
 /// Everything that decides a case. The same options, the same bytes.
 struct CaseOptions {

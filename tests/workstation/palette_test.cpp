@@ -43,7 +43,7 @@ struct PaletteHand {
   int count() const { return list()->model()->rowCount(); }
   int current() const { return list()->currentIndex().row(); }
   bool gone() const {
-    return wait_until([this] { return !palette(); }, 3000);
+    return QTest::qWaitFor([this] { return !palette(); }, 3000);
   }
 };
 

@@ -87,7 +87,7 @@ TEST_F(FlowParts, TheDialogProposesTheMeshThatWasMadeAndGoesWithItsCase) {
   EXPECT_TRUE(dialog->isVisible());
   EXPECT_EQ(dialog->choice().mesh, folder / "mesh.vtu");
   test.bench().close_case();
-  EXPECT_TRUE(wait_until([&] { return !test.window().findChild<FlowDialog*>(); }, 3000));
+  EXPECT_FALSE(dialog->isVisible());
 }
 
 struct MeshingParts : PartsTest {
@@ -125,9 +125,11 @@ TEST_F(MeshingParts, ASurfaceIsMadeBesideTheCase) {
 TEST_F(MeshingParts, TheDialogGoesWithItsCase) {
   open_case();
   trigger("file.export_mesh");
-  ASSERT_TRUE(test.window().findChild<MeshingDialog*>());
+  const auto* dialog = test.window().findChild<MeshingDialog*>();
+  ASSERT_TRUE(dialog);
+  EXPECT_TRUE(dialog->isVisible());
   test.bench().close_case();
-  EXPECT_TRUE(wait_until([&] { return !test.window().findChild<MeshingDialog*>(); }, 3000));
+  EXPECT_FALSE(dialog->isVisible());
 }
 
 TEST_F(MeshingParts, TheCommandOfThePanelIsItsMark) {

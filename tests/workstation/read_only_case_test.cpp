@@ -41,8 +41,6 @@ struct ReadOnlyCase : testing::TubeWindow {
   ReadOnlyCase() {
     fs::create_directories(own);
     fs::rename(folder / "state", own / "state");
-    for (const auto& entry : fs::recursive_directory_iterator(own)) give_away(entry.path());
-    give_away(own);
     fs::permissions(folder / ".", fs::perms(0755));
     fs::permissions(case_file, fs::perms(0644));
     fs::permissions(image, fs::perms(0644));
@@ -58,6 +56,8 @@ struct ReadOnlyCase : testing::TubeWindow {
   }
   void open_it() {
     test = std::make_unique<testing::TestWindow>(own / "state");
+    for (const auto& entry : fs::recursive_directory_iterator(own)) give_away(entry.path());
+    give_away(own);
     user = std::make_unique<PlainUser>();
     test->open(case_file);
     ASSERT_TRUE(wait_until([&] { return test->bench().image().volume != nullptr; }));

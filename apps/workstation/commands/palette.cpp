@@ -108,7 +108,8 @@ Palette::Palette(const CommandTable& commands, QWidget& window)
   setObjectName("palette");
   setAccessibleName(tr("Find a command"));
   setAttribute(Qt::WA_DeleteOnClose);
-  setFrameStyle(QFrame::Box | QFrame::Plain);
+  setFrameShape(QFrame::Box);
+  setFrameShadow(QFrame::Plain);
   QPalette edge = palette();  // seen on what is below in both themes
   edge.setColor(QPalette::WindowText, edge.color(QPalette::Disabled, QPalette::WindowText));
   setPalette(edge);

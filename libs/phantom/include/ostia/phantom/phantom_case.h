@@ -13,7 +13,6 @@
 #include "ostia/phantom/variant.h"
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 

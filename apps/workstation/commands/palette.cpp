@@ -135,6 +135,7 @@ Palette::Palette(const CommandTable& commands, QWidget& window)
   hint_->setObjectName("palette_hint");
   hint_->setEnabled(false);
   hint_->setContentsMargins(gap, 2, gap, 2);
+  hint_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);  // a narrow window shows its beginning
   auto* rows = new QVBoxLayout(this);
   rows->setContentsMargins(gap, gap, gap, 4);
   rows->setSpacing(gap / 2);
@@ -158,7 +159,8 @@ void Palette::place() {
   const int width = std::min(wide, window_.width() - 2 * gap);
   const int top = std::max(gap, window_.height() / from_top_share);
   const int row = std::max(1, list_->sizeHintForRow(0));
-  const int others = layout()->minimumSize().height() - list_->minimumHeight();
+  list_->setFixedHeight(row);
+  const int others = layout()->minimumSize().height() - row;
   const int room = std::max(1, (window_.height() - top - others - gap) / row);
   const int lines = std::min({model_->rowCount(), rows_shown, room});
   list_->setFixedHeight(lines * row);

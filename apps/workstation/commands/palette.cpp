@@ -164,6 +164,7 @@ void Palette::place() {
   const int room = std::max(1, (window_.height() - top - others - gap) / row);
   const int lines = std::min({model_->rowCount(), rows_shown, room});
   list_->setFixedHeight(lines * row);
+  layout()->activate();  // else the least height is still that of more lines
   setGeometry(QRect(window_.mapToGlobal(QPoint((window_.width() - width) / 2, top)),
                     QSize(width, others + lines * row)));
 }

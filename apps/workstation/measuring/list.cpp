@@ -111,7 +111,9 @@ void MeasurementList::show_values(QTreeWidgetItem& item, const analysis::Measure
   while (item.childCount() < lines) new QTreeWidgetItem(&item);
   for (int i = 0; i < lines; ++i) {
     const analysis::MeasuredValue& value = values[static_cast<std::size_t>(i)];
-    item.child(i)->setText(0, measure_word(value.name));
+    const QString name = measure_word(value.name);
+    item.child(i)->setText(0, name);
+    item.child(i)->setToolTip(0, name);  // a narrow window cuts it off
     item.child(i)->setText(1, QString::fromStdString(analysis::to_text(value)));
   }
 }

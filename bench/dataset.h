@@ -22,7 +22,8 @@ inline imaging::ImageVolume image_of(const std::filesystem::path& dataset) {
 
 inline std::shared_ptr<const geometry::AxisCurve> axis_of(const std::filesystem::path& dataset,
                                                           const std::string& vessel) {
-  const io::RotterdamReference reference = io::read_rotterdam_reference(dataset / vessel / "reference.txt");
+  const io::RotterdamReference reference =
+      io::without_repeated(io::read_rotterdam_reference(dataset / vessel / "reference.txt"));
   geometry::Centerline dense;
   dense.points = reference.points;
   dense.radius = reference.radius;

@@ -13,6 +13,12 @@ for picture in axial mip tree; do
   cp "$work/phantom/dataset00/report/$picture.png" "docs/pictures/phantom-$picture.png"
 done
 
+# A mask that becomes a case.
+build/release/bin/ostia phantom -o "$work/masked" --preset small --formats nrrd --no-report
+build/release/bin/ostia extract "$work/masked/dataset00/labels.nrrd" --label 20 -o "$work/masked.ostia"
+build/release/bin/ostia report "$work/masked.ostia" -o "$work/masked-report"
+cp "$work/masked-report/images/tree.png" docs/pictures/mask-tree.png
+
 build/release/bin/model_picture docs/pictures/lumen-model.png
 build/release/bin/joint_picture docs/pictures/lumen-joint.png
 build/release/bin/editing_picture docs/pictures/editing-dismissal.png
@@ -24,6 +30,8 @@ build/release/bin/plaque_picture "$work/phantom/dataset00" 3 LAD docs/pictures/p
 build/release/bin/layer_picture docs/pictures/boundary-layer.png
 build/release/bin/hexahedra_picture docs/pictures/hexahedra.png
 build/release/bin/extension_picture sections docs/pictures/flow-extensions.png
+build/release/bin/bifurcation_picture branches fork docs/pictures/bifurcations-branches.png
+build/release/bin/bifurcation_picture patches fork docs/pictures/bifurcations-patches.png
 build/release/bin/filters_picture "$work/phantom/dataset00" vessel1 docs/pictures/filters.png
 
 # Where OpenFOAM is installed: the first flow of the researcher's tutorial.

@@ -15,9 +15,32 @@ constexpr std::string_view common_parts[] = {
     "opt", "out",   "output", "root", "results", "scans",  "srv",     "test",  "tests",
     "tmp", "users", "usr",    "var",  "work",    "true",   "patients"};
 
+bool lower_case(unsigned char c) {
+  return c >= 'a' && c <= 'z';
+}
+
+/// The words of a text that consist of lower-case letters alone.
+void add_words(const std::string& text, std::set<std::string>& words) {
+  const auto part_of_word = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '^'; };
+  for (std::size_t from = 0; from < text.size();) {
+    std::size_t to = from;
+    while (to < text.size() && part_of_word(static_cast<unsigned char>(text[to]))) ++to;
+    if (to > from && std::all_of(text.begin() + static_cast<std::ptrdiff_t>(from),
+                                 text.begin() + static_cast<std::ptrdiff_t>(to), lower_case))
+      words.insert(text.substr(from, to - from));
+    from = std::max(to, from + 1);
+  }
+}
+
+void add_help(const CommandDescription& command, std::set<std::string>& words) {
+  add_words(command.text, words);
+  for (const OptionDescription& option : command.options) add_words(option.text, words);
+  for (const CommandDescription& below : command.commands) add_help(below, words);
+}
+
 class Vocabulary {
  public:
-  explicit Vocabulary(const CommandDescription& program) {
+  explicit Vocabulary(const CommandDescription& program) : known_(ordinary_words(program)) {
     known_.insert(std::begin(common_parts), std::end(common_parts));
     add(program);
   }
@@ -143,7 +166,32 @@ class Collector {
   std::vector<PrivateWord> found_;
 };
 
+bool is_path(const std::string& value, const std::function<bool(const std::string&)>& exists) {
+  return value.find('/') != std::string::npos || exists(value);
+}
+
 }  // namespace
+
+std::set<std::string> ordinary_words(const CommandDescription& program) {
+  std::set<std::string> words;
+  add_help(program, words);
+  return words;
+}
+
+std::vector<PrivateWord> private_paths(const CommandDescription& program,
+                                       const std::vector<std::string>& arguments,
+                                       const std::function<bool(const std::string&)>& exists) {
+  const Vocabulary known(program);
+  std::vector<PrivateWord> paths;
+  for (const PrivateWord& word : private_words(program, arguments)) {
+    if (!is_path(word.text, exists)) continue;
+    paths.push_back(word);
+    const fs::path path(word.text);
+    const std::string own = (path.has_filename() ? path : path.parent_path()).filename().string();
+    if (own.size() > 2 && own != word.text && !known.holds(own)) paths.push_back({own, word.alias});
+  }
+  return paths;
+}
 
 std::vector<PrivateWord> private_words(const CommandDescription& program,
                                        const std::vector<std::string>& arguments) {

@@ -9,7 +9,7 @@
 namespace ostia::app {
 
 struct CaseOptions {
-  std::string solver = "openfoam";  ///< openfoam, svmultiphysics
+  std::string solver = "openfoam";  ///< a name of pipeline::solver_kinds
   std::vector<std::string> flow;    ///< ml/s, or INLET=ml/s
   std::optional<double> velocity_cm_s, reynolds;
   std::string waveform;  ///< coronary-left, coronary-right or a table; empty: steady
@@ -20,7 +20,7 @@ struct CaseOptions {
   double density = 1060.0, viscosity = 3.5;
   std::string rheology = "newton";
   int cycles = 3, processes = 2, iterations = 2000;
-  std::optional<double> time_step_s;
+  std::optional<double> time_step_s, courant;
 };
 
 }  // namespace ostia::app

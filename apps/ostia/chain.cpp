@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <sstream>
 
@@ -33,19 +34,21 @@ class Reader {
   struct Name {
     std::string path, meaning;
   };
-  Name input(const std::string& name);
-  Name output(const std::string& name);
+  Name input(const std::string& name, ChainStep& step);
+  Name output(const std::string& name, ChainStep& step);
+  std::optional<std::size_t> maker_of(const std::string& name) const;
   void options(const json& step, const std::string& member, ChainStep& made);
 
   fs::path file_, folder_;
   std::string where_;  ///< "step 2 (segment): "
   Variables variables_;
-  std::set<std::string> used_, made_;
+  std::set<std::string> used_;
+  std::map<std::string, std::size_t> made_;  ///< result -> the step that makes it
   Chain chain_;
 };
 
 void Reader::refuse(const std::string& what) const {
-  throw InvalidInput("cannot run " + file_.string() + ": " + where_ + what);
+  throw InvalidInput("cannot run " + file_.filename().string() + ": " + where_ + what);
 }
 
 void Reader::check_members(const json& object, const std::set<std::string>& known) const {
@@ -97,22 +100,39 @@ std::vector<std::string> Reader::texts(const json& step, const std::string& memb
   return out;
 }
 
-Reader::Name Reader::input(const std::string& name) {
-  if (made_.count(name) != 0) return {(folder_ / name).string(), name};
+/// The earlier step that makes the file, or the folder that it lies in.
+std::optional<std::size_t> Reader::maker_of(const std::string& name) const {
+  for (fs::path part = fs::path(name).lexically_normal(); !part.empty(); part = part.parent_path()) {
+    const auto made = made_.find(part.string());
+    if (made != made_.end()) return made->second;
+    if (part == part.parent_path()) break;
+  }
+  return std::nullopt;
+}
+
+Reader::Name Reader::input(const std::string& name, ChainStep& step) {
+  if (const std::optional<std::size_t> maker = maker_of(name)) {
+    step.uses.push_back(*maker);
+    return {(folder_ / name).string(), name};
+  }
   const fs::path path = fs::path(name).is_absolute() ? fs::path(name) : file_.parent_path() / name;
   if (!fs::exists(path))
-    refuse("its input " + name + " is no file, and no earlier step makes it (looked for " + path.string() +
-           ")");
+    refuse("its input " + name + " is no file, and no earlier step makes it (looked for " +
+           path.filename().string() + ")");
   auto known = std::find(chain_.inputs.begin(), chain_.inputs.end(), path);
   if (known == chain_.inputs.end()) known = chain_.inputs.insert(known, path);
+  step.reads.push_back(static_cast<std::size_t>(known - chain_.inputs.begin()));
   return {path.string(), "input " + std::to_string(known - chain_.inputs.begin() + 1)};
 }
 
-Reader::Name Reader::output(const std::string& name) {
-  const fs::path path = fs::path(name).lexically_normal();
-  if (name.empty() || path.is_absolute() || *path.begin() == "..")
+Reader::Name Reader::output(const std::string& name, ChainStep& step) {
+  fs::path path = fs::path(name).lexically_normal();
+  if (!path.has_filename()) path = path.parent_path();  // "mesh/"
+  if (path.empty() || path == "." || path.is_absolute() || *path.begin() == "..")
     refuse("its output \"" + name + "\" must be a name within the folder of results");
-  if (!made_.insert(name).second) refuse("its output " + name + " is made by an earlier step");
+  if (!made_.emplace(path.string(), chain_.steps.size()).second)
+    refuse("its output " + name + " is made by an earlier step");
+  step.makes.push_back(path.string());
   return {(folder_ / name).string(), name};
 }
 
@@ -128,8 +148,8 @@ void Reader::options(const json& step, const std::string& member, ChainStep& mad
     for (const json& one : value.is_array() ? value : json::array({value})) {
       const std::string text = text_of(one, member + "/" + name);
       const Name file = member == "options"  ? Name{text, text}
-                        : member == "inputs" ? input(text)
-                                             : output(text);
+                        : member == "inputs" ? input(text, made)
+                                             : output(text, made);
       made.add(option + "=" + file.path, option + "=" + file.meaning);
     }
   }
@@ -148,7 +168,7 @@ void Reader::take_step(const json& step) {
   if (made.words.empty()) refuse("its \"command\" is empty");
   if (made.words[0] == "run" || made.words[0] == "batch") refuse("a chain cannot start another one");
   for (const std::string& name : texts(step, "input")) {
-    const Name file = input(name);
+    const Name file = input(name, made);
     made.add(file.path, file.meaning);
   }
   options(step, "options", made);
@@ -158,7 +178,7 @@ void Reader::take_step(const json& step) {
   if (!outputs.empty()) {
     // `convert` alone has its result's name without an option.
     if (made.words[0] != "convert") made.add("-o", "-o");
-    const Name file = output(outputs[0]);
+    const Name file = output(outputs[0], made);
     made.add(file.path, file.meaning);
   }
   options(step, "outputs", made);

@@ -16,6 +16,9 @@ struct ChainStep {
   /// The same words with "input 1", "input 2" (in the order of Chain::inputs) for what is read from outside,
   /// and bare names for results: what is done, wherever it is done.
   std::vector<std::string> meaning;
+  std::vector<std::string> makes;  ///< names of its results
+  std::vector<std::size_t> reads;  ///< indices of Chain::inputs
+  std::vector<std::size_t> uses;   ///< earlier steps whose results it reads
   void add(const std::string& word, const std::string& means) {
     words.push_back(word);
     meaning.push_back(means);
@@ -30,9 +33,9 @@ struct Chain {
 using Variables = std::map<std::string, std::string>;
 
 /// Reads a chain. `{name}` in its texts are variables: those of `given`, else of the file. A name that a step
-/// gives as its output lies in `folder`, any other relative name beside `file`. Throws InvalidInput that
-/// names the file, the step and the member: for what is no chain, a variable that is not there or is not
-/// used, an input that is neither a file nor made by an earlier step.
+/// gives as its output, or a name within it ("mesh/mesh.vtu"), lies in `folder`, any other relative name
+/// beside `file`. Throws InvalidInput that names the file, the step and the member: for what is no chain, a
+/// variable that is not there or is not used, an input that is neither a file nor made by an earlier step.
 Chain read_chain(const std::filesystem::path& file, const Variables& given,
                  const std::filesystem::path& folder);
 

@@ -19,12 +19,14 @@
 #include "reconstruct.h"
 #include "report.h"
 #include "run.h"
+#include "shown_defaults.h"
 #include "skeleton.h"
 #include "solver_case.h"
 #include "standard_streams.h"
 #include "tree_input.h"
 #include "validators.h"
 
+#include "ostia/centerline/extract_centerlines.h"
 #include "ostia/core/log.h"
 #include "ostia/core/parallel.h"
 #include "ostia/core/version.h"
@@ -34,6 +36,7 @@
 #include <CLI/Formatter.hpp>
 
 #include <algorithm>
+#include <filesystem>
 #include <functional>
 #include <iostream>
 #include <memory>
@@ -98,7 +101,18 @@ void add_dicom(CLI::App& app, InputOptions& o) {
 }
 
 void add_units(CLI::App& app, InputOptions& o) {
-  app.add_option("--units", o.units, "Unit of length of a surface")->check(CLI::IsMember({"m", "cm", "mm"}));
+  app.add_option("--units", o.units,
+                 "Unit of length of a surface and of the points given with it; left out: told by the "
+                 "calibre of its vessels")
+      ->check(CLI::IsMember({"m", "cm", "mm"}));
+  app.add_flag("--strict", o.strict, "Refuse a surface that has faults instead of mending it");
+}
+
+void add_keep(CLI::App& app, std::filesystem::path& folder) {
+  app.add_option(
+      "--keep", folder,
+      "Where it fails: folder for what was made until then (lumen, centerlines, level set); left out: "
+      "the hidden folder .unfinished-NAME beside the output");
 }
 
 void add_coords(CLI::App& app, InputOptions& o) {
@@ -107,10 +121,19 @@ void add_coords(CLI::App& app, InputOptions& o) {
 }
 
 void add_ends(CLI::App& app, EndOptions& o) {
-  app.add_option("--source", o.source, "Where the centerlines begin, x,y,z; left out: the largest open end");
-  app.add_option("--target", o.targets, "Where a centerline ends; repeat; left out: the other open ends")
+  app.add_option("--source", o.source,
+                 "Where the centerlines begin, x,y,z in the input's unit, or a file of one point (.mrk.json, "
+                 ".fcsv, .csv); left out: the largest open end");
+  app.add_option("--target", o.targets,
+                 "Where a centerline ends, or a file of such points; repeat; left out: the other open ends")
       ->allow_extra_args(false);
-  app.add_option("--step", o.step_mm, "Distance between the centerline's points, mm")->check(above_zero());
+  app.add_option("--seed-units", o.seed_units,
+                 "Unit of --source and --target; left out: the input's own, and of markups what they say")
+      ->check(CLI::IsMember({"m", "cm", "mm"}));
+  app.add_option("--step", o.step_mm,
+                 "Distance between the centerline's points, mm" +
+                     default_text(centerline::CenterlineOptions().step_mm))
+      ->check(above_zero());
 }
 
 CLI::App* command(CLI::App& app, const std::string& name, const std::string& text,
@@ -123,11 +146,15 @@ CLI::App* command(CLI::App& app, const std::string& name, const std::string& tex
 
 void define(CLI::App& app, Commands& c, Run& run) {
   app.require_subcommand(1);
+  capture_defaults(app);
   add_common(app, c.common);
 
   CLI::App* info = command(app, "info", "What an image, a DICOM folder, a surface or a tree is",
                            "ostia info CT/ --preview slices");
-  add_input(*info, c.info.input, "DICOM folder or zip, image, surface or tree of vessels");
+  add_input(
+      *info, c.info.input,
+      "DICOM folder or zip, image, surface, tree of vessels, case, volume mesh, motion, or a folder that "
+      "a command has made");
   add_dicom(*info, c.info.input);
   add_coords(*info, c.info.input);
   info->add_flag("--json", c.info.json, "One JSON object on standard output");
@@ -143,6 +170,7 @@ void define(CLI::App& app, Commands& c, Run& run) {
   add_input(*volume, c.import.input, "DICOM folder or zip, or image");
   add_dicom(*volume, c.import.input);
   volume->add_option("-o,--output", c.import.output, ".nrrd, .mhd or .mha")->required();
+  volume->add_flag("--json", c.import.json, "One JSON object on standard output");
   volume->callback([&] { run = [&](const core::TaskContext& task) { return run_import(c.import, task); }; });
 
   define_evaluate(app, c.evaluate, run);
@@ -169,6 +197,8 @@ void define(CLI::App& app, Commands& c, Run& run) {
   segment->add_option("--levelset", c.segment.level_set,
                       "Also the level set, negative inside, mm: .nrrd, .mhd or .mha");
   add_aorta(*segment, c.segment);
+  add_keep(*segment, c.segment.keep);
+  segment->add_flag("--json", c.segment.json, "One JSON object on standard output");
   segment->callback([&, segment] {
     require_aorta_alone(*segment);
     run = [&](const core::TaskContext& task) { return run_segment(c.segment, task); };
@@ -180,9 +210,10 @@ void define(CLI::App& app, Commands& c, Run& run) {
   add_units(*centerline, c.centerline.input);
   add_coords(*centerline, c.centerline.input);
   add_ends(*centerline, c.centerline.ends);
-  centerline->add_option("-o,--output", c.centerline.output, ".vtp or .csv")->required();
+  centerline->add_option("-o,--output", c.centerline.output, ".vtp, .csv or .mrk.json")->required();
   centerline->add_option("--canal", c.centerline.canal,
                          "Also the envelope of the inscribed spheres: .vtp, .stl or .ply");
+  centerline->add_flag("--json", c.centerline.json, "One JSON object on standard output");
   centerline->callback(
       [&] { run = [&](const core::TaskContext& task) { return run_centerline(c.centerline, task); }; });
 
@@ -197,12 +228,14 @@ void define(CLI::App& app, Commands& c, Run& run) {
   add_ends(*mesh, c.mesh.ends);
   add_mesh(*mesh, c.mesh.mesh);
   add_mesh_command(*mesh, c.mesh);
+  add_keep(*mesh, c.mesh.keep);
   mesh->callback([&] { run = [&](const core::TaskContext& task) { return run_mesh(c.mesh, task); }; });
 
   CLI::App* convert = command(app, "convert", "One file format as another",
                               "ostia convert lumen.vtp lumen.stl\n"
+                              "  ostia convert centerlines.vtp axes.mrk.json\n"
                               "  ostia convert grown.gxl tree.vtp --repair");
-  add_input(*convert, c.convert.input, "Image, surface, centerlines or tree");
+  add_input(*convert, c.convert.input, "Image, surface, centerlines, tree, case or volume mesh");
   convert->add_option("OUTPUT", c.convert.output, "By its extension")->required();
   add_units(*convert, c.convert.input);
   convert->add_flag(
@@ -213,7 +246,12 @@ void define(CLI::App& app, Commands& c, Run& run) {
   add_tree_input(*convert, c.convert.tree, "Trees: ", "Repair of trees: ");
   convert->add_option("--fill-holes", c.convert.fill_holes_mm, "Repair: also close holes up to this wide, mm")
       ->check(above_zero());
-  convert->add_flag("--keep-parts", c.convert.keep_parts, "Repair: all parts stay, not the largest alone");
+  convert->add_flag(
+      "--landmarks", c.convert.landmarks,
+      "To markups: where vessels begin, divide and end, and a case's measurements, instead of axes");
+  convert->add_flag("--keep-parts", c.convert.keep_parts, "Repair: all parts stay, specks too");
+  convert->add_flag("--largest-part", c.convert.largest_part, "Repair: only the largest part stays")
+      ->excludes("--keep-parts");
   convert
       ->add_option("--smooth", c.convert.smooth,
                    "Surfaces: steps of smoothing without shrinking; 30 is usual")
@@ -222,17 +260,30 @@ void define(CLI::App& app, Commands& c, Run& run) {
       ->add_option("--subdivide", c.convert.subdivide,
                    "Surfaces: four smooth triangles of one, so many times")
       ->check(CLI::Range(1, 8));
+  convert
+      ->add_option("--format", c.convert.format,
+                   "Volume meshes: what they become, where the output's name does not say it")
+      ->check(CLI::IsMember(mesh_format_names()));
+  convert->add_option("--grid", c.convert.grid,
+                      "Cases: the CT, or a mask, on whose voxels labels are written (.nrrd, .nii.gz, ...)");
+  convert
+      ->add_option("--labels", c.convert.labels,
+                   "With --grid: lumen (the default), segments (AHA and SCCT numbers), wall, plaque")
+      ->check(CLI::IsMember({"lumen", "segments", "wall", "plaque"}));
   convert->add_flag("--json", c.convert.json, "What was done as one JSON object on standard output");
   convert->callback(
       [&] { run = [&](const core::TaskContext& task) { return run_convert(c.convert, task); }; });
 
-  CLI::App* measure =
-      command(app, "measure", "Lengths, areas, volumes, orders, angles, scaling laws and overlaps of a tree",
-              "ostia measure tree.vtp -o measures");
+  CLI::App* measure = command(
+      app, "measure",
+      "Lengths, areas, volumes, orders, angles, scaling laws and overlaps of a tree; sections "
+      "and bifurcations of a lumen",
+      "ostia measure tree.vtp -o measures\n  ostia measure lumen.vtp -o measures --sections --bifurcations");
   add_input(*measure, c.measure.input, "Tree of vessels (.vtp, .vtk, .swc, .csv, .gxl), case or surface");
   add_units(*measure, c.measure.input);
   add_coords(*measure, c.measure.input);
   add_ends(*measure, c.measure.ends);
+  add_branch_measures(*measure, c.measure);
   measure->add_option("-o,--output", c.measure.output, "Folder that is made")->required();
   measure->add_flag("--json", c.measure.json, "measures.json on standard output");
   measure->callback(
@@ -250,6 +301,7 @@ void define(CLI::App& app, Commands& c, Run& run) {
   model->add_option("-o,--output", c.model.output, "Folder that is made")->required();
   model->add_flag("--builtin", c.model.builtin, "The built-in case instead of an input");
   model->add_flag("--json", c.model.json, "The report as JSON on standard output");
+  add_keep(*model, c.model.keep);
   model->callback([&] {
     c.model.seed = c.common.seed;
     run = [&](const core::TaskContext& task) { return run_model(c.model, task); };
@@ -262,6 +314,7 @@ void define(CLI::App& app, Commands& c, Run& run) {
     c.phantom.seed = c.common.seed;
     run = [&](const core::TaskContext& task) { return run_phantom(c.phantom, task); };
   });
+  show_defaults(app);
 }
 
 /// What the command line asks for.
@@ -274,15 +327,26 @@ struct Asked {
 
 /// A log that is kept must not name what a folder, a file or anything else was called. Whatever is written
 /// from now on leaves it out, what the parser and the reading of options refuse among it.
+/// What is kept never holds a path.
 void keep_out_of_the_log(const std::vector<std::string>& arguments) {
-  if (command_line::value_of("--log", arguments) != "json") return;
   Asked asked;
   define(asked.app, asked.commands, asked.run);
-  for (const auto& [text, alias] : command_line::private_words(command_line::describe(asked.app), arguments))
+  const command_line::CommandDescription program = command_line::describe(asked.app);
+  core::never_redact(command_line::ordinary_words(program));
+  const auto exists = [](const std::string& name) {
+    std::error_code error;
+    return std::filesystem::exists(name, error);
+  };
+  for (const auto& [text, alias] : command_line::private_paths(program, arguments, exists))
+    core::redact_in_results(text, alias);
+  if (command_line::value_of("--log", arguments) != "json") return;
+  for (const auto& [text, alias] : command_line::private_words(program, arguments))
     core::redact_in_logs(text, alias);
 }
 
-std::unique_ptr<Asked> asked_by(const std::vector<std::string>& arguments) {
+enum class Refusals { printed, thrown };
+
+std::unique_ptr<Asked> asked_by(const std::vector<std::string>& arguments, Refusals refusals) {
   auto asked = std::make_unique<Asked>();
   asked->app.set_version_flag("--version", "ostia " + core::version());
   define(asked->app, asked->commands, asked->run);
@@ -291,17 +355,16 @@ std::unique_ptr<Asked> asked_by(const std::vector<std::string>& arguments) {
     std::reverse(words.begin(), words.end());  // as CLI11 takes them
     asked->app.parse(words);
   } catch (const CLI::ParseError& error) {
+    if (refusals == Refusals::thrown && error.get_exit_code() != 0) throw UsageError(error.what());
     std::ostringstream refusal;
     asked->exit_code =
         asked->app.exit(error, std::cout, refusal) == 0 ? 0 : static_cast<int>(ExitCode::usage);
-    std::cerr << core::redacted(refusal.str());
+    std::cerr << core::redacted_for_log(refusal.str());
   }
   return asked;
 }
 
-}  // namespace
-
-int run(const std::vector<std::string>& arguments, const core::TaskContext& job) {
+int run_with(const std::vector<std::string>& arguments, Refusals refusals, const core::TaskContext& job) {
   if (const auto folder = command_line::described_into(arguments)) {
     Asked asked;
     define(asked.app, asked.commands, asked.run);
@@ -312,20 +375,31 @@ int run(const std::vector<std::string>& arguments, const core::TaskContext& job)
   const std::vector<std::string> all_arguments = with_config(arguments);
   keep_out_of_the_log(all_arguments);
   StandardStreams streams(all_arguments);
-  std::unique_ptr<Asked> asked = asked_by(streams.arguments());
+  std::unique_ptr<Asked> asked = asked_by(streams.arguments(), refusals);
   if (asked->exit_code >= 0) return asked->exit_code;
   if (streams.used()) {
     streams.open();  // only now: a wrong option is told before the command in front has ended
-    asked = asked_by(streams.arguments());
+    asked = asked_by(streams.arguments(), refusals);
   }
   const CommonOptions& common = asked->commands.common;
   core::set_max_threads(common.threads);
   core::set_log(common.log == "json" ? core::LogFormat::json : core::LogFormat::text,
                 common.quiet ? core::LogLevel::error : core::LogLevel::info);
   const ProgressBar bar(job, common.quiet ? "none" : common.progress);
+  const core::HeardWarnings heard;
   const ExitCode code = asked->run(job);
   if (code == ExitCode::ok || code == ExitCode::quality_failed) streams.deliver();
   return static_cast<int>(code);
+}
+
+}  // namespace
+
+int run(const std::vector<std::string>& arguments, const core::TaskContext& job) {
+  return run_with(arguments, Refusals::printed, job);
+}
+
+int run_within(const std::vector<std::string>& arguments, const core::TaskContext& job) {
+  return run_with(arguments, Refusals::thrown, job);
 }
 
 }  // namespace ostia::app

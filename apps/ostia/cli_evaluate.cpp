@@ -62,6 +62,12 @@ void add_scores(CLI::App& evaluate, EvaluateCommand& c,
            run_evaluate_centerline},
           run);
   add_units(*centerline, c);
+  centerline
+      ->add_option(
+          "--rules", c.rules,
+          "How OF and OT are counted: challenge, the default, as its own program does; paper, by the "
+          "words of Schaap et al.")
+      ->check(CLI::IsMember({"challenge", "paper"}));
   add_requirements(*centerline, c);
   add_report(*centerline, c);
   CLI::App* lumen =

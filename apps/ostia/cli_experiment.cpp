@@ -1,7 +1,10 @@
 // The options of `ostia experiment` and its subcommands.
 
 #include "experiment.h"
+#include "shown_defaults.h"
 #include "validators.h"
+
+#include "ostia/experiments/simulated_reader.h"
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -15,6 +18,7 @@ void define_experiment(CLI::App& app, ExperimentCommand& c, const std::uint64_t&
   experiment->footer("Example:\n  ostia experiment editing --suite suite -o out");
   experiment->fallthrough();
   experiment->require_subcommand(1);
+  const experiments::ReaderOptions reader{};
   CLI::App* editing = experiment->add_subcommand(
       "editing", "A simulated reader edits lumen sections until they agree with an observer's contours");
   editing->footer(
@@ -29,10 +33,15 @@ void define_experiment(CLI::App& app, ExperimentCommand& c, const std::uint64_t&
   editing->add_option(
       "--start-excess", c.start_excess_mm,
       "How much wider than the section's mean radius the tube is that editing starts from, mm");
-  editing->add_option("--pointing-error", c.pointing_mm, "Standard deviation of a click, mm")
+  editing
+      ->add_option("--pointing-error", c.pointing_mm,
+                   "Standard deviation of a click, mm" + default_text(reader.pointing_sigma_mm))
       ->check(zero_or_above());
-  editing->add_option("--points", c.points, "Of a stroke, at most")->check(CLI::Range(4, 100));
-  editing->add_option("--visible", c.visible_px, "Disagreements of more pixels are seen")
+  editing->add_option("--points", c.points, "Of a stroke, at most" + default_text(reader.points))
+      ->check(CLI::Range(4, 100));
+  editing
+      ->add_option("--visible", c.visible_px,
+                   "Disagreements of more pixels are seen" + default_text(reader.visible_px))
       ->check(above_zero());
   editing->add_flag("--json", c.json, "The figures as JSON on standard output");
   editing->callback([&c, &seed, &run] {

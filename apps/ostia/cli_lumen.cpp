@@ -1,7 +1,10 @@
 // The options of `ostia lumen` and `ostia replay`.
 
 #include "lumen.h"
+#include "shown_defaults.h"
 #include "validators.h"
+
+#include "ostia/lumen/start_surface.h"
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -32,7 +35,10 @@ void define_lumen(CLI::App& app, LumenModelCommand& c, ReplayCommand& r,
   lumen->add_option("--vessel", c.vessel, "Name of the vessel that a Rotterdam line is, LAD say");
   lumen->add_option("--radius", c.radius_mm, "Radius of the starting tube, mm; left out: the centerlines'")
       ->check(above_zero());
-  lumen->add_option("--spacing", c.spacing_mm, "Distance between samples of an even wall, mm")
+  lumen
+      ->add_option(
+          "--spacing", c.spacing_mm,
+          "Distance between samples of an even wall, mm" + default_text(lumen::SamplingOptions().spacing_mm))
       ->check(CLI::Range(0.1, 5.0));
   lumen->add_option("--kernel", c.kernel, "Radial basis function between the samples")
       ->check(CLI::IsMember({"morse-c0", "wendland-c2", "wendland-c4"}));

@@ -2,11 +2,14 @@
 
 #include "cli_mesh.h"
 
+#include "shown_defaults.h"
 #include "solver_case.h"
 #include "validators.h"
 
 #include "ostia/io/mesh_export.h"
 #include "ostia/io/volume_mesh_file.h"
+#include "ostia/meshing/sizing.h"
+#include "ostia/meshing/tetrahedralize.h"
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -25,18 +28,26 @@ void add_planes(CLI::App& app, MeshOptions& o) {
                  "inlet_<vessel> or outlet_<vessel>, left out: the nearest; repeat")
       ->allow_extra_args(false);
   app.add_option("--planes", o.planes_file, "The same as a .csv: end,x,y,z,nx,ny,nz");
-  app.add_option("--ends", o.ends, "flat: as they are cut, the default; round: led on to a circle")
-      ->check(CLI::IsMember({"flat", "round"}));
+  app.add_option("--ends", o.ends,
+                 "flat: cut across the axis, open ends and caps that are flat stay where they are, the "
+                 "default; as-they-are: every open end stays, however it stands; round: led on to a circle")
+      ->check(CLI::IsMember({"flat", "as-they-are", "round"}));
+  app.add_option(
+         "--side-branches", o.side_branches,
+         "Blind branches on which no --target lies: closed: they stay so, in the mesh, the default; axes: "
+         "each gets an axis and an outlet at its end; stubs: each is cut off a diameter from its mouth, "
+         "with an outlet")
+      ->check(CLI::IsMember({"closed", "axes", "stubs"}));
 }
 
 /// All that a case is told goes with --with-case alone.
 void add_with_case(CLI::App& app, MeshOptions& o) {
-  CLI::Option* with =
-      app.add_option("--with-case", o.with_case,
-                     "Also a case that a solver runs as it is, in the folder openfoam-case or "
-                     "svmultiphysics-case: openfoam, svmultiphysics; the options from --flow to --processes "
-                     "are its own")
-          ->check(CLI::IsMember({"openfoam", "svmultiphysics"}));
+  CLI::Option* with = app.add_option("--with-case", o.with_case,
+                                     "Also a case that a solver runs as it is, in the folder " +
+                                         of_all_solvers(&pipeline::SolverTraits::folder, " or ") + ": " +
+                                         of_all_solvers(&pipeline::SolverTraits::name, ", ") +
+                                         "; the options from --flow to --processes are its own")
+                          ->check(CLI::IsMember(solver_names()));
   const std::vector<CLI::Option*> before = app.get_options();
   add_case_options(app, o.solver_case, "--solver-iterations");
   for (CLI::Option* option : app.get_options())
@@ -45,13 +56,21 @@ void add_with_case(CLI::App& app, MeshOptions& o) {
 
 }  // namespace
 
+std::vector<std::string> mesh_format_names() {
+  std::vector<std::string> names;
+  for (const io::MeshFormat format : io::mesh_formats) names.emplace_back(io::name_of(format));
+  return names;
+}
+
 void add_mesh(CLI::App& app, MeshOptions& o) {
-  app.add_option("--edge-ratio", o.edge_ratio, "Edge length over the distance to the centerline, 0.02 to 2")
+  app.add_option("--edge-ratio", o.edge_ratio,
+                 "Edge length over the distance to the centerline, 0.02 to 2" +
+                     default_text(meshing::SizingOptions().edge_ratio))
       ->check(CLI::Range(0.02, 2.0));
   app.add_option("--size", o.size, "What the edges follow: distance to the centerline, or inscribed radius")
       ->check(CLI::IsMember({"distance", "radius"}));
-  app.add_option("--min-edge", o.min_edge_mm, "Shortest edge, mm")->check(above_zero());
-  app.add_option("--max-edge", o.max_edge_mm, "Longest edge, mm")->check(above_zero());
+  app.add_option("--min-edge", o.min_edge_mm, "Shortest edge, mm; left out: no bound")->check(above_zero());
+  app.add_option("--max-edge", o.max_edge_mm, "Longest edge, mm; left out: no bound")->check(above_zero());
   app.add_option("--size-radii", o.most_distance_radii,
                  "Bound on the distance to the centerline in inscribed radii, 1 or more, for aneurysms; left "
                  "out: none")
@@ -64,9 +83,12 @@ void add_mesh(CLI::App& app, MeshOptions& o) {
   app.add_option("--stenosis-edges", o.stenosis_share,
                  "Edges at stenoses over those of the vessel, 0.05 to 1; default 1")
       ->check(CLI::Range(0.05, 1.0));
-  app.add_option("--volume-size", o.size_factor, "Edges inside over edges of the surface")
+  app.add_option("--volume-size", o.size_factor,
+                 "Edges inside over edges of the surface" +
+                     default_text(meshing::TetrahedralizeOptions().size_factor))
       ->check(above_zero());
-  app.add_option("--inset", o.inset_radii, "How far inside its end a vessel is cut, in radii")
+  app.add_option("--inset", o.inset_radii,
+                 "How far inside its end a vessel is cut, in radii; default 1, of an image 0.4")
       ->check(zero_or_above());
   app.add_option("--flow-extensions", o.extensions,
                  "Tubes that lead the flow in and out, 0.25 to 100 diameters long; left out: none")
@@ -85,12 +107,10 @@ void add_mesh(CLI::App& app, MeshOptions& o) {
                  "Of the elements: 1, the default, or 2 with nodes on the edges, those of the wall on the "
                  "surface as it was before remeshing")
       ->check(CLI::IsMember({1, 2}));
-  std::vector<std::string> formats;
-  for (const io::MeshFormat format : io::mesh_formats) formats.emplace_back(io::name_of(format));
   app.add_option("--export", o.formats, "Formats besides mesh.vtu, separated by commas")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(CLI::IsMember(formats));
+      ->check(CLI::IsMember(mesh_format_names()));
   app.add_option("--size-array", o.size_array,
                  "Edge lengths, mm: a point array of the surface (.vtp), in place of the vessel's size");
   add_planes(app, o);

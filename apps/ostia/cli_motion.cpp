@@ -87,6 +87,7 @@ void add_apply(CLI::App& motion, MotionApplyCommand& c, MotionRun& run) {
       ->required();
   apply->add_option("--phase", c.percent, "Percent of the cycle since the R peak; 125 is 25")->required();
   add_units(*apply, c.units, "Unit of length of the input; what is written is in mm");
+  apply->add_flag("--json", c.json, "One JSON object on standard output");
 }
 
 void add_evaluate(CLI::App& motion, MotionEvaluateCommand& c, MotionRun& run) {

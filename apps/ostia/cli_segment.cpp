@@ -2,7 +2,10 @@
 
 #include "cli_segment.h"
 
+#include "shown_defaults.h"
 #include "validators.h"
+
+#include "ostia/segmentation/level_set.h"
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -41,8 +44,11 @@ void add_filters(CLI::App& app, LumenOptions& o) {
 }  // namespace
 
 void add_lumen(CLI::App& app, LumenOptions& o) {
-  app.add_option("--branch", o.branches,
-                 "A vessel: from:to or from:through:to, each point x,y,z; repeat for more vessels")
+  const segmentation::LevelSetOptions usual;
+  app.add_option(
+         "--branch", o.branches,
+         "A vessel: from:to or from:through:to, each point x,y,z, or a file whose lists of points are "
+         "vessels (.mrk.json, .fcsv, .csv); repeat for more vessels")
       ->allow_extra_args(false);
   app.add_option("--lower", o.lower_hu, "Least HU of the lumen; left out: chosen about the seeds");
   app.add_option("--upper", o.upper_hu, "Largest HU of the lumen; left out: chosen about the seeds");
@@ -54,17 +60,22 @@ void add_lumen(CLI::App& app, LumenOptions& o) {
   app.add_option("--sigma", o.gaussian_sigma_mm,
                  "Of the feature gaussian, mm; left out: the least spacing of the image")
       ->check(CLI::Range(0.01, 10.0));
-  app.add_option("--inflation", o.inflation, "Weight w1 of the level set's inflation")
+  app.add_option("--inflation", o.inflation,
+                 "Weight w1 of the level set's inflation" + default_text(usual.inflation))
       ->check(zero_or_above());
-  app.add_option("--curvature", o.curvature, "Weight w2 of the level set's curvature")
+  app.add_option("--curvature", o.curvature,
+                 "Weight w2 of the level set's curvature" + default_text(usual.curvature))
       ->check(zero_or_above());
   app.add_option("--curvature-term", o.curvature_term,
                  "Which curvature that is: mean (default), or minimal (of both principal curvatures the "
                  "smaller: smooths along a vessel and leaves its radius alone)")
       ->check(CLI::IsMember({"mean", "minimal"}));
-  app.add_option("--advection", o.advection, "Weight w3 of the pull to the image's edges")
+  app.add_option("--advection", o.advection,
+                 "Weight w3 of the pull to the image's edges" + default_text(usual.advection))
       ->check(zero_or_above());
-  app.add_option("--iterations", o.iterations, "Most iterations of the level set")->check(zero_or_above());
+  app.add_option("--iterations", o.iterations,
+                 "Most iterations of the level set" + default_text(usual.iterations_max))
+      ->check(zero_or_above());
   app.add_flag("--whole-volume", o.whole_volume, "Let the fronts run through the whole image");
   app.add_flag("--bright-is-lumen", o.bright_is_lumen,
                "What is brighter than the lumen (a stent, a catheter) belongs to it; not for calcium");

@@ -1,12 +1,15 @@
+#include "case_continue.h"
+#include "output_aside.h"
 #include "refusal.h"
 #include "solver_case.h"
 #include "table_file.h"
+#include "told.h"
 #include "validators.h"
 
+#include "ostia/core/files.h"
 #include "ostia/core/log.h"
 #include "ostia/io/volume_mesh_file.h"
-#include "ostia/solver/openfoam_case.h"
-#include "ostia/solver/svmultiphysics_case.h"
+#include "ostia/solver/openfoam_continue.h"
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -15,6 +18,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
+#include <optional>
 
 namespace ostia::app {
 namespace {
@@ -117,24 +121,21 @@ void print(const solver::BoundaryFlow& flow, bool shared) {
   }
 }
 
-pipeline::SolverCase openfoam(const CaseOptions& c) {
-  if (c.compliance) throw UsageError("--compliance is for svmultiphysics");
-  solver::OpenfoamCaseOptions options;
-  options.flow = flow_options(c);
+// What one solver alone is told.
+void tell_solver(const CaseOptions& c, solver::OpenfoamCaseOptions& options) {
+  options.total_compliance_ml_mmhg = c.compliance;
   options.processes = c.processes;
   options.iterations = c.iterations;
   options.cycles = c.cycles;
   options.time_step_s = c.time_step_s;
-  return options;
+  if (c.courant) options.courant = *c.courant;
 }
 
-pipeline::SolverCase svmultiphysics(const CaseOptions& c) {
+void tell_solver(const CaseOptions& c, solver::SvmultiphysicsCaseOptions& options) {
   if (c.time_step_s) throw UsageError("--time-step is for openfoam");
-  solver::SvmultiphysicsCaseOptions options;
-  options.flow = flow_options(c);
+  if (c.courant) throw UsageError("--courant is for openfoam");
   options.total_compliance_ml_mmhg = c.compliance;
   options.cycles = c.cycles;
-  return options;
 }
 
 void add_flow_options(CLI::App& app, CaseOptions& c) {
@@ -159,45 +160,100 @@ void add_flow_options(CLI::App& app, CaseOptions& c) {
   app.add_option("--resistance", c.resistance,
                  "Of all outlets together, mmHg s / ml; left out: 90 mmHg over the mean flow")
       ->check(above_zero());
-  app.add_option("--compliance", c.compliance, "Of all outlets together, ml / mmHg (svMultiPhysics alone)")
+  app.add_option(
+         "--compliance", c.compliance,
+         "Of all outlets together, ml / mmHg: makes each resistance a Windkessel; openfoam wants a waveform")
       ->check(above_zero());
 }
 
 }  // namespace
 
 pipeline::SolverCase solver_case(const CaseOptions& c) {
-  pipeline::SolverCase made = c.solver == "svmultiphysics" ? svmultiphysics(c) : openfoam(c);
+  pipeline::SolverCase made = pipeline::solver_case(pipeline::solver_kind(c.solver));
+  std::visit(
+      [&](auto& options) {
+        tell_solver(c, options);
+        options.flow = flow_options(c);
+      },
+      made);
   pipeline::validate(made);
   return made;
 }
 
 void tell_case(const pipeline::VolumeOptions& options, const std::filesystem::path& folder) {
   if (!options.solver_case) return;
-  const std::filesystem::path place = folder / pipeline::name_in_folder(*options.solver_case);
-  if (std::holds_alternative<solver::OpenfoamCaseOptions>(*options.solver_case))
-    core::log_info("run the case: " + (place / "Allrun").string());
+  const pipeline::SolverTraits& solver = pipeline::traits_of(pipeline::kind_of(*options.solver_case));
+  const std::filesystem::path place = folder / solver.folder;
+  if (!solver.script.empty())
+    core::log_info("run the case: " + (place / solver.script).string());
   else
-    core::log_info("run the case in " + place.string() + ": svmultiphysics solver.xml");
+    core::log_info("run the case in " + place.string() + ": " + std::string(solver.run));
 }
 
-ExitCode run_case(const CaseCommand& c, const core::TaskContext& task) {
+namespace {
+
+ExitCode made_case(const CaseCommand& c, const core::TaskContext& task) {
+  if (solver::is_openfoam_case(c.mesh)) return continue_case(c);
+  if (c.output.empty()) throw UsageError("`ostia case MESH` needs -o, the folder that is made");
   const pipeline::SolverCase asked = solver_case(c);  // refused before the mesh is read
   task.set_stage("reading");
   const geometry::MixedMesh mesh = io::read_volume_mesh(c.mesh);
   task.set_progress(0.2);
   task.set_stage("case");
+  if (solver::is_openfoam_case(c.output)) {
+    naming(c.mesh, [&] { continue_same_case(mesh, asked, c, task.sub(0.2, 1.0)); });
+    return ExitCode::ok;
+  }
   naming(c.mesh, [&] {
     const auto made = pipeline::write_solver_case(mesh, asked, c.output, task.sub(0.2, 1.0));
     for (const std::string& warning : made.warnings) core::log_warning(warning);
     print(made.flow, c.outlets != "zero");
-    if (made.time_step_s > 0.0) std::printf("time step %.3g s\n", made.time_step_s);
+    if (made.steps > 0.0)
+      std::printf(
+          "about %.2g steps, %.3g s the first%s: about %.2g hours on %d processes; more where a stenosis "
+          "is faster than the ends\n",
+          made.steps, made.time_step_s, c.time_step_s ? " as each" : "", made.hours, c.processes);
   });
-  if (c.solver == "openfoam")
-    std::printf("run it: %s/Allrun, or on %d processes %s/Allrun %d\n", c.output.c_str(), c.processes,
-                c.output.c_str(), c.processes);
+  const pipeline::SolverTraits& solver = pipeline::traits_of(pipeline::kind_of(asked));
+  const std::string script = c.output.string() + "/" + std::string(solver.script);
+  if (!solver.script.empty())
+    std::printf("run it: %s, or on %d processes %s %d\n", script.c_str(), c.processes, script.c_str(),
+                c.processes);
   else
-    std::printf("run it in %s: svmultiphysics solver.xml\n", c.output.c_str());
+    std::printf("run it in %s: %s\n", c.output.c_str(), std::string(solver.run).c_str());
   return ExitCode::ok;
+}
+
+/// The record that is kept in the case's folder, where its solver has one.
+void tell_record(const CaseCommand& c) {
+  const std::filesystem::path record = (c.output.empty() ? c.mesh : c.output) / "flow-case.json";
+  ToldJson facts{{"solver", c.solver}, {"record", nullptr}};
+  if (std::filesystem::exists(record)) facts["record"] = ToldJson::parse(core::read_file(record));
+  tell("solver-case", facts, "", true);
+}
+
+}  // namespace
+
+ExitCode run_case(const CaseCommand& c, const core::TaskContext& task) {
+  std::optional<OutputAside> aside(c.json);
+  const ExitCode code = made_case(c, task);
+  aside.reset();
+  if (c.json) tell_record(c);
+  return code;
+}
+
+std::vector<std::string> solver_names() {
+  std::vector<std::string> names;
+  for (const pipeline::SolverKind kind : pipeline::solver_kinds)
+    names.emplace_back(pipeline::traits_of(kind).name);
+  return names;
+}
+
+std::string of_all_solvers(std::string_view pipeline::SolverTraits::*text, const std::string& between) {
+  std::string all;
+  for (const pipeline::SolverKind kind : pipeline::solver_kinds)
+    all += (all.empty() ? "" : between) + std::string(pipeline::traits_of(kind).*text);
+  return all;
 }
 
 void add_case_options(CLI::App& app, CaseOptions& c, const std::string& iterations) {
@@ -207,7 +263,10 @@ void add_case_options(CLI::App& app, CaseOptions& c, const std::string& iteratio
   app.add_option("--rheology", c.rheology, "newton, or carreau: shear-thinning")
       ->check(CLI::IsMember({"newton", "carreau"}));
   app.add_option("--cycles", c.cycles, "Of a pulsatile flow");
-  app.add_option("--time-step", c.time_step_s, "s; left out: from the mesh, for a Courant number of 0.5")
+  app.add_option("--time-step", c.time_step_s,
+                 "s, of each step; left out: it follows the flow, for --courant")
+      ->check(above_zero());
+  app.add_option("--courant", c.courant, "Largest Courant number of a pulsatile flow (openfoam)")
       ->check(above_zero());
   app.add_option(iterations, c.iterations, "Of a steady flow, at most");
   app.add_option("--processes", c.processes, "That the decomposed run is prepared for");
@@ -217,14 +276,24 @@ void define_case(CLI::App& app, CaseCommand& c, std::function<ExitCode(const cor
   CLI::App* sub = app.add_subcommand("case", "A case of blood flow that a solver runs as it is");
   sub->footer(
       "Example:\n  ostia case mesh/mesh.vtu -o flow --outlets split\n"
-      "  ostia case mesh/mesh.vtu -o flow --waveform coronary-left --flow 0.8 && flow/Allrun 4");
+      "  ostia case mesh/mesh.vtu -o flow --waveform coronary-left --flow 0.8 && flow/Allrun 4\n"
+      "  ostia case flow --iterations 4000 && flow/Allrun");
   sub->fallthrough();
-  sub->add_option("MESH", c.mesh, "Volume mesh with inlets, outlets and walls (.vtu)")->required();
-  sub->add_option("-o,--output", c.output, "Folder that is made")->required();
-  sub->add_option("--solver", c.solver, "openfoam or svmultiphysics")
-      ->check(CLI::IsMember({"openfoam", "svmultiphysics"}));
+  sub->add_option("MESH", c.mesh,
+                  "Volume mesh with inlets, outlets and walls (.vtu); or the folder of a case, which goes on "
+                  "for as long as --iterations or --cycles say")
+      ->required();
+  sub->add_option("-o,--output", c.output, "Folder that is made");
+  sub->add_option("--solver", c.solver, of_all_solvers(&pipeline::SolverTraits::name, " or "))
+      ->check(CLI::IsMember(solver_names()));
   add_case_options(*sub, c, "--iterations");
-  sub->callback([&] { run = [&](const core::TaskContext& task) { return run_case(c, task); }; });
+  sub->add_flag("--json", c.json, "One JSON object on standard output");
+  sub->callback([&, sub] {
+    c.given.clear();
+    for (const CLI::Option* option : sub->get_options())
+      if (option->count() > 0 && option->get_name() != "--json") c.given.push_back(option->get_name());
+    run = [&](const core::TaskContext& task) { return run_case(c, task); };
+  });
 }
 
 }  // namespace ostia::app

@@ -1,5 +1,9 @@
 #include "commands.h"
-#include "points.h"
+#include "convert_kinds.h"
+#include "convert_markups.h"
+#include "label_export.h"
+#include "model_options.h"
+#include "outputs.h"
 #include "tree_commands.h"
 
 #include "ostia/core/log.h"
@@ -7,6 +11,7 @@
 #include "ostia/geometry/subdivision.h"
 #include "ostia/imaging/image_file.h"
 #include "ostia/io/centerline_file.h"
+#include "ostia/io/markups_file.h"
 #include "ostia/io/surface_file.h"
 #include "ostia/pipeline/repair.h"
 
@@ -31,7 +36,8 @@ void repair(const ConvertCommand& options, geometry::FacedSurface& surface, Json
             const core::TaskContext& task) {
   pipeline::RepairOptions how;
   how.fill_holes_up_to_mm = options.fill_holes_mm;
-  how.keep_parts = options.keep_parts;
+  if (options.keep_parts) how.parts = pipeline::KeptParts::all;
+  if (options.largest_part) how.parts = pipeline::KeptParts::largest;
   const pipeline::Repaired fixed = pipeline::repaired(surface.mesh, how, task);
   for (const std::string& step : fixed.done) core::log_info(step);
   core::log_info("faults left: " + fixed.left);
@@ -63,6 +69,16 @@ void refine(const ConvertCommand& options, geometry::FacedSurface& surface, Json
   }
 }
 
+/// With the faces, where there are any and the format holds them.
+void write_converted(const std::filesystem::path& file, const geometry::FacedSurface& surface,
+                     bool faces_lost) {
+  if (!faces_lost && has_extension(file, {".vtp"})) return io::write_surface(file, surface);
+  if (!faces_lost && surface.faces.size() > 1)
+    core::log_warning("the names of its " + std::to_string(surface.faces.size()) +
+                      " faces are left out: .vtp holds them");
+  io::write_surface(file, surface.mesh);
+}
+
 void convert_surface(const ConvertCommand& options, const core::TaskContext& task) {
   io::LoadedSurface loaded = io::read_surface(options.input.input);
   for (const std::string& warning : loaded.warnings) core::log_warning(warning);
@@ -70,15 +86,12 @@ void convert_surface(const ConvertCommand& options, const core::TaskContext& tas
   if (unit) {
     for (geometry::Vec3& p : loaded.surface.mesh.points) p *= *unit;
   }
-  Json done = Json::object();
-  const bool repairs = options.tree.repair || options.keep_parts || options.fill_holes_mm > 0.0;
+  Json done{{"v", 1}, {"kind", "conversion"}};
+  const bool repairs =
+      options.tree.repair || options.keep_parts || options.largest_part || options.fill_holes_mm > 0.0;
   if (repairs) repair(options, loaded.surface, done, task.sub(0.0, 0.3));
   refine(options, loaded.surface, done, task);
-  if (repairs) {
-    io::write_surface(options.output, loaded.surface.mesh);
-  } else {
-    io::write_surface(options.output, loaded.surface);
-  }
+  write_converted(options.output, loaded.surface, repairs);
   done["points"] = loaded.surface.mesh.points.size();
   done["triangles"] = loaded.surface.mesh.triangles.size();
   if (options.json) std::fputs((done.dump(2) + "\n").c_str(), stdout);
@@ -86,35 +99,63 @@ void convert_surface(const ConvertCommand& options, const core::TaskContext& tas
 
 /// Options for surfaces say nothing about images and lines.
 void refuse_surface_options(const ConvertCommand& options) {
-  if (options.tree.repair || options.keep_parts || options.json || options.fill_holes_mm > 0.0 ||
+  if (options.tree.repair || options.keep_parts || options.largest_part || options.fill_holes_mm > 0.0 ||
       options.smooth > 0 || options.subdivide > 0)
-    throw UsageError(
-        "--repair, --fill-holes, --keep-parts, --smooth, --subdivide and --json are for surfaces");
+    throw UsageError("--repair, --fill-holes, --keep-parts, --smooth and --subdivide are for surfaces");
+}
+
+void print_done(const ConvertCommand& options, const Json& facts) {
+  if (!options.json) return;
+  Json done{{"v", 1}, {"kind", "conversion"}};
+  done.update(facts);
+  std::fputs((done.dump(2) + "\n").c_str(), stdout);
+}
+
+void convert_lines(const ConvertCommand& options) {
+  const geometry::VesselTree tree = io::read_centerlines(options.input.input);
+  io::write_centerlines(options.output, tree);
+  std::size_t points = 0;
+  for (const geometry::TreeSegment& segment : tree.segments) points += segment.axis.size();
+  print_done(options, {{"points", points}, {"vessels", tree.vessels.size()}});
 }
 
 void convert_image(const ConvertCommand& options, pipeline::SourceKind kind, const core::TaskContext& task) {
-  if (kind == pipeline::SourceKind::mask) {
-    imaging::write_image(options.output, imaging::read_mask(options.input.input, task).volume);
+  if (kind == pipeline::SourceKind::mask && imaging::looks_like_labels(options.input.input)) {
+    const auto labels = imaging::read_labels(options.input.input, task).volume;
+    imaging::write_image(options.output, labels);
+    print_done(options, {{"size", labels.geometry.size}});
+  } else if (kind == pipeline::SourceKind::mask) {
+    const imaging::MaskVolume mask = imaging::read_mask(options.input.input, task).volume;
+    imaging::write_image(options.output, mask);
+    print_done(options, {{"size", mask.geometry.size}});
   } else {
-    imaging::write_image(options.output, imaging::read_image(options.input.input, task).volume);
+    const imaging::ImageVolume image = imaging::read_image(options.input.input, task).volume;
+    imaging::write_image(options.output, image);
+    print_done(options, {{"size", image.geometry.size}});
   }
 }
 
 bool is_lines(const std::filesystem::path& path) {
-  return path.extension() == ".csv" || path.extension() == ".vtk";
+  return path.extension() == ".csv" || path.extension() == ".vtk" || io::is_markups_file(path);
 }
 
 }  // namespace
 
 ExitCode run_convert(const ConvertCommand& options, const core::TaskContext& task) {
   const std::filesystem::path& input = options.input.input;
+  if (converts_to_labels(options)) return convert_to_labels(options, task);
+  if (converts_to_markups(options)) return convert_to_markups(options, task);
+  if (options.landmarks)
+    throw UsageError("--landmarks goes into markups: name the output .mrk.json or .fcsv");
+  if (converts_own_kind(options)) return convert_own_kind(options, task);
+  if (!options.format.empty()) throw UsageError("--format is for volume meshes");
   if (converts_tree(options)) return convert_tree(options, task);
   if (!options.tree.roots.empty() || options.tree.merge_mm > 0.0 || options.tree.keep_directions ||
       !options.tree.radius_units.empty())
     throw UsageError("--root, --join-within, --keep-directions and --radius-units are for trees");
   if (is_lines(input) || options.output.extension() == ".csv") {
     refuse_surface_options(options);
-    io::write_centerlines(options.output, io::read_centerlines(input));
+    convert_lines(options);
     return ExitCode::ok;
   }
   const pipeline::SourceKind kind = pipeline::classify(input);

@@ -1,7 +1,9 @@
 #include "evaluate.h"
+#include "model_options.h"
 #include "outputs.h"
 
 #include "ostia/core/log.h"
+#include "ostia/core/text.h"
 #include "ostia/evaluation/centerline_scores.h"
 #include "ostia/evaluation/frame_hint.h"
 #include "ostia/figure/html_report.h"
@@ -24,7 +26,8 @@ struct VesselScore {
   std::string case_name, vessel;
   fs::path folder;
   io::RotterdamReference reference;
-  std::string candidate;  ///< empty: no line overlaps
+  std::size_t result_repeated = 0;  ///< points of the result's line that repeat the one before
+  std::string candidate;            ///< empty: no line overlaps
   std::vector<Vec3> line;
   evaluation::CenterlineScores scores;
   double observer_ov = NAN;  ///< mean overlap of the observers' own lines, where they are there
@@ -45,15 +48,39 @@ std::vector<std::pair<std::string, fs::path>> references_of(const fs::path& path
   return out;
 }
 
+/// Lines that may stand for a vessel.
+struct Candidates {
+  std::vector<evaluation::NamedLine> lines;
+  std::size_t repeated = 0;
+};
+
+/// A line of the challenge is scored as it stands in its file, points that repeat the one before included.
+Candidates challenge_line(const fs::path& path, const std::string& units) {
+  InputOptions input;
+  input.units = units;
+  const double unit_mm = source_options(input).unit_mm.value_or(1.0);
+  std::vector<Vec3> points = io::read_rotterdam_line(path);
+  for (Vec3& p : points) p *= unit_mm;
+  const std::size_t repeated = io::count_repeated(points);
+  return {{{path.stem().string(), std::move(points)}}, repeated};
+}
+
 /// Lines for one vessel: its own result.txt where a folder has one, else all lines of the result.
-std::vector<evaluation::NamedLine> candidates_for(const fs::path& result, const std::string& vessel,
-                                                  const std::string& units) {
+Candidates candidates_for(const fs::path& result, const std::string& vessel, const std::string& units) {
   if (fs::is_directory(result)) {
     for (const fs::path& own : {result / vessel / "result.txt", result / "result.txt"})
-      if (fs::exists(own)) return evaluation::lines_of(lines_from(own, units));
+      if (fs::exists(own)) return challenge_line(own, units);
   }
-  return evaluation::lines_of(
-      lines_of_parts(files_in(result, {"centerlines.vtp", "centerlines.csv"}, "centerlines"), units));
+  const std::vector<fs::path> parts = files_in(result, {"centerlines.vtp", "centerlines.csv"}, "centerlines");
+  if (parts.size() == 1 && parts.front().extension() == ".txt") return challenge_line(parts.front(), units);
+  return {evaluation::lines_of(lines_of_parts(parts, units))};
+}
+
+void tell_repeated(const std::string& vessel, const std::string& which, std::size_t count) {
+  if (count > 0)
+    core::log_warning((vessel.empty() ? "" : vessel + ": ") + "the " + which + " has " +
+                      std::to_string(count) + (count == 1 ? " point that repeats" : " points that repeat") +
+                      " the one before; taken as they are");
 }
 
 double observers_overlap(const fs::path& folder, const io::RotterdamReference& reference) {
@@ -75,11 +102,16 @@ VesselScore scored(const std::string& case_name, const std::string& vessel, cons
   out.vessel = vessel;
   out.folder = reference.parent_path();
   out.reference = io::read_rotterdam_reference(reference);
+  tell_repeated(vessel, "reference", io::count_repeated(out.reference.points));
   out.scores.ai_mm = out.scores.ai_score = NAN;
   out.scores.fn = out.reference.points.size();
   if (result.empty()) return out;
-  const std::vector<evaluation::NamedLine> candidates = candidates_for(result, vessel, command.units);
-  evaluation::BestLine best = evaluation::score_best_line(out.reference, candidates, {}, task);
+  const auto [candidates, repeated] = candidates_for(result, vessel, command.units);
+  out.result_repeated = repeated;
+  tell_repeated(vessel, "result", repeated);
+  evaluation::CenterlineScoreOptions how;
+  if (command.rules == "paper") how.rules = evaluation::OverlapRules::paper;
+  evaluation::BestLine best = evaluation::score_best_line(out.reference, candidates, how, task);
   if (best.scores.ov > 0.0) {
     out.candidate = candidates[best.index].name;
     out.line = candidates[best.index].points;
@@ -122,6 +154,8 @@ Json row_of(const VesselScore& v) {
   row["fn"] = s.fn;
   row["tpm"] = s.tpm;
   row["fp"] = s.fp;
+  row["reference_repeated"] = io::count_repeated(v.reference.points);
+  row["result_repeated"] = v.result_repeated;
   return row;
 }
 
@@ -141,9 +175,7 @@ void write_page(const fs::path& path, const Json& result, const std::vector<Vess
   for (const Json& row : result["vessels"]) {
     std::vector<std::string> cells{row.value("case", ""), row["vessel"]};
     for (const char* key : {"length_mm", "ov", "of", "ot", "ai_mm", "observer_ov", "ov_score", "ai_score"}) {
-      char text[32] = "-";
-      if (row[key].is_number()) std::snprintf(text, sizeof text, "%.3f", row[key].get<double>());
-      cells.emplace_back(text);
+      cells.push_back(row[key].is_number() ? core::fixed_text(row[key].get<double>(), 3) : "-");
     }
     rows.push_back(cells);
   }
@@ -192,7 +224,7 @@ ExitCode run_evaluate_centerline(const EvaluateCommand& command, const core::Tas
       all.push_back(scored(pairs[k].name, vessel, path, pairs[k].missing ? fs::path() : pairs[k].result,
                            command, part));
   }
-  Json out{{"v", 1}, {"kind", "centerline"}};
+  Json out{{"v", 1}, {"kind", "centerline"}, {"rules", command.rules}};
   out["mean"] = mean_of(all);
   out["vessels"] = Json::array();
   for (const VesselScore& v : all) out["vessels"].push_back(row_of(v));

@@ -2,6 +2,7 @@
 #include "outputs.h"
 
 #include "ostia/core/log.h"
+#include "ostia/core/text.h"
 #include "ostia/evaluation/agreement.h"
 #include "ostia/evaluation/agreement_plot.h"
 #include "ostia/evaluation/contour_surface.h"
@@ -243,9 +244,9 @@ void add_table(figure::HtmlReport& page, const Json& rows, const std::vector<std
     std::vector<std::string> line;
     for (const std::string& key : keys) {
       const Json value = row.contains(key) ? row[key] : Json("");
-      char text[32] = "-";
-      if (value.is_number()) std::snprintf(text, sizeof text, "%.4g", value.get<double>());
-      line.push_back(value.is_string() ? value.get<std::string>() : text);
+      line.push_back(value.is_string()   ? value.get<std::string>()
+                     : value.is_number() ? core::significant_text(value.get<double>(), 4)
+                                         : "-");
     }
     cells.push_back(line);
   }

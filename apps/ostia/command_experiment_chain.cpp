@@ -2,7 +2,8 @@
 
 #include "experiment.h"
 #include "input_digest.h"
-#include "points.h"
+#include "model_options.h"
+#include "seeds.h"
 #include "validators.h"
 
 #include "ostia/core/log.h"
@@ -49,8 +50,10 @@ ExitCode run_experiment_chain(const ChainCommand& command, const core::TaskConte
   for (const std::string& warning : source.warnings) core::log_warning(warning);
   const auto places = [&](const std::vector<std::string>& texts) {
     std::vector<geometry::Vec3> out;
-    for (const std::string& text : texts)
-      out.push_back(parse_point(text, command.input.coords, &source.image->geometry));
+    for (const std::string& text : texts) {
+      const auto some = seed_points(text, {command.input.coords, &source.image->geometry});
+      out.insert(out.end(), some.begin(), some.end());
+    }
     return out;
   };
   const std::vector<geometry::Vec3> seeds = places(command.seeds), rivals = places(command.rivals);

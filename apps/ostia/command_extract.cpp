@@ -1,7 +1,8 @@
 #include "edit_script.h"
 #include "extract.h"
+#include "mask_input.h"
+#include "model_options.h"
 #include "outputs.h"
-#include "points.h"
 #include "refusal.h"
 
 #include "ostia/core/error.h"
@@ -41,6 +42,7 @@ Json facts_of(const session::FoundModel& result) {
           {"ostia", found.ostia.size()},
           {"dominance", coronary::word(found.vessels.dominance)},
           {"vessels", vessels},
+          {"left_out", found.left_out},
           {"warnings", found.warnings}};
 }
 
@@ -66,12 +68,48 @@ session::FoundModel found_in(const std::filesystem::path& input, const imaging::
       " (in the workstation, or `ostia model " + own_name(input) + " -o DIR --branch P:P`)");
 }
 
+/// What was joined and parted, beside the vessels.
+Json facts_of(const session::MaskModel& result) {
+  Json facts = facts_of(result.found);
+  facts["kind"] = "extraction of a mask";
+  const auto place = [](const geometry::Vec3& p) { return Json{p.x(), p.y(), p.z()}; };
+  facts["bridges"] = Json::array();
+  for (const coronary::MaskBridge& bridge : result.tree.bridges)
+    facts["bridges"].push_back({{"from", place(bridge.from)},
+                                {"to", place(bridge.to)},
+                                {"length_mm", bridge.length_mm()},
+                                {"probability", bridge.probability},
+                                {"to_side", bridge.to_side}});
+  facts["cuts"] = Json::array();
+  for (const coronary::MaskCut& cut : result.tree.cuts)
+    facts["cuts"].push_back({{"place", place(cut.place)}, {"radius_mm", cut.radius_mm}});
+  return facts;
+}
+
+ExitCode extract_mask(const ExtractCommand& o, NewCase& made, const core::TaskContext& task) {
+  coronary::MaskTreeOptions options;
+  options.labels.least_confidence = o.least_confidence;
+  const MaskCase found = mask_case({o.input.input, o.image, o.labels}, options, task.sub(0.0, 0.98));
+  for (const std::string& warning : found.model.found.found.warnings) core::log_warning(warning);
+  task.throw_if_cancelled();
+  made.make(found.model.found, found.image);
+  if (!o.lines.empty()) io::write_centerlines(o.lines, found.model.found.model.tree);
+  made.commit();
+  task.set_progress(1.0);
+  print_extracted(facts_of(found.model), o.json);
+  return ExitCode::ok;
+}
+
 }  // namespace
 
 ExitCode run_extract(const ExtractCommand& o, const core::TaskContext& task) {
   require_output(o.output, {".ostia"});
   require_output(o.lines, line_outputs);
   NewCase made(o.output);
+  if (o.mask || holds_labels(o.input.input)) return extract_mask(o, made, task);
+  if (!o.image.empty() || !o.labels.empty())
+    throw UsageError("--image and --label are for masks, and " + own_name(o.input.input) +
+                     " is a CT; give --mask if it is a mask");
   task.set_stage("reading");
   const pipeline::Source source =
       pipeline::load_ct(o.input.input, source_options(o.input), task.sub(0.0, 0.1));
@@ -82,21 +120,23 @@ ExitCode run_extract(const ExtractCommand& o, const core::TaskContext& task) {
   const session::FoundModel result = found_in(o.input.input, *source.image, options, task.sub(0.1, 0.98));
   for (const std::string& warning : result.found.warnings) core::log_warning(warning);
   task.throw_if_cancelled();
-  made.make(result, {source.sha256, source.pseudonym});
+  made.make(result, session::ImageReference{source.sha256, source.pseudonym});
   if (!o.lines.empty()) io::write_centerlines(o.lines, result.model.tree);
   made.commit();
   task.set_progress(1.0);
   print_extracted(facts_of(result), o.json);
-  return ExitCode::ok;
+  return result.found.left_out.empty() ? ExitCode::ok : ExitCode::quality_failed;
 }
 
 void define_extract(CLI::App& app, ExtractCommand& c, std::function<ExitCode(const core::TaskContext&)>& run,
                     const std::function<void(CLI::App&, InputOptions&)>& add_dicom) {
   CLI::App* extract = app.add_subcommand(
-      "extract", "The coronary tree of a CT angiogram found by itself: a case to be checked");
-  extract->footer("Example:\n  ostia extract CT/ -o heart.ostia");
+      "extract", "The coronary tree of a CT angiogram, or of a mask of one, by itself: a case to be checked");
+  extract->footer(
+      "Example:\n  ostia extract CT/ -o heart.ostia\n  ostia extract mask.nii.gz --image ct.nii.gz -o "
+      "heart.ostia");
   extract->fallthrough();
-  extract->add_option("INPUT", c.input.input, "DICOM folder or zip, or image")->required();
+  extract->add_option("INPUT", c.input.input, "DICOM folder or zip, image, or mask")->required();
   add_dicom(*extract, c.input);
   extract->add_option("-o,--output", c.output, "Case with labelled, editable vessels, .ostia")->required();
   extract->add_option("--lines", c.lines, "Also the centerlines: .vtp or .csv");
@@ -106,6 +146,13 @@ void define_extract(CLI::App& app, ExtractCommand& c, std::function<ExitCode(con
       ->check(CLI::Range(0.0, 1.0));
   extract->add_option("--vesselness", c.vesselness, "How likeness to a tube is measured")
       ->check(CLI::IsMember({"flux", "hessian"}));
+  extract->add_option("--image", c.image,
+                      "Of a mask: the CT that it was drawn on, which the case belongs to");
+  extract->add_option("--label", c.labels, "Of a mask: the labels that are vessels; left out: all but 0")
+      ->check(CLI::Range(1, 255))
+      ->delimiter(',');
+  extract->add_flag("--mask", c.mask,
+                    "INPUT is a mask, even if it has the values of a CT or of probabilities");
   extract->add_flag("--json", c.json, "One JSON object on standard output");
   extract->callback([&] { run = [&](const core::TaskContext& task) { return run_extract(c, task); }; });
 }

@@ -49,6 +49,7 @@ void print(const analysis::GrownTree& grown, std::size_t scanned, bool as_json) 
     return;
   }
   const nlohmann::json facts{{"v", 1},
+                             {"kind", "growth"},
                              {"segments", grown.graph.edges.size()},
                              {"grown_segments", grown.graph.edges.size() - scanned},
                              {"elements", grown.elements},

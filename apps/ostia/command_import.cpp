@@ -1,8 +1,10 @@
 #include "commands.h"
+#include "model_options.h"
 #include "outputs.h"
-#include "points.h"
+#include "told.h"
 
 #include "ostia/core/log.h"
+#include "ostia/core/text.h"
 #include "ostia/imaging/image_file.h"
 #include "ostia/pipeline/source.h"
 
@@ -20,6 +22,16 @@ ExitCode run_import(const ImportOptions& options, const core::TaskContext& task)
   task.set_stage("writing");
   imaging::write_image(options.output, *source.image);
   task.set_progress(1.0);
+  const imaging::Geometry& grid = source.image->geometry;
+  const auto of_axes = [](const auto& values, const char* between) {
+    std::string text;
+    for (int d = 0; d < 3; ++d)
+      text += (d == 0 ? "" : between) + core::significant_text(static_cast<double>(values[d]), 6);
+    return text;
+  };
+  tell("import",
+       {{"size", grid.size}, {"spacing_mm", {grid.spacing.x(), grid.spacing.y(), grid.spacing.z()}}},
+       of_axes(grid.size, " x ") + " voxels of " + of_axes(grid.spacing, " x ") + " mm", options.json);
   return ExitCode::ok;
 }
 

@@ -1,6 +1,8 @@
 #include "commands.h"
+#include "info_kinds.h"
 #include "json_output.h"
-#include "points.h"
+#include "model_options.h"
+#include "seeds.h"
 #include "tree_commands.h"
 
 #include "ostia/core/log.h"
@@ -34,7 +36,7 @@ void preview(const InfoOptions& options, const imaging::ImageVolume& image) {
   pipeline::PreviewOptions how;
   how.axial_slices = options.preview_slices;
   if (!options.position.empty())
-    how.position = parse_point(options.position, options.input.coords, &image.geometry);
+    how.position = seed_point("--position", options.position, {options.input.coords, &image.geometry});
   const std::vector<std::string> names = pipeline::write_preview(image, options.preview, how);
   core::log_info(std::to_string(names.size()) +
                  " pictures written; their rulers are world coordinates (LPS, mm)");
@@ -58,6 +60,7 @@ ExitCode surface_info(const InfoOptions& options) {
 
 ExitCode run_info(const InfoOptions& options, const core::TaskContext& task) {
   if (io::is_graph_file(options.input.input)) return tree_info(options, task);
+  if (is_own_kind(options.input.input)) return own_kind_info(options, task);
   const pipeline::SourceKind kind = pipeline::classify(options.input.input);
   if (kind == pipeline::SourceKind::surface) return surface_info(options);
   if (kind == pipeline::SourceKind::dicom && options.preview.empty()) {

@@ -66,7 +66,7 @@ std::string start_of(const LumenModelCommand& o) {
 geometry::VesselTree tree_of(const LumenModelCommand& o) {
   const std::filesystem::path& path = o.input;
   if (path.extension() != ".txt") return io::read_centerlines(path);
-  const io::RotterdamReference reference = io::read_rotterdam_reference(path);
+  const io::RotterdamReference reference = io::without_repeated(io::read_rotterdam_reference(path));
   geometry::Centerline dense;
   dense.points = reference.points;
   dense.radius = reference.radius;

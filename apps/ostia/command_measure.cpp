@@ -1,6 +1,8 @@
 // `ostia measure`: lengths, areas, volumes, orders, angles, scaling laws and overlaps of a tree of vessels.
 
 #include "measure.h"
+#include "measure_branches.h"
+#include "seeds.h"
 #include "surface_axes.h"
 
 #include "ostia/core/files.h"
@@ -24,9 +26,11 @@ using Clock = std::chrono::steady_clock;
 
 /// Options that would do nothing are told.
 void check_options(const MeasureCommand& c) {
+  check_branch_options(c);
   if (c.input.input.extension() != ".ostia" && !io::is_graph_file(c.input.input)) return;
-  if (!c.ends.source.empty() || !c.ends.targets.empty() || c.ends.step_mm != 0.0)
-    throw UsageError("--source, --target and --step are for surfaces: a tree has its lines");
+  if (!c.ends.source.empty() || !c.ends.targets.empty() || !c.ends.seed_units.empty() ||
+      c.ends.step_mm != 0.0)
+    throw UsageError("--source, --target, --seed-units and --step are for surfaces: a tree has its lines");
   if (!c.input.units.empty())
     throw UsageError("--units is for surfaces; `ostia convert --units` brings a tree to mm");
 }
@@ -34,28 +38,39 @@ void check_options(const MeasureCommand& c) {
 struct NamedGraph {
   geometry::VesselGraph graph;
   std::string reference_name = "segment";
+  std::optional<geometry::VesselTree> tree;  // where it was one to begin with
 };
+
+NamedGraph graph_of_tree(geometry::VesselTree tree) {
+  return {geometry::graph_of(tree), "segment", std::move(tree)};
+}
 
 NamedGraph graph_in(const MeasureCommand& c, const core::TaskContext& task) {
   const fs::path& path = c.input.input;
   if (path.extension() == ".ostia") {
     const auto model = session::CaseFile::open(path, session::OpenMode::read_only).model();
-    return {geometry::graph_of(model->tree)};
+    return graph_of_tree(model->tree);
   }
-  if (!io::is_graph_file(path)) return {geometry::graph_of(axes_of_surface(c.input, c.ends, task).tree)};
+  if (auto lines = given_lines(c)) return graph_of_tree(std::move(*lines));
+  if (!io::is_graph_file(path)) return graph_of_tree(axes_of_surface(c.input, c.ends, task).axes.tree);
   io::LoadedGraph loaded = io::read_graph(path, task);
   for (const std::string& warning : loaded.warnings) core::log_warning(warning);
-  return {std::move(loaded.graph), loaded.reference_name};
+  return {std::move(loaded.graph), loaded.reference_name, std::nullopt};
 }
 
 pipeline::JobKey job_of(const MeasureCommand& c) {
-  const nlohmann::json parameters{{"source", c.ends.source},
-                                  {"targets", c.ends.targets},
-                                  {"step_mm", c.ends.step_mm},
-                                  {"units", c.input.units},
-                                  {"coords", c.input.coords}};
+  nlohmann::json targets = nlohmann::json::array();
+  for (const std::string& target : c.ends.targets) targets.push_back(seed_digest(target));
+  nlohmann::json parameters{{"source", seed_digest(c.ends.source)},
+                            {"targets", targets},
+                            {"seed_units", c.ends.seed_units},
+                            {"step_mm", c.ends.step_mm},
+                            {"units", c.input.units},
+                            {"coords", c.input.coords}};
+  if (wants_branches(c)) parameters["branches"] = branch_parameters(c);
   pipeline::JobKey key{"measure", {}, parameters.dump()};
   key.inputs["input"] = core::sha256_file(c.input.input);
+  if (!c.centerline.empty()) key.inputs["centerline"] = core::sha256_file(c.centerline);
   return key;
 }
 
@@ -64,10 +79,12 @@ void measure(const MeasureCommand& c, const pipeline::JobKey& key, const core::T
   task.set_stage("reading");
   NamedGraph read = graph_in(c, task.sub(0.0, 0.3));
   geometry::require_sound(read.graph, c.input.input.filename().string(), true, task, read.reference_name);
-  pipeline::MeasuredTree tree = pipeline::measured(std::move(read.graph), task.sub(0.3, 0.7));
+  if (wants_branches(c) && !read.tree) read.tree = geometry::tree_of(read.graph, task);
+  pipeline::MeasuredTree tree = pipeline::measured(std::move(read.graph), task.sub(0.3, 0.6));
   tree.reference_name = read.reference_name;
+  if (wants_branches(c)) tree.branches = branches_of(c, *read.tree, task.sub(0.6, 0.8));
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-  pipeline::write_tree_report(c.output, tree, key, seconds, task.sub(0.7, 1.0));
+  pipeline::write_tree_report(c.output, tree, key, seconds, task.sub(0.8, 1.0));
 }
 
 void print(const nlohmann::json& m) {
@@ -96,11 +113,20 @@ ExitCode run_measure(const MeasureCommand& c, const core::TaskContext& task) {
     core::log_info("done already with the same input and parameters; nothing to do");
   else
     measure(c, key, task);
-  const std::string result = core::read_file(c.output / "measures.json");
-  if (c.json)
+  std::string result = core::read_file(c.output / "measures.json");
+  nlohmann::json branches;
+  if (wants_branches(c)) branches = nlohmann::json::parse(core::read_file(c.output / "branches.json"));
+  if (c.json && !branches.is_null()) {
+    nlohmann::json both = nlohmann::json::parse(result);
+    both["branch_measures"] = branches;
+    result = both.dump(1) + "\n";
+  }
+  if (c.json) {
     std::fputs(result.c_str(), stdout);
-  else
+  } else {
     print(nlohmann::json::parse(result));
+    if (!branches.is_null()) print_branches(branches);
+  }
   task.set_progress(1.0);
   return ExitCode::ok;
 }

@@ -1,8 +1,11 @@
 #include "commands.h"
+#include "kept_results.h"
 #include "mesh_input.h"
-#include "points.h"
+#include "model_options.h"
 #include "refinement.h"
+#include "seeds.h"
 #include "solver_case.h"
+#include "told_mesh.h"
 
 #include "ostia/core/files.h"
 #include "ostia/core/log.h"
@@ -13,6 +16,7 @@
 #include "ostia/pipeline/model_folder.h"
 #include "ostia/pipeline/report.h"
 #include "ostia/pipeline/vessel_export.h"
+#include "ostia/pipeline/vessel_forecast.h"
 #include "ostia/session/case_file.h"
 
 #include <chrono>
@@ -64,18 +68,94 @@ ExitCode check_file(const MeshCommand& options, const core::TaskContext& task) {
   return forecast.fails() ? ExitCode::quality_failed : verdict(judged);
 }
 
+geometry::Box3 box_of(const geometry::VesselTree& tree) {
+  geometry::Box3 box;
+  for (const geometry::TreeSegment& segment : tree.segments)
+    for (const geometry::Vec3& p : segment.axis.points) box.extend(p);
+  return box;
+}
+
+/// Axes in the surface's own unit, as its file has it, become mm; axes that are in mm already stay.
+void scale_to(const pipeline::Source& source, geometry::VesselTree& tree) {
+  const geometry::Box3 surface = geometry::bounds(source.surface.points), lines = box_of(tree);
+  if (surface.intersects(lines) && lines.sizes().norm() > 0.3 * surface.sizes().norm()) return;
+  for (geometry::TreeNode& node : tree.nodes) node.position *= source.unit_mm;
+  for (geometry::TreeSegment& segment : tree.segments) {
+    for (geometry::Vec3& p : segment.axis.points) p *= source.unit_mm;
+    for (double& r : segment.axis.radius) r *= source.unit_mm;
+    for (double& s : segment.axis.abscissa) s *= source.unit_mm;
+  }
+}
+
+/// Axes to all ends of the surface; `how` gets the planes where side branches are to be cut off.
+geometry::VesselTree tree_for(const MeshCommand& options, const pipeline::Source& source,
+                              pipeline::ModelOptions& how, const core::TaskContext& task) {
+  pipeline::AxesRequest request;
+  if (how.source) request.sources = {*how.source};
+  request.targets = how.targets;
+  request.ends = source.ends;
+  request.side_branches = how.side_branches;
+  request.centerline = how.centerline;
+  task.set_stage("centerlines");
+  std::optional<pipeline::LumenAxes> axes;
+  if (options.centerline.empty()) {
+    axes = pipeline::lumen_axes(source.surface, request, task);
+  } else {
+    geometry::VesselTree known = io::read_centerlines(options.centerline);
+    if (source.unit_mm != 1.0) scale_to(source, known);
+    axes = pipeline::with_side_branches(source.surface, known, request, task);
+    if (!axes) return known;
+  }
+  for (const std::string& line : axes->told) core::log_warning(line);
+  how.clip.planes.insert(how.clip.planes.end(), axes->stubs.begin(), axes->stubs.end());
+  return std::move(axes->tree);
+}
+
+/// Reads the surface; `how` gets the points and lengths that are given with it.
+pipeline::Source surface_source(const MeshCommand& options, pipeline::ModelOptions& how,
+                                const core::TaskContext& task) {
+  task.set_stage("reading");
+  pipeline::Source source = pipeline::load(options.input.input, source_options(options.input), task);
+  for (const std::string& warning : source.warnings) core::log_warning(warning);
+  if (source.kind != pipeline::SourceKind::surface)
+    throw InvalidInput("cannot mesh " + options.input.input.string() +
+                       ": it is no surface; `ostia model` goes all the way from an image");
+  apply(options.ends, seed_frame(options.input, source, options.ends.seed_units), how);
+  apply_size_array(options.mesh, options.input, source.unit_mm, how);
+  how.clip.given = source.ends;
+  return source;
+}
+
+/// A surface as it stands, with all its faults: what a strict run would refuse.
+meshing::MeshForecast forecast_as_it_stands(const MeshCommand& options, pipeline::ModelOptions& how,
+                                            const core::TaskContext& task) {
+  const geometry::FacedSurface surface = surface_in(options.input.input, options.input);
+  apply_size_array(options.mesh, options.input, source_options(options.input).unit_mm.value_or(1.0), how);
+  std::optional<geometry::VesselTree> tree;
+  if (!options.centerline.empty()) tree = io::read_centerlines(options.centerline);
+  return forecast_of(surface, tree ? &*tree : nullptr, how, task);
+}
+
+/// The surface as the run itself takes it: mended, with axes to all its ends, cut and capped.
+meshing::MeshForecast forecast_of_run(const MeshCommand& options, pipeline::ModelOptions& how,
+                                      const core::TaskContext& task) {
+  pipeline::LumenWithAxes lumen;
+  lumen.model.source = surface_source(options, how, task.sub(0.0, 0.2));
+  lumen.axes = tree_for(options, lumen.model.source, how, task.sub(0.2, 0.6));
+  lumen.model.lumen = lumen.model.source.surface;
+  return pipeline::forecast_model(lumen, how, task.sub(0.6, 1.0)).forecast;
+}
+
 /// What meshing would meet, in words or as JSON; nothing is made.
 ExitCode forecast(const MeshCommand& options, const core::TaskContext& task) {
   if (options.input.input.empty() || options.input.input.extension() == ".ostia")
     throw UsageError("--forecast looks at a surface: `ostia mesh SURFACE --forecast`");
   pipeline::ModelOptions how;
   apply(options.mesh, how);
+  how.clip.planes = placed_planes(options.mesh, options.input.coords, nullptr);
   task.set_stage("reading");
-  const geometry::FacedSurface surface = surface_in(options.input.input, options.input);
-  apply_size_array(options.mesh, options.input, surface.mesh, how);
-  std::optional<geometry::VesselTree> tree;
-  if (!options.centerline.empty()) tree = io::read_centerlines(options.centerline);
-  const meshing::MeshForecast found = forecast_of(surface, tree ? &*tree : nullptr, how, task);
+  const meshing::MeshForecast found =
+      options.input.strict ? forecast_as_it_stands(options, how, task) : forecast_of_run(options, how, task);
   if (options.json) {
     std::fputs((forecast_json(found) + "\n").c_str(), stdout);
   } else {
@@ -84,20 +164,6 @@ ExitCode forecast(const MeshCommand& options, const core::TaskContext& task) {
     if (found.places.empty()) std::printf("nothing found that would fail or come out poor\n");
   }
   return found.fails() ? ExitCode::quality_failed : ExitCode::ok;
-}
-
-geometry::VesselTree tree_for(const MeshCommand& options, const pipeline::Source& source,
-                              const pipeline::ModelOptions& how, const core::TaskContext& task) {
-  if (!options.centerline.empty()) return io::read_centerlines(options.centerline);
-  task.set_stage("centerlines");
-  return centerline::extract_centerlines(source.surface, how.source, how.targets, how.centerline, task).tree;
-}
-
-geometry::Box3 box_of(const geometry::VesselTree& tree) {
-  geometry::Box3 box;
-  for (const geometry::TreeSegment& segment : tree.segments)
-    for (const geometry::Vec3& p : segment.axis.points) box.extend(p);
-  return box;
 }
 
 /// All vessels of a case, as the window's export does it.
@@ -127,7 +193,7 @@ ExitCode mesh_case(const MeshCommand& options, const core::TaskContext& task) {
     code = verdict(made.verdict);
     if (made.trees == 1) tell_case(how.volume, options.output);
   }
-  if (options.json) std::fputs(core::read_file(options.output / "quality.json").c_str(), stdout);
+  tell_mesh(options.output, options.json);
   return *code;
 }
 
@@ -146,15 +212,7 @@ ExitCode run_mesh(const MeshCommand& options, const core::TaskContext& task) {
   how.clip.planes = placed_planes(options.mesh, options.input.coords, nullptr);
   pipeline::require_free_folder(options.output);
   const auto start = std::chrono::steady_clock::now();
-  task.set_stage("reading");
-  const pipeline::Source source =
-      pipeline::load(options.input.input, source_options(options.input), task.sub(0.0, 0.1));
-  for (const std::string& warning : source.warnings) core::log_warning(warning);
-  if (source.kind != pipeline::SourceKind::surface)
-    throw InvalidInput("cannot mesh " + options.input.input.string() +
-                       ": it is no surface; `ostia model` goes all the way from an image");
-  apply(options.ends, options.input.coords, nullptr, how);
-  apply_size_array(options.mesh, options.input, source.surface, how);
+  const pipeline::Source source = surface_source(options, how, task.sub(0.0, 0.1));
   apply_refinement(options, geometry::bounds(source.surface.points), how, task.sub(0.05, 0.1));
   pipeline::JobKey key{
       "mesh", {{"surface", source.sha256}}, pipeline::parameters_json(how, source_options(options.input))};
@@ -162,21 +220,24 @@ ExitCode run_mesh(const MeshCommand& options, const core::TaskContext& task) {
   if (!options.centerline.empty()) key.inputs["centerline"] = core::sha256_file(options.centerline);
   if (const auto code = pipeline::already_done(options.output, key)) {
     core::log_info("done already with the same input and parameters; nothing to do");
-    if (options.json) std::fputs(core::read_file(options.output / "quality.json").c_str(), stdout);
+    tell_mesh(options.output, options.json);
     return *code;
   }
   const geometry::FacedSurface wall{source.surface, {}, {}};
   // What is wrong with the surface itself is told before its centerlines are sought, sizes once they are
   // known.
   warn_of(forecast_of(wall, nullptr, how, task.sub(0.1, 0.12)), true, false);
-  pipeline::require_sound_surface(source.surface, options.input.input.string());
+  pipeline::require_sound_surface(source.surface, options.input.input.string(), true);
   const geometry::VesselTree tree = tree_for(options, source, how, task.sub(0.12, 0.28));
   warn_of(forecast_of(wall, &tree, how, task.sub(0.28, 0.3)), false, true);
-  const pipeline::MeshedLumen meshed = pipeline::mesh_lumen(source.surface, tree, how, task.sub(0.3, 0.95));
+  KeptResults kept(options.keep, options.output);
+  kept.add("centerlines.vtp", [&](const std::filesystem::path& file) { io::write_centerlines(file, tree); });
+  const pipeline::MeshedLumen meshed =
+      kept.guard([&] { return pipeline::mesh_lumen(source.surface, tree, how, task.sub(0.3, 0.95)); });
   for (const std::string& warning : meshed.warnings) core::log_warning(warning);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   pipeline::write_mesh_folder(options.output, meshed, how, key, seconds, task.sub(0.95, 1.0));
-  if (options.json) std::fputs((pipeline::quality_json(meshed.quality) + "\n").c_str(), stdout);
+  tell_mesh(options.output, options.json);
   tell_case(how.volume, options.output);
   task.set_progress(1.0);
   return verdict(meshed.quality.verdict);

@@ -1,10 +1,14 @@
 #include "commands.h"
+#include "kept_results.h"
 #include "mesh_input.h"
-#include "points.h"
+#include "model_options.h"
+#include "seeds.h"
 #include "solver_case.h"
 
 #include "ostia/core/files.h"
 #include "ostia/core/log.h"
+#include "ostia/io/centerline_file.h"
+#include "ostia/io/surface_file.h"
 #include "ostia/phantom/builtin_case.h"
 #include "ostia/pipeline/model_folder.h"
 #include "ostia/pipeline/report.h"
@@ -31,7 +35,7 @@ void take_builtin(const ModelCommand& command, Job& job, const core::TaskContext
   options.seed = command.seed;
   job.builtin = phantom::make_builtin_case(options, task);
   job.source = pipeline::source_of(*job.builtin);
-  apply(command.lumen, "lps", nullptr, job.options);
+  apply(command.lumen, SeedFrame{}, job.options);
   job.options.branches = pipeline::branches_of(*job.builtin);
 }
 
@@ -47,10 +51,11 @@ Job job_of(const ModelCommand& command, const core::TaskContext& task) {
     const imaging::Geometry* grid = job.source.image  ? &job.source.image->geometry
                                     : job.source.mask ? &job.source.mask->geometry
                                                       : nullptr;
-    apply(command.lumen, command.input.coords, grid, job.options);
-    apply(command.ends, command.input.coords, grid, job.options);
+    const SeedFrame frame = seed_frame(command.input, job.source, command.ends.seed_units);
+    apply(command.lumen, frame, job.options);
+    apply(command.ends, frame, job.options);
     job.options.clip.planes = placed_planes(command.mesh, command.input.coords, grid);
-    apply_size_array(command.mesh, command.input, job.source.surface, job.options);
+    apply_size_array(command.mesh, command.input, job.source.unit_mm, job.options);
   }
   job.key = {"model",
              {{"input", job.source.sha256}},
@@ -76,6 +81,31 @@ void print(const pipeline::Model& model, const std::optional<pipeline::TruthErro
       truth->lumen.msd_mm, 100.0 * truth->axis.radius_median_relative, 100.0 * truth->throat_relative);
 }
 
+/// What was made before it failed is kept.
+pipeline::Model built(const ModelCommand& command, pipeline::Source source,
+                      const pipeline::ModelOptions& options, const core::TaskContext& task) {
+  KeptResults kept(command.keep, command.output);
+  geometry::TriMesh found;
+  geometry::VesselTree axes;
+  kept.add("lumen.vtp", [&](const std::filesystem::path& file) {
+    if (!found.triangles.empty()) io::write_surface(file, found);
+  });
+  kept.add("centerlines.vtp", [&](const std::filesystem::path& file) {
+    if (!axes.vessels.empty()) io::write_centerlines(file, axes);
+  });
+  return kept.guard([&] {
+    pipeline::LumenWithAxes lumen =
+        pipeline::build_lumen(std::move(source), options, task.sub(0.0, 0.45), &found);
+    axes = lumen.axes;
+    try {
+      warn_of(pipeline::forecast_model(lumen, options, task.sub(0.45, 0.47)).forecast, true, true);
+    } catch (const GeometryError& error) {  // a forecast is a warning: the model itself may still succeed
+      core::log_warning(std::string("the mesh cannot be foretold: ") + error.what());
+    }
+    return pipeline::mesh_model(std::move(lumen), options, task.sub(0.47, 1.0));
+  });
+}
+
 void print_report(const std::filesystem::path& folder) {
   std::fputs(core::read_file(folder / "report.json").c_str(), stdout);
 }
@@ -94,14 +124,7 @@ ExitCode run_model(const ModelCommand& command, const core::TaskContext& task) {
     return *code;
   }
   const core::TaskContext building = task.sub(0.1, 0.85);
-  pipeline::LumenWithAxes lumen =
-      pipeline::build_lumen(std::move(job.source), job.options, building.sub(0.0, 0.45));
-  try {
-    warn_of(pipeline::forecast_model(lumen, job.options, building.sub(0.45, 0.47)).forecast, true, true);
-  } catch (const GeometryError& error) {  // a forecast is a warning: the model itself may still succeed
-    core::log_warning(std::string("the mesh cannot be foretold: ") + error.what());
-  }
-  const pipeline::Model model = pipeline::mesh_model(std::move(lumen), job.options, building.sub(0.47, 1.0));
+  const pipeline::Model model = built(command, std::move(job.source), job.options, building);
   for (const std::string& warning : model.warnings) core::log_warning(warning);
   std::optional<pipeline::TruthErrors> truth;
   if (job.builtin) {

@@ -3,8 +3,10 @@
 #include "outputs.h"
 #include "phase_surface.h"
 #include "refusal.h"
+#include "told.h"
 
 #include "ostia/core/log.h"
+#include "ostia/core/text.h"
 #include "ostia/geometry/mesh_topology.h"
 #include "ostia/io/centerline_file.h"
 #include "ostia/io/mesh_export.h"
@@ -16,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string>
 
 namespace ostia::app {
 namespace {
@@ -55,7 +58,13 @@ void bring_to_mm(Points& points, const MotionApplyCommand& c, bool own_template)
                                 c.input.string());
 }
 
-ExitCode apply_to_mesh(const MotionApplyCommand& c, const AtPhase& cage) {
+/// What was carried, for the result's line.
+struct Carried {
+  std::string what;
+  std::size_t points = 0, inverted = 0;
+};
+
+ExitCode apply_to_mesh(const MotionApplyCommand& c, const AtPhase& cage, Carried& carried) {
   require_output(c.output, {".vtu"});
   io::LayeredMesh layered = io::read_layered_mesh(c.input);
   geometry::MixedMesh& mesh = layered.mesh;
@@ -63,13 +72,14 @@ ExitCode apply_to_mesh(const MotionApplyCommand& c, const AtPhase& cage) {
   mesh.points = cage.carried(mesh.points, c.input);
   const pipeline::CarriedQuality quality = pipeline::carried_quality(mesh);
   io::export_mesh(mesh, io::MeshFormat::vtu, c.output, {.layer_tetrahedra = layers_at_end(layered)});
+  carried = {"volume mesh", mesh.points.size(), static_cast<std::size_t>(quality.inverted)};
   if (quality.inverted == 0) return ExitCode::ok;
   core::log_warning("quality control failed: " + std::to_string(quality.inverted) +
                     " elements are inverted at this phase");
   return ExitCode::quality_failed;
 }
 
-ExitCode apply_to_lines(const MotionApplyCommand& c, const AtPhase& cage) {
+ExitCode apply_to_lines(const MotionApplyCommand& c, const AtPhase& cage, Carried& carried) {
   require_output(c.output, line_outputs);
   geometry::VesselTree tree = lines_from(c.input, c.units);
   Points all;  // nodes first, so that they and the ends of axes stay together
@@ -84,6 +94,7 @@ ExitCode apply_to_lines(const MotionApplyCommand& c, const AtPhase& cage) {
     geometry::complete(segment.axis);
   }
   io::write_centerlines(c.output, tree);
+  carried = {"centerlines", moved.size(), 0};
   return ExitCode::ok;
 }
 
@@ -114,17 +125,27 @@ ExitCode run_motion_apply(const MotionApplyCommand& c, const core::TaskContext& 
   task.set_progress(0.5);
   task.throw_if_cancelled();
   ExitCode code = ExitCode::ok;
+  Carried carried;
   if (auto surface = surface_of(c.input)) {
     require_output(c.output, surface_outputs);
     bring_to_mm(surface->mesh.points, c, is_template(c, file));
     surface->mesh.points = cage.carried(surface->mesh.points, c.input);
     io::write_surface(c.output, *surface);
+    carried = {"surface", surface->mesh.points.size(), 0};
   } else if (io::is_volume_mesh(c.input)) {
-    code = apply_to_mesh(c, cage);
+    code = apply_to_mesh(c, cage, carried);
   } else {
-    code = apply_to_lines(c, cage);
+    code = apply_to_lines(c, cage, carried);
   }
   task.set_progress(1.0);
+  tell("motion-apply",
+       {{"what", carried.what},
+        {"percent", c.percent},
+        {"points", carried.points},
+        {"inverted", carried.inverted}},
+       carried.what + " at " + core::significant_text(c.percent, 5) +
+           " %: " + counted(carried.points, "point") + " carried",
+       c.json);
   return code;
 }
 

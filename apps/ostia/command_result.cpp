@@ -29,7 +29,7 @@ pipeline::JobKey job_of(const ResultCommand& o) {
   };
   add("case", o.flow_case / "flow-case.json");
   add("mesh", o.mesh.empty() ? o.flow_case / "mesh.vtu" : o.mesh);
-  for (const char* program : {"simpleFoam", "pisoFoam"})
+  for (const char* program : {"simpleFoam", "pimpleFoam", "pisoFoam"})
     add(program, o.flow_case / (std::string("log.") + program));
   const fs::path last = solver::result_time(o.flow_case);
   for (const char* field : {"U", "pressureInPascal", "wallShearStress"}) add(field, last / field);

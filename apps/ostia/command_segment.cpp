@@ -1,19 +1,24 @@
 #include "commands.h"
+#include "kept_results.h"
+#include "model_options.h"
 #include "outputs.h"
-#include "points.h"
 #include "refusal.h"
+#include "seeds.h"
+#include "told.h"
 
 #include "ostia/core/log.h"
+#include "ostia/core/text.h"
 #include "ostia/coronary/aorta_mask.h"
+#include "ostia/geometry/mesh_topology.h"
 #include "ostia/geometry/smoothing.h"
 #include "ostia/imaging/image_file.h"
 #include "ostia/io/surface_file.h"
 #include "ostia/pipeline/branch_ends.h"
 #include "ostia/pipeline/lumen_surface.h"
+#include "ostia/pipeline/reached.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace ostia::app {
 namespace {
@@ -31,6 +36,8 @@ double length_mm(const coronary::Aorta& aorta) {
     length += (aorta.stations[i].centre - aorta.stations[i - 1].centre).norm();
   return length;
 }
+
+constexpr double reach_voxels = 4.0;  // a seed at an end may lie so far outside of it
 
 /// Without seeds: the aorta's lumen as a mask on the image's grid, or as a surface.
 ExitCode segment_aorta(const SegmentCommand& options, const core::TaskContext& task) {
@@ -63,8 +70,25 @@ ExitCode segment_aorta(const SegmentCommand& options, const core::TaskContext& t
     io::write_surface(options.output, surface);
   }
   task.set_progress(1.0);
-  std::printf("aorta: %.0f mm, %.1f ml, %.0f HU\n", length, ml_of(mask), aorta.lumen_hu);
+  tell("aorta", {{"length_mm", length}, {"volume_ml", ml_of(mask)}, {"lumen_hu", aorta.lumen_hu}},
+       "aorta: " + core::fixed_text(length, 0) + " mm, " + core::fixed_text(ml_of(mask), 1) + " ml, " +
+           core::fixed_text(aorta.lumen_hu, 0) + " HU",
+       options.json);
   return ExitCode::ok;
+}
+
+void tell_lumen(const geometry::TriMesh& surface, const std::vector<pipeline::UnreachedPlace>& missing,
+                bool as_json) {
+  const double area = geometry::area(surface), volume = geometry::volume(surface);
+  tell("segmentation",
+       {{"points", surface.points.size()},
+        {"triangles", surface.triangles.size()},
+        {"area_mm2", area},
+        {"volume_mm3", volume},
+        {"unreached", json_of(missing)}},
+       "lumen: " + counted(surface.triangles.size(), "triangle") + ", " + core::significant_text(area, 4) +
+           " mm2, " + core::significant_text(volume, 4) + " mm3",
+       as_json);
 }
 
 }  // namespace
@@ -78,29 +102,40 @@ ExitCode run_segment(const SegmentCommand& options, const core::TaskContext& tas
       pipeline::load(options.input.input, source_options(options.input), task.sub(0.0, 0.3));
   for (const std::string& warning : source.warnings) core::log_warning(warning);
   pipeline::ModelOptions how;
-  apply(options.lumen, options.input.coords,
-        source.image  ? &source.image->geometry
-        : source.mask ? &source.mask->geometry
-                      : nullptr,
-        how);
+  apply(options.lumen, seed_frame(options.input, source), how);
   geometry::TriMesh surface;
+  std::vector<pipeline::UnreachedPlace> missing;
+  ExitCode code = ExitCode::ok;
   if (source.mask) {
     if (!options.level_set.empty()) throw InvalidInput("--levelset needs an image: a mask has no level set");
     task.set_stage("surface");
     surface = naming(options.input.input,
                      [&] { return segmentation::segment_mask(*source.mask, {}, task.sub(0.3, 0.9)); });
   } else if (source.image) {
-    const pipeline::BranchEnds ends = pipeline::ends_of(how.branches);
+    pipeline::BranchEnds ends = pipeline::ends_of(how.branches);
     task.set_stage("segmentation");
     const auto segmented = naming(options.input.input, [&] {
       return segmentation::segment_vessels(*source.image, how.branches, how.segment, task.sub(0.3, 0.8));
     });
     for (const std::string& warning : segmented.warnings) core::log_warning(warning);
+    for (const std::string& reason : pipeline::reasons_of(segmented.left_out)) {
+      core::log_warning(reason);
+      code = ExitCode::quality_failed;
+    }
+    if (code != ExitCode::ok) ends = pipeline::ends_of(pipeline::without(how.branches, segmented.left_out));
     std::vector<geometry::Vec3> seeds = ends.targets;
     seeds.push_back(ends.source);
-    pipeline::LumenSurface found = pipeline::lumen_surface(segmented.level_set, seeds, task.sub(0.8, 0.9));
+    KeptResults kept(options.keep, options.output);
+    kept.add("levelset.nrrd",
+             [&](const std::filesystem::path& file) { imaging::write_image(file, segmented.level_set); });
+    pipeline::LumenSurface found =
+        kept.guard([&] { return pipeline::lumen_surface(segmented.level_set, seeds, task.sub(0.8, 0.9)); });
     for (const std::string& warning : found.warnings) core::log_warning(warning);
     surface = std::move(found.mesh);
+    missing = pipeline::unreached(surface, ends.source, ends.targets,
+                                  reach_voxels * source.image->geometry.spacing.maxCoeff());
+    for (const std::string& text : pipeline::texts_of(missing)) core::log_warning(text);
+    if (!missing.empty()) code = ExitCode::quality_failed;
     if (!options.level_set.empty()) imaging::write_image(options.level_set, segmented.level_set);
   } else {
     throw InvalidInput("cannot segment " + options.input.input.string() + ": it is a surface already");
@@ -109,7 +144,8 @@ ExitCode run_segment(const SegmentCommand& options, const core::TaskContext& tas
   task.throw_if_cancelled();
   io::write_surface(options.output, surface);
   task.set_progress(1.0);
-  return ExitCode::ok;
+  tell_lumen(surface, missing, options.json);
+  return code;
 }
 
 }  // namespace ostia::app

@@ -1,6 +1,7 @@
+#include "model_options.h"
 #include "outputs.h"
-#include "points.h"
 #include "refusal.h"
+#include "seeds.h"
 #include "skeleton.h"
 #include "validators.h"
 
@@ -30,15 +31,22 @@ pipeline::SkeletonOptions options_of(const SkeletonCommand& o, const imaging::Ge
   how.smooth->knot_spacing_mm = o.knots_mm;
   how.smooth->step_mm = o.step_mm;
   how.step_mm = o.step_mm;
-  const auto point = [&](const std::string& text) { return parse_point(text, o.input.coords, &grid); };
-  for (const std::string& inlet : o.inlets) how.inlets.push_back(point(inlet));
-  for (const std::string& place : o.cuts) how.commands.cuts.push_back(point(place));
-  for (const std::string& place : o.removals) how.commands.removals.push_back(point(place));
+  const SeedFrame frame{o.input.coords, &grid};
+  const auto add = [&](const std::vector<std::string>& texts, std::vector<geometry::Vec3>& to) {
+    for (const std::string& text : texts) {
+      const std::vector<geometry::Vec3> places = seed_points(text, frame);
+      to.insert(to.end(), places.begin(), places.end());
+    }
+  };
+  add(o.inlets, how.inlets);
+  add(o.cuts, how.commands.cuts);
+  add(o.removals, how.commands.removals);
   for (const std::string& text : o.connections) {
     const std::size_t colon = text.find(':');
     if (colon == std::string::npos)
       throw InvalidInput("--connect " + text + ": give two places, as x,y,z:x,y,z");
-    how.commands.connections.emplace_back(point(text.substr(0, colon)), point(text.substr(colon + 1)));
+    how.commands.connections.emplace_back(seed_point("--connect", text.substr(0, colon), frame),
+                                          seed_point("--connect", text.substr(colon + 1), frame));
   }
   return how;
 }
@@ -60,7 +68,9 @@ void print(const pipeline::SkeletonResult& result, bool as_json) {
                 static_cast<long long>(result.loops), result.tree.tree.vessels.size());
     return;
   }
-  const nlohmann::json facts{{"object_voxels", result.object_voxels},
+  const nlohmann::json facts{{"v", 1},
+                             {"kind", "skeleton"},
+                             {"object_voxels", result.object_voxels},
                              {"skeleton_voxels", result.skeleton_voxels},
                              {"lines", edges},
                              {"length_mm", result.length_mm},
@@ -102,15 +112,19 @@ void define_skeleton(CLI::App& app, SkeletonCommand& c,
   skeleton->footer("Example:\n  ostia skeleton vessels.nrrd -o lines.vtp --inlet 8,-187,675");
   skeleton->fallthrough();
   skeleton->add_option("INPUT", c.input.input, "Mask: 0 outside, else inside")->required();
-  skeleton->add_option("-o,--output", c.output, ".vtp or .csv")->required();
+  skeleton->add_option("-o,--output", c.output, ".vtp, .csv or .mrk.json")->required();
   skeleton->add_option("--image", c.image,
                        "The CT that the mask was made of, for the radii; left out: the mask's edges");
   skeleton->add_option("--sections", c.sections, "Also a table of circles and ellipses: .csv");
-  skeleton->add_option("--inlet", c.inlets, "Where flow begins, x,y,z; repeat; left out: the widest ends")
+  skeleton
+      ->add_option("--inlet", c.inlets,
+                   "Where flow begins, x,y,z, or a file of points; repeat; left out: the widest ends")
       ->allow_extra_args(false);
-  skeleton->add_option("--cut", c.cuts, "The line is cut at this place, x,y,z; repeat")
+  skeleton->add_option("--cut", c.cuts, "The line is cut at this place, x,y,z, or a file of places; repeat")
       ->allow_extra_args(false);
-  skeleton->add_option("--remove", c.removals, "The line nearest to this place goes, x,y,z; repeat")
+  skeleton
+      ->add_option("--remove", c.removals,
+                   "The line nearest to this place goes, x,y,z, or a file of places; repeat")
       ->allow_extra_args(false);
   skeleton
       ->add_option(

@@ -3,8 +3,10 @@
 
 #include "ostia/core/files.h"
 #include "ostia/core/log.h"
+#include "ostia/core/text.h"
 #include "ostia/geometry/graph_faults.h"
 #include "ostia/io/graph_file.h"
+#include "ostia/io/markups_file.h"
 
 #include <nlohmann/json.hpp>
 
@@ -16,6 +18,7 @@
 namespace ostia::app {
 namespace {
 
+using core::significant_text;
 using geometry::GraphFacts;
 using geometry::GraphFaults;
 using geometry::Vec3;
@@ -25,14 +28,9 @@ Json json_point(const Vec3& v) {
   return {v.x(), v.y(), v.z()};
 }
 
-std::string mm(double value) {
-  char out[48];
-  std::snprintf(out, sizeof out, "%.6g", value);
-  return out;
-}
-
 std::string place(const Vec3& v) {
-  return mm(v.x()) + ", " + mm(v.y()) + ", " + mm(v.z()) + " mm";
+  return significant_text(v.x(), 6) + ", " + significant_text(v.y(), 6) + ", " + significant_text(v.z(), 6) +
+         " mm";
 }
 
 /// Counts by key; places by the file's own references.
@@ -93,9 +91,10 @@ std::string plain_text(const GraphFacts& f, const GraphFaults& faults, const io:
   count("trifurcations", f.trifurcations);
   count("joins", f.joins);
   count("loops", f.loops);
-  row("length", mm(f.length_mm) + " mm");
-  row("radius",
-      f.largest_radius_mm > 0.0 ? mm(f.least_radius_mm) + " to " + mm(f.largest_radius_mm) + " mm" : "none");
+  row("length", significant_text(f.length_mm, 6) + " mm");
+  row("radius", f.largest_radius_mm > 0.0 ? significant_text(f.least_radius_mm, 6) + " to " +
+                                                significant_text(f.largest_radius_mm, 6) + " mm"
+                                          : "none");
   if (!f.box.isEmpty()) {
     row("from", place(f.box.min()));
     row("to", place(f.box.max()));
@@ -126,6 +125,7 @@ bool legacy_points_have_radii(const std::filesystem::path& path) {
 /// Files of centerlines have vessels and one radius for a point; networks have more than that.
 bool is_centerline_file(const std::filesystem::path& path) {
   const std::string extension = path.extension().string();
+  if (io::is_markups_file(path)) return true;
   if (extension == ".vtp")
     return head_has(path, "MaximumInscribedSphereRadius") && !head_has(path, "RadiusFrom");
   if (extension == ".vtk") return legacy_points_have_radii(path);
@@ -134,7 +134,8 @@ bool is_centerline_file(const std::filesystem::path& path) {
 }
 
 void refuse_options_of_surfaces(const ConvertCommand& options) {
-  if (options.keep_parts || options.fill_holes_mm > 0.0 || options.smooth > 0 || options.subdivide > 0)
+  if (options.keep_parts || options.largest_part || options.fill_holes_mm > 0.0 || options.smooth > 0 ||
+      options.subdivide > 0)
     throw UsageError(
         "--fill-holes, --keep-parts, --smooth and --subdivide are for surfaces, and this is a tree");
 }
@@ -160,15 +161,15 @@ bool converts_tree(const ConvertCommand& options) {
   const std::string from = options.input.input.extension().string();
   const std::string to = options.output.extension().string();
   const TreeInputOptions& tree = options.tree;
-  const bool told = tree.repair || options.json || tree.merge_mm > 0.0 || !tree.roots.empty() ||
-                    tree.keep_directions || !tree.radius_units.empty();
+  const bool told = tree.repair || tree.merge_mm > 0.0 || !tree.roots.empty() || tree.keep_directions ||
+                    !tree.radius_units.empty();
   const bool lines = to == ".csv" || (to == ".vtp" && from != ".vtp");
   return told || !lines || !is_centerline_file(options.input.input);
 }
 
 ExitCode convert_tree(const ConvertCommand& options, const core::TaskContext& task) {
   refuse_options_of_surfaces(options);
-  Json done = Json::object();
+  Json done{{"v", 1}, {"kind", "conversion"}};
   const io::LoadedGraph loaded = read_tree(options.input, options.tree, done, task.sub(0.0, 0.8));
   for (const std::string& warning : io::write_graph(options.output, loaded.graph, task.sub(0.8, 1.0)))
     core::log_warning(warning);

@@ -29,6 +29,7 @@ struct InputOptions {
   bool resample = false;
   std::optional<double> pixel_spacing_mm, slice_spacing_mm;
   std::string units;           ///< "", "m", "cm", "mm"
+  bool strict = false;         ///< a surface with faults is refused instead of mended
   std::string coords = "lps";  ///< of points on the command line: lps, ras, ijk
 };
 
@@ -44,6 +45,7 @@ ExitCode run_info(const InfoOptions& options, const core::TaskContext& task);
 struct ImportOptions {
   InputOptions input;
   std::filesystem::path output;
+  bool json = false;
 };
 ExitCode run_import(const ImportOptions& options, const core::TaskContext& task);
 
@@ -70,22 +72,26 @@ struct LumenOptions {
 
 struct SegmentCommand {
   InputOptions input;
+  std::filesystem::path keep;  ///< for what was made when it fails
   LumenOptions lumen;
   std::filesystem::path output, level_set;
   bool aorta = false;  ///< instead of the vessels between seed points
+  bool json = false;
 };
 ExitCode run_segment(const SegmentCommand& options, const core::TaskContext& task);
 
 struct EndOptions {
   std::string source;
   std::vector<std::string> targets;
-  double step_mm = 0.0;  ///< 0: the library's default
+  std::string seed_units;  ///< of these places: "" (the input's own), m, cm, mm
+  double step_mm = 0.0;    ///< 0: the library's default
 };
 
 struct CenterlineCommand {
   InputOptions input;
   EndOptions ends;
   std::filesystem::path output, canal;
+  bool json = false;
 };
 ExitCode run_centerline(const CenterlineCommand& options, const core::TaskContext& task);
 
@@ -101,17 +107,19 @@ struct MeshOptions {
   std::optional<double> layer_thickness, layer_growth;  ///< nothing: the library's default
   bool split_prisms = false;
   int order = 1;
-  std::vector<std::string> formats;   ///< besides mesh.vtu
-  std::vector<std::string> planes;    ///< [END=]x,y,z:nx,ny,nz
-  std::filesystem::path planes_file;  ///< the same as a table
-  std::string ends = "flat";          ///< flat, round
-  std::string size_array;             ///< of the input's points
-  std::string with_case;              ///< empty: none; else the solver
+  std::vector<std::string> formats;      ///< besides mesh.vtu
+  std::vector<std::string> planes;       ///< [END=]x,y,z:nx,ny,nz
+  std::filesystem::path planes_file;     ///< the same as a table
+  std::string ends = "flat";             ///< flat, as-they-are, round
+  std::string side_branches = "closed";  ///< of those that no target lies on: closed, axes, stubs
+  std::string size_array;                ///< of the input's points
+  std::string with_case;                 ///< empty: none; else the solver
   CaseOptions solver_case;
 };
 
 struct MeshCommand {
   InputOptions input;
+  std::filesystem::path keep;  ///< for what was made when it fails
   EndOptions ends;
   MeshOptions mesh;
   std::filesystem::path output, centerline, check;
@@ -126,7 +134,7 @@ ExitCode run_mesh(const MeshCommand& options, const core::TaskContext& task);
 /// How a tree of vessels is to be read.
 struct TreeInputOptions {
   bool repair = false;
-  std::vector<std::string> roots;  ///< x,y,z
+  std::vector<std::string> roots;  ///< x,y,z, or files of points
   double merge_mm = 0.0;           ///< points no further apart are one
   std::string radius_units;        ///< empty: as the places
   bool keep_directions = false;
@@ -137,15 +145,20 @@ struct ConvertCommand {
   std::filesystem::path output;
   TreeInputOptions tree;       ///< its `repair` is for surfaces, too
   double fill_holes_mm = 0.0;  ///< 0: none
-  bool keep_parts = false;
-  int smooth = 0;     ///< Taubin iterations
-  int subdivide = 0;  ///< levels
+  bool keep_parts = false, largest_part = false;
+  int smooth = 0;              ///< Taubin iterations
+  int subdivide = 0;           ///< levels
+  std::string format;          ///< of a volume mesh; empty: by the output's extension
+  bool landmarks = false;      ///< as markups: the places where vessels begin, divide and end
+  std::filesystem::path grid;  ///< of labels of a case: the CT; empty: none are asked for
+  std::string labels;          ///< "" (lumen), lumen, segments, wall, plaque
   bool json = false;
 };
 ExitCode run_convert(const ConvertCommand& options, const core::TaskContext& task);
 
 struct ModelCommand {
   InputOptions input;
+  std::filesystem::path keep;  ///< for what was made when it fails
   LumenOptions lumen;
   EndOptions ends;
   MeshOptions mesh;

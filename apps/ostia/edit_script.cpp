@@ -108,7 +108,7 @@ lumen::LumenModel NewCase::make(const lumen::LumenModel& start, const EditScript
   });
 }
 
-void NewCase::make(const session::FoundModel& found, const session::ImageReference& image) {
+void NewCase::make(const session::FoundModel& found, const std::optional<session::ImageReference>& image) {
   named([&] { session::create_case(staged_.temporary(), found, image); });
 }
 

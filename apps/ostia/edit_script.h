@@ -46,7 +46,7 @@ class NewCase {
   /// A copy of a case, its journal included, with the script's edits after those that it has.
   lumen::LumenModel go_on(const session::CaseFile& from, const EditScript& script,
                           std::vector<std::string>& notes, const core::TaskContext& task);
-  void make(const session::FoundModel& found, const session::ImageReference& image);
+  void make(const session::FoundModel& found, const std::optional<session::ImageReference>& image);
   void commit() { staged_.commit(); }
 
  private:

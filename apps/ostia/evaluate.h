@@ -29,6 +29,7 @@ struct EvaluateCommand {
   std::string units;                      ///< of surfaces and lines: "", "m", "cm", "mm"
   std::vector<std::string> requirements;  ///< "msd_mm<=0.3"
   bool json = false;
+  std::string rules = "challenge";  ///< centerline: how OF and OT are read: challenge, paper
   std::filesystem::path tolerance;  ///< suite
   bool covered_only = false;        ///< surface: only where the result's centerlines run
   double resolution_mm = 0.2;       ///< volume: voxels of surfaces

@@ -1,12 +1,14 @@
 // What the subcommands of `ostia evaluate` share: finding files, printing, requirements.
 
 #include "evaluate.h"
-#include "points.h"
+#include "model_options.h"
 
 #include "ostia/core/log.h"
+#include "ostia/core/text.h"
 #include "ostia/geometry/mesh_topology.h"
 #include "ostia/io/centerline_file.h"
 #include "ostia/io/rotterdam_file.h"
+#include "ostia/io/surface_file.h"
 #include "ostia/pipeline/source.h"
 
 #include <nlohmann/json.hpp>
@@ -23,11 +25,7 @@ namespace {
 std::string cell_text(const Json& value) {
   if (value.is_null()) return "-";
   if (value.is_string()) return value.get<std::string>();
-  if (value.is_number_float()) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.4g", value.get<double>());
-    return text;
-  }
+  if (value.is_number_float()) return core::significant_text(value.get<double>(), 4);
   return value.dump();
 }
 
@@ -136,7 +134,8 @@ std::optional<double> unit_of(const std::string& units) {
 }
 
 /// A single line of the challenge's text files as a tree of one vessel.
-geometry::VesselTree tree_of(const std::vector<geometry::Vec3>& points, const std::string& name) {
+geometry::VesselTree tree_of(const std::vector<geometry::Vec3>& as_read, const std::string& name) {
+  const std::vector<geometry::Vec3> points = io::without_repeated({as_read, {}, {}}).points;
   geometry::VesselTree tree;
   geometry::TreeSegment segment;
   segment.to = 1;
@@ -250,14 +249,24 @@ geometry::VesselTree lines_of_parts(const std::vector<fs::path>& parts, const st
 }
 
 geometry::TriMesh surface_from(const fs::path& path, const std::string& units) {
-  InputOptions input;
-  input.input = path;
-  input.units = units;
-  pipeline::Source source = pipeline::load(path, source_options(input));
-  if (source.kind != pipeline::SourceKind::surface)
+  if (pipeline::classify(path) != pipeline::SourceKind::surface)
     throw InvalidInput(path.string() + " is no surface (.vtp .stl .ply .obj)");
-  if (source.surface.triangles.empty()) throw InvalidInput(path.string() + " holds no triangle");
-  return std::move(source.surface);
+  // As it stands: what is judged is not mended, and its caps stay on.
+  geometry::TriMesh mesh = io::read_surface(path).surface.mesh;
+  if (mesh.triangles.empty()) throw InvalidInput(path.string() + " holds no triangle");
+  const double unit_mm = unit_of(units).value_or(1.0);
+  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+    if (!mesh.points[i].allFinite())
+      throw InvalidInput("cannot use " + path.string() + ": point " + std::to_string(i) +
+                         " is not a finite place; `ostia convert --repair` drops such triangles");
+    mesh.points[i] *= unit_mm;
+  }
+  if (!unit_of(units)) {
+    constexpr double widest_mm = 100.0;  // the least extent bounds a vessel's width from above
+    pipeline::check_vessel_size(std::min(geometry::bounds(mesh.points).sizes().minCoeff(), widest_mm),
+                                path.string());
+  }
+  return mesh;
 }
 
 geometry::VesselTree lines_from(const fs::path& path, const std::string& units) {

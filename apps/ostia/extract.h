@@ -15,7 +15,10 @@ class App;
 namespace ostia::app {
 
 struct ExtractCommand {
-  InputOptions input;            ///< CT
+  InputOptions input;            ///< CT, or a mask
+  std::filesystem::path image;   ///< the CT of a mask; empty: none
+  bool mask = false;             ///< the input is a mask, whatever its values look like
+  std::vector<int> labels;       ///< of a mask that are vessels; empty: all but 0
   std::filesystem::path output;  ///< case
   std::filesystem::path lines;   ///< centerlines; empty: none
   double least_confidence = 0.5;

@@ -1,8 +1,8 @@
 #include "json_output.h"
 
-#include <nlohmann/json.hpp>
+#include "ostia/core/text.h"
 
-#include <cstdio>
+#include <nlohmann/json.hpp>
 
 namespace ostia::app {
 namespace {
@@ -15,9 +15,8 @@ json array(const Vec3& v) {
 }
 
 std::string text(const Vec3& v) {
-  char out[128];
-  std::snprintf(out, sizeof out, "%.6g, %.6g, %.6g", v.x(), v.y(), v.z());
-  return out;
+  return core::significant_text(v.x(), 6) + ", " + core::significant_text(v.y(), 6) + ", " +
+         core::significant_text(v.z(), 6);
 }
 
 std::string lines(const std::vector<std::pair<std::string, std::string>>& rows) {

@@ -5,6 +5,7 @@
 #include "table_file.h"
 
 #include "ostia/core/log.h"
+#include "ostia/core/text.h"
 #include "ostia/io/surface_fields.h"
 
 #include <nlohmann/json.hpp>
@@ -71,8 +72,7 @@ std::vector<meshing::PlacedPlane> planes_in(const std::filesystem::path& file, c
 /// The option that does what is offered.
 std::string option_for(const meshing::ForecastPlace& place) {
   using meshing::OfferedRepair;
-  char factor[32];
-  std::snprintf(factor, sizeof factor, "%.2g", place.factor);
+  const std::string factor = core::significant_text(place.factor, 2);
   switch (place.repair) {
     case OfferedRepair::convert_units:
       return place.factor == 1000.0 ? "--units m" : place.factor == 10.0 ? "--units cm" : "";
@@ -82,11 +82,11 @@ std::string option_for(const meshing::ForecastPlace& place) {
     case OfferedRepair::orient:
       return "ostia convert --repair";
     case OfferedRepair::smaller_edges:
-      return std::string("--edge-ratio, ") + factor + " times as large";
+      return "--edge-ratio, " + factor + " times as large";
     case OfferedRepair::smooth:
       return "ostia convert --smooth 30";
     case OfferedRepair::thinner_layers:
-      return std::string("--layer-thickness, ") + factor + " times as large";
+      return "--layer-thickness, " + factor + " times as large";
     case OfferedRepair::drop_layers:
       return "--layers 0";
     case OfferedRepair::none:
@@ -126,13 +126,15 @@ std::vector<meshing::PlacedPlane> placed_planes(const MeshOptions& options, cons
   return planes;
 }
 
-void apply_size_array(const MeshOptions& options, const InputOptions& input, const geometry::TriMesh& surface,
+void apply_size_array(const MeshOptions& options, const InputOptions& input, double unit_mm,
                       pipeline::ModelOptions& to) {
   if (options.size_array.empty()) return;
   const std::string file = own_name(input.input);
-  if (input.input.extension() != ".vtp" || surface.triangles.empty())
+  if (input.input.extension() != ".vtp")
     throw InvalidInput("--size-array: " + file + " has no point arrays; a surface as VTP (.vtp) has them");
-  const io::PointFields fields = io::read_surface_with_fields(input.input).points;
+  io::SurfaceWithFields read = io::read_surface_with_fields(input.input);
+  for (Vec3& p : read.mesh.points) p *= unit_mm;
+  const io::PointFields& fields = read.points;
   const auto found = fields.find(options.size_array);
   if (found == fields.end() || found->second.components != 1) {
     std::string all;
@@ -144,14 +146,15 @@ void apply_size_array(const MeshOptions& options, const InputOptions& input, con
   const std::vector<double>& lengths = found->second.values;
   for (std::size_t i = 0; i < lengths.size(); ++i) {
     if (lengths[i] > 0.0 && std::isfinite(lengths[i])) continue;
-    char place[96];
-    const Vec3& p = surface.points[i];
-    std::snprintf(place, sizeof place, "(%.4g, %.4g, %.4g) mm", p.x(), p.y(), p.z());
+    const Vec3& p = read.mesh.points[i];
+    const std::string place = "(" + core::significant_text(p.x(), 4) + ", " +
+                              core::significant_text(p.y(), 4) + ", " + core::significant_text(p.z(), 4) +
+                              ") mm";
     throw InvalidInput("--size-array: " + options.size_array + " of " + file + " is " +
                        std::to_string(lengths[i]) + " at point " + std::to_string(i) + ", " + place +
                        "; edge lengths are positive, in mm");
   }
-  to.sizing.array = std::make_shared<const meshing::SizeArray>(meshing::SizeArray{surface, lengths});
+  to.sizing.array = std::make_shared<const meshing::SizeArray>(meshing::SizeArray{read.mesh, lengths});
 }
 
 meshing::MeshForecast forecast_of(const geometry::FacedSurface& surface, const geometry::VesselTree* tree,

@@ -15,10 +15,10 @@ namespace ostia::app {
 std::vector<meshing::PlacedPlane> placed_planes(const MeshOptions& options, const std::string& coords,
                                                 const imaging::Geometry* grid);
 
-/// --size-array: nothing where it is left out. `surface` is what was read of `input`. Throws InvalidInput for
+/// --size-array: nothing where it is left out. `unit_mm` is that of `input`. Throws InvalidInput for
 /// an input without such an array, naming those it has, and for lengths that are not positive, with the
 /// place.
-void apply_size_array(const MeshOptions& options, const InputOptions& input, const geometry::TriMesh& surface,
+void apply_size_array(const MeshOptions& options, const InputOptions& input, double unit_mm,
                       pipeline::ModelOptions& to);
 
 /// What `how` would meet on this surface; sizes follow `tree` where there is one.

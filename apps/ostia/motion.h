@@ -34,6 +34,7 @@ struct MotionFitCommand {
 ExitCode run_motion_fit(const MotionFitCommand& options, const core::TaskContext& task);
 
 struct MotionApplyCommand {
+  bool json = false;
   std::filesystem::path motion, input, output;
   double percent = 0.0;
   std::string units;  ///< of the input

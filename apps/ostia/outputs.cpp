@@ -10,10 +10,11 @@
 namespace ostia::app {
 
 bool has_extension(const std::filesystem::path& path, const std::vector<std::string_view>& extensions) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
+  std::string name = path.filename().string();
+  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
+  return std::any_of(extensions.begin(), extensions.end(), [&](std::string_view extension) {
+    return name.size() > extension.size() && name.ends_with(extension);
+  });
 }
 
 void require_output(const std::filesystem::path& path, const std::vector<std::string_view>& extensions) {

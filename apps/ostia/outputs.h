@@ -16,8 +16,9 @@ void require_output(const std::filesystem::path& path, const std::vector<std::st
 
 inline const std::vector<std::string_view> surface_outputs{".vtp", ".stl", ".ply"};
 inline const std::vector<std::string_view> quad_outputs{".vtp", ".vtk", ".ply", ".obj", ".stl"};
-inline const std::vector<std::string_view> image_outputs{".nrrd", ".mhd", ".mha"};
-inline const std::vector<std::string_view> aorta_outputs{".nrrd", ".mhd", ".mha", ".vtp", ".stl", ".ply"};
-inline const std::vector<std::string_view> line_outputs{".vtp", ".csv"};
+inline const std::vector<std::string_view> image_outputs{".nrrd", ".mhd", ".mha", ".nii", ".nii.gz"};
+inline const std::vector<std::string_view> aorta_outputs{".nrrd",   ".mhd", ".mha", ".nii",
+                                                         ".nii.gz", ".vtp", ".stl", ".ply"};
+inline const std::vector<std::string_view> line_outputs{".vtp", ".csv", ".mrk.json"};
 
 }  // namespace ostia::app

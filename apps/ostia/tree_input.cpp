@@ -1,6 +1,7 @@
 #include "tree_input.h"
 
-#include "points.h"
+#include "model_options.h"
+#include "seeds.h"
 #include "validators.h"
 
 #include "ostia/core/log.h"
@@ -17,6 +18,7 @@
 namespace ostia::app {
 namespace {
 
+using geometry::Vec3;
 using Json = nlohmann::ordered_json;
 
 /// Some grown trees have their places in metres and their radii in millimetres.
@@ -32,11 +34,15 @@ void scale(const InputOptions& input, const TreeInputOptions& options, geometry:
   }
 }
 
-Json repair(const TreeInputOptions& options, geometry::VesselGraph& graph, const core::TaskContext& task) {
+Json repair(const TreeInputOptions& options, double unit_mm, geometry::VesselGraph& graph,
+            const core::TaskContext& task) {
   geometry::GraphRepairOptions how;
   how.merge_within_mm = options.merge_mm;
   how.keep_directions = options.keep_directions;
-  for (const std::string& root : options.roots) how.roots.push_back(parse_point(root, "lps", nullptr));
+  for (const std::string& root : options.roots) {
+    const std::vector<Vec3> places = seed_points(root, {.unit_mm = unit_mm});
+    how.roots.insert(how.roots.end(), places.begin(), places.end());
+  }
   geometry::RepairedGraph fixed = geometry::repaired(std::move(graph), how, task);
   Json steps = Json::array();
   for (const geometry::GraphRepairStep& step : fixed.steps) {
@@ -57,7 +63,9 @@ void add_tree_input(CLI::App& app, TreeInputOptions& o, const std::string& of_tr
                  of_trees.empty() ? "Unit of radii that is not the places'"
                                   : of_trees + "unit of radii that is not the places'")
       ->check(CLI::IsMember({"m", "cm", "mm"}));
-  app.add_option("--root", o.roots, of_repair + "where one begins, x,y,z; repeat")->allow_extra_args(false);
+  app.add_option("--root", o.roots,
+                 of_repair + "where one begins, x,y,z in the file's unit, or a file of points; repeat")
+      ->allow_extra_args(false);
   app.add_option("--join-within", o.merge_mm, of_repair + "also join points this near, mm")
       ->check(above_zero());
   app.add_flag("--keep-directions", o.keep_directions, of_repair + "turn no segments, but those of a --root");
@@ -74,7 +82,9 @@ io::LoadedGraph read_tree(const InputOptions& input, const TreeInputOptions& opt
   io::LoadedGraph loaded = io::read_graph(input.input, task.sub(0.0, 0.6));
   for (const std::string& warning : loaded.warnings) core::log_warning(warning);
   scale(input, options, loaded.graph);
-  if (options.repair) done["repair"] = repair(options, loaded.graph, task.sub(0.6, 1.0));
+  if (options.repair)
+    done["repair"] =
+        repair(options, source_options(input).unit_mm.value_or(1.0), loaded.graph, task.sub(0.6, 1.0));
   return loaded;
 }
 

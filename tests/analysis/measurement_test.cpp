@@ -11,6 +11,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string_view>
 
 namespace ostia::analysis {
 namespace {
@@ -174,10 +176,18 @@ TEST(Measurement, SaysWhatIsWrongWithIt) {
 }
 
 TEST(MeasureKind, NamesGoThereAndBack) {
-  for (int k = 0; k < 7; ++k) {
-    const auto kind = static_cast<MeasureKind>(k);
+  std::set<std::string_view> names, labels;
+  for (const MeasureKind kind : measure_kinds) {
+    const MeasureTraits& traits = traits_of(kind);
+    EXPECT_EQ(traits.kind, kind);
     EXPECT_EQ(measure_kind(to_string(kind)), kind);
+    EXPECT_TRUE(names.insert(traits.name).second) << traits.name;
+    EXPECT_TRUE(labels.insert(traits.label).second) << traits.label;
+    EXPECT_NE(traits.points == 0, !traits.fault.empty()) << traits.name;
   }
+  EXPECT_THAT(names, ::testing::UnorderedElementsAre("distance", "angle", "area", "diameter", "stenosis",
+                                                     "volume", "ring_hu"))
+      << "case files have these";
   EXPECT_EQ(to_string(MeasureKind::ring_hu), "ring_hu");
   EXPECT_THROW(measure_kind("length"), InvalidInput);
   EXPECT_THROW(to_string(static_cast<MeasureKind>(9)), InvalidInput);

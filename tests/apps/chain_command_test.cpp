@@ -173,6 +173,92 @@ TEST(Chain, AStepsRefusalHasItsNameAndItsExitCode) {
   expect_refused(folder, chain, {"--set", "surface=a.ply"}, {"step 2 (import)"}, 2);
 }
 
+TEST(Chain, AStepsRefusedOptionIsTold) {
+  const fs::path folder = folder_with_surface("refused_option");
+  Json chain = two_conversions();
+  chain["steps"][1]["options"]["nonsense"] = 1;
+  expect_refused(folder, chain, {"--set", "surface=a.ply"}, {"step 2 (convert): ", "--nonsense=1"}, 2);
+  chain = two_conversions();
+  chain["steps"][0]["options"]["units"] = "feet";
+  expect_refused(folder, chain, {"--set", "surface=a.ply"}, {"step 1 (convert): ", "--units", "feet"}, 2);
+}
+
+/// b.stl, then what the shell makes of `second`.
+Json conversion_and(const Json& second) {
+  Json chain = two_conversions();
+  chain["steps"][1] = second;
+  chain["variables"] = Json::object();
+  return chain;
+}
+
+TEST(Chain, StepsThatAreDoneAreKeptForTheNextRun) {
+  const fs::path folder = folder_with_surface("kept_steps");
+  const std::vector<std::string> words{"run", "pipeline.json", "-o", "out", "--set", "surface=a.ply"};
+  const auto run_with = [&](const Json& second) {
+    core::write_file(folder / "pipeline.json", conversion_and(second).dump());
+    return ostia(words, {folder, ""});
+  };
+  const Outcome refused = run_with({{"command", "convert"}, {"input", "b.stl"}, {"output", "c.nothing"}});
+  EXPECT_EQ(refused.code, 3) << refused.err;
+  EXPECT_FALSE(fs::exists(folder / "out"));
+  ASSERT_TRUE(fs::exists(folder / ".kept-out/result/b.stl"));
+  const auto written = fs::last_write_time(folder / ".kept-out/result/b.stl");
+
+  const Outcome mended = run_with({{"command", "convert"}, {"input", "b.stl"}, {"output", "c.ply"}});
+  EXPECT_EQ(mended.code, 0) << mended.err;
+  EXPECT_THAT(mended.err, HasSubstr("step 1 (convert): done by an earlier run"));
+  EXPECT_EQ(fs::last_write_time(folder / "out/b.stl"), written);
+  EXPECT_THAT(names_in(folder / "out"), ElementsAre("b.stl", "c.ply", "manifest.json"));
+  EXPECT_FALSE(fs::exists(folder / ".kept-out"));
+
+  // Another second step: the first one's result comes from the folder that is there.
+  const Outcome other = run_with({{"command", "convert"}, {"input", "b.stl"}, {"output", "d.vtp"}});
+  EXPECT_EQ(other.code, 0) << other.err;
+  EXPECT_THAT(other.err, HasSubstr("step 1 (convert): done by an earlier run"));
+  EXPECT_THAT(names_in(folder / "out"), ElementsAre("b.stl", "d.vtp", "manifest.json"));
+  EXPECT_NEAR(volume_of(folder / "out/d.vtp"), 36.0, 1e-4);
+
+  // Another input: nothing of before fits.
+  io::write_surface(folder / "a.ply", tetrahedron(12.0));
+  const Outcome anew = run_with({{"command", "convert"}, {"input", "b.stl"}, {"output", "d.vtp"}});
+  EXPECT_THAT(anew.err, Not(HasSubstr("earlier run")));
+  EXPECT_NEAR(volume_of(folder / "out/d.vtp"), 288.0, 1e-3);
+  const Json steps = Json::parse(core::read_file(folder / "out/manifest.json")).at("quality").at("steps");
+  ASSERT_EQ(steps.size(), 2u);
+  EXPECT_EQ(steps[1].at("title"), "convert");
+  EXPECT_GT(steps[1].at("peak_mb").get<double>(), 1.0);
+}
+
+TEST(Chain, AKeptStepThatWasTamperedWithIsDoneAgain) {
+  const fs::path folder = folder_with_surface("tampered");
+  const std::vector<std::string> words{"run", "pipeline.json", "-o", "out", "--set", "surface=a.ply"};
+  core::write_file(
+      folder / "pipeline.json",
+      conversion_and({{"command", "convert"}, {"input", "b.stl"}, {"output", "c.nothing"}}).dump());
+  EXPECT_EQ(ostia(words, {folder, ""}).code, 3);
+  io::write_surface(folder / ".kept-out/result/b.stl", tetrahedron(1.0));
+  core::write_file(folder / ".kept-out/result/leftover", "of nobody");
+  core::write_file(folder / "pipeline.json",
+                   conversion_and({{"command", "convert"}, {"input", "b.stl"}, {"output", "c.ply"}}).dump());
+  const Outcome done = ostia(words, {folder, ""});
+  EXPECT_EQ(done.code, 0) << done.err;
+  EXPECT_NEAR(volume_of(folder / "out/c.ply"), 36.0, 1e-4);
+  EXPECT_THAT(names_in(folder / "out"), ElementsAre("b.stl", "c.ply", "manifest.json"));
+}
+
+TEST(Chain, AStepReadsAFileOfAFolderThatAnEarlierOneMade) {
+  const fs::path folder = folder_with_surface("folder_step");
+  const Json chain{{"steps",
+                    {{{"command", "measure"}, {"input", "tree.csv"}, {"output", "measures"}},
+                     {{"command", "convert"}, {"input", "measures/tree.vtp"}, {"output", "again.vtp"}}}}};
+  core::write_file(folder / "tree.csv",
+                   "id,parent,x,y,z,radius\n1,-1,0,0,0,1\n2,1,0,0,10,1\n3,2,0,5,15,0.8\n4,2,0,-5,15,0.7\n");
+  core::write_file(folder / "pipeline.json", chain.dump());
+  const Outcome done = ostia({"run", "pipeline.json", "-o", "out"}, {folder, ""});
+  // Which files `measure` makes is its own matter: what counts is where the second step looks.
+  EXPECT_THAT(done.err, Not(HasSubstr("no earlier step makes it"))) << done.err;
+}
+
 TEST(Chain, FailedQualityIsTheChainsExitCode) {
   const fs::path folder = folder_with_surface("quality");
   geometry::TriMesh open = tetrahedron(6.0);
@@ -203,7 +289,7 @@ TEST(Batch, OneBadCaseStopsNoOtherAndWholeOnesAreLeftAlone) {
   EXPECT_TRUE(fs::exists(folder / "out/p3/x,y.vtp"));
   EXPECT_FALSE(fs::exists(folder / "out/p2"));
   const std::string results = core::read_file(folder / "out/results.csv");
-  EXPECT_THAT(results, StartsWith("case,status,exit_code,seconds,message\np1,ok,0,"));
+  EXPECT_THAT(results, StartsWith("case,status,exit_code,seconds,message,peak_mb\np1,ok,0,"));
   EXPECT_THAT(results, HasSubstr("\np2,failed,3,"));
   EXPECT_THAT(results, HasSubstr("step 1 (convert)"));
   EXPECT_THAT(results, HasSubstr("\np3,ok,0,"));

@@ -100,6 +100,37 @@ TEST(EvaluateCommand, BadInputIsThreeAndNamed) {
   EXPECT_EQ(ostia({"evaluate", "suite", "nothing", "nothing"}, {folder, ""}).code, 3);
 }
 
+// A reference of 31 points, one of them twice; the line goes on beyond its end by 10 points, one of them
+// twice.
+TEST(EvaluateCommand, CenterlinesByEitherRulesWithRepeatedPoints) {
+  const fs::path folder = temporary_folder("evaluate");
+  std::string reference, result;
+  for (int i = 0; i <= 40; ++i) {
+    const std::string point = "0 0 " + std::to_string(i) + ".0";
+    result += point + "\n" + (i == 35 ? point + "\n" : "");
+    if (i <= 30) reference += point + " 1.5 0.2\n" + (i == 7 ? point + " 1.5 0.2\n" : "");
+  }
+  core::write_file(folder / "reference.txt", reference);
+  core::write_file(folder / "result.txt", result);
+  const std::vector<std::string> base{"evaluate", "centerline", "reference.txt", "result.txt", "--json"};
+  const Outcome done = ostia(base, {folder, ""});
+  ASSERT_EQ(done.code, 0) << done.err;
+  EXPECT_THAT(done.err, HasSubstr("the result has 1 point that repeats the one before"));
+  const Json challenge = Json::parse(done.out);
+  EXPECT_EQ(challenge["rules"], "challenge");
+  EXPECT_EQ(challenge["vessels"][0]["reference_repeated"], 1);
+  EXPECT_EQ(challenge["vessels"][0]["result_repeated"], 1);
+  EXPECT_DOUBLE_EQ(challenge["vessels"][0]["of"].get<double>(), 31.0 / 32.0);
+  EXPECT_EQ(challenge["vessels"][0]["ot"], 1.0);
+  const Json paper =
+      Json::parse(ostia(base + std::vector<std::string>{"--rules", "paper"}, {folder, ""}).out);
+  EXPECT_EQ(paper["rules"], "paper");
+  EXPECT_EQ(paper["vessels"][0]["of"], 1.0);
+  EXPECT_EQ(paper["vessels"][0]["ot"], paper["vessels"][0]["ov"]);
+  EXPECT_EQ(paper["vessels"][0]["ov"], challenge["vessels"][0]["ov"]);
+  EXPECT_EQ(ostia(base + std::vector<std::string>{"--rules", "other"}, {folder, ""}).code, 2);
+}
+
 TEST(EvaluateCommand, SuiteFindsARegressionAndWritesAReport) {
   const fs::path folder = temporary_folder("evaluate");
   for (const char* run : {"golden", "new"}) {

@@ -1,7 +1,11 @@
+#include "branched_shapes.h"
 #include "program.h"
 
 #include "ostia/core/files.h"
 #include "ostia/geometry/analytic_shapes.h"
+#include "ostia/geometry/vessel_tree.h"
+#include "ostia/io/centerline_file.h"
+#include "ostia/io/surface_fields.h"
 #include "ostia/io/surface_file.h"
 
 #include <gmock/gmock.h>
@@ -71,6 +75,68 @@ TEST(MeasureCommand, ASurfaceIsMeasuredByItsCenterlines) {
   const json m = json::parse(done.out);
   EXPECT_NEAR(m["length_mm"].get<double>(), 30.0, 1.0);
   EXPECT_NEAR(m["volume_mm3"].get<double>() / (std::numbers::pi * 4.0 * 30.0), 1.0, 0.06);
+}
+
+/// Straight tubes of radius 2, the children 60 degrees apart, as a surface with its height and its lines.
+void write_fork(const std::filesystem::path& folder) {
+  const geometry::VesselTree tree = analysis::straight_y(60.0, 0.0, 2.0);
+  const geometry::TriMesh wall = geometry::surface_of(analysis::shape_of(tree), 0.4, true);
+  io::PointFields fields;
+  for (const geometry::Vec3& p : wall.points) fields["height"].values.push_back(p.z());
+  const std::vector<std::int32_t> faces(wall.triangles.size(), 1);
+  io::write_vtp_with_fields(folder / "fork.vtp", {wall, faces, {{}}}, fields);
+  io::write_centerlines(folder / "lines.vtp", tree);
+}
+
+TEST(MeasureCommand, AForksBifurcationSectionsAndPatchesAreMeasured) {
+  const auto folder = temporary_folder("measure_branches");
+  write_fork(folder);
+  const Setting in{folder, ""};
+  const Outcome done =
+      ostia({"measure", "fork.vtp", "--centerline", "lines.vtp", "-o", "out", "--bifurcations", "--sections",
+             "--patch-length", "2", "--patch-sectors", "6", "--json"},
+            in);
+  ASSERT_EQ(done.code, 0) << done.err;
+  const json m = json::parse(done.out)["branch_measures"];
+  EXPECT_EQ(m, json::parse(core::read_file(folder / "out/branches.json")));
+  ASSERT_EQ(m["bifurcations"].size(), 1u);
+  const json& fork = m["bifurcations"][0];
+  EXPECT_NEAR(fork["angle_between_deg"].get<double>(), 60.0, 1e-6);
+  EXPECT_NEAR(std::abs(fork["vectors"][1]["in_plane_deg"].get<double>()), 30.0, 1e-6);
+  EXPECT_NEAR(fork["area_ratio"].get<double>(), 2.0, 0.05);
+  EXPECT_NEAR(fork["sections"][0]["area_mm2"].get<double>(), 4.0 * std::numbers::pi, 0.3);
+  EXPECT_EQ(m["branches"].size(), 3u);
+  EXPECT_GT(m["patches"]["count"].get<int>(), 60);
+  EXPECT_EQ(m["patches"]["arrays"], (json{"DistanceToCenterlines", "height"}));
+  for (const char* name :
+       {"branch-geometry.csv", "bifurcations.csv", "bifurcation-vectors.csv", "branch-sections.csv",
+        "bifurcation-sections.csv", "patches.csv", "bifurcation-systems.vtp", "bifurcation-vectors.vtp",
+        "branch-sections.vtp", "bifurcation-sections.vtp", "mapped-surface.vtp", "patches.vtp"})
+    EXPECT_TRUE(fs::exists(folder / "out" / name)) << name;
+  EXPECT_THAT(core::read_file(folder / "out/report.html"), HasSubstr("Bifurcations"));
+  for (const char* name : {"BranchSectionArea", "BranchSectionClosed", "BranchSectionDistanceSpheres"})
+    EXPECT_THAT(core::read_file(folder / "out/branch-sections.vtp"), HasSubstr(name));
+  const io::SurfaceWithFields mapped = io::read_surface_with_fields(folder / "out/mapped-surface.vtp");
+  for (std::size_t i = 0; i < mapped.mesh.points.size(); ++i)
+    EXPECT_NEAR(mapped.points.at("height").values[i], mapped.mesh.points[i].z(), 1e-9);
+  EXPECT_TRUE(mapped.points.contains("StretchedMapping"));
+}
+
+TEST(MeasureCommand, LinesAloneHaveBifurcationsButNoSections) {
+  const auto folder = temporary_folder("measure_lines");
+  write_fork(folder);
+  const Setting in{folder, ""};
+  const Outcome done = ostia({"measure", "lines.vtp", "-o", "out", "--bifurcations"}, in);
+  ASSERT_EQ(done.code, 0) << done.err;
+  EXPECT_THAT(done.out, HasSubstr("60.0 degrees"));
+  const Outcome sections = ostia({"measure", "lines.vtp", "-o", "none", "--sections"}, in);
+  EXPECT_EQ(sections.code, 2);
+  EXPECT_THAT(sections.err, HasSubstr("--centerline"));
+  EXPECT_EQ(ostia({"measure", "lines.vtp", "-o", "none", "--patch-length", "1"}, in).code, 2);
+  EXPECT_EQ(ostia({"measure", "fork.vtp", "-o", "none", "--section-spheres", "2"}, in).code, 2);
+  EXPECT_EQ(ostia({"measure", "fork.vtp", "-o", "none", "--patch-sectors", "2"}, in).code, 2);
+  EXPECT_EQ(ostia({"measure", "lines.vtp", "-o", "none", "--centerline", "lines.vtp"}, in).code, 2);
+  EXPECT_FALSE(fs::exists(folder / "none"));
 }
 
 TEST(MeasureCommand, WhatCannotBeMeasuredIsToldAndLeavesNothing) {

@@ -54,7 +54,7 @@ TEST(MeshWithCase, OpenfoamsCaseStandsInTheFolder) {
   ASSERT_EQ(done.code, 0) << done.err;
   EXPECT_THAT(done.err, HasSubstr("out/openfoam-case/Allrun"));
   const fs::path made = folder / "out" / "openfoam-case";
-  EXPECT_THAT(core::read_file(made / "system/controlDict"), HasSubstr("pisoFoam"));
+  EXPECT_THAT(core::read_file(made / "system/controlDict"), HasSubstr("pimpleFoam"));
   EXPECT_TRUE(fs::exists(made / "Allrun"));
   // The mesh of the case is the mesh.
   const geometry::MixedMesh mesh = io::read_volume_mesh(folder / "out" / "mesh.vtu"),
@@ -88,7 +88,7 @@ TEST(MeshWithCase, WhatASolverDoesNotTakeIsRefusedBeforeAnythingIsRead) {
   expect_mesh_and_model_refuse({"--with-case", "svmultiphysics", "--outlets", "split"}, 3, "resistances");
   expect_mesh_and_model_refuse({"--with-case", "openfoam", "--flow", "-1"}, 3, "flow_ml_s");
   expect_mesh_and_model_refuse({"--with-case", "openfoam", "--viscosity", "0.0035"}, 3, "viscosity_mpa_s");
-  expect_mesh_and_model_refuse({"--with-case", "openfoam", "--compliance", "1"}, 2, "svmultiphysics");
+  expect_mesh_and_model_refuse({"--with-case", "openfoam", "--compliance", "1"}, 3, "Windkessel");
   expect_mesh_and_model_refuse({"--with-case", "openfoam", "--waveform", "aorta"}, 3, "coronary-left");
   expect_mesh_and_model_refuse({"--with-case", "fluent"}, 2, "openfoam");
   expect_mesh_and_model_refuse({"--flow", "1"}, 2, "--with-case");
@@ -281,18 +281,21 @@ TEST(MeshForecast, AModelIsWarnedAsAMeshIs) {
 
 TEST(MeshForecast, MetresAreToldWithTheWayOut) {
   const fs::path folder = folder_with_narrowed_tube(1e-3);
-  const Outcome words = ostia({"mesh", "tube.ply", "--forecast"}, {folder, ""});
+  const Outcome words = ostia({"mesh", "tube.ply", "--forecast", "--strict"}, {folder, ""});
   EXPECT_EQ(words.code, 4);
   EXPECT_THAT(words.out, HasSubstr("looks like metres"));
   EXPECT_THAT(words.out, HasSubstr("--units m"));
   EXPECT_EQ(ostia({"mesh", "tube.ply", "--forecast", "--units", "m"}, {folder, ""}).code, 0);
+  const Outcome by_calibre = ostia({"mesh", "tube.ply", "--forecast"}, {folder, ""});
+  EXPECT_EQ(by_calibre.code, 0);
+  EXPECT_THAT(by_calibre.err, HasSubstr("metres"));
   const Outcome checked = ostia({"mesh", "--check", "tube.ply"}, {folder, ""});
   EXPECT_EQ(checked.code, 4);
   EXPECT_EQ(Json::parse(checked.out)["forecast"]["places"][0]["kind"], "units");
   EXPECT_THAT(checked.err, HasSubstr("--units m"));
 }
 
-TEST(MeshForecast, AHoleIsToldByPlaceBeforeItIsRefused) {
+TEST(MeshForecast, AHoleIsToldByPlaceAndClosedOrRefused) {
   const fs::path folder = temporary_folder("mesh");
   geometry::TriMesh tube =
       geometry::surface_of(geometry::straight_tube(mesh_places_length_mm, mesh_places_radius_mm), 0.4, true);
@@ -303,15 +306,19 @@ TEST(MeshForecast, AHoleIsToldByPlaceBeforeItIsRefused) {
   };
   ASSERT_GT(std::erase_if(tube.triangles, in_middle), 3U);
   io::write_surface(folder / "hole.ply", tube);
-  const Outcome told = ostia({"mesh", "hole.ply", "--forecast", "--json"}, {folder, ""});
+  const Outcome told = ostia({"mesh", "hole.ply", "--forecast", "--json", "--strict"}, {folder, ""});
   EXPECT_EQ(told.code, 4);
   const Json place = Json::parse(told.out)["places"][0];
   EXPECT_EQ(place["kind"], "open_edges");
   EXPECT_NEAR(place["point"][2].get<double>(), 6.0, 1.5);
   EXPECT_THAT(place["option"].get<std::string>(), HasSubstr("--fill-holes"));
-  const Outcome meshed = ostia({"mesh", "hole.ply", "-o", "out"}, {folder, ""});
-  EXPECT_THAT(meshed.err, HasSubstr("meshing may fail there"));
+  const Outcome strict = ostia({"mesh", "hole.ply", "-o", "out", "--strict"}, {folder, ""});
+  EXPECT_EQ(strict.code, 3);
+  EXPECT_THAT(strict.err, HasSubstr("meshing may fail there"));
   EXPECT_FALSE(fs::exists(folder / "out"));
+  const Outcome mended = ostia({"mesh", "hole.ply", "-o", "out"}, {folder, ""});
+  EXPECT_EQ(mended.code, 0) << mended.err;
+  EXPECT_THAT(mended.err, HasSubstr("a hole in the wall closed"));
 }
 
 TEST(MeshForecast, NeedsASurface) {

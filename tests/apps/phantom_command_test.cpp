@@ -105,7 +105,7 @@ TEST(PhantomCommand, AFolderWithOtherThingsIsNotTouched) {
   const Outcome done = ostia(tiny, {folder, ""});
   EXPECT_EQ(done.code, 3) << done.err;
   EXPECT_EQ(core::read_file(folder / "out" / "thesis.txt"), "years of work");
-  EXPECT_EQ(ostia({"phantom", "--preset", "tiny", "-o", "missing/out"}, {folder, ""}).code, 3);
+  EXPECT_EQ(ostia({"phantom", "--preset", "tiny", "-o", "out/thesis.txt/out"}, {folder, ""}).code, 3);
 }
 
 TEST(PhantomCommand, InterruptedItStopsSoonAndLeavesNothing) {

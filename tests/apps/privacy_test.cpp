@@ -43,10 +43,10 @@ TEST(Privacy, BadInput_Row40_NorInALogOfRefusals) {
         {"info", surface},
         {"info", image + "x"},
         {"import", image, "-o", (folder / "DOE^JANE.mha").string()},
-        {"convert", surface, (folder / "missing" / "DOE^JANE.vtp").string()},
+        {"convert", surface, (folder / "DOE^JANE.nrrd" / "DOE^JANE.vtp").string()},
         {"mesh", "--check", surface},
         {"centerline", surface, "-o", "a.vtp"},
-        {"model", "--builtin", "-o", (folder / "missing" / "DOE^JANE").string()}}) {
+        {"model", "--builtin", "-o", (folder / "DOE^JANE.nrrd" / "DOE^JANE").string()}}) {
     const Outcome done = ostia(command + std::vector<std::string>{"--log", "json"});
     EXPECT_EQ(done.code, 3) << command.front();
     EXPECT_THAT(done.out + done.err, Not(HasSubstr("DOE^JANE"))) << command.front();

@@ -115,7 +115,7 @@ TEST(ReportCommand, RefusesBadInputAndLeavesNothing) {
       {{"no.ostia", "-o", "out"}, 3},
       {{"missing.ostia", "-o", "out"}, 3},
       {{"heart.ostia", "-o", "full"}, 3},
-      {{"heart.ostia", "-o", "missing/out"}, 3},
+      {{"heart.ostia", "-o", "no.ostia/out"}, 3},
       {{"heart.ostia", "-o", "out", "--window", "0"}, 2},
       {{"heart.ostia"}, 2},
   };

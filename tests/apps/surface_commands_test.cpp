@@ -36,7 +36,8 @@ void expect_refused(const TriMesh& mesh, const std::string& what) {
   const auto folder = temporary_folder("faulty");
   io::write_surface(folder / "a.ply", mesh);
   for (const std::vector<std::string>& command :
-       {std::vector<std::string>{"mesh", "a.ply", "-o", "out"}, {"model", "a.ply", "-o", "out"}}) {
+       {std::vector<std::string>{"mesh", "a.ply", "-o", "out", "--strict"},
+        {"model", "a.ply", "-o", "out", "--strict"}}) {
     const Outcome done = ostia(command, {folder, ""});
     EXPECT_EQ(done.code, 3) << command.front() << done.err;
     EXPECT_THAT(done.err, HasSubstr(what)) << command.front();
@@ -62,7 +63,7 @@ TEST(SurfaceCommands, RepairTurnsTrianglesAndDropsCopiesAndParts) {
   const auto folder = temporary_folder("repair");
   TriMesh mesh = box();
   TriMesh crumb = box({30, 0, 0});
-  for (geometry::Vec3& p : crumb.points) p = geometry::Vec3(30, 0, 0) + 0.1 * (p - geometry::Vec3(30, 0, 0));
+  for (geometry::Vec3& p : crumb.points) p = geometry::Vec3(30, 0, 0) + 0.05 * (p - geometry::Vec3(30, 0, 0));
   mesh = both(mesh, crumb);
   std::swap(mesh.triangles[2][0], mesh.triangles[2][1]);
   mesh.triangles.push_back(mesh.triangles[0]);

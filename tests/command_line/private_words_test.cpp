@@ -67,5 +67,30 @@ TEST(ValueOf, IsTheLastOneInEitherForm) {
   EXPECT_EQ(value_of("--log", {"mesh", "--log"}), "");
 }
 
+TEST(PrivateWords, AreNoneThatTheHelpIsWrittenWith) {
+  CommandDescription with_help = program();
+  with_help.commands[0].text = "A mesh of vessels, by Smith: left open";
+  const std::set<std::string> ordinary = ordinary_words(with_help);
+  for (const char* word : {"mesh", "vessels", "left", "open"}) EXPECT_TRUE(ordinary.contains(word)) << word;
+  EXPECT_FALSE(ordinary.contains("Smith"));
+  std::set<std::string> found;
+  for (const PrivateWord& word : private_words(with_help, {"mesh", "vessels", "-o", "Smith/open"}))
+    found.insert(word.text);
+  EXPECT_THAT(found, ::testing::UnorderedElementsAre("Smith/open", "Smith"));
+}
+
+TEST(PrivatePaths, AreWhatHasAFolderOrLiesThere) {
+  std::vector<std::string> found;
+  const auto exists = [](const std::string& name) { return name == "DOE.nrrd"; };
+  for (const PrivateWord& word :
+       private_paths(program(), {"mesh", "DOE.nrrd", "-o", "LAD", "--set=/data/ROE/ct.nii"}, exists))
+    found.push_back(word.text);
+  EXPECT_THAT(found, Contains("DOE.nrrd"));
+  EXPECT_THAT(found, Contains("/data/ROE/ct.nii"));
+  EXPECT_THAT(found, Contains("ct.nii"));
+  EXPECT_THAT(found, Not(Contains("LAD"))) << "it may as well be a vessel";
+  EXPECT_THAT(found, Not(Contains("DOE")));
+}
+
 }  // namespace
 }  // namespace ostia::command_line

@@ -1,6 +1,9 @@
 #include "ostia/core/child_process.h"
 
+#include "shared_data.h"
+
 #include "ostia/core/error.h"
+#include "ostia/core/files.h"
 
 #include <gtest/gtest.h>
 
@@ -24,6 +27,23 @@ TEST(ChildProcess, ReportsExitCodeAndStandardError) {
   EXPECT_EQ(result.standard_error, "slice 7\n");
   EXPECT_EQ(result.describe(), "exited with code 3");
   EXPECT_TRUE(shell("exit 0").ok());
+}
+
+TEST(ChildProcess, AppendsWhatItSaysToALog) {
+  const std::filesystem::path log = testing::temporary_folder("child") / "a.log";
+  for (const char* said : {"one", "two"})
+    run_child("/bin/sh", {"-c", std::string("echo ") + said + " >&2; exit 3"}, {}, no_task(), log);
+  EXPECT_EQ(read_file(log), "one\ntwo\n");
+  EXPECT_THROW(run_child("/bin/sh", {"-c", "exit 0"}, {}, no_task(), log / "no"), IoError);
+}
+
+TEST(ChildProcess, KnowsItsMostMemory) {
+  const double little = shell("exit 0").peak_mb;
+  EXPECT_GT(little, 0.1);
+  const ChildResult much = shell("head -c 100000000 /dev/zero | tail -c 100000000 > /dev/null");
+  EXPECT_TRUE(much.ok());
+  EXPECT_GT(much.peak_mb, 95.0);  // of its own child, which keeps 100 MB
+  EXPECT_LT(much.peak_mb, 200.0);
 }
 
 TEST(ChildProcess, SurvivesAnAbortingChild) {

@@ -44,14 +44,40 @@ TEST(Files, AbandonedFileLeavesTheOldOneAlone) {
   EXPECT_EQ(names_in(folder), std::vector<std::string>{"a.txt"});
 }
 
-TEST(Files, RefusesFoldersThatAreNotThere) {
+TEST(Files, MakesTheFoldersAbove) {
   const fs::path folder = testing::temporary_folder("files");
-  try {
-    write_file(folder / "missing" / "a.txt", "x");
-    FAIL();
-  } catch (const IoError& error) {
-    EXPECT_NE(std::string(error.what()).find("missing"), std::string::npos);
+  write_file(folder / "a" / "b" / "c.txt", "x");
+  EXPECT_EQ(read_file(folder / "a" / "b" / "c.txt"), "x");
+  StagedFolder staged(folder / "d" / "e" / "out");
+  write_file(staged.temporary() / "f" / "g", "1");
+  staged.commit();
+  EXPECT_EQ(read_file(folder / "d" / "e" / "out" / "f" / "g"), "1");
+}
+
+TEST(Files, FoldersAboveGoAgainWhereNothingIsWritten) {
+  const fs::path folder = testing::temporary_folder("files");
+  { const StagedFile file(folder / "a" / "b" / "c.txt"); }
+  { const StagedFolder staged(folder / "d" / "out"); }
+  EXPECT_TRUE(names_in(folder).empty());
+  fs::create_directory(folder / "a");
+  { const StagedFile file(folder / "a" / "b" / "c.txt"); }
+  EXPECT_EQ(names_in(folder), std::vector<std::string>{"a"}) << "what was there stays";
+}
+
+TEST(Files, RefusesWhatIsNoFolder) {
+  const fs::path folder = testing::temporary_folder("files");
+  write_file(folder / "mine", "x");
+  for (const fs::path& below : {folder / "mine" / "a.txt", folder / "mine" / "b" / "a.txt"}) {
+    try {
+      write_file(below, "y");
+      ADD_FAILURE();
+    } catch (const IoError& error) {
+      EXPECT_NE(std::string(error.what()).find((folder / "mine").string() + " is a file and no folder"),
+                std::string::npos)
+          << error.what();
+    }
   }
+  EXPECT_EQ(read_file(folder / "mine"), "x");
   EXPECT_THROW(read_file(folder / "nothing"), IoError);
   EXPECT_THROW(read_file(folder), IoError);
   EXPECT_THROW(write_file(folder, "x"), IoError);
@@ -104,11 +130,12 @@ TEST(StagedFolder, MessagesNameWhatTheUserAskedFor) {
   const fs::path folder = testing::temporary_folder("files");
   const StagedFolder staged(folder / "out");
   try {
-    write_file(staged.temporary() / "missing" / "a", "1");
+    write_file(staged.temporary() / "mine", "1");
+    write_file(staged.temporary() / "mine" / "a", "1");
     FAIL();
   } catch (const IoError& error) {
     const std::string message = error.what();
-    EXPECT_NE(message.find((folder / "out" / "missing").string()), std::string::npos) << message;
+    EXPECT_NE(message.find((folder / "out" / "mine").string()), std::string::npos) << message;
     EXPECT_EQ(message.find(".part-"), std::string::npos) << message;
   }
 }

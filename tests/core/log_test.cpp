@@ -58,5 +58,35 @@ TEST_F(Log, KeepsQuietBelowItsLevel) {
   EXPECT_NE(written.find("this matters"), std::string::npos);
 }
 
+TEST_F(Log, LeavesOrdinaryWordsAlone) {
+  never_redact({"out", "surface"});
+  redact_in_logs("out", "OUTPUT");
+  redact_in_results("surface", "INPUT");
+  redact_in_logs("/data/out", "FOLDER");
+  EXPECT_EQ(redacted("left out; the surface of /data/out/a"), "left out; the surface of FOLDER/a");
+}
+
+TEST_F(Log, ResultsHaveAliasesWhereTheLogHasPaths) {
+  redact_in_results("/home/roe/heart.nrrd", "INPUT");
+  EXPECT_EQ(redacted("/home/roe/heart.nrrd: coarse"), "INPUT: coarse");
+  EXPECT_EQ(redacted_for_log("/home/roe/heart.nrrd: coarse"), "/home/roe/heart.nrrd: coarse");
+}
+
+TEST_F(Log, WarningsAreHeardOnceByAllThatListenEvenIfNotShown) {
+  set_log(LogFormat::text, LogLevel::error);
+  EXPECT_TRUE(heard_warnings().empty()) << "nobody listens";
+  log_warning("before");
+  const HeardWarnings outer;
+  log_warning("first");
+  {
+    const HeardWarnings inner;
+    log_warning("second");
+    log_warning("second");
+    log_info("no warning");
+    EXPECT_EQ(heard_warnings(), std::vector<std::string>{"second"});
+  }
+  EXPECT_EQ(heard_warnings(), (std::vector<std::string>{"first", "second"}));
+}
+
 }  // namespace
 }  // namespace ostia::core

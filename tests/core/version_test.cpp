@@ -7,7 +7,7 @@ namespace ostia::core {
 namespace {
 
 TEST(Version, IsThreeNumbers) {
-  EXPECT_THAT(version(), testing::MatchesRegex("[0-9]+\\.[0-9]+\\.[0-9]+"));
+  EXPECT_THAT(version(), ::testing::MatchesRegex("[0-9]+\\.[0-9]+\\.[0-9]+"));
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ void make_file(const fs::path& path) {
 }
 
 /// A copy of this program in a folder of its own, run to say what worker_program() is there.
-class InstalledTree : public testing::Test {
+class InstalledTree : public ::testing::Test {
  protected:
   InstalledTree() { fs::create_directories(bin()); }
   fs::path root() const { return fs::canonical(folder_.path()); }

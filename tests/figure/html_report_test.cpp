@@ -125,7 +125,7 @@ TEST(HtmlReport, IsWrittenWhole) {
   const HtmlReport report = full_report("Aorta");
   report.write(folder / "report.html");
   EXPECT_EQ(core::read_file(folder / "report.html"), report.html());
-  EXPECT_THROW(report.write(folder / "missing" / "report.html"), IoError);
+  EXPECT_THROW(report.write(folder / "report.html" / "report.html"), IoError) << "a file is no folder";
 }
 
 }  // namespace

@@ -160,7 +160,7 @@ TEST(PdfDocument, IsWrittenWholeOrNotAtAll) {
   const PdfDocument document = long_table(3);
   document.write(folder / "a.pdf");
   EXPECT_EQ(core::read_file(folder / "a.pdf"), document.pdf());
-  EXPECT_THROW(document.write(folder / "missing" / "a.pdf"), IoError);
+  EXPECT_THROW(document.write(folder / "a.pdf" / "a.pdf"), IoError) << "a file is no folder";
 }
 
 TEST(PageFlow, AHeadingStaysWithWhatFollows) {

@@ -35,6 +35,7 @@ TEST(Ticks, TextHasTheDecimalsOfItsStep) {
   EXPECT_EQ(tick_text(1200.0, 200.0), "1200");
   EXPECT_EQ(tick_text(-0.0, 0.5), "0.0");
   EXPECT_EQ(tick_text(0.025, 0.005), "0.025");
+  EXPECT_EQ(tick_text(NAN, 0.5), "\xE2\x80\x93");
 }
 
 /// Columns of the plot where a colour close to `color` is drawn, and the mean height there.

@@ -2,9 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <clocale>
-#include <cmath>
-
 namespace ostia::figure {
 namespace {
 
@@ -16,13 +13,6 @@ TEST(Text, KeepsWellFormedCharactersAndReplacesTheRest) {
   EXPECT_EQ(clean_utf8("\xC0\xAF"), "\xEF\xBF\xBD\xEF\xBF\xBD");                  // overlong
   EXPECT_EQ(clean_utf8("\xED\xA0\x80"), "\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD");  // surrogate
   EXPECT_EQ(clean_utf8(std::string_view("a\0b\x1b\tc\n", 7)), "ab\tc\n");
-}
-
-TEST(Text, WritesNumbersWithAPointAndWithoutNegativeZero) {
-  EXPECT_EQ(fixed_text(-12.345, 1), "-12.3");
-  EXPECT_EQ(fixed_text(-0.04, 1), "0.0");
-  EXPECT_EQ(fixed_text(1e6, 0), "1000000");
-  EXPECT_EQ(fixed_text(NAN, 1), "\xE2\x80\x93");
 }
 
 TEST(Text, TellsColumnsOfNumbers) {

@@ -2,6 +2,7 @@
 #include "image_source.h"
 #include "shared_data.h"
 
+#include "ostia/core/text.h"
 #include "ostia/imaging/image_file.h"
 
 #include <gtest/gtest.h>
@@ -72,7 +73,7 @@ TEST(HeaderNumbers, AreWholeTextsOrNothing) {
 
 TEST(HeaderNumbers, ShortestTextReadsBackAsTheSameBits) {
   for (const double value : {0.1, 1.0 / 3.0, -1e-300, 675.2, 1e22})
-    EXPECT_EQ(to_double(number_text(value)), value);
+    EXPECT_EQ(to_double(core::shortest_text(value)), value);
 }
 
 }  // namespace

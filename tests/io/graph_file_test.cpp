@@ -4,6 +4,8 @@
 
 #include "ostia/geometry/graph_faults.h"
 #include "ostia/geometry/graph_repair.h"
+#include "ostia/geometry/vessel_tree.h"
+#include "ostia/io/centerline_file.h"
 
 #include <cmath>
 #include <fstream>
@@ -216,6 +218,36 @@ TEST(GraphFile, RefusesToWriteWhatIsNoGraphOrNoFormat) {
   const auto csv = testing::temporary_folder("io") / "bad.csv";
   expect_refusal(csv, [&] { write_graph(csv, graph); }, {"segment 1", "repair"});
   EXPECT_FALSE(std::filesystem::exists(csv));
+}
+
+TEST(GraphFile, CenterlinesAreOneNetworkHoweverTheyAreWritten) {
+  geometry::VesselTree tree;
+  const geometry::Vec3 a(0, 0, 0), b(0, 0, 10), c(4, 0, 18), d(-4, 0, 18);
+  const auto line = [](const geometry::Vec3& from, const geometry::Vec3& to) {
+    geometry::Centerline out;
+    for (int i = 0; i <= 10; ++i) {
+      out.points.push_back(from + (to - from) * i / 10.0);
+      out.radius.push_back(2.0);
+    }
+    geometry::complete(out);
+    return out;
+  };
+  tree.nodes = {{0, a}, {1, b}, {2, c}, {3, d}};
+  tree.segments = {{10, 0, 1, line(a, b)}, {11, 1, 2, line(b, c)}, {12, 1, 3, line(b, d)}};
+  tree.vessels = {{5, "LAD", {10, 11}}, {6, "LCX", {10, 12}}};
+  for (const char* name : {"lines.vtp", "lines.csv"}) {
+    const auto path = testing::temporary_folder("io") / name;
+    write_centerlines(path, tree);
+    const LoadedGraph loaded = read_graph(path);
+    const geometry::GraphFaults faults = geometry::find_faults(loaded.graph);
+    EXPECT_TRUE(faults.found.empty()) << name << ": " << geometry::summary(faults, loaded.graph);
+    EXPECT_EQ(loaded.graph.edges.size(), 30u) << name;
+    EXPECT_EQ(loaded.graph.points.size(), 31u) << name;
+    const geometry::GraphFacts facts = geometry::facts_of(loaded.graph);
+    EXPECT_EQ(facts.parts, 1u) << name;
+    EXPECT_EQ(facts.forks, 1u) << name;
+    EXPECT_NEAR(facts.length_mm, 10.0 + 2.0 * std::sqrt(80.0), 1e-9) << name;
+  }
 }
 
 }  // namespace

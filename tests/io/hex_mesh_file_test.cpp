@@ -5,6 +5,8 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
+#include "ostia/io/mesh_export.h"
+#include "ostia/io/volume_mesh_file.h"
 
 #include <gmock/gmock.h>
 #include <vtkCellData.h>
@@ -153,10 +155,35 @@ TEST(HexMeshFile, WhatItCannotReplaceStays) {
   core::write_file(path / "system" / "controlDict", "mine");
   EXPECT_THROW(write_hex_mesh(path, column()), InvalidInput);
   EXPECT_EQ(core::read_file(path / "system" / "controlDict"), "mine");
-  EXPECT_THROW(write_hex_mesh("/nowhere/at/all.vtu", column()), IoError);
+  EXPECT_THROW(write_hex_mesh("/proc/nowhere/at/all.vtu", column()), IoError);
   core::TaskContext task;
   task.cancel();
   EXPECT_THROW(write_hex_mesh(target("b.vtu"), column(), task), Cancelled);
+}
+
+TEST(HexMeshFile, IsReadAsTwoPrismsEachFromBothFormats) {
+  for (const char* name : {"column.vtu", "column"}) {
+    SCOPED_TRACE(name);
+    const fs::path path = target(name);
+    write_hex_mesh(path, column());
+    const LayeredMesh read = read_layered_mesh(path);
+    EXPECT_EQ(read.hexahedra, 6u);
+    EXPECT_EQ(read.mesh.prisms.size(), 12u);
+    EXPECT_TRUE(read.mesh.tetrahedra.empty());
+    EXPECT_EQ(read.mesh.triangles.size(), 8u) << "two sides at the inlet and two at the outlet, cut";
+    EXPECT_EQ(read.mesh.quads.size(), 18u);
+    double volume = 0.0;
+    for (const geometry::Prism& p : read.mesh.prisms) {
+      const auto at = [&](std::size_t k) { return read.mesh.points[static_cast<std::size_t>(p[k])]; };
+      volume += 0.5 * (at(1) - at(0)).cross(at(2) - at(0)).dot(at(3) - at(0));
+    }
+    EXPECT_NEAR(volume, 6.0 / 27.0, 1e-9) << "mm3, each prism upright and positive";
+    ASSERT_EQ(read.mesh.faces.size(), 3u);
+    EXPECT_EQ(read.mesh.faces[1].name, "inlet_0");
+    EXPECT_EQ(read.mesh.faces[1].kind, geometry::FaceKind::inlet);
+    // What was read can be written in every format that holds prisms.
+    EXPECT_NO_THROW(export_mesh(read.mesh, MeshFormat::gmsh4, target("column.msh")));
+  }
 }
 
 }  // namespace

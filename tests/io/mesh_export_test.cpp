@@ -175,7 +175,7 @@ TEST(MeshExport, RefusesMeshesThatAreNotSound) {
 TEST(MeshExport, LeavesWhatItCannotReplace) {
   const MixedMesh mesh = column_of_tetrahedra();
   for (const MeshFormat format : mesh_formats)
-    EXPECT_THROW(export_mesh(mesh, format, "/nowhere/at/all"), IoError) << name_of(format);
+    EXPECT_THROW(export_mesh(mesh, format, "/proc/nowhere/at/all"), IoError) << name_of(format);
   const fs::path folder = mesh_export_target("case");
   fs::create_directories(folder / "system");
   core::write_file(folder / "system" / "controlDict", "mine");

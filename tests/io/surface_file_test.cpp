@@ -47,8 +47,10 @@ TEST(SurfaceFile, BadInput_Row36_LongPathsWithSpacesAndUtf8) {
 }
 
 TEST(SurfaceFile, BadInput_Row37_ReadOnlyFolderKeepsTheOldFile) {
-  const auto missing = testing::temporary_folder("io") / "missing" / "a.vtp";
-  EXPECT_THROW(write_surface(missing, tetrahedron_surface()), IoError);
+  const auto file = testing::temporary_folder("io") / "file";
+  core::write_file(file, "mine");
+  EXPECT_THROW(write_surface(file / "a.vtp", tetrahedron_surface()), IoError);
+  EXPECT_EQ(core::read_file(file), "mine");
 }
 
 TEST(SurfaceFile, KnowsItsExtensions) {

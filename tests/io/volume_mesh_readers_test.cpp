@@ -113,7 +113,7 @@ TEST(VolumeMeshReaders, FaultsOfAFluentMeshAreTold) {
     expect_refused(path, part);
   };
   refused("(13 (1 ", "(13 (1 0 ", "more entries");
-  refused("(13 (1 ", "(14 (1 ", "neither a tetrahedron nor a prism");
+  refused("(13 (1 ", "(14 (1 ", "no tetrahedron, prism or hexahedron");
   refused("(10 (1 1", "(10 (1 x", "no hexadecimal number");
   refused("(10 (1 1", "(9 (1 1", "of 0");
   core::write_file(folder / "cut.msh", "(0 \"a Fluent mesh\")\n(10 (1 1 2 1 3)(\n0 0 0\n");
@@ -249,7 +249,7 @@ TEST(VolumeMeshReaders, FaultsOfAPolyMeshAreToldByFileAndPlace) {
   refused(spoiled("five", "faces", "\n3(", "\n5("), "5 corners");
   refused(spoiled("patch", "boundary", "startFace       ", "startFace       9"), "beyond the last");
   refused(spoiled("owner", "owner", "\n(\n0", "\n(\n-3"), "no cell -3");
-  refused(spoiled("moved", "owner", "\n(\n0\n", "\n(\n1\n"), "neither a tetrahedron nor a prism");
+  refused(spoiled("moved", "owner", "\n(\n0\n", "\n(\n1\n"), "no tetrahedron, prism or hexahedron");
 }
 
 }  // namespace

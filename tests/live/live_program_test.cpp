@@ -43,7 +43,8 @@ TEST_F(LiveProgramGui, KeysDoWhatTheHelpSays) {
 TEST_F(LiveProgramGui, AScreenshotThatCannotBeWrittenIsSaidAndTheWindowGoesOn) {
   REQUIRE_OPENGL();
   if (!has_xdotool()) GTEST_SKIP() << "xdotool is not installed";
-  const Outcome outcome = driven("--demo --pictures nowhere", "xdotool key s; sleep 0.5; xdotool key x");
+  const Outcome outcome =
+      driven("--demo --pictures /proc/nowhere", "xdotool key s; sleep 0.5; xdotool key x");
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr("nowhere"));
   EXPECT_TRUE(outcome.json()["view"]["x_ray"]);
@@ -170,7 +171,7 @@ TEST_F(LiveProgramGui, ExitCodesAndWords) {
 
 TEST_F(LiveProgramGui, AFolderThatIsNotThereIsSaid) {
   REQUIRE_OPENGL();
-  const Outcome outcome = live("--demo --phase 5 --screenshot nowhere/a.png");
+  const Outcome outcome = live("--demo --phase 5 --screenshot /proc/nowhere/a.png");
   EXPECT_EQ(outcome.code, 3);
   EXPECT_THAT(outcome.err, HasSubstr("nowhere"));
 }

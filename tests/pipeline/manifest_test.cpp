@@ -65,8 +65,10 @@ TEST(Manifest, OnlyNewEmptyOrOwnFoldersAreFree) {
   EXPECT_FALSE(std::filesystem::exists(folder / "new"));
   EXPECT_NO_THROW(require_free_folder(folder));
   EXPECT_THROW(require_free_folder(folder / "."), InvalidInput);
-  EXPECT_THROW(require_free_folder(folder / "missing" / "new"), IoError);
+  EXPECT_NO_THROW(require_free_folder(folder / "missing" / "new"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "missing"));
   const auto own = done_folder(ExitCode::ok);
+  EXPECT_THROW(require_free_folder(own / "mesh.vtu" / "new"), IoError) << "a file is no folder";
   EXPECT_NO_THROW(require_free_folder(own));
   core::write_file(own / "letter.txt", "mine");
   EXPECT_THROW(require_free_folder(own), InvalidInput);

@@ -51,7 +51,7 @@ TEST(ModelFolder, LeavesNothingWhenCancelled) {
 }
 
 TEST(ModelFolder, RefusesWhereItCannotWrite) {
-  EXPECT_THROW(write_model_folder("/nonexistent/out", builtin_model(), builtin_options(), model_folder_key(),
+  EXPECT_THROW(write_model_folder("/dev/null/out", builtin_model(), builtin_options(), model_folder_key(),
                                   std::nullopt, 1.0),
                IoError);
 }

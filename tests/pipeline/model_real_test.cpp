@@ -94,8 +94,7 @@ TEST(ModelReal, AscendingAortaOfACta) {
 TEST(ModelReal, CarotidSurface) {
   OSTIA_REQUIRE_SHARED(path, "vessels/carotid-jackyko/lumen.stl");
   Source source = load(path);
-  EXPECT_THROW(build_model(source, {}), GeometryError);  // six non-manifold edges and a loose part
-  source.surface = repaired(source.surface).mesh;
+  EXPECT_GE(source.warnings.size(), 2u);  // six non-manifold edges and a loose part
   const Model model = build_model(std::move(source), {});
   EXPECT_TRUE(model.meshed.quality.verdict.ok()) << model.meshed.quality.verdict.summary();
   EXPECT_EQ(model.meshed.centerlines.tree.vessels.size(), 2u);

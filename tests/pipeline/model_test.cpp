@@ -152,10 +152,12 @@ TEST(Model, WhatCannotBeMeshedIsToldBeforeAnything) {
   refused(volume, "layers");
 }
 
-TEST(Model, ClosedSurfaceNeedsItsEnds) {
+TEST(Model, AClosedSurfacesEndsAreFoundOrGiven) {
   const TriMesh closed = geometry::surface_of(geometry::straight_tube(20.0, 2.0), 0.4, false);
   ModelOptions options;
-  EXPECT_THROW(build_model(surface_source(closed), options), Error);
+  const Model found = build_model(surface_source(closed), options);
+  EXPECT_TRUE(found.meshed.quality.verdict.ok()) << found.meshed.quality.verdict.summary();
+  EXPECT_EQ(found.meshed.surface.faces.size(), 3u);
   options.source = Vec3(0, 0, 0);
   options.targets = {Vec3(0, 0, 20)};
   EXPECT_TRUE(build_model(surface_source(closed), options).meshed.quality.verdict.ok());
@@ -214,11 +216,15 @@ TEST(Model, RefusesFrontsThatNeverMeet) {
   expect_error(source_of(cut), options, ExitCode::bad_input, "meet");
 }
 
-TEST(Model, RefusesSurfacesWithSeveralPartsOrSelfIntersections) {
+TEST(Model, MeshesSeveralPartsAndRefusesSelfIntersections) {
   const TriMesh tube = geometry::surface_of(geometry::straight_tube(10.0, 2.0), 0.5, true);
   TriMesh moved = tube;
   for (Vec3& p : moved.points) p += Vec3(20, 0, 0);
-  expect_error(surface_source(geometry::merged(tube, moved)), {}, ExitCode::bad_input, "2 separate parts");
+  const Model two = build_model(surface_source(geometry::merged(tube, moved)), {});
+  EXPECT_TRUE(two.meshed.quality.verdict.ok()) << two.meshed.quality.verdict.summary();
+  EXPECT_EQ(two.meshed.surface.faces.size(), 5u) << "a wall, two inlets, two outlets";
+  EXPECT_NEAR(two.meshed.quality.volume.volume_mm3(), 2.0 * geometry::volume(geometry::fill_holes(tube).mesh),
+              0.01 * two.meshed.quality.volume.volume_mm3());
   TriMesh folded = tube;
   Vec3& pushed = folded.points[folded.points.size() / 2];  // through the wall across
   pushed = Vec3(-3.0 * pushed.x(), -3.0 * pushed.y(), pushed.z());

@@ -99,7 +99,7 @@ TEST(Repair, CountsWhatItDid) {
   EXPECT_EQ(count_of(out, "degenerate_triangles_dropped"), 1u);
   EXPECT_EQ(count_of(out, "duplicate_triangles_dropped"), 1u);
   EXPECT_EQ(count_of(out, "triangles_turned"), 2u);
-  EXPECT_EQ(count_of(out, "small_parts_triangles_dropped"), 1u);
+  EXPECT_EQ(count_of(out, "specks_dropped"), 1u);
   EXPECT_EQ(out.steps.size(), 6u);
   EXPECT_EQ(out.left, "none");
   ASSERT_EQ(out.done.size(), out.steps.size());
@@ -126,13 +126,13 @@ TEST(Repair, TakesApartWhatOnlyTouches) {
   const TriMesh both = geometry::welded(geometry::merged(one, other), 1e-9);
   const geometry::SurfaceFaults faults = geometry::find_faults(both, false);
   ASSERT_GT(faults.non_manifold_vertices + faults.non_manifold_edges, 0u);
-  RepairOptions options;
-  options.keep_parts = true;
-  const Repaired out = repaired(both, options);
+  const Repaired out = repaired(both);
   EXPECT_GE(count_of(out, "points_split"), 1u);
   EXPECT_EQ(geometry::find_faults(out.mesh, false).components, 2u);
   EXPECT_EQ(out.left, "none");
-  expect_sound(repaired(both).mesh);
+  RepairOptions options;
+  options.parts = KeptParts::largest;
+  expect_sound(repaired(both, options).mesh);
 }
 
 TEST(Repair, FillsHolesUpToTheWidthAsked) {

@@ -91,17 +91,16 @@ TEST(Source, ADicomFolderIsKnownByTheSeriesChosen) {
   EXPECT_THROW(load(study), InvalidInput);  // which of the two?
 }
 
-TEST(Source, DoesNotGuessTheUnit) {
+TEST(Source, TellsTheUnitByTheCalibreAndSaysSo) {
   const fs::path folder = testing::temporary_folder("source");
   geometry::TriMesh metres = source_tube();
   for (geometry::Vec3& p : metres.points) p *= 0.001;
   io::write_surface(folder / "m.stl", metres);
-  try {
-    load(folder / "m.stl");
-    FAIL();
-  } catch (const InvalidInput& error) {
-    EXPECT_NE(std::string(error.what()).find("--units"), std::string::npos);
-  }
+  const Source told = load(folder / "m.stl");
+  EXPECT_EQ(told.unit_mm, 1000.0);
+  ASSERT_EQ(told.warnings.size(), 1u);
+  EXPECT_NE(told.warnings[0].find("metres"), std::string::npos);
+  EXPECT_NE(told.warnings[0].find("--units"), std::string::npos);
   SourceOptions options;
   options.unit_mm = 1000.0;
   EXPECT_NEAR(load(folder / "m.stl", options).surface.points.front().norm(),

@@ -285,6 +285,74 @@ class Schemas(unittest.TestCase):
             with self.subTest(field):
                 self.assert_refused("motion-measures", broken)
 
+    def test_what_commands_print(self):
+        at = pathlib.Path(self.holder.name) / "printed"
+        at.mkdir()
+        header = ("NRRD0004\ntype: {}\ndimension: 3\nspace: left-posterior-superior\nsizes: 16 16 30\n"
+                  "space directions: (1,0,0) (0,1,0) (0,0,1)\nkinds: domain domain domain\nendian: little\n"
+                  "encoding: raw\nspace origin: (0,0,0)\n\n")
+        inside = [(x - 8) ** 2 + (y - 8) ** 2 < 8 and 3 < z < 26 for z in range(30) for y in range(16) for x in range(16)]
+        (at / "ct.nrrd").write_bytes(header.format("short").encode() + b"".join((300 if i else -80).to_bytes(2, "little", signed=True) for i in inside))
+        (at / "mask.nrrd").write_bytes(header.format("uint8").encode() + bytes(int(i) for i in inside))
+        (at / "tree.swc").write_text("1 2 0 0 0 2 -1\n2 2 0 0 9 2 1\n3 2 3 2 18 1.5 2\n4 2 -3 2 18 1.5 2\n")
+        (at / "lines.csv").write_text("x,y,z,radius\n" + "".join(f"8,8,{0.5 * i},2.5\n" for i in range(12, 48)))
+
+        def holds(schema, *arguments, codes=(0,)):
+            printed = json.loads(run(*arguments, "--json", codes=codes))
+            validator(schema).validate(printed)
+            for field in ("v", "kind"):
+                self.assert_refused(schema, {k: v for k, v in printed.items() if k != field})
+            return printed
+
+        holds("import", "import", at / "ct.nrrd", "-o", at / "ct.mha")
+        holds("segment", "segment", at / "ct.nrrd", "-o", at / "lumen.vtp", "--branch", "8,8,6:8,8,23", codes=(0, 4))
+        holds("segment", "segment", at / "mask.nrrd", "-o", at / "mask.vtp")
+        lines = holds("centerline", "centerline", at / "mask.vtp", "-o", at / "lines.vtp", "--source", "8,8,6", "--target", "8,8,23")
+        self.assertEqual(lines["unreached"], [])
+        holds("skeleton", "skeleton", at / "mask.nrrd", "-o", at / "skeleton.vtp")
+        holds("lumen", "lumen", at / "lines.csv", "-o", at / "wall.vtp", "--case", at / "case.ostia")
+        holds("replay", "replay", at / "case.ostia")
+        for source, target in (("mask.vtp", "a.stl"), ("lines.csv", "a.vtp"), ("tree.swc", "b.vtp"), ("ct.nrrd", "a.mha"),
+                               ("mask.nrrd", "b.mha"), ("case.ostia", "b.stl"), ("case.ostia", "c.csv"), ("../out/mesh.vtu", "a.msh"),
+                               ("../out/mesh.vtu", "c.vtp")):
+            with self.subTest(target):
+                holds("convert", "convert", at / source, at / target)
+        holds("convert", "convert", at / "mask.vtp", at / "d.vtp", "--repair", "--smooth", "2", "--subdivide", "1")
+        holds("grow", "grow", at / "tree.swc", "-o", at / "grown.vtp", "--wall", "1", codes=(0, 4))
+        holds("reconstruct", "reconstruct", at / "tree.swc", "-o", at / "tree.vtp", "--level", "1", "--sides", "4", "--hexahedra", at / "hexahedra.vtu")
+        for kind in ("case.ostia", "hexahedra.vtu", "../out/mesh.vtu", "../out"):
+            with self.subTest(kind):
+                holds("info", "info", at / kind)
+        holds("solver-case", "case", self.folder / "mesh.vtu", "-o", at / "flow")
+        holds("solver-case", "case", at / "flow", "--iterations", "10")
+        (at / "beat").mkdir()
+        for percent in (10, 40, 75):
+            (at / "beat" / f"p{percent}.stl").write_bytes((self.folder / "lumen.stl").read_bytes())
+        run("motion", "fit", at / "beat", "-o", at / "beating", "--depth", "1")
+        holds("info", "info", at / "beating")
+        holds("motion-apply", "motion", "apply", at / "beating", self.folder / "lumen.stl", "-o", at / "b.vtp", "--phase", "40")
+        holds("motion-apply", "motion", "apply", at / "beating", self.folder / "mesh.vtu", "-o", at / "b.vtu", "--phase", "40")
+        holds("motion-export", "motion", "export", at / "beating", "-o", at / "moving", "--times", "3")
+        chain = {"v": 1, "variables": {"mask": "mask.nrrd"}, "steps": [{"command": "skeleton", "input": "{mask}", "output": "lines.vtp"}]}
+        (at / "chain.json").write_text(json.dumps(chain))
+        for _ in range(2):  # the second time it is there already
+            self.assertEqual(len(holds("run", "run", at / "chain.json", "-o", at / "run", "--set", f"mask={at / 'mask.nrrd'}")["steps"]), 1)
+        (at / "table.csv").write_text(f"case,mask\none,{at / 'mask.nrrd'}\n")
+        self.assertEqual(holds("batch", "batch", at / "table.csv", "--pipeline", at / "chain.json", "-o", at / "batch")["well"], 1)
+
+    def test_every_command_has_json(self):
+        def commands(words):
+            text = run(*words, "--help")
+            below = [line.split()[0] for line in text.partition("Subcommands:\n")[2].partition("\n\n")[0].splitlines() if line.startswith("  ") and line[2] != " "]
+            if not below:
+                yield words, text
+            for word in below:
+                yield from commands([*words, word])
+
+        for words, text in commands([]):
+            with self.subTest(" ".join(words)):
+                self.assertIn("--json", text)
+
     def test_broken_documents_fail(self):
         for field in self.report:
             broken = copy.deepcopy(self.report)

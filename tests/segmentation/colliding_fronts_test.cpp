@@ -99,7 +99,8 @@ TEST(CollidingFronts, SayWhatIsWrong) {
       [&] {
         colliding_fronts(image, {kStraight.from, std::nullopt, apart.to});
       },
-      ThrowsMessage<GeometryError>(HasSubstr("never meet")));
+      ThrowsMessage<GeometryError>(::testing::AllOf(HasSubstr("never meet"), HasSubstr("came as far as (11."),
+                                                    HasSubstr("mm before the other seed"))));
   CollidingFrontsOptions narrow;
   narrow.lower_hu = 400.0;
   narrow.upper_hu = 600.0;

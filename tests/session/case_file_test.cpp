@@ -55,7 +55,7 @@ TEST(CaseFile, DoesNotReplaceAFile) {
   write_bytes(folder / "a.ostia", "precious");
   EXPECT_THROW(CaseFile::create(folder / "a.ostia", tube_model()), IoError);
   EXPECT_EQ(bytes_of_file(folder / "a.ostia"), "precious");
-  EXPECT_THROW(CaseFile::create(folder / "none" / "a.ostia", tube_model()), IoError);
+  EXPECT_THROW(CaseFile::create(folder / "a.ostia" / "b.ostia", tube_model()), IoError);
   EXPECT_THROW(CaseFile::create(folder / "b.ostia", lumen::LumenModel{tube_model().tree, {}, {}, 1, 1}),
                InvalidInput);
   EXPECT_FALSE(fs::exists(folder / "b.ostia"));

@@ -128,7 +128,7 @@ TEST(ReportFolder, IsWrittenWholeOrNotAtAll) {
   write_bytes(folder / "b" / "mine.txt", "mine");
   EXPECT_THROW(write_case_report(folder / "b", made.report, made.images, job()), InvalidInput);
   EXPECT_EQ(bytes_of_file(folder / "b" / "mine.txt"), "mine");
-  EXPECT_THROW(write_case_report(folder / "missing" / "c", made.report, made.images, job()), IoError);
+  EXPECT_THROW(write_case_report(folder / "b" / "mine.txt" / "c", made.report, made.images, job()), IoError);
 }
 
 TEST(ReportFolder, TakesFurtherPicturesAndRefusesUnfitNames) {

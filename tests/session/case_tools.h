@@ -118,10 +118,7 @@ inline analysis::Measurement measurement(analysis::MeasureKind kind, std::int32_
   made.outer_mm = 2.7;
   return made;
 }
-inline constexpr std::array<analysis::MeasureKind, 7> all_kinds{
-    analysis::MeasureKind::distance, analysis::MeasureKind::angle,    analysis::MeasureKind::area,
-    analysis::MeasureKind::diameter, analysis::MeasureKind::stenosis, analysis::MeasureKind::volume,
-    analysis::MeasureKind::ring_hu};
+inline constexpr auto all_kinds = analysis::measure_kinds;
 
 inline MeasureAdd added(analysis::MeasureKind kind, std::int32_t vessel = tube_vessel) {
   return {measurement(kind, vessel)};

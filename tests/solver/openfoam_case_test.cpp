@@ -90,7 +90,7 @@ TEST(OpenfoamCase, APulsatileInletCarriesTheFlowAtAllTimes) {
   const double steps = 0.8 / 4 / made.time_step_s;
   EXPECT_NEAR(steps, std::round(steps), 1e-9);
   EXPECT_GT(steps, 2.0);
-  EXPECT_NE(core::read_file(folder / "system" / "controlDict").find("pisoFoam"), std::string::npos);
+  EXPECT_NE(core::read_file(folder / "system" / "controlDict").find("pimpleFoam"), std::string::npos);
 }
 
 TEST(OpenfoamCase, IsTheSameEveryTime) {

@@ -2,6 +2,9 @@
 
 #include "solver_test_support.h"
 
+#include "ostia/solver/flow_result.h"
+#include "ostia/solver/openfoam_continue.h"
+
 namespace ostia::solver {
 namespace {
 
@@ -56,6 +59,30 @@ TEST(OpenfoamRun, OutletsResist) {
     EXPECT_NEAR(pressure / (outlet.resistance_pa_s_m3 * 1e-6 * ml_s), 1.0, most);
     EXPECT_NEAR(pressure / (90.0 * 133.322), 1.0, 1e-2);
   }
+}
+
+TEST(OpenfoamRun, OneThatDidNotConvergeGoesOnFromWhereItWas) {
+  NEEDS_OPENFOAM();
+  const geometry::MixedMesh mesh = vessel(geometry::straight_tube(6.0, 1.5), 0.7, 2);
+  OpenfoamCaseOptions options;
+  options.flow.flow_ml_s = 0.5;
+  options.iterations = 20;
+  const fs::path folder = run_case(mesh, options);
+  EXPECT_FALSE(read_flow_result(folder).run.converged);
+  const CaseLength length = continue_openfoam_case(folder, 1000, std::nullopt);
+  EXPECT_DOUBLE_EQ(length.now, 20.0);
+  const Shell done = shell(folder, "./Allrun");
+  EXPECT_TRUE(done.good) << done.output << last_words(folder);
+  const FlowResult read = read_flow_result(folder);
+  EXPECT_TRUE(read.run.converged);
+  EXPECT_GT(read.run.last, 20.0);
+  const std::string log = core::read_file(folder / "log.simpleFoam");
+  EXPECT_NE(log.find("\nTime = 21\n"), std::string::npos);
+  EXPECT_EQ(log.find("\nTime = 20\n"), std::string::npos);
+  // As one that was never stopped.
+  options.iterations = 1000;
+  const FlowResult whole = read_flow_result(run_case(mesh, options));
+  EXPECT_NEAR(read.ends[0].pressure_pa, whole.ends[0].pressure_pa, 1e-4 * whole.ends[0].pressure_pa);
 }
 
 /// Narrows the branch of a fork on the side of +x to half its radius over 3 mm, about a place of its axis.

@@ -63,9 +63,9 @@ inline std::string last_words(const std::filesystem::path& folder) {
   return shell(folder, "tail -n 25 log.*").output;
 }
 
-#define NEEDS_OPENFOAM()                                                  \
-  if (!shell("/", "command -v simpleFoam && command -v pisoFoam").good) { \
-    GTEST_SKIP() << "openfoam is not installed";                          \
+#define NEEDS_OPENFOAM()                                                    \
+  if (!shell("/", "command -v simpleFoam && command -v pimpleFoam").good) { \
+    GTEST_SKIP() << "openfoam is not installed";                            \
   }
 
 /// Writes and runs a case; its folder.

@@ -256,6 +256,7 @@ TEST_F(MeshingWindow, WhatFailsIsOneMessageWithTheWayOut) {
   type(in_dialog<QLineEdit>("folder"), QString::fromStdString((gone / "mesh").string()));
   click_go();
   fs::rename(gone, folder / "elsewhere");  // the place goes away while the mesh is made
+  core::write_file(gone, "");              // and cannot be made again
   QMessageBox* box = nullptr;
   ASSERT_TRUE(wait_until(
       [&] {

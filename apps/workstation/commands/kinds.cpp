@@ -4,10 +4,12 @@
 #include "shell/desk.h"
 
 #include <QActionGroup>
+#include <string>
 
 namespace ostia::workstation {
 
 Command tool_command(Command command, session::Tool tool, Desk& desk, QActionGroup& group) {
+  command.id = QString::fromStdString("tool." + std::string(session::traits_of(tool).name));
   command.run = [&desk, tool, tip = command.tip] {
     desk.messages.say(tip);
     desk.bench.tool.set(tool);  // who watches it may have something better to say

@@ -12,7 +12,7 @@ namespace ostia::workstation {
 struct Desk;
 
 /// Chooses what the mouse does in the views and says it in the status line. Of those in `group` one is
-/// chosen.
+/// chosen. Its id is the tool's: "tool.brush".
 Command tool_command(Command command, session::Tool tool, Desk& desk, QActionGroup& group);
 
 /// Can be used while a case is open.

@@ -6,10 +6,9 @@
 #include "ostia/core/child_process.h"
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
+#include "ostia/pipeline/solver_case.h"
 #include "ostia/solver/flow_files.h"
-#include "ostia/solver/openfoam_case.h"
 #include "ostia/solver/openfoam_launch.h"
-#include "ostia/solver/svmultiphysics_case.h"
 
 #include <QCoreApplication>
 #include <QDesktopServices>
@@ -63,14 +62,8 @@ using Warnings = std::vector<std::string>;
 
 Warnings write_case(const FlowChoice& choice, const solver::BoundaryFlowOptions& flow,
                     const geometry::MixedMesh& mesh, const core::TaskContext& task) {
-  if (choice.solver == FlowSolver::svmultiphysics) {
-    solver::SvmultiphysicsCaseOptions options;
-    options.flow = flow;
-    return solver::write_svmultiphysics_case(mesh, options, choice.folder, task).warnings;
-  }
-  solver::OpenfoamCaseOptions options;
-  options.flow = flow;
-  return solver::write_openfoam_case(mesh, options, choice.folder, task).warnings;
+  return pipeline::write_solver_case(mesh, pipeline::solver_case(choice.solver, flow), choice.folder, task)
+      .warnings;
 }
 
 struct Run {
@@ -178,8 +171,8 @@ void FlowCases::tell_written(const FlowChoice& made, const Warnings& warnings, c
   QStringList notes{as_text(made.folder)};
   for (const std::string& warning : warnings) notes << QString::fromStdString(warning);
   if (!warnings.empty()) desk_.messages.say(QString::fromStdString(warnings.front()));
-  const std::string program = made.waveform.empty() ? "simpleFoam" : "pisoFoam";
-  const bool here = made.solver == FlowSolver::openfoam && core::program_on_path(program);
+  const std::string program = made.waveform.empty() ? "simpleFoam" : "pimpleFoam";
+  const bool here = made.solver == pipeline::SolverKind::openfoam && core::program_on_path(program);
   if (here && made.run && !desk_.jobs.running("flow_run"))
     run(made.folder, of);
   else if (here)

@@ -17,10 +17,12 @@
 #include <QPushButton>
 #include <QTreeWidget>
 #include <cmath>
+#include <string>
 
 namespace ostia::workstation {
 namespace {
 
+using pipeline::SolverKind;
 using solver::Outlets;
 
 constexpr double most_flow_ml_s = 50.0, least_flow_ml_s = 1e-3;
@@ -28,7 +30,7 @@ constexpr double least_viscosity = 0.1, most_viscosity = 100.0;
 constexpr double least_density = 500.0, most_density = 2000.0;
 
 QString program_of(bool pulsatile) {
-  return pulsatile ? QStringLiteral("pisoFoam") : QStringLiteral("simpleFoam");
+  return pulsatile ? QStringLiteral("pimpleFoam") : QStringLiteral("simpleFoam");
 }
 
 bool between(double value, double least, double most) {
@@ -36,6 +38,10 @@ bool between(double value, double least, double most) {
 }
 
 }  // namespace
+
+QString title_of(SolverKind kind) {
+  return QString::fromStdString(std::string(traits_of(kind).title));
+}
 
 FlowMesh read_flow_mesh(const std::filesystem::path& file) {
   FlowMesh read;
@@ -92,10 +98,10 @@ QString FlowDialog::mesh_trouble() const {
   if (mesh_.mesh->quadratic())
     return tr(
         "Its elements are quadratic, the solvers take linear ones. Export the mesh with linear elements.");
-  if (solver() == FlowSolver::svmultiphysics && !mesh_.mesh->prisms.empty())
-    return tr(
-        "It has prisms, svMultiPhysics takes tetrahedra alone. Export it with layers as tetrahedra, or "
-        "choose OpenFOAM.");
+  if (!traits_of(solver()).prisms && !mesh_.mesh->prisms.empty())
+    return tr("It has prisms, %1 takes tetrahedra alone. Export it with layers as tetrahedra, or "
+              "choose OpenFOAM.")
+        .arg(title_of(solver()));
   return {};
 }
 
@@ -108,9 +114,9 @@ QString FlowDialog::flow_trouble() const {
 }
 
 QString FlowDialog::outlets_trouble() const {
-  if (solver() != FlowSolver::svmultiphysics || choice().outlets != Outlets::split) return {};
-  return tr(
-      "svMultiPhysics has no outlets with a given share. Choose pressure 0 or resistances, or OpenFOAM.");
+  if (traits_of(solver()).shares || choice().outlets != Outlets::split) return {};
+  return tr("%1 has no outlets with a given share. Choose pressure 0 or resistances, or OpenFOAM.")
+      .arg(title_of(solver()));
 }
 
 QString FlowDialog::blood_trouble() const {
@@ -168,11 +174,13 @@ void FlowDialog::show_ends() {
 void FlowDialog::show_note() {
   const FlowChoice now = choice();
   const QString program = program_of(!now.waveform.empty());
-  const bool openfoam = now.solver == FlowSolver::openfoam;
+  const bool openfoam = now.solver == SolverKind::openfoam;
   const bool here = openfoam && core::program_on_path(program.toStdString());
   run_->setEnabled(here);
   if (!openfoam)
-    note_->setText(tr("Run it where svMultiPhysics is installed: svmultiphysics solver.xml in the folder."));
+    note_->setText(
+        tr("Run it where %1 is installed: %2 in the folder.")
+            .arg(title_of(now.solver), QString::fromStdString(std::string(traits_of(now.solver).run))));
   else if (!here)
     note_->setText(
         tr("%1 is not on the PATH. Install OpenFOAM (Debian: apt install openfoam), or run Allrun in "
@@ -183,8 +191,8 @@ void FlowDialog::show_note() {
   note_->setVisible(!note_->text().isEmpty());
 }
 
-FlowSolver FlowDialog::solver() const {
-  return static_cast<FlowSolver>(solver_->currentData().toInt());
+SolverKind FlowDialog::solver() const {
+  return static_cast<SolverKind>(solver_->currentData().toInt());
 }
 
 FlowChoice FlowDialog::choice() const {

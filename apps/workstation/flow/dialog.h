@@ -4,7 +4,8 @@
 #include "meshing/fields.h"
 #include "shell/fitted_dialog.h"
 
-#include "ostia/solver/boundary_flow.h"
+#include "ostia/pipeline/solver_case.h"
+#include "ostia/solver/boundary_conditions.h"
 
 #include <QTimer>
 #include <filesystem>
@@ -25,12 +26,12 @@ namespace ostia::workstation {
 
 class NewFolderField;
 
-enum class FlowSolver { openfoam, svmultiphysics };
+QString title_of(pipeline::SolverKind kind);  ///< "OpenFOAM"
 
 /// What was chosen; kept for the next time.
 struct FlowChoice {
   std::filesystem::path mesh, folder;
-  FlowSolver solver = FlowSolver::openfoam;
+  pipeline::SolverKind solver = pipeline::SolverKind::openfoam;
   std::optional<double> flow_ml_s;  ///< through each inlet; nothing: by its diameter
   std::string waveform;             ///< as solver::builtin_waveform knows it; empty: steady
   solver::Outlets outlets = solver::Outlets::split;
@@ -80,7 +81,7 @@ class FlowDialog final : public FittedDialog {
   QString flow_trouble() const;
   QString outlets_trouble() const;
   QString blood_trouble() const;
-  FlowSolver solver() const;
+  pipeline::SolverKind solver() const;
 
   QLineEdit* mesh_file_ = nullptr;
   NewFolderField* folder_ = nullptr;

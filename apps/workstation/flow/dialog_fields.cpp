@@ -14,6 +14,7 @@
 #include <QTreeWidget>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <string>
 
 namespace ostia::workstation {
 namespace {
@@ -102,10 +103,12 @@ void FlowDialog::add_ends(QFormLayout* form) {
 
 void FlowDialog::add_solver(QFormLayout* form, const FlowChoice& last) {
   solver_ = list("flow_solver", tr("Solver"));
-  solver_->addItem(QStringLiteral("OpenFOAM"), static_cast<int>(FlowSolver::openfoam));
-  solver_->addItem(QStringLiteral("svMultiPhysics (SimVascular)"),
-                   static_cast<int>(FlowSolver::svmultiphysics));
-  solver_->setCurrentIndex(last.solver == FlowSolver::openfoam ? 0 : 1);
+  for (const pipeline::SolverKind kind : pipeline::solver_kinds) {
+    const QString suite = QString::fromStdString(std::string(traits_of(kind).suite));
+    solver_->addItem(suite.isEmpty() ? title_of(kind) : title_of(kind) + " (" + suite + ")",
+                     static_cast<int>(kind));
+  }
+  solver_->setCurrentIndex(solver_->findData(static_cast<int>(last.solver)));
   form->addRow(export_field_label(tr("&Solver"), solver_), solver_);
   connect(solver_, QOverload<int>::of(&QComboBox::currentIndexChanged), this, &FlowDialog::check);
 }

@@ -43,7 +43,6 @@ void add_measuring_commands(CommandTable& table, Desk& desk, Reporting& reportin
                        desk));
   table.add(tool_command(
       {
-          .id = "tool.distance",
           .text = Command::tr("Distance"),
           .tip = Command::tr("Drag from one place to the other."),
           .keys = {"D", "1"},
@@ -51,7 +50,6 @@ void add_measuring_commands(CommandTable& table, Desk& desk, Reporting& reportin
       Tool::distance, desk, tools));
   table.add(tool_command(
       {
-          .id = "tool.angle",
           .text = Command::tr("Angle"),
           .tip = Command::tr("Click three places, the vertex second."),
           .keys = {"A", "2"},
@@ -59,7 +57,6 @@ void add_measuring_commands(CommandTable& table, Desk& desk, Reporting& reportin
       Tool::angle, desk, tools));
   table.add(tool_command(
       {
-          .id = "tool.area",
           .text = Command::tr("Area"),
           .tip = Command::tr("Draw around it."),
           .keys = {"R", "3"},
@@ -67,7 +64,6 @@ void add_measuring_commands(CommandTable& table, Desk& desk, Reporting& reportin
       Tool::area, desk, tools));
   table.add(tool_command(
       {
-          .id = "tool.diameter",
           .text = Command::tr("Diameter"),
           .tip = Command::tr("Drag across the lumen."),
           .keys = {"F", "4"},
@@ -75,7 +71,6 @@ void add_measuring_commands(CommandTable& table, Desk& desk, Reporting& reportin
       Tool::diameter, desk, tools));
   table.add(tool_command(
       {
-          .id = "tool.stenosis",
           .text = Command::tr("Stenosis"),
           .tip = Command::tr("On a CPR, drag from the proximal to the distal place of reference."),
           .keys = {"S", "5"},
@@ -83,7 +78,6 @@ void add_measuring_commands(CommandTable& table, Desk& desk, Reporting& reportin
       Tool::stenosis, desk, tools));
   table.add(tool_command(
       {
-          .id = "tool.volume",
           .text = Command::tr("Volume"),
           .tip = Command::tr("On a CPR, drag along the stretch of the vessel."),
           .keys = {"U", "6"},
@@ -91,7 +85,6 @@ void add_measuring_commands(CommandTable& table, Desk& desk, Reporting& reportin
       Tool::volume, desk, tools));
   table.add(tool_command(
       {
-          .id = "tool.ring_hu",
           .text = Command::tr("HU ring"),
           .tip = Command::tr("Click where CT numbers about the lumen are wanted."),
           .keys = {"H", "7"},

@@ -61,7 +61,7 @@ MainWindow::MainWindow(const std::filesystem::path& state_folder)
   build_parts();
   build_commands();
   connect_parts();
-  auto* start = new StartPage(desk_, *commands_, panes_->curved());
+  auto* start = new StartPage(desk_, *commands_, panels_->curved());
   connect(start, &StartPage::file_chosen, this, [this](const QString& path) { open(path.toStdString()); });
   restore_layout();
   watch_case();
@@ -108,23 +108,23 @@ void MainWindow::build_parts() {
   opening_ = std::make_unique<Opening>(desk_);
   reporting_ = std::make_unique<Reporting>(desk_);
   finder_ = std::make_unique<VesselFinder>(desk_, *opening_);
-  panes_ = new Panes(desk_);
-  panes_->add_beside_tree(heart_behind(desk_, panes_->scene(), *opening_));
-  setCentralWidget(&panes_->whole());
-  meshing_ = std::make_unique<MeshingExport>(desk_, panes_->scene());
-  flow_results_ = std::make_unique<FlowResults>(desk_, panes_->scene());
+  panels_ = new PanelLayout(desk_);
+  panels_->add_beside_tree(heart_behind(desk_, panels_->scene(), *opening_));
+  setCentralWidget(&panels_->whole());
+  meshing_ = std::make_unique<MeshingExport>(desk_, panels_->scene());
+  flow_results_ = std::make_unique<FlowResults>(desk_, panels_->scene());
   flow_cases_ = std::make_unique<FlowCases>(desk_, *flow_results_);
   beating_ = new BeatingCase(desk_, *this);
-  outer_walls_ = std::make_unique<OuterWalls>(desk_, panes_->pictures(), &panes_->profile());
+  outer_walls_ = std::make_unique<OuterWalls>(desk_, panels_->pictures(), &panels_->profile());
   build_qa();
   addDockWidget(Qt::RightDockWidgetArea, &meshing_->panel());
   meshing_->panel().hide();
 }
 
 void MainWindow::connect_parts() {
-  connect(panes_, &Panes::hovered, place_, &QLabel::setText);
-  connect(panes_, &Panes::end_chosen, finder_.get(), &VesselFinder::find_vessel);
-  connect(panes_, &Panes::narrow_changed, place_, [this, wide = place_->minimumWidth()](bool narrow) {
+  connect(panels_, &PanelLayout::hovered, place_, &QLabel::setText);
+  connect(panels_, &PanelLayout::end_chosen, finder_.get(), &VesselFinder::find_vessel);
+  connect(panels_, &PanelLayout::narrow_changed, place_, [this, wide = place_->minimumWidth()](bool narrow) {
     place_->setMinimumWidth(narrow ? 0 : wide);  // what a tool says needs the room
   });
   connect(opening_.get(), &Opening::file_chosen, this,
@@ -179,7 +179,7 @@ void MainWindow::open_sample() {
 }
 
 void MainWindow::remember_layout() {
-  std::map<std::string, std::string> settings = panes_->layout_settings();
+  std::map<std::string, std::string> settings = panels_->layout_settings();
   settings["geometry"] = saveGeometry().toBase64().toStdString();
   desk_.messages.guarded([&] { desk_.machine.set_settings(settings); });
 }
@@ -188,7 +188,7 @@ void MainWindow::restore_layout() {
   const auto geometry = desk_.machine.setting("geometry");
   restoreGeometry(geometry ? QByteArray::fromBase64(QByteArray::fromStdString(*geometry)) : QByteArray());
   resize(size().boundedTo(screen()->availableSize()));
-  panes_->restore_layout();
+  panels_->restore_layout();
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {

@@ -2,7 +2,7 @@
 /// \file The window: puts the parts together, and says what goes from one to the other.
 
 #include "shell/desk.h"
-#include "shell/panes.h"
+#include "shell/panel_layout.h"
 #include "views/scene_widget.h"
 
 #include <QElapsedTimer>
@@ -49,7 +49,7 @@ class MainWindow final : public QMainWindow {
   session::MachineState& machine() { return desk_.machine; }
   Jobs& jobs() { return desk_.jobs; }
   CommandTable& commands() { return *commands_; }
-  SceneWidget& scene() { return panes_->scene(); }
+  SceneWidget& scene() { return panels_->scene(); }
   VesselFinder& finder() { return *finder_; }
   Reporting& reporting() { return *reporting_; }
   FlowCases& flow_cases() { return *flow_cases_; }
@@ -81,7 +81,7 @@ class MainWindow final : public QMainWindow {
   std::unique_ptr<Opening> opening_;
   std::unique_ptr<Reporting> reporting_;
   std::unique_ptr<VesselFinder> finder_;
-  Panes* panes_ = nullptr;
+  PanelLayout* panels_ = nullptr;
   std::unique_ptr<MeshingExport> meshing_;
   bool must_end_ = false;
   std::unique_ptr<OuterWalls> outer_walls_;  // goes before the views that it draws on

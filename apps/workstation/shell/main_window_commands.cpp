@@ -29,7 +29,7 @@ namespace ostia::workstation {
 
 void MainWindow::build_qa() {
   const Guard loud = [this](const std::function<void()>& act) { desk_.messages.guarded(act, true); };
-  qa_ = std::make_shared<QaPanel>(desk_.bench, panes_->pictures(), panes_->scene(), desk_.jobs, loud, this);
+  qa_ = std::make_shared<QaPanel>(desk_.bench, panels_->pictures(), panels_->scene(), desk_.jobs, loud, this);
   connect(qa_.get(), &QaPanel::said, this, [this](const QString& text) { desk_.messages.say(text); });
   connect(qa_.get(), &QaPanel::refused, this,
           [this](const QString& why) { desk_.messages.complain(why, tr("The truth cannot be opened")); });
@@ -43,10 +43,10 @@ void MainWindow::build_commands() {
   auto& tools = *new QActionGroup(commands_);
   auto* keyboard = new Keyboard(this);
   auto* help = new Help(desk_, *commands_);
-  add_shell_commands(*commands_, desk_, panes_->scene());
+  add_shell_commands(*commands_, desk_, panels_->scene());
   add_keyboard_commands(*commands_, *keyboard);
   add_opening_commands(*commands_, desk_, *opening_);
-  add_view_commands(*commands_, desk_, panes_->pictures(), panes_->scene(), tools);
+  add_view_commands(*commands_, desk_, panels_->pictures(), panels_->scene(), tools);
   add_vessel_commands(*commands_, desk_, *finder_, *outer_walls_, tools);
   add_measuring_commands(*commands_, desk_, *reporting_, tools);
   add_meshing_commands(*commands_, desk_, *meshing_);

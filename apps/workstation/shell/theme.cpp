@@ -1,8 +1,10 @@
 #include "shell/theme.h"
 
 #include <QApplication>
+#include <QColor>
 #include <QIcon>
 #include <QPainter>
+#include <QPalette>
 #include <QProxyStyle>
 #include <QStyleOption>
 
@@ -92,78 +94,6 @@ void apply_theme(Theme theme) {
 
 Theme current_theme() {
   return theme_now;
-}
-
-QColor role_color(view::Role role, Ground ground) {
-  using view::Role;
-  const bool bright = ground == Ground::image || theme_now == Theme::dark;
-  switch (role) {
-    case Role::lumen:
-      return QColor(255, 176, 46);
-    case Role::outer_wall:
-      return bright ? QColor(240, 228, 66) : QColor(130, 115, 0);
-    case Role::truth:
-      return QColor(102, 219, 255);
-    case Role::axis:
-      return QColor(120, 200, 120);
-    case Role::other_axis:
-      return QColor(150, 150, 160);
-    case Role::cursor:
-      return bright ? QColor(90, 190, 255) : QColor(20, 110, 190);
-    case Role::reference:
-      return bright ? QColor(140, 220, 160) : QColor(30, 130, 60);
-    case Role::stenosis:
-      return QColor(232, 84, 72);
-    case Role::measurement:
-      return bright ? QColor(255, 240, 120) : QColor(130, 105, 0);
-    case Role::selected:
-      return bright ? QColor(255, 110, 220) : QColor(185, 20, 140);
-    case Role::stroke:
-      return QColor(120, 255, 220);
-    case Role::dismissed:
-      return QColor(255, 90, 90);
-    case Role::handle:
-      return QColor(255, 255, 255);
-    case Role::information:
-      return bright ? QColor(214, 218, 224) : QColor(40, 44, 50);
-    case Role::warning:
-      return QColor(255, 150, 60);
-    case Role::diameter:
-      return bright ? QColor(255, 176, 46) : QColor(180, 95, 0);
-    case Role::area:
-      return bright ? QColor(120, 170, 255) : QColor(40, 80, 190);
-    case Role::grid:
-      return bright ? QColor(110, 115, 125) : QColor(170, 174, 182);
-    // Told apart by the colour-blind, too, also over grey: warm is soft, blue is hard.
-    case Role::low_attenuation:
-      return QColor(213, 94, 0);
-    case Role::fibrofatty:
-      return QColor(240, 228, 66);
-    case Role::fibrous:
-      return QColor(40, 90, 255);
-    case Role::calcified:
-      return QColor(86, 180, 233);
-  }
-  return Qt::white;
-}
-
-double role_width(view::Role role) {
-  using view::Role;
-  switch (role) {
-    case Role::lumen:
-      return 1.6;
-    case Role::diameter:
-      return 1.8;
-    case Role::stroke:
-    case Role::selected:
-    case Role::measurement:
-      return 1.6;
-    case Role::grid:
-    case Role::outer_wall:
-      return 0.8;
-    default:
-      return 1.1;
-  }
 }
 
 }  // namespace ostia::workstation

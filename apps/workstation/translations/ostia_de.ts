@@ -1718,16 +1718,16 @@
         <translation>Seine Elemente sind quadratisch, die Löser nehmen lineare. Das Netz mit linearen Elementen exportieren.</translation>
     </message>
     <message>
-        <source>It has prisms, svMultiPhysics takes tetrahedra alone. Export it with layers as tetrahedra, or choose OpenFOAM.</source>
-        <translation>Es hat Prismen, svMultiPhysics nimmt nur Tetraeder. Mit Schichten als Tetraeder exportieren oder OpenFOAM wählen.</translation>
+        <source>It has prisms, %1 takes tetrahedra alone. Export it with layers as tetrahedra, or choose OpenFOAM.</source>
+        <translation>Es hat Prismen, %1 nimmt nur Tetraeder. Mit Schichten als Tetraeder exportieren oder OpenFOAM wählen.</translation>
     </message>
     <message>
         <source>A flow of %1 ml/s is not that of a vessel. Choose %2 to %3 ml/s.</source>
         <translation>Ein Fluss von %1 ml/s ist nicht der eines Gefäßes. %2 bis %3 ml/s wählen.</translation>
     </message>
     <message>
-        <source>svMultiPhysics has no outlets with a given share. Choose pressure 0 or resistances, or OpenFOAM.</source>
-        <translation>svMultiPhysics kennt keine Auslässe mit festem Anteil. Druck 0 oder Widerstände wählen, oder OpenFOAM.</translation>
+        <source>%1 has no outlets with a given share. Choose pressure 0 or resistances, or OpenFOAM.</source>
+        <translation>%1 kennt keine Auslässe mit festem Anteil. Druck 0 oder Widerstände wählen, oder OpenFOAM.</translation>
     </message>
     <message>
         <source>Choose a viscosity of %1 to %2 mPa s.</source>
@@ -1758,8 +1758,8 @@
         <translation>berechnet</translation>
     </message>
     <message>
-        <source>Run it where svMultiPhysics is installed: svmultiphysics solver.xml in the folder.</source>
-        <translation>Dort starten, wo svMultiPhysics installiert ist: svmultiphysics solver.xml im Ordner.</translation>
+        <source>Run it where %1 is installed: %2 in the folder.</source>
+        <translation>Dort starten, wo %1 installiert ist: %2 im Ordner.</translation>
     </message>
     <message>
         <source>%1 is not on the PATH. Install OpenFOAM (Debian: apt install openfoam), or run Allrun in the folder where it is installed.</source>
@@ -2811,7 +2811,7 @@
     </message>
 </context>
 <context>
-    <name>ostia::workstation::Panes</name>
+    <name>ostia::workstation::PanelLayout</name>
     <message>
         <source>Lumen profile</source>
         <translation>Lumenprofil</translation>

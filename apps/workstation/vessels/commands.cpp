@@ -71,7 +71,6 @@ void add_editing_tools(CommandTable& table, Desk& desk, QActionGroup& tools) {
   Workbench& bench = desk.bench;
   table.add(tool_command(
       {
-          .id = "tool.drag",
           .text = Command::tr("Pull"),
           .tip = Command::tr("Take the contour and pull it. Shift and wheel: how far the pull reaches."),
           .keys = {"E", "W"},
@@ -79,7 +78,6 @@ void add_editing_tools(CommandTable& table, Desk& desk, QActionGroup& tools) {
       Tool::drag, desk, tools));
   table.add(tool_command(
       {
-          .id = "tool.draw",
           .text = Command::tr("Draw"),
           .tip = Command::tr("Draw the wall anew, on a CPR or around the lumen on the cross-section."),
           .keys = {"W", "D"},
@@ -87,7 +85,6 @@ void add_editing_tools(CommandTable& table, Desk& desk, QActionGroup& tools) {
       Tool::draw, desk, tools));
   table.add(tool_command(
       {
-          .id = "tool.brush",
           .text = Command::tr("Brush"),
           .tip = Command::tr("A ball that pushes the wall: outwards from within, inwards from without."),
           .keys = {"B"},
@@ -95,7 +92,6 @@ void add_editing_tools(CommandTable& table, Desk& desk, QActionGroup& tools) {
       Tool::brush, desk, tools));
   table.add(tool_command(
       {
-          .id = "tool.axis",
           .text = Command::tr("Centerline"),
           .tip =
               Command::tr("Pull the centerline. Double click adds a control point, Delete takes one away."),
@@ -104,7 +100,6 @@ void add_editing_tools(CommandTable& table, Desk& desk, QActionGroup& tools) {
       Tool::axis, desk, tools));
   table.add(tool_command(
       {
-          .id = "tool.add_vessel",
           .text = Command::tr("Add vessel"),
           .tip = Command::tr("Click the distal end of a vessel; the way back to the tree is found."),
           .keys = {"V", "A"},

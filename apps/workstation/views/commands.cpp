@@ -175,7 +175,6 @@ void add_view_commands(CommandTable& table, Desk& desk, const std::vector<Pictur
                        SceneWidget& scene, QActionGroup& tools) {
   table.add(tool_command(
       {
-          .id = "tool.browse",
           .text = Command::tr("Browse"),
           .tip = Command::tr("The cursor goes where you click. Shift and drag: turn the CPR."),
           .keys = {"Esc", "Q; Esc"},

@@ -6,6 +6,7 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
+#include "ostia/core/text.h"
 
 #include <algorithm>
 #include <atomic>
@@ -16,12 +17,10 @@
 namespace ostia::analysis {
 namespace {
 
+using core::mm_text;
+
 constexpr double same_mm = 1e-6;
 constexpr std::size_t sections_per_task = 4;
-
-std::string mm(double value) {
-  return std::to_string(value) + " mm";
-}
 
 SectionMeasures measures_at(const SectionPlane& plane, const SectionContour& contour, double s_mm) {
   SectionMeasures measures;
@@ -86,7 +85,8 @@ double slice_volume(const SectionMeasures& a, const SectionMeasures& b) {
 
 void validate(const ProfileOptions& options) {
   if (!(options.step_mm >= 0.05 && options.step_mm <= 5.0))
-    throw InvalidInput("sections of a profile are " + mm(options.step_mm) + " apart; choose 0.05 to 5 mm");
+    throw InvalidInput("sections of a profile are " + mm_text(options.step_mm, 6) +
+                       " apart; choose 0.05 to 5 mm");
   if (options.around < 16 || options.around > 512)
     throw InvalidInput("a section has " + std::to_string(options.around) + " rays; choose 16 to 512");
 }
@@ -114,11 +114,12 @@ void update_profile(LumenProfile& profile, const lumen::LumenModel& model, const
   validate(profile.options);
   OwnedWalls walls(model, surface_of, profile.vessel);
   if (profile.sections.size() < 2 || !(std::abs(walls.axis().length() - profile.length_mm) <= same_mm))
-    throw InvalidInput("the profile is of an axis of " + mm(profile.length_mm) + " and vessel " +
-                       std::to_string(profile.vessel) + " has one of " + mm(walls.axis().length()) +
+    throw InvalidInput("the profile is of an axis of " + mm_text(profile.length_mm, 6) + " and vessel " +
+                       std::to_string(profile.vessel) + " has one of " + mm_text(walls.axis().length(), 6) +
                        "; measure the whole vessel anew");
   if (!(from_mm <= to_mm))
-    throw InvalidInput("a profile cannot be measured again from " + mm(from_mm) + " to " + mm(to_mm));
+    throw InvalidInput("a profile cannot be measured again from " + mm_text(from_mm, 6) + " to " +
+                       mm_text(to_mm, 6));
   const double step = profile.length_mm / static_cast<double>(profile.sections.size() - 1);
   const auto& all = profile.sections;
   const auto first = std::lower_bound(all.begin(), all.end(), from_mm - step - same_mm,
@@ -135,8 +136,8 @@ MeasuredSection measured_section(const lumen::LumenModel& model, const SurfaceOf
   validate(options);
   OwnedWalls walls(model, surface_of, vessel);
   if (!(s_mm >= -same_mm && s_mm <= walls.axis().length() + same_mm))
-    throw InvalidInput("vessel " + std::to_string(vessel) + " is " + mm(walls.axis().length()) +
-                       " long; it has no section at " + mm(s_mm));
+    throw InvalidInput("vessel " + std::to_string(vessel) + " is " + mm_text(walls.axis().length(), 6) +
+                       " long; it has no section at " + mm_text(s_mm, 6));
   s_mm = std::clamp(s_mm, 0.0, walls.axis().length());
   walls.ask(s_mm);
   const SectionContour contour = section_contour(walls.wall(s_mm), walls.axis(), s_mm, options.around);
@@ -160,13 +161,13 @@ SectionMeasures at(const LumenProfile& profile, double s_mm) {
 
 double volume_mm3(const LumenProfile& profile, double from_mm, double to_mm) {
   if (!(from_mm >= -same_mm && from_mm <= to_mm && to_mm <= profile.length_mm + same_mm))
-    throw InvalidInput("a volume from " + mm(from_mm) + " to " + mm(to_mm) + " is not within the vessel, " +
-                       mm(profile.length_mm) + " long");
+    throw InvalidInput("a volume from " + mm_text(from_mm, 6) + " to " + mm_text(to_mm, 6) +
+                       " is not within the vessel, " + mm_text(profile.length_mm, 6) + " long");
   SectionMeasures before = at(profile, from_mm);
   double volume = 0.0;
   const auto add = [&](const SectionMeasures& next) {
     if (!before.found || !next.found)
-      throw InvalidInput("the lumen has no measured section near " + mm(next.s_mm) +
+      throw InvalidInput("the lumen has no measured section near " + mm_text(next.s_mm, 6) +
                          "; choose a stretch without gaps");
     volume += slice_volume(before, next);
     before = next;

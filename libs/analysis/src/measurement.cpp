@@ -5,6 +5,7 @@
 #include "ostia/analysis/stenosis.h"
 #include "ostia/core/error.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -13,34 +14,31 @@
 namespace ostia::analysis {
 namespace {
 
-constexpr std::array<const char*, 7> kind_names{"distance", "angle",  "area",   "diameter",
-                                                "stenosis", "volume", "ring_hu"};
+// Kind, name, label; points, more, fault; of a vessel.
+constexpr std::array<MeasureTraits, measure_kinds.size()> measure_table = {{
+    {MeasureKind::distance, "distance", "distance", 2, false, "a distance needs two points", false},
+    {MeasureKind::angle, "angle", "angle", 3, false, "an angle needs three points, its vertex second", false},
+    {MeasureKind::area, "area", "area", 3, true, "an area needs a line of at least three points", false},
+    {MeasureKind::diameter, "diameter", "diameter", 2, false, "a diameter needs two points", false},
+    {MeasureKind::stenosis, "stenosis", "stenosis", 0, true, "", true},
+    {MeasureKind::volume, "volume", "volume", 0, true, "", true},
+    {MeasureKind::ring_hu, "ring_hu", "HU in a ring", 0, true, "", true},
+}};
+constexpr const char* no_kind = "a kind of measurement that is none of the seven";
 constexpr double least_ring_mm = 0.05, widest_ring_mm = 20.0;
 
-bool of_vessel(MeasureKind kind) {
-  return kind == MeasureKind::stenosis || kind == MeasureKind::volume || kind == MeasureKind::ring_hu;
+const MeasureTraits* find_traits(MeasureKind kind) {
+  const auto found = std::ranges::find(measure_table, kind, &MeasureTraits::kind);
+  return found == measure_table.end() ? nullptr : &*found;
 }
 
-std::optional<std::string> points_fault(const Measurement& measurement) {
+std::optional<std::string> points_fault(const Measurement& measurement, const MeasureTraits& traits) {
   const std::size_t count = measurement.points.size();
-  switch (measurement.kind) {
-    case MeasureKind::distance:
-      if (count != 2) return "a distance needs two points";
-      break;
-    case MeasureKind::diameter:
-      if (count != 2) return "a diameter needs two points";
-      break;
-    case MeasureKind::angle:
-      if (count != 3) return "an angle needs three points, its vertex second";
-      if (measurement.points[0] == measurement.points[1] || measurement.points[2] == measurement.points[1])
-        return "an angle needs two points that are not its vertex";
-      break;
-    case MeasureKind::area:
-      if (count < 3) return "an area needs a line of at least three points";
-      break;
-    default:
-      break;
-  }
+  if (count < traits.points || (count > traits.points && !traits.more_points))
+    return std::string(traits.fault);
+  if (measurement.kind == MeasureKind::angle &&
+      (measurement.points[0] == measurement.points[1] || measurement.points[2] == measurement.points[1]))
+    return "an angle needs two points that are not its vertex";
   for (const Vec3& p : measurement.points) {
     if (!p.allFinite()) return "a point is not finite";
   }
@@ -137,26 +135,29 @@ std::string shown_unit(const std::string& unit) {
 
 }  // namespace
 
+const MeasureTraits& traits_of(MeasureKind kind) {
+  if (const MeasureTraits* traits = find_traits(kind)) return *traits;
+  throw InvalidInput(no_kind);
+}
+
 std::string to_string(MeasureKind kind) {
-  const auto at = static_cast<std::size_t>(kind);
-  if (at >= kind_names.size()) throw InvalidInput("a kind of measurement that is none of the seven");
-  return kind_names[at];
+  return std::string(traits_of(kind).name);
 }
 
 MeasureKind measure_kind(const std::string& name) {
   std::string known;
-  for (std::size_t i = 0; i < kind_names.size(); ++i) {
-    if (name == kind_names[i]) return static_cast<MeasureKind>(i);
-    known += (i == 0 ? "" : ", ") + std::string(kind_names[i]);
+  for (const MeasureTraits& one : measure_table) {
+    if (name == one.name) return one.kind;
+    known += (known.empty() ? "" : ", ") + std::string(one.name);
   }
   throw InvalidInput("there is no measurement called \"" + name + "\"; choose one of " + known);
 }
 
 std::optional<std::string> find_fault(const Measurement& measurement) {
-  if (static_cast<std::size_t>(measurement.kind) >= kind_names.size())
-    return "a kind of measurement that is none of the seven";
-  if (auto fault = points_fault(measurement)) return fault;
-  if (!of_vessel(measurement.kind)) return std::nullopt;
+  const MeasureTraits* traits = find_traits(measurement.kind);
+  if (!traits) return no_kind;
+  if (auto fault = points_fault(measurement, *traits)) return fault;
+  if (!traits->of_vessel) return std::nullopt;
   const std::string what = to_string(measurement.kind);
   if (measurement.vessel <= 0) return "a " + what + " needs a vessel";
   if (!(std::isfinite(measurement.from_mm) && measurement.from_mm >= 0.0))
@@ -193,7 +194,7 @@ std::vector<MeasuredValue> measured(const Measurement& measurement, const Measur
     case MeasureKind::ring_hu:
       return measured_ring(measurement, context);
   }
-  throw InvalidInput("a kind of measurement that is none of the seven");
+  throw InvalidInput(no_kind);
 }
 
 std::string to_text(const MeasuredValue& value) {

@@ -1,6 +1,7 @@
 #include "ostia/analysis/stenosis.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +11,8 @@
 
 namespace ostia::analysis {
 namespace {
+
+using core::mm_text;
 
 // A lesion reaches as far as the lumen is narrower than the reference by this share, or by half of the least
 // narrowing that counts.
@@ -21,9 +24,6 @@ constexpr double healthy_share = 0.05, healthy_within_mm = 10.0;
 
 double circle_area(double diameter) {
   return 0.25 * std::numbers::pi * diameter * diameter;
-}
-std::string mm_text(double value) {
-  return std::to_string(value) + " mm";
 }
 
 void set_percents(Stenosis& stenosis) {
@@ -169,7 +169,7 @@ void validate(const StenosisOptions& options) {
     throw InvalidInput("a stenosis counts from " + std::to_string(options.least_percent) +
                        " % of the diameter on; choose 5 to 95 %");
   if (!(options.least_length_mm >= 0.0 && options.least_length_mm <= 100.0))
-    throw InvalidInput("a stenosis counts from " + mm_text(options.least_length_mm) +
+    throw InvalidInput("a stenosis counts from " + mm_text(options.least_length_mm, 6) +
                        " of length on; choose 0 to 100 mm");
 }
 
@@ -182,7 +182,7 @@ std::vector<SectionMeasures> sections_between(const LumenProfile& profile, doubl
   sections.push_back(at(profile, to));
   for (const SectionMeasures& section : sections) {
     if (!section.found)
-      throw InvalidInput("the lumen is not measured at " + mm_text(section.s_mm) +
+      throw InvalidInput("the lumen is not measured at " + mm_text(section.s_mm, 6) +
                          ", between the two places of reference; choose a stretch without gaps");
   }
   return sections;
@@ -192,15 +192,16 @@ std::vector<SectionMeasures> sections_between(const LumenProfile& profile, doubl
 
 Stenosis stenosis_between(const LumenProfile& profile, double proximal_mm, double distal_mm) {
   if (!(proximal_mm >= 0.0 && distal_mm <= profile.length_mm + 1e-6 && proximal_mm < distal_mm))
-    throw InvalidInput("the places of reference, " + mm_text(proximal_mm) + " and " + mm_text(distal_mm) +
-                       ", must lie on the vessel, " + mm_text(profile.length_mm) +
+    throw InvalidInput("the places of reference, " + mm_text(proximal_mm, 6) + " and " +
+                       mm_text(distal_mm, 6) + ", must lie on the vessel, " + mm_text(profile.length_mm, 6) +
                        " long, the proximal one first");
   const auto sections = sections_between(profile, proximal_mm, distal_mm);
   const auto enclosed =
       std::count_if(profile.sections.begin(), profile.sections.end(),
                     [&](const SectionMeasures& a) { return a.s_mm >= proximal_mm && a.s_mm <= distal_mm; });
   if (enclosed < 2)
-    throw InvalidInput("the places of reference, " + mm_text(proximal_mm) + " and " + mm_text(distal_mm) +
+    throw InvalidInput("the places of reference, " + mm_text(proximal_mm, 6) + " and " +
+                       mm_text(distal_mm, 6) +
                        ", do not enclose two sections of the profile; choose them farther apart");
   const SectionMeasures &a = sections.front(), &b = sections.back();
   const auto share = [&](double s) { return (s - proximal_mm) / (distal_mm - proximal_mm); };

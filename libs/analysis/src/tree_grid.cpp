@@ -1,9 +1,9 @@
 #include "ostia/analysis/tree_ruler.h"
 #include "ostia/core/error.h"
+#include "ostia/core/text.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace ostia::analysis {
 
@@ -36,9 +36,7 @@ std::vector<double> grid_ticks(double low, double high, double step_mm) {
 std::string tick_text(double value_mm, const GridScale& scale) {
   const double step = scale.step_mm * scale.per_mm;
   const int decimals = std::max(0, static_cast<int>(-std::floor(std::log10(step) + 1e-9)));
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f %s", decimals, value_mm * scale.per_mm, scale.unit.c_str());
-  return text;
+  return core::fixed_text(value_mm * scale.per_mm, decimals) + " " + scale.unit;
 }
 
 }  // namespace ostia::analysis

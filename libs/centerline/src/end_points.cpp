@@ -1,11 +1,11 @@
 #include "ostia/centerline/end_points.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/text.h"
 #include "ostia/geometry/mesh_topology.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
 namespace ostia::centerline {
@@ -62,10 +62,9 @@ EndPoint end_at_point(const InnerVoronoi& diagram, const std::vector<Opening>& e
     return {snapped.point, diagram.points[static_cast<std::size_t>(snapped.point)], false};
   const std::int32_t behind = just_behind(diagram, point);
   if (behind < 0) {
-    char distance[64];
-    std::snprintf(distance, sizeof distance, "%.4g mm", -snapped.depth);
-    throw GeometryError(describe_point(role, point) + " lies outside the surface, " + distance +
-                        " from the nearest inscribed sphere: give a point inside the lumen");
+    throw GeometryError(describe_point(role, point) + " lies outside the surface, " +
+                        core::significant_text(-snapped.depth, 4) +
+                        " mm from the nearest inscribed sphere: give a point inside the lumen");
   }
   return {behind, diagram.points[static_cast<std::size_t>(behind)], false};
 }
@@ -106,9 +105,8 @@ std::vector<EndPoint> remaining_ends(const InnerVoronoi& diagram, const std::vec
 }  // namespace
 
 std::string describe_point(const std::string& role, const Vec3& point) {
-  char text[160];
-  std::snprintf(text, sizeof text, " (%.6g, %.6g, %.6g) mm", point.x(), point.y(), point.z());
-  return role + text;
+  return role + " (" + core::significant_text(point.x(), 6) + ", " + core::significant_text(point.y(), 6) +
+         ", " + core::significant_text(point.z(), 6) + ") mm";
 }
 
 std::vector<Opening> find_openings(const geometry::TriMesh& lumen) {

@@ -1,6 +1,7 @@
 #include "graph_editor.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/text.h"
 #include "ostia/geometry/polyline.h"
 
 #include <algorithm>
@@ -49,9 +50,8 @@ void require(bool good, const char* what, const char* name, double value, const 
 }
 
 std::string text(const Vec3& place) {
-  char buffer[128];
-  std::snprintf(buffer, sizeof buffer, "(%.2f, %.2f, %.2f) mm", place.x(), place.y(), place.z());
-  return buffer;
+  return "(" + core::fixed_text(place.x(), 2) + ", " + core::fixed_text(place.y(), 2) + ", " +
+         core::fixed_text(place.z(), 2) + ") mm";
 }
 
 LineEnd line_end(const SkeletonEdge& edge, bool at_first, double length_mm) {

@@ -103,8 +103,37 @@ void keep_tail(std::string& text, const char* data, std::size_t size) {
   if (text.size() > 2 * kept_error_bytes) text.erase(0, text.size() - kept_error_bytes);
 }
 
+/// A file that grows; nothing where no name is given.
+class GrowingLog {
+ public:
+  explicit GrowingLog(const fs::path& path) {
+    if (path.empty()) return;
+    fd_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+    if (fd_ < 0)
+      throw IoError("cannot write " + path.string() + ": " + std::generic_category().message(errno));
+  }
+  ~GrowingLog() {
+    if (fd_ >= 0) ::close(fd_);
+  }
+  GrowingLog(const GrowingLog&) = delete;
+  GrowingLog& operator=(const GrowingLog&) = delete;
+  /// A log that a full disk cuts off is no reason to end the work that it is about.
+  void add(const char* data, std::size_t size) const {
+    while (fd_ >= 0 && size > 0) {
+      const ssize_t wrote = ::write(fd_, data, size);
+      if (wrote < 0 && errno == EINTR) continue;
+      if (wrote <= 0) return;
+      data += wrote;
+      size -= static_cast<std::size_t>(wrote);
+    }
+  }
+
+ private:
+  int fd_ = -1;
+};
+
 // Reads the child's standard error until it closes; kills the child on cancel.
-std::string drain(int fd, pid_t child, const TaskContext& task) {
+std::string drain(int fd, pid_t child, const TaskContext& task, const GrowingLog& log) {
   std::string text;
   std::array<char, 4096> block{};
   while (true) {
@@ -115,7 +144,9 @@ std::string drain(int fd, pid_t child, const TaskContext& task) {
     if (ready <= 0) continue;
     const ssize_t got = ::read(fd, block.data(), block.size());
     if (got == 0 || (got < 0 && errno != EINTR)) break;
-    if (got > 0) keep_tail(text, block.data(), static_cast<std::size_t>(got));
+    if (got <= 0) continue;
+    keep_tail(text, block.data(), static_cast<std::size_t>(got));
+    log.add(block.data(), static_cast<std::size_t>(got));
   }
   if (text.size() > kept_error_bytes) text.erase(0, text.size() - kept_error_bytes);
   return text;
@@ -133,7 +164,7 @@ std::string ChildResult::describe() const {
 }
 
 ChildResult run_child(const fs::path& program, const std::vector<std::string>& arguments,
-                      const ChildLimits& limits, const TaskContext& task) {
+                      const ChildLimits& limits, const TaskContext& task, const fs::path& log_file) {
   if (::access(program.c_str(), X_OK) != 0) {
     throw IoError("the program " + program.string() + " is not there or cannot be run; install Ostia whole");
   }
@@ -143,6 +174,7 @@ ChildResult run_child(const fs::path& program, const std::vector<std::string>& a
   std::vector<std::string> variables = reduced_environment();
   const std::vector<char*> argv = pointers(words);
   const std::vector<char*> envp = pointers(variables);
+  const GrowingLog log(log_file);
   Pipe errors;
   const pid_t parent = ::getpid();
   const pid_t child = ::fork();
@@ -153,10 +185,12 @@ ChildResult run_child(const fs::path& program, const std::vector<std::string>& a
   errors.close_writer();
 
   ChildResult result;
-  result.standard_error = drain(errors.ends[0], child, task);
+  result.standard_error = drain(errors.ends[0], child, task, log);
   int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  rusage usage{};
+  while (::wait4(child, &status, 0, &usage) < 0 && errno == EINTR) {
   }
+  result.peak_mb = static_cast<double>(usage.ru_maxrss) / 1024.0;
   task.throw_if_cancelled();
   if (WIFEXITED(status)) {
     result.exit_code = WEXITSTATUS(status);

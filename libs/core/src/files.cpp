@@ -1,15 +1,17 @@
 #include "ostia/core/files.h"
 
+#include "made_parents.h"
+#include "part_names.h"
 #include "sha256.h"
 
 #include "ostia/core/error.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
-#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -78,24 +80,42 @@ fs::path folder_of(const fs::path& target) {
   return target.has_parent_path() ? target.parent_path() : fs::path(".");
 }
 
-void require_writable_folder(const fs::path& folder, const fs::path& target) {
-  if (!fs::is_directory(folder)) {
-    throw IoError("cannot write " + shown(target) + ": the folder " + shown(folder) +
-                  " does not exist; create it first");
-  }
-  if (::access(folder.c_str(), W_OK | X_OK) != 0) {
-    throw IoError("cannot write " + shown(target) + ": no permission to write in " + shown(folder));
-  }
+/// Folders that are not there are made, and go again where nothing is written into them.
+std::unique_ptr<MadeParents> made_writable(const fs::path& folder, const fs::path& target) {
+  const fs::path there = nearest_there(folder);
+  if (!fs::is_directory(there))
+    throw IoError("cannot write " + shown(target) + ": " + shown(there) + " is a file and no folder");
+  if (::access(there.c_str(), W_OK | X_OK) != 0)
+    throw IoError("cannot write " + shown(target) + ": no permission to write in " + shown(there));
+  return std::make_unique<MadeParents>(folder);
 }
 
-fs::path temporary_beside(const fs::path& target) {
-  static std::atomic<unsigned> counter{0};
-  const std::string suffix = ".part-" + std::to_string(::getpid()) + "-" + std::to_string(counter++);
-  // The extension is kept: writers of some libraries choose the format by it. Long names are shortened so
-  // that the file system's limit of 255 bytes holds.
-  std::string stem = target.filename().string();
-  if (stem.size() > 180) stem = stem.substr(stem.size() - 180);
-  return folder_of(target) / ("." + suffix.substr(1) + "-" + stem);
+/// A lock that the system takes back when this process ends; -1 where there is none to be had.
+int locked(const fs::path& folder) {
+  const int fd = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (fd < 0 || ::flock(fd, LOCK_EX | LOCK_NB) == 0) return fd;
+  ::close(fd);
+  return -1;
+}
+
+/// Removes it where its process is gone; for a folder the lock must be free, too.
+bool remove_dead(const fs::directory_entry& entry) {
+  if (!of_dead_process(entry.path().filename().string())) return false;
+  std::error_code error;
+  if (!entry.is_directory(error) || entry.is_symlink(error)) return fs::remove(entry.path(), error);
+  const int lock = locked(entry.path());
+  if (lock < 0) return false;
+  fs::remove_all(entry.path(), error);
+  ::close(lock);
+  return !error;
+}
+
+void remove_dead_of(const fs::path& target) {
+  const std::string name = shortened(target.filename().string());
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder_of(target), ignored))
+    if (entry.is_directory(ignored) && target_in(entry.path().filename().string()) == name)
+      remove_dead(entry);
 }
 
 fs::path without_trailing_slash(fs::path path) {
@@ -123,13 +143,14 @@ std::string read_file(const fs::path& path, std::uint64_t max_bytes) {
   return content;
 }
 
-StagedFile::StagedFile(fs::path target) : target_(std::move(target)) {
+StagedFile::StagedFile(fs::path target)
+    : number_(std::make_unique<PartNumber>()), target_(std::move(target)) {
   if (target_.filename().empty())
     throw IoError("cannot write " + target_.string() + ": it names a folder, not a file");
   if (fs::is_directory(target_))
     throw IoError("cannot write " + target_.string() + ": a folder of that name exists");
-  require_writable_folder(folder_of(target_), target_);
-  temporary_ = temporary_beside(target_);
+  parents_ = made_writable(folder_of(target_), target_);
+  temporary_ = folder_of(target_) / number_->name(target_.filename().string());
 }
 
 StagedFile::~StagedFile() {
@@ -142,6 +163,7 @@ void StagedFile::commit() {
   sync(temporary_, O_RDONLY);
   if (::rename(temporary_.c_str(), target_.c_str()) != 0) throw_errno("cannot write", target_, errno);
   committed_ = true;
+  parents_->keep();
   sync(folder_of(target_), O_RDONLY | O_DIRECTORY);
 }
 
@@ -157,48 +179,73 @@ void write_file(const fs::path& path, std::string_view content) {
   staged.commit();
 }
 
+ShownAs::ShownAs(const fs::path& hidden, const fs::path& target) : hidden_(hidden.string()) {
+  FoldersInWork& folders = folders_in_work();
+  const std::lock_guard lock(folders.mutex);
+  folders.targets[hidden_] = target.string();
+}
+
+ShownAs::~ShownAs() {
+  FoldersInWork& folders = folders_in_work();
+  const std::lock_guard lock(folders.mutex);
+  folders.targets.erase(hidden_);
+}
+
 StagedFolder::StagedFolder(fs::path target) : target_(without_trailing_slash(std::move(target))) {
   if (target_.filename().empty()) throw IoError("cannot write " + target_.string() + ": name a new folder");
   if (fs::exists(target_) && !fs::is_directory(target_)) {
     throw IoError("cannot write " + target_.string() + ": a file of that name exists");
   }
-  require_writable_folder(folder_of(target_), target_);
-  temporary_ = temporary_beside(target_);
+  parents_ = made_writable(folder_of(target_), target_);
+  remove_dead_of(target_);
   std::error_code error;
-  if (!fs::create_directory(temporary_, error)) throw_errno("cannot write", target_, error.value());
-  FoldersInWork& folders = folders_in_work();
-  const std::lock_guard lock(folders.mutex);
-  folders.targets[temporary_.string()] = target_.string();
+  do {  // a name may be taken by what an earlier process of this number left, and could not be removed
+    number_ = std::make_unique<PartNumber>();
+    temporary_ = folder_of(target_) / number_->name(target_.filename().string());
+  } while (!fs::create_directory(temporary_, error) && !error);
+  if (error) throw_errno("cannot write", target_, error.value());
+  lock_ = locked(temporary_);
+  shown_ = std::make_unique<const ShownAs>(temporary_, target_);
 }
 
 StagedFolder::~StagedFolder() {
-  {
-    FoldersInWork& folders = folders_in_work();
-    const std::lock_guard lock(folders.mutex);
-    folders.targets.erase(temporary_.string());
+  if (!committed_) {
+    std::error_code ignored;
+    fs::remove_all(temporary_, ignored);
   }
-  if (committed_) return;
-  std::error_code ignored;
-  fs::remove_all(temporary_, ignored);
+  if (lock_ >= 0) ::close(lock_);
 }
 
 void StagedFolder::commit() {
-  for (const auto& entry : fs::recursive_directory_iterator(temporary_)) {
+  publish_folder(temporary_, target_);
+  parents_->keep();
+  committed_ = true;
+}
+
+void publish_folder(const fs::path& made, const fs::path& target) {
+  for (const auto& entry : fs::recursive_directory_iterator(made)) {
     if (entry.is_regular_file()) sync(entry.path(), O_RDONLY);
   }
-  sync(temporary_, O_RDONLY | O_DIRECTORY);
-  if (fs::exists(target_)) {
-    if (::renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, target_.c_str(), RENAME_EXCHANGE) != 0) {
-      throw_errno("cannot write", target_, errno);
+  sync(made, O_RDONLY | O_DIRECTORY);
+  if (fs::exists(target)) {
+    if (::renameat2(AT_FDCWD, made.c_str(), AT_FDCWD, target.c_str(), RENAME_EXCHANGE) != 0) {
+      throw_errno("cannot write", target, errno);
     }
-    committed_ = true;
     std::error_code ignored;
-    fs::remove_all(temporary_, ignored);
-  } else {
-    if (::rename(temporary_.c_str(), target_.c_str()) != 0) throw_errno("cannot write", target_, errno);
-    committed_ = true;
+    fs::remove_all(made, ignored);
+  } else if (::rename(made.c_str(), target.c_str()) != 0) {
+    throw_errno("cannot write", target, errno);
   }
-  sync(folder_of(target_), O_RDONLY | O_DIRECTORY);
+  sync(folder_of(target), O_RDONLY | O_DIRECTORY);
+}
+
+std::size_t remove_dead_parts(const fs::path& folder) {
+  std::size_t removed = 0;
+  std::error_code error;
+  for (auto entry = fs::directory_iterator(folder, error); !error && entry != fs::directory_iterator();
+       entry.increment(error))
+    removed += remove_dead(*entry) ? 1 : 0;
+  return removed;
 }
 
 std::string sha256(std::string_view bytes) {

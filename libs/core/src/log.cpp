@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <utility>
@@ -13,10 +15,31 @@
 namespace ostia::core {
 namespace {
 
+using Aliases = std::vector<std::pair<std::string, std::string>>;  // longest secret first
+
 struct Redactions {
   std::mutex mutex;
-  std::vector<std::pair<std::string, std::string>> pairs;  // longest secret first
+  Aliases in_logs, in_results;
+  std::set<std::string, std::less<>> never;
 };
+
+struct Collectors {
+  std::mutex mutex;
+  std::map<const HeardWarnings*, std::vector<std::string>> heard;
+  std::vector<const HeardWarnings*> living;  // youngest last
+};
+
+Collectors& collectors() {
+  static Collectors instance;
+  return instance;
+}
+
+void hear(const std::string& warning) {
+  Collectors& all = collectors();
+  const std::lock_guard lock(all.mutex);
+  for (auto& [collector, texts] : all.heard)
+    if (std::find(texts.begin(), texts.end(), warning) == texts.end()) texts.push_back(warning);
+}
 
 Redactions& redactions() {
   static Redactions instance;
@@ -74,7 +97,7 @@ spdlog::level::level_enum level_of(LogLevel level) {
 
 void write(spdlog::level::level_enum level, std::string_view message) {
   if (!logger().should_log(level)) return;
-  const std::string clean = redacted(message);
+  const std::string clean = redacted_for_log(message);
   logger().log(level, "{}", as_json() ? json_escaped(clean) : clean);
 }
 
@@ -92,14 +115,53 @@ LogFormat log_format() {
   return as_json() ? LogFormat::json : LogFormat::text;
 }
 
-void redact_in_logs(std::string_view secret, std::string_view alias) {
+namespace {
+
+void register_in(Aliases Redactions::*list, std::string_view secret, std::string_view alias) {
   if (secret.size() < 3) return;
   Redactions& r = redactions();
   const std::lock_guard lock(r.mutex);
-  std::erase_if(r.pairs, [&](const auto& known) { return known.first == secret; });
-  r.pairs.emplace_back(secret, alias);
-  std::stable_sort(r.pairs.begin(), r.pairs.end(),
+  if (r.never.contains(secret)) return;
+  Aliases& pairs = r.*list;
+  std::erase_if(pairs, [&](const auto& known) { return known.first == secret; });
+  pairs.emplace_back(secret, alias);
+  std::stable_sort(pairs.begin(), pairs.end(),
                    [](const auto& a, const auto& b) { return a.first.size() > b.first.size(); });
+}
+
+}  // namespace
+
+void redact_in_logs(std::string_view secret, std::string_view alias) {
+  register_in(&Redactions::in_logs, secret, alias);
+}
+void redact_in_results(std::string_view secret, std::string_view alias) {
+  register_in(&Redactions::in_results, secret, alias);
+}
+
+void never_redact(const std::set<std::string>& words) {
+  Redactions& r = redactions();
+  const std::lock_guard lock(r.mutex);
+  r.never.insert(words.begin(), words.end());
+}
+
+HeardWarnings::HeardWarnings() {
+  Collectors& all = collectors();
+  const std::lock_guard lock(all.mutex);
+  all.heard[this];
+  all.living.push_back(this);
+}
+
+HeardWarnings::~HeardWarnings() {
+  Collectors& all = collectors();
+  const std::lock_guard lock(all.mutex);
+  all.heard.erase(this);
+  std::erase(all.living, this);
+}
+
+std::vector<std::string> heard_warnings() {
+  Collectors& all = collectors();
+  const std::lock_guard lock(all.mutex);
+  return all.living.empty() ? std::vector<std::string>() : all.heard.at(all.living.back());
 }
 
 namespace {
@@ -115,13 +177,8 @@ bool stands_apart(const std::string& text, std::size_t at, std::size_t size) {
   return !(at > 0 && letter(at - 1) && letter(at)) && !(letter(at + size) && letter(at + size - 1));
 }
 
-}  // namespace
-
-std::string redacted(std::string_view text) {
-  std::string out(text);
-  Redactions& r = redactions();
-  const std::lock_guard lock(r.mutex);
-  for (const auto& [secret, alias] : r.pairs) {
+void replace_all(const Aliases& pairs, std::string& out) {
+  for (const auto& [secret, alias] : pairs) {
     std::size_t at = 0;
     while ((at = out.find(secret, at)) != std::string::npos) {
       const bool names_somebody = secret.size() >= shortest_anywhere || stands_apart(out, at, secret.size());
@@ -129,6 +186,24 @@ std::string redacted(std::string_view text) {
       at += names_somebody ? alias.size() : secret.size();
     }
   }
+}
+
+}  // namespace
+
+std::string redacted_for_log(std::string_view text) {
+  std::string out(text);
+  Redactions& r = redactions();
+  const std::lock_guard lock(r.mutex);
+  replace_all(r.in_logs, out);
+  return out;
+}
+
+std::string redacted(std::string_view text) {
+  std::string out(text);
+  Redactions& r = redactions();
+  const std::lock_guard lock(r.mutex);
+  replace_all(r.in_logs, out);
+  replace_all(r.in_results, out);
   return out;
 }
 
@@ -139,6 +214,7 @@ void log_info(std::string_view message) {
   write(spdlog::level::info, message);
 }
 void log_warning(std::string_view message) {
+  hear(std::string(message));
   write(spdlog::level::warn, message);
 }
 void log_error(std::string_view message) {

@@ -6,6 +6,7 @@
 #include "working_image.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/text.h"
 #include "ostia/imaging/sampling.h"
 
 #include <algorithm>
@@ -15,6 +16,8 @@
 
 namespace ostia::coronary {
 namespace {
+
+using core::rounded_text;
 
 // Contrast that mixes with blood without it streaks; the aorta's is even: its standard deviation inside is
 // noise (below 5 % at this spacing in the phantom) and does not reach this share of it.
@@ -83,15 +86,11 @@ const DiscColumn* ascending(const imaging::ImageVolume& image, const std::vector
   return nullptr;
 }
 
-std::string rounded_hu(double value) {
-  return std::to_string(static_cast<int>(std::lround(value)));
-}
-
 std::string seen(const imaging::ImageVolume& image, const std::vector<DiscColumn>& columns) {
   if (columns.empty()) return "no upright tube of contrast is there";
   const DiscColumn& longest = columns.front();
-  return "the longest upright tube has a radius of " + rounded_hu(longest.mean_radius_mm()) + " mm and " +
-         rounded_hu(longest.mean_hu()) + " HU" +
+  return "the longest upright tube has a radius of " + rounded_text(longest.mean_radius_mm(), 0) +
+         " mm and " + rounded_text(longest.mean_hu(), 0) + " HU" +
          (lung_behind(image, longest) < most_lung ? " and is not even enough"
                                                   : ", and lung behind it as the descending aorta has");
 }
@@ -124,10 +123,10 @@ Aorta find_aorta(const imaging::ImageVolume& image, const AortaOptions& options,
   const DiscColumn* column = ascending(work, columns, options.most_hu);
   if (column == nullptr)
     throw GeometryError("no ascending aorta was found (an upright, evenly enhanced tube of " +
-                        rounded_hu(options.smallest_radius_mm) + " to " +
-                        rounded_hu(options.largest_radius_mm) + " mm radius above " +
-                        rounded_hu(options.least_hu) + " HU, at least " +
-                        rounded_hu(options.least_column_mm) + " mm long): " + seen(work, columns) +
+                        rounded_text(options.smallest_radius_mm, 0) + " to " +
+                        rounded_text(options.largest_radius_mm, 0) + " mm radius above " +
+                        rounded_text(options.least_hu, 0) + " HU, at least " +
+                        rounded_text(options.least_column_mm, 0) + " mm long): " + seen(work, columns) +
                         "; draw a first vessel by its two ends instead");
   FollowOptions follow;
   follow.disc = column_options(options).disc;

@@ -4,11 +4,11 @@
 
 #include "ostia/centerline/tree_builder.h"
 #include "ostia/core/error.h"
+#include "ostia/core/text.h"
 #include "ostia/geometry/polyline.h"
 #include "ostia/segmentation/minimal_path.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <map>
 #include <optional>
 #include <utility>
@@ -34,12 +34,6 @@ void require_tree(const GrownTree& grown, const std::vector<Ostium>& ostia) {
   }
 }
 
-std::string in_mm(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f mm", value);
-  return text;
-}
-
 /// The branch from its ostium: a front may begin some way beyond it, or inside the aorta.
 std::vector<Vec3> from_ostium(const GrownBranch& branch, const Ostium& ostium) {
   constexpr double apart_mm = 0.25, near_mm = 5.0;
@@ -59,7 +53,7 @@ void tell_gaps(const GrownBranch& branch, segmentation::MinimalPath& path) {
   for (const auto& [first, last] : branch.gaps) {
     const double from = abscissa(first);
     path.warnings.push_back(
-        "no lumen is seen for " + in_mm(abscissa(last) - from) + ", " + in_mm(from) +
+        "no lumen is seen for " + core::mm_text(abscissa(last) - from, 1) + ", " + core::mm_text(from, 1) +
         " from its start, and a vessel goes on behind: a tight or closed stretch, if it is "
         "the same one");
   }
@@ -85,9 +79,9 @@ class Centring {
       try {
         follow(grown_.branches[b], task);
       } catch (const InvalidInput& error) {
-        leave_out(grown_.branches[b], error.what());
+        lose(grown_.branches[b], error.what());
       } catch (const GeometryError& error) {
-        leave_out(grown_.branches[b], error.what());
+        lose(grown_.branches[b], error.what());
       }
       task.set_progress(static_cast<double>(b + 1) / all);
     }
@@ -110,7 +104,7 @@ class Centring {
     }
     centre_beside_calcium(image_, options_.ostium_mm, options_, path, task);
     if (path.length_mm < options_.least_branch_mm) {
-      leave_out(branch, "it is " + in_mm(path.length_mm) + " long");
+      leave_out(branch, "it is " + core::mm_text(path.length_mm, 1) + " long");
       return;
     }
     tell_gaps(branch, path);
@@ -134,8 +128,13 @@ class Centring {
   }
 
   void leave_out(const GrownBranch& branch, const std::string& why) {
-    result_.warnings.push_back("a branch of " + in_mm(geometry::length(branch.points)) +
+    result_.warnings.push_back("a branch of " + core::mm_text(geometry::length(branch.points), 1) +
                                " was left out: " + why);
+  }
+
+  void lose(const GrownBranch& branch, const std::string& why) {
+    leave_out(branch, why);
+    result_.left_out.push_back(result_.warnings.back());
   }
 
   void add(segmentation::MinimalPath&& path) {

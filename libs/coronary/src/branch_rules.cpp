@@ -37,7 +37,7 @@ double sweep_deg(const TreePath& path, double from_mm, double sign) {
 
 /// The farther a path follows the groove, the better; what turns to the apex is a branch of it.
 double groove_score(const TreePath& path, double from_mm, double sign) {
-  constexpr double per_mm = 0.6;
+  constexpr double per_mm = 0.3;
   return sweep_deg(path, from_mm, sign) -
          per_mm * std::max(0.0, path.ending().depth_mm - path.at[path.index(from_mm)].depth_mm);
 }
@@ -75,36 +75,56 @@ Choice best_of(const std::vector<TreePath>& paths, const std::vector<int>& among
   return choice;
 }
 
+/// How deep a path comes, and the angle at which it runs there: past its turn from the base, and before it
+/// may wrap about the apex, where angles say nothing.
+HeartPlace way_to_apex(const TreePath& path) {
+  constexpr double from = 0.5, to = 0.85;  // of the depth
+  const auto deepest = std::max_element(path.at.begin(), path.at.end(),
+                                        [](const auto& a, const auto& b) { return a.depth_mm < b.depth_mm; });
+  HeartPlace way = path.ending(10.0);
+  double angle = 0.0, count = 0.0;
+  for (auto at = path.at.begin(); at != deepest; ++at) {
+    if (at->depth_mm < from * deepest->depth_mm || at->depth_mm > to * deepest->depth_mm) continue;
+    angle += at->angle_deg;
+    count += 1.0;
+  }
+  if (count < 1.0 || deepest->depth_mm < least_lad_depth) return way;
+  way.depth_mm = std::max(way.depth_mm, deepest->depth_mm);
+  way.angle_deg = angle / count;
+  return way;
+}
+
 void name_lad(const std::vector<TreePath>& paths, std::vector<PathName>& names, MainVessels& main) {
   std::vector<int> among;
   double deepest = 0.0, least_angle = 1e9;
   for (const int i : of_side(names, CoronarySide::left)) {
-    const HeartPlace end = paths[static_cast<std::size_t>(i)].ending(10.0);
+    const HeartPlace end = way_to_apex(paths[static_cast<std::size_t>(i)]);
     deepest = std::max(deepest, end.depth_mm);
   }
   for (const int i : of_side(names, CoronarySide::left)) {
-    const HeartPlace end = paths[static_cast<std::size_t>(i)].ending(10.0);
+    const HeartPlace end = way_to_apex(paths[static_cast<std::size_t>(i)]);
     if (end.depth_mm < std::max(least_lad_depth, 0.6 * deepest)) continue;
     among.push_back(i);
     least_angle = std::min(least_angle, end.angle_deg);
   }
   const Choice choice = best_of(paths, among, [&](int i) {
-    const HeartPlace end = paths[static_cast<std::size_t>(i)].ending(10.0);
+    const HeartPlace end = way_to_apex(paths[static_cast<std::size_t>(i)]);
     return end.depth_mm / 80.0 - (end.angle_deg - least_angle) / 60.0 -
            std::abs(end.angle_deg - anterior_groove) / 180.0;
   });
   if (choice.path < 0) return;
-  const HeartPlace end = paths[static_cast<std::size_t>(choice.path)].ending(10.0);
+  const HeartPlace end = way_to_apex(paths[static_cast<std::size_t>(choice.path)]);
   PathName& name = names[static_cast<std::size_t>(choice.path)];
   name.kind = "LAD";
   name.confidence *= sure(choice.score - choice.next + 0.1, 0.1) *
-                     sure(50.0 - std::abs(end.angle_deg - anterior_groove), 8.0) *
+                     sure(60.0 - std::abs(end.angle_deg - anterior_groove), 8.0) *
                      sure(end.depth_mm - sure_lad_depth, 4.0);
   main.lad = choice.path;
 }
 
 void name_lcx(const std::vector<TreePath>& paths, std::vector<PathName>& names, MainVessels& main) {
   constexpr double least_sweep = 22.0, sure_sweep = 32.0;
+  constexpr double first_branch_mm = 20.0, least_first_sweep = 6.0, first_branch = 0.6;
   const auto from = [&](int i) {
     return main.lad < 0
                ? 0.0
@@ -117,10 +137,14 @@ void name_lcx(const std::vector<TreePath>& paths, std::vector<PathName>& names, 
   if (choice.path < 0) return;
   const TreePath& path = paths[static_cast<std::size_t>(choice.path)];
   const double sweep = sweep_deg(path, from(choice.path), 1.0);
-  if (sweep < least_sweep) return;
+  // A small one beside a large right artery ends early, but nothing else leaves so near to the ostium.
+  const bool first = main.lad >= 0 && from(choice.path) < first_branch_mm &&
+                     path.length() - from(choice.path) >= least_single_mm;
+  if (sweep < (first ? least_first_sweep : least_sweep)) return;
   PathName& name = names[static_cast<std::size_t>(choice.path)];
   name.kind = "LCX";
-  name.confidence *= sure(sweep - sure_sweep, 5.0) * sure(choice.score - choice.next + 3.0, 4.0);
+  name.confidence *= std::max(sure(sweep - sure_sweep, 5.0) * sure(choice.score - choice.next + 3.0, 4.0),
+                              first ? first_branch : 0.0);
   main.lcx = choice.path;
   if (main.lad < 0 || paths[static_cast<std::size_t>(main.lad)].root != path.root) return;
   main.bifurcation_mm = name.leave_mm = from(choice.path);
@@ -171,7 +195,7 @@ Guess ramus(const Course& course, double leave_mm, double bifurcation_mm) {
 double roll_of(const std::vector<TreePath>& paths, const MainVessels& main) {
   constexpr double share = 0.7, most = 25.0;  // the groove itself varies too
   if (main.lad < 0) return 0.0;
-  const double angle = paths[static_cast<std::size_t>(main.lad)].ending(10.0).angle_deg;
+  const double angle = way_to_apex(paths[static_cast<std::size_t>(main.lad)]).angle_deg;
   return std::clamp(share * (angle - anterior_groove), -most, most);
 }
 
@@ -271,15 +295,27 @@ void name_branch(const std::vector<TreePath>& paths, const MainVessels& main, st
 }
 
 void settle_posterior(const std::vector<TreePath>& paths, std::vector<PathName>& names) {
-  int first = -1;
+  constexpr double deep_enough = 0.6;  // of the deepest: what goes down in the groove itself
   const auto depth = [&](int i) { return paths[static_cast<std::size_t>(i)].ending().depth_mm; };
+  const auto name = [&](int i) -> PathName& { return names[static_cast<std::size_t>(i)]; };
+  std::vector<int> among;
+  double deepest = 0.0;
   for (int i = 0; i < static_cast<int>(names.size()); ++i) {
-    if (names[static_cast<std::size_t>(i)].kind != "PDA") continue;
-    if (first < 0 || depth(i) > depth(first)) first = i;
+    if (name(i).kind != "PDA") continue;
+    among.push_back(i);
+    deepest = std::max(deepest, depth(i));
   }
-  for (int i = 0; i < static_cast<int>(names.size()); ++i)
-    if (names[static_cast<std::size_t>(i)].kind == "PDA" && i != first)
-      names[static_cast<std::size_t>(i)].kind = "PLB";
+  // The groove between the ventricles comes first for one who follows the right artery.
+  int first = -1;
+  for (const int i : among) {
+    if (depth(i) < deep_enough * deepest) continue;
+    if (first < 0) first = i;
+    const bool better = name(i).parent == name(first).parent ? name(i).leave_mm < name(first).leave_mm
+                                                             : depth(i) > depth(first);
+    if (better) first = i;
+  }
+  for (const int i : among)
+    if (i != first) name(i).kind = "PLB";
 }
 
 std::vector<Vec3> groove_points(const std::vector<TreePath>& paths, const MainVessels& main) {

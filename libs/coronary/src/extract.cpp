@@ -140,6 +140,7 @@ Extraction extracted(const imaging::ImageVolume& image, const ExtractOptions& op
   task.set_stage("centring the vessels");
   CentredTree centred = centred_tree(image, grown, result.ostia, options.axes, task.sub(0.85, 0.98));
   result.warnings.insert(result.warnings.end(), centred.warnings.begin(), centred.warnings.end());
+  result.left_out = std::move(centred.left_out);
   task.set_stage("naming the vessels");
   result.vessels = label_branches(centred.tree, labels);
   result.notes = in_order_of(result.vessels.tree, centred.notes);

@@ -1,6 +1,7 @@
 #include "input_checks.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/text.h"
 
 #include <algorithm>
 #include <array>
@@ -9,6 +10,8 @@
 
 namespace ostia::coronary {
 namespace {
+
+using core::rounded_text;
 
 constexpr double least_field_mm = 30.0;        // a root and the first centimetres of the arteries
 constexpr std::int64_t least_voxels = 12;      // along an axis
@@ -34,14 +37,6 @@ constexpr double least_at_sides = 0.55;
 constexpr std::int64_t looked_at = 400'000;
 
 constexpr const char* guided = "draw a first vessel by its two ends where you see one";
-
-std::string whole(double value) {
-  return std::to_string(std::lround(value));
-}
-std::string tenths(double value) {
-  const long n = std::lround(10.0 * value);
-  return std::to_string(n / 10) + "." + std::to_string(std::labs(n % 10));
-}
 
 /// Every so many voxels, so that about `looked_at` are seen, spread over rows, columns and slices.
 std::vector<std::array<std::int64_t, 3>> some_voxels(const imaging::Geometry& grid) {
@@ -149,23 +144,24 @@ void require_grid(const imaging::Geometry& grid) {
       throw InvalidInput(
           "the image is too small to hold the root of the aorta: " + std::to_string(grid.size[0]) + " x " +
           std::to_string(grid.size[1]) + " x " + std::to_string(grid.size[2]) + " voxels, " +
-          tenths(field_mm) + " mm along one of its axes; " + whole(least_field_mm) + " mm and " +
-          std::to_string(least_voxels) + " voxels are needed");
+          rounded_text(field_mm, 1) + " mm along one of its axes; " + rounded_text(least_field_mm, 0) +
+          " mm and " + std::to_string(least_voxels) + " voxels are needed");
     if (voxel_mm > coarsest_mm)
-      throw InvalidInput("voxels of " + tenths(voxel_mm) +
+      throw InvalidInput("voxels of " + rounded_text(voxel_mm, 1) +
                          " mm are wider than coronary arteries, which are 2 to 4 mm wide (at most " +
-                         tenths(coarsest_mm) + " mm can be used); take a series with thinner slices, or " +
-                         guided);
+                         rounded_text(coarsest_mm, 1) +
+                         " mm can be used); take a series with thinner slices, or " + guided);
   }
 }
 
 void require_ct_numbers(const Intensities& v) {
-  const std::string range = whole(v.dark) + " to " + whole(v.bright);
+  const std::string range = rounded_text(v.dark, 0) + " to " + rounded_text(v.bright, 0);
   if (v.lowest == v.highest)
-    throw InvalidInput("the image is empty: every voxel is " + whole(v.lowest) + "; take another image");
+    throw InvalidInput("the image is empty: every voxel is " + rounded_text(v.lowest, 0) +
+                       "; take another image");
   if (v.kinship < least_kinship)
-    throw InvalidInput("the image is noise: places " + whole(kin_mm) +
-                       " mm apart have nothing in common (correlation " + tenths(v.kinship) +
+    throw InvalidInput("the image is noise: places " + rounded_text(kin_mm, 0) +
+                       " mm apart have nothing in common (correlation " + rounded_text(v.kinship, 1) +
                        "); take another reconstruction");
   const std::string fat_and_blood = "in HU fat is about -100, blood with contrast agent 250 to 600";
   if (v.bright - v.dark < least_span_hu)
@@ -175,7 +171,7 @@ void require_ct_numbers(const Intensities& v) {
     throw InvalidInput("the intensities lie from " + range + ", far beyond CT numbers (" + fat_and_blood +
                        "): the image may have been scaled; convert it back to HU");
   if (v.dark > darkest_expected_hu)
-    throw InvalidInput("nothing in the image is darker than " + whole(v.dark) +
+    throw InvalidInput("nothing in the image is darker than " + rounded_text(v.dark, 0) +
                        ", so these are no CT numbers (" + fat_and_blood + "): " +
                        (v.bright <= 255.0 ? "it may be a picture of 256 grey levels"
                                           : "1024 may not have been subtracted (the rescale intercept)") +
@@ -183,12 +179,12 @@ void require_ct_numbers(const Intensities& v) {
   if (v.bright < brightest_expected_hu || v.below_air > most_below_air)
     throw InvalidInput(std::string("the image is darker than a CT in HU can be (") +
                        (v.bright < brightest_expected_hu
-                            ? "nothing in it is brighter than " + whole(v.bright)
-                            : whole(100.0 * v.below_air) + " % lie below air, -1000") +
+                            ? "nothing in it is brighter than " + rounded_text(v.bright, 0)
+                            : rounded_text(100.0 * v.below_air, 0) + " % lie below air, -1000") +
                        "): 1024 may have been subtracted twice, or the image scaled; convert it to HU");
   if (v.lung >= least_lung && v.dark > brightest_lung_hu)
-    throw InvalidInput("nothing in the image is darker than " + whole(v.dark) + ", though " +
-                       whole(100.0 * v.lung) +
+    throw InvalidInput("nothing in the image is darker than " + rounded_text(v.dark, 0) + ", though " +
+                       rounded_text(100.0 * v.lung, 0) +
                        " % of it is as dark as lung may be: lungs have -700 to -900 HU and air -1000, so the "
                        "image may have been scaled; convert it back to HU");
 }
@@ -210,8 +206,9 @@ bool holds_a_chest(const geometry::Vec3& field) {
 void require_chest(const Intensities& values, const imaging::Geometry& grid) {
   const geometry::Vec3 field = field_of(grid);
   if (!holds_a_chest(field) || values.lung >= least_lung) return;
-  throw GeometryError("the image shows no chest: it holds hardly any lung (" + tenths(100.0 * values.lung) +
-                      " % of " + whole(field.x()) + " x " + whole(field.y()) + " x " + whole(field.z()) +
+  throw GeometryError("the image shows no chest: it holds hardly any lung (" +
+                      rounded_text(100.0 * values.lung, 1) + " % of " + rounded_text(field.x(), 0) + " x " +
+                      rounded_text(field.y(), 0) + " x " + rounded_text(field.z(), 0) +
                       " mm), as abdomen, head or legs do; take an image of the heart, or " + guided);
 }
 
@@ -231,11 +228,11 @@ InputNotes check_input(const imaging::ImageVolume& image) {
         "90 degrees; no vessel was given a name; look at the image's orientation first");
   const double voxel_mm = image.geometry.spacing.maxCoeff();
   if (voxel_mm > coarse_mm)
-    warnings.push_back("voxels of " + tenths(voxel_mm) +
+    warnings.push_back("voxels of " + rounded_text(voxel_mm, 1) +
                        " mm are wide for coronary arteries: those below 2 mm are missed, and names and "
                        "radii are less sure");
   if (values.metal_ml > least_metal_ml)
-    warnings.push_back(tenths(values.metal_ml) + " ml of metal (above " + whole(metal_hu) +
+    warnings.push_back(rounded_text(values.metal_ml, 1) + " ml of metal (above " + rounded_text(metal_hu, 0) +
                        " HU): look at each vessel that passes near it, its shadows may cut or fake vessels");
   return notes;
 }

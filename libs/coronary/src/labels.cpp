@@ -122,7 +122,7 @@ std::vector<std::int32_t> vessel_ids(const geometry::VesselTree& tree, const std
 /// Where neither main vessel of the left tree lies where it should, the names of the right one are not to be
 /// trusted either: the image may be mirrored.
 bool doubtful(std::size_t ostia, Naming& naming) {
-  constexpr double unsure = 0.5;
+  constexpr double unsure = 0.65;
   const auto weak = [&](int path) {
     return path < 0 || naming.names[static_cast<std::size_t>(path)].confidence < unsure;
   };

@@ -1,5 +1,7 @@
 #include "ostia/evaluation/centerline_scores.h"
 
+#include "centerline_overlaps.h"
+
 #include "ostia/core/error.h"
 #include "ostia/geometry/kd_tree.h"
 #include "ostia/geometry/polyline.h"
@@ -176,48 +178,6 @@ std::vector<PointPair> paired(const std::vector<Vec3>& a, const std::vector<Vec3
   return pairs;
 }
 
-struct Counts {
-  std::size_t tpr = 0, fn = 0, tpm = 0, fp = 0;
-  double overlap() const {
-    const double all = static_cast<double>(tpr + fn + tpm + fp);
-    return all > 0.0 ? static_cast<double>(tpr + tpm) / all : 0.0;
-  }
-};
-
-/// Which points of either line have a pair that counts, of the pairs up to a reference point.
-Counts counted(const std::vector<PointPair>& pairs, std::size_t last_reference) {
-  std::vector<signed char> reference, candidate;
-  const auto mark = [](std::vector<signed char>& list, std::size_t at, bool counts) {
-    if (list.size() <= at) list.resize(at + 1, -1);
-    list[at] = std::max<signed char>(list[at], counts ? 1 : 0);
-  };
-  for (const PointPair& p : pairs) {
-    if (p.reference > last_reference) break;
-    mark(reference, p.reference, p.counts);
-    mark(candidate, p.candidate, p.counts);
-  }
-  Counts counts;
-  for (const signed char c : reference) ++(c == 1 ? counts.tpr : counts.fn);
-  for (const signed char c : candidate) ++(c == 1 ? counts.tpm : counts.fp);
-  return counts;
-}
-
-double overlap_until_first_failure(const std::vector<ReferencePointScore>& points, double free_start_mm) {
-  std::size_t matched = 0;
-  for (const ReferencePointScore& p : points) {
-    if (!p.matched && p.s_mm >= free_start_mm) break;
-    matched += p.matched;
-  }
-  return static_cast<double>(matched) / static_cast<double>(points.size());
-}
-
-double overlap_where_wide(const io::RotterdamReference& reference, const std::vector<PointPair>& pairs,
-                          double least_radius_mm) {
-  for (std::size_t i = reference.radius.size(); i-- > 0;)
-    if (reference.radius[i] >= least_radius_mm) return counted(pairs, i).overlap();
-  return no_score;
-}
-
 void add_accuracy(const io::RotterdamReference& reference, CenterlineScores& scores) {
   double sum = 0.0, score = 0.0;
   std::size_t count = 0;
@@ -268,14 +228,14 @@ void score(const io::RotterdamReference& reference, const CenterlineScoreOptions
            CenterlineScores& scores, const core::TaskContext& task) {
   scores.pairs = paired(reference.points, scores.line, task);
   for (PointPair& p : scores.pairs) p.counts = p.distance_mm <= reference.radius[p.reference];
-  const Counts all = counted(scores.pairs, reference.points.size());
+  const OverlapCounts all = overlap_counts(scores.pairs, scores.pairs.size());
   scores.tpr = all.tpr;
   scores.fn = all.fn;
   scores.tpm = all.tpm;
   scores.fp = all.fp;
   scores.ov = all.overlap();
-  scores.of = overlap_until_first_failure(along_reference(reference, scores), options.free_start_mm);
-  scores.ot = overlap_where_wide(reference, scores.pairs, options.least_radius_mm);
+  scores.of = overlap_until_first_failure(reference, scores, options);
+  scores.ot = overlap_where_wide(reference, scores.pairs, options);
   add_accuracy(reference, scores);
 }
 

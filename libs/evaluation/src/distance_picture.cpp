@@ -2,13 +2,13 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
+#include "ostia/core/text.h"
 #include "ostia/geometry/aabb_tree.h"
 #include "ostia/geometry/mesh_topology.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 namespace ostia::evaluation {
 namespace {
@@ -65,15 +65,9 @@ Color color_of(int band) {
 
 std::string label_of(int band, double range) {
   const double width = 2.0 * range / bands, low = -range + band * width;
-  char text[64];
-  if (band == 0) {
-    std::snprintf(text, sizeof text, "below %+.3f mm (inside)", low + width);
-  } else if (band == bands - 1) {
-    std::snprintf(text, sizeof text, "above %+.3f mm (outside)", low);
-  } else {
-    std::snprintf(text, sizeof text, "%+.3f to %+.3f mm", low, low + width);
-  }
-  return text;
+  if (band == 0) return "below " + core::signed_text(low + width, 3) + " mm (inside)";
+  if (band == bands - 1) return "above " + core::signed_text(low, 3) + " mm (outside)";
+  return core::signed_text(low, 3) + " to " + core::signed_text(low + width, 3) + " mm";
 }
 
 }  // namespace

@@ -5,11 +5,11 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/log.h"
+#include "ostia/core/text.h"
 #include "ostia/figure/html_report.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <set>
 
@@ -21,14 +21,8 @@ namespace fs = std::filesystem;
 constexpr FindingKind shown_kinds[] = {FindingKind::regression, FindingKind::missing,
                                        FindingKind::improvement, FindingKind::change, FindingKind::extra};
 
-std::string text_of(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.5g", value);
-  return text;
-}
-
 std::string text_of(const std::optional<double>& value) {
-  return value ? text_of(*value) : std::string();
+  return value ? core::significant_text(*value, 5) : std::string();
 }
 
 void add_verdict(figure::HtmlReport& page, const SuiteResult& suite) {

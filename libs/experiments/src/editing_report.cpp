@@ -1,6 +1,7 @@
 #include "ostia/experiments/editing_report.h"
 
 #include "ostia/core/files.h"
+#include "ostia/core/text.h"
 #include "ostia/figure/html_report.h"
 #include "ostia/figure/plot.h"
 #include "ostia/session/case_file.h"
@@ -10,21 +11,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace ostia::experiments {
 namespace fs = std::filesystem;
 namespace {
 
+using core::fixed_text;
 using geometry::Health;
 using Json = nlohmann::ordered_json;
 using SectionStep = SectionRun::Step;
-
-std::string fixed(double value, int decimals = 3) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", decimals, value);
-  return text;
-}
 
 const char* name_of(Health health) {
   return health == Health::diseased ? "diseased" : "healthy";
@@ -87,9 +82,10 @@ std::string section_rows(const std::vector<SectionRun>& runs) {
           r.last().to_observer.msd_mm, r.last().to_observer.max_sd_mm, r.last().to_truth.msd_mm,
           r.last().to_truth.max_sd_mm, r.observer_against_truth.msd_mm, r.observer_against_truth.max_sd_mm,
           r.floor_mm})
-      text += "," + fixed(v, 4);
+      text += "," + fixed_text(v, 4);
     text += "," + std::to_string(r.edits.size()) + "," + std::to_string(r.section_strokes) + "," +
-            std::to_string(r.refusals.size()) + "," + fixed(r.last().seconds, 1) + ",\"" + r.stopped + "\"\n";
+            std::to_string(r.refusals.size()) + "," + fixed_text(r.last().seconds, 1) + ",\"" + r.stopped +
+            "\"\n";
   }
   return text;
 }
@@ -100,9 +96,9 @@ std::string step_rows(const std::vector<SectionRun>& runs) {
   for (const SectionRun& r : runs) {
     for (const SectionStep& s : r.steps) {
       text += r.case_name + "," + r.section + "," + name_of(r.health) + "," + std::to_string(s.strokes) +
-              "," + fixed(s.seconds, 1) + "," + fixed(s.to_observer.msd_mm, 4) + "," +
-              fixed(s.to_observer.max_sd_mm, 4) + "," + fixed(s.to_truth.msd_mm, 4) + "," +
-              fixed(s.to_truth.max_sd_mm, 4) + "\n";
+              "," + fixed_text(s.seconds, 1) + "," + fixed_text(s.to_observer.msd_mm, 4) + "," +
+              fixed_text(s.to_observer.max_sd_mm, 4) + "," + fixed_text(s.to_truth.msd_mm, 4) + "," +
+              fixed_text(s.to_truth.max_sd_mm, 4) + "\n";
     }
   }
   return text;
@@ -177,7 +173,7 @@ figure::Picture section_plot(const SectionRun& run) {
   }
   figure::PlotOptions how;
   how.title = run.case_name + " " + run.section + ", " + run.vessel + ", " + name_of(run.health) + ", " +
-              fixed(run.length_mm, 1) + " mm";
+              fixed_text(run.length_mm, 1) + " mm";
   how.x_label = "modelled time (s)";
   how.y_label = "distance to the observer (mm)";
   how.y_from_zero = true;
@@ -196,11 +192,12 @@ void write_html(const fs::path& path, const std::vector<SectionRun>& runs, const
   std::vector<std::vector<std::string>> rows;
   for (const Health health : {Health::healthy, Health::diseased}) {
     const EditingSummary s = summarize(runs, health);
-    rows.push_back({name_of(health), std::to_string(s.sections), fixed(s.length_mm, 0), fixed(s.start.msd_mm),
-                    fixed(s.final.msd_mm), fixed(s.start.max_sd_mm, 2), fixed(s.final.max_sd_mm, 2),
-                    fixed(s.floor_msd_mm), fixed(s.final_to_truth.msd_mm),
-                    fixed(s.observer_against_truth.msd_mm), fixed(s.median_strokes, 1),
-                    fixed(100.0 * s.section_share, 0), fixed(s.mean_seconds, 0)});
+    rows.push_back({name_of(health), std::to_string(s.sections), fixed_text(s.length_mm, 0),
+                    fixed_text(s.start.msd_mm, 3), fixed_text(s.final.msd_mm, 3),
+                    fixed_text(s.start.max_sd_mm, 2), fixed_text(s.final.max_sd_mm, 2),
+                    fixed_text(s.floor_msd_mm, 3), fixed_text(s.final_to_truth.msd_mm, 3),
+                    fixed_text(s.observer_against_truth.msd_mm, 3), fixed_text(s.median_strokes, 1),
+                    fixed_text(100.0 * s.section_share, 0), fixed_text(s.mean_seconds, 0)});
   }
   page.table(
       {"lumen", "sections", "mm", "MSD start", "MSD edited", "max SD start", "max SD edited", "MSD floor",
@@ -211,9 +208,9 @@ void write_html(const fs::path& path, const std::vector<SectionRun>& runs, const
   page.section("Section by section");
   std::vector<std::vector<std::string>> cells;
   for (const SectionRun& r : runs)
-    cells.push_back({r.case_name, r.section, r.vessel, name_of(r.health), fixed(r.length_mm, 1),
-                     fixed(r.first().to_observer.msd_mm), fixed(r.last().to_observer.msd_mm),
-                     fixed(r.last().to_observer.max_sd_mm, 2), fixed(r.last().to_truth.msd_mm),
+    cells.push_back({r.case_name, r.section, r.vessel, name_of(r.health), fixed_text(r.length_mm, 1),
+                     fixed_text(r.first().to_observer.msd_mm, 3), fixed_text(r.last().to_observer.msd_mm, 3),
+                     fixed_text(r.last().to_observer.max_sd_mm, 2), fixed_text(r.last().to_truth.msd_mm, 3),
                      std::to_string(r.edits.size()), std::to_string(r.section_strokes), r.stopped});
   page.table({"case", "section", "vessel", "lumen", "mm", "MSD start", "MSD edited", "max SD edited",
               "MSD edited, truth", "strokes", "on sections", "stopped"},

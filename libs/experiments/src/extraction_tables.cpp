@@ -1,20 +1,14 @@
 #include "extraction_tables.h"
 
+#include "ostia/core/text.h"
+
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
 
 namespace ostia::experiments {
 namespace {
 
+using core::fixed_or_dash;
 using evaluation::Lesion;
-
-std::string table_number(double value, int decimals) {
-  if (!std::isfinite(value)) return "-";
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", decimals, value);
-  return text;
-}
 
 const char* word(geometry::Health health) {
   return health == geometry::Health::diseased ? "diseased" : "healthy";
@@ -23,7 +17,7 @@ const char* word(geometry::Health health) {
 std::string stretches(const std::vector<std::pair<double, double>>& pieces) {
   std::string text;
   for (const auto& [from, to] : pieces)
-    text += (text.empty() ? "" : "; ") + table_number(from, 1) + " to " + table_number(to, 1);
+    text += (text.empty() ? "" : "; ") + fixed_or_dash(from, 1) + " to " + fixed_or_dash(to, 1);
   return text;
 }
 
@@ -33,28 +27,28 @@ std::vector<std::string> case_row(const std::string& name, const std::vector<Ext
   const evaluation::LesionCounts& lesions = s.stenoses.all;
   return {
       name,
-      table_number(s.annotated.ov, 3),
-      table_number(s.annotated.of, 3),
-      table_number(s.annotated.ot, 3),
-      table_number(s.annotated.ai_mm, 3),
-      table_number(s.all.ov, 3),
-      table_number(s.astray_mm, 1),
+      fixed_or_dash(s.annotated.ov, 3),
+      fixed_or_dash(s.annotated.of, 3),
+      fixed_or_dash(s.annotated.ot, 3),
+      fixed_or_dash(s.annotated.ai_mm, 3),
+      fixed_or_dash(s.all.ov, 3),
+      fixed_or_dash(s.astray_mm, 1),
       std::to_string(s.right) + "/" + std::to_string(s.wrong) + "/" + std::to_string(s.unnamed + s.missing),
-      table_number(s.healthy.dice, 3),
-      table_number(s.healthy.msd_mm, 3),
-      table_number(s.healthy.max_sd_mm, 2),
-      table_number(s.diseased.dice, 3),
-      table_number(s.diseased.msd_mm, 3),
-      table_number(s.diseased.max_sd_mm, 2),
+      fixed_or_dash(s.healthy.dice, 3),
+      fixed_or_dash(s.healthy.msd_mm, 3),
+      fixed_or_dash(s.healthy.max_sd_mm, 2),
+      fixed_or_dash(s.diseased.dice, 3),
+      fixed_or_dash(s.diseased.msd_mm, 3),
+      fixed_or_dash(s.diseased.max_sd_mm, 2),
       std::to_string(lesions.true_positive) + "/" + std::to_string(lesions.false_negative) + "/" +
           std::to_string(lesions.false_positive),
-      table_number(s.most_seconds, 1),
-      table_number(s.most_mb / 1024.0, 2)};
+      fixed_or_dash(s.most_seconds, 1),
+      fixed_or_dash(s.most_mb / 1024.0, 2)};
 }
 
 std::string place(const Lesion& lesion) {
-  return table_number(lesion.s_throat_mm, 1) + " (" + table_number(lesion.s_from_mm, 1) + " to " +
-         table_number(lesion.s_to_mm, 1) + ")";
+  return fixed_or_dash(lesion.s_throat_mm, 1) + " (" + fixed_or_dash(lesion.s_from_mm, 1) + " to " +
+         fixed_or_dash(lesion.s_to_mm, 1) + ")";
 }
 
 }  // namespace
@@ -89,9 +83,9 @@ Table vessel_table(const std::vector<ExtractionRun>& runs) {
                   "ot",   "ai_mm",  "missed_mm", "named",     "found_as"};
   for (const ExtractionRun& run : runs)
     for (const VesselRun& v : run.vessels)
-      table.rows.push_back({run.case_name, v.name, v.annotated ? "yes" : "no", table_number(v.length_mm, 1),
-                            table_number(v.scores.ov, 4), table_number(v.scores.of, 4),
-                            table_number(v.scores.ot, 4), table_number(v.scores.ai_mm, 4),
+      table.rows.push_back({run.case_name, v.name, v.annotated ? "yes" : "no", fixed_or_dash(v.length_mm, 1),
+                            fixed_or_dash(v.scores.ov, 4), fixed_or_dash(v.scores.of, 4),
+                            fixed_or_dash(v.scores.ot, 4), fixed_or_dash(v.scores.ai_mm, 4),
                             stretches(v.missed_mm), name_of(v.verdict), v.found_name});
   return table;
 }
@@ -102,9 +96,9 @@ Table section_table(const std::vector<ExtractionRun>& runs) {
                   "dice", "msd_mm",  "max_sd_mm", "signed_mean_mm"};
   for (const ExtractionRun& run : runs)
     for (const evaluation::SectionScore& s : run.sections)
-      table.rows.push_back({run.case_name, s.section, s.vessel, word(s.health), table_number(s.length_mm, 1),
-                            table_number(s.dice, 4), table_number(s.msd_mm, 4), table_number(s.max_sd_mm, 3),
-                            table_number(s.signed_mean_mm, 4)});
+      table.rows.push_back({run.case_name, s.section, s.vessel, word(s.health), fixed_or_dash(s.length_mm, 1),
+                            fixed_or_dash(s.dice, 4), fixed_or_dash(s.msd_mm, 4),
+                            fixed_or_dash(s.max_sd_mm, 3), fixed_or_dash(s.signed_mean_mm, 4)});
   return table;
 }
 
@@ -120,8 +114,8 @@ Table stenosis_table(const std::vector<ExtractionRun>& runs, const ExtractionSco
       const bool seen = found && found->grade >= options.threshold;
       if (!is && !seen) return;
       table.rows.push_back({run.case_name, (truth ? truth : found)->vessel, truth ? place(*truth) : "-",
-                            truth ? table_number(100.0 * truth->grade, 1) : "-", found ? place(*found) : "-",
-                            found ? table_number(100.0 * found->grade, 1) : "-",
+                            truth ? fixed_or_dash(100.0 * truth->grade, 1) : "-", found ? place(*found) : "-",
+                            found ? fixed_or_dash(100.0 * found->grade, 1) : "-",
                             is && seen ? "found" : (is ? "missed" : "false")});
     };
     for (const evaluation::LesionPair& pair : d.pairs)
@@ -152,14 +146,14 @@ std::vector<std::string> worst_of(const std::vector<ExtractionRun>& runs,
   }
   if (vessel)
     said.push_back("annotated vessel of the least overlap: " + vessel->name + " of " + of_vessel + ", OV " +
-                   table_number(vessel->scores.ov, 3) +
+                   fixed_or_dash(vessel->scores.ov, 3) +
                    (vessel->missed_mm.empty() ? "" : ", missed: " + stretches(vessel->missed_mm) + " mm"));
   for (std::size_t kind = 0; kind < 2; ++kind)
     if (sections[kind])
       said.push_back(std::string(word(sections[kind]->health)) + " section of the least Dice: " +
                      sections[kind]->section + " (" + sections[kind]->vessel + ") of " + of_section[kind] +
-                     ", Dice " + table_number(sections[kind]->dice, 3) + ", MSD " +
-                     table_number(sections[kind]->msd_mm, 3) + " mm");
+                     ", Dice " + fixed_or_dash(sections[kind]->dice, 3) + ", MSD " +
+                     fixed_or_dash(sections[kind]->msd_mm, 3) + " mm");
   const Table stenoses = stenosis_table(runs, options);
   for (const std::vector<std::string>& row : stenoses.rows)
     if (row.back() != "found")

@@ -3,12 +3,12 @@
 #include "ostia/core/csv.h"
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
+#include "ostia/core/text.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 
@@ -16,6 +16,7 @@ namespace ostia::experiments {
 namespace fs = std::filesystem;
 namespace {
 
+using core::significant_text;
 using Cells = std::vector<std::string>;
 
 const Cells run_header{
@@ -39,25 +40,22 @@ const Cells branch_header{"heart",
                           "true_curvature",
                           "template_curvature"};
 
-std::string number(double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.9g", value);
-  return text;
-}
-
 std::string line_of(const MotionRun& r) {
-  return core::csv_line({r.heart, number(100.0 * r.phase), word(r.method), std::to_string(r.depth),
-                         r.sampling, r.lost, number(r.seconds), number(r.processor_seconds),
-                         number(r.distance_mm), number(r.dice), number(r.vertex_mm),
-                         number(r.vertex_worst_mm), std::to_string(r.inverted_cells),
+  return core::csv_line({r.heart, significant_text(100.0 * r.phase, 9), word(r.method),
+                         std::to_string(r.depth), r.sampling, r.lost, significant_text(r.seconds, 9),
+                         significant_text(r.processor_seconds, 9), significant_text(r.distance_mm, 9),
+                         significant_text(r.dice, 9), significant_text(r.vertex_mm, 9),
+                         significant_text(r.vertex_worst_mm, 9), std::to_string(r.inverted_cells),
                          std::to_string(r.new_intersections)});
 }
 std::string line_of(const BranchRun& r) {
-  return core::csv_line({r.heart, number(100.0 * r.phase), std::to_string(r.depth), r.branch,
-                         number(r.length_mm), number(r.stretch), number(r.true_stretch), number(r.torsion),
-                         number(r.true_torsion), number(r.template_torsion), number(r.size),
-                         number(r.true_size), number(r.template_size), number(r.curvature),
-                         number(r.true_curvature), number(r.template_curvature)});
+  return core::csv_line({r.heart, significant_text(100.0 * r.phase, 9), std::to_string(r.depth), r.branch,
+                         significant_text(r.length_mm, 9), significant_text(r.stretch, 9),
+                         significant_text(r.true_stretch, 9), significant_text(r.torsion, 9),
+                         significant_text(r.true_torsion, 9), significant_text(r.template_torsion, 9),
+                         significant_text(r.size, 9), significant_text(r.true_size, 9),
+                         significant_text(r.template_size, 9), significant_text(r.curvature, 9),
+                         significant_text(r.true_curvature, 9), significant_text(r.template_curvature, 9)});
 }
 
 /// The cells of one line, by the order of the header.
@@ -79,7 +77,8 @@ class Line {
   double phase() { return value() / 100.0; }
   std::size_t count() {
     const double found = value();
-    if (!(found >= 0.0) || found > 1e15) fail("has " + number(found) + " as " + header_[next_ - 1]);
+    if (!(found >= 0.0) || found > 1e15)
+      fail("has " + significant_text(found, 9) + " as " + header_[next_ - 1]);
     return static_cast<std::size_t>(found);
   }
   [[noreturn]] void fail(const std::string& what) const {

@@ -2,6 +2,7 @@
 #include "motion_plots.h"
 
 #include "ostia/core/files.h"
+#include "ostia/core/text.h"
 #include "ostia/experiments/motion.h"
 #include "ostia/figure/html_report.h"
 
@@ -17,13 +18,8 @@
 namespace ostia::experiments {
 namespace {
 
+using core::fixed_text;
 using Json = nlohmann::ordered_json;
-
-std::string motion_number(double value, int decimals) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", decimals, value);
-  return text;
-}
 
 std::string name_of(const MotionRow& row) {
   return name_of(row.method, row.depth, row.sampling);
@@ -35,13 +31,13 @@ const std::vector<std::string> header{"method",       "runs",           "seconds
 std::vector<std::string> cells(const MotionRow& row) {
   return {name_of(row),
           std::to_string(row.runs),
-          row.seconds > 0.0 ? motion_number(row.seconds, 2) : "-",
-          row.seconds > 0.0 ? motion_number(row.processor_seconds, 2) : "-",
-          motion_number(row.distance_mm, 3) + " ± " + motion_number(row.distance_sd_mm, 3),
-          motion_number(row.dice, 3) + " ± " + motion_number(row.dice_sd, 3),
-          motion_number(row.least_dice, 3),
-          motion_number(row.vertex_mm, 3),
-          motion_number(row.worst_vertex_mm, 3),
+          row.seconds > 0.0 ? fixed_text(row.seconds, 2) : "-",
+          row.seconds > 0.0 ? fixed_text(row.processor_seconds, 2) : "-",
+          fixed_text(row.distance_mm, 3) + " ± " + fixed_text(row.distance_sd_mm, 3),
+          fixed_text(row.dice, 3) + " ± " + fixed_text(row.dice_sd, 3),
+          fixed_text(row.least_dice, 3),
+          fixed_text(row.vertex_mm, 3),
+          fixed_text(row.worst_vertex_mm, 3),
           std::to_string(row.inverted_cells),
           std::to_string(row.new_intersections)};
 }
@@ -112,10 +108,9 @@ void add_branches(figure::HtmlReport& page, const std::vector<BranchRun>& branch
   if (branches.empty()) return;
   std::vector<std::vector<std::string>> lines;
   for (const auto& [name, one] : named(agreement(branches)))
-    lines.push_back({name, std::to_string(one.count), motion_number(100.0 * one.median, 2),
-                     motion_number(100.0 * one.p95, 2), motion_number(100.0 * one.worst, 1),
-                     motion_number(100.0 * one.within_5_percent, 1),
-                     motion_number(100.0 * one.of_change, 1)});
+    lines.push_back({name, std::to_string(one.count), fixed_text(100.0 * one.median, 2),
+                     fixed_text(100.0 * one.p95, 2), fixed_text(100.0 * one.worst, 1),
+                     fixed_text(100.0 * one.within_5_percent, 1), fixed_text(100.0 * one.of_change, 1)});
   page.section("Stretch and torsion of the branches");
   page.table(
       {"measure", "values", "median, %", "95 %, %", "worst, %", "within 5 %, %", "of the change, %"}, lines,

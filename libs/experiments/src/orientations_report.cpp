@@ -1,6 +1,7 @@
 #include "ostia/experiments/orientations_report.h"
 
 #include "ostia/core/files.h"
+#include "ostia/core/text.h"
 #include "ostia/evaluation/agreement_plot.h"
 #include "ostia/figure/html_report.h"
 #include "ostia/figure/plot.h"
@@ -15,6 +16,7 @@ namespace ostia::experiments {
 namespace fs = std::filesystem;
 namespace {
 
+using core::fixed_text;
 using Json = nlohmann::ordered_json;
 
 struct Named {
@@ -27,12 +29,6 @@ constexpr std::array<Named, 3> quantities{
     {{TubeQuantity::length, "length", "length", "Length"},
      {TubeQuantity::radius, "radius", "radius, segmented image", "Radius, from the segmented image"},
      {TubeQuantity::grey_radius, "grey_radius", "radius, grey image", "Radius, from the grey image"}}};
-
-std::string orientation_number(double value, int decimals) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", decimals, value);
-  return text;
-}
 
 Json json_of(const OrientationsSummary& s) {
   return {{"pairs", s.pairs},
@@ -98,9 +94,9 @@ std::string measure_rows(const std::vector<OrientationRun>& runs) {
       "tube,orientation,true_length_mm,true_radius_mm,lines,length_mm,radius_mm,grey_radius_mm\n";
   for (const OrientationRun& run : runs)
     for (const TubeMeasure& m : run.tubes) {
-      text += m.tube + "," + m.orientation + "," + orientation_number(m.true_length_mm, 3) + "," +
-              orientation_number(m.true_radius_mm, 3) + "," + std::to_string(m.lines);
-      for (const Named& q : quantities) text += "," + orientation_number(value_of(m, q.quantity), 4);
+      text += m.tube + "," + m.orientation + "," + fixed_text(m.true_length_mm, 3) + "," +
+              fixed_text(m.true_radius_mm, 3) + "," + std::to_string(m.lines);
+      for (const Named& q : quantities) text += "," + fixed_text(value_of(m, q.quantity), 4);
       text += "\n";
     }
   return text;
@@ -123,10 +119,9 @@ void add_summary(figure::HtmlReport& page, const std::vector<OrientationRun>& ru
   std::vector<std::vector<std::string>> rows;
   for (const Named& q : quantities) {
     const OrientationsSummary s = summarize(runs, q.quantity);
-    rows.push_back({q.text, std::to_string(s.pairs), std::to_string(s.missing),
-                    orientation_number(s.two_sd_mm, 3), orientation_number(s.farthest_mm, 3),
-                    std::to_string(s.beyond), orientation_number(s.bias_mm, 3),
-                    orientation_number(s.two_sd_truth_mm, 3)});
+    rows.push_back({q.text, std::to_string(s.pairs), std::to_string(s.missing), fixed_text(s.two_sd_mm, 3),
+                    fixed_text(s.farthest_mm, 3), std::to_string(s.beyond), fixed_text(s.bias_mm, 3),
+                    fixed_text(s.two_sd_truth_mm, 3)});
   }
   page.table({"of", "values", "missing", "2 SD about the mean", "farthest", "beyond 2 SD",
               "bias to the truth", "2 SD to the truth"},
@@ -137,13 +132,13 @@ void add_tables(figure::HtmlReport& page, const std::vector<OrientationRun>& run
   std::vector<std::vector<std::string>> rows;
   for (std::size_t t = 0; t < runs.front().tubes.size(); ++t) {
     const TubeMeasure& first = runs.front().tubes[t];
-    std::vector<std::string> row{first.tube, orientation_number(first.true_length_mm, 1),
-                                 orientation_number(first.true_radius_mm, 2)};
+    std::vector<std::string> row{first.tube, fixed_text(first.true_length_mm, 1),
+                                 fixed_text(first.true_radius_mm, 2)};
     for (const Named& q : quantities) {
       const Spread s = spread_of(runs, t, q.quantity);
       const double truth = q.quantity == TubeQuantity::length ? first.true_length_mm : first.true_radius_mm;
-      row.push_back(orientation_number(s.mean - truth, 3));
-      row.push_back(orientation_number(2.0 * s.sd, 3));
+      row.push_back(fixed_text(s.mean - truth, 3));
+      row.push_back(fixed_text(2.0 * s.sd, 3));
     }
     rows.push_back(std::move(row));
   }
@@ -223,8 +218,8 @@ void write_orientations_report(const fs::path& folder, const std::vector<Orienta
       "One phantom in many orientations",
       std::to_string(runs.front().tubes.size()) + " tubes, " + std::to_string(runs.size()) + " scans");
   const Vec3& voxel = options.scan.spacing_mm;
-  page.paragraph("Straight tubes scanned in silico with voxels of " + orientation_number(voxel.x(), 2) +
-                 " x " + orientation_number(voxel.y(), 2) + " x " + orientation_number(voxel.z(), 2) +
+  page.paragraph("Straight tubes scanned in silico with voxels of " + fixed_text(voxel.x(), 2) + " x " +
+                 fixed_text(voxel.y(), 2) + " x " + fixed_text(voxel.z(), 2) +
                  " mm, segmented by a level set, thinned and measured; lengths and radii are held against "
                  "each tube's mean over the scans and against the truth.");
   add_summary(page, runs);

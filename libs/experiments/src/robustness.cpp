@@ -1,6 +1,7 @@
 #include "ostia/experiments/robustness.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/text.h"
 #include "ostia/coronary/extract.h"
 #include "ostia/phantom/body.h"
 
@@ -13,6 +14,7 @@
 namespace ostia::experiments {
 namespace {
 
+using core::rounded_text;
 using geometry::Vec3;
 using phantom::Anatomy;
 
@@ -149,14 +151,6 @@ Variation step(const std::string& what, const std::string& value) {
   return variation;
 }
 
-std::string whole(double value, const char* unit) {
-  return std::to_string(std::lround(value)) + unit;
-}
-std::string tenths(double value, const char* unit) {
-  const long n = std::lround(10.0 * value);
-  return std::to_string(n / 10) + "." + std::to_string(n % 10) + unit;
-}
-
 }  // namespace
 
 std::vector<Variation> usual_variations() {
@@ -167,18 +161,20 @@ std::vector<Variation> usual_variations() {
   };
   // Those that show the same patient come first: the patient is scanned once for them.
   for (const double noise : {15.0, 40.0, 60.0, 90.0, 120.0})
-    add("noise", whole(noise, " HU")).noise_hu = noise;
+    add("noise", rounded_text(noise, 0) + " HU").noise_hu = noise;
   for (const double kept : {0.8, 0.6, 0.4})
-    add("upper part of the image", whole(100.0 * kept, " %")).kept = kept;
+    add("upper part of the image", rounded_text(100.0 * kept, 0) + " %").kept = kept;
   for (const double contrast : {200.0, 250.0, 300.0, 600.0})
-    add("contrast", whole(contrast, " HU")).patient.contrast_hu = contrast;
+    add("contrast", rounded_text(contrast, 0) + " HU").patient.contrast_hu = contrast;
   for (const double calcium : {0.0, 4.0, 10.0})
-    add("calcium", calcium == 0.0 ? "none" : "a nodule every " + tenths(12.0 / (calcium - 1.0), " mm"))
+    add("calcium",
+        calcium == 0.0 ? "none" : "a nodule every " + rounded_text(12.0 / (calcium - 1.0), 1) + " mm")
         .patient.calcium = calcium;
-  for (const double motion : {1.0, 2.0, 3.0}) add("motion", tenths(motion, " mm")).motion_mm = motion;
-  for (const double slice : {1.5, 2.0, 3.0}) add("slices", tenths(slice, " mm")).slice_mm = slice;
+  for (const double motion : {1.0, 2.0, 3.0})
+    add("motion", rounded_text(motion, 1) + " mm").motion_mm = motion;
+  for (const double slice : {1.5, 2.0, 3.0}) add("slices", rounded_text(slice, 1) + " mm").slice_mm = slice;
   for (const double venous : {0.5, 1.0})
-    add("venous contrast", whole(100.0 * venous, " % of the arterial")).patient.venous = venous;
+    add("venous contrast", rounded_text(100.0 * venous, 0) + " % of the arterial").patient.venous = venous;
   for (const Anatomy anatomy : {Anatomy::left_ostium_closed, Anatomy::right_ostium_closed,
                                 Anatomy::rca_from_left, Anatomy::lcx_from_right, Anatomy::bypass})
     add("anatomy", phantom::word(anatomy)).patient.anatomy = anatomy;

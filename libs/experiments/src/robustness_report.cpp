@@ -1,4 +1,5 @@
 #include "ostia/core/files.h"
+#include "ostia/core/text.h"
 #include "ostia/experiments/robustness.h"
 #include "ostia/figure/html_report.h"
 #include "ostia/figure/plot.h"
@@ -8,7 +9,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <optional>
 #include <set>
@@ -16,16 +16,10 @@
 namespace ostia::experiments {
 namespace {
 
+using core::fixed_or_dash;
 using Json = nlohmann::ordered_json;
 
 constexpr double holds_ov = 0.9, holds_astray_mm = 5.0;
-
-std::string robustness_number(double value, int decimals) {
-  if (std::isnan(value)) return "-";
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", decimals, value);
-  return text;
-}
 
 /// A warning without its numbers and without the vessel it is about: its kind.
 std::string kind_of(const std::string& warning) {
@@ -100,12 +94,12 @@ std::vector<std::string> cells_of(const RobustnessRow& row) {
   return {row.what,
           row.step,
           std::to_string(row.refused) + " of " + std::to_string(row.patients),
-          robustness_number(row.ov, 3),
-          robustness_number(row.main_ov, 3),
-          robustness_number(row.ai_mm, 3),
+          fixed_or_dash(row.ov, 3),
+          fixed_or_dash(row.main_ov, 3),
+          fixed_or_dash(row.ai_mm, 3),
           std::to_string(row.right) + " / " + std::to_string(row.wrong) + " / " +
               std::to_string(row.unnamed) + " / " + std::to_string(row.missing),
-          robustness_number(row.astray_mm, 1),
+          fixed_or_dash(row.astray_mm, 1),
           row.holds() ? "holds" : "breaks",
           told};
 }
@@ -115,8 +109,8 @@ std::string csv_of(const std::vector<RobustnessRun>& runs) {
   for (const RobustnessRun& run : runs)
     for (const VesselRun& vessel : run.score.vessels)
       text += run.variation.what + ",\"" + run.variation.step + "\"," + std::to_string(run.seed) + "," +
-              vessel.name + "," + robustness_number(vessel.scores.ov, 4) + "," +
-              robustness_number(vessel.scores.of, 4) + "," + robustness_number(vessel.scores.ai_mm, 4) + "," +
+              vessel.name + "," + fixed_or_dash(vessel.scores.ov, 4) + "," +
+              fixed_or_dash(vessel.scores.of, 4) + "," + fixed_or_dash(vessel.scores.ai_mm, 4) + "," +
               name_of(vessel.verdict) + "," + vessel.found_name + "\n";
   return text;
 }
@@ -216,8 +210,8 @@ void write_robustness_report(const std::filesystem::path& folder, const std::vec
   page.paragraph(
       "One thing at a time is made worse. A step holds where nothing is refused, the mean overlap is at "
       "least " +
-      robustness_number(holds_ov, 2) + ", no vessel bears another's name and at most " +
-      robustness_number(holds_astray_mm, 0) + " mm of what was found in a patient follow no artery.");
+      fixed_or_dash(holds_ov, 2) + ", no vessel bears another's name and at most " +
+      fixed_or_dash(holds_astray_mm, 0) + " mm of what was found in a patient follow no artery.");
   std::vector<std::vector<std::string>> cells;
   for (const RobustnessRow& row : rows) cells.push_back(cells_of(row));
   page.table({"what", "step", "refused", "OV", "OV of LAD, LCX, RCA", "AI, mm",

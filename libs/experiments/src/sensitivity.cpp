@@ -3,10 +3,10 @@
 #include "sensitivity_measure.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/text.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace ostia::experiments {
 namespace {
@@ -50,9 +50,9 @@ void judge(ParameterRun& run) {
     return;
   }
   run.on_plateau = !failed && run.plateau <= plateau_limit;
-  char text[64];
-  std::snprintf(text, sizeof text, "%s, %.1f %%", run.on_plateau ? "plateau" : "slope", 100.0 * run.plateau);
-  run.verdict = failed ? "fails near the default" : text;
+  run.verdict =
+      failed ? "fails near the default"
+             : (run.on_plateau ? "plateau, " : "slope, ") + core::fixed_text(100.0 * run.plateau, 1) + " %";
 }
 
 template <class Options>

@@ -1,7 +1,7 @@
+#include "ostia/core/text.h"
 #include "ostia/experiments/sensitivity.h"
 
 #include <cmath>
-#include <cstdio>
 
 namespace ostia::experiments {
 namespace {
@@ -25,10 +25,8 @@ Parameter<Options> number(const char* name, const char* meaning, double standard
     if (v != standard) first_step = std::min(first_step, std::abs(v - standard));
   const double reach = standard != 0.0 ? 0.25 * std::abs(standard) : first_step;
   for (const double v : values) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.4g", v);
     if (v == standard) out.standard = out.settings.size();
-    out.settings.push_back({text, v, std::abs(v - standard) <= reach * (1.0 + 1e-9)});
+    out.settings.push_back({core::significant_text(v, 4), v, std::abs(v - standard) <= reach * (1.0 + 1e-9)});
   }
   return out;
 }

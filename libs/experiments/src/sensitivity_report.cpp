@@ -1,4 +1,5 @@
 #include "ostia/core/files.h"
+#include "ostia/core/text.h"
 #include "ostia/experiments/sensitivity.h"
 #include "ostia/figure/html_report.h"
 #include "ostia/figure/plot.h"
@@ -14,12 +15,6 @@ namespace fs = std::filesystem;
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string signed_number(double value, int decimals) {
-  char text[48];
-  std::snprintf(text, sizeof text, "%+.*f", decimals, value);
-  return text;
-}
 
 double percent(double value, double of) {
   return of > 0.0 ? 100.0 * (value / of - 1.0) : 0.0;
@@ -129,10 +124,10 @@ void add_table(figure::HtmlReport& page, const std::vector<ParameterRun>& runs,
       std::vector<std::string> row{run.name, s.setting.name + (v == run.standard ? " (default)" : "")};
       for (std::size_t c = 0; c < s.cases.size(); ++c) {
         const LumenFigures &f = s.cases[c], &t = result.truth[c];
-        row.insert(row.end(), {signed_number(percent(f.volume_mm3, t.volume_mm3), 2),
-                               signed_number(f.mean_diameter_mm - t.mean_diameter_mm, 3),
-                               signed_number(f.least_diameter_mm - t.least_diameter_mm, 3),
-                               signed_number(f.axis_mm, 3)});
+        row.insert(row.end(), {core::signed_text(percent(f.volume_mm3, t.volume_mm3), 2),
+                               core::signed_text(f.mean_diameter_mm - t.mean_diameter_mm, 3),
+                               core::signed_text(f.least_diameter_mm - t.least_diameter_mm, 3),
+                               core::signed_text(f.axis_mm, 3)});
       }
       row.push_back(s.failure.empty() ? (v == run.standard ? run.verdict : "") : s.failure);
       rows.push_back(std::move(row));

@@ -3,6 +3,7 @@
 #include "smoothness_plots.h"
 
 #include "ostia/core/files.h"
+#include "ostia/core/text.h"
 #include "ostia/experiments/orientations_report.h"
 #include "ostia/figure/html_report.h"
 
@@ -18,14 +19,9 @@ namespace ostia::experiments {
 namespace fs = std::filesystem;
 namespace {
 
+using core::fixed_text;
 using Json = nlohmann::ordered_json;
 using Figures = std::vector<SurfaceFigures>;
-
-std::string smoothness_number(double value, int decimals) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", decimals, value);
-  return text;
-}
 
 const char* key_of(SurfaceKind kind) {
   switch (kind) {
@@ -88,10 +84,10 @@ std::string rows_of(const Figures& surfaces) {
   for (const SurfaceFigures& s : surfaces) {
     text += s.orientation + "," + name_of(s) + "," + std::to_string(s.triangles);
     for (const Bending* b : {&s.tubes, &s.wall, &s.whole})
-      text += "," + smoothness_number(b->rms_kappa1, 5) + "," + smoothness_number(b->rms_kappa2, 5);
-    text += "," + smoothness_number(s.tubes.trimmed_kappa1, 5);
+      text += "," + fixed_text(b->rms_kappa1, 5) + "," + fixed_text(b->rms_kappa2, 5);
+    text += "," + fixed_text(s.tubes.trimmed_kappa1, 5);
     for (const double d : {s.rms_mm, s.hausdorff_mm, s.tubes_rms_mm, s.true_rms_mm, s.tubes_true_mean_mm})
-      text += "," + smoothness_number(d, 4);
+      text += "," + fixed_text(d, 4);
     text += std::string(s.closed ? ",yes," : ",no,") + std::to_string(s.self_intersections) + "\n";
   }
   return text;
@@ -100,22 +96,21 @@ std::string rows_of(const Figures& surfaces) {
 void add_tables(figure::HtmlReport& page, const Figures& surfaces) {
   std::vector<std::vector<std::string>> rows;
   for (const LevelSummary& l : summarize(surfaces))
-    rows.push_back({level_name(l.kind, l.level), std::to_string(l.scans), smoothness_number(l.mean_rms_mm, 3),
-                    smoothness_number(l.worst_rms_mm, 3), smoothness_number(l.worst_hausdorff_mm, 2),
-                    smoothness_number(l.worst_tubes_rms_mm, 3), smoothness_number(l.worst_true_rms_mm, 3),
-                    smoothness_number(l.worst_kappa1_tubes, 3), smoothness_number(l.worst_kappa1_wall, 3),
-                    smoothness_number(l.worst_kappa1, 3), std::to_string(l.self_intersections)});
+    rows.push_back({level_name(l.kind, l.level), std::to_string(l.scans), fixed_text(l.mean_rms_mm, 3),
+                    fixed_text(l.worst_rms_mm, 3), fixed_text(l.worst_hausdorff_mm, 2),
+                    fixed_text(l.worst_tubes_rms_mm, 3), fixed_text(l.worst_true_rms_mm, 3),
+                    fixed_text(l.worst_kappa1_tubes, 3), fixed_text(l.worst_kappa1_wall, 3),
+                    fixed_text(l.worst_kappa1, 3), std::to_string(l.self_intersections)});
   page.table({"level", "scans", "RMS distance: mean", "worst", "Hausdorff", "RMS of the tubes",
               "to the truth", "kappa1: tubes", "with joints", "with ends", "self-intersections"},
              rows, "Distances from the scan's isosurface in mm, curvatures in 1/mm; the worst of all scans.");
   rows.clear();
   for (const SurfaceFigures& s : surfaces)
-    rows.push_back({s.orientation, name_of(s), std::to_string(s.triangles),
-                    smoothness_number(s.tubes.rms_kappa1, 3), smoothness_number(s.tubes.trimmed_kappa1, 3),
-                    smoothness_number(s.tubes.rms_kappa2, 3), smoothness_number(s.wall.rms_kappa1, 3),
-                    smoothness_number(s.whole.rms_kappa1, 3), smoothness_number(s.rms_mm, 3),
-                    smoothness_number(s.hausdorff_mm, 2), smoothness_number(s.true_rms_mm, 3),
-                    smoothness_number(s.tubes_true_mean_mm, 3)});
+    rows.push_back({s.orientation, name_of(s), std::to_string(s.triangles), fixed_text(s.tubes.rms_kappa1, 3),
+                    fixed_text(s.tubes.trimmed_kappa1, 3), fixed_text(s.tubes.rms_kappa2, 3),
+                    fixed_text(s.wall.rms_kappa1, 3), fixed_text(s.whole.rms_kappa1, 3),
+                    fixed_text(s.rms_mm, 3), fixed_text(s.hausdorff_mm, 2), fixed_text(s.true_rms_mm, 3),
+                    fixed_text(s.tubes_true_mean_mm, 3)});
   page.section("Surface by surface");
   page.table({"orientation", "surface", "triangles", "kappa1: tubes", "without 1 %", "kappa2: tubes",
               "kappa1 with joints", "kappa1 with ends", "RMS distance", "Hausdorff", "to the truth",
@@ -233,7 +228,7 @@ void write_smoothness_report(const fs::path& folder, const Figures& surfaces,
       "with the second moments of S0's sections. kappa1 is the lesser principal curvature, 0 along a "
       "straight tube, by a quadric over each "
       "vertex and its direct neighbours. Tubes: what is farther than " +
-      smoothness_number(options.clear_mm, 1) + " mm from a joint and from a free end.");
+      fixed_text(options.clear_mm, 1) + " mm from a joint and from a free end.");
   page.picture(distances, "Left: each scan at each level. Right: one scan, against the number of triangles.");
   page.picture(bends,
                "Left: curvature against triangles. Right: an isosurface with the triangles of L1, smoothed.");

@@ -1,6 +1,7 @@
 #include "ostia/experiments/vessel_chain_report.h"
 
 #include "ostia/core/files.h"
+#include "ostia/core/text.h"
 #include "ostia/evaluation/distance_picture.h"
 #include "ostia/figure/html_report.h"
 #include "ostia/figure/scene.h"
@@ -18,13 +19,8 @@ namespace ostia::experiments {
 namespace fs = std::filesystem;
 namespace {
 
+using core::fixed_text;
 using Json = nlohmann::ordered_json;
-
-std::string chain_number(double value, int decimals) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", decimals, value);
-  return text;
-}
 
 Json json_of(const std::vector<Vec3>& places) {
   Json out = Json::array();
@@ -55,11 +51,11 @@ std::string rows_of(const ChainResult& result) {
       "sides,spacing,level,triangles,share,rms_sd_mm,msd_mm,hd95_mm,hausdorff_mm,signed_mean_mm,closed,self_"
       "intersections\n";
   for (const ChainSurface& s : result.surfaces) {
-    text += std::to_string(s.how.sides) + "," + chain_number(s.how.spacing, 2) + "," +
-            std::to_string(s.how.level) + "," + std::to_string(s.triangles) + "," + chain_number(s.share, 5);
+    text += std::to_string(s.how.sides) + "," + fixed_text(s.how.spacing, 2) + "," +
+            std::to_string(s.how.level) + "," + std::to_string(s.triangles) + "," + fixed_text(s.share, 5);
     for (const double d :
          {s.apart.rms_sd_mm, s.apart.msd_mm, s.apart.hd95_mm, s.apart.max_sd_mm, s.apart.signed_mean_mm})
-      text += "," + chain_number(d, 4);
+      text += "," + fixed_text(d, 4);
     text += std::string(s.closed ? ",yes," : ",no,") + std::to_string(s.self_intersections) + "\n";
   }
   return text;
@@ -116,8 +112,8 @@ figure::Picture surface_panel(const ChainSurface& surface, const figure::Camera&
                               const figure::RenderOptions& how, const core::TaskContext& task) {
   figure::RenderOptions options = how;
   options.title = "level " + std::to_string(surface.how.level) + ", " + std::to_string(surface.triangles) +
-                  " triangles (" + chain_number(100.0 * surface.share, 1) +
-                  " %): " + chain_number(surface.apart.rms_sd_mm, 2) + " mm RMS";
+                  " triangles (" + fixed_text(100.0 * surface.share, 1) +
+                  " %): " + fixed_text(surface.apart.rms_sd_mm, 2) + " mm RMS";
   figure::Scene scene;
   scene.meshes.push_back(actor_of(surface.made));
   return figure::scene_figure(scene, camera, options, task);
@@ -186,7 +182,7 @@ std::string chain_json(const ChainResult& r, const ChainOptions& options, const 
 }
 
 std::string chain_text(const ChainResult& r) {
-  std::string text = std::to_string(r.lines) + " lines, " + chain_number(r.length_mm, 0) + " mm, " +
+  std::string text = std::to_string(r.lines) + " lines, " + fixed_text(r.length_mm, 0) + " mm, " +
                      std::to_string(r.components) + " part(s), " + std::to_string(r.loops) +
                      " loop(s); isosurface of " + std::to_string(r.isosurface.triangles.size()) +
                      " triangles\n"
@@ -207,7 +203,7 @@ void write_chain_report(const fs::path& folder, const ChainResult& result, const
   const figure::Picture picture = figure_of(result, task);
   picture.write_png(folder / "figure.png", 2.0);
   figure::HtmlReport page("From a scan to a surface of quadrilaterals", "The whole chain on one scan");
-  page.paragraph(std::to_string(result.lines) + " vessels, " + chain_number(result.length_mm, 0) +
+  page.paragraph(std::to_string(result.lines) + " vessels, " + fixed_text(result.length_mm, 0) +
                  " mm of them, in " + std::to_string(result.components) +
                  " part(s). Distances go both ways between the isosurface and what is reconstructed from its "
                  "skeleton, ends and joints included.");
@@ -216,10 +212,10 @@ void write_chain_report(const fs::path& folder, const ChainResult& result, const
       "The isosurface, coloured by its distance from the next surface; that; and the nearest of all.");
   std::vector<std::vector<std::string>> rows;
   for (const ChainSurface& s : result.surfaces)
-    rows.push_back({std::to_string(s.how.sides), chain_number(s.how.spacing, 1), std::to_string(s.how.level),
-                    std::to_string(s.triangles), chain_number(100.0 * s.share, 1),
-                    chain_number(s.apart.rms_sd_mm, 3), chain_number(s.apart.hd95_mm, 2),
-                    chain_number(s.apart.max_sd_mm, 2), s.closed ? "yes" : "no",
+    rows.push_back({std::to_string(s.how.sides), fixed_text(s.how.spacing, 1), std::to_string(s.how.level),
+                    std::to_string(s.triangles), fixed_text(100.0 * s.share, 1),
+                    fixed_text(s.apart.rms_sd_mm, 3), fixed_text(s.apart.hd95_mm, 2),
+                    fixed_text(s.apart.max_sd_mm, 2), s.closed ? "yes" : "no",
                     std::to_string(s.self_intersections)});
   page.table({"sides", "spacing", "level", "triangles", "% of the isosurface's", "RMS distance", "95 %",
               "Hausdorff", "closed", "self-intersections"},

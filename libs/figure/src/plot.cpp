@@ -1,9 +1,9 @@
 #include "ostia/figure/plot.h"
 
 #include "canvas.h"
-#include "text.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -226,7 +226,7 @@ std::string tick_text(double value, double step) {
   const int decimals = step > 0.0 && std::isfinite(step)
                            ? std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 12)
                            : 3;
-  return fixed_text(value, decimals);
+  return core::shown_text(value, decimals, "\xE2\x80\x93");  // en dash
 }
 
 Picture line_plot(const std::vector<Series>& series, const PlotOptions& options) {

@@ -2,9 +2,9 @@
 
 #include "canvas.h"
 #include "scale_bar.h"
-#include "text.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/text.h"
 #include "ostia/figure/plot.h"
 #include "ostia/reformat/section.h"
 
@@ -128,7 +128,8 @@ std::string plane_name(const reformat::Plane& plane) {
   static constexpr std::array<const char*, 3> kNames{"sagittal  x = ", "coronal  y = ", "axial  z = "};
   for (int axis = 0; axis < 3; ++axis) {
     if (std::abs(plane.normal()[axis]) > 0.9999985) {
-      return kNames[static_cast<std::size_t>(axis)] + fixed_text(reformat::centre(plane)[axis], 1) + " mm";
+      return kNames[static_cast<std::size_t>(axis)] + core::shown_text(reformat::centre(plane)[axis], 1) +
+             " mm";
     }
   }
   return {};
@@ -140,9 +141,10 @@ void draw_notes(Canvas& canvas, const reformat::Plane& plane, const SliceLayout&
   if (options.plane_name) canvas.text({layout.left + 8.0, layout.top + 6.0}, plane_name(plane), note);
   TextStyle low = note;
   low.along = Align::end;
-  canvas.text({layout.left + 8.0, layout.top + layout.height - 6.0},
-              "W " + fixed_text(options.window_hu, 0) + "  L " + fixed_text(options.level_hu, 0) + " HU",
-              low);
+  canvas.text(
+      {layout.left + 8.0, layout.top + layout.height - 6.0},
+      "W " + core::shown_text(options.window_hu, 0) + "  L " + core::shown_text(options.level_hu, 0) + " HU",
+      low);
   double y = layout.top + 14.0;
   TextStyle right = note;
   right.across = Align::end;

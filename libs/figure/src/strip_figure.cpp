@@ -1,9 +1,9 @@
 #include "ostia/figure/strip_figure.h"
 
 #include "canvas.h"
-#include "text.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/text.h"
 #include "ostia/figure/plot.h"
 #include "ostia/figure/slice_figure.h"
 
@@ -137,7 +137,7 @@ Picture strip_figure(const std::vector<StripPanel>& panels, const std::vector<St
   for (const StripMark& mark : marks)
     label = std::max(label, Canvas::text_size(mark.label, kLabel, true).x() + 20.0);
   const std::string note =
-      "W " + fixed_text(options.window_hu, 0) + "  L " + fixed_text(options.level_hu, 0) + " HU";
+      "W " + core::shown_text(options.window_hu, 0) + "  L " + core::shown_text(options.level_hu, 0) + " HU";
   const double title = options.title.empty() ? 0.0 : Canvas::text_size(options.title, 15.0, true).x();
   const double last = panels.back().title.empty() ? 0.0 : Canvas::text_size(panels.back().title, 11.5).x();
   const double width = std::max({layout.right() + kMarks + label, kLeft + title, layout.left.back() + last,

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <charconv>
-#include <cmath>
 #include <cstdint>
 
 namespace ostia::figure {
@@ -44,16 +43,6 @@ std::string clean_utf8(std::string_view text) {
     text.remove_prefix(length);
   }
   return result;
-}
-
-std::string fixed_text(double value, int decimals) {
-  if (!std::isfinite(value)) return "\xE2\x80\x93";  // en dash
-  std::array<char, 400> buffer{};
-  const auto end =
-      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::fixed, decimals);
-  std::string text(buffer.data(), end.ptr);
-  if (text[0] == '-' && text.find_first_not_of("-0.") == std::string::npos) text.erase(0, 1);
-  return text;
 }
 
 bool looks_numeric(std::string_view cell) {

@@ -1,5 +1,5 @@
 #pragma once
-/// \file Text that is safe to draw and to embed, and numbers that do not depend on the locale.
+/// \file Text that is safe to draw and to embed.
 
 #include <string>
 #include <string_view>
@@ -10,8 +10,6 @@ namespace ostia::figure {
 /// Valid UTF-8: each byte that is part of no character becomes U+FFFD; control characters but tab and newline
 /// are dropped.
 std::string clean_utf8(std::string_view text);
-/// `decimals` after the point; "-0" is written "0".
-std::string fixed_text(double value, int decimals);
 /// Whether a table's cell reads as a number, with or without a unit or sign behind it ("12.5", "-3 mm", "95
 /// %").
 bool looks_numeric(std::string_view cell);

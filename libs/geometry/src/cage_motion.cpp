@@ -1,16 +1,14 @@
 #include "ostia/geometry/cage_motion.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/text.h"
 
 #include <cmath>
 
 namespace ostia::geometry {
 
 std::string percent_text(double phase) {
-  std::string text = std::to_string(std::round(phase * 1e4) / 1e2);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.back() == '.') text.pop_back();
-  return text + " %";
+  return core::trimmed_text(std::round(phase * 1e4) / 1e2, 6) + " %";
 }
 
 void validate(const CageMotion& motion, const std::string& name) {

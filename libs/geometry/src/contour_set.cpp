@@ -1,8 +1,9 @@
 #include "ostia/geometry/contour_set.h"
 
+#include "ostia/core/text.h"
+
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace ostia::geometry {
 namespace {
@@ -52,9 +53,7 @@ std::optional<std::string> fault_of(const Contour& contour) {
 }
 
 std::string at(const Contour& contour) {
-  std::ostringstream text;
-  text << "contour at s_mm " << contour.s_mm << ": ";
-  return text.str();
+  return "contour at s_mm " + core::significant_text(contour.s_mm, 6) + ": ";
 }
 
 }  // namespace

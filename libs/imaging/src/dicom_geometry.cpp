@@ -1,22 +1,19 @@
 #include "dicom_series.h"
 
+#include "ostia/core/text.h"
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace ostia::imaging {
 namespace {
+
+using core::significant_text;
 
 constexpr double kUnevenMm = 0.2;     // more than this off the even grid has to be resampled
 constexpr double kUnevenPart = 0.25;  // of the spacing: what counts where slices are thin
 constexpr double kShearPixels = 0.1;  // shifts in the plane below this are rounding of positions
 constexpr double kDegrees = 57.29577951308232;
-
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
-}
 
 struct Axes {
   Vec3 row, column, normal;
@@ -53,8 +50,9 @@ void set_in_plane(DicomSeriesDetail& series, const Axes& a) {
   }
   const auto& spacing = *first.pixel_spacing;
   if (!(spacing[0] > 0.0 && spacing[1] > 0.0)) {
-    summary.faults.push_back("PixelSpacing is " + number(spacing[0]) + " by " + number(spacing[1]) +
-                             " mm in " + series.slices.front().name() + "; it must be positive");
+    summary.faults.push_back("PixelSpacing is " + significant_text(spacing[0], 6) + " by " +
+                             significant_text(spacing[1], 6) + " mm in " + series.slices.front().name() +
+                             "; it must be positive");
     return;
   }
   g.spacing = Vec3(spacing[1], spacing[0], 1.0);  // rows lie one below the other: the first number is y's
@@ -85,7 +83,7 @@ void check_distances(DicomSeriesDetail& series) {
     if (count == 1) continue;
     missing += static_cast<int>(count - 1);
     where.push_back("between slices " + std::to_string(i + 1) + " and " + std::to_string(i + 2) + " (" +
-                    number(gaps[i]) + " mm)");
+                    significant_text(gaps[i], 6) + " mm)");
   }
   if (multiples) {
     // Distances may each be right and yet add up to another grid.
@@ -108,13 +106,13 @@ void check_distances(DicomSeriesDetail& series) {
     for (std::size_t i = 0; i < std::min<std::size_t>(where.size(), 4); ++i)
       text += (i > 0 ? ", " : "") + where[i];
     if (where.size() > 4) text += " and at " + std::to_string(where.size() - 4) + " more places";
-    summary.warnings.push_back(text + ", where slices are " + number(summary.geometry.spacing[2]) +
-                               " mm apart");
+    summary.warnings.push_back(text + ", where slices are " +
+                               significant_text(summary.geometry.spacing[2], 6) + " mm apart");
   } else {
     const double step = std::max(smallest, typical / 4.0);
     series.even_slices = std::max<std::int64_t>(2, std::llround(std::ceil(length / step - 1e-6)) + 1);
-    summary.warnings.push_back("slices are unevenly apart: from " + number(smallest) + " to " +
-                               number(*std::max_element(gaps.begin(), gaps.end())) + " mm");
+    summary.warnings.push_back("slices are unevenly apart: from " + significant_text(smallest, 6) + " to " +
+                               significant_text(*std::max_element(gaps.begin(), gaps.end()), 6) + " mm");
   }
   series.even_spacing_mm = length / static_cast<double>(series.even_slices - 1);
 }
@@ -134,8 +132,8 @@ void check_shear(DicomSeriesDetail& series, const Axes& a) {
   const DicomSlice& last = series.slices.back();
   const double length = last.depth_mm - series.slices.front().depth_mm;
   summary.gantry_tilt_deg = std::atan2(std::hypot(last.shift_mm[0], last.shift_mm[1]), length) * kDegrees;
-  summary.warnings.push_back("slices are shifted in their plane by up to " + number(largest) +
-                             " mm (tilted gantry, " + number(summary.gantry_tilt_deg) +
+  summary.warnings.push_back("slices are shifted in their plane by up to " + significant_text(largest, 6) +
+                             " mm (tilted gantry, " + significant_text(summary.gantry_tilt_deg, 6) +
                              " degrees): corrected by resampling");
 }
 

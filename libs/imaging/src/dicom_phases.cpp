@@ -1,8 +1,9 @@
 #include "dicom_series.h"
 
+#include "ostia/core/text.h"
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <map>
 
@@ -50,9 +51,7 @@ bool has_duplicates(const Stack& slices) {
 }
 
 std::string label(const NamedKey& key, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%s %.6g%s", key.name, value, key.unit);
-  return text;
+  return std::string(key.name) + " " + core::significant_text(value, 6) + key.unit;
 }
 
 /// One part for each value of the key. Nothing when that leaves slices on each other, or takes apart more

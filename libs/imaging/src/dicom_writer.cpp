@@ -2,10 +2,10 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
+#include "ostia/core/text.h"
 
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -70,9 +70,8 @@ class DataSet {
 std::string decimal(double value) {
   if (value == 0.0) return "0";
   for (int digits = 17; digits > 0; --digits) {
-    char text[40];
-    const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits).ptr;
-    if (end - text <= 16) return {text, end};
+    std::string text = core::significant_text(value, digits);
+    if (text.size() <= 16) return text;
   }
   throw InvalidInput("DICOM: the number " + std::to_string(value) + " does not fit a decimal string");
 }

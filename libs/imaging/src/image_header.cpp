@@ -2,6 +2,7 @@
 #include "image_source.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/text.h"
 
 #include <algorithm>
 #include <charconv>
@@ -60,12 +61,6 @@ std::optional<double> to_double(std::string_view text) {
 }
 std::optional<std::int64_t> to_integer(std::string_view text) {
   return parsed<std::int64_t>(text);
-}
-
-std::string number_text(double value) {
-  char text[40];
-  const auto result = std::to_chars(text, text + sizeof text, value);
-  return std::string(text, result.ptr);
 }
 
 std::string_view trimmed(std::string_view text) {
@@ -169,7 +164,7 @@ void check_sizes(const fs::path& file, const std::string& field, const std::arra
 
 void check_spacing(const fs::path& file, const std::string& field, double spacing) {
   if (!(spacing > 0.0) || !std::isfinite(spacing))
-    refuse(file, field, "a spacing of " + number_text(spacing) + "; it must be finite and above 0");
+    refuse(file, field, "a spacing of " + core::shortest_text(spacing) + "; it must be finite and above 0");
 }
 
 std::uint64_t regular_file_size(const fs::path& file) {

@@ -20,6 +20,7 @@ namespace {
 
 constexpr std::size_t block_voxels = std::size_t{1} << 16;
 constexpr std::size_t most_mask_values = 16;
+constexpr std::size_t most_label_values = 128;  // an 8-bit picture has more
 
 /// Calls visit(first voxel, pointer to values of the stored type, count) block by block; returns whether
 /// there is more data than needed. `visit` returns false to stop early.
@@ -44,7 +45,8 @@ bool visit_voxels(const ImageSource& source, const core::TaskContext& task, cons
 /// The different values among those seen, as long as there are few.
 class FewValues {
  public:
-  /// False once there are more than most_mask_values, or one that is no whole number.
+  explicit FewValues(std::size_t most = most_mask_values) : most_(most) {}
+  /// False once there are more than that, or one that is not finite.
   template <class Stored>
   bool see(const Stored* values, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
@@ -53,7 +55,7 @@ class FewValues {
       if (!std::isfinite(value)) return false;
       last_ = value;
       if (std::find(values_.begin(), values_.end(), value) != values_.end()) continue;
-      if (values_.size() == most_mask_values) return false;
+      if (values_.size() == most_) return false;
       values_.push_back(value);
     }
     return true;
@@ -61,6 +63,7 @@ class FewValues {
   const std::vector<double>& values() const { return values_; }
 
  private:
+  std::size_t most_;
   std::vector<double> values_;
   double last_ = std::numeric_limits<double>::quiet_NaN();
 };
@@ -217,6 +220,26 @@ LoadedImage<std::uint8_t> read_mask(const fs::path& path, const core::TaskContex
                 std::uint8_t{0}, task.sub(0.9, 1.0));
 }
 
+LoadedImage<std::uint8_t> read_labels(const fs::path& path, const core::TaskContext& task) {
+  Prepared p = prepare(path);
+  std::vector<std::uint8_t> voxels = room_for<std::uint8_t>(p.source);
+  const double slope = p.source.slope, intercept = p.source.intercept;
+  const auto read = [&](std::size_t first, const auto* values, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const double value = static_cast<double>(values[i]) * slope + intercept;
+      if (!(value < 255.5))
+        refuse(p.source.header_path, "voxels",
+               "voxel " + std::to_string(first + i) + " is " + std::to_string(value) +
+                   "; labels are whole numbers up to 255: an image, not a mask");
+      voxels[first + i] = value < 0.5 ? 0 : static_cast<std::uint8_t>(std::lround(value));
+    }
+    return true;
+  };
+  note_surplus(p, visit_voxels(p.source, task.sub(0.0, 0.9), read));
+  return placed(std::move(p), std::move(voxels), Interpolation::nearest, Beyond::outside_value,
+                std::uint8_t{0}, task.sub(0.9, 1.0));
+}
+
 LoadedImage<float> read_float_image(const fs::path& path, const core::TaskContext& task) {
   Prepared p = prepare(path);
   std::vector<float> voxels = room_for<float>(p.source);
@@ -252,6 +275,20 @@ bool looks_like_mask(const fs::path& path) {
     zero = zero || value == 0.0;
   }
   return zero;
+}
+
+bool looks_like_labels(const fs::path& path) {
+  const ImageSource source = prepare(path).source;
+  FewValues seen(most_label_values);
+  bool few = true;
+  visit_voxels(source, core::no_task(), [&](std::size_t, const auto* values, std::size_t count) {
+    return few = seen.see(values, count);
+  });
+  const auto label = [&](double stored) {
+    const double value = stored * source.slope + source.intercept;
+    return value == std::round(value) && value >= 0.0 && value <= 255.0;
+  };
+  return few && std::all_of(seen.values().begin(), seen.values().end(), label);
 }
 
 }  // namespace ostia::imaging

@@ -59,7 +59,6 @@ ImageSource parse_nifti(const std::filesystem::path& path, const std::string& he
 /// Numbers as every file format writes them, whatever the locale: the whole text is one number, or nothing.
 std::optional<double> to_double(std::string_view text);
 std::optional<std::int64_t> to_integer(std::string_view text);
-std::string number_text(double value);  ///< shortest text that reads back as the same bits
 
 std::string_view trimmed(std::string_view text);
 std::string lower_case(std::string_view text);

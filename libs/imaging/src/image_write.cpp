@@ -1,8 +1,10 @@
 #include "image_source.h"
+#include "nifti_header.h"
 
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
 #include "ostia/core/parallel.h"
+#include "ostia/core/text.h"
 #include "ostia/imaging/image_file.h"
 
 #include <zlib.h>
@@ -39,8 +41,16 @@ constexpr const char* meta_type<std::uint8_t> = "MET_UCHAR";
 template <>
 constexpr const char* meta_type<float> = "MET_FLOAT";
 
+template <class T>
+constexpr NiftiType nifti_type{};
+template <>
+constexpr NiftiType nifti_type<std::int16_t>{4, 16};
+template <>
+constexpr NiftiType nifti_type<float>{16, 32};
+
 std::string vector_text(const Vec3& v, const char* between) {
-  return number_text(v[0]) + between + number_text(v[1]) + between + number_text(v[2]);
+  return core::shortest_text(v[0]) + between + core::shortest_text(v[1]) + between +
+         core::shortest_text(v[2]);
 }
 
 template <class T>
@@ -191,12 +201,31 @@ void check(const fs::path& path, const Volume<T>& image) {
 }
 
 template <class T>
+void write_nifti(const fs::path& path, const Volume<T>& image, bool packed) {
+  for (const std::int64_t n : image.geometry.size)
+    if (n > most_nifti_voxels)
+      refuse(path, "size",
+             std::to_string(n) + " voxels along an axis; NIfTI-1 counts to " +
+                 std::to_string(most_nifti_voxels) + ", write .nrrd instead");
+  const std::string head = nifti_header(image.geometry, nifti_type<T>);
+  core::StagedFile staged(path);
+  if (packed) {
+    fill(staged, path, gzipped(head + std::string(bytes_of_voxels(image))), {});
+  } else {
+    fill(staged, path, head, bytes_of_voxels(image));
+  }
+  staged.commit();
+}
+
+template <class T>
 void write(const fs::path& path, const Volume<T>& image) {
   check(path, image);
   const std::string extension = lower_case(path.extension().string());
   if (extension == ".mhd") return write_pair(path, image);
+  const bool packed = extension == ".gz" && lower_case(path.stem().extension().string()) == ".nii";
+  if (packed || extension == ".nii") return write_nifti(path, image, packed);
   if (extension != ".nrrd" && extension != ".mha")
-    refuse(path, "extension", "'" + extension + "' is not written; .nrrd, .mhd and .mha are");
+    refuse(path, "extension", "'" + extension + "' is not written; .nrrd, .mhd, .mha, .nii and .nii.gz are");
   core::StagedFile staged(path);
   if (extension == ".nrrd")
     fill(staged, path, nrrd_header(image), gzipped(bytes_of_voxels(image)));

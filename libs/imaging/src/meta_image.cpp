@@ -1,6 +1,8 @@
 #include "image_data.h"
 #include "image_source.h"
 
+#include "ostia/core/text.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -90,7 +92,7 @@ void set_meta_axes(const fs::path& path, const HeaderFields& fields, std::size_t
     if (!(std::abs(length - 1.0) <= 0.01))
       refuse(path, matrix_name,
              "singular or not made of directions: row " + std::to_string(axis) + " has a length of " +
-                 number_text(length) + " where 1 is needed");
+                 core::shortest_text(length) + " where 1 is needed");
     source.step.col(static_cast<int>(axis)) =
         direction * (std::abs(length - 1.0) < 1e-15 ? 1.0 : 1.0 / length) * spacing[axis] * mm;
   }

@@ -1,6 +1,8 @@
 #include "image_data.h"
 #include "image_source.h"
 
+#include "ostia/core/text.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -145,7 +147,8 @@ Affine by_qform(const fs::path& path, const NiftiHeader& h) {
   Vec3 v(h.quatern[0], h.quatern[1], h.quatern[2]);
   const double length = v.squaredNorm();
   if (!(length <= 1.01))
-    refuse(path, "quatern_b, _c, _d", "no unit quaternion: the sum of squares is " + number_text(length));
+    refuse(path, "quatern_b, _c, _d",
+           "no unit quaternion: the sum of squares is " + core::shortest_text(length));
   double a = 1.0 - length;
   if (a < 1e-7) {
     v /= std::sqrt(length);
@@ -201,7 +204,8 @@ void set_data(const fs::path& path, const NiftiHeader& h, const Kind& kind, Enco
   const double least = kind.pair ? 0.0 : kind.version == 1 ? 352.0 : 544.0;
   if (!(h.vox_offset >= least) || h.vox_offset > 9e15 || h.vox_offset != std::floor(h.vox_offset))
     refuse(path, "vox_offset",
-           number_text(h.vox_offset) + " is not a whole number of at least " + number_text(least) + " bytes");
+           core::shortest_text(h.vox_offset) + " is not a whole number of at least " +
+               core::shortest_text(least) + " bytes");
   source.skip = static_cast<std::uint64_t>(h.vox_offset);
   if (!kind.pair) {
     source.data_path = path;

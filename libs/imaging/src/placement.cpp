@@ -3,13 +3,13 @@
 #include "image_source.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/text.h"
 
 #include <Eigen/LU>
 #include <Eigen/SVD>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace ostia::imaging {
 namespace {
@@ -62,12 +62,6 @@ void hold_sheared(Placement& p, const Mat3& step, const Vec3& origin, const std:
   p.offset = inverse * (grid.origin - origin);
 }
 
-std::string degrees_text(double degrees) {
-  // Tenths of a degree as whole numbers: printf's decimal sign would follow the locale.
-  const long tenths = std::lround(degrees * 10.0);
-  return std::to_string(tenths / 10) + "." + std::to_string(tenths % 10) + " degrees";
-}
-
 }  // namespace
 
 Placement place(const std::array<std::int64_t, 3>& size, const Mat3& stored_step, const Vec3& stored_origin,
@@ -83,7 +77,7 @@ Placement place(const std::array<std::int64_t, 3>& size, const Mat3& stored_step
     grid.spacing[axis] = step.col(axis).stableNorm();
     if (!(grid.spacing[axis] > 0.0) || !std::isfinite(grid.spacing[axis]))
       throw InvalidInput(what + ": axis " + std::to_string(axis) + " has a spacing of " +
-                         number_text(grid.spacing[axis]) + "; it must be finite and above 0");
+                         core::shortest_text(grid.spacing[axis]) + "; it must be finite and above 0");
   }
   Mat3 axes = step * grid.spacing.cwiseInverse().asDiagonal();
   const double volume = axes.determinant();
@@ -110,8 +104,8 @@ Placement place(const std::array<std::int64_t, 3>& size, const Mat3& stored_step
   if (shear_deg(axes) <= 0.1 && moved <= 0.1 * grid.spacing.minCoeff()) return p;
 
   hold_sheared(p, step, origin, what);
-  p.warnings.push_back("sheared axes (" + degrees_text(shear_deg(axes)) +
-                       " off a right angle): resampled on an orthogonal grid of " +
+  p.warnings.push_back("sheared axes (" + core::rounded_text(shear_deg(axes), 1) +
+                       " degrees off a right angle): resampled on an orthogonal grid of " +
                        std::to_string(grid.size[0]) + " x " + std::to_string(grid.size[1]) + " x " +
                        std::to_string(grid.size[2]) + " voxels");
   return p;

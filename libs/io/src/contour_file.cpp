@@ -2,10 +2,10 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
+#include "ostia/core/text.h"
 
 #include <nlohmann/json.hpp>
 
-#include <charconv>
 #include <cmath>
 
 namespace ostia::io {
@@ -87,13 +87,8 @@ void require_text(const std::filesystem::path& path, const json& all, const char
 }
 
 void add_coordinate(std::string& out, double value) {
-  char text[40];
-  // Fixed notation with six decimals, without the locale; trailing zeros say nothing.
-  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, 6).ptr;
-  std::string_view view(text, static_cast<std::size_t>(end - text));
-  while (view.back() == '0') view.remove_suffix(1);
-  if (view.back() == '.') view.remove_suffix(1);
-  out += view == "-0" ? std::string_view("0") : view;
+  const std::string text = core::trimmed_text(value, 6);
+  out += text == "-0" ? "0" : text;
 }
 
 void add_section(std::string& out, const ContourSection& section) {

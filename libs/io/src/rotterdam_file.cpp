@@ -4,8 +4,8 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
+#include "ostia/core/text.h"
 
-#include <charconv>
 #include <cmath>
 
 namespace ostia::io {
@@ -46,12 +46,11 @@ Table table_of(const fs::path& path, std::size_t least_columns, std::size_t most
 
 std::vector<Vec3> points_of(const fs::path& path, const Table& table) {
   std::vector<Vec3> points;
-  for (std::size_t i = 0; i < table.rows.size(); ++i) {
-    points.emplace_back(table.rows[i][0], table.rows[i][1], table.rows[i][2]);
-    if (i > 0 && points[i] == points[i - 1])
-      refuse(path, table.lines[i], "repeats the point before it; leave repeated points out");
-  }
+  for (const std::vector<double>& row : table.rows) points.emplace_back(row[0], row[1], row[2]);
   if (points.size() < 2) throw InvalidInput(path.string() + " holds one point; a line needs at least two");
+  if (count_repeated(points) + 1 == points.size())
+    throw InvalidInput(path.string() + ": all of its " + std::to_string(points.size()) +
+                       " points are at one place; a line needs at least two places");
   return points;
 }
 
@@ -63,13 +62,6 @@ constexpr double most_length_mm = 1e9;
   throw InvalidInput("cannot write " + path.string() + ": " + what);
 }
 
-/// Without the locale.
-void add_number(std::string& out, double value) {
-  char text[40];
-  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, decimals).ptr;
-  out.append(text, end);
-}
-
 std::string text_of(const fs::path& path, const Vec3& p) {
   if (!p.allFinite()) refuse_to_write(path, "a point is not finite");
   if (!(p.cwiseAbs().maxCoeff() < most_length_mm))
@@ -77,7 +69,7 @@ std::string text_of(const fs::path& path, const Vec3& p) {
   std::string out;
   for (int axis = 0; axis < 3; ++axis) {
     if (axis > 0) out += ' ';
-    add_number(out, p[axis]);
+    out += core::fixed_text(p[axis], decimals);
   }
   return out;
 }
@@ -102,7 +94,28 @@ void require_positive(const fs::path& path, const std::vector<double>& values, c
       refuse_to_write(path, std::string(what) + " of point " + std::to_string(i) + " is not positive");
 }
 
+bool repeats(const std::vector<Vec3>& points, std::size_t i) {
+  return i > 0 && points[i] == points[i - 1];
+}
+
 }  // namespace
+
+std::size_t count_repeated(const std::vector<Vec3>& points) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) count += repeats(points, i);
+  return count;
+}
+
+RotterdamReference without_repeated(const RotterdamReference& line) {
+  RotterdamReference out;
+  for (std::size_t i = 0; i < line.points.size(); ++i) {
+    if (repeats(line.points, i)) continue;
+    out.points.push_back(line.points[i]);
+    if (i < line.radius.size()) out.radius.push_back(line.radius[i]);
+    if (i < line.observer_spread.size()) out.observer_spread.push_back(line.observer_spread[i]);
+  }
+  return out;
+}
 
 RotterdamReference read_rotterdam_reference(const fs::path& path) {
   const Table table = table_of(path, 5, 5, "five (x y z r io)");
@@ -129,9 +142,9 @@ void write_rotterdam_reference(const fs::path& path, const RotterdamReference& r
   std::string out;
   for (std::size_t i = 0; i < points.size(); ++i) {
     out += points[i] + ' ';
-    add_number(out, reference.radius[i]);
+    out += core::fixed_text(reference.radius[i], decimals);
     out += ' ';
-    add_number(out, reference.observer_spread[i]);
+    out += core::fixed_text(reference.observer_spread[i], decimals);
     out += '\n';
   }
   core::write_file(path, out);

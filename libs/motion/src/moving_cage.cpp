@@ -2,10 +2,9 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
+#include "ostia/core/text.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 
 namespace ostia::motion {
 namespace {
@@ -63,11 +62,10 @@ std::vector<Vec3> CarriedPoints::places(const std::vector<Vec3>& control_points)
 std::string judge_outside(const CarriedPoints& points, const std::string& what) {
   if (points.outside() == 0) return {};
   const double share = static_cast<double>(points.outside()) / static_cast<double>(points.size());
-  std::array<char, 32> percent{}, distance{};
-  std::snprintf(percent.data(), percent.size(), share < 0.001 ? "%.1g %%" : "%.1f %%", 100.0 * share);
-  std::snprintf(distance.data(), distance.size(), "%.1f mm", points.farthest_outside_mm());
-  const std::string told = std::string(percent.data()) + " of " + what +
-                           " lie outside of the motion's cage, up to " + distance.data();
+  const double percents = 100.0 * share;
+  const std::string told =
+      (share < 0.001 ? core::significant_text(percents, 1) : core::fixed_text(percents, 1)) + " % of " +
+      what + " lie outside of the motion's cage, up to " + core::mm_text(points.farthest_outside_mm(), 1);
   if (share > most_outside)
     throw InvalidInput(told + ": they must be of the same heart at the template's phase, in LPS and mm");
   return told + "; they go as its nearest place does";

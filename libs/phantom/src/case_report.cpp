@@ -4,6 +4,7 @@
 #include "report_views.h"
 
 #include "ostia/core/parallel.h"
+#include "ostia/core/text.h"
 #include "ostia/figure/html_report.h"
 #include "ostia/figure/plot.h"
 #include "ostia/figure/scene.h"
@@ -12,18 +13,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 namespace ostia::phantom {
 namespace {
 
+using core::fixed_text;
 using figure::Picture;
-
-std::string case_text(const char* format, double value) {
-  char out[64];
-  std::snprintf(out, sizeof out, format, value);
-  return out;
-}
 
 Picture tree_picture(const CasePlan& plan, const geometry::TriMesh& lumen, const core::TaskContext& task) {
   figure::Scene scene;
@@ -180,9 +175,9 @@ std::vector<std::vector<std::string>> vessel_rows(const CasePlan& plan) {
       segments += (segments.empty() ? "" : ", ") + std::to_string(span.aha);
     const double length = vessel.axis.abscissa.back();
     rows.push_back({vessel.name, vessel.parent < 0 ? "aorta" : vessel_of(plan.tree, vessel.parent).name,
-                    segments, case_text("%.1f", length - vessel.s_free_mm),
-                    case_text("%.2f", 2.0 * vessel.lumen.mean_at(vessel.s_free_mm)),
-                    case_text("%.2f", 2.0 * vessel.lumen.mean_at(length))});
+                    segments, fixed_text(length - vessel.s_free_mm, 1),
+                    fixed_text(2.0 * vessel.lumen.mean_at(vessel.s_free_mm), 2),
+                    fixed_text(2.0 * vessel.lumen.mean_at(length), 2)});
   }
   return rows;
 }
@@ -191,11 +186,10 @@ std::vector<std::vector<std::string>> stenosis_rows(const CasePlan& plan) {
   std::vector<std::vector<std::string>> rows;
   for (const CoronaryVessel& vessel : plan.tree.vessels) {
     for (const Stenosis& one : vessel.stenoses) {
-      rows.push_back({vessel.name, case_text("%.1f", one.s_throat_mm),
-                      case_text("%.1f", one.s_to_mm - one.s_from_mm),
-                      case_text("%.0f", 100.0 * one.diameter_stenosis),
-                      case_text("%.0f", 100.0 * one.area_stenosis), case_text("%.2f", one.eccentricity),
-                      word(one.kind), std::to_string(stenosis_category(one.diameter_stenosis))});
+      rows.push_back({vessel.name, fixed_text(one.s_throat_mm, 1), fixed_text(one.s_to_mm - one.s_from_mm, 1),
+                      fixed_text(100.0 * one.diameter_stenosis, 0), fixed_text(100.0 * one.area_stenosis, 0),
+                      fixed_text(one.eccentricity, 2), word(one.kind),
+                      std::to_string(stenosis_category(one.diameter_stenosis))});
     }
   }
   return rows;
@@ -204,8 +198,8 @@ std::vector<std::vector<std::string>> stenosis_rows(const CasePlan& plan) {
 std::vector<std::vector<std::string>> section_rows(const CasePlan& plan) {
   std::vector<std::vector<std::string>> rows;
   for (const AnnotatedSection& one : plan.sections.sections) {
-    rows.push_back({one.key, vessel_of(plan.tree, one.vessel).name, case_text("%.1f", one.s_from_mm),
-                    case_text("%.1f", one.s_to_mm), case_text("%.1f", one.length_mm()),
+    rows.push_back({one.key, vessel_of(plan.tree, one.vessel).name, fixed_text(one.s_from_mm, 1),
+                    fixed_text(one.s_to_mm, 1), fixed_text(one.length_mm(), 1),
                     one.health == geometry::Health::healthy ? "healthy" : "diseased"});
   }
   return rows;
@@ -266,12 +260,12 @@ void write_case_report(const std::filesystem::path& path, const CasePlan& plan, 
   report.key_values(
       {{"Voxels", std::to_string(grid.size[0]) + " x " + std::to_string(grid.size[1]) + " x " +
                       std::to_string(grid.size[2])},
-       {"Voxel size (mm)", case_text("%.3f x ", grid.spacing.x()) + case_text("%.3f x ", grid.spacing.y()) +
-                               case_text("%.3f", grid.spacing.z())},
-       {"Noise (HU)", case_text("%.1f", plan.options.scan.noise_hu)},
+       {"Voxel size (mm)", fixed_text(grid.spacing.x(), 3) + " x " + fixed_text(grid.spacing.y(), 3) + " x " +
+                               fixed_text(grid.spacing.z(), 3)},
+       {"Noise (HU)", fixed_text(plan.options.scan.noise_hu, 1)},
        {"Point spread, full width at half maximum (mm)",
-        case_text("%.2f in the slice, ", plan.options.scan.psf_fwhm_mm) +
-            case_text("%.2f along z", plan.options.scan.psf_fwhm_z_mm)},
+        fixed_text(plan.options.scan.psf_fwhm_mm, 2) + " in the slice, " +
+            fixed_text(plan.options.scan.psf_fwhm_z_mm, 2) + " along z"},
        {"Image", scan != nullptr ? "made" : "left out (truth alone)"}});
   report.section("Vessels");
   report.table({"vessel", "from", "AHA segments", "length (mm)", "first diameter (mm)", "last diameter (mm)"},

@@ -2,13 +2,13 @@
 #include "smooth_process.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/text.h"
 #include "ostia/geometry/polyline.h"
 #include "ostia/phantom/truth.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 namespace ostia::phantom {
 namespace {
@@ -149,12 +149,6 @@ std::vector<Vec3> traced(const Centerline& line, int number, int observer, const
   return out;
 }
 
-std::string number_text(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.0f", value);
-  return text;
-}
-
 void add(ChallengeVessels& out, const CoronaryTree& tree, int number, const CoronaryVessel* vessel,
          const ObserverOptions& observers, const std::optional<imaging::Geometry>& image) {
   const std::string folder = "vessel" + std::to_string(number);
@@ -167,7 +161,8 @@ void add(ChallengeVessels& out, const CoronaryTree& tree, int number, const Coro
   const double inside = whole.abscissa[last] - whole.abscissa[first];
   if (inside < least_inside_mm) {
     out.warnings.push_back(folder + " (" + vessel->name + ") left out: the image holds " +
-                           number_text(inside) + " mm of its " + number_text(whole.abscissa.back()) + " mm");
+                           core::fixed_text(inside, 0) + " mm of its " +
+                           core::fixed_text(whole.abscissa.back(), 0) + " mm");
     return;
   }
   const double own = whole.abscissa[last] - (whole.abscissa.back() - vessel->axis.abscissa.back());
@@ -182,8 +177,9 @@ void add(ChallengeVessels& out, const CoronaryTree& tree, int number, const Coro
   made.path = path_ids(tree, vessel->id);
   made.cut_by_image = first > 0 || last + 1 < whole.size();
   if (made.cut_by_image) {
-    out.warnings.push_back(folder + " (" + vessel->name + ") is cut by the image: " + number_text(inside) +
-                           " mm of " + number_text(whole.abscissa.back()) + " mm");
+    out.warnings.push_back(folder + " (" + vessel->name +
+                           ") is cut by the image: " + core::fixed_text(inside, 0) + " mm of " +
+                           core::fixed_text(whole.abscissa.back(), 0) + " mm");
   }
   const Centerline line = made.cut_by_image ? part(whole, first, last) : whole;
   const double length = line.abscissa.back();

@@ -3,13 +3,13 @@
 #include "axis_place.h"
 
 #include "ostia/core/parallel.h"
+#include "ostia/core/text.h"
 #include "ostia/figure/slice_figure.h"
 #include "ostia/imaging/sampling.h"
 #include "ostia/reformat/plane.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <numbers>
 
@@ -37,12 +37,6 @@ SliceFigureOptions look(std::string title, int width) {
   options.image_width_px = width;
   options.rulers = false;
   return options;
-}
-
-std::string text(const char* format, double value) {
-  char out[64];
-  std::snprintf(out, sizeof out, format, value);
-  return out;
 }
 
 double pixel_of(const imaging::Geometry& grid) {
@@ -200,7 +194,7 @@ Picture axial_gallery(const imaging::ImageVolume& image) {
     centre.z() = grid.world(Vec3(0, 0, share * static_cast<double>(grid.size[2] - 1))).z();
     const Plane plane = reformat::axial_plane(grid, centre, pixel_of(grid));
     panels.push_back(figure::slice_figure(reformat::slice(image, plane), {}, {},
-                                          look(text("z %.0f mm", centre.z()), 300)));
+                                          look("z " + core::fixed_text(centre.z(), 0) + " mm", 300)));
   }
   return figure::grid(panels, {.columns = 4});
 }
@@ -265,8 +259,8 @@ Picture stenosis_sections(const CasePlan& plan, const imaging::ImageVolume& imag
       out.label = boundary == Boundary::lumen ? "lumen" : "outer wall";
       return out;
     };
-    const std::string title = one.vessel->name + text(" at %.1f mm", s) +
-                              text(", %.0f %%", 100.0 * one.stenosis->diameter_stenosis);
+    const std::string title = one.vessel->name + " at " + core::fixed_text(s, 1) + " mm, " +
+                              core::fixed_text(100.0 * one.stenosis->diameter_stenosis, 0) + " %";
     SliceFigureOptions options = look(title, 280);
     options.window_hu = 1000.0;
     const PlaneImage view = reformat::slice(image, plane, imaging::Interpolation::cubic);

@@ -1,11 +1,11 @@
 #include "ostia/phantom/sections.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/text.h"
 #include "ostia/phantom/noise.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <utility>
 
@@ -22,12 +22,6 @@ constexpr double least_diseased_share = 0.5;
 constexpr double lesion_share = 0.75;  // of a diseased section, for a lesion that is put there
 constexpr int cases_in_suite = 18;
 constexpr double suite_healthy_mm = 1880.0, suite_diseased_mm = 670.0;
-
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f", value);
-  return text;
-}
 
 /// Joins overlapping stretches and those closer than `gap`.
 std::vector<Stretch> joined(std::vector<Stretch> all, double gap) {
@@ -327,8 +321,8 @@ void warn_of_missing(const std::vector<AnnotatedSection>& sections, Health healt
   }
   if (found == count && sum > length - 0.05) return;
   warnings.push_back(std::string(health == Health::healthy ? "healthy" : "diseased") +
-                     " sections: " + std::to_string(found) + " of " + number(sum) + " mm in all instead of " +
-                     std::to_string(count) + " of " + number(length) +
+                     " sections: " + std::to_string(found) + " of " + core::fixed_text(sum, 1) +
+                     " mm in all instead of " + std::to_string(count) + " of " + core::fixed_text(length, 1) +
                      " mm; the tree has no more within the image that is clear of bifurcations");
 }
 

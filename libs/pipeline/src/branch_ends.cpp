@@ -2,6 +2,8 @@
 
 #include "ostia/core/error.h"
 
+#include <algorithm>
+
 namespace ostia::pipeline {
 namespace {
 
@@ -37,6 +39,23 @@ BranchEnds ends_of(const std::vector<segmentation::BranchSeeds>& branches, doubl
   if (ends.targets.empty())
     throw InvalidInput("the branches form a ring: no point of theirs is an end; leave one out");
   return ends;
+}
+
+std::vector<segmentation::BranchSeeds> without(const std::vector<segmentation::BranchSeeds>& branches,
+                                               const std::vector<segmentation::LeftOutBranch>& left_out) {
+  std::vector<segmentation::BranchSeeds> kept;
+  for (std::size_t b = 0; b < branches.size(); ++b)
+    if (std::none_of(left_out.begin(), left_out.end(),
+                     [&](const segmentation::LeftOutBranch& one) { return one.branch == b; }))
+      kept.push_back(branches[b]);
+  return kept;
+}
+
+std::vector<std::string> reasons_of(const std::vector<segmentation::LeftOutBranch>& left_out) {
+  std::vector<std::string> reasons;
+  for (const segmentation::LeftOutBranch& one : left_out)
+    reasons.push_back("left out: " + one.why + "; the other vessels are there");
+  return reasons;
 }
 
 }  // namespace ostia::pipeline

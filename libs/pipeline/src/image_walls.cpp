@@ -1,5 +1,6 @@
 #include "ostia/pipeline/image_walls.h"
 
+#include "ostia/core/error.h"
 #include "ostia/core/log.h"
 #include "ostia/lumen/lumen_model.h"
 #include "ostia/segmentation/lumen_boundary.h"
@@ -43,6 +44,11 @@ lumen::RadialWall wall_of(const segmentation::LumenBoundary& found, double free_
       };
 }
 
+/// Round, with the axis' radii; at the take-off, where these are the parent's, as wide as behind it.
+lumen::RadialWall tube_of(const Axis& axis, double free_mm) {
+  return [axis, free_mm](double s_mm, double) { return axis->radius(std::max(s_mm, free_mm)); };
+}
+
 }  // namespace
 
 double free_from_mm(const geometry::VesselTree& tree, const std::vector<Axis>& axes, std::size_t vessel) {
@@ -74,6 +80,10 @@ std::vector<lumen::RadialWall> walls_from_image(const geometry::VesselTree& tree
     core::log_warning(tree.vessels[vessel].name + ": " + text);
     warnings[vessel].push_back(text);
   };
+  const auto take_tube = [&](std::size_t vessel, double free_mm, const std::string& why) {
+    warn(vessel, "its wall cannot be found, it is a tube as wide as its axis says: " + why);
+    walls.push_back(tube_of(axes[vessel], free_mm));
+  };
   const double count = static_cast<double>(axes.size());
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const double free_mm = free_from_mm(tree, axes, i), length = axes[i]->length();
@@ -84,10 +94,16 @@ std::vector<lumen::RadialWall> walls_from_image(const geometry::VesselTree& tree
       continue;
     }
     const double done = static_cast<double>(i);
-    const segmentation::LumenBoundary found = segmentation::lumen_boundary(
-        image, *axes[i], free_mm, length, {}, task.sub(done / count, (done + 1.0) / count));
-    for (const std::string& warning : found.warnings) warn(i, warning);
-    walls.push_back(wall_of(found, free_mm, length));
+    try {
+      const segmentation::LumenBoundary found = segmentation::lumen_boundary(
+          image, *axes[i], free_mm, length, {}, task.sub(done / count, (done + 1.0) / count));
+      for (const std::string& warning : found.warnings) warn(i, warning);
+      walls.push_back(wall_of(found, free_mm, length));
+    } catch (const GeometryError& error) {
+      take_tube(i, free_mm, error.what());
+    } catch (const InvalidInput& error) {  // an axis that leaves the image, among others
+      take_tube(i, free_mm, error.what());
+    }
   }
   if (said) *said = std::move(warnings);
   return walls;

@@ -52,13 +52,13 @@ json key_of(const JobKey& key) {
   return {{"command", key.command}, {"inputs", key.inputs}, {"parameters", json::parse(key.parameters)}};
 }
 
-json manifest_of(const fs::path& folder) {
+json parsed_manifest_of(const fs::path& folder) {
   if (!fs::exists(folder / manifest_name)) return json();
   return json::parse(core::read_file(folder / manifest_name), nullptr, false);
 }
 
 bool is_jobs_folder(const fs::path& folder) {
-  const json manifest = manifest_of(folder);
+  const json manifest = parsed_manifest_of(folder);
   if (!manifest.is_object() || !manifest.contains("outputs") || !manifest["outputs"].is_object())
     return fs::is_empty(folder);
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
@@ -82,10 +82,25 @@ void require_free_folder(const fs::path& folder) {
 }
 
 double peak_memory_mb() {
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+  rusage own{}, children{};
+  ::getrusage(RUSAGE_SELF, &own);
+  ::getrusage(RUSAGE_CHILDREN, &children);
+  return static_cast<double>(std::max(own.ru_maxrss, children.ru_maxrss)) / 1024.0;
 }
+
+namespace {
+
+/// Those of the record, then what else was warned of while the job ran.
+json warnings_of(const ManifestRecord& record) {
+  std::vector<std::string> all = record.warnings;
+  for (const std::string& heard : core::heard_warnings())
+    if (std::ranges::find(all, heard) == all.end()) all.push_back(heard);
+  json texts = json::array();
+  for (const std::string& warning : all) texts.push_back(core::redacted(warning));
+  return texts;
+}
+
+}  // namespace
 
 void write_manifest(const fs::path& folder, const ManifestRecord& record) {
   json manifest = key_of(record.key);
@@ -94,16 +109,19 @@ void write_manifest(const fs::path& folder, const ManifestRecord& record) {
   manifest["exit_code"] = static_cast<int>(record.exit_code);
   manifest["finished"] = utc_now();
   manifest["seconds"] = record.seconds;
-  manifest["peak_mb"] = peak_memory_mb();
-  manifest["warnings"] = json::array();
-  for (const std::string& warning : record.warnings) manifest["warnings"].push_back(core::redacted(warning));
+  manifest["peak_mb"] = std::max(record.peak_mb, peak_memory_mb());
+  manifest["warnings"] = warnings_of(record);
   manifest["quality"] = record.quality.empty() ? json::object() : json::parse(record.quality);
   manifest["outputs"] = outputs_of(folder);
   core::write_file(folder / manifest_name, manifest.dump(2) + "\n");
 }
 
+std::string manifest_of(const fs::path& folder) {
+  return fs::exists(folder / manifest_name) ? core::read_file(folder / manifest_name) : std::string();
+}
+
 std::optional<ExitCode> already_done(const fs::path& folder, const JobKey& key) {
-  const json manifest = manifest_of(folder);
+  const json manifest = parsed_manifest_of(folder);
   if (!manifest.is_object() || manifest.value("v", 0) != 1) return std::nullopt;
   const json wanted = key_of(key);
   for (const char* field : {"command", "inputs", "parameters"}) {

@@ -2,15 +2,19 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/log.h"
+#include "ostia/core/text.h"
 #include "ostia/geometry/mesh_topology.h"
 #include "ostia/meshing/caps.h"
 #include "ostia/meshing/stenosis_sizing.h"
+#include "ostia/meshing/volume_keeping.h"
 #include "ostia/pipeline/branch_ends.h"
 #include "ostia/pipeline/lumen_surface.h"
+#include "ostia/pipeline/reached.h"
 
 #include <algorithm>
 #include <chrono>
 #include <functional>
+#include <memory>
 #include <utility>
 
 namespace ostia::pipeline {
@@ -49,11 +53,8 @@ void append(std::vector<std::string>& to, const std::vector<std::string>& from) 
 }
 
 std::string place(const geometry::Vec3& p) {
-  const auto text = [](double v) {
-    std::string out = std::to_string(v);
-    return out.substr(0, out.find('.') + 2);
-  };
-  return "(" + text(p.x()) + "," + text(p.y()) + "," + text(p.z()) + ")";
+  return "(" + core::cut_text(p.x(), 1) + "," + core::cut_text(p.y(), 1) + "," + core::cut_text(p.z(), 1) +
+         ")";
 }
 
 struct Lumen {
@@ -63,12 +64,15 @@ struct Lumen {
 };
 
 Lumen lumen_of_image(const Source& source, const ModelOptions& options, Model& model, Stages& stages) {
-  const BranchEnds ends = ends_of(options.branches);
+  BranchEnds ends = ends_of(options.branches);
   auto segmented = stages.run("segmentation", 0.0, 0.44, [&](const core::TaskContext& task) {
     return segmentation::segment_vessels(*source.image, options.branches, options.segment, task);
   });
   append(model.warnings, segmented.warnings);
   model.branches = segmented.branches;
+  model.left_out = reasons_of(segmented.left_out);
+  append(model.warnings, model.left_out);
+  if (!model.left_out.empty()) ends = ends_of(without(options.branches, segmented.left_out));
   std::vector<geometry::Vec3> seeds{ends.source};
   seeds.insert(seeds.end(), ends.targets.begin(), ends.targets.end());
   Lumen lumen;
@@ -107,33 +111,68 @@ geometry::Vec3 centre_of(const TriMesh& mesh, const std::vector<std::int32_t>& l
   return sum / static_cast<double>(loop.size());
 }
 
-/// From the cut inlet's centre to the cut outlets' centres; vessels keep their names.
+/// The part of the surface on which each end's loop lies.
+std::vector<std::int32_t> parts_of_ends(const meshing::ClippedSurface& clipped) {
+  const std::vector<std::int32_t> part = geometry::components(clipped.mesh);
+  std::vector<std::int32_t> of_point(clipped.mesh.points.size(), -1);
+  for (std::size_t t = 0; t < part.size(); ++t)
+    for (const std::int32_t p : clipped.mesh.triangles[t]) of_point[static_cast<std::size_t>(p)] = part[t];
+  std::vector<std::int32_t> parts;
+  for (const meshing::ClippedEnd& end : clipped.ends)
+    parts.push_back(of_point[static_cast<std::size_t>(end.loop.front())]);
+  return parts;
+}
+
+/// From the cut inlet's centre to the cut outlets' centres, part by part; vessels keep their names.
 centerline::CenterlineResult centerlines_between(const meshing::ClippedSurface& clipped,
                                                  const geometry::VesselTree& tree,
                                                  centerline::CenterlineOptions options,
                                                  const core::TaskContext& task) {
-  std::optional<geometry::Vec3> source;
-  std::vector<geometry::Vec3> targets;
-  options.vessel_names.clear();
-  for (const meshing::ClippedEnd& end : clipped.ends) {
-    if (end.plane.kind == geometry::FaceKind::inlet) {
-      if (source) throw InvalidInput("the centerlines have several roots; a lumen has one inlet");
-      source = centre_of(clipped.mesh, end.loop);
+  const std::vector<std::int32_t> part_of = parts_of_ends(clipped);
+  const std::vector<TriMesh> parts = parts_of(clipped.mesh);
+  centerline::CenterlineResult all;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    std::optional<geometry::Vec3> source;
+    std::vector<geometry::Vec3> targets;
+    options.vessel_names.clear();
+    const auto ends_here = [&](geometry::FaceKind kind, const std::string* vessel, const auto& use) {
+      for (std::size_t i = 0; i < clipped.ends.size(); ++i) {
+        const meshing::ClippedEnd& end = clipped.ends[i];
+        if (part_of[i] == static_cast<std::int32_t>(k) && end.plane.kind == kind &&
+            (!vessel || end.plane.vessel == *vessel))
+          use(centre_of(clipped.mesh, end.loop));
+      }
+    };
+    ends_here(geometry::FaceKind::inlet, nullptr, [&](const geometry::Vec3& centre) {
+      if (source)
+        throw InvalidInput("the centerlines have several roots in one lumen; a lumen has one inlet");
+      source = centre;
+    });
+    for (const geometry::Vessel& vessel : tree.vessels)
+      ends_here(geometry::FaceKind::outlet, &vessel.name, [&](const geometry::Vec3& centre) {
+        targets.push_back(centre);
+        options.vessel_names.push_back(vessel.name);
+      });
+    centerline::CenterlineResult one = centerline::extract_centerlines(
+        parts[k], source, targets, options,
+        task.sub(static_cast<double>(k) / static_cast<double>(parts.size()),
+                 static_cast<double>(k + 1) / static_cast<double>(parts.size())));
+    if (k == 0) {
+      all = std::move(one);
+      continue;
     }
+    append_tree(all.tree, std::move(one.tree));
+    all.lines.insert(all.lines.end(), one.lines.begin(), one.lines.end());
+    all.ends.insert(all.ends.end(), one.ends.begin(), one.ends.end());
+    all.end_radii.insert(all.end_radii.end(), one.end_radii.begin(), one.end_radii.end());
+    append(all.diagnostics.warnings, one.diagnostics.warnings);
   }
-  for (const geometry::Vessel& vessel : tree.vessels) {
-    for (const meshing::ClippedEnd& end : clipped.ends) {
-      if (end.plane.kind != geometry::FaceKind::outlet || end.plane.vessel != vessel.name) continue;
-      targets.push_back(centre_of(clipped.mesh, end.loop));
-      options.vessel_names.push_back(vessel.name);
-    }
-  }
-  return centerline::extract_centerlines(clipped.mesh, source, targets, options, task);
+  return all;
 }
 
-double largest_radius(const centerline::CenterlineResult& centerlines) {
+double largest_radius(const std::vector<geometry::Centerline>& lines) {
   double radius = 0.0;
-  for (const geometry::Centerline& line : centerlines.lines) {
+  for (const geometry::Centerline& line : lines) {
     for (const double r : line.radius) radius = std::max(radius, r);
   }
   return radius;
@@ -148,12 +187,14 @@ void validate(const ModelOptions& options) {
   validate(options.volume);
   meshing::validate(options.bounds);
   meshing::validate(options.volume_bounds);
+  meshing::validate(options.shape_bounds);
 }
 
-void require_sound_surface(const TriMesh& surface, const std::string& what) {
+void require_sound_surface(const TriMesh& surface, const std::string& what, bool several_parts) {
   geometry::SurfaceFaults faults = geometry::find_faults(surface, true);
   const std::size_t open = faults.open_edges;
   faults.open_edges = 0;  // open ends are welcome
+  if (several_parts) faults.components = std::min<std::size_t>(faults.components, 1);
   if (faults.closed_manifold() && faults.components <= 1) return;
   std::string message = what + " cannot be used as it is: ";
   if (!faults.closed_manifold()) message += faults.summary() + (faults.components > 1 ? "; " : "");
@@ -191,21 +232,40 @@ std::vector<std::string> names_of(const std::vector<meshing::ClippedEnd>& ends) 
   return names;
 }
 
+/// The cut lumen before and after extensions were added to it.
+struct Extended {
+  meshing::ClippedSurface before;
+  TriMesh after;
+};
+
 /// The cut lumen and its axes led on beyond its ends.
-void extend(const meshing::FlowExtensionOptions& options, const Shares& shares, Stages& stages,
-            meshing::ClippedSurface& clipped, geometry::VesselTree& axes, MeshedLumen& out) {
+Extended extend(const meshing::FlowExtensionOptions& options, const Shares& shares, Stages& stages,
+                meshing::ClippedSurface& clipped, geometry::VesselTree& axes, MeshedLumen& out) {
   meshing::ExtendedEnds extended = stages.run(
       "flow extensions", shares.axes, middle_of_caps(shares),
       [&](const core::TaskContext& part) { return meshing::extend_ends(clipped, axes, options, part); });
-  clipped = std::move(extended.surface);
+  Extended both{std::exchange(clipped, std::move(extended.surface)), {}};
+  both.after = clipped.mesh;
   axes = std::move(extended.tree);
   append(out.warnings, extended.warnings);
   out.quality.extensions = std::move(extended.extensions);
+  return both;
+}
+
+/// Half the width of the vessel at each point of the wall, for what a mesh may be off there. A crevice of a
+/// rough wall is no vessel: nothing is narrower than a third of what the nearest axis has.
+std::vector<double> vessel_widths(const TriMesh& surface, const meshing::TubeFunction& tube,
+                                  const core::TaskContext& task) {
+  constexpr double least_share = 1.0 / 3.0;
+  std::vector<double> radii = meshing::local_radii(surface, tube, task);
+  for (std::size_t i = 0; i < radii.size(); ++i)
+    radii[i] = std::max(radii[i], least_share * tube(surface.points[i]).radius_mm);
+  return radii;
 }
 
 /// The gate that a mesh passes before it is written.
-void judge(const geometry::FacedSurface& capped, const ModelOptions& options, const core::TaskContext& task,
-           MeshedLumen& out) {
+void judge(const geometry::FacedSurface& capped, const meshing::TubeFunction& tube,
+           const ModelOptions& options, const core::TaskContext& task, MeshedLumen& out) {
   MeshQuality& quality = out.quality;
   quality.surface = meshing::surface_quality(out.surface.mesh, true, task.sub(0.0, 0.3));
   quality.volume = meshing::mixed_quality(out.mesh, task.sub(0.3, 0.7));
@@ -214,20 +274,77 @@ void judge(const geometry::FacedSurface& capped, const ModelOptions& options, co
   quality.refinement = options.volume.refinement;
   if (quality.refinement)
     quality.refinement->elements = quality.volume.tetrahedra.count + quality.volume.prisms.count;
-  quality.wall_deviation = meshing::wall_deviation(out.mesh, wall_of(capped), task.sub(0.7, 1.0));
+  quality.wall_deviation = meshing::wall_deviation(out.mesh, wall_of(capped), task.sub(0.7, 0.85));
+  quality.shape =
+      meshing::shape_kept(out.mesh, capped, vessel_widths(capped.mesh, tube, task), task.sub(0.85, 1.0));
+  quality.shape->volume_mm3 = quality.volume.volume_mm3();
   quality.verdict = meshing::check(quality.surface, options.bounds);
   append(quality.verdict.reasons, meshing::check(quality.volume, options.volume_bounds).reasons);
+  append(quality.verdict.reasons, meshing::check(*quality.shape, options.shape_bounds).reasons);
+}
+
+/// Where triangles of the wanted size lose more of the shape than may be, as in sharp crotches, they get
+/// smaller, round by round, and nowhere else.
+meshing::RemeshedSurface remeshed_in_shape(const geometry::FacedSurface& capped,
+                                           const meshing::TubeFunction& tube, std::vector<double> lengths,
+                                           const ModelOptions& options, const core::TaskContext& task) {
+  constexpr int most_rounds = 4;
+  constexpr double aimed_share = 0.8;
+  std::optional<std::vector<double>> radii;
+  std::optional<meshing::RemeshedSurface> before;
+  for (int round = 1;; ++round) {
+    const core::TaskContext part = task.sub(round == 1 ? 0.0 : 0.7, 1.0);
+    meshing::RemeshedSurface made = meshing::remesh(capped, lengths, options.remesh, part);
+    if (made.report.self_intersections > 0) return before ? std::move(*before) : std::move(made);
+    // Of the second order the wall's nodes follow the surface, and points belong on it.
+    if (options.volume.order == 1) meshing::keep_volume(made.surface, capped, task);
+    if (round == most_rounds) return made;
+    if (!radii) radii = vessel_widths(capped.mesh, tube, task);
+    const std::size_t shortened =
+        meshing::shorten_where_off(capped, made.surface, *radii, aimed_share, lengths, task);
+    if (shortened == 0) return made;
+    before = std::move(made);
+    for (double& length : lengths) length = std::max(length, options.sizing.min_edge_mm);
+    meshing::limit_gradation(capped.mesh, options.sizing.gradation, lengths);
+    core::log_debug("remeshing again with shorter edges at " + std::to_string(shortened) + " points");
+  }
+}
+
+/// Edge lengths by the distance to the axes, whatever the lumen's width is there.
+std::shared_ptr<const meshing::SizeArray> by_distance_alone(const TriMesh& surface,
+                                                            const meshing::TubeFunction& tube,
+                                                            const meshing::SizingOptions& sizing) {
+  auto array = std::make_shared<meshing::SizeArray>();
+  array->surface = surface;
+  for (const geometry::Vec3& p : surface.points) {
+    const meshing::TubeSize size = tube(p);
+    array->edge_mm.push_back(sizing.edge_ratio * std::clamp(size.distance_mm, 0.05 * size.radius_mm,
+                                                            sizing.most_distance_radii * size.radius_mm));
+  }
+  return array;
 }
 
 /// Remeshed and filled. Sizes follow `axes`.
-void mesh_capped(const geometry::FacedSurface& capped, const geometry::VesselTree& axes,
-                 const ModelOptions& options, const Shares& shares, Stages& stages, MeshedLumen& out) {
+void mesh_capped(const geometry::FacedSurface& capped, const std::optional<Extended>& extended,
+                 const geometry::VesselTree& axes, const ModelOptions& options, const Shares& shares,
+                 Stages& stages, MeshedLumen& out) {
+  const meshing::TubeFunction tube(axes);
   meshing::RemeshedSurface remeshed =
       stages.run("remeshing", shares.caps, shares.remeshing, [&](const core::TaskContext& part) {
-        const meshing::TubeFunction tube(axes);
-        const std::vector<double> lengths = meshing::target_edge_lengths(
-            capped.mesh, tube, meshing::at_throats(options.sizing, axes, capped.mesh), part);
-        return meshing::remesh(capped, lengths, options.remesh, part);
+        meshing::SizingOptions sizing = meshing::at_throats(options.sizing, axes, capped.mesh);
+        meshing::RemeshedSurface made = remeshed_in_shape(
+            capped, tube, meshing::target_edge_lengths(capped.mesh, tube, sizing, part), options, part);
+        if (made.report.self_intersections == 0 || sizing.array ||
+            sizing.measure != meshing::SizeMeasure::distance)
+          return made;
+        // What lies far from all axes is too rough for triangles of its own size: noise, or a leak. Larger
+        // ones may pass over it; what is lost by that the gate tells.
+        sizing.array = by_distance_alone(capped.mesh, tube, sizing);
+        out.warnings.emplace_back(
+            "the wall far from the axes is too rough for triangles of its own size; larger ones follow the "
+            "distance from the axes there, and may lose some of it");
+        return remeshed_in_shape(capped, tube, meshing::target_edge_lengths(capped.mesh, tube, sizing, part),
+                                 options, part);
       });
   if (remeshed.report.self_intersections > 0) {
     throw GeometryError("the surface is too rough for triangles of this size: remeshing left " +
@@ -244,10 +361,11 @@ void mesh_capped(const geometry::FacedSurface& capped, const geometry::VesselTre
   out.mesh = std::move(filled.mesh);
   out.in_layers = std::move(filled.in_layers);
   if (filled.new_surface) out.surface = std::move(*filled.new_surface);
+  if (extended) meshing::mark_extension_walls(extended->before, extended->after, out.surface, out.mesh);
   out.quality.layers = std::move(filled.layers);
   out.quality.quadratic = std::move(filled.quadratic);
   stages.run("quality", shares.tetrahedra, 1.0, [&](const core::TaskContext& part) {
-    judge(capped, options, part, out);
+    judge(capped, tube, options, part, out);
     return 0;
   });
 }
@@ -268,11 +386,12 @@ MeshedLumen mesh_with(const TriMesh& lumen, const geometry::VesselTree& tree, co
   out.centerlines = stages.run("centerlines of the cut lumen", shares.cut, shares.axes,
                                [&](const core::TaskContext& part) { return axes_of(clipped, part); });
   geometry::VesselTree axes = out.centerlines.tree;
-  if (options.extensions) extend(*options.extensions, shares, stages, clipped, axes, out);
+  std::optional<Extended> extended;
+  if (options.extensions) extended = extend(*options.extensions, shares, stages, clipped, axes, out);
   const geometry::FacedSurface capped =
       stages.run("caps", options.extensions ? middle_of_caps(shares) : shares.axes, shares.caps,
                  [&](const core::TaskContext& part) { return meshing::cap_ends(clipped, {}, part); });
-  mesh_capped(capped, axes, options, shares, stages, out);
+  mesh_capped(capped, extended, axes, options, shares, stages, out);
   return out;
 }
 
@@ -302,10 +421,12 @@ meshing::ClipOptions clip_of(const Source& source, const ModelOptions& options) 
     clip.inset_radii = *options.inset_radii;
   else if (source.image)
     clip.inset_radii = image_inset_radii;
+  clip.given = source.ends;
   return clip;
 }
 
-LumenWithAxes build_lumen(Source source, const ModelOptions& options, const core::TaskContext& task) {
+LumenWithAxes build_lumen(Source source, const ModelOptions& options, const core::TaskContext& task,
+                          TriMesh* found) {
   validate(options);
   LumenWithAxes made;
   Model& model = made.model;
@@ -323,22 +444,34 @@ LumenWithAxes build_lumen(Source source, const ModelOptions& options, const core
       return geometry::taubin_smoothed(lumen.surface, *options.smoothing, part);
     });
   }
+  if (found) *found = lumen.surface;
   stages.run("surface check", 0.6, 0.67, [&](const core::TaskContext&) {
     require_sound_surface(lumen.surface,
-                          source.kind == SourceKind::surface ? "the surface" : "the lumen's surface");
+                          source.kind == SourceKind::surface ? "the surface" : "the lumen's surface",
+                          !source.image);
     return 0;
   });
-  centerline::CenterlineResult centerlines =
-      stages.run("centerlines", 0.67, 1.0, [&](const core::TaskContext& part) {
-        return centerline::extract_centerlines(lumen.surface, lumen.source, lumen.targets, options.centerline,
-                                               part);
-      });
-  append(model.warnings, centerlines.diagnostics.warnings);
+  LumenAxes axes = stages.run("centerlines", 0.67, 1.0, [&](const core::TaskContext& part) {
+    AxesRequest request;
+    if (lumen.source) request.sources = {*lumen.source};
+    request.targets = lumen.targets;
+    request.ends = source.ends;
+    // Seeds say which vessels an image's lumen has.
+    request.side_branches = source.image ? SideBranches::asked_only : options.side_branches;
+    request.centerline = options.centerline;
+    return lumen_axes(lumen.surface, request, part);
+  });
+  const std::vector<std::string> unreached_targets = texts_of(unreached(axes.tree, lumen.targets));
+  append(model.left_out, unreached_targets);
+  append(model.warnings, unreached_targets);
+  append(model.warnings, axes.told);
+  append(model.warnings, axes.diagnostics.warnings);
   if (source.kind == SourceKind::surface && !source.unit_given)
-    check_vessel_size(2.0 * largest_radius(centerlines), "the surface");
+    check_vessel_size(2.0 * largest_radius(axes.lines), "the surface");
   model.lumen = std::move(lumen.surface);
   model.source = std::move(source);
-  made.axes = std::move(centerlines.tree);
+  made.axes = std::move(axes.tree);
+  made.stubs = std::move(axes.stubs);
   return made;
 }
 
@@ -346,9 +479,12 @@ Model mesh_model(LumenWithAxes lumen, const ModelOptions& options, const core::T
   Model model = std::move(lumen.model);
   ModelOptions meshing_options = options;
   meshing_options.clip = clip_of(model.source, options);
+  meshing_options.clip.planes.insert(meshing_options.clip.planes.end(), lumen.stubs.begin(),
+                                     lumen.stubs.end());
   meshing_options.inset_radii.reset();
   model.meshed = mesh_lumen(model.lumen, lumen.axes, meshing_options, task);
   append(model.warnings, model.meshed.warnings);
+  append(model.meshed.quality.verdict.reasons, model.left_out);
   model.stages.insert(model.stages.end(), model.meshed.stages.begin(), model.meshed.stages.end());
   return model;
 }

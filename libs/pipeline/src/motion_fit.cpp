@@ -4,6 +4,7 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
+#include "ostia/core/text.h"
 #include "ostia/geometry/mesh_topology.h"
 #include "ostia/motion/cage_descent.h"
 #include "ostia/motion/cyclic_spline.h"
@@ -143,10 +144,7 @@ double median(std::vector<double> values) {
 }
 
 std::string rounded(double value) {
-  std::string text = std::to_string(std::round(value * 1e3) / 1e3);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.back() == '.') text.pop_back();
-  return text;
+  return core::trimmed_text(std::round(value * 1e3) / 1e3, 6);
 }
 
 /// What phases of this motion are like.
@@ -226,7 +224,7 @@ void add_gaps(std::vector<PhaseFit>& phases) {
   std::ranges::sort(phases, {}, &PhaseFit::phase);
 }
 
-double least_jacobian(const geometry::CageGrid& grid, const Points& points) {
+double least_jacobian_with(const geometry::CageGrid& grid, const Points& points) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t cell = 0; cell < grid.cell_count(); ++cell) {
     const geometry::CageCell corners = grid.corners(cell);
@@ -247,7 +245,7 @@ void bridge(MotionFit& fit, const std::vector<double>& known, const std::vector<
     if (own) {
       ++next;
     } else {
-      one.report.least_jacobian = least_jacobian(fit.motion.grid, phase.control_points);
+      one.report.least_jacobian = least_jacobian_with(fit.motion.grid, phase.control_points);
       fit.warnings.push_back("phase " + percent_text(one.phase) + ": " + one.why +
                              "; it is bridged from its neighbours in time");
       if (one.report.least_jacobian <= fine_jacobian)

@@ -6,12 +6,12 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
+#include "ostia/core/text.h"
 #include "ostia/geometry/mesh_topology.h"
 #include "ostia/imaging/filters.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <optional>
 
 namespace ostia::pipeline {
@@ -31,10 +31,6 @@ constexpr double least_contrast_hu = 40;  // of a wall that shows
 
 std::string named(const PhaseView& view) {
   return "phase " + percent_text(view.phase) + (view.name.empty() ? "" : " (" + view.name + ")");
-}
-
-std::string percents(double share) {
-  return std::to_string(std::lround(100.0 * share)) + " %";
 }
 
 /// The view of the template's phase.
@@ -89,10 +85,11 @@ Points carried_points(const ImageCage& cage, const TriMesh& shape, const Points&
 /// Why a phase's image does not show the vessel; empty where it does.
 std::string unseen(const ImageCageFit& fit, const ImagePhasesOptions& options) {
   if (fit.inside_share < least_seen)
-    return "only " + percents(fit.inside_share) + " of the template would lie within its image";
+    return "only " + core::rounded_text(100.0 * fit.inside_share, 0) +
+           " % of the template would lie within its image";
   if (fit.likeness < options.least_likeness)
     return "its image does not show the vessel as the template's does (correlation " +
-           std::to_string(fit.likeness).substr(0, fit.likeness < 0.0 ? 5 : 4) + ")";
+           core::cut_text(fit.likeness, 2) + ")";
   return {};
 }
 
@@ -148,8 +145,8 @@ void require_template_in(const TriMesh& shape, const PhaseView& view, const Imag
   for (const Vec3& p : shape.points) inside += image.geometry.contains(p) ? 1 : 0;
   const double share = static_cast<double>(inside) / static_cast<double>(shape.points.size());
   if (share < least_inside)
-    throw InvalidInput("only " + percents(share) + " of the template lie within the image of its " +
-                       named(view) +
+    throw InvalidInput("only " + core::rounded_text(100.0 * share, 0) +
+                       " % of the template lie within the image of its " + named(view) +
                        ": it is of another patient, in another frame (LPS is expected) or in another unit "
                        "(say which with --units)");
 }

@@ -1,6 +1,7 @@
 #include "motion_phases.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,10 +31,7 @@ Box3 box_of(const PhaseSurface& phase) {
 
 std::string mm(double value) {
   const double steps = value < 10.0 ? 100.0 : 1.0;
-  std::string text = std::to_string(std::round(value * steps) / steps);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.back() == '.') text.pop_back();
-  return text + " mm";
+  return core::trimmed_text(std::round(value * steps) / steps, 6) + " mm";
 }
 
 /// How far ahead of another phase one is, in [0, 1).

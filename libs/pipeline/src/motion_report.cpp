@@ -4,16 +4,15 @@
 
 #include "ostia/core/csv.h"
 #include "ostia/core/files.h"
+#include "ostia/core/text.h"
 #include "ostia/core/version.h"
 #include "ostia/figure/html_report.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 
 namespace ostia::pipeline {
 namespace fs = std::filesystem;
@@ -21,22 +20,9 @@ using analysis::LocalMeasure;
 using analysis::MotionMeasure;
 using analysis::TimeCurve;
 using analysis::TreeMotion;
+using core::fixed_or_dash;
 
 namespace motion_text {
-
-std::string number(double value) {
-  if (!std::isfinite(value)) return {};
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.7g", value);
-  return text.data();
-}
-
-std::string fixed(double value, int decimals) {
-  if (!std::isfinite(value)) return "-";
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
-  return text.data();
-}
 
 std::string pair_name(const TreeMotion& motion, const analysis::BranchDistance& pair) {
   return motion.branches[pair.first].name + " | " + motion.branches[pair.second].name;
@@ -45,8 +31,9 @@ std::string pair_name(const TreeMotion& motion, const analysis::BranchDistance& 
 std::string rests_text(const std::vector<analysis::RestPeriod>& rests, double rr_s) {
   std::string text;
   for (const analysis::RestPeriod& one : rests)
-    text += (text.empty() ? "" : ", ") + fixed(100.0 * one.from, 0) + "-" + fixed(100.0 * one.to, 0) +
-            " % (" + fixed(1000.0 * rr_s * (one.to - one.from), 0) + " ms)";
+    text += (text.empty() ? "" : ", ") + fixed_or_dash(100.0 * one.from, 0) + "-" +
+            fixed_or_dash(100.0 * one.to, 0) + " % (" +
+            fixed_or_dash(1000.0 * rr_s * (one.to - one.from), 0) + " ms)";
   return text.empty() ? "-" : text;
 }
 
@@ -56,6 +43,11 @@ namespace {
 
 using nlohmann::json;
 using namespace motion_text;
+
+/// Of a table: empty where there is none.
+std::string motion_cell(double value) {
+  return std::isfinite(value) ? core::significant_text(value, 7) : std::string();
+}
 
 json value_json(double value) {
   return std::isfinite(value) ? json(value) : json(nullptr);
@@ -101,17 +93,17 @@ json options_json(const analysis::MotionMeasureOptions& o) {
 void add_rows(const std::string& of, const std::string& measure, const std::string& unit,
               const TimeCurve& curve, const TreeMotion& motion, std::string& csv) {
   for (std::size_t k = 0; k < curve.values.size(); ++k)
-    csv +=
-        core::csv_line({of, number(100.0 * motion.phases[k]), number(motion.options.rr_s * motion.phases[k]),
-                        measure, number(curve.values[k]), unit, number(curve.at_template)});
+    csv += core::csv_line({of, motion_cell(100.0 * motion.phases[k]),
+                           motion_cell(motion.options.rr_s * motion.phases[k]), measure,
+                           motion_cell(curve.values[k]), unit, motion_cell(curve.at_template)});
 }
 
 void add_along(const analysis::BranchMotion& branch, const std::string& percent,
                const std::vector<const std::vector<double>*>& columns, std::string& csv) {
   for (std::size_t i = 0; i < branch.s_mm.size(); ++i) {
-    std::vector<std::string> row{branch.name, percent, number(branch.s_mm[i])};
+    std::vector<std::string> row{branch.name, percent, motion_cell(branch.s_mm[i])};
     for (const std::vector<double>* column : columns)
-      row.push_back(column == nullptr || column->empty() ? "" : number((*column)[i]));
+      row.push_back(column == nullptr || column->empty() ? "" : motion_cell((*column)[i]));
     csv += core::csv_line(row);
   }
 }
@@ -129,15 +121,15 @@ std::pair<double, double> range(const std::vector<double>& values) {
 std::string range_text(const TimeCurve& curve, int decimals) {
   const auto [least, largest] = range(curve.values);
   if (!std::isfinite(least)) return "-";
-  return fixed(least, decimals) + " to " + fixed(largest, decimals);
+  return fixed_or_dash(least, decimals) + " to " + fixed_or_dash(largest, decimals);
 }
 
 void add_table(figure::HtmlReport& html, const TreeMotion& motion) {
   std::vector<std::vector<std::string>> rows;
   for (const analysis::BranchMotion& b : motion.branches)
-    rows.push_back({b.name, fixed(b.length_mm, 1),
-                    fixed(range(b[MotionMeasure::displacement_max].values).second, 1),
-                    fixed(range(b[MotionMeasure::speed_mean].values).second, 0),
+    rows.push_back({b.name, fixed_or_dash(b.length_mm, 1),
+                    fixed_or_dash(range(b[MotionMeasure::displacement_max].values).second, 1),
+                    fixed_or_dash(range(b[MotionMeasure::speed_mean].values).second, 0),
                     range_text(b[MotionMeasure::stretch], 3), range_text(b[MotionMeasure::curvature_mean], 3),
                     range_text(b[MotionMeasure::torsion_mean], 3), range_text(b[MotionMeasure::twist], 1),
                     rests_text(b.rests, motion.options.rr_s)});
@@ -223,7 +215,7 @@ std::string motion_along_csv(const TreeMotion& motion) {
     for (std::size_t k = 0; k < motion.phases.size(); ++k) {
       for (std::size_t m = 0; m < columns.size(); ++m)
         columns[m] = branch.along[m].values.empty() ? nullptr : &branch.along[m].values[k];
-      add_along(branch, number(100.0 * motion.phases[k]), columns, csv);
+      add_along(branch, motion_cell(100.0 * motion.phases[k]), columns, csv);
     }
   }
   return csv;

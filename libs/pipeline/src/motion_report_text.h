@@ -1,5 +1,5 @@
 #pragma once
-/// \file Words and numbers that the parts of a motion's report share.
+/// \file Words that the parts of a motion's report share.
 
 #include "ostia/analysis/motion_measures.h"
 
@@ -8,8 +8,6 @@
 
 namespace ostia::pipeline::motion_text {
 
-std::string number(double value);               ///< seven digits; empty where it is not finite
-std::string fixed(double value, int decimals);  ///< "-" where it is not finite
 std::string pair_name(const analysis::TreeMotion& motion, const analysis::BranchDistance& pair);
 std::string rests_text(const std::vector<analysis::RestPeriod>& rests, double rr_s);
 

@@ -185,6 +185,19 @@ json deviation_json(const meshing::WallDeviation& d) {
           {"worst_at", point_json(d.worst_at)}};
 }
 
+json one_way_json(const meshing::OneWayDeviation& d) {
+  return {{"samples", d.samples}, {"max_mm", d.max_mm},         {"p999_mm", d.p999_mm},
+          {"mean_mm", d.mean_mm}, {"p999_share", d.p999_share}, {"worst_at", point_json(d.worst_at)}};
+}
+
+json shape_json(const meshing::ShapeKept& s) {
+  return {{"mesh_to_surface", one_way_json(s.mesh_to_surface)},
+          {"surface_to_mesh", one_way_json(s.surface_to_mesh)},
+          {"surface_volume_mm3", s.surface_volume_mm3},
+          {"volume_mm3", s.volume_mm3},
+          {"volume_change", s.volume_change()}};
+}
+
 }  // namespace
 
 json point_json(const geometry::Vec3& p) {
@@ -214,6 +227,7 @@ json surface_json(const meshing::SurfaceQuality& q) {
 json figures_json(const MeshQuality& quality) {
   json out{{"surface", surface_json(quality.surface)}, {"volume", volume_json(quality.volume)}};
   if (quality.wall_deviation) out["wall_deviation"] = deviation_json(*quality.wall_deviation);
+  if (quality.shape) out["shape"] = shape_json(*quality.shape);
   if (quality.layers) out["layers"] = layers_json(*quality.layers);
   if (quality.quadratic) out["quadratic"] = quadratic_json(*quality.quadratic);
   if (quality.refinement) out["refinement"] = refinement_json(*quality.refinement);

@@ -121,6 +121,23 @@ void add(meshing::WallDeviation& all, const meshing::WallDeviation& one) {
   all.samples += one.samples;
 }
 
+/// Percentiles become no less than those of all samples together.
+void add(meshing::OneWayDeviation& all, const meshing::OneWayDeviation& one) {
+  if (one.p999_share > all.p999_share) all.worst_at = one.worst_at;
+  all.max_mm = std::max(all.max_mm, one.max_mm);
+  all.p999_mm = std::max(all.p999_mm, one.p999_mm);
+  all.p999_share = std::max(all.p999_share, one.p999_share);
+  all.mean_mm = weighted(all.mean_mm, all.samples, one.mean_mm, one.samples);
+  all.samples += one.samples;
+}
+
+void add(meshing::ShapeKept& all, const meshing::ShapeKept& one) {
+  add(all.mesh_to_surface, one.mesh_to_surface);
+  add(all.surface_to_mesh, one.surface_to_mesh);
+  all.surface_volume_mm3 += one.surface_volume_mm3;
+  all.volume_mm3 += one.volume_mm3;
+}
+
 /// Shares of the wall are weighted by prisms, of which each triangle of the wall carries as many.
 void add(meshing::BoundaryLayerReport& all, const meshing::BoundaryLayerReport& one) {
   const auto mean = [&](double a, double b) { return weighted(a, all.prisms, b, one.prisms); };
@@ -165,6 +182,7 @@ void add(const MeshQuality& one, MeshQuality& all) {
   add(all.surface, one.surface);
   add(all.volume, one.volume);
   add_where_known(all.wall_deviation, one.wall_deviation);
+  add_where_known(all.shape, one.shape);
   add_where_known(all.layers, one.layers);
   add_where_known(all.quadratic, one.quadratic);
   if (all.refinement && one.refinement) all.refinement->elements += one.refinement->elements;

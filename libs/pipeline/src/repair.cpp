@@ -1,15 +1,19 @@
 #include "ostia/pipeline/repair.h"
 
+#include "specks.h"
+
 #include "ostia/centerline/lumen_surface.h"
 #include "ostia/core/error.h"
 #include "ostia/geometry/aabb_tree.h"
 #include "ostia/geometry/mesh_topology.h"
 #include "ostia/geometry/non_manifold.h"
+#include "ostia/pipeline/lumen_axes.h"
 
 #include <algorithm>
 #include <array>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -85,11 +89,26 @@ void turn_together(Repaired& out) {
   note(out, "triangles_turned", count, "triangles turned the way of the others, or outward");
 }
 
-/// Flaps on edges where three sheets join go, and the whole faces outward.
+/// Each part as a lumen that centerlines can be made of; parts of which nothing would be left go.
+TriMesh prepared(const TriMesh& mesh) {
+  std::vector<TriMesh> parts;
+  std::optional<GeometryError> failed;
+  for (const TriMesh& part : parts_of(mesh)) {
+    try {
+      parts.push_back(centerline::prepare_lumen(part).wall);
+    } catch (const GeometryError& error) {
+      failed = error;
+    }
+  }
+  if (parts.empty() && failed) throw GeometryError(*failed);
+  return joined(parts);
+}
+
+/// Flaps on edges where three sheets join go, and each part faces outward.
 void make_simple(Repaired& out) {
   const std::size_t before = out.mesh.triangles.size();
   const double faced = facing(out.mesh);
-  out.mesh = centerline::prepare_lumen(out.mesh).wall;
+  out.mesh = prepared(out.mesh);
   note(out, "non_manifold_triangles_dropped", before - std::min(before, out.mesh.triangles.size()),
        "triangles on non-manifold edges dropped");
   if (faced * facing(out.mesh) < 0.0 && before == out.mesh.triangles.size())
@@ -114,6 +133,20 @@ void keep_largest_part(Repaired& out) {
   for (const std::int32_t p : part) keep.push_back(p == largest);
   keep_some(out, keep, "small_parts_triangles_dropped",
             "triangles of smaller parts (" + std::to_string(areas.size() - 1) + ") dropped");
+}
+
+void keep_vessels(Repaired& out) {
+  std::vector<TriMesh> parts = parts_of(out.mesh);
+  const Specks gone = drop_specks(parts);
+  if (gone.count() == 0) return;
+  out.mesh = joined(parts);
+  out.done.push_back(gone.text());
+  out.steps.push_back({"specks_dropped", gone.count(), gone.text()});
+}
+
+void keep_parts(Repaired& out, KeptParts which) {
+  if (which == KeptParts::largest) keep_largest_part(out);
+  if (which == KeptParts::vessels) keep_vessels(out);
 }
 
 /// Without the triangles that intersect others, and those `rings` times around them.
@@ -174,9 +207,9 @@ void cut_folds_out(Repaired& out, const RepairOptions& options, const core::Task
     std::set<std::array<double, 3>> rim;
     const TriMesh open =
         without_folds(out.mesh, pairs, 1 + round / 2, rim);  // what comes back is cut out wider
-    out.mesh = with_rim_closed(centerline::prepare_lumen(open).wall, rim);
+    out.mesh = with_rim_closed(prepared(open), rim);
     note(out, "self_intersections_cut_out", pairs.size(), "self-intersections cut out and closed");
-    if (!options.keep_parts) keep_largest_part(out);
+    keep_parts(out, options.parts);
   }
 }
 
@@ -217,7 +250,7 @@ Repaired repaired(const TriMesh& mesh, const RepairOptions& options, const core:
   turn_together(out);
   make_simple(out);
   take_apart(out);  // dropping flaps can leave borders that touch
-  if (!options.keep_parts) keep_largest_part(out);
+  keep_parts(out, options.parts);
   cut_folds_out(out, options, task);
   close_holes(out, options.fill_holes_up_to_mm);
   geometry::SurfaceFaults faults = geometry::find_faults(out.mesh, true);

@@ -1,3 +1,4 @@
+#include "ostia/core/text.h"
 #include "ostia/core/version.h"
 #include "ostia/figure/cut_open.h"
 #include "ostia/figure/html_report.h"
@@ -9,21 +10,14 @@
 #include "ostia/pipeline/report.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 namespace ostia::pipeline {
 namespace {
 
+using core::fixed_text;
 using figure::HtmlReport;
 using geometry::Vec3;
-
-std::string fixed(double value, int decimals) {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
-  return text.data();
-}
 
 /// A point of the lumen in the middle of the first vessel: what the slices go through.
 Vec3 middle(const Model& model) {
@@ -108,14 +102,14 @@ figure::Picture diameters(const Model& model) {
 
 void add_truth(HtmlReport& html, const TruthErrors& errors) {
   html.section("Against the truth");
-  html.key_values({{"mean surface distance", fixed(errors.lumen.msd_mm, 3) + " mm"},
-                   {"95 % Hausdorff distance", fixed(errors.lumen.hd95_mm, 3) + " mm"},
-                   {"signed mean (positive: too wide)", fixed(errors.lumen.signed_mean_mm, 3) + " mm"},
-                   {"axis, mean distance", fixed(errors.axis.mean_mm, 3) + " mm"},
-                   {"radius, median error", fixed(100.0 * errors.axis.radius_median_relative, 1) + " %"},
-                   {"throat radius", fixed(errors.throat_radius_mm, 3) + " mm (true " +
-                                         fixed(errors.true_throat_radius_mm, 3) + " mm, off by " +
-                                         fixed(100.0 * errors.throat_relative, 1) + " %)"}});
+  html.key_values({{"mean surface distance", fixed_text(errors.lumen.msd_mm, 3) + " mm"},
+                   {"95 % Hausdorff distance", fixed_text(errors.lumen.hd95_mm, 3) + " mm"},
+                   {"signed mean (positive: too wide)", fixed_text(errors.lumen.signed_mean_mm, 3) + " mm"},
+                   {"axis, mean distance", fixed_text(errors.axis.mean_mm, 3) + " mm"},
+                   {"radius, median error", fixed_text(100.0 * errors.axis.radius_median_relative, 1) + " %"},
+                   {"throat radius", fixed_text(errors.throat_radius_mm, 3) + " mm (true " +
+                                         fixed_text(errors.true_throat_radius_mm, 3) + " mm, off by " +
+                                         fixed_text(100.0 * errors.throat_relative, 1) + " %)"}});
 }
 
 void add_figures(HtmlReport& html, const Model& model) {
@@ -124,8 +118,9 @@ void add_figures(HtmlReport& html, const Model& model) {
   for (const geometry::Vessel& vessel : model.meshed.centerlines.tree.vessels) {
     const geometry::Centerline axis = geometry::vessel_axis(model.meshed.centerlines.tree, vessel);
     const double least = *std::min_element(axis.radius.begin(), axis.radius.end());
-    vessels.push_back({vessel.name, fixed(axis.abscissa.back(), 1), fixed(2.0 * axis.radius.front(), 2),
-                       fixed(2.0 * axis.radius.back(), 2), fixed(2.0 * least, 2)});
+    vessels.push_back({vessel.name, fixed_text(axis.abscissa.back(), 1),
+                       fixed_text(2.0 * axis.radius.front(), 2), fixed_text(2.0 * axis.radius.back(), 2),
+                       fixed_text(2.0 * least, 2)});
   }
   html.table({"vessel", "length (mm)", "first diameter (mm)", "last diameter (mm)", "least diameter (mm)"},
              vessels);
@@ -133,27 +128,28 @@ void add_figures(HtmlReport& html, const Model& model) {
   const auto& v = model.meshed.quality.volume;
   html.key_values(
       {{"triangles", std::to_string(s.triangles)},
-       {"least angle", fixed(s.min_angle_deg, 1) + " degrees"},
-       {"mean of the least angles", fixed(s.mean_min_angle_deg, 1) + " degrees"},
+       {"least angle", fixed_text(s.min_angle_deg, 1) + " degrees"},
+       {"mean of the least angles", fixed_text(s.mean_min_angle_deg, 1) + " degrees"},
        {"open edges, non-manifold edges, self-intersections",
         std::to_string(s.open_edges) + ", " + std::to_string(s.non_manifold_edges) + ", " +
             std::to_string(s.self_intersections)},
        {"tetrahedra, prisms", std::to_string(v.tetrahedra.count) + ", " + std::to_string(v.prisms.count)},
-       {"least dihedral angle", fixed(least_dihedral_deg(v), 1) + " degrees"},
-       {"least scaled Jacobian", fixed(least_scaled_jacobian(v), 2)},
+       {"least dihedral angle", fixed_text(least_dihedral_deg(v), 1) + " degrees"},
+       {"least scaled Jacobian", fixed_text(least_scaled_jacobian(v), 2)},
        {"inverted elements", std::to_string(v.inverted())},
        {"non-orthogonality, skewness (as OpenFOAM has them)",
-        fixed(v.openfoam.max_non_orthogonality_deg, 1) + " degrees, " + fixed(v.openfoam.max_skewness, 2)},
-       {"volume", fixed(v.volume_mm3(), 1) + " mm\xc2\xb3"}});
+        fixed_text(v.openfoam.max_non_orthogonality_deg, 1) + " degrees, " +
+            fixed_text(v.openfoam.max_skewness, 2)},
+       {"volume", fixed_text(v.volume_mm3(), 1) + " mm\xc2\xb3"}});
   if (const auto& layers = model.meshed.quality.layers)
-    html.key_values({{"wall with layers of full thickness", fixed(100.0 * layers->full_share, 1) + " %"},
-                     {"least scaled Jacobian of the layers", fixed(layers->min_scaled_jacobian, 2)}});
+    html.key_values({{"wall with layers of full thickness", fixed_text(100.0 * layers->full_share, 1) + " %"},
+                     {"least scaled Jacobian of the layers", fixed_text(layers->min_scaled_jacobian, 2)}});
   std::vector<std::vector<std::string>> faces;
   for (const meshing::FaceQuality& face : v.faces)
-    faces.push_back({std::to_string(face.id), face.name, fixed(face.area_mm2, 2)});
+    faces.push_back({std::to_string(face.id), face.name, fixed_text(face.area_mm2, 2)});
   html.table({"CellEntityIds", "face", "area (mm\xc2\xb2)"}, faces);
   std::vector<std::vector<std::string>> stages;
-  for (const StageTime& stage : model.stages) stages.push_back({stage.name, fixed(stage.seconds, 2)});
+  for (const StageTime& stage : model.stages) stages.push_back({stage.name, fixed_text(stage.seconds, 2)});
   html.table({"stage", "seconds"}, stages);
 }
 

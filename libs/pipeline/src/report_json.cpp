@@ -75,6 +75,10 @@ std::string name_of(imaging::Diffusion method) {
   return "flux";
 }
 
+std::string name_of(SideBranches side) {
+  return side == SideBranches::axes ? "axes" : side == SideBranches::stubs ? "stubs" : "closed";
+}
+
 json filters_json(const segmentation::SegmentOptions& o) {
   const auto given = [](const std::optional<double>& value) { return value ? json(*value) : json(); };
   json out = {{"balloon", json()}, {"denoise", json()}, {"remove", json::array()}};
@@ -162,7 +166,8 @@ std::string parameters_json(const ModelOptions& options, const SourceOptions& re
       {"resample", reading.dicom.resample_uneven},
       {"pixel_spacing_mm", reading.dicom.pixel_spacing_mm ? json(*reading.dicom.pixel_spacing_mm) : json()},
       {"slice_spacing_mm", reading.dicom.slice_spacing_mm ? json(*reading.dicom.slice_spacing_mm) : json()},
-      {"unit_mm", reading.unit_mm ? json(*reading.unit_mm) : json()}};
+      {"unit_mm", reading.unit_mm ? json(*reading.unit_mm) : json()},
+      {"strict", reading.strict}};
   out["branches"] = json::array();
   for (const auto& branch : options.branches) {
     json points = json::array({point_json(branch.from)});
@@ -193,7 +198,9 @@ std::string parameters_json(const ModelOptions& options, const SourceOptions& re
                                        : json();
   out["centerline"] = {{"step_mm", options.centerline.step_mm},
                        {"smoothing_radii", options.centerline.smoothing_radii}};
-  out["clip"] = {{"inset_radii", options.inset_radii ? json(*options.inset_radii) : json()}};
+  out["clip"] = {{"inset_radii", options.inset_radii ? json(*options.inset_radii) : json()},
+                 {"ends_as_they_are", options.clip.ends_as_they_are}};
+  out["side_branches"] = name_of(options.side_branches);
   for (const meshing::PlacedPlane& plane : options.clip.planes)
     out["clip"]["planes"].push_back(
         {{"end", plane.end}, {"origin", point_json(plane.origin)}, {"normal", point_json(plane.normal)}});

@@ -1,6 +1,7 @@
 #include "ostia/pipeline/skeleton.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/text.h"
 
 #include <algorithm>
 #include <iomanip>
@@ -16,14 +17,13 @@ using centerline::SkeletonGraph;
 using geometry::Vec3;
 
 std::string places(const std::vector<std::int32_t>& nodes, const SkeletonGraph& graph) {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text << std::fixed << std::setprecision(1);
+  std::string text;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const Vec3& at = centerline::node(graph, nodes[i]).position;
-    text << (i == 0 ? "" : "; ") << at.x() << "," << at.y() << "," << at.z();
+    text += (i == 0 ? "" : "; ") + core::fixed_text(at.x(), 1) + "," + core::fixed_text(at.y(), 1) + "," +
+            core::fixed_text(at.z(), 1);
   }
-  return text.str();
+  return text;
 }
 
 std::vector<std::string> warnings_of(const SkeletonResult& result, const centerline::Thinned& thin,

@@ -1,7 +1,6 @@
 #include "ostia/pipeline/solver_case.h"
 
 #include "ostia/core/error.h"
-#include "ostia/io/mesh_export.h"
 
 #include <nlohmann/json.hpp>
 
@@ -12,9 +11,50 @@ namespace {
 
 using nlohmann::json;
 using solver::OpenfoamCaseOptions;
+using solver::SvmultiphysicsCaseOptions;
 
-const OpenfoamCaseOptions* openfoam(const SolverCase& options) {
-  return std::get_if<OpenfoamCaseOptions>(&options);
+template <class Options>
+SolverCase with_flow(const solver::BoundaryFlowOptions& flow) {
+  Options options;
+  options.flow = flow;
+  return options;
+}
+
+SolverCaseResult write_openfoam(const geometry::MixedMesh& mesh, const SolverCase& options,
+                                const std::filesystem::path& folder, const core::TaskContext& task) {
+  auto made = solver::write_openfoam_case(mesh, std::get<OpenfoamCaseOptions>(options), folder, task);
+  return {std::move(made.flow), made.time_step_s, made.steps, made.hours, std::move(made.warnings)};
+}
+
+SolverCaseResult write_svmultiphysics(const geometry::MixedMesh& mesh, const SolverCase& options,
+                                      const std::filesystem::path& folder, const core::TaskContext& task) {
+  auto made =
+      solver::write_svmultiphysics_case(mesh, std::get<SvmultiphysicsCaseOptions>(options), folder, task);
+  return {std::move(made.flow), 0.0, 0.0, 0.0, std::move(made.warnings)};
+}
+
+struct Solver {
+  SolverTraits traits;
+  SolverCase (*with_flow)(const solver::BoundaryFlowOptions&);
+  SolverCaseResult (*write)(const geometry::MixedMesh&, const SolverCase&, const std::filesystem::path&,
+                            const core::TaskContext&);
+};
+
+// Kind, name, title, suite, folder; mesh, prisms, shares; script, run.
+constexpr std::array<Solver, solver_kinds.size()> solvers = {{
+    {{SolverKind::openfoam, "openfoam", "OpenFOAM", "", "openfoam-case", io::MeshFormat::openfoam, true, true,
+      "Allrun", "./Allrun"},
+     with_flow<OpenfoamCaseOptions>,
+     write_openfoam},
+    {{SolverKind::svmultiphysics, "svmultiphysics", "svMultiPhysics", "SimVascular", "svmultiphysics-case",
+      io::MeshFormat::mesh_complete, false, false, "", "svmultiphysics solver.xml"},
+     with_flow<SvmultiphysicsCaseOptions>,
+     write_svmultiphysics},
+}};
+static_assert(std::variant_size_v<SolverCase> == solvers.size());
+
+const Solver& entry(SolverKind kind) {
+  return *std::ranges::find(solvers, kind, [](const Solver& solver) { return solver.traits.kind; });
 }
 
 template <class T>
@@ -42,7 +82,48 @@ json flow_json(const solver::BoundaryFlowOptions& o) {
           {"total_resistance_mmhg_s_ml", given(o.total_resistance_mmhg_s_ml)}};
 }
 
+json own_json(const OpenfoamCaseOptions& o) {
+  return {{"processes", o.processes},
+          {"iterations", o.iterations},
+          {"tolerance", o.tolerance},
+          {"cycles", o.cycles},
+          {"total_compliance_ml_mmhg", given(o.total_compliance_ml_mmhg)},
+          {"samples_per_cycle", o.samples_per_cycle},
+          {"results_per_cycle", o.results_per_cycle},
+          {"courant", o.courant},
+          {"time_step_s", given(o.time_step_s)}};
+}
+
+json own_json(const SvmultiphysicsCaseOptions& o) {
+  return {{"total_compliance_ml_mmhg", given(o.total_compliance_ml_mmhg)},
+          {"cycles", o.cycles},
+          {"steps_per_cycle", o.steps_per_cycle},
+          {"results_per_cycle", o.results_per_cycle}};
+}
+
 }  // namespace
+
+const SolverTraits& traits_of(SolverKind kind) {
+  return entry(kind).traits;
+}
+
+SolverKind solver_kind(std::string_view name) {
+  std::string known;
+  for (const Solver& solver : solvers) {
+    if (solver.traits.name == name) return solver.traits.kind;
+    known += (known.empty() ? "" : ", ") + std::string(solver.traits.name);
+  }
+  throw InvalidInput("there is no solver \"" + std::string(name) + "\" to write a case for; there are " +
+                     known);
+}
+
+SolverKind kind_of(const SolverCase& options) {
+  return solver_kinds[options.index()];
+}
+
+SolverCase solver_case(SolverKind kind, const solver::BoundaryFlowOptions& flow) {
+  return entry(kind).with_flow(flow);
+}
 
 const solver::BoundaryFlowOptions& flow_of(const SolverCase& options) {
   return std::visit([](const auto& one) -> const solver::BoundaryFlowOptions& { return one.flow; }, options);
@@ -53,8 +134,7 @@ void validate(const SolverCase& options) {
 }
 
 void require_takes(const SolverCase& options, bool prisms, bool quadratic) {
-  io::require_holds(openfoam(options) ? io::MeshFormat::openfoam : io::MeshFormat::mesh_complete, prisms,
-                    quadratic);
+  io::require_holds(traits_of(kind_of(options)).mesh, prisms, quadratic);
 }
 
 void require_inlets(const SolverCase& options, const std::vector<std::string>& ends) {
@@ -67,44 +147,19 @@ void require_inlets(const SolverCase& options, const std::vector<std::string>& e
 }
 
 std::string name_in_folder(const SolverCase& options) {
-  return openfoam(options) ? "openfoam-case" : "svmultiphysics-case";
+  return std::string(traits_of(kind_of(options)).folder);
 }
 
 std::string parameters_json(const SolverCase& options) {
-  json out{{"flow", flow_json(flow_of(options))}};
-  if (const OpenfoamCaseOptions* o = openfoam(options)) {
-    out["solver"] = "openfoam";
-    out["processes"] = o->processes;
-    out["iterations"] = o->iterations;
-    out["tolerance"] = o->tolerance;
-    out["cycles"] = o->cycles;
-    out["samples_per_cycle"] = o->samples_per_cycle;
-    out["results_per_cycle"] = o->results_per_cycle;
-    out["courant"] = o->courant;
-    out["time_step_s"] = given(o->time_step_s);
-  } else {
-    const auto& sv = std::get<solver::SvmultiphysicsCaseOptions>(options);
-    out["solver"] = "svmultiphysics";
-    out["total_compliance_ml_mmhg"] = given(sv.total_compliance_ml_mmhg);
-    out["cycles"] = sv.cycles;
-    out["steps_per_cycle"] = sv.steps_per_cycle;
-    out["results_per_cycle"] = sv.results_per_cycle;
-  }
+  json out = std::visit([](const auto& one) { return own_json(one); }, options);
+  out["flow"] = flow_json(flow_of(options));
+  out["solver"] = traits_of(kind_of(options)).name;
   return out.dump();
 }
 
 SolverCaseResult write_solver_case(const geometry::MixedMesh& mesh, const SolverCase& options,
                                    const std::filesystem::path& folder, const core::TaskContext& task) {
-  SolverCaseResult result;
-  if (const OpenfoamCaseOptions* o = openfoam(options)) {
-    solver::OpenfoamCaseResult made = solver::write_openfoam_case(mesh, *o, folder, task);
-    result = {std::move(made.flow), made.time_step_s, std::move(made.warnings)};
-  } else {
-    auto made = solver::write_svmultiphysics_case(mesh, std::get<solver::SvmultiphysicsCaseOptions>(options),
-                                                  folder, task);
-    result = {std::move(made.flow), 0.0, std::move(made.warnings)};
-  }
-  return result;
+  return entry(kind_of(options)).write(mesh, options, folder, task);
 }
 
 }  // namespace ostia::pipeline

@@ -8,6 +8,7 @@
 #include "ostia/imaging/archive.h"
 #include "ostia/imaging/image_file.h"
 #include "ostia/io/surface_file.h"
+#include "ostia/pipeline/surface_intake.h"
 
 #include <algorithm>
 #include <array>
@@ -41,23 +42,17 @@ void append_warnings(std::vector<std::string>& to, const std::vector<std::string
   to.insert(to.end(), from.begin(), from.end());
 }
 
-geometry::TriMesh load_surface(const fs::path& path, const SourceOptions& options,
-                               std::vector<std::string>& warnings) {
+void load_surface(const fs::path& path, const SourceOptions& options, Source& source,
+                  const core::TaskContext& task) {
   io::LoadedSurface loaded = io::read_surface(path);
-  append_warnings(warnings, loaded.warnings);
-  geometry::TriMesh mesh = std::move(loaded.surface.mesh);
-  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
-    if (!mesh.points[i].allFinite()) {
-      throw InvalidInput("cannot use " + path.string() + ": point " + std::to_string(i) +
-                         " is not a finite place; `ostia convert --repair` drops such triangles");
-    }
-    if (options.unit_mm) mesh.points[i] *= *options.unit_mm;
-  }
-  // The least extent bounds a vessel's width from above; the other bound needs the centerlines.
-  if (!options.unit_mm)
-    check_vessel_size(std::min(geometry::bounds(mesh.points).sizes().minCoeff(), widest_vessel_mm),
-                      path.string());
-  return mesh;
+  append_warnings(source.warnings, loaded.warnings);
+  TakenSurface taken =
+      take_surface(std::move(loaded.surface), path.string(), {options.unit_mm, options.strict, true}, task);
+  for (const std::string& line : taken.told) source.warnings.push_back("the surface: " + line);
+  source.surface = std::move(taken.lumen);
+  source.ends = std::move(taken.ends);
+  source.unit_mm = taken.unit_mm;
+  source.unit_given = options.unit_mm.has_value();
 }
 
 }  // namespace
@@ -130,8 +125,7 @@ Source load(const fs::path& path, const SourceOptions& options, const core::Task
       break;
     }
     case SourceKind::surface:
-      source.surface = load_surface(path, options, source.warnings);
-      source.unit_given = options.unit_mm.has_value();
+      load_surface(path, options, source, task);
       break;
   }
   source.sha256 = sha256->get();

@@ -2,6 +2,7 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
+#include "ostia/core/text.h"
 #include "ostia/core/version.h"
 #include "ostia/figure/html_report.h"
 
@@ -10,7 +11,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <numbers>
 
@@ -20,16 +20,11 @@ namespace {
 namespace fs = std::filesystem;
 using analysis::GraphTable;
 using analysis::OrderMeasure;
+using core::significant_text;
 using nlohmann::json;
 
 constexpr double degrees = 180.0 / std::numbers::pi;
 constexpr std::size_t listed_overlaps = 20;
-
-std::string rounded(double value, const char* format = "%.4g") {
-  char text[48];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
 
 json mean_json(const analysis::RunningMean& of) {
   return {{"count", of.count}, {"mean", of.mean}, {"sd", of.sd()}};
@@ -126,12 +121,12 @@ void write_table(const fs::path& folder, const GraphTable& table, const core::Ta
 void add_orders(const MeasuredTree& tree, figure::HtmlReport& html) {
   std::vector<std::vector<std::string>> rows;
   const auto spread = [](const analysis::RunningMean& of) {
-    return rounded(of.mean) + " ± " + rounded(of.sd(), "%.3g");
+    return significant_text(of.mean, 4) + " ± " + significant_text(of.sd(), 3);
   };
   for (const OrderMeasure& one : tree.report.orders)
     rows.push_back({std::to_string(one.order), std::to_string(one.element_diameter_mm.count),
                     spread(one.element_diameter_mm), spread(one.element_length_mm),
-                    rounded(one.branches_per_element.mean, "%.2f"), rounded(one.volume_mm3)});
+                    core::fixed_text(one.branches_per_element.mean, 2), significant_text(one.volume_mm3, 4)});
   html.section("Orders");
   html.table({"order", "elements", "diameter (mm)", "length (mm)", "branches per element", "volume (mm3)"},
              rows, "Diameter-defined Strahler orders; elements are branches of one order in series.");
@@ -144,11 +139,25 @@ void add_overlaps(const MeasuredTree& tree, figure::HtmlReport& html) {
   for (std::size_t i = 0; i < std::min(listed_overlaps, tree.overlaps.size()); ++i) {
     const analysis::GraphOverlap& one = tree.overlaps[i];
     rows.push_back({std::to_string(reference(tree, one.first)), std::to_string(reference(tree, one.second)),
-                    rounded(one.depth_mm), rounded(one.place.x()), rounded(one.place.y()),
-                    rounded(one.place.z())});
+                    significant_text(one.depth_mm, 4), significant_text(one.place.x(), 4),
+                    significant_text(one.place.y(), 4), significant_text(one.place.z(), 4)});
   }
   html.table({tree.reference_name, "and", "depth (mm)", "x (mm)", "y (mm)", "z (mm)"}, rows,
              std::to_string(tree.overlaps.size()) + " pairs of segments in all; the rest in overlaps.csv.");
+}
+
+void add_bifurcations(const BranchReport& branches, figure::HtmlReport& html) {
+  if (branches.bifurcations->systems.empty()) return;
+  std::vector<std::vector<std::string>> rows;
+  for (const analysis::BifurcationVector& one : branches.bifurcations->vectors)
+    rows.push_back({std::to_string(one.bifurcation), std::to_string(one.group),
+                    one.downstream ? "leaves it" : "comes to it",
+                    core::fixed_text(degrees * one.in_plane_rad, 1),
+                    core::fixed_text(degrees * one.out_of_plane_rad, 1)});
+  html.section("Bifurcations");
+  html.table(
+      {"bifurcation", "branch", "", "in its plane (deg)", "out of it (deg)"}, rows,
+      "Directions of branches against the bifurcation's own system; groups as in centerlines' GroupIds.");
 }
 
 void write_html(const fs::path& path, const MeasuredTree& tree, const std::vector<ReportPicture>& pictures) {
@@ -156,17 +165,19 @@ void write_html(const fs::path& path, const MeasuredTree& tree, const std::vecto
   figure::HtmlReport html("Measures of a tree",
                           std::to_string(tree.graph.edges.size()) + " segments, Ostia " + core::version());
   html.section("The whole tree");
-  html.key_values({{"Branches", std::to_string(r.branches.size())},
-                   {"Ends", std::to_string(r.total.ends)},
-                   {"Length", rounded(r.total.length_mm) + " mm"},
-                   {"Area of the wall", rounded(r.total.area_mm2) + " mm2"},
-                   {"Volume", rounded(r.total.volume_mm3) + " mm3"},
-                   {"Murray's exponent, median", rounded(r.murray_median, "%.2f")},
-                   {"Diameter from one order to the next", rounded(r.diameter_fit.ratio, "%.3f") + " times"},
-                   {"Length from one order to the next", rounded(r.length_fit.ratio, "%.3f") + " times"},
-                   {"Overlaps", std::to_string(tree.overlaps.size())}});
+  html.key_values(
+      {{"Branches", std::to_string(r.branches.size())},
+       {"Ends", std::to_string(r.total.ends)},
+       {"Length", significant_text(r.total.length_mm, 4) + " mm"},
+       {"Area of the wall", significant_text(r.total.area_mm2, 4) + " mm2"},
+       {"Volume", significant_text(r.total.volume_mm3, 4) + " mm3"},
+       {"Murray's exponent, median", core::fixed_text(r.murray_median, 2)},
+       {"Diameter from one order to the next", core::fixed_text(r.diameter_fit.ratio, 3) + " times"},
+       {"Length from one order to the next", core::fixed_text(r.length_fit.ratio, 3) + " times"},
+       {"Overlaps", std::to_string(tree.overlaps.size())}});
   add_orders(tree, html);
   add_overlaps(tree, html);
+  if (tree.branches) add_bifurcations(*tree.branches, html);
   for (const ReportPicture& one : pictures) {
     html.section(one.heading);
     html.picture(one.picture, one.caption);
@@ -229,6 +240,7 @@ void write_tree_report(const fs::path& folder, const MeasuredTree& tree, const J
     task.set_progress(0.8 * static_cast<double>(i) / static_cast<double>(tables.size()));
     write_table(staged.temporary(), tables[i], task);
   }
+  if (tree.branches) write_branch_report(staged.temporary(), *tree.branches);
   const std::vector<ReportPicture> pictures = tree_pictures(tree);
   write_pictures(staged.temporary(), pictures, task);
   write_html(staged.temporary() / "report.html", tree, pictures);

@@ -1,5 +1,6 @@
 // The plots of a tree's report.
 
+#include "ostia/core/text.h"
 #include "ostia/figure/plot.h"
 #include "ostia/pipeline/tree_report.h"
 
@@ -33,9 +34,11 @@ Series points_of(const std::string& name, const TreeReport& report,
 }
 
 Series line_of(const LogFit& fit, const Series& points, std::size_t color) {
-  char name[64];
-  std::snprintf(name, sizeof name, "%.3g times an order", fit.ratio);
-  Series line{name, {}, {}, figure::palette(color), figure::LineStyle::dashed};
+  Series line{core::significant_text(fit.ratio, 3) + " times an order",
+              {},
+              {},
+              figure::palette(color),
+              figure::LineStyle::dashed};
   for (const double x : {points.x.front(), points.x.back()}) {
     line.x.push_back(x);
     line.y.push_back(fit.a + fit.b * x);

@@ -8,6 +8,7 @@
 #include "ostia/io/volume_mesh_file.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace ostia::pipeline {
@@ -117,13 +118,18 @@ MeshQuality judged(const geometry::MixedMesh& mesh, const std::vector<bool>& in_
   out.surface =
       meshing::surface_quality(compacted(geometry::boundary_triangles(mesh)), true, task.sub(0.5, 1.0));
   const meshing::SurfaceQuality wall = meshing::surface_quality(wall_of(facets), false);
-  if (wall.triangles > 0) {
+  meshing::QualityBounds bounds;
+  if (wall.triangles == 0 &&
+      !mesh.quads.empty()) {  // a wall of quadrilaterals: what halves of them are like says nothing
+    bounds.min_angle_deg = 0.0;
+    bounds.max_frobenius_aspect = std::numeric_limits<double>::infinity();
+  } else if (wall.triangles > 0) {
     out.surface.min_angle_deg = wall.min_angle_deg;
     out.surface.mean_min_angle_deg = wall.mean_min_angle_deg;
     out.surface.max_frobenius_aspect = wall.max_frobenius_aspect;
     out.surface.mean_frobenius_aspect = wall.mean_frobenius_aspect;
   }
-  out.verdict = meshing::check(out.surface);
+  out.verdict = meshing::check(out.surface, bounds);
   append_notes(out.verdict.reasons, meshing::check(out.volume).reasons);
   return out;
 }

@@ -1,11 +1,11 @@
 #include "ostia/pipeline/volume_preview.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/text.h"
 #include "ostia/figure/slice_figure.h"
 #include "ostia/reformat/plane_image.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 namespace ostia::pipeline {
@@ -18,10 +18,6 @@ Vec3 centre_of(const imaging::Geometry& grid) {
   return grid.world(Vec3(static_cast<double>(grid.size[0] - 1), static_cast<double>(grid.size[1] - 1),
                          static_cast<double>(grid.size[2] - 1)) /
                     2.0);
-}
-
-std::string preview_mm(double value) {
-  return std::to_string(static_cast<long>(std::lround(value)));
 }
 
 }  // namespace
@@ -48,7 +44,7 @@ std::vector<std::string> write_preview(const imaging::ImageVolume& image, const 
   const double low = std::min(first.z(), last.z()), high = std::max(first.z(), last.z());
   for (int i = 0; i < options.axial_slices; ++i) {
     const double z = low + (high - low) * (i + 0.5) / options.axial_slices;
-    look.title = "axial, z = " + preview_mm(z) + " mm";
+    look.title = "axial, z = " + core::rounded_text(z, 0) + " mm";
     const auto plane = reformat::axial_plane(image.geometry, Vec3(centre.x(), centre.y(), z));
     std::string number = std::to_string(i + 1);
     number.insert(0, 3 - number.size(), '0');

@@ -3,6 +3,7 @@
 #include "curved_guide.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/text.h"
 
 #include <cmath>
 #include <numbers>
@@ -19,16 +20,12 @@ double radians(double degrees) {
   return degrees * std::numbers::pi / 180.0;
 }
 
-std::string mm(double value) {
-  return std::to_string(value) + " mm";
-}
-
 }  // namespace
 
 void validate(const CurvedOptions& o) {
   if (!std::isfinite(o.theta_deg)) throw InvalidInput("the angle of the curved reformation is not finite");
   if (!(o.pixel_mm > 0.0) || !std::isfinite(o.pixel_mm))
-    throw InvalidInput("the pixels of the curved reformation are " + mm(o.pixel_mm) +
+    throw InvalidInput("the pixels of the curved reformation are " + core::mm_text(o.pixel_mm, 6) +
                        " wide; they must be wider than 0");
   if (o.width < 1 || o.height < 1 || o.width > most_pixels || o.height > most_pixels)
     throw InvalidInput("a curved reformation of " + std::to_string(o.width) + " x " +
@@ -37,8 +34,9 @@ void validate(const CurvedOptions& o) {
   if (!std::isfinite(o.s_start_mm))
     throw InvalidInput("the abscissa of the curved reformation's first row is not finite");
   if (o.slab != Slab::none && !(o.slab_mm > 0.0 && o.slab_mm <= thickest_mm))
-    throw InvalidInput("the slab of the curved reformation is " + mm(o.slab_mm) +
-                       " thick; give more than 0 and at most " + mm(thickest_mm) + ", or no slab");
+    throw InvalidInput("the slab of the curved reformation is " + core::mm_text(o.slab_mm, 6) +
+                       " thick; give more than 0 and at most " + core::mm_text(thickest_mm, 6) +
+                       ", or no slab");
 }
 
 CurvedReformation::CurvedReformation(std::shared_ptr<const geometry::AxisCurve> axis,

@@ -1,16 +1,17 @@
 #include "intensity_range.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/text.h"
 #include "ostia/segmentation/colliding_fronts.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 namespace ostia::segmentation {
 namespace detail {
 namespace {
+
+using core::fixed_text;
 
 constexpr double kNoVesselHu = -300.0;
 constexpr int kDarkestTissueHu = -150;  // fat and its mixtures with lung lie below
@@ -18,12 +19,6 @@ constexpr double kTissueHu = 50.0;      // where the neighbourhood shows no back
 constexpr double kNeighbourhoodMm = 20.0;
 constexpr double kLeastContrast = 1.0 / 3.0;  // of the darkest seed, as a part of the brightest one's
 constexpr double kThresholdHeight = 0.6;      // from the background (0) to the lumen (1)
-
-std::string number(double value) {
-  std::array<char, 32> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), "%.0f", value);
-  return buffer.data();
-}
 
 double cross_median(const imaging::ImageVolume& image, const Voxel& v) {
   std::vector<std::int16_t> values{image(v[0], v[1], v[2])};
@@ -118,9 +113,8 @@ double background_hu(const imaging::ImageVolume& image, const std::vector<Vec3>&
 }
 
 std::string text(const Vec3& point) {
-  std::array<char, 96> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), "(%.1f, %.1f, %.1f)", point.x(), point.y(), point.z());
-  return buffer.data();
+  return "(" + fixed_text(point.x(), 1) + ", " + fixed_text(point.y(), 1) + ", " + fixed_text(point.z(), 1) +
+         ")";
 }
 
 SeedIntensities seed_intensities(const imaging::ImageVolume& image, const std::vector<Vec3>& seeds_mm) {
@@ -137,7 +131,7 @@ SeedIntensities seed_intensities(const imaging::ImageVolume& image, const std::v
     }
     const double hu = cross_median(image, nearest_voxel(image.geometry, seed));
     if (hu < kNoVesselHu) {
-      throw InvalidInput("seed " + text(seed) + " mm lies in air (" + number(hu) +
+      throw InvalidInput("seed " + text(seed) + " mm lies in air (" + fixed_text(hu, 0) +
                          " HU): place it in the contrast-filled lumen");
     }
     if (hu < result.darkest) {
@@ -158,9 +152,9 @@ void require_like_contrast(const imaging::ImageVolume& image, const std::vector<
                            const SeedIntensities& at) {
   const double background = background_hu(image, seeds_mm, at.brightest);
   if (at.darkest - background >= kLeastContrast * (at.brightest - background)) return;
-  throw InvalidInput("seed " + text(at.darkest_at) + " mm has " + number(at.darkest) + " HU, but seed " +
-                     text(at.brightest_at) + " mm " + number(at.brightest) + " HU, and the tissue around " +
-                     number(background) +
+  throw InvalidInput("seed " + text(at.darkest_at) + " mm has " + fixed_text(at.darkest, 0) +
+                     " HU, but seed " + text(at.brightest_at) + " mm " + fixed_text(at.brightest, 0) +
+                     " HU, and the tissue around " + fixed_text(background, 0) +
                      " HU: the first lies outside of the lumen; move it, or give the lower bound of the "
                      "intensities if both are right");
 }
@@ -181,7 +175,8 @@ ChosenRange choose_range(const imaging::ImageVolume& image, const std::vector<Ve
   if (lower) result.range.lower = *lower;
   if (upper) result.range.upper = *upper;
   if (!(result.range.lower < result.range.upper)) {
-    throw InvalidInput("intensity range " + number(result.range.lower) + " to " + number(result.range.upper) +
+    throw InvalidInput("intensity range " + fixed_text(result.range.lower, 0) + " to " +
+                       fixed_text(result.range.upper, 0) +
                        " HU is empty: give a lower bound below the upper one");
   }
   return result;
@@ -210,8 +205,8 @@ Voxel voxel_in_range(const imaging::ImageVolume& image, const Vec3& seed_mm, con
   }
   if (best_distance == 1e300) {
     throw InvalidInput("seed " + text(seed_mm) + " mm lies outside the intensity range: " +
-                       number(image(centre[0], centre[1], centre[2])) + " HU there, the range is " +
-                       number(range.lower) + " to " + number(range.upper) +
+                       fixed_text(image(centre[0], centre[1], centre[2]), 0) + " HU there, the range is " +
+                       fixed_text(range.lower, 0) + " to " + fixed_text(range.upper, 0) +
                        " HU; move the seed into the lumen or widen the range");
   }
   return best;

@@ -1,5 +1,6 @@
 #include "ostia/segmentation/segment.h"
 
+#include "followed_branches.h"
 #include "level_set/evolve_region.h"
 #include "path/prepared_image.h"
 
@@ -269,18 +270,6 @@ std::string restless(const LevelSetResult& evolved, double voxel_mm) {
   return text.data();
 }
 
-template <class Call>
-auto with_branch_number(std::size_t number, std::size_t count, const Call& call) {
-  const std::string head = count > 1 ? "branch " + std::to_string(number + 1) + ": " : "";
-  try {
-    return call();
-  } catch (const InvalidInput& e) {
-    throw InvalidInput(head + e.what());
-  } catch (const GeometryError& e) {
-    throw GeometryError(head + e.what());
-  }
-}
-
 }  // namespace
 
 void validate(const SegmentOptions& options) {
@@ -302,37 +291,34 @@ void validate(const SegmentOptions& options) {
   require(options.level_set.inflation > 0.0, "the balloon needs an inflation weight above 0");
 }
 
-SegmentationResult segment_vessels(const imaging::ImageVolume& given,
-                                   const std::vector<BranchSeeds>& branches, const SegmentOptions& options,
-                                   const core::TaskContext& whole_task) {
+SegmentationResult segment_vessels(const imaging::ImageVolume& given, const std::vector<BranchSeeds>& asked,
+                                   const SegmentOptions& options, const core::TaskContext& whole_task) {
   validate(options);
-  if (branches.empty())
-    throw InvalidInput("segmentation: no branch is given; give two seeds, one at each end");
+  if (asked.empty()) throw InvalidInput("segmentation: no branch is given; give two seeds, one at each end");
   const bool prepares = detail::needs_preparation(options);
   const std::optional<imaging::ImageVolume> made =
-      prepares ? std::optional(detail::prepared_image(given, branches, options, whole_task.sub(0.0, 0.5)))
+      prepares ? std::optional(detail::prepared_image(given, asked, options, whole_task.sub(0.0, 0.5)))
                : std::nullopt;
   const imaging::ImageVolume& image = made ? *made : given;
   const core::TaskContext task = whole_task.sub(prepares ? 0.5 : 0.0, 1.0);
   SegmentationResult result;
-  std::vector<InitialRegion> parts;
   CollidingFrontsOptions fronts = options.fronts;
   if (options.balloon) fronts.margin_voxels = std::max(fronts.margin_voxels, kBalloonRoom);
   if (options.bright_is_lumen) fronts.upper_hu = std::numeric_limits<std::int16_t>::max();
   task.set_stage("colliding fronts");
+  detail::FollowedBranches followed =
+      detail::follow_branches(image, asked, fronts, options.leave_out_unfollowed, task.sub(0.0, 0.4));
+  const std::vector<BranchSeeds>& branches = followed.branches;
+  std::vector<InitialRegion>& parts = followed.parts;
+  result.left_out = std::move(followed.left_out);
   for (std::size_t b = 0; b < branches.size(); ++b) {
-    const double share = 0.4 / static_cast<double>(branches.size());
-    parts.push_back(with_branch_number(b, branches.size(), [&] {
-      return colliding_fronts(image, branches[b], fronts,
-                              task.sub(share * static_cast<double>(b), share * static_cast<double>(b + 1)));
-    }));
-    const InitialRegion& part = parts.back();
+    const InitialRegion& part = parts[b];
     result.branches.push_back(
         {part.range, part.range_was_chosen, part.lumen_hu, part.voxels, part.visited, part.touches_border});
     if (part.touches_border) {
       result.touches_border = true;
       result.warnings.push_back(
-          "branch " + std::to_string(b + 1) +
+          "branch " + std::to_string(followed.index[b] + 1) +
           " reaches the border of the image: the vessel goes on outside and is cut there");
     }
   }

@@ -254,16 +254,8 @@ bool same(const VesselMark& a, const VesselMark& b) {
 }
 
 bool needs_vessel(const Measurement& measurement) {
-  switch (measurement.kind) {
-    case analysis::MeasureKind::stenosis:
-    case analysis::MeasureKind::volume:
-    case analysis::MeasureKind::ring_hu:
-      return true;
-    case analysis::MeasureKind::diameter:
-      return measurement.vessel != 0;
-    default:
-      return false;
-  }
+  if (measurement.kind == analysis::MeasureKind::diameter) return measurement.vessel != 0;
+  return analysis::traits_of(measurement.kind).of_vessel;
 }
 
 Orphans find_orphans(const Annotations& annotations, const LumenModel& model) {

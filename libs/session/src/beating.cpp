@@ -2,6 +2,7 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
+#include "ostia/core/text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -157,10 +158,7 @@ double phase_distance(double a, double b) {
 }
 
 std::string percent_of_cycle(double phase) {
-  char text[32];
-  const double percent = std::round(1000.0 * phase) / 10.0;
-  std::snprintf(text, sizeof text, percent == std::round(percent) ? "%.0f %%" : "%.1f %%", percent);
-  return text;
+  return core::trimmed_text(std::round(1000.0 * phase) / 10.0, 1) + " %";
 }
 
 }  // namespace ostia::session

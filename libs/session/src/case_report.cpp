@@ -3,6 +3,7 @@
 #include "case_report_text.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/text.h"
 #include "ostia/core/version.h"
 
 #include <algorithm>
@@ -15,7 +16,6 @@ namespace {
 
 using analysis::LumenProfile;
 using analysis::SectionMeasures;
-using report_text::fixed;
 
 /// Measures of a stretch: sections within it, and its ends.
 struct Sizes {
@@ -195,7 +195,7 @@ class Maker {
   void warn() {
     for (const ReportVessel& vessel : report_.vessels) {
       if (vessel.unmeasured_mm > 0.0)
-        report_.warnings.push_back(vessel.name + ": " + fixed(vessel.unmeasured_mm, 1) +
+        report_.warnings.push_back(vessel.name + ": " + core::shown_text(vessel.unmeasured_mm, 1) +
                                    " mm could not be measured, the wall does not close there");
       if (analysis::main_vessel_of(vessel.name).empty())
         report_.warnings.push_back(vessel.name +
@@ -298,9 +298,11 @@ void validate(const ReportOptions& options) {
   analysis::validate(options.profile);
   validate(options.walls);
   require(options.least_graded_mm >= 0.0 && options.least_graded_mm <= 5.0,
-          "grades stenoses of vessels from 0 to 5 mm, not " + fixed(options.least_graded_mm, 2) + " mm");
+          "grades stenoses of vessels from 0 to 5 mm, not " + core::shown_text(options.least_graded_mm, 2) +
+              " mm");
   require(options.picture_percent >= 0.0 && options.picture_percent <= 100.0,
-          "shows vessels with stenoses from 0 to 100 %, not " + fixed(options.picture_percent, 1) + " %");
+          "shows vessels with stenoses from 0 to 100 %, not " + core::shown_text(options.picture_percent, 1) +
+              " %");
   require(std::isfinite(options.theta_deg), "needs a finite angle of the reformations");
   require(std::isfinite(options.level_hu) && options.window_hu > 0.0 && std::isfinite(options.window_hu),
           "needs a grey window with a finite level and a positive width, HU");

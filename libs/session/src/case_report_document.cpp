@@ -2,6 +2,7 @@
 
 #include "case_report_text.h"
 
+#include "ostia/core/text.h"
 #include "ostia/figure/html_report.h"
 #include "ostia/figure/pdf_document.h"
 #include "ostia/session/case_report.h"
@@ -11,8 +12,8 @@
 namespace ostia::session {
 namespace {
 
+using core::shown_text;
 using figure::Notice;
-using report_text::fixed;
 using report_text::label;
 using report_text::percent;
 using Rows = std::vector<std::vector<std::string>>;
@@ -62,10 +63,10 @@ Rows stenosis_rows(const CaseReport& report) {
   Rows rows;
   for (const ReportStenosis& one : report.stenoses) {
     const analysis::Stenosis& s = one.stenosis;
-    rows.push_back({label(one), one.vessel_name, one.segment, fixed(s.throat_mm, 1), fixed(s.length_mm(), 1),
-                    fixed(s.least_diameter_mm, 2), fixed(s.reference_diameter_mm, 2),
-                    percent(s.diameter_percent) + " %", fixed(s.least_area_mm2, 2),
-                    percent(s.area_percent) + " %",
+    rows.push_back({label(one), one.vessel_name, one.segment, shown_text(s.throat_mm, 1),
+                    shown_text(s.length_mm(), 1), shown_text(s.least_diameter_mm, 2),
+                    shown_text(s.reference_diameter_mm, 2), percent(s.diameter_percent) + " %",
+                    shown_text(s.least_area_mm2, 2), percent(s.area_percent) + " %",
                     analysis::to_string(one.category) + (one.graded ? "" : " *"), checked_text(one.checked)});
   }
   return rows;
@@ -74,8 +75,9 @@ Rows stenosis_rows(const CaseReport& report) {
 Rows segment_rows(const CaseReport& report) {
   Rows rows;
   for (const ReportSegment& s : report.segments)
-    rows.push_back({s.label, s.vessel_name, fixed(s.to_mm - s.from_mm, 1), fixed(s.mean_diameter_mm, 2),
-                    fixed(s.least_diameter_mm, 2), fixed(s.least_area_mm2, 2), fixed(s.volume_mm3, 1),
+    rows.push_back({s.label, s.vessel_name, shown_text(s.to_mm - s.from_mm, 1),
+                    shown_text(s.mean_diameter_mm, 2), shown_text(s.least_diameter_mm, 2),
+                    shown_text(s.least_area_mm2, 2), shown_text(s.volume_mm3, 1),
                     s.worst_stenosis > 0
                         ? "S" + std::to_string(s.worst_stenosis) + ": " + percent(s.worst_percent) + " %"
                         : "none",
@@ -86,7 +88,7 @@ Rows segment_rows(const CaseReport& report) {
 Rows vessel_rows(const CaseReport& report) {
   Rows rows;
   for (const ReportVessel& v : report.vessels)
-    rows.push_back({v.name, fixed(v.length_mm - v.own_from_mm, 1), checked_text(v.checked), v.note});
+    rows.push_back({v.name, shown_text(v.length_mm - v.own_from_mm, 1), checked_text(v.checked), v.note});
   return rows;
 }
 
@@ -139,7 +141,7 @@ void add_stenoses(Document& document, const CaseReport& report) {
                    stenosis_rows(report), "Stenoses, each at its own vessel");
     if (std::any_of(report.stenoses.begin(), report.stenoses.end(),
                     [](const ReportStenosis& one) { return !one.graded; }))
-      document.paragraph("* The reference is thinner than " + fixed(report.options.least_graded_mm, 1) +
+      document.paragraph("* The reference is thinner than " + shown_text(report.options.least_graded_mm, 1) +
                          " mm: without a say in the patient's category.");
   }
   document.paragraph(
@@ -154,12 +156,12 @@ void add_stenoses(Document& document, const CaseReport& report) {
 std::vector<std::string> plaque_row(const std::string& name, const ReportPlaque& plaque,
                                     const std::string& remodelling) {
   const analysis::PlaqueVolumes& v = plaque.volumes;
-  std::vector<std::string> row{name, fixed(v.plaque_mm3(), 1)};
-  for (const double volume : v.class_mm3) row.push_back(fixed(volume, 1));
-  row.push_back(fixed(v.thin_wall_mm3, 1));
-  row.push_back(fixed(v.burden_percent(), 0) + " %");
+  std::vector<std::string> row{name, shown_text(v.plaque_mm3(), 1)};
+  for (const double volume : v.class_mm3) row.push_back(shown_text(volume, 1));
+  row.push_back(shown_text(v.thin_wall_mm3, 1));
+  row.push_back(shown_text(v.burden_percent(), 0) + " %");
   row.push_back(remodelling);
-  row.push_back(fixed(100.0 * plaque.seen_share, 0) + " %");
+  row.push_back(shown_text(100.0 * plaque.seen_share, 0) + " %");
   return row;
 }
 
@@ -170,7 +172,7 @@ Rows plaque_rows(const CaseReport& report) {
     rows.push_back(plaque_row(vessel.name, *vessel.plaque, ""));
     for (const ReportStenosis& one : report.stenoses)
       if (one.stenosis.vessel == vessel.id && one.plaque)
-        rows.push_back(plaque_row("  " + label(one), *one.plaque, fixed(one.remodelling_index, 2)));
+        rows.push_back(plaque_row("  " + label(one), *one.plaque, shown_text(one.remodelling_index, 2)));
   }
   return rows;
 }
@@ -189,10 +191,10 @@ void add_plaque(Document& document, const CaseReport& report) {
                   "Thin wall (mm\xC2\xB3)", "Burden", "Remodelling index", "Outer wall seen"},
                  rows, "Between lumen and outer wall, by vessel and by stenosis");
   document.paragraph(
-      "Low attenuation: below " + fixed(o.low_attenuation_hu, 0) + " HU; fibrofatty: to " +
-      fixed(o.fibrofatty_hu, 0) + " HU; fibrous: to " + fixed(o.fibrous_hu, 0) +
+      "Low attenuation: below " + shown_text(o.low_attenuation_hu, 0) + " HU; fibrofatty: to " +
+      shown_text(o.fibrofatty_hu, 0) + " HU; fibrous: to " + shown_text(o.fibrous_hu, 0) +
       " HU; calcified: above, after the blur of lumen and fat was taken away. A wall thinner than " +
-      fixed(o.thin_wall_mm, 1) +
+      shown_text(o.thin_wall_mm, 1) +
       " mm is in no class: the scan does not resolve it. Burden: wall and plaque, of all within the outer "
       "wall. "
       "Remodelling index: vessel area at the throat over that at the places of reference. Where no fat "

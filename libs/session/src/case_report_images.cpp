@@ -2,6 +2,7 @@
 
 #include "case_report_text.h"
 
+#include "ostia/core/text.h"
 #include "ostia/figure/plot.h"
 #include "ostia/figure/scene.h"
 #include "ostia/figure/slice_figure.h"
@@ -25,7 +26,6 @@ using figure::Look;
 using figure::Picture;
 using geometry::Vec2;
 using geometry::Vec3;
-using report_text::fixed;
 
 constexpr double strip_mm = 16.0, strip_pixel_mm = 0.15;
 constexpr double section_mm = 9.0, section_pixel_mm = 0.05;
@@ -165,7 +165,8 @@ Picture Painter::strips(std::int32_t id, const core::TaskContext& task) const {
   const reformat::CurvedReformation first(axis, o);
   std::vector<figure::StripPanel> panels;
   for (const reformat::CurvedReformation& view : {first, first.twin()}) {
-    figure::StripPanel panel{fixed(view.options().theta_deg, 0) + "\xC2\xB0", o.width, o.height, {}, {}};
+    figure::StripPanel panel{
+        core::shown_text(view.options().theta_deg, 0) + "\xC2\xB0", o.width, o.height, {}, {}};
     if (image_)
       panel.values = reformat::reformatted(*image_, view, imaging::Interpolation::cubic, task).values;
     else
@@ -238,7 +239,7 @@ Picture Painter::throat(const ReportStenosis& one) const {
                                   .contour;
   if (!contour.empty()) contour.push_back(contour.front());
   figure::SliceFigureOptions how;
-  how.title = mark_text(one) + " at " + fixed(one.stenosis.throat_mm, 1) + " mm";
+  how.title = mark_text(one) + " at " + core::shown_text(one.stenosis.throat_mm, 1) + " mm";
   how.level_hu = report_.options.level_hu;
   how.window_hu = report_.options.window_hu;
   how.image_width_px = 256;
@@ -272,8 +273,8 @@ KeyImage Painter::vessel(std::int32_t id, const core::TaskContext& task) const {
     right.push_back(figure::grid(throats, {.columns = 2, .look = Look::light, .gap_px = 8}));
   const Picture along = strips(id, task);
   const std::string name = report_text::vessel_name(model_, id);
-  const std::string theta =
-      fixed(report_.options.theta_deg, 0) + " and " + fixed(report_.options.theta_deg + 90.0, 0) + " degrees";
+  const std::string theta = core::shown_text(report_.options.theta_deg, 0) + " and " +
+                            core::shown_text(report_.options.theta_deg + 90.0, 0) + " degrees";
   return {"vessel-" + std::to_string(id),
           name + ": straightened at " + theta + " with the lumen's contour, diameter along the vessel" +
               throats_text(throats.size(), stenoses_of(id).size()),

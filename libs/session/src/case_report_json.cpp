@@ -4,6 +4,7 @@
 
 #include "ostia/core/csv.h"
 #include "ostia/core/log.h"
+#include "ostia/core/text.h"
 #include "ostia/session/case_report.h"
 
 #include <nlohmann/json.hpp>
@@ -15,7 +16,6 @@ namespace ostia::session {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using report_text::fixed;
 using report_text::label;
 
 Json number(double value) {
@@ -145,9 +145,11 @@ class Line {
     const bool formula = !cell.empty() && std::string("=+-@\t\r").find(cell[0]) != std::string::npos;
     return add(formula ? "'" + cell : cell);
   }
-  Line& add(double value, int decimals) { return add(std::isfinite(value) ? fixed(value, decimals) : ""); }
+  Line& add(double value, int decimals) {
+    return add(std::isfinite(value) ? core::shown_text(value, decimals) : "");
+  }
   Line& add(const std::optional<double>& value, int decimals) {
-    return add(value ? fixed(*value, decimals) : "");
+    return add(value ? core::shown_text(*value, decimals) : "");
   }
   std::string end() const { return line_ + "\r\n"; }
 
@@ -228,7 +230,7 @@ std::string segments_csv(const CaseReport& report) {
                .add(s.least_area_mm2, 4)
                .add(s.volume_mm3, 3)
                .add(s.worst_stenosis > 0 ? "S" + std::to_string(s.worst_stenosis) : "")
-               .add(s.worst_stenosis > 0 ? fixed(s.worst_percent, 2) : "")
+               .add(s.worst_stenosis > 0 ? core::shown_text(s.worst_percent, 2) : "")
                .add(yes_no(s.checked))
                .end();
   return all;

@@ -1,13 +1,14 @@
 #include "case_report_text.h"
 
+#include "ostia/core/text.h"
 #include "ostia/session/annotation_json.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace ostia::session::report_text {
@@ -64,7 +65,8 @@ std::string detail_of(const std::string& op, const ReportJson& given) {
     return detail.empty() ? detail : ": " + detail;
   }
   const auto at = given.find("s_mm");
-  return at != given.end() && at->is_number() ? " at " + fixed(at->get<double>(), 1) + " mm" : std::string();
+  return at != given.end() && at->is_number() ? " at " + core::shown_text(at->get<double>(), 1) + " mm"
+                                              : std::string();
 }
 
 /// The vessel that a step names; a measurement of points has none.
@@ -83,24 +85,9 @@ std::optional<std::int32_t> vessel_of(const std::string& op, const ReportJson& g
 
 }  // namespace
 
-std::string fixed(double value, int decimals) {
-  if (!std::isfinite(value)) return "-";
-  std::array<char, 400> buffer{};
-  const auto end =
-      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::fixed, decimals);
-  std::string text(buffer.data(), end.ptr);
-  if (text[0] == '-' && text.find_first_not_of("-0.") == std::string::npos) text.erase(0, 1);
-  return text;
-}
-
-std::string fixed(const std::optional<double>& value, int decimals) {
-  return value ? fixed(*value, decimals) : "-";
-}
-
 std::string percent(double value) {
   if (!std::isfinite(value)) return "-";
-  const long whole = std::lround(value);
-  return std::to_string(whole >= 100 && value < 100.0 - 1e-9 ? 99 : whole);
+  return core::rounded_text(value < 100.0 - 1e-9 ? std::min(value, 99.0) : value, 0);
 }
 
 std::string label(const ReportStenosis& stenosis) {
@@ -108,7 +95,9 @@ std::string label(const ReportStenosis& stenosis) {
 }
 
 std::string kind_words(const std::string& kind) {
-  return kind == "ring_hu" ? "HU in a ring" : kind;
+  for (const analysis::MeasureKind one : analysis::measure_kinds)
+    if (kind == analysis::traits_of(one).name) return std::string(analysis::traits_of(one).label);
+  return kind;
 }
 
 std::string listed(const std::vector<std::string>& names) {

@@ -1,16 +1,12 @@
 #pragma once
-/// \file Words and numbers of a report.
+/// \file Words of a report.
 
 #include "ostia/session/case_report.h"
 
-#include <optional>
 #include <string>
 
 namespace ostia::session::report_text {
 
-/// With `decimals` after the point, whatever the locale; "-" for nothing.
-std::string fixed(double value, int decimals);
-std::string fixed(const std::optional<double>& value, int decimals);
 /// Whole percents as CAD-RADS rounds them: 100 only where the lumen is shut.
 std::string percent(double value);
 std::string label(const ReportStenosis& stenosis);  ///< "S1"

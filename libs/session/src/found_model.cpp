@@ -1,9 +1,11 @@
 #include "ostia/session/found_model.h"
 
+#include "vessel_doubt.h"
+
+#include "ostia/core/text.h"
 #include "ostia/lumen/start_surface.h"
 #include "ostia/pipeline/image_walls.h"
 
-#include <cmath>
 #include <system_error>
 
 namespace ostia::session {
@@ -11,9 +13,7 @@ namespace {
 
 constexpr double least_evidence = 0.5;  // of an axis that needs no second look
 
-std::string percent(double share) {
-  return std::to_string(std::lround(100.0 * share)) + " %";
-}
+}  // namespace
 
 std::string doubt_about(const coronary::VesselLabel& label, const coronary::AxisNotes& axis,
                         double least_confidence) {
@@ -22,13 +22,12 @@ std::string doubt_about(const coronary::VesselLabel& label, const coronary::Axis
   if (label.likeliest.empty())
     add("which artery it is was not found");
   else if (label.confidence < least_confidence)
-    add("perhaps " + label.likeliest + " (" + percent(label.confidence) + ")");
-  if (axis.evidence < least_evidence) add("faint: evidence " + percent(axis.evidence));
+    add("perhaps " + label.likeliest + " (" + core::rounded_text(100.0 * label.confidence, 0) + " %)");
+  if (axis.evidence < least_evidence)
+    add("faint: evidence " + core::rounded_text(100.0 * axis.evidence, 0) + " %");
   for (const std::string& warning : axis.warnings) add(warning);
   return doubt;
 }
-
-}  // namespace
 
 FoundModel found_model(const imaging::ImageVolume& image, const coronary::ExtractOptions& options,
                        const core::TaskContext& task) {
@@ -50,7 +49,7 @@ FoundModel found_model(const imaging::ImageVolume& image, const coronary::Extrac
 }
 
 CaseFile create_case(const std::filesystem::path& path, const FoundModel& found,
-                     const ImageReference& image) {
+                     const std::optional<ImageReference>& image) {
   CaseFile made = CaseFile::create(path, found.model, image);
   try {
     for (std::size_t i = 0; i < found.doubts.size(); ++i) {

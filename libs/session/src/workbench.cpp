@@ -51,28 +51,6 @@ bool has_vessel(const lumen::LumenModel& model, std::int32_t id) {
 
 }  // namespace
 
-std::optional<analysis::MeasureKind> measure_kind(Tool tool) {
-  using analysis::MeasureKind;
-  switch (tool) {
-    case Tool::distance:
-      return MeasureKind::distance;
-    case Tool::angle:
-      return MeasureKind::angle;
-    case Tool::area:
-      return MeasureKind::area;
-    case Tool::diameter:
-      return MeasureKind::diameter;
-    case Tool::stenosis:
-      return MeasureKind::stenosis;
-    case Tool::volume:
-      return MeasureKind::volume;
-    case Tool::ring_hu:
-      return MeasureKind::ring_hu;
-    default:
-      return std::nullopt;
-  }
-}
-
 const std::vector<WindowPreset>& window_presets() {
   // Usual windows of a reading station; CTA is wide enough for calcium beside contrast.
   static const std::vector<WindowPreset> presets{{"CTA", {250.0, 900.0}},

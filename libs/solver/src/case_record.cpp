@@ -5,7 +5,7 @@
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
 #include "ostia/io/mesh_export.h"
-#include "ostia/solver/boundary_flow.h"
+#include "ostia/solver/boundary_conditions.h"
 
 #include <nlohmann/json.hpp>
 
@@ -33,7 +33,7 @@ T field(const json& record, const char* name, const fs::path& file) {
 }  // namespace
 
 CaseRecord case_record(const std::string& solver, const BoundaryFlowOptions& options,
-                       const BoundaryFlow& flow, int cycles) {
+                       const BoundaryFlow& flow, int cycles, double total_compliance_ml_mmhg) {
   CaseRecord record;
   record.solver = solver;
   record.density_kg_m3 = options.blood.density_kg_m3;
@@ -45,21 +45,26 @@ CaseRecord case_record(const std::string& solver, const BoundaryFlowOptions& opt
   }
   record.outlets = name_of(options.outlets);
   if (options.outlets == Outlets::resistance)
-    for (const Outlet& outlet : flow.outlets)
+    for (const Outlet& outlet : flow.outlets) {
       record.resistance_pa_s_m3[outlet.name] = outlet.resistance_pa_s_m3;
+      if (total_compliance_ml_mmhg > 0.0)
+        record.compliance_m3_pa[outlet.name] =
+            windkessel_of(outlet, total_compliance_ml_mmhg).compliance_m3_pa;
+    }
   return record;
 }
 
 void write_case_record(const CaseRecord& record, const geometry::MixedMesh& mesh, const fs::path& folder) {
-  const json written = {{"v", 1},
-                        {"solver", record.solver},
-                        {"density_kg_m3", record.density_kg_m3},
-                        {"viscosity_mPa_s", record.viscosity_mpa_s},
-                        {"rheology", record.rheology},
-                        {"period_s", record.period_s},
-                        {"cycles", record.cycles},
-                        {"outlets", record.outlets},
-                        {"resistance_Pa_s_m3", record.resistance_pa_s_m3}};
+  json written = {{"v", 1},
+                  {"solver", record.solver},
+                  {"density_kg_m3", record.density_kg_m3},
+                  {"viscosity_mPa_s", record.viscosity_mpa_s},
+                  {"rheology", record.rheology},
+                  {"period_s", record.period_s},
+                  {"cycles", record.cycles},
+                  {"outlets", record.outlets},
+                  {"resistance_Pa_s_m3", record.resistance_pa_s_m3}};
+  if (!record.compliance_m3_pa.empty()) written["compliance_m3_Pa"] = record.compliance_m3_pa;
   write_case_file(folder / record_name, written.dump(2) + "\n");
   io::export_mesh(mesh, io::MeshFormat::vtu, folder / "mesh.vtu");
 }
@@ -84,9 +89,13 @@ CaseRecord read_case_record(const fs::path& folder) {
   if (!(read.density_kg_m3 > 0.0 && std::isfinite(read.density_kg_m3)) || !(read.period_s >= 0.0))
     throw InvalidInput("cannot read " + file.string() + ": density_kg_m3 must be positive, period_s not " +
                        "negative");
-  const json resistances = record.value("resistance_Pa_s_m3", json::object());
-  for (const auto& [name, value] : resistances.items())
-    if (value.is_number()) read.resistance_pa_s_m3[name] = value.get<double>();
+  const auto take = [&](const char* name, std::map<std::string, double>& values) {
+    const json object = record.value(name, json::object());
+    for (const auto& [outlet, value] : object.items())
+      if (value.is_number()) values[outlet] = value.get<double>();
+  };
+  take("resistance_Pa_s_m3", read.resistance_pa_s_m3);
+  take("compliance_m3_Pa", read.compliance_m3_pa);
   return read;
 }
 

@@ -2,21 +2,16 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
+#include "ostia/core/text.h"
 
-#include <array>
-#include <charconv>
 #include <system_error>
 
 namespace ostia::solver {
 namespace fs = std::filesystem;
 
-std::string number(double value) {
-  std::array<char, 32> digits{};
-  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
-}
-
 std::string foam_vector(const geometry::Vec3& v) {
-  return "(" + number(v[0]) + " " + number(v[1]) + " " + number(v[2]) + ")";
+  return "(" + core::shortest_text(v[0]) + " " + core::shortest_text(v[1]) + " " + core::shortest_text(v[2]) +
+         ")";
 }
 
 std::string foam_head(const std::string& type, const std::string& location, const std::string& object) {

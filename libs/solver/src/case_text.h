@@ -8,8 +8,6 @@
 
 namespace ostia::solver {
 
-/// The shortest text that reads back as the same number.
-std::string number(double value);
 /// `(x y z)`.
 std::string foam_vector(const geometry::Vec3& v);
 /// The head of one of OpenFOAM's files.

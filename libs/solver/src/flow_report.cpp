@@ -1,10 +1,10 @@
 #include "ostia/solver/flow_report.h"
 
-#include "case_text.h"
 #include "pressure_units.h"
 
 #include "ostia/core/csv.h"
 #include "ostia/core/error.h"
+#include "ostia/core/text.h"
 #include "ostia/geometry/faces.h"
 
 #include <nlohmann/json.hpp>
@@ -17,6 +17,7 @@
 namespace ostia::solver {
 namespace {
 
+using core::shortest_text;
 using geometry::FaceKind;
 using nlohmann::json;
 
@@ -71,10 +72,11 @@ json wall_json(const WallFigures& wall) {
           {"high_share", wall.high_share}};
 }
 
-/// Of a steady flow whose outlets are coupled: reasons of those that are not at p = R Q.
+/// Where outlets are coupled: reasons of those that are not at p = R Q, means over the cycle of a pulsatile
+/// flow.
 void judge_outlets(const FlowResult& result, std::vector<std::string>& reasons) {
   const std::map<std::string, double>& resistances = result.record.resistance_pa_s_m3;
-  if (result.record.pulsatile() || resistances.size() < 2) return;
+  if (resistances.size() < 2) return;
   for (const EndFlow& end : result.ends) {
     const auto r = resistances.find(end.name);
     if (r == resistances.end()) continue;
@@ -92,8 +94,9 @@ json or_null(const std::optional<double>& value) {
 
 void validate(const ShearLimits& limits) {
   if (!(limits.low_pa > 0.0 && limits.high_pa > limits.low_pa && std::isfinite(limits.high_pa)))
-    throw InvalidInput("the limits of low and high shear stress are " + number(limits.low_pa) + " and " +
-                       number(limits.high_pa) + " Pa; the first must be positive and below the second");
+    throw InvalidInput("the limits of low and high shear stress are " + shortest_text(limits.low_pa) +
+                       " and " + shortest_text(limits.high_pa) +
+                       " Pa; the first must be positive and below the second");
 }
 
 double weighted_percentile(const std::vector<double>& values, const std::vector<double>& weights,
@@ -122,7 +125,7 @@ FlowReport flow_report(const FlowResult& result, const ShearLimits& limits) {
   const double imbalance = result.mass_balance_error();
   if (!(imbalance <= largest_imbalance))
     report.reasons.push_back("what flows in and what flows out differ by " +
-                             number(std::round(1e3 * imbalance) / 10.0) + " %");
+                             shortest_text(std::round(1e3 * imbalance) / 10.0) + " %");
   judge_outlets(result, report.reasons);
   return report;
 }
@@ -164,14 +167,14 @@ std::string faces_csv(const FlowResult& result, const FlowReport& report) {
       "face,kind,area_mm2,flow_ml_s,pressure_Pa,pressure_mmHg,shear_mean_Pa,shear_least_Pa,shear_p05_Pa,"
       "shear_p95_Pa,shear_greatest_Pa,low_share,high_share\n";
   for (const EndFlow& end : result.ends)
-    text += core::csv_cell(end.name) + "," + std::string(name_of(end.kind)) + "," + number(end.area_mm2) +
-            "," + number(end.flow_ml_s) + "," + number(end.pressure_pa) + "," +
-            number(end.pressure_pa / pa_per_mmhg) + ",,,,,,,\n";
+    text += core::csv_cell(end.name) + "," + std::string(name_of(end.kind)) + "," +
+            shortest_text(end.area_mm2) + "," + shortest_text(end.flow_ml_s) + "," +
+            shortest_text(end.pressure_pa) + "," + shortest_text(end.pressure_pa / pa_per_mmhg) + ",,,,,,,\n";
   for (const WallFigures& wall : report.walls) {
-    text += core::csv_cell(wall.name) + ",wall," + number(wall.area_mm2) + ",,,";
+    text += core::csv_cell(wall.name) + ",wall," + shortest_text(wall.area_mm2) + ",,,";
     for (const double value : {wall.mean_pa, wall.least_pa, wall.p05_pa, wall.p95_pa, wall.greatest_pa,
                                wall.low_share, wall.high_share})
-      text += "," + number(value);
+      text += "," + shortest_text(value);
     text += "\n";
   }
   return text;

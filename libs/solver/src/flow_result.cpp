@@ -1,9 +1,8 @@
 #include "ostia/solver/flow_result.h"
 
-#include "case_text.h"
-
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
+#include "ostia/core/text.h"
 #include "ostia/io/mesh_export.h"
 #include "ostia/io/volume_mesh_file.h"
 #include "ostia/solver/openfoam_result.h"
@@ -70,7 +69,7 @@ void require_same_points(const MixedMesh& of_case, const MixedMesh& mesh, const 
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double away = (points[i] - mesh.points[i]).norm();
     if (!(away <= same_point_mm * (1.0 + mesh.points[i].norm())))
-      throw InvalidInput(other + "its point " + std::to_string(i) + " is " + number(away) +
+      throw InvalidInput(other + "its point " + std::to_string(i) + " is " + core::shortest_text(away) +
                          " mm away from the case's");
   }
 }
@@ -171,8 +170,9 @@ std::vector<OpenfoamTime> last_cycle(const fs::path& case_folder, const std::vec
                                      double period) {
   const double last = times.back().time, slack = same_time * period;
   if (last < period - slack)
-    throw InvalidInput(case_folder.string() + " has come to " + number(last) + " s of a cycle of " +
-                       number(period) + " s: let it run through one at least");
+    throw InvalidInput(case_folder.string() + " has come to " + core::shortest_text(last) +
+                       " s of a cycle of " + core::shortest_text(period) +
+                       " s: let it run through one at least");
   std::vector<OpenfoamTime> of_cycle;
   for (const OpenfoamTime& time : times)
     if (time.time > last - period + slack) of_cycle.push_back(time);

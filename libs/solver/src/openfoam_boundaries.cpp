@@ -4,6 +4,7 @@
 #include "case_text.h"
 #include "openfoam_plan.h"
 
+#include "ostia/core/text.h"
 #include "ostia/solver/velocity_profile.h"
 
 #include <algorithm>
@@ -13,6 +14,7 @@ namespace ostia::solver {
 namespace fs = std::filesystem;
 namespace {
 
+using core::shortest_text;
 using geometry::Vec3;
 
 constexpr double metres = 1e-3;
@@ -65,29 +67,16 @@ std::string field(const std::string& type, const std::string& object, const std:
          value + ";\nboundaryField\n{\n" + patches + "}\n";
 }
 
-/// A value over time that is `factor` times the whole flow, as a function of OpenFOAM.
-std::string with_flow(const CasePlan& plan, double factor) {
-  if (!plan.pulsatile()) return "constant " + number(factor * plan.flow.mean_flow_ml_s * m3_per_ml);
-  std::string table = "table\n        (\n";
-  const int samples = plan.options.cycles * plan.options.samples_per_cycle;
-  for (int i = 0; i <= samples; ++i) {
-    const double time = plan.period_s * i / plan.options.samples_per_cycle;
-    table +=
-        "            (" + number(time) + " " + number(factor * plan.flow.flow_ml_s(time) * m3_per_ml) + ")\n";
-  }
-  return table + "        )";
-}
-
-/// All but the largest outlet, which takes what is left and holds the pressure.
-bool flow_is_given(const CasePlan& plan, std::size_t outlet) {
-  return plan.options.flow.outlets != Outlets::zero_pressure && outlet > 0;
-}
-
 std::string outlet_velocity(const CasePlan& plan, std::size_t i) {
-  if (flow_is_given(plan, i))
-    return "        type            flowRateOutletVelocity;\n        volumetricFlowRate " +
-           with_flow(plan, plan.flow.outlets[i].share) + ";\n        value           uniform (0 0 0);\n";
-  return "        type            pressureInletOutletVelocity;\n        value           uniform (0 0 0);\n";
+  const Outlet& outlet = plan.flow.outlets[i];
+  if (!flow_is_given(plan, i))
+    return "        type            pressureInletOutletVelocity;\n        value           uniform (0 0 0);\n";
+  const std::string flow =
+      plan.pulsatile()
+          ? outlet_table(outlet.name, "flow")
+          : "constant " + shortest_text(outlet.share * plan.flow.mean_flow_ml_s * m3_per_ml) + ";\n";
+  return "        type            flowRateOutletVelocity;\n        volumetricFlowRate " + flow +
+         "        value           uniform (0 0 0);\n";
 }
 
 /// Kinematic pressure at the largest outlet over the whole flow, m2/s2 per m3/s.
@@ -103,10 +92,11 @@ double outlet_pressure_now(const CasePlan& plan) {
 
 std::string outlet_pressure(const CasePlan& plan, std::size_t i) {
   if (flow_is_given(plan, i)) return "        type            zeroGradient;\n";
-  const std::string now = number(outlet_pressure_now(plan));
-  if (plan.options.flow.outlets == Outlets::resistance && plan.pulsatile())
+  const std::string now = shortest_text(outlet_pressure_now(plan));
+  if (coupled_by_cycle(plan))
     return "        type            uniformTotalPressure;\n        p0              " +
-           with_flow(plan, outlet_resistance(plan)) + ";\n        value           uniform " + now + ";\n";
+           outlet_table(plan.flow.outlets[i].name, "pressure") + "        value           uniform " + now +
+           ";\n";
   return "        type            totalPressure;\n        p0              uniform " + now +
          ";\n        value           uniform " + now + ";\n";
 }
@@ -135,7 +125,7 @@ void write_boundary_data(const CasePlan& plan, const Inlet& inlet, const InletVe
   for (int i = 0; i <= samples; ++i) {
     task.throw_if_cancelled();
     task.set_progress(static_cast<double>(i) / samples);
-    write_case_file(own / number(plan.period_s * i / per_cycle) / "U",
+    write_case_file(own / shortest_text(plan.period_s * i / per_cycle) / "U",
                     cycle[static_cast<std::size_t>(i % per_cycle)]);
   }
 }
@@ -164,7 +154,7 @@ void write_boundaries(const CasePlan& plan, const fs::path& folder, const core::
   }
   write_case_file(folder / "0" / "U", field("volVectorField", "U", "[0 1 -1 0 0 0 0]", "(0 0 0)", velocity));
   write_case_file(folder / "0" / "p", field("volScalarField", "p", "[0 2 -2 0 0 0 0]",
-                                            number(outlet_pressure_now(plan)), pressure));
+                                            shortest_text(outlet_pressure_now(plan)), pressure));
 }
 
 }  // namespace ostia::solver

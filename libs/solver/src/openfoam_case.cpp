@@ -5,6 +5,7 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
+#include "ostia/core/text.h"
 #include "ostia/geometry/mixed_mesh_sides.h"
 #include "ostia/io/mesh_export.h"
 #include "ostia/meshing/boundary_layer.h"
@@ -22,10 +23,14 @@ namespace {
 using geometry::MixedMesh;
 using geometry::Vec3;
 
+/// Of pimpleFoam on one core, measured on a tube and a fork of about 10,000 cells
+/// (docs/reference/solver-cases.md).
+constexpr double seconds_per_cell_and_step = 1e-5;
+
 void require_in(const char* what, double value, double least, double most) {
   if (!(value >= least && value <= most))
-    throw InvalidInput(std::string(what) + " must be in [" + number(least) + ", " + number(most) + "], not " +
-                       number(value));
+    throw InvalidInput(std::string(what) + " must be in [" + core::shortest_text(least) + ", " +
+                       core::shortest_text(most) + "], not " + core::shortest_text(value));
 }
 
 /// Area vectors of an element's sides, outward.
@@ -80,13 +85,29 @@ double largest_velocity(const BoundaryFlow& flow) {
   return most;
 }
 
-/// So that a whole number of steps lies between two results.
-double time_step(const MixedMesh& mesh, const BoundaryFlow& flow, const OpenfoamCaseOptions& o,
-                 double period_s) {
-  const double interval = period_s / o.results_per_cycle;
-  const double wanted =
-      o.time_step_s.value_or(o.courant / (largest_crossing_rate(mesh) * largest_velocity(flow)));
-  return interval / std::max(1.0, std::ceil(interval / wanted - 1e-9));
+struct TimeSteps {
+  double first_s = 0.0;
+  double count = 0.0;  ///< of all cycles, about
+};
+
+/// The Courant number goes with the flow, and so does the length of a step where it is not given.
+TimeSteps time_steps(const MixedMesh& mesh, const BoundaryFlow& flow, const CasePlan& plan) {
+  const OpenfoamCaseOptions& o = plan.options;
+  const double interval = plan.period_s / o.results_per_cycle;
+  double most_flow = 0.0;
+  for (const Inlet& inlet : flow.inlets) most_flow += inlet.largest_flow_ml_s();
+  const double at_most_flow = o.courant / (largest_crossing_rate(mesh) * largest_velocity(flow));
+  // A whole number of steps lies between two results.
+  const auto step_at = [&](double flow_ml_s) {
+    const double wanted = o.time_step_s.value_or(std::min(
+        plan.longest_step_s(), at_most_flow * most_flow / std::max(std::abs(flow_ml_s), 1e-9 * most_flow)));
+    return interval / std::max(1.0, std::ceil(interval / wanted - 1e-9));
+  };
+  TimeSteps steps{step_at(most_flow), 0.0};
+  constexpr int samples = 200;
+  for (int i = 0; i < samples; ++i)
+    steps.count += plan.end_time_s() / samples / step_at(flow.flow_ml_s(plan.period_s * i / samples));
+  return steps;
 }
 
 double period_of(const OpenfoamCaseOptions& o) {
@@ -110,6 +131,8 @@ void write_dictionaries(const CasePlan& plan, const fs::path& folder) {
   write_case_file(constant / "transportProperties", transport_properties(plan));
   write_case_file(constant / "turbulenceProperties", turbulence_properties());
   if (coupled(plan)) write_case_file(constant / "outletResistances", outlet_resistances(plan));
+  if (coupled_by_cycle(plan)) write_case_file(constant / "outletWindkessels", outlet_windkessels(plan));
+  if (plan.pulsatile()) write_outlet_tables(plan, folder);
   const fs::path script = folder / "Allrun";
   write_case_file(script, run_script(plan));
   fs::permissions(script, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
@@ -117,6 +140,10 @@ void write_dictionaries(const CasePlan& plan, const fs::path& folder) {
 }
 
 }  // namespace
+
+double openfoam_hours(std::size_t cells, double steps, int processes) {
+  return seconds_per_cell_and_step * static_cast<double>(cells) * steps / processes / 3600.0;
+}
 
 void validate(const OpenfoamCaseOptions& o) {
   validate(o.flow);
@@ -126,7 +153,15 @@ void validate(const OpenfoamCaseOptions& o) {
   require_in("cycles", o.cycles, 1, 100);
   require_in("samples_per_cycle", o.samples_per_cycle, 10, 1000);
   require_in("results_per_cycle", o.results_per_cycle, 1, 1000);
-  require_in("courant", o.courant, 0.01, 10.0);
+  require_in("courant", o.courant, 0.01, 50.0);
+  if (o.total_compliance_ml_mmhg) {
+    require_in("total_compliance_ml_mmhg", *o.total_compliance_ml_mmhg, 1e-9, 1e3);
+    if (o.flow.outlets != Outlets::resistance || !o.flow.waveform)
+      throw InvalidInput(
+          "a compliance makes a Windkessel of outlets with resistance in a pulsatile flow: give a waveform "
+          "and "
+          "outlets with resistance, too");
+  }
   if (o.time_step_s) require_in("time_step_s", *o.time_step_s, 1e-9, 1.0);
 }
 
@@ -139,8 +174,13 @@ OpenfoamCaseResult write_openfoam_case(const MixedMesh& mesh, const OpenfoamCase
   result.flow = boundary_flow(mesh, options.flow);
   result.warnings = result.flow.warnings;
   CasePlan plan{options, result.flow, period_of(options), 0.0, longest_axis(mesh)};
-  if (plan.pulsatile())
-    result.time_step_s = plan.time_step_s = time_step(mesh, result.flow, options, plan.period_s);
+  if (plan.pulsatile()) {
+    const TimeSteps steps = time_steps(mesh, result.flow, plan);
+    result.time_step_s = plan.time_step_s = steps.first_s;
+    result.steps = steps.count;
+    result.hours =
+        openfoam_hours(mesh.tetrahedra.size() + mesh.prisms.size(), steps.count, options.processes);
+  }
   task.set_progress(0.1);
   core::StagedFolder staged(folder);
   const io::MeshExportResult written = io::export_mesh(mesh, io::MeshFormat::openfoam, staged.temporary());
@@ -152,8 +192,9 @@ OpenfoamCaseResult write_openfoam_case(const MixedMesh& mesh, const OpenfoamCase
   task.throw_if_cancelled();
   write_dictionaries(plan, staged.temporary());
   write_boundaries(plan, staged.temporary(), task.sub(0.5, 0.9));
-  write_case_record(case_record("openfoam", options.flow, result.flow, options.cycles), mesh,
-                    staged.temporary());
+  write_case_record(case_record("openfoam", options.flow, result.flow, options.cycles,
+                                options.total_compliance_ml_mmhg.value_or(0.0)),
+                    mesh, staged.temporary());
   staged.commit();
   task.set_progress(1.0);
   return result;

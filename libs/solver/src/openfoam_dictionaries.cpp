@@ -3,11 +3,15 @@
 #include "case_text.h"
 #include "openfoam_plan.h"
 
+#include "ostia/core/text.h"
+
 namespace ostia::solver {
 namespace {
 
+using core::shortest_text;
+
 std::string kinematic(double viscosity_mpa_s, double density) {
-  return number(viscosity_mpa_s / (1e3 * density));
+  return shortest_text(viscosity_mpa_s / (1e3 * density));
 }
 
 /// A value of one patch, a line a time step or iteration, in postProcessing/<name>.
@@ -34,7 +38,7 @@ std::string functions(const CasePlan& plan) {
       "    pressureInPascal\n    {\n        type            pressure;\n"
       "        libs            (\"libfieldFunctionObjects.so\");\n"
       "        mode            static;\n        rho             rhoInf;\n        rhoInf          " +
-      number(plan.density()) +
+      shortest_text(plan.density()) +
       ";\n        result          pressureInPascal;\n"
       "        executeControl  writeTime;\n        writeControl    writeTime;\n        log             "
       "false;\n"
@@ -52,14 +56,22 @@ std::string functions(const CasePlan& plan) {
 }  // namespace
 
 std::string control_dict(const CasePlan& plan) {
-  const bool pulsatile = plan.pulsatile();
+  const bool pulsatile = plan.pulsatile(), adjusted = pulsatile && !plan.options.time_step_s;
   const OpenfoamCaseOptions& o = plan.options;
+  const std::string steps = adjusted
+                                ? ";\nadjustTimeStep  yes;\nmaxCo           " + shortest_text(o.courant) +
+                                      ";\nmaxDeltaT       " + shortest_text(plan.longest_step_s())
+                                : "";
   return foam_head("dictionary", "system", "controlDict") + "application     " + plan.program() +
          ";\nstartFrom       latestTime;\nstartTime       0;\nstopAt          endTime;\nendTime         " +
-         (pulsatile ? number(plan.end_time_s()) : std::to_string(o.iterations)) + ";\ndeltaT          " +
-         (pulsatile ? number(plan.time_step_s) : "1") + ";\nwriteControl    " +
-         (pulsatile ? "runTime" : "timeStep") + ";\nwriteInterval   " +
-         (pulsatile ? number(plan.period_s / o.results_per_cycle) : std::to_string(o.iterations)) +
+         (pulsatile ? shortest_text(plan.end_time_s()) : std::to_string(o.iterations)) +
+         ";\ndeltaT          " + (pulsatile ? shortest_text(plan.time_step_s) : "1") + steps +
+         ";\nwriteControl    " +
+         (adjusted    ? "adjustableRunTime"
+          : pulsatile ? "runTime"
+                      : "timeStep") +
+         ";\nwriteInterval   " +
+         (pulsatile ? shortest_text(plan.period_s / o.results_per_cycle) : std::to_string(o.iterations)) +
          ";\npurgeWrite      0;\nwriteFormat     ascii;\nwritePrecision  10;\nwriteCompression off;\n"
          "timeFormat      general;\ntimePrecision   9;\nrunTimeModifiable no;\n\n" +
          functions(plan);
@@ -80,17 +92,22 @@ std::string fv_schemes(const CasePlan& plan) {
 }
 
 std::string fv_solution(const CasePlan& plan) {
+  // A pulse takes many steps, each of which is corrected again.
+  const std::string tolerance_of_solvers =
+      std::string("        tolerance       ") + (plan.pulsatile() ? "1e-7" : "1e-9") + ";\n";
   const std::string solver_p =
-      "        solver          GAMG;\n        smoother        GaussSeidel;\n        tolerance       1e-9;\n";
+      "        solver          GAMG;\n        smoother        GaussSeidel;\n" + tolerance_of_solvers;
   const std::string solver_u =
-      "        solver          smoothSolver;\n        smoother        symGaussSeidel;\n"
-      "        tolerance       1e-9;\n";
+      "        solver          smoothSolver;\n        smoother        symGaussSeidel;\n" +
+      tolerance_of_solvers;
   std::string text = foam_head("dictionary", "system", "fvSolution") + "solvers\n{\n    p\n    {\n" +
                      solver_p + "        relTol          0.02;\n    }\n    pFinal\n    {\n" + solver_p +
                      "        relTol          0;\n    }\n    \"(U|UFinal)\"\n    {\n" + solver_u +
                      "        relTol          " + (plan.pulsatile() ? "0" : "0.05") + ";\n    }\n}\n\n";
-  if (plan.pulsatile()) return text + "PISO\n{\n    nCorrectors     3;\n    nNonOrthogonalCorrectors 1;\n}\n";
-  const std::string tolerance = number(plan.options.tolerance);
+  if (plan.pulsatile())
+    return text +
+           "PIMPLE\n{\n    nOuterCorrectors 2;\n    nCorrectors     2;\n    nNonOrthogonalCorrectors 1;\n}\n";
+  const std::string tolerance = shortest_text(plan.options.tolerance);
   return text +
          "SIMPLE\n{\n    consistent      yes;\n    nNonOrthogonalCorrectors 1;\n    residualControl\n    {\n"
          "        p               " +
@@ -116,14 +133,15 @@ std::string decompose_dict(const CasePlan& plan) {
 std::string transport_properties(const CasePlan& plan) {
   const Blood& blood = plan.options.flow.blood;
   const std::string head = foam_head("dictionary", "constant", "transportProperties") +
-                           "// Kinematic, m2/s; density " + number(blood.density_kg_m3) + " kg/m3\n";
+                           "// Kinematic, m2/s; density " + shortest_text(blood.density_kg_m3) + " kg/m3\n";
   if (blood.rheology == Rheology::newtonian)
     return head + "transportModel  Newtonian;\nnu              " +
            kinematic(blood.viscosity_mpa_s, blood.density_kg_m3) + ";\n";
   return head + "transportModel  BirdCarreau;\nBirdCarreauCoeffs\n{\n    nu0             " +
          kinematic(CarreauLaw::at_rest_mpa_s, blood.density_kg_m3) + ";\n    nuInf           " +
          kinematic(CarreauLaw::at_speed_mpa_s, blood.density_kg_m3) + ";\n    k               " +
-         number(CarreauLaw::relaxation_s) + ";\n    n               " + number(CarreauLaw::power) + ";\n}\n";
+         shortest_text(CarreauLaw::relaxation_s) + ";\n    n               " +
+         shortest_text(CarreauLaw::power) + ";\n}\n";
 }
 
 std::string turbulence_properties() {

@@ -139,10 +139,11 @@ OpenfoamRunPlan openfoam_run_plan(const fs::path& case_folder) {
   OpenfoamRunPlan plan;
   plan.program = entry(control, "application");
   const auto end = number_at(entry(control, "endTime"));
-  if ((plan.program != "simpleFoam" && plan.program != "pisoFoam") || !end || *end <= 0.0 ||
+  constexpr std::array<std::string_view, 3> known{"simpleFoam", "pimpleFoam", "pisoFoam"};
+  if (std::ranges::find(known, plan.program) == known.end() || !end || *end <= 0.0 ||
       !fs::exists(case_folder / "Allrun"))
     throw InvalidInput(case_folder.string() +
-                       " holds no case of simpleFoam or pisoFoam with a script Allrun; write one with "
+                       " holds no case of simpleFoam or pimpleFoam with a script Allrun; write one with "
                        "\"ostia case\" or from the window");
   plan.end_time = *end;
   const std::string controls = core::read_file(case_folder / "system" / "fvSolution");

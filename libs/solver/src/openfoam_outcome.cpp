@@ -1,9 +1,8 @@
 #include "ostia/solver/openfoam_outcome.h"
 
-#include "case_text.h"
-
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
+#include "ostia/core/text.h"
 #include "ostia/solver/openfoam_result.h"
 
 #include <algorithm>
@@ -14,6 +13,8 @@
 namespace ostia::solver {
 namespace fs = std::filesystem;
 namespace {
+
+using core::shortest_text;
 
 constexpr double largest_cycle_change = 0.01;
 constexpr double same_outcome_time = 1e-6;  // of a period
@@ -109,19 +110,22 @@ void judge_steady(const std::string& log, const fs::path& log_file, OpenfoamOutc
   if (run.converged) return;
   run.not_converged =
       log.empty() ? "it is not known whether the run converged: there is no " + log_file.filename().string()
-                  : "the run ended after " + number(run.last) +
+                  : "the run ended after " + shortest_text(run.last) +
                         " iterations without reaching its bounds of the residuals (endTime and "
-                        "residualControl in system): let it go on, or give --iterations";
+                        "residualControl in system): let it go on with `ostia case CASE --iterations " +
+                        std::to_string(2 * std::lround(run.last)) + "` and ./Allrun again";
 }
 
 void judge_pulsatile(const CaseRecord& record, OpenfoamOutcome& run) {
   const double end = record.period_s * record.cycles;
   if (run.last < end * (1.0 - same_outcome_time)) {
-    run.not_converged =
-        "the run has reached " + number(run.last) + " s of its " + number(std::round(1e6 * end) / 1e6) + " s";
+    run.not_converged = "the run has reached " + shortest_text(run.last) + " s of its " +
+                        shortest_text(std::round(1e6 * end) / 1e6) + " s";
   } else if (run.cycle_change && *run.cycle_change > largest_cycle_change) {
-    run.not_converged = "the last two cycles differ by " + number(std::round(1e3 * *run.cycle_change) / 10) +
-                        " % in the inlets' mean pressure: run more cycles";
+    run.not_converged = "the last two cycles differ by " +
+                        shortest_text(std::round(1e3 * *run.cycle_change) / 10) +
+                        " % in the inlets' mean pressure: let it go on with `ostia case CASE --cycles " +
+                        std::to_string(record.cycles + 2) + "` and ./Allrun again";
   }
   run.converged = run.not_converged.empty();
 }
@@ -155,8 +159,8 @@ double cycle_mean(const OpenfoamSeries& series, double last, double period) {
   // The first step is not at 0; what lies before it is as it.
   const double step = series.size() > 1 ? std::next(series.begin())->first - from_start : 0.0;
   if (series.empty() || series.rbegin()->first < last - slack || from_start > first + step + slack)
-    throw InvalidInput("there are no values over the whole cycle from " + number(first) + " to " +
-                       number(last) + " s");
+    throw InvalidInput("there are no values over the whole cycle from " + shortest_text(first) + " to " +
+                       shortest_text(last) + " s");
   double sum = 0.0, time = first, value = value_at(series, first);
   const auto add = [&](double next, double at_next) {
     sum += 0.5 * (value + at_next) * (next - time);
@@ -172,12 +176,14 @@ double cycle_mean(const OpenfoamSeries& series, double last, double period) {
 OpenfoamOutcome read_openfoam_outcome(const fs::path& case_folder, const CaseRecord& record,
                                       const std::vector<std::string>& inlets) {
   OpenfoamOutcome run;
-  run.program = record.pulsatile() ? "pisoFoam" : "simpleFoam";
+  run.program = record.pulsatile() ? "pimpleFoam" : "simpleFoam";
+  std::error_code error;
+  // Of a case that version 0.1 wrote.
+  if (record.pulsatile() && fs::exists(case_folder / "log.pisoFoam", error)) run.program = "pisoFoam";
   const std::vector<OpenfoamTime> times = times_of(case_folder);
   if (!times.empty()) run.last = times.back().time;
   run.residuals = last_residuals(case_folder);
   const fs::path log_file = case_folder / ("log." + run.program);
-  std::error_code error;
   const std::string log = fs::exists(log_file, error) ? core::read_file(log_file) : "";
   if (record.pulsatile()) {
     run.largest_courant = largest_courant(log);

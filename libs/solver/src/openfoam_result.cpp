@@ -1,8 +1,7 @@
 #include "ostia/solver/openfoam_result.h"
 
-#include "case_text.h"
-
 #include "ostia/core/error.h"
+#include "ostia/core/text.h"
 #include "ostia/io/openfoam_words.h"
 
 #include <algorithm>
@@ -44,8 +43,8 @@ std::vector<double> read_values(Words& words, std::size_t components, std::size_
     words.next();  // List<...>
     const double told = value_in(words);
     if (told != static_cast<double>(count))
-      words.refuse("it has " + solver::number(told) + " values where the mesh has " + std::to_string(count) +
-                   "; was the case made of another mesh?");
+      words.refuse("it has " + core::shortest_text(told) + " values where the mesh has " +
+                   std::to_string(count) + "; was the case made of another mesh?");
     words.expect("(");
     values.reserve(count * components);
     for (std::size_t i = 0; i < count; ++i) read_value(words, components, values);

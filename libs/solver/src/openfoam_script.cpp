@@ -1,7 +1,8 @@
 // Allrun: the script that runs a case, and finds the flows of outlets with resistance.
 
-#include "case_text.h"
 #include "openfoam_plan.h"
+
+#include "ostia/core/text.h"
 
 namespace ostia::solver {
 namespace {
@@ -132,7 +133,7 @@ bool coupled(const CasePlan& plan) {
 std::string outlet_resistances(const CasePlan& plan) {
   std::string text;
   for (const Outlet& outlet : plan.flow.outlets)
-    text += outlet.name + " " + number(outlet.resistance_pa_s_m3 / plan.density()) + "\n";
+    text += outlet.name + " " + core::shortest_text(outlet.resistance_pa_s_m3 / plan.density()) + "\n";
   return text;
 }
 
@@ -152,7 +153,9 @@ std::string run_script(const CasePlan& plan) {
          "  sed -i \"s/^numberOfSubdomains .*/numberOfSubdomains $n;/; s/^    n  .*/    n           " +
          slices(plan, "$n") + ";/\" system/decomposeParDict\nfi\n: > log." + program + "\n" +
          solve_function(plan) +
-         (coupled(plan) ? coupling_functions(plan) + coupled_run(plan) : std::string("solve\n"));
+         (coupled(plan)            ? coupling_functions(plan) + coupled_run(plan)
+          : coupled_by_cycle(plan) ? cycle_coupling(plan)
+                                   : std::string("solve\n"));
 }
 
 }  // namespace ostia::solver

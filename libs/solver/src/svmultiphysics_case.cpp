@@ -5,6 +5,7 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
+#include "ostia/core/text.h"
 #include "ostia/io/mesh_export.h"
 #include "ostia/solver/case_record.h"
 
@@ -16,11 +17,11 @@ namespace ostia::solver {
 namespace fs = std::filesystem;
 namespace {
 
+using core::shortest_text;
 using Json = nlohmann::ordered_json;
 
 constexpr double mm3_per_ml = 1e3;
 
-constexpr double proximal_share = 0.09;  // of a Windkessel's resistance: a usual choice
 constexpr int flow_samples = 200;
 
 /// A steady flow is run for that long a "cycle".
@@ -46,16 +47,16 @@ Samples samples_of(const Inlet& inlet, double period) {
 std::string flow_file(const Samples& samples, int modes) {
   std::string text = std::to_string(samples.time_s.size()) + " " + std::to_string(modes) + "\n";
   for (std::size_t i = 0; i < samples.time_s.size(); ++i)
-    text += number(samples.time_s[i]) + " " + number(-samples.flow_mm3_s[i]) + "\n";
+    text += shortest_text(samples.time_s[i]) + " " + shortest_text(-samples.flow_mm3_s[i]) + "\n";
   return text;
 }
 
 /// In Pa s / mm3 and mm3 / Pa.
-struct Windkessel {
+struct WindkesselInMm {
   double resistance = 0.0, compliance = 0.0;
 };
 
-Windkessel windkessel_of(const Outlet& outlet, const SvmultiphysicsCaseOptions& o) {
+WindkesselInMm windkessel_in_mm(const Outlet& outlet, const SvmultiphysicsCaseOptions& o) {
   return {outlet.resistance_pa_s_m3 * 1e-9,
           o.total_compliance_ml_mmhg.value_or(0.0) * outlet.share * mm3_per_ml / pa_per_mmhg};
 }
@@ -82,7 +83,7 @@ std::string general_part(const SvmultiphysicsCaseOptions& o) {
   return "<GeneralSimulationParameters>\n  " + tag("Continue_previous_simulation", "false") + "  " +
          tag("Number_of_spatial_dimensions", "3") + "  " +
          tag("Number_of_time_steps", std::to_string(o.cycles * o.steps_per_cycle)) + "  " +
-         tag("Time_step_size", number(period_s(o) / o.steps_per_cycle)) + "  " +
+         tag("Time_step_size", shortest_text(period_s(o) / o.steps_per_cycle)) + "  " +
          tag("Spectral_radius_of_infinite_time_step", "0.5") + "  " +
          tag("Searched_file_name_to_trigger_stop", "STOP_SIM") + "  " +
          tag("Save_results_to_VTK_format", "true") + "  " + tag("Name_prefix_of_saved_VTK_files", "result") +
@@ -95,14 +96,14 @@ std::string general_part(const SvmultiphysicsCaseOptions& o) {
 
 std::string viscosity_part(const Blood& blood) {
   if (blood.rheology == Rheology::newtonian)
-    return "  <Viscosity model=\"Constant\">\n    " + tag("Value", number(blood.viscosity_mpa_s * 1e-3)) +
-           "  </Viscosity>\n";
+    return "  <Viscosity model=\"Constant\">\n    " +
+           tag("Value", shortest_text(blood.viscosity_mpa_s * 1e-3)) + "  </Viscosity>\n";
   return "  <Viscosity model=\"Carreau-Yasuda\">\n    " +
-         tag("Limiting_high_shear_rate_viscosity", number(CarreauLaw::at_speed_mpa_s * 1e-3)) + "    " +
-         tag("Limiting_low_shear_rate_viscosity", number(CarreauLaw::at_rest_mpa_s * 1e-3)) + "    " +
-         tag("Shear_rate_tensor_multiplier", number(CarreauLaw::relaxation_s)) + "    " +
-         tag("Shear_rate_tensor_exponent", "2") + "    " + tag("Power_law_index", number(CarreauLaw::power)) +
-         "  </Viscosity>\n";
+         tag("Limiting_high_shear_rate_viscosity", shortest_text(CarreauLaw::at_speed_mpa_s * 1e-3)) +
+         "    " + tag("Limiting_low_shear_rate_viscosity", shortest_text(CarreauLaw::at_rest_mpa_s * 1e-3)) +
+         "    " + tag("Shear_rate_tensor_multiplier", shortest_text(CarreauLaw::relaxation_s)) + "    " +
+         tag("Shear_rate_tensor_exponent", "2") + "    " +
+         tag("Power_law_index", shortest_text(CarreauLaw::power)) + "  </Viscosity>\n";
 }
 
 std::string condition(const std::string& face, const std::string& entries) {
@@ -110,28 +111,29 @@ std::string condition(const std::string& face, const std::string& entries) {
 }
 
 std::string outlet_condition(const Outlet& outlet, const SvmultiphysicsCaseOptions& o) {
-  const Windkessel w = windkessel_of(outlet, o);
+  const WindkesselInMm w = windkessel_in_mm(outlet, o);
   const std::string type = "    " + tag("Type", "Neu");
   if (o.flow.outlets == Outlets::zero_pressure)
     return condition(outlet.name,
                      type + "    " + tag("Time_dependence", "Steady") + "    " + tag("Value", "0"));
   if (!o.total_compliance_ml_mmhg)
     return condition(outlet.name, type + "    " + tag("Time_dependence", "Resistance") + "    " +
-                                      tag("Value", number(w.resistance)));
-  return condition(outlet.name, type + "    " + tag("Time_dependence", "RCR") + "    <RCR_values>\n      " +
-                                    tag("Capacitance", number(w.compliance)) + "      " +
-                                    tag("Distal_resistance", number((1.0 - proximal_share) * w.resistance)) +
-                                    "      " +
-                                    tag("Proximal_resistance", number(proximal_share * w.resistance)) +
-                                    "      " + tag("Distal_pressure", "0") + "      " +
-                                    tag("Initial_pressure", "0") + "    </RCR_values>\n");
+                                      tag("Value", shortest_text(w.resistance)));
+  return condition(
+      outlet.name,
+      type + "    " + tag("Time_dependence", "RCR") + "    <RCR_values>\n      " +
+          tag("Capacitance", shortest_text(w.compliance)) + "      " +
+          tag("Distal_resistance", shortest_text((1.0 - Windkessel::proximal_share) * w.resistance)) +
+          "      " + tag("Proximal_resistance", shortest_text(Windkessel::proximal_share * w.resistance)) +
+          "      " + tag("Distal_pressure", "0") + "      " + tag("Initial_pressure", "0") +
+          "    </RCR_values>\n");
 }
 
 std::string equation_part(const BoundaryFlow& flow, const SvmultiphysicsCaseOptions& o) {
   std::string text = "<Add_equation type=\"fluid\">\n  " + tag("Coupled", "true") + "  " +
                      tag("Min_iterations", "3") + "  " + tag("Max_iterations", "10") + "  " +
                      tag("Tolerance", "1e-4") + "  " + tag("Backflow_stabilization_coefficient", "0.2") +
-                     "  " + tag("Density", number(o.flow.blood.density_kg_m3 * 1e-6)) +
+                     "  " + tag("Density", shortest_text(o.flow.blood.density_kg_m3 * 1e-6)) +
                      viscosity_part(o.flow.blood) + "  <Output type=\"Spatial\">\n";
   for (const char* field : {"Velocity", "Pressure", "Traction", "WSS"}) text += "    " + tag(field, "true");
   text += "  </Output>\n  <LS type=\"NS\">\n    " + tag("Max_iterations", "15") + "    " +
@@ -151,7 +153,7 @@ std::string equation_part(const BoundaryFlow& flow, const SvmultiphysicsCaseOpti
 }
 
 Json outlet_json(const Outlet& outlet, const SvmultiphysicsCaseOptions& o) {
-  const Windkessel w = windkessel_of(outlet, o);
+  const WindkesselInMm w = windkessel_in_mm(outlet, o);
   if (o.flow.outlets == Outlets::zero_pressure)
     return {{"bc_name", outlet.name},
             {"bc_type", "PRESSURE"},
@@ -163,9 +165,9 @@ Json outlet_json(const Outlet& outlet, const SvmultiphysicsCaseOptions& o) {
   return {{"bc_name", outlet.name},
           {"bc_type", "RCR"},
           {"bc_values",
-           {{"Rp", proximal_share * w.resistance},
+           {{"Rp", Windkessel::proximal_share * w.resistance},
             {"C", w.compliance},
-            {"Rd", (1.0 - proximal_share) * w.resistance},
+            {"Rd", (1.0 - Windkessel::proximal_share) * w.resistance},
             {"Pd", 0.0}}}};
 }
 
@@ -201,7 +203,7 @@ void validate(const SvmultiphysicsCaseOptions& o) {
   if (!o.total_compliance_ml_mmhg) return;
   if (!(*o.total_compliance_ml_mmhg > 0.0 && std::isfinite(*o.total_compliance_ml_mmhg)))
     throw InvalidInput("total_compliance_ml_mmhg must be positive, not " +
-                       number(*o.total_compliance_ml_mmhg));
+                       shortest_text(*o.total_compliance_ml_mmhg));
   if (o.flow.outlets != Outlets::resistance)
     throw InvalidInput("a total compliance needs outlets with resistance");
 }
@@ -230,7 +232,9 @@ SvmultiphysicsCaseResult write_svmultiphysics_case(const geometry::MixedMesh& me
                       general_part(options) + mesh_part(result.flow) + equation_part(result.flow, options) +
                       "</svMultiPhysicsFile>\n");
   write_case_file(target / "boundary_conditions.json", conditions_json(result.flow, options));
-  write_case_record(case_record("svmultiphysics", options.flow, result.flow, options.cycles), mesh, target);
+  write_case_record(case_record("svmultiphysics", options.flow, result.flow, options.cycles,
+                                options.total_compliance_ml_mmhg.value_or(0.0)),
+                    mesh, target);
   staged.commit();
   task.set_progress(1.0);
   return result;

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 namespace ostia::view {
@@ -17,7 +18,7 @@ using Json = nlohmann::ordered_json;
 using session::Tool;
 
 template <class Enum>
-using Names = std::vector<std::pair<Enum, const char*>>;
+using Names = std::vector<std::pair<Enum, std::string_view>>;
 
 const Names<HandAct::Kind>& act_names() {
   using Kind = HandAct::Kind;
@@ -33,12 +34,11 @@ const Names<Button>& button_names() {
   return names;
 }
 const Names<Tool>& tool_names() {
-  static const Names<Tool> names{
-      {Tool::browse, "browse"},     {Tool::drag, "drag"},         {Tool::draw, "draw"},
-      {Tool::brush, "brush"},       {Tool::axis, "axis"},         {Tool::add_vessel, "add_vessel"},
-      {Tool::distance, "distance"}, {Tool::angle, "angle"},       {Tool::area, "area"},
-      {Tool::diameter, "diameter"}, {Tool::stenosis, "stenosis"}, {Tool::volume, "volume"},
-      {Tool::ring_hu, "ring_hu"}};
+  static const Names<Tool> names = [] {
+    Names<Tool> all;
+    for (const Tool tool : session::all_tools) all.emplace_back(tool, session::traits_of(tool).name);
+    return all;
+  }();
   return names;
 }
 const Names<reformat::CurvedMode>& mode_names() {
@@ -55,7 +55,7 @@ const Names<reformat::Slab>& slab_names() {
 template <class Enum>
 std::string name_of(const Names<Enum>& names, Enum value) {
   for (const auto& [known, name] : names)
-    if (known == value) return name;
+    if (known == value) return std::string(name);
   throw InvalidInput("a recording has no name for this value");
 }
 
@@ -103,7 +103,7 @@ Enum named(const Names<Enum>& names, const Json& object, const char* key) {
   std::string known;
   for (const auto& [value, name] : names) {
     if (given == name) return value;
-    known += std::string(known.empty() ? "" : ", ") + name;
+    known += (known.empty() ? "" : ", ") + std::string(name);
   }
   throw InvalidInput(std::string("the field \"") + key + "\" is one of: " + known);
 }

@@ -113,9 +113,8 @@ std::unique_ptr<Pointer::Gesture> Pointer::gesture_of_tool(const PointerEvent& e
       return std::make_unique<Browse>(view_, event);
     }
     case Tool::distance:
-      return std::make_unique<TwoPoints>(view_, event, analysis::MeasureKind::distance);
     case Tool::diameter:
-      return std::make_unique<TwoPoints>(view_, event, analysis::MeasureKind::diameter);
+      return std::make_unique<TwoPoints>(view_, event, *session::measure_kind(tool));
     case Tool::area:
       return std::make_unique<Outline>(view_, event);
     case Tool::stenosis:

@@ -2,6 +2,8 @@
 
 #include "scene_lines.h"
 
+#include "ostia/core/text.h"
+
 #include <vtkActor2D.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -17,7 +19,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
 namespace ostia::view {
@@ -59,12 +60,6 @@ void put(vtkTextActor& actor, const std::string& text, const Vec2& at, const Col
   set_font(*actor.GetTextProperty(), color, size_px);
   actor.SetDisplayPosition(static_cast<int>(std::lround(at.x())), static_cast<int>(std::lround(at.y())));
   actor.VisibilityOn();
-}
-
-std::string number(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.3g", value);
-  return text.data();
 }
 
 struct CubeFace {
@@ -170,8 +165,8 @@ void SceneOverlay::lay_out_scale_bar(const CameraPose& pose, int width_px, int h
   quads.add_box(left, low, thick, 7.0 * unit, color);
   quads.add_box(left + length_px - thick, low, thick, 7.0 * unit, color);
   quads.put_into(*ruler_.shape);
-  put(*ruler_text_, number(length_mm) + " mm", Vec2(left + 0.5 * length_px, low + 15.0 * unit), color,
-      13.0 * unit);
+  put(*ruler_text_, core::significant_text(length_mm, 3) + " mm",
+      Vec2(left + 0.5 * length_px, low + 15.0 * unit), color, 13.0 * unit);
 }
 
 void SceneOverlay::lay_out_color_bar(int width_px, int height_px, const OverlaySettings& settings) {
@@ -193,7 +188,7 @@ void SceneOverlay::lay_out_color_bar(int width_px, int height_px, const OverlayS
   for (std::size_t i = 0; i < 3; ++i) {
     const double t = 0.5 * static_cast<double>(i);
     bar_texts_[i]->GetTextProperty()->SetJustificationToLeft();
-    put(*bar_texts_[i], number(scale.low + t * (scale.high - scale.low)),
+    put(*bar_texts_[i], core::significant_text(scale.low + t * (scale.high - scale.low), 3),
         Vec2(left + wide + 5.0 * unit, low + t * high), color, 13.0 * unit);
   }
   bar_title_->GetTextProperty()->SetJustificationToRight();

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <unordered_set>
 
 namespace ostia::io {
 namespace fs = std::filesystem;
@@ -211,10 +212,17 @@ class TableReader {
     const double radius = value(row, 3);
     const std::string_view name = cell(row, 4);
     const std::int32_t index = table_.index_of(here);
-    if (last_ >= 0 && name == vessel_) add_edge(last_, index, last_radius_, radius, line_number());
+    if (last_ >= 0 && name == vessel_ && is_new(last_, index))
+      add_edge(last_, index, last_radius_, radius, line_number());
     last_ = index;
     last_radius_ = radius;
     vessel_ = name;
+  }
+
+  /// Named vessels repeat the way that they share from the root.
+  bool is_new(std::int32_t from, std::int32_t to) {
+    constexpr int half = 32;
+    return columns_[4] < 0 || steps_.insert((static_cast<std::int64_t>(from) << half) | to).second;
   }
 
   fs::path path_;
@@ -228,6 +236,7 @@ class TableReader {
   std::int32_t last_ = -1;
   double last_radius_ = 0.0;
   std::string vessel_;
+  std::unordered_set<std::int64_t> steps_;
 };
 
 }  // namespace

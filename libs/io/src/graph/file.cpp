@@ -3,6 +3,7 @@
 
 #include "ostia/core/error.h"
 #include "ostia/io/graph_file.h"
+#include "ostia/io/markups_file.h"
 
 #include <algorithm>
 #include <bit>
@@ -65,6 +66,10 @@ std::size_t PointTable::slot_of(const Vec3& place) const {
   return slot;
 }
 
+std::int32_t PointTable::find(const Vec3& place) const {
+  return slots_.empty() || !place.allFinite() ? -1 : slots_[slot_of(place)];
+}
+
 std::int32_t PointTable::index_of(const Vec3& place) {
   const auto next = static_cast<std::int32_t>(points_.size());
   if (!place.allFinite()) {
@@ -89,6 +94,7 @@ void warn_if_cut(const PieceReader& reader, LoadedGraph& loaded) {
 bool is_graph_file(const fs::path& path) {
   const std::string extension = upper(path.extension().string());
   if (extension == ".VTP") return has_lines_alone(path);
+  if (extension == ".JSON") return is_markups_file(path);
   static constexpr std::array<std::string_view, 5> known{".SWC", ".CSV", ".GXL", ".XML", ".VTK"};
   static constexpr std::array<std::string_view, 3> tables{"vertex.dat", "edges.dat", "radius.dat"};
   return std::find(known.begin(), known.end(), extension) != known.end() ||
@@ -113,8 +119,10 @@ LoadedGraph read_graph(const fs::path& path, const core::TaskContext& task) {
     loaded = read_graph_gxl(path, task);
   else if (extension == ".DAT")
     loaded = read_graph_tables(path, task);
+  else if (is_markups_file(path))
+    loaded = read_graph_markups(path);
   else
-    refuse(path, "a tree ends in .vtp, .vtk, .swc, .csv, .gxl, .xml or .dat");
+    refuse(path, "a tree ends in .vtp, .vtk, .swc, .csv, .gxl, .xml, .dat or .mrk.json");
   if (loaded.graph.edges.empty()) refuse(path, "it has no segments");
   task.throw_if_cancelled();
   task.set_progress(1.0);

@@ -16,6 +16,7 @@ LoadedGraph read_graph_vtk(const std::filesystem::path& path, const core::TaskCo
 LoadedGraph read_graph_swc(const std::filesystem::path& path, const core::TaskContext& task);
 LoadedGraph read_graph_csv(const std::filesystem::path& path, const core::TaskContext& task);
 LoadedGraph read_graph_gxl(const std::filesystem::path& path, const core::TaskContext& task);
+LoadedGraph read_graph_markups(const std::filesystem::path& path);
 LoadedGraph read_graph_tables(const std::filesystem::path& path, const core::TaskContext& task);
 void write_graph_vtp(const std::filesystem::path& path, const geometry::VesselGraph& graph,
                      const std::vector<SegmentValues>& values);
@@ -52,6 +53,8 @@ class PointTable {
  public:
   explicit PointTable(std::vector<geometry::Vec3>& points) : points_(points) {}
   std::int32_t index_of(const geometry::Vec3& place);
+  /// -1 for a place that is not there.
+  std::int32_t find(const geometry::Vec3& place) const;
 
  private:
   void grow();

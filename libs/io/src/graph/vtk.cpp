@@ -1,11 +1,13 @@
 // Networks as lines of VTK polydata.
 
+#include "centerline_tracts.h"
 #include "graph/formats.h"
 #include "surface_formats.h"
 #include "vtk/xml.h"
 
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
+#include "ostia/geometry/graph_tree.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -17,6 +19,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace ostia::io {
 namespace fs = std::filesystem;
@@ -106,10 +109,73 @@ void add_line(const vtkIdType* ids, vtkIdType count, vtkIdType cell, const Radiu
 
 }  // namespace
 
+namespace {
+
+/// Whether the line is one of a group that is there already, place by place: vessels of a file share segments
+/// by writing them again.
+class RepeatedGroups {
+ public:
+  explicit RepeatedGroups(vtkPolyData& data)
+      : data_(data), groups_(array_named(*data.GetCellData(), "GroupIds")) {
+    if (!array_named(*data.GetCellData(), "CenterlineIds")) groups_ = nullptr;
+  }
+
+  bool repeats(vtkIdType cell, const vtkIdType* ids, vtkIdType count) {
+    if (!groups_ || cell >= groups_->GetNumberOfTuples()) return false;
+    const auto [first, fresh] = first_.try_emplace(whole(groups_->GetTuple1(cell)), ids, ids + count);
+    if (fresh || first->second.size() != static_cast<std::size_t>(count)) return false;
+    for (vtkIdType i = 0; i < count; ++i) {
+      std::array<double, 3> here{}, there{};
+      data_.GetPoint(ids[i], here.data());
+      data_.GetPoint(first->second[static_cast<std::size_t>(i)], there.data());
+      if (here != there) return false;
+    }
+    return true;
+  }
+
+ private:
+  vtkPolyData& data_;
+  vtkDataArray* groups_;
+  std::map<std::int64_t, std::vector<vtkIdType>> first_;
+};
+
+/// Points at one place become one where a line begins or ends: files of lines write their forks once for each
+/// line. Points that repeated lines alone have go.
+void join_at_ends(const std::vector<std::int32_t>& ends, std::vector<bool> spare,
+                  geometry::VesselGraph& graph) {
+  std::vector<geometry::Vec3> places, kept;
+  PointTable table(places);
+  for (const std::int32_t end : ends) table.index_of(graph.points[static_cast<std::size_t>(end)]);
+  for (const geometry::GraphEdge& edge : graph.edges)
+    for (const std::int32_t point : {edge.from, edge.to}) spare[static_cast<std::size_t>(point)] = false;
+  std::vector<std::int32_t> first(places.size(), -1), becomes(graph.points.size(), -1);
+  for (std::size_t i = 0; i < graph.points.size(); ++i) {
+    if (spare[i]) continue;
+    const std::int32_t place = table.find(graph.points[i]);
+    std::int32_t known = place < 0 ? -1 : first[static_cast<std::size_t>(place)];
+    if (known < 0) {
+      known = static_cast<std::int32_t>(kept.size());
+      kept.push_back(graph.points[i]);
+      if (place >= 0) first[static_cast<std::size_t>(place)] = known;
+    }
+    becomes[i] = known;
+  }
+  if (kept.size() == graph.points.size()) return;
+  graph.points = std::move(kept);
+  for (geometry::GraphEdge& edge : graph.edges)
+    for (std::int32_t* point : {&edge.from, &edge.to}) *point = becomes[static_cast<std::size_t>(*point)];
+}
+
+}  // namespace
+
 LoadedGraph read_graph_vtk(const fs::path& path, const core::TaskContext& task) {
   const vtkSmartPointer<vtkPolyData> data = read_polydata(path);
   task.throw_if_cancelled();
   task.set_progress(0.7);
+  if (has_tracts(*data)) {
+    const auto tree = tree_of_groups(lines_of_tracts(*data, path), vessel_names(*data));
+    return {geometry::graph_of(tree), "segment", {}};
+  }
   if (data->GetNumberOfPoints() > std::numeric_limits<std::int32_t>::max())
     refuse(path, "it has more than 2,147,483,647 points");
   LoadedGraph loaded;
@@ -127,6 +193,9 @@ LoadedGraph read_graph_vtk(const fs::path& path, const core::TaskContext& task) 
   // Cell data run over vertices, then lines.
   const vtkIdType first = data->GetNumberOfVerts();
   vtkCellArray* lines = data->GetLines();
+  RepeatedGroups repeated(*data);
+  std::vector<std::int32_t> ends;
+  std::vector<bool> spare(static_cast<std::size_t>(data->GetNumberOfPoints()), false);
   loaded.graph.edges.reserve(static_cast<std::size_t>(lines->GetNumberOfConnectivityIds()));
   loaded.graph.references.reserve(static_cast<std::size_t>(lines->GetNumberOfConnectivityIds()));
   for (vtkIdType c = 0; c < lines->GetNumberOfCells(); ++c) {
@@ -134,10 +203,17 @@ LoadedGraph read_graph_vtk(const fs::path& path, const core::TaskContext& task) 
     vtkIdType count = 0;
     const vtkIdType* ids = nullptr;
     lines->GetCellAtId(c, count, ids);
+    if (count == 0) continue;
+    if (repeated.repeats(first + c, ids, count)) {
+      for (vtkIdType i = 0; i < count; ++i) spare[static_cast<std::size_t>(ids[i])] = true;
+      continue;
+    }
+    ends.insert(ends.end(), {static_cast<std::int32_t>(ids[0]), static_cast<std::int32_t>(ids[count - 1])});
     add_line(ids, count, first + c, source, loaded,
              references ? whole(references->GetTuple1(first + c)) : first + c);
   }
   loaded.graph.points = from_vtk(data->GetPoints());
+  join_at_ends(ends, std::move(spare), loaded.graph);
   return loaded;
 }
 

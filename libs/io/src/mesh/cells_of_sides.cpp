@@ -61,6 +61,10 @@ std::vector<std::int32_t> nodes_of_sides(const std::vector<CellSide>& sides) {
   } else if (sides.size() == 5 && triangles == 2) {
     nodes = {(*base)[0], (*base)[2], (*base)[1]};
     for (std::size_t i = 0; i < 3; ++i) nodes.push_back(upright_from(sides, *base, nodes[i]));
+  } else if (sides.size() == 6 && triangles == 0) {
+    const CellSide& first = sides.front();
+    nodes = {first[0], first[3], first[2], first[1]};
+    for (std::size_t i = 0; i < 4; ++i) nodes.push_back(upright_from(sides, first, nodes[i]));
   }
   if (!closed(sides, nodes)) return {};
   return nodes;
@@ -73,7 +77,8 @@ void add_cells_of_sides(const std::vector<std::vector<CellSide>>& cells, std::si
     const std::vector<std::int32_t> nodes = nodes_of_sides(cells[c]);
     if (nodes.empty())
       refuse(path, "cell " + std::to_string(first + c) + " with " + std::to_string(cells[c].size()) +
-                       " faces is neither a tetrahedron nor a prism");
+                       " faces is no tetrahedron, prism or hexahedron");
+    if (mesh.add_hexahedron(nodes)) continue;
     mesh.set_in_layers(c < in_layers.size() && in_layers[c]);
     mesh.add(nodes.size() == 4 ? Shape::tetrahedron : Shape::prism, nodes, 0, NodeOrder());
   }

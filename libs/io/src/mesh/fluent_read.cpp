@@ -129,7 +129,7 @@ class FluentFile {
           type == mixed || type == polygons ? hexadecimal("a number of corners") : type;
       if (corners != 3 && corners != 4)
         refuse(path_, "face " + std::to_string(f) + " has " + std::to_string(corners) +
-                          " corners; meshes of tetrahedra and prisms are read");
+                          " corners; meshes of tetrahedra, prisms and hexahedra are read");
       CellSide side{-1, -1, -1, -1};
       for (std::int64_t k = 0; k < corners; ++k)
         side[static_cast<std::size_t>(k)] =

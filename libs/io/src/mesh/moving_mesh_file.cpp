@@ -4,9 +4,7 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
-
-#include <array>
-#include <charconv>
+#include "ostia/core/text.h"
 
 namespace ostia::io {
 namespace fs = std::filesystem;
@@ -30,13 +28,6 @@ void put_vectors(TextFile& out, const std::vector<Vec3>& values) {
   out << ')';
 }
 
-std::string text_of(double value, int digits) {
-  std::array<char, 32> text{};
-  const auto end =
-      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, digits).ptr;
-  return {text.data(), end};
-}
-
 }  // namespace
 
 void write_pvd(const fs::path& path, const std::vector<MeshAtTime>& times) {
@@ -44,13 +35,13 @@ void write_pvd(const fs::path& path, const std::vector<MeshAtTime>& times) {
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" "
       "byte_order=\"LittleEndian\">\n  <Collection>\n";
   for (const MeshAtTime& one : times)
-    text += "    <DataSet timestep=\"" + text_of(one.seconds, time_digits) + "\" part=\"0\" file=\"" +
-            one.file + "\"/>\n";
+    text += "    <DataSet timestep=\"" + core::significant_text(one.seconds, time_digits) +
+            "\" part=\"0\" file=\"" + one.file + "\"/>\n";
   core::write_file(path, text + "  </Collection>\n</VTKFile>\n");
 }
 
 std::string openfoam_time(double seconds) {
-  return text_of(seconds, time_digits);
+  return core::significant_text(seconds, time_digits);
 }
 
 void write_openfoam_points(const fs::path& case_folder, double seconds, const geometry::MixedMesh& mesh,

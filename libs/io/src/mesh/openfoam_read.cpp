@@ -66,7 +66,7 @@ std::vector<CellSide> faces_in(const fs::path& file, std::size_t points) {
     const auto n = value<std::int32_t>(words, "a face's number of points");
     if (n != 3 && n != 4)
       words.refuse("face " + std::to_string(f) + " has " + std::to_string(n) +
-                   " corners; meshes of tetrahedra and prisms are read");
+                   " corners; meshes of tetrahedra, prisms and hexahedra are read");
     words.expect("(");
     for (int k = 0; k < n; ++k) {
       const auto p = value<std::int32_t>(words, "a point");

@@ -8,6 +8,7 @@
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
+#include <vtkCellType.h>
 
 #include <fstream>
 #include <optional>
@@ -29,14 +30,15 @@ LayeredMesh mesh_of(vtkUnstructuredGrid& data, const fs::path& path) {
     const vtkIdType* p = nullptr;
     data.GetCells()->GetCellAtId(c, count, p);
     nodes.assign(p, p + count);
+    if (data.GetCellType(c) == VTK_HEXAHEDRON && mesh.add_hexahedron(nodes)) continue;
     const std::optional<Shape> shape = shape_of(data.GetCellType(c));
     const std::int32_t face = ids ? static_cast<std::int32_t>(ids->GetTuple1(c)) : 1;
     mesh.set_in_layers(layer && layer->GetTuple1(c) == 1.0);
     if (!shape || !mesh.add(*shape, nodes, face, vtk_order))
       refuse(path, "cell " + std::to_string(c) + " is of VTK type " + std::to_string(data.GetCellType(c)) +
                        " with " + std::to_string(count) +
-                       " points; tetrahedra (10, 24), prisms (13, 32), triangles (5, 22) and quadrilaterals "
-                       "(9, 28) are read");
+                       " points; tetrahedra (10, 24), prisms (13, 32), hexahedra (12), triangles (5, 22) and "
+                       "quadrilaterals (9, 28) are read");
   }
   return mesh.finish(mesh.has_boundary() ? faces_of(data, mesh.face_ids()) : std::vector<geometry::Face>());
 }

@@ -34,6 +34,14 @@ vtkSmartPointer<vtkPolyData> polydata_of(const FacedSurface& surface) {
   return data;
 }
 
+/// The faces' numbers under the names that VMTK and SimVascular give them.
+vtkDataArray* face_labels(vtkCellData& data) {
+  for (const char* name : {"CellEntityIds", "ModelFaceID"})
+    if (vtkDataArray* labels = data.GetArray(name); labels && labels->GetNumberOfComponents() == 1)
+      return labels;
+  return nullptr;
+}
+
 }  // namespace
 
 LoadedSurface read_vtp(const std::filesystem::path& path) {
@@ -43,7 +51,7 @@ LoadedSurface read_vtp(const std::filesystem::path& path) {
   if (data->GetNumberOfStrips() > 0) refuse(path, "it has triangle strips; write it with plain triangles");
   // Cell data run over vertices, lines and polygons in this order.
   const vtkIdType first = data->GetNumberOfVerts() + data->GetNumberOfLines();
-  vtkDataArray* ids = data->GetCellData()->GetArray("CellEntityIds");
+  vtkDataArray* ids = face_labels(*data->GetCellData());
   std::size_t polygons = 0;
   const auto cells = vtk::TakeSmartPointer(data->GetPolys()->NewIterator());
   for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell()) {

@@ -2,11 +2,10 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
+#include "ostia/core/text.h"
 #include "ostia/io/wfdb_file.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 
@@ -36,13 +35,6 @@ std::string packed(const geometry::EcgLead& lead, std::size_t lead_index, std::s
   return name + ".dat 16 " + std::to_string(sample_step) + "/" + lead.unit + " 16 0 " +
          std::to_string(static_cast<int>(first)) + " " +
          std::to_string(static_cast<std::int16_t>(sum & 0xFFFF)) + " 0 " + lead.name + "\n";
-}
-
-std::string digits(double value) {
-  std::array<char, 32> text{};
-  const auto end =
-      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 9).ptr;
-  return {text.data(), end};
 }
 
 bool is_control(char c) {
@@ -90,7 +82,8 @@ void write_wfdb(const std::filesystem::path& header, const geometry::EcgRecord& 
   validate(header, record);
   const std::string name = header.stem().string();
   const std::size_t leads = record.leads.size();
-  std::string text = name + " " + std::to_string(leads) + " " + digits(record.samples_per_second) + " " +
+  std::string text = name + " " + std::to_string(leads) + " " +
+                     core::significant_text(record.samples_per_second, 9) + " " +
                      std::to_string(record.samples()) + "\n",
               bytes(2 * leads * record.samples(), '\0');
   for (std::size_t s = 0; s < leads; ++s) text += packed(record.leads[s], s, leads, name, bytes);

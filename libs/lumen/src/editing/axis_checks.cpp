@@ -1,16 +1,17 @@
 #include "wall/sampling.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/text.h"
 #include "ostia/geometry/polyline.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
 namespace ostia::lumen {
 namespace {
 
+using core::fixed_text;
 using std::numbers::pi;
 /// A turn of more than this within two thirds of the radius is a kink.
 constexpr double kink_rad = pi / 3.0;
@@ -18,12 +19,6 @@ constexpr double kink_rad = pi / 3.0;
 constexpr double loop_share = 0.5;
 constexpr double check_step_mm = 0.2;
 constexpr double evened_mm = 0.4, table_step_mm = 0.1;
-
-std::string text(double value) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.2f", value);
-  return buffer;
-}
 
 bool owns(const geometry::VesselTree& tree, const geometry::Vessel& vessel, std::int32_t segment) {
   for (const geometry::Vessel& v : tree.vessels) {
@@ -51,8 +46,8 @@ void check_points(const geometry::VesselTree& tree, const geometry::Vessel& vess
                        " points; too few to tell how it runs, give at least three");
   for (std::size_t i = 0; i < line.size(); ++i) {
     if (!(line.radius[i] > 0.0) || !std::isfinite(line.radius[i]))
-      throw InvalidInput(vessel_label(vessel) + " has a radius of " + text(line.radius[i]) + " mm at " +
-                         text(line.abscissa[i]) + " mm; radii must be positive");
+      throw InvalidInput(vessel_label(vessel) + " has a radius of " + fixed_text(line.radius[i], 2) +
+                         " mm at " + fixed_text(line.abscissa[i], 2) + " mm; radii must be positive");
   }
 }
 
@@ -77,9 +72,9 @@ void check_kink(const AxisCurve& axis, const std::vector<double>& joints, const 
     const double turn =
         std::acos(std::clamp(axis.frame(low).tangent.dot(axis.frame(high).tangent), -1.0, 1.0));
     if (turn > kink_rad)
-      throw InvalidInput(name + " has a kink at " + text(s) + " mm: its axis turns by " +
+      throw InvalidInput(name + " has a kink at " + fixed_text(s, 2) + " mm: its axis turns by " +
                          std::to_string(std::lround(turn * 180.0 / pi)) + " degrees within " +
-                         text(high - low) + " mm; smooth the axis there");
+                         fixed_text(high - low, 2) + " mm; smooth the axis there");
   }
 }
 
@@ -98,9 +93,10 @@ void check_loop(const AxisCurve& axis, const std::string& name) {
       const double gap = (points[j] - points[i]).norm();
       const double least = loop_share * std::min(radius[i], radius[j]);
       if (gap < least)
-        throw InvalidInput(name + " has a loop: its axis at " + text(step * static_cast<double>(j)) +
-                           " mm comes back to where it was at " + text(step * static_cast<double>(i)) +
-                           " mm, " + text(gap) + " mm away; take the loop out of the axis");
+        throw InvalidInput(name + " has a loop: its axis at " + fixed_text(step * static_cast<double>(j), 2) +
+                           " mm comes back to where it was at " +
+                           fixed_text(step * static_cast<double>(i), 2) + " mm, " + fixed_text(gap, 2) +
+                           " mm away; take the loop out of the axis");
       j += std::max<std::size_t>(1, static_cast<std::size_t>((gap - least) / step));
     }
   }
@@ -148,9 +144,10 @@ std::shared_ptr<const AxisCurve> checked_axis(const geometry::VesselTree& tree,
   auto axis = std::make_shared<const AxisCurve>(geometry::vessel_axis(tree, vessel));
   const double least = *std::min_element(own.radius.begin(), own.radius.end());
   if (own.abscissa.back() < least)
-    throw InvalidInput(name + " is " + text(own.abscissa.back()) + " mm long from " +
-                       text(axis->length() - own.abscissa.back()) + " mm on, shorter than its radius of " +
-                       text(least) + " mm; leave it out or extend its axis");
+    throw InvalidInput(name + " is " + fixed_text(own.abscissa.back(), 2) + " mm long from " +
+                       fixed_text(axis->length() - own.abscissa.back(), 2) +
+                       " mm on, shorter than its radius of " + fixed_text(least, 2) +
+                       " mm; leave it out or extend its axis");
   check_kink(*axis, joints_of(tree, vessel), name);
   check_loop(*axis, name);
   return axis;

@@ -3,6 +3,7 @@
 #include "editing/wall_editing.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +11,8 @@
 
 namespace ostia::lumen {
 namespace {
+
+using core::mm_text;
 
 constexpr double longest_reach_mm = 50.0;
 /// Moved farther than this share of its reach, an axis would fold.
@@ -84,12 +87,12 @@ EditOutcome apply_to(const LumenModel& model, const AxisMove& edit) {
   TreeEdit tree(model, "axis.move", edit.vessel);
   check_points({edit.from, edit.to}, 2, tree.what());
   if (!(edit.reach_mm > 0.0) || edit.reach_mm > longest_reach_mm)
-    throw InvalidInput(tree.what() + ": the reach is " + in_mm(edit.reach_mm) +
-                       "; choose more than 0 and up to " + in_mm(longest_reach_mm));
+    throw InvalidInput(tree.what() + ": the reach is " + mm_text(edit.reach_mm) +
+                       "; choose more than 0 and up to " + mm_text(longest_reach_mm));
   const Vec3 shift = edit.to - edit.from;
   if (shift.norm() > longest_move * edit.reach_mm)
-    throw InvalidInput(tree.what() + ": the axis would move by " + in_mm(shift.norm()) +
-                       " within a reach of " + in_mm(edit.reach_mm) + " and fold; choose a longer reach");
+    throw InvalidInput(tree.what() + ": the axis would move by " + mm_text(shift.norm()) +
+                       " within a reach of " + mm_text(edit.reach_mm) + " and fold; choose a longer reach");
   const TreePlace first = tree.locate(edit.vessel, edit.from);
   const auto centre = [&](const TreePlace& place) {
     return tree.vessel(edit.vessel).segments[place.segment];
@@ -154,8 +157,8 @@ EditOutcome apply_to(const LumenModel& model, const AxisDelete& edit) {
   check_points({edit.point}, 1, tree.what());
   const ControlPoint nearest = nearest_control_point(tree, edit.vessel, edit.point);
   if (nearest.distance_mm > farthest_from_axis_mm)
-    throw InvalidInput(tree.what() + ": the nearest control point is " + in_mm(nearest.distance_mm) +
-                       " away; choose a place within " + in_mm(farthest_from_axis_mm));
+    throw InvalidInput(tree.what() + ": the nearest control point is " + mm_text(nearest.distance_mm) +
+                       " away; choose a place within " + mm_text(farthest_from_axis_mm));
   geometry::Centerline& axis = tree.segment(nearest.segment).axis;
   if (nearest.index == 0 || nearest.index + 1 == axis.size())
     throw InvalidInput(tree.what() +
@@ -180,8 +183,8 @@ EditOutcome apply_to(const LumenModel& model, const AxisExtend& edit) {
   }
   const double off = (edit.points.front() - last.axis.points.back()).norm();
   if (off > 3.0 * farthest_from_axis_mm)
-    throw InvalidInput(tree.what() + ": the first point is " + in_mm(off) +
-                       " from the vessel's end; choose one within " + in_mm(3.0 * farthest_from_axis_mm));
+    throw InvalidInput(tree.what() + ": the first point is " + mm_text(off) +
+                       " from the vessel's end; choose one within " + mm_text(3.0 * farthest_from_axis_mm));
   int merged = 0;
   for (const Vec3& point : edit.points) {
     if ((point - last.axis.points.back()).norm() < same_point_mm) {
@@ -209,9 +212,9 @@ EditOutcome apply_to(const LumenModel& model, const AxisTrim& edit) {
   TreeEdit tree(model, "axis.trim", edit.vessel);
   const VesselLumen& lumen = vessel(model, edit.vessel);
   if (!(edit.s_mm > lumen.own_from_mm) || !(edit.s_mm < lumen.axis->length() - nearest_trim_mm))
-    throw InvalidInput(tree.what() + ": the cut at " + in_mm(edit.s_mm) +
-                       " is not on the vessel's own stretch, " + in_mm(lumen.own_from_mm) + " to " +
-                       in_mm(lumen.axis->length()) +
+    throw InvalidInput(tree.what() + ": the cut at " + mm_text(edit.s_mm) +
+                       " is not on the vessel's own stretch, " + mm_text(lumen.own_from_mm) + " to " +
+                       mm_text(lumen.axis->length()) +
                        "; trim the vessel that owns the place, or delete the branch");
   const LocalWall wall =
       local_wall(*lumen.axis, lumen.samples, edit.s_mm, 1.5, lumen.axis->radius(edit.s_mm));

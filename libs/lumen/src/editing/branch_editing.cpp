@@ -3,6 +3,7 @@
 #include "editing/wall_editing.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/text.h"
 #include "ostia/geometry/polyline.h"
 
 #include <algorithm>
@@ -11,6 +12,8 @@
 
 namespace ostia::lumen {
 namespace {
+
+using core::mm_text;
 
 constexpr double bow_step_mm = 0.25;
 /// A bow's legs for a turn of 90 degrees, in radii of the parent: its tightest bend is about one radius.
@@ -79,8 +82,8 @@ void check_radii(const BranchAdd& edit, const std::string& what) {
                        std::to_string(edit.radius_mm.size()) + " radii; give one a point");
   for (std::size_t i = 0; i < edit.radius_mm.size(); ++i) {
     if (!(edit.radius_mm[i] >= least_radius_mm) || edit.radius_mm[i] > farthest_mm)
-      throw InvalidInput(what + ": radius " + std::to_string(i) + " is " + in_mm(edit.radius_mm[i]) +
-                         "; choose " + in_mm(least_radius_mm) + " to " + in_mm(farthest_mm));
+      throw InvalidInput(what + ": radius " + std::to_string(i) + " is " + mm_text(edit.radius_mm[i]) +
+                         "; choose " + mm_text(least_radius_mm) + " to " + mm_text(farthest_mm));
   }
 }
 
@@ -277,8 +280,8 @@ EditOutcome apply_to(const LumenModel& model, const BranchAttach& edit) {
   const double own_length = lumen.axis->length() - lumen.own_from_mm;
   const double reach_mm = std::max(5.0, 3.0 * shift.norm());
   if (reach_mm > std::max(own_length, 5.0))
-    throw InvalidInput(tree.what() + ": its start would move by " + in_mm(shift.norm()) +
-                       ", too far for a vessel of " + in_mm(own_length) +
+    throw InvalidInput(tree.what() + ": its start would move by " + mm_text(shift.norm()) +
+                       ", too far for a vessel of " + mm_text(own_length) +
                        "; attach it nearer or draw it anew");
   // Its own part alone, with what leaves it: the tree that it leaves stays.
   std::set<std::int32_t> part;
@@ -333,8 +336,8 @@ EditOutcome apply_to(const LumenModel& model, const BranchConnect& edit) {
     throw InvalidInput(tree.what() + ": it begins at that place of vessel " + std::to_string(edit.parent) +
                        " already");
   if (gap > longest_bridge_mm)
-    throw InvalidInput(tree.what() + ": it begins " + in_mm(gap) + " from the place; choose one within " +
-                       in_mm(longest_bridge_mm));
+    throw InvalidInput(tree.what() + ": it begins " + mm_text(gap) + " from the place; choose one within " +
+                       mm_text(longest_bridge_mm));
   const double old_from = lumen.own_from_mm;
   lead_from(tree, edit.parent, join.place.s_mm,
             bridged(foot, parent.radius(join.place.s_mm), lumen.axis->frame(old_from).tangent,

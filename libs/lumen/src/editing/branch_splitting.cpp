@@ -5,6 +5,7 @@
 #include "editing/wall_editing.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +14,7 @@
 namespace ostia::lumen {
 namespace {
 
+using core::mm_text;
 using std::numbers::pi;
 /// So far, in spacings of the samples, a part's wall runs on within the other one before it closes.
 constexpr double overlap_spacings = 2.0;
@@ -115,12 +117,12 @@ Seam seam_at(const VesselLumen& lumen, double s_mm, const std::string& what) {
   const double least = radius + seam.spacing_mm;
   if (!(s_mm >= from + least) || !(s_mm <= to - least)) {
     const std::string where =
-        what + ": the place at " + in_mm(s_mm) + " is not within the vessel's own stretch";
+        what + ": the place at " + mm_text(s_mm) + " is not within the vessel's own stretch";
     if (to - from < 2.0 * least)
-      throw InvalidInput(where + ", and that is too short to be split, " + in_mm(from) + " to " + in_mm(to) +
-                         "; each part needs " + in_mm(least));
-    throw InvalidInput(where + " or too near to its end; choose " + in_mm(from + least) + " to " +
-                       in_mm(to - least));
+      throw InvalidInput(where + ", and that is too short to be split, " + mm_text(from) + " to " +
+                         mm_text(to) + "; each part needs " + mm_text(least));
+    throw InvalidInput(where + " or too near to its end; choose " + mm_text(from + least) + " to " +
+                       mm_text(to - least));
   }
   seam.s_mm = s_mm;
   seam.overlap_mm = overlap_spacings * seam.spacing_mm;
@@ -207,7 +209,7 @@ TwoParts in_two(TreeEdit& tree, std::int32_t id, double s_mm, const std::string&
          tree.segment(distal.segments[parts.keep - 1]).to != parts.node)
     ++parts.keep;
   if (parts.keep >= distal.segments.size())
-    throw InvalidInput(tree.what() + ": the axis has an end at " + in_mm(s_mm) + "; split it elsewhere");
+    throw InvalidInput(tree.what() + ": the axis has an end at " + mm_text(s_mm) + "; split it elsewhere");
   parts.distal = distal.id;
   proximal->segments.resize(parts.keep);
   tree.made_from(distal.id, model.vessels[static_cast<std::size_t>(proximal - vessels.begin())]);

@@ -4,6 +4,7 @@
 #include "start/start_walls.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/text.h"
 
 #include <Eigen/Dense>
 
@@ -241,8 +242,8 @@ TreePlace TreeEdit::locate(std::int32_t id, const Vec3& where) const {
   const AxisCurve& axis = *lumen::vessel(*before_, id).axis;
   const geometry::AxisFoot foot = axis.nearest_foot(where);
   if (foot.rho_mm > farthest_from_axis_mm)
-    throw InvalidInput(what_ + ": a place is " + in_mm(foot.rho_mm) + " from the axis of vessel " +
-                       std::to_string(id) + "; choose one within " + in_mm(farthest_from_axis_mm));
+    throw InvalidInput(what_ + ": a place is " + core::mm_text(foot.rho_mm) + " from the axis of vessel " +
+                       std::to_string(id) + "; choose one within " + core::mm_text(farthest_from_axis_mm));
   TreePlace place = locate(id, foot.s_mm);
   place.off_mm = foot.rho_mm;
   place.past_end = foot.past_end;

@@ -1,9 +1,9 @@
 #include "editing/wall_editing.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/text.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -11,6 +11,7 @@
 
 namespace ostia::lumen {
 
+using core::mm_text;
 using geometry::AxisFoot;
 
 namespace {
@@ -41,12 +42,6 @@ double step_cost(const AxisFoot& a, const AxisFoot& b, double moved_mm) {
 
 double angle_between(double theta, double from) {
   return std::remainder(theta - from, 2.0 * pi);
-}
-
-std::string in_mm(double value) {
-  std::array<char, 40> text{};
-  std::snprintf(text.data(), text.size(), "%.2f mm", value);
-  return text.data();
 }
 
 std::string object_of(const LumenModel& model, std::int32_t vessel, const std::string& op) {
@@ -95,8 +90,9 @@ std::vector<AxisFoot> feet_along(const AxisCurve& axis, const std::vector<Vec3>&
     candidates.push_back(axis.feet(places[i], farthest_mm));
     if (candidates[i].empty())
       throw InvalidInput(what + ": point " + std::to_string(i + 1) + " is " +
-                         in_mm(axis.nearest_foot(places[i]).rho_mm) + " from the vessel's axis, more than " +
-                         in_mm(farthest_mm) + "; choose the vessel that it belongs to");
+                         mm_text(axis.nearest_foot(places[i]).rho_mm) +
+                         " from the vessel's axis, more than " + mm_text(farthest_mm) +
+                         "; choose the vessel that it belongs to");
     walks.emplace_back(candidates[i].size());
     for (std::size_t k = 0; k < candidates[i].size(); ++k) {
       Walk& walk = walks[i][k];
@@ -125,7 +121,7 @@ std::vector<AxisFoot> feet_along(const AxisCurve& axis, const std::vector<Vec3>&
     const double run = std::abs(feet[i].s_mm - feet[i - 1].s_mm), moved = (places[i] - places[i - 1]).norm();
     if (run > 4.0 * moved + 2.0)
       throw InvalidInput(what + ": from point " + std::to_string(i) + " to " + std::to_string(i + 1) + ", " +
-                         in_mm(moved) + " apart, its foot jumps " + in_mm(run) +
+                         mm_text(moved) + " apart, its foot jumps " + mm_text(run) +
                          " along the axis; set more points there, or draw on a cross-section");
   }
   return feet;
@@ -293,11 +289,11 @@ void check_not_inside_out(const AxisCurve& axis, const SurfaceSample& sample, co
   const Vec3 offset = sample.position - axis.point(sample.s_mm);
   const double across = (offset - offset.dot(frame.tangent) * frame.tangent).norm();
   if (sample.origin != SampleOrigin::cap && across < least_radius_mm)
-    throw InvalidInput(what + ": at " + in_mm(sample.s_mm) + " along the vessel the wall would be " +
-                       in_mm(across) + " from the axis; keep it at least " + in_mm(least_radius_mm) +
+    throw InvalidInput(what + ": at " + mm_text(sample.s_mm) + " along the vessel the wall would be " +
+                       mm_text(across) + " from the axis; keep it at least " + mm_text(least_radius_mm) +
                        " away, or move the axis first");
   if (!(sample.normal.dot(offset) > 0.0))
-    throw InvalidInput(what + ": at " + in_mm(sample.s_mm) +
+    throw InvalidInput(what + ": at " + mm_text(sample.s_mm) +
                        " along the vessel the wall would be inside out; draw it less steeply");
 }
 

@@ -28,7 +28,6 @@ std::vector<OwnedStretch> owned_stretches(const LumenModel& model, std::int32_t 
 void check_points(const std::vector<Vec3>& points, std::size_t least, const std::string& what);
 /// "cpr.stroke on LAD" for messages.
 std::string object_of(const LumenModel& model, std::int32_t vessel, const std::string& op);
-std::string in_mm(double value);  ///< "1.25 mm"
 
 /// Where places drawn one after another are along a vessel: of all orthogonal projections those that make one
 /// continuous walk, so that no foot jumps in a bend tighter than the radius. A plane's angle, if there is

@@ -4,6 +4,7 @@
 #include "wall/between.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +13,7 @@
 namespace ostia::lumen {
 namespace {
 
+using core::mm_text;
 using std::numbers::pi;
 constexpr double least_gap_mm = 0.15;  // between points of a contour
 constexpr double crowded_share = 0.3;
@@ -41,10 +43,10 @@ std::vector<Vec2> flat(const Section& section, const std::vector<Vec3>& points) 
 void check(const SectionContour& edit, double length_mm, const std::string& what) {
   check_points(edit.points, 3, what);
   if (!(edit.eps_mm > 0.0 && edit.eps_mm <= 20.0))
-    throw InvalidInput(what + ": eps is " + in_mm(edit.eps_mm) + "; it must be above 0 and at most 20 mm");
+    throw InvalidInput(what + ": eps is " + mm_text(edit.eps_mm) + "; it must be above 0 and at most 20 mm");
   if (!(edit.s_mm >= 0.0 && edit.s_mm <= length_mm))
-    throw InvalidInput(what + ": the section at " + in_mm(edit.s_mm) + " is not on the vessel, which is " +
-                       in_mm(length_mm) + " long");
+    throw InvalidInput(what + ": the section at " + mm_text(edit.s_mm) + " is not on the vessel, which is " +
+                       mm_text(length_mm) + " long");
 }
 
 void check_in_plane(const SectionContour& edit, const Section& section, const std::string& what) {
@@ -53,12 +55,12 @@ void check_in_plane(const SectionContour& edit, const Section& section, const st
     const Vec3 offset = edit.points[i] - section.centre;
     const double off = std::abs(offset.dot(section.frame.tangent));
     if (off > most)
-      throw InvalidInput(what + ": point " + std::to_string(i + 1) + " is " + in_mm(off) +
-                         " off the section at " + in_mm(edit.s_mm) + ", more than " + in_mm(most) +
+      throw InvalidInput(what + ": point " + std::to_string(i + 1) + " is " + mm_text(off) +
+                         " off the section at " + mm_text(edit.s_mm) + ", more than " + mm_text(most) +
                          "; draw it on the section that it belongs to");
     if (offset.norm() > farthest_mm)
-      throw InvalidInput(what + ": point " + std::to_string(i + 1) + " is " + in_mm(offset.norm()) +
-                         " from the axis, more than " + in_mm(farthest_mm) +
+      throw InvalidInput(what + ": point " + std::to_string(i + 1) + " is " + mm_text(offset.norm()) +
+                         " from the axis, more than " + mm_text(farthest_mm) +
                          "; choose the vessel that it belongs to");
   }
 }
@@ -103,7 +105,7 @@ void check_course(const std::vector<Vec2>& line, bool closed, const std::string&
     throw InvalidInput(what + " has no area; draw it around the lumen");
   const Turn turn = turn_of(line, closed);
   if (turn.nearest_mm < least_radius_mm)
-    throw InvalidInput(what + " comes within " + in_mm(least_radius_mm) +
+    throw InvalidInput(what + " comes within " + mm_text(least_radius_mm) +
                        " of the axis; draw it around the axis, or move the axis first");
   if (closed && std::abs(turn.whole) < pi)
     throw InvalidInput(what +
@@ -166,10 +168,10 @@ EditOutcome apply_to(const LumenModel& model, const SectionContour& edit) {
   const Section section = section_at(*owner.axis, edit.s_mm);
   check_in_plane(edit, section, work.what());
   const std::vector<Vec3> points = merged_neighbours(edit.points, least_gap_mm, edit.closed);
-  check_points(points, 3, work.what() + ", points nearer than " + in_mm(least_gap_mm) + " merged,");
+  check_points(points, 3, work.what() + ", points nearer than " + mm_text(least_gap_mm) + " merged,");
   if (points.size() < edit.points.size())
     work.notes.push_back(std::to_string(edit.points.size() - points.size()) +
-                         " points of the contour were nearer than " + in_mm(least_gap_mm) +
+                         " points of the contour were nearer than " + mm_text(least_gap_mm) +
                          " to their neighbours and were merged");
   check_course(flat(section, points), edit.closed, work.what());
   const DrawnCurve curve(points, edit.closed);

@@ -2,6 +2,7 @@
 #include "editing/wall_editing.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +11,8 @@
 
 namespace ostia::lumen {
 namespace {
+
+using core::mm_text;
 
 // A sample of the wall seen from the place that is dragged: its way there on the wall, developed into a
 // plane.
@@ -22,7 +25,7 @@ struct Neighbour {
 void check(const WallDrag& edit, const std::string& what) {
   check_points({edit.from, edit.to}, 2, what);
   if (!(edit.reach_mm > 0.0 && edit.reach_mm <= 20.0))
-    throw InvalidInput(what + ": the reach is " + in_mm(edit.reach_mm) +
+    throw InvalidInput(what + ": the reach is " + mm_text(edit.reach_mm) +
                        "; it must be above 0 and at most 20 mm");
 }
 
@@ -142,19 +145,19 @@ EditOutcome apply_to(const LumenModel& model, const WallDrag& edit) {
   const geometry::AxisFoot foot = foot_of(*owner.axis, edit.from, beside.s_mm);
   const double spacing = sample_spacing_mm(owner, foot.rho_mm);
   if (nearest.distance_mm > std::max(1.0, 2.0 * sample_spacing_mm(owner, farthest_mm)))
-    throw InvalidInput(work.what() + " starts " + in_mm(nearest.distance_mm) +
+    throw InvalidInput(work.what() + " starts " + mm_text(nearest.distance_mm) +
                        " from the vessel's wall; take hold of the wall itself");
   if ((edit.to - edit.from).norm() > farthest_mm)
-    throw InvalidInput(work.what() + " moves the wall by more than " + in_mm(farthest_mm) +
+    throw InvalidInput(work.what() + " moves the wall by more than " + mm_text(farthest_mm) +
                        "; drag it in steps");
   const double left = foot_of(*owner.axis, edit.to, foot.s_mm).rho_mm;
   if (left < least_radius_mm)
-    throw InvalidInput(work.what() + " ends " + in_mm(left) + " from the axis; keep the wall at least " +
-                       in_mm(least_radius_mm) + " away, or move the axis first");
+    throw InvalidInput(work.what() + " ends " + mm_text(left) + " from the axis; keep the wall at least " +
+                       mm_text(least_radius_mm) + " away, or move the axis first");
   const double too_near = std::min(0.5 * spacing, 0.5 * edit.reach_mm);
   if (edit.reach_mm < 1.5 * spacing)
-    work.notes.push_back("the reach of " + in_mm(edit.reach_mm) +
-                         " is shorter than one and a half times the wall's " + in_mm(spacing) +
+    work.notes.push_back("the reach of " + mm_text(edit.reach_mm) +
+                         " is shorter than one and a half times the wall's " + mm_text(spacing) +
                          " between samples: the wall follows as smoothly as they allow");
 
   for (const OwnedStretch& stretch : work.stretches()) {

@@ -2,6 +2,7 @@
 #include "editing/wall_editing.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +22,7 @@ enum class Push { outwards, inwards };
 void check(const WallPush& edit, const std::string& what) {
   check_points(edit.path, 1, what);
   if (!(edit.radius_mm > 0.0 && edit.radius_mm <= 10.0))
-    throw InvalidInput(what + ": the ball's radius is " + in_mm(edit.radius_mm) +
+    throw InvalidInput(what + ": the ball's radius is " + core::mm_text(edit.radius_mm) +
                        "; it must be above 0 and at most 10 mm");
 }
 
@@ -231,7 +232,7 @@ EditOutcome apply_to(const LumenModel& model, const WallPush& edit) {
     change.remove_crowded(0.3);
   }
   if (stopped > 0)
-    work.notes.push_back("the wall was stopped " + in_mm(pushed_radius_mm) + " before the axis at " +
+    work.notes.push_back("the wall was stopped " + core::mm_text(pushed_radius_mm) + " before the axis at " +
                          std::to_string(stopped) + " places; a wall never passes its axis");
   EditOutcome outcome = std::move(work).outcome();
   if (outcome.changes.empty()) outcome.notes.push_back("the ball did not touch the wall; nothing changed");

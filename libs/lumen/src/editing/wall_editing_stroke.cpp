@@ -4,6 +4,7 @@
 #include "wall/between.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +12,7 @@
 
 namespace ostia::lumen {
 
+using core::mm_text;
 using geometry::AxisFoot;
 
 namespace {
@@ -46,11 +48,11 @@ std::vector<Vec3> coordinates_of(const CprStroke& edit, const AxisCurve& axis, c
   for (std::size_t i = 0; i < points.size(); ++i) points[i] = straightened(axis, points[i], feet[i]);
   if (points.front().x() > points.back().x()) std::reverse(points.begin(), points.end());
   if (points.size() < 2 || points.back().x() - points.front().x() < least_stroke_gap_mm)
-    throw InvalidInput(what + " covers less than " + in_mm(least_stroke_gap_mm) +
+    throw InvalidInput(what + " covers less than " + mm_text(least_stroke_gap_mm) +
                        " of the vessel's length; draw it along the vessel, or use section.contour");
   if (points.size() < edit.points.size())
     notes.push_back(std::to_string(edit.points.size() - points.size()) +
-                    " points of the stroke were nearer than " + in_mm(least_stroke_gap_mm) +
+                    " points of the stroke were nearer than " + mm_text(least_stroke_gap_mm) +
                     " to their neighbours and were merged");
   return points;
 }
@@ -60,23 +62,23 @@ void check_course(const std::vector<Vec3>& line, const std::string& what) {
   double turn = 0.0;
   for (std::size_t i = 0; i < line.size(); ++i) {
     if (rho_of(line[i]) < least_radius_mm)
-      throw InvalidInput(what + " comes within " + in_mm(least_radius_mm) + " of the axis at " +
-                         in_mm(line[i].x()) + " along the vessel; draw each side of the wall by itself");
+      throw InvalidInput(what + " comes within " + mm_text(least_radius_mm) + " of the axis at " +
+                         mm_text(line[i].x()) + " along the vessel; draw each side of the wall by itself");
     const double step = i > 0 ? angle_between(theta_of(line[i]), theta_of(line[i - 1])) : 0.0;
     if (std::abs(step) > 0.5 * pi)
-      throw InvalidInput(what + " crosses the axis near " + in_mm(line[i].x()) +
+      throw InvalidInput(what + " crosses the axis near " + mm_text(line[i].x()) +
                          " along the vessel; draw each side of the wall by itself");
     turn += step;
     flat.emplace_back(line[i].x(), rho_of(line[i]) + 1e-9 * turn);
   }
   if (const auto crossing = self_crossing(flat, false))
-    throw InvalidInput(what + " crosses itself near " + in_mm(line[crossing->first].x()) +
+    throw InvalidInput(what + " crosses itself near " + mm_text(line[crossing->first].x()) +
                        " along the vessel; draw it without a loop");
   double farthest = line.front().x();
   for (const Vec3& place : line) {
     farthest = std::max(farthest, place.x());
     if (farthest - place.x() > back_mm)
-      throw InvalidInput(what + " runs back along the vessel at " + in_mm(farthest) +
+      throw InvalidInput(what + " runs back along the vessel at " + mm_text(farthest) +
                          "; draw it in one direction, or use section.contour");
   }
 }

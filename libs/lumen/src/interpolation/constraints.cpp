@@ -1,6 +1,7 @@
 #include "interpolation/constraints.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,11 +22,6 @@ constexpr double farthest_wall_mm = 10.0;  // of a lumen about its axis
 
 constexpr double bridged = 1.5;  // of the support radius: farther samples leave a place that no centre fills
 constexpr double widest_sector = 0.95 * std::numbers::pi;
-
-std::string in_mm(double value) {
-  std::string text = std::to_string(value);
-  return text.substr(0, text.find('.') + 4) + " mm";
-}
 
 void check(const SurfaceSample& sample) {
   const std::string object = "sample " + std::to_string(sample.id) + " of the wall";
@@ -310,9 +306,10 @@ bool ConstraintSet::surrounded(const Entry& entry) const {
 void ConstraintSet::check_for_holes(const std::vector<Vec3>& near) const {
   const auto check_entry = [&](const Entry& entry) {
     if (entry.made.empty() || surrounded(entry)) return;
-    throw InvalidInput("the wall has a hole at " + in_mm(entry.sample.s_mm) +
-                       " along the vessel: a support radius of " + in_mm(options_.support_radius_mm) +
-                       " does not bridge its samples; enlarge the support radius or add samples there");
+    throw InvalidInput("the wall has a hole at " + core::cut_text(entry.sample.s_mm, 3) +
+                       " mm along the vessel: a support radius of " +
+                       core::cut_text(options_.support_radius_mm, 3) +
+                       " mm does not bridge its samples; enlarge the support radius or add samples there");
   };
   if (near.empty()) {
     for (const SurfaceSample& sample : samples_)

@@ -1,6 +1,7 @@
 #include "interpolation/interpolation_system.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/text.h"
 
 #include <Eigen/Cholesky>
 
@@ -13,6 +14,8 @@
 namespace ostia::lumen {
 namespace {
 
+using core::cut_text;
+
 constexpr double tolerance_mm = 1e-7;
 constexpr double enough_mm = 1e-12;
 constexpr int refinements = 4;
@@ -23,11 +26,6 @@ struct RightSide {
   Vec3 centre = Vec3::Zero();
 };
 constexpr double unit_mm = 10.0;
-
-std::string in_words(double value) {
-  const std::string text = std::to_string(value);
-  return text.substr(0, text.find('.') + 3);
-}
 
 RightSide right_side(const std::vector<Constraint>& constraints, const InterpolationOptions& options) {
   const auto n = static_cast<Eigen::Index>(constraints.size());
@@ -70,10 +68,10 @@ void refuse_what_does_not_fit(const std::vector<Constraint>& constraints, const 
   if (bytes <= limits.memory_bytes && scale * operations <= limits.operations) return;
   throw ResourceError("the system of a wall with " + std::to_string(constraints.size()) +
                       " constraints fills up: with a support radius of " +
-                      in_words(options.support_radius_mm) + " mm it would take about " +
-                      in_words(bytes / (1 << 20)) + " MiB and " + in_words(1e-9 * scale * operations) +
-                      "e9 operations (limits " + in_words(limits.memory_bytes / (1 << 20)) + " and " +
-                      in_words(1e-9 * limits.operations) +
+                      cut_text(options.support_radius_mm, 2) + " mm it would take about " +
+                      cut_text(bytes / (1 << 20), 2) + " MiB and " + cut_text(1e-9 * scale * operations, 2) +
+                      "e9 operations (limits " + cut_text(limits.memory_bytes / (1 << 20), 2) + " and " +
+                      cut_text(1e-9 * limits.operations, 2) +
                       "e9); reduce the support radius or the number of samples");
 }
 
@@ -95,7 +93,7 @@ SymmetricMatrix interpolation_matrix(const std::vector<Constraint>& constraints,
     for (auto& [j, d2] : column) {
       if (d2 < 1e-16)
         throw InvalidInput("two constraints of the wall fall on one place at " +
-                           in_words(constraints[i].s_mm) +
+                           cut_text(constraints[i].s_mm, 2) +
                            " mm along the vessel; remove one of the samples there");
       d2 = phi(options.kernel, std::sqrt(d2) / alpha);
     }

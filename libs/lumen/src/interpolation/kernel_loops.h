@@ -4,79 +4,21 @@
 
 #include "interpolation/kernel_sums.h"
 
-#if defined(__SSE2__)
-#include <immintrin.h>
-#else
-#include <cmath>
-#endif
+#include "ostia/core/simd.h"
 
 #include <cstddef>
 
 namespace ostia::lumen {
 namespace {
 
-#if defined(__AVX2__)
-using Pack = __m256d;
-inline Pack load(const double* p) {
-  return _mm256_loadu_pd(p);
-}
-inline void store(double* p, Pack v) {
-  _mm256_storeu_pd(p, v);
-}
-inline Pack all(double v) {
-  return _mm256_set1_pd(v);
-}
-inline Pack root(Pack v) {
-  return _mm256_sqrt_pd(v);
-}
-inline Pack larger(Pack a, Pack b) {
-  return _mm256_max_pd(a, b);
-}
-inline int not_above(Pack a, Pack b) {
-  return _mm256_movemask_pd(_mm256_cmp_pd(a, b, _CMP_LE_OQ));
-}
-#elif defined(__SSE2__)
-using Pack = __m128d;
-inline Pack load(const double* p) {
-  return _mm_loadu_pd(p);
-}
-inline void store(double* p, Pack v) {
-  _mm_storeu_pd(p, v);
-}
-inline Pack all(double v) {
-  return _mm_set1_pd(v);
-}
-inline Pack root(Pack v) {
-  return _mm_sqrt_pd(v);
-}
-inline Pack larger(Pack a, Pack b) {
-  return _mm_max_pd(a, b);
-}
-inline int not_above(Pack a, Pack b) {
-  return _mm_movemask_pd(_mm_cmple_pd(a, b));
-}
-#else
-using Pack = double;
-inline Pack load(const double* p) {
-  return *p;
-}
-inline void store(double* p, Pack v) {
-  *p = v;
-}
-inline Pack all(double v) {
-  return v;
-}
-inline Pack root(Pack v) {
-  return std::sqrt(v);
-}
-inline Pack larger(Pack a, Pack b) {
-  return a > b ? a : b;
-}
-inline int not_above(Pack a, Pack b) {
-  return a <= b ? 1 : 0;
-}
-#endif
-constexpr std::size_t width = sizeof(Pack) / sizeof(double);
+using core::simd::all;
+using core::simd::larger;
+using core::simd::load;
+using core::simd::not_above;
+using core::simd::root;
+using core::simd::store;
+using Pack = core::simd::DoublePack;
+constexpr std::size_t width = core::simd::double_pack_size;
 
 // phi(x), with u = max(0, 1 - x) in place of a branch.
 template <Kernel kernel>

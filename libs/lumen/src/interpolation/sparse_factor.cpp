@@ -1,6 +1,7 @@
 #include "interpolation/sparse_factor.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/text.h"
 
 #include <cholmod.h>
 
@@ -28,21 +29,19 @@ cholmod_sparse view_of(const SymmetricMatrix& matrix) {
   return view;
 }
 
-std::string rounded(double value) {
-  return std::to_string(static_cast<long long>(value + 0.5));
-}
-
 void check(const cholmod_common& common, const cholmod_factor* factor, const FactorLimits& limits) {
   if (common.status == CHOLMOD_OUT_OF_MEMORY || common.status == CHOLMOD_TOO_LARGE || factor == nullptr)
     throw ResourceError("no memory is left for the analysis of a wall's system; reduce its support radius");
   const double bytes = 8.0 * common.lnz;
   if (bytes > limits.memory_bytes)
-    throw ResourceError("the factor of a wall's system would take " + rounded(bytes / (1 << 20)) +
-                        " MiB, more than " + rounded(limits.memory_bytes / (1 << 20)) +
+    throw ResourceError("the factor of a wall's system would take " +
+                        core::rounded_text(bytes / (1 << 20), 0) + " MiB, more than " +
+                        core::rounded_text(limits.memory_bytes / (1 << 20), 0) +
                         " MiB; reduce the support radius or the number of samples");
   if (common.fl > limits.operations)
-    throw ResourceError("the factor of a wall's system would take " + rounded(1e-9 * common.fl) +
-                        "e9 operations, more than " + rounded(1e-9 * limits.operations) +
+    throw ResourceError("the factor of a wall's system would take " +
+                        core::rounded_text(1e-9 * common.fl, 0) + "e9 operations, more than " +
+                        core::rounded_text(1e-9 * limits.operations, 0) +
                         "e9; reduce the support radius or the number of samples");
 }
 

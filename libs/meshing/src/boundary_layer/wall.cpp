@@ -3,11 +3,11 @@
 #include "cutting/plane_triangulation.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/text.h"
 #include "ostia/geometry/faces.h"
 #include "ostia/geometry/mesh_topology.h"
 
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <set>
 #include <string>
@@ -146,9 +146,8 @@ std::vector<double> local_edges(const LayerWall& wall) {
 }  // namespace
 
 std::string place_text(const Vec3& p) {
-  char text[96];
-  std::snprintf(text, sizeof text, "(%.2f, %.2f, %.2f) mm", p.x(), p.y(), p.z());
-  return text;
+  return "(" + core::fixed_text(p.x(), 2) + ", " + core::fixed_text(p.y(), 2) + ", " +
+         core::fixed_text(p.z(), 2) + ") mm";
 }
 
 Vec3 LayerWall::admissible(std::int32_t v, const Vec3& direction) const {

@@ -15,8 +15,7 @@ namespace ostia::meshing {
 inline void fill_cap(geometry::FacedSurface& surface, const std::vector<std::int32_t>& loop,
                      double edge_factor, const geometry::Face& face, double good_angle_deg = 0.0) {
   const std::vector<std::int32_t> reversed(loop.rbegin(), loop.rend());
-  std::vector<geometry::Vec3> points;
-  for (const std::int32_t v : reversed) points.push_back(surface.mesh.points[static_cast<std::size_t>(v)]);
+  const std::vector<geometry::Vec3> points = loop_points(surface.mesh, reversed);
   const FlatPatch patch =
       triangulate_flat(points, edge_factor * mean_edge(points), face.name, good_angle_deg);
   const auto first_inner = static_cast<std::int32_t>(surface.mesh.points.size());

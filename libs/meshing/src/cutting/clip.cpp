@@ -7,6 +7,7 @@
 #include "remeshing/remesher.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/text.h"
 #include "ostia/geometry/mesh_topology.h"
 #include "ostia/geometry/polyline.h"
 #include "ostia/meshing/sizing.h"
@@ -105,6 +106,15 @@ std::vector<OpenLoop> open_loops(const geometry::TriMesh& mesh) {
   return loops;
 }
 
+constexpr double flat_as_it_is = 0.5;  // of an end that is kept whatever its shape
+
+/// The end of the surface that this loop is, where it had a cap.
+const GivenEnd* given_at(const ClipOptions& options, const OpenLoop& loop) {
+  for (const GivenEnd& end : options.given)
+    if ((end.centre - loop.centroid).norm() < 0.5 * end.radius_mm) return &end;
+  return nullptr;
+}
+
 /// The open and flat loop at an end of the input, if there is one.
 OpenLoop* flat_end(std::vector<OpenLoop>& loops, const EndPlane& plane, const Vec3& end,
                    const ClipOptions& options) {
@@ -116,7 +126,11 @@ OpenLoop* flat_end(std::vector<OpenLoop>& loops, const EndPlane& plane, const Ve
     nearest = distance;
     best = &loop;
   }
-  if (!best || best->deviation > options.flat_tolerance * plane.radius_mm) return nullptr;
+  if (!best) return nullptr;
+  if ((options.ends_as_they_are || given_at(options, *best)) &&
+      best->deviation <= flat_as_it_is * plane.radius_mm)
+    return best;
+  if (best->deviation > options.flat_tolerance * plane.radius_mm) return nullptr;
   const double cosine = std::cos(options.flat_max_angle_deg * std::numbers::pi / 180.0);
   return best->normal.dot(plane.normal) >= cosine ? best : nullptr;
 }
@@ -279,12 +293,44 @@ Cut best_cut(const geometry::TriMesh& surface, std::size_t i, const EndPlane& wa
   return std::move(*best);
 }
 
+std::string end_words(const EndPlane& plane) {
+  return std::string(plane.kind == geometry::FaceKind::inlet ? "the inlet" : "the outlet") + " of vessel " +
+         plane.vessel;
+}
+
+/// All ends that cannot be cut at once, each with its place and what a person can do.
+void refuse(const std::vector<std::pair<EndPlane, std::string>>& failed) {
+  if (failed.empty()) return;
+  std::string message = failed.size() == 1 ? "" : std::to_string(failed.size()) + " ends cannot be cut:\n";
+  for (const auto& [plane, why] : failed) {
+    if (failed.size() > 1) message += "  ";
+    message += why + "; cut it where its lumen is a clean tube by --plane " + end_name(plane) + "=";
+    const Vec3 inside = plane.origin - 2.0 * plane.radius_mm * plane.normal;
+    for (int k = 0; k < 3; ++k) message += (k ? "," : "") + core::fixed_text(inside[k], 2);
+    for (int k = 0; k < 3; ++k) message += (k ? "," : ":") + core::fixed_text(plane.normal[k], 3);
+    message += " (now at " + core::fixed_text(plane.origin.x(), 2) + "," +
+               core::fixed_text(plane.origin.y(), 2) + "," + core::fixed_text(plane.origin.z(), 2) +
+               "), or farther inside by --inset";
+    if (failed.size() > 1) message += "\n";
+  }
+  throw GeometryError(message);
+}
+
+/// The inlet is called as its cap was; outlets have the names of their vessels already.
+void name_inlet(ClippedEnd& end, const OpenLoop& loop, const ClipOptions& options) {
+  const GivenEnd* given = given_at(options, loop);
+  if (given && !given->name.empty() && end.plane.kind == geometry::FaceKind::inlet)
+    end.plane.vessel = given->name;
+}
+
 void cut_end(ClippedSurface& result, std::size_t i, const geometry::VesselTree& tree,
              const ClipOptions& options, const std::string& name) {
   ClippedEnd& end = result.ends[i];
   const EndPlane wanted = end.plane;
   const bool placed = placed_plane(options, end.plane) != nullptr;
-  Cut cut = placed ? cut_at(result.mesh, wanted, tree, options, name)
+  ClipOptions anywhere = options;  // a person may cut at any distance from the axis' end
+  anywhere.reach_radii = std::numeric_limits<double>::infinity();
+  Cut cut = placed ? cut_at(result.mesh, wanted, tree, anywhere, name)
                    : best_cut(result.mesh, i, wanted, tree, options, name);
   result.mesh = std::move(cut.mesh);
   end.plane = std::move(cut.plane);
@@ -325,6 +371,7 @@ ClippedSurface clip_ends(const geometry::TriMesh& lumen, const geometry::VesselT
     OpenLoop* loop = flat_end(loops, end.plane, end_position(tree, end.plane), options);
     if (!loop) continue;
     loop->used = end.was_open = true;
+    name_inlet(end, *loop, options);
     end.plane.origin = loop->centroid;
     end.plane.normal = loop->normal;
     for (const std::int32_t v : loop->vertices) {
@@ -332,16 +379,19 @@ ClippedSurface clip_ends(const geometry::TriMesh& lumen, const geometry::VesselT
       p -= (p - loop->centroid).dot(loop->normal) * loop->normal;
     }
   }
+  std::vector<std::pair<EndPlane, std::string>> failed;
   for (std::size_t i = 0; i < result.ends.size(); ++i) {
     task.throw_if_cancelled();
     task.set_progress(static_cast<double>(i) / static_cast<double>(result.ends.size()));
-    ClippedEnd& end = result.ends[i];
-    if (end.was_open) continue;
-    const std::string name =
-        std::string(end.plane.kind == geometry::FaceKind::inlet ? "the inlet" : "the outlet") +
-        " of vessel " + end.plane.vessel;
-    cut_end(result, i, tree, options, name);
+    if (result.ends[i].was_open) continue;
+    const EndPlane wanted = result.ends[i].plane;
+    try {
+      cut_end(result, i, tree, options, end_words(wanted));
+    } catch (const GeometryError& error) {
+      failed.emplace_back(wanted, error.what());
+    }
   }
+  refuse(failed);
   match_loops(result);
   task.set_progress(1.0);
   return result;

@@ -253,6 +253,12 @@ Vec3 loop_normal(const std::vector<Vec3>& loop) {
   return normal;
 }
 
+std::vector<Vec3> loop_points(const geometry::TriMesh& mesh, const std::vector<std::int32_t>& loop) {
+  std::vector<Vec3> points;
+  for (const std::int32_t v : loop) points.push_back(mesh.points[static_cast<std::size_t>(v)]);
+  return points;
+}
+
 double mean_edge(const std::vector<Vec3>& loop) {
   double sum = 0.0;
   for (std::size_t i = 0; i < loop.size(); ++i) sum += (loop[(i + 1) % loop.size()] - loop[i]).norm();

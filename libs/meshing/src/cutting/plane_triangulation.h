@@ -3,6 +3,7 @@
 
 #include "ostia/geometry/tri_mesh.h"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -23,5 +24,7 @@ FlatPatch triangulate_flat(const std::vector<geometry::Vec3>& loop, double edge_
 /// Normal of a loop by Newell's formula, as long as twice its area.
 geometry::Vec3 loop_normal(const std::vector<geometry::Vec3>& loop);
 double mean_edge(const std::vector<geometry::Vec3>& loop);
+/// Where a loop of a mesh's points lies.
+std::vector<geometry::Vec3> loop_points(const geometry::TriMesh& mesh, const std::vector<std::int32_t>& loop);
 
 }  // namespace ostia::meshing

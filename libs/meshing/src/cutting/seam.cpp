@@ -28,17 +28,11 @@ constexpr double good_angle_deg = 30.0;  // a seam is left alone from here on ..
 constexpr double even_edges = 1.6;       // ... when its longest edge is this much longer than its shortest
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-std::vector<Vec3> points_of(const TriMesh& mesh, const std::vector<std::int32_t>& loop) {
-  std::vector<Vec3> points;
-  for (const std::int32_t v : loop) points.push_back(mesh.points[static_cast<std::size_t>(v)]);
-  return points;
-}
-
 /// Neighbours of the points in the loop's box, widened by `reach`: the rest of a large surface is not looked
 /// at.
 std::unordered_map<std::int32_t, std::vector<std::int32_t>> neighbours_near(
     const TriMesh& mesh, const std::vector<std::int32_t>& loop, double reach) {
-  geometry::Box3 box = geometry::bounds(points_of(mesh, loop));
+  geometry::Box3 box = geometry::bounds(loop_points(mesh, loop));
   box.min().array() -= reach;
   box.max().array() += reach;
   std::unordered_map<std::int32_t, std::vector<std::int32_t>> neighbours;
@@ -228,7 +222,7 @@ double seam_angle_deg(const TriMesh& mesh, const std::vector<std::int32_t>& loop
 }
 
 std::optional<EvenSeam> even_seam(const TriMesh& mesh, const std::vector<std::int32_t>& loop) {
-  const std::vector<Vec3> points = points_of(mesh, loop);
+  const std::vector<Vec3> points = loop_points(mesh, loop);
   double shortest = infinite, longest = 0.0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double edge = (points[(i + 1) % points.size()] - points[i]).norm();
@@ -272,7 +266,7 @@ std::optional<EvenSeam> even_seam(const TriMesh& mesh, const std::vector<std::in
 
 std::optional<EvenSeam> mended_seam(const TriMesh& mesh, const std::vector<std::int32_t>& loop) {
   const double before = seam_angle_deg(mesh, loop);
-  const double edge = mean_edge(points_of(mesh, loop));
+  const double edge = mean_edge(loop_points(mesh, loop));
   for (const double width : {4.0 * edge, 5.5 * edge, 7.0 * edge}) {
     const std::vector<double> distance = distances(mesh, loop, width);
     const std::vector<bool> inside = within(mesh, distance);

@@ -90,12 +90,6 @@ std::vector<std::size_t> chosen(const ClippedSurface& clipped, const FlowExtensi
   return ends;
 }
 
-std::vector<Vec3> points_of(const geometry::TriMesh& mesh, const std::vector<std::int32_t>& loop) {
-  std::vector<Vec3> points;
-  for (const std::int32_t v : loop) points.push_back(mesh.points[static_cast<std::size_t>(v)]);
-  return points;
-}
-
 /// Evens the seam of an end; all loops get the new numbers.
 void even(ClippedSurface& clipped, std::size_t end) {
   auto seam = even_seam(clipped.mesh, clipped.ends[end].loop);
@@ -125,7 +119,7 @@ Extension planned(const ClippedSurface& clipped, std::size_t end, double area,
                   const geometry::VesselTree& tree, const FlowExtensionOptions& options) {
   const EndPlane& plane = clipped.ends[end].plane;
   const std::string name = end_name(plane);
-  std::vector<Vec3> loop = points_of(clipped.mesh, clipped.ends[end].loop);
+  std::vector<Vec3> loop = loop_points(clipped.mesh, clipped.ends[end].loop);
   std::reverse(loop.begin(), loop.end());
   const Vec3 normal = loop_normal(loop).normalized();
   const AxisEnd axis = axis_end(tree, plane, 2.0 * std::sqrt(area / std::numbers::pi));
@@ -267,7 +261,7 @@ ExtendedEnds extend_ends(const ClippedSurface& clipped, const geometry::VesselTr
   for (std::size_t i = 0; i < ends.size(); ++i) {
     task.throw_if_cancelled();
     task.set_progress(0.3 * static_cast<double>(i) / static_cast<double>(ends.size()));
-    areas.push_back(polygon_area(points_of(clipped.mesh, clipped.ends[ends[i]].loop)));
+    areas.push_back(polygon_area(loop_points(clipped.mesh, clipped.ends[ends[i]].loop)));
     if (options.even_seam) even(even_ends, ends[i]);
   }
   for (ClippedEnd& end : even_ends.ends) end.plane = at_node_of(tree, end.plane);

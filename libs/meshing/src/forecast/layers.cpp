@@ -3,10 +3,10 @@
 #include "forecast/surface.h"
 
 #include "ostia/core/parallel.h"
+#include "ostia/core/text.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace ostia::meshing {
 
@@ -43,9 +43,8 @@ std::vector<SightCone> inward_normals(const LayerWall& wall) {
 }
 
 std::string percent(double share) {
-  char text[32];
-  std::snprintf(text, sizeof text, share < 0.0995 ? "%.2g %%" : "%.0f %%", 100.0 * share);
-  return text;
+  const double percents = 100.0 * share;
+  return (share < 0.0995 ? core::significant_text(percents, 2) : core::fixed_text(percents, 0)) + " %";
 }
 
 void add_folds(const ForecastSurface& surface, const std::vector<double>& sight,

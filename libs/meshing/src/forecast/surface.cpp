@@ -1,13 +1,13 @@
 #include "forecast/surface.h"
 
 #include "ostia/core/parallel.h"
+#include "ostia/core/text.h"
 #include "ostia/geometry/disjoint_sets.h"
 #include "ostia/geometry/faces.h"
 #include "ostia/geometry/mesh_topology.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -186,9 +186,7 @@ void add_places(std::vector<ForecastPlace> found, const ForecastOptions& options
 }
 
 std::string millimetres(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.3g mm", value);
-  return text;
+  return core::significant_text(value, 3) + " mm";
 }
 
 std::string counted(std::size_t count, const std::string& one, const std::string& many) {

@@ -2,11 +2,11 @@
 #include "forecast/surface.h"
 
 #include "ostia/core/parallel.h"
+#include "ostia/core/text.h"
 #include "ostia/geometry/mesh_topology.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <map>
 #include <queue>
@@ -14,18 +14,13 @@
 
 namespace ostia::meshing {
 
+using core::significant_text;
 using geometry::Vec3;
 
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr std::size_t least_points = 3;  // of a place: less is a needle
-
-std::string number(double value, const char* format = "%.2g") {
-  char text[32];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
 
 /// The first wall seen along a direction, which must face the one that looks.
 std::optional<geometry::RayHit> facing(const ForecastSurface& surface, std::size_t v, const Vec3& direction,
@@ -110,8 +105,8 @@ void look_at_ends(const ForecastSurface& surface, std::vector<ForecastPlace>& pl
                      millimetres(edge) + " long, near " + place_text(end.centre);
     place.repair = OfferedRepair::smaller_edges;
     place.factor = end.diameter_mm / (std::max(fewest_edges, surface.options.min_edges_across) * edge);
-    place.repair_sentence =
-        "mesh with " + number(place.factor) + " times the edge length, or cut the end farther inside";
+    place.repair_sentence = "mesh with " + significant_text(place.factor, 2) +
+                            " times the edge length, or cut the end farther inside";
     found.push_back(std::move(place));
   }
   add_places(std::move(found), surface.options, places);
@@ -160,13 +155,13 @@ bool look_at_units(const ForecastSurface& surface, const WallDistances& distance
   place.point = box.center();
   place.extent_mm = 0.5 * size.norm();
   place.count = surface.mesh.points.size();
-  place.sentence = "the vessel is " + millimetres(width) + " wide and the whole " + number(size.x(), "%.3g") +
-                   " x " + number(size.y(), "%.3g") + " x " + millimetres(size.z()) + ": that looks like " +
-                   unit->name;
+  place.sentence = "the vessel is " + millimetres(width) + " wide and the whole " +
+                   significant_text(size.x(), 3) + " x " + significant_text(size.y(), 3) + " x " +
+                   millimetres(size.z()) + ": that looks like " + unit->name;
   place.factor = unit->factor;
   place.repair = OfferedRepair::convert_units;
   place.repair_sentence =
-      std::string("read it in ") + unit->name + " (times " + number(unit->factor, "%g") + ")";
+      std::string("read it in ") + unit->name + " (times " + significant_text(unit->factor, 6) + ")";
   places.push_back(std::move(place));
   return true;
 }
@@ -194,13 +189,13 @@ void look_at_sizes(const ForecastSurface& surface, const WallDistances& distance
     const bool larger = asked_for && edges_across < 1.0;
     ForecastPlace place =
         place_at(surface, larger ? TroubleKind::edge_size : TroubleKind::narrow_lumen, larger, cluster);
-    place.sentence =
-        "the lumen is " + millimetres(distances.across[worst]) + " wide and an edge " +
-        millimetres(surface.edge_mm[worst]) + " long near " + place_text(place.point) +
-        (larger ? ": the edge is larger than the vessel" : ": " + number(edges_across) + " edges across");
+    place.sentence = "the lumen is " + millimetres(distances.across[worst]) + " wide and an edge " +
+                     millimetres(surface.edge_mm[worst]) + " long near " + place_text(place.point) +
+                     (larger ? ": the edge is larger than the vessel"
+                             : ": " + significant_text(edges_across, 2) + " edges across");
     place.repair = OfferedRepair::smaller_edges;
     place.factor = edges_across / std::max(surface.options.min_edges_across, 1.0);
-    place.repair_sentence = "mesh with " + number(place.factor) + " times the edge length there";
+    place.repair_sentence = "mesh with " + significant_text(place.factor, 2) + " times the edge length there";
     (larger ? too_large : narrow).push_back(std::move(place));
   }
   add_places(std::move(too_large), surface.options, places);

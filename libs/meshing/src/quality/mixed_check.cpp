@@ -1,21 +1,14 @@
 #include "boundary_layer/wall.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/text.h"
 #include "ostia/meshing/mixed_quality.h"
-
-#include <cstdio>
 
 namespace ostia::meshing {
 
 using geometry::Vec3;
 
 namespace {
-
-std::string shown_number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
 
 /// Collects what is wrong.
 class Reasons {
@@ -35,8 +28,8 @@ class Reasons {
  private:
   void add(const std::string& what, double value, const std::string& unit, const char* side, double bound,
            const Vec3* at) {
-    verdict_.reasons.push_back(what + " " + shown_number(value) + unit + " is " + side + " " +
-                               shown_number(bound) + (at ? ", near " + place_text(*at) : ""));
+    verdict_.reasons.push_back(what + " " + core::significant_text(value, 4) + unit + " is " + side + " " +
+                               core::significant_text(bound, 4) + (at ? ", near " + place_text(*at) : ""));
   }
   QualityVerdict& verdict_;
 };

@@ -1,6 +1,7 @@
 #include "ostia/meshing/quality.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/text.h"
 #include "ostia/geometry/aabb_tree.h"
 #include "ostia/geometry/mesh_topology.h"
 
@@ -12,6 +13,7 @@
 
 namespace ostia::meshing {
 
+using core::trimmed_text;
 using geometry::Vec3;
 
 namespace {
@@ -20,13 +22,6 @@ constexpr double degrees = 180.0 / std::numbers::pi;
 
 double angle_deg(const Vec3& u, const Vec3& v) {
   return degrees * std::atan2(u.cross(v).norm(), u.dot(v));
-}
-
-std::string number(double value) {
-  std::string text = std::to_string(value);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.back() == '.') text.pop_back();
-  return text;
 }
 
 struct Edge {
@@ -214,13 +209,13 @@ QualityVerdict check(const SurfaceQuality& q, const QualityBounds& bounds) {
   none(q.inconsistent_edges, "edges whose triangles are turned against each other");
   none(q.self_intersections, "self-intersections");
   if (q.triangles > 0 && q.open_edges == 0 && !(q.volume_mm3 > 0.0))
-    verdict.reasons.push_back("volume " + number(q.volume_mm3) + " mm3: the surface points inward");
+    verdict.reasons.push_back("volume " + trimmed_text(q.volume_mm3, 6) + " mm3: the surface points inward");
   if (!(q.min_angle_deg >= bounds.min_angle_deg))
-    verdict.reasons.push_back("smallest angle " + number(q.min_angle_deg) + " degrees is below " +
-                              number(bounds.min_angle_deg));
+    verdict.reasons.push_back("smallest angle " + trimmed_text(q.min_angle_deg, 6) + " degrees is below " +
+                              trimmed_text(bounds.min_angle_deg, 6));
   if (!(q.max_frobenius_aspect <= bounds.max_frobenius_aspect))
-    verdict.reasons.push_back("largest Frobenius aspect ratio " + number(q.max_frobenius_aspect) +
-                              " is above " + number(bounds.max_frobenius_aspect));
+    verdict.reasons.push_back("largest Frobenius aspect ratio " + trimmed_text(q.max_frobenius_aspect, 6) +
+                              " is above " + trimmed_text(bounds.max_frobenius_aspect, 6));
   return verdict;
 }
 

@@ -165,6 +165,24 @@ std::vector<double> vessel_sizes(const geometry::TriMesh& surface, const TubeFun
   return sizes;
 }
 
+/// A wall farther from its axis than this many inscribed radii belongs to something else.
+constexpr double explained_radii = 2.5;
+/// The width of such a branch may be this much larger than rays see it.
+constexpr double calibre_margin = 1.25;
+
+/// D_c of a wall that no axis explains is no more than what rays see there.
+void bound_by_calibre(const geometry::TriMesh& surface, const TubeFunction& tube,
+                      const SizingOptions& options, std::vector<double>& sizes,
+                      const core::TaskContext& task) {
+  if (options.measure != SizeMeasure::distance) return;
+  const std::vector<double> radii = local_radii(surface, tube, task);
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    const TubeSize size = tube(surface.points[i]);
+    if (size.distance_mm > explained_radii * size.radius_mm)
+      sizes[i] = std::min(sizes[i], calibre_margin * radii[i]);
+  }
+}
+
 std::vector<double> from_array(const geometry::TriMesh& surface, const SizeArray& array) {
   const geometry::AabbTree tree(array.surface);
   std::vector<double> lengths(surface.points.size());
@@ -207,7 +225,8 @@ void shorten_at(const SizeFocus& focus, const geometry::TriMesh& surface, std::v
 std::vector<double> target_edge_lengths(const geometry::TriMesh& surface, const TubeFunction& tube,
                                         const SizingOptions& options, const core::TaskContext& task) {
   validate(options);
-  const std::vector<double> sizes = vessel_sizes(surface, tube, options, task);
+  std::vector<double> sizes = vessel_sizes(surface, tube, options, task);
+  bound_by_calibre(surface, tube, options, sizes, task);
   std::vector<double> lengths;
   if (options.array) {
     lengths = from_array(surface, *options.array);

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace ostia::segmentation {
@@ -69,13 +70,29 @@ detail::FrontStop stop_at(const Voxel& target, const imaging::Geometry& geometry
   return stop;
 }
 
-[[noreturn]] void throw_never_meet(const Pair& pair, const detail::SpeedModel& speed, std::size_t reached) {
+/// Of the voxels that a front has covered, the one nearest to where it should go.
+Vec3 nearest_covered(const FrontTimes& front, const imaging::Geometry& geometry, const Vec3& target) {
+  Vec3 nearest = target;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Voxel& v : front.order) {
+    const Vec3 here = geometry.world(Vec3(v[0], v[1], v[2]));
+    if ((here - target).norm() >= least) continue;
+    least = (here - target).norm();
+    nearest = here;
+  }
+  return nearest;
+}
+
+[[noreturn]] void throw_never_meet(const Pair& pair, const detail::SpeedModel& speed, const FrontTimes& first,
+                                   const imaging::Geometry& geometry) {
+  const Vec3 reached = nearest_covered(first, geometry, pair.to);
   throw GeometryError(
       "the fronts from " + detail::text(pair.from) + " and " + detail::text(pair.to) +
       " mm never meet: within " + std::to_string(std::llround(speed.range.lower)) + " to " +
-      std::to_string(std::llround(speed.range.upper)) + " HU the first covered " + std::to_string(reached) +
-      " voxels and did not reach the other seed; lower the lower bound, or check that both seeds "
-      "lie in the same vessel");
+      std::to_string(std::llround(speed.range.upper)) + " HU the first covered " +
+      std::to_string(first.order.size()) + " voxels and came as far as " + detail::text(reached) + " mm, " +
+      std::to_string(std::llround((reached - pair.to).norm())) +
+      " mm before the other seed; lower the lower bound, or check that both seeds lie in the same vessel");
 }
 
 Fronts run_fronts(const imaging::ImageVolume& image, const Pair& pair, const detail::SpeedModel& speed,
@@ -87,7 +104,7 @@ Fronts run_fronts(const imaging::ImageVolume& image, const Pair& pair, const det
     fronts[n] = detail::march(image, {source}, speed, stop_at(target, image.geometry, options), task);
   });
   if (fronts[0]->target_time == kUnreached || fronts[1]->target_time == kUnreached) {
-    throw_never_meet(pair, speed, fronts[0]->order.size());
+    throw_never_meet(pair, speed, *fronts[0], image.geometry);
   }
   return {std::move(*fronts[0]), std::move(*fronts[1])};
 }

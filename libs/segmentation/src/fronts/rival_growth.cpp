@@ -1,6 +1,7 @@
 #include "ostia/segmentation/rival_growth.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/text.h"
 
 #include <algorithm>
 #include <array>
@@ -17,9 +18,8 @@ using imaging::ImageVolume;
 using imaging::MaskVolume;
 
 std::string text_of(const Vec3& p) {
-  char text[120];
-  std::snprintf(text, sizeof text, "(%.1f, %.1f, %.1f)", p.x(), p.y(), p.z());
-  return text;
+  return "(" + core::fixed_text(p.x(), 1) + ", " + core::fixed_text(p.y(), 1) + ", " +
+         core::fixed_text(p.z(), 1) + ")";
 }
 
 /// The brightest voxel within `snap_mm` of a place; of equals the first in scanning order.

@@ -4,95 +4,23 @@
 
 #include "vesselness/tube_loops.h"
 
-#if defined(__SSE2__)
-#include <immintrin.h>
-#else
-#include <cmath>
-#endif
+#include "ostia/core/simd.h"
+
+#include <cstddef>
 
 namespace ostia::segmentation::detail {
 namespace {
 
-#if defined(__AVX2__)
-using Pack = __m256;
-inline Pack load(const float* p) {
-  return _mm256_loadu_ps(p);
-}
-inline void store(float* p, Pack v) {
-  _mm256_storeu_ps(p, v);
-}
-inline Pack all(float v) {
-  return _mm256_set1_ps(v);
-}
-inline Pack root(Pack v) {
-  return _mm256_sqrt_ps(v);
-}
-inline Pack larger(Pack a, Pack b) {
-  return _mm256_max_ps(a, b);
-}
-inline Pack smaller(Pack a, Pack b) {
-  return _mm256_min_ps(a, b);
-}
-inline Pack above(Pack a, Pack b) {
-  return _mm256_cmp_ps(a, b, _CMP_GT_OQ);
-}
-inline Pack choose(Pack where, Pack yes, Pack no) {
-  return _mm256_blendv_ps(no, yes, where);
-}
-#elif defined(__SSE2__)
-using Pack = __m128;
-inline Pack load(const float* p) {
-  return _mm_loadu_ps(p);
-}
-inline void store(float* p, Pack v) {
-  _mm_storeu_ps(p, v);
-}
-inline Pack all(float v) {
-  return _mm_set1_ps(v);
-}
-inline Pack root(Pack v) {
-  return _mm_sqrt_ps(v);
-}
-inline Pack larger(Pack a, Pack b) {
-  return _mm_max_ps(a, b);
-}
-inline Pack smaller(Pack a, Pack b) {
-  return _mm_min_ps(a, b);
-}
-inline Pack above(Pack a, Pack b) {
-  return _mm_cmpgt_ps(a, b);
-}
-inline Pack choose(Pack where, Pack yes, Pack no) {
-  return _mm_or_ps(_mm_and_ps(where, yes), _mm_andnot_ps(where, no));
-}
-#else
-using Pack = float;
-inline Pack load(const float* p) {
-  return *p;
-}
-inline void store(float* p, Pack v) {
-  *p = v;
-}
-inline Pack all(float v) {
-  return v;
-}
-inline Pack root(Pack v) {
-  return std::sqrt(v);
-}
-inline Pack larger(Pack a, Pack b) {
-  return a > b ? a : b;
-}
-inline Pack smaller(Pack a, Pack b) {
-  return a < b ? a : b;
-}
-inline Pack above(Pack a, Pack b) {
-  return a > b ? 1.0F : 0.0F;
-}
-inline Pack choose(Pack where, Pack yes, Pack no) {
-  return where != 0.0F ? yes : no;
-}
-#endif
-constexpr std::size_t width = sizeof(Pack) / sizeof(float);
+using core::simd::above;
+using core::simd::all;
+using core::simd::choose;
+using core::simd::larger;
+using core::simd::load;
+using core::simd::root;
+using core::simd::smaller;
+using core::simd::store;
+using Pack = core::simd::FloatPack;
+constexpr std::size_t width = core::simd::float_pack_size;
 
 template <std::size_t packs>
 inline void blur_packs(const float* in, std::ptrdiff_t stride, const float* weights, int radius, float* out) {

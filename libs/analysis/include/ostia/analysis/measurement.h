@@ -4,10 +4,13 @@
 #include "ostia/analysis/lumen_profile.h"
 #include "ostia/imaging/volume.h"
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace ostia::analysis {
@@ -21,7 +24,22 @@ enum class MeasureKind {
   volume,    ///< of a vessel's lumen between two abscissas
   ring_hu,   ///< CT numbers about the lumen, at an abscissa, between two distances from the wall
 };
-std::string to_string(MeasureKind kind);            ///< "distance", ...
+inline constexpr std::array<MeasureKind, 7> measure_kinds = {
+    MeasureKind::distance, MeasureKind::angle,  MeasureKind::area,   MeasureKind::diameter,
+    MeasureKind::stenosis, MeasureKind::volume, MeasureKind::ring_hu};
+
+struct MeasureTraits {
+  MeasureKind kind;
+  std::string_view name;   ///< in case files and reports' tables, where it stays what it is: "ring_hu"
+  std::string_view label;  ///< to a person: "HU in a ring"
+  std::size_t points;      ///< how many it has; 0: it lies on a vessel's axis
+  bool more_points;        ///< that many at least
+  std::string_view fault;  ///< what is wrong with another number of them
+  bool of_vessel;          ///< it is nowhere but on a vessel
+};
+/// Throws InvalidInput for a kind that is none of them.
+const MeasureTraits& traits_of(MeasureKind kind);
+std::string to_string(MeasureKind kind);            ///< MeasureTraits::name
 MeasureKind measure_kind(const std::string& name);  ///< throws InvalidInput listing the kinds
 
 /// Plain value, kept in a case file; world points, LPS mm.

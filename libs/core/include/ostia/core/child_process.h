@@ -23,6 +23,7 @@ struct ChildResult {
   int signal = 0;              ///< 0, or the signal that ended the child
   bool out_of_time = false;    ///< ended by the CPU limit
   std::string standard_error;  ///< last 64 KiB
+  double peak_mb = 0.0;        ///< most memory resident, of it or of one of its own children
   /// "was killed by signal 11 (segmentation fault)", "ran out of its 600 s of CPU time", "exited with code
   /// 3".
   std::string describe() const;
@@ -31,10 +32,12 @@ struct ChildResult {
 
 /// Runs `program` with `arguments`, no shell, standard input closed, standard output discarded, environment
 /// reduced to PATH, LC_ALL=C, TMPDIR and the OSTIA_ variables. The child dies with its parent. Blocks; on
-/// cancel the child is killed and ostia::Cancelled thrown. Throws ResourceError when no process can be made,
-/// IoError when the program is not there.
+/// cancel the child is killed and ostia::Cancelled thrown. What it says on standard error is also appended to
+/// the file `log`, where one is given, as it comes. Throws ResourceError when no process can be made, IoError
+/// when the program is not there or the log cannot be written.
 ChildResult run_child(const std::filesystem::path& program, const std::vector<std::string>& arguments,
-                      const ChildLimits& limits = {}, const TaskContext& task = no_task());
+                      const ChildLimits& limits = {}, const TaskContext& task = no_task(),
+                      const std::filesystem::path& log = {});
 
 /// As a shell would find it; nothing where it is not there or cannot be run.
 std::optional<std::filesystem::path> program_on_path(const std::string& name);

@@ -1,8 +1,10 @@
 #pragma once
 /// \file The log, on stderr. Nothing of a patient's identity goes into it.
 
+#include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace ostia::core {
 
@@ -15,10 +17,30 @@ LogFormat log_format();
 
 /// Registers a text that identifies a patient or may do so (a name, an identifier, a path the user gave).
 /// From now on it is replaced by `alias` in everything that is logged; a text that is known gets the new
-/// alias. Texts shorter than three characters are ignored.
+/// alias. Texts shorter than three characters are ignored, and those of `never_redact`.
 void redact_in_logs(std::string_view secret, std::string_view alias);
-/// The text with everything registered replaced; what log_* applies. For other writers of files, too.
+/// The same for what is kept (manifests, reports, pictures), but not for the log, where the user who gave a
+/// path may read it.
+void redact_in_results(std::string_view secret, std::string_view alias);
+/// Words that messages are made of and that name nobody: a folder may be called "out" without "left out"
+/// becoming something else.
+void never_redact(const std::set<std::string>& words);
+/// The text with everything registered replaced: for writers of files.
 std::string redacted(std::string_view text);
+/// What log_* applies: without what is registered for results alone.
+std::string redacted_for_log(std::string_view text);
+
+/// Gathers what is logged as a warning while it lives, whether it is shown or not, for what is written down
+/// at the end of a job. Those of all threads; of several collectors each one hears all.
+class HeardWarnings {
+ public:
+  HeardWarnings();
+  ~HeardWarnings();
+  HeardWarnings(const HeardWarnings&) = delete;
+  HeardWarnings& operator=(const HeardWarnings&) = delete;
+};
+/// What the youngest living collector has heard, each once; nothing without one.
+std::vector<std::string> heard_warnings();
 
 void log_debug(std::string_view message);
 void log_info(std::string_view message);

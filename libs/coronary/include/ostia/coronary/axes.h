@@ -32,6 +32,7 @@ struct CentredTree {
   geometry::VesselTree tree;          ///< sound; a root for each ostium; vessels "V1", "V2", ..., mm
   std::vector<AxisNotes> notes;       ///< one a vessel, in the tree's order
   std::vector<std::string> warnings;  ///< branches that were left out, and why
+  std::vector<std::string> left_out;  ///< of these the ones that could not be followed: a person must look
 };
 
 /// Each branch is centred in the lumen, smoothed and measured (segmentation::path_along); a daughter begins

@@ -25,6 +25,7 @@ struct Extraction {
   LabelledTree vessels;          ///< axes with radii, named as far as that is sure
   std::vector<AxisNotes> notes;  ///< one a vessel, in the tree's order: of the branch that ends where it does
   std::vector<std::string> warnings;  ///< of all steps, in plain words
+  std::vector<std::string> left_out;  ///< CentredTree::left_out, also among the warnings
 };
 
 /// Looks first whether the image can hold a coronary tree (docs/methods/coronary-input.md); then aorta,

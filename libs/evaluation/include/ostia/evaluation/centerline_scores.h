@@ -19,11 +19,24 @@ enum class LineDirection {
   as_given       ///< the challenge's rule: a line written from its distal end loses
 };
 
+/// How OF and OT are read where the paper's words leave room. OV and AI are the same by both.
+enum class OverlapRules {
+  /// As the challenge's own program counts. OF: the points of the reference before the one at which a pair
+  /// fails first, be it a pair of a candidate that strays and comes back, or that goes on beyond the end. OT:
+  /// the pairs up to the first one that reaches the last point that is wide enough; what else the candidate
+  /// has there or beyond does not count.
+  challenge,
+  /// The paper's words. OF: the points before the first one none of whose pairs counts. OT: all pairs of the
+  /// points up to the last one that is wide enough.
+  paper
+};
+
 struct CenterlineScoreOptions {
   double least_radius_mm = 0.75;  ///< OT goes to the last reference point that is no thinner, > 0
   double free_start_mm = 0.0;     ///< OF overlooks failing points this near the start (the challenge: 5 mm)
   bool clip = true;               ///< cut the line with a disc at the reference's first point
   LineDirection direction = LineDirection::nearest_ends;
+  OverlapRules rules = OverlapRules::challenge;
 };
 void validate(const CenterlineScoreOptions& options);
 
@@ -36,7 +49,7 @@ struct PointPair {
 
 struct CenterlineScores {
   double ov = 0.0;     ///< overlap, in [0, 1]
-  double of = 0.0;     ///< share of the reference's points that are matched before the first missed one
+  double of = 0.0;     ///< share of the reference's points that are matched before the first failure
   double ot = 0.0;     ///< overlap of what is 1.5 mm wide and more; NaN where the vessel is nowhere so wide
   double ai_mm = 0.0;  ///< mean length of the pairs that count; NaN where none does
   double ai_score = 0.0;        ///< mean over the pairs that count of `distance_score`; NaN where none does
@@ -52,10 +65,10 @@ struct CenterlineScores {
 /// The two lines are paired by the monotone path (a step goes on by one point in one of them) of least summed
 /// distance. Before that the candidate is resampled to the reference's mean spacing where it is off by more
 /// than 0.1 %, and what lies before its first passage through the disc (normal to the reference's first step,
-/// of twice its first radius) is cut off. A point is matched where one of its pairs counts. Memory: one bit
-/// for each pair of points. Throws InvalidInput for lines of fewer than two points, points that are not
-/// finite, radii that are not positive, and a candidate more than 50 times as long as the reference (other
-/// units).
+/// of twice its first radius) is cut off. A point is matched where one of its pairs counts. Points of the
+/// reference that repeat the one before are points like others. Memory: one bit for each pair of points.
+/// Throws InvalidInput for lines of fewer than two points, points that are not finite, radii that are not
+/// positive, and a candidate more than 50 times as long as the reference (other units).
 CenterlineScores score_centerline(const io::RotterdamReference& reference,
                                   const std::vector<geometry::Vec3>& candidate,
                                   const CenterlineScoreOptions& options = {},

@@ -1,5 +1,5 @@
 #pragma once
-/// \file NRRD, MHD/MHA and NIfTI in; NRRD and MHD out. Headers are validated by our own code before any voxel
+/// \file NRRD, MHD/MHA and NIfTI in and out. Headers are validated by our own code before any voxel
 /// is read.
 
 #include "ostia/core/task_context.h"
@@ -46,6 +46,10 @@ LoadedImage<std::int16_t> read_image(const std::filesystem::path& path,
 /// axes: nearest.
 LoadedImage<std::uint8_t> read_mask(const std::filesystem::path& path,
                                     const core::TaskContext& task = core::no_task());
+/// Labels with their values, 0 to 255: what is below 1/2 is 0, else the nearest whole number, so that
+/// probabilities are cut at one half. Throws InvalidInput for larger values. Sheared axes: nearest.
+LoadedImage<std::uint8_t> read_labels(const std::filesystem::path& path,
+                                      const core::TaskContext& task = core::no_task());
 /// True values as float (level sets, distance maps); a value that is not finite is refused. Sheared axes:
 /// trilinear, the border's value where there was no voxel.
 LoadedImage<float> read_float_image(const std::filesystem::path& path,
@@ -54,8 +58,13 @@ LoadedImage<float> read_float_image(const std::filesystem::path& path,
 /// a CT. Reads no further than the 17th value, so that damage behind it goes unseen here.
 bool looks_like_mask(const std::filesystem::path& path);
 
+/// True when the file's values are whole numbers from 0 to 255, at most 128 different ones; 0 need not be
+/// among them. Reads as looks_like_mask does.
+bool looks_like_labels(const std::filesystem::path& path);
+
 /// By extension: .nrrd (gzip), .mhd (its voxels in NAME.raw beside it, or NAME-2.raw, ... where an older file
-/// has that name), .mha. Whole or not at all: until the new image is complete the old one stays. Throws
+/// has that name), .mha, .nii and .nii.gz (NIfTI-1, right-anterior-superior axes in its header; places in
+/// single precision). Whole or not at all: until the new image is complete the old one stays. Throws
 /// InvalidInput, IoError, ResourceError (disk full).
 void write_image(const std::filesystem::path& path, const ImageVolume& image);
 void write_image(const std::filesystem::path& path, const MaskVolume& image);

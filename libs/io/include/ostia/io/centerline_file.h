@@ -1,23 +1,36 @@
 #pragma once
-/// \file Centerlines and trees: VTP and VTK polydata, CSV in; VTP and CSV out. World LPS, mm.
+/// \file Centerlines and trees: VTP and VTK polydata, CSV, markups, networks in; VTP, CSV and markups out.
+/// World LPS, mm.
 
-#include "ostia/geometry/vessel_tree.h"
+#include "ostia/geometry/branch_groups.h"
 
 #include <filesystem>
+#include <optional>
 
 namespace ostia::io {
 
 /// VTP or legacy VTK polylines, the radius in `MaximumInscribedSphereRadius` (or `Radius`, `radius`); CSV
 /// with the header `x,y,z,radius` and one line, several ones separated by an empty row or told apart by a
-/// column `vessel`. Cells that share a `GroupIds` value are one segment; `CenterlineIds` makes the vessels;
-/// without them each line is a vessel of one segment, and end points within 1e-6 mm are one node. Throws
-/// InvalidInput for a file without a radius or with indices out of range.
+/// column `vessel`. Cells that share a `GroupIds` value are one segment; `CenterlineIds` makes the vessels.
+/// Where cells are blanked (VMTK's branch extractor) a segment is a branch with the bifurcation before it;
+/// what write_centerlines wrote comes back as the tree that it was, bit for bit. Without groups lines are
+/// joined where they run through one place (1e-6 mm), and there is a vessel for each end, named after the
+/// line that runs to it. Every network that read_graph reads is a tree, too, if it can be one. Markups
+/// (.mrk.json): curves with a measurement `Radius`. Throws InvalidInput for a file without a radius, with
+/// indices out of range, or with loops.
 geometry::VesselTree read_centerlines(const std::filesystem::path& path);
 
-/// VTP: one polyline per vessel and segment with point arrays `MaximumInscribedSphereRadius`, `Abscissas` (mm
-/// from the root), `ParallelTransportNormals`, `FrenetTangent`, `Curvature` (1/mm), `Torsion` (1/mm) and cell
-/// arrays `CenterlineIds`, `GroupIds`, `TractIds`, `Blanking`; vessels' names in the field array
-/// `VesselNames`. CSV: `vessel,x,y,z,radius,abscissa`.
+/// Tracts and groups as a VTP or legacy VTK file has them, VMTK's or Ostia's; none where it is not split into
+/// tracts. Throws as read_centerlines does.
+std::optional<geometry::BranchedLines> read_branched_lines(const std::filesystem::path& path);
+
+/// VTP: a polyline for each tract of each vessel (geometry::branch_groups), with the arrays that VMTK's
+/// scripts write and read: at points `MaximumInscribedSphereRadius`, `Abscissas` (mm from the root),
+/// `ParallelTransportNormals`, `Curvature` (1/mm), `Torsion` (1/mm), `FrenetTangent`, `FrenetNormal`,
+/// `FrenetBinormal`, and Ostia's `SegmentIds` (-1 at places that were put between the tree's points); on
+/// cells `CenterlineIds`, `TractIds`, `Blanking`, `GroupIds`, `Length` (mm), `Tortuosity`; as field arrays
+/// vessels' names in `VesselNames` and the first points of segments. CSV:
+/// `vessel,x,y,z,radius,abscissa`. Markups: a curve for each vessel (curves_of).
 void write_centerlines(const std::filesystem::path& path, const geometry::VesselTree& tree);
 
 }  // namespace ostia::io

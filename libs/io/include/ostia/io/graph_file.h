@@ -28,22 +28,24 @@ struct LoadedGraph {
   std::vector<std::string> warnings;  ///< "the last line has no end: the file may be cut short"
 };
 
-/// True for .swc, .csv, .gxl, .xml, .vtk, OpenCCO's three tables by their names, and for a .vtp that has
-/// lines and no polygons (its head is read).
+/// True for .swc, .csv, .gxl, .xml, .vtk, .mrk.json, OpenCCO's three tables by their names, and for a .vtp
+/// that has lines and no polygons (its head is read).
 bool is_graph_file(const std::filesystem::path& path);
 
 /// Reads by extension, in blocks where the format is text.
 /// - .vtp, .vtk: each step of each line is a segment. Radii in the cell arrays `RadiusFrom` and `RadiusTo`,
 /// or
 ///   in an array of the points or cells called `MaximumInscribedSphereRadius`, `radius` or `raio` (in any
-///   case; `diameter`, too). The point ids say what is joined.
+///   case; `diameter`, too). The point ids say what is joined; a line's ends are also joined to what lies at
+///   the very same place. Of lines with the same `GroupIds` and places one is read.
 /// - .swc: seven columns `id type x y z radius parent`; the parent -1 makes a root.
 /// - .csv by its header: `x1,y1,z1,radius1,x2,y2,z2,radius2`, a segment a row (`radius` for both);
 ///   with a column `reference` that is the segments' reference;
 ///   `id,x,y,z,radius,parent`, a sample a row as in SWC; `x,y,z,radius`, points along a line, several ones
 ///   separated by an empty row or told apart by a column `vessel`. Points of the first and the last kind that
-///   are equal bit for bit are one.
+///   are equal bit for bit are one; a way that vessels share is read once.
 /// - .gxl, .xml: nodes with an attribute `position`, edges with `radius`.
+/// - .mrk.json: 3D Slicer's curves with a measurement `Radius` (markups_file.h).
 /// - .dat: one of OpenCCO's `vertex.dat`, `edges.dat` and `radius.dat`; the three lie in one folder.
 /// Throws InvalidInput that names the file, the line and what was read up to it; IoError; Cancelled.
 LoadedGraph read_graph(const std::filesystem::path& path, const core::TaskContext& task = core::no_task());

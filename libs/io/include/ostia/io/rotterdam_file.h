@@ -19,12 +19,18 @@ struct RotterdamReference {
   std::vector<double> observer_spread;  ///< io: how far the observers were from each other there, mm
 };
 /// Throws InvalidInput naming the file and the line for an empty file, another number of columns, numbers
-/// that are not finite or use a decimal comma, fewer than two points, points repeated in a row, a radius or
-/// spread that is not positive. IoError where it cannot be read. Text after `#`, blank lines, a byte order
-/// mark and CRLF are taken; the locale has no say.
+/// that are not finite or use a decimal comma, fewer than two places, a radius or spread that is not
+/// positive. IoError where it cannot be read. Text after `#`, blank lines, a byte order mark and CRLF are
+/// taken, and so are points that repeat the one before, which are kept; the locale has no say.
 RotterdamReference read_rotterdam_reference(const std::filesystem::path& path);
-/// With six decimals (1 nm), whole or not at all. The writers refuse what the readers would refuse.
+/// With six decimals (1 nm), whole or not at all. The writers refuse what the readers would refuse, and
+/// points that repeat the one before.
 void write_rotterdam_reference(const std::filesystem::path& path, const RotterdamReference& reference);
+
+/// How many points are at the very place of the one before.
+std::size_t count_repeated(const std::vector<Vec3>& points);
+/// The same without those, for what needs a direction at each point.
+RotterdamReference without_repeated(const RotterdamReference& line);
 
 /// `result.txt`: x y z (further columns are refused unless they are radii: one more is allowed and ignored).
 std::vector<Vec3> read_rotterdam_line(const std::filesystem::path& path);

@@ -4,6 +4,7 @@
 #include "ostia/core/task_context.h"
 #include "ostia/geometry/tri_mesh.h"
 #include "ostia/geometry/vessel_tree.h"
+#include "ostia/meshing/flat_caps.h"
 
 #include <string>
 #include <vector>
@@ -29,6 +30,10 @@ struct ClipOptions {
   double flat_tolerance = 0.1;
   /// ... and its normal is within this angle of the axis. In [0, 90].
   double flat_max_angle_deg = 35.0;
+  /// Every open end stays as it is, however it stands to the axis, where it is flat within half its radius.
+  bool ends_as_they_are = false;
+  /// Ends that the surface had as caps: they stay as they are, and the inlet takes its name from them.
+  std::vector<GivenEnd> given;
   /// Planes for ends, in place of those that the program would place, and instead of an open end as it is.
   std::vector<PlacedPlane> planes;
 };
@@ -70,10 +75,11 @@ struct ClippedSurface {
 /// Cuts the ends of `lumen` (manifold, oriented outward, closed or open) by one plane a root and a leaf of
 /// the tree. A plane cuts only the connected loop of triangles around its own axis, so a neighbouring branch
 /// is never touched. A plane that does not cut cleanly, or meets the wall in a wedge of less than 40 degrees,
-/// is tried up to a radius farther inside, with a warning; one that a person placed is taken as it is. Loop
-/// points lie on their plane to round-off. Throws InvalidInput for bad options or tree, or a plane for an end
-/// that is not there, GeometryError naming the end that cannot be cut (plane misses the lumen, loop is not
-/// closed, more than the end would go), or a hole that belongs to no end.
+/// is tried up to a radius farther inside, with a warning; one that a person placed is taken as it is,
+/// however far from the axis' end. Loop points lie on their plane to round-off. Throws InvalidInput for bad
+/// options or tree, or a plane for an end that is not there, GeometryError naming all ends that cannot be
+/// cut, where each is, why (plane misses the lumen, loop is not closed, more than the end would go) and the
+/// way out, or a hole that belongs to no end.
 ClippedSurface clip_ends(const geometry::TriMesh& lumen, const geometry::VesselTree& tree,
                          const ClipOptions& options = {}, const core::TaskContext& task = core::no_task());
 

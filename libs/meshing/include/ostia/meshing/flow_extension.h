@@ -3,6 +3,7 @@
 /// equal area ([Antiga] section 5).
 
 #include "ostia/core/task_context.h"
+#include "ostia/geometry/mixed_mesh.h"
 #include "ostia/geometry/vessel_tree.h"
 #include "ostia/meshing/clip.h"
 
@@ -83,5 +84,17 @@ struct ExtendedEnds {
 ExtendedEnds extend_ends(const ClippedSurface& clipped, const geometry::VesselTree& tree,
                          const FlowExtensionOptions& options = {},
                          const core::TaskContext& task = core::no_task());
+
+/// What the extensions' wall is called as a face of its own.
+inline constexpr const char* extension_wall_name = "wall_extensions";
+
+/// The wall's triangles of `surface` and `mesh` (two stages of one model; either may be empty) that lie on
+/// extensions, by their centroids, get a face of their own: a wall, its id behind all others. `clipped` is
+/// what went into extend_ends, `extended` what came of it, with caps or without. What is left of the lumen's
+/// wall, and so its shear stress, has no part of an extension; the line between the two runs along edges of
+/// the mesh, up to half of one beside the section (two where the seam was evened). Nothing changes where
+/// there is no extension.
+void mark_extension_walls(const ClippedSurface& clipped, const geometry::TriMesh& extended,
+                          geometry::FacedSurface& surface, geometry::MixedMesh& mesh);
 
 }  // namespace ostia::meshing

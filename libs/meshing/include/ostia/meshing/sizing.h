@@ -94,8 +94,15 @@ struct SizingOptions {
 };
 void validate(const SizingOptions& options);
 
-/// Target edge length at each point of the surface, mm. Throws InvalidInput (options), GeometryError for a
-/// point on the axis, Cancelled.
+/// Half the width of the lumen at each point of a closed, outward surface, mm: R_c where the axes explain the
+/// wall (D_c is no more than 1.5 R_c), else what rays into the lumen see, for branches and sacs that are far
+/// from all axes. At most D_c.
+std::vector<double> local_radii(const geometry::TriMesh& surface, const TubeFunction& tube,
+                                const core::TaskContext& task = core::no_task());
+
+/// Target edge length at each point of the surface, mm. Where the axes do not explain the wall of a closed
+/// surface, the width that rays see bounds D_c: a branch that nobody gave an axis keeps its shape. Throws
+/// InvalidInput (options), GeometryError for a point on the axis, Cancelled.
 std::vector<double> target_edge_lengths(const geometry::TriMesh& surface, const TubeFunction& tube,
                                         const SizingOptions& options = {},
                                         const core::TaskContext& task = core::no_task());

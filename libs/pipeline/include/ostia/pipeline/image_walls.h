@@ -20,8 +20,9 @@ double free_from_mm(const geometry::VesselTree& tree,
 /// One wall a vessel, found on rays (segmentation::lumen_boundary) where the vessel runs by itself. At a
 /// take-off the rays of a branch would meet its parent's wall: there it is a tube as wide as the branch is
 /// behind it, and the passage is smooth. Over the last radius and blur before its end it keeps its calibre: a
-/// blunt end seems narrow from the side. Warnings go to the log with the vessel's name, and to `said`, a list
-/// for each vessel in the tree's order, where it is given.
+/// blunt end seems narrow from the side. A vessel whose wall cannot be found is a tube with its axis' radii,
+/// and is warned about: it does not lose the others. Warnings go to the log with the vessel's name, and to
+/// `said`, a list for each vessel in the tree's order, where it is given.
 std::vector<lumen::RadialWall> walls_from_image(const geometry::VesselTree& tree,
                                                 const imaging::ImageVolume& image,
                                                 const core::TaskContext& task,

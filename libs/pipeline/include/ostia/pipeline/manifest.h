@@ -23,11 +23,12 @@ struct ManifestRecord {
   ExitCode exit_code = ExitCode::ok;
   double seconds = 0.0;
   std::vector<std::string> warnings;
-  std::string quality;  ///< JSON text of the job's figures
+  std::string quality;   ///< JSON text of the job's figures
+  double peak_mb = 0.0;  ///< of runs before this process, which counts by itself
 };
 
-/// Writes `manifest.json` into the folder, last: program and library versions, times, peak memory, SHA-256 of
-/// every file there.
+/// Writes `manifest.json` into the folder, last: program and library versions, times, peak memory, warnings
+/// (the record's, and those that a living core::HeardWarnings has heard), SHA-256 of every file there.
 void write_manifest(const std::filesystem::path& folder, const ManifestRecord& record);
 
 /// The recorded exit code when the folder is whole and holds this very job done by this program version;
@@ -38,7 +39,10 @@ std::optional<ExitCode> already_done(const std::filesystem::path& folder, const 
 /// that holds anything but the files of an earlier job (it would be replaced as a whole).
 void require_free_folder(const std::filesystem::path& folder);
 
-/// Most memory this process has had resident, MB.
+/// The manifest's text; empty where there is none.
+std::string manifest_of(const std::filesystem::path& folder);
+
+/// Most memory resident, of this process or of one of its children that have ended, MB.
 double peak_memory_mb();
 
 }  // namespace ostia::pipeline

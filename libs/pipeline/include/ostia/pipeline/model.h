@@ -8,6 +8,7 @@
 #include "ostia/meshing/flow_extension.h"
 #include "ostia/meshing/remesh.h"
 #include "ostia/meshing/sizing.h"
+#include "ostia/pipeline/lumen_axes.h"
 #include "ostia/pipeline/source.h"
 #include "ostia/pipeline/volume_mesh.h"
 #include "ostia/segmentation/segment.h"
@@ -22,7 +23,8 @@ struct ModelOptions {
   std::vector<segmentation::BranchSeeds> branches;  ///< needed for an image
   std::optional<geometry::Vec3>
       source;  ///< masks and surfaces: where the centerlines begin; left out: an open end
-  std::vector<geometry::Vec3> targets;  ///< ... and end; left out: the other open ends
+  std::vector<geometry::Vec3> targets;                ///< ... and end; left out: the other open ends
+  SideBranches side_branches = SideBranches::closed;  ///< of masks and surfaces
   segmentation::SegmentOptions segment;
   std::optional<geometry::TaubinOptions> smoothing;  ///< of the segmentation's surface; none unless asked for
   centerline::CenterlineOptions centerline;
@@ -36,6 +38,7 @@ struct ModelOptions {
   VolumeOptions volume;
   meshing::QualityBounds bounds;  ///< of the surface
   meshing::MixedBounds volume_bounds;
+  meshing::ShapeBounds shape_bounds;
 };
 
 /// Throws InvalidInput for what no input could be meshed with: told before anything is computed.
@@ -47,9 +50,10 @@ struct StageTime {
   double seconds = 0.0;
 };
 
-/// The surface that a centerline and a mesh can be made of. Throws GeometryError that counts the faults and
-/// says where they are.
-void require_sound_surface(const geometry::TriMesh& surface, const std::string& what);
+/// The surface that a centerline and a mesh can be made of, in one part or, where that may be, in several.
+/// Throws GeometryError that counts the faults and says where they are.
+void require_sound_surface(const geometry::TriMesh& surface, const std::string& what,
+                           bool several_parts = false);
 
 /// From surface and centerlines to the mesh: cut, capped, remeshed, filled.
 struct MeshedLumen {
@@ -77,6 +81,7 @@ MeshedLumen mesh_lumen_about(const geometry::TriMesh& lumen, const geometry::Ves
 struct Model {
   Source source;
   std::vector<segmentation::BranchDiagnostics> branches;  ///< images only
+  std::vector<std::string> left_out;                      ///< branches that could not be followed, and why
   geometry::TriMesh lumen;                                ///< of the segmentation, or as given
   MeshedLumen meshed;
   std::vector<std::string> warnings;  ///< of all stages
@@ -90,11 +95,13 @@ meshing::ClipOptions clip_of(const Source& source, const ModelOptions& options);
 struct LumenWithAxes {
   Model model;  ///< without `meshed`
   geometry::VesselTree axes;
+  std::vector<meshing::PlacedPlane> stubs;  ///< where side branches are to be cut off
 };
 /// The stages before meshing, and those after: build_model has both. Throws what the stages throw; nothing
-/// is written.
+/// is written. `found` gets the lumen as soon as it is there, for when a later stage fails.
 LumenWithAxes build_lumen(Source source, const ModelOptions& options,
-                          const core::TaskContext& task = core::no_task());
+                          const core::TaskContext& task = core::no_task(),
+                          geometry::TriMesh* found = nullptr);
 Model mesh_model(LumenWithAxes lumen, const ModelOptions& options,
                  const core::TaskContext& task = core::no_task());
 

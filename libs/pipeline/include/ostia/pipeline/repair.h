@@ -9,11 +9,18 @@
 
 namespace ostia::pipeline {
 
+/// Which connected parts stay.
+enum class KeptParts {
+  vessels,  ///< all but specks and closed parts within others
+  all,
+  largest,  ///< by area
+};
+
 struct RepairOptions {
   /// Holes whose rim is no wider than this are closed, mm; 0: none, for an open end is a hole, too. A hole's
   /// width is its rim's length over pi. >= 0.
   double fill_holes_up_to_mm = 0.0;
-  bool keep_parts = false;  ///< all connected parts stay, not the largest alone
+  KeptParts parts = KeptParts::vessels;
 };
 void validate(const RepairOptions& options);
 
@@ -33,10 +40,10 @@ struct Repaired {
 
 /// Drops triangles with points that are not finite, degenerate and duplicate ones; joins equal points; takes
 /// the surface apart where sheets only touch, at points and along edges; drops flaps on edges where three
-/// sheets join, and all parts but the one of largest area; turns triangles the same way and the whole
-/// outward; cuts self-intersecting places out, with the triangles around them, and closes the holes that this
-/// leaves; closes small holes where asked to. Open ends stay open. Throws InvalidInput (options),
-/// GeometryError when nothing is left, Cancelled.
+/// sheets join, and parts that are not to stay; turns triangles the same way and each part outward; cuts
+/// self-intersecting places out, with the triangles around them, and closes the holes that this leaves;
+/// closes small holes where asked to. Open ends stay open. Throws InvalidInput (options), GeometryError when
+/// nothing is left, Cancelled.
 Repaired repaired(const geometry::TriMesh& mesh, const RepairOptions& options,
                   const core::TaskContext& task = core::no_task());
 Repaired repaired(const geometry::TriMesh& mesh, const core::TaskContext& task = core::no_task());

@@ -5,6 +5,7 @@
 #include "ostia/geometry/tri_mesh.h"
 #include "ostia/imaging/dicom.h"
 #include "ostia/imaging/volume.h"
+#include "ostia/meshing/flat_caps.h"
 
 #include <filesystem>
 #include <memory>
@@ -24,9 +25,9 @@ SourceKind classify(const std::filesystem::path& path);
 
 struct SourceOptions {
   imaging::DicomReadOptions dicom;
-  /// mm in the file's unit of length; nothing: millimetres, and a surface that cannot be a vessel in them is
-  /// refused.
+  /// mm in the file's unit of length; nothing: told by the vessels' calibre (unit_by_calibre).
   std::optional<double> unit_mm;
+  bool strict = false;  ///< a surface with faults is refused instead of mended
 };
 
 /// The content, and how it is known in everything that is saved.
@@ -36,13 +37,16 @@ struct Source {
   std::string pseudonym;  ///< "image-1a2b3c4d"
   std::shared_ptr<const imaging::ImageVolume> image;  ///< dicom and image
   std::shared_ptr<const imaging::MaskVolume> mask;    ///< mask
-  geometry::TriMesh surface;                          ///< surface
-  bool unit_given = false;                            ///< surface: the user said which unit it is in
+  geometry::TriMesh surface;            ///< surface: mended, outward, its flat caps off (take_surface)
+  std::vector<meshing::GivenEnd> ends;  ///< surface: caps that were taken off
+  double unit_mm = 1.0;                 ///< surface: of the file, in which points are given, too
+  bool unit_given = false;              ///< surface: the user said which unit it is in
   std::vector<std::string> warnings;
 };
 
 /// Reads it. From here on the log knows the path by the pseudonym alone. Throws what the readers throw;
-/// InvalidInput for a surface whose size suggests another unit.
+/// InvalidInput for a surface of a size that no vessel has in any unit. What was mended on a surface is among
+/// the warnings.
 Source load(const std::filesystem::path& path, const SourceOptions& options = {},
             const core::TaskContext& task = core::no_task());
 

@@ -8,6 +8,7 @@
 #include "ostia/meshing/flow_extension.h"
 #include "ostia/meshing/mixed_quality.h"
 #include "ostia/meshing/quadratic.h"
+#include "ostia/meshing/shape_kept.h"
 #include "ostia/meshing/tetrahedralize.h"
 #include "ostia/pipeline/refinement.h"
 #include "ostia/pipeline/solver_case.h"
@@ -37,6 +38,7 @@ struct MeshQuality {
   meshing::SurfaceQuality surface;
   meshing::MixedQuality volume;
   std::optional<meshing::WallDeviation> wall_deviation;  ///< from the wall before remeshing
+  std::optional<meshing::ShapeKept> shape;               ///< the same both ways, and the volume
   std::optional<meshing::BoundaryLayerReport> layers;
   std::optional<meshing::QuadraticReport> quadratic;
   std::vector<meshing::FlowExtension> extensions;
@@ -65,7 +67,8 @@ FilledVolume fill_volume(const geometry::FacedSurface& surface, const geometry::
 geometry::TriMesh wall_of(const geometry::FacedSurface& surface);
 
 /// A mesh of any origin, judged. The boundary must be closed, oriented and free of self-intersections as a
-/// surface is; angles are those of the wall's triangles, since a layer's side is thin however good it is.
+/// surface is; angles are those of the wall's triangles, since a layer's side is thin however good it is; a
+/// wall of quadrilaterals alone has none.
 /// Throws what mixed_quality throws.
 MeshQuality judged(const geometry::MixedMesh& mesh, const core::TaskContext& task = core::no_task());
 /// The same where it is known which tetrahedra belong to layers: of each tetrahedron.

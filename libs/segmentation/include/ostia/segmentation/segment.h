@@ -45,6 +45,10 @@ struct SegmentOptions {
   std::optional<IntensityBalloon> balloon = std::nullopt;
   TissueOptions remove;  ///< taken out of the image before all else
   std::optional<imaging::DiffusionOptions> denoise = std::nullopt;  ///< then the whole image is diffused
+  /// A branch that cannot be followed between its seeds (closed, or without contrast) is left out and told,
+  /// as long as another one is there. Off, it is thrown about. Seeds outside of the image are thrown about
+  /// always.
+  bool leave_out_unfollowed = false;
   LevelSetOptions level_set;  ///< its feature_offset_voxels, curvature_needs_feature and ends are set from
                               ///< the image and the seeds; the fronts' way between the seeds is kept, too
 };
@@ -61,10 +65,17 @@ struct BranchDiagnostics {
   bool touches_border = false;
 };
 
+/// A branch that is not in the result.
+struct LeftOutBranch {
+  std::size_t branch = 0;  ///< index of those given
+  std::string why;
+};
+
 struct SegmentationResult {
-  imaging::FloatVolume level_set;  ///< negative inside, mm; on `region`, which holds all branches
-  imaging::Region region;          ///< voxels of the image
-  std::vector<BranchDiagnostics> branches;
+  imaging::FloatVolume level_set;           ///< negative inside, mm; on `region`, which holds all branches
+  imaging::Region region;                   ///< voxels of the image
+  std::vector<BranchDiagnostics> branches;  ///< of those that are not left out
+  std::vector<LeftOutBranch> left_out;
   int iterations = 0;
   bool converged = false;
   double rms_voxels = 0.0;
@@ -75,7 +86,7 @@ struct SegmentationResult {
 
 /// Every branch initialised by colliding fronts, the regions united (least value), and the union evolved as
 /// one surface. Throws InvalidInput for no branch, and what the parts throw, the number of the branch in
-/// front.
+/// front. What is left out, options allowing, takes with it the branches that hang on it by their seeds.
 SegmentationResult segment_vessels(const imaging::ImageVolume& image,
                                    const std::vector<BranchSeeds>& branches,
                                    const SegmentOptions& options = {},

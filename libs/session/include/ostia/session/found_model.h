@@ -3,9 +3,11 @@
 
 #include "ostia/core/task_context.h"
 #include "ostia/coronary/extract.h"
+#include "ostia/coronary/mask_tree.h"
 #include "ostia/session/case_file.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,8 +26,22 @@ struct FoundModel {
 FoundModel found_model(const imaging::ImageVolume& image, const coronary::ExtractOptions& options = {},
                        const core::TaskContext& task = core::no_task());
 
+/// The same from a coronary mask of any network or hand (coronary::mask_tree), its walls those of the mask
+/// (pipeline::walls_from_mask). `found` has ostia and vessels, but no aorta.
+struct MaskModel {
+  FoundModel found;
+  coronary::MaskTree tree;  ///< `vessels` and `notes` are those of `found`
+};
+/// `image`: the CT that the mask was drawn on, to see that both are of one patient; null: none. Throws as
+/// coronary::mask_tree, pipeline::walls_from_mask and lumen::model_of_walls do, and InvalidInput for a mask
+/// that does not lie on the image's vessels, with what lies there instead.
+MaskModel model_of_mask(const imaging::MaskVolume& labels, const imaging::ImageVolume* image = nullptr,
+                        const coronary::MaskTreeOptions& options = {},
+                        const core::TaskContext& task = core::no_task());
+
 /// A new case with the model, and a mark with a note for each vessel that is in doubt. Throws as
 /// CaseFile::create does; then there is no such file.
-CaseFile create_case(const std::filesystem::path& path, const FoundModel& found, const ImageReference& image);
+CaseFile create_case(const std::filesystem::path& path, const FoundModel& found,
+                     const std::optional<ImageReference>& image);
 
 }  // namespace ostia::session

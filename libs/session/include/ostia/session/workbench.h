@@ -7,6 +7,7 @@
 #include "ostia/reformat/curved_reformation.h"
 #include "ostia/session/property.h"
 #include "ostia/session/session.h"
+#include "ostia/session/tool.h"
 
 #include <cstdint>
 #include <map>
@@ -20,25 +21,6 @@ namespace ostia::session {
 using geometry::Vec3;
 class ShownPhase;   // beating.h
 struct PhaseImage;  // beating.h
-
-/// What the mouse's main button does in a view.
-enum class Tool {
-  browse,      ///< the cursor goes where it is clicked
-  drag,        ///< the wall is pulled
-  draw,        ///< the wall is drawn anew
-  brush,       ///< a ball pushes the wall
-  axis,        ///< control points of the centerline
-  add_vessel,  ///< a way from a distal end back to the tree
-  distance,
-  angle,
-  area,
-  diameter,
-  stenosis,
-  volume,
-  ring_hu,
-};
-/// The measurement that a tool places; nothing for the others.
-std::optional<analysis::MeasureKind> measure_kind(Tool tool);
 
 /// CT numbers shown between black and white.
 struct GreyWindow {

@@ -23,10 +23,12 @@ struct CaseRecord {
   std::string outlets = "zero";     ///< split, resistance
   /// By the outlet's name, Pa s / m3; empty unless outlets are resistances.
   std::map<std::string, double> resistance_pa_s_m3;
+  /// ... and their compliances, m3 / Pa; empty unless they are Windkessels.
+  std::map<std::string, double> compliance_m3_pa;
   bool pulsatile() const { return period_s > 0.0; }
 };
 CaseRecord case_record(const std::string& solver, const BoundaryFlowOptions& options,
-                       const BoundaryFlow& flow, int cycles);
+                       const BoundaryFlow& flow, int cycles, double total_compliance_ml_mmhg = 0.0);
 
 /// Writes both files into a folder that is being made. Throws IoError, ResourceError.
 void write_case_record(const CaseRecord& record, const geometry::MixedMesh& mesh,

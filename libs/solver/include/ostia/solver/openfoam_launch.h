@@ -12,7 +12,7 @@ namespace ostia::solver {
 
 /// What a case's controlDict and fvSolution say about its run.
 struct OpenfoamRunPlan {
-  std::string program;      ///< simpleFoam (steady) or pisoFoam
+  std::string program;      ///< simpleFoam (steady), pimpleFoam; pisoFoam in cases of version 0.1
   double end_time = 0.0;    ///< iterations at most, or s
   double tolerance = 1e-6;  ///< of a steady run: initial residuals at which it ends
   bool steady() const { return program == "simpleFoam"; }

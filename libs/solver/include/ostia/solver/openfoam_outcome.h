@@ -23,7 +23,7 @@ OpenfoamSeries read_openfoam_series(const std::filesystem::path& case_folder, co
 double cycle_mean(const OpenfoamSeries& series, double last, double period);
 
 struct OpenfoamOutcome {
-  std::string program;  ///< simpleFoam, pisoFoam
+  std::string program;  ///< simpleFoam, pimpleFoam; pisoFoam in cases of version 0.1
   double last = 0.0;    ///< iteration or time, s
   bool converged = false;
   std::string not_converged;                ///< why not

@@ -3,7 +3,7 @@
 /// See docs/reference/solver-cases.md for what of it was tested.
 
 #include "ostia/core/task_context.h"
-#include "ostia/solver/boundary_flow.h"
+#include "ostia/solver/boundary_conditions.h"
 
 #include <filesystem>
 #include <optional>

@@ -1,0 +1,37 @@
+#pragma once
+/// \file Masks of coronary arteries on the command line.
+
+#include "ostia/core/task_context.h"
+#include "ostia/imaging/volume.h"
+#include "ostia/session/found_model.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace ostia::app {
+
+struct MaskInput {
+  std::filesystem::path file;
+  std::filesystem::path image;  ///< the CT that it was drawn on; empty: none
+  std::vector<int> labels;      ///< that are vessels; empty: all but 0
+};
+
+struct MaskCase {
+  session::MaskModel model;
+  std::optional<session::ImageReference> image;  ///< of the CT, where there is one
+};
+
+/// Whether a file holds labels rather than a CT: whole numbers, few of them.
+bool holds_labels(const std::filesystem::path& file);
+
+/// The mask with its values, without those that were not asked for. Throws InvalidInput naming the labels
+/// that are there where one that is asked for is not.
+imaging::MaskVolume read_vessel_labels(const MaskInput& input, const core::TaskContext& task);
+
+/// From the file to the model. Throws what the readers and session::model_of_mask throw, with the file's
+/// name.
+MaskCase mask_case(const MaskInput& input, const coronary::MaskTreeOptions& options,
+                   const core::TaskContext& task);
+
+}  // namespace ostia::app

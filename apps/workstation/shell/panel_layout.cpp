@@ -1,0 +1,200 @@
+#include "shell/panel_layout.h"
+
+#include "measuring/list.h"
+#include "shell/desk.h"
+#include "shell/hanging.h"
+#include "shell/panel.h"
+#include "shell/step_list.h"
+#include "shell/theme.h"
+#include "vessels/list.h"
+#include "views/paint_queue.h"
+#include "views/scene_widget.h"
+
+#include "ostia/view/curved_view.h"
+#include "ostia/view/plane_view.h"
+
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QSplitter>
+#include <QTabWidget>
+
+namespace ostia::workstation {
+namespace {
+
+using view::CurvedView;
+using view::SectionView;
+using view::SliceKind;
+using view::SliceView;
+
+constexpr double strip_step_mm = 1.0;
+constexpr int strip_px = 56;  // of a neighbour at least
+
+}  // namespace
+
+PanelLayout::PanelLayout(Desk& desk) : QObject(&desk.window), desk_(desk) {
+  guard_ = [&desk](const std::function<void()>& act) { desk.messages.guarded(act); };
+  auto* columns = new QSplitter(Qt::Horizontal);
+  columns->setObjectName("columns");
+  tree_ = tree_panel();  // first: the list of vessels asks it for colours
+  columns->addWidget(side_column());
+  columns->addWidget(curved_column());
+  columns->addWidget(section_column());
+  columns->addWidget(tree_);
+  columns->setSizes({300, 560, 330, 380});
+  columns->setStretchFactor(0, 0);
+  for (int i = 1; i < 4; ++i) columns->setStretchFactor(i, 1);
+  hanging_ = new Hanging(columns, columns->findChild<QTabWidget*>("lists"), tree_);
+  connect(hanging_, &Hanging::narrow_changed, this, &PanelLayout::narrow_changed);
+  profile_ = new ProfileWidget(desk.bench, guard_);
+  rows_ = new QSplitter(Qt::Vertical);
+  rows_->setObjectName("rows");
+  rows_->addWidget(columns);
+  rows_->addWidget(panel(tr("Lumen profile"), profile_));
+  rows_->setSizes({760, 170});
+  rows_->setStretchFactor(0, 1);
+  rows_->setStretchFactor(1, 0);
+  splitters_.push_back(columns);
+  splitters_.push_back(rows_);
+}
+
+QWidget& PanelLayout::whole() {
+  return *rows_;
+}
+
+void PanelLayout::add_beside_tree(QWidget* control) {
+  tree_->add_control(control);
+}
+
+QSplitter* PanelLayout::splitter(Qt::Orientation orientation, const QString& name) {
+  auto* made = new QSplitter(orientation);
+  made->setObjectName(name);
+  splitters_.push_back(made);
+  return made;
+}
+
+Panel* PanelLayout::panel(const QString& title, QWidget* content) {
+  auto* made = new Panel(title, content);
+  connect(made, &Panel::maximise_wanted, this, [this, made] { maximise(made); });
+  return made;
+}
+
+Panel* PanelLayout::picture_panel(const QString& title, const QString& name,
+                                  std::unique_ptr<view::PictureView> shown) {
+  auto* picture = new PictureWidget(std::move(shown), name, guard_);
+  picture->setAccessibleName(title);
+  pictures_.push_back(picture);
+  connect(picture, &PictureWidget::hovered, this, &PanelLayout::hovered);
+  own_.push_back(
+      picture->pointer().end_chosen.observe([this](const geometry::Vec3& end) { emit end_chosen(end); }));
+  return panel(title, picture);
+}
+
+QWidget* PanelLayout::curved_column() {
+  curved_ = splitter(Qt::Horizontal, "curved");
+  const auto frame = std::make_shared<view::CurvedFrame>();
+  curved_->addWidget(picture_panel(
+      tr("CPR"), "cpr1", std::make_unique<CurvedView>(desk_.bench, CurvedView::Which::first, frame)));
+  curved_->addWidget(
+      picture_panel(tr("CPR + 90\u00b0"), "cpr2",
+                    std::make_unique<CurvedView>(desk_.bench, CurvedView::Which::second, frame)));
+  pictures_[pictures_.size() - 2]->set_twin(pictures_.back());
+  pictures_.back()->set_twin(pictures_[pictures_.size() - 2]);
+  PaintQueue::instance().set_prepare(&PictureWidget::prepare);
+  curved_->setSizes({280, 280});
+  for (int i = 0; i < 2; ++i) curved_->setStretchFactor(i, 1);
+  return curved_;
+}
+
+QWidget* PanelLayout::neighbours() {
+  auto* strip = new QWidget;
+  auto* row = new QHBoxLayout(strip);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->setSpacing(1);
+  for (const int step : {-2, -1, 1, 2}) {
+    auto* picture = new PictureWidget(std::make_unique<SectionView>(desk_.bench, step * strip_step_mm, 12.0),
+                                      QStringLiteral("strip%1").arg(step), guard_);
+    picture->setAccessibleName(tr("Cross-section, %1 mm on").arg(step * strip_step_mm));
+    picture->setMinimumSize(strip_px, strip_px);
+    pictures_.push_back(picture);
+    row->addWidget(picture);
+  }
+  return strip;
+}
+
+Panel* PanelLayout::slice_panel() {
+  auto* slice = new SliceView(desk_.bench, SliceKind::axial);
+  Panel* slices = picture_panel(tr("Slice"), "slice", std::unique_ptr<view::PictureView>(slice));
+  auto* kind = new QComboBox;
+  kind->setObjectName("slice_kind");
+  for (const auto& [name, value] : {std::pair(tr("Axial"), SliceKind::axial),
+                                    {tr("Coronal"), SliceKind::coronal},
+                                    {tr("Sagittal"), SliceKind::sagittal},
+                                    {tr("Oblique"), SliceKind::oblique}})
+    kind->addItem(name, static_cast<int>(value));
+  kind->setToolTip(tr("Oblique: Shift and drag turns it"));
+  kind->setAccessibleName(tr("Orientation of the slice"));
+  connect(kind, QOverload<int>::of(&QComboBox::activated), this, [slice, kind](int index) {
+    slice->set_kind(static_cast<SliceKind>(kind->itemData(index).toInt()));
+  });
+  slices->add_control(kind);
+  return slices;
+}
+
+QWidget* PanelLayout::section_column() {
+  QSplitter* column = splitter(Qt::Vertical, "sections");
+  column->addWidget(
+      picture_panel(tr("Cross-section"), "section", std::make_unique<SectionView>(desk_.bench, 0.0)));
+  column->addWidget(panel(tr("Neighbours, every %1 mm").arg(strip_step_mm), neighbours()));
+  column->addWidget(slice_panel());
+  column->setSizes({360, 130, 360});
+  return column;
+}
+
+Panel* PanelLayout::tree_panel() {
+  scene_ = new SceneWidget(desk_.bench, guard_);
+  scene_->set_dark(current_theme() == Theme::dark);
+  return panel(tr("Coronary tree"), scene_);
+}
+
+QWidget* PanelLayout::side_column() {
+  QSplitter* column = splitter(Qt::Vertical, "side");
+  const auto color_of = [this](std::int32_t vessel) { return scene_->color_of(vessel); };
+  auto* list = new VesselList(desk_.bench, color_of, guard_);
+  connect(scene_, &SceneWidget::styles_changed, list, &VesselList::refresh);
+  column->addWidget(panel(tr("Vessels"), list));
+  auto* tabs = new QTabWidget;
+  tabs->setObjectName("lists");
+  tabs->setDocumentMode(true);
+  tabs->addTab(new MeasurementList(desk_.bench, guard_), tr("Measurements"));
+  tabs->addTab(new StepList(desk_.bench, guard_), tr("Steps"));
+  column->addWidget(tabs);
+  column->setSizes({420, 320});
+  // Names and numbers of vessels.
+  list->setMinimumWidth(38 * desk_.window.fontMetrics().averageCharWidth());
+  return column;
+}
+
+void PanelLayout::maximise(Panel* panel) {
+  alone_ = alone_ == panel ? nullptr : panel;
+  if (alone_) hanging_->rest(true);
+  show_alone(rows_, alone_);
+  if (!alone_) hanging_->rest(false);
+}
+
+std::map<std::string, std::string> PanelLayout::layout_settings() {
+  if (alone_) maximise(alone_);
+  std::map<std::string, std::string> settings;
+  for (const QSplitter* one : splitters_)
+    settings["splitter." + one->objectName().toStdString()] = one->saveState().toBase64().toStdString();
+  settings["splitter.columns"] = hanging_->sizes().toBase64().toStdString();
+  return settings;
+}
+
+void PanelLayout::restore_layout() {
+  for (QSplitter* one : splitters_) {
+    const auto kept = desk_.machine.setting("splitter." + one->objectName().toStdString());
+    one->restoreState(kept ? QByteArray::fromBase64(QByteArray::fromStdString(*kept)) : QByteArray());
+  }
+}
+
+}  // namespace ostia::workstation

@@ -1,0 +1,65 @@
+#pragma once
+/// \file The window's views and lists, and where they stand.
+
+#include "views/picture_widget.h"
+
+#include <QObject>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+class QSplitter;
+
+namespace ostia::workstation {
+
+struct Desk;
+class Hanging;
+class Panel;
+class SceneWidget;
+
+class PanelLayout final : public QObject {
+  Q_OBJECT
+ public:
+  explicit PanelLayout(Desk& desk);
+  /// All of them; for the window's centre.
+  QWidget& whole();
+  QSplitter& curved() { return *curved_; }
+  SceneWidget& scene() { return *scene_; }
+  ProfileWidget& profile() { return *profile_; }
+  const std::vector<PictureWidget*>& pictures() const { return pictures_; }
+  /// Something in the title of the tree: a combo box, a button.
+  void add_beside_tree(QWidget* control);
+  /// Where the splitters stand, as settings of this machine, with all panels shown.
+  std::map<std::string, std::string> layout_settings();
+  void restore_layout();
+
+ signals:
+  void hovered(const QString& text);           ///< what is under the mouse in a 2D view
+  void end_chosen(const geometry::Vec3& end);  ///< of a vessel that is wanted
+  void narrow_changed(bool narrow);
+
+ private:
+  Panel* panel(const QString& title, QWidget* content);
+  Panel* picture_panel(const QString& title, const QString& name, std::unique_ptr<view::PictureView> view);
+  QSplitter* splitter(Qt::Orientation orientation, const QString& name);
+  QWidget* curved_column();
+  QWidget* neighbours();
+  Panel* slice_panel();
+  QWidget* section_column();
+  Panel* tree_panel();
+  QWidget* side_column();
+  void maximise(Panel* panel);
+  Desk& desk_;
+  Guard guard_;
+  SceneWidget* scene_ = nullptr;
+  ProfileWidget* profile_ = nullptr;
+  std::vector<PictureWidget*> pictures_;
+  std::vector<QSplitter*> splitters_;
+  QSplitter *curved_ = nullptr, *rows_ = nullptr;
+  Hanging* hanging_ = nullptr;
+  Panel *tree_ = nullptr, *alone_ = nullptr;
+  std::vector<session::Subscription> own_;
+};
+
+}  // namespace ostia::workstation

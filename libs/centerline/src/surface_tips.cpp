@@ -1,0 +1,242 @@
+#include "ostia/centerline/surface_tips.h"
+
+#include "ostia/core/error.h"
+#include "ostia/geometry/disjoint_sets.h"
+#include "ostia/geometry/mesh_topology.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <queue>
+
+namespace ostia::centerline {
+namespace {
+
+using geometry::TriMesh;
+using geometry::Vec3;
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double disc_radii = 4.0;  // geodesic radius of the disc by which a branch's radius is measured
+constexpr int disc_rounds = 6;
+constexpr double from_border_radii = 3.0;  // a maximum so near to an open end is that end
+
+/// Ways along the edges of a surface.
+class SurfaceWays {
+ public:
+  explicit SurfaceWays(const TriMesh& mesh)
+      : mesh_(mesh), neighbours_(geometry::vertex_neighbours(mesh)), area_(mesh.points.size(), 0.0) {
+    for (const geometry::Triangle& t : mesh.triangles) {
+      const auto at = [&](std::size_t k) -> const Vec3& {
+        return mesh.points[static_cast<std::size_t>(t[k])];
+      };
+      const double third = (at(1) - at(0)).cross(at(2) - at(0)).norm() / 6.0;
+      for (const std::int32_t v : t) area_[static_cast<std::size_t>(v)] += third;
+    }
+  }
+  const TriMesh& mesh() const { return mesh_; }
+  const std::vector<std::int32_t>& neighbours(std::int32_t v) const {
+    return neighbours_[static_cast<std::size_t>(v)];
+  }
+  bool used(std::int32_t v) const { return !neighbours(v).empty(); }
+
+  /// Visits points by increasing distance from `start` until `visit(point, distance)` says no.
+  template <class Visit>
+  void walk(std::int32_t start, std::vector<double>& distance, Visit visit) const {
+    using Step = std::pair<double, std::int32_t>;
+    std::priority_queue<Step, std::vector<Step>, std::greater<>> next;
+    std::vector<std::int32_t> touched{start};
+    distance[static_cast<std::size_t>(start)] = 0.0;
+    next.emplace(0.0, start);
+    while (!next.empty()) {
+      const auto [d, v] = next.top();
+      next.pop();
+      if (d > distance[static_cast<std::size_t>(v)]) continue;
+      if (!visit(v, d)) break;
+      for (const std::int32_t n : neighbours(v)) {
+        const double to =
+            d +
+            (mesh_.points[static_cast<std::size_t>(v)] - mesh_.points[static_cast<std::size_t>(n)]).norm();
+        if (to >= distance[static_cast<std::size_t>(n)]) continue;
+        if (distance[static_cast<std::size_t>(n)] == infinite) touched.push_back(n);
+        distance[static_cast<std::size_t>(n)] = to;
+        next.emplace(to, n);
+      }
+    }
+    touched_.swap(touched);
+  }
+  /// Makes the array of the last walk as it was before.
+  void forget(std::vector<double>& distance) const {
+    for (const std::int32_t v : touched_) distance[static_cast<std::size_t>(v)] = infinite;
+  }
+  double area(std::int32_t v) const { return area_[static_cast<std::size_t>(v)]; }
+
+ private:
+  const TriMesh& mesh_;
+  std::vector<std::vector<std::int32_t>> neighbours_;
+  std::vector<double> area_;
+  mutable std::vector<std::int32_t> touched_;
+};
+
+std::int32_t nearest_point(const SurfaceWays& ways, const Vec3& to) {
+  std::int32_t best = -1;
+  double least = infinite;
+  for (std::size_t i = 0; i < ways.mesh().points.size(); ++i) {
+    const double d = (ways.mesh().points[i] - to).squaredNorm();
+    if (ways.used(static_cast<std::int32_t>(i)) && d < least) least = d, best = static_cast<std::int32_t>(i);
+  }
+  return best;
+}
+
+std::vector<double> distances(const SurfaceWays& ways, std::int32_t start) {
+  std::vector<double> distance(ways.mesh().points.size(), infinite);
+  ways.walk(start, distance, [](std::int32_t, double) { return true; });
+  return distance;
+}
+
+std::int32_t farthest(const std::vector<double>& distance) {
+  std::int32_t best = -1;
+  for (std::size_t i = 0; i < distance.size(); ++i)
+    if (distance[i] < infinite && (best < 0 || distance[i] > distance[static_cast<std::size_t>(best)]))
+      best = static_cast<std::int32_t>(i);
+  return best;
+}
+
+/// A maximum and how far it stands out.
+struct Peak {
+  std::int32_t point = -1;
+  double prominence = 0.0;
+};
+
+/// Points join by falling distance; where two sets meet, the one with the lower maximum ends.
+std::vector<Peak> peaks_of(const SurfaceWays& ways, const std::vector<double>& distance) {
+  std::vector<std::int32_t> order;
+  for (std::size_t i = 0; i < distance.size(); ++i)
+    if (distance[i] < infinite) order.push_back(static_cast<std::int32_t>(i));
+  const auto higher = [&](std::int32_t a, std::int32_t b) {
+    const double da = distance[static_cast<std::size_t>(a)], db = distance[static_cast<std::size_t>(b)];
+    return da != db ? da > db : a < b;
+  };
+  std::ranges::sort(order, higher);
+  geometry::DisjointSets sets(distance.size());
+  std::vector<std::int32_t> top(distance.size(), -1);  // of a set, at its representative
+  std::vector<Peak> peaks;
+  for (const std::int32_t v : order) {
+    std::int32_t best = v;
+    const double here = distance[static_cast<std::size_t>(v)];
+    std::vector<std::int32_t> met;
+    for (const std::int32_t n : ways.neighbours(v)) {
+      const std::int32_t top_there = top[static_cast<std::size_t>(sets.find(n))];
+      if (top_there >= 0 && std::ranges::find(met, top_there) == met.end()) met.push_back(top_there);
+    }
+    for (const std::int32_t m : met)
+      if (higher(m, best)) best = m;
+    for (const std::int32_t m : met)
+      if (m != best) peaks.push_back({m, distance[static_cast<std::size_t>(m)] - here});
+    for (const std::int32_t n : ways.neighbours(v))
+      if (top[static_cast<std::size_t>(sets.find(n))] >= 0) sets.join(v, n);
+    top[static_cast<std::size_t>(sets.find(v))] = best;
+  }
+  if (!order.empty()) peaks.push_back({order.front(), distance[static_cast<std::size_t>(order.front())]});
+  return peaks;
+}
+
+/// Of the branch that ends at `tip`: about A(h) / (2 pi h), h four radii.
+double radius_near(const SurfaceWays& ways, std::int32_t tip, double length_mm,
+                   std::vector<double>& scratch) {
+  double reach = length_mm, radius = 0.0;
+  for (int round = 0; round < disc_rounds; ++round) {
+    double area = 0.0;
+    ways.walk(tip, scratch, [&](std::int32_t v, double d) {
+      if (d > reach) return false;
+      area += ways.area(v);
+      return true;
+    });
+    ways.forget(scratch);
+    radius = area / (2.0 * std::numbers::pi * reach);
+    if (disc_radii * radius >= reach) break;
+    reach = disc_radii * radius;
+  }
+  return radius;
+}
+
+/// Down the distance, edge by edge.
+std::vector<Vec3> way_back(const SurfaceWays& ways, const std::vector<double>& distance, std::int32_t tip) {
+  std::vector<Vec3> way;
+  for (std::int32_t v = tip;;) {
+    way.push_back(ways.mesh().points[static_cast<std::size_t>(v)]);
+    std::int32_t next = v;
+    for (const std::int32_t n : ways.neighbours(v))
+      if (distance[static_cast<std::size_t>(n)] < distance[static_cast<std::size_t>(next)]) next = n;
+    if (next == v) return way;
+    v = next;
+  }
+}
+
+std::vector<bool> border_points(const TriMesh& mesh) {
+  std::vector<bool> border(mesh.points.size(), false);
+  for (const auto& loop : geometry::boundary_loops(mesh))
+    for (const std::int32_t v : loop) border[static_cast<std::size_t>(v)] = true;
+  return border;
+}
+
+bool near_border(const SurfaceWays& ways, const std::vector<bool>& border, std::int32_t tip, double within_mm,
+                 std::vector<double>& scratch) {
+  bool found = false;
+  ways.walk(tip, scratch, [&](std::int32_t v, double d) {
+    found = found || border[static_cast<std::size_t>(v)];
+    return !found && d <= within_mm;
+  });
+  ways.forget(scratch);
+  return found;
+}
+
+}  // namespace
+
+void validate(const TipOptions& options) {
+  if (!(options.least_length_radii >= 2.0 && options.least_length_radii <= 50.0))
+    throw InvalidInput("tips: least_length_radii " + std::to_string(options.least_length_radii) +
+                       " must lie in [2, 50]");
+}
+
+std::vector<SurfaceTip> find_tips(const TriMesh& surface, const std::optional<Vec3>& from,
+                                  const TipOptions& options, const core::TaskContext& task) {
+  validate(options);
+  if (surface.triangles.empty()) throw InvalidInput("tips: the surface has no triangles");
+  const std::vector<std::int32_t> part = geometry::components(surface);
+  if (*std::ranges::max_element(part) > 0) throw InvalidInput("tips: the surface has more than one part");
+  const SurfaceWays ways(surface);
+  const std::vector<Vec3> normals = geometry::vertex_normals(surface);
+  const std::vector<bool> border = border_points(surface);
+  std::int32_t start =
+      nearest_point(ways, from.value_or(surface.points[static_cast<std::size_t>(surface.triangles[0][0])]));
+  std::vector<double> distance = distances(ways, start);
+  if (!from) {
+    start = farthest(distance);
+    distance = distances(ways, start);
+  }
+  task.throw_if_cancelled();
+  std::vector<Peak> peaks = peaks_of(ways, distance);
+  if (!from) peaks.push_back({start, distance[static_cast<std::size_t>(farthest(distance))]});
+  std::vector<SurfaceTip> tips;
+  std::vector<double> scratch(surface.points.size(), infinite);
+  for (const Peak& peak : peaks) {
+    task.throw_if_cancelled();
+    if (!(peak.prominence > 0.0)) continue;
+    SurfaceTip tip;
+    tip.length_mm = peak.prominence;
+    tip.radius_mm = radius_near(ways, peak.point, peak.prominence, scratch);
+    if (tip.length_mm < options.least_length_radii * tip.radius_mm) continue;
+    if (near_border(ways, border, peak.point, from_border_radii * tip.radius_mm, scratch)) continue;
+    tip.point = surface.points[static_cast<std::size_t>(peak.point)];
+    tip.inside = tip.point - 0.5 * tip.radius_mm * normals[static_cast<std::size_t>(peak.point)];
+    tip.way = way_back(ways, distance, peak.point);
+    tips.push_back(std::move(tip));
+  }
+  std::ranges::stable_sort(
+      tips, [](const SurfaceTip& a, const SurfaceTip& b) { return a.length_mm > b.length_mm; });
+  return tips;
+}
+
+}  // namespace ostia::centerline

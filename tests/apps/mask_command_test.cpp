@@ -1,0 +1,120 @@
+#include "program.h"
+
+#include "ostia/imaging/image_file.h"
+#include "ostia/phantom/phantom_case.h"
+#include "ostia/session/case_file.h"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace ostia::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+/// A folder with a synthetic heart's CT and the labels of all that is in it; scanned once.
+const fs::path& heart_with_labels() {
+  static const fs::path folder = [] {
+    const fs::path made = temporary_folder("masks");
+    phantom::CaseOptions options;
+    options.preset = phantom::Preset::small;
+    const phantom::Scan scan = phantom::scan_case(phantom::plan_case(options));
+    imaging::write_image(made / "ct.nrrd", scan.image);
+    imaging::write_image(made / "labels.nii.gz", scan.labels);
+    imaging::MaskVolume lumen = scan.labels;
+    for (std::uint8_t& voxel : lumen.voxels) voxel = voxel == 20 ? 1 : 0;  // coronary lumen
+    imaging::write_image(made / "mask.nii.gz", lumen);
+    return made;
+  }();
+  return folder;
+}
+
+std::vector<std::string> names_of(const nlohmann::json& facts) {
+  std::vector<std::string> names;
+  for (const auto& vessel : facts["vessels"]) names.push_back(vessel["name"]);
+  return names;
+}
+
+TEST(MaskCommands, AMaskBecomesACaseAndItsLabelsComeBack) {
+  const Setting in{heart_with_labels(), ""};
+  const Outcome done = ostia({"extract", "mask.nii.gz", "-o", "heart.ostia", "--json"}, in);
+  ASSERT_EQ(done.code, 0) << done.err;
+  const auto facts = nlohmann::json::parse(done.out);
+  EXPECT_EQ(facts["ostia"], 2);
+  EXPECT_THAT(names_of(facts), ::testing::IsSupersetOf({"LAD", "LCX", "RCA"}));
+  EXPECT_FALSE(session::CaseFile::open(in.folder / "heart.ostia", session::OpenMode::read_only).image());
+  const Outcome back = ostia({"convert", "heart.ostia", "back.nii.gz", "--grid", "ct.nrrd", "--json"}, in);
+  ASSERT_EQ(back.code, 0) << back.err;
+  const Outcome judged = ostia({"evaluate", "volume", "mask.nii.gz", "back.nii.gz", "--json"}, in);
+  ASSERT_EQ(judged.code, 0) << judged.err;
+  EXPECT_GT(nlohmann::json::parse(judged.out)["dice"].get<double>(), 0.85) << judged.out;
+  const auto before = imaging::read_mask(in.folder / "mask.nii.gz").volume.voxels;
+  const auto after = imaging::read_mask(in.folder / "back.nii.gz").volume.voxels;
+  const auto object = [](const std::vector<std::uint8_t>& voxels) {
+    return static_cast<double>(std::count_if(voxels.begin(), voxels.end(), [](auto v) { return v != 0; }));
+  };
+  EXPECT_NEAR(object(after), object(before), 0.03 * object(before));
+}
+
+TEST(MaskCommands, WithItsCtTheCaseBelongsToTheCt) {
+  const Setting in{heart_with_labels(), ""};
+  const Outcome done =
+      ostia({"extract", "labels.nii.gz", "--label", "20", "--image", "ct.nrrd", "-o", "with.ostia"}, in);
+  ASSERT_EQ(done.code, 0) << done.err;
+  EXPECT_TRUE(session::CaseFile::open(in.folder / "with.ostia", session::OpenMode::read_only).image());
+  const Outcome plaque =
+      ostia({"convert", "with.ostia", "plaque.nrrd", "--grid", "ct.nrrd", "--labels", "plaque"}, in);
+  ASSERT_EQ(plaque.code, 0) << plaque.err;
+  EXPECT_THAT(plaque.out, AllOf(HasSubstr("lumen"), HasSubstr("fibrous")));
+}
+
+TEST(MaskCommands, MasksWithoutVesselsAreRefusedByNameAndLeaveNoCase) {
+  const Setting in{heart_with_labels(), ""};
+  const auto refused = [&](const std::vector<std::string>& more, const std::string& what) {
+    const Outcome done =
+        ostia(std::vector<std::string>{"extract"} + more + std::vector<std::string>{"-o", "none.ostia"}, in);
+    EXPECT_EQ(done.code, 3) << done.err;
+    EXPECT_THAT(done.err, HasSubstr(what));
+    EXPECT_FALSE(fs::exists(in.folder / "none.ostia"));
+  };
+  refused({"labels.nii.gz", "--label", "77"}, "has no voxel of label 77; its labels are");
+  refused({"labels.nii.gz", "--label", "7"}, "organ");           // liver
+  refused({"labels.nii.gz"}, "thicker than coronary arteries");  // everything
+  imaging::MaskVolume mask = imaging::read_mask(in.folder / "mask.nii.gz").volume;
+  imaging::MaskVolume empty = mask, full = mask, moved = mask;
+  std::fill(empty.voxels.begin(), empty.voxels.end(), std::uint8_t{0});
+  std::fill(full.voxels.begin(), full.voxels.end(), std::uint8_t{1});
+  moved.geometry.origin.x() += 30.0;
+  imaging::write_image(in.folder / "empty.nrrd", empty);
+  imaging::write_image(in.folder / "full.nrrd", full);
+  imaging::write_image(in.folder / "moved.nrrd", moved);
+  refused({"empty.nrrd"}, "empty.nrrd: the mask is empty");
+  refused({"full.nrrd"}, "full");
+  refused({"moved.nrrd", "--image", "ct.nrrd"}, "--image");
+  // The CT itself is no mask.
+  refused({"ct.nrrd", "--mask"}, "not a mask");
+  const Outcome wrong = ostia({"extract", "ct.nrrd", "--image", "ct.nrrd", "-o", "none.ostia"}, in);
+  EXPECT_EQ(wrong.code, 2);
+}
+
+TEST(MaskCommands, LabelsNeedACaseAndAGrid) {
+  const Setting in{heart_with_labels(), ""};
+  const Outcome done = ostia({"extract", "mask.nii.gz", "-o", "grid.ostia"}, in);
+  ASSERT_EQ(done.code, 0) << done.err;
+  EXPECT_EQ(ostia({"convert", "grid.ostia", "a.nrrd"}, in).code, 2);
+  EXPECT_EQ(ostia({"convert", "mask.nii.gz", "a.nrrd", "--grid", "ct.nrrd"}, in).code, 2);
+  imaging::MaskVolume far = imaging::read_mask(in.folder / "mask.nii.gz").volume;
+  far.geometry.origin.z() += 900.0;
+  imaging::write_image(in.folder / "far.nrrd", far);
+  const Outcome other = ostia({"convert", "grid.ostia", "a.nrrd", "--grid", "far.nrrd"}, in);
+  EXPECT_EQ(other.code, 3);
+  EXPECT_THAT(other.err, HasSubstr("another patient's"));
+  EXPECT_FALSE(fs::exists(in.folder / "a.nrrd"));
+}
+
+}  // namespace
+}  // namespace ostia::testing

@@ -1,0 +1,143 @@
+#include "ostia/meshing/flat_caps.h"
+
+#include "ostia/core/error.h"
+#include "ostia/geometry/analytic_shapes.h"
+#include "ostia/geometry/mesh_topology.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace ostia::meshing {
+namespace {
+
+using geometry::FacedSurface;
+using geometry::TriMesh;
+using geometry::Vec3;
+
+/// A Y of radii 2 and 1.5 mm whose three ends are closed by flat fans; each cap has a label of its own.
+FacedSurface capped_y() {
+  const TriMesh open = geometry::surface_of(geometry::y_junction(20.0, 15.0, 2.0, 1.5, 60.0), 0.4, true);
+  const geometry::FilledHoles filled = geometry::fill_holes(open);
+  FacedSurface surface;
+  surface.mesh = filled.mesh;
+  for (const std::int32_t hole : filled.hole_of_triangle)
+    surface.face_ids.push_back(hole < 0 ? 7 : 11 + hole);
+  surface.faces = {{7, "wall", geometry::FaceKind::wall}};
+  return surface;
+}
+
+FacedSurface without_labels(FacedSurface surface) {
+  surface.face_ids.clear();
+  surface.faces.clear();
+  return surface;
+}
+
+void expect_three_ends(const OpenedCaps& opened, double area_of_wall) {
+  ASSERT_EQ(opened.ends.size(), 3u);
+  EXPECT_EQ(geometry::boundary_loops(opened.wall).size(), 3u);
+  EXPECT_NEAR(geometry::area(opened.wall), area_of_wall, 1e-9 * area_of_wall);
+  int parents = 0;
+  for (const GivenEnd& end : opened.ends) {
+    const bool parent = std::abs(end.normal.z() + 1.0) < 1e-6;
+    parents += parent;
+    EXPECT_NEAR(end.radius_mm, parent ? 2.0 : 1.5, 0.03);
+    EXPECT_GT(std::abs(end.normal.z()), parent ? 0.999 : 0.8);  // children leave at 30 degrees
+    if (parent) {
+      EXPECT_NEAR((end.centre - Vec3(0.0, 0.0, -20.0)).norm(), 0.0, 0.02);
+    }
+  }
+  EXPECT_EQ(parents, 1);
+}
+
+TEST(FlatCaps, AreKnownByTheirLabels) {
+  const FacedSurface surface = capped_y();
+  double wall = 0.0;
+  std::vector<bool> is_wall;
+  for (const std::int32_t id : surface.face_ids) is_wall.push_back(id == 7);
+  wall = geometry::area(geometry::subset(surface.mesh, is_wall));
+  expect_three_ends(without_flat_caps(surface), wall);
+}
+
+TEST(FlatCaps, AreKnownByTheirShapeWhereThereAreNoLabels) {
+  const FacedSurface surface = capped_y();
+  std::vector<bool> is_wall;
+  for (const std::int32_t id : surface.face_ids) is_wall.push_back(id == 7);
+  const double wall = geometry::area(geometry::subset(surface.mesh, is_wall));
+  expect_three_ends(without_flat_caps(without_labels(surface)), wall);
+}
+
+TEST(FlatCaps, OneLabelForAllIsNoLabel) {
+  FacedSurface surface = capped_y();
+  const auto ends = without_flat_caps(without_labels(surface)).ends.size();
+  surface.face_ids.assign(surface.face_ids.size(), 1);
+  EXPECT_EQ(without_flat_caps(surface).ends.size(), ends);
+  EXPECT_EQ(ends, 3u);
+}
+
+TEST(FlatCaps, TakeTheNamesThatTheFileHas) {
+  FacedSurface surface = capped_y();
+  surface.faces.push_back({11, "inflow_aorta", geometry::FaceKind::outlet});
+  surface.faces.push_back({12, "cap_LAD", geometry::FaceKind::outlet});
+  surface.faces.push_back({13, "outlet_LCx 1.vtp", geometry::FaceKind::outlet});
+  std::vector<std::string> names;
+  int inlets = 0;
+  for (const GivenEnd& end : without_flat_caps(surface).ends) {
+    names.push_back(end.name);
+    inlets += end.kind == geometry::FaceKind::inlet;
+  }
+  std::ranges::sort(names);
+  EXPECT_EQ(names, (std::vector<std::string>{"LAD", "LCx_1", "aorta"}));
+  EXPECT_EQ(inlets, 1);
+}
+
+TEST(FlatCaps, RoundedEndsAreNone) {
+  FacedSurface surface;
+  surface.mesh = geometry::surface_of(geometry::y_junction(20.0, 15.0, 2.0, 1.5, 60.0), 0.4, false);
+  const OpenedCaps opened = without_flat_caps(surface);
+  EXPECT_TRUE(opened.ends.empty());
+  EXPECT_EQ(opened.wall.triangles.size(), surface.mesh.triangles.size());
+}
+
+/// Few sides: each strip of the wall is flat and has a rim of 60 degrees.
+TEST(FlatCaps, StripsOfACoarseTubeAreWall) {
+  const TriMesh open = geometry::structured_surface(geometry::straight_tube(12.0, 2.0).tubes[0], 6, 3.0);
+  FacedSurface surface;
+  surface.mesh = geometry::fill_holes(open).mesh;
+  EXPECT_EQ(without_flat_caps(surface).ends.size(), 2u);
+}
+
+/// A lumen of boxes, as a mask's voxels have it: the sides are flat, round enough and sharp, and yet wall.
+TEST(FlatCaps, ABoxIsNoVessel) {
+  FacedSurface surface;
+  for (int i = 0; i < 8; ++i) surface.mesh.points.emplace_back(i & 1, (i >> 1) & 1, (i >> 2) & 1);
+  surface.mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                            {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  EXPECT_TRUE(without_flat_caps(surface).ends.empty());
+}
+
+TEST(FlatCaps, OpenEndsStayAndClosedOnesOpen) {
+  const TriMesh open = geometry::structured_surface(geometry::straight_tube(12.0, 2.0).tubes[0], 24, 0.5);
+  const geometry::FilledHoles filled = geometry::fill_holes(open);
+  std::vector<bool> keep;
+  for (const std::int32_t hole : filled.hole_of_triangle) keep.push_back(hole != 0);
+  FacedSurface surface;
+  surface.mesh = geometry::subset(filled.mesh, keep);  // one cap, one open end
+  const OpenedCaps opened = without_flat_caps(surface);
+  ASSERT_EQ(opened.ends.size(), 1u);
+  EXPECT_NEAR(opened.ends[0].radius_mm,
+              2.0 * std::sqrt(std::sin(std::numbers::pi / 12.0) / (std::numbers::pi / 12.0)), 1e-6);
+  EXPECT_EQ(geometry::boundary_loops(opened.wall).size(), 2u);
+}
+
+TEST(FlatCaps, RefusesWhatDoesNotBelongTogether) {
+  FacedSurface surface = capped_y();
+  surface.face_ids.pop_back();
+  EXPECT_THROW(without_flat_caps(surface), InvalidInput);
+  FlatCapOptions options;
+  options.flat_tolerance = 0.0;
+  EXPECT_THROW(without_flat_caps(capped_y(), options), InvalidInput);
+}
+
+}  // namespace
+}  // namespace ostia::meshing

@@ -222,7 +222,8 @@ void define(CLI::App& app, Commands& c, Run& run) {
                            "  ostia mesh lumen.stl -o mesh --layers 3 --layer-thickness 0.5 --export "
                            "openfoam,gmsh4\n"
                            "  ostia mesh --check mesh/mesh.vtu");
-  add_input(*mesh, c.mesh.input, "Surface, open or closed, or a case", false);
+  add_input(*mesh, c.mesh.input, "Surface, open or closed, a mask of coronary arteries, or a case", false);
+  add_mask(*mesh, c.mesh.of_mask);
   add_units(*mesh, c.mesh.input);
   add_coords(*mesh, c.mesh.input);
   add_ends(*mesh, c.mesh.ends);
@@ -292,6 +293,7 @@ void define(CLI::App& app, Commands& c, Run& run) {
   CLI::App* model = command(app, "model", "From an image, a mask or a surface to a mesh with named faces",
                             "ostia model CT/ -o out --branch 8,-187,675:6,-178,720");
   add_input(*model, c.model.input, "DICOM folder or zip, image, mask or surface", false);
+  add_mask(*model, c.model.of_mask);
   add_dicom(*model, c.model.input);
   add_units(*model, c.model.input);
   add_coords(*model, c.model.input);

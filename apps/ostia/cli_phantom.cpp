@@ -5,6 +5,7 @@
 #include "shown_defaults.h"
 #include "validators.h"
 
+#include "ostia/phantom/anatomy.h"
 #include "ostia/phantom/scan.h"
 #include "ostia/phantom/truth.h"
 
@@ -32,10 +33,8 @@ void add_phantom(CLI::App& app, PhantomCommand& o) {
       ->check(CLI::IsMember({"mhd", "nrrd", "dicom"}));
   app.add_option("--disease", o.disease, "Number of lesions, as a multiple of the usual; 0: a healthy tree")
       ->check(CLI::Range(0.0, 5.0));
-  app.add_option("--anatomy", o.anatomy,
-                 "usual, left-ostium-closed, right-ostium-closed, rca-from-left, lcx-from-right, bypass")
-      ->check(CLI::IsMember({"usual", "left-ostium-closed", "right-ostium-closed", "rca-from-left",
-                             "lcx-from-right", "bypass"}));
+  app.add_option("--anatomy", o.anatomy, CLI::detail::join(phantom::anatomy_words(), ", "))
+      ->check(CLI::IsMember(phantom::anatomy_words()));
   app.add_option("--calcium", o.calcium, "0: none; 1: that of the lesions; more: nodules along the arteries")
       ->check(CLI::Range(0.0, 20.0));
   app.add_option("--stent", o.stent_mm, "Length of a stent in the proximal LAD, mm")

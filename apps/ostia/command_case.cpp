@@ -276,7 +276,7 @@ void define_case(CLI::App& app, CaseCommand& c, std::function<ExitCode(const cor
   CLI::App* sub = app.add_subcommand("case", "A case of blood flow that a solver runs as it is");
   sub->footer(
       "Example:\n  ostia case mesh/mesh.vtu -o flow --outlets split\n"
-      "  ostia case mesh/mesh.vtu -o flow --waveform coronary-left --flow 0.8 && flow/Allrun 4\n"
+      "  ostia case mesh/mesh.vtu -o pulse --waveform coronary-left --flow 0.8 && pulse/Allrun 4\n"
       "  ostia case flow --iterations 4000 && flow/Allrun");
   sub->fallthrough();
   sub->add_option("MESH", c.mesh,

@@ -68,7 +68,12 @@ session::FoundModel found_in(const std::filesystem::path& input, const imaging::
       " (in the workstation, or `ostia model " + own_name(input) + " -o DIR --branch P:P`)");
 }
 
-/// What was joined and parted, beside the vessels.
+const char* word(coronary::MaskEndChange::Kind kind) {
+  if (kind == coronary::MaskEndChange::Kind::shortened) return "shortened";
+  return kind == coronary::MaskEndChange::Kind::left_out ? "left out" : "begun earlier";
+}
+
+/// What was joined, parted and shortened, beside the vessels.
 Json facts_of(const session::MaskModel& result) {
   Json facts = facts_of(result.found);
   facts["kind"] = "extraction of a mask";
@@ -83,13 +88,20 @@ Json facts_of(const session::MaskModel& result) {
   facts["cuts"] = Json::array();
   for (const coronary::MaskCut& cut : result.tree.cuts)
     facts["cuts"].push_back({{"place", place(cut.place)}, {"radius_mm", cut.radius_mm}});
+  facts["ends"] = Json::array();
+  for (const coronary::MaskEndChange& end : result.tree.ends)
+    facts["ends"].push_back({{"kind", word(end.kind)},
+                             {"place", place(end.place)},
+                             {"length_mm", end.length_mm},
+                             {"vessel", end.vessel}});
   return facts;
 }
 
 ExitCode extract_mask(const ExtractCommand& o, NewCase& made, const core::TaskContext& task) {
   coronary::MaskTreeOptions options;
   options.labels.least_confidence = o.least_confidence;
-  const MaskCase found = mask_case({o.input.input, o.image, o.labels}, options, task.sub(0.0, 0.98));
+  const MaskCase found =
+      mask_case({o.input.input, o.of_mask.image, o.of_mask.labels}, options, task.sub(0.0, 0.98));
   for (const std::string& warning : found.model.found.found.warnings) core::log_warning(warning);
   task.throw_if_cancelled();
   made.make(found.model.found, found.image);
@@ -106,8 +118,8 @@ ExitCode run_extract(const ExtractCommand& o, const core::TaskContext& task) {
   require_output(o.output, {".ostia"});
   require_output(o.lines, line_outputs);
   NewCase made(o.output);
-  if (o.mask || holds_labels(o.input.input)) return extract_mask(o, made, task);
-  if (!o.image.empty() || !o.labels.empty())
+  if (o.of_mask.mask || holds_labels(o.input.input)) return extract_mask(o, made, task);
+  if (!o.of_mask.image.empty() || !o.of_mask.labels.empty())
     throw UsageError("--image and --label are for masks, and " + own_name(o.input.input) +
                      " is a CT; give --mask if it is a mask");
   task.set_stage("reading");
@@ -128,13 +140,21 @@ ExitCode run_extract(const ExtractCommand& o, const core::TaskContext& task) {
   return result.found.left_out.empty() ? ExitCode::ok : ExitCode::quality_failed;
 }
 
+void add_mask(CLI::App& app, MaskOptions& o) {
+  app.add_option("--image", o.image, "Of a mask: the CT that it was drawn on");
+  app.add_option("--label", o.labels, "Of a mask: the labels that are vessels; left out: all but 0")
+      ->check(CLI::Range(1, 255))
+      ->delimiter(',');
+  app.add_flag("--mask", o.mask, "INPUT is a mask, even if it has the values of a CT or of probabilities");
+}
+
 void define_extract(CLI::App& app, ExtractCommand& c, std::function<ExitCode(const core::TaskContext&)>& run,
                     const std::function<void(CLI::App&, InputOptions&)>& add_dicom) {
   CLI::App* extract = app.add_subcommand(
       "extract", "The coronary tree of a CT angiogram, or of a mask of one, by itself: a case to be checked");
   extract->footer(
       "Example:\n  ostia extract CT/ -o heart.ostia\n  ostia extract mask.nii.gz --image ct.nii.gz -o "
-      "heart.ostia");
+      "patient.ostia");
   extract->fallthrough();
   extract->add_option("INPUT", c.input.input, "DICOM folder or zip, image, or mask")->required();
   add_dicom(*extract, c.input);
@@ -146,13 +166,7 @@ void define_extract(CLI::App& app, ExtractCommand& c, std::function<ExitCode(con
       ->check(CLI::Range(0.0, 1.0));
   extract->add_option("--vesselness", c.vesselness, "How likeness to a tube is measured")
       ->check(CLI::IsMember({"flux", "hessian"}));
-  extract->add_option("--image", c.image,
-                      "Of a mask: the CT that it was drawn on, which the case belongs to");
-  extract->add_option("--label", c.labels, "Of a mask: the labels that are vessels; left out: all but 0")
-      ->check(CLI::Range(1, 255))
-      ->delimiter(',');
-  extract->add_flag("--mask", c.mask,
-                    "INPUT is a mask, even if it has the values of a CT or of probabilities");
+  add_mask(*extract, c.of_mask);
   extract->add_flag("--json", c.json, "One JSON object on standard output");
   extract->callback([&] { run = [&](const core::TaskContext& task) { return run_extract(c, task); }; });
 }

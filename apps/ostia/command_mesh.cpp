@@ -1,6 +1,8 @@
 #include "commands.h"
+#include "ends_not_cut.h"
 #include "kept_results.h"
 #include "mesh_input.h"
+#include "mesh_vessels.h"
 #include "model_options.h"
 #include "refinement.h"
 #include "seeds.h"
@@ -15,7 +17,6 @@
 #include "ostia/io/volume_mesh_file.h"
 #include "ostia/pipeline/model_folder.h"
 #include "ostia/pipeline/report.h"
-#include "ostia/pipeline/vessel_export.h"
 #include "ostia/pipeline/vessel_forecast.h"
 #include "ostia/session/case_file.h"
 
@@ -119,7 +120,8 @@ pipeline::Source surface_source(const MeshCommand& options, pipeline::ModelOptio
   for (const std::string& warning : source.warnings) core::log_warning(warning);
   if (source.kind != pipeline::SourceKind::surface)
     throw InvalidInput("cannot mesh " + options.input.input.string() +
-                       ": it is no surface; `ostia model` goes all the way from an image");
+                       ": it is no surface; `ostia model` goes all the way from an image, and --mask takes "
+                       "a mask of any values");
   apply(options.ends, seed_frame(options.input, source, options.ends.seed_units), how);
   apply_size_array(options.mesh, options.input, source.unit_mm, how);
   how.clip.given = source.ends;
@@ -166,35 +168,33 @@ ExitCode forecast(const MeshCommand& options, const core::TaskContext& task) {
   return found.fails() ? ExitCode::quality_failed : ExitCode::ok;
 }
 
-/// All vessels of a case, as the window's export does it.
-ExitCode mesh_case(const MeshCommand& options, const core::TaskContext& task) {
+void refuse_ends_of_vessels(const MeshCommand& options, const std::string& what) {
   if (!options.centerline.empty() || !options.ends.source.empty() || !options.ends.targets.empty())
-    throw UsageError("a case has its axes: --centerline, --source and --target are for surfaces");
+    throw UsageError(what + " has its axes: --centerline, --source and --target are for surfaces");
   if (!options.mesh.size_array.empty()) throw UsageError("--size-array is for surfaces (.vtp)");
+}
+
+VesselMesh wanted_of(const MeshCommand& options) {
+  return {options.mesh, options.input.coords, options.output, options.json};
+}
+
+ExitCode mesh_case(const MeshCommand& options, const core::TaskContext& task) {
+  refuse_ends_of_vessels(options, "a case");
   pipeline::ModelOptions how;
   apply(options.mesh, how);
   task.set_stage("reading");
   const auto opened = session::CaseFile::open(options.input.input, session::OpenMode::read_only);
   apply_refinement(options, box_of(opened.model()->tree), how, task);
-  pipeline::MeshExportOptions wanted;
-  wanted.sizing = how.sizing;
-  wanted.extensions = how.extensions;
-  wanted.volume = how.volume;
-  wanted.planes = placed_planes(options.mesh, options.input.coords, nullptr);
-  if (how.inset_radii) wanted.inset_radii = *how.inset_radii;
-  pipeline::require_free_folder(options.output);
-  std::optional<ExitCode> code =
-      pipeline::already_done(options.output, pipeline::mesh_job(*opened.model(), wanted));
-  if (code) {
-    core::log_info("done already with the same case and parameters; nothing to do");
-  } else {
-    const auto made = pipeline::export_mesh(options.output, *opened.model(), wanted, task);
-    for (const std::string& warning : made.warnings) core::log_warning(warning);
-    code = verdict(made.verdict);
-    if (made.trees == 1) tell_case(how.volume, options.output);
-  }
-  tell_mesh(options.output, options.json);
-  return *code;
+  return mesh_vessels(*opened.model(), wanted_of(options), how, task);
+}
+
+ExitCode mesh_the_mask(const MeshCommand& options, const core::TaskContext& task) {
+  refuse_ends_of_vessels(options, "a mask");
+  const auto refined = [&](const lumen::LumenModel& model, pipeline::ModelOptions& how) {
+    apply_refinement(options, box_of(model.tree), how, task);
+  };
+  return mesh_mask({options.input.input, options.of_mask.image, options.of_mask.labels}, wanted_of(options),
+                   refined, task);
 }
 
 }  // namespace
@@ -205,8 +205,10 @@ ExitCode run_mesh(const MeshCommand& options, const core::TaskContext& task) {
   if (options.forecast) return forecast(options, task);
   if (options.input.input.empty() || options.output.empty())
     throw UsageError(
-        "`ostia mesh` needs a surface or a case and -o DIR, or --check FILE, or a surface and --forecast");
+        "`ostia mesh` needs a surface, a mask or a case and -o DIR, or --check FILE, or a surface and "
+        "--forecast");
   if (options.input.input.extension() == ".ostia") return mesh_case(options, task);
+  if (options.of_mask.mask || holds_labels(options.input.input)) return mesh_the_mask(options, task);
   pipeline::ModelOptions how;
   apply(options.mesh, how);
   how.clip.planes = placed_planes(options.mesh, options.input.coords, nullptr);
@@ -232,8 +234,11 @@ ExitCode run_mesh(const MeshCommand& options, const core::TaskContext& task) {
   warn_of(forecast_of(wall, &tree, how, task.sub(0.28, 0.3)), false, true);
   KeptResults kept(options.keep, options.output);
   kept.add("centerlines.vtp", [&](const std::filesystem::path& file) { io::write_centerlines(file, tree); });
-  const pipeline::MeshedLumen meshed =
-      kept.guard([&] { return pipeline::mesh_lumen(source.surface, tree, how, task.sub(0.3, 0.95)); });
+  EndsNotCutPicture ends(kept);
+  const pipeline::MeshedLumen meshed = kept.guard([&] {
+    return ends.guard(source.surface, tree,
+                      [&] { return pipeline::mesh_lumen(source.surface, tree, how, task.sub(0.3, 0.95)); });
+  });
   for (const std::string& warning : meshed.warnings) core::log_warning(warning);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   pipeline::write_mesh_folder(options.output, meshed, how, key, seconds, task.sub(0.95, 1.0));

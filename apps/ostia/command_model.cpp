@@ -1,6 +1,8 @@
 #include "commands.h"
+#include "ends_not_cut.h"
 #include "kept_results.h"
 #include "mesh_input.h"
+#include "mesh_vessels.h"
 #include "model_options.h"
 #include "seeds.h"
 #include "solver_case.h"
@@ -93,6 +95,7 @@ pipeline::Model built(const ModelCommand& command, pipeline::Source source,
   kept.add("centerlines.vtp", [&](const std::filesystem::path& file) {
     if (!axes.vessels.empty()) io::write_centerlines(file, axes);
   });
+  EndsNotCutPicture ends(kept);
   return kept.guard([&] {
     pipeline::LumenWithAxes lumen =
         pipeline::build_lumen(std::move(source), options, task.sub(0.0, 0.45), &found);
@@ -102,8 +105,22 @@ pipeline::Model built(const ModelCommand& command, pipeline::Source source,
     } catch (const GeometryError& error) {  // a forecast is a warning: the model itself may still succeed
       core::log_warning(std::string("the mesh cannot be foretold: ") + error.what());
     }
-    return pipeline::mesh_model(std::move(lumen), options, task.sub(0.47, 1.0));
+    return ends.guard(found, axes,
+                      [&] { return pipeline::mesh_model(std::move(lumen), options, task.sub(0.47, 1.0)); });
   });
+}
+
+/// A mask of vessels finds its own ends; with places given it is one lumen between them.
+bool takes_vessels_of_mask(const ModelCommand& command) {
+  const bool placed =
+      !command.lumen.branches.empty() || !command.ends.source.empty() || !command.ends.targets.empty();
+  const MaskOptions& mask = command.of_mask;
+  const bool told = mask.mask || !mask.labels.empty() || !mask.image.empty();
+  if (placed && told)
+    throw UsageError(
+        "--mask, --label and --image take all vessels of a mask, whose ends are found; leave out --branch, "
+        "--source and --target");
+  return !command.builtin && !placed && (mask.mask || holds_labels(command.input.input));
 }
 
 void print_report(const std::filesystem::path& folder) {
@@ -116,6 +133,9 @@ ExitCode run_model(const ModelCommand& command, const core::TaskContext& task) {
   const auto start = Clock::now();
   if (command.builtin != command.input.input.empty())
     throw UsageError("`ostia model` needs either an input or --builtin");
+  if (takes_vessels_of_mask(command))
+    return mesh_mask({command.input.input, command.of_mask.image, command.of_mask.labels},
+                     {command.mesh, command.input.coords, command.output, command.json}, {}, task);
   pipeline::require_free_folder(command.output);
   Job job = job_of(command, task.sub(0.0, 0.1));
   if (const auto code = pipeline::already_done(command.output, job.key)) {

@@ -117,8 +117,16 @@ struct MeshOptions {
   CaseOptions solver_case;
 };
 
+/// Which labels of a mask are coronary arteries.
+struct MaskOptions {
+  bool mask = false;            ///< the input is a mask, whatever its values look like
+  std::vector<int> labels;      ///< that are vessels; empty: all but 0
+  std::filesystem::path image;  ///< the CT that it was drawn on; empty: none
+};
+
 struct MeshCommand {
   InputOptions input;
+  MaskOptions of_mask;
   std::filesystem::path keep;  ///< for what was made when it fails
   EndOptions ends;
   MeshOptions mesh;
@@ -158,6 +166,7 @@ ExitCode run_convert(const ConvertCommand& options, const core::TaskContext& tas
 
 struct ModelCommand {
   InputOptions input;
+  MaskOptions of_mask;
   std::filesystem::path keep;  ///< for what was made when it fails
   LumenOptions lumen;
   EndOptions ends;

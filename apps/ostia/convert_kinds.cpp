@@ -18,8 +18,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace ostia::app {
@@ -56,18 +58,28 @@ ConvertJson from_case(const ConvertCommand& o, const core::TaskContext& task) {
   return {{"points", graph.points.size()}, {"segments", graph.edges.size()}};
 }
 
+/// Extensions of volume meshes with what they mean where that could be several formats: ".vtu, .msh (Gmsh
+/// 4.1), ...".
+std::string mesh_extensions() {
+  std::string all;
+  for (const io::MeshFormat format : io::mesh_formats) {
+    const std::string_view extension = io::extension_of(format);
+    if (extension.empty() || io::usual_mesh_format(extension) != format) continue;
+    all += (all.empty() ? "" : ", ") + std::string(extension);
+    const auto same = [&](io::MeshFormat other) { return io::extension_of(other) == extension; };
+    if (std::ranges::count_if(io::mesh_formats, same) > 1)
+      all += " (" + std::string(io::title_of(format)) + ")";
+  }
+  return all;
+}
+
 /// What is written as a file or folder of this name.
 io::MeshFormat format_of(const ConvertCommand& o) {
   if (!o.format.empty()) return io::mesh_format(o.format);
-  const std::string extension = o.output.extension().string();
-  if (extension.empty()) return io::MeshFormat::openfoam;
-  for (const io::MeshFormat format : {io::MeshFormat::vtu, io::MeshFormat::gmsh4, io::MeshFormat::abaqus,
-                                      io::MeshFormat::exodus, io::MeshFormat::cgns})
-    if (extension == io::extension_of(format)) return format;
-  throw UsageError(
-      "cannot write " + o.output.string() +
-      ": a volume mesh becomes .vtu, .msh (Gmsh), .inp, .exo, .cgns, or a folder (OpenFOAM; --format "
-      "for others), its boundary .stl, .ply or .vtp");
+  if (const auto usual = io::usual_mesh_format(o.output.extension().string())) return *usual;
+  throw UsageError("cannot write " + o.output.string() + ": a volume mesh becomes " + mesh_extensions() +
+                   ", or a folder (" + std::string(io::title_of(*io::usual_mesh_format(""))) +
+                   "; --format for others), its boundary .stl, .ply or .vtp");
 }
 
 geometry::FacedSurface boundary_of(const geometry::MixedMesh& mesh) {

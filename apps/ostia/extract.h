@@ -15,10 +15,8 @@ class App;
 namespace ostia::app {
 
 struct ExtractCommand {
-  InputOptions input;            ///< CT, or a mask
-  std::filesystem::path image;   ///< the CT of a mask; empty: none
-  bool mask = false;             ///< the input is a mask, whatever its values look like
-  std::vector<int> labels;       ///< of a mask that are vessels; empty: all but 0
+  InputOptions input;  ///< CT, or a mask
+  MaskOptions of_mask;
   std::filesystem::path output;  ///< case
   std::filesystem::path lines;   ///< centerlines; empty: none
   double least_confidence = 0.5;
@@ -27,6 +25,8 @@ struct ExtractCommand {
 };
 ExitCode run_extract(const ExtractCommand& options, const core::TaskContext& task);
 
+/// Adds what is said of a mask: --mask, --label, --image.
+void add_mask(CLI::App& app, MaskOptions& options);
 /// Adds `extract`.
 void define_extract(CLI::App& app, ExtractCommand& extract,
                     std::function<ExitCode(const core::TaskContext&)>& run,

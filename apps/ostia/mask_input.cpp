@@ -29,12 +29,6 @@ std::string counts_in_words(const std::array<std::int64_t, 256>& counts) {
 
 }  // namespace
 
-bool holds_labels(const std::filesystem::path& file) {
-  const pipeline::SourceKind kind = pipeline::classify(file);
-  return kind == pipeline::SourceKind::mask ||
-         (kind == pipeline::SourceKind::image && imaging::looks_like_labels(file));
-}
-
 imaging::MaskVolume read_vessel_labels(const MaskInput& input, const core::TaskContext& task) {
   imaging::LoadedImage<std::uint8_t> loaded = imaging::read_labels(input.file, task);
   for (const std::string& warning : loaded.header.warnings) core::log_warning(warning);

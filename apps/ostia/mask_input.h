@@ -11,6 +11,8 @@
 
 namespace ostia::app {
 
+using session::holds_labels;
+
 struct MaskInput {
   std::filesystem::path file;
   std::filesystem::path image;  ///< the CT that it was drawn on; empty: none
@@ -21,9 +23,6 @@ struct MaskCase {
   session::MaskModel model;
   std::optional<session::ImageReference> image;  ///< of the CT, where there is one
 };
-
-/// Whether a file holds labels rather than a CT: whole numbers, few of them.
-bool holds_labels(const std::filesystem::path& file);
 
 /// The mask with its values, without those that were not asked for. Throws InvalidInput naming the labels
 /// that are there where one that is asked for is not.

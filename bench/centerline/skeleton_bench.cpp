@@ -45,7 +45,7 @@ void grow(imaging::MaskVolume& mask, const Vec3& from, const Vec3& direction, do
     grow(mask, to, (direction + 0.55 * sign * across).normalized(), 0.82 * radius, generation + 1);
 }
 
-const imaging::MaskVolume& tree() {
+const imaging::MaskVolume& tree_mask() {
   static const imaging::MaskVolume mask = [] {
     imaging::MaskVolume m;
     m.geometry.size = {side, side, side};
@@ -59,7 +59,7 @@ const imaging::MaskVolume& tree() {
 
 void skeleton_256(benchmark::State& state) {
   core::set_max_threads(2);
-  const imaging::MaskVolume& mask = tree();
+  const imaging::MaskVolume& mask = tree_mask();
   centerline::SkeletonGraph graph;
   std::int64_t object = 0;
   for (auto _ : state) {
@@ -77,7 +77,7 @@ void skeleton_256(benchmark::State& state) {
 
 void skeleton_256_sections(benchmark::State& state) {
   core::set_max_threads(2);
-  const imaging::MaskVolume& mask = tree();
+  const imaging::MaskVolume& mask = tree_mask();
   const centerline::SkeletonGraph graph = centerline::smoothed(
       centerline::pruned(centerline::skeleton_graph(centerline::thinned(mask, {.fill_cavities = true}))));
   std::size_t points = 0;

@@ -1,9 +1,9 @@
+#include "kept_scan.h"
 #include "program.h"
 
 #include "ostia/imaging/image_file.h"
 #include "ostia/io/centerline_file.h"
 #include "ostia/io/surface_file.h"
-#include "ostia/phantom/phantom_case.h"
 #include "ostia/session/case_file.h"
 #include "ostia/session/image_digest.h"
 
@@ -22,7 +22,7 @@ TEST(ExtractCommand, AnAngiogramBecomesACaseWithLabelledVesselsAndTheirDoubts) {
   const auto folder = temporary_folder("extract");
   phantom::CaseOptions options;
   options.preset = phantom::Preset::small;
-  imaging::write_image(folder / "heart.nrrd", phantom::scan_case(phantom::plan_case(options)).image);
+  imaging::write_image(folder / "heart.nrrd", kept_scan(phantom::plan_case(options)).image);
   const Setting in{folder, ""};
   const Outcome done =
       ostia({"extract", "heart.nrrd", "-o", "heart.ostia", "--lines", "lines.vtp", "--json"}, in);

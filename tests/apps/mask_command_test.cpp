@@ -1,7 +1,7 @@
+#include "kept_scan.h"
 #include "program.h"
 
 #include "ostia/imaging/image_file.h"
-#include "ostia/phantom/phantom_case.h"
 #include "ostia/session/case_file.h"
 
 #include <gmock/gmock.h>
@@ -16,13 +16,13 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
-/// A folder with a synthetic heart's CT and the labels of all that is in it; scanned once.
+/// A folder with a synthetic heart's CT and the labels of all that is in it.
 const fs::path& heart_with_labels() {
   static const fs::path folder = [] {
     const fs::path made = temporary_folder("masks");
     phantom::CaseOptions options;
     options.preset = phantom::Preset::small;
-    const phantom::Scan scan = phantom::scan_case(phantom::plan_case(options));
+    const phantom::Scan scan = kept_scan(phantom::plan_case(options));
     imaging::write_image(made / "ct.nrrd", scan.image);
     imaging::write_image(made / "labels.nii.gz", scan.labels);
     imaging::MaskVolume lumen = scan.labels;

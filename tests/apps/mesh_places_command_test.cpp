@@ -6,6 +6,7 @@
 
 #include "ostia/core/files.h"
 #include "ostia/geometry/analytic_shapes.h"
+#include "ostia/geometry/mesh_topology.h"
 #include "ostia/io/surface_fields.h"
 #include "ostia/io/surface_file.h"
 #include "ostia/io/volume_mesh_file.h"
@@ -138,6 +139,28 @@ TEST(MeshPlanes, ATableNamesTheEnds) {
   EXPECT_NEAR(at > 6.0 ? high : low, wanted, 0.01);
   EXPECT_NEAR(at > 6.0 ? low : high, at > 6.0 ? 0.0 : mesh_places_length_mm, 0.05)
       << "the other end is left alone";
+}
+
+TEST(MeshPlanes, AnEndThatCannotBeCutIsShownAndTheCureWorksAsPrinted) {
+  const auto folder = temporary_folder("half_pipe");
+  const geometry::TriMesh whole = geometry::surface_of(geometry::straight_tube(40.0, 1.5), 0.3, true);
+  std::vector<bool> keep;
+  for (const auto& t : whole.triangles) {
+    geometry::Vec3 c = geometry::Vec3::Zero();
+    for (const std::int32_t v : t) c += whole.points[static_cast<std::size_t>(v)] / 3.0;
+    keep.push_back(c.z() > 8.0 || c.x() < 0.3);
+  }
+  io::write_surface(folder / "pipe.ply", geometry::subset(whole, keep));
+  const std::vector<std::string> command{"mesh", "pipe.ply", "-o", "out", "--keep", "kept"};
+  const Outcome refused = ostia(command, {folder, ""});
+  ASSERT_EQ(refused.code, 3) << refused.err;
+  EXPECT_GT(std::filesystem::file_size(folder / "kept" / "ends.png"), 10000U);
+  EXPECT_NE(refused.err.find("ends.png"), std::string::npos);
+  const std::size_t at = refused.err.find("--plane ");
+  ASSERT_NE(at, std::string::npos) << refused.err;
+  const std::string plane = refused.err.substr(at + 8, refused.err.find_first_of(" ;\n", at + 8) - (at + 8));
+  const Outcome cured = ostia({"mesh", "pipe.ply", "-o", "out", "--plane", plane}, {folder, ""});
+  EXPECT_EQ(cured.code, 0) << plane << "\n" << cured.err;
 }
 
 TEST(MeshPlanes, ACaseOfTheWindowTakesPlanesAndASolversCaseToo) {

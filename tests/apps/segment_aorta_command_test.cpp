@@ -1,10 +1,10 @@
 #include "coarse_scan.h"
+#include "kept_scan.h"
 #include "program.h"
 
 #include "ostia/geometry/mesh_topology.h"
 #include "ostia/imaging/image_file.h"
 #include "ostia/io/surface_file.h"
-#include "ostia/phantom/phantom_case.h"
 #include "ostia/phantom/scene.h"
 
 #include <gmock/gmock.h>
@@ -27,7 +27,7 @@ phantom::Scan coarse_scan() {
   options.preset = phantom::Preset::small;
   phantom::CasePlan plan = phantom::plan_case(options);
   make_coarse(plan.options.scan, voxel_mm);
-  return phantom::scan_case(plan);
+  return kept_scan(plan);
 }
 
 TEST(SegmentAortaCommand, TheAortaOfAPatientBecomesAMaskOrASurfaceWithoutASeed) {

@@ -1,5 +1,7 @@
 #include "ostia/core/parallel.h"
 
+#include "ostia/core/parallel_invoke.h"
+
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -86,6 +88,17 @@ TEST_F(Parallel, LimitIsReported) {
   EXPECT_EQ(max_threads(), 3);
   set_max_threads(0);
   EXPECT_GE(max_threads(), 1);
+}
+
+TEST_F(Parallel, BothPiecesOfWorkAreDoneAndErrorsComeOut) {
+  for (const int threads : {1, 2}) {
+    set_max_threads(threads);
+    int first = 0, second = 0;
+    parallel_invoke([&] { first = 1; }, [&] { parallel_for(1, 1, [&](std::size_t) { ++second; }); });
+    EXPECT_EQ(first, 1);
+    EXPECT_EQ(second, 1);
+    EXPECT_THROW(parallel_invoke([] {}, [] { throw std::runtime_error("second"); }), std::runtime_error);
+  }
 }
 
 TEST_F(Parallel, AThreadOfLowPriorityLeavesTheOthersTheirs) {

@@ -1,9 +1,9 @@
 #include "ostia/coronary/aorta_mask.h"
 
 #include "coarse_scan.h"
+#include "kept_scan.h"
 
 #include "ostia/core/error.h"
-#include "ostia/phantom/phantom_case.h"
 #include "ostia/phantom/scene.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ TEST(AortaMask, IsTheLabelledLumenOfAPhantomBetweenItsEnds) {
   options.preset = phantom::Preset::small;
   phantom::CasePlan plan = phantom::plan_case(options);
   ostia::testing::make_coarse(plan.options.scan, voxel_mm);
-  const phantom::Scan made = phantom::scan_case(plan);
+  const phantom::Scan made = ostia::testing::kept_scan(plan);
   const Aorta aorta = find_aorta(made.image);
   const imaging::MaskVolume mask = aorta_mask(made.image, aorta);
   ASSERT_TRUE(imaging::same_grid(mask.geometry, made.image.geometry));

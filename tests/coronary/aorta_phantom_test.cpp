@@ -1,7 +1,8 @@
+#include "kept_scan.h"
+
 #include "ostia/core/error.h"
 #include "ostia/coronary/aorta.h"
 #include "ostia/coronary/ostia.h"
-#include "ostia/phantom/phantom_case.h"
 
 #include <gtest/gtest.h>
 
@@ -44,7 +45,7 @@ void expect_ostia(const phantom::CoronaryTree& tree, const std::vector<Ostium>& 
 
 TEST(AortaOfAPhantom, IsAscendingAndBothOstiaAreFound) {
   const phantom::CasePlan made = plan(1, 1.0);
-  const imaging::ImageVolume image = phantom::scan_case(made).image;
+  const imaging::ImageVolume image = ostia::testing::kept_scan(made).image;
   const Aorta aorta = find_aorta(image);
   const phantom::AorticRoot& root = made.heart.root;
   const double first = root.axis.dot(aorta.stations.front().centre - root.annulus);
@@ -64,7 +65,7 @@ TEST(AortaOfAPhantom, OnlyTheRootInTheImageIsEnough) {
   const Vec3 middle = made.heart.root.annulus + 20.0 * made.heart.root.axis;
   grid.origin = middle - Vec3(36.0, 36.0, 30.0);
   grid.size = {120, 120, 100};
-  const imaging::ImageVolume image = phantom::scan_case(made).image;
+  const imaging::ImageVolume image = ostia::testing::kept_scan(made).image;
   expect_ostia(made.tree, find_ostia(image, find_aorta(image)), 1.2);
 }
 
@@ -73,7 +74,7 @@ TEST(AortaOfAPhantom, BelowTheRootThereIsNone) {
   imaging::Geometry& grid = made.options.scan.grid;
   const double top = made.heart.root.annulus.z() - 12.0;
   grid.size[2] = static_cast<std::int64_t>((top - grid.origin.z()) / grid.spacing.z());
-  EXPECT_THROW(find_aorta(phantom::scan_case(made).image), GeometryError);
+  EXPECT_THROW(find_aorta(ostia::testing::kept_scan(made).image), GeometryError);
 }
 
 }  // namespace

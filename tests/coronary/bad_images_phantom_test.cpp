@@ -1,11 +1,11 @@
 // Images of a heart that cannot be used as they are: what is said of them, and that no tree is made up.
 
 #include "coarse_scan.h"
+#include "kept_scan.h"
 
 #include "ostia/core/error.h"
 #include "ostia/coronary/extract.h"
 #include "ostia/geometry/polyline.h"
-#include "ostia/phantom/phantom_case.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ const CoarseHeart& heart() {
     options.preset = phantom::Preset::small;
     CoarseHeart result{phantom::plan_case(options), {}};
     ostia::testing::make_coarse(result.plan.options.scan, voxel_mm);
-    result.image = phantom::scan_case(result.plan).image;
+    result.image = ostia::testing::kept_scan(result.plan).image;
     return result;
   }();
   return made;

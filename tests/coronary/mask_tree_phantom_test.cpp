@@ -1,7 +1,8 @@
+#include "kept_scan.h"
+
 #include "ostia/core/error.h"
 #include "ostia/coronary/mask_tree.h"
 #include "ostia/geometry/polyline.h"
-#include "ostia/phantom/phantom_case.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -30,7 +31,7 @@ const MaskedHeart& masked_heart() {
     phantom::CaseOptions options;
     options.preset = phantom::Preset::small;
     MaskedHeart heart{phantom::plan_case(options), {}, {}};
-    const MaskVolume labels = phantom::scan_case(heart.plan).labels;
+    const MaskVolume labels = ostia::testing::kept_scan(heart.plan).labels;
     heart.lumen.geometry = heart.aorta.geometry = labels.geometry;
     for (const std::uint8_t voxel : labels.voxels) {
       heart.lumen.voxels.push_back(voxel == static_cast<std::uint8_t>(phantom::Label::coronary_lumen) ? 1

@@ -33,7 +33,7 @@ TEST(Robustness, AClosedOstiumIsMissedAndToldAndAHeartInNoiseRefused) {
   dim.patient.contrast_hu = 200.0;
   RobustnessOptions options;
   options.seeds = 1;
-  options.voxel_mm = 1.2;
+  options.voxel_mm = 1.5;
   const std::vector<RobustnessRun> runs = vary_patients({varied("as drawn", ""), loud, closed, dim}, options);
   const std::vector<RobustnessRow> rows = rows_of(runs);
   ASSERT_EQ(rows.size(), 4U);

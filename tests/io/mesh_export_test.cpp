@@ -14,6 +14,8 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <set>
+#include <string_view>
 
 namespace ostia::io {
 namespace {
@@ -58,6 +60,25 @@ TEST(MeshExport, NamesItsFormatsBothWays) {
     ADD_FAILURE();
   } catch (const InvalidInput& error) {
     EXPECT_NE(std::string(error.what()).find("mesh-complete"), std::string::npos) << error.what();
+  }
+}
+
+TEST(MeshExport, OfEachExtensionOneFormatIsTheUsual) {
+  for (const auto& [extension, usual] : {std::pair(".vtu", MeshFormat::vtu),
+                                         {".msh", MeshFormat::gmsh4},
+                                         {".inp", MeshFormat::abaqus},
+                                         {".exo", MeshFormat::exodus},
+                                         {".cgns", MeshFormat::cgns},
+                                         {"", MeshFormat::openfoam}})
+    EXPECT_EQ(usual_mesh_format(extension), usual) << extension;
+  EXPECT_FALSE(usual_mesh_format(".step"));
+  EXPECT_FALSE(usual_mesh_format("vtu"));  // without its point
+  std::set<std::string_view> titles;
+  for (const MeshFormat format : mesh_formats) {
+    const auto usual = usual_mesh_format(extension_of(format));
+    ASSERT_TRUE(usual) << name_of(format);
+    EXPECT_EQ(extension_of(*usual), extension_of(format));
+    EXPECT_TRUE(titles.insert(title_of(format)).second) << title_of(format);
   }
 }
 

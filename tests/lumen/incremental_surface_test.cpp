@@ -40,7 +40,7 @@ Edit edit_near(const std::vector<SurfaceSample>& samples, const Vec3& at, Kind k
     if (kind == Kind::remove) continue;
     sample.id = id++;
     sample.position += by * sample.normal;
-    // BackgroundTask the one that stays, on the same tangent plane.
+    // Beside the one that stays, on the same tangent plane.
     if (kind == Kind::add) sample.position += 0.3 * sample.normal.unitOrthogonal() - by * sample.normal;
     sample.origin = SampleOrigin::edit;
     edit.added.push_back(sample);

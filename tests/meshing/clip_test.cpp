@@ -133,6 +133,39 @@ TEST(ClipEnds, GoFartherInsideWhereAnEndIsTornAslant) {
   EXPECT_NE(clipped.warnings[0].find("inlet of vessel tube"), std::string::npos);
 }
 
+TEST(ClipEnds, SayWhereAnEndCanBeCut) {
+  // Half a pipe for its first 9 mm.
+  const auto shape = geometry::straight_tube(40.0, 1.5);
+  const geometry::TriMesh whole = geometry::surface_of(shape, 0.25, true);
+  std::vector<bool> keep;
+  for (const auto& t : whole.triangles) {
+    Vec3 c = Vec3::Zero();
+    for (const std::int32_t v : t) c += whole.points[static_cast<std::size_t>(v)] / 3.0;
+    keep.push_back(c.z() > 9.0 || c.x() < 0.3);
+  }
+  const geometry::TriMesh surface = geometry::subset(whole, keep);
+  ClipOptions options;
+  try {
+    clip_ends(surface, tree_of(shape));
+    FAIL() << "half a pipe was cut";
+  } catch (const EndsNotCut& error) {
+    ASSERT_EQ(error.ends().size(), 1u);
+    EXPECT_EQ(end_name(error.ends()[0]), "inlet_tube");
+    const std::string said = error.what(), start = "--plane inlet_tube=";
+    const std::size_t at = said.find(start);
+    ASSERT_NE(at, std::string::npos) << said;
+    PlacedPlane plane;
+    plane.end = "inlet_tube";
+    ASSERT_EQ(
+        std::sscanf(said.c_str() + at + start.size(), "%lf,%lf,%lf:%lf,%lf,%lf", &plane.origin[0],
+                    &plane.origin[1], &plane.origin[2], &plane.normal[0], &plane.normal[1], &plane.normal[2]),
+        6);
+    EXPECT_NEAR(plane.origin.z(), 9.5, 0.6);
+    options.planes = {plane};
+  }
+  expect_clean(clip_ends(surface, tree_of(shape), options), 2);
+}
+
 TEST(ClipEnds, NameTheEndThatCannotBeCut) {
   const auto shape = geometry::straight_tube(16.0, 1.5);
   auto tree = tree_of(shape);

@@ -11,8 +11,11 @@
 namespace ostia::phantom {
 namespace {
 
+using ::testing::AllOf;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using ::testing::ThrowsMessage;
 
 CasePlan plan_with(const CaseVariant& variant, std::uint64_t seed = 1) {
   CaseOptions options;
@@ -47,13 +50,16 @@ int nodules(const CoronaryTree& tree) {
 }
 
 TEST(Variants, EveryAnatomyGivesASoundTreeAndIsCalledByItsWord) {
-  for (const Anatomy anatomy : {Anatomy::usual, Anatomy::left_ostium_closed, Anatomy::right_ostium_closed,
-                                Anatomy::rca_from_left, Anatomy::lcx_from_right, Anatomy::bypass}) {
-    EXPECT_EQ(anatomy_of(word(anatomy)), anatomy);
+  EXPECT_THAT(anatomy_words(), ElementsAre("usual", "left-ostium-closed", "right-ostium-closed",
+                                           "rca-from-left", "lcx-from-right", "bypass"));
+  for (const std::string& one : anatomy_words()) {
+    const Anatomy anatomy = anatomy_of(one);
+    EXPECT_EQ(word(anatomy), one);
     EXPECT_EQ(geometry::find_fault(vessel_tree(plan_of(anatomy).tree)).value_or("none"), "none")
         << word(anatomy);
   }
-  EXPECT_THROW(anatomy_of("odd"), InvalidInput);
+  EXPECT_THAT([] { anatomy_of("odd"); }, ThrowsMessage<InvalidInput>(AllOf(
+                                             HasSubstr("\"odd\""), HasSubstr("lcx-from-right or bypass"))));
 }
 
 TEST(Variants, AClosedOstiumLeavesAGapBesideTheAorta) {

@@ -3,6 +3,7 @@
 #include "ostia/pipeline/surface_intake.h"
 
 #include "ostia/core/error.h"
+#include "ostia/geometry/aabb_tree.h"
 #include "ostia/geometry/analytic_shapes.h"
 #include "ostia/geometry/mesh_topology.h"
 #include "ostia/pipeline/lumen_axes.h"
@@ -99,17 +100,23 @@ TEST(SurfaceIntake, ClosesHolesInTheWallAndNoEnds) {
   EXPECT_TRUE(tells(taken, "a hole in the wall closed"));
 }
 
-TEST(SurfaceIntake, CutsOutSpikesThatCrossTheWall) {
-  TriMesh mesh = open_y();
+TEST(SurfaceIntake, PullsInSpikesOfOnePoint) {
+  const TriMesh whole = open_y();
   std::size_t nearest = 0;
-  for (std::size_t i = 0; i < mesh.points.size(); ++i)
-    if ((mesh.points[i] - Vec3(2.0, 0.0, -10.0)).norm() <
-        (mesh.points[nearest] - Vec3(2.0, 0.0, -10.0)).norm())
+  for (std::size_t i = 0; i < whole.points.size(); ++i)
+    if ((whole.points[i] - Vec3(2.0, 0.0, -10.0)).norm() <
+        (whole.points[nearest] - Vec3(2.0, 0.0, -10.0)).norm())
       nearest = i;
-  mesh.points[nearest] = Vec3(-5.0, 0.3, -10.2);  // through the other side
-  const TakenSurface taken = take_surface(bare(mesh), "spiked");
-  expect_sound(taken.lumen, 1, 3);
-  EXPECT_TRUE(tells(taken, "self-intersections"));
+  for (const Vec3& to : {Vec3(-5.0, 0.3, -10.2), Vec3(6.0, 0.0, -10.0), Vec3(0.2, 0.0, -10.0)}) {
+    TriMesh mesh = whole;  // through the other side, outward, and into the lumen
+    mesh.points[nearest] = to;
+    const TakenSurface taken = take_surface(bare(mesh), "spiked");
+    expect_sound(taken.lumen, 1, 3);
+    EXPECT_TRUE(tells(taken, "spikes of one point pulled in: 1"));
+    ASSERT_EQ(taken.lumen.points.size(), whole.points.size());
+    EXPECT_LT(geometry::AabbTree(whole).closest(taken.lumen.points[nearest]).distance, 0.02);
+    EXPECT_NEAR(geometry::area(taken.lumen), geometry::area(whole), 1e-3 * geometry::area(whole));
+  }
 }
 
 TEST(SurfaceIntake, KnowsCentimetresAndMetresByTheCalibre) {

@@ -1,6 +1,6 @@
 """Validates what `ostia` writes against docs/schemas, and proves that a broken document fails.
 
-Usage: schemas_test.py OSTIA SCHEMA_FOLDER
+Usage: schemas_test.py OSTIA SCHEMA_FOLDER [Schemas] [Experiments]
 """
 
 import copy
@@ -33,7 +33,47 @@ def run(*arguments, codes=(0,)):
     return done.stdout
 
 
-class Schemas(unittest.TestCase):
+class Refusing(unittest.TestCase):
+    def assert_refused(self, name, document):
+        with self.assertRaises(jsonschema.ValidationError):
+            validator(name).validate(document)
+
+
+class Experiments(Refusing):
+    def setUp(self):
+        self.holder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.holder.cleanup)
+
+    def test_experiment_smoothness(self):
+        out = pathlib.Path(self.holder.name) / "smoothness"
+        printed = json.loads(run("experiment", "smoothness", "-o", out, "--orientations", "1", "--levels", "1", "--json"))
+        validator("experiment-smoothness").validate(printed)
+        self.assertEqual(printed, json.loads((out / "experiment.json").read_text()))
+        self.assert_refused("experiment-smoothness", {"v": 1, "kind": "smoothness"})
+
+    def test_experiment_chain(self):
+        # A bright tube of 4 mm along z, in voxels of 1 mm.
+        image = pathlib.Path(self.holder.name) / "tube.nrrd"
+        header = ("NRRD0004\ntype: short\ndimension: 3\nspace: left-posterior-superior\nsizes: 16 16 30\n"
+                  "space directions: (1,0,0) (0,1,0) (0,0,1)\nkinds: domain domain domain\nendian: little\n"
+                  "encoding: raw\nspace origin: (0,0,0)\n\n")
+        voxels = [300 if (x - 8) ** 2 + (y - 8) ** 2 < 5 else -800 for _ in range(30) for y in range(16) for x in range(16)]
+        image.write_bytes(header.encode() + b"".join(v.to_bytes(2, "little", signed=True) for v in voxels))
+        out = pathlib.Path(self.holder.name) / "chain"
+        printed = json.loads(run("experiment", "chain", image, "-o", out, "--seed", "8,8,15", "--mesh", "4:1.2:0", "--json"))
+        validator("experiment-chain").validate(printed)
+        self.assertEqual(printed, json.loads((out / "experiment.json").read_text()))
+        self.assert_refused("experiment-chain", {"v": 1, "kind": "chain"})
+
+    def test_experiment_orientations(self):
+        out = pathlib.Path(self.holder.name) / "orientations"
+        printed = json.loads(run("experiment", "orientations", "-o", out, "--orientations", "2", "--json"))
+        validator("experiment-orientations").validate(printed)
+        self.assertEqual(printed, json.loads((out / "experiment.json").read_text()))
+        self.assert_refused("experiment-orientations", {"v": 1, "kind": "orientations"})
+
+
+class Schemas(Refusing):
     @classmethod
     def setUpClass(cls):
         cls.holder = tempfile.TemporaryDirectory()
@@ -45,10 +85,6 @@ class Schemas(unittest.TestCase):
     @classmethod
     def tearDownClass(cls):
         cls.holder.cleanup()
-
-    def assert_refused(self, name, document):
-        with self.assertRaises(jsonschema.ValidationError):
-            validator(name).validate(document)
 
     def test_schemas_are_schemas(self):
         self.assertGreaterEqual(len(SCHEMAS), 4)
@@ -99,34 +135,6 @@ class Schemas(unittest.TestCase):
             (phases / phase).write_bytes(lumen.read_bytes())
         validator("evaluate").validate(json.loads(run("evaluate", "motion", phases, phases, "--json")))
         self.assert_refused("evaluate", {"v": 1, "kind": "surface"})
-
-    def test_experiment_smoothness(self):
-        out = pathlib.Path(self.holder.name) / "smoothness"
-        printed = json.loads(run("experiment", "smoothness", "-o", out, "--orientations", "1", "--levels", "1", "--json"))
-        validator("experiment-smoothness").validate(printed)
-        self.assertEqual(printed, json.loads((out / "experiment.json").read_text()))
-        self.assert_refused("experiment-smoothness", {"v": 1, "kind": "smoothness"})
-
-    def test_experiment_chain(self):
-        # A bright tube of 4 mm along z, in voxels of 1 mm.
-        image = pathlib.Path(self.holder.name) / "tube.nrrd"
-        header = ("NRRD0004\ntype: short\ndimension: 3\nspace: left-posterior-superior\nsizes: 16 16 30\n"
-                  "space directions: (1,0,0) (0,1,0) (0,0,1)\nkinds: domain domain domain\nendian: little\n"
-                  "encoding: raw\nspace origin: (0,0,0)\n\n")
-        voxels = [300 if (x - 8) ** 2 + (y - 8) ** 2 < 5 else -800 for _ in range(30) for y in range(16) for x in range(16)]
-        image.write_bytes(header.encode() + b"".join(v.to_bytes(2, "little", signed=True) for v in voxels))
-        out = pathlib.Path(self.holder.name) / "chain"
-        printed = json.loads(run("experiment", "chain", image, "-o", out, "--seed", "8,8,15", "--mesh", "4:1.2:0", "--json"))
-        validator("experiment-chain").validate(printed)
-        self.assertEqual(printed, json.loads((out / "experiment.json").read_text()))
-        self.assert_refused("experiment-chain", {"v": 1, "kind": "chain"})
-
-    def test_experiment_orientations(self):
-        out = pathlib.Path(self.holder.name) / "orientations"
-        printed = json.loads(run("experiment", "orientations", "-o", out, "--orientations", "2", "--json"))
-        validator("experiment-orientations").validate(printed)
-        self.assertEqual(printed, json.loads((out / "experiment.json").read_text()))
-        self.assert_refused("experiment-orientations", {"v": 1, "kind": "orientations"})
 
     def test_suite_and_tolerance(self):
         holder = pathlib.Path(self.holder.name)
@@ -372,4 +380,4 @@ class Schemas(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1])
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])

@@ -1,5 +1,6 @@
-#include "intensity_range.h"
+#include "ostia/segmentation/intensity_range.h"
 
+#include "range_about_seeds.h"
 #include "tube_images.h"
 
 #include "ostia/core/error.h"

@@ -201,7 +201,7 @@ struct DiskFullProgram : DiskFull {
     window.show();
     window.open(copy);
     wait_until([&] { return window.bench().has_case() && !window.jobs().any(); });
-    wait_until([] { return false; }, 300);
+    testing::let_work(300);
     auto* cpr = window.findChild<PictureWidget*>("cpr1");
     const QPoint at = cpr->mapToGlobal(wall_on(*cpr, s_mm));
     window.close();

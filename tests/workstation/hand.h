@@ -9,6 +9,7 @@
 #include <QLineEdit>
 #include <QMessageBox>
 #include <QMouseEvent>
+#include <QThread>
 #include <QTimer>
 #include <filesystem>
 #include <stdexcept>
@@ -44,8 +45,47 @@ bool wait_until(const Done& done, int most_ms = 20000) {
   while (!done()) {
     if (clock.elapsed() > most_ms) return false;
     QApplication::processEvents(QEventLoop::AllEvents, 20);
+    QThread::msleep(1);  // the processor is for what is waited for, and for the tests beside this one
   }
   return true;
+}
+
+/// Notes when anything was last painted, or given a place.
+class LastDrawn final : public QObject {
+ public:
+  LastDrawn() {
+    clock_.start();
+    qApp->installEventFilter(this);
+  }
+  qint64 quiet_ms() const { return clock_.elapsed(); }
+  bool eventFilter(QObject*, QEvent* event) override {
+    switch (event->type()) {
+      case QEvent::Paint:
+      case QEvent::UpdateRequest:
+      case QEvent::LayoutRequest:
+      case QEvent::Resize:
+      case QEvent::Move:
+      case QEvent::Expose:
+        clock_.restart();
+        break;
+      default:
+        break;
+    }
+    return false;
+  }
+
+ private:
+  QElapsedTimer clock_;
+};
+
+/// Lets the window work for `ms`: what it puts off for a moment is done then. Where the machine has much else
+/// to do, longer, until nothing has been drawn for a while.
+inline void let_work(int ms) {
+  constexpr int quiet_ms = 50, most_more_ms = 3000;
+  const LastDrawn drawn;
+  QElapsedTimer clock;
+  clock.start();
+  wait_until([&] { return clock.elapsed() >= ms && drawn.quiet_ms() >= quiet_ms; }, ms + most_more_ms);
 }
 
 inline void send(QWidget& widget, QEvent::Type type, const QPoint& at, Qt::MouseButton button,

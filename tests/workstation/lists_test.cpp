@@ -1,7 +1,7 @@
 // The lists at the window's side: what they show when the case is another, and what an edit leaves as a
 // person had it.
 
-#include "qa/panel.h"
+#include "qa/dock.h"
 #include "shell/step_list.h"
 #include "tube_case.h"
 #include "vessels/list.h"
@@ -58,9 +58,7 @@ struct Lists : ::testing::Test {
     if (!found) throw std::runtime_error(std::string("the window has no list ") + name);
     return *found;
   }
-  static void rest(int ms = 400) {
-    wait_until([] { return false; }, ms);
-  }
+  static void rest(int ms = 400) { testing::let_work(ms); }
   static void open(TestWindow& test, const fs::path& what) {
     test.window().open(what);
     ASSERT_TRUE(wait_until([&] { return !test.window().jobs().any(); }, 60000));
@@ -156,7 +154,7 @@ struct ListsTruth : Lists {
 TEST_F(ListsTruth, IsThatOfOnePatient) {
   TestWindow test(state);
   open(test, case_file);
-  QaPanel& qa = test.window().qa();
+  QaDock& qa = test.window().qa();
   qa.show();
   qa.open_truth(truth);
   ASSERT_TRUE(wait_until([&] { return rows(test) == 1; }));
@@ -177,7 +175,7 @@ TEST_F(ListsTruth, IsThatOfOnePatient) {
 TEST_F(ListsTruth, GoesWithItsImage) {
   TestWindow test(state);
   open(test, case_file);
-  QaPanel& qa = test.window().qa();
+  QaDock& qa = test.window().qa();
   qa.show();
   qa.open_truth(truth);
   open(test, other_image);
@@ -194,7 +192,7 @@ TEST_F(ListsTruth, OfACaseWithoutAnImageIsThatOfTheCase) {
   session::CaseFile::create(other_bare, tube_model(0.3));
   TestWindow test(state);
   open(test, bare);
-  QaPanel& qa = test.window().qa();
+  QaDock& qa = test.window().qa();
   qa.show();
   qa.open_truth(truth);
   pull(test);

@@ -1,7 +1,7 @@
 // Meshes made earlier, here or elsewhere, in the mesh's panel; the plane that cuts them, by the mouse in 3D.
 
+#include "meshing/dock.h"
 #include "meshing/histogram.h"
-#include "meshing/panel.h"
 #include "tube_mesh.h"
 #include "tube_window.h"
 
@@ -43,7 +43,7 @@ const geometry::MixedMesh& mesh() {
 struct MeshOpening : testing::TubeWindow {
   const Vec3 middle{0.0, 0.0, 3.0};
 
-  MeshPanel& panel() { return *part<MeshPanel>("mesh"); }
+  MeshDock& panel() { return *part<MeshDock>("mesh"); }
   std::string name() { return part<QLabel>("mesh_name")->text().toStdString(); }
   fs::path write(MeshFormat format, const std::string& file) {
     fs::create_directories(folder / "earlier");

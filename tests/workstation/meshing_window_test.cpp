@@ -12,6 +12,7 @@
 #include "ostia/lumen/tree_surface.h"
 #include "ostia/meshing/mixed_quality.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -29,6 +30,7 @@
 #include <QToolButton>
 #include <atomic>
 #include <cmath>
+#include <cstdio>
 #include <thread>
 
 namespace ostia::workstation {
@@ -255,8 +257,10 @@ TEST_F(MeshingWindow, WhatFailsIsOneMessageWithTheWayOut) {
   fs::create_directory(gone);
   type(in_dialog<QLineEdit>("folder"), QString::fromStdString((gone / "mesh").string()));
   click_go();
-  fs::rename(gone, folder / "elsewhere");  // the place goes away while the mesh is made
-  core::write_file(gone, "");              // and cannot be made again
+  // The place goes away while the mesh is made, and cannot be made again: a file takes it, at the same
+  // moment.
+  core::write_file(folder / "file", "");
+  ASSERT_EQ(::renameat2(AT_FDCWD, gone.c_str(), AT_FDCWD, (folder / "file").c_str(), RENAME_EXCHANGE), 0);
   QMessageBox* box = nullptr;
   ASSERT_TRUE(wait_until(
       [&] {

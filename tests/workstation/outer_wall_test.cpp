@@ -251,7 +251,7 @@ TEST_F(OuterWallWindow, ACaseThatIsClosedMeanwhileGetsNothing) {
   press_in_menu("view.outer_wall");
   test->bench().close_case();
   ASSERT_TRUE(wait_until([&] { return !test->window().jobs().any(); }, 60000));
-  wait_until([] { return false; }, 600);
+  testing::let_work(600);
   EXPECT_TRUE(board().known().empty());
 }
 

@@ -7,8 +7,8 @@
 #include "flow_window.h"
 #include "known_motion.h"
 #include "meshing/commands.h"
+#include "meshing/dock.h"
 #include "meshing/export.h"
-#include "meshing/panel.h"
 #include "phases/beating_case.h"
 #include "phases/commands.h"
 #include "test_desk.h"
@@ -95,8 +95,8 @@ struct MeshingParts : PartsTest {
   MeshingParts() {
     add_meshing_commands(*table, test.desk(), meshing);
     table->dress();
-    test.window().addDockWidget(Qt::RightDockWidgetArea, &meshing.panel());
-    meshing.panel().hide();
+    test.window().addDockWidget(Qt::RightDockWidgetArea, &meshing.dock());
+    meshing.dock().hide();
     test.show();
   }
 };
@@ -135,9 +135,9 @@ TEST_F(MeshingParts, TheDialogGoesWithItsCase) {
 TEST_F(MeshingParts, TheCommandOfThePanelIsItsMark) {
   EXPECT_FALSE(table->action("view.mesh").isChecked());
   trigger("view.mesh");
-  EXPECT_TRUE(meshing.panel().isVisible());
+  EXPECT_TRUE(meshing.dock().isVisible());
   EXPECT_TRUE(table->action("view.mesh").isChecked());
-  meshing.panel().close();
+  meshing.dock().close();
   EXPECT_FALSE(table->action("view.mesh").isChecked());
 }
 

@@ -64,7 +64,7 @@ TEST_F(RealEvents, ADrawnStrokeIsInTheCaseAfterAKillAndTheProgramComesBackToIt) 
     window.show();
     window.open(copy);
     ASSERT_TRUE(wait_until([&] { return window.bench().has_case() && !window.jobs().any(); }));
-    wait_until([] { return false; }, 300);
+    testing::let_work(300);
     auto* cpr = window.findChild<PictureWidget*>("cpr1");
     const auto axis = window.bench().axis();
     const auto wall = cpr->view().project(axis->place(12.0, 0.0, 1.5));
@@ -102,7 +102,7 @@ TEST_F(RealEvents, AVesselIsCutWithMouseAndKeysAndConnectedAgain) {
     window.show();
     window.open(copy);
     ASSERT_TRUE(wait_until([&] { return window.bench().has_case() && !window.jobs().any(); }));
-    wait_until([] { return false; }, 300);
+    testing::let_work(300);
     auto* cpr = window.findChild<PictureWidget*>("cpr1");
     const auto axis = window.bench().axis();
     const auto px = cpr->view().project(axis->point(22.0))->px;

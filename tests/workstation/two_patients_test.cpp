@@ -59,9 +59,7 @@ struct TwoPatients : ::testing::Test {
     test.window().open(what);
     ASSERT_TRUE(idle(test));
   }
-  static void rest(int ms) {
-    wait_until([] { return false; }, ms);
-  }
+  static void rest(int ms) { testing::let_work(ms); }
   static std::string shown_name(TestWindow& test) {
     return test.window().findChild<QLabel*>("shown_name")->text().toStdString();
   }

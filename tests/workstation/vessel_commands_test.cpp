@@ -122,7 +122,7 @@ TEST_F(VesselCommands, CutInTwoAtTheCursorAndConnectAgainElsewhere) {
     menu->close();
   });
   connect->trigger();
-  wait_until([] { return false; }, 300);
+  testing::let_work(300);
   for (int i = 0; i < 2; ++i) test.window().findChild<QAction*>("edit.undo")->trigger();
   EXPECT_EQ(lumen::digest(*test.bench().model()), whole);
 }

@@ -1,12 +1,12 @@
 // The tree that is found upon opening an image, and that it stays out of a person's way.
 
+#include "kept_scan.h"
 #include "tube_case.h"
 #include "vessels/finder.h"
 #include "vessels/list.h"
 #include "window_hand.h"
 
 #include "ostia/imaging/image_file.h"
-#include "ostia/phantom/phantom_case.h"
 
 #include <gtest/gtest.h>
 
@@ -20,12 +20,12 @@ namespace fs = std::filesystem;
 using testing::TestWindow;
 using testing::wait_until;
 
-/// A computed patient, coarse, made once.
+/// A computed patient, coarse.
 const phantom::Scan& patient() {
   static const phantom::Scan scan = [] {
     phantom::CaseOptions options;
     options.preset = phantom::Preset::small;
-    return phantom::scan_case(phantom::plan_case(options));
+    return ostia::testing::kept_scan(phantom::plan_case(options));
   }();
   return scan;
 }

@@ -3,7 +3,7 @@
 #include "help/tour.h"
 #include "measuring/list.h"
 #include "measuring/reporting.h"
-#include "qa/panel.h"
+#include "qa/dock.h"
 #include "shell/panel.h"
 #include "tube_case.h"
 
@@ -36,6 +36,7 @@ namespace {
 constexpr const char* font_folder = "/usr/share/fonts/truetype/dejavu";  // package fonts-dejavu-core
 constexpr double window_states_narrowing = 0.5;
 constexpr int settle_ms = 20000, look_ms = 200, looks_alike = 4, quiet_ms = 400;
+constexpr int filled_ms = 150;  // the lists of an opened case
 
 geometry::ContourSection true_section(const std::string& name, double from_mm, double to_mm, double larger) {
   const lumen::LumenModel model = tube_model(window_states_narrowing);
@@ -101,10 +102,6 @@ void pin_look() {
   QIcon::setThemeName("none");
   QApplication::setApplicationName("ostia");
   QApplication::setApplicationVersion("0.0.0");
-}
-
-void let_work(int ms) {
-  wait_until([] { return false; }, ms);
 }
 
 Stage::Stage(const QSize& size) : size_(size) {
@@ -207,7 +204,7 @@ void Stage::open_case() {
       }))
     throw std::runtime_error("the case was not opened");
   window_->bench().cursor_mm.set(16.0);
-  let_work(quiet_ms);
+  let_work(filled_ms);
 }
 
 void Stage::run(const char* command) {
@@ -255,7 +252,7 @@ void Stage::measure() {
 void Stage::open_truth() {
   const std::filesystem::path file = folder_ / "truth.json";
   io::write_contours(file, {{true_section("s01", 5, 15, 1.1), true_section("s02", 20, 34, 0.9)}});
-  QaPanel& qa = window_->qa();
+  QaDock& qa = window_->qa();
   qa.show();
   qa.open_truth(file);
   auto& list = child<QTreeWidget>(qa, "qa_sections");

@@ -44,7 +44,4 @@ class Stage {
 
 std::vector<std::string> window_states();
 
-/// Lets the window work for a while.
-void let_work(int ms);
-
 }  // namespace ostia::workstation::testing

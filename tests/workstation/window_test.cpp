@@ -194,7 +194,7 @@ TEST_F(WindowTest, ChoosingAToolMakesNoImageAnew) {
   know_the_image();
   TestWindow test(state);
   test.open(case_file);
-  const auto quiet = [&] { wait_until([] { return false; }, 400); };
+  const auto quiet = [&] { testing::let_work(400); };
   quiet();
   view::PictureView& cpr = test.picture("cpr1").view();
   const QSize size = test.picture("cpr1").size();
@@ -236,7 +236,7 @@ TEST_F(WindowTest, AMaximisedPanelComesBack) {
     const std::string name = panel->accessibleName().toStdString();
     const auto double_click = [&] {
       QTest::mouseDClick(panel->findChild<QWidget*>(QString(), Qt::FindDirectChildrenOnly), Qt::LeftButton);
-      wait_until([] { return false; }, 100);
+      testing::let_work(100);
     };
     double_click();
     EXPECT_EQ(place_of(*panel), place_of(content)) << name;

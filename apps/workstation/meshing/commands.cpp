@@ -2,8 +2,8 @@
 
 #include "commands/kinds.h"
 #include "commands/table.h"
+#include "meshing/dock.h"
 #include "meshing/export.h"
-#include "meshing/panel.h"
 #include "shell/desk.h"
 
 namespace ostia::workstation {
@@ -30,7 +30,7 @@ void add_meshing_commands(CommandTable& table, const Desk& desk, MeshingExport& 
   table.add({.id = "view.mesh",
              .text = Command::tr("The &mesh"),
              .tip = Command::tr("Shows and hides the mesh that was made or opened last."),
-             .action = meshing.panel().toggleViewAction()});
+             .action = meshing.dock().toggleViewAction()});
 }
 
 }  // namespace ostia::workstation

@@ -1,7 +1,7 @@
 #include "meshing/cut_fields.h"
 
 #include "meshing/cut_handle.h"
-#include "meshing/panel.h"
+#include "meshing/dock.h"
 
 #include <QAbstractItemView>
 #include <QCheckBox>
@@ -28,27 +28,27 @@ CutFields::CutFields(QFormLayout* form, session::Workbench& bench, SceneWidget& 
     : QObject(parent), bench_(bench), scene_(scene) {
   cut_ = new QComboBox;
   cut_->setObjectName("mesh_cut");
-  cut_->setAccessibleName(MeshPanel::tr("How the mesh is cut open"));
+  cut_->setAccessibleName(MeshDock::tr("How the mesh is cut open"));
   cut_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
   cut_->view()->setAccessibleName(cut_->accessibleName());
-  for (const auto& [text, by] : {std::pair(MeshPanel::tr("not at all"), CutBy::none),
-                                 {MeshPanel::tr("across the selected vessel"), CutBy::vessel},
-                                 {MeshPanel::tr("left and right"), CutBy::left_right},
-                                 {MeshPanel::tr("front and back"), CutBy::front_back},
-                                 {MeshPanel::tr("head and feet"), CutBy::head_feet},
-                                 {MeshPanel::tr("towards the viewer"), CutBy::view}})
+  for (const auto& [text, by] : {std::pair(MeshDock::tr("not at all"), CutBy::none),
+                                 {MeshDock::tr("across the selected vessel"), CutBy::vessel},
+                                 {MeshDock::tr("left and right"), CutBy::left_right},
+                                 {MeshDock::tr("front and back"), CutBy::front_back},
+                                 {MeshDock::tr("head and feet"), CutBy::head_feet},
+                                 {MeshDock::tr("towards the viewer"), CutBy::view}})
     cut_->addItem(text, static_cast<int>(by));
   cut_->setToolTip(tr("The plane can be dragged in 3D by its frame and its arrow."));
   place_ = new QSlider(Qt::Horizontal);
   place_->setObjectName("mesh_cut_place");
-  place_->setAccessibleName(MeshPanel::tr("Place of the cut"));
+  place_->setAccessibleName(MeshDock::tr("Place of the cut"));
   place_->setRange(0, slider_steps);
   place_->setPageStep(slider_steps / 20);
   place_->setSingleStep(slider_steps / 200);
   place_->setValue(slider_steps / 2);
-  turned_ = new QCheckBox(MeshPanel::tr("The &other side"));
+  turned_ = new QCheckBox(MeshDock::tr("The &other side"));
   turned_->setObjectName("mesh_cut_turned");
-  auto* label = new QLabel(MeshPanel::tr("C&ut"));
+  auto* label = new QLabel(MeshDock::tr("C&ut"));
   label->setBuddy(cut_);
   form->addRow(label, cut_);
   form->addRow(place_);

@@ -1,5 +1,5 @@
 #pragma once
-/// \file How a mesh is cut open: the rows of its panel, and the plane that is dragged in 3D.
+/// \file How a mesh is cut open: the rows of its dock, and the plane that is dragged in 3D.
 
 #include "views/scene_grip.h"
 #include "views/scene_widget.h"

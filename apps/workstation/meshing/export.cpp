@@ -1,7 +1,7 @@
 #include "meshing/export.h"
 
+#include "meshing/dock.h"
 #include "meshing/forecast.h"
-#include "meshing/panel.h"
 #include "shell/desk.h"
 #include "shell/file_dialogs.h"
 #include "shell/new_folder.h"
@@ -56,8 +56,8 @@ MeshingExport::MeshingExport(Desk& desk, SceneWidget& scene)
     : QObject(&desk.window),
       desk_(desk),
       scene_(scene),
-      panel_(new MeshPanel(desk.bench, scene, &desk.window)) {
-  panel_->hide();
+      dock_(new MeshDock(desk.bench, scene, &desk.window)) {
+  dock_->hide();
   last_[ExportKind::surface].size.size = SizeChoice::Size::as_modelled;
   session::Workbench& bench = desk.bench;
   own_.push_back(bench.case_changed.observe([this] {
@@ -133,7 +133,7 @@ void MeshingExport::show_mesh(const QString& title, const MeshWork& work,
         }
       },
       [this](const std::any& made) {
-        panel_->show_mesh(std::any_cast<const std::shared_ptr<const MeshPreview>&>(made));
+        dock_->show_mesh(std::any_cast<const std::shared_ptr<const MeshPreview>&>(made));
         reveal(scene_);
       },
       failed);

@@ -14,7 +14,7 @@
 namespace ostia::workstation {
 
 struct Desk;
-class MeshPanel;
+class MeshDock;
 struct MeshPreview;
 class SceneWidget;
 
@@ -31,7 +31,7 @@ class MeshingExport final : public QObject {
   void ask_for_mesh();
   void open_mesh(const std::filesystem::path& file);
   /// The dock with the mesh that was made or opened last, hidden at first; for the window to take in.
-  MeshPanel& panel() { return *panel_; }
+  MeshDock& dock() { return *dock_; }
 
  signals:
   void mesh_made(const QString& file);  ///< of the case that is open
@@ -50,7 +50,7 @@ class MeshingExport final : public QObject {
   int case_ = 0;  // another number with each case that is opened
   std::map<ExportKind, ExportChoice> last_;
   QPointer<MeshingDialog> dialog_;  // that is open
-  MeshPanel* panel_;
+  MeshDock* dock_;
   std::vector<session::Subscription> own_;
 };
 

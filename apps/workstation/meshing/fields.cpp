@@ -29,33 +29,12 @@ QColor trouble_ground() {
   return current_theme() == Theme::dark ? QColor(82, 44, 18) : QColor(255, 224, 200);
 }
 
-/// As the programs call themselves.
-QString title_of(io::MeshFormat format) {
-  switch (format) {
-    case io::MeshFormat::vtu:
-      return QStringLiteral("VTU");
-    case io::MeshFormat::stl:
-      return VolumeFields::tr("STL, a file for each face");
-    case io::MeshFormat::openfoam:
-      return QStringLiteral("OpenFOAM");
-    case io::MeshFormat::mesh_complete:
-      return QStringLiteral("SimVascular (mesh-complete)");
-    case io::MeshFormat::gmsh2:
-      return QStringLiteral("Gmsh 2.2");
-    case io::MeshFormat::gmsh4:
-      return QStringLiteral("Gmsh 4.1");
-    case io::MeshFormat::fluent:
-      return QStringLiteral("Fluent");
-    case io::MeshFormat::abaqus:
-      return QStringLiteral("Abaqus");
-    case io::MeshFormat::xdmf:
-      return QStringLiteral("XDMF (FEniCS)");
-    case io::MeshFormat::exodus:
-      return QStringLiteral("Exodus II");
-    case io::MeshFormat::cgns:
-      return QStringLiteral("CGNS");
-  }
-  return {};
+// Of the library's titles the one that is not a program's name alone.
+[[maybe_unused]] constexpr const char* translated_title =
+    QT_TRANSLATE_NOOP("ostia::workstation::VolumeFields", "STL, a file for each face");
+
+QString shown_title(io::MeshFormat format) {
+  return VolumeFields::tr(std::string(io::title_of(format)).c_str());
 }
 
 bool holds(io::MeshFormat format, bool prisms, bool quadratic) {
@@ -186,7 +165,7 @@ void VolumeFields::add_formats(QFormLayout* form, const VolumeChoice& last) {
   formats_->setToolTip(tr("VTU, which ParaView reads, is always written; it keeps the names of the faces"));
   for (const io::MeshFormat format : io::mesh_formats) {
     if (format == io::MeshFormat::vtu) continue;
-    auto* item = new QListWidgetItem(title_of(format), formats_);
+    auto* item = new QListWidgetItem(shown_title(format), formats_);
     item->setData(Qt::UserRole, static_cast<int>(format));
     item->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsUserCheckable);
     const bool chosen = std::ranges::find(last.formats, format) != last.formats.end();
@@ -260,9 +239,9 @@ QString VolumeFields::formats_trouble() const {
     if (holds(format, prisms, made.order == 2)) continue;
     if (made.order == 2 && !holds(format, false, true))
       return tr("%1 cannot hold quadratic elements. Choose linear ones, or take the mark away.")
-          .arg(title_of(format));
+          .arg(shown_title(format));
     return tr("%1 cannot hold these prisms. Choose layers as tetrahedra, or take the mark away.")
-        .arg(title_of(format));
+        .arg(shown_title(format));
   }
   return {};
 }

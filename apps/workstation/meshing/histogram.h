@@ -1,7 +1,7 @@
 #pragma once
 /// \file How often each value comes, in the colours of a scale.
 
-#include "ostia/view/scene_colors.h"
+#include "ostia/view/value_scale.h"
 
 #include <QWidget>
 #include <cstddef>

@@ -5,7 +5,7 @@
 #include "ostia/meshing/element_measures.h"
 #include "ostia/meshing/quality.h"
 #include "ostia/view/mesh_shell.h"
-#include "ostia/view/scene_colors.h"
+#include "ostia/view/value_scale.h"
 
 #include <QString>
 #include <array>

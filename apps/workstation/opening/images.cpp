@@ -7,6 +7,7 @@
 #include "ostia/imaging/archive.h"
 #include "ostia/imaging/series_preview.h"
 #include "ostia/pipeline/source.h"
+#include "ostia/session/found_model.h"
 #include "ostia/session/image_digest.h"
 
 namespace ostia::workstation {
@@ -155,10 +156,17 @@ void Opening::load_file(const fs::path& path, const ImageBeside& beside) {
   desk_.jobs.cancel("first slice");
   desk_.jobs.run(
       "open", tr("Reading the image"),
-      [path, beside](const core::TaskContext& task) {
+      [path, beside, image = reading() ? session::OpenImage{} : desk_.bench.image(),
+       state = desk_.state_folder](const core::TaskContext& task) {
+        if (!beside && session::holds_labels(path)) return std::any(case_of_mask(path, image, state, task));
         return std::any(beside ? beside->get(task) : read_file(path, task));
       },
-      [this, path](const std::any& result) { show(std::any_cast<const Loaded&>(result), path); },
+      [this, path](const std::any& result) {
+        if (const auto* made = std::any_cast<MaskCase>(&result))
+          take_mask(*made);
+        else
+          show(std::any_cast<const Loaded&>(result), path);
+      },
       [this](const QString& message) { desk_.messages.complain(message, tr("The image cannot be opened")); });
 }
 

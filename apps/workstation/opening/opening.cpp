@@ -183,16 +183,21 @@ void Opening::go_on() {
   if (!desk_.jobs.running("open")) desk_.window.setEnabled(true);
 }
 
+fs::path unused_case_path(const fs::path& state_folder, const std::string& name) {
+  const fs::path folder = state_folder / "cases";
+  fs::create_directories(folder);
+  std::error_code ignored;
+  fs::path path;
+  for (int number = 1; path.empty() || fs::exists(path, ignored); ++number)
+    path = folder / (name + "-" + std::to_string(number) + ".ostia");
+  return path;
+}
+
 void Opening::start_case(const ImageReference& image,
                          const std::function<session::CaseFile(const fs::path&)>& make) {
-  const fs::path folder = desk_.state_folder / "cases";
   desk_.messages.guarded(
       [&] {
-        fs::create_directories(folder);
-        std::error_code ignored;
-        fs::path path;
-        for (int number = 1; path.empty() || fs::exists(path, ignored); ++number)
-          path = folder / (image.pseudonym + "-" + std::to_string(number) + ".ostia");
+        const fs::path path = unused_case_path(desk_.state_folder, image.pseudonym);
         show_case(session::Session(make(path)), path);
       },
       true);

@@ -23,6 +23,9 @@ namespace ostia::workstation {
 
 struct Desk;
 
+/// Where the next case of this machine is made: `name` is an image's pseudonym.
+std::filesystem::path unused_case_path(const std::filesystem::path& state_folder, const std::string& name);
+
 /// Reads in the background and puts on the workbench what was read. What cannot be opened comes up as one
 /// dialog, and what was open stays open.
 class Opening final : public QObject {
@@ -36,7 +39,8 @@ class Opening final : public QObject {
   void choose_folder();
   /// Another file with the same case, which is then the open one.
   void save_as();
-  /// A new case of an image, in the folder of this machine's cases.
+  /// A new case of an image, in the folder of this machine's cases. A mask of coronary arteries that is
+  /// opened becomes one by itself, of the image that is on the table.
   void start_case(const session::ImageReference& image,
                   const std::function<session::CaseFile(const std::filesystem::path&)>& make);
   void close_case();
@@ -89,6 +93,15 @@ class Opening final : public QObject {
   static ImageBeside read_beside(const std::optional<session::KnownImage>& image);
   void load_file(const std::filesystem::path& path, const ImageBeside& beside = {});
   void show(const Loaded& loaded, const std::filesystem::path& path);
+  // masks (masks.cpp)
+  struct MaskCase {
+    std::filesystem::path path;
+    int vessels = 0;
+    std::string first_warning;
+  };
+  static MaskCase case_of_mask(const std::filesystem::path& mask, const session::OpenImage& image,
+                               const std::filesystem::path& state_folder, const core::TaskContext& task);
+  void take_mask(const MaskCase& made);
   Desk& desk_;
   ViewMemory memory_;
   session::OpenMark mark_;

@@ -3,6 +3,7 @@
 #include "phases/bar.h"
 #include "phases/profile.h"
 #include "shell/desk.h"
+#include "shell/docks.h"
 #include "shell/file_dialogs.h"
 #include "views/paint_queue.h"
 #include "views/scene_widget.h"
@@ -45,7 +46,7 @@ BeatingCase::BeatingCase(Desk& desk, QMainWindow& window)
   connect(&bar_->profile_button(), &QToolButton::clicked, profile_, [this, &window](bool wanted) {
     profile_->setVisible(wanted);
     if (wanted)
-      window.resizeDocks({profile_}, {profile_->fontMetrics().height() * profile_lines}, Qt::Vertical);
+      size_at_first(window, *profile_, profile_->fontMetrics().height() * profile_lines, Qt::Vertical);
   });
   connect(profile_, &QDockWidget::visibilityChanged, &bar_->profile_button(), &QToolButton::setChecked);
   connect(bar_, &PhaseBar::images_wanted, this, &BeatingCase::ask_images);
@@ -140,10 +141,14 @@ void BeatingCase::close() {
   desk_.jobs.cancel("phase_images");
   images_.clear();
   desk_.messages.guarded([this] { desk_.bench.show_phase(nullptr); });  // what follows is done all the same
-  room_->hide();
-  profile_->hide();
+  put_away();
   profile_->refresh();
   emit shown_changed();
+}
+
+void BeatingCase::put_away() {
+  room_->hide();
+  profile_->hide();
 }
 
 void BeatingCase::toggle() {

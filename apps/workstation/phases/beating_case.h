@@ -36,6 +36,7 @@ class BeatingCase final : public QObject {
   void ask();  ///< for the file
   void open(const std::filesystem::path& file);
   void close();
+  void put_away();  ///< hides the tool bar and the dock, which are shown with a motion alone
   /// Images of the phases, in a folder: looked for in the background, read as they are looked at.
   void open_images(const std::filesystem::path& folder);
   const PhaseLoader& images() const { return images_; }

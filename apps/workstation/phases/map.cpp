@@ -1,8 +1,8 @@
 #include "phases/map.h"
 
 #include "ostia/figure/plot.h"
-#include "ostia/view/scene_colors.h"
 #include "ostia/view/surface_field_scene.h"
+#include "ostia/view/value_scale.h"
 
 #include <QHelpEvent>
 #include <QKeyEvent>

@@ -4,8 +4,8 @@
 namespace ostia::workstation {
 
 class CommandTable;
-class QaPanel;
+class QaDock;
 
-void add_qa_commands(CommandTable& table, QaPanel& panel);
+void add_qa_commands(CommandTable& table, QaDock& dock);
 
 }  // namespace ostia::workstation

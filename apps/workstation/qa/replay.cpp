@@ -1,6 +1,6 @@
 // Doing again in the window what a hand did.
 
-#include "qa/panel.h"
+#include "qa/dock.h"
 
 #include "ostia/core/error.h"
 
@@ -17,7 +17,7 @@ constexpr int at_once_ms = 25;  // of a replay at full speed between two picture
 
 }  // namespace
 
-void QaPanel::start_replay(const std::filesystem::path& path, bool full_speed) {
+void QaDock::start_replay(const std::filesystem::path& path, bool full_speed) {
   if (recorder_ || replay_) return;
   auto replay = std::make_unique<view::HandReplay>(bench_, view::read_hand_recording(path));
   for (PictureWidget* picture : pictures_)
@@ -33,7 +33,7 @@ void QaPanel::start_replay(const std::filesystem::path& path, bool full_speed) {
   replay_tick_.start(full_speed ? 0 : tick_ms);
 }
 
-void QaPanel::replay_some() {
+void QaDock::replay_some() {
   if (!replay_) return;
   QElapsedTimer spent;
   spent.start();
@@ -63,14 +63,14 @@ void QaPanel::replay_some() {
   emit replayed(same.value_or(false));
 }
 
-void QaPanel::cancel_replay() {
+void QaDock::cancel_replay() {
   if (!replay_) return;
   const std::size_t done = replay_->done(), size = replay_->size();
   end_replay();
   emit said(tr("The replay was ended after %1 of %2 movements.").arg(done).arg(size));
 }
 
-void QaPanel::end_replay() {
+void QaDock::end_replay() {
   replay_tick_.stop();
   qApp->removeEventFilter(this);
   const std::unique_ptr<view::HandReplay> ended = std::move(replay_);
@@ -79,7 +79,7 @@ void QaPanel::end_replay() {
   show_session();
 }
 
-bool QaPanel::eventFilter(QObject* object, QEvent* event) {
+bool QaDock::eventFilter(QObject* object, QEvent* event) {
   switch (event->type()) {
     case QEvent::MouseButtonPress:
     case QEvent::MouseButtonRelease:
@@ -90,7 +90,7 @@ bool QaPanel::eventFilter(QObject* object, QEvent* event) {
     case QEvent::KeyRelease:
     case QEvent::ShortcutOverride:
     case QEvent::Shortcut: {
-      // While a replay runs the hand is the recorded one: Escape ends it, and so does the panel's button.
+      // While a replay runs the hand is the recorded one: Escape ends it, and so does the dock's button.
       if (event->type() == QEvent::KeyPress && static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape) {
         cancel_replay();
         return true;

@@ -4,13 +4,14 @@
 #include "flow/cases.h"
 #include "flow/results.h"
 #include "measuring/reporting.h"
+#include "meshing/dock.h"
 #include "meshing/export.h"
-#include "meshing/panel.h"
 #include "meshing/preview.h"
 #include "opening/opening.h"
 #include "opening/start_page.h"
 #include "phases/beating_case.h"
-#include "qa/panel.h"
+#include "qa/dock.h"
+#include "shell/docks.h"
 #include "shell/hanging.h"
 #include "shell/theme.h"
 #include "shell/unfinished_work.h"
@@ -117,8 +118,8 @@ void MainWindow::build_parts() {
   beating_ = new BeatingCase(desk_, *this);
   outer_walls_ = std::make_unique<OuterWalls>(desk_, panels_->pictures(), &panels_->profile());
   build_qa();
-  addDockWidget(Qt::RightDockWidgetArea, &meshing_->panel());
-  meshing_->panel().hide();
+  addDockWidget(Qt::RightDockWidgetArea, &meshing_->dock());
+  meshing_->dock().hide();
 }
 
 void MainWindow::connect_parts() {
@@ -181,6 +182,7 @@ void MainWindow::open_sample() {
 void MainWindow::remember_layout() {
   std::map<std::string, std::string> settings = panels_->layout_settings();
   settings["geometry"] = saveGeometry().toBase64().toStdString();
+  settings.merge(dock_settings(*this));
   desk_.messages.guarded([&] { desk_.machine.set_settings(settings); });
 }
 
@@ -188,6 +190,10 @@ void MainWindow::restore_layout() {
   const auto geometry = desk_.machine.setting("geometry");
   restoreGeometry(geometry ? QByteArray::fromBase64(QByteArray::fromStdString(*geometry)) : QByteArray());
   resize(size().boundedTo(screen()->availableSize()));
+  restore_docks(*this, desk_.machine);
+  // What was open of a mesh or a motion comes back with one.
+  meshing_->dock().hide();
+  beating_->put_away();
   panels_->restore_layout();
 }
 

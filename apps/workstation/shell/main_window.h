@@ -24,7 +24,7 @@ class FlowResults;
 class MeshingExport;
 class Opening;
 class OuterWalls;
-class QaPanel;
+class QaDock;
 class Reporting;
 class TreeOpening;
 class VesselFinder;
@@ -56,7 +56,7 @@ class MainWindow final : public QMainWindow {
   FlowResults& flow_results() { return *flow_results_; }
   BeatingCase& beating() { return *beating_; }
   TreeOpening& trees() { return *trees_; }
-  QaPanel& qa() { return *qa_; }
+  QaDock& qa() { return *qa_; }
   OuterWalls& outer_walls() { return *outer_walls_; }
 
  protected:
@@ -85,7 +85,7 @@ class MainWindow final : public QMainWindow {
   std::unique_ptr<MeshingExport> meshing_;
   bool must_end_ = false;
   std::unique_ptr<OuterWalls> outer_walls_;  // goes before the views that it draws on
-  std::shared_ptr<QaPanel> qa_;              // so does this
+  std::shared_ptr<QaDock> qa_;               // so does this
   std::unique_ptr<FlowResults> flow_results_;
   std::unique_ptr<FlowCases> flow_cases_;
   std::unique_ptr<TreeOpening> trees_;

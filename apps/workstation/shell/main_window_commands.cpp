@@ -12,7 +12,7 @@
 #include "opening/recent_cases.h"
 #include "phases/commands.h"
 #include "qa/commands.h"
-#include "qa/panel.h"
+#include "qa/dock.h"
 #include "shell/commands.h"
 #include "shell/main_window.h"
 #include "shell/menus.h"
@@ -29,9 +29,9 @@ namespace ostia::workstation {
 
 void MainWindow::build_qa() {
   const Guard loud = [this](const std::function<void()>& act) { desk_.messages.guarded(act, true); };
-  qa_ = std::make_shared<QaPanel>(desk_.bench, panels_->pictures(), panels_->scene(), desk_.jobs, loud, this);
-  connect(qa_.get(), &QaPanel::said, this, [this](const QString& text) { desk_.messages.say(text); });
-  connect(qa_.get(), &QaPanel::refused, this,
+  qa_ = std::make_shared<QaDock>(desk_.bench, panels_->pictures(), panels_->scene(), desk_.jobs, loud, this);
+  connect(qa_.get(), &QaDock::said, this, [this](const QString& text) { desk_.messages.say(text); });
+  connect(qa_.get(), &QaDock::refused, this,
           [this](const QString& why) { desk_.messages.complain(why, tr("The truth cannot be opened")); });
   addDockWidget(Qt::RightDockWidgetArea, qa_.get());
   qa_->hide();

@@ -29,6 +29,13 @@ using view::SliceView;
 constexpr double strip_step_mm = 1.0;
 constexpr int strip_px = 56;  // of a neighbour at least
 
+/// The names of what stands in a splitter, in its order.
+std::string parts_of(const QSplitter& splitter) {
+  QStringList names;
+  for (int i = 0; i < splitter.count(); ++i) names << splitter.widget(i)->objectName();
+  return names.join(' ').toStdString();
+}
+
 }  // namespace
 
 PanelLayout::PanelLayout(Desk& desk) : QObject(&desk.window), desk_(desk) {
@@ -49,12 +56,13 @@ PanelLayout::PanelLayout(Desk& desk) : QObject(&desk.window), desk_(desk) {
   rows_ = new QSplitter(Qt::Vertical);
   rows_->setObjectName("rows");
   rows_->addWidget(columns);
-  rows_->addWidget(panel(tr("Lumen profile"), profile_));
+  rows_->addWidget(panel(tr("Lumen profile"), "profile", profile_));
   rows_->setSizes({760, 170});
   rows_->setStretchFactor(0, 1);
   rows_->setStretchFactor(1, 0);
   splitters_.push_back(columns);
   splitters_.push_back(rows_);
+  for (const QSplitter* one : splitters_) parts_[one] = parts_of(*one);
 }
 
 QWidget& PanelLayout::whole() {
@@ -72,8 +80,9 @@ QSplitter* PanelLayout::splitter(Qt::Orientation orientation, const QString& nam
   return made;
 }
 
-Panel* PanelLayout::panel(const QString& title, QWidget* content) {
+Panel* PanelLayout::panel(const QString& title, const QString& name, QWidget* content) {
   auto* made = new Panel(title, content);
+  made->setObjectName(name + "_panel");
   connect(made, &Panel::maximise_wanted, this, [this, made] { maximise(made); });
   return made;
 }
@@ -86,7 +95,7 @@ Panel* PanelLayout::picture_panel(const QString& title, const QString& name,
   connect(picture, &PictureWidget::hovered, this, &PanelLayout::hovered);
   own_.push_back(
       picture->pointer().end_chosen.observe([this](const geometry::Vec3& end) { emit end_chosen(end); }));
-  return panel(title, picture);
+  return panel(title, name, picture);
 }
 
 QWidget* PanelLayout::curved_column() {
@@ -144,7 +153,7 @@ QWidget* PanelLayout::section_column() {
   QSplitter* column = splitter(Qt::Vertical, "sections");
   column->addWidget(
       picture_panel(tr("Cross-section"), "section", std::make_unique<SectionView>(desk_.bench, 0.0)));
-  column->addWidget(panel(tr("Neighbours, every %1 mm").arg(strip_step_mm), neighbours()));
+  column->addWidget(panel(tr("Neighbours, every %1 mm").arg(strip_step_mm), "neighbours", neighbours()));
   column->addWidget(slice_panel());
   column->setSizes({360, 130, 360});
   return column;
@@ -153,7 +162,7 @@ QWidget* PanelLayout::section_column() {
 Panel* PanelLayout::tree_panel() {
   scene_ = new SceneWidget(desk_.bench, guard_);
   scene_->set_dark(current_theme() == Theme::dark);
-  return panel(tr("Coronary tree"), scene_);
+  return panel(tr("Coronary tree"), "tree", scene_);
 }
 
 QWidget* PanelLayout::side_column() {
@@ -161,7 +170,7 @@ QWidget* PanelLayout::side_column() {
   const auto color_of = [this](std::int32_t vessel) { return scene_->color_of(vessel); };
   auto* list = new VesselList(desk_.bench, color_of, guard_);
   connect(scene_, &SceneWidget::styles_changed, list, &VesselList::refresh);
-  column->addWidget(panel(tr("Vessels"), list));
+  column->addWidget(panel(tr("Vessels"), "vessels", list));
   auto* tabs = new QTabWidget;
   tabs->setObjectName("lists");
   tabs->setDocumentMode(true);
@@ -184,15 +193,21 @@ void PanelLayout::maximise(Panel* panel) {
 std::map<std::string, std::string> PanelLayout::layout_settings() {
   if (alone_) maximise(alone_);
   std::map<std::string, std::string> settings;
-  for (const QSplitter* one : splitters_)
-    settings["splitter." + one->objectName().toStdString()] = one->saveState().toBase64().toStdString();
+  for (const QSplitter* one : splitters_) {
+    const std::string name = one->objectName().toStdString();
+    settings["splitter." + name] = one->saveState().toBase64().toStdString();
+    settings["panels." + name] = parts_.at(one);
+  }
   settings["splitter.columns"] = hanging_->sizes().toBase64().toStdString();
   return settings;
 }
 
 void PanelLayout::restore_layout() {
   for (QSplitter* one : splitters_) {
-    const auto kept = desk_.machine.setting("splitter." + one->objectName().toStdString());
+    const std::string name = one->objectName().toStdString();
+    // Sizes are kept in the order of the panels: those of others fit none of these.
+    if (desk_.machine.setting("panels." + name).value_or(parts_.at(one)) != parts_.at(one)) continue;
+    const auto kept = desk_.machine.setting("splitter." + name);
     one->restoreState(kept ? QByteArray::fromBase64(QByteArray::fromStdString(*kept)) : QByteArray());
   }
 }

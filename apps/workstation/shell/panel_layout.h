@@ -30,9 +30,10 @@ class PanelLayout final : public QObject {
   const std::vector<PictureWidget*>& pictures() const { return pictures_; }
   /// Something in the title of the tree: a combo box, a button.
   void add_beside_tree(QWidget* control);
-  /// Where the splitters stand, as settings of this machine, with all panels shown.
+  /// Where the splitters stand and which panels they hold, as settings of this machine, with all panels
+  /// shown.
   std::map<std::string, std::string> layout_settings();
-  void restore_layout();
+  void restore_layout();  ///< of splitters that hold the panels that they held then
 
  signals:
   void hovered(const QString& text);           ///< what is under the mouse in a 2D view
@@ -40,7 +41,7 @@ class PanelLayout final : public QObject {
   void narrow_changed(bool narrow);
 
  private:
-  Panel* panel(const QString& title, QWidget* content);
+  Panel* panel(const QString& title, const QString& name, QWidget* content);
   Panel* picture_panel(const QString& title, const QString& name, std::unique_ptr<view::PictureView> view);
   QSplitter* splitter(Qt::Orientation orientation, const QString& name);
   QWidget* curved_column();
@@ -56,6 +57,7 @@ class PanelLayout final : public QObject {
   ProfileWidget* profile_ = nullptr;
   std::vector<PictureWidget*> pictures_;
   std::vector<QSplitter*> splitters_;
+  std::map<const QSplitter*, std::string> parts_;  // their panels, in a wide window
   QSplitter *curved_ = nullptr, *rows_ = nullptr;
   Hanging* hanging_ = nullptr;
   Panel *tree_ = nullptr, *alone_ = nullptr;

@@ -6,7 +6,7 @@
 #include "shell/hanging.h"
 #include "shell/language.h"
 #include "shell/theme.h"
-#include "views/role_colors.h"
+#include "views/overlay_colors.h"
 
 #include <QComboBox>
 #include <QDialogButtonBox>

@@ -2143,7 +2143,7 @@
     </message>
 </context>
 <context>
-    <name>ostia::workstation::MeshPanel</name>
+    <name>ostia::workstation::MeshDock</name>
     <message>
         <source>Mesh</source>
         <translation>Netz</translation>
@@ -2614,6 +2614,13 @@
 </context>
 <context>
     <name>ostia::workstation::Opening</name>
+    <message numerus="yes">
+        <source>%n vessel(s) of the mask; a question mark says where to look first.</source>
+        <translation>
+            <numerusform>%n Gefäß der Maske; ein Fragezeichen sagt, wo zuerst hinzusehen ist.</numerusform>
+            <numerusform>%n Gefäße der Maske; ein Fragezeichen sagt, wo zuerst hinzusehen ist.</numerusform>
+        </translation>
+    </message>
     <message>
         <source>Open</source>
         <translation>Öffnen</translation>
@@ -3142,7 +3149,7 @@
     </message>
 </context>
 <context>
-    <name>ostia::workstation::QaPanel</name>
+    <name>ostia::workstation::QaDock</name>
     <message>
         <source>no annotated section</source>
         <translation>kein annotierter Abschnitt</translation>

@@ -4,6 +4,13 @@
 <context>
     <name>ostia::workstation::Opening</name>
     <message numerus="yes">
+        <source>%n vessel(s) of the mask; a question mark says where to look first.</source>
+        <translation>
+            <numerusform>One vessel of the mask; a question mark says where to look first.</numerusform>
+            <numerusform>%n vessels of the mask; a question mark says where to look first.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
         <source>The program ended without closing this case and %n more, which are among the recent ones.</source>
         <translation>
             <numerusform>The program ended without closing this case and one more, which is among the recent ones.</numerusform>
@@ -22,7 +29,7 @@
     </message>
 </context>
 <context>
-    <name>ostia::workstation::QaPanel</name>
+    <name>ostia::workstation::QaDock</name>
     <message numerus="yes">
         <source>%n movement(s) were recorded.</source>
         <translation>

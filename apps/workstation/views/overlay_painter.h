@@ -1,7 +1,7 @@
 #pragma once
 /// \file Puts a view's plain description on the screen.
 
-#include "views/role_colors.h"
+#include "views/overlay_colors.h"
 
 #include "ostia/session/workbench.h"
 #include "ostia/view/overlay.h"

@@ -7,11 +7,13 @@
 #include "ostia/centerline/tree_builder.h"
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
+#include "ostia/core/parallel_invoke.h"
 #include "ostia/geometry/polyline.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 namespace ostia::centerline {
@@ -150,8 +152,14 @@ CenterlineResult extract_centerlines(const TriMesh& lumen, std::optional<Vec3> s
   const LumenSurface surface = prepare_lumen(lumen);
   task.throw_if_cancelled();
   task.set_stage("Voronoi diagram");
-  InnerVoronoi diagram =
-      inner_voronoi(surface.sampled, surface.on_border, surface.only_in_caps, task.sub(0.05, 0.6));
+  InnerVoronoi diagram;
+  std::optional<Wall> wall;
+  core::parallel_invoke(
+      [&] {
+        diagram =
+            inner_voronoi(surface.sampled, surface.on_border, surface.only_in_caps, task.sub(0.05, 0.6));
+      },
+      [&] { wall.emplace(surface.wall); });
   const EndPoints ends = choose_ends(diagram, surface.openings, source, targets);
   if (!options.vessel_names.empty() && options.vessel_names.size() != ends.targets.size())
     throw InvalidInput(std::to_string(options.vessel_names.size()) + " vessel names for " +
@@ -168,13 +176,12 @@ CenterlineResult extract_centerlines(const TriMesh& lumen, std::optional<Vec3> s
   task.set_stage("axes");
   ChainTree chains = merge_paths(paths.axes, paths.order, options.merge_fraction);
   task.throw_if_cancelled();
-  const Wall wall(surface.wall);
-  fit_chains(chains, wall, options, task.sub(0.8, 0.95));
+  fit_chains(chains, *wall, options, task.sub(0.8, 0.95));
 
   CenterlineResult result;
   SplitTree split = split_tree(chains, options.step_mm, options.vessel_names);
   result.tree = std::move(split.tree);
-  measure_radii(result.tree, wall, task);
+  measure_radii(result.tree, *wall, task);
   for (std::size_t i = 0; i < ends.targets.size(); ++i) {
     const std::string role = "target " + std::to_string(i);
     if (split.target_segments[i].empty())

@@ -3,12 +3,14 @@
 #include "ostia/centerline/delaunay.h"
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
+#include "ostia/core/parallel_invoke.h"
 #include "ostia/geometry/aabb_tree.h"
 #include "ostia/geometry/mesh_topology.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 
 namespace ostia::centerline {
 namespace {
@@ -84,7 +86,7 @@ struct Classified {
 };
 
 Classified classify(const Sites& sites, const Delaunay& cells, const geometry::TriMesh& capped,
-                    const core::TaskContext& task) {
+                    const geometry::AabbTree& tree, const core::TaskContext& task) {
   const std::size_t count = cells.cells.size();
   Classified result{std::vector<Sphere>(count), std::vector<Side>(count, Side::flat), 0};
   core::parallel_for(count, 8192, [&](std::size_t i) {
@@ -101,7 +103,6 @@ Classified classify(const Sites& sites, const Delaunay& cells, const geometry::T
   result.doubtful = doubtful.size();
   if (doubtful.empty()) return result;
   task.throw_if_cancelled();
-  const geometry::AabbTree tree(capped);
   const geometry::Box3 box = geometry::bounds(capped.points);
   core::parallel_chunks(doubtful.size(), 512, [&](std::size_t first, std::size_t last) {
     task.throw_if_cancelled();
@@ -236,8 +237,11 @@ void add_incidence(InnerVoronoi& diagram) {
 InnerVoronoi inner_voronoi(const geometry::TriMesh& capped, const std::vector<bool>& on_border,
                            const std::vector<bool>& skip, const core::TaskContext& task) {
   const Sites sites = collect_sites(capped, on_border, skip);
-  const Delaunay cells = delaunay(sites.points, task.sub(0.0, 0.6));
-  Classified classified = classify(sites, cells, capped, task);
+  Delaunay cells;
+  std::optional<geometry::AabbTree> tree;
+  core::parallel_invoke([&] { cells = delaunay(sites.points, task.sub(0.0, 0.6)); },
+                        [&] { tree.emplace(capped); });
+  Classified classified = classify(sites, cells, capped, *tree, task);
   settle_flat_cells(sites, cells, classified);
   task.set_progress(0.8);
   task.throw_if_cancelled();

@@ -1,6 +1,7 @@
 #include "ostia/coronary/axes.h"
 
 #include "axis_beside_calcium.h"
+#include "tree_parts.h"
 
 #include "ostia/centerline/tree_builder.h"
 #include "ostia/core/error.h"
@@ -183,31 +184,13 @@ class Centring {
         part.chains.back().parent = index.at(chains_[c].parent);
         names.push_back(flat_.vessels[c].name);
       }
-      append(centerline::split_tree(part, options_.step_mm, names).tree, members);
+      append_part(result_.tree, centerline::split_tree(part, options_.step_mm, names).tree,
+                  [&](std::int32_t id) {
+                    return static_cast<std::int32_t>(members[static_cast<std::size_t>(id)]) + 1;
+                  });
     }
     for (const geometry::Vessel& vessel : result_.tree.vessels)
       result_.notes.push_back(found_[static_cast<std::size_t>(vessel.id - 1)]);
-  }
-
-  void append(const geometry::VesselTree& part, const std::vector<std::size_t>& members) {
-    geometry::VesselTree& tree = result_.tree;
-    const auto node = static_cast<std::int32_t>(tree.nodes.size()) + 1;
-    const auto segment = static_cast<std::int32_t>(tree.segments.size()) + 1;
-    for (geometry::TreeNode one : part.nodes) {
-      one.id += node;
-      tree.nodes.push_back(one);
-    }
-    for (geometry::TreeSegment one : part.segments) {
-      one.id += segment;
-      one.from += node;
-      one.to += node;
-      tree.segments.push_back(std::move(one));
-    }
-    for (geometry::Vessel one : part.vessels) {
-      one.id = static_cast<std::int32_t>(members[static_cast<std::size_t>(one.id)]) + 1;
-      for (std::int32_t& id : one.segments) id += segment;
-      tree.vessels.push_back(std::move(one));
-    }
   }
 
   const imaging::ImageVolume& image_;

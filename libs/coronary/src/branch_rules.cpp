@@ -199,7 +199,7 @@ double roll_of(const std::vector<TreePath>& paths, const MainVessels& main) {
   return std::clamp(share * (angle - anterior_groove), -most, most);
 }
 
-/// BackgroundTask the LAD on the heart's surface, or from it into the septum.
+/// Beside the LAD on the heart's surface, or from it into the septum.
 Guess branch_of_lad(const TreePath& lad, const Course& course, double leave_mm) {
   const HeartPlace* beside = &lad.at.back();
   for (std::size_t i = lad.index(leave_mm); i < lad.at.size(); ++i)

@@ -1,6 +1,8 @@
 #include "mask_axes.h"
 
 #include "line_graph.h"
+#include "mask_kinks.h"
+#include "tree_parts.h"
 
 #include "ostia/centerline/tree_builder.h"
 #include "ostia/geometry/polyline.h"
@@ -21,6 +23,8 @@ using centerline::SkeletonEdge;
 
 constexpr double dome_radii = 0.6;      // a wall ends in a dome about so much beyond its axis
 constexpr double most_shortened = 0.3;  // of a line
+constexpr double least_stem_mm = 1.5, ahead_mm = 3.0;
+constexpr double stem_radii = 2.0;  // of the first fork, that are left before it
 constexpr double moved_mm = 0.4,
                  moved_radii = 0.4;  // by smoothing, at most: stairs, and forks of wide vessels
 constexpr double usual_smooth_radii = 5.0;
@@ -57,11 +61,16 @@ class Chaining {
     for (const SkeletonEdge& edge : lines.edges) leaving_[edge.from].push_back(&edge);
   }
 
-  /// The chains of one root, parents first.
-  centerline::ChainTree tree_of(std::int32_t root) {
-    centerline::ChainTree tree;
-    follow(root, tree);
-    return tree;
+  struct Chains {
+    centerline::ChainTree tree;  ///< parents first
+    double led_on_mm = 0.0;      ///< by which the root lies before the mask's
+    Vec3 began = Vec3::Zero();
+  };
+  Chains chains_of(std::int32_t root) {
+    Chains chains;
+    follow(root, chains.tree);
+    if (!chains.tree.chains.empty()) give_stem(chains);
+    return chains;
   }
 
  private:
@@ -106,13 +115,49 @@ class Chaining {
     }
   }
 
+  /// A fork right at a root gets a stem, away from all that leaves there: a vessel has one beginning.
+  void give_stem(Chains& chains) const {
+    std::vector<centerline::Chain>& all = chains.tree.chains;
+    const auto wanted = static_cast<std::size_t>(std::ceil(least_stem_mm / step_mm_));
+    std::size_t first = wanted;
+    Vec3 inward = ahead(all[0].axis, 0);
+    for (const Chain& chain : all) {
+      if (chain.parent != 0 || chain.at >= wanted) continue;
+      first = std::min(first, chain.at);
+      inward += ahead(chain.axis, 0);
+    }
+    if (first == wanted) return;
+    Axis& trunk = all[0].axis;
+    inward = inward.norm() > 0.2 ? Vec3(inward.normalized()) : ahead(trunk, 0);
+    const std::size_t more = wanted - first;
+    chains.began = trunk.points.front();
+    chains.led_on_mm = static_cast<double>(more) * step_mm_;
+    const std::size_t fork = std::min(trunk.points.size() - 1, first + wanted);
+    const double radius = trunk.radius[fork];  // at the edge of the mask it says nothing
+    for (std::size_t k = 1; k <= more; ++k) {
+      trunk.points.insert(trunk.points.begin(), trunk.points.front() - step_mm_ * inward);
+      trunk.radius.insert(trunk.radius.begin(), radius);
+    }
+    for (Chain& chain : all)
+      if (chain.parent == 0) chain.at += more;
+    for (auto& [chain, at] : chains.tree.ends)
+      if (chain == 0) at += more;
+  }
+  /// Where a line goes within its first millimetres.
+  static Vec3 ahead(const Axis& axis, std::size_t from) {
+    const Vec3 to = geometry::at_abscissa(axis.points, ahead_mm).point;
+    return (to - axis.points[from]).normalized();
+  }
+
   Axis smooth(const Axis& axis) const {
     const Axis even = centerline::at_equal_steps(without_hooks(axis), step_mm_);
     if (even.points.size() < 4) return even;
     std::vector<double> bound;
     for (const double radius : even.radius)
       bound.push_back((moved_mm + moved_radii * radius) * std::max(1.0, smooth_radii_ / usual_smooth_radii));
-    return centerline::smoothed_axis(even, smooth_radii_, bound);
+    Axis made = centerline::smoothed_axis(even, smooth_radii_, bound);
+    ease_kinks(made);
+    return made;
   }
 
   /// Hooks that a rough mask's line makes: a stretch whose ends are near to each other goes straight.
@@ -140,8 +185,10 @@ class Chaining {
     chain.parent = begin.parent;
     shorten_end(raw, dome_radii * raw.radius.back());
     if (begin.parent < 0) {
+      // The first fork is no end: a stem of some length stays before it.
+      const double stem = centerline::length_mm(*begin.edge) - stem_radii * begin.edge->radius_mm.back();
       turn_round(raw);
-      shorten_end(raw, dome_radii * raw.radius.back());
+      shorten_end(raw, std::min(dome_radii * raw.radius.back(), stem));
       turn_round(raw);
       chain.axis = smooth(raw);
       return chain;
@@ -151,21 +198,23 @@ class Chaining {
     const auto nearest = std::min_element(
         trunk.points.begin(), trunk.points.end(),
         [&](const Vec3& a, const Vec3& b) { return (a - fork).squaredNorm() < (b - fork).squaredNorm(); });
-    chain.at = static_cast<std::size_t>(nearest - trunk.points.begin());
+    // A root has one vessel.
+    chain.at = std::max<std::size_t>(1, static_cast<std::size_t>(nearest - trunk.points.begin()));
+    const auto joint = trunk.points.begin() + static_cast<std::ptrdiff_t>(chain.at);
     // Within its parent's lumen the line was led by the thinning.
     const double inside_mm = std::min(inside_parent * trunk.radius[chain.at], 0.4 * line_length(raw));
-    Axis own{{*nearest}, {trunk.radius[chain.at]}};
+    Axis own{{*joint}, {trunk.radius[chain.at]}};
     for (std::size_t i = 1; i < raw.points.size(); ++i) {
-      if ((raw.points[i] - *nearest).norm() < inside_mm && i + 2 < raw.points.size()) continue;
+      if ((raw.points[i] - *joint).norm() < inside_mm && i + 2 < raw.points.size()) continue;
       own.points.push_back(raw.points[i]);
       own.radius.push_back(raw.radius[i]);
     }
     chain.axis = smooth(own);
     const std::size_t lead = static_cast<std::size_t>(parent_lead_mm / step_mm_);
-    const std::vector<Vec3> before(nearest - static_cast<std::ptrdiff_t>(std::min(lead, chain.at)),
-                                   nearest + 1);
+    const std::vector<Vec3> before(joint - static_cast<std::ptrdiff_t>(std::min(lead, chain.at)), joint + 1);
     chain.axis = centerline::led_out_of(before, chain.axis, smooth_radii_);
-    chain.axis.points.front() = *nearest;
+    chain.axis.points.front() = *joint;
+    ease_kinks(chain.axis);
     return chain;
   }
 
@@ -173,27 +222,6 @@ class Chaining {
   std::map<std::int32_t, std::vector<const SkeletonEdge*>> leaving_;
   std::map<std::int32_t, double> reach_;
 };
-
-void append_tree(geometry::VesselTree& tree, const geometry::VesselTree& part) {
-  const auto node = static_cast<std::int32_t>(tree.nodes.size()) + 1;
-  const auto segment = static_cast<std::int32_t>(tree.segments.size()) + 1;
-  for (geometry::TreeNode one : part.nodes) {
-    one.id += node;
-    tree.nodes.push_back(one);
-  }
-  for (geometry::TreeSegment one : part.segments) {
-    one.id += segment;
-    one.from += node;
-    one.to += node;
-    tree.segments.push_back(std::move(one));
-  }
-  for (geometry::Vessel one : part.vessels) {
-    one.id = static_cast<std::int32_t>(tree.vessels.size()) + 1;
-    one.name = "V" + std::to_string(one.id);
-    for (std::int32_t& id : one.segments) id += segment;
-    tree.vessels.push_back(std::move(one));
-  }
-}
 
 }  // namespace
 
@@ -209,15 +237,19 @@ MaskAxes axes_of_lines(const centerline::SkeletonGraph& lines, const std::vector
   Chaining chaining(lines, smooth_radii, step_mm);
   MaskAxes result;
   for (const std::int32_t root : all) {
-    const centerline::ChainTree chains = chaining.tree_of(root);
+    const auto [chains, led_on_mm, began] = chaining.chains_of(root);
     if (chains.chains.empty()) continue;
-    append_tree(
-        result.tree,
-        centerline::split_tree(chains, step_mm, std::vector<std::string>(chains.ends.size(), "V")).tree);
+    const auto first = static_cast<std::int32_t>(result.tree.vessels.size()) + 1;
+    const centerline::SplitTree split =
+        centerline::split_tree(chains, step_mm, std::vector<std::string>(chains.ends.size(), "V"));
+    std::int32_t next = first;
+    append_part(result.tree, split.tree, [&](std::int32_t) { return next++; });
+    if (led_on_mm > 0.0) result.led_on.push_back({MaskEndChange::Kind::led_on, began, led_on_mm, first});
     if (result.ostia.size() < roots.size())
       result.ostia.push_back(
           geometry::segment(result.tree, result.tree.vessels.back().segments.front()).from);
   }
+  for (geometry::Vessel& vessel : result.tree.vessels) vessel.name = "V" + std::to_string(vessel.id);
   return result;
 }
 

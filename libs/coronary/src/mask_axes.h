@@ -2,6 +2,7 @@
 /// \file From directed lines of a skeleton to the smooth axes of a tree.
 
 #include "ostia/centerline/skeleton_graph.h"
+#include "ostia/coronary/mask_tree.h"
 #include "ostia/geometry/vessel_tree.h"
 
 #include <cstdint>
@@ -10,8 +11,9 @@
 namespace ostia::coronary {
 
 struct MaskAxes {
-  geometry::VesselTree tree;        ///< a vessel for each end, "V1", ...
-  std::vector<std::int32_t> ostia;  ///< the tree's nodes of the first `roots`, in their order
+  geometry::VesselTree tree;          ///< a vessel for each end, "V1", ...
+  std::vector<std::int32_t> ostia;    ///< the tree's nodes of the first `roots`, in their order
+  std::vector<MaskEndChange> led_on;  ///< ostia right at their first fork
 };
 
 /// Each root's longest way is one smooth line through all forks, and so is each longest way that is left; a

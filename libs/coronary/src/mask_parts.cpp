@@ -16,7 +16,7 @@ using imaging::MaskVolume;
 using VoxelIndex = std::array<std::int64_t, 3>;
 
 constexpr double coarse_voxel_mm = 1.2;  // on which aorta and chambers are sought
-constexpr std::int64_t margin_voxels = 3;
+constexpr std::int64_t margin_voxels = 8;
 constexpr double least_left_mm3 = 30.0;  // 10 mm of a vessel of 2 mm
 constexpr double rind_share = 0.2;       // of a part that touches what was too thick: its rind, and no vessel
 

@@ -3,6 +3,7 @@
 #include "line_graph.h"
 #include "mask_axes.h"
 #include "mask_bridges.h"
+#include "mask_ends.h"
 #include "mask_ostia.h"
 #include "mask_parting.h"
 #include "mask_parts.h"
@@ -152,10 +153,25 @@ void add_notes(MaskTree& result, const std::set<std::int32_t>& ostia) {
   }
 }
 
+std::string end_in_words(const MaskEndChange& end, const geometry::VesselTree& tree) {
+  const std::string mm = core::rounded_text(end.length_mm, 1) + " mm", at = place_in_words(end.place);
+  const auto vessel = std::find_if(tree.vessels.begin(), tree.vessels.end(),
+                                   [&](const geometry::Vessel& v) { return v.id == end.vessel; });
+  const std::string name = vessel == tree.vessels.end() ? "a vessel" : vessel->name;
+  if (end.kind == MaskEndChange::Kind::left_out)
+    return "a stub of " + mm + " at " + at +
+           " was left out: it ends within reach of the vessel that it comes from, and no plane can cut it";
+  if (end.kind == MaskEndChange::Kind::shortened)
+    return name + " was shortened by " + mm + " at " + at + ", where its end touches another vessel";
+  return name + " begins " + mm + " before the mask does, at " + at + ": a branch leaves right at its ostium";
+}
+
 void tell_mask(MaskTree& result, const MaskOstia& found, std::size_t trees) {
   for (const MaskBridge& bridge : result.bridges) result.warnings.push_back(bridge_in_words(bridge));
   for (const MaskCut& cut : result.cuts)
     result.warnings.push_back("vessels that touch were parted at " + place_in_words(cut.place));
+  for (const MaskEndChange& end : result.ends)
+    result.warnings.push_back(end_in_words(end, result.vessels.tree));
   if (!found.right)
     result.warnings.push_back("one coronary tree alone was found; its ostium is taken to be at " +
                               place_in_words(result.ostia.front()));
@@ -212,7 +228,8 @@ MaskTree mask_tree(const imaging::MaskVolume& labels, const MaskTreeOptions& opt
   prune_lines(graph, roots, options.least_branch_mm, options.speck_mm);
   task.set_stage("centring the vessels");
   const SkeletonGraph lines = centred_lines(graph.graph(), roots, result.lumen, task.sub(0.45, 0.95));
-  const MaskAxes axes = axes_of_lines(lines, roots, options.smooth_radii, options.step_mm);
+  MaskAxes axes = axes_of_lines(lines, roots, options.smooth_radii, options.step_mm);
+  result.ends = settle_ends(axes);
   task.set_stage("naming the vessels");
   result.vessels = named_tree(axes.tree, axes.ostia, options.labels);
   for (const std::int32_t root : axes.ostia)

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <string>
 
 namespace ostia::geometry {
@@ -100,7 +101,12 @@ struct AabbTree::Impl {
   Bvh bvh;
   std::vector<CornerPoints> triangles;  // in the order of the leaves
   std::vector<char> needles;
-  detail::WindingTree winding;
+
+  /// Made when it is first asked for: most trees are only asked for distances and hits.
+  const detail::WindingTree& winding() const {
+    std::call_once(winding_made_, [&] { winding_ = detail::WindingTree(bvh, triangles); });
+    return winding_;
+  }
 
   explicit Impl(const TriMesh& mesh) {
     if (mesh.triangles.empty()) throw InvalidInput("AABB tree: the surface has no triangles");
@@ -118,7 +124,6 @@ struct AabbTree::Impl {
       for (int i = 0; i < 3; ++i) triangles[place][i] = detail::corner(mesh, triangle, i);
       needles[place] = detail::is_needle(triangles[place]) ? 1 : 0;
     }
-    winding = detail::WindingTree(bvh, triangles);
   }
 
   /// The nearest point with squared distance below `bound`; triangle -1 when there is none.
@@ -127,6 +132,10 @@ struct AabbTree::Impl {
   /// `farthest`.
   template <class Found>
   void trace(const Ray& ray, double& farthest, const Found& found) const;
+
+ private:
+  mutable std::once_flag winding_made_;
+  mutable detail::WindingTree winding_;
 };
 
 AabbTree::AabbTree(const TriMesh& mesh) : impl_(std::make_unique<Impl>(mesh)) {}
@@ -215,7 +224,7 @@ std::vector<RayHit> AabbTree::all_hits(const Vec3& origin, const Vec3& direction
 double AabbTree::winding_number(const Vec3& query) const {
   if (!query.allFinite())
     throw InvalidInput("AABB tree: the query point has a coordinate that is not finite");
-  return impl_->winding.at(query, impl_->triangles);
+  return impl_->winding().at(query, impl_->triangles);
 }
 
 double AabbTree::signed_distance(const Vec3& query) const {

@@ -1,6 +1,7 @@
 #include "dicom_parser.h"
 
 #include "dicom_attributes.h"
+#include "dicom_syntax.h"
 
 #include "ostia/core/error.h"
 
@@ -335,11 +336,6 @@ bool looks_like_data_set(DicomSource& source, Syntax& syntax) {
   return high_zero && length <= 1024 && length <= source.size();
 }
 
-constexpr const char* kDeflated = "1.2.840.10008.1.2.1.99";
-constexpr const char* kBigEndian = "1.2.840.10008.1.2.2";
-constexpr const char* kImplicit = "1.2.840.10008.1.2";
-constexpr const char* kExplicit = "1.2.840.10008.1.2.1";
-
 void parse(DicomSource& source, std::uint64_t start, Syntax syntax, bool has_meta, DicomHeader& header,
            DicomTexts* texts) {
   Parser head(source);
@@ -350,13 +346,13 @@ void parse(DicomSource& source, std::uint64_t start, Syntax syntax, bool has_met
     std::uint64_t offset = start;
     if (has_meta) {
       offset = head.meta(start, declared);
-      syntax = {declared != kImplicit, declared == kBigEndian};
+      syntax = {declared != implicit_little_endian, declared == explicit_big_endian};
     }
-    if (declared == kDeflated) {
+    if (declared == deflated_little_endian) {
       source = DicomSource::memory(inflated(source, offset, kMaxInflated));
       offset = 0;
     }
-    if (declared.empty() || declared == kImplicit) syntax = detected(source, offset, syntax);
+    if (declared.empty() || declared == implicit_little_endian) syntax = detected(source, offset, syntax);
     Parser body(source, texts);
     try {
       body.data_set(offset, syntax);
@@ -378,9 +374,9 @@ void parse(DicomSource& source, std::uint64_t start, Syntax syntax, bool has_met
   header = std::move(attributes.header);
   header.damage = damage;
   header.transfer_syntax = !declared.empty()    ? declared
-                           : syntax.big_endian  ? kBigEndian
-                           : syntax.explicit_vr ? kExplicit
-                                                : kImplicit;
+                           : syntax.big_endian  ? explicit_big_endian
+                           : syntax.explicit_vr ? explicit_little_endian
+                                                : implicit_little_endian;
 }
 
 std::optional<DicomFile> parsed(DicomSource source, DicomTexts* texts) {

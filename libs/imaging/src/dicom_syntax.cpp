@@ -13,10 +13,10 @@ using Known = std::pair<DicomCodec, const char*>;
 
 const std::map<std::string, Known>& known() {
   static const std::map<std::string, Known> table{
-      {"1.2.840.10008.1.2", {DicomCodec::native, "implicit VR little endian"}},
-      {"1.2.840.10008.1.2.1", {DicomCodec::native, "explicit VR little endian"}},
-      {"1.2.840.10008.1.2.1.99", {DicomCodec::native, "deflated"}},
-      {"1.2.840.10008.1.2.2", {DicomCodec::native, "explicit VR big endian"}},
+      {implicit_little_endian, {DicomCodec::native, "implicit VR little endian"}},
+      {explicit_little_endian, {DicomCodec::native, "explicit VR little endian"}},
+      {deflated_little_endian, {DicomCodec::native, "deflated"}},
+      {explicit_big_endian, {DicomCodec::native, "explicit VR big endian"}},
       {"1.2.840.10008.1.2.4.50", {DicomCodec::jpeg, "JPEG (lossy, 8 bits)"}},
       {"1.2.840.10008.1.2.4.51", {DicomCodec::jpeg, "JPEG (lossy, 12 bits)"}},
       {"1.2.840.10008.1.2.4.57", {DicomCodec::jpeg, "JPEG (lossless)"}},

@@ -5,6 +5,13 @@
 
 namespace ostia::imaging {
 
+/// UIDs of the transfer syntaxes without compression of pixels, by which a data set is read or written
+/// (PS3.5, annex A).
+inline constexpr const char* implicit_little_endian = "1.2.840.10008.1.2";
+inline constexpr const char* explicit_little_endian = "1.2.840.10008.1.2.1";
+inline constexpr const char* deflated_little_endian = "1.2.840.10008.1.2.1.99";
+inline constexpr const char* explicit_big_endian = "1.2.840.10008.1.2.2";
+
 enum class DicomCodec { native, rle, jpeg, jpeg_ls, jpeg_2000, unknown };
 
 DicomCodec dicom_codec(const std::string& transfer_syntax);

@@ -1,5 +1,7 @@
 #include "ostia/imaging/dicom_writer.h"
 
+#include "dicom_syntax.h"
+
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
 #include "ostia/core/text.h"
@@ -19,7 +21,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* ct_image_storage = "1.2.840.10008.5.1.4.1.1.2";
-constexpr const char* explicit_little_endian = "1.2.840.10008.1.2.1";
 /// Of Ostia's writer; drawn once at random as a UUID.
 constexpr const char* implementation_uid = "2.25.204386196052518563977463528091842307761";
 

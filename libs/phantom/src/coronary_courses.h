@@ -43,7 +43,7 @@ struct CoursePlan {
 };
 CoursePlan plan_courses(const HeartShape& heart, std::uint64_t seed);
 
-/// Other origins than the usual ones.
+/// Other origins than the usual ones (anatomy.cpp).
 void change_origins(CoursePlan& plan, const HeartShape& heart, Anatomy anatomy);
 
 /// The axis of a course at 0.1 mm steps, with frames and without radii. `parent` is the parent's axis, or

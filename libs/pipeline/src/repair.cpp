@@ -1,6 +1,7 @@
 #include "ostia/pipeline/repair.h"
 
 #include "specks.h"
+#include "spikes.h"
 
 #include "ostia/centerline/lumen_surface.h"
 #include "ostia/core/error.h"
@@ -199,6 +200,10 @@ TriMesh with_rim_closed(const TriMesh& mesh, const std::set<std::array<double, 3
   return with_some_closed(mesh, ours);
 }
 
+void pull_spikes_in(Repaired& out) {
+  note(out, "spikes_pulled_in", pull_in_spikes(out.mesh), "spikes of one point pulled in");
+}
+
 void cut_folds_out(Repaired& out, const RepairOptions& options, const core::TaskContext& task) {
   for (int round = 0; round < rounds; ++round) {
     task.throw_if_cancelled();
@@ -251,6 +256,7 @@ Repaired repaired(const TriMesh& mesh, const RepairOptions& options, const core:
   make_simple(out);
   take_apart(out);  // dropping flaps can leave borders that touch
   keep_parts(out, options.parts);
+  pull_spikes_in(out);
   cut_folds_out(out, options, task);
   close_holes(out, options.fill_holes_up_to_mm);
   geometry::SurfaceFaults faults = geometry::find_faults(out.mesh, true);

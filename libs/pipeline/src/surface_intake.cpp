@@ -1,6 +1,7 @@
 #include "ostia/pipeline/surface_intake.h"
 
 #include "specks.h"
+#include "spikes.h"
 
 #include "ostia/core/error.h"
 #include "ostia/core/text.h"
@@ -25,6 +26,11 @@ using geometry::Vec3;
 // Numbers of a vessel's mean calibre and extent below which it can hardly be in millimetres.
 constexpr double least_calibre_mm = 0.6, least_extent_mm = 40.0;
 constexpr double least_calibre_cm = 0.02, least_extent_cm = 1.5;
+
+/// An aorta in centimetres has the numbers of a short piece of a coronary in millimetres.
+bool may_be_cm(double calibre, double extent) {
+  return calibre > 1.0 && calibre < 4.5 && extent > 4.0 && extent < 30.0;
+}
 
 std::string near_place(const Vec3& p) {
   return "(" + core::fixed_text(p.x(), 1) + ", " + core::fixed_text(p.y(), 1) + ", " +
@@ -87,6 +93,10 @@ void to_mm(geometry::FacedSurface& surface, const IntakeOptions& options, TakenS
       out.told.push_back("taken to be in " + std::string(out.unit_mm == 10.0 ? "centimetres" : "metres") +
                          ", since its vessels are " + core::significant_text(calibre, 2) +
                          " wide in the mean; --units mm says otherwise");
+    else if (!surface.face_ids.empty() && may_be_cm(calibre, extent))
+      out.told.push_back("taken to be in millimetres: vessels " + core::significant_text(calibre, 2) +
+                         " mm wide in the mean, " + core::significant_text(extent, 2) +
+                         " mm from end to end; were it an aorta in centimetres, say --units cm");
   }
   if (out.unit_mm == 1.0) return;
   for (Vec3& p : surface.mesh.points) p *= out.unit_mm;
@@ -146,13 +156,13 @@ void close_holes_in_the_wall(TriMesh& part, std::vector<std::string>& told) {
   part = geometry::subset(filled.mesh, keep);
 }
 
-/// Faults that are mended before anything else looks at the surface; open ends are none.
+/// Nothing to be mended before anything else looks at the surface; open ends are none.
 bool is_sound(const TriMesh& mesh) {
   geometry::SurfaceFaults faults = geometry::find_faults(mesh, true);
   faults.open_edges = 0;
   if (!faults.closed_manifold() || faults.components != 1) return false;
   const TriMesh closed = geometry::fill_holes(mesh).mesh;
-  return geometry::volume(closed) > 0.0;
+  return geometry::volume(closed) > 0.0 && !has_spikes(mesh);
 }
 
 }  // namespace

@@ -1,8 +1,9 @@
-#include "intensity_range.h"
+#include "ostia/segmentation/intensity_range.h"
+
+#include "range_about_seeds.h"
 
 #include "ostia/core/error.h"
 #include "ostia/core/text.h"
-#include "ostia/segmentation/colliding_fronts.h"
 
 #include <algorithm>
 #include <cmath>

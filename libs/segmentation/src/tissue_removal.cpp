@@ -1,6 +1,6 @@
 #include "ostia/segmentation/tissue_removal.h"
 
-#include "intensity_range.h"
+#include "range_about_seeds.h"
 
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"

@@ -2,9 +2,11 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/text.h"
+#include "ostia/imaging/image_file.h"
 #include "ostia/imaging/sampling.h"
 #include "ostia/lumen/start_surface.h"
 #include "ostia/pipeline/mask_walls.h"
+#include "ostia/pipeline/source.h"
 #include "ostia/session/found_model.h"
 
 #include <algorithm>
@@ -101,10 +103,10 @@ MaskModel walled(const imaging::MaskVolume& labels, const coronary::MaskTreeOpti
   result.tree = coronary::mask_tree(labels, options, task.sub(0.0, 0.6));
   task.set_stage("walls of the vessels");
   const geometry::VesselTree& tree = result.tree.vessels.tree;
-  const std::vector<lumen::RadialWall> walls =
-      pipeline::walls_from_mask(tree, result.tree.lumen, {}, task.sub(0.6, 0.95));
+  pipeline::MaskWalls walls = pipeline::walls_from_mask(tree, result.tree.lumen, {}, task.sub(0.6, 0.95));
+  result.outside = std::move(walls.outside);
   try {
-    result.found.model = lumen::model_of_walls(tree, walls);
+    result.found.model = lumen::model_of_walls(tree, walls.walls);
   } catch (const InvalidInput& error) {
     throw KinkedAxis{error.what()};
   }
@@ -130,7 +132,35 @@ MaskModel walled_smoothly(const imaging::MaskVolume& labels, coronary::MaskTreeO
   }
 }
 
+/// What of the mask the walls do not hold.
+void tell_outside(const std::vector<pipeline::MaskOutside>& parts, std::vector<std::string>& warnings) {
+  constexpr double told_mm3 = 2.0;
+  constexpr std::size_t most_told = 3;
+  double all = 0.0;
+  std::string places;
+  std::size_t count = 0;
+  for (const pipeline::MaskOutside& part : parts) {
+    if (part.volume_mm3 < told_mm3) continue;
+    all += part.volume_mm3;
+    if (++count > most_told) continue;
+    places += std::string(count == 1 ? "" : "; ") + core::rounded_text(part.volume_mm3, 1) + " mm3 over " +
+              core::rounded_text(part.length_mm, 1) + " mm at " + core::rounded_text(part.place.x(), 1) +
+              "," + core::rounded_text(part.place.y(), 1) + "," + core::rounded_text(part.place.z(), 1);
+  }
+  if (count == 0) return;
+  warnings.push_back(std::to_string(count) + (count == 1 ? " place" : " places") + " of the mask, " +
+                     core::rounded_text(all, 1) + " mm3 in all, " + (count == 1 ? "lies" : "lie") +
+                     " outside the walls" + (count > most_told ? ", the largest " : ": ") + places +
+                     " mm (LPS)");
+}
+
 }  // namespace
+
+bool holds_labels(const std::filesystem::path& file) {
+  const pipeline::SourceKind kind = pipeline::classify(file);
+  return kind == pipeline::SourceKind::mask ||
+         (kind == pipeline::SourceKind::image && imaging::looks_like_labels(file));
+}
 
 MaskModel model_of_mask(const imaging::MaskVolume& labels, const imaging::ImageVolume* image,
                         const coronary::MaskTreeOptions& options, const core::TaskContext& task) {
@@ -141,6 +171,7 @@ MaskModel model_of_mask(const imaging::MaskVolume& labels, const imaging::ImageV
   found.found.vessels = result.tree.vessels;
   found.found.notes = result.tree.notes;
   found.found.warnings = result.tree.warnings;
+  tell_outside(result.outside, found.found.warnings);
   for (std::size_t i = 0; i < result.tree.notes.size(); ++i) {
     coronary::AxisNotes notes = result.tree.notes[i];
     notes.evidence = 1.0;  // how sure a bridge is stands in the notes' words

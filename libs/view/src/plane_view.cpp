@@ -1,7 +1,7 @@
 #include "ostia/view/plane_view.h"
 
 #include "measure_marks.h"
-#include "slice_seeds.h"
+#include "slice_crossings.h"
 #include "wall_cut.h"
 
 #include "ostia/geometry/frame.h"

@@ -19,6 +19,7 @@ namespace {
 using std::numbers::pi;
 constexpr int rays = 720;  // of a section: half a degree is less than a pixel of any wall
 constexpr double legend_wide = 125.0, legend_high = 170.0;  // a smaller view has no room for one
+// One a class, in their order; what colour a role has: apps/workstation/views/overlay_colors.cpp.
 constexpr std::array roles{Role::low_attenuation, Role::fibrofatty, Role::fibrous, Role::calcified};
 static_assert(roles.size() == analysis::plaque_classes);
 

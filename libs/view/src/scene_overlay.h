@@ -4,7 +4,7 @@
 
 #include "ostia/figure/color.h"
 #include "ostia/view/scene_camera.h"
-#include "ostia/view/scene_colors.h"
+#include "ostia/view/value_scale.h"
 
 #include <vtkSmartPointer.h>
 

@@ -3,7 +3,7 @@
 
 #include "ostia/figure/color.h"
 #include "ostia/geometry/tri_mesh.h"
-#include "ostia/view/scene_colors.h"
+#include "ostia/view/value_scale.h"
 #include "ostia/view/wall_owner.h"
 
 #include <vtkSmartPointer.h>

@@ -1,7 +1,6 @@
 #include "ostia/meshing/clip.h"
 
-#include "cutting/cut_rim.h"
-#include "cutting/plane_cut.h"
+#include "cutting/end_cut.h"
 #include "cutting/plane_triangulation.h"
 #include "remeshing/edit_mesh.h"
 #include "remeshing/remesher.h"
@@ -43,46 +42,6 @@ void validate(const ClipOptions& o) {
 }
 
 namespace {
-
-/// A cap that meets the wall at less than this makes flat elements.
-constexpr double sharp_rim_deg = 40.0;
-
-/// The vessel whose path begins (root) or ends here, fit for a file name.
-std::string vessel_name(const geometry::VesselTree& tree, std::int32_t segment, bool root,
-                        std::size_t number) {
-  std::string name;
-  for (const geometry::Vessel& vessel : tree.vessels)
-    if (name.empty() && !vessel.segments.empty() &&
-        (root ? vessel.segments.front() : vessel.segments.back()) == segment)
-      name = vessel.name;
-  if (name.empty()) name = std::to_string(number);
-  for (char& c : name)
-    if (!((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-')) c = '_';
-  return name;
-}
-
-/// The plane at the end of an axis that runs inward from it.
-EndPlane plane_on(const std::vector<Vec3>& points, const std::vector<double>& radius, double inset_radii) {
-  const std::vector<double> at = geometry::abscissas(points);
-  const double length = at.back();
-  auto radius_at = [&](double s) {
-    const auto place = geometry::at_abscissa(points, s);
-    return (1.0 - place.t) * radius[place.segment] + place.t * radius[place.segment + 1];
-  };
-  // The inscribed radius falls to nothing in a rounded end; the vessel's own is the largest just inside it.
-  double own = 0.0;
-  const double window = std::min(length, 2.0 * radius_at(0.5 * length));
-  for (int i = 0; i <= 32; ++i) own = std::max(own, radius_at(window * i / 32.0));
-  const double s = std::min(inset_radii * own, 0.5 * length);
-  EndPlane plane;
-  plane.origin = geometry::at_abscissa(points, s).point;
-  plane.radius_mm = own;
-  // The mean direction over a diameter, which a kink of the axis does not turn.
-  const Vec3 outer = geometry::at_abscissa(points, std::max(0.0, s - own)).point;
-  const Vec3 inner = geometry::at_abscissa(points, std::min(length, s + own)).point;
-  plane.normal = (outer - inner).normalized();
-  return plane;
-}
 
 struct OpenLoop {
   std::vector<std::int32_t> vertices;
@@ -176,70 +135,6 @@ void match_loops(ClippedSurface& result) {
           ") mm that belongs to no end of the tree; fill it, or give the tree a branch that ends there");
 }
 
-Vec3 end_position(const geometry::VesselTree& tree, const EndPlane& plane) {
-  return geometry::node(tree, plane.node).position;
-}
-
-}  // namespace
-
-std::string end_name(const EndPlane& plane) {
-  return (plane.kind == geometry::FaceKind::inlet ? "inlet_" : "outlet_") + plane.vessel;
-}
-
-std::vector<EndPlane> end_planes(const geometry::VesselTree& tree, double inset_radii) {
-  if (const auto fault = geometry::find_fault(tree))
-    throw InvalidInput("clipping: the tree is not sound: " + *fault);
-  std::vector<EndPlane> planes;
-  auto add = [&](std::int32_t node, bool root) {
-    for (const geometry::TreeSegment& segment : tree.segments) {
-      if ((root ? segment.from : segment.to) != node) continue;
-      if (segment.axis.size() < 2 || segment.axis.radius.size() != segment.axis.size())
-        throw InvalidInput("clipping: segment " + std::to_string(segment.id) +
-                           " needs two points and a radius at each");
-      std::vector<Vec3> points = segment.axis.points;
-      std::vector<double> radius = segment.axis.radius;
-      if (!root) {
-        std::reverse(points.begin(), points.end());
-        std::reverse(radius.begin(), radius.end());
-      }
-      EndPlane plane = plane_on(points, radius, inset_radii);
-      plane.node = node;
-      plane.kind = root ? geometry::FaceKind::inlet : geometry::FaceKind::outlet;
-      plane.vessel = vessel_name(tree, segment.id, root, planes.size() + 1);
-      const std::string base = plane.vessel;
-      auto taken = [&] {
-        return std::any_of(planes.begin(), planes.end(), [&](const EndPlane& p) {
-          return p.kind == plane.kind && p.vessel == plane.vessel;
-        });
-      };
-      for (int k = 2; taken(); ++k) plane.vessel = base + "_" + std::to_string(k);
-      planes.push_back(plane);
-      return;
-    }
-  };
-  for (const std::int32_t id : geometry::roots(tree)) add(id, true);
-  for (const std::int32_t id : geometry::ends(tree)) add(id, false);
-  return planes;
-}
-
-std::vector<PlacedPlane> with_ends(std::vector<PlacedPlane> planes, const std::vector<EndPlane>& ends) {
-  std::set<std::string> taken;
-  for (PlacedPlane& placed : planes) {
-    if (placed.end.empty() && !ends.empty())
-      placed.end = end_name(*std::ranges::min_element(
-          ends, {}, [&](const EndPlane& end) { return (end.origin - placed.origin).squaredNorm(); }));
-    std::string all;
-    for (const EndPlane& end : ends) all += (all.empty() ? "" : ", ") + end_name(end);
-    if (std::ranges::find(ends, placed.end, end_name) == ends.end())
-      throw InvalidInput("clipping: a plane is given for " + placed.end + ", but the ends are " + all);
-    if (!taken.insert(placed.end).second)
-      throw InvalidInput("clipping: two planes are given for " + placed.end + "; the ends are " + all);
-  }
-  return planes;
-}
-
-namespace {
-
 const PlacedPlane* placed_plane(const ClipOptions& options, const EndPlane& plane) {
   for (const PlacedPlane& placed : options.planes)
     if (placed.end == end_name(plane)) return &placed;
@@ -258,62 +153,9 @@ void take_placed_planes(std::vector<ClippedEnd>& ends, const ClipOptions& option
   }
 }
 
-/// The surface without one end.
-struct Cut {
-  geometry::TriMesh mesh;
-  EndPlane plane;
-  RimWedge rim;
-};
-Cut cut_at(const geometry::TriMesh& surface, EndPlane plane, const geometry::VesselTree& tree,
-           const ClipOptions& options, const std::string& name) {
-  Cut cut;
-  cut.mesh = cut_branch(surface, plane, end_position(tree, plane), options, name);
-  cut.plane = std::move(plane);
-  cut.rim = sharpest_rim(cut.mesh, cut.plane);
-  return cut;
-}
-
-/// Where a plane does not cut cleanly (an end torn aslant, say), or runs along a wall that flares (into the
-/// aorta, say), it is tried up to one radius farther inside; the cut whose wedge is the least sharp is taken.
-Cut best_cut(const geometry::TriMesh& surface, std::size_t i, const EndPlane& wanted,
-             const geometry::VesselTree& tree, const ClipOptions& options, const std::string& name) {
-  std::optional<Cut> best;
-  std::optional<GeometryError> at_first;
-  for (const double extra : {0.0, 0.25, 0.5, 0.75, 1.0}) {
-    const EndPlane plane = extra > 0.0 ? end_planes(tree, options.inset_radii + extra)[i] : wanted;
-    try {
-      Cut cut = cut_at(surface, plane, tree, options, name);
-      if (!best || cut.rim.angle_deg > best->rim.angle_deg) best = std::move(cut);
-      if (best->rim.angle_deg >= sharp_rim_deg) break;
-    } catch (const GeometryError& error) {
-      if (!at_first) at_first = error;
-    }
-  }
-  if (!best) throw GeometryError(*at_first);
-  return std::move(*best);
-}
-
 std::string end_words(const EndPlane& plane) {
   return std::string(plane.kind == geometry::FaceKind::inlet ? "the inlet" : "the outlet") + " of vessel " +
          plane.vessel;
-}
-
-/// All ends that cannot be cut at once, each with its place and what a person can do.
-void refuse(const std::vector<std::pair<EndPlane, std::string>>& failed) {
-  if (failed.empty()) return;
-  std::string message = failed.size() == 1 ? "" : std::to_string(failed.size()) + " ends cannot be cut:\n";
-  for (const auto& [plane, why] : failed) {
-    if (failed.size() > 1) message += "  ";
-    message += why + "; cut it where its lumen is a clean tube by --plane " + end_name(plane) + "=";
-    const Vec3 inside = plane.origin - 2.0 * plane.radius_mm * plane.normal;
-    for (int k = 0; k < 3; ++k) message += (k ? "," : "") + core::fixed_text(inside[k], 2);
-    for (int k = 0; k < 3; ++k) message += (k ? "," : ":") + core::fixed_text(plane.normal[k], 3);
-    message += " (now at " + core::fixed_text(plane.origin.x(), 2) + "," +
-               core::fixed_text(plane.origin.y(), 2) + "," + core::fixed_text(plane.origin.z(), 2) +
-               "), or farther inside by --inset";
-    if (failed.size() > 1) message += "\n";
-  }
-  throw GeometryError(message);
 }
 
 /// The inlet is called as its cap was; outlets have the names of their vessels already.
@@ -328,9 +170,7 @@ void cut_end(ClippedSurface& result, std::size_t i, const geometry::VesselTree& 
   ClippedEnd& end = result.ends[i];
   const EndPlane wanted = end.plane;
   const bool placed = placed_plane(options, end.plane) != nullptr;
-  ClipOptions anywhere = options;  // a person may cut at any distance from the axis' end
-  anywhere.reach_radii = std::numeric_limits<double>::infinity();
-  Cut cut = placed ? cut_at(result.mesh, wanted, tree, anywhere, name)
+  Cut cut = placed ? cut_at(result.mesh, wanted, tree, anywhere(options), name)
                    : best_cut(result.mesh, i, wanted, tree, options, name);
   result.mesh = std::move(cut.mesh);
   end.plane = std::move(cut.plane);
@@ -379,7 +219,7 @@ ClippedSurface clip_ends(const geometry::TriMesh& lumen, const geometry::VesselT
       p -= (p - loop->centroid).dot(loop->normal) * loop->normal;
     }
   }
-  std::vector<std::pair<EndPlane, std::string>> failed;
+  std::vector<Uncut> failed;
   for (std::size_t i = 0; i < result.ends.size(); ++i) {
     task.throw_if_cancelled();
     task.set_progress(static_cast<double>(i) / static_cast<double>(result.ends.size()));
@@ -388,10 +228,10 @@ ClippedSurface clip_ends(const geometry::TriMesh& lumen, const geometry::VesselT
     try {
       cut_end(result, i, tree, options, end_words(wanted));
     } catch (const GeometryError& error) {
-      failed.emplace_back(wanted, error.what());
+      failed.push_back({i, wanted, error.what()});
     }
   }
-  refuse(failed);
+  refuse(lumen, failed, tree, options);
   match_loops(result);
   task.set_progress(1.0);
   return result;

@@ -289,13 +289,27 @@ GivenEnd end_at_loop(const TriMesh& mesh, const std::vector<std::int32_t>& loop)
 }
 
 double lumen_width_behind(const geometry::AabbTree& tree, const GivenEnd& end, double depth_radii) {
-  const Vec3 middle = end.centre - depth_radii * end.radius_mm * end.normal;
+  // In steps, in the middle of the lumen again after each: where the end is aslant, its normal leaves it.
+  constexpr double step_radii = 0.25, most_aside = 1.5;
   const Vec3 across = end.normal.unitOrthogonal(), other = end.normal.cross(across);
+  Vec3 middle = end.centre;
   std::vector<double> lengths;
-  for (int i = 0; i < rays_across; ++i) {
-    const double angle = 2.0 * std::numbers::pi * i / rays_across;
-    const auto hit = tree.first_hit(middle, std::cos(angle) * across + std::sin(angle) * other);
-    if (hit) lengths.push_back(hit->t);
+  const int steps = std::max(1, static_cast<int>(std::lround(depth_radii / step_radii)));
+  const double step = depth_radii / steps * end.radius_mm;
+  for (int k = 0; k < steps; ++k) {
+    middle -= step * end.normal;
+    lengths.clear();
+    Vec3 aside = Vec3::Zero();  // of a circle's middle: 2 / n of the sum of the lengths
+    for (int i = 0; i < rays_across; ++i) {
+      const double angle = 2.0 * std::numbers::pi * i / rays_across;
+      const Vec3 way = std::cos(angle) * across + std::sin(angle) * other;
+      if (const auto hit = tree.first_hit(middle, way)) {
+        lengths.push_back(hit->t);
+        aside += 2.0 / rays_across * hit->t * way;
+      }
+    }
+    if (static_cast<int>(lengths.size()) < rays_across || k + 1 == steps) continue;
+    middle += aside * std::min(1.0, most_aside * step / std::max(aside.norm(), 1e-300));
   }
   if (lengths.size() < rays_across / 2) return 0.0;
   std::ranges::nth_element(lengths, lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2));

@@ -1,7 +1,7 @@
 #include "ostia/segmentation/colliding_fronts.h"
 
 #include "fronts/fast_marching.h"
-#include "intensity_range.h"
+#include "range_about_seeds.h"
 #include "region_builder.h"
 
 #include "ostia/core/error.h"

@@ -6,7 +6,7 @@
 
 #include "ostia/core/task_context.h"
 #include "ostia/imaging/volume.h"
-#include "ostia/segmentation/seeds.h"
+#include "ostia/segmentation/intensity_range.h"
 
 #include <cstdint>
 #include <limits>

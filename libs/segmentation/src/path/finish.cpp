@@ -1,8 +1,8 @@
 #include "path/finish.h"
 
 #include "fronts/fast_marching.h"
-#include "intensity_range.h"
 #include "path/target.h"
+#include "range_about_seeds.h"
 
 #include "ostia/core/error.h"
 #include "ostia/geometry/frame.h"

@@ -5,6 +5,7 @@
 #include "ostia/coronary/labels.h"
 #include "ostia/imaging/volume.h"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,19 @@ struct MaskCut {
   double radius_mm = 0.0;     ///< of the mask there
 };
 
+/// What became of an end so that a mesh can be cut there.
+struct MaskEndChange {
+  enum class Kind {
+    shortened,  ///< it touched another vessel
+    left_out,   ///< a stub that ends within reach of the vessel that it comes from
+    led_on,     ///< an ostium right at its first fork begins earlier
+  };
+  Kind kind = Kind::shortened;
+  Vec3 place = Vec3::Zero();  ///< where the line ended before, mm
+  double length_mm = 0.0;     ///< that was taken away, or added before an ostium
+  std::int32_t vessel = 0;    ///< of the tree; 0: left out
+};
+
 struct MaskTree {
   LabelledTree vessels;  ///< axes with radii; roots: the ostia, then those of parts that joined no tree
   std::vector<AxisNotes> notes;  ///< one a vessel, in the tree's order; evidence: of the bridges on its way
@@ -44,13 +58,15 @@ struct MaskTree {
   imaging::MaskVolume lumen;     ///< what the vessels were made of: the mask without aorta and specks
   std::vector<MaskBridge> bridges;
   std::vector<MaskCut> cuts;
+  std::vector<MaskEndChange> ends;
   std::vector<std::string> warnings;  ///< what was left out, joined and parted, in plain words
 };
 
 /// What is thicker than an artery goes (aorta, chambers), and so do specks. The skeleton's lines are joined
 /// over gaps where they point at each other, the two ostia are chosen by calibre, branching and the usual
 /// way from one to the other in a patient in LPS, and what makes a circle between them is parted: vessels
-/// that cross each by themselves, others at their thinnest place. Axes are smooth and in the middle.
+/// that cross each by themselves, others at their thinnest place. Axes are smooth and in the middle, and end
+/// where a plane across them meets one vessel alone.
 ///
 /// `labels`: 0 outside; one value, or one a vessel, whose borders are where vessels are parted first. Throws
 /// InvalidInput for options out of range and an empty mask, GeometryError for a mask without a vessel (an

@@ -36,8 +36,13 @@ inline constexpr std::array<MeshFormat, 11> mesh_formats = {
 std::string_view name_of(MeshFormat format);
 /// Throws InvalidInput that lists the formats for any other name.
 MeshFormat mesh_format(std::string_view name);
+/// As lists show it: what the program calls itself, "Gmsh 4.1", "SimVascular (mesh-complete)".
+std::string_view title_of(MeshFormat format);
 /// The usual extension with its point (`.vtu`); empty for a format that is a folder.
 std::string_view extension_of(MeshFormat format);
+/// What a file of this extension (with its point) is written as where no format is named, or a folder for an
+/// empty one; nothing where it is no format's.
+std::optional<MeshFormat> usual_mesh_format(std::string_view extension);
 
 /// Throws InvalidInput, as export_mesh does, when the format cannot hold a mesh with prisms or of quadratic
 /// elements: to be asked before a mesh is made.

@@ -1,12 +1,14 @@
 #pragma once
 /// \file Ends of a lumen cut flat by planes normal to the centerline ([Antiga] section 5).
 
+#include "ostia/core/error.h"
 #include "ostia/core/task_context.h"
 #include "ostia/geometry/tri_mesh.h"
 #include "ostia/geometry/vessel_tree.h"
 #include "ostia/meshing/flat_caps.h"
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace ostia::meshing {
@@ -59,6 +61,17 @@ std::vector<EndPlane> end_planes(const geometry::VesselTree& tree, double inset_
 /// end has two planes then, or none of these ends is called so.
 std::vector<PlacedPlane> with_ends(std::vector<PlacedPlane> planes, const std::vector<EndPlane>& ends);
 
+/// Ends that cannot be cut where their planes stand; the message names each, and the way out.
+class EndsNotCut : public GeometryError {
+ public:
+  EndsNotCut(const std::string& message, std::vector<EndPlane> ends)
+      : GeometryError(message), ends_(std::move(ends)) {}
+  const std::vector<EndPlane>& ends() const { return ends_; }
+
+ private:
+  std::vector<EndPlane> ends_;
+};
+
 struct ClippedEnd {
   EndPlane plane;  ///< of a kept open end: the plane through its loop
   std::vector<std::int32_t>
@@ -77,9 +90,9 @@ struct ClippedSurface {
 /// is never touched. A plane that does not cut cleanly, or meets the wall in a wedge of less than 40 degrees,
 /// is tried up to a radius farther inside, with a warning; one that a person placed is taken as it is,
 /// however far from the axis' end. Loop points lie on their plane to round-off. Throws InvalidInput for bad
-/// options or tree, or a plane for an end that is not there, GeometryError naming all ends that cannot be
-/// cut, where each is, why (plane misses the lumen, loop is not closed, more than the end would go) and the
-/// way out, or a hole that belongs to no end.
+/// options or tree, or a plane for an end that is not there, EndsNotCut naming all ends that cannot be cut,
+/// where each is, why (plane misses the lumen, loop is not closed, more than the end would go) and the way
+/// out, GeometryError for a hole that belongs to no end.
 ClippedSurface clip_ends(const geometry::TriMesh& lumen, const geometry::VesselTree& tree,
                          const ClipOptions& options = {}, const core::TaskContext& task = core::no_task());
 

@@ -3,6 +3,7 @@
 
 #include "ostia/geometry/centerline.h"
 #include "ostia/geometry/vessel_tree.h"
+#include "ostia/phantom/anatomy.h"
 #include "ostia/phantom/heart.h"
 #include "ostia/phantom/radial_profile.h"
 
@@ -78,19 +79,6 @@ struct CoronaryTree {
   Dominance dominance = Dominance::right;
   std::vector<CoronaryVessel> vessels;  ///< parents before children
 };
-
-/// How the arteries leave the aorta (docs/methods/phantom-variants.md).
-enum class Anatomy {
-  usual,
-  left_ostium_closed,   ///< the left tree begins 6 mm beyond the aorta's wall
-  right_ostium_closed,  ///< the same on the right
-  rca_from_left,        ///< from the left sinus, between the aorta and the pulmonary trunk
-  lcx_from_right,       ///< from the right sinus, behind the aorta; an ostium of its own
-  bypass                ///< "SVG", from the ascending aorta to the middle of the LAD
-};
-const char* word(Anatomy anatomy);  ///< "usual", "left-ostium-closed", ...
-/// Throws InvalidInput for a word that is none.
-Anatomy anatomy_of(const std::string& word);
 
 struct CoronaryOptions {
   std::uint64_t seed = 1;

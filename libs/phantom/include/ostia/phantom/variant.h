@@ -1,7 +1,7 @@
 #pragma once
 /// \file Variants of the synthetic patient.
 
-#include "ostia/phantom/coronary_tree.h"
+#include "ostia/phantom/anatomy.h"
 
 #include <optional>
 

@@ -33,10 +33,10 @@ struct TakenSurface {
 double unit_by_calibre(double calibre, double extent);
 
 /// In this order: triangles without a finite place go, units become mm, equal points join, what only touches
-/// is taken apart, each part is turned outward, flaps and folds are cut out and closed (pipeline::repaired),
-/// specks go, holes in the wall are closed, flat caps come off. `what` names the surface in messages. Throws
-/// GeometryError where strict and something is wrong, or nothing is left; InvalidInput for sizes that no
-/// vessel has in any unit; Cancelled.
+/// is taken apart, each part is turned outward, spikes of one point are pulled in, flaps and folds are cut
+/// out and closed (pipeline::repaired), specks go, holes in the wall are closed, flat caps come off. `what`
+/// names the surface in messages. Throws GeometryError where strict and something is wrong, or nothing is
+/// left; InvalidInput for sizes that no vessel has in any unit; Cancelled.
 TakenSurface take_surface(geometry::FacedSurface surface, const std::string& what,
                           const IntakeOptions& options = {}, const core::TaskContext& task = core::no_task());
 

@@ -4,6 +4,7 @@
 
 #include "ostia/core/task_context.h"
 #include "ostia/imaging/volume.h"
+#include "ostia/segmentation/intensity_range.h"
 #include "ostia/segmentation/seeds.h"
 
 #include <cstdint>
@@ -50,13 +51,6 @@ struct InitialRegion {
   std::vector<Vec3> way;
   bool touches_border = false;  ///< the region reaches the border of the image: the vessel goes on outside
 };
-
-/// The range that is taken when none is given. The lumen's intensity is the least of the medians of seven
-/// voxels at each seed, the background's the median of the darker class (Otsu's split) of what is neither air
-/// nor fat nor lumen in the neighbourhood of the seeds; the lower bound lies half-way. The upper bound lies
-/// as far above the brightest seed as the background lies below the darkest. Throws InvalidInput for a seed
-/// outside the image or in air, and where one has less than a third of another's contrast.
-IntensityRange intensity_range_around(const imaging::ImageVolume& image, const std::vector<Vec3>& seeds_mm);
 
 /// The region between the two ends of a branch: phi0 = grad T1 . grad T2 < 0 and connected to both seeds,
 /// where |grad T| = 1/F and F grows with the intensity. Values are the cosine of the angle between the two

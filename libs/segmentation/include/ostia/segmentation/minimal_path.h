@@ -70,7 +70,7 @@ MinimalPath path_between(const imaging::ImageVolume& image, const Vec3& from, co
 /// How a rough line is followed.
 struct PathAlongOptions {
   MinimalPathOptions path;  ///< its bounds of the front are not asked: the line is one
-  /// BackgroundTask the line, within which the cheapest way is sought; 0: none is, the line itself is
+  /// Beside the line, within which the cheapest way is sought; 0: none is, the line itself is
   /// centred, which asks for a line within the lumen, [0, 10].
   double corridor_mm = 3.0;
   /// Of the line's beginning and end that the image does not move or measure (they are smoothed with the

@@ -17,10 +17,4 @@ struct BranchSeeds {
   Vec3 to = Vec3::Zero();
 };
 
-/// Intensities that count as lumen, HU, both included.
-struct IntensityRange {
-  double lower = 0.0;
-  double upper = 0.0;
-};
-
 }  // namespace ostia::segmentation

@@ -4,6 +4,7 @@
 #include "ostia/core/task_context.h"
 #include "ostia/coronary/extract.h"
 #include "ostia/coronary/mask_tree.h"
+#include "ostia/pipeline/mask_walls.h"
 #include "ostia/session/case_file.h"
 
 #include <filesystem>
@@ -30,8 +31,12 @@ FoundModel found_model(const imaging::ImageVolume& image, const coronary::Extrac
 /// (pipeline::walls_from_mask). `found` has ostia and vessels, but no aorta.
 struct MaskModel {
   FoundModel found;
-  coronary::MaskTree tree;  ///< `vessels` and `notes` are those of `found`
+  coronary::MaskTree tree;                     ///< `vessels` and `notes` are those of `found`
+  std::vector<pipeline::MaskOutside> outside;  ///< of the walls, the largest first
 };
+/// Whether an image file holds labels rather than a CT: whole numbers, few of them. Throws IoError,
+/// InvalidInput.
+bool holds_labels(const std::filesystem::path& file);
 /// `image`: the CT that the mask was drawn on, to see that both are of one patient; null: none. Throws as
 /// coronary::mask_tree, pipeline::walls_from_mask and lumen::model_of_walls do, and InvalidInput for a mask
 /// that does not lie on the image's vessels, with what lies there instead.

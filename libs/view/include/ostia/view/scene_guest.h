@@ -2,7 +2,7 @@
 /// \file What stands in the 3D scene in the wall's place: a surface with a solver's result.
 
 #include "ostia/geometry/vec.h"
-#include "ostia/view/scene_colors.h"
+#include "ostia/view/value_scale.h"
 
 #include <vtkProp.h>
 #include <vtkSmartPointer.h>

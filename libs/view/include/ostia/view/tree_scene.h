@@ -7,9 +7,9 @@
 #include "ostia/imaging/volume.h"
 #include "ostia/lumen/lumen_model.h"
 #include "ostia/view/scene_camera.h"
-#include "ostia/view/scene_colors.h"
 #include "ostia/view/scene_guest.h"
 #include "ostia/view/scene_marks.h"
+#include "ostia/view/value_scale.h"
 #include "ostia/view/volume_scene.h"
 #include "ostia/view/wall_owner.h"
 

@@ -1,10 +1,11 @@
 #pragma once
-/// \file Which intensities are lumen, from the image about the seeds.
+/// \file Which intensities are lumen, from the image about the seeds: what the room needs of it
+/// (intensity_range.cpp).
 
 #include "fronts/fast_marching.h"
 
 #include "ostia/imaging/volume.h"
-#include "ostia/segmentation/seeds.h"
+#include "ostia/segmentation/intensity_range.h"
 
 #include <optional>
 #include <string>

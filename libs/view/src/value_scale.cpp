@@ -1,4 +1,4 @@
-#include "ostia/view/scene_colors.h"
+#include "ostia/view/value_scale.h"
 
 #include "ostia/core/error.h"
 #include "ostia/figure/value_colors.h"

@@ -1,4 +1,4 @@
-#include "slice_seeds.h"
+#include "slice_crossings.h"
 
 #include "ostia/session/beating.h"
 

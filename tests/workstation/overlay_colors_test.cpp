@@ -1,4 +1,4 @@
-#include "views/role_colors.h"
+#include "views/overlay_colors.h"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ std::vector<std::pair<std::string, Mat3>> sights() {
   return {{"normal", Mat3::Identity()}, {"protan", protan}, {"deutan", deutan}, {"tritan", tritan}};
 }
 
-TEST(RoleColors, ClassesOfPlaqueAreToldApartOverAnyGreyByEverybody) {
+TEST(OverlayColors, ClassesOfPlaqueAreToldApartOverAnyGreyByEverybody) {
   using view::Role;
   const double opacity = view::OverlayTint{}.opacity;
   for (const auto& [name, sight] : sights())

@@ -1,10 +1,11 @@
-#include "qa/panel.h"
+#include "qa/dock.h"
 
 #include "shell/bind.h"
+#include "shell/docks.h"
 #include "shell/file_dialogs.h"
 
 #include "ostia/io/contour_file.h"
-#include "ostia/view/scene_colors.h"
+#include "ostia/view/value_scale.h"
 
 #include <QGridLayout>
 #include <QHBoxLayout>
@@ -39,13 +40,13 @@ QIcon error_icon(double msd_mm) {
 }
 
 QString text_of(const session::WholeError& error) {
-  if (error.sections == error.unmatched) return QaPanel::tr("no annotated section");
-  QString text = QaPanel::tr("MSD %1 mm, maximum %2 mm, Dice %3, %4 mm annotated")
+  if (error.sections == error.unmatched) return QaDock::tr("no annotated section");
+  QString text = QaDock::tr("MSD %1 mm, maximum %2 mm, Dice %3, %4 mm annotated")
                      .arg(millimetres(error.surfaces.mean_mm(), 3), millimetres(error.surfaces.max_mm))
                      .arg(error.dice, 0, 'f', 3)
                      .arg(error.length_mm, 0, 'f', 0);
   if (error.missing_mm > 0.05)
-    text += QaPanel::tr(", %1 mm of it without a wall").arg(error.missing_mm, 0, 'f', 1);
+    text += QaDock::tr(", %1 mm of it without a wall").arg(error.missing_mm, 0, 'f', 1);
   return text;
 }
 
@@ -59,8 +60,8 @@ QPushButton* tool_button(const QString& text, const QString& name, const QString
 
 }  // namespace
 
-QaPanel::QaPanel(session::Workbench& bench, std::vector<PictureWidget*> pictures, SceneWidget& scene,
-                 Jobs& jobs, Guard loud, QWidget* parent)
+QaDock::QaDock(session::Workbench& bench, std::vector<PictureWidget*> pictures, SceneWidget& scene,
+               Jobs& jobs, Guard loud, QWidget* parent)
     : QDockWidget(tr("QA"), parent),
       bench_(bench),
       pictures_(std::move(pictures)),
@@ -77,10 +78,10 @@ QaPanel::QaPanel(session::Workbench& bench, std::vector<PictureWidget*> pictures
   setWidget(all);
   figures_soon_.setSingleShot(true);
   figures_soon_.setInterval(figures_after_ms);
-  connect(&figures_soon_, &QTimer::timeout, this, &QaPanel::show_figures);
+  connect(&figures_soon_, &QTimer::timeout, this, &QaDock::show_figures);
   time_.setInterval(1000);
-  connect(&time_, &QTimer::timeout, this, &QaPanel::show_time);
-  connect(&replay_tick_, &QTimer::timeout, this, &QaPanel::replay_some);
+  connect(&time_, &QTimer::timeout, this, &QaDock::show_time);
+  connect(&replay_tick_, &QTimer::timeout, this, &QaDock::replay_some);
   connect(this, &QDockWidget::visibilityChanged, this, [this](bool) { set_mode(!isHidden()); });
   const auto soon = [this](const auto&...) {
     if (mode_) figures_soon_.start();
@@ -105,17 +106,17 @@ QaPanel::QaPanel(session::Workbench& bench, std::vector<PictureWidget*> pictures
   show_session();
 }
 
-QaPanel::~QaPanel() {
+QaDock::~QaDock() {
   scene_.set_wall_painter({});
 }
 
-QWidget* QaPanel::truth_rows() {
+QWidget* QaDock::truth_rows() {
   auto* all = new QWidget;
   auto* rows = new QVBoxLayout(all);
   rows->setContentsMargins(0, 0, 0, 0);
   auto* first = new QHBoxLayout;
   open_ = tool_button(tr("Open truth\u2026"), "qa_open", tr("Contours that the case is held against"));
-  connect(open_, &QPushButton::clicked, this, &QaPanel::choose_truth);
+  connect(open_, &QPushButton::clicked, this, &QaDock::choose_truth);
   observer_ = new QComboBox;
   observer_->setObjectName("qa_observer");
   observer_->setAccessibleName(tr("Observer"));
@@ -169,7 +170,7 @@ QWidget* QaPanel::truth_rows() {
   return all;
 }
 
-QWidget* QaPanel::session_rows() {
+QWidget* QaDock::session_rows() {
   auto* all = new QWidget;
   auto* rows = new QVBoxLayout(all);
   rows->setContentsMargins(0, 0, 0, 0);
@@ -194,9 +195,9 @@ QWidget* QaPanel::session_rows() {
   rows->addLayout(time);
   auto* hand = new QHBoxLayout;
   record_ = tool_button(tr("Record\u2026"), "qa_record", tr("Write down what the hand does in the views"));
-  connect(record_, &QPushButton::clicked, this, &QaPanel::choose_recording);
+  connect(record_, &QPushButton::clicked, this, &QaDock::choose_recording);
   again_ = tool_button(tr("Replay\u2026"), "qa_replay", tr("Do again what was recorded, on the same case"));
-  connect(again_, &QPushButton::clicked, this, &QaPanel::choose_replay);
+  connect(again_, &QPushButton::clicked, this, &QaDock::choose_replay);
   speed_ = new QComboBox;
   speed_->setObjectName("qa_speed");
   speed_->setAccessibleName(tr("Speed of a replay"));
@@ -210,14 +211,14 @@ QWidget* QaPanel::session_rows() {
   progress_ = new QProgressBar;
   progress_->setObjectName("qa_progress");
   cancel_ = tool_button(tr("Cancel"), "qa_cancel", tr("End the replay here"));
-  connect(cancel_, &QPushButton::clicked, this, &QaPanel::cancel_replay);
+  connect(cancel_, &QPushButton::clicked, this, &QaDock::cancel_replay);
   run->addWidget(progress_, 1);
   run->addWidget(cancel_);
   rows->addLayout(run);
   return all;
 }
 
-void QaPanel::set_mode(bool on) {
+void QaDock::set_mode(bool on) {
   if (on == mode_) return;
   mode_ = on;
   layers_.clear();
@@ -225,7 +226,7 @@ void QaPanel::set_mode(bool on) {
     for (PictureWidget* picture : pictures_)
       layers_.push_back(std::make_unique<view::TruthLayer>(picture->view(), check_));
     if (auto* main = qobject_cast<QMainWindow*>(parentWidget()))
-      main->resizeDocks({this}, {main->width() >= wide_window ? wide_panel : narrow_panel}, Qt::Horizontal);
+      size_at_first(*main, *this, main->width() >= wide_window ? wide_panel : narrow_panel, Qt::Horizontal);
     check_.timer().start();
     time_.start();
     figures_soon_.start();
@@ -237,19 +238,19 @@ void QaPanel::set_mode(bool on) {
   scene_.repaint_wall();
 }
 
-void QaPanel::open_truth(const std::filesystem::path& path) {
+void QaDock::open_truth(const std::filesystem::path& path) {
   check_.open(path);
   show_truth();
 }
 
-void QaPanel::show_truth() {
+void QaDock::show_truth() {
   truth_of_ = patient();
   show_observers();
   show_figures();
 }
 
 /// Of the case's image, else of its first tree; without a case of the image, empty where none is wholly read.
-std::string QaPanel::patient() const {
+std::string QaDock::patient() const {
   if (!bench_.has_case()) return bench_.image().reference.sha256;
   const session::CaseFile& file = bench_.session().file();
   const std::optional<session::ImageReference> image = file.image();
@@ -257,7 +258,7 @@ std::string QaPanel::patient() const {
 }
 
 /// Contours of one patient say nothing of another, though the vessels have the same names.
-void QaPanel::follow_patient() {
+void QaDock::follow_patient() {
   if (!check_.has_truth()) return;
   const std::string now = patient();
   if (now.empty() || now == truth_of_) return;
@@ -265,7 +266,7 @@ void QaPanel::follow_patient() {
   show_truth();
 }
 
-void QaPanel::choose_truth() {
+void QaDock::choose_truth() {
   const QString chosen = ask_open_file(this, tr("Contours"), tr("Contours (*.json)"));
   if (chosen.isEmpty()) return;
   const std::filesystem::path path = chosen.toStdString();
@@ -282,7 +283,7 @@ void QaPanel::choose_truth() {
       [this](const QString& message) { emit refused(message); });
 }
 
-void QaPanel::show_observers() {
+void QaDock::show_observers() {
   const QSignalBlocker quiet(observer_);
   observer_->clear();
   for (const std::string& name : check_.observers()) observer_->addItem(QString::fromStdString(name));
@@ -290,7 +291,7 @@ void QaPanel::show_observers() {
   observer_->setEnabled(observer_->count() > 0);
 }
 
-void QaPanel::show_figures() {
+void QaDock::show_figures() {
   if (!mode_) return;
   if (!check_.advance(figures_budget_ms)) {  // the rest when what waits has been answered
     figures_soon_.start();
@@ -329,7 +330,7 @@ void QaPanel::show_figures() {
   }
 }
 
-void QaPanel::show_time() {
+void QaDock::show_time() {
   const session::ActiveTime& timer = check_.timer();
   const int seconds = static_cast<int>(timer.seconds());
   QString text = QStringLiteral("%1:%2:%3")
@@ -341,7 +342,7 @@ void QaPanel::show_time() {
   run_->setText(timer.running() ? tr("Pause") : tr("Go on"));
 }
 
-void QaPanel::show_session() {
+void QaDock::show_session() {
   if (recorder_ && !recorder_->active()) recorder_.reset();
   record_->setText(recorder_ ? tr("Stop recording") : tr("Record\u2026"));
   record_->setEnabled(bench_.has_case() && !replay_);
@@ -351,7 +352,7 @@ void QaPanel::show_session() {
   cancel_->setVisible(replay_ != nullptr);
 }
 
-void QaPanel::color_tree(const geometry::TriMesh& wall) {
+void QaDock::color_tree(const geometry::TriMesh& wall) {
   if (!mode_ || !colored_->isChecked() || !check_.has_truth()) {
     scene_.scene().clear_wall_values();
     return;
@@ -365,7 +366,7 @@ void QaPanel::color_tree(const geometry::TriMesh& wall) {
       {tr("from the truth, mm").toStdString(), -worst_mm, worst_mm, view::ColorScale::diverging});
 }
 
-void QaPanel::start_recording(const std::filesystem::path& path) {
+void QaDock::start_recording(const std::filesystem::path& path) {
   if (replay_) return;
   auto recorder = std::make_unique<view::HandRecorder>(bench_, path);
   for (PictureWidget* picture : pictures_)
@@ -375,7 +376,7 @@ void QaPanel::start_recording(const std::filesystem::path& path) {
   show_session();
 }
 
-void QaPanel::stop_recording() {
+void QaDock::stop_recording() {
   const std::unique_ptr<view::HandRecorder> ended = std::move(recorder_);
   show_session();
   if (!ended) return;
@@ -383,7 +384,7 @@ void QaPanel::stop_recording() {
   emit said(tr("%n movement(s) were recorded.", "", static_cast<int>(ended->lines())));
 }
 
-void QaPanel::choose_recording() {
+void QaDock::choose_recording() {
   if (recorder_) return stop_recording();
   QString chosen = ask_save_file(this, tr("Record to"), tr("Recordings (*.jsonl)"));
   if (chosen.isEmpty()) return;
@@ -391,7 +392,7 @@ void QaPanel::choose_recording() {
   loud_([&] { start_recording(chosen.toStdString()); });
 }
 
-void QaPanel::choose_replay() {
+void QaDock::choose_replay() {
   const QString chosen = ask_open_file(this, tr("Replay"), tr("Recordings (*.jsonl)"));
   if (!chosen.isEmpty()) loud_([&] { start_replay(chosen.toStdString(), speed_->currentData().toBool()); });
 }

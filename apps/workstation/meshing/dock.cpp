@@ -1,4 +1,4 @@
-#include "meshing/panel.h"
+#include "meshing/dock.h"
 
 #include "meshing/histogram.h"
 
@@ -31,7 +31,7 @@ QString number(double value) {
 
 }  // namespace
 
-MeshPanel::MeshPanel(session::Workbench& bench, SceneWidget& scene, QWidget* parent)
+MeshDock::MeshDock(session::Workbench& bench, SceneWidget& scene, QWidget* parent)
     : QDockWidget(tr("Mesh"), parent), scene_(scene) {
   setObjectName("mesh");
   auto* area = new QScrollArea;  // a low window
@@ -55,9 +55,9 @@ MeshPanel::MeshPanel(session::Workbench& bench, SceneWidget& scene, QWidget* par
   own_.push_back(bench.case_changed.observe([this] { clear(); }));
 }
 
-MeshPanel::~MeshPanel() = default;
+MeshDock::~MeshDock() = default;
 
-QWidget* MeshPanel::rows(session::Workbench& bench) {
+QWidget* MeshDock::rows(session::Workbench& bench) {
   auto* all = new QWidget;
   auto* column = new QVBoxLayout(all);
   column->setContentsMargins(6, 6, 6, 6);
@@ -93,14 +93,14 @@ QWidget* MeshPanel::rows(session::Workbench& bench) {
   title->setBuddy(list_);
   column->addWidget(title);
   column->addWidget(list_, 1);
-  connect(list_, &QListWidget::currentRowChanged, this, &MeshPanel::fly_to);
+  connect(list_, &QListWidget::currentRowChanged, this, &MeshDock::fly_to);
   const auto again = [this](const QListWidgetItem* item) { fly_to(list_->row(item)); };
   connect(list_, &QListWidget::itemActivated, this, again);
   connect(list_, &QListWidget::itemClicked, this, again);
   return all;
 }
 
-void MeshPanel::add_colors(QFormLayout* form) {
+void MeshDock::add_colors(QFormLayout* form) {
   measure_ = new QComboBox;
   measure_->setObjectName("mesh_measure");
   measure_->setAccessibleName(tr("What the colours show"));
@@ -115,14 +115,14 @@ void MeshPanel::add_colors(QFormLayout* form) {
   label->setBuddy(measure_);
   form->addRow(label, measure_);
   form->addRow(edges_);
-  connect(measure_, QOverload<int>::of(&QComboBox::currentIndexChanged), this, &MeshPanel::show_measure);
+  connect(measure_, QOverload<int>::of(&QComboBox::currentIndexChanged), this, &MeshDock::show_measure);
   connect(edges_, &QCheckBox::toggled, this, [this](bool on) {
     if (guest_) guest_->set_edges_shown(on);
     scene_.request_render();
   });
 }
 
-void MeshPanel::show_mesh(std::shared_ptr<const MeshPreview> preview) {
+void MeshDock::show_mesh(std::shared_ptr<const MeshPreview> preview) {
   guest_.reset();
   preview_ = std::move(preview);
   const geometry::MixedMesh& mesh = *preview_->mesh->mesh;
@@ -140,7 +140,7 @@ void MeshPanel::show_mesh(std::shared_ptr<const MeshPreview> preview) {
   show_in_scene(true);
 }
 
-void MeshPanel::show_gate() {
+void MeshDock::show_gate() {
   const meshing::QualityVerdict& verdict = preview_->verdict;
   gate_->setText(
       verdict.ok()
@@ -149,7 +149,7 @@ void MeshPanel::show_gate() {
   gate_->show();
 }
 
-void MeshPanel::clear() {
+void MeshDock::clear() {
   preview_.reset();
   show_in_scene(false);
   name_->setText(tr("No mesh has been made yet."));
@@ -161,7 +161,7 @@ void MeshPanel::clear() {
   hide();
 }
 
-void MeshPanel::show_in_scene(bool shown) {
+void MeshDock::show_in_scene(bool shown) {
   if (shown && preview_) {
     if (guest_) return;
     const auto made = std::make_shared<view::MeshScene>(preview_->mesh);
@@ -177,11 +177,11 @@ void MeshPanel::show_in_scene(bool shown) {
   }
 }
 
-ElementMeasure MeshPanel::measure() const {
+ElementMeasure MeshDock::measure() const {
   return static_cast<ElementMeasure>(std::max(0, measure_->currentIndex()));
 }
 
-void MeshPanel::show_measure() {
+void MeshDock::show_measure() {
   if (!preview_) return;
   const auto values = preview_->measures[static_cast<std::size_t>(measure())];
   const view::ValueScale scale = scale_of(*preview_, measure());
@@ -208,7 +208,7 @@ void MeshPanel::show_measure() {
   scene_.request_render();
 }
 
-void MeshPanel::fly_to(int row) {
+void MeshDock::fly_to(int row) {
   if (!guest_ || row < 0 || static_cast<std::size_t>(row) >= worst_.size()) return;
   const std::size_t element = worst_[static_cast<std::size_t>(row)];
   guest_->set_highlight(std::span(&element, 1));

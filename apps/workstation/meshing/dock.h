@@ -24,11 +24,11 @@ namespace ostia::workstation {
 class HistogramWidget;
 
 /// The mesh stands in the tree's place in 3D while the dock is open.
-class MeshPanel final : public QDockWidget {
+class MeshDock final : public QDockWidget {
   Q_OBJECT
  public:
-  MeshPanel(session::Workbench& bench, SceneWidget& scene, QWidget* parent);
-  ~MeshPanel() override;
+  MeshDock(session::Workbench& bench, SceneWidget& scene, QWidget* parent);
+  ~MeshDock() override;
   void show_mesh(std::shared_ptr<const MeshPreview> preview);
   void clear();  ///< and closes
   /// What is cut away now; nothing where the mesh is whole.

@@ -1,4 +1,4 @@
-#include "views/role_colors.h"
+#include "views/overlay_colors.h"
 
 #include "shell/theme.h"
 

@@ -1,9 +1,10 @@
+#include "ostia/io/mesh_export.h"
+
 #include "mesh/formats.h"
 #include "replaced_folder.h"
 
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
-#include "ostia/io/mesh_export.h"
 
 #include <algorithm>
 #include <mutex>
@@ -19,27 +20,33 @@ constexpr std::size_t longest_name = 32;  // CGNS and Exodus II hold no more
 
 enum class Second { none, tetrahedra, all };  // which second-order elements a format knows
 
+/// All that is known of a format; the command line and the window take it from here.
 struct Format {
   MeshFormat format;
   std::string_view name, title, extension;
+  bool usual;  // for a file of its extension, or for a folder; of each extension one is
   bool prisms;
   Second second;
   void (*write)(const PreparedMesh&, const fs::path&);
+  std::string_view in_words = title;  // in a sentence
 };
 
 constexpr std::array<Format, mesh_formats.size()> formats = {{
-    {MeshFormat::vtu, "vtu", "VTU", ".vtu", true, Second::all, write_vtu},
-    {MeshFormat::stl, "stl", "STL", "", true, Second::none, write_stl_faces},
-    {MeshFormat::openfoam, "openfoam", "OpenFOAM's polyMesh", "", true, Second::none, write_openfoam},
-    {MeshFormat::mesh_complete, "mesh-complete", "SimVascular's mesh-complete", "", false, Second::none,
-     write_mesh_complete},
-    {MeshFormat::gmsh2, "gmsh2", "Gmsh 2.2", ".msh", true, Second::all, write_gmsh2},
-    {MeshFormat::gmsh4, "gmsh4", "Gmsh 4.1", ".msh", true, Second::all, write_gmsh4},
-    {MeshFormat::fluent, "fluent", "Fluent's mesh", ".msh", true, Second::none, write_fluent},
-    {MeshFormat::abaqus, "abaqus", "Abaqus", ".inp", true, Second::tetrahedra, write_abaqus},
-    {MeshFormat::xdmf, "xdmf", "XDMF", "", true, Second::all, write_xdmf},
-    {MeshFormat::exodus, "exodus", "Exodus II", ".exo", true, Second::all, write_exodus},
-    {MeshFormat::cgns, "cgns", "CGNS", ".cgns", true, Second::all, write_cgns},
+    {MeshFormat::vtu, "vtu", "VTU", ".vtu", true, true, Second::all, write_vtu},
+    {MeshFormat::stl, "stl", "STL, a file for each face", "", false, true, Second::none, write_stl_faces,
+     "STL"},
+    {MeshFormat::openfoam, "openfoam", "OpenFOAM", "", true, true, Second::none, write_openfoam,
+     "OpenFOAM's polyMesh"},
+    {MeshFormat::mesh_complete, "mesh-complete", "SimVascular (mesh-complete)", "", false, false,
+     Second::none, write_mesh_complete, "SimVascular's mesh-complete"},
+    {MeshFormat::gmsh2, "gmsh2", "Gmsh 2.2", ".msh", false, true, Second::all, write_gmsh2},
+    {MeshFormat::gmsh4, "gmsh4", "Gmsh 4.1", ".msh", true, true, Second::all, write_gmsh4},
+    {MeshFormat::fluent, "fluent", "Fluent", ".msh", false, true, Second::none, write_fluent,
+     "Fluent's mesh"},
+    {MeshFormat::abaqus, "abaqus", "Abaqus", ".inp", true, true, Second::tetrahedra, write_abaqus},
+    {MeshFormat::xdmf, "xdmf", "XDMF (FEniCS)", "", false, true, Second::all, write_xdmf, "XDMF"},
+    {MeshFormat::exodus, "exodus", "Exodus II", ".exo", true, true, Second::all, write_exodus},
+    {MeshFormat::cgns, "cgns", "CGNS", ".cgns", true, true, Second::all, write_cgns},
 }};
 
 const Format& entry(MeshFormat format) {
@@ -49,7 +56,7 @@ const Format& entry(MeshFormat format) {
 [[noreturn]] void refuse_format(const Format& format, const std::string& element,
                                 const std::string& way_out) {
   throw InvalidInput("cannot export the mesh as " + std::string(format.name) + ": " +
-                     std::string(format.title) + " cannot hold " + element + "; " + way_out);
+                     std::string(format.in_words) + " cannot hold " + element + "; " + way_out);
 }
 
 bool letter(char c) {
@@ -110,8 +117,18 @@ MeshFormat mesh_format(std::string_view name) {
   throw InvalidInput("there is no mesh format \"" + std::string(name) + "\"; there are " + known);
 }
 
+std::string_view title_of(MeshFormat format) {
+  return entry(format).title;
+}
+
 std::string_view extension_of(MeshFormat format) {
   return entry(format).extension;
+}
+
+std::optional<MeshFormat> usual_mesh_format(std::string_view extension) {
+  for (const Format& format : formats)
+    if (format.usual && format.extension == extension) return format.format;
+  return std::nullopt;
 }
 
 std::vector<std::string> safe_face_names(const std::vector<geometry::Face>& faces) {

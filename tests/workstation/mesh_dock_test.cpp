@@ -2,9 +2,9 @@
 
 #include "flow/dialog.h"
 #include "layout_faults.h"
+#include "meshing/dock.h"
 #include "meshing/forecast.h"
 #include "meshing/histogram.h"
-#include "meshing/panel.h"
 #include "meshing_window.h"
 
 #include "ostia/io/volume_mesh_file.h"
@@ -45,7 +45,7 @@ class NarrowWindow : public testing::MeshingWindow {
 
   /// What the screen has of the 3D view, or of all; kept where OSTIA_PICTURES says.
   QImage look(const char* name) {
-    wait_until([] { return false; }, 1500);  // flights take a quarter of a second, pictures by software more
+    testing::let_work(1500);  // flights take a quarter of a second, pictures by software more
     const QRect all = test->window().frameGeometry();
     const QImage whole =
         test->window().screen()->grabWindow(0, all.x(), all.y(), all.width(), all.height()).toImage();
@@ -54,7 +54,7 @@ class NarrowWindow : public testing::MeshingWindow {
     const QPoint corner = test->window().scene().mapTo(&test->window(), QPoint(0, 0));
     return whole.copy(QRect(corner, test->window().scene().size()));
   }
-  MeshPanel& panel() { return *test->window().findChild<MeshPanel*>("mesh"); }
+  MeshDock& dock() { return *test->window().findChild<MeshDock*>("mesh"); }
   void wait_for_check() {
     auto* check = in_dialog<QPushButton>("check");
     QTest::mouseClick(check, Qt::LeftButton);
@@ -66,7 +66,7 @@ class NarrowWindow : public testing::MeshingWindow {
     ask("file.export_mesh");
     type(in_dialog<QDoubleSpinBox>("edges_around"), "12");
     click_go();
-    ASSERT_TRUE(wait_until([&] { return idle() && panel().isVisible(); }, 120000));
+    ASSERT_TRUE(wait_until([&] { return idle() && dock().isVisible(); }, 120000));
   }
 };
 
@@ -202,7 +202,7 @@ TEST_F(NarrowWindow, AMeshThatIsDoneOverAnotherCaseLeavesALineAlone) {
   open_other_case();
   ASSERT_TRUE(wait_until([&] { return idle(); }, 120000));
   EXPECT_TRUE(left_line("mesh").contains("tube-mesh")) << left_line("mesh").toStdString();
-  EXPECT_FALSE(panel().isVisible()) << "it is another patient's";
+  EXPECT_FALSE(dock().isVisible()) << "it is another patient's";
   test->window().findChild<QAction*>("file.flow_case")->trigger();
   auto* flow = test->window().findChild<FlowDialog*>();
   ASSERT_TRUE(flow);
@@ -219,16 +219,16 @@ TEST_F(NarrowWindow, AMinimisedWindowComesBackWithWhatWasShown) {
   scene.show_guest(nullptr);
   ASSERT_EQ(changes, 1);
   test->window().hide();  // what the docks see of a window that is minimised
-  wait_until([] { return false; }, 100);
+  testing::let_work(100);
   test->window().show();
-  wait_until([] { return false; }, 300);
-  EXPECT_TRUE(panel().isVisible());
+  testing::let_work(300);
+  EXPECT_TRUE(dock().isVisible());
   EXPECT_EQ(changes, 1) << "the mesh has taken the view";
   auto* command = test->window().findChild<QAction*>("view.mesh");
   command->trigger();
-  ASSERT_TRUE(wait_until([&] { return !panel().isVisible(); }));
+  ASSERT_TRUE(wait_until([&] { return !dock().isVisible(); }));
   command->trigger();
-  ASSERT_TRUE(wait_until([&] { return panel().isVisible(); }));
+  ASSERT_TRUE(wait_until([&] { return dock().isVisible(); }));
   EXPECT_EQ(changes, 2) << "asked for, it comes back";
 }
 
@@ -240,7 +240,7 @@ TEST_F(NarrowWindow, AllOfItHasRoomInASmallWindow) {
   auto* pages = dialog->findChild<QTabWidget*>("pages");
   for (int i = 0; i < pages->count(); ++i) {
     QTest::mouseClick(pages->tabBar(), Qt::LeftButton, Qt::NoModifier, pages->tabBar()->tabRect(i).center());
-    wait_until([] { return false; }, 100);
+    testing::let_work(100);
     look(QString("small_page_%1").arg(i).toUtf8());
     EXPECT_LE(dialog->width(), 800) << i;
     EXPECT_LE(dialog->height(), 600) << i;
@@ -250,8 +250,8 @@ TEST_F(NarrowWindow, AllOfItHasRoomInASmallWindow) {
   QTest::keyClick(dialog, Qt::Key_Escape);
   QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
   test->window().findChild<QAction*>("view.mesh")->trigger();
-  ASSERT_TRUE(wait_until([&] { return panel().isVisible(); }));
-  wait_until([] { return false; }, 300);
+  ASSERT_TRUE(wait_until([&] { return dock().isVisible(); }));
+  testing::let_work(300);
   look("small_panel");
   EXPECT_LE(test->window().width(), 800);
   EXPECT_LE(test->window().height(), 600);
@@ -266,7 +266,7 @@ TEST_F(NarrowWindow, ASmallWindowShowsTheMeshAloneBesideItsDock) {
   EXPECT_TRUE(wait_until([&] { return test->window().scene().isVisible(); }, 5000));
   look("small_mesh");
   EXPECT_GT(test->window().scene().width(), 300);
-  EXPECT_TRUE(panel().isVisible());
+  EXPECT_TRUE(dock().isVisible());
 }
 
 TEST_F(NarrowWindow, ExtensionsAndSizesReachTheMesh) {
@@ -308,13 +308,13 @@ TEST_F(NarrowWindow, TheMeshIsShownInTheColoursOfItsQualityAndCut) {
   const geometry::MixedMesh mesh = io::read_volume_mesh(folder / "tube-mesh" / "mesh.vtu");
   const meshing::MixedQuality quality = meshing::mixed_quality(mesh);
   look("mesh");
-  EXPECT_THAT(panel().findChild<QLabel*>("mesh_name")->text().toStdString(),
+  EXPECT_THAT(dock().findChild<QLabel*>("mesh_name")->text().toStdString(),
               HasSubstr(std::to_string(mesh.tetrahedra.size()) + " tetrahedra"));
-  const auto& counts = panel().findChild<HistogramWidget*>("mesh_histogram")->counts();
+  const auto& counts = dock().findChild<HistogramWidget*>("mesh_histogram")->counts();
   EXPECT_EQ(std::accumulate(counts.begin(), counts.end(), std::size_t{0}), mesh.tetrahedra.size());
   // The worst of each measure is what the quality's report says of the mesh.
-  auto* measure = panel().findChild<QComboBox*>("mesh_measure");
-  auto* figures = panel().findChild<QLabel*>("mesh_figures");
+  auto* measure = dock().findChild<QComboBox*>("mesh_measure");
+  auto* figures = dock().findChild<QLabel*>("mesh_figures");
   const auto worst = [&] {
     return QRegularExpression("[0-9.]+").match(figures->text()).captured(0).toDouble();
   };
@@ -328,7 +328,7 @@ TEST_F(NarrowWindow, TheMeshIsShownInTheColoursOfItsQualityAndCut) {
   look("mesh_skewness");
   pick(measure, 0);
   // The worst element, by the mouse.
-  auto* list = panel().findChild<QListWidget*>("mesh_worst");
+  auto* list = dock().findChild<QListWidget*>("mesh_worst");
   ASSERT_GT(list->count(), 1);
   QTest::mouseClick(list->viewport(), Qt::LeftButton, Qt::NoModifier,
                     list->visualItemRect(list->item(0)).center());
@@ -336,20 +336,20 @@ TEST_F(NarrowWindow, TheMeshIsShownInTheColoursOfItsQualityAndCut) {
   EXPECT_LT((test->window().scene().scene().pose().target - quality.tetrahedra.sharpest_at).norm(), 0.1);
   test->window().scene().scene().set_pose(test->window().scene().scene().pose_fitted());
   // Cut across the vessel; the slider moves the plane by its keys.
-  auto* cut = panel().findChild<QComboBox*>("mesh_cut");
-  auto* place = panel().findChild<QSlider*>("mesh_cut_place");
+  auto* cut = dock().findChild<QComboBox*>("mesh_cut");
+  auto* place = dock().findChild<QSlider*>("mesh_cut_place");
   EXPECT_FALSE(place->isEnabled());
   pick(cut, 1);
   QApplication::processEvents();
   EXPECT_TRUE(place->isEnabled());
-  ASSERT_TRUE(panel().cut());
-  EXPECT_NEAR(panel().cut()->point.z(), 20.0, 0.1);
+  ASSERT_TRUE(dock().cut());
+  EXPECT_NEAR(dock().cut()->point.z(), 20.0, 0.1);
   place->setFocus();
   for (int i = 0; i < 4; ++i) QTest::keyClick(place, Qt::Key_PageUp);
-  EXPECT_NEAR(panel().cut()->point.z(), 28.0, 0.1);
-  EXPECT_GT(panel().cut()->normal.z(), 0.99);
-  QTest::keyClick(panel().findChild<QCheckBox*>("mesh_cut_turned"), Qt::Key_Space);
-  EXPECT_LT(panel().cut()->normal.z(), -0.99);
+  EXPECT_NEAR(dock().cut()->point.z(), 28.0, 0.1);
+  EXPECT_GT(dock().cut()->normal.z(), 0.99);
+  QTest::keyClick(dock().findChild<QCheckBox*>("mesh_cut_turned"), Qt::Key_Space);
+  EXPECT_LT(dock().cut()->normal.z(), -0.99);
   look("mesh_cut");
   pick(cut, 3);
   look("mesh_cut_front");
@@ -363,12 +363,12 @@ TEST_F(NarrowWindow, TheMeshIsHiddenAndShownAgainAndGoesWithItsCase) {
   make_mesh();
   const QImage shown = look("hidden_shown");
   command->trigger();
-  wait_until([&] { return !panel().isVisible(); });
+  wait_until([&] { return !dock().isVisible(); });
   const view::CameraPose pose = test->window().scene().scene().pose();
   const QImage hidden = look("hidden");
   command->trigger();
-  wait_until([&] { return panel().isVisible(); });
-  EXPECT_TRUE(panel().isVisible());
+  wait_until([&] { return dock().isVisible(); });
+  EXPECT_TRUE(dock().isVisible());
   test->window().scene().scene().set_pose(pose);
   const QImage again = look("hidden_again");
   // The mesh is green and blue, the vessel is not.
@@ -377,7 +377,7 @@ TEST_F(NarrowWindow, TheMeshIsHiddenAndShownAgainAndGoesWithItsCase) {
   EXPECT_GT(greenish(again), greenish(bare) + 3000);
   test->window().findChild<QAction*>("file.close")->trigger();
   ASSERT_TRUE(wait_until([&] { return !test->bench().has_case(); }));
-  EXPECT_FALSE(panel().isVisible());
+  EXPECT_FALSE(dock().isVisible());
 }
 
 }  // namespace

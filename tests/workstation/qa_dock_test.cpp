@@ -1,4 +1,4 @@
-#include "qa/panel.h"
+#include "qa/dock.h"
 #include "window_hand.h"
 
 #include "ostia/core/error.h"
@@ -54,9 +54,9 @@ geometry::ContourSection section(const std::string& name, const std::string& obs
   return out;
 }
 
-class QaPanelTest : public ::testing::Test {
+class QaDockTest : public ::testing::Test {
  protected:
-  QaPanelTest() {
+  QaDockTest() {
     session::CaseFile::create(folder_ / "a.ostia", lumen::model_of_tubes(straight_tree()))
         .copy_to(folder_ / "b.ostia");
     io::write_contours(folder_ / "truth.json",
@@ -72,10 +72,10 @@ class QaPanelTest : public ::testing::Test {
   testing::Folder folder_;
 };
 
-TEST_F(QaPanelTest, ShowsTheTruthItsFiguresAndTheWorstSection) {
+TEST_F(QaDockTest, ShowsTheTruthItsFiguresAndTheWorstSection) {
   TestWindow window(folder_ / "state");
   window.open(folder_ / "a.ostia");
-  QaPanel& qa = window.window().qa();
+  QaDock& qa = window.window().qa();
   EXPECT_TRUE(qa.isHidden());
   qa.show();
   qa.open_truth(folder_ / "truth.json");
@@ -116,12 +116,12 @@ TEST_F(QaPanelTest, ShowsTheTruthItsFiguresAndTheWorstSection) {
   EXPECT_FALSE(qa.check().timer().running());
 }
 
-TEST_F(QaPanelTest, WhatWasRecordedInOneWindowIsDoneAgainInAnother) {
+TEST_F(QaDockTest, WhatWasRecordedInOneWindowIsDoneAgainInAnother) {
   std::string digest;
   {
     TestWindow window(folder_ / "state");
     window.open(folder_ / "a.ostia");
-    QaPanel& qa = window.window().qa();
+    QaDock& qa = window.window().qa();
     qa.show();
     QApplication::processEvents();
     qa.start_recording(folder_ / "hand.jsonl");
@@ -152,12 +152,12 @@ TEST_F(QaPanelTest, WhatWasRecordedInOneWindowIsDoneAgainInAnother) {
   TestWindow window(folder_ / "state2");
   window.window().resize(1300, 900);
   window.open(folder_ / "b.ostia");
-  QaPanel& qa = window.window().qa();
+  QaDock& qa = window.window().qa();
   qa.show();
   for (int i = 0; i < 5; ++i) QApplication::processEvents();
   const int width = window.picture("cpr1").view().width();
   int told = -1;
-  QObject::connect(&qa, &QaPanel::replayed, &qa, [&](bool same) { told = same ? 1 : 0; });
+  QObject::connect(&qa, &QaDock::replayed, &qa, [&](bool same) { told = same ? 1 : 0; });
   qa.start_replay(folder_ / "hand.jsonl", true);
   EXPECT_TRUE(qa.findChild<QProgressBar*>("qa_progress")->isVisible());
   // The person's own hand does nothing meanwhile.
@@ -171,7 +171,7 @@ TEST_F(QaPanelTest, WhatWasRecordedInOneWindowIsDoneAgainInAnother) {
   EXPECT_THROW(qa.start_replay(folder_ / "hand.jsonl", true), InvalidInput);
 }
 
-TEST_F(QaPanelTest, AReplayAtTheRecordedSpeedCanBeCancelled) {
+TEST_F(QaDockTest, AReplayAtTheRecordedSpeedCanBeCancelled) {
   TestWindow window(folder_ / "state");
   window.open(folder_ / "a.ostia");
   const std::string digest = lumen::digest(*window.bench().model());
@@ -183,7 +183,7 @@ TEST_F(QaPanelTest, AReplayAtTheRecordedSpeedCanBeCancelled) {
         << R"({"t_ms":600000,"view":"cpr1","act":"leave"})"
         << "\n";
   }
-  QaPanel& qa = window.window().qa();
+  QaDock& qa = window.window().qa();
   qa.show();
   qa.start_replay(folder_ / "slow.jsonl", false);
   auto* progress = qa.findChild<QProgressBar*>("qa_progress");

@@ -27,13 +27,13 @@ class QTreeWidget;
 namespace ostia::workstation {
 
 /// The mode is on while the dock is open: then truth and figures are shown, and time is counted.
-class QaPanel final : public QDockWidget {
+class QaDock final : public QDockWidget {
   Q_OBJECT
  public:
   /// `loud` says in a dialog what is refused.
-  QaPanel(session::Workbench& bench, std::vector<PictureWidget*> pictures, SceneWidget& scene, Jobs& jobs,
-          Guard loud, QWidget* parent);
-  ~QaPanel() override;
+  QaDock(session::Workbench& bench, std::vector<PictureWidget*> pictures, SceneWidget& scene, Jobs& jobs,
+         Guard loud, QWidget* parent);
+  ~QaDock() override;
   session::QualityCheck& check() { return check_; }
   void open_truth(const std::filesystem::path& path);
   void start_recording(const std::filesystem::path& path);

@@ -1,4 +1,4 @@
-// Arteries that leave the aorta elsewhere than usual.
+#include "ostia/phantom/anatomy.h"
 
 #include "coronary_courses.h"
 
@@ -31,7 +31,7 @@ Course* find(CoursePlan& plan, const char* name) {
   return at == plan.courses.end() ? nullptr : &*at;
 }
 
-/// BackgroundTask the root: `out_mm` beyond the widest sinus, at an angle from the left sinus towards the
+/// Beside the root: `out_mm` beyond the widest sinus, at an angle from the left sinus towards the
 /// right one (the short way where `share` runs from 0 to 1).
 Vec3 beside_root(const AorticRoot& root, double angle, double out_mm) {
   const Vec3 side = root.axis.cross(root.left_sinus);
@@ -111,9 +111,16 @@ const char* word(Anatomy anatomy) {
 Anatomy anatomy_of(const std::string& text) {
   for (const auto& [one, known] : words)
     if (text == known) return one;
-  throw InvalidInput("the anatomy \"" + text +
-                     "\" is not known; it is usual, left-ostium-closed, right-ostium-closed, rca-from-left, "
-                     "lcx-from-right or bypass");
+  std::string all;
+  for (const auto& [one, known] : words)
+    all += (all.empty() ? "" : one == words.back().first ? " or " : ", ") + std::string(known);
+  throw InvalidInput("the anatomy \"" + text + "\" is not known; it is " + all);
+}
+
+std::vector<std::string> anatomy_words() {
+  std::vector<std::string> all;
+  for (const auto& [one, known] : words) all.emplace_back(known);
+  return all;
 }
 
 void change_origins(CoursePlan& plan, const HeartShape& heart, Anatomy anatomy) {

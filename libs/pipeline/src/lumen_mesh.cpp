@@ -1,0 +1,291 @@
+// From a lumen and its axes to a mesh that has passed the gate.
+
+#include "stages.h"
+
+#include "ostia/core/error.h"
+#include "ostia/core/log.h"
+#include "ostia/geometry/mesh_topology.h"
+#include "ostia/meshing/caps.h"
+#include "ostia/meshing/stenosis_sizing.h"
+#include "ostia/meshing/volume_keeping.h"
+#include "ostia/pipeline/model.h"
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <utility>
+
+namespace ostia::pipeline {
+namespace {
+
+using geometry::TriMesh;
+
+geometry::Vec3 centre_of(const TriMesh& mesh, const std::vector<std::int32_t>& loop) {
+  geometry::Vec3 sum = geometry::Vec3::Zero();
+  for (const std::int32_t p : loop) sum += mesh.points[static_cast<std::size_t>(p)];
+  return sum / static_cast<double>(loop.size());
+}
+
+/// The part of the surface on which each end's loop lies.
+std::vector<std::int32_t> parts_of_ends(const meshing::ClippedSurface& clipped) {
+  const std::vector<std::int32_t> part = geometry::components(clipped.mesh);
+  std::vector<std::int32_t> of_point(clipped.mesh.points.size(), -1);
+  for (std::size_t t = 0; t < part.size(); ++t)
+    for (const std::int32_t p : clipped.mesh.triangles[t]) of_point[static_cast<std::size_t>(p)] = part[t];
+  std::vector<std::int32_t> parts;
+  for (const meshing::ClippedEnd& end : clipped.ends)
+    parts.push_back(of_point[static_cast<std::size_t>(end.loop.front())]);
+  return parts;
+}
+
+/// From the cut inlet's centre to the cut outlets' centres, part by part; vessels keep their names.
+centerline::CenterlineResult centerlines_between(const meshing::ClippedSurface& clipped,
+                                                 const geometry::VesselTree& tree,
+                                                 centerline::CenterlineOptions options,
+                                                 const core::TaskContext& task) {
+  const std::vector<std::int32_t> part_of = parts_of_ends(clipped);
+  const std::vector<TriMesh> parts = parts_of(clipped.mesh);
+  centerline::CenterlineResult all;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    std::optional<geometry::Vec3> source;
+    std::vector<geometry::Vec3> targets;
+    options.vessel_names.clear();
+    const auto ends_here = [&](geometry::FaceKind kind, const std::string* vessel, const auto& use) {
+      for (std::size_t i = 0; i < clipped.ends.size(); ++i) {
+        const meshing::ClippedEnd& end = clipped.ends[i];
+        if (part_of[i] == static_cast<std::int32_t>(k) && end.plane.kind == kind &&
+            (!vessel || end.plane.vessel == *vessel))
+          use(centre_of(clipped.mesh, end.loop));
+      }
+    };
+    ends_here(geometry::FaceKind::inlet, nullptr, [&](const geometry::Vec3& centre) {
+      if (source)
+        throw InvalidInput("the centerlines have several roots in one lumen; a lumen has one inlet");
+      source = centre;
+    });
+    for (const geometry::Vessel& vessel : tree.vessels)
+      ends_here(geometry::FaceKind::outlet, &vessel.name, [&](const geometry::Vec3& centre) {
+        targets.push_back(centre);
+        options.vessel_names.push_back(vessel.name);
+      });
+    centerline::CenterlineResult one = centerline::extract_centerlines(
+        parts[k], source, targets, options,
+        task.sub(static_cast<double>(k) / static_cast<double>(parts.size()),
+                 static_cast<double>(k + 1) / static_cast<double>(parts.size())));
+    if (k == 0) {
+      all = std::move(one);
+      continue;
+    }
+    append_tree(all.tree, std::move(one.tree));
+    all.lines.insert(all.lines.end(), one.lines.begin(), one.lines.end());
+    all.ends.insert(all.ends.end(), one.ends.begin(), one.ends.end());
+    all.end_radii.insert(all.end_radii.end(), one.end_radii.begin(), one.end_radii.end());
+    append(all.diagnostics.warnings, one.diagnostics.warnings);
+  }
+  return all;
+}
+
+/// Where a stage's share of the progress ends; measured on coronary trees of 0.1 to 1 million triangles.
+struct Shares {
+  double cut, axes, caps, remeshing, tetrahedra;
+};
+constexpr Shares with_extraction{0.04, 0.2, 0.22, 0.5, 0.9};
+constexpr Shares with_known_axes{0.2, 0.2, 0.21, 0.62, 0.97};
+
+using AxesOf =
+    std::function<centerline::CenterlineResult(const meshing::ClippedSurface&, const core::TaskContext&)>;
+
+double middle_of_caps(const Shares& shares) {
+  return 0.5 * (shares.axes + shares.caps);
+}
+
+std::vector<std::string> names_of(const std::vector<meshing::ClippedEnd>& ends) {
+  std::vector<std::string> names;
+  for (const meshing::ClippedEnd& end : ends) names.push_back(meshing::end_name(end.plane));
+  return names;
+}
+
+/// The cut lumen before and after extensions were added to it.
+struct Extended {
+  meshing::ClippedSurface before;
+  TriMesh after;
+};
+
+/// The cut lumen and its axes led on beyond its ends.
+Extended extend(const meshing::FlowExtensionOptions& options, const Shares& shares, Stages& stages,
+                meshing::ClippedSurface& clipped, geometry::VesselTree& axes, MeshedLumen& out) {
+  meshing::ExtendedEnds extended = stages.run(
+      "flow extensions", shares.axes, middle_of_caps(shares),
+      [&](const core::TaskContext& part) { return meshing::extend_ends(clipped, axes, options, part); });
+  Extended both{std::exchange(clipped, std::move(extended.surface)), {}};
+  both.after = clipped.mesh;
+  axes = std::move(extended.tree);
+  append(out.warnings, extended.warnings);
+  out.quality.extensions = std::move(extended.extensions);
+  return both;
+}
+
+/// Half the width of the vessel at each point of the wall, for what a mesh may be off there. A crevice of a
+/// rough wall is no vessel: nothing is narrower than a third of what the nearest axis has.
+std::vector<double> vessel_widths(const TriMesh& surface, const meshing::TubeFunction& tube,
+                                  const core::TaskContext& task) {
+  constexpr double least_share = 1.0 / 3.0;
+  std::vector<double> radii = meshing::local_radii(surface, tube, task);
+  for (std::size_t i = 0; i < radii.size(); ++i)
+    radii[i] = std::max(radii[i], least_share * tube(surface.points[i]).radius_mm);
+  return radii;
+}
+
+/// The gate that a mesh passes before it is written.
+void judge(const geometry::FacedSurface& capped, const meshing::TubeFunction& tube,
+           const ModelOptions& options, const core::TaskContext& task, MeshedLumen& out) {
+  MeshQuality& quality = out.quality;
+  quality.surface = meshing::surface_quality(out.surface.mesh, true, task.sub(0.0, 0.3));
+  quality.volume = meshing::mixed_quality(out.mesh, task.sub(0.3, 0.7));
+  if (!out.in_layers.empty())
+    meshing::mark_layers(out.mesh, out.in_layers, quality.volume, task.sub(0.65, 0.7));
+  quality.refinement = options.volume.refinement;
+  if (quality.refinement)
+    quality.refinement->elements = quality.volume.tetrahedra.count + quality.volume.prisms.count;
+  quality.wall_deviation = meshing::wall_deviation(out.mesh, wall_of(capped), task.sub(0.7, 0.85));
+  quality.shape =
+      meshing::shape_kept(out.mesh, capped, vessel_widths(capped.mesh, tube, task), task.sub(0.85, 1.0));
+  quality.shape->volume_mm3 = quality.volume.volume_mm3();
+  quality.verdict = meshing::check(quality.surface, options.bounds);
+  append(quality.verdict.reasons, meshing::check(quality.volume, options.volume_bounds).reasons);
+  append(quality.verdict.reasons, meshing::check(*quality.shape, options.shape_bounds).reasons);
+}
+
+/// Where triangles of the wanted size lose more of the shape than may be, as in sharp crotches, they get
+/// smaller, round by round, and nowhere else.
+meshing::RemeshedSurface remeshed_in_shape(const geometry::FacedSurface& capped,
+                                           const meshing::TubeFunction& tube, std::vector<double> lengths,
+                                           const ModelOptions& options, const core::TaskContext& task) {
+  constexpr int most_rounds = 4;
+  constexpr double aimed_share = 0.8;
+  std::optional<std::vector<double>> radii;
+  std::optional<meshing::RemeshedSurface> before;
+  for (int round = 1;; ++round) {
+    const core::TaskContext part = task.sub(round == 1 ? 0.0 : 0.7, 1.0);
+    meshing::RemeshedSurface made = meshing::remesh(capped, lengths, options.remesh, part);
+    if (made.report.self_intersections > 0) return before ? std::move(*before) : std::move(made);
+    // Of the second order the wall's nodes follow the surface, and points belong on it.
+    if (options.volume.order == 1) meshing::keep_volume(made.surface, capped, task);
+    if (round == most_rounds) return made;
+    if (!radii) radii = vessel_widths(capped.mesh, tube, task);
+    const std::size_t shortened =
+        meshing::shorten_where_off(capped, made.surface, *radii, aimed_share, lengths, task);
+    if (shortened == 0) return made;
+    before = std::move(made);
+    for (double& length : lengths) length = std::max(length, options.sizing.min_edge_mm);
+    meshing::limit_gradation(capped.mesh, options.sizing.gradation, lengths);
+    core::log_debug("remeshing again with shorter edges at " + std::to_string(shortened) + " points");
+  }
+}
+
+/// Edge lengths by the distance to the axes, whatever the lumen's width is there.
+std::shared_ptr<const meshing::SizeArray> by_distance_alone(const TriMesh& surface,
+                                                            const meshing::TubeFunction& tube,
+                                                            const meshing::SizingOptions& sizing) {
+  auto array = std::make_shared<meshing::SizeArray>();
+  array->surface = surface;
+  for (const geometry::Vec3& p : surface.points) {
+    const meshing::TubeSize size = tube(p);
+    array->edge_mm.push_back(sizing.edge_ratio * std::clamp(size.distance_mm, 0.05 * size.radius_mm,
+                                                            sizing.most_distance_radii * size.radius_mm));
+  }
+  return array;
+}
+
+/// Remeshed and filled. Sizes follow `axes`.
+void mesh_capped(const geometry::FacedSurface& capped, const std::optional<Extended>& extended,
+                 const geometry::VesselTree& axes, const ModelOptions& options, const Shares& shares,
+                 Stages& stages, MeshedLumen& out) {
+  const meshing::TubeFunction tube(axes);
+  meshing::RemeshedSurface remeshed =
+      stages.run("remeshing", shares.caps, shares.remeshing, [&](const core::TaskContext& part) {
+        meshing::SizingOptions sizing = meshing::at_throats(options.sizing, axes, capped.mesh);
+        meshing::RemeshedSurface made = remeshed_in_shape(
+            capped, tube, meshing::target_edge_lengths(capped.mesh, tube, sizing, part), options, part);
+        if (made.report.self_intersections == 0 || sizing.array ||
+            sizing.measure != meshing::SizeMeasure::distance)
+          return made;
+        // What lies far from all axes is too rough for triangles of its own size: noise, or a leak. Larger
+        // ones may pass over it; what is lost by that the gate tells.
+        sizing.array = by_distance_alone(capped.mesh, tube, sizing);
+        out.warnings.emplace_back(
+            "the wall far from the axes is too rough for triangles of its own size; larger ones follow the "
+            "distance from the axes there, and may lose some of it");
+        return remeshed_in_shape(capped, tube, meshing::target_edge_lengths(capped.mesh, tube, sizing, part),
+                                 options, part);
+      });
+  if (remeshed.report.self_intersections > 0) {
+    throw GeometryError("the surface is too rough for triangles of this size: remeshing left " +
+                        std::to_string(remeshed.report.self_intersections) +
+                        " self-intersections; take shorter edges (--edge-ratio), or smooth it (--smooth)");
+  }
+  append(out.warnings, remeshed.report.warnings);
+  out.surface = std::move(remeshed.surface);
+  out.remeshing = remeshed.report;
+  FilledVolume filled = stages.run(
+      "tetrahedra", shares.remeshing, shares.tetrahedra,
+      [&](const core::TaskContext& part) { return fill_volume(out.surface, capped, options.volume, part); });
+  append(out.warnings, filled.warnings);
+  out.mesh = std::move(filled.mesh);
+  out.in_layers = std::move(filled.in_layers);
+  if (filled.new_surface) out.surface = std::move(*filled.new_surface);
+  if (extended) meshing::mark_extension_walls(extended->before, extended->after, out.surface, out.mesh);
+  out.quality.layers = std::move(filled.layers);
+  out.quality.quadratic = std::move(filled.quadratic);
+  stages.run("quality", shares.tetrahedra, 1.0, [&](const core::TaskContext& part) {
+    judge(capped, tube, options, part, out);
+    return 0;
+  });
+}
+
+MeshedLumen mesh_with(const TriMesh& lumen, const geometry::VesselTree& tree, const ModelOptions& options,
+                      const Shares& shares, const AxesOf& axes_of, const core::TaskContext& task) {
+  validate(options);
+  MeshedLumen out;
+  Stages stages(out.stages, task);
+  meshing::ClippedSurface clipped =
+      stages.run("ends cut", 0.0, shares.cut, [&](const core::TaskContext& part) {
+        meshing::ClipOptions clip = options.clip;
+        if (options.inset_radii) clip.inset_radii = *options.inset_radii;
+        return meshing::clip_ends(lumen, tree, clip, part);
+      });
+  append(out.warnings, clipped.warnings);
+  if (options.volume.solver_case) require_inlets(*options.volume.solver_case, names_of(clipped.ends));
+  out.centerlines = stages.run("centerlines of the cut lumen", shares.cut, shares.axes,
+                               [&](const core::TaskContext& part) { return axes_of(clipped, part); });
+  geometry::VesselTree axes = out.centerlines.tree;
+  std::optional<Extended> extended;
+  if (options.extensions) extended = extend(*options.extensions, shares, stages, clipped, axes, out);
+  const geometry::FacedSurface capped =
+      stages.run("caps", options.extensions ? middle_of_caps(shares) : shares.axes, shares.caps,
+                 [&](const core::TaskContext& part) { return meshing::cap_ends(clipped, {}, part); });
+  mesh_capped(capped, extended, axes, options, shares, stages, out);
+  return out;
+}
+
+}  // namespace
+
+MeshedLumen mesh_lumen(const TriMesh& lumen, const geometry::VesselTree& tree, const ModelOptions& options,
+                       const core::TaskContext& task) {
+  const auto extracted = [&](const meshing::ClippedSurface& clipped, const core::TaskContext& part) {
+    return centerlines_between(clipped, tree, options.centerline, part);
+  };
+  return mesh_with(lumen, tree, options, with_extraction, extracted, task);
+}
+
+MeshedLumen mesh_lumen_about(const TriMesh& lumen, const geometry::VesselTree& axes,
+                             const ModelOptions& options, const core::TaskContext& task) {
+  const auto known = [&](const meshing::ClippedSurface&, const core::TaskContext&) {
+    centerline::CenterlineResult result;
+    result.tree = axes;
+    return result;
+  };
+  return mesh_with(lumen, axes, options, with_known_axes, known, task);
+}
+
+}  // namespace ostia::pipeline

@@ -1,0 +1,18 @@
+#pragma once
+/// \file Single points of a surface that stand far out of it, or stab through it.
+
+#include "ostia/geometry/tri_mesh.h"
+
+#include <cstddef>
+
+namespace ostia::pipeline {
+
+/// A spike is a point that stands off its neighbours' middle by more than their mean distance from it, and
+/// whose triangles have three times the area of their ring or more: no vessel's tip is one point so steep.
+bool has_spikes(const geometry::TriMesh& mesh);
+
+/// Moves them to where the surface about them bends as it does next to them. Where a point's triangles
+/// intersect others, standing off is enough. Returns how many were moved. Points on borders stay.
+std::size_t pull_in_spikes(geometry::TriMesh& mesh);
+
+}  // namespace ostia::pipeline

@@ -1,0 +1,110 @@
+#include "mask_ends.h"
+
+#include "ostia/geometry/polyline.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace ostia::coronary {
+namespace {
+
+using geometry::TreeSegment;
+
+std::vector<Vec3> line_between(const Vec3& from, const Vec3& to) {
+  std::vector<Vec3> points;
+  const int steps = std::max(1, static_cast<int>((to - from).norm() / 0.5));
+  for (int i = 0; i <= steps; ++i) points.push_back(from + (static_cast<double>(i) / steps) * (to - from));
+  return points;
+}
+
+TreeSegment straight_segment(std::int32_t id, std::int32_t from, std::int32_t to, const Vec3& a,
+                             const Vec3& b, double radius_mm) {
+  TreeSegment segment{id, from, to, {}};
+  segment.axis.points = line_between(a, b);
+  segment.axis.radius.assign(segment.axis.points.size(), radius_mm);
+  geometry::complete(segment.axis);
+  return segment;
+}
+
+/// A trunk of 2 mm radius from the origin along z, 60 mm, with a branch at `fork_mm` to `tip`.
+MaskAxes trunk_with_branch(double fork_mm, const Vec3& tip, double branch_mm) {
+  const Vec3 fork(0, 0, fork_mm), end(0, 0, 60);
+  MaskAxes axes;
+  axes.tree.nodes = {{1, Vec3::Zero()}, {2, fork}, {3, end}, {4, tip}};
+  axes.tree.segments = {straight_segment(1, 1, 2, Vec3::Zero(), fork, 2.0),
+                        straight_segment(2, 2, 3, fork, end, 2.0),
+                        straight_segment(3, 2, 4, fork, tip, branch_mm)};
+  axes.tree.vessels = {{1, "V1", {1, 2}}, {2, "V2", {1, 3}}};
+  axes.ostia = {1};
+  return axes;
+}
+
+TEST(MaskEnds, CleanEndsStayAsTheyAre) {
+  MaskAxes axes = trunk_with_branch(30, {20, 0, 40}, 1.0);
+  EXPECT_TRUE(settle_ends(axes).empty());
+  EXPECT_EQ(axes.tree.vessels.size(), 2U);
+  EXPECT_EQ(geometry::find_fault(axes.tree).value_or("none"), "none");
+}
+
+TEST(MaskEnds, AStubWithinReachOfItsParentIsLeftOutAndTheParentIsWhole) {
+  MaskAxes axes = trunk_with_branch(30, {2.5, 0, 30}, 1.0);
+  const std::vector<MaskEndChange> changes = settle_ends(axes);
+  ASSERT_EQ(changes.size(), 1U);
+  EXPECT_EQ(changes[0].kind, MaskEndChange::Kind::left_out);
+  EXPECT_LT((changes[0].place - Vec3(2.5, 0, 30)).norm(), 1e-9);
+  EXPECT_NEAR(changes[0].length_mm, 2.5, 1e-9);
+  EXPECT_EQ(changes[0].vessel, 0);
+  ASSERT_EQ(axes.tree.vessels.size(), 1U);
+  EXPECT_EQ(axes.tree.segments.size(), 1U);
+  EXPECT_EQ(axes.tree.nodes.size(), 2U);
+  EXPECT_NEAR(geometry::vessel_axis(axes.tree, axes.tree.vessels[0]).abscissa.back(), 60.0, 1e-6);
+  EXPECT_EQ(geometry::find_fault(axes.tree).value_or("none"), "none");
+}
+
+TEST(MaskEnds, ATrunkThatEndsRightBehindItsForkGoesOnAsTheBranch) {
+  MaskAxes axes = trunk_with_branch(58.5, {30, 0, 70}, 1.2);
+  const std::vector<MaskEndChange> changes = settle_ends(axes);
+  ASSERT_EQ(changes.size(), 1U);
+  EXPECT_EQ(changes[0].kind, MaskEndChange::Kind::left_out);
+  ASSERT_EQ(axes.tree.vessels.size(), 1U);
+  EXPECT_LT((geometry::vessel_axis(axes.tree, axes.tree.vessels[0]).points.back() - Vec3(30, 0, 70)).norm(),
+            1e-9);
+  EXPECT_EQ(geometry::find_fault(axes.tree).value_or("none"), "none");
+}
+
+TEST(MaskEnds, AnEndThatTouchesAnotherVesselIsShortenedToACleanPlace) {
+  MaskAxes axes = trunk_with_branch(15, {30, 0, 40}, 1.0);
+  // Another tree whose side lies 1.2 mm beyond the branch's end.
+  const Vec3 beyond = Vec3(30, 0, 40) + 1.2 * (Vec3(30, 0, 40) - Vec3(0, 0, 15)).normalized();
+  axes.tree.nodes.push_back({5, beyond - Vec3(0, 30, 0)});
+  axes.tree.nodes.push_back({6, beyond + Vec3(0, 30, 0)});
+  axes.tree.segments.push_back(
+      straight_segment(4, 5, 6, beyond - Vec3(0, 30, 0), beyond + Vec3(0, 30, 0), 1.0));
+  axes.tree.vessels.push_back({3, "V3", {4}});
+  const std::vector<MaskEndChange> changes = settle_ends(axes);
+  ASSERT_EQ(changes.size(), 1U);
+  EXPECT_EQ(changes[0].kind, MaskEndChange::Kind::shortened);
+  EXPECT_EQ(changes[0].vessel, 2);
+  EXPECT_GT(changes[0].length_mm, 0.5);
+  EXPECT_LT(changes[0].length_mm, 2.5);
+  const Vec3 end = geometry::vessel_axis(axes.tree, axes.tree.vessels[1]).points.back();
+  EXPECT_NEAR((end - Vec3(30, 0, 40)).norm(), changes[0].length_mm, 1e-6);
+  EXPECT_EQ(geometry::find_fault(axes.tree).value_or("none"), "none");
+}
+
+TEST(MaskEnds, AnOstiumRightAtAForkBeginsEarlier) {
+  MaskAxes axes = trunk_with_branch(1.0, {25, 0, 12}, 1.6);
+  const std::vector<MaskEndChange> changes = settle_ends(axes);
+  ASSERT_EQ(changes.size(), 1U);
+  EXPECT_EQ(changes[0].kind, MaskEndChange::Kind::led_on);
+  EXPECT_GT(changes[0].length_mm, 0.5);
+  EXPECT_LT(changes[0].length_mm, 5.0);
+  EXPECT_LT((geometry::node(axes.tree, axes.ostia[0]).position - Vec3(0, 0, -changes[0].length_mm)).norm(),
+            1e-6);
+  EXPECT_EQ(geometry::find_fault(axes.tree).value_or("none"), "none");
+}
+
+}  // namespace
+}  // namespace ostia::coronary

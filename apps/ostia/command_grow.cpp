@@ -1,5 +1,6 @@
 #include "grow.h"
 #include "outputs.h"
+#include "tree_input.h"
 #include "validators.h"
 
 #include "ostia/analysis/tree_growth.h"
@@ -63,8 +64,9 @@ void print(const analysis::GrownTree& grown, std::size_t scanned, bool as_json) 
 ExitCode run_grow(const GrowCommand& o, std::uint64_t seed, const core::TaskContext& task) {
   require_output(o.output, {".vtp", ".swc", ".csv"});
   task.set_stage("reading");
-  const io::LoadedGraph loaded = io::read_graph(o.input, task.sub(0.0, 0.05));
+  io::LoadedGraph loaded = io::read_graph(o.input, task.sub(0.0, 0.04));
   for (const std::string& warning : loaded.warnings) core::log_warning(warning);
+  join_lines_side_by_side(loaded, task.sub(0.04, 0.05));
   geometry::require_sound(loaded.graph, o.input.filename().string(), true, task, loaded.reference_name);
   analysis::GrownTree grown =
       analysis::grow_tree(loaded.graph, domain_of(o, loaded.graph),

@@ -5,6 +5,7 @@
 #include "seeds.h"
 #include "tree_commands.h"
 
+#include "ostia/core/error.h"
 #include "ostia/core/log.h"
 #include "ostia/imaging/dicom.h"
 #include "ostia/imaging/image_file.h"
@@ -14,7 +15,9 @@
 #include "ostia/pipeline/volume_preview.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
+#include <map>
 #include <vector>
 
 namespace ostia::app {
@@ -30,6 +33,20 @@ ImageFacts facts_of(const imaging::ImageVolume& image, std::string kind, std::ve
                    values.end());
   facts.median = values[values.size() / 2];
   return facts;
+}
+
+/// The values of a mask but 0, and how often they are there.
+std::vector<LabelFacts> labels_in(const std::filesystem::path& mask, const core::TaskContext& task) {
+  std::map<int, std::size_t> voxels;  // in the order of the labels
+  try {
+    for (const std::uint8_t value : imaging::read_labels(mask, task).volume.voxels) ++voxels[value];
+  } catch (const InvalidInput&) {  // two values of an image are no labels
+    return {};
+  }
+  voxels.erase(0);
+  std::vector<LabelFacts> labels;
+  for (const auto& [label, count] : voxels) labels.push_back({label, count});
+  return labels;
 }
 
 void preview(const InfoOptions& options, const imaging::ImageVolume& image) {
@@ -77,8 +94,9 @@ ExitCode run_info(const InfoOptions& options, const core::TaskContext& task) {
     image.geometry = source.mask->geometry;
     image.voxels.assign(source.mask->voxels.begin(), source.mask->voxels.end());
   }
-  std::fputs(image_text(facts_of(image, pipeline::name_of(kind), source.warnings), options.json).c_str(),
-             stdout);
+  ImageFacts facts = facts_of(image, pipeline::name_of(kind), source.warnings);
+  if (source.mask) facts.labels = labels_in(options.input.input, task);
+  std::fputs(image_text(facts, options.json).c_str(), stdout);
   if (!options.preview.empty()) preview(options, image);
   return ExitCode::ok;
 }

@@ -4,6 +4,7 @@
 #include "measure_branches.h"
 #include "seeds.h"
 #include "surface_axes.h"
+#include "tree_input.h"
 
 #include "ostia/core/files.h"
 #include "ostia/core/log.h"
@@ -55,6 +56,7 @@ NamedGraph graph_in(const MeasureCommand& c, const core::TaskContext& task) {
   if (!io::is_graph_file(path)) return graph_of_tree(axes_of_surface(c.input, c.ends, task).axes.tree);
   io::LoadedGraph loaded = io::read_graph(path, task);
   for (const std::string& warning : loaded.warnings) core::log_warning(warning);
+  join_lines_side_by_side(loaded, task);
   return {std::move(loaded.graph), loaded.reference_name, std::nullopt};
 }
 

@@ -35,6 +35,7 @@ void warn(const std::vector<std::string>& warnings) {
 geometry::VesselGraph network_of(const ReconstructCommand& c, Json& done, const core::TaskContext& task) {
   task.set_stage("reading");
   io::LoadedGraph loaded = read_tree(c.input, c.tree, done, task.sub(0.0, 0.9));
+  if (!c.tree.repair) join_lines_side_by_side(loaded, task.sub(0.9, 1.0));
   geometry::require_sound(loaded.graph, c.input.input.filename().string(), false, task,
                           loaded.reference_name);
   const geometry::GraphFacts facts = geometry::facts_of(loaded.graph, task.sub(0.9, 1.0));

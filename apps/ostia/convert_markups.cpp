@@ -76,7 +76,9 @@ std::vector<io::Markup> from_lines(const ConvertCommand& o, bool landmarks, Mark
   check_options(o, true);
   require_repair(o.tree);
   if (!asks_for_repair(o)) return markups_of(io::read_centerlines(o.input.input), landmarks);
-  return markups_of(geometry::tree_of(read_tree(o.input, o.tree, done, task).graph), landmarks);
+  io::LoadedGraph loaded = read_tree(o.input, o.tree, done, task);
+  join_lines_side_by_side(loaded, task);
+  return markups_of(geometry::tree_of(loaded.graph), landmarks);
 }
 
 }  // namespace

@@ -37,6 +37,10 @@ json geometry_json(const imaging::Geometry& g) {
           {"direction", {array(g.direction.col(0)), array(g.direction.col(1)), array(g.direction.col(2))}}};
 }
 
+double volume_mm3(const imaging::Geometry& g, const LabelFacts& one) {
+  return static_cast<double>(one.voxels) * g.spacing.prod();
+}
+
 }  // namespace
 
 std::string image_text(const ImageFacts& f, bool as_json) {
@@ -51,6 +55,9 @@ std::string image_text(const ImageFacts& f, bool as_json) {
     out["median_hu"] = f.median;
     out["largest_hu"] = f.largest;
     out["warnings"] = f.warnings;
+    for (const LabelFacts& one : f.labels)
+      out["labels"].push_back(
+          {{"label", one.label}, {"voxels", one.voxels}, {"volume_mm3", volume_mm3(f.geometry, one)}});
     return out.dump(2) + "\n";
   }
   std::vector<std::pair<std::string, std::string>> rows{
@@ -61,10 +68,18 @@ std::string image_text(const ImageFacts& f, bool as_json) {
       {"last voxel", text(f.geometry.world(last)) + " mm (LPS)"},
       {"axis i", text(f.geometry.direction.col(0))},
       {"axis j", text(f.geometry.direction.col(1))},
-      {"axis k", text(f.geometry.direction.col(2))},
-      {"intensity", std::to_string(static_cast<long>(f.least)) + " to " +
-                        std::to_string(static_cast<long>(f.largest)) + " HU, median " +
-                        std::to_string(static_cast<long>(f.median))}};
+      {"axis k", text(f.geometry.direction.col(2))}};
+  const bool empty_mask = f.kind == "mask" && f.largest == 0.0;
+  if (empty_mask)
+    rows.emplace_back("labels", "none");
+  else if (f.labels.empty())
+    rows.emplace_back("intensity", std::to_string(static_cast<long>(f.least)) + " to " +
+                                       std::to_string(static_cast<long>(f.largest)) + " HU, median " +
+                                       std::to_string(static_cast<long>(f.median)));
+  for (const LabelFacts& one : f.labels)
+    rows.emplace_back(
+        "label " + std::to_string(one.label),
+        std::to_string(one.voxels) + " voxels, " + core::fixed_text(volume_mm3(f.geometry, one), 1) + " mm3");
   for (const std::string& warning : f.warnings) rows.emplace_back("warning", warning);
   return lines(rows);
 }

@@ -12,11 +12,17 @@
 namespace ostia::app {
 
 /// What there is to say about an image.
+/// One value of a mask.
+struct LabelFacts {
+  int label = 0;
+  std::size_t voxels = 0;
+};
 struct ImageFacts {
   std::string kind;
   imaging::Geometry geometry;
   double least = 0.0, largest = 0.0, median = 0.0;
   std::vector<std::string> warnings;
+  std::vector<LabelFacts> labels{};  ///< of a mask, in their order
 };
 std::string image_text(const ImageFacts& facts, bool json);
 

@@ -1,5 +1,6 @@
 #include "measure_branches.h"
 
+#include "model_options.h"
 #include "points.h"
 
 #include "ostia/core/log.h"

@@ -21,6 +21,11 @@ void add_tree_input(CLI::App& app, TreeInputOptions& options, const std::string&
 /// Throws UsageError for options of the repair without it.
 void require_repair(const TreeInputOptions& options);
 
+/// Lines that run beside each other where vessels share a way (VMTK's, before its branch extractor) become
+/// one tree, and this is told: where points at the places of others are the graph's only fault and what comes
+/// of joining them is a tree. Any other graph stays as it is.
+void join_lines_side_by_side(io::LoadedGraph& loaded, const core::TaskContext& task);
+
 /// Reads a network, brings it into mm and mends it where that is asked for; warnings go to the log. `done`
 /// gets what the repair did. Throws what io::read_graph and geometry::repaired throw.
 io::LoadedGraph read_tree(const InputOptions& input, const TreeInputOptions& options,

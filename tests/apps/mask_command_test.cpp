@@ -60,6 +60,27 @@ TEST(MaskCommands, AMaskBecomesACaseAndItsLabelsComeBack) {
   EXPECT_NEAR(object(after), object(before), 0.03 * object(before));
 }
 
+TEST(MaskCommands, InfoListsTheLabelsOfAMask) {
+  const fs::path folder = temporary_folder("labels");
+  imaging::MaskVolume mask;
+  mask.geometry.size = {4, 3, 2};
+  mask.geometry.spacing = {0.5, 0.5, 2.0};
+  mask.voxels.assign(24, 0);
+  mask.voxels[3] = mask.voxels[4] = mask.voxels[9] = 1;
+  mask.voxels[20] = 7;
+  imaging::write_image(folder / "mask.nrrd", mask);
+  const Outcome told = ostia({"info", "mask.nrrd"}, {folder, ""});
+  EXPECT_EQ(told.code, 0) << told.err;
+  EXPECT_THAT(told.out,
+              AllOf(HasSubstr("3 voxels, 1.5 mm3"), HasSubstr("label 7"), ::testing::Not(HasSubstr("HU"))));
+  const auto facts = nlohmann::json::parse(ostia({"info", "mask.nrrd", "--json"}, {folder, ""}).out);
+  EXPECT_EQ(facts["labels"], nlohmann::json::parse(R"([{"label": 1, "voxels": 3, "volume_mm3": 1.5},
+                                                     {"label": 7, "voxels": 1, "volume_mm3": 0.5}])"));
+  mask.voxels.assign(24, 0);
+  imaging::write_image(folder / "empty.nrrd", mask);
+  EXPECT_THAT(ostia({"info", "empty.nrrd"}, {folder, ""}).out, HasSubstr("none"));
+}
+
 TEST(MaskCommands, WithItsCtTheCaseBelongsToTheCt) {
   const Setting in{heart_with_labels(), ""};
   const Outcome done =

@@ -139,6 +139,22 @@ TEST(MeasureCommand, LinesAloneHaveBifurcationsButNoSections) {
   EXPECT_FALSE(fs::exists(folder / "none"));
 }
 
+TEST(MeasureCommand, WholeLinesOfVmtkAreJoinedWhereTheyShareTheirWay) {
+  const auto folder = temporary_folder("measure_whole_lines");
+  core::write_file(folder / "lines.vtk",
+                   "# vtk DataFile Version 3.0\nlines\nASCII\nDATASET POLYDATA\nPOINTS 8 float\n"
+                   "0 0 0 0 0 5 0 0 10 3 0 14\n0 0 0 0 0 5 0 0 10 -3 0 14\nLINES 2 10\n4 0 1 2 3\n4 4 5 6 7\n"
+                   "POINT_DATA 8\nSCALARS MaximumInscribedSphereRadius float 1\nLOOKUP_TABLE default\n"
+                   "1 1 1 1 1 1 1 1\n");
+  const Setting in{folder, ""};
+  const Outcome done = ostia({"measure", "lines.vtk", "-o", "out", "--bifurcations"}, in);
+  ASSERT_EQ(done.code, 0) << done.err;
+  EXPECT_THAT(done.out, HasSubstr("3 branches, 2 ends"));
+  EXPECT_THAT(done.out, HasSubstr("length 20 mm"));
+  EXPECT_THAT(done.err, HasSubstr("run side by side are joined: "));
+  EXPECT_EQ(ostia({"reconstruct", "lines.vtk", "-o", "wall.vtp"}, in).code, 0);
+}
+
 TEST(MeasureCommand, WhatCannotBeMeasuredIsToldAndLeavesNothing) {
   const auto folder = temporary_folder("measure_bad");
   core::write_file(folder / "bad.csv", "x1,y1,z1,radius1,x2,y2,z2,radius2\n0,0,0,1,0,0,0,1\n");

@@ -40,12 +40,11 @@ Opening::MaskCase Opening::case_of_mask(const fs::path& mask, const session::Ope
 }
 
 void Opening::take_mask(const MaskCase& made) {
-  open_case(made.path);
   const QString found =
       tr("%n vessel(s) of the mask; a question mark says where to look first.", nullptr, made.vessels);
-  desk_.messages.say(made.first_warning.empty()
-                         ? found
-                         : found + QStringLiteral(" ") + QString::fromStdString(made.first_warning));
+  open_case(made.path, made.first_warning.empty()
+                           ? found
+                           : found + QStringLiteral(" ") + QString::fromStdString(made.first_warning));
 }
 
 }  // namespace ostia::workstation

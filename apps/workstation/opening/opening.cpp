@@ -80,7 +80,7 @@ void Opening::open_sample() {
       [this](const QString& message) { desk_.messages.complain(message); });
 }
 
-void Opening::open_case(const fs::path& path) {
+void Opening::open_case(const fs::path& path, const QString& then_say) {
   desk_.jobs.cancel("first slice");
   if (desk_.bench.has_case() && path == desk_.case_path) {
     desk_.jobs.cancel("open");  // whoever changes their mind keeps what is there
@@ -101,13 +101,15 @@ void Opening::open_case(const fs::path& path) {
             SceneWidget::screen_cell_mm);  // made here, so that the window need not wait for it
         return std::any(opened);
       },
-      [this, path, editable](const std::any& result) {
+      [this, path, editable, then_say](const std::any& result) {
         const auto& opened = std::any_cast<const OpenedCase&>(result);
         show_case(std::move(*opened.session), path, opened.image);
         if (!editable)
           desk_.messages.say(
               tr("This case can be looked at and not changed: its file or folder is read-only. "
                  "Save it as another to edit it."));
+        else if (!then_say.isEmpty())
+          desk_.messages.say(then_say);
       },
       [this](const QString& message) { desk_.messages.complain(message, tr("The case cannot be opened")); });
 }

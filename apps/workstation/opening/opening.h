@@ -74,7 +74,7 @@ class Opening final : public QObject {
     std::shared_ptr<session::Session> session;
     ImageBeside image;  // the case's; null where it is open already or no such file is known
   };
-  void open_case(const std::filesystem::path& path);
+  void open_case(const std::filesystem::path& path, const QString& then_say = {});
   void show_case(session::Session session, const std::filesystem::path& path,
                  const ImageBeside& image_beside = {});
   void open_image_of(const session::ImageReference& image, const ImageBeside& beside);

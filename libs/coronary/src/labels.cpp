@@ -1,6 +1,6 @@
 #include "ostia/coronary/labels.h"
 
-#include "branch_rules.h"
+#include "naming_rules.h"
 
 #include "ostia/core/error.h"
 

@@ -18,7 +18,7 @@ using geometry::Vec3;
 // Walls refuse 60 degrees, and half a radius.
 constexpr double most_turn_rad = 50.0 * std::numbers::pi / 180.0;
 constexpr double loop_share = 0.6;
-constexpr double look_mm = 0.2;
+constexpr double sample_mm = 0.2;
 constexpr double eased_radii = 2.0;  // to either side of a kink
 constexpr int most_rounds = 60;
 
@@ -32,7 +32,7 @@ geometry::AxisCurve curve_of(const Axis& axis) {
 
 std::vector<double> kinks_of(const geometry::AxisCurve& axis) {
   std::vector<double> kinks;
-  for (double s = 0.0; s <= axis.length(); s += look_mm) {
+  for (double s = 0.0; s <= axis.length(); s += sample_mm) {
     const double half = axis.radius(s) / 3.0;
     const Vec3 before = axis.frame(std::max(0.0, s - half)).tangent,
                behind = axis.frame(std::min(axis.length(), s + half)).tangent;

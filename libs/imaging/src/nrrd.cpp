@@ -113,7 +113,8 @@ std::vector<std::size_t> spatial_axes(const fs::path& path, const std::vector<st
       else if (sizes[axis] != 1)
         refuse(path, "space directions",
                "axis " + std::to_string(axis) + " has no direction and " + std::to_string(sizes[axis]) +
-                   " samples a voxel; one scalar volume is read");
+                   " samples a voxel; one scalar volume is read (of a segmentation with segments that "
+                   "overlap, save a label map without overlap, or one segment at a time)");
     if (axes.size() != 3) refuse(path, "space directions", "three axes with a direction are needed");
     return axes;
   }

@@ -16,6 +16,8 @@ using geometry::Vec3;
 /// Triangles about a spike have more than so many times the area of their ring: a cone of 37 degrees has.
 constexpr double steepest_area = 3.0;
 constexpr std::size_t fewest_neighbours = 3;
+/// A spike is one point of many: of a tetrahedron every corner would be one.
+constexpr std::size_t smallest_share = 8;
 constexpr int rounds = 3;  // a spike beside a spike shows when the first is gone
 
 class Rings {
@@ -55,6 +57,7 @@ class Rings {
   /// from it; 0 for none and on a border.
   double steepness(std::size_t point, bool stabs) const {
     if (on_border_[point] || of(point).size() < fewest_neighbours) return 0.0;
+    if (smallest_share * of(point).size() > mesh_.points.size()) return 0.0;
     const Vec3 centre = middle(point);
     double reach = 0.0;
     for (const std::int32_t n : of(point))

@@ -157,6 +157,8 @@ void tell_outside(const std::vector<pipeline::MaskOutside>& parts, std::vector<s
 }  // namespace
 
 bool holds_labels(const std::filesystem::path& file) {
+  std::error_code none;
+  if (!std::filesystem::exists(file, none)) return false;  // whoever reads it says so
   const pipeline::SourceKind kind = pipeline::classify(file);
   return kind == pipeline::SourceKind::mask ||
          (kind == pipeline::SourceKind::image && imaging::looks_like_labels(file));

@@ -34,8 +34,8 @@ struct MaskModel {
   coronary::MaskTree tree;                     ///< `vessels` and `notes` are those of `found`
   std::vector<pipeline::MaskOutside> outside;  ///< of the walls, the largest first
 };
-/// Whether an image file holds labels rather than a CT: whole numbers, few of them. Throws IoError,
-/// InvalidInput.
+/// Whether an image file holds labels rather than a CT: whole numbers, few of them; false for no file. Throws
+/// IoError, InvalidInput.
 bool holds_labels(const std::filesystem::path& file);
 /// `image`: the CT that the mask was drawn on, to see that both are of one patient; null: none. Throws as
 /// coronary::mask_tree, pipeline::walls_from_mask and lumen::model_of_walls do, and InvalidInput for a mask

@@ -1,4 +1,4 @@
-#include "branch_rules.h"
+#include "naming_rules.h"
 
 #include <algorithm>
 #include <cmath>

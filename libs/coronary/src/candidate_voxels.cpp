@@ -1,4 +1,4 @@
-#include "candidates.h"
+#include "candidate_voxels.h"
 
 #include "ostia/core/parallel.h"
 

@@ -1,0 +1,62 @@
+#pragma once
+/// \file All commands of the program: their options and how each is declared. A new one gets its lines here.
+
+#include "commands.h"
+#include "evaluate.h"
+#include "experiment.h"
+#include "extract.h"
+#include "flow_result.h"
+#include "grow.h"
+#include "lumen.h"
+#include "measure.h"
+#include "motion.h"
+#include "reconstruct.h"
+#include "report.h"
+#include "run.h"
+#include "skeleton.h"
+#include "solver_case.h"
+
+#include "ostia/core/task_context.h"
+
+#include <functional>
+
+namespace CLI {
+class App;
+}
+
+namespace ostia::app {
+
+/// What the command that was asked for does.
+using Run = std::function<ExitCode(const core::TaskContext&)>;
+
+struct Commands {
+  CommonOptions common;
+  InfoOptions info;
+  ImportOptions import;
+  SegmentCommand segment;
+  CenterlineCommand centerline;
+  MeshCommand mesh;
+  ConvertCommand convert;
+  ModelCommand model;
+  PhantomCommand phantom;
+  EvaluateCommand evaluate;
+  ExperimentCommand experiment;
+  LumenModelCommand lumen;
+  ReplayCommand replay;
+  ReportCommand report;
+  SkeletonCommand skeleton;
+  GrowCommand grow;
+  ReconstructCommand reconstruct;
+  MeasureCommand measure;
+  ExtractCommand extract;
+  RunCommand chain;
+  BatchCommand batch;
+  CaseCommand solver_case;
+  ResultCommand result;
+  MotionCommands motion;
+};
+
+/// Declares them all to the parser; parsing then fills `commands` and sets `run`.
+void define(CLI::App& app, Commands& commands, Run& run);
+
+}  // namespace ostia::app

@@ -119,4 +119,5 @@ function(ostia_benchmark room)
   target_link_libraries(bench_${room} PRIVATE ostia::${room} ostia_test_support benchmark::benchmark ${ARG_LINKS})
   ostia_warnings(bench_${room})
   ostia_compile_fast(bench_${room} source)
+  set_target_properties(bench_${room} PROPERTIES UNITY_BUILD OFF)  # each has a scene of its own
 endfunction()

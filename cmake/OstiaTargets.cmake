@@ -23,6 +23,7 @@ endfunction()
 
 include(OstiaPrecompiled)
 include(OstiaExport)
+include(OstiaTestEntries)
 
 function(_ostia_leak_suppressions target)
   if(OSTIA_ASAN)
@@ -59,27 +60,14 @@ function(ostia_program name)
   _ostia_leak_suppressions(${name})
 endfunction()
 
-# ostia_suites_together(ROOM TARGET FILTER COST suite ...) registers each suite as one test. FILTER becomes what is left.
-function(ostia_suites_together room target filter cost)
-  list(JOIN ARGN ".*:" others)
-  set(${filter} "*" PARENT_SCOPE)
-  if(ARGN)
-    set(${filter} "-${others}.*" PARENT_SCOPE)
-  endif()
-  foreach(suite IN LISTS ARGN)
-    add_test(NAME ${room}.${suite} COMMAND ${target} --gtest_filter=${suite}.*)
-    set_tests_properties(${room}.${suite} PROPERTIES LABELS unit TIMEOUT 600 COST ${cost})
-  endforeach()
-endfunction()
-
-# ostia_tests(ROOM [UNIT a_test.cpp ...] [REAL b_real_test.cpp ...] [SLOW ...] [GUI ...] [LINKS target ...] [COST s] [TOGETHER suite ...])
+# ostia_tests(ROOM [UNIT a_test.cpp ...] [REAL b_real_test.cpp ...] [SLOW ...] [GUI ...] [LINKS target ...] [COST s] [APART pattern ...])
 # Each kind becomes one program and carries its ctest label. GUI tests open windows: each runs under an X
 # server of its own, beside other tests. The server must not start anew when its last client leaves (-noreset):
-# the next one would be turned away meanwhile. COST: the seconds of the longest test, where that is more than a
-# few; ctest starts these first, so that no processor waits for one of them at the end. Each test is a process
-# of its own, but for suites of UNIT that are named TOGETHER: what their tests share is made once.
+# the next one would be turned away meanwhile. COST: the seconds of the longest entry, where that is more than a
+# few; ctest starts these first, so that no processor waits for one of them at the end. Suites of UNIT and GUI are one entry
+# each, but for what APART names (OstiaTestEntries.cmake); all other tests are processes and entries of their own.
 function(ostia_tests room)
-  cmake_parse_arguments(ARG "" "COST" "UNIT;REAL;SLOW;GUI;LINKS;TOGETHER" ${ARGN})
+  cmake_parse_arguments(ARG "" "COST" "UNIT;REAL;SLOW;GUI;LINKS;APART" ${ARGN})
   if(NOT ARG_COST)
     set(ARG_COST 0)
   endif()
@@ -103,12 +91,13 @@ function(ostia_tests room)
       set_target_properties(${target} PROPERTIES
         CROSSCOMPILING_EMULATOR "${OSTIA_XVFB_RUN};-a;-s;-screen 0 1600x1200x24 -noreset")
     endif()
-    set(apart "*")
-    if(kind STREQUAL "UNIT")
-      ostia_suites_together(${room} ${target} apart ${ARG_COST} ${ARG_TOGETHER})
+    set(properties LABELS ${label} TIMEOUT ${most_s} COST ${ARG_COST})
+    if(kind MATCHES "UNIT|GUI")
+      ostia_test_entries(${target} ${room} APART ${ARG_APART} PROPERTIES ${properties})
+    else()
+      gtest_discover_tests(${target} TEST_PREFIX "${room}." DISCOVERY_MODE PRE_TEST
+        PROPERTIES ${properties} SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\]")
     endif()
-    gtest_discover_tests(${target} TEST_PREFIX "${room}." DISCOVERY_MODE PRE_TEST TEST_FILTER "${apart}"
-      PROPERTIES LABELS ${label} TIMEOUT ${most_s} COST ${ARG_COST} SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\]")
   endforeach()
 endfunction()
 

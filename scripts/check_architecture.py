@@ -69,6 +69,24 @@ def check_file(root, path, breaches):
                 breaches.append(f"{relative}:{number}: {header} may not be included here")
 
 
+CONSTANT = re.compile(r"^(?:inline |static )?constexpr [\w:<>, ]+? (\w+)(?: =|\{|;|\[)", re.MULTILINE)
+
+
+def check_hidden_constants(room, root, breaches):
+    """Sources are compiled in batches: a source's own constant would be used by the next source in the batch in
+    place of a header's of the same name, without a word."""
+    known = {}
+    for header in sorted(room.rglob("*.h")):
+        for name in CONSTANT.findall(header.read_text(encoding="utf-8")):
+            known.setdefault(name, header.relative_to(root).as_posix())
+    for source in sorted((room / "src").rglob("*.cpp")):
+        text = source.read_text(encoding="utf-8")
+        for match in CONSTANT.finditer(text):
+            if match.group(1) in known:
+                line = text.count("\n", 0, match.start()) + 1
+                breaches.append(f"{source.relative_to(root).as_posix()}:{line}: {match.group(1)} hides that of {known[match.group(1)]}")
+
+
 def check_workstation(root, breaches):
     house = root / "apps" / "workstation"
     for path in sorted(p for p in house.rglob("*") if p.suffix in {".h", ".cpp"}):
@@ -95,6 +113,8 @@ def main():
     for folder in sorted((root / "libs").iterdir()):
         if folder.is_dir() and not any(folder.rglob("*.cpp")):
             breaches.append(f"libs/{folder.name}: an empty room")
+        if folder.is_dir():
+            check_hidden_constants(folder, root, breaches)
     check_workstation(root, breaches)
     print("\n".join(breaches) if breaches else f"{len(sources)} files, no breach")
     return 1 if breaches else 0

@@ -80,7 +80,7 @@ int run_with(const std::vector<std::string>& arguments, Refusals refusals, const
   }
   keep_out_of_the_log(arguments);
   const std::vector<std::string> all_arguments = with_config(arguments);
-  keep_out_of_the_log(all_arguments);
+  if (all_arguments != arguments) keep_out_of_the_log(all_arguments);
   StandardStreams streams(all_arguments);
   std::unique_ptr<Asked> asked = asked_by(streams.arguments(), refusals);
   if (asked->exit_code >= 0) return asked->exit_code;

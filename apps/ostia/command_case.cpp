@@ -98,8 +98,8 @@ solver::BoundaryFlowOptions flow_options(const CaseOptions& c) {
   for (const std::string& text : c.flow) add_flow(text, flow);
   flow.mean_velocity_cm_s = c.velocity_cm_s;
   flow.reynolds = c.reynolds;
-  if (c.outlets == "split") flow.outlets = solver::Outlets::split;
-  if (c.outlets == "resistance") flow.outlets = solver::Outlets::resistance;
+  if (c.outlets == "split") flow.outlets = solver::OutletModel::split;
+  if (c.outlets == "resistance") flow.outlets = solver::OutletModel::resistance;
   flow.split_exponent = c.split_exponent;
   flow.total_resistance_mmhg_s_ml = c.resistance;
   if (!c.waveform.empty()) flow.waveform = waveform_of(c);

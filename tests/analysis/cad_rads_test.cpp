@@ -32,6 +32,21 @@ TEST(CadRads, OfAPatientCountsLeftMainAndThreeVessels) {
   EXPECT_EQ(cad_rads(All{{"LM", 60.0}, {"RCA", 100.0}}), CadRads::five);
 }
 
+TEST(CadRads, WithWhatCannotBeJudgedIsNOrHasN) {
+  const auto shown = [](const std::vector<GradedStenosis>& stenoses, bool all_judged) {
+    return to_string(patient_category(stenoses, all_judged));
+  };
+  EXPECT_EQ(shown({}, true), "0");
+  EXPECT_EQ(shown({{"LAD", 30.0}}, true), "2");
+  EXPECT_EQ(shown({}, false), "N");
+  EXPECT_EQ(shown({{"LAD", 49.0}}, false), "N");  // there may be worse
+  EXPECT_EQ(shown({{"LAD", 50.0}}, false), "3/N");
+  EXPECT_EQ(shown({{"LM", 60.0}}, false), "4B/N");
+  EXPECT_EQ(shown({{"RCA", 100.0}}, false), "5/N");
+  EXPECT_EQ(description(patient_category({}, false)), "Not diagnostic: obstructive disease is not excluded");
+  EXPECT_EQ(description(patient_category({{"LAD", 30.0}}, true)), description(CadRads::two));
+}
+
 TEST(CadRads, HasWords) {
   EXPECT_EQ(to_string(CadRads::zero), "0");
   EXPECT_EQ(to_string(CadRads::four_a), "4A");

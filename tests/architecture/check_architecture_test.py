@@ -12,6 +12,7 @@ CASES = {
     "VTK in a public header": ("libs/io/include/ostia/io/a.h", "#include <vtkPolyData.h>\n", "third party"),
     "Qt in a library": ("libs/io/src/a.cpp", "#include <QString>\n", "Qt belongs"),
     "TetGen outside its file": ("libs/meshing/src/caps.cpp", "#include <tetgen.h>\n", "tetgen.h may not"),
+    "a header's constant that a source hides": ("libs/core/src/a.h", "inline constexpr double far_mm = 1.0;\n", "far_mm hides that of"),
     "unknown room": ("libs/utils/src/a.cpp", "\n", "no place in the picture"),
     "workstation's source in no folder": ("apps/workstation/a.cpp", "\n", "live in its folders"),
     "workstation's folder that is unknown": ("apps/workstation/misc/a.cpp", "\n", "live in its folders"),
@@ -34,7 +35,7 @@ def run(check, name, text):
         room = pathlib.Path(*pathlib.PurePosixPath(name).parts[:2]) if name.startswith("libs/") else pathlib.Path("libs/core")
         source = pathlib.Path(folder) / room / "src" / "other.cpp"
         source.parent.mkdir(parents=True, exist_ok=True)
-        source.write_text("\n")
+        source.write_text("constexpr double far_mm = 2.0;\n")
         return subprocess.run([sys.executable, check, folder], capture_output=True, text=True, check=False)
 
 

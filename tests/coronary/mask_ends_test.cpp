@@ -94,6 +94,33 @@ TEST(MaskEnds, AnEndThatTouchesAnotherVesselIsShortenedToACleanPlace) {
   EXPECT_EQ(geometry::find_fault(axes.tree).value_or("none"), "none");
 }
 
+/// At its very end an axis' radius falls; the wall's does not.
+TEST(MaskEnds, EndsThatPointAtEachOtherKeepRoomForTheirDomes) {
+  const auto with_gap = [](double gap_mm) {
+    MaskAxes axes;
+    const double far = 60.0 + gap_mm + 60.0, near = 60.0 + gap_mm;
+    axes.tree.nodes = {{1, Vec3::Zero()}, {2, Vec3(0, 0, 60)}, {3, Vec3(0, 0, far)}, {4, Vec3(0, 0, near)}};
+    axes.tree.segments = {straight_segment(1, 1, 2, Vec3::Zero(), Vec3(0, 0, 60), 2.0),
+                          straight_segment(2, 3, 4, Vec3(0, 0, far), Vec3(0, 0, near), 2.0)};
+    for (TreeSegment& segment : axes.tree.segments)
+      for (std::size_t k = 1; k <= 3; ++k)
+        segment.axis.radius[segment.axis.radius.size() - k] = 1.0 + 0.25 * static_cast<double>(k - 1);
+    axes.tree.vessels = {{1, "V1", {1}}, {2, "V2", {2}}};
+    axes.ostia = {1, 3};
+    return axes;
+  };
+  MaskAxes apart = with_gap(6.0);
+  EXPECT_TRUE(settle_ends(apart).empty());
+  MaskAxes touching = with_gap(3.4);
+  const std::vector<MaskEndChange> changes = settle_ends(touching);
+  ASSERT_FALSE(changes.empty());
+  for (const MaskEndChange& change : changes) EXPECT_EQ(change.kind, MaskEndChange::Kind::shortened);
+  const Vec3 a = geometry::vessel_axis(touching.tree, touching.tree.vessels[0]).points.back(),
+             b = geometry::vessel_axis(touching.tree, touching.tree.vessels[1]).points.back();
+  EXPECT_GT((a - b).norm(), 0.6 * 2.0 + 1.1 * 2.0 + 0.3 - 1e-9);  // a cut end's dome, the other's, and room
+  EXPECT_LT((a - b).norm(), 6.0);
+}
+
 TEST(MaskEnds, AnOstiumRightAtAForkBeginsEarlier) {
   MaskAxes axes = trunk_with_branch(1.0, {25, 0, 12}, 1.6);
   const std::vector<MaskEndChange> changes = settle_ends(axes);

@@ -2,6 +2,7 @@
 #include "vessel_trees.h"
 
 #include "ostia/core/error.h"
+#include "ostia/geometry/polyline.h"
 #include "ostia/lumen/edit.h"
 #include "ostia/lumen/start_surface.h"
 
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <set>
 
 namespace ostia::lumen {
@@ -116,6 +118,96 @@ TEST(BranchAdd, OnABranchOfABranch) {
   ASSERT_EQ(outcome.model.tree.vessels.size(), 5U);
   EXPECT_GE(outcome.model.tree.vessels.back().segments.size(), 4U);
   EXPECT_EQ(owner_at(outcome.model.tree, outcome.model.tree.vessels.back().id, s - 5.0), add.parent);
+}
+
+/// Elliptic: 1.2 and 0.8 mm.
+double oval(double theta) {
+  return 0.96 / std::hypot(0.8 * std::cos(theta), 1.2 * std::sin(theta));
+}
+NewWall oval_wall(int rings) {
+  NewWall wall;
+  wall.around = 32;
+  for (int ring = 0; ring < rings; ++ring)
+    for (int k = 0; k < wall.around; ++k)
+      wall.radius_mm.push_back(oval(2.0 * std::numbers::pi * k / wall.around));
+  return wall;
+}
+/// Where its samples lie about its axis, over the stretch that is not bent by a take-off or an end.
+void expect_oval(const VesselLumen& vessel, double from_mm, double to_mm) {
+  int seen = 0;
+  for (const SurfaceSample& sample : vessel.samples) {
+    if (sample.s_mm < from_mm || sample.s_mm > to_mm) continue;
+    const geometry::AxisFoot foot = vessel.axis->nearest_foot(sample.position);
+    EXPECT_NEAR(foot.rho_mm, oval(foot.theta), 0.02) << sample.s_mm;
+    ++seen;
+  }
+  EXPECT_GT(seen, 20);
+}
+
+TEST(BranchAdd, StartsWithTheWallThatItIsGiven) {
+  BranchAdd add = side_branch(20.0, 60.0);
+  add.wall = oval_wall(30);
+  const EditOutcome outcome = applied(branch_editing_straight(), add);
+  const VesselLumen& branch = *outcome.model.vessels[1];
+  expect_oval(branch, branch.own_from_mm + 3.0, branch.axis->length() - 2.0);
+  EXPECT_EQ(digest(applied(branch_editing_straight(), add).model), digest(outcome.model));
+}
+
+VesselAdd second_artery() {
+  VesselAdd add;
+  add.name = "RCA";
+  for (int i = 0; i <= 30; ++i) {
+    add.points.emplace_back(30.0, 0.02 * i * i, static_cast<double>(i));
+    add.radius_mm.push_back(1.0);
+  }
+  return add;
+}
+
+TEST(VesselAdd, BeginsATreeOfItsOwn) {
+  const LumenModel model = branch_editing_straight();
+  VesselAdd add = second_artery();
+  add.wall = oval_wall(60);
+  const EditOutcome outcome = applied(model, add);
+  ASSERT_EQ(outcome.model.vessels.size(), 2U);
+  EXPECT_EQ(outcome.model.vessels[0], model.vessels[0]);
+  EXPECT_EQ(outcome.model.tree.vessels[1].name, "RCA");
+  EXPECT_EQ(geometry::roots(outcome.model.tree).size(), 2U);
+  const VesselLumen& artery = *outcome.model.vessels[1];
+  EXPECT_EQ(artery.own_from_mm, 0.0);
+  EXPECT_NEAR(artery.axis->length(), geometry::length(add.points), 0.01);
+  expect_oval(artery, 2.0, artery.axis->length() - 2.0);
+  const EditOutcome deleted = applied(outcome.model, BranchDelete{outcome.model.tree.vessels[1].id});
+  ASSERT_EQ(deleted.model.vessels.size(), 1U);
+  EXPECT_EQ(deleted.model.vessels[0], model.vessels[0]);
+}
+
+TEST(VesselAdd, RefusesWhatCannotBeAVessel) {
+  const LumenModel model = branch_editing_straight();
+  const auto with = [](const std::function<void(VesselAdd&)>& change) {
+    VesselAdd add = second_artery();
+    change(add);
+    return add;
+  };
+  expect_refused(model, with([](VesselAdd& a) { a.name = "LAD"; }), {"vessel.add", "LAD", "in use"});
+  expect_refused(model, with([](VesselAdd& a) { a.radius_mm.pop_back(); }), {"31 points and 30 radii"});
+  expect_refused(model, with([](VesselAdd& a) { a.radius_mm[3] = 0.0; }), {"radius 3", "0.10 mm"});
+  expect_refused(model, with([](VesselAdd& a) {
+                   a.points.assign(5, geometry::Vec3::Zero());
+                   a.radius_mm.assign(5, 1.0);
+                 }),
+                 {"apart from each other"});
+  expect_refused(model, with([](VesselAdd& a) {
+                   a.wall = {8, std::vector<double>(15, 1.0)};
+                 }),
+                 {"two whole rings"});
+  expect_refused(model, with([](VesselAdd& a) {
+                   a.wall = {4, std::vector<double>(16, 1.0)};
+                 }),
+                 {"8 to 128 rays"});
+  expect_refused(model, with([](VesselAdd& a) {
+                   a.wall = {8, std::vector<double>(16, 99.0)};
+                 }),
+                 {"distance 0 of the wall", "15.00 mm"});
 }
 
 TEST(BranchAdd, RefusesWhatCannotBeABranch) {

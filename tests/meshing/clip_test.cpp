@@ -133,9 +133,8 @@ TEST(ClipEnds, GoFartherInsideWhereAnEndIsTornAslant) {
   EXPECT_NE(clipped.warnings[0].find("inlet of vessel tube"), std::string::npos);
 }
 
-TEST(ClipEnds, SayWhereAnEndCanBeCut) {
-  // Half a pipe for its first 9 mm.
-  const auto shape = geometry::straight_tube(40.0, 1.5);
+/// Half a pipe for its first 9 mm of 40.
+geometry::TriMesh half_a_pipe(const geometry::AnalyticShape& shape) {
   const geometry::TriMesh whole = geometry::surface_of(shape, 0.25, true);
   std::vector<bool> keep;
   for (const auto& t : whole.triangles) {
@@ -143,7 +142,29 @@ TEST(ClipEnds, SayWhereAnEndCanBeCut) {
     for (const std::int32_t v : t) c += whole.points[static_cast<std::size_t>(v)] / 3.0;
     keep.push_back(c.z() > 9.0 || c.x() < 0.3);
   }
-  const geometry::TriMesh surface = geometry::subset(whole, keep);
+  return geometry::subset(whole, keep);
+}
+
+TEST(ClipEnds, CutsFartherInsideWhereThatIsAskedFor) {
+  const auto shape = geometry::straight_tube(40.0, 1.5);
+  const geometry::TriMesh surface = half_a_pipe(shape);
+  ClipOptions options;
+  options.move_inside_radii = 6.0;
+  const ClippedSurface clipped = clip_ends(surface, tree_of(shape), options);
+  expect_clean(clipped, 2);
+  EXPECT_NEAR(clipped.ends[0].plane.origin.z(), 9.5, 0.6);
+  ASSERT_EQ(clipped.warnings.size(), 1u);
+  EXPECT_NE(clipped.warnings[0].find("the inlet of vessel tube"), std::string::npos);
+  EXPECT_NE(clipped.warnings[0].find("mm farther inside, at "), std::string::npos);
+  options.move_inside_radii = 2.0;  // not as far as that
+  EXPECT_THROW(clip_ends(surface, tree_of(shape), options), EndsNotCut);
+  options.move_inside_radii = -1.0;
+  EXPECT_THROW(clip_ends(surface, tree_of(shape), options), InvalidInput);
+}
+
+TEST(ClipEnds, SayWhereAnEndCanBeCut) {
+  const auto shape = geometry::straight_tube(40.0, 1.5);
+  const geometry::TriMesh surface = half_a_pipe(shape);
   ClipOptions options;
   try {
     clip_ends(surface, tree_of(shape));

@@ -52,7 +52,7 @@ TEST(SolverKinds, ACaseIsOfTheSolverAndTheFlowThatWereAskedFor) {
 
 TEST(SolverKinds, TakesWhatTheTableSays) {
   solver::BoundaryFlowOptions shares;
-  shares.outlets = solver::Outlets::split;
+  shares.outlets = solver::OutletModel::split;
   for (const SolverKind kind : solver_kinds) {
     const SolverTraits& traits = traits_of(kind);
     EXPECT_NO_THROW(require_takes(solver_case(kind), false, false)) << traits.name;

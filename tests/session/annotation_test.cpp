@@ -3,6 +3,7 @@
 #include "case_tools.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/text.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -166,6 +167,70 @@ TEST(Annotation, WhatLostItsVesselIsKeptAndReported) {
   retargeted.measurement = measurement(MeasureKind::volume, vessel);
   retargeted.measurement.id = 1;
   EXPECT_THROW(annotated(annotations, retargeted, without), InvalidInput);
+}
+
+std::vector<std::string> shown(const VesselMark& mark) {
+  std::vector<std::string> out;
+  for (const analysis::EvaluableStretch& one : mark.evaluable)
+    out.push_back(core::trimmed_text(one.from_mm, 3) + "-" + core::trimmed_text(one.to_mm, 3) + " " +
+                  analysis::to_string(one.grade));
+  return out;
+}
+
+TEST(ReadersWord, IsPutOverWhatWasSaidBefore) {
+  using analysis::Evaluability;
+  VesselMark mark;
+  mark = with_evaluability(mark, 2.0, 10.0, Evaluability::limited);
+  mark = with_evaluability(mark, 4.0, 6.0, Evaluability::not_evaluable);
+  EXPECT_THAT(shown(mark), ElementsAre("2-4 limited", "4-6 not evaluable", "6-10 limited"));
+  EXPECT_THAT(shown(with_evaluability(mark, 4.0, 6.0, Evaluability::limited)), ElementsAre("2-10 limited"));
+  EXPECT_THAT(shown(with_evaluability(mark, 3.0, 8.0, std::nullopt)),
+              ElementsAre("2-3 limited", "8-10 limited"));
+  EXPECT_THAT(shown(with_evaluability(mark, 0.0, 99.0, std::nullopt)), IsEmpty());
+}
+
+TEST(ReadersWord, GoesWithTheVesselThatIsSplitCutOrJoined) {
+  const lumen::LumenModel whole = tube_model();
+  MarkVessel said = marked("");
+  said.mark.evaluable = {{4.0, 12.0, analysis::Evaluability::limited, {}, true}};
+  const Annotations before = annotated({}, said, whole);
+  const lumen::Edit split = lumen::BranchSplit{tube_vessel, 10.0, ""};
+  const lumen::LumenModel parts = lumen::apply(whole, split).model;
+  const Annotations after_split = following(before, split, whole, parts);
+  ASSERT_EQ(after_split.marks.size(), 2U);
+  EXPECT_THAT(shown(*find_mark(after_split, tube_vessel)), ElementsAre("4-10 limited"));
+  const std::int32_t made =
+      after_split.marks[0].vessel == tube_vessel ? after_split.marks[1].vessel : after_split.marks[0].vessel;
+  EXPECT_THAT(shown(*find_mark(after_split, made)), ElementsAre("10-12 limited"));
+
+  const lumen::Edit merge = lumen::BranchMerge{made};
+  const Annotations after_merge = following(after_split, merge, parts, lumen::apply(parts, merge).model);
+  EXPECT_THAT(shown(*find_mark(after_merge, tube_vessel)), ElementsAre("4-12 limited"));
+
+  const lumen::Edit cut = lumen::BranchCut{tube_vessel, 10.0, {}};
+  const lumen::LumenModel pieces = lumen::apply(whole, cut).model;
+  const Annotations after_cut = following(before, cut, whole, pieces);
+  ASSERT_EQ(after_cut.marks.size(), 2U);
+  const VesselMark& distal =
+      after_cut.marks[0].vessel == tube_vessel ? after_cut.marks[1] : after_cut.marks[0];
+  ASSERT_EQ(distal.evaluable.size(), 1U);  // the piece has a beginning of its own
+  EXPECT_LT(distal.evaluable[0].from_mm, 0.5);
+  EXPECT_NEAR(distal.evaluable[0].to_mm - distal.evaluable[0].from_mm, 2.0, 0.5);
+}
+
+TEST(ReadersWord, StretchesThatAreNoneAreRefused) {
+  const auto with = [](double from_mm, double to_mm) {
+    MarkVessel said = marked("");
+    said.mark.evaluable = {{1.0, 2.0, analysis::Evaluability::limited, {}, true},
+                           {from_mm, to_mm, analysis::Evaluability::limited, {}, true}};
+    return refusal({}, said);
+  };
+  EXPECT_EQ(with(2.0, 3.0), "nothing was thrown");
+  for (const auto& [from, to] : {std::pair{1.5, 3.0}, {4.0, 4.0}, {-1.0, 3.0}})
+    EXPECT_THAT(with(from, to), HasSubstr("is none, or overlaps"));
+  MarkVessel negative = marked("");
+  negative.mark.evaluable = {{-1.0, 2.0, analysis::Evaluability::limited, {}, true}};
+  EXPECT_THAT(refusal({}, negative), HasSubstr("is none"));
 }
 
 TEST(Annotation, OpsHaveNames) {

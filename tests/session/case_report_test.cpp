@@ -18,6 +18,8 @@ namespace ostia::session {
 namespace {
 
 using namespace testing;
+using ::testing::AllOf;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -28,7 +30,7 @@ TEST(CaseReport, TellsAHealthyTubesSizes) {
   const CaseReport report = report_of(lumen::model_of_tubes(
       lumen::testing::tree_of(geometry::straight_tube(60.0, 1.5, 0.5).tubes.front().axis, "RCA")));
   EXPECT_THAT(report.stenoses, IsEmpty());
-  EXPECT_EQ(report.category, analysis::CadRads::zero);
+  EXPECT_EQ(to_string(report.category), "N");  // nobody has checked it, and the left arteries are not there
   EXPECT_THAT(report.warnings, ElementsAre(HasSubstr("image was not at hand")));
   ASSERT_EQ(report.segments.size(), 3U);  // proximal, mid and distal
   double length = 0.0, volume = 0.0;
@@ -48,7 +50,7 @@ TEST(CaseReport, TellsAHealthyTubesSizes) {
 }
 
 TEST(CaseReport, FindsAStenosisOfKnownSize) {
-  const CaseReport report = report_of(narrowed_tube("RCA", 60.0, 1.5, 22.0, 0.6));
+  const CaseReport report = checked_report(narrowed_tube("RCA", 60.0, 1.5, 22.0, 0.6));
   ASSERT_EQ(report.stenoses.size(), 1U);
   const ReportStenosis& one = report.stenoses[0];
   EXPECT_EQ(one.number, 1);
@@ -58,7 +60,7 @@ TEST(CaseReport, FindsAStenosisOfKnownSize) {
   EXPECT_NEAR(one.stenosis.diameter_percent, 60.0, 3.0);
   EXPECT_NEAR(one.stenosis.area_percent, 84.0, 3.0);
   EXPECT_EQ(one.category, analysis::CadRads::three);
-  EXPECT_EQ(report.category, analysis::CadRads::three);
+  EXPECT_EQ(to_string(report.category), "3/N");  // there is no left artery
   EXPECT_EQ(one.main_vessel, "RCA");
   EXPECT_THAT(one.segment, HasSubstr("mRCA"));
   for (const ReportSegment& segment : report.segments) {
@@ -69,34 +71,98 @@ TEST(CaseReport, FindsAStenosisOfKnownSize) {
 }
 
 TEST(CaseReport, AStenosisOfASharedStretchIsReportedOnceAndAsTheLeftMains) {
-  const CaseReport report = report_of(narrowed_y(0, 7.0, 0.6));
+  const CaseReport report = checked_report(narrowed_y(0, 7.0, 0.6));
   ASSERT_EQ(report.stenoses.size(), 1U);
   EXPECT_EQ(report.stenoses[0].vessel_name, "LAD");
   EXPECT_EQ(report.stenoses[0].main_vessel, "LM");
   EXPECT_EQ(report.stenoses[0].category, analysis::CadRads::three);
-  EXPECT_EQ(report.category, analysis::CadRads::four_b);  // left main from 50 %
+  EXPECT_EQ(report.category.category, analysis::CadRads::four_b);  // left main from 50 %
 }
 
 TEST(CaseReport, ABranchsStenosisIsItsOwn) {
-  const CaseReport report = report_of(narrowed_y(2, 12.0, 0.6));
+  const CaseReport report = checked_report(narrowed_y(2, 12.0, 0.6));
   ASSERT_FALSE(report.stenoses.empty());
   EXPECT_EQ(std::count_if(report.stenoses.begin(), report.stenoses.end(),
                           [](const ReportStenosis& one) { return one.stenosis.diameter_percent > 50.0; }),
             1);
   EXPECT_EQ(report.stenoses.back().vessel_name, "LCX");
-  EXPECT_EQ(report.category, analysis::CadRads::three);
+  EXPECT_EQ(report.category.category, analysis::CadRads::three);
 }
 
 TEST(CaseReport, AThinVesselsStenosisIsListedWithoutASay) {
   const lumen::LumenModel model = narrowed_tube("OM1", 40.0, 0.7, 20.0, 0.28);
-  const CaseReport report = report_of(model);
+  const CaseReport report = checked_report(model);
   ASSERT_EQ(report.stenoses.size(), 1U);
   EXPECT_FALSE(report.stenoses[0].graded);
+  EXPECT_THAT(report.stenoses[0].not_graded, HasSubstr("thinner than 1.5 mm"));
   EXPECT_EQ(report.stenoses[0].category, analysis::CadRads::three);
-  EXPECT_EQ(report.category, analysis::CadRads::zero);
+  EXPECT_EQ(report.category.category, std::nullopt);
   ReportOptions all;
   all.least_graded_mm = 0.0;
-  EXPECT_EQ(report_of(model, {}, {}, nullptr, all).category, analysis::CadRads::three);
+  EXPECT_EQ(checked_report(model, nullptr, all).category.category, analysis::CadRads::three);
+}
+
+/// A scan of a tube of 40 mm as `tube_image`, without its edge from 15 mm on: a vein lies all about it.
+imaging::ImageVolume drowned_image() {
+  imaging::ImageVolume image = walled_image(1.5, 1.5, -90.0);
+  for (std::int64_t k = 53; k < image.geometry.size[2]; ++k)
+    for (std::int64_t j = 0; j < image.geometry.size[1]; ++j)
+      for (std::int64_t i = 0; i < image.geometry.size[0]; ++i) image(i, j, k) = 400;
+  return image;
+}
+
+TEST(CaseReport, GradesWhatTheImageShows) {
+  const imaging::ImageVolume image = walled_image(1.5, 1.5, -90.0);
+  const CaseReport report = report_of(narrowed_tube("RCA", 40.0, 1.5, 20.0, 0.6), {}, {}, &image);
+  ASSERT_EQ(report.stenoses.size(), 1U);
+  EXPECT_TRUE(report.stenoses[0].graded) << report.stenoses[0].not_graded;
+  EXPECT_EQ(report.stenoses[0].evaluable->grade, analysis::Evaluability::evaluable);
+  EXPECT_EQ(to_string(report.category), "3/N");
+  ASSERT_TRUE(report.quality);
+  EXPECT_EQ(report.quality->grade, ScanGrade::good);
+  EXPECT_THAT(report.not_judged, ElementsAre(HasSubstr("left coronary artery")));
+}
+
+TEST(CaseReport, WhatCannotBeJudgedIsNotGradedUnlessAPersonHasCheckedIt) {
+  const imaging::ImageVolume image = drowned_image();
+  const lumen::LumenModel model = narrowed_tube("RCA", 40.0, 1.5, 26.0, 0.6);
+  const CaseReport report = report_of(model, {}, {}, &image);
+  ASSERT_EQ(report.stenoses.size(), 1U);
+  EXPECT_FALSE(report.stenoses[0].graded);
+  EXPECT_EQ(report.stenoses[0].category, std::nullopt);
+  EXPECT_EQ(report.stenoses[0].evaluable->grade, analysis::Evaluability::not_evaluable);
+  EXPECT_THAT(report.stenoses[0].not_graded, HasSubstr("no clear edge"));
+  EXPECT_EQ(to_string(report.category), "N");
+  EXPECT_THAT(report.not_judged, Contains(HasSubstr("RCA from 15 to 40 mm: not evaluable")));
+  EXPECT_THAT(report.not_judged, Contains(HasSubstr("S1 in ")));
+  const CaseReport checked = checked_report(model, &image);
+  EXPECT_TRUE(checked.stenoses[0].graded);
+  EXPECT_EQ(to_string(checked.category), "3/N");
+}
+
+TEST(CaseReport, TheReadersWordHolds) {
+  const imaging::ImageVolume image = walled_image(1.5, 1.5, -90.0);
+  const lumen::LumenModel model = narrowed_tube("RCA", 40.0, 1.5, 20.0, 0.6);
+  Annotations notes;
+  notes.marks = {{model.tree.vessels[0].id, true, true, std::nullopt, ""}};
+  notes.marks[0].evaluable = {{15.0, 25.0, analysis::Evaluability::not_evaluable, {}, true}};
+  const CaseReport against = report_of(model, notes, {}, &image);
+  EXPECT_FALSE(against.stenoses[0].graded);
+  EXPECT_THAT(against.not_judged,
+              Contains(HasSubstr("RCA from 15 to 25 mm: not evaluable (says the reader)")));
+  const imaging::ImageVolume drowned = drowned_image();
+  notes.marks[0].checked = false;
+  notes.marks[0].evaluable = {{0.0, 40.0, analysis::Evaluability::evaluable, {}, true}};
+  EXPECT_TRUE(report_of(model, notes, {}, &drowned).stenoses[0].graded);
+  EXPECT_TRUE(report_of(model, notes).stenoses[0].graded);  // no image: the reader has looked at one
+}
+
+TEST(CaseReport, AnArteryThatIsMissingIsNamed) {
+  EXPECT_THAT(arteries_not_found(named_y()), ElementsAre("RCA: not found"));
+  EXPECT_THAT(arteries_not_found(narrowed_tube("RCA", 40.0, 1.5, 20.0, 1.5)),
+              ElementsAre("left coronary artery (LM, LAD, LCX): not found"));
+  EXPECT_THAT(arteries_not_found(narrowed_tube("D1", 40.0, 1.5, 20.0, 1.5)),  // a branch is not its trunk
+              ElementsAre("left coronary artery (LM, LAD, LCX): not found", "RCA: not found"));
 }
 
 TEST(CaseReport, TellsWhatNobodyChecked) {
@@ -112,9 +178,11 @@ TEST(CaseReport, TellsWhatNobodyChecked) {
 }
 
 TEST(CaseReport, WarnsOfAVesselThatIsNoCoronarysName) {
-  const CaseReport report = report_of(narrowed_tube("vessel", 40.0, 1.5, 20.0, 0.6));
+  const CaseReport report = checked_report(narrowed_tube("vessel", 40.0, 1.5, 20.0, 0.6));
   EXPECT_THAT(report.warnings, ::testing::Contains(HasSubstr("no name of a coronary artery")));
-  EXPECT_EQ(report.category, analysis::CadRads::three);  // its stenosis counts all the same
+  EXPECT_EQ(report.category.category, analysis::CadRads::three);  // its stenosis counts all the same
+  EXPECT_THAT(report.not_found, ElementsAre(AllOf(HasSubstr("left coronary artery"), HasSubstr("vessel")),
+                                            HasSubstr("RCA: not found")));
 }
 
 TEST(CaseReport, MeasuresWhatWasPlacedAndNamesWhatCannotBe) {

@@ -83,6 +83,7 @@ inline lumen::VesselRename renamed(const std::string& name) {
 /// An edit of each kind, with numbers that are hard to write.
 inline std::vector<lumen::Edit> one_of_each() {
   const geometry::Vec3 a(0.1, -1.0 / 3.0, 1e-17), b(-0.0, 123456.789012345678, 5e-324), c(1e300, -2.5, 0.3);
+  const lumen::NewWall wall{8, {1.0 / 3.0, 1, 1, 1, 1, 1, 1, 1, 0.7, 1, 1, 1, 1, 1, 1, 1.1}};
   return {lumen::CprStroke{7, {a, b, c}, lumen::ReformationMode::stretched, 1.0 / 7.0, 61.3},
           lumen::SectionContour{1, 12.1, 1.7, false, {a, b, c}},
           lumen::WallDrag{2, a, b, 2.9},
@@ -92,14 +93,15 @@ inline std::vector<lumen::Edit> one_of_each() {
           lumen::AxisDelete{6, b},
           lumen::AxisExtend{7, {a, b}},
           lumen::AxisTrim{8, 0.1 + 0.2},
-          lumen::BranchAdd{9, "Ramus \"\xC3\xA9\"\n", {a, b}, {1.1, 0.9}},
+          lumen::BranchAdd{9, "Ramus \"\xC3\xA9\"\n", {a, b}, {1.1, 0.9}, wall},
           lumen::BranchDelete{2147483647},
           lumen::BranchAttach{11, 12, c},
           lumen::BranchSplit{14, 0.7 / 3.0, "distal \xC3\xA9"},
           lumen::BranchMerge{15},
           lumen::BranchCut{16, 0.2 / 7.0, ""},
           lumen::BranchConnect{17, 18, a},
-          lumen::VesselRename{13, "D1"}};
+          lumen::VesselRename{13, "D1"},
+          lumen::VesselAdd{"Graft", {a, b}, {1.1, 0.9}, wall}};
 }
 
 /// A measurement of a kind, with numbers that are hard to write. Its id is the case's to give.
@@ -132,7 +134,13 @@ inline MeasureChange moved(const CaseFile& file, std::int32_t id, double x) {
 }
 
 inline MarkVessel marked(const std::string& note, bool checked = true, std::int32_t vessel = tube_vessel) {
-  return {{vessel, false, checked, std::array{0.1, 1.0 / 3.0, 1.0}, note}};
+  return {{vessel,
+           false,
+           checked,
+           std::array{0.1, 1.0 / 3.0, 1.0},
+           note,
+           {{1.0 / 3.0, 5.0, analysis::Evaluability::limited, {}, true},
+            {5.0, 7.5, analysis::Evaluability::not_evaluable, {}, true}}}};
 }
 
 /// All of the annotations as text, to the last bit.

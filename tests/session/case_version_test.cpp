@@ -35,8 +35,9 @@ class CaseVersion : public ::testing::Test {
       file.undo();
       digest = lumen::digest(*file.model());
     }
-    case_version_sql(
-        path, "DROP TABLE annotation; DROP TABLE measurement; DROP TABLE mark; PRAGMA user_version = 1");
+    case_version_sql(path,
+                     "DROP TABLE annotation; DROP TABLE measurement; DROP TABLE mark; DROP TABLE "
+                     "evaluability; PRAGMA user_version = 1");
     ASSERT_EQ(version_of(path), "1");
     bytes = bytes_of_file(path);
   }
@@ -98,6 +99,27 @@ TEST_F(CaseVersion, ANewerOneIsRefused) {
       EXPECT_THAT(std::string(e.what()), HasSubstr("newer than this program's"));
     }
   }
+}
+
+TEST(CaseOfVersionTwo, KeepsItsMarksAndGetsTheReadersWord) {
+  const TempFolder folder;
+  const fs::path path = folder / "a.ostia";
+  MarkVessel plain = marked("seen");
+  plain.mark.evaluable.clear();
+  {
+    CaseFile file = CaseFile::create(path, tube_model());
+    file.annotate(plain);
+  }
+  case_version_sql(path, "DROP TABLE evaluability; PRAGMA user_version = 2");
+  CaseFile file = CaseFile::open(path);
+  ASSERT_EQ(file.annotations()->marks.size(), 1U);
+  EXPECT_TRUE(same(file.annotations()->marks[0], plain.mark));
+  file.annotate(marked("seen"));
+  EXPECT_EQ(file.annotations()->marks[0].evaluable.size(), 2U);
+  ASSERT_TRUE(file.undo());
+  EXPECT_TRUE(same(file.annotations()->marks[0], plain.mark));
+  ASSERT_TRUE(file.undo());  // a step of the older program
+  EXPECT_THAT(file.annotations()->marks, IsEmpty());
 }
 
 }  // namespace

@@ -69,6 +69,15 @@ inline CaseReport report_of(const lumen::LumenModel& model, const Annotations& a
   return make_case_report(model, solved_surfaces(model), annotations, journal, image, options);
 }
 
+/// Of a case whose vessels a person has all checked.
+inline CaseReport checked_report(const lumen::LumenModel& model, const imaging::ImageVolume* image = nullptr,
+                                 const ReportOptions& options = {}) {
+  Annotations annotations;
+  for (const geometry::Vessel& vessel : model.tree.vessels)
+    annotations.marks.push_back({vessel.id, true, true, std::nullopt, ""});
+  return report_of(model, annotations, {}, image, options);
+}
+
 /// A CT in which a tube along z is bright.
 inline imaging::ImageVolume tube_image() {
   imaging::ImageVolume image;

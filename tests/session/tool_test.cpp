@@ -19,8 +19,8 @@ TEST(Tools, EachHasANameOfItsOwn) {
     EXPECT_TRUE(names.insert(traits_of(tool).name).second) << traits_of(tool).name;
   }
   EXPECT_THAT(names, ::testing::UnorderedElementsAre("browse", "drag", "draw", "brush", "axis", "add_vessel",
-                                                     "distance", "angle", "area", "diameter", "stenosis",
-                                                     "volume", "ring_hu"))
+                                                     "add_artery", "distance", "angle", "area", "diameter",
+                                                     "stenosis", "volume", "ring_hu"))
       << "recordings have these";
   EXPECT_THROW(traits_of(static_cast<Tool>(99)), InvalidInput);
 }

@@ -43,7 +43,7 @@ TEST(BoundaryFlow, SharesByDiameterAndResists) {
   BoundaryFlowOptions options;
   options.flow_ml_s = 2.0;
   options.split_exponent = 3.0;
-  options.outlets = Outlets::resistance;
+  options.outlets = OutletModel::resistance;
   options.total_resistance_mmhg_s_ml = 45.0;
   const BoundaryFlow flow = boundary_flow(mesh, options);
   const Outlet &a = flow.outlets[0], &b = flow.outlets[1];

@@ -95,7 +95,7 @@ TEST(OpenfoamCase, APulsatileInletCarriesTheFlowAtAllTimes) {
 
 TEST(OpenfoamCase, IsTheSameEveryTime) {
   OpenfoamCaseOptions options;
-  options.flow.outlets = Outlets::split;
+  options.flow.outlets = OutletModel::split;
   const fs::path a = new_case(), b = new_case();
   write_openfoam_case(tube(), options, a);
   write_openfoam_case(tube(), options, b);

@@ -56,7 +56,7 @@ TEST(OpenfoamContinue, ASteadyCaseEndsLaterAndIsElseTheSame) {
 
 TEST(OpenfoamContinue, SoDoesOneWhoseOutletsAreCoupled) {
   OpenfoamCaseOptions options;
-  options.flow.outlets = Outlets::resistance;
+  options.flow.outlets = OutletModel::resistance;
   const geometry::MixedMesh fork = vessel(geometry::y_junction(5.0, 5.0, 1.5, 1.2, 60.0), 0.9, 0);
   const fs::path folder = testing::temporary_folder("continue");
   write_openfoam_case(fork, options, folder / "a");

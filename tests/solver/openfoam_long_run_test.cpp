@@ -132,7 +132,7 @@ TEST(OpenfoamLongRun, WindkesselsSettleBehindAFork) {
   OpenfoamCaseOptions options;
   options.flow.waveform = builtin_waveform("coronary-left");
   options.flow.flow_ml_s = 0.6;
-  options.flow.outlets = Outlets::resistance;
+  options.flow.outlets = OutletModel::resistance;
   options.flow.total_resistance_mmhg_s_ml = 5.0;
   options.total_compliance_ml_mmhg = 0.02;
   options.courant = 20.0;

@@ -36,7 +36,7 @@ OpenfoamCaseOptions windkessels() {
     wave.flow_ml_s.push_back(mean_ml_s * (1.0 + swing * std::cos(2.0 * std::numbers::pi * i / samples)));
   }
   options.flow.waveform = wave;
-  options.flow.outlets = Outlets::resistance;
+  options.flow.outlets = OutletModel::resistance;
   options.flow.total_resistance_mmhg_s_ml = 2.0;
   options.total_compliance_ml_mmhg = 0.2;
   return options;
@@ -115,7 +115,7 @@ TEST(OpenfoamOutlets, WindkesselsHaveTheImpedanceOfTheirParts) {
 
 TEST(OpenfoamOutlets, TheirFlowsOverTheCycleAreTablesThatAreRepeated) {
   OpenfoamCaseOptions options = windkessels();
-  options.flow.outlets = Outlets::split;
+  options.flow.outlets = OutletModel::split;
   options.flow.total_resistance_mmhg_s_ml.reset();
   options.total_compliance_ml_mmhg.reset();
   const fs::path folder = testing::temporary_folder("tables") / "case";
@@ -197,7 +197,7 @@ TEST(OpenfoamOutlets, AComplianceWantsAPulseAndResistances) {
   refused([](auto& o) { o.total_compliance_ml_mmhg = 0.0; }, "total_compliance_ml_mmhg");
   refused(
       [](auto& o) {
-        o.flow.outlets = Outlets::split;
+        o.flow.outlets = OutletModel::split;
         o.flow.total_resistance_mmhg_s_ml.reset();
       },
       "outlets with resistance");

@@ -34,7 +34,7 @@ TEST(OpenfoamRun, OutletsTakeTheirShareOfTheFlow) {
   const geometry::MixedMesh mesh = vessel(geometry::y_junction(5.0, 5.0, 1.5, 1.2, 60.0), 0.7, 0);
   OpenfoamCaseOptions options;
   options.flow.flow_ml_s = 0.5;
-  options.flow.outlets = Outlets::split;
+  options.flow.outlets = OutletModel::split;
   options.flow.blood.rheology = Rheology::carreau;
   BoundaryFlow flow = boundary_flow(mesh, options.flow);
   const fs::path folder = run_case(mesh, options);
@@ -47,7 +47,7 @@ TEST(OpenfoamRun, OutletsResist) {
   const geometry::MixedMesh mesh = vessel(geometry::y_junction(5.0, 5.0, 1.5, 1.2, 60.0), 0.7, 0);
   OpenfoamCaseOptions options;
   options.flow.flow_ml_s = 0.5;
-  options.flow.outlets = Outlets::resistance;
+  options.flow.outlets = OutletModel::resistance;
   const fs::path folder = run_case(mesh, options);
   const BoundaryFlow flow = boundary_flow(mesh, options.flow);
   for (const Outlet& outlet : flow.outlets) {
@@ -113,7 +113,7 @@ TEST(OpenfoamRun, OutletsResistTogetherWithTheModel) {
   narrow(mesh, 60.0);
   OpenfoamCaseOptions options;
   options.flow.flow_ml_s = 0.5;
-  options.flow.outlets = Outlets::resistance;
+  options.flow.outlets = OutletModel::resistance;
   options.flow.total_resistance_mmhg_s_ml = 0.5;  // about what the throat resists
   const fs::path folder = run_case(mesh, options);
   const BoundaryFlow flow = boundary_flow(mesh, options.flow);

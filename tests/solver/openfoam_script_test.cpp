@@ -35,7 +35,7 @@ Fork fork_that_resists() {
   static const geometry::MixedMesh mesh = vessel(geometry::y_junction(5.0, 5.0, 1.5, 1.2, 60.0), 0.8, 0);
   OpenfoamCaseOptions options;
   options.flow.flow_ml_s = 0.5;
-  options.flow.outlets = Outlets::resistance;
+  options.flow.outlets = OutletModel::resistance;
   Fork fork{testing::temporary_folder("fork") / "case", {}};
   fork.flow = write_openfoam_case(mesh, options, fork.folder).flow;
   return fork;

@@ -28,7 +28,7 @@ nlohmann::json conditions(const fs::path& folder) {
 TEST(SvmultiphysicsCase, NamesFlowAndWindkesselsOfEachFace) {
   SvmultiphysicsCaseOptions options;
   options.flow.flow_ml_s = 0.5;
-  options.flow.outlets = Outlets::resistance;
+  options.flow.outlets = OutletModel::resistance;
   options.flow.total_resistance_mmhg_s_ml = 100.0;
   options.total_compliance_ml_mmhg = 0.01;
   const nlohmann::json list = conditions(made(options));
@@ -64,7 +64,7 @@ TEST(SvmultiphysicsCase, TheConditionsAreAsTheirSchemaSays) {
   };
   SvmultiphysicsCaseOptions options;
   for (const bool resistance : {false, true}) {
-    if (resistance) options.flow.outlets = Outlets::resistance;
+    if (resistance) options.flow.outlets = OutletModel::resistance;
     const Shell said = judged(made(options));
     EXPECT_TRUE(said.good) << said.output;
   }
@@ -100,7 +100,7 @@ TEST(SvmultiphysicsCase, FlowFilesHoldTheWholeCycleInward) {
 
 TEST(SvmultiphysicsCase, TheSolverFileIsXmlThatNamesFilesThatAreThere) {
   SvmultiphysicsCaseOptions options;
-  options.flow.outlets = Outlets::resistance;
+  options.flow.outlets = OutletModel::resistance;
   options.flow.blood.rheology = Rheology::carreau;
   const fs::path folder = made(options);
   const Shell parsed = shell(folder,
@@ -123,7 +123,7 @@ TEST(SvmultiphysicsCase, RefusesWhatTheSolverCannotTake) {
     EXPECT_TRUE(fs::is_empty(folder.parent_path())) << parts[0];
   };
   SvmultiphysicsCaseOptions options;
-  options.flow.outlets = Outlets::split;
+  options.flow.outlets = OutletModel::split;
   refused(svmultiphysics_case_fork(), options, {"svMultiPhysics", "resistances"});
   options = {};
   options.total_compliance_ml_mmhg = 0.1;

@@ -130,6 +130,27 @@ TEST(TreeSceneGui, ColoursFollowVesselsSelectionAndValues) {
   EXPECT_THROW(shown.scene.set_wall_values(values, {}), InvalidInput);
 }
 
+TEST(TreeSceneGui, AStretchIsColouredAndTheRestStays) {
+  const Tree tree = testing::straight_tree();
+  ShownScene shown;
+  shown.scene.set_wall(tree.wall, tree.model);
+  shown.scene.set_pose(from_front());
+  const Shot before = shown.shoot();
+  const std::int32_t vessel = tree.model.tree.vessels[0].id;
+  shown.scene.set_colored_stretches(
+      {{vessel, 10.0, 20.0, {1.0, 0.0, 1.0}}, {99, 0.0, 50.0, {0.0, 1.0, 0.0}}});
+  const Shot after = shown.shoot();
+  const auto pixel = [&](double s_mm) {
+    return shown.scene.project(lumen::vessel(tree.model, vessel).axis->point(s_mm));
+  };
+  EXPECT_GT(after.at(pixel(15.0)).difference(before.at(pixel(15.0))), 30);
+  EXPECT_GT(after.at(pixel(15.0)).b, after.at(pixel(15.0)).g + 30);
+  EXPECT_EQ(after.at(pixel(5.0)).difference(before.at(pixel(5.0))), 0);
+  EXPECT_EQ(after.at(pixel(25.0)).difference(before.at(pixel(25.0))), 0);
+  shown.scene.set_colored_stretches({});
+  EXPECT_EQ(shown.shoot().at(pixel(15.0)).difference(before.at(pixel(15.0))), 0);
+}
+
 /// The same wall with a bump: points nearer than 3 mm to a place are moved outwards.
 std::shared_ptr<const geometry::TriMesh> bumped(const geometry::TriMesh& wall, const Vec3& at) {
   auto result = std::make_shared<geometry::TriMesh>(wall);

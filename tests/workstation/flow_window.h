@@ -64,7 +64,7 @@ struct FlowWindow : TubeWindow {
   QString told(const Vec3& place) {
     QTest::mouseMove(native, at(place) + QPoint(1, 0));
     QTest::mouseMove(native, at(place));
-    settle(50);
+    let_work(50);
     return part<QLabel>("place")->text();
   }
   /// The number in what the status line says.

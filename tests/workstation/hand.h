@@ -11,6 +11,7 @@
 #include <QMouseEvent>
 #include <QThread>
 #include <QTimer>
+#include <algorithm>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -58,6 +59,14 @@ class LastDrawn final : public QObject {
     qApp->installEventFilter(this);
   }
   qint64 quiet_ms() const { return clock_.elapsed(); }
+  /// As `quiet_ms`, but time in which the window had no processor counts little. To be asked often.
+  qint64 rested_ms() {
+    constexpr qint64 most_of_a_turn_ms = 10;
+    const qint64 now = clock_.elapsed();
+    rested_ += std::min(now - asked_, most_of_a_turn_ms);
+    asked_ = now;
+    return rested_;
+  }
   bool eventFilter(QObject*, QEvent* event) override {
     switch (event->type()) {
       case QEvent::Paint:
@@ -67,6 +76,7 @@ class LastDrawn final : public QObject {
       case QEvent::Move:
       case QEvent::Expose:
         clock_.restart();
+        asked_ = rested_ = 0;
         break;
       default:
         break;
@@ -76,6 +86,7 @@ class LastDrawn final : public QObject {
 
  private:
   QElapsedTimer clock_;
+  qint64 asked_ = 0, rested_ = 0;
 };
 
 /// Lets the window work for `ms`: what it puts off for a moment is done then. Where the machine has much else
@@ -86,6 +97,14 @@ inline void let_work(int ms) {
   QElapsedTimer clock;
   clock.start();
   wait_until([&] { return clock.elapsed() >= ms && drawn.quiet_ms() >= quiet_ms; }, ms + most_more_ms);
+}
+
+/// Lets the window work until it has come to rest: nothing is drawn any more, for longer than it puts off
+/// lists and pictures (150 ms the finer picture of the tree). Flights of the camera end before.
+inline void let_rest() {
+  constexpr int rest_ms = 190, most_ms = 3000;
+  LastDrawn drawn;
+  wait_until([&] { return drawn.rested_ms() >= rest_ms; }, most_ms);
 }
 
 inline void send(QWidget& widget, QEvent::Type type, const QPoint& at, Qt::MouseButton button,

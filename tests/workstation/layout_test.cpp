@@ -137,7 +137,7 @@ TEST_P(Layout, EveryStateIsWholeAndReadable) {
   for (const std::string& state : testing::window_states()) {
     Stage stage(size());
     stage.enter(state);
-    testing::let_work(250);
+    testing::let_rest();
     expect_none(QString::fromStdString(state));
   }
 }
@@ -145,7 +145,7 @@ TEST_P(Layout, EveryStateIsWholeAndReadable) {
 TEST_P(Layout, ThePicturesKeepTheirRoomBesideTheQualityPanel) {
   Stage stage(size());
   stage.enter("truth");
-  testing::let_work(250);
+  testing::let_rest();
   for (const char* view : {"cpr1", "cpr2", "section", "slice", "tree"})
     EXPECT_GE(stage.window().findChild<QWidget*>(view)->width(), 100) << view;
 }
@@ -217,7 +217,7 @@ TEST_P(SmallScreen, EveryStateOfTheWindowFits) {
                                   "steps", "truth", "heart"}) {
     Stage stage(size());
     stage.enter(state);
-    testing::let_work(250);
+    testing::let_rest();
     expect_within(stage.window(), state);
   }
 }
@@ -227,7 +227,7 @@ TEST_P(SmallScreen, EveryDialogAndMenuFits) {
                                   "report", "tour", "complaint"}) {
     Stage stage(size());
     stage.enter(state);
-    testing::let_work(250);
+    testing::let_rest();
     for (const QWidget* window : QApplication::topLevelWidgets())
       if (window->isVisible() && window->windowType() != Qt::ToolTip) {
         EXPECT_LE(window->width(), room_.width()) << state << ": " << window->objectName().toStdString();

@@ -58,7 +58,7 @@ struct Lists : ::testing::Test {
     if (!found) throw std::runtime_error(std::string("the window has no list ") + name);
     return *found;
   }
-  static void rest(int ms = 400) { testing::let_work(ms); }
+  static void rest() { testing::let_rest(); }
   static void open(TestWindow& test, const fs::path& what) {
     test.window().open(what);
     ASSERT_TRUE(wait_until([&] { return !test.window().jobs().any(); }, 60000));
@@ -362,7 +362,7 @@ TEST_F(Lists, TheVesselsNameCanBeReadHoweverNarrowTheListIs) {
   for (const int characters : {60, 30, 24, 18, 12}) {
     shown.setMinimumWidth(0);
     shown.setFixedWidth(characters * shown.fontMetrics().averageCharWidth());
-    rest(100);
+    testing::let_work(100);
     EXPECT_GE(shown.columnWidth(0), least) << characters;
     EXPECT_EQ(shown.isColumnHidden(2), characters < 60) << characters;
   }

@@ -45,7 +45,7 @@ class NarrowWindow : public testing::MeshingWindow {
 
   /// What the screen has of the 3D view, or of all; kept where OSTIA_PICTURES says.
   QImage look(const char* name) {
-    testing::let_work(1500);  // flights take a quarter of a second, pictures by software more
+    settle();
     const QRect all = test->window().frameGeometry();
     const QImage whole =
         test->window().screen()->grabWindow(0, all.x(), all.y(), all.width(), all.height()).toImage();
@@ -219,9 +219,9 @@ TEST_F(NarrowWindow, AMinimisedWindowComesBackWithWhatWasShown) {
   scene.show_guest(nullptr);
   ASSERT_EQ(changes, 1);
   test->window().hide();  // what the docks see of a window that is minimised
-  testing::let_work(100);
+  settle();
   test->window().show();
-  testing::let_work(300);
+  settle();
   EXPECT_TRUE(dock().isVisible());
   EXPECT_EQ(changes, 1) << "the mesh has taken the view";
   auto* command = test->window().findChild<QAction*>("view.mesh");
@@ -240,7 +240,6 @@ TEST_F(NarrowWindow, AllOfItHasRoomInASmallWindow) {
   auto* pages = dialog->findChild<QTabWidget*>("pages");
   for (int i = 0; i < pages->count(); ++i) {
     QTest::mouseClick(pages->tabBar(), Qt::LeftButton, Qt::NoModifier, pages->tabBar()->tabRect(i).center());
-    testing::let_work(100);
     look(QString("small_page_%1").arg(i).toUtf8());
     EXPECT_LE(dialog->width(), 800) << i;
     EXPECT_LE(dialog->height(), 600) << i;
@@ -251,7 +250,6 @@ TEST_F(NarrowWindow, AllOfItHasRoomInASmallWindow) {
   QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
   test->window().findChild<QAction*>("view.mesh")->trigger();
   ASSERT_TRUE(wait_until([&] { return dock().isVisible(); }));
-  testing::let_work(300);
   look("small_panel");
   EXPECT_LE(test->window().width(), 800);
   EXPECT_LE(test->window().height(), 600);

@@ -61,7 +61,7 @@ struct MeshOpening : testing::TubeWindow {
   }
   /// Kept where OSTIA_PICTURES says.
   QImage look(const char* name_of_picture) {
-    settle(1200);
+    settle();
     const QRect all = window().frameGeometry();
     const QImage picture =
         window().screen()->grabWindow(0, all.x(), all.y(), all.width(), all.height()).toImage();
@@ -102,7 +102,7 @@ TEST_F(MeshOpening, AMeshMadeEarlierIsShownAndJudgedAsOneThatWasMade) {
   ASSERT_EQ(worst->count(), 20);
   QTest::mouseClick(worst->viewport(), Qt::LeftButton, Qt::NoModifier,
                     worst->visualItemRect(worst->item(0)).center());
-  settle(600);
+  settle();
   EXPECT_LT((window().scene().scene().pose().target - quality.tetrahedra.sharpest_at).norm(), 0.1);
   look_from_front(middle, 5.0);
   pick(part<QComboBox>("mesh_cut"), 2);

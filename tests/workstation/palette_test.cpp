@@ -231,7 +231,7 @@ struct PaletteWindow : testing::TubeWindow {
     hand->type(typed);
     hand->press(Qt::Key_Return);
     ASSERT_TRUE(hand->gone());
-    settle(50);
+    testing::let_work(50);
   }
 };
 

@@ -66,7 +66,7 @@ class BeatingWindow : public testing::TubeWindow {
     testing::answer_file_dialog(file);
     part<QAction>("file.motion")->trigger();
     ASSERT_TRUE(wait_until([&] { return idle(); }));
-    settle(200);
+    settle();
   }
   PhaseBar& bar() { return *part<PhaseBar>("phase_bar"); }
   PhaseSlider& slider() { return *part<PhaseSlider>("phase"); }
@@ -79,17 +79,17 @@ class BeatingWindow : public testing::TubeWindow {
     std::vector<QPoint> way;
     for (int i = 0; i <= 10; ++i) way.push_back(place_of(from + i * (to - from) / 10.0));
     testing::sweep(slider(), way);
-    settle(300);
+    settle();
   }
   void type_number(const char* field, const QString& text) {
     type(part<QDoubleSpinBox>(field), text);
     QTest::keyClick(part<QDoubleSpinBox>(field)->findChild<QLineEdit*>(), Qt::Key_Return);
-    settle(100);
+    settle();
   }
   double percent() { return window().beating().clock().percent.get(); }
   /// Of the screen; kept where OSTIA_PICTURES says.
   QImage look(const char* name) {
-    settle(1200);
+    settle();
     const QRect all = window().frameGeometry();
     QImage whole = window().screen()->grabWindow(0, all.x(), all.y(), all.width(), all.height()).toImage();
     if (const char* pictures = std::getenv("OSTIA_PICTURES"))
@@ -171,9 +171,9 @@ TEST_F(BeatingWindow, PlaysAndPausesByButtonAndKey) {
   ASSERT_TRUE(wait_until([&] { return shown.size() > 30; }, 60000));
   QTest::mouseClick(part<QToolButton>("phase_play"), Qt::LeftButton);
   EXPECT_FALSE(window().beating().clock().playing.get());
-  settle(300);  // a frame that had begun
+  testing::let_work(300);  // a frame that had begun
   const std::size_t frames = shown.size();
-  settle(300);
+  testing::let_work(300);
   EXPECT_EQ(shown.size(), frames) << "it stands";
   part<QAction>("view.play")->trigger();
   EXPECT_TRUE(window().beating().clock().playing.get());

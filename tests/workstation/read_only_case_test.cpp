@@ -118,7 +118,7 @@ TEST_F(ReadOnlyCase, LookingAroundAndClosingItSaysNothing) {
   open_it();
   window().statusBar()->clearMessage();
   test->bench().cursor_mm.set(20.0);
-  settle(1500);  // when the place would be kept
+  testing::let_work(1500);  // when the place would be kept
   part<QAction>("file.close")->trigger();
   EXPECT_EQ(window().statusBar()->currentMessage(), "");
   EXPECT_TRUE(testing::open_boxes().empty());

@@ -118,7 +118,7 @@ inline bool settled(const std::filesystem::path& log) {
         const int now = frames(log, "cpr1");
         if (now != last) quiet.restart();
         last = now;
-        return now > 0 && quiet.elapsed() > 1500;
+        return now > 0 && quiet.elapsed() > 800;
       },
       40000);
 }

@@ -50,7 +50,7 @@ struct SceneMeasuring : ::testing::Test {
     settle();
   }
   session::Workbench& bench() { return test->bench(); }
-  static void settle() { testing::let_work(300); }
+  static void settle() { testing::let_rest(); }
   std::vector<analysis::Measurement> made() { return bench().session().file().annotations()->measurements; }
   /// Where a place of the patient is in the tree's window.
   QPointF at(const Vec3& place) {

@@ -53,7 +53,7 @@ struct TreePageTest : ::testing::Test {
     ASSERT_TRUE(wait_until([&] { return page() != nullptr; }));
     ASSERT_TRUE(wait_until([&] { return page()->view().isValid() && page()->width() > 500; }));
     QApplication::setActiveWindow(&test.window());  // keys reach commands of the active window alone
-    testing::let_work(300);
+    testing::let_rest();
   }
   void click(const Vec3& point) {
     const auto at = page()->view().place_of(point);
@@ -77,7 +77,7 @@ struct TreePageTest : ::testing::Test {
   std::string facts() { return page()->findChild<QLabel*>("tree_facts")->text().toStdString(); }
   /// Kept where OSTIA_PICTURES says.
   void look(const char* name) {
-    testing::let_work(300);
+    testing::let_rest();
     const QImage picture = test.window().screen()->grabWindow(test.window().winId()).toImage();
     if (const char* pictures = std::getenv("OSTIA_PICTURES"))
       picture.save(QString("%1/%2.png").arg(pictures, name));

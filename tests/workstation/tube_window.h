@@ -59,7 +59,7 @@ struct TubeWindow : ::testing::Test {
     session::MachineState(folder / "state").remember_image(session::image_reference(image).sha256, image);
   }
   MainWindow& window() { return test->window(); }
-  static void settle(int ms = 400) { let_work(ms); }
+  static void settle() { let_rest(); }
   void open_case(const QSize& size = {1600, 1150}) {
     test = std::make_unique<TestWindow>(folder / "state");
     window().resize(size);

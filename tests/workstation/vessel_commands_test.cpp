@@ -122,7 +122,7 @@ TEST_F(VesselCommands, CutInTwoAtTheCursorAndConnectAgainElsewhere) {
     menu->close();
   });
   connect->trigger();
-  testing::let_work(300);
+  testing::let_rest();
   for (int i = 0; i < 2; ++i) test.window().findChild<QAction*>("edit.undo")->trigger();
   EXPECT_EQ(lumen::digest(*test.bench().model()), whole);
 }

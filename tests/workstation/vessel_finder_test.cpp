@@ -53,7 +53,7 @@ TEST_F(VesselFinderTest, AnOpenedAngiogramGetsItsLabelledTreeWithoutAClick) {
   const auto annotations = test.bench().session().file().annotations();
   int doubtful = 0, shown = 0;
   for (const session::VesselMark& mark : annotations->marks) doubtful += mark.note.empty() ? 0 : 1;
-  for (int i = 0; i < list->topLevelItemCount(); ++i) shown += list->topLevelItem(i)->text(4) == "?" ? 1 : 0;
+  for (int i = 0; i < list->topLevelItemCount(); ++i) shown += list->topLevelItem(i)->text(5) == "?" ? 1 : 0;
   EXPECT_EQ(shown, doubtful);
   // The wall can be edited like any other.
   const std::int32_t vessel = test.bench().vessel.get();

@@ -6,6 +6,7 @@
 #include "qa/dock.h"
 #include "shell/panel.h"
 #include "tube_case.h"
+#include "vessels/evaluability.h"
 
 #include "ostia/core/files.h"
 #include "ostia/imaging/dicom_writer.h"
@@ -35,7 +36,7 @@ namespace {
 
 constexpr const char* font_folder = "/usr/share/fonts/truetype/dejavu";  // package fonts-dejavu-core
 constexpr double window_states_narrowing = 0.5;
-constexpr int settle_ms = 20000, look_ms = 200, looks_alike = 4, quiet_ms = 400;
+constexpr int settle_ms = 20000, looks_alike = 2, quiet_ms = 400;
 constexpr int filled_ms = 150;  // the lists of an opened case
 
 geometry::ContourSection true_section(const std::string& name, double from_mm, double to_mm, double larger) {
@@ -182,9 +183,10 @@ QImage Stage::settled() {
   QScreen* screen = QGuiApplication::primaryScreen();
   QImage last;
   int alike = 0;
+  wait_until([&] { return window_->evaluability().idle(); }, settle_ms);
   const bool quiet = wait_until(
       [&] {
-        let_work(look_ms);
+        let_rest();
         const QImage now = screen->grabWindow(0, 0, 0, size_.width(), size_.height())
                                .toImage()
                                .convertToFormat(QImage::Format_RGB32);

@@ -194,7 +194,7 @@ TEST_F(WindowTest, ChoosingAToolMakesNoImageAnew) {
   know_the_image();
   TestWindow test(state);
   test.open(case_file);
-  const auto quiet = [&] { testing::let_work(400); };
+  const auto quiet = [] { testing::let_rest(); };
   quiet();
   view::PictureView& cpr = test.picture("cpr1").view();
   const QSize size = test.picture("cpr1").size();

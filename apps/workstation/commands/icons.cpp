@@ -97,6 +97,14 @@ void add_vessel(QPainter& p, const QColor& line, const QColor& accent) {
   p.drawLine(QPointF(18, 4), QPointF(18, 10));
   p.drawLine(QPointF(15, 7), QPointF(21, 7));
 }
+void add_artery(QPainter& p, const QColor& line, const QColor& accent) {
+  pen(p, line);
+  p.drawArc(QRectF(-6, 2, 16, 20), -70 * 16, 140 * 16);
+  pen(p, accent);
+  p.drawPath(curve({10, 12}, {14, 12}, {15, 16}, {19, 21}));
+  p.drawLine(QPointF(18, 4), QPointF(18, 10));
+  p.drawLine(QPointF(15, 7), QPointF(21, 7));
+}
 void distance(QPainter& p, const QColor& line, const QColor& accent) {
   pen(p, line);
   p.drawLine(QPointF(6, 18), QPointF(18, 6));
@@ -163,11 +171,22 @@ void whole_window(QPainter& p, const QColor& line, const QColor&) {
 
 const QMap<QString, Draw>& drawings() {
   static const QMap<QString, Draw> all{
-      {"edit.undo", undo},           {"edit.redo", redo},         {"tool.browse", browse},
-      {"tool.drag", pull},           {"tool.draw", pencil},       {"tool.brush", brush},
-      {"tool.axis", centerline},     {"tool.distance", distance}, {"tool.angle", angle},
-      {"tool.area", area},           {"tool.diameter", diameter}, {"tool.stenosis", stenosis},
-      {"tool.volume", volume},       {"tool.ring_hu", ring},      {"tool.add_vessel", add_vessel},
+      {"edit.undo", undo},
+      {"edit.redo", redo},
+      {"tool.browse", browse},
+      {"tool.drag", pull},
+      {"tool.draw", pencil},
+      {"tool.brush", brush},
+      {"tool.axis", centerline},
+      {"tool.distance", distance},
+      {"tool.angle", angle},
+      {"tool.area", area},
+      {"tool.diameter", diameter},
+      {"tool.stenosis", stenosis},
+      {"tool.volume", volume},
+      {"tool.ring_hu", ring},
+      {"tool.add_vessel", add_vessel},
+      {"tool.add_artery", add_artery},
       {"panel.alone", whole_window},
   };
   return all;

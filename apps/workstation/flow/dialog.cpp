@@ -23,7 +23,7 @@ namespace ostia::workstation {
 namespace {
 
 using pipeline::SolverKind;
-using solver::Outlets;
+using solver::OutletModel;
 
 constexpr double most_flow_ml_s = 50.0, least_flow_ml_s = 1e-3;
 constexpr double least_viscosity = 0.1, most_viscosity = 100.0;
@@ -114,7 +114,7 @@ QString FlowDialog::flow_trouble() const {
 }
 
 QString FlowDialog::outlets_trouble() const {
-  if (traits_of(solver()).shares || choice().outlets != Outlets::split) return {};
+  if (traits_of(solver()).shares || choice().outlets != OutletModel::split) return {};
   return tr("%1 has no outlets with a given share. Choose pressure 0 or resistances, or OpenFOAM.")
       .arg(title_of(solver()));
 }
@@ -165,9 +165,9 @@ void FlowDialog::show_ends() {
     new QTreeWidgetItem(ends_, {QString::fromStdString(inlet.name), width(diameter), amount(flow)});
   }
   for (const solver::Outlet& outlet : mesh_.ends.outlets)
-    new QTreeWidgetItem(ends_,
-                        {QString::fromStdString(outlet.name), width(outlet.diameter_mm),
-                         now.outlets == Outlets::split ? amount(outlet.share * through) : tr("computed")});
+    new QTreeWidgetItem(
+        ends_, {QString::fromStdString(outlet.name), width(outlet.diameter_mm),
+                now.outlets == OutletModel::split ? amount(outlet.share * through) : tr("computed")});
   for (int column = 0; column < ends_->columnCount(); ++column) ends_->resizeColumnToContents(column);
 }
 
@@ -202,7 +202,7 @@ FlowChoice FlowDialog::choice() const {
   made.solver = solver();
   if (flow_->currentIndex() == 1) made.flow_ml_s = flow_ml_s_->value();
   made.waveform = waveform_->currentData().toString().toStdString();
-  made.outlets = static_cast<Outlets>(outlets_->currentData().toInt());
+  made.outlets = static_cast<OutletModel>(outlets_->currentData().toInt());
   made.blood.rheology =
       rheology_->currentIndex() == 1 ? solver::Rheology::carreau : solver::Rheology::newtonian;
   made.blood.viscosity_mpa_s = viscosity_->value();

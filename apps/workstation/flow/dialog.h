@@ -34,7 +34,7 @@ struct FlowChoice {
   pipeline::SolverKind solver = pipeline::SolverKind::openfoam;
   std::optional<double> flow_ml_s;  ///< through each inlet; nothing: by its diameter
   std::string waveform;             ///< as solver::builtin_waveform knows it; empty: steady
-  solver::Outlets outlets = solver::Outlets::split;
+  solver::OutletModel outlets = solver::OutletModel::split;
   solver::Blood blood;
   bool run = true;
 };

@@ -136,9 +136,10 @@ void FlowDialog::add_flow(QFormLayout* form, const FlowChoice& last) {
 
 void FlowDialog::add_outlets(QFormLayout* form, const FlowChoice& last) {
   outlets_ = list("flow_outlets", tr("Outlets"));
-  outlets_->addItem(tr("a share of the flow each, by diameter"), static_cast<int>(solver::Outlets::split));
-  outlets_->addItem(tr("pressure 0 at each"), static_cast<int>(solver::Outlets::zero_pressure));
-  outlets_->addItem(tr("resistances, by diameter"), static_cast<int>(solver::Outlets::resistance));
+  outlets_->addItem(tr("a share of the flow each, by diameter"),
+                    static_cast<int>(solver::OutletModel::split));
+  outlets_->addItem(tr("pressure 0 at each"), static_cast<int>(solver::OutletModel::zero_pressure));
+  outlets_->addItem(tr("resistances, by diameter"), static_cast<int>(solver::OutletModel::resistance));
   outlets_->setCurrentIndex(std::max(0, outlets_->findData(static_cast<int>(last.outlets))));
   outlets_->setToolTip(
       tr("Shares and resistances go as the diameter to 2.27 (van der Giessen 2011); together the "

@@ -105,6 +105,16 @@ view::Words words_of_views() {
   words.fibrofatty = word(QT_TRANSLATE_NOOP("views", "fibrofatty"));
   words.fibrous = word(QT_TRANSLATE_NOOP("views", "fibrous"));
   words.calcified = word(QT_TRANSLATE_NOOP("views", "calcified"));
+  words.evaluable = word(QT_TRANSLATE_NOOP("views", "evaluable"));
+  words.limited = word(QT_TRANSLATE_NOOP("views", "limited"));
+  words.not_evaluable = word(QT_TRANSLATE_NOOP("views", "not evaluable"));
+  words.by_reader = word(QT_TRANSLATE_NOOP("views", "reader"));
+  words.reasons = {word(QT_TRANSLATE_NOOP("views", "the image ends")),
+                   word(QT_TRANSLATE_NOOP("views", "voxels too coarse for its calibre")),
+                   word(QT_TRANSLATE_NOOP("views", "hardly brighter than the noise")),
+                   word(QT_TRANSLATE_NOOP("views", "no clear edge")),
+                   word(QT_TRANSLATE_NOOP("views", "calcium hides the lumen")),
+                   word(QT_TRANSLATE_NOOP("views", "the edge is blurred"))};
   words.image = word(QT_TRANSLATE_NOOP("views", "image"));
   words.tree = word(QT_TRANSLATE_NOOP("views", "tree"));
   words.not_measurable = word(QT_TRANSLATE_NOOP("views", "not measurable"));

@@ -16,7 +16,9 @@
 #include "shell/theme.h"
 #include "shell/unfinished_work.h"
 #include "trees/opening.h"
+#include "vessels/evaluability.h"
 #include "vessels/finder.h"
+#include "vessels/list.h"
 #include "vessels/outer_walls.h"
 #include "views/frame_log.h"
 #include "views/heart_behind.h"
@@ -105,6 +107,16 @@ void MainWindow::build_status_bar() {
           [bar = statusBar()](const QString& text) { bar->setToolTip(text); });  // a long one is cut off
 }
 
+void MainWindow::build_qa() {
+  const Guard loud = [this](const std::function<void()>& act) { desk_.messages.guarded(act, true); };
+  qa_ = std::make_shared<QaDock>(desk_.bench, panels_->pictures(), panels_->scene(), desk_.jobs, loud, this);
+  connect(qa_.get(), &QaDock::said, this, [this](const QString& text) { desk_.messages.say(text); });
+  connect(qa_.get(), &QaDock::refused, this,
+          [this](const QString& why) { desk_.messages.complain(why, tr("The truth cannot be opened")); });
+  addDockWidget(Qt::RightDockWidgetArea, qa_.get());
+  qa_->hide();
+}
+
 void MainWindow::build_parts() {
   opening_ = std::make_unique<Opening>(desk_);
   reporting_ = std::make_unique<Reporting>(desk_);
@@ -117,6 +129,9 @@ void MainWindow::build_parts() {
   flow_cases_ = std::make_unique<FlowCases>(desk_, *flow_results_);
   beating_ = new BeatingCase(desk_, *this);
   outer_walls_ = std::make_unique<OuterWalls>(desk_, panels_->pictures(), &panels_->profile());
+  evaluability_ =
+      std::make_unique<Evaluability>(desk_, panels_->pictures(), panels_->profile(), panels_->scene());
+  panels_->vessels().show_evaluability(evaluability_->board());
   build_qa();
   addDockWidget(Qt::RightDockWidgetArea, &meshing_->dock());
   meshing_->dock().hide();

@@ -24,6 +24,7 @@ class FlowResults;
 class MeshingExport;
 class Opening;
 class OuterWalls;
+class Evaluability;
 class QaDock;
 class Reporting;
 class TreeOpening;
@@ -58,6 +59,7 @@ class MainWindow final : public QMainWindow {
   TreeOpening& trees() { return *trees_; }
   QaDock& qa() { return *qa_; }
   OuterWalls& outer_walls() { return *outer_walls_; }
+  Evaluability& evaluability() { return *evaluability_; }
 
  protected:
   void closeEvent(QCloseEvent* event) override;
@@ -84,8 +86,10 @@ class MainWindow final : public QMainWindow {
   PanelLayout* panels_ = nullptr;
   std::unique_ptr<MeshingExport> meshing_;
   bool must_end_ = false;
-  std::unique_ptr<OuterWalls> outer_walls_;  // goes before the views that it draws on
-  std::shared_ptr<QaDock> qa_;               // so does this
+  // These go before the views that they draw on.
+  std::unique_ptr<OuterWalls> outer_walls_;
+  std::unique_ptr<Evaluability> evaluability_;
+  std::shared_ptr<QaDock> qa_;  // so does this
   std::unique_ptr<FlowResults> flow_results_;
   std::unique_ptr<FlowCases> flow_cases_;
   std::unique_ptr<TreeOpening> trees_;

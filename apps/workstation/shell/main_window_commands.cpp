@@ -27,16 +27,6 @@
 
 namespace ostia::workstation {
 
-void MainWindow::build_qa() {
-  const Guard loud = [this](const std::function<void()>& act) { desk_.messages.guarded(act, true); };
-  qa_ = std::make_shared<QaDock>(desk_.bench, panels_->pictures(), panels_->scene(), desk_.jobs, loud, this);
-  connect(qa_.get(), &QaDock::said, this, [this](const QString& text) { desk_.messages.say(text); });
-  connect(qa_.get(), &QaDock::refused, this,
-          [this](const QString& why) { desk_.messages.complain(why, tr("The truth cannot be opened")); });
-  addDockWidget(Qt::RightDockWidgetArea, qa_.get());
-  qa_->hide();
-}
-
 void MainWindow::build_commands() {
   commands_ = new CommandTable(desk_);
   trees_ = std::make_unique<TreeOpening>(desk_, *this, *commands_);
@@ -47,7 +37,7 @@ void MainWindow::build_commands() {
   add_keyboard_commands(*commands_, *keyboard);
   add_opening_commands(*commands_, desk_, *opening_);
   add_view_commands(*commands_, desk_, panels_->pictures(), panels_->scene(), tools);
-  add_vessel_commands(*commands_, desk_, *finder_, *outer_walls_, tools);
+  add_vessel_commands(*commands_, desk_, *finder_, *outer_walls_, *evaluability_, tools);
   add_measuring_commands(*commands_, desk_, *reporting_, tools);
   add_meshing_commands(*commands_, desk_, *meshing_);
   add_flow_commands(*commands_, desk_, *flow_cases_, *flow_results_);

@@ -28,13 +28,15 @@ class MenuBuilder {
   void edit() { fill(bar_.addMenu(tr("&Edit")), {"edit.undo", "edit.redo", line, "edit.preferences"}); }
   void vessel() {
     fill(bar_.addMenu(tr("Ve&ssel")),
-         {"vessel.find", "vessel.split", "vessel.merge", "vessel.cut", "vessel.connect"});
+         {"vessel.find", "vessel.split", "vessel.merge", "vessel.cut", "vessel.connect", line,
+          "vessel.evaluable", "vessel.limited", "vessel.not_evaluable", "vessel.judged_by_program",
+          "view.evaluability"});
   }
   void tools() {
     QMenu* menu = bar_.addMenu(tr("&Tools"));
-    fill(menu, {"tool.browse", "tool.drag", "tool.draw", "tool.brush", "tool.axis", "tool.add_vessel", line,
-                "tool.distance", "tool.angle", "tool.area", "tool.diameter", "tool.stenosis", "tool.volume",
-                "tool.ring_hu", line, "view.play", "view.own_phase"});
+    fill(menu, {"tool.browse", "tool.drag", "tool.draw", "tool.brush", "tool.axis", "tool.add_vessel",
+                "tool.add_artery", line, "tool.distance", "tool.angle", "tool.area", "tool.diameter",
+                "tool.stenosis", "tool.volume", "tool.ring_hu", line, "view.play", "view.own_phase"});
     fill(menu->addMenu(tr("Vessel t&ree")),
          {"tree.select", "tree.straight", "tree.along", "tree.angle", "tree.region", line, "tree.grid",
           "tree.subtree", line, "tree.fit", "tree.copy", "tree.export", "tree.clear", "tree.close"});

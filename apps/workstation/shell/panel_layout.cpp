@@ -168,7 +168,7 @@ Panel* PanelLayout::tree_panel() {
 QWidget* PanelLayout::side_column() {
   QSplitter* column = splitter(Qt::Vertical, "side");
   const auto color_of = [this](std::int32_t vessel) { return scene_->color_of(vessel); };
-  auto* list = new VesselList(desk_.bench, color_of, guard_);
+  auto* list = vessels_ = new VesselList(desk_.bench, color_of, guard_);
   connect(scene_, &SceneWidget::styles_changed, list, &VesselList::refresh);
   column->addWidget(panel(tr("Vessels"), "vessels", list));
   auto* tabs = new QTabWidget;

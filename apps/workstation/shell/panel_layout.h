@@ -17,6 +17,7 @@ struct Desk;
 class Hanging;
 class Panel;
 class SceneWidget;
+class VesselList;
 
 class PanelLayout final : public QObject {
   Q_OBJECT
@@ -27,6 +28,7 @@ class PanelLayout final : public QObject {
   QSplitter& curved() { return *curved_; }
   SceneWidget& scene() { return *scene_; }
   ProfileWidget& profile() { return *profile_; }
+  VesselList& vessels() { return *vessels_; }
   const std::vector<PictureWidget*>& pictures() const { return pictures_; }
   /// Something in the title of the tree: a combo box, a button.
   void add_beside_tree(QWidget* control);
@@ -55,6 +57,7 @@ class PanelLayout final : public QObject {
   Guard guard_;
   SceneWidget* scene_ = nullptr;
   ProfileWidget* profile_ = nullptr;
+  VesselList* vessels_ = nullptr;
   std::vector<PictureWidget*> pictures_;
   std::vector<QSplitter*> splitters_;
   std::map<const QSplitter*, std::string> parts_;  // their panels, in a wide window

@@ -31,6 +31,7 @@ QString step_name(const std::string& op) {
       {"branch.cut", QT_TRANSLATE_NOOP("steps", "Cut a vessel in two")},
       {"branch.connect", QT_TRANSLATE_NOOP("steps", "Connect a vessel")},
       {"vessel.rename", QT_TRANSLATE_NOOP("steps", "Rename a vessel")},
+      {"vessel.add", QT_TRANSLATE_NOOP("steps", "Add an artery")},
       {"vessel.mark", QT_TRANSLATE_NOOP("steps", "Mark a vessel")},
       {"measure.add", QT_TRANSLATE_NOOP("steps", "Measure")},
       {"measure.change", QT_TRANSLATE_NOOP("steps", "Change a measurement")},

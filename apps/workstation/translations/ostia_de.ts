@@ -2,6 +2,25 @@
 <!DOCTYPE TS>
 <TS version="2.1" language="de_DE" sourcelanguage="en">
 <context>
+    <name>ostia::workstation::Evaluability</name>
+    <message>
+        <source>No case is open.</source>
+        <translation>Es ist kein Fall offen.</translation>
+    </message>
+    <message>
+        <source>No vessel is selected.</source>
+        <translation>Es ist kein Gefäß gewählt.</translation>
+    </message>
+    <message>
+        <source>as the program finds it</source>
+        <translation>wie das Programm es findet</translation>
+    </message>
+    <message>
+        <source>%1 from %2 to %3 mm: %4</source>
+        <translation>%1 von %2 bis %3 mm: %4</translation>
+    </message>
+</context>
+<context>
     <name>ConnectMenu</name>
     <message>
         <source>Which vessel shall begin here?</source>
@@ -765,6 +784,42 @@
 </context>
 <context>
     <name>ostia::workstation::Command</name>
+    <message>
+        <source>Add artery</source>
+        <translation>Arterie hinzufügen</translation>
+    </message>
+    <message>
+        <source>Click an artery's ostium, then its distal end: it begins a tree of its own.</source>
+        <translation>Auf das Ostium einer Arterie klicken, dann auf ihr distales Ende: sie beginnt einen eigenen Baum.</translation>
+    </message>
+    <message>
+        <source>Judge: &amp;evaluable</source>
+        <translation>Urteil: &amp;beurteilbar</translation>
+    </message>
+    <message>
+        <source>Judge: &amp;limited</source>
+        <translation>Urteil: &amp;eingeschränkt</translation>
+    </message>
+    <message>
+        <source>Judge: &amp;not evaluable</source>
+        <translation>Urteil: &amp;nicht beurteilbar</translation>
+    </message>
+    <message>
+        <source>Judge: as the &amp;program finds it</source>
+        <translation>Urteil: wie das &amp;Programm es findet</translation>
+    </message>
+    <message>
+        <source>The stretch of the chosen measurement along the vessel or, without one, the stretch at the cursor.</source>
+        <translation>Die Strecke der gewählten Messung längs des Gefäßes oder, ohne eine solche, die Strecke am Cursor.</translation>
+    </message>
+    <message>
+        <source>Evaluability</source>
+        <translation>Beurteilbarkeit</translation>
+    </message>
+    <message>
+        <source>Marks beside CPRs and in the profile where the image shows a vessel in part, or not at all.</source>
+        <translation>Zeigt neben den CPRs und im Profil, wo das Bild ein Gefäß nur zum Teil oder gar nicht zeigt.</translation>
+    </message>
     <message>
         <source>Next panel</source>
         <translation>Nächstes Feld</translation>
@@ -4056,6 +4111,10 @@ Eine Reparatur ändert, was gezeigt wird, nie die Datei.</translation>
 <context>
     <name>ostia::workstation::VesselFinder</name>
     <message>
+        <source>Another artery</source>
+        <translation>Weitere Arterie</translation>
+    </message>
+    <message>
         <source>A vessel is found in the image: open the image of this case first.</source>
         <translation>Ein Gefäß wird im Bild gesucht: öffnen Sie zuerst das Bild dieses Falls.</translation>
     </message>
@@ -4099,12 +4158,36 @@ Eine Reparatur ändert, was gezeigt wird, nie die Datei.</translation>
         <translation>%1 wurde verlängert: Der Weg kam am Ende des Gefäßes an.</translation>
     </message>
     <message>
-        <source>Click the ostium of the first vessel, then its distal end.</source>
-        <translation>Klicken Sie auf das Ostium des ersten Gefäßes, dann auf sein distales Ende.</translation>
+        <source>Click the ostium of the artery, then its distal end.</source>
+        <translation>Klicken Sie auf das Ostium der Arterie, dann auf ihr distales Ende.</translation>
     </message>
 </context>
 <context>
     <name>ostia::workstation::VesselList</name>
+    <message>
+        <source>Image</source>
+        <translation>Bild</translation>
+    </message>
+    <message>
+        <source>How far the image shows the vessel: a dot where nothing keeps it from being judged, else where it can be judged in part, or not at all</source>
+        <translation>Wie weit das Bild das Gefäß zeigt: ein Punkt, wo der Beurteilung nichts entgegensteht, sonst wo es eingeschränkt oder gar nicht beurteilbar ist</translation>
+    </message>
+    <message>
+        <source>in part</source>
+        <translation>zum Teil</translation>
+    </message>
+    <message>
+        <source>%1 % not</source>
+        <translation>%1 % nicht</translation>
+    </message>
+    <message>
+        <source>%1 to %2 mm: %3</source>
+        <translation>%1 bis %2 mm: %3</translation>
+    </message>
+    <message>
+        <source>All of it can be judged</source>
+        <translation>Alles ist beurteilbar</translation>
+    </message>
     <message>
         <source>Vessels</source>
         <translation>Gefäße</translation>
@@ -4442,6 +4525,10 @@ Eine Reparatur ändert, was gezeigt wird, nie die Datei.</translation>
 <context>
     <name>steps</name>
     <message>
+        <source>Add an artery</source>
+        <translation>Arterie hinzufügen</translation>
+    </message>
+    <message>
         <source>Start</source>
         <translation>Beginn</translation>
     </message>
@@ -4532,6 +4619,46 @@ Eine Reparatur ändert, was gezeigt wird, nie die Datei.</translation>
 </context>
 <context>
     <name>views</name>
+    <message>
+        <source>evaluable</source>
+        <translation>beurteilbar</translation>
+    </message>
+    <message>
+        <source>limited</source>
+        <translation>eingeschränkt</translation>
+    </message>
+    <message>
+        <source>not evaluable</source>
+        <translation>nicht beurteilbar</translation>
+    </message>
+    <message>
+        <source>reader</source>
+        <translation>Befunder</translation>
+    </message>
+    <message>
+        <source>the image ends</source>
+        <translation>das Bild endet</translation>
+    </message>
+    <message>
+        <source>voxels too coarse for its calibre</source>
+        <translation>Voxel zu grob für das Kaliber</translation>
+    </message>
+    <message>
+        <source>hardly brighter than the noise</source>
+        <translation>kaum heller als das Rauschen</translation>
+    </message>
+    <message>
+        <source>no clear edge</source>
+        <translation>keine klare Kante</translation>
+    </message>
+    <message>
+        <source>calcium hides the lumen</source>
+        <translation>Kalk verdeckt das Lumen</translation>
+    </message>
+    <message>
+        <source>the edge is blurred</source>
+        <translation>die Kante ist unscharf</translation>
+    </message>
     <message>
         <source>straightened</source>
         <translation>begradigt</translation>

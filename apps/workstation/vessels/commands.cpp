@@ -5,6 +5,7 @@
 #include "shell/bind.h"
 #include "shell/desk.h"
 #include "vessels/connect_menu.h"
+#include "vessels/evaluability.h"
 #include "vessels/finder.h"
 #include "vessels/outer_walls.h"
 #include "vessels/tips.h"
@@ -105,6 +106,13 @@ void add_editing_tools(CommandTable& table, Desk& desk, QActionGroup& tools) {
           .keys = {"V", "A"},
       },
       Tool::add_vessel, desk, tools));
+  table.add(tool_command(
+      {
+          .text = Command::tr("Add artery"),
+          .tip = Command::tr("Click an artery's ostium, then its distal end: it begins a tree of its own."),
+          .keys = {"Shift+V", "Shift+A"},
+      },
+      Tool::add_artery, desk, tools));
   table.add({.id = "tool.smaller",
              .text = Command::tr("Smaller ball, shorter reach"),
              .tip = Command::tr("Makes the brush's ball smaller, or the reach of a pull shorter."),
@@ -134,10 +142,34 @@ void add_wall_commands(CommandTable& table, OuterWalls& walls) {
   keep_with(&table, board.changed.observe([&table] { table.refresh(); }));
 }
 
+void add_evaluability_commands(CommandTable& table, Evaluability& judging) {
+  using Grade = analysis::Evaluability;
+  const auto add = [&](const char* id, const QString& text, const char* keys, std::optional<Grade> grade) {
+    table.add(unless({.id = id,
+                      .text = text,
+                      .tip = Command::tr("The stretch of the chosen measurement along the vessel or, without "
+                                         "one, the stretch at the cursor."),
+                      .keys = {keys},
+                      .run = [&judging, grade] { judging.judge(grade); }},
+                     [&judging] { return judging.why_not(); }));
+  };
+  add("vessel.evaluable", Command::tr("Judge: &evaluable"), "Ctrl+1", Grade::evaluable);
+  add("vessel.limited", Command::tr("Judge: &limited"), "Ctrl+2", Grade::limited);
+  add("vessel.not_evaluable", Command::tr("Judge: &not evaluable"), "Ctrl+3", Grade::not_evaluable);
+  add("vessel.judged_by_program", Command::tr("Judge: as the &program finds it"), "Ctrl+4", std::nullopt);
+  session::EvaluabilityBoard& board = judging.board();
+  table.add(
+      {.id = "view.evaluability",
+       .text = Command::tr("Evaluability"),
+       .tip = Command::tr("Marks beside CPRs and in the profile where the image shows a vessel in part, "
+                          "or not at all."),
+       .bind = [&board](QAction& action) { bind_checked(&action, board.shown); }});
+}
+
 }  // namespace
 
 void add_vessel_commands(CommandTable& table, Desk& desk, VesselFinder& finder, OuterWalls& walls,
-                         QActionGroup& tools) {
+                         Evaluability& evaluability, QActionGroup& tools) {
   Workbench& bench = desk.bench;
   table.add(unless({.id = "vessel.find",
                     .text = Command::tr("&Find the coronary arteries"),
@@ -177,6 +209,7 @@ void add_vessel_commands(CommandTable& table, Desk& desk, VesselFinder& finder, 
                    [&bench] { return no_other_vessel(bench); }));
   add_editing_tools(table, desk, tools);
   add_wall_commands(table, walls);
+  add_evaluability_commands(table, evaluability);
 }
 
 }  // namespace ostia::workstation

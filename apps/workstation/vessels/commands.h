@@ -7,10 +7,11 @@ namespace ostia::workstation {
 
 class CommandTable;
 struct Desk;
+class Evaluability;
 class OuterWalls;
 class VesselFinder;
 
 void add_vessel_commands(CommandTable& table, Desk& desk, VesselFinder& finder, OuterWalls& walls,
-                         QActionGroup& tools);
+                         Evaluability& evaluability, QActionGroup& tools);
 
 }  // namespace ostia::workstation

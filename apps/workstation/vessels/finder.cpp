@@ -24,6 +24,21 @@ void require_contrast(const segmentation::MinimalPath& way) {
                         " HU); click into the vessel's lumen at both ends");
 }
 
+constexpr double ostium_mm = 6.0;  // of a way from an ostium that may lie in the aorta
+
+segmentation::MinimalPath way_between(const imaging::ImageVolume& image, const geometry::Vec3& from,
+                                      const geometry::Vec3& end, const core::TaskContext& task) {
+  segmentation::MinimalPath way = segmentation::path_between(image, from, end, {}, task);
+  require_contrast(way);
+  return way;
+}
+
+/// What was found for a new vessel.
+struct NewVessel {
+  lumen::Edit edit;
+  std::vector<std::string> warnings;
+};
+
 }  // namespace
 
 VesselFinder::VesselFinder(Desk& desk, Opening& opening)
@@ -32,8 +47,10 @@ VesselFinder::VesselFinder(Desk& desk, Opening& opening)
   own_.push_back(desk.bench.image_changed.observe([this] { drop_begun(); }));
   own_.push_back(desk.bench.tool.observe([this](const session::Tool& tool) {
     desk_.bench.first_end.set({});
-    if (tool == session::Tool::add_vessel && !desk_.bench.has_case() && desk_.bench.image().volume)
-      desk_.messages.say(tr("Click the ostium of the first vessel, then its distal end."));
+    const bool artery =
+        tool == session::Tool::add_artery || (tool == session::Tool::add_vessel && !desk_.bench.has_case());
+    if (artery && desk_.bench.image().volume)
+      desk_.messages.say(tr("Click the ostium of the artery, then its distal end."));
   }));
 }
 
@@ -81,39 +98,35 @@ void VesselFinder::find_tree() {
 void VesselFinder::find_vessel(const geometry::Vec3& end) {
   if (!image_is_there()) return;
   const session::OpenImage image = desk_.bench.image();
-  if (!desk_.bench.has_case()) {
-    first_vessel(image, end);
-    return;
-  }
-  desk_.jobs.run(
-      "path", tr("Way back to the tree"),
-      [volume = image.volume, model = desk_.bench.session().file().model(),
-       end](const core::TaskContext& task) {
-        return std::any(segmentation::path_to_tree(*volume, end, model->tree, {}, task));
-      },
-      [this](const std::any& found) {
-        desk_.messages.guarded([&] { join_way(std::any_cast<const segmentation::MinimalPath&>(found)); },
-                               true);
-      },
-      [this](const QString& message) { desk_.messages.complain(message, tr("No vessel found")); });
+  const bool begins = !desk_.bench.has_case();
+  if (!begins && desk_.bench.tool.get() != session::Tool::add_artery) return branch(image, end);
+  if (begins) desk_.jobs.cancel("tree");  // a person begins the tree
+  const auto ends = two_ends(end);
+  if (!ends) return;
+  if (begins)
+    first_vessel(image, ends->first, ends->second);
+  else
+    another_artery(image, ends->first, ends->second);
 }
 
-void VesselFinder::first_vessel(const session::OpenImage& image, const geometry::Vec3& end) {
-  desk_.jobs.cancel("tree");  // a person begins the tree
-  session::Workbench& bench = desk_.bench;
-  if (!bench.first_end.get()) {
-    bench.first_end.set(end);
+std::optional<std::pair<geometry::Vec3, geometry::Vec3>> VesselFinder::two_ends(const geometry::Vec3& end) {
+  auto& first = desk_.bench.first_end;
+  if (!first.get()) {
+    first.set(end);
     desk_.messages.say(tr("Now click the distal end of this vessel."));
-    return;
+    return std::nullopt;
   }
-  const geometry::Vec3 from = *bench.first_end.get();
-  bench.first_end.set({});
+  const geometry::Vec3 from = *first.get();
+  first.set({});
+  return std::pair{from, end};
+}
+
+void VesselFinder::first_vessel(const session::OpenImage& image, const geometry::Vec3& from,
+                                const geometry::Vec3& end) {
   desk_.jobs.run(
       "path", tr("First vessel"),
       [volume = image.volume, from, end](const core::TaskContext& task) {
-        const segmentation::MinimalPath way =
-            segmentation::path_between(*volume, from, end, {}, task.sub(0.0, 0.5));
-        require_contrast(way);
+        const segmentation::MinimalPath way = way_between(*volume, from, end, task.sub(0.0, 0.5));
         return std::any(
             session::model_of_way(way, session::unused_name(nullptr), *volume, task.sub(0.5, 1.0)));
       },
@@ -126,18 +139,59 @@ void VesselFinder::first_vessel(const session::OpenImage& image, const geometry:
       [this](const QString& message) { desk_.messages.complain(message, tr("No vessel found")); });
 }
 
-void VesselFinder::join_way(const segmentation::MinimalPath& way) {
+void VesselFinder::another_artery(const session::OpenImage& image, const geometry::Vec3& from,
+                                  const geometry::Vec3& end) {
+  desk_.jobs.run(
+      "path", tr("Another artery"),
+      [volume = image.volume, model = desk_.bench.session().file().model(), from,
+       end](const core::TaskContext& task) {
+        const segmentation::MinimalPath way = way_between(*volume, from, end, task.sub(0.0, 0.5));
+        NewVessel made{session::artery_of(way, session::unused_name(model.get())), way.warnings};
+        made.edit = session::with_wall_and_name(made.edit, *model, *volume, task.sub(0.5, 1.0));
+        if (const auto wide = session::require_artery(way, *volume, ostium_mm))
+          made.warnings.push_back(*wide);
+        return std::any(std::move(made));
+      },
+      [this](const std::any& found) { take(found); },
+      [this](const QString& message) { desk_.messages.complain(message, tr("No vessel found")); });
+}
+
+void VesselFinder::branch(const session::OpenImage& image, const geometry::Vec3& end) {
+  desk_.jobs.run(
+      "path", tr("Way back to the tree"),
+      [volume = image.volume, model = desk_.bench.session().file().model(),
+       end](const core::TaskContext& task) {
+        const segmentation::MinimalPath way =
+            segmentation::path_to_tree(*volume, end, model->tree, {}, task.sub(0.0, 0.6));
+        NewVessel made{lumen::Edit{}, way.warnings};
+        if (const auto wide = session::require_artery(way, *volume)) made.warnings.push_back(*wide);
+        if (const auto extension = session::extension_of(way, *model))
+          made.edit = *extension;
+        else
+          made.edit = session::with_wall_and_name(session::branch_of(way, session::unused_name(model.get())),
+                                                  *model, *volume, task.sub(0.6, 1.0));
+        return std::any(std::move(made));
+      },
+      [this](const std::any& found) { take(found); },
+      [this](const QString& message) { desk_.messages.complain(message, tr("No vessel found")); });
+}
+
+void VesselFinder::take(const std::any& found) {
+  const auto& made = std::any_cast<const NewVessel&>(found);
+  desk_.messages.guarded([&] { join(made.edit, made.warnings); }, true);
+}
+
+void VesselFinder::join(const lumen::Edit& edit, const std::vector<std::string>& warnings) {
   session::Workbench& bench = desk_.bench;
-  if (const auto extension = session::extension_of(way, *bench.model())) {
-    bench.edit(*extension);
+  bench.edit(edit);
+  if (const auto* extension = std::get_if<lumen::AxisExtend>(&edit)) {
     bench.vessel.set(extension->vessel);
     desk_.messages.say(tr("%1 was lengthened: the way came to its end.")
                            .arg(QString::fromStdString(bench.vessel_name(extension->vessel))));
   } else {
-    bench.edit(session::branch_of(way, session::unused_name(bench.model())));
     bench.vessel.set(bench.model()->tree.vessels.back().id);
   }
-  if (!way.warnings.empty()) desk_.messages.say(QString::fromStdString(way.warnings.front()));
+  if (!warnings.empty()) desk_.messages.say(QString::fromStdString(warnings.front()));
 }
 
 }  // namespace ostia::workstation

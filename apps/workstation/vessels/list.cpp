@@ -5,6 +5,8 @@
 #include "vessels/tips.h"
 
 #include "ostia/core/parallel.h"
+#include "ostia/session/evaluability_board.h"
+#include "ostia/view/evaluability_layer.h"
 
 #include <QColorDialog>
 #include <QContextMenuEvent>
@@ -26,6 +28,7 @@ enum VesselColumn {
   length_column,
   edited_column,
   stenosis_column,
+  image_column,
   checked_column,
   vessel_columns
 };
@@ -55,9 +58,12 @@ VesselList::VesselList(session::Workbench& bench, std::function<QColor(std::int3
   setObjectName("vessels");
   setAccessibleName(tr("Vessels"));
   setColumnCount(vessel_columns);
-  setHeaderLabels({tr("Vessel"), tr("mm"), tr("Edits"), tr("Worst"), tr("Done")});
+  setHeaderLabels({tr("Vessel"), tr("mm"), tr("Edits"), tr("Worst"), tr("Image"), tr("Done")});
   headerItem()->setToolTip(edited_column, tr("Samples of the wall that a person placed"));
   headerItem()->setToolTip(stenosis_column, tr("Largest narrowing, percent of diameter"));
+  headerItem()->setToolTip(image_column,
+                           tr("How far the image shows the vessel: a dot where nothing keeps it from being "
+                              "judged, else where it can be judged in part, or not at all"));
   headerItem()->setToolTip(checked_column, tr("A person has gone through this vessel"));
   setUniformRowHeights(true);
   setEditTriggers(EditKeyPressed | SelectedClicked);
@@ -196,6 +202,37 @@ session::VesselMark VesselList::mark_of(std::int32_t vessel) const {
   return made;
 }
 
+/// The board may go before the list does.
+void VesselList::show_evaluability(session::EvaluabilityBoard& board) {
+  own_.push_back(board.changed.observe([this, &board] {
+    const QScopedValueRollback<bool> writing(writing_, true);
+    for (int i = 0; i < topLevelItemCount(); ++i)
+      show_grade(*topLevelItem(i), board.stretches(topLevelItem(i)->data(0, vessel_id_role).toInt()));
+    share_width();
+  }));
+}
+
+/// The worst grade that more than a tenth of the vessel has; which stretches, in the tip.
+void VesselList::show_grade(QTreeWidgetItem& item, const std::vector<analysis::EvaluableStretch>& stretches) {
+  using analysis::Evaluability;
+  QString text, tip;
+  const double no = analysis::share_of(stretches, Evaluability::not_evaluable),
+               some = no + analysis::share_of(stretches, Evaluability::limited);
+  if (!stretches.empty()) text = QStringLiteral("\u2022");
+  if (some > 0.1) text = tr("in part");
+  if (no > 0.1) text = tr("%1 % not").arg(100.0 * no, 0, 'f', 0);
+  for (const analysis::EvaluableStretch& one : stretches)
+    if (one.grade != Evaluability::evaluable || one.by_person)
+      tip += tr("%1 to %2 mm: %3")
+                 .arg(one.from_mm, 0, 'f', 0)
+                 .arg(one.to_mm, 0, 'f', 0)
+                 .arg(QString::fromStdString(view::text_of(one))) +
+             '\n';
+  if (!stretches.empty() && tip.isEmpty()) tip = tr("All of it can be judged");
+  item.setText(image_column, text);
+  item.setToolTip(image_column, tip.trimmed());
+}
+
 void VesselList::refresh() {
   if (!bench_.model()) return;
   const QScopedValueRollback<bool> writing(writing_, true);
@@ -265,7 +302,8 @@ void VesselList::share_width() {
   const int least = indentation() + style()->pixelMetric(QStyle::PM_SmallIconSize) +
                     style()->pixelMetric(QStyle::PM_IndicatorWidth) +
                     (name_characters + 2) * fontMetrics().averageCharWidth();
-  const int others = wanted(length_column) + wanted(stenosis_column) + wanted(checked_column);
+  const int others =
+      wanted(length_column) + wanted(stenosis_column) + wanted(image_column) + wanted(checked_column);
   const int room = viewport()->width();
   const int names = std::min(least, sizeHintForColumn(name_column));
   setColumnHidden(edited_column, others + wanted(edited_column) + names > room);

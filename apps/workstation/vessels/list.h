@@ -11,6 +11,10 @@
 #include <QTreeWidget>
 #include <vector>
 
+namespace ostia::session {
+class EvaluabilityBoard;
+}
+
 namespace ostia::workstation {
 
 class VesselList final : public QTreeWidget {
@@ -20,6 +24,8 @@ class VesselList final : public QTreeWidget {
   VesselList(session::Workbench& bench, std::function<QColor(std::int32_t)> color_of, Guard guard,
              QWidget* parent = nullptr);
   ~VesselList() override;
+  /// Tells of each vessel how far it can be judged.
+  void show_evaluability(session::EvaluabilityBoard& board);
 
  public slots:
   void refresh();
@@ -38,6 +44,7 @@ class VesselList final : public QTreeWidget {
   void show_segments(QTreeWidgetItem& item, const std::vector<analysis::VesselSegment>& segments);
   void show_vessel(QTreeWidgetItem& item, std::int32_t vessel);
   void show_narrowing(QTreeWidgetItem& item, std::int32_t vessel);
+  void show_grade(QTreeWidgetItem& item, const std::vector<analysis::EvaluableStretch>& stretches);
   void share_width();
   void measure_next();
   void take(const session::ProfileWork& work, const std::shared_ptr<const analysis::LumenProfile>& profile);

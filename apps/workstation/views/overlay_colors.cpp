@@ -53,6 +53,10 @@ QColor role_color(view::Role role, Ground ground) {
       return QColor(40, 90, 255);
     case Role::calcified:
       return QColor(86, 180, 233);
+    case Role::limited:
+      return bright ? QColor(240, 180, 60) : QColor(150, 95, 0);
+    case Role::not_evaluable:
+      return bright ? QColor(255, 105, 180) : QColor(170, 20, 90);
   }
   return Qt::white;
 }

@@ -42,6 +42,24 @@ CadRads cad_rads(const std::vector<GradedStenosis>& stenoses) {
   return left_main || severe.size() == 3 ? CadRads::four_b : largest;
 }
 
+PatientCategory patient_category(const std::vector<GradedStenosis>& stenoses, bool all_judged) {
+  const CadRads found = cad_rads(stenoses);
+  if (all_judged) return {found, false};
+  if (found >= CadRads::three) return {found, true};
+  return {std::nullopt, true};
+}
+
+std::string to_string(const PatientCategory& category) {
+  if (!category.category) return "N";
+  return to_string(*category.category) + (category.not_diagnostic ? "/N" : "");
+}
+
+std::string description(const PatientCategory& category) {
+  if (!category.category) return "Not diagnostic: obstructive disease is not excluded";
+  return description(*category.category) +
+         (category.not_diagnostic ? "; not diagnostic elsewhere, where there may be more" : "");
+}
+
 std::string to_string(CadRads category) {
   switch (category) {
     case CadRads::zero:

@@ -27,25 +27,28 @@ std::size_t index(std::int32_t i) {
 double best_on_segment(const Vec3& a, const Vec3& b, double time_a, double time_b, const Vec3& x,
                        double slowness) {
   const Vec3 edge = b - a;
-  const double length = edge.norm();
+  const double along = edge.dot(x - a), length2 = edge.squaredNorm();
+  // The least is never on the side of the foot where T is higher: no root is needed to tell these.
+  if (along <= 0.0 && time_b >= time_a) return 0.0;
+  if (along > (1.0 + 1e-12) * length2 && time_b <= time_a) return 1.0;
+  const double length = std::sqrt(length2);
   if (length <= 0.0) return time_a <= time_b ? 0.0 : 1.0;
   const double slope = (time_b - time_a) / (length * slowness);
   if (slope >= 1.0) return 0.0;
   if (slope <= -1.0) return 1.0;
-  const double foot = edge.dot(x - a) / length;
+  const double foot = along / length;
   const double height = std::sqrt(std::max(0.0, (x - a).squaredNorm() - foot * foot));
   return std::clamp((foot - height * slope / std::sqrt(1.0 - slope * slope)) / length, 0.0, 1.0);
 }
 
 class March {
  public:
-  March(const InnerVoronoi& diagram, std::int32_t source)
-      : diagram_(diagram), accepted_(diagram.points.size(), 0), slowness_(diagram.points.size()) {
-    for (std::size_t i = 0; i < slowness_.size(); ++i)
-      slowness_[i] = 1.0 / std::max(diagram.radius[i], 1e-12);
-    result_.time.assign(diagram.points.size(), infinity);
-    result_.parent.assign(diagram.points.size(), -1);
-    result_.time[index(source)] = 0.0;
+  March(const InnerVoronoi& diagram, std::int32_t source) : diagram_(diagram), nodes_(diagram.points.size()) {
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      nodes_[i].point = diagram.points[i];
+      nodes_[i].slowness = 1.0 / std::max(diagram.radius[i], 1e-12);
+    }
+    nodes_[index(source)].time = 0.0;
     heap_.emplace(0.0, source);
   }
 
@@ -53,50 +56,74 @@ class March {
     std::vector<std::int32_t> wanted = targets;
     std::sort(wanted.begin(), wanted.end());
     wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
-    std::size_t missing = targets.empty() ? diagram_.points.size() + 1 : wanted.size();
+    std::size_t missing = targets.empty() ? nodes_.size() + 1 : wanted.size();
     std::size_t count = 0;
     while (!heap_.empty() && missing > 0) {
-      const auto [time, point] = heap_.top();
+      const std::int32_t point = heap_.top().second;
       heap_.pop();
-      if (accepted_[index(point)]) continue;
-      accepted_[index(point)] = 1;
+      if (node(point).accepted) continue;
+      node(point).accepted = true;
       if (std::binary_search(wanted.begin(), wanted.end(), point)) --missing;
       if (++count % 4096 == 0) {
         task.throw_if_cancelled();
-        task.set_progress(static_cast<double>(count) / static_cast<double>(diagram_.points.size()));
+        task.set_progress(static_cast<double>(count) / static_cast<double>(nodes_.size()));
       }
       spread_from(point);
     }
-    for (std::size_t i = 0; i < accepted_.size(); ++i)
-      if (!accepted_[i]) result_.time[i] = infinity;
-    return std::move(result_);
+    return times();
   }
 
  private:
+  // All that is asked of a point lies together.
+  struct Node {
+    Vec3 point = Vec3::Zero();
+    double slowness = 0.0;
+    double time = infinity;
+    std::int32_t parent = -1;
+    std::int32_t offered_by = -1;  // the last point that offered a time along an edge or chord
+    bool accepted = false;
+  };
+
+  Node& node(std::int32_t i) { return nodes_[index(i)]; }
+
+  ArrivalTimes times() const {
+    ArrivalTimes result;
+    result.time.reserve(nodes_.size());
+    result.parent.reserve(nodes_.size());
+    for (const Node& one : nodes_) {
+      result.time.push_back(one.accepted ? one.time : infinity);
+      result.parent.push_back(one.parent);
+    }
+    return result;
+  }
+
   void offer(std::int32_t point, double time, std::int32_t parent) {
-    if (time >= result_.time[index(point)]) return;
-    result_.time[index(point)] = time;
-    result_.parent[index(point)] = parent;
+    if (time >= node(point).time) return;
+    node(point).time = time;
+    node(point).parent = parent;
     heap_.emplace(time, point);
   }
 
+  // Once from each point, though several polygons may have both.
   void offer_along_edge(std::int32_t from, std::int32_t to) {
-    const double slowness = 0.5 * (slowness_[index(from)] + slowness_[index(to)]);
-    const double distance = (diagram_.points[index(to)] - diagram_.points[index(from)]).norm();
-    offer(to, result_.time[index(from)] + slowness * distance, from);
+    const Node& start = node(from);
+    Node& end = node(to);
+    if (end.offered_by == from) return;
+    end.offered_by = from;
+    const double slowness = 0.5 * (start.slowness + end.slowness);
+    offer(to, start.time + slowness * (end.point - start.point).norm(), from);
   }
 
   void offer_across(std::int32_t v, std::int32_t w, std::int32_t to) {
-    const double base_slowness = 0.5 * (slowness_[index(v)] + slowness_[index(w)]);
-    const double slowness = 0.5 * (base_slowness + slowness_[index(to)]);
-    const Vec3 &a = diagram_.points[index(v)], &b = diagram_.points[index(w)],
-               &x = diagram_.points[index(to)];
-    const double time_a = result_.time[index(v)], time_b = result_.time[index(w)];
-    const double t = best_on_segment(a, b, time_a, time_b, x, slowness);
+    const Node &a = node(v), &b = node(w), &x = node(to);
+    const double base_slowness = 0.5 * (a.slowness + b.slowness);
+    const double slowness = 0.5 * (base_slowness + x.slowness);
+    const double t = best_on_segment(a.point, b.point, a.time, b.time, x.point, slowness);
     if (t <= 0.0 || t >= 1.0) return;
-    const double time = time_a + t * (time_b - time_a) + slowness * (x - a - t * (b - a)).norm();
+    const double time =
+        a.time + t * (b.time - a.time) + slowness * (x.point - a.point - t * (b.point - a.point)).norm();
     // Round-off must not let a front arrive before the points it comes from.
-    offer(to, std::max({time, time_a, time_b}), t < 0.5 ? v : w);
+    offer(to, std::max({time, a.time, b.time}), t < 0.5 ? v : w);
   }
 
   void spread_in_polygon(std::int32_t polygon, std::int32_t point) {
@@ -107,30 +134,28 @@ class March {
     while (corners[place] != point) ++place;
     for (std::int32_t i = 0; i < size; ++i) {
       const std::int32_t to = corners[i];
-      if (accepted_[index(to)]) continue;
+      if (node(to).accepted) continue;
       offer_along_edge(point, to);
       if (size <= all_pairs_up_to) {
         for (std::int32_t k = 0; k < size; ++k)
-          if (corners[k] != point && accepted_[index(corners[k])]) offer_across(point, corners[k], to);
+          if (corners[k] != point && node(corners[k]).accepted) offer_across(point, corners[k], to);
       } else {
         for (const std::int32_t k : {(place + 1) % size, (place + size - 1) % size})
-          if (corners[k] != point && accepted_[index(corners[k])]) offer_across(point, corners[k], to);
+          if (corners[k] != point && node(corners[k]).accepted) offer_across(point, corners[k], to);
       }
     }
   }
 
   void spread_from(std::int32_t point) {
     for (const std::int32_t neighbour : diagram_.links[index(point)])
-      if (neighbour >= 0 && !accepted_[index(neighbour)]) offer_along_edge(point, neighbour);
+      if (neighbour >= 0 && !node(neighbour).accepted) offer_along_edge(point, neighbour);
     for (std::int32_t k = diagram_.incidence_first[index(point)];
          k < diagram_.incidence_first[index(point) + 1]; ++k)
       spread_in_polygon(diagram_.incidence[index(k)], point);
   }
 
   const InnerVoronoi& diagram_;
-  std::vector<char> accepted_;
-  std::vector<double> slowness_;
-  ArrivalTimes result_;
+  std::vector<Node> nodes_;
   using Entry = std::pair<double, std::int32_t>;
   // Superseded entries stay in the heap and are passed over; ties go to the lower point.
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> heap_;

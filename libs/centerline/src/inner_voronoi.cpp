@@ -30,24 +30,31 @@ struct Sphere {
 };
 
 struct Sites {
+  std::vector<std::size_t> numbers;  // of their points in the surface
   std::vector<Vec3> points, normals;
   std::vector<bool> on_border;
 };
 
+// Their normals come later: the tetrahedra do not need them.
 Sites collect_sites(const geometry::TriMesh& capped, const std::vector<bool>& on_border,
                     const std::vector<bool>& skip) {
   std::vector<bool> used(capped.points.size(), false);
   for (const geometry::Triangle& t : capped.triangles)
     for (std::int32_t v : t) used[static_cast<std::size_t>(v)] = true;
-  const std::vector<Vec3> normals = geometry::vertex_normals(capped);
   Sites sites;
   for (std::size_t i = 0; i < used.size(); ++i) {
     if (!used[i] || (!skip.empty() && skip[i])) continue;
+    sites.numbers.push_back(i);
     sites.points.push_back(capped.points[i]);
-    sites.normals.push_back(normals[i]);
     sites.on_border.push_back(!on_border.empty() && on_border[i]);
   }
   return sites;
+}
+
+void add_normals(const geometry::TriMesh& capped, Sites& sites) {
+  const std::vector<Vec3> normals = geometry::vertex_normals(capped);
+  sites.normals.reserve(sites.numbers.size());
+  for (const std::size_t i : sites.numbers) sites.normals.push_back(normals[i]);
 }
 
 // False where the cell is too flat for its circumcentre.
@@ -236,11 +243,17 @@ void add_incidence(InnerVoronoi& diagram) {
 
 InnerVoronoi inner_voronoi(const geometry::TriMesh& capped, const std::vector<bool>& on_border,
                            const std::vector<bool>& skip, const core::TaskContext& task) {
-  const Sites sites = collect_sites(capped, on_border, skip);
+  Sites sites = collect_sites(capped, on_border, skip);
+  if (sites.points.empty()) throw GeometryError("the surface has no points: it encloses no lumen");
   Delaunay cells;
   std::optional<geometry::AabbTree> tree;
-  core::parallel_invoke([&] { cells = delaunay(sites.points, task.sub(0.0, 0.6)); },
-                        [&] { tree.emplace(capped); });
+  core::parallel_invoke(
+      [&] { cells = delaunay(sites.points, task.sub(0.0, 0.6)); },
+      [&] {
+        tree.emplace(capped);
+        add_normals(capped, sites);
+        tree->inside(sites.points.front());  // what such questions need is made at the first
+      });
   Classified classified = classify(sites, cells, capped, *tree, task);
   settle_flat_cells(sites, cells, classified);
   task.set_progress(0.8);
@@ -251,6 +264,10 @@ InnerVoronoi inner_voronoi(const geometry::TriMesh& capped, const std::vector<bo
   diagram.doubtful_cells = classified.doubtful;
   diagram.dropped_points = cells.dropped_points;
   std::vector<std::int32_t> inner(cells.cells.size(), -1);
+  const auto count = static_cast<std::size_t>(std::ranges::count(classified.sides, Side::inside));
+  diagram.points.reserve(count);
+  diagram.radius.reserve(count);
+  diagram.links.reserve(count);
   for (std::size_t i = 0; i < inner.size(); ++i) {
     if (classified.sides[i] != Side::inside) continue;
     inner[i] = static_cast<std::int32_t>(diagram.points.size());

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <map>
 #include <numeric>
+#include <utility>
 
 namespace ostia::centerline {
 namespace {
@@ -43,18 +44,29 @@ double triangle_area(const TriMesh& mesh, std::size_t t) {
 struct EdgeUse {
   std::array<std::int32_t, 2> edge;
   std::size_t triangle;
-  auto operator<=>(const EdgeUse&) const = default;
 };
 
+// Counting sort by the lower point, then a small sort within each point.
 std::vector<EdgeUse> edge_uses(const TriMesh& mesh) {
-  std::vector<EdgeUse> uses;
-  uses.reserve(3 * mesh.triangles.size());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto [low, high] = std::minmax(mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]);
-      uses.push_back({{low, high}, t});
-    }
-  std::sort(uses.begin(), uses.end());
+  std::vector<std::size_t> next(mesh.points.size() + 1, 0);
+  const auto for_each_side = [&](const auto& use) {
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+      for (std::size_t k = 0; k < 3; ++k) use(t, mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]);
+  };
+  for_each_side([&](std::size_t, std::int32_t a, std::int32_t b) {
+    ++next[static_cast<std::size_t>(std::min(a, b)) + 1];
+  });
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  std::vector<EdgeUse> uses(next.back());
+  for_each_side([&](std::size_t t, std::int32_t a, std::int32_t b) {
+    uses[next[static_cast<std::size_t>(std::min(a, b))]++] = {{std::min(a, b), std::max(a, b)}, t};
+  });
+  // Each place has moved on to where the next point begins.
+  for (std::size_t v = 0, first = 0; v + 1 < next.size(); first = next[v++])
+    std::sort(uses.begin() + static_cast<std::ptrdiff_t>(first),
+              uses.begin() + static_cast<std::ptrdiff_t>(next[v]), [](const EdgeUse& a, const EdgeUse& b) {
+                return a.edge[1] < b.edge[1] || (a.edge[1] == b.edge[1] && a.triangle < b.triangle);
+              });
   return uses;
 }
 
@@ -90,15 +102,15 @@ class Patches {
 
 // At each edge of more than two triangles the two of the largest patches stay (in one patch the larger
 // triangles); small patches that lose there go altogether. Returns whether anything went.
-bool drop_flaps(TriMesh& mesh) {
+bool drop_flaps(TriMesh& mesh, const std::vector<EdgeUse>& uses) {
   constexpr double small_patch = 0.1;  // of the largest patch at the edge
-  const std::vector<EdgeUse> uses = edge_uses(mesh);
+  bool any = false;
+  for_each_edge(uses, [&](const EdgeUse*, std::size_t count) { any = any || count > 2; });
+  if (!any) return false;
   Patches patches(mesh, uses);
   std::vector<bool> keep(mesh.triangles.size(), true), drop_patch(mesh.triangles.size(), false);
-  bool any = false;
   for_each_edge(uses, [&](const EdgeUse* use, std::size_t count) {
     if (count <= 2) return;
-    any = true;
     std::vector<std::size_t> order;
     for (std::size_t i = 0; i < count; ++i) order.push_back(use[i].triangle);
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -111,7 +123,6 @@ bool drop_flaps(TriMesh& mesh) {
         drop_patch[patches.root(order[i])] = true;
     }
   });
-  if (!any) return false;
   for (std::size_t t = 0; t < keep.size(); ++t)
     if (drop_patch[patches.root(t)]) keep[t] = false;
   mesh = geometry::subset(mesh, keep);
@@ -119,9 +130,9 @@ bool drop_flaps(TriMesh& mesh) {
 }
 
 // The triangles around vertices where more than one border begins. Returns whether there were any.
-bool drop_touching_borders(TriMesh& mesh) {
+bool drop_touching_borders(TriMesh& mesh, const std::vector<EdgeUse>& uses) {
   std::vector<int> borders(mesh.points.size(), 0);
-  for_each_edge(edge_uses(mesh), [&](const EdgeUse* use, std::size_t count) {
+  for_each_edge(uses, [&](const EdgeUse* use, std::size_t count) {
     if (count != 1) return;
     ++borders[static_cast<std::size_t>(use->edge[0])];
     ++borders[static_cast<std::size_t>(use->edge[1])];
@@ -142,8 +153,9 @@ void make_borders_simple(LumenSurface& surface) {
   const std::size_t before = surface.wall.triangles.size();
   constexpr int rounds = 50;
   for (int round = 0; round < rounds; ++round) {
-    if (drop_flaps(surface.wall)) continue;
-    if (!drop_touching_borders(surface.wall)) break;
+    const std::vector<EdgeUse> uses = edge_uses(surface.wall);
+    if (drop_flaps(surface.wall, uses)) continue;
+    if (!drop_touching_borders(surface.wall, uses)) break;
   }
   if (surface.wall.triangles.empty())
     throw GeometryError("the surface is not manifold anywhere: there is no lumen to find an axis in");
@@ -216,24 +228,8 @@ void sample_wall(LumenSurface& surface) {
   surface.only_in_caps.resize(surface.sampled.points.size(), false);
 }
 
-}  // namespace
-
-geometry::TriMesh with_edges_cut(const TriMesh& wall, double longest_mm) {
-  if (!(longest_mm > 0.0))
-    throw InvalidInput("the longest edge must be positive, not " + std::to_string(longest_mm) + " mm");
-  constexpr std::size_t most_points = 4'000'000;
-  TriMesh mesh = wall;
-  while (mesh.points.size() < most_points) {
-    const auto middle = add_midpoints(mesh, longest_mm);
-    if (middle.empty()) break;
-    std::vector<geometry::Triangle> parts;
-    for (const geometry::Triangle& t : mesh.triangles) add_parts(t, middle, parts);
-    mesh.triangles = std::move(parts);
-  }
-  return mesh;
-}
-
-LumenSurface prepare_lumen(const TriMesh& lumen) {
+// All but what is sampled.
+LumenSurface capped_lumen(const TriMesh& lumen) {
   check(lumen);
   LumenSurface surface;
   surface.wall = geometry::welded(lumen);
@@ -255,6 +251,33 @@ LumenSurface prepare_lumen(const TriMesh& lumen) {
       surface.on_border[static_cast<std::size_t>(v)] = true;
   std::fill(surface.only_in_caps.begin() + static_cast<std::ptrdiff_t>(wall_points),
             surface.only_in_caps.end(), true);
+  return surface;
+}
+
+}  // namespace
+
+geometry::TriMesh with_edges_cut(const TriMesh& wall, double longest_mm) {
+  if (!(longest_mm > 0.0))
+    throw InvalidInput("the longest edge must be positive, not " + std::to_string(longest_mm) + " mm");
+  constexpr std::size_t most_points = 4'000'000;
+  TriMesh mesh = wall;
+  while (mesh.points.size() < most_points) {
+    const auto middle = add_midpoints(mesh, longest_mm);
+    if (middle.empty()) break;
+    std::vector<geometry::Triangle> parts;
+    for (const geometry::Triangle& t : mesh.triangles) add_parts(t, middle, parts);
+    mesh.triangles = std::move(parts);
+  }
+  return mesh;
+}
+
+geometry::TriMesh simple_wall(const TriMesh& lumen) {
+  LumenSurface surface = capped_lumen(lumen);
+  return std::move(surface.wall);
+}
+
+LumenSurface prepare_lumen(const TriMesh& lumen) {
+  LumenSurface surface = capped_lumen(lumen);
   sample_wall(surface);
   return surface;
 }

@@ -122,10 +122,11 @@ std::vector<Peak> peaks_of(const SurfaceWays& ways, const std::vector<double>& d
   geometry::DisjointSets sets(distance.size());
   std::vector<std::int32_t> top(distance.size(), -1);  // of a set, at its representative
   std::vector<Peak> peaks;
+  std::vector<std::int32_t> met;
   for (const std::int32_t v : order) {
     std::int32_t best = v;
     const double here = distance[static_cast<std::size_t>(v)];
-    std::vector<std::int32_t> met;
+    met.clear();
     for (const std::int32_t n : ways.neighbours(v)) {
       const std::int32_t top_there = top[static_cast<std::size_t>(sets.find(n))];
       if (top_there >= 0 && std::ranges::find(met, top_there) == met.end()) met.push_back(top_there);

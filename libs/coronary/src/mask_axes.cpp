@@ -191,6 +191,7 @@ class Chaining {
       shorten_end(raw, std::min(dome_radii * raw.radius.back(), stem));
       turn_round(raw);
       chain.axis = smooth(raw);
+      trim_hooked_end(chain.axis);
       return chain;
     }
     const Axis& trunk = tree.chains[static_cast<std::size_t>(begin.parent)].axis;
@@ -215,6 +216,7 @@ class Chaining {
     chain.axis = centerline::led_out_of(before, chain.axis, smooth_radii_);
     chain.axis.points.front() = *joint;
     ease_kinks(chain.axis);
+    trim_hooked_end(chain.axis);
     return chain;
   }
 

@@ -24,6 +24,7 @@ constexpr double most_trimmed_mm = 4.0, most_trimmed_share = 0.4;  // of an end;
 constexpr double near_fork_radii = 3.0;  // of both vessels: what is no farther along the tree cannot part
 constexpr double parted_share = 0.6;     // of both radii: walls give way to half of them
 constexpr double most_led_radii = 3.0;
+constexpr double dome_window_radii = 2.0, dome_share = 1.1;  // of what a vessel is before its end
 
 /// The tree while its ends are settled.
 class EndSettling {
@@ -85,6 +86,19 @@ class EndSettling {
     return mm;
   }
 
+  /// Of the ball that closes a vessel's wall: at its very end the axis' radius says little. Elsewhere the
+  /// radius of the segment's last point.
+  double dome_radius(const TreeSegment& s) const {
+    double radius = s.axis.radius.back();
+    if (std::any_of(tree_.segments.begin(), tree_.segments.end(),
+                    [&](const TreeSegment& next) { return next.from == s.to; }))
+      return radius;
+    const double from = s.axis.abscissa.back() - dome_window_radii * radius;
+    for (std::size_t i = 0; i < s.axis.size(); ++i)
+      if (s.axis.abscissa[i] >= from) radius = std::max(radius, s.axis.radius[i]);
+    return dome_share * radius;
+  }
+
   /// What of the other vessels is in the way of a cut. `fork`: the segment's other node.
   Obstacles obstacles(const CutPlace& cut, std::int32_t segment,
                       const std::map<std::int32_t, double>& from_fork) const {
@@ -92,8 +106,10 @@ class EndSettling {
     for (const TreeSegment& s : tree_.segments) {
       if (s.id == segment) continue;
       const auto from = from_fork.find(s.from), to = from_fork.find(s.to);
+      const double dome_mm = dome_radius(s);
       for (std::size_t i = 0; i < s.axis.size(); ++i) {
-        if (!in_the_way(cut, s.axis.points[i], s.axis.radius[i])) continue;
+        const double radius = i + 1 == s.axis.size() ? dome_mm : s.axis.radius[i];
+        if (!in_the_way(cut, s.axis.points[i], radius)) continue;
         double along = 1e9;
         if (from != from_fork.end()) along = std::min(along, from->second + s.axis.abscissa[i]);
         if (to != from_fork.end())

@@ -21,6 +21,10 @@ constexpr double loop_share = 0.6;
 constexpr double sample_mm = 0.2;
 constexpr double eased_radii = 2.0;  // to either side of a kink
 constexpr int most_rounds = 60;
+// An end turns back: its chord is shorter than that of half a circle (0.64).
+constexpr double hooked_share = 0.6;
+constexpr double hook_from_radii = 1.5, hook_reach_radii = 4.0, least_hook_reach_mm = 3.0;
+constexpr std::size_t least_points = 4;  // that an axis keeps
 
 geometry::AxisCurve curve_of(const Axis& axis) {
   geometry::Centerline line;
@@ -57,6 +61,28 @@ bool without_a_loop(Axis& axis) {
 }
 
 }  // namespace
+
+bool trim_hooked_end(Axis& axis) {
+  const std::vector<double> s = geometry::abscissas(axis.points);
+  const std::size_t count = s.size();
+  std::size_t hooked = count;
+  for (std::size_t i = count; i-- > 0;) {
+    const double way = s.back() - s[i];
+    if (way > std::max(least_hook_reach_mm, hook_reach_radii * axis.radius[i])) break;
+    if (way < hook_from_radii * axis.radius[i]) continue;
+    if ((axis.points.back() - axis.points[i]).norm() < hooked_share * way) hooked = i;
+  }
+  if (hooked == count) return false;
+  const Vec3 from = axis.points[hooked];
+  const auto farthest = std::max_element(
+      axis.points.begin() + static_cast<std::ptrdiff_t>(hooked), axis.points.end(),
+      [&](const Vec3& a, const Vec3& b) { return (a - from).squaredNorm() < (b - from).squaredNorm(); });
+  const auto kept = static_cast<std::size_t>(farthest - axis.points.begin()) + 1;
+  if (kept < least_points || kept == count) return false;
+  axis.points.resize(kept);
+  axis.radius.resize(kept);
+  return true;
+}
 
 void ease_kinks(Axis& axis) {
   while (axis.points.size() > 4 && without_a_loop(axis)) {

@@ -9,4 +9,8 @@ namespace ostia::coronary {
 /// within half of it, it is made smoother there and nowhere else. Ends stay.
 void ease_kinks(centerline::Axis& axis);
 
+/// An end that turns back within four radii (by more than half a circle), so that its wall would run into
+/// itself, goes as far as where it turns. Returns whether it did.
+bool trim_hooked_end(centerline::Axis& axis);
+
 }  // namespace ostia::coronary

@@ -1,5 +1,7 @@
 #include "mask_parts.h"
 
+#include "mask_rim.h"
+
 #include "ostia/core/error.h"
 #include "ostia/core/text.h"
 #include "ostia/imaging/morphology.h"
@@ -258,6 +260,9 @@ MaskParts parts_of_mask(const MaskVolume& labels, const MaskTreeOptions& options
                              core::rounded_text(specks_mm3, 1) + " mm3 in all " +
                              (specks == 1 ? "was" : "were") + " left out, the largest, " +
                              core::rounded_text(largest, 1) + " mm3, at " + place_in_words(largest_at));
+  if (smooth_rough_rim(parts.lumen, task))
+    parts.warnings.emplace_back(
+        "the mask's rim is as rough as noise is; it was made smooth, with as many voxels as before");
   return parts;
 }
 

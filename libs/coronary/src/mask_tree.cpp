@@ -38,6 +38,25 @@ void check_range(double value, double least, double most, const char* name, cons
                      "]" + unit);
 }
 
+/// Lines as splines. Where a line's points are too few for one, it swings out far from them: that line stays
+/// as it is.
+SkeletonGraph gently_smoothed(const SkeletonGraph& lines) {
+  constexpr double most_off_mm = 2.5;
+  SkeletonGraph result = centerline::smoothed(lines);
+  for (centerline::SkeletonEdge& edge : result.edges) {
+    const auto before = std::find_if(lines.edges.begin(), lines.edges.end(),
+                                     [&](const centerline::SkeletonEdge& e) { return e.id == edge.id; });
+    const auto swings_out = [&](const Vec3& p) {
+      return (geometry::closest(before->points, p).point - p).norm() > most_off_mm;
+    };
+    if (before == lines.edges.end() || std::none_of(edge.points.begin(), edge.points.end(), swings_out))
+      continue;
+    edge.points = before->points;
+    edge.radius_mm = before->radius_mm;
+  }
+  return result;
+}
+
 /// Directed from the roots, and in the middle of the lumen; as docs/methods/skeleton.md has it.
 SkeletonGraph centred_lines(const SkeletonGraph& graph, const std::vector<std::int32_t>& roots,
                             const imaging::MaskVolume& lumen, const core::TaskContext& task) {
@@ -47,7 +66,7 @@ SkeletonGraph centred_lines(const SkeletonGraph& graph, const std::vector<std::i
   lines = centerline::oriented(lines, inlets).graph;
   centerline::SectionOptions sections;
   sections.largest_radius_mm = largest_section_mm;
-  return centerline::measured(centerline::smoothed(lines), lumen, sections, task).graph;
+  return centerline::measured(gently_smoothed(lines), lumen, sections, task).graph;
 }
 
 /// Short lines at bends where neither an ostium nor a bridge turned out to be.

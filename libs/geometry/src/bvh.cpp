@@ -26,6 +26,48 @@ struct Split {
   double scale = 0.0;
 };
 
+/// The boxes of the items in each bin along an axis. Those of empty bins are left as they are.
+class Bins {
+ public:
+  void add(int bin, const BvhBox& box) {
+    if (counts_[bin]++ == 0)
+      boxes_[bin] = box;
+    else
+      boxes_[bin].extend(box);
+  }
+
+  /// Takes the cheapest plane between two bins into `best` where it costs less than that.
+  void improve(const Split& split, Split& best, double& best_cost) const {
+    int filled[bin_count];
+    int size = 0;
+    for (int bin = 0; bin < bin_count; ++bin)
+      if (counts_[bin] > 0) filled[size++] = bin;
+    double right_cost[bin_count];  // of the filled bins from here on
+    BvhBox box = BvhBox::nothing();
+    std::size_t count = 0;
+    for (int k = size - 1; k > 0; --k) {
+      box.extend(boxes_[filled[k]]);
+      count += counts_[filled[k]];
+      right_cost[k] = box.half_area() * static_cast<double>(count);
+    }
+    box = BvhBox::nothing();
+    count = 0;
+    for (int k = 1; k < size; ++k) {
+      box.extend(boxes_[filled[k - 1]]);
+      count += counts_[filled[k - 1]];
+      const double cost = box.half_area() * static_cast<double>(count) + right_cost[k];
+      if (!(cost < best_cost)) continue;
+      best_cost = cost;
+      best = split;
+      best.bin = filled[k - 1] + 1;
+    }
+  }
+
+ private:
+  std::size_t counts_[bin_count] = {};
+  BvhBox boxes_[bin_count];
+};
+
 using Nodes = std::vector<BvhNode>;
 
 struct Builder {
@@ -36,43 +78,23 @@ struct Builder {
     return std::min(bin_count - 1, static_cast<int>((item.middle[split.axis] - split.lower) * split.scale));
   }
 
+  /// Empty bins are passed over: a plane behind one parts the items as the plane before it does. Most nodes
+  /// have fewer items than there are bins.
   Split best_split(std::size_t first, std::size_t last, const BvhBox& middles) const {
-    Split best;
-    double best_cost = std::numeric_limits<double>::infinity();
+    Split splits[3];
+    Bins bins[3];
     for (int axis = 0; axis < 3; ++axis) {
       const double extent = middles.upper[axis] - middles.lower[axis];
-      Split split{axis, 0, middles.lower[axis], bin_count / extent};
-      if (!(extent > 0.0) || !(split.scale < std::numeric_limits<double>::max())) continue;
-      BvhBox boxes[bin_count];
-      std::size_t counts[bin_count] = {};
-      for (BvhBox& box : boxes) box = BvhBox::nothing();
-      for (std::size_t i = first; i < last; ++i) {
-        const int bin = bin_of(items[i], split);
-        boxes[bin].extend(items[i].box);
-        ++counts[bin];
-      }
-      double right_cost[bin_count] = {};
-      BvhBox box = BvhBox::nothing();
-      std::size_t count = 0;
-      for (int bin = bin_count - 1; bin > 0; --bin) {
-        box.extend(boxes[bin]);
-        count += counts[bin];
-        right_cost[bin] = count == 0 ? 0.0 : box.half_area() * static_cast<double>(count);
-      }
-      box = BvhBox::nothing();
-      count = 0;
-      for (int bin = 1; bin < bin_count; ++bin) {
-        box.extend(boxes[bin - 1]);
-        count += counts[bin - 1];
-        if (count == 0 || count == last - first) continue;
-        const double cost = box.half_area() * static_cast<double>(count) + right_cost[bin];
-        if (cost < best_cost) {
-          best_cost = cost;
-          best = split;
-          best.bin = bin;
-        }
-      }
+      const Split split{axis, 0, middles.lower[axis], bin_count / extent};
+      if (extent > 0.0 && split.scale < std::numeric_limits<double>::max()) splits[axis] = split;
     }
+    for (std::size_t i = first; i < last; ++i)
+      for (int axis = 0; axis < 3; ++axis)
+        if (splits[axis].axis >= 0) bins[axis].add(bin_of(items[i], splits[axis]), items[i].box);
+    Split best;
+    double best_cost = std::numeric_limits<double>::infinity();
+    for (int axis = 0; axis < 3; ++axis)
+      if (splits[axis].axis >= 0) bins[axis].improve(splits[axis], best, best_cost);
     return best;
   }
 

@@ -18,17 +18,20 @@ struct BvhBox {
     constexpr double inf = std::numeric_limits<double>::infinity();
     return {{inf, inf, inf}, {-inf, -inf, -inf}};
   }
+  // Axis by axis in words, not in a loop: the compiler then keeps a box that grows in registers.
   void extend(const double* point) {
-    for (int a = 0; a < 3; ++a) {
-      lower[a] = point[a] < lower[a] ? point[a] : lower[a];
-      upper[a] = point[a] > upper[a] ? point[a] : upper[a];
-    }
+    extend_axis(0, point[0], point[0]);
+    extend_axis(1, point[1], point[1]);
+    extend_axis(2, point[2], point[2]);
   }
   void extend(const BvhBox& other) {
-    for (int a = 0; a < 3; ++a) {
-      lower[a] = other.lower[a] < lower[a] ? other.lower[a] : lower[a];
-      upper[a] = other.upper[a] > upper[a] ? other.upper[a] : upper[a];
-    }
+    extend_axis(0, other.lower[0], other.upper[0]);
+    extend_axis(1, other.lower[1], other.upper[1]);
+    extend_axis(2, other.lower[2], other.upper[2]);
+  }
+  void extend_axis(int a, double low, double high) {
+    lower[a] = low < lower[a] ? low : lower[a];
+    upper[a] = high > upper[a] ? high : upper[a];
   }
   double half_area() const;
   bool overlaps(const BvhBox& other) const {

@@ -8,38 +8,68 @@
 #include <array>
 #include <bit>
 #include <numeric>
-#include <tuple>
 #include <utility>
 
 namespace ostia::geometry::detail {
 
+namespace {
+
+/// By the higher vertex; those of equal ones keep their order. A vertex has few edges.
+void sort_by_high(HalfEdge* first, HalfEdge* last) {
+  constexpr std::ptrdiff_t few = 48;
+  if (last - first > few) {
+    std::stable_sort(first, last, [](const HalfEdge& a, const HalfEdge& b) { return a.high < b.high; });
+    return;
+  }
+  for (HalfEdge* next = first + 1; next < last; ++next) {
+    const HalfEdge moved = *next;
+    HalfEdge* place = next;
+    for (; place != first && moved.high < place[-1].high; --place) *place = place[-1];
+    *place = moved;
+  }
+}
+
+}  // namespace
+
 std::vector<HalfEdge> half_edges(const TriMesh& mesh) {
-  // Counting sort by the lower vertex, then a small sort within each vertex.
-  std::vector<std::size_t> start(mesh.points.size() + 1, 0);
+  // Counting sort by the lower vertex, in the order of the triangles, then a small sort within each vertex.
+  std::vector<std::uint32_t> next(mesh.points.size() + 1, 0);
   const auto for_each_side = [&](const auto& use) {
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       const Triangle& triangle = mesh.triangles[t];
       if (repeats_a_corner(triangle)) continue;
-      for (std::size_t side = 0; side < 3; ++side) {
-        const std::int32_t a = triangle[side], b = triangle[(side + 1) % 3];
-        use(HalfEdge{std::min(a, b), std::max(a, b), static_cast<std::int32_t>(t),
-                     static_cast<std::int8_t>(side), a < b});
-      }
+      for (std::size_t side = 0; side < 3; ++side) use(t, side, triangle[side], triangle[(side + 1) % 3]);
     }
   };
-  for_each_side([&](const HalfEdge& h) { ++start[static_cast<std::size_t>(h.low) + 1]; });
-  std::partial_sum(start.begin(), start.end(), start.begin());
-  std::vector<HalfEdge> table(start.back());
-  std::vector<std::size_t> next(start.begin(), start.end() - 1);
-  for_each_side([&](const HalfEdge& h) { table[next[static_cast<std::size_t>(h.low)]++] = h; });
-  for (std::size_t v = 0; v + 1 < start.size(); ++v) {
-    std::sort(table.begin() + static_cast<std::ptrdiff_t>(start[v]),
-              table.begin() + static_cast<std::ptrdiff_t>(start[v + 1]),
-              [](const HalfEdge& a, const HalfEdge& b) {
-                return std::tie(a.high, a.triangle) < std::tie(b.high, b.triangle);
-              });
-  }
+  for_each_side([&](std::size_t, std::size_t, std::int32_t a, std::int32_t b) {
+    ++next[static_cast<std::size_t>(std::min(a, b)) + 1];
+  });
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  std::vector<HalfEdge> table(next.back());
+  for_each_side([&](std::size_t t, std::size_t side, std::int32_t a, std::int32_t b) {
+    table[next[static_cast<std::size_t>(std::min(a, b))]++] = {
+        std::min(a, b), std::max(a, b), static_cast<std::int32_t>(t), static_cast<std::int8_t>(side), a < b};
+  });
+  // Each place has moved on to where the next vertex begins.
+  for (std::size_t v = 0, first = 0; v + 1 < next.size(); first = next[v++])
+    sort_by_high(table.data() + first, table.data() + next[v]);
   return table;
+}
+
+std::vector<CornersOfTriangle> sorted_corners(const TriMesh& mesh) {
+  std::vector<std::uint32_t> next(mesh.points.size() + 1, 0);
+  for (const Triangle& t : mesh.triangles) ++next[static_cast<std::size_t>(std::ranges::min(t)) + 1];
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  std::vector<CornersOfTriangle> sorted(mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    CornersOfTriangle one{mesh.triangles[t], static_cast<std::int32_t>(t)};
+    std::ranges::sort(one.corners);
+    sorted[next[static_cast<std::size_t>(one.corners[0])]++] = one;
+  }
+  for (std::size_t v = 0, first = 0; v + 1 < next.size(); first = next[v++])
+    std::sort(sorted.begin() + static_cast<std::ptrdiff_t>(first),
+              sorted.begin() + static_cast<std::ptrdiff_t>(next[v]));
+  return sorted;
 }
 
 namespace {

@@ -4,6 +4,7 @@
 #include "ostia/geometry/disjoint_sets.h"
 #include "ostia/geometry/tri_mesh.h"
 
+#include <compare>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -37,6 +38,21 @@ void for_each_edge(const std::vector<HalfEdge>& table, const Use& use) {
     first = last;
   }
 }
+
+/// A triangle's corners, ascending.
+struct CornersOfTriangle {
+  Triangle corners{};
+  std::int32_t triangle = 0;
+  auto operator<=>(const CornersOfTriangle&) const = default;
+};
+
+/// All of them in order: those of the same three corners stand together, by their triangles.
+std::vector<CornersOfTriangle> sorted_corners(const TriMesh& mesh);
+
+/// What the functions of mesh_topology.h tell, where the table is there already.
+std::vector<std::vector<std::int32_t>> boundary_loops(const TriMesh& mesh,
+                                                      const std::vector<HalfEdge>& table);
+std::vector<std::int32_t> components(const TriMesh& mesh, const std::vector<HalfEdge>& table);
 
 /// For each point the lowest point with the same coordinates; a point that is not finite stands for itself.
 std::vector<std::int32_t> first_equal_points(const std::vector<Vec3>& points);

@@ -27,13 +27,22 @@ double cost(const Vec3& a, const Vec3& b, const Vec3& c) {
   return area + 1e-6 * length2 * length2 / std::max(area, 1e-12 * length2);
 }
 
+bool is_edge(const std::vector<HalfEdge>& edges, std::int32_t a, std::int32_t b) {
+  const std::pair<std::int32_t, std::int32_t> wanted = std::minmax(a, b);
+  const auto ends = [](const HalfEdge& h) { return std::pair(h.low, h.high); };
+  return std::ranges::binary_search(edges, wanted, {}, ends);
+}
+
 /// Triangulation of least area of a closed polygon (Barequet and Sharir 1995): best(i, j) closes the part
 /// from i to j.
 class LeastArea {
  public:
   LeastArea(const std::vector<Vec3>& points, const std::vector<std::int32_t>& loop,
-            const std::vector<std::pair<std::int32_t, std::int32_t>>& edges)
-      : size_(loop.size()), costs_(size_ * size_, 0.0), apex_(size_ * size_, 0) {
+            const std::vector<HalfEdge>& edges)
+      : size_(loop.size()),
+        costs_(size_ * size_, 0.0),
+        costs_to_(size_ * size_, 0.0),
+        apex_(size_ * size_, 0) {
     std::vector<Vec3> p(size_);
     for (std::size_t i = 0; i < size_; ++i) p[i] = points[static_cast<std::size_t>(loop[i])];
     for (std::size_t width = 2; width < size_; ++width) {
@@ -41,17 +50,16 @@ class LeastArea {
         const std::size_t j = i + width;
         double best = forbidden;
         // A diagonal that is an edge of the surface already would carry a third triangle.
-        const std::pair<std::int32_t, std::int32_t> chord = std::minmax(loop[i], loop[j]);
-        const bool taken = width + 1 < size_ && std::binary_search(edges.begin(), edges.end(), chord);
+        const bool taken = width + 1 < size_ && is_edge(edges, loop[i], loop[j]);
         for (std::size_t k = i + 1; k < j && !taken; ++k) {
-          const double parts = costs_[i * size_ + k] + costs_[k * size_ + j];
+          const double parts = costs_[i * size_ + k] + costs_to_[j * size_ + k];
           if (!(parts < best)) continue;
           const double total = parts + cost(p[i], p[k], p[j]);
           if (!(total < best)) continue;
           best = total;
           apex_[i * size_ + j] = static_cast<std::uint16_t>(k);
         }
-        costs_[i * size_ + j] = best;
+        costs_[i * size_ + j] = costs_to_[j * size_ + i] = best;
       }
     }
   }
@@ -76,7 +84,7 @@ class LeastArea {
 
  private:
   std::size_t size_;
-  std::vector<double> costs_;
+  std::vector<double> costs_, costs_to_;  ///< the second by j and i, so that both are read in a row
   std::vector<std::uint16_t> apex_;
 };
 
@@ -93,12 +101,10 @@ void fill_with_fan(TriMesh& mesh, const std::vector<std::int32_t>& loop) {
 }  // namespace
 
 FilledHoles fill_holes(const TriMesh& mesh) {
-  const auto loops = boundary_loops(mesh);
+  detail::check_indices(mesh, "boundary loops");
+  const std::vector<HalfEdge> edges = detail::half_edges(mesh);
+  const auto loops = detail::boundary_loops(mesh, edges);
   detail::check_finite(mesh, "hole filling");
-  std::vector<std::pair<std::int32_t, std::int32_t>> edges;
-  detail::for_each_edge(detail::half_edges(mesh), [&](const HalfEdge* first, const HalfEdge*) {
-    edges.emplace_back(first->low, first->high);
-  });
   FilledHoles result{mesh, std::vector<std::int32_t>(mesh.triangles.size(), -1)};
   for (std::size_t l = 0; l < loops.size(); ++l) {
     const auto& loop = loops[l];

@@ -76,21 +76,16 @@ void count_point_faults(const TriMesh& mesh, SurfaceFaults& faults, Examples& ex
 }
 
 void count_triangle_faults(const TriMesh& mesh, SurfaceFaults& faults, Examples& examples) {
-  std::vector<std::pair<Triangle, std::int32_t>> sorted(mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto index = static_cast<std::int32_t>(t);
-    sorted[t] = {mesh.triangles[t], index};
-    std::sort(sorted[t].first.begin(), sorted[t].first.end());
-    if (detail::is_degenerate(mesh, mesh.triangles[t])) {
-      ++faults.degenerate_triangles;
-      examples.add(degenerate_triangle, centroid(mesh, index));
-    }
+    if (!detail::is_degenerate(mesh, mesh.triangles[t])) continue;
+    ++faults.degenerate_triangles;
+    examples.add(degenerate_triangle, centroid(mesh, static_cast<std::int32_t>(t)));
   }
-  std::sort(sorted.begin(), sorted.end());
+  const std::vector<detail::CornersOfTriangle> sorted = detail::sorted_corners(mesh);
   for (std::size_t i = 1; i < sorted.size(); ++i) {
-    if (sorted[i].first != sorted[i - 1].first) continue;
+    if (sorted[i].corners != sorted[i - 1].corners) continue;
     ++faults.duplicate_triangles;
-    examples.add(duplicate_triangle, centroid(mesh, sorted[i].second));
+    examples.add(duplicate_triangle, centroid(mesh, sorted[i].triangle));
   }
 }
 
@@ -154,7 +149,7 @@ SurfaceFaults find_faults(const TriMesh& mesh, bool with_self_intersections) {
   const std::vector<HalfEdge> table = detail::half_edges(mesh);
   count_edge_faults(mesh, table, faults, examples);
   count_vertex_faults(mesh, table, faults, examples);
-  for (const std::int32_t number : components(mesh)) {
+  for (const std::int32_t number : detail::components(mesh, table)) {
     faults.components = std::max(faults.components, static_cast<std::size_t>(number) + 1);
   }
   if (with_self_intersections) {

@@ -69,15 +69,10 @@ void drop_unused_points(TriMesh& mesh) {
 }
 
 void drop_duplicate_triangles(TriMesh& mesh) {
-  std::vector<std::pair<Triangle, std::size_t>> sorted(mesh.triangles.size());
-  for (std::size_t t = 0; t < sorted.size(); ++t) {
-    sorted[t] = {mesh.triangles[t], t};
-    std::sort(sorted[t].first.begin(), sorted[t].first.end());
-  }
-  std::sort(sorted.begin(), sorted.end());
+  const std::vector<detail::CornersOfTriangle> sorted = detail::sorted_corners(mesh);
   std::vector<char> keep(sorted.size(), 1);
   for (std::size_t i = 1; i < sorted.size(); ++i) {
-    if (sorted[i].first == sorted[i - 1].first) keep[sorted[i].second] = 0;
+    if (sorted[i].corners == sorted[i - 1].corners) keep[static_cast<std::size_t>(sorted[i].triangle)] = 0;
   }
   std::size_t count = 0;
   for (std::size_t t = 0; t < keep.size(); ++t) {
@@ -129,10 +124,12 @@ bool split_across_flat_triangles(TriMesh& mesh) {
 }
 
 void drop_degenerate_triangles(TriMesh& mesh) {
+  const auto flat = [&](const Triangle& t) { return detail::is_degenerate(mesh, t); };
+  if (std::ranges::none_of(mesh.triangles, flat)) return;
   // Flat triangles in a row need a pass each; a row that long has no surface to save.
   for (int pass = 0; pass < 8 && split_across_flat_triangles(mesh); ++pass) {
   }
-  std::erase_if(mesh.triangles, [&](const Triangle& t) { return detail::is_degenerate(mesh, t); });
+  std::erase_if(mesh.triangles, flat);
 }
 
 /// Turns triangles so that neighbours across two-triangle edges agree; a patch ends at other edges.

@@ -95,9 +95,14 @@ std::vector<std::vector<std::int32_t>> vertex_neighbours(const TriMesh& mesh) {
 
 std::vector<std::vector<std::int32_t>> boundary_loops(const TriMesh& mesh) {
   detail::check_indices(mesh, "boundary loops");
+  return detail::boundary_loops(mesh, detail::half_edges(mesh));
+}
+
+std::vector<std::vector<std::int32_t>> detail::boundary_loops(const TriMesh& mesh,
+                                                              const std::vector<HalfEdge>& table) {
   std::vector<std::int32_t> next(mesh.points.size(), -1);
   std::vector<std::int32_t> starts;
-  detail::for_each_edge(detail::half_edges(mesh), [&](const HalfEdge* first, const HalfEdge* last) {
+  detail::for_each_edge(table, [&](const HalfEdge* first, const HalfEdge* last) {
     if (last - first != 1) return;
     std::int32_t& after = next[static_cast<std::size_t>(first->from())];
     if (after >= 0) {
@@ -134,8 +139,12 @@ std::vector<std::vector<std::int32_t>> boundary_loops(const TriMesh& mesh) {
 
 std::vector<std::int32_t> components(const TriMesh& mesh) {
   detail::check_indices(mesh, "components");
+  return detail::components(mesh, detail::half_edges(mesh));
+}
+
+std::vector<std::int32_t> detail::components(const TriMesh& mesh, const std::vector<HalfEdge>& table) {
   DisjointSets sets(mesh.triangles.size());
-  detail::for_each_edge(detail::half_edges(mesh), [&](const HalfEdge* first, const HalfEdge* last) {
+  detail::for_each_edge(table, [&](const HalfEdge* first, const HalfEdge* last) {
     for (const HalfEdge* other = first + 1; other != last; ++other)
       sets.join(first->triangle, other->triangle);
   });

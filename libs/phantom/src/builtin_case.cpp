@@ -21,7 +21,7 @@ using imaging::FloatVolume;
 
 constexpr double axis_step_mm = 0.05;
 constexpr double margin_mm = 8.0;
-constexpr double fwhm_per_sigma = 2.354820045;
+constexpr double builtin_fwhm_per_sigma = 2.354820045;
 // Diameters of left main, LAD and LCX, mm (Dodge et al., Circulation 1992, 86:232), as radii.
 constexpr double main_start_radius = 2.2, main_end_radius = 1.5;
 constexpr double branch_start_radius = 1.7, branch_end_radius = 1.4;
@@ -238,7 +238,7 @@ BuiltinCase make_builtin_case(const BuiltinOptions& options, const core::TaskCon
   FloatVolume image = paint(vessels.shape, options, task.sub(0.0, 0.6));
   task.set_progress(0.6);
   if (options.blur_fwhm_mm > 0.0)
-    image = imaging::gaussian_blurred(image, options.blur_fwhm_mm / fwhm_per_sigma, task);
+    image = imaging::gaussian_blurred(image, options.blur_fwhm_mm / builtin_fwhm_per_sigma, task);
   task.set_progress(0.8);
   const FloatVolume grain = noise(image.geometry, options, task);
   out.image.geometry = image.geometry;

@@ -67,6 +67,36 @@ double free_from_mm(const geometry::VesselTree& tree, const std::vector<Axis>& a
   return std::min(s, branch.length());
 }
 
+lumen::RadialWall wall_from_image(const geometry::VesselTree& tree, const std::vector<Axis>& axes,
+                                  std::size_t vessel, const imaging::ImageVolume& image,
+                                  std::vector<std::string>& warnings, const core::TaskContext& task) {
+  const auto warn = [&](const std::string& text) {
+    core::log_warning(tree.vessels[vessel].name + ": " + text);
+    warnings.push_back(text);
+  };
+  const Axis& axis = axes[vessel];
+  const double free_mm = free_from_mm(tree, axes, vessel), length = axis->length();
+  const auto tube = [&](const std::string& why) {
+    warn("its wall cannot be found, it is a tube as wide as its axis says: " + why);
+    return tube_of(axis, free_mm);
+  };
+  if (length - free_mm < shortest_mm) {
+    warn("too short by itself to be found in the image; a tube");
+    // At its end: its first radius is its parent's.
+    return [radius = axis->radius(length)](double, double) { return radius; };
+  }
+  try {
+    const segmentation::LumenBoundary found =
+        segmentation::lumen_boundary(image, *axis, free_mm, length, {}, task);
+    for (const std::string& warning : found.warnings) warn(warning);
+    return wall_of(found, free_mm, length);
+  } catch (const GeometryError& error) {
+    return tube(error.what());
+  } catch (const InvalidInput& error) {  // an axis that leaves the image, among others
+    return tube(error.what());
+  }
+}
+
 std::vector<lumen::RadialWall> walls_from_image(const geometry::VesselTree& tree,
                                                 const imaging::ImageVolume& image,
                                                 const core::TaskContext& task,
@@ -76,34 +106,11 @@ std::vector<lumen::RadialWall> walls_from_image(const geometry::VesselTree& tree
     axes.push_back(std::make_shared<const geometry::AxisCurve>(geometry::vessel_axis(tree, vessel)));
   std::vector<lumen::RadialWall> walls;
   std::vector<std::vector<std::string>> warnings(tree.vessels.size());
-  const auto warn = [&](std::size_t vessel, const std::string& text) {
-    core::log_warning(tree.vessels[vessel].name + ": " + text);
-    warnings[vessel].push_back(text);
-  };
-  const auto take_tube = [&](std::size_t vessel, double free_mm, const std::string& why) {
-    warn(vessel, "its wall cannot be found, it is a tube as wide as its axis says: " + why);
-    walls.push_back(tube_of(axes[vessel], free_mm));
-  };
   const double count = static_cast<double>(axes.size());
   for (std::size_t i = 0; i < axes.size(); ++i) {
-    const double free_mm = free_from_mm(tree, axes, i), length = axes[i]->length();
-    if (length - free_mm < shortest_mm) {
-      warn(i, "too short by itself to be found in the image; a tube");
-      // At its end: its first radius is its parent's.
-      walls.emplace_back([tube = axes[i]->radius(length)](double, double) { return tube; });
-      continue;
-    }
     const double done = static_cast<double>(i);
-    try {
-      const segmentation::LumenBoundary found = segmentation::lumen_boundary(
-          image, *axes[i], free_mm, length, {}, task.sub(done / count, (done + 1.0) / count));
-      for (const std::string& warning : found.warnings) warn(i, warning);
-      walls.push_back(wall_of(found, free_mm, length));
-    } catch (const GeometryError& error) {
-      take_tube(i, free_mm, error.what());
-    } catch (const InvalidInput& error) {  // an axis that leaves the image, among others
-      take_tube(i, free_mm, error.what());
-    }
+    walls.push_back(
+        wall_from_image(tree, axes, i, image, warnings[i], task.sub(done / count, (done + 1.0) / count)));
   }
   if (said) *said = std::move(warnings);
   return walls;

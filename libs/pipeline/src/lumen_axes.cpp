@@ -3,6 +3,7 @@
 #include "ostia/centerline/end_points.h"
 #include "ostia/centerline/surface_tips.h"
 #include "ostia/core/error.h"
+#include "ostia/core/parallel_invoke.h"
 #include "ostia/core/text.h"
 #include "ostia/geometry/aabb_tree.h"
 #include "ostia/geometry/mesh_topology.h"
@@ -113,7 +114,7 @@ std::vector<PartRequest> shared_out(const std::vector<TriMesh>& parts, const Axe
 struct PartEnds {
   std::optional<Vec3> source;
   std::vector<End> targets;
-  std::vector<End> closed;  ///< blind branches that are left so
+  bool leave_blind = false;  ///< blind branches stay closed: they are only told
 };
 
 std::size_t inlet_among(const std::vector<End>& ends) {
@@ -163,12 +164,10 @@ PartEnds ends_of_part(const TriMesh& part, const PartRequest& asked, const AxesR
   }
   if (!asked.targets.empty() && request.side_branches == SideBranches::asked_only) return out;
   out.targets.insert(out.targets.end(), found.begin(), found.end());
+  out.leave_blind = !out.targets.empty() && (request.side_branches == SideBranches::closed ||
+                                             request.side_branches == SideBranches::asked_only);
+  if (out.leave_blind) return out;
   std::vector<End> blind = blind_ends(part, asked, out.source, task);
-  if (!out.targets.empty() &&
-      (request.side_branches == SideBranches::closed || request.side_branches == SideBranches::asked_only)) {
-    out.closed = std::move(blind);
-    return out;
-  }
   if (!out.source && !blind.empty()) {
     const std::size_t inlet = inlet_among(blind);
     out.source = blind[inlet].point;
@@ -178,7 +177,8 @@ PartEnds ends_of_part(const TriMesh& part, const PartRequest& asked, const AxesR
   return out;
 }
 
-void tell(const PartEnds& ends, bool chosen, std::vector<std::string>& told) {
+/// `closed`: blind branches that are left so.
+void tell(const PartEnds& ends, const std::vector<End>& closed, bool chosen, std::vector<std::string>& told) {
   const auto branch = [](const End& end) {
     return "a branch " + core::fixed_text(end.length_mm, 1) + " mm long ends blindly at " +
            in_words(end.point);
@@ -191,7 +191,7 @@ void tell(const PartEnds& ends, bool chosen, std::vector<std::string>& told) {
         (end.blind ? branch(end) : "an open end that no target means is at " + in_words(end.point)) +
         ": it gets an axis and the outlet " + end.name);
   }
-  for (const End& end : ends.closed)
+  for (const End& end : closed)
     told.push_back(branch(end) + " and stays closed (--side-branches axes or stubs give it an outlet)");
   if (found > 0)
     told.push_back("closed ends found: " + std::to_string(found) + "; the vessels begin at " +
@@ -296,8 +296,14 @@ LumenAxes lumen_axes(const TriMesh& lumen, const AxesRequest& request, const cor
       options.vessel_names.push_back(end.name);
       if (chosen && !end.asked && request.side_branches == SideBranches::stubs) stubs.push_back(end.name);
     }
-    tell(ends, chosen, axes.told);
-    auto found = centerline::extract_centerlines(parts[i], ends.source, targets, options, part_task);
+    std::vector<End> closed;
+    centerline::CenterlineResult found;
+    core::parallel_invoke(
+        [&] { found = centerline::extract_centerlines(parts[i], ends.source, targets, options, part_task); },
+        [&] {
+          if (ends.leave_blind) closed = blind_ends(parts[i], asked[i], ends.source, part_task);
+        });
+    tell(ends, closed, chosen, axes.told);
     for (const std::string& stub : stubs) axes.stubs.push_back(stub_plane(found.tree, stub));
     append_tree(axes.tree, std::move(found.tree));
     axes.lines.insert(axes.lines.end(), found.lines.begin(), found.lines.end());

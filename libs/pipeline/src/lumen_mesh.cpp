@@ -1,5 +1,6 @@
 // From a lumen and its axes to a mesh that has passed the gate.
 
+#include "lumen_fill.h"
 #include "stages.h"
 
 #include "ostia/core/error.h"
@@ -85,10 +86,6 @@ centerline::CenterlineResult centerlines_between(const meshing::ClippedSurface& 
   return all;
 }
 
-/// Where a stage's share of the progress ends; measured on coronary trees of 0.1 to 1 million triangles.
-struct Shares {
-  double cut, axes, caps, remeshing, tetrahedra;
-};
 constexpr Shares with_extraction{0.04, 0.2, 0.22, 0.5, 0.9};
 constexpr Shares with_known_axes{0.2, 0.2, 0.21, 0.62, 0.97};
 
@@ -105,12 +102,6 @@ std::vector<std::string> names_of(const std::vector<meshing::ClippedEnd>& ends) 
   return names;
 }
 
-/// The cut lumen before and after extensions were added to it.
-struct Extended {
-  meshing::ClippedSurface before;
-  TriMesh after;
-};
-
 /// The cut lumen and its axes led on beyond its ends.
 Extended extend(const meshing::FlowExtensionOptions& options, const Shares& shares, Stages& stages,
                 meshing::ClippedSurface& clipped, geometry::VesselTree& axes, MeshedLumen& out) {
@@ -123,37 +114,6 @@ Extended extend(const meshing::FlowExtensionOptions& options, const Shares& shar
   append(out.warnings, extended.warnings);
   out.quality.extensions = std::move(extended.extensions);
   return both;
-}
-
-/// Half the width of the vessel at each point of the wall, for what a mesh may be off there. A crevice of a
-/// rough wall is no vessel: nothing is narrower than a third of what the nearest axis has.
-std::vector<double> vessel_widths(const TriMesh& surface, const meshing::TubeFunction& tube,
-                                  const core::TaskContext& task) {
-  constexpr double least_share = 1.0 / 3.0;
-  std::vector<double> radii = meshing::local_radii(surface, tube, task);
-  for (std::size_t i = 0; i < radii.size(); ++i)
-    radii[i] = std::max(radii[i], least_share * tube(surface.points[i]).radius_mm);
-  return radii;
-}
-
-/// The gate that a mesh passes before it is written.
-void judge(const geometry::FacedSurface& capped, const meshing::TubeFunction& tube,
-           const ModelOptions& options, const core::TaskContext& task, MeshedLumen& out) {
-  MeshQuality& quality = out.quality;
-  quality.surface = meshing::surface_quality(out.surface.mesh, true, task.sub(0.0, 0.3));
-  quality.volume = meshing::mixed_quality(out.mesh, task.sub(0.3, 0.7));
-  if (!out.in_layers.empty())
-    meshing::mark_layers(out.mesh, out.in_layers, quality.volume, task.sub(0.65, 0.7));
-  quality.refinement = options.volume.refinement;
-  if (quality.refinement)
-    quality.refinement->elements = quality.volume.tetrahedra.count + quality.volume.prisms.count;
-  quality.wall_deviation = meshing::wall_deviation(out.mesh, wall_of(capped), task.sub(0.7, 0.85));
-  quality.shape =
-      meshing::shape_kept(out.mesh, capped, vessel_widths(capped.mesh, tube, task), task.sub(0.85, 1.0));
-  quality.shape->volume_mm3 = quality.volume.volume_mm3();
-  quality.verdict = meshing::check(quality.surface, options.bounds);
-  append(quality.verdict.reasons, meshing::check(quality.volume, options.volume_bounds).reasons);
-  append(quality.verdict.reasons, meshing::check(*quality.shape, options.shape_bounds).reasons);
 }
 
 /// Where triangles of the wanted size lose more of the shape than may be, as in sharp crotches, they get
@@ -227,20 +187,7 @@ void mesh_capped(const geometry::FacedSurface& capped, const std::optional<Exten
   append(out.warnings, remeshed.report.warnings);
   out.surface = std::move(remeshed.surface);
   out.remeshing = remeshed.report;
-  FilledVolume filled = stages.run(
-      "tetrahedra", shares.remeshing, shares.tetrahedra,
-      [&](const core::TaskContext& part) { return fill_volume(out.surface, capped, options.volume, part); });
-  append(out.warnings, filled.warnings);
-  out.mesh = std::move(filled.mesh);
-  out.in_layers = std::move(filled.in_layers);
-  if (filled.new_surface) out.surface = std::move(*filled.new_surface);
-  if (extended) meshing::mark_extension_walls(extended->before, extended->after, out.surface, out.mesh);
-  out.quality.layers = std::move(filled.layers);
-  out.quality.quadratic = std::move(filled.quadratic);
-  stages.run("quality", shares.tetrahedra, 1.0, [&](const core::TaskContext& part) {
-    judge(capped, tube, options, part, out);
-    return 0;
-  });
+  fill_and_judge(capped, extended, tube, options, shares, stages, out);
 }
 
 MeshedLumen mesh_with(const TriMesh& lumen, const geometry::VesselTree& tree, const ModelOptions& options,

@@ -96,7 +96,7 @@ TriMesh prepared(const TriMesh& mesh) {
   std::optional<GeometryError> failed;
   for (const TriMesh& part : parts_of(mesh)) {
     try {
-      parts.push_back(centerline::prepare_lumen(part).wall);
+      parts.push_back(centerline::simple_wall(part));
     } catch (const GeometryError& error) {
       failed = error;
     }

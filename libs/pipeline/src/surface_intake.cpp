@@ -4,6 +4,7 @@
 #include "spikes.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/parallel_invoke.h"
 #include "ostia/core/text.h"
 #include "ostia/geometry/aabb_tree.h"
 #include "ostia/geometry/mesh_topology.h"
@@ -71,22 +72,47 @@ void drop_what_is_nowhere(geometry::FacedSurface& surface, std::vector<std::stri
   told.push_back("triangles with points that are not finite dropped: " + std::to_string(gone));
 }
 
+/// What the first look at a surface tells.
+struct FirstLook {
+  bool sound = false;  ///< nothing to be mended before anything else looks at it; open ends are none
+  geometry::FilledHoles closed;  ///< where it is sound
+};
+
+FirstLook first_look(const TriMesh& mesh) {
+  geometry::SurfaceFaults faults = geometry::find_faults(mesh, false);
+  faults.open_edges = 0;
+  if (!faults.closed_manifold() || faults.components != 1) return {};
+  FirstLook look;
+  bool whole = false, smooth = false;
+  core::parallel_invoke([&] { whole = geometry::self_intersections(mesh).empty(); },
+                        [&] {
+                          look.closed = geometry::fill_holes(mesh);
+                          smooth = geometry::volume(look.closed.mesh) > 0.0 && !has_spikes(mesh);
+                        });
+  look.sound = whole && smooth;
+  return look;
+}
+
+double calibre_of_closed(const TriMesh& closed) {
+  return 4.0 * std::abs(geometry::volume(closed)) / geometry::area(closed);
+}
+
 double calibre_of(const TriMesh& mesh) {
   try {
-    const TriMesh closed = geometry::fill_holes(geometry::oriented(geometry::welded(mesh))).mesh;
-    return 4.0 * std::abs(geometry::volume(closed)) / geometry::area(closed);
+    return calibre_of_closed(geometry::fill_holes(geometry::oriented(geometry::welded(mesh))).mesh);
   } catch (const Error&) {  // too broken for that: its extent alone decides
     return geometry::bounds(mesh.points).sizes().maxCoeff();
   }
 }
 
-void to_mm(geometry::FacedSurface& surface, const IntakeOptions& options, TakenSurface& out,
-           const std::string& what) {
+/// `look` is at the surface as it was read.
+void to_mm(geometry::FacedSurface& surface, const FirstLook& look, const IntakeOptions& options,
+           TakenSurface& out, const std::string& what) {
   const double extent = geometry::bounds(surface.mesh.points).sizes().norm();
   if (options.unit_mm) {
     out.unit_mm = *options.unit_mm;
   } else {
-    const double calibre = calibre_of(surface.mesh);
+    const double calibre = look.sound ? calibre_of_closed(look.closed.mesh) : calibre_of(surface.mesh);
     out.unit_mm = unit_by_calibre(calibre, extent);
     check_vessel_size(out.unit_mm * calibre, what);
     if (out.unit_mm != 1.0)
@@ -135,11 +161,11 @@ std::vector<TriMesh> mended(const TriMesh& mesh, std::vector<std::string>& told,
   return parts;
 }
 
-/// An opening much narrower than the lumen behind it is no end.
-void close_holes_in_the_wall(TriMesh& part, std::vector<std::string>& told) {
+/// An opening much narrower than the lumen behind it is no end. `filled` is the part with its holes filled.
+void close_holes_in_the_wall(TriMesh& part, const geometry::FilledHoles& filled,
+                             std::vector<std::string>& told) {
   const auto loops = geometry::boundary_loops(part);
   if (loops.empty()) return;
-  const geometry::FilledHoles filled = geometry::fill_holes(part);
   const geometry::AabbTree tree(filled.mesh);
   std::vector<bool> close(loops.size(), false);
   for (std::size_t i = 0; i < loops.size(); ++i) {
@@ -154,15 +180,6 @@ void close_holes_in_the_wall(TriMesh& part, std::vector<std::string>& told) {
   for (const std::int32_t hole : filled.hole_of_triangle)
     keep.push_back(hole < 0 || close[static_cast<std::size_t>(hole)]);
   part = geometry::subset(filled.mesh, keep);
-}
-
-/// Nothing to be mended before anything else looks at the surface; open ends are none.
-bool is_sound(const TriMesh& mesh) {
-  geometry::SurfaceFaults faults = geometry::find_faults(mesh, true);
-  faults.open_edges = 0;
-  if (!faults.closed_manifold() || faults.components != 1) return false;
-  const TriMesh closed = geometry::fill_holes(mesh).mesh;
-  return geometry::volume(closed) > 0.0 && !has_spikes(mesh);
 }
 
 }  // namespace
@@ -181,27 +198,40 @@ TakenSurface take_surface(geometry::FacedSurface surface, const std::string& wha
   } else {
     drop_what_is_nowhere(surface, out.told);
   }
-  to_mm(surface, options, out, what);
+  FirstLook look;
+  if (!options.strict) look = first_look(surface.mesh);
+  to_mm(surface, look, options, out, what);
+  if (!options.strict && out.unit_mm != 1.0) look = first_look(surface.mesh);
   task.throw_if_cancelled();
   geometry::FacedSurface ready = surface;
-  if (!options.strict && !is_sound(surface.mesh)) {
+  std::optional<meshing::OpenedCaps> opened;
+  const auto open_caps = [&] {
+    if (options.open_caps) opened = meshing::without_flat_caps(ready, {}, task.sub(0.8, 1.0));
+  };
+  if (!options.strict && !look.sound) {
     std::vector<TriMesh> parts = mended(surface.mesh, out.told, task.sub(0.1, 0.7));
     if (const Specks gone = drop_specks(parts); gone.count() > 0) out.told.push_back(gone.text());
-    for (TriMesh& part : parts) close_holes_in_the_wall(part, out.told);
+    for (TriMesh& part : parts) close_holes_in_the_wall(part, geometry::fill_holes(part), out.told);
     ready.mesh = joined(parts);
     ready.face_ids = labels_on(ready.mesh, surface);
     if (parts.size() > 1)
       out.told.push_back("it has " + std::to_string(parts.size()) +
                          " separate parts, each taken as a system of vessels of its own");
   } else if (!options.strict) {
-    close_holes_in_the_wall(ready.mesh, out.told);
-    ready.face_ids = labels_on(ready.mesh, surface);
+    // Holes in the wall are rare: caps are looked for as if there were none, at the same time.
+    TriMesh whole = ready.mesh;
+    core::parallel_invoke([&] { close_holes_in_the_wall(whole, look.closed, out.told); }, open_caps);
+    if (whole.triangles.size() != ready.mesh.triangles.size()) {
+      ready.mesh = std::move(whole);
+      ready.face_ids = labels_on(ready.mesh, surface);
+      opened.reset();
+    }
   }
   task.throw_if_cancelled();
   if (options.open_caps) {
-    meshing::OpenedCaps opened = meshing::without_flat_caps(ready, {}, task.sub(0.8, 1.0));
-    out.lumen = std::move(opened.wall);
-    out.ends = std::move(opened.ends);
+    if (!opened) open_caps();
+    out.lumen = std::move(opened->wall);
+    out.ends = std::move(opened->ends);
     if (!out.ends.empty()) {
       std::string names;
       for (const meshing::GivenEnd& end : out.ends)

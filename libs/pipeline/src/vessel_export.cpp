@@ -32,6 +32,7 @@ using geometry::TriMesh;
 using lumen::LumenModel;
 using nlohmann::json;
 
+constexpr double moved_inside_radii = 6.0;                // of an end that cannot be cut, at most
 constexpr double walls_share = 0.1, meshes_share = 0.98;  // of the progress, measured
 
 void check_formats(const std::vector<std::string>& formats) {
@@ -67,6 +68,7 @@ ModelOptions model_options(const MeshExportOptions& options) {
   ModelOptions how;
   how.inset_radii = options.inset_radii;
   how.clip.planes = options.planes;
+  how.clip.move_inside_radii = moved_inside_radii;
   how.sizing = options.sizing;
   how.extensions = options.extensions;
   how.volume = options.volume;

@@ -4,7 +4,7 @@
 #include "block_grid.h"
 #include "fronts/fast_marching.h"
 
-#include "ostia/segmentation/colliding_fronts.h"
+#include "ostia/segmentation/initial_region.h"
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 #include "ostia/segmentation/segment.h"
 
-#include "followed_branches.h"
 #include "level_set/evolve_region.h"
+#include "level_set/initialization.h"
 #include "path/prepared_image.h"
 
 #include "ostia/core/error.h"
@@ -306,8 +306,8 @@ SegmentationResult segment_vessels(const imaging::ImageVolume& given, const std:
   if (options.balloon) fronts.margin_voxels = std::max(fronts.margin_voxels, kBalloonRoom);
   if (options.bright_is_lumen) fronts.upper_hu = std::numeric_limits<std::int16_t>::max();
   task.set_stage("colliding fronts");
-  detail::FollowedBranches followed =
-      detail::follow_branches(image, asked, fronts, options.leave_out_unfollowed, task.sub(0.0, 0.4));
+  detail::InitializedBranches followed =
+      detail::initialize_branches(image, asked, fronts, options.leave_out_unfollowed, task.sub(0.0, 0.4));
   const std::vector<BranchSeeds>& branches = followed.branches;
   std::vector<InitialRegion>& parts = followed.parts;
   result.left_out = std::move(followed.left_out);

@@ -97,8 +97,20 @@ void run(Annotations& annotations, const MeasureDelete& command, const LumenMode
   annotations.measurements.erase(require_measurement(annotations, command.id));
 }
 
+void require_sound(const std::vector<analysis::EvaluableStretch>& stretches) {
+  double last = 0.0;
+  for (const analysis::EvaluableStretch& one : stretches) {
+    if (!(one.from_mm >= last && one.from_mm < one.to_mm && std::isfinite(one.to_mm)))
+      throw InvalidInput("the stretch from " + std::to_string(one.from_mm) + " to " +
+                         std::to_string(one.to_mm) +
+                         " mm of a mark is none, or overlaps the one before; give them ascending");
+    last = one.to_mm;
+  }
+}
+
 void run(Annotations& annotations, const MarkVessel& command, const LumenModel& model) {
   const VesselMark& mark = command.mark;
+  require_sound(mark.evaluable);
   if (mark.color)
     for (const double part : *mark.color)
       if (!(part >= 0.0 && part <= 1.0))
@@ -112,6 +124,33 @@ void run(Annotations& annotations, const MarkVessel& command, const LumenModel& 
   require_vessel(model, mark.vessel, "the mark");
   annotations.marks.insert(found, mark);
 }
+
+/// The mark of a vessel, made where there is none.
+VesselMark& mark_of(Annotations& annotations, std::int32_t vessel) {
+  const auto place = place_of(annotations.marks, vessel);
+  if (place != annotations.marks.end() && place->vessel == vessel) return *place;
+  VesselMark mark;
+  mark.vessel = vessel;
+  return *annotations.marks.insert(place, std::move(mark));
+}
+
+/// The reader's word on what lies between two abscissas of one vessel goes to another, moved along.
+void hand_on(Annotations& annotations, std::int32_t vessel, double from_mm, double to_mm, std::int32_t other,
+             double by_mm) {
+  const VesselMark* mark = find_mark(annotations, vessel);
+  if (!mark || mark->evaluable.empty()) return;
+  const std::vector<analysis::EvaluableStretch> said = mark->evaluable;
+  VesselMark& left = mark_of(annotations, vessel);
+  left = with_evaluability(std::move(left), from_mm, to_mm, std::nullopt);
+  for (const analysis::EvaluableStretch& one : said) {
+    const double from = std::max(one.from_mm, from_mm) + by_mm, to = std::min(one.to_mm, to_mm) + by_mm;
+    if (!(from < to) || !(to > 0.0)) continue;
+    VesselMark& now = mark_of(annotations, other);
+    now = with_evaluability(std::move(now), std::max(from, 0.0), to, one.grade);
+  }
+}
+
+constexpr double whole_mm = std::numeric_limits<double>::max();
 
 /// The last place of a measurement along a vessel's axis.
 double last_mm(const Measurement& measurement, const geometry::AxisCurve& axis) {
@@ -130,6 +169,7 @@ void follow(Annotations& annotations, const lumen::BranchSplit& edit, const Lume
   const geometry::AxisCurve& axis = *lumen::vessel(before, edit.vessel).axis;
   for (Measurement& one : annotations.measurements)
     if (needs_vessel(one) && one.vessel == edit.vessel && last_mm(one, axis) > seam_mm) one.vessel = made->id;
+  hand_on(annotations, edit.vessel, seam_mm, whole_mm, made->id, 0.0);
 }
 
 void follow(Annotations& annotations, const lumen::BranchMerge& edit, const LumenModel& before,
@@ -138,6 +178,7 @@ void follow(Annotations& annotations, const lumen::BranchMerge& edit, const Lume
   if (!parent) return;
   for (Measurement& one : annotations.measurements)
     if (needs_vessel(one) && one.vessel == edit.vessel) one.vessel = *parent;
+  hand_on(annotations, edit.vessel, 0.0, whole_mm, *parent, 0.0);
 }
 
 /// A measurement's abscissas where its vessel's way has another beginning: it stays at its places, as far as
@@ -164,6 +205,8 @@ void follow(Annotations& annotations, const lumen::BranchCut& edit, const LumenM
     move_along(
         one, lumen::vessel(after, one.vessel).axis->length() - lumen::vessel(before, source).axis->length());
   }
+  hand_on(annotations, edit.vessel, seam_mm, whole_mm, made->id,
+          lumen::vessel(after, made->id).axis->length() - axis.length());
 }
 
 void follow(Annotations& annotations, const lumen::BranchConnect&, const LumenModel& before,
@@ -201,6 +244,25 @@ std::string op_name(const AnnotationCommand& command) {
 
 bool is_annotation_op(const std::string& op) {
   return std::find(op_names.begin(), op_names.end(), op) != op_names.end();
+}
+
+VesselMark with_evaluability(VesselMark mark, double from_mm, double to_mm,
+                             std::optional<analysis::Evaluability> grade) {
+  std::vector<analysis::EvaluableStretch> now;
+  const auto add = [&](double from, double to, analysis::Evaluability said) {
+    if (!(from < to)) return;
+    if (!now.empty() && now.back().grade == said && now.back().to_mm == from)
+      now.back().to_mm = to;
+    else
+      now.push_back({from, to, said, {}, true});
+  };
+  for (const analysis::EvaluableStretch& one : mark.evaluable)
+    add(one.from_mm, std::min(one.to_mm, from_mm), one.grade);
+  if (grade) add(from_mm, to_mm, *grade);
+  for (const analysis::EvaluableStretch& one : mark.evaluable)
+    add(std::max(one.from_mm, to_mm), one.to_mm, one.grade);
+  mark.evaluable = std::move(now);
+  return mark;
 }
 
 const VesselMark* find_mark(const Annotations& annotations, std::int32_t vessel) {
@@ -250,7 +312,12 @@ bool same(const Measurement& a, const Measurement& b) {
 bool same(const VesselMark& a, const VesselMark& b) {
   if (a.color.has_value() != b.color.has_value()) return false;
   if (a.color && !std::equal(a.color->begin(), a.color->end(), b.color->begin(), same_bits)) return false;
-  return a.vessel == b.vessel && a.visible == b.visible && a.checked == b.checked && a.note == b.note;
+  const auto same_stretch = [](const analysis::EvaluableStretch& p, const analysis::EvaluableStretch& q) {
+    return same_bits(p.from_mm, q.from_mm) && same_bits(p.to_mm, q.to_mm) && p.grade == q.grade;
+  };
+  return a.vessel == b.vessel && a.visible == b.visible && a.checked == b.checked && a.note == b.note &&
+         std::equal(a.evaluable.begin(), a.evaluable.end(), b.evaluable.begin(), b.evaluable.end(),
+                    same_stretch);
 }
 
 bool needs_vessel(const Measurement& measurement) {

@@ -43,6 +43,10 @@ void fields(C& command, V& v) {
     v("checked", command.mark.checked);
     v("color", command.mark.color);
     v("note", command.mark.note, Need::optional);
+    if constexpr (std::is_same_v<V, Reader>)
+      v("evaluable", command.mark.evaluable, Need::optional);
+    else if (!command.mark.evaluable.empty())
+      v("evaluable", command.mark.evaluable);
   }
 }
 

@@ -5,6 +5,8 @@
 
 #include "ostia/core/error.h"
 
+#include <algorithm>
+
 namespace ostia::session {
 namespace {
 
@@ -40,6 +42,26 @@ std::optional<std::array<double, 3>> color_of(std::string_view bytes) {
   return std::array<double, 3>{v.x(), v.y(), v.z()};
 }
 
+std::string stretch_bytes(const VesselMark& mark) {
+  std::vector<double> numbers;
+  for (const analysis::EvaluableStretch& one : mark.evaluable)
+    numbers.insert(numbers.end(), {one.from_mm, one.to_mm, static_cast<double>(one.grade)});
+  return bytes_of(numbers);
+}
+
+std::vector<analysis::EvaluableStretch> stretches_of(std::string_view bytes) {
+  const std::vector<double> numbers = doubles_of(bytes);
+  if (numbers.size() % 3 != 0) damaged("a mark's stretches are not whole");
+  std::vector<analysis::EvaluableStretch> stretches;
+  for (std::size_t i = 0; i < numbers.size(); i += 3) {
+    const double grade = numbers[i + 2];
+    if (grade != 0.0 && grade != 1.0 && grade != 2.0) damaged("a mark has a grade that is none");
+    stretches.push_back(
+        {numbers[i], numbers[i + 1], static_cast<analysis::Evaluability>(static_cast<int>(grade)), {}, true});
+  }
+  return stretches;
+}
+
 std::uint64_t sum_of(const Measurement& m) {
   Checksum sum;
   sum.add("measurement").add(std::int64_t{m.id}).add(analysis::to_string(m.kind)).add(m.name);
@@ -50,7 +72,9 @@ std::uint64_t sum_of(const Measurement& m) {
 std::uint64_t sum_of(const VesselMark& mark) {
   Checksum sum;
   sum.add("mark").add(std::int64_t{mark.vessel}).add(std::int64_t{mark.visible});
-  return sum.add(std::int64_t{mark.checked}).add(color_bytes(mark)).add(mark.note).value();
+  sum.add(std::int64_t{mark.checked}).add(color_bytes(mark)).add(mark.note);
+  if (!mark.evaluable.empty()) sum.add(stretch_bytes(mark));  // older versions know of none
+  return sum.value();
 }
 
 }  // namespace
@@ -63,8 +87,7 @@ std::uint64_t sum_of(const Annotations& annotations) {
 }
 
 AnnotationRows::AnnotationRows(const Database& db)
-    : insert_(db, "INSERT INTO annotation VALUES(1, ?1, ?2)"),
-      update_(db, "UPDATE annotation SET next_measurement_id = ?1, checksum = ?2 WHERE id = 1"),
+    : update_(db, "UPDATE annotation SET next_measurement_id = ?1, checksum = ?2 WHERE id = 1"),
       put_measurement_(
           db,
           "INSERT INTO measurement VALUES(?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9) ON CONFLICT(id) DO "
@@ -81,7 +104,12 @@ AnnotationRows::AnnotationRows(const Database& db)
       read_measurements_(db,
                          "SELECT id, kind, name, points, vessel, from_mm, to_mm, inner_mm, outer_mm FROM "
                          "measurement ORDER BY id"),
-      read_marks_(db, "SELECT vessel, visible, checked, color, note FROM mark ORDER BY vessel") {}
+      read_marks_(db, "SELECT vessel, visible, checked, color, note FROM mark ORDER BY vessel"),
+      put_evaluability_(db,
+                        "INSERT INTO evaluability VALUES(?1, ?2) ON CONFLICT(vessel) DO UPDATE SET "
+                        "stretches = excluded.stretches"),
+      erase_evaluability_(db, "DELETE FROM evaluability WHERE vessel = ?1"),
+      read_evaluability_(db, "SELECT vessel, stretches FROM evaluability ORDER BY vessel") {}
 
 void AnnotationRows::put(const Measurement& m) {
   const std::string points = bytes_of(m.points);
@@ -95,11 +123,18 @@ void AnnotationRows::put(const VesselMark& mark) {
   const std::string color = color_bytes(mark);
   put_mark_.with(mark.vessel, std::int32_t{mark.visible}, std::int32_t{mark.checked}, Blob{color}, mark.note)
       .run();
+  if (mark.evaluable.empty()) {
+    erase_evaluability_.with(mark.vessel).run();
+    return;
+  }
+  const std::string stretches = stretch_bytes(mark);
+  put_evaluability_.with(mark.vessel, Blob{stretches}).run();
 }
 
-void AnnotationRows::write_new() {
+void AnnotationRows::write_new(const Database& database) {
   const Annotations none;
-  insert_.with(none.next_measurement_id, static_cast<std::int64_t>(sum_of(none))).run();
+  Statement insert(database, "INSERT INTO annotation VALUES(1, ?1, ?2)");
+  insert.with(none.next_measurement_id, static_cast<std::int64_t>(sum_of(none))).run();
 }
 
 void AnnotationRows::write_change(const Annotations& before, const Annotations& after) {
@@ -114,7 +149,7 @@ void AnnotationRows::write_change(const Annotations& before, const Annotations& 
     if (const VesselMark* mark = find_mark(after, vessel))
       put(*mark);
     else
-      erase_mark_.with(vessel).run();
+      erase_mark_.with(vessel).run(), erase_evaluability_.with(vessel).run();
   }
   update_.with(after.next_measurement_id, static_cast<std::int64_t>(sum_of(after))).run();
 }
@@ -140,6 +175,14 @@ Annotations AnnotationRows::read() {
   while (v.step())
     annotations.marks.push_back(
         {id_of(v.integer(0)), flag_of(v.integer(1)), flag_of(v.integer(2)), color_of(v.bytes(3)), v.text(4)});
+  Statement& e = read_evaluability_.with();
+  while (e.step()) {
+    const std::int32_t vessel = id_of(e.integer(0));
+    const auto mark = std::find_if(annotations.marks.begin(), annotations.marks.end(),
+                                   [&](const VesselMark& one) { return one.vessel == vessel; });
+    if (mark == annotations.marks.end()) damaged("a reader's word on a vessel that has no mark");
+    mark->evaluable = stretches_of(e.bytes(1));
+  }
   if (sum_of(annotations) != checksum) damaged("its annotations are not what was written");
   if (!annotations.measurements.empty() &&
       annotations.measurements.back().id >= annotations.next_measurement_id)

@@ -17,7 +17,7 @@ class AnnotationRows {
  public:
   explicit AnnotationRows(const Database& database);
 
-  void write_new();  ///< none yet, in tables just made
+  static void write_new(const Database& database);  ///< none yet, in tables just made
   /// Rows that differ.
   void write_change(const Annotations& before, const Annotations& after);
   /// Throws InvalidInput where a row cannot be one, or the sum is not that of the rows.
@@ -26,8 +26,8 @@ class AnnotationRows {
  private:
   void put(const analysis::Measurement& measurement);
   void put(const VesselMark& mark);
-  Statement insert_, update_, put_measurement_, erase_measurement_, put_mark_, erase_mark_, read_,
-      read_measurements_, read_marks_;
+  Statement update_, put_measurement_, erase_measurement_, put_mark_, erase_mark_, read_, read_measurements_,
+      read_marks_, put_evaluability_, erase_evaluability_, read_evaluability_;
 };
 
 }  // namespace ostia::session

@@ -1,5 +1,6 @@
 #include "ostia/session/case_report.h"
 
+#include "case_report_grading.h"
 #include "case_report_text.h"
 
 #include "ostia/core/error.h"
@@ -126,15 +127,7 @@ class Maker {
     }
   }
 
-  void grade() {
-    std::vector<analysis::GradedStenosis> graded;
-    for (const ReportStenosis& one : report_.stenoses)
-      if (one.graded) graded.push_back({one.main_vessel, one.stenosis.diameter_percent});
-    report_.category = analysis::cad_rads(graded);
-  }
-
   void add_measurements(const imaging::ImageVolume* image) {
-    report_.has_image = image != nullptr;
     analysis::MeasureContext context;
     context.model = &model_;
     context.surface_of = surface_of_;
@@ -157,6 +150,33 @@ class Maker {
         measure(measurement, context);
       report_.measurements.push_back(std::move(measurement));
     }
+  }
+
+  /// How far vessels, segments and lesions can be judged.
+  void judge(const imaging::ImageVolume* image, const core::TaskContext& task) {
+    report_.has_image = image != nullptr;
+    std::vector<VesselEvaluability> judged;
+    const double noise_hu = image ? noise_about(model_, *image) : 0.0;
+    for (ReportVessel& vessel : report_.vessels) {
+      std::vector<analysis::EvaluableStretch> stretches;
+      if (image) {
+        const double done = static_cast<double>(judged.size()),
+                     all = static_cast<double>(report_.vessels.size());
+        judged.push_back(vessel_evaluability(model_, surface_of_, vessel.id, *image, noise_hu,
+                                             report_.options.evaluability,
+                                             task.sub(done / all, (done + 1.0) / all)));
+        stretches = judged.back().stretches;
+      }
+      const VesselMark* mark = find_mark(annotations_, vessel.id);
+      vessel.evaluable = judged_over(
+          stretches, mark, analysis::EvaluableStretch{vessel.own_from_mm, vessel.length_mm, {}, {}, false});
+    }
+    if (image) report_.quality = scan_quality(image->geometry, noise_hu, judged);
+  }
+
+  void grade() {
+    report_.not_found = arteries_not_found(model_);
+    grade_report(report_);
   }
 
   /// What the image shows between lumen and outer wall, by vessel and by stenosis.
@@ -248,6 +268,7 @@ class Maker {
                                is_checked(vessel.id),
                                mark ? mark->note : std::string(),
                                unmeasured_mm(profile, own),
+                               {},
                                {}});
     report_.references[vessel.id] = std::move(reference);
     report_.profiles[vessel.id] = std::move(profile);
@@ -268,7 +289,6 @@ class Maker {
       if (number == 15 || number == 18) one.main_vessel = "LCX";
     }
     one.category = analysis::cad_rads(found.diameter_percent);
-    one.graded = found.reference_diameter_mm >= report_.options.least_graded_mm;
     one.checked = is_checked(vessel.id);
     report_.stenoses.push_back(std::move(one));
   }
@@ -338,8 +358,9 @@ CaseReport make_case_report(const lumen::LumenModel& model, const analysis::Surf
   task.throw_if_cancelled();
   task.set_stage("measuring");
   Maker maker(model, surface_of, annotations, options);
-  maker.measure_vessels(task.sub(0.0, image ? 0.3 : 0.9));
-  maker.add_plaque(image, task.sub(0.3, 0.9));
+  maker.measure_vessels(task.sub(0.0, image ? 0.2 : 0.9));
+  maker.judge(image, task.sub(0.2, 0.4));
+  maker.add_plaque(image, task.sub(0.4, 0.9));
   maker.add_segments();
   maker.grade();
   maker.add_measurements(image);

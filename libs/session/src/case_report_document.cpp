@@ -26,15 +26,48 @@ std::string checked_text(bool checked) {
   return checked ? "yes" : "NO";
 }
 
+std::string joined(const std::vector<std::string>& texts, const std::string& between) {
+  std::string all;
+  for (const std::string& text : texts) all += (all.empty() ? "" : between) + text;
+  return all;
+}
+
 std::string worst_text(const CaseReport& report) {
-  const auto worst = std::max_element(report.stenoses.begin(), report.stenoses.end(),
-                                      [](const ReportStenosis& a, const ReportStenosis& b) {
-                                        return a.stenosis.diameter_percent < b.stenosis.diameter_percent;
-                                      });
-  if (worst == report.stenoses.end())
-    return "none from " + percent(report.options.stenosis.least_percent) + " % of the diameter on";
+  const ReportStenosis* worst = nullptr;
+  for (const ReportStenosis& one : report.stenoses)
+    if (one.graded && (!worst || one.stenosis.diameter_percent > worst->stenosis.diameter_percent))
+      worst = &one;
+  if (!worst) return "none from " + percent(report.options.stenosis.least_percent) + " % of the diameter on";
   return label(*worst) + ", " + worst->vessel_name + ", " + worst->segment + ": " +
          percent(worst->stenosis.diameter_percent) + " % of the diameter";
+}
+
+std::string quality_text(const CaseReport& report) {
+  if (!report.quality) return "not known: the image was not at hand";
+  const ScanQuality& q = *report.quality;
+  std::string text = to_string(q.grade);
+  for (const std::string& reason : q.reasons) text += "\n" + reason;
+  return text + "\nOf the arteries' length " + shown_text(100.0 * q.evaluable_share, 0) + " % evaluable, " +
+         shown_text(100.0 * q.limited_share, 0) + " % limited, " +
+         shown_text(100.0 * q.not_evaluable_share, 0) + " % not evaluable";
+}
+
+std::string evaluable_text(const std::optional<analysis::EvaluableStretch>& stretch) {
+  if (!stretch) return "not known";
+  return analysis::to_string(stretch->grade) + (stretch->by_person ? " (reader)" : "");
+}
+
+/// Stretches of a vessel that are less than evaluable.
+std::string doubtful_text(const ReportVessel& vessel) {
+  if (vessel.evaluable.empty()) return "not known";
+  std::string text;
+  for (const analysis::EvaluableStretch& one : vessel.evaluable) {
+    if (one.grade == analysis::Evaluability::evaluable && !one.by_person) continue;
+    text += (text.empty() ? "" : "\n") + shown_text(one.from_mm, 0) + "-" + shown_text(one.to_mm, 0) +
+            " mm: " + analysis::to_string(one.grade) + (one.by_person ? " (reader)" : "");
+    for (const analysis::EvaluabilityReason reason : one.reasons) text += ", " + analysis::to_string(reason);
+  }
+  return text.empty() ? "all of it" : text;
 }
 
 std::vector<std::pair<std::string, std::string>> summary_of(const CaseReport& report) {
@@ -46,7 +79,9 @@ std::vector<std::pair<std::string, std::string>> summary_of(const CaseReport& re
                                                   : "the case names none");
   rows.emplace_back("CAD-RADS",
                     analysis::to_string(report.category) + ": " + analysis::description(report.category));
-  rows.emplace_back("Worst stenosis", worst_text(report));
+  rows.emplace_back("Worst graded stenosis", worst_text(report));
+  rows.emplace_back("Image quality", quality_text(report));
+  if (!report.not_found.empty()) rows.emplace_back("Not found", joined(report.not_found, "\n"));
   rows.emplace_back("Stenoses", std::to_string(report.stenoses.size()));
   rows.emplace_back("Vessels", std::to_string(report.vessels.size()) + ", of which " +
                                    std::to_string(report.vessels.size() - unchecked) +
@@ -63,11 +98,12 @@ Rows stenosis_rows(const CaseReport& report) {
   Rows rows;
   for (const ReportStenosis& one : report.stenoses) {
     const analysis::Stenosis& s = one.stenosis;
-    rows.push_back({label(one), one.vessel_name, one.segment, shown_text(s.throat_mm, 1),
-                    shown_text(s.length_mm(), 1), shown_text(s.least_diameter_mm, 2),
-                    shown_text(s.reference_diameter_mm, 2), percent(s.diameter_percent) + " %",
-                    shown_text(s.least_area_mm2, 2), percent(s.area_percent) + " %",
-                    analysis::to_string(one.category) + (one.graded ? "" : " *"), checked_text(one.checked)});
+    rows.push_back(
+        {label(one), one.vessel_name, one.segment, shown_text(s.throat_mm, 1), shown_text(s.length_mm(), 1),
+         shown_text(s.least_diameter_mm, 2), shown_text(s.reference_diameter_mm, 2),
+         percent(s.diameter_percent) + " %", shown_text(s.least_area_mm2, 2), percent(s.area_percent) + " %",
+         one.category ? analysis::to_string(*one.category) + (one.graded ? "" : " *") : "not graded",
+         evaluable_text(one.evaluable), checked_text(one.checked)});
   }
   return rows;
 }
@@ -81,14 +117,15 @@ Rows segment_rows(const CaseReport& report) {
                     s.worst_stenosis > 0
                         ? "S" + std::to_string(s.worst_stenosis) + ": " + percent(s.worst_percent) + " %"
                         : "none",
-                    checked_text(s.checked)});
+                    evaluable_text(s.evaluable), checked_text(s.checked)});
   return rows;
 }
 
 Rows vessel_rows(const CaseReport& report) {
   Rows rows;
   for (const ReportVessel& v : report.vessels)
-    rows.push_back({v.name, shown_text(v.length_mm - v.own_from_mm, 1), checked_text(v.checked), v.note});
+    rows.push_back({v.name, shown_text(v.length_mm - v.own_from_mm, 1), doubtful_text(v),
+                    checked_text(v.checked), v.note});
   return rows;
 }
 
@@ -126,6 +163,8 @@ void add_summary(Document& document, const CaseReport& report) {
                                          ". What stands here of these vessels is the program's own finding.");
   document.section("Summary");
   document.key_values(summary_of(report));
+  if (!report.not_judged.empty())
+    document.notice(Notice::warning, "Not judged: " + joined(report.not_judged, "; ") + ".");
   for (const std::string& warning : report.warnings) document.notice(Notice::warning, warning);
 }
 
@@ -136,16 +175,21 @@ void add_stenoses(Document& document, const CaseReport& report) {
     document.paragraph("No narrowing of " + percent(report.options.stenosis.least_percent) +
                        " % of the diameter or more was found.");
   } else {
-    document.table({"No.", "Vessel", "Segment", "At (mm)", "Length (mm)", "MLD (mm)", "Reference (mm)",
-                    "Diameter stenosis", "MLA (mm\xC2\xB2)", "Area stenosis", "CAD-RADS", "Checked"},
-                   stenosis_rows(report), "Stenoses, each at its own vessel");
+    document.table(
+        {"No.", "Vessel", "Segment", "At (mm)", "Length (mm)", "MLD (mm)", "Reference (mm)",
+         "Diameter stenosis", "MLA (mm\xC2\xB2)", "Area stenosis", "CAD-RADS", "Evaluable", "Checked"},
+        stenosis_rows(report), "Stenoses, each at its own vessel");
+    for (const ReportStenosis& one : report.stenoses)
+      if (!one.category) document.paragraph(label(one) + " is not graded: " + one.not_graded + ".");
     if (std::any_of(report.stenoses.begin(), report.stenoses.end(),
-                    [](const ReportStenosis& one) { return !one.graded; }))
+                    [](const ReportStenosis& one) { return one.category && !one.graded; }))
       document.paragraph("* The reference is thinner than " + shown_text(report.options.least_graded_mm, 1) +
                          " mm: without a say in the patient's category.");
   }
   document.paragraph(
-      "CAD-RADS is by the diameter alone, without the modifiers (image quality, plaque burden, high-risk "
+      "CAD-RADS is by the diameter alone, of what can be judged (N: not diagnostic), without the other "
+      "modifiers "
+      "(plaque burden, high-risk "
       "plaque, stents, grafts, ischemia), and narrowings below " +
       percent(report.options.stenosis.least_percent) +
       " % are not looked for. MLD and MLA: least lumen diameter and area. Percentages are against the "
@@ -213,10 +257,10 @@ template <class Document>
 void add_tables(Document& document, const CaseReport& report) {
   document.section("Segments");
   document.table({"Segment", "Vessel", "Length (mm)", "Mean diameter (mm)", "Least diameter (mm)",
-                  "Least area (mm\xC2\xB2)", "Volume (mm\xC2\xB3)", "Worst stenosis", "Checked"},
+                  "Least area (mm\xC2\xB2)", "Volume (mm\xC2\xB3)", "Worst stenosis", "Evaluable", "Checked"},
                  segment_rows(report), "Standard segments, AHA and SCCT numbers in brackets");
   document.section("Vessels");
-  document.table({"Vessel", "Own length (mm)", "Checked", "Note"}, vessel_rows(report),
+  document.table({"Vessel", "Own length (mm)", "Evaluable", "Checked", "Note"}, vessel_rows(report),
                  "What was checked, and what was noted");
   document.section("Measurements");
   if (report.measurements.empty())

@@ -50,7 +50,40 @@ Json plaque_json(const std::optional<ReportPlaque>& plaque) {
           {"seen_share", number(plaque->seen_share)}};
 }
 
+Json stretch_json(const analysis::EvaluableStretch& one) {
+  Json reasons = Json::array();
+  for (const analysis::EvaluabilityReason reason : one.reasons)
+    reasons.push_back(analysis::to_string(reason));
+  return {{"from_mm", number(one.from_mm)},
+          {"to_mm", number(one.to_mm)},
+          {"grade", analysis::to_string(one.grade)},
+          {"by_person", one.by_person},
+          {"reasons", reasons}};
+}
+
+Json grade_json(const std::optional<analysis::EvaluableStretch>& one) {
+  return one ? Json(analysis::to_string(one->grade)) : Json();
+}
+
+Json quality_json(const std::optional<ScanQuality>& quality) {
+  if (!quality) return {};
+  const ScanQuality& q = *quality;
+  return {{"grade", to_string(q.grade)},
+          {"reasons", texts(q.reasons)},
+          {"voxel_mm", {number(q.voxel_mm.x()), number(q.voxel_mm.y()), number(q.voxel_mm.z())}},
+          {"noise_hu", number(q.noise_hu)},
+          {"lumen_hu", number(q.lumen_hu)},
+          {"contrast_hu", number(q.contrast_hu)},
+          {"cnr", number(q.cnr)},
+          {"blur_mm", number(q.blur_mm)},
+          {"evaluable_share", number(q.evaluable_share)},
+          {"limited_share", number(q.limited_share)},
+          {"not_evaluable_share", number(q.not_evaluable_share)}};
+}
+
 Json vessel_json(const ReportVessel& v) {
+  Json evaluable = Json::array();
+  for (const analysis::EvaluableStretch& one : v.evaluable) evaluable.push_back(stretch_json(one));
   return {{"id", v.id},
           {"name", text(v.name)},
           {"length_mm", number(v.length_mm)},
@@ -58,6 +91,7 @@ Json vessel_json(const ReportVessel& v) {
           {"unmeasured_mm", number(v.unmeasured_mm)},
           {"checked", v.checked},
           {"note", text(v.note)},
+          {"evaluable", evaluable},
           {"plaque", plaque_json(v.plaque)}};
 }
 
@@ -74,6 +108,7 @@ Json segment_json(const ReportSegment& s) {
           {"volume_mm3", number(s.volume_mm3)},
           {"worst_stenosis", s.worst_stenosis > 0 ? Json(s.worst_stenosis) : Json()},
           {"worst_percent", number(s.worst_percent)},
+          {"evaluable", grade_json(s.evaluable)},
           {"checked", s.checked}};
 }
 
@@ -96,8 +131,10 @@ Json stenosis_json(const ReportStenosis& one) {
           {"reference_area_mm2", number(s.reference_area_mm2)},
           {"diameter_percent", number(s.diameter_percent)},
           {"area_percent", number(s.area_percent)},
-          {"cad_rads", analysis::to_string(one.category)},
+          {"cad_rads", one.category ? Json(analysis::to_string(*one.category)) : Json()},
           {"graded", one.graded},
+          {"not_graded", text(one.not_graded)},
+          {"evaluable", grade_json(one.evaluable)},
           {"checked", one.checked},
           {"plaque", plaque_json(one.plaque)},
           {"remodelling_index", number(one.remodelling_index)}};
@@ -187,7 +224,11 @@ std::string report_json(const CaseReport& report, const std::vector<KeyImage>& i
       {"model_digest", report.model_digest},
       {"cad_rads",
        {{"category", analysis::to_string(report.category)},
-        {"description", analysis::description(report.category)}}},
+        {"description", analysis::description(report.category)},
+        {"not_diagnostic", report.category.not_diagnostic},
+        {"not_judged", texts(report.not_judged)}}},
+      {"not_found", texts(report.not_found)},
+      {"quality", quality_json(report.quality)},
       {"options",
        {{"profile_step_mm", o.profile.step_mm},
         {"profile_around", o.profile.around},
@@ -217,7 +258,7 @@ std::string report_json(const CaseReport& report, const std::vector<KeyImage>& i
 std::string segments_csv(const CaseReport& report) {
   std::string all =
       "vessel,segment,from_mm,to_mm,length_mm,mean_diameter_mm,least_diameter_mm,least_area_mm2,volume_mm3,"
-      "worst_stenosis,worst_percent,checked\r\n";
+      "worst_stenosis,worst_percent,evaluable,checked\r\n";
   for (const ReportSegment& s : report.segments)
     all += Line()
                .free(s.vessel_name)
@@ -231,6 +272,7 @@ std::string segments_csv(const CaseReport& report) {
                .add(s.volume_mm3, 3)
                .add(s.worst_stenosis > 0 ? "S" + std::to_string(s.worst_stenosis) : "")
                .add(s.worst_stenosis > 0 ? core::shown_text(s.worst_percent, 2) : "")
+               .add(s.evaluable ? analysis::to_string(s.evaluable->grade) : "")
                .add(yes_no(s.checked))
                .end();
   return all;
@@ -240,7 +282,8 @@ std::string stenoses_csv(const CaseReport& report) {
   std::string all =
       "stenosis,vessel,segment,main_vessel,from_mm,to_mm,throat_mm,length_mm,least_diameter_mm,least_area_"
       "mm2,"
-      "reference_diameter_mm,reference_area_mm2,diameter_percent,area_percent,cad_rads,graded,checked\r\n";
+      "reference_diameter_mm,reference_area_mm2,diameter_percent,area_percent,cad_rads,graded,evaluable,"
+      "checked\r\n";
   for (const ReportStenosis& one : report.stenoses) {
     const analysis::Stenosis& s = one.stenosis;
     all += Line()
@@ -258,8 +301,9 @@ std::string stenoses_csv(const CaseReport& report) {
                .add(s.reference_area_mm2, 4)
                .add(s.diameter_percent, 2)
                .add(s.area_percent, 2)
-               .add(analysis::to_string(one.category))
+               .add(one.category ? analysis::to_string(*one.category) : "")
                .add(yes_no(one.graded))
+               .add(one.evaluable ? analysis::to_string(one.evaluable->grade) : "")
                .add(yes_no(one.checked))
                .end();
   }

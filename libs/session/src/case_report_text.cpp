@@ -19,7 +19,7 @@ using ReportJson = nlohmann::json;
 struct OpWords {
   const char *op, *words;
 };
-constexpr std::array<OpWords, 22> kWords{{
+constexpr std::array<OpWords, 23> kWords{{
     {"case.begin", "case begun"},
     {"cpr.stroke", "wall drawn on a curved reformation"},
     {"section.contour", "contour drawn on a cross-section"},
@@ -38,6 +38,7 @@ constexpr std::array<OpWords, 22> kWords{{
     {"branch.cut", "vessel cut in two trees"},
     {"branch.connect", "vessel connected by a new piece"},
     {"vessel.rename", "vessel renamed"},
+    {"vessel.add", "vessel with an ostium of its own added"},
     {"measure.add", "measurement added"},
     {"measure.change", "measurement changed"},
     {"measure.delete", "measurement deleted"},
@@ -57,7 +58,7 @@ bool flag_at(const ReportJson& object, const char* name) {
 /// What tells this step from others of its kind.
 std::string detail_of(const std::string& op, const ReportJson& given) {
   if (op == "vessel.mark") return flag_at(given, "checked") ? ": checked" : ": not checked";
-  if (op == "vessel.rename" || op == "branch.add") return ": " + text_at(given, "name");
+  if (op == "vessel.rename" || op == "branch.add" || op == "vessel.add") return ": " + text_at(given, "name");
   if (op.rfind("measure.", 0) == 0) {
     std::string detail = kind_words(text_at(given, "kind"));
     const std::string name = text_at(given, "name");

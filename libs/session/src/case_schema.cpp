@@ -43,14 +43,22 @@ CREATE TABLE mark(vessel INTEGER PRIMARY KEY, visible INTEGER NOT NULL, checked 
   color BLOB NOT NULL, note TEXT NOT NULL);
 )";
 
+// Since version 3: the reader's word on stretches, three numbers each: from, to, grade.
+constexpr const char* evaluability_table =
+    "CREATE TABLE evaluability(vessel INTEGER PRIMARY KEY, stretches BLOB NOT NULL);";
+
+void create_evaluability(Database& database) {
+  database.execute(evaluability_table);
+}
+
 void create_annotations(Database& database) {
   database.execute(annotation_tables);
-  AnnotationRows(database).write_new();
+  AnnotationRows::write_new(database);
 }
 
 /// Step k makes version k + 2 of version k + 1.
 using Step = void (*)(Database&);
-constexpr std::array<Step, schema_version - 1> steps{create_annotations};
+constexpr std::array<Step, schema_version - 1> steps{create_annotations, create_evaluability};
 
 void set_version(Database& database, std::int32_t version) {
   database.execute("PRAGMA user_version = " + std::to_string(version));
@@ -61,7 +69,7 @@ void set_version(Database& database, std::int32_t version) {
 void create_schema(Database& database) {
   database.execute("PRAGMA application_id = " + std::to_string(application_id));
   database.execute(tables);
-  create_annotations(database);
+  for (const Step step : steps) step(database);
   // Read by programs that are too old for the file: they can name the version that is needed.
   database.execute("INSERT INTO meta VALUES('made_with', '" + core::version() + "'), ('needs', '0.1.0')");
   set_version(database, schema_version);

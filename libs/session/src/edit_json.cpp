@@ -72,13 +72,27 @@ void fields(E& e, V& v) {
   v("vessel", e.vessel);
   v("s_mm", e.s_mm);
 }
+/// The wall only where there is one: what older programs wrote has none, and is written as it was.
+template <class E, class V>
+void new_vessel_fields(E& e, V& v) {
+  v("name", e.name);
+  v("points", e.points);
+  v("radius_mm", e.radius_mm);
+  if constexpr (std::is_same_v<V, Writer>)
+    if (e.wall.empty()) return;
+  v("around", e.wall.around, Need::optional);
+  v("wall_mm", e.wall.radius_mm, Need::optional);
+}
 template <class E, class V>
 requires std::is_same_v<std::remove_const_t<E>, lumen::BranchAdd>
 void fields(E& e, V& v) {
   v("parent", e.parent);
-  v("name", e.name);
-  v("points", e.points);
-  v("radius_mm", e.radius_mm);
+  new_vessel_fields(e, v);
+}
+template <class E, class V>
+requires std::is_same_v<std::remove_const_t<E>, lumen::VesselAdd>
+void fields(E& e, V& v) {
+  new_vessel_fields(e, v);
 }
 template <class E, class V>
 requires std::is_same_v<std::remove_const_t<E>, lumen::BranchSplit> ||

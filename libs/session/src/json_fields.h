@@ -2,6 +2,7 @@
 /// \file The fields of a command as JSON: one list for writing and for reading. Numbers come back to the last
 /// bit, and a message names the field.
 
+#include "ostia/analysis/evaluability.h"
 #include "ostia/analysis/measurement.h"
 #include "ostia/core/error.h"
 #include "ostia/lumen/edit.h"
@@ -57,6 +58,11 @@ class Writer {
     return mode == ReformationMode::straightened ? "straightened" : "stretched";
   }
   Json json(analysis::MeasureKind kind) const { return analysis::to_string(kind); }
+  Json json(const analysis::EvaluableStretch& one) const {
+    return {{"from_mm", json(one.from_mm)},
+            {"to_mm", json(one.to_mm)},
+            {"grade", analysis::to_string(one.grade)}};
+  }
   template <class Value>
   Json json(const std::vector<Value>& values) const {
     Json list = Json::array();
@@ -133,6 +139,21 @@ class Reader {
     } catch (const InvalidInput& e) {
       fail("\"" + name + "\": " + e.what());
     }
+  }
+  void read(const Json& in, const std::string& name, analysis::EvaluableStretch& out) const {
+    if (!in.is_object() || in.size() != 3 || !in.contains("from_mm") || !in.contains("to_mm") ||
+        !in.contains("grade"))
+      fail("\"" + name + "\" must be a stretch {\"from_mm\", \"to_mm\", \"grade\"}");
+    std::string grade;
+    read(in["from_mm"], name + ".from_mm", out.from_mm);
+    read(in["to_mm"], name + ".to_mm", out.to_mm);
+    read(in["grade"], name + ".grade", grade);
+    try {
+      out.grade = analysis::evaluability(grade);
+    } catch (const InvalidInput& e) {
+      fail("\"" + name + ".grade\": " + e.what());
+    }
+    out.by_person = true;
   }
   void read(const Json& in, const std::string& name, std::array<double, 3>& out) const {
     if (!in.is_array() || in.size() != 3) fail("\"" + name + "\" must be a color [red, green, blue]");

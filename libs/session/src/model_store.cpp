@@ -20,8 +20,8 @@ using lumen::LumenModel;
 using lumen::SurfaceSample;
 using lumen::VesselLumen;
 
-constexpr std::array<const char*, 8> recorded_tables{"model",  "node",       "segment",     "vessel",
-                                                     "sample", "annotation", "measurement", "mark"};
+constexpr std::array<const char*, 9> recorded_tables{
+    "model", "node", "segment", "vessel", "sample", "annotation", "measurement", "mark", "evaluability"};
 
 bool same_item(const TreeNode& a, const TreeNode& b) {
   return a.id == b.id && bytes_of(a.position) == bytes_of(b.position);
@@ -202,7 +202,7 @@ void add_touched(const Database& database, const std::string& changeset, Touched
     int columns = 0, op = 0, indirect = 0;
     sqlite3changeset_op(iterator, &name, &columns, &op, &indirect);
     const std::string_view table(name ? name : "");
-    if (table == "annotation" || table == "measurement" || table == "mark")
+    if (table == "annotation" || table == "measurement" || table == "mark" || table == "evaluability")
       touched.annotations = true;
     else
       touched.model = true;

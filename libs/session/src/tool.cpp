@@ -16,6 +16,7 @@ constexpr std::array<ToolTraits, all_tools.size()> tool_table = {{
     {Tool::brush, "brush", {}},
     {Tool::axis, "axis", {}},
     {Tool::add_vessel, "add_vessel", {}},
+    {Tool::add_artery, "add_artery", {}},
     {Tool::distance, "distance", MeasureKind::distance},
     {Tool::angle, "angle", MeasureKind::angle},
     {Tool::area, "area", MeasureKind::area},

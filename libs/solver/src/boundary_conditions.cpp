@@ -114,7 +114,7 @@ void share_flow(BoundaryFlow& flow, const BoundaryFlowOptions& o) {
   double sum = 0.0;
   for (Outlet& outlet : flow.outlets) sum += outlet.share = std::pow(outlet.diameter_mm, o.split_exponent);
   for (Outlet& outlet : flow.outlets) outlet.share /= sum;
-  if (o.outlets != Outlets::resistance) return;
+  if (o.outlets != OutletModel::resistance) return;
   const double total =
       o.total_resistance_mmhg_s_ml.value_or(usual_pressure_mmhg / flow.mean_flow_ml_s) * pa_per_mmhg * 1e6;
   for (Outlet& outlet : flow.outlets) outlet.resistance_pa_s_m3 = total / outlet.share;
@@ -126,8 +126,8 @@ std::string_view name_of(Rheology rheology) {
   return rheology == Rheology::carreau ? "carreau" : "newton";
 }
 
-std::string_view name_of(Outlets outlets) {
-  return outlets == Outlets::split ? "split" : outlets == Outlets::resistance ? "resistance" : "zero";
+std::string_view name_of(OutletModel outlets) {
+  return outlets == OutletModel::split ? "split" : outlets == OutletModel::resistance ? "resistance" : "zero";
 }
 
 double usual_flow_ml_s(double diameter_mm) {
@@ -147,7 +147,7 @@ void validate(const BoundaryFlowOptions& o) {
   const int told =
       int(o.flow_ml_s.has_value()) + int(o.mean_velocity_cm_s.has_value()) + int(o.reynolds.has_value());
   if (told > 1) throw InvalidInput("give one of flow, mean velocity and Reynolds number, not several");
-  if (o.total_resistance_mmhg_s_ml && o.outlets != Outlets::resistance)
+  if (o.total_resistance_mmhg_s_ml && o.outlets != OutletModel::resistance)
     throw InvalidInput("a total resistance needs outlets with resistance");
   if (o.waveform) validate(*o.waveform);
 }

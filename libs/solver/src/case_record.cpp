@@ -44,7 +44,7 @@ CaseRecord case_record(const std::string& solver, const BoundaryFlowOptions& opt
     record.cycles = cycles;
   }
   record.outlets = name_of(options.outlets);
-  if (options.outlets == Outlets::resistance)
+  if (options.outlets == OutletModel::resistance)
     for (const Outlet& outlet : flow.outlets) {
       record.resistance_pa_s_m3[outlet.name] = outlet.resistance_pa_s_m3;
       if (total_compliance_ml_mmhg > 0.0)

@@ -130,7 +130,7 @@ void write_dictionaries(const CasePlan& plan, const fs::path& folder) {
   write_case_file(system / "decomposeParDict", decompose_dict(plan));
   write_case_file(constant / "transportProperties", transport_properties(plan));
   write_case_file(constant / "turbulenceProperties", turbulence_properties());
-  if (coupled(plan)) write_case_file(constant / "outletResistances", outlet_resistances(plan));
+  if (coupled_steady(plan)) write_case_file(constant / "outletResistances", outlet_resistances(plan));
   if (coupled_by_cycle(plan)) write_case_file(constant / "outletWindkessels", outlet_windkessels(plan));
   if (plan.pulsatile()) write_outlet_tables(plan, folder);
   const fs::path script = folder / "Allrun";
@@ -156,7 +156,7 @@ void validate(const OpenfoamCaseOptions& o) {
   require_in("courant", o.courant, 0.01, 50.0);
   if (o.total_compliance_ml_mmhg) {
     require_in("total_compliance_ml_mmhg", *o.total_compliance_ml_mmhg, 1e-9, 1e3);
-    if (o.flow.outlets != Outlets::resistance || !o.flow.waveform)
+    if (o.flow.outlets != OutletModel::resistance || !o.flow.waveform)
       throw InvalidInput(
           "a compliance makes a Windkessel of outlets with resistance in a pulsatile flow: give a waveform "
           "and "

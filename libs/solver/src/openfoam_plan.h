@@ -36,9 +36,11 @@ std::string slices(const CasePlan& plan, const std::string& count);
 std::string run_script(const CasePlan& plan);
 /// Outlets whose flows and pressures are found by running again and again: a steady case with resistances and
 /// two outlets at least.
-bool coupled(const CasePlan& plan);
+bool coupled_steady(const CasePlan& plan);
 /// constant/outletResistances: each outlet and its resistance over the density, the largest outlet first.
 std::string outlet_resistances(const CasePlan& plan);
+/// What Allrun does then: shell functions of the coupling, and the runs.
+std::string steady_coupling(const CasePlan& plan);
 
 /// Outlets whose flows over a cycle are found from one cycle to the next: a pulsatile case with resistances.
 bool coupled_by_cycle(const CasePlan& plan);

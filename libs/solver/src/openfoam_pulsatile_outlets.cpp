@@ -151,11 +151,11 @@ END {
 }  // namespace
 
 bool flow_is_given(const CasePlan& plan, std::size_t outlet) {
-  return plan.options.flow.outlets != Outlets::zero_pressure && outlet > 0;
+  return plan.options.flow.outlets != OutletModel::zero_pressure && outlet > 0;
 }
 
 bool coupled_by_cycle(const CasePlan& plan) {
-  return plan.options.flow.outlets == Outlets::resistance && plan.pulsatile();
+  return plan.options.flow.outlets == OutletModel::resistance && plan.pulsatile();
 }
 
 std::string outlet_windkessels(const CasePlan& plan) {

@@ -113,7 +113,7 @@ std::string condition(const std::string& face, const std::string& entries) {
 std::string outlet_condition(const Outlet& outlet, const SvmultiphysicsCaseOptions& o) {
   const WindkesselInMm w = windkessel_in_mm(outlet, o);
   const std::string type = "    " + tag("Type", "Neu");
-  if (o.flow.outlets == Outlets::zero_pressure)
+  if (o.flow.outlets == OutletModel::zero_pressure)
     return condition(outlet.name,
                      type + "    " + tag("Time_dependence", "Steady") + "    " + tag("Value", "0"));
   if (!o.total_compliance_ml_mmhg)
@@ -154,7 +154,7 @@ std::string equation_part(const BoundaryFlow& flow, const SvmultiphysicsCaseOpti
 
 Json outlet_json(const Outlet& outlet, const SvmultiphysicsCaseOptions& o) {
   const WindkesselInMm w = windkessel_in_mm(outlet, o);
-  if (o.flow.outlets == Outlets::zero_pressure)
+  if (o.flow.outlets == OutletModel::zero_pressure)
     return {{"bc_name", outlet.name},
             {"bc_type", "PRESSURE"},
             {"bc_values", {{"P", {0.0, 0.0}}, {"t", {0.0, period_s(o)}}}}};
@@ -197,14 +197,14 @@ void validate(const SvmultiphysicsCaseOptions& o) {
   require_at_least("cycles", o.cycles, 1, 100);
   require_at_least("steps_per_cycle", o.steps_per_cycle, 10, 1000000);
   require_at_least("results_per_cycle", o.results_per_cycle, 1, o.steps_per_cycle);
-  if (o.flow.outlets == Outlets::split)
+  if (o.flow.outlets == OutletModel::split)
     throw InvalidInput(
         "svMultiPhysics takes no given flow at outlets; take resistances, which share it alike");
   if (!o.total_compliance_ml_mmhg) return;
   if (!(*o.total_compliance_ml_mmhg > 0.0 && std::isfinite(*o.total_compliance_ml_mmhg)))
     throw InvalidInput("total_compliance_ml_mmhg must be positive, not " +
                        shortest_text(*o.total_compliance_ml_mmhg));
-  if (o.flow.outlets != Outlets::resistance)
+  if (o.flow.outlets != OutletModel::resistance)
     throw InvalidInput("a total compliance needs outlets with resistance");
 }
 

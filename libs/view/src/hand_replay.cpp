@@ -42,7 +42,9 @@ struct HandReplay::Impl {
     switch (line.act.kind) {
       case HandAct::Kind::press:
         // The vessel that was sought from there comes as a command of its own.
-        if (bench.tool.get() == Tool::add_vessel && event.button == Button::left && !event.shift) return;
+        if ((bench.tool.get() == Tool::add_vessel || bench.tool.get() == Tool::add_artery) &&
+            event.button == Button::left && !event.shift)
+          return;
         return hand.press(event);
       case HandAct::Kind::move:
         return hand.move(event);

@@ -20,6 +20,11 @@ bool of_vessel(const PictureView& view) {
   return dynamic_cast<const CurvedView*>(&view) || dynamic_cast<const SectionView*>(&view);
 }
 
+/// A click is a vessel's end.
+bool places_ends(Tool tool) {
+  return tool == Tool::add_vessel || tool == Tool::add_artery;
+}
+
 bool edits_wall(Tool tool) {
   return tool == Tool::drag || tool == Tool::draw || tool == Tool::brush;
 }
@@ -76,7 +81,7 @@ std::unique_ptr<Pointer::Gesture> Pointer::gesture_of(const PointerEvent& event)
 
 /// Between clicks that belong together, and where a click is a vessel's end, no handle is taken hold of.
 std::optional<HandleHit> Pointer::handle_at(const PointerEvent& event) {
-  if (!clicked_.empty() || view_.bench().tool.get() == Tool::add_vessel) return std::nullopt;
+  if (!clicked_.empty() || places_ends(view_.bench().tool.get())) return std::nullopt;
   return view_.handle_near(event.px, handle_reach_units * view_.density());
 }
 
@@ -124,6 +129,7 @@ std::unique_ptr<Pointer::Gesture> Pointer::gesture_of_tool(const PointerEvent& e
     case Tool::angle:
     case Tool::ring_hu:
     case Tool::add_vessel:
+    case Tool::add_artery:
       return nullptr;
   }
   return nullptr;
@@ -133,41 +139,11 @@ bool Pointer::click_of_tool(const PointerEvent& event) {
   session::Workbench& bench = view_.bench();
   const std::optional<Vec3> place = view_.world(event.px);
   if (!place) return false;
-  if (bench.tool.get() == Tool::add_vessel) {
+  if (places_ends(bench.tool.get())) {
     end_chosen.tell(*place);
     return true;
   }
-  if (!bench.has_case()) return false;
-  if (bench.tool.get() == Tool::angle) {
-    clicked_.push_back(*place);
-    if (clicked_.size() == 3) {
-      view_.set_tool_overlay({});
-      add_measurement(bench, of_points(analysis::MeasureKind::angle, std::exchange(clicked_, {})));
-    } else {
-      show_clicked();
-    }
-    return true;
-  }
-  if (bench.tool.get() == Tool::ring_hu) {
-    auto* curved = dynamic_cast<CurvedView*>(&view_);
-    add_measurement(bench, ring_at(bench.vessel.get(),
-                                   curved ? curved->abscissa_at(event.px.y()) : bench.cursor_mm.get()));
-    return true;
-  }
-  return false;
-}
-
-void Pointer::show_clicked() {
-  Overlay overlay;
-  OverlayLine line;
-  line.role = Role::selected;
-  for (const Vec3& place : clicked_)
-    if (const auto shown = view_.project(place)) {
-      line.px.push_back(shown->px);
-      overlay.marks.push_back({shown->px, Role::selected, 3.5, 1.0, false});
-    }
-  if (line.px.size() > 1) overlay.lines.push_back(std::move(line));
-  view_.set_tool_overlay(std::move(overlay));
+  return bench.has_case() && measuring_click(event, *place);
 }
 
 void Pointer::press(const PointerEvent& event) {

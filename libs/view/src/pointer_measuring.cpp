@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace ostia::view {
 namespace {
@@ -109,6 +110,40 @@ void Pointer::MoveEnd::move(const PointerEvent& event) {
 }
 void Pointer::MoveEnd::cancel() {
   view_.set_tool_overlay({});
+}
+
+bool Pointer::measuring_click(const PointerEvent& event, const Vec3& place) {
+  session::Workbench& bench = view_.bench();
+  if (bench.tool.get() == session::Tool::angle) {
+    clicked_.push_back(place);
+    if (clicked_.size() == 3) {
+      view_.set_tool_overlay({});
+      add_measurement(bench, of_points(analysis::MeasureKind::angle, std::exchange(clicked_, {})));
+    } else {
+      show_clicked();
+    }
+    return true;
+  }
+  if (bench.tool.get() == session::Tool::ring_hu) {
+    auto* curved = dynamic_cast<CurvedView*>(&view_);
+    add_measurement(bench, ring_at(bench.vessel.get(),
+                                   curved ? curved->abscissa_at(event.px.y()) : bench.cursor_mm.get()));
+    return true;
+  }
+  return false;
+}
+
+void Pointer::show_clicked() {
+  Overlay overlay;
+  OverlayLine line;
+  line.role = Role::selected;
+  for (const Vec3& place : clicked_)
+    if (const auto shown = view_.project(place)) {
+      line.px.push_back(shown->px);
+      overlay.marks.push_back({shown->px, Role::selected, 3.5, 1.0, false});
+    }
+  if (line.px.size() > 1) overlay.lines.push_back(std::move(line));
+  view_.set_tool_overlay(std::move(overlay));
 }
 
 }  // namespace ostia::view

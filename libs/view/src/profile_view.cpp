@@ -6,6 +6,7 @@
 #include "ostia/figure/plot.h"
 #include "ostia/session/outer_wall_board.h"
 #include "ostia/session/plaque_sampling.h"
+#include "ostia/view/evaluability_layer.h"
 #include "ostia/view/words.h"
 
 #include <algorithm>
@@ -33,6 +34,16 @@ void ProfileView::set_walls(session::OuterWallBoard* board) {
     walls_changes_.push_back(board->shown.observe(on));
     walls_changes_.push_back(board->plaque_shown.observe(on));
     walls_changes_.push_back(board->changed.observe([this] { touch(); }));
+  }
+  touch();
+}
+
+void ProfileView::set_evaluability(session::EvaluabilityBoard* board) {
+  evaluability_changes_.clear();
+  evaluability_ = board;
+  if (board) {
+    evaluability_changes_.push_back(board->shown.observe([this](const bool&) { touch(); }));
+    evaluability_changes_.push_back(board->changed.observe([this] { touch(); }));
   }
   touch();
 }
@@ -168,6 +179,19 @@ void ProfileView::add_stenoses(const Frame& f) {
   }
 }
 
+/// A strip under the curves.
+void ProfileView::add_evaluability(const Frame& f) {
+  if (!evaluability_ || !evaluability_->shown.get()) return;
+  for (const analysis::EvaluableStretch& one :
+       stretches_of_way(*evaluability_, bench_, bench_.vessel.get())) {
+    if (one.grade == analysis::Evaluability::evaluable) continue;
+    const Role role = role_of(one.grade);
+    const double from = f.x(one.from_mm), to = f.x(one.to_mm);
+    overlay_.bands.push_back({Vec2(from, f.top), Vec2(to, f.bottom), role, 0.1});
+    overlay_.bands.push_back({Vec2(from, f.bottom - 4.0 * density_), Vec2(to, f.bottom), role, 0.85});
+  }
+}
+
 void ProfileView::add_stretches() {
   for (const analysis::Measurement& one : stretches_of(bench_)) {
     const std::vector<double> ends = ends_of(one);
@@ -235,6 +259,7 @@ const Overlay& ProfileView::overlay() {
   if (!profile) return overlay_;
   const Frame f = frame();
   add_axes(f);
+  add_evaluability(f);
   add_stenoses(f);
   add_stretches();
   add_curves(f, *profile);

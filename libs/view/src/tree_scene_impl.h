@@ -52,6 +52,7 @@ struct TreeScene::Impl {
   bool moved = false;  // the wall is at another phase than its owner and its places' abscissas
   std::vector<std::size_t> place_vessel;  // index in `vessels`, one a point
   std::vector<double> values;
+  std::vector<ColoredStretch> stretches;
   ValueScale scale;
   double opacity = 1.0;
   std::map<std::int32_t, VesselStyle> styles;

@@ -19,6 +19,7 @@ constexpr double moving_margin_mm = 5.0;
 constexpr double cell_margin_mm = 1.0;
 // A wall's new radius tells whose the wall is no farther away.
 constexpr double owner_margin_mm = 6.0;
+constexpr double stretch_share = 0.7;  // of a stretch's colour
 
 void check(const geometry::TriMesh& wall) {
   const auto count = static_cast<std::int32_t>(wall.points.size());
@@ -183,8 +184,13 @@ figure::Color TreeScene::Impl::color_at(std::size_t point) const {
   const std::size_t of = place_vessel[point];
   const bool dark = settings.look == figure::Look::dark;
   const figure::Color dim = dark ? figure::Color{0.30, 0.32, 0.35} : figure::Color{0.80, 0.81, 0.83};
+  figure::Color own = vessel_styles[of]->color;
+  for (const ColoredStretch& one : stretches)
+    if (one.vessel == places[point].vessel && places[point].s_mm >= one.from_mm &&
+        places[point].s_mm <= one.to_mm)
+      own = figure::mixed(own, one.color, stretch_share);
   const figure::Color color =
-      values.empty() ? vessel_styles[of]->color
+      values.empty() ? own
                      : scale_color(scale.colors, (values[point] - scale.low) / (scale.high - scale.low));
   return figure::mixed(color, dim, selected && *selected != vessels[of]->vessel ? 0.55 : 0.0);
 }
@@ -230,6 +236,12 @@ void TreeScene::clear_wall_values() {
   impl_->settings.color_bar.reset();
   if (impl_->values.empty()) return;
   impl_->values.clear();
+  if (impl_->wall && impl_->places.size() == impl_->wall->points.size()) impl_->color_wall();
+}
+
+void TreeScene::set_colored_stretches(std::vector<ColoredStretch> stretches) {
+  if (impl_->stretches == stretches) return;
+  impl_->stretches = std::move(stretches);
   if (impl_->wall && impl_->places.size() == impl_->wall->points.size()) impl_->color_wall();
 }
 

@@ -73,20 +73,6 @@ Junction junction_of(const AxisCurve& parent, double foot_mm, const geometry::Ce
   return junction;
 }
 
-void check_radii(const BranchAdd& edit, const std::string& what) {
-  if (edit.points.size() < 2)
-    throw InvalidInput(what + ": a branch needs a path of at least two points, this one has " +
-                       std::to_string(edit.points.size()));
-  if (edit.radius_mm.size() != edit.points.size())
-    throw InvalidInput(what + ": the path has " + std::to_string(edit.points.size()) + " points and " +
-                       std::to_string(edit.radius_mm.size()) + " radii; give one a point");
-  for (std::size_t i = 0; i < edit.radius_mm.size(); ++i) {
-    if (!(edit.radius_mm[i] >= least_radius_mm) || edit.radius_mm[i] > farthest_mm)
-      throw InvalidInput(what + ": radius " + std::to_string(i) + " is " + mm_text(edit.radius_mm[i]) +
-                         "; choose " + mm_text(least_radius_mm) + " to " + mm_text(farthest_mm));
-  }
-}
-
 /// The path from its foot on the parent's axis; points that repeat are left out.
 geometry::Centerline path_from(const Vec3& foot, const BranchAdd& edit, std::vector<std::string>& notes,
                                const std::string& what) {
@@ -229,7 +215,7 @@ void rebuild_start(TreeEdit& tree, const VesselLumen& lumen, double to_mm,
 EditOutcome apply_to(const LumenModel& model, const BranchAdd& edit) {
   TreeEdit tree(model, "branch.add", edit.parent);
   check_name(model, edit.name, -1, tree.what());
-  check_radii(edit, tree.what());
+  check_new_vessel(edit.points, edit.radius_mm, edit.wall, tree.what());
   check_points(edit.points, 2, tree.what());
   const TreePlace place = place_on_parent(tree, edit.parent, edit.points.front());
   const AxisCurve& parent = *vessel(model, edit.parent).axis;
@@ -243,7 +229,9 @@ EditOutcome apply_to(const LumenModel& model, const BranchAdd& edit) {
   way.push_back(segment.id);
   tree.tree().nodes.push_back(end);
   tree.tree().segments.push_back(std::move(segment));
-  tree.tree().vessels.push_back({tree.new_tree_id(), edit.name, std::move(way)});
+  const std::int32_t id = tree.new_tree_id();
+  tree.tree().vessels.push_back({id, edit.name, std::move(way)});
+  if (!edit.wall.empty()) tree.start_with(id, edit.wall);
   return std::move(tree).finish(standing_samples);
 }
 

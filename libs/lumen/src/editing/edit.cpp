@@ -10,7 +10,7 @@ std::string op_name(const Edit& edit) {
   static constexpr std::array<const char*, std::variant_size_v<Edit>> names{
       "cpr.stroke",   "section.contour", "wall.drag",  "wall.push",      "axis.move",     "axis.insert",
       "axis.delete",  "axis.extend",     "axis.trim",  "branch.add",     "branch.delete", "branch.attach",
-      "branch.split", "branch.merge",    "branch.cut", "branch.connect", "vessel.rename"};
+      "branch.split", "branch.merge",    "branch.cut", "branch.connect", "vessel.rename", "vessel.add"};
   return names[edit.index()];
 }
 

@@ -21,6 +21,8 @@ EditOutcome apply_to(const LumenModel& model, const BranchDelete& edit);
 EditOutcome apply_to(const LumenModel& model, const BranchAttach& edit);
 EditOutcome apply_to(const LumenModel& model, const BranchConnect& edit);
 EditOutcome apply_to(const LumenModel& model, const VesselRename& edit);
+// vessel_adding.cpp
+EditOutcome apply_to(const LumenModel& model, const VesselAdd& edit);
 // branch_splitting.cpp
 EditOutcome apply_to(const LumenModel& model, const BranchSplit& edit);
 EditOutcome apply_to(const LumenModel& model, const BranchMerge& edit);

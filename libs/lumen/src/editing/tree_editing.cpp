@@ -154,6 +154,9 @@ TreeEdit::TreeEdit(const LumenModel& before, const std::string& op, std::int32_t
   what_ = op + " on " + vessel_label(item(after_.tree.vessels, vessel, "vessel"));
 }
 
+TreeEdit::TreeEdit(const LumenModel& before, const std::string& op)
+    : before_(&before), after_(before), what_(op) {}
+
 geometry::TreeSegment& TreeEdit::segment(std::int32_t id) {
   return item(after_.tree.segments, id, "segment");
 }
@@ -304,8 +307,10 @@ std::shared_ptr<const VesselLumen> TreeEdit::built(const geometry::Vessel& path,
   const StartVessel start = start_vessel(after_.tree, path);
   lumen.axis = start.axis;
   lumen.own_from_mm = start.own_from_mm;
+  const auto wall = walls_.find(path.id);
   lumen.samples =
-      samples_of(*start.axis, tube_of(start), start.own_from_mm, start.axis->length(), after_.next_sample_id);
+      samples_of(*start.axis, wall == walls_.end() ? tube_of(start) : wall_of(wall->second, start),
+                 start.own_from_mm, start.axis->length(), after_.next_sample_id);
   after_.next_sample_id += static_cast<std::int64_t>(lumen.samples.size());
   lumen.interpolation.support_radius_mm = default_support_radius(lumen.samples);
   return std::make_shared<const VesselLumen>(std::move(lumen));

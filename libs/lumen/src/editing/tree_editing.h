@@ -57,6 +57,7 @@ void check_name(const LumenModel& model, const std::string& name, std::int32_t s
 class TreeEdit {
  public:
   TreeEdit(const LumenModel& before, const std::string& op, std::int32_t vessel);
+  TreeEdit(const LumenModel& before, const std::string& op);  ///< of no vessel that is there
 
   const std::string& what() const { return what_; }  ///< "axis.move on vessel 4 (LAD)"
   const LumenModel& before() const { return *before_; }
@@ -78,6 +79,8 @@ class TreeEdit {
     rebuilt_.insert(vessel);
     sources_[vessel] = std::move(source);
   }
+  /// A new vessel starts with this wall, not as a tube.
+  void start_with(std::int32_t vessel, NewWall wall) { walls_[vessel] = std::move(wall); }
   /// What no vessel passes any more goes with `finish`.
   void drop(const std::set<std::int32_t>& vessels);
   /// Vessels that pass through any of these segments.
@@ -106,6 +109,7 @@ class TreeEdit {
   std::string what_;
   std::set<std::int32_t> rebuilt_;
   std::map<std::int32_t, std::shared_ptr<const VesselLumen>> sources_;
+  std::map<std::int32_t, NewWall> walls_;
   void prune();
   std::shared_ptr<const VesselLumen> built(const geometry::Vessel& vessel, const VesselLumen* old,
                                            const Samples& samples);
@@ -119,6 +123,11 @@ struct NewStretch {
 };
 void grow(TreeEdit& edit, const VesselLumen& lumen, const NewStretch& stretch,
           std::vector<SurfaceSample>& samples);
+
+/// Throws InvalidInput for a new vessel's points and radii (two points at least, one radius a point, none too
+/// small or large) or a wall that is none; `what` names the edit.
+void check_new_vessel(const std::vector<Vec3>& points, const std::vector<double>& radius_mm,
+                      const NewWall& wall, const std::string& what);
 
 /// Samples as they were, with their abscissas found on the new axis.
 std::vector<SurfaceSample> standing_samples(const VesselLumen& before, const VesselLumen& after);

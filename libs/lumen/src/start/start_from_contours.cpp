@@ -15,7 +15,7 @@ constexpr double passage_mm = 3.0;  ///< from the last contour to the tube
 /// A contour's plane may meet the axis so far from where the contour says it is, or from its middle's foot.
 constexpr double plane_reach_mm = 3.0;
 /// A contour whose middle is farther from the axis is not the vessel's at that place.
-constexpr double farthest_mm = 5.0;
+constexpr double farthest_contour_mm = 5.0;
 
 struct Ring {
   double s = 0.0;
@@ -37,7 +37,7 @@ double crossing_abscissa(const AxisCurve& axis, const geometry::ContourSection& 
   const auto height = [&](double s) { return (axis.point(s) - centre).dot(normal); };
   double guess = axis.nearest_foot(centre).s_mm;
   if (const auto foot = axis.foot_near(centre, contour.s_mm, plane_reach_mm);
-      foot && foot->rho_mm < farthest_mm)
+      foot && foot->rho_mm < farthest_contour_mm)
     guess = foot->s_mm;
   const double low = std::max(0.0, guess - plane_reach_mm);
   const double high = std::min(axis.length(), guess + plane_reach_mm);

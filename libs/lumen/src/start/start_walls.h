@@ -16,6 +16,9 @@ struct StartVessel {
 };
 StartVessel start_vessel(const geometry::VesselTree& tree, const geometry::Vessel& vessel);
 RadialWall tube_of(const StartVessel& start);
+struct NewWall;
+/// Over the vessel's own part.
+RadialWall wall_of(const NewWall& wall, const StartVessel& start);
 
 /// r at equal steps of the abscissa and of the angle, C1 between them and around.
 class WallTable {

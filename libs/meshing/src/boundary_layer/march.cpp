@@ -62,21 +62,35 @@ double ball_radius(const geometry::AabbTree& tree, const Vec3& p, const Vec3& di
 
 }  // namespace
 
-std::vector<SightCone> sight_cones(const LayerWall& wall) {
-  std::vector<SightCone> cones(wall.mesh.points.size());
-  for (const geometry::Triangle& t : wall.mesh.triangles)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3 a = (wall.point(t[(k + 1) % 3]) - wall.point(t[k])).normalized(),
-                 b = (wall.point(t[(k + 2) % 3]) - wall.point(t[k])).normalized();
-      const auto v = static_cast<std::size_t>(t[k]);
-      Vec3 inward = -2.0 / std::numbers::sqrt3 * a.cross(b);
-      if (wall.ring_of[v] >= 0) {
-        const Vec3& normal = wall.rings[static_cast<std::size_t>(wall.ring_of[v])].normal;
-        inward -= inward.dot(normal) * normal;
-      }
-      cones[v].push_back(inward);
+std::vector<SightCone> ring_edges(const LayerWall& wall) {
+  std::vector<SightCone> edges(wall.mesh.points.size());
+  add_ring_edges(wall, edges);
+  return edges;
+}
+
+SightCone sight_cone(const LayerWall& wall, const std::vector<SightCone>& edges, std::int32_t v) {
+  const auto i = static_cast<std::size_t>(v);
+  SightCone cone;
+  for (const std::int32_t f : wall.triangles_of[i]) {
+    const geometry::Triangle& t = wall.mesh.triangles[static_cast<std::size_t>(f)];
+    const auto k = static_cast<std::size_t>(std::find(t.begin(), t.end(), v) - t.begin());
+    const Vec3 a = (wall.point(t[(k + 1) % 3]) - wall.point(v)).normalized(),
+               b = (wall.point(t[(k + 2) % 3]) - wall.point(v)).normalized();
+    Vec3 inward = -2.0 / std::numbers::sqrt3 * a.cross(b);
+    if (wall.ring_of[i] >= 0) {
+      const Vec3& normal = wall.rings[static_cast<std::size_t>(wall.ring_of[i])].normal;
+      inward -= inward.dot(normal) * normal;
     }
-  add_ring_edges(wall, cones);
+    cone.push_back(inward);
+  }
+  cone.insert(cone.end(), edges[i].begin(), edges[i].end());
+  return cone;
+}
+
+std::vector<SightCone> sight_cones(const LayerWall& wall) {
+  std::vector<SightCone> cones = ring_edges(wall);
+  for (std::size_t v = 0; v < cones.size(); ++v)
+    cones[v] = sight_cone(wall, cones, static_cast<std::int32_t>(v));
   return cones;
 }
 

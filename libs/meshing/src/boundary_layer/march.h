@@ -18,6 +18,10 @@ namespace ostia::meshing {
 using SightCone = std::vector<geometry::Vec3>;
 
 std::vector<SightCone> sight_cones(const LayerWall& wall);
+/// The normals of the rings' edges that are part of their points' cones; empty for all other points.
+std::vector<SightCone> ring_edges(const LayerWall& wall);
+/// One point's cone, with its `ring_edges`.
+SightCone sight_cone(const LayerWall& wall, const std::vector<SightCone>& edges, std::int32_t v);
 double least_product(const SightCone& cone, const geometry::Vec3& direction);
 /// The unit direction with the largest least product. Throws nothing: the product tells whether it is of use.
 geometry::Vec3 most_visible(const SightCone& cone);

@@ -157,7 +157,7 @@ Vec3 LayerWall::admissible(std::int32_t v, const Vec3& direction) const {
   return (direction - direction.dot(normal) * normal).normalized();
 }
 
-LayerWall layer_wall(const geometry::FacedSurface& surface) {
+LayerWall layer_wall(const geometry::FacedSurface& surface, std::vector<std::int32_t>* numbers_out) {
   check_surface(surface);
   LayerWall wall;
   std::vector<std::int32_t> numbers;
@@ -169,6 +169,7 @@ LayerWall layer_wall(const geometry::FacedSurface& surface) {
       wall.triangles_of[static_cast<std::size_t>(v)].push_back(static_cast<std::int32_t>(i));
   find_rings(surface, numbers, wall);
   wall.local_edge_mm = local_edges(wall);
+  if (numbers_out != nullptr) *numbers_out = std::move(numbers);
   return wall;
 }
 

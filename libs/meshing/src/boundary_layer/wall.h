@@ -31,7 +31,8 @@ struct LayerWall {
 /// "(1.00, 2.00, 3.00) mm", for messages.
 std::string place_text(const geometry::Vec3& p);
 
-/// Checks the surface and takes its wall. Throws InvalidInput and GeometryError as boundary_layer does.
-LayerWall layer_wall(const geometry::FacedSurface& surface);
+/// Checks the surface and takes its wall. `numbers`: receives the wall's number of each of the surface's
+/// points, -1 for those within caps. Throws InvalidInput and GeometryError as boundary_layer does.
+LayerWall layer_wall(const geometry::FacedSurface& surface, std::vector<std::int32_t>* numbers = nullptr);
 
 }  // namespace ostia::meshing

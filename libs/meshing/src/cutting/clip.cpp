@@ -32,6 +32,7 @@ void validate(const ClipOptions& o) {
   };
   in(o.inset_radii, 0.0, 10.0, "inset_radii");
   in(o.sliver_fraction, 0.0, 0.5, "sliver_fraction");
+  in(o.move_inside_radii, 0.0, 20.0, "move_inside_radii");
   in(o.reach_radii, 1.0, 100.0, "reach_radii");
   in(o.flat_tolerance, 0.0, 1.0, "flat_tolerance");
   in(o.flat_max_angle_deg, 0.0, 90.0, "flat_max_angle_deg");
@@ -187,6 +188,25 @@ void cut_end(ClippedSurface& result, std::size_t i, const geometry::VesselTree& 
   result.warnings.emplace_back(text);
 }
 
+/// An end that cannot be cut where it should be is cut at the nearest place where it can.
+bool cut_farther_inside(ClippedSurface& result, const Uncut& uncut, const geometry::VesselTree& tree,
+                        const ClipOptions& options) {
+  if (!(options.move_inside_radii > 0.0) || placed_plane(options, uncut.plane) != nullptr) return false;
+  ClipOptions reaching = options;
+  reaching.reach_radii += options.move_inside_radii;
+  const auto plane = clean_plane(result.mesh, uncut, tree, reaching, options.move_inside_radii);
+  if (!plane) return false;
+  const std::string name = end_words(uncut.plane);
+  Cut cut = cut_at(result.mesh, *plane, tree, reaching, name);
+  result.mesh = std::move(cut.mesh);
+  result.ends[uncut.end].plane = std::move(cut.plane);
+  result.warnings.push_back(
+      uncut.why + "; it was cut " + core::fixed_text((plane->origin - uncut.plane.origin).norm(), 1) +
+      " mm farther inside, at " + core::fixed_text(plane->origin.x(), 1) + "," +
+      core::fixed_text(plane->origin.y(), 1) + "," + core::fixed_text(plane->origin.z(), 1) + " mm");
+  return true;
+}
+
 }  // namespace
 
 ClippedSurface clip_ends(const geometry::TriMesh& lumen, const geometry::VesselTree& tree,
@@ -228,7 +248,8 @@ ClippedSurface clip_ends(const geometry::TriMesh& lumen, const geometry::VesselT
     try {
       cut_end(result, i, tree, options, end_words(wanted));
     } catch (const GeometryError& error) {
-      failed.push_back({i, wanted, error.what()});
+      const Uncut uncut{i, wanted, error.what()};
+      if (!cut_farther_inside(result, uncut, tree, options)) failed.push_back(uncut);
     }
   }
   refuse(lumen, failed, tree, options);

@@ -70,12 +70,10 @@ ClipOptions anywhere(ClipOptions options) {
   return options;
 }
 
-namespace {
-
-/// The nearest plane farther inside that does cut cleanly, as far as the program's own planes may go.
 std::optional<EndPlane> clean_plane(const geometry::TriMesh& lumen, const Uncut& uncut,
-                                    const geometry::VesselTree& tree, const ClipOptions& options) {
-  constexpr double farthest_radii = 20.0, step_radii = 0.5;
+                                    const geometry::VesselTree& tree, const ClipOptions& options,
+                                    double farthest_radii) {
+  constexpr double step_radii = 0.5;
   Vec3 before = uncut.plane.origin;
   for (double extra = step_radii; extra <= farthest_radii; extra += step_radii) {
     const EndPlane plane = end_planes(tree, options.inset_radii + extra)[uncut.end];
@@ -83,15 +81,13 @@ std::optional<EndPlane> clean_plane(const geometry::TriMesh& lumen, const Uncut&
     before = plane.origin;
     try {
       const EndPlane written = as_written(plane);
-      if (cut_at(lumen, written, tree, anywhere(options), end_name(plane)).rim.angle_deg >= sharp_rim_deg)
+      if (cut_at(lumen, written, tree, options, end_name(plane)).rim.angle_deg >= sharp_rim_deg)
         return written;
     } catch (const GeometryError&) {  // nor here
     }
   }
   return std::nullopt;
 }
-
-}  // namespace
 
 void refuse(const geometry::TriMesh& lumen, const std::vector<Uncut>& failed,
             const geometry::VesselTree& tree, const ClipOptions& options) {
@@ -103,7 +99,7 @@ void refuse(const geometry::TriMesh& lumen, const std::vector<Uncut>& failed,
     const EndPlane& plane = uncut.plane;
     message += uncut.why + " (at " + core::fixed_text(plane.origin.x(), 2) + "," +
                core::fixed_text(plane.origin.y(), 2) + "," + core::fixed_text(plane.origin.z(), 2) + " mm); ";
-    if (const auto clean = clean_plane(lumen, uncut, tree, options))
+    if (const auto clean = clean_plane(lumen, uncut, tree, anywhere(options), 20.0))
       message += "it can be cut " + core::fixed_text((clean->origin - plane.origin).norm(), 1) +
                  " mm farther inside by --plane " + plane_text(*clean);
     else

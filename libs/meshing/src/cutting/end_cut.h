@@ -6,6 +6,7 @@
 #include "ostia/meshing/clip.h"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,11 @@ struct Uncut {
   EndPlane plane;
   std::string why;
 };
+/// The nearest plane farther inside that does cut cleanly, as far as the program's own planes may go and at
+/// most so many radii from there; `options` say how far it may reach.
+std::optional<EndPlane> clean_plane(const geometry::TriMesh& lumen, const Uncut& uncut,
+                                    const geometry::VesselTree& tree, const ClipOptions& options,
+                                    double farthest_radii);
 /// Throws EndsNotCut where there are any: each with its place and what a person can do.
 void refuse(const geometry::TriMesh& lumen, const std::vector<Uncut>& failed,
             const geometry::VesselTree& tree, const ClipOptions& options);

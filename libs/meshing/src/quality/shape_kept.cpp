@@ -22,7 +22,7 @@ using geometry::Vec3;
 
 constexpr double allowed_radii = 0.05, allowed_mm = 0.05;
 
-TriMesh wall_triangles(const geometry::FacedSurface& surface) {
+TriMesh wall_as_mesh(const geometry::FacedSurface& surface) {
   const geometry::FacesByKind faces(surface.faces);
   TriMesh wall;
   wall.points = surface.mesh.points;
@@ -31,7 +31,7 @@ TriMesh wall_triangles(const geometry::FacedSurface& surface) {
   return wall;
 }
 
-TriMesh wall_triangles(const MixedMesh& mesh) {
+TriMesh wall_as_mesh(const MixedMesh& mesh) {
   const geometry::FacesByKind faces(mesh.faces);
   TriMesh wall;
   wall.points = mesh.points;
@@ -148,7 +148,7 @@ struct TwoWalls {
     if (radii_mm.size() != surface.mesh.points.size() ||
         surface.face_ids.size() != surface.mesh.triangles.size())
       throw InvalidInput("shape: a radius for each point and a face id for each triangle are needed");
-    return some(wall_triangles(surface));
+    return some(wall_as_mesh(surface));
   }
   static TriMesh some(TriMesh wall) {
     if (wall.triangles.empty()) throw InvalidInput("shape: the surface or the mesh has no wall");
@@ -177,7 +177,7 @@ void validate(const ShapeBounds& bounds) {
 
 ShapeKept shape_kept(const MixedMesh& mesh, const geometry::FacedSurface& surface,
                      const std::vector<double>& radii_mm, const core::TaskContext& task) {
-  const TwoWalls walls(surface, wall_triangles(mesh), radii_mm);
+  const TwoWalls walls(surface, wall_as_mesh(mesh), radii_mm);
   ShapeKept kept;
   const std::vector<Vec3> of_mesh = samples_of(walls.after), of_surface = samples_of(walls.before);
   kept.mesh_to_surface = one_way(of_mesh, walls.from_mesh(of_mesh, task.sub(0.0, 0.4)));
@@ -191,7 +191,7 @@ std::size_t shorten_where_off(const geometry::FacedSurface& surface, const geome
                               std::vector<double>& edge_lengths_mm, const core::TaskContext& task) {
   if (edge_lengths_mm.size() != surface.mesh.points.size())
     throw InvalidInput("shape: an edge length for each point of the surface is needed");
-  const TwoWalls walls(surface, wall_triangles(remeshed), radii_mm);
+  const TwoWalls walls(surface, wall_as_mesh(remeshed), radii_mm);
   const std::vector<Vec3> of_mesh = samples_of(walls.after), of_surface = samples_of(walls.before);
   const Shares mesh = walls.from_mesh(of_mesh, task.sub(0.0, 0.4)),
                back = walls.from_surface(of_surface, task.sub(0.4, 1.0));

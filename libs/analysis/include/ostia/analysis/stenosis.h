@@ -3,6 +3,7 @@
 
 #include "ostia/analysis/lumen_profile.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -70,7 +71,17 @@ struct GradedStenosis {
   double diameter_percent = 0.0;
 };
 CadRads cad_rads(const std::vector<GradedStenosis>& stenoses);
-std::string to_string(CadRads category);    ///< "0", "1", ..., "4A", "4B", "5"
-std::string description(CadRads category);  ///< "Mild stenosis (25-49 %)"
+/// Of the patient with what could not be judged: N stands for a study that is not diagnostic as a whole. With
+/// a stenosis from 50 % on it is a modifier ("4A/N"), else it is the category (Cury et al. 2022).
+struct PatientCategory {
+  std::optional<CadRads> category;  ///< nothing: N by itself
+  bool not_diagnostic = false;      ///< N, by itself or behind the category
+};
+/// `all_judged`: every artery that counts was found, and all of it could be judged.
+PatientCategory patient_category(const std::vector<GradedStenosis>& stenoses, bool all_judged);
+std::string to_string(const PatientCategory& category);    ///< "3", "3/N", "N"
+std::string description(const PatientCategory& category);  ///< as below, and what N says
+std::string to_string(CadRads category);                   ///< "0", "1", ..., "4A", "4B", "5"
+std::string description(CadRads category);                 ///< "Mild stenosis (25-49 %)"
 
 }  // namespace ostia::analysis

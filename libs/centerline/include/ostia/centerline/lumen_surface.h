@@ -31,4 +31,8 @@ geometry::TriMesh with_edges_cut(const geometry::TriMesh& wall, double longest_m
 /// GeometryError when no triangles are left or the borders cannot be made simple.
 LumenSurface prepare_lumen(const geometry::TriMesh& lumen);
 
+/// The wall of it alone, for who needs no diagram: without the sampling, which has millions of points where a
+/// part is next to flat.
+geometry::TriMesh simple_wall(const geometry::TriMesh& lumen);
+
 }  // namespace ostia::centerline

@@ -73,13 +73,28 @@ struct AxisTrim {
   std::int32_t vessel = 0;
   double s_mm = 0.0;
 };
-/// "branch.add": a new vessel along these points; the first is joined to the nearest axis of `parent`. Its
-/// wall starts as a tube.
+/// The wall that a new vessel starts with: distances from its axis on rays; without any it is a tube of the
+/// axis' radii.
+struct NewWall {
+  std::int32_t around = 0;  ///< rays of a ring, from theta = 0 on, [8, 128]
+  std::vector<double>
+      radius_mm;  ///< ring by ring, at equal steps from the own part's first place to its last
+  bool empty() const { return radius_mm.empty(); }
+};
+/// "branch.add": a new vessel along these points; the first is joined to the nearest axis of `parent`.
 struct BranchAdd {
   std::int32_t parent = 0;
   std::string name;
   std::vector<Vec3> points;
   std::vector<double> radius_mm;  ///< one a point
+  NewWall wall = {};
+};
+/// "vessel.add": a vessel that leaves no other, from its first point on: another ostium, a graft.
+struct VesselAdd {
+  std::string name;
+  std::vector<Vec3> points;
+  std::vector<double> radius_mm;  ///< one a point
+  NewWall wall = {};
 };
 /// "branch.delete": a vessel and all that leave it. The last vessel stays.
 struct BranchDelete {
@@ -124,7 +139,7 @@ struct VesselRename {
 
 using Edit = std::variant<CprStroke, SectionContour, WallDrag, WallPush, AxisMove, AxisInsert, AxisDelete,
                           AxisExtend, AxisTrim, BranchAdd, BranchDelete, BranchAttach, BranchSplit,
-                          BranchMerge, BranchCut, BranchConnect, VesselRename>;
+                          BranchMerge, BranchCut, BranchConnect, VesselRename, VesselAdd>;
 
 std::string op_name(const Edit& edit);  ///< "cpr.stroke", ...
 

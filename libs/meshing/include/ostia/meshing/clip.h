@@ -24,6 +24,9 @@ struct ClipOptions {
   /// How far inside the axis' end the plane stands, in radii of the vessel there; so that a rounded end
   /// disappears. In [0, 10]. At most half of the end's segment.
   double inset_radii = 1.0;
+  /// An end that cannot be cut there is cut at the nearest place farther inside where it can, at most so many
+  /// radii from there, with a warning. In [0, 20]; 0: it is an error.
+  double move_inside_radii = 0.0;
   /// Edges at the cut shorter than this fraction of the local edge are collapsed. In [0, 0.5].
   double sliver_fraction = 0.3;
   /// Nothing farther than this from the axis' end, in radii, may be cut away. In [1, 100].

@@ -17,6 +17,13 @@ namespace ostia::pipeline {
 double free_from_mm(const geometry::VesselTree& tree,
                     const std::vector<std::shared_ptr<const geometry::AxisCurve>>& axes, std::size_t vessel);
 
+/// The wall of one vessel, as below; `axes` as above. What is to be told is added to `warnings`.
+lumen::RadialWall wall_from_image(const geometry::VesselTree& tree,
+                                  const std::vector<std::shared_ptr<const geometry::AxisCurve>>& axes,
+                                  std::size_t vessel, const imaging::ImageVolume& image,
+                                  std::vector<std::string>& warnings,
+                                  const core::TaskContext& task = core::no_task());
+
 /// One wall a vessel, found on rays (segmentation::lumen_boundary) where the vessel runs by itself. At a
 /// take-off the rays of a branch would meet its parent's wall: there it is a tube as wide as the branch is
 /// behind it, and the passage is smooth. Over the last radius and blur before its end it keeps its calibre: a

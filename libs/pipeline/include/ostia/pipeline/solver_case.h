@@ -28,7 +28,7 @@ struct SolverTraits {
   std::string_view folder;  ///< of its case beside a mesh: `openfoam-case`
   io::MeshFormat mesh;      ///< whose elements it takes
   bool prisms;              ///< it takes a mesh that has them
-  bool shares;              ///< it takes Outlets::split
+  bool shares;              ///< it takes OutletModel::split
   std::string_view script;  ///< in the case's folder, that runs it; empty: there is none
   std::string_view run;     ///< what runs it within the case's folder
 };

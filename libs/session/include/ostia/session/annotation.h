@@ -1,6 +1,7 @@
 #pragma once
 /// \file What a person notes in a case beside the model: measurements, and marks at vessels.
 
+#include "ostia/analysis/evaluability.h"
 #include "ostia/analysis/measurement.h"
 #include "ostia/lumen/edit.h"
 
@@ -20,6 +21,9 @@ struct VesselMark {
   bool checked = false;                        ///< the reader is done with it
   std::optional<std::array<double, 3>> color;  ///< red, green, blue, [0, 1]; nothing: the interface chooses
   std::string note;                            ///< free text
+  /// The reader's word on how far stretches can be judged, instead of the program's: ascending, without
+  /// overlap, all `by_person`, without reasons.
+  std::vector<analysis::EvaluableStretch> evaluable = {};
 };
 
 struct Annotations {
@@ -27,6 +31,9 @@ struct Annotations {
   std::vector<VesselMark> marks;                    ///< by vessel, at most one each
   std::int32_t next_measurement_id = 1;
 };
+/// The mark after the reader's word on a stretch; nothing as grade takes the word back, whatever it was.
+VesselMark with_evaluability(VesselMark mark, double from_mm, double to_mm,
+                             std::optional<analysis::Evaluability> grade);
 /// Nothing where the vessel has no mark (it is then shown, and not checked).
 const VesselMark* find_mark(const Annotations& annotations, std::int32_t vessel);
 const analysis::Measurement* find_measurement(const Annotations& annotations, std::int32_t id);
@@ -61,7 +68,8 @@ Annotations annotated(const Annotations& before, const AnnotationCommand& comman
 /// The annotations after an edit of the model. What stands on a vessel that is split goes with the part that
 /// it lies on (what lies across the seam with the new vessel, whose axis has both, at the same abscissas);
 /// what stands on a vessel that is joined with its parent stands on the parent. Marks stay with the vessel
-/// that keeps its id. All other edits leave annotations as they are.
+/// that keeps its id; the reader's word on stretches goes where its stretch goes. All other edits leave
+/// annotations as they are.
 Annotations following(const Annotations& before, const lumen::Edit& edit,
                       const lumen::LumenModel& model_before, const lumen::LumenModel& model_after);
 

@@ -9,6 +9,7 @@
 #include "ostia/figure/picture.h"
 #include "ostia/pipeline/manifest.h"
 #include "ostia/session/case_file.h"
+#include "ostia/session/evaluability.h"
 #include "ostia/session/outer_walls.h"
 
 #include <cstdint>
@@ -27,6 +28,7 @@ struct ReportOptions {
   analysis::ReferenceOptions reference;
   analysis::StenosisOptions stenosis;
   OuterWallsOptions walls;
+  VesselEvaluabilityOptions evaluability;
   /// Stenoses of vessels with a thinner reference are listed, but have no say in the patient's category:
   /// CAD-RADS grades coronary vessels from this diameter on (Cury et al. 2022). [0, 5] mm
   double least_graded_mm = 1.5;
@@ -52,6 +54,9 @@ struct ReportVessel {
   std::string note;                    ///< the person's own text
   double unmeasured_mm = 0.0;          ///< of its own part, where the wall does not close
   std::optional<ReportPlaque> plaque;  ///< of its own part; nothing without an image
+  /// How far its own part can be judged, the reader's word over the program's; empty without an image and a
+  /// word.
+  std::vector<analysis::EvaluableStretch> evaluable = {};
 };
 
 /// A standard segment. What could not be measured is nothing.
@@ -63,6 +68,7 @@ struct ReportSegment {
   int worst_stenosis = 0;  ///< ReportStenosis::number; 0: none
   double worst_percent = 0.0;
   bool checked = false;
+  std::optional<analysis::EvaluableStretch> evaluable;  ///< the worst of it; nothing where nothing is known
 };
 
 struct ReportStenosis {
@@ -70,10 +76,15 @@ struct ReportStenosis {
   analysis::Stenosis stenosis;
   std::string vessel_name, segment;  ///< the segment's label
   std::string main_vessel;           ///< LM, LAD, LCX, RCA; empty where the name is not known
-  analysis::CadRads category = analysis::CadRads::zero;
-  bool graded = true;  ///< has a say in the patient's category
+  /// By its percent; nothing where it lies in what cannot be judged.
+  std::optional<analysis::CadRads> category;
+  /// Has a say in the patient's category: the vessel is wide enough, and the lesion lies where the image can
+  /// be judged, or a person has checked the vessel.
+  bool graded = true;
+  std::string not_graded;  ///< why not; empty where it is
   bool checked = false;
-  std::optional<ReportPlaque> plaque;  ///< of the lesion; nothing without an image
+  std::optional<analysis::EvaluableStretch> evaluable;  ///< the worst of the lesion; nothing: not known
+  std::optional<ReportPlaque> plaque;                   ///< of the lesion; nothing without an image
   std::optional<double> remodelling_index;
 };
 
@@ -100,7 +111,10 @@ struct CaseReport {
   std::vector<ReportVessel> vessels;
   std::vector<ReportSegment> segments;
   std::vector<ReportStenosis> stenoses;  ///< each once: at its own vessel, not at those that share the way
-  analysis::CadRads category = analysis::CadRads::zero;  ///< of the patient
+  analysis::PatientCategory category;    ///< of the patient
+  std::optional<ScanQuality> quality;    ///< nothing without an image
+  std::vector<std::string> not_found;    ///< arteries (arteries_not_found)
+  std::vector<std::string> not_judged;   ///< why the category has an N: stretches, lesions, arteries
   std::vector<ReportMeasurement> measurements;
   std::vector<ReportStep> steps;
   std::vector<std::string> warnings;  ///< what keeps the report from being complete

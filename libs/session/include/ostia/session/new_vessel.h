@@ -24,6 +24,25 @@ lumen::BranchAdd branch_of(const segmentation::MinimalPath& way, const std::stri
 std::optional<lumen::AxisExtend> extension_of(const segmentation::MinimalPath& way,
                                               const lumen::LumenModel& model);
 
+/// The edit that makes a vessel of its own of a way (path_between): another ostium, a graft. Throws
+/// InvalidInput for a way of fewer than three points.
+lumen::VesselAdd artery_of(const segmentation::MinimalPath& way, const std::string& name);
+
+/// The same edit (BranchAdd, VesselAdd) with the wall that the image shows about the new vessel, as the
+/// search gives it, and with its name by the rules where they are sure of it and no vessel has it yet; others
+/// as they are. Throws as lumen::apply and Cancelled; a wall that is not found is a tube.
+lumen::Edit with_wall_and_name(const lumen::Edit& edit, const lumen::LumenModel& model,
+                               const imaging::ImageVolume& image,
+                               const core::TaskContext& task = core::no_task());
+
+/// How far a way runs through something wider than a coronary artery (an aorta, a chamber): 10 mm and more
+/// about its direction is as bright as its lumen. Its first `spared_mm` are not asked: an ostium lies at one.
+double wide_stretch_mm(const segmentation::MinimalPath& way, const imaging::ImageVolume& image,
+                       double spared_mm = 0.0);
+/// Throws GeometryError where that is more than 8 mm, with what to do; the warning where it is more than 2.
+std::optional<std::string> require_artery(const segmentation::MinimalPath& way,
+                                          const imaging::ImageVolume& image, double spared_mm = 0.0);
+
 /// A case's first vessel: the way (path_between) as its axis, its wall found in the image on rays. Throws as
 /// lumen::model_of_walls and segmentation::lumen_boundary do.
 lumen::LumenModel model_of_way(const segmentation::MinimalPath& way, const std::string& name,

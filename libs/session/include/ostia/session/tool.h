@@ -16,6 +16,7 @@ enum class Tool {
   brush,       ///< a ball pushes the wall
   axis,        ///< control points of the centerline
   add_vessel,  ///< a way from a distal end back to the tree
+  add_artery,  ///< a way from an ostium of its own to a distal end
   distance,
   angle,
   area,
@@ -24,9 +25,10 @@ enum class Tool {
   volume,
   ring_hu,
 };
-inline constexpr std::array<Tool, 13> all_tools = {
-    Tool::browse, Tool::drag, Tool::draw,     Tool::brush,    Tool::axis,   Tool::add_vessel, Tool::distance,
-    Tool::angle,  Tool::area, Tool::diameter, Tool::stenosis, Tool::volume, Tool::ring_hu};
+inline constexpr std::array<Tool, 14> all_tools = {
+    Tool::browse,     Tool::drag,       Tool::draw,     Tool::brush,  Tool::axis,
+    Tool::add_vessel, Tool::add_artery, Tool::distance, Tool::angle,  Tool::area,
+    Tool::diameter,   Tool::stenosis,   Tool::volume,   Tool::ring_hu};
 
 struct ToolTraits {
   Tool tool;

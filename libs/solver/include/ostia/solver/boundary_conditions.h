@@ -36,14 +36,14 @@ struct Blood {
 };
 
 /// What the outlets do.
-enum class Outlets {
+enum class OutletModel {
   zero_pressure,  ///< the same pressure at each
   split,          ///< a share of the flow each: its diameter to `split_exponent`
   resistance,     ///< pressure = resistance x flow; resistances as diameter to -`split_exponent`
 };
 
 /// "zero", "split", "resistance".
-std::string_view name_of(Outlets outlets);
+std::string_view name_of(OutletModel outlets);
 
 struct BoundaryFlowOptions {
   Blood blood;
@@ -55,7 +55,7 @@ struct BoundaryFlowOptions {
   /// to the mean flow; another one is taken as it is, through each inlet.
   std::optional<FlowWaveform> waveform;
   int harmonics = 12;  ///< of the waveform; in [1, 60]
-  Outlets outlets = Outlets::zero_pressure;
+  OutletModel outlets = OutletModel::zero_pressure;
   double split_exponent = 2.27;  ///< [van der Giessen et al. 2011]; 3 is Murray's; in [1, 4]
   /// Of all outlets together, mmHg s / ml; left out: 90 mmHg over the mean flow. Positive.
   std::optional<double> total_resistance_mmhg_s_ml;
@@ -76,7 +76,7 @@ struct Outlet {
   std::string name;
   double area_mm2 = 0.0, diameter_mm = 0.0;
   double share = 0.0;               ///< of the flow, by diameter to `split_exponent`; they sum to 1
-  double resistance_pa_s_m3 = 0.0;  ///< 0 unless Outlets::resistance
+  double resistance_pa_s_m3 = 0.0;  ///< 0 unless OutletModel::resistance
 };
 
 struct BoundaryFlow {

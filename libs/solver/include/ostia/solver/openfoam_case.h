@@ -21,7 +21,7 @@ struct OpenfoamCaseOptions {
   // Pulsatile.
   int cycles = 3;  ///< in [1, 100]
   /// Of all outlets together, ml / mmHg, split as the flow is: makes each resistance a Windkessel (RCR).
-  /// Needs Outlets::resistance and a waveform. Positive.
+  /// Needs OutletModel::resistance and a waveform. Positive.
   std::optional<double> total_compliance_ml_mmhg;
   int samples_per_cycle = 100;        ///< of the inlet's velocities, straight between; in [10, 1000]
   int results_per_cycle = 20;         ///< fields written; in [1, 1000]
@@ -46,8 +46,8 @@ double openfoam_hours(std::size_t cells, double steps, int processes);
 /// four processes) and the case's record (case_record.h), whole or not at all. `folder` must not exist or be
 /// empty. Velocities at the inlets are fully developed profiles of the real section (Womersley's when
 /// pulsatile) with exactly the flow asked for through the mesh's facets. v1912 has no outlet with a
-/// resistance that is coupled implicitly; with Outlets::resistance Allrun runs a steady case again and again
-/// until pressure is R times flow at each outlet, and sets the flows of a pulsatile one anew after each
+/// resistance that is coupled implicitly; with OutletModel::resistance Allrun runs a steady case again and
+/// again until pressure is R times flow at each outlet, and sets the flows of a pulsatile one anew after each
 /// cycle, until each harmonic of the pressure is the outlet's impedance times that of the flow. Throws
 /// InvalidInput and GeometryError before anything is written (options, what boundary_flow refuses, quadratic
 /// elements, a folder that holds something), IoError, ResourceError, Cancelled.

@@ -44,6 +44,8 @@ enum class Role {
   fibrofatty,
   fibrous,
   calcified,
+  limited,  ///< stretches that can be judged in part, and not at all
+  not_evaluable,
 };
 
 struct OverlayLine {

@@ -91,6 +91,7 @@ class Pointer {
   std::unique_ptr<Gesture> gesture_of(const PointerEvent& event);
   std::unique_ptr<Gesture> gesture_of_tool(const PointerEvent& event);
   bool click_of_tool(const PointerEvent& event);
+  bool measuring_click(const PointerEvent& event, const Vec3& place);
   std::optional<HandleHit> handle_at(const PointerEvent& event);
   void hover(const PointerEvent& event);
   void show_clicked();

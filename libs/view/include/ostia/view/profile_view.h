@@ -10,8 +10,9 @@
 #include <vector>
 
 namespace ostia::session {
+class EvaluabilityBoard;
 class OuterWallBoard;
-}
+}  // namespace ostia::session
 
 namespace ostia::view {
 
@@ -22,6 +23,8 @@ class ProfileView {
   explicit ProfileView(session::Workbench& bench);
   /// Where outer walls come from; it has to outlive the view, or null is set before it goes.
   void set_walls(session::OuterWallBoard* board);
+  /// Where stretches come from that are less than evaluable; the same holds.
+  void set_evaluability(session::EvaluabilityBoard* board);
   void set_size(int width, int height, double density);
   const Overlay& overlay();
   session::Signal<> stale;
@@ -53,6 +56,7 @@ class ProfileView {
   void add_axes(const Frame& frame);
   void add_stenoses(const Frame& frame);
   void add_stretches();
+  void add_evaluability(const Frame& frame);
   /// A line through the sections' shares of an axis; it breaks where one is not finite.
   void add_curve(const Frame& frame, const analysis::LumenProfile& profile, const OverlayLine& style,
                  const std::vector<double>& shares);
@@ -66,7 +70,8 @@ class ProfileView {
   bool fresh_ = false;
   Overlay overlay_;
   session::OuterWallBoard* walls_ = nullptr;
-  std::vector<session::Subscription> own_, walls_changes_;
+  session::EvaluabilityBoard* evaluability_ = nullptr;
+  std::vector<session::Subscription> own_, walls_changes_, evaluability_changes_;
 };
 
 }  // namespace ostia::view

@@ -31,6 +31,14 @@ struct VesselStyle {
   bool operator==(const VesselStyle&) const = default;
 };
 
+/// A part of a vessel's own wall that is coloured otherwise.
+struct ColoredStretch {
+  std::int32_t vessel = 0;
+  double from_mm = 0.0, to_mm = 0.0;
+  figure::Color color;
+  bool operator==(const ColoredStretch&) const = default;
+};
+
 /// What lies under a place of the picture.
 struct ScenePick {
   Vec3 point = Vec3::Zero();                ///< on the wall, or on the measurement where no wall is hit
@@ -78,6 +86,8 @@ class TreeScene {
   /// bar beside the picture. Throws InvalidInput where there are not as many values as points.
   void set_wall_values(std::vector<double> values, const ValueScale& scale);
   void clear_wall_values();  ///< back to the vessels' colours
+  /// Mixed into the vessels' colours until others are given; vessels that are not there do not matter.
+  void set_colored_stretches(std::vector<ColoredStretch> stretches);
   /// Something else in the wall's place, with a bar of its own; null: the wall again. A wall that is not
   /// shown is not picked.
   void set_guest(std::shared_ptr<SceneGuest> guest);

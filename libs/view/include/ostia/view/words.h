@@ -1,6 +1,9 @@
 #pragma once
 /// \file The few words that views write over pictures, so that an app can give them in its language.
 
+#include "ostia/analysis/evaluability.h"
+
+#include <array>
 #include <string>
 
 namespace ostia::view {
@@ -14,6 +17,15 @@ struct Words {
   std::string outer_wall = "outer wall";
   std::string low_attenuation = "low attenuation", fibrofatty = "fibrofatty", fibrous = "fibrous",
               calcified = "calcified";  ///< plaque, by class
+  std::string evaluable = "evaluable", limited = "limited", not_evaluable = "not evaluable",
+              by_reader = "reader";
+  /// By analysis::EvaluabilityReason.
+  std::array<std::string, 6> reasons{
+      "the image ends", "voxels too coarse for its calibre", "hardly brighter than the noise",
+      "no clear edge",  "calcium hides the lumen",           "the edge is blurred"};
+  const std::string& reason(analysis::EvaluabilityReason one) const {
+    return reasons[static_cast<std::size_t>(one)];
+  }
   std::string not_measurable = "not measurable";
   std::string image = "image", tree = "tree";  ///< each before the phase of the heart that it is of
   // What the 3D view answers to clicks that place nothing.

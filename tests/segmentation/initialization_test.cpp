@@ -1,4 +1,4 @@
-#include "followed_branches.h"
+#include "level_set/initialization.h"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "followed_branches.h"
+#include "level_set/initialization.h"
 
 #include "ostia/core/error.h"
 
@@ -55,7 +55,7 @@ auto with_branch_number(std::size_t number, std::size_t count, const Call& call)
 }
 
 void leave_out_cut_off(const std::vector<BranchSeeds>& all, std::vector<std::size_t>& kept,
-                       FollowedBranches& out) {
+                       InitializedBranches& out) {
   for (const std::size_t branch : cut_off(all, kept)) {
     const auto at = std::find(kept.begin(), kept.end(), branch);
     out.parts.erase(out.parts.begin() + (at - kept.begin()));
@@ -87,12 +87,13 @@ std::vector<std::size_t> cut_off(const std::vector<BranchSeeds>& all, const std:
   return out;
 }
 
-FollowedBranches follow_branches(const imaging::ImageVolume& image, const std::vector<BranchSeeds>& branches,
-                                 const CollidingFrontsOptions& fronts, bool leave_out,
-                                 const core::TaskContext& task) {
+InitializedBranches initialize_branches(const imaging::ImageVolume& image,
+                                        const std::vector<BranchSeeds>& branches,
+                                        const CollidingFrontsOptions& fronts, bool leave_out,
+                                        const core::TaskContext& task) {
   leave_out = leave_out && branches.size() > 1;
   if (leave_out) require_within(image, branches);
-  FollowedBranches out;
+  InitializedBranches out;
   std::vector<std::size_t> kept;
   std::exception_ptr first;
   const auto count = static_cast<double>(branches.size());

@@ -1,0 +1,87 @@
+#include "ostia/view/evaluability_layer.h"
+
+#include "ostia/view/words.h"
+
+#include <algorithm>
+
+namespace ostia::view {
+namespace {
+
+using analysis::Evaluability;
+using analysis::EvaluableStretch;
+
+constexpr double left_units = 6.0, right_units = 10.0, text_units = 16.0;  // of the band, and height of words
+
+}  // namespace
+
+Role role_of(Evaluability grade) {
+  return grade == Evaluability::not_evaluable ? Role::not_evaluable : Role::limited;
+}
+
+std::string text_of(const EvaluableStretch& stretch) {
+  const Words& w = words();
+  std::string text = stretch.grade == Evaluability::evaluable ? w.evaluable
+                     : stretch.grade == Evaluability::limited ? w.limited
+                                                              : w.not_evaluable;
+  if (stretch.by_person) return text + " (" + w.by_reader + ")";
+  const char* between = ": ";
+  for (const analysis::EvaluabilityReason reason : stretch.reasons) {
+    text += between + w.reason(reason);
+    between = ", ";
+  }
+  return text;
+}
+
+std::vector<EvaluableStretch> stretches_of_way(const session::EvaluabilityBoard& board,
+                                               const session::Workbench& bench, std::int32_t vessel) {
+  std::vector<EvaluableStretch> out;
+  const auto add = [&](std::int32_t owner, double from_mm, double to_mm) {
+    for (EvaluableStretch one : board.stretches(owner)) {
+      one.from_mm = std::max(one.from_mm, from_mm), one.to_mm = std::min(one.to_mm, to_mm);
+      if (one.from_mm < one.to_mm) out.push_back(std::move(one));
+    }
+  };
+  const geometry::VesselTree& tree = bench.model()->tree;
+  double to = bench.axis(vessel)->length();
+  std::int32_t owner = vessel;
+  // From the end towards the root: what lies before an owner's own part is another's.
+  for (std::size_t steps = 0; steps <= tree.vessels.size(); ++steps) {
+    const double own = lumen::own_from_mm(tree, owner);
+    add(owner, own, to);
+    if (own <= 0.0) break;
+    to = own;
+    owner = lumen::owner_at(tree, vessel, std::max(0.0, own - 1e-3));
+  }
+  std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.from_mm < b.from_mm; });
+  return out;
+}
+
+EvaluabilityLayer::EvaluabilityLayer(CurvedView& view, session::EvaluabilityBoard& board) : view_(view) {
+  view_.set_layer(
+      [this, &board](Overlay& overlay) {
+        session::Workbench& bench = view_.bench();
+        if (!board.shown.get() || !view_.ready()) return;
+        const double unit = view_.density();
+        for (const EvaluableStretch& one : stretches_of_way(board, bench, bench.vessel.get())) {
+          if (one.grade == Evaluability::evaluable) continue;
+          const double from = view_.row_of(bench.here_mm(one.from_mm)),
+                       to = view_.row_of(bench.here_mm(one.to_mm));
+          const Role role = role_of(one.grade);
+          overlay.bands.push_back({Vec2(left_units * unit, from), Vec2(right_units * unit, to), role, 0.85});
+          const double top = std::max(from, 2.0 * text_units * unit),
+                       bottom = std::min(to, view_.height() - 3.0 * text_units * unit);
+          if (bottom - top < text_units * unit) continue;
+          overlay.texts.push_back(
+              {Vec2((right_units + 3.0) * unit, 0.5 * (top + bottom)), text_of(one), role, Anchor::left});
+        }
+      },
+      PictureView::LayerPlace::evaluability);
+  own_.push_back(board.shown.observe([this](const bool&) { view_.touch_layer(); }));
+  own_.push_back(board.changed.observe([this] { view_.touch_layer(); }));
+}
+
+EvaluabilityLayer::~EvaluabilityLayer() {
+  view_.set_layer({}, PictureView::LayerPlace::evaluability);
+}
+
+}  // namespace ostia::view

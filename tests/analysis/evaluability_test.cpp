@@ -67,7 +67,10 @@ TEST(Evaluability, EachReasonIsNamed) {
   EXPECT_EQ(calcium.grade, Evaluability::not_evaluable);
   EXPECT_THAT(calcium.reasons, ElementsAre(EvaluabilityReason::calcium));
 
-  const auto blurred = middle(spoilt([](WallEvidence& one) { one.blur_mm = 1.0; }));
+  auto moved = good();
+  for (WallEvidence& one : moved)
+    if (one.s_mm >= 10.0 && one.s_mm <= 30.0) one.blur_mm = 1.0;
+  const auto blurred = middle(moved);
   EXPECT_EQ(blurred.grade, Evaluability::limited);
   EXPECT_THAT(blurred.reasons, ElementsAre(EvaluabilityReason::blurred));
 

@@ -48,7 +48,8 @@ TEST_F(EvaluabilityLayerTest, MarksWhatIsLessThanEvaluableAndSaysWhy) {
   EXPECT_EQ(shown[1].role, Role::not_evaluable);
   std::string texts;
   for (const OverlayText& text : view.overlay().texts) texts += text.text + "\n";
-  EXPECT_NE(texts.find("limited: the edge is blurred"), std::string::npos);
+  EXPECT_NE(texts.find("limited\nthe edge is blurred\n"), std::string::npos);
+  EXPECT_NE(texts.find("not evaluable\nno clear edge\n"), std::string::npos);
   board_.shown.set(false);
   EXPECT_TRUE(bands(view.overlay()).empty());
 }

@@ -54,9 +54,9 @@ QColor role_color(view::Role role, Ground ground) {
     case Role::calcified:
       return QColor(86, 180, 233);
     case Role::limited:
-      return bright ? QColor(240, 180, 60) : QColor(150, 95, 0);
+      return bright ? QColor(196, 176, 255) : QColor(105, 80, 190);
     case Role::not_evaluable:
-      return bright ? QColor(255, 105, 180) : QColor(170, 20, 90);
+      return bright ? QColor(255, 60, 170) : QColor(180, 0, 105);
   }
   return Qt::white;
 }

@@ -52,7 +52,8 @@ class Course {
       const double clear = about(i, &WallEvidence::clear_share, true);
       set(EvaluabilityReason::no_clear_edge, graded(clear < o.least_clear, clear < o.limited_clear));
     }
-    const double blur = about(i, &WallEvidence::blur_mm, true);
+    // Plaque has edges of its own; what moved, or the scanner, blurs longer stretches than a lesion.
+    const double blur = about(i, &WallEvidence::blur_mm, true, calibre_reach_mm);
     set(EvaluabilityReason::blurred,
         graded(blur > o.most_blur_share * calibre,
                blur > o.limited_blur_mm || blur > o.limited_blur_share * calibre));
@@ -83,13 +84,14 @@ class Course {
 
   /// Median over the window; with `wide` of its sections that are not narrowed or, where all are, of the
   /// nearest that is not.
-  double about(std::size_t i, double WallEvidence::*figure, bool wide) const {
+  double about(std::size_t i, double WallEvidence::*figure, bool wide, double reach_mm = 0.0) const {
+    const double reach = reach_mm > 0.0 ? reach_mm : 0.5 * options_.window_mm;
     std::vector<double> values;
     std::size_t nearest = evidence_.size();
     for (std::size_t j = 0; j < evidence_.size(); ++j) {
       if (!evidence_[j].in_image) continue;
       if (wide && !(open(j) && evidence_[j].calibre_mm >= narrow_share * calibre_mm_[j])) continue;
-      if (near(i, j, 0.5 * options_.window_mm)) values.push_back(evidence_[j].*figure);
+      if (near(i, j, reach)) values.push_back(evidence_[j].*figure);
       if (nearest == evidence_.size() || std::abs(evidence_[j].s_mm - evidence_[i].s_mm) <
                                              std::abs(evidence_[nearest].s_mm - evidence_[i].s_mm))
         nearest = j;

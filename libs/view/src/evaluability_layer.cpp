@@ -3,6 +3,7 @@
 #include "ostia/view/words.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace ostia::view {
 namespace {
@@ -12,6 +13,32 @@ using analysis::EvaluableStretch;
 
 constexpr double left_units = 6.0, right_units = 10.0, text_units = 16.0;  // of the band, and height of words
 
+std::string grade_text(const EvaluableStretch& stretch) {
+  const Words& w = words();
+  const std::string text = stretch.grade == Evaluability::evaluable ? w.evaluable
+                           : stretch.grade == Evaluability::limited ? w.limited
+                                                                    : w.not_evaluable;
+  return stretch.by_person ? text + " (" + w.by_reader + ")" : text;
+}
+
+/// The grade at the stretch's beginning and the reasons below it, as far as there is room; beside the titles
+/// and the directions of the patient, which stand at the top and half-way down.
+void add_words(Overlay& overlay, const CurvedView& view, const EvaluableStretch& stretch, double from_px,
+               double to_px) {
+  const double line = text_units * view.density(), middle = 0.5 * view.height();
+  std::vector<std::string> lines{grade_text(stretch)};
+  for (const analysis::EvaluabilityReason reason : stretch.reasons) lines.push_back(words().reason(reason));
+  double y = std::max(from_px, 2.0 * line) + 0.5 * line;
+  const double last = std::min(to_px, view.height() - 3.0 * line) - 0.5 * line;
+  for (const std::string& text : lines) {
+    if (std::abs(y - middle) < line) y = middle + line;
+    if (y > last) return;
+    overlay.texts.push_back(
+        {Vec2((right_units + 3.0) * view.density(), y), text, role_of(stretch.grade), Anchor::left});
+    y += line;
+  }
+}
+
 }  // namespace
 
 Role role_of(Evaluability grade) {
@@ -19,14 +46,10 @@ Role role_of(Evaluability grade) {
 }
 
 std::string text_of(const EvaluableStretch& stretch) {
-  const Words& w = words();
-  std::string text = stretch.grade == Evaluability::evaluable ? w.evaluable
-                     : stretch.grade == Evaluability::limited ? w.limited
-                                                              : w.not_evaluable;
-  if (stretch.by_person) return text + " (" + w.by_reader + ")";
+  std::string text = grade_text(stretch);
   const char* between = ": ";
   for (const analysis::EvaluabilityReason reason : stretch.reasons) {
-    text += between + w.reason(reason);
+    text += between + words().reason(reason);
     between = ", ";
   }
   return text;
@@ -68,11 +91,7 @@ EvaluabilityLayer::EvaluabilityLayer(CurvedView& view, session::EvaluabilityBoar
                        to = view_.row_of(bench.here_mm(one.to_mm));
           const Role role = role_of(one.grade);
           overlay.bands.push_back({Vec2(left_units * unit, from), Vec2(right_units * unit, to), role, 0.85});
-          const double top = std::max(from, 2.0 * text_units * unit),
-                       bottom = std::min(to, view_.height() - 3.0 * text_units * unit);
-          if (bottom - top < text_units * unit) continue;
-          overlay.texts.push_back(
-              {Vec2((right_units + 3.0) * unit, 0.5 * (top + bottom)), text_of(one), role, Anchor::left});
+          add_words(overlay, view_, one, from, to);
         }
       },
       PictureView::LayerPlace::evaluability);

@@ -25,7 +25,7 @@ std::string to_string(EvaluabilityReason reason);
 struct EvaluabilityOptions {
   double window_mm = 5.0;  ///< of vessel, [1, 20]
   /// Calibre over the coarsest spacing of the voxels; below is coarse.
-  double limited_voxels = 3.0, least_voxels = 1.5;
+  double limited_voxels = 2.5, least_voxels = 1.25;
   double limited_cnr = 6.0, least_cnr = 3.0;  ///< contrast over noise
   double limited_clear = 0.7, least_clear = 0.45;
   double limited_calcium = 0.4, most_calcium = 0.8;

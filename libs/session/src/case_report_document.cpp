@@ -53,8 +53,7 @@ std::string quality_text(const CaseReport& report) {
 }
 
 std::string evaluable_text(const std::optional<analysis::EvaluableStretch>& stretch) {
-  if (!stretch) return "not known";
-  return analysis::to_string(stretch->grade) + (stretch->by_person ? " (reader)" : "");
+  return stretch ? report_text::grade(*stretch) : "not known";
 }
 
 /// Stretches of a vessel that are less than evaluable.
@@ -64,8 +63,8 @@ std::string doubtful_text(const ReportVessel& vessel) {
   for (const analysis::EvaluableStretch& one : vessel.evaluable) {
     if (one.grade == analysis::Evaluability::evaluable && !one.by_person) continue;
     text += (text.empty() ? "" : "\n") + shown_text(one.from_mm, 0) + "-" + shown_text(one.to_mm, 0) +
-            " mm: " + analysis::to_string(one.grade) + (one.by_person ? " (reader)" : "");
-    for (const analysis::EvaluabilityReason reason : one.reasons) text += ", " + analysis::to_string(reason);
+            " mm: " + report_text::grade(one);
+    if (!one.reasons.empty()) text += ", " + report_text::reasons(one);
   }
   return text.empty() ? "all of it" : text;
 }

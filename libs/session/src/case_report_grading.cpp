@@ -21,11 +21,7 @@ const ReportVessel& vessel_of(const CaseReport& report, std::int32_t id) {
 }
 
 std::string reasons_of(const EvaluableStretch& stretch) {
-  if (stretch.by_person) return "says the reader";
-  std::string text;
-  for (const analysis::EvaluabilityReason reason : stretch.reasons)
-    text += (text.empty() ? "" : ", ") + analysis::to_string(reason);
-  return text;
+  return stretch.by_person ? "says the reader" : report_text::reasons(stretch);
 }
 
 bool thin(const CaseReport& report, const ReportStenosis& one) {

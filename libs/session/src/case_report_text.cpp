@@ -107,6 +107,17 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
+std::string grade(const analysis::EvaluableStretch& stretch) {
+  return analysis::to_string(stretch.grade) + (stretch.by_person ? " (reader)" : "");
+}
+
+std::string reasons(const analysis::EvaluableStretch& stretch) {
+  std::string text;
+  for (const analysis::EvaluabilityReason reason : stretch.reasons)
+    text += (text.empty() ? "" : ", ") + analysis::to_string(reason);
+  return text;
+}
+
 std::string vessel_name(const lumen::LumenModel& model, std::int32_t id) {
   for (const geometry::Vessel& vessel : model.tree.vessels)
     if (vessel.id == id) return vessel.name;

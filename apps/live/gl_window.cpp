@@ -40,7 +40,7 @@ GlWindow::GlWindow(const Options& options) {
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
-  window = glfwCreateWindow(options.width, options.height, "Ostia live", nullptr, nullptr);
+  window = glfwCreateWindow(options.width, options.height, window_title, nullptr, nullptr);
   if (window == nullptr) {
     const std::string why = last_error;
     glfwTerminate();

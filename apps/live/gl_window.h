@@ -7,6 +7,9 @@ namespace ostia::live {
 
 struct Options;
 
+/// Of a window whose keys are answered; another one stands there while it is prepared.
+inline constexpr const char* window_title = "Ostia live";
+
 /// GLFW's library, its window, whose context is current, and their end.
 class GlWindow {
  public:

@@ -15,9 +15,8 @@ inline constexpr ImU32 text_color = IM_COL32(228, 232, 236, 255), ink_on_grey = 
                        ecg_color = IM_COL32(110, 220, 150, 255), peak_mark = IM_COL32(230, 159, 0, 255),
                        peak_line = IM_COL32(230, 159, 0, 70), accent_mark = IM_COL32(86, 180, 233, 255);
 
-/// Of panel and strip, which are filled without Dear ImGui: it blends, which costs a software renderer dear.
-inline constexpr figure::Color panel_background{0.105, 0.115, 0.13, 1.0},
-    strip_background{0.07, 0.08, 0.09, 1.0};
+/// Of the panel, which is filled without Dear ImGui: it blends, which costs a software renderer dear.
+inline constexpr figure::Color panel_background{0.105, 0.115, 0.13, 1.0};
 
 /// Dear ImGui's context while it lives, with OpenGL's part of it. Writes no file.
 class Windows {

@@ -14,13 +14,15 @@ json spread_json(const Spread& spread) {
 
 }  // namespace
 
-std::string measurements_json(const Viewer& viewer, const FrameMeter& meter, int width, int height,
-                              int screenshots) {
+std::string measurements_json(const Viewer& viewer, const FrameMeter& meter, const StartTimes& times,
+                              int width, int height, int screenshots) {
   const Playback& play = viewer.playback();
   const Shown& shown = viewer.shown();
   json result{{"renderer", glview::renderer_name()},
               {"width_px", width},
               {"height_px", height},
+              {"first_picture_s", times.first_picture_s},
+              {"prepared_s", times.prepared_s},
               {"frames", meter.frames()},
               {"frames_per_second", meter.frames_per_second()},
               {"frame_ms", spread_json(meter.frame_ms())},
@@ -34,7 +36,7 @@ std::string measurements_json(const Viewer& viewer, const FrameMeter& meter, int
                 {"cranial_deg", shown.camera.angles.cranial_deg},
                 {"half_height_mm", shown.camera.half_height_mm},
                 {"x_ray", shown.camera.projection == glview::Projection::x_ray}}},
-              {"value", glview::title(shown.look.value)},
+              {"value", glview::title(shown.value)},
               {"panels", shown.panels},
               {"help", shown.help},
               {"screenshots", screenshots}};

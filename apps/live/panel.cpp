@@ -113,7 +113,7 @@ void draw_views(PanelTalk& talk) {
 void draw_colors(PanelTalk& talk) {
   heading("COLOUR");
   for (const SurfaceValue value : glview::all_values)
-    if (ImGui::RadioButton(glview::title(value), talk.shown.look.value == value)) talk.set_value(value);
+    if (ImGui::RadioButton(glview::title(value), talk.shown.value == value)) talk.set_value(value);
 }
 
 }  // namespace
@@ -147,12 +147,16 @@ void draw_panel(PanelTalk& talk, int width, int height) {
 namespace {
 
 void draw_bar(const Shown& shown, const glview::Viewport& scene, float top) {
-  const SurfaceValue value = shown.look.value;
+  const SurfaceValue value = shown.value;
   if (value == SurfaceValue::none || shown.camera.projection == glview::Projection::x_ray) return;
   ImDrawList& draw = *ImGui::GetForegroundDrawList();
   const float x = 18.0F, wide = 14.0F, high = std::min(260.0F, 0.45F * static_cast<float>(scene.height));
   draw.AddText({x, top}, text_color, glview::title(value));
   top += 24.0F;
+  if (shown.look.value != value) {
+    draw.AddText({x, top}, muted_mark, "is being prepared");
+    return;
+  }
   constexpr int steps = 64;
   for (int i = 0; i < steps; ++i) {
     const figure::Color c = glview::color(value, 1.0 - (i + 0.5) / steps);

@@ -44,6 +44,7 @@ class Easel {
     io.MousePos = {-1.0F, -1.0F};
     width_ = options.width;
     height_ = options.height;
+    if constexpr (requires { viewer.settle(); }) viewer.settle();
     picture();  // sizes settle in the first
   }
   figure::Raster picture() {
@@ -60,7 +61,7 @@ class Easel {
  public:
   Shows viewer;
 };
-using HeartEasel = Easel<Viewer, LiveInput>;
+using HeartEasel = Easel<Viewer, LiveHeart>;
 using TreeEasel = Easel<TreeViewer, TreeInput>;
 
 /// For ffmpeg, to which a percent in the folder's name would be a number's place.
@@ -143,16 +144,17 @@ void write_video(Canvas& easel, const Options& options, int frames, const VideoN
   folder.commit();
 }
 
-void write_heart_video(const LiveInput& input, const Options& options, const core::TaskContext& task) {
+void write_heart_video(const LiveHeart& heart, const Options& options, const core::TaskContext& task) {
   pipeline::require_free_folder(options.video);  // it is replaced as a whole
-  HeartEasel easel(input, options);
+  HeartEasel easel(heart, options);
   const double step = 1.0 / options.frames_per_second;
   const Playback& play = easel.viewer.playback();
   const double seconds = play.follows_ecg() ? ecg_video_s : play.loop_interval_s() / play.speed();
   const int frames =
       options.frames > 0 ? options.frames : std::max(1, static_cast<int>(std::lround(seconds / step)));
   write_video(
-      easel, options, frames, {input.ecg_failed ? ExitCode::quality_failed : ExitCode::ok, input.warnings},
+      easel, options, frames,
+      {heart.input.ecg_failed ? ExitCode::quality_failed : ExitCode::ok, heart.input.warnings},
       [&] { easel.viewer.advance(step); }, task);
 }
 
@@ -196,14 +198,14 @@ std::vector<Screenshots::News> Screenshots::finish() {
   return {{"picture: " + file_.string(), false}};
 }
 
-void write_pictures(const LiveInput& input, const Options& options, const core::TaskContext& task) {
+void write_pictures(const LiveHeart& heart, const Options& options, const core::TaskContext& task) {
   Options settled = options;
-  settled.start_s = first_picture_s(input, options);
+  settled.start_s = first_picture_s(heart.input, options);
   if (!options.video.empty()) {
-    write_heart_video(input, settled, task);
+    write_heart_video(heart, settled, task);
     return;
   }
-  HeartEasel easel(input, settled);
+  HeartEasel easel(heart, settled);
   const figure::Picture picture = figure::picture_of(easel.picture());
   task.throw_if_cancelled();
   picture.write_png(options.screenshot);

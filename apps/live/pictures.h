@@ -1,7 +1,7 @@
 #pragma once
 /// \file Pictures as files.
 
-#include "live_input.h"
+#include "live_heart.h"
 
 #include "ostia/core/task_context.h"
 #include "ostia/figure/picture.h"
@@ -37,6 +37,6 @@ class Screenshots {
 
 /// Without a window: --screenshot and --video. Throws ResourceError where there is no OpenGL 3.3, IoError,
 /// Cancelled.
-void write_pictures(const LiveInput& input, const Options& options, const core::TaskContext& task);
+void write_pictures(const LiveHeart& heart, const Options& options, const core::TaskContext& task);
 
 }  // namespace ostia::live

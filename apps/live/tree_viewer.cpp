@@ -182,7 +182,7 @@ void TreeViewer::draw(int width, int height, double frames_per_second) {
     return static_cast<int>(std::lround(static_cast<double>(units) * static_cast<double>(each)));
   };
   const glview::Viewport scene{0, 0, px(wide, scale.x), px(height, scale.y)};
-  glview::begin_part(scene, strip_background);
+  glview::begin_part(scene, glview::scene_backdrop);
   drawing_.draw(eye_, static_cast<double>(scale.y), shown_, picked_.empty() ? -1 : picked_.back().edge);
   if (panels_) glview::fill({scene.width, 0, px(width - wide, scale.x), scene.height}, panel_background);
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());

@@ -5,7 +5,9 @@
 #include "look_of_windows.h"
 #include "measurements.h"
 #include "pictures.h"
+#include "start_clock.h"
 #include "tree_viewer.h"
+#include "waiting.h"
 
 #include "ostia/core/error.h"
 #include "ostia/glview/beating_scene.h"
@@ -47,13 +49,15 @@ void tell(TreeViewer& viewer, const std::vector<Screenshots::News>& news) {
   }
 }
 
-std::string measured(const TreeViewer& viewer, const FrameMeter& meter, const TreeInput& input, int width,
-                     int height) {
+std::string measured(const TreeViewer& viewer, const FrameMeter& meter, const TreeInput& input,
+                     const StartTimes& times, int width, int height) {
   const Spread spread = meter.frame_ms();
   nlohmann::json result{
       {"renderer", glview::renderer_name()},
       {"width_px", width},
       {"height_px", height},
+      {"first_picture_s", times.first_picture_s},
+      {"prepared_s", times.prepared_s},
       {"frames", meter.frames()},
       {"frames_per_second", meter.frames_per_second()},
       {"frame_ms", {{"p50", spread.p50}, {"p95", spread.p95}, {"max", spread.max}, {"count", spread.count}}},
@@ -72,10 +76,16 @@ std::string measured(const TreeViewer& viewer, const FrameMeter& meter, const Tr
 
 }  // namespace
 
-void show_tree(const TreeInput& input, const Options& options, const core::TaskContext& task) {
-  const GlWindow held(options);
-  GLFWwindow* window = held.window;
+void show_tree(const Options& options, const std::function<void(const TreeInput&)>& told,
+               const core::TaskContext& task) {
+  Preparation<TreeInput> work([&](const core::TaskContext& own) { return read_tree(options, own); });
+  const auto held = window_beside(work, options);
+  GLFWwindow* window = held->window;
   const Windows windows;
+  StartTimes times;
+  if (!show_waiting(window, work, times, task)) return;
+  const TreeInput input = work.get();
+  told(input);
   TreeViewer viewer(input, options);
   const TreeEvents events(window, viewer);
   Screenshots screenshots(options.pictures);
@@ -105,13 +115,17 @@ void show_tree(const TreeInput& input, const Options& options, const core::TaskC
     if (viewer.take_screenshot_wish()) tell(viewer, screenshots.take(glview::read_pixels(wide_px, high_px)));
     glfwSwapBuffers(window);
     if (options.measure) finish_drawing();
+    if (drawn == 1) {
+      times.prepared_s = seconds_since_start();
+      glfwSetWindowTitle(window, window_title);
+    }
     meter.shown(glfwGetTime(), 0, now, 0.0);
   }
   tell(viewer, screenshots.finish());
   if (!options.measure) return;
   int width = 0, height = 0;
   glfwGetFramebufferSize(window, &width, &height);
-  std::printf("%s\n", measured(viewer, meter, input, width, height).c_str());
+  std::printf("%s\n", measured(viewer, meter, input, times, width, height).c_str());
 }
 
 }  // namespace ostia::live

@@ -26,17 +26,6 @@ std::optional<EcgFeed> feed_of(const LiveInput& input) {
   return EcgFeed(input.ecg->lead.values, input.ecg->samples_per_second);
 }
 
-/// Of the surface at all phases, so that nothing leaves the picture.
-std::vector<geometry::Vec3> places_of(const LiveInput& input, const motion::MovingCage& cage) {
-  const motion::CarriedPoints carried(input.motion.grid, input.surface.points);
-  std::vector<geometry::Vec3> all;
-  for (int k = 0; k < 10; ++k) {
-    const auto places = carried.places(cage.at(k / 10.0));
-    all.insert(all.end(), places.begin(), places.end());
-  }
-  return all;
-}
-
 /// What panel and strip leave of the window.
 glview::Viewport scene_of(int width, int height, bool panels, bool ecg) {
   const int bottom = panels && ecg ? strip_height : 0;
@@ -70,18 +59,14 @@ const std::vector<NamedView>& named_views() {
   return views;
 }
 
-Viewer::Viewer(const LiveInput& input, const Options& options)
-    : cage_(input.motion),
-      surface_(glview::shown_surface(input.surface, input.motion.grid)),
-      aspect_(scene_of(options.width, options.height, options.panels, input.ecg.has_value()).aspect()),
-      playback_(feed_of(input), options.start_s),
-      notices_(input.warnings) {
-  for (const SurfaceValue value : glview::all_values)
-    if (value != SurfaceValue::bending)
-      ranges_[static_cast<std::size_t>(value)] = glview::value_range(surface_, cage_, value);
-  places_ = places_of(input, cage_);
-  scene_ = std::make_unique<glview::BeatingScene>(surface_, cage_);
-  if (!surface_.closed) {
+Viewer::Viewer(LiveHeart heart, const Options& options)
+    : places_(std::move(heart.places)),
+      aspect_(scene_of(options.width, options.height, options.panels, heart.input.ecg.has_value()).aspect()),
+      playback_(feed_of(heart.input), options.start_s),
+      notices_(std::move(heart.input.warnings)),
+      scene_(heart.surface, heart.cage),
+      colors_(std::move(heart.surface), std::move(heart.cage)) {
+  if (!colors_.surface().closed) {
     notice("the surface cannot be closed: its X-ray projection has streaks");
     core::log_warning(notices_.back());
   }
@@ -93,25 +78,37 @@ Viewer::Viewer(const LiveInput& input, const Options& options)
   if (options.phase) playback_.scrub(*options.phase);
 }
 
-bool Viewer::make_bending() {
-  if (bending_made_) return true;
-  const glview::BendingTable table = glview::bending_table(surface_, cage_);
-  try {
-    scene_->set_bending(table);
-  } catch (const ResourceError& error) {
-    notice(std::string("curvatures cannot be shown: ") + error.what());
-    core::log_warning(notices_.back());
-    return false;
-  }
-  ranges_[static_cast<std::size_t>(SurfaceValue::bending)] =
-      glview::value_range(surface_, cage_, SurfaceValue::bending, &table);
-  return bending_made_ = true;
+void Viewer::set_value(SurfaceValue value) {
+  shown_.value = value;
+  show_value();
 }
 
-void Viewer::set_value(SurfaceValue value) {
-  if (value == SurfaceValue::bending && !make_bending()) value = SurfaceValue::none;
-  shown_.look.value = value;
-  shown_.look.range = ranges_[static_cast<std::size_t>(value)];
+void Viewer::show_value() {
+  const auto& range = ranges_[static_cast<std::size_t>(shown_.value)];
+  const bool plain = shown_.value == SurfaceValue::none;
+  shown_.look.value = range ? shown_.value : SurfaceValue::none;
+  shown_.look.range = range.value_or(glview::ValueRange{});
+  if (!plain && !range) colors_.ask(shown_.value);
+}
+
+void Viewer::take_color() {
+  SurfaceValue value = shown_.value;
+  try {
+    const SurfaceColors::Found found = colors_.take();
+    value = found.value;
+    if (!found.along.empty()) scene_.set_directions(found.along);
+    if (found.bending) scene_.set_bending(*found.bending);
+    ranges_[static_cast<std::size_t>(value)] = found.range;
+  } catch (const ResourceError& error) {  // no room for a table on the graphics card
+    notice(std::string("this colour cannot be shown: ") + error.what());
+    core::log_warning(notices_.back());
+    if (shown_.value == value) shown_.value = SurfaceValue::none;
+  }
+  show_value();
+}
+
+void Viewer::settle() {
+  while (colors_.busy()) take_color();
 }
 
 void Viewer::look_from(const glview::CarmAngles& angles) {
@@ -159,7 +156,7 @@ bool Viewer::key(int key, bool shift) {
       play.set_speed(1.0);
       break;
     case GLFW_KEY_C:
-      set_value(static_cast<SurfaceValue>(next(shown_.look.value)));
+      set_value(static_cast<SurfaceValue>(next(shown_.value)));
       break;
     case GLFW_KEY_E:
       play.follow_ecg(!play.follows_ecg());
@@ -208,6 +205,7 @@ void Viewer::mouse(const glview::Viewport& scene, int height) {
 }
 
 void Viewer::draw(int width, int height, double frames_per_second) {
+  if (colors_.ready()) take_color();
   ImGui_ImplOpenGL3_NewFrame();
   ImGui::NewFrame();
   const glview::Viewport scene = scene_of(width, height, shown_.panels, playback_.has_ecg());
@@ -227,11 +225,13 @@ void Viewer::draw(int width, int height, double frames_per_second) {
   draw_scene_texts(shown_, playback_, scene, height);
   if (shown_.help) draw_help(scene);
   ImGui::Render();
-  scene_->set_phase(playback_.phase(), playback_.interval_s());
-  scene_->draw(shown_.camera, shown_.look, in_pixels(scene));
+  scene_.set_phase(playback_.phase(), playback_.interval_s());
+  scene_.draw(shown_.camera, shown_.look, in_pixels(scene));
   if (shown_.panels) {
     glview::fill(in_pixels({scene.width, 0, width - scene.width, height}), panel_background);
-    glview::fill(in_pixels({0, 0, scene.width, scene.y}), strip_background);
+    // the lit tree has filled it already
+    if (shown_.camera.projection == glview::Projection::x_ray)
+      glview::fill(in_pixels({0, 0, scene.width, scene.y}), glview::scene_backdrop);
   }
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }

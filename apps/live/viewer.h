@@ -2,8 +2,9 @@
 /// \file The whole picture: scene, panel, strip; and what keys and the mouse do. Knows no window.
 
 #include "frame_meter.h"
-#include "live_input.h"
+#include "live_heart.h"
 #include "playback.h"
+#include "surface_colors.h"
 
 #include "ostia/glview/beating_scene.h"
 
@@ -16,7 +17,8 @@ namespace ostia::live {
 /// What is shown, as far as a person chooses it.
 struct Shown {
   glview::Camera camera;
-  glview::SceneLook look;
+  glview::SceneLook look;  ///< its value is the chosen one when that is ready
+  glview::SurfaceValue value = glview::SurfaceValue::none;  ///< that was chosen
   bool panels = true, help = false;
 };
 
@@ -35,7 +37,7 @@ const std::vector<NamedView>& named_views();
 class Viewer {
  public:
   /// The contexts of OpenGL and of Dear ImGui are current, here and in all calls.
-  Viewer(const LiveInput& input, const Options& options);
+  Viewer(LiveHeart heart, const Options& options);
 
   /// A key of GLFW's. True where it asks for the end.
   bool key(int key, bool shift);
@@ -44,6 +46,9 @@ class Viewer {
   /// Draws into what is bound: a window of this size, which has Dear ImGui's DisplayFramebufferScale times as
   /// many pixels. The platform's part of Dear ImGui's frame has begun.
   void draw(int width, int height, double frames_per_second);
+
+  /// Waits until the colour that was chosen is ready, as pictures without a window do.
+  void settle();
 
   Wishes take_wishes();
   const Playback& playback() const { return playback_; }
@@ -55,20 +60,18 @@ class Viewer {
   void mouse(const glview::Viewport& scene, int height);
   void look_from(const glview::CarmAngles& angles);
   void set_value(glview::SurfaceValue value);
-  /// Takes its time, once. False, and told, where the graphics card has no room for the table.
-  bool make_bending();
-  motion::MovingCage cage_;
-  glview::ShownSurface surface_;
-  bool bending_made_ = false;
+  void show_value();                    ///< the one that was chosen, or, as long as that takes, none
+  void take_color();                    ///< that is ready
   std::vector<geometry::Vec3> places_;  // of the surface over the cycle
   double aspect_;
   Playback playback_;
-  std::array<glview::ValueRange, glview::all_values.size()> ranges_;
+  std::array<std::optional<glview::ValueRange>, glview::all_values.size()> ranges_;
   std::vector<std::string> notices_;
   Shown shown_;
   Wishes wishes_;
   bool grabbed_ = false;  // the mouse, in the scene
-  std::unique_ptr<glview::BeatingScene> scene_;
+  glview::BeatingScene scene_;
+  SurfaceColors colors_;
 };
 
 }  // namespace ostia::live

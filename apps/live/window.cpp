@@ -4,7 +4,9 @@
 #include "look_of_windows.h"
 #include "measurements.h"
 #include "pictures.h"
+#include "start_clock.h"
 #include "viewer.h"
+#include "waiting.h"
 
 #include "ostia/core/error.h"
 
@@ -51,11 +53,17 @@ void tell(Viewer& viewer, const std::vector<Screenshots::News>& news) {
 
 }  // namespace
 
-void show_window(const LiveInput& input, const Options& options, const core::TaskContext& task) {
-  const GlWindow held(options);
-  GLFWwindow* window = held.window;
+void show_window(const Options& options, const std::function<void(const LiveInput&)>& told,
+                 const core::TaskContext& task) {
+  Preparation<LiveHeart> work([&](const core::TaskContext& own) { return read_heart(options, own); });
+  const auto held = window_beside(work, options);
+  GLFWwindow* window = held->window;
   const Windows windows;
-  Viewer viewer(input, options);
+  StartTimes times;
+  if (!show_waiting(window, work, times, task)) return;
+  LiveHeart heart = work.get();
+  told(heart.input);
+  Viewer viewer(std::move(heart), options);
   const Events events(window, viewer);
   Screenshots screenshots(options.pictures);
   FrameMeter meter(options.measure);
@@ -64,6 +72,8 @@ void show_window(const LiveInput& input, const Options& options, const core::Tas
   viewer.draw(options.width, options.height, 0.0);
   glfwSwapBuffers(window);
   finish_drawing();
+  times.prepared_s = seconds_since_start();
+  glfwSetWindowTitle(window, window_title);
   const double start = glfwGetTime();
   double before = start;
   while (glfwWindowShouldClose(window) == GLFW_FALSE && !task.cancelled()) {
@@ -98,7 +108,7 @@ void show_window(const LiveInput& input, const Options& options, const core::Tas
   if (options.measure) {
     int width = 0, height = 0;
     glfwGetFramebufferSize(window, &width, &height);
-    std::printf("%s\n", measurements_json(viewer, meter, width, height, screenshots.count()).c_str());
+    std::printf("%s\n", measurements_json(viewer, meter, times, width, height, screenshots.count()).c_str());
   }
 }
 

@@ -114,7 +114,8 @@ TEST(BeatingSceneGui, NormalsAreThoseOfTheMovedSurface) {
 
 TEST(BeatingSceneGui, ValuesAreThoseOfTheFormulas) {
   REQUIRE_OPENGL();
-  const Heart h;
+  Heart h;
+  h.shown.along = find_directions(h.shown);
   const BendingTable table = bending_table(h.shown, h.cage, 5);
   Offscreen offscreen(width, height);
   BeatingScene scene(h.shown, h.cage);
@@ -136,6 +137,26 @@ TEST(BeatingSceneGui, ValuesAreThoseOfTheFormulas) {
       EXPECT_GT(most, 0.1) << title(value);
       EXPECT_LT(off, 5e-3 + 1e-5 * most) << title(value);
     }
+}
+
+TEST(BeatingSceneGui, DirectionsThatComeLaterColourAsThoseThatCameWithTheSurface) {
+  REQUIRE_OPENGL();
+  Heart h;
+  Offscreen offscreen(width, height);
+  BeatingScene later(h.shown, h.cage);
+  SceneLook look;
+  look.value = SurfaceValue::stretch;
+  look.range = {-20.0, 20.0};
+  later.set_phase(0.38);
+  for (const float value : later.values(look))
+    EXPECT_FLOAT_EQ(value, 0.5F) << "none yet: nothing is stretched";
+  h.shown.along = find_directions(h.shown);
+  later.set_directions(h.shown.along);
+  BeatingScene whole_at_once(h.shown, h.cage);
+  whole_at_once.set_phase(0.38);
+  const std::vector<float> values = later.values(look);
+  EXPECT_EQ(values, whole_at_once.values(look));
+  EXPECT_LT(*std::min_element(values.begin(), values.end()), 0.4F) << "the sample heart shortens";
 }
 
 TEST(BeatingSceneGui, AMovedBallIsWhereTheCameraProjectsIt) {
@@ -287,6 +308,7 @@ TEST(BeatingSceneGui, RefusesWhatDoesNotFit) {
   Offscreen offscreen(width, height);
   BeatingScene scene(h.shown, h.cage);
   EXPECT_THROW(scene.set_bending({2, {1.0F, 2.0F}}), InvalidInput);
+  EXPECT_THROW(scene.set_directions({{1.0F, 0.0F, 0.0F}}), InvalidInput);
 }
 
 }  // namespace

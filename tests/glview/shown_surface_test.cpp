@@ -39,7 +39,10 @@ TEST(ShownSurface, KnowsTheWayAlongATube) {
   const Tube tube;
   const ShownSurface shown = shown_surface(tube.mesh, tube.motion.grid);
   ASSERT_EQ(shown.vertices.size(), tube.mesh.points.size());
-  for (const ShownVertex& vertex : shown.vertices) EXPECT_GT(std::abs(vertex.along[2]), 0.98F);
+  EXPECT_TRUE(shown.along.empty()) << "they are found when they are asked for";
+  const std::vector<Direction> along = find_directions(shown);
+  ASSERT_EQ(along.size(), shown.vertices.size());
+  for (const Direction& direction : along) EXPECT_GT(std::abs(direction[2]), 0.98F);
 }
 
 TEST(ShownSurface, ClosesOpenEndsBehindTheTrianglesOfTheSurface) {
@@ -74,7 +77,7 @@ TEST(ShownSurface, ClosesAnEndOfManyVerticesByOneVertexMore) {
   EXPECT_NEAR(centre.rest[0], 0.0, 1e-5);
   EXPECT_NEAR(centre.rest[2], 0.0, 1e-5);
   EXPECT_NEAR(centre.normal[2], -1.0, 1e-5);
-  EXPECT_NEAR(centre.along[2], 0.0, 1e-5);
+  EXPECT_NEAR(find_directions(shown).back()[2], 0.0, 1e-5);
 }
 
 TEST(ShownSurface, GradientsAreThoseOfALinearMap) {
@@ -95,9 +98,28 @@ TEST(ShownSurface, RefusesWhatCannotBeShown) {
   EXPECT_THROW(shown_surface(wrong, tube.motion.grid), InvalidInput);
 }
 
-TEST(SurfaceValues, OfALinearStretch) {
+TEST(ShownSurface, EndsWhenItIsCancelled) {
+  const Tube tube;
+  const core::TaskContext task;
+  task.cancel();
+  EXPECT_THROW(shown_surface(tube.mesh, tube.motion.grid, task), Cancelled);
+  const ShownSurface shown = shown_surface(tube.mesh, tube.motion.grid);
+  EXPECT_THROW(find_directions(shown, 3.0, task), Cancelled);
+}
+
+TEST(SurfaceValues, StretchAndCurvatureNeedTheDirections) {
   const Tube tube;
   const ShownSurface shown = shown_surface(tube.mesh, tube.motion.grid);
+  const motion::MovingCage cage(tube.motion);
+  EXPECT_THROW(values_at(shown, cage, 0.2, SurfaceValue::stretch), InvalidInput);
+  EXPECT_THROW(bending_table(shown, cage), InvalidInput);
+  EXPECT_GT(value_range(shown, cage, SurfaceValue::displacement).high, 0.0);
+}
+
+TEST(SurfaceValues, OfALinearStretch) {
+  const Tube tube;
+  ShownSurface shown = shown_surface(tube.mesh, tube.motion.grid);
+  shown.along = find_directions(shown);
   const motion::MovingCage cage(tube.motion);
   const double phase = tube.motion.phases[1].phase;
   for (const double stretch : values_at(shown, cage, phase, SurfaceValue::stretch))
@@ -134,7 +156,8 @@ TEST(SurfaceValues, ATubeThatIsBentGetsTheCurvatureOfItsAxis) {
     motion.phases.push_back(phase);
   }
   const motion::MovingCage cage(motion);
-  const ShownSurface shown = shown_surface(mesh, motion.grid);
+  ShownSurface shown = shown_surface(mesh, motion.grid);
+  shown.along = find_directions(shown);
   const BendingTable table = bending_table(shown, cage, 4);
   const auto values = values_at(shown, cage, 0.5, SurfaceValue::bending, 1.0, &table);
   // At an angle t from the outer side the wall bends with cos t / (R + r cos t).

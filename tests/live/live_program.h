@@ -50,8 +50,8 @@ struct LiveProgramGui : ::testing::Test {
   Outcome driven(const std::string& arguments, const std::string& commands) const {
     return shell(
         "\"$live\" " + arguments +
-        " --measure --seconds 30 & p=$!; w=$(timeout 20 xdotool search --sync --onlyvisible --name 'Ostia "
-        "live' | head -n 1); xdotool windowfocus --sync $w; sleep 0.7; " +
+        " --measure --seconds 30 & p=$!; w=$(timeout 20 xdotool search --sync --onlyvisible --name '^Ostia "
+        "live$' | head -n 1); xdotool windowfocus --sync $w; sleep 0.7; " +
         commands + "; sleep 0.3; xdotool key q; wait $p");
   }
 };

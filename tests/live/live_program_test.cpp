@@ -84,6 +84,35 @@ TEST_F(LiveProgramGui, EndsByItselfAndOnASignal) {
   EXPECT_GT(asked.json()["frames"].get<int>(), 3);
 }
 
+TEST_F(LiveProgramGui, TheWindowShowsWhatItWaitsForAndCanBeEndedMeanwhile) {
+  REQUIRE_OPENGL();
+  const Outcome shown = live("--demo --measure --seconds 0.5");
+  ASSERT_EQ(shown.code, 0) << shown.err;
+  const double first = shown.json()["first_picture_s"], prepared = shown.json()["prepared_s"];
+  EXPECT_GT(first, 0.0);
+  EXPECT_LT(first, prepared) << "before the heart is there";
+  // A motion that does not come: the window waits for it until it is asked to end.
+  const Outcome ended = shell(
+      "mkfifo slow.json; \"$live\" slow.json & p=$!; sleep 2; kill -TERM $p; sleep 0.5; printf '{}' > "
+      "slow.json; wait $p");
+  EXPECT_EQ(ended.code, 128 + SIGTERM) << ended.err;
+  const Outcome wrong =
+      shell("mkfifo wrong.json; \"$live\" wrong.json & p=$!; sleep 1; printf '{}' > wrong.json; wait $p");
+  EXPECT_EQ(wrong.code, 3) << "what cannot be read ends a window that waits for it";
+  EXPECT_THAT(wrong.err, HasSubstr("wrong.json"));
+}
+
+TEST_F(LiveProgramGui, ColoursComeWhenTheyAreAskedFor) {
+  REQUIRE_OPENGL();
+  ASSERT_EQ(live("--demo --phase 38 --screenshot plain.png").code, 0);
+  for (const char* color : {"velocity", "stretch", "curvature"}) {
+    const std::string file = std::string(color) + ".png";
+    const Outcome outcome = live(std::string("--demo --phase 38 --color ") + color + " --screenshot " + file);
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(core::read_file(folder / file), core::read_file(folder / "plain.png")) << color;
+  }
+}
+
 TEST_F(LiveProgramGui, PicturesNeedNoDisplayAndAreTheSameEachTime) {
   REQUIRE_OPENGL();
   const std::string no_display = "env -u DISPLAY";

@@ -1,11 +1,11 @@
 #include "ostia/glview/beating_scene.h"
 
 #include "gl_objects.h"
+#include "lit_programs.h"
 #include "shaders.h"
 #include "x_ray_layer.h"
 
 #include "ostia/core/error.h"
-#include "ostia/figure/color.h"
 
 #include <algorithm>
 #include <array>
@@ -16,8 +16,8 @@
 namespace ostia::glview {
 namespace {
 
-constexpr int control_unit = 1, rates_unit = 2, bending_unit = 3, colors_unit = 4;
-constexpr int color_steps = 256;
+constexpr int control_unit = 1, rates_unit = 2, bending_unit = 3;
+constexpr GLuint along_attribute = 4;
 
 std::vector<float> four_floats_each(const std::vector<Vec3>& points) {
   std::vector<float> values(4 * points.size(), 0.0F);
@@ -27,31 +27,10 @@ std::vector<float> four_floats_each(const std::vector<Vec3>& points) {
   return values;
 }
 
-void set_uniform_of(const GlObject& program, const char* name, const Vec3& v) {
-  set_uniform(program, name, static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()));
-}
-
-void add_attribute(GLuint index, std::size_t offset) {
+void add_attribute(GLuint index, std::size_t each, std::size_t offset) {
   glEnableVertexAttribArray(index);
-  glVertexAttribPointer(index, 3, GL_FLOAT, GL_FALSE, sizeof(ShownVertex),
+  glVertexAttribPointer(index, 3, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(each),
                         reinterpret_cast<const void*>(offset));
-}
-
-GlObject scale_texture(SurfaceValue value) {
-  std::vector<std::uint8_t> bytes;
-  for (int i = 0; i < color_steps; ++i) {
-    const figure::Color c = color(value, i / (color_steps - 1.0));
-    for (const double part : {c.r, c.g, c.b})
-      bytes.push_back(static_cast<std::uint8_t>(std::lround(255.0 * part)));
-  }
-  GlObject texture = new_texture();
-  glActiveTexture(GL_TEXTURE0 + colors_unit);
-  glBindTexture(GL_TEXTURE_1D, texture.name());
-  glTexImage1D(GL_TEXTURE_1D, 0, GL_RGB8, color_steps, 0, GL_RGB, GL_UNSIGNED_BYTE, bytes.data());
-  glTexParameteri(GL_TEXTURE_1D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  glTexParameteri(GL_TEXTURE_1D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  glTexParameteri(GL_TEXTURE_1D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  return texture;
 }
 
 }  // namespace
@@ -61,16 +40,14 @@ struct BeatingScene::Impl {
   geometry::CageGrid grid;
   std::size_t vertices, open_indices, indices;
   bool closed;
-  GlObject lit = new_program(surface_vertex_shader(), lit_fragment_shader());
-  GlObject depth = new_program(surface_vertex_shader(), depth_fragment_shader());
-  GlObject backdrop = new_program(whole_vertex_shader(), backdrop_fragment_shader());
+  LitPrograms lit;
+  GlObject depth;  // compiled with the layer, when a picture first needs them
+  std::unique_ptr<XRayLayer> x_ray;
   GlObject vertex_array = new_vertex_array(), empty_array = new_vertex_array();
-  GlObject vertex_buffer = new_buffer(), index_buffer = new_buffer();
+  GlObject vertex_buffer = new_buffer(), along_buffer = new_buffer(), index_buffer = new_buffer();
   BufferTexture control{GL_RGBA32F}, rates{GL_RGBA32F}, bending{GL_R32F};
-  GlObject sequential = scale_texture(SurfaceValue::displacement),
-           diverging = scale_texture(SurfaceValue::stretch);
-  XRayLayer x_ray;
   int bending_phases = 0;
+  bool has_along = false;
   double phase = 0.0, interval_s = 1.0;
   bool rates_are_of_phase = false;
 
@@ -87,10 +64,9 @@ struct BeatingScene::Impl {
                  surface.vertices.data(), GL_STATIC_DRAW);
     glEnableVertexAttribArray(0);
     glVertexAttribIPointer(0, 1, GL_INT, sizeof(ShownVertex), nullptr);
-    add_attribute(1, offsetof(ShownVertex, local));
-    add_attribute(2, offsetof(ShownVertex, rest));
-    add_attribute(3, offsetof(ShownVertex, normal));
-    add_attribute(4, offsetof(ShownVertex, along));
+    add_attribute(1, sizeof(ShownVertex), offsetof(ShownVertex, local));
+    add_attribute(2, sizeof(ShownVertex), offsetof(ShownVertex, rest));
+    add_attribute(3, sizeof(ShownVertex), offsetof(ShownVertex, normal));
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, index_buffer.name());
     glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices * sizeof(std::int32_t)),
                  surface.triangles.data(), GL_STATIC_DRAW);
@@ -99,6 +75,26 @@ struct BeatingScene::Impl {
     rates.fill(nothing, 4);
     bending.fill(nothing, 1);
     check("the surface goes to the graphics card");
+    if (!surface.along.empty()) set_directions(surface.along);
+  }
+
+  void set_directions(const std::vector<Direction>& along) {
+    if (along.size() != vertices) throw InvalidInput("the directions are of another surface");
+    glBindVertexArray(vertex_array.name());
+    glBindBuffer(GL_ARRAY_BUFFER, along_buffer.name());
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(along.size() * sizeof(Direction)), along.data(),
+                 GL_STATIC_DRAW);
+    add_attribute(along_attribute, sizeof(Direction), 0);
+    glBindVertexArray(0);
+    check("directions go to the graphics card");
+    has_along = true;
+  }
+
+  /// False for what is not there yet: then it is drawn without.
+  bool can_show(SurfaceValue value) const {
+    if (value == SurfaceValue::bending) return bending_phases > 0;
+    if (value == SurfaceValue::stretch) return has_along;
+    return value != SurfaceValue::none;
   }
 
   void use(const GlObject& program, const Camera& camera, const SceneLook& look, double aspect) {
@@ -110,18 +106,17 @@ struct BeatingScene::Impl {
     set_uniform(program, "control_rates", rates_unit);
     set_uniform(program, "bending", bending_unit);
     set_uniform(program, "side", grid.points_a_side());
-    set_uniform_of(program, "cell_mm", grid.cell_mm);
-    set_uniform_of(program, "low", grid.origin);
-    set_uniform_of(program, "high", grid.origin + grid.cells * grid.cell_mm);
+    set_uniform(program, "cell_mm", grid.cell_mm);
+    set_uniform(program, "low", grid.origin);
+    set_uniform(program, "high", grid.origin + grid.cells * grid.cell_mm);
     const Eigen::Matrix4f matrix = camera.clip_of_world(aspect);
     glUniformMatrix4fv(glGetUniformLocation(program.name(), "clip_of_world"), 1, GL_FALSE, matrix.data());
-    set_uniform_of(program, "eye", camera.centre_of_projection());
-    const bool bends = look.value == SurfaceValue::bending;
-    set_uniform(program, "value_kind", bends && bending_phases == 0 ? 0 : static_cast<int>(look.value));
+    set_uniform(program, "eye", camera.centre_of_projection());
+    set_uniform(program, "value_kind", can_show(look.value) ? static_cast<int>(look.value) : 0);
     glUniform2f(glGetUniformLocation(program.name(), "value_range"), static_cast<float>(look.range.low),
                 static_cast<float>(look.range.high));
     set_uniform(program, "interval_s", static_cast<float>(interval_s));
-    if (bends && bending_phases > 0) set_bending_phase(program);
+    if (look.value == SurfaceValue::bending && bending_phases > 0) set_bending_phase(program);
   }
 
   void update_rates(const SceneLook& look) {
@@ -134,7 +129,7 @@ struct BeatingScene::Impl {
   /// What the vertex shader gives for each vertex, by transform feedback.
   template <class Value>
   std::vector<Value> captured(const char* name, const SceneLook& look) {
-    const GlObject program = new_program(surface_vertex_shader(), lit_fragment_shader(), name);
+    const GlObject program = new_program(surface_vertex_shader(true), lit_fragment_shader(true, false), name);
     const GlObject buffer = new_buffer();
     std::vector<Value> result(vertices);
     const auto bytes = static_cast<GLsizeiptr>(result.size() * sizeof(Value));
@@ -170,54 +165,50 @@ struct BeatingScene::Impl {
     glBindVertexArray(empty_array.name());
   }
 
-  void draw_backdrop() const {
-    glDisable(GL_DEPTH_TEST);
-    glUseProgram(backdrop.name());
-    set_uniform(backdrop, "above", 0.16F, 0.18F, 0.21F);
-    set_uniform(backdrop, "below", 0.06F, 0.07F, 0.08F);
-    glBindVertexArray(empty_array.name());
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+  /// In the colours of its values, or in one.
+  void draw_part(const Camera& camera, const SceneLook& look, double aspect, bool cut_end) {
+    const bool valued = can_show(look.value);
+    const GlObject& program = lit.of(valued, cut_end);
+    use(program, camera, look, aspect);
+    lit.set_look(program, valued, camera, look);
+    if (cut_end)
+      draw_triangles(open_indices, indices);
+    else
+      draw_triangles(0, open_indices);
   }
 
   void draw_lit(const Camera& camera, const SceneLook& look, const Viewport& viewport) {
-    glViewport(viewport.x, viewport.y, viewport.width, viewport.height);
-    draw_backdrop();
-    glEnable(GL_DEPTH_TEST);
+    // All of it at once, colours and depths: a part costs a software renderer several times as much.
+    glDisable(GL_SCISSOR_TEST);
     glDepthMask(GL_TRUE);
-    glClear(GL_DEPTH_BUFFER_BIT);
-    use(lit, camera, look, viewport.aspect());
-    glActiveTexture(GL_TEXTURE0 + colors_unit);
-    glBindTexture(GL_TEXTURE_1D, (is_signed(look.value) ? diverging : sequential).name());
-    set_uniform(lit, "colors", colors_unit);
-    set_uniform(lit, "shaded", look.shaded ? 1 : 0);
-    set_uniform_of(lit, "up", camera.up());
-    set_uniform_of(lit, "left", -camera.right());
-    const figure::Color plain = look.value == SurfaceValue::bending && bending_phases == 0
-                                    ? figure::theme(figure::Look::dark).muted
-                                    : figure::colors::lumen;
-    set_uniform(lit, "plain", static_cast<float>(plain.r), static_cast<float>(plain.g),
-                static_cast<float>(plain.b));
+    glClearColor(static_cast<float>(scene_backdrop.r), static_cast<float>(scene_backdrop.g),
+                 static_cast<float>(scene_backdrop.b), 1.0F);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    glViewport(viewport.x, viewport.y, viewport.width, viewport.height);
+    glEnable(GL_DEPTH_TEST);
     // Half of a closed surface is not seen, and is half of the work of a software renderer.
     if (closed) glEnable(GL_CULL_FACE);
-    set_uniform(lit, "cut_end", 0);
-    draw_triangles(0, open_indices);
-    set_uniform(lit, "cut_end", 1);
-    draw_triangles(open_indices, indices);
+    draw_part(camera, look, viewport.aspect(), false);
+    if (indices > open_indices) draw_part(camera, look, viewport.aspect(), true);
     glDisable(GL_CULL_FACE);
     glDisable(GL_DEPTH_TEST);
   }
 
   void draw_x_ray(const Camera& camera, const SceneLook& look, const Viewport& viewport) {
-    x_ray.begin(viewport.width, viewport.height);
+    if (!x_ray) {
+      x_ray = std::make_unique<XRayLayer>();
+      depth = new_program(surface_vertex_shader(false), depth_fragment_shader());
+    }
+    x_ray->begin(viewport.width, viewport.height);
     use(depth, camera, look, viewport.aspect());
     set_uniform(depth, "isocentre_mm", static_cast<float>(camera.source_mm));
     // The picture is mirrored against what is seen from the source: rays enter through what appears
     // clockwise.
     set_uniform(depth, "entering", 1.0F);
     draw_triangles(0, indices);
-    x_ray.end();
+    x_ray->end();
     glBindVertexArray(empty_array.name());
-    x_ray.show(viewport, look.absorption_per_mm);
+    x_ray->show(viewport, look.absorption_per_mm);
   }
 };
 
@@ -228,6 +219,10 @@ BeatingScene::BeatingScene(const ShownSurface& surface, const motion::MovingCage
 }
 
 BeatingScene::~BeatingScene() = default;
+
+void BeatingScene::set_directions(const std::vector<Direction>& along) {
+  impl_->set_directions(along);
+}
 
 void BeatingScene::set_bending(const BendingTable& table) {
   if (table.values.size() != static_cast<std::size_t>(table.phases) * impl_->vertices)
@@ -267,47 +262,6 @@ std::vector<Eigen::Vector3f> BeatingScene::normals() {
 std::vector<float> BeatingScene::values(const SceneLook& look) {
   impl_->update_rates(look);
   return impl_->captured<float>("value", look);
-}
-
-bool has_opengl_33() {
-  return epoxy_is_desktop_gl() && epoxy_gl_version() >= 33;
-}
-
-std::string renderer_name() {
-  const GLubyte* name = glGetString(GL_RENDERER);
-  return name == nullptr ? "no OpenGL" : reinterpret_cast<const char*>(name);
-}
-
-void fill(const Viewport& viewport, const figure::Color& color) {
-  glEnable(GL_SCISSOR_TEST);
-  glScissor(viewport.x, viewport.y, viewport.width, viewport.height);
-  glClearColor(static_cast<float>(color.r), static_cast<float>(color.g), static_cast<float>(color.b), 1.0F);
-  glClear(GL_COLOR_BUFFER_BIT);
-  glDisable(GL_SCISSOR_TEST);
-}
-
-void begin_part(const Viewport& viewport, const figure::Color& color) {
-  glViewport(viewport.x, viewport.y, viewport.width, viewport.height);
-  fill(viewport, color);
-  glEnable(GL_SCISSOR_TEST);
-  glScissor(viewport.x, viewport.y, viewport.width, viewport.height);
-  glDepthMask(GL_TRUE);
-  glClear(GL_DEPTH_BUFFER_BIT);
-  glDisable(GL_SCISSOR_TEST);
-}
-
-figure::Raster read_pixels(int width, int height) {
-  figure::Raster raster{width, height, {}};
-  const std::size_t row = 4 * static_cast<std::size_t>(width);
-  raster.rgba.resize(row * static_cast<std::size_t>(height));
-  glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, raster.rgba.data());
-  for (int y = 0; y < height / 2; ++y)
-    std::swap_ranges(raster.rgba.begin() + static_cast<std::ptrdiff_t>(row) * y,
-                     raster.rgba.begin() + static_cast<std::ptrdiff_t>(row) * (y + 1),
-                     raster.rgba.begin() + static_cast<std::ptrdiff_t>(row) * (height - 1 - y));
-  for (std::size_t i = 3; i < raster.rgba.size(); i += 4) raster.rgba[i] = 255;
-  return raster;
 }
 
 }  // namespace ostia::glview

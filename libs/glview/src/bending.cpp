@@ -1,4 +1,5 @@
 #include "neighbourhood.h"
+#include "vertex_floats.h"
 
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
@@ -11,19 +12,18 @@ namespace {
 
 constexpr double same_side = 0.85;  // cosine between normals
 
-Vec3 vec(const std::array<float, 3>& v) {
-  return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
-}
-
 using Lists = std::vector<std::vector<std::int32_t>>;
 
 /// Chosen once, at rest, so that all phases are compared over the same part of the wall.
-Lists same_side_lists(const geometry::TriMesh& mesh, const std::vector<Vec3>& normals, double reach_mm) {
+Lists same_side_lists(const geometry::TriMesh& mesh, const std::vector<Vec3>& normals, double reach_mm,
+                      const core::TaskContext& task) {
   Neighbourhood around(mesh);
   Lists lists(mesh.points.size());
-  for (std::size_t i = 0; i < lists.size(); ++i)
+  for (std::size_t i = 0; i < lists.size(); ++i) {
+    if (i % 1024 == 0) task.throw_if_cancelled();
     for (const std::int32_t k : around.of(static_cast<std::int32_t>(i), reach_mm))
       if (normals[static_cast<std::size_t>(k)].dot(normals[i]) > same_side) lists[i].push_back(k);
+  }
   return lists;
 }
 
@@ -56,23 +56,24 @@ std::vector<double> curvatures(const geometry::TriMesh& mesh, const Lists& lists
 }  // namespace
 
 BendingTable bending_table(const ShownSurface& surface, const motion::MovingCage& cage, int phases,
-                           double reach_mm) {
+                           double reach_mm, const core::TaskContext& task) {
   if (phases < 2) throw InvalidInput("curvatures need two phases of the cycle at least");
+  if (surface.along.size() != surface.vertices.size())
+    throw InvalidInput("curvatures need the directions along the vessel");
   geometry::TriMesh mesh;
   std::vector<Vec3> rest_along;
-  for (const ShownVertex& vertex : surface.vertices) {
-    mesh.points.push_back(vec(vertex.rest));
-    rest_along.push_back(vec(vertex.along));
-  }
+  for (const ShownVertex& vertex : surface.vertices) mesh.points.push_back(in_double(vertex.rest));
+  for (const Direction& along : surface.along) rest_along.push_back(in_double(along));
   mesh.triangles.assign(surface.triangles.begin(),
                         surface.triangles.begin() + static_cast<std::ptrdiff_t>(surface.open_triangles));
-  const Lists lists = same_side_lists(mesh, geometry::vertex_normals(mesh), reach_mm);
+  const Lists lists = same_side_lists(mesh, geometry::vertex_normals(mesh), reach_mm, task);
   const std::vector<double> rest = curvatures(mesh, lists, rest_along);
   const motion::CarriedPoints carried(cage.grid(), mesh.points);
   BendingTable table;
   table.phases = phases;
   std::vector<Vec3> along(rest_along.size());
   for (int k = 0; k < phases; ++k) {
+    task.throw_if_cancelled();
     const std::vector<Vec3> control_points = cage.at(static_cast<double>(k) / phases);
     mesh.points = carried.places(control_points);
     const auto gradient = gradients(surface, control_points);

@@ -83,6 +83,10 @@ void set_uniform(const GlObject& program, const char* name, float x, float y, fl
   glUniform3f(place(program, name), x, y, z);
 }
 
+void set_uniform(const GlObject& program, const char* name, const geometry::Vec3& v) {
+  set_uniform(program, name, static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()));
+}
+
 void BufferTexture::fill(const float* values, std::size_t count) {
   GLint most = 0;
   glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);

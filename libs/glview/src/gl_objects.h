@@ -1,6 +1,8 @@
 #pragma once
 /// \file OpenGL's objects as values that end with their owner. Its context must be current in all of this.
 
+#include "ostia/geometry/tri_mesh.h"
+
 #include <epoxy/gl.h>
 
 #include <cstddef>
@@ -44,6 +46,7 @@ GlObject new_program(const std::string& vertex, const std::string& fragment, con
 void set_uniform(const GlObject& program, const char* name, int value);
 void set_uniform(const GlObject& program, const char* name, float value);
 void set_uniform(const GlObject& program, const char* name, float x, float y, float z);
+void set_uniform(const GlObject& program, const char* name, const geometry::Vec3& v);
 
 /// A buffer that shaders read by number, 4 floats or 1 an entry.
 struct BufferTexture {

@@ -2,8 +2,14 @@
 
 namespace ostia::glview {
 
-std::string surface_vertex_shader() {
-  return R"(#version 330 core
+namespace {
+
+constexpr const char* version = "#version 330 core\n";
+
+}  // namespace
+
+std::string surface_vertex_shader(bool valued) {
+  return std::string(version) + (valued ? "#define VALUED\n" : "") + R"(
 layout(location = 0) in int corner;
 layout(location = 1) in vec3 local;
 layout(location = 2) in vec3 rest;
@@ -19,7 +25,9 @@ uniform float interval_s;
 uniform int bending_from, bending_to;
 uniform float bending_share;
 out vec3 place, shown_normal;
+#ifdef VALUED
 out float value;
+#endif
 
 vec3 blend(vec3 c[8]) {
   vec4 f = vec4((1.0 - local.y) * (1.0 - local.z), local.y * (1.0 - local.z), (1.0 - local.y) * local.z,
@@ -40,6 +48,7 @@ void main() {
   vec3 dz = mix(mix(c[4] - c[0], c[5] - c[1], u.x), mix(c[6] - c[2], c[7] - c[3], u.x), u.y) / cell_mm.z;
   // Normals go with the cofactors of the gradient, whose columns are dx, dy, dz.
   shown_normal = normal.x * cross(dy, dz) + normal.y * cross(dz, dx) + normal.z * cross(dx, dy);
+#ifdef VALUED
   float v = 0.0;
   if (value_kind == 1) {
     v = length(place - rest);
@@ -54,43 +63,62 @@ void main() {
                    texelFetch(bending, bending_to + gl_VertexID).x, bending_share);
   }
   value = (v - value_range.x) / (value_range.y - value_range.x);
+#endif
   gl_Position = clip_of_world * vec4(place, 1.0);
 }
 )";
 }
 
-std::string lit_fragment_shader() {
+std::string lit_fragment_shader(bool valued, bool cut_end) {
   // A headlight, a softer light from the upper left, a sky that is brighter than the ground: the lights of
-  // figure::render. Colours are mixed as light, and end as sRGB.
-  return R"(#version 330 core
+  // figure::render, as directions, since the eye is far away. Colours are mixed as light, and end as sRGB. A
+  // software renderer runs this for each pixel, so powers are products, and what one surface alone needs is
+  // compiled for that one.
+  return std::string(version) + (valued ? "#define VALUED\n" : "") + (cut_end ? "#define CUT_END\n" : "") +
+         R"(
 in vec3 place, shown_normal;
+#ifdef VALUED
 in float value;
 uniform sampler1D colors;
-uniform int value_kind, shaded, cut_end;
-uniform vec3 plain, eye, up, left;
+uniform int shaded;
+#endif
+uniform vec3 plain, to_eye, key, half_way, up;
 out vec4 pixel;
 
 void main() {
-  vec3 n = normalize(cut_end == 1 ? cross(dFdx(place), dFdy(place)) : shown_normal);
-  vec3 to_eye = normalize(eye - place);
+#ifdef CUT_END
+  vec3 n = normalize(cross(dFdx(place), dFdy(place)));
+#else
+  vec3 n = normalize(shown_normal);
+#endif
   bool inner = !gl_FrontFacing;
   if (inner) n = -n;
-  vec3 albedo = value_kind == 0 ? plain : texture(colors, clamp(value, 0.0, 1.0) * (255.0 / 256.0) + 0.5 / 256.0).rgb;
+#ifdef VALUED
+  vec3 albedo = texture(colors, clamp(value, 0.0, 1.0) * (255.0 / 256.0) + 0.5 / 256.0).rgb;
   if (shaded == 0) {
     pixel = vec4(albedo, 1.0);
     return;
   }
+#else
+  vec3 albedo = plain;
+#endif
   albedo *= albedo;
-  if (cut_end == 1) albedo *= 0.45;
+#ifdef CUT_END
+  albedo *= 0.45;
+#endif
   if (inner) albedo = mix(albedo, vec3(dot(albedo, vec3(0.33))), 0.6) * 0.5;
   float facing = max(dot(n, to_eye), 0.0);
-  vec3 key = normalize(to_eye + 0.9 * up + 0.7 * left);
   float from_key = max(dot(n, key), 0.0);
   float sky = 0.5 + 0.5 * dot(n, up);
   float bright = 0.12 + 0.16 * sky + 0.45 * facing + 0.42 * from_key;
-  float shine = inner ? 0.0 : 0.22 * pow(max(dot(n, normalize(key + to_eye)), 0.0), 48.0);
-  float rim = 0.10 * pow(1.0 - facing, 3.0);
-  vec3 light = albedo * bright + shine + rim * vec3(0.5, 0.6, 0.8);
+  float shine = inner ? 0.0 : max(dot(n, half_way), 0.0);  // to the power of 48
+  shine *= shine * shine;
+  shine *= shine;
+  shine *= shine;
+  shine *= shine;
+  shine *= shine;
+  float off = 1.0 - facing;
+  vec3 light = albedo * bright + 0.22 * shine + 0.10 * off * off * off * vec3(0.5, 0.6, 0.8);
   pixel = vec4(sqrt(clamp(light, 0.0, 1.0)), 1.0);
 }
 )";
@@ -99,7 +127,6 @@ void main() {
 std::string depth_fragment_shader() {
   return R"(#version 330 core
 in vec3 place, shown_normal;
-in float value;
 uniform vec3 eye;
 uniform float isocentre_mm;
 uniform float entering;  // the sign of faces that are seen as front faces
@@ -119,19 +146,6 @@ out vec2 at;
 void main() {
   at = vec2(gl_VertexID == 1 ? 2.0 : 0.0, gl_VertexID == 2 ? 2.0 : 0.0);
   gl_Position = vec4(2.0 * at - 1.0, 0.0, 1.0);
-}
-)";
-}
-
-std::string backdrop_fragment_shader() {
-  return R"(#version 330 core
-in vec2 at;
-uniform vec3 above, below;
-out vec4 pixel;
-void main() {
-  // A step of a pixel's brightness would show as a band: spread by a fine pattern.
-  float grain = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715)))) - 0.5;
-  pixel = vec4(mix(below, above, at.y) + grain / 255.0, 1.0);
 }
 )";
 }

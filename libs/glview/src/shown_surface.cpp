@@ -1,6 +1,7 @@
 #include "ostia/glview/shown_surface.h"
 
 #include "neighbourhood.h"
+#include "vertex_floats.h"
 
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
@@ -27,27 +28,6 @@ void validate(const geometry::TriMesh& mesh) {
       if (i < 0 || static_cast<std::size_t>(i) >= mesh.points.size())
         throw InvalidInput("a triangle of the surface to be shown names the point " + std::to_string(i) +
                            " of " + std::to_string(mesh.points.size()));
-}
-
-/// Across a tube normals point everywhere but along its axis.
-std::vector<Vec3> directions_along(const geometry::TriMesh& mesh, const std::vector<Vec3>& normals,
-                                   double reach_mm) {
-  Neighbourhood around(mesh);
-  std::vector<Vec3> along(mesh.points.size());
-  for (std::size_t i = 0; i < along.size(); ++i) {
-    geometry::Mat3 spread = geometry::Mat3::Zero();
-    for (const std::int32_t k : around.of(static_cast<std::int32_t>(i), reach_mm)) {
-      const Vec3& n = normals[static_cast<std::size_t>(k)];
-      spread += n * n.transpose();
-    }
-    // the vertex' own normal is across, whatever its surroundings say
-    const Vec3& own = normals[i];
-    spread += spread.trace() * own * own.transpose();
-    along[i] = Eigen::SelfAdjointEigenSolver<geometry::Mat3>(spread).eigenvectors().col(0);
-    along[i] -= along[i].dot(own) * own;
-    if (along[i].norm() > 1e-9) along[i].normalize();
-  }
-  return along;
 }
 
 ShownVertex placed(const geometry::CageGrid& grid, const Vec3& point) {
@@ -83,26 +63,41 @@ std::vector<Vec3> close(const geometry::TriMesh& mesh, ShownSurface& shown) {
   return {};
 }
 
-geometry::TriMesh open_part(const geometry::TriMesh& mesh, const ShownSurface& shown) {
-  return {
-      mesh.points,
-      {shown.triangles.begin(), shown.triangles.begin() + static_cast<std::ptrdiff_t>(shown.open_triangles)}};
+std::vector<geometry::Triangle> open_triangles(const ShownSurface& shown) {
+  return {shown.triangles.begin(),
+          shown.triangles.begin() + static_cast<std::ptrdiff_t>(shown.open_triangles)};
+}
+
+/// Across a tube normals point everywhere but along its axis.
+Vec3 least_spread(const std::vector<Vec3>& normals, const std::vector<std::int32_t>& near, const Vec3& own) {
+  geometry::Mat3 spread = geometry::Mat3::Zero();
+  for (const std::int32_t k : near) {
+    const Vec3& n = normals[static_cast<std::size_t>(k)];
+    spread += n * n.transpose();
+  }
+  // the vertex' own normal is across, whatever its surroundings say
+  spread += spread.trace() * own * own.transpose();
+  Vec3 along = Eigen::SelfAdjointEigenSolver<geometry::Mat3>(spread).eigenvectors().col(0);
+  along -= along.dot(own) * own;
+  if (along.norm() > 1e-9) along.normalize();
+  return along;
 }
 
 }  // namespace
 
-ShownSurface shown_surface(const geometry::TriMesh& mesh, const geometry::CageGrid& grid, double reach_mm) {
+ShownSurface shown_surface(const geometry::TriMesh& mesh, const geometry::CageGrid& grid,
+                           const core::TaskContext& task) {
   validate(mesh);
   ShownSurface shown;
   shown.grid = grid;
   const std::vector<Vec3> centres = close(mesh, shown);
-  const std::vector<Vec3> normals = geometry::vertex_normals(open_part(mesh, shown));
-  const std::vector<Vec3> along = directions_along(mesh, normals, reach_mm);
+  task.throw_if_cancelled();
+  const std::vector<Vec3> normals = geometry::vertex_normals({mesh.points, open_triangles(shown)});
+  task.throw_if_cancelled();
   shown.vertices.resize(mesh.points.size());
   for (std::size_t i = 0; i < mesh.points.size(); ++i) {
     shown.vertices[i] = placed(grid, mesh.points[i]);
     shown.vertices[i].normal = floats(normals[i]);
-    shown.vertices[i].along = floats(along[i]);
   }
   if (centres.empty()) return shown;
   geometry::TriMesh whole{mesh.points, shown.triangles};
@@ -111,9 +106,28 @@ ShownSurface shown_surface(const geometry::TriMesh& mesh, const geometry::CageGr
   for (std::size_t i = mesh.points.size(); i < whole.points.size(); ++i) {
     shown.vertices.push_back(placed(grid, whole.points[i]));
     shown.vertices.back().normal = floats(whole_normals[i]);
-    shown.vertices.back().along = floats(whole_normals[i].unitOrthogonal());
   }
   return shown;
+}
+
+std::vector<Direction> find_directions(const ShownSurface& surface, double reach_mm,
+                                       const core::TaskContext& task) {
+  geometry::TriMesh mesh{{}, open_triangles(surface)};
+  std::vector<Vec3> normals;
+  for (const ShownVertex& vertex : surface.vertices) {
+    mesh.points.push_back(in_double(vertex.rest));
+    normals.push_back(in_double(vertex.normal));
+  }
+  Neighbourhood around(mesh);
+  std::vector<Direction> along(mesh.points.size());
+  for (std::size_t i = 0; i < along.size(); ++i) {
+    if (i % 1024 == 0) task.throw_if_cancelled();
+    const auto& near = around.of(static_cast<std::int32_t>(i), reach_mm);
+    // the centre of a hole that was closed has no surroundings
+    along[i] =
+        floats(near.size() > 1 ? least_spread(normals, near, normals[i]) : Vec3(normals[i].unitOrthogonal()));
+  }
+  return along;
 }
 
 std::vector<Eigen::Matrix3d> gradients(const ShownSurface& surface, const std::vector<Vec3>& control_points) {

@@ -1,5 +1,7 @@
 #include "ostia/glview/surface_values.h"
 
+#include "vertex_floats.h"
+
 #include "ostia/core/error.h"
 #include "ostia/figure/value_colors.h"
 
@@ -13,14 +15,10 @@ constexpr int range_phases = 20;
 constexpr double share_in_range = 0.99;
 constexpr double mm_a_cm = 10.0;
 
-Vec3 vector_of(const std::array<float, 3>& v) {
-  return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
-}
-
 std::vector<Vec3> rest_places(const ShownSurface& surface) {
   std::vector<Vec3> places;
   places.reserve(surface.vertices.size());
-  for (const ShownVertex& vertex : surface.vertices) places.push_back(vector_of(vertex.rest));
+  for (const ShownVertex& vertex : surface.vertices) places.push_back(in_double(vertex.rest));
   return places;
 }
 
@@ -41,10 +39,12 @@ std::vector<double> speeds(const ShownSurface& surface, const motion::MovingCage
 }
 
 std::vector<double> stretches(const ShownSurface& surface, const motion::MovingCage& cage, double phase) {
+  if (surface.along.size() != surface.vertices.size())
+    throw InvalidInput("stretch needs the directions along the vessel");
   const auto gradient = gradients(surface, cage.at(phase));
   std::vector<double> values(gradient.size());
   for (std::size_t i = 0; i < gradient.size(); ++i)
-    values[i] = 100.0 * ((gradient[i] * vector_of(surface.vertices[i].along)).norm() - 1.0);
+    values[i] = 100.0 * ((gradient[i] * in_double(surface.along[i])).norm() - 1.0);
   return values;
 }
 
@@ -106,9 +106,10 @@ std::vector<double> values_at(const ShownSurface& surface, const motion::MovingC
 }
 
 ValueRange value_range(const ShownSurface& surface, const motion::MovingCage& cage, SurfaceValue value,
-                       const BendingTable* bending) {
+                       const BendingTable* bending, const core::TaskContext& task) {
   double most = 0.0;
   for (int k = 0; k < range_phases; ++k) {
+    task.throw_if_cancelled();
     auto values = values_at(surface, cage, static_cast<double>(k) / range_phases, value, 1.0, bending);
     for (double& v : values) v = std::abs(v);
     const auto place = static_cast<std::ptrdiff_t>(share_in_range * static_cast<double>(values.size() - 1));

@@ -19,6 +19,9 @@ struct Viewport {
   double aspect() const { return static_cast<double>(width) / height; }
 };
 
+/// Behind the lit tree.
+inline constexpr figure::Color scene_backdrop{0.07, 0.08, 0.09, 1.0};
+
 struct SceneLook {
   SurfaceValue value = SurfaceValue::none;
   ValueRange range{};
@@ -36,11 +39,15 @@ class BeatingScene {
   BeatingScene(const BeatingScene&) = delete;
   BeatingScene& operator=(const BeatingScene&) = delete;
 
-  /// For SurfaceValue::bending, which is 0 without.
+  /// For SurfaceValue::stretch and ::bending, which are not shown without. A surface that has its directions
+  /// brings them. Throws InvalidInput for those of another surface.
+  void set_directions(const std::vector<Direction>& along);
+  /// For SurfaceValue::bending, which is not shown without. Throws InvalidInput for another surface's.
   void set_bending(const BendingTable& table);
   /// The heart's phase for the pictures from now on; velocities are those of cycles of `interval_s`.
   void set_phase(double phase, double interval_s = 1.0);
-  /// Fills the viewport.
+  /// Fills the viewport. The lit tree fills all of the framebuffer with its backdrop first: what stands
+  /// beside the viewport is drawn afterwards.
   void draw(const Camera& camera, const SceneLook& look, const Viewport& viewport);
   // What the card makes of the vertices now. Slow: for tests.
   std::vector<Eigen::Vector3f> places();   ///< mm

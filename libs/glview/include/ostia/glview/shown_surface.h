@@ -1,6 +1,7 @@
 #pragma once
 /// \file A surface as the graphics card takes it: each vertex with its cell of the cage.
 
+#include "ostia/core/task_context.h"
 #include "ostia/geometry/cage.h"
 #include "ostia/geometry/tri_mesh.h"
 
@@ -20,8 +21,10 @@ struct ShownVertex {
   std::array<float, 3> local{};   ///< within the cell, in [0, 1]: its trilinear weights
   std::array<float, 3> rest{};    ///< at the template's phase, mm
   std::array<float, 3> normal{};  ///< there, unit, outward
-  std::array<float, 3> along{};   ///< there, unit, along the vessel; either way
 };
+
+/// At a vertex in the template, unit, along the vessel; either way.
+using Direction = std::array<float, 3>;
 
 struct ShownSurface {
   geometry::CageGrid grid;
@@ -29,14 +32,19 @@ struct ShownSurface {
   std::vector<geometry::Triangle> triangles;
   std::size_t open_triangles = 0;  ///< so many first; those after them close the surface's open ends
   bool closed = false;             ///< with them; then it is turned outward, too
+  std::vector<Direction> along;    ///< one a vertex, or none yet: `find_directions`
 };
 
-/// Prepares a template. `along` is the direction in which normals change least within `reach_mm` of a point
-/// (the axis of a tube). Holes are closed where that is possible (a manifold), those of more than 500
-/// vertices by a fan about one vertex more. Throws InvalidInput for a surface without triangles, with indices
-/// out of range or points that are not finite.
+/// Prepares a template, without directions. Holes are closed where that is possible (a manifold), those of
+/// more than 500 vertices by a fan about one vertex more. Throws InvalidInput for a surface without
+/// triangles, with indices out of range or points that are not finite; Cancelled.
 ShownSurface shown_surface(const geometry::TriMesh& mesh, const geometry::CageGrid& grid,
-                           double reach_mm = 3.0);
+                           const core::TaskContext& task = core::no_task());
+
+/// The directions in which normals change least within `reach_mm` of a vertex: the axis of a tube. They take
+/// longer than all else of a surface, and only stretch and curvature ask for them. Throws Cancelled.
+std::vector<Direction> find_directions(const ShownSurface& surface, double reach_mm = 3.0,
+                                       const core::TaskContext& task = core::no_task());
 
 /// How the cage deforms space at each vertex: dx/dX of the trilinear map of its cell.
 std::vector<Eigen::Matrix3d> gradients(const ShownSurface& surface, const std::vector<Vec3>& control_points);

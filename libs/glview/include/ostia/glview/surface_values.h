@@ -40,17 +40,20 @@ struct BendingTable {
 /// At each vertex how fast normals turn along the vessel, by least squares over the vertices within
 /// `reach_mm` on the same side of it: 1/(R + r) on the outer side of a tube of radius r about an axis of
 /// radius R, where the wall is convex, and -1/(R - r) on the inner one. Throws InvalidInput for fewer than
-/// two phases.
+/// two phases, or a surface without directions (ShownSurface::along); Cancelled.
 BendingTable bending_table(const ShownSurface& surface, const motion::MovingCage& cage, int phases = 20,
-                           double reach_mm = 3.0);
+                           double reach_mm = 3.0, const core::TaskContext& task = core::no_task());
 
 /// One a vertex, as the shader computes them, in the units of SurfaceValue; `bending` only with a table.
-/// Velocities are those of a cycle of `interval_s`. For legends and tests.
+/// Velocities are those of a cycle of `interval_s`. For legends and tests. Throws InvalidInput for bending
+/// without its table, and for stretch where the surface has no directions.
 std::vector<double> values_at(const ShownSurface& surface, const motion::MovingCage& cage, double phase,
                               SurfaceValue value, double interval_s = 1.0,
                               const BendingTable* bending = nullptr);
 /// Round bounds that hold 99 % of the values at each of 20 phases; velocities for a cycle of a second.
+/// Throws as `values_at`; Cancelled.
 ValueRange value_range(const ShownSurface& surface, const motion::MovingCage& cage, SurfaceValue value,
-                       const BendingTable* bending = nullptr);
+                       const BendingTable* bending = nullptr,
+                       const core::TaskContext& task = core::no_task());
 
 }  // namespace ostia::glview

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Checks that the tree is what docs/architecture.md says: floors, public headers, where heavy libraries may stand.
 
-Usage: check_architecture.py ROOT. Prints each breach as FILE:LINE: TEXT and exits with 1 when there is one.
+Usage: check_architecture.py [ROOT]. Prints each breach as FILE:LINE: TEXT and exits with 1 when there is one.
 """
 import pathlib
 import re
@@ -27,8 +27,13 @@ QUARANTINE = {
     "cholmod.h": re.compile(r"libs/lumen/src/interpolation/sparse_factor\.cpp$"),
     "sqlite3.h": re.compile(r"libs/session/src/\w+\.(cpp|h)$"),
 }
-# The workstation: a folder for what a user does; the window that puts them together is known in one of them.
-WORKSTATION = {"shell", "commands", "opening", "views", "vessels", "measuring", "meshing", "flow", "trees", "phases", "qa", "help"}
+# The workstation: its frame, and a folder for what a user does, each of which may use the frame and those before it.
+# The window that puts them together is known in these sources alone.
+FRAME = {"shell", "commands", "views"}
+FEATURES = ["opening", "trees", "phases", "vessels", "measuring", "meshing", "flow", "qa", "help"]
+WORKSTATION = FRAME | set(FEATURES)
+COMPOSED_IN = re.compile(r"shell/(main_window\w*|panel_layout)\.cpp$")
+FEATURE_INCLUDED = re.compile(r'#\s*include\s*"([a-z]+)/')
 
 
 def position(room):
@@ -96,14 +101,20 @@ def check_workstation(root, breaches):
             continue
         if len(folders) != 1 or folders[0] not in WORKSTATION:
             breaches.append(f"{relative}:1: the workstation's sources live in its folders: {', '.join(sorted(WORKSTATION))}")
-        elif folders[0] != "shell":
-            for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+            continue
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+            included = FEATURE_INCLUDED.search(line)
+            if included and included.group(1) in FEATURES and not COMPOSED_IN.search(relative):
+                before = FEATURES[: FEATURES.index(folders[0]) + 1] if folders[0] in FEATURES else []
+                if included.group(1) not in before:
+                    breaches.append(f"{relative}:{number}: {folders[0]} may not use {included.group(1)}")
+            if folders[0] != "shell":
                 if re.search(r"(?<![A-Za-z])MainWindow|main_window\.h", line):
                     breaches.append(f"{relative}:{number}: only shell knows MainWindow; take a Desk, or what is needed of it")
 
 
 def main():
-    root = pathlib.Path(sys.argv[1]).resolve()
+    root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else __file__.rsplit("/", 2)[0]).resolve()
     breaches = []
     sources = [p for p in sorted((root / "libs").rglob("*")) if p.suffix in {".h", ".cpp"}]
     if not sources:

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks the documentation: links, pictures, anchors, the index, and the keys of the bibliography.
+"""Checks the documentation: links, pictures, anchors, sources that are named, the index, and the keys of the bibliography.
 
 Usage: check_docs.py ROOT. Prints each fault as FILE:LINE: TEXT and exits with 1 when there is one.
 """
@@ -10,6 +10,7 @@ import sys
 LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
 MENTION = re.compile(r"\bdocs/[A-Za-z0-9_./-]+\.(?:md|png|svg|json)\b")
 KEY = re.compile(r"(?<![\w\])])\[([A-Z][a-z]+)(?: et al\.)?(?: \d[\d.]*(?:, \d[\d.]*)*)?\](?!\()")
+SOURCE = re.compile(r"`([\w./-]+\.(?:cpp|h|cmake|sh))`")
 CODE = {".h", ".cpp", ".py", ".sh", ".cmake", ".txt"}
 FOLDERS_OF_CODE = ["libs", "apps", "tests", "bench", "scripts", "cmake", "examples", "packaging"]
 
@@ -80,6 +81,22 @@ def check_mentions(root, faults):
                         faults.append(f"{path.relative_to(root)}:{number}: there is no {mention}")
 
 
+def check_sources(root, page, files, faults):
+    """A source that a text names is there: `libs/a/src/b.cpp`, or the end of a path, `b.cpp`."""
+    for number, line in numbered(page.read_text(encoding="utf-8")):
+        for name in SOURCE.findall(line):
+            if not any(("/" + path).endswith("/" + name.removeprefix("./")) for path in files.get(pathlib.Path(name).name, ())):
+                faults.append(f"{page.relative_to(root)}:{number}: there is no {name}")
+
+
+def sources_by_name(root):
+    files = {}
+    for folder in FOLDERS_OF_CODE:
+        for path in (root / folder).rglob("*"):
+            files.setdefault(path.name, []).append(path.relative_to(root).as_posix())
+    return files
+
+
 def check_keys(root, faults):
     bibliography = (root / "docs" / "bibliography.md").read_text(encoding="utf-8")
     known = set(re.findall(r"\*\*\[([A-Za-z]+)\]\*\*", bibliography))
@@ -101,6 +118,10 @@ def main():
     root = pathlib.Path(sys.argv[1]).resolve()
     faults = []
     links = {page: check_links(root, page, faults) for page in pages(root)}
+    files = sources_by_name(root)
+    for page in links:
+        if page.name != "CHANGELOG.md":  # which tells of what was
+            check_sources(root, page, files, faults)
     check_index(root, links, faults)
     check_mentions(root, faults)
     check_keys(root, faults)

@@ -48,4 +48,4 @@ mv "$stage"/*.deb "$stage"/*.changes "$stage"/*.buildinfo "$out"
 lintian --fail-on error "$out/ostia_${version}-1_$(dpkg --print-architecture).changes"
 echo
 ls -l "$out"/*"_$version-1_"*.deb
-echo "Install them: apt install $out/ostia*_$version-1_*.deb"
+echo "Install them: apt install $out/ostia*_$version-1_*.deb; for C++ also $out/libostia-dev_$version-1_*.deb"

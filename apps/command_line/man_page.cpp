@@ -104,7 +104,7 @@ Done, but a check of quality failed: a person must look.
 Memory, disk or time did not suffice.
 .TP
 .B 6
-A fault of the program.
+An internal error of the program.
 )";
 
 void write_see_also(std::ostream& out, const CommandDescription& command, const CommandDescription& program) {

@@ -33,8 +33,7 @@ struct Asked {
 };
 
 /// A log that is kept must not name what a folder, a file or anything else was called. Whatever is written
-/// from now on leaves it out, what the parser and the reading of options refuse among it.
-/// What is kept never holds a path.
+/// from now on leaves it out, what the parser, a file of options and the reading of options refuse among it.
 void keep_out_of_the_log(const std::vector<std::string>& arguments) {
   Asked asked;
   define(asked.app, asked.commands, asked.run);
@@ -47,6 +46,7 @@ void keep_out_of_the_log(const std::vector<std::string>& arguments) {
   for (const auto& [text, alias] : command_line::private_paths(program, arguments, exists))
     core::redact_in_results(text, alias);
   if (command_line::value_of("--log", arguments) != "json") return;
+  core::set_log(core::LogFormat::json, core::LogLevel::info);
   for (const auto& [text, alias] : command_line::private_words(program, arguments))
     core::redact_in_logs(text, alias);
 }

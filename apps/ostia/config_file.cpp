@@ -41,7 +41,7 @@ std::vector<std::string> with_config(std::vector<std::string> arguments) {
   }
   const json config = json::parse(core::read_file(file, 16 << 20), nullptr, false);
   if (config.is_discarded() || !config.is_object())
-    throw InvalidInput("cannot use " + file + ": it is no JSON object");
+    throw InvalidInput("cannot use " + file + ": it must hold one JSON object, such as {\"threads\": 2}");
   const std::vector<std::string> typed = arguments;
   for (const auto& [name, value] : config.items()) {
     const std::string option = "--" + name;

@@ -83,6 +83,7 @@ TEST(EveryOption, NamesNobodyInALogThatIsKept) {
       const Outcome done = ostia(all[i].arguments, {folder, "timeout -k 1 -s INT 1"});
       const std::lock_guard lock(mutex);
       if (done.code != 0) ++refused;
+      EXPECT_TRUE(done.code != 126 && done.code != 127) << "the program was not started: " << done.err;
       EXPECT_THAT(done.out + done.err, Not(HasSubstr(planted))) << all[i].what;
       EXPECT_THAT(done.out + done.err, Not(HasSubstr(planted_file))) << all[i].what;
     }

@@ -23,11 +23,11 @@ int exit_code(int status) {
 
 std::string command_line(const std::vector<std::string>& arguments, const Setting& setting,
                          const fs::path& catcher) {
-  std::string line = "cd " + quoted((setting.folder.empty() ? catcher : setting.folder).string()) + " && " +
-                     setting.before + " ";
+  std::string line = "cd " + quoted((setting.folder.empty() ? catcher : setting.folder).string()) + " && ";
+  // Text of the shell's own has no program to hand over to.
   if (setting.before.find("ulimit") == std::string::npos && setting.before.find('=') == std::string::npos)
     line += "exec ";
-  line += quoted(OSTIA_PROGRAM);
+  line += setting.before + " " + quoted(OSTIA_PROGRAM);
   for (const std::string& argument : arguments) line += " " + quoted(argument);
   return line;
 }

@@ -1,6 +1,6 @@
 #include "flow/bar.h"
 
-#include "meshing/fields.h"
+#include "shell/form_fields.h"
 
 #include <QAbstractItemView>
 #include <QCheckBox>

@@ -133,7 +133,7 @@ void FlowDialog::check() {
   viscosity_->setEnabled(rheology_->currentIndex() == 0);
   mark({viscosity_, blood_field_.trouble}, {});
   mark({density_, blood_field_.trouble}, {});
-  ExportField blood = blood_field_;
+  FormField blood = blood_field_;
   if (!between(density_->value(), least_density, most_density)) blood.input = density_;
   bool fits = mark(mesh_field_, mesh_trouble());
   fits = mark(flow_field_, flow_trouble()) && fits;

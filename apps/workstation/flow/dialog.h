@@ -1,8 +1,8 @@
 #pragma once
 /// \file What is asked before a solver's case is written.
 
-#include "meshing/fields.h"
 #include "shell/fitted_dialog.h"
+#include "shell/form_fields.h"
 
 #include "ostia/pipeline/solver_case.h"
 #include "ostia/solver/boundary_conditions.h"
@@ -92,7 +92,7 @@ class FlowDialog final : public FittedDialog {
   QCheckBox* run_ = nullptr;
   QLabel* note_ = nullptr;
   QPushButton* go_ = nullptr;
-  ExportField mesh_field_, flow_field_, outlets_field_, blood_field_;
+  FormField mesh_field_, flow_field_, outlets_field_, blood_field_;
   FlowMesh mesh_;
   QString mesh_refused_;
   QTimer typing_;

@@ -83,7 +83,7 @@ void FlowDialog::add_mesh(QFormLayout* form, const FlowChoice& last) {
   auto* choose = new QPushButton(tr("C&hoose\u2026"));
   choose->setObjectName("choose_mesh");
   choose->setAutoDefault(false);
-  mesh_field_ = add_export_field(form, tr("&Mesh"), in_a_row({mesh_file_, choose}), mesh_file_, "mesh");
+  mesh_field_ = add_form_field(form, tr("&Mesh"), in_a_row({mesh_file_, choose}), mesh_file_, "mesh");
   connect(mesh_file_, &QLineEdit::textChanged, this, &FlowDialog::want_mesh);
   connect(choose, &QPushButton::clicked, this, &FlowDialog::choose_mesh);
 }
@@ -98,7 +98,7 @@ void FlowDialog::add_ends(QFormLayout* form) {
   ends_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
   const int row = fontMetrics().height() + 4;
   ends_->setFixedHeight((rows_shown + 1) * row + 2 * ends_->frameWidth() + 4);
-  form->addRow(export_field_label(tr("&Ends"), ends_), ends_);
+  form->addRow(form_field_label(tr("&Ends"), ends_), ends_);
 }
 
 void FlowDialog::add_solver(QFormLayout* form, const FlowChoice& last) {
@@ -109,7 +109,7 @@ void FlowDialog::add_solver(QFormLayout* form, const FlowChoice& last) {
                      static_cast<int>(kind));
   }
   solver_->setCurrentIndex(solver_->findData(static_cast<int>(last.solver)));
-  form->addRow(export_field_label(tr("&Solver"), solver_), solver_);
+  form->addRow(form_field_label(tr("&Solver"), solver_), solver_);
   connect(solver_, QOverload<int>::of(&QComboBox::currentIndexChanged), this, &FlowDialog::check);
 }
 
@@ -122,13 +122,13 @@ void FlowDialog::add_flow(QFormLayout* form, const FlowChoice& last) {
       tr("By its diameter: 1.43 d^2.55 (SI), measured in human coronary arteries "
          "(van der Giessen 2011)"));
   flow_ml_s_ = number("flow_ml_s", tr("Mean flow"), 3, last.flow_ml_s.value_or(usual_flow_ml_s), tr(" ml/s"));
-  flow_field_ = add_export_field(form, tr("&Flow in"), in_a_row({flow_, flow_ml_s_}), flow_ml_s_, "flow");
+  flow_field_ = add_form_field(form, tr("&Flow in"), in_a_row({flow_, flow_ml_s_}), flow_ml_s_, "flow");
   waveform_ = list("flow_waveform", tr("Course over time"));
   waveform_->addItem(tr("steady"), QString());
   waveform_->addItem(tr("pulse of a left coronary artery (model)"), QStringLiteral("coronary-left"));
   waveform_->addItem(tr("pulse of a right coronary artery (model)"), QStringLiteral("coronary-right"));
   waveform_->setCurrentIndex(std::max(0, waveform_->findData(QString::fromStdString(last.waveform))));
-  form->addRow(export_field_label(tr("&Time"), waveform_), waveform_);
+  form->addRow(form_field_label(tr("&Time"), waveform_), waveform_);
   connect(flow_ml_s_, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this, &FlowDialog::check);
   for (QComboBox* box : {flow_, waveform_})
     connect(box, QOverload<int>::of(&QComboBox::currentIndexChanged), this, &FlowDialog::check);
@@ -144,7 +144,7 @@ void FlowDialog::add_outlets(QFormLayout* form, const FlowChoice& last) {
   outlets_->setToolTip(
       tr("Shares and resistances go as the diameter to 2.27 (van der Giessen 2011); together the "
          "resistances take 90 mmHg."));
-  outlets_field_ = add_export_field(form, tr("&Outlets"), outlets_, outlets_, "outlets");
+  outlets_field_ = add_form_field(form, tr("&Outlets"), outlets_, outlets_, "outlets");
   connect(outlets_, QOverload<int>::of(&QComboBox::currentIndexChanged), this, &FlowDialog::check);
 }
 
@@ -157,7 +157,7 @@ void FlowDialog::add_blood(QFormLayout* form, const FlowChoice& last) {
   viscosity_ = number("flow_viscosity", tr("Viscosity"), 2, last.blood.viscosity_mpa_s, tr(" mPa s"));
   density_ = number("flow_density", tr("Density"), 0, last.blood.density_kg_m3, tr(" kg/m\u00b3"));
   blood_field_ =
-      add_export_field(form, tr("&Blood"), in_a_row({rheology_, viscosity_, density_}), viscosity_, "blood");
+      add_form_field(form, tr("&Blood"), in_a_row({rheology_, viscosity_, density_}), viscosity_, "blood");
   connect(rheology_, QOverload<int>::of(&QComboBox::currentIndexChanged), this, &FlowDialog::check);
   for (QDoubleSpinBox* box : {viscosity_, density_})
     connect(box, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this, &FlowDialog::check);

@@ -146,7 +146,7 @@ void MeshingDialog::add_vessels(QFormLayout* form) {
   column->setSpacing(2);
   column->addWidget(vessels_);
   column->addWidget(parents_);
-  form->addRow(export_field_label(tr("&Vessels"), vessels_), column);
+  form->addRow(form_field_label(tr("&Vessels"), vessels_), column);
   connect(vessels_, QOverload<int>::of(&QComboBox::currentIndexChanged), this, &MeshingDialog::check);
 }
 
@@ -179,7 +179,7 @@ void MeshingDialog::add_ends(QFormLayout* form, const ExportChoice& last) {
   add(ends_, tr("cut flat, open"), SurfaceEnds::open);
   add(ends_, tr("rounded, as in the model"), SurfaceEnds::rounded);
   choose(ends_, last.ends);
-  form->addRow(export_field_label(tr("&Ends"), ends_), ends_);
+  form->addRow(form_field_label(tr("&Ends"), ends_), ends_);
   connect(ends_, QOverload<int>::of(&QComboBox::currentIndexChanged), this, &MeshingDialog::check);
 }
 
@@ -200,7 +200,7 @@ void MeshingDialog::add_formats(QFormLayout* form, const ExportChoice& last) {
     formats_.push_back(box);
   }
   line->addStretch(1);
-  formats_field_ = add_export_field(form, tr("Surface as"), row, row, "formats");
+  formats_field_ = add_form_field(form, tr("Surface as"), row, row, "formats");
 }
 
 void MeshingDialog::check() {

@@ -88,7 +88,7 @@ class MeshingDialog final : public FittedDialog {
   SizeFields* size_ = nullptr;
   VolumeFields* volume_ = nullptr;
   MeshingCheck* check_ = nullptr;
-  ExportField formats_field_;
+  FormField formats_field_;
 };
 
 }  // namespace ostia::workstation

@@ -1,7 +1,5 @@
 #include "meshing/fields.h"
 
-#include "shell/theme.h"
-
 #include "ostia/core/error.h"
 
 #include <QApplication>
@@ -24,11 +22,6 @@ constexpr double thickest = 3.0, least_thickness = 0.01;
 constexpr int meshing_field_most = 999;  // what can be typed; what is allowed is checked
 constexpr int meshing_rows_shown = 4;
 
-/// Of a field that has to be changed.
-QColor trouble_ground() {
-  return current_theme() == Theme::dark ? QColor(82, 44, 18) : QColor(255, 224, 200);
-}
-
 // Of the library's titles the one that is not a program's name alone.
 [[maybe_unused]] constexpr const char* translated_title =
     QT_TRANSLATE_NOOP("ostia::workstation::VolumeFields", "STL, a file for each face");
@@ -47,72 +40,6 @@ bool holds(io::MeshFormat format, bool prisms, bool quadratic) {
 }
 
 }  // namespace
-
-QColor trouble_color() {
-  return current_theme() == Theme::dark ? QColor(255, 150, 60) : QColor(168, 70, 0);
-}
-
-ExportField add_export_field(QFormLayout* form, const QString& text, QWidget* row, QWidget* input,
-                             const QString& name) {
-  ExportField field{input, new QLabel};
-  field.trouble->setObjectName(name + "_trouble");
-  field.trouble->setWordWrap(true);
-  QPalette palette = field.trouble->palette();
-  palette.setColor(QPalette::WindowText, trouble_color());
-  field.trouble->setPalette(palette);
-  field.trouble->hide();
-  auto* both = new QWidget;
-  both->setSizePolicy(QSizePolicy::Preferred,
-                      QSizePolicy::Maximum);  // what is left over stands below all rows
-  auto* column = new QVBoxLayout(both);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(2);
-  column->addWidget(row);
-  column->addWidget(field.trouble);
-  form->addRow(export_field_label(text, input), both);
-  return field;
-}
-
-QLabel* export_field_label(const QString& text, QWidget* field) {
-  auto* label = new QLabel(text);
-  label->setBuddy(field);
-  label->setContentsMargins(0, 0, 2, 0);  // the last letter is wider than its advance at some scales
-  return label;
-}
-
-QWidget* in_a_row(const std::vector<QWidget*>& widgets, const QWidget* stretched) {
-  auto* row = new QWidget;
-  auto* line = new QHBoxLayout(row);
-  line->setContentsMargins(0, 0, 0, 0);
-  if (!stretched) stretched = widgets.front();
-  for (QWidget* widget : widgets) line->addWidget(widget, widget == stretched ? 1 : 0);
-  return row;
-}
-
-QDoubleSpinBox* number_field(const QString& name, const QString& accessible, double most, int decimals,
-                             double step, double value) {
-  auto* box = new QDoubleSpinBox;
-  box->setObjectName(name);
-  box->setAccessibleName(accessible);
-  box->setRange(0.0, most);
-  box->setDecimals(decimals);
-  box->setSingleStep(step);
-  box->setValue(value);
-  return box;
-}
-
-bool mark(const ExportField& field, const QString& trouble) {
-  field.trouble->setText(trouble);
-  field.trouble->setVisible(!trouble.isEmpty());
-  QPalette palette = QApplication::palette(field.input);
-  if (!trouble.isEmpty()) {
-    palette.setColor(QPalette::Base, trouble_ground());
-    palette.setColor(QPalette::WindowText, trouble_color());
-  }
-  field.input->setPalette(palette);
-  field.input->setAccessibleDescription(trouble);
-  return trouble.isEmpty();
-}
 
 VolumeFields::VolumeFields(QFormLayout* elements, QFormLayout* formats, const VolumeChoice& last,
                            QObject* parent)
@@ -141,7 +68,7 @@ void VolumeFields::add_layers(QFormLayout* form, const VolumeChoice& last) {
   split_->setToolTip(tr("Each prism becomes three tetrahedra, for programs that know nothing else"));
   split_->setChecked(last.split);
   QWidget* row = in_a_row({layers_, thickness_, split_}, thickness_);
-  layers_field_ = add_export_field(form, tr("&Layers"), row, layers_, "layers");
+  layers_field_ = add_form_field(form, tr("&Layers"), row, layers_, "layers");
   connect(layers_, QOverload<int>::of(&QSpinBox::valueChanged), this, &VolumeFields::changed);
   connect(thickness_, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this, &VolumeFields::changed);
   connect(split_, &QCheckBox::toggled, this, &VolumeFields::changed);
@@ -154,7 +81,7 @@ void VolumeFields::add_order(QFormLayout* form, const VolumeChoice& last) {
   order_->addItem(tr("linear"), 1);
   order_->addItem(tr("quadratic, curved along the wall"), 2);
   order_->setCurrentIndex(last.order == 2 ? 1 : 0);
-  form->addRow(export_field_label(tr("Ele&ments"), order_), order_);
+  form->addRow(form_field_label(tr("Ele&ments"), order_), order_);
   connect(order_, QOverload<int>::of(&QComboBox::currentIndexChanged), this, &VolumeFields::changed);
 }
 
@@ -173,7 +100,7 @@ void VolumeFields::add_formats(QFormLayout* form, const VolumeChoice& last) {
   }
   formats_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
   formats_->setFixedHeight(meshing_rows_shown * formats_->sizeHintForRow(0) + 2 * formats_->frameWidth());
-  formats_field_ = add_export_field(form, tr("Mesh as VTU, and"), formats_, formats_, "mesh_formats");
+  formats_field_ = add_form_field(form, tr("Mesh as VTU, and"), formats_, formats_, "mesh_formats");
   connect(formats_, &QListWidget::itemChanged, this, &VolumeFields::changed);
 }
 
@@ -206,7 +133,7 @@ pipeline::VolumeOptions VolumeFields::options() const {
 bool VolumeFields::check() {
   thickness_->setEnabled(layers_->value() > 0);
   split_->setEnabled(layers_->value() > 0);
-  ExportField field = layers_field_;
+  FormField field = layers_field_;
   mark({layers_, field.trouble}, {});
   mark({thickness_, field.trouble}, {});
   if (layers_->value() <= most_layers) field.input = thickness_;

@@ -51,7 +51,7 @@ void SizeFields::add_triangles(QFormLayout* form, const SizeChoice& last, bool m
   edges_->setSuffix(tr(" edges around"));
   edge_mm_ = number("edge_mm", tr("Edge length"), 2, last.edge_mm);
   edge_mm_->setSuffix(tr(" mm"));
-  size_field_ = add_export_field(form, tr("&Triangles"), in_a_row({size_, edges_, edge_mm_}), size_, "size");
+  size_field_ = add_form_field(form, tr("&Triangles"), in_a_row({size_, edges_, edge_mm_}), size_, "size");
   connect(size_, QOverload<int>::of(&QComboBox::currentIndexChanged), this, &SizeFields::changed);
 }
 
@@ -130,7 +130,7 @@ bool SizeFields::check(const QString& of_mesh) {
   edge_mm_->setVisible(size == Size::even);
   mark({edges_, size_field_.trouble}, {});
   mark({edge_mm_, size_field_.trouble}, {});
-  ExportField field = size_field_;
+  FormField field = size_field_;
   field.input = size == Size::even ? edge_mm_ : size == Size::by_calibre ? edges_ : size_field_.input;
   const QString own = size_trouble();
   bool fits = mark(field, own.isEmpty() ? of_mesh : own);
@@ -150,7 +150,7 @@ bool SizeFields::sound() const {
 
 void SizeFields::add_bounded(QFormLayout* form, const QString& text, const Bounded& number) {
   bounded_.push_back(number);
-  bounded_.back().field = add_export_field(form, text, number.box, number.box, number.box->objectName());
+  bounded_.back().field = add_form_field(form, text, number.box, number.box, number.box->objectName());
 }
 
 QString SizeFields::size_trouble() const {

@@ -52,7 +52,7 @@ class SizeFields final : public QObject {
   void add_extensions(QFormLayout* form, const SizeChoice& last);
   /// A number with what it may be.
   struct Bounded {
-    ExportField field;
+    FormField field;
     QDoubleSpinBox* box = nullptr;
     double low = 0.0, high = 0.0;
     bool may_be_none = false;
@@ -65,7 +65,7 @@ class SizeFields final : public QObject {
   QComboBox* size_ = nullptr;
   QDoubleSpinBox *edges_ = nullptr, *edge_mm_ = nullptr;
   QDoubleSpinBox *stenoses_ = nullptr, *curvature_ = nullptr, *radii_ = nullptr, *extensions_ = nullptr;
-  ExportField size_field_;
+  FormField size_field_;
   std::vector<Bounded> bounded_;
 };
 

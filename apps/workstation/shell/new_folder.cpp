@@ -63,7 +63,7 @@ NewFolderField::NewFolderField(QFormLayout* form, const fs::path& proposed, QObj
   auto* button = new QPushButton(words(choose));
   button->setObjectName("choose_folder");
   button->setAutoDefault(false);
-  field_ = add_export_field(form, words(new_folder), in_a_row({name_, button}), name_, "folder");
+  field_ = add_form_field(form, words(new_folder), in_a_row({name_, button}), name_, "folder");
   connect(name_, &QLineEdit::textEdited, this, [this] { named_ = true; });
   connect(name_, &QLineEdit::textChanged, this, &NewFolderField::changed);
   connect(button, &QPushButton::clicked, this, &NewFolderField::choose_place);

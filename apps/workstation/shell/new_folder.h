@@ -1,7 +1,7 @@
 #pragma once
 /// \file A folder that is to be made: its name, and what is wrong with it.
 
-#include "meshing/fields.h"
+#include "shell/form_fields.h"
 
 #include <QObject>
 #include <QString>
@@ -40,7 +40,7 @@ class NewFolderField final : public QObject {
  private:
   void choose_place();
   QLineEdit* name_;
-  ExportField field_;
+  FormField field_;
   bool named_ = false;  // by a person
 };
 

@@ -1,6 +1,5 @@
 #include "views/heart_behind.h"
 
-#include "opening/opening.h"
 #include "shell/desk.h"
 #include "views/scene_widget.h"
 
@@ -31,9 +30,9 @@ void reduce(Desk& desk, SceneWidget& scene) {
 
 }  // namespace
 
-QComboBox* heart_behind(Desk& desk, SceneWidget& scene, const Opening& opening) {
-  QObject::connect(&scene, &SceneWidget::volume_wanted, &scene, [&desk, &scene, &opening] {
-    if (desk.bench.image().volume && !opening.reading()) reduce(desk, scene);
+QComboBox* heart_behind(Desk& desk, SceneWidget& scene, const std::function<bool()>& is_being_read) {
+  QObject::connect(&scene, &SceneWidget::volume_wanted, &scene, [&desk, &scene, is_being_read] {
+    if (desk.bench.image().volume && !is_being_read()) reduce(desk, scene);
   });
   auto* heart = new QComboBox;
   heart->setObjectName("volume_mode");

@@ -48,8 +48,7 @@ int run_program(const char* name, const std::function<int(const TaskContext&)>& 
   } catch (const std::bad_alloc&) {
     return fail(name, "out of memory", static_cast<int>(ExitCode::resources));
   } catch (const std::exception& error) {
-    return fail(name, std::string("a fault of the program: ") + error.what(),
-                static_cast<int>(ExitCode::internal));
+    return fail(name, std::string("internal error: ") + error.what(), static_cast<int>(ExitCode::internal));
   }
 }
 

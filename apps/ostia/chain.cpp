@@ -34,6 +34,9 @@ class Reader {
   struct Name {
     std::string path, meaning;
   };
+  std::string variable_of(const std::string& name) const;
+  std::string as_written(const std::string& name) const;
+  std::string way_out(const std::string& name) const;
   Name input(const std::string& name, ChainStep& step);
   Name output(const std::string& name, ChainStep& step);
   std::optional<std::size_t> maker_of(const std::string& name) const;
@@ -110,6 +113,30 @@ std::optional<std::size_t> Reader::maker_of(const std::string& name) const {
   return std::nullopt;
 }
 
+/// The variable that most of a name was given by: messages do not repeat its value, which may be a path.
+std::string Reader::variable_of(const std::string& name) const {
+  std::string found;
+  std::size_t longest = 0;
+  for (const auto& [variable, value] : variables_) {
+    if (value.size() <= longest || name.find(value) == std::string::npos) continue;
+    longest = value.size();
+    found = variable;
+  }
+  return found;
+}
+
+std::string Reader::as_written(const std::string& name) const {
+  const std::string variable = variable_of(name);
+  return variable.empty() ? "\"" + name + "\"" : "{" + variable + "}";
+}
+
+std::string Reader::way_out(const std::string& name) const {
+  const std::string variable = variable_of(name), from = "the folder of " + file_.filename().string();
+  if (variable.empty())
+    return "\"input\" and \"inputs\" name files, as seen from " + from + ", or outputs of steps before";
+  return "give --set " + variable + "=FILE with a file that is there, as seen from " + from;
+}
+
 Reader::Name Reader::input(const std::string& name, ChainStep& step) {
   if (const std::optional<std::size_t> maker = maker_of(name)) {
     step.uses.push_back(*maker);
@@ -117,8 +144,7 @@ Reader::Name Reader::input(const std::string& name, ChainStep& step) {
   }
   const fs::path path = fs::path(name).is_absolute() ? fs::path(name) : file_.parent_path() / name;
   if (!fs::exists(path))
-    refuse("its input " + name + " is no file, and no earlier step makes it (looked for " +
-           path.filename().string() + ")");
+    refuse("its input " + as_written(name) + " is no file, and no earlier step makes it; " + way_out(name));
   auto known = std::find(chain_.inputs.begin(), chain_.inputs.end(), path);
   if (known == chain_.inputs.end()) known = chain_.inputs.insert(known, path);
   step.reads.push_back(static_cast<std::size_t>(known - chain_.inputs.begin()));
@@ -197,7 +223,7 @@ void Reader::take_variables(const json& own) {
 
 Chain Reader::read() {
   const json file = json::parse(core::read_file(file_, 16 << 20), nullptr, false);
-  if (file.is_discarded() || !file.is_object()) refuse("it is no JSON object");
+  if (file.is_discarded() || !file.is_object()) refuse("it holds no JSON object");
   check_members(file, {"v", "title", "variables", "steps"});
   if (file.value("v", json(1)) != 1) refuse("its \"v\" must be 1");
   if (!file.contains("steps") || !file["steps"].is_array() || file["steps"].empty())

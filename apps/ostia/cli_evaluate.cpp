@@ -124,7 +124,8 @@ void add_shapes(CLI::App& evaluate, EvaluateCommand& c,
 
 void define_evaluate(CLI::App& app, EvaluateCommand& c,
                      std::function<ExitCode(const core::TaskContext&)>& run) {
-  CLI::App* evaluate = app.add_subcommand("evaluate", "How good a result is: held against a reference");
+  CLI::App* evaluate =
+      app.add_subcommand("evaluate", "How good a result is: held against a reference; --json of each");
   evaluate->footer("Example:\n  ostia evaluate suite golden/ new/ --tolerance tolerance.json -o report");
   evaluate->fallthrough();
   evaluate->require_subcommand(1);

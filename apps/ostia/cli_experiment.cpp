@@ -14,7 +14,8 @@ namespace ostia::app {
 
 void define_experiment(CLI::App& app, ExperimentCommand& c, const std::uint64_t& seed,
                        std::function<ExitCode(const core::TaskContext&)>& run) {
-  CLI::App* experiment = app.add_subcommand("experiment", "The papers' experiments: each one table");
+  CLI::App* experiment =
+      app.add_subcommand("experiment", "The papers' experiments: each one table; --json of each");
   experiment->footer("Example:\n  ostia experiment editing --suite suite -o out");
   experiment->fallthrough();
   experiment->require_subcommand(1);

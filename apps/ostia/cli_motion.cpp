@@ -167,7 +167,8 @@ void add_measure(CLI::App& motion, MotionMeasureCommand& c, MotionRun& run) {
 }  // namespace
 
 void define_motion(CLI::App& app, MotionCommands& c, MotionRun& run) {
-  CLI::App* motion = app.add_subcommand("motion", "A vessel that beats: fitted, applied, judged, exported");
+  CLI::App* motion = app.add_subcommand(
+      "motion", "A beating vessel: fit its motion, apply, measure, evaluate and export it; --json of each");
   motion->footer("Example:\n  ostia motion fit phases/ -o beating");
   motion->fallthrough();
   motion->require_subcommand(1);

@@ -273,7 +273,7 @@ void add_case_options(CLI::App& app, CaseOptions& c, const std::string& iteratio
 }
 
 void define_case(CLI::App& app, CaseCommand& c, std::function<ExitCode(const core::TaskContext&)>& run) {
-  CLI::App* sub = app.add_subcommand("case", "A case of blood flow that a solver runs as it is");
+  CLI::App* sub = app.add_subcommand("case", "A blood flow case, ready to run by a solver");
   sub->footer(
       "Example:\n  ostia case mesh/mesh.vtu -o flow --outlets split\n"
       "  ostia case mesh/mesh.vtu -o pulse --waveform coronary-left --flow 0.8 && pulse/Allrun 4\n"

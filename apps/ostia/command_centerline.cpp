@@ -21,7 +21,9 @@ namespace ostia::app {
 SurfaceAxes axes_of_surface(const InputOptions& input, const EndOptions& ends,
                             const core::TaskContext& task) {
   task.set_stage("reading");
-  const pipeline::Source source = pipeline::load(input.input, source_options(input), task.sub(0.0, 0.1));
+  pipeline::SourceOptions read_how = source_options(input);
+  read_how.for_axes = true;
+  const pipeline::Source source = pipeline::load(input.input, read_how, task.sub(0.0, 0.1));
   for (const std::string& warning : source.warnings) core::log_warning(warning);
   if (source.kind != pipeline::SourceKind::surface)
     throw InvalidInput("cannot take centerlines of " + input.input.string() +
@@ -33,6 +35,7 @@ SurfaceAxes axes_of_surface(const InputOptions& input, const EndOptions& ends,
   if (how.source) request.sources = {*how.source};
   request.targets = how.targets;
   request.ends = source.ends;
+  request.known = source.known;
   request.side_branches = pipeline::SideBranches::asked_only;  // lines to the targets that were asked for
   request.centerline = how.centerline;
   pipeline::LumenAxes result = pipeline::lumen_axes(source.surface, request, task.sub(0.1, 1.0));

@@ -7,6 +7,7 @@
 #include "tree_commands.h"
 
 #include "ostia/core/log.h"
+#include "ostia/geometry/mesh_topology.h"
 #include "ostia/geometry/smoothing.h"
 #include "ostia/geometry/subdivision.h"
 #include "ostia/imaging/image_file.h"
@@ -29,10 +30,11 @@ Json told(const pipeline::Repaired& fixed) {
   Json steps = Json::array();
   for (const pipeline::RepairStep& step : fixed.steps)
     steps.push_back({{"what", step.what}, {"count", step.count}, {"text", step.text}});
-  return {{"steps", steps}, {"left", fixed.left}};
+  return {{"steps", steps}, {"left", fixed.left}, {"meshable", fixed.meshable}};
 }
 
-void repair(const ConvertCommand& options, geometry::FacedSurface& surface, Json& done,
+/// Whether what came of it can be meshed.
+bool repair(const ConvertCommand& options, geometry::FacedSurface& surface, Json& done,
             const core::TaskContext& task) {
   pipeline::RepairOptions how;
   how.fill_holes_up_to_mm = options.fill_holes_mm;
@@ -43,6 +45,13 @@ void repair(const ConvertCommand& options, geometry::FacedSurface& surface, Json
   core::log_info("faults left: " + fixed.left);
   done["repair"] = told(fixed);
   surface = {fixed.mesh, {}, {}};
+  if (!fixed.meshable && options.smooth == 0 && options.subdivide == 0)
+    core::log_warning(
+        "what is left keeps the surface from being meshed. Where a rough wall folds, --smooth 30 of the file "
+        "as "
+        "it came, without --repair, smooths the folds away (flat caps get round, a few percent of the volume "
+        "go); else take the places out in the program that the surface is from");
+  return fixed.meshable;
 }
 
 /// Smoothed, then subdivided: steps between voxels go before there are more triangles on them.
@@ -79,7 +88,18 @@ void write_converted(const std::filesystem::path& file, const geometry::FacedSur
   io::write_surface(file, surface.mesh);
 }
 
-void convert_surface(const ConvertCommand& options, const core::TaskContext& task) {
+/// After smoothing, faults that were left may be gone.
+bool still_meshable(const ConvertCommand& options, bool meshable, const geometry::TriMesh& mesh) {
+  if (meshable || (options.smooth == 0 && options.subdivide == 0)) return meshable;
+  geometry::SurfaceFaults faults = geometry::find_faults(mesh, true);
+  faults.open_edges = 0;
+  if (faults.closed_manifold()) return true;
+  core::log_warning("faults left after smoothing: " + faults.summary() +
+                    "; they keep the surface from being meshed. Try --smooth without --repair");
+  return false;
+}
+
+ExitCode convert_surface(const ConvertCommand& options, const core::TaskContext& task) {
   io::LoadedSurface loaded = io::read_surface(options.input.input);
   for (const std::string& warning : loaded.warnings) core::log_warning(warning);
   const auto unit = source_options(options.input).unit_mm;
@@ -89,12 +109,14 @@ void convert_surface(const ConvertCommand& options, const core::TaskContext& tas
   Json done{{"v", 1}, {"kind", "conversion"}};
   const bool repairs =
       options.tree.repair || options.keep_parts || options.largest_part || options.fill_holes_mm > 0.0;
-  if (repairs) repair(options, loaded.surface, done, task.sub(0.0, 0.3));
+  bool meshable = !repairs || repair(options, loaded.surface, done, task.sub(0.0, 0.3));
   refine(options, loaded.surface, done, task);
+  meshable = still_meshable(options, meshable, loaded.surface.mesh);
   write_converted(options.output, loaded.surface, repairs);
   done["points"] = loaded.surface.mesh.points.size();
   done["triangles"] = loaded.surface.mesh.triangles.size();
   if (options.json) std::fputs((done.dump(2) + "\n").c_str(), stdout);
+  return meshable ? ExitCode::ok : ExitCode::quality_failed;
 }
 
 /// Options for surfaces say nothing about images and lines.
@@ -136,7 +158,8 @@ void convert_image(const ConvertCommand& options, pipeline::SourceKind kind, con
 }
 
 bool is_lines(const std::filesystem::path& path) {
-  return path.extension() == ".csv" || path.extension() == ".vtk" || io::is_markups_file(path);
+  if (path.extension() == ".vtk") return !io::is_surface_file(path);
+  return path.extension() == ".csv" || path.extension() == ".txt" || io::is_markups_file(path);
 }
 
 }  // namespace
@@ -163,8 +186,7 @@ ExitCode run_convert(const ConvertCommand& options, const core::TaskContext& tas
     case pipeline::SourceKind::dicom:
       throw InvalidInput("use `ostia import` for DICOM");
     case pipeline::SourceKind::surface:
-      convert_surface(options, task);
-      break;
+      return convert_surface(options, task);
     case pipeline::SourceKind::image:
     case pipeline::SourceKind::mask:
       refuse_surface_options(options);

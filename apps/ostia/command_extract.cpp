@@ -143,7 +143,7 @@ ExitCode run_extract(const ExtractCommand& o, const core::TaskContext& task) {
 void add_mask(CLI::App& app, MaskOptions& o) {
   app.add_option("--image", o.image, "Of a mask: the CT that it was drawn on");
   app.add_option("--label", o.labels, "Of a mask: the labels that are vessels; left out: all but 0")
-      ->check(CLI::Range(1, 255))
+      ->check(CLI::PositiveNumber)
       ->delimiter(',');
   app.add_flag("--mask", o.mask, "INPUT is a mask, even if it has the values of a CT or of probabilities");
 }

@@ -39,7 +39,10 @@ ImageFacts facts_of(const imaging::ImageVolume& image, std::string kind, std::ve
 std::vector<LabelFacts> labels_in(const std::filesystem::path& mask, const core::TaskContext& task) {
   std::map<int, std::size_t> voxels;  // in the order of the labels
   try {
-    for (const std::uint8_t value : imaging::read_labels(mask, task).volume.voxels) ++voxels[value];
+    const auto loaded = imaging::read_labels(mask, task);
+    const std::vector<std::int64_t>& names = loaded.header.file_labels;
+    for (const std::uint8_t value : loaded.volume.voxels)
+      ++voxels[names.empty() ? value : static_cast<int>(names[value])];
   } catch (const InvalidInput&) {  // two values of an image are no labels
     return {};
   }

@@ -60,6 +60,28 @@ NamedGraph graph_in(const MeasureCommand& c, const core::TaskContext& task) {
   return {std::move(loaded.graph), loaded.reference_name, std::nullopt};
 }
 
+/// Of a folder that a command has made its lines or, where the wall is measured or there are none, its lumen.
+MeasureCommand within_folder(MeasureCommand c) {
+  const fs::path folder = c.input.input;
+  if (!fs::is_directory(folder)) return c;
+  const auto there = [&](const char* name) { return fs::is_regular_file(folder / name); };
+  const bool of_wall = c.sections || c.patch_length_mm;
+  if (there("lumen.vtp") && (of_wall || !c.centerline.empty() || !there("centerlines.vtp"))) {
+    c.input.input = folder / "lumen.vtp";
+    if (c.centerline.empty() && c.ends.source.empty() && c.ends.targets.empty() && there("centerlines.vtp"))
+      c.centerline = folder / "centerlines.vtp";
+  } else if (there("centerlines.vtp")) {
+    c.input.input = folder / "centerlines.vtp";
+  } else {
+    throw InvalidInput(
+        "cannot measure " + folder.string() + ": it is a folder without centerlines.vtp and lumen.vtp" +
+        (there("mesh.vtu") ? "; `ostia convert` makes a surface of its mesh.vtu, which can be measured"
+                           : "; give the surface, the lines or the case inside it"));
+  }
+  core::log_info("measured of the folder: " + c.input.input.filename().string());
+  return c;
+}
+
 pipeline::JobKey job_of(const MeasureCommand& c) {
   nlohmann::json targets = nlohmann::json::array();
   for (const std::string& target : c.ends.targets) targets.push_back(seed_digest(target));
@@ -105,8 +127,9 @@ void print(const nlohmann::json& m) {
 
 }  // namespace
 
-ExitCode run_measure(const MeasureCommand& c, const core::TaskContext& task) {
-  pipeline::require_free_folder(c.output);
+ExitCode run_measure(const MeasureCommand& given, const core::TaskContext& task) {
+  pipeline::require_free_folder(given.output);
+  const MeasureCommand c = within_folder(given);
   if (!fs::is_regular_file(c.input.input))
     throw IoError("cannot read " + c.input.input.string() + ": there is no such file");
   check_options(c);

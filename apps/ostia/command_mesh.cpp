@@ -15,6 +15,7 @@
 #include "ostia/io/centerline_file.h"
 #include "ostia/io/surface_file.h"
 #include "ostia/io/volume_mesh_file.h"
+#include "ostia/pipeline/ends_kept.h"
 #include "ostia/pipeline/model_folder.h"
 #include "ostia/pipeline/report.h"
 #include "ostia/pipeline/vessel_forecast.h"
@@ -57,9 +58,10 @@ ExitCode check_file(const MeshCommand& options, const core::TaskContext& task) {
     return verdict(quality.verdict);
   }
   if (!io::is_surface_file(options.check))
-    throw InvalidInput("cannot check " + options.check.string() + ": volume meshes are read as " +
-                       io::readable_volume_meshes() +
-                       ", surfaces as STL, PLY, OBJ and VTP; export the mesh as one of these besides");
+    throw InvalidInput(
+        "cannot check " + options.check.string() + ": volume meshes are read as " +
+        io::readable_volume_meshes() +
+        ", surfaces as STL, PLY, OBJ, VTP and legacy VTK; export the mesh as one of these besides");
   const geometry::FacedSurface surface = surface_in(options.check, options.input);
   const meshing::MeshForecast forecast = forecast_of(surface, nullptr, {}, task.sub(0.0, 0.5));
   warn_of(forecast, true, true);
@@ -95,6 +97,7 @@ geometry::VesselTree tree_for(const MeshCommand& options, const pipeline::Source
   if (how.source) request.sources = {*how.source};
   request.targets = how.targets;
   request.ends = source.ends;
+  request.known = source.known;
   request.side_branches = how.side_branches;
   request.centerline = how.centerline;
   task.set_stage("centerlines");
@@ -168,6 +171,19 @@ ExitCode forecast(const MeshCommand& options, const core::TaskContext& task) {
   return found.fails() ? ExitCode::quality_failed : ExitCode::ok;
 }
 
+/// What is wrong with a surface before its run. One that has been mended has no openings but its ends, which
+/// are cut, and triangles that still cross are refused with the way out.
+meshing::MeshForecast forecast_of_taken(const MeshCommand& options, const geometry::FacedSurface& wall,
+                                        const pipeline::ModelOptions& how, const core::TaskContext& task) {
+  meshing::MeshForecast found = forecast_of(wall, nullptr, how, task);
+  if (!options.input.strict)
+    std::erase_if(found.places, [](const meshing::ForecastPlace& place) {
+      return place.kind == meshing::TroubleKind::open_edges ||
+             place.kind == meshing::TroubleKind::self_intersections;
+    });
+  return found;
+}
+
 void refuse_ends_of_vessels(const MeshCommand& options, const std::string& what) {
   if (!options.centerline.empty() || !options.ends.source.empty() || !options.ends.targets.empty())
     throw UsageError(what + " has its axes: --centerline, --source and --target are for surfaces");
@@ -228,18 +244,21 @@ ExitCode run_mesh(const MeshCommand& options, const core::TaskContext& task) {
   const geometry::FacedSurface wall{source.surface, {}, {}};
   // What is wrong with the surface itself is told before its centerlines are sought, sizes once they are
   // known.
-  warn_of(forecast_of(wall, nullptr, how, task.sub(0.1, 0.12)), true, false);
+  warn_of(forecast_of_taken(options, wall, how, task.sub(0.1, 0.12)), true, false);
   pipeline::require_sound_surface(source.surface, options.input.input.string(), true);
   const geometry::VesselTree tree = tree_for(options, source, how, task.sub(0.12, 0.28));
   warn_of(forecast_of(wall, &tree, how, task.sub(0.28, 0.3)), false, true);
   KeptResults kept(options.keep, options.output);
   kept.add("centerlines.vtp", [&](const std::filesystem::path& file) { io::write_centerlines(file, tree); });
   EndsNotCutPicture ends(kept);
-  const pipeline::MeshedLumen meshed = kept.guard([&] {
+  pipeline::MeshedLumen meshed = kept.guard([&] {
     return ends.guard(source.surface, tree,
                       [&] { return pipeline::mesh_lumen(source.surface, tree, how, task.sub(0.3, 0.95)); });
   });
   for (const std::string& warning : meshed.warnings) core::log_warning(warning);
+  if (how.side_branches != pipeline::SideBranches::asked_only)
+    for (std::string& lost : pipeline::ends_without_axis(source, tree))
+      meshed.quality.verdict.reasons.push_back(std::move(lost));
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   pipeline::write_mesh_folder(options.output, meshed, how, key, seconds, task.sub(0.95, 1.0));
   tell_mesh(options.output, options.json);

@@ -40,7 +40,7 @@ void print(const std::filesystem::path& folder, bool as_json) {
 }
 
 void print(const session::CaseReport& report) {
-  std::printf("CAD-RADS %s: %s\n%zu stenoses in %zu vessels\n", analysis::to_string(report.category).c_str(),
+  std::printf("CAD-RADS %s: %s\n%zu lesions in %zu vessels\n", analysis::to_string(report.category).c_str(),
               analysis::description(report.category).c_str(), report.stenoses.size(), report.vessels.size());
   if (report.quality) {
     std::printf("image quality: %s\n", session::to_string(report.quality->grade).c_str());

@@ -47,8 +47,8 @@ void add_dicom(CLI::App& app, InputOptions& o) {
 
 void add_units(CLI::App& app, InputOptions& o) {
   app.add_option("--units", o.units,
-                 "Unit of length of a surface and of the points given with it; left out: told by the "
-                 "calibre of its vessels")
+                 "Unit of length of a surface and of the points given with it; left out: recognised by "
+                 "the calibre of its vessels")
       ->check(CLI::IsMember({"m", "cm", "mm"}));
   app.add_flag("--strict", o.strict, "Refuse a surface that has faults instead of mending it");
 }
@@ -227,7 +227,8 @@ void define(CLI::App& app, Commands& c, Run& run) {
       "Lengths, areas, volumes, orders, angles, scaling laws and overlaps of a tree; sections "
       "and bifurcations of a lumen",
       "ostia measure tree.vtp -o measures\n  ostia measure lumen.vtp -o measures --sections --bifurcations");
-  add_input(*measure, c.measure.input, "Tree of vessels (.vtp, .vtk, .swc, .csv, .gxl), case or surface");
+  add_input(*measure, c.measure.input,
+            "Tree of vessels (.vtp, .vtk, .swc, .csv, .gxl), case or surface, or a folder of them");
   add_units(*measure, c.measure.input);
   add_coords(*measure, c.measure.input);
   add_ends(*measure, c.measure.ends);

@@ -7,6 +7,7 @@
 #include "ostia/geometry/graph_faults.h"
 #include "ostia/io/graph_file.h"
 #include "ostia/io/markups_file.h"
+#include "ostia/io/rotterdam_file.h"
 
 #include <nlohmann/json.hpp>
 
@@ -129,6 +130,7 @@ bool is_centerline_file(const std::filesystem::path& path) {
   if (extension == ".vtp")
     return head_has(path, "MaximumInscribedSphereRadius") && !head_has(path, "RadiusFrom");
   if (extension == ".vtk") return legacy_points_have_radii(path);
+  if (extension == ".txt") return !io::read_rotterdam_axis(path).radius.empty();
   return extension == ".csv" && head_has(path, "radius") && !head_has(path, "x1,") &&
          !head_has(path, "parent");
 }
@@ -145,7 +147,9 @@ void refuse_options_of_surfaces(const ConvertCommand& options) {
 ExitCode tree_info(const InfoOptions& options, const core::TaskContext& task) {
   if (!options.preview.empty()) throw UsageError("--preview is for images, and this is a tree");
   io::LoadedGraph loaded = io::read_graph(options.input.input, task.sub(0.0, 0.8));
-  const GraphFaults faults = geometry::find_faults(loaded.graph, task.sub(0.8, 0.9));
+  if (const std::string told = joined_side_by_side(loaded, task.sub(0.8, 0.85)); !told.empty())
+    loaded.warnings.push_back(told);
+  const GraphFaults faults = geometry::find_faults(loaded.graph, task.sub(0.85, 0.9));
   const GraphFacts facts = geometry::facts_of(loaded.graph, task.sub(0.9, 1.0));
   if (facts.least_radius_mm * static_cast<double>(facts.branches) > facts.length_mm)
     loaded.warnings.push_back(

@@ -250,7 +250,7 @@ geometry::VesselTree lines_of_parts(const std::vector<fs::path>& parts, const st
 
 geometry::TriMesh surface_from(const fs::path& path, const std::string& units) {
   if (pipeline::classify(path) != pipeline::SourceKind::surface)
-    throw InvalidInput(path.string() + " is no surface (.vtp .stl .ply .obj)");
+    throw InvalidInput(path.string() + " is no surface (.vtp .vtk .stl .ply .obj)");
   // As it stands: what is judged is not mended, and its caps stay on.
   geometry::TriMesh mesh = io::read_surface(path).surface.mesh;
   if (mesh.triangles.empty()) throw InvalidInput(path.string() + " holds no triangle");

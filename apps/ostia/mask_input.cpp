@@ -14,14 +14,17 @@ namespace ostia::app {
 namespace {
 
 /// "1 (8120 voxels), 2 (310 voxels)".
-std::string counts_in_words(const std::array<std::int64_t, 256>& counts) {
+std::string counts_in_words(const std::array<std::int64_t, 256>& counts,
+                            const std::vector<std::int64_t>& file_labels) {
   constexpr int most_told = 12;
   std::string text;
   int told = 0;
   for (std::size_t label = 1; label < counts.size(); ++label) {
     if (counts[label] == 0) continue;
     if (told++ == most_told) return text + ", ...";
-    text += (text.empty() ? "" : ", ") + std::to_string(label) + " (" + std::to_string(counts[label]) +
+    const std::int64_t shown =
+        label < file_labels.size() ? file_labels[label] : static_cast<std::int64_t>(label);
+    text += (text.empty() ? "" : ", ") + std::to_string(shown) + " (" + std::to_string(counts[label]) +
             " voxels)";
   }
   return text.empty() ? "none but 0" : text;
@@ -36,11 +39,15 @@ imaging::MaskVolume read_vessel_labels(const MaskInput& input, const core::TaskC
   std::array<std::int64_t, 256> counts{};
   for (const std::uint8_t voxel : loaded.volume.voxels) ++counts[voxel];
   std::array<bool, 256> wanted{};
+  const std::vector<std::int64_t>& file_labels = loaded.header.file_labels;
   for (const int label : input.labels) {
-    if (label < 1 || label > 255 || counts[static_cast<std::size_t>(label)] == 0)
+    std::int64_t value = label;
+    if (!file_labels.empty())
+      value = std::ranges::find(file_labels, std::int64_t{label}) - file_labels.begin();  // 256 at most
+    if (value < 1 || value > 255 || counts[static_cast<std::size_t>(value)] == 0)
       throw InvalidInput(own_name(input.file) + " has no voxel of label " + std::to_string(label) +
-                         "; its labels are " + counts_in_words(counts));
-    wanted[static_cast<std::size_t>(label)] = true;
+                         "; its labels are " + counts_in_words(counts, file_labels));
+    wanted[static_cast<std::size_t>(value)] = true;
   }
   for (std::uint8_t& voxel : loaded.volume.voxels)
     if (!wanted[voxel]) voxel = 0;

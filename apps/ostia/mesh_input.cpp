@@ -130,7 +130,7 @@ void apply_size_array(const MeshOptions& options, const InputOptions& input, dou
                       pipeline::ModelOptions& to) {
   if (options.size_array.empty()) return;
   const std::string file = own_name(input.input);
-  if (input.input.extension() != ".vtp")
+  if (input.input.extension() != ".vtp" && input.input.extension() != ".vtk")
     throw InvalidInput("--size-array: " + file + " has no point arrays; a surface as VTP (.vtp) has them");
   io::SurfaceWithFields read = io::read_surface_with_fields(input.input);
   for (Vec3& p : read.mesh.points) p *= unit_mm;

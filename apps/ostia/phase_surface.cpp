@@ -5,7 +5,6 @@
 
 #include "ostia/core/log.h"
 #include "ostia/geometry/mesh_topology.h"
-#include "ostia/io/surface_fields.h"
 #include "ostia/io/surface_file.h"
 #include "ostia/lumen/tree_surface.h"
 #include "ostia/meshing/poisson_surface.h"
@@ -71,8 +70,7 @@ geometry::TriMesh phase_surface(const fs::path& path, const std::string& units, 
   if (path.extension() == ".ostia") return case_surface(path);
   geometry::TriMesh mesh;
   try {
-    mesh = path.extension() == ".vtk" ? io::read_surface_with_fields(path).mesh
-                                      : io::read_surface(path).surface.mesh;
+    mesh = io::read_surface(path).surface.mesh;
   } catch (const io::EmptySurface&) {
     return {};
   }

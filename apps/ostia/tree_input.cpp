@@ -76,18 +76,22 @@ void require_repair(const TreeInputOptions& o) {
     throw UsageError("--root, --join-within and --keep-directions are for --repair");
 }
 
-void join_lines_side_by_side(io::LoadedGraph& loaded, const core::TaskContext& task) {
+std::string joined_side_by_side(io::LoadedGraph& loaded, const core::TaskContext& task) {
   using Kind = geometry::GraphFaultKind;
   const geometry::GraphFaults faults = geometry::find_faults(loaded.graph, task);
   const std::size_t shared = faults.count(Kind::duplicate_point);
   for (const geometry::GraphFault& fault : faults.found)
-    if (fault.kind < Kind::duplicate_point && fault.count > 0) return;
-  if (shared == 0) return;
+    if (fault.kind < Kind::duplicate_point && fault.count > 0) return "";
+  if (shared == 0) return "";
   geometry::RepairedGraph joined = geometry::repaired(loaded.graph, {}, task);
-  if (!joined.left.sound_trees()) return;
+  if (!joined.left.sound_trees()) return "";
   loaded.graph = std::move(joined.graph);
-  core::log_warning("lines that run side by side are joined: " + std::to_string(shared) +
-                    " points at the places of others");
+  return "lines that run side by side are joined: " + std::to_string(shared) +
+         " points at the places of others";
+}
+
+void join_lines_side_by_side(io::LoadedGraph& loaded, const core::TaskContext& task) {
+  if (const std::string told = joined_side_by_side(loaded, task); !told.empty()) core::log_warning(told);
 }
 
 io::LoadedGraph read_tree(const InputOptions& input, const TreeInputOptions& options, Json& done,

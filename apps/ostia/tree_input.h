@@ -25,6 +25,8 @@ void require_repair(const TreeInputOptions& options);
 /// one tree, and this is told: where points at the places of others are the graph's only fault and what comes
 /// of joining them is a tree. Any other graph stays as it is.
 void join_lines_side_by_side(io::LoadedGraph& loaded, const core::TaskContext& task);
+/// The same, with what was done as text, "" for nothing, instead of a line in the log.
+std::string joined_side_by_side(io::LoadedGraph& loaded, const core::TaskContext& task);
 
 /// Reads a network, brings it into mm and mends it where that is asked for; warnings go to the log. `done`
 /// gets what the repair did. Throws what io::read_graph and geometry::repaired throw.

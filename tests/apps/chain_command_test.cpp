@@ -146,13 +146,19 @@ TEST(Chain, RefusesWithTheStepBeforeAnythingRuns) {
   expect_refused(folder, "{ no", set, {"bad.json", "no JSON object"});
   expect_refused(folder, {{"steps", Json::array()}}, set, {"no \"steps\""});
   expect_refused(folder, two_conversions(), {}, {"step 1 (convert)", "{surface}", "--set surface="});
-  expect_refused(folder, two_conversions(), {"--set", "surface=b.ply"}, {"step 1", "b.ply", "no file"});
+  // What is given may be a path, which messages do not repeat: they name the variable.
+  for (const std::string missing : {"b.ply", "/no/where/b.ply"})
+    expect_refused(folder, two_conversions(), {"--set", "surface=" + missing},
+                   {"step 1", "{surface}", "is no file", "give --set surface=FILE"});
   expect_refused(folder, two_conversions(), set + std::vector<std::string>{"--set", "sruface=a.ply"},
                  {"no variable {sruface}"});
   expect_refused(folder, two_conversions(), {"--set", "surface"}, {"name=value"}, 2);
   Json chain = two_conversions();
   chain["steps"][1]["out"] = "c.vtp";
   expect_refused(folder, chain, set, {"step 2", "unknown member \"out\""});
+  chain = two_conversions();
+  chain["steps"][1]["input"] = "typo.stl";
+  expect_refused(folder, chain, set, {"step 2", "\"typo.stl\"", "is no file", "outputs of steps before"});
   chain = two_conversions();
   chain["steps"][1]["output"] = "../c.vtp";
   expect_refused(folder, chain, set, {"step 2", "within the folder"});

@@ -170,5 +170,24 @@ TEST(MeasureCommand, WhatCannotBeMeasuredIsToldAndLeavesNothing) {
   EXPECT_FALSE(fs::exists(folder / "out"));
 }
 
+TEST(MeasureCommand, OfAFolderItsLinesOrItsLumenAreMeasured) {
+  const auto folder = temporary_folder("measure_folder");
+  fs::create_directories(folder / "made");
+  const Setting in{folder, ""};
+  const Outcome none = ostia({"measure", "made", "-o", "out"}, in);
+  EXPECT_EQ(none.code, 3);
+  EXPECT_THAT(none.err, HasSubstr("centerlines.vtp"));
+  io::write_surface(folder / "made/lumen.vtp",
+                    geometry::structured_surface(geometry::straight_tube(30.0, 2.0).tubes.front(), 48, 0.5));
+  const Outcome lumen = ostia({"measure", "made", "-o", "out", "--json"}, in);
+  ASSERT_EQ(lumen.code, 0) << lumen.err;
+  EXPECT_NEAR(json::parse(lumen.out)["length_mm"].get<double>(), 30.0, 1.0);
+  core::write_file(folder / "line.txt", "0 0 0 2 1\n0 0 5 2 1\n0 0 12 2 1\n");
+  ASSERT_EQ(ostia({"convert", "line.txt", "made/centerlines.vtp"}, in).code, 0);
+  const Outcome lines = ostia({"measure", "made", "-o", "out2", "--json"}, in);
+  ASSERT_EQ(lines.code, 0) << lines.err;
+  EXPECT_NEAR(json::parse(lines.out)["length_mm"].get<double>(), 12.0, 1e-9);
+}
+
 }  // namespace
 }  // namespace ostia::testing

@@ -2,6 +2,7 @@
 
 #include "program.h"
 
+#include "ostia/core/files.h"
 #include "ostia/io/surface_file.h"
 
 #include <gmock/gmock.h>
@@ -139,6 +140,33 @@ TEST(SurfaceCommands, AsksForTheUnit) {
   const Outcome done = ostia({"mesh", "a.ply", "-o", "out"}, {folder, ""});
   EXPECT_EQ(done.code, 3);
   EXPECT_THAT(done.err, HasSubstr("--units"));
+}
+
+TEST(SurfaceCommands, FaultsThatRepairingLeavesAreToldByTheExitCode) {
+  const auto folder = temporary_folder("left");
+  TriMesh crossing = both(box(), box({5, 4, 3}));
+  io::write_surface(folder / "a.ply", crossing);
+  const Outcome done =
+      ostia({"convert", "a.ply", "b.ply", "--repair", "--keep-parts", "--json"}, {folder, ""});
+  const Json repair = Json::parse(done.out)["repair"];
+  EXPECT_EQ(repair["meshable"].get<bool>(), repair["left"] == "none");
+  EXPECT_EQ(done.code, repair["left"] == "none" ? 0 : 4) << done.err;
+  if (done.code == 4) {
+    EXPECT_THAT(done.err, HasSubstr("--smooth 30"));
+  }
+}
+
+TEST(SurfaceCommands, LegacyPolydataIsASurfaceEverywhere) {
+  const auto folder = temporary_folder("legacy");
+  core::write_file(folder / "a.vtk",
+                   "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 4 double\n"
+                   "0 0 0 10 0 0 0 10 0 0 0 10\nTRIANGLE_STRIPS 1 7\n6 0 2 1 3 0 2\n");
+  const Json info = Json::parse(ostia({"info", "a.vtk", "--json"}, {folder, ""}).out);
+  EXPECT_EQ(info["triangles"], 4);
+  EXPECT_EQ(info["open_edges"], 0);
+  EXPECT_NEAR(info["volume_mm3"].get<double>(), 1000.0 / 6.0, 1e-9);
+  EXPECT_EQ(ostia({"convert", "a.vtk", "b.stl"}, {folder, ""}).code, 0);
+  EXPECT_EQ(io::read_surface(folder / "b.stl").surface.mesh.triangles.size(), 4u);
 }
 
 }  // namespace

@@ -58,6 +58,17 @@ TEST(SurfaceTips, ABallHasNone) {
   EXPECT_TRUE(find_tips(closed(ball)).empty());
 }
 
+TEST(SurfaceTips, ABallNarrowsAndATubeDoesNot) {
+  TipOptions short_ones;
+  short_ones.least_length_radii = 2.0;
+  const auto of_ball = find_tips(closed(geometry::straight_tube(0.5, 5.0)), std::nullopt, short_ones);
+  ASSERT_FALSE(of_ball.empty());
+  for (const SurfaceTip& tip : of_ball) EXPECT_LT(tip.neck, 0.7);
+  const auto of_y = find_tips(closed(geometry::y_junction(20.0, 15.0, 2.0, 1.5, 60.0)), Vec3(0.0, 0.0, 15.0));
+  ASSERT_FALSE(of_y.empty());
+  for (const SurfaceTip& tip : of_y) EXPECT_GT(tip.neck, 0.4);
+}
+
 TEST(SurfaceTips, OpenEndsAreNone) {
   const TriMesh open = geometry::surface_of(geometry::y_junction(20.0, 15.0, 2.0, 1.5, 60.0), 0.4, true);
   EXPECT_TRUE(find_tips(open, Vec3(0.0, 0.0, -20.0)).empty());

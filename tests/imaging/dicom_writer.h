@@ -113,7 +113,8 @@ struct CtSlice {
   std::string position = "0\\0\\0", orientation = "1\\0\\0\\0\\1\\0", pixel_spacing = "0.5\\0.5",
               thickness = "9";
   std::string slope = "1", intercept = "-1024", instance = "1", photometric = "MONOCHROME2";
-  std::string patient_name = "DOE^JANE", study_date, description, character_set, window_centre, window_width;
+  std::string patient_name = "DOE^JANE", patient_id, study, study_date, description, character_set,
+              window_centre, window_width;
   std::string acquisition, trigger_time, temporal_position, content_time, cardiac_percent, frames;
   unsigned rows = 4, columns = 5, samples = 1, bits_allocated = 16, bits_stored = 12, high_bit = 11,
            is_signed = 0;
@@ -150,8 +151,10 @@ struct CtSlice {
     put(0x00080060u, "CS", modality);
     put(0x0008103Eu, "LO", description);
     put(0x00100010u, "PN", patient_name);
+    put(0x00100020u, "LO", patient_id);
     put(0x00180050u, "DS", thickness);
     put(0x00181060u, "DS", trigger_time);
+    put(0x0020000Du, "UI", study);
     put(0x0020000Eu, "UI", series);
     put(0x00200012u, "IS", acquisition);
     put(0x00200013u, "IS", instance);

@@ -110,10 +110,12 @@ TEST_F(ReadTest, MaskOfSixteenValuesIsOneAndOfSeventeenIsNot) {
   EXPECT_FALSE(looks_like_mask(path));
 }
 
-TEST_F(ReadTest, LooksLikeMaskWantsWholeNumbersAndAZero) {
+TEST_F(ReadTest, LooksLikeMaskWantsWholeNumbersAndAZeroOrTwoValues) {
   write<float>(16, {0.0F, 1.0F});
   EXPECT_TRUE(looks_like_mask(path));
-  write<float>(16, {0.0F, 0.5F});
+  write<float>(16, {0.0F, 0.5F});  // two values part the image in two, whatever they are
+  EXPECT_TRUE(looks_like_mask(path));
+  write<float>(16, {0.0F, 0.25F, 0.5F});
   EXPECT_FALSE(looks_like_mask(path));
   write<std::int16_t>(4, std::vector<std::int16_t>(24, 7));
   EXPECT_FALSE(looks_like_mask(path));

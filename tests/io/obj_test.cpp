@@ -30,5 +30,21 @@ TEST(Obj, RefusesNonsense) {
   }
 }
 
+TEST(Obj, GroupsAreFaces) {
+  const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
+  const auto read =
+      read_surface(
+          file_with("a.obj", points + "g wall\nf 1 3 2\ng  LAD \r\nf 1 2 4\ng wall\nf 1 4 3\ng\nf 2 3 4\n"))
+          .surface;
+  EXPECT_EQ(read.face_ids, (std::vector<std::int32_t>{1, 2, 1, 3}));
+  ASSERT_EQ(read.faces.size(), 3u);
+  EXPECT_EQ(read.faces[0].name, "wall");
+  EXPECT_EQ(read.faces[1].name, "LAD");
+  EXPECT_EQ(read.faces[2].name, "face_3");
+  const auto one = read_surface(file_with("b.obj", points + "g all\nf 1 3 2\nf 1 2 4\n")).surface;
+  EXPECT_TRUE(one.face_ids.empty()) << "one group says nothing";
+  EXPECT_TRUE(one.faces.empty());
+}
+
 }  // namespace
 }  // namespace ostia::io

@@ -4,6 +4,8 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
+#include "ostia/io/centerline_file.h"
+#include "ostia/io/graph_file.h"
 
 #include <gmock/gmock.h>
 
@@ -177,6 +179,41 @@ TEST_F(RotterdamFile, WritersRefuseWhatReadersWouldAndKeepTheOldFile) {
   EXPECT_THROW(write_rotterdam_point(file, Vec3(std::nan(""), 0, 0)), InvalidInput);
   EXPECT_THROW(write_rotterdam_line(file / "a.txt", good.points), IoError);
   EXPECT_EQ(core::read_file(file), "old");
+}
+
+TEST_F(RotterdamFile, LinesHaveRadiiWhereColumnsSaySo) {
+  core::write_file(file, "0 0 0 2.5 1\n0 0 0 2.5 1\n0 0 4 2 1\n0 3 8 1.5 1\n");
+  ASSERT_TRUE(is_rotterdam_line(file));
+  EXPECT_TRUE(is_graph_file(file));
+  const LoadedGraph read = read_graph(file);
+  ASSERT_EQ(read.graph.edges.size(), 2u);
+  EXPECT_EQ(read.graph.edges[0].radius_from, 2.5);
+  EXPECT_EQ(read.graph.edges[1].radius_to, 1.5);
+  ASSERT_EQ(read.warnings.size(), 1u);
+  EXPECT_THAT(read.warnings[0], HasSubstr("1 points that repeat"));
+  const geometry::VesselTree tree = read_centerlines(file);
+  ASSERT_EQ(tree.segments.size(), 1u);
+  EXPECT_EQ(tree.segments[0].axis.points.back(), Vec3(0, 3, 8));
+  EXPECT_EQ(tree.segments[0].axis.points.size(), 3u);
+  EXPECT_EQ(tree.segments[0].axis.radius.back(), 1.5);
+  EXPECT_EQ(read_rotterdam_line(file).size(), 4u) << "a reference is taken as a result, too";
+  core::write_file(file, "0 0 0 2\n0 0 4 1\n");
+  EXPECT_EQ(read_graph(file).graph.edges[0].radius_to, 1.0);
+  core::write_file(file, "0 0 0\n0 0 4\n");
+  EXPECT_TRUE(std::isnan(read_graph(file).graph.edges[0].radius_to));
+  expect_refusal([&] { read_centerlines(file); }, "no radius", "three columns");
+  core::write_file(file, "0 0 0 2 1\n0 0 4 -1 1\n");
+  expect_refusal([&] { read_graph(file); }, "line 2: the radius", "a negative radius");
+}
+
+TEST_F(RotterdamFile, OtherTextsAreNoLines) {
+  for (const char* text :
+       {"", "1 2 3\n", "1 2\n3 4\n", "to whom it may\nconcern x y\n", "1 2 3 4 5 6\n1 2 3 4 5 6\n"}) {
+    core::write_file(file, text);
+    EXPECT_FALSE(is_rotterdam_line(file)) << text;
+    EXPECT_FALSE(is_graph_file(file)) << text;
+  }
+  EXPECT_FALSE(is_rotterdam_line(file.parent_path() / "nowhere.txt"));
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace ostia::centerline {
 namespace {
@@ -258,7 +259,9 @@ Axis led_out_of(const std::vector<Vec3>& parent, const Axis& branch, double cuto
   return result;
 }
 
-Wall::Wall(const geometry::TriMesh& wall) : tree_(wall), cloud_(used_points(wall)) {
+Wall::Wall(const geometry::TriMesh& wall, std::shared_ptr<const geometry::AabbTree> tree)
+    : tree_(tree ? std::move(tree) : std::make_shared<const geometry::AabbTree>(wall)),
+      cloud_(used_points(wall)) {
   const std::vector<Vec3> normals = curvature_exact_normals(wall);
   std::vector<double> sum(wall.points.size(), 0.0);
   std::vector<int> edges(wall.points.size(), 0);
@@ -284,7 +287,7 @@ Wall::Wall(const geometry::TriMesh& wall) : tree_(wall), cloud_(used_points(wall
 }
 
 double Wall::distance(const Vec3& query) const {
-  const geometry::SurfacePoint foot = tree_.closest(query);
+  const geometry::SurfacePoint foot = tree_->closest(query);
   const geometry::Triangle& triangle = triangles_[static_cast<std::size_t>(foot.triangle)];
   Vec3 move = Vec3::Zero();
   double longest = 0.0;
@@ -311,7 +314,7 @@ double Wall::inscribed_radius(const Vec3& centre) const {
 std::vector<double> Wall::spacing_along(const Axis& axis) const {
   std::vector<double> result(axis.points.size());
   core::parallel_for(axis.points.size(), 64, [&](std::size_t i) {
-    const geometry::SurfacePoint foot = tree_.closest(axis.points[i]);
+    const geometry::SurfacePoint foot = tree_->closest(axis.points[i]);
     double sum = 0.0;
     for (const std::int32_t v : triangles_[static_cast<std::size_t>(foot.triangle)])
       sum += spacing_[static_cast<std::size_t>(v)];

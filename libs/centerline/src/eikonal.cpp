@@ -1,10 +1,13 @@
 #include "ostia/centerline/eikonal.h"
 
+#include "earliest_first.h"
+
 #include "ostia/core/error.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <queue>
+#include <cstdint>
 #include <string>
 #include <utility>
 
@@ -41,15 +44,34 @@ double best_on_segment(const Vec3& a, const Vec3& b, double time_a, double time_
   return std::clamp((foot - height * slope / std::sqrt(1.0 - slope * slope)) / length, 0.0, 1.0);
 }
 
+// Whether the least sum of `best_on_segment` is no less than `limit`, told without a root. Where the least
+// lies within the segment it is time_a + slope * foot + height * sqrt(slowness^2 - slope^2). On the safe side
+// of rounding: a sum that is less is never refused.
+bool comes_too_late(const Vec3& a, const Vec3& b, double time_a, double time_b, const Vec3& x,
+                    double slowness, double limit) {
+  constexpr double rounding = 1e-12;
+  const Vec3 edge = b - a, to = x - a;
+  const double length2 = edge.squaredNorm(), distance2 = to.squaredNorm(), along = edge.dot(to);
+  if (!(length2 > 0.0)) return false;
+  const double rise = time_b - time_a, slowness2 = slowness * slowness;
+  const double share = along / length2;
+  const double across = slowness2 - rise * rise / length2 - rounding * slowness2;
+  const double height2 = distance2 - along * share - rounding * distance2;
+  if (!(across > 0.0) || !(height2 > 0.0)) return false;
+  const double left = limit - time_a - rise * share + rounding * limit;
+  return left <= 0.0 || height2 * across * (1.0 - 1e-9) >= left * left;
+}
+
 class March {
  public:
-  March(const InnerVoronoi& diagram, std::int32_t source) : diagram_(diagram), nodes_(diagram.points.size()) {
+  March(const InnerVoronoi& diagram, std::int32_t source)
+      : diagram_(diagram), nodes_(diagram.points.size()), accepted_(diagram.points.size(), 0) {
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
       nodes_[i].point = diagram.points[i];
       nodes_[i].slowness = 1.0 / std::max(diagram.radius[i], 1e-12);
     }
     nodes_[index(source)].time = 0.0;
-    heap_.emplace(0.0, source);
+    waiting_.push(0.0, source);
   }
 
   ArrivalTimes run(const std::vector<std::int32_t>& targets, const core::TaskContext& task) {
@@ -58,11 +80,10 @@ class March {
     wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
     std::size_t missing = targets.empty() ? nodes_.size() + 1 : wanted.size();
     std::size_t count = 0;
-    while (!heap_.empty() && missing > 0) {
-      const std::int32_t point = heap_.top().second;
-      heap_.pop();
-      if (node(point).accepted) continue;
-      node(point).accepted = true;
+    while (!waiting_.empty() && missing > 0) {
+      const std::int32_t point = waiting_.pop().point;
+      if (accepted(point)) continue;
+      accepted_[index(point)] = 1;
       if (std::binary_search(wanted.begin(), wanted.end(), point)) --missing;
       if (++count % 4096 == 0) {
         task.throw_if_cancelled();
@@ -74,34 +95,34 @@ class March {
   }
 
  private:
-  // All that is asked of a point lies together.
-  struct Node {
+  // All that is asked of a point that the front has not passed lies together.
+  struct alignas(64) Node {
     Vec3 point = Vec3::Zero();
     double slowness = 0.0;
     double time = infinity;
     std::int32_t parent = -1;
     std::int32_t offered_by = -1;  // the last point that offered a time along an edge or chord
-    bool accepted = false;
   };
 
   Node& node(std::int32_t i) { return nodes_[index(i)]; }
+  bool accepted(std::int32_t i) const { return accepted_[index(i)] != 0; }
 
   ArrivalTimes times() const {
     ArrivalTimes result;
     result.time.reserve(nodes_.size());
     result.parent.reserve(nodes_.size());
-    for (const Node& one : nodes_) {
-      result.time.push_back(one.accepted ? one.time : infinity);
-      result.parent.push_back(one.parent);
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      result.time.push_back(accepted_[i] != 0 ? nodes_[i].time : infinity);
+      result.parent.push_back(nodes_[i].parent);
     }
     return result;
   }
 
-  void offer(std::int32_t point, double time, std::int32_t parent) {
-    if (time >= node(point).time) return;
-    node(point).time = time;
-    node(point).parent = parent;
-    heap_.emplace(time, point);
+  void offer(Node& to, std::int32_t point, double time, std::int32_t parent) {
+    if (time >= to.time) return;
+    to.time = time;
+    to.parent = parent;
+    waiting_.push(time, point);
   }
 
   // Once from each point, though several polygons may have both.
@@ -111,54 +132,66 @@ class March {
     if (end.offered_by == from) return;
     end.offered_by = from;
     const double slowness = 0.5 * (start.slowness + end.slowness);
-    offer(to, start.time + slowness * (end.point - start.point).norm(), from);
+    const double squared = (end.point - start.point).squaredNorm();
+    const double left = end.time - start.time + 1e-12 * end.time;  // on the safe side of rounding
+    if (slowness * slowness * squared > left * left) return;       // later, told without a root
+    offer(end, to, start.time + slowness * std::sqrt(squared), from);
   }
 
   void offer_across(std::int32_t v, std::int32_t w, std::int32_t to) {
-    const Node &a = node(v), &b = node(w), &x = node(to);
+    const Node &a = node(v), &b = node(w);
+    Node& x = node(to);
     const double base_slowness = 0.5 * (a.slowness + b.slowness);
     const double slowness = 0.5 * (base_slowness + x.slowness);
+    if (comes_too_late(a.point, b.point, a.time, b.time, x.point, slowness, x.time)) return;
     const double t = best_on_segment(a.point, b.point, a.time, b.time, x.point, slowness);
     if (t <= 0.0 || t >= 1.0) return;
     const double time =
         a.time + t * (b.time - a.time) + slowness * (x.point - a.point - t * (b.point - a.point)).norm();
     // Round-off must not let a front arrive before the points it comes from.
-    offer(to, std::max({time, a.time, b.time}), t < 0.5 ? v : w);
+    offer(x, to, std::max({time, a.time, b.time}), t < 0.5 ? v : w);
   }
 
-  void spread_in_polygon(std::int32_t polygon, std::int32_t point) {
-    const std::int32_t* corners = diagram_.corners.data() + diagram_.polygon_first[index(polygon)];
-    const std::int32_t size =
-        diagram_.polygon_first[index(polygon) + 1] - diagram_.polygon_first[index(polygon)];
+  void spread_in_polygon(const std::int32_t* corners, std::int32_t size, std::int32_t point) {
+    if (size <= all_pairs_up_to) {
+      std::array<std::int32_t, all_pairs_up_to> passed;
+      std::size_t count = 0;
+      for (std::int32_t k = 0; k < size; ++k)
+        if (corners[k] != point && accepted(corners[k])) passed[count++] = corners[k];
+      if (static_cast<std::int32_t>(count) + 1 == size) return;
+      for (std::int32_t i = 0; i < size; ++i) {
+        if (accepted(corners[i])) continue;
+        offer_along_edge(point, corners[i]);
+        for (std::size_t k = 0; k < count; ++k) offer_across(point, passed[k], corners[i]);
+      }
+      return;
+    }
     std::int32_t place = 0;
     while (corners[place] != point) ++place;
+    const std::array beside{corners[(place + 1) % size], corners[(place + size - 1) % size]};
     for (std::int32_t i = 0; i < size; ++i) {
-      const std::int32_t to = corners[i];
-      if (node(to).accepted) continue;
-      offer_along_edge(point, to);
-      if (size <= all_pairs_up_to) {
-        for (std::int32_t k = 0; k < size; ++k)
-          if (corners[k] != point && node(corners[k]).accepted) offer_across(point, corners[k], to);
-      } else {
-        for (const std::int32_t k : {(place + 1) % size, (place + size - 1) % size})
-          if (corners[k] != point && node(corners[k]).accepted) offer_across(point, corners[k], to);
-      }
+      if (accepted(corners[i])) continue;
+      offer_along_edge(point, corners[i]);
+      for (const std::int32_t next : beside)
+        if (next != point && accepted(next)) offer_across(point, next, corners[i]);
     }
   }
 
   void spread_from(std::int32_t point) {
     for (const std::int32_t neighbour : diagram_.links[index(point)])
-      if (neighbour >= 0 && !node(neighbour).accepted) offer_along_edge(point, neighbour);
+      if (neighbour >= 0 && !accepted(neighbour)) offer_along_edge(point, neighbour);
     for (std::int32_t k = diagram_.incidence_first[index(point)];
-         k < diagram_.incidence_first[index(point) + 1]; ++k)
-      spread_in_polygon(diagram_.incidence[index(k)], point);
+         k < diagram_.incidence_first[index(point) + 1]; ++k) {
+      const std::size_t polygon = index(diagram_.incidence[index(k)]);
+      const std::int32_t first = diagram_.polygon_first[polygon];
+      spread_in_polygon(diagram_.corners.data() + first, diagram_.polygon_first[polygon + 1] - first, point);
+    }
   }
 
   const InnerVoronoi& diagram_;
   std::vector<Node> nodes_;
-  using Entry = std::pair<double, std::int32_t>;
-  // Superseded entries stay in the heap and are passed over; ties go to the lower point.
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> heap_;
+  std::vector<std::uint8_t> accepted_;  // apart: small enough to stay near
+  EarliestFirst waiting_;               // superseded entries stay and are passed over
 };
 
 // A place on the diagram: at point `a` (b < 0), or between points a and b of a polygon's edge.

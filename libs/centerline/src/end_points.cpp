@@ -110,8 +110,13 @@ std::string describe_point(const std::string& role, const Vec3& point) {
 }
 
 std::vector<Opening> find_openings(const geometry::TriMesh& lumen) {
+  return find_openings(lumen, geometry::boundary_loops(lumen));
+}
+
+std::vector<Opening> find_openings(const geometry::TriMesh& lumen,
+                                   const std::vector<std::vector<std::int32_t>>& loops) {
   std::vector<Opening> openings;
-  for (const auto& loop : geometry::boundary_loops(lumen)) {
+  for (const auto& loop : loops) {
     Vec3 moment = Vec3::Zero();
     double length = 0.0;
     for (std::size_t i = 0; i < loop.size(); ++i) {

@@ -146,20 +146,15 @@ void validate(const CenterlineOptions& options) {
 
 CenterlineResult extract_centerlines(const TriMesh& lumen, std::optional<Vec3> source,
                                      const std::vector<Vec3>& targets, const CenterlineOptions& options,
-                                     const core::TaskContext& task) {
+                                     const core::TaskContext& task, const KnownSurface* known) {
   validate(options);
   task.set_stage("surface");
-  const LumenSurface surface = prepare_lumen(lumen);
+  if (known != nullptr && !is_of(*known, lumen)) known = nullptr;
+  const LumenSurface surface = prepare_lumen(lumen, known);
   task.throw_if_cancelled();
   task.set_stage("Voronoi diagram");
-  InnerVoronoi diagram;
-  std::optional<Wall> wall;
-  core::parallel_invoke(
-      [&] {
-        diagram =
-            inner_voronoi(surface.sampled, surface.on_border, surface.only_in_caps, task.sub(0.05, 0.6));
-      },
-      [&] { wall.emplace(surface.wall); });
+  InnerVoronoi diagram =
+      inner_voronoi(surface.sampled, surface.on_border, surface.only_in_caps, task.sub(0.05, 0.6), known);
   const EndPoints ends = choose_ends(diagram, surface.openings, source, targets);
   if (!options.vessel_names.empty() && options.vessel_names.size() != ends.targets.size())
     throw InvalidInput(std::to_string(options.vessel_names.size()) + " vessel names for " +
@@ -170,8 +165,19 @@ CenterlineResult extract_centerlines(const TriMesh& lumen, std::optional<Vec3> s
   std::vector<std::int32_t> target_points;
   for (const EndPoint& target : ends.targets) target_points.push_back(target.diagram_point);
   if (options.keep_voronoi) target_points.clear();
-  ArrivalTimes arrival = arrival_times(diagram, ends.source.diagram_point, target_points, task.sub(0.6, 0.8));
-  const Paths paths = trace(diagram, ends, arrival, options.step_mm);
+  ArrivalTimes arrival;
+  Paths paths;
+  std::optional<Wall> wall;
+  // The march has one thread alone: what comes after it is made ready beside it.
+  core::parallel_invoke(
+      [&] {
+        arrival = arrival_times(diagram, ends.source.diagram_point, target_points, task.sub(0.6, 0.8));
+        paths = trace(diagram, ends, arrival, options.step_mm);
+      },
+      [&] {
+        const bool without_caps = known != nullptr && known->loops.empty();
+        wall.emplace(surface.wall, without_caps ? known->tree : nullptr);
+      });
 
   task.set_stage("axes");
   ChainTree chains = merge_paths(paths.axes, paths.order, options.merge_fraction);

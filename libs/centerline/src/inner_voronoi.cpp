@@ -10,7 +10,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <utility>
 
 namespace ostia::centerline {
 namespace {
@@ -239,18 +241,33 @@ void add_incidence(InnerVoronoi& diagram) {
     }
 }
 
+Delaunay tetrahedra_of(const std::vector<Vec3>& points, const KnownSurface* known,
+                       const core::TaskContext& task) {
+  if (known != nullptr && known->tetrahedra)
+    if (std::optional<Delaunay> ahead = known->tetrahedra->take(points, task)) return std::move(*ahead);
+  return delaunay(points, task);
+}
+
+std::shared_ptr<const geometry::AabbTree> tree_of(const geometry::TriMesh& capped,
+                                                  const KnownSurface* known) {
+  const bool the_same = known != nullptr && known->tree && known->closed.triangles == capped.triangles &&
+                        known->closed.points == capped.points;
+  return the_same ? known->tree : std::make_shared<const geometry::AabbTree>(capped);
+}
+
 }  // namespace
 
 InnerVoronoi inner_voronoi(const geometry::TriMesh& capped, const std::vector<bool>& on_border,
-                           const std::vector<bool>& skip, const core::TaskContext& task) {
+                           const std::vector<bool>& skip, const core::TaskContext& task,
+                           const KnownSurface* known) {
   Sites sites = collect_sites(capped, on_border, skip);
   if (sites.points.empty()) throw GeometryError("the surface has no points: it encloses no lumen");
   Delaunay cells;
-  std::optional<geometry::AabbTree> tree;
+  std::shared_ptr<const geometry::AabbTree> tree;
   core::parallel_invoke(
-      [&] { cells = delaunay(sites.points, task.sub(0.0, 0.6)); },
+      [&] { cells = tetrahedra_of(sites.points, known, task.sub(0.0, 0.6)); },
       [&] {
-        tree.emplace(capped);
+        tree = tree_of(capped, known);
         add_normals(capped, sites);
         tree->inside(sites.points.front());  // what such questions need is made at the first
       });

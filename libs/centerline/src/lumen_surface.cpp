@@ -7,8 +7,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <numeric>
+#include <span>
 #include <utility>
 
 namespace ostia::centerline {
@@ -165,51 +165,6 @@ void make_borders_simple(LumenSurface& surface) {
                                " triangles at non-manifold edges or vertices were left out");
 }
 
-using Edge = std::pair<std::int32_t, std::int32_t>;
-
-// Point in the middle of each edge that is too long.
-std::map<Edge, std::int32_t> add_midpoints(TriMesh& mesh, double longest_mm) {
-  std::map<Edge, std::int32_t> middle;
-  const std::size_t triangles = mesh.triangles.size();
-  for (std::size_t t = 0; t < triangles; ++t)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Edge edge = std::minmax({mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]});
-      const Vec3 a = mesh.points[static_cast<std::size_t>(edge.first)];
-      const Vec3 b = mesh.points[static_cast<std::size_t>(edge.second)];
-      if ((a - b).norm() <= longest_mm) continue;
-      if (middle.emplace(edge, static_cast<std::int32_t>(mesh.points.size())).second)
-        mesh.points.push_back(0.5 * (a + b));
-    }
-  return middle;
-}
-
-// Cuts off one corner after the other along the middle points of the two edges there; what is left is cut on.
-void add_parts(const geometry::Triangle& t, const std::map<Edge, std::int32_t>& middle,
-               std::vector<geometry::Triangle>& parts) {
-  std::array<std::int32_t, 3> m{};
-  int cuts = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto found = middle.find(std::minmax({t[k], t[(k + 1) % 3]}));
-    m[k] = found == middle.end() ? -1 : found->second;
-    cuts += m[k] >= 0;
-  }
-  if (cuts == 0) {
-    parts.push_back(t);
-    return;
-  }
-  std::size_t first = 0;  // a cut edge; with two of them the one before the other
-  while (m[first] < 0 || (cuts == 2 && m[(first + 1) % 3] < 0)) ++first;
-  const std::int32_t a = t[first], b = t[(first + 1) % 3], c = t[(first + 2) % 3];
-  const std::int32_t ab = m[first], bc = m[(first + 1) % 3], ca = m[(first + 2) % 3];
-  if (cuts == 1) {
-    parts.insert(parts.end(), {{a, ab, c}, {ab, b, c}});
-  } else if (cuts == 2) {
-    parts.insert(parts.end(), {{ab, b, bc}, {a, ab, bc}, {a, bc, c}});
-  } else {
-    parts.insert(parts.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
-  }
-}
-
 // The wall of `capped` with its long edges cut, and the caps. A cap's rim is cut on the wall's side only,
 // which leaves no gap.
 void sample_wall(LumenSurface& surface) {
@@ -228,6 +183,27 @@ void sample_wall(LumenSurface& surface) {
   surface.only_in_caps.resize(surface.sampled.points.size(), false);
 }
 
+void mark_caps(LumenSurface& surface) {
+  const std::size_t wall_triangles = surface.wall.triangles.size(), wall_points = surface.wall.points.size();
+  surface.on_border.assign(surface.capped.points.size(), false);
+  surface.only_in_caps.assign(surface.capped.points.size(), false);
+  for (std::size_t t = wall_triangles; t < surface.capped.triangles.size(); ++t)
+    for (const std::int32_t v : surface.capped.triangles[t])
+      surface.on_border[static_cast<std::size_t>(v)] = true;
+  std::fill(surface.only_in_caps.begin() + static_cast<std::ptrdiff_t>(wall_points),
+            surface.only_in_caps.end(), true);
+}
+
+// Of a sound surface there is nothing to be mended.
+LumenSurface known_lumen(const TriMesh& lumen, const KnownSurface& known) {
+  LumenSurface surface;
+  surface.wall = lumen;
+  surface.openings = find_openings(lumen, known.loops);
+  surface.capped = known.closed;
+  mark_caps(surface);
+  return surface;
+}
+
 // All but what is sampled.
 LumenSurface capped_lumen(const TriMesh& lumen) {
   check(lumen);
@@ -242,33 +218,20 @@ LumenSurface capped_lumen(const TriMesh& lumen) {
   surface.openings = find_openings(surface.wall);
   surface.capped = surface.openings.empty() ? surface.wall : geometry::fill_holes(surface.wall).mesh;
   surface.capped = geometry::oriented(surface.capped);
-  const std::size_t wall_triangles = surface.wall.triangles.size(), wall_points = surface.wall.points.size();
-  std::copy_n(surface.capped.triangles.begin(), wall_triangles, surface.wall.triangles.begin());
-  surface.on_border.assign(surface.capped.points.size(), false);
-  surface.only_in_caps.assign(surface.capped.points.size(), false);
-  for (std::size_t t = wall_triangles; t < surface.capped.triangles.size(); ++t)
-    for (const std::int32_t v : surface.capped.triangles[t])
-      surface.on_border[static_cast<std::size_t>(v)] = true;
-  std::fill(surface.only_in_caps.begin() + static_cast<std::ptrdiff_t>(wall_points),
-            surface.only_in_caps.end(), true);
+  std::copy_n(surface.capped.triangles.begin(), surface.wall.triangles.size(),
+              surface.wall.triangles.begin());
+  mark_caps(surface);
   return surface;
 }
 
 }  // namespace
 
-geometry::TriMesh with_edges_cut(const TriMesh& wall, double longest_mm) {
-  if (!(longest_mm > 0.0))
-    throw InvalidInput("the longest edge must be positive, not " + std::to_string(longest_mm) + " mm");
-  constexpr std::size_t most_points = 4'000'000;
-  TriMesh mesh = wall;
-  while (mesh.points.size() < most_points) {
-    const auto middle = add_midpoints(mesh, longest_mm);
-    if (middle.empty()) break;
-    std::vector<geometry::Triangle> parts;
-    for (const geometry::Triangle& t : mesh.triangles) add_parts(t, middle, parts);
-    mesh.triangles = std::move(parts);
-  }
-  return mesh;
+bool is_of(const KnownSurface& known, const geometry::TriMesh& surface) {
+  const geometry::TriMesh& closed = known.closed;
+  return !surface.triangles.empty() && surface.points.size() <= closed.points.size() &&
+         surface.triangles.size() <= closed.triangles.size() &&
+         std::ranges::equal(surface.points, std::span(closed.points).first(surface.points.size())) &&
+         std::ranges::equal(surface.triangles, std::span(closed.triangles).first(surface.triangles.size()));
 }
 
 geometry::TriMesh simple_wall(const TriMesh& lumen) {
@@ -276,8 +239,9 @@ geometry::TriMesh simple_wall(const TriMesh& lumen) {
   return std::move(surface.wall);
 }
 
-LumenSurface prepare_lumen(const TriMesh& lumen) {
-  LumenSurface surface = capped_lumen(lumen);
+LumenSurface prepare_lumen(const TriMesh& lumen, const KnownSurface* known) {
+  LumenSurface surface =
+      known != nullptr && is_of(*known, lumen) ? known_lumen(lumen, *known) : capped_lumen(lumen);
   sample_wall(surface);
   return surface;
 }

@@ -1,5 +1,7 @@
 #include "ostia/centerline/surface_tips.h"
 
+#include "earliest_first.h"
+
 #include "ostia/core/error.h"
 #include "ostia/geometry/disjoint_sets.h"
 #include "ostia/geometry/mesh_topology.h"
@@ -9,7 +11,6 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
-#include <queue>
 
 namespace ostia::centerline {
 namespace {
@@ -26,13 +27,19 @@ constexpr double from_border_radii = 3.0;  // a maximum so near to an open end i
 class SurfaceWays {
  public:
   explicit SurfaceWays(const TriMesh& mesh)
-      : mesh_(mesh), neighbours_(geometry::vertex_neighbours(mesh)), area_(mesh.points.size(), 0.0) {
+      : mesh_(mesh),
+        neighbours_(geometry::vertex_neighbours(mesh)),
+        area_(mesh.points.size(), 0.0),
+        triangles_(mesh.points.size(), 0) {
     for (const geometry::Triangle& t : mesh.triangles) {
       const auto at = [&](std::size_t k) -> const Vec3& {
         return mesh.points[static_cast<std::size_t>(t[k])];
       };
       const double third = (at(1) - at(0)).cross(at(2) - at(0)).norm() / 6.0;
-      for (const std::int32_t v : t) area_[static_cast<std::size_t>(v)] += third;
+      for (const std::int32_t v : t) {
+        area_[static_cast<std::size_t>(v)] += third;
+        ++triangles_[static_cast<std::size_t>(v)];
+      }
     }
   }
   const TriMesh& mesh() const { return mesh_; }
@@ -44,14 +51,12 @@ class SurfaceWays {
   /// Visits points by increasing distance from `start` until `visit(point, distance)` says no.
   template <class Visit>
   void walk(std::int32_t start, std::vector<double>& distance, Visit visit) const {
-    using Step = std::pair<double, std::int32_t>;
-    std::priority_queue<Step, std::vector<Step>, std::greater<>> next;
+    EarliestFirst next;
     std::vector<std::int32_t> touched{start};
     distance[static_cast<std::size_t>(start)] = 0.0;
-    next.emplace(0.0, start);
+    next.push(0.0, start);
     while (!next.empty()) {
-      const auto [d, v] = next.top();
-      next.pop();
+      const auto [d, v] = next.pop();
       if (d > distance[static_cast<std::size_t>(v)]) continue;
       if (!visit(v, d)) break;
       for (const std::int32_t n : neighbours(v)) {
@@ -61,7 +66,7 @@ class SurfaceWays {
         if (to >= distance[static_cast<std::size_t>(n)]) continue;
         if (distance[static_cast<std::size_t>(n)] == infinite) touched.push_back(n);
         distance[static_cast<std::size_t>(n)] = to;
-        next.emplace(to, n);
+        next.push(to, n);
       }
     }
     touched_.swap(touched);
@@ -71,11 +76,16 @@ class SurfaceWays {
     for (const std::int32_t v : touched_) distance[static_cast<std::size_t>(v)] = infinite;
   }
   double area(std::int32_t v) const { return area_[static_cast<std::size_t>(v)]; }
+  /// All round a point there are as many triangles as neighbours.
+  bool on_border(std::int32_t v) const {
+    return triangles_[static_cast<std::size_t>(v)] != neighbours(v).size();
+  }
 
  private:
   const TriMesh& mesh_;
   std::vector<std::vector<std::int32_t>> neighbours_;
   std::vector<double> area_;
+  std::vector<std::size_t> triangles_;  // at each point
   mutable std::vector<std::int32_t> touched_;
 };
 
@@ -162,6 +172,18 @@ double radius_near(const SurfaceWays& ways, std::int32_t tip, double length_mm,
   return radius;
 }
 
+/// SurfaceTip::neck.
+double neck_of(const SurfaceWays& ways, std::int32_t tip, double length_mm, std::vector<double>& scratch) {
+  double middle = 0.0, last = 0.0;
+  ways.walk(tip, scratch, [&](std::int32_t v, double d) {
+    if (d > length_mm) return false;
+    if (3.0 * d > length_mm) (3.0 * d > 2.0 * length_mm ? last : middle) += ways.area(v);
+    return true;
+  });
+  ways.forget(scratch);
+  return middle > 0.0 ? last / middle : 1.0;
+}
+
 /// Down the distance, edge by edge.
 std::vector<Vec3> way_back(const SurfaceWays& ways, const std::vector<double>& distance, std::int32_t tip) {
   std::vector<Vec3> way;
@@ -175,18 +197,26 @@ std::vector<Vec3> way_back(const SurfaceWays& ways, const std::vector<double>& d
   }
 }
 
-std::vector<bool> border_points(const TriMesh& mesh) {
-  std::vector<bool> border(mesh.points.size(), false);
-  for (const auto& loop : geometry::boundary_loops(mesh))
-    for (const std::int32_t v : loop) border[static_cast<std::size_t>(v)] = true;
-  return border;
+/// The point's normal, as geometry::vertex_normals has it.
+Vec3 normal_at(const TriMesh& mesh, std::int32_t point) {
+  TriMesh around{{mesh.points[static_cast<std::size_t>(point)]}, {}};
+  for (const geometry::Triangle& t : mesh.triangles) {
+    if (std::ranges::find(t, point) == t.end()) continue;
+    geometry::Triangle own{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (t[k] == point) continue;
+      own[k] = static_cast<std::int32_t>(around.points.size());
+      around.points.push_back(mesh.points[static_cast<std::size_t>(t[k])]);
+    }
+    around.triangles.push_back(own);
+  }
+  return geometry::vertex_normals(around).front();
 }
 
-bool near_border(const SurfaceWays& ways, const std::vector<bool>& border, std::int32_t tip, double within_mm,
-                 std::vector<double>& scratch) {
+bool near_border(const SurfaceWays& ways, std::int32_t tip, double within_mm, std::vector<double>& scratch) {
   bool found = false;
   ways.walk(tip, scratch, [&](std::int32_t v, double d) {
-    found = found || border[static_cast<std::size_t>(v)];
+    found = found || ways.on_border(v);
     return !found && d <= within_mm;
   });
   ways.forget(scratch);
@@ -205,14 +235,13 @@ std::vector<SurfaceTip> find_tips(const TriMesh& surface, const std::optional<Ve
                                   const TipOptions& options, const core::TaskContext& task) {
   validate(options);
   if (surface.triangles.empty()) throw InvalidInput("tips: the surface has no triangles");
-  const std::vector<std::int32_t> part = geometry::components(surface);
-  if (*std::ranges::max_element(part) > 0) throw InvalidInput("tips: the surface has more than one part");
   const SurfaceWays ways(surface);
-  const std::vector<Vec3> normals = geometry::vertex_normals(surface);
-  const std::vector<bool> border = border_points(surface);
   std::int32_t start =
       nearest_point(ways, from.value_or(surface.points[static_cast<std::size_t>(surface.triangles[0][0])]));
   std::vector<double> distance = distances(ways, start);
+  for (std::size_t i = 0; i < distance.size(); ++i)
+    if (distance[i] == infinite && ways.used(static_cast<std::int32_t>(i)))
+      throw InvalidInput("tips: the surface has more than one part");
   if (!from) {
     start = farthest(distance);
     distance = distances(ways, start);
@@ -229,9 +258,10 @@ std::vector<SurfaceTip> find_tips(const TriMesh& surface, const std::optional<Ve
     tip.length_mm = peak.prominence;
     tip.radius_mm = radius_near(ways, peak.point, peak.prominence, scratch);
     if (tip.length_mm < options.least_length_radii * tip.radius_mm) continue;
-    if (near_border(ways, border, peak.point, from_border_radii * tip.radius_mm, scratch)) continue;
+    if (near_border(ways, peak.point, from_border_radii * tip.radius_mm, scratch)) continue;
     tip.point = surface.points[static_cast<std::size_t>(peak.point)];
-    tip.inside = tip.point - 0.5 * tip.radius_mm * normals[static_cast<std::size_t>(peak.point)];
+    tip.inside = tip.point - 0.5 * tip.radius_mm * normal_at(surface, peak.point);
+    tip.neck = neck_of(ways, peak.point, tip.length_mm, scratch);
     tip.way = way_back(ways, distance, peak.point);
     tips.push_back(std::move(tip));
   }

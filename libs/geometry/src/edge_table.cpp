@@ -14,26 +14,18 @@ namespace ostia::geometry::detail {
 
 namespace {
 
-/// By the higher vertex; those of equal ones keep their order. A vertex has few edges.
-void sort_by_high(HalfEdge* first, HalfEdge* last) {
-  constexpr std::ptrdiff_t few = 48;
-  if (last - first > few) {
-    std::stable_sort(first, last, [](const HalfEdge& a, const HalfEdge& b) { return a.high < b.high; });
-    return;
-  }
-  for (HalfEdge* next = first + 1; next < last; ++next) {
-    const HalfEdge moved = *next;
-    HalfEdge* place = next;
-    for (; place != first && moved.high < place[-1].high; --place) *place = place[-1];
-    *place = moved;
-  }
+/// Where those of each vertex begin, and the end; in `counts` before: how many each has, one place on.
+std::vector<std::uint32_t> starts_of(std::vector<std::uint32_t> counts) {
+  std::partial_sum(counts.begin(), counts.end(), counts.begin());
+  return counts;
 }
 
 }  // namespace
 
 std::vector<HalfEdge> half_edges(const TriMesh& mesh) {
-  // Counting sort by the lower vertex, in the order of the triangles, then a small sort within each vertex.
-  std::vector<std::uint32_t> next(mesh.points.size() + 1, 0);
+  // Counting sorts that keep the order of equals, by the higher vertex and then by the lower one: no
+  // comparison, and so no branch that a processor has to guess.
+  std::vector<std::uint32_t> highs(mesh.points.size() + 1, 0), lows(mesh.points.size() + 1, 0);
   const auto for_each_side = [&](const auto& use) {
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       const Triangle& triangle = mesh.triangles[t];
@@ -42,17 +34,17 @@ std::vector<HalfEdge> half_edges(const TriMesh& mesh) {
     }
   };
   for_each_side([&](std::size_t, std::size_t, std::int32_t a, std::int32_t b) {
-    ++next[static_cast<std::size_t>(std::min(a, b)) + 1];
+    ++lows[static_cast<std::size_t>(std::min(a, b)) + 1];
+    ++highs[static_cast<std::size_t>(std::max(a, b)) + 1];
   });
-  std::partial_sum(next.begin(), next.end(), next.begin());
-  std::vector<HalfEdge> table(next.back());
+  lows = starts_of(std::move(lows));
+  highs = starts_of(std::move(highs));
+  std::vector<HalfEdge> by_high(highs.back()), table(highs.back());
   for_each_side([&](std::size_t t, std::size_t side, std::int32_t a, std::int32_t b) {
-    table[next[static_cast<std::size_t>(std::min(a, b))]++] = {
+    by_high[highs[static_cast<std::size_t>(std::max(a, b))]++] = {
         std::min(a, b), std::max(a, b), static_cast<std::int32_t>(t), static_cast<std::int8_t>(side), a < b};
   });
-  // Each place has moved on to where the next vertex begins.
-  for (std::size_t v = 0, first = 0; v + 1 < next.size(); first = next[v++])
-    sort_by_high(table.data() + first, table.data() + next[v]);
+  for (const HalfEdge& edge : by_high) table[lows[static_cast<std::size_t>(edge.low)]++] = edge;
   return table;
 }
 

@@ -2,6 +2,7 @@
 #include "mesh_checks.h"
 
 #include "ostia/geometry/mesh_topology.h"
+#include "ostia/geometry/polygon.h"
 
 #include <algorithm>
 #include <array>
@@ -98,7 +99,43 @@ void fill_with_fan(TriMesh& mesh, const std::vector<std::int32_t>& loop) {
   }
 }
 
+std::vector<Triangle> fan_of(std::span<const std::int32_t> corners) {
+  std::vector<Triangle> fan;
+  for (std::size_t i = 2; i < corners.size(); ++i) fan.push_back({corners[0], corners[i - 1], corners[i]});
+  return fan;
+}
+
+/// A diagonal of a quadrilateral is the other one only where that is better by more than rounding.
+bool fan_is_best(const std::vector<Vec3>& points, std::span<const std::int32_t> q) {
+  const auto at = [&](std::size_t i) -> const Vec3& { return points[static_cast<std::size_t>(q[i])]; };
+  const double fan = cost(at(0), at(1), at(2)) + cost(at(0), at(2), at(3));
+  const double other = cost(at(0), at(1), at(3)) + cost(at(1), at(2), at(3));
+  return !(other < (1.0 - 1e-5) * fan);
+}
+
 }  // namespace
+
+std::vector<Triangle> triangles_of_polygon(const std::vector<Vec3>& points,
+                                           std::span<const std::int32_t> corners) {
+  const bool known = std::ranges::all_of(
+      corners, [&](std::int32_t c) { return c >= 0 && static_cast<std::size_t>(c) < points.size(); });
+  if (corners.size() < 4 || !known) return fan_of(corners);
+  if (corners.size() == 4 && fan_is_best(points, corners)) return fan_of(corners);
+  if (corners.size() > largest_programme) {
+    const std::size_t half = corners.size() / 2;
+    std::vector<std::int32_t> rest(corners.begin() + static_cast<std::ptrdiff_t>(half), corners.end());
+    rest.push_back(corners[0]);
+    std::vector<Triangle> both = triangles_of_polygon(points, corners.first(half + 1));
+    const std::vector<Triangle> second = triangles_of_polygon(points, rest);
+    both.insert(both.end(), second.begin(), second.end());
+    return both;
+  }
+  const LeastArea programme(points, {corners.begin(), corners.end()}, {});
+  if (!programme.found()) return fan_of(corners);
+  std::vector<Triangle> result;
+  for (const auto& [i, k, j] : programme.triangles()) result.push_back({corners[i], corners[k], corners[j]});
+  return result;
+}
 
 FilledHoles fill_holes(const TriMesh& mesh) {
   detail::check_indices(mesh, "boundary loops");

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 
 namespace ostia::imaging {
 namespace {
@@ -16,7 +17,8 @@ constexpr std::uint32_t kImageType = dicom_tag(0x0008, 0x0008), kSopClass = dico
                         kContentTime = dicom_tag(0x0008, 0x0033), kModality = dicom_tag(0x0008, 0x0060),
                         kSeriesDescription = dicom_tag(0x0008, 0x103E),
                         kTriggerTime = dicom_tag(0x0018, 0x1060), kGantryTilt = dicom_tag(0x0018, 0x1120),
-                        kSeriesUid = dicom_tag(0x0020, 0x000E),
+                        kNameOfPatient = dicom_tag(0x0010, 0x0010), kIdOfPatient = dicom_tag(0x0010, 0x0020),
+                        kStudyUid = dicom_tag(0x0020, 0x000D), kSeriesUid = dicom_tag(0x0020, 0x000E),
                         kAcquisitionNumber = dicom_tag(0x0020, 0x0012),
                         kInstanceNumber = dicom_tag(0x0020, 0x0013), kPosition = dicom_tag(0x0020, 0x0032),
                         kOrientation = dicom_tag(0x0020, 0x0037),
@@ -38,7 +40,8 @@ constexpr std::uint32_t kDataSet[] = {kImageType,      kSopClass,     kSopInstan
                                       kCardiacPercent, kSamples,      kPhotometric,         kFrames,
                                       kRows,           kColumns,      kPixelSpacing,        kBitsAllocated,
                                       kBitsStored,     kHighBit,      kPixelRepresentation, kIntercept,
-                                      kSlope,          kWindowCentre, kWindowWidth};
+                                      kSlope,          kWindowCentre, kWindowWidth,         kNameOfPatient,
+                                      kIdOfPatient,    kStudyUid};
 
 std::string_view trimmed_value(std::string_view text) {
   const auto blank = [](char c) { return c == ' ' || c == '\0' || c == '\t' || c == '\r' || c == '\n'; };
@@ -54,6 +57,15 @@ std::string plain(std::string_view text) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
   }
   return result;
+}
+
+/// A number in the place of a text that may name a person; 0 for none. Ends of empty components of a name
+/// do not count.
+std::uint64_t unnamed(std::string_view text) {
+  text = trimmed_value(text);
+  while (!text.empty() && (text.back() == '^' || text.back() == '=' || text.back() == ' '))
+    text.remove_suffix(1);
+  return text.empty() ? 0 : std::max<std::uint64_t>(1, std::hash<std::string_view>()(text));
 }
 
 /// `count` numbers separated by backslashes. Nothing for an empty value.
@@ -244,6 +256,15 @@ void DicomAttributes::set(std::uint32_t tag, std::string_view value, bool big_en
       break;
     case kSeriesUid:
       header.series_uid = plain(value);
+      break;
+    case kNameOfPatient:
+      header.whose.patient_name = unnamed(value);
+      break;
+    case kIdOfPatient:
+      header.whose.patient_id = unnamed(value);
+      break;
+    case kStudyUid:
+      header.whose.study = unnamed(value);
       break;
     case kModality:
       header.modality = plain(value);

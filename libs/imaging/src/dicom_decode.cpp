@@ -7,7 +7,6 @@
 #include "ostia/imaging/dicom.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
@@ -18,7 +17,6 @@ namespace ostia::imaging {
 namespace {
 
 constexpr std::size_t kLostBlock = 2048;  // zero bytes in a row
-constexpr std::string_view kDecodeMagic = "ostia decode 1\n";
 
 /// How the bits of a decoded word give the stored value.
 struct Word {
@@ -111,40 +109,6 @@ bool ends_with_mark(const std::string& stream) {
 }
 
 }  // namespace
-
-void write_decode_list(const std::filesystem::path& list_file, const std::vector<DecodeItem>& items) {
-  std::string text(kDecodeMagic);
-  for (const DecodeItem& item : items) {
-    text += item.path.string() + '\0' + std::to_string(item.frame) + '\0';
-  }
-  core::write_file(list_file, text);
-}
-
-std::vector<DecodeItem> read_decode_list(const std::filesystem::path& list_file) {
-  const std::string text = core::read_file(list_file, 1ULL << 30);
-  if (!text.starts_with(kDecodeMagic))
-    throw InvalidInput("'" + list_file.string() + "' is not a list of slices to decode");
-  std::vector<DecodeItem> items;
-  std::size_t at = kDecodeMagic.size();
-  const auto next = [&]() {
-    const std::size_t end = text.find('\0', at);
-    if (end == std::string::npos) throw InvalidInput("'" + list_file.string() + "' is cut short");
-    const std::string word = text.substr(at, end - at);
-    at = end + 1;
-    return word;
-  };
-  while (at < text.size()) {
-    DecodeItem item;
-    item.path = next();
-    const std::string frame = next();
-    const auto [end, error] = std::from_chars(frame.data(), frame.data() + frame.size(), item.frame);
-    if (error != std::errc() || end != frame.data() + frame.size() || item.frame < 0) {
-      throw InvalidInput("'" + list_file.string() + "': frame '" + frame + "' is no number");
-    }
-    items.push_back(std::move(item));
-  }
-  return items;
-}
 
 StreamInfo jpeg_info(const std::string& stream) {
   StreamInfo info;

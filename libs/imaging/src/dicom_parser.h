@@ -2,8 +2,8 @@
 /// \file The attributes of a DICOM file that an image needs, by a bounded parser of our own.
 ///
 /// Part 10 files with or without preamble and meta information; implicit and explicit VR, little and big
-/// endian, deflated. Nothing of the patient's identity is read. PS3.5 (data structures and encoding), PS3.3
-/// C.7.6.16 (functional groups).
+/// endian, deflated. Of the patient's identity nothing is kept but numbers that differ where persons do.
+/// PS3.5 (data structures and encoding), PS3.3 C.7.6.16 (functional groups).
 
 #include "dicom_source.h"
 
@@ -34,6 +34,12 @@ struct DicomFrame {
   void complete(const DicomFrame& other);
 };
 
+/// Numbers that tell whether two files are of one patient and study, and not of whom; 0: the file does not
+/// say. Good within one process alone.
+struct DicomWhose {
+  std::uint64_t patient_id = 0, patient_name = 0, study = 0;
+};
+
 struct DicomFragment {
   std::uint64_t offset = 0;
   std::uint32_t length = 0;
@@ -49,6 +55,7 @@ struct DicomHeader {
   bool is_signed = false;
   bool has_modality_lut = false;
   std::optional<double> instance_number, acquisition_number, acquisition_time, content_time, gantry_tilt_deg;
+  DicomWhose whose;
   std::vector<DicomFrame> frames;  ///< one a frame, completed by what is common to all
 
   bool has_pixels = false;

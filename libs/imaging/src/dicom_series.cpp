@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <tuple>
 
 namespace ostia::imaging {
@@ -94,9 +95,19 @@ bool near(const std::optional<std::array<double, n>>& a, const std::optional<std
   return true;
 }
 
+/// Two patients, or two studies, whose files lie in one folder, even where they share a series' number: what
+/// takes names out of files sometimes gives all of them one. What a file does not say parts nothing.
+bool of_two(const DicomWhose& a, const DicomWhose& b) {
+  const auto differ = [](std::uint64_t p, std::uint64_t q) { return p != 0 && q != 0 && p != q; };
+  const bool ids = a.patient_id != 0 && b.patient_id != 0;
+  return differ(a.study, b.study) || differ(a.patient_id, b.patient_id) ||
+         (!ids && differ(a.patient_name, b.patient_name));
+}
+
 /// Whether two frames may be slices of one volume.
 bool belong_together(const DicomSlice& a, const DicomSlice& b) {
   const DicomHeader &h = *a.header, &g = *b.header;
+  if (of_two(h.whose, g.whose)) return false;
   if (h.rows != g.rows || h.columns != g.columns || h.bits_allocated != g.bits_allocated ||
       h.samples != g.samples || h.is_signed != g.is_signed || is_localizer(h) != is_localizer(g)) {
     return false;
@@ -185,6 +196,7 @@ DicomSeriesDetail described(std::vector<DicomSlice> slices, const std::string& l
   summary.description = header.description;
   summary.transfer_syntax = transfer_syntax_name(header.transfer_syntax);
   summary.phase = label;
+  summary.patient_number = header.whose.patient_id ? header.whose.patient_id : header.whose.patient_name;
   add_pixel_faults(series);
   if (is_localizer(header)) summary.faults.push_back("a localizer (scout) image, not a volume");
   if (summary.modality != "CT") {
@@ -329,6 +341,13 @@ DicomSeriesDetail scan_dicom_series(const DicomSeries& series, const DicomReadOp
     return std::move(found);
   }
   throw InvalidInput("the files of DICOM series " + series.uid + " have changed; open their folder again");
+}
+
+std::size_t patients_in(const std::vector<DicomSeries>& series) {
+  std::set<std::uint64_t> known;
+  for (const DicomSeries& one : series)
+    if (one.patient_number != 0) known.insert(one.patient_number);
+  return known.size();
 }
 
 DicomFolder scan_dicom(const fs::path& folder_or_file, const core::TaskContext& task) {

@@ -9,7 +9,8 @@ namespace ostia::imaging {
 namespace {
 
 constexpr std::uint32_t kCharacterSet = dicom_tag(0x0008, 0x0005), kStudyDate = dicom_tag(0x0008, 0x0020),
-                        kShownSeries = dicom_tag(0x0008, 0x103E), kPatientName = dicom_tag(0x0010, 0x0010);
+                        kShownSeries = dicom_tag(0x0008, 0x103E), kPatientName = dicom_tag(0x0010, 0x0010),
+                        kShownPatientId = dicom_tag(0x0010, 0x0020);
 constexpr std::size_t kLongest = 256;
 
 /// Length of a sound UTF-8 sequence at `at`, or 0.
@@ -86,13 +87,22 @@ std::string shown_date(std::string_view text) {
 }
 
 ShownIdentity shown_identity(const std::filesystem::path& dicom_file) {
-  DicomTexts texts{{kCharacterSet, {}}, {kStudyDate, {}}, {kShownSeries, {}}, {kPatientName, {}}};
+  DicomTexts texts{
+      {kCharacterSet, {}}, {kStudyDate, {}}, {kShownSeries, {}}, {kPatientName, {}}, {kShownPatientId, {}}};
   ShownIdentity shown;
   if (!read_dicom_texts(dicom_file, texts)) return shown;
   const std::string& set = texts[kCharacterSet];
   shown.patient_name = shown_name(texts[kPatientName], set);
+  shown.patient_id = shown_text(texts[kShownPatientId], set);
   shown.study_date = shown_date(texts[kStudyDate]);
   shown.series_description = shown_text(texts[kShownSeries], set);
+  return shown;
+}
+
+ShownIdentity shown_identity(const DicomSeries& series) {
+  if (series.files.empty()) return {};
+  ShownIdentity shown = shown_identity(series.files[series.files.size() / 2]);
+  shown.slices = static_cast<std::int64_t>(series.files.size());
   return shown;
 }
 

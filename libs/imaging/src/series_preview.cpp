@@ -159,8 +159,7 @@ SeriesPreview preview(const DicomSeries& series, int size_px, const core::TaskCo
   check_size(size_px);
   const SeriesSlice slice = first_slice(series, -1, task);
   SeriesPreview result = drawn(slice.image.geometry, slice.image.voxels.data(), slice.window, size_px);
-  result.shown = shown_identity(series.files[static_cast<std::size_t>(slice.index)]);
-  result.shown.slices = static_cast<std::int64_t>(series.files.size());
+  result.shown = shown_identity(series);
   return result;
 }
 

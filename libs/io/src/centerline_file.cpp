@@ -11,6 +11,7 @@
 #include "ostia/core/log.h"
 #include "ostia/io/graph_file.h"
 #include "ostia/io/markups_file.h"
+#include "ostia/io/rotterdam_file.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -60,6 +61,14 @@ VesselTree read_polydata_lines(const fs::path& path) {
   return group ? tree_of_groups(lines, vessel_names(*data)) : tree_of_lines(lines, vessel_names(*data));
 }
 
+/// One line of x y z r, with the observers' spread or without.
+VesselTree read_rotterdam_tree(const fs::path& path) {
+  const RotterdamReference line = without_repeated(read_rotterdam_axis(path));
+  if (line.radius.empty()) refuse(path, "its points have no radius: x y z r are expected");
+  return tree_of_lines({{line.points, line.radius, 0, 0}},
+                       {{0, "vessel"}});  // a file's name may be a person's
+}
+
 }  // namespace
 
 VesselTree read_centerlines(const fs::path& path) {
@@ -74,8 +83,10 @@ VesselTree read_centerlines(const fs::path& path) {
   }
   if (extension == ".csv" && is_table_of_lines(path)) return read_centerline_table(path);
   if (extension == ".vtp" || extension == ".vtk") return read_polydata_lines(path);
+  if (extension == ".txt" && is_rotterdam_line(path)) return read_rotterdam_tree(path);
   if (is_graph_file(path)) return tree_of_network(read_graph(path).graph, path);
-  refuse(path, "centerlines end in .vtp, .vtk, .csv or .mrk.json, trees also in .swc or .gxl");
+  refuse(path,
+         "centerlines end in .vtp, .vtk, .csv, .mrk.json or .txt (x y z r), trees also in .swc or .gxl");
 }
 
 std::optional<geometry::BranchedLines> read_branched_lines(const fs::path& path) {

@@ -7,6 +7,7 @@
 #include "ostia/core/text.h"
 
 #include <cmath>
+#include <fstream>
 
 namespace ostia::io {
 namespace {
@@ -132,6 +133,40 @@ RotterdamReference read_rotterdam_reference(const fs::path& path) {
   return reference;
 }
 
+RotterdamReference read_rotterdam_axis(const fs::path& path) {
+  const Table table = table_of(path, 3, 5, "three to five (x y z r io)");
+  if (table.rows.front().size() == 5) return read_rotterdam_reference(path);
+  RotterdamReference line;
+  line.points = points_of(path, table);
+  if (table.rows.front().size() == 3) return line;
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    if (table.rows[i][3] <= 0.0)
+      refuse(path, table.lines[i], "the radius must be positive, is " + std::to_string(table.rows[i][3]));
+    line.radius.push_back(table.rows[i][3]);
+  }
+  return line;
+}
+
+bool is_rotterdam_line(const fs::path& path) {
+  constexpr std::size_t head_bytes = 4096;
+  std::string head(head_bytes, '\0');
+  std::ifstream in(path, std::ios::binary);
+  in.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(in.gcount()));
+  if (head.size() == head_bytes) head.resize(head.rfind('\n') + 1);  // the last row may be cut
+  const std::vector<NumberRow> rows = rows_of(head);
+  if (rows.size() < 2) return false;
+  try {
+    for (const NumberRow& row : rows) {
+      if (row.words.size() < 3 || row.words.size() > 5) return false;
+      for (const std::string_view word : row.words) number_in(word, path, row.line);
+    }
+  } catch (const InvalidInput&) {
+    return false;
+  }
+  return true;
+}
+
 void write_rotterdam_reference(const fs::path& path, const RotterdamReference& reference) {
   if (reference.radius.size() != reference.points.size() ||
       reference.observer_spread.size() != reference.points.size())
@@ -151,7 +186,7 @@ void write_rotterdam_reference(const fs::path& path, const RotterdamReference& r
 }
 
 std::vector<Vec3> read_rotterdam_line(const fs::path& path) {
-  return points_of(path, table_of(path, 3, 4, "three (x y z)"));
+  return points_of(path, table_of(path, 3, 5, "three (x y z)"));
 }
 
 void write_rotterdam_line(const fs::path& path, const std::vector<Vec3>& points) {

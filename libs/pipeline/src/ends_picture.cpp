@@ -54,7 +54,7 @@ figure::Camera near_by(const meshing::EndPlane& end) {
   return camera;
 }
 
-std::string place(const Vec3& p) {
+std::string words_at(const Vec3& p) {
   return core::fixed_text(p.x(), 1) + ", " + core::fixed_text(p.y(), 1) + ", " + core::fixed_text(p.z(), 1);
 }
 
@@ -76,7 +76,7 @@ figure::Picture picture_of_ends(const geometry::TriMesh& lumen, const geometry::
     mark(close, not_cut[i], 0.25 * not_cut[i].radius_mm);
     views.push_back(figure::scene_figure(
         close, near_by(not_cut[i]),
-        view_options(meshing::end_name(not_cut[i]) + " at " + place(not_cut[i].origin)), task));
+        view_options(meshing::end_name(not_cut[i]) + " at " + words_at(not_cut[i].origin)), task));
   }
   return figure::grid(views, {.columns = 2});
 }

@@ -22,6 +22,9 @@ using geometry::Vec3;
 constexpr double means_end_radii = 2.0;
 // A target lies on the branch whose way along the wall passes it within this many of the branch's radii.
 constexpr double on_branch_radii = 2.5;
+// Of a closed tree a short trunk is an end, too, where it is so many radii long, wider than all longer
+// branches and no ball on a neck.
+constexpr double least_stub_radii = 2.0, short_trunk_radii = 3.0, wider_than_branches = 1.1, least_neck = 0.8;
 
 /// Where a vessel may end.
 struct End {
@@ -39,17 +42,23 @@ std::string in_words(const Vec3& p) {
          core::fixed_text(p.z(), 1) + ") mm";
 }
 
-/// Openings that are no holes in the wall, longest border first.
-std::vector<End> open_ends(const TriMesh& part, const std::vector<meshing::GivenEnd>& given) {
-  std::vector<End> ends;
-  const auto loops = geometry::boundary_loops(part);
-  if (loops.empty()) return ends;
+std::vector<Vec3> holes_in_wall(const TriMesh& part, const std::vector<std::vector<std::int32_t>>& loops) {
   const geometry::AabbTree closed(geometry::fill_holes(part).mesh);
   std::vector<Vec3> holes;
   for (const auto& loop : loops)
     if (const meshing::GivenEnd end = meshing::end_at_loop(part, loop); meshing::is_hole_in_wall(closed, end))
       holes.push_back(end.centre);
-  for (const centerline::Opening& opening : centerline::find_openings(part)) {
+  return holes;
+}
+
+/// Openings that are no holes in the wall, longest border first.
+std::vector<End> open_ends(const TriMesh& part, const std::vector<meshing::GivenEnd>& given,
+                           const centerline::KnownSurface* known) {
+  std::vector<End> ends;
+  const auto loops = known != nullptr ? known->loops : geometry::boundary_loops(part);
+  if (loops.empty()) return ends;
+  const std::vector<Vec3> holes = known != nullptr ? std::vector<Vec3>{} : holes_in_wall(part, loops);
+  for (const centerline::Opening& opening : centerline::find_openings(part, loops)) {
     if (std::ranges::any_of(holes, [&](const Vec3& hole) { return (hole - opening.centre).norm() < 1e-9; }))
       continue;
     End end{opening.centre, opening.radius, "", {}, false, false, 0.0};
@@ -77,6 +86,12 @@ std::optional<std::size_t> end_meant_by(const Vec3& point, const std::vector<End
     if (distance(i) <= means_end_radii * ends[i].radius_mm && (!best || distance(i) < distance(*best)))
       best = i;
   return best;
+}
+
+/// Without what belongs to another surface.
+AxesRequest with_what_is_known(AxesRequest request, const TriMesh& lumen) {
+  if (request.known && !centerline::is_of(*request.known, lumen)) request.known.reset();
+  return request;
 }
 
 /// What one part is asked for.
@@ -115,6 +130,7 @@ struct PartEnds {
   std::optional<Vec3> source;
   std::vector<End> targets;
   bool leave_blind = false;  ///< blind branches stay closed: they are only told
+  std::vector<std::string> told;
 };
 
 std::size_t inlet_among(const std::vector<End>& ends) {
@@ -138,10 +154,48 @@ std::vector<End> blind_ends(const TriMesh& part, const PartRequest& asked, const
   return ends;
 }
 
+End end_at(const centerline::SurfaceTip& tip) {
+  return {tip.inside, tip.radius_mm, "", {}, false, true, tip.length_mm};
+}
+
+/// Of a closed part of which nothing else is known: the widest end, where it begins, may be short.
+std::vector<End> ends_of_closed_part(const TriMesh& part, std::vector<std::string>& told,
+                                     const core::TaskContext& task) {
+  centerline::TipOptions options;
+  const double long_radii = options.least_length_radii;
+  options.least_length_radii = least_stub_radii;
+  std::vector<End> ends;
+  std::vector<centerline::SurfaceTip> trunks;
+  double widest = 0.0;
+  for (const centerline::SurfaceTip& tip : centerline::find_tips(part, std::nullopt, options, task)) {
+    if (tip.length_mm < long_radii * tip.radius_mm) {
+      trunks.push_back(tip);
+      continue;
+    }
+    ends.push_back(end_at(tip));
+    widest = std::max(widest, tip.radius_mm);
+  }
+  if (ends.empty()) return ends;
+  for (const centerline::SurfaceTip& tip : trunks) {
+    if (tip.radius_mm < wider_than_branches * widest) continue;
+    const std::string what = core::fixed_text(tip.length_mm, 1) + " mm long and " +
+                             core::fixed_text(2.0 * tip.radius_mm, 1) + " mm wide at " + in_words(tip.inside);
+    if (tip.neck < least_neck || tip.length_mm < short_trunk_radii * tip.radius_mm) {
+      told.push_back("a bulge or stub " + what +
+                     " is not taken as an end, although no branch is as wide: if the " +
+                     "vessels begin there, say so with --source");
+      continue;
+    }
+    told.push_back("a short trunk " + what + " is taken as an end; --source says otherwise");
+    ends.push_back(end_at(tip));
+  }
+  return ends;
+}
+
 PartEnds ends_of_part(const TriMesh& part, const PartRequest& asked, const AxesRequest& request,
                       const core::TaskContext& task) {
   PartEnds out;
-  std::vector<End> found = open_ends(part, request.ends);
+  std::vector<End> found = open_ends(part, request.ends, request.known.get());
   out.source = asked.source;
   if (!out.source && !found.empty()) {
     const std::size_t inlet = inlet_among(found);
@@ -167,7 +221,9 @@ PartEnds ends_of_part(const TriMesh& part, const PartRequest& asked, const AxesR
   out.leave_blind = !out.targets.empty() && (request.side_branches == SideBranches::closed ||
                                              request.side_branches == SideBranches::asked_only);
   if (out.leave_blind) return out;
-  std::vector<End> blind = blind_ends(part, asked, out.source, task);
+  const bool nothing_known = !out.source && out.targets.empty();
+  std::vector<End> blind =
+      nothing_known ? ends_of_closed_part(part, out.told, task) : blind_ends(part, asked, out.source, task);
   if (!out.source && !blind.empty()) {
     const std::size_t inlet = inlet_among(blind);
     out.source = blind[inlet].point;
@@ -229,47 +285,10 @@ void add(const centerline::CenterlineDiagnostics& one, centerline::CenterlineDia
 
 }  // namespace
 
-std::vector<TriMesh> parts_of(const TriMesh& mesh) {
-  const std::vector<std::int32_t> part = geometry::components(mesh);
-  const std::int32_t count = part.empty() ? 0 : *std::ranges::max_element(part) + 1;
-  if (count == 1) return {mesh};
-  std::vector<TriMesh> parts;
-  for (std::int32_t k = 0; k < count; ++k) {
-    std::vector<bool> keep;
-    for (const std::int32_t p : part) keep.push_back(p == k);
-    parts.push_back(geometry::subset(mesh, keep));
-  }
-  return parts;
-}
-
-void append_tree(geometry::VesselTree& tree, geometry::VesselTree other) {
-  const auto after = [](const auto& list) {
-    std::int32_t next = 0;
-    for (const auto& one : list) next = std::max(next, one.id + 1);
-    return next;
-  };
-  const std::int32_t nodes = after(tree.nodes), segments = after(tree.segments),
-                     vessels = after(tree.vessels);
-  for (geometry::TreeNode& node : other.nodes) {
-    node.id += nodes;
-    tree.nodes.push_back(node);
-  }
-  for (geometry::TreeSegment& segment : other.segments) {
-    segment.id += segments;
-    segment.from += nodes;
-    segment.to += nodes;
-    tree.segments.push_back(std::move(segment));
-  }
-  for (geometry::Vessel& vessel : other.vessels) {
-    vessel.id += vessels;
-    for (std::int32_t& id : vessel.segments) id += segments;
-    tree.vessels.push_back(std::move(vessel));
-  }
-}
-
-LumenAxes lumen_axes(const TriMesh& lumen, const AxesRequest& request, const core::TaskContext& task) {
+LumenAxes lumen_axes(const TriMesh& lumen, const AxesRequest& asked_for, const core::TaskContext& task) {
   LumenAxes axes;
-  const std::vector<TriMesh> parts = parts_of(lumen);
+  const AxesRequest request = with_what_is_known(asked_for, lumen);
+  const std::vector<TriMesh> parts = request.known ? std::vector{lumen} : parts_of(lumen);
   const std::vector<PartRequest> asked = shared_out(parts, request);
   const bool chosen = !request.targets.empty();
   std::size_t number = 0, side = 0;
@@ -299,11 +318,15 @@ LumenAxes lumen_axes(const TriMesh& lumen, const AxesRequest& request, const cor
     std::vector<End> closed;
     centerline::CenterlineResult found;
     core::parallel_invoke(
-        [&] { found = centerline::extract_centerlines(parts[i], ends.source, targets, options, part_task); },
+        [&] {
+          found = centerline::extract_centerlines(parts[i], ends.source, targets, options, part_task,
+                                                  request.known.get());
+        },
         [&] {
           if (ends.leave_blind) closed = blind_ends(parts[i], asked[i], ends.source, part_task);
         });
     tell(ends, closed, chosen, axes.told);
+    axes.told.insert(axes.told.end(), ends.told.begin(), ends.told.end());
     for (const std::string& stub : stubs) axes.stubs.push_back(stub_plane(found.tree, stub));
     append_tree(axes.tree, std::move(found.tree));
     axes.lines.insert(axes.lines.end(), found.lines.begin(), found.lines.end());
@@ -329,6 +352,7 @@ std::optional<LumenAxes> with_side_branches(const TriMesh& lumen, const geometry
     request.targets.push_back(geometry::node(known, id).position);
     request.target_names.push_back(name);
   }
+  request = with_what_is_known(std::move(request), lumen);
   const std::vector<TriMesh> parts = parts_of(lumen);
   const std::vector<PartRequest> asked = shared_out(parts, request);
   for (std::size_t i = 0; i < parts.size(); ++i) {

@@ -6,6 +6,7 @@
 #include "ostia/core/text.h"
 #include "ostia/geometry/mesh_topology.h"
 #include "ostia/pipeline/branch_ends.h"
+#include "ostia/pipeline/ends_kept.h"
 #include "ostia/pipeline/lumen_surface.h"
 #include "ostia/pipeline/reached.h"
 
@@ -109,7 +110,14 @@ void require_sound_surface(const TriMesh& surface, const std::string& what, bool
     message += " mm";
   }
   if (open > 0) message += " (its open ends are fine)";
-  throw GeometryError(message + "; `ostia convert --repair` mends what can be mended");
+  const bool mended_before = several_parts;  // what is left then is what repairing could not mend
+  throw GeometryError(
+      message + (mended_before && faults.self_intersections > 0
+                     ? "; it is as far mended as `ostia convert --repair` can. Where a rough wall folds, "
+                       "`ostia convert IN OUT.vtp --smooth 30` of the file as it came smooths the folds "
+                       "away (flat caps get round, so name the ends with --source and --target; a few "
+                       "percent of the volume go)"
+                     : "; `ostia convert --repair` mends what can be mended"));
 }
 
 meshing::ClipOptions clip_of(const Source& source, const ModelOptions& options) {
@@ -153,6 +161,7 @@ LumenWithAxes build_lumen(Source source, const ModelOptions& options, const core
     if (lumen.source) request.sources = {*lumen.source};
     request.targets = lumen.targets;
     request.ends = source.ends;
+    request.known = source.known;
     // Seeds say which vessels an image's lumen has.
     request.side_branches = source.image ? SideBranches::asked_only : options.side_branches;
     request.centerline = options.centerline;
@@ -162,6 +171,11 @@ LumenWithAxes build_lumen(Source source, const ModelOptions& options, const core
   append(model.left_out, unreached_targets);
   append(model.warnings, unreached_targets);
   append(model.warnings, axes.told);
+  if (source.kind == SourceKind::surface && options.side_branches != SideBranches::asked_only) {
+    const std::vector<std::string> lost = ends_without_axis(source, axes.tree);
+    append(model.left_out, lost);
+    append(model.warnings, lost);
+  }
   append(model.warnings, axes.diagnostics.warnings);
   if (source.kind == SourceKind::surface && !source.unit_given)
     check_vessel_size(2.0 * largest_radius(axes.lines), "the surface");

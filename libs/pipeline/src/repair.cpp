@@ -204,11 +204,12 @@ void pull_spikes_in(Repaired& out) {
   note(out, "spikes_pulled_in", pull_in_spikes(out.mesh), "spikes of one point pulled in");
 }
 
-void cut_folds_out(Repaired& out, const RepairOptions& options, const core::TaskContext& task) {
+/// Whether none is left.
+bool cut_folds_out(Repaired& out, const RepairOptions& options, const core::TaskContext& task) {
   for (int round = 0; round < rounds; ++round) {
     task.throw_if_cancelled();
     const auto pairs = geometry::self_intersections(out.mesh);
-    if (pairs.empty()) return;
+    if (pairs.empty()) return true;
     std::set<std::array<double, 3>> rim;
     const TriMesh open =
         without_folds(out.mesh, pairs, 1 + round / 2, rim);  // what comes back is cut out wider
@@ -216,10 +217,12 @@ void cut_folds_out(Repaired& out, const RepairOptions& options, const core::Task
     note(out, "self_intersections_cut_out", pairs.size(), "self-intersections cut out and closed");
     keep_parts(out, options.parts);
   }
+  return false;
 }
 
-void close_holes(Repaired& out, double up_to_mm) {
-  if (!(up_to_mm > 0.0)) return;
+/// Whether there were any.
+bool close_holes(Repaired& out, double up_to_mm) {
+  if (!(up_to_mm > 0.0)) return false;
   const auto loops = geometry::boundary_loops(out.mesh);
   std::vector<bool> small;
   for (const auto& loop : loops) {
@@ -231,9 +234,10 @@ void close_holes(Repaired& out, double up_to_mm) {
     small.push_back(around <= up_to_mm * std::numbers::pi);
   }
   const auto count = static_cast<std::size_t>(std::count(small.begin(), small.end(), true));
-  if (count == 0) return;
+  if (count == 0) return false;
   out.mesh = with_some_closed(out.mesh, small);
   note(out, "holes_filled", count, "holes filled");
+  return true;
 }
 
 }  // namespace
@@ -257,11 +261,13 @@ Repaired repaired(const TriMesh& mesh, const RepairOptions& options, const core:
   take_apart(out);  // dropping flaps can leave borders that touch
   keep_parts(out, options.parts);
   pull_spikes_in(out);
-  cut_folds_out(out, options, task);
-  close_holes(out, options.fill_holes_up_to_mm);
-  geometry::SurfaceFaults faults = geometry::find_faults(out.mesh, true);
+  const bool no_folds = cut_folds_out(out, options, task);
+  const bool closed_some = close_holes(out, options.fill_holes_up_to_mm);
+  // What was just found to have none is not searched once more.
+  geometry::SurfaceFaults faults = geometry::find_faults(out.mesh, closed_some || !no_folds);
   faults.open_edges = 0;
-  out.left = faults.summary();
+  out.left = faults.components == 0 ? "no triangle, all were cut out" : faults.summary();
+  out.meshable = faults.closed_manifold();
   return out;
 }
 

@@ -7,6 +7,7 @@
 #include "ostia/geometry/mesh_topology.h"
 #include "ostia/imaging/archive.h"
 #include "ostia/imaging/image_file.h"
+#include "ostia/io/graph_file.h"
 #include "ostia/io/surface_file.h"
 #include "ostia/pipeline/surface_intake.h"
 
@@ -46,11 +47,13 @@ void load_surface(const fs::path& path, const SourceOptions& options, Source& so
                   const core::TaskContext& task) {
   io::LoadedSurface loaded = io::read_surface(path);
   append_warnings(source.warnings, loaded.warnings);
-  TakenSurface taken =
-      take_surface(std::move(loaded.surface), path.string(), {options.unit_mm, options.strict, true}, task);
+  TakenSurface taken = take_surface(std::move(loaded.surface), path.string(),
+                                    {options.unit_mm, options.strict, true, options.for_axes}, task);
   for (const std::string& line : taken.told) source.warnings.push_back("the surface: " + line);
   source.surface = std::move(taken.lumen);
   source.ends = std::move(taken.ends);
+  source.lost = std::move(taken.lost);
+  source.known = std::move(taken.known);
   source.unit_mm = taken.unit_mm;
   source.unit_given = options.unit_mm.has_value();
 }
@@ -87,13 +90,20 @@ SourceKind classify(const fs::path& path) {
   if (!fs::is_regular_file(path))
     throw InvalidInput("cannot read " + path.string() + ": it is neither a file nor a folder");
   if (io::is_surface_file(path)) return SourceKind::surface;
-  if (is_image_name(path)) return imaging::looks_like_mask(path) ? SourceKind::mask : SourceKind::image;
+  if (is_image_name(path))
+    return imaging::looks_like_mask(path) || imaging::looks_like_probabilities(path) ? SourceKind::mask
+                                                                                     : SourceKind::image;
   if (path.extension() == ".dcm" || has_dicom_mark(path) || imaging::is_zip_archive(path))
     return SourceKind::dicom;
+  if (io::is_graph_file(path))
+    throw InvalidInput(
+        "cannot read " + path.string() +
+        " here: it holds lines of vessels, and an image, a mask or a surface is needed (what has "
+        "--centerline takes lines there)");
   throw InvalidInput(
       "cannot read " + path.string() +
       ": it is no DICOM folder, file or zip, no image (.nrrd .nhdr .mhd .mha .nii .nii.gz) and no surface "
-      "(.stl .ply .obj .vtp)");
+      "(.stl .ply .obj .vtp .vtk)");
 }
 
 Source load(const fs::path& path, const SourceOptions& options, const core::TaskContext& task) {

@@ -15,6 +15,9 @@ using geometry::Vec3;
 
 /// Triangles about a spike have more than so many times the area of their ring: a cone of 37 degrees has.
 constexpr double steepest_area = 3.0;
+/// Where they stab through others so many times are enough: a cone of 48 degrees. A point of a flat cap's rim
+/// whose triangles cross others in the cap's own plane is none.
+constexpr double stabbing_area = 1.5;
 constexpr std::size_t fewest_neighbours = 3;
 /// A spike is one point of many: of a tetrahedron every corner would be one.
 constexpr std::size_t smallest_share = 8;
@@ -65,7 +68,7 @@ class Rings {
     reach /= static_cast<double>(of(point).size());
     const double high = (mesh_.points[point] - centre).norm();
     if (!(high > reach)) return 0.0;
-    if (!stabs && !(area_[point] > steepest_area * base_[point].norm())) return 0.0;
+    if (!(area_[point] > (stabs ? stabbing_area : steepest_area) * base_[point].norm())) return 0.0;
     return high / std::max(reach, 1e-12 * high);
   }
 

@@ -12,7 +12,7 @@ namespace ostia::pipeline {
 bool has_spikes(const geometry::TriMesh& mesh);
 
 /// Moves them to where the surface about them bends as it does next to them. Where a point's triangles
-/// intersect others, standing off is enough. Returns how many were moved. Points on borders stay.
+/// intersect others, half as much area is enough. Returns how many were moved. Points on borders stay.
 std::size_t pull_in_spikes(geometry::TriMesh& mesh);
 
 }  // namespace ostia::pipeline

@@ -1,9 +1,13 @@
 #include "ostia/pipeline/surface_intake.h"
 
+#include "intake_ends.h"
+#include "intake_units.h"
+#include "nested_shells.h"
 #include "specks.h"
 #include "spikes.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/parallel.h"
 #include "ostia/core/parallel_invoke.h"
 #include "ostia/core/text.h"
 #include "ostia/geometry/aabb_tree.h"
@@ -74,7 +78,8 @@ void drop_what_is_nowhere(geometry::FacedSurface& surface, std::vector<std::stri
 
 /// What the first look at a surface tells.
 struct FirstLook {
-  bool sound = false;  ///< nothing to be mended before anything else looks at it; open ends are none
+  bool sound = false;     ///< nothing to be mended before anything else looks at it; open ends are none
+  bool all_used = false;  ///< nor a point that no triangle uses
   geometry::FilledHoles closed;  ///< where it is sound
 };
 
@@ -83,6 +88,7 @@ FirstLook first_look(const TriMesh& mesh) {
   faults.open_edges = 0;
   if (!faults.closed_manifold() || faults.components != 1) return {};
   FirstLook look;
+  look.all_used = faults.unused_points == 0;
   bool whole = false, smooth = false;
   core::parallel_invoke([&] { whole = geometry::self_intersections(mesh).empty(); },
                         [&] {
@@ -105,6 +111,23 @@ double calibre_of(const TriMesh& mesh) {
   }
 }
 
+/// Where the calibre leaves it open, the ends say it.
+void settle_cm_by_ends(const geometry::FacedSurface& surface, TakenSurface& out, const std::string& sizes) {
+  const std::optional<EndWidths> ends = end_widths(surface);
+  if (!ends) return;
+  const std::string thinnest = core::significant_text(ends->thinnest, 2),
+                    widest = core::significant_text(ends->widest, 2);
+  if (speak_for_cm(*ends)) {
+    out.unit_mm = 10.0;
+    out.told.push_back("taken to be in centimetres, since its thinnest end is " + thinnest +
+                       " wide, which no vessel's is in millimetres, and its widest " + widest +
+                       "; --units mm says otherwise");
+  } else if (leave_cm_open(*ends)) {
+    out.told.push_back("taken to be in millimetres: " + sizes + ", ends " + thinnest + " to " + widest +
+                       " mm wide; were it an aorta in centimetres, say --units cm");
+  }
+}
+
 /// `look` is at the surface as it was read.
 void to_mm(geometry::FacedSurface& surface, const FirstLook& look, const IntakeOptions& options,
            TakenSurface& out, const std::string& what) {
@@ -119,10 +142,10 @@ void to_mm(geometry::FacedSurface& surface, const FirstLook& look, const IntakeO
       out.told.push_back("taken to be in " + std::string(out.unit_mm == 10.0 ? "centimetres" : "metres") +
                          ", since its vessels are " + core::significant_text(calibre, 2) +
                          " wide in the mean; --units mm says otherwise");
-    else if (!surface.face_ids.empty() && may_be_cm(calibre, extent))
-      out.told.push_back("taken to be in millimetres: vessels " + core::significant_text(calibre, 2) +
-                         " mm wide in the mean, " + core::significant_text(extent, 2) +
-                         " mm from end to end; were it an aorta in centimetres, say --units cm");
+    else if (may_be_cm(calibre, extent))
+      settle_cm_by_ends(surface, out,
+                        "vessels " + core::significant_text(calibre, 2) + " mm wide in the mean, " +
+                            core::significant_text(extent, 2) + " mm from end to end");
   }
   if (out.unit_mm == 1.0) return;
   for (Vec3& p : surface.mesh.points) p *= out.unit_mm;
@@ -161,16 +184,27 @@ std::vector<TriMesh> mended(const TriMesh& mesh, std::vector<std::string>& told,
   return parts;
 }
 
+/// A part's open ends.
+struct Rims {
+  std::vector<std::vector<std::int32_t>> loops;
+  std::shared_ptr<const geometry::AabbTree> tree;  ///< of the part with its holes filled; null if not needed
+};
+
+Rims rims_of(const TriMesh& part, const geometry::FilledHoles& filled, bool tree_in_any_case = false) {
+  Rims rims{geometry::boundary_loops(part), nullptr};
+  if (tree_in_any_case || !rims.loops.empty())
+    rims.tree = std::make_shared<const geometry::AabbTree>(filled.mesh);
+  return rims;
+}
+
 /// An opening much narrower than the lumen behind it is no end. `filled` is the part with its holes filled.
-void close_holes_in_the_wall(TriMesh& part, const geometry::FilledHoles& filled,
+void close_holes_in_the_wall(TriMesh& part, const geometry::FilledHoles& filled, const Rims& rims,
                              std::vector<std::string>& told) {
-  const auto loops = geometry::boundary_loops(part);
-  if (loops.empty()) return;
-  const geometry::AabbTree tree(filled.mesh);
+  const auto& loops = rims.loops;
   std::vector<bool> close(loops.size(), false);
   for (std::size_t i = 0; i < loops.size(); ++i) {
     const meshing::GivenEnd end = meshing::end_at_loop(part, loops[i]);
-    close[i] = meshing::is_hole_in_wall(tree, end);
+    close[i] = meshing::is_hole_in_wall(*rims.tree, end);
     if (close[i])
       told.push_back("a hole in the wall closed, " + core::fixed_text(2.0 * end.radius_mm, 2) +
                      " mm wide at " + near_place(end.centre));
@@ -180,6 +214,19 @@ void close_holes_in_the_wall(TriMesh& part, const geometry::FilledHoles& filled,
   for (const std::int32_t hole : filled.hole_of_triangle)
     keep.push_back(hole < 0 || close[static_cast<std::size_t>(hole)]);
   part = geometry::subset(filled.mesh, keep);
+}
+
+void close_holes_in_the_wall(TriMesh& part, std::vector<std::string>& told) {
+  const geometry::FilledHoles filled = geometry::fill_holes(part);
+  close_holes_in_the_wall(part, filled, rims_of(part, filled), told);
+}
+
+/// The tetrahedra take as long as all else that centerlines need, and need nothing of it. One thread does
+/// them when they are asked for.
+std::shared_ptr<centerline::DelaunayAhead> tetrahedra_ahead(const TriMesh& mesh,
+                                                            const IntakeOptions& options) {
+  if (!options.for_axes || options.strict || core::max_threads() < 2) return nullptr;
+  return std::make_shared<centerline::DelaunayAhead>(mesh.points);
 }
 
 }  // namespace
@@ -198,30 +245,52 @@ TakenSurface take_surface(geometry::FacedSurface surface, const std::string& wha
   } else {
     drop_what_is_nowhere(surface, out.told);
   }
+  std::shared_ptr<centerline::DelaunayAhead> tetrahedra = tetrahedra_ahead(surface.mesh, options);
   FirstLook look;
   if (!options.strict) look = first_look(surface.mesh);
   to_mm(surface, look, options, out, what);
-  if (!options.strict && out.unit_mm != 1.0) look = first_look(surface.mesh);
+  if (!options.strict && out.unit_mm != 1.0) {
+    tetrahedra = look.sound ? tetrahedra_ahead(surface.mesh, options) : nullptr;
+    look = first_look(surface.mesh);
+  }
+  if (!look.sound) tetrahedra.reset();
   task.throw_if_cancelled();
   geometry::FacedSurface ready = surface;
+  centerline::KnownSurface known;
+  bool as_it_was = false;  // the surface that is known
+  bool labels_may_be_gone = false;
   std::optional<meshing::OpenedCaps> opened;
   const auto open_caps = [&] {
     if (options.open_caps) opened = meshing::without_flat_caps(ready, {}, task.sub(0.8, 1.0));
   };
   if (!options.strict && !look.sound) {
     std::vector<TriMesh> parts = mended(surface.mesh, out.told, task.sub(0.1, 0.7));
+    const std::size_t before = parts.size();
+    for (std::string& line : drop_outer_walls(parts)) out.told.push_back(std::move(line));
+    const bool shells_gone = parts.size() < before;
     if (const Specks gone = drop_specks(parts); gone.count() > 0) out.told.push_back(gone.text());
-    for (TriMesh& part : parts) close_holes_in_the_wall(part, geometry::fill_holes(part), out.told);
+    for (TriMesh& part : parts) close_holes_in_the_wall(part, out.told);
     ready.mesh = joined(parts);
     ready.face_ids = labels_on(ready.mesh, surface);
+    if (!shells_gone) out.lost = rims_gone(surface.mesh, ready.mesh);
+    labels_may_be_gone = !shells_gone;
     if (parts.size() > 1)
       out.told.push_back("it has " + std::to_string(parts.size()) +
                          " separate parts, each taken as a system of vessels of its own");
   } else if (!options.strict) {
     // Holes in the wall are rare: caps are looked for as if there were none, at the same time.
     TriMesh whole = ready.mesh;
-    core::parallel_invoke([&] { close_holes_in_the_wall(whole, look.closed, out.told); }, open_caps);
-    if (whole.triangles.size() != ready.mesh.triangles.size()) {
+    Rims rims;
+    core::parallel_invoke(
+        [&] {
+          rims = rims_of(whole, look.closed, options.for_axes);
+          close_holes_in_the_wall(whole, look.closed, rims, out.told);
+        },
+        open_caps);
+    as_it_was = whole.triangles.size() == ready.mesh.triangles.size();
+    if (as_it_was) {
+      known = {std::move(rims.loops), std::move(look.closed.mesh), std::move(rims.tree), tetrahedra};
+    } else {
       ready.mesh = std::move(whole);
       ready.face_ids = labels_on(ready.mesh, surface);
       opened.reset();
@@ -232,6 +301,16 @@ TakenSurface take_surface(geometry::FacedSurface surface, const std::string& wha
     if (!opened) open_caps();
     out.lumen = std::move(opened->wall);
     out.ends = std::move(opened->ends);
+    if (labels_may_be_gone) {
+      for (const meshing::GivenEnd& label : labels_without_end(surface, out.ends)) {
+        out.told.push_back("the label " + words_of(label) +
+                           ", has no end after mending (cut the file open there)");
+        out.lost.push_back(label);
+      }
+    }
+    for (std::string& line : warnings_of(opened->not_taken)) out.told.push_back(std::move(line));
+    for (const meshing::LabelNotTaken& label : opened->not_taken)
+      if (label.like_an_end) out.lost.push_back(label.end);
     if (!out.ends.empty()) {
       std::string names;
       for (const meshing::GivenEnd& end : out.ends)
@@ -241,6 +320,8 @@ TakenSurface take_surface(geometry::FacedSurface surface, const std::string& wha
   } else {
     out.lumen = std::move(ready.mesh);
   }
+  if (as_it_was && look.all_used && out.ends.empty())
+    out.known = std::make_shared<const centerline::KnownSurface>(std::move(known));
   task.set_progress(1.0);
   return out;
 }

@@ -161,7 +161,8 @@ bool holds_labels(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file, none)) return false;  // whoever reads it says so
   const pipeline::SourceKind kind = pipeline::classify(file);
   return kind == pipeline::SourceKind::mask ||
-         (kind == pipeline::SourceKind::image && imaging::looks_like_labels(file));
+         (kind == pipeline::SourceKind::image &&
+          (imaging::looks_like_labels(file) || imaging::looks_like_probabilities(file)));
 }
 
 MaskModel model_of_mask(const imaging::MaskVolume& labels, const imaging::ImageVolume* image,

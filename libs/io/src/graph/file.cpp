@@ -1,9 +1,11 @@
 #include "graph/formats.h"
 #include "surface_formats.h"
+#include "vtk/xml.h"
 
 #include "ostia/core/error.h"
 #include "ostia/io/graph_file.h"
 #include "ostia/io/markups_file.h"
+#include "ostia/io/rotterdam_file.h"
 
 #include <algorithm>
 #include <bit>
@@ -94,8 +96,10 @@ void warn_if_cut(const PieceReader& reader, LoadedGraph& loaded) {
 bool is_graph_file(const fs::path& path) {
   const std::string extension = upper(path.extension().string());
   if (extension == ".VTP") return has_lines_alone(path);
+  if (extension == ".VTK") return !legacy_has_polygons(path);
   if (extension == ".JSON") return is_markups_file(path);
-  static constexpr std::array<std::string_view, 5> known{".SWC", ".CSV", ".GXL", ".XML", ".VTK"};
+  if (extension == ".TXT") return is_rotterdam_line(path);
+  static constexpr std::array<std::string_view, 4> known{".SWC", ".CSV", ".GXL", ".XML"};
   static constexpr std::array<std::string_view, 3> tables{"vertex.dat", "edges.dat", "radius.dat"};
   return std::find(known.begin(), known.end(), extension) != known.end() ||
          std::find(tables.begin(), tables.end(), path.filename().string()) != tables.end();
@@ -119,10 +123,13 @@ LoadedGraph read_graph(const fs::path& path, const core::TaskContext& task) {
     loaded = read_graph_gxl(path, task);
   else if (extension == ".DAT")
     loaded = read_graph_tables(path, task);
+  else if (extension == ".TXT" && is_rotterdam_line(path))
+    loaded = read_graph_rotterdam(path);
   else if (is_markups_file(path))
     loaded = read_graph_markups(path);
   else
-    refuse(path, "a tree ends in .vtp, .vtk, .swc, .csv, .gxl, .xml, .dat or .mrk.json");
+    refuse(path,
+           "a tree ends in .vtp, .vtk, .swc, .csv, .gxl, .xml, .dat or .mrk.json, a line of numbers in .txt");
   if (loaded.graph.edges.empty()) refuse(path, "it has no segments");
   task.throw_if_cancelled();
   task.set_progress(1.0);

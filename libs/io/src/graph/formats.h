@@ -17,6 +17,7 @@ LoadedGraph read_graph_swc(const std::filesystem::path& path, const core::TaskCo
 LoadedGraph read_graph_csv(const std::filesystem::path& path, const core::TaskContext& task);
 LoadedGraph read_graph_gxl(const std::filesystem::path& path, const core::TaskContext& task);
 LoadedGraph read_graph_markups(const std::filesystem::path& path);
+LoadedGraph read_graph_rotterdam(const std::filesystem::path& path);
 LoadedGraph read_graph_tables(const std::filesystem::path& path, const core::TaskContext& task);
 void write_graph_vtp(const std::filesystem::path& path, const geometry::VesselGraph& graph,
                      const std::vector<SegmentValues>& values);

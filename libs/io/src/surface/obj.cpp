@@ -1,10 +1,14 @@
-// Wavefront OBJ: vertices and faces; everything else is passed over.
+// Wavefront OBJ: vertices, faces and groups; everything else is passed over.
 
 #include "surface_formats.h"
 
 #include "ostia/core/files.h"
+#include "ostia/geometry/polygon.h"
 
+#include <algorithm>
 #include <limits>
+#include <map>
+#include <string>
 
 namespace ostia::io {
 namespace {
@@ -19,6 +23,33 @@ std::int32_t point_index(std::string_view word, std::size_t points, const std::f
   return static_cast<std::int32_t>(index);
 }
 
+/// Groups (`g NAME`) as faces, numbered in the order of their first triangles; the wall keeps number 1.
+class ObjGroups {
+ public:
+  void begin(std::string_view name) { now_ = std::string(name.substr(0, name.find_last_not_of(" \t") + 1)); }
+  void add_triangle(std::vector<std::int32_t>& ids) {
+    const auto [found, fresh] = numbers_.try_emplace(now_, static_cast<std::int32_t>(numbers_.size()) + 1);
+    if (fresh) names_.push_back(now_);
+    ids.push_back(found->second);
+  }
+  /// One group says nothing.
+  void finish(geometry::FacedSurface& surface) const {
+    if (names_.size() < 2) {
+      surface.face_ids.clear();
+      return;
+    }
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      const auto id = static_cast<std::int32_t>(i) + 1;
+      surface.faces.push_back(names_[i].empty() ? face_without_name(id) : face_named(id, names_[i]));
+    }
+  }
+
+ private:
+  std::string now_;
+  std::map<std::string, std::int32_t> numbers_;
+  std::vector<std::string> names_;
+};
+
 }  // namespace
 
 LoadedSurface read_obj(const std::filesystem::path& path) {
@@ -26,6 +57,7 @@ LoadedSurface read_obj(const std::filesystem::path& path) {
   LoadedSurface loaded;
   geometry::TriMesh& mesh = loaded.surface.mesh;
   std::size_t polygons = 0;
+  ObjGroups groups;
   Words lines(content);
   while (!lines.empty()) {
     Words words(lines.line());
@@ -48,10 +80,16 @@ LoadedSurface read_obj(const std::filesystem::path& path) {
       }
       if (corners.size() < 3) refuse(path, "a face has fewer than three corners");
       polygons += corners.size() > 3;
-      for (std::size_t i = 2; i < corners.size(); ++i)
-        mesh.triangles.push_back({corners[0], corners[i - 1], corners[i]});
+      for (const geometry::Triangle& t : geometry::triangles_of_polygon(mesh.points, corners)) {
+        mesh.triangles.push_back(t);
+        groups.add_triangle(loaded.surface.face_ids);
+      }
+    } else if (key == "g") {
+      const std::string_view name = words.rest();
+      groups.begin(name.substr(std::min(name.find_first_not_of(" \t"), name.size())));
     }
   }
+  groups.finish(loaded.surface);
   if (polygons > 0)
     loaded.warnings.push_back(std::to_string(polygons) + " polygons were split into triangles");
   return loaded;

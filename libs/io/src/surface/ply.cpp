@@ -3,6 +3,7 @@
 #include "surface_formats.h"
 
 #include "ostia/core/files.h"
+#include "ostia/geometry/polygon.h"
 
 #include <algorithm>
 #include <cstring>
@@ -219,8 +220,8 @@ std::size_t read_faces(const Element& element, Body& body, geometry::TriMesh& me
       if (!corners_here) continue;
       if (corners.size() < 3) refuse(path, "face " + std::to_string(f) + " has fewer than three corners");
       polygons += corners.size() > 3;
-      for (std::size_t i = 2; i < corners.size(); ++i)
-        mesh.triangles.push_back({corners[0], corners[i - 1], corners[i]});
+      for (const geometry::Triangle& t : geometry::triangles_of_polygon(mesh.points, corners))
+        mesh.triangles.push_back(t);
     }
   }
   return polygons;

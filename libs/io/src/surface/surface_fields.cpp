@@ -13,13 +13,10 @@
 namespace ostia::io {
 namespace {
 
-/// Of each triangle that read_vtp makes, VTK's cell. Cell data run over vertices, lines and polygons.
-std::vector<std::size_t> cells_of_triangles(vtkPolyData& data) {
-  const auto first = static_cast<std::size_t>(data.GetNumberOfVerts() + data.GetNumberOfLines());
+/// Of each triangle that read_vtp makes, VTK's cell.
+std::vector<std::size_t> cells_of_triangles(vtkPolyData& data, const std::filesystem::path& path) {
   std::vector<std::size_t> cells;
-  for (vtkIdType p = 0; p < data.GetPolys()->GetNumberOfCells(); ++p)
-    for (vtkIdType corner = 2; corner < data.GetPolys()->GetCellSize(p); ++corner)
-      cells.push_back(first + static_cast<std::size_t>(p));
+  for (const vtkIdType cell : triangles_of(data, path).cells) cells.push_back(static_cast<std::size_t>(cell));
   return cells;
 }
 
@@ -31,7 +28,7 @@ SurfaceWithFields read_surface_with_fields(const std::filesystem::path& path) {
   SurfaceWithFields read;
   read.mesh = read_vtp(path).surface.mesh;
   const vtkSmartPointer<vtkPolyData> data = read_polydata(path);
-  const std::vector<std::size_t> cells = cells_of_triangles(*data);
+  const std::vector<std::size_t> cells = cells_of_triangles(*data, path);
   read.points =
       fields_of(*data->GetPointData(), read.mesh.points.size(), [](std::size_t point) { return point; });
   read.triangles =

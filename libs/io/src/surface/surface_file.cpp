@@ -1,6 +1,7 @@
 #include "ostia/io/surface_file.h"
 
 #include "surface_formats.h"
+#include "vtk/xml.h"
 
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
@@ -60,7 +61,9 @@ geometry::Face face_without_name(std::int32_t id) {
 
 bool is_surface_file(const fs::path& path) {
   static constexpr std::array<std::string_view, 4> known{".stl", ".ply", ".obj", ".vtp"};
-  return std::find(known.begin(), known.end(), lower_extension(path)) != known.end();
+  const std::string extension = lower_extension(path);
+  return std::find(known.begin(), known.end(), extension) != known.end() ||
+         (extension == ".vtk" && legacy_has_polygons(path));
 }
 
 LoadedSurface read_surface(const fs::path& path) {
@@ -75,10 +78,10 @@ LoadedSurface read_surface(const fs::path& path) {
     loaded = read_ply(path);
   else if (extension == ".obj")
     loaded = read_obj(path);
-  else if (extension == ".vtp")
+  else if (extension == ".vtp" || extension == ".vtk")
     loaded = read_vtp(path);
   else
-    refuse(path, "a surface ends in .stl, .ply, .obj or .vtp");
+    refuse(path, "a surface ends in .stl, .ply, .obj, .vtp or .vtk");
   if (loaded.surface.mesh.triangles.empty())
     throw EmptySurface("cannot read " + path.string() + ": it has no triangles");
   check_indices(loaded, path);

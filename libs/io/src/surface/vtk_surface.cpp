@@ -1,4 +1,4 @@
-// Surfaces as VTP.
+// Surfaces as VTP, and legacy polydata.
 
 #include "surface_formats.h"
 #include "vtk/fields.h"
@@ -8,7 +8,6 @@
 #include "ostia/io/surface_fields.h"
 
 #include <vtkCellArray.h>
-#include <vtkCellArrayIterator.h>
 #include <vtkCellData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -48,31 +47,16 @@ LoadedSurface read_vtp(const std::filesystem::path& path) {
   const vtkSmartPointer<vtkPolyData> data = read_polydata(path);
   LoadedSurface loaded;
   loaded.surface.mesh.points = from_vtk(data->GetPoints());
-  if (data->GetNumberOfStrips() > 0) refuse(path, "it has triangle strips; write it with plain triangles");
-  // Cell data run over vertices, lines and polygons in this order.
-  const vtkIdType first = data->GetNumberOfVerts() + data->GetNumberOfLines();
   vtkDataArray* ids = face_labels(*data->GetCellData());
-  std::size_t polygons = 0;
-  const auto cells = vtk::TakeSmartPointer(data->GetPolys()->NewIterator());
-  for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell()) {
-    vtkIdType count = 0;
-    const vtkIdType* corners = nullptr;
-    cells->GetCurrentCell(count, corners);
-    if (count < 3)
-      refuse(path, "polygon " + std::to_string(cells->GetCurrentCellId()) + " has fewer than three corners");
-    polygons += count > 3;
-    for (vtkIdType i = 2; i < count; ++i) {
-      loaded.surface.mesh.triangles.push_back({static_cast<std::int32_t>(corners[0]),
-                                               static_cast<std::int32_t>(corners[i - 1]),
-                                               static_cast<std::int32_t>(corners[i])});
-      if (ids)
-        loaded.surface.face_ids.push_back(
-            static_cast<std::int32_t>(ids->GetTuple1(first + cells->GetCurrentCellId())));
-    }
-  }
-  if (polygons > 0)
-    loaded.warnings.push_back(std::to_string(polygons) + " polygons were split into triangles");
-  if (ids) loaded.surface.faces = faces_of(*data, loaded.surface.face_ids);
+  if (ids && ids->GetNumberOfTuples() < data->GetNumberOfCells()) ids = nullptr;
+  PolydataTriangles found = triangles_of(*data, path);
+  if (ids)
+    for (const vtkIdType cell : found.cells)
+      loaded.surface.face_ids.push_back(static_cast<std::int32_t>(ids->GetTuple1(cell)));
+  loaded.surface.mesh.triangles = std::move(found.triangles);
+  if (found.polygons > 0)
+    loaded.warnings.push_back(std::to_string(found.polygons) + " polygons were split into triangles");
+  if (ids) loaded.surface.faces = faces_of(*data, loaded.surface.face_ids, &loaded.warnings);
   return loaded;
 }
 

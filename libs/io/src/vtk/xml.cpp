@@ -124,6 +124,27 @@ void add_text(vtkDataObject& data, const char* name, const char* value) {
   data.GetFieldData()->AddArray(array);
 }
 
+/// Names without numbers: those of the labels in their order, or of labels 1, 2, ... Empty where neither
+/// fits.
+std::vector<geometry::Face> faces_by_order(vtkStringArray& names, const std::set<std::int32_t>& labels,
+                                           std::vector<std::string>* warnings) {
+  const vtkIdType count = names.GetNumberOfValues();
+  std::vector<geometry::Face> faces;
+  if (labels.empty()) return faces;
+  if (count == static_cast<vtkIdType>(labels.size())) {
+    vtkIdType i = 0;
+    for (const std::int32_t label : labels) faces.push_back(face_named(label, names.GetValue(i++)));
+  } else if (*labels.begin() >= 1 && *labels.rbegin() <= count) {
+    for (const std::int32_t label : labels) faces.push_back(face_named(label, names.GetValue(label - 1)));
+  } else if (warnings) {
+    warnings->push_back("its FaceNames are left out: " + std::to_string(count) + " names for " +
+                        std::to_string(labels.size()) + " labels (" + std::to_string(*labels.begin()) +
+                        " to " + std::to_string(*labels.rbegin()) +
+                        "); an array FaceIds says which is whose");
+  }
+  return faces;
+}
+
 template <class Writer, class Data>
 std::string text_of(Data& data) {
   add_text(data, "Axes", "LPS");
@@ -229,11 +250,16 @@ void add_faces(vtkDataObject& data, const std::vector<geometry::Face>& faces) {
   data.GetFieldData()->AddArray(names);
 }
 
-std::vector<geometry::Face> faces_of(vtkDataObject& data, const std::vector<std::int32_t>& ids) {
-  std::vector<geometry::Face> faces;
+std::vector<geometry::Face> faces_of(vtkDataObject& data, const std::vector<std::int32_t>& ids,
+                                     std::vector<std::string>* warnings) {
   std::set<std::int32_t> missing(ids.begin(), ids.end());
   auto* numbers = vtkIntArray::SafeDownCast(data.GetFieldData()->GetAbstractArray("FaceIds"));
   auto* names = vtkStringArray::SafeDownCast(data.GetFieldData()->GetAbstractArray("FaceNames"));
+  if (names && !numbers) {
+    std::vector<geometry::Face> ordered = faces_by_order(*names, missing, warnings);
+    if (!ordered.empty()) return ordered;
+  }
+  std::vector<geometry::Face> faces;
   for (vtkIdType i = 0;
        numbers && names && i < std::min(numbers->GetNumberOfTuples(), names->GetNumberOfTuples()); ++i) {
     faces.push_back(face_named(numbers->GetValue(i), names->GetValue(i)));

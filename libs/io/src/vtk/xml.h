@@ -30,7 +30,23 @@ void add_array(vtkDataSetAttributes& attributes, const char* name, const std::ve
 void add_array(vtkDataSetAttributes& attributes, const char* name, const std::vector<double>& values);
 void add_array(vtkDataSetAttributes& attributes, const char* name, const std::vector<geometry::Vec3>& values);
 void add_faces(vtkDataObject& data, const std::vector<geometry::Face>& faces);
-/// Faces of field data; those of `ids` that are not named there get "wall" (1) or "face_<id>".
-std::vector<geometry::Face> faces_of(vtkDataObject& data, const std::vector<std::int32_t>& ids);
+/// Faces of field data; those of `ids` that are not named there get "wall" (1) or "face_<id>". Names in an
+/// array FaceNames without FaceIds beside it belong to the labels in their order, or to labels 1, 2, ...;
+/// where neither fits, `warnings` gets why.
+std::vector<geometry::Face> faces_of(vtkDataObject& data, const std::vector<std::int32_t>& ids,
+                                     std::vector<std::string>* warnings = nullptr);
+
+/// Polygons as fans and strips as their triangles, with VTK's cell of each.
+struct PolydataTriangles {
+  std::vector<geometry::Triangle> triangles;
+  std::vector<vtkIdType> cells;  ///< as cell data count them: vertices, lines, polygons, strips
+  std::size_t polygons = 0;      ///< of more than three corners
+};
+/// `data` is checked already (read_polydata). Throws InvalidInput for a polygon or strip of fewer than three
+/// corners.
+PolydataTriangles triangles_of(vtkPolyData& data, const std::filesystem::path& path);
+
+/// Whether a legacy VTK file holds polygons or triangle strips; false where there is no file. Throws IoError.
+bool legacy_has_polygons(const std::filesystem::path& path);
 
 }  // namespace ostia::io

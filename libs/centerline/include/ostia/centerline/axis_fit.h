@@ -7,6 +7,7 @@
 #include "ostia/geometry/tri_mesh.h"
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace ostia::centerline {
@@ -36,8 +37,9 @@ Axis led_out_of(const std::vector<geometry::Vec3>& parent, const Axis& branch, d
 /// The wall of a vessel as the fit sees it. Built once, safe from many threads.
 class Wall {
  public:
-  /// `wall` is outward and without caps. Throws InvalidInput when it is empty.
-  explicit Wall(const geometry::TriMesh& wall);
+  /// `wall` is outward and without caps; `tree` is of its triangles, where one is there already. Throws
+  /// InvalidInput when it is empty.
+  explicit Wall(const geometry::TriMesh& wall, std::shared_ptr<const geometry::AabbTree> tree = nullptr);
 
   /// Distance to the wall, caps left out, in mm. The chord error of the flat triangles is taken out by the
   /// vertices' normals: the foot moves by half of the weighted mean of its projections on the corners'
@@ -60,7 +62,7 @@ class Wall {
   std::vector<geometry::Vec3> normals_;
   std::vector<double> spacing_;
   std::vector<geometry::Triangle> triangles_;  // the tree's, into points()
-  geometry::AabbTree tree_;
+  std::shared_ptr<const geometry::AabbTree> tree_;
   geometry::KdTree cloud_;
 };
 

@@ -6,6 +6,8 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <vector>
 
 namespace ostia::centerline {
@@ -23,5 +25,23 @@ struct Delaunay {
 /// InvalidInput for a point that is not finite, GeometryError for fewer than four points or points that all
 /// lie in a plane.
 Delaunay delaunay(const std::vector<geometry::Vec3>& points, const core::TaskContext& task = core::no_task());
+
+/// The same, begun in a thread of its own before anyone asks; given up when the handle goes.
+class DelaunayAhead {
+ public:
+  explicit DelaunayAhead(std::vector<geometry::Vec3> points);
+  ~DelaunayAhead();
+  DelaunayAhead(const DelaunayAhead&) = delete;
+  DelaunayAhead& operator=(const DelaunayAhead&) = delete;
+
+  /// Waits for it, once, where it is of these very points; nothing where it is of others, or was taken
+  /// before. Throws what `delaunay` throws.
+  std::optional<Delaunay> take(const std::vector<geometry::Vec3>& points,
+                               const core::TaskContext& task = core::no_task());
+
+ private:
+  struct Work;
+  std::unique_ptr<Work> work_;
+};
 
 }  // namespace ostia::centerline

@@ -19,6 +19,9 @@ struct Opening {
 
 /// The openings of a surface, longest border first. Throws GeometryError for a border that is not manifold.
 std::vector<Opening> find_openings(const geometry::TriMesh& lumen);
+/// The same where geometry::boundary_loops are known.
+std::vector<Opening> find_openings(const geometry::TriMesh& lumen,
+                                   const std::vector<std::vector<std::int32_t>>& loops);
 
 /// The inscribed sphere that holds a point deepest.
 struct Snapped {

@@ -72,7 +72,8 @@ struct CenterlineResult {
 /// `lumen` may be closed or open, with needles, duplicate points and small holes; holes are capped inside the
 /// function, so that its inside is defined. Without `targets` every open end but the source's is a target;
 /// without `source` the open end with the longest border is the source. A hole in the wall (its centre is far
-/// off the axis) is no end and is reported as a warning. A given point belongs to an open end when it is
+/// off the axis) is no end and is reported as a warning. `known`, where it is of this surface, spares finding
+/// again what it holds. A given point belongs to an open end when it is
 /// close to its centre, and the line then reaches that hole's barycentre; any other point is moved to the
 /// centre of the inscribed sphere that holds it deepest.
 ///
@@ -81,6 +82,7 @@ struct CenterlineResult {
 /// surface, a target that cannot be reached; named by index and coordinates), Cancelled.
 CenterlineResult extract_centerlines(const TriMesh& lumen, std::optional<Vec3> source,
                                      const std::vector<Vec3>& targets, const CenterlineOptions& options = {},
-                                     const core::TaskContext& task = core::no_task());
+                                     const core::TaskContext& task = core::no_task(),
+                                     const KnownSurface* known = nullptr);
 
 }  // namespace ostia::centerline

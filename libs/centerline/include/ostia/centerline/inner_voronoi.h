@@ -2,6 +2,7 @@
 /// \file The part of a surface's Voronoi diagram that lies inside it ([Antiga] section 4: the embedded
 /// Voronoi diagram).
 
+#include "ostia/centerline/known_surface.h"
 #include "ostia/core/task_context.h"
 #include "ostia/geometry/tri_mesh.h"
 
@@ -37,10 +38,11 @@ struct InnerVoronoi {
 ///
 /// A cell is inside when its circumcentre is: where all four corners' normals agree clearly their vote
 /// decides, elsewhere the generalised winding number of the circumcentre. A cell so flat that its
-/// circumcentre is lost to round-off takes its neighbour's, which lies on the same axis. Throws GeometryError
-/// when nothing is inside, and what `delaunay` throws.
+/// circumcentre is lost to round-off takes its neighbour's, which lies on the same axis. `known` may bring
+/// the tree and the tetrahedra. Throws GeometryError when nothing is inside, and what `delaunay` throws.
 InnerVoronoi inner_voronoi(const geometry::TriMesh& capped, const std::vector<bool>& on_border = {},
                            const std::vector<bool>& skip = {},
-                           const core::TaskContext& task = core::no_task());
+                           const core::TaskContext& task = core::no_task(),
+                           const KnownSurface* known = nullptr);
 
 }  // namespace ostia::centerline

@@ -3,6 +3,7 @@
 /// and capped.
 
 #include "ostia/centerline/end_points.h"
+#include "ostia/centerline/known_surface.h"
 #include "ostia/geometry/tri_mesh.h"
 
 #include <string>
@@ -29,7 +30,7 @@ geometry::TriMesh with_edges_cut(const geometry::TriMesh& wall, double longest_m
 /// Flaps on non-manifold edges and the triangles around vertices where borders touch are left out, so that
 /// borders are simple loops; a warning counts them. Throws InvalidInput for a point that is not finite,
 /// GeometryError when no triangles are left or the borders cannot be made simple.
-LumenSurface prepare_lumen(const geometry::TriMesh& lumen);
+LumenSurface prepare_lumen(const geometry::TriMesh& lumen, const KnownSurface* known = nullptr);
 
 /// The wall of it alone, for who needs no diagram: without the sampling, which has millions of points where a
 /// part is next to flat.

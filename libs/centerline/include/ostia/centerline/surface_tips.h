@@ -24,6 +24,9 @@ struct SurfaceTip {
   double radius_mm = 0.0;  ///< of the branch near its end: area of a geodesic disc over its circumference
   double length_mm = 0.0;  ///< along the surface, from the tip to where the branch joins what is longer;
                            ///< of the farthest tip the distance from where the search began
+  /// Wall in the last third of that length over wall in the middle one: 1 for a tube, more where a branch
+  /// joins, 0.5 for a ball, which narrows towards its neck.
+  double neck = 1.0;
   std::vector<geometry::Vec3> way;  ///< along the surface, from the tip to where the search began
 };
 

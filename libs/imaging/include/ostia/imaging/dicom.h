@@ -24,6 +24,8 @@ struct DicomSeries {
   std::string modality, description;  ///< for the terminal and the window alone: never saved
   std::string transfer_syntax;
   std::string phase;  ///< "cardiac phase 40 %" where a series had to be split by it
+  /// Another number for another patient, not saying whom; 0: not known. Good within one process.
+  std::uint64_t patient_number = 0;
   std::optional<double>
       cardiac_percent;  ///< NominalPercentageOfCardiacPhase, where all slices have one value
   std::vector<std::filesystem::path> files;  ///< one a slice, by position along the normal
@@ -40,13 +42,17 @@ struct DicomSeries {
 };
 
 /// All series below a folder (or the one that a file belongs to), largest first. Files that are not DICOM
-/// images are counted in `skipped`. Only headers are read, by our own bounded parser.
+/// images are counted in `skipped`. Only headers are read, by our own bounded parser. Files of two patients,
+/// or of two studies, are never one series, even where they share its UID.
 struct DicomFolder {
   std::vector<DicomSeries> series;
   std::size_t skipped = 0;
   std::vector<std::string>
       damaged;  ///< files that are DICOM but broken, and of no series found: what is wrong with each
 };
+/// How many patients the series are of, as far as they say; those that do not say are none.
+std::size_t patients_in(const std::vector<DicomSeries>& series);
+
 /// A zip archive (by its first bytes) is unpacked safely first (imaging/archive.h). Throws IoError where
 /// nothing can be read, InvalidInput for a single file that is no DICOM image or is damaged, and what
 /// unpack_archive throws.

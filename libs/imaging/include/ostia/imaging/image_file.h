@@ -21,6 +21,8 @@ struct ImageHeader {
   PixelType pixel_type = PixelType::int16;
   double slope = 1.0, intercept = 0.0;
   std::vector<std::string> warnings;  ///< "left-handed axes: k reversed", "sheared axes: will be resampled"
+  /// Of read_labels, where the file has labels above 255: the file's number of each value. Empty: the same.
+  std::vector<std::int64_t> file_labels;
 };
 
 /// Reads and checks a header alone. Throws InvalidInput ("FILE: FIELD: what is wrong") or IoError.
@@ -42,25 +44,33 @@ struct LoadedImage {
 /// HU). Sheared axes: trilinear, the image's lowest value where there was no voxel.
 LoadedImage<std::int16_t> read_image(const std::filesystem::path& path,
                                      const core::TaskContext& task = core::no_task());
-/// A mask: nonzero becomes 1. Throws InvalidInput for an image with more than 16 different values. Sheared
-/// axes: nearest.
+/// A mask: nonzero becomes 1; of probabilities (looks_like_probabilities) 1/2 and more does, and a warning
+/// says so. Throws InvalidInput for another image with more than 16 different values. Sheared axes: nearest.
 LoadedImage<std::uint8_t> read_mask(const std::filesystem::path& path,
                                     const core::TaskContext& task = core::no_task());
 /// Labels with their values, 0 to 255: what is below 1/2 is 0, else the nearest whole number, so that
-/// probabilities are cut at one half. Throws InvalidInput for larger values. Sheared axes: nearest.
+/// probabilities are cut at one half (a warning says so). Labels above 255 are counted up in their order
+/// where there are at most 128 values in all (ImageHeader::file_labels, and a warning); of a file of 0 and
+/// one value that would become 0, too, the other value is 1. Throws InvalidInput for more. Sheared axes:
+/// nearest.
 LoadedImage<std::uint8_t> read_labels(const std::filesystem::path& path,
                                       const core::TaskContext& task = core::no_task());
 /// True values as float (level sets, distance maps); a value that is not finite is refused. Sheared axes:
 /// trilinear, the border's value where there was no voxel.
 LoadedImage<float> read_float_image(const std::filesystem::path& path,
                                     const core::TaskContext& task = core::no_task());
-/// True when the file's values are whole numbers, at most 16 different ones, 0 among them: a mask rather than
-/// a CT. Reads no further than the 17th value, so that damage behind it goes unseen here.
+/// True when the file's values are whole numbers (but for the rounding of a slope), at most 16 different
+/// ones, 0 among them, or 0 and one value of any size: a mask rather than a CT. Reads no further than the
+/// 17th value, so that damage behind it goes unseen here.
 bool looks_like_mask(const std::filesystem::path& path);
 
 /// True when the file's values are whole numbers from 0 to 255, at most 128 different ones; 0 need not be
 /// among them. Reads as looks_like_mask does.
 bool looks_like_labels(const std::filesystem::path& path);
+
+/// True when the file's values lie in [0, 1], not all of them whole, some above 1/2 and most of them next to
+/// 0: what a network gives for a mask. Reads no further than the first value elsewhere.
+bool looks_like_probabilities(const std::filesystem::path& path);
 
 /// By extension: .nrrd (gzip), .mhd (its voxels in NAME.raw beside it, or NAME-2.raw, ... where an older file
 /// has that name), .mha, .nii and .nii.gz (NIfTI-1, right-anterior-superior axes in its header; places in

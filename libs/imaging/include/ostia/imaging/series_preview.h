@@ -12,13 +12,23 @@
 
 namespace ostia::imaging {
 
-/// For the window alone: never saved, logged or put into a message.
+/// Whose image it is, for what a window shows, keeps on its own machine, and writes where a person asks for
+/// it each time: never in a case, a log or a message. UTF-8; what is not known is empty.
 struct ShownIdentity {
-  std::string patient_name;        ///< "Doe, Jane"; UTF-8
-  std::string study_date;          ///< "2024-03-01"
-  std::string series_description;  ///< UTF-8
+  std::string patient_name{};        ///< "Doe, Jane"
+  std::string patient_id{};          ///< (0010,0020)
+  std::string study_date{};          ///< "2024-03-01"
+  std::string series_description{};  ///< (0008,103E)
   std::int64_t slices = 0;
+
+  /// It says of nobody: neither a name nor an identifier.
+  bool anonymous() const { return patient_name.empty() && patient_id.empty(); }
+  bool operator==(const ShownIdentity&) const = default;
 };
+
+/// From the header of the series' middle slice, without decoding a picture. Empty where there is none or it
+/// says nothing. Throws IoError.
+ShownIdentity shown_identity(const DicomSeries& series);
 
 /// Grey values from black to white.
 struct GreyWindow {

@@ -32,7 +32,14 @@ std::size_t count_repeated(const std::vector<Vec3>& points);
 /// The same without those, for what needs a direction at each point.
 RotterdamReference without_repeated(const RotterdamReference& line);
 
-/// `result.txt`: x y z (further columns are refused unless they are radii: one more is allowed and ignored).
+/// A line with radii where its columns say so: three (x y z), four (x y z r) or five (x y z r io). Throws as
+/// read_rotterdam_reference does.
+RotterdamReference read_rotterdam_axis(const std::filesystem::path& path);
+/// True for a text that begins with rows of three to five numbers with blanks between them, two at least.
+bool is_rotterdam_line(const std::filesystem::path& path);
+
+/// `result.txt`: x y z; a radius and the observers' spread may follow, as references have them, and are
+/// ignored.
 std::vector<Vec3> read_rotterdam_line(const std::filesystem::path& path);
 void write_rotterdam_line(const std::filesystem::path& path, const std::vector<Vec3>& points);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// \file Surfaces: STL, PLY, OBJ and VTP in; STL, PLY and VTP out. World LPS, mm.
+/// \file Surfaces: STL, PLY, OBJ, VTP and legacy VTK in; STL, PLY and VTP out. World LPS, mm.
 
 #include "ostia/core/error.h"
 #include "ostia/geometry/tri_mesh.h"
@@ -22,7 +22,8 @@ class EmptySurface : public InvalidInput {
   using InvalidInput::InvalidInput;
 };
 
-/// True for an extension that `read_surface` knows.
+/// True for an extension that `read_surface` knows; of .vtk, for a file that holds polygons or strips (one of
+/// lines is a tree: is_graph_file).
 bool is_surface_file(const std::filesystem::path& path);
 
 /// Reads by extension and content. Points of an STL that are equal bit for bit are one point. Checked before

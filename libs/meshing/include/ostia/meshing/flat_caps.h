@@ -29,16 +29,24 @@ struct GivenEnd {
   double radius_mm = 0.0;                           ///< of a circle as large as the cap
 };
 
+/// A label that is neither the wall's nor that of a cap that was taken off.
+struct LabelNotTaken {
+  GivenEnd end;              ///< its middle and width; called as the label is
+  bool like_an_end = false;  ///< it stands off the wall as an end does; else it may be a patch of the wall
+};
+
 struct OpenedCaps {
   geometry::TriMesh wall;      ///< the surface without its caps
   std::vector<GivenEnd> ends;  ///< one a cap that was taken off, in the order of their lowest triangles
+  std::vector<LabelNotTaken> not_taken;  ///< labels within one rim that no end came of
 };
 
 /// Takes flat caps off a closed part of a surface. Caps are known by labels (`face_ids`, whatever their
-/// numbers: a label whose triangles lie in one plane within one rim), or, where the surface has no labels or
-/// none of them is flat, by shape: a flat region with one sharp rim, about round, about as wide as the lumen
-/// behind it. The surface must be manifold and outward; parts that have no caps stay as they are. Throws
-/// InvalidInput (options; as many face ids as triangles, or none), Cancelled.
+/// numbers: a label within one rim whose triangles lie in one plane, or are domed or shaken by less than 0.6
+/// of its radius where the lumen behind is as wide), or, where the surface has no labels or none of them is
+/// flat, by shape: a flat region with one sharp rim, about round, about as wide as the lumen behind it. The
+/// surface must be manifold and outward; parts that have no caps stay as they are. Throws InvalidInput
+/// (options; as many face ids as triangles, or none), Cancelled.
 OpenedCaps without_flat_caps(const geometry::FacedSurface& surface, const FlatCapOptions& options = {},
                              const core::TaskContext& task = core::no_task());
 

@@ -8,6 +8,7 @@
 #include "ostia/meshing/clip.h"
 #include "ostia/meshing/flat_caps.h"
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,6 +30,7 @@ struct AxesRequest {
   std::vector<std::string>
       target_names;  ///< of the vessels that end there; empty: as extract_centerlines has them
   std::vector<meshing::GivenEnd> ends;  ///< of caps that were taken off: names, and which is the inlet
+  std::shared_ptr<const centerline::KnownSurface> known;  ///< of the surface (TakenSurface::known), or null
   SideBranches side_branches = SideBranches::closed;
   centerline::CenterlineOptions centerline;
 };
@@ -43,7 +45,8 @@ struct LumenAxes {
 };
 
 /// Each connected part is a system of vessels with one inlet: the source where it lies there, else the end
-/// that is called an inlet, else the widest open end, else the widest blind one (centerline::find_tips). Its
+/// that is called an inlet, else the widest open end, else the widest blind one (centerline::find_tips; a
+/// trunk of three radii is one where no longer branch is as wide). Its
 /// targets are those that were asked for and all other open ends; blind ends of branches that no target lies
 /// on, too, where side_branches says so or there is nothing else to go to. Names: those of caps; `side_<n>`
 /// where targets were given and this is none of them; else as extract_centerlines has them. Throws what

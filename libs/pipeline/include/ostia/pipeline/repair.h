@@ -36,6 +36,7 @@ struct Repaired {
   std::vector<RepairStep> steps;  ///< in the order of work; empty when nothing was wrong
   std::vector<std::string> done;  ///< the steps' texts
   std::string left;               ///< faults that remain, "none" when there are none; open ends are no fault
+  bool meshable = true;           ///< none of those that remain keeps it from being meshed
 };
 
 /// Drops triangles with points that are not finite, degenerate and duplicate ones; joins equal points; takes

@@ -1,6 +1,7 @@
 #pragma once
 /// \file What a job starts from: a DICOM folder or a zip of one, an image, a mask or a surface.
 
+#include "ostia/centerline/known_surface.h"
 #include "ostia/core/task_context.h"
 #include "ostia/geometry/tri_mesh.h"
 #include "ostia/imaging/dicom.h"
@@ -27,7 +28,8 @@ struct SourceOptions {
   imaging::DicomReadOptions dicom;
   /// mm in the file's unit of length; nothing: told by the vessels' calibre (unit_by_calibre).
   std::optional<double> unit_mm;
-  bool strict = false;  ///< a surface with faults is refused instead of mended
+  bool strict = false;    ///< a surface with faults is refused instead of mended
+  bool for_axes = false;  ///< of a surface centerlines are taken next (IntakeOptions::for_axes)
 };
 
 /// The content, and how it is known in everything that is saved.
@@ -39,8 +41,10 @@ struct Source {
   std::shared_ptr<const imaging::MaskVolume> mask;    ///< mask
   geometry::TriMesh surface;            ///< surface: mended, outward, its flat caps off (take_surface)
   std::vector<meshing::GivenEnd> ends;  ///< surface: caps that were taken off
-  double unit_mm = 1.0;                 ///< surface: of the file, in which points are given, too
-  bool unit_given = false;              ///< surface: the user said which unit it is in
+  std::vector<meshing::GivenEnd> lost;  ///< surface: TakenSurface::lost
+  std::shared_ptr<const centerline::KnownSurface> known;  ///< surface: TakenSurface::known
+  double unit_mm = 1.0;     ///< surface: of the file, in which points are given, too
+  bool unit_given = false;  ///< surface: the user said which unit it is in
   std::vector<std::string> warnings;
 };
 

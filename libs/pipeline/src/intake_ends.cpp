@@ -1,0 +1,115 @@
+#include "intake_ends.h"
+
+#include "ostia/core/error.h"
+#include "ostia/core/text.h"
+#include "ostia/geometry/aabb_tree.h"
+#include "ostia/geometry/mesh_topology.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+namespace ostia::pipeline {
+namespace {
+
+using geometry::TriMesh;
+using geometry::Vec3;
+using meshing::GivenEnd;
+
+constexpr double least_rim_mm = 0.2;  // half as wide is no vessel that is meshed
+constexpr double part_is_there_radii = 2.0;
+constexpr std::size_t most_named = 12;
+// The triangles of a cap face one way, also of a shaken one: its vector area over its area is more than this;
+// those of a tube cancel out.
+constexpr double least_facing = 0.4, largest_cap_share = 0.25;
+
+std::vector<GivenEnd> rims_in(const TriMesh& mesh) {
+  std::vector<GivenEnd> ends;
+  for (const auto& loop : geometry::boundary_loops(mesh))
+    if (const GivenEnd end = meshing::end_at_loop(mesh, loop); end.radius_mm >= least_rim_mm)
+      ends.push_back(end);
+  return ends;
+}
+
+}  // namespace
+
+std::string words_of(const GivenEnd& end) {
+  const Vec3& p = end.centre;
+  return (end.name.empty() ? std::string("an end") : end.name) + " at (" + core::fixed_text(p.x(), 1) + ", " +
+         core::fixed_text(p.y(), 1) + ", " + core::fixed_text(p.z(), 1) + ") mm, " +
+         core::fixed_text(2.0 * end.radius_mm, 2) + " mm wide";
+}
+
+std::vector<GivenEnd> rims_gone(const TriMesh& came, const TriMesh& mended) try {
+  std::vector<GivenEnd> gone = rims_in(geometry::oriented(geometry::welded(came)));
+  if (gone.empty()) return gone;
+  const std::vector<GivenEnd> left = rims_in(mended);
+  const geometry::AabbTree tree(geometry::fill_holes(mended).mesh);
+  std::erase_if(gone, [&](GivenEnd& end) {
+    const auto same = [&](const GivenEnd& other) {
+      return (other.centre - end.centre).norm() <= end.radius_mm;
+    };
+    if (std::ranges::any_of(left, same)) return true;
+    // Far from what is left it is of a part that was left out. A part that faces inward has its ends turned.
+    if (tree.closest(end.centre).distance > part_is_there_radii * end.radius_mm) return true;
+    GivenEnd turned = end;
+    turned.normal = -end.normal;
+    return meshing::is_hole_in_wall(tree, end) || meshing::is_hole_in_wall(tree, turned);
+  });
+  return gone;
+} catch (const Error&) {
+  return {};  // it has no rims that can be told
+}
+
+std::vector<GivenEnd> labels_without_end(const geometry::FacedSurface& came,
+                                         const std::vector<GivenEnd>& ends) {
+  struct Sum {
+    double area = 0.0;
+    Vec3 moment = Vec3::Zero(), vector = Vec3::Zero();
+  };
+  std::map<std::int32_t, Sum> sums;
+  double whole = 0.0;
+  for (std::size_t i = 0; i < came.face_ids.size(); ++i) {
+    const auto at = [&](std::size_t k) {
+      return came.mesh.points[static_cast<std::size_t>(came.mesh.triangles[i][k])];
+    };
+    const Vec3 vector = 0.5 * (at(1) - at(0)).cross(at(2) - at(0));
+    Sum& sum = sums[came.face_ids[i]];
+    sum.area += vector.norm();
+    sum.vector += vector;
+    sum.moment += vector.norm() / 3.0 * (at(0) + at(1) + at(2));
+    whole += vector.norm();
+  }
+  std::vector<GivenEnd> lost;
+  for (const auto& [id, sum] : sums) {
+    if (!(sum.area > 0.0) || sum.area > largest_cap_share * whole) continue;
+    if (sum.vector.norm() < least_facing * sum.area) continue;
+    GivenEnd end;
+    const auto face = std::ranges::find(came.faces, id, &geometry::Face::id);
+    end.name = face != came.faces.end() && !face->name.empty() ? face->name : "label " + std::to_string(id);
+    end.centre = sum.moment / sum.area;
+    end.radius_mm = std::sqrt(sum.area / std::numbers::pi);
+    const bool there = std::ranges::any_of(
+        ends, [&](const GivenEnd& one) { return (one.centre - end.centre).norm() <= end.radius_mm; });
+    if (!there) lost.push_back(end);
+  }
+  return lost;
+}
+
+std::vector<std::string> warnings_of(const std::vector<meshing::LabelNotTaken>& labels) {
+  std::vector<std::string> told;
+  for (const meshing::LabelNotTaken& one : labels) {
+    if (told.size() == most_named) {
+      told.push_back("so are " + std::to_string(labels.size() - most_named) + " labels more");
+      break;
+    }
+    told.push_back(
+        "the label " + words_of(one.end) +
+        ", is neither the wall's nor was it taken as an end: it stays part of the wall (cut it open "
+        "there, or give --source or --target at it, if a vessel ends there)");
+  }
+  return told;
+}
+
+}  // namespace ostia::pipeline

@@ -1,0 +1,75 @@
+#include "nested_shells.h"
+
+#include "ostia/core/text.h"
+#include "ostia/geometry/aabb_tree.h"
+#include "ostia/geometry/mesh_topology.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace ostia::pipeline {
+namespace {
+
+using geometry::TriMesh;
+using geometry::Vec3;
+
+// A lumen is so long and has so much area, over those of the wall's outside; a bubble or a device is less.
+constexpr double least_length_share = 0.7, least_area_share = 0.3;
+constexpr std::size_t samples = 60;
+constexpr double most_inside = 0.9;  // open ends may stand out
+
+double length_of(const TriMesh& part) {
+  return geometry::bounds(part.points).sizes().norm();
+}
+
+double width_of(const TriMesh& part) {
+  const TriMesh closed = geometry::fill_holes(part).mesh;
+  return 4.0 * std::abs(geometry::volume(closed)) / geometry::area(closed);
+}
+
+bool is_lumen_of(const TriMesh& inner, const TriMesh& outer) {
+  if (length_of(inner) < least_length_share * length_of(outer) || length_of(inner) > 1.1 * length_of(outer) ||
+      geometry::area(inner) < least_area_share * geometry::area(outer) ||
+      geometry::area(inner) >= geometry::area(outer))
+    return false;
+  const geometry::AabbTree tree(geometry::fill_holes(outer).mesh);
+  const std::size_t step = std::max<std::size_t>(1, inner.triangles.size() / samples);
+  std::size_t inside = 0, asked = 0;
+  for (std::size_t i = 0; i < inner.triangles.size(); i += step, ++asked) {
+    Vec3 middle = Vec3::Zero();
+    for (const std::int32_t v : inner.triangles[i]) middle += inner.points[static_cast<std::size_t>(v)] / 3.0;
+    inside += tree.inside(middle);
+  }
+  return static_cast<double>(inside) >= most_inside * static_cast<double>(asked);
+}
+
+std::string outer_wall_text(const TriMesh& inner, const TriMesh& outer) {
+  const Vec3 at = geometry::bounds(outer.points).center();
+  return "two shells one within the other: the inner, " + core::fixed_text(width_of(inner), 2) +
+         " mm wide in the mean, is taken as the lumen, the outer, " + core::fixed_text(width_of(outer), 2) +
+         " mm wide and " + core::fixed_text(length_of(outer), 1) + " mm long about (" +
+         core::fixed_text(at.x(), 1) + ", " + core::fixed_text(at.y(), 1) + ", " +
+         core::fixed_text(at.z(), 1) +
+         ") mm, as the outside of its wall and left out; a file with the outer alone meshes that";
+}
+
+}  // namespace
+
+std::vector<std::string> drop_outer_walls(std::vector<TriMesh>& parts) {
+  std::vector<std::string> told;
+  for (std::size_t outer = 0; outer < parts.size();) {
+    const auto inner = std::ranges::find_if(parts, [&](const TriMesh& part) {
+      return &part != &parts[outer] && is_lumen_of(part, parts[outer]);
+    });
+    if (inner == parts.end()) {
+      ++outer;
+      continue;
+    }
+    told.push_back(outer_wall_text(*inner, parts[outer]));
+    parts.erase(parts.begin() + static_cast<std::ptrdiff_t>(outer));
+  }
+  return told;
+}
+
+}  // namespace ostia::pipeline

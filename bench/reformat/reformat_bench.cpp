@@ -115,6 +115,28 @@ void section(benchmark::State& state, reformat::Slab slab) {
   core::set_max_threads(0);
 }
 
+/// A view of three linked planes: 512 x 512 pixels over the whole image, of 20 mm; axial, or turned twice.
+void planes(benchmark::State& state, bool oblique) {
+  const imaging::ImageVolume& ct = image();
+  core::set_max_threads(2);
+  reformat::Plane plane;
+  if (oblique) {
+    const Eigen::Matrix3d turned =
+        (Eigen::AngleAxisd(0.6, Vec3::UnitX()) * Eigen::AngleAxisd(0.4, Vec3::UnitZ())).toRotationMatrix();
+    plane.u = turned.col(0);
+    plane.v = turned.col(1);
+  }
+  plane.width = plane.height = 512;
+  plane.pixel_mm = 0.36;
+  double depth = -20.0;
+  for (auto _ : state) {
+    depth = depth > 20.0 ? -20.0 : depth + 0.7;
+    plane.origin = depth * plane.normal() - 256.0 * plane.pixel_mm * (plane.u + plane.v);
+    benchmark::DoNotOptimize(reformat::slab_slice(ct, plane, reformat::Slab::maximum, 20.0).values.data());
+  }
+  core::set_max_threads(0);
+}
+
 benchmark::internal::Benchmark* timed(benchmark::internal::Benchmark* bench) {
   return bench->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 }
@@ -136,6 +158,8 @@ int main(int argc, char** argv) {
   timed(benchmark::RegisterBenchmark("SlabMaximum", curved, thick, Interpolation::trilinear));
   timed(benchmark::RegisterBenchmark("CrossSection512", section, reformat::Slab::none));
   timed(benchmark::RegisterBenchmark("CrossSectionMean2mm512", section, reformat::Slab::mean));
+  timed(benchmark::RegisterBenchmark("PlaneMip20mm512Axial", planes, false));
+  timed(benchmark::RegisterBenchmark("PlaneMip20mm512Oblique", planes, true));
   benchmark::RegisterBenchmark("RoundTripStraightened", round_trip, reformat::CurvedMode::straightened);
   benchmark::RegisterBenchmark("RoundTripStretched", round_trip, reformat::CurvedMode::stretched);
   benchmark::Initialize(&argc, argv);

@@ -112,8 +112,8 @@ void add(analysis::PlaqueVolumes& sum, const analysis::PlaqueVolumes& one) {
 }
 
 void print(const char* name, const analysis::PlaqueVolumes& v) {
-  std::printf("  %-6s %6.1f mm: lumen %7.1f, vessel %7.1f mm3, burden %4.1f %%; thin wall %6.1f;", name,
-              v.length_mm, v.lumen_mm3, v.vessel_mm3, v.burden_percent(), v.thin_wall_mm3);
+  std::printf("  %-6s %6.1f mm: lumen %7.1f, vessel %7.1f mm3, wall %4.1f %%; thin wall %6.1f;", name,
+              v.length_mm, v.lumen_mm3, v.vessel_mm3, v.wall_percent(), v.thin_wall_mm3);
   for (std::size_t n = 0; n < analysis::plaque_classes; ++n)
     std::printf(" %s %.1f,", to_string(static_cast<analysis::PlaqueClass>(n)).c_str(), v.class_mm3[n]);
   std::printf(" plaque %.1f mm3\n", v.plaque_mm3());

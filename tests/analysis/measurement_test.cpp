@@ -91,6 +91,40 @@ TEST(Measured, AreaOfAClosedLineHoweverItLiesAndRuns) {
   EXPECT_NEAR(named(area, "perimeter"), 10.0 + 2.0 * std::sqrt(8.0), 1e-9);
 }
 
+TEST(Measured, AreaWithAnImageTellsTheCtNumbersOfItsVoxels) {
+  // Voxels of 0.5 mm: 100 HU for x < 0, 300 HU beyond, and a spot of 1000 HU that lies outside.
+  imaging::ImageVolume image;
+  image.geometry.size = {40, 40, 3};
+  image.geometry.spacing = {0.5, 0.5, 0.5};
+  image.geometry.origin = {-9.75, -9.75, -0.5};
+  for (std::int64_t n = 0; n < image.geometry.voxels(); ++n)
+    image.voxels.push_back(static_cast<std::int16_t>(n % 40 < 20 ? 100 : 300));
+  image(39, 39, 1) = 1000;
+  MeasureContext context;
+  context.image = &image;
+  const auto square = [](double from, double to) {
+    return std::vector<Vec3>{{from, -4.0, 0.0}, {to, -4.0, 0.0}, {to, 4.0, 0.0}, {from, 4.0, 0.0}};
+  };
+  const auto half = measured(of(MeasureKind::area, square(-4.0, 4.0)), context);
+  EXPECT_EQ(half.front().name, "area");
+  EXPECT_NEAR(half.front().value, 64.0, 1e-9);
+  EXPECT_NEAR(named(half, "mean"), 200.0, 1e-6);
+  EXPECT_NEAR(named(half, "SD"), 100.0, 1e-6) << "of voxels, not of what lies between them";
+  EXPECT_EQ(named(half, "largest"), 300.0);
+  const auto even = measured(of(MeasureKind::area, square(-6.0, -2.0)), context);
+  EXPECT_NEAR(named(even, "mean"), 100.0, 1e-9);
+  EXPECT_NEAR(named(even, "SD"), 0.0, 1e-9);
+  const auto outside = measured(of(MeasureKind::area, square(50.0, 54.0)), context);
+  EXPECT_EQ(outside.size(), 2U) << "the image says nothing there";
+}
+
+TEST(Measured, RemarksMeasureNothing) {
+  EXPECT_TRUE(measured(of(MeasureKind::arrow, {Vec3(1, 2, 3), Vec3(1, 5, 7)}), {}).empty());
+  EXPECT_TRUE(measured(of(MeasureKind::note, {Vec3(1, 2, 3)}), {}).empty());
+  EXPECT_THROW(measured(of(MeasureKind::note, {Vec3(1, 2, 3), Vec3(1, 5, 7)}), {}), InvalidInput);
+  EXPECT_THROW(measured(of(MeasureKind::arrow, {Vec3(1, 2, 3)}), {}), InvalidInput);
+}
+
 TEST(Measured, StenosisAndVolumeOfAVessel) {
   const Bench bench;
   const auto stenosis = measured(bench.stretch(MeasureKind::stenosis, 10.0, 30.0), bench.context);
@@ -186,7 +220,7 @@ TEST(MeasureKind, NamesGoThereAndBack) {
     EXPECT_NE(traits.points == 0, !traits.fault.empty()) << traits.name;
   }
   EXPECT_THAT(names, ::testing::UnorderedElementsAre("distance", "angle", "area", "diameter", "stenosis",
-                                                     "volume", "ring_hu"))
+                                                     "volume", "ring_hu", "arrow", "note"))
       << "case files have these";
   EXPECT_EQ(to_string(MeasureKind::ring_hu), "ring_hu");
   EXPECT_THROW(measure_kind("length"), InvalidInput);

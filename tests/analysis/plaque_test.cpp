@@ -171,6 +171,66 @@ TEST(Plaque, StretchesAddUp) {
   EXPECT_EQ(plaque_between(profile, 11.0, 12.0).burden_percent(), 0.0);
 }
 
+TEST(Plaque, AHealthyWallIsNoneWhateverItsCalibre) {
+  const geometry::AxisCurve axis = straight(10.0);
+  const auto burden = [&](double diameter, double wall) {
+    WallRadii walls = round_walls(10.0, 0.5 * diameter, 0.5 * diameter + wall);
+    walls.calibre_mm = [diameter](double) { return diameter; };
+    return plaque_between(plaque_profile(
+                              axis, walls, [](const Vec3&) { return 50.0; }, sharp()),
+                          0.0, 10.0)
+        .burden_percent();
+  };
+  for (const double diameter : {1.0, 2.0, 3.0, 4.0, 5.0, 6.0}) {
+    const double healthy = healthy_wall_mm(diameter);
+    EXPECT_EQ(burden(diameter, healthy), 0.0) << diameter;
+    EXPECT_EQ(burden(diameter, healthy + 0.15), 0.0) << diameter;
+    const double ill = healthy + 0.6, outer = 0.5 * diameter + ill;
+    EXPECT_NEAR(burden(diameter, ill), 100.0 * (1.0 - std::pow(0.5 * diameter / outer, 2)), 1e-6) << diameter;
+  }
+  // A wall of 0.8 mm: a healthy left main's, and a diseased small branch's.
+  EXPECT_EQ(burden(5.0, 0.8), 0.0);
+  EXPECT_GT(burden(2.0, 0.8), 50.0);
+}
+
+TEST(Plaque, HalfAWallCountsHalf) {
+  const geometry::AxisCurve axis = straight(10.0);
+  WallRadii walls = round_walls(10.0, 1.5, 1.9);
+  walls.outer_mm = [](double, double theta) { return theta < pi ? 2.9 : 1.9; };
+  walls.calibre_mm = [](double) { return 3.0; };
+  const PlaqueVolumes all = plaque_between(plaque_profile(
+                                               axis, walls, [](const Vec3&) { return 50.0; }, sharp()),
+                                           0.0, 10.0);
+  const double plaque = 0.5 * (2.9 * 2.9 - 2.25), vessel = 0.5 * (2.9 * 2.9 + 1.9 * 1.9);
+  EXPECT_NEAR(all.burden_percent(), 100.0 * plaque / vessel, 1e-6);
+  EXPECT_NEAR(all.wall_percent(), 100.0 * (1.0 - 2.25 / vessel), 1e-6);
+  EXPECT_NEAR(all.thin_wall_mm3, 10.0 * pi * 0.5 * (1.9 * 1.9 - 2.25), 1e-6);
+}
+
+TEST(Plaque, TheHealthyWallFollowsWhatWasMeasuredInHealthyHearts) {
+  // The ends of Podesser's line: 0.08 mm at 0.1 mm of outer radius, 0.8 mm at 3 mm.
+  EXPECT_NEAR(healthy_wall_mm(2.0 * (0.1 - 0.08)), 0.08, 1e-9);
+  EXPECT_NEAR(healthy_wall_mm(2.0 * (3.0 - 0.8)), 0.8, 1e-9);
+  EXPECT_THROW(healthy_wall_mm(-1.0), InvalidInput);
+  EXPECT_THROW(healthy_wall_mm(INFINITY), InvalidInput);
+}
+
+TEST(Plaque, TypesAreByTheShareOfCalcium) {
+  const auto type = [](double calcium, double soft) {
+    PlaqueVolumes volumes;
+    volumes.class_mm3[static_cast<std::size_t>(PlaqueClass::calcified)] = calcium;
+    volumes.class_mm3[static_cast<std::size_t>(PlaqueClass::fibrofatty)] = soft;
+    return to_string(plaque_type(volumes));
+  };
+  EXPECT_EQ(type(0.0, 0.0), "none");
+  EXPECT_EQ(type(0.0, 10.0), "non-calcified");
+  EXPECT_EQ(type(0.4, 9.6), "non-calcified");
+  EXPECT_EQ(type(0.5, 9.5), "mixed");
+  EXPECT_EQ(type(4.9, 5.1), "mixed");
+  EXPECT_EQ(type(5.0, 5.0), "calcified");
+  EXPECT_EQ(type(10.0, 0.0), "calcified");
+}
+
 TEST(Plaque, RemodellingAgainstTheReferencePlaces) {
   const geometry::AxisCurve axis = straight(30.0);
   WallRadii walls = round_walls(30.0, 1.0, 2.0);

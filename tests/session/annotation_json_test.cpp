@@ -153,7 +153,7 @@ TEST(AnnotationSchema, HasTheDefaultsOfTheProgram) {
           << field;
     }
   }
-  EXPECT_EQ(defaults, 7 * 7 + 7 * 7 + 2);  // of each measurement seven, of a mark one
+  EXPECT_EQ(defaults, 9 * 7 + 9 * 7 + 2);  // of each measurement seven, of a mark one
 }
 
 }  // namespace

@@ -189,6 +189,63 @@ TEST(ReadersWord, IsPutOverWhatWasSaidBefore) {
   EXPECT_THAT(shown(with_evaluability(mark, 0.0, 99.0, std::nullopt)), IsEmpty());
 }
 
+std::vector<std::string> said_of(const VesselMark& mark) {
+  std::vector<std::string> out;
+  for (const LesionWord& one : mark.lesions)
+    out.push_back(core::trimmed_text(one.from_mm, 3) + "-" + core::trimmed_text(one.to_mm, 3) + " " +
+                  to_string(one.state) + " " + one.comment);
+  return out;
+}
+
+TEST(ReadersWord, OnALesionFollowsItsStretch) {
+  VesselMark mark;
+  mark = with_lesion(mark, {20.0, 26.0, LesionState::rejected, "a branch"});
+  mark = with_lesion(mark, {4.0, 10.0, LesionState::accepted, ""});
+  EXPECT_THAT(said_of(mark), ElementsAre("4-10 accepted ", "20-26 rejected a branch"));
+  // Found anew a little elsewhere, it is the same lesion; what shares little with it is not.
+  ASSERT_NE(word_on(&mark, 5.0, 12.0), nullptr);
+  EXPECT_EQ(word_on(&mark, 5.0, 12.0)->state, LesionState::accepted);
+  EXPECT_EQ(word_on(&mark, 9.0, 14.0), nullptr);
+  EXPECT_EQ(word_on(nullptr, 5.0, 12.0), nullptr);
+  mark = with_lesion(mark, {5.0, 12.0, LesionState::rejected, "no edge"});
+  EXPECT_THAT(said_of(mark), ElementsAre("5-12 rejected no edge", "20-26 rejected a branch"));
+  mark = with_lesion(mark, {20.5, 26.0, LesionState::open, "look again"});
+  EXPECT_THAT(said_of(mark), ElementsAre("5-12 rejected no edge", "20.5-26 open look again"));
+  mark = with_lesion(mark, {5.0, 12.0, LesionState::open, ""});
+  mark = with_lesion(mark, {20.5, 26.0, LesionState::open, ""});
+  EXPECT_THAT(said_of(mark), IsEmpty());
+}
+
+TEST(ReadersWord, OnLesionsIsRefusedWhereItIsNoStretchOrOutOfOrder) {
+  const lumen::LumenModel model = tube_model();
+  MarkVessel said = marked("");
+  for (const std::vector<LesionWord>& bad :
+       {std::vector<LesionWord>{{5.0, 5.0, LesionState::open, "x"}},
+        {{-1.0, 5.0, LesionState::open, "x"}},
+        {{6.0, 9.0, LesionState::open, "x"}, {2.0, 4.0, LesionState::open, "x"}},
+        {{2.0, 4.0, LesionState::open, "x"}, {2.0, 4.0, LesionState::accepted, "y"}},
+        {{2.0, std::numeric_limits<double>::infinity(), LesionState::open, "x"}}}) {
+    said.mark.lesions = bad;
+    EXPECT_THROW(annotated({}, said, model), InvalidInput);
+  }
+}
+
+TEST(ReadersWord, OnLesionsGoesWithTheVesselThatIsSplitOrJoined) {
+  const lumen::LumenModel whole = tube_model();
+  MarkVessel said = marked("");
+  said.mark.lesions = {{2.0, 6.0, LesionState::accepted, "first"}, {12.0, 16.0, LesionState::rejected, ""}};
+  const Annotations before = annotated({}, said, whole);
+  const lumen::Edit split = lumen::BranchSplit{tube_vessel, 10.0, ""};
+  const lumen::LumenModel parts = lumen::apply(whole, split).model;
+  const Annotations after_split = following(before, split, whole, parts);
+  ASSERT_EQ(after_split.marks.size(), 2U);
+  EXPECT_THAT(said_of(after_split.marks[0]), ElementsAre("2-6 accepted first"));
+  EXPECT_THAT(said_of(after_split.marks[1]), ElementsAre("12-16 rejected "));
+  const lumen::Edit merge = lumen::BranchMerge{after_split.marks[1].vessel};
+  const Annotations joined = following(after_split, merge, parts, lumen::apply(parts, merge).model);
+  EXPECT_THAT(said_of(*find_mark(joined, tube_vessel)), ElementsAre("2-6 accepted first", "12-16 rejected "));
+}
+
 TEST(ReadersWord, GoesWithTheVesselThatIsSplitCutOrJoined) {
   const lumen::LumenModel whole = tube_model();
   MarkVessel said = marked("");

@@ -117,6 +117,27 @@ TEST(ReportFolder, HoldsAllFilesAndTheSameBytesTwice) {
   EXPECT_FALSE(pipeline::already_done(folder / "a", {"report", {{"case", "2"}}, "{}"}));
 }
 
+TEST(ReportFolder, NamesAPatientInTheTwoDocumentsAloneAndWhereAsked) {
+  const TempFolder folder;
+  const Made made = without_images();
+  const imaging::ShownIdentity jane{"Doe <Jane>", "id-4711", "2024-03-01", "CTA 0.6", 0};
+  write_case_report(folder / "plain", made.report, made.images, job());
+  write_case_report(folder / "named", made.report, made.images, job(), 0.0, core::no_task(), jane);
+  const auto plain = content(folder / "plain"), named = content(folder / "named");
+  for (const auto& [name, bytes] : named) {
+    const bool document = name == "report.html" || name == "report.pdf";
+    EXPECT_EQ(bytes != plain.at(name), document) << name;
+    for (const char* word : {"Jane", "4711", "2024-03-01", "CTA 0.6"}) {
+      const bool says = bytes.find(word) != std::string::npos;
+      EXPECT_TRUE(document || !says) << name << ": " << word;
+    }
+  }
+  const std::string& html = named.at("report.html");
+  for (const char* word : {"Doe &lt;Jane&gt;", "id-4711", "2024-03-01", "CTA 0.6"})
+    EXPECT_NE(html.find(word), std::string::npos) << word;
+  EXPECT_EQ(bytes_of_file(folder / "named" / "manifest.json").find("4711"), std::string::npos);
+}
+
 TEST(ReportFolder, IsWrittenWholeOrNotAtAll) {
   const TempFolder folder;
   const Made made = without_images();
@@ -214,7 +235,7 @@ TEST(ReportText, PlaqueStandsInTablesAndInJsonAsItsSchemaHasIt) {
   const imaging::ImageVolume image = walled_image(1.5, 2.6, 60.0);
   const CaseReport report = report_of(narrowed_tube("RCA", 40.0, 1.5, 20.0, 0.6), {}, {}, &image);
   const std::string csv = plaque_csv(report);
-  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 3);  // header, vessel, stenosis
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 5);  // header, vessel, stenosis, plaque on both sides
   EXPECT_THAT(csv, HasSubstr("\r\nRCA,,"));
   EXPECT_THAT(csv, HasSubstr("\r\nRCA,S1,"));
   std::istringstream in(csv);
@@ -253,6 +274,7 @@ TEST(ReportDigest, FollowsWhatTheReportIsMadeOf) {
   ReportOptions turned;
   turned.theta_deg = 30.0;
   EXPECT_NE(report_job(file, false, {}).parameters, report_job(file, false, turned).parameters);
+  EXPECT_NE(report_job(file, false, {}).parameters, report_job(file, false, {}, {}, true).parameters);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 
@@ -23,6 +24,7 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 using std::numbers::pi;
 
@@ -157,6 +159,52 @@ TEST(CaseReport, TheReadersWordHolds) {
   EXPECT_TRUE(report_of(model, notes).stenoses[0].graded);  // no image: the reader has looked at one
 }
 
+TEST(CaseReport, WhatTheReaderRejectsIsNotGradedAndWhatIsAcceptedIs) {
+  const imaging::ImageVolume image = drowned_image();
+  const lumen::LumenModel model = narrowed_tube("RCA", 40.0, 1.5, 26.0, 0.6);
+  Annotations notes;
+  notes.marks = {{model.tree.vessels[0].id, true, false, std::nullopt, ""}};
+  notes.marks[0].lesions = {{24.0, 28.0, LesionState::accepted, "seen on two planes"}};
+  const CaseReport accepted = report_of(model, notes, {}, &image);
+  const auto narrow = [](const CaseReport& report) -> const ReportStenosis& {
+    return *std::find_if(report.stenoses.begin(), report.stenoses.end(),
+                         [](const ReportStenosis& one) { return one.narrows; });
+  };
+  EXPECT_TRUE(narrow(accepted).graded) << narrow(accepted).not_graded;
+  EXPECT_EQ(narrow(accepted).comment, "seen on two planes");
+  EXPECT_EQ(to_string(accepted.category), "3/N");
+
+  notes.marks[0].checked = true;  // rejected all the same
+  notes.marks[0].lesions[0].state = LesionState::rejected;
+  const CaseReport rejected = report_of(model, notes, {}, &image);
+  EXPECT_FALSE(narrow(rejected).graded);
+  EXPECT_EQ(narrow(rejected).category, std::nullopt);
+  EXPECT_EQ(narrow(rejected).not_graded, "rejected by the reader");
+  EXPECT_THAT(rejected.not_judged, Not(Contains(HasSubstr("rejected"))));
+  for (const ReportSegment& segment : rejected.segments)
+    EXPECT_NE(segment.worst_stenosis, narrow(rejected).number);
+  const std::string label = "S" + std::to_string(narrow(rejected).number);
+  EXPECT_THAT(report_html(rejected, {}), HasSubstr(label + ": seen on two planes"));
+  EXPECT_THAT(report_html(rejected, {}), HasSubstr("1 rejected by a person"));
+  EXPECT_THAT(stenoses_csv(rejected), HasSubstr(",rejected,seen on two planes\r\n"));
+  EXPECT_THAT(report_json(rejected, {}), HasSubstr("\"state\": \"rejected\""));
+}
+
+TEST(CaseReport, PlaqueWithoutNarrowingIsListedAndOfCategoryOne) {
+  const imaging::ImageVolume image = walled_image(1.5, 2.6, 60.0);
+  const CaseReport report = report_of(narrowed_tube("RCA", 40.0, 1.5, 20.0, 1.5), {}, {}, &image);
+  ASSERT_EQ(report.stenoses.size(), 1U);
+  EXPECT_FALSE(report.stenoses[0].narrows);
+  EXPECT_LT(report.stenoses[0].stenosis.diameter_percent, 5.0);
+  EXPECT_EQ(report.stenoses[0].category, analysis::CadRads::one);
+  EXPECT_GT(report.vessels[0].plaque->volumes.burden_percent(), 60.0);
+  const imaging::ImageVolume healthy = walled_image(1.5, 2.0, 60.0);
+  const CaseReport without = report_of(narrowed_tube("RCA", 40.0, 1.5, 20.0, 1.5), {}, {}, &healthy);
+  EXPECT_TRUE(without.stenoses.empty());
+  ASSERT_TRUE(without.vessels[0].plaque);
+  EXPECT_EQ(without.vessels[0].plaque->volumes.burden_percent(), 0.0);
+}
+
 TEST(CaseReport, AnArteryThatIsMissingIsNamed) {
   EXPECT_THAT(arteries_not_found(named_y()), ElementsAre("RCA: not found"));
   EXPECT_THAT(arteries_not_found(narrowed_tube("RCA", 40.0, 1.5, 20.0, 1.5)),
@@ -194,9 +242,13 @@ TEST(CaseReport, MeasuresWhatWasPlacedAndNamesWhatCannotBe) {
   notes.measurements.push_back(measurement(analysis::MeasureKind::volume, 99));
   notes.measurements.back().id = notes.next_measurement_id++;
   const CaseReport report = report_of(tube_model(), notes);
-  ASSERT_EQ(report.measurements.size(), 8U);
+  ASSERT_EQ(report.measurements.size(), 10U);
   for (const ReportMeasurement& one : report.measurements) {
     SCOPED_TRACE(one.measurement.id);
+    if (analysis::is_remark(one.measurement.kind)) {
+      EXPECT_TRUE(one.values.empty() && one.problem.empty());
+      continue;
+    }
     EXPECT_NE(one.values.empty(), one.problem.empty());
   }
   const geometry::Vec3 a(0.1, -1.0 / 3.0, 10.0), b(-0.0, 1.5, 10.0);
@@ -205,8 +257,8 @@ TEST(CaseReport, MeasuresWhatWasPlacedAndNamesWhatCannotBe) {
   EXPECT_EQ(report.measurements[4].vessel_name, "LAD");
   EXPECT_NEAR(report.measurements[5].values.at(0).value, pi * 2.25 * (20.1 - 5.0 - 1.0 / 7.0), 2.5);
   EXPECT_THAT(report.measurements[6].problem, HasSubstr("image was not at hand"));
-  EXPECT_THAT(report.measurements[7].problem, HasSubstr("its vessel was deleted"));
-  EXPECT_THAT(report.measurements[7].vessel_name, HasSubstr("vessel 99"));
+  EXPECT_THAT(report.measurements[9].problem, HasSubstr("its vessel was deleted"));
+  EXPECT_THAT(report.measurements[9].vessel_name, HasSubstr("vessel 99"));
 
   const imaging::ImageVolume image = tube_image();
   const CaseReport with = report_of(tube_model(), notes, {}, &image);

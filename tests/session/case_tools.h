@@ -111,7 +111,9 @@ inline analysis::Measurement measurement(analysis::MeasureKind kind, std::int32_
   made.kind = kind;
   made.name = "Proximal \"\xC3\xA9\"";
   const geometry::Vec3 a(0.1, -1.0 / 3.0, 10.0), b(-0.0, 1.5, 10.0), c(1.0, 0.3, 11.0);
-  if (kind == MeasureKind::distance || kind == MeasureKind::diameter) made.points = {a, b};
+  if (kind == MeasureKind::distance || kind == MeasureKind::diameter || kind == MeasureKind::arrow)
+    made.points = {a, b};
+  if (kind == MeasureKind::note) made.points = {a};
   if (kind == MeasureKind::angle || kind == MeasureKind::area) made.points = {a, b, c};
   if (made.points.empty() || kind == MeasureKind::diameter) made.vessel = vessel;
   made.from_mm = 5.0 + 1.0 / 7.0;
@@ -140,7 +142,9 @@ inline MarkVessel marked(const std::string& note, bool checked = true, std::int3
            std::array{0.1, 1.0 / 3.0, 1.0},
            note,
            {{1.0 / 3.0, 5.0, analysis::Evaluability::limited, {}, true},
-            {5.0, 7.5, analysis::Evaluability::not_evaluable, {}, true}}}};
+            {5.0, 7.5, analysis::Evaluability::not_evaluable, {}, true}},
+           {{0.1, 1.0 / 3.0, LesionState::accepted, ""},
+            {2.0, 7.5, LesionState::rejected, "a step of the scanner's \xC3\xA4rger \"quoted\""}}}};
 }
 
 /// All of the annotations as text, to the last bit.

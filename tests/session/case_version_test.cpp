@@ -37,7 +37,7 @@ class CaseVersion : public ::testing::Test {
     }
     case_version_sql(path,
                      "DROP TABLE annotation; DROP TABLE measurement; DROP TABLE mark; DROP TABLE "
-                     "evaluability; PRAGMA user_version = 1");
+                     "evaluability; DROP TABLE lesion; PRAGMA user_version = 1");
     ASSERT_EQ(version_of(path), "1");
     bytes = bytes_of_file(path);
   }
@@ -106,20 +106,46 @@ TEST(CaseOfVersionTwo, KeepsItsMarksAndGetsTheReadersWord) {
   const fs::path path = folder / "a.ostia";
   MarkVessel plain = marked("seen");
   plain.mark.evaluable.clear();
+  plain.mark.lesions.clear();
   {
     CaseFile file = CaseFile::create(path, tube_model());
     file.annotate(plain);
   }
-  case_version_sql(path, "DROP TABLE evaluability; PRAGMA user_version = 2");
+  case_version_sql(path, "DROP TABLE evaluability; DROP TABLE lesion; PRAGMA user_version = 2");
   CaseFile file = CaseFile::open(path);
   ASSERT_EQ(file.annotations()->marks.size(), 1U);
   EXPECT_TRUE(same(file.annotations()->marks[0], plain.mark));
   file.annotate(marked("seen"));
   EXPECT_EQ(file.annotations()->marks[0].evaluable.size(), 2U);
+  EXPECT_EQ(file.annotations()->marks[0].lesions.size(), 2U);
   ASSERT_TRUE(file.undo());
   EXPECT_TRUE(same(file.annotations()->marks[0], plain.mark));
   ASSERT_TRUE(file.undo());  // a step of the older program
   EXPECT_THAT(file.annotations()->marks, IsEmpty());
+}
+
+TEST(CaseOfVersionThree, KeepsTheReadersWordAndGetsThatOnLesions) {
+  const TempFolder folder;
+  const fs::path path = folder / "a.ostia";
+  MarkVessel older = marked("seen");
+  older.mark.lesions.clear();
+  {
+    CaseFile file = CaseFile::create(path, tube_model());
+    file.annotate(older);
+  }
+  case_version_sql(path, "DROP TABLE lesion; PRAGMA user_version = 3");
+  {
+    CaseFile file = CaseFile::open(path);
+    ASSERT_EQ(file.annotations()->marks.size(), 1U);
+    EXPECT_TRUE(same(file.annotations()->marks[0], older.mark));
+    file.annotate(marked("seen"));
+  }
+  CaseFile file = CaseFile::open(path);
+  EXPECT_TRUE(same(file.annotations()->marks[0], marked("seen").mark));
+  ASSERT_TRUE(file.undo());
+  EXPECT_TRUE(same(file.annotations()->marks[0], older.mark));
+  ASSERT_TRUE(file.redo());
+  EXPECT_TRUE(same(file.annotations()->marks[0], marked("seen").mark));
 }
 
 }  // namespace

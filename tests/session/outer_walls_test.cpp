@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -75,16 +76,28 @@ TEST(OuterWalls, AShutLumenIsAllPlaque) {
   EXPECT_LT(analysis::plaque_between(walls->plaque, 18.0, 22.0).lumen_mm3, 0.1);
 }
 
+/// The lesion that narrows; in these tubes, plaque goes on from it to both sides.
+const ReportStenosis& narrowing_of(const CaseReport& report) {
+  return *std::find_if(report.stenoses.begin(), report.stenoses.end(),
+                       [](const ReportStenosis& one) { return one.narrows; });
+}
+
 TEST(OuterWalls, AReportTellsThem) {
   const imaging::ImageVolume image = walled_image(1.5, 2.6, 60.0);
   const CaseReport with = report_of(narrowed_tube("RCA", 40.0, 1.5, 20.0, 0.6), {}, {}, &image);
-  ASSERT_EQ(with.stenoses.size(), 1U);
-  ASSERT_TRUE(with.vessels.front().plaque && with.stenoses.front().plaque);
-  const ReportPlaque& lesion = *with.stenoses.front().plaque;
-  EXPECT_NEAR(lesion.volumes.length_mm, with.stenoses.front().stenosis.length_mm(), 1e-6);
+  ASSERT_EQ(with.stenoses.size(), 3U);
+  const ReportStenosis& narrow = narrowing_of(with);
+  EXPECT_EQ(narrow.number, 2);
+  ASSERT_TRUE(with.vessels.front().plaque && narrow.plaque);
+  const ReportPlaque& lesion = *narrow.plaque;
+  EXPECT_NEAR(lesion.volumes.length_mm, narrow.stenosis.length_mm(), 1e-6);
+  for (const ReportStenosis& one : with.stenoses) {
+    if (one.narrows) continue;
+    EXPECT_EQ(analysis::cad_rads(one.graded_percent), analysis::CadRads::one);
+  }
   EXPECT_GT(lesion.volumes.burden_percent(), with.vessels.front().plaque->volumes.burden_percent());
-  ASSERT_TRUE(with.stenoses.front().remodelling_index);
-  EXPECT_NEAR(*with.stenoses.front().remodelling_index, 1.0, 0.15);  // the image's wall is even
+  ASSERT_TRUE(narrow.remodelling_index);
+  EXPECT_NEAR(*narrow.remodelling_index, 1.0, 0.15);  // the image's wall is even
   const CaseReport without = report_of(narrowed_tube("RCA", 40.0, 1.5, 20.0, 0.6));
   EXPECT_FALSE(without.vessels.front().plaque || without.stenoses.front().plaque ||
                without.stenoses.front().remodelling_index);
@@ -130,8 +143,8 @@ TEST(OuterWalls, TellTheSameOfAStenosisAsTheReport) {
   const CaseReport report = report_of(model, {}, {}, &image);
   const auto walls = vessel_walls(model, solved_surfaces(model), model.tree.vessels.front().id, image);
   ASSERT_TRUE(walls);
-  ASSERT_EQ(report.stenoses.size(), 1U);
-  const ReportStenosis& told = report.stenoses.front();
+  ASSERT_EQ(report.stenoses.size(), 3U);
+  const ReportStenosis& told = narrowing_of(report);
   const auto found = plaque_of(*walls, told.stenosis);
   ASSERT_TRUE(found && told.plaque);
   EXPECT_DOUBLE_EQ(found->volumes.plaque_mm3(), told.plaque->volumes.plaque_mm3());

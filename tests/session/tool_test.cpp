@@ -20,7 +20,7 @@ TEST(Tools, EachHasANameOfItsOwn) {
   }
   EXPECT_THAT(names, ::testing::UnorderedElementsAre("browse", "drag", "draw", "brush", "axis", "add_vessel",
                                                      "add_artery", "distance", "angle", "area", "diameter",
-                                                     "stenosis", "volume", "ring_hu"))
+                                                     "stenosis", "volume", "ring_hu", "arrow", "note"))
       << "recordings have these";
   EXPECT_THROW(traits_of(static_cast<Tool>(99)), InvalidInput);
 }

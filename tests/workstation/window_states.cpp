@@ -1,6 +1,7 @@
 #include "window_states.h"
 
 #include "help/tour.h"
+#include "measuring/lesions.h"
 #include "measuring/list.h"
 #include "measuring/reporting.h"
 #include "qa/dock.h"
@@ -183,7 +184,7 @@ QImage Stage::settled() {
   QScreen* screen = QGuiApplication::primaryScreen();
   QImage last;
   int alike = 0;
-  wait_until([&] { return window_->evaluability().idle(); }, settle_ms);
+  wait_until([&] { return window_->evaluability().idle() && window_->lesions().idle(); }, settle_ms);
   const bool quiet = wait_until(
       [&] {
         let_rest();

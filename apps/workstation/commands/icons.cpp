@@ -162,6 +162,21 @@ void ring(QPainter& p, const QColor& line, const QColor& accent) {
   p.drawEllipse(QPointF(12, 12), 4.5, 4.5);
 }
 
+void arrow(QPainter& p, const QColor& line, const QColor& accent) {
+  pen(p, line);
+  p.drawLine(QPointF(20, 4), QPointF(6, 18));
+  pen(p, accent);
+  p.drawPolyline(QPolygonF({QPointF(6, 10), QPointF(5, 19), QPointF(14, 18)}));
+}
+void note(QPainter& p, const QColor& line, const QColor& accent) {
+  pen(p, line);
+  p.drawPolyline(QPolygonF(
+      {QPointF(9, 15), QPointF(20, 15), QPointF(20, 4), QPointF(5, 4), QPointF(5, 19), QPointF(9, 15)}));
+  pen(p, accent);
+  p.drawLine(QPointF(8, 8), QPointF(17, 8));
+  p.drawLine(QPointF(8, 11), QPointF(14, 11));
+}
+
 void whole_window(QPainter& p, const QColor& line, const QColor&) {
   pen(p, line, Qt::SolidLine, 2.2);
   p.drawLine(QPointF(6, 18), QPointF(18, 6));
@@ -185,6 +200,8 @@ const QMap<QString, Draw>& drawings() {
       {"tool.stenosis", stenosis},
       {"tool.volume", volume},
       {"tool.ring_hu", ring},
+      {"tool.arrow", arrow},
+      {"tool.note", note},
       {"tool.add_vessel", add_vessel},
       {"tool.add_artery", add_artery},
       {"panel.alone", whole_window},

@@ -42,8 +42,8 @@ Keyboard::Keyboard(QWidget* window) : QObject(window), window_(window) {
 }
 
 const QStringList& Keyboard::stations() {
-  static const QStringList all{"vessels", "measurements", "steps", "cpr1",   "cpr2",
-                               "section", "slice",        "tree",  "profile"};
+  static const QStringList all{"vessels", "measurements", "steps", "cpr1",    "cpr2",
+                               "section", "slice",        "tree",  "profile", "lesions"};
   return all;
 }
 

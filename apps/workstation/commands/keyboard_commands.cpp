@@ -45,6 +45,8 @@ void add_keyboard_commands(CommandTable& table, Keyboard& keyboard) {
              .keys = {"Alt+8"},
              .run = go_to("measurements")});
   table.add({.id = "panel.steps", .text = Command::tr("Steps"), .keys = {"Alt+9"}, .run = go_to("steps")});
+  table.add(
+      {.id = "panel.lesions", .text = Command::tr("Lesions"), .keys = {"Alt+0"}, .run = go_to("lesions")});
   table.add({.id = "mouse.left",
              .text = Command::tr("Pointer to the left"),
              .tip = Command::tr("Moves the mouse pointer by one pixel; held down, faster."),

@@ -26,7 +26,7 @@ void add_measuring_commands(CommandTable& table, Desk& desk, Reporting& reportin
                   .text = Command::tr("&Report (PDF, HTML, tables)"),
                   .tip = Command::tr("Makes the report of the case as it is now, in a folder beside it."),
                   .keys = {"Ctrl+R"},
-                  .run = [&desk, &reporting] { reporting.make_report(desk.case_path); }},
+                  .run = [&desk, &reporting] { reporting.ask_and_make(desk.case_path); }},
                  desk));
   table.add(needs_case(
       {.id = "file.pin",
@@ -90,6 +90,20 @@ void add_measuring_commands(CommandTable& table, Desk& desk, Reporting& reportin
           .keys = {"H", "7"},
       },
       Tool::ring_hu, desk, tools));
+  table.add(tool_command(
+      {
+          .text = Command::tr("Arrow"),
+          .tip = Command::tr("Drag from what it points at to where its text is to stand."),
+          .keys = {"G", "8"},
+      },
+      Tool::arrow, desk, tools));
+  table.add(tool_command(
+      {
+          .text = Command::tr("Note"),
+          .tip = Command::tr("Click a place, and type what is to stand beside it."),
+          .keys = {"N", "9"},
+      },
+      Tool::note, desk, tools));
 }
 
 }  // namespace ostia::workstation

@@ -2,11 +2,19 @@
 
 #include "shell/language.h"
 #include "shell/list_rows.h"
+#include "shell/panel.h"
 
 #include "ostia/core/error.h"
+#include "ostia/view/words.h"
 
+#include <QClipboard>
+#include <QGuiApplication>
 #include <QHeaderView>
 #include <QKeyEvent>
+#include <QLineEdit>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <map>
 
 namespace ostia::workstation {
 namespace {
@@ -16,6 +24,13 @@ constexpr int fill_measurements_after_ms = 100;  // of the last change: not with
 /// Of a measurement's item, or of one of its values'.
 std::int32_t measurement_of(const QTreeWidgetItem& item) {
   return (item.parent() ? item.parent() : &item)->data(0, row_id_role).toInt();
+}
+
+/// As the person named it, or else what it is called.
+QString shown_name(const analysis::Measurement& one) {
+  return one.name.empty()
+             ? QStringLiteral("%1 %2").arg(QString::fromStdString(view::words().kind(one.kind))).arg(one.id)
+             : QString::fromStdString(one.name);
 }
 
 }  // namespace
@@ -30,7 +45,10 @@ MeasurementList::MeasurementList(session::Workbench& bench, Guard guard, QWidget
   header()->setSectionResizeMode(1, QHeaderView::ResizeToContents);
   header()->setStretchLastSection(false);
   setEditTriggers(EditKeyPressed);
+  header()->setSectionsClickable(true);
+  connect(header(), &QHeaderView::sectionClicked, this, &MeasurementList::sort_by);
   own_.push_back(bench.case_changed.observe([this] {
+    newest_ = -1;
     filling_ = true;  // a name that is being typed is not for another case's measurement
     clear();
     fill();
@@ -68,8 +86,8 @@ void MeasurementList::fill() {
   filling_ = true;
   int rows = 0;
   if (bench_.has_case()) {
-    const auto annotations = bench_.session().file().annotations();
-    for (const analysis::Measurement& one : annotations->measurements) {
+    const std::vector<analysis::Measurement> all = in_order();
+    for (const analysis::Measurement& one : all) {
       QTreeWidgetItem& item = row_of(*this, one.id, rows++);
       show_name(item, one);
       show_values(item, one);
@@ -77,21 +95,116 @@ void MeasurementList::fill() {
       if (selected && state() != EditingState && (!currentItem() || measurement_of(*currentItem()) != one.id))
         setCurrentItem(&item);
     }
+    ask_for_text(all);
   }
   while (topLevelItemCount() > rows) delete topLevelItem(topLevelItemCount() - 1);
   // Where the selected one went, the keys must not reach its neighbour.
   if (currentItem() && state() != EditingState &&
       measurement_of(*currentItem()) != bench_.selected_measurement.get())
     setCurrentItem(nullptr);
+  filter();
   viewport()->update();  // an emptied tree leaves rows on the screen else
   filling_ = false;
 }
 
+/// By what the column shows; values of one kind beside each other.
+std::vector<analysis::Measurement> MeasurementList::in_order() const {
+  std::vector<analysis::Measurement> all = bench_.session().file().annotations()->measurements;
+  if (sorted_by_ < 0) return all;
+  std::map<std::int32_t, double> value;
+  if (sorted_by_ == 1)
+    for (const analysis::Measurement& one : all) try {
+        const auto values = bench_.measured(one);
+        value[one.id] = values.empty() ? 0.0 : values.front().value;
+      } catch (const Error&) {
+        value[one.id] = 0.0;
+      }
+  std::stable_sort(
+      all.begin(), all.end(), [&](const analysis::Measurement& a, const analysis::Measurement& b) {
+        const analysis::Measurement &first = descending_ ? b : a, &then = descending_ ? a : b;
+        if (sorted_by_ == 0) return shown_name(first).localeAwareCompare(shown_name(then)) < 0;
+        return first.kind != then.kind ? first.kind < then.kind : value[first.id] < value[then.id];
+      });
+  return all;
+}
+
+void MeasurementList::sort_by(int column) {
+  if (sorted_by_ != column) {
+    sorted_by_ = column;
+    descending_ = false;
+  } else if (!descending_) {
+    descending_ = true;
+  } else {
+    sorted_by_ = -1;
+  }
+  header()->setSortIndicatorShown(sorted_by_ >= 0);
+  if (sorted_by_ >= 0)
+    header()->setSortIndicator(sorted_by_, descending_ ? Qt::DescendingOrder : Qt::AscendingOrder);
+  fill();
+}
+
+void MeasurementList::filter() {
+  const auto has = [this](const QTreeWidgetItem& item) {
+    return item.text(0).contains(wanted_, Qt::CaseInsensitive) ||
+           item.text(1).contains(wanted_, Qt::CaseInsensitive);
+  };
+  for (int i = 0; i < topLevelItemCount(); ++i) topLevelItem(i)->setHidden(!has(*topLevelItem(i)));
+}
+
+/// Of a remark that has come since the list was written last.
+void MeasurementList::ask_for_text(const std::vector<analysis::Measurement>& all) {
+  const std::int32_t before = newest_;
+  newest_ = 0;
+  const analysis::Measurement* last = nullptr;
+  for (const analysis::Measurement& one : all)
+    if (one.id > newest_) newest_ = one.id, last = &one;
+  if (before < 0 || newest_ <= before || !analysis::is_remark(last->kind) || !last->name.empty() ||
+      state() == EditingState)
+    return;
+  for (int i = 0; i < topLevelItemCount(); ++i)
+    if (measurement_of(*topLevelItem(i)) == last->id) {
+      reveal(*this);
+      setFocus();
+      setCurrentItem(topLevelItem(i));
+      editItem(topLevelItem(i), 0);
+    }
+}
+
+QWidget* MeasurementList::with_filter() {
+  auto* whole = new QWidget;
+  auto* column = new QVBoxLayout(whole);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(0);
+  auto* line = new QLineEdit(whole);
+  line->setObjectName("measurements_filter");
+  line->setAccessibleName(tr("Filter the measurements"));
+  line->setPlaceholderText(tr("Filter"));
+  line->setClearButtonEnabled(true);
+  column->addWidget(line);
+  column->addWidget(this, 1);
+  connect(line, &QLineEdit::textChanged, this, [this](const QString& text) {
+    wanted_ = text.trimmed();
+    filter();
+  });
+  return whole;
+}
+
+QString MeasurementList::as_text() const {
+  QString text;
+  for (int i = 0; i < topLevelItemCount(); ++i) {
+    const QTreeWidgetItem& item = *topLevelItem(i);
+    if (item.isHidden()) continue;
+    const QString name = item.text(0).simplified();
+    if (item.childCount() == 0) text += name + "\t\t" + item.text(1) + '\n';
+    for (int k = 0; k < item.childCount(); ++k)
+      text += name + '\t' + item.child(k)->text(0) + '\t' + item.child(k)->text(1) + '\n';
+  }
+  return text;
+}
+
 void MeasurementList::show_name(QTreeWidgetItem& item, const analysis::Measurement& one) {
   if (state() == EditingState && currentItem() == &item) return;
-  item.setText(0, one.name.empty()
-                      ? QStringLiteral("%1 %2").arg(measure_word(analysis::to_string(one.kind))).arg(one.id)
-                      : QString::fromStdString(one.name));
+  item.setText(0, shown_name(one));
 }
 
 void MeasurementList::show_values(QTreeWidgetItem& item, const analysis::Measurement& one) {
@@ -150,6 +263,8 @@ void MeasurementList::remove_current() {
 void MeasurementList::keyPressEvent(QKeyEvent* event) {
   if (event->key() == Qt::Key_Delete)
     remove_current();
+  else if (event->matches(QKeySequence::Copy))
+    QGuiApplication::clipboard()->setText(as_text());
   else
     QTreeWidget::keyPressEvent(event);
 }

@@ -1,5 +1,6 @@
 #include "measuring/reporting.h"
 
+#include "measuring/report_dialog.h"
 #include "shell/desk.h"
 #include "shell/file_dialogs.h"
 #include "shell/new_folder.h"
@@ -15,6 +16,7 @@
 #include <QPushButton>
 #include <QUrl>
 #include <memory>
+#include <optional>
 
 namespace ostia::workstation {
 namespace fs = std::filesystem;
@@ -29,6 +31,7 @@ struct Snapshot {
   session::ReportOptions options;
   std::vector<session::KeyImage> pinned;
   pipeline::JobKey job;
+  imaging::ShownIdentity named;
 };
 
 void write(const Snapshot& from, const fs::path& folder, const core::TaskContext& task) {
@@ -42,7 +45,7 @@ void write(const Snapshot& from, const fs::path& folder, const core::TaskContext
   std::vector<session::KeyImage> images =
       session::key_images(report, *from.model, surface_of, from.image.get(), task.sub(0.3, 0.8));
   images.insert(images.end(), from.pinned.begin(), from.pinned.end());
-  session::write_case_report(folder, report, images, from.job, 0.0, task.sub(0.8, 1.0));
+  session::write_case_report(folder, report, images, from.job, 0.0, task.sub(0.8, 1.0), from.named);
 }
 
 }  // namespace
@@ -58,7 +61,22 @@ void Reporting::make_report(const fs::path& case_file) {
   make_report_in(free_folder_beside(case_file, "report"));
 }
 
-void Reporting::make_report_in(const fs::path& folder) {
+void Reporting::ask_and_make(const fs::path& case_file) {
+  const std::optional<session::ImageReference> image = desk_.bench.session().file().image();
+  const imaging::ShownIdentity whose =
+      image ? desk_.identity.of_image(image->sha256) : imaging::ShownIdentity{};
+  if (whose.anonymous()) return make_report(case_file);
+  auto* dialog = new ReportDialog(whose, &desk_.window);
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  connect(dialog, &QDialog::accepted, this, [this, dialog, whose, case_file, of_case = cases_] {
+    if (of_case != cases_) return;
+    make_report_in(free_folder_beside(case_file, "report"),
+                   dialog->names_patient() ? whose : imaging::ShownIdentity{});
+  });
+  dialog->open();
+}
+
+void Reporting::make_report_in(const fs::path& folder, const imaging::ShownIdentity& named) {
   session::Workbench& bench = desk_.bench;
   const session::CaseFile& file = bench.session().file();
   Snapshot from;
@@ -74,7 +92,8 @@ void Reporting::make_report_in(const fs::path& folder) {
   from.pinned = pinned_;
   for (std::size_t i = 0; i < from.pinned.size(); ++i)
     from.pinned[i].name = "pinned-" + std::to_string(i + 1);
-  from.job = session::report_job(file, from.image != nullptr, from.options, from.pinned);
+  from.job = session::report_job(file, from.image != nullptr, from.options, from.pinned, !named.anonymous());
+  from.named = named;
   desk_.jobs.run(
       "report", tr("Report"),
       [from, folder](const core::TaskContext& task) {
@@ -111,7 +130,7 @@ void Reporting::show_made(const fs::path& folder) {
 }
 
 void Reporting::pin(PictureWidget& view) {
-  const QImage shown = view.grab().toImage();
+  const QImage shown = view.picture_of_nobody();
   pinned_.push_back({"",
                      tr("Pinned by the reader: %1")
                          .arg(view.toolTip().isEmpty() ? view.accessibleName() : view.toolTip())

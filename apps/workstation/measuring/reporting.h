@@ -21,7 +21,10 @@ class Reporting final : public QObject {
   /// The report of the case as it is now, in a folder beside the case file (CASE-report, then CASE-report-2,
   /// ...). Tells when it is there, and opens it on demand.
   void make_report(const std::filesystem::path& case_file);
-  void make_report_in(const std::filesystem::path& folder);
+  /// `named`: whom the PDF and the HTML page name; nobody unless a person asks for it.
+  void make_report_in(const std::filesystem::path& folder, const imaging::ShownIdentity& named = {});
+  /// The same after the question whether to name the patient, where it is known who that is: each time anew.
+  void ask_and_make(const std::filesystem::path& case_file);
   /// The view becomes a further key image of the next report.
   void pin(PictureWidget& view);
   std::size_t pinned() const { return pinned_.size(); }

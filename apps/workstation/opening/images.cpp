@@ -89,6 +89,7 @@ void Opening::load_series(const fs::path& path, const imaging::DicomSeries& seri
         auto read = imaging::read_dicom_series(series, options, task.sub(0.2, 1.0));
         loaded.image.volume = std::make_shared<const imaging::ImageVolume>(std::move(read.volume));
         loaded.warnings = read.header.warnings;
+        loaded.whose = imaging::shown_identity(series);
         return std::any(loaded);
       },
       [this, path](const std::any& result) { show(std::any_cast<const Loaded&>(result), path); },
@@ -113,6 +114,7 @@ void Opening::show_first_slice(const imaging::DicomSeries& series) {
         const bool table_is_free = !bench.has_case() && !bench.image().volume;
         if (!whole_is_there && table_is_free && desk_.jobs.running("open")) {
           desk_.messages.guarded([&] {
+            desk_.identity.expect(first.shown);
             bench.set_image({std::make_shared<const imaging::ImageVolume>(first.slice.image), {}});
             series_uid_ = uid;
           });
@@ -183,6 +185,8 @@ void Opening::show(const Loaded& loaded, const fs::path& path) {
     }
     if (other) close_case();
   }
+  // Before the image is there: no moment with the one's name over the other's pictures.
+  desk_.messages.guarded([&] { desk_.identity.take(reference.sha256, loaded.whose); });
   const bool shown_now = desk_.messages.guarded(
       [&] {
         bench.set_image(loaded.image);

@@ -125,9 +125,10 @@ void Opening::show_case(session::Session session, const fs::path& path, const Im
           bench.close_case();
           bench.close_image();
         }
+        desk_.case_path = path;  // who is told of the session asks for it
         bench.set_session(std::move(session));
-        desk_.case_path = path;
-        desk_.machine.remember_case({path, image ? image->pseudonym : std::string(), now_s()});
+        desk_.machine.remember_case(
+            {path, image ? image->pseudonym : std::string(), now_s(), image ? image->sha256 : std::string()});
         mark_.set(path);
       },
       true);

@@ -5,6 +5,7 @@
 
 #include "ostia/core/background_task.h"
 #include "ostia/imaging/dicom.h"
+#include "ostia/imaging/series_preview.h"
 #include "ostia/session/machine_state.h"
 #include "ostia/session/open_mark.h"
 #include "ostia/session/workbench.h"
@@ -61,6 +62,7 @@ class Opening final : public QObject {
     std::string name;        ///< for the window alone
     std::string series_uid;  ///< empty where it is no series
     std::vector<std::string> warnings;
+    imaging::ShownIdentity whose{};  ///< of a series
   };
   /// What is known of a series before it has been read.
   struct FirstSight {

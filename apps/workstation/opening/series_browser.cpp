@@ -1,6 +1,7 @@
 #include "opening/series_browser.h"
 
 #include "shell/hanging.h"
+#include "shell/identity.h"
 #include "shell/jobs.h"
 
 #include "ostia/imaging/series_preview.h"
@@ -44,6 +45,14 @@ SeriesBrowser::SeriesBrowser(const imaging::DicomFolder& folder, Jobs& jobs, QWi
   list_->setWordWrap(true);
   fill();
   auto* layout = new QVBoxLayout(this);
+  if (imaging::patients_in(folder_.series) > 1) {
+    auto* several = new QLabel(
+        tr("Images of several patients lie in this folder. Each series is of one of them: look at its name."),
+        this);
+    several->setObjectName("several_patients");
+    several->setWordWrap(true);
+    layout->addWidget(several);
+  }
   layout->addWidget(list_);
   QStringList left_out;
   if (!folder_.damaged.empty())
@@ -105,7 +114,8 @@ void SeriesBrowser::preview_next() {
         QTreeWidgetItem* item = self->list_->topLevelItem(row);
         item->setIcon(picture_column, QIcon(QPixmap::fromImage(picture)));
         const QString whose =
-            QString::fromStdString(made.shown.patient_name + "  " + made.shown.study_date).trimmed();
+            identity_parts({made.shown.patient_name, made.shown.patient_id, made.shown.study_date, {}})
+                .join(QStringLiteral("  \u00b7  "));
         if (!whose.isEmpty()) item->setText(series_column, whose + "\n" + item->text(series_column));
         self->preview_next();
       },

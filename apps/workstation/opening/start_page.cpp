@@ -2,6 +2,7 @@
 
 #include "commands/table.h"
 #include "commands/texts.h"
+#include "opening/recent_cases.h"
 #include "shell/desk.h"
 
 #include <QAction>
@@ -34,6 +35,7 @@ StartPage::StartPage(Desk& desk, const CommandTable& commands, QWidget& over)
   over_->installEventFilter(this);
   own_.push_back(desk.bench.case_changed.observe([this] { refresh(); }));
   own_.push_back(desk.bench.image_changed.observe([this] { refresh(); }));
+  own_.push_back(desk.identity.changed.observe([this] { refresh(); }));
   refresh();
 }
 
@@ -77,9 +79,11 @@ void StartPage::fill_recent() {
     if (shown++ == 0) recent_->addWidget(line(tr("Recent cases:")));
     const QString path = QString::fromStdString(one.path.string());
     auto* button = new QPushButton;
-    button->setText(button->fontMetrics().elidedText(QString::fromStdString(one.path.filename().string()),
-                                                     Qt::ElideMiddle, widest - 80));
-    button->setToolTip(path);
+    const QString text = recent_case_text(desk_, one, QString::fromStdString(one.path.filename().string()));
+    const QString fitting = button->fontMetrics().elidedText(text, Qt::ElideMiddle, widest - 80);
+    button->setText(QString(fitting).replace('&', QStringLiteral("&&")));
+    button->setAccessibleName(text);
+    button->setToolTip(text.contains(QStringLiteral("  \u2013  ")) ? text + "\n" + path : path);
     button->setFocusPolicy(Qt::TabFocus);
     button->setFlat(true);
     connect(button, &QPushButton::clicked, this, [this, path] { emit file_chosen(path); });

@@ -79,7 +79,10 @@ void ViewMemory::restore() {
   if (const auto mode = number("view.curved_mode"))
     bench_.curved_mode.set(*mode == 1.0 ? CurvedMode::stretched : CurvedMode::straightened);
   if (const auto slab = number("view.slab"))
-    bench_.slab.set(*slab == 1.0 ? Slab::mean : *slab == 2.0 ? Slab::maximum : Slab::none);
+    bench_.slab.set(*slab == 1.0   ? Slab::mean
+                    : *slab == 2.0 ? Slab::maximum
+                    : *slab == 3.0 ? Slab::minimum
+                                   : Slab::none);
   if (const auto thickness = number("view.slab_mm")) bench_.slab_mm.set(*thickness);
   const auto level = number(grey_key), window = number("view.window_hu");
   if (level && window && *window > 0.0) bench_.grey.set({*level, *window});

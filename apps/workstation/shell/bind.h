@@ -26,7 +26,8 @@ inline void bind(QDoubleSpinBox* box, session::Property<double>& property) {
   }
   const auto show = [box](const double& value) {
     const QSignalBlocker quiet(box);
-    box->setValue(value);
+    // Setting what is there already would write "12.0" over a "12" that is being typed.
+    if (box->value() != value) box->setValue(value);
   };
   show(property.get());
   keep_with(box, property.observe(show));

@@ -7,6 +7,7 @@
 #include "shell/theme.h"
 #include "views/scene_widget.h"
 
+#include <functional>
 #include <optional>
 
 namespace ostia::workstation {
@@ -21,10 +22,11 @@ void change_theme(Desk& desk, SceneWidget& scene) {
 
 using NextStep = std::optional<session::JournalEntry> (session::CaseFile::*)() const;
 
-/// A command that goes through the case's steps, usable where there is a next one.
-Command through_steps(Command command, Desk& desk, NextStep next, const QString& none) {
-  command.enabled = [&desk, next] {
-    return desk.bench.has_case() && (desk.bench.session().file().*next)().has_value();
+/// A command that goes through the case's steps, usable where there is a next one, or `also` says so.
+Command through_steps(Command command, Desk& desk, NextStep next, const QString& none,
+                      const std::function<bool()>& also) {
+  command.enabled = [&desk, next, also] {
+    return (desk.bench.has_case() && (desk.bench.session().file().*next)().has_value()) || also();
   };
   command.why_not = [&desk, none] { return desk.bench.has_case() ? none : Command::tr("No case is open."); };
   return command;
@@ -32,7 +34,7 @@ Command through_steps(Command command, Desk& desk, NextStep next, const QString&
 
 }  // namespace
 
-void add_shell_commands(CommandTable& table, Desk& desk, SceneWidget& scene) {
+void add_shell_commands(CommandTable& table, Desk& desk, SceneWidget& scene, const StepsBeside& beside) {
   table.add({.id = "file.quit",
              .text = Command::tr("&Quit"),
              .tip = Command::tr("Ends the program; nothing is lost."),
@@ -42,15 +44,28 @@ void add_shell_commands(CommandTable& table, Desk& desk, SceneWidget& scene) {
                            .text = Command::tr("&Undo"),
                            .tip = Command::tr("Takes the last step back."),
                            .keys = {"Ctrl+Z"},
-                           .run = [&desk] { desk.bench.undo(); }},
-                          desk, &session::CaseFile::next_undo,
-                          Command::tr("There is no step to take back.")));
+                           .run =
+                               [&desk, beside] {
+                                 if (beside.can_undo())
+                                   beside.undo();
+                                 else
+                                   desk.bench.undo();
+                               }},
+                          desk, &session::CaseFile::next_undo, Command::tr("There is no step to take back."),
+                          beside.can_undo));
   table.add(through_steps({.id = "edit.redo",
                            .text = Command::tr("&Redo"),
                            .tip = Command::tr("Does again what was taken back."),
                            .keys = {"Ctrl+Shift+Z; Ctrl+Y"},
-                           .run = [&desk] { desk.bench.redo(); }},
-                          desk, &session::CaseFile::next_redo, Command::tr("No step was taken back.")));
+                           .run =
+                               [&desk, beside] {
+                                 if (beside.can_redo())
+                                   beside.redo();
+                                 else
+                                   desk.bench.redo();
+                               }},
+                          desk, &session::CaseFile::next_redo, Command::tr("No step was taken back."),
+                          beside.can_redo));
   table.add({.id = "edit.preferences",
              .text = Command::tr("&Preferences\u2026"),
              .tip = Command::tr("Keys, theme and language."),

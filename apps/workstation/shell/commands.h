@@ -1,12 +1,20 @@
 #pragma once
 /// \file Commands of the window as a whole: steps back and on, theme, preferences, the end.
 
+#include <functional>
+
 namespace ostia::workstation {
 
 class CommandTable;
 struct Desk;
 class SceneWidget;
 
-void add_shell_commands(CommandTable& table, Desk& desk, SceneWidget& scene);
+/// What Undo and Redo do where the case's own steps have ended.
+struct StepsBeside {
+  std::function<bool()> can_undo, can_redo;
+  std::function<void()> undo, redo;
+};
+
+void add_shell_commands(CommandTable& table, Desk& desk, SceneWidget& scene, const StepsBeside& beside);
 
 }  // namespace ostia::workstation

@@ -9,6 +9,7 @@ Desk::Desk(QWidget& window_, const std::filesystem::path& folder, Messages::Line
     : window(window_),
       state_folder(folder),
       machine(folder),
+      identity(bench, machine, folder),
       messages(window, std::move(status), std::move(shown_name)),
       jobs(*new Jobs(&window)) {}
 

@@ -1,6 +1,7 @@
 #pragma once
 /// \file What every part of the workstation works with.
 
+#include "shell/identity.h"
 #include "shell/jobs.h"
 #include "shell/messages.h"
 
@@ -25,6 +26,7 @@ struct Desk {
   const std::filesystem::path state_folder;
   session::Workbench bench;
   session::MachineState machine;
+  Identity identity;  ///< whose image is on the table
   Messages messages;
   Jobs& jobs;
   std::filesystem::path case_path;  ///< of the case that is open; empty where none is

@@ -1,7 +1,5 @@
 #include "shell/docks.h"
 
-#include "ostia/session/machine_state.h"
-
 #include <QDockWidget>
 #include <QMainWindow>
 #include <QVariant>
@@ -23,12 +21,12 @@ std::map<std::string, std::string> dock_settings(const QMainWindow& window) {
           {"docks.opened", names.join(' ').toStdString()}};
 }
 
-void restore_docks(QMainWindow& window, const session::MachineState& machine) {
-  const auto kept = machine.setting("docks");
-  if (!kept || !window.restoreState(QByteArray::fromBase64(QByteArray::fromStdString(*kept)), docks_version))
+void restore_docks(QMainWindow& window, const std::optional<std::string>& docks,
+                   const std::optional<std::string>& opened_ones) {
+  if (!docks ||
+      !window.restoreState(QByteArray::fromBase64(QByteArray::fromStdString(*docks)), docks_version))
     return;
-  const QStringList names =
-      QString::fromStdString(machine.setting("docks.opened").value_or("")).split(' ', Qt::SkipEmptyParts);
+  const QStringList names = QString::fromStdString(opened_ones.value_or("")).split(' ', Qt::SkipEmptyParts);
   for (const QString& name : names)
     if (auto* dock = window.findChild<QDockWidget*>(name)) dock->setProperty(opened, true);
 }

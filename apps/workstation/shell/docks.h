@@ -4,21 +4,20 @@
 
 #include <Qt>
 #include <map>
+#include <optional>
 #include <string>
 
 class QDockWidget;
 class QMainWindow;
-
-namespace ostia::session {
-class MachineState;
-}
 
 namespace ostia::workstation {
 
 /// Of all that the window has, as settings of this machine.
 std::map<std::string, std::string> dock_settings(const QMainWindow& window);
 /// What another version kept is left alone. Before the window is shown, with all in it.
-void restore_docks(QMainWindow& window, const session::MachineState& machine);
+/// `docks`, `opened`: those two settings; nothing where there are none.
+void restore_docks(QMainWindow& window, const std::optional<std::string>& docks,
+                   const std::optional<std::string>& opened);
 
 /// For a dock that opens: `size` (its width or height) the first time; after that it has what it was left
 /// with.

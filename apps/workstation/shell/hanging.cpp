@@ -40,13 +40,28 @@ int Hanging::needed(int first, int last) const {
   int width = (last - first) * columns_->handleWidth();
   for (int i = first; i <= std::min(last, columns_->count() - 1); ++i)
     width += least_width(*columns_->widget(i));
-  if (last == tree_column && narrow_) width += least_width(*tree_);
+  if (last == tree_column && narrow_ && tree_kept_) width += least_width(*tree_);
+  if (last == tree_column && !narrow_ && !tree_kept_ && columns_->count() > tree_column)
+    width -= least_width(*tree_);
   return width;
 }
 
 void Hanging::rest(bool resting) {
   resting_ = resting;
   if (!resting) fit();
+}
+
+void Hanging::keep_tree(bool kept) {
+  tree_kept_ = kept;
+  if (narrow_) {
+    const int at = tabs_->indexOf(tree_);
+    if (!kept && at >= 0) tabs_->removeTab(at);
+    if (kept && at < 0) tabs_->setTabToolTip(tabs_->addTab(tree_, tr("Tree")), tree_->accessibleName());
+    if (!kept) tree_->hide();
+  } else {
+    tree_->setVisible(kept);
+  }
+  fit();
 }
 
 QByteArray Hanging::sizes() const {
@@ -68,12 +83,12 @@ void Hanging::fit() {
 void Hanging::set_narrow(bool narrow) {
   if (narrow) {
     wide_sizes_ = columns_->saveState();
-    tabs_->setTabToolTip(tabs_->addTab(tree_, tr("Tree")), tree_->accessibleName());
+    if (tree_kept_) tabs_->setTabToolTip(tabs_->addTab(tree_, tr("Tree")), tree_->accessibleName());
     narrow_ = true;
     share_room();
   } else {
     columns_->insertWidget(tree_column, tree_);
-    tree_->show();
+    tree_->setVisible(tree_kept_);
     narrow_ = false;
     columns_->widget(side_column)->show();
     columns_->restoreState(wide_sizes_);

@@ -25,6 +25,9 @@ class Hanging final : public QObject {
   /// `columns` holds in this order `side`, CPRs, sections and `tree`; `tabs` is within `side`.
   Hanging(QSplitter* columns, QTabWidget* tabs, Panel* tree);
   bool narrow() const { return narrow_; }
+  /// Whether the tree has a place at all, as a column or a tab.
+  void keep_tree(bool kept);
+  bool tree_kept() const { return tree_kept_; }
   void rest(bool resting);   ///< one panel is shown alone, or no longer
   QByteArray sizes() const;  ///< of the four columns, as QSplitter::saveState has them
 
@@ -43,7 +46,7 @@ class Hanging final : public QObject {
   QTabWidget* tabs_;
   Panel* tree_;
   QByteArray wide_sizes_;
-  bool narrow_ = false, resting_ = false;
+  bool narrow_ = false, resting_ = false, tree_kept_ = true;
 };
 
 }  // namespace ostia::workstation

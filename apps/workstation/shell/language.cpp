@@ -41,6 +41,8 @@ namespace {
     QT_TRANSLATE_NOOP("measures", "stenosis"),
     QT_TRANSLATE_NOOP("measures", "volume"),
     QT_TRANSLATE_NOOP("measures", "ring_hu"),
+    QT_TRANSLATE_NOOP("measures", "arrow"),
+    QT_TRANSLATE_NOOP("measures", "note"),
     QT_TRANSLATE_NOOP("measures", "length"),
     QT_TRANSLATE_NOOP("measures", "perimeter"),
     QT_TRANSLATE_NOOP("measures", "percent diameter"),
@@ -97,6 +99,9 @@ view::Words words_of_views() {
   words.coronal = word(QT_TRANSLATE_NOOP("views", "coronal"));
   words.sagittal = word(QT_TRANSLATE_NOOP("views", "sagittal"));
   words.oblique = word(QT_TRANSLATE_NOOP("views", "oblique"));
+  words.slab_mean = word(QT_TRANSLATE_NOOP("views", "mean"));
+  words.slab_maximum = word(QT_TRANSLATE_NOOP("views", "MIP"));
+  words.slab_minimum = word(QT_TRANSLATE_NOOP("views", "MinIP"));
   words.diameter = word(QT_TRANSLATE_NOOP("views", "diameter, mm"));
   words.area = word(QT_TRANSLATE_NOOP("views", "area, mm\302\262"));
   words.from_root = word(QT_TRANSLATE_NOOP("views", "mm from its root"));
@@ -117,6 +122,11 @@ view::Words words_of_views() {
                    word(QT_TRANSLATE_NOOP("views", "the edge is blurred"))};
   words.image = word(QT_TRANSLATE_NOOP("views", "image"));
   words.tree = word(QT_TRANSLATE_NOOP("views", "tree"));
+  words.kinds = {word(QT_TRANSLATE_NOOP("views", "Distance")), word(QT_TRANSLATE_NOOP("views", "Angle")),
+                 word(QT_TRANSLATE_NOOP("views", "Area")),     word(QT_TRANSLATE_NOOP("views", "Diameter")),
+                 word(QT_TRANSLATE_NOOP("views", "Stenosis")), word(QT_TRANSLATE_NOOP("views", "Volume")),
+                 word(QT_TRANSLATE_NOOP("views", "HU ring")),  word(QT_TRANSLATE_NOOP("views", "Arrow")),
+                 word(QT_TRANSLATE_NOOP("views", "Note"))};
   words.not_measurable = word(QT_TRANSLATE_NOOP("views", "not measurable"));
   words.off_wall = word(QT_TRANSLATE_NOOP("views", "There is no vessel: click on the wall of one."));
   words.other_vessel =

@@ -3,6 +3,7 @@
 #include "commands/table.h"
 #include "flow/cases.h"
 #include "flow/results.h"
+#include "measuring/lesions.h"
 #include "measuring/reporting.h"
 #include "meshing/dock.h"
 #include "meshing/export.h"
@@ -13,6 +14,7 @@
 #include "qa/dock.h"
 #include "shell/docks.h"
 #include "shell/hanging.h"
+#include "shell/layouts.h"
 #include "shell/theme.h"
 #include "shell/unfinished_work.h"
 #include "trees/opening.h"
@@ -22,6 +24,7 @@
 #include "vessels/outer_walls.h"
 #include "views/frame_log.h"
 #include "views/heart_behind.h"
+#include "views/planes_dock.h"
 
 #include <QCloseEvent>
 #include <QComboBox>
@@ -122,7 +125,7 @@ void MainWindow::build_parts() {
   reporting_ = std::make_unique<Reporting>(desk_);
   finder_ = std::make_unique<VesselFinder>(desk_, *opening_);
   panels_ = new PanelLayout(desk_);
-  panels_->add_beside_tree(heart_behind(desk_, panels_->scene(), *opening_));
+  panels_->add_beside_tree(heart_behind(desk_, panels_->scene(), [this] { return opening_->reading(); }));
   setCentralWidget(&panels_->whole());
   meshing_ = std::make_unique<MeshingExport>(desk_, panels_->scene());
   flow_results_ = std::make_unique<FlowResults>(desk_, panels_->scene());
@@ -132,14 +135,22 @@ void MainWindow::build_parts() {
   evaluability_ =
       std::make_unique<Evaluability>(desk_, panels_->pictures(), panels_->profile(), panels_->scene());
   panels_->vessels().show_evaluability(evaluability_->board());
+  lesions_ = std::make_unique<Lesions>(desk_, evaluability_->board(), panels_->lesions());
   build_qa();
   addDockWidget(Qt::RightDockWidgetArea, &meshing_->dock());
   meshing_->dock().hide();
+  planes_ = new PlanesDock(desk_, this);
+  addDockWidget(Qt::RightDockWidgetArea, planes_);
+  planes_->hide();
+  layouts_ = std::make_unique<Layouts>(desk_, *this, *panels_, *planes_);
 }
 
 void MainWindow::connect_parts() {
   connect(panels_, &PanelLayout::hovered, place_, &QLabel::setText);
   connect(panels_, &PanelLayout::end_chosen, finder_.get(), &VesselFinder::find_vessel);
+  connect(&panels_->vessels(), &VesselList::last_deleted, finder_.get(), &VesselFinder::delete_last);
+  connect(planes_, &PlanesDock::hovered, place_, &QLabel::setText);
+  connect(planes_, &PlanesDock::end_chosen, finder_.get(), &VesselFinder::find_vessel);
   connect(panels_, &PanelLayout::narrow_changed, place_, [this, wide = place_->minimumWidth()](bool narrow) {
     place_->setMinimumWidth(narrow ? 0 : wide);  // what a tool says needs the room
   });
@@ -160,14 +171,22 @@ void MainWindow::watch_case() {
     trees_->close();
     show_whether_editable();
   }));
+  own_.push_back(desk_.identity.changed.observe([this] { show_title(); }));
   own_.push_back(desk_.bench.noted.observe(
       [this](const std::string& note) { desk_.messages.say(QString::fromStdString(note)); }));
 }
 
 void MainWindow::show_whether_editable() {
-  const bool read_only = desk_.bench.has_case() && !desk_.bench.session().file().editable();
-  setWindowTitle(read_only ? tr("Ostia \u2013 read-only") : QStringLiteral("Ostia"));
-  read_only_->setVisible(read_only);
+  read_only_->setVisible(desk_.bench.has_case() && !desk_.bench.session().file().editable());
+  show_title();
+}
+
+void MainWindow::show_title() {
+  const QString whose = identity_line(desk_.identity.now());
+  if (read_only_->isHidden())
+    setWindowTitle(whose.isEmpty() ? QStringLiteral("Ostia") : whose);
+  else
+    setWindowTitle(whose.isEmpty() ? tr("Ostia \u2013 read-only") : tr("%1 \u2013 read-only").arg(whose));
 }
 
 void MainWindow::count_blocks() {
@@ -195,21 +214,15 @@ void MainWindow::open_sample() {
 }
 
 void MainWindow::remember_layout() {
-  std::map<std::string, std::string> settings = panels_->layout_settings();
-  settings["geometry"] = saveGeometry().toBase64().toStdString();
-  settings.merge(dock_settings(*this));
-  desk_.messages.guarded([&] { desk_.machine.set_settings(settings); });
+  desk_.messages.guarded([&] { desk_.machine.set_settings(layouts_->now()); });
 }
 
 void MainWindow::restore_layout() {
-  const auto geometry = desk_.machine.setting("geometry");
-  restoreGeometry(geometry ? QByteArray::fromBase64(QByteArray::fromStdString(*geometry)) : QByteArray());
-  resize(size().boundedTo(screen()->availableSize()));
-  restore_docks(*this, desk_.machine);
+  layouts_->arrange(desk_.machine.settings());
   // What was open of a mesh or a motion comes back with one.
   meshing_->dock().hide();
   beating_->put_away();
-  panels_->restore_layout();
+  layouts_->begin();
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {

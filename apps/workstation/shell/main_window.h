@@ -21,11 +21,14 @@ class BeatingCase;
 class CommandTable;
 class FlowCases;
 class FlowResults;
+class Lesions;
 class MeshingExport;
 class Opening;
 class OuterWalls;
 class Evaluability;
 class QaDock;
+class Layouts;
+class PlanesDock;
 class Reporting;
 class TreeOpening;
 class VesselFinder;
@@ -60,6 +63,9 @@ class MainWindow final : public QMainWindow {
   QaDock& qa() { return *qa_; }
   OuterWalls& outer_walls() { return *outer_walls_; }
   Evaluability& evaluability() { return *evaluability_; }
+  PlanesDock& planes() { return *planes_; }
+  Layouts& layouts() { return *layouts_; }
+  Lesions& lesions() { return *lesions_; }
 
  protected:
   void closeEvent(QCloseEvent* event) override;
@@ -74,6 +80,7 @@ class MainWindow final : public QMainWindow {
   void connect_parts();
   void watch_case();
   void show_whether_editable();
+  void show_title();
   void remember_layout();
   void restore_layout();
   void count_blocks();
@@ -84,12 +91,15 @@ class MainWindow final : public QMainWindow {
   std::unique_ptr<Reporting> reporting_;
   std::unique_ptr<VesselFinder> finder_;
   PanelLayout* panels_ = nullptr;
+  PlanesDock* planes_ = nullptr;
+  std::unique_ptr<Layouts> layouts_;
   std::unique_ptr<MeshingExport> meshing_;
   bool must_end_ = false;
   // These go before the views that they draw on.
   std::unique_ptr<OuterWalls> outer_walls_;
   std::unique_ptr<Evaluability> evaluability_;
-  std::shared_ptr<QaDock> qa_;  // so does this
+  std::unique_ptr<Lesions> lesions_;  // asks evaluability_
+  std::shared_ptr<QaDock> qa_;        // so does this
   std::unique_ptr<FlowResults> flow_results_;
   std::unique_ptr<FlowCases> flow_cases_;
   std::unique_ptr<TreeOpening> trees_;

@@ -7,6 +7,7 @@
 #include "help/commands.h"
 #include "help/help.h"
 #include "measuring/commands.h"
+#include "measuring/lesions.h"
 #include "meshing/commands.h"
 #include "opening/commands.h"
 #include "opening/recent_cases.h"
@@ -14,13 +15,17 @@
 #include "qa/commands.h"
 #include "qa/dock.h"
 #include "shell/commands.h"
+#include "shell/layouts.h"
 #include "shell/main_window.h"
 #include "shell/menus.h"
 #include "shell/tool_bars.h"
 #include "trees/commands.h"
 #include "trees/opening.h"
 #include "vessels/commands.h"
+#include "vessels/finder.h"
 #include "views/commands.h"
+#include "views/grey_presets.h"
+#include "views/planes_dock.h"
 
 #include <QActionGroup>
 #include <QMenuBar>
@@ -33,11 +38,17 @@ void MainWindow::build_commands() {
   auto& tools = *new QActionGroup(commands_);
   auto* keyboard = new Keyboard(this);
   auto* help = new Help(desk_, *commands_);
-  add_shell_commands(*commands_, desk_, panels_->scene());
+  add_shell_commands(*commands_, desk_, panels_->scene(),
+                     {[this] { return finder_->can_take_back(); }, [this] { return finder_->can_do_again(); },
+                      [this] { finder_->take_back(); }, [this] { finder_->do_again(); }});
   add_keyboard_commands(*commands_, *keyboard);
   add_opening_commands(*commands_, desk_, *opening_);
+  auto* greys = new GreyPresets(desk_);
+  add_grey_preset_commands(*commands_, *greys);
+  add_layout_commands(*commands_, desk_, *layouts_, *planes_);
   add_view_commands(*commands_, desk_, panels_->pictures(), panels_->scene(), tools);
   add_vessel_commands(*commands_, desk_, *finder_, *outer_walls_, *evaluability_, tools);
+  add_lesion_commands(*commands_, desk_, *lesions_);
   add_measuring_commands(*commands_, desk_, *reporting_, tools);
   add_meshing_commands(*commands_, desk_, *meshing_);
   add_flow_commands(*commands_, desk_, *flow_cases_, *flow_results_);
@@ -47,6 +58,9 @@ void MainWindow::build_commands() {
   add_help_commands(*commands_, *help);
   const BuiltMenus menus = build_menus(*menuBar(), *commands_);
   list_recent_cases(*menus.recent, desk_, [this](const QString& path) { open(path.toStdString()); });
+  list_own_layouts(*menus.layouts, *layouts_);
+  list_grey_presets(*menus.greys, *greys);
+  connect(&commands_->action("view.fit"), &QAction::triggered, planes_, &PlanesDock::fit);
   commands_->arrange(menus.order);
   commands_->dress();
   build_tool_bars(*this, *commands_, desk_);

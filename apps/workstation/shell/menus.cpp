@@ -30,13 +30,21 @@ class MenuBuilder {
     fill(bar_.addMenu(tr("Ve&ssel")),
          {"vessel.find", "vessel.split", "vessel.merge", "vessel.cut", "vessel.connect", line,
           "vessel.evaluable", "vessel.limited", "vessel.not_evaluable", "vessel.judged_by_program",
-          "view.evaluability"});
+          "view.evaluability", line, "lesion.accept", "lesion.reject", "lesion.open", "lesion.comment",
+          "lesion.copy"});
   }
   void tools() {
     QMenu* menu = bar_.addMenu(tr("&Tools"));
-    fill(menu, {"tool.browse", "tool.drag", "tool.draw", "tool.brush", "tool.axis", "tool.add_vessel",
-                "tool.add_artery", line, "tool.distance", "tool.angle", "tool.area", "tool.diameter",
-                "tool.stenosis", "tool.volume", "tool.ring_hu", line, "view.play", "view.own_phase"});
+    fill(menu, {"tool.browse",     "tool.drag",
+                "tool.draw",       "tool.brush",
+                "tool.axis",       "tool.add_vessel",
+                "tool.add_artery", line,
+                "tool.distance",   "tool.angle",
+                "tool.area",       "tool.diameter",
+                "tool.stenosis",   "tool.volume",
+                "tool.ring_hu",    "tool.arrow",
+                "tool.note",       line,
+                "view.play",       "view.own_phase"});
     fill(menu->addMenu(tr("Vessel t&ree")),
          {"tree.select", "tree.straight", "tree.along", "tree.angle", "tree.region", line, "tree.grid",
           "tree.subtree", line, "tree.fit", "tree.copy", "tree.export", "tree.clear", "tree.close"});
@@ -47,36 +55,25 @@ class MenuBuilder {
   void view() {
     QMenu* menu = bar_.addMenu(tr("&View"));
     menu->setToolTipsVisible(true);  // why a command cannot be used
-    fill(menu, {"view.turn_left",
-                "view.turn_right",
-                "view.proximal",
-                "view.distal",
-                "view.next_vessel",
-                "view.previous_vessel",
-                line,
-                "view.stretched",
-                "view.mip",
-                "view.mean",
-                "view.contours",
-                "view.outer_wall",
-                "view.plaque",
-                "view.fit",
-                line,
-                "window.1",
-                "window.2",
-                "window.3",
-                "window.4",
-                line});
+    fill(menu, {"view.turn_left", "view.turn_right", "view.proximal", "view.distal", "view.next_vessel",
+                "view.previous_vessel", line, "view.stretched", "view.mip", "view.mean", "view.minip",
+                "view.contours", "view.outer_wall", "view.plaque", "view.identity", "view.fit", line});
+    made.greys = menu->addMenu(tr("&Grey levels"));
+    fill(made.greys, {"window.1", "window.2", "window.3", "window.4", line, "window.save", "window.forget"});
     fill(menu->addMenu(tr("Look at the tree from")),
          {"camera.front", "camera.left", "camera.right", "camera.above", "camera.rao30_cranial20",
           "camera.rao30_caudal20", "camera.lao40_cranial20", "camera.lao45_caudal25", "camera.ap0_cranial30",
           "camera.broadside"});
+    made.layouts = menu->addMenu(tr("La&youts"));
+    fill(made.layouts, {"view.layout_reading", "view.layout_planes", "view.layout_flat", line, "view.planes",
+                        line, "view.layout_save", "view.layout_forget", "view.layout_first"});
     fill(menu, {line, "view.theme", "view.qa", "view.mesh"});
     fill(menu->addMenu(tr("Go to")), {"view.root", "view.end", "view.next_lesion", "view.previous_lesion"});
     fill(menu, {"view.thinner", "view.thicker"});
-    fill(menu->addMenu(tr("Panels")), {"panel.next", "panel.previous", "panel.alone", line, "panel.vessels",
-                                       "panel.cpr1", "panel.cpr2", "panel.section", "panel.slice",
-                                       "panel.tree", "panel.profile", "panel.measurements", "panel.steps"});
+    fill(menu->addMenu(tr("Panels")),
+         {"panel.next", "panel.previous", "panel.alone", line, "panel.vessels", "panel.cpr1", "panel.cpr2",
+          "panel.section", "panel.slice", "panel.tree", "panel.profile", "panel.measurements", "panel.steps",
+          "panel.lesions"});
   }
   void help() {
     fill(bar_.addMenu(tr("&Help")),

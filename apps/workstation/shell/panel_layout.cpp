@@ -1,5 +1,6 @@
 #include "shell/panel_layout.h"
 
+#include "measuring/lesion_list.h"
 #include "measuring/list.h"
 #include "shell/desk.h"
 #include "shell/hanging.h"
@@ -52,11 +53,10 @@ PanelLayout::PanelLayout(Desk& desk) : QObject(&desk.window), desk_(desk) {
   for (int i = 1; i < 4; ++i) columns->setStretchFactor(i, 1);
   hanging_ = new Hanging(columns, columns->findChild<QTabWidget*>("lists"), tree_);
   connect(hanging_, &Hanging::narrow_changed, this, &PanelLayout::narrow_changed);
-  profile_ = new ProfileWidget(desk.bench, guard_);
   rows_ = new QSplitter(Qt::Vertical);
   rows_->setObjectName("rows");
   rows_->addWidget(columns);
-  rows_->addWidget(panel(tr("Lumen profile"), "profile", profile_));
+  rows_->addWidget(bottom_row());
   rows_->setSizes({760, 170});
   rows_->setStretchFactor(0, 1);
   rows_->setStretchFactor(1, 0);
@@ -92,6 +92,7 @@ Panel* PanelLayout::picture_panel(const QString& title, const QString& name,
   auto* picture = new PictureWidget(std::move(shown), name, guard_);
   picture->setAccessibleName(title);
   pictures_.push_back(picture);
+  picture->show_identity(desk_.identity);
   connect(picture, &PictureWidget::hovered, this, &PanelLayout::hovered);
   own_.push_back(
       picture->pointer().end_chosen.observe([this](const geometry::Vec3& end) { emit end_chosen(end); }));
@@ -174,7 +175,7 @@ QWidget* PanelLayout::side_column() {
   auto* tabs = new QTabWidget;
   tabs->setObjectName("lists");
   tabs->setDocumentMode(true);
-  tabs->addTab(new MeasurementList(desk_.bench, guard_), tr("Measurements"));
+  tabs->addTab((new MeasurementList(desk_.bench, guard_))->with_filter(), tr("Measurements"));
   tabs->addTab(new StepList(desk_.bench, guard_), tr("Steps"));
   column->addWidget(tabs);
   column->setSizes({420, 320});
@@ -183,10 +184,25 @@ QWidget* PanelLayout::side_column() {
   return column;
 }
 
+/// The profile, and the table of what is found along it.
+QWidget* PanelLayout::bottom_row() {
+  QSplitter* row = splitter(Qt::Horizontal, "bottom");
+  profile_ = new ProfileWidget(desk_.bench, guard_);
+  lesions_ = new LesionList(desk_.bench, guard_);
+  row->addWidget(panel(tr("Lumen profile"), "profile", profile_));
+  Panel* table = panel(tr("Lesions"), "lesions", lesions_);
+  table->add_control(lesions_->controls());
+  row->addWidget(table);
+  row->setSizes({860, 740});
+  for (int i = 0; i < 2; ++i) row->setStretchFactor(i, 1);
+  return row;
+}
+
 void PanelLayout::maximise(Panel* panel) {
   alone_ = alone_ == panel ? nullptr : panel;
   if (alone_) hanging_->rest(true);
   show_alone(rows_, alone_);
+  if (!alone_) hanging_->keep_tree(hanging_->tree_kept());  // all was shown again
   if (!alone_) hanging_->rest(false);
 }
 
@@ -202,14 +218,25 @@ std::map<std::string, std::string> PanelLayout::layout_settings() {
   return settings;
 }
 
-void PanelLayout::restore_layout() {
+void PanelLayout::restore_layout(const std::map<std::string, std::string>& settings) {
   for (QSplitter* one : splitters_) {
     const std::string name = one->objectName().toStdString();
     // Sizes are kept in the order of the panels: those of others fit none of these.
-    if (desk_.machine.setting("panels." + name).value_or(parts_.at(one)) != parts_.at(one)) continue;
-    const auto kept = desk_.machine.setting("splitter." + name);
-    one->restoreState(kept ? QByteArray::fromBase64(QByteArray::fromStdString(*kept)) : QByteArray());
+    const auto panels = settings.find("panels." + name);
+    if (panels != settings.end() && panels->second != parts_.at(one)) continue;
+    const auto kept = settings.find("splitter." + name);
+    one->restoreState(kept != settings.end() ? QByteArray::fromBase64(QByteArray::fromStdString(kept->second))
+                                             : QByteArray());
   }
+}
+
+void PanelLayout::show_tree(bool shown) {
+  if (alone_) maximise(alone_);
+  hanging_->keep_tree(shown);
+}
+
+bool PanelLayout::tree_shown() const {
+  return hanging_->tree_kept();
 }
 
 }  // namespace ostia::workstation

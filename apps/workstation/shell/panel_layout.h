@@ -15,6 +15,7 @@ namespace ostia::workstation {
 
 struct Desk;
 class Hanging;
+class LesionList;
 class Panel;
 class SceneWidget;
 class VesselList;
@@ -29,13 +30,17 @@ class PanelLayout final : public QObject {
   SceneWidget& scene() { return *scene_; }
   ProfileWidget& profile() { return *profile_; }
   VesselList& vessels() { return *vessels_; }
+  LesionList& lesions() { return *lesions_; }
   const std::vector<PictureWidget*>& pictures() const { return pictures_; }
   /// Something in the title of the tree: a combo box, a button.
   void add_beside_tree(QWidget* control);
   /// Where the splitters stand and which panels they hold, as settings of this machine, with all panels
   /// shown.
   std::map<std::string, std::string> layout_settings();
-  void restore_layout();  ///< of splitters that hold the panels that they held then
+  /// Of splitters that hold the panels that they held then.
+  void restore_layout(const std::map<std::string, std::string>& settings);
+  void show_tree(bool shown);  ///< its room goes to the other views
+  bool tree_shown() const;
 
  signals:
   void hovered(const QString& text);           ///< what is under the mouse in a 2D view
@@ -52,12 +57,14 @@ class PanelLayout final : public QObject {
   QWidget* section_column();
   Panel* tree_panel();
   QWidget* side_column();
+  QWidget* bottom_row();
   void maximise(Panel* panel);
   Desk& desk_;
   Guard guard_;
   SceneWidget* scene_ = nullptr;
   ProfileWidget* profile_ = nullptr;
   VesselList* vessels_ = nullptr;
+  LesionList* lesions_ = nullptr;
   std::vector<PictureWidget*> pictures_;
   std::vector<QSplitter*> splitters_;
   std::map<const QSplitter*, std::string> parts_;  // their panels, in a wide window

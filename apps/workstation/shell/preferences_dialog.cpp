@@ -2,12 +2,14 @@
 
 #include "commands/table.h"
 #include "commands/texts.h"
+#include "shell/bind.h"
 #include "shell/desk.h"
 #include "shell/hanging.h"
 #include "shell/language.h"
 #include "shell/theme.h"
 #include "views/overlay_colors.h"
 
+#include <QCheckBox>
 #include <QComboBox>
 #include <QDialogButtonBox>
 #include <QFormLayout>
@@ -76,7 +78,30 @@ QWidget* PreferencesDialog::general_page() {
   });
   form->addRow(tr("Language"), language);
   form->addRow(QString(), note);
+  add_patients(*form);
   return page;
+}
+
+void PreferencesDialog::add_patients(QFormLayout& form) {
+  auto* on_views = new QCheckBox(tr("In a corner of each image"));
+  on_views->setObjectName("identity_on_views");
+  bind_checked(on_views, desk_.identity.on_views);
+  form.addRow(tr("Patient's name"), on_views);
+  auto* kept = new QCheckBox(tr("In the list of recent cases"));
+  kept->setObjectName("identity_kept");
+  kept->setToolTip(
+      tr("Names are kept on this computer, in a file that you alone can read. No case has them."));
+  bind_checked(kept, desk_.identity.kept);
+  auto* forget = new QPushButton(tr("Forget all names"));
+  forget->setObjectName("identity_forget");
+  forget->setAutoDefault(false);
+  connect(forget, &QPushButton::clicked, this,
+          [this] { desk_.messages.guarded([this] { desk_.identity.forget_all(); }); });
+  auto* row = new QHBoxLayout;
+  row->addWidget(kept);
+  row->addStretch(1);
+  row->addWidget(forget);
+  form.addRow(QString(), row);
 }
 
 QWidget* PreferencesDialog::keys_page() {

@@ -6,6 +6,7 @@
 #include <QDialog>
 
 class QComboBox;
+class QFormLayout;
 class QKeySequenceEdit;
 class QLabel;
 class QTreeWidget;
@@ -24,6 +25,7 @@ class PreferencesDialog final : public QDialog {
 
  private:
   QWidget* general_page();
+  void add_patients(QFormLayout& form);
   QWidget* keys_page();
   void fill_keys();
   void show_keys();

@@ -60,10 +60,27 @@ QToolBar* fixed_bar(QMainWindow& window, const QString& title, const QString& na
 
 void build_tool_bars(QMainWindow& window, const CommandTable& commands, Desk& desk) {
   QToolBar* tools = fixed_bar(window, SizesBar::title_of_tools(), "tools");
-  for (const char* id :
-       {"edit.undo", "edit.redo", "", "tool.browse", "", "tool.drag", "tool.draw", "tool.brush", "tool.axis",
-        "tool.add_vessel", "tool.add_artery", "", "tool.distance", "tool.angle", "tool.area", "tool.diameter",
-        "tool.stenosis", "tool.volume", "tool.ring_hu"}) {
+  for (const char* id : {"edit.undo",
+                         "edit.redo",
+                         "",
+                         "tool.browse",
+                         "",
+                         "tool.drag",
+                         "tool.draw",
+                         "tool.brush",
+                         "tool.axis",
+                         "tool.add_vessel",
+                         "tool.add_artery",
+                         "",
+                         "tool.distance",
+                         "tool.angle",
+                         "tool.area",
+                         "tool.diameter",
+                         "tool.stenosis",
+                         "tool.volume",
+                         "tool.ring_hu",
+                         "tool.arrow",
+                         "tool.note"}) {
     if (*id)
       tools->addAction(&commands.action(id));
     else

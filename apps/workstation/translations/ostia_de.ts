@@ -2,29 +2,133 @@
 <!DOCTYPE TS>
 <TS version="2.1" language="de_DE" sourcelanguage="en">
 <context>
-    <name>ostia::workstation::Evaluability</name>
-    <message>
-        <source>No case is open.</source>
-        <translation>Es ist kein Fall offen.</translation>
-    </message>
-    <message>
-        <source>No vessel is selected.</source>
-        <translation>Es ist kein Gefäß gewählt.</translation>
-    </message>
-    <message>
-        <source>as the program finds it</source>
-        <translation>wie das Programm es findet</translation>
-    </message>
-    <message>
-        <source>%1 from %2 to %3 mm: %4</source>
-        <translation>%1 von %2 bis %3 mm: %4</translation>
-    </message>
-</context>
-<context>
     <name>ConnectMenu</name>
     <message>
         <source>Which vessel shall begin here?</source>
         <translation>Welches Gefäß soll hier beginnen?</translation>
+    </message>
+</context>
+<context>
+    <name>LesionTexts</name>
+    <message>
+        <source>none</source>
+        <translation>keine</translation>
+    </message>
+    <message>
+        <source>non-calcified</source>
+        <translation>nicht verkalkt</translation>
+    </message>
+    <message>
+        <source>mixed</source>
+        <translation>gemischt</translation>
+    </message>
+    <message>
+        <source>calcified</source>
+        <translation>verkalkt</translation>
+    </message>
+    <message>
+        <source>No.</source>
+        <translation>Nr.</translation>
+    </message>
+    <message>
+        <source>Segment</source>
+        <translation>Segment</translation>
+    </message>
+    <message>
+        <source>Grade</source>
+        <translation>Grad</translation>
+    </message>
+    <message>
+        <source>%</source>
+        <translation>%</translation>
+    </message>
+    <message>
+        <source>MLD</source>
+        <translation>MLD</translation>
+    </message>
+    <message>
+        <source>MLA</source>
+        <translation>MLA</translation>
+    </message>
+    <message>
+        <source>Length</source>
+        <translation>Länge</translation>
+    </message>
+    <message>
+        <source>Plaque</source>
+        <translation>Plaque</translation>
+    </message>
+    <message>
+        <source>Class</source>
+        <translation>Art</translation>
+    </message>
+    <message>
+        <source>Image</source>
+        <translation>Bild</translation>
+    </message>
+    <message>
+        <source>State</source>
+        <translation>Urteil</translation>
+    </message>
+    <message>
+        <source>Comment</source>
+        <translation>Kommentar</translation>
+    </message>
+    <message>
+        <source>Lesion</source>
+        <translation>Läsion</translation>
+    </message>
+    <message>
+        <source>CAD-RADS of the lesion</source>
+        <translation>CAD-RADS der Läsion</translation>
+    </message>
+    <message>
+        <source>Diameter stenosis (%)</source>
+        <translation>Einengung des Durchmessers (%)</translation>
+    </message>
+    <message>
+        <source>Minimal lumen diameter (mm)</source>
+        <translation>Kleinster Durchmesser des Lumens (mm)</translation>
+    </message>
+    <message>
+        <source>Minimal lumen area (mm²)</source>
+        <translation>Kleinste Fläche des Lumens (mm²)</translation>
+    </message>
+    <message>
+        <source>Length (mm)</source>
+        <translation>Länge (mm)</translation>
+    </message>
+    <message>
+        <source>Plaque (mm³)</source>
+        <translation>Plaque (mm³)</translation>
+    </message>
+    <message>
+        <source>Class of the plaque</source>
+        <translation>Art der Plaque</translation>
+    </message>
+    <message>
+        <source>Evaluable</source>
+        <translation>Beurteilbar</translation>
+    </message>
+    <message>
+        <source>%1, narrowest at %2 mm</source>
+        <translation>%1, am engsten bei %2 mm</translation>
+    </message>
+    <message>
+        <source>%1, plaque about %2 mm</source>
+        <translation>%1, Plaque um %2 mm</translation>
+    </message>
+    <message>
+        <source>open</source>
+        <translation>offen</translation>
+    </message>
+    <message>
+        <source>accepted</source>
+        <translation>angenommen</translation>
+    </message>
+    <message>
+        <source>rejected</source>
+        <translation>verworfen</translation>
     </message>
 </context>
 <context>
@@ -238,6 +342,10 @@
     <message>
         <source>Edit</source>
         <translation>Bearbeiten</translation>
+    </message>
+    <message>
+        <source>Lesions</source>
+        <translation>Läsionen</translation>
     </message>
     <message>
         <source>Tools</source>
@@ -523,6 +631,26 @@
         <source>Camera</source>
         <translation>Kamera</translation>
     </message>
+    <message>
+        <source>three planes</source>
+        <translation>drei Ebenen</translation>
+    </message>
+    <message>
+        <source>a ring on a line, drag</source>
+        <translation>ein Ring auf einer Linie, ziehen</translation>
+    </message>
+    <message>
+        <source>turn the other two planes</source>
+        <translation>die beiden anderen Ebenen drehen</translation>
+    </message>
+    <message>
+        <source>a dot on a slab&apos;s border, drag; Shift and wheel</source>
+        <translation>ein Punkt am Rand einer Schicht, ziehen; Umschalt und Mausrad</translation>
+    </message>
+    <message>
+        <source>the thickness of the slab</source>
+        <translation>die Dicke der Schicht</translation>
+    </message>
 </context>
 <context>
     <name>jobs</name>
@@ -592,6 +720,14 @@
 </context>
 <context>
     <name>measures</name>
+    <message>
+        <source>arrow</source>
+        <translation>Pfeil</translation>
+    </message>
+    <message>
+        <source>note</source>
+        <translation>Notiz</translation>
+    </message>
     <message>
         <source>distance</source>
         <translation>Abstand</translation>
@@ -785,11 +921,99 @@
 <context>
     <name>ostia::workstation::Command</name>
     <message>
+        <source>Arrow</source>
+        <translation>Pfeil</translation>
+    </message>
+    <message>
+        <source>Drag from what it points at to where its text is to stand.</source>
+        <translation>Von dem, worauf er zeigt, dorthin ziehen, wo sein Text stehen soll.</translation>
+    </message>
+    <message>
+        <source>Note</source>
+        <translation>Notiz</translation>
+    </message>
+    <message>
+        <source>Click a place, and type what is to stand beside it.</source>
+        <translation>Auf eine Stelle klicken und tippen, was daneben stehen soll.</translation>
+    </message>
+    <message>
+        <source>The cursor is in no lesion of the table.</source>
+        <translation>Der Cursor ist in keiner Läsion der Tabelle.</translation>
+    </message>
+    <message>
+        <source>No other lesion in this direction.</source>
+        <translation>Keine weitere Läsion in dieser Richtung.</translation>
+    </message>
+    <message>
+        <source>Next lesion</source>
+        <translation>Nächste Läsion</translation>
+    </message>
+    <message>
+        <source>All views go to the narrowest place of the next lesion of the table, as it is sorted and filtered.</source>
+        <translation>Alle Ansichten gehen zur engsten Stelle der nächsten Läsion der Tabelle, wie sie sortiert und gefiltert ist.</translation>
+    </message>
+    <message>
+        <source>Previous lesion</source>
+        <translation>Vorige Läsion</translation>
+    </message>
+    <message>
+        <source>All views go to the narrowest place of the lesion before it in the table.</source>
+        <translation>Alle Ansichten gehen zur engsten Stelle der Läsion davor in der Tabelle.</translation>
+    </message>
+    <message>
+        <source>&amp;Accept the lesion</source>
+        <translation>Läsion &amp;annehmen</translation>
+    </message>
+    <message>
+        <source>The lesion at the cursor is one: it is graded, as if its vessel were checked.</source>
+        <translation>Die Läsion am Cursor ist eine: Sie wird gewertet, als wäre ihr Gefäß geprüft.</translation>
+    </message>
+    <message>
+        <source>&amp;Reject the lesion</source>
+        <translation>Läsion ver&amp;werfen</translation>
+    </message>
+    <message>
+        <source>The lesion at the cursor is none: the report lists it as rejected and does not grade it.</source>
+        <translation>Die Läsion am Cursor ist keine: Der Bericht führt sie als verworfen und wertet sie nicht.</translation>
+    </message>
+    <message>
+        <source>Leave the lesion &amp;open</source>
+        <translation>Läsion &amp;offen lassen</translation>
+    </message>
+    <message>
+        <source>Takes back what was said of the lesion at the cursor.</source>
+        <translation>Nimmt zurück, was von der Läsion am Cursor gesagt wurde.</translation>
+    </message>
+    <message>
+        <source>&amp;Comment the lesion</source>
+        <translation>Läsion &amp;kommentieren</translation>
+    </message>
+    <message>
+        <source>Types a comment on the lesion at the cursor; it is in the report.</source>
+        <translation>Ein Kommentar zur Läsion am Cursor wird getippt; er steht im Bericht.</translation>
+    </message>
+    <message>
+        <source>Copy the &amp;table of lesions</source>
+        <translation>&amp;Tabelle der Läsionen kopieren</translation>
+    </message>
+    <message>
+        <source>The rows that are shown, as text with tabs between the cells.</source>
+        <translation>Die Zeilen, die gezeigt werden, als Text mit Tabulatoren zwischen den Zellen.</translation>
+    </message>
+    <message>
+        <source>The table of lesions was copied as text.</source>
+        <translation>Die Tabelle der Läsionen ist als Text kopiert.</translation>
+    </message>
+    <message>
+        <source>Lesions</source>
+        <translation>Läsionen</translation>
+    </message>
+    <message>
         <source>Add artery</source>
         <translation>Arterie hinzufügen</translation>
     </message>
     <message>
-        <source>Click an artery's ostium, then its distal end: it begins a tree of its own.</source>
+        <source>Click an artery&apos;s ostium, then its distal end: it begins a tree of its own.</source>
         <translation>Auf das Ostium einer Arterie klicken, dann auf ihr distales Ende: sie beginnt einen eigenen Baum.</translation>
     </message>
     <message>
@@ -1465,10 +1689,6 @@
         <translation>der Breitseite des Gefäßes</translation>
     </message>
     <message>
-        <source>No other stenosis in this direction.</source>
-        <translation>Keine weitere Stenose in dieser Richtung.</translation>
-    </message>
-    <message>
         <source>Turn the CPRs left</source>
         <translation>CPRs nach links drehen</translation>
     </message>
@@ -1527,22 +1747,6 @@
     <message>
         <source>The cursor goes to where the vessel ends.</source>
         <translation>Der Cursor geht zum Ende des Gefäßes.</translation>
-    </message>
-    <message>
-        <source>Next stenosis</source>
-        <translation>Nächste Stenose</translation>
-    </message>
-    <message>
-        <source>The cursor goes to the narrowest place of the next stenosis distally.</source>
-        <translation>Der Cursor geht zur engsten Stelle der nächsten Stenose distal.</translation>
-    </message>
-    <message>
-        <source>Previous stenosis</source>
-        <translation>Vorige Stenose</translation>
-    </message>
-    <message>
-        <source>The cursor goes to the narrowest place of the next stenosis proximally.</source>
-        <translation>Der Cursor geht zur engsten Stelle der nächsten Stenose proximal.</translation>
     </message>
     <message>
         <source>Stretched CPR</source>
@@ -1628,12 +1832,119 @@
         <source>All views show all there is.</source>
         <translation>Alle Ansichten zeigen alles, was da ist.</translation>
     </message>
+    <message>
+        <source>All views</source>
+        <translation>Alle Ansichten</translation>
+    </message>
+    <message>
+        <source>The reading layout: lists, CPRs, sections, tree and profile.</source>
+        <translation>Die Anordnung zum Befunden: Listen, CPRs, Schnitte, Baum und Profil.</translation>
+    </message>
+    <message>
+        <source>Three planes alone</source>
+        <translation>Drei Ebenen allein</translation>
+    </message>
+    <message>
+        <source>Axial, coronal and sagittal, or oblique, with one crosshair and a slab.</source>
+        <translation>Axial, koronar und sagittal, oder schräg, mit einem Fadenkreuz und einer Schicht.</translation>
+    </message>
+    <message>
+        <source>2D views alone</source>
+        <translation>2D-Ansichten allein</translation>
+    </message>
+    <message>
+        <source>The tree gives its room to the other views.</source>
+        <translation>Der Baum gibt seinen Platz den anderen Ansichten.</translation>
+    </message>
+    <message>
+        <source>Save this layout…</source>
+        <translation>Diese Anordnung speichern…</translation>
+    </message>
+    <message>
+        <source>Keeps the window as it is under a name, with what floats on another monitor.</source>
+        <translation>Behält das Fenster, wie es ist, unter einem Namen, mit allem, was auf einem anderen Bildschirm liegt.</translation>
+    </message>
+    <message>
+        <source>Forget a layout…</source>
+        <translation>Eine Anordnung vergessen…</translation>
+    </message>
+    <message>
+        <source>Takes one of your own layouts away.</source>
+        <translation>Nimmt eine eigene Anordnung weg.</translation>
+    </message>
+    <message>
+        <source>Begin with the layout shown last</source>
+        <translation>Mit der zuletzt gezeigten Anordnung beginnen</translation>
+    </message>
+    <message>
+        <source>The window begins with it; again: as it was left.</source>
+        <translation>Das Fenster beginnt mit ihr; noch einmal: wie es verlassen wurde.</translation>
+    </message>
+    <message>
+        <source>Three &amp;planes</source>
+        <translation>Drei &amp;Ebenen</translation>
+    </message>
+    <message>
+        <source>Three linked planes beside the other views, or on another monitor.</source>
+        <translation>Drei verbundene Ebenen neben den anderen Ansichten oder auf einem anderen Bildschirm.</translation>
+    </message>
+    <message>
+        <source>Slab: minimum</source>
+        <translation>Schicht: Minimum</translation>
+    </message>
+    <message>
+        <source>2D views show the smallest CT number within the slab&apos;s thickness.</source>
+        <translation>2D-Ansichten zeigen den kleinsten CT-Wert innerhalb der Schichtdicke.</translation>
+    </message>
+    <message>
+        <source>Patient on the views</source>
+        <translation>Patient auf den Ansichten</translation>
+    </message>
+    <message>
+        <source>Writes in a corner of each image whose it is. Pictures of a report never have it.</source>
+        <translation>Schreibt in eine Ecke jedes Bildes, von wem es ist. Bilder eines Befunds haben es nie.</translation>
+    </message>
+    <message>
+        <source>Save these grey levels…</source>
+        <translation>Diese Graustufen speichern…</translation>
+    </message>
+    <message>
+        <source>Keeps window and level under a name, on this computer.</source>
+        <translation>Behält Fensterbreite und -lage unter einem Namen, auf diesem Computer.</translation>
+    </message>
+    <message>
+        <source>Forget grey levels…</source>
+        <translation>Graustufen vergessen…</translation>
+    </message>
+    <message>
+        <source>Takes grey levels of your own away.</source>
+        <translation>Nimmt eigene Graustufen weg.</translation>
+    </message>
 </context>
 <context>
     <name>ostia::workstation::CutFields</name>
     <message>
         <source>The plane can be dragged in 3D by its frame and its arrow.</source>
         <translation>Die Ebene lässt sich in 3D an ihrem Rahmen und ihrem Pfeil ziehen.</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::Evaluability</name>
+    <message>
+        <source>No case is open.</source>
+        <translation>Es ist kein Fall offen.</translation>
+    </message>
+    <message>
+        <source>No vessel is selected.</source>
+        <translation>Es ist kein Gefäß gewählt.</translation>
+    </message>
+    <message>
+        <source>as the program finds it</source>
+        <translation>wie das Programm es findet</translation>
+    </message>
+    <message>
+        <source>%1 from %2 to %3 mm: %4</source>
+        <translation>%1 von %2 bis %3 mm: %4</translation>
     </message>
 </context>
 <context>
@@ -2005,6 +2316,29 @@
     </message>
 </context>
 <context>
+    <name>ostia::workstation::GreyPresets</name>
+    <message>
+        <source>Save these grey levels</source>
+        <translation>Diese Graustufen speichern</translation>
+    </message>
+    <message>
+        <source>Name of window %1, level %2:</source>
+        <translation>Name für Breite %1, Lage %2:</translation>
+    </message>
+    <message>
+        <source>There are no grey levels of your own yet.</source>
+        <translation>Es gibt noch keine eigenen Graustufen.</translation>
+    </message>
+    <message>
+        <source>Forget grey levels</source>
+        <translation>Graustufen vergessen</translation>
+    </message>
+    <message>
+        <source>Which:</source>
+        <translation>Welche:</translation>
+    </message>
+</context>
+<context>
     <name>ostia::workstation::Hanging</name>
     <message>
         <source>Tree</source>
@@ -2078,6 +2412,72 @@
     </message>
 </context>
 <context>
+    <name>ostia::workstation::Layouts</name>
+    <message>
+        <source>Save this layout</source>
+        <translation>Diese Anordnung speichern</translation>
+    </message>
+    <message>
+        <source>Its name:</source>
+        <translation>Ihr Name:</translation>
+    </message>
+    <message>
+        <source>There is no layout of your own yet.</source>
+        <translation>Es gibt noch keine eigene Anordnung.</translation>
+    </message>
+    <message>
+        <source>Forget a layout</source>
+        <translation>Eine Anordnung vergessen</translation>
+    </message>
+    <message>
+        <source>Which:</source>
+        <translation>Welche:</translation>
+    </message>
+    <message>
+        <source>The window begins as it was left.</source>
+        <translation>Das Fenster beginnt, wie es verlassen wurde.</translation>
+    </message>
+    <message>
+        <source>The window begins with this layout.</source>
+        <translation>Das Fenster beginnt mit dieser Anordnung.</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::LesionList</name>
+    <message>
+        <source>Lesions</source>
+        <translation>Läsionen</translation>
+    </message>
+    <message>
+        <source>Filter the lesions</source>
+        <translation>Läsionen filtern</translation>
+    </message>
+    <message>
+        <source>Filter</source>
+        <translation>Filter</translation>
+    </message>
+    <message>
+        <source>Shows the rows alone that have this text in one of their cells.</source>
+        <translation>Zeigt nur die Zeilen, in denen dieser Text steht.</translation>
+    </message>
+    <message>
+        <source>State of the lesions that are shown</source>
+        <translation>Urteil der Läsionen, die gezeigt werden</translation>
+    </message>
+    <message>
+        <source>All</source>
+        <translation>Alle</translation>
+    </message>
+    <message>
+        <source>plaque: %1 to go</source>
+        <translation>Plaque: noch %1</translation>
+    </message>
+    <message>
+        <source>Vessels whose plaque is not known yet; their lesions may become more.</source>
+        <translation>Gefäße, deren Plaque noch nicht bekannt ist; ihre Läsionen können mehr werden.</translation>
+    </message>
+</context>
+<context>
     <name>ostia::workstation::MainWindow</name>
     <message>
         <source>The truth cannot be opened</source>
@@ -2098,6 +2498,10 @@
     <message>
         <source>Ostia – read-only</source>
         <translation>Ostia – schreibgeschützt</translation>
+    </message>
+    <message>
+        <source>%1 – read-only</source>
+        <translation>%1 – nur lesbar</translation>
     </message>
 </context>
 <context>
@@ -2129,6 +2533,14 @@
 </context>
 <context>
     <name>ostia::workstation::MeasurementList</name>
+    <message>
+        <source>Filter the measurements</source>
+        <translation>Messungen filtern</translation>
+    </message>
+    <message>
+        <source>Filter</source>
+        <translation>Filter</translation>
+    </message>
     <message>
         <source>Measurements</source>
         <translation>Messungen</translation>
@@ -2195,6 +2607,14 @@
     <message>
         <source>&amp;Help</source>
         <translation>&amp;Hilfe</translation>
+    </message>
+    <message>
+        <source>&amp;Grey levels</source>
+        <translation>&amp;Graustufen</translation>
+    </message>
+    <message>
+        <source>La&amp;youts</source>
+        <translation>An&amp;ordnungen</translation>
     </message>
 </context>
 <context>
@@ -2875,6 +3295,10 @@
 <context>
     <name>ostia::workstation::PanelLayout</name>
     <message>
+        <source>Lesions</source>
+        <translation>Läsionen</translation>
+    </message>
+    <message>
         <source>Lumen profile</source>
         <translation>Lumenprofil</translation>
     </message>
@@ -3084,6 +3508,69 @@
         <source>outside the image</source>
         <translation>außerhalb des Bildes</translation>
     </message>
+    <message>
+        <source>W %1  L %2</source>
+        <translation>W %1  L %2</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::PlanesDock</name>
+    <message>
+        <source>Three planes</source>
+        <translation>Drei Ebenen</translation>
+    </message>
+    <message>
+        <source>Axial plane</source>
+        <translation>Axiale Ebene</translation>
+    </message>
+    <message>
+        <source>Coronal plane</source>
+        <translation>Koronare Ebene</translation>
+    </message>
+    <message>
+        <source>Sagittal plane</source>
+        <translation>Sagittale Ebene</translation>
+    </message>
+    <message>
+        <source>Slab</source>
+        <translation>Schicht</translation>
+    </message>
+    <message>
+        <source>Thin</source>
+        <translation>Dünn</translation>
+    </message>
+    <message>
+        <source>Mean</source>
+        <translation>Mittelwert</translation>
+    </message>
+    <message>
+        <source>MIP</source>
+        <translation>MIP</translation>
+    </message>
+    <message>
+        <source>MinIP</source>
+        <translation>MinIP</translation>
+    </message>
+    <message>
+        <source>Thickness of the slab</source>
+        <translation>Dicke der Schicht</translation>
+    </message>
+    <message>
+        <source>Shift and wheel over a plane, or the dots on its border, change it, too</source>
+        <translation>Auch Umschalt und Mausrad über einer Ebene oder die Punkte an ihrem Rand ändern sie</translation>
+    </message>
+    <message>
+        <source> mm</source>
+        <translation> mm</translation>
+    </message>
+    <message>
+        <source>Straight</source>
+        <translation>Gerade</translation>
+    </message>
+    <message>
+        <source>Axial, coronal and sagittal again; the rings on the lines turn them</source>
+        <translation>Wieder axial, koronar und sagittal; die Ringe auf den Linien drehen sie</translation>
+    </message>
 </context>
 <context>
     <name>ostia::workstation::PreferencesDialog</name>
@@ -3194,6 +3681,26 @@
     <message>
         <source>Another command has been given this command&apos;s key.</source>
         <translation>Ein anderer Befehl hat die Taste dieses Befehls bekommen.</translation>
+    </message>
+    <message>
+        <source>In a corner of each image</source>
+        <translation>In einer Ecke jedes Bildes</translation>
+    </message>
+    <message>
+        <source>Patient&apos;s name</source>
+        <translation>Name des Patienten</translation>
+    </message>
+    <message>
+        <source>In the list of recent cases</source>
+        <translation>In der Liste der letzten Fälle</translation>
+    </message>
+    <message>
+        <source>Names are kept on this computer, in a file that you alone can read. No case has them.</source>
+        <translation>Namen bleiben auf diesem Computer, in einer Datei, die nur Sie lesen können. Kein Fall hat sie.</translation>
+    </message>
+    <message>
+        <source>Forget all names</source>
+        <translation>Alle Namen vergessen</translation>
     </message>
 </context>
 <context>
@@ -3438,6 +3945,29 @@
     </message>
 </context>
 <context>
+    <name>ostia::workstation::ReportDialog</name>
+    <message>
+        <source>&amp;Name the patient in this report</source>
+        <translation>&amp;Patient in diesem Befund nennen</translation>
+    </message>
+    <message>
+        <source>Report</source>
+        <translation>Befund</translation>
+    </message>
+    <message>
+        <source>The report of the case as it is now, in a folder beside it.</source>
+        <translation>Der Befund des Falls, wie er jetzt ist, in einem Ordner daneben.</translation>
+    </message>
+    <message>
+        <source>The name is then in report.pdf and report.html. The tables, the pictures and the case stay without it.</source>
+        <translation>Der Name steht dann in report.pdf und report.html. Tabellen, Bilder und Fall bleiben ohne ihn.</translation>
+    </message>
+    <message>
+        <source>&amp;Make the report</source>
+        <translation>Befund &amp;erstellen</translation>
+    </message>
+</context>
+<context>
     <name>ostia::workstation::Reporting</name>
     <message>
         <source>Report</source>
@@ -3562,6 +4092,10 @@
     <message>
         <source>Pictures of the series</source>
         <translation>Bilder der Serien</translation>
+    </message>
+    <message>
+        <source>Images of several patients lie in this folder. Each series is of one of them: look at its name.</source>
+        <translation>In diesem Ordner liegen Bilder mehrerer Patienten. Jede Serie ist von einem von ihnen: Achten Sie auf ihren Namen.</translation>
     </message>
 </context>
 <context>
@@ -4111,6 +4645,14 @@ Eine Reparatur ändert, was gezeigt wird, nie die Datei.</translation>
 <context>
     <name>ostia::workstation::VesselFinder</name>
     <message>
+        <source>The case has no vessel any more and was closed; Undo brings it back.</source>
+        <translation>Der Fall hat kein Gefäß mehr und wurde geschlossen; Rückgängig bringt ihn zurück.</translation>
+    </message>
+    <message>
+        <source>The first vessel was taken back, and with it its case; Redo brings it back.</source>
+        <translation>Das erste Gefäß wurde zurückgenommen und mit ihm sein Fall; Wiederholen bringt ihn zurück.</translation>
+    </message>
+    <message>
         <source>Another artery</source>
         <translation>Weitere Arterie</translation>
     </message>
@@ -4620,6 +5162,42 @@ Eine Reparatur ändert, was gezeigt wird, nie die Datei.</translation>
 <context>
     <name>views</name>
     <message>
+        <source>Distance</source>
+        <translation>Abstand</translation>
+    </message>
+    <message>
+        <source>Angle</source>
+        <translation>Winkel</translation>
+    </message>
+    <message>
+        <source>Area</source>
+        <translation>Fläche</translation>
+    </message>
+    <message>
+        <source>Diameter</source>
+        <translation>Durchmesser</translation>
+    </message>
+    <message>
+        <source>Stenosis</source>
+        <translation>Stenose</translation>
+    </message>
+    <message>
+        <source>Volume</source>
+        <translation>Volumen</translation>
+    </message>
+    <message>
+        <source>HU ring</source>
+        <translation>HU-Ring</translation>
+    </message>
+    <message>
+        <source>Arrow</source>
+        <translation>Pfeil</translation>
+    </message>
+    <message>
+        <source>Note</source>
+        <translation>Notiz</translation>
+    </message>
+    <message>
         <source>evaluable</source>
         <translation>beurteilbar</translation>
     </message>
@@ -4738,6 +5316,18 @@ Eine Reparatur ändert, was gezeigt wird, nie die Datei.</translation>
     <message>
         <source>tree</source>
         <translation>Baum</translation>
+    </message>
+    <message>
+        <source>mean</source>
+        <translation>Mittelwert</translation>
+    </message>
+    <message>
+        <source>MIP</source>
+        <translation>MIP</translation>
+    </message>
+    <message>
+        <source>MinIP</source>
+        <translation>MinIP</translation>
     </message>
 </context>
 </TS>

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <memory>
 #include <string>
+#include <utility>
 
 namespace ostia::workstation {
 namespace {
@@ -43,8 +44,14 @@ struct NewVessel {
 
 VesselFinder::VesselFinder(Desk& desk, Opening& opening)
     : QObject(&desk.window), desk_(desk), opening_(opening) {
-  own_.push_back(desk.bench.case_changed.observe([this] { drop_begun(); }));
-  own_.push_back(desk.bench.image_changed.observe([this] { drop_begun(); }));
+  own_.push_back(desk.bench.case_changed.observe([this] {
+    drop_begun();
+    if (desk_.bench.has_case()) aside_.clear();
+  }));
+  own_.push_back(desk.bench.image_changed.observe([this] {
+    drop_begun();
+    aside_.clear();
+  }));
   own_.push_back(desk.bench.tool.observe([this](const session::Tool& tool) {
     desk_.bench.first_end.set({});
     const bool artery =
@@ -58,6 +65,45 @@ void VesselFinder::drop_begun() {
   desk_.jobs.cancel("tree");
   desk_.jobs.cancel("path");
   desk_.bench.first_end.set({});
+}
+
+bool VesselFinder::can_take_back() const {
+  if (!desk_.bench.has_case()) return !aside_.empty() && aside_deleted_;
+  return !begun_.empty() && desk_.case_path == begun_ && !desk_.bench.session().file().next_undo();
+}
+
+bool VesselFinder::can_do_again() const {
+  return !desk_.bench.has_case() && !aside_.empty() && !aside_deleted_;
+}
+
+void VesselFinder::take_back() {
+  if (!can_take_back()) return;
+  if (desk_.bench.has_case())
+    put_aside(false);
+  else
+    bring_back();
+}
+
+void VesselFinder::do_again() {
+  if (can_do_again()) bring_back();
+}
+
+void VesselFinder::delete_last() {
+  if (desk_.bench.has_case()) put_aside(true);
+}
+
+void VesselFinder::put_aside(bool deleted) {
+  aside_ = desk_.case_path;
+  aside_deleted_ = deleted;
+  opening_.close_case();
+  desk_.messages.say(deleted
+                         ? tr("The case has no vessel any more and was closed; Undo brings it back.")
+                         : tr("The first vessel was taken back, and with it its case; Redo brings it back."));
+}
+
+void VesselFinder::bring_back() {
+  const std::filesystem::path path = std::exchange(aside_, {});
+  opening_.open(path);
 }
 
 bool VesselFinder::image_is_there() {
@@ -127,14 +173,18 @@ void VesselFinder::first_vessel(const session::OpenImage& image, const geometry:
       "path", tr("First vessel"),
       [volume = image.volume, from, end](const core::TaskContext& task) {
         const segmentation::MinimalPath way = way_between(*volume, from, end, task.sub(0.0, 0.5));
-        return std::any(
-            session::model_of_way(way, session::unused_name(nullptr), *volume, task.sub(0.5, 1.0)));
+        const auto wide = session::require_artery(way, *volume, ostium_mm);
+        return std::any(std::pair{
+            session::model_of_way(way, session::unused_name(nullptr), *volume, task.sub(0.5, 1.0)), wide});
       },
       [this, reference = image.reference](const std::any& result) {
-        const auto& model = std::any_cast<const lumen::LumenModel&>(result);
-        opening_.start_case(reference, [&](const std::filesystem::path& path) {
-          return session::CaseFile::create(path, model, reference);
+        using Found = std::pair<lumen::LumenModel, std::optional<std::string>>;
+        const auto& [model, wide] = std::any_cast<const Found&>(result);
+        opening_.start_case(reference, [&, &made = model](const std::filesystem::path& path) {
+          begun_ = path;  // before the commands are told of the case
+          return session::CaseFile::create(path, made, reference);
         });
+        if (wide) desk_.messages.say(QString::fromStdString(*wide));
       },
       [this](const QString& message) { desk_.messages.complain(message, tr("No vessel found")); });
 }

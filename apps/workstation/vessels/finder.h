@@ -6,6 +6,7 @@
 
 #include <QObject>
 #include <any>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -28,6 +29,14 @@ class VesselFinder final : public QObject {
   /// distal end) an artery of its own.
   void find_vessel(const geometry::Vec3& end);
 
+  // A case always has a vessel. So where its only one is taken back or deleted, the case is put aside:
+  // closed, with its file where it is, until it comes back by the opposite command or another is opened.
+  bool can_take_back() const;  ///< the first vessel of a case that was begun by hand, or a deleted last one
+  bool can_do_again() const;   ///< a first vessel that was taken back
+  void take_back();
+  void do_again();
+  void delete_last();
+
  private:
   /// The two ends of an artery, one click after the other; nothing before the second.
   std::optional<std::pair<geometry::Vec3, geometry::Vec3>> two_ends(const geometry::Vec3& end);
@@ -38,8 +47,13 @@ class VesselFinder final : public QObject {
   void join(const lumen::Edit& edit, const std::vector<std::string>& warnings);
   bool image_is_there();
   void drop_begun();
+  void put_aside(bool deleted);
+  void bring_back();
   Desk& desk_;
   Opening& opening_;
+  std::filesystem::path begun_;  // the case that was begun by hand
+  std::filesystem::path aside_;
+  bool aside_deleted_ = false;
   std::vector<session::Subscription> own_;
 };
 

@@ -118,9 +118,9 @@ void VesselList::fill() {
     int rows = 0;
     if (model) {
       const std::vector<analysis::VesselSegment> segments = analysis::segments_of(*model);
-      for (const geometry::Vessel& vessel : model->tree.vessels) {
-        unmeasured_.push_back(vessel.id);
-        show_segments(row_of(*this, vessel.id, rows++), segments);
+      for (const std::int32_t vessel : analysis::vessels_in_reading_order(model->tree)) {
+        unmeasured_.push_back(vessel);
+        show_segments(row_of(*this, vessel, rows++), segments);
       }
     }
     while (topLevelItemCount() > rows) delete topLevelItem(topLevelItemCount() - 1);
@@ -352,6 +352,21 @@ void VesselList::choose_color(std::int32_t vessel) {
   });
 }
 
+void VesselList::delete_vessel(std::int32_t vessel) {
+  guard_([&] {
+    const geometry::VesselTree& tree = bench_.model()->tree;
+    const bool all = std::all_of(tree.vessels.begin(), tree.vessels.end(), [&](const geometry::Vessel& one) {
+      return lumen::leads_through(tree, one.id, vessel);
+    });
+    if (!all) {
+      bench_.edit(lumen::BranchDelete{vessel});
+      return;
+    }
+    bench_.require_own_phase();
+    emit last_deleted();
+  });
+}
+
 void VesselList::contextMenuEvent(QContextMenuEvent* event) {
   QTreeWidgetItem* item = currentItem();
   if (!item) return;
@@ -390,8 +405,7 @@ void VesselList::contextMenuEvent(QContextMenuEvent* event) {
   QMenu* connect = connect_menu(bench_, guard_, &menu);
   connect->setTitle(tr("Connect to the cursor"));
   menu.addMenu(connect)->setToolTip(vessel_tips::connect());
-  menu.addAction(tr("Delete with its branches"), this,
-                 [this, id] { guard_([&] { bench_.edit(lumen::BranchDelete{id}); }); });
+  menu.addAction(tr("Delete with its branches"), this, [this, id] { delete_vessel(id); });
   auto* joints = menu.addMenu(tr("Join to"));
   joints->setToolTip(tr("Where its own part begins goes to the nearest place of that vessel"));
   for (const geometry::Vessel& other : bench_.model()->tree.vessels) {
@@ -411,7 +425,7 @@ void VesselList::contextMenuEvent(QContextMenuEvent* event) {
 void VesselList::keyPressEvent(QKeyEvent* event) {
   if (event->key() == Qt::Key_Delete && currentItem()) {
     const std::int32_t id = currentItem()->data(0, vessel_id_role).toInt();
-    guard_([&] { bench_.edit(lumen::BranchDelete{id}); });
+    delete_vessel(id);
     return;
   }
   QTreeWidget::keyPressEvent(event);

@@ -27,6 +27,9 @@ class VesselList final : public QTreeWidget {
   /// Tells of each vessel how far it can be judged.
   void show_evaluability(session::EvaluabilityBoard& board);
 
+ signals:
+  void last_deleted();  ///< the case's only vessel, with its branches, is to go
+
  public slots:
   void refresh();
 
@@ -51,6 +54,7 @@ class VesselList final : public QTreeWidget {
   void edited(QTreeWidgetItem* item, int column);
   session::VesselMark mark_of(std::int32_t vessel) const;
   void choose_color(std::int32_t vessel);
+  void delete_vessel(std::int32_t vessel);
   session::Workbench& bench_;
   std::function<QColor(std::int32_t)> color_of_;
   QTimer soon_;

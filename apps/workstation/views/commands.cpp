@@ -8,9 +8,10 @@
 #include "views/picture_widget.h"
 #include "views/scene_widget.h"
 
+#include "ostia/analysis/aha_segments.h"
+
 #include <array>
 #include <cmath>
-#include <optional>
 
 namespace ostia::workstation {
 namespace {
@@ -28,36 +29,20 @@ void walk(Workbench& bench, double mm) {
 void next_vessel(Workbench& bench, int by) {
   const lumen::LumenModel* model = bench.model();
   if (!model) return;
-  const auto& vessels = model->tree.vessels;
+  const std::vector<std::int32_t> vessels = analysis::vessels_in_reading_order(model->tree);
   const int count = static_cast<int>(vessels.size());
   for (int i = 0; i < count; ++i)
-    if (vessels[static_cast<std::size_t>(i)].id == bench.vessel.get()) {
-      bench.vessel.set(vessels[static_cast<std::size_t>((i + by + count) % count)].id);
+    if (vessels[static_cast<std::size_t>(i)] == bench.vessel.get()) {
+      bench.vessel.set(vessels[static_cast<std::size_t>((i + by + count) % count)]);
       return;
     }
-}
-
-void to_stenosis(Desk& desk, int direction) {
-  Workbench& bench = desk.bench;
-  constexpr double same_mm = 0.05;
-  const double here = bench.own_mm(bench.cursor_mm.get());
-  std::optional<double> best;
-  for (const analysis::Stenosis& one : bench.stenoses(bench.vessel.get())) {
-    const double ahead = direction * (one.throat_mm - here);
-    if (ahead > same_mm && (!best || ahead < direction * (*best - here))) best = one.throat_mm;
-  }
-  if (best)
-    bench.cursor_mm.set(bench.here_mm(*best));
-  else
-    desk.messages.say(Command::tr("No other stenosis in this direction."));
 }
 
 void change_slab(Workbench& bench, double steps) {
   bench.slab_mm.set(bench.slab_mm.get() + steps * bench.slab_mm.range()->step);
 }
 
-void add_walking(CommandTable& table, Desk& desk) {
-  Workbench& bench = desk.bench;
+void add_walking(CommandTable& table, Workbench& bench) {
   table.add({.id = "view.turn_left",
              .text = Command::tr("Turn the CPRs left"),
              .tip = Command::tr("Turns both CPRs by five degrees about the vessel's axis."),
@@ -100,16 +85,6 @@ void add_walking(CommandTable& table, Desk& desk) {
              .run = [&bench] {
                if (const auto axis = bench.axis()) bench.cursor_mm.set(axis->length());
              }});
-  table.add({.id = "view.next_lesion",
-             .text = Command::tr("Next stenosis"),
-             .tip = Command::tr("The cursor goes to the narrowest place of the next stenosis distally."),
-             .keys = {"L"},
-             .run = [&desk] { to_stenosis(desk, 1); }});
-  table.add({.id = "view.previous_lesion",
-             .text = Command::tr("Previous stenosis"),
-             .tip = Command::tr("The cursor goes to the narrowest place of the next stenosis proximally."),
-             .keys = {"Shift+L"},
-             .run = [&desk] { to_stenosis(desk, -1); }});
 }
 
 void add_drawing(CommandTable& table, Workbench& bench) {
@@ -133,6 +108,11 @@ void add_drawing(CommandTable& table, Workbench& bench) {
        .tip = Command::tr("2D views show the mean CT number within the slab's thickness."),
        .keys = {"Shift+M"},
        .bind = [&bench](QAction& action) { bind_switch(&action, bench.slab, Slab::none, Slab::mean); }});
+  table.add(
+      {.id = "view.minip",
+       .text = Command::tr("Slab: minimum"),
+       .tip = Command::tr("2D views show the smallest CT number within the slab's thickness."),
+       .bind = [&bench](QAction& action) { bind_switch(&action, bench.slab, Slab::none, Slab::minimum); }});
   table.add({.id = "view.thinner",
              .text = Command::tr("Thinner slab"),
              .tip = Command::tr("Makes the slab of the 2D views thinner."),
@@ -148,6 +128,14 @@ void add_drawing(CommandTable& table, Workbench& bench) {
              .tip = Command::tr("Shows or hides the lumen's contour on all views."),
              .keys = {"Space"},
              .bind = [&bench](QAction& action) { bind_checked(&action, bench.contours_shown); }});
+}
+
+void add_identity(CommandTable& table, Desk& desk) {
+  table.add({.id = "view.identity",
+             .text = Command::tr("Patient on the views"),
+             .tip = Command::tr(
+                 "Writes in a corner of each image whose it is. Pictures of a report never have it."),
+             .bind = [&desk](QAction& action) { bind_checked(&action, desk.identity.on_views); }});
 }
 
 /// Of session::window_presets(), in their order.
@@ -180,7 +168,7 @@ void add_view_commands(CommandTable& table, Desk& desk, const std::vector<Pictur
           .keys = {"Esc", "Q; Esc"},
       },
       session::Tool::browse, desk, tools));
-  add_walking(table, desk);
+  add_walking(table, desk.bench);
   add_drawing(table, desk.bench);
   table.add({.id = "view.fit",
              .text = Command::tr("Fit all views"),
@@ -191,6 +179,7 @@ void add_view_commands(CommandTable& table, Desk& desk, const std::vector<Pictur
                scene.go_to(scene.scene().pose_fitted());
              }});
   add_grey_levels(table, desk.bench);
+  add_identity(table, desk);
   add_camera_commands(table, desk.bench, scene);
 }
 

@@ -53,6 +53,13 @@ QColor role_color(view::Role role, Ground ground) {
       return QColor(40, 90, 255);
     case Role::calcified:
       return QColor(86, 180, 233);
+    // As the three axes are coloured elsewhere, lightened for dark images.
+    case Role::axial_plane:
+      return QColor(240, 110, 100);
+    case Role::coronal_plane:
+      return QColor(120, 215, 110);
+    case Role::sagittal_plane:
+      return QColor(245, 215, 90);
     case Role::limited:
       return bright ? QColor(196, 176, 255) : QColor(105, 80, 190);
     case Role::not_evaluable:

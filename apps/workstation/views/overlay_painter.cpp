@@ -1,5 +1,7 @@
 #include "views/overlay_painter.h"
 
+#include "ostia/view/label_layout.h"
+
 #include <QApplication>
 #include <QPainterPath>
 #include <QPalette>
@@ -66,16 +68,29 @@ QColor halo(Ground ground) {
   return around;
 }
 
-void paint_text(QPainter& painter, const view::OverlayText& text, Ground ground) {
+QSizeF room_of(const QPainter& painter) {
   const double density = painter.device()->devicePixelRatioF();
-  const double w = painter.device()->width() * density, h = painter.device()->height() * density;
+  return QSizeF(painter.device()->width(), painter.device()->height()) * density;
+}
+
+QFont font_for(const QPainter& painter, const view::OverlayText& text) {
+  return fitting(painter.font(), QString::fromStdString(text.text), room_of(painter).width(),
+                 painter.device());
+}
+
+/// What would be cut off at the rim moves inwards.
+QRectF box_of(const QPainter& painter, const view::OverlayText& text) {
+  const QSizeF room = room_of(painter);
+  QRectF box = text_box(QFontMetricsF(font_for(painter, text), painter.device()), text);
+  box.moveLeft(std::clamp(box.left(), 0.0, std::max(0.0, room.width() - box.width())));
+  box.moveTop(std::clamp(box.top(), 0.0, std::max(0.0, room.height() - box.height())));
+  return box;
+}
+
+void paint_text(QPainter& painter, const view::OverlayText& text, const QRectF& box, Ground ground) {
   const QFont usual = painter.font();
-  painter.setFont(fitting(usual, QString::fromStdString(text.text), w, painter.device()));
+  painter.setFont(font_for(painter, text));
   const QFontMetricsF metrics(painter.font(), painter.device());
-  QRectF box = text_box(metrics, text);
-  // What would be cut off at the rim moves inwards.
-  box.moveLeft(std::clamp(box.left(), 0.0, std::max(0.0, w - box.width())));
-  box.moveTop(std::clamp(box.top(), 0.0, std::max(0.0, h - box.height())));
   const QString shown = QString::fromStdString(text.text);
   const QPointF base(box.left(), box.top() + metrics.ascent());
   painter.setPen(halo(ground));
@@ -85,6 +100,47 @@ void paint_text(QPainter& painter, const view::OverlayText& text, Ground ground)
   painter.setPen(role_color(text.role, ground));
   painter.drawText(base, shown);
   painter.setFont(usual);
+}
+
+view::LabelRect rect_of(const QRectF& box) {
+  return {{box.left(), box.top()}, {box.width(), box.height()}};
+}
+
+/// Texts that stay where they are, then labels about them.
+void paint_texts(QPainter& painter, const std::vector<view::OverlayText>& texts, double density,
+                 Ground ground, LabelOffsets* before) {
+  const QSizeF size = room_of(painter);
+  view::LabelRoom room{{size.width(), size.height()}, 6.0 * density, {}};
+  std::vector<view::LabelWish> wishes;
+  std::vector<const view::OverlayText*> labels;
+  for (const view::OverlayText& text : texts) {
+    const QRectF box = box_of(painter, text);
+    if (!text.label_of) {
+      paint_text(painter, text, box, ground);
+      room.taken.push_back(rect_of(box));
+      continue;
+    }
+    wishes.push_back({text.px, {box.width(), box.height()}, {}});
+    labels.push_back(&text);
+    if (before && before->count(*text.label_of)) wishes.back().before = before->at(*text.label_of);
+  }
+  const std::vector<view::PlacedLabel> placed = view::place_labels(wishes, room);
+  LabelOffsets now;
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    if (!placed[i].shown) continue;
+    const view::LabelRect& rect = placed[i].rect;
+    now[*labels[i]->label_of] = rect.low - wishes[i].anchor;
+    if (placed[i].leader_to) {
+      painter.setPen(QPen(role_color(labels[i]->role, ground), density));
+      painter.drawLine(point(wishes[i].anchor), point(*placed[i].leader_to));
+    }
+    paint_text(painter, *labels[i], QRectF(rect.low.x(), rect.low.y(), rect.size.x(), rect.size.y()), ground);
+  }
+  if (before) *before = std::move(now);
+}
+
+QColor color_of(view::Role role, const std::optional<figure::Color>& own, Ground ground) {
+  return own ? QColor::fromRgbF(own->r, own->g, own->b) : role_color(role, ground);
 }
 
 QImage tint_picture(const view::OverlayTint& tint, Ground ground) {
@@ -122,12 +178,13 @@ QImage grey_picture(const view::GreyImage& image, const session::GreyWindow& win
   return reused;
 }
 
-void paint_overlay(QPainter& painter, const view::Overlay& overlay, double density, Ground ground) {
+void paint_overlay(QPainter& painter, const view::Overlay& overlay, double density, Ground ground,
+                   LabelOffsets* before) {
   painter.setRenderHint(QPainter::Antialiasing);
   for (const auto& tint : overlay.tints)
     painter.drawImage(QPointF(tint->left, tint->top), tint_picture(*tint, ground));
   for (const view::OverlayBand& band : overlay.bands) {
-    QColor color = role_color(band.role, ground);
+    QColor color = color_of(band.role, band.color, ground);
     color.setAlphaF(band.opacity);
     painter.fillRect(QRectF(point(band.low), point(band.high)).normalized(), color);
   }
@@ -135,7 +192,7 @@ void paint_overlay(QPainter& painter, const view::Overlay& overlay, double densi
   QPolygonF polygon;
   for (const view::OverlayLine& line : overlay.lines) {
     if (line.px.size() < 2) continue;
-    QColor color = role_color(line.role, ground);
+    QColor color = color_of(line.role, line.color, ground);
     color.setAlphaF(line.opacity);
     QPen pen(color, role_width(line.role) * density, line.dashed ? Qt::DashLine : Qt::SolidLine, Qt::FlatCap,
              Qt::RoundJoin);
@@ -146,13 +203,13 @@ void paint_overlay(QPainter& painter, const view::Overlay& overlay, double densi
     painter.drawPolyline(polygon);
   }
   for (const view::OverlayMark& mark : overlay.marks) {
-    QColor color = role_color(mark.role, ground);
+    QColor color = color_of(mark.role, mark.color, ground);
     color.setAlphaF(mark.opacity);
     painter.setPen(mark.filled ? QPen(Qt::NoPen) : QPen(color, 1.4 * density));
     painter.setBrush(mark.filled ? QBrush(color) : QBrush(Qt::NoBrush));
     painter.drawEllipse(point(mark.px), mark.radius * density, mark.radius * density);
   }
-  for (const view::OverlayText& text : overlay.texts) paint_text(painter, text, ground);
+  paint_texts(painter, overlay.texts, density, ground, before);
 }
 
 }  // namespace ostia::workstation

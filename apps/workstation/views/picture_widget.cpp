@@ -1,5 +1,7 @@
 #include "views/picture_widget.h"
 
+#include "shell/identity.h"
+#include "views/corner_texts.h"
 #include "views/frame_log.h"
 #include "views/hand_events.h"
 #include "views/overlay_painter.h"
@@ -21,6 +23,7 @@ namespace ostia::workstation {
 namespace {
 
 constexpr int fade_ms = 40;
+constexpr int grey_told_ms = 4000;  // after its last change
 
 double milliseconds(const QElapsedTimer& clock) {
   return static_cast<double>(clock.nsecsElapsed()) / 1e6;
@@ -59,7 +62,12 @@ PictureWidget::PictureWidget(std::unique_ptr<view::PictureView> view, const QStr
   setAccessibleName(name);
   // The view under the hand is painted as soon as the event is handled, the others when no event waits.
   stale_ = view_->stale.observe([this] { request_paint(); });
-  grey_ = view_->bench().grey.observe([this](const session::GreyWindow&) { request_paint(); });
+  grey_ = view_->bench().grey.observe([this](const session::GreyWindow&) {
+    grey_told_.start(grey_told_ms);
+    request_paint();
+  });
+  grey_told_.setSingleShot(true);
+  connect(&grey_told_, &QTimer::timeout, this, [this] { update(); });
 }
 PictureWidget::~PictureWidget() = default;
 
@@ -101,7 +109,8 @@ void PictureWidget::paintEvent(QPaintEvent* event) {
     else
       painter.drawImage(QPointF(0, 0), picture_);
     painter.setFont(overlay_font(font(), density));
-    paint_overlay(painter, view_->overlay(), density, Ground::image);
+    paint_overlay(painter, view_->overlay(), density, Ground::image, &label_offsets_);
+    paint_corners(painter, QSizeF(view_->width(), view_->height()));
   });
   painter.restore();
   if (hasFocus()) {
@@ -112,6 +121,29 @@ void PictureWidget::paintEvent(QPaintEvent* event) {
   }
   tell_frame(*this, milliseconds(clock), picture_.isNull() ? 0 : revision_);
   if (view_->animating()) QTimer::singleShot(fade_ms, this, [this] { update(); });
+}
+
+void PictureWidget::paint_corners(QPainter& painter, const QSizeF& view_px) {
+  const double density = devicePixelRatioF();
+  if (!view_->ready()) return;
+  if (grey_told_.isActive()) paint_grey_window(painter, view_px, view_->bench().grey.get(), density);
+  if (!identity_ || of_nobody_ || !identity_->on_views.get()) return;
+  // At another phase of the heart the view says there which.
+  const double line = QFontMetricsF(painter.font(), painter.device()).height();
+  const double below = view_->bench().other_phase() ? line : 0.0;
+  paint_identity(painter, view_px, identity_parts(identity_->now()), density, below);
+}
+
+void PictureWidget::show_identity(Identity& identity) {
+  identity_ = &identity;
+  identity_changed_ = identity.changed.observe([this] { update(); });
+}
+
+QImage PictureWidget::picture_of_nobody() {
+  of_nobody_ = true;
+  const QImage shown = grab().toImage();
+  of_nobody_ = false;
+  return shown;
 }
 
 view::PointerEvent PictureWidget::pointer_event(const QPointF& at, Qt::MouseButton button,
@@ -190,6 +222,7 @@ void PictureWidget::wheelEvent(QWheelEvent* event) {
       (event->angleDelta().y() != 0 ? event->angleDelta().y() : event->angleDelta().x()) / 120.0;
   hand("wheel",
        [&] { pointer_->wheel(steps, pointer_event(event->position(), Qt::NoButton, event->modifiers())); });
+  tell_place(view::Vec2(event->position().x(), event->position().y()) * devicePixelRatioF());
   event->accept();
 }
 void PictureWidget::leaveEvent(QEvent*) {
@@ -212,10 +245,12 @@ void PictureWidget::keyPressEvent(QKeyEvent* event) {
     case Qt::Key_Up:
     case Qt::Key_PageUp:
       hand("key", [&] { view_->scroll(event->key() == Qt::Key_Up ? 1.0 : 10.0); });
+      if (underMouse()) tell_place(place.px);
       return;
     case Qt::Key_Down:
     case Qt::Key_PageDown:
       hand("key", [&] { view_->scroll(event->key() == Qt::Key_Down ? -1.0 : -10.0); });
+      if (underMouse()) tell_place(place.px);
       return;
     case Qt::Key_Plus:
     case Qt::Key_Equal:

@@ -1,16 +1,21 @@
 #pragma once
 /// \file A 2D view on the screen.
 
+#include "views/overlay_painter.h"
+
 #include "ostia/view/pointer.h"
 #include "ostia/view/profile_pointer.h"
 
 #include <QImage>
 #include <QMouseEvent>
+#include <QTimer>
 #include <QWidget>
 #include <functional>
 #include <memory>
 
 namespace ostia::workstation {
+
+class Identity;
 
 /// Runs what a hand did; what is refused is shown by the window and ends there.
 using Guard = std::function<void(const std::function<void()>&)>;
@@ -43,6 +48,10 @@ class PictureWidget final : public QWidget {
   void set_twin(PictureWidget* twin) { twin_ = twin; }
   /// For PaintQueue: those of these widgets that are pictures are prepared on all cores.
   static void prepare(const QList<QWidget*>& widgets);
+  /// Writes in a corner whose image it is, while the person wants it there; outlived by it.
+  void show_identity(Identity& identity);
+  /// What is on the screen, but for whose it is: for what leaves the window.
+  QImage picture_of_nobody();
   void take_size();  ///< the view has the widget's size again, after somebody gave it another
   QSize minimumSizeHint() const override { return {80, 80}; }
 
@@ -76,9 +85,15 @@ class PictureWidget final : public QWidget {
   QImage picture_;
   std::uint64_t revision_ = 0;
   session::GreyWindow painted_window_;
+  LabelOffsets label_offsets_;
+  void paint_corners(QPainter& painter, const QSizeF& view_px);
   bool handling_ = false;
   HeldButton button_;
   PictureWidget* twin_ = nullptr;
+  const Identity* identity_ = nullptr;
+  session::Subscription identity_changed_;
+  bool of_nobody_ = false;
+  QTimer grey_told_;  // runs while the grey window's numbers are shown
 };
 
 class ProfileWidget final : public QWidget {

@@ -10,6 +10,7 @@
 #include "ostia/reformat/plane_image.h"
 #include "ostia/session/beating.h"
 #include "ostia/view/scene_measurements.h"
+#include "ostia/view/vessel_colors.h"
 
 #include <QVTKOpenGLWindow.h>
 #include <vtkGenericOpenGLRenderWindow.h>
@@ -92,7 +93,10 @@ SceneWidget::SceneWidget(session::Workbench& bench, Guard guard, QWidget* parent
     styles_stale_ = marks_stale_ = true;
     request_render();
   }));
-  own_.push_back(bench.vessel.observe(stale(&SceneWidget::styles_stale_)));
+  own_.push_back(bench.vessel.observe([this](const std::int32_t&) {
+    styles_stale_ = cursor_stale_ = true;  // the plane, too: the cursor may stay at the same abscissa
+    request_render();
+  }));
   own_.push_back(bench.cursor_mm.observe(stale(&SceneWidget::cursor_stale_)));
   own_.push_back(bench.theta_deg.observe(stale(&SceneWidget::cursor_stale_)));
   own_.push_back(bench.selected_measurement.observe(stale(&SceneWidget::marks_stale_)));
@@ -185,15 +189,9 @@ void SceneWidget::refresh() {
 }
 
 QColor SceneWidget::color_of(std::int32_t vessel) const {
-  const auto shown = [](const figure::Color& color) { return QColor::fromRgbF(color.r, color.g, color.b); };
-  try {
-    return shown(scene_->vessel_style(vessel).color);
-  } catch (const InvalidInput&) {
-    const lumen::LumenModel* model = bench_.model();
-    for (std::size_t i = 0; model && i < model->vessels.size(); ++i)
-      if (model->vessels[i]->vessel == vessel) return shown(figure::palette(i % 7));
-  }
-  return QColor(Qt::gray);
+  if (!bench_.axis(vessel)) return QColor(Qt::gray);
+  const figure::Color color = view::vessel_color(bench_, vessel);
+  return QColor::fromRgbF(color.r, color.g, color.b);
 }
 
 void SceneWidget::set_wall_painter(std::function<void(const geometry::TriMesh&)> painter) {
@@ -224,7 +222,7 @@ void SceneWidget::refresh_styles() {
     view::VesselStyle style = scene_->vessel_style(vessel->vessel);
     const session::VesselMark* mark = session::find_mark(*annotations, vessel->vessel);
     style.visible = !mark || mark->visible;
-    if (mark && mark->color) style.color = {(*mark->color)[0], (*mark->color)[1], (*mark->color)[2], 1.0};
+    style.color = view::vessel_color(bench_, vessel->vessel);
     scene_->set_vessel_style(vessel->vessel, style);
   }
   const std::int32_t selected = bench_.vessel.get();

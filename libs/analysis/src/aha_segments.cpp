@@ -1,11 +1,10 @@
 #include "ostia/analysis/aha_segments.h"
 
+#include "vessel_names.h"
 #include "vessel_way.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <map>
 
 namespace ostia::analysis {
 namespace {
@@ -14,57 +13,6 @@ constexpr double large_branch_mm = 1.5;   // wide
 constexpr double branch_begin_mm = 10.0;  // over which a branch's width is taken
 constexpr double apart_mm = 5.0;          // of the two branches that bound the mid LAD
 constexpr double least_segment_mm = 0.5;
-
-enum class Kind {
-  unknown,
-  lm,
-  lad,
-  lcx,
-  rca,
-  diagonal,
-  septal,
-  marginal,
-  ramus,
-  pda,
-  plb,
-  left_pda,
-  left_plb,
-  acute,
-  right
-};
-
-/// A vessel's name as "OM" and 2.
-struct ParsedName {
-  Kind kind = Kind::unknown;
-  int number = 0;
-};
-
-ParsedName parsed(const std::string& name) {
-  static const std::map<std::string, Kind> known{
-      {"LM", Kind::lm},          {"LMCA", Kind::lm},           {"LEFTMAIN", Kind::lm},
-      {"LAD", Kind::lad},        {"LCX", Kind::lcx},           {"CX", Kind::lcx},
-      {"CIRCUMFLEX", Kind::lcx}, {"RCA", Kind::rca},           {"D", Kind::diagonal},
-      {"DIAG", Kind::diagonal},  {"DIAGONAL", Kind::diagonal}, {"S", Kind::septal},
-      {"SEPTAL", Kind::septal},  {"OM", Kind::marginal},       {"M", Kind::marginal},
-      {"RI", Kind::ramus},       {"IM", Kind::ramus},          {"RAMUS", Kind::ramus},
-      {"PDA", Kind::pda},        {"RPDA", Kind::pda},          {"PLB", Kind::plb},
-      {"PL", Kind::plb},         {"PLV", Kind::plb},           {"RPLB", Kind::plb},
-      {"RPL", Kind::plb},        {"LPDA", Kind::left_pda},     {"LPLB", Kind::left_plb},
-      {"LPL", Kind::left_plb},   {"AM", Kind::acute},          {"CB", Kind::right},
-      {"CONUS", Kind::right},    {"RV", Kind::right},
-  };
-  ParsedName result;
-  std::string letters;
-  for (const char c : name) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (std::isdigit(byte) != 0 && result.number < 100) result.number = 10 * result.number + (c - '0');
-    if (c == ' ' || c == '-' || c == '_' || c == '.' || std::isdigit(byte) != 0) continue;
-    letters += static_cast<char>(std::toupper(byte));
-  }
-  const auto found = known.find(letters);
-  if (found != known.end()) result.kind = found->second;
-  return result;
-}
 
 const AhaSegment& aha(int number) {
   return aha_segments()[static_cast<std::size_t>(number - 1)];
@@ -107,13 +55,13 @@ class Cutter {
   std::vector<VesselSegment> cut() {
     if (at_ < main_mm_) add(5, main_mm_);
     switch (name_.kind) {
-      case Kind::lad:
+      case VesselKind::lad:
         cut_lad();
         break;
-      case Kind::lcx:
+      case VesselKind::lcx:
         cut_lcx();
         break;
-      case Kind::rca:
+      case VesselKind::rca:
         cut_rca();
         break;
       default:
@@ -126,8 +74,9 @@ class Cutter {
  private:
   void cut_lad() {
     const auto bounds = [&](const Branch& b) {
-      return b.name.kind == Kind::diagonal ||
-             (b.name.kind != Kind::lcx && b.name.kind != Kind::ramus && b.diameter_mm >= large_branch_mm);
+      return b.name.kind == VesselKind::diagonal ||
+             (b.name.kind != VesselKind::lcx && b.name.kind != VesselKind::ramus &&
+              b.diameter_mm >= large_branch_mm);
     };
     const double first = first_branch(at_ + least_segment_mm, bounds, at_ + (end_ - at_) / 3.0);
     add(6, first);
@@ -136,8 +85,8 @@ class Cutter {
   }
   void cut_lcx() {
     const auto bounds = [&](const Branch& b) {
-      if (b.name.kind == Kind::lad || b.name.kind == Kind::ramus || posterior(b)) return false;
-      return b.name.kind == Kind::marginal || b.diameter_mm >= large_branch_mm;
+      if (b.name.kind == VesselKind::lad || b.name.kind == VesselKind::ramus || posterior(b)) return false;
+      return b.name.kind == VesselKind::marginal || b.diameter_mm >= large_branch_mm;
     };
     add(11, first_branch(at_ + least_segment_mm, bounds, 0.5 * (at_ + end_)));
     add(13, end_);
@@ -145,8 +94,8 @@ class Cutter {
   void cut_rca() {
     const double begin = at_;
     const double crux = first_branch(
-        begin, [](const Branch& b) { return b.name.kind == Kind::pda; }, end_);
-    const auto marginal = [](const Branch& b) { return b.name.kind == Kind::acute; };
+        begin, [](const Branch& b) { return b.name.kind == VesselKind::pda; }, end_);
+    const auto marginal = [](const Branch& b) { return b.name.kind == VesselKind::acute; };
     const double margin = std::min(first_branch(begin, marginal, begin + 0.5 * (crux - begin)), crux);
     add(1, 0.5 * (begin + margin));
     add(2, margin);
@@ -154,28 +103,28 @@ class Cutter {
     add(16, end_);
   }
   static bool posterior(const Branch& b) {
-    return b.name.kind == Kind::pda || b.name.kind == Kind::left_pda || b.name.kind == Kind::plb ||
-           b.name.kind == Kind::left_plb;
+    return b.name.kind == VesselKind::pda || b.name.kind == VesselKind::left_pda ||
+           b.name.kind == VesselKind::plb || b.name.kind == VesselKind::left_plb;
   }
 
   int number_of_side_branch() const {
     const bool first = name_.number <= 1, second = name_.number == 2;
     switch (name_.kind) {
-      case Kind::lm:
+      case VesselKind::lm:
         return 5;
-      case Kind::diagonal:
+      case VesselKind::diagonal:
         return first ? 9 : second ? 10 : 0;
-      case Kind::marginal:
+      case VesselKind::marginal:
         return first ? 12 : second ? 14 : 0;
-      case Kind::ramus:
+      case VesselKind::ramus:
         return 17;
-      case Kind::pda:
+      case VesselKind::pda:
         return from_left_ ? 15 : 4;
-      case Kind::plb:
+      case VesselKind::plb:
         return from_left_ ? 18 : 16;
-      case Kind::left_pda:
+      case VesselKind::left_pda:
         return 15;
-      case Kind::left_plb:
+      case VesselKind::left_plb:
         return 18;
       default:
         return 0;
@@ -231,9 +180,9 @@ class Cutter {
 double left_main_mm(const lumen::LumenModel& model, const geometry::Vessel& vessel) {
   const geometry::Vessel *lad = nullptr, *lcx = nullptr;
   for (const geometry::Vessel& v : model.tree.vessels) {
-    const Kind kind = parsed(v.name).kind;
-    if (kind == Kind::lad && lad == nullptr) lad = &v;
-    if (kind == Kind::lcx && lcx == nullptr) lcx = &v;
+    const VesselKind kind = parsed(v.name).kind;
+    if (kind == VesselKind::lad && lad == nullptr) lad = &v;
+    if (kind == VesselKind::lcx && lcx == nullptr) lcx = &v;
   }
   if (lad == nullptr || lcx == nullptr) return 0.0;
   std::size_t shared = 0;
@@ -274,32 +223,6 @@ const std::vector<AhaSegment>& aha_segments() {
       {18, "L-PLB", "left posterolateral branch", "PLB"},
   };
   return segments;
-}
-
-std::string main_vessel_of(const std::string& vessel_name) {
-  switch (parsed(vessel_name).kind) {
-    case Kind::lm:
-      return "LM";
-    case Kind::lad:
-    case Kind::diagonal:
-    case Kind::septal:
-      return "LAD";
-    case Kind::lcx:
-    case Kind::marginal:
-    case Kind::ramus:
-    case Kind::left_pda:
-    case Kind::left_plb:
-      return "LCX";
-    case Kind::rca:
-    case Kind::pda:
-    case Kind::plb:
-    case Kind::acute:
-    case Kind::right:
-      return "RCA";
-    case Kind::unknown:
-      break;
-  }
-  return "";
 }
 
 std::vector<VesselSegment> segments_of(const lumen::LumenModel& model) {

@@ -23,8 +23,10 @@ constexpr std::array<MeasureTraits, measure_kinds.size()> measure_table = {{
     {MeasureKind::stenosis, "stenosis", "stenosis", 0, true, "", true},
     {MeasureKind::volume, "volume", "volume", 0, true, "", true},
     {MeasureKind::ring_hu, "ring_hu", "HU in a ring", 0, true, "", true},
+    {MeasureKind::arrow, "arrow", "arrow", 2, false, "an arrow needs two points, its tip first", false},
+    {MeasureKind::note, "note", "note", 1, false, "a note needs one place", false},
 }};
-constexpr const char* no_kind = "a kind of measurement that is none of the seven";
+constexpr const char* no_kind = "a kind of measurement that is none of those there are";
 constexpr double least_ring_mm = 0.05, widest_ring_mm = 20.0;
 
 const MeasureTraits* find_traits(MeasureKind kind) {
@@ -50,8 +52,9 @@ std::vector<MeasuredValue> measured_angle(const std::vector<Vec3>& points) {
   return {{"angle", std::atan2(a.cross(b).norm(), a.dot(b)) * 180.0 / std::numbers::pi, "deg"}};
 }
 
-/// Newell's formula: of a line that is not flat, the area that it shows along its mean normal.
-std::vector<MeasuredValue> measured_area(const std::vector<Vec3>& points) {
+/// Newell's formula: of a line that is not flat, the area that it shows along its mean normal. With an image
+/// also its CT numbers.
+std::vector<MeasuredValue> measured_area(const std::vector<Vec3>& points, const MeasureContext& context) {
   Vec3 doubled = Vec3::Zero();
   double length = 0.0;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -59,7 +62,15 @@ std::vector<MeasuredValue> measured_area(const std::vector<Vec3>& points) {
     doubled += (a - points[0]).cross(b - points[0]);
     length += (b - a).norm();
   }
-  return {{"area", 0.5 * doubled.norm(), "mm2"}, {"perimeter", length, "mm"}};
+  std::vector<MeasuredValue> values{{"area", 0.5 * doubled.norm(), "mm2"}, {"perimeter", length, "mm"}};
+  if (context.image == nullptr) return values;
+  const RingStatistics hu = area_statistics(points, *context.image);
+  if (hu.samples > 0)
+    values.insert(values.end(), {{"mean", hu.mean, "HU"},
+                                 {"SD", hu.deviation, "HU"},
+                                 {"least", hu.least, "HU"},
+                                 {"largest", hu.largest, "HU"}});
+  return values;
 }
 
 const LumenProfile& profile_for(const Measurement& measurement, const MeasureContext& context) {
@@ -186,13 +197,16 @@ std::vector<MeasuredValue> measured(const Measurement& measurement, const Measur
     case MeasureKind::angle:
       return measured_angle(points);
     case MeasureKind::area:
-      return measured_area(points);
+      return measured_area(points, context);
     case MeasureKind::stenosis:
       return measured_stenosis(measurement, context);
     case MeasureKind::volume:
       return measured_volume(measurement, context);
     case MeasureKind::ring_hu:
       return measured_ring(measurement, context);
+    case MeasureKind::arrow:
+    case MeasureKind::note:
+      return {};
   }
   throw InvalidInput(no_kind);
 }

@@ -70,6 +70,12 @@ class Measuring {
   }
   WallRay ray_of(double s_mm, double theta) const;
   void read(WallRay& ray, double s_mm, double theta) const;
+  /// A wall as thick as this is no plaque.
+  double wall_alone_mm(double s_mm) const {
+    if (!walls_.calibre_mm) return options_.thin_wall_mm;
+    return std::max(options_.thin_wall_mm,
+                    healthy_wall_mm(walls_.calibre_mm(s_mm)) + options_.healthy_margin_mm);
+  }
 
   const geometry::AxisCurve& axis_;
   const WallRadii& walls_;
@@ -101,7 +107,7 @@ PlaqueSlab Measuring::slab(double s_mm, double length_mm) const {
   out.volumes.length_mm = length_mm;
   const Vec3 bend = axis_.curvature_vector(s_mm);
   const geometry::Frame frame = axis_.frame(s_mm);
-  const double turn = 2.0 * pi / options_.around;
+  const double turn = 2.0 * pi / options_.around, wall_alone = wall_alone_mm(s_mm);
   for (int a = 0; a < options_.around; ++a) {
     const double theta = (a + 0.5) * turn;
     WallRay ray = ray_of(s_mm, theta);
@@ -114,10 +120,11 @@ PlaqueSlab Measuring::slab(double s_mm, double length_mm) const {
     out.lumen_mm2 += 0.5 * turn * ray.lumen_mm * ray.lumen_mm;
     out.vessel_mm2 += 0.5 * turn * ray.outer_mm * ray.outer_mm;
     const double thick = ray.outer_mm - ray.lumen_mm;
-    if (thick < options_.thin_wall_mm) {
+    if (thick < wall_alone) {
       out.volumes.thin_wall_mm3 += part * (within(ray.outer_mm) - within(ray.lumen_mm));
       continue;
     }
+    out.plaque_mm2 += 0.5 * turn * (ray.outer_mm * ray.outer_mm - ray.lumen_mm * ray.lumen_mm);
     read(ray, s_mm, theta);
     const double half = 0.5 * thick / options_.deep;
     for (std::size_t i = 0; i < ray.hu.size(); ++i)
@@ -131,12 +138,13 @@ PlaqueMap Measuring::map(double s_mm) const {
   PlaqueMap out;
   out.around = options_.around;
   out.deep = options_.deep;
+  const double wall_alone = wall_alone_mm(s_mm);
   for (int a = 0; a < options_.around; ++a) {
     const double theta = (a + 0.5) * 2.0 * pi / options_.around;
     WallRay ray = ray_of(s_mm, theta);
     out.lumen_mm.push_back(ray.lumen_mm);
     out.outer_mm.push_back(ray.outer_mm);
-    const bool thin = ray.outer_mm - ray.lumen_mm < options_.thin_wall_mm;
+    const bool thin = ray.outer_mm - ray.lumen_mm < wall_alone;
     if (!thin) read(ray, s_mm, theta);
     for (int i = 0; i < options_.deep; ++i)
       out.pieces.push_back(thin ? std::nullopt
@@ -153,8 +161,8 @@ void add(PlaqueVolumes& sum, const PlaqueVolumes& one, double share) {
   for (std::size_t i = 0; i < plaque_classes; ++i) sum.class_mm3[i] += share * one.class_mm3[i];
 }
 
-double percent_outside(double inner, double outer) {
-  return outer > 0.0 ? 100.0 * (1.0 - inner / outer) : 0.0;
+double share_percent(double part, double whole) {
+  return whole > 0.0 ? 100.0 * part / whole : 0.0;
 }
 
 }  // namespace
@@ -173,6 +181,41 @@ std::string to_string(PlaqueClass one) {
   return "calcified";
 }
 
+// The straight line's ends (Podesser et al. 1998), mm: outer radius, wall.
+constexpr double narrow_outer_mm = 0.1, narrow_wall_mm = 0.08, wide_outer_mm = 3.0, wide_wall_mm = 0.8;
+constexpr double calcified_share = 0.5, no_calcium_share = 0.05;
+
+double healthy_wall_mm(double lumen_diameter_mm) {
+  if (!(lumen_diameter_mm >= 0.0) || !std::isfinite(lumen_diameter_mm))
+    throw InvalidInput("a healthy wall is asked of a lumen of " + std::to_string(lumen_diameter_mm) +
+                       " mm; a diameter is 0 or more");
+  // wall = a + b outer, outer = lumen + wall.
+  const double b = (wide_wall_mm - narrow_wall_mm) / (wide_outer_mm - narrow_outer_mm);
+  const double a = narrow_wall_mm - b * narrow_outer_mm;
+  return (a + b * 0.5 * lumen_diameter_mm) / (1.0 - b);
+}
+
+PlaqueType plaque_type(const PlaqueVolumes& volumes) {
+  const double all = volumes.plaque_mm3(), calcium = volumes.of(PlaqueClass::calcified);
+  if (!(all > 0.0)) return PlaqueType::none;
+  if (calcium >= calcified_share * all) return PlaqueType::calcified;
+  return calcium < no_calcium_share * all ? PlaqueType::non_calcified : PlaqueType::mixed;
+}
+
+std::string to_string(PlaqueType type) {
+  switch (type) {
+    case PlaqueType::none:
+      return "none";
+    case PlaqueType::non_calcified:
+      return "non-calcified";
+    case PlaqueType::mixed:
+      return "mixed";
+    case PlaqueType::calcified:
+      break;
+  }
+  return "calcified";
+}
+
 void validate(const PlaqueOptions& o) {
   const auto within = [](double x, double low, double high) { return x >= low && x <= high; };
   require(within(o.low_attenuation_hu, -200.0, 400.0), "low_attenuation_hu", o.low_attenuation_hu,
@@ -182,6 +225,7 @@ void validate(const PlaqueOptions& o) {
   require(within(o.fibrous_hu, o.fibrofatty_hu, 3000.0), "fibrous_hu", o.fibrous_hu,
           "[fibrofatty_hu, 3000] HU");
   require(within(o.thin_wall_mm, 0.0, 3.0), "thin_wall_mm", o.thin_wall_mm, "[0, 3] mm");
+  require(within(o.healthy_margin_mm, 0.0, 1.0), "healthy_margin_mm", o.healthy_margin_mm, "[0, 1] mm");
   require(within(o.step_mm, 0.02, 2.0), "step_mm", o.step_mm, "[0.02, 2] mm");
   require(within(o.around, 8, 1024), "around", o.around, "[8, 1024]");
   require(within(o.deep, 1, 256), "deep", o.deep, "[1, 256]");
@@ -194,10 +238,13 @@ double PlaqueVolumes::plaque_mm3() const {
   return sum;
 }
 double PlaqueVolumes::burden_percent() const {
-  return percent_outside(lumen_mm3, vessel_mm3);
+  return share_percent(plaque_mm3(), vessel_mm3);
+}
+double PlaqueVolumes::wall_percent() const {
+  return share_percent(wall_mm3(), vessel_mm3);
 }
 double PlaqueSlab::area_burden_percent() const {
-  return percent_outside(lumen_mm2, vessel_mm2);
+  return share_percent(plaque_mm2, vessel_mm2);
 }
 
 namespace {

@@ -1,3 +1,4 @@
+#include "mouth.h"
 #include "vessel_way.h"
 
 #include "ostia/analysis/stenosis.h"
@@ -183,6 +184,14 @@ ReferenceLine reference_line(const LumenProfile& profile, const std::vector<doub
     for (const double s : branches_mm) branches.push_back(s - step * static_cast<double>(begin));
     const std::vector<double> line = Line(part, branches, options.window_mm).found();
     whole.diameter_mm.insert(whole.diameter_mm.end(), line.begin(), line.end());
+  }
+  whole.joint_mm = options.own_from_mm;
+  whole.ostium_mm = std::max(options.own_from_mm, options.ostium_mm);
+  if (const auto mouth = mouth_of(profile, whole.joint_mm, whole.ostium_mm)) {
+    const double first = whole.diameter_mm[mouth->before], last = whole.diameter_mm[mouth->behind];
+    for (std::size_t i = mouth->before + 1; i < mouth->behind; ++i)
+      whole.diameter_mm[i] = first + (last - first) * static_cast<double>(i - mouth->before) /
+                                         static_cast<double>(mouth->behind - mouth->before);
   }
   return whole;
 }

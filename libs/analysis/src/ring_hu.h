@@ -5,6 +5,7 @@
 #include "ostia/imaging/volume.h"
 
 #include <cstddef>
+#include <vector>
 
 namespace ostia::analysis {
 
@@ -18,5 +19,10 @@ struct RingStatistics {
 /// for the same area. No samples where the image does not reach the ring.
 RingStatistics ring_statistics(const MeasuredSection& section, double inner_mm, double outer_mm,
                                const imaging::ImageVolume& image);
+
+/// Of the voxels that an outline encloses on its mean plane (Newell's normal), each with the share of its
+/// area that is inside: the plane is asked on a square lattice, the voxel nearest to each node counts, so
+/// that the deviation is the voxels' own. No samples where the image does not reach it.
+RingStatistics area_statistics(const std::vector<Vec3>& outline, const imaging::ImageVolume& image);
 
 }  // namespace ostia::analysis

@@ -1,5 +1,7 @@
 #include "ostia/analysis/stenosis.h"
 
+#include "mouth.h"
+
 #include "ostia/core/error.h"
 #include "ostia/core/text.h"
 
@@ -50,6 +52,7 @@ class Search {
       : sections_(profile.sections), profile_(profile), reference_(reference.diameter_mm), options_(options) {
     const double least = options.least_percent / 100.0;
     shoulder_ = std::min(shoulder_share, 0.5 * least);
+    mouth_ = mouth_of(profile, reference.joint_mm, reference.ostium_mm);
     for (std::size_t i = 0; i < sections_.size(); ++i) narrowing_.push_back(narrowing(i));
   }
 
@@ -77,8 +80,8 @@ class Search {
   std::vector<Stretch> runs() const {
     std::vector<Stretch> runs;
     for (std::size_t i = 0; i < narrowing_.size(); ++i) {
-      if (!(narrowing_[i] > shoulder_)) continue;
-      if (runs.empty() || runs.back().last + 1 < i) runs.push_back({i, i});
+      if (!(narrowing_[i] > shoulder_) || in_mouth(i)) continue;
+      if (runs.empty() || runs.back().last + 1 < i || begins_vessel(i)) runs.push_back({i, i});
       runs.back().last = i;
     }
     return runs;
@@ -125,7 +128,7 @@ class Search {
     const double start = sections_[from].s_mm;
     for (auto i = static_cast<std::ptrdiff_t>(from); i >= 0 && i < std::ssize(sections_); i += way) {
       const auto k = static_cast<std::size_t>(i);
-      if (std::abs(sections_[k].s_mm - start) > healthy_within_mm) break;
+      if (std::abs(sections_[k].s_mm - start) > healthy_within_mm || other_vessel(from, k)) break;
       if (sections_[k].found && narrowing_[k] <= healthy_share) return sections_[k].s_mm;
     }
     return start;
@@ -138,8 +141,9 @@ class Search {
     stenosis.throat_mm = sections_[at].s_mm;
     stenosis.from_mm = sections_[part.first].s_mm;
     stenosis.to_mm = sections_[part.last].s_mm;
-    if (part.first == run.first && part.first > 0) stenosis.from_mm = edge(part.first - 1, part.first);
-    if (part.last == run.last && part.last + 1 < sections_.size())
+    if (part.first == run.first && part.first > 0 && !begins_vessel(part.first))
+      stenosis.from_mm = edge(part.first - 1, part.first);
+    if (part.last == run.last && part.last + 1 < sections_.size() && !in_mouth(part.last + 1))
       stenosis.to_mm = edge(part.last + 1, part.last);
     stenosis.proximal_mm = healthy_place(part.first, -1);
     stenosis.distal_mm = healthy_place(part.last, 1);
@@ -150,6 +154,13 @@ class Search {
     set_percents(stenosis);
     return stenosis;
   }
+  bool in_mouth(std::size_t i) const { return mouth_ && mouth_->holds(i); }
+  /// Whether two sections are not on the same side of the ostium.
+  bool other_vessel(std::size_t i, std::size_t k) const {
+    return mouth_ && (in_mouth(k) || (i >= mouth_->behind) != (k >= mouth_->behind));
+  }
+  /// The first section behind the ostium: what lies before is the parent's.
+  bool begins_vessel(std::size_t i) const { return mouth_ && i == mouth_->behind; }
   double edge(std::size_t outside, std::size_t inside) const {
     if (shut(inside)) return sections_[inside].s_mm;
     return crossing(sections_[outside].s_mm, narrowing_[outside], sections_[inside].s_mm, narrowing_[inside],
@@ -161,6 +172,7 @@ class Search {
   const std::vector<double>& reference_;
   StenosisOptions options_;
   double shoulder_ = 0.0;
+  std::optional<Mouth> mouth_;
   std::vector<double> narrowing_;
 };
 

@@ -1,10 +1,13 @@
 #include "row_sampler.h"
 
+#include "row_loops.h"
+
 #include "ostia/core/error.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <type_traits>
 
 namespace ostia::reformat {
 namespace {
@@ -103,7 +106,14 @@ template <class T>
 void RowSampler<T>::trilinear(const Line& line, Range range, float* out) const {
   const std::int64_t dy = image_.geometry.size[0], dz = dy * image_.geometry.size[1];
   const T* const voxels = image_.voxels.data();
-  for (std::int64_t i = range.first; i < range.last; ++i) {
+  std::int64_t begin = range.first;
+  if constexpr (std::is_same_v<T, std::int16_t>)
+    if (image_.voxels.size() < (std::size_t{1} << 31)) {
+      const VoxelRow row{{line.start[0], line.start[1], line.start[2]},
+                         {line.step[0], line.step[1], line.step[2]}};
+      begin = row_loops().trilinear(voxels, dy, dz, row, range.first, range.last, out);
+    }
+  for (std::int64_t i = begin; i < range.last; ++i) {
     const double n = static_cast<double>(i);
     const double x = line.start[0] + n * line.step[0], y = line.start[1] + n * line.step[1],
                  z = line.start[2] + n * line.step[2];

@@ -1,6 +1,7 @@
 #pragma once
 /// \file Pictures made of straight rows, thin or of a layer, in parallel.
 
+#include "row_loops.h"
 #include "row_sampler.h"
 
 #include "ostia/core/parallel.h"
@@ -41,6 +42,7 @@ std::vector<float> sampled_rows(const imaging::Volume<T>& image, std::size_t wid
                                 const core::TaskContext& task) {
   const RowSampler<T> sampler(image, how);
   const std::vector<double> offsets = layer_offsets(shape, image.geometry);
+  const FoldLoop fold = shape.slab == Slab::minimum ? row_loops().smaller : row_loops().larger;
   std::vector<float> values(width * height);
   core::parallel_chunks(height, 8, [&](std::size_t first, std::size_t last) {
     task.throw_if_cancelled();
@@ -57,15 +59,12 @@ std::vector<float> sampled_rows(const imaging::Volume<T>& image, std::size_t wid
       }
       for (std::size_t l = 1; l < offsets.size(); ++l) {
         sampler.row(row.start + offsets[l] * row.across, row.step, layer);
-        for (std::size_t i = 0; i < width; ++i) {
-          if (mean) {
-            if (std::isnan(layer[i])) continue;
-            out[i] += layer[i];
-            count[i] += 1.0F;
-          } else if (!(out[i] >= layer[i]) && !std::isnan(layer[i])) {
-            out[i] = layer[i];
-          }
+        for (std::size_t i = 0; i < width && mean; ++i) {
+          if (std::isnan(layer[i])) continue;
+          out[i] += layer[i];
+          count[i] += 1.0F;
         }
+        if (!mean) fold(layer.data(), static_cast<std::int64_t>(width), out.data());
       }
       for (std::size_t i = 0; i < width && mean; ++i) out[i] /= count[i];  // 0 / 0: no layer in the image
     }

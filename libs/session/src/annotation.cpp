@@ -108,9 +108,23 @@ void require_sound(const std::vector<analysis::EvaluableStretch>& stretches) {
   }
 }
 
+bool lies_before(const LesionWord& a, const LesionWord& b) {
+  return a.from_mm < b.from_mm || (a.from_mm == b.from_mm && a.to_mm < b.to_mm);
+}
+
+void require_sound(const std::vector<LesionWord>& words) {
+  for (std::size_t i = 0; i < words.size(); ++i)
+    if (!(words[i].from_mm >= 0.0 && words[i].from_mm < words[i].to_mm && std::isfinite(words[i].to_mm)) ||
+        (i > 0 && !lies_before(words[i - 1], words[i])))
+      throw InvalidInput("the lesion from " + std::to_string(words[i].from_mm) + " to " +
+                         std::to_string(words[i].to_mm) +
+                         " mm of a mark is no stretch, or out of order; give each once, ascending");
+}
+
 void run(Annotations& annotations, const MarkVessel& command, const LumenModel& model) {
   const VesselMark& mark = command.mark;
   require_sound(mark.evaluable);
+  require_sound(mark.lesions);
   if (mark.color)
     for (const double part : *mark.color)
       if (!(part >= 0.0 && part <= 1.0))
@@ -134,9 +148,30 @@ VesselMark& mark_of(Annotations& annotations, std::int32_t vessel) {
   return *annotations.marks.insert(place, std::move(mark));
 }
 
+/// So do words on lesions, each with its middle.
+void hand_lesions_on(Annotations& annotations, std::int32_t vessel, double from_mm, double to_mm,
+                     std::int32_t other, double by_mm) {
+  const VesselMark* mark = find_mark(annotations, vessel);
+  if (!mark || mark->lesions.empty()) return;
+  const auto goes = [&](const LesionWord& one) {
+    const double middle = 0.5 * (one.from_mm + one.to_mm);
+    return middle >= from_mm && middle < to_mm;
+  };
+  const std::vector<LesionWord> said = mark->lesions;
+  std::erase_if(mark_of(annotations, vessel).lesions, goes);
+  for (LesionWord one : said) {
+    if (!goes(one)) continue;
+    one.from_mm = std::max(0.0, one.from_mm + by_mm), one.to_mm += by_mm;
+    if (!(one.from_mm < one.to_mm)) continue;
+    VesselMark& now = mark_of(annotations, other);
+    now = with_lesion(std::move(now), std::move(one));
+  }
+}
+
 /// The reader's word on what lies between two abscissas of one vessel goes to another, moved along.
 void hand_on(Annotations& annotations, std::int32_t vessel, double from_mm, double to_mm, std::int32_t other,
              double by_mm) {
+  hand_lesions_on(annotations, vessel, from_mm, to_mm, other, by_mm);
   const VesselMark* mark = find_mark(annotations, vessel);
   if (!mark || mark->evaluable.empty()) return;
   const std::vector<analysis::EvaluableStretch> said = mark->evaluable;
@@ -265,6 +300,39 @@ VesselMark with_evaluability(VesselMark mark, double from_mm, double to_mm,
   return mark;
 }
 
+std::string to_string(LesionState state) {
+  return state == LesionState::open ? "open" : state == LesionState::accepted ? "accepted" : "rejected";
+}
+
+LesionState lesion_state(const std::string& text) {
+  for (const LesionState one : {LesionState::open, LesionState::accepted, LesionState::rejected})
+    if (to_string(one) == text) return one;
+  throw InvalidInput("a lesion is \"" + text + "\"; it can be open, accepted or rejected");
+}
+
+const LesionWord* word_on(const VesselMark* mark, double from_mm, double to_mm) {
+  const LesionWord* best = nullptr;
+  double most_mm = 0.0;
+  if (!mark) return best;
+  for (const LesionWord& one : mark->lesions) {
+    const double shared = std::min(to_mm, one.to_mm) - std::max(from_mm, one.from_mm);
+    const double shorter = std::min(to_mm - from_mm, one.to_mm - one.from_mm);
+    if (shared > most_mm && shared >= 0.5 * shorter) best = &one, most_mm = shared;
+  }
+  return best;
+}
+
+VesselMark with_lesion(VesselMark mark, LesionWord word) {
+  if (const LesionWord* said = word_on(&mark, word.from_mm, word.to_mm))
+    mark.lesions.erase(mark.lesions.begin() + (said - mark.lesions.data()));
+  std::erase_if(mark.lesions,
+                [&](const LesionWord& one) { return !lies_before(one, word) && !lies_before(word, one); });
+  if (word.state == LesionState::open && word.comment.empty()) return mark;
+  const auto place = std::lower_bound(mark.lesions.begin(), mark.lesions.end(), word, lies_before);
+  mark.lesions.insert(place, std::move(word));
+  return mark;
+}
+
 const VesselMark* find_mark(const Annotations& annotations, std::int32_t vessel) {
   const auto found = find(annotations.marks, vessel);
   return found == annotations.marks.end() ? nullptr : &*found;
@@ -315,7 +383,12 @@ bool same(const VesselMark& a, const VesselMark& b) {
   const auto same_stretch = [](const analysis::EvaluableStretch& p, const analysis::EvaluableStretch& q) {
     return same_bits(p.from_mm, q.from_mm) && same_bits(p.to_mm, q.to_mm) && p.grade == q.grade;
   };
+  const auto same_word = [](const LesionWord& p, const LesionWord& q) {
+    return same_bits(p.from_mm, q.from_mm) && same_bits(p.to_mm, q.to_mm) && p.state == q.state &&
+           p.comment == q.comment;
+  };
   return a.vessel == b.vessel && a.visible == b.visible && a.checked == b.checked && a.note == b.note &&
+         std::equal(a.lesions.begin(), a.lesions.end(), b.lesions.begin(), b.lesions.end(), same_word) &&
          std::equal(a.evaluable.begin(), a.evaluable.end(), b.evaluable.begin(), b.evaluable.end(),
                     same_stretch);
 }

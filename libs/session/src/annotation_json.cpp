@@ -47,6 +47,10 @@ void fields(C& command, V& v) {
       v("evaluable", command.mark.evaluable, Need::optional);
     else if (!command.mark.evaluable.empty())
       v("evaluable", command.mark.evaluable);
+    if constexpr (std::is_same_v<V, Reader>)
+      v("lesions", command.mark.lesions, Need::optional);
+    else if (!command.mark.lesions.empty())
+      v("lesions", command.mark.lesions);
   }
 }
 

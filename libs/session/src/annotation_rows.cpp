@@ -31,6 +31,14 @@ analysis::MeasureKind measure_kind_of(const std::string& name) {
   }
 }
 
+LesionState lesion_state_of(const std::string& text) {
+  try {
+    return lesion_state(text);
+  } catch (const InvalidInput&) {
+    damaged("a lesion is neither open nor accepted nor rejected");
+  }
+}
+
 /// Empty for none.
 std::string color_bytes(const VesselMark& mark) {
   return mark.color ? bytes_of(std::vector<double>(mark.color->begin(), mark.color->end())) : std::string();
@@ -62,6 +70,12 @@ std::vector<analysis::EvaluableStretch> stretches_of(std::string_view bytes) {
   return stretches;
 }
 
+std::uint64_t sum_of(std::int32_t vessel, const LesionWord& word) {
+  Checksum sum;
+  sum.add("lesion").add(std::int64_t{vessel}).add(word.from_mm).add(word.to_mm);
+  return sum.add(to_string(word.state)).add(word.comment).value();
+}
+
 std::uint64_t sum_of(const Measurement& m) {
   Checksum sum;
   sum.add("measurement").add(std::int64_t{m.id}).add(analysis::to_string(m.kind)).add(m.name);
@@ -82,7 +96,10 @@ std::uint64_t sum_of(const VesselMark& mark) {
 std::uint64_t sum_of(const Annotations& annotations) {
   std::uint64_t sum = Checksum().add("annotation").add(std::int64_t{annotations.next_measurement_id}).value();
   for (const Measurement& measurement : annotations.measurements) sum += sum_of(measurement);
-  for (const VesselMark& mark : annotations.marks) sum += sum_of(mark);
+  for (const VesselMark& mark : annotations.marks) {
+    sum += sum_of(mark);
+    for (const LesionWord& word : mark.lesions) sum += sum_of(mark.vessel, word);
+  }
   return sum;
 }
 
@@ -109,7 +126,11 @@ AnnotationRows::AnnotationRows(const Database& db)
                         "INSERT INTO evaluability VALUES(?1, ?2) ON CONFLICT(vessel) DO UPDATE SET "
                         "stretches = excluded.stretches"),
       erase_evaluability_(db, "DELETE FROM evaluability WHERE vessel = ?1"),
-      read_evaluability_(db, "SELECT vessel, stretches FROM evaluability ORDER BY vessel") {}
+      read_evaluability_(db, "SELECT vessel, stretches FROM evaluability ORDER BY vessel"),
+      put_lesion_(db, "INSERT INTO lesion VALUES(?1, ?2, ?3, ?4, ?5)"),
+      erase_lesions_(db, "DELETE FROM lesion WHERE vessel = ?1"),
+      read_lesions_(
+          db, "SELECT vessel, from_mm, to_mm, state, comment FROM lesion ORDER BY vessel, from_mm, to_mm") {}
 
 void AnnotationRows::put(const Measurement& m) {
   const std::string points = bytes_of(m.points);
@@ -119,10 +140,28 @@ void AnnotationRows::put(const Measurement& m) {
       .run();
 }
 
+void AnnotationRows::put_lesions(const VesselMark& mark) {
+  erase_lesions_.with(mark.vessel).run();
+  for (const LesionWord& word : mark.lesions)
+    put_lesion_.with(mark.vessel, word.from_mm, word.to_mm, to_string(word.state), word.comment).run();
+}
+
+void AnnotationRows::read_lesions(Annotations& annotations) {
+  Statement& row = read_lesions_.with();
+  while (row.step()) {
+    const std::int32_t vessel = id_of(row.integer(0));
+    const auto mark = std::find_if(annotations.marks.begin(), annotations.marks.end(),
+                                   [&](const VesselMark& one) { return one.vessel == vessel; });
+    if (mark == annotations.marks.end()) damaged("a word on a lesion of a vessel that has no mark");
+    mark->lesions.push_back({row.real(1), row.real(2), lesion_state_of(row.text(3)), row.text(4)});
+  }
+}
+
 void AnnotationRows::put(const VesselMark& mark) {
   const std::string color = color_bytes(mark);
   put_mark_.with(mark.vessel, std::int32_t{mark.visible}, std::int32_t{mark.checked}, Blob{color}, mark.note)
       .run();
+  put_lesions(mark);
   if (mark.evaluable.empty()) {
     erase_evaluability_.with(mark.vessel).run();
     return;
@@ -149,7 +188,8 @@ void AnnotationRows::write_change(const Annotations& before, const Annotations& 
     if (const VesselMark* mark = find_mark(after, vessel))
       put(*mark);
     else
-      erase_mark_.with(vessel).run(), erase_evaluability_.with(vessel).run();
+      erase_mark_.with(vessel).run(), erase_evaluability_.with(vessel).run(),
+          erase_lesions_.with(vessel).run();
   }
   update_.with(after.next_measurement_id, static_cast<std::int64_t>(sum_of(after))).run();
 }
@@ -183,6 +223,7 @@ Annotations AnnotationRows::read() {
     if (mark == annotations.marks.end()) damaged("a reader's word on a vessel that has no mark");
     mark->evaluable = stretches_of(e.bytes(1));
   }
+  read_lesions(annotations);
   if (sum_of(annotations) != checksum) damaged("its annotations are not what was written");
   if (!annotations.measurements.empty() &&
       annotations.measurements.back().id >= annotations.next_measurement_id)

@@ -26,8 +26,11 @@ class AnnotationRows {
  private:
   void put(const analysis::Measurement& measurement);
   void put(const VesselMark& mark);
+  void put_lesions(const VesselMark& mark);
+  void read_lesions(Annotations& annotations);
   Statement update_, put_measurement_, erase_measurement_, put_mark_, erase_mark_, read_, read_measurements_,
-      read_marks_, put_evaluability_, erase_evaluability_, read_evaluability_;
+      read_marks_, put_evaluability_, erase_evaluability_, read_evaluability_, put_lesion_, erase_lesions_,
+      read_lesions_;
 };
 
 }  // namespace ostia::session

@@ -6,6 +6,7 @@
 #include "ostia/core/error.h"
 #include "ostia/core/text.h"
 #include "ostia/core/version.h"
+#include "ostia/session/lesion_board.h"
 
 #include <algorithm>
 #include <cmath>
@@ -117,7 +118,8 @@ class Maker {
       segment.volume_mm3 = volume_of(profile, cut.from_mm, cut.to_mm);
       segment.checked = is_checked(cut.vessel);
       for (const ReportStenosis& one : report_.stenoses) {
-        if (segment_at(one.stenosis.vessel, one.stenosis.throat_mm) != &cut ||
+        if (one.state == LesionState::rejected ||
+            segment_at(one.stenosis.vessel, one.stenosis.throat_mm) != &cut ||
             !(one.stenosis.diameter_percent > segment.worst_percent))
           continue;
         segment.worst_stenosis = one.number;
@@ -176,10 +178,30 @@ class Maker {
 
   void grade() {
     report_.not_found = arteries_not_found(model_);
+    classify_bifurcations(report_);
     grade_report(report_);
   }
 
-  /// What the image shows between lumen and outer wall, by vessel and by stenosis.
+  /// Narrowings, and plaque where it is known, with what the reader says of them.
+  void add_lesions() {
+    for (const ReportVessel& vessel : report_.vessels) {
+      const auto walls = report_.walls.find(vessel.id);
+      const analysis::PlaqueProfile* plaque = walls != report_.walls.end() ? &walls->second.plaque : nullptr;
+      for (const analysis::Lesion& one :
+           analysis::find_lesions(report_.profiles.at(vessel.id), report_.references.at(vessel.id), plaque,
+                                  report_.options.stenosis, report_.options.plaque_stretches))
+        if (one.stenosis.throat_mm >= vessel.own_from_mm && is_told(one, vessel.evaluable))
+          add_lesion(vessel, one);
+    }
+    for (ReportStenosis& one : report_.stenoses) {
+      const auto walls = report_.walls.find(one.stenosis.vessel);
+      if (walls == report_.walls.end()) continue;
+      one.plaque = plaque_of(walls->second, one.stenosis.from_mm, one.stenosis.to_mm);
+      one.remodelling_index = analysis::remodelling_index(walls->second.plaque, one.stenosis);
+    }
+  }
+
+  /// What the image shows between lumen and outer wall, by vessel.
   void add_plaque(const imaging::ImageVolume* image, const core::TaskContext& task) {
     if (!image) return;
     const auto count = static_cast<double>(report_.vessels.size());
@@ -197,12 +219,6 @@ class Maker {
       } catch (const InvalidInput& error) {
         report_.warnings.push_back(vessel.name + ": its outer wall was not looked for: " + error.what());
       }
-    }
-    for (ReportStenosis& one : report_.stenoses) {
-      const auto walls = report_.walls.find(one.stenosis.vessel);
-      if (walls == report_.walls.end()) continue;
-      one.plaque = plaque_of(walls->second, one.stenosis.from_mm, one.stenosis.to_mm);
-      one.remodelling_index = analysis::remodelling_index(walls->second.plaque, one.stenosis);
     }
   }
 
@@ -254,12 +270,11 @@ class Maker {
     const ReportOptions& o = report_.options;
     LumenProfile profile = analysis::lumen_profile(model_, surface_of_, vessel.id, o.profile, task);
     const double own = lumen::own_from_mm(model_.tree, vessel.id);
-    analysis::ReferenceOptions how = o.reference;
-    how.own_from_mm = own;
+    const analysis::Ostium ostium = analysis::ostium_of(model_, surface_of_, vessel.id);
     analysis::ReferenceLine reference =
-        analysis::reference_line(profile, analysis::branch_abscissas(model_, vessel.id), how);
-    for (const analysis::Stenosis& one : analysis::find_stenoses(profile, reference, o.stenosis))
-      if (one.throat_mm >= own) add_stenosis(vessel, one);
+        analysis::reference_line(profile, analysis::branch_abscissas(model_, vessel.id),
+                                 analysis::reading_from_ostium(ostium, o.reference));
+    report_.ostia[vessel.id] = ostium;
     const VesselMark* mark = find_mark(annotations_, vessel.id);
     report_.vessels.push_back({vessel.id,
                                vessel.name,
@@ -274,10 +289,15 @@ class Maker {
     report_.profiles[vessel.id] = std::move(profile);
   }
 
-  void add_stenosis(const geometry::Vessel& vessel, const analysis::Stenosis& found) {
+  void add_lesion(const ReportVessel& vessel, const analysis::Lesion& lesion) {
+    const analysis::Stenosis& found = lesion.stenosis;
     ReportStenosis one;
     one.number = static_cast<int>(report_.stenoses.size()) + 1;
     one.stenosis = found;
+    one.narrows = lesion.narrows;
+    one.graded_percent = lesion.graded_percent();
+    if (const LesionWord* said = word_on(find_mark(annotations_, vessel.id), found.from_mm, found.to_mm))
+      one.state = said->state, one.comment = said->comment;
     one.vessel_name = vessel.name;
     one.main_vessel = analysis::main_vessel_of(vessel.name);
     if (const analysis::VesselSegment* segment = segment_at(vessel.id, found.throat_mm)) {
@@ -288,7 +308,7 @@ class Maker {
       if (number == 5) one.main_vessel = "LM";
       if (number == 15 || number == 18) one.main_vessel = "LCX";
     }
-    one.category = analysis::cad_rads(found.diameter_percent);
+    one.category = lesion.category();
     one.checked = is_checked(vessel.id);
     report_.stenoses.push_back(std::move(one));
   }
@@ -317,6 +337,8 @@ void require(bool fine, const std::string& what) {
 void validate(const ReportOptions& options) {
   analysis::validate(options.profile);
   validate(options.walls);
+  analysis::validate(options.medina);
+  analysis::validate(options.plaque_stretches);
   require(options.least_graded_mm >= 0.0 && options.least_graded_mm <= 5.0,
           "grades stenoses of vessels from 0 to 5 mm, not " + core::shown_text(options.least_graded_mm, 2) +
               " mm");
@@ -361,6 +383,7 @@ CaseReport make_case_report(const lumen::LumenModel& model, const analysis::Surf
   maker.measure_vessels(task.sub(0.0, image ? 0.2 : 0.9));
   maker.judge(image, task.sub(0.2, 0.4));
   maker.add_plaque(image, task.sub(0.4, 0.9));
+  maker.add_lesions();
   maker.add_segments();
   maker.grade();
   maker.add_measurements(image);

@@ -26,6 +26,11 @@ std::string checked_text(bool checked) {
   return checked ? "yes" : "NO";
 }
 
+/// Of a lesion: the reader's own word before that on its vessel.
+std::string checked_text(const ReportStenosis& one) {
+  return one.state == LesionState::open ? checked_text(one.checked) : to_string(one.state);
+}
+
 std::string joined(const std::vector<std::string>& texts, const std::string& between) {
   std::string all;
   for (const std::string& text : texts) all += (all.empty() ? "" : between) + text;
@@ -69,6 +74,17 @@ std::string doubtful_text(const ReportVessel& vessel) {
   return text.empty() ? "all of it" : text;
 }
 
+std::string lesions_text(const CaseReport& report) {
+  const auto of = [&](const auto& is) {
+    return std::to_string(std::count_if(report.stenoses.begin(), report.stenoses.end(), is));
+  };
+  return std::to_string(report.stenoses.size()) + ", of which " +
+         of([](const ReportStenosis& one) { return one.state == LesionState::accepted; }) +
+         " were accepted and " +
+         of([](const ReportStenosis& one) { return one.state == LesionState::rejected; }) +
+         " rejected by a person";
+}
+
 std::vector<std::pair<std::string, std::string>> summary_of(const CaseReport& report) {
   const std::size_t unchecked = report.unchecked().size();
   std::vector<std::pair<std::string, std::string>> rows;
@@ -81,7 +97,7 @@ std::vector<std::pair<std::string, std::string>> summary_of(const CaseReport& re
   rows.emplace_back("Worst graded stenosis", worst_text(report));
   rows.emplace_back("Image quality", quality_text(report));
   if (!report.not_found.empty()) rows.emplace_back("Not found", joined(report.not_found, "\n"));
-  rows.emplace_back("Stenoses", std::to_string(report.stenoses.size()));
+  rows.emplace_back("Lesions", lesions_text(report));
   rows.emplace_back("Vessels", std::to_string(report.vessels.size()) + ", of which " +
                                    std::to_string(report.vessels.size() - unchecked) +
                                    " were checked by a person");
@@ -97,12 +113,14 @@ Rows stenosis_rows(const CaseReport& report) {
   Rows rows;
   for (const ReportStenosis& one : report.stenoses) {
     const analysis::Stenosis& s = one.stenosis;
-    rows.push_back(
-        {label(one), one.vessel_name, one.segment, shown_text(s.throat_mm, 1), shown_text(s.length_mm(), 1),
-         shown_text(s.least_diameter_mm, 2), shown_text(s.reference_diameter_mm, 2),
-         percent(s.diameter_percent) + " %", shown_text(s.least_area_mm2, 2), percent(s.area_percent) + " %",
-         one.category ? analysis::to_string(*one.category) + (one.graded ? "" : " *") : "not graded",
-         evaluable_text(one.evaluable), checked_text(one.checked)});
+    rows.push_back({label(one), one.vessel_name, one.segment, shown_text(s.throat_mm, 1),
+                    shown_text(s.length_mm(), 1), shown_text(s.least_diameter_mm, 2),
+                    shown_text(s.reference_diameter_mm, 2), percent(s.diameter_percent) + " %",
+                    shown_text(s.least_area_mm2, 2), percent(s.area_percent) + " %",
+                    one.category ? analysis::to_string(*one.category) + (one.graded ? "" : " *")
+                    : one.state == LesionState::rejected ? "rejected"
+                                                         : "not graded",
+                    evaluable_text(one.evaluable), checked_text(one)});
   }
   return rows;
 }
@@ -152,6 +170,32 @@ Rows step_rows(const CaseReport& report) {
 }
 
 template <class Document>
+void add_identity(Document& document, const imaging::ShownIdentity& named) {
+  if (named.anonymous()) return;
+  std::vector<std::pair<std::string, std::string>> rows;
+  const auto add = [&](const char* what, const std::string& value) {
+    if (!value.empty()) rows.emplace_back(what, value);
+  };
+  add("Patient", named.patient_name);
+  add("Patient ID", named.patient_id);
+  add("Study date", named.study_date);
+  add("Series", named.series_description);
+  document.key_values(rows);
+  document.notice(
+      Notice::warning,
+      "This document names a patient, as its reader asked. The tables and pictures beside it do not.");
+}
+
+/// At the foot of each page, so that pages that are parted can be told apart.
+std::string foot_of(const imaging::ShownIdentity& named) {
+  if (named.anonymous()) return {};
+  std::string text;
+  for (const std::string& part : {named.patient_name, named.patient_id, named.study_date})
+    if (!part.empty()) text += part + "  \xC2\xB7  ";
+  return text;
+}
+
+template <class Document>
 void add_summary(Document& document, const CaseReport& report) {
   document.notice(Notice::note, kDisclaimer);
   const std::vector<std::string> unchecked = report.unchecked();
@@ -177,7 +221,9 @@ void add_stenoses(Document& document, const CaseReport& report) {
     document.table(
         {"No.", "Vessel", "Segment", "At (mm)", "Length (mm)", "MLD (mm)", "Reference (mm)",
          "Diameter stenosis", "MLA (mm\xC2\xB2)", "Area stenosis", "CAD-RADS", "Evaluable", "Checked"},
-        stenosis_rows(report), "Stenoses, each at its own vessel");
+        stenosis_rows(report), "Narrowings and plaques, each at its own vessel");
+    for (const ReportStenosis& one : report.stenoses)
+      if (!one.comment.empty()) document.paragraph(label(one) + ": " + one.comment);
     for (const ReportStenosis& one : report.stenoses)
       if (!one.category) document.paragraph(label(one) + " is not graded: " + one.not_graded + ".");
     if (std::any_of(report.stenoses.begin(), report.stenoses.end(),
@@ -189,17 +235,46 @@ void add_stenoses(Document& document, const CaseReport& report) {
       "CAD-RADS is by the diameter alone, of what can be judged (N: not diagnostic), without the other "
       "modifiers "
       "(plaque burden, high-risk "
-      "plaque, stents, grafts, ischemia), and narrowings below " +
+      "plaque, stents, grafts, ischemia). Narrowings below " +
       percent(report.options.stenosis.least_percent) +
-      " % are not looked for. MLD and MLA: least lumen diameter and area. Percentages are against the "
+      " % are listed where plaque is seen; plaque without narrowing is category 1. MLD and MLA: least lumen "
+      "diameter and area. Percentages are against the "
       "calibre that the vessel would have without disease.");
+}
+
+Rows bifurcation_rows(const CaseReport& report) {
+  Rows rows;
+  for (const ReportBifurcation& one : report.bifurcations) {
+    const analysis::MedinaClass& m = one.medina;
+    if (!m.any()) continue;
+    rows.push_back({one.main_name + " / " + one.side_name, analysis::to_string(m), shown_text(m.joint_mm, 1),
+                    percent(m.proximal_percent) + " %", percent(m.distal_percent) + " %",
+                    percent(m.side_percent) + " %"});
+  }
+  return rows;
+}
+
+/// Medina's classes of the bifurcations with a lesion; nothing without one.
+template <class Document>
+void add_bifurcations(Document& document, const CaseReport& report) {
+  const Rows rows = bifurcation_rows(report);
+  if (rows.empty()) return;
+  document.section("Bifurcation lesions");
+  document.table({"Bifurcation", "Medina", "At (mm)", "Main, proximal", "Main, distal", "Side branch"}, rows,
+                 "Main vessel / side branch; worst narrowing of the diameter in each");
+  document.paragraph(
+      "Medina's class: main vessel before the bifurcation, main vessel behind it, side branch; 1 where "
+      "the diameter is narrowed by " +
+      percent(report.options.medina.least_percent) + " % or more within " +
+      shown_text(report.options.medina.region_mm, 0) + " mm. Side branches from " +
+      shown_text(report.options.medina.least_side_mm, 1) + " mm on.");
 }
 
 /// A stretch's volumes, mm^3, and what follows from them.
 std::vector<std::string> plaque_row(const std::string& name, const ReportPlaque& plaque,
                                     const std::string& remodelling) {
   const analysis::PlaqueVolumes& v = plaque.volumes;
-  std::vector<std::string> row{name, shown_text(v.plaque_mm3(), 1)};
+  std::vector<std::string> row{name, to_string(analysis::plaque_type(v)), shown_text(v.plaque_mm3(), 1)};
   for (const double volume : v.class_mm3) row.push_back(shown_text(volume, 1));
   row.push_back(shown_text(v.thin_wall_mm3, 1));
   row.push_back(shown_text(v.burden_percent(), 0) + " %");
@@ -230,16 +305,17 @@ void add_plaque(Document& document, const CaseReport& report) {
     return;
   }
   const analysis::PlaqueOptions& o = report.options.walls.plaque;
-  document.table({"Vessel", "Plaque (mm\xC2\xB3)", "Low attenuation", "Fibrofatty", "Fibrous", "Calcified",
-                  "Thin wall (mm\xC2\xB3)", "Burden", "Remodelling index", "Outer wall seen"},
+  document.table({"Vessel", "Class", "Plaque (mm\xC2\xB3)", "Low attenuation", "Fibrofatty", "Fibrous",
+                  "Calcified", "Thin wall (mm\xC2\xB3)", "Burden", "Remodelling index", "Outer wall seen"},
                  rows, "Between lumen and outer wall, by vessel and by stenosis");
   document.paragraph(
       "Low attenuation: below " + shown_text(o.low_attenuation_hu, 0) + " HU; fibrofatty: to " +
       shown_text(o.fibrofatty_hu, 0) + " HU; fibrous: to " + shown_text(o.fibrous_hu, 0) +
       " HU; calcified: above, after the blur of lumen and fat was taken away. A wall thinner than " +
-      shown_text(o.thin_wall_mm, 1) +
-      " mm is in no class: the scan does not resolve it. Burden: wall and plaque, of all within the outer "
-      "wall. "
+      shown_text(o.thin_wall_mm, 1) + " mm, or thicker by less than " + shown_text(o.healthy_margin_mm, 1) +
+      " mm than a healthy one of that calibre, is wall and no plaque. Class: calcified from half of the "
+      "plaque "
+      "on, non-calcified below 5 %. Burden: plaque, of all within the outer wall. "
       "Remodelling index: vessel area at the throat over that at the places of reference. Where no fat "
       "borders "
       "on the wall it is not seen, and the outer wall is a bridge. All of this was found by the program.");
@@ -273,9 +349,12 @@ void add_tables(Document& document, const CaseReport& report) {
 }
 
 template <class Document>
-void compose(Document& document, const CaseReport& report, const std::vector<KeyImage>& images) {
+void compose(Document& document, const CaseReport& report, const std::vector<KeyImage>& images,
+             const imaging::ShownIdentity& named) {
+  add_identity(document, named);
   add_summary(document, report);
   add_stenoses(document, report);
+  add_bifurcations(document, report);
   add_plaque(document, report);
   add_images(document, images);
   add_tables(document, report);
@@ -290,17 +369,20 @@ constexpr const char* kTitle = "Coronary arteries on CT angiography";
 
 }  // namespace
 
-std::string report_html(const CaseReport& report, const std::vector<KeyImage>& images) {
+std::string report_html(const CaseReport& report, const std::vector<KeyImage>& images,
+                        const imaging::ShownIdentity& named) {
   figure::HtmlReport document(kTitle, case_name(report));
-  compose(document, report, images);
+  compose(document, report, images, named);
   return document.html();
 }
 
-std::string report_pdf(const CaseReport& report, const std::vector<KeyImage>& images) {
-  figure::PdfDocument document(kTitle, case_name(report),
-                               {case_name(report) + "  \xC2\xB7  Ostia " + report.program_version +
-                                "  \xC2\xB7  research software, not a medical device"});
-  compose(document, report, images);
+std::string report_pdf(const CaseReport& report, const std::vector<KeyImage>& images,
+                       const imaging::ShownIdentity& named) {
+  figure::PdfDocument document(
+      kTitle, case_name(report),
+      {foot_of(named) + case_name(report) + "  \xC2\xB7  Ostia " + report.program_version +
+       "  \xC2\xB7  research software, not a medical device"});
+  compose(document, report, images, named);
   return document.pdf();
 }
 

@@ -60,6 +60,7 @@ Json walls_json(const OuterWallsOptions& o) {
           p.fibrofatty_hu,
           p.fibrous_hu,
           p.thin_wall_mm,
+          p.healthy_margin_mm,
           p.step_mm,
           p.around,
           p.deep,
@@ -81,28 +82,33 @@ std::string report_digest(const CaseFile& file) {
 }
 
 pipeline::JobKey report_job(const CaseFile& file, bool with_image, const ReportOptions& o,
-                            const std::vector<KeyImage>& further) {
+                            const std::vector<KeyImage>& further, bool named) {
   Json pictures = Json::array();
   for (const KeyImage& one : further)
     pictures.push_back({one.name, one.caption, core::sha256(one.picture.png(image_density))});
-  const Json parameters{{"date", o.date},
-                        {"profile", {o.profile.step_mm, o.profile.around}},
-                        {"reference_window_mm", o.reference.window_mm},
-                        {"least_percent", o.stenosis.least_percent},
-                        {"least_length_mm", o.stenosis.least_length_mm},
-                        {"least_graded_mm", o.least_graded_mm},
-                        {"walls", walls_json(o.walls)},
-                        {"picture_percent", o.picture_percent},
-                        {"theta_deg", o.theta_deg},
-                        {"grey", {o.level_hu, o.window_hu}},
-                        {"further", pictures}};
+  Json parameters{{"date", o.date},
+                  {"profile", {o.profile.step_mm, o.profile.around}},
+                  {"reference_window_mm", o.reference.window_mm},
+                  {"least_percent", o.stenosis.least_percent},
+                  {"least_length_mm", o.stenosis.least_length_mm},
+                  {"plaque_stretches",
+                   {o.plaque_stretches.least_area_mm2, o.plaque_stretches.least_length_mm,
+                    o.plaque_stretches.gap_mm, o.plaque_stretches.least_beside_mm}},
+                  {"least_graded_mm", o.least_graded_mm},
+                  {"walls", walls_json(o.walls)},
+                  {"picture_percent", o.picture_percent},
+                  {"theta_deg", o.theta_deg},
+                  {"grey", {o.level_hu, o.window_hu}},
+                  {"further", pictures}};
+  if (named) parameters["named"] = true;
   pipeline::JobKey key{"report", {{"case", report_digest(file)}}, parameters.dump()};
   if (with_image && o.image) key.inputs["image"] = o.image->sha256;
   return key;
 }
 
 void write_case_report(const fs::path& folder, const CaseReport& report, const std::vector<KeyImage>& images,
-                       const pipeline::JobKey& job, double seconds_before, const core::TaskContext& task) {
+                       const pipeline::JobKey& job, double seconds_before, const core::TaskContext& task,
+                       const imaging::ShownIdentity& named) {
   const auto start = std::chrono::steady_clock::now();
   check_names(images);
   pipeline::require_free_folder(folder);
@@ -122,10 +128,10 @@ void write_case_report(const fs::path& folder, const CaseReport& report, const s
   core::write_file(made / "plaque.csv", plaque_csv(report));
   core::write_file(made / "measurements.csv", measurements_csv(report));
   task.throw_if_cancelled();
-  core::write_file(made / "report.html", report_html(report, images));
+  core::write_file(made / "report.html", report_html(report, images, named));
   task.set_progress(0.7);
   task.throw_if_cancelled();
-  core::write_file(made / "report.pdf", report_pdf(report, images));
+  core::write_file(made / "report.pdf", report_pdf(report, images, named));
   task.throw_if_cancelled();
   const double seconds =
       seconds_before + std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -30,6 +30,8 @@ bool thin(const CaseReport& report, const ReportStenosis& one) {
 
 /// Why a lesion cannot be judged; empty where it can.
 std::string objection(const ReportStenosis& one) {
+  if (one.state == LesionState::rejected) return "rejected by the reader";
+  if (one.state == LesionState::accepted) return {};
   const std::optional<EvaluableStretch>& image = one.evaluable;
   if (image && image->by_person && image->grade == Evaluability::not_evaluable)
     return "not evaluable, says the reader";
@@ -80,8 +82,9 @@ void grade_report(CaseReport& report) {
           "its vessel is thinner than " + core::shown_text(report.options.least_graded_mm, 1) + " mm";
     one.graded = one.not_graded.empty();
     if (one.graded)
-      graded.push_back({one.main_vessel, one.stenosis.diameter_percent});
-    else if (one.stenosis.diameter_percent >= counts_percent && !thin(report, one))
+      graded.push_back({one.main_vessel, one.graded_percent});
+    else if (one.state != LesionState::rejected && one.stenosis.diameter_percent >= counts_percent &&
+             !thin(report, one))
       report.not_judged.push_back(report_text::label(one) + " in " + one.segment + ", " +
                                   report_text::percent(one.stenosis.diameter_percent) +
                                   " % by the model: " + one.not_graded);

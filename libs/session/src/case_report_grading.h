@@ -12,5 +12,7 @@ namespace ostia::session {
 /// is not evaluable and that no person has checked, a lesion from 25 % on that is wide enough and not graded,
 /// all vessels where no image is at hand and no person has checked them.
 void grade_report(CaseReport& report);
+/// Fills in `bifurcations`, and what lesions belong to.
+void classify_bifurcations(CaseReport& report);
 
 }  // namespace ostia::session

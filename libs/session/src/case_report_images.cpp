@@ -70,7 +70,7 @@ class Painter {
 std::vector<const ReportStenosis*> Painter::stenoses_of(std::int32_t id) const {
   std::vector<const ReportStenosis*> found;
   for (const ReportStenosis& one : report_.stenoses)
-    if (one.stenosis.vessel == id) found.push_back(&one);
+    if (one.stenosis.vessel == id && one.state != LesionState::rejected) found.push_back(&one);
   return found;
 }
 
@@ -115,6 +115,7 @@ figure::Scene Painter::scene(const core::TaskContext& task) const {
   wall.mesh = surface.mesh();
   scene.meshes.push_back(std::move(wall));
   for (const ReportStenosis& one : report_.stenoses) {
+    if (one.state == LesionState::rejected) continue;
     scene.tubes.push_back(ring(one));
     const Vec3 place = lumen::vessel(model_, one.stenosis.vessel).axis->point(one.stenosis.throat_mm);
     scene.labels.push_back({place, report_text::label(one)});
@@ -189,7 +190,8 @@ Picture Painter::strips(std::int32_t id, const core::TaskContext& task) const {
 }
 
 Picture Painter::profile(std::int32_t id) const {
-  const analysis::LumenProfile& sizes = report_.profiles.at(id);
+  const analysis::LumenProfile sizes =
+      analysis::read_through(report_.profiles.at(id), report_.references.at(id));
   const analysis::ReferenceLine& line = report_.references.at(id);
   constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
   figure::Series measured{"lumen", {}, {}, figure::colors::inlet};
@@ -217,6 +219,9 @@ Picture Painter::profile(std::int32_t id) const {
         {figure::ReferenceLine::Along::x, one->stenosis.throat_mm, report_text::label(*one)});
   }
   if (!throats.x.empty()) series.push_back(throats);
+  if (const auto found = report_.ostia.find(id); found != report_.ostia.end() && found->second.parent >= 0)
+    how.references.push_back({figure::ReferenceLine::Along::x, found->second.joint_mm,
+                              "leaves " + report_text::vessel_name(model_, found->second.parent)});
   const bool any = std::any_of(measured.y.begin(), measured.y.end(), [](double y) { return !std::isnan(y); });
   if (!any) how.y_range = figure::Range{0.0, 1.0};
   return figure::line_plot(series, how);
@@ -296,7 +301,8 @@ std::vector<std::int32_t> shown_vessels(const CaseReport& report, const lumen::L
     for (std::size_t i = 0; i < std::min<std::size_t>(3, longest.size()); ++i) shown.insert(longest[i].id);
   }
   for (const ReportStenosis& one : report.stenoses)
-    if (one.stenosis.diameter_percent >= report.options.picture_percent) shown.insert(one.stenosis.vessel);
+    if (one.state != LesionState::rejected && one.stenosis.diameter_percent >= report.options.picture_percent)
+      shown.insert(one.stenosis.vessel);
   std::vector<std::int32_t> ordered;
   for (const ReportVessel& one : report.vessels)
     if (shown.contains(one.id)) ordered.push_back(one.id);

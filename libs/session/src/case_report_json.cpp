@@ -46,6 +46,7 @@ Json plaque_json(const std::optional<ReportPlaque>& plaque) {
           {"fibrofatty_mm3", number(v.of(analysis::PlaqueClass::fibrofatty))},
           {"fibrous_mm3", number(v.of(analysis::PlaqueClass::fibrous))},
           {"calcified_mm3", number(v.of(analysis::PlaqueClass::calcified))},
+          {"type", to_string(analysis::plaque_type(v))},
           {"burden_percent", number(v.burden_percent())},
           {"seen_share", number(plaque->seen_share)}};
 }
@@ -119,6 +120,9 @@ Json stenosis_json(const ReportStenosis& one) {
           {"vessel_name", text(one.vessel_name)},
           {"segment", text(one.segment)},
           {"main_vessel", one.main_vessel},
+          {"narrows", one.narrows},
+          {"state", to_string(one.state)},
+          {"comment", text(one.comment)},
           {"from_mm", number(s.from_mm)},
           {"to_mm", number(s.to_mm)},
           {"throat_mm", number(s.throat_mm)},
@@ -137,7 +141,23 @@ Json stenosis_json(const ReportStenosis& one) {
           {"evaluable", grade_json(one.evaluable)},
           {"checked", one.checked},
           {"plaque", plaque_json(one.plaque)},
-          {"remodelling_index", number(one.remodelling_index)}};
+          {"remodelling_index", number(one.remodelling_index)},
+          {"medina", one.medina.empty() ? Json() : Json(one.medina)},
+          {"bifurcation", one.bifurcation.empty() ? Json() : text(one.bifurcation)}};
+}
+
+Json bifurcation_json(const ReportBifurcation& one) {
+  const analysis::MedinaClass& m = one.medina;
+  return {{"main", m.main},
+          {"side", m.side},
+          {"main_name", text(one.main_name)},
+          {"side_name", text(one.side_name)},
+          {"joint_mm", number(m.joint_mm)},
+          {"ostium_mm", number(m.ostium_mm)},
+          {"medina", to_string(m)},
+          {"proximal_percent", number(m.proximal_percent)},
+          {"distal_percent", number(m.distal_percent)},
+          {"side_percent", number(m.side_percent)}};
 }
 
 Json measurement_json(const ReportMeasurement& m) {
@@ -236,15 +256,20 @@ std::string report_json(const CaseReport& report, const std::vector<KeyImage>& i
         {"least_percent", o.stenosis.least_percent},
         {"least_length_mm", o.stenosis.least_length_mm},
         {"least_graded_mm", o.least_graded_mm},
+        {"medina_region_mm", o.medina.region_mm},
+        {"medina_least_percent", o.medina.least_percent},
+        {"medina_least_side_mm", o.medina.least_side_mm},
         {"low_attenuation_hu", o.walls.plaque.low_attenuation_hu},
         {"fibrofatty_hu", o.walls.plaque.fibrofatty_hu},
         {"fibrous_hu", o.walls.plaque.fibrous_hu},
         {"thin_wall_mm", o.walls.plaque.thin_wall_mm},
+        {"healthy_margin_mm", o.walls.plaque.healthy_margin_mm},
         {"blur_sigma_mm", o.walls.plaque.blur_sigma_mm}}},
       {"all_checked", report.unchecked().empty()},
       {"vessels", list(report.vessels, vessel_json)},
       {"segments", list(report.segments, segment_json)},
       {"stenoses", list(report.stenoses, stenosis_json)},
+      {"bifurcations", list(report.bifurcations, bifurcation_json)},
       {"measurements", list(report.measurements, measurement_json)},
       {"steps", list(report.steps, step_json)},
       {"images", list(images,
@@ -283,7 +308,7 @@ std::string stenoses_csv(const CaseReport& report) {
       "stenosis,vessel,segment,main_vessel,from_mm,to_mm,throat_mm,length_mm,least_diameter_mm,least_area_"
       "mm2,"
       "reference_diameter_mm,reference_area_mm2,diameter_percent,area_percent,cad_rads,graded,evaluable,"
-      "checked\r\n";
+      "checked,narrows,plaque_mm3,plaque_type,state,comment\r\n";
   for (const ReportStenosis& one : report.stenoses) {
     const analysis::Stenosis& s = one.stenosis;
     all += Line()
@@ -305,6 +330,11 @@ std::string stenoses_csv(const CaseReport& report) {
                .add(yes_no(one.graded))
                .add(one.evaluable ? analysis::to_string(one.evaluable->grade) : "")
                .add(yes_no(one.checked))
+               .add(yes_no(one.narrows))
+               .add(one.plaque ? std::optional(one.plaque->volumes.plaque_mm3()) : std::nullopt, 3)
+               .add(one.plaque ? to_string(analysis::plaque_type(one.plaque->volumes)) : "")
+               .add(to_string(one.state))
+               .free(one.comment)
                .end();
   }
   return all;

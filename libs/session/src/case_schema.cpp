@@ -47,6 +47,15 @@ CREATE TABLE mark(vessel INTEGER PRIMARY KEY, visible INTEGER NOT NULL, checked 
 constexpr const char* evaluability_table =
     "CREATE TABLE evaluability(vessel INTEGER PRIMARY KEY, stretches BLOB NOT NULL);";
 
+// Since version 4: the reader's word on lesions.
+constexpr const char* lesion_table =
+    "CREATE TABLE lesion(vessel INTEGER NOT NULL, from_mm NOT NULL, to_mm NOT NULL, state TEXT NOT NULL, "
+    "comment TEXT NOT NULL, PRIMARY KEY(vessel, from_mm, to_mm)) WITHOUT ROWID;";
+
+void create_lesions(Database& database) {
+  database.execute(lesion_table);
+}
+
 void create_evaluability(Database& database) {
   database.execute(evaluability_table);
 }
@@ -58,7 +67,7 @@ void create_annotations(Database& database) {
 
 /// Step k makes version k + 2 of version k + 1.
 using Step = void (*)(Database&);
-constexpr std::array<Step, schema_version - 1> steps{create_annotations, create_evaluability};
+constexpr std::array<Step, schema_version - 1> steps{create_annotations, create_evaluability, create_lesions};
 
 void set_version(Database& database, std::int32_t version) {
   database.execute("PRAGMA user_version = " + std::to_string(version));

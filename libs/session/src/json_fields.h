@@ -6,6 +6,7 @@
 #include "ostia/analysis/measurement.h"
 #include "ostia/core/error.h"
 #include "ostia/lumen/edit.h"
+#include "ostia/session/annotation.h"
 
 #include <nlohmann/json.hpp>
 
@@ -62,6 +63,12 @@ class Writer {
     return {{"from_mm", json(one.from_mm)},
             {"to_mm", json(one.to_mm)},
             {"grade", analysis::to_string(one.grade)}};
+  }
+  Json json(const LesionWord& one) const {
+    return {{"from_mm", json(one.from_mm)},
+            {"to_mm", json(one.to_mm)},
+            {"state", to_string(one.state)},
+            {"comment", one.comment}};
   }
   template <class Value>
   Json json(const std::vector<Value>& values) const {
@@ -154,6 +161,22 @@ class Reader {
       fail("\"" + name + ".grade\": " + e.what());
     }
     out.by_person = true;
+  }
+  void read(const Json& in, const std::string& name, LesionWord& out) const {
+    const bool has_comment = in.is_object() && in.contains("comment");
+    if (!in.is_object() || in.size() != (has_comment ? 4U : 3U) || !in.contains("from_mm") ||
+        !in.contains("to_mm") || !in.contains("state"))
+      fail("\"" + name + "\" must be a lesion {\"from_mm\", \"to_mm\", \"state\", \"comment\"}");
+    std::string state;
+    read(in["from_mm"], name + ".from_mm", out.from_mm);
+    read(in["to_mm"], name + ".to_mm", out.to_mm);
+    read(in["state"], name + ".state", state);
+    if (has_comment) read(in["comment"], name + ".comment", out.comment);
+    try {
+      out.state = lesion_state(state);
+    } catch (const InvalidInput& e) {
+      fail("\"" + name + ".state\": " + e.what());
+    }
   }
   void read(const Json& in, const std::string& name, std::array<double, 3>& out) const {
     if (!in.is_array() || in.size() != 3) fail("\"" + name + "\" must be a color [red, green, blue]");

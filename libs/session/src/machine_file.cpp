@@ -1,18 +1,14 @@
 #include "machine_file.h"
 
+#include "private_file.h"
+
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
 
-#include <fcntl.h>
 #include <nlohmann/json.hpp>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <cerrno>
-#include <chrono>
 #include <system_error>
-#include <thread>
 #include <utility>
 
 namespace ostia::session {
@@ -22,7 +18,6 @@ namespace {
 using MachineJson = nlohmann::json;
 
 constexpr std::uint64_t largest_file = 16U << 20;
-constexpr auto longest_wait = std::chrono::seconds(2);
 
 std::string escaped(const std::string& bytes) {
   constexpr std::string_view digits = "0123456789ABCDEF";
@@ -57,66 +52,6 @@ std::string unescaped(const std::string& text) {
   return bytes;
 }
 
-[[noreturn]] void raise(const std::string& what, const fs::path& path, int code) {
-  const std::string message = what + " " + path.string() + ": " + std::generic_category().message(code);
-  if (code == ENOSPC || code == EDQUOT || code == EFBIG) throw ResourceError(message);
-  throw IoError(message);
-}
-
-class MachineDescriptor {
- public:
-  MachineDescriptor(const fs::path& path, int flags) : fd_(::open(path.c_str(), flags | O_CLOEXEC, 0600)) {
-    if (fd_ < 0) raise("cannot open", path, errno);
-  }
-  ~MachineDescriptor() { ::close(fd_); }
-  MachineDescriptor(const MachineDescriptor&) = delete;
-  MachineDescriptor& operator=(const MachineDescriptor&) = delete;
-  int get() const { return fd_; }
-
- private:
-  int fd_;
-};
-
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  if (fs::is_directory(folder, error)) return;
-  if (folder.has_parent_path()) fs::create_directories(folder.parent_path(), error);
-  if (::mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST) raise("cannot make the folder", folder, errno);
-}
-
-/// Held while the file is changed; every program that changes it waits here. The file itself cannot be
-/// locked, since it is replaced.
-class Lock {
- public:
-  explicit Lock(const fs::path& folder) : file_(folder / "machine.lock", O_RDWR | O_CREAT) {
-    const auto end = std::chrono::steady_clock::now() + longest_wait;
-    while (::flock(file_.get(), LOCK_EX | LOCK_NB) != 0) {
-      if (errno != EWOULDBLOCK && errno != EINTR) raise("cannot lock", folder / "machine.lock", errno);
-      if (std::chrono::steady_clock::now() > end)
-        throw IoError("cannot change " + (folder / "machine.json").string() +
-                      ": another window or program has been changing it for two seconds");
-      std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    }
-  }
-
- private:
-  MachineDescriptor file_;
-};
-
-void write_private(const fs::path& path, const std::string& text) {
-  core::StagedFile staged(path);
-  {
-    const MachineDescriptor out(staged.temporary(), O_WRONLY | O_CREAT | O_EXCL);
-    for (std::size_t done = 0; done < text.size();) {
-      const ssize_t wrote = ::write(out.get(), text.data() + done, text.size() - done);
-      if (wrote < 0 && errno == EINTR) continue;
-      if (wrote < 0) raise("cannot write", path, errno);
-      done += static_cast<std::size_t>(wrote);
-    }
-  }
-  staged.commit();
-}
-
 /// A name beside the file that is not taken.
 fs::path free_name(const fs::path& path) {
   for (int k = 1;; ++k) {
@@ -128,7 +63,7 @@ fs::path free_name(const fs::path& path) {
 
 RecentCase recent_case(const MachineJson& in) {
   return {unescaped(in.at("path").get<std::string>()), in.at("pseudonym").get<std::string>(),
-          in.at("opened").get<std::int64_t>()};
+          in.at("opened").get<std::int64_t>(), in.value("image", std::string())};
 }
 
 MachineContent content_of(const MachineJson& in) {
@@ -156,9 +91,11 @@ std::string machine_json(const MachineContent& content) {
     MachineJson& one = out["images"][sha256] = {{"path", escaped(image.path.string())}, {"seen", image.seen}};
     if (!image.series_uid.empty()) one["series"] = escaped(image.series_uid);
   }
-  for (const RecentCase& one : content.recent)
+  for (const RecentCase& one : content.recent) {
     out["recent"].push_back(
         {{"path", escaped(one.path.string())}, {"pseudonym", one.pseudonym}, {"opened", one.opened}});
+    if (!one.image_sha256.empty()) out["recent"].back()["image"] = one.image_sha256;
+  }
   try {
     return out.dump(1) + "\n";
   } catch (const MachineJson::exception&) {
@@ -189,7 +126,7 @@ MachineContent MachineFile::read_or_move_aside() {
     throw IoError(std::string("what is known of this machine cannot be read: ") + e.what());
   } catch (const Error& e) {
     const fs::path aside = free_name(path());
-    if (::rename(path().c_str(), aside.c_str()) != 0) raise("cannot move aside", path(), errno);
+    if (::rename(path().c_str(), aside.c_str()) != 0) raise_file_error("cannot move aside", path(), errno);
     notices_.push_back(
         "what was known of this machine (recent cases, where images lie, the window) could not "
         "be read and was moved to " +
@@ -207,7 +144,7 @@ MachineContent MachineFile::read() {
     // Another program may have put it right meanwhile: once more, with the lock.
   }
   try {
-    const Lock lock(folder_);
+    const PrivateLock lock(path());
     return read_or_move_aside();
   } catch (const Error& e) {
     tell(e.what());
@@ -216,8 +153,8 @@ MachineContent MachineFile::read() {
 }
 
 void MachineFile::change(const std::function<void(MachineContent&)>& changing) {
-  make_folder(folder_);
-  const Lock lock(folder_);
+  make_private_folder(folder_);
+  const PrivateLock lock(path());
   MachineContent content = read_or_move_aside();
   changing(content);
   write_private(path(), machine_json(content));

@@ -20,8 +20,9 @@ using lumen::LumenModel;
 using lumen::SurfaceSample;
 using lumen::VesselLumen;
 
-constexpr std::array<const char*, 9> recorded_tables{
-    "model", "node", "segment", "vessel", "sample", "annotation", "measurement", "mark", "evaluability"};
+constexpr std::array<const char*, 10> recorded_tables{"model",        "node",       "segment",     "vessel",
+                                                      "sample",       "annotation", "measurement", "mark",
+                                                      "evaluability", "lesion"};
 
 bool same_item(const TreeNode& a, const TreeNode& b) {
   return a.id == b.id && bytes_of(a.position) == bytes_of(b.position);
@@ -202,7 +203,8 @@ void add_touched(const Database& database, const std::string& changeset, Touched
     int columns = 0, op = 0, indirect = 0;
     sqlite3changeset_op(iterator, &name, &columns, &op, &indirect);
     const std::string_view table(name ? name : "");
-    if (table == "annotation" || table == "measurement" || table == "mark" || table == "evaluability")
+    if (table == "annotation" || table == "measurement" || table == "mark" || table == "evaluability" ||
+        table == "lesion")
       touched.annotations = true;
     else
       touched.model = true;

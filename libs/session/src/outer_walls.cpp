@@ -2,6 +2,7 @@
 
 #include "lumen_on_rays.h"
 
+#include "ostia/analysis/stenosis.h"
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
 #include "ostia/imaging/sampling.h"
@@ -17,6 +18,9 @@ namespace {
 using geometry::Vec3;
 
 constexpr double shortest_mm = 2.0;  // a stretch that is looked at
+// The outer wall is known where so much of it is seen, within so far.
+constexpr double least_seen_share = 0.5, seen_within_mm = 2.0;
+constexpr double closed_radius_mm = 0.06;  // radii of a shut lumen are less
 using std::numbers::pi;
 
 /// The vessel by itself, and of that the longest part in the image.
@@ -46,15 +50,68 @@ std::function<double(double)> along(const segmentation::LumenBoundary& rows, std
   };
 }
 
-void add_plaque(VesselWalls& walls, const imaging::ImageVolume& image, const OuterWallsOptions& options,
-                const core::TaskContext& task) {
+/// The lumen's diameter as it would be without disease, from the rows of rays themselves.
+std::function<double(double)> calibre_of(const lumen::LumenModel& model, const VesselWalls& walls) {
+  const segmentation::LumenBoundary& rows = walls.lumen;
+  analysis::LumenProfile profile;
+  profile.vessel = walls.vessel;
+  profile.length_mm = (rows.rows() - 1) * rows.step_mm;
+  for (int r = 0; r < rows.rows(); ++r) {
+    double area = 0.0, largest = 0.0;
+    for (int a = 0; a < rows.around; ++a) {
+      const double radius = rows.radius_mm[static_cast<std::size_t>(r * rows.around + a)];
+      area += pi / rows.around * radius * radius;
+      largest = std::max(largest, radius);
+    }
+    analysis::SectionMeasures section;
+    section.s_mm = r * rows.step_mm;
+    section.found = largest > closed_radius_mm;
+    section.area_mm2 = section.found ? area : 0.0;
+    section.diameter_mm = section.found ? 2.0 * std::sqrt(area / pi) : 0.0;
+    profile.sections.push_back(section);
+  }
+  std::vector<double> branches = analysis::branch_abscissas(model, walls.vessel);
+  for (double& s : branches) s -= rows.from_mm;
+  return along(rows, analysis::reference_line(profile, branches).diameter_mm);
+}
+
+/// One value a row: 1 where most of the outer wall within `seen_within_mm` ends in fat, else 0.
+std::vector<double> seen_rows(const segmentation::LumenBoundary& outer) {
+  std::vector<double> clear;
+  for (int r = 0; r < outer.rows(); ++r) {
+    const auto first = outer.confidence.begin() + r * outer.around;
+    clear.push_back(static_cast<double>(
+                        std::count_if(first, first + outer.around, [](float one) { return one > 0.0F; })) /
+                    outer.around);
+  }
+  const int reach = static_cast<int>(seen_within_mm / outer.step_mm);
+  std::vector<double> seen;
+  for (int r = 0; r < outer.rows(); ++r) {
+    const int from = std::max(0, r - reach), to = std::min(outer.rows(), r + reach + 1);
+    double sum = 0.0;
+    for (int k = from; k < to; ++k) sum += clear[static_cast<std::size_t>(k)];
+    seen.push_back(sum >= least_seen_share * (to - from) ? 1.0 : 0.0);
+  }
+  return seen;
+}
+
+void add_plaque(VesselWalls& walls, const lumen::LumenModel& model, const imaging::ImageVolume& image,
+                const OuterWallsOptions& options, const core::TaskContext& task) {
   analysis::WallRadii radii;
   radii.from_mm = walls.lumen.from_mm;
   radii.to_mm = walls.lumen.from_mm + (walls.lumen.rows() - 1) * walls.lumen.step_mm;
   radii.lumen_mm = [&](double s, double theta) { return walls.lumen.at(s, theta); };
-  radii.outer_mm = [&](double s, double theta) { return walls.outer.surface.at(s, theta); };
+  // In muscle no outer wall is seen, and what is drawn there is a bridge: it tells no plaque.
+  const auto seen = along(walls.lumen, seen_rows(walls.outer.surface));
+  const auto calibre_mm = calibre_of(model, walls);
+  radii.outer_mm = [&](double s, double theta) {
+    const double outer = walls.outer.surface.at(s, theta);
+    if (seen(s) >= 0.5) return outer;
+    return std::min(outer, walls.lumen.at(s, theta) + analysis::healthy_wall_mm(calibre_mm(s)));
+  };
   radii.lumen_hu = along(walls.lumen, walls.outer.lumen_hu);
   radii.fat_hu = along(walls.lumen, walls.outer.fat_hu);
+  radii.calibre_mm = calibre_mm;
   const auto hu_at = [&](const Vec3& place) { return imaging::sample(image, place); };
   walls.plaque = analysis::plaque_profile(*walls.axis, radii, hu_at, options.plaque, task);
   if (!options.maps) return;
@@ -92,7 +149,7 @@ std::optional<VesselWalls> vessel_walls(const lumen::LumenModel& model,
   out.lumen = lumen_on_rays(model, surface_of, vessel, stretch, options.step_mm, options.around, task);
   task.set_progress(0.3);
   out.outer = segmentation::outer_wall(image, *out.axis, out.lumen, options.wall, task.sub(0.3, 0.9));
-  add_plaque(out, image, options, task.sub(0.9, 1.0));
+  add_plaque(out, model, image, options, task.sub(0.9, 1.0));
   return out;
 }
 

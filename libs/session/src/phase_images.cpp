@@ -145,7 +145,16 @@ std::string no_phases(const std::vector<imaging::DicomSeries>& all) {
          way_out;
 }
 
-std::vector<PhaseSource> dicom_series(const fs::path& folder, const core::TaskContext& task) {
+/// A motion is of one heart.
+void require_one_patient(const std::vector<PhaseSource>& found) {
+  std::vector<imaging::DicomSeries> series;
+  for (const PhaseSource& one : found) series.push_back(*one.series);
+  if (imaging::patients_in(series) > 1)
+    throw InvalidInput(
+        "the phases in this folder are of several patients: give each patient a folder, and choose one");
+}
+
+std::vector<PhaseSource> series_of_phases(const fs::path& folder, const core::TaskContext& task) {
   std::vector<imaging::DicomSeries> all = imaging::scan_dicom(folder, task).series;
   const std::string why = no_phases(all);
   std::erase_if(all, [](const imaging::DicomSeries& one) { return !one.faults.empty(); });
@@ -168,6 +177,12 @@ std::vector<PhaseSource> dicom_series(const fs::path& folder, const core::TaskCo
         break;
       }
   if (found.empty()) throw InvalidInput(why);
+  return found;
+}
+
+std::vector<PhaseSource> dicom_series(const fs::path& folder, const core::TaskContext& task) {
+  std::vector<PhaseSource> found = series_of_phases(folder, task);
+  require_one_patient(found);
   return found;
 }
 

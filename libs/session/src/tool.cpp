@@ -24,6 +24,8 @@ constexpr std::array<ToolTraits, all_tools.size()> tool_table = {{
     {Tool::stenosis, "stenosis", MeasureKind::stenosis},
     {Tool::volume, "volume", MeasureKind::volume},
     {Tool::ring_hu, "ring_hu", MeasureKind::ring_hu},
+    {Tool::arrow, "arrow", MeasureKind::arrow},
+    {Tool::note, "note", MeasureKind::note},
 }};
 
 }  // namespace

@@ -62,8 +62,9 @@ const std::vector<WindowPreset>& window_presets() {
 
 /// What was measured of one vessel, and where its wall has moved since.
 struct Workbench::Measured {
-  analysis::LumenProfile profile;
+  analysis::LumenProfile profile, from_ostium;
   analysis::ReferenceLine reference;
+  analysis::Ostium ostium;
   std::vector<analysis::Stenosis> stenoses;
   bool measured = false;
   double from_mm = 0.0, to_mm = -1.0;  // nothing where from > to
@@ -168,10 +169,11 @@ Workbench::Measured* Workbench::measured_of(std::int32_t id) const {
 }
 
 void Workbench::interpret(const lumen::LumenModel& model, std::int32_t id, Measured& measured) const {
-  analysis::ReferenceOptions reference;
-  reference.own_from_mm = lumen::own_from_mm(model.tree, id);
-  measured.reference =
-      analysis::reference_line(measured.profile, analysis::branch_abscissas(model, id), reference);
+  const auto surface_of = [this](std::int32_t one) { return session_->live().surface(one); };
+  measured.ostium = analysis::ostium_of(model, surface_of, id);
+  measured.reference = analysis::reference_line(measured.profile, analysis::branch_abscissas(model, id),
+                                                analysis::reading_from_ostium(measured.ostium));
+  measured.from_ostium = analysis::read_through(measured.profile, measured.reference);
   std::vector<analysis::Stenosis> stenoses = analysis::find_stenoses(measured.profile, measured.reference);
   const bool other = !look_alike(stenoses, measured.stenoses);
   measured.stenoses = std::move(stenoses);
@@ -203,6 +205,7 @@ bool Workbench::take_profile(const ProfileWork& work, analysis::LumenProfile pro
   found->profile = std::move(profile);
   found->measured = true;
   interpret(*work.model, work.vessel, *found);
+  if (found->stenoses.empty()) stenoses_changed.tell();  // there are none: that is known now, too
   return true;
 }
 
@@ -218,6 +221,30 @@ const std::vector<analysis::Stenosis>& Workbench::stenoses(std::int32_t id) cons
   static const std::vector<analysis::Stenosis> none;
   const Measured* of = measured_of(id);
   return of ? of->stenoses : none;
+}
+
+const analysis::LumenProfile* Workbench::profile_from_ostium(std::int32_t id) const {
+  const Measured* of = measured_of(id);
+  return of ? &of->from_ostium : nullptr;
+}
+std::vector<analysis::WayStretch> Workbench::way(std::int32_t id) const {
+  const lumen::LumenModel* shown = model();
+  if (!shown || !has_vessel(*shown, id)) return {};
+  return analysis::ostial_way(*shown, id);
+}
+std::optional<analysis::Ostium> Workbench::ostium(std::int32_t id) const {
+  const Measured* of = measured_of(id);
+  if (!of || of->ostium.parent < 0) return std::nullopt;
+  return of->ostium;
+}
+std::optional<analysis::MedinaClass> Workbench::medina(std::int32_t id) const {
+  const std::optional<analysis::Ostium> at = ostium(id);
+  const Measured* main = at ? measured_of(at->parent) : nullptr;
+  if (!main) return std::nullopt;
+  const Measured* side = measured_of(id);
+  const analysis::MeasuredVessel branch{side->profile, side->reference};
+  if (analysis::side_calibre_mm(branch, *at) < analysis::MedinaOptions{}.least_side_mm) return std::nullopt;
+  return analysis::medina_class({main->profile, main->reference}, branch, *at);
 }
 
 const std::vector<analysis::Stenosis>& Workbench::known_stenoses(std::int32_t id) const {

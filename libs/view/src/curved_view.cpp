@@ -3,6 +3,7 @@
 #include "measure_marks.h"
 #include "measure_placing.h"
 #include "wall_cut.h"
+#include "way_marks.h"
 
 #include "ostia/lumen/views.h"
 #include "ostia/session/beating.h"
@@ -26,6 +27,7 @@ constexpr double seed_step_turning_mm = 1.5;
 constexpr lumen::ContourLineOptions turning_lines{.step_px = 6.0, .largest_mm = 0.8, .bend_px = 0.5};
 // Times farther apart than rows are: where the axis bends with a quarter of a place's offset as radius.
 constexpr double torn_from = 5.0;
+constexpr double bracket_units = 34.0;   // from the right border: clear of measurements along the vessel
 constexpr double fading_reach_mm = 3.0;  // samples beside the view fade on it, too
 
 }  // namespace
@@ -311,7 +313,28 @@ void CurvedView::add_stretches(Overlay& overlay) {
     overlay.lines.push_back({{Vec2(right - units(3.0), from), Vec2(right - units(3.0), to)}, role});
     if (to > 0.0 && from < height())
       overlay.texts.push_back({Vec2(right - units(5.0), std::clamp(from, units(16.0), height() - units(4.0))),
-                               label_of(bench(), one), role, Anchor::bottom_right});
+                               label_of(bench(), one), role, Anchor::bottom_right, one.id});
+  }
+}
+
+/// Beside the picture a bracket over each parent's part, with its name, and a line across where the next
+/// vessel leaves.
+void CurvedView::add_parents(Overlay& overlay) {
+  const double x = width() - units(bracket_units), tick = units(5.0);
+  for (const WayMark& one : way_marks(bench())) {
+    if (!one.parent) continue;
+    const double from = row_of(bench().here_mm(one.from_mm)), to = row_of(bench().here_mm(one.to_mm));
+    overlay.lines.push_back({{Vec2(x + tick, from), Vec2(x, from), Vec2(x, to), Vec2(x + tick, to)},
+                             Role::other_axis,
+                             1.0,
+                             false,
+                             one.color});
+    overlay.lines.push_back(
+        {{Vec2(x - units(30.0), to), Vec2(x, to)}, Role::other_axis, 0.9, true, one.color});
+    const double low = std::max(from, 0.0), high = std::min(to, static_cast<double>(height()));
+    if (high - low > units(16.0))
+      overlay.texts.push_back({Vec2(x - units(4.0), low + std::min(0.5 * (high - low), units(60.0))),
+                               one.name, Role::information, Anchor::right});
   }
 }
 
@@ -337,10 +360,12 @@ void CurvedView::add_to_overlay(Overlay& overlay) {
   if (bench().tool.get() == session::Tool::axis)
     for (double at = 0.0; at < shown->axis().length() + 2.5; at += 5.0)
       overlay.marks.push_back({axis_at(std::min(at, shown->axis().length())), Role::handle, 3.0});
+  add_parents(overlay);
   add_stretches(overlay);
   add_measurements(overlay, mark_reach_mm);
   add_fading(overlay, fading_reach_mm);
   add_scale_bar(overlay);
+  add_slab(overlay);
   const double edge = units(6.0);
   char turn[32];
   std::snprintf(turn, sizeof turn, "%.0f\u00b0", std::remainder(theta_deg(), 360.0));

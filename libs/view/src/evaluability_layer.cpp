@@ -58,24 +58,11 @@ std::string text_of(const EvaluableStretch& stretch) {
 std::vector<EvaluableStretch> stretches_of_way(const session::EvaluabilityBoard& board,
                                                const session::Workbench& bench, std::int32_t vessel) {
   std::vector<EvaluableStretch> out;
-  const auto add = [&](std::int32_t owner, double from_mm, double to_mm) {
-    for (EvaluableStretch one : board.stretches(owner)) {
-      one.from_mm = std::max(one.from_mm, from_mm), one.to_mm = std::min(one.to_mm, to_mm);
+  for (const analysis::WayStretch& owned : bench.way(vessel))
+    for (EvaluableStretch one : board.stretches(owned.vessel)) {
+      one.from_mm = std::max(one.from_mm, owned.from_mm), one.to_mm = std::min(one.to_mm, owned.to_mm);
       if (one.from_mm < one.to_mm) out.push_back(std::move(one));
     }
-  };
-  const geometry::VesselTree& tree = bench.model()->tree;
-  double to = bench.axis(vessel)->length();
-  std::int32_t owner = vessel;
-  // From the end towards the root: what lies before an owner's own part is another's.
-  for (std::size_t steps = 0; steps <= tree.vessels.size(); ++steps) {
-    const double own = lumen::own_from_mm(tree, owner);
-    add(owner, own, to);
-    if (own <= 0.0) break;
-    to = own;
-    owner = lumen::owner_at(tree, vessel, std::max(0.0, own - 1e-3));
-  }
-  std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.from_mm < b.from_mm; });
   return out;
 }
 

@@ -47,8 +47,10 @@ const Names<reformat::CurvedMode>& mode_names() {
   return names;
 }
 const Names<reformat::Slab>& slab_names() {
-  static const Names<reformat::Slab> names{
-      {reformat::Slab::none, "none"}, {reformat::Slab::mean, "mean"}, {reformat::Slab::maximum, "maximum"}};
+  static const Names<reformat::Slab> names{{reformat::Slab::none, "none"},
+                                           {reformat::Slab::mean, "mean"},
+                                           {reformat::Slab::maximum, "maximum"},
+                                           {reformat::Slab::minimum, "minimum"}};
   return names;
 }
 

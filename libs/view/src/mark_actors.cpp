@@ -1,7 +1,11 @@
 #include "mark_actors.h"
 
+#include "ostia/view/label_layout.h"
+
 #include <vtkActor.h>
+#include <vtkActor2D.h>
 #include <vtkCellArray.h>
+#include <vtkCellData.h>
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
@@ -9,6 +13,7 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
+#include <vtkPolyDataMapper2D.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
 #include <vtkTextActor.h>
@@ -45,14 +50,6 @@ Vec2 label_size(const std::string& text, double size_px) {
                                      [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
   return {0.58 * size_px * static_cast<double>(letters), 1.35 * size_px};
 }
-
-struct Plate {
-  Vec2 low, size;
-  bool meets(const Plate& other) const {
-    return (low.array() < (other.low + other.size).array()).all() &&
-           (other.low.array() < (low + size).array()).all();
-  }
-};
 
 std::array<Vec3, 4> corners(const reformat::Plane& plane) {
   const Vec3 right = plane.width * plane.pixel_mm * plane.u, down = plane.height * plane.pixel_mm * plane.v;
@@ -102,6 +99,16 @@ vtkSmartPointer<vtkActor> picture_actor(const ScenePlanePicture& picture) {
 }
 
 }  // namespace
+
+MarkActors::MarkActors(vtkRenderer& renderer)
+    : renderer_(renderer), leaders_(vtkSmartPointer<vtkPolyData>::New()) {
+  vtkNew<vtkPolyDataMapper2D> mapper;
+  mapper->SetInputData(leaders_);
+  vtkNew<vtkActor2D> actor;
+  actor->SetMapper(mapper);
+  actor->PickableOff();
+  renderer.AddViewProp(actor);
+}
 
 void MarkActors::replace(Props& former, Props props) {
   for (const auto& prop : former) renderer_.RemoveViewProp(prop);
@@ -179,7 +186,7 @@ void MarkActors::add_measurement(Props& props, std::vector<Label>& labels,
   const double size = label_units * marks.pixel_ratio;
   const auto label = label_actor(measurement.label, color, rim, size);
   labels.push_back({measurement.label_at ? std::vector{*measurement.label_at} : measurement.points, label,
-                    label_size(measurement.label, size)});
+                    label_size(measurement.label, size), measurement.id, color});
   props.emplace_back(label);
 }
 
@@ -198,33 +205,49 @@ void MarkActors::show_draft(const Marks& marks) {
   replace(draft_, std::move(props));
 }
 
+/// Beside the place that is farthest to the right; view::place_labels counts y downwards, VTK upwards.
 void MarkActors::lay_out(const CameraPose& pose, int width_px, int height_px, double pixel_ratio) {
   const double px_per_mm = 0.5 * height_px / pose.half_height_mm;
-  const Vec2 picture(width_px, height_px);
-  std::vector<Plate> taken;
-  const auto put = [&](const Label& label) {
+  const auto anchor_of = [&](const Label& label) {
     const Vec3 place =
         *std::max_element(label.places.begin(), label.places.end(),
                           [&](const Vec3& a, const Vec3& b) { return (a - b).dot(pose.right()) < 0.0; });
     const Vec3 off = px_per_mm * (place - pose.target);
-    const Vec2 at = 0.5 * picture + Vec2(off.dot(pose.right()), off.dot(pose.up));
-    Plate plate{at + pixel_ratio * Vec2(9.0, 7.0), label.size};
-    const auto within = [&] { return (at.array() >= 0.0).all() && (at.array() <= picture.array()).all(); };
-    if (within()) {  // what is outside the picture needs no words in it
-      plate.low = plate.low.cwiseMin(picture - label.size).cwiseMax(Vec2::Zero());
-      for (std::size_t i = 0; i < taken.size(); ++i) {
-        const auto other =
-            std::find_if(taken.begin(), taken.end(), [&](const Plate& one) { return plate.meets(one); });
-        if (other == taken.end()) break;
-        plate.low.y() = other->low.y() - label.size.y();
-      }
-      taken.push_back(plate);
-    }
-    label.actor->SetDisplayPosition(static_cast<int>(std::lround(plate.low.x())),
-                                    static_cast<int>(std::lround(plate.low.y())));
+    return Vec2(0.5 * width_px + off.dot(pose.right()), 0.5 * height_px - off.dot(pose.up));
   };
-  for (const Label& label : draft_labels_) put(label);
-  for (const Label& label : labels_) put(label);
+  std::vector<const Label*> labels;
+  std::vector<LabelWish> wishes;
+  for (const std::vector<Label>* some : {&draft_labels_, &labels_})
+    for (const Label& label : *some) {
+      labels.push_back(&label);
+      wishes.push_back({anchor_of(label), label.size, {}});
+      if (const auto was = offsets_.find(label.id); was != offsets_.end()) wishes.back().before = was->second;
+    }
+  const std::vector<PlacedLabel> placed =
+      place_labels(wishes, {{double(width_px), double(height_px)}, 7.0 * pixel_ratio, {}});
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> lines;
+  vtkNew<vtkUnsignedCharArray> colors;
+  colors->SetNumberOfComponents(3);
+  offsets_.clear();
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    const Label& label = *labels[i];
+    label.actor->SetVisibility(placed[i].shown);
+    if (!placed[i].shown) continue;
+    const LabelRect& rect = placed[i].rect;
+    offsets_[label.id] = rect.low - wishes[i].anchor;
+    label.actor->SetDisplayPosition(static_cast<int>(std::lround(rect.low.x())),
+                                    static_cast<int>(std::lround(height_px - rect.low.y() - rect.size.y())));
+    if (!placed[i].leader_to) continue;
+    const auto add = [&](const Vec2& p) { return points->InsertNextPoint(p.x(), height_px - p.y(), 0.0); };
+    const std::array<vtkIdType, 2> ends{add(wishes[i].anchor), add(*placed[i].leader_to)};
+    lines->InsertNextCell(2, ends.data());
+    colors->InsertNextTuple3(255.0 * label.color.r, 255.0 * label.color.g, 255.0 * label.color.b);
+  }
+  leaders_->Initialize();
+  leaders_->SetPoints(points);
+  leaders_->SetLines(lines);
+  leaders_->GetCellData()->SetScalars(colors);
 }
 
 void MarkActors::show_plane(const Marks& marks, ScenePlane plane) {

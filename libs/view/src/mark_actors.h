@@ -9,10 +9,12 @@
 
 #include <vtkSmartPointer.h>
 
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <vector>
 
+class vtkPolyData;
 class vtkProp;
 class vtkRenderer;
 
@@ -33,7 +35,7 @@ struct Marks {
 /// Props in one renderer. Each `show_` replaces what it showed before.
 class MarkActors {
  public:
-  explicit MarkActors(vtkRenderer& renderer) : renderer_(renderer) {}
+  explicit MarkActors(vtkRenderer& renderer);
   void show_all(const Marks& marks);
   void show_cursor(const Marks& marks);
   void show_measurements(const Marks& marks);
@@ -48,7 +50,9 @@ class MarkActors {
   struct Label {
     std::vector<Vec3> places;  // it stands beside the one that is farthest to the right
     vtkSmartPointer<vtkTextActor> actor;
-    geometry::Vec2 size;  // px
+    geometry::Vec2 size;    // px
+    std::int32_t id = 0;    // of the measurement
+    figure::Color color{};  // of a leader
   };
   void replace(Props& former, Props props);
   void add_measurement(Props& props, std::vector<Label>& labels, const SceneMeasurement& measurement,
@@ -57,6 +61,8 @@ class MarkActors {
   Props cursor_, measurements_, draft_, axes_;
   std::map<ScenePlane, Props> planes_;
   std::vector<Label> labels_, draft_labels_;
+  std::map<std::int32_t, geometry::Vec2> offsets_;  // of labels from their anchors, as they were
+  vtkSmartPointer<vtkPolyData> leaders_;            // px
 };
 
 }  // namespace ostia::view

@@ -13,15 +13,29 @@ namespace ostia::view {
 std::string measured_text(const session::Workbench& bench, const analysis::Measurement& measurement) {
   try {
     const std::vector<analysis::MeasuredValue> values = bench.measured(measurement);
-    return values.empty() ? std::string() : analysis::to_text(values.front());
+    if (values.empty()) return {};
+    std::string text = analysis::to_text(values.front());
+    const auto value_of = [&](const char* name) {
+      return std::find_if(values.begin(), values.end(),
+                          [name](const analysis::MeasuredValue& one) { return one.name == name; });
+    };
+    const auto mean = value_of("mean"), deviation = value_of("SD");
+    if (mean == values.end() || deviation == values.end()) return text;
+    // "345 \u00b1 21 HU", behind an area's size.
+    analysis::MeasuredValue number = *mean;
+    number.unit.clear();
+    const std::string hu = analysis::to_text(number) + " \u00b1 " + analysis::to_text(*deviation);
+    return mean == values.begin() ? hu : text + ", " + hu;
   } catch (const Error&) {
     return words().not_measurable;
   }
 }
 
 std::string label_of(const session::Workbench& bench, const analysis::Measurement& measurement) {
-  const std::string name = measurement.name.empty() ? std::to_string(measurement.id) : measurement.name;
-  return name + ": " + measured_text(bench, measurement);
+  const std::string name = measurement.name.empty()
+                               ? words().kind(measurement.kind) + " " + std::to_string(measurement.id)
+                               : measurement.name;
+  return analysis::is_remark(measurement.kind) ? name : name + ": " + measured_text(bench, measurement);
 }
 
 Role role_of(const session::Workbench& bench, const analysis::Measurement& measurement) {
@@ -63,6 +77,15 @@ SegmentFoot foot_on_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
   return foot;
 }
 
+/// Two short lines at an arrow's tip.
+void add_head(Overlay& overlay, const Vec2& tip, const Vec2& tail, double long_px, Role role) {
+  const Vec2 back = tail - tip;
+  if (!(back.norm() > 1.0)) return;
+  const Vec2 along = back.normalized(), across(-along.y(), along.x());
+  overlay.lines.push_back(
+      {{tip + long_px * (along + 0.4 * across), tip, tip + long_px * (along - 0.4 * across)}, role});
+}
+
 void add_measurement_marks(Overlay& overlay, PictureView& view, const analysis::Measurement& measurement,
                            double reach_mm) {
   std::vector<Vec2> px;
@@ -75,7 +98,11 @@ void add_measurement_marks(Overlay& overlay, PictureView& view, const analysis::
   // Of an outline's many points as many as can be told apart.
   const double apart = px.size() > 3 ? 12.0 * view.density() : 0.0;
   std::optional<Vec2> last;
+  // The tip of an arrow is to be seen itself, unless it can be taken hold of.
+  const bool arrow = measurement.kind == analysis::MeasureKind::arrow;
+  if (arrow) add_head(overlay, px.front(), px.back(), 10.0 * view.density(), role);
   for (const Vec2& p : px) {
+    if (arrow && role != Role::selected) break;
     if (last && (p - *last).norm() < apart) continue;
     overlay.marks.push_back({p, role, 3.5, 1.0, false});
     last = p;
@@ -85,8 +112,12 @@ void add_measurement_marks(Overlay& overlay, PictureView& view, const analysis::
   line.role = role;
   if (measurement.kind == analysis::MeasureKind::area && px.size() > 2) line.px.push_back(px.front());
   if (line.px.size() > 1) overlay.lines.push_back(std::move(line));
-  overlay.texts.push_back({px.back() + Vec2(6.0, -6.0) * view.density(), label_of(view.bench(), measurement),
-                           role, Anchor::bottom_left});
+  // Beside the last point that is to be seen.
+  const auto seen = std::find_if(px.rbegin(), px.rend(), [&](const Vec2& p) {
+    return p.x() >= 0.0 && p.y() >= 0.0 && p.x() <= view.width() && p.y() <= view.height();
+  });
+  overlay.texts.push_back({seen != px.rend() ? *seen : px.back(), label_of(view.bench(), measurement), role,
+                           Anchor::bottom_left, measurement.id});
 }
 
 }  // namespace ostia::view

@@ -23,7 +23,7 @@ using EndLine = std::function<std::pair<Vec2, Vec2>(double s_mm)>;
 std::optional<HandleHit> end_near(const session::Workbench& bench, const Vec2& px, double reach_px,
                                   const EndLine& line_of);
 Role role_of(const session::Workbench& bench, const analysis::Measurement& measurement);
-/// Its name or number, and what is measured: "3: 12.3 mm".
+/// Its name, or its kind and number, and what is measured: "Distance 3: 12.3 mm".
 std::string label_of(const session::Workbench& bench, const analysis::Measurement& measurement);
 
 /// The place of a piece of a line that is nearest to another place.

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 namespace ostia::view {
 namespace {
@@ -249,6 +250,19 @@ void PictureView::add_scale_bar(Overlay& overlay) {
       {{Vec2(x - bar.length_px, y - tick), Vec2(x - bar.length_px, y), Vec2(x, y), Vec2(x, y - tick)},
        Role::information});
   overlay.texts.push_back({Vec2(x, y - units(6.0)), bar.text, Role::information, Anchor::bottom_right});
+}
+
+void PictureView::add_slab(Overlay& overlay) {
+  const reformat::Slab slab = bench_.slab.get();
+  if (slab == reformat::Slab::none || width() < units(least_with_phase_units)) return;
+  const std::string& name = slab == reformat::Slab::mean      ? words().slab_mean
+                            : slab == reformat::Slab::maximum ? words().slab_maximum
+                                                              : words().slab_minimum;
+  char text[48];
+  std::snprintf(text, sizeof text, "%s %.1f mm", name.c_str(), bench_.slab_mm.get());
+  // Below the line that a window keeps for its grey levels.
+  overlay.texts.push_back(
+      {Vec2(width() - units(6.0), units(22.0)), text, Role::information, Anchor::top_right});
 }
 
 void PictureView::add_phase(Overlay& overlay) {

@@ -8,6 +8,7 @@
 #include "ostia/lumen/views.h"
 #include "ostia/reformat/plane_image.h"
 #include "ostia/session/beating.h"
+#include "ostia/view/vessel_colors.h"
 #include "ostia/view/words.h"
 
 #include <algorithm>
@@ -194,6 +195,7 @@ void SectionView::add_to_overlay(Overlay& overlay) {
     }
     add_scale_bar(overlay);
     add_letters(overlay, shown->u, shown->v);
+    add_slab(overlay);
   }
   overlay.marks.push_back({centre, Role::axis, bench().tool.get() == session::Tool::axis ? 4.0 : 2.0});
   char text[64];
@@ -313,9 +315,14 @@ void SliceView::add_to_overlay(Overlay& overlay) {
   line({at.x(), edge}, {at.x(), at.y() - gap});
   line({at.x(), at.y() + gap}, {at.x(), h - edge});
   if (const lumen::LumenModel* model = bench().model())
-    for (const AxisCrossing& one : crossings(*model, *shown, bench().other_phase()))
-      overlay.marks.push_back(
-          {one.px, one.vessel == bench().vessel.get() ? Role::axis : Role::other_axis, 2.0});
+    for (const AxisCrossing& one : crossings(*model, *shown, bench().other_phase())) {
+      OverlayMark mark{one.px, Role::axis, 2.0};
+      if (one.vessel != bench().vessel.get()) {
+        mark.role = Role::other_axis;
+        mark.color = vessel_color(bench(), one.vessel);
+      }
+      overlay.marks.push_back(mark);
+    }
   if (const auto& begun = bench().first_end.get()) {
     const auto there = reformat::project(*shown, *begun);
     if (std::abs(there.distance_mm) <= mark_reach_mm)
@@ -323,6 +330,7 @@ void SliceView::add_to_overlay(Overlay& overlay) {
   }
   add_letters(overlay, shown->u, shown->v);
   add_scale_bar(overlay);
+  add_slab(overlay);
   char text[64];
   const Vec3 n = shown->normal();
   const double depth = bench().place.get().dot(n.cwiseAbs());

@@ -71,6 +71,7 @@ std::unique_ptr<Pointer::Gesture> Pointer::gesture_of(const PointerEvent& event)
   const auto* slice = dynamic_cast<SliceView*>(&view_);
   if (event.shift && (of_vessel(view_) || (slice && slice->kind() == SliceKind::oblique)))
     return std::make_unique<Turn>(view_, event);
+  if (std::unique_ptr<Gesture> of_planes = gesture_of_planes(event)) return of_planes;
   if (const auto hit = handle_at(event)) {
     auto* curved = dynamic_cast<CurvedView*>(&view_);
     if (hit->along_vessel && curved) return std::make_unique<MoveEnd>(*curved, event, *hit);
@@ -119,6 +120,7 @@ std::unique_ptr<Pointer::Gesture> Pointer::gesture_of_tool(const PointerEvent& e
     }
     case Tool::distance:
     case Tool::diameter:
+    case Tool::arrow:
       return std::make_unique<TwoPoints>(view_, event, *session::measure_kind(tool));
     case Tool::area:
       return std::make_unique<Outline>(view_, event);
@@ -128,6 +130,7 @@ std::unique_ptr<Pointer::Gesture> Pointer::gesture_of_tool(const PointerEvent& e
       return std::make_unique<Browse>(view_, event);
     case Tool::angle:
     case Tool::ring_hu:
+    case Tool::note:
     case Tool::add_vessel:
     case Tool::add_artery:
       return nullptr;
@@ -193,6 +196,10 @@ void Pointer::hover(const PointerEvent& event) {
   shape_ = tool == Tool::browse ? CursorShape::arrow : CursorShape::cross;
   if (event.shift) {
     shape_ = CursorShape::turn;
+    return;
+  }
+  if (const auto hold = held_of_planes(view_, event)) {
+    shape_ = hold->grip == LinkedPlaneView::Grip::turn ? CursorShape::turn : CursorShape::move;
     return;
   }
   if (view_.bench().other_phase()) return;
@@ -263,6 +270,8 @@ void Pointer::wheel(double steps, const PointerEvent& event) {
     else
       bench.reach_mm.set(bench.reach_mm.get() + 0.5 * steps);
     hover(event);
+  } else if (auto* linked = dynamic_cast<LinkedPlaneView*>(&view_); linked && event.shift) {
+    linked->thicken(steps);
   } else {
     view_.scroll(steps);
   }

@@ -5,6 +5,7 @@
 #include "own_steps.h"
 
 #include "ostia/view/curved_view.h"
+#include "ostia/view/linked_planes.h"
 #include "ostia/view/plane_view.h"
 #include "ostia/view/pointer.h"
 
@@ -29,6 +30,8 @@ struct NearestAxis {
   std::int32_t vessel = session::Workbench::no_vessel;
   geometry::AxisFoot foot;
 };
+/// What a hand that browses can take hold of in a view of three linked planes.
+std::optional<LinkedPlaneView::Hold> held_of_planes(PictureView& view, const PointerEvent& event);
 NearestAxis nearest_axis(const session::Workbench& bench, const Vec3& place);
 
 // What is shown.
@@ -62,6 +65,28 @@ class Pointer::Turn final : public Gesture {
  private:
   PictureView& view_;
   Vec2 last_;
+};
+/// Two of three linked planes about the third's normal.
+class Pointer::TurnPlanes final : public Gesture {
+ public:
+  TurnPlanes(LinkedPlaneView& view, const PointerEvent& event);
+  void move(const PointerEvent& event) override;
+  CursorShape shape() const override { return CursorShape::turn; }
+
+ private:
+  LinkedPlaneView& view_;
+  double last_rad_;
+};
+/// The border of the slab, as another plane shows it.
+class Pointer::DragSlab final : public Gesture {
+ public:
+  DragSlab(LinkedPlaneView& view, LinkedPlane plane) : view_(view), plane_(plane) {}
+  void move(const PointerEvent& event) override { view_.drag_slab(plane_, event.px); }
+  CursorShape shape() const override { return CursorShape::move; }
+
+ private:
+  LinkedPlaneView& view_;
+  LinkedPlane plane_;
 };
 class Pointer::Browse final : public Gesture {
  public:

@@ -130,6 +130,10 @@ bool Pointer::measuring_click(const PointerEvent& event, const Vec3& place) {
                                    curved ? curved->abscissa_at(event.px.y()) : bench.cursor_mm.get()));
     return true;
   }
+  if (bench.tool.get() == session::Tool::note) {
+    add_measurement(bench, of_points(analysis::MeasureKind::note, {place}));
+    return true;
+  }
   return false;
 }
 

@@ -60,6 +60,30 @@ void Pointer::Turn::move(const PointerEvent& event) {
   theta.set(std::remainder(theta.get() + degrees_per_unit * by.x(), 360.0));
 }
 
+Pointer::TurnPlanes::TurnPlanes(LinkedPlaneView& view, const PointerEvent& event)
+    : view_(view), last_rad_(view.angle_at(event.px)) {}
+
+void Pointer::TurnPlanes::move(const PointerEvent& event) {
+  const double now = view_.angle_at(event.px);
+  view_.planes().turn(view_.kind(), std::remainder(now - last_rad_, 2.0 * M_PI));
+  last_rad_ = now;
+}
+
+std::optional<LinkedPlaneView::Hold> held_of_planes(PictureView& view, const PointerEvent& event) {
+  const session::Workbench& bench = view.bench();
+  const bool browsing = !bench.has_case() || bench.tool.get() == session::Tool::browse;
+  auto* linked = dynamic_cast<LinkedPlaneView*>(&view);
+  return linked && browsing && !event.shift ? linked->hold_at(event.px) : std::nullopt;
+}
+
+std::unique_ptr<Pointer::Gesture> Pointer::gesture_of_planes(const PointerEvent& event) {
+  const auto hold = held_of_planes(view_, event);
+  if (!hold) return nullptr;
+  auto& linked = dynamic_cast<LinkedPlaneView&>(view_);
+  if (hold->grip == LinkedPlaneView::Grip::slab) return std::make_unique<DragSlab>(linked, hold->plane);
+  return std::make_unique<TurnPlanes>(linked, event);
+}
+
 Pointer::Browse::Browse(PictureView& view, const PointerEvent& event) : view_(view) {
   move(event);
 }
@@ -72,7 +96,7 @@ void Pointer::Browse::move(const PointerEvent& event) {
   }
   const std::optional<Vec3> place = view_.world(event.px);
   if (!place) return;
-  if (dynamic_cast<SliceView*>(&view_)) {
+  if (dynamic_cast<SliceView*>(&view_) || dynamic_cast<LinkedPlaneView*>(&view_)) {
     // On or beside the selected vessel the cursor goes along; the crosshair stays where it was put.
     if (const auto axis = bench.axis()) {
       const geometry::AxisFoot foot = axis->nearest_foot(*place);

@@ -2,6 +2,7 @@
 
 #include "measure_marks.h"
 #include "measure_placing.h"
+#include "way_marks.h"
 
 #include "ostia/figure/plot.h"
 #include "ostia/session/outer_wall_board.h"
@@ -192,6 +193,27 @@ void ProfileView::add_evaluability(const Frame& f) {
   }
 }
 
+/// A strip above the curves in the vessels' colours, a tint over what is the parents', and their names.
+void ProfileView::add_way(const Frame& f) {
+  const std::vector<WayMark> way = way_marks(bench_);
+  if (way.size() < 2) return;
+  for (const WayMark& one : way) {
+    const double from = f.x(one.from_mm), to = f.x(one.to_mm);
+    overlay_.bands.push_back(
+        {Vec2(from, f.top), Vec2(to, f.top + 3.0 * density_), Role::other_axis, 1.0, one.color});
+    if (!one.parent) continue;
+    overlay_.bands.push_back({Vec2(from, f.top), Vec2(to, f.bottom), Role::other_axis, 0.14, one.color});
+    overlay_.lines.push_back({{Vec2(to, f.top), Vec2(to, f.bottom)}, Role::other_axis, 0.8, true, one.color});
+    add_text(Vec2(from + 3.0 * density_, f.bottom - 18.0 * density_), one.name, Role::information,
+             Anchor::bottom_left);
+  }
+  const auto medina =
+      bench_.profile_work(way[way.size() - 2].vessel) ? std::nullopt : bench_.medina(bench_.vessel.get());
+  if (medina && medina->any())
+    add_text(Vec2(f.x(way.back().from_mm) + 3.0 * density_, f.bottom - 18.0 * density_),
+             "Medina " + to_string(*medina), Role::stenosis, Anchor::bottom_left);
+}
+
 void ProfileView::add_stretches() {
   for (const analysis::Measurement& one : stretches_of(bench_)) {
     const std::vector<double> ends = ends_of(one);
@@ -255,11 +277,12 @@ const Overlay& ProfileView::overlay() {
   if (fresh_) return overlay_;
   overlay_ = {};
   fresh_ = true;
-  const analysis::LumenProfile* profile = ready() ? bench_.profile(bench_.vessel.get()) : nullptr;
+  const analysis::LumenProfile* profile = ready() ? bench_.profile_from_ostium(bench_.vessel.get()) : nullptr;
   if (!profile) return overlay_;
   const Frame f = frame();
   add_axes(f);
   add_evaluability(f);
+  add_way(f);
   add_stenoses(f);
   add_stretches();
   add_curves(f, *profile);

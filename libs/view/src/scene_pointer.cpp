@@ -24,12 +24,14 @@ std::size_t clicks_of(MeasureKind kind) {
     case MeasureKind::angle:
       return 3;
     case MeasureKind::distance:
+    case MeasureKind::arrow:
     case MeasureKind::stenosis:
     case MeasureKind::volume:
       return 2;
     case MeasureKind::area:
     case MeasureKind::diameter:
     case MeasureKind::ring_hu:
+    case MeasureKind::note:
       return 1;
   }
   return 1;
@@ -58,6 +60,8 @@ std::optional<Measurement> measurement_of(MeasureKind kind, const std::vector<Sc
   const ScenePick& last = places.back();
   switch (kind) {
     case MeasureKind::distance:
+    case MeasureKind::arrow:
+    case MeasureKind::note:
     case MeasureKind::angle: {
       std::vector<Vec3> points;
       for (const ScenePick& place : places) points.push_back(place.point);

@@ -3,6 +3,7 @@
 #include "tree_scene_impl.h"
 
 #include "ostia/core/error.h"
+#include "ostia/view/vessel_colors.h"
 
 #include <vtkActor.h>
 #include <vtkCamera.h>
@@ -23,6 +24,12 @@ namespace {
 
 /// From the target to the camera; with parallel rays it changes nothing but what the clipping planes allow.
 constexpr double camera_distance_mm = 1000.0;
+
+std::string vessel_name_in(const geometry::VesselTree& tree, std::int32_t id) {
+  for (const geometry::Vessel& vessel : tree.vessels)
+    if (vessel.id == id) return vessel.name;
+  return {};
+}
 
 figure::Color background(figure::Look look) {
   return look == figure::Look::dark ? figure::Color{0.075, 0.085, 0.10} : figure::Color{0.97, 0.975, 0.98};
@@ -171,8 +178,7 @@ void TreeScene::Impl::follow_model(const lumen::LumenModel& model) {
   vessel_styles.clear();
   for (const auto& each : vessels) {
     const auto [style, is_new] = styles.try_emplace(each->vessel);
-    if (is_new)
-      style->second.color = figure::palette(styles_made++ % 7);  // the eighth is the grey of "unknown"
+    if (is_new) style->second.color = vessel_color(vessel_name_in(model.tree, each->vessel), each->vessel);
     vessel_styles.push_back(&style->second);
   }
   if (!same) make_axes();

@@ -57,7 +57,6 @@ struct TreeScene::Impl {
   double opacity = 1.0;
   std::map<std::int32_t, VesselStyle> styles;
   std::vector<const VesselStyle*> vessel_styles;  // of `styles`, as `vessels` are ordered
-  std::size_t styles_made = 0;
   std::optional<std::int32_t> selected;
 
   Marks marks;

@@ -23,6 +23,15 @@ const std::vector<AhaSegment>& aha_segments();
 /// is not known. The part of LAD or LCX before the bifurcation of the left main is "LM": see segments_of.
 std::string main_vessel_of(const std::string& vessel_name);
 
+/// A vessel's usual name: "LAD" for "lad", "OM2" for "M 2", "PDA" for "RPDA"; empty for a name that is not
+/// known.
+std::string usual_name(const std::string& vessel_name);
+
+/// The tree's vessels as a reader goes through them: RCA and its branches (CB, AM, PDA, PLB), then LM, LAD,
+/// diagonals, septals, RI, LCX, marginals and what goes on behind from them. Numbers ascend; a PDA or PLB is
+/// where its tree is. What has none of these names stands behind the vessel that it leaves, or at the end.
+std::vector<std::int32_t> vessels_in_reading_order(const geometry::VesselTree& tree);
+
 /// A stretch of a vessel that is one standard segment.
 struct VesselSegment {
   std::int32_t vessel = 0;

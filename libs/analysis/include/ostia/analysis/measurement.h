@@ -23,10 +23,17 @@ enum class MeasureKind {
   stenosis,  ///< a vessel and the abscissas of the proximal and distal reference
   volume,    ///< of a vessel's lumen between two abscissas
   ring_hu,   ///< CT numbers about the lumen, at an abscissa, between two distances from the wall
+  arrow,     ///< points at its first point; its name stands at the second
+  note,      ///< its name stands beside a point
 };
-inline constexpr std::array<MeasureKind, 7> measure_kinds = {
-    MeasureKind::distance, MeasureKind::angle,  MeasureKind::area,   MeasureKind::diameter,
-    MeasureKind::stenosis, MeasureKind::volume, MeasureKind::ring_hu};
+inline constexpr std::array<MeasureKind, 9> measure_kinds = {
+    MeasureKind::distance, MeasureKind::angle,    MeasureKind::area,
+    MeasureKind::diameter, MeasureKind::stenosis, MeasureKind::volume,
+    MeasureKind::ring_hu,  MeasureKind::arrow,    MeasureKind::note};
+/// Says something, and measures nothing.
+inline bool is_remark(MeasureKind kind) {
+  return kind == MeasureKind::arrow || kind == MeasureKind::note;
+}
 
 struct MeasureTraits {
   MeasureKind kind;
@@ -68,8 +75,8 @@ struct MeasureContext {
   std::function<const LumenProfile&(std::int32_t vessel)> profile_of;
   const imaging::ImageVolume* image = nullptr;
 };
-/// The first value is the one shown beside the mark. Throws InvalidInput for a fault, a vessel that is not
-/// there, an abscissa outside it, or a context that lacks what the kind needs.
+/// The first value is the one shown beside the mark; remarks have none. Throws InvalidInput for a fault, a
+/// vessel that is not there, an abscissa outside it, or a context that lacks what the kind needs.
 std::vector<MeasuredValue> measured(const Measurement& measurement, const MeasureContext& context);
 
 /// "12.3 mm", "4.21 mm²": with the decimals that its unit deserves.

@@ -19,6 +19,11 @@ enum class PlaqueClass { low_attenuation, fibrofatty, fibrous, calcified };
 inline constexpr std::size_t plaque_classes = 4;
 std::string to_string(PlaqueClass one);  ///< "low attenuation", "fibrofatty", "fibrous", "calcified"
 
+/// How thick the wall of a healthy coronary artery is: on the straight line between the ends of what Podesser
+/// et al. (1998) measured in hearts without disease, from 0.08 mm at 0.1 mm of outer radius to 0.8 mm at 3
+/// mm, solved for the lumen's diameter. Throws InvalidInput for a negative or infinite one.
+double healthy_wall_mm(double lumen_diameter_mm);
+
 struct PlaqueOptions {
   double low_attenuation_hu = 30.0;  ///< low attenuation is below; [-200, 400], ascending
   double fibrofatty_hu = 130.0;      ///< fibrofatty is up to here
@@ -26,6 +31,9 @@ struct PlaqueOptions {
   /// A wall thinner than that is counted as wall alone: a scan does not resolve what it is made of (0.7 mm:
   /// a usual scan's width at half maximum). [0, 3]
   double thin_wall_mm = 0.7;
+  /// So is a wall that is thicker by less than that than a healthy one of the vessel's calibre: about the
+  /// error that an outer wall is found with. [0, 1]
+  double healthy_margin_mm = 0.2;
   double step_mm = 0.25;       ///< of slabs along the axis, [0.02, 2]
   int around = 96, deep = 12;  ///< pieces of a slab around the axis and through the wall, [8, 1024], [1, 256]
   /// The scanner's point spread (standard deviation), [0, 1.5]: what it mixes into the wall from lumen and
@@ -39,27 +47,38 @@ struct WallRadii {
   double from_mm = 0.0, to_mm = 0.0;
   std::function<double(double s_mm, double theta)> lumen_mm, outer_mm;
   /// How bright lumen and fat are there; not needed without a blur.
-  std::function<double(double s_mm)> lumen_hu, fat_hu;
+  std::function<double(double s_mm)> lumen_hu = {}, fat_hu = {};
+  /// The lumen's diameter as it would be without disease; empty: not known, PlaqueOptions::thin_wall_mm alone
+  /// tells plaque from wall.
+  std::function<double(double s_mm)> calibre_mm = {};
 };
 
 /// Volumes of a stretch, mm^3.
 struct PlaqueVolumes {
   double length_mm = 0.0;
   double lumen_mm3 = 0.0, vessel_mm3 = 0.0;        ///< vessel: all within the outer wall
-  std::array<double, plaque_classes> class_mm3{};  ///< where the wall is no thin one
-  double thin_wall_mm3 = 0.0;                      ///< in no class
+  std::array<double, plaque_classes> class_mm3{};  ///< plaque: where the wall is thicker than a healthy one
+  double thin_wall_mm3 = 0.0;                      ///< healthy or thin wall, in no class
   double of(PlaqueClass one) const { return class_mm3[static_cast<std::size_t>(one)]; }
   double plaque_mm3() const;  ///< of all classes
   double wall_mm3() const { return vessel_mm3 - lumen_mm3; }
-  double burden_percent() const;  ///< 100 wall / vessel, as by ultrasound; 0 of nothing
+  double burden_percent() const;  ///< 100 plaque / vessel: 0 of a healthy vessel, and of nothing
+  double wall_percent() const;    ///< 100 wall / vessel, which ultrasound calls burden; 0 of nothing
 };
+
+/// What a plaque is made of, as a report names it.
+enum class PlaqueType { none, non_calcified, mixed, calcified };
+/// Calcified from half of the plaque's volume on, as Hausleiter et al. (2006) have it of its area;
+/// non-calcified below 5 %, which is what noise and rims of other tissue make; none without any plaque.
+PlaqueType plaque_type(const PlaqueVolumes& volumes);
+std::string to_string(PlaqueType type);  ///< "none", "non-calcified", "mixed", "calcified"
 
 /// A slab across the axis: volumes over its length, areas at its middle.
 struct PlaqueSlab {
   double s_mm = 0.0;  ///< middle
   PlaqueVolumes volumes;
-  double lumen_mm2 = 0.0, vessel_mm2 = 0.0;
-  double area_burden_percent() const;  ///< 100 (vessel - lumen) / vessel; 0 of nothing
+  double lumen_mm2 = 0.0, vessel_mm2 = 0.0, plaque_mm2 = 0.0;
+  double area_burden_percent() const;  ///< 100 plaque / vessel; 0 of nothing
 };
 
 /// Slabs of equal length from end to end.

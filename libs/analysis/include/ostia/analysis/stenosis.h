@@ -12,12 +12,16 @@ namespace ostia::analysis {
 /// The calibre that the vessel would have without disease, one value a section of the profile.
 struct ReferenceLine {
   std::vector<double> diameter_mm;
+  /// Where the vessel leaves its parent (Ostium in ostial_way.h). Between the two the line leads from the
+  /// parent's to the vessel's own, and no lesion is looked for. Both 0: one vessel.
+  double joint_mm = 0.0, ostium_mm = 0.0;
 };
 struct ReferenceOptions {
   double window_mm = 20.0;  ///< length over which the healthy calibre is followed, [5, 100]
   /// Where the vessel leaves its parent (lumen::own_from_mm): what lies before is the parent's, and the two
   /// have lines of their own, since a side branch may be half as wide. Outside the vessel: one line.
   double own_from_mm = 0.0;
+  double ostium_mm = 0.0;  ///< where it leaves its parent's lumen; before own_from_mm: there
 };
 /// A robust line through the healthy parts of the profile (docs/methods/analysis.md): penalised least squares
 /// (Eilers 2003), reweighted so that neither narrowings nor ectasias have a say. It never rises, and may step
@@ -54,7 +58,8 @@ struct StenosisOptions {
 };
 /// All narrowings against the reference line, from proximal to distal; 100 % where the lumen is shut. A
 /// section whose wall is open says nothing. The way that a side branch shares with its parent is searched,
-/// too: what lies before VesselLumen::own_from_mm is the parent's. Throws InvalidInput for bad options or a
+/// too: what lies before VesselLumen::own_from_mm is the parent's. A lesion, and its places of reference, are
+/// on one side of the ostium. Throws InvalidInput for bad options or a
 /// line of another profile.
 std::vector<Stenosis> find_stenoses(const LumenProfile& profile, const ReferenceLine& reference,
                                     const StenosisOptions& options = {});

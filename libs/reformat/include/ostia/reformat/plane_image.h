@@ -31,9 +31,10 @@ PlaneImage slice(const imaging::MaskVolume& image, const Plane& plane,
 PlaneImage slice(const imaging::FloatVolume& image, const Plane& plane,
                  imaging::Interpolation how = imaging::Interpolation::trilinear,
                  const core::TaskContext& task = core::no_task());
-/// The image in a layer about a plane: the mean or maximum over the middles of equal layers no thicker than
-/// half the image's finest spacing, in all `slab_mm` thick, half on either side of the plane; layers outside
-/// the image do not count. Throws InvalidInput as `slice` does, and for a slab not in (0, 100] mm.
+/// The image in a layer about a plane: the mean, maximum or minimum over the middles of equal layers no
+/// thicker than half the image's finest spacing, in all `slab_mm` thick, half on either side of the plane;
+/// layers outside the image do not count. Throws InvalidInput as `slice` does, and for a slab not in (0, 100]
+/// mm.
 PlaneImage slab_slice(const imaging::ImageVolume& image, const Plane& plane, Slab slab, double slab_mm,
                       imaging::Interpolation how = imaging::Interpolation::trilinear,
                       const core::TaskContext& task = core::no_task());

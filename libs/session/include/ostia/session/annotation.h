@@ -14,6 +14,17 @@
 
 namespace ostia::session {
 
+enum class LesionState { open, accepted, rejected };
+std::string to_string(LesionState state);           ///< "open", "accepted", "rejected"
+LesionState lesion_state(const std::string& text);  ///< of to_string; throws InvalidInput
+
+/// What a reader says of a lesion, which is known by its stretch: lesions are found anew after every edit.
+struct LesionWord {
+  double from_mm = 0.0, to_mm = 0.0;
+  LesionState state = LesionState::open;
+  std::string comment;  ///< free text
+};
+
 /// How a vessel is shown, and what a reader says of it.
 struct VesselMark {
   std::int32_t vessel = 0;
@@ -24,6 +35,7 @@ struct VesselMark {
   /// The reader's word on how far stretches can be judged, instead of the program's: ascending, without
   /// overlap, all `by_person`, without reasons.
   std::vector<analysis::EvaluableStretch> evaluable = {};
+  std::vector<LesionWord> lesions = {};  ///< by `from_mm`, then `to_mm`
 };
 
 struct Annotations {
@@ -34,6 +46,11 @@ struct Annotations {
 /// The mark after the reader's word on a stretch; nothing as grade takes the word back, whatever it was.
 VesselMark with_evaluability(VesselMark mark, double from_mm, double to_mm,
                              std::optional<analysis::Evaluability> grade);
+/// The reader's word on the lesion of a stretch: the one that shares most with it, and no less than half of
+/// the shorter of the two; null where there is none.
+const LesionWord* word_on(const VesselMark* mark, double from_mm, double to_mm);
+/// The mark after a word on a lesion, instead of the one that was there; open without a comment is none.
+VesselMark with_lesion(VesselMark mark, LesionWord word);
 /// Nothing where the vessel has no mark (it is then shown, and not checked).
 const VesselMark* find_mark(const Annotations& annotations, std::int32_t vessel);
 const analysis::Measurement* find_measurement(const Annotations& annotations, std::int32_t id);

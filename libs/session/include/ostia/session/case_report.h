@@ -3,10 +3,13 @@
 /// (docs/reference/report.md).
 
 #include "ostia/analysis/aha_segments.h"
+#include "ostia/analysis/lesions.h"
 #include "ostia/analysis/measurement.h"
+#include "ostia/analysis/medina.h"
 #include "ostia/analysis/stenosis.h"
 #include "ostia/core/task_context.h"
 #include "ostia/figure/picture.h"
+#include "ostia/imaging/series_preview.h"
 #include "ostia/pipeline/manifest.h"
 #include "ostia/session/case_file.h"
 #include "ostia/session/evaluability.h"
@@ -27,6 +30,8 @@ struct ReportOptions {
   analysis::ProfileOptions profile;
   analysis::ReferenceOptions reference;
   analysis::StenosisOptions stenosis;
+  analysis::MedinaOptions medina;
+  analysis::PlaqueStretchOptions plaque_stretches;  ///< of plaque that is a lesion by itself
   OuterWallsOptions walls;
   VesselEvaluabilityOptions evaluability;
   /// Stenoses of vessels with a thinner reference are listed, but have no say in the patient's category:
@@ -71,21 +76,34 @@ struct ReportSegment {
   std::optional<analysis::EvaluableStretch> evaluable;  ///< the worst of it; nothing where nothing is known
 };
 
+/// A lesion: a narrowing, or plaque that narrows little or nothing.
 struct ReportStenosis {
   int number = 0;  ///< "S1", "S2": in the order of the tree's vessels, from proximal to distal
   analysis::Stenosis stenosis;
+  bool narrows = true;               ///< found by its narrowing; false: by its plaque alone
   std::string vessel_name, segment;  ///< the segment's label
   std::string main_vessel;           ///< LM, LAD, LCX, RCA; empty where the name is not known
-  /// By its percent; nothing where it lies in what cannot be judged.
+  /// By its percent, plaque no less than 1; nothing where it lies in what cannot be judged, or was rejected.
   std::optional<analysis::CadRads> category;
-  /// Has a say in the patient's category: the vessel is wide enough, and the lesion lies where the image can
-  /// be judged, or a person has checked the vessel.
+  double graded_percent = 0.0;  ///< what counts towards the patient's category (Lesion::graded_percent)
+  /// Has a say in the patient's category: the vessel is wide enough, the lesion was not rejected, and it lies
+  /// where the image can be judged, or a person has accepted it or checked the vessel.
   bool graded = true;
-  std::string not_graded;  ///< why not; empty where it is
+  LesionState state = LesionState::open;  ///< the reader's word on it
+  std::string comment;                    ///< the reader's own text
+  std::string not_graded;                 ///< why not; empty where it is
   bool checked = false;
   std::optional<analysis::EvaluableStretch> evaluable;  ///< the worst of the lesion; nothing: not known
   std::optional<ReportPlaque> plaque;                   ///< of the lesion; nothing without an image
   std::optional<double> remodelling_index;
+  /// Of the first bifurcation that it belongs to with a 1 in Medina's class: "1,0,1", "LAD/LCX"; else empty.
+  std::string medina = {}, bifurcation = {};
+};
+
+/// Where a side branch leaves, wide enough to count (MedinaOptions::least_side_mm).
+struct ReportBifurcation {
+  analysis::MedinaClass medina;
+  std::string main_name, side_name;
 };
 
 struct ReportMeasurement {
@@ -111,16 +129,18 @@ struct CaseReport {
   std::vector<ReportVessel> vessels;
   std::vector<ReportSegment> segments;
   std::vector<ReportStenosis> stenoses;  ///< each once: at its own vessel, not at those that share the way
-  analysis::PatientCategory category;    ///< of the patient
-  std::optional<ScanQuality> quality;    ///< nothing without an image
-  std::vector<std::string> not_found;    ///< arteries (arteries_not_found)
-  std::vector<std::string> not_judged;   ///< why the category has an N: stretches, lesions, arteries
+  std::vector<ReportBifurcation> bifurcations;  ///< by main vessel, from proximal to distal
+  analysis::PatientCategory category;           ///< of the patient
+  std::optional<ScanQuality> quality;           ///< nothing without an image
+  std::vector<std::string> not_found;           ///< arteries (arteries_not_found)
+  std::vector<std::string> not_judged;          ///< why the category has an N: stretches, lesions, arteries
   std::vector<ReportMeasurement> measurements;
   std::vector<ReportStep> steps;
   std::vector<std::string> warnings;  ///< what keeps the report from being complete
   /// By vessel: what the tables were made of, and the pictures are.
   std::map<std::int32_t, analysis::LumenProfile> profiles;
   std::map<std::int32_t, analysis::ReferenceLine> references;
+  std::map<std::int32_t, analysis::Ostium> ostia;
   std::map<std::int32_t, VesselWalls> walls;  ///< of vessels whose outer wall was looked for
 
   std::vector<std::string> unchecked() const;  ///< names of vessels that no person has checked
@@ -156,8 +176,11 @@ std::vector<KeyImage> key_images(const CaseReport& report, const lumen::LumenMod
 
 std::string report_json(const CaseReport& report,
                         const std::vector<KeyImage>& images);  ///< docs/schemas/case-report.schema.json
-std::string report_html(const CaseReport& report, const std::vector<KeyImage>& images);
-std::string report_pdf(const CaseReport& report, const std::vector<KeyImage>& images);
+/// `named`: whom both name, since a person has asked for it; by default nobody, as all else that is written.
+std::string report_html(const CaseReport& report, const std::vector<KeyImage>& images,
+                        const imaging::ShownIdentity& named = {});
+std::string report_pdf(const CaseReport& report, const std::vector<KeyImage>& images,
+                       const imaging::ShownIdentity& named = {});
 /// One line a segment, stenosis, value of a measurement; RFC 4180. Text that a spreadsheet would take for a
 /// formula has an apostrophe before it.
 std::string segments_csv(const CaseReport& report);
@@ -168,15 +191,18 @@ std::string measurements_csv(const CaseReport& report);
 /// SHA-256 over what a report is made of: model, annotations, journal, image reference.
 std::string report_digest(const CaseFile& file);
 /// The job as a manifest knows it. `further` are the names and captions of pictures that were handed in.
+/// `named`: the documents say whose image it is; the manifest says that they do, and not who.
 pipeline::JobKey report_job(const CaseFile& file, bool with_image, const ReportOptions& options,
-                            const std::vector<KeyImage>& further = {});
+                            const std::vector<KeyImage>& further = {}, bool named = false);
 
 /// report.html, report.pdf, report.json, segments.csv, stenoses.csv, plaque.csv, measurements.csv,
 /// images/*.png and, last, manifest.json. The folder appears whole or not at all; the same report gives the
-/// same bytes, the manifest's times aside. Throws InvalidInput for images of the same or an unfit name or a
-/// folder that holds other files, IoError, ResourceError, Cancelled.
+/// same bytes, the manifest's times aside. `named` stands in report.html and report.pdf alone. Throws
+/// InvalidInput for images of the same or an unfit name or a folder that holds other files, IoError,
+/// ResourceError, Cancelled.
 void write_case_report(const std::filesystem::path& folder, const CaseReport& report,
                        const std::vector<KeyImage>& images, const pipeline::JobKey& job,
-                       double seconds_before = 0.0, const core::TaskContext& task = core::no_task());
+                       double seconds_before = 0.0, const core::TaskContext& task = core::no_task(),
+                       const imaging::ShownIdentity& named = {});
 
 }  // namespace ostia::session

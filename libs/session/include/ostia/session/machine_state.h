@@ -16,6 +16,7 @@ struct RecentCase {
   std::filesystem::path path;  ///< absolute
   std::string pseudonym;       ///< of its image; empty without one
   std::int64_t opened = 0;     ///< seconds since 1970 began
+  std::string image_sha256{};  ///< of its image, by which KnownPatients knows whose it is; empty without one
 };
 
 struct KnownImage {

@@ -24,11 +24,13 @@ enum class Tool {
   stenosis,
   volume,
   ring_hu,
+  arrow,
+  note,
 };
-inline constexpr std::array<Tool, 14> all_tools = {
-    Tool::browse,     Tool::drag,       Tool::draw,     Tool::brush,  Tool::axis,
-    Tool::add_vessel, Tool::add_artery, Tool::distance, Tool::angle,  Tool::area,
-    Tool::diameter,   Tool::stenosis,   Tool::volume,   Tool::ring_hu};
+inline constexpr std::array<Tool, 16> all_tools = {
+    Tool::browse,     Tool::drag,     Tool::draw,  Tool::brush, Tool::axis,     Tool::add_vessel,
+    Tool::add_artery, Tool::distance, Tool::angle, Tool::area,  Tool::diameter, Tool::stenosis,
+    Tool::volume,     Tool::ring_hu,  Tool::arrow, Tool::note};
 
 struct ToolTraits {
   Tool tool;

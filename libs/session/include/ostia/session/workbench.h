@@ -2,6 +2,7 @@
 /// \file What a person has on the table: an image, a case, and where they are looking. No toolkit: views ask
 /// it and watch it, a window binds its widgets to its properties.
 
+#include "ostia/analysis/medina.h"
 #include "ostia/analysis/stenosis.h"
 #include "ostia/imaging/volume.h"
 #include "ostia/reformat/curved_reformation.h"
@@ -84,6 +85,15 @@ class Workbench {
   const analysis::LumenProfile* profile(std::int32_t vessel) const;
   const analysis::ReferenceLine* reference(std::int32_t vessel) const;
   const std::vector<analysis::Stenosis>& stenoses(std::int32_t vessel) const;
+  /// The profile as it is read from the aorta, without a jump where the vessel leaves its parent.
+  const analysis::LumenProfile* profile_from_ostium(std::int32_t vessel) const;
+  /// From the aorta through its parents to its end; empty without the vessel.
+  std::vector<analysis::WayStretch> way(std::int32_t vessel) const;
+  /// Where it leaves its parent; nothing for a vessel that leaves none.
+  std::optional<analysis::Ostium> ostium(std::int32_t vessel) const;
+  /// Of the bifurcation where a vessel leaves its parent; nothing for one that leaves none or is too thin to
+  /// count.
+  std::optional<analysis::MedinaClass> medina(std::int32_t side) const;
   /// As they were when they were last asked for: for views that must not wait. `stenoses_changed` says when
   /// to look again.
   const std::vector<analysis::Stenosis>& known_stenoses(std::int32_t vessel) const;

@@ -59,6 +59,7 @@ class CurvedView final : public PictureView {
   std::pair<Vec2, Vec2> end_line(double s_mm);
   /// Of each point of the wall, about how far out of the view it lies; NaN above, below and far beside it.
   std::vector<double> about_out_mm(const session::ShownPhase& phase);
+  void add_parents(Overlay& overlay);
   void add_stretches(Overlay& overlay);
   void moved();
   void read();    ///< large enough to see the wall, about the cursor

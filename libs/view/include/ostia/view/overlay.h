@@ -2,10 +2,12 @@
 /// \file What a 2D view shows, as plain values: an image, and lines, marks and texts over it. An app paints
 /// it.
 
+#include "ostia/figure/color.h"
 #include "ostia/geometry/vec.h"
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,6 +46,9 @@ enum class Role {
   fibrofatty,
   fibrous,
   calcified,
+  axial_plane,  ///< one of three linked planes, where another view shows it
+  coronal_plane,
+  sagittal_plane,
   limited,  ///< stretches that can be judged in part, and not at all
   not_evaluable,
 };
@@ -53,6 +58,7 @@ struct OverlayLine {
   Role role = Role::lumen;
   double opacity = 1.0;
   bool dashed = false;
+  std::optional<figure::Color> color = {};  ///< a vessel's, instead of the role's; the same below
 };
 struct OverlayMark {
   Vec2 px = Vec2::Zero();
@@ -60,6 +66,7 @@ struct OverlayMark {
   double radius = 3.0;  ///< in units of the interface, not of pixels
   double opacity = 1.0;
   bool filled = true;
+  std::optional<figure::Color> color = {};
 };
 /// Which point of the text stands at its place.
 enum class Anchor { top_left, top, top_right, left, middle, right, bottom_left, bottom, bottom_right };
@@ -68,12 +75,15 @@ struct OverlayText {
   std::string text;
   Role role = Role::information;
   Anchor anchor = Anchor::top_left;
+  /// Of a measurement (its id): stands beside `px` where place_labels puts it, whatever `anchor` is.
+  std::optional<std::int32_t> label_of = {};
 };
 /// A filled band (a lesion along the profile).
 struct OverlayBand {
   Vec2 low = Vec2::Zero(), high = Vec2::Zero();  ///< opposite corners
   Role role = Role::stenosis;
   double opacity = 0.25;
+  std::optional<figure::Color> color = {};
 };
 
 /// Pixels of the view that are coloured as what they show; the image stays visible below.

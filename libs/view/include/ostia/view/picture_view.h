@@ -118,6 +118,8 @@ class PictureView {
   void add_measurements(Overlay& overlay, double reach_mm);
   void add_fading(Overlay& overlay, double reach_mm);
   void add_scale_bar(Overlay& overlay);
+  /// Which slab is shown, and how thick it is; nothing without one.
+  void add_slab(Overlay& overlay);
   /// At another phase of the heart: which, and of which phase the image is.
   void add_phase(Overlay& overlay);
   void add_letters(Overlay& overlay, const Vec3& right, const Vec3& down);

@@ -79,6 +79,8 @@ class Pointer {
   class Contrast;
   class Browse;
   class Turn;
+  class TurnPlanes;
+  class DragSlab;
   class Drag;
   class Stroke;
   class Brush;
@@ -89,6 +91,7 @@ class Pointer {
   class MoveHandle;
   class MoveEnd;
   std::unique_ptr<Gesture> gesture_of(const PointerEvent& event);
+  std::unique_ptr<Gesture> gesture_of_planes(const PointerEvent& event);
   std::unique_ptr<Gesture> gesture_of_tool(const PointerEvent& event);
   bool click_of_tool(const PointerEvent& event);
   bool measuring_click(const PointerEvent& event, const Vec3& place);

@@ -56,6 +56,7 @@ class ProfileView {
   void add_axes(const Frame& frame);
   void add_stenoses(const Frame& frame);
   void add_stretches();
+  void add_way(const Frame& frame);
   void add_evaluability(const Frame& frame);
   /// A line through the sections' shares of an axis; it breaks where one is not finite.
   void add_curve(const Frame& frame, const analysis::LumenProfile& profile, const OverlayLine& style,

@@ -92,7 +92,8 @@ class TreeScene {
   /// shown is not picked.
   void set_guest(std::shared_ptr<SceneGuest> guest);
 
-  // Vessels keep their style when the wall changes. A vessel that is new gets the next colour of the palette.
+  // Vessels keep their style when the wall changes. A vessel that is new gets the colour of its name
+  // (vessel_colors.h).
   VesselStyle vessel_style(std::int32_t vessel) const;                   ///< throws InvalidInput
   void set_vessel_style(std::int32_t vessel, const VesselStyle& style);  ///< throws InvalidInput
   /// One vessel in full colour and the others dimmed, or all alike.

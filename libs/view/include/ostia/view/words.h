@@ -2,6 +2,7 @@
 /// \file The few words that views write over pictures, so that an app can give them in its language.
 
 #include "ostia/analysis/evaluability.h"
+#include "ostia/analysis/measurement.h"
 
 #include <array>
 #include <string>
@@ -12,6 +13,7 @@ namespace ostia::view {
 struct Words {
   std::string straightened = "straightened", stretched = "stretched";
   std::string axial = "axial", coronal = "coronal", sagittal = "sagittal", oblique = "oblique";
+  std::string slab_mean = "mean", slab_maximum = "MIP", slab_minimum = "MinIP";  ///< before a thickness
   std::string diameter = "diameter, mm", area = "area, mm\u00b2";
   std::string from_root = "mm from its root";  ///< after a vessel's name
   std::string outer_wall = "outer wall";
@@ -26,6 +28,10 @@ struct Words {
   const std::string& reason(analysis::EvaluabilityReason one) const {
     return reasons[static_cast<std::size_t>(one)];
   }
+  /// By analysis::MeasureKind: what a measurement without a name is called, before its number.
+  std::array<std::string, analysis::measure_kinds.size()> kinds{
+      "Distance", "Angle", "Area", "Diameter", "Stenosis", "Volume", "HU ring", "Arrow", "Note"};
+  const std::string& kind(analysis::MeasureKind one) const { return kinds[static_cast<std::size_t>(one)]; }
   std::string not_measurable = "not measurable";
   std::string image = "image", tree = "tree";  ///< each before the phase of the heart that it is of
   // What the 3D view answers to clicks that place nothing.

@@ -1,0 +1,123 @@
+#include "measuring/lesion_texts.h"
+
+#include "ostia/view/words.h"
+
+#include <QCoreApplication>
+
+namespace ostia::workstation {
+namespace {
+
+struct LesionTexts {
+  Q_DECLARE_TR_FUNCTIONS(LesionTexts)
+};
+
+QString grade_text(const session::LesionRow& row) {
+  using analysis::Evaluability;
+  if (row.state == session::LesionState::rejected) return QStringLiteral("\u2013");
+  const bool hidden = row.evaluable && row.evaluable->grade == Evaluability::not_evaluable;
+  if (hidden && row.state != session::LesionState::accepted) return QStringLiteral("N");
+  return QString::fromStdString(analysis::to_string(row.lesion.category()));
+}
+
+QString class_text(const session::LesionRow& row) {
+  if (!row.lesion.plaque) return QStringLiteral("?");
+  switch (analysis::plaque_type(*row.lesion.plaque)) {
+    case analysis::PlaqueType::none:
+      return LesionTexts::tr("none");
+    case analysis::PlaqueType::non_calcified:
+      return LesionTexts::tr("non-calcified");
+    case analysis::PlaqueType::mixed:
+      return LesionTexts::tr("mixed");
+    case analysis::PlaqueType::calcified:
+      break;
+  }
+  return LesionTexts::tr("calcified");
+}
+
+QString evaluable_text(const session::LesionRow& row) {
+  if (!row.evaluable) return QStringLiteral("?");
+  const view::Words& words = view::words();
+  const std::string& grade = row.evaluable->grade == analysis::Evaluability::evaluable ? words.evaluable
+                             : row.evaluable->grade == analysis::Evaluability::limited ? words.limited
+                                                                                       : words.not_evaluable;
+  return QString::fromStdString(row.evaluable->by_person ? grade + " (" + words.by_reader + ")" : grade);
+}
+
+QString fixed(double value, int decimals) {
+  return QString::number(value, 'f', decimals);
+}
+
+}  // namespace
+
+QStringList lesion_titles() {
+  return {LesionTexts::tr("No."),    LesionTexts::tr("Segment"), LesionTexts::tr("Grade"),
+          LesionTexts::tr("%"),      LesionTexts::tr("MLD"),     LesionTexts::tr("MLA"),
+          LesionTexts::tr("Length"), LesionTexts::tr("Plaque"),  LesionTexts::tr("Class"),
+          LesionTexts::tr("Image"),  LesionTexts::tr("State"),   LesionTexts::tr("Comment")};
+}
+
+QStringList lesion_titles_in_full() {
+  return {LesionTexts::tr("Lesion"),
+          LesionTexts::tr("Segment"),
+          LesionTexts::tr("CAD-RADS of the lesion"),
+          LesionTexts::tr("Diameter stenosis (%)"),
+          LesionTexts::tr("Minimal lumen diameter (mm)"),
+          LesionTexts::tr("Minimal lumen area (mm\u00b2)"),
+          LesionTexts::tr("Length (mm)"),
+          LesionTexts::tr("Plaque (mm\u00b3)"),
+          LesionTexts::tr("Class of the plaque"),
+          LesionTexts::tr("Evaluable"),
+          LesionTexts::tr("State"),
+          LesionTexts::tr("Comment")};
+}
+
+QStringList lesion_cells(const session::LesionRow& row) {
+  const analysis::Stenosis& s = row.lesion.stenosis;
+  const double percent = s.diameter_percent < 100.0 - 1e-9 ? std::min(s.diameter_percent, 99.0) : 100.0;
+  return {QStringLiteral("S%1").arg(row.number),
+          QString::fromStdString(row.segment.empty() ? row.vessel_name : row.segment),
+          grade_text(row),
+          fixed(percent, 0),
+          fixed(s.least_diameter_mm, 2),
+          fixed(s.least_area_mm2, 2),
+          fixed(s.length_mm(), 1),
+          row.lesion.plaque ? fixed(row.lesion.plaque->plaque_mm3(), 1) : QStringLiteral("?"),
+          class_text(row),
+          evaluable_text(row),
+          state_word(row.state),
+          QString::fromStdString(row.comment)};
+}
+
+std::vector<std::optional<double>> lesion_numbers(const session::LesionRow& row) {
+  const analysis::Stenosis& s = row.lesion.stenosis;
+  std::vector<std::optional<double>> out(lesion_columns);
+  out[number_column] = row.number;
+  out[grade_column] = static_cast<double>(row.lesion.category());
+  out[percent_column] = s.diameter_percent;
+  out[mld_column] = s.least_diameter_mm;
+  out[mla_column] = s.least_area_mm2;
+  out[lesion_length_column] = s.length_mm();
+  if (row.lesion.plaque) out[plaque_column] = row.lesion.plaque->plaque_mm3();
+  return out;
+}
+
+QString lesion_tip(const session::LesionRow& row) {
+  const analysis::Stenosis& s = row.lesion.stenosis;
+  const QString where = row.lesion.narrows ? LesionTexts::tr("%1, narrowest at %2 mm")
+                                           : LesionTexts::tr("%1, plaque about %2 mm");
+  return where.arg(QString::fromStdString(row.vessel_name)).arg(s.throat_mm, 0, 'f', 1);
+}
+
+QString state_word(session::LesionState state) {
+  switch (state) {
+    case session::LesionState::open:
+      return LesionTexts::tr("open");
+    case session::LesionState::accepted:
+      return LesionTexts::tr("accepted");
+    case session::LesionState::rejected:
+      break;
+  }
+  return LesionTexts::tr("rejected");
+}
+
+}  // namespace ostia::workstation

@@ -1,0 +1,46 @@
+#pragma once
+/// \file The lesions of the case in the window: their plaque is found in the background, and commands walk
+/// through them.
+
+#include "measuring/lesion_list.h"
+
+#include "ostia/session/lesion_board.h"
+
+#include <QObject>
+#include <QPointer>
+#include <QThreadPool>
+#include <QTimer>
+#include <vector>
+
+namespace ostia::workstation {
+
+class CommandTable;
+struct Desk;
+
+/// Looks for the plaque of every vessel of a case with an image, after an edit again, in a thread of its own.
+/// Goes before the list that it fills, and before the board that it asks.
+class Lesions final : public QObject {
+  Q_OBJECT
+ public:
+  Lesions(Desk& desk, session::EvaluabilityBoard& evaluability, LesionList& list);
+  ~Lesions() override;
+  session::LesionBoard& board() { return board_; }
+  LesionList& list() { return *list_; }
+  /// Nothing is being looked for, nor will be before the next edit.
+  bool idle() const { return !looking_ && !soon_.isActive() && !board_.work(); }
+
+ private:
+  void look();
+  Desk& desk_;
+  session::LesionBoard board_;
+  QPointer<LesionList> list_;
+  QTimer soon_;
+  QThreadPool thread_;
+  core::TaskContext task_;
+  bool looking_ = false;
+  std::vector<session::Subscription> own_;
+};
+
+void add_lesion_commands(CommandTable& table, Desk& desk, Lesions& lesions);
+
+}  // namespace ostia::workstation

@@ -1,0 +1,147 @@
+#include "ostia/session/lesion_board.h"
+
+#include "ostia/analysis/aha_segments.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace ostia::session {
+namespace {
+
+/// Label of the standard segment that a place lies in.
+std::string segment_label(const std::vector<analysis::VesselSegment>& segments, std::int32_t vessel,
+                          double s_mm) {
+  const analysis::VesselSegment* found = nullptr;
+  for (const analysis::VesselSegment& one : segments)
+    if (one.vessel == vessel && (!found || one.from_mm <= s_mm)) found = &one;
+  return found ? found->label : std::string();
+}
+
+}  // namespace
+
+std::optional<analysis::PlaqueProfile> PlaqueWork::found(const core::TaskContext& task) const {
+  auto walls_found = vessel_walls(
+      *model, [this](std::int32_t one) { return walls.at(one); }, vessel, *image, {}, task);
+  if (!walls_found) return std::nullopt;
+  return std::move(walls_found->plaque);
+}
+
+LesionBoard::LesionBoard(Workbench& bench, EvaluabilityBoard& evaluability)
+    : bench_(bench), evaluability_(evaluability) {
+  own_.push_back(bench.model_changed.observe([this](const ModelEvent& event) {
+    if (event.tree_changed) return drop();
+    for (const lumen::LiveChange::OfVessel& one : event.change.vessels)
+      if (const auto found = known_.find(one.vessel); found != known_.end()) found->second.stale = true;
+    touch();
+  }));
+  own_.push_back(bench.case_changed.observe([this] { drop(); }));
+  own_.push_back(bench.image_changed.observe([this] { drop(); }));
+  own_.push_back(bench.annotations_changed.observe([this] { touch(); }));
+  own_.push_back(bench.stenoses_changed.observe([this] { touch(); }));
+  own_.push_back(evaluability.changed.observe([this] { touch(); }));
+}
+
+void LesionBoard::drop() {
+  known_.clear();
+  touch();
+}
+
+void LesionBoard::touch() {
+  if (finding_) return;  // what is measured for the rows themselves
+  fresh_ = false;
+  changed.tell();
+}
+
+const std::vector<LesionRow>& LesionBoard::rows() {
+  if (fresh_) return rows_;
+  rows_.clear();
+  fresh_ = true;
+  if (!bench_.has_case()) return rows_;
+  finding_ = true;
+  try {
+    for (const geometry::Vessel& vessel : bench_.model()->tree.vessels) add_rows(vessel);
+    const std::vector<analysis::VesselSegment> segments = analysis::segments_of(*bench_.model());
+    for (LesionRow& row : rows_)
+      row.segment = segment_label(segments, row.vessel, row.lesion.stenosis.throat_mm);
+  } catch (...) {
+    finding_ = false;
+    throw;
+  }
+  finding_ = false;
+  return rows_;
+}
+
+void LesionBoard::add_rows(const geometry::Vessel& vessel) {
+  if (bench_.profile_work(vessel.id)) return;  // nobody waits for that here
+  const analysis::LumenProfile* profile = bench_.profile(vessel.id);
+  const analysis::ReferenceLine* reference = bench_.reference(vessel.id);
+  if (!profile || !reference) return;
+  const auto known = known_.find(vessel.id);
+  const analysis::PlaqueProfile* plaque =
+      known != known_.end() && known->second.plaque ? &*known->second.plaque : nullptr;
+  const double own_mm = lumen::own_from_mm(bench_.model()->tree, vessel.id);
+  const std::vector<analysis::EvaluableStretch> stretches = evaluability_.stretches(vessel.id);
+  const VesselMark* mark = find_mark(*bench_.session().file().annotations(), vessel.id);
+  for (analysis::Lesion& lesion : analysis::find_lesions(*profile, *reference, plaque)) {
+    const analysis::Stenosis& place = lesion.stenosis;
+    if (place.throat_mm < own_mm || !is_told(lesion, stretches)) continue;
+    LesionRow row;
+    row.number = static_cast<int>(rows_.size()) + 1;
+    row.vessel = vessel.id;
+    row.vessel_name = vessel.name;
+    row.evaluable = analysis::worst_within(stretches, place.from_mm, place.to_mm);
+    if (const LesionWord* said = word_on(mark, place.from_mm, place.to_mm))
+      row.state = said->state, row.comment = said->comment;
+    row.lesion = std::move(lesion);
+    rows_.push_back(std::move(row));
+  }
+}
+
+bool LesionBoard::unknown(std::int32_t vessel) const {
+  const auto found = known_.find(vessel);
+  return found == known_.end() || found->second.stale;
+}
+
+int LesionBoard::missing() const {
+  const lumen::LumenModel* model = bench_.model();
+  if (!model || !bench_.image().volume) return 0;
+  return static_cast<int>(std::count_if(model->tree.vessels.begin(), model->tree.vessels.end(),
+                                        [this](const geometry::Vessel& one) { return unknown(one.id); }));
+}
+
+std::optional<PlaqueWork> LesionBoard::work() const {
+  if (missing() == 0) return std::nullopt;
+  std::int32_t wanted = bench_.vessel.get();
+  if (wanted == Workbench::no_vessel || !unknown(wanted)) {
+    const auto& vessels = bench_.model()->tree.vessels;
+    wanted = std::find_if(vessels.begin(), vessels.end(), [this](const geometry::Vessel& one) {
+               return unknown(one.id);
+             })->id;
+  }
+  PlaqueWork out{bench_.session().file().model(), {}, bench_.image().volume, wanted};
+  for (const auto& one : bench_.model()->vessels)
+    out.walls[one->vessel] = bench_.session().live().surface(one->vessel);
+  return out;
+}
+
+bool LesionBoard::take(const PlaqueWork& work, std::optional<analysis::PlaqueProfile> found) {
+  if (!bench_.has_case() || bench_.session().file().model() != work.model ||
+      bench_.image().volume != work.image)
+    return false;
+  Known& known = known_[work.vessel];
+  known.stale = false;
+  known.plaque = std::move(found);
+  touch();
+  return true;
+}
+
+void LesionBoard::say(const LesionRow& lesion, LesionState state, const std::string& comment) {
+  VesselMark mark;
+  mark.vessel = lesion.vessel;
+  if (const VesselMark* found = find_mark(*bench_.session().file().annotations(), lesion.vessel))
+    mark = *found;
+  const analysis::Stenosis& place = lesion.lesion.stenosis;
+  bench_.annotate(MarkVessel{with_lesion(std::move(mark), {place.from_mm, place.to_mm, state, comment})});
+}
+
+}  // namespace ostia::session

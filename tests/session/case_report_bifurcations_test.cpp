@@ -1,0 +1,85 @@
+// Medina's classes in the report of a case.
+
+#include "report_cases.h"
+
+#include "ostia/core/error.h"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+namespace ostia::session {
+namespace {
+
+using geometry::Vec3;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr double joint_mm = 20.0, main_mm = 2.0, side_mm = 1.2;
+
+double narrowed(double s, double centre) {
+  const double x = std::abs(s - centre) / 2.5;
+  return x < 1.0 ? 1.0 - 0.65 * 0.5 * (1.0 + std::cos(M_PI * x)) : 1.0;
+}
+
+/// LAD along z, an LCX at 45 degrees; both narrowed by 65 % at the bifurcation, or neither.
+lumen::LumenModel left_tree(bool diseased) {
+  const auto line = [](const Vec3& from, const Vec3& to, double radius) {
+    geometry::Centerline axis;
+    const int pieces = static_cast<int>(std::lround((to - from).norm() / 0.5));
+    for (int i = 0; i <= pieces; ++i) {
+      axis.points.push_back(from + (to - from) * i / pieces);
+      axis.radius.push_back(radius);
+    }
+    geometry::complete(axis);
+    return axis;
+  };
+  const Vec3 joint(0, 0, joint_mm), end(0, 0, 50.0), tip = joint + 30.0 * Vec3(1, 0, 1).normalized();
+  geometry::VesselTree tree;
+  tree.nodes = {{1, Vec3::Zero()}, {2, joint}, {3, end}, {4, tip}};
+  tree.segments = {{10, 1, 2, line(Vec3::Zero(), joint, main_mm)},
+                   {11, 2, 3, line(joint, end, main_mm)},
+                   {12, 2, 4, line(joint, tip, side_mm)}};
+  tree.vessels = {{7, "LAD", {10, 11}}, {8, "LCX", {10, 12}}};
+  const double proximal = joint_mm - 3.0, side = joint_mm + main_mm * std::numbers::sqrt2 + 2.5;
+  return lumen::model_of_walls(
+      tree, {[=](double s, double) { return main_mm * (diseased ? narrowed(s, proximal) : 1.0); },
+             [=](double s, double) { return side_mm * (diseased ? narrowed(s, side) : 1.0); }});
+}
+
+TEST(CaseReportBifurcations, ALesionOfTheLeftMainAndOfTheCircumflexsOstiumIsOneZeroOne) {
+  const CaseReport report = testing::checked_report(left_tree(true));
+  ASSERT_EQ(report.bifurcations.size(), 1U);
+  EXPECT_EQ(analysis::to_string(report.bifurcations[0].medina), "1,0,1");
+  EXPECT_EQ(report.bifurcations[0].main_name, "LAD");
+  EXPECT_EQ(report.bifurcations[0].side_name, "LCX");
+  ASSERT_EQ(report.stenoses.size(), 2U);  // each at its own vessel
+  EXPECT_EQ(report.stenoses[0].vessel_name, "LAD");
+  EXPECT_EQ(report.stenoses[0].main_vessel, "LM");
+  EXPECT_EQ(report.stenoses[1].vessel_name, "LCX");
+  for (const ReportStenosis& one : report.stenoses) {
+    EXPECT_EQ(one.medina, "1,0,1");
+    EXPECT_EQ(one.bifurcation, "LAD/LCX");
+  }
+  EXPECT_NEAR(report.stenoses[1].stenosis.reference_diameter_mm, 2.0 * side_mm, 0.15);
+  const std::string text = report_json(report, {});
+  const auto json = nlohmann::json::parse(text);
+  EXPECT_EQ(json["bifurcations"][0]["medina"], "1,0,1");
+  EXPECT_EQ(json["stenoses"][1]["medina"], "1,0,1");
+  EXPECT_THAT(report_html(report, {}), HasSubstr("Bifurcation lesions"));
+}
+
+TEST(CaseReportBifurcations, AHealthyOneIsInTheTableForScriptsAlone) {
+  const CaseReport report = testing::checked_report(left_tree(false));
+  ASSERT_EQ(report.bifurcations.size(), 1U);
+  EXPECT_EQ(analysis::to_string(report.bifurcations[0].medina), "0,0,0");
+  EXPECT_TRUE(report.stenoses.empty());
+  EXPECT_THAT(report_html(report, {}), Not(HasSubstr("Bifurcation lesions")));
+  ReportOptions thin;
+  thin.medina.least_side_mm = 3.0;
+  EXPECT_TRUE(testing::checked_report(left_tree(false), nullptr, thin).bifurcations.empty());
+  thin.medina.region_mm = 99.0;
+  EXPECT_THROW(testing::checked_report(left_tree(false), nullptr, thin), InvalidInput);
+}
+
+}  // namespace
+}  // namespace ostia::session

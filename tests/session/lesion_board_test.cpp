@@ -1,0 +1,142 @@
+// The lesions of the table: found with their plaque, judged by the reader, found anew after an edit.
+
+#include "ostia/session/lesion_board.h"
+
+#include "report_cases.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace ostia::session {
+namespace {
+
+using namespace testing;
+
+/// A tube narrowed to 40 %, in an image with plaque all along.
+struct LesionTable : ::testing::Test {
+  TempFolder folder;
+  Workbench bench;
+  EvaluabilityBoard evaluability{bench};
+  LesionBoard board{bench, evaluability};
+  imaging::ImageVolume image = walled_image(1.5, 2.6, 60.0);
+
+  void open(bool with_image = true) {
+    const ImageReference reference{std::string(64, 'a'), "case-aaaa"};
+    bench.set_session(
+        Session(CaseFile::create(folder / "a.ostia", narrowed_tube("RCA", 40.0, 1.5, 20.0, 0.6), reference)));
+    if (with_image) bench.set_image({std::make_shared<const imaging::ImageVolume>(image), reference});
+  }
+  std::int32_t vessel() { return bench.model()->tree.vessels.front().id; }
+  void find_all() {
+    while (const auto work = board.work()) ASSERT_TRUE(board.take(*work, work->found()));
+  }
+};
+
+TEST_F(LesionTable, HasNothingBeforeAVesselIsMeasured) {
+  EXPECT_TRUE(board.rows().empty());
+  open(false);
+  EXPECT_TRUE(board.rows().empty());
+  EXPECT_FALSE(board.work()) << "there is no image";
+  EXPECT_EQ(board.missing(), 0);
+  bench.profile(vessel());
+  const auto& rows = board.rows();
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_EQ(rows[0].number, 1);
+  EXPECT_EQ(rows[0].vessel_name, "RCA");
+  EXPECT_NEAR(rows[0].lesion.stenosis.diameter_percent, 60.0, 2.0);
+  EXPECT_FALSE(rows[0].segment.empty());
+  EXPECT_FALSE(rows[0].lesion.plaque);
+  EXPECT_FALSE(rows[0].evaluable);
+}
+
+TEST_F(LesionTable, IsThatOfTheReport) {
+  open();
+  bench.profile(vessel());
+  EXPECT_EQ(board.missing(), 1);
+  find_all();
+  EXPECT_EQ(board.missing(), 0);
+  VesselMark mark;
+  mark.vessel = vessel();
+  bench.annotate(MarkVessel{with_lesion(mark, {18.0, 22.0, LesionState::accepted, "tight"})});
+  const CaseReport report = report_of(*bench.model(), *bench.session().file().annotations(), {}, &image);
+  const auto& rows = board.rows();
+  ASSERT_EQ(rows.size(), report.stenoses.size());
+  ASSERT_EQ(rows.size(), 3U);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const ReportStenosis& told = report.stenoses[i];
+    EXPECT_EQ(rows[i].number, told.number);
+    EXPECT_EQ(rows[i].segment, told.segment);
+    EXPECT_EQ(rows[i].lesion.narrows, told.narrows);
+    EXPECT_EQ(rows[i].state, told.state);
+    EXPECT_EQ(rows[i].comment, told.comment);
+    EXPECT_NEAR(rows[i].lesion.stenosis.diameter_percent, told.stenosis.diameter_percent, 0.5);
+    ASSERT_TRUE(rows[i].lesion.plaque && told.plaque);
+    EXPECT_NEAR(rows[i].lesion.plaque->plaque_mm3(), told.plaque->volumes.plaque_mm3(), 2.0);
+  }
+  EXPECT_EQ(rows[1].state, LesionState::accepted);
+}
+
+TEST_F(LesionTable, TheReadersWordIsAStepThatIsStoredAndUndone) {
+  open(false);
+  bench.profile(vessel());
+  int told = 0;
+  const auto kept = board.changed.observe([&] { ++told; });
+  board.say(LesionRow(board.rows()[0]), LesionState::rejected, "a branch's mouth");
+  EXPECT_GT(told, 0);
+  EXPECT_EQ(board.rows()[0].state, LesionState::rejected);
+  EXPECT_EQ(board.rows()[0].comment, "a branch's mouth");
+  board.say(LesionRow(board.rows()[0]), LesionState::accepted, "a branch's mouth");
+  EXPECT_EQ(find_mark(*bench.session().file().annotations(), vessel())->lesions.size(), 1U);
+  ASSERT_TRUE(bench.undo());
+  EXPECT_EQ(board.rows()[0].state, LesionState::rejected);
+  ASSERT_TRUE(bench.undo());
+  EXPECT_EQ(board.rows()[0].state, LesionState::open);
+  ASSERT_TRUE(bench.redo());
+  const std::int32_t id = vessel();
+  bench.close_case();
+  EXPECT_TRUE(board.rows().empty());
+  const auto notes = CaseFile::open(folder / "a.ostia", OpenMode::read_only).annotations();
+  ASSERT_EQ(find_mark(*notes, id)->lesions.size(), 1U);
+  EXPECT_EQ(find_mark(*notes, id)->lesions[0].comment, "a branch's mouth");
+}
+
+TEST_F(LesionTable, AWordHoldsAfterAnEditAndThePlaqueIsFoundAnew) {
+  open();
+  bench.profile(vessel());
+  find_all();
+  const auto narrow = [&]() -> LesionRow {
+    const auto& rows = board.rows();
+    return *std::find_if(rows.begin(), rows.end(), [](const LesionRow& one) { return one.lesion.narrows; });
+  };
+  board.say(narrow(), LesionState::accepted, "");
+  const double before = narrow().lesion.stenosis.diameter_percent;
+  for (const double s : {19.0, 20.0, 21.0}) bench.edit(ring(s, 0.9));
+  EXPECT_EQ(board.missing(), 1) << "the wall moved";
+  EXPECT_LT(narrow().lesion.stenosis.diameter_percent, before - 5.0);
+  EXPECT_EQ(narrow().state, LesionState::accepted);
+  EXPECT_TRUE(narrow().lesion.plaque) << "the former one stands until it is found anew";
+  const auto work = board.work();
+  ASSERT_TRUE(work);
+  bench.edit(ring(12.0, 1.5));
+  EXPECT_FALSE(board.take(*work, work->found())) << "of another model";
+  find_all();
+  EXPECT_EQ(board.missing(), 0);
+}
+
+TEST_F(LesionTable, AWorkCanBeCancelledAndAVesselWithoutAWallIsNotTriedAgain) {
+  open();
+  bench.profile(vessel());
+  const auto work = board.work();
+  ASSERT_TRUE(work);
+  core::TaskContext cancelled;
+  cancelled.cancel();
+  EXPECT_THROW(work->found(cancelled), Cancelled);
+  EXPECT_TRUE(board.take(*work, std::nullopt));
+  EXPECT_FALSE(board.work());
+  ASSERT_EQ(board.rows().size(), 1U);
+  EXPECT_FALSE(board.rows()[0].lesion.plaque);
+}
+
+}  // namespace
+}  // namespace ostia::session

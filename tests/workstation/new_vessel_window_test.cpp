@@ -1,0 +1,214 @@
+// Vessels by hand in the window: the sample's right coronary deleted and put back by clicks, and a case's
+// first vessel taken back and deleted.
+
+#include "kept_scan.h"
+#include "tube_case.h"
+#include "vessels/list.h"
+#include "views/scene_widget.h"
+#include "window_hand.h"
+
+#include "ostia/analysis/aha_segments.h"
+#include "ostia/imaging/image_file.h"
+#include "ostia/phantom/coronary_tree.h"
+#include "ostia/pipeline/image_walls.h"
+#include "ostia/session/image_digest.h"
+#include "ostia/session/machine_state.h"
+
+#include <gtest/gtest.h>
+
+#include <QAction>
+#include <QTest>
+#include <algorithm>
+#include <map>
+
+namespace ostia::workstation {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::TestWindow;
+using testing::wait_until;
+using view::Vec3;
+
+constexpr double compare_step_mm = 2.0, end_mm = 4.0, branch_mm = 5.0;
+
+/// Clicks with the mouse at a place of the patient, on the axial slice through it.
+int click_at(TestWindow& test, const Vec3& place) {
+  test.bench().place.set(place);
+  PictureWidget& slice = test.picture("slice");
+  testing::let_rest();
+  const auto at = slice.view().project(place);
+  if (!at) return 0;
+  const double ratio = slice.devicePixelRatioF();
+  const QPoint where(static_cast<int>(std::lround(at->px.x() / ratio)),
+                     static_cast<int>(std::lround(at->px.y() / ratio)));
+  QTest::mouseClick(&slice, Qt::LeftButton, Qt::NoModifier, where);
+  return 1;
+}
+
+std::int32_t named(const session::Workbench& bench, const std::string& name) {
+  for (const geometry::Vessel& vessel : bench.model()->tree.vessels)
+    if (vessel.name == name) return vessel.id;
+  return session::Workbench::no_vessel;
+}
+
+/// The program's sample in its coarse form.
+struct SampleWindow : ::testing::Test {
+  testing::Folder folder;
+  TestWindow test{folder / "state"};
+  phantom::CasePlan plan;
+
+  SampleWindow() {
+    phantom::CaseOptions options;
+    options.preset = phantom::Preset::small;
+    plan = phantom::plan_case(options);
+    const imaging::ImageVolume image = ostia::testing::kept_scan(plan).image;
+    imaging::write_image(folder / "image.nrrd", image);
+    const geometry::VesselTree tree = phantom::vessel_tree(plan.tree);
+    session::CaseFile::create(
+        folder / "sample.ostia",
+        lumen::model_of_walls(tree, pipeline::walls_from_image(tree, image, core::no_task())),
+        session::image_reference(folder / "image.nrrd"));
+    session::MachineState(folder / "state")
+        .remember_image(session::image_reference(folder / "image.nrrd").sha256, folder / "image.nrrd");
+    test.open(folder / "sample.ostia");
+  }
+};
+
+TEST_F(SampleWindow, TheRightCoronaryComesBackByThreeClicksAsItWas) {
+  session::Workbench& bench = test.bench();
+  const std::int32_t rca = named(bench, "RCA");
+  ASSERT_NE(rca, session::Workbench::no_vessel);
+  const auto axis = lumen::vessel(*bench.model(), rca).axis;
+  const std::vector<double> branches = analysis::branch_abscissas(*bench.model(), rca);
+  const QColor color = test.window().scene().color_of(rca);
+  auto* list = test.window().findChild<VesselList*>("vessels");
+  const auto row_of = [&](const char* name) {
+    for (int i = 0; i < list->topLevelItemCount(); ++i)
+      if (list->topLevelItem(i)->text(0) == name) return i;
+    return -1;
+  };
+  const int row = row_of("RCA");
+  std::map<double, double> before;
+  for (double s = end_mm; s < axis->length() - end_mm; s += compare_step_mm) {
+    const bool mouth =
+        std::any_of(branches.begin(), branches.end(), [&](double b) { return std::abs(b - s) < branch_mm; });
+    const auto section = bench.section(rca, s);
+    if (!mouth && section && section->found) before[s] = section->diameter_mm;
+  }
+  ASSERT_GT(before.size(), 20U);
+  const Vec3 ostium = axis->point(1.0), end = axis->point(axis->length() - 1.0);
+
+  list->setCurrentItem(list->topLevelItem(row));
+  QTest::keyClick(list, Qt::Key_Delete);
+  ASSERT_EQ(named(bench, "RCA"), session::Workbench::no_vessel);
+  int clicks = 0;
+  test.window().findChild<QAction*>("tool.add_artery")->trigger();  // its button
+  ++clicks;
+  clicks += click_at(test, ostium);
+  clicks += click_at(test, end);
+  EXPECT_LE(clicks, 3);
+  ASSERT_TRUE(wait_until([&] { return !test.window().jobs().any(); }, 120000));
+  const std::int32_t again = named(bench, "RCA");
+  ASSERT_NE(again, session::Workbench::no_vessel);
+  EXPECT_EQ(bench.vessel.get(), again);
+  testing::let_rest();
+  EXPECT_EQ(row_of("RCA"), row);
+  EXPECT_EQ(test.window().scene().color_of(again), color);
+
+  const auto now = lumen::vessel(*bench.model(), again).axis;
+  std::vector<double> off;
+  for (const auto& [s, diameter] : before) {
+    const geometry::AxisFoot foot = now->nearest_foot(axis->point(s));
+    const auto section = bench.section(again, foot.s_mm);
+    if (foot.past_end || !section || !section->found) continue;
+    off.push_back(std::abs(section->diameter_mm - diameter));
+  }
+  ASSERT_GT(off.size(), before.size() * 9 / 10);
+  std::sort(off.begin(), off.end());
+  RecordProperty("median_um", static_cast<int>(1000.0 * off[off.size() / 2]));
+  RecordProperty("p90_um", static_cast<int>(1000.0 * off[off.size() * 9 / 10]));
+  EXPECT_LE(off[off.size() / 2], 0.05);
+  EXPECT_LE(off[off.size() * 9 / 10], 0.05) << "largest " << off.back();
+}
+
+TEST_F(SampleWindow, ThePlaneIn3DAndTheListFollowTheVesselChosenAtOnce) {
+  session::Workbench& bench = test.bench();
+  bench.cursor_mm.set(0.0);
+  bench.vessel.set(named(bench, "RCA"));
+  bench.cursor_mm.set(0.0);
+  testing::let_rest();
+  const auto picture = [&] { return test.window().scene().scene().snapshot(200, 200).rgba; };
+  const auto of_rca = picture();
+  bench.vessel.set(named(bench, "LAD"));  // the same abscissa
+  testing::let_rest();
+  const auto of_lad = picture();
+  EXPECT_NE(of_rca, of_lad);
+  // What is drawn is what a fresh cursor draws.
+  bench.cursor_mm.set(1.0);
+  bench.cursor_mm.set(0.0);
+  testing::let_rest();
+  EXPECT_EQ(picture(), of_lad);
+}
+
+struct FirstVessel : ::testing::Test {
+  testing::Folder folder;
+  TestWindow test{folder / "state"};
+  bool idle() {
+    return wait_until([&] { return !test.window().jobs().any(); }, 60000);
+  }
+  QAction* action(const char* id) { return test.window().findChild<QAction*>(id); }
+  void begin() {
+    imaging::write_image(folder / "tube.nrrd", testing::tube_image());
+    test.window().open(folder / "tube.nrrd");
+    ASSERT_TRUE(idle());
+    test.bench().tool.set(session::Tool::add_vessel);
+    ASSERT_EQ(click_at(test, {0.0, 0.0, 2.0}), 1);
+    ASSERT_EQ(click_at(test, {0.0, 0.0, 36.0}), 1);
+    ASSERT_TRUE(idle());
+    ASSERT_TRUE(test.bench().has_case());
+  }
+};
+
+TEST_F(FirstVessel, IsTakenBackAndDoneAgain) {
+  begin();
+  const double length = test.bench().axis()->length();
+  ASSERT_TRUE(action("edit.undo")->isEnabled());
+  action("edit.undo")->trigger();
+  EXPECT_FALSE(test.bench().has_case());
+  EXPECT_TRUE(test.bench().image().volume);
+  EXPECT_FALSE(action("edit.undo")->isEnabled());
+  ASSERT_TRUE(action("edit.redo")->isEnabled());
+  action("edit.redo")->trigger();
+  ASSERT_TRUE(wait_until([&] { return test.bench().has_case(); }));
+  EXPECT_EQ(test.bench().axis()->length(), length);
+  EXPECT_FALSE(action("edit.redo")->isEnabled());
+  // A later step is taken back before it.
+  test.bench().edit(lumen::VesselRename{test.bench().vessel.get(), "LAD"});
+  action("edit.undo")->trigger();
+  EXPECT_TRUE(test.bench().has_case());
+}
+
+TEST_F(FirstVessel, IsDeletedLikeAnyOtherAndComesBackByUndo) {
+  begin();
+  auto* list = test.window().findChild<VesselList*>("vessels");
+  list->setCurrentItem(list->topLevelItem(0));
+  QTest::keyClick(list, Qt::Key_Delete);
+  EXPECT_FALSE(test.bench().has_case());
+  EXPECT_EQ(list->topLevelItemCount(), 0);
+  ASSERT_TRUE(action("edit.undo")->isEnabled());
+  action("edit.undo")->trigger();
+  EXPECT_TRUE(wait_until([&] { return test.bench().has_case(); }));
+}
+
+TEST_F(FirstVessel, AnotherImageEndsWhatCouldComeBack) {
+  begin();
+  action("edit.undo")->trigger();
+  ASSERT_TRUE(action("edit.redo")->isEnabled());
+  imaging::write_image(folder / "other.nrrd", testing::tube_image(0.3));
+  test.window().open(folder / "other.nrrd");
+  ASSERT_TRUE(idle());
+  EXPECT_FALSE(action("edit.redo")->isEnabled());
+}
+
+}  // namespace
+}  // namespace ostia::workstation

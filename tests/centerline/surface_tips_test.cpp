@@ -58,12 +58,14 @@ TEST(SurfaceTips, ABallHasNone) {
   EXPECT_TRUE(find_tips(closed(ball)).empty());
 }
 
-TEST(SurfaceTips, ABallNarrowsAndATubeDoesNot) {
-  TipOptions short_ones;
-  short_ones.least_length_radii = 2.0;
-  const auto of_ball = find_tips(closed(geometry::straight_tube(0.5, 5.0)), std::nullopt, short_ones);
-  ASSERT_FALSE(of_ball.empty());
-  for (const SurfaceTip& tip : of_ball) EXPECT_LT(tip.neck, 0.7);
+TEST(SurfaceTips, ABallOnANeckNarrowsAndATubeDoesNot) {
+  geometry::AnalyticShape sac = geometry::straight_tube(20.0, 1.0);
+  const geometry::AnalyticShape ball = geometry::straight_tube(0.5, 4.0);
+  sac.tubes.push_back(ball.tubes.front());
+  sac.box.extend(ball.box);
+  const auto of_sac = find_tips(closed(sac), Vec3(0.0, 0.0, 20.0));
+  ASSERT_FALSE(of_sac.empty());
+  for (const SurfaceTip& tip : of_sac) EXPECT_LT(tip.neck, 0.7);
   const auto of_y = find_tips(closed(geometry::y_junction(20.0, 15.0, 2.0, 1.5, 60.0)), Vec3(0.0, 0.0, 15.0));
   ASSERT_FALSE(of_y.empty());
   for (const SurfaceTip& tip : of_y) EXPECT_GT(tip.neck, 0.4);

@@ -80,6 +80,22 @@ TEST(NothingLost, DomedAndShakenLabelledCapsAreEnds) {
   EXPECT_GE(shaken.ends.size() + shaken.lost.size(), 3u) << "a cap that mending broke is named";
 }
 
+TEST(NothingLost, WhatMendingTakesAwayIsTold) {
+  int told = 0;
+  for (const double shaken : {0.07, 0.3, 0.6}) {
+    const FacedSurface came = coned(small_y(), 0.0, shaken);
+    const TakenSurface taken = take_surface(came, "shaken");
+    const double before = geometry::volume(came.mesh),
+                 after = geometry::volume(geometry::fill_holes(taken.lumen).mesh);
+    const bool is_told = says(taken.told, "mending changed the volume");
+    told += is_told;
+    EXPECT_TRUE(is_told || std::abs(after - before) <= 0.04 * std::abs(before))
+        << shaken << ": " << before << " to " << after;
+  }
+  EXPECT_GE(told, 1);
+  EXPECT_FALSE(says(take_surface(coned(small_y(), 0.3), "domed").told, "mending changed the volume"));
+}
+
 TEST(NothingLost, ALabelThatIsNoCapIsNamedWithItsPlace) {
   FacedSurface surface = coned(small_y(), 0.0);
   surface.mesh.points.back() += 2.0 * (surface.mesh.points.back() - Vec3(0.0, 0.0, 0.0)).normalized();

@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <utility>
 
 namespace ostia::pipeline {
@@ -31,6 +32,7 @@ using geometry::Vec3;
 // Numbers of a vessel's mean calibre and extent below which it can hardly be in millimetres.
 constexpr double least_calibre_mm = 0.6, least_extent_mm = 40.0;
 constexpr double least_calibre_cm = 0.02, least_extent_cm = 1.5;
+constexpr double told_volume_change = 0.02;  // by mending
 
 /// An aorta in centimetres has the numbers of a short piece of a coronary in millimetres.
 bool may_be_cm(double calibre, double extent) {
@@ -151,6 +153,24 @@ void to_mm(geometry::FacedSurface& surface, const FirstLook& look, const IntakeO
   for (Vec3& p : surface.mesh.points) p *= out.unit_mm;
 }
 
+/// Of a part with its holes filled; nothing where it is too broken for one.
+std::optional<double> volume_of_part(const TriMesh& part) try {
+  return std::abs(geometry::volume(geometry::fill_holes(geometry::oriented(part)).mesh));
+} catch (const Error&) {
+  return std::nullopt;
+}
+
+/// A line where mending took away, or added, what a person would miss.
+void tell_volume(const TriMesh& part, const TriMesh& mended, std::vector<std::string>& told) {
+  const std::optional<double> before = volume_of_part(part), after = volume_of_part(mended);
+  if (!before || !after || std::abs(*after - *before) <= told_volume_change * *before) return;
+  told.push_back("mending changed the volume of the part about " +
+                 near_place(geometry::bounds(part.points).center()) + " by " +
+                 core::fixed_text(100.0 * (*after - *before) / *before, 1) + " % (" +
+                 core::significant_text(*before, 4) + " to " + core::significant_text(*after, 4) +
+                 " mm3): look at what is left before it is used");
+}
+
 /// Each part turned, welded, taken apart, its folds cut out; one line for each kind of step.
 std::vector<TriMesh> mended(const TriMesh& mesh, std::vector<std::string>& told,
                             const core::TaskContext& task) {
@@ -176,6 +196,7 @@ std::vector<TriMesh> mended(const TriMesh& mesh, std::vector<std::string>& told,
       count += step.count;
       text = step.text.substr(0, step.text.rfind(':'));
     }
+    tell_volume(part, fixed.mesh, told);
     for (TriMesh& one : parts_of(fixed.mesh)) parts.push_back(std::move(one));
   }
   for (const std::string& what : order)

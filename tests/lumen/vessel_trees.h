@@ -5,6 +5,7 @@
 #include "ostia/geometry/vessel_tree.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -93,5 +94,35 @@ inline VesselTree tree_of(const geometry::AnalyticShape& shape) {
   for (auto& [name, path] : branches) tree.vessels.push_back({next++, name, std::move(path)});
   return tree;
 }
+
+/// A straight main vessel along z that a side branch leaves at 45 degrees, in the xz plane.
+struct YTree {
+  double joint_mm = 20.0, main_length_mm = 50.0, side_length_mm = 30.0;
+  double main_radius_mm = 2.0, side_radius_mm = 1.2;
+  std::int32_t main_id = 7, side_id = 8;
+  std::string main_name = "LAD", side_name = "D1";
+
+  VesselTree tree() const {
+    const Vec3 joint(0, 0, joint_mm), end(0, 0, main_length_mm);
+    const Vec3 tip = joint + side_length_mm * Vec3(1, 0, 1).normalized();
+    const auto line = [](const Vec3& from, const Vec3& to, double radius) {
+      Centerline axis;
+      const int pieces = static_cast<int>(std::lround((to - from).norm() / 0.5));
+      for (int i = 0; i <= pieces; ++i) {
+        axis.points.push_back(from + (to - from) * i / pieces);
+        axis.radius.push_back(radius);
+      }
+      geometry::complete(axis);
+      return axis;
+    };
+    VesselTree made;
+    made.nodes = {{1, Vec3::Zero()}, {2, joint}, {3, end}, {4, tip}};
+    made.segments = {{10, 1, 2, line(Vec3::Zero(), joint, main_radius_mm)},
+                     {11, 2, 3, line(joint, end, main_radius_mm)},
+                     {12, 2, 4, line(joint, tip, side_radius_mm)}};
+    made.vessels = {{main_id, main_name, {10, 11}}, {side_id, side_name, {10, 12}}};
+    return made;
+  }
+};
 
 }  // namespace ostia::lumen::testing

@@ -1,6 +1,7 @@
 // Medina's classes in the report of a case.
 
 #include "report_cases.h"
+#include "vessel_trees.h"
 
 #include "ostia/core/error.h"
 
@@ -10,11 +11,10 @@
 namespace ostia::session {
 namespace {
 
-using geometry::Vec3;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr double joint_mm = 20.0, main_mm = 2.0, side_mm = 1.2;
+constexpr double joint_mm = 20.0, main_mm = 2.0, side_mm = 1.2;  // of a YTree
 
 double narrowed(double s, double centre) {
   const double x = std::abs(s - centre) / 2.5;
@@ -23,27 +23,12 @@ double narrowed(double s, double centre) {
 
 /// LAD along z, an LCX at 45 degrees; both narrowed by 65 % at the bifurcation, or neither.
 lumen::LumenModel left_tree(bool diseased) {
-  const auto line = [](const Vec3& from, const Vec3& to, double radius) {
-    geometry::Centerline axis;
-    const int pieces = static_cast<int>(std::lround((to - from).norm() / 0.5));
-    for (int i = 0; i <= pieces; ++i) {
-      axis.points.push_back(from + (to - from) * i / pieces);
-      axis.radius.push_back(radius);
-    }
-    geometry::complete(axis);
-    return axis;
-  };
-  const Vec3 joint(0, 0, joint_mm), end(0, 0, 50.0), tip = joint + 30.0 * Vec3(1, 0, 1).normalized();
-  geometry::VesselTree tree;
-  tree.nodes = {{1, Vec3::Zero()}, {2, joint}, {3, end}, {4, tip}};
-  tree.segments = {{10, 1, 2, line(Vec3::Zero(), joint, main_mm)},
-                   {11, 2, 3, line(joint, end, main_mm)},
-                   {12, 2, 4, line(joint, tip, side_mm)}};
-  tree.vessels = {{7, "LAD", {10, 11}}, {8, "LCX", {10, 12}}};
+  lumen::testing::YTree y;
+  y.side_name = "LCX";
   const double proximal = joint_mm - 3.0, side = joint_mm + main_mm * std::numbers::sqrt2 + 2.5;
   return lumen::model_of_walls(
-      tree, {[=](double s, double) { return main_mm * (diseased ? narrowed(s, proximal) : 1.0); },
-             [=](double s, double) { return side_mm * (diseased ? narrowed(s, side) : 1.0); }});
+      y.tree(), {[=](double s, double) { return main_mm * (diseased ? narrowed(s, proximal) : 1.0); },
+                 [=](double s, double) { return side_mm * (diseased ? narrowed(s, side) : 1.0); }});
 }
 
 TEST(CaseReportBifurcations, ALesionOfTheLeftMainAndOfTheCircumflexsOstiumIsOneZeroOne) {

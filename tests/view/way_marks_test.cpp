@@ -1,6 +1,7 @@
 // The parent's part of a vessel's way on CPR and profile, and the colours of vessels.
 
 #include "bench_case.h"
+#include "vessel_trees.h"
 
 #include "ostia/lumen/edit.h"
 #include "ostia/view/curved_view.h"
@@ -22,24 +23,11 @@ constexpr double joint_mm = 12.0;
 
 /// LAD along z; at 12 mm an LCX leaves it at 45 degrees.
 geometry::VesselTree left_tree() {
-  const auto line = [](const Vec3& from, const Vec3& to, double radius) {
-    geometry::Centerline axis;
-    const int pieces = static_cast<int>(std::lround((to - from).norm() / 0.5));
-    for (int i = 0; i <= pieces; ++i) {
-      axis.points.push_back(from + (to - from) * i / pieces);
-      axis.radius.push_back(radius);
-    }
-    geometry::complete(axis);
-    return axis;
-  };
-  const Vec3 joint(0, 0, joint_mm), end(0, 0, 30.0), tip = joint + 16.0 * Vec3(1, 0, 1).normalized();
-  geometry::VesselTree tree;
-  tree.nodes = {{1, Vec3::Zero()}, {2, joint}, {3, end}, {4, tip}};
-  tree.segments = {{10, 1, 2, line(Vec3::Zero(), joint, 1.5)},
-                   {11, 2, 3, line(joint, end, 1.5)},
-                   {12, 2, 4, line(joint, tip, 1.0)}};
-  tree.vessels = {{main_id, "LAD", {10, 11}}, {lcx_id, "LCX", {10, 12}}};
-  return tree;
+  lumen::testing::YTree y;
+  y.joint_mm = joint_mm, y.main_length_mm = 30.0, y.side_length_mm = 16.0;
+  y.main_radius_mm = 1.5, y.side_radius_mm = 1.0;
+  y.main_id = main_id, y.side_id = lcx_id, y.side_name = "LCX";
+  return y.tree();
 }
 
 struct WayMarks : ::testing::Test {

@@ -4,11 +4,8 @@
 #include "commands/table.h"
 #include "shell/desk.h"
 
-#include "ostia/core/parallel.h"
-
 #include <QClipboard>
 #include <QGuiApplication>
-#include <exception>
 #include <utility>
 
 namespace ostia::workstation {
@@ -27,49 +24,16 @@ void walk_lesions(Desk& desk, Lesions& lesions, int by) {
 }  // namespace
 
 Lesions::Lesions(Desk& desk, session::EvaluabilityBoard& evaluability, LesionList& list)
-    : QObject(&desk.window), desk_(desk), board_(desk.bench, evaluability), list_(&list) {
-  thread_.setMaxThreadCount(1);
-  soon_.setSingleShot(true);
-  soon_.setInterval(plaque_pause_ms);
-  connect(&soon_, &QTimer::timeout, this, &Lesions::look);
-  session::Workbench& bench = desk.bench;
-  const auto later = [this](const auto&...) { soon_.start(); };
-  own_.push_back(bench.model_changed.observe(later));
-  own_.push_back(bench.image_changed.observe(later));
-  own_.push_back(bench.case_changed.observe(later));
+    : QObject(&desk.window),
+      desk_(desk),
+      board_(desk.bench, evaluability),
+      list_(&list),
+      work_(desk.bench, board_, plaque_pause_ms) {
   list.show_lesions(&board_);
 }
 
 Lesions::~Lesions() {
-  task_.cancel();
-  thread_.waitForDone();
   if (list_) list_->show_lesions(nullptr);
-}
-
-/// One vessel after the other; where the model is another when the work is done, it is done again.
-void Lesions::look() {
-  if (looking_) return;
-  std::optional<session::PlaqueWork> work = board_.work();
-  if (!work) return;
-  looking_ = true;
-  thread_.start([this, work = std::move(*work), task = task_] {
-    core::lower_thread_priority();
-    std::optional<analysis::PlaqueProfile> found;
-    try {
-      found = work.found(task);
-    } catch (const std::exception&) {  // the report says why a vessel's outer wall is not known
-    }
-    QMetaObject::invokeMethod(
-        this,
-        [this, work, found = std::move(found)]() mutable {
-          looking_ = false;
-          if (board_.take(work, std::move(found)))
-            look();
-          else
-            soon_.start();
-        },
-        Qt::QueuedConnection);
-  });
 }
 
 void add_lesion_commands(CommandTable& table, Desk& desk, Lesions& lesions) {

@@ -3,14 +3,12 @@
 /// through them.
 
 #include "measuring/lesion_list.h"
+#include "shell/board_work.h"
 
 #include "ostia/session/lesion_board.h"
 
 #include <QObject>
 #include <QPointer>
-#include <QThreadPool>
-#include <QTimer>
-#include <vector>
 
 namespace ostia::workstation {
 
@@ -27,18 +25,13 @@ class Lesions final : public QObject {
   session::LesionBoard& board() { return board_; }
   LesionList& list() { return *list_; }
   /// Nothing is being looked for, nor will be before the next edit.
-  bool idle() const { return !looking_ && !soon_.isActive() && !board_.work(); }
+  bool idle() const { return work_.idle(); }
 
  private:
-  void look();
   Desk& desk_;
   session::LesionBoard board_;
   QPointer<LesionList> list_;
-  QTimer soon_;
-  QThreadPool thread_;
-  core::TaskContext task_;
-  bool looking_ = false;
-  std::vector<session::Subscription> own_;
+  BoardWork<session::LesionBoard, session::PlaqueWork> work_;
 };
 
 void add_lesion_commands(CommandTable& table, Desk& desk, Lesions& lesions);

@@ -45,54 +45,22 @@ Stretch stretch_at_cursor(const session::Workbench& bench, const session::Evalua
 
 Evaluability::Evaluability(Desk& desk, const std::vector<PictureWidget*>& pictures, ProfileWidget& profile,
                            SceneWidget& scene)
-    : QObject(&desk.window), desk_(desk), board_(desk.bench), profile_(&profile), scene_(&scene) {
+    : QObject(&desk.window),
+      desk_(desk),
+      board_(desk.bench),
+      profile_(&profile),
+      scene_(&scene),
+      work_(desk.bench, board_, pause_ms) {
   for (PictureWidget* picture : pictures)
     if (auto* curved = dynamic_cast<view::CurvedView*>(&picture->view()))
       layers_.push_back(std::make_unique<view::EvaluabilityLayer>(*curved, board_));
   profile.view().set_evaluability(&board_);
-  thread_.setMaxThreadCount(1);
-  soon_.setSingleShot(true);
-  soon_.setInterval(pause_ms);
-  connect(&soon_, &QTimer::timeout, this, &Evaluability::look);
-  session::Workbench& bench = desk.bench;
-  const auto later = [this](const auto&...) { soon_.start(); };
-  own_.push_back(bench.model_changed.observe(later));
-  own_.push_back(bench.image_changed.observe(later));
-  own_.push_back(bench.case_changed.observe(later));
   own_.push_back(board_.changed.observe([this] { color_tree(); }));
   own_.push_back(board_.shown.observe([this](const bool&) { color_tree(); }));
 }
 
 Evaluability::~Evaluability() {
-  task_.cancel();
-  thread_.waitForDone();
   if (profile_) profile_->view().set_evaluability(nullptr);
-}
-
-/// One vessel after the other; where the model is another when the work is done, it is done again.
-void Evaluability::look() {
-  if (looking_) return;
-  std::optional<session::EvaluabilityWork> work = board_.work();
-  if (!work) return;
-  looking_ = true;
-  thread_.start([this, work = std::move(*work), task = task_] {
-    core::lower_thread_priority();
-    std::optional<session::EvaluabilityWork::Found> found;
-    try {
-      found = work.found(task);
-    } catch (const std::exception&) {  // a vessel that cannot be measured is told where it is looked at
-    }
-    QMetaObject::invokeMethod(
-        this,
-        [this, work, found = std::move(found)]() mutable {
-          looking_ = false;
-          if (board_.take(work, std::move(found)))
-            look();
-          else
-            soon_.start();
-        },
-        Qt::QueuedConnection);
-  });
 }
 
 void Evaluability::color_tree() {

@@ -1,14 +1,14 @@
 #pragma once
 /// \file How far vessels can be judged, in the window: found in the background, shown, set by the reader.
 
+#include "shell/board_work.h"
+
 #include "ostia/session/evaluability_board.h"
 #include "ostia/view/evaluability_layer.h"
 
 #include <QObject>
 #include <QPointer>
 #include <QString>
-#include <QThreadPool>
-#include <QTimer>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -33,22 +33,18 @@ class Evaluability final : public QObject {
   /// stretch that the cursor is in; nothing: as the program finds it.
   void judge(std::optional<analysis::Evaluability> grade);
   /// Nothing is being looked at, nor will be before the next edit.
-  bool idle() const { return !looking_ && !soon_.isActive() && !board_.work(); }
+  bool idle() const { return work_.idle(); }
   /// Why there is no stretch to judge; empty where there is one.
   QString why_not() const;
 
  private:
-  void look();
   void color_tree();
   Desk& desk_;
   session::EvaluabilityBoard board_;
   QPointer<ProfileWidget> profile_;
   QPointer<SceneWidget> scene_;
   std::vector<std::unique_ptr<view::EvaluabilityLayer>> layers_;
-  QTimer soon_;
-  QThreadPool thread_;
-  core::TaskContext task_;
-  bool looking_ = false;
+  BoardWork<session::EvaluabilityBoard, session::EvaluabilityWork> work_;
   std::vector<session::Subscription> own_;
 };
 

@@ -196,10 +196,7 @@ VesselList::~VesselList() {
 }
 
 session::VesselMark VesselList::mark_of(std::int32_t vessel) const {
-  if (const auto* found = session::find_mark(*bench_.session().file().annotations(), vessel)) return *found;
-  session::VesselMark made;
-  made.vessel = vessel;
-  return made;
+  return session::mark_or_new(*bench_.session().file().annotations(), vessel);
 }
 
 /// The board may go before the list does.

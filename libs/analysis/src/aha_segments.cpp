@@ -234,4 +234,12 @@ std::vector<VesselSegment> segments_of(const lumen::LumenModel& model) {
   return all;
 }
 
+const VesselSegment* segment_at(const std::vector<VesselSegment>& segments, std::int32_t vessel,
+                                double s_mm) {
+  const VesselSegment* found = nullptr;
+  for (const VesselSegment& one : segments)
+    if (one.vessel == vessel && (!found || one.from_mm <= s_mm)) found = &one;
+  return found;
+}
+
 }  // namespace ostia::analysis

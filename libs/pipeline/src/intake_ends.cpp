@@ -34,10 +34,13 @@ std::vector<GivenEnd> rims_in(const TriMesh& mesh) {
 
 }  // namespace
 
+std::string place_text(const Vec3& p) {
+  return "(" + core::fixed_text(p.x(), 1) + ", " + core::fixed_text(p.y(), 1) + ", " +
+         core::fixed_text(p.z(), 1) + ") mm";
+}
+
 std::string words_of(const GivenEnd& end) {
-  const Vec3& p = end.centre;
-  return (end.name.empty() ? std::string("an end") : end.name) + " at (" + core::fixed_text(p.x(), 1) + ", " +
-         core::fixed_text(p.y(), 1) + ", " + core::fixed_text(p.z(), 1) + ") mm, " +
+  return (end.name.empty() ? std::string("an end") : end.name) + " at " + place_text(end.centre) + ", " +
          core::fixed_text(2.0 * end.radius_mm, 2) + " mm wide";
 }
 

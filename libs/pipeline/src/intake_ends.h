@@ -9,6 +9,8 @@
 
 namespace ostia::pipeline {
 
+/// "(1.0, 2.0, 3.0) mm".
+std::string place_text(const geometry::Vec3& p);
 /// "cap_LAD at (1.0, 2.0, 3.0) mm, 2.10 mm wide".
 std::string words_of(const meshing::GivenEnd& end);
 

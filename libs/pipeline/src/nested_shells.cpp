@@ -1,5 +1,7 @@
 #include "nested_shells.h"
 
+#include "intake_ends.h"
+
 #include "ostia/core/text.h"
 #include "ostia/geometry/aabb_tree.h"
 #include "ostia/geometry/mesh_topology.h"
@@ -45,13 +47,11 @@ bool is_lumen_of(const TriMesh& inner, const TriMesh& outer) {
 }
 
 std::string outer_wall_text(const TriMesh& inner, const TriMesh& outer) {
-  const Vec3 at = geometry::bounds(outer.points).center();
   return "two shells one within the other: the inner, " + core::fixed_text(width_of(inner), 2) +
          " mm wide in the mean, is taken as the lumen, the outer, " + core::fixed_text(width_of(outer), 2) +
-         " mm wide and " + core::fixed_text(length_of(outer), 1) + " mm long about (" +
-         core::fixed_text(at.x(), 1) + ", " + core::fixed_text(at.y(), 1) + ", " +
-         core::fixed_text(at.z(), 1) +
-         ") mm, as the outside of its wall and left out; a file with the outer alone meshes that";
+         " mm wide and " + core::fixed_text(length_of(outer), 1) + " mm long about " +
+         place_text(geometry::bounds(outer.points).center()) +
+         ", as the outside of its wall and left out; a file with the outer alone meshes that";
 }
 
 }  // namespace

@@ -39,11 +39,6 @@ bool may_be_cm(double calibre, double extent) {
   return calibre > 1.0 && calibre < 4.5 && extent > 4.0 && extent < 30.0;
 }
 
-std::string near_place(const Vec3& p) {
-  return "(" + core::fixed_text(p.x(), 1) + ", " + core::fixed_text(p.y(), 1) + ", " +
-         core::fixed_text(p.z(), 1) + ") mm";
-}
-
 /// The numbers of the labels on a surface that was changed: those of the nearest triangles before.
 std::vector<std::int32_t> labels_on(const TriMesh& mesh, const geometry::FacedSurface& before) {
   if (before.face_ids.empty()) return {};
@@ -165,7 +160,7 @@ void tell_volume(const TriMesh& part, const TriMesh& mended, std::vector<std::st
   const std::optional<double> before = volume_of_part(part), after = volume_of_part(mended);
   if (!before || !after || std::abs(*after - *before) <= told_volume_change * *before) return;
   told.push_back("mending changed the volume of the part about " +
-                 near_place(geometry::bounds(part.points).center()) + " by " +
+                 place_text(geometry::bounds(part.points).center()) + " by " +
                  core::fixed_text(100.0 * (*after - *before) / *before, 1) + " % (" +
                  core::significant_text(*before, 4) + " to " + core::significant_text(*after, 4) +
                  " mm3): look at what is left before it is used");
@@ -186,7 +181,7 @@ std::vector<TriMesh> mended(const TriMesh& mesh, std::vector<std::string>& told,
       fixed = repaired(part, how, task);
     } catch (const GeometryError&) {  // nothing of this part is left, and it was next to nothing
       told.push_back("a part of " + std::to_string(part.triangles.size()) + " triangles at " +
-                     near_place(geometry::bounds(part.points).center()) +
+                     place_text(geometry::bounds(part.points).center()) +
                      " cannot be mended and is left out");
       continue;
     }
@@ -228,7 +223,7 @@ void close_holes_in_the_wall(TriMesh& part, const geometry::FilledHoles& filled,
     close[i] = meshing::is_hole_in_wall(*rims.tree, end);
     if (close[i])
       told.push_back("a hole in the wall closed, " + core::fixed_text(2.0 * end.radius_mm, 2) +
-                     " mm wide at " + near_place(end.centre));
+                     " mm wide at " + place_text(end.centre));
   }
   if (std::ranges::count(close, true) == 0) return;
   std::vector<bool> keep;

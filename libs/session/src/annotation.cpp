@@ -143,9 +143,7 @@ void run(Annotations& annotations, const MarkVessel& command, const LumenModel& 
 VesselMark& mark_of(Annotations& annotations, std::int32_t vessel) {
   const auto place = place_of(annotations.marks, vessel);
   if (place != annotations.marks.end() && place->vessel == vessel) return *place;
-  VesselMark mark;
-  mark.vessel = vessel;
-  return *annotations.marks.insert(place, std::move(mark));
+  return *annotations.marks.insert(place, mark_or_new(annotations, vessel));
 }
 
 /// So do words on lesions, each with its middle.
@@ -336,6 +334,13 @@ VesselMark with_lesion(VesselMark mark, LesionWord word) {
 const VesselMark* find_mark(const Annotations& annotations, std::int32_t vessel) {
   const auto found = find(annotations.marks, vessel);
   return found == annotations.marks.end() ? nullptr : &*found;
+}
+
+VesselMark mark_or_new(const Annotations& annotations, std::int32_t vessel) {
+  const VesselMark* found = find_mark(annotations, vessel);
+  VesselMark mark = found ? *found : VesselMark{};
+  mark.vessel = vessel;
+  return mark;
 }
 
 const Measurement* find_measurement(const Annotations& annotations, std::int32_t id) {

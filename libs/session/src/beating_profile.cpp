@@ -29,7 +29,7 @@ ProfileWork ring_work(const Session& session, std::int32_t vessel) {
   ProfileWork work;
   work.model = session.file().model();
   work.vessel = lumen::vessel(*work.model, vessel).vessel;
-  for (const auto& one : work.model->vessels) work.walls[one->vessel] = session.live().surface(one->vessel);
+  work.walls = session.solved_walls();
   return work;
 }
 

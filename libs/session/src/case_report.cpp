@@ -119,7 +119,7 @@ class Maker {
       segment.checked = is_checked(cut.vessel);
       for (const ReportStenosis& one : report_.stenoses) {
         if (one.state == LesionState::rejected ||
-            segment_at(one.stenosis.vessel, one.stenosis.throat_mm) != &cut ||
+            analysis::segment_at(cut_, one.stenosis.vessel, one.stenosis.throat_mm) != &cut ||
             !(one.stenosis.diameter_percent > segment.worst_percent))
           continue;
         segment.worst_stenosis = one.number;
@@ -259,12 +259,6 @@ class Maker {
     const VesselMark* mark = find_mark(annotations_, vessel);
     return mark && mark->checked;
   }
-  const analysis::VesselSegment* segment_at(std::int32_t vessel, double s_mm) const {
-    const analysis::VesselSegment* found = nullptr;
-    for (const analysis::VesselSegment& one : cut_)
-      if (one.vessel == vessel && (!found || one.from_mm <= s_mm)) found = &one;
-    return found;
-  }
 
   void measure(const geometry::Vessel& vessel, const core::TaskContext& task) {
     const ReportOptions& o = report_.options;
@@ -300,7 +294,7 @@ class Maker {
       one.state = said->state, one.comment = said->comment;
     one.vessel_name = vessel.name;
     one.main_vessel = analysis::main_vessel_of(vessel.name);
-    if (const analysis::VesselSegment* segment = segment_at(vessel.id, found.throat_mm)) {
+    if (const analysis::VesselSegment* segment = analysis::segment_at(cut_, vessel.id, found.throat_mm)) {
       one.segment = segment->label;
       // The left main's stretch has LAD's or LCX's name; a left posterior branch has none that tells its
       // side.

@@ -59,10 +59,8 @@ std::optional<EvaluabilityWork> EvaluabilityBoard::work() const {
       if (wanted == Workbench::no_vessel && unknown(vessel.id)) wanted = vessel.id;
   }
   if (wanted == Workbench::no_vessel) return std::nullopt;
-  EvaluabilityWork out{bench_.session().file().model(), {}, bench_.image().volume, wanted, noise_hu_};
-  for (const auto& one : model->vessels)
-    out.walls[one->vessel] = bench_.session().live().surface(one->vessel);
-  return out;
+  return EvaluabilityWork{bench_.session().file().model(), bench_.session().solved_walls(),
+                          bench_.image().volume, wanted, noise_hu_};
 }
 
 bool EvaluabilityBoard::take(const EvaluabilityWork& work, std::optional<EvaluabilityWork::Found> found) {
@@ -79,9 +77,7 @@ bool EvaluabilityBoard::take(const EvaluabilityWork& work, std::optional<Evaluab
 
 void EvaluabilityBoard::judge(std::int32_t vessel, double from_mm, double to_mm,
                               std::optional<analysis::Evaluability> grade) {
-  VesselMark mark;
-  mark.vessel = vessel;
-  if (const VesselMark* found = find_mark(*bench_.session().file().annotations(), vessel)) mark = *found;
+  VesselMark mark = mark_or_new(*bench_.session().file().annotations(), vessel);
   bench_.annotate(MarkVessel{with_evaluability(std::move(mark), from_mm, to_mm, grade)});
 }
 

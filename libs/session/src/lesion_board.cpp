@@ -6,18 +6,6 @@
 #include <utility>
 
 namespace ostia::session {
-namespace {
-
-/// Label of the standard segment that a place lies in.
-std::string segment_label(const std::vector<analysis::VesselSegment>& segments, std::int32_t vessel,
-                          double s_mm) {
-  const analysis::VesselSegment* found = nullptr;
-  for (const analysis::VesselSegment& one : segments)
-    if (one.vessel == vessel && (!found || one.from_mm <= s_mm)) found = &one;
-  return found ? found->label : std::string();
-}
-
-}  // namespace
 
 std::optional<analysis::PlaqueProfile> PlaqueWork::found(const core::TaskContext& task) const {
   auto walls_found = vessel_walls(
@@ -62,7 +50,8 @@ const std::vector<LesionRow>& LesionBoard::rows() {
     for (const geometry::Vessel& vessel : bench_.model()->tree.vessels) add_rows(vessel);
     const std::vector<analysis::VesselSegment> segments = analysis::segments_of(*bench_.model());
     for (LesionRow& row : rows_)
-      row.segment = segment_label(segments, row.vessel, row.lesion.stenosis.throat_mm);
+      if (const auto* segment = analysis::segment_at(segments, row.vessel, row.lesion.stenosis.throat_mm))
+        row.segment = segment->label;
   } catch (...) {
     finding_ = false;
     throw;
@@ -118,10 +107,8 @@ std::optional<PlaqueWork> LesionBoard::work() const {
                return unknown(one.id);
              })->id;
   }
-  PlaqueWork out{bench_.session().file().model(), {}, bench_.image().volume, wanted};
-  for (const auto& one : bench_.model()->vessels)
-    out.walls[one->vessel] = bench_.session().live().surface(one->vessel);
-  return out;
+  return PlaqueWork{bench_.session().file().model(), bench_.session().solved_walls(), bench_.image().volume,
+                    wanted};
 }
 
 bool LesionBoard::take(const PlaqueWork& work, std::optional<analysis::PlaqueProfile> found) {
@@ -136,10 +123,7 @@ bool LesionBoard::take(const PlaqueWork& work, std::optional<analysis::PlaquePro
 }
 
 void LesionBoard::say(const LesionRow& lesion, LesionState state, const std::string& comment) {
-  VesselMark mark;
-  mark.vessel = lesion.vessel;
-  if (const VesselMark* found = find_mark(*bench_.session().file().annotations(), lesion.vessel))
-    mark = *found;
+  VesselMark mark = mark_or_new(*bench_.session().file().annotations(), lesion.vessel);
   const analysis::Stenosis& place = lesion.lesion.stenosis;
   bench_.annotate(MarkVessel{with_lesion(std::move(mark), {place.from_mm, place.to_mm, state, comment})});
 }

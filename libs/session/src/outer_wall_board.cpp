@@ -60,10 +60,8 @@ std::optional<OuterWallWork> OuterWallBoard::work() const {
   const std::int32_t vessel = bench_.vessel.get();
   if (!model || !bench_.image().volume || vessel == Workbench::no_vessel || known_.contains(vessel))
     return std::nullopt;
-  OuterWallWork out{bench_.session().file().model(), {}, bench_.image().volume, vessel};
-  for (const auto& one : model->vessels)
-    out.walls[one->vessel] = bench_.session().live().surface(one->vessel);
-  return out;
+  return OuterWallWork{bench_.session().file().model(), bench_.session().solved_walls(),
+                       bench_.image().volume, vessel};
 }
 
 bool OuterWallBoard::take(const OuterWallWork& work, std::optional<VesselWalls> found) {

@@ -41,6 +41,12 @@ std::optional<Session::Done> Session::followed(const Command& command) {
   }
 }
 
+SolvedWalls Session::solved_walls() const {
+  SolvedWalls walls;
+  for (const auto& one : file_.model()->vessels) walls[one->vessel] = live_.surface(one->vessel);
+  return walls;
+}
+
 Session::Done Session::apply(const lumen::Edit& edit) {
   const auto before = file_.annotations();
   return *followed([&](const CaseFile::Check& check) {

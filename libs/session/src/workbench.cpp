@@ -188,7 +188,7 @@ std::optional<ProfileWork> Workbench::profile_work(std::int32_t id) const {
   ProfileWork work;
   work.model = session_->file().model();
   work.vessel = id;
-  for (const auto& one : shown->vessels) work.walls[one->vessel] = session_->live().surface(one->vessel);
+  work.walls = session_->solved_walls();
   return work;
 }
 

@@ -42,5 +42,7 @@ struct VesselSegment {
 /// The tree's own stretches, each in segments by the places where branches leave (proximal to the first large
 /// branch, mid to the second or halfway, distal), the left main before LAD and LCX part.
 std::vector<VesselSegment> segments_of(const lumen::LumenModel& model);
+/// The vessel's segment that a place lies in: its first before that begins. Null for a vessel without one.
+const VesselSegment* segment_at(const std::vector<VesselSegment>& segments, std::int32_t vessel, double s_mm);
 
 }  // namespace ostia::analysis

@@ -53,6 +53,8 @@ const LesionWord* word_on(const VesselMark* mark, double from_mm, double to_mm);
 VesselMark with_lesion(VesselMark mark, LesionWord word);
 /// Nothing where the vessel has no mark (it is then shown, and not checked).
 const VesselMark* find_mark(const Annotations& annotations, std::int32_t vessel);
+/// Its mark, or one that says nothing yet.
+VesselMark mark_or_new(const Annotations& annotations, std::int32_t vessel);
 const analysis::Measurement* find_measurement(const Annotations& annotations, std::int32_t id);
 
 /// "measure.add": a new measurement. Its id is given by the case, whatever it is here.

@@ -15,7 +15,7 @@ namespace ostia::session {
 /// A vessel to be looked at, on a model that no longer changes.
 struct EvaluabilityWork {
   std::shared_ptr<const lumen::LumenModel> model;
-  std::map<std::int32_t, std::shared_ptr<const lumen::ImplicitSurface>> walls;
+  SolvedWalls walls;
   std::shared_ptr<const imaging::ImageVolume> image;
   std::int32_t vessel = 0;
   std::optional<double> noise_hu;  ///< nothing: not known yet

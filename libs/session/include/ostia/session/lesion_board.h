@@ -39,11 +39,13 @@ struct LesionRow {
 /// A vessel whose plaque is to be measured, on a model that no longer changes.
 struct PlaqueWork {
   std::shared_ptr<const lumen::LumenModel> model;
-  std::map<std::int32_t, std::shared_ptr<const lumen::ImplicitSurface>> walls;
+  SolvedWalls walls;
   std::shared_ptr<const imaging::ImageVolume> image;
   std::int32_t vessel = 0;
+
+  using Found = analysis::PlaqueProfile;
   /// Any thread; nothing where no outer wall can be looked for. Throws as vessel_walls does.
-  std::optional<analysis::PlaqueProfile> found(const core::TaskContext& task = core::no_task()) const;
+  std::optional<Found> found(const core::TaskContext& task = core::no_task()) const;
 };
 
 /// Watches the workbench. After an edit what was known of a vessel's plaque is kept until it is found anew;

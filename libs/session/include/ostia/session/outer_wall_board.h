@@ -16,7 +16,7 @@ namespace ostia::session {
 /// A vessel whose outer wall is to be found, on a model that no longer changes.
 struct OuterWallWork {
   std::shared_ptr<const lumen::LumenModel> model;
-  std::map<std::int32_t, std::shared_ptr<const lumen::ImplicitSurface>> walls;
+  SolvedWalls walls;
   std::shared_ptr<const imaging::ImageVolume> image;
   std::int32_t vessel = 0;
   std::optional<VesselWalls> found(const core::TaskContext& task = core::no_task()) const;  ///< any thread

@@ -4,7 +4,14 @@
 #include "ostia/lumen/live_model.h"
 #include "ostia/session/case_file.h"
 
+#include <cstdint>
+#include <map>
+#include <memory>
+
 namespace ostia::session {
+
+/// The solved walls of a model by vessel, shared with work in other threads.
+using SolvedWalls = std::map<std::int32_t, std::shared_ptr<const lumen::ImplicitSurface>>;
 
 /// An open case with its model solved. An edit is computed, solved, and then committed; what cannot be solved
 /// (NumericalError, InvalidInput) is refused and leaves case and screen as they were. Annotations need no
@@ -35,6 +42,7 @@ class Session {
   CaseFile& file() { return file_; }
   const lumen::LiveModel& live() const { return live_; }
   lumen::LiveModel& live() { return live_; }
+  SolvedWalls solved_walls() const;  ///< as they are now
 
  private:
   template <class Command>

@@ -51,7 +51,7 @@ struct ModelEvent {
 /// A vessel to be measured on a model that no longer changes.
 struct ProfileWork {
   std::shared_ptr<const lumen::LumenModel> model;
-  std::map<std::int32_t, std::shared_ptr<const lumen::ImplicitSurface>> walls;
+  SolvedWalls walls;
   std::int32_t vessel = 0;
   analysis::LumenProfile measured(const core::TaskContext& task = core::no_task()) const;  ///< any thread
 };

@@ -33,6 +33,9 @@ FRAME = {"shell", "commands", "views"}
 FEATURES = ["opening", "trees", "phases", "vessels", "measuring", "meshing", "flow", "qa", "help"]
 WORKSTATION = FRAME | set(FEATURES)
 COMPOSED_IN = re.compile(r"shell/(main_window\w*|panel_layout)\.cpp$")
+# The command line: what serves all commands, and a folder for what they work on. Above the folders, all of them together.
+COMMAND_LINE = {"options", "input", "output", "convert", "vessel", "tree", "mesh", "flow", "measure", "motion", "phantom", "evaluate", "experiment", "chain"}
+ABOVE_COMMANDS = {"main", "cli", "commands", "command_table"}
 FEATURE_INCLUDED = re.compile(r'#\s*include\s*"([a-z]+)/')
 
 
@@ -113,6 +116,15 @@ def check_workstation(root, breaches):
                     breaches.append(f"{relative}:{number}: only shell knows MainWindow; take a Desk, or what is needed of it")
 
 
+def check_command_line(root, breaches):
+    for path in sorted(p for p in (root / "apps" / "ostia").rglob("*") if p.suffix in {".h", ".cpp"}):
+        folders = path.relative_to(root / "apps" / "ostia").parts[:-1]
+        if folders == () and path.stem in ABOVE_COMMANDS:
+            continue
+        if len(folders) != 1 or folders[0] not in COMMAND_LINE:
+            breaches.append(f"{path.relative_to(root).as_posix()}:1: the commands' sources live in the folders of apps/ostia: {', '.join(sorted(COMMAND_LINE))}")
+
+
 def main():
     root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else __file__.rsplit("/", 2)[0]).resolve()
     breaches = []
@@ -127,6 +139,7 @@ def main():
         if folder.is_dir():
             check_hidden_constants(folder, root, breaches)
     check_workstation(root, breaches)
+    check_command_line(root, breaches)
     print("\n".join(breaches) if breaches else f"{len(sources)} files, no breach")
     return 1 if breaches else 0
 

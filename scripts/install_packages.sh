@@ -14,7 +14,10 @@ done < <(cat "$@")
 
 as_root=()
 if [ "$(id -u)" -ne 0 ]; then
-  command -v sudo >/dev/null || { echo "These packages are missing and there is no sudo: ${missing[*]}" >&2; exit 1; }
+  command -v sudo >/dev/null || {
+    echo "install_packages.sh: packages are missing and there is no sudo; install these as root and run the same again: apt install ${missing[*]}" >&2
+    exit 1
+  }
   as_root=(sudo)
 fi
 echo "Installing ${#missing[@]} packages: ${missing[*]}"

@@ -1,11 +1,11 @@
 #include "cli.h"
 
 #include "command_table.h"
-#include "config_file.h"
 #include "description_files.h"
+#include "options/config_file.h"
+#include "output/progress_bar.h"
+#include "output/standard_streams.h"
 #include "private_words.h"
-#include "progress_bar.h"
-#include "standard_streams.h"
 
 #include "ostia/core/log.h"
 #include "ostia/core/parallel.h"

@@ -1,11 +1,11 @@
 #include "command_table.h"
 
-#include "cli_mesh.h"
-#include "cli_phantom.h"
-#include "cli_segment.h"
-#include "shown_defaults.h"
-#include "tree_input.h"
-#include "validators.h"
+#include "mesh/cli_mesh.h"
+#include "options/shown_defaults.h"
+#include "options/validators.h"
+#include "phantom/cli_phantom.h"
+#include "tree/tree_input.h"
+#include "vessel/cli_segment.h"
 
 #include "ostia/centerline/extract_centerlines.h"
 

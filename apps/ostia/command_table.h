@@ -1,20 +1,20 @@
 #pragma once
 /// \file All commands of the program: their options and how each is declared. A new one gets its lines here.
 
+#include "chain/run.h"
 #include "commands.h"
-#include "evaluate.h"
-#include "experiment.h"
-#include "extract.h"
-#include "flow_result.h"
-#include "grow.h"
-#include "lumen.h"
-#include "measure.h"
-#include "motion.h"
-#include "reconstruct.h"
-#include "report.h"
-#include "run.h"
-#include "skeleton.h"
-#include "solver_case.h"
+#include "evaluate/evaluate.h"
+#include "experiment/experiment.h"
+#include "flow/flow_result.h"
+#include "flow/solver_case.h"
+#include "measure/measure.h"
+#include "measure/report.h"
+#include "motion/motion.h"
+#include "tree/grow.h"
+#include "tree/reconstruct.h"
+#include "tree/skeleton.h"
+#include "vessel/extract.h"
+#include "vessel/lumen.h"
 
 #include "ostia/core/task_context.h"
 

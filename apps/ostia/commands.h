@@ -1,7 +1,7 @@
 #pragma once
 /// \file What each command is told, and what it does. Returns the exit code; throws ostia::Error.
 
-#include "case_options.h"
+#include "flow/case_options.h"
 
 #include "ostia/core/error.h"
 #include "ostia/core/task_context.h"

@@ -1,8 +1,10 @@
 #include "description_files.h"
 #include "help/help.h"
+#include "shell/crash_watch.h"
 #include "shell/ending_signals.h"
 #include "shell/language.h"
 #include "shell/main_window.h"
+#include "shell/main_window_walks.h"
 #include "views/frame_log.h"
 
 #include "ostia/core/error.h"
@@ -18,6 +20,7 @@
 #include <QMessageBox>
 #include <QStandardPaths>
 #include <QSurfaceFormat>
+#include <QTimer>
 #include <algorithm>
 #include <clocale>
 #include <csignal>
@@ -58,6 +61,12 @@ struct CommandLine {
   const QCommandLineOption sample{"sample", QApplication::tr("Opens the sample case.")};
   const QCommandLineOption no_tour{"no-tour",
                                    QApplication::tr("Starts without the tour, as OSTIA_NO_TOUR does.")};
+  const QCommandLineOption record{
+      "record-walk", QApplication::tr("Writes down each step of hand and keys, for --walk."), "file"};
+  const QCommandLineOption walk{
+      "walk", QApplication::tr("Walks through the window as the file says, and ends."), "file"};
+  const QCommandLineOption walk_folder{
+      "walk-folder", QApplication::tr("Where the pictures and times of --walk go."), "folder", "walk"};
   CommandLine() {
     parser.setApplicationDescription(QApplication::tr("The coronary modelling workstation."));
     parser.addHelpOption();
@@ -67,7 +76,9 @@ struct CommandLine {
     for (const QCommandLineOption& option : options()) parser.addOption(option);
   }
   /// As QCommandLineParser has no list of them.
-  std::vector<QCommandLineOption> options() const { return {state, frames, sample, no_tour}; }
+  std::vector<QCommandLineOption> options() const {
+    return {state, frames, sample, no_tour, record, walk, walk_folder};
+  }
   std::string state_folder() const { return parser.value(state).toStdString(); }
   /// Before any window is made.
   void use_language() const {
@@ -160,6 +171,25 @@ int refuse(const ostia::view::OpenGlTrouble& trouble, int argc, char** argv) {
   return exit_code;
 }
 
+/// Throws Error where a file cannot be read or written. At the walk's end the program ends: 4 where it did
+/// not get through.
+void take_walks(const CommandLine& said, ostia::workstation::MainWindow& window) {
+  if (said.parser.isSet(said.record))
+    ostia::workstation::record_walk(window, said.parser.value(said.record).toStdString());
+  if (!said.parser.isSet(said.walk)) return;
+  const auto ended = [&window](const QString& failure) {
+    if (!failure.isEmpty())
+      std::fprintf(stderr, "ostia-workstation: the walk ended at %s\n", qPrintable(failure));
+    window.end();
+    QCoreApplication::exit(
+        static_cast<int>(failure.isEmpty() ? ostia::ExitCode::ok : ostia::ExitCode::quality_failed));
+  };
+  ostia::workstation::begin_walk(window, said.parser.value(said.walk).toStdString(),
+                                 said.parser.value(said.walk_folder).toStdString(), ended);
+}
+
+constexpr int drivers_are_there_ms = 3000;  // those of the first pictures
+
 int run(const CommandLine& said) {
   using ostia::workstation::FrameLog;
   if (said.parser.positionalArguments().size() > 1) {
@@ -171,16 +201,24 @@ int run(const CommandLine& said) {
     return 3;
   }
   said.use_language();
+  const ostia::workstation::CrashWatch watch(ostia::workstation::crash_folder(said.state_folder()));
   ostia::workstation::MainWindow window(said.state_folder());
   const ostia::workstation::EndingSignals ending;
   QObject::connect(&ending, &ostia::workstation::EndingSignals::asked, &window,
                    &ostia::workstation::MainWindow::end);
   window.show();
+  QTimer::singleShot(drivers_are_there_ms, [] { ostia::workstation::know_modules(); });
   if (!said.parser.isSet(said.no_tour)) window.findChild<ostia::workstation::Help*>()->greet();
   if (!said.parser.positionalArguments().isEmpty())
     window.open(said.parser.positionalArguments().front().toStdString());
   else if (said.parser.isSet(said.sample))
     window.open_sample();
+  try {
+    take_walks(said, window);
+  } catch (const ostia::Error& error) {
+    std::fprintf(stderr, "ostia-workstation: %s\n", error.what());
+    return static_cast<int>(error.exit_code());
+  }
   return QApplication::exec();
 }
 

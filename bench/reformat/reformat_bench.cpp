@@ -116,7 +116,7 @@ void section(benchmark::State& state, reformat::Slab slab) {
 }
 
 /// A view of three linked planes: 512 x 512 pixels over the whole image, of 20 mm; axial, or turned twice.
-void planes(benchmark::State& state, bool oblique) {
+void planes(benchmark::State& state, bool oblique, bool draft) {
   const imaging::ImageVolume& ct = image();
   core::set_max_threads(2);
   reformat::Plane plane;
@@ -132,7 +132,9 @@ void planes(benchmark::State& state, bool oblique) {
   for (auto _ : state) {
     depth = depth > 20.0 ? -20.0 : depth + 0.7;
     plane.origin = depth * plane.normal() - 256.0 * plane.pixel_mm * (plane.u + plane.v);
-    benchmark::DoNotOptimize(reformat::slab_slice(ct, plane, reformat::Slab::maximum, 20.0).values.data());
+    const auto made = draft ? reformat::slab_draft(ct, plane, reformat::Slab::maximum, 20.0)
+                            : reformat::slab_slice(ct, plane, reformat::Slab::maximum, 20.0);
+    benchmark::DoNotOptimize(made.values.data());
   }
   core::set_max_threads(0);
 }
@@ -158,8 +160,10 @@ int main(int argc, char** argv) {
   timed(benchmark::RegisterBenchmark("SlabMaximum", curved, thick, Interpolation::trilinear));
   timed(benchmark::RegisterBenchmark("CrossSection512", section, reformat::Slab::none));
   timed(benchmark::RegisterBenchmark("CrossSectionMean2mm512", section, reformat::Slab::mean));
-  timed(benchmark::RegisterBenchmark("PlaneMip20mm512Axial", planes, false));
-  timed(benchmark::RegisterBenchmark("PlaneMip20mm512Oblique", planes, true));
+  timed(benchmark::RegisterBenchmark("PlaneMip20mm512Axial", planes, false, false));
+  timed(benchmark::RegisterBenchmark("PlaneMip20mm512Oblique", planes, true, false));
+  timed(benchmark::RegisterBenchmark("PlaneMip20mm512AxialMoving", planes, false, true));
+  timed(benchmark::RegisterBenchmark("PlaneMip20mm512ObliqueMoving", planes, true, true));
   benchmark::RegisterBenchmark("RoundTripStraightened", round_trip, reformat::CurvedMode::straightened);
   benchmark::RegisterBenchmark("RoundTripStretched", round_trip, reformat::CurvedMode::stretched);
   benchmark::Initialize(&argc, argv);

@@ -24,7 +24,7 @@ struct Read {
 Read read(const Solved& solved, std::int32_t vessel) {
   Read out{lumen_profile(solved.model, solved.surface_of(), vessel), {}};
   out.line = reference_line(out.profile, branch_abscissas(solved.model, vessel),
-                            reading_from_ostium(ostium_of(solved.model, solved.surface_of(), vessel)));
+                            reading_from_ostium(ostia_of(solved.model, solved.surface_of(), vessel)));
   return out;
 }
 

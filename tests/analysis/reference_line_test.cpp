@@ -68,16 +68,16 @@ TEST(ReferenceLine, AThinSideBranchHasALineOfItsOwn) {
   const LumenProfile profile = profile_of(80.0, 0.5, [&](double s) {  // the mouth is a funnel
     return healthy(s) + (s >= 30.0 && s < 32.5 ? 0.6 * (32.5 - s) : 0.0);
   });
-  const ReferenceLine line = reference_line(profile, {30.0}, {.own_from_mm = 30.0});
+  const ReferenceLine line = reference_line(profile, {30.0}, {.joints = {{30.0, 0.0}}});
   EXPECT_LT(largest_share_off(profile, line, healthy), 0.03);
   EXPECT_TRUE(find_stenoses(profile, line).empty());
   const auto narrowed = [&](double s) { return healthy(s) * (1.0 - 0.5 * bump(s, 50.0, 10.0)); };
   const LumenProfile ill = profile_of(80.0, 0.5, narrowed);
-  const auto found = find_stenoses(ill, reference_line(ill, {30.0}, {.own_from_mm = 30.0}));
+  const auto found = find_stenoses(ill, reference_line(ill, {30.0}, {.joints = {{30.0, 0.0}}}));
   ASSERT_EQ(found.size(), 1u);
   EXPECT_NEAR(found.front().diameter_percent, 50.0, 3.0);
   for (const double own : {-3.0, 0.0, 80.0, 500.0})  // outside the vessel: one line
-    EXPECT_EQ(reference_line(ill, {30.0}, {.own_from_mm = own}).diameter_mm,
+    EXPECT_EQ(reference_line(ill, {30.0}, {.joints = {{own, 0.0}}}).diameter_mm,
               reference_line(ill, {30.0}).diameter_mm);
 }
 

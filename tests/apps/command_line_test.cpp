@@ -127,7 +127,7 @@ TEST(CommandLine, RefusesABadConfiguration) {
   EXPECT_EQ(ostia({"info", "a.stl", "--config", "unknown.json"}, {folder, ""}).code, 2);
 }
 
-TEST(CommandLine, BadInput_Row37_RefusesPlacesItCannotWriteBeforeItWorks) {
+TEST(CommandLine, RefusesPlacesItCannotWriteBeforeItWorks) {
   const auto folder = temporary_folder("places");
   core::write_file(folder / "file", "mine");
   for (const char* place : {"file/x", "file", "/proc/x"}) {
@@ -151,7 +151,7 @@ TEST(CommandLine, NeverReplacesAFolderThatIsNotItsOwn) {
   EXPECT_EQ(core::read_file(folder / "letters" / "a.txt"), "mine");
 }
 
-TEST(CommandLine, BadInput_Row36_AnyPath) {
+TEST(CommandLine, AnyPathIsTaken) {
   const auto folder = temporary_folder("paths") / "Jahr 2024 Bäßler 心臓 'x'";
   std::filesystem::create_directory(folder);
   const std::string long_name = std::string(240, 'l') + ".stl";
@@ -162,7 +162,7 @@ TEST(CommandLine, BadInput_Row36_AnyPath) {
   EXPECT_EQ(ostia({"info", (folder / "ö.vtp").string()}).code, 0);
 }
 
-TEST(CommandLine, BadInput_Row36_GermanLocale) {
+TEST(CommandLine, AGermanLocaleChangesNothing) {
   if (std::system("locale -a 2>/dev/null | grep -qi '^de_DE.utf-*8$'") != 0)
     GTEST_SKIP() << "needs the locale de_DE.UTF-8";
   const auto folder = temporary_folder("locale");

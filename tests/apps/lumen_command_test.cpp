@@ -402,7 +402,7 @@ std::vector<Refusal> refusals() {
       {"fold", lumen::AxisMove{0, {0, 0, 10}, {9, 0, 10}, 5.0}, "fold", "longer reach"}};
 }
 
-TEST(LumenCommand, BadInput_RefusesEditsThatMakeNoWall) {
+TEST(LumenCommand, RefusesEditsThatMakeNoWall) {
   const fs::path folder = tube_folder();
   for (const Refusal& refusal : refusals()) {
     SCOPED_TRACE(refusal.what);
@@ -418,7 +418,7 @@ TEST(LumenCommand, BadInput_RefusesEditsThatMakeNoWall) {
   }
 }
 
-TEST(LumenCommand, BadInput_OfEditsThatContradictEachOtherTheLaterWins) {
+TEST(LumenCommand, OfEditsThatContradictEachOtherTheLaterWins) {
   const fs::path folder = tube_folder();
   const auto volume = [&](const std::vector<lumen::Edit>& edits) {
     session::write_edits(folder / "edits.jsonl", edits);
@@ -433,7 +433,7 @@ TEST(LumenCommand, BadInput_OfEditsThatContradictEachOtherTheLaterWins) {
   EXPECT_NEAR(volume({wide, narrow}), volume({narrow}), 0.3);
 }
 
-TEST(LumenCommand, BadInput_PointsOnOnePlaceMakeASoundWall) {
+TEST(LumenCommand, PointsOnOnePlaceMakeASoundWall) {
   const fs::path folder = tube_folder();
   lumen::SectionContour twice = std::get<lumen::SectionContour>(ring(10.0, 1.3)), shifted = twice;
   twice.points.clear();
@@ -450,7 +450,7 @@ TEST(LumenCommand, BadInput_PointsOnOnePlaceMakeASoundWall) {
   EXPECT_THAT(out["warnings"][0].get<std::string>(), HasSubstr("line 1: 12 points"));
 }
 
-TEST(LumenCommand, BadInput_RefusesAxesThatBearNoWall) {
+TEST(LumenCommand, RefusesAxesThatBearNoWall) {
   const fs::path folder = temporary_folder("lumen");
   const auto csv = [&](const char* name, const std::vector<Vec3>& points) {
     std::string text = "x,y,z,radius\n";
@@ -478,7 +478,7 @@ TEST(LumenCommand, BadInput_RefusesAxesThatBearNoWall) {
   }
 }
 
-TEST(LumenCommand, BadInput_AWallThatWouldNotFitIsFive) {
+TEST(LumenCommand, AWallThatWouldNotFitIsFive) {
   const fs::path folder = tube_folder();
   const Outcome done =
       ostia({"lumen", "tube.csv", "-o", "tube.vtp", "--radius", "40", "--case", "tube.ostia"}, {folder, ""});
@@ -518,7 +518,7 @@ TEST(LumenCommand, GoesOnWithACaseAndItsJournal) {
   EXPECT_EQ(Json::parse(piped.out)["digest"], more["digest"]) << piped.err;
 }
 
-TEST(LumenCommand, BadInput_CasesThatCannotBeOpened) {
+TEST(LumenCommand, CasesThatCannotBeOpened) {
   const fs::path folder = case_folder();
   const std::string bytes = core::read_file(folder / "tube.ostia");
   core::write_file(folder / "short.ostia", bytes.substr(0, bytes.size() / 2));
@@ -549,7 +549,7 @@ TEST(LumenCommand, BadInput_CasesThatCannotBeOpened) {
   EXPECT_EQ(core::read_file(folder / "short.ostia").size(), bytes.size() / 2);
 }
 
-TEST(LumenCommand, BadInput_Row37_ReadOnlyCasesAreReadAndFullDisksLeaveNothing) {
+TEST(LumenCommand, ReadOnlyCasesAreReadAndFullDisksLeaveNothing) {
   const fs::path folder = case_folder();
   const std::string bytes = core::read_file(folder / "tube.ostia");
   fs::permissions(folder / "tube.ostia", fs::perms::owner_read);
@@ -567,7 +567,7 @@ TEST(LumenCommand, BadInput_Row37_ReadOnlyCasesAreReadAndFullDisksLeaveNothing) 
   EXPECT_EQ(core::read_file(folder / "tube.ostia"), bytes);
 }
 
-TEST(LumenCommand, BadInput_Row38_KilledItLeavesNoHalfCase) {
+TEST(LumenCommand, KilledItLeavesNoHalfCase) {
   const fs::path folder = temporary_folder("lumen");
   io::write_centerlines(folder / "y.vtp", y_tree());
   for (const double seconds : {0.02, 0.1, 0.3}) {
@@ -598,7 +598,7 @@ void write_tube_image(const fs::path& path, std::int16_t hu) {
   imaging::write_image(path, image);
 }
 
-TEST(LumenCommand, BadInput_AnImageThatIsMissingOrNotTheCases) {
+TEST(LumenCommand, AnImageThatIsMissingOrNotTheCases) {
   const fs::path folder = tube_folder();
   write_tube_image(folder / "heart.nrrd", -80);
   write_tube_image(folder / "other.nrrd", -70);
@@ -623,7 +623,7 @@ TEST(LumenCommand, BadInput_AnImageThatIsMissingOrNotTheCases) {
   }
 }
 
-TEST(LumenCommand, BadInput_Row40_NoNameOfAFolderOrFileIsWrittenAnywhere) {
+TEST(LumenCommand, NoNameOfAFolderOrFileIsWrittenAnywhere) {
   const fs::path holder = tube_folder();
   const fs::path folder = holder / "DOE^JANE";
   fs::create_directory(folder);

@@ -88,7 +88,7 @@ TEST(ModelCommand, InterruptedItStopsSoonAndLeavesNothing) {
   }
 }
 
-TEST(ModelCommand, BadInput_Row37_FullDiskIsFiveAndLeavesTheOldFolder) {
+TEST(ModelCommand, FullDiskIsFiveAndLeavesTheOldFolder) {
   const SmallCase small = small_case();
   std::filesystem::create_directory(small.folder / "o");
   const std::vector<std::string> command =

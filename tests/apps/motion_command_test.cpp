@@ -252,7 +252,7 @@ TEST(MotionCommand, FramesAreCountedWhereThatIsSaid) {
   EXPECT_EQ(Json::parse(done.out)["phases"][1]["percent"], 25.0);
 }
 
-TEST(MotionCommand, BadInput_Row29_RefusesInOneMessage) {
+TEST(MotionCommand, PhasesThatDoNotFitAreRefusedInOneMessage) {
   const fs::path folder = temporary_folder("bad");
   const auto tree = motion::testing::beating_tree(4);
   const auto fill = [&](const std::string& name, const std::function<TriMesh(std::size_t)>& surface) {

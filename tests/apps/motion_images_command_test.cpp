@@ -230,7 +230,7 @@ TEST(MotionImagesCommand, ReadsThePhasesOfOneSeriesByItsTriggerTimes) {
   EXPECT_LT(error_of(lumen_near(folder / "out" / "lumen", 400.0 / 7.0), 60), 0.2);
 }
 
-TEST(MotionImagesCommand, BadInput_Row29_IsToldByFile) {
+TEST(MotionImagesCommand, WhatIsWrongWithAnImageIsToldByFile) {
   const fs::path folder = folder_with_template();
   for (const int percent : percents())
     imaging::write_image(folder / "heart" / ("ct_" + std::to_string(percent) + ".nrrd"), image_at(percent));

@@ -13,7 +13,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-TEST(Privacy, BadInput_Row40_NoNameOfAFolderOrFileIsWrittenAnywhere) {
+TEST(Privacy, NoNameOfAFolderOrFileIsWrittenAnywhere) {
   const SmallCase small = small_case("DOE^JANE_image.nrrd");
   const auto patient = small.folder / "DOE^JANE";
   std::filesystem::create_directory(patient);
@@ -33,7 +33,7 @@ TEST(Privacy, BadInput_Row40_NoNameOfAFolderOrFileIsWrittenAnywhere) {
   }
 }
 
-TEST(Privacy, BadInput_Row40_NorInALogOfRefusals) {
+TEST(Privacy, NorInALogOfRefusals) {
   const auto folder = temporary_folder("DOE^JANE");
   core::write_file(folder / "DOE^JANE.nrrd", "NRRD0004\ntype: short\ndimension: 3\n\n");
   core::write_file(folder / "DOE^JANE.stl", "hello");
@@ -53,7 +53,7 @@ TEST(Privacy, BadInput_Row40_NorInALogOfRefusals) {
   }
 }
 
-TEST(Privacy, BadInput_Row40_NorInALogOfRefusalsOfWhatAnImageHolds) {
+TEST(Privacy, NorInALogOfRefusalsOfWhatAnImageHolds) {
   const auto folder = temporary_folder("DOE^JANE");
   imaging::ImageVolume image;
   image.geometry.size = {20, 20, 20};

@@ -127,7 +127,7 @@ TEST(ReportCommand, RefusesBadInputAndLeavesNothing) {
   EXPECT_EQ(names_in(folder), before);
 }
 
-TEST(ReportCommand, BadInput_Row40_NoNameOfAFileIsWritten) {
+TEST(ReportCommand, NoNameOfAFileIsWritten) {
   const fs::path folder = report_case_folder("DOE^JANE");
   const Outcome made = ostia({"report", "DOE^JANE.ostia", "--image", (folder / "DOE^JANE.nrrd").string(),
                               "-o", "out", "--log", "json"},

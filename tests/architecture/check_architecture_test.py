@@ -16,11 +16,15 @@ CASES = {
     "unknown room": ("libs/utils/src/a.cpp", "\n", "no place in the picture"),
     "workstation's source in no folder": ("apps/workstation/a.cpp", "\n", "live in its folders"),
     "workstation's folder that is unknown": ("apps/workstation/misc/a.cpp", "\n", "live in its folders"),
+    "command's source in no folder": ("apps/ostia/command_a.cpp", "\n", "live in the folders of apps/ostia"),
+    "command's folder that is unknown": ("apps/ostia/misc/command_a.cpp", "\n", "live in the folders of apps/ostia"),
     "MainWindow outside the shell": ("apps/workstation/flow/a.h", "class MainWindow;\n", "only shell knows MainWindow"),
     "its header outside the shell": ("apps/workstation/flow/a.cpp", '#include "shell/main_window.h"\n', "only shell knows MainWindow"),
 }
 SOUND = [
     ("libs/meshing/src/a.cpp", '#include "ostia/centerline/a.h"\n#include "ostia/core/error.h"\n'),
+    ("apps/ostia/command_table.cpp", '#include "mesh/cli_mesh.h"\n'),
+    ("apps/ostia/mesh/command_a.cpp", "\n"),
     ("apps/workstation/shell/a.h", "class MainWindow;\n"),
     ("apps/workstation/flow/a.h", "class QMainWindow;\n"),
     ("apps/workstation/main.cpp", '#include "shell/main_window.h"\n'),

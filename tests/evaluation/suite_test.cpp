@@ -243,7 +243,7 @@ TEST(Suite, FilesThatCannotBeReadAreNamedAndTheRestIsCompared) {
   EXPECT_EQ(suite.files.size(), 8u);
 }
 
-TEST(Suite, BadInput_WhatIsNoSuiteIsRefused) {
+TEST(Suite, WhatIsNoSuiteIsRefused) {
   const Runs runs = two_runs();
   const fs::path empty = runs.golden.parent_path() / "empty";
   fs::create_directory(empty);
@@ -255,7 +255,7 @@ TEST(Suite, BadInput_WhatIsNoSuiteIsRefused) {
   EXPECT_THROW(compare_suites(runs.golden, empty), InvalidInput) << "no file in common";
 }
 
-TEST(Suite, BadInput_ToleranceFilesAreRead) {
+TEST(Suite, ToleranceFilesAreRead) {
   const fs::path file = temporary_folder("tolerance") / "F.json";
   const auto refused = [&](const std::string& text, const std::string& why) {
     core::write_file(file, text);

@@ -209,6 +209,9 @@ TEST(Smoothness, RefusesOptionsOutOfRangeAndCancels) {
   options.decimations = {1.0};
   EXPECT_THROW(validate(options), InvalidInput);
   options = {};
+  options.sample_mm = 0.0;
+  EXPECT_THROW(validate(options), InvalidInput);
+  options = {};
   EXPECT_THROW(measure_smoothness(three_tubes(), std::vector<Orientation>{}, options), InvalidInput);
   const core::TaskContext task;
   task.cancel();

@@ -99,7 +99,7 @@ TEST(DicomCodecs, TheHeaderDecidesOnTheSignWhereJpeg2000SaysOtherwise) {
   EXPECT_EQ(worst_difference(decoded_codec(slice), value), 0);
 }
 
-TEST(DicomCodecs, Row28StreamsCutShortAreRefused) {
+TEST(DicomCodecs, StreamsCutShortAreRefused) {
   for (const char* syntax : kLossless) {
     CtSlice slice = compressed(syntax, false);
     const std::string whole = slice.streams.front();
@@ -111,7 +111,7 @@ TEST(DicomCodecs, Row28StreamsCutShortAreRefused) {
   }
 }
 
-TEST(DicomCodecs, Row28NoiseInsideAStreamIsRefused) {
+TEST(DicomCodecs, NoiseInsideAStreamIsRefused) {
   // A picture of noise: streams long enough that a stretch of other noise breaks a rule of the format.
   const auto noise = [](int i, int j) {
     return static_cast<int>((i * 7919u + j * 104729u) * 2654435761u >> 20);

@@ -121,7 +121,7 @@ TEST(DecodeRle, RunsAndLiterals) {
   EXPECT_EQ(decode_rle(frame, 6, 2), std::string("\x05\x01\x06\x01\x07\x01\x09\x01\x09\x01\x09\x01", 12));
 }
 
-TEST(DecodeRle, Row28DamageIsRefused) {
+TEST(DecodeRle, DamageIsRefused) {
   const std::string good =
       rle_frame({std::string("\xFB\x01", 2), std::string("\x05\x05\x06\x07\x08\x09\x0A", 7)});
   EXPECT_EQ(decode_rle(good, 6, 2).size(), 12u);

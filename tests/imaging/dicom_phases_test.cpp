@@ -30,7 +30,7 @@ TEST(SplitPhases, LeavesASimpleStackAlone) {
   EXPECT_EQ(phases.parts[0].front().depth_mm, 1.0);
 }
 
-TEST(SplitPhases, Row26ByCardiacPhase) {
+TEST(SplitPhases, ByCardiacPhase) {
   std::vector<DicomSlice> slices;
   for (int k = 0; k < 6; ++k) {
     for (const double percent : {70.0, 40.0}) {
@@ -44,7 +44,7 @@ TEST(SplitPhases, Row26ByCardiacPhase) {
   EXPECT_TRUE(phases.warnings.empty());
 }
 
-TEST(SplitPhases, Row26TimesThatDifferEverywhereAreTakenByTheirOrder) {
+TEST(SplitPhases, TimesThatDifferEverywhereAreTakenByTheirOrder) {
   std::vector<DicomSlice> slices;
   for (int k = 0; k < 4; ++k) {
     for (int t = 0; t < 3; ++t) {
@@ -63,7 +63,7 @@ TEST(SplitPhases, Row26TimesThatDifferEverywhereAreTakenByTheirOrder) {
   EXPECT_THAT(phases.warnings, Contains(HasSubstr("order of their trigger time")));
 }
 
-TEST(SplitPhases, Row29AMissingPhaseIsTold) {
+TEST(SplitPhases, AMissingPhaseIsTold) {
   std::vector<DicomSlice> slices;
   for (int k = 0; k < 4; ++k) {
     for (int p = 0; p < 20; ++p) {
@@ -77,7 +77,7 @@ TEST(SplitPhases, Row29AMissingPhaseIsTold) {
               Contains(HasSubstr("missing between cardiac phase 35 % and cardiac phase 45 %")));
 }
 
-TEST(SplitPhases, Row29PhasesOfUnequalLength) {
+TEST(SplitPhases, PhasesOfUnequalLength) {
   std::vector<DicomSlice> slices;
   for (int k = 0; k < 6; ++k) {
     for (int p = 0; p < 3; ++p) {
@@ -91,7 +91,7 @@ TEST(SplitPhases, Row29PhasesOfUnequalLength) {
   EXPECT_THAT(phases.warnings, Contains(HasSubstr("from 5 to 6 slices")));
 }
 
-TEST(SplitPhases, Row29PhasesOnDifferentGrids) {
+TEST(SplitPhases, PhasesOnDifferentGrids) {
   std::vector<DicomSlice> slices;
   for (int k = 0; k < 6; ++k) {
     for (int p = 0; p < 3; ++p) {

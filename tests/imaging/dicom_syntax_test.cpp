@@ -26,13 +26,13 @@ TEST(PixelFault, NothingIsWrongWithAPlainSlice) {
   EXPECT_EQ(fault_of([](CtSlice& s) { s.photometric = "MONOCHROME1"; }), "");
 }
 
-TEST(PixelFault, Row16TooShort) {
+TEST(PixelFault, TooShort) {
   EXPECT_THAT(fault_of([](CtSlice& s) { s.pixels = std::string(38, 'x'); }),
               HasSubstr("40 bytes, 38 are there"));
   EXPECT_THAT(fault_of([](CtSlice& s) { s.frames = "2"; }), HasSubstr("80 bytes, 40 are there"));
 }
 
-TEST(PixelFault, Row17LargestSizeWithoutData) {
+TEST(PixelFault, LargestSizeWithoutData) {
   const auto largest = [](CtSlice& s) { s.rows = s.columns = 65535; };
   EXPECT_THAT(fault_of([&](CtSlice& s) {
                 s.pixels = "x ";

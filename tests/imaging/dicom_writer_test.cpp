@@ -134,6 +134,17 @@ TEST(DicomSeriesWriter, TheSameSeedGivesTheSameBytesAndAnotherOthers) {
             attributes_of(written(oblique_image(-1000), options) / "CT0003.dcm").at(0x0020000Eu));
 }
 
+TEST(DicomSeriesWriter, SeriesOfOneStudySaySo) {
+  DicomSeriesOptions a, b;
+  a.uid_seed = "beat/35";
+  b.uid_seed = "beat/75";
+  a.study_seed = b.study_seed = "beat";
+  const auto first = attributes_of(written(oblique_image(), a) / "CT0001.dcm");
+  const auto second = attributes_of(written(oblique_image(), b) / "CT0001.dcm");
+  for (const std::uint32_t tag : {0x0020000Du, 0x00200052u}) EXPECT_EQ(first.at(tag), second.at(tag)) << tag;
+  for (const std::uint32_t tag : {0x0020000Eu, 0x00080018u}) EXPECT_NE(first.at(tag), second.at(tag)) << tag;
+}
+
 TEST(DicomSeriesWriter, RefusesWhatDicomCannotHold) {
   const fs::path folder = ostia::testing::temporary_folder("dicom") / "refused";
   ImageVolume image = oblique_image();

@@ -227,7 +227,7 @@ class FileSizeLimit {
   void (*signal_)(int);
 };
 
-TEST(WriteImage, BadInput_Row37_WithoutRoomTheOldImageStays) {
+TEST(WriteImage, WithoutRoomTheOldImageStays) {
   const fs::path here = image_write_folder();
   const ImageVolume old = patterned<std::int16_t>(oblique_grid(4, 3, 2)),
                     large = patterned<std::int16_t>(oblique_grid(64, 64, 64));
@@ -243,7 +243,7 @@ TEST(WriteImage, BadInput_Row37_WithoutRoomTheOldImageStays) {
   EXPECT_EQ(names_in(here), before);
 }
 
-TEST(WriteImage, BadInput_Row37_InAReadOnlyFolderTheOldImageStays) {
+TEST(WriteImage, InAReadOnlyFolderTheOldImageStays) {
   if (::geteuid() == 0) GTEST_SKIP() << "root may write anywhere";
   const fs::path here = image_write_folder();
   const ImageVolume old = patterned<std::int16_t>(oblique_grid(4, 3, 2));

@@ -64,7 +64,7 @@ TEST(ReadLabels, LabelsBeyond255AreCountedUpAndKnownByTheFilesNumbers) {
   EXPECT_TRUE(read_labels(file_of({7.0F, 255.0F})).header.file_labels.empty());
 }
 
-TEST(ReadLabels, BadInput_AnImageIsNoSetOfLabels) {
+TEST(ReadLabels, AnImageIsNoSetOfLabels) {
   std::vector<float> many;
   for (int i = 0; i < 256; ++i) many.push_back(static_cast<float>(10 * i + 1));
   for (const std::vector<float>& values : {many, std::vector<float>{700.5F, 3.0F}}) {

@@ -78,6 +78,7 @@ TEST(MeshExport, OfEachExtensionOneFormatIsTheUsual) {
     const auto usual = usual_mesh_format(extension_of(format));
     ASSERT_TRUE(usual) << name_of(format);
     EXPECT_EQ(extension_of(*usual), extension_of(format));
+    EXPECT_EQ(shares_extension(format), extension_of(format) == ".msh") << name_of(format);
     EXPECT_TRUE(titles.insert(title_of(format)).second) << title_of(format);
   }
 }

@@ -48,7 +48,7 @@ TEST(Stl, ReadsBinaryThatBeginsWithSolid) {
   EXPECT_EQ(read_surface(file_with("a.stl", content)).surface.mesh.triangles.size(), 2u);
 }
 
-TEST(Stl, BadInput_Row34_CountBeyondTheFile) {
+TEST(Stl, CountBeyondTheFile) {
   const auto huge = file_with("a.stl", binary_stl(1u << 31, 1));
   expect_refusal(huge, [&] { read_surface(huge); }, {"2147483648"});
   const auto cut = file_with("a.stl", binary_stl(3, 2));
@@ -57,7 +57,7 @@ TEST(Stl, BadInput_Row34_CountBeyondTheFile) {
   expect_refusal(head, [&] { read_surface(head); }, {"84 bytes"});
 }
 
-TEST(Stl, BadInput_Row34_AsciiCutShort) {
+TEST(Stl, AsciiCutShort) {
   const std::string text(ascii);
   for (const std::size_t length :
        {text.find("endsolid"), text.find("vertex 0 2.5"), text.find("2.5e0") + 1}) {
@@ -66,7 +66,7 @@ TEST(Stl, BadInput_Row34_AsciiCutShort) {
   }
 }
 
-TEST(Stl, BadInput_Row35_KeepsNanForTheCount) {
+TEST(Stl, CoordinatesThatAreNoNumbersAreKeptAndCounted) {
   std::string content = binary_stl(2, 2);
   const float nan = std::nanf("");
   std::memcpy(content.data() + 84 + 12, &nan, 4);
@@ -74,7 +74,7 @@ TEST(Stl, BadInput_Row35_KeepsNanForTheCount) {
   EXPECT_EQ(geometry::find_faults(mesh, false).non_finite_points, 1u);
 }
 
-TEST(Stl, BadInput_Row36_GermanLocale) {
+TEST(Stl, AGermanLocaleChangesNothing) {
   const std::string before = std::setlocale(LC_ALL, nullptr);
   if (!std::setlocale(LC_ALL, "de_DE.UTF-8")) GTEST_SKIP() << "needs the locale de_DE.UTF-8";
   const auto mesh = read_surface(file_with("a.stl", ascii)).surface.mesh;

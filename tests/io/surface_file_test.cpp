@@ -22,7 +22,7 @@ TEST(SurfaceFile, RefusesToLoseFaceNames) {
   EXPECT_FALSE(std::filesystem::exists(folder / "a.stl"));
 }
 
-TEST(SurfaceFile, BadInput_Row01_EmptyFile) {
+TEST(SurfaceFile, EmptyFile) {
   for (const std::string name : {"a.stl", "a.ply", "a.obj", "a.vtp"}) {
     const auto path = file_with(name, "");
     expect_refusal(path, [&] { read_surface(path); }, {"empty"});
@@ -36,7 +36,7 @@ TEST(SurfaceFile, NamesWhatItCannotRead) {
   expect_refusal("a.xyz", [&] { write_surface(path, tetrahedron_surface()); }, {".vtp"});
 }
 
-TEST(SurfaceFile, BadInput_Row36_LongPathsWithSpacesAndUtf8) {
+TEST(SurfaceFile, LongPathsWithSpacesAndUtf8) {
   const auto folder = testing::temporary_folder("io") / "Gef\xc3\xa4\xc3\x9f e";
   std::filesystem::create_directory(folder);
   for (const std::string end : {".vtp", ".ply", ".stl"}) {
@@ -46,7 +46,7 @@ TEST(SurfaceFile, BadInput_Row36_LongPathsWithSpacesAndUtf8) {
   }
 }
 
-TEST(SurfaceFile, BadInput_Row37_ReadOnlyFolderKeepsTheOldFile) {
+TEST(SurfaceFile, ReadOnlyFolderKeepsTheOldFile) {
   const auto file = testing::temporary_folder("io") / "file";
   core::write_file(file, "mine");
   EXPECT_THROW(write_surface(file / "a.vtp", tetrahedron_surface()), IoError);

@@ -1,5 +1,7 @@
 #include "ostia/meshing/flat_caps.h"
 
+#include "thick_walls.h"
+
 #include "ostia/core/error.h"
 #include "ostia/geometry/analytic_shapes.h"
 #include "ostia/geometry/mesh_topology.h"
@@ -137,6 +139,45 @@ TEST(FlatCaps, RefusesWhatDoesNotBelongTogether) {
   FlatCapOptions options;
   options.flat_tolerance = 0.0;
   EXPECT_THROW(without_flat_caps(capped_y(), options), InvalidInput);
+}
+
+TEST(FlatCaps, ShapeIsNotAskedWhereLabelsAloneCount) {
+  FlatCapOptions labels_alone;
+  labels_alone.by_shape = false;
+  EXPECT_EQ(without_flat_caps(capped_y(), labels_alone).ends.size(), 3u);
+  EXPECT_TRUE(without_flat_caps(without_labels(capped_y()), labels_alone).ends.empty());
+}
+
+TEST(FlatRings, JoinALumenToTheOutsideOfItsWall) {
+  const auto of = [](double parent, double child) {
+    return geometry::surface_of(geometry::y_junction(20.0, 15.0, parent, child, 60.0), 0.4, true);
+  };
+  const TriMesh lumen = of(2.0, 1.5), outside = of(2.6, 2.1);
+  FacedSurface shell{testing::thick_walled(lumen, outside), {}, {}};
+  const OpenedRings opened = without_flat_rings(shell);
+  ASSERT_EQ(opened.ends.size(), 3u);
+  EXPECT_NEAR(geometry::area(opened.walls), geometry::area(lumen) + geometry::area(outside),
+              1e-9 * geometry::area(outside));
+  for (const GivenEnd& end : opened.ends) {
+    const bool parent = end.centre.z() < -10.0;
+    EXPECT_NEAR(end.radius_mm, parent ? 2.0 : 1.5, 0.03);
+    if (parent) {
+      EXPECT_NEAR(end.normal.z(), -1.0, 1e-6);
+    }
+  }
+  // A ring's label names its end.
+  shell.face_ids.assign(shell.mesh.triangles.size(), 1);
+  for (std::size_t t = lumen.triangles.size() + outside.triangles.size(); t < shell.face_ids.size(); ++t)
+    shell.face_ids[t] = 2;
+  shell.faces = {{1, "wall", geometry::FaceKind::wall}, {2, "cap_LAD", geometry::FaceKind::outlet}};
+  EXPECT_EQ(without_flat_rings(shell).ends.at(0).name, "LAD");
+}
+
+TEST(FlatRings, ACappedLumenHasNone) {
+  EXPECT_TRUE(without_flat_rings(capped_y()).ends.empty());
+  FlatCapOptions bad;
+  bad.least_rim_deg = 1.0;
+  EXPECT_THROW(without_flat_rings(capped_y(), bad), InvalidInput);
 }
 
 }  // namespace

@@ -146,7 +146,7 @@ TEST_F(MotionFitting, EachPhaseHasItsPartOfTheProgress) {
   EXPECT_EQ(task.progress(), 1.0);
 }
 
-TEST_F(MotionFitting, BadInput_Row29_MarksAndBridgesAGap) {
+TEST_F(MotionFitting, MarksAndBridgesAGap) {
   std::vector<PhaseSurface> phases = beating_tree(8);
   phases.erase(phases.begin() + 2);
   const MotionFit fit = fit_motion(phases, coarse());

@@ -117,7 +117,7 @@ TEST_F(InImages, AreFittedAsSurfacesAre) {
 }
 
 // Each on a grid of its own, one of them turned.
-TEST_F(InImages, BadInput_Row29_MayLieOnUnequalGrids) {
+TEST_F(InImages, MayLieOnUnequalGrids) {
   imaging::Geometry turned = beating_grid(1.0);
   const Vec3 middle =
       turned.world(0.5 * Vec3(static_cast<double>(turned.size[0]), static_cast<double>(turned.size[1]),
@@ -165,7 +165,7 @@ Image short_image(double phase) {
       whole, {{0, 0, 0}, {whole.geometry.size[0], whole.geometry.size[1], whole.geometry.size[2] / 3}}));
 }
 
-TEST_F(InImages, BadInput_Row29_MarksAPhaseWithoutTheVesselAndGoesOn) {
+TEST_F(InImages, MarksAPhaseWithoutTheVesselAndGoesOn) {
   std::vector<PhaseView> views = beating_views({0.75, 0.0, 0.5, 0.625});
   views.push_back(view_of(0.875, empty_image()));
   views.push_back(view_of(0.375, short_image(0.375)));

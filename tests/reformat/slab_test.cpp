@@ -3,11 +3,13 @@
 #include "row_loops.h"
 #include "row_sampler.h"
 
+#include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
 #include "ostia/reformat/plane_image.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <random>
@@ -191,6 +193,44 @@ TEST(RowLoops, FoldsLetNumbersWinOverNone) {
       EXPECT_EQ(low[i], std::fmin(layer[i], out[i]));
     }
   }
+}
+
+// A layer whose values bend little within a pixel looks the same coarsely, to what linear steps miss.
+TEST(SlabDraft, IsTheSlabButForDetailsOfAPixel) {
+  const imaging::ImageVolume image = analytic();
+  const Plane plane = oblique_plane(image);
+  for (const Slab slab : {Slab::mean, Slab::maximum, Slab::minimum}) {
+    const PlaneImage whole = slab_slice(image, plane, slab, 6.0), draft = slab_draft(image, plane, slab, 6.0);
+    ASSERT_EQ(draft.values.size(), whole.values.size());
+    EXPECT_EQ(draft.plane.pixel_mm, plane.pixel_mm);
+    double off = 0.0, largest = 0.0;
+    int both = 0, one = 0;
+    for (std::size_t i = 0; i < whole.values.size(); ++i) {
+      if (std::isnan(whole.values[i]) || std::isnan(draft.values[i])) {
+        if (std::isnan(whole.values[i]) != std::isnan(draft.values[i])) ++one;
+        continue;
+      }
+      off += std::abs(whole.values[i] - draft.values[i]);
+      largest = std::max<double>(largest, std::abs(whole.values[i]));
+      ++both;
+    }
+    EXPECT_GT(both, 1500);
+    EXPECT_LT(one, both / 10);  // at the image's border
+    EXPECT_LT(off / both, 0.02 * largest);
+  }
+}
+
+TEST(SlabDraft, HasThePlanesSizeWhateverItIs) {
+  const imaging::ImageVolume image = analytic();
+  Plane plane = oblique_plane(image);
+  for (const auto& [width, height] : {std::pair(1, 1), {2, 1}, {7, 5}, {8, 6}}) {
+    plane.width = width;
+    plane.height = height;
+    const PlaneImage draft = slab_draft(image, plane, Slab::maximum, 4.0);
+    EXPECT_EQ(draft.values.size(), static_cast<std::size_t>(width * height));
+  }
+  EXPECT_THROW(slab_draft(image, plane, Slab::maximum, 0.0), InvalidInput);
+  EXPECT_THROW(slab_draft({}, plane, Slab::maximum, 4.0), InvalidInput);
 }
 
 }  // namespace

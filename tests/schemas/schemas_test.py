@@ -46,7 +46,7 @@ class Experiments(Refusing):
 
     def test_experiment_smoothness(self):
         out = pathlib.Path(self.holder.name) / "smoothness"
-        printed = json.loads(run("experiment", "smoothness", "-o", out, "--orientations", "1", "--levels", "1", "--json"))
+        printed = json.loads(run("experiment", "smoothness", "-o", out, "--orientations", "1", "--levels", "1", "--sample", "1", "--json"))
         validator("experiment-smoothness").validate(printed)
         self.assertEqual(printed, json.loads((out / "experiment.json").read_text()))
         self.assert_refused("experiment-smoothness", {"v": 1, "kind": "smoothness"})

@@ -5,11 +5,13 @@
 
 #include "ostia/core/error.h"
 #include "ostia/imaging/image_file.h"
+#include "ostia/phantom/moving_case.h"
 #include "ostia/session/case_report.h"
 #include "ostia/session/found_model.h"
 
 #include <gmock/gmock.h>
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <set>
@@ -54,6 +56,31 @@ bool is_true_lesion(const phantom::CoronaryTree& tree, const ReportStenosis& one
   return false;
 }
 
+/// Grades true lesions alone, and names missing arteries, on page 1 too.
+void expect_nothing_untrue(const CaseReport& report, const phantom::CoronaryTree& tree) {
+  std::set<std::string> names;
+  for (const ReportVessel& vessel : report.vessels) names.insert(vessel.name);
+  std::string missing;
+  for (const std::string& one : report.not_found) missing += one + "\n";
+  for (const char* artery : {"LAD", "LCX", "RCA"})
+    if (!names.count(artery)) {
+      EXPECT_THAT(missing, HasSubstr(artery));
+    }
+  const std::string document = report_html(report, {}),
+                    page_1 = document.substr(0, document.find("Stenoses</h2>"));
+  ASSERT_LT(page_1.size(), document.size());
+  for (const std::string& one : report.not_found)
+    EXPECT_THAT(page_1, HasSubstr(one.substr(0, one.find(": not found")) + ": not found"));
+  for (const ReportStenosis& one : report.stenoses) {
+    if (!one.graded || one.stenosis.diameter_percent < counts_percent) continue;
+    const analysis::LumenProfile& profile = report.profiles.at(one.stenosis.vessel);
+    EXPECT_TRUE(is_true_lesion(tree, one, analysis::at(profile, one.stenosis.throat_mm).centroid));
+  }
+  if (!report.not_found.empty()) {
+    EXPECT_TRUE(report.category.not_diagnostic);
+  }
+}
+
 TEST_P(BadScans, GradeTrueLesionsAloneAndNameWhatIsMissing) {
   phantom::CaseOptions patient;
   patient.preset = phantom::Preset::small;
@@ -62,22 +89,7 @@ TEST_P(BadScans, GradeTrueLesionsAloneAndNameWhatIsMissing) {
   const imaging::ImageVolume image = ostia::testing::kept_scan(plan).image;
   const auto report = report_of_scan(image);
   if (!report) return;  // nothing is graded
-  std::set<std::string> names;
-  for (const ReportVessel& vessel : report->vessels) names.insert(vessel.name);
-  std::string missing;
-  for (const std::string& one : report->not_found) missing += one + "\n";
-  for (const char* artery : {"LAD", "LCX", "RCA"})
-    if (!names.count(artery)) {
-      EXPECT_THAT(missing, HasSubstr(artery));
-    }
-  for (const ReportStenosis& one : report->stenoses) {
-    if (!one.graded || one.stenosis.diameter_percent < counts_percent) continue;
-    const analysis::LumenProfile& profile = report->profiles.at(one.stenosis.vessel);
-    EXPECT_TRUE(is_true_lesion(plan.tree, one, analysis::at(profile, one.stenosis.throat_mm).centroid));
-  }
-  if (!report->not_found.empty()) {
-    EXPECT_TRUE(report->category.not_diagnostic);
-  }
+  expect_nothing_untrue(*report, plan.tree);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -104,6 +116,74 @@ INSTANTIATE_TEST_SUITE_P(
                                 o.variant.anatomy = phantom::Anatomy::right_ostium_closed;
                               }}),
     [](const auto& test) { return std::string(test.param.name); });
+
+/// Slabs of a scan: voxels [from, to) of each axis, as shares of its size.
+imaging::ImageVolume part_of(const imaging::ImageVolume& image, const geometry::Vec3& from,
+                             const geometry::Vec3& to) {
+  std::array<std::int64_t, 3> first{}, size{};
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto all = static_cast<double>(image.geometry.size[axis]);
+    first[axis] = std::lround(from[axis] * all);
+    size[axis] = std::lround(to[axis] * all) - first[axis];
+  }
+  imaging::ImageVolume out;
+  out.geometry = image.geometry;
+  out.geometry.size = size;
+  out.geometry.origin = image.geometry.world(
+      {static_cast<double>(first[0]), static_cast<double>(first[1]), static_cast<double>(first[2])});
+  for (std::int64_t k = 0; k < size[2]; ++k)
+    for (std::int64_t j = 0; j < size[1]; ++j)
+      for (std::int64_t i = 0; i < size[0]; ++i)
+        out.voxels.push_back(image(first[0] + i, first[1] + j, first[2] + k));
+  return out;
+}
+
+struct CutScan {
+  const char* name;
+  geometry::Vec3 from, to;
+  bool has_root;  ///< the aorta's root lies in it
+};
+
+class CutScans : public ::testing::TestWithParam<CutScan> {};
+
+TEST_P(CutScans, AreRefusedOrNameWhatTheyDoNotShow) {
+  phantom::CaseOptions patient;
+  patient.preset = phantom::Preset::small;
+  const phantom::CasePlan plan = phantom::plan_case(patient);
+  const imaging::ImageVolume image =
+      part_of(ostia::testing::kept_scan(plan).image, GetParam().from, GetParam().to);
+  const auto report = report_of_scan(image);
+  if (!report) return;  // nothing is graded
+  expect_nothing_untrue(*report, plan.tree);
+  EXPECT_TRUE(GetParam().has_root || report->category.not_diagnostic);
+  for (const ReportStenosis& one : report->stenoses) {
+    EXPECT_TRUE(GetParam().has_root || !one.graded) << one.vessel_name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, CutScans,
+                         ::testing::Values(CutScan{"UpperHalf", {0.0, 0.0, 0.5}, {1.0, 1.0, 1.0}, true},
+                                           CutScan{"LeftHalf", {0.5, 0.0, 0.0}, {1.0, 1.0, 1.0}, true},
+                                           CutScan{"RightHalf", {0.0, 0.0, 0.0}, {0.5, 1.0, 1.0}, true},
+                                           CutScan{"RootOutside", {0.0, 0.0, 0.0}, {1.0, 1.0, 0.5}, false}),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+/// In the middle of systole, and blurred by the heart's own motion meanwhile.
+TEST(BadScans, TheWrongPhaseIsGradedWhereItIsTrueAlone) {
+  phantom::CaseOptions patient;
+  patient.preset = phantom::Preset::small;
+  patient.scan.motion_mm = 4.0;
+  const phantom::CasePlan plan = phantom::plan_case(patient);
+  const phantom::BeatPhase systole = phantom::heartbeat_of(plan).phase(20.0);
+  const phantom::Body body(plan.heart, plan.tree, phantom::body_of(plan.options));
+  phantom::CoronaryTree moved = plan.tree;
+  for (phantom::CoronaryVessel& vessel : moved.vessels)
+    for (geometry::Vec3& place : vessel.axis.points) place = systole.at(place);
+  const auto report = report_of_scan(phantom::scan_phase(plan, body, systole).image);
+  if (!report) return;
+  expect_nothing_untrue(*report, moved);
+  EXPECT_NE(report->quality->grade, ScanGrade::good);
+}
 
 TEST(BadScansReal, OfADissectedAortaInWideVoxelsNothingIsGraded) {
   OSTIA_REQUIRE_SHARED(path, "cta/totalsegmentator-aorta-cta/ct_cropped.nii.gz");

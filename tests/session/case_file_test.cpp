@@ -10,6 +10,7 @@
 #include <sys/wait.h>
 
 #include <csignal>
+#include <cstdlib>
 
 namespace ostia::session {
 namespace {
@@ -379,6 +380,42 @@ TEST(CaseFile, NetworkFileSystemsGetARollbackJournal) {
     EXPECT_EQ(opened.database.text_of("PRAGMA synchronous"), "2");
     EXPECT_EQ(opened.database.text_of("PRAGMA locking_mode"), "exclusive");
   }
+}
+
+TEST(CaseSteps, HaveATimeAndTheNameThatWasGivenAlone) {
+  const TempFolder folder;
+  const char* user = std::getenv("USER");
+  const std::string before = user ? user : "";
+  ::setenv("USER", "account-of-the-system", 1);
+  ::setenv("SOURCE_DATE_EPOCH", "1767225600", 1);
+  {
+    CaseFile file = CaseFile::create(folder / "a.ostia", tube_model());
+    file.apply(ring(10.0, 1.8));
+    file.set_author("Dr. A");
+    file.apply(renamed("two"));
+    EXPECT_THROW(file.set_author("a\nb"), InvalidInput);
+    EXPECT_THROW(file.set_author(std::string(201, 'a')), InvalidInput);
+  }
+  ::unsetenv("SOURCE_DATE_EPOCH");
+  user ? ::setenv("USER", before.c_str(), 1) : ::unsetenv("USER");
+  CaseFile file = CaseFile::open(folder / "a.ostia");
+  file.undo();
+  const std::vector<JournalEntry> journal = file.journal();
+  ASSERT_EQ(journal.size(), 4U);
+  EXPECT_EQ(journal[1].author, "");
+  EXPECT_EQ(journal[2].author, "Dr. A");
+  EXPECT_EQ(journal[2].time_s, 1767225600);
+  EXPECT_NE(journal[3].time_s, 1767225600);
+  EXPECT_EQ(journal[3].author, "") << "a name is of this session, not of the case";
+  EXPECT_EQ(bytes_of_file(folder / "a.ostia").find("account-of-the-system"), std::string::npos);
+}
+
+TEST(CaseSteps, ATimeThatWasChangedIsDamage) {
+  const TempFolder folder;
+  { CaseFile::create(folder / "a.ostia", tube_model()).apply(ring(10.0, 1.8)); }
+  Database((folder / "a.ostia").string(), SQLITE_OPEN_READWRITE, "")
+      .execute("UPDATE step_stamp SET time_s = 1");
+  EXPECT_THROW(CaseFile::open(folder / "a.ostia"), InvalidInput);
 }
 
 }  // namespace

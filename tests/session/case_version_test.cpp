@@ -37,7 +37,7 @@ class CaseVersion : public ::testing::Test {
     }
     case_version_sql(path,
                      "DROP TABLE annotation; DROP TABLE measurement; DROP TABLE mark; DROP TABLE "
-                     "evaluability; DROP TABLE lesion; PRAGMA user_version = 1");
+                     "evaluability; DROP TABLE lesion; DROP TABLE step_stamp; PRAGMA user_version = 1");
     ASSERT_EQ(version_of(path), "1");
     bytes = bytes_of_file(path);
   }
@@ -111,7 +111,8 @@ TEST(CaseOfVersionTwo, KeepsItsMarksAndGetsTheReadersWord) {
     CaseFile file = CaseFile::create(path, tube_model());
     file.annotate(plain);
   }
-  case_version_sql(path, "DROP TABLE evaluability; DROP TABLE lesion; PRAGMA user_version = 2");
+  case_version_sql(
+      path, "DROP TABLE evaluability; DROP TABLE lesion; DROP TABLE step_stamp; PRAGMA user_version = 2");
   CaseFile file = CaseFile::open(path);
   ASSERT_EQ(file.annotations()->marks.size(), 1U);
   EXPECT_TRUE(same(file.annotations()->marks[0], plain.mark));
@@ -133,7 +134,7 @@ TEST(CaseOfVersionThree, KeepsTheReadersWordAndGetsThatOnLesions) {
     CaseFile file = CaseFile::create(path, tube_model());
     file.annotate(older);
   }
-  case_version_sql(path, "DROP TABLE lesion; PRAGMA user_version = 3");
+  case_version_sql(path, "DROP TABLE lesion; DROP TABLE step_stamp; PRAGMA user_version = 3");
   {
     CaseFile file = CaseFile::open(path);
     ASSERT_EQ(file.annotations()->marks.size(), 1U);
@@ -146,6 +147,25 @@ TEST(CaseOfVersionThree, KeepsTheReadersWordAndGetsThatOnLesions) {
   EXPECT_TRUE(same(file.annotations()->marks[0], older.mark));
   ASSERT_TRUE(file.redo());
   EXPECT_TRUE(same(file.annotations()->marks[0], marked("seen").mark));
+}
+
+TEST(CaseOfVersionFour, GetsTimesAndNamesFromTheNextStepOn) {
+  const TempFolder folder;
+  const fs::path path = folder / "a.ostia";
+  {
+    CaseFile file = CaseFile::create(path, tube_model());
+    file.apply(ring(10.0, 1.8));
+  }
+  case_version_sql(path, "DROP TABLE step_stamp; PRAGMA user_version = 4");
+  CaseFile file = CaseFile::open(path);
+  file.set_author("Dr. A");
+  file.apply(renamed("two"));
+  const std::vector<JournalEntry> journal = file.journal();
+  ASSERT_EQ(journal.size(), 3U);
+  EXPECT_EQ(journal[1].time_s, 0);
+  EXPECT_EQ(journal[1].author, "");
+  EXPECT_GT(journal[2].time_s, 1700000000);
+  EXPECT_EQ(journal[2].author, "Dr. A");
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ struct Shown : ShownScene {
   Shown() {
     scene.set_guest(mesh);
     scene.set_pose(pose_from(ViewFrom::anterior, {4, 4, 4}, 10.0));
-    mesh->set_edges_shown(false);
+    mesh->set_edges(ShownEdges::never);
   }
   /// Elements left of the middle have the first value, the others the last.
   std::shared_ptr<const std::vector<double>> halves() const {
@@ -79,13 +79,13 @@ TEST(MeshSceneGui, TheSameCutAgainChangesNothingAndTheOutlineIsOfTheWholeMesh) {
 TEST(MeshSceneGui, EdgesAndAHighlightAreSeenThroughTheMesh) {
   Shown shown;
   const Shot bare = shown.shoot();
-  shown.mesh->set_edges_shown(true);
+  shown.mesh->set_edges(ShownEdges::always);
   int darker = 0;
   const Shot edged = shown.shoot();
   for (std::size_t i = 0; i < bare.pixels.size(); ++i)
     darker += edged.pixels[i].brightness() < bare.pixels[i].brightness() - 150 ? 1 : 0;
   EXPECT_GT(darker, 500);
-  shown.mesh->set_edges_shown(false);
+  shown.mesh->set_edges(ShownEdges::never);
   const std::size_t inside = 6 * (2 * 16 + 2 * 4 + 2);  // in the cube from (4, 4, 4) to (6, 6, 6)
   shown.mesh->set_highlight(std::span(&inside, 1));
   const Shot marked = shown.shoot();
@@ -99,6 +99,24 @@ TEST(MeshSceneGui, EdgesAndAHighlightAreSeenThroughTheMesh) {
   EXPECT_GT(pink, 30);
   shown.mesh->set_highlight({});
   EXPECT_EQ(shown.shoot().painted(), bare.painted());
+}
+
+TEST(MeshSceneGui, EdgesAreDrawnWhereTheyAreNear) {
+  Shown shown;
+  shown.mesh->set_edges(ShownEdges::near);
+  // Cubes of 2 mm; half of the first edges of their sides are as long.
+  const auto drawn_at = [&](double edge_px) {
+    shown.scene.set_pose(pose_from(ViewFrom::anterior, {4, 4, 4}, 150.0 * 2.0 / edge_px));
+    EXPECT_GT(shown.shoot().painted(), 20);
+    return shown.mesh->edges_drawn();
+  };
+  EXPECT_FALSE(drawn_at(0.6 * MeshScene::least_edge_px));
+  EXPECT_TRUE(drawn_at(1.2 * MeshScene::least_edge_px));
+  EXPECT_FALSE(drawn_at(3.0));
+  shown.mesh->set_edges(ShownEdges::always);
+  EXPECT_TRUE(drawn_at(3.0));
+  shown.mesh->set_edges(ShownEdges::never);
+  EXPECT_FALSE(drawn_at(30.0));
 }
 
 TEST(MeshSceneGui, RefusesWhatDoesNotBelongToTheMesh) {

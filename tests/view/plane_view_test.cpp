@@ -251,5 +251,63 @@ TEST(SliceView, ShowsALumenThatReachesFartherThanItsRadius) {
   }
 }
 
+/// A slice of a thick slab that is worth a draft.
+struct ThickSlice {
+  TubeCase tube;
+  SliceView slice{tube.bench, SliceKind::axial};
+  ThickSlice() {
+    slice.set_size(500, 400, 1.0);
+    tube.bench.slab.set(reformat::Slab::maximum);
+    tube.bench.slab_mm.set(20.0);
+  }
+  /// Its image, -9999 where there is none.
+  std::vector<float> values() {
+    std::vector<float> out = slice.image().values;
+    for (float& value : out)
+      if (std::isnan(value)) value = -9999.0F;
+    return out;
+  }
+};
+
+TEST(SliceView, AThickSlabIsCoarseWhileItMovesAndWholeAtRest) {
+  ThickSlice thick;
+  thick.slice.allow_drafts();
+  const std::vector<float> coarse = thick.values();
+  EXPECT_TRUE(thick.slice.is_draft());
+  thick.slice.refine();
+  const std::vector<float> whole = thick.values();
+  EXPECT_FALSE(thick.slice.is_draft());
+  EXPECT_EQ(coarse.size(), whole.size());
+  EXPECT_NE(coarse, whole);
+  thick.slice.scroll(1.0);
+  thick.slice.image();
+  EXPECT_TRUE(thick.slice.is_draft());
+}
+
+TEST(SliceView, DraftsAreForThoseWhoAskForThem) {
+  ThickSlice thick, other;
+  const std::vector<float> whole = thick.values();
+  EXPECT_FALSE(thick.slice.is_draft());
+  const std::uint64_t revision = thick.slice.image_revision();
+  thick.slice.refine();  // nothing to refine
+  thick.slice.image();
+  EXPECT_EQ(thick.slice.image_revision(), revision);
+  other.slice.allow_drafts();
+  other.slice.image();
+  other.slice.refine();
+  EXPECT_EQ(other.values(), whole);
+}
+
+TEST(SliceView, WhatIsQuickIsNeverADraft) {
+  ThickSlice thick;
+  thick.slice.allow_drafts();
+  thick.tube.bench.slab_mm.set(1.0);
+  thick.slice.image();
+  EXPECT_FALSE(thick.slice.is_draft());
+  thick.tube.bench.slab.set(reformat::Slab::none);
+  thick.slice.image();
+  EXPECT_FALSE(thick.slice.is_draft());
+}
+
 }  // namespace
 }  // namespace ostia::view

@@ -105,9 +105,9 @@ TEST(VolumeSceneGui, ModesShowWhatTheyShould) {
   const Shot rendering = shown.shoot();
   EXPECT_GT(rendering.at(at).brightness(), rendering.background().brightness() + 60);
   EXPECT_LT(rendering.at(beside).difference(rendering.background()), 15);
-  shown.scene.set_volume_window(1500.0, 800.0);  // nothing in the image is as dense as that
+  shown.scene.set_volume_look({VolumePreset::vessels, 1250.0, 1.0});  // nothing is as dense as that
   EXPECT_EQ(shown.shoot().painted(), 0);
-  shown.scene.set_volume_window(250.0, 800.0);
+  shown.scene.set_volume_look({});
   EXPECT_GT(shown.shoot().painted(), 100);
   shown.scene.set_volume(nullptr);
   EXPECT_EQ(shown.shoot().painted(), 0);
@@ -194,6 +194,94 @@ TEST(VolumeSceneGui, RefusesImagesThatCannotBeShown) {
   EXPECT_THROW(scene.set_image(with_landmarks(flat, {}, 0)), InvalidInput);
   EXPECT_FALSE(scene.has_image());
   EXPECT_THROW(scene.set_window(100.0, -1.0), InvalidInput);
+}
+
+TEST(VolumeSceneGui, ABoxLeavesWhatIsInIt) {
+  imaging::Geometry grid;
+  grid.size = {60, 40, 50};
+  grid.origin = {-30.0, -20.0, -25.0};
+  ShownScene shown;
+  shown.scene.set_volume_mode(VolumeMode::rendering);
+  // One at the patient's right, one at the left, one low.
+  shown.scene.set_volume(with_landmarks(grid, {{10, 20, 25}, {50, 20, 25}, {30, 20, 6}}, 900));
+  shown.scene.set_pose(pose_from(ViewFrom::anterior, grid.world({29.5, 19.5, 24.5}), 35.0));
+  const auto seen = [&](const std::array<int, 3>& voxel) {
+    const Shot shot = shown.shoot();
+    return shot.at(shown.scene.project(grid.world(Vec3(voxel[0], voxel[1], voxel[2]))))
+               .difference(shot.background()) > 60;
+  };
+  EXPECT_TRUE(seen({10, 20, 25}) && seen({50, 20, 25}) && seen({30, 20, 6}));
+  shown.scene.set_volume_crop({{0.0, 0.0, 0.3}, {0.5, 1.0, 1.0}});
+  EXPECT_TRUE(seen({10, 20, 25}));
+  EXPECT_FALSE(seen({50, 20, 25}));
+  EXPECT_FALSE(seen({30, 20, 6}));
+  shown.scene.set_volume_crop({});
+  EXPECT_TRUE(seen({10, 20, 25}) && seen({50, 20, 25}) && seen({30, 20, 6}));
+}
+
+TEST(VolumeSceneGui, ALineOverThePictureCutsWhatLiesBehindIt) {
+  imaging::Geometry grid;
+  grid.size = {40, 40, 40};
+  ShownScene shown;
+  shown.scene.set_pose(pose_of_carm({35.0, -20.0}, grid.world({19.5, 19.5, 19.5}), 30.0));
+  shown.shoot();
+  const std::vector<Vec2> line{{150.0, 100.0}, {250.0, 110.0}, {240.0, 190.0}, {160.0, 180.0}};
+  imaging::MaskVolume mask{grid, std::vector<std::uint8_t>(static_cast<std::size_t>(grid.voxels()), 1)};
+  cut_away(mask, shown.scene.cut_along(line, false));
+  const auto left_of = [](const Vec2& a, const Vec2& b, const Vec2& at) {
+    return (b - a).x() * (at - a).y() - (b - a).y() * (at - a).x() > 0.0;
+  };
+  std::int64_t gone = 0;
+  for (std::int64_t k = 0; k < 40; ++k)
+    for (std::int64_t j = 0; j < 40; ++j)
+      for (std::int64_t i = 0; i < 40; ++i) {
+        const Vec2 at = shown.scene.project(
+            grid.world({static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)}));
+        bool inside = true;
+        for (std::size_t n = 0; n < 4; ++n) inside = inside && left_of(line[n], line[(n + 1) % 4], at);
+        gone += inside ? 1 : 0;
+        ASSERT_EQ(mask(i, j, k), inside ? 0 : 1);
+      }
+  EXPECT_GT(gone, 1000);
+  EXPECT_THROW(shown.scene.cut_along({{0.0, 0.0}, {1.0, 1.0}}, false), InvalidInput);
+}
+
+TEST(VolumeSceneGui, AnglesAndALineAreDrawnWhenTheyAreAskedFor) {
+  ShownScene shown;
+  EXPECT_EQ(shown.shoot().painted(), 0);
+  shown.scene.set_angles_shown(true);
+  const int letters = shown.shoot().painted();
+  EXPECT_GT(letters, 20);
+  shown.scene.set_lasso({{100.0, 100.0}, {200.0, 100.0}, {150.0, 180.0}});
+  EXPECT_GT(shown.shoot().painted(), letters + 200);
+  shown.scene.set_lasso({});
+  EXPECT_EQ(shown.shoot().painted(), letters);
+}
+
+TEST(VolumeSceneGui, LightFromAllSidesDarkensWhereItIsLess) {
+  imaging::Geometry grid;
+  grid.size = {60, 40, 50};
+  ShownScene shown;
+  shown.scene.set_volume_mode(VolumeMode::rendering);
+  const auto image = with_landmarks(grid, {{10, 20, 25}, {50, 20, 25}}, 900);
+  shown.scene.set_volume(image);
+  shown.scene.set_pose(pose_from(ViewFrom::anterior, grid.world({29.5, 19.5, 24.5}), 35.0));
+  std::vector<float> light(image->voxels.size(), 1.0F);
+  for (std::size_t n = 0; n < light.size(); ++n)
+    if (static_cast<std::int64_t>(n) % 60 > 30) light[n] = 0.1F;  // at the patient's left
+  shown.scene.set_volume_light(std::make_shared<const std::vector<float>>(light));
+  const auto bright = [&](double i) {
+    const Shot shot = shown.shoot();
+    return shot.at(shown.scene.project(grid.world(Vec3(i, 20.0, 25.0)))).brightness() -
+           shot.background().brightness();
+  };
+  const int dark = bright(50.0);
+  EXPECT_GT(dark, 20) << "it is there";
+  EXPECT_GT(bright(10.0), dark + 60);
+  light.pop_back();
+  EXPECT_THROW(shown.scene.set_volume_light(std::make_shared<const std::vector<float>>(light)), InvalidInput);
+  shown.scene.set_volume_light(nullptr);
+  EXPECT_GT(bright(50.0), dark + 60) << "the lamps alone make no difference";
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include "flow/cases.h"
 #include "flow_window.h"
+#include "meshing/dialog.h"
+#include "views/picture_widget.h"
 
 #include "ostia/core/child_process.h"
 #include "ostia/solver/openfoam_launch.h"
@@ -9,11 +11,13 @@
 #include <gtest/gtest.h>
 
 #include <QCheckBox>
+#include <QDockWidget>
 #include <QDoubleSpinBox>
 #include <QPointer>
 #include <QToolButton>
 #include <QTreeWidget>
 #include <chrono>
+#include <cstdlib>
 #include <fstream>
 #include <numbers>
 #include <sstream>
@@ -85,7 +89,7 @@ TEST_F(FlowCaseWindow, TheDialogListsTheEndsAndSaysWhatIsWrong) {
   EXPECT_FALSE(go->isEnabled());
   type(part<QDoubleSpinBox>("flow_ml_s", dialog), "0.5");
   EXPECT_TRUE(trouble("flow").isEmpty());
-  EXPECT_EQ(ends->topLevelItem(1)->text(2), "0.5 ml/s");
+  EXPECT_EQ(ends->topLevelItem(1)->text(2), "0.500 ml/s");
   pick(part<QComboBox>("flow_outlets", dialog), 1);
   EXPECT_EQ(ends->topLevelItem(1)->text(2), "computed");
   pick(part<QComboBox>("flow_outlets", dialog), 0);
@@ -213,6 +217,102 @@ TEST_F(FlowCaseWindow, ARunThatEndsOverAnotherCaseLeavesALineAlone) {
   press();
   EXPECT_TRUE(wait_until([&] { return window().flow_results().shown(); }));
   EXPECT_TRUE(testing::open_boxes().empty());
+}
+
+TEST_F(FlowCaseWindow, LeftAndRightTreeAreTwoSystemsOfOneCase) {
+  const fs::path ran = folder / "ran";
+  write_solver(folder / "bin", "basename \"$PWD\" >> " + ran.string() + "\nexit 1\n");
+  const PathWith path(folder / "bin");
+  write_two_tubes();
+  const fs::path meshes = write_two_meshes("two-mesh");
+  open_case();
+  ask();
+  EXPECT_EQ(part<QLineEdit>("flow_mesh", dialog)->text().toStdString(), meshes.string());
+  EXPECT_EQ(part<QLineEdit>("folder", dialog)->text().toStdString(), (folder / "two-flow").string());
+  ASSERT_TRUE(ready());
+  auto* ends = part<QTreeWidget>("flow_ends", dialog);
+  ASSERT_EQ(ends->topLevelItemCount(), 4);
+  for (const int outlet : {1, 3})
+    EXPECT_EQ(ends->topLevelItem(outlet)->text(2), ends->topLevelItem(outlet - 1)->text(2))
+        << "what flows into a tree flows out of it";
+  QTest::mouseClick(part<QCheckBox>("flow_run", dialog), Qt::LeftButton);
+  EXPECT_FALSE(part<QCheckBox>("flow_run", dialog)->isChecked());
+  click_go();
+  ASSERT_TRUE(wait_until([&] { return idle() && !left_line("flow_run").isEmpty(); }));
+  for (const char* tree : {"LAD", "RCA"}) {
+    EXPECT_TRUE(fs::exists(folder / "two-flow" / tree / "Allrun")) << tree;
+    EXPECT_TRUE(fs::exists(folder / "two-flow" / tree / "flow-case.json")) << tree;
+  }
+  EXPECT_TRUE(fs::exists(folder / "two-flow" / "Allrun"));
+  EXPECT_NE(core::read_file(folder / "two-flow" / "Allrun").find("RCA"), std::string::npos);
+  // Its line runs it: the first one fails here, by name.
+  QTest::mouseClick(window().jobs().findChild<QToolButton*>("left.flow_run.act"), Qt::LeftButton);
+  const std::string text = message();
+  EXPECT_NE(text.find("LAD: "), std::string::npos) << text;
+  EXPECT_EQ(core::read_file(ran), "LAD\n");
+}
+
+TEST_F(FlowCaseWindow, AMeshFolderWithoutAMeshIsRefused) {
+  fs::create_directory(folder / "nothing");
+  open_case();
+  ask();
+  type(part<QLineEdit>("flow_mesh", dialog), QString::fromStdString((folder / "nothing").string()));
+  EXPECT_TRUE(wait_until([&] { return trouble("mesh").contains("no mesh.vtu"); }))
+      << trouble("mesh").toStdString();
+  EXPECT_FALSE(part<QPushButton>("go", dialog)->isEnabled());
+  QTest::keyClick(dialog, Qt::Key_Escape);
+}
+
+TEST_F(FlowCaseWindow, BothTreesAreMeshedRunAndShown) {
+  if (!openfoam_is_here()) GTEST_SKIP() << "openfoam is not installed";
+  write_two_tubes();
+  open_case();
+  part<QAction>("file.export_mesh")->trigger();
+  auto* export_dialog = window().findChild<MeshingDialog*>();
+  ASSERT_TRUE(export_dialog && QTest::qWaitForWindowExposed(export_dialog));
+  type(part<QDoubleSpinBox>("edges_around", export_dialog), "10");
+  QTest::mouseClick(part<QPushButton>("go", export_dialog), Qt::LeftButton);
+  auto* dock = part<QDockWidget>("mesh");
+  ASSERT_TRUE(wait_until([&] { return idle() && dock->isVisible(); }, 180000));
+  for (const char* tree : {"LAD", "RCA"})
+    EXPECT_TRUE(fs::exists(folder / "two-mesh" / tree / "mesh.vtu")) << tree;
+  ask();
+  EXPECT_EQ(part<QLineEdit>("flow_mesh", dialog)->text().toStdString(), (folder / "two-mesh").string());
+  ASSERT_TRUE(ready());
+  pick(part<QComboBox>("flow_kind", dialog), 1);
+  type(part<QDoubleSpinBox>("flow_ml_s", dialog), "0.5");
+  click_go();
+  ASSERT_TRUE(wait_until([&] { return idle() && window().flow_results().shown(); }, 240000))
+      << left_line("flow_run").toStdString();
+  EXPECT_TRUE(left_line("flow_run").contains("converged, LAD ")) << left_line("flow_run").toStdString();
+  EXPECT_TRUE(left_line("flow_run").contains(", RCA ")) << left_line("flow_run").toStdString();
+  look_from_front({4.0, 0.0, 20.0});
+  // Poiseuille's, 4 mu Q / (pi r^3), in both; a coarse mesh.
+  const double theory = 4.0 * 3.5e-3 * 0.5e-6 / (std::numbers::pi * std::pow(1e-3 * radius_mm, 3));
+  EXPECT_NEAR(value_told({0.2, -radius_mm, 20.0}), theory, 0.15 * theory);
+  EXPECT_NEAR(value_told({testing::second_tube_x_mm + 0.2, -radius_mm, 20.0}), theory, 0.15 * theory);
+  // And along each: the fall of pressure is 8 mu Q / (pi r^4), of which a decagon in the circle has 1.14.
+  const double slope = 2.0 * theory / radius_mm;  // Pa/mm
+  auto* profile = window().findChild<ProfileWidget*>();
+  for (const std::int32_t vessel : {4, 14}) {
+    test->bench().vessel.set(vessel);
+    settle();
+    const auto pressure_at = [&](double s) {
+      test->bench().cursor_mm.set(s);
+      for (const auto& text : profile->view().overlay().texts)
+        if (text.role == view::Role::pressure && text.text.find("Pa: ") != std::string::npos)
+          return std::stod(text.text.substr(text.text.find("Pa: ") + 4));
+      return std::nan("");
+    };
+    EXPECT_NEAR((pressure_at(10.0) - pressure_at(30.0)) / 20.0, slope, 0.25 * slope) << vessel;
+  }
+  if (const char* pictures = std::getenv("OSTIA_PICTURES")) {
+    const QRect all = window().frameGeometry();
+    window()
+        .screen()
+        ->grabWindow(0, all.x(), all.y(), all.width(), all.height())
+        .save(QString("%1/both_trees.png").arg(pictures));
+  }
 }
 
 TEST_F(FlowCaseWindow, ATubeIsWrittenRunAndItsShearStressShown) {

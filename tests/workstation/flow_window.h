@@ -94,6 +94,23 @@ struct FlowWindow : TubeWindow {
     io::export_mesh(tube_mesh(layers), io::MeshFormat::vtu, file);
     return file;
   }
+  /// A mesh of each of two trees, as an export of left and right artery leaves them.
+  fs::path write_two_meshes(const std::string& name = "tube-mesh") {
+    const fs::path made = folder / name;
+    for (const char* tree : {"LAD", "RCA"}) {
+      fs::create_directories(made / tree);
+      geometry::MixedMesh mesh = tube_mesh();
+      if (tree == std::string("RCA"))
+        for (Vec3& point : mesh.points) point.x() += second_tube_x_mm;
+      io::export_mesh(mesh, io::MeshFormat::vtu, made / tree / "mesh.vtu");
+    }
+    return made;
+  }
+  /// Another case in the tube's place: two tubes, each a tree of its own.
+  void write_two_tubes() {
+    case_file = folder / "two.ostia";
+    session::CaseFile::create(case_file, two_tubes(), session::image_reference(image));
+  }
   void ask() {
     part<QAction>("file.flow_case")->trigger();
     ASSERT_TRUE(wait_until([&] {

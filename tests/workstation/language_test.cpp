@@ -1,5 +1,9 @@
 #include "shell/language.h"
 
+#include "shell/library_texts.h"
+
+#include "ostia/core/phrasebook.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -61,6 +65,21 @@ TEST(Language, GermanIsComplete) {
     for (const QString& translation : one.translations)
       EXPECT_EQ(one.source.trimmed().isEmpty(), translation.isEmpty()) << one.source.toStdString();
   }
+}
+
+TEST(Language, SentencesOfLibrariesKeepTheirPlaces) {
+  std::vector<core::Phrase> phrases;
+  for (const Text& one : texts_of("de"))
+    if (one.context == "library")
+      phrases.push_back({one.source.toStdString(), one.translations.front().toStdString()});
+  ASSERT_EQ(phrases.size(), library_sentences().size());
+  const core::Phrasebook german(phrases);  // throws for a place that is lost
+  EXPECT_NE(
+      german
+          .say("cannot open the case a.ostia: its format 9 is newer than this program's (5, Ostia 0.2); open "
+               "it with Ostia 0.3 or newer")
+          .find("Ostia 0.3"),
+      std::string::npos);
 }
 
 TEST(Language, EnglishHasThePluralsThatGermanHas) {

@@ -211,9 +211,8 @@ class Look {
   /// Lies over the window on purpose.
   static bool floats(const QWidget& widget) {
     return of_the_style(widget) || widget.inherits("ostia::workstation::Tour") ||
-           widget.inherits("ostia::workstation::TourRing") ||
-           widget.inherits("ostia::workstation::StartPage") || widget.inherits("QRubberBand") ||
-           widget.inherits("QFocusFrame");
+           widget.inherits("ostia::workstation::TourRing") || widget.inherits("ostia::workstation::Card") ||
+           widget.inherits("QRubberBand") || widget.inherits("QFocusFrame");
   }
   void neighbours(const QWidget& widget) {
     if (qobject_cast<const QAbstractScrollArea*>(&widget) || qobject_cast<const QAbstractSpinBox*>(&widget) ||

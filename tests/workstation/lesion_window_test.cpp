@@ -60,11 +60,16 @@ struct LesionWindow : ::testing::Test {
     };
     return wait_until(filled, 60000);
   }
+  /// It is written anew a moment after the last change.
+  void wait_for_table() {
+    QApplication::processEvents();
+    EXPECT_TRUE(wait_until([&] { return test->window().lesions().idle() && list->settled(); }));
+  }
   void key(Qt::Key key, Qt::KeyboardModifiers modifiers = Qt::NoModifier) {
     QApplication::setActiveWindow(&test->window());  // keys reach commands of the active window alone
     test->picture("cpr1").setFocus();
     QTest::keyClick(test->window().windowHandle(), key, modifiers);
-    QTest::qWait(300);  // the table is written anew a moment after the last change
+    wait_for_table();
   }
   QTreeWidgetItem* narrow() {
     for (int i = 0; i < list->topLevelItemCount(); ++i)
@@ -101,7 +106,7 @@ TEST_F(LesionWindow, KeysWalkThroughAllViewsAndJudge) {
   EXPECT_EQ(narrow()->text(grade_column), QStringLiteral("\u2013"));
   EXPECT_TRUE(narrow()->font(number_column).strikeOut());
   test->bench().undo();
-  QTest::qWait(300);
+  wait_for_table();
   EXPECT_EQ(narrow()->text(state_column), "open");
   key(Qt::Key_Y);
   EXPECT_EQ(narrow()->text(state_column), "accepted");

@@ -66,7 +66,9 @@ struct Lists : ::testing::Test {
   }
   static void to_front(QWidget& list) {
     for (QWidget* up = &list; up; up = up->parentWidget()) {
-      if (auto* tabs = qobject_cast<QTabWidget*>(up)) tabs->setCurrentWidget(&list);
+      if (auto* tabs = qobject_cast<QTabWidget*>(up))
+        for (int i = 0; i < tabs->count(); ++i)
+          if (tabs->widget(i) == &list || tabs->widget(i)->isAncestorOf(&list)) tabs->setCurrentIndex(i);
       if (auto* dock = qobject_cast<QDockWidget*>(up)) {
         dock->show();
         dock->raise();
@@ -352,6 +354,41 @@ TEST_F(Lists, ReturnGoesToAStepAndToAMeasurement) {
   test.bench().place.set({0.0, 0.0, 30.0});
   QTest::keyClick(&measurements, Qt::Key_Return);
   EXPECT_LT((test.bench().place.get() - geometry::Vec3(0.0, 0.0, 5.0)).norm(), 1e-6);
+}
+
+TEST_F(Lists, StepsHaveTheirVesselTimeAndAuthorAndAreFiltered) {
+  TestWindow test(state);
+  open(test, case_file);
+  pull(test);
+  test.bench().session().file().set_author("Dr. A");
+  test.bench().edit(lumen::VesselRename{tube, "LAD two"});
+  auto& steps = list<StepList>(test, "steps");
+  to_front(steps);
+  ASSERT_TRUE(wait_until([&] { return steps.count() == 3; }));
+  const auto said = [&](int row) { return steps.item(row)->data(Qt::AccessibleTextRole).toString(); };
+  const QString today = QTime::currentTime().toString("HH:");
+  EXPECT_TRUE(said(1).startsWith("Pull the wall, LAD two")) << said(1).toStdString();
+  EXPECT_TRUE(said(1).contains(today)) << said(1).toStdString();
+  EXPECT_FALSE(said(1).contains("Dr. A"));
+  EXPECT_TRUE(said(2).endsWith("Dr. A")) << said(2).toStdString();
+  EXPECT_FALSE(said(0).contains("LAD"));
+  auto& line = *test.window().findChild<QLineEdit*>("steps_filter");
+  focus(test, line);
+  QTest::keyClicks(&line, "dr. rename");
+  EXPECT_TRUE(steps.item(0)->isHidden());
+  EXPECT_TRUE(steps.item(1)->isHidden());
+  EXPECT_FALSE(steps.item(2)->isHidden());
+  pull(test);  // the filter stays
+  ASSERT_TRUE(wait_until([&] { return steps.count() == 4; }));
+  EXPECT_TRUE(steps.item(3)->isHidden());
+  line.clear();
+  EXPECT_FALSE(steps.item(3)->isHidden());
+  focus(test, line);
+  QTest::keyClick(&line, Qt::Key_Return);
+  EXPECT_TRUE(steps.hasFocus());
+  QTest::keyClick(&steps, Qt::Key_Home);
+  QTest::keyClick(&steps, Qt::Key_Return);
+  EXPECT_TRUE(wait_until([&] { return test.bench().session().file().edits().empty(); }));
 }
 
 TEST_F(Lists, TheVesselsNameCanBeReadHoweverNarrowTheListIs) {

@@ -51,25 +51,34 @@ std::int32_t named(const session::Workbench& bench, const std::string& name) {
   return session::Workbench::no_vessel;
 }
 
-/// The program's sample in its coarse form.
+/// The program's sample in its coarse form, made once for all tests of this process.
+struct Sample {
+  testing::Folder folder;
+  fs::path image = folder / "image.nrrd", file = folder / "sample.ostia";
+  session::ImageReference reference;
+
+  Sample() {
+    phantom::CaseOptions options;
+    options.preset = phantom::Preset::small;
+    const phantom::CasePlan plan = phantom::plan_case(options);
+    const imaging::ImageVolume scan = ostia::testing::kept_scan(plan).image;
+    imaging::write_image(image, scan);
+    reference = session::image_reference(image);
+    const geometry::VesselTree tree = phantom::vessel_tree(plan.tree);
+    session::CaseFile::create(
+        file, lumen::model_of_walls(tree, pipeline::walls_from_image(tree, scan, core::no_task())),
+        reference);
+  }
+};
+
 struct SampleWindow : ::testing::Test {
   testing::Folder folder;
   TestWindow test{folder / "state"};
-  phantom::CasePlan plan;
 
   SampleWindow() {
-    phantom::CaseOptions options;
-    options.preset = phantom::Preset::small;
-    plan = phantom::plan_case(options);
-    const imaging::ImageVolume image = ostia::testing::kept_scan(plan).image;
-    imaging::write_image(folder / "image.nrrd", image);
-    const geometry::VesselTree tree = phantom::vessel_tree(plan.tree);
-    session::CaseFile::create(
-        folder / "sample.ostia",
-        lumen::model_of_walls(tree, pipeline::walls_from_image(tree, image, core::no_task())),
-        session::image_reference(folder / "image.nrrd"));
-    session::MachineState(folder / "state")
-        .remember_image(session::image_reference(folder / "image.nrrd").sha256, folder / "image.nrrd");
+    static const Sample sample;
+    fs::copy_file(sample.file, folder / "sample.ostia");
+    session::MachineState(folder / "state").remember_image(sample.reference.sha256, sample.image);
     test.open(folder / "sample.ostia");
   }
 };

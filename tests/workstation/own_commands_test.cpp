@@ -18,6 +18,7 @@ namespace {
 const std::vector<Shortcut> known{
     {"file.open", "Ctrl+O", "Ctrl+O"},
     {"file.open_folder", "Ctrl+Shift+O", "Ctrl+Shift+O"},
+    {"file.series", "", ""},
     {"file.sample", "", ""},
     {"file.save_as", "Ctrl+Shift+S", "Ctrl+Shift+S"},
     {"file.close", "Ctrl+W", "Ctrl+W"},
@@ -80,8 +81,8 @@ const std::vector<Shortcut> known{
     {"view.mip", "M", "M"},
     {"view.mean", "Shift+M", "Shift+M"},
     {"view.minip", "", ""},
-    {"view.thinner", "Ctrl+Alt+Down", "Ctrl+Alt+Down"},
-    {"view.thicker", "Ctrl+Alt+Up", "Ctrl+Alt+Up"},
+    {"view.thinner", "Ctrl+Shift+Down", "Ctrl+Shift+Down"},
+    {"view.thicker", "Ctrl+Shift+Up", "Ctrl+Shift+Up"},
     {"view.contours", "Space", "Space"},
     {"view.outer_wall", "", ""},
     {"view.plaque", "Shift+P", "Shift+P"},
@@ -137,6 +138,8 @@ const std::vector<Shortcut> known{
     {"help.manual", "Shift+F1", "Shift+F1"},
     {"help.shortcuts", "F1", "F1"},
     {"help.tour", "", ""},
+    {"help.messages", "Ctrl+Shift+L", "Ctrl+Shift+L"},
+    {"help.crash_reports", "", ""},
     {"help.about", "", ""},
     {"help.find_command", "Ctrl+K", "Ctrl+K"},
 };
@@ -200,6 +203,14 @@ TEST_F(OwnCommands, NoneHasAKeyThatViewsAnswerThemselves) {
     for (const Command& one : table.all())
       for (const QKeySequence& key : table.keys().in_scheme(scheme).keys(one.id))
         EXPECT_FALSE(is_kept_by_views(key)) << one.id.toStdString();
+}
+
+TEST_F(OwnCommands, NoneHasAKeyThatWindowManagersTake) {
+  for (const ShortcutScheme scheme : schemes)
+    for (const Command& one : table.all())
+      for (const QKeySequence& key : table.keys().in_scheme(scheme).keys(one.id))
+        EXPECT_FALSE(is_kept_by_window_managers(key))
+            << one.id.toStdString() << ": " << key.toString().toStdString();
 }
 
 TEST_F(OwnCommands, EveryKeyIsOneAndCanBeWritten) {

@@ -12,6 +12,7 @@
 #include "phases/beating_case.h"
 #include "phases/commands.h"
 #include "test_desk.h"
+#include "views/picture_widget.h"
 #include "views/scene_widget.h"
 
 #include "ostia/io/cage_motion_file.h"
@@ -50,7 +51,10 @@ struct PartsTest : ::testing::Test {
 };
 
 struct FlowParts : PartsTest {
-  FlowResults results{test.desk(), *scene};
+  ProfileWidget* profile = new ProfileWidget(
+      test.bench(), [this](const std::function<void()>& act) { test.desk().messages.guarded(act); },
+      &test.window());
+  FlowResults results{test.desk(), *scene, *profile};
   FlowCases cases{test.desk(), results};
   FlowParts() {
     add_flow_commands(*table, test.desk(), cases, results);
@@ -72,7 +76,7 @@ TEST_F(FlowParts, AResultIsShownAndGoesWithItsCase) {
 
 TEST_F(FlowParts, AFileThatIsNoResultIsSaidOnce) {
   core::write_file(folder / "wall.vtp", "no surface");
-  results.open(folder / "wall.vtp");
+  results.open({folder / "wall.vtp"});
   EXPECT_FALSE(testing::message().empty());
   EXPECT_FALSE(results.shown());
 }

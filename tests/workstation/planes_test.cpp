@@ -148,6 +148,10 @@ TEST_F(Planes, TheCtNumberIsToldRightAfterEachScroll) {
 
 TEST_F(Planes, WindowAndLevelAreWrittenWhileTheyChangeAndForAMoment) {
   auto* slice = part<PictureWidget>("slice");
+  auto* moment = slice->findChild<QTimer*>("grey_told");
+  ASSERT_TRUE(moment);
+  EXPECT_EQ(moment->interval(), 4000);
+  moment->setInterval(100);  // a test need not wait for what a person is given to read
   const QRect corner(slice->width() / 2, 0, slice->width() / 2, 22);
   const session::GreyWindow grey = test->bench().grey.get();
   const QImage without = slice->grab().toImage().copy(corner);

@@ -34,6 +34,16 @@ TEST(Shortcuts, AKeyOfAnotherCommandIsRefused) {
   EXPECT_FALSE(keys.change("tool.brush", QKeySequence("X")));
 }
 
+TEST(Shortcuts, KeysOfWindowManagersAreKnown) {
+  for (const char* taken :
+       {"Alt+F4", "Alt+F10", "Ctrl+F2", "Ctrl+Alt+Up", "Ctrl+Alt+Shift+Left", "Meta+E", "Alt+Tab",
+        "Alt+Space", "Ctrl+Esc", "Ctrl+Alt+Del", "Ctrl+Alt+L", "Ctrl+Alt+F1", "Print"})
+    EXPECT_TRUE(is_kept_by_window_managers(QKeySequence(taken))) << taken;
+  for (const char* free : {"F1", "F11", "Shift+F1", "Alt+1", "Ctrl+Up", "Ctrl+Shift+Up", "Esc", "Ctrl+Tab",
+                           "Alt+Shift+Left", "Ctrl+Alt+M", "Space", "L", "Ctrl+L"})
+    EXPECT_FALSE(is_kept_by_window_managers(QKeySequence(free))) << free;
+}
+
 TEST(Shortcuts, AKeyThatBeginsLikeAnotherIsRefused) {
   ShortcutKeys keys = sample_keys();
   EXPECT_FALSE(keys.change("file.sample", QKeySequence("B, X")));

@@ -56,4 +56,24 @@ inline lumen::LumenModel tube_model(double narrowing = 0.0) {
   return lumen::model_of_tubes(tree);
 }
 
+constexpr double second_tube_x_mm = 8.0;
+
+/// The tube, LAD, and another one beside it, RCA, that does not hang on it.
+inline lumen::LumenModel two_tubes() {
+  geometry::VesselTree tree;
+  for (int k = 0; k < 2; ++k) {
+    geometry::Centerline axis;
+    for (int i = 0; i <= 80; ++i) {
+      axis.points.push_back({k * second_tube_x_mm, 0.0, 0.5 * i});
+      axis.radius.push_back(tube_radius_mm);
+    }
+    geometry::complete(axis);
+    tree.nodes.push_back({10 * k + 1, axis.points.front()});
+    tree.nodes.push_back({10 * k + 2, axis.points.back()});
+    tree.segments.push_back({10 * k + 3, 10 * k + 1, 10 * k + 2, axis});
+    tree.vessels.push_back({10 * k + 4, k == 0 ? "LAD" : "RCA", {10 * k + 3}});
+  }
+  return lumen::model_of_tubes(tree);
+}
+
 }  // namespace ostia::workstation::testing

@@ -4,6 +4,8 @@
 #include "hand.h"
 #include "shell/main_window.h"
 
+#include <QLabel>
+
 namespace ostia::workstation::testing {
 
 class TestWindow {
@@ -19,6 +21,12 @@ class TestWindow {
     if (!wait_until([&] { return bench().has_case() && !window_.jobs().any(); }))
       throw std::runtime_error("the case was not opened");
     QApplication::processEvents();
+  }
+  /// Why nothing can be shown, once the panel in place of the views says so.
+  std::string failure() {
+    auto* reason = window_.findChild<QLabel*>("failure_reason");
+    if (!reason || !wait_until([&] { return reason->isVisible(); })) return "no failure";
+    return reason->text().toStdString();
   }
   MainWindow& window() { return window_; }
   session::Workbench& bench() { return window_.bench(); }

@@ -90,6 +90,8 @@ void pin_fonts(const Folder& folder) {
   qputenv("FONTCONFIG_FILE", file.string().c_str());
   qputenv("QT_FONT_DPI", "96");
   qputenv("OSTIA_NO_TOUR", "1");
+  qputenv("TZ", "UTC");
+  qputenv("SOURCE_DATE_EPOCH", "1767225600");  // at which steps are done
   for (const char* of_the_desktop :
        {"XDG_CURRENT_DESKTOP", "DESKTOP_SESSION", "QT_QPA_PLATFORMTHEME", "QT_STYLE_OVERRIDE"})
     qunsetenv(of_the_desktop);
@@ -125,7 +127,7 @@ Stage::~Stage() = default;
 std::vector<std::string> window_states() {
   return {"empty", "case",   "light",  "editing",     "section_alone",    "profile_alone", "measuring",
           "steps", "truth",  "series", "preferences", "preferences_keys", "about",         "manual",
-          "keys",  "report", "heart",  "tour",        "complaint"};
+          "keys",  "report", "heart",  "tour",        "complaint",        "failure"};
 }
 
 void Stage::enter(const std::string& state) {
@@ -166,13 +168,14 @@ void Stage::enter(const std::string& state) {
          run("help.tour");
          child<Tour>(*window_, "tour").go(2);
        }},
+      {"failure", [this] { window_->open(folder_ / "image.nrrd"); }},
       {"complaint",
        [this] {
          window_->complain("There is no file or folder lad-follow-up.ostia.", "The case cannot be opened");
        }},
   };
-  const std::set<std::string> without_case{"empty", "series", "preferences", "preferences_keys",
-                                           "about", "manual", "keys",        "complaint"};
+  const std::set<std::string> without_case{"empty",  "series", "preferences", "preferences_keys", "about",
+                                           "manual", "keys",   "complaint",   "failure"};
   if (!without_case.count(state)) open_case();
   ways.at(state)();
   if (!wait_until([&] { return !window_->jobs().any(); }, 60000))
@@ -250,6 +253,39 @@ void Stage::measure() {
   if (!wait_until([&] { return list.topLevelItemCount() == 2; }, 3000))
     throw std::runtime_error("the measurements are not listed");
   list.expandAll();
+}
+
+void Stage::crowd() {
+  session::Workbench& bench = window_->bench();
+  imaging::ShownIdentity whose;
+  whose.patient_name = "Schmidt-Hohenstein, Maria Theresia Elisabeth";
+  whose.patient_id = "0815-4711";
+  whose.study_date = "2024-03-01";
+  whose.series_description = "Cor CTA 0.6 Bv40 BestDiast 75 %";
+  window_->desk().identity.take(bench.image().reference.sha256, whose);
+  measure();
+  bench.place.set(bench.axis()->point(16.0));
+  const auto add = [&](analysis::MeasureKind kind, const std::vector<geometry::Vec3>& points, double s_mm) {
+    analysis::Measurement one;
+    one.kind = kind;
+    one.points = points;
+    if (points.empty()) one.vessel = bench.vessel.get(), one.from_mm = s_mm, one.to_mm = s_mm + 6.0;
+    bench.annotate(session::MeasureAdd{one});
+  };
+  using analysis::MeasureKind;
+  add(MeasureKind::area, {{-3, -3, 16}, {3, -3, 16}, {3, 3, 16}, {-3, 3, 16}}, 0.0);
+  add(MeasureKind::angle, {{-2, 1, 16}, {0, 0, 16}, {1, 3, 16}}, 0.0);
+  add(MeasureKind::arrow, {{1.5, 0, 16}, {5, 5, 16}}, 0.0);
+  add(MeasureKind::note, {{-4, 4, 16}}, 0.0);
+  add(MeasureKind::volume, {}, 6.0);
+  add(MeasureKind::ring_hu, {}, 12.0);
+  run("view.mip");
+  run("view.plaque");
+  bench.grey.set({260.0, 910.0});
+  wait_until([&] { return !window_->jobs().any() && window_->evaluability().idle(); }, 60000);
+  let_work(quiet_ms);
+  bench.grey.set({250.0, 900.0});  // told for a while
+  let_rest();
 }
 
 void Stage::open_truth() {

@@ -25,6 +25,10 @@ class Stage {
   MainWindow& window() { return *window_; }
   /// Brings the window into one of the states. Throws std::runtime_error where it does not get there.
   void enter(const std::string& state);
+  /// Of a case that is open: all that views can write over their pictures, at once.
+  void crowd();
+  /// One view alone, or all again.
+  void show_alone(const char* view);
   /// What the screen shows of the window, once it has stopped changing. Throws std::runtime_error where it
   /// goes on.
   QImage settled();
@@ -36,7 +40,6 @@ class Stage {
   void measure();
   void edit();
   void open_truth();
-  void show_alone(const char* view);
   Folder folder_;
   QSize size_;
   std::unique_ptr<MainWindow> window_;

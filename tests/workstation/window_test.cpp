@@ -275,7 +275,7 @@ TEST_F(WindowTest, ASecondWindowOnTheCaseIsToldSo) {
   one.open(case_file);
   TestWindow two(folder / "other-state");
   two.window().open(case_file);
-  EXPECT_NE(message().find("open"), std::string::npos);
+  EXPECT_NE(two.failure().find("open"), std::string::npos);
   EXPECT_FALSE(two.bench().has_case());
   EXPECT_TRUE(one.bench().has_case());
 }

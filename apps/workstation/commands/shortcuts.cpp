@@ -35,6 +35,22 @@ bool is_kept_by_views(const QKeySequence& keys) {
   return std::any_of(kept.begin(), kept.end(), [&](const QKeySequence& one) { return collide(one, keys); });
 }
 
+bool is_kept_by_window_managers(const QKeySequence& keys) {
+  static const QList<QKeySequence> kept = QKeySequence::listFromString(
+      "Alt+Tab; Alt+Shift+Tab; Alt+Esc; Alt+Space; Ctrl+Esc; Print; Alt+Print; Ctrl+Alt+Del; "
+      "Ctrl+Alt+Backspace; Ctrl+Alt+Tab; Ctrl+Alt+Esc; Ctrl+Alt+T; Ctrl+Alt+L; Ctrl+Alt+D");
+  const auto taken = [](int key) {
+    const int plain = key & ~static_cast<int>(Qt::KeyboardModifierMask);
+    const bool ctrl = key & Qt::CTRL, alt = key & Qt::ALT;
+    const bool function = plain >= Qt::Key_F1 && plain <= Qt::Key_F12;
+    const bool arrow = plain >= Qt::Key_Left && plain <= Qt::Key_Down;
+    return (key & Qt::META) || (alt && function) || (ctrl && function) || (ctrl && alt && arrow);
+  };
+  for (int i = 0; i < keys.count(); ++i)
+    if (taken(keys[i])) return true;
+  return std::any_of(kept.begin(), kept.end(), [&](const QKeySequence& one) { return collide(one, keys); });
+}
+
 ShortcutKeys ShortcutKeys::from(const std::map<std::string, std::string>& settings, Shortcuts defaults) {
   const auto scheme = settings.find("shortcuts");
   const bool research = scheme != settings.end() && scheme->second == "research";

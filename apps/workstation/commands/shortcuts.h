@@ -25,6 +25,10 @@ using Shortcuts = std::shared_ptr<const std::vector<Shortcut>>;
 /// What views and lists do with a key themselves ("Up", "Delete"): no command may have it.
 bool is_kept_by_views(const QKeySequence& keys);
 
+/// What the window managers of the usual desktops take before a program sees it, or may take: Alt and a
+/// function key, Ctrl+Alt and an arrow, the Super key. No command has one of these by itself.
+bool is_kept_by_window_managers(const QKeySequence& keys);
+
 /// The keys as a person has them: a scheme, and what differs from it.
 class ShortcutKeys {
  public:

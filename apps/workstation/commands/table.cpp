@@ -2,6 +2,7 @@
 
 #include "commands/icons.h"
 #include "commands/texts.h"
+#include "shell/crash_watch.h"
 #include "shell/desk.h"
 
 #include <QMenu>
@@ -18,6 +19,7 @@ CommandTable::CommandTable(Desk& desk) : QObject(&desk.window), desk_(desk) {
   own_.push_back(desk.bench.image_changed.observe(ask));
   own_.push_back(desk.bench.steps_changed.observe(ask));
   own_.push_back(desk.bench.vessel.observe(ask));
+  own_.push_back(desk.failure.observe(ask));
 }
 
 void CommandTable::add(Command command) {
@@ -27,6 +29,7 @@ void CommandTable::add(Command command) {
   action->setText(command.text);
   action->setObjectName(command.id);
   desk_.window.addAction(action);  // its keys work while its menu is shut
+  connect(action, &QAction::triggered, this, [id = command.id.toStdString()] { note_command(id); });
   if (command.run)
     connect(action, &QAction::triggered, this, [this, run = command.run] { desk_.messages.guarded(run); });
   if (command.bind) {

@@ -22,6 +22,7 @@ QString command_group(const QString& id) {
       {"tree", QT_TRANSLATE_NOOP("gestures", "Vessel tree")},
       {"view", QT_TRANSLATE_NOOP("gestures", "Views")},
       {"window", QT_TRANSLATE_NOOP("gestures", "Grey levels")},
+      {"heart", QT_TRANSLATE_NOOP("gestures", "Heart in 3D")},
       {"camera", QT_TRANSLATE_NOOP("gestures", "Camera")},
       {"panel", QT_TRANSLATE_NOOP("gestures", "Panels")},
       {"mouse", QT_TRANSLATE_NOOP("gestures", "Mouse by keys")},

@@ -2,9 +2,11 @@
 
 #include "ostia/core/error.h"
 #include "ostia/io/surface_fields.h"
+#include "ostia/view/value_scale.h"
 
 #include <QCoreApplication>
 #include <QStringList>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -58,24 +60,59 @@ FlowArray array_of(const std::string& name, const io::FieldValues& field, view::
   return made;
 }
 
+std::vector<FlowArray> arrays_of(const io::SurfaceWithFields& read) {
+  std::vector<FlowArray> arrays;
+  for (const auto& [name, field] : read.points)
+    arrays.push_back(array_of(name, field, view::FieldAt::points));
+  for (const auto& [name, field] : read.triangles)
+    arrays.push_back(array_of(name, field, view::FieldAt::triangles));
+  return arrays;
+}
+
+/// Another surface's values behind those of the former ones; what one of them lacks is left out.
+void add_arrays(std::vector<FlowArray> more, bool first, std::vector<FlowArray>& all) {
+  if (first) {
+    all = std::move(more);
+    return;
+  }
+  std::erase_if(all, [&](FlowArray& one) {
+    const auto same = std::find_if(more.begin(), more.end(), [&](const FlowArray& other) {
+      return other.name == one.name && other.at == one.at && other.magnitude == one.magnitude;
+    });
+    if (same == more.end()) return true;
+    one.values.insert(one.values.end(), same->values.begin(), same->values.end());
+    return false;
+  });
+}
+
+void add_mesh(const geometry::TriMesh& one, geometry::TriMesh& all) {
+  const auto first = static_cast<std::int32_t>(all.points.size());
+  all.points.insert(all.points.end(), one.points.begin(), one.points.end());
+  for (geometry::Triangle triangle : one.triangles) {
+    for (std::int32_t& corner : triangle) corner += first;
+    all.triangles.push_back(triangle);
+  }
+}
+
 }  // namespace
 
-FlowSurface read_flow_surface(const std::filesystem::path& file) {
-  io::SurfaceWithFields read = io::read_surface_with_fields(file);
+FlowSurface read_flow_surface(const std::vector<std::filesystem::path>& files) {
   FlowSurface made;
-  for (const auto& [name, field] : read.points)
-    made.arrays.push_back(array_of(name, field, view::FieldAt::points));
-  for (const auto& [name, field] : read.triangles)
-    made.arrays.push_back(array_of(name, field, view::FieldAt::triangles));
+  geometry::TriMesh mesh;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    io::SurfaceWithFields read = io::read_surface_with_fields(files[i]);
+    add_arrays(arrays_of(read), i == 0, made.arrays);
+    add_mesh(read.mesh, mesh);
+  }
   if (made.arrays.empty())
     throw InvalidInput(
         QCoreApplication::translate(
             "jobs",
             "%1 is a surface without values. Open the wall.vtp of a result, which \"ostia result\" writes "
             "and which a run from the window leaves")
-            .arg(QString::fromStdString(file.string()))
+            .arg(files.empty() ? QString() : QString::fromStdString(files.front().string()))
             .toStdString());
-  made.surface = std::make_shared<const view::FieldSurface>(std::move(read.mesh));
+  made.surface = std::make_shared<const view::FieldSurface>(std::move(mesh));
   return made;
 }
 
@@ -102,7 +139,7 @@ QString title_with_unit(const FlowArray& array) {
 QString value_text(double value, const FlowArray& array) {
   if (!std::isfinite(value)) return QCoreApplication::translate("fields", "not known");
   const QString unit = unit_of_array(array.name);
-  return QString::number(value, 'g', 4) + (unit.isEmpty() ? QString() : " " + unit);
+  return QString::fromStdString(view::three_digits(value)) + (unit.isEmpty() ? QString() : " " + unit);
 }
 
 std::size_t first_shown(const std::vector<FlowArray>& arrays) {

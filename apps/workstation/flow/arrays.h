@@ -22,8 +22,9 @@ struct FlowSurface {
   std::shared_ptr<const view::FieldSurface> surface;
   std::vector<FlowArray> arrays;  ///< at least one; those at points first
 };
-/// Throws InvalidInput for a file without arrays, and as io::read_surface_with_fields does.
-FlowSurface read_flow_surface(const std::filesystem::path& file);
+/// Several (the walls of left and right artery) as one surface, with the arrays that all have. Throws
+/// InvalidInput for files without such arrays, and as io::read_surface_with_fields does.
+FlowSurface read_flow_surface(const std::vector<std::filesystem::path>& files);
 
 /// The unit that a name ends in: "Pa" of wall_shear_stress_Pa; empty where it names none.
 QString unit_of_array(const std::string& name);
@@ -31,7 +32,7 @@ QString unit_of_array(const std::string& name);
 QString title_of_array(const FlowArray& array);
 /// With the unit, as over the bar: "wall shear stress, Pa".
 QString title_with_unit(const FlowArray& array);
-/// Four digits that count, with the unit.
+/// Three digits that count, with the unit.
 QString value_text(double value, const FlowArray& array);
 /// The array that is shown at first.
 std::size_t first_shown(const std::vector<FlowArray>& arrays);

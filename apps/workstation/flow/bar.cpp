@@ -2,6 +2,8 @@
 
 #include "shell/form_fields.h"
 
+#include "ostia/view/value_scale.h"
+
 #include <QAbstractItemView>
 #include <QCheckBox>
 #include <QComboBox>
@@ -57,9 +59,14 @@ FlowBar::FlowBar(QWidget* parent)
   trouble_->setObjectName("flow_range_trouble");
   auto* save = button({}, "flow_save", tr("Save the picture"));
   save->setIcon(style()->standardIcon(QStyle::SP_DialogSaveButton));
+  along_ = button(QStringLiteral("\u223f"), "flow_along",
+                  tr("Shear stress and pressure along the vessel, in the profile"));
+  along_->setCheckable(true);
+  along_->setChecked(true);
   auto* close = button(QStringLiteral("\u2715"), "flow_hide", tr("Hide the result"));
   auto* first = new QHBoxLayout;
   first->addWidget(arrays_, 1);
+  first->addWidget(along_);
   first->addWidget(save);
   first->addWidget(close);
   auto* second = new QHBoxLayout;
@@ -83,6 +90,7 @@ FlowBar::FlowBar(QWidget* parent)
   for (QLineEdit* one : {low_, high_}) connect(one, &QLineEdit::textEdited, this, &FlowBar::check);
   for (QLineEdit* one : {low_, high_}) connect(one, &QLineEdit::textEdited, this, &FlowBar::range_changed);
   connect(save, &QToolButton::clicked, this, &FlowBar::save_wanted);
+  connect(along_, &QToolButton::toggled, this, &FlowBar::along_toggled);
   connect(close, &QToolButton::clicked, this, &FlowBar::hide_wanted);
 }
 
@@ -99,13 +107,17 @@ std::size_t FlowBar::array() const {
   return static_cast<std::size_t>(std::max(0, arrays_->currentIndex()));
 }
 
+bool FlowBar::along() const {
+  return along_->isChecked();
+}
+
 bool FlowBar::automatic() const {
   return automatic_->isChecked();
 }
 
 void FlowBar::set_range(const std::pair<double, double>& range) {
-  low_->setText(QString::number(range.first, 'g', digits_shown));
-  high_->setText(QString::number(range.second, 'g', digits_shown));
+  low_->setText(QString::fromStdString(view::range_text(range.first, range)));
+  high_->setText(QString::fromStdString(view::range_text(range.second, range)));
   for (QLineEdit* one : {low_, high_}) one->setCursorPosition(0);
 }
 

@@ -11,6 +11,7 @@ class QCheckBox;
 class QComboBox;
 class QLabel;
 class QLineEdit;
+class QToolButton;
 
 namespace ostia::workstation {
 
@@ -23,6 +24,7 @@ class FlowBar final : public QWidget {
   void set_arrays(const std::vector<FlowArray>& arrays, std::size_t first);
   std::size_t array() const;
   bool automatic() const;
+  bool along() const;  ///< the profile shows what is along the vessel
   /// Shown in the fields while it is automatic.
   void set_range(const std::pair<double, double>& range);
   /// As typed; nothing where that is no range: then it is said below the fields.
@@ -31,6 +33,7 @@ class FlowBar final : public QWidget {
  signals:
   void array_changed();
   void range_changed();
+  void along_toggled(bool on);
   void save_wanted();
   void hide_wanted();
 
@@ -40,6 +43,7 @@ class FlowBar final : public QWidget {
   QCheckBox* automatic_;
   QLineEdit *low_, *high_;
   QLabel* trouble_;
+  QToolButton* along_;
 };
 
 }  // namespace ostia::workstation

@@ -1,19 +1,17 @@
 #include "flow/cases.h"
 
 #include "flow/results.h"
+#include "flow/systems.h"
 #include "shell/desk.h"
+#include "shell/open_file.h"
 
 #include "ostia/core/child_process.h"
 #include "ostia/core/error.h"
-#include "ostia/core/files.h"
+#include "ostia/pipeline/exported_meshes.h"
 #include "ostia/pipeline/solver_case.h"
-#include "ostia/solver/flow_files.h"
-#include "ostia/solver/openfoam_launch.h"
 
 #include <QCoreApplication>
-#include <QDesktopServices>
 #include <QFileInfo>
-#include <QUrl>
 #include <new>
 #include <tuple>
 #include <utility>
@@ -39,8 +37,8 @@ bool is_mesh_folder_of(const std::string& stem, const std::string& name) {
                             number.find_first_not_of("0123456789", 1) == std::string::npos);
 }
 
-/// The newest mesh that was exported beside the case, into a folder that bears its name; empty where there is
-/// none.
+/// The newest mesh that was exported beside the case, into a folder that bears its name: the file, or the
+/// folder where it holds several trees' meshes; empty where there is none.
 fs::path newest_mesh(const fs::path& case_file) {
   std::error_code error;
   fs::path newest;
@@ -48,49 +46,18 @@ fs::path newest_mesh(const fs::path& case_file) {
   const std::string stem = case_file.stem().string();
   for (fs::directory_iterator at(case_file.parent_path(), error), end; !error && at != end;
        at.increment(error)) {
-    const fs::path mesh = at->path() / "mesh.vtu";
     if (fs::exists(at->path() / "flow-case.json", error)) continue;  // a case keeps its mesh
-    if (!is_mesh_folder_of(stem, at->path().filename().string()) || !fs::is_regular_file(mesh, error))
-      continue;
-    const fs::file_time_type written = fs::last_write_time(mesh, error);
+    if (!is_mesh_folder_of(stem, at->path().filename().string())) continue;
+    const std::vector<pipeline::ExportedMesh> meshes = pipeline::exported_meshes(at->path());
+    if (meshes.empty()) continue;
+    const fs::file_time_type written = fs::last_write_time(meshes.front().file, error);
+    const fs::path mesh = meshes.size() > 1 ? at->path() : meshes.front().file;
     if (newest.empty() || written > time) std::tie(newest, time) = std::pair(mesh, written);
   }
   return newest;
 }
 
 using Warnings = std::vector<std::string>;
-
-Warnings write_case(const FlowChoice& choice, const solver::BoundaryFlowOptions& flow,
-                    const geometry::MixedMesh& mesh, const core::TaskContext& task) {
-  return pipeline::write_solver_case(mesh, pipeline::solver_case(choice.solver, flow), choice.folder, task)
-      .warnings;
-}
-
-struct Run {
-  fs::path wall;
-  solver::FlowReport report;
-  bool converged = false;
-  double last = 0.0;  ///< iteration, or s
-  bool steady = true;
-};
-
-/// Runs the case, and writes what was computed into the folder `result` within it.
-Run run_case(const fs::path& folder, const core::TaskContext& task) {
-  const solver::OpenfoamRunPlan plan = solver::openfoam_run_plan(folder);
-  const solver::OpenfoamProgress done = solver::run_openfoam_case(folder, task.sub(0.0, 0.9));
-  task.set_stage("reading the result");
-  const solver::FlowResult result = solver::read_flow_result(folder, {}, task.sub(0.9, 0.95));
-  Run run{folder / "result" / "wall.vtp", solver::flow_report(result), result.run.converged, done.time,
-          plan.steady()};
-  core::StagedFolder staged(folder / "result");
-  solver::write_flow_files(result, run.report, staged.temporary(), task.sub(0.95, 1.0));
-  staged.commit();
-  return run;
-}
-
-void open_folder(const fs::path& folder) {
-  QDesktopServices::openUrl(QUrl::fromLocalFile(QString::fromStdString(folder.string())));
-}
 
 QString as_text(const fs::path& path) {
   return QString::fromStdString(path.string());
@@ -134,12 +101,13 @@ void FlowCases::ask(const fs::path& case_file) {
 
 void FlowCases::read_mesh(FlowDialog& dialog, const QString& file) {
   desk_.jobs.cancel("flow_mesh");
-  if (!QFileInfo(file).isFile()) return;
+  if (!QFileInfo::exists(file)) return;
   const fs::path path = file.toStdString();
   desk_.jobs.run(
-      "flow_mesh", tr("Mesh"), [path](const core::TaskContext&) { return std::any(read_flow_mesh(path)); },
-      [asked = QPointer(&dialog), path](const std::any& mesh) {
-        if (asked) asked->set_mesh(path, std::any_cast<const FlowMesh&>(mesh));
+      "flow_mesh", tr("Mesh"),
+      [path](const core::TaskContext& task) { return std::any(read_flow_meshes(path, task)); },
+      [asked = QPointer(&dialog), path](const std::any& meshes) {
+        if (asked) asked->set_meshes(path, std::any_cast<const std::vector<FlowMesh>&>(meshes));
       },
       [asked = QPointer(&dialog), path](const QString& message) {
         if (asked) asked->set_mesh_trouble(path, message);
@@ -150,9 +118,10 @@ void FlowCases::write(const FlowDialog& dialog) {
   last_ = dialog.choice();
   desk_.jobs.run(
       "flow_case", tr("Flow case"),
-      [choice = last_, flow = dialog.flow_options(), mesh = dialog.mesh()](const core::TaskContext& task) {
+      [choice = last_, flow = dialog.flow_options(),
+       meshes = dialog.meshes()](const core::TaskContext& task) {
         try {
-          return std::any(write_case(choice, flow, *mesh, task));
+          return std::any(write_cases(choice, flow, meshes, task));
         } catch (const std::bad_alloc&) {
           throw ResourceError(QCoreApplication::translate(
                                   "jobs", "There is not enough memory for this case: use a coarser mesh.")
@@ -179,7 +148,8 @@ void FlowCases::tell_written(const FlowChoice& made, const Warnings& warnings, c
     leave_case(made.folder, notes, of);
   else
     desk_.jobs.leave("flow_case", tr("%1: flow case written").arg(as_text(made.folder.filename())),
-                     notes.join('\n'), tr("Open folder"), [folder = made.folder] { open_folder(folder); });
+                     notes.join('\n'), tr("Open folder"),
+                     [this, folder = made.folder] { open_with_desktop(desk_, folder); });
 }
 
 void FlowCases::leave_case(const fs::path& folder, const QStringList& notes, const fs::path& of) {
@@ -200,27 +170,22 @@ void FlowCases::run(const fs::path& case_folder, const fs::path& of) {
   being_run_of_ = of;
   desk_.jobs.run(
       "flow_run", tr("Solver"),
-      [case_folder](const core::TaskContext& task) { return std::any(run_case(case_folder, task)); },
+      [case_folder](const core::TaskContext& task) { return std::any(run_cases(case_folder, task)); },
       [this, case_folder, name, of](const std::any& result) {
         being_run_.clear();
-        const Run& made = std::any_cast<const Run&>(result);
-        QStringList reasons;
-        for (const std::string& reason : made.report.reasons) reasons << QString::fromStdString(reason);
-        const QString end = made.steady ? tr("%1 iterations").arg(made.last) : tr("%1 s").arg(made.last);
-        show_result(case_folder, made.wall,
-                    (made.converged ? tr("%1: converged, %2") : tr("%1: not converged, %2")).arg(name, end),
-                    reasons.join('\n'), of);
+        const auto& runs = std::any_cast<const std::vector<FlowRun>&>(result);
+        show_result(case_folder, walls_of(runs), outcome_of(name, runs), reasons_of(runs), of);
       },
       [this](const QString& message) { desk_.messages.complain(message, tr("The solver's run failed")); });
 }
 
-void FlowCases::show_result(const fs::path& folder, const fs::path& wall, const QString& outcome,
-                            const QString& trouble, const fs::path& of) {
-  const auto show = [this, wall, trouble] {
+void FlowCases::show_result(const fs::path& folder, const std::vector<fs::path>& walls,
+                            const QString& outcome, const QString& trouble, const fs::path& of) {
+  const auto show = [this, walls, trouble] {
     if (!trouble.isEmpty())
       desk_.messages.complain(tr("The result is shown, but look at it before you use it: %1").arg(trouble),
                               tr("A result to look at"));
-    results_.open(wall);
+    results_.open(walls);
   };
   desk_.jobs.leave("flow_run", outcome, as_text(folder), tr("Show the result"), [this, show, folder, of] {
     if (of == desk_.case_path)

@@ -9,16 +9,17 @@
 #include <QPointer>
 #include <QStringList>
 #include <filesystem>
+#include <vector>
 
 namespace ostia::workstation {
 
 struct Desk;
 class FlowResults;
 
-/// Asks by a FlowDialog, writes the case in the background and, where OpenFOAM is there, runs it and shows
-/// the wall's shear stress. What is cancelled leaves no process; the case that was being run stays. Of a case
-/// that is no longer open there is a line alone, whose button shows the result once that case is open again:
-/// nothing of it is shown over another or proposed for it.
+/// Asks by a FlowDialog, writes the case (of each tree one) in the background and, where OpenFOAM is there,
+/// runs it and shows the wall's shear stress. What is cancelled leaves no process; the case that was being
+/// run stays. Of a case that is no longer open there is a line alone, whose button shows the result once that
+/// case is open again: nothing of it is shown over another or proposed for it.
 class FlowCases final : public QObject {
   Q_OBJECT
  public:
@@ -37,7 +38,7 @@ class FlowCases final : public QObject {
   void leave_case(const std::filesystem::path& folder, const QStringList& notes,
                   const std::filesystem::path& of);
   void run(const std::filesystem::path& case_folder, const std::filesystem::path& of);
-  void show_result(const std::filesystem::path& folder, const std::filesystem::path& wall,
+  void show_result(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& walls,
                    const QString& outcome, const QString& trouble, const std::filesystem::path& of);
   void refuse_result(const std::filesystem::path& folder, const std::filesystem::path& of);
   Desk& desk_;

@@ -4,8 +4,11 @@
 #include "shell/new_folder.h"
 
 #include "ostia/core/child_process.h"
+#include "ostia/core/error.h"
 #include "ostia/io/volume_mesh_file.h"
+#include "ostia/pipeline/exported_meshes.h"
 #include "ostia/solver/openfoam_launch.h"
+#include "ostia/view/value_scale.h"
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -43,30 +46,43 @@ QString title_of(SolverKind kind) {
   return QString::fromStdString(std::string(traits_of(kind).title));
 }
 
-FlowMesh read_flow_mesh(const std::filesystem::path& file) {
-  FlowMesh read;
-  read.mesh = std::make_shared<const geometry::MixedMesh>(io::read_volume_mesh(file));
-  read.ends = solver::boundary_flow(*read.mesh, {});
-  return read;
+std::vector<FlowMesh> read_flow_meshes(const std::filesystem::path& path, const core::TaskContext& task) {
+  const std::vector<pipeline::ExportedMesh> files = pipeline::exported_meshes(path);
+  if (files.empty())
+    throw InvalidInput(
+        FlowDialog::tr("There is no mesh.vtu in this folder. Export a mesh from the case.").toStdString());
+  std::vector<FlowMesh> meshes;
+  for (const pipeline::ExportedMesh& file : files) {
+    task.throw_if_cancelled();
+    FlowMesh read{
+        file.name, std::make_shared<const geometry::MixedMesh>(io::read_volume_mesh(file.file)), {}};
+    try {
+      read.ends = solver::boundary_flow(*read.mesh, {});
+    } catch (const InvalidInput& error) {
+      throw InvalidInput(file.name.empty() ? error.what() : file.name + ": " + error.what());
+    }
+    meshes.push_back(std::move(read));
+  }
+  return meshes;
 }
 
-void FlowDialog::set_mesh(const std::filesystem::path& file, FlowMesh mesh) {
+void FlowDialog::set_meshes(const std::filesystem::path& file, std::vector<FlowMesh> meshes) {
   if (file != mesh_file_->text().toStdString()) return;
-  mesh_ = std::move(mesh);
+  meshes_ = std::move(meshes);
   mesh_refused_.clear();
   check();
 }
 
 void FlowDialog::set_mesh_trouble(const std::filesystem::path& file, const QString& trouble) {
   if (file != mesh_file_->text().toStdString()) return;
-  mesh_ = {};
+  meshes_.clear();
   mesh_refused_ = trouble;
   check();
 }
 
 /// What is typed is not read with every letter.
 void FlowDialog::want_mesh() {
-  mesh_ = {};
+  meshes_.clear();
   mesh_refused_.clear();
   typing_.start();
   propose_folder();
@@ -82,7 +98,9 @@ void FlowDialog::choose_mesh() {
 /// tube-mesh/mesh.vtu: tube-flow, tube-flow-2, ... beside the mesh's folder.
 void FlowDialog::propose_folder() {
   if (mesh_file_->text().isEmpty()) return;
-  const QFileInfo mesh_folder(QFileInfo(mesh_file_->text()).absolutePath());
+  const QFileInfo chosen(mesh_file_->text());  // a mesh.vtu, or the folder of several trees' meshes
+  const QFileInfo mesh_folder(chosen.isDir() ? QDir(chosen.absoluteFilePath()).absolutePath()
+                                             : chosen.absolutePath());
   QString name = mesh_folder.fileName();
   const int at = name.lastIndexOf("-mesh");
   name = at > 0 ? name.left(at) : name;
@@ -94,14 +112,15 @@ QString FlowDialog::mesh_trouble() const {
   if (mesh_file_->text().isEmpty()) return tr("Choose a mesh: the mesh.vtu of an exported mesh.");
   if (!file.exists()) return tr("There is no file of this name.");
   if (!mesh_refused_.isEmpty()) return mesh_refused_;
-  if (!mesh_.mesh) return {};
-  if (mesh_.mesh->quadratic())
-    return tr(
-        "Its elements are quadratic, the solvers take linear ones. Export the mesh with linear elements.");
-  if (!traits_of(solver()).prisms && !mesh_.mesh->prisms.empty())
-    return tr("It has prisms, %1 takes tetrahedra alone. Export it with layers as tetrahedra, or "
-              "choose OpenFOAM.")
-        .arg(title_of(solver()));
+  for (const FlowMesh& one : meshes_) {
+    if (one.mesh->quadratic())
+      return tr(
+          "Its elements are quadratic, the solvers take linear ones. Export the mesh with linear elements.");
+    if (!traits_of(solver()).prisms && !one.mesh->prisms.empty())
+      return tr("It has prisms, %1 takes tetrahedra alone. Export it with layers as tetrahedra, or "
+                "choose OpenFOAM.")
+          .arg(title_of(solver()));
+  }
   return {};
 }
 
@@ -141,7 +160,7 @@ void FlowDialog::check() {
   fits = mark(blood, blood_trouble()) && fits;
   const bool full = !QDir(folder_->text()).isEmpty();
   fits = folder_->check(full ? tr("The folder holds files. Name another one.") : QString()) && fits;
-  go_->setEnabled(fits && mesh_.mesh);
+  go_->setEnabled(fits && !meshes_.empty());
   show_ends();
   show_note();
   fit();
@@ -149,26 +168,32 @@ void FlowDialog::check() {
 
 void FlowDialog::show_ends() {
   ends_->clear();
-  if (!mesh_.mesh) {
+  if (meshes_.empty()) {
     const bool reading = mesh_refused_.isEmpty() && QFileInfo::exists(mesh_file_->text());
     if (reading) new QTreeWidgetItem(ends_, {tr("reading\u2026")});
     return;
   }
   const FlowChoice now = choice();
-  const auto width = [](double mm) { return tr("%1 mm").arg(mm, 0, 'f', 2); };
-  const auto amount = [](double ml_s) { return tr("%1 ml/s").arg(ml_s, 0, 'g', 3); };
+  for (const FlowMesh& one : meshes_) show_ends_of(one, now);
+  for (int column = 0; column < ends_->columnCount(); ++column) ends_->resizeColumnToContents(column);
+}
+
+/// Each system's outlets share what flows into it.
+void FlowDialog::show_ends_of(const FlowMesh& mesh, const FlowChoice& now) {
+  const auto digits = [](double value) { return QString::fromStdString(view::three_digits(value)); };
+  const auto width = [&](double mm) { return tr("%1 mm").arg(digits(mm)); };
+  const auto amount = [&](double ml_s) { return tr("%1 ml/s").arg(digits(ml_s)); };
   double through = 0.0;
-  for (const solver::Inlet& inlet : mesh_.ends.inlets) {
+  for (const solver::Inlet& inlet : mesh.ends.inlets) {
     const double diameter = inlet.section.diameter_mm();
     const double flow = now.flow_ml_s.value_or(solver::usual_flow_ml_s(diameter));
     through += flow;
     new QTreeWidgetItem(ends_, {QString::fromStdString(inlet.name), width(diameter), amount(flow)});
   }
-  for (const solver::Outlet& outlet : mesh_.ends.outlets)
+  for (const solver::Outlet& outlet : mesh.ends.outlets)
     new QTreeWidgetItem(
         ends_, {QString::fromStdString(outlet.name), width(outlet.diameter_mm),
                 now.outlets == OutletModel::split ? amount(outlet.share * through) : tr("computed")});
-  for (int column = 0; column < ends_->columnCount(); ++column) ends_->resizeColumnToContents(column);
 }
 
 void FlowDialog::show_note() {

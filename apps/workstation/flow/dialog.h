@@ -4,6 +4,7 @@
 #include "shell/fitted_dialog.h"
 #include "shell/form_fields.h"
 
+#include "ostia/core/task_context.h"
 #include "ostia/pipeline/solver_case.h"
 #include "ostia/solver/boundary_conditions.h"
 
@@ -11,6 +12,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 class QCheckBox;
@@ -30,7 +32,8 @@ QString title_of(pipeline::SolverKind kind);  ///< "OpenFOAM"
 
 /// What was chosen; kept for the next time.
 struct FlowChoice {
-  std::filesystem::path mesh, folder;
+  std::filesystem::path mesh;  ///< of one tree; or the folder of an exported mesh, of all of its trees
+  std::filesystem::path folder;
   pipeline::SolverKind solver = pipeline::SolverKind::openfoam;
   std::optional<double> flow_ml_s;  ///< through each inlet; nothing: by its diameter
   std::string waveform;             ///< as solver::builtin_waveform knows it; empty: steady
@@ -39,13 +42,17 @@ struct FlowChoice {
   bool run = true;
 };
 
-/// A mesh with its open ends, as they were found.
+/// A tree's mesh with its open ends, as they were found.
 struct FlowMesh {
+  std::string name;  ///< of the tree; empty where there is one
   std::shared_ptr<const geometry::MixedMesh> mesh;
   solver::BoundaryFlow ends;
 };
-/// Reads it. Throws what io::read_volume_mesh and solver::boundary_flow throw.
-FlowMesh read_flow_mesh(const std::filesystem::path& file);
+/// Reads those that a path means (pipeline::exported_meshes): nothing flows from one to another, so each is a
+/// system, and a case, of its own. Throws InvalidInput where there is none, with the tree's name what
+/// io::read_volume_mesh and solver::boundary_flow throw; Cancelled.
+std::vector<FlowMesh> read_flow_meshes(const std::filesystem::path& path,
+                                       const core::TaskContext& task = core::no_task());
 
 /// Checks while it is filled in, as MeshingDialog does. The mesh is read by its owner in the background.
 class FlowDialog final : public FittedDialog {
@@ -54,9 +61,9 @@ class FlowDialog final : public FittedDialog {
   FlowDialog(const FlowChoice& last, QWidget* parent);
   FlowChoice choice() const;
   solver::BoundaryFlowOptions flow_options() const;
-  std::shared_ptr<const geometry::MixedMesh> mesh() const { return mesh_.mesh; }
+  const std::vector<FlowMesh>& meshes() const { return meshes_; }
   /// The answer to `mesh_wanted`; one for a file that is no longer wanted is ignored.
-  void set_mesh(const std::filesystem::path& file, FlowMesh mesh);
+  void set_meshes(const std::filesystem::path& file, std::vector<FlowMesh> meshes);
   void set_mesh_trouble(const std::filesystem::path& file, const QString& trouble);
   void accept() override;
 
@@ -76,6 +83,7 @@ class FlowDialog final : public FittedDialog {
   void propose_folder();
   void check();
   void show_ends();
+  void show_ends_of(const FlowMesh& mesh, const FlowChoice& now);
   void show_note();
   QString mesh_trouble() const;
   QString flow_trouble() const;
@@ -93,7 +101,7 @@ class FlowDialog final : public FittedDialog {
   QLabel* note_ = nullptr;
   QPushButton* go_ = nullptr;
   FormField mesh_field_, flow_field_, outlets_field_, blood_field_;
-  FlowMesh mesh_;
+  std::vector<FlowMesh> meshes_;  // none: not read yet, or refused
   QString mesh_refused_;
   QTimer typing_;
 };

@@ -13,8 +13,8 @@ constexpr int picture_scale = 2;  // pixels of a saved picture over those of the
 
 }  // namespace
 
-FlowResults::FlowResults(Desk& desk, SceneWidget& view)
-    : QObject(&desk.window), desk_(desk), view_(view), bar_(new FlowBar) {
+FlowResults::FlowResults(Desk& desk, SceneWidget& view, ProfileWidget& profile)
+    : QObject(&desk.window), desk_(desk), view_(view), profile_(profile), bar_(new FlowBar) {
   bar_->hide();
   view.add_below(bar_);
   connect(bar_, &FlowBar::array_changed, this, &FlowResults::show_array);
@@ -30,7 +30,9 @@ FlowResults::FlowResults(Desk& desk, SceneWidget& view)
     scene_.reset();
     result_ = {};
     bar_->hide();
+    show_along();
   });
+  follow_vessels();
   own_.push_back(desk.bench.case_changed.observe([this] {
     desk_.jobs.cancel("flow_results");  // what is still being read is of the former case
     hide();
@@ -40,13 +42,13 @@ FlowResults::FlowResults(Desk& desk, SceneWidget& view)
 void FlowResults::ask() {
   const QString chosen = ask_open_file(&desk_.window, tr("Open flow results"),
                                        tr("Surfaces with values (*.vtp *.vtk);;All files (*)"));
-  if (!chosen.isEmpty()) open(chosen.toStdString());
+  if (!chosen.isEmpty()) open({chosen.toStdString()});
 }
 
-void FlowResults::open(const std::filesystem::path& file) {
+void FlowResults::open(const std::vector<std::filesystem::path>& files) {
   desk_.jobs.run(
       "flow_results", tr("Flow results"),
-      [file](const core::TaskContext&) { return std::any(read_flow_surface(file)); },
+      [files](const core::TaskContext&) { return std::any(read_flow_surface(files)); },
       [this](const std::any& read) { show(std::any_cast<const FlowSurface&>(read)); },
       [this](const QString& message) {
         desk_.messages.complain(message, tr("The results could not be opened"));
@@ -62,6 +64,7 @@ void FlowResults::show(FlowSurface result) {
   bar_->show();
   reveal(view_);
   view_.show_guest(scene);
+  show_along();
 }
 
 void FlowResults::hide() {
@@ -70,7 +73,6 @@ void FlowResults::hide() {
 
 void FlowResults::show_array() {
   if (!scene_) return;
-  if (bar_->automatic()) bar_->set_range(view::automatic_range(result_.arrays[bar_->array()].values));
   color();
 }
 
@@ -79,7 +81,7 @@ void FlowResults::color() {
   const FlowArray& array = result_.arrays[bar_->array()];
   auto range = bar_->range();
   if (bar_->automatic()) {
-    range = view::automatic_range(array.values);
+    range = view::rounded_range(view::automatic_range(array.values));
     bar_->set_range(*range);
   }
   if (!range) return;  // what is typed is not finished

@@ -1,6 +1,7 @@
 #include "help/commands.h"
 
 #include "commands/table.h"
+#include "help/crash_reports.h"
 #include "help/help.h"
 
 namespace ostia::workstation {
@@ -30,6 +31,16 @@ void add_help_commands(CommandTable& table, Help& help) {
              .text = Command::tr("&About Ostia"),
              .tip = Command::tr("Version, licences, and what the program is not."),
              .run = [&help] { help.show_about(); }});
+}
+
+void add_crash_commands(CommandTable& table, CrashReports& reports) {
+  table.add(
+      {.id = "help.crash_reports",
+       .text = Command::tr("&Reports of crashes\u2026"),
+       .tip = Command::tr("What the program wrote down when it ended by itself; on this computer alone."),
+       .run = [&reports] { reports.show(); },
+       .enabled = [&reports] { return reports.any(); },
+       .why_not = [] { return Command::tr("There is none."); }});
 }
 
 }  // namespace ostia::workstation

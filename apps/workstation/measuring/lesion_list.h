@@ -33,7 +33,8 @@ class LesionList final : public QTreeWidget {
   std::optional<session::LesionRow> at_cursor();
   /// The reader's word on that lesion; false where there is none.
   bool say(session::LesionState state);
-  bool comment();           ///< opens the comment of that lesion for typing
+  bool comment();                                     ///< opens the comment of that lesion for typing
+  bool settled() const { return !soon_.isActive(); }  ///< nothing that was found waits to be written
   QString as_text() const;  ///< of the rows that are shown, in their order: tab-separated, with a header
 
  protected:

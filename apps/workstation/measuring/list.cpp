@@ -171,22 +171,11 @@ void MeasurementList::ask_for_text(const std::vector<analysis::Measurement>& all
 }
 
 QWidget* MeasurementList::with_filter() {
-  auto* whole = new QWidget;
-  auto* column = new QVBoxLayout(whole);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(0);
-  auto* line = new QLineEdit(whole);
-  line->setObjectName("measurements_filter");
-  line->setAccessibleName(tr("Filter the measurements"));
-  line->setPlaceholderText(tr("Filter"));
-  line->setClearButtonEnabled(true);
-  column->addWidget(line);
-  column->addWidget(this, 1);
-  connect(line, &QLineEdit::textChanged, this, [this](const QString& text) {
-    wanted_ = text.trimmed();
-    filter();
-  });
-  return whole;
+  return below_filter(*this, "measurements_filter", tr("Filter the measurements"), tr("Filter"),
+                      [this](const QString& text) {
+                        wanted_ = text;
+                        filter();
+                      });
 }
 
 QString MeasurementList::as_text() const {

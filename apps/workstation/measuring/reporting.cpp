@@ -3,18 +3,18 @@
 #include "measuring/report_dialog.h"
 #include "shell/desk.h"
 #include "shell/file_dialogs.h"
+#include "shell/language.h"
 #include "shell/new_folder.h"
+#include "shell/open_file.h"
 #include "views/picture_widget.h"
 #include "views/raster_image.h"
 
 #include "ostia/io/centerline_file.h"
 
 #include <QDate>
-#include <QDesktopServices>
 #include <QMessageBox>
 #include <QPixmap>
 #include <QPushButton>
-#include <QUrl>
 #include <memory>
 #include <optional>
 
@@ -89,6 +89,7 @@ void Reporting::make_report_in(const fs::path& folder, const imaging::ShownIdent
   from.options.theta_deg = bench.theta_deg.get();
   from.options.level_hu = bench.grey.get().level_hu;
   from.options.window_hu = bench.grey.get().width_hu;
+  from.options.language = session::report_language(language_in_use().toStdString());
   from.pinned = pinned_;
   for (std::size_t i = 0; i < from.pinned.size(); ++i)
     from.pinned[i].name = "pinned-" + std::to_string(i + 1);
@@ -122,9 +123,9 @@ void Reporting::show_made(const fs::path& folder) {
   for (const auto& [text, name] :
        {std::pair(tr("Open the PDF"), "report.pdf"), {tr("Open the HTML"), "report.html"}}) {
     QPushButton* button = box->addButton(text, QMessageBox::ActionRole);
-    connect(button, &QPushButton::clicked, box, [path, name = QString(name)] {
-      QDesktopServices::openUrl(QUrl::fromLocalFile(path + "/" + name));
-    });
+    button->setObjectName(QStringLiteral("report_made.") + name);
+    connect(button, &QPushButton::clicked, this,
+            [this, folder, name = std::string(name)] { open_with_desktop(desk_, folder / name); });
   }
   box->open();
 }

@@ -3,7 +3,6 @@
 #include "meshing/histogram.h"
 
 #include <QAbstractItemView>
-#include <QCheckBox>
 #include <QComboBox>
 #include <QFormLayout>
 #include <QHBoxLayout>
@@ -26,7 +25,7 @@ constexpr int panel_rows_shown = 3;
 constexpr double elements_seen = 6.0;  // in half of the picture's height, where one is flown to
 
 QString number(double value) {
-  return QString::number(value, 'f', std::abs(value) < 10.0 ? 2 : 1);
+  return QString::fromStdString(view::three_digits(value));
 }
 
 }  // namespace
@@ -108,18 +107,35 @@ void MeshDock::add_colors(QFormLayout* form) {
   measure_->view()->setAccessibleName(measure_->accessibleName());
   for (std::size_t m = 0; m < meshing::element_measure_count; ++m)
     measure_->addItem(title_of(static_cast<ElementMeasure>(m)));
-  edges_ = new QCheckBox(tr("E&dges"));
-  edges_->setObjectName("mesh_edges");
-  edges_->setChecked(true);
   auto* label = new QLabel(tr("&Colours"));
   label->setBuddy(measure_);
   form->addRow(label, measure_);
-  form->addRow(edges_);
   connect(measure_, QOverload<int>::of(&QComboBox::currentIndexChanged), this, &MeshDock::show_measure);
-  connect(edges_, &QCheckBox::toggled, this, [this](bool on) {
-    if (guest_) guest_->set_edges_shown(on);
+  add_edges(form);
+}
+
+void MeshDock::add_edges(QFormLayout* form) {
+  edges_ = new QComboBox;
+  edges_->setObjectName("mesh_edges");
+  edges_->setAccessibleName(tr("Edges of the elements"));
+  edges_->setToolTip(
+      tr("Of a whole tree there are more edges than pixels: they are drawn where they are near."));
+  edges_->view()->setAccessibleName(edges_->accessibleName());
+  const std::pair<QString, view::ShownEdges> choices[] = {{tr("where they are near"), view::ShownEdges::near},
+                                                          {tr("always"), view::ShownEdges::always},
+                                                          {tr("never"), view::ShownEdges::never}};
+  for (const auto& [text, choice] : choices) edges_->addItem(text, static_cast<int>(choice));
+  auto* label = new QLabel(tr("E&dges"));
+  label->setBuddy(edges_);
+  form->addRow(label, edges_);
+  connect(edges_, QOverload<int>::of(&QComboBox::currentIndexChanged), this, [this] {
+    if (guest_) guest_->set_edges(edges());
     scene_.request_render();
   });
+}
+
+view::ShownEdges MeshDock::edges() const {
+  return static_cast<view::ShownEdges>(edges_->currentData().toInt());
 }
 
 void MeshDock::show_mesh(std::shared_ptr<const MeshPreview> preview) {
@@ -165,7 +181,7 @@ void MeshDock::show_in_scene(bool shown) {
   if (shown && preview_) {
     if (guest_) return;
     const auto made = std::make_shared<view::MeshScene>(preview_->mesh);
-    made->set_edges_shown(edges_->isChecked());
+    made->set_edges(edges());
     scene_.show_guest(made);
     guest_ = made;  // after the signal about the former one
     show_measure();

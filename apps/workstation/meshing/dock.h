@@ -13,7 +13,6 @@
 #include <memory>
 #include <vector>
 
-class QCheckBox;
 class QComboBox;
 class QFormLayout;
 class QLabel;
@@ -38,10 +37,12 @@ class MeshDock final : public QDockWidget {
   QWidget* rows(session::Workbench& bench);
   void show_gate();
   void add_colors(QFormLayout* form);
+  void add_edges(QFormLayout* form);
   void show_in_scene(bool shown);
   void show_measure();
   void fly_to(int row);
   meshing::ElementMeasure measure() const;
+  view::ShownEdges edges() const;
   SceneWidget& scene_;
   std::shared_ptr<const MeshPreview> preview_;
   std::shared_ptr<view::MeshScene> guest_;  // while it is shown
@@ -49,7 +50,7 @@ class MeshDock final : public QDockWidget {
   geometry::Box3 box_;
   QLabel *name_ = nullptr, *gate_ = nullptr, *figures_ = nullptr;
   QComboBox* measure_ = nullptr;
-  QCheckBox* edges_ = nullptr;
+  QComboBox* edges_ = nullptr;
   CutFields* cut_ = nullptr;
   HistogramWidget* histogram_ = nullptr;
   QListWidget* list_ = nullptr;

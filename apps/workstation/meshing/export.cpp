@@ -5,13 +5,12 @@
 #include "shell/desk.h"
 #include "shell/file_dialogs.h"
 #include "shell/new_folder.h"
+#include "shell/open_file.h"
 #include "shell/panel.h"
 #include "views/scene_widget.h"
 
 #include "ostia/core/error.h"
 
-#include <QDesktopServices>
-#include <QUrl>
 #include <cmath>
 #include <new>
 
@@ -175,7 +174,7 @@ void MeshingExport::tell(ExportKind kind, const fs::path& folder, const pipeline
   QStringList notes{path};
   for (const std::string& warning : summary.warnings) notes << QString::fromStdString(warning);
   desk_.jobs.leave(job_name(kind), text, notes.join('\n'), tr("Open folder"),
-                   [path] { QDesktopServices::openUrl(QUrl::fromLocalFile(path)); });
+                   [this, folder] { open_with_desktop(desk_, folder); });
   if (kind == ExportKind::mesh && shown) {
     show_mesh(
         tr("Preparing the mesh's picture"),
@@ -183,7 +182,8 @@ void MeshingExport::tell(ExportKind kind, const fs::path& folder, const pipeline
           return preview_of(folder, verdict, task);
         },
         [this](const QString& message) { desk_.messages.say(message); });
-    emit mesh_made(QString::fromStdString((folder / "mesh.vtu").string()));
+    // With several trees (left and right artery) the folder stands for the meshes of all.
+    emit mesh_made(QString::fromStdString((summary.trees > 1 ? folder : folder / "mesh.vtu").string()));
   }
   if (!summary.verdict.ok())
     desk_.messages.complain(

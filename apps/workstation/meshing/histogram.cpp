@@ -13,7 +13,7 @@ constexpr std::size_t bar_count = 30;
 constexpr int lines_high = 5;
 
 QString text_of(double value) {
-  return QString::number(value, 'g', 3);
+  return QString::fromStdString(view::three_digits(value));
 }
 
 }  // namespace

@@ -2,12 +2,14 @@
 
 #include "ostia/core/error.h"
 #include "ostia/io/volume_mesh_file.h"
+#include "ostia/pipeline/exported_meshes.h"
 #include "ostia/pipeline/volume_mesh.h"
 
 #include <QCoreApplication>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
 namespace ostia::workstation {
 namespace fs = std::filesystem;
@@ -17,11 +19,8 @@ using geometry::MixedMesh;
 using meshing::ElementMeasure;
 
 std::vector<fs::path> meshes_in(const fs::path& folder) {
-  if (fs::exists(folder / "mesh.vtu")) return {folder / "mesh.vtu"};
   std::vector<fs::path> found;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (fs::exists(entry.path() / "mesh.vtu")) found.push_back(entry.path() / "mesh.vtu");
-  std::sort(found.begin(), found.end());
+  for (const pipeline::ExportedMesh& one : pipeline::exported_meshes(folder)) found.push_back(one.file);
   if (found.empty())
     throw IoError(QCoreApplication::translate("jobs", "%1 holds no mesh.vtu")
                       .arg(QString::fromStdString(folder.string()))
@@ -159,11 +158,10 @@ view::ValueScale scale_of(const MeshPreview& preview, ElementMeasure measure) {
       scale.high = 90.0;
       break;
     case ElementMeasure::skewness:
-      scale.high = std::max(1.0, std::isfinite(*high) ? *high : 1.0);
+      scale.high = view::rounded_range({0.0, std::max(1.0, std::isfinite(*high) ? *high : 1.0)}).second;
       break;
     case ElementMeasure::mean_edge_mm:
-      scale.low = *low;
-      scale.high = *high > *low ? *high : *low + 1e-3;
+      std::tie(scale.low, scale.high) = view::rounded_range({*low, *high > *low ? *high : *low + 1e-3});
       break;
   }
   return scale;

@@ -20,6 +20,13 @@ void add_opening_commands(CommandTable& table, const Desk& desk, Opening& openin
              .tip = Command::tr("Looks for CT series in a folder of DICOM files."),
              .keys = {"Ctrl+Shift+O"},
              .run = [&opening] { opening.choose_folder(); }});
+  Command series{.id = "file.series",
+                 .text = Command::tr("Ano&ther series\u2026"),
+                 .tip = Command::tr("The series of the folder that was opened last, to choose another one."),
+                 .run = [&opening] { opening.choose_another_series(); }};
+  series.enabled = [&opening] { return opening.has_series(); };
+  series.why_not = [] { return Command::tr("What was opened last is no folder of DICOM files."); };
+  table.add(series);
   table.add({.id = "file.sample",
              .text = Command::tr("The &sample case"),
              .tip = Command::tr("Opens a computed patient with disease, made on the first use."),

@@ -1,6 +1,7 @@
 #include "opening/opening.h"
 #include "opening/series_browser.h"
 #include "shell/desk.h"
+#include "shell/library_texts.h"
 
 #include "ostia/core/error.h"
 #include "ostia/core/log.h"
@@ -45,25 +46,39 @@ void Opening::open_image(const session::KnownImage& image) {
     scan(image);
 }
 
-void Opening::scan(const session::KnownImage& image) {
+void Opening::scan(const session::KnownImage& image, bool ask) {
   desk_.jobs.cancel("first slice");
+  scanned_ = image.path;
   desk_.jobs.run(
       "open", tr("Looking for series"),
       [path = image.path](const core::TaskContext& task) {
         return std::any(imaging::scan_dicom(path, task));
       },
-      [this, image](const std::any& result) {
-        choose_series(image, std::any_cast<const imaging::DicomFolder&>(result));
+      [this, image, ask](const std::any& result) {
+        choose_series(image, std::any_cast<const imaging::DicomFolder&>(result), ask);
       },
-      [this](const QString& message) { desk_.messages.complain(message, tr("This cannot be opened")); });
+      [this](const QString& message) {
+        scanned_.clear();
+        desk_.cannot_open(message, tr("This cannot be opened"));
+      });
 }
 
-void Opening::choose_series(const session::KnownImage& image, const imaging::DicomFolder& folder) {
+bool Opening::has_series() const {
+  return !scanned_.empty();
+}
+
+void Opening::choose_another_series() {
+  if (has_series()) scan({scanned_, {}}, true);
+}
+
+void Opening::choose_series(const session::KnownImage& image, const imaging::DicomFolder& folder, bool ask) {
+  folder_ = std::make_shared<const imaging::DicomFolder>(folder);
+  folder_path_ = image.path;
   const auto readable = [](const imaging::DicomSeries& one) { return one.faults.empty() && !one.uneven; };
   for (const imaging::DicomSeries& one : folder.series) {
     const bool known = !image.series_uid.empty() && one.uid == image.series_uid;
     const bool alone = folder.series.size() == 1 && folder.damaged.empty() && one.warnings.empty();
-    if (!readable(one) || !(known || alone)) continue;
+    if (ask || !readable(one) || !(known || alone)) continue;
     load_series(image.path, one, {});
     return;
   }
@@ -75,6 +90,10 @@ void Opening::choose_series(const session::KnownImage& image, const imaging::Dic
             load_series(path, series, options);
           });
   browser->open();
+}
+
+void Opening::open_beside(const imaging::DicomSeries& series) {
+  load_series(folder_path_, series, {});
 }
 
 void Opening::load_series(const fs::path& path, const imaging::DicomSeries& series,
@@ -93,7 +112,7 @@ void Opening::load_series(const fs::path& path, const imaging::DicomSeries& seri
         return std::any(loaded);
       },
       [this, path](const std::any& result) { show(std::any_cast<const Loaded&>(result), path); },
-      [this](const QString& message) { desk_.messages.complain(message, tr("The image cannot be opened")); });
+      [this](const QString& message) { desk_.cannot_open(message, tr("The image cannot be opened")); });
 }
 
 void Opening::show_first_slice(const imaging::DicomSeries& series) {
@@ -156,6 +175,7 @@ Opening::ImageBeside Opening::read_beside(const std::optional<session::KnownImag
 
 void Opening::load_file(const fs::path& path, const ImageBeside& beside) {
   desk_.jobs.cancel("first slice");
+  scanned_.clear();
   desk_.jobs.run(
       "open", tr("Reading the image"),
       [path, beside, image = reading() ? session::OpenImage{} : desk_.bench.image(),
@@ -169,7 +189,7 @@ void Opening::load_file(const fs::path& path, const ImageBeside& beside) {
         else
           show(std::any_cast<const Loaded&>(result), path);
       },
-      [this](const QString& message) { desk_.messages.complain(message, tr("The image cannot be opened")); });
+      [this](const QString& message) { desk_.cannot_open(message, tr("The image cannot be opened")); });
 }
 
 void Opening::show(const Loaded& loaded, const fs::path& path) {
@@ -197,7 +217,11 @@ void Opening::show(const Loaded& loaded, const fs::path& path) {
       },
       true);
   if (!shown_now) return;
-  if (!loaded.warnings.empty()) desk_.messages.say(QString::fromStdString(loaded.warnings.front()));
+  if (!loaded.warnings.empty()) desk_.messages.say(library_text(loaded.warnings.front()));
+  if (loaded.series_uid.empty() || !folder_)
+    emit image_alone();
+  else
+    emit series_shown(folder_, loaded.series_uid);
   if (!bench.has_case()) emit image_without_case();
 }
 

@@ -52,7 +52,7 @@ void Opening::choose_folder() {
 void Opening::open(const fs::path& path) {
   std::error_code ignored;
   if (!fs::exists(path, ignored)) {
-    desk_.messages.complain(tr("There is no file or folder %1.").arg(shown(path)));
+    desk_.cannot_open(tr("There is no file or folder %1.").arg(shown(path)), tr("This cannot be opened"));
     return;
   }
   const fs::path whole = fs::absolute(path);
@@ -77,7 +77,7 @@ void Opening::open_sample() {
         });
         open_case(sample.case_file);
       },
-      [this](const QString& message) { desk_.messages.complain(message); });
+      [this](const QString& message) { desk_.cannot_open(message, tr("The case cannot be opened")); });
 }
 
 void Opening::open_case(const fs::path& path, const QString& then_say) {
@@ -111,7 +111,7 @@ void Opening::open_case(const fs::path& path, const QString& then_say) {
         else if (!then_say.isEmpty())
           desk_.messages.say(then_say);
       },
-      [this](const QString& message) { desk_.messages.complain(message, tr("The case cannot be opened")); });
+      [this](const QString& message) { desk_.cannot_open(message, tr("The case cannot be opened")); });
 }
 
 void Opening::show_case(session::Session session, const fs::path& path, const ImageBeside& image_beside) {
@@ -126,6 +126,7 @@ void Opening::show_case(session::Session session, const fs::path& path, const Im
           bench.close_image();
         }
         desk_.case_path = path;  // who is told of the session asks for it
+        if (const auto author = desk_.machine.setting(author_setting)) session.file().set_author(*author);
         bench.set_session(std::move(session));
         desk_.machine.remember_case(
             {path, image ? image->pseudonym : std::string(), now_s(), image ? image->sha256 : std::string()});

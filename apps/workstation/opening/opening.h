@@ -38,6 +38,9 @@ class Opening final : public QObject {
   /// Asks for a file, or a folder of DICOM.
   void choose_file();
   void choose_folder();
+  /// The series of the folder that was looked through last, to choose another one.
+  void choose_another_series();
+  bool has_series() const;
   /// Another file with the same case, which is then the open one.
   void save_as();
   /// A new case of an image, in the folder of this machine's cases. A mask of coronary arteries that is
@@ -47,12 +50,18 @@ class Opening final : public QObject {
   void close_case();
   /// The case that was open when a program ended without closing it.
   void recover();
+  /// Another series of the folder that the image on the table is of.
+  void open_beside(const imaging::DicomSeries& series);
   /// What is on the table is one slice of an image that is still being read.
   bool reading() const;
 
  signals:
   /// A file that the person chose: of a case or an image, or of what others open.
   void file_chosen(const QString& path);
+  /// A series of this folder is on the table, whole.
+  void series_shown(const std::shared_ptr<const imaging::DicomFolder>& folder, const std::string& uid);
+  /// An image is on the table of which nobody knows what lies beside it.
+  void image_alone();
   /// A whole image is on the table, and no case of it.
   void image_without_case();
 
@@ -85,8 +94,9 @@ class Opening final : public QObject {
   void keep_view();
   // images (opening_images.cpp)
   void open_image(const session::KnownImage& image);
-  void scan(const session::KnownImage& image);
-  void choose_series(const session::KnownImage& image, const imaging::DicomFolder& folder);
+  void scan(const session::KnownImage& image, bool ask = false);
+  /// `ask`: which of its series, though one is known or alone.
+  void choose_series(const session::KnownImage& image, const imaging::DicomFolder& folder, bool ask);
   void load_series(const std::filesystem::path& path, const imaging::DicomSeries& series,
                    const imaging::DicomReadOptions& options);
   void show_first_slice(const imaging::DicomSeries& series);
@@ -108,7 +118,10 @@ class Opening final : public QObject {
   ViewMemory memory_;
   session::OpenMark mark_;
   std::optional<FirstSight> first_sight_;
-  std::string series_uid_;  // of the image on the table
+  std::filesystem::path scanned_;  // for series; empty where another kind of image was opened since
+  std::string series_uid_;         // of the image on the table
+  std::shared_ptr<const imaging::DicomFolder> folder_;  // that was looked through last
+  std::filesystem::path folder_path_;
 
  private slots:
   void drop_unread();

@@ -8,6 +8,7 @@
 #include "views/paint_queue.h"
 #include "views/scene_widget.h"
 
+#include "ostia/core/error.h"
 #include "ostia/core/log.h"
 #include "ostia/io/cage_motion_file.h"
 
@@ -71,7 +72,7 @@ BeatingCase::BeatingCase(Desk& desk, QMainWindow& window)
   own_.push_back(bench.phase_changed.observe([this] { bar_->set_away(desk_.bench.other_phase()); }));
   own_.push_back(bench.phase_refused.observe([this] {
     clock_.playing.set(false);
-    bar_->offer_way_back();
+    if (motion_) bar_->offer_way_back();
   }));
 }
 
@@ -124,14 +125,23 @@ void BeatingCase::open_images(const std::filesystem::path& folder) {
       [folder](const core::TaskContext& task) { return std::any(session::find_phase_images(folder, task)); },
       [this](const std::any& found) {
         if (!motion_) return;
-        const auto& sources = std::any_cast<const std::vector<session::PhaseSource>&>(found);
-        images_.set(sources, motion_->template_phase);
-        bar_->set_images(sources.size());
-        show();
+        take_images(std::any_cast<const std::vector<session::PhaseSource>&>(found));
       },
       [this](const QString& message) {
         desk_.messages.complain(message, tr("The images of the phases cannot be opened"));
       });
+}
+
+void BeatingCase::take_images(std::vector<session::PhaseSource> sources) {
+  if (!motion_ || sources.empty()) return;
+  bar_->set_images(sources.size());
+  images_.set(std::move(sources), motion_->template_phase);
+  show();
+}
+
+std::shared_ptr<const session::Beating> BeatingCase::carrying() {
+  if (!motion_) throw InvalidInput("no motion is open");
+  return beating();
 }
 
 void BeatingCase::close() {

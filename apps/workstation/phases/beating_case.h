@@ -39,7 +39,10 @@ class BeatingCase final : public QObject {
   void put_away();  ///< hides the tool bar and the dock, which are shown with a motion alone
   /// Images of the phases, in a folder: looked for in the background, read as they are looked at.
   void open_images(const std::filesystem::path& folder);
+  void take_images(std::vector<session::PhaseSource> sources);  ///< that are known already
   const PhaseLoader& images() const { return images_; }
+  /// The motion with the tree as it is now. Throws InvalidInput without a motion.
+  std::shared_ptr<const session::Beating> carrying();
   bool shown() const { return motion_.has_value(); }
   session::PhaseClock& clock() { return clock_; }
   void toggle();     ///< plays or pauses; nothing without a motion

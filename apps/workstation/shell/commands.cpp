@@ -2,6 +2,7 @@
 
 #include "commands/table.h"
 #include "shell/desk.h"
+#include "shell/messages_dialog.h"
 #include "shell/one_dialog.h"
 #include "shell/preferences_dialog.h"
 #include "shell/theme.h"
@@ -71,6 +72,11 @@ void add_shell_commands(CommandTable& table, Desk& desk, SceneWidget& scene, con
              .tip = Command::tr("Keys, theme and language."),
              .keys = {"Ctrl+,"},
              .run = [&desk, &table] { show_one<PreferencesDialog>(desk.window, desk, table); }});
+  table.add({.id = "help.messages",
+             .text = Command::tr("&Messages\u2026"),
+             .tip = Command::tr("All that the window has said since it was opened, to be read again."),
+             .keys = {"Ctrl+Shift+L"},
+             .run = [&desk] { show_one<MessagesDialog>(desk.window, desk); }});
   table.add({.id = "view.theme",
              .text = Command::tr("Light or dark"),
              .tip = Command::tr("Changes between the dark and the light theme."),

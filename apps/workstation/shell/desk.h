@@ -6,11 +6,25 @@
 #include "shell/messages.h"
 
 #include "ostia/session/machine_state.h"
+#include "ostia/session/property.h"
 #include "ostia/session/workbench.h"
 
+#include <QString>
+#include <QStringList>
 #include <filesystem>
+#include <vector>
 
 namespace ostia::workstation {
+
+/// Of the machine's settings: the name that stands at steps; empty or missing for none.
+constexpr const char* author_setting = "author";
+
+/// Why there is nothing to see, and what can be done.
+struct Failure {
+  QString title{}, reason{};
+  QStringList ways{};  ///< ids of commands
+  bool operator==(const Failure& other) const = default;
+};
 
 /// The workbench, what is known of this machine, long work, and the words to the person. A part that needs
 /// more than this is given it by name.
@@ -29,7 +43,14 @@ struct Desk {
   Identity identity;  ///< whose image is on the table
   Messages messages;
   Jobs& jobs;
+  /// Stands in place of the empty views, until there is a case or another image. None: without a title.
+  session::Property<Failure> failure;
+  /// Why nothing could be opened: in the views' place where they are empty, else in a dialog.
+  void cannot_open(const QString& reason, const QString& title);
   std::filesystem::path case_path;  ///< of the case that is open; empty where none is
+
+ private:
+  std::vector<session::Subscription> own_;
 };
 
 }  // namespace ostia::workstation

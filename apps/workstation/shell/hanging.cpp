@@ -40,7 +40,7 @@ int Hanging::needed(int first, int last) const {
   int width = (last - first) * columns_->handleWidth();
   for (int i = first; i <= std::min(last, columns_->count() - 1); ++i)
     width += least_width(*columns_->widget(i));
-  if (last == tree_column && narrow_ && tree_kept_) width += least_width(*tree_);
+  if (last == tree_column && narrow_ && tree_kept_ && !tree_away_) width += least_width(*tree_);
   if (last == tree_column && !narrow_ && !tree_kept_ && columns_->count() > tree_column)
     width -= least_width(*tree_);
   return width;
@@ -53,7 +53,9 @@ void Hanging::rest(bool resting) {
 
 void Hanging::keep_tree(bool kept) {
   tree_kept_ = kept;
-  if (narrow_) {
+  if (tree_away_) {
+    // It is hidden and shown by whoever has it.
+  } else if (narrow_) {
     const int at = tabs_->indexOf(tree_);
     if (!kept && at >= 0) tabs_->removeTab(at);
     if (kept && at < 0) tabs_->setTabToolTip(tabs_->addTab(tree_, tr("Tree")), tree_->accessibleName());
@@ -64,8 +66,20 @@ void Hanging::keep_tree(bool kept) {
   fit();
 }
 
+void Hanging::lend_tree(bool away) {
+  if (away == tree_away_) return;
+  if (away && narrow_) tabs_->removeTab(tabs_->indexOf(tree_));
+  if (away && !narrow_) wide_sizes_ = columns_->saveState();
+  tree_away_ = away;
+  if (away) return;
+  if (narrow_) return keep_tree(tree_kept_);
+  columns_->insertWidget(tree_column, tree_);
+  tree_->setVisible(tree_kept_);
+  columns_->restoreState(wide_sizes_);
+}
+
 QByteArray Hanging::sizes() const {
-  return narrow_ ? wide_sizes_ : columns_->saveState();
+  return narrow_ || tree_away_ ? wide_sizes_ : columns_->saveState();
 }
 
 void Hanging::fit() {
@@ -74,14 +88,18 @@ void Hanging::fit() {
   const int room = columns_->width();
   const bool narrow = room < needed(side_column, tree_column) + comfort;
   if (narrow != narrow_) set_narrow(narrow);
-  const bool lists = !narrow || room >= needed(side_column, section_column) + comfort / 2;
+  const bool lists =
+      has_views(*side) && (!narrow || room >= needed(side_column, section_column) + comfort / 2);
   if (side->isHidden() != lists) return;
   side->setVisible(lists);
   if (narrow) share_room();
 }
 
 void Hanging::set_narrow(bool narrow) {
-  if (narrow) {
+  if (tree_away_) {
+    narrow_ = narrow;
+    if (narrow) share_room();
+  } else if (narrow) {
     wide_sizes_ = columns_->saveState();
     if (tree_kept_) tabs_->setTabToolTip(tabs_->addTab(tree_, tr("Tree")), tree_->accessibleName());
     narrow_ = true;

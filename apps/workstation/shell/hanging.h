@@ -28,6 +28,8 @@ class Hanging final : public QObject {
   /// Whether the tree has a place at all, as a column or a tab.
   void keep_tree(bool kept);
   bool tree_kept() const { return tree_kept_; }
+  /// True: somebody takes the tree out, and the columns close up; false: it comes back.
+  void lend_tree(bool away);
   void rest(bool resting);   ///< one panel is shown alone, or no longer
   QByteArray sizes() const;  ///< of the four columns, as QSplitter::saveState has them
 
@@ -46,7 +48,7 @@ class Hanging final : public QObject {
   QTabWidget* tabs_;
   Panel* tree_;
   QByteArray wide_sizes_;
-  bool narrow_ = false, resting_ = false, tree_kept_ = true;
+  bool narrow_ = false, resting_ = false, tree_kept_ = true, tree_away_ = false;
 };
 
 }  // namespace ostia::workstation

@@ -1,6 +1,7 @@
 #include "shell/jobs.h"
 
 #include "shell/language.h"
+#include "shell/library_texts.h"
 
 #include <QHBoxLayout>
 #include <QLabel>
@@ -169,8 +170,7 @@ void Jobs::poll() {
     if (status && status->state == session::JobState::done) {
       if (auto result = queue_.take_any(id)) job->done(std::move(*result));
     } else {
-      if (status && status->state == session::JobState::failed)
-        job->failed(QString::fromStdString(status->message));
+      if (status && status->state == session::JobState::failed) job->failed(library_text(status->message));
       queue_.forget(id);
     }
     emit changed();

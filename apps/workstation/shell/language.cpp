@@ -1,5 +1,7 @@
 #include "shell/language.h"
 
+#include "shell/library_texts.h"
+
 #include "ostia/view/words.h"
 
 #include <QApplication>
@@ -144,7 +146,16 @@ void install(const QString& file, const QString& folder) {
     delete translator;
 }
 
+QString& in_use() {
+  static QString code = QStringLiteral("en");
+  return code;
+}
+
 }  // namespace
+
+QString language_in_use() {
+  return in_use();
+}
 
 const std::vector<Language>& languages() {
   static const std::vector<Language> all{{"en", "English"}, {"de", "Deutsch"}};
@@ -171,6 +182,8 @@ QString use_language(const std::optional<std::string>& setting) {
     install("qtbase_" + code, QLibraryInfo::location(QLibraryInfo::TranslationsPath));
   install("ostia_" + code, ":/translations");  // of English the plurals
   view::set_words(words_of_views());
+  use_library_language();
+  in_use() = code;
   return code;
 }
 

@@ -22,6 +22,8 @@ QString chosen_language(const std::optional<std::string>& setting, const QString
 /// Before any widget is made. Words of the views are set, too. Numbers keep the decimal point everywhere.
 /// Returns the code of the language that is used.
 QString use_language(const std::optional<std::string>& setting);
+/// Its code; "en" before.
+QString language_in_use();
 
 /// Kinds of measurement and what is measured, as the lists show them.
 QString measure_word(const std::string& name);

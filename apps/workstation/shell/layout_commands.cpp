@@ -1,5 +1,6 @@
 #include "commands/table.h"
 #include "shell/desk.h"
+#include "shell/floating_views.h"
 #include "shell/layouts.h"
 #include "views/planes_dock.h"
 
@@ -24,6 +25,10 @@ void ask_and_forget(const Desk& desk, Layouts& layouts) {
   const QString name = QInputDialog::getItem(&desk.window, Layouts::tr("Forget a layout"),
                                              Layouts::tr("Which:"), layouts.names(), 0, false, &given);
   if (given) layouts.forget(name);
+}
+
+QString floating_id(QString name) {
+  return QStringLiteral("view.float_") + name.remove(QStringLiteral("_panel"));
 }
 
 void begin_with_shown(const Desk& desk, Layouts& layouts) {
@@ -65,6 +70,22 @@ void add_layout_commands(CommandTable& table, Desk& desk, Layouts& layouts, Plan
              .text = Command::tr("Three &planes"),
              .tip = Command::tr("Three linked planes beside the other views, or on another monitor."),
              .action = planes.toggleViewAction()});
+}
+
+void add_floating_commands(CommandTable& table, FloatingViews& views) {
+  for (const FloatingView& one : views.all()) {
+    const QString name = one.view->objectName();
+    table.add({.id = floating_id(name),
+               .text = Command::tr("%1 in a window of its own").arg(one.title),
+               .tip = Command::tr("On another monitor, say; again, or closing it, puts it back."),
+               .bind = [&views, name](QAction& action) {
+                 action.setCheckable(true);
+                 QObject::connect(&action, &QAction::toggled, &views,
+                                  [&views, name](bool on) { views.set_floating(name, on); });
+                 QObject::connect(&views, &FloatingViews::changed, &action,
+                                  [&views, &action, name] { action.setChecked(views.floats(name)); });
+               }});
+  }
 }
 
 void list_own_layouts(QMenu& menu, Layouts& layouts) {

@@ -2,7 +2,9 @@
 
 #include "shell/desk.h"
 #include "shell/docks.h"
+#include "shell/floating_views.h"
 #include "shell/panel_layout.h"
+#include "shell/screen_room.h"
 #include "views/planes_dock.h"
 
 #include "ostia/core/error.h"
@@ -42,6 +44,7 @@ void Layouts::keep_something() {
 }
 
 void Layouts::show_reading() {
+  panels_.floating().bring_all_back();
   centre(true);
   panels_.show_tree(true);
   planes_.hide();
@@ -49,6 +52,7 @@ void Layouts::show_reading() {
 }
 
 void Layouts::show_planes() {
+  panels_.floating().bring_all_back();
   planes_.setFloating(false);
   planes_.show();
   centre(false);
@@ -56,6 +60,7 @@ void Layouts::show_planes() {
 }
 
 void Layouts::show_flat() {
+  panels_.floating().bring_all_back();
   centre(true);
   panels_.show_tree(false);
   planes_.hide();
@@ -114,6 +119,8 @@ void Layouts::arrange(const Values& values) {
   restore_docks(window_, value("docks"), value("docks.opened"));
   panels_.restore_layout(values);
   panels_.show_tree(value(tree_key).value_or("on") != "off");
+  panels_.floating().restore(value("views.floating").value_or(""));
+  bring_back_docks(window_);
   centre(value(centre_key).value_or("on") != "off");
   keep_something();
 }

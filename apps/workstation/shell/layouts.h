@@ -14,11 +14,13 @@ namespace ostia::workstation {
 
 class CommandTable;
 struct Desk;
+class FloatingViews;
 class PanelLayout;
 class PlanesDock;
 
-/// A layout is the window's place and size, docks with theirs (also those that float on another monitor), the
-/// panels' sizes, whether the tree is there and whether the three planes fill the window.
+/// A layout is the window's place and size, docks with theirs (also those that float on another monitor),
+/// views in windows of their own and where these are, the panels' sizes, whether the tree is there and
+/// whether the three planes fill the window.
 class Layouts final : public QObject {
   Q_OBJECT
  public:
@@ -55,6 +57,8 @@ class Layouts final : public QObject {
 };
 
 void add_layout_commands(CommandTable& table, Desk& desk, Layouts& layouts, PlanesDock& planes);
+/// "view.float_cpr1" and so on: each takes a view out of the window, or puts it back.
+void add_floating_commands(CommandTable& table, FloatingViews& views);
 /// Adds a person's own layouts whenever the menu is about to be shown.
 void list_own_layouts(QMenu& menu, Layouts& layouts);
 

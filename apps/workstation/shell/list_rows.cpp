@@ -1,5 +1,9 @@
 #include "shell/list_rows.h"
 
+#include <QLineEdit>
+#include <QVBoxLayout>
+#include <utility>
+
 namespace ostia::workstation {
 
 QTreeWidgetItem& row_of(QTreeWidget& list, std::int32_t id, int row) {
@@ -15,6 +19,26 @@ QTreeWidgetItem& row_of(QTreeWidget& list, std::int32_t id, int row) {
   item->setFlags(item->flags() | Qt::ItemIsUserCheckable | Qt::ItemIsEditable);
   list.insertTopLevelItem(row, item);
   return *item;
+}
+
+QWidget* below_filter(QAbstractItemView& list, const QString& name, const QString& accessible_name,
+                      const QString& placeholder, std::function<void(const QString&)> filter) {
+  auto* whole = new QWidget;
+  auto* column = new QVBoxLayout(whole);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(0);
+  auto* line = new QLineEdit(whole);
+  line->setObjectName(name);
+  line->setAccessibleName(accessible_name);
+  line->setPlaceholderText(placeholder);
+  line->setClearButtonEnabled(true);
+  column->addWidget(line);
+  column->addWidget(&list, 1);
+  QObject::connect(line, &QLineEdit::textChanged, &list,
+                   [filter = std::move(filter)](const QString& text) { filter(text.trimmed()); });
+  QObject::connect(line, &QLineEdit::returnPressed, &list,
+                   [&list] { list.setFocus(Qt::ShortcutFocusReason); });
+  return whole;
 }
 
 }  // namespace ostia::workstation

@@ -3,6 +3,7 @@
 
 #include <QTreeWidget>
 #include <cstdint>
+#include <functional>
 
 namespace ostia::workstation {
 
@@ -11,5 +12,10 @@ constexpr int row_id_role = Qt::UserRole;  ///< of a row's first column: the id 
 /// The item of this id at this row of a list that is written anew from the top: the one that is there, in
 /// front of which those that are of nothing any more go, or a new one.
 QTreeWidgetItem& row_of(QTreeWidget& list, std::int32_t id, int row);
+
+/// The list below a line that filters it, to be shown instead of it. `filter` is told what was typed; Return
+/// there leads to the list.
+QWidget* below_filter(QAbstractItemView& list, const QString& name, const QString& accessible_name,
+                      const QString& placeholder, std::function<void(const QString&)> filter);
 
 }  // namespace ostia::workstation

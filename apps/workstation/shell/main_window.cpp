@@ -11,10 +11,13 @@
 #include "opening/opening.h"
 #include "opening/start_page.h"
 #include "phases/beating_case.h"
+#include "phases/study_series.h"
 #include "qa/dock.h"
 #include "shell/docks.h"
+#include "shell/failure_panel.h"
 #include "shell/hanging.h"
 #include "shell/layouts.h"
+#include "shell/library_texts.h"
 #include "shell/theme.h"
 #include "shell/unfinished_work.h"
 #include "trees/opening.h"
@@ -24,7 +27,10 @@
 #include "vessels/outer_walls.h"
 #include "views/frame_log.h"
 #include "views/heart_behind.h"
+#include "views/heart_dock.h"
+#include "views/heart_volume.h"
 #include "views/planes_dock.h"
+#include "views/scissors.h"
 
 #include <QCloseEvent>
 #include <QComboBox>
@@ -68,11 +74,11 @@ MainWindow::MainWindow(const std::filesystem::path& state_folder)
   build_commands();
   connect_parts();
   auto* start = new StartPage(desk_, *commands_, panels_->curved());
+  new FailurePanel(desk_, *commands_, panels_->curved());
   connect(start, &StartPage::file_chosen, this, [this](const QString& path) { open(path.toStdString()); });
   restore_layout();
   watch_case();
-  for (const std::string& notice : desk_.machine.take_notices())
-    desk_.messages.say(QString::fromStdString(notice));
+  for (const std::string& notice : desk_.machine.take_notices()) desk_.messages.say(library_text(notice));
   count_blocks();
   QTimer::singleShot(0, this, [this] {
     if (!desk_.bench.has_case() && !desk_.jobs.any()) opening_->recover();
@@ -125,12 +131,16 @@ void MainWindow::build_parts() {
   reporting_ = std::make_unique<Reporting>(desk_);
   finder_ = std::make_unique<VesselFinder>(desk_, *opening_);
   panels_ = new PanelLayout(desk_);
-  panels_->add_beside_tree(heart_behind(desk_, panels_->scene(), [this] { return opening_->reading(); }));
+  panels_->add_beside_tree(heart_behind(panels_->scene()));
+  heart_ = new HeartVolume(desk_, panels_->scene(), [this] { return opening_->reading(); });
+  scissors_ =
+      std::make_unique<Scissors>(panels_->scene(), [this](const view::VolumeCut& cut) { heart_->cut(cut); });
   setCentralWidget(&panels_->whole());
   meshing_ = std::make_unique<MeshingExport>(desk_, panels_->scene());
-  flow_results_ = std::make_unique<FlowResults>(desk_, panels_->scene());
+  flow_results_ = std::make_unique<FlowResults>(desk_, panels_->scene(), panels_->profile());
   flow_cases_ = std::make_unique<FlowCases>(desk_, *flow_results_);
   beating_ = new BeatingCase(desk_, *this);
+  series_ = new StudySeries(desk_, *this, *beating_);
   outer_walls_ = std::make_unique<OuterWalls>(desk_, panels_->pictures(), &panels_->profile());
   evaluability_ =
       std::make_unique<Evaluability>(desk_, panels_->pictures(), panels_->profile(), panels_->scene());
@@ -142,6 +152,9 @@ void MainWindow::build_parts() {
   planes_ = new PlanesDock(desk_, this);
   addDockWidget(Qt::RightDockWidgetArea, planes_);
   planes_->hide();
+  heart_dock_ = new HeartDock(*heart_, this);
+  addDockWidget(Qt::RightDockWidgetArea, heart_dock_);
+  heart_dock_->hide();
   layouts_ = std::make_unique<Layouts>(desk_, *this, *panels_, *planes_);
 }
 
@@ -156,6 +169,10 @@ void MainWindow::connect_parts() {
   });
   connect(opening_.get(), &Opening::file_chosen, this,
           [this](const QString& path) { open(path.toStdString()); });
+  connect(opening_.get(), &Opening::series_shown, series_, &StudySeries::take);
+  connect(opening_.get(), &Opening::image_alone, series_, &StudySeries::take_alone);
+  connect(series_, &StudySeries::series_wanted, opening_.get(), &Opening::open_beside);
+  connect(series_, &StudySeries::file_wanted, opening_.get(), &Opening::file_chosen);
   connect(opening_.get(), &Opening::image_without_case, finder_.get(), &VesselFinder::find_tree);
   connect(flow_results_.get(), &FlowResults::pointed, place_, &QLabel::setText);
   connect(meshing_.get(), &MeshingExport::mesh_made, flow_cases_.get(),
@@ -172,8 +189,8 @@ void MainWindow::watch_case() {
     show_whether_editable();
   }));
   own_.push_back(desk_.identity.changed.observe([this] { show_title(); }));
-  own_.push_back(desk_.bench.noted.observe(
-      [this](const std::string& note) { desk_.messages.say(QString::fromStdString(note)); }));
+  own_.push_back(
+      desk_.bench.noted.observe([this](const std::string& note) { desk_.messages.say(library_text(note)); }));
 }
 
 void MainWindow::show_whether_editable() {
@@ -222,6 +239,7 @@ void MainWindow::restore_layout() {
   // What was open of a mesh or a motion comes back with one.
   meshing_->dock().hide();
   beating_->put_away();
+  series_->put_away();
   layouts_->begin();
 }
 

@@ -27,9 +27,13 @@ class Opening;
 class OuterWalls;
 class Evaluability;
 class QaDock;
+class HeartDock;
+class HeartVolume;
 class Layouts;
 class PlanesDock;
 class Reporting;
+class Scissors;
+class StudySeries;
 class TreeOpening;
 class VesselFinder;
 
@@ -64,6 +68,8 @@ class MainWindow final : public QMainWindow {
   OuterWalls& outer_walls() { return *outer_walls_; }
   Evaluability& evaluability() { return *evaluability_; }
   PlanesDock& planes() { return *planes_; }
+  HeartVolume& heart() { return *heart_; }
+  StudySeries& series() { return *series_; }
   Layouts& layouts() { return *layouts_; }
   Lesions& lesions() { return *lesions_; }
 
@@ -92,6 +98,9 @@ class MainWindow final : public QMainWindow {
   std::unique_ptr<VesselFinder> finder_;
   PanelLayout* panels_ = nullptr;
   PlanesDock* planes_ = nullptr;
+  HeartVolume* heart_ = nullptr;
+  HeartDock* heart_dock_ = nullptr;
+  std::unique_ptr<Scissors> scissors_;
   std::unique_ptr<Layouts> layouts_;
   std::unique_ptr<MeshingExport> meshing_;
   bool must_end_ = false;
@@ -104,6 +113,7 @@ class MainWindow final : public QMainWindow {
   std::unique_ptr<FlowCases> flow_cases_;
   std::unique_ptr<TreeOpening> trees_;
   BeatingCase* beating_ = nullptr;
+  StudySeries* series_ = nullptr;
   CommandTable* commands_ = nullptr;
   QTimer heartbeat_;
   QElapsedTimer beat_;

@@ -5,6 +5,7 @@
 #include "commands/table.h"
 #include "flow/commands.h"
 #include "help/commands.h"
+#include "help/crash_reports.h"
 #include "help/help.h"
 #include "measuring/commands.h"
 #include "measuring/lesions.h"
@@ -25,10 +26,15 @@
 #include "vessels/finder.h"
 #include "views/commands.h"
 #include "views/grey_presets.h"
+#include "views/heart_commands.h"
+#include "views/heart_dock.h"
+#include "views/heart_volume.h"
 #include "views/planes_dock.h"
+#include "views/scissors.h"
 
 #include <QActionGroup>
 #include <QMenuBar>
+#include <QTimer>
 
 namespace ostia::workstation {
 
@@ -46,7 +52,10 @@ void MainWindow::build_commands() {
   auto* greys = new GreyPresets(desk_);
   add_grey_preset_commands(*commands_, *greys);
   add_layout_commands(*commands_, desk_, *layouts_, *planes_);
+  add_floating_commands(*commands_, panels_->floating());
   add_view_commands(*commands_, desk_, panels_->pictures(), panels_->scene(), tools);
+  add_heart_commands(*commands_, desk_, *heart_, *scissors_, *heart_dock_);
+  heart_dock_->add_buttons(*commands_);
   add_vessel_commands(*commands_, desk_, *finder_, *outer_walls_, *evaluability_, tools);
   add_lesion_commands(*commands_, desk_, *lesions_);
   add_measuring_commands(*commands_, desk_, *reporting_, tools);
@@ -54,8 +63,12 @@ void MainWindow::build_commands() {
   add_flow_commands(*commands_, desk_, *flow_cases_, *flow_results_);
   add_tree_commands(*commands_, *trees_);
   add_phase_commands(*commands_, desk_, *beating_);
+  add_series_commands(*commands_, desk_, *series_);
   add_qa_commands(*commands_, *qa_);
   add_help_commands(*commands_, *help);
+  auto* crashes = new CrashReports(desk_);
+  add_crash_commands(*commands_, *crashes);
+  QTimer::singleShot(0, crashes, &CrashReports::offer);
   const BuiltMenus menus = build_menus(*menuBar(), *commands_);
   list_recent_cases(*menus.recent, desk_, [this](const QString& path) { open(path.toStdString()); });
   list_own_layouts(*menus.layouts, *layouts_);

@@ -18,12 +18,12 @@ class MenuBuilder {
   MenuBuilder(QMenuBar& bar, const CommandTable& commands) : bar_(bar), commands_(commands) {}
   void file() {
     QMenu* menu = bar_.addMenu(tr("&File"));
-    fill(menu, {"file.open", "file.open_folder"});
+    fill(menu, {"file.open", "file.open_folder", "file.series"});
     made.recent = menu->addMenu(tr("&Recent cases"));
     fill(menu, {"file.sample", line, "file.save_as", "file.close", line, "file.report", "file.pin"});
     fill(menu->addMenu(tr("&Export")),
          {"file.export_surface", "file.export_mesh", "file.flow_case", "file.export_centerlines"});
-    fill(menu, {"file.open_mesh", "file.flow_results", "file.motion", line, "file.quit"});
+    fill(menu, {"file.open_mesh", "file.flow_results", "file.motion", "file.phases", line, "file.quit"});
   }
   void edit() { fill(bar_.addMenu(tr("&Edit")), {"edit.undo", "edit.redo", line, "edit.preferences"}); }
   void vessel() {
@@ -56,28 +56,41 @@ class MenuBuilder {
     QMenu* menu = bar_.addMenu(tr("&View"));
     menu->setToolTipsVisible(true);  // why a command cannot be used
     fill(menu, {"view.turn_left", "view.turn_right", "view.proximal", "view.distal", "view.next_vessel",
-                "view.previous_vessel", line, "view.stretched", "view.mip", "view.mean", "view.minip",
-                "view.contours", "view.outer_wall", "view.plaque", "view.identity", "view.fit", line});
+                "view.previous_vessel", line, "view.stretched", "view.contours", "view.outer_wall",
+                "view.plaque", "view.identity", "view.fit", line});
+    fill(menu->addMenu(tr("S&lab")),
+         {"view.mip", "view.mean", "view.minip", line, "view.thinner", "view.thicker"});
     made.greys = menu->addMenu(tr("&Grey levels"));
     fill(made.greys, {"window.1", "window.2", "window.3", "window.4", line, "window.save", "window.forget"});
     fill(menu->addMenu(tr("Look at the tree from")),
          {"camera.front", "camera.left", "camera.right", "camera.above", "camera.rao30_cranial20",
           "camera.rao30_caudal20", "camera.lao40_cranial20", "camera.lao45_caudal25", "camera.ap0_cranial30",
+          "camera.ap0_caudal30", "camera.rao30", "camera.lao45", "camera.lao90", "camera.angles", line,
           "camera.broadside"});
+    fill(menu->addMenu(tr("Heart in &3D")),
+         {"heart.controls", "heart.alone", "heart.tree", line, "heart.look_coronary", "heart.look_vessels",
+          "heart.look_soft_tissue", "heart.look_bone", line, "heart.cut_inside", "heart.cut_outside",
+          "heart.undo_cut", "heart.all_back"});
     made.layouts = menu->addMenu(tr("La&youts"));
-    fill(made.layouts, {"view.layout_reading", "view.layout_planes", "view.layout_flat", line, "view.planes",
-                        line, "view.layout_save", "view.layout_forget", "view.layout_first"});
+    fill(made.layouts,
+         {"view.layout_reading", "view.layout_planes", "view.layout_flat", line, "view.planes"});
+    fill(made.layouts->addMenu(tr("Windows of their own")),
+         {"view.float_vessels", "view.float_lists", "view.float_cpr1", "view.float_cpr2",
+          "view.float_section", "view.float_neighbours", "view.float_slice", "view.float_tree",
+          "view.float_profile", "view.float_lesions"});
+    fill(made.layouts, {line, "view.layout_save", "view.layout_forget", "view.layout_first"});
+    fill(menu->addMenu(tr("Series and phases")),
+         {"view.series", "view.series_play", "view.best_phase", "view.own_series"});
     fill(menu, {line, "view.theme", "view.qa", "view.mesh"});
     fill(menu->addMenu(tr("Go to")), {"view.root", "view.end", "view.next_lesion", "view.previous_lesion"});
-    fill(menu, {"view.thinner", "view.thicker"});
     fill(menu->addMenu(tr("Panels")),
          {"panel.next", "panel.previous", "panel.alone", line, "panel.vessels", "panel.cpr1", "panel.cpr2",
           "panel.section", "panel.slice", "panel.tree", "panel.profile", "panel.measurements", "panel.steps",
           "panel.lesions"});
   }
   void help() {
-    fill(bar_.addMenu(tr("&Help")),
-         {"help.find_command", "help.manual", "help.shortcuts", "help.tour", line, "help.about"});
+    fill(bar_.addMenu(tr("&Help")), {"help.find_command", "help.manual", "help.shortcuts", "help.tour", line,
+                                     "help.messages", "help.crash_reports", line, "help.about"});
   }
   BuiltMenus made;
 

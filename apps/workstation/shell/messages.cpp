@@ -1,5 +1,7 @@
 #include "shell/messages.h"
 
+#include "shell/library_texts.h"
+
 #include "ostia/core/error.h"
 #include "ostia/session/case_file.h"
 
@@ -13,7 +15,15 @@ namespace ostia::workstation {
 Messages::Messages(QWidget& over, Line status, Line shown_name)
     : over_(over), status_(std::move(status)), shown_name_(std::move(shown_name)) {}
 
+void Messages::keep(const QString& text) const {
+  if (text.isEmpty()) return;
+  log_.push_back({QTime::currentTime(), text});
+  if (log_.size() > most_kept) log_.pop_front();
+  logged.tell();
+}
+
 void Messages::say(const QString& text) const {
+  keep(text);
   if (status_) status_(text);
 }
 
@@ -21,6 +31,7 @@ void Messages::complain(const QString& text, const QString& title) const {
   // While the mouse goes on with what is refused, one message says so, not one for every move.
   for (const auto* open : over_.findChildren<QMessageBox*>())
     if (open->isVisible() && open->text() == text) return;
+  keep(title.isEmpty() ? text : title + ": " + text);
   auto* box = new QMessageBox(QMessageBox::Warning, title.isEmpty() ? QStringLiteral("Ostia") : title, text,
                               QMessageBox::Ok, &over_);
   box->setAttribute(Qt::WA_DeleteOnClose);
@@ -36,18 +47,18 @@ bool Messages::guarded(const std::function<void()>& act, bool loud) const {
   } catch (const std::bad_alloc&) {
     complain(tr("There is not enough memory for this. The case is unchanged."));
   } catch (const ResourceError& error) {
-    complain(QString::fromStdString(error.what()));
+    complain(library_text(error.what()));
   } catch (const session::CaseIsReadOnly&) {
     complain(tr("This case can be looked at and not changed: its file or folder may not be written. Choose "
                 "File > Save the case as, and go on in the copy."),
              tr("A read-only case"));
   } catch (const IoError& error) {
-    complain(QString::fromStdString(error.what()));
+    complain(library_text(error.what()));
   } catch (const Error& error) {
     if (loud)
-      complain(QString::fromStdString(error.what()));
+      complain(library_text(error.what()));
     else
-      say(QString::fromStdString(error.what()));
+      say(library_text(error.what()));
   }
   return false;
 }

@@ -2,8 +2,11 @@
 
 #include "commands/icons.h"
 
+#include <QContextMenuEvent>
 #include <QEvent>
 #include <QHBoxLayout>
+#include <QMainWindow>
+#include <QMenu>
 #include <QSplitter>
 #include <QTabWidget>
 #include <QTimer>
@@ -14,6 +17,7 @@ namespace ostia::workstation {
 namespace {
 
 constexpr int settled_ms = 100;  // until the columns have taken their places
+constexpr const char* gap_property = "gap";
 
 }  // namespace
 
@@ -22,7 +26,7 @@ Panel::Panel(const QString& title, QWidget* content, QWidget* parent) : QFrame(p
   setAccessibleName(title);
   bar_ = new QWidget(this);
   bar_->installEventFilter(this);
-  bar_->setToolTip(tr("Double click: this view alone, and back"));
+  bar_->setToolTip(tr("Double click: this view alone, and back\nRight click: a window of its own, and back"));
   title_ = new QLabel(title, bar_);
   auto* largest = new QToolButton(bar_);
   largest->setIcon(command_icon(QStringLiteral("panel.alone")));
@@ -58,7 +62,31 @@ bool Panel::eventFilter(QObject* object, QEvent* event) {
     emit maximise_wanted();
     return true;
   }
+  if (object == bar_ && event->type() == QEvent::ContextMenu) {
+    auto* menu = new QMenu(this);
+    menu->setObjectName("panel_menu");
+    menu->setAttribute(Qt::WA_DeleteOnClose);
+    const bool away = !qobject_cast<QMainWindow*>(window());
+    menu->addAction(away ? tr("Back into the window") : tr("A window of its own"), this,
+                    &Panel::own_window_wanted);
+    menu->popup(static_cast<QContextMenuEvent*>(event)->globalPos());
+    return true;
+  }
   return QFrame::eventFilter(object, event);
+}
+
+QWidget* make_gap() {
+  auto* gap = new QWidget;
+  gap->setProperty(gap_property, true);
+  return gap;
+}
+
+bool has_views(const QWidget& part) {
+  const auto* splitter = qobject_cast<const QSplitter*>(&part);
+  if (!splitter) return !part.property(gap_property).toBool();
+  for (int i = 0; i < splitter->count(); ++i)
+    if (has_views(*splitter->widget(i))) return true;
+  return false;
 }
 
 void show_alone(QWidget* root, Panel* alone) {
@@ -69,11 +97,13 @@ void show_alone(QWidget* root, Panel* alone) {
   for (auto splitter = splitters.crbegin(); splitter != splitters.crend(); ++splitter)
     for (int i = 0; i < (*splitter)->count(); ++i) {
       QWidget* part = (*splitter)->widget(i);
-      part->setVisible(!alone || part == alone || part->isAncestorOf(alone));
+      part->setVisible(has_views(*part) && (!alone || part == alone || part->isAncestorOf(alone)));
     }
 }
 
 void reveal(QWidget& widget) {
+  QWidget* window = widget.window();
+  if (!qobject_cast<QMainWindow*>(window) && window->isVisible()) window->activateWindow();
   for (QWidget* page = &widget; page->parentWidget(); page = page->parentWidget()) {
     auto* tabs = qobject_cast<QTabWidget*>(page->parentWidget()->parentWidget());
     if (tabs && tabs->indexOf(page) >= 0) tabs->setCurrentWidget(page);

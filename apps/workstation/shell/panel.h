@@ -20,6 +20,7 @@ class Panel final : public QFrame {
 
  signals:
   void maximise_wanted();
+  void own_window_wanted();  ///< or, where it has one, its old place
 
  protected:
   bool eventFilter(QObject* object, QEvent* event) override;
@@ -30,7 +31,12 @@ class Panel final : public QFrame {
   QWidget* content_;
 };
 
-/// Shows one panel alone among all below `root`, or all again where `alone` is null.
+/// A part of a splitter that keeps the place of a view which is elsewhere.
+QWidget* make_gap();
+/// False for a gap, and for a splitter of nothing else.
+bool has_views(const QWidget& part);
+
+/// Shows one panel alone among all below `root`, or all again where `alone` is null. Gaps stay hidden.
 void show_alone(QWidget* root, Panel* alone);
 
 /// Brings a view to the front where it is on a page behind others; alone where there is no room for it else.

@@ -3,6 +3,7 @@
 #include "measuring/lesion_list.h"
 #include "measuring/list.h"
 #include "shell/desk.h"
+#include "shell/floating_views.h"
 #include "shell/hanging.h"
 #include "shell/panel.h"
 #include "shell/step_list.h"
@@ -63,6 +64,35 @@ PanelLayout::PanelLayout(Desk& desk) : QObject(&desk.window), desk_(desk) {
   splitters_.push_back(columns);
   splitters_.push_back(rows_);
   for (const QSplitter* one : splitters_) parts_[one] = parts_of(*one);
+  let_views_float();
+}
+
+void PanelLayout::let_views_float() {
+  floating_ = new FloatingViews(desk_.window);
+  const auto add = [this](FloatingView view) {
+    view.leave = [this, leave = view.leave] {
+      if (alone_) maximise(alone_);
+      leave();
+    };
+    floating_->add(std::move(view));
+  };
+  for (Panel* one : rows_->findChildren<Panel*>()) {
+    connect(one, &Panel::own_window_wanted, this,
+            [this, name = one->objectName()] { floating_->set_floating(name, !floating_->floats(name)); });
+    if (one == tree_)
+      add({tree_, one->accessibleName(), [this] { hanging_->lend_tree(true); },
+           [this] { hanging_->lend_tree(false); }});
+    else
+      add(in_splitter(*one, one->accessibleName()));
+  }
+  add(in_splitter(*rows_->findChild<QTabWidget*>("lists"), tr("Measurements and steps")));
+  connect(floating_, &FloatingViews::changed, this, &PanelLayout::fold);
+}
+
+/// Columns of views that are elsewhere close up, and open again.
+void PanelLayout::fold() {
+  show_alone(rows_, alone_);
+  if (!alone_) hanging_->keep_tree(hanging_->tree_kept());
 }
 
 QWidget& PanelLayout::whole() {
@@ -163,6 +193,7 @@ QWidget* PanelLayout::section_column() {
 Panel* PanelLayout::tree_panel() {
   scene_ = new SceneWidget(desk_.bench, guard_);
   scene_->set_dark(current_theme() == Theme::dark);
+  scene_->show_identity(desk_.identity);
   return panel(tr("Coronary tree"), "tree", scene_);
 }
 
@@ -176,7 +207,7 @@ QWidget* PanelLayout::side_column() {
   tabs->setObjectName("lists");
   tabs->setDocumentMode(true);
   tabs->addTab((new MeasurementList(desk_.bench, guard_))->with_filter(), tr("Measurements"));
-  tabs->addTab(new StepList(desk_.bench, guard_), tr("Steps"));
+  tabs->addTab((new StepList(desk_.bench, guard_))->with_filter(), tr("Steps"));
   column->addWidget(tabs);
   column->setSizes({420, 320});
   // Names and numbers of vessels.
@@ -199,6 +230,8 @@ QWidget* PanelLayout::bottom_row() {
 }
 
 void PanelLayout::maximise(Panel* panel) {
+  if (QWidget* own = panel->window(); floating_->floats(panel->objectName()))
+    return own->isMaximized() ? own->showNormal() : own->showMaximized();
   alone_ = alone_ == panel ? nullptr : panel;
   if (alone_) hanging_->rest(true);
   show_alone(rows_, alone_);
@@ -208,7 +241,7 @@ void PanelLayout::maximise(Panel* panel) {
 
 std::map<std::string, std::string> PanelLayout::layout_settings() {
   if (alone_) maximise(alone_);
-  std::map<std::string, std::string> settings;
+  std::map<std::string, std::string> settings{{"views.floating", floating_->places()}};
   for (const QSplitter* one : splitters_) {
     const std::string name = one->objectName().toStdString();
     settings["splitter." + name] = one->saveState().toBase64().toStdString();
@@ -219,6 +252,7 @@ std::map<std::string, std::string> PanelLayout::layout_settings() {
 }
 
 void PanelLayout::restore_layout(const std::map<std::string, std::string>& settings) {
+  floating_->bring_all_back();
   for (QSplitter* one : splitters_) {
     const std::string name = one->objectName().toStdString();
     // Sizes are kept in the order of the panels: those of others fit none of these.

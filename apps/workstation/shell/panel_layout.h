@@ -14,6 +14,7 @@ class QSplitter;
 namespace ostia::workstation {
 
 struct Desk;
+class FloatingViews;
 class Hanging;
 class LesionList;
 class Panel;
@@ -41,6 +42,7 @@ class PanelLayout final : public QObject {
   void restore_layout(const std::map<std::string, std::string>& settings);
   void show_tree(bool shown);  ///< its room goes to the other views
   bool tree_shown() const;
+  FloatingViews& floating() { return *floating_; }  ///< views in windows of their own
 
  signals:
   void hovered(const QString& text);           ///< what is under the mouse in a 2D view
@@ -59,6 +61,8 @@ class PanelLayout final : public QObject {
   QWidget* side_column();
   QWidget* bottom_row();
   void maximise(Panel* panel);
+  void let_views_float();
+  void fold();
   Desk& desk_;
   Guard guard_;
   SceneWidget* scene_ = nullptr;
@@ -70,6 +74,7 @@ class PanelLayout final : public QObject {
   std::map<const QSplitter*, std::string> parts_;  // their panels, in a wide window
   QSplitter *curved_ = nullptr, *rows_ = nullptr;
   Hanging* hanging_ = nullptr;
+  FloatingViews* floating_ = nullptr;
   Panel *tree_ = nullptr, *alone_ = nullptr;
   std::vector<session::Subscription> own_;
 };

@@ -16,6 +16,7 @@
 #include <QHeaderView>
 #include <QKeySequenceEdit>
 #include <QLabel>
+#include <QLineEdit>
 #include <QPushButton>
 #include <QTabWidget>
 #include <QTreeWidget>
@@ -79,7 +80,26 @@ QWidget* PreferencesDialog::general_page() {
   form->addRow(tr("Language"), language);
   form->addRow(QString(), note);
   add_patients(*form);
+  add_author(*form);
   return page;
+}
+
+void PreferencesDialog::add_author(QFormLayout& form) {
+  auto* name = new QLineEdit(QString::fromStdString(desk_.machine.setting(author_setting).value_or("")));
+  name->setObjectName("author");
+  name->setMaxLength(60);
+  name->setPlaceholderText(tr("Nobody"));
+  name->setToolTip(
+      tr("Stands at each step that you do from now on, in the case alone: in no report and no "
+         "export. Left empty, steps have no name."));
+  connect(name, &QLineEdit::editingFinished, this, [this, name] {
+    const std::string text = name->text().simplified().toStdString();
+    desk_.messages.guarded([&] {
+      desk_.machine.set_setting(author_setting, text);
+      if (desk_.bench.has_case()) desk_.bench.session().file().set_author(text);
+    });
+  });
+  form.addRow(tr("Your name at steps"), name);
 }
 
 void PreferencesDialog::add_patients(QFormLayout& form) {
@@ -230,6 +250,10 @@ void PreferencesDialog::take(const QKeySequence& keys) {
   }
   commands_.set_keys(keys_);
   show_keys();
+  if (is_kept_by_window_managers(keys))
+    complain(tr("%1 is this command's key now, but many desktops take it for themselves: where nothing "
+                "happens, choose another.")
+                 .arg(keys.toString(QKeySequence::NativeText)));
 }
 
 void PreferencesDialog::reset() {

@@ -26,6 +26,7 @@ class PreferencesDialog final : public QDialog {
  private:
   QWidget* general_page();
   void add_patients(QFormLayout& form);
+  void add_author(QFormLayout& form);
   QWidget* keys_page();
   void fill_keys();
   void show_keys();

@@ -1,13 +1,53 @@
 #include "shell/step_list.h"
 
+#include "shell/library_texts.h"
+#include "shell/list_rows.h"
+
+#include "ostia/session/case_report.h"
+
 #include <QCoreApplication>
+#include <QDateTime>
 #include <QMap>
+#include <QPainter>
+#include <QStyledItemDelegate>
+#include <algorithm>
 
 namespace ostia::workstation {
 namespace {
 
 constexpr int step_number_role = Qt::UserRole;
+constexpr int detail_role = Qt::UserRole + 1;
 constexpr int fill_steps_after_ms = 100;  // of the last change: not with every move of the mouse
+
+/// What was done and, at the right edge where there is room, its vessel, time and author.
+class StepRow final : public QStyledItemDelegate {
+ public:
+  using QStyledItemDelegate::QStyledItemDelegate;
+  void paint(QPainter* painter, const QStyleOptionViewItem& option, const QModelIndex& index) const override {
+    QStyledItemDelegate::paint(painter, option, index);
+    QStyleOptionViewItem row = option;
+    initStyleOption(&row, index);
+    constexpr int margin = 6, between = 14;
+    const QString detail = index.data(detail_role).toString();
+    const int room = row.rect.width() - row.fontMetrics.horizontalAdvance(row.text) - 2 * margin - between;
+    const QString fitting = option.fontMetrics.elidedText(detail, Qt::ElideRight, room);
+    if (room < 2 * between || fitting.isEmpty()) return;
+    const bool selected = row.state & QStyle::State_Selected;
+    painter->save();
+    painter->setFont(option.font);
+    painter->setPen(row.palette.color(selected ? QPalette::Normal : QPalette::Disabled,
+                                      selected ? QPalette::HighlightedText : QPalette::Text));
+    painter->drawText(row.rect.adjusted(0, 0, -margin, 0), Qt::AlignRight | Qt::AlignVCenter, fitting);
+    painter->restore();
+  }
+};
+
+/// "14:03", of another day with its date.
+QString shown_time(const QDateTime& when) {
+  if (!when.isValid()) return {};
+  const bool today = when.date() == QDate::currentDate();
+  return when.toString(today ? QStringLiteral("HH:mm") : QStringLiteral("yyyy-MM-dd HH:mm"));
+}
 
 }  // namespace
 
@@ -47,7 +87,11 @@ StepList::StepList(session::Workbench& bench, Guard guard, QWidget* parent)
   setAccessibleName(tr("Steps"));
   setToolTip(tr("Click: go back or forth to this step"));
   setUniformItemSizes(true);
-  own_.push_back(bench.case_changed.observe([this] { fill(); }));
+  setItemDelegate(new StepRow(this));
+  own_.push_back(bench.case_changed.observe([this] {
+    vessels_.clear();
+    fill();
+  }));
   own_.push_back(bench.steps_changed.observe([this] { soon_.start(); }));
   soon_.setSingleShot(true);
   soon_.setInterval(fill_steps_after_ms);
@@ -61,6 +105,32 @@ void StepList::go_to(const QListWidgetItem& step) {
   guard_([&] { bench_.go_to_step(number); });
 }
 
+QWidget* StepList::with_filter() {
+  return below_filter(*this, "steps_filter", tr("Filter the steps"), tr("Filter"),
+                      [this](const QString& text) {
+                        wanted_ = text;
+                        filter();
+                      });
+}
+
+QString StepList::vessel_of(const session::JournalEntry& step) {
+  auto known = vessels_.find(step.number);
+  if (known == vessels_.end())
+    known = vessels_.emplace(step.number, session::vessel_of_step(step).value_or(-1)).first;
+  return known->second < 0 ? QString() : QString::fromStdString(bench_.vessel_name(known->second));
+}
+
+/// Hides the rows in which the words that are wanted are not, in any order.
+void StepList::filter() {
+  const QStringList words = wanted_.split(' ', Qt::SkipEmptyParts);
+  for (int row = 0; row < count(); ++row) {
+    const QString text = item(row)->data(Qt::AccessibleTextRole).toString();
+    item(row)->setHidden(!std::all_of(words.begin(), words.end(), [&](const QString& word) {
+      return text.contains(word, Qt::CaseInsensitive);
+    }));
+  }
+}
+
 void StepList::fill() {
   last_ = nullptr;
   clear();
@@ -70,9 +140,18 @@ void StepList::fill() {
     auto* item = new QListWidgetItem(step_name(step.op), this);
     item->setData(step_number_role, static_cast<qlonglong>(step.number));
     if (step.undone) item->setForeground(palette().color(QPalette::Disabled, QPalette::Text));
-    if (!step.notes.empty()) item->setToolTip(QString::fromStdString(step.notes.front()));
+    const QDateTime when = step.time_s > 0 ? QDateTime::fromSecsSinceEpoch(step.time_s) : QDateTime();
+    QStringList details{vessel_of(step), shown_time(when), QString::fromStdString(step.author)};
+    details.removeAll(QString());
+    item->setData(detail_role, details.join(QStringLiteral("  \u00b7  ")));
+    QStringList tip{step_name(step.op)};
+    if (!details.isEmpty()) tip << details.join(QStringLiteral(", "));
+    item->setData(Qt::AccessibleTextRole, tip.join(QStringLiteral(", ")));
+    for (const std::string& note : step.notes) tip << library_text(note);
+    item->setToolTip(tip.join('\n'));
     if (!step.undone) last_ = item;
   }
+  filter();
   if (!last_) return;
   QFont marked = font();
   marked.setBold(true);

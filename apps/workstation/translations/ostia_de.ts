@@ -173,6 +173,18 @@
         <translation>Schreibt die Zeiten aller Bilder auf, je eine JSON-Zeile.</translation>
     </message>
     <message>
+        <source>Writes down each step of hand and keys, for --walk.</source>
+        <translation>Schreibt jeden Schritt von Hand und Tasten auf, für --walk.</translation>
+    </message>
+    <message>
+        <source>Walks through the window as the file says, and ends.</source>
+        <translation>Geht durch das Fenster, wie die Datei es sagt, und endet.</translation>
+    </message>
+    <message>
+        <source>Where the pictures and times of --walk go.</source>
+        <translation>Wohin Bilder und Zeiten von --walk kommen.</translation>
+    </message>
+    <message>
         <source>Opens the sample case.</source>
         <translation>Öffnet den Beispielfall.</translation>
     </message>
@@ -632,6 +644,10 @@
         <translation>Kamera</translation>
     </message>
     <message>
+        <source>Heart in 3D</source>
+        <translation>Herz in 3D</translation>
+    </message>
+    <message>
         <source>three planes</source>
         <translation>drei Ebenen</translation>
     </message>
@@ -673,6 +689,253 @@
     <message>
         <source>%1 is no volume mesh. These are read: %2</source>
         <translation>%1 ist kein Volumennetz. Gelesen werden: %2</translation>
+    </message>
+</context>
+<context>
+    <name>library</name>
+    <message>
+        <source>no coronary artery was found where one should leave the aorta: the root may lie outside of the image, or the arteries hold too little contrast; draw a first vessel by its two ends</source>
+        <translation>Wo eine Koronararterie aus der Aorta abgehen sollte, wurde keine gefunden: Die Wurzel liegt vielleicht außerhalb des Bildes, oder die Arterien enthalten zu wenig Kontrastmittel. Zeichnen Sie ein erstes Gefäß durch seine zwei Enden.</translation>
+    </message>
+    <message>
+        <source>nothing that looks like an artery goes on from where one leaves the aorta; draw a first vessel by its two ends</source>
+        <translation>Vom Abgang aus der Aorta führt nichts weiter, was wie eine Arterie aussieht. Zeichnen Sie ein erstes Gefäß durch seine zwei Enden.</translation>
+    </message>
+    <message>
+        <source>what was found has %1 branches, more than coronary arteries show: the image is too noisy (a deviation of %2 HU in the aorta, in cubes of 1.5 mm) or veins and muscle are as bright as arteries; take a smoother reconstruction, or draw a first vessel by its two ends</source>
+        <translation>Das Gefundene hat %1 Äste, mehr als Koronararterien zeigen: Das Bild rauscht zu sehr (Abweichung %2 HU in der Aorta, in Würfeln von 1.5 mm), oder Venen und Muskel sind so hell wie Arterien. Nehmen Sie eine glattere Rekonstruktion, oder zeichnen Sie ein erstes Gefäß durch seine zwei Enden.</translation>
+    </message>
+    <message>
+        <source>no ascending aorta was found (an upright, evenly enhanced tube of %1 to %2 mm radius above %3 HU, at least %4 mm long): %t5; draw a first vessel by its two ends instead</source>
+        <translation>Es wurde keine aufsteigende Aorta gefunden (ein aufrechtes, gleichmäßig kontrastiertes Rohr von %1 bis %2 mm Radius über %3 HU, mindestens %4 mm lang): %t5. Zeichnen Sie stattdessen ein erstes Gefäß durch seine zwei Enden.</translation>
+    </message>
+    <message>
+        <source>no upright tube of contrast is there</source>
+        <translation>es gibt kein aufrechtes Rohr mit Kontrastmittel</translation>
+    </message>
+    <message>
+        <source>the longest upright tube has a radius of %1 mm and %2 HU and is not even enough</source>
+        <translation>das längste aufrechte Rohr hat einen Radius von %1 mm und %2 HU und ist nicht gleichmäßig genug</translation>
+    </message>
+    <message>
+        <source>the longest upright tube has a radius of %1 mm and %2 HU, and lung behind it as the descending aorta has</source>
+        <translation>das längste aufrechte Rohr hat einen Radius von %1 mm und %2 HU und Lunge hinter sich wie die absteigende Aorta</translation>
+    </message>
+    <message>
+        <source>no branch of the coronary tree could be followed: %l1</source>
+        <translation>Kein Ast des Koronarbaums ließ sich verfolgen: %l1</translation>
+    </message>
+    <message>
+        <source>the image is too small to hold the root of the aorta: %1 voxels, %2 mm along one of its axes; %3 mm and %4 voxels are needed</source>
+        <translation>Das Bild ist zu klein für die Wurzel der Aorta: %1 Voxel, %2 mm entlang einer seiner Achsen; nötig sind %3 mm und %4 Voxel.</translation>
+    </message>
+    <message>
+        <source>voxels of %1 mm are wider than coronary arteries, which are 2 to 4 mm wide (at most %2 mm can be used); take a series with thinner slices, or draw a first vessel by its two ends where you see one</source>
+        <translation>Voxel von %1 mm sind breiter als Koronararterien mit ihren 2 bis 4 mm (höchstens %2 mm sind brauchbar). Nehmen Sie eine Serie mit dünneren Schichten, oder zeichnen Sie ein erstes Gefäß durch seine zwei Enden, wo Sie eines sehen.</translation>
+    </message>
+    <message>
+        <source>the image is empty: every voxel is %1; take another image</source>
+        <translation>Das Bild ist leer: Jedes Voxel ist %1. Nehmen Sie ein anderes Bild.</translation>
+    </message>
+    <message>
+        <source>the image is noise: places %1 mm apart have nothing in common (correlation %2); take another reconstruction</source>
+        <translation>Das Bild ist Rauschen: Stellen im Abstand von %1 mm haben nichts gemein (Korrelation %2). Nehmen Sie eine andere Rekonstruktion.</translation>
+    </message>
+    <message>
+        <source>the intensities lie from %1 to %2 only, these are no CT numbers (in HU fat is about -100, blood with contrast agent 250 to 600): the image may have been scaled; convert it back to HU</source>
+        <translation>Die Werte liegen nur von %1 bis %2, das sind keine CT-Werte (in HU liegt Fett bei etwa -100, Blut mit Kontrastmittel bei 250 bis 600): Das Bild wurde vielleicht umskaliert. Rechnen Sie es in HU zurück.</translation>
+    </message>
+    <message>
+        <source>the intensities lie from %1 to %2, far beyond CT numbers (in HU fat is about -100, blood with contrast agent 250 to 600): the image may have been scaled; convert it back to HU</source>
+        <translation>Die Werte liegen von %1 bis %2, weit außerhalb von CT-Werten (in HU liegt Fett bei etwa -100, Blut mit Kontrastmittel bei 250 bis 600): Das Bild wurde vielleicht umskaliert. Rechnen Sie es in HU zurück.</translation>
+    </message>
+    <message>
+        <source>nothing in the image is darker than %1, so these are no CT numbers (in HU fat is about -100, blood with contrast agent 250 to 600): it may be a picture of 256 grey levels; convert it to HU</source>
+        <translation>Nichts im Bild ist dunkler als %1, es sind also keine CT-Werte (in HU liegt Fett bei etwa -100, Blut mit Kontrastmittel bei 250 bis 600): Vielleicht ist es ein Bild mit 256 Graustufen. Rechnen Sie es in HU um.</translation>
+    </message>
+    <message>
+        <source>nothing in the image is darker than %1, so these are no CT numbers (in HU fat is about -100, blood with contrast agent 250 to 600): 1024 may not have been subtracted (the rescale intercept); convert it to HU</source>
+        <translation>Nichts im Bild ist dunkler als %1, es sind also keine CT-Werte (in HU liegt Fett bei etwa -100, Blut mit Kontrastmittel bei 250 bis 600): Vielleicht wurden 1024 nicht abgezogen (Rescale Intercept). Rechnen Sie es in HU um.</translation>
+    </message>
+    <message>
+        <source>the image is darker than a CT in HU can be (nothing in it is brighter than %1): 1024 may have been subtracted twice, or the image scaled; convert it to HU</source>
+        <translation>Das Bild ist dunkler, als ein CT in HU sein kann (nichts darin ist heller als %1): Vielleicht wurden 1024 zweimal abgezogen oder das Bild umskaliert. Rechnen Sie es in HU um.</translation>
+    </message>
+    <message>
+        <source>the image is darker than a CT in HU can be (%1 % lie below air, -1000): 1024 may have been subtracted twice, or the image scaled; convert it to HU</source>
+        <translation>Das Bild ist dunkler, als ein CT in HU sein kann (%1 % liegen unter Luft, -1000): Vielleicht wurden 1024 zweimal abgezogen oder das Bild umskaliert. Rechnen Sie es in HU um.</translation>
+    </message>
+    <message>
+        <source>nothing in the image is darker than %1, though %2 % of it is as dark as lung may be: lungs have -700 to -900 HU and air -1000, so the image may have been scaled; convert it back to HU</source>
+        <translation>Nichts im Bild ist dunkler als %1, obwohl %2 % davon so dunkel wie Lunge sind: Lungen haben -700 bis -900 HU und Luft -1000, das Bild wurde also vielleicht umskaliert. Rechnen Sie es in HU zurück.</translation>
+    </message>
+    <message>
+        <source>the image shows no chest: it holds hardly any lung (%1 % of %2 mm), as abdomen, head or legs do; take an image of the heart, or draw a first vessel by its two ends where you see one</source>
+        <translation>Das Bild zeigt keinen Thorax: Es enthält kaum Lunge (%1 % von %2 mm), wie Bauch, Kopf oder Beine. Nehmen Sie ein Bild des Herzens, oder zeichnen Sie ein erstes Gefäß durch seine zwei Enden, wo Sie eines sehen.</translation>
+    </message>
+    <message>
+        <source>there is no contrast along the way between the two places (%1 HU); click into the vessel&apos;s lumen at both ends</source>
+        <translation>Auf dem Weg zwischen den beiden Stellen ist kein Kontrastmittel (%1 HU). Klicken Sie an beiden Enden in das Lumen des Gefäßes.</translation>
+    </message>
+    <message>
+        <source>the two places are too near to each other for a vessel; choose them farther apart</source>
+        <translation>Die beiden Stellen liegen für ein Gefäß zu nahe beieinander. Wählen Sie sie weiter auseinander.</translation>
+    </message>
+    <message>
+        <source>the way runs for %1 mm through something wider than a coronary artery, an aorta or a chamber</source>
+        <translation>Der Weg führt über %1 mm durch etwas, das weiter als eine Koronararterie ist, eine Aorta oder Kammer.</translation>
+    </message>
+    <message>
+        <source>the way runs for %1 mm through something wider than a coronary artery, an aorta or a chamber; click a place in the vessel itself that is nearer, or the ostium first</source>
+        <translation>Der Weg führt über %1 mm durch etwas, das weiter als eine Koronararterie ist, eine Aorta oder Kammer. Klicken Sie eine nähere Stelle im Gefäß selbst an, oder zuerst das Ostium.</translation>
+    </message>
+    <message>
+        <source>both ends of the way, %1 and %2 mm, lie in air: click in the contrast-filled lumen</source>
+        <translation>Beide Enden des Weges, %1 und %2 mm, liegen in Luft: Klicken Sie in das kontrastgefüllte Lumen.</translation>
+    </message>
+    <message>
+        <source>the two ends of the way, %1 and %2 mm, are one place: click them further apart</source>
+        <translation>Die beiden Enden des Weges, %1 und %2 mm, sind eine Stelle: Klicken Sie weiter auseinander.</translation>
+    </message>
+    <message>
+        <source>the click %1 mm lies inside vessel &apos;%2&apos;, which is in the tree already: click the distal end of one that is not</source>
+        <translation>Der Klick bei %1 mm liegt im Gefäß „%2“, das schon im Baum ist: Klicken Sie das distale Ende eines Gefäßes an, das noch fehlt.</translation>
+    </message>
+    <message>
+        <source>no way from %1 mm to %t2: %l3</source>
+        <translation>Kein Weg von %1 mm zu %t2: %l3</translation>
+    </message>
+    <message>
+        <source>the front has covered the image</source>
+        <translation>die Front hat das ganze Bild bedeckt</translation>
+    </message>
+    <message>
+        <source>cannot open the case %1: %l2</source>
+        <translation>Der Fall %1 lässt sich nicht öffnen: %l2</translation>
+    </message>
+    <message>
+        <source>its format %1 is newer than this program&apos;s (%2, Ostia %3); open it with Ostia %4 or newer</source>
+        <translation>Sein Format %1 ist neuer als das dieses Programms (%2, Ostia %3). Öffnen Sie ihn mit Ostia %4 oder einer neueren Version.</translation>
+    </message>
+    <message>
+        <source>its format %1 is newer than this program&apos;s (%2, Ostia %3); open it with Ostia of a newer version</source>
+        <translation>Sein Format %1 ist neuer als das dieses Programms (%2, Ostia %3). Öffnen Sie ihn mit einer neueren Version von Ostia.</translation>
+    </message>
+    <message>
+        <source>the file is empty; take a copy of it from a backup</source>
+        <translation>Die Datei ist leer. Nehmen Sie eine Kopie aus einer Sicherung.</translation>
+    </message>
+    <message>
+        <source>it is not a case of Ostia; cases are made by `ostia lumen --case`</source>
+        <translation>Es ist kein Fall von Ostia; Fälle macht `ostia lumen --case`.</translation>
+    </message>
+    <message>
+        <source>it is a database of another program, not a case of Ostia</source>
+        <translation>Es ist die Datenbank eines anderen Programms, kein Fall von Ostia.</translation>
+    </message>
+    <message>
+        <source>the file is truncated to %1 bytes</source>
+        <translation>Die Datei ist auf %1 Bytes gekürzt.</translation>
+    </message>
+    <message>
+        <source>the file is truncated: it has %1 of %2 bytes; take a copy of it from a backup</source>
+        <translation>Die Datei ist gekürzt: Sie hat %1 von %2 Bytes. Nehmen Sie eine Kopie aus einer Sicherung.</translation>
+    </message>
+    <message>
+        <source>the file is damaged (%1); take a copy of it from a backup</source>
+        <translation>Die Datei ist beschädigt (%1). Nehmen Sie eine Kopie aus einer Sicherung.</translation>
+    </message>
+    <message>
+        <source>its tables are not those of a case; the file is damaged or was made by another program</source>
+        <translation>Seine Tabellen sind nicht die eines Falls; die Datei ist beschädigt oder von einem anderen Programm.</translation>
+    </message>
+    <message>
+        <source>it is open in another window or program; close it there, or wait until it is done</source>
+        <translation>Er ist in einem anderen Fenster oder Programm offen. Schließen Sie ihn dort, oder warten Sie, bis es fertig ist.</translation>
+    </message>
+    <message>
+        <source>it is open in another window of this program; close it there</source>
+        <translation>Er ist in einem anderen Fenster dieses Programms offen. Schließen Sie ihn dort.</translation>
+    </message>
+    <message>
+        <source>cannot write the case %1: the disk is full; the case is what it was before. Make room and try again</source>
+        <translation>Der Fall %1 lässt sich nicht schreiben: Der Datenträger ist voll; der Fall ist, wie er vorher war. Schaffen Sie Platz und versuchen Sie es wieder.</translation>
+    </message>
+    <message>
+        <source>%1 is no CT image: open an angiogram</source>
+        <translation>%1 ist kein CT-Bild: Öffnen Sie ein Angiogramm.</translation>
+    </message>
+    <message>
+        <source>cannot read %1: %l2</source>
+        <translation>%1 lässt sich nicht lesen: %l2</translation>
+    </message>
+    <message>
+        <source>there is no such file or folder</source>
+        <translation>Es gibt keine solche Datei und keinen solchen Ordner.</translation>
+    </message>
+    <message>
+        <source>it is neither a file nor a folder</source>
+        <translation>Es ist weder Datei noch Ordner.</translation>
+    </message>
+    <message>
+        <source>it is no DICOM folder, file or zip, no image (.nrrd .nhdr .mhd .mha .nii .nii.gz) and no surface (.stl .ply .obj .vtp .vtk)</source>
+        <translation>Es ist kein DICOM-Ordner, keine DICOM-Datei und kein Zip davon, kein Bild (.nrrd .nhdr .mhd .mha .nii .nii.gz) und keine Oberfläche (.stl .ply .obj .vtp .vtk).</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; is not a DICOM file</source>
+        <translation>„%1“ ist keine DICOM-Datei.</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; is DICOM, but holds no image</source>
+        <translation>„%1“ ist DICOM, enthält aber kein Bild.</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; is damaged: %l2</source>
+        <translation>„%1“ ist beschädigt: %l2</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; does not exist</source>
+        <translation>„%1“ gibt es nicht.</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; of the series is gone; open its folder again</source>
+        <translation>„%1“ aus der Serie ist nicht mehr da. Öffnen Sie den Ordner noch einmal.</translation>
+    </message>
+    <message>
+        <source>the files of DICOM series %1 have changed; open their folder again</source>
+        <translation>Die Dateien der DICOM-Serie %1 haben sich geändert. Öffnen Sie den Ordner noch einmal.</translation>
+    </message>
+    <message>
+        <source>no ascending aorta was found (an upright, evenly enhanced tube of %1 to %2 mm radius above %3 HU, at least %4 mm long): %t5; draw a first vessel by its two ends instead; %l6</source>
+        <translation>Es wurde keine aufsteigende Aorta gefunden (ein aufrechtes, gleichmäßig kontrastiertes Rohr von %1 bis %2 mm Radius über %3 HU, mindestens %4 mm lang): %t5. Zeichnen Sie stattdessen ein erstes Gefäß durch seine zwei Enden. %l6</translation>
+    </message>
+    <message>
+        <source>the brightest even region of %1 ml has %2, as blood without contrast agent: take the angiogram of this patient</source>
+        <translation>Der hellste gleichmäßige Bereich von %1 ml hat %2, wie Blut ohne Kontrastmittel: Nehmen Sie das Angiogramm.</translation>
+    </message>
+    <message>
+        <source>contrast is there (%1): the top of the heart may be cut off, or the image may be turned; look at its orientation</source>
+        <translation>Kontrastmittel ist da (%1): Vielleicht fehlt der obere Teil des Herzens, oder das Bild ist gedreht. Prüfen Sie seine Orientierung.</translation>
+    </message>
+    <message>
+        <source>the heart&apos;s chambers lie %1 mm above the middle of the aorta that was found, not below it: the image ends above the aortic root, stands on its head, or has its slices in the wrong order; take an image of the whole heart, set its orientation right, or draw a first vessel by its two ends</source>
+        <translation>Die Herzkammern liegen %1 mm über der Mitte der gefundenen Aorta, nicht darunter: Das Bild endet über der Aortenwurzel, steht auf dem Kopf oder hat seine Schichten in falscher Reihenfolge. Nehmen Sie ein Bild des ganzen Herzens, berichtigen Sie seine Orientierung, oder zeichnen Sie ein erstes Gefäß durch seine zwei Enden.</translation>
+    </message>
+    <message>
+        <source>%l1; besides, %l2</source>
+        <translation>%l1 Außerdem: %l2</translation>
+    </message>
+    <message>
+        <source>the lungs lie in front and behind, not at the sides: x and y may be exchanged, or the image be turned by 90 degrees; no vessel was given a name; look at the image&apos;s orientation first</source>
+        <translation>Die Lungen liegen vorn und hinten statt an den Seiten: Vielleicht sind x und y vertauscht, oder das Bild ist um 90 Grad gedreht. Kein Gefäß hat einen Namen bekommen. Prüfen Sie zuerst die Orientierung des Bildes.</translation>
+    </message>
+    <message>
+        <source>voxels of %1 mm are wide for coronary arteries: those below 2 mm are missed, and names and radii are less sure</source>
+        <translation>Voxel von %1 mm sind breit für Koronararterien: Solche unter 2 mm fehlen, und Namen und Radien sind weniger sicher.</translation>
+    </message>
+    <message>
+        <source>%1 ml of metal (above %2 HU): look at each vessel that passes near it, its shadows may cut or fake vessels</source>
+        <translation>%1 ml Metall (über %2 HU): Prüfen Sie jedes Gefäß, das nahe daran verläuft; seine Schatten können Gefäße abschneiden oder vortäuschen.</translation>
     </message>
 </context>
 <context>
@@ -814,6 +1077,17 @@
     </message>
 </context>
 <context>
+    <name>open_file</name>
+    <message>
+        <source>This computer has no program that opens it. It is at %1.</source>
+        <translation>Dieser Rechner hat kein Programm, das das öffnet. Es liegt hier: %1</translation>
+    </message>
+    <message>
+        <source>%1 cannot be opened</source>
+        <translation>%1 lässt sich nicht öffnen</translation>
+    </message>
+</context>
+<context>
     <name>opengl</name>
     <message>
         <source>The library libX11.so.6 is not installed.</source>
@@ -920,6 +1194,14 @@
 </context>
 <context>
     <name>ostia::workstation::Command</name>
+    <message>
+        <source>%1 in a window of its own</source>
+        <translation>%1 in eigenem Fenster</translation>
+    </message>
+    <message>
+        <source>On another monitor, say; again, or closing it, puts it back.</source>
+        <translation>Etwa auf einem anderen Monitor; noch einmal, oder Schließen, holt es zurück.</translation>
+    </message>
     <message>
         <source>Arrow</source>
         <translation>Pfeil</translation>
@@ -1920,6 +2202,244 @@
         <source>Takes grey levels of your own away.</source>
         <translation>Nimmt eigene Graustufen weg.</translation>
     </message>
+    <message>
+        <source>C-arm angles…</source>
+        <translation>Winkel des C-Bogens …</translation>
+    </message>
+    <message>
+        <source>Turns the tree in 3D to angles that you type.</source>
+        <translation>Dreht den Baum in 3D auf die Winkel, die Sie eingeben.</translation>
+    </message>
+    <message>
+        <source>The C-arm&apos;s angles</source>
+        <translation>Winkel des C-Bogens</translation>
+    </message>
+    <message>
+        <source>AP, LAT, or angles as &quot;LAO 30 CRA 20&quot;, &quot;RAO 30 CAU 25&quot;:</source>
+        <translation>AP, LAT oder Winkel wie „LAO 30 CRA 20“, „RAO 30 CAU 25“:</translation>
+    </message>
+    <message>
+        <source>Look: coronary arteries</source>
+        <translation>Darstellung: Koronararterien</translation>
+    </message>
+    <message>
+        <source>The heart closed and lit, contrast light on dark muscle.</source>
+        <translation>Das Herz geschlossen und beleuchtet, Kontrast hell auf dunklem Muskel.</translation>
+    </message>
+    <message>
+        <source>Look: contrast alone</source>
+        <translation>Darstellung: nur Kontrast</translation>
+    </message>
+    <message>
+        <source>Muscle is hardly there: vessels and chambers are seen through it.</source>
+        <translation>Muskel ist kaum da: Gefäße und Höhlen sind durch ihn zu sehen.</translation>
+    </message>
+    <message>
+        <source>Look: soft tissue</source>
+        <translation>Darstellung: Weichteile</translation>
+    </message>
+    <message>
+        <source>All that is denser than fat.</source>
+        <translation>Alles, was dichter als Fett ist.</translation>
+    </message>
+    <message>
+        <source>Look: bone</source>
+        <translation>Darstellung: Knochen</translation>
+    </message>
+    <message>
+        <source>Bone, calcium and dense contrast alone.</source>
+        <translation>Nur Knochen, Kalk und dichter Kontrast.</translation>
+    </message>
+    <message>
+        <source>Draw a line in 3D about what is to stay; Escape: no cut.</source>
+        <translation>Ziehen Sie in 3D eine Linie um das, was bleiben soll; Escape: kein Schnitt.</translation>
+    </message>
+    <message>
+        <source>Draw a line in 3D about what is to go; Escape: no cut.</source>
+        <translation>Ziehen Sie in 3D eine Linie um das, was weg soll; Escape: kein Schnitt.</translation>
+    </message>
+    <message>
+        <source>Cut away what I draw around</source>
+        <translation>Wegschneiden, was ich umfahre</translation>
+    </message>
+    <message>
+        <source>Scissors: what lies behind the line&apos;s inside goes.</source>
+        <translation>Schere: Was hinter dem Innern der Linie liegt, verschwindet.</translation>
+    </message>
+    <message>
+        <source>Keep only what I draw around</source>
+        <translation>Nur behalten, was ich umfahre</translation>
+    </message>
+    <message>
+        <source>Scissors: what lies outside of the line goes.</source>
+        <translation>Schere: Was außerhalb der Linie liegt, verschwindet.</translation>
+    </message>
+    <message>
+        <source>Take the last cut back</source>
+        <translation>Letzten Schnitt zurücknehmen</translation>
+    </message>
+    <message>
+        <source>Nothing has been cut.</source>
+        <translation>Es ist nichts weggeschnitten.</translation>
+    </message>
+    <message>
+        <source>All cuts and the box back</source>
+        <translation>Alle Schnitte und die Box aufheben</translation>
+    </message>
+    <message>
+        <source>&amp;Heart in 3D</source>
+        <translation>&amp;Herz in 3D</translation>
+    </message>
+    <message>
+        <source>Look, box and scissors of the CT behind the tree.</source>
+        <translation>Darstellung, Box und Schere des CT hinter dem Baum.</translation>
+    </message>
+    <message>
+        <source>Heart without bones</source>
+        <translation>Herz ohne Knochen</translation>
+    </message>
+    <message>
+        <source>Ribs, breastbone, spine and what lies far from the arteries are left out.</source>
+        <translation>Rippen, Brustbein, Wirbelsäule und alles fern der Arterien bleiben weg.</translation>
+    </message>
+    <message>
+        <source>Phases from a folder…</source>
+        <translation>Phasen aus einem Ordner …</translation>
+    </message>
+    <message>
+        <source>More images of this heart: files of phases, or series of the same study.</source>
+        <translation>Weitere Bilder dieses Herzens: Dateien von Phasen oder Serien derselben Untersuchung.</translation>
+    </message>
+    <message>
+        <source>There is no other series of the study.</source>
+        <translation>Es gibt keine andere Serie der Untersuchung.</translation>
+    </message>
+    <message>
+        <source>There are no phases of one grid.</source>
+        <translation>Es gibt keine Phasen auf demselben Gitter.</translation>
+    </message>
+    <message>
+        <source>Series of the study</source>
+        <translation>Serien der Untersuchung</translation>
+    </message>
+    <message>
+        <source>Shows or hides the strip with a picture of each series and phase.</source>
+        <translation>Zeigt oder verbirgt den Streifen mit einem Bild jeder Serie und Phase.</translation>
+    </message>
+    <message>
+        <source>Back to the image on the table</source>
+        <translation>Zurück zum geöffneten Bild</translation>
+    </message>
+    <message>
+        <source>Shows the image that the case is of again, on which it is edited.</source>
+        <translation>Zeigt wieder das Bild, zu dem der Fall gehört und auf dem er bearbeitet wird.</translation>
+    </message>
+    <message>
+        <source>Play the phases</source>
+        <translation>Phasen abspielen</translation>
+    </message>
+    <message>
+        <source>Shows the phases of the study one after the other, or pauses.</source>
+        <translation>Zeigt die Phasen der Untersuchung nacheinander oder hält an.</translation>
+    </message>
+    <message>
+        <source>Find the sharpest phase</source>
+        <translation>Schärfste Phase suchen</translation>
+    </message>
+    <message>
+        <source>Measures at which phase the arteries, or the heart, have the sharpest edges.</source>
+        <translation>Misst, in welcher Phase die Arterien oder das Herz die schärfsten Kanten haben.</translation>
+    </message>
+    <message>
+        <source>&amp;Messages…</source>
+        <translation>&amp;Meldungen…</translation>
+    </message>
+    <message>
+        <source>All that the window has said since it was opened, to be read again.</source>
+        <translation>Alles, was das Fenster gesagt hat, seit es offen ist, zum Nachlesen.</translation>
+    </message>
+    <message>
+        <source>Ano&amp;ther series…</source>
+        <translation>&amp;Andere Serie…</translation>
+    </message>
+    <message>
+        <source>The series of the folder that was opened last, to choose another one.</source>
+        <translation>Die Serien des zuletzt geöffneten Ordners, um eine andere zu wählen.</translation>
+    </message>
+    <message>
+        <source>What was opened last is no folder of DICOM files.</source>
+        <translation>Was zuletzt geöffnet wurde, ist kein Ordner mit DICOM-Dateien.</translation>
+    </message>
+    <message>
+        <source>&amp;Reports of crashes…</source>
+        <translation>&amp;Absturzberichte…</translation>
+    </message>
+    <message>
+        <source>What the program wrote down when it ended by itself; on this computer alone.</source>
+        <translation>Was das Programm notiert hat, als es von selbst endete; nur auf diesem Rechner.</translation>
+    </message>
+    <message>
+        <source>There is none.</source>
+        <translation>Es gibt keinen.</translation>
+    </message>
+    <message>
+        <source>Tree over the heart</source>
+        <translation>Baum über dem Herzen</translation>
+    </message>
+    <message>
+        <source>Without it the arteries are those of the CT, as the look shows them.</source>
+        <translation>Ohne ihn sind die Arterien die des CT, wie die Darstellung sie zeigt.</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::CrashReportDialog</name>
+    <message>
+        <source>Reports of crashes</source>
+        <translation>Absturzberichte</translation>
+    </message>
+    <message>
+        <source>Whoever looks for the fault needs this text. Copy it into your message, or delete it.</source>
+        <translation>Wer den Fehler sucht, braucht diesen Text. Kopieren Sie ihn in Ihre Nachricht, oder löschen Sie ihn.</translation>
+    </message>
+    <message>
+        <source>Copy all</source>
+        <translation>Alles kopieren</translation>
+    </message>
+    <message>
+        <source>Delete</source>
+        <translation>Löschen</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::CrashReports</name>
+    <message>
+        <source>The last session</source>
+        <translation>Die letzte Sitzung</translation>
+    </message>
+    <message>
+        <source>The program ended by itself the last time; the case is as it was. It has left a report on this computer, with its version, the last commands and where in the program it was, and with no name and no path. It is sent to nobody.</source>
+        <translation>Das Programm endete beim letzten Mal von selbst; der Fall ist, wie er war. Es hat auf diesem Rechner einen Bericht hinterlassen, mit seiner Version, den letzten Befehlen und der Stelle im Programm, ohne Namen und ohne Pfade. Er wird niemandem geschickt.</translation>
+    </message>
+    <message>
+        <source>Look at it</source>
+        <translation>Ansehen</translation>
+    </message>
+    <message>
+        <source>Delete it</source>
+        <translation>Löschen</translation>
+    </message>
+    <message>
+        <source>Later</source>
+        <translation>Später</translation>
+    </message>
+    <message>
+        <source>A report could not be deleted.</source>
+        <translation>Ein Bericht ließ sich nicht löschen.</translation>
+    </message>
+    <message>
+        <source>There is no report of a crash any more.</source>
+        <translation>Es gibt keinen Absturzbericht mehr.</translation>
+    </message>
 </context>
 <context>
     <name>ostia::workstation::CutFields</name>
@@ -1945,6 +2465,32 @@
     <message>
         <source>%1 from %2 to %3 mm: %4</source>
         <translation>%1 von %2 bis %3 mm: %4</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::FailurePanel</name>
+    <message>
+        <source>Now click the distal end of this vessel in the slice.</source>
+        <translation>Klicken Sie jetzt in der Schicht das distale Ende dieses Gefäßes an.</translation>
+    </message>
+    <message>
+        <source>Click the ostium of the artery in the slice, then its distal end.</source>
+        <translation>Klicken Sie in der Schicht das Ostium der Arterie an, dann ihr distales Ende.</translation>
+    </message>
+    <message>
+        <source>No vessel yet</source>
+        <translation>Noch kein Gefäß</translation>
+    </message>
+    <message>
+        <source>There is an image, and no vessel in it yet. Have the arteries found, or begin one by two clicks.</source>
+        <translation>Es gibt ein Bild und noch kein Gefäß darin. Lassen Sie die Arterien suchen, oder beginnen Sie eine mit zwei Klicks.</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::FloatingViews</name>
+    <message>
+        <source>%1 – Ostia</source>
+        <translation>%1 – Ostia</translation>
     </message>
 </context>
 <context>
@@ -1980,6 +2526,10 @@
     <message>
         <source>Type two numbers, the smaller one first.</source>
         <translation>Zwei Zahlen eingeben, die kleinere zuerst.</translation>
+    </message>
+    <message>
+        <source>Shear stress and pressure along the vessel, in the profile</source>
+        <translation>Schubspannung und Druck entlang des Gefäßes, im Profil</translation>
     </message>
 </context>
 <context>
@@ -2283,6 +2833,10 @@
         <source>&amp;Run the solver when the case is written</source>
         <translation>Löser &amp;starten, wenn der Fall geschrieben ist</translation>
     </message>
+    <message>
+        <source>There is no mesh.vtu in this folder. Export a mesh from the case.</source>
+        <translation>In diesem Ordner ist keine mesh.vtu. Exportieren Sie ein Netz aus dem Fall.</translation>
+    </message>
 </context>
 <context>
     <name>ostia::workstation::FlowResults</name>
@@ -2314,6 +2868,14 @@
         <source>The picture is in %1.</source>
         <translation>Das Bild liegt in %1.</translation>
     </message>
+    <message>
+        <source>%1: mean (least to greatest)</source>
+        <translation>%1: Mittel (kleinste bis größte)</translation>
+    </message>
+    <message>
+        <source>Flow along the vessels</source>
+        <translation>Strömung entlang der Gefäße</translation>
+    </message>
 </context>
 <context>
     <name>ostia::workstation::GreyPresets</name>
@@ -2343,6 +2905,77 @@
     <message>
         <source>Tree</source>
         <translation>Baum</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::HeartDock</name>
+    <message>
+        <source>Heart in 3D</source>
+        <translation>Herz in 3D</translation>
+    </message>
+    <message>
+        <source>Look</source>
+        <translation>Darstellung</translation>
+    </message>
+    <message>
+        <source>Coronary arteries</source>
+        <translation>Koronararterien</translation>
+    </message>
+    <message>
+        <source>Contrast alone</source>
+        <translation>Nur Kontrast</translation>
+    </message>
+    <message>
+        <source>Soft tissue</source>
+        <translation>Weichteile</translation>
+    </message>
+    <message>
+        <source>Bone</source>
+        <translation>Knochen</translation>
+    </message>
+    <message>
+        <source>Shift</source>
+        <translation>Verschieben</translation>
+    </message>
+    <message>
+        <source>To the right: only what is denser is seen</source>
+        <translation>Nach rechts: nur Dichteres ist zu sehen</translation>
+    </message>
+    <message>
+        <source>Softness</source>
+        <translation>Weichheit</translation>
+    </message>
+    <message>
+        <source>To the left: hard edges. To the right: soft ones</source>
+        <translation>Nach links: harte Kanten. Nach rechts: weiche</translation>
+    </message>
+    <message>
+        <source>Box</source>
+        <translation>Box</translation>
+    </message>
+    <message>
+        <source>Right to left</source>
+        <translation>Rechts nach links</translation>
+    </message>
+    <message>
+        <source>Front to back</source>
+        <translation>Vorn nach hinten</translation>
+    </message>
+    <message>
+        <source>Feet to head</source>
+        <translation>Füße nach Kopf</translation>
+    </message>
+    <message>
+        <source>%1: from</source>
+        <translation>%1: von</translation>
+    </message>
+    <message>
+        <source>%1: to</source>
+        <translation>%1: bis</translation>
+    </message>
+    <message>
+        <source>No box</source>
+        <translation>Keine Box</translation>
     </message>
 </context>
 <context>
@@ -2557,6 +3190,10 @@
 <context>
     <name>ostia::workstation::Menus</name>
     <message>
+        <source>Windows of their own</source>
+        <translation>Eigene Fenster</translation>
+    </message>
+    <message>
         <source>&amp;File</source>
         <translation>&amp;Datei</translation>
     </message>
@@ -2593,6 +3230,10 @@
         <translation>&amp;Ansicht</translation>
     </message>
     <message>
+        <source>S&amp;lab</source>
+        <translation>&amp;Schicht</translation>
+    </message>
+    <message>
         <source>Look at the tree from</source>
         <translation>Den Baum ansehen von</translation>
     </message>
@@ -2615,6 +3256,14 @@
     <message>
         <source>La&amp;youts</source>
         <translation>An&amp;ordnungen</translation>
+    </message>
+    <message>
+        <source>Heart in &amp;3D</source>
+        <translation>Herz in &amp;3D</translation>
+    </message>
+    <message>
+        <source>Series and phases</source>
+        <translation>Serien und Phasen</translation>
     </message>
 </context>
 <context>
@@ -2714,6 +3363,26 @@
     <message>
         <source>Does not pass the quality control: %1</source>
         <translation>Besteht die Qualitätskontrolle nicht: %1</translation>
+    </message>
+    <message>
+        <source>Edges of the elements</source>
+        <translation>Kanten der Elemente</translation>
+    </message>
+    <message>
+        <source>Of a whole tree there are more edges than pixels: they are drawn where they are near.</source>
+        <translation>Ein ganzer Baum hat mehr Kanten als Bildpunkte: sie werden gezeichnet, wo sie nah sind.</translation>
+    </message>
+    <message>
+        <source>where they are near</source>
+        <translation>wo sie nah sind</translation>
+    </message>
+    <message>
+        <source>always</source>
+        <translation>immer</translation>
+    </message>
+    <message>
+        <source>never</source>
+        <translation>nie</translation>
     </message>
 </context>
 <context>
@@ -3088,6 +3757,21 @@
     </message>
 </context>
 <context>
+    <name>ostia::workstation::MessagesDialog</name>
+    <message>
+        <source>Messages</source>
+        <translation>Meldungen</translation>
+    </message>
+    <message>
+        <source>Nothing was said yet.</source>
+        <translation>Es wurde noch nichts gesagt.</translation>
+    </message>
+    <message>
+        <source>Copy all</source>
+        <translation>Alles kopieren</translation>
+    </message>
+</context>
+<context>
     <name>ostia::workstation::Opening</name>
     <message numerus="yes">
         <source>%n vessel(s) of the mask; a question mark says where to look first.</source>
@@ -3280,8 +3964,18 @@
 <context>
     <name>ostia::workstation::Panel</name>
     <message>
-        <source>Double click: this view alone, and back</source>
-        <translation>Doppelklick: diese Ansicht allein, und zurück</translation>
+        <source>Back into the window</source>
+        <translation>Zurück ins Fenster</translation>
+    </message>
+    <message>
+        <source>A window of its own</source>
+        <translation>Ein eigenes Fenster</translation>
+    </message>
+    <message>
+        <source>Double click: this view alone, and back
+Right click: a window of its own, and back</source>
+        <translation>Doppelklick: diese Ansicht allein, und zurück
+Rechtsklick: ein eigenes Fenster, und zurück</translation>
     </message>
     <message>
         <source>This view alone, and back</source>
@@ -3294,6 +3988,10 @@
 </context>
 <context>
     <name>ostia::workstation::PanelLayout</name>
+    <message>
+        <source>Measurements and steps</source>
+        <translation>Messungen und Schritte</translation>
+    </message>
     <message>
         <source>Lesions</source>
         <translation>Läsionen</translation>
@@ -3702,6 +4400,22 @@
         <source>Forget all names</source>
         <translation>Alle Namen vergessen</translation>
     </message>
+    <message>
+        <source>Nobody</source>
+        <translation>Niemand</translation>
+    </message>
+    <message>
+        <source>Stands at each step that you do from now on, in the case alone: in no report and no export. Left empty, steps have no name.</source>
+        <translation>Steht ab jetzt bei jedem Ihrer Schritte, nur im Fall: in keinem Bericht und keinem Export. Bleibt es leer, haben Schritte keinen Namen.</translation>
+    </message>
+    <message>
+        <source>Your name at steps</source>
+        <translation>Ihr Name bei Schritten</translation>
+    </message>
+    <message>
+        <source>%1 is this command&apos;s key now, but many desktops take it for themselves: where nothing happens, choose another.</source>
+        <translation>%1 ist jetzt die Taste dieses Befehls, aber viele Arbeitsumgebungen behalten sie für sich: Wo nichts geschieht, wählen Sie eine andere.</translation>
+    </message>
 </context>
 <context>
     <name>ostia::workstation::ProfileWidget</name>
@@ -4099,6 +4813,61 @@
     </message>
 </context>
 <context>
+    <name>ostia::workstation::SeriesStrip</name>
+    <message>
+        <source>Find the sharpest</source>
+        <translation>Schärfste suchen</translation>
+    </message>
+    <message>
+        <source>Work on this one</source>
+        <translation>Mit diesem arbeiten</translation>
+    </message>
+    <message>
+        <source>Opens it in the place of the image on the table: vessels are then found in it, and the case that is open, which is of the other image, is closed</source>
+        <translation>Öffnet es anstelle des geöffneten Bildes: Gefäße werden dann darin gesucht, und der offene Fall, der zum anderen Bild gehört, wird geschlossen</translation>
+    </message>
+    <message>
+        <source>Back</source>
+        <translation>Zurück</translation>
+    </message>
+    <message>
+        <source>Shows the image on the table again</source>
+        <translation>Zeigt wieder das geöffnete Bild</translation>
+    </message>
+    <message>
+        <source>Series of the study</source>
+        <translation>Serien der Untersuchung</translation>
+    </message>
+    <message>
+        <source>Series and phases</source>
+        <translation>Serien und Phasen</translation>
+    </message>
+    <message>
+        <source>Phase that is shown</source>
+        <translation>Gezeigte Phase</translation>
+    </message>
+    <message>
+        <source>Phases of the study, one after the other</source>
+        <translation>Phasen der Untersuchung, eine nach der anderen</translation>
+    </message>
+    <message>
+        <source>Pictures a second</source>
+        <translation>Bilder je Sekunde</translation>
+    </message>
+    <message>
+        <source> /s</source>
+        <translation> /s</translation>
+    </message>
+    <message>
+        <source>Pause</source>
+        <translation>Anhalten</translation>
+    </message>
+    <message>
+        <source>Play the phases</source>
+        <translation>Phasen abspielen</translation>
+    </message>
+</context>
+<context>
     <name>ostia::workstation::ShortcutsPage</name>
     <message>
         <source>Keys and mouse</source>
@@ -4313,6 +5082,184 @@
         <source>Click: go back or forth to this step</source>
         <translation>Klick: zu diesem Schritt zurück oder vor</translation>
     </message>
+    <message>
+        <source>Filter the steps</source>
+        <translation>Schritte filtern</translation>
+    </message>
+    <message>
+        <source>Filter</source>
+        <translation>Filter</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::StudySeries</name>
+    <message>
+        <source>Series of the study</source>
+        <translation>Serien der Untersuchung</translation>
+    </message>
+    <message>
+        <source>Folder with phases or series of this study</source>
+        <translation>Ordner mit Phasen oder Serien dieser Untersuchung</translation>
+    </message>
+    <message>
+        <source>Looking for the phases</source>
+        <translation>Phasen werden gesucht</translation>
+    </message>
+    <message>
+        <source>No series there is known to be of the patient and the study that the image on the table is of. Two patients are never shown together: open the series by itself.</source>
+        <translation>Von keiner Serie dort ist bekannt, dass sie vom Patienten und aus der Untersuchung des geöffneten Bildes stammt. Zwei Patienten werden nie zusammen gezeigt: Öffnen Sie die Serie für sich.</translation>
+    </message>
+    <message>
+        <source>The images of the phases cannot be opened</source>
+        <translation>Die Bilder der Phasen können nicht geöffnet werden</translation>
+    </message>
+    <message>
+        <source>Reading %1</source>
+        <translation>%1 wird gelesen</translation>
+    </message>
+    <message>
+        <source>%1 cannot be read and is left out: %2</source>
+        <translation>%1 kann nicht gelesen werden und fällt weg: %2</translation>
+    </message>
+    <message>
+        <source>image %1</source>
+        <translation>Bild %1</translation>
+    </message>
+    <message>
+        <source>the case&apos;s image</source>
+        <translation>Bild des Falls</translation>
+    </message>
+    <message>
+        <source>image %1, axes of %2</source>
+        <translation>Bild %1, Achsen von %2</translation>
+    </message>
+    <message>
+        <source>All phases together need %1 GB, more than the %2 GB that they may take: while they play they are shown more coarsely.</source>
+        <translation>Alle Phasen zusammen brauchen %1 GB, mehr als die %2 GB, die sie belegen dürfen: Beim Abspielen werden sie gröber gezeigt.</translation>
+    </message>
+    <message>
+        <source>Reading the phases, %1 of %2</source>
+        <translation>Phasen werden gelesen, %1 von %2</translation>
+    </message>
+    <message>
+        <source>no edges between fat and blood</source>
+        <translation>keine Kanten zwischen Fett und Blut</translation>
+    </message>
+    <message>
+        <source>half of the edges are missing</source>
+        <translation>die Hälfte der Kanten fehlt</translation>
+    </message>
+    <message>
+        <source>much noisier than the others</source>
+        <translation>viel verrauschter als die anderen</translation>
+    </message>
+    <message>
+        <source>other voxels than the others</source>
+        <translation>andere Voxel als die anderen</translation>
+    </message>
+    <message>
+        <source>does not cover the arteries</source>
+        <translation>enthält die Arterien nicht ganz</translation>
+    </message>
+    <message>
+        <source>the image on the table</source>
+        <translation>das geöffnete Bild</translation>
+    </message>
+    <message>
+        <source>series %1</source>
+        <translation>Serie %1</translation>
+    </message>
+    <message>
+        <source>%1 slices, voxels of %2 x %3 x %4 mm</source>
+        <translation>%1 Schichten, Voxel von %2 x %3 x %4 mm</translation>
+    </message>
+    <message>
+        <source>Slices are missing or uneven: open it by File &gt; Open.</source>
+        <translation>Schichten fehlen oder liegen ungleich: mit Datei &gt; Öffnen öffnen.</translation>
+    </message>
+    <message>
+        <source>cannot be read</source>
+        <translation>nicht lesbar</translation>
+    </message>
+    <message>
+        <source>on the table</source>
+        <translation>geöffnet</translation>
+    </message>
+    <message>
+        <source>sharpest</source>
+        <translation>am schärfsten</translation>
+    </message>
+    <message>
+        <source>%1 % sharp</source>
+        <translation>Schärfe %1 %</translation>
+    </message>
+    <message>
+        <source>not compared</source>
+        <translation>nicht verglichen</translation>
+    </message>
+    <message>
+        <source>Not compared: %1</source>
+        <translation>Nicht verglichen: %1</translation>
+    </message>
+    <message>
+        <source>Pictures of the series</source>
+        <translation>Bilder der Serien</translation>
+    </message>
+    <message>
+        <source>Looking for the sharpest phase</source>
+        <translation>Schärfste Phase wird gesucht</translation>
+    </message>
+    <message>
+        <source>By the edges about the arteries, whose axes the motion carries to each phase.</source>
+        <translation>Nach den Kanten um die Arterien, deren Achsen die Bewegung in jede Phase trägt.</translation>
+    </message>
+    <message>
+        <source>By the edges within 10 mm of the axes of the case&apos;s own phase: without a motion nobody knows where the arteries are at the others.</source>
+        <translation>Nach den Kanten bis 10 mm um die Achsen der Phase des Falls: Ohne Bewegung weiß niemand, wo die Arterien in den anderen liegen.</translation>
+    </message>
+    <message>
+        <source>By the edges of the heart: there are no axes of arteries yet.</source>
+        <translation>Nach den Kanten des Herzens: Es gibt noch keine Achsen von Arterien.</translation>
+    </message>
+    <message>
+        <source>Being measured…</source>
+        <translation>Wird gemessen …</translation>
+    </message>
+    <message>
+        <source>Find the sharpest</source>
+        <translation>Schärfste suchen</translation>
+    </message>
+    <message>
+        <source>Measures at which phase the arteries, or the heart, have the sharpest edges</source>
+        <translation>Misst, in welcher Phase die Arterien oder das Herz die schärfsten Kanten haben</translation>
+    </message>
+    <message>
+        <source>No sharpest phase</source>
+        <translation>Keine schärfste Phase</translation>
+    </message>
+    <message>
+        <source>Fewer than two phases can be compared.</source>
+        <translation>Weniger als zwei Phasen lassen sich vergleichen.</translation>
+    </message>
+    <message>
+        <source>As sharp: %1</source>
+        <translation>Ebenso scharf: %1</translation>
+    </message>
+    <message>
+        <source>Sharpest: %1</source>
+        <translation>Am schärfsten: %1</translation>
+    </message>
+    <message>
+        <source>Shows it.</source>
+        <translation>Zeigt sie.</translation>
+    </message>
+    <message numerus="yes">
+        <source>Series of the study – %n series of other patients or studies left out</source>
+        <translation>
+            <numerusform>Serien der Untersuchung – eine Serie anderer Patienten oder Untersuchungen weggelassen</numerusform>
+            <numerusform>Serien der Untersuchung – %n Serien anderer Patienten oder Untersuchungen weggelassen</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>ostia::workstation::ToolBars</name>
@@ -4482,6 +5429,21 @@
     <message>
         <source>%1 makes the report with key images, segments, stenoses and measurements. %2 shows all keys and mouse gestures, Help &gt; Manual leads from DICOM to the report, Help &gt; Tour repeats this tour. Ostia is research software, not a medical device.</source>
         <translation>%1 erstellt den Befund mit Schlüsselbildern, Segmenten, Stenosen und Messungen. %2 zeigt alle Tasten und Mausgesten, Hilfe &gt; Handbuch führt von DICOM zum Befund, Hilfe &gt; Rundgang wiederholt diesen Rundgang. Ostia ist Forschungssoftware, kein Medizinprodukt.</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::TransferPlot</name>
+    <message>
+        <source>Opacity of each CT number</source>
+        <translation>Deckkraft je CT-Zahl</translation>
+    </message>
+    <message>
+        <source>Drag to the side: other CT numbers are seen. Up or down: softer or harder. Double click: the preset as it is.</source>
+        <translation>Zur Seite ziehen: andere CT-Zahlen sind zu sehen. Nach oben oder unten: weicher oder härter. Doppelklick: die Vorgabe, wie sie ist.</translation>
+    </message>
+    <message>
+        <source>900 HU</source>
+        <translation>900 HU</translation>
     </message>
 </context>
 <context>
@@ -4702,6 +5664,10 @@ Eine Reparatur ändert, was gezeigt wird, nie die Datei.</translation>
     <message>
         <source>Click the ostium of the artery, then its distal end.</source>
         <translation>Klicken Sie auf das Ostium der Arterie, dann auf ihr distales Ende.</translation>
+    </message>
+    <message>
+        <source>The arteries were not found by themselves</source>
+        <translation>Die Arterien wurden nicht von selbst gefunden</translation>
     </message>
 </context>
 <context>

@@ -56,6 +56,16 @@
     </message>
 </context>
 <context>
+    <name>ostia::workstation::StudySeries</name>
+    <message numerus="yes">
+        <source>Series of the study – %n series of other patients or studies left out</source>
+        <translation>
+            <numerusform>Series of the study – one series of other patients or studies left out</numerusform>
+            <numerusform>Series of the study – %n series of other patients or studies left out</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>ostia::workstation::TreePage</name>
     <message numerus="yes">
         <source>%n segment(s), %1 mm, %2 mm², %3 mm³</source>

@@ -33,6 +33,8 @@ class OuterWalls final : public QObject {
   OuterWalls(Desk& desk, const std::vector<PictureWidget*>& pictures, ProfileWidget* profile);
   ~OuterWalls() override;
   session::OuterWallBoard& board() { return board_; }
+  /// Nothing will be looked for before the next edit; what is looked for now is a job.
+  bool idle() const { return !soon_.isActive(); }
   /// Why the selected vessel's plaque cannot be shown: its outer wall is not known. Empty where it is.
   QString why_no_plaque() const;
 

@@ -116,12 +116,12 @@ void add_drawing(CommandTable& table, Workbench& bench) {
   table.add({.id = "view.thinner",
              .text = Command::tr("Thinner slab"),
              .tip = Command::tr("Makes the slab of the 2D views thinner."),
-             .keys = {"Ctrl+Alt+Down"},
+             .keys = {"Ctrl+Shift+Down"},
              .run = [&bench] { change_slab(bench, -1.0); }});
   table.add({.id = "view.thicker",
              .text = Command::tr("Thicker slab"),
              .tip = Command::tr("Makes the slab of the 2D views thicker."),
-             .keys = {"Ctrl+Alt+Up"},
+             .keys = {"Ctrl+Shift+Up"},
              .run = [&bench] { change_slab(bench, 1.0); }});
   table.add({.id = "view.contours",
              .text = Command::tr("Contours"),
@@ -180,7 +180,7 @@ void add_view_commands(CommandTable& table, Desk& desk, const std::vector<Pictur
              }});
   add_grey_levels(table, desk.bench);
   add_identity(table, desk);
-  add_camera_commands(table, desk.bench, scene);
+  add_camera_commands(table, desk, scene);
 }
 
 }  // namespace ostia::workstation

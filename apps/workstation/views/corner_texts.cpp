@@ -1,10 +1,6 @@
 #include "views/corner_texts.h"
 
-#include "views/overlay_colors.h"
-#include "views/overlay_painter.h"
-
 #include <QCoreApplication>
-#include <QFontMetricsF>
 
 namespace ostia::workstation {
 namespace {
@@ -16,37 +12,52 @@ bool too_small(const QSizeF& view_px, double density) {
   return view_px.width() < least_view * density || view_px.height() < least_view * density;
 }
 
-void paint_line(QPainter& painter, const view::Vec2& px, const QString& text, view::Anchor anchor,
-                double density) {
-  view::Overlay overlay;
-  overlay.texts.push_back({px, text.toStdString(), view::Role::information, anchor});
-  paint_overlay(painter, overlay, density, Ground::image);
-}
-
 }  // namespace
 
-void paint_identity(QPainter& painter, const QSizeF& view_px, const QStringList& parts, double density,
-                    double above_px) {
-  if (parts.isEmpty() || too_small(view_px, density)) return;
-  const QFontMetricsF metrics(painter.font(), painter.device());
-  // The letter of the lower side stands in the middle, the scale at the right.
-  const double room = 0.5 * view_px.width() - 3.0 * corner_edge * density;
-  double y = view_px.height() - corner_edge * density - above_px;
-  for (int i = parts.size() - 1; i >= 0; --i) {
-    const QString shown = metrics.elidedText(parts[i], Qt::ElideRight, room);
-    paint_line(painter, view::Vec2(corner_edge * density, y), shown, view::Anchor::bottom_left, density);
-    y -= metrics.height();
+QStringList broken(const QString& text, double most_px, const view::TextMeasure& measure) {
+  const auto fits = [&](const QString& one) { return measure.width(one.toStdString(), 1.0) <= most_px; };
+  QStringList lines;
+  for (const QString& word : text.split(' ', Qt::SkipEmptyParts)) {
+    if (!lines.isEmpty() && fits(lines.back() + ' ' + word)) {
+      lines.back() += ' ' + word;
+      continue;
+    }
+    lines << QString();
+    for (const QChar letter : word) {
+      if (!lines.back().isEmpty() && !letter.isLowSurrogate() && !fits(lines.back() + letter))
+        lines << QString();
+      lines.back() += letter;
+    }
   }
+  return lines;
 }
 
-void paint_grey_window(QPainter& painter, const QSizeF& view_px, const session::GreyWindow& window,
-                       double density) {
-  if (too_small(view_px, density)) return;
+std::vector<view::OverlayText> identity_texts(const QSizeF& view_px, const QStringList& parts, double density,
+                                              const view::TextMeasure& measure) {
+  std::vector<view::OverlayText> texts;
+  if (parts.isEmpty() || too_small(view_px, density)) return texts;
+  QStringList lines;
+  for (const QString& part : parts)
+    lines << broken(part, view_px.width() - 2.0 * corner_edge * density, measure);
+  double y = view_px.height() - corner_edge * density;
+  for (auto line = lines.crbegin(); line != lines.crend(); ++line, y -= measure.line)
+    texts.push_back({{corner_edge * density, y},
+                     line->toStdString(),
+                     view::Role::information,
+                     view::Anchor::bottom_left});
+  return texts;
+}
+
+std::vector<view::OverlayText> grey_window_texts(const QSizeF& view_px, const session::GreyWindow& window,
+                                                 double density) {
+  if (too_small(view_px, density)) return {};
   const QString text = QCoreApplication::translate("ostia::workstation::PictureWidget", "W %1  L %2")
                            .arg(window.width_hu, 0, 'f', 0)
                            .arg(window.level_hu, 0, 'f', 0);
-  paint_line(painter, view::Vec2(view_px.width() - corner_edge * density, corner_edge * density), text,
-             view::Anchor::top_right, density);
+  return {{{view_px.width() - corner_edge * density, corner_edge * density},
+           text.toStdString(),
+           view::Role::information,
+           view::Anchor::top_right}};
 }
 
 }  // namespace ostia::workstation

@@ -3,19 +3,24 @@
 /// that changes. Not part of the view's own description, so that nothing else of the view can carry it away.
 
 #include "ostia/session/workbench.h"
+#include "ostia/view/text_layout.h"
 
-#include <QPainter>
+#include <QSizeF>
 #include <QStringList>
+#include <vector>
 
 namespace ostia::workstation {
 
-/// At the lower left, a line each, cut off at the middle of the view; `above_px` are kept free below. Nothing
-/// in a view that is too small for it. In device pixels: the painter's scale is 1.
-void paint_identity(QPainter& painter, const QSizeF& view_px, const QStringList& parts, double density,
-                    double above_px);
+/// At the lower left, a line each (more, where one is wider than the view), from the last upwards. Nothing in
+/// a view that is too small for it. `view_px` in device pixels.
+std::vector<view::OverlayText> identity_texts(const QSizeF& view_px, const QStringList& parts, double density,
+                                              const view::TextMeasure& measure);
 
 /// At the upper right: "W 900  L 250".
-void paint_grey_window(QPainter& painter, const QSizeF& view_px, const session::GreyWindow& window,
-                       double density);
+std::vector<view::OverlayText> grey_window_texts(const QSizeF& view_px, const session::GreyWindow& window,
+                                                 double density);
+
+/// Parts of a text that are no wider than `most_px`, broken between words where that can be.
+QStringList broken(const QString& text, double most_px, const view::TextMeasure& measure);
 
 }  // namespace ostia::workstation

@@ -1,17 +1,13 @@
 #pragma once
-/// \file The heart behind the tree in 3D.
-
-#include <functional>
+/// \file The choice of what is behind the tree in 3D.
 
 class QComboBox;
 
 namespace ostia::workstation {
 
-struct Desk;
 class SceneWidget;
 
-/// The list that chooses what is behind the tree. The CT is reduced in the background once it is to be shown
-/// and no image `is_being_read`.
-QComboBox* heart_behind(Desk& desk, SceneWidget& scene, const std::function<bool()>& is_being_read);
+/// The list that chooses it: nothing, the heart (heart_volume.h), a MIP.
+QComboBox* heart_behind(SceneWidget& scene);
 
 }  // namespace ostia::workstation

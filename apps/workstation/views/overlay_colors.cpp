@@ -2,7 +2,19 @@
 
 #include "shell/theme.h"
 
+#include "ostia/view/plaque_colors.h"
+
+#include <algorithm>
+
 namespace ostia::workstation {
+namespace {
+
+QColor color_of_plaque(view::Role role) {
+  const auto& [of, color] = *std::ranges::find(view::plaque_colors, role, &view::PlaqueColor::role);
+  return QColor::fromRgbF(color.r, color.g, color.b);
+}
+
+}  // namespace
 
 QColor role_color(view::Role role, Ground ground) {
   using view::Role;
@@ -44,15 +56,11 @@ QColor role_color(view::Role role, Ground ground) {
       return bright ? QColor(120, 170, 255) : QColor(40, 80, 190);
     case Role::grid:
       return bright ? QColor(110, 115, 125) : QColor(170, 174, 182);
-    // Told apart by the colour-blind, too, also over grey: warm is soft, blue is hard.
     case Role::low_attenuation:
-      return QColor(213, 94, 0);
     case Role::fibrofatty:
-      return QColor(240, 228, 66);
     case Role::fibrous:
-      return QColor(40, 90, 255);
     case Role::calcified:
-      return QColor(86, 180, 233);
+      return color_of_plaque(role);
     // As the three axes are coloured elsewhere, lightened for dark images.
     case Role::axial_plane:
       return QColor(240, 110, 100);
@@ -60,6 +68,10 @@ QColor role_color(view::Role role, Ground ground) {
       return QColor(120, 215, 110);
     case Role::sagittal_plane:
       return QColor(245, 215, 90);
+    case Role::shear:
+      return bright ? QColor(64, 214, 190) : QColor(0, 120, 105);
+    case Role::pressure:
+      return bright ? QColor(226, 140, 255) : QColor(135, 40, 170);
     case Role::limited:
       return bright ? QColor(196, 176, 255) : QColor(105, 80, 190);
     case Role::not_evaluable:

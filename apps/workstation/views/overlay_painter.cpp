@@ -1,7 +1,5 @@
 #include "views/overlay_painter.h"
 
-#include "ostia/view/label_layout.h"
-
 #include <QApplication>
 #include <QPainterPath>
 #include <QPalette>
@@ -17,47 +15,10 @@ QPointF point(const view::Vec2& p) {
   return {p.x(), p.y()};
 }
 
-QRectF text_box(const QFontMetricsF& metrics, const view::OverlayText& text) {
-  using view::Anchor;
-  const double w = metrics.horizontalAdvance(QString::fromStdString(text.text)), h = metrics.height();
-  double x = text.px.x(), y = text.px.y();
-  switch (text.anchor) {
-    case Anchor::top:
-    case Anchor::middle:
-    case Anchor::bottom:
-      x -= w / 2;
-      break;
-    case Anchor::top_right:
-    case Anchor::right:
-    case Anchor::bottom_right:
-      x -= w;
-      break;
-    default:
-      break;
-  }
-  switch (text.anchor) {
-    case Anchor::left:
-    case Anchor::middle:
-    case Anchor::right:
-      y -= h / 2;
-      break;
-    case Anchor::bottom_left:
-    case Anchor::bottom:
-    case Anchor::bottom_right:
-      y -= h;
-      break;
-    default:
-      break;
-  }
-  return {x, y, w, h};
-}
-
-/// The font, or a smaller one where the text would be wider than the view.
-QFont fitting(QFont font, const QString& text, double room, QPaintDevice* device) {
-  constexpr double least = 0.7;
-  const double wide = QFontMetricsF(font, device).horizontalAdvance(text) + 4.0;
-  if (wide > room && font.pixelSize() > 0)
-    font.setPixelSize(static_cast<int>(font.pixelSize() * std::max(least, room / wide)));
+/// The font at a share of its size.
+QFont scaled(QFont font, double scale) {
+  if (scale < 1.0 && font.pixelSize() > 0)
+    font.setPixelSize(std::max(1, static_cast<int>(font.pixelSize() * scale)));
   return font;
 }
 
@@ -68,75 +29,40 @@ QColor halo(Ground ground) {
   return around;
 }
 
-QSizeF room_of(const QPainter& painter) {
-  const double density = painter.device()->devicePixelRatioF();
-  return QSizeF(painter.device()->width(), painter.device()->height()) * density;
-}
-
-QFont font_for(const QPainter& painter, const view::OverlayText& text) {
-  return fitting(painter.font(), QString::fromStdString(text.text), room_of(painter).width(),
-                 painter.device());
-}
-
-/// What would be cut off at the rim moves inwards.
-QRectF box_of(const QPainter& painter, const view::OverlayText& text) {
-  const QSizeF room = room_of(painter);
-  QRectF box = text_box(QFontMetricsF(font_for(painter, text), painter.device()), text);
-  box.moveLeft(std::clamp(box.left(), 0.0, std::max(0.0, room.width() - box.width())));
-  box.moveTop(std::clamp(box.top(), 0.0, std::max(0.0, room.height() - box.height())));
-  return box;
-}
-
-void paint_text(QPainter& painter, const view::OverlayText& text, const QRectF& box, Ground ground) {
+void paint_text(QPainter& painter, const view::PlacedText& text, view::Role role, Ground ground) {
   const QFont usual = painter.font();
-  painter.setFont(font_for(painter, text));
+  painter.setFont(scaled(usual, text.scale));
   const QFontMetricsF metrics(painter.font(), painter.device());
   const QString shown = QString::fromStdString(text.text);
-  const QPointF base(box.left(), box.top() + metrics.ascent());
+  const QPointF base(text.rect.low.x(), text.rect.low.y() + metrics.ascent());
   painter.setPen(halo(ground));
   const double by = std::max(1.0, metrics.height() / 14.0);
   for (const QPointF& step : {QPointF(by, by), QPointF(-by, by), QPointF(by, -by), QPointF(-by, -by)})
     painter.drawText(base + step, shown);
-  painter.setPen(role_color(text.role, ground));
+  painter.setPen(role_color(role, ground));
   painter.drawText(base, shown);
   painter.setFont(usual);
 }
 
-view::LabelRect rect_of(const QRectF& box) {
-  return {{box.left(), box.top()}, {box.width(), box.height()}};
-}
-
-/// Texts that stay where they are, then labels about them.
-void paint_texts(QPainter& painter, const std::vector<view::OverlayText>& texts, double density,
-                 Ground ground, LabelOffsets* before) {
-  const QSizeF size = room_of(painter);
-  view::LabelRoom room{{size.width(), size.height()}, 6.0 * density, {}};
-  std::vector<view::LabelWish> wishes;
-  std::vector<const view::OverlayText*> labels;
-  for (const view::OverlayText& text : texts) {
-    const QRectF box = box_of(painter, text);
-    if (!text.label_of) {
-      paint_text(painter, text, box, ground);
-      room.taken.push_back(rect_of(box));
-      continue;
-    }
-    wishes.push_back({text.px, {box.width(), box.height()}, {}});
-    labels.push_back(&text);
-    if (before && before->count(*text.label_of)) wishes.back().before = before->at(*text.label_of);
-  }
-  const std::vector<view::PlacedLabel> placed = view::place_labels(wishes, room);
+/// Texts that stay where they are, then labels about them, with lines to what they are of.
+std::vector<view::PlacedText> paint_texts(QPainter& painter, const std::vector<view::OverlayText>& texts,
+                                          const std::vector<view::OverlayLine>& lines,
+                                          const OverlayPainting& how) {
+  view::TextRoom room{{how.size.width(), how.size.height()}, how.density, {}};
+  if (how.before) room.before = *how.before;
+  std::vector<view::PlacedText> placed = view::lay_out_texts(texts, lines, text_measure(painter), room);
   LabelOffsets now;
   for (std::size_t i = 0; i < placed.size(); ++i) {
     if (!placed[i].shown) continue;
-    const view::LabelRect& rect = placed[i].rect;
-    now[*labels[i]->label_of] = rect.low - wishes[i].anchor;
+    if (texts[i].label_of) now[*texts[i].label_of] = placed[i].rect.low - texts[i].px;
     if (placed[i].leader_to) {
-      painter.setPen(QPen(role_color(labels[i]->role, ground), density));
-      painter.drawLine(point(wishes[i].anchor), point(*placed[i].leader_to));
+      painter.setPen(QPen(role_color(texts[i].role, how.ground), how.density));
+      painter.drawLine(point(texts[i].px), point(*placed[i].leader_to));
     }
-    paint_text(painter, *labels[i], QRectF(rect.low.x(), rect.low.y(), rect.size.x(), rect.size.y()), ground);
+    paint_text(painter, placed[i], texts[i].role, how.ground);
   }
-  if (before) *before = std::move(now);
+  if (how.before) *how.before = std::move(now);
+  return placed;
 }
 
 QColor color_of(view::Role role, const std::optional<figure::Color>& own, Ground ground) {
@@ -178,8 +104,20 @@ QImage grey_picture(const view::GreyImage& image, const session::GreyWindow& win
   return reused;
 }
 
-void paint_overlay(QPainter& painter, const view::Overlay& overlay, double density, Ground ground,
-                   LabelOffsets* before) {
+view::TextMeasure text_measure(const QPainter& painter) {
+  const QFont usual = painter.font();
+  QPaintDevice* device = painter.device();
+  return {
+      [usual, device](const std::string& text, double scale) {
+        return QFontMetricsF(scaled(usual, scale), device).horizontalAdvance(QString::fromStdString(text));
+      },
+      QFontMetricsF(usual, device).height()};
+}
+
+std::vector<view::PlacedText> paint_overlay(QPainter& painter, const view::Overlay& overlay,
+                                            const OverlayPainting& how) {
+  const Ground ground = how.ground;
+  const double density = how.density;
   painter.setRenderHint(QPainter::Antialiasing);
   for (const auto& tint : overlay.tints)
     painter.drawImage(QPointF(tint->left, tint->top), tint_picture(*tint, ground));
@@ -209,7 +147,10 @@ void paint_overlay(QPainter& painter, const view::Overlay& overlay, double densi
     painter.setBrush(mark.filled ? QBrush(color) : QBrush(Qt::NoBrush));
     painter.drawEllipse(point(mark.px), mark.radius * density, mark.radius * density);
   }
-  paint_texts(painter, overlay.texts, density, ground, before);
+  if (how.corners.empty()) return paint_texts(painter, overlay.texts, overlay.lines, how);
+  std::vector<view::OverlayText> texts = overlay.texts;
+  texts.insert(texts.end(), how.corners.begin(), how.corners.end());
+  return paint_texts(painter, texts, overlay.lines, how);
 }
 
 }  // namespace ostia::workstation

@@ -1,5 +1,7 @@
 #include "views/paint_queue.h"
 
+#include "ostia/core/parallel.h"
+
 #include <QCoreApplication>
 #include <QScopedValueRollback>
 #include <algorithm>
@@ -27,7 +29,7 @@ PaintQueue::PaintQueue() : QObject(QCoreApplication::instance()) {
 void PaintQueue::add(QWidget* view) {
   if (views_.isEmpty()) views_waiting_.start();
   if (!views_.contains(view)) views_.append(view);
-  prepared_ = false;
+  prepared_ = 0;  // it may be one of them, and they may all show something else by now
   timer_.start();
 }
 
@@ -53,19 +55,26 @@ void PaintQueue::serve_overdue() {
   if (views || last) views_were_served_ = views_turn;
 }
 
-void PaintQueue::prepare_all() {
-  if (prepared_ || !prepare_) return;
-  prepared_ = true;
+void PaintQueue::remove(QWidget* view) {
+  if (views_.removeAll(view) > 0) prepared_ = 0;  // it may have been one of them; twice costs nothing
+}
+
+void PaintQueue::prepare_next() {
+  if (prepared_ > 0 || !prepare_) return;
   QList<QWidget*> shown;
-  for (const QPointer<QWidget>& view : views_)
+  for (const QPointer<QWidget>& view : views_) {
+    if (shown.size() == core::max_threads()) break;
+    ++prepared_;
     if (view && view->isVisible()) shown.append(view);
+  }
   if (shown.size() > 1) prepare_(shown);
 }
 
 bool PaintQueue::next_view() {
-  prepare_all();
   while (!views_.isEmpty()) {
+    prepare_next();
     const QPointer<QWidget> view = views_.takeFirst();
+    prepared_ = std::max(0, prepared_ - 1);
     if (!view || !view->isVisible()) continue;
     view->repaint();
     return true;

@@ -17,8 +17,8 @@ class PaintQueue final : public QObject {
   Q_OBJECT
  public:
   static PaintQueue& instance();
-  /// Once for many requests. All that wait are prepared together before the first of them is painted:
-  /// `prepare` is given those of the kind.
+  /// Once for many requests. As many as there are processors are prepared side by side before the first of
+  /// them is painted, no more: the hand waits for all of that. `prepare` is given those of the kind.
   void add(QWidget* view);
   using Prepare = std::function<void(const QList<QWidget*>& views)>;
   void set_prepare(Prepare prepare) { prepare_ = std::move(prepare); }
@@ -28,7 +28,7 @@ class PaintQueue final : public QObject {
   /// already, the views and what is last by turns.
   void serve_overdue();
   /// It has just been painted.
-  void remove(QWidget* view) { views_.removeAll(view); }
+  void remove(QWidget* view);
 
  private:
   PaintQueue();
@@ -39,9 +39,9 @@ class PaintQueue final : public QObject {
     QPointer<QObject> owner;
     std::function<void()> work;
   };
-  void prepare_all();
+  void prepare_next();
   Prepare prepare_;
-  bool prepared_ = false;           // nothing was added since
+  int prepared_ = 0;                // of those that are next
   bool views_were_served_ = false;  // when last something was overdue
   QList<QPointer<QWidget>> views_;
   QList<Last> last_;

@@ -23,6 +23,7 @@ namespace ostia::workstation {
 namespace {
 
 constexpr int fade_ms = 40;
+constexpr int rest_ms = 150;        // without a new picture until a coarse one is made anew
 constexpr int grey_told_ms = 4000;  // after its last change
 
 double milliseconds(const QElapsedTimer& clock) {
@@ -63,11 +64,22 @@ PictureWidget::PictureWidget(std::unique_ptr<view::PictureView> view, const QStr
   // The view under the hand is painted as soon as the event is handled, the others when no event waits.
   stale_ = view_->stale.observe([this] { request_paint(); });
   grey_ = view_->bench().grey.observe([this](const session::GreyWindow&) {
-    grey_told_.start(grey_told_ms);
+    grey_told_.start();
     request_paint();
   });
   grey_told_.setSingleShot(true);
+  grey_told_.setInterval(grey_told_ms);
+  grey_told_.setObjectName("grey_told");
   connect(&grey_told_, &QTimer::timeout, this, [this] { update(); });
+  view_->allow_drafts();
+  rest_.setSingleShot(true);
+  rest_.setInterval(rest_ms);
+  connect(&rest_, &QTimer::timeout, this, [this] {
+    guard_([&] { view_->refine(); });
+    if (!underMouse()) return;
+    const QPointF at = QPointF(mapFromGlobal(QCursor::pos())) * devicePixelRatioF();
+    tell_place({at.x(), at.y()});
+  });
 }
 PictureWidget::~PictureWidget() = default;
 
@@ -96,11 +108,13 @@ void PictureWidget::paintEvent(QPaintEvent* event) {
     painter.fillRect(all, QColor(12, 13, 15));
     if (std::isfinite(fits)) painter.scale(fits, fits);
   }
+  bool made_now = false;
   guard_([&] {
     const view::GreyImage& image = view_->image();
     const session::GreyWindow window = view_->bench().grey.get();
     if (revision_ != view_->image_revision() || !(window == painted_window_)) {
       picture_ = grey_picture(image, window, std::move(picture_));
+      made_now = revision_ != view_->image_revision();
       revision_ = view_->image_revision();
       painted_window_ = window;
     }
@@ -109,8 +123,9 @@ void PictureWidget::paintEvent(QPaintEvent* event) {
     else
       painter.drawImage(QPointF(0, 0), picture_);
     painter.setFont(overlay_font(font(), density));
-    paint_overlay(painter, view_->overlay(), density, Ground::image, &label_offsets_);
-    paint_corners(painter, QSizeF(view_->width(), view_->height()));
+    const QSizeF size(view_->width(), view_->height());
+    texts_ = paint_overlay(painter, view_->overlay(),
+                           {size, density, Ground::image, &label_offsets_, corner_texts(painter, size)});
   });
   painter.restore();
   if (hasFocus()) {
@@ -120,18 +135,20 @@ void PictureWidget::paintEvent(QPaintEvent* event) {
     painter.drawRect(all.adjusted(density, density, -density, -density));
   }
   tell_frame(*this, milliseconds(clock), picture_.isNull() ? 0 : revision_);
+  if (view_->is_draft() && made_now) rest_.start();
   if (view_->animating()) QTimer::singleShot(fade_ms, this, [this] { update(); });
 }
 
-void PictureWidget::paint_corners(QPainter& painter, const QSizeF& view_px) {
+std::vector<view::OverlayText> PictureWidget::corner_texts(const QPainter& painter, const QSizeF& view_px) {
+  std::vector<view::OverlayText> texts;
+  if (!view_->ready()) return texts;
   const double density = devicePixelRatioF();
-  if (!view_->ready()) return;
-  if (grey_told_.isActive()) paint_grey_window(painter, view_px, view_->bench().grey.get(), density);
-  if (!identity_ || of_nobody_ || !identity_->on_views.get()) return;
-  // At another phase of the heart the view says there which.
-  const double line = QFontMetricsF(painter.font(), painter.device()).height();
-  const double below = view_->bench().other_phase() ? line : 0.0;
-  paint_identity(painter, view_px, identity_parts(identity_->now()), density, below);
+  if (identity_ && !of_nobody_ && identity_->on_views.get())
+    texts = identity_texts(view_px, identity_parts(identity_->now()), density, text_measure(painter));
+  if (!grey_told_.isActive()) return texts;
+  const auto grey = grey_window_texts(view_px, view_->bench().grey.get(), density);
+  texts.insert(texts.end(), grey.begin(), grey.end());
+  return texts;
 }
 
 void PictureWidget::show_identity(Identity& identity) {
@@ -141,6 +158,7 @@ void PictureWidget::show_identity(Identity& identity) {
 
 QImage PictureWidget::picture_of_nobody() {
   of_nobody_ = true;
+  view_->refine();
   const QImage shown = grab().toImage();
   of_nobody_ = false;
   return shown;
@@ -308,7 +326,8 @@ void ProfileWidget::paintEvent(QPaintEvent* event) {
   painter.scale(1.0 / density, 1.0 / density);
   painter.fillRect(QRectF(0, 0, width() * density, height() * density), palette().color(QPalette::Base));
   painter.setFont(overlay_font(font(), density));
-  paint_overlay(painter, view_.overlay(), density, Ground::paper);
+  texts_ =
+      paint_overlay(painter, view_.overlay(), {QSizeF(width(), height()) * density, density, Ground::paper});
   tell_frame(*this, milliseconds(clock));
 }
 

@@ -52,6 +52,8 @@ class PictureWidget final : public QWidget {
   void show_identity(Identity& identity);
   /// What is on the screen, but for whose it is: for what leaves the window.
   QImage picture_of_nobody();
+  /// All that was written over the image when it was painted last, in the view's pixels.
+  const std::vector<view::PlacedText>& painted_texts() const { return texts_; }
   void take_size();  ///< the view has the widget's size again, after somebody gave it another
   QSize minimumSizeHint() const override { return {80, 80}; }
 
@@ -86,14 +88,16 @@ class PictureWidget final : public QWidget {
   std::uint64_t revision_ = 0;
   session::GreyWindow painted_window_;
   LabelOffsets label_offsets_;
-  void paint_corners(QPainter& painter, const QSizeF& view_px);
+  std::vector<view::PlacedText> texts_;
+  std::vector<view::OverlayText> corner_texts(const QPainter& painter, const QSizeF& view_px);
   bool handling_ = false;
   HeldButton button_;
   PictureWidget* twin_ = nullptr;
   const Identity* identity_ = nullptr;
   session::Subscription identity_changed_;
   bool of_nobody_ = false;
-  QTimer grey_told_;  // runs while the grey window's numbers are shown
+  QTimer rest_{this};       // runs while a coarse picture may still be followed by others
+  QTimer grey_told_{this};  // runs while the grey window's numbers are shown
 };
 
 class ProfileWidget final : public QWidget {
@@ -101,6 +105,8 @@ class ProfileWidget final : public QWidget {
  public:
   ProfileWidget(session::Workbench& bench, Guard guard, QWidget* parent = nullptr);
   view::ProfileView& view() { return view_; }
+  /// All that was written when it was painted last, in device pixels.
+  const std::vector<view::PlacedText>& painted_texts() const { return texts_; }
   /// What is said of the stenosis under the mouse.
   void set_lesion_tip(std::function<QString(const analysis::Stenosis&)> tip) { lesion_tip_ = std::move(tip); }
   QSize minimumSizeHint() const override { return {160, 70}; }
@@ -123,6 +129,7 @@ class ProfileWidget final : public QWidget {
   std::function<QString(const analysis::Stenosis&)> lesion_tip_;
   view::ProfileView view_;
   view::ProfilePointer pointer_;
+  std::vector<view::PlacedText> texts_;
   Guard guard_;
   session::Subscription stale_;
   HeldButton button_;

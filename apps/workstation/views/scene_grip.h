@@ -16,6 +16,9 @@ class SceneGrip {
   virtual void take(const geometry::Vec2& display) = 0;
   virtual void drag(const geometry::Vec2& display) = 0;
   virtual void put_back() = 0;  ///< to where it was taken
+  virtual void let_go() {}      ///< the button went up over the picture
+  /// A line over the picture and not something in it: a cross shows that, and it begins anywhere.
+  virtual bool draws() const { return false; }
 };
 
 }  // namespace ostia::workstation

@@ -44,6 +44,7 @@ SceneWidget::SceneWidget(session::Workbench& bench, Guard guard, QWidget* parent
   render_window->SetMultiSamples(0);
   scene_->attach(*render_window);
   scene_->show_front(false);
+  scene_->set_angles_shown(true);
   window_->setRenderWindow(render_window);
   window_->installEventFilter(this);
   window_->create();  // the driver is loaded before there is a window that would have to wait
@@ -89,6 +90,7 @@ SceneWidget::SceneWidget(session::Workbench& bench, Guard guard, QWidget* parent
     phase_stale_ = cursor_stale_ = marks_stale_ = true;
     request_render();
   }));
+  own_.push_back(bench.other_image_changed.observe(stale(&SceneWidget::cursor_stale_)));
   own_.push_back(bench.annotations_changed.observe([this] {
     styles_stale_ = marks_stale_ = true;
     request_render();
@@ -129,6 +131,7 @@ void SceneWidget::paintEvent(QPaintEvent*) {
 void SceneWidget::resizeEvent(QResizeEvent* event) {
   QWidget::resizeEvent(event);
   scene_->set_pixel_ratio(devicePixelRatioF());
+  refresh_identity();
   request_render();
 }
 
@@ -294,6 +297,10 @@ void SceneWidget::save_picture(const std::filesystem::path& png, double scale) {
   }
 }
 
+QSize SceneWidget::picture_size() const {
+  return container_->size() * devicePixelRatioF();
+}
+
 void SceneWidget::add_below(QWidget* controls) {
   auto* column = static_cast<QVBoxLayout*>(layout());
   column->setStretch(0, 1);  // the picture takes the room
@@ -323,9 +330,17 @@ void SceneWidget::set_volume_mode(view::VolumeMode mode) {
   scene_->set_volume_mode(mode);
   if (mode != view::VolumeMode::off) emit volume_wanted();
   request_render();
+  emit volume_mode_changed(mode);
+}
+
+void SceneWidget::set_grip(SceneGrip* grip) {
+  grip_ = grip;
+  gripped_ = false;
 }
 
 void SceneWidget::set_dark(bool dark) {
+  dark_ = dark;
+  refresh_identity();
   scene_->set_look(dark ? figure::Look::dark : figure::Look::light);
   request_render();
 }

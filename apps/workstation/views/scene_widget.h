@@ -36,24 +36,31 @@ class SceneWidget final : public QWidget {
   /// Moves smoothly to another pose.
   void go_to(const view::CameraPose& pose);
   void set_volume_mode(view::VolumeMode mode);
+  view::VolumeMode volume_mode() const { return volume_mode_; }
   void set_dark(bool dark);
+  /// Writes at the lower left whose image it is, while the person wants it there; outlived by it. No picture
+  /// that is saved has it.
+  void show_identity(Identity& identity);
   /// Called with each new wall, to colour it.
   void set_wall_painter(std::function<void(const geometry::TriMesh&)> painter);
   void repaint_wall();  ///< the painter would colour it otherwise
   /// In the wall's place, all of it in the picture; null: the wall again.
   void show_guest(std::shared_ptr<view::SceneGuest> guest);
   /// What a press of the left button may take hold of; null: nothing. It has to outlive the events.
-  void set_grip(SceneGrip* grip) { grip_ = grip; }
+  void set_grip(SceneGrip* grip);
+  SceneGrip* grip() const { return grip_; }
   /// As it is shown, `scale` times as many pixels along each side with texts and lines as much larger. Throws
   /// as TreeScene::snapshot and figure::Picture::write_png do.
   void save_picture(const std::filesystem::path& png, double scale);
+  QSize picture_size() const;  ///< of the picture on the screen, device pixels
   /// Controls below the picture.
   void add_below(QWidget* controls);
   QSize minimumSizeHint() const override;
 
  signals:
-  void styles_changed();                              ///< vessels have colours now, or others
-  void volume_wanted();                               ///< the CT is to be shown and has not been reduced yet
+  void styles_changed();  ///< vessels have colours now, or others
+  void volume_wanted();   ///< the CT is to be shown and has not been reduced yet
+  void volume_mode_changed(view::VolumeMode mode);
   void guest_changed(const view::SceneGuest* guest);  ///< null: the wall is shown
   void pointed(const geometry::Vec2& display);        ///< the mouse is there, no button held
   void left();                                        ///< by the mouse
@@ -74,6 +81,7 @@ class SceneWidget final : public QWidget {
   void refresh_cursor();
   void refresh_section();
   void refresh_measurements();
+  void refresh_identity();
   bool key_pressed(int key);
   void mouse_pressed(const QMouseEvent& event);
   void mouse_moved(const QMouseEvent& event);
@@ -103,6 +111,9 @@ class SceneWidget final : public QWidget {
   Qt::MouseButtons buttons_;
   HeldButton button_;
   bool moved_ = false, holding_ = false;  // the camera; a handle
+  const Identity* identity_ = nullptr;
+  session::Subscription identity_changed_;
+  bool dark_ = true;
   SceneGrip* grip_ = nullptr;
   bool gripped_ = false;
   std::vector<session::Subscription> own_;

@@ -17,6 +17,10 @@ namespace {
 
 constexpr double click_px = 3.0;
 
+Qt::CursorShape cursor_over(const SceneGrip& grip) {
+  return grip.draws() ? Qt::CrossCursor : Qt::SizeAllCursor;
+}
+
 }  // namespace
 
 geometry::Vec2 SceneWidget::display(const QPointF& at) const {
@@ -33,12 +37,13 @@ view::PointerEvent SceneWidget::pointer_event(const QPointF& at, Qt::MouseButton
 
 void SceneWidget::hand(const std::function<void()>& act) {
   guard_(act);
-  window_->setCursor(gripped_ ? Qt::SizeAllCursor : cursor_of(pointer_->shape()));
+  window_->setCursor(gripped_ && grip_ ? cursor_over(*grip_) : cursor_of(pointer_->shape()));
 }
 
 /// The button went up unseen: no more is done, and no click comes of it.
 void SceneWidget::let_go() {
   buttons_ = Qt::NoButton;
+  if (gripped_ && grip_->draws()) grip_->put_back();
   holding_ = gripped_ = false;
   scene_->set_interacting(false);
   hand([&] { pointer_->let_go(); });
@@ -80,7 +85,7 @@ void SceneWidget::mouse_moved(const QMouseEvent& event) {
   }
   hand([&] { pointer_->move(pointer_event(event.localPos(), Qt::NoButton, event.modifiers())); });
   if (event.buttons() == Qt::NoButton && grip_ && grip_->under(display(event.localPos())))
-    window_->setCursor(Qt::SizeAllCursor);
+    window_->setCursor(cursor_over(*grip_));
   if (camera) turn_camera(event);
   if (event.buttons() == Qt::NoButton) emit pointed(display(event.localPos()));
 }
@@ -106,6 +111,7 @@ void SceneWidget::turn_camera(const QMouseEvent& event) {
 void SceneWidget::mouse_released(const QMouseEvent& event) {
   buttons_ = event.buttons();
   if (gripped_ && event.button() != Qt::LeftButton) return;  // of another button meanwhile
+  if (gripped_) guard_([this] { grip_->let_go(); });
   holding_ = gripped_ = false;
   scene_->set_interacting(false);
   hand([&] { pointer_->release(pointer_event(event.localPos(), event.button(), event.modifiers())); });
@@ -115,6 +121,10 @@ void SceneWidget::mouse_released(const QMouseEvent& event) {
 bool SceneWidget::key_pressed(int key) {
   if (key == Qt::Key_Escape && gripped_) {
     gripped_ = false;  // what is moved until the button goes up moves nothing
+    grip_->put_back();
+    return true;
+  }
+  if (key == Qt::Key_Escape && grip_ && grip_->draws()) {
     grip_->put_back();
     return true;
   }
@@ -130,6 +140,11 @@ bool SceneWidget::key_pressed(int key) {
 }
 
 bool SceneWidget::eventFilter(QObject* object, QEvent* event) {
+  if (event->type() == QEvent::ShortcutOverride && (object == window_ || object == container_) && grip_ &&
+      (gripped_ || grip_->draws()) && static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape) {
+    event->accept();  // it comes as a key, and not as a command's
+    return true;
+  }
   if (event->type() == QEvent::KeyPress && (object == window_ || object == container_) &&
       key_pressed(static_cast<QKeyEvent*>(event)->key()))
     return true;

@@ -13,10 +13,32 @@ namespace {
 
 constexpr double ostium_step_mm = 0.05, farthest_radii = 3.0, least_way_mm = 2.0;
 
+// The axis begins to turn so far before the joint: a section there is oblique to the parent, and too large.
+constexpr double turn_mm = 0.25;
+
+/// A straight line over a mouth; nothing where a side of it is not measured.
+void lead_over(LumenProfile& profile, const Mouth& mouth) {
+  const SectionMeasures before = profile.sections[mouth.before], behind = profile.sections[mouth.behind];
+  if (!before.found || !behind.found) return;
+  for (std::size_t i = mouth.before + 1; i < mouth.behind; ++i) {
+    SectionMeasures& one = profile.sections[i];
+    const double t = (one.s_mm - before.s_mm) / (behind.s_mm - before.s_mm);
+    const auto mix = [t](double a, double b) { return (1.0 - t) * a + t * b; };
+    one.found = true;
+    one.open = false;
+    one.diameter_mm = mix(before.diameter_mm, behind.diameter_mm);
+    one.least_diameter_mm = mix(before.least_diameter_mm, behind.least_diameter_mm);
+    one.largest_diameter_mm = mix(before.largest_diameter_mm, behind.largest_diameter_mm);
+    one.perimeter_mm = mix(before.perimeter_mm, behind.perimeter_mm);
+    one.area_mm2 = 0.25 * M_PI * one.diameter_mm * one.diameter_mm;
+  }
+}
+
 }  // namespace
 
-std::optional<Mouth> mouth_of(const LumenProfile& profile, double joint_mm, double ostium_mm) {
+std::optional<Mouth> mouth_of(const LumenProfile& profile, const WayJoint& joint) {
   const auto& all = profile.sections;
+  const auto [joint_mm, ostium_mm] = joint;
   if (!(ostium_mm > joint_mm) || !(joint_mm > 0.0) || all.size() < 3) return std::nullopt;
   const auto at_or_behind = [&](double s_mm) {
     return std::lower_bound(all.begin(), all.end(), s_mm - 1e-6,
@@ -24,8 +46,32 @@ std::optional<Mouth> mouth_of(const LumenProfile& profile, double joint_mm, doub
   };
   const auto first = at_or_behind(joint_mm), behind = at_or_behind(ostium_mm);
   if (first == all.begin() || behind == all.end()) return std::nullopt;
-  return Mouth{static_cast<std::size_t>(first - all.begin()) - 1,
+  auto before = first - 1;
+  while (before != all.begin() && before->s_mm > joint_mm - turn_mm + 1e-6) --before;
+  return Mouth{static_cast<std::size_t>(before - all.begin()),
                static_cast<std::size_t>(behind - all.begin())};
+}
+
+std::vector<Mouth> mouths_of(const LumenProfile& profile, const std::vector<WayJoint>& joints) {
+  std::vector<Mouth> mouths;
+  for (const WayJoint& joint : joints)
+    if (const auto mouth = mouth_of(profile, joint)) mouths.push_back(*mouth);
+  return mouths;
+}
+
+std::vector<JointGroup> joint_groups(std::vector<WayJoint> joints) {
+  std::erase_if(joints, [](const WayJoint& one) { return !(one.joint_mm > 0.0); });
+  std::sort(joints.begin(), joints.end(),
+            [](const WayJoint& a, const WayJoint& b) { return a.joint_mm < b.joint_mm; });
+  std::vector<JointGroup> groups;
+  for (const WayJoint& one : joints) {
+    const double ostium = std::max(one.joint_mm, one.ostium_mm);
+    if (groups.empty() || one.joint_mm > groups.back().ostium_mm)
+      groups.push_back({one.joint_mm, one.joint_mm, ostium});
+    groups.back().last_joint_mm = one.joint_mm;
+    groups.back().ostium_mm = std::max(groups.back().ostium_mm, ostium);
+  }
+  return groups;
 }
 
 std::vector<WayStretch> ostial_way(const lumen::LumenModel& model, std::int32_t vessel) {
@@ -62,30 +108,24 @@ Ostium ostium_of(const lumen::LumenModel& model, const SurfaceOfVessel& surface_
   return out;
 }
 
-ReferenceOptions reading_from_ostium(const Ostium& ostium, ReferenceOptions options) {
-  options.own_from_mm = ostium.joint_mm;
-  options.ostium_mm = ostium.ostium_mm;
+std::vector<Ostium> ostia_of(const lumen::LumenModel& model, const SurfaceOfVessel& surface_of,
+                             std::int32_t vessel) {
+  std::vector<Ostium> ostia;
+  const std::vector<WayStretch> way = ostial_way(model, vessel);
+  for (std::size_t i = 1; i < way.size(); ++i) ostia.push_back(ostium_of(model, surface_of, way[i].vessel));
+  return ostia;
+}
+
+ReferenceOptions reading_from_ostium(const std::vector<Ostium>& ostia, ReferenceOptions options) {
+  options.joints.clear();
+  for (const Ostium& one : ostia)
+    if (one.parent >= 0) options.joints.push_back({one.joint_mm, one.ostium_mm});
   return options;
 }
 
 LumenProfile read_through(const LumenProfile& profile, const ReferenceLine& reference) {
   LumenProfile out = profile;
-  const auto mouth = mouth_of(profile, reference.joint_mm, reference.ostium_mm);
-  if (!mouth) return out;
-  const SectionMeasures &before = profile.sections[mouth->before], &behind = profile.sections[mouth->behind];
-  if (!before.found || !behind.found) return out;
-  for (std::size_t i = mouth->before + 1; i < mouth->behind; ++i) {
-    SectionMeasures& one = out.sections[i];
-    const double t = (one.s_mm - before.s_mm) / (behind.s_mm - before.s_mm);
-    const auto mix = [t](double a, double b) { return (1.0 - t) * a + t * b; };
-    one.found = true;
-    one.open = false;
-    one.diameter_mm = mix(before.diameter_mm, behind.diameter_mm);
-    one.least_diameter_mm = mix(before.least_diameter_mm, behind.least_diameter_mm);
-    one.largest_diameter_mm = mix(before.largest_diameter_mm, behind.largest_diameter_mm);
-    one.perimeter_mm = mix(before.perimeter_mm, behind.perimeter_mm);
-    one.area_mm2 = 0.25 * M_PI * one.diameter_mm * one.diameter_mm;
-  }
+  for (const Mouth& mouth : mouths_of(profile, reference.joints)) lead_over(out, mouth);
   return out;
 }
 

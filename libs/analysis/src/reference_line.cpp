@@ -9,7 +9,6 @@
 #include <cmath>
 #include <numbers>
 #include <string>
-#include <utility>
 
 namespace ostia::analysis {
 namespace {
@@ -156,6 +155,19 @@ class Line {
   std::vector<bool> known_, breaks_;  // a break: between this section and the next
 };
 
+/// The line through sections [begin, end) alone.
+std::vector<double> line_of_part(const LumenProfile& profile, std::size_t begin, std::size_t end,
+                                 const std::vector<double>& branches_mm, double window_mm) {
+  const double step = profile.length_mm / static_cast<double>(profile.sections.size() - 1);
+  LumenProfile part;
+  part.length_mm = step * static_cast<double>(end - begin - 1);
+  part.sections.assign(profile.sections.begin() + static_cast<std::ptrdiff_t>(begin),
+                       profile.sections.begin() + static_cast<std::ptrdiff_t>(end));
+  std::vector<double> branches;
+  for (const double s : branches_mm) branches.push_back(s - step * static_cast<double>(begin));
+  return Line(part, branches, window_mm).found();
+}
+
 }  // namespace
 
 ReferenceLine reference_line(const LumenProfile& profile, const std::vector<double>& branches_mm,
@@ -170,28 +182,27 @@ ReferenceLine reference_line(const LumenProfile& profile, const std::vector<doub
   }
   const std::size_t n = profile.sections.size();
   const double step = profile.length_mm / static_cast<double>(n - 1);
-  const double first_own = std::ceil(options.own_from_mm / step - 1e-9);
-  if (!(first_own >= 2.0 && first_own + 2.0 <= static_cast<double>(n)))
-    return {Line(profile, branches_mm, options.window_mm).found()};
-  const auto own = static_cast<std::size_t>(first_own);
   ReferenceLine whole;
-  for (const auto& [begin, end] : {std::pair(std::size_t{0}, own), std::pair(own, n)}) {
-    LumenProfile part;
-    part.length_mm = step * static_cast<double>(end - begin - 1);
-    part.sections.assign(profile.sections.begin() + static_cast<std::ptrdiff_t>(begin),
-                         profile.sections.begin() + static_cast<std::ptrdiff_t>(end));
-    std::vector<double> branches;
-    for (const double s : branches_mm) branches.push_back(s - step * static_cast<double>(begin));
-    const std::vector<double> line = Line(part, branches, options.window_mm).found();
-    whole.diameter_mm.insert(whole.diameter_mm.end(), line.begin(), line.end());
+  whole.diameter_mm.assign(n, 0.0);
+  const auto add_line = [&](std::size_t begin, std::size_t end) {
+    const std::vector<double> line = line_of_part(profile, begin, end, branches_mm, options.window_mm);
+    std::copy(line.begin(), line.end(), whole.diameter_mm.begin() + static_cast<std::ptrdiff_t>(begin));
+  };
+  std::size_t begin = 0;
+  for (const JointGroup& one : joint_groups(options.joints)) {
+    const double last = std::ceil(one.first_joint_mm / step - 1e-9),
+                 own = std::ceil(one.last_joint_mm / step - 1e-9);
+    if (!(last >= static_cast<double>(begin) + 2.0 && own + 2.0 <= static_cast<double>(n))) continue;
+    add_line(begin, static_cast<std::size_t>(last));
+    begin = static_cast<std::size_t>(own);
+    whole.joints.push_back({one.first_joint_mm, one.ostium_mm});
   }
-  whole.joint_mm = options.own_from_mm;
-  whole.ostium_mm = std::max(options.own_from_mm, options.ostium_mm);
-  if (const auto mouth = mouth_of(profile, whole.joint_mm, whole.ostium_mm)) {
-    const double first = whole.diameter_mm[mouth->before], last = whole.diameter_mm[mouth->behind];
-    for (std::size_t i = mouth->before + 1; i < mouth->behind; ++i)
-      whole.diameter_mm[i] = first + (last - first) * static_cast<double>(i - mouth->before) /
-                                         static_cast<double>(mouth->behind - mouth->before);
+  add_line(begin, n);
+  for (const Mouth& mouth : mouths_of(profile, whole.joints)) {
+    const double first = whole.diameter_mm[mouth.before], last = whole.diameter_mm[mouth.behind];
+    for (std::size_t i = mouth.before + 1; i < mouth.behind; ++i)
+      whole.diameter_mm[i] = first + (last - first) * static_cast<double>(i - mouth.before) /
+                                         static_cast<double>(mouth.behind - mouth.before);
   }
   return whole;
 }

@@ -52,7 +52,7 @@ class Search {
       : sections_(profile.sections), profile_(profile), reference_(reference.diameter_mm), options_(options) {
     const double least = options.least_percent / 100.0;
     shoulder_ = std::min(shoulder_share, 0.5 * least);
-    mouth_ = mouth_of(profile, reference.joint_mm, reference.ostium_mm);
+    mouths_ = mouths_of(profile, reference.joints);
     for (std::size_t i = 0; i < sections_.size(); ++i) narrowing_.push_back(narrowing(i));
   }
 
@@ -154,13 +154,19 @@ class Search {
     set_percents(stenosis);
     return stenosis;
   }
-  bool in_mouth(std::size_t i) const { return mouth_ && mouth_->holds(i); }
-  /// Whether two sections are not on the same side of the ostium.
-  bool other_vessel(std::size_t i, std::size_t k) const {
-    return mouth_ && (in_mouth(k) || (i >= mouth_->behind) != (k >= mouth_->behind));
+  bool in_mouth(std::size_t i) const {
+    return std::any_of(mouths_.begin(), mouths_.end(), [i](const Mouth& one) { return one.holds(i); });
   }
-  /// The first section behind the ostium: what lies before is the parent's.
-  bool begins_vessel(std::size_t i) const { return mouth_ && i == mouth_->behind; }
+  /// Whether two sections are not on the same side of an ostium.
+  bool other_vessel(std::size_t i, std::size_t k) const {
+    return in_mouth(k) || std::any_of(mouths_.begin(), mouths_.end(), [i, k](const Mouth& one) {
+             return (i >= one.behind) != (k >= one.behind);
+           });
+  }
+  /// The first section behind an ostium: what lies before is the parent's.
+  bool begins_vessel(std::size_t i) const {
+    return std::any_of(mouths_.begin(), mouths_.end(), [i](const Mouth& one) { return i == one.behind; });
+  }
   double edge(std::size_t outside, std::size_t inside) const {
     if (shut(inside)) return sections_[inside].s_mm;
     return crossing(sections_[outside].s_mm, narrowing_[outside], sections_[inside].s_mm, narrowing_[inside],
@@ -172,7 +178,7 @@ class Search {
   const std::vector<double>& reference_;
   StenosisOptions options_;
   double shoulder_ = 0.0;
-  std::optional<Mouth> mouth_;
+  std::vector<Mouth> mouths_;
   std::vector<double> narrowing_;
 };
 

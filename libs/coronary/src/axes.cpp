@@ -1,12 +1,12 @@
 #include "ostia/coronary/axes.h"
 
 #include "axis_beside_calcium.h"
-#include "tree_parts.h"
 
 #include "ostia/centerline/tree_builder.h"
 #include "ostia/core/error.h"
 #include "ostia/core/text.h"
 #include "ostia/geometry/polyline.h"
+#include "ostia/geometry/tree_parts.h"
 #include "ostia/segmentation/minimal_path.h"
 
 #include <algorithm>
@@ -184,10 +184,10 @@ class Centring {
         part.chains.back().parent = index.at(chains_[c].parent);
         names.push_back(flat_.vessels[c].name);
       }
-      append_part(result_.tree, centerline::split_tree(part, options_.step_mm, names).tree,
-                  [&](std::int32_t id) {
-                    return static_cast<std::int32_t>(members[static_cast<std::size_t>(id)]) + 1;
-                  });
+      geometry::append_tree(result_.tree, centerline::split_tree(part, options_.step_mm, names).tree, 1,
+                            [&](std::int32_t id) {
+                              return static_cast<std::int32_t>(members[static_cast<std::size_t>(id)]) + 1;
+                            });
     }
     for (const geometry::Vessel& vessel : result_.tree.vessels)
       result_.notes.push_back(found_[static_cast<std::size_t>(vessel.id - 1)]);

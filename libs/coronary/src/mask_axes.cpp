@@ -2,10 +2,10 @@
 
 #include "line_graph.h"
 #include "mask_kinks.h"
-#include "tree_parts.h"
 
 #include "ostia/centerline/tree_builder.h"
 #include "ostia/geometry/polyline.h"
+#include "ostia/geometry/tree_parts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -245,7 +245,7 @@ MaskAxes axes_of_lines(const centerline::SkeletonGraph& lines, const std::vector
     const centerline::SplitTree split =
         centerline::split_tree(chains, step_mm, std::vector<std::string>(chains.ends.size(), "V"));
     std::int32_t next = first;
-    append_part(result.tree, split.tree, [&](std::int32_t) { return next++; });
+    geometry::append_tree(result.tree, split.tree, 1, [&](std::int32_t) { return next++; });
     if (led_on_mm > 0.0) result.led_on.push_back({MaskEndChange::Kind::led_on, began, led_on_mm, first});
     if (result.ostia.size() < roots.size())
       result.ostia.push_back(

@@ -22,8 +22,12 @@ using geometry::TriMesh;
 class Judge {
  public:
   Judge(const std::vector<PhantomTube>& tubes, const Orientation& orientation, const TriMesh& isosurface,
-        double clear_mm)
-      : tubes_(tubes), orientation_(orientation), isosurface_(isosurface), clear_mm_(clear_mm) {}
+        const SmoothnessOptions& options)
+      : tubes_(tubes),
+        orientation_(orientation),
+        isosurface_(isosurface),
+        clear_mm_(options.clear_mm),
+        sample_mm_(options.sample_mm) {}
 
   SurfaceFigures figures(const TriMesh& mesh, SurfaceKind kind, double parameter,
                          const core::TaskContext& task) const {
@@ -39,11 +43,12 @@ class Judge {
         mesh, [&](const Vec3& p) { return place(p) != PhantomPlace::end; }, task);
     out.whole = bending_of(mesh, {}, task);
     if (kind != SurfaceKind::isosurface) {
-      const evaluation::SurfaceDistances d = evaluation::compare_surfaces(isosurface_, mesh, {}, task);
+      const evaluation::SurfaceDistances d =
+          evaluation::compare_surfaces(isosurface_, mesh, {sample_mm_, {}, {}}, task);
       out.rms_mm = d.rms_sd_mm;
       out.hausdorff_mm = d.max_sd_mm;
       out.tubes_rms_mm =
-          evaluation::compare_surfaces(isosurface_, mesh, {0.2, of_tube, of_tube}, task).rms_sd_mm;
+          evaluation::compare_surfaces(isosurface_, mesh, {sample_mm_, of_tube, of_tube}, task).rms_sd_mm;
     }
     add_truth(mesh, out);
     out.closed = geometry::find_faults(mesh, false).closed_manifold();
@@ -73,7 +78,7 @@ class Judge {
   const std::vector<PhantomTube>& tubes_;
   const Orientation& orientation_;
   const TriMesh& isosurface_;
-  double clear_mm_;
+  double clear_mm_, sample_mm_;
 };
 
 /// The skeleton's network with sections as the isosurface has them, as circles and as ellipses.
@@ -131,6 +136,7 @@ void validate(const SmoothnessOptions& o) {
   for (const int iterations : o.smoothings) require(iterations > 0, "smoothings must be positive");
   require(o.relaxation > 0.0 && o.relaxation <= 1.0, "relaxation must lie in (0, 1]");
   require(o.clear_mm > 0.0, "clear_mm must be positive");
+  require(o.sample_mm > 0.0, "sample_mm must be positive");
 }
 
 std::vector<SurfaceFigures> measure_smoothness(const std::vector<PhantomTube>& tubes,
@@ -145,7 +151,7 @@ std::vector<SurfaceFigures> measure_smoothness(const std::vector<PhantomTube>& t
   const centerline::MeasuredSkeleton lines = centerline::measured(
       scan.lines.skeleton.graph, share_inside(scan.surface.level_set), sections, task.sub(0.42, 0.5));
   const geometry::VesselGraph network = network_of(lines.graph, options.scans.knots_mm);
-  const Judge judge(tubes, orientation, isosurface, options.clear_mm);
+  const Judge judge(tubes, orientation, isosurface, options);
   std::vector<SurfaceFigures> out;
   out.push_back(judge.figures(isosurface, SurfaceKind::isosurface, 0.0, task.sub(0.5, 0.55)));
   std::size_t alike = 0;

@@ -171,6 +171,7 @@ std::string parameters_json(const SmoothnessOptions& o, std::size_t orientations
   out["relaxation"] = o.relaxation;
   out["vtk_at"] = o.vtk_at;
   out["clear_mm"] = o.clear_mm;
+  out["sample_mm"] = o.sample_mm;
   return out.dump();
 }
 

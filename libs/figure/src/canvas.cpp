@@ -229,6 +229,12 @@ void Drawing::replay(cairo_t* context) const {
   cairo_restore(context);
 }
 
+const std::string& Drawing::png(double density, const std::function<std::string()>& encoded) const {
+  const std::lock_guard hold(encoding_);
+  const auto known = png_.find(density);
+  return known != png_.end() ? known->second : png_.emplace(density, encoded()).first->second;
+}
+
 Picture drawn(int width, int height, const std::function<void(Canvas&)>& draw) {
   return Picture(std::make_shared<const Drawing>(width, height, draw));
 }

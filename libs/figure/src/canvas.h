@@ -7,7 +7,9 @@
 #include <cairo.h>
 
 #include <functional>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -71,10 +73,14 @@ class Drawing {
   int width() const { return width_; }
   int height() const { return height_; }
   void replay(cairo_t* context) const;
+  /// Its PNG, encoded once for a density: a document and the file beside it show the same picture.
+  const std::string& png(double density, const std::function<std::string()>& encoded) const;
 
  private:
   int width_, height_;
   cairo_surface_t* recording_ = nullptr;
+  mutable std::mutex encoding_;
+  mutable std::map<double, std::string> png_;
 };
 
 /// Throws InvalidInput for a size that Cairo cannot hold, and for one of nothing.

@@ -116,8 +116,15 @@ std::string base64(std::string_view bytes) {
   return result;
 }
 
-HtmlReport::HtmlReport(std::string title, std::string subtitle)
-    : title_(std::move(title)), subtitle_(std::move(subtitle)) {}
+const std::string& DocumentWords::heading(Notice kind) const {
+  return kind == Notice::good      ? passed
+         : kind == Notice::warning ? warning
+         : kind == Notice::bad     ? failed
+                                   : note;
+}
+
+HtmlReport::HtmlReport(std::string title, std::string subtitle, DocumentWords words)
+    : title_(std::move(title)), subtitle_(std::move(subtitle)), words_(std::move(words)) {}
 
 void HtmlReport::section(const std::string& heading) {
   const std::string anchor = "s" + std::to_string(contents_.size() + 1);
@@ -134,14 +141,9 @@ void HtmlReport::paragraph(const std::string& text) {
 }
 
 void HtmlReport::notice(Notice kind, const std::string& text) {
-  struct Kind {
-    const char *name, *heading;
-  };
-  static constexpr std::array<Kind, 4> kKinds{
-      {{"good", "Passed"}, {"warning", "Warning"}, {"bad", "Failed"}, {"note", "Note"}}};
-  const Kind& what = kKinds[static_cast<std::size_t>(kind)];
-  body_ += std::string("<div class=\"notice ") + what.name + "\"><b>" + what.heading + "</b>" + shown(text) +
-           "</div>\n";
+  static constexpr std::array<const char*, 4> kClasses{"good", "warning", "bad", "note"};
+  body_ += std::string("<div class=\"notice ") + kClasses[static_cast<std::size_t>(kind)] + "\"><b>" +
+           shown(words_.heading(kind)) + "</b>" + shown(text) + "</div>\n";
 }
 
 void HtmlReport::key_values(const std::vector<std::pair<std::string, std::string>>& rows) {
@@ -164,7 +166,8 @@ void HtmlReport::table(const std::vector<std::string>& header,
   body_ += "<div class=\"wide\"><table>\n";
   ++tables_;
   if (!caption.empty())
-    body_ += "<caption>Table " + std::to_string(tables_) + ". " + shown(caption) + "</caption>\n";
+    body_ += "<caption>" + shown(words_.table) + " " + std::to_string(tables_) + ". " + shown(caption) +
+             "</caption>\n";
   body_ += "<thead><tr>";
   for (std::size_t c = 0; c < header.size(); ++c) body_ += cell("th", header[c], numeric[c], "col");
   body_ += "</tr></thead>\n<tbody>\n";
@@ -182,13 +185,14 @@ void HtmlReport::picture(const Picture& picture, const std::string& caption, con
   body_ += "<figure><img width=\"" + std::to_string(picture.width()) + "\" height=\"" +
            std::to_string(picture.height()) + "\" alt=\"" +
            shown(alternative.empty() ? caption : alternative) + "\" src=\"data:image/png;base64," +
-           base64(picture.png(density)) + "\"><figcaption>Figure " + std::to_string(pictures_) + ". " +
-           shown(caption) + "</figcaption></figure>\n";
+           base64(picture.png(density)) + "\"><figcaption>" + shown(words_.figure) + " " +
+           std::to_string(pictures_) + ". " + shown(caption) + "</figcaption></figure>\n";
 }
 
 std::string HtmlReport::html() const {
   std::string page =
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<!DOCTYPE html>\n<html lang=\"" + html_escaped(words_.language) +
+      "\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; "
       "style-src 'unsafe-inline'\">\n<title>";
@@ -196,7 +200,7 @@ std::string HtmlReport::html() const {
           "</style>\n</head>\n<body>\n<header>\n<h1>" + shown(title_) + "</h1>\n";
   if (!subtitle_.empty()) page += "<p class=\"subtitle\">" + shown(subtitle_) + "</p>\n";
   if (contents_.size() >= 3) {
-    page += "<nav aria-label=\"Contents\"><ol>\n";
+    page += "<nav aria-label=\"" + shown(words_.contents) + "\"><ol>\n";
     for (const auto& [anchor, heading] : contents_)
       page += "<li><a href=\"#" + anchor + "\">" + heading + "</a></li>\n";
     page += "</ol></nav>\n";

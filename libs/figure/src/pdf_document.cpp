@@ -20,22 +20,19 @@ constexpr double kBody = 13.0, kBodyLine = 18.5;
 constexpr Color kAccent{0.043, 0.384, 0.651}, kGood{0.039, 0.498, 0.349}, kWarn{0.659, 0.357, 0.0},
     kBad{0.702, 0.149, 0.118};
 
-struct NoticeLook {
-  const char* heading;
-  Color color;
-};
-NoticeLook look_of(Notice kind) {
-  switch (kind) {
-    case Notice::good:
-      return {"Passed", kGood};
-    case Notice::warning:
-      return {"Warning", kWarn};
-    case Notice::bad:
-      return {"Failed", kBad};
-    case Notice::note:
-      break;
-  }
-  return {"Note", kAccent};
+Color color_of(Notice kind) {
+  return kind == Notice::good      ? kGood
+         : kind == Notice::warning ? kWarn
+         : kind == Notice::bad     ? kBad
+                                   : kAccent;
+}
+
+/// "Page %1 of %2" with its numbers.
+std::string page_text(std::string words, std::size_t number, std::size_t of) {
+  for (const auto& [place, value] : {std::pair("%1", number), std::pair("%2", of)})
+    if (const auto at = words.find(place); at != std::string::npos)
+      words.replace(at, 2, std::to_string(value));
+  return words;
 }
 
 struct ReleasePdf {
@@ -106,7 +103,7 @@ struct PdfDocument::Impl {
   void foot(Canvas& canvas, std::size_t number, std::size_t of) const {
     const double y = page_bottom_px + 22.0, right = page_left_px + text_width_px;
     canvas.line({page_left_px, y - 7.0}, {right, y - 7.0}, look.grid, 0.8);
-    const std::string count = "Page " + std::to_string(number) + " of " + std::to_string(of);
+    const std::string count = page_text(options.words.page, number, of);
     canvas.text({right, y}, count, {.size_px = 10.5, .color = look.muted, .across = Align::end});
     canvas.text({page_left_px, y}, cut_to(options.footer, 10.5, false, text_width_px - 110.0),
                 {.size_px = 10.5, .color = look.muted});
@@ -139,18 +136,19 @@ void PdfDocument::paragraph(const std::string& text) {
 
 void PdfDocument::notice(Notice kind, const std::string& text) {
   constexpr double kInset = 16.0;
-  const NoticeLook how = look_of(kind);
+  const Color color = color_of(kind);
+  const std::string heading = impl_->options.words.heading(kind);
   std::vector<std::string> lines = wrapped(text, kBody, false, text_width_px - 2.0 * kInset);
-  lines.insert(lines.begin(), how.heading);
+  lines.insert(lines.begin(), heading);
   // The whole of it on one page where it is short; else it runs on.
   impl_->flow.require(kBodyLine * static_cast<double>(std::min<std::size_t>(lines.size(), 30)) + 12.0);
   const auto strip = [&](double height, const std::string& line, bool bold) {
     impl_->flow.put(height, [=, look = impl_->look](Canvas& canvas, double y) {
       canvas.fill(page_left_px, y, text_width_px, height + 0.3, look.panel);
-      canvas.fill(page_left_px, y, 4.0, height + 0.3, how.color);
+      canvas.fill(page_left_px, y, 4.0, height + 0.3, color);
       if (!line.empty())
         canvas.text({page_left_px + kInset, y}, line,
-                    {.size_px = kBody, .color = bold ? how.color : look.foreground, .bold = bold});
+                    {.size_px = kBody, .color = bold ? color : look.foreground, .bold = bold});
     });
   };
   strip(6.0, {}, false);
@@ -173,14 +171,16 @@ void PdfDocument::table(const std::vector<std::string>& header,
       throw InvalidInput("a report's table has a row of " + std::to_string(row.size()) +
                          " cells under a header of " + std::to_string(header.size()));
   ++impl_->tables;
-  put_table(
-      impl_->flow,
-      {header, rows, caption.empty() ? caption : "Table " + std::to_string(impl_->tables) + ". " + caption});
+  put_table(impl_->flow, {header, rows,
+                          caption.empty() ? caption
+                                          : impl_->options.words.table + " " + std::to_string(impl_->tables) +
+                                                ". " + caption});
 }
 
 void PdfDocument::picture(const Picture& picture, const std::string& caption) {
   constexpr double kSize = 12.0, kLine = 16.5;
-  const std::string text = "Figure " + std::to_string(++impl_->pictures) + ". " + caption;
+  const std::string text =
+      impl_->options.words.figure + " " + std::to_string(++impl_->pictures) + ". " + caption;
   const std::vector<std::string> lines = wrapped(text, kSize, false, text_width_px);
   const double below = 8.0 + kLine * static_cast<double>(lines.size());
   const double most = std::max(100.0, text_height_px - impl_->flow.waiting() - below - 2.0);

@@ -140,10 +140,12 @@ Raster Picture::raster(double density) const {
 }
 
 std::string Picture::png(double density) const {
-  const Surface surface = painted(*drawing_, density, CAIRO_FORMAT_RGB24);
-  std::string bytes;
-  check_picture(cairo_surface_write_to_png_stream(surface.get(), append_picture, &bytes));
-  return bytes;
+  return drawing_->png(density, [&] {
+    const Surface surface = painted(*drawing_, density, CAIRO_FORMAT_RGB24);
+    std::string bytes;
+    check_picture(cairo_surface_write_to_png_stream(surface.get(), append_picture, &bytes));
+    return bytes;
+  });
 }
 
 std::string Picture::svg() const {

@@ -84,7 +84,7 @@ void draw_panel(Canvas& canvas, const StripPanel& panel, const Raster& image, co
   }
 }
 
-void draw_ruler(Canvas& canvas, const StripLayout& layout, const Theme& look) {
+void draw_ruler(Canvas& canvas, const StripLayout& layout, const Theme& look, const std::string& along) {
   const int count = std::max(2, static_cast<int>(layout.height / 45.0));
   const std::vector<double> ticks = nice_ticks(layout.first_mm, layout.last_mm(), count);
   const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : 1.0;
@@ -93,7 +93,7 @@ void draw_ruler(Canvas& canvas, const StripLayout& layout, const Theme& look) {
     canvas.text({kLeft - 10.0, layout.y(s)}, tick_text(s, step),
                 {.size_px = 11, .color = look.foreground, .across = Align::end, .along = Align::middle});
   }
-  canvas.text({4.0, layout.top + 0.5 * layout.height}, "mm along the vessel",
+  canvas.text({4.0, layout.top + 0.5 * layout.height}, along,
               {.size_px = 11.5, .color = look.muted, .across = Align::middle, .upwards = true});
 }
 
@@ -153,7 +153,7 @@ Picture strip_figure(const std::vector<StripPanel>& panels, const std::vector<St
                   {.size_px = 15, .color = look.foreground, .bold = true, .along = Align::middle});
     for (std::size_t n = 0; n < panels.size(); ++n)
       draw_panel(canvas, panels[n], images[n], layout, n, options);
-    draw_ruler(canvas, layout, look);
+    draw_ruler(canvas, layout, look, options.along);
     draw_marks(canvas, marks, layout);
     canvas.text({kLeft, layout.top + layout.height + 7.0}, note, {.size_px = 11, .color = look.muted});
   });

@@ -2,6 +2,7 @@
 
 #include "edge_table.h"
 #include "mesh_checks.h"
+#include "smoothing_steps.h"
 
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
@@ -12,45 +13,13 @@
 namespace ostia::geometry {
 namespace {
 
-using detail::HalfEdge;
-
 double inflating_weight(const TaubinOptions& options) {
   return 1.0 / (options.pass_band - 1.0 / options.lambda);
 }
 
-/// The neighbours of each free point, one list after the other. A border point has none: it stays.
-struct Neighbourhood {
-  std::vector<std::size_t> start;
-  std::vector<std::int32_t> points;
-};
-
-Neighbourhood free_neighbourhood(const TriMesh& mesh) {
-  const std::vector<HalfEdge> table = detail::half_edges(mesh);
-  std::vector<char> fixed(mesh.points.size(), 0);
-  detail::for_each_edge(table, [&](const HalfEdge* first, const HalfEdge* last) {
-    if (last - first > 1) return;
-    fixed[static_cast<std::size_t>(first->low)] = 1;
-    fixed[static_cast<std::size_t>(first->high)] = 1;
-  });
-  Neighbourhood result;
-  result.start.assign(mesh.points.size() + 1, 0);
-  const auto for_each_link = [&](const auto& use) {
-    detail::for_each_edge(table, [&](const HalfEdge* edge, const HalfEdge*) {
-      const auto low = static_cast<std::size_t>(edge->low), high = static_cast<std::size_t>(edge->high);
-      if (!fixed[high]) use(high, edge->low);
-      if (!fixed[low]) use(low, edge->high);
-    });
-  };
-  for_each_link([&](std::size_t point, std::int32_t) { ++result.start[point + 1]; });
-  for (std::size_t p = 0; p < mesh.points.size(); ++p) result.start[p + 1] += result.start[p];
-  result.points.resize(result.start.back());
-  std::vector<std::size_t> next(result.start.begin(), result.start.end() - 1);
-  for_each_link([&](std::size_t point, std::int32_t other) { result.points[next[point]++] = other; });
-  return result;
-}
-
 /// to = from + weight * (mean of the neighbours - from), all points at once.
-void step(const Neighbourhood& around, double weight, const std::vector<Vec3>& from, std::vector<Vec3>& to) {
+void smoothing_step(const detail::MovingNeighbours& around, double weight, const std::vector<Vec3>& from,
+                    std::vector<Vec3>& to) {
   core::parallel_for(from.size(), 4096, [&](std::size_t p) {
     const std::size_t first = around.start[p], last = around.start[p + 1];
     if (first == last) {
@@ -64,6 +33,54 @@ void step(const Neighbourhood& around, double weight, const std::vector<Vec3>& f
 }
 
 }  // namespace
+
+namespace detail {
+
+MovingNeighbours moving_neighbours(const TriMesh& mesh, const std::vector<bool>& free, bool borders_move) {
+  const std::vector<HalfEdge> table = half_edges(mesh);
+  MovingNeighbours result;
+  result.on_border.assign(mesh.points.size(), 0);
+  const auto is_open = [](const HalfEdge* first, const HalfEdge* last) { return last - first == 1; };
+  for_each_edge(table, [&](const HalfEdge* first, const HalfEdge* last) {
+    if (!is_open(first, last)) return;
+    result.on_border[static_cast<std::size_t>(first->low)] = 1;
+    result.on_border[static_cast<std::size_t>(first->high)] = 1;
+  });
+  result.start.assign(mesh.points.size() + 1, 0);
+  const auto for_each_link = [&](const auto& use) {
+    for_each_edge(table, [&](const HalfEdge* edge, const HalfEdge* last) {
+      const bool open = is_open(edge, last);
+      const auto link = [&](std::int32_t from, std::int32_t to) {
+        const auto point = static_cast<std::size_t>(from);
+        if (!free.empty() && !free[point]) return;
+        if (result.on_border[point] && !(borders_move && open)) return;
+        use(point, to);
+      };
+      link(edge->high, edge->low);
+      link(edge->low, edge->high);
+    });
+  };
+  for_each_link([&](std::size_t point, std::int32_t) { ++result.start[point + 1]; });
+  for (std::size_t p = 0; p < mesh.points.size(); ++p) result.start[p + 1] += result.start[p];
+  result.points.resize(result.start.back());
+  std::vector<std::size_t> next(result.start.begin(), result.start.end() - 1);
+  for_each_link([&](std::size_t point, std::int32_t other) { result.points[next[point]++] = other; });
+  return result;
+}
+
+void taubin_steps(const MovingNeighbours& around, const TaubinOptions& options, std::vector<Vec3>& points,
+                  const core::TaskContext& task) {
+  const double inflate = inflating_weight(options);
+  std::vector<Vec3> between(points.size());
+  for (int i = 0; i < options.iterations; ++i) {
+    task.throw_if_cancelled();
+    smoothing_step(around, options.lambda, points, between);
+    smoothing_step(around, inflate, between, points);
+    task.set_progress(static_cast<double>(i + 1) / options.iterations);
+  }
+}
+
+}  // namespace detail
 
 void validate(const TaubinOptions& options) {
   const auto fail = [](const std::string& what) { throw InvalidInput("Taubin smoothing: " + what); };
@@ -89,16 +106,8 @@ TriMesh taubin_smoothed(const TriMesh& mesh, const TaubinOptions& options, const
   detail::check_indices(mesh, "Taubin smoothing");
   detail::check_finite(mesh, "Taubin smoothing");
   task.throw_if_cancelled();
-  const Neighbourhood around = free_neighbourhood(mesh);
-  const double inflate = inflating_weight(options);
   TriMesh result = mesh;
-  std::vector<Vec3> between(mesh.points.size());
-  for (int i = 0; i < options.iterations; ++i) {
-    task.throw_if_cancelled();
-    step(around, options.lambda, result.points, between);
-    step(around, inflate, between, result.points);
-    task.set_progress(static_cast<double>(i + 1) / options.iterations);
-  }
+  detail::taubin_steps(detail::moving_neighbours(mesh, {}, false), options, result.points, task);
   task.set_progress(1.0);
   return result;
 }

@@ -197,6 +197,7 @@ DicomSeriesDetail described(std::vector<DicomSlice> slices, const std::string& l
   summary.transfer_syntax = transfer_syntax_name(header.transfer_syntax);
   summary.phase = label;
   summary.patient_number = header.whose.patient_id ? header.whose.patient_id : header.whose.patient_name;
+  summary.study_number = header.whose.study;
   add_pixel_faults(series);
   if (is_localizer(header)) summary.faults.push_back("a localizer (scout) image, not a volume");
   if (summary.modality != "CT") {

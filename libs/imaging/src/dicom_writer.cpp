@@ -159,8 +159,9 @@ class SeriesWriter {
         seed_(options.uid_seed.empty() ? digest_of(image) : options.uid_seed) {
     const auto lowest = *std::min_element(image.voxels.begin(), image.voxels.end());
     intercept_ = lowest < -1024 ? -32768 : -1024;
-    study_uid_ = uid_of(seed_ + "/study");
-    frame_uid_ = uid_of(seed_ + "/frame of reference");
+    const std::string& study = options.study_seed.empty() ? seed_ : options.study_seed;
+    study_uid_ = uid_of(study + "/study");
+    frame_uid_ = uid_of(study + "/frame of reference");
     series_uid_ = uid_of(seed_ + "/series");
   }
 

@@ -35,7 +35,7 @@ void write_image(const fs::path& folder, int number, const SuiteOptions& options
   task.throw_if_cancelled();
   if (options.dicom) {
     imaging::DicomSeriesOptions series;
-    series.uid_seed = parameters_json(plan.options);
+    series.study_seed = series.uid_seed = parameters_json(plan.options);
     series.cardiac_phase_percent = percent;
     if (percent) series.uid_seed += "/" + phase_name(*percent);
     series.patient_id = "OSTIA-PHANTOM-" + std::to_string(plan.options.seed);

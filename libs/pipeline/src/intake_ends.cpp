@@ -1,5 +1,7 @@
 #include "intake_ends.h"
 
+#include "intake_mending.h"
+
 #include "ostia/core/error.h"
 #include "ostia/core/text.h"
 #include "ostia/geometry/aabb_tree.h"
@@ -24,14 +26,6 @@ constexpr std::size_t most_named = 12;
 // those of a tube cancel out.
 constexpr double least_facing = 0.4, largest_cap_share = 0.25;
 
-std::vector<GivenEnd> rims_in(const TriMesh& mesh) {
-  std::vector<GivenEnd> ends;
-  for (const auto& loop : geometry::boundary_loops(mesh))
-    if (const GivenEnd end = meshing::end_at_loop(mesh, loop); end.radius_mm >= least_rim_mm)
-      ends.push_back(end);
-  return ends;
-}
-
 }  // namespace
 
 std::string place_text(const Vec3& p) {
@@ -44,10 +38,35 @@ std::string words_of(const GivenEnd& end) {
          core::fixed_text(2.0 * end.radius_mm, 2) + " mm wide";
 }
 
+std::vector<GivenEnd> open_rims(const TriMesh& mesh) {
+  std::vector<GivenEnd> ends;
+  for (const auto& loop : geometry::boundary_loops(mesh))
+    if (const GivenEnd end = meshing::end_at_loop(mesh, loop); end.radius_mm >= least_rim_mm)
+      ends.push_back(end);
+  return ends;
+}
+
+std::vector<GivenEnd> take_labelled_caps_off(geometry::FacedSurface& surface) try {
+  if (surface.face_ids.empty()) return {};
+  geometry::FacedSurface whole{geometry::oriented(geometry::welded(surface.mesh)), {}, surface.faces};
+  const geometry::SurfaceFaults faults = geometry::find_faults(whole.mesh, false);
+  if (faults.non_manifold_edges > 0 || faults.non_manifold_vertices > 0) return {};
+  whole.face_ids = labels_on(whole.mesh, surface);
+  meshing::FlatCapOptions labels_alone;
+  labels_alone.by_shape = false;
+  meshing::OpenedCaps opened = meshing::without_flat_caps(whole, labels_alone);
+  if (opened.ends.empty()) return {};
+  surface.mesh = std::move(opened.wall);
+  surface.face_ids = labels_on(surface.mesh, whole);
+  return std::move(opened.ends);
+} catch (const Error&) {
+  return {};  // too broken for it: mended first
+}
+
 std::vector<GivenEnd> rims_gone(const TriMesh& came, const TriMesh& mended) try {
-  std::vector<GivenEnd> gone = rims_in(geometry::oriented(geometry::welded(came)));
+  std::vector<GivenEnd> gone = open_rims(geometry::oriented(geometry::welded(came)));
   if (gone.empty()) return gone;
-  const std::vector<GivenEnd> left = rims_in(mended);
+  const std::vector<GivenEnd> left = open_rims(mended);
   const geometry::AabbTree tree(geometry::fill_holes(mended).mesh);
   std::erase_if(gone, [&](GivenEnd& end) {
     const auto same = [&](const GivenEnd& other) {

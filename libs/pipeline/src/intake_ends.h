@@ -14,6 +14,13 @@ std::string place_text(const geometry::Vec3& p);
 /// "cap_LAD at (1.0, 2.0, 3.0) mm, 2.10 mm wide".
 std::string words_of(const meshing::GivenEnd& end);
 
+/// The open rims that may be ends: 0.4 mm wide or more.
+std::vector<meshing::GivenEnd> open_rims(const geometry::TriMesh& mesh);
+
+/// Takes off the caps that labels name, of a surface that is to be mended, where it is manifold; returns
+/// their ends. Its triangles keep their labels.
+std::vector<meshing::GivenEnd> take_labelled_caps_off(geometry::FacedSurface& surface);
+
 /// Open rims of the surface as it came that the mended one neither has nor has as holes in its wall; rims of
 /// parts that were left out, which is told, are none.
 std::vector<meshing::GivenEnd> rims_gone(const geometry::TriMesh& came, const geometry::TriMesh& mended);

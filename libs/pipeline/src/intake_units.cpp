@@ -1,10 +1,14 @@
 #include "intake_units.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/text.h"
 #include "ostia/geometry/mesh_topology.h"
 #include "ostia/meshing/flat_caps.h"
+#include "ostia/pipeline/source.h"
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -13,6 +17,9 @@ namespace {
 
 using geometry::TriMesh;
 
+// Numbers of a vessel's mean calibre and extent below which it can hardly be in millimetres.
+constexpr double least_calibre_mm = 0.6, least_extent_mm = 40.0;
+constexpr double least_calibre_cm = 0.02, least_extent_cm = 1.5;
 constexpr double thinnest_outlet_mm = 0.3, doubtful_outlet_mm = 0.7, trunk_over_outlet = 3.0;
 constexpr double least_trunk_cm = 1.0, most_trunk_cm = 5.0;
 constexpr double hole_over_widest = 0.02;  // less wide than that is a flaw of the surface
@@ -24,7 +31,24 @@ TriMesh outward(const TriMesh& mesh) {
   return turned;
 }
 
+/// An aorta in centimetres has the numbers of a short piece of a coronary in millimetres.
+bool may_be_cm(double calibre, double extent) {
+  return calibre > 1.0 && calibre < 4.5 && extent > 4.0 && extent < 30.0;
+}
+
+double calibre_of(const TriMesh& mesh) {
+  try {
+    return calibre_of_closed(geometry::fill_holes(geometry::oriented(geometry::welded(mesh))).mesh);
+  } catch (const Error&) {  // too broken for that: its extent alone decides
+    return geometry::bounds(mesh.points).sizes().maxCoeff();
+  }
+}
+
 }  // namespace
+
+double calibre_of_closed(const TriMesh& closed) {
+  return 4.0 * std::abs(geometry::volume(closed)) / geometry::area(closed);
+}
 
 std::optional<EndWidths> end_widths(const geometry::FacedSurface& surface) try {
   std::vector<double> widths;
@@ -50,6 +74,55 @@ bool speak_for_cm(const EndWidths& widths) {
 
 bool leave_cm_open(const EndWidths& widths) {
   return widths.thinnest < doubtful_outlet_mm && widths.widest > trunk_over_outlet * widths.thinnest;
+}
+
+double unit_by_calibre(double calibre, double extent) {
+  if (calibre < least_calibre_cm && extent < least_extent_cm) return 1000.0;
+  if (calibre < least_calibre_mm && extent < least_extent_mm) return 10.0;
+  return 1.0;
+}
+
+namespace {
+
+/// Where the calibre leaves it open, the ends say it.
+void settle_cm_by_ends(const geometry::FacedSurface& surface, TakenSurface& out, const std::string& sizes) {
+  const std::optional<EndWidths> ends = end_widths(surface);
+  if (!ends) return;
+  const std::string thinnest = core::significant_text(ends->thinnest, 2),
+                    widest = core::significant_text(ends->widest, 2);
+  if (speak_for_cm(*ends)) {
+    out.unit_mm = 10.0;
+    out.told.push_back("taken to be in centimetres, since its thinnest end is " + thinnest +
+                       " wide, which no vessel's is in millimetres, and its widest " + widest +
+                       "; --units mm says otherwise");
+  } else if (leave_cm_open(*ends)) {
+    out.told.push_back("taken to be in millimetres: " + sizes + ", ends " + thinnest + " to " + widest +
+                       " mm wide; were it an aorta in centimetres, say --units cm");
+  }
+}
+
+}  // namespace
+
+void to_mm(geometry::FacedSurface& surface, std::optional<double> known_calibre, const IntakeOptions& options,
+           TakenSurface& out, const std::string& what) {
+  const double extent = geometry::bounds(surface.mesh.points).sizes().norm();
+  if (options.unit_mm) {
+    out.unit_mm = *options.unit_mm;
+  } else {
+    const double calibre = known_calibre ? *known_calibre : calibre_of(surface.mesh);
+    out.unit_mm = unit_by_calibre(calibre, extent);
+    check_vessel_size(out.unit_mm * calibre, what);
+    if (out.unit_mm != 1.0)
+      out.told.push_back("taken to be in " + std::string(out.unit_mm == 10.0 ? "centimetres" : "metres") +
+                         ", since its vessels are " + core::significant_text(calibre, 2) +
+                         " wide in the mean; --units mm says otherwise");
+    else if (may_be_cm(calibre, extent))
+      settle_cm_by_ends(surface, out,
+                        "vessels " + core::significant_text(calibre, 2) + " mm wide in the mean, " +
+                            core::significant_text(extent, 2) + " mm from end to end");
+  }
+  if (out.unit_mm == 1.0) return;
+  for (geometry::Vec3& p : surface.mesh.points) p *= out.unit_mm;
 }
 
 }  // namespace ostia::pipeline

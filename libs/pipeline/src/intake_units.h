@@ -1,9 +1,11 @@
 #pragma once
-/// \file What the ends of a surface say about its unit of length.
+/// \file A surface's unit of length, by its calibre and by what its ends say.
 
 #include "ostia/geometry/tri_mesh.h"
+#include "ostia/pipeline/surface_intake.h"
 
 #include <optional>
+#include <string>
 
 namespace ostia::pipeline {
 
@@ -18,5 +20,14 @@ std::optional<EndWidths> end_widths(const geometry::FacedSurface& surface);
 bool speak_for_cm(const EndWidths& widths);
 /// Thin as hardly any end of a tree in millimetres, and much thinner than its trunk: it may be either.
 bool leave_cm_open(const EndWidths& widths);
+
+/// 4 V / A: the diameter of a tube.
+double calibre_of_closed(const geometry::TriMesh& closed);
+
+/// The surface in mm, `out` with its unit and what is to be told. `known_calibre`: of the surface with its
+/// holes filled, where that is known. Throws InvalidInput for sizes that no vessel has; `what` names the
+/// surface.
+void to_mm(geometry::FacedSurface& surface, std::optional<double> known_calibre, const IntakeOptions& options,
+           TakenSurface& out, const std::string& what);
 
 }  // namespace ostia::pipeline

@@ -1,14 +1,13 @@
 // From a lumen and its axes to a mesh that has passed the gate.
 
 #include "lumen_fill.h"
+#include "lumen_remeshing.h"
 #include "stages.h"
 
 #include "ostia/core/error.h"
-#include "ostia/core/log.h"
 #include "ostia/geometry/mesh_topology.h"
+#include "ostia/geometry/tree_parts.h"
 #include "ostia/meshing/caps.h"
-#include "ostia/meshing/stenosis_sizing.h"
-#include "ostia/meshing/volume_keeping.h"
 #include "ostia/pipeline/model.h"
 
 #include <algorithm>
@@ -77,7 +76,7 @@ centerline::CenterlineResult centerlines_between(const meshing::ClippedSurface& 
       all = std::move(one);
       continue;
     }
-    append_tree(all.tree, std::move(one.tree));
+    geometry::append_tree(all.tree, std::move(one.tree));
     all.lines.insert(all.lines.end(), one.lines.begin(), one.lines.end());
     all.ends.insert(all.ends.end(), one.ends.begin(), one.ends.end());
     all.end_radii.insert(all.end_radii.end(), one.end_radii.begin(), one.end_radii.end());
@@ -116,47 +115,6 @@ Extended extend(const meshing::FlowExtensionOptions& options, const Shares& shar
   return both;
 }
 
-/// Where triangles of the wanted size lose more of the shape than may be, as in sharp crotches, they get
-/// smaller, round by round, and nowhere else.
-meshing::RemeshedSurface remeshed_in_shape(const geometry::FacedSurface& capped,
-                                           const meshing::TubeFunction& tube, std::vector<double> lengths,
-                                           const ModelOptions& options, const core::TaskContext& task) {
-  constexpr int most_rounds = 4;
-  constexpr double aimed_share = 0.8;
-  std::optional<std::vector<double>> radii;
-  std::optional<meshing::RemeshedSurface> before;
-  for (int round = 1;; ++round) {
-    const core::TaskContext part = task.sub(round == 1 ? 0.0 : 0.7, 1.0);
-    meshing::RemeshedSurface made = meshing::remesh(capped, lengths, options.remesh, part);
-    if (made.report.self_intersections > 0) return before ? std::move(*before) : std::move(made);
-    // Of the second order the wall's nodes follow the surface, and points belong on it.
-    if (options.volume.order == 1) meshing::keep_volume(made.surface, capped, task);
-    if (round == most_rounds) return made;
-    if (!radii) radii = vessel_widths(capped.mesh, tube, task);
-    const std::size_t shortened =
-        meshing::shorten_where_off(capped, made.surface, *radii, aimed_share, lengths, task);
-    if (shortened == 0) return made;
-    before = std::move(made);
-    for (double& length : lengths) length = std::max(length, options.sizing.min_edge_mm);
-    meshing::limit_gradation(capped.mesh, options.sizing.gradation, lengths);
-    core::log_debug("remeshing again with shorter edges at " + std::to_string(shortened) + " points");
-  }
-}
-
-/// Edge lengths by the distance to the axes, whatever the lumen's width is there.
-std::shared_ptr<const meshing::SizeArray> by_distance_alone(const TriMesh& surface,
-                                                            const meshing::TubeFunction& tube,
-                                                            const meshing::SizingOptions& sizing) {
-  auto array = std::make_shared<meshing::SizeArray>();
-  array->surface = surface;
-  for (const geometry::Vec3& p : surface.points) {
-    const meshing::TubeSize size = tube(p);
-    array->edge_mm.push_back(sizing.edge_ratio * std::clamp(size.distance_mm, 0.05 * size.radius_mm,
-                                                            sizing.most_distance_radii * size.radius_mm));
-  }
-  return array;
-}
-
 /// Remeshed and filled. Sizes follow `axes`.
 void mesh_capped(const geometry::FacedSurface& capped, const std::optional<Extended>& extended,
                  const geometry::VesselTree& axes, const ModelOptions& options, const Shares& shares,
@@ -164,26 +122,8 @@ void mesh_capped(const geometry::FacedSurface& capped, const std::optional<Exten
   const meshing::TubeFunction tube(axes);
   meshing::RemeshedSurface remeshed =
       stages.run("remeshing", shares.caps, shares.remeshing, [&](const core::TaskContext& part) {
-        meshing::SizingOptions sizing = meshing::at_throats(options.sizing, axes, capped.mesh);
-        meshing::RemeshedSurface made = remeshed_in_shape(
-            capped, tube, meshing::target_edge_lengths(capped.mesh, tube, sizing, part), options, part);
-        if (made.report.self_intersections == 0 || sizing.array ||
-            sizing.measure != meshing::SizeMeasure::distance)
-          return made;
-        // What lies far from all axes is too rough for triangles of its own size: noise, or a leak. Larger
-        // ones may pass over it; what is lost by that the gate tells.
-        sizing.array = by_distance_alone(capped.mesh, tube, sizing);
-        out.warnings.emplace_back(
-            "the wall far from the axes is too rough for triangles of its own size; larger ones follow the "
-            "distance from the axes there, and may lose some of it");
-        return remeshed_in_shape(capped, tube, meshing::target_edge_lengths(capped.mesh, tube, sizing, part),
-                                 options, part);
+        return remeshed_lumen(capped, tube, axes, options, out.warnings, part);
       });
-  if (remeshed.report.self_intersections > 0) {
-    throw GeometryError("the surface is too rough for triangles of this size: remeshing left " +
-                        std::to_string(remeshed.report.self_intersections) +
-                        " self-intersections; take shorter edges (--edge-ratio), or smooth it (--smooth)");
-  }
   append(out.warnings, remeshed.report.warnings);
   out.surface = std::move(remeshed.surface);
   out.remeshing = remeshed.report;

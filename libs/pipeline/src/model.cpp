@@ -114,9 +114,8 @@ void require_sound_surface(const TriMesh& surface, const std::string& what, bool
   throw GeometryError(
       message + (mended_before && faults.self_intersections > 0
                      ? "; it is as far mended as `ostia convert --repair` can. Where a rough wall folds, "
-                       "`ostia convert IN OUT.vtp --smooth 30` of the file as it came smooths the folds "
-                       "away (flat caps get round, so name the ends with --source and --target; a few "
-                       "percent of the volume go)"
+                       "`ostia convert IN OUT.vtp --smooth 200` of the file as it came smooths the folds "
+                       "away (flat caps get round, so name the ends with --source and --target)"
                      : "; `ostia convert --repair` mends what can be mended"));
 }
 

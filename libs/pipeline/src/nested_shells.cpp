@@ -2,13 +2,16 @@
 
 #include "intake_ends.h"
 
+#include "ostia/core/error.h"
 #include "ostia/core/text.h"
 #include "ostia/geometry/aabb_tree.h"
 #include "ostia/geometry/mesh_topology.h"
+#include "ostia/pipeline/lumen_axes.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace ostia::pipeline {
 namespace {
@@ -54,7 +57,49 @@ std::string outer_wall_text(const TriMesh& inner, const TriMesh& outer) {
          ", as the outside of its wall and left out; a file with the outer alone meshes that";
 }
 
+/// Outward as what it bounds is seen, its open ends closed.
+TriMesh turned_outward(TriMesh part) {
+  if (geometry::volume(geometry::fill_holes(part).mesh) < 0.0)
+    for (geometry::Triangle& t : part.triangles) std::swap(t[1], t[2]);
+  return part;
+}
+
 }  // namespace
+
+bool has_handle(const TriMesh& closed) {
+  const auto points = static_cast<std::ptrdiff_t>(closed.points.size()),
+             triangles = static_cast<std::ptrdiff_t>(closed.triangles.size());
+  return points - triangles / 2 < 2;  // Euler's number; each edge has two triangles
+}
+
+std::string LumenInWall::text(double unit_mm) const {
+  return "a lumen and the outside of its wall, joined by " + std::to_string(ends.size()) +
+         " flat rings at the ends: the inside, " + core::fixed_text(unit_mm * width, 2) +
+         " mm wide in the mean, is taken as the lumen; the outside, " +
+         core::fixed_text(unit_mm * outside_width, 2) + " mm wide, and the rings are left out";
+}
+
+std::optional<LumenInWall> lumen_in_wall(const geometry::FacedSurface& surface) try {
+  geometry::FacedSurface shell{geometry::oriented(geometry::welded(surface.mesh)), {}, surface.faces};
+  const geometry::SurfaceFaults faults = geometry::find_faults(shell.mesh, false);
+  if (!faults.closed_manifold() || faults.components != 1 || !has_handle(shell.mesh)) return std::nullopt;
+  if (shell.mesh.triangles.size() == surface.face_ids.size()) shell.face_ids = surface.face_ids;
+  meshing::OpenedRings opened = meshing::without_flat_rings(shell);
+  if (opened.ends.size() < 2) return std::nullopt;
+  std::vector<TriMesh> parts = parts_of(opened.walls);
+  if (parts.size() != 2) return std::nullopt;
+  for (TriMesh& part : parts) part = turned_outward(std::move(part));
+  if (geometry::area(parts[0]) > geometry::area(parts[1])) std::swap(parts[0], parts[1]);
+  if (!is_lumen_of(parts[0], parts[1])) return std::nullopt;
+  LumenInWall found;
+  found.width = width_of(parts[0]);
+  found.outside_width = width_of(parts[1]);
+  found.lumen = std::move(parts[0]);
+  found.ends = std::move(opened.ends);
+  return found;
+} catch (const Error&) {
+  return std::nullopt;  // too broken to be one
+}
 
 std::vector<std::string> drop_outer_walls(std::vector<TriMesh>& parts) {
   std::vector<std::string> told;

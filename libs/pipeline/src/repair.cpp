@@ -2,6 +2,7 @@
 
 #include "specks.h"
 #include "spikes.h"
+#include "unfolding.h"
 
 #include "ostia/centerline/lumen_surface.h"
 #include "ostia/core/error.h"
@@ -204,6 +205,16 @@ void pull_spikes_in(Repaired& out) {
   note(out, "spikes_pulled_in", pull_in_spikes(out.mesh), "spikes of one point pulled in");
 }
 
+/// What crosses itself because it is rough is made smooth before anything is cut.
+void smooth_folds(Repaired& out, const core::TaskContext& task) {
+  const Unfolded smoothed = unfold(out.mesh, task);
+  if (smoothed.crossings == 0) return;
+  note(out, "self_intersections_smoothed", smoothed.crossings,
+       smoothed.everywhere ? "self-intersections of a wall that is rough all over smoothed away"
+                           : "self-intersections smoothed away");
+  if (smoothed.everywhere) out.rough = "points of a wall that is rough all over " + smoothed.text();
+}
+
 /// Whether none is left.
 bool cut_folds_out(Repaired& out, const RepairOptions& options, const core::TaskContext& task) {
   for (int round = 0; round < rounds; ++round) {
@@ -261,6 +272,7 @@ Repaired repaired(const TriMesh& mesh, const RepairOptions& options, const core:
   take_apart(out);  // dropping flaps can leave borders that touch
   keep_parts(out, options.parts);
   pull_spikes_in(out);
+  smooth_folds(out, task);
   const bool no_folds = cut_folds_out(out, options, task);
   const bool closed_some = close_holes(out, options.fill_holes_up_to_mm);
   // What was just found to have none is not searched once more.

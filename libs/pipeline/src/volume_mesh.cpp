@@ -137,7 +137,7 @@ MeshQuality judged(const geometry::MixedMesh& mesh, const std::vector<bool>& in_
 std::string name_in_folder(io::MeshFormat format) {
   const std::string name(io::name_of(format)), extension(io::extension_of(format));
   if (extension.empty()) return name;
-  return (extension == ".msh" ? "mesh-" + name : "mesh") + extension;
+  return (io::shares_extension(format) ? "mesh-" + name : "mesh") + extension;
 }
 
 std::vector<std::string> write_volume_mesh(const fs::path& folder, const geometry::MixedMesh& mesh,

@@ -23,12 +23,13 @@ struct StraightRow {
 struct SlabShape {
   Slab slab = Slab::none;
   double thickness_mm = 0.0;
+  double layer_spacings = 0.5;  ///< of the image's finest spacing a layer has at most
 };
 
-/// Offsets of the middles of equal layers no thicker than half the finest spacing.
+/// Offsets of the middles of equal layers.
 inline std::vector<double> layer_offsets(const SlabShape& shape, const imaging::Geometry& grid) {
   if (shape.slab == Slab::none) return {0.0};
-  const double finest = 0.5 * grid.spacing.minCoeff();
+  const double finest = shape.layer_spacings * grid.spacing.minCoeff();
   const int count = std::max(1, static_cast<int>(std::ceil(shape.thickness_mm / finest - 1e-9)));
   std::vector<double> offsets;
   for (int i = 0; i < count; ++i) offsets.push_back(shape.thickness_mm * ((i + 0.5) / count - 0.5));

@@ -471,6 +471,13 @@ std::vector<Edit> CaseFile::edits() const {
   return edits;
 }
 
+void CaseFile::set_author(const std::string& name) {
+  constexpr std::size_t most_bytes = 200;
+  if (name.size() > most_bytes || name.find_first_of("\r\n") != std::string::npos)
+    throw InvalidInput("a name for the list of steps is one line of at most 200 bytes; choose a shorter one");
+  impl_->steps.set_author(name);
+}
+
 bool CaseFile::editable() const {
   return impl_->mode == OpenMode::read_write;
 }

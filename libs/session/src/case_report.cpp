@@ -2,6 +2,7 @@
 
 #include "case_report_grading.h"
 #include "case_report_text.h"
+#include "vessels_beside.h"
 
 #include "ostia/core/error.h"
 #include "ostia/core/text.h"
@@ -78,13 +79,26 @@ double unmeasured_mm(const LumenProfile& profile, double from_mm) {
                     [&](const SectionMeasures& s) { return s.s_mm >= from_mm && !s.found && s.open; }));
 }
 
+/// Of one vessel, measured beside the others.
+struct MeasuredVessel {
+  LumenProfile profile;
+  std::vector<analysis::Ostium> ostia;
+  analysis::ReferenceLine reference;
+};
+
+/// A vessel's outer wall, or why it was not looked for.
+struct WallsFound {
+  std::optional<VesselWalls> walls;
+  std::string problem;
+};
+
 /// The report as it grows.
 class Maker {
  public:
   Maker(const lumen::LumenModel& model, const analysis::SurfaceOfVessel& surface_of,
         const Annotations& annotations, const ReportOptions& options)
       : model_(model),
-        surface_of_(surface_of),
+        surface_of_(held_surfaces(model, surface_of)),
         annotations_(annotations),
         cut_(analysis::segments_of(model)) {
     report_.options = options;
@@ -93,12 +107,11 @@ class Maker {
   }
 
   void measure_vessels(const core::TaskContext& task) {
-    const auto count = static_cast<double>(model_.tree.vessels.size());
-    double done = 0.0;
-    for (const geometry::Vessel& vessel : model_.tree.vessels) {
-      measure(vessel, task.sub(done / count, (done + 1.0) / count));
-      done += 1.0;
-    }
+    const std::vector<geometry::Vessel>& vessels = model_.tree.vessels;
+    auto measured = beside<MeasuredVessel>(
+        vessels.size(), task,
+        [&](std::size_t i, const core::TaskContext& part) { return measure(vessels[i], part); });
+    for (std::size_t i = 0; i < vessels.size(); ++i) add_vessel(vessels[i], std::move(measured[i]));
   }
 
   void add_segments() {
@@ -157,21 +170,20 @@ class Maker {
   /// How far vessels, segments and lesions can be judged.
   void judge(const imaging::ImageVolume* image, const core::TaskContext& task) {
     report_.has_image = image != nullptr;
-    std::vector<VesselEvaluability> judged;
     const double noise_hu = image ? noise_about(model_, *image) : 0.0;
-    for (ReportVessel& vessel : report_.vessels) {
-      std::vector<analysis::EvaluableStretch> stretches;
-      if (image) {
-        const double done = static_cast<double>(judged.size()),
-                     all = static_cast<double>(report_.vessels.size());
-        judged.push_back(vessel_evaluability(model_, surface_of_, vessel.id, *image, noise_hu,
-                                             report_.options.evaluability,
-                                             task.sub(done / all, (done + 1.0) / all)));
-        stretches = judged.back().stretches;
-      }
-      const VesselMark* mark = find_mark(annotations_, vessel.id);
-      vessel.evaluable = judged_over(
-          stretches, mark, analysis::EvaluableStretch{vessel.own_from_mm, vessel.length_mm, {}, {}, false});
+    std::vector<VesselEvaluability> judged;
+    if (image)
+      judged = beside<VesselEvaluability>(
+          report_.vessels.size(), task, [&](std::size_t i, const core::TaskContext& part) {
+            return vessel_evaluability(model_, surface_of_, report_.vessels[i].id, *image, noise_hu,
+                                       report_.options.evaluability, part);
+          });
+    for (std::size_t i = 0; i < report_.vessels.size(); ++i) {
+      ReportVessel& vessel = report_.vessels[i];
+      vessel.evaluable =
+          judged_over(image ? judged[i].stretches : std::vector<analysis::EvaluableStretch>{},
+                      find_mark(annotations_, vessel.id),
+                      analysis::EvaluableStretch{vessel.own_from_mm, vessel.length_mm, {}, {}, false});
     }
     if (image) report_.quality = scan_quality(image->geometry, noise_hu, judged);
   }
@@ -204,21 +216,25 @@ class Maker {
   /// What the image shows between lumen and outer wall, by vessel.
   void add_plaque(const imaging::ImageVolume* image, const core::TaskContext& task) {
     if (!image) return;
-    const auto count = static_cast<double>(report_.vessels.size());
+    auto found = beside<WallsFound>(
+        report_.vessels.size(), task, [&](std::size_t i, const core::TaskContext& part) -> WallsFound {
+          try {
+            return {
+                vessel_walls(model_, surface_of_, report_.vessels[i].id, *image, report_.options.walls, part),
+                {}};
+          } catch (const InvalidInput& error) {
+            return {std::nullopt, error.what()};
+          }
+        });
     for (std::size_t i = 0; i < report_.vessels.size(); ++i) {
       ReportVessel& vessel = report_.vessels[i];
-      const double done = static_cast<double>(i);
-      try {
-        auto walls = vessel_walls(model_, surface_of_, vessel.id, *image, report_.options.walls,
-                                  task.sub(done / count, (done + 1.0) / count));
-        if (!walls) continue;
-        for (const std::string& warning : walls->outer.surface.warnings)
-          report_.warnings.push_back(vessel.name + ": " + warning);
-        vessel.plaque = plaque_of(*walls, vessel.own_from_mm, vessel.length_mm);
-        report_.walls.emplace(vessel.id, std::move(*walls));
-      } catch (const InvalidInput& error) {
-        report_.warnings.push_back(vessel.name + ": its outer wall was not looked for: " + error.what());
-      }
+      if (!found[i].problem.empty())
+        report_.warnings.push_back(vessel.name + ": its outer wall was not looked for: " + found[i].problem);
+      if (!found[i].walls) continue;
+      for (const std::string& warning : found[i].walls->outer.surface.warnings)
+        report_.warnings.push_back(vessel.name + ": " + warning);
+      vessel.plaque = plaque_of(*found[i].walls, vessel.own_from_mm, vessel.length_mm);
+      report_.walls.emplace(vessel.id, std::move(*found[i].walls));
     }
   }
 
@@ -260,27 +276,31 @@ class Maker {
     return mark && mark->checked;
   }
 
-  void measure(const geometry::Vessel& vessel, const core::TaskContext& task) {
+  MeasuredVessel measure(const geometry::Vessel& vessel, const core::TaskContext& task) const {
     const ReportOptions& o = report_.options;
-    LumenProfile profile = analysis::lumen_profile(model_, surface_of_, vessel.id, o.profile, task);
+    MeasuredVessel out;
+    out.profile = analysis::lumen_profile(model_, surface_of_, vessel.id, o.profile, task);
+    out.ostia = analysis::ostia_of(model_, surface_of_, vessel.id);
+    out.reference = analysis::reference_line(out.profile, analysis::branch_abscissas(model_, vessel.id),
+                                             analysis::reading_from_ostium(out.ostia, o.reference));
+    return out;
+  }
+
+  void add_vessel(const geometry::Vessel& vessel, MeasuredVessel measured) {
     const double own = lumen::own_from_mm(model_.tree, vessel.id);
-    const analysis::Ostium ostium = analysis::ostium_of(model_, surface_of_, vessel.id);
-    analysis::ReferenceLine reference =
-        analysis::reference_line(profile, analysis::branch_abscissas(model_, vessel.id),
-                                 analysis::reading_from_ostium(ostium, o.reference));
-    report_.ostia[vessel.id] = ostium;
     const VesselMark* mark = find_mark(annotations_, vessel.id);
     report_.vessels.push_back({vessel.id,
                                vessel.name,
-                               profile.length_mm,
+                               measured.profile.length_mm,
                                own,
                                is_checked(vessel.id),
                                mark ? mark->note : std::string(),
-                               unmeasured_mm(profile, own),
+                               unmeasured_mm(measured.profile, own),
                                {},
                                {}});
-    report_.references[vessel.id] = std::move(reference);
-    report_.profiles[vessel.id] = std::move(profile);
+    report_.ostia[vessel.id] = measured.ostia.empty() ? analysis::Ostium() : measured.ostia.back();
+    report_.references[vessel.id] = std::move(measured.reference);
+    report_.profiles[vessel.id] = std::move(measured.profile);
   }
 
   void add_lesion(const ReportVessel& vessel, const analysis::Lesion& lesion) {
@@ -316,7 +336,7 @@ class Maker {
   }
 
   const lumen::LumenModel& model_;
-  const analysis::SurfaceOfVessel& surface_of_;
+  analysis::SurfaceOfVessel surface_of_;
   const Annotations& annotations_;
   std::vector<analysis::VesselSegment> cut_;
   CaseReport report_;
@@ -349,21 +369,6 @@ std::vector<std::string> CaseReport::unchecked() const {
   for (const ReportVessel& vessel : vessels)
     if (!vessel.checked) names.push_back(vessel.name);
   return names;
-}
-
-analysis::SurfaceOfVessel solved_surfaces(const lumen::LumenModel& model, const core::TaskContext& task) {
-  std::map<std::int32_t, std::shared_ptr<const lumen::ImplicitSurface>> solved;
-  for (const auto& vessel : model.vessels) {
-    task.throw_if_cancelled();
-    solved[vessel->vessel] = std::make_shared<const lumen::ImplicitSurface>(lumen::solve(*vessel));
-    task.set_progress(static_cast<double>(solved.size()) / static_cast<double>(model.vessels.size()));
-  }
-  return [solved = std::move(solved)](std::int32_t vessel) {
-    const auto found = solved.find(vessel);
-    if (found == solved.end())
-      throw InvalidInput("there is no vessel " + std::to_string(vessel) + " in the model");
-    return found->second;
-  };
 }
 
 CaseReport make_case_report(const lumen::LumenModel& model, const analysis::SurfaceOfVessel& surface_of,

@@ -1,6 +1,7 @@
 // The report as a person reads it: the same parts as HTML and as PDF.
 
 #include "case_report_text.h"
+#include "case_report_words.h"
 
 #include "ostia/core/text.h"
 #include "ostia/figure/html_report.h"
@@ -16,6 +17,7 @@ using core::shown_text;
 using figure::Notice;
 using report_text::label;
 using report_text::percent;
+using report_words::own;
 using Rows = std::vector<std::vector<std::string>>;
 
 constexpr const char* kDisclaimer =
@@ -113,7 +115,7 @@ Rows stenosis_rows(const CaseReport& report) {
   Rows rows;
   for (const ReportStenosis& one : report.stenoses) {
     const analysis::Stenosis& s = one.stenosis;
-    rows.push_back({label(one), one.vessel_name, one.segment, shown_text(s.throat_mm, 1),
+    rows.push_back({label(one), own(one.vessel_name), one.segment, shown_text(s.throat_mm, 1),
                     shown_text(s.length_mm(), 1), shown_text(s.least_diameter_mm, 2),
                     shown_text(s.reference_diameter_mm, 2), percent(s.diameter_percent) + " %",
                     shown_text(s.least_area_mm2, 2), percent(s.area_percent) + " %",
@@ -128,7 +130,7 @@ Rows stenosis_rows(const CaseReport& report) {
 Rows segment_rows(const CaseReport& report) {
   Rows rows;
   for (const ReportSegment& s : report.segments)
-    rows.push_back({s.label, s.vessel_name, shown_text(s.to_mm - s.from_mm, 1),
+    rows.push_back({s.label, own(s.vessel_name), shown_text(s.to_mm - s.from_mm, 1),
                     shown_text(s.mean_diameter_mm, 2), shown_text(s.least_diameter_mm, 2),
                     shown_text(s.least_area_mm2, 2), shown_text(s.volume_mm3, 1),
                     s.worst_stenosis > 0
@@ -141,8 +143,8 @@ Rows segment_rows(const CaseReport& report) {
 Rows vessel_rows(const CaseReport& report) {
   Rows rows;
   for (const ReportVessel& v : report.vessels)
-    rows.push_back({v.name, shown_text(v.length_mm - v.own_from_mm, 1), doubtful_text(v),
-                    checked_text(v.checked), v.note});
+    rows.push_back({own(v.name), shown_text(v.length_mm - v.own_from_mm, 1), doubtful_text(v),
+                    checked_text(v.checked), own(v.note)});
   return rows;
 }
 
@@ -153,8 +155,8 @@ Rows measurement_rows(const CaseReport& report) {
     for (const analysis::MeasuredValue& value : m.values)
       values += (values.empty() ? "" : "\n") + value.name + ": " + analysis::to_text(value);
     rows.push_back({std::to_string(m.measurement.id),
-                    report_text::kind_words(analysis::to_string(m.measurement.kind)), m.measurement.name,
-                    m.vessel_name, values});
+                    report_text::kind_words(analysis::to_string(m.measurement.kind)), own(m.measurement.name),
+                    own(m.vessel_name), values});
   }
   return rows;
 }
@@ -174,7 +176,7 @@ void add_identity(Document& document, const imaging::ShownIdentity& named) {
   if (named.anonymous()) return;
   std::vector<std::pair<std::string, std::string>> rows;
   const auto add = [&](const char* what, const std::string& value) {
-    if (!value.empty()) rows.emplace_back(what, value);
+    if (!value.empty()) rows.emplace_back(what, own(value));
   };
   add("Patient", named.patient_name);
   add("Patient ID", named.patient_id);
@@ -223,7 +225,7 @@ void add_stenoses(Document& document, const CaseReport& report) {
          "Diameter stenosis", "MLA (mm\xC2\xB2)", "Area stenosis", "CAD-RADS", "Evaluable", "Checked"},
         stenosis_rows(report), "Narrowings and plaques, each at its own vessel");
     for (const ReportStenosis& one : report.stenoses)
-      if (!one.comment.empty()) document.paragraph(label(one) + ": " + one.comment);
+      if (!one.comment.empty()) document.paragraph(own(label(one) + ": " + one.comment));
     for (const ReportStenosis& one : report.stenoses)
       if (!one.category) document.paragraph(label(one) + " is not graded: " + one.not_graded + ".");
     if (std::any_of(report.stenoses.begin(), report.stenoses.end(),
@@ -247,9 +249,9 @@ Rows bifurcation_rows(const CaseReport& report) {
   for (const ReportBifurcation& one : report.bifurcations) {
     const analysis::MedinaClass& m = one.medina;
     if (!m.any()) continue;
-    rows.push_back({one.main_name + " / " + one.side_name, analysis::to_string(m), shown_text(m.joint_mm, 1),
-                    percent(m.proximal_percent) + " %", percent(m.distal_percent) + " %",
-                    percent(m.side_percent) + " %"});
+    rows.push_back({own(one.main_name + " / " + one.side_name), analysis::to_string(m),
+                    shown_text(m.joint_mm, 1), percent(m.proximal_percent) + " %",
+                    percent(m.distal_percent) + " %", percent(m.side_percent) + " %"});
   }
   return rows;
 }
@@ -274,7 +276,7 @@ void add_bifurcations(Document& document, const CaseReport& report) {
 std::vector<std::string> plaque_row(const std::string& name, const ReportPlaque& plaque,
                                     const std::string& remodelling) {
   const analysis::PlaqueVolumes& v = plaque.volumes;
-  std::vector<std::string> row{name, to_string(analysis::plaque_type(v)), shown_text(v.plaque_mm3(), 1)};
+  std::vector<std::string> row{own(name), to_string(analysis::plaque_type(v)), shown_text(v.plaque_mm3(), 1)};
   for (const double volume : v.class_mm3) row.push_back(shown_text(volume, 1));
   row.push_back(shown_text(v.thin_wall_mm3, 1));
   row.push_back(shown_text(v.burden_percent(), 0) + " %");
@@ -349,8 +351,9 @@ void add_tables(Document& document, const CaseReport& report) {
 }
 
 template <class Document>
-void compose(Document& document, const CaseReport& report, const std::vector<KeyImage>& images,
+void compose(Document& written, const CaseReport& report, const std::vector<KeyImage>& images,
              const imaging::ShownIdentity& named) {
+  report_words::Said<Document> document(written, report_words::of(report.options.language));
   add_identity(document, named);
   add_summary(document, report);
   add_stenoses(document, report);
@@ -361,27 +364,33 @@ void compose(Document& document, const CaseReport& report, const std::vector<Key
 }
 
 std::string case_name(const CaseReport& report) {
-  return report.options.image ? "Case of " + report.options.image->pseudonym
-                              : "Case " + report.model_digest.substr(0, 8);
+  const std::string name = report.options.image ? "Case of " + report.options.image->pseudonym
+                                                : "Case " + report.model_digest.substr(0, 8);
+  return report_words::of(report.options.language).say(name);
 }
 
-constexpr const char* kTitle = "Coronary arteries on CT angiography";
+std::string title_of(const CaseReport& report) {
+  return report_words::of(report.options.language).say("Coronary arteries on CT angiography");
+}
 
 }  // namespace
 
 std::string report_html(const CaseReport& report, const std::vector<KeyImage>& images,
                         const imaging::ShownIdentity& named) {
-  figure::HtmlReport document(kTitle, case_name(report));
+  figure::HtmlReport document(title_of(report), case_name(report),
+                              report_words::document(report.options.language));
   compose(document, report, images, named);
   return document.html();
 }
 
 std::string report_pdf(const CaseReport& report, const std::vector<KeyImage>& images,
                        const imaging::ShownIdentity& named) {
+  const core::Phrasebook& words = report_words::of(report.options.language);
   figure::PdfDocument document(
-      kTitle, case_name(report),
-      {foot_of(named) + case_name(report) + "  \xC2\xB7  Ostia " + report.program_version +
-       "  \xC2\xB7  research software, not a medical device"});
+      title_of(report), case_name(report),
+      {foot_of(named) + case_name(report) + "  \xC2\xB7  Ostia " + report.program_version + "  \xC2\xB7  " +
+           words.say("research software, not a medical device"),
+       report_words::document(report.options.language)});
   compose(document, report, images, named);
   return document.pdf();
 }

@@ -2,6 +2,7 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
+#include "ostia/core/parallel.h"
 #include "ostia/session/annotation_json.h"
 #include "ostia/session/case_report.h"
 
@@ -101,6 +102,7 @@ pipeline::JobKey report_job(const CaseFile& file, bool with_image, const ReportO
                   {"grey", {o.level_hu, o.window_hu}},
                   {"further", pictures}};
   if (named) parameters["named"] = true;
+  if (o.language != ReportLanguage::english) parameters["language"] = to_string(o.language);
   pipeline::JobKey key{"report", {{"case", report_digest(file)}}, parameters.dump()};
   if (with_image && o.image) key.inputs["image"] = o.image->sha256;
   return key;
@@ -117,11 +119,11 @@ void write_case_report(const fs::path& folder, const CaseReport& report, const s
   core::StagedFolder staged(folder);
   const fs::path& made = staged.temporary();
   fs::create_directory(made / "images");
-  for (std::size_t i = 0; i < images.size(); ++i) {
+  core::parallel_for(images.size(), 1, [&](std::size_t i) {
     task.throw_if_cancelled();
     images[i].picture.write_png(made / "images" / (images[i].name + ".png"), image_density);
-    task.set_progress(0.4 * static_cast<double>(i + 1) / static_cast<double>(images.size()));
-  }
+  });
+  task.set_progress(0.4);
   core::write_file(made / "report.json", report_json(report, images));
   core::write_file(made / "segments.csv", segments_csv(report));
   core::write_file(made / "stenoses.csv", stenoses_csv(report));

@@ -1,6 +1,8 @@
 // The key images of a report.
 
 #include "case_report_text.h"
+#include "case_report_words.h"
+#include "vessels_beside.h"
 
 #include "ostia/core/text.h"
 #include "ostia/figure/plot.h"
@@ -17,6 +19,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <set>
 
 namespace ostia::session {
@@ -58,6 +61,9 @@ class Painter {
   Picture strips(std::int32_t id, const core::TaskContext& task) const;
   Picture profile(std::int32_t id) const;
   Picture throat(const ReportStenosis& stenosis) const;
+  std::string said(const std::string& text) const {
+    return report_words::of(report_.options.language).say(text);
+  }
 
   const CaseReport& report_;
   const lumen::LumenModel& model_;
@@ -147,12 +153,12 @@ KeyImage Painter::tree(const core::TaskContext& task) const {
                                      {"from above", figure::cameras::superior()}}};
   std::vector<Picture> views;
   for (const Sight& sight : sights) {
-    how.title = sight.name;
+    how.title = said(sight.name);
     const double done = 0.25 * static_cast<double>(views.size());
     views.push_back(figure::scene_figure(shown, sight.camera, how,
                                          task.sub(0.3 + 0.7 * done, 0.3 + 0.7 * (done + 0.25))));
   }
-  return {"tree", "The tree" + std::string(report_.stenoses.empty() ? "" : ", with stenoses ringed"),
+  return {"tree", said("The tree" + std::string(report_.stenoses.empty() ? "" : ", with stenoses ringed")),
           figure::grid(views, {.columns = 2, .look = Look::light})};
 }
 
@@ -182,6 +188,7 @@ Picture Painter::strips(std::int32_t id, const core::TaskContext& task) const {
     marks.push_back(
         {one->stenosis.from_mm, one->stenosis.to_mm, one->stenosis.throat_mm, mark_text(*one), mark_color});
   figure::StripFigureOptions how;
+  how.along = said(how.along);
   how.pixel_mm = o.pixel_mm;
   how.px_per_mm = std::clamp(860.0 / axis->length(), 2.5, 9.0);
   how.level_hu = report_.options.level_hu;
@@ -194,8 +201,8 @@ Picture Painter::profile(std::int32_t id) const {
       analysis::read_through(report_.profiles.at(id), report_.references.at(id));
   const analysis::ReferenceLine& line = report_.references.at(id);
   constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-  figure::Series measured{"lumen", {}, {}, figure::colors::inlet};
-  figure::Series reference{"reference", {}, {}, figure::colors::outlet, figure::LineStyle::dashed, 1.6};
+  figure::Series measured{said("lumen"), {}, {}, figure::colors::inlet};
+  figure::Series reference{said("reference"), {}, {}, figure::colors::outlet, figure::LineStyle::dashed, 1.6};
   for (std::size_t i = 0; i < sizes.sections.size(); ++i) {
     const analysis::SectionMeasures& section = sizes.sections[i];
     measured.x.push_back(section.s_mm);
@@ -204,14 +211,14 @@ Picture Painter::profile(std::int32_t id) const {
     reference.y.push_back(line.diameter_mm[i] > 0.0 ? line.diameter_mm[i] : nothing);
   }
   figure::PlotOptions how;
-  how.title = "Diameter along the vessel";
-  how.x_label = "mm along the vessel";
+  how.title = said("Diameter along the vessel");
+  how.x_label = said("mm along the vessel");
   how.y_label = "mm";
   how.width_px = 528;
   how.height_px = 300;
   how.y_from_zero = true;
   std::vector<figure::Series> series{measured, reference};
-  figure::Series throats{"stenosis", {}, {}, mark_color, figure::LineStyle::points, 3.0};
+  figure::Series throats{said("stenosis"), {}, {}, mark_color, figure::LineStyle::points, 3.0};
   for (const ReportStenosis* one : stenoses_of(id)) {
     throats.x.push_back(one->stenosis.throat_mm);
     throats.y.push_back(one->stenosis.least_diameter_mm);
@@ -219,9 +226,10 @@ Picture Painter::profile(std::int32_t id) const {
         {figure::ReferenceLine::Along::x, one->stenosis.throat_mm, report_text::label(*one)});
   }
   if (!throats.x.empty()) series.push_back(throats);
-  if (const auto found = report_.ostia.find(id); found != report_.ostia.end() && found->second.parent >= 0)
+  for (auto found = report_.ostia.find(id); found != report_.ostia.end() && found->second.parent >= 0;
+       found = report_.ostia.find(found->second.parent))
     how.references.push_back({figure::ReferenceLine::Along::x, found->second.joint_mm,
-                              "leaves " + report_text::vessel_name(model_, found->second.parent)});
+                              said("leaves " + report_text::vessel_name(model_, found->second.parent))});
   const bool any = std::any_of(measured.y.begin(), measured.y.end(), [](double y) { return !std::isnan(y); });
   if (!any) how.y_range = figure::Range{0.0, 1.0};
   return figure::line_plot(series, how);
@@ -244,7 +252,7 @@ Picture Painter::throat(const ReportStenosis& one) const {
                                   .contour;
   if (!contour.empty()) contour.push_back(contour.front());
   figure::SliceFigureOptions how;
-  how.title = mark_text(one) + " at " + core::shown_text(one.stenosis.throat_mm, 1) + " mm";
+  how.title = said(mark_text(one) + " at " + core::shown_text(one.stenosis.throat_mm, 1) + " mm");
   how.level_hu = report_.options.level_hu;
   how.window_hu = report_.options.window_hu;
   how.image_width_px = 256;
@@ -281,8 +289,8 @@ KeyImage Painter::vessel(std::int32_t id, const core::TaskContext& task) const {
   const std::string theta = core::shown_text(report_.options.theta_deg, 0) + " and " +
                             core::shown_text(report_.options.theta_deg + 90.0, 0) + " degrees";
   return {"vessel-" + std::to_string(id),
-          name + ": straightened at " + theta + " with the lumen's contour, diameter along the vessel" +
-              throats_text(throats.size(), stenoses_of(id).size()),
+          said(name + ": straightened at " + theta + " with the lumen's contour, diameter along the vessel" +
+               throats_text(throats.size(), stenoses_of(id).size())),
           figure::grid({along, figure::grid(right, {.columns = 1, .look = Look::light, .gap_px = 6})},
                        {.columns = 2, .look = Look::light, .gap_px = 6})};
 }
@@ -316,16 +324,15 @@ std::vector<KeyImage> key_images(const CaseReport& report, const lumen::LumenMod
                                  const imaging::ImageVolume* image, const core::TaskContext& task) {
   task.throw_if_cancelled();
   task.set_stage("key images");
-  const Painter painter(report, model, surface_of, image);
+  const analysis::SurfaceOfVessel held = held_surfaces(model, surface_of);
+  const Painter painter(report, model, held, image);
   const std::vector<std::int32_t> vessels = shown_vessels(report, model);
-  std::vector<KeyImage> images{painter.tree(task.sub(0.0, 0.4))};
-  for (std::size_t i = 0; i < vessels.size(); ++i) {
-    task.throw_if_cancelled();
-    const auto share = [&](std::size_t n) {
-      return 0.4 + 0.6 * static_cast<double>(n) / static_cast<double>(vessels.size());
-    };
-    images.push_back(painter.vessel(vessels[i], task.sub(share(i), share(i + 1))));
-  }
+  auto drawn = beside<std::optional<KeyImage>>(
+      vessels.size() + 1, task, [&](std::size_t i, const core::TaskContext& part) {
+        return std::optional(i == 0 ? painter.tree(part) : painter.vessel(vessels[i - 1], part));
+      });
+  std::vector<KeyImage> images;
+  for (std::optional<KeyImage>& one : drawn) images.push_back(std::move(*one));
   task.set_progress(1.0);
   return images;
 }

@@ -137,3 +137,12 @@ ReportStep step_of(const JournalEntry& entry, const lumen::LumenModel& model) {
 }
 
 }  // namespace ostia::session::report_text
+
+namespace ostia::session {
+
+std::optional<std::int32_t> vessel_of_step(const JournalEntry& step) {
+  const auto given = report_text::ReportJson::parse(step.parameters, nullptr, false);
+  return given.is_object() ? report_text::vessel_of(step.op, given) : std::nullopt;
+}
+
+}  // namespace ostia::session

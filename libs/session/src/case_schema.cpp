@@ -52,6 +52,18 @@ constexpr const char* lesion_table =
     "CREATE TABLE lesion(vessel INTEGER NOT NULL, from_mm NOT NULL, to_mm NOT NULL, state TEXT NOT NULL, "
     "comment TEXT NOT NULL, PRIMARY KEY(vessel, from_mm, to_mm)) WITHOUT ROWID;";
 
+constexpr const char* oldest_reader = "0.2.0";  // the oldest program that reads this version
+
+// Since version 5: when a step was done, and by whom, where that was said. Beside the journal, whose rows are
+// the same for the same steps.
+constexpr const char* stamp_table =
+    "CREATE TABLE step_stamp(number INTEGER PRIMARY KEY, time_s INTEGER NOT NULL, author TEXT NOT NULL, "
+    "checksum INTEGER NOT NULL);";
+
+void create_stamps(Database& database) {
+  database.execute(stamp_table);
+}
+
 void create_lesions(Database& database) {
   database.execute(lesion_table);
 }
@@ -67,7 +79,8 @@ void create_annotations(Database& database) {
 
 /// Step k makes version k + 2 of version k + 1.
 using Step = void (*)(Database&);
-constexpr std::array<Step, schema_version - 1> steps{create_annotations, create_evaluability, create_lesions};
+constexpr std::array<Step, schema_version - 1> steps{create_annotations, create_evaluability, create_lesions,
+                                                     create_stamps};
 
 void set_version(Database& database, std::int32_t version) {
   database.execute("PRAGMA user_version = " + std::to_string(version));
@@ -80,7 +93,8 @@ void create_schema(Database& database) {
   database.execute(tables);
   for (const Step step : steps) step(database);
   // Read by programs that are too old for the file: they can name the version that is needed.
-  database.execute("INSERT INTO meta VALUES('made_with', '" + core::version() + "'), ('needs', '0.1.0')");
+  database.execute("INSERT INTO meta VALUES('made_with', '" + core::version() + "'), ('needs', '" +
+                   oldest_reader + "')");
   set_version(database, schema_version);
 }
 
@@ -92,6 +106,7 @@ void migrate(Database& database, std::int32_t from, const std::function<void()>&
     steps.at(version - 1)(database);
   set_version(database, schema_version);
   check();
+  database.execute(std::string("UPDATE meta SET value = '") + oldest_reader + "' WHERE key = 'needs'");
   transaction.commit();
 }
 

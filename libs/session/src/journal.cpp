@@ -7,6 +7,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include <chrono>
+#include <cstdlib>
+
 namespace ostia::session {
 namespace {
 
@@ -31,6 +34,23 @@ std::int64_t sum_of(const JournalStep& step, const std::string& notes) {
   sum.add("journal").add(step.number).add(step.op).add(step.parameters);
   sum.add(static_cast<std::int64_t>(step.state)).add(notes).add(step.changeset);
   return static_cast<std::int64_t>(sum.value());
+}
+
+std::int64_t sum_of_stamp(std::int64_t number, std::int64_t time_s, const std::string& author) {
+  Checksum sum;
+  sum.add("step_stamp").add(number).add(time_s).add(author);
+  return static_cast<std::int64_t>(sum.value());
+}
+
+/// The clock or, for what is to be the same each time it is made, what SOURCE_DATE_EPOCH says.
+std::int64_t seconds_now() {
+  if (const char* fixed = std::getenv("SOURCE_DATE_EPOCH"); fixed && *fixed) {
+    char* end = nullptr;
+    const long long seconds = std::strtoll(fixed, &end, 10);
+    if (*end == 0 && seconds > 0) return seconds;
+  }
+  using std::chrono::system_clock;
+  return std::chrono::duration_cast<std::chrono::seconds>(system_clock::now().time_since_epoch()).count();
 }
 
 StepState state_of(std::int64_t state) {
@@ -72,10 +92,14 @@ Journal::Journal(const Database& db)
       next_undo_(db, "SELECT " OSTIA_JOURNAL_HEAD " FROM journal WHERE state = 0 AND " OSTIA_JOURNAL_STEPS
                      " ORDER BY number DESC LIMIT 1"),
       next_redo_(db, "SELECT " OSTIA_JOURNAL_HEAD " FROM journal WHERE state = 1 ORDER BY number LIMIT 1"),
-      entries_(db, "SELECT " OSTIA_JOURNAL_HEAD " FROM journal ORDER BY number"),
+      entries_(db, "SELECT " OSTIA_JOURNAL_HEAD
+                   ", coalesce(time_s, 0), coalesce(author, '') "
+                   "FROM journal LEFT JOIN step_stamp USING(number) ORDER BY number"),
       step_(db, "SELECT " OSTIA_JOURNAL_COLUMNS " FROM journal WHERE number = ?1"),
       all_(db, "SELECT " OSTIA_JOURNAL_COLUMNS " FROM journal ORDER BY number"),
-      last_(db, "SELECT max(number) FROM journal") {}
+      last_(db, "SELECT max(number) FROM journal"),
+      stamp_(db, "INSERT INTO step_stamp VALUES(?1, ?2, ?3, ?4)"),
+      stamps_(db, "SELECT number, time_s, author, checksum FROM step_stamp") {}
 
 JournalStep Journal::read(Statement& row) {
   JournalStep step;
@@ -100,6 +124,8 @@ std::int64_t Journal::append(JournalStep step) {
       .with(step.number, step.op, step.parameters, static_cast<std::int64_t>(step.state), notes,
             Blob{step.changeset}, sum_of(step, notes))
       .run();
+  const std::int64_t now = seconds_now();
+  stamp_.with(step.number, now, author_, sum_of_stamp(step.number, now, author_)).run();
   return step.number;
 }
 
@@ -161,7 +187,11 @@ std::optional<JournalEntry> Journal::next_redo() {
 std::vector<JournalEntry> Journal::entries() {
   std::vector<JournalEntry> entries;
   Statement& row = entries_.with();
-  while (row.step()) entries.push_back(read_head(row));
+  while (row.step()) {
+    entries.push_back(read_head(row));
+    entries.back().time_s = row.integer(5);
+    entries.back().author = row.text(6);
+  }
   return entries;
 }
 
@@ -179,6 +209,9 @@ void Journal::verify() {
     undone = undone || step.state == StepState::undone;
   }
   if (number == 0) damaged("the journal is empty");
+  for (Statement& stamp = stamps_.with(); stamp.step();)
+    if (sum_of_stamp(stamp.integer(0), stamp.integer(1), stamp.text(2)) != stamp.integer(3))
+      damaged("the time of step " + std::to_string(stamp.integer(0)) + " is not what was written");
 }
 
 }  // namespace ostia::session

@@ -7,6 +7,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace ostia::session {
@@ -44,13 +45,15 @@ class Journal {
   std::optional<JournalEntry> next_undo();
   std::optional<JournalEntry> next_redo();
   std::vector<JournalEntry> entries();
+  void set_author(std::string author) { author_ = std::move(author); }  ///< of what is appended from now on
   JournalStep step(std::int64_t number);
   /// Throws InvalidInput for a gap or a damaged row.
   void verify();
 
  private:
   Statement append_, replace_, set_state_, last_done_, first_undone_, next_undo_, next_redo_, entries_, step_,
-      all_, last_;
+      all_, last_, stamp_, stamps_;
+  std::string author_;
   static JournalStep read(Statement& row);
 };
 

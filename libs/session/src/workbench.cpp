@@ -85,6 +85,7 @@ Workbench::~Workbench() = default;
 void Workbench::set_image(OpenImage image) {
   if (!image.volume) throw InvalidInput("there is no image to show");
   if (session_) session_->file().check_image(image.reference);
+  leave_other_image();
   image_ = std::move(image);
   const imaging::Geometry& grid = image_.volume->geometry;
   if (!session_ && !grid.contains(place.get())) {
@@ -96,6 +97,7 @@ void Workbench::set_image(OpenImage image) {
 }
 
 void Workbench::close_image() {
+  leave_other_image();
   image_ = {};
   image_changed.tell();
 }
@@ -103,6 +105,7 @@ void Workbench::close_image() {
 void Workbench::set_session(Session session) {
   if (image_.volume) session.file().check_image(image_.reference);
   leave_phase();
+  leave_other_image();
   session_ = std::make_unique<Session>(std::move(session));
   measured_.clear();
   selected_measurement.set(0);
@@ -114,6 +117,7 @@ void Workbench::set_session(Session session) {
 
 void Workbench::close_case() {
   leave_phase();
+  leave_other_image();
   session_.reset();
   measured_.clear();
   selected_measurement.set(0);
@@ -170,9 +174,10 @@ Workbench::Measured* Workbench::measured_of(std::int32_t id) const {
 
 void Workbench::interpret(const lumen::LumenModel& model, std::int32_t id, Measured& measured) const {
   const auto surface_of = [this](std::int32_t one) { return session_->live().surface(one); };
-  measured.ostium = analysis::ostium_of(model, surface_of, id);
+  const std::vector<analysis::Ostium> ostia = analysis::ostia_of(model, surface_of, id);
+  measured.ostium = ostia.empty() ? analysis::Ostium() : ostia.back();
   measured.reference = analysis::reference_line(measured.profile, analysis::branch_abscissas(model, id),
-                                                analysis::reading_from_ostium(measured.ostium));
+                                                analysis::reading_from_ostium(ostia));
   measured.from_ostium = analysis::read_through(measured.profile, measured.reference);
   std::vector<analysis::Stenosis> stenoses = analysis::find_stenoses(measured.profile, measured.reference);
   const bool other = !look_alike(stenoses, measured.stenoses);

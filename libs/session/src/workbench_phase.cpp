@@ -10,6 +10,19 @@ namespace {
 
 constexpr double on_axis_mm = 1e-6;
 
+geometry::Box3 box_of(const imaging::Geometry& grid) {
+  geometry::Box3 box;
+  for (int n = 0; n < 8; ++n)
+    box.extend(grid.world({n & 1 ? static_cast<double>(grid.size[0] - 1) : 0.0,
+                           n & 2 ? static_cast<double>(grid.size[1] - 1) : 0.0,
+                           n & 4 ? static_cast<double>(grid.size[2] - 1) : 0.0}));
+  return box;
+}
+
+bool images_overlap(const imaging::Geometry& a, const imaging::Geometry& b) {
+  return box_of(a).intersects(box_of(b));
+}
+
 }  // namespace
 
 void Workbench::show_phase(std::shared_ptr<const ShownPhase> phase, std::shared_ptr<const PhaseImage> image) {
@@ -48,8 +61,25 @@ void Workbench::leave_phase() {
   phase_changed.tell();
 }
 
+void Workbench::show_other_image(std::shared_ptr<const OtherImage> image) {
+  if (image && !image->volume) throw InvalidInput("there is no image to show");
+  if (image && !image_.volume) throw InvalidInput("there is no image that another could be shown beside");
+  if (image && !images_overlap(image->volume->geometry, image_.volume->geometry))
+    throw InvalidInput("the images do not overlap: they are not of the same part of the body");
+  if (image == other_image_) return;
+  other_image_ = std::move(image);
+  other_image_changed.tell();
+}
+
+void Workbench::leave_other_image() {
+  if (!other_image_) return;
+  other_image_.reset();
+  other_image_changed.tell();
+}
+
 const imaging::ImageVolume* Workbench::shown_volume() const {
-  return phase_image_ && phase_image_->volume ? phase_image_->volume.get() : image_.volume.get();
+  if (phase_image_ && phase_image_->volume) return phase_image_->volume.get();
+  return other_image_ ? other_image_->volume.get() : image_.volume.get();
 }
 
 double Workbench::image_phase() const {
@@ -65,8 +95,11 @@ double Workbench::own_mm(double here_mm) const {
 }
 
 void Workbench::require_own_phase() const {
-  if (!phase_) return;
+  if (!phase_ && !(other_image_ && session_)) return;
   phase_refused.tell();
+  if (!phase_)
+    throw InvalidInput("another image of the study is shown (" + other_image_->name +
+                       "); the tree can be edited and measured on the case's own image only");
   throw InvalidInput("the tree is shown at " + percent_of_cycle(phase_->phase()) +
                      " of the cycle; it can be edited and measured at " +
                      percent_of_cycle(phase_->template_phase()) + " only, the phase that the case is of");

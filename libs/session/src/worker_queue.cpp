@@ -70,10 +70,16 @@ struct WorkerQueue::Impl {
         state = JobState::failed;
         message = "an unknown failure";
       }
-      // What the work holds on to is let go outside the lock.
+      // What the work holds on to is let go outside the lock: it may be a folder of files to delete, and who
+      // asks for a state must not wait for it.
       { const PlainWork work = std::exchange(job->work, {}); }
       lock.lock();
-      if (job->state != JobState::running) continue;  // cancelled or superseded meanwhile
+      if (job->state != JobState::running) {  // cancelled or superseded meanwhile
+        lock.unlock();
+        result.reset();
+        lock.lock();
+        continue;
+      }
       job->state = state;
       job->message = std::move(message);
       job->result = std::move(result);

@@ -307,10 +307,11 @@ void CurvedView::add_stretches(Overlay& overlay) {
     const std::vector<double> ends = ends_of(one);
     for (const double s : ends) {
       const auto [a, b] = end_line(s);
-      overlay.lines.push_back({{a, b}, role});
+      overlay.lines.push_back({{a, b}, role, 1.0, false, {}, one.id});
     }
     const double from = row_of(ends.front()), to = row_of(ends.back()), right = width();
-    overlay.lines.push_back({{Vec2(right - units(3.0), from), Vec2(right - units(3.0), to)}, role});
+    overlay.lines.push_back(
+        {{Vec2(right - units(3.0), from), Vec2(right - units(3.0), to)}, role, 1.0, false, {}, one.id});
     if (to > 0.0 && from < height())
       overlay.texts.push_back({Vec2(right - units(5.0), std::clamp(from, units(16.0), height() - units(4.0))),
                                label_of(bench(), one), role, Anchor::bottom_right, one.id});

@@ -44,11 +44,10 @@ Color measurement_color(bool is_chosen, figure::Look look) {
   return is_chosen ? chosen : measured;
 }
 
-/// What a label takes up, by the mean width of its letters.
-Vec2 label_size(const std::string& text, double size_px) {
-  const auto letters = std::count_if(text.begin(), text.end(),
-                                     [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
-  return {0.58 * size_px * static_cast<double>(letters), 1.35 * size_px};
+Vec2 shown_at(const Vec3& place, const CameraPose& pose, int width_px, int height_px) {
+  const double px_per_mm = 0.5 * height_px / pose.half_height_mm;
+  const Vec3 off = px_per_mm * (place - pose.target);
+  return {0.5 * width_px + off.dot(pose.right()), 0.5 * height_px - off.dot(pose.up)};
 }
 
 std::array<Vec3, 4> corners(const reformat::Plane& plane) {
@@ -186,7 +185,7 @@ void MarkActors::add_measurement(Props& props, std::vector<Label>& labels,
   const double size = label_units * marks.pixel_ratio;
   const auto label = label_actor(measurement.label, color, rim, size);
   labels.push_back({measurement.label_at ? std::vector{*measurement.label_at} : measurement.points, label,
-                    label_size(measurement.label, size), measurement.id, color});
+                    curves_of(measurement), measurement.id, color});
   props.emplace_back(label);
 }
 
@@ -205,26 +204,43 @@ void MarkActors::show_draft(const Marks& marks) {
   replace(draft_, std::move(props));
 }
 
+std::vector<LabelLine> MarkActors::lines_of(const Label& label, const CameraPose& pose, int width_px,
+                                            int height_px) const {
+  std::vector<LabelLine> lines;
+  for (const SceneCurve& curve : label.curves) {
+    const std::size_t count = curve.points.size();
+    for (std::size_t i = 0; i + (curve.closed ? 0 : 1) < count; ++i)
+      lines.push_back({shown_at(curve.points[i], pose, width_px, height_px),
+                       shown_at(curve.points[(i + 1) % count], pose, width_px, height_px)});
+  }
+  return lines;
+}
+
 /// Beside the place that is farthest to the right; view::place_labels counts y downwards, VTK upwards.
-void MarkActors::lay_out(const CameraPose& pose, int width_px, int height_px, double pixel_ratio) {
-  const double px_per_mm = 0.5 * height_px / pose.half_height_mm;
+void MarkActors::lay_out(const CameraPose& pose, int width_px, int height_px, double pixel_ratio,
+                         std::vector<LabelRect> taken) {
   const auto anchor_of = [&](const Label& label) {
     const Vec3 place =
         *std::max_element(label.places.begin(), label.places.end(),
                           [&](const Vec3& a, const Vec3& b) { return (a - b).dot(pose.right()) < 0.0; });
-    const Vec3 off = px_per_mm * (place - pose.target);
-    return Vec2(0.5 * width_px + off.dot(pose.right()), 0.5 * height_px - off.dot(pose.up));
+    return shown_at(place, pose, width_px, height_px);
   };
+  texts_.clear();
   std::vector<const Label*> labels;
   std::vector<LabelWish> wishes;
   for (const std::vector<Label>* some : {&draft_labels_, &labels_})
     for (const Label& label : *some) {
       labels.push_back(&label);
-      wishes.push_back({anchor_of(label), label.size, {}});
+      std::array<double, 2> size{};
+      label.actor->GetSize(&renderer_, size.data());
+      wishes.push_back({anchor_of(label),
+                        {size[0] + 2.0 * pixel_ratio, size[1] + 2.0 * pixel_ratio},
+                        {},
+                        lines_of(label, pose, width_px, height_px)});
       if (const auto was = offsets_.find(label.id); was != offsets_.end()) wishes.back().before = was->second;
     }
   const std::vector<PlacedLabel> placed =
-      place_labels(wishes, {{double(width_px), double(height_px)}, 7.0 * pixel_ratio, {}});
+      place_labels(wishes, {{double(width_px), double(height_px)}, 7.0 * pixel_ratio, std::move(taken)});
   vtkNew<vtkPoints> points;
   vtkNew<vtkCellArray> lines;
   vtkNew<vtkUnsignedCharArray> colors;
@@ -236,6 +252,7 @@ void MarkActors::lay_out(const CameraPose& pose, int width_px, int height_px, do
     if (!placed[i].shown) continue;
     const LabelRect& rect = placed[i].rect;
     offsets_[label.id] = rect.low - wishes[i].anchor;
+    texts_.push_back({label.actor->GetInput(), rect, wishes[i].lines});
     label.actor->SetDisplayPosition(static_cast<int>(std::lround(rect.low.x())),
                                     static_cast<int>(std::lround(height_px - rect.low.y() - rect.size.y())));
     if (!placed[i].leader_to) continue;

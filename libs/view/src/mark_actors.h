@@ -4,6 +4,7 @@
 #include "scene_lines.h"
 
 #include "ostia/figure/color.h"
+#include "ostia/view/label_layout.h"
 #include "ostia/view/scene_camera.h"
 #include "ostia/view/scene_marks.h"
 
@@ -43,16 +44,20 @@ class MarkActors {
   void show_plane(const Marks& marks, ScenePlane plane);
   void show_axes(const Marks& marks);
   /// Puts the labels beside their places, within the picture and none over another; before each picture.
-  void lay_out(const CameraPose& pose, int width_px, int height_px, double pixel_ratio);
+  /// The renderer is in a window. `taken`: what they keep off.
+  void lay_out(const CameraPose& pose, int width_px, int height_px, double pixel_ratio,
+               std::vector<LabelRect> taken);
+  /// Labels as they were laid out.
+  const std::vector<SceneText>& texts() const { return texts_; }
 
  private:
   using Props = std::vector<vtkSmartPointer<vtkProp>>;
   struct Label {
     std::vector<Vec3> places;  // it stands beside the one that is farthest to the right
     vtkSmartPointer<vtkTextActor> actor;
-    geometry::Vec2 size;    // px
-    std::int32_t id = 0;    // of the measurement
-    figure::Color color{};  // of a leader
+    std::vector<SceneCurve> curves;  // it keeps off these
+    std::int32_t id = 0;             // of the measurement
+    figure::Color color{};           // of a leader
   };
   void replace(Props& former, Props props);
   void add_measurement(Props& props, std::vector<Label>& labels, const SceneMeasurement& measurement,
@@ -60,7 +65,10 @@ class MarkActors {
   vtkRenderer& renderer_;
   Props cursor_, measurements_, draft_, axes_;
   std::map<ScenePlane, Props> planes_;
+  std::vector<LabelLine> lines_of(const Label& label, const CameraPose& pose, int width_px,
+                                  int height_px) const;
   std::vector<Label> labels_, draft_labels_;
+  std::vector<SceneText> texts_;
   std::map<std::int32_t, geometry::Vec2> offsets_;  // of labels from their anchors, as they were
   vtkSmartPointer<vtkPolyData> leaders_;            // px
 };

@@ -78,12 +78,16 @@ SegmentFoot foot_on_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
 }
 
 /// Two short lines at an arrow's tip.
-void add_head(Overlay& overlay, const Vec2& tip, const Vec2& tail, double long_px, Role role) {
+void add_head(Overlay& overlay, const Vec2& tip, const Vec2& tail, double long_px, Role role,
+              std::int32_t id) {
   const Vec2 back = tail - tip;
   if (!(back.norm() > 1.0)) return;
   const Vec2 along = back.normalized(), across(-along.y(), along.x());
-  overlay.lines.push_back(
-      {{tip + long_px * (along + 0.4 * across), tip, tip + long_px * (along - 0.4 * across)}, role});
+  OverlayLine head;
+  head.px = {tip + long_px * (along + 0.4 * across), tip, tip + long_px * (along - 0.4 * across)};
+  head.role = role;
+  head.of = id;
+  overlay.lines.push_back(std::move(head));
 }
 
 void add_measurement_marks(Overlay& overlay, PictureView& view, const analysis::Measurement& measurement,
@@ -100,7 +104,7 @@ void add_measurement_marks(Overlay& overlay, PictureView& view, const analysis::
   std::optional<Vec2> last;
   // The tip of an arrow is to be seen itself, unless it can be taken hold of.
   const bool arrow = measurement.kind == analysis::MeasureKind::arrow;
-  if (arrow) add_head(overlay, px.front(), px.back(), 10.0 * view.density(), role);
+  if (arrow) add_head(overlay, px.front(), px.back(), 10.0 * view.density(), role, measurement.id);
   for (const Vec2& p : px) {
     if (arrow && role != Role::selected) break;
     if (last && (p - *last).norm() < apart) continue;
@@ -110,6 +114,7 @@ void add_measurement_marks(Overlay& overlay, PictureView& view, const analysis::
   OverlayLine line;
   line.px = px;
   line.role = role;
+  line.of = measurement.id;
   if (measurement.kind == analysis::MeasureKind::area && px.size() > 2) line.px.push_back(px.front());
   if (line.px.size() > 1) overlay.lines.push_back(std::move(line));
   // Beside the last point that is to be seen.

@@ -11,6 +11,7 @@
 #include <vtkPropAssembly.h>
 #include <vtkProperty.h>
 
+#include <algorithm>
 #include <array>
 #include <string>
 
@@ -33,9 +34,25 @@ struct MeshScene::Impl {
   std::optional<MeshCut> cut;
   std::vector<ShellSide> shell;
   std::vector<Vec3> outline;  // of the whole mesh
+  ShownEdges edges = ShownEdges::near;
+  double mm_per_px = 1.0, middle_edge_mm = 0.0;  // of the sides that are seen
   std::vector<SceneLine> highlight, handle;
   FlatGuest drawn;
 
+  /// The median of the sides' first edges.
+  void measure_edges() {
+    std::vector<double> lengths;
+    lengths.reserve(shell.size());
+    const auto& points = mesh->mesh->points;
+    for (const ShellSide& side : shell)
+      lengths.push_back((points[static_cast<std::size_t>(side.corners[1])] -
+                         points[static_cast<std::size_t>(side.corners[0])])
+                            .norm());
+    if (lengths.empty()) return;
+    const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+    std::nth_element(lengths.begin(), middle, lengths.end());
+    middle_edge_mm = *middle;
+  }
   void show_lines() {
     std::vector<SceneLine> lines = highlight;
     lines.insert(lines.end(), handle.begin(), handle.end());
@@ -46,7 +63,6 @@ struct MeshScene::Impl {
 MeshScene::MeshScene(std::shared_ptr<const ShownMesh> mesh) : impl_(std::make_unique<Impl>()) {
   if (!mesh) throw InvalidInput("there is no mesh to be shown");
   impl_->mesh = std::move(mesh);
-  impl_->drawn.surface->GetProperty()->EdgeVisibilityOn();
   set_flat_points(*impl_->drawn.sides, impl_->mesh->mesh->points);
   impl_->shell = shell_of(*impl_->mesh);
   impl_->outline.reserve(impl_->shell.size());
@@ -76,8 +92,24 @@ void MeshScene::set_cut(const std::optional<MeshCut>& cut) {
   show_shell();
 }
 
-void MeshScene::set_edges_shown(bool shown) {
-  impl_->drawn.surface->GetProperty()->SetEdgeVisibility(shown);
+void MeshScene::set_edges(ShownEdges edges) {
+  impl_->edges = edges;
+  show_edges();
+}
+
+bool MeshScene::edges_drawn() const {
+  return impl_->drawn.surface->GetProperty()->GetEdgeVisibility() != 0;
+}
+
+void MeshScene::seen_at(double mm_per_px) {
+  impl_->mm_per_px = mm_per_px;
+  show_edges();
+}
+
+void MeshScene::show_edges() {
+  const bool near = impl_->middle_edge_mm >= least_edge_px * impl_->mm_per_px;
+  impl_->drawn.surface->GetProperty()->SetEdgeVisibility(impl_->edges == ShownEdges::always ||
+                                                         (impl_->edges == ShownEdges::near && near));
 }
 
 void MeshScene::set_highlight(std::span<const std::size_t> elements) {
@@ -135,6 +167,8 @@ void MeshScene::show_shell() {
   for (const ShellSide& side : impl_->shell) sides.push_back(side.corners);
   set_flat_sides(*impl_->drawn.sides, sides);
   impl_->drawn.surface->SetVisibility(!sides.empty());
+  impl_->measure_edges();
+  show_edges();
   color();
 }
 

@@ -34,6 +34,7 @@ PictureView::PictureView(session::Workbench& bench) : bench_(bench) {
     size_changed();  // the axis is another, whatever was laid out along it
     image_stale();
   }));
+  keep(bench.other_image_changed.observe([this] { image_stale(); }));
   keep(bench.annotations_changed.observe([this] { overlay_stale(); }));
   keep(bench.slab.observe([this](const reformat::Slab&) { image_stale(); }));
   keep(bench.slab_mm.observe([this](const double&) {
@@ -57,10 +58,18 @@ void PictureView::set_size(int width, int height, double density) {
 
 const GreyImage& PictureView::image() {
   if (image_fresh_) return image_;
+  draft_ = false;
   image_ = ready() && width_ > 0 && height_ > 0 && bench_.shown_volume() ? make_image() : GreyImage{};
   image_fresh_ = true;
   ++image_revision_;
   return image_;
+}
+
+void PictureView::refine() {
+  if (!draft_ || !image_fresh_) return;
+  refining_ = true;
+  image_fresh_ = false;
+  stale.tell();
 }
 
 void PictureView::prepare() {
@@ -126,6 +135,7 @@ std::optional<double> PictureView::value_at(const Vec2& px) {
 
 void PictureView::image_stale() {
   image_fresh_ = false;
+  refining_ = false;
   ++placement_revision_;
   lines_state_ = Lines::anew;
   overlay_stale();
@@ -267,7 +277,12 @@ void PictureView::add_slab(Overlay& overlay) {
 
 void PictureView::add_phase(Overlay& overlay) {
   const session::ShownPhase* phase = bench_.other_phase();
-  if (!phase || width() < units(least_with_phase_units)) return;
+  if (width() < units(least_with_phase_units)) return;
+  const session::OtherImage* other = bench_.other_image();
+  if (!phase && other)
+    overlay.texts.push_back({Vec2(units(6.0), height() - units(6.0)), other->caption,
+                             other->warns ? Role::warning : Role::information, Anchor::bottom_left});
+  if (!phase) return;
   const double image = bench_.image_phase();
   std::string text = session::percent_of_cycle(phase->phase());
   const bool same = session::phase_distance(image, phase->phase()) < same_phase || !bench_.shown_volume();

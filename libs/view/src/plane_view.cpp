@@ -19,6 +19,7 @@ namespace ostia::view {
 namespace {
 
 constexpr double fading_depth_mm = 1.0;
+constexpr double most_live_samples = 5e6;  // of a slab's picture that follows the hand as it is
 
 }  // namespace
 
@@ -93,9 +94,13 @@ GreyImage PlaneView::make_image() {
   if (!shown) return {};
   const reformat::Slab slab = bench().slab.get();
   const imaging::ImageVolume& image = *bench().shown_volume();
-  reformat::PlaneImage made = slab == reformat::Slab::none
-                                  ? reformat::slice(image, *shown)
-                                  : reformat::slab_slice(image, *shown, slab, bench().slab_mm.get());
+  const double slab_mm = bench().slab_mm.get();
+  const double samples = 2.0 * slab_mm / image.geometry.spacing.minCoeff() * shown->width * shown->height;
+  const bool draft = slab != reformat::Slab::none && wants_draft() && samples > most_live_samples;
+  if (draft) mark_draft();
+  reformat::PlaneImage made = slab == reformat::Slab::none ? reformat::slice(image, *shown)
+                              : draft ? reformat::slab_draft(image, *shown, slab, slab_mm)
+                                      : reformat::slab_slice(image, *shown, slab, slab_mm);
   return {shown->width, shown->height, std::move(made.values)};
 }
 

@@ -4,6 +4,7 @@
 #include "ostia/session/plaque_sampling.h"
 #include "ostia/view/curved_view.h"
 #include "ostia/view/plane_view.h"
+#include "ostia/view/plaque_colors.h"
 #include "ostia/view/words.h"
 
 #include <algorithm>
@@ -18,10 +19,7 @@ namespace {
 
 using std::numbers::pi;
 constexpr int rays = 720;  // of a section: half a degree is less than a pixel of any wall
-constexpr double legend_wide = 125.0, legend_high = 170.0;  // a smaller view has no room for one
-// One a class, in their order; what colour a role has: apps/workstation/views/overlay_colors.cpp.
-constexpr std::array roles{Role::low_attenuation, Role::fibrofatty, Role::fibrous, Role::calcified};
-static_assert(roles.size() == analysis::plaque_classes);
+constexpr double legend_wide = 125.0, legend_high = 230.0;  // a smaller view has no room for one
 
 using session::PlaqueRay;
 using session::VesselWalls;
@@ -47,7 +45,7 @@ OverlayTint blank(const PictureView& view, const Vec2& low, const Vec2& high) {
   out.width = std::max(0, out.width);
   out.height = std::max(0, out.height);
   out.what.assign(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height), 0);
-  out.roles.assign(roles.begin(), roles.end());
+  for (const PlaqueColor& one : plaque_colors) out.roles.push_back(one.role);
   return out;
 }
 
@@ -208,9 +206,11 @@ void PlaqueLayer::add_legend(Overlay& overlay) const {
   const std::array names{&w.low_attenuation, &w.fibrofatty, &w.fibrous, &w.calcified};
   const double line = 15.0 * unit, side = 9.0 * unit, left = 12.0 * unit;
   double y = view_.height() - 10.0 * unit - 3.0 * line;  // of the first one's middle
-  for (std::size_t i = 0; i < roles.size(); ++i, y += line) {
-    overlay.bands.push_back({Vec2(left, y - side / 2), Vec2(left + side, y + side / 2), roles[i], 1.0});
-    overlay.texts.push_back({Vec2(left + side + 5.0 * unit, y), *names[i], Role::information, Anchor::left});
+  for (std::size_t i = 0; i < plaque_colors.size(); ++i, y += line) {
+    overlay.bands.push_back(
+        {Vec2(left, y - side / 2), Vec2(left + side, y + side / 2), plaque_colors[i].role, 1.0});
+    overlay.texts.push_back(
+        {Vec2(left + side + 5.0 * unit, y), *names[i], Role::information, Anchor::left, {}, true});
   }
 }
 

@@ -86,8 +86,9 @@ bool ProfileView::ready() const {
 ProfileView::Frame ProfileView::frame() const {
   Frame made;
   made.left = 40.0 * density_;
-  made.right = width_ - (area_shown.get() ? 44.0 : 12.0) * density_;
-  made.top = 20.0 * density_;
+  const double flow = flow_room_px();
+  made.right = width_ - std::max(flow, area_shown.get() ? 44.0 : 12.0) * density_;
+  made.top = (flow > 0.0 ? 34.0 : 20.0) * density_;
   made.bottom = height_ - 26.0 * density_;
   made.right = std::max(made.right, made.left + 1.0);
   made.bottom = std::max(made.bottom, made.top + 1.0);
@@ -137,6 +138,10 @@ void ProfileView::add_text(const Vec2& px, const std::string& what, Role role, A
   overlay_.texts.push_back({px, what, role, anchor});
 }
 
+void ProfileView::add_tick(const Vec2& px, const std::string& what, Role role, Anchor anchor) {
+  overlay_.texts.push_back({px, what, role, anchor, {}, true});
+}
+
 void ProfileView::add_rows(const Frame& f, double most, bool left, Role role) {
   const int rows = std::max(2, static_cast<int>((f.bottom - f.top) / (28.0 * density_)));
   const std::vector<double> values = figure::nice_ticks(0.0, most, rows);
@@ -144,20 +149,20 @@ void ProfileView::add_rows(const Frame& f, double most, bool left, Role role) {
   for (const double value : values) {
     const double at = f.y(value / most);
     if (left) overlay_.lines.push_back({{Vec2(f.left, at), Vec2(f.right, at)}, Role::grid, 0.5});
-    add_text(Vec2(left ? f.left - 4 * density_ : f.right + 4 * density_, at), figure::tick_text(value, step),
+    add_tick(Vec2(left ? f.left - 4 * density_ : f.right + 4 * density_, at), figure::tick_text(value, step),
              role, left ? Anchor::right : Anchor::left);
   }
 }
 
 void ProfileView::add_axes(const Frame& f) {
   add_rows(f, f.most_mm, true, Role::diameter);
-  if (area_shown.get()) add_rows(f, f.most_mm2, false, Role::area);
+  if (area_drawn()) add_rows(f, f.most_mm2, false, Role::area);
   const std::vector<double> along = figure::nice_ticks(
       0.0, f.length_mm, std::max(2, static_cast<int>((f.right - f.left) / (60.0 * density_))));
   const double step = along.size() > 1 ? along[1] - along[0] : 1.0;
   for (const double s : along) {
     overlay_.lines.push_back({{Vec2(f.x(s), f.top), Vec2(f.x(s), f.bottom)}, Role::grid, 0.3});
-    add_text(Vec2(f.x(s), f.bottom + 3 * density_), figure::tick_text(s, step), Role::information,
+    add_tick(Vec2(f.x(s), f.bottom + 8 * density_), figure::tick_text(s, step), Role::information,
              Anchor::top);
   }
   overlay_.lines.push_back(
@@ -246,7 +251,7 @@ void ProfileView::add_curves(const Frame& f, const analysis::LumenProfile& profi
     diameter[i] = one.found ? one.diameter_mm / f.most_mm : std::nan("");
     area[i] = one.found ? one.area_mm2 / f.most_mm2 : std::nan("");
   }
-  if (area_shown.get()) add_curve(f, profile, {{}, Role::area, 0.8}, area);
+  if (area_drawn()) add_curve(f, profile, {{}, Role::area, 0.8}, area);
   const analysis::ReferenceLine* reference = bench_.reference(bench_.vessel.get());
   if (reference && reference->diameter_mm.size() == sections) {
     std::vector<double> healthy = reference->diameter_mm;
@@ -267,7 +272,7 @@ void ProfileView::add_outer_wall(const Frame& f) {
 
 void ProfileView::add_titles(const Frame& f) {
   add_text(Vec2(f.left, 3 * density_), words().diameter, Role::diameter, Anchor::top_left);
-  if (area_shown.get()) add_text(Vec2(f.right, 3 * density_), words().area, Role::area, Anchor::top_right);
+  if (area_drawn()) add_text(Vec2(f.right, 3 * density_), words().area, Role::area, Anchor::top_right);
   add_text(Vec2(0.5 * (f.left + f.right), 3 * density_),
            bench_.vessel_name(bench_.vessel.get()) + ", " + words().from_root, Role::information,
            Anchor::top);
@@ -285,6 +290,7 @@ const Overlay& ProfileView::overlay() {
   add_way(f);
   add_stenoses(f);
   add_stretches();
+  add_flow(f);
   add_curves(f, *profile);
   add_outer_wall(f);
   const double s = bench_.own_mm(bench_.cursor_mm.get());

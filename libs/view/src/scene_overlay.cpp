@@ -3,6 +3,7 @@
 #include "scene_lines.h"
 
 #include "ostia/core/text.h"
+#include "ostia/geometry/carm_words.h"
 
 #include <vtkActor2D.h>
 #include <vtkCellArray.h>
@@ -77,6 +78,40 @@ const std::array<CubeFace, 6>& cube_faces() {
 
 }  // namespace
 
+std::vector<SceneText> SceneOverlay::texts() const {
+  std::vector<SceneText> all;
+  const auto add = [&](vtkTextActor* text) {
+    if (const std::optional<LabelRect> rect = rect_of(*text, renderer_, height_px_))
+      all.push_back({text->GetInput(), *rect});
+  };
+  for (const auto& letter : letters_) add(letter);
+  for (const auto& text : bar_texts_) add(text);
+  for (vtkTextActor* text : {ruler_text_.Get(), bar_title_.Get(), angles_.Get()}) add(text);
+  if (corner_.rect()) all.push_back({corner_.text(), *corner_.rect()});
+  return all;
+}
+
+std::vector<LabelRect> SceneOverlay::taken() const {
+  std::vector<LabelRect> all = pictures_;
+  for (const SceneText& one : texts()) all.push_back(one.rect);
+  return all;
+}
+
+void SceneOverlay::keep_within(vtkTextActor& text, int width_px, double room_px) {
+  std::optional<LabelRect> rect = rect_of(text, renderer_, height_px_);
+  vtkTextProperty& font = *text.GetTextProperty();
+  for (int size = font.GetFontSize(); rect && rect->size.x() > room_px && size > 6;) {
+    font.SetFontSize(--size);
+    rect = rect_of(text, renderer_, height_px_);
+  }
+  if (!rect) return;
+  const double over =
+      std::max(0.0, rect->low.x() + rect->size.x() - (width_px - 2.0)) - std::max(0.0, 2.0 - rect->low.x());
+  const double* at = text.GetPosition();
+  if (over != 0.0)
+    text.SetDisplayPosition(static_cast<int>(std::floor(at[0] - over)), static_cast<int>(std::lround(at[1])));
+}
+
 double scale_bar_mm(double mm_per_px, int width_px) {
   const double most = 0.25 * mm_per_px * width_px;
   const double power = std::pow(10.0, std::floor(std::log10(most)));
@@ -107,18 +142,32 @@ vtkSmartPointer<vtkTextActor> SceneOverlay::make_text(vtkRenderer& renderer) {
 }
 
 SceneOverlay::SceneOverlay(vtkRenderer& renderer)
-    : cube_(make_flat(renderer)), ruler_(make_flat(renderer)), bar_(make_flat(renderer)) {
+    : renderer_(renderer),
+      corner_(renderer),
+      cube_(make_flat(renderer)),
+      ruler_(make_flat(renderer)),
+      bar_(make_flat(renderer)),
+      lasso_(make_flat(renderer)) {
   for (auto& letter : letters_) letter = make_text(renderer);
   ruler_text_ = make_text(renderer);
   bar_title_ = make_text(renderer);
+  angles_ = make_text(renderer);
+  angles_->GetTextProperty()->SetJustificationToLeft();
   for (auto& text : bar_texts_) text = make_text(renderer);
 }
 
 void SceneOverlay::lay_out(const CameraPose& pose, int width_px, int height_px,
                            const OverlaySettings& settings) {
+  height_px_ = height_px;
+  pictures_.clear();
+  corner_.lay_out(static_cast<int>(std::lround(8.0 * settings.pixel_ratio)),
+                  static_cast<int>(std::lround((settings.marker_shown ? 76.0 : 8.0) * settings.pixel_ratio)),
+                  height_px);
   lay_out_marker(pose, settings);
   lay_out_scale_bar(pose, width_px, height_px, settings);
   lay_out_color_bar(width_px, height_px, settings);
+  lay_out_angles(pose, height_px, settings);
+  lay_out_lasso(settings);
 }
 
 void SceneOverlay::lay_out_marker(const CameraPose& pose, const OverlaySettings& settings) {
@@ -127,6 +176,8 @@ void SceneOverlay::lay_out_marker(const CameraPose& pose, const OverlaySettings&
   if (!settings.marker_shown) return;
   const double half = 17.0 * settings.pixel_ratio;
   const Vec2 centre = Vec2::Constant(half * 1.74 + 10.0 * settings.pixel_ratio);
+  pictures_.push_back(
+      {{centre.x() - 1.74 * half, height_px_ - centre.y() - 1.74 * half}, Vec2::Constant(2.0 * 1.74 * half)});
   const auto seen = [&](const Vec3& direction) {
     return Vec2(direction.dot(pose.right()), direction.dot(pose.up));
   };
@@ -167,6 +218,33 @@ void SceneOverlay::lay_out_scale_bar(const CameraPose& pose, int width_px, int h
   quads.put_into(*ruler_.shape);
   put(*ruler_text_, core::significant_text(length_mm, 3) + " mm",
       Vec2(left + 0.5 * length_px, low + 15.0 * unit), color, 13.0 * unit);
+  keep_within(*ruler_text_, width_px, width_px);
+  pictures_.push_back({{left, height_px - low - 8.0 * unit}, {length_px, 8.0 * unit}});
+}
+
+/// At the upper left, as the catheter laboratory writes them.
+void SceneOverlay::lay_out_angles(const CameraPose& pose, int height_px, const OverlaySettings& settings) {
+  angles_->VisibilityOff();
+  if (!settings.angles_shown) return;
+  const double unit = settings.pixel_ratio;
+  put(*angles_, geometry::text_of(carm_angles(pose)), Vec2(10.0 * unit, height_px - 16.0 * unit),
+      figure::theme(settings.look).foreground, 14.0 * unit);
+}
+
+void SceneOverlay::lay_out_lasso(const OverlaySettings& settings) {
+  const std::vector<Vec2>& corners = settings.lasso;
+  lasso_.actor->SetVisibility(corners.size() > 1);
+  if (corners.size() < 2) return;
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> line;
+  line->InsertNextCell(static_cast<int>(corners.size()) + 1);
+  for (const Vec2& corner : corners)
+    line->InsertCellPoint(points->InsertNextPoint(corner.x(), corner.y(), 0.0));
+  line->InsertCellPoint(0);
+  lasso_.shape->SetPoints(points);
+  lasso_.shape->SetLines(line);
+  lasso_.actor->GetProperty()->SetColor(1.0, 0.85, 0.2);
+  lasso_.actor->GetProperty()->SetLineWidth(static_cast<float>(2.0 * settings.pixel_ratio));
 }
 
 void SceneOverlay::lay_out_color_bar(int width_px, int height_px, const OverlaySettings& settings) {
@@ -177,7 +255,17 @@ void SceneOverlay::lay_out_color_bar(int width_px, int height_px, const OverlayS
   const ValueScale& scale = *settings.color_bar;
   const double unit = settings.pixel_ratio;
   const double wide = 12.0 * unit, high = std::max(40.0, 0.4 * height_px);
-  const double left = width_px - 62.0 * unit, low = 0.5 * (height_px - high);
+  // Numbers of the usual length; longer ones push the bar inwards.
+  double widest = 39.0 * unit;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double t = 0.5 * static_cast<double>(i);
+    bar_texts_[i]->GetTextProperty()->SetJustificationToLeft();
+    put(*bar_texts_[i], range_text(scale.low + t * (scale.high - scale.low), {scale.low, scale.high}),
+        Vec2::Zero(), figure::theme(settings.look).foreground, 13.0 * unit);
+    if (const auto rect = rect_of(*bar_texts_[i], renderer_, height_px))
+      widest = std::max(widest, rect->size.x());
+  }
+  const double left = width_px - wide - 11.0 * unit - widest, low = 0.5 * (height_px - high);
   constexpr int steps = 64;
   Quads quads;
   for (int i = 0; i < steps; ++i)
@@ -187,12 +275,13 @@ void SceneOverlay::lay_out_color_bar(int width_px, int height_px, const OverlayS
   const Color color = figure::theme(settings.look).foreground;
   for (std::size_t i = 0; i < 3; ++i) {
     const double t = 0.5 * static_cast<double>(i);
-    bar_texts_[i]->GetTextProperty()->SetJustificationToLeft();
-    put(*bar_texts_[i], core::significant_text(scale.low + t * (scale.high - scale.low), 3),
-        Vec2(left + wide + 5.0 * unit, low + t * high), color, 13.0 * unit);
+    const std::string text = bar_texts_[i]->GetInput();
+    put(*bar_texts_[i], text, Vec2(left + wide + 5.0 * unit, low + t * high), color, 13.0 * unit);
   }
   bar_title_->GetTextProperty()->SetJustificationToRight();
   put(*bar_title_, scale.title, Vec2(width_px - 12.0 * unit, low + high + 20.0 * unit), color, 13.0 * unit);
+  keep_within(*bar_title_, width_px, width_px - 16.0 * unit);
+  pictures_.push_back({{left, height_px - low - high}, {wide, high}});
 }
 
 }  // namespace ostia::view

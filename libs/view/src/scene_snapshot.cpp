@@ -62,6 +62,7 @@ figure::Raster TreeScene::snapshot(int width_px, int height_px, std::optional<fi
   Marks marks = impl_->marks;
   OverlaySettings settings = impl_->shown_settings();
   marks.look = settings.look = look.value_or(settings.look);
+  settings.lasso.clear();
   add_lights(*renderer);
   apply_look(*renderer, settings.look);
   apply_pose(*renderer, pose());
@@ -77,14 +78,14 @@ figure::Raster TreeScene::snapshot(int width_px, int height_px, std::optional<fi
   MarkActors mark_actors(*renderer);
   mark_actors.show_all(marks);
   SceneOverlay overlay(*renderer);
-  overlay.lay_out(pose(), width_px, height_px, settings);
-  mark_actors.lay_out(pose(), width_px, height_px, settings.pixel_ratio);
   vtkNew<vtkRenderWindow> window;
   window->SetMultiSamples(0);
   window->SetShowWindow(false);
   window->SetOffScreenRendering(1);
   window->SetSize(width_px, height_px);
   window->AddRenderer(renderer);
+  overlay.lay_out(pose(), width_px, height_px, settings);  // the corner stays empty
+  mark_actors.lay_out(pose(), width_px, height_px, settings.pixel_ratio, overlay.taken());
   renderer->ResetCameraClippingRange();
   render_refined(*window, volume, patience_ms);
   figure::Raster picture = pixels_of(*window, width_px, height_px);

@@ -8,6 +8,7 @@
 #include <vtk_glew.h>
 
 #include <algorithm>
+#include <string>
 
 namespace ostia::view {
 
@@ -56,6 +57,13 @@ void StillRenderer::copy(vtkOpenGLFramebufferObject& from, vtkOpenGLFramebufferO
 }
 
 void StillRenderer::DeviceRender() {
+  if (!in_software_) {
+    const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+    const std::string renderer = name != nullptr ? name : "llvmpipe";
+    in_software_ = false;
+    for (const char* one : {"llvmpipe", "softpipe", "SWR", "Software"})
+      if (renderer.find(one) != std::string::npos) in_software_ = true;
+  }
   const bool keeps = can_keep();
   const Look now = look();
   auto* window = vtkOpenGLRenderWindow::SafeDownCast(GetRenderWindow());

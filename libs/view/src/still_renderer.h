@@ -6,6 +6,7 @@
 #include <vtkOpenGLRenderer.h>
 
 #include <array>
+#include <optional>
 
 namespace ostia::view {
 
@@ -20,6 +21,8 @@ class StillRenderer final : public vtkOpenGLRenderer {
   void ReleaseGraphicsResources(vtkWindow* window) override;
   /// The last picture was the kept one.
   bool put_back() const { return put_back_; }
+  /// The processor draws, and no graphics card; true before the first picture.
+  bool in_software() const { return in_software_.value_or(true); }
 
  private:
   /// All that the picture depends on.
@@ -37,6 +40,7 @@ class StillRenderer final : public vtkOpenGLRenderer {
   Look kept_of_;
   std::array<int, 2> room_{0, 0};  // of the kept picture
   bool put_back_ = false;
+  std::optional<bool> in_software_;
   vtkNew<vtkOpenGLFramebufferObject> kept_;
 };
 

@@ -109,8 +109,9 @@ TreeScene::Impl::~Impl() {
 void TreeScene::Impl::before_render() {
   const std::array<int, 2> size{renderer->GetSize()[0], renderer->GetSize()[1]};
   const CameraPose pose = pose_of(*renderer);
+  if (guest && size[1] > 0) guest->seen_at(2.0 * pose.half_height_mm / size[1]);
   overlay.lay_out(pose, size[0], size[1], shown_settings());
-  mark_actors.lay_out(pose, size[0], size[1], settings.pixel_ratio);
+  mark_actors.lay_out(pose, size[0], size[1], settings.pixel_ratio, overlay.taken());
   set_depths(pose);
   started = std::chrono::steady_clock::now();
 }
@@ -136,7 +137,8 @@ void TreeScene::Impl::set_depths(const CameraPose& pose) {
                                                 camera_distance_mm + whole(farthest));
 }
 
-/// A coarse picture of the volume that took too long is the last one of this image and mode.
+/// A coarse picture of the volume that took too long is the last one of this image and mode, unless it was
+/// the first.
 void TreeScene::Impl::after_render() {
   if (renderer->put_back()) return;
   volume_ms.reset();
@@ -145,7 +147,8 @@ void TreeScene::Impl::after_render() {
   renderer->GetRenderWindow()->WaitForCompletion();
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - started;
   volume_ms = took.count();
-  if (volume.quality() != VolumeQuality::coarse || !interacting || took.count() <= most_ms) return;
+  const bool first = ++volume_pictures == 1;
+  if (volume.quality() != VolumeQuality::coarse || !interacting || first || took.count() <= most_ms) return;
   coarse_is_slow = true;
   apply_quality();
 }
@@ -159,6 +162,7 @@ void TreeScene::Impl::apply_quality() {
 
 void TreeScene::Impl::start_coarse() {
   coarse_is_slow = false;
+  volume_pictures = 0;
   still_quality = VolumeQuality::coarse;
   volume_ms.reset();
   apply_quality();

@@ -55,6 +55,7 @@ struct TreeScene::Impl {
   std::vector<ColoredStretch> stretches;
   ValueScale scale;
   double opacity = 1.0;
+  bool wall_shown = true;
   std::map<std::int32_t, VesselStyle> styles;
   std::vector<const VesselStyle*> vessel_styles;  // of `styles`, as `vessels` are ordered
   std::optional<std::int32_t> selected;
@@ -64,6 +65,7 @@ struct TreeScene::Impl {
 
   bool interacting = false;
   bool coarse_is_slow = false;
+  int volume_pictures = 0;  // since it was changed: the first takes longer, as shaders are made for it
   VolumeQuality still_quality = VolumeQuality::coarse;  // while the camera rests
   std::optional<double> volume_ms;                      // of the last picture, at the quality it had
   std::chrono::steady_clock::time_point started;

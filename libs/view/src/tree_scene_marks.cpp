@@ -82,6 +82,33 @@ void TreeScene::set_volume_window(double level_hu, double width_hu) {
   impl_->volume.set_window(level_hu, width_hu);
 }
 
+void TreeScene::set_volume_look(const VolumeLook& look) {
+  if (look == impl_->volume.look()) return;
+  impl_->volume.set_look(look);
+  impl_->start_coarse();  // a hand on a slider does not wait for a fine picture
+}
+
+void TreeScene::set_volume_light(std::shared_ptr<const std::vector<float>> light) {
+  impl_->volume.set_ambient_light(std::move(light));
+  impl_->start_coarse();
+}
+
+bool TreeScene::draws_in_software() const {
+  return impl_->renderer->in_software();
+}
+
+void TreeScene::set_wall_shown(bool shown) {
+  impl_->wall_shown = shown;
+  impl_->wall_actor.set_hidden(!shown);
+  impl_->moving_actor.set_hidden(!shown);
+}
+
+void TreeScene::set_volume_crop(const VolumeCrop& crop) {
+  if (crop == impl_->volume.crop()) return;
+  impl_->volume.set_crop(crop);
+  impl_->start_coarse();
+}
+
 void TreeScene::set_interacting(bool interacting) {
   if (impl_->interacting == interacting) return;
   impl_->interacting = interacting;
@@ -128,8 +155,27 @@ void TreeScene::set_marker_shown(bool shown) {
   impl_->settings.marker_shown = shown;
 }
 
+void TreeScene::set_corner(const figure::Raster& picture, std::string text) {
+  impl_->overlay.corner().show(picture, std::move(text));
+}
+
+std::vector<SceneText> TreeScene::texts() const {
+  std::vector<SceneText> all = impl_->overlay.texts();
+  const std::vector<SceneText>& labels = impl_->mark_actors.texts();
+  all.insert(all.end(), labels.begin(), labels.end());
+  return all;
+}
+
 void TreeScene::set_scale_bar_shown(bool shown) {
   impl_->settings.scale_bar_shown = shown;
+}
+
+void TreeScene::set_angles_shown(bool shown) {
+  impl_->settings.angles_shown = shown;
+}
+
+void TreeScene::set_lasso(std::vector<geometry::Vec2> corners) {
+  impl_->settings.lasso = std::move(corners);
 }
 
 }  // namespace ostia::view

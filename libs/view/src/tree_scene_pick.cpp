@@ -158,7 +158,7 @@ std::optional<std::pair<std::size_t, double>> TreeScene::Impl::first_hit(const V
 
 std::optional<ScenePick> TreeScene::Impl::wall_pick(const Vec3& origin, const Vec3& direction) const {
   constexpr double window_mm = 3.0;
-  if (!wall || guest) return {};
+  if (!wall || guest || !wall_shown) return {};
   const auto hit = first_hit(origin, direction);
   if (!hit) return {};
   const Vec3 point = origin + hit->second * direction;
@@ -199,6 +199,17 @@ SceneRay TreeScene::ray(const Vec2& display) const {
   const Vec2 off = (display - 0.5 * size) * (2.0 * from.half_height_mm / size.y());
   constexpr double far_mm = 1e4;
   return {from.target + off.x() * from.right() + off.y() * from.up + far_mm * from.towards, -from.towards};
+}
+
+VolumeCut TreeScene::cut_along(const std::vector<Vec2>& corners, bool keep_inside) const {
+  const Vec2 size = impl_->size_px();
+  const CameraPose from = pose();
+  const Vec2 middle(from.target.dot(from.right()), from.target.dot(from.up));
+  VolumeCut cut{from.right(), from.up, {}, keep_inside};
+  for (const Vec2& corner : corners)
+    cut.outline_mm.emplace_back(middle + (corner - 0.5 * size) * (2.0 * from.half_height_mm / size.y()));
+  validate(cut);
+  return cut;
 }
 
 std::optional<ScenePick> TreeScene::pick(const Vec2& display) const {

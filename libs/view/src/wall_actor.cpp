@@ -133,7 +133,12 @@ void WallActor::take_corners(vtkIdType kept) {
   cells_->SetData(offsets_, corners_);
   cells_->Modified();
   surface_->Modified();
-  actor_->SetVisibility(kept > 0);
+  actor_->SetVisibility(kept > 0 && !hidden_);
+}
+
+void WallActor::set_hidden(bool hidden) {
+  hidden_ = hidden;
+  actor_->SetVisibility(corners_->GetNumberOfValues() > 0 && !hidden_);
 }
 
 void WallActor::set_colors(std::size_t count, const std::function<figure::Color(std::size_t)>& color_of) {

@@ -43,10 +43,12 @@ class WallActor {
   /// One colour a point.
   void set_colors(std::size_t count, const std::function<figure::Color(std::size_t point)>& color_of);
   void set_opacity(double opacity);
+  void set_hidden(bool hidden);  ///< whatever it holds
   void clear();
 
  private:
   void take_corners(vtkIdType triangles);
+  bool hidden_ = false;
 
   vtkSmartPointer<vtkActor> actor_;
   vtkSmartPointer<vtkPolyData> surface_;

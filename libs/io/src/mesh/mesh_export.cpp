@@ -125,6 +125,11 @@ std::string_view extension_of(MeshFormat format) {
   return entry(format).extension;
 }
 
+bool shares_extension(MeshFormat format) {
+  const std::string_view extension = extension_of(format);
+  return !extension.empty() && std::ranges::count(formats, extension, &Format::extension) > 1;
+}
+
 std::optional<MeshFormat> usual_mesh_format(std::string_view extension) {
   for (const Format& format : formats)
     if (format.usual && format.extension == extension) return format.format;

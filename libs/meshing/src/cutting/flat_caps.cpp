@@ -189,7 +189,8 @@ OpenedCaps without_flat_caps(const geometry::FacedSurface& surface, const FlatCa
   task.throw_if_cancelled();
   LabelledCaps labelled;
   if (!surface.face_ids.empty()) labelled = caps_by_label(look, surface, options);
-  std::vector<Region> caps = labelled.caps.empty() ? caps_by_shape(look, options) : labelled.caps;
+  std::vector<Region> caps = labelled.caps;
+  if (caps.empty() && options.by_shape) caps = caps_by_shape(look, options);
   task.throw_if_cancelled();
   keep_those_apart(look, caps);
   keep_those_with_wall(mesh, caps);

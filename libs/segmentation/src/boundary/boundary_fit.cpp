@@ -48,17 +48,20 @@ void Smoother::expect_bends(const std::vector<double>& x, double usual_bend_mm, 
 
 void Smoother::apply(const std::vector<double>& x, std::vector<double>& y) const {
   for (std::size_t n = 0; n < x.size(); ++n) y[n] = pull * x[n];
+  const auto ring = static_cast<std::size_t>(around);
   for (int r = 0; r < rows; ++r) {
-    for (int a = 0; a < around; ++a) {
-      const double bend = x[at(r, a - 1)] - 2.0 * x[at(r, a)] + x[at(r, a + 1)];
-      y[at(r, a - 1)] += across[r] * bend;
-      y[at(r, a)] -= 2.0 * across[r] * bend;
-      y[at(r, a + 1)] += across[r] * bend;
+    const std::size_t first = static_cast<std::size_t>(r) * ring, last = first + ring - 1;
+    for (std::size_t n = first; n <= last; ++n) {
+      const std::size_t left = n > first ? n - 1 : last, right = n < last ? n + 1 : first;
+      const double bend = x[left] - 2.0 * x[n] + x[right];
+      y[left] += across[r] * bend;
+      y[n] -= 2.0 * across[r] * bend;
+      y[right] += across[r] * bend;
       if (r == 0 || r + 1 == rows) continue;
-      const double bend_s = x[at(r - 1, a)] - 2.0 * x[at(r, a)] + x[at(r + 1, a)];
-      y[at(r - 1, a)] += along[r] * bend_s;
-      y[at(r, a)] -= 2.0 * along[r] * bend_s;
-      y[at(r + 1, a)] += along[r] * bend_s;
+      const double bend_s = x[n - ring] - 2.0 * x[n] + x[n + ring];
+      y[n - ring] += along[r] * bend_s;
+      y[n] -= 2.0 * along[r] * bend_s;
+      y[n + ring] += along[r] * bend_s;
     }
   }
 }

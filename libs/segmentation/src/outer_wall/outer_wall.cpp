@@ -105,8 +105,8 @@ BoundaryFit fitted(const WallScene& scene, const WallStart& start, const WallPro
         const std::size_t n = r * fan.around + a;
         const WallRay ray{fan.ray(static_cast<int>(r), a), fan.count, scene.lumen_mm[n], scene.lumen_hu[r],
                           scene.fat_hu[r]};
-        energy[n] = profile.energy(ray, fit.radius_mm[n]);
-        if (!start.seen[n]) std::fill(energy[n].value.begin(), energy[n].value.end(), 0.0);
+        energy[n] =
+            start.seen[n] ? profile.energy(ray, fit.radius_mm[n]) : profile.no_energy(ray, fit.radius_mm[n]);
       }
     });
     fit = fit_boundary(energy, grid, fan.rows, fan.around, fit.radius_mm, how, task);

@@ -4,6 +4,7 @@
 
 #include "boundary/boundary_fit.h"
 #include "boundary/star_surface.h"
+#include "outer_wall/wall_loops.h"
 
 #include <array>
 #include <cstddef>
@@ -17,6 +18,10 @@ class BlurredDiscs {
   BlurredDiscs(double largest_radius_mm, double reach_mm, double step_mm, double sigma_mm);
   /// Share of a disc of radius R in sample i of a ray from its centre; the last sample's beyond the table.
   double at(double radius_mm, int sample) const;
+  int samples() const { return samples_; }
+  int radii() const { return radii_; }
+  double share(int radius, int sample) const;  ///< of the table, the last sample's beyond it
+  double place(double radius_mm) const;        ///< in the table, of its radii
 
  private:
   int samples_ = 0, radii_ = 0;
@@ -44,15 +49,16 @@ struct WallRay {
 /// place are integrated out. One hypothesis knows of no border, so that rays which show none are flat.
 class WallProfile {
  public:
-  static constexpr int samples = 11, most_directions = 8;
+  static constexpr int samples = detail::wall_samples;
 
   explicit WallProfile(const WallProfileOptions& options);
   /// Of the candidates within 0.5 mm of a radius (coarser blur: more).
   RayEnergy energy(const WallRay& ray, double about_mm) const;
+  /// The same candidates of a ray that says nothing.
+  RayEnergy no_energy(const WallRay& ray, double about_mm) const;
 
  private:
   using Samples = std::array<double, samples>;
-  using Directions = std::array<Samples, most_directions>;
   /// A part of the wall between lumen (0) and outer border (1).
   struct Layer {
     double from = 0.0, to = 1.0;
@@ -61,21 +67,25 @@ class WallProfile {
   struct Hypothesis {
     double prior = 1.0;
     bool healthy = false;   ///< as thick as a healthy wall
-    double fat_mm = 0.0;    ///< of the fat beyond, before something else; 0: as far as is looked at
     double least_mm = 0.0;  ///< thinner is not thought of
-    std::vector<Layer> layers;
+    detail::WallMixture mixture;
+    int fat = 0;            ///< the direction whose level is the fat's
+    double first_hu = 0.0;  ///< of the layer next to the lumen
   };
-  struct Window;  ///< what does not depend on the candidate
-  double hypothesis_energy(const Hypothesis& hypothesis, const Window& window, double outer_mm) const;
-  /// Of what the mean leaves over, deviations along `count` directions (whitened here) being normal.
-  double marginal_energy(const Samples& residual, Directions& direction, int count) const;
+  void add_hypothesis(double prior, bool healthy, double least_mm, const std::vector<Layer>& layers,
+                      bool something_beyond);
+  int start_of(double about_mm) const;
   Samples whitened(const Samples& values) const;
-  double anything_energy(const WallRay& ray, int start) const;
+  /// A blurred disc's whitened samples from `start` on.
+  Samples white_disc(double radius_mm, int start) const;
+  void fill(const WallRay& ray, int start, int first, int count, detail::WallSamples& out) const;
+  double anything_square(const WallRay& ray, int start) const;
 
   WallProfileOptions options_;
   BlurredDiscs discs_;
   std::array<std::array<double, samples>, samples> whitening_{}, anything_{};
-  double anything_offset_ = 0.0;  // logarithms of determinants against the noise's own
+  double anything_weight_ = 0.0;  // of the hypothesis that knows of no border
+  std::vector<Samples> white_;    // [start][radius of discs_]
   std::vector<Hypothesis> hypotheses_;
 };
 

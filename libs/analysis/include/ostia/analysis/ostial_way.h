@@ -30,11 +30,16 @@ struct Ostium {
 /// `surface_of` is asked from the calling thread. Throws InvalidInput.
 Ostium ostium_of(const lumen::LumenModel& model, const SurfaceOfVessel& surface_of, std::int32_t vessel);
 
-/// The options for a vessel's reference line, with joint and ostium.
-ReferenceOptions reading_from_ostium(const Ostium& ostium, ReferenceOptions options = {});
+/// Of every vessel on its way that leaves another one, from the aorta on, the vessel's own last; none for a
+/// vessel that begins at a root. As ostium_of.
+std::vector<Ostium> ostia_of(const lumen::LumenModel& model, const SurfaceOfVessel& surface_of,
+                             std::int32_t vessel);
 
-/// The profile without a jump at the joint: diameters and areas between joint and ostium lead from the
-/// parent's to the vessel's own, as the lumen's border does. For curves; volumes and lesions are of the
+/// The options for a vessel's reference line, with every joint and ostium on its way.
+ReferenceOptions reading_from_ostium(const std::vector<Ostium>& ostia, ReferenceOptions options = {});
+
+/// The profile without a jump at any joint: diameters and areas between joint and ostium lead from the
+/// parent's to the next vessel's own, as the lumen's border does. For curves; volumes and lesions are of the
 /// profile itself. The same where there is no joint, or nothing measured on either side.
 LumenProfile read_through(const LumenProfile& profile, const ReferenceLine& reference);
 

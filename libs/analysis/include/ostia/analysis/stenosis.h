@@ -9,19 +9,24 @@
 
 namespace ostia::analysis {
 
+/// Where a vessel's way leaves one vessel for the next (Ostium in ostial_way.h), abscissas of the way.
+struct WayJoint {
+  double joint_mm = 0.0;   ///< where the axes part
+  double ostium_mm = 0.0;  ///< where the way leaves the former vessel's lumen; before `joint_mm`: there
+};
 /// The calibre that the vessel would have without disease, one value a section of the profile.
 struct ReferenceLine {
   std::vector<double> diameter_mm;
-  /// Where the vessel leaves its parent (Ostium in ostial_way.h). Between the two the line leads from the
-  /// parent's to the vessel's own, and no lesion is looked for. Both 0: one vessel.
-  double joint_mm = 0.0, ostium_mm = 0.0;
+  /// From proximal to distal. Between joint and ostium the line leads from the parent's to the next vessel's
+  /// own, and no lesion is looked for. Those whose lumina meet are one. None: one vessel.
+  std::vector<WayJoint> joints = {};
 };
 struct ReferenceOptions {
   double window_mm = 20.0;  ///< length over which the healthy calibre is followed, [5, 100]
-  /// Where the vessel leaves its parent (lumen::own_from_mm): what lies before is the parent's, and the two
-  /// have lines of their own, since a side branch may be half as wide. Outside the vessel: one line.
-  double own_from_mm = 0.0;
-  double ostium_mm = 0.0;  ///< where it leaves its parent's lumen; before own_from_mm: there
+  /// Where its way leaves one vessel for the next: each has a line of its own, since a side branch may be
+  /// half as wide. In any order; those outside the vessel, and those that would leave fewer than two sections
+  /// to a line, do not count.
+  std::vector<WayJoint> joints = {};
 };
 /// A robust line through the healthy parts of the profile (docs/methods/analysis.md): penalised least squares
 /// (Eilers 2003), reweighted so that neither narrowings nor ectasias have a say. It never rises, and may step
@@ -59,7 +64,7 @@ struct StenosisOptions {
 /// All narrowings against the reference line, from proximal to distal; 100 % where the lumen is shut. A
 /// section whose wall is open says nothing. The way that a side branch shares with its parent is searched,
 /// too: what lies before VesselLumen::own_from_mm is the parent's. A lesion, and its places of reference, are
-/// on one side of the ostium. Throws InvalidInput for bad options or a
+/// on one side of each ostium. Throws InvalidInput for bad options or a
 /// line of another profile.
 std::vector<Stenosis> find_stenoses(const LumenProfile& profile, const ReferenceLine& reference,
                                     const StenosisOptions& options = {});

@@ -22,6 +22,7 @@ struct SmoothnessOptions {
   double relaxation = 0.1;  ///< of the smoothing, in (0, 1]
   std::size_t vtk_at = 6;   ///< the orientation whose isosurface VTK decimates and smooths: the paper's M7
   double clear_mm = 6.0;    ///< what is nearer to a joint or a free end is not of the tubes alone; > 0
+  double sample_mm = 0.2;   ///< distances are taken at points at least so dense; > 0
 };
 void validate(const SmoothnessOptions& options);  ///< throws InvalidInput
 

@@ -18,11 +18,20 @@ std::string base64(std::string_view bytes);
 
 enum class Notice { good, warning, bad, note };
 
+/// What a document says by itself, in its language.
+struct DocumentWords {
+  std::string language = "en";  ///< as HTML names it
+  std::string contents = "Contents", table = "Table", figure = "Figure";
+  std::string page = "Page %1 of %2";
+  std::string passed = "Passed", warning = "Warning", failed = "Failed", note = "Note";
+  const std::string& heading(Notice kind) const;
+};
+
 /// Collects the parts in order; `html` puts them together. All text given is plain text and is escaped; what
 /// core::redact_in_logs has registered is replaced. Follows the reader's light or dark setting; prints well.
 class HtmlReport {
  public:
-  explicit HtmlReport(std::string title, std::string subtitle = {});
+  explicit HtmlReport(std::string title, std::string subtitle = {}, DocumentWords words = {});
 
   void section(const std::string& heading);  ///< listed in the contents when there are three or more
   void subsection(const std::string& heading);
@@ -41,6 +50,7 @@ class HtmlReport {
 
  private:
   std::string title_, subtitle_, body_;
+  DocumentWords words_;
   std::vector<std::pair<std::string, std::string>> contents_;  // anchor and heading
   int pictures_ = 0, tables_ = 0;
 };

@@ -15,6 +15,7 @@ namespace ostia::figure {
 
 struct PdfOptions {
   std::string footer{};  ///< at the foot of every page, left of the page's number; one line, cut where longer
+  DocumentWords words{};
 };
 
 /// Collects the parts in order as HtmlReport does, and sets them on pages. All text given is plain text; what

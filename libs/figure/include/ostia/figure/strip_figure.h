@@ -26,9 +26,10 @@ struct StripMark {
 
 struct StripFigureOptions {
   std::string title{};
-  double pixel_mm = 0.25;  ///< of the views, both ways
-  double first_mm = 0.0;   ///< abscissa of the first row's outer edge
-  double px_per_mm = 4.0;  ///< of the picture, both ways, [0.5, 50]
+  std::string along = "mm along the vessel";  ///< at the ruler
+  double pixel_mm = 0.25;                     ///< of the views, both ways
+  double first_mm = 0.0;                      ///< abscissa of the first row's outer edge
+  double px_per_mm = 4.0;                     ///< of the picture, both ways, [0.5, 50]
   double level_hu = 250.0, window_hu = 900.0;
   Color contour = colors::contour;
   Look look = Look::light;

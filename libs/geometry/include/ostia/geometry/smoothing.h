@@ -4,6 +4,8 @@
 #include "ostia/core/task_context.h"
 #include "ostia/geometry/tri_mesh.h"
 
+#include <vector>
+
 namespace ostia::geometry {
 
 struct TaubinOptions {
@@ -19,5 +21,21 @@ void validate(const TaubinOptions& options);
 /// Connectivity is kept. Throws InvalidInput for points that are not finite, Cancelled within one iteration.
 TriMesh taubin_smoothed(const TriMesh& mesh, const TaubinOptions& options = {},
                         const core::TaskContext& task = core::no_task());
+
+struct VolumeSmoothingOptions {
+  TaubinOptions filter;
+  std::vector<bool> free;     ///< one a point: which may move; empty: all
+  bool borders_move = false;  ///< points of a border follow their neighbours on it; else they stay
+  int restoring_rounds = 3;   ///< >= 0
+  int mean_rings = 10;        ///< over so many rings of points a distance is averaged, > 0
+};
+void validate(const VolumeSmoothingOptions& options);
+
+/// Taubin's filter, and then each inner point moves along its normal by what the filter has moved its
+/// surroundings in the mean: a vessel of few triangles around, which the filter alone makes thinner or wider,
+/// keeps its calibre, and the surface its volume. Throws as taubin_smoothed, and InvalidInput where `free`
+/// has another length.
+TriMesh smoothed_in_volume(const TriMesh& mesh, const VolumeSmoothingOptions& options = {},
+                           const core::TaskContext& task = core::no_task());
 
 }  // namespace ostia::geometry

@@ -1,25 +1,19 @@
 #pragma once
 /// \file Cameras that are told as a C-arm's angles. See docs/reference/live.md.
 
-#include "ostia/geometry/carm_angles.h"
+#include "ostia/geometry/carm_words.h"
 
 #include <Eigen/Core>
 
-#include <string>
-#include <string_view>
 #include <vector>
 
 namespace ostia::glview {
 
+using geometry::carm_angles;
 using geometry::CarmAngles;
+using geometry::text_of;
 using geometry::Vec2;
 using geometry::Vec3;
-
-/// "LAO30CRA20", "RAO 30 CAU 25", "AP", "LAT" (LAO 90), in any case. Throws UsageError that says what can be
-/// written; angles are to be within 180 and 90 degrees.
-CarmAngles carm_angles(std::string_view text);
-/// "LAO 30 CRA 20", "AP", whole degrees.
-std::string text_of(const CarmAngles& angles);
 
 enum class Projection {
   lit,    ///< seen from the receptor's side, in perspective

@@ -26,6 +26,7 @@ struct DicomSeries {
   std::string phase;  ///< "cardiac phase 40 %" where a series had to be split by it
   /// Another number for another patient, not saying whom; 0: not known. Good within one process.
   std::uint64_t patient_number = 0;
+  std::uint64_t study_number = 0;  ///< the same for studies (StudyInstanceUID)
   std::optional<double>
       cardiac_percent;  ///< NominalPercentageOfCardiacPhase, where all slices have one value
   std::vector<std::filesystem::path> files;  ///< one a slice, by position along the normal

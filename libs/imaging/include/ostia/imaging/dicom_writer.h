@@ -19,6 +19,9 @@ struct DicomSeriesOptions {
   /// The UIDs are drawn from its SHA-256 (2.25.<number>): the same text, the same UIDs. Empty: from the
   /// image.
   std::string uid_seed;
+  /// From this text the UIDs of study and frame of reference are drawn, so that several series (phases of one
+  /// beat) are of one study. Empty: from `uid_seed`.
+  std::string study_seed{};
   std::optional<double> cardiac_phase_percent;
 };
 

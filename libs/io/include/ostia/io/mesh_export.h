@@ -40,6 +40,8 @@ MeshFormat mesh_format(std::string_view name);
 std::string_view title_of(MeshFormat format);
 /// The usual extension with its point (`.vtu`); empty for a format that is a folder.
 std::string_view extension_of(MeshFormat format);
+/// Whether files of other formats have it, too.
+bool shares_extension(MeshFormat format);
 /// What a file of this extension (with its point) is written as where no format is named, or a folder for an
 /// empty one; nothing where it is no format's.
 std::optional<MeshFormat> usual_mesh_format(std::string_view extension);

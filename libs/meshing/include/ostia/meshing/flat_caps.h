@@ -17,6 +17,7 @@ struct FlatCapOptions {
   double flat_tolerance = 0.05;   ///< deviation from the cap's plane over its radius, (0, 0.5]
   double least_rim_deg = 50.0;    ///< between cap and wall, in the mean along the rim, [10, 90]
   double least_roundness = 0.45;  ///< 4 pi area / rim length squared: 1 for a circle, (0, 1]
+  bool by_shape = true;           ///< where labels say nothing, too
 };
 void validate(const FlatCapOptions& options);
 
@@ -49,6 +50,18 @@ struct OpenedCaps {
 /// (options; as many face ids as triangles, or none), Cancelled.
 OpenedCaps without_flat_caps(const geometry::FacedSurface& surface, const FlatCapOptions& options = {},
                              const core::TaskContext& task = core::no_task());
+
+/// A lumen and the outside of its wall, apart.
+struct OpenedRings {
+  geometry::TriMesh walls;     ///< the surface without the rings
+  std::vector<GivenEnd> ends;  ///< the lumen's: one a ring, its inner rim
+};
+
+/// Takes off flat rings with two sharp rims, by which a thick wall made by a CAD program joins the lumen to
+/// its outside at each end; an end is called as the ring's label. The surface must be closed, manifold and
+/// outward. Options and throws as without_flat_caps.
+OpenedRings without_flat_rings(const geometry::FacedSurface& surface, const FlatCapOptions& options = {},
+                               const core::TaskContext& task = core::no_task());
 
 /// The open loop of a surface as an end: mean plane and outward normal of its border, which is given in the
 /// order of geometry::boundary_loops.

@@ -63,7 +63,4 @@ std::optional<LumenAxes> with_side_branches(const geometry::TriMesh& lumen, cons
 /// The triangles' parts, each as a mesh of its own, in the order of geometry::components.
 std::vector<geometry::TriMesh> parts_of(const geometry::TriMesh& mesh);
 
-/// Adds a tree with its own ids, which become others where they are taken; names stay.
-void append_tree(geometry::VesselTree& tree, geometry::VesselTree other);
-
 }  // namespace ostia::pipeline

@@ -35,6 +35,7 @@ struct Repaired {
   geometry::TriMesh mesh;
   std::vector<RepairStep> steps;  ///< in the order of work; empty when nothing was wrong
   std::vector<std::string> done;  ///< the steps' texts
+  std::string rough;              ///< of a wall that was smoothed all over: how far; empty: it was not
   std::string left;               ///< faults that remain, "none" when there are none; open ends are no fault
   bool meshable = true;           ///< none of those that remain keeps it from being meshed
 };
@@ -42,9 +43,10 @@ struct Repaired {
 /// Drops triangles with points that are not finite, degenerate and duplicate ones; joins equal points; takes
 /// the surface apart where sheets only touch, at points and along edges; drops flaps on edges where three
 /// sheets join, and parts that are not to stay; turns triangles the same way and each part outward; pulls
-/// single points in that stand far out of the surface or stab through it; cuts self-intersecting places out,
-/// with the triangles around them, and closes the holes that this leaves; closes small holes where asked to.
-/// Open ends stay open. Throws InvalidInput (options), GeometryError when nothing is left, Cancelled.
+/// single points in that stand far out of the surface or stab through it; smooths places that cross
+/// themselves because they are rough, in their volume; cuts other self-intersecting places out, with the
+/// triangles around them, and closes the holes that this leaves; closes small holes where asked to. Open ends
+/// stay open. Throws InvalidInput (options), GeometryError when nothing is left, Cancelled.
 Repaired repaired(const geometry::TriMesh& mesh, const RepairOptions& options,
                   const core::TaskContext& task = core::no_task());
 Repaired repaired(const geometry::TriMesh& mesh, const core::TaskContext& task = core::no_task());

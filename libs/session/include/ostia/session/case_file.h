@@ -40,6 +40,8 @@ struct JournalEntry {
   bool dropped = false;  ///< undone, and another command came after it: it cannot be redone
   StepKind kind = StepKind::edit;
   std::vector<std::string> notes;
+  std::int64_t time_s = 0;  ///< when it was done, seconds since 1970 (UTC); 0: an older program has not said
+  std::string author{};     ///< who did it, in the words of CaseFile::set_author; empty: not said
 };
 
 /// What steps taken back or brought again changed.
@@ -84,6 +86,10 @@ class CaseFile {
   ~CaseFile();
   CaseFile(CaseFile&&) noexcept;
   CaseFile& operator=(CaseFile&&) noexcept;
+
+  /// Who does the steps from here on; nobody before, and the system's account is never asked. Kept with each
+  /// step in the case, and in no export. Throws InvalidInput for more than 200 bytes or an end of a line.
+  void set_author(const std::string& name);
 
   bool editable() const;  ///< false where it was opened for reading only
 

@@ -24,6 +24,12 @@
 
 namespace ostia::session {
 
+/// Of what a person reads: report.html, report.pdf and the key images. Files for scripts, and the report's
+/// own texts, are English.
+enum class ReportLanguage { english, german };
+ReportLanguage report_language(const std::string& code);  ///< "en", "de"; throws InvalidInput
+std::string to_string(ReportLanguage language);           ///< its code
+
 struct ReportOptions {
   std::optional<ImageReference> image;  ///< how the case knows its image; none: the report says so
   std::string date;                     ///< of the report, as it is to stand there; empty: none
@@ -40,6 +46,7 @@ struct ReportOptions {
   double picture_percent = 25.0;  ///< a vessel with a stenosis from here on has a key image, [0, 100]
   double theta_deg = 0.0;         ///< of the first reformation; the second is at + 90
   double level_hu = 250.0, window_hu = 900.0;
+  ReportLanguage language = ReportLanguage::english;
 };
 void validate(const ReportOptions& options);  ///< throws InvalidInput
 
@@ -120,6 +127,9 @@ struct ReportStep {
   std::string vessel;     ///< its name now
   std::vector<std::string> notes;
 };
+
+/// The vessel that a step was about; nothing where it was about none, such as a measurement of points.
+std::optional<std::int32_t> vessel_of_step(const JournalEntry& step);
 
 /// Plain data. No path, and nothing of the patient's identity but what a person wrote into names and notes.
 struct CaseReport {

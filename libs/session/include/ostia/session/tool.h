@@ -1,7 +1,7 @@
 #pragma once
 /// \file What the mouse's main button does in a view, and what is told of it.
 
-#include "ostia/analysis/measurement.h"
+#include "ostia/analysis/measurement_kinds.h"
 
 #include <array>
 #include <optional>

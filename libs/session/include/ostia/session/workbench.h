@@ -41,6 +41,14 @@ struct OpenImage {
   ImageReference reference;
 };
 
+/// Another image of the same study: a phase of the heart or a reconstruction.
+struct OtherImage {
+  std::shared_ptr<const imaging::ImageVolume> volume;
+  std::string name{};     ///< "45 %", "series 3": nothing of the patient
+  std::string caption{};  ///< what views say of it: "image 45 %, axes of 75 %"
+  bool warns = false;     ///< axes and walls are not those of the image
+};
+
 /// What a change of the model means for views.
 struct ModelEvent {
   lumen::LiveChange change;
@@ -113,14 +121,21 @@ class Workbench {
   void show_phase(std::shared_ptr<const ShownPhase> phase, std::shared_ptr<const PhaseImage> image = {});
   /// Null where the case's own phase is shown.
   const ShownPhase* other_phase() const { return phase_.get(); }
-  /// What views show: the phase's image where there is one, else the case's; null without any.
+  /// Another image of the study in all views, along the same axes, in the place of the case's own or the one
+  /// on the table; null: that one again. Gone with it and with the case. While it is shown, commands that
+  /// change the case are refused as at another phase, since they are those of its own image. Throws
+  /// InvalidInput without a volume or with nothing on the table, and where the two images do not overlap.
+  void show_other_image(std::shared_ptr<const OtherImage> image);
+  const OtherImage* other_image() const { return other_image_.get(); }
+  /// What views show: the phase's image where there is one, else another of the study, else the case's; null
+  /// without any.
   const imaging::ImageVolume* shown_volume() const;
   /// The phase that `shown_volume` is of: the case's own where there is no other.
   double image_phase() const;  ///< only with other_phase()
   /// Abscissas on the selected vessel as it is shown, for those at the case's own phase, and back.
   double here_mm(double own_mm) const;
   double own_mm(double here_mm) const;
-  /// Throws InvalidInput while another phase is shown, and tells it before.
+  /// Throws InvalidInput while another phase or another image is shown, and tells it before.
   void require_own_phase() const;
 
   // -- commands: each is in the case file when it returns
@@ -163,8 +178,9 @@ class Workbench {
   mutable Signal<> stenoses_changed;  ///< of any vessel
   Signal<> steps_changed;             ///< the journal has another line
   Signal<> phase_changed;             ///< another phase of the heart is shown, or with another image
-  mutable Signal<> phase_refused;     ///< a command was refused because of the phase that is shown
-  Signal<const std::string&> noted;   ///< what the person should know of an edit
+  Signal<> other_image_changed;
+  mutable Signal<> phase_refused;    ///< a command was refused because of the phase or image that is shown
+  Signal<const std::string&> noted;  ///< what the person should know of an edit
 
  private:
   struct Measured;
@@ -172,10 +188,12 @@ class Workbench {
   void cursor_to_vessel();
   void cursor_to_place();
   void leave_phase();
+  void leave_other_image();
   OpenImage image_;
   std::unique_ptr<Session> session_;
   std::shared_ptr<const ShownPhase> phase_;
   std::shared_ptr<const PhaseImage> phase_image_;
+  std::shared_ptr<const OtherImage> other_image_;
   bool place_stays_ = false;
   mutable std::map<std::int32_t, std::unique_ptr<Measured>> measured_;
   std::vector<Subscription> own_;

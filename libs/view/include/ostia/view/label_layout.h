@@ -19,12 +19,20 @@ struct LabelRect {
   }
 };
 
+/// A straight piece of what is drawn, px.
+struct LabelLine {
+  Vec2 from = Vec2::Zero(), to = Vec2::Zero();
+  /// Whether it runs through the rectangle, or by it within `margin`.
+  bool crosses(const LabelRect& rect, double margin = 0.0) const;
+};
+
 struct LabelWish {
   Vec2 anchor = Vec2::Zero();  ///< what it is of
   Vec2 size = Vec2::Zero();
   /// `low` less `anchor` of the picture before: it stays there where it may, so that labels do not jump while
   /// anchors move.
   std::optional<Vec2> before = {};
+  std::vector<LabelLine> lines = {};  ///< that it labels: it never covers them where there is other room
 };
 
 struct PlacedLabel {
@@ -41,8 +49,8 @@ struct LabelRoom {
 };
 
 /// One for each wish, in their order: earlier ones choose first. Right above the anchor, or as near as there
-/// is room: within the view, over no other label and nothing taken, over no other anchor where that can be.
-/// The same for the same input.
+/// is room: within the view, over no other label and nothing taken; over none of its own lines and no other
+/// anchor where that can be, over no line of another where that costs no way. The same for the same input.
 std::vector<PlacedLabel> place_labels(const std::vector<LabelWish>& wishes, const LabelRoom& room);
 
 }  // namespace ostia::view

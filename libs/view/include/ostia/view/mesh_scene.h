@@ -11,7 +11,14 @@
 
 namespace ostia::view {
 
-/// Elements are flat and have their edges drawn.
+/// When the elements' edges are drawn. Of a whole tree there are more than pixels: it would be black.
+enum class ShownEdges {
+  never,
+  near,  ///< while the middle one of those that are seen is least_edge_px long, or longer
+  always,
+};
+
+/// Elements are flat; their edges are drawn where they are near.
 class MeshScene final : public SceneGuest {
  public:
   /// In one colour and whole. Throws InvalidInput for null.
@@ -21,7 +28,9 @@ class MeshScene final : public SceneGuest {
   /// is none.
   void set_values(std::shared_ptr<const std::vector<double>> values, const ValueScale& scale);
   void set_cut(const std::optional<MeshCut>& cut);  ///< throws as shell_of does
-  void set_edges_shown(bool shown);
+  static constexpr double least_edge_px = 9.0;
+  void set_edges(ShownEdges edges);
+  bool edges_drawn() const;  ///< in the last picture
   /// Edges of elements, seen through all else. Throws InvalidInput for an element that is not there.
   void set_highlight(std::span<const std::size_t> elements);
   /// What the hand takes hold of: polylines, mm, seen through all else.
@@ -32,8 +41,10 @@ class MeshScene final : public SceneGuest {
   vtkSmartPointer<vtkProp> twin() const override;
   std::vector<geometry::Vec3> outline() const override;
   std::optional<ValueScale> bar() const override;
+  void seen_at(double mm_per_px) override;
 
  private:
+  void show_edges();
   void show_shell();
   void color();
   struct Impl;

@@ -49,6 +49,8 @@ enum class Role {
   axial_plane,  ///< one of three linked planes, where another view shows it
   coronal_plane,
   sagittal_plane,
+  shear,  ///< of a solver's result along the vessel
+  pressure,
   limited,  ///< stretches that can be judged in part, and not at all
   not_evaluable,
 };
@@ -59,6 +61,7 @@ struct OverlayLine {
   double opacity = 1.0;
   bool dashed = false;
   std::optional<figure::Color> color = {};  ///< a vessel's, instead of the role's; the same below
+  std::optional<std::int32_t> of = {};      ///< of a measurement (its id): its label keeps off the line
 };
 struct OverlayMark {
   Vec2 px = Vec2::Zero();
@@ -77,6 +80,8 @@ struct OverlayText {
   Anchor anchor = Anchor::top_left;
   /// Of a measurement (its id): stands beside `px` where place_labels puts it, whatever `anchor` is.
   std::optional<std::int32_t> label_of = {};
+  bool stays =
+      false;  ///< beside something drawn (a tick, a legend's square): it makes room for no other text
 };
 /// A filled band (a lesion along the profile).
 struct OverlayBand {

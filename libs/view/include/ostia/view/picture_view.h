@@ -49,6 +49,11 @@ class PictureView {
   const Overlay& overlay();
   /// What image() and overlay() would have to make first, and takes the time: image and contour lines.
   void prepare();
+  /// Whoever shows pictures that move may have coarse ones of a thick slab at first, and asks for the real
+  /// one when they rest.
+  void allow_drafts() { drafts_allowed_ = true; }
+  bool is_draft() const { return draft_; }  ///< image() is a coarse one
+  void refine();                            ///< the next image() is not
   /// Something fades away: ask for the overlay again soon.
   bool animating() const { return !fading_.empty(); }
 
@@ -102,6 +107,8 @@ class PictureView {
   void contours_stale();          ///< the wall is another
   void overlay_stale();
   virtual GreyImage make_image() = 0;
+  bool wants_draft() const { return drafts_allowed_ && !refining_; }
+  void mark_draft() { draft_ = true; }  ///< what make_image makes is one
   /// The picture's coordinates for contour lines differ from the view's by this (a picture wider than the
   /// view).
   virtual Vec2 contour_offset() const { return Vec2::Zero(); }
@@ -143,6 +150,7 @@ class PictureView {
   std::uint64_t image_revision_ = 0, placement_revision_ = 0;
   std::array<Layer, 4> layers_;  // by LayerPlace
   bool image_fresh_ = false, overlay_fresh_ = false;
+  bool drafts_allowed_ = false, draft_ = false, refining_ = false;
   enum class Lines { fresh, moved, anew } lines_state_ = Lines::anew;
   geometry::Box3 lines_changed_;
   std::unique_ptr<lumen::ViewContours> contours_;

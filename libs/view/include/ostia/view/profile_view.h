@@ -1,10 +1,13 @@
 #pragma once
 /// \file The lumen's size along the selected vessel as a plot.
 
+#include "ostia/analysis/wall_flow.h"
 #include "ostia/session/workbench.h"
 #include "ostia/view/handle_hit.h"
 #include "ostia/view/overlay.h"
 
+#include <functional>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -16,8 +19,11 @@ class OuterWallBoard;
 
 namespace ostia::view {
 
+struct ProfileFlow;
+
 /// Diameter and area along the vessel, the reference line, lesions and the cursor; the outer wall's diameter
-/// while it or the plaque is shown. Abscissa runs to the right.
+/// while it or the plaque is shown. Beside them a solver's result, whose axes then take that of the area.
+/// Abscissa runs to the right.
 class ProfileView {
  public:
   explicit ProfileView(session::Workbench& bench);
@@ -25,6 +31,7 @@ class ProfileView {
   void set_walls(session::OuterWallBoard* board);
   /// Where stretches come from that are less than evaluable; the same holds.
   void set_evaluability(session::EvaluabilityBoard* board);
+  void set_flow(std::shared_ptr<const ProfileFlow> flow);  ///< null: none
   void set_size(int width, int height, double density);
   const Overlay& overlay();
   session::Signal<> stale;
@@ -52,6 +59,7 @@ class ProfileView {
   std::pair<Vec2, Vec2> end_line(double s_mm) const;
   std::vector<std::pair<double, double>> outer_wall() const;  ///< (s, diameter), where it is shown
   void add_text(const Vec2& px, const std::string& what, Role role, Anchor anchor);
+  void add_tick(const Vec2& px, const std::string& what, Role role, Anchor anchor);  ///< beside its line
   void add_rows(const Frame& frame, double most, bool left, Role role);
   void add_axes(const Frame& frame);
   void add_stenoses(const Frame& frame);
@@ -64,6 +72,15 @@ class ProfileView {
   void add_curves(const Frame& frame, const analysis::LumenProfile& profile);
   void add_outer_wall(const Frame& frame);
   void add_titles(const Frame& frame);
+  // Of what flows (profile_flow.cpp).
+  std::vector<analysis::FlowStation> flow_along() const;  ///< of the selected vessel's way; none: not shown
+  bool area_drawn() const { return area_shown.get() && !(flow_room_px() > 0.0); }
+  double flow_room_px() const;  ///< of its axes, in units of the interface
+  void add_flow_line(const Frame& frame, const std::vector<analysis::FlowStation>& along, Role role,
+                     const std::function<double(const analysis::FlowStation&)>& share);
+  void add_shear(const Frame& frame, const std::vector<analysis::FlowStation>& along, double cursor_mm);
+  void add_pressure(const Frame& frame, const std::vector<analysis::FlowStation>& along, double cursor_mm);
+  void add_flow(const Frame& frame);
   void touch();
   session::Workbench& bench_;
   int width_ = 0, height_ = 0;
@@ -72,6 +89,7 @@ class ProfileView {
   Overlay overlay_;
   session::OuterWallBoard* walls_ = nullptr;
   session::EvaluabilityBoard* evaluability_ = nullptr;
+  std::shared_ptr<const ProfileFlow> flow_;
   std::vector<session::Subscription> own_, walls_changes_, evaluability_changes_;
 };
 

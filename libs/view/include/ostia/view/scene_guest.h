@@ -27,6 +27,8 @@ class SceneGuest {
   virtual std::vector<geometry::Vec3> outline() const = 0;
   /// What the bar beside the picture says; nothing: no bar.
   virtual std::optional<ValueScale> bar() const = 0;
+  /// Before each picture: how large it will be seen.
+  virtual void seen_at(double mm_per_px) { static_cast<void>(mm_per_px); }
 };
 
 /// A ray from the eye into the scene.

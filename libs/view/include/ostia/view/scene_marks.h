@@ -4,6 +4,7 @@
 #include "ostia/geometry/frame.h"
 #include "ostia/geometry/vec.h"
 #include "ostia/reformat/plane.h"
+#include "ostia/view/label_layout.h"
 
 #include <cstdint>
 #include <optional>
@@ -48,6 +49,13 @@ struct SceneMeasurement {
   bool dots = true;
   std::optional<Vec3> label_at{};  ///< nothing: whichever point is to the right
 };
+/// A text of the picture as it was laid out last; px, y runs down.
+struct SceneText {
+  std::string text;
+  LabelRect rect;
+  std::vector<LabelLine> lines = {};  ///< of what it labels
+};
+
 /// The lines that are drawn of it.
 std::vector<SceneCurve> curves_of(const SceneMeasurement& measurement);
 

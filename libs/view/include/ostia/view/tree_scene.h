@@ -99,7 +99,9 @@ class TreeScene {
   /// One vessel in full colour and the others dimmed, or all alike.
   void select_vessel(std::optional<std::int32_t> vessel);
   void set_opacity(double opacity);  ///< of the wall, [0.05, 1]; throws InvalidInput
-  void set_axes_shown(bool shown);   ///< thin lines over the wall
+  /// Not shown: the arteries are those of the CT behind it; the wall is not picked then, but still framed.
+  void set_wall_shown(bool shown);
+  void set_axes_shown(bool shown);  ///< thin lines over the wall
 
   // Marks ---------------------------------------------------------------------------------------------------
 
@@ -115,7 +117,14 @@ class TreeScene {
   /// As `reduced_volume` makes it; null takes it away. Throws as VolumeScene::set_image does.
   void set_volume(std::shared_ptr<const imaging::ImageVolume> image);
   void set_volume_mode(VolumeMode mode);
-  void set_volume_window(double level_hu, double width_hu);
+  void set_volume_window(double level_hu, double width_hu);  ///< of the MIP
+  void set_volume_look(const VolumeLook& look);              ///< of the rendering; throws InvalidInput
+  /// As VolumeScene::set_ambient_light; for machines that do not draw in software.
+  void set_volume_light(std::shared_ptr<const std::vector<float>> light);
+  /// Pictures are drawn by the processor (llvmpipe and the like) and not by a graphics card; known once one
+  /// has been drawn, until then true.
+  bool draws_in_software() const;
+  void set_volume_crop(const VolumeCrop& crop);  ///< throws InvalidInput
   /// While the camera moves the volume is drawn coarsely, or not at all where a coarse picture takes longer
   /// than 80 ms. Each picture is timed.
   void set_interacting(bool interacting);
@@ -148,6 +157,9 @@ class TreeScene {
   /// not render. Throws InvalidInput where the scene is in no window.
   std::optional<ScenePick> pick(const geometry::Vec2& display) const;
   geometry::Vec2 project(const Vec3& world) const;  ///< display coordinates; throws InvalidInput as above
+  /// A closed line over the picture, display coordinates, as a cut through the volume. Throws InvalidInput
+  /// for fewer than three corners, and as above.
+  VolumeCut cut_along(const std::vector<geometry::Vec2>& corners, bool keep_inside) const;
   SceneRay ray(
       const geometry::Vec2& display) const;  ///< from before all there is; throws InvalidInput as above
 
@@ -158,6 +170,14 @@ class TreeScene {
   double pixel_ratio() const;
   void set_marker_shown(bool shown);  ///< the cube with the patient's directions
   void set_scale_bar_shown(bool shown);
+  /// A small picture at the lower left, above the cube, of the window's own, in which `text` is written; no
+  /// snapshot has it. An empty picture takes it away.
+  void set_corner(const figure::Raster& picture, std::string text);
+  /// All texts over the picture, as they were laid out for the last one in this window.
+  std::vector<SceneText> texts() const;
+  void set_angles_shown(bool shown);  ///< "LAO 30 CRA 20" in a corner; not at first
+  /// A line that is being drawn over the picture, display coordinates, closed; none: nothing.
+  void set_lasso(std::vector<geometry::Vec2> corners);
 
   /// The scene as it is, in another size and perhaps another look, from a window of its own that is never
   /// shown; a volume as fine as `patience_ms` a picture allows. Throws InvalidInput for sizes not in [16,

@@ -4,6 +4,7 @@
 #include "ostia/figure/color.h"
 
 #include <string>
+#include <utility>
 
 namespace ostia::view {
 
@@ -22,5 +23,17 @@ struct ValueScale {
   ColorScale colors = ColorScale::sequential;
 };
 void validate(const ValueScale& scale);  ///< throws InvalidInput
+
+/// A number for a reader: three digits that count, without an exponent from 1e-4 to 1e7: "0.123", "12.3",
+/// "12300". "-" where it is not finite.
+std::string three_digits(double value);
+/// The step of a range's numbers: three digits of the larger end count, more where the ends would hardly
+/// differ.
+double range_step(const std::pair<double, double>& range);
+/// The same, outwards to whole steps: low <= range.first, range.second <= high. Ends that are not finite or
+/// out of order stay as they are.
+std::pair<double, double> rounded_range(const std::pair<double, double>& range);
+/// An end of such a range, or a number between, without zeros at the end: "1.25", "98".
+std::string range_text(double value, const std::pair<double, double>& range);
 
 }  // namespace ostia::view

@@ -2,7 +2,7 @@
 /// \file The few words that views write over pictures, so that an app can give them in its language.
 
 #include "ostia/analysis/evaluability.h"
-#include "ostia/analysis/measurement.h"
+#include "ostia/analysis/measurement_kinds.h"
 
 #include <array>
 #include <string>

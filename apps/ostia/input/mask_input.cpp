@@ -1,0 +1,75 @@
+#include "input/mask_input.h"
+
+#include "output/refusal.h"
+
+#include "ostia/core/error.h"
+#include "ostia/core/log.h"
+#include "ostia/imaging/image_file.h"
+#include "ostia/pipeline/source.h"
+
+#include <algorithm>
+#include <array>
+
+namespace ostia::app {
+namespace {
+
+/// "1 (8120 voxels), 2 (310 voxels)".
+std::string counts_in_words(const std::array<std::int64_t, 256>& counts,
+                            const std::vector<std::int64_t>& file_labels) {
+  constexpr int most_told = 12;
+  std::string text;
+  int told = 0;
+  for (std::size_t label = 1; label < counts.size(); ++label) {
+    if (counts[label] == 0) continue;
+    if (told++ == most_told) return text + ", ...";
+    const std::int64_t shown =
+        label < file_labels.size() ? file_labels[label] : static_cast<std::int64_t>(label);
+    text += (text.empty() ? "" : ", ") + std::to_string(shown) + " (" + std::to_string(counts[label]) +
+            " voxels)";
+  }
+  return text.empty() ? "none but 0" : text;
+}
+
+}  // namespace
+
+imaging::MaskVolume read_vessel_labels(const MaskInput& input, const core::TaskContext& task) {
+  imaging::LoadedImage<std::uint8_t> loaded = imaging::read_labels(input.file, task);
+  for (const std::string& warning : loaded.header.warnings) core::log_warning(warning);
+  if (input.labels.empty()) return std::move(loaded.volume);
+  std::array<std::int64_t, 256> counts{};
+  for (const std::uint8_t voxel : loaded.volume.voxels) ++counts[voxel];
+  std::array<bool, 256> wanted{};
+  const std::vector<std::int64_t>& file_labels = loaded.header.file_labels;
+  for (const int label : input.labels) {
+    std::int64_t value = label;
+    if (!file_labels.empty())
+      value = std::ranges::find(file_labels, std::int64_t{label}) - file_labels.begin();  // 256 at most
+    if (value < 1 || value > 255 || counts[static_cast<std::size_t>(value)] == 0)
+      throw InvalidInput(own_name(input.file) + " has no voxel of label " + std::to_string(label) +
+                         "; its labels are " + counts_in_words(counts, file_labels));
+    wanted[static_cast<std::size_t>(value)] = true;
+  }
+  for (std::uint8_t& voxel : loaded.volume.voxels)
+    if (!wanted[voxel]) voxel = 0;
+  return std::move(loaded.volume);
+}
+
+MaskCase mask_case(const MaskInput& input, const coronary::MaskTreeOptions& options,
+                   const core::TaskContext& task) {
+  task.set_stage("reading");
+  core::redact_in_logs(input.file.string(), "mask");
+  const imaging::MaskVolume labels = read_vessel_labels(input, task.sub(0.0, 0.1));
+  pipeline::Source ct;
+  if (!input.image.empty()) {
+    ct = pipeline::load_ct(input.image, {}, task.sub(0.1, 0.2));
+    for (const std::string& warning : ct.warnings) core::log_warning(warning);
+  }
+  MaskCase result;
+  result.model = naming(input.file, [&] {
+    return session::model_of_mask(labels, ct.image.get(), options, task.sub(0.2, 1.0));
+  });
+  if (ct.image) result.image = session::ImageReference{ct.sha256, ct.pseudonym};
+  return result;
+}
+
+}  // namespace ostia::app

@@ -1,0 +1,118 @@
+#include "measure/report.h"
+#include "options/validators.h"
+
+#include "ostia/core/files.h"
+#include "ostia/core/log.h"
+#include "ostia/pipeline/source.h"
+#include "ostia/session/case_report.h"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <CLI/Validators.hpp>
+
+#include <chrono>
+#include <cstdio>
+
+namespace ostia::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+pipeline::Source image_of(const ReportCommand& o, const session::CaseFile& file,
+                          const core::TaskContext& task) {
+  task.set_stage("reading");
+  pipeline::Source source = pipeline::load_ct(o.image, {}, task);
+  for (const std::string& warning : source.warnings) core::log_warning(warning);
+  try {
+    file.check_image({source.sha256, source.pseudonym});
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(o.image.string() + ": " + error.what());
+  }
+  return source;
+}
+
+void print(const std::filesystem::path& folder, bool as_json) {
+  const std::string json = core::read_file(folder / "report.json");
+  if (as_json)
+    std::fputs(json.c_str(), stdout);
+  else
+    std::printf("report.html, report.pdf, report.json, four tables as CSV and the key images\n");
+}
+
+void print(const session::CaseReport& report) {
+  std::printf("CAD-RADS %s: %s\n%zu lesions in %zu vessels\n", analysis::to_string(report.category).c_str(),
+              analysis::description(report.category).c_str(), report.stenoses.size(), report.vessels.size());
+  if (report.quality) {
+    std::printf("image quality: %s\n", session::to_string(report.quality->grade).c_str());
+    for (const std::string& reason : report.quality->reasons) std::printf("  %s\n", reason.c_str());
+  }
+  for (const std::string& one : report.not_judged) std::printf("not judged: %s\n", one.c_str());
+}
+
+}  // namespace
+
+ExitCode run_report(const ReportCommand& o, const core::TaskContext& task) {
+  const auto start = Clock::now();
+  session::ReportOptions options;
+  options.date = o.date;
+  options.theta_deg = o.theta_deg;
+  options.level_hu = o.level_hu;
+  options.window_hu = o.window_hu;
+  options.language = session::report_language(o.language);
+  session::validate(options);
+  pipeline::require_free_folder(o.output);
+  const session::CaseFile file = session::CaseFile::open(o.input, session::OpenMode::read_only);
+  options.image = file.image();
+  pipeline::Source source;
+  if (!o.image.empty()) source = image_of(o, file, task.sub(0.0, 0.15));
+  if (source.image && !options.image) options.image = {source.sha256, source.pseudonym};
+  const pipeline::JobKey job = session::report_job(file, source.image != nullptr, options);
+  if (const auto code = pipeline::already_done(o.output, job)) {
+    core::log_info("done already with the same case and parameters; nothing to do");
+    print(o.output, o.json);
+    return *code;
+  }
+  task.set_stage("solving");
+  const lumen::LumenModel& model = *file.model();
+  const analysis::SurfaceOfVessel surfaces = session::solved_surfaces(model, task.sub(0.15, 0.3));
+  const session::CaseReport report = session::make_case_report(
+      model, surfaces, *file.annotations(), file.journal(), source.image.get(), options, task.sub(0.3, 0.5));
+  for (const std::string& warning : report.warnings) core::log_warning(warning);
+  const std::vector<session::KeyImage> images =
+      session::key_images(report, model, surfaces, source.image.get(), task.sub(0.5, 0.85));
+  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  session::write_case_report(o.output, report, images, job, seconds, task.sub(0.85, 1.0));
+  task.set_progress(1.0);
+  if (!o.json) print(report);
+  print(o.output, o.json);
+  return ExitCode::ok;
+}
+
+void define_report(CLI::App& app, ReportCommand& c, std::function<ExitCode(const core::TaskContext&)>& run) {
+  CLI::App* report = app.add_subcommand(
+      "report", "A case's report: key images, segments, stenoses with CAD-RADS, measurements, edit log");
+  report->footer("Example:\n  ostia report heart.ostia --image heart.nrrd -o report");
+  report->fallthrough();
+  report->add_option("CASE", c.input, "Case (.ostia)")->required();
+  report->add_option("--image", c.image,
+                     "The CT that the case was made with: DICOM folder or image; left out: key images show "
+                     "the model alone");
+  report
+      ->add_option("-o,--output", c.output,
+                   "Folder that is made: report.html, report.pdf, report.json, tables, images")
+      ->required();
+  report->add_option("--date", c.date, "Date as it is to stand in the report; left out: none");
+  report->add_option("--theta", c.theta_deg,
+                     "Angle of the first reformation, degrees; the second is at + 90");
+  report->add_option("--level", c.level_hu, "Centre of the grey window, HU");
+  report->add_option("--window", c.window_hu, "Width of the grey window, HU")->check(above_zero());
+  report
+      ->add_option("--language", c.language,
+                   "Of report.html, report.pdf and the key images: en or de; the other files are the same")
+      ->check(CLI::IsMember({"en", "de"}));
+  report->add_flag("--json", c.json, "report.json on standard output");
+  report->callback([&] { run = [&](const core::TaskContext& task) { return run_report(c, task); }; });
+}
+
+}  // namespace ostia::app

@@ -1,0 +1,197 @@
+#include "shell/library_texts.h"
+
+#include "ostia/core/phrasebook.h"
+
+#include <QCoreApplication>
+
+namespace ostia::workstation {
+namespace {
+
+// Places in them: see core/phrasebook.h.
+constexpr const char* sentences[] = {
+    // The search for the arteries.
+    QT_TRANSLATE_NOOP(
+        "library",
+        "no coronary artery was found where one should leave the aorta: the root may lie outside "
+        "of the image, or the arteries hold too little contrast; draw a first vessel by its two "
+        "ends"),
+    QT_TRANSLATE_NOOP(
+        "library",
+        "nothing that looks like an artery goes on from where one leaves the aorta; draw a first "
+        "vessel by its two ends"),
+    QT_TRANSLATE_NOOP("library",
+                      "what was found has %1 branches, more than coronary arteries show: the image is too "
+                      "noisy (a deviation of %2 HU in the aorta, in cubes of 1.5 mm) or veins and muscle are "
+                      "as bright as arteries; take a smoother reconstruction, or draw a first vessel by its "
+                      "two ends"),
+    QT_TRANSLATE_NOOP("library",
+                      "no ascending aorta was found (an upright, evenly enhanced tube of %1 to %2 mm radius "
+                      "above %3 HU, at least %4 mm long): %t5; draw a first vessel by its two ends instead"),
+    QT_TRANSLATE_NOOP("library",
+                      "no ascending aorta was found (an upright, evenly enhanced tube of %1 to %2 mm radius "
+                      "above %3 HU, at least %4 mm long): %t5; draw a first vessel by its two ends instead; "
+                      "%l6"),
+    QT_TRANSLATE_NOOP("library",
+                      "the brightest even region of %1 ml has %2, as blood without contrast agent: take the "
+                      "angiogram of this patient"),
+    QT_TRANSLATE_NOOP("library",
+                      "contrast is there (%1): the top of the heart may be cut off, or the image may be "
+                      "turned; look at its orientation"),
+    QT_TRANSLATE_NOOP(
+        "library",
+        "the heart's chambers lie %1 mm above the middle of the aorta that was found, not below "
+        "it: the image ends above the aortic root, stands on its head, or has its slices in the "
+        "wrong order; take an image of the whole heart, set its orientation right, or draw a "
+        "first vessel by its two ends"),
+    QT_TRANSLATE_NOOP("library", "%l1; besides, %l2"),
+    QT_TRANSLATE_NOOP("library",
+                      "the lungs lie in front and behind, not at the sides: x and y may be exchanged, or the "
+                      "image be turned by 90 degrees; no vessel was given a name; look at the image's "
+                      "orientation first"),
+    QT_TRANSLATE_NOOP(
+        "library",
+        "voxels of %1 mm are wide for coronary arteries: those below 2 mm are missed, and names "
+        "and radii are less sure"),
+    QT_TRANSLATE_NOOP(
+        "library",
+        "%1 ml of metal (above %2 HU): look at each vessel that passes near it, its shadows may "
+        "cut or fake vessels"),
+    QT_TRANSLATE_NOOP("library", "no upright tube of contrast is there"),
+    QT_TRANSLATE_NOOP("library",
+                      "the longest upright tube has a radius of %1 mm and %2 HU and is not even enough"),
+    QT_TRANSLATE_NOOP("library",
+                      "the longest upright tube has a radius of %1 mm and %2 HU, and lung behind it as the "
+                      "descending aorta has"),
+    QT_TRANSLATE_NOOP("library", "no branch of the coronary tree could be followed: %l1"),
+    QT_TRANSLATE_NOOP(
+        "library",
+        "the image is too small to hold the root of the aorta: %1 voxels, %2 mm along one of its "
+        "axes; %3 mm and %4 voxels are needed"),
+    QT_TRANSLATE_NOOP(
+        "library",
+        "voxels of %1 mm are wider than coronary arteries, which are 2 to 4 mm wide (at most %2 "
+        "mm can be used); take a series with thinner slices, or draw a first vessel by its two "
+        "ends where you see one"),
+    QT_TRANSLATE_NOOP("library", "the image is empty: every voxel is %1; take another image"),
+    QT_TRANSLATE_NOOP("library",
+                      "the image is noise: places %1 mm apart have nothing in common (correlation %2); take "
+                      "another reconstruction"),
+    QT_TRANSLATE_NOOP("library",
+                      "the intensities lie from %1 to %2 only, these are no CT numbers (in HU fat is about "
+                      "-100, blood with contrast agent 250 to 600): the image may have been scaled; convert "
+                      "it back to HU"),
+    QT_TRANSLATE_NOOP(
+        "library",
+        "the intensities lie from %1 to %2, far beyond CT numbers (in HU fat is about -100, "
+        "blood with contrast agent 250 to 600): the image may have been scaled; convert it back "
+        "to HU"),
+    QT_TRANSLATE_NOOP(
+        "library",
+        "nothing in the image is darker than %1, so these are no CT numbers (in HU fat is about "
+        "-100, blood with contrast agent 250 to 600): it may be a picture of 256 grey levels; "
+        "convert it to HU"),
+    QT_TRANSLATE_NOOP(
+        "library",
+        "nothing in the image is darker than %1, so these are no CT numbers (in HU fat is about "
+        "-100, blood with contrast agent 250 to 600): 1024 may not have been subtracted (the "
+        "rescale intercept); convert it to HU"),
+    QT_TRANSLATE_NOOP("library",
+                      "the image is darker than a CT in HU can be (nothing in it is brighter than %1): 1024 "
+                      "may have been subtracted twice, or the image scaled; convert it to HU"),
+    QT_TRANSLATE_NOOP("library",
+                      "the image is darker than a CT in HU can be (%1 % lie below air, -1000): 1024 may have "
+                      "been subtracted twice, or the image scaled; convert it to HU"),
+    QT_TRANSLATE_NOOP("library",
+                      "nothing in the image is darker than %1, though %2 % of it is as dark as lung may be: "
+                      "lungs have -700 to -900 HU and air -1000, so the image may have been scaled; convert "
+                      "it back to HU"),
+    QT_TRANSLATE_NOOP("library",
+                      "the image shows no chest: it holds hardly any lung (%1 % of %2 mm), as abdomen, head "
+                      "or legs do; take an image of the heart, or draw a first vessel by its two ends where "
+                      "you see one"),
+    // A vessel by clicks.
+    QT_TRANSLATE_NOOP("library",
+                      "there is no contrast along the way between the two places (%1 HU); click into the "
+                      "vessel's lumen at both ends"),
+    QT_TRANSLATE_NOOP("library",
+                      "the two places are too near to each other for a vessel; choose them farther apart"),
+    QT_TRANSLATE_NOOP("library",
+                      "the way runs for %1 mm through something wider than a coronary artery, an aorta or a "
+                      "chamber"),
+    QT_TRANSLATE_NOOP("library",
+                      "the way runs for %1 mm through something wider than a coronary artery, an aorta or a "
+                      "chamber; click a place in the vessel itself that is nearer, or the ostium first"),
+    QT_TRANSLATE_NOOP("library",
+                      "both ends of the way, %1 and %2 mm, lie in air: click in the contrast-filled lumen"),
+    QT_TRANSLATE_NOOP("library",
+                      "the two ends of the way, %1 and %2 mm, are one place: click them further apart"),
+    QT_TRANSLATE_NOOP(
+        "library",
+        "the click %1 mm lies inside vessel '%2', which is in the tree already: click the distal "
+        "end of one that is not"),
+    QT_TRANSLATE_NOOP("library", "no way from %1 mm to %t2: %l3"),
+    QT_TRANSLATE_NOOP("library", "the front has covered the image"),
+    // Cases.
+    QT_TRANSLATE_NOOP("library", "cannot open the case %1: %l2"),
+    QT_TRANSLATE_NOOP("library",
+                      "its format %1 is newer than this program's (%2, Ostia %3); open it with Ostia %4 or "
+                      "newer"),
+    QT_TRANSLATE_NOOP("library",
+                      "its format %1 is newer than this program's (%2, Ostia %3); open it with Ostia of a "
+                      "newer version"),
+    QT_TRANSLATE_NOOP("library", "the file is empty; take a copy of it from a backup"),
+    QT_TRANSLATE_NOOP("library", "it is not a case of Ostia; cases are made by `ostia lumen --case`"),
+    QT_TRANSLATE_NOOP("library", "it is a database of another program, not a case of Ostia"),
+    QT_TRANSLATE_NOOP("library", "the file is truncated to %1 bytes"),
+    QT_TRANSLATE_NOOP("library",
+                      "the file is truncated: it has %1 of %2 bytes; take a copy of it from a backup"),
+    QT_TRANSLATE_NOOP("library", "the file is damaged (%1); take a copy of it from a backup"),
+    QT_TRANSLATE_NOOP(
+        "library", "its tables are not those of a case; the file is damaged or was made by another program"),
+    QT_TRANSLATE_NOOP("library",
+                      "it is open in another window or program; close it there, or wait until it is done"),
+    QT_TRANSLATE_NOOP("library", "it is open in another window of this program; close it there"),
+    QT_TRANSLATE_NOOP("library",
+                      "cannot write the case %1: the disk is full; the case is what it was before. Make room "
+                      "and try again"),
+    // Images.
+    QT_TRANSLATE_NOOP("library", "%1 is no CT image: open an angiogram"),
+    QT_TRANSLATE_NOOP("library", "cannot read %1: %l2"),
+    QT_TRANSLATE_NOOP("library", "there is no such file or folder"),
+    QT_TRANSLATE_NOOP("library", "it is neither a file nor a folder"),
+    QT_TRANSLATE_NOOP("library",
+                      "it is no DICOM folder, file or zip, no image (.nrrd .nhdr .mhd .mha .nii .nii.gz) and "
+                      "no surface (.stl .ply .obj .vtp .vtk)"),
+    QT_TRANSLATE_NOOP("library", "'%1' is not a DICOM file"),
+    QT_TRANSLATE_NOOP("library", "'%1' is DICOM, but holds no image"),
+    QT_TRANSLATE_NOOP("library", "'%1' is damaged: %l2"),
+    QT_TRANSLATE_NOOP("library", "'%1' does not exist"),
+    QT_TRANSLATE_NOOP("library", "'%1' of the series is gone; open its folder again"),
+    QT_TRANSLATE_NOOP("library", "the files of DICOM series %1 have changed; open their folder again"),
+};
+
+core::Phrasebook& book() {
+  static core::Phrasebook made;
+  return made;
+}
+
+}  // namespace
+
+std::vector<std::string> library_sentences() {
+  return {std::begin(sentences), std::end(sentences)};
+}
+
+void use_library_language() {
+  std::vector<core::Phrase> phrases;
+  for (const char* one : sentences) {
+    const QString said = QCoreApplication::translate("library", one);
+    if (said != QLatin1String(one)) phrases.push_back({one, said.toStdString()});
+  }
+  book() = core::Phrasebook(phrases);
+}
+
+QString library_text(const std::string& text) {
+  return QString::fromStdString(book().say(text));
+}
+
+}  // namespace ostia::workstation

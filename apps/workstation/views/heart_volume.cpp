@@ -1,0 +1,198 @@
+#include "views/heart_volume.h"
+
+#include "shell/desk.h"
+#include "views/scene_widget.h"
+
+#include "ostia/imaging/reduced_volume.h"
+#include "ostia/view/volume_light.h"
+
+#include <any>
+#include <utility>
+
+namespace ostia::workstation {
+namespace {
+
+constexpr double artery_step_mm = 0.5;
+constexpr std::size_t most_cuts = 200;  // a hand that cuts more begins anew
+
+/// About the arteries: what heart_region keeps at most.
+imaging::ReducedVolumeOptions region_about(const std::vector<coronary::ArteryPlace>& arteries) {
+  imaging::ReducedVolumeOptions options;
+  if (arteries.empty()) return options;
+  const coronary::HeartRegionOptions region;
+  const double beyond_mm = region.about_tree + region.blood;
+  options.box.emplace();
+  for (const coronary::ArteryPlace& each : arteries) {
+    options.box->extend(each.place - geometry::Vec3::Constant(beyond_mm));
+    options.box->extend(each.place + geometry::Vec3::Constant(beyond_mm));
+  }
+  return options;
+}
+
+}  // namespace
+
+struct HeartVolume::Prepared {
+  Ground ground;
+  SharedImage shown;
+  std::shared_ptr<const std::vector<float>> light;  // null: not wished
+  std::vector<std::int64_t> histogram;
+};
+
+HeartVolume::Prepared HeartVolume::prepare(const Wish& wish, Ground ground, const core::TaskContext& task) {
+  Prepared made{std::move(ground), {}, {}, {}};
+  if (!made.ground.reduced) {
+    const auto options = wish.alone ? region_about(wish.arteries) : imaging::ReducedVolumeOptions{};
+    made.ground.reduced = std::make_shared<const imaging::ImageVolume>(
+        imaging::reduced_volume(*wish.image, options, task.sub(0.0, 0.3)));
+    if (wish.alone)
+      made.ground.heart = std::make_shared<const imaging::MaskVolume>(
+          coronary::heart_region(*made.ground.reduced, wish.arteries, {}, task.sub(0.3, 0.9)));
+  }
+  made.shown = made.ground.reduced;
+  if (made.ground.heart || !wish.cuts.empty()) {
+    const imaging::ImageVolume& reduced = *made.ground.reduced;
+    imaging::MaskVolume mask{reduced.geometry, {}};
+    if (made.ground.heart)
+      mask = *made.ground.heart;
+    else
+      mask.voxels.assign(reduced.voxels.size(), 1);
+    for (const view::VolumeCut& cut : wish.cuts) view::cut_away(mask, cut, task);
+    made.shown = std::make_shared<const imaging::ImageVolume>(view::with_mask(reduced, mask));
+  }
+  if (wish.lit)
+    made.light = std::make_shared<const std::vector<float>>(view::ambient_light(*made.shown, task));
+  made.histogram = view::histogram(*made.shown, histogram_low_hu, histogram_high_hu, histogram_bins);
+  return made;
+}
+
+HeartVolume::HeartVolume(Desk& desk, SceneWidget& scene, std::function<bool()> is_being_read)
+    : QObject(&desk.window), desk_(desk), scene_(scene), is_being_read_(std::move(is_being_read)) {
+  connect(&scene, &SceneWidget::volume_wanted, this, &HeartVolume::refresh);
+  const auto look_changed = [this] {
+    scene_.scene().set_volume_look(look());
+    scene_.request_render();
+  };
+  look_changed();
+  const auto show_tree = [this] {
+    const bool alone_there = scene_.volume_mode() == view::VolumeMode::off;
+    scene_.scene().set_wall_shown(tree_over_it.get() || alone_there);
+    scene_.request_render();
+  };
+  connect(&scene, &SceneWidget::volume_mode_changed, this, show_tree);
+  own_.push_back(tree_over_it.observe([show_tree](const bool&) { show_tree(); }));
+  own_.push_back(preset.observe([look_changed](const auto&) { look_changed(); }));
+  own_.push_back(shift_hu.observe([look_changed](const auto&) { look_changed(); }));
+  own_.push_back(stretch.observe([look_changed](const auto&) { look_changed(); }));
+  own_.push_back(crop.observe([this](const view::VolumeCrop& now) {
+    scene_.scene().set_volume_crop(now);
+    scene_.request_render();
+  }));
+  own_.push_back(alone.observe([this](const bool&) { forget_ground(); }));
+  own_.push_back(desk.bench.image_changed.observe([this] {
+    follow_image();
+    make_stale();  // the scene has let go of it
+    refresh();
+  }));
+  own_.push_back(desk.bench.case_changed.observe([this] {
+    if (alone.get()) forget_ground();
+  }));
+  own_.push_back(desk.bench.model_changed.observe([this](const session::ModelEvent& event) {
+    if (event.tree_changed && alone.get()) forget_ground();
+  }));
+}
+
+void HeartVolume::reset_look() {
+  shift_hu.set(0.0);
+  stretch.set(1.0);
+}
+
+void HeartVolume::show() {
+  if (scene_.volume_mode() == view::VolumeMode::off)
+    scene_.set_volume_mode(view::VolumeMode::rendering);
+  else
+    refresh();
+}
+
+void HeartVolume::cut(const view::VolumeCut& cut) {
+  if (cuts_.size() >= most_cuts) return;
+  cuts_.push_back(cut);
+  make_stale();
+  show();
+}
+
+bool HeartVolume::undo_cut() {
+  if (cuts_.empty()) return false;
+  cuts_.pop_back();
+  make_stale();
+  refresh();
+  return true;
+}
+
+void HeartVolume::reset_cuts() {
+  if (cuts_.empty()) return;
+  cuts_.clear();
+  make_stale();
+  refresh();
+}
+
+void HeartVolume::follow_image() {
+  if (desk_.bench.image().volume == image_) return;
+  image_ = desk_.bench.image().volume;
+  ground_ = {};
+  cuts_.clear();
+  shown_.reset();
+  histogram_.clear();
+  make_stale();
+  crop.set({});
+  emit shown_changed();
+}
+
+void HeartVolume::make_stale() {
+  stale_ = true;
+  ++wish_;
+}
+
+void HeartVolume::forget_ground() {
+  ground_ = {};
+  make_stale();
+  refresh();
+}
+
+std::vector<coronary::ArteryPlace> HeartVolume::arteries() const {
+  std::vector<coronary::ArteryPlace> places;
+  const lumen::LumenModel* model = desk_.bench.model();
+  if (!model || !image_) return places;
+  for (const auto& vessel : model->vessels) {
+    const geometry::AxisCurve& axis = *vessel->axis;
+    for (double s = 0.0; s < axis.length() + artery_step_mm; s += artery_step_mm)
+      if (const geometry::Vec3 place = axis.point(s); image_->geometry.contains(place))
+        places.push_back({place, axis.radius(s)});
+  }
+  return places;
+}
+
+void HeartVolume::refresh() {
+  follow_image();
+  if (!stale_ || !image_ || scene_.volume_mode() == view::VolumeMode::off || is_being_read_()) return;
+  const Wish wish{image_, arteries(), alone.get(), !scene_.scene().draws_in_software(), cuts_};
+  desk_.jobs.run(
+      "volume", SceneWidget::tr("Preparing the heart"),
+      [wish, ground = ground_](const core::TaskContext& task) {
+        return std::any(std::make_shared<const Prepared>(prepare(wish, ground, task)));
+      },
+      [this, number = wish_](const std::any& result) {
+        if (number != wish_) return;  // another heart by now, or less of it
+        const auto made = std::any_cast<std::shared_ptr<const Prepared>>(result);
+        ground_ = made->ground;
+        shown_ = made->shown;
+        histogram_ = made->histogram;
+        stale_ = false;
+        scene_.scene().set_volume(shown_);
+        scene_.scene().set_volume_light(made->light);
+        scene_.request_render();
+        emit shown_changed();
+      },
+      [this](const QString& message) { desk_.messages.say(message); });
+}
+
+}  // namespace ostia::workstation

@@ -1,0 +1,37 @@
+#pragma once
+/// \file Work on a model's vessels side by side.
+
+#include "ostia/analysis/lumen_profile.h"
+#include "ostia/core/parallel.h"
+#include "ostia/core/task_context.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace ostia::session {
+
+/// `of(i, task)` for each i of `count`, side by side; the results in their order.
+template <class Result, class Of>
+std::vector<Result> beside(std::size_t count, const core::TaskContext& task, const Of& of) {
+  std::vector<Result> results(count);
+  core::parallel_for(count, 1, [&](std::size_t i) {
+    task.throw_if_cancelled();
+    const auto share = [&](std::size_t n) { return static_cast<double>(n) / static_cast<double>(count); };
+    results[i] = of(i, task.sub(share(i), share(i + 1)));
+  });
+  return results;
+}
+
+/// All vessels' walls, asked of the calling thread now, so that any thread may ask for them from now on.
+inline analysis::SurfaceOfVessel held_surfaces(const lumen::LumenModel& model,
+                                               const analysis::SurfaceOfVessel& surface_of) {
+  std::map<std::int32_t, std::shared_ptr<const lumen::ImplicitSurface>> held;
+  for (const auto& vessel : model.vessels) held[vessel->vessel] = surface_of(vessel->vessel);
+  return [held = std::move(held)](std::int32_t vessel) { return held.at(vessel); };
+}
+
+}  // namespace ostia::session

@@ -106,6 +106,19 @@ TEST(PlaneTriangulation, CopesWithPointsOnALine) {
   EXPECT_NEAR(area, 1.0, 1e-12);
 }
 
+/// A border a hundred times finer than its hole is wide.
+TEST(PlaneTriangulation, AFineBorderDoesNotMakeTheWholeCapAsFine) {
+  constexpr int points = 3000;
+  std::vector<Vec3> loop;
+  for (int i = 0; i < points; ++i) {
+    const double angle = 2.0 * M_PI * i / points;
+    loop.emplace_back(std::cos(angle), std::sin(angle), 0.0);
+  }
+  const FlatPatch patch = triangulate_flat(loop, 0.0, "a ring", 25.0);
+  EXPECT_LT(patch.inner_points.size(), 15000U);
+  EXPECT_EQ(patch.triangles.size(), points + 2 * patch.inner_points.size() - 2);  // Euler
+}
+
 TEST(PlaneTriangulation, NamesALoopThatCrossesItself) {
   const std::vector<Vec3> eight{{0, 0, 0}, {2, 2.5, 0}, {2, 0, 0}, {0, 2, 0}};
   try {

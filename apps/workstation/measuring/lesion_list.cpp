@@ -60,7 +60,8 @@ LesionList::LesionList(session::Workbench& bench, Guard guard, QWidget* parent)
   setSortingEnabled(true);
   sortByColumn(0, Qt::AscendingOrder);
   header()->setSectionResizeMode(QHeaderView::ResizeToContents);
-  header()->setStretchLastSection(true);
+  header()->setStretchLastSection(false);
+  header()->setSectionResizeMode(lesion_columns - 1, QHeaderView::Fixed);  // as give_comments_room has it
   setItemDelegate(new OnlyComments(this));
   setEditTriggers(EditKeyPressed | DoubleClicked);
   setMinimumSize(120, 40);
@@ -148,7 +149,22 @@ void LesionList::fill() {
     missing_->setToolTip(tr("Vessels whose plaque is not known yet; their lesions may become more."));
     missing_->setVisible(missing > 0 && bench_.has_case());
   }
+  give_comments_room();
   viewport()->update();
+}
+
+/// The last column has what the others leave, and what is in it at least. Qt's own stretching depends on what
+/// the columns were before.
+void LesionList::give_comments_room() {
+  constexpr int last = lesion_columns - 1;
+  const int others = header()->length() - header()->sectionSize(last);
+  const int needed = std::max(sizeHintForColumn(last), header()->sectionSizeHint(last));
+  header()->resizeSection(last, std::max(needed, viewport()->width() - others));
+}
+
+void LesionList::resizeEvent(QResizeEvent* event) {
+  QTreeWidget::resizeEvent(event);
+  give_comments_room();
 }
 
 void LesionList::show_row(QTreeWidgetItem& item, const session::LesionRow& row) {

@@ -39,12 +39,14 @@ class LesionList final : public QTreeWidget {
 
  protected:
   void keyPressEvent(QKeyEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
 
  protected slots:
   void closeEditor(QWidget* editor, QAbstractItemDelegate::EndEditHint hint) override;
 
  private:
   void fill();
+  void give_comments_room();
   void show_row(QTreeWidgetItem& item, const session::LesionRow& row);
   void filter();
   void follow_cursor();

@@ -233,6 +233,9 @@ Filling best_filling(const std::vector<Vec2>& loop, double edge, const std::stri
   Filling best = fill(loop, edge, Vec2::Zero(), name);
   if (best.min_angle_deg >= good_angle_deg) return best;
   open_angles(loop, best, name);
+  // Along a long rough border its own corners decide, and each try takes seconds.
+  constexpr std::size_t long_loop = 160;
+  if (loop.size() > long_loop) return best;
   // Other lattices: a point more or fewer in the middle of a small loop decides.
   for (const double density : {1.0, 1.12, 0.9})
     for (const Vec2& shift : {Vec2(0.0, 0.0), Vec2(0.5, 0.3), Vec2(0.25, 0.0)}) {
@@ -276,7 +279,11 @@ FlatPatch triangulate_flat(const std::vector<Vec3>& loop, double edge_mm, const 
   std::vector<Vec2> flat;
   for (const Vec3& p : loop) flat.emplace_back((p - origin).dot(u), (p - origin).dot(w));
   refuse_crossing(flat, name);
-  const Filling filling = best_filling(flat, edge_mm > 0.0 ? edge_mm : mean_edge(loop), name, good_angle_deg);
+  // A border much finer than its cap is wide need not make the whole cap as fine.
+  constexpr double most_across = 100.0;
+  const double least_edge_mm = std::sqrt(0.5 * loop_normal(loop).norm()) / most_across;
+  const double wanted_mm = edge_mm > 0.0 ? edge_mm : mean_edge(loop);
+  const Filling filling = best_filling(flat, std::max(wanted_mm, least_edge_mm), name, good_angle_deg);
   FlatPatch patch;
   patch.triangles = filling.triangles;
   for (const Vec2& p : filling.inner) patch.inner_points.push_back(origin + p.x() * u + p.y() * w);

@@ -15,9 +15,10 @@ struct FlatPatch {
 };
 
 /// Constrained Delaunay triangulation of the inside of a simple flat loop, with points at about `edge_mm`
-/// (0: the loop's mean edge), relaxed. Where an angle is below `good_angle_deg`, the points move to open the
-/// smallest angles around them, and other lattices are tried; the best is taken. Throws GeometryError naming
-/// `name` when the loop crosses itself.
+/// (0: the loop's mean edge; never below a hundredth of the root of its area), relaxed. Where an angle is
+/// below `good_angle_deg`, the points move to open the smallest angles around them, and along loops of up to
+/// 160 points other lattices are tried; the best is taken. Throws GeometryError naming `name` when the loop
+/// crosses itself.
 FlatPatch triangulate_flat(const std::vector<geometry::Vec3>& loop, double edge_mm, const std::string& name,
                            double good_angle_deg = 0.0);
 

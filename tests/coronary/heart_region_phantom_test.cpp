@@ -64,14 +64,17 @@ TEST_P(HeartRegion, HasTheHeartAndNoBonesInAPhantom) {
       std::printf("label %2zu: %8.0f voxels, %6.2f %% shown\n", n, shown.all[n],
                   100.0 * shown.shown[n] / shown.all[n]);
   ASSERT_GT(shown.count(Label::bone), 1000.0);
+  ASSERT_GT(shown.count(Label::coronary_lumen), 0.0);
   EXPECT_LE(shown.share(Label::bone), 0.01);
   EXPECT_LE(shown.share(Label::marrow), 0.01);
   for (const Label label :
        {Label::coronary_lumen, Label::soft_plaque, Label::fibrous_plaque, Label::calcified_plaque})
     EXPECT_EQ(shown.share(label), 1.0) << static_cast<int>(label);
   for (const Label label : {Label::left_ventricle, Label::right_ventricle, Label::left_atrium,
-                            Label::right_atrium, Label::myocardium})
+                            Label::right_atrium, Label::myocardium}) {
+    EXPECT_GT(shown.count(label), 0.0) << static_cast<int>(label);
     EXPECT_GT(shown.share(label), 0.95) << static_cast<int>(label);
+  }
   EXPECT_LT(shown.share(Label::liver), 0.2);
   EXPECT_LT(shown.share(Label::pulmonary_vessel), 0.2);
 }

@@ -11,7 +11,6 @@
 
 #include <gmock/gmock.h>
 
-#include <array>
 #include <functional>
 #include <optional>
 #include <set>
@@ -120,22 +119,13 @@ INSTANTIATE_TEST_SUITE_P(
 /// Slabs of a scan: voxels [from, to) of each axis, as shares of its size.
 imaging::ImageVolume part_of(const imaging::ImageVolume& image, const geometry::Vec3& from,
                              const geometry::Vec3& to) {
-  std::array<std::int64_t, 3> first{}, size{};
+  imaging::Region region;
   for (int axis = 0; axis < 3; ++axis) {
     const auto all = static_cast<double>(image.geometry.size[axis]);
-    first[axis] = std::lround(from[axis] * all);
-    size[axis] = std::lround(to[axis] * all) - first[axis];
+    region.lower[axis] = std::lround(from[axis] * all);
+    region.upper[axis] = std::lround(to[axis] * all);
   }
-  imaging::ImageVolume out;
-  out.geometry = image.geometry;
-  out.geometry.size = size;
-  out.geometry.origin = image.geometry.world(
-      {static_cast<double>(first[0]), static_cast<double>(first[1]), static_cast<double>(first[2])});
-  for (std::int64_t k = 0; k < size[2]; ++k)
-    for (std::int64_t j = 0; j < size[1]; ++j)
-      for (std::int64_t i = 0; i < size[0]; ++i)
-        out.voxels.push_back(image(first[0] + i, first[1] + j, first[2] + k));
-  return out;
+  return imaging::cropped(image, region);
 }
 
 struct CutScan {

@@ -69,7 +69,9 @@ std::vector<std::string> english_in(const std::string& text) {
 }
 
 void expect_german(const std::string& html) {
-  for (const std::string& text : texts_of(html)) {
+  const std::vector<std::string> texts = texts_of(html);
+  EXPECT_FALSE(texts.empty());
+  for (const std::string& text : texts) {
     if (text.find("reader&#39;s own words") != std::string::npos) continue;
     EXPECT_THAT(english_in(text), IsEmpty()) << text;
   }

@@ -183,7 +183,8 @@ TEST_F(FlowResultWindow, BoundsThatDifferLittleAreShownApart) {
   settle();
   const double low = part<QLineEdit>("flow_low")->text().toDouble(),
                high = part<QLineEdit>("flow_high")->text().toDouble();
-  EXPECT_NEAR(high - low, 0.975 * 2.0, 0.025) << "from ring 1 to ring 79 of 81";
+  EXPECT_NEAR(high - low, 0.975 * 2.0, 0.025)
+      << "from ring 1 to ring 79 of 81, each end outwards to hundredths";
   auto* automatic = part<QCheckBox>("flow_automatic");
   automatic->setFocus();
   QTest::keyClick(automatic, Qt::Key_Space);

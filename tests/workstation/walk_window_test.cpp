@@ -115,6 +115,26 @@ TEST_F(WalkWindow, WhatAHandMadeIsMadeAgain) {
   EXPECT_EQ(test->bench().cursor_mm.get(), cursor);
 }
 
+TEST_F(WalkWindow, ADoubleClickIsWrittenAsOneStep) {
+  open_case();
+  const fs::path recorded = folder / "hand.walk";
+  {
+    WalkRecorder recorder(window().commands(), recorded);
+    PictureWidget& slice = test->picture("slice");
+    const QPoint at = slice.rect().center();
+    for (const QEvent::Type type : {QEvent::MouseButtonPress, QEvent::MouseButtonRelease,
+                                    QEvent::MouseButtonDblClick, QEvent::MouseButtonRelease})
+      testing::send(slice, type, at, Qt::LeftButton,
+                    type == QEvent::MouseButtonRelease ? Qt::NoButton : Qt::LeftButton);
+    for (const QEvent::Type type : {QEvent::MouseButtonPress, QEvent::MouseButtonRelease})
+      testing::send(slice, type, at, Qt::LeftButton,
+                    type == QEvent::MouseButtonRelease ? Qt::NoButton : Qt::LeftButton);
+  }
+  std::vector<WalkStep::Kind> kinds;
+  for (const WalkStep& step : read_walk(recorded)) kinds.push_back(step.kind);
+  EXPECT_THAT(kinds, ::testing::ElementsAre(WalkStep::Kind::double_click, WalkStep::Kind::click));
+}
+
 TEST_F(WalkWindow, OneThatCannotGoOnSaysWhereAndWhy) {
   open_case();
   EXPECT_THAT(walk("look a\ncommand view.nowhere\n"), AllOf(HasSubstr("line 2"), HasSubstr("view.nowhere")));

@@ -72,32 +72,31 @@ void Opening::choose_another_series() {
 }
 
 void Opening::choose_series(const session::KnownImage& image, const imaging::DicomFolder& folder, bool ask) {
-  folder_ = std::make_shared<const imaging::DicomFolder>(folder);
-  folder_path_ = image.path;
+  const auto whole = std::make_shared<const imaging::DicomFolder>(folder);
   const auto readable = [](const imaging::DicomSeries& one) { return one.faults.empty() && !one.uneven; };
   for (const imaging::DicomSeries& one : folder.series) {
     const bool known = !image.series_uid.empty() && one.uid == image.series_uid;
     const bool alone = folder.series.size() == 1 && folder.damaged.empty() && one.warnings.empty();
     if (ask || !readable(one) || !(known || alone)) continue;
-    load_series(image.path, one, {});
+    load_series(whole, image.path, one, {});
     return;
   }
   auto* browser = new SeriesBrowser(folder, desk_.jobs, &desk_.window);
   browser->setAttribute(Qt::WA_DeleteOnClose);
   connect(browser, &SeriesBrowser::chosen, this,
-          [this, path = image.path](const imaging::DicomSeries& series,
-                                    const imaging::DicomReadOptions& options) {
-            load_series(path, series, options);
+          [this, whole, path = image.path](const imaging::DicomSeries& series,
+                                           const imaging::DicomReadOptions& options) {
+            load_series(whole, path, series, options);
           });
   browser->open();
 }
 
 void Opening::open_beside(const imaging::DicomSeries& series) {
-  load_series(folder_path_, series, {});
+  load_series(folder_, folder_path_, series, {});
 }
 
-void Opening::load_series(const fs::path& path, const imaging::DicomSeries& series,
-                          const imaging::DicomReadOptions& options) {
+void Opening::load_series(const std::shared_ptr<const imaging::DicomFolder>& folder, const fs::path& path,
+                          const imaging::DicomSeries& series, const imaging::DicomReadOptions& options) {
   show_first_slice(series);
   desk_.jobs.run(
       "open", tr("Reading the image"),
@@ -111,7 +110,11 @@ void Opening::load_series(const fs::path& path, const imaging::DicomSeries& seri
         loaded.whose = imaging::shown_identity(series);
         return std::any(loaded);
       },
-      [this, path](const std::any& result) { show(std::any_cast<const Loaded&>(result), path); },
+      [this, folder, path](const std::any& result) {
+        folder_ = folder;
+        folder_path_ = path;
+        show(std::any_cast<const Loaded&>(result), path);
+      },
       [this](const QString& message) { desk_.cannot_open(message, tr("The image cannot be opened")); });
 }
 

@@ -97,7 +97,8 @@ class Opening final : public QObject {
   void scan(const session::KnownImage& image, bool ask = false);
   /// `ask`: which of its series, though one is known or alone.
   void choose_series(const session::KnownImage& image, const imaging::DicomFolder& folder, bool ask);
-  void load_series(const std::filesystem::path& path, const imaging::DicomSeries& series,
+  void load_series(const std::shared_ptr<const imaging::DicomFolder>& folder,
+                   const std::filesystem::path& path, const imaging::DicomSeries& series,
                    const imaging::DicomReadOptions& options);
   void show_first_slice(const imaging::DicomSeries& series);
   void take_first_sight();
@@ -120,7 +121,7 @@ class Opening final : public QObject {
   std::optional<FirstSight> first_sight_;
   std::filesystem::path scanned_;  // for series; empty where another kind of image was opened since
   std::string series_uid_;         // of the image on the table
-  std::shared_ptr<const imaging::DicomFolder> folder_;  // that was looked through last
+  std::shared_ptr<const imaging::DicomFolder> folder_;  // of the series that was read last
   std::filesystem::path folder_path_;
 
  private slots:

@@ -45,7 +45,8 @@ StudySeries::StudySeries(Desk& desk, QMainWindow& window, BeatingCase& beating)
   connect(&frame_, &QTimer::timeout, this, &StudySeries::next_frame);
   session::Workbench& bench = desk.bench;
   own_.push_back(bench.image_changed.observe([this] {
-    put_away();  // until it is known what lies beside the new one
+    desk_.jobs.cancel("series_folder");  // it was chosen for the former image
+    put_away();                          // until it is known what lies beside the new one
     if (!desk_.bench.image().volume) clear();
   }));
   own_.push_back(bench.other_image_changed.observe([this] {

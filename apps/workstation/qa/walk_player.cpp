@@ -6,6 +6,7 @@
 #include "qa/walk_widgets.h"
 #include "views/picture_widget.h"
 
+#include "ostia/core/csv.h"
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
 
@@ -74,7 +75,7 @@ double WalkPlayer::longest_block_ms() const {
 }
 
 void WalkPlayer::start() {
-  std::filesystem::create_directories(stage_.folder);
+  core::write_file(stage_.folder / "walk.csv", {});  // makes the folder, or says why it cannot be written
   qApp->installEventFilter(this);
   for (QElapsedTimer* clock : {&step_clock_, &quiet_, &beat_}) clock->start();
   heartbeat_.start();
@@ -240,11 +241,11 @@ void WalkPlayer::answer_file_dialog(const WalkStep& step) {
       });
 }
 
-/// Dialogs in front of the window are in its picture. Whose image it is is not.
+/// Dialogs in front of the window are in its picture, and whose image it is where the views show it.
 void WalkPlayer::look(const QString& name) {
   const QWidget& window = *stage_.window;
-  const QPixmap picture =
-      window.screen()->grabWindow(0, window.x(), window.y(), window.width(), window.height());
+  const QPoint at = window.mapToGlobal(QPoint(0, 0));  // without the frame, whose title names the patient
+  const QPixmap picture = window.screen()->grabWindow(0, at.x(), at.y(), window.width(), window.height());
   const std::filesystem::path file = stage_.folder / (name + ".png").toStdString();
   if (!picture.save(QString::fromStdString(file.string()), "PNG"))
     throw IoError("the picture " + file.filename().string() + " cannot be written");
@@ -277,16 +278,16 @@ void WalkPlayer::end() {
   ended_ = true;
   heartbeat_.stop();
   qApp->removeEventFilter(this);
-  QString table = "line,step,ms,blocked_ms\n";
-  for (const Done& one : done_) {
-    QString said = walk_line(one.step);
-    table += QStringLiteral("%1,\"%2\",%3,%4\n")
-                 .arg(one.step.line)
-                 .arg(said.replace('"', "\"\""))
-                 .arg(one.ms, 0, 'f', 1)
-                 .arg(one.blocked_ms, 0, 'f', 1);
+  std::string table = core::csv_line({"line", "step", "ms", "blocked_ms"});
+  for (const Done& one : done_)
+    table += core::csv_line({std::to_string(one.step.line), walk_line(one.step).toStdString(),
+                             QString::number(one.ms, 'f', 1).toStdString(),
+                             QString::number(one.blocked_ms, 'f', 1).toStdString()});
+  try {
+    core::write_file(stage_.folder / "walk.csv", table);
+  } catch (const Error& error) {
+    if (failure_.isEmpty()) failure_ = QString::fromStdString(error.what());
   }
-  core::write_file(stage_.folder / "walk.csv", table.toStdString());
   emit ended();
 }
 

@@ -47,7 +47,6 @@ class WalkPlayer final : public QObject {
   ~WalkPlayer() override;
   /// With the first step once the window is at rest.
   void start();
-  const std::vector<Done>& done() const { return done_; }
   double longest_block_ms() const;
   /// Why it ended early; empty where it did not.
   const QString& failure() const { return failure_; }

@@ -94,6 +94,8 @@ void WalkRecorder::mouse(QWidget& widget, const QMouseEvent& event) {
     gesture_.kind =
         event.type() == QEvent::MouseButtonPress ? WalkStep::Kind::click : WalkStep::Kind::double_click;
     gesture_.what = walk_name(widget);
+    if (gesture_.kind == WalkStep::Kind::double_click && clicked_ && clicked_->what == gesture_.what)
+      clicked_.reset();
     gesture_.button = event.button();
     gesture_.held = event.modifiers();
     gesture_.places << here;
@@ -109,7 +111,9 @@ void WalkRecorder::mouse(QWidget& widget, const QMouseEvent& event) {
   if (moved && gesture_.kind == WalkStep::Kind::drag) gesture_.places << here;
   if (event.type() != QEvent::MouseButtonRelease) return;
   holding_ = nullptr;
-  write(gesture_);
+  if (gesture_.kind != WalkStep::Kind::click) return write(gesture_);
+  write_typed();
+  clicked_ = gesture_;
 }
 
 void WalkRecorder::key(const QWidget& widget, const QKeyEvent& event) {
@@ -137,6 +141,7 @@ void WalkRecorder::key(const QWidget& widget, const QKeyEvent& event) {
 }
 
 void WalkRecorder::write_typed() {
+  if (const auto clicked = std::exchange(clicked_, std::nullopt)) write(*clicked);
   const WalkStep typed = std::exchange(typed_, {});
   if (!typed.text.isEmpty()) write(typed);
 }

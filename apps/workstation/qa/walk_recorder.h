@@ -7,6 +7,7 @@
 #include <QPointer>
 #include <QWidget>
 #include <filesystem>
+#include <optional>
 
 class QAction;
 class QMouseEvent;
@@ -35,9 +36,10 @@ class WalkRecorder final : public QObject {
   static WalkPlace place(const QWidget& widget, const QPointF& at);
 
   std::filesystem::path file_;
-  WalkStep gesture_;           // while a button is down
-  QPointer<QWidget> holding_;  // the widget under it
-  WalkStep typed_;             // until something else happens
+  WalkStep gesture_;                 // while a button is down
+  QPointer<QWidget> holding_;        // the widget under it
+  std::optional<WalkStep> clicked_;  // until it is known that it is no double click's first
+  WalkStep typed_;                   // until something else happens
 };
 
 }  // namespace ostia::workstation

@@ -39,10 +39,11 @@ void Card::want(bool wanted) {
 
 void Card::show_or_hide() {
   const bool shown = wanted_ && over_->isVisibleTo(over_->window());
+  const bool was_shown = !isHidden();
   setVisible(shown);
   if (shown)
     place();
-  else  // all of each view, not the uncovered part alone
+  else if (was_shown)  // all of each view, not the uncovered part alone
     for (QWidget* view : over_->findChildren<QWidget*>()) view->update();
 }
 

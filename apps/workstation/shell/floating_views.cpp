@@ -32,6 +32,7 @@ class ViewWindow final : public QWidget {
 
  protected:
   void closeEvent(QCloseEvent* event) override {
+    if (qApp->isSavingSession()) return;  // who logs out is not held up
     event->ignore();
     // Not while the window handles its own closing.
     QTimer::singleShot(0, this, close_);

@@ -23,6 +23,10 @@ QStringList broken(const QString& text, double most_px, const view::TextMeasure&
       continue;
     }
     lines << QString();
+    if (fits(word)) {
+      lines.back() = word;
+      continue;
+    }
     for (const QChar letter : word) {
       if (!lines.back().isEmpty() && !letter.isLowSurrogate() && !fits(lines.back() + letter))
         lines << QString();

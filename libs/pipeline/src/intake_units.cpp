@@ -24,13 +24,6 @@ constexpr double thinnest_outlet_mm = 0.3, doubtful_outlet_mm = 0.7, trunk_over_
 constexpr double least_trunk_cm = 1.0, most_trunk_cm = 5.0;
 constexpr double hole_over_widest = 0.02;  // less wide than that is a flaw of the surface
 
-TriMesh outward(const TriMesh& mesh) {
-  TriMesh turned = geometry::oriented(geometry::welded(mesh));
-  if (geometry::volume(geometry::fill_holes(turned).mesh) < 0.0)
-    for (geometry::Triangle& t : turned.triangles) std::swap(t[1], t[2]);
-  return turned;
-}
-
 /// An aorta in centimetres has the numbers of a short piece of a coronary in millimetres.
 bool may_be_cm(double calibre, double extent) {
   return calibre > 1.0 && calibre < 4.5 && extent > 4.0 && extent < 30.0;
@@ -46,13 +39,19 @@ double calibre_of(const TriMesh& mesh) {
 
 }  // namespace
 
+TriMesh turned_outward(TriMesh mesh) {
+  if (geometry::volume(geometry::fill_holes(mesh).mesh) < 0.0)
+    for (geometry::Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+  return mesh;
+}
+
 double calibre_of_closed(const TriMesh& closed) {
   return 4.0 * std::abs(geometry::volume(closed)) / geometry::area(closed);
 }
 
 std::optional<EndWidths> end_widths(const geometry::FacedSurface& surface) try {
   std::vector<double> widths;
-  const TriMesh mesh = outward(surface.mesh);
+  const TriMesh mesh = turned_outward(geometry::oriented(geometry::welded(surface.mesh)));
   const bool same = mesh.triangles.size() == surface.mesh.triangles.size();
   const meshing::OpenedCaps opened =
       meshing::without_flat_caps(same ? geometry::FacedSurface{mesh, surface.face_ids, surface.faces}

@@ -21,6 +21,9 @@ bool speak_for_cm(const EndWidths& widths);
 /// Thin as hardly any end of a tree in millimetres, and much thinner than its trunk: it may be either.
 bool leave_cm_open(const EndWidths& widths);
 
+/// Outward as what it bounds is seen, its open ends closed.
+geometry::TriMesh turned_outward(geometry::TriMesh mesh);
+
 /// 4 V / A: the diameter of a tube.
 double calibre_of_closed(const geometry::TriMesh& closed);
 

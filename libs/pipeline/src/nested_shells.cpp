@@ -1,15 +1,16 @@
 #include "nested_shells.h"
 
 #include "intake_ends.h"
+#include "intake_units.h"
 
 #include "ostia/core/error.h"
 #include "ostia/core/text.h"
 #include "ostia/geometry/aabb_tree.h"
 #include "ostia/geometry/mesh_topology.h"
 #include "ostia/pipeline/lumen_axes.h"
+#include "ostia/pipeline/lumen_surface.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -29,8 +30,7 @@ double length_of(const TriMesh& part) {
 }
 
 double width_of(const TriMesh& part) {
-  const TriMesh closed = geometry::fill_holes(part).mesh;
-  return 4.0 * std::abs(geometry::volume(closed)) / geometry::area(closed);
+  return calibre_of_closed(geometry::fill_holes(part).mesh);
 }
 
 bool is_lumen_of(const TriMesh& inner, const TriMesh& outer) {
@@ -57,20 +57,7 @@ std::string outer_wall_text(const TriMesh& inner, const TriMesh& outer) {
          ", as the outside of its wall and left out; a file with the outer alone meshes that";
 }
 
-/// Outward as what it bounds is seen, its open ends closed.
-TriMesh turned_outward(TriMesh part) {
-  if (geometry::volume(geometry::fill_holes(part).mesh) < 0.0)
-    for (geometry::Triangle& t : part.triangles) std::swap(t[1], t[2]);
-  return part;
-}
-
 }  // namespace
-
-bool has_handle(const TriMesh& closed) {
-  const auto points = static_cast<std::ptrdiff_t>(closed.points.size()),
-             triangles = static_cast<std::ptrdiff_t>(closed.triangles.size());
-  return points - triangles / 2 < 2;  // Euler's number; each edge has two triangles
-}
 
 std::string LumenInWall::text(double unit_mm) const {
   return "a lumen and the outside of its wall, joined by " + std::to_string(ends.size()) +
@@ -82,7 +69,7 @@ std::string LumenInWall::text(double unit_mm) const {
 std::optional<LumenInWall> lumen_in_wall(const geometry::FacedSurface& surface) try {
   geometry::FacedSurface shell{geometry::oriented(geometry::welded(surface.mesh)), {}, surface.faces};
   const geometry::SurfaceFaults faults = geometry::find_faults(shell.mesh, false);
-  if (!faults.closed_manifold() || faults.components != 1 || !has_handle(shell.mesh)) return std::nullopt;
+  if (!faults.closed_manifold() || faults.components != 1 || handles_of(shell.mesh) == 0) return std::nullopt;
   if (shell.mesh.triangles.size() == surface.face_ids.size()) shell.face_ids = surface.face_ids;
   meshing::OpenedRings opened = meshing::without_flat_rings(shell);
   if (opened.ends.size() < 2) return std::nullopt;

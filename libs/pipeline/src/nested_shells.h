@@ -14,10 +14,6 @@ namespace ostia::pipeline {
 /// lumen, the outer the outside of the wall. Returns a line for each, with its size and place.
 std::vector<std::string> drop_outer_walls(std::vector<geometry::TriMesh>& parts);
 
-/// Whether a closed manifold surface of one part has a handle: a ring has one, a pipe with a wall too, a Y
-/// with a wall two. All its points are used.
-bool has_handle(const geometry::TriMesh& closed);
-
 /// What is within a thick wall.
 struct LumenInWall {
   geometry::TriMesh lumen;                  ///< outward, open at its ends

@@ -11,6 +11,7 @@
 #include "ostia/core/parallel_invoke.h"
 #include "ostia/geometry/aabb_tree.h"
 #include "ostia/geometry/mesh_topology.h"
+#include "ostia/pipeline/lumen_surface.h"
 #include "ostia/pipeline/model.h"
 
 #include <algorithm>
@@ -170,7 +171,7 @@ class Intake {
 /// A wall with its lumen is closed and has handles; of a sound surface the first look tells.
 bool may_be_wall(const TriMesh& mesh, const FirstLook& look) {
   if (!look.sound || !look.all_used) return true;
-  return look.closed.mesh.triangles.size() == mesh.triangles.size() && has_handle(mesh);
+  return look.closed.mesh.triangles.size() == mesh.triangles.size() && handles_of(mesh) > 0;
 }
 
 /// The lumen alone, where the surface is a wall of some thickness.

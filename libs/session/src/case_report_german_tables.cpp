@@ -14,7 +14,7 @@ Phrases plaque() {
       {"Not measured: the image was not at hand.", "Nicht gemessen: das Bild lag nicht vor."},
       {"Class", "Klasse"},
       {"Low attenuation", "Niedrige Dichte"},
-      {"Fibrofatty", "Fibrolipid"},
+      {"Fibrofatty", "Fibrofettig"},
       {"Fibrous", "Fibrös"},
       {"Calcified", "Verkalkt"},
       {"Thin wall (mm\u00b3)", "Dünne Wand (mm\u00b3)"},
@@ -34,7 +34,7 @@ Phrases plaque() {
        "area "
        "at the throat over that at the places of reference. Where no fat borders on the wall it is not seen, "
        "and the outer wall is a bridge. All of this was found by the program.",
-       "Niedrige Dichte: unter %1 HU; fibrolipid: bis %2 HU; fibrös: bis %3 HU; verkalkt: darüber, nachdem "
+       "Niedrige Dichte: unter %1 HU; fibrofettig: bis %2 HU; fibrös: bis %3 HU; verkalkt: darüber, nachdem "
        "die "
        "Unschärfe von Lumen und Fett abgezogen wurde. Eine Wand dünner als %4 mm, oder um weniger als %5 mm "
        "dicker als eine gesunde dieses Kalibers, ist Wand und keine Plaque. Klasse: verkalkt ab der Hälfte "
@@ -68,7 +68,7 @@ Phrases tables() {
       {"Name", "Name"},
       {"Values", "Werte"},
       {"Measurements placed by a person", "Von Hand gesetzte Messungen"},
-      {"distance", "Strecke"},
+      {"distance", "Abstand"},
       {"angle", "Winkel"},
       {"area", "Fläche"},
       {"diameter", "Durchmesser"},

@@ -1,7 +1,6 @@
 #include "ostia/session/phase_choice.h"
 
 #include "ostia/core/error.h"
-#include "ostia/imaging/reduced_volume.h"
 
 #include <functional>
 #include <stdexcept>
@@ -62,11 +61,9 @@ PhaseChoice PhaseChoiceWork::chosen(const core::TaskContext& task) const {
     try {
       const StackImages::Image image =
           held.at(n) ? held[n] : read_phase_image(stack.entries[n].source, mine.sub(0.0, 0.6)).volume;
-      // Blood is as bright at all phases: of the first that tells, so that all are measured alike.
-      if (const auto blood = blood_known ? std::nullopt : evaluation::blood_level_hu(*image)) {
-        options.high_hu = result.blood_hu = *blood;
-        blood_known = true;
-      }
+      // Blood is as bright at all phases: of the first that is read, so that all are measured alike.
+      if (!blood_known) options.high_hu = evaluation::blood_level_hu(*image).value_or(options.high_hu);
+      blood_known = true;
       std::vector<Vec3> points = axes_mm;
       if (beating && !axes_mm.empty()) points = axis_points(*beating, stack.entries[n].source.phase);
       measured[n] = evaluation::edge_sharpness(*image, points, options, mine.sub(0.6, 1.0));

@@ -24,19 +24,15 @@ std::size_t StackImages::usual_budget() {
   return std::min(default_budget, static_cast<std::size_t>(pages) * static_cast<std::size_t>(page) / 4);
 }
 
-StackImages::StackImages(std::vector<std::size_t> bytes, std::size_t budget)
+StackImages::StackImages(const std::vector<std::size_t>& bytes, std::size_t budget)
     : whole_(bytes.size()),
       frame_(bytes.size()),
       last_(bytes.size(), 0),
-      bytes_(std::move(bytes)),
-      budget_(budget) {
-  needed_ = std::accumulate(bytes_.begin(), bytes_.end(), std::size_t{0});
-}
+      budget_(budget),
+      needed_(std::accumulate(bytes.begin(), bytes.end(), std::size_t{0})) {}
 
 void StackImages::learn(const Image& image) {
-  for (std::size_t& one : bytes_)
-    if (one == 0) one = bytes_held(image);
-  needed_ = std::accumulate(bytes_.begin(), bytes_.end(), std::size_t{0});
+  if (needed_ == 0) needed_ = whole_.size() * bytes_held(image);
 }
 
 std::int64_t StackImages::frame_voxels() const {

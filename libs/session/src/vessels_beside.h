@@ -5,6 +5,7 @@
 #include "ostia/core/parallel.h"
 #include "ostia/core/task_context.h"
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -18,10 +19,11 @@ namespace ostia::session {
 template <class Result, class Of>
 std::vector<Result> beside(std::size_t count, const core::TaskContext& task, const Of& of) {
   std::vector<Result> results(count);
+  std::atomic<std::size_t> done{0};
   core::parallel_for(count, 1, [&](std::size_t i) {
     task.throw_if_cancelled();
-    const auto share = [&](std::size_t n) { return static_cast<double>(n) / static_cast<double>(count); };
-    results[i] = of(i, task.sub(share(i), share(i + 1)));
+    results[i] = of(i, count == 1 ? task : task.sub(0.0, 0.0));  // all run at once: what is done counts
+    task.set_progress(static_cast<double>(++done) / static_cast<double>(count));
   });
   return results;
 }

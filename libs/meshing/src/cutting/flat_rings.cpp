@@ -7,9 +7,7 @@
 #include "ostia/meshing/flat_caps.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
-#include <numbers>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -50,24 +48,10 @@ std::vector<Loop> loops_of_rim(const Look& look, const std::vector<std::size_t>&
   return loops;
 }
 
-/// Its middle, and the radius of a circle as large; `normal` is the ring's.
+/// As end_at_loop has it, but facing as the ring does.
 GivenEnd end_within(const TriMesh& mesh, const Loop& loop, const Vec3& normal) {
-  GivenEnd end;
-  const auto at = [&](std::size_t i) -> const Vec3& {
-    return mesh.points[static_cast<std::size_t>(loop[i % loop.size()])];
-  };
-  double length = 0.0;
-  for (std::size_t i = 0; i < loop.size(); ++i) {
-    const double step = (at(i + 1) - at(i)).norm();
-    end.centre += step * 0.5 * (at(i) + at(i + 1));
-    length += step;
-  }
-  if (length > 0.0) end.centre /= length;
-  Vec3 area = Vec3::Zero();
-  for (std::size_t i = 0; i < loop.size(); ++i)
-    area += 0.5 * (at(i) - end.centre).cross(at(i + 1) - end.centre);
+  GivenEnd end = end_at_loop(mesh, loop);
   end.normal = normal;
-  end.radius_mm = std::sqrt(area.norm() / std::numbers::pi);
   return end;
 }
 

@@ -24,7 +24,6 @@ struct PhaseChoice {
   evaluation::BestPhase best;  ///< numbers are those of the stack's entries
   SharpnessPlaces places = SharpnessPlaces::heart;
   std::vector<std::string> faults;  ///< of each entry: why it could not be read; empty where it was
-  double blood_hu = 400.0;          ///< brightness of blood that all phases were measured with
 };
 
 /// Work for another thread: nothing in it changes. One image is in memory beside those that are held.

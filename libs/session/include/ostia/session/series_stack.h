@@ -56,8 +56,9 @@ class StackImages {
   using Image = std::shared_ptr<const imaging::ImageVolume>;
   static constexpr std::size_t default_budget = std::size_t{2} << 30U;  ///< bytes, or a quarter of memory
   static std::size_t usual_budget();                                    ///< the smaller of the two
-  /// `bytes`: of each image whole; 0 where it is not known: then as much as the first that is taken.
-  explicit StackImages(std::vector<std::size_t> bytes = {}, std::size_t budget = usual_budget());
+  /// `bytes`: of each image whole; 0 where it cannot be read. All 0: not known, then as much as the first
+  /// that is taken.
+  explicit StackImages(const std::vector<std::size_t>& bytes = {}, std::size_t budget = usual_budget());
   std::size_t count() const { return whole_.size(); }
   std::size_t budget() const { return budget_; }
   std::size_t needed() const { return needed_; }  ///< of all, whole
@@ -77,7 +78,6 @@ class StackImages {
   void make_room(std::size_t keep);
   std::vector<Image> whole_, frame_;
   std::vector<std::uint64_t> last_;
-  std::vector<std::size_t> bytes_;
   std::uint64_t clock_ = 0;
   std::size_t budget_, needed_ = 0;
 };

@@ -3,7 +3,7 @@
 set(OSTIA_ROOMS
     core geometry
     imaging reformat io figure
-    segmentation centerline reconstruction lumen meshing solver motion analysis
+    segmentation centerline reconstruction lumen meshing hemodynamics solver motion analysis
     phantom evaluation coronary pipeline
     session experiments
     glview view)
@@ -45,6 +45,15 @@ function(ostia_library name)
   ostia_link_privately(${name} ${ARG_PRIVATE})
   ostia_warnings(ostia_${name})
   ostia_compile_fast(ostia_${name} source)
+endfunction()
+
+# ostia_avx2_sources(a.cpp ...) Sources of a room with the same loops for newer processors, which core/processor.h
+# chooses when the program runs; the results do not depend on the choice.
+function(ostia_avx2_sources)
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    list(TRANSFORM ARGN PREPEND "src/")
+    set_source_files_properties(${ARGN} PROPERTIES SKIP_PRECOMPILE_HEADERS ON COMPILE_OPTIONS "-mavx2")
+  endif()
 endfunction()
 
 # ostia_program(NAME SOURCES a.cpp ... LINKS target ... [HEADERS window]), which are those to be precompiled.

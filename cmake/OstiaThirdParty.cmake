@@ -13,6 +13,7 @@ set(OSTIA_THIRD_PARTIES
   "fmt::fmt|package fmt|libfmt-dev"
   "OpenSSL::Crypto|package OpenSSL COMPONENTS Crypto|libssl-dev"
   "ZLIB::ZLIB|package ZLIB|zlib1g-dev"
+  "PNG::PNG|package PNG|libpng-dev"
   "SQLite::SQLite3|package SQLite3|libsqlite3-dev"
   "nlohmann_json::nlohmann_json|package nlohmann_json|nlohmann-json3-dev"
   "CLI11::CLI11|package CLI11|libcli11-dev"

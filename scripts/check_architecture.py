@@ -10,7 +10,7 @@ import sys
 FLOORS = [
     ["core", "geometry"],
     ["imaging", "reformat", "io", "figure"],
-    ["segmentation", "centerline", "reconstruction", "lumen", "meshing", "solver", "motion", "analysis"],
+    ["segmentation", "centerline", "reconstruction", "lumen", "meshing", "hemodynamics", "solver", "motion", "analysis"],
     ["phantom", "evaluation", "coronary", "pipeline"],
     ["session", "experiments"],
     ["glview", "view"],

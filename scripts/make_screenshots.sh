@@ -109,4 +109,25 @@ shot editing 2
 keys ctrl+z e
 drag 393 318 395 318 397 318 398 318
 shot pull 2
+
+# What has no key of its own, by the palette.
+command() {
+  keys ctrl+k
+  xdotool type --delay 20 "$1"
+  sleep 0.5
+  keys Return
+}
+keys Escape Escape
+front
+command "Three planes alone"
+shot planes 4
+command "All views"
+command "Set orientation"
+shot orientation 2
+keys Escape
+front
+command "Look: coronary arteries"
+command "Box with handles"
+keys alt+6 F11
+shot heart 20
 ls -l "$out"

@@ -5,6 +5,7 @@
 #include "commands.h"
 #include "evaluate/evaluate.h"
 #include "experiment/experiment.h"
+#include "flow/ffr.h"
 #include "flow/flow_result.h"
 #include "flow/solver_case.h"
 #include "measure/measure.h"
@@ -53,6 +54,7 @@ struct Commands {
   BatchCommand batch;
   CaseCommand solver_case;
   ResultCommand result;
+  FfrCommand ffr;
   MotionCommands motion;
 };
 

@@ -48,24 +48,6 @@ BENCHMARK_CAPTURE(extract_program, nrrd, "image00.nrrd")
     ->Unit(benchmark::kSecond)
     ->UseManualTime();
 
-/// From the start of the program to the folder on the disk, of the case as it was found.
-void report_program(benchmark::State& state) {
-  const std::filesystem::path image = bench::full_case() / "image00.nrrd";
-  const auto folder = ostia::testing::temporary_folder("bench");
-  const std::filesystem::path found = folder / "heart.ostia";
-  if (bench::run_ostia({"extract", image.string(), "-o", found.string()}).code != 0)
-    return state.SkipWithError("no case was made");
-  int number = 0;
-  for (auto _ : state) {
-    const std::filesystem::path to = folder / ("report" + std::to_string(number++));
-    const bench::Finished done =
-        bench::run_ostia({"report", found.string(), "--image", image.string(), "-o", to.string()});
-    state.SetIterationTime(done.seconds);
-    count(state, done);
-  }
-}
-BENCHMARK(report_program)->Name("Report, NRRD and case to folder")->Unit(benchmark::kSecond)->UseManualTime();
-
 void tree_of_an_open_image(benchmark::State& state) {
   const imaging::ImageVolume& image = bench::full_image();
   std::size_t vessels = 0;

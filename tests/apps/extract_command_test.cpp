@@ -48,6 +48,29 @@ TEST(ExtractCommand, AnAngiogramBecomesACaseWithLabelledVesselsAndTheirDoubts) {
   EXPECT_THAT(again.err, HasSubstr("heart.ostia"));
 }
 
+TEST(ExtractCommand, AnImageOnItsHeadIsTurnedByItsAxesWhichTheCaseKeeps) {
+  const auto folder = temporary_folder("extract");
+  phantom::CaseOptions options;
+  options.preset = phantom::Preset::small;
+  imaging::ImageVolume image = kept_scan(phantom::plan_case(options)).image;
+  const auto slice = image.geometry.size[0] * image.geometry.size[1];
+  const imaging::ImageVolume upright = image;
+  for (std::int64_t k = 0; k < image.geometry.size[2]; ++k)  // its slices in the wrong order
+    std::copy_n(upright.voxels.begin() + (image.geometry.size[2] - 1 - k) * slice, slice,
+                image.voxels.begin() + k * slice);
+  imaging::write_image(folder / "wrong.nrrd", image);
+  const Setting in{folder, ""};
+  EXPECT_EQ(ostia({"extract", "wrong.nrrd", "--axes", "LPX", "-o", "heart.ostia"}, in).code, 2);
+  const Outcome done = ostia({"extract", "wrong.nrrd", "--axes", "LPI", "-o", "heart.ostia"}, in);
+  ASSERT_EQ(done.code, 0) << done.err;
+  const auto opened = session::CaseFile::open(folder / "heart.ostia", session::OpenMode::read_only);
+  EXPECT_EQ(opened.image()->axes, "LPI");
+  for (const char* wanted : {"LAD", "LCX", "RCA"})
+    EXPECT_TRUE(std::any_of(opened.model()->tree.vessels.begin(), opened.model()->tree.vessels.end(),
+                            [&](const geometry::Vessel& one) { return one.name == wanted; }))
+        << wanted;
+}
+
 TEST(ExtractCommand, WhatHoldsNoHeartIsRefusedAndNoCaseIsLeft) {
   const auto folder = temporary_folder("extract");
   imaging::ImageVolume noise;

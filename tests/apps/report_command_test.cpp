@@ -93,6 +93,64 @@ TEST(ReportCommand, MakesTheFolderOnce) {
   EXPECT_EQ(fs::last_write_time(folder / "out" / "report.pdf"), written);
 }
 
+/// What a ring about the lumen of the report's case measures in the image.
+double ring_hu(const fs::path& folder, const std::string& case_file, const std::string& image_file) {
+  const Outcome made =
+      ostia({"report", case_file, "--image", image_file, "-o", case_file + "-out", "--json"}, {folder, ""});
+  EXPECT_EQ(made.code, 0) << made.err;
+  if (made.code != 0) return 0.0;
+  const Json report = Json::parse(made.out);
+  return report["measurements"][0]["values"][0]["value"].get<double>();
+}
+
+TEST(ReportCommand, TurnsAnImageWhoseAxesWereGivenByHand) {
+  const fs::path folder = temporary_folder("report");
+  const imaging::ImageVolume right = image();
+  // The same heart in a file that has its axes in another order and says nothing of it.
+  imaging::ImageVolume wrong;
+  wrong.geometry.size = {30, 24, 24};
+  wrong.geometry.spacing = {0.8, 0.8, 0.8};
+  const geometry::Vec3 middle(11.5, 11.5, 14.5);
+  wrong.geometry.origin = right.geometry.world(middle) - 0.8 * geometry::Vec3(14.5, 11.5, 11.5);
+  for (std::int64_t k = 0; k < 24; ++k)
+    for (std::int64_t j = 0; j < 24; ++j)
+      for (std::int64_t i = 0; i < 30; ++i) wrong.voxels.push_back(right(k, j, i));
+  imaging::write_image(folder / "right.nrrd", right);
+  imaging::write_image(folder / "wrong.nrrd", wrong);
+  analysis::Measurement ring;
+  ring.kind = analysis::MeasureKind::ring_hu;
+  ring.vessel = 4;
+  ring.from_mm = 5.0;
+  ring.inner_mm = 0.2;
+  ring.outer_mm = 2.0;
+  for (const auto& [name, axes] : {std::pair("right", ""), std::pair("wrong", "SPL")}) {
+    session::ImageReference reference = session::image_reference(folder / (std::string(name) + ".nrrd"));
+    reference.axes = axes;
+    session::CaseFile::create(folder / (std::string(name) + ".ostia"), model(), reference)
+        .annotate(session::MeasureAdd{ring});
+  }
+  EXPECT_NEAR(ring_hu(folder, "wrong.ostia", "wrong.nrrd"), ring_hu(folder, "right.ostia", "right.nrrd"),
+              0.5);
+  const Json report = Json::parse(core::read_file(folder / "wrong.ostia-out" / "report.json"));
+  EXPECT_EQ(report["image"]["axes"], "SPL");
+  EXPECT_THAT(core::read_file(folder / "wrong.ostia-out" / "report.html"),
+              HasSubstr("SPL, given by a person"));
+  EXPECT_FALSE(
+      Json::parse(core::read_file(folder / "right.ostia-out" / "report.json"))["image"].contains("axes"));
+  // Labels of the case lie on the voxels of the file as it is.
+  ASSERT_EQ(ostia({"convert", "wrong.ostia", "labels.nrrd", "--grid", "wrong.nrrd"}, {folder, ""}).code, 0);
+  const auto labels = imaging::read_labels(folder / "labels.nrrd").volume;
+  ASSERT_TRUE(imaging::same_grid(labels.geometry, wrong.geometry));
+  std::size_t inside = 0, lumen = 0;
+  for (std::size_t n = 0; n < labels.voxels.size(); ++n) {
+    if (labels.voxels[n] == 0) continue;
+    ++inside;
+    lumen += wrong.voxels[n] == 400 ? 1U : 0U;
+  }
+  EXPECT_GT(inside, 100U);
+  EXPECT_GT(lumen, inside * 9 / 10) << "labels are not where the lumen is";
+}
+
 TEST(ReportCommand, DoesWithoutAnImageAndSaysSo) {
   const fs::path folder = report_case_folder();
   const Outcome made = ostia({"report", "heart.ostia", "-o", "out", "--json"}, {folder, ""});

@@ -178,6 +178,7 @@ class Maker {
       make({"convert", "case.ostia", name}, {{name, kind}});
     make({"report", "case.ostia", "-o", "report"}, {{"report", result}});
     make({"measure", "case.ostia", "-o", "measures"}, {{"measures", result}});
+    make({"ffr", "case.ostia", "-o", "ffr"}, {{"ffr", result}});
   }
 
   void of_meshes() {

@@ -142,20 +142,6 @@ TEST(SurfaceCommands, AsksForTheUnit) {
   EXPECT_THAT(done.err, HasSubstr("--units"));
 }
 
-TEST(SurfaceCommands, FaultsThatRepairingLeavesAreToldByTheExitCode) {
-  const auto folder = temporary_folder("left");
-  TriMesh crossing = both(box(), box({5, 4, 3}));
-  io::write_surface(folder / "a.ply", crossing);
-  const Outcome done =
-      ostia({"convert", "a.ply", "b.ply", "--repair", "--keep-parts", "--json"}, {folder, ""});
-  const Json repair = Json::parse(done.out)["repair"];
-  EXPECT_EQ(repair["meshable"].get<bool>(), repair["left"] == "none");
-  EXPECT_EQ(done.code, repair["left"] == "none" ? 0 : 4) << done.err;
-  if (done.code == 4) {
-    EXPECT_THAT(done.err, HasSubstr("--smooth 200"));
-  }
-}
-
 TEST(SurfaceCommands, LegacyPolydataIsASurfaceEverywhere) {
   const auto folder = temporary_folder("legacy");
   core::write_file(folder / "a.vtk",

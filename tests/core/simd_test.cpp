@@ -1,9 +1,14 @@
 #include "ostia/core/simd.h"
 
+#include "ostia/core/processor.h"
+
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
+#include <fstream>
+#include <iterator>
+#include <string>
 
 namespace ostia::core::simd {
 namespace {
@@ -49,6 +54,17 @@ TEST(Simd, FloatsAreThoseOfOneAtATime) {
       EXPECT_EQ(chosen[k], x > y ? x - y : y);
     }
   }
+}
+
+TEST(Processor, HasAvx2WhereTheSystemSaysSoAndIsGivenItsFunction) {
+  std::ifstream said("/proc/cpuinfo");
+  const std::string all{std::istreambuf_iterator<char>(said), {}};
+  if (!all.empty()) {
+    EXPECT_EQ(has_avx2(), all.find(" avx2 ") != std::string::npos);
+  }
+  const auto new_one = [] { return 2; };
+  const auto old_one = [] { return 1; };
+  EXPECT_EQ(best_for_processor<int()>(new_one, old_one), has_avx2() ? 2 : 1);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace ostia::coronary {
@@ -72,6 +73,29 @@ TEST(MaskEnds, ATrunkThatEndsRightBehindItsForkGoesOnAsTheBranch) {
   EXPECT_LT((geometry::vessel_axis(axes.tree, axes.tree.vessels[0]).points.back() - Vec3(30, 0, 70)).norm(),
             1e-9);
   EXPECT_EQ(geometry::find_fault(axes.tree).value_or("none"), "none");
+}
+
+/// Both planes see one vessel alone, but the wall between them leans over from the one to the other.
+TEST(MaskEnds, ATipThatForksHasOneEnd) {
+  const double half_angle = 0.575, radius = 0.6;
+  const Vec3 fork(0, 0, 30);
+  const auto tip = [&](double side, double length_mm) {
+    return Vec3(fork + length_mm * Vec3(side * std::sin(half_angle), 0.0, std::cos(half_angle)));
+  };
+  const Vec3 shorter = tip(1.0, 1.6), longer = tip(-1.0, 2.0);
+  MaskAxes axes;
+  axes.tree.nodes = {{1, Vec3::Zero()}, {2, fork}, {3, longer}, {4, shorter}};
+  axes.tree.segments = {straight_segment(1, 1, 2, Vec3::Zero(), fork, radius),
+                        straight_segment(2, 2, 3, fork, longer, radius),
+                        straight_segment(3, 2, 4, fork, shorter, radius)};
+  axes.tree.vessels = {{1, "V1", {1, 2}}, {2, "V2", {1, 3}}};
+  axes.ostia = {1};
+  const std::vector<MaskEndChange> changes = settle_ends(axes);
+  ASSERT_EQ(changes.size(), 1U);
+  EXPECT_EQ(changes[0].kind, MaskEndChange::Kind::left_out);
+  EXPECT_LT((changes[0].place - shorter).norm(), 1e-9);
+  ASSERT_EQ(axes.tree.vessels.size(), 1U);
+  EXPECT_LT((geometry::vessel_axis(axes.tree, axes.tree.vessels[0]).points.back() - longer).norm(), 1e-9);
 }
 
 TEST(MaskEnds, AnEndThatTouchesAnotherVesselIsShortenedToACleanPlace) {

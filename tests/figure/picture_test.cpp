@@ -1,15 +1,22 @@
 #include "ostia/figure/picture.h"
 
 #include "canvas.h"
+#include "png_bytes.h"
 #include "shared_data.h"
 
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
 
+#include <cairo.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 namespace ostia::figure {
 namespace {
@@ -36,6 +43,58 @@ TEST(Picture, PngHasItsSignatureAndSize) {
   EXPECT_EQ(big_endian(png, 16), 120U);
   EXPECT_EQ(big_endian(png, 20), 80U);
   EXPECT_EQ(png.substr(png.size() - 8, 4), "IEND");
+}
+
+/// As Cairo, which did not write them, reads the bytes.
+std::vector<std::uint32_t> read_png(const std::string& bytes, int& width, int& height) {
+  std::string_view rest(bytes);
+  const auto next = [](void* left, unsigned char* out, unsigned int count) {
+    auto& text = *static_cast<std::string_view*>(left);
+    if (text.size() < count) return CAIRO_STATUS_READ_ERROR;
+    std::copy_n(text.begin(), count, out);
+    text.remove_prefix(count);
+    return CAIRO_STATUS_SUCCESS;
+  };
+  cairo_surface_t* surface = cairo_image_surface_create_from_png_stream(next, &rest);
+  EXPECT_EQ(cairo_surface_status(surface), CAIRO_STATUS_SUCCESS);
+  width = cairo_image_surface_get_width(surface);
+  height = cairo_image_surface_get_height(surface);
+  std::vector<std::uint32_t> pixels;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      std::uint32_t pixel = 0;
+      std::memcpy(&pixel,
+                  cairo_image_surface_get_data(surface) + y * cairo_image_surface_get_stride(surface) + 4 * x,
+                  4);
+      pixels.push_back(pixel & 0xFFFFFFU);
+    }
+  cairo_surface_destroy(surface);
+  return pixels;
+}
+
+TEST(Picture, PngHasEveryPixel) {
+  for (const auto& [width, height] :
+       {std::pair(1, 1), std::pair(1, 9), std::pair(37, 1), std::pair(300, 211)}) {
+    // Flat, then in steps along rows and columns, then noise: each row is told in another way.
+    std::vector<std::uint32_t> made;
+    std::uint32_t state = 5;
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        state = state * 1664525U + 1013904223U;
+        const auto column = static_cast<std::uint32_t>(x), row = static_cast<std::uint32_t>(y);
+        made.push_back(0xFF000000U | (y % 50 < 10   ? 0xFFFFFFU
+                                      : y % 50 < 25 ? (3U * column & 255U) * 0x010101U
+                                      : y % 50 < 40 ? (row & 255U) << 8 | (state >> 9 & 255U) * 0x010001U % 7
+                                                    : state & 0xFFFFFFU));
+      }
+    const std::string png =
+        png_bytes(reinterpret_cast<const unsigned char*>(made.data()), width, height, 4 * width);
+    int read_width = 0, read_height = 0;
+    const std::vector<std::uint32_t> read = read_png(png, read_width, read_height);
+    ASSERT_EQ(read_width, width);
+    ASSERT_EQ(read_height, height);
+    for (std::size_t i = 0; i < made.size(); ++i) ASSERT_EQ(read[i], made[i] & 0xFFFFFFU) << i;
+  }
 }
 
 TEST(Picture, SvgAndPdfAreWholeDocumentsOfThePictureSize) {

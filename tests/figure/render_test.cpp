@@ -1,3 +1,5 @@
+#include "ray_scene.h"
+#include "seen_pixels.h"
 #include "test_shapes.h"
 
 #include "ostia/core/error.h"
@@ -6,9 +8,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace ostia::figure {
 namespace {
@@ -197,6 +201,60 @@ TEST(Render, ReportsItsProgressAndCanBeCancelled) {
   EXPECT_DOUBLE_EQ(task.progress(), 1.0);
   task.cancel();
   EXPECT_THROW(render(scene, {}, small_picture(), task), Cancelled);
+}
+
+/// Whether the ray through the middle of a part of a pixel meets anything.
+bool is_hit(const RayScene& rays, const View& view, double x, double y) {
+  const Vec3 across =
+      view.mm_per_px * ((x - 0.5 * view.width_px) * view.right + (y - 0.5 * view.height_px) * view.down);
+  const Vec3 eye = view.eye - rays.centre();
+  const Ray ray = view.projection == Projection::orthographic
+                      ? Ray{eye + across, view.forward}
+                      : Ray{eye, (view.focus_distance_mm * view.forward + across).normalized()};
+  return rays.first_hit(RayScene::Part::opaque, ray, 0.0, INFINITY).has_value();
+}
+
+TEST(Render, NoPixelIsLeftOutThatSeesSomething) {
+  Scene scene;
+  scene.meshes.push_back({.mesh = ball(4.0, 16, {30, -12, 5})});
+  scene.meshes.push_back({.mesh = sheet(0.05, 14.0)});  // thinner than a pixel
+  scene.tubes.push_back({.points = {{-14, 3, 0}, {-2, -6, 9}, {11, 4, -8}}, .radius_mm = {0.1, 1.5, 0.4}});
+  scene.tubes.push_back({.points = {{2, 2, 12}}, .radius_mm = {1.2}});
+  int hits = 0, marked = 0, looks = 0;
+  for (const Projection projection : {Projection::orthographic, Projection::perspective})
+    for (const double lao : {0.0, 35.0, -70.0, 160.0}) {
+      Camera camera = cameras::angiographic(lao, 0.3 * lao);
+      camera.projection = projection;
+      camera.field_of_view_deg = 80.0;
+      const View view = fitted_view(scene, camera, 160, 120);
+      const RayScene rays(scene, view.eye + view.focus_distance_mm * view.forward);
+      const std::vector<std::uint8_t> seen = seen_pixels(scene, view);
+      ASSERT_EQ(seen.size(), 160U * 120U);
+      for (int y = 0; y < 120; ++y)
+        for (int x = 0; x < 160; ++x) {
+          const bool mark = seen[static_cast<std::size_t>(y * 160 + x)] != 0;
+          bool hit = false;
+          for (const auto& [u, v] : {std::pair(0.02, 0.02), std::pair(0.98, 0.3), std::pair(0.5, 0.98)})
+            hit = hit || is_hit(rays, view, x + u, y + v);
+          EXPECT_TRUE(mark || !hit) << x << ", " << y << " from " << lao;
+          hits += hit, marked += mark, ++looks;
+        }
+    }
+  EXPECT_GT(hits, looks / 50);
+  EXPECT_LT(marked, looks / 2) << "and most that sees nothing is";
+}
+
+TEST(Render, WhatReachesBehindTheEyeMayBeAnywhere) {
+  Scene scene;
+  scene.meshes.push_back({.mesh = sheet(5.0, 5.0)});
+  scene.meshes.push_back({.mesh = sheet(5.0, 5.0, -500.0)});
+  Camera camera;
+  camera.projection = Projection::perspective;
+  camera.focus = Vec3(0.0, 0.0, 0.0);
+  camera.height_mm = 12.0;
+  const View view = fitted_view(scene, camera, 40, 30);
+  const std::vector<std::uint8_t> seen = seen_pixels(scene, view);
+  EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), 40 * 30);
 }
 
 }  // namespace

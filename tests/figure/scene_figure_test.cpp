@@ -81,5 +81,23 @@ TEST(SceneFigure, LabelsStandAtTheirPlaceAndNotOnEachOther) {
             static_cast<int>(1.5 * single));
 }
 
+TEST(SceneFigure, SeveralSightsAreThePicturesOfEach) {
+  Scene scene = ball_scene();
+  scene.tubes.push_back({.points = {{-9, 0, -3}, {9, 2, 3}}, .radius_mm = {0.8}});
+  const std::vector<SceneSight> sights{{cameras::anterior(), "from the front"},
+                                       {cameras::angiographic(50.0, 20.0), "LAO 50"},
+                                       {cameras::superior(), ""}};
+  const std::vector<Picture> pictures = scene_figures(scene, sights, bare());
+  ASSERT_EQ(pictures.size(), sights.size());
+  for (std::size_t i = 0; i < sights.size(); ++i) {
+    RenderOptions options = bare();
+    options.title = sights[i].title;
+    const Raster alone = scene_figure(scene, sights[i].camera, options).raster();
+    // Rays have another origin of their single precision: a pixel of an edge may fall to the other side.
+    EXPECT_LT(different_pixels(pictures[i].raster(), alone), 30) << i;
+  }
+  EXPECT_GT(different_pixels(pictures[0].raster(), pictures[1].raster()), 500);
+}
+
 }  // namespace
 }  // namespace ostia::figure

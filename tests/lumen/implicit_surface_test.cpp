@@ -4,6 +4,7 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
+#include "ostia/core/processor.h"
 
 #include <gtest/gtest.h>
 
@@ -87,7 +88,7 @@ TEST_P(EachKernel, SameBitsHoweverItIsAsked) {
 }
 
 TEST_P(EachKernel, SameBitsWithAndWithoutAvx2) {
-  if (!processor_has_avx2()) GTEST_SKIP() << "this processor has no AVX2";
+  if (!core::has_avx2()) GTEST_SKIP() << "this processor has no AVX2";
   const KernelLoops plain = kernel_loops_baseline(GetParam()), wide = kernel_loops_avx2(GetParam());
   const std::size_t size = 133;
   std::mt19937_64 random(3);

@@ -77,11 +77,21 @@ TEST(KnownLumen, OfASurfaceInCentimetresIsOfItsMillimetres) {
   core::set_max_threads(0);
 }
 
-TEST(KnownLumen, IsNothingWhereTheSurfaceWasChanged) {
-  TriMesh inward = sound_y();
-  for (geometry::Triangle& t : inward.triangles) std::swap(t[0], t[1]);
-  EXPECT_FALSE(taken_for_axes(inward).known);
+TEST(KnownLumen, OfASurfaceThatFacedInwardIsThatOfTheOutwardOne) {
+  const TriMesh outward = sound_y();
+  TriMesh inward = outward;
+  for (geometry::Triangle& t : inward.triangles) std::swap(t[1], t[2]);
+  core::set_max_threads(2);
+  const TakenSurface taken = taken_for_axes(inward);
+  EXPECT_EQ(taken.lumen.triangles, outward.triangles);
+  ASSERT_FALSE(taken.told.empty());
+  EXPECT_NE(taken.told.front().find("turned"), std::string::npos);
+  ASSERT_TRUE(taken.known);
+  expect_same(axes_of(taken_for_axes(outward), true), axes_of(taken, true));
+  core::set_max_threads(0);
+}
 
+TEST(KnownLumen, IsNothingWhereTheSurfaceWasChanged) {
   const TriMesh capped = geometry::fill_holes(sound_y()).mesh;
   const TakenSurface opened = taken_for_axes(capped);
   EXPECT_EQ(opened.ends.size(), 3u);

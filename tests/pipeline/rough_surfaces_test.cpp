@@ -107,7 +107,10 @@ TEST(RoughSurfaces, VesselsThatRunThroughEachOtherAreNoFold) {
   TriMesh both = geometry::merged(one, other);
   const TriMesh before = both;
   ASSERT_FALSE(geometry::self_intersections(both).empty());
-  EXPECT_EQ(unfold(both, core::no_task()).crossings, 0u);
+  KnownCrossings crossings;
+  EXPECT_EQ(unfold(both, crossings, core::no_task()).crossings, 0u);
+  ASSERT_TRUE(crossings) << "nothing has moved";
+  EXPECT_EQ(*crossings, geometry::self_intersections(both));
   EXPECT_EQ(both.points, before.points);
 }
 

@@ -6,6 +6,7 @@ Usage: schemas_test.py OSTIA SCHEMA_FOLDER [Schemas] [Experiments]
 import copy
 import json
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -64,6 +65,16 @@ class Experiments(Refusing):
         validator("experiment-chain").validate(printed)
         self.assertEqual(printed, json.loads((out / "experiment.json").read_text()))
         self.assert_refused("experiment-chain", {"v": 1, "kind": "chain"})
+
+    @unittest.skipUnless(shutil.which("simpleFoam"), "openfoam is not installed")
+    def test_experiment_pressure(self):
+        folder = pathlib.Path(self.holder.name)
+        none = [word for kind in ("concentric", "eccentric", "tapered", "bends", "series", "forks") for word in ("--" + kind, "0")]
+        printed = json.loads(run("experiment", "pressure", "-o", folder / "pressure", "--keep", folder / "runs", *none, "--edge-ratio", "0.4", "--json"))
+        validator("experiment-pressure").validate(printed)
+        self.assertEqual(printed, json.loads((folder / "pressure" / "experiment.json").read_text()))
+        self.assertEqual(len(printed["cases"]), 1)
+        self.assert_refused("experiment-pressure", {"v": 1, "kind": "pressure"})
 
     def test_experiment_orientations(self):
         out = pathlib.Path(self.holder.name) / "orientations"
@@ -182,6 +193,20 @@ class Schemas(Refusing):
                 del broken[field]
                 with self.subTest(file + " " + field):
                     self.assert_refused(schema, broken)
+
+    def test_ffr(self):
+        holder = pathlib.Path(self.holder.name)
+        (holder / "artery.csv").write_text("x,y,z,radius\n" + "".join(f"0,0,{0.5 * i},{0.7 if 40 <= i <= 44 else 1.5}\n" for i in range(121)))
+        made = json.loads(run("ffr", holder / "artery.csv", "-o", holder / "ffr", "--pulse", "--json"))
+        validator("ffr").validate(made)
+        self.assertTrue(made["lesions"])
+        self.assertEqual(made, json.loads((holder / "ffr" / "ffr.json").read_text()))
+        validator("manifest").validate(json.loads((holder / "ffr" / "manifest.json").read_text()))
+        for field in set(made) - {"pulse"}:
+            broken = copy.deepcopy(made)
+            del broken[field]
+            with self.subTest(field):
+                self.assert_refused("ffr", broken)
 
     def test_case_report(self):
         holder = pathlib.Path(self.holder.name)

@@ -3,6 +3,9 @@
 #include "boundary/edge_profile.h"
 #include "outer_wall/profile.h"
 
+#include "ostia/core/parallel.h"
+#include "ostia/core/processor.h"
+
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
@@ -148,7 +151,7 @@ TEST(WallProfile, ARayThatSaysNothingHasTheSameCandidates) {
 
 TEST(WallProfile, HasTheSameBitsOnEveryProcessor) {
 #if defined(__x86_64__)
-  if (!__builtin_cpu_supports("avx2")) GTEST_SKIP() << "this processor has no AVX2";
+  if (!core::has_avx2()) GTEST_SKIP() << "this processor has no AVX2";
 #endif
   std::mt19937 random(3);
   std::uniform_real_distribution<double> value(-1.0, 1.0);
@@ -169,6 +172,32 @@ TEST(WallProfile, HasTheSameBitsOnEveryProcessor) {
                 std::bit_cast<std::uint64_t>(determinant[1][h][c]));
       EXPECT_GE(determinant[0][h][c], 1.0);
     }
+}
+
+TEST(BlurredDiscs, AreThoseOfTheFormulaWhateverWasAskedForBefore) {
+  const auto check = [](double largest_mm, double reach_mm, double step_mm, double sigma_mm) {
+    const BlurredDiscs discs(largest_mm, reach_mm, step_mm, sigma_mm);
+    for (int r = 0; r < discs.radii(); r += 7)
+      for (int i = 0; i < discs.samples(); i += 3)
+        EXPECT_EQ(discs.share(r, i), blurred_disc(r * 0.05, i * step_mm, sigma_mm))
+            << r << ", " << i << " of " << largest_mm;
+    EXPECT_EQ(discs.share(3, 10000), discs.share(3, discs.samples() - 1));
+  };
+  check(2.0, 4.0, 0.2, 0.31);
+  check(9.0, 5.0, 0.2, 0.31);   // more radii than before
+  check(3.0, 14.0, 0.2, 0.31);  // more samples
+  check(2.0, 4.0, 0.2, 0.31);
+  check(2.0, 4.0, 0.25, 0.31);
+  check(2.0, 4.0, 0.2, 0.45);
+}
+
+TEST(BlurredDiscs, AreAskedForByManyAtOnce) {
+  std::vector<double> sums(32, 0.0);
+  core::parallel_for(sums.size(), 1, [&](std::size_t n) {
+    const BlurredDiscs discs(2.0 + 0.3 * static_cast<double>(n % 5), 6.0, 0.2, 0.37);
+    for (int i = 0; i < 30; ++i) sums[n] += discs.at(1.23, i);
+  });
+  for (const double sum : sums) EXPECT_EQ(sum, sums.front());
 }
 
 }  // namespace

@@ -275,6 +275,12 @@ TEST(ReportDigest, FollowsWhatTheReportIsMadeOf) {
   turned.theta_deg = 30.0;
   EXPECT_NE(report_job(file, false, {}).parameters, report_job(file, false, turned).parameters);
   EXPECT_NE(report_job(file, false, {}).parameters, report_job(file, false, {}, {}, true).parameters);
+  const std::vector<KeyImage> pinned{
+      {"pinned-1", "Pinned by the reader", figure::picture_of({2, 1, {255, 0, 0, 255, 0, 0, 0, 255}})}};
+  pipeline::JobKey later = report_job(file, false, {});
+  add_further(later, pinned);
+  EXPECT_EQ(later.parameters, report_job(file, false, {}, pinned).parameters);
+  EXPECT_NE(later.parameters, report_job(file, false, {}).parameters);
 }
 
 }  // namespace

@@ -37,7 +37,8 @@ class CaseVersion : public ::testing::Test {
     }
     case_version_sql(path,
                      "DROP TABLE annotation; DROP TABLE measurement; DROP TABLE mark; DROP TABLE "
-                     "evaluability; DROP TABLE lesion; DROP TABLE step_stamp; PRAGMA user_version = 1");
+                     "evaluability; DROP TABLE lesion; DROP TABLE step_stamp; DROP TABLE image_axes; PRAGMA "
+                     "user_version = 1");
     ASSERT_EQ(version_of(path), "1");
     bytes = bytes_of_file(path);
   }
@@ -111,8 +112,9 @@ TEST(CaseOfVersionTwo, KeepsItsMarksAndGetsTheReadersWord) {
     CaseFile file = CaseFile::create(path, tube_model());
     file.annotate(plain);
   }
-  case_version_sql(
-      path, "DROP TABLE evaluability; DROP TABLE lesion; DROP TABLE step_stamp; PRAGMA user_version = 2");
+  case_version_sql(path,
+                   "DROP TABLE evaluability; DROP TABLE lesion; DROP TABLE step_stamp; DROP TABLE "
+                   "image_axes; PRAGMA user_version = 2");
   CaseFile file = CaseFile::open(path);
   ASSERT_EQ(file.annotations()->marks.size(), 1U);
   EXPECT_TRUE(same(file.annotations()->marks[0], plain.mark));
@@ -134,7 +136,8 @@ TEST(CaseOfVersionThree, KeepsTheReadersWordAndGetsThatOnLesions) {
     CaseFile file = CaseFile::create(path, tube_model());
     file.annotate(older);
   }
-  case_version_sql(path, "DROP TABLE lesion; DROP TABLE step_stamp; PRAGMA user_version = 3");
+  case_version_sql(
+      path, "DROP TABLE lesion; DROP TABLE step_stamp; DROP TABLE image_axes; PRAGMA user_version = 3");
   {
     CaseFile file = CaseFile::open(path);
     ASSERT_EQ(file.annotations()->marks.size(), 1U);
@@ -156,7 +159,7 @@ TEST(CaseOfVersionFour, GetsTimesAndNamesFromTheNextStepOn) {
     CaseFile file = CaseFile::create(path, tube_model());
     file.apply(ring(10.0, 1.8));
   }
-  case_version_sql(path, "DROP TABLE step_stamp; PRAGMA user_version = 4");
+  case_version_sql(path, "DROP TABLE step_stamp; DROP TABLE image_axes; PRAGMA user_version = 4");
   CaseFile file = CaseFile::open(path);
   file.set_author("Dr. A");
   file.apply(renamed("two"));
@@ -166,6 +169,25 @@ TEST(CaseOfVersionFour, GetsTimesAndNamesFromTheNextStepOn) {
   EXPECT_EQ(journal[1].author, "");
   EXPECT_GT(journal[2].time_s, 1700000000);
   EXPECT_EQ(journal[2].author, "Dr. A");
+}
+
+TEST(CaseOfVersionFive, HasItsImageAsItsFileSaysAndNewOnesAsTheReaderDoes) {
+  const TempFolder folder;
+  const fs::path path = folder / "a.ostia";
+  const std::string hash(64, 'a');
+  CaseFile::create(path, tube_model(), ImageReference{hash, "image-aaaaaaaa"});
+  case_version_sql(path, "DROP TABLE image_axes; PRAGMA user_version = 5");
+  EXPECT_EQ(CaseFile::open(path).image()->axes, "");
+  EXPECT_EQ(version_of(path), std::to_string(schema_version));
+  CaseFile::create(folder / "b.ostia", tube_model(), ImageReference{hash, "image-aaaaaaaa", "RPS"});
+  EXPECT_EQ(CaseFile::open(folder / "b.ostia").image()->axes, "RPS");
+  CaseFile::open(folder / "b.ostia").copy_to(folder / "c.ostia");
+  EXPECT_EQ(CaseFile::open(folder / "c.ostia", OpenMode::read_only).image()->axes, "RPS");
+  EXPECT_THROW(
+      CaseFile::create(folder / "d.ostia", tube_model(), ImageReference{hash, "image-aaaaaaaa", "RLS"}),
+      InvalidInput);
+  case_version_sql(folder / "b.ostia", "UPDATE image_axes SET axes = 'LPS'");
+  EXPECT_THROW(CaseFile::open(folder / "b.ostia"), InvalidInput);
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <filesystem>
 
 namespace ostia::session {
 namespace {
@@ -75,6 +77,62 @@ TEST_F(LesionTable, IsThatOfTheReport) {
     EXPECT_NEAR(rows[i].lesion.plaque->plaque_mm3(), told.plaque->volumes.plaque_mm3(), 2.0);
   }
   EXPECT_EQ(rows[1].state, LesionState::accepted);
+}
+
+TEST(LesionGrade, StandsWhereAPersonOrTheImageBearsIt) {
+  using analysis::Evaluability;
+  using analysis::EvaluableStretch;
+  const auto stretch = [](Evaluability grade, bool by_person) {
+    return std::optional(EvaluableStretch{0.0, 10.0, grade, {}, by_person});
+  };
+  const auto open = LesionState::open;
+  EXPECT_EQ(grade_bar(open, false, std::nullopt), GradeBar::image_unknown);
+  EXPECT_EQ(grade_bar(open, true, std::nullopt), GradeBar::none);
+  EXPECT_EQ(grade_bar(open, false, stretch(Evaluability::evaluable, false)), GradeBar::none);
+  EXPECT_EQ(grade_bar(open, false, stretch(Evaluability::limited, false)), GradeBar::limited);
+  EXPECT_EQ(grade_bar(open, true, stretch(Evaluability::limited, false)), GradeBar::none);
+  EXPECT_EQ(grade_bar(open, false, stretch(Evaluability::limited, true)), GradeBar::none);
+  EXPECT_EQ(grade_bar(open, false, stretch(Evaluability::not_evaluable, false)), GradeBar::not_evaluable);
+  EXPECT_EQ(grade_bar(open, true, stretch(Evaluability::not_evaluable, false)), GradeBar::none);
+  EXPECT_EQ(grade_bar(open, true, stretch(Evaluability::not_evaluable, true)),
+            GradeBar::not_evaluable_by_reader);
+  for (const bool checked : {false, true})
+    for (const Evaluability grade :
+         {Evaluability::evaluable, Evaluability::limited, Evaluability::not_evaluable}) {
+      EXPECT_EQ(grade_bar(LesionState::accepted, checked, stretch(grade, false)), GradeBar::none);
+      EXPECT_EQ(grade_bar(LesionState::rejected, checked, stretch(grade, false)), GradeBar::rejected);
+    }
+}
+
+TEST_F(LesionTable, HasAGradeWhereTheReportHasOneAndNowhereElse) {
+  // Noise makes the image less than evaluable; half of a narrowing is what it takes for a category.
+  for (const int noise_hu : {0, 60, 110, 400}) {
+    std::uint32_t state = 7;
+    for (std::int16_t& voxel : image.voxels) {
+      state = state * 1664525U + 1013904223U;
+      voxel = static_cast<std::int16_t>(voxel + static_cast<int>((state >> 8U) % (2U * noise_hu + 1U)) -
+                                        noise_hu);
+    }
+    bench.close_case();
+    bench.close_image();
+    std::filesystem::remove(folder / "a.ostia");
+    open();
+    bench.profile(vessel());
+    find_all();
+    while (const auto work = evaluability.work()) ASSERT_TRUE(evaluability.take(*work, work->found()));
+    for (const bool checked : {false, true}) {
+      VesselMark mark = mark_or_new(*bench.session().file().annotations(), vessel());
+      mark.checked = checked;
+      bench.annotate(MarkVessel{mark});
+      const CaseReport report = report_of(*bench.model(), *bench.session().file().annotations(), {}, &image);
+      const auto& rows = board.rows();
+      ASSERT_EQ(rows.size(), report.stenoses.size()) << noise_hu;
+      ASSERT_FALSE(rows.empty());
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        EXPECT_EQ(rows[i].bar() == GradeBar::none, report.stenoses[i].category.has_value())
+            << noise_hu << " HU, lesion " << i;
+    }
+  }
 }
 
 TEST_F(LesionTable, TheReadersWordIsAStepThatIsStoredAndUndone) {

@@ -2,6 +2,9 @@
 
 #include "solver_test_support.h"
 
+#include <set>
+#include <string_view>
+
 namespace ostia::solver {
 namespace {
 
@@ -36,6 +39,18 @@ TEST(BoundaryFlow, TakesFlowVelocityOrReynoldsNumber) {
               1e-12);
   options.inlet_flow_ml_s[by_reynolds.inlets[0].name] = 1.25;
   EXPECT_EQ(boundary_flow(fork(), options).mean_flow_ml_s, 1.25);
+}
+
+TEST(OutletModels, HaveANameEachByWhichTheyAreFound) {
+  std::set<std::string_view> names;
+  for (const OutletTraits& one : outlet_models()) {
+    EXPECT_EQ(outlet_model(one.name), one.model);
+    EXPECT_EQ(name_of(one.model), one.name);
+    EXPECT_FALSE(one.what.empty());
+    names.insert(one.name);
+  }
+  EXPECT_EQ(names, (std::set<std::string_view>{"zero", "split", "resistance"}));
+  EXPECT_THROW(outlet_model("Split"), InvalidInput);
 }
 
 TEST(BoundaryFlow, SharesByDiameterAndResists) {

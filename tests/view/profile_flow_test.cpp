@@ -157,6 +157,16 @@ TEST(ProfileFlow, HasAxesUnitAndLegendOfItsOwn) {
         EXPECT_GE(px.y(), 0.0);
         EXPECT_LE(px.y(), 220.0);
       }
+  // What was gathered of a vessel does not stay for another one.
+  tube.bench.vessel.set(flow.y.main_id);
+  EXPECT_EQ(text(Role::shear, "shear, Pa: " + std::string("0.668")), 1) << "at 10 mm they run together";
+  tube.bench.cursor_mm.set(40.0);
+  const auto main = station_at(flow.stations().at(flow.y.main_id), 40.0);
+  EXPECT_EQ(text(Role::shear, "shear, Pa: " + three_digits(main.mean_shear_pa)), 1);
+  tube.bench.vessel.set(flow.y.side_id);
+  tube.bench.cursor_mm.set(40.0);
+  const auto side = station_at(flow.stations().at(flow.y.side_id), 40.0);
+  EXPECT_EQ(text(Role::shear, "shear, Pa: " + three_digits(side.mean_shear_pa)), 1);
   profile.set_flow(nullptr);
   EXPECT_EQ(lines(Role::shear), 0);
   EXPECT_EQ(profile.x_of(50.0), before);

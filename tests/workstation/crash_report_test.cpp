@@ -1,5 +1,6 @@
 // A program that crashes leaves a report that names nobody.
 
+#include "commands/table.h"
 #include "help/crash_reports.h"
 #include "shell/crash_watch.h"
 #include "tube_case.h"
@@ -150,6 +151,22 @@ TEST_F(CrashReport, IsOfferedOnceAndCanBeLookedAtAndDeleted) {
   ASSERT_TRUE(wait_until([&] { return test.window().findChild<QPushButton*>("crash_delete") != nullptr; }));
   QTest::mouseClick(test.window().findChild<QPushButton*>("crash_delete"), Qt::LeftButton);
   EXPECT_TRUE(crash_reports(reports).empty());
+  test.window().commands().refresh();
+  EXPECT_FALSE(test.window().findChild<QAction*>("help.crash_reports")->isEnabled());
+}
+
+TEST_F(CrashReport, TheFolderIsLookedIntoWhenItIsNeededAndNotWithEveryRefresh) {
+  fs::create_directories(reports);
+  core::write_file(reports / "crash-1-1.txt", "of an older session");
+  TestWindow test(state);
+  for (QMessageBox* box : testing::open_boxes()) box->close();
+  const QAction& action = *test.window().findChild<QAction*>("help.crash_reports");
+  ASSERT_TRUE(action.isEnabled());
+  fs::remove_all(reports);
+  test.window().commands().refresh();
+  EXPECT_TRUE(action.isEnabled()) << "nobody has looked";
+  CrashReports of_its_own(test.window().desk());
+  EXPECT_FALSE(of_its_own.any());
 }
 
 TEST_F(CrashReport, OfTheProgramItselfHasNoPathAndNoName) {

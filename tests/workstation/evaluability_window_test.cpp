@@ -88,7 +88,7 @@ TEST_F(EvaluabilityWindow, IsFoundShownAndToldWithoutBeingAskedFor) {
   auto* profile = test->window().findChild<ProfileWidget*>();
   EXPECT_EQ(bands(profile->view().overlay(), view::Role::not_evaluable).size(), 2U);
   EXPECT_THAT(in_list().toStdString(), HasSubstr("% not|"));
-  EXPECT_THAT(in_list().toStdString(), HasSubstr("to 40 mm: not evaluable: "));
+  EXPECT_THAT(in_list().toStdString(), HasSubstr("to 40.0 mm: not evaluable: "));
   board().shown.set(false);
   EXPECT_TRUE(bands(curved.overlay(), view::Role::not_evaluable).empty());
 }

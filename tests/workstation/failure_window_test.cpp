@@ -1,5 +1,6 @@
 // What stands in the views' place when something fails, and what was said before.
 
+#include "commands/table.h"
 #include "measuring/reporting.h"
 #include "opening/series_browser.h"
 #include "opening/start_page.h"
@@ -99,6 +100,27 @@ TEST_F(Failing, ThreePlanesAreAWayOut) {
   click("view.layout_planes");
   EXPECT_TRUE(child<QWidget>("planes").isVisible());
   EXPECT_FALSE(panel_shown()) << "its views are not there";
+}
+
+TEST_F(Failing, ItsButtonsStayAsLongAsWhatTheyOfferDoes) {
+  open(image);
+  QPushButton* before = way("tool.add_artery");
+  ASSERT_TRUE(before);
+  before->setFocus();
+  QTest::mousePress(before, Qt::LeftButton);
+  bool done = false;
+  window().jobs().run(
+      "other", "Other", [](const core::TaskContext&) { return std::any(1); },
+      [&](const std::any&) { done = true; }, [](const QString&) {});
+  ASSERT_TRUE(wait_until([&] { return done; }));
+  QApplication::processEvents();
+  ASSERT_EQ(way("tool.add_artery"), before) << "a job that has nothing to do with it";
+  QTest::mouseRelease(before, Qt::LeftButton);
+  EXPECT_EQ(test.bench().tool.get(), session::Tool::add_artery) << "a click goes on over the end of a job";
+  window().commands().action("view.layout_planes").setEnabled(false);
+  test.bench().tool.set(session::Tool::browse);
+  EXPECT_FALSE(way("view.layout_planes")) << "what it offers has changed";
+  EXPECT_TRUE(way("tool.add_artery"));
 }
 
 TEST_F(Failing, ACaseOfANewerVersionIsOneClearMessage) {

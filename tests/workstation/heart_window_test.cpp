@@ -2,12 +2,14 @@
 // and the C-arm's angles.
 
 #include "tube_case.h"
+#include "views/heart_memory.h"
 #include "views/heart_volume.h"
 #include "window_hand.h"
 
 #include "ostia/imaging/image_file.h"
 #include "ostia/session/image_digest.h"
 #include "ostia/session/machine_state.h"
+#include "ostia/view/volume_box.h"
 
 #include <gtest/gtest.h>
 
@@ -15,11 +17,14 @@
 #include <QComboBox>
 #include <QDockWidget>
 #include <QInputDialog>
+#include <QScreen>
 #include <QSlider>
 #include <QTest>
 #include <QWindow>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdlib>
 
 namespace ostia::workstation {
 namespace {
@@ -96,6 +101,16 @@ struct HeartWindow : ::testing::Test {
     const QPointF where(px.x() / ratio, native->height() - px.y() / ratio);
     QMouseEvent event(type, where, native->mapToGlobal(where.toPoint()), button, held, Qt::NoModifier);
     QApplication::sendEvent(native, &event);
+  }
+  void look(const char* name) {
+    testing::let_rest();
+    const char* pictures = std::getenv("OSTIA_PICTURES");
+    if (!pictures) return;
+    const QRect all = test->window().frameGeometry();
+    test->window()
+        .screen()
+        ->grabWindow(0, all.x(), all.y(), all.width(), all.height())
+        .save(QString("%1/heart-%2.png").arg(pictures, name));
   }
   /// Around the places from z = 10 to z = 16 mm, across all of the image.
   void draw_around(bool let_go = true) {
@@ -198,6 +213,135 @@ TEST_F(HeartWindow, SlidersChangeLookAndBoxAndAreSetBack) {
   run("heart.all_back");
   EXPECT_TRUE(heart().crop.get().whole());
   EXPECT_EQ(child<QSlider>("heart_from_3").value(), 0);
+}
+
+TEST_F(HeartWindow, ASideOfTheBoxIsPulledByTheMouse) {
+  run("heart.box");  // shows the heart by itself
+  ASSERT_TRUE(is_ready());
+  testing::let_rest();
+  const auto top = [&] { return view::faces_of(heart().crop.get(), heart().shown()->geometry)[5]; };
+  const view::CameraPose before = scene().pose();
+  const Vec3 from = top().middle, to = from - 12.0 * Vec3::UnitZ();
+  mouse(QEvent::MouseMove, from, Qt::NoButton, Qt::NoButton);
+  EXPECT_EQ(native->cursor().shape(), Qt::SizeAllCursor) << "something to take hold of is there";
+  const auto pull = [&] {
+    mouse(QEvent::MouseButtonPress, from, Qt::LeftButton, Qt::LeftButton);
+    for (int step = 1; step <= 6; ++step)
+      mouse(QEvent::MouseMove, from + step / 6.0 * (to - from), Qt::NoButton, Qt::LeftButton);
+  };
+  pull();
+  EXPECT_NEAR((top().middle - to).norm(), 0.0, 0.3);
+  QTest::keyClick(native, Qt::Key_Escape);
+  mouse(QEvent::MouseButtonRelease, to, Qt::LeftButton, Qt::NoButton);
+  EXPECT_TRUE(heart().crop.get().whole()) << "Escape takes it back";
+  pull();
+  mouse(QEvent::MouseButtonRelease, to, Qt::LeftButton, Qt::NoButton);
+  EXPECT_NEAR((top().middle - to).norm(), 0.0, 0.3);
+  EXPECT_EQ(heart().crop.get().low, (std::array{0.0, 0.0, 0.0}));
+  EXPECT_LT((scene().pose().towards - before.towards).norm(), 1e-12) << "the hand turned the tree";
+  EXPECT_LT(child<QSlider>("heart_to_3").value(), 200) << "the dock follows";
+  look("box");
+  run("heart.box");  // without it the mouse turns the tree again
+  testing::let_rest();
+  mouse(QEvent::MouseButtonPress, top().middle, Qt::LeftButton, Qt::LeftButton);
+  mouse(QEvent::MouseMove, top().middle + Vec3(6, 0, 0), Qt::NoButton, Qt::LeftButton);
+  mouse(QEvent::MouseMove, top().middle + Vec3(9, 0, 0), Qt::NoButton, Qt::LeftButton);
+  mouse(QEvent::MouseButtonRelease, top().middle + Vec3(9, 0, 0), Qt::LeftButton, Qt::NoButton);
+  EXPECT_GT((scene().pose().towards - before.towards).norm(), 1e-3);
+}
+
+TEST_F(HeartWindow, ScissorsWorkBesideTheBoxAndGiveItBack) {
+  run("heart.box");
+  ASSERT_TRUE(is_ready());
+  run("heart.cut_inside");
+  draw_around();
+  ASSERT_TRUE(wait_until([&] { return hu_at(in_the_tube) < -500; }));
+  testing::let_rest();
+  const Vec3 top = view::faces_of(heart().crop.get(), heart().shown()->geometry)[5].middle;
+  mouse(QEvent::MouseButtonPress, top, Qt::LeftButton, Qt::LeftButton);
+  mouse(QEvent::MouseMove, top - Vec3(0, 0, 5), Qt::NoButton, Qt::LeftButton);
+  mouse(QEvent::MouseButtonRelease, top - Vec3(0, 0, 5), Qt::LeftButton, Qt::NoButton);
+  EXPECT_LT(heart().crop.get().high[2], 1.0);
+}
+
+TEST_F(HeartWindow, CutsAndBoxComeBackWithTheCaseAndTheLookWithTheWindow) {
+  run("heart.look_bone");
+  heart().shift_hu.set(60.0);
+  run("heart.cut_inside");
+  ASSERT_TRUE(is_ready());
+  draw_around();
+  ASSERT_TRUE(wait_until([&] { return hu_at(in_the_tube) < -500; }));
+  view::VolumeCrop box;
+  box.low = {0.0, 0.1, 0.25};
+  box.high = {0.9, 1.0, 0.75};
+  heart().crop.set(box);
+  const std::vector<view::VolumeCut> cuts = heart().all_cuts();
+  ASSERT_EQ(cuts.size(), 1U);
+  const fs::path case_file = folder / "tube.ostia";
+  test->window().close();
+  test.reset();
+  {
+    const auto file = session::CaseFile::open(case_file, session::OpenMode::read_only);
+    EXPECT_TRUE(file.setting("heart.box"));
+    EXPECT_EQ(file.journal().size(), 1U) << "how it is looked at is no step";
+  }
+  test = std::make_unique<testing::TestWindow>(folder / "state");
+  EXPECT_EQ(heart().look(), (view::VolumeLook{view::VolumePreset::bone, 60.0, 1.0}));
+  EXPECT_EQ(heart().cuts(), 0U) << "without the case";
+  test->open(case_file);
+  ASSERT_EQ(heart().cuts(), 1U);
+  ASSERT_EQ(heart().all_cuts()[0].outline_mm.size(), cuts[0].outline_mm.size());
+  for (std::size_t n = 0; n < cuts[0].outline_mm.size(); ++n)
+    EXPECT_LT((heart().all_cuts()[0].outline_mm[n] - cuts[0].outline_mm[n]).norm(), 0.08);
+  EXPECT_EQ(heart().crop.get(), box);
+  choose_behind(1);
+  ASSERT_TRUE(is_ready());
+  EXPECT_LT(hu_at(in_the_tube), -500) << "what was cut away is not there";
+  EXPECT_GT(hu_at(above_it), 300);
+  run("file.close");
+  EXPECT_EQ(heart().cuts(), 0U) << "they are those of the case";
+  EXPECT_TRUE(heart().crop.get().whole());
+}
+
+TEST_F(HeartWindow, WhatACaseCannotHoldIsNoCutAndNoBox) {
+  for (const char* text :
+       {"", "{}", "[1]", "[{}]", "nothing", R"([{"right":[1,0,0],"up":[1,0,0],"outline_mm":[]}])",
+        R"([{"right":[1,0,0],"up":[0,0,1],"outline_mm":[0,0,1,1,2]}])"})
+    EXPECT_FALSE(cuts_of_text(text)) << text;
+  EXPECT_TRUE(cuts_of_text("[]"));
+  for (const char* text :
+       {"", "[]", "[[0,1],[0,1]]", "[[0,1],[0,1],[1,0]]", "[[0,1],[0,2],[0,1]]", "[0,1,2]"})
+    EXPECT_FALSE(box_of_text(text)) << text;
+  EXPECT_EQ(box_of_text("[[0,1],[0,1],[0.5,1]]")->low[2], 0.5);
+  test->bench().session().file().set_settings(
+      {{"heart.cuts", "spoilt"}, {"heart.box", "[[3,1],[0,1],[0,1]]"}});
+  test->window().close();
+  test.reset();
+  test = std::make_unique<testing::TestWindow>(folder / "state");
+  test->open(folder / "tube.ostia");
+  EXPECT_EQ(heart().cuts(), 0U);
+  EXPECT_TRUE(heart().crop.get().whole());
+}
+
+TEST_F(HeartWindow, FollowsTheSeriesThatTheViewsShow) {
+  choose_behind(1);
+  ASSERT_TRUE(is_ready());
+  ASSERT_GT(hu_at(in_the_tube), 300);
+  const int own = hu_at(in_the_tube);
+  run("heart.cut_inside");
+  draw_around();
+  ASSERT_TRUE(wait_until([&] { return hu_at(in_the_tube) < -500; }));
+  imaging::ImageVolume brighter = *test->bench().image().volume;
+  for (std::int16_t& hu : brighter.voxels)
+    if (hu > 200) hu = static_cast<std::int16_t>(hu + 150);
+  session::OtherImage other;
+  other.volume = std::make_shared<const imaging::ImageVolume>(std::move(brighter));
+  other.name = "45 %";
+  test->bench().show_other_image(std::make_shared<const session::OtherImage>(other));
+  ASSERT_TRUE(wait_until([&] { return hu_at(above_it) > own + 100; }));
+  EXPECT_LT(hu_at(in_the_tube), -500) << "the cuts are those of the patient";
+  test->bench().show_other_image(nullptr);
+  ASSERT_TRUE(wait_until([&] { return hu_at(above_it) < own + 50; }));
 }
 
 TEST_F(HeartWindow, AnglesAreTypedAndChosenAsTheLaboratorySays) {

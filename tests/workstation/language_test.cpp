@@ -1,5 +1,6 @@
 #include "shell/language.h"
 
+#include "case_report_words.h"
 #include "shell/library_texts.h"
 
 #include "ostia/core/phrasebook.h"
@@ -10,6 +11,8 @@
 #include <QFile>
 #include <QRegularExpression>
 #include <QXmlStreamReader>
+#include <map>
+#include <set>
 
 namespace ostia::workstation {
 namespace {
@@ -65,6 +68,32 @@ TEST(Language, GermanIsComplete) {
     for (const QString& translation : one.translations)
       EXPECT_EQ(one.source.trimmed().isEmpty(), translation.isEmpty()) << one.source.toStdString();
   }
+}
+
+/// Without what a menu or a sentence adds; "NO" is another word than "No".
+QString term_of(QString text) {
+  text = text.remove('&').remove(QRegularExpression("[\\x{2026}:.]+$")).trimmed();
+  if (text.size() > 1 && text[1].isLower()) text[0] = text[0].toLower();
+  return text;
+}
+
+TEST(Language, WindowAndReportSayTheSameForTheSame) {
+  std::map<QString, std::set<QString>> of_report;
+  for (const core::Phrase& one : session::report_words::german())
+    of_report[term_of(QString::fromStdString(one.from))].insert(term_of(QString::fromStdString(one.to)));
+  int same = 0;
+  for (const Text& one : texts_of("de")) {
+    const auto found = of_report.find(term_of(one.source));
+    if (found == of_report.end() || one.context == "QPlatformTheme")
+      continue;  // buttons are not of the report
+    ++same;
+    for (const QString& translation : one.translations)
+      EXPECT_TRUE(found->second.count(term_of(translation)))
+          << one.context.toStdString() << ": \"" << one.source.toStdString() << "\" is \""
+          << translation.toStdString() << "\" in the window and \"" << found->second.begin()->toStdString()
+          << "\" in the report";
+  }
+  EXPECT_GT(same, 60) << "window and report have hardly a word in common";
 }
 
 TEST(Language, SentencesOfLibrariesKeepTheirPlaces) {

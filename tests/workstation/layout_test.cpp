@@ -249,7 +249,7 @@ TEST_P(SmallScreen, EveryStateOfTheWindowFits) {
 
 TEST_P(SmallScreen, EveryDialogAndMenuFits) {
   for (const std::string state : {"series", "preferences", "preferences_keys", "about", "manual", "keys",
-                                  "report", "tour", "complaint"}) {
+                                  "report", "tour", "complaint", "orientation"}) {
     Stage stage(size());
     stage.enter(state);
     testing::let_rest();

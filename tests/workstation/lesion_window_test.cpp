@@ -124,6 +124,35 @@ TEST_F(LesionWindow, KeysWalkThroughAllViewsAndJudge) {
   EXPECT_EQ(marks[0].lesions[0].state, session::LesionState::accepted);
 }
 
+TEST_F(LesionWindow, OfALimitedStretchThereIsAPercentAndNoGrade) {
+  ASSERT_TRUE(is_known());
+  session::Workbench& bench = test->bench();
+  const std::int32_t vessel = bench.vessel.get();
+  const session::EvaluabilityWork work{
+      bench.session().file().model(), {}, bench.image().volume, vessel, std::nullopt};
+  session::EvaluabilityWork::Found found;
+  found.vessel.vessel = vessel;
+  found.vessel.stretches = {{0.0, 40.0, analysis::Evaluability::limited, {}, false}};
+  ASSERT_TRUE(test->window().evaluability().board().take(work, found));
+  wait_for_table();
+  EXPECT_EQ(narrow()->text(evaluable_column), "limited");
+  EXPECT_EQ(narrow()->text(grade_column), "not graded: limited");
+  EXPECT_NEAR(narrow()->text(percent_column).toDouble(), made_percent, 6.0);
+  EXPECT_TRUE(narrow()->toolTip(number_column).contains("vessel is Done"));
+  bench.cursor_mm.set(testing::throat_mm);
+  key(Qt::Key_Y);
+  const QString grade = narrow()->text(grade_column);
+  EXPECT_TRUE(grade == "2" || grade == "3") << grade.toStdString();
+  key(Qt::Key_X, Qt::ShiftModifier);
+  EXPECT_EQ(narrow()->text(grade_column), "not graded: limited");
+  session::VesselMark mark = session::mark_or_new(*bench.session().file().annotations(), vessel);
+  mark.checked = true;
+  bench.annotate(session::MarkVessel{mark});
+  wait_for_table();
+  EXPECT_EQ(narrow()->text(grade_column), grade);
+  EXPECT_FALSE(narrow()->toolTip(number_column).contains("vessel is Done"));
+}
+
 TEST_F(LesionWindow, ACommentIsTypedAndIsThereAgain) {
   ASSERT_TRUE(is_known());
   test->bench().cursor_mm.set(testing::throat_mm);

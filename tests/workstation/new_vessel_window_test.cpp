@@ -1,7 +1,7 @@
 // Vessels by hand in the window: the sample's right coronary deleted and put back by clicks, and a case's
 // first vessel taken back and deleted.
 
-#include "kept_scan.h"
+#include "sample_patient.h"
 #include "tube_case.h"
 #include "vessels/list.h"
 #include "views/scene_widget.h"
@@ -9,8 +9,6 @@
 
 #include "ostia/analysis/aha_segments.h"
 #include "ostia/imaging/image_file.h"
-#include "ostia/phantom/coronary_tree.h"
-#include "ostia/pipeline/image_walls.h"
 #include "ostia/session/image_digest.h"
 #include "ostia/session/machine_state.h"
 
@@ -57,18 +55,7 @@ struct Sample {
   fs::path image = folder / "image.nrrd", file = folder / "sample.ostia";
   session::ImageReference reference;
 
-  Sample() {
-    phantom::CaseOptions options;
-    options.preset = phantom::Preset::small;
-    const phantom::CasePlan plan = phantom::plan_case(options);
-    const imaging::ImageVolume scan = ostia::testing::kept_scan(plan).image;
-    imaging::write_image(image, scan);
-    reference = session::image_reference(image);
-    const geometry::VesselTree tree = phantom::vessel_tree(plan.tree);
-    session::CaseFile::create(
-        file, lumen::model_of_walls(tree, pipeline::walls_from_image(tree, scan, core::no_task())),
-        reference);
-  }
+  Sample() { reference = testing::make_sample_patient(image, file); }
 };
 
 struct SampleWindow : ::testing::Test {

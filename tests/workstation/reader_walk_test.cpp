@@ -1,16 +1,12 @@
 // A reader's walks through the whole window, from an opened scan to the report: on the sample's patient, and
 // on two real scans that a reader would send back.
 
-#include "kept_scan.h"
+#include "sample_patient.h"
 #include "shared_data.h"
 #include "shell/main_window_walks.h"
 #include "window_hand.h"
 
 #include "ostia/core/files.h"
-#include "ostia/imaging/image_file.h"
-#include "ostia/phantom/coronary_tree.h"
-#include "ostia/pipeline/image_walls.h"
-#include "ostia/session/image_digest.h"
 #include "ostia/session/machine_state.h"
 
 #include <gmock/gmock.h>
@@ -21,6 +17,9 @@
 #include <algorithm>
 #include <fstream>
 #include <iostream>
+#include <map>
+#include <sstream>
+#include <stdexcept>
 
 namespace ostia::workstation {
 namespace {
@@ -30,26 +29,28 @@ using testing::wait_until;
 
 constexpr int walk_ms = 25 * 60000, opened_ms = 600000;
 
-/// All of it or, with $OSTIA_WALK_PART, what stands before its line "# ---".
-std::string steps_of(const fs::path& walk) {
-  const std::string all = core::read_file(walk);
-  return std::getenv("OSTIA_WALK_PART") ? all.substr(0, all.find("# ---")) : all;
+/// Lines of a walk that are other ones on another scan; empty: left out there.
+using OtherLines = std::map<std::string, std::string>;
+
+/// Throws std::runtime_error for a line that the walk has not.
+std::string with_lines(const std::string& walk, const OtherLines& others) {
+  std::map<std::string, int> met;
+  std::string all;
+  std::istringstream lines(walk);
+  for (std::string line; std::getline(lines, line);) {
+    const auto other = others.find(line);
+    if (other != others.end()) ++met[line];
+    const std::string& now = other == others.end() ? line : other->second;
+    if (other == others.end() || !now.empty()) all += now + '\n';
+  }
+  if (met.size() != others.size()) throw std::runtime_error("the walk has other lines by now");
+  return all;
 }
 
-/// A vessel tree with walls from its image, as the search would leave it.
-void make_case(const fs::path& case_file, const fs::path& state) {
-  phantom::CaseOptions options;
-  options.preset = phantom::Preset::small;
-  const phantom::CasePlan plan = phantom::plan_case(options);
-  const imaging::ImageVolume image = ostia::testing::kept_scan(plan).image;
-  const fs::path image_file = case_file.parent_path() / "image.nrrd";
-  imaging::write_image(image_file, image);
-  const geometry::VesselTree tree = phantom::vessel_tree(plan.tree);
-  const session::ImageReference reference = session::image_reference(image_file);
-  session::CaseFile::create(
-      case_file, lumen::model_of_walls(tree, pipeline::walls_from_image(tree, image, core::no_task())),
-      reference);
-  session::MachineState(state).remember_image(reference.sha256, image_file);
+/// All of it or, with $OSTIA_WALK_PART, what stands before its line "# ---".
+std::string steps_of(const fs::path& walk, const OtherLines& others) {
+  const std::string all = with_lines(core::read_file(walk), others);
+  return std::getenv("OSTIA_WALK_PART") ? all.substr(0, all.find("# ---")) : all;
 }
 
 struct ReaderWalk : ::testing::Test {
@@ -60,9 +61,9 @@ struct ReaderWalk : ::testing::Test {
     return wait_until([&] { return !test.window().jobs().any(); }, opened_ms);
   }
   /// What it looked at is left in $OSTIA_WALKED where that is set.
-  void walk(const std::string& name) {
+  void walk(const std::string& name, const OtherLines& others = {}) {
     const fs::path file = folder / name;
-    core::write_file(file, steps_of(fs::path(OSTIA_WALKS) / name));
+    core::write_file(file, steps_of(fs::path(OSTIA_WALKS) / name, others));
     const char* keep = std::getenv("OSTIA_WALKED");
     const fs::path out = keep ? fs::path(keep) / file.stem() : folder / "walked";
     bool ended = false;
@@ -94,7 +95,9 @@ struct ReaderWalk : ::testing::Test {
 };
 
 TEST_F(ReaderWalk, OnTheSamplesPatient) {
-  make_case(folder / "sample.ostia", folder / "state");
+  const fs::path image = folder / "image.nrrd";
+  const auto reference = testing::make_sample_patient(image, folder / "sample.ostia");
+  session::MachineState(folder / "state").remember_image(reference.sha256, image);
   test.open(folder / "sample.ostia");
   walk("reader.walk");
 }
@@ -104,7 +107,8 @@ TEST_F(ReaderWalk, OnADissectedAortaInWideVoxels) {
   fs::copy_file(path, folder / "ct_cropped.nii.gz");
   test.window().open(folder / "ct_cropped.nii.gz");
   ASSERT_TRUE(at_rest());
-  walk("dissected.walk");
+  // Fewer vessels, in a scan that is hardly good enough; their walls may show no lesion.
+  walk("reader.walk", {{"expect vessels >= 3", "expect vessels >= 1"}, {"expect lesions >= 1", ""}});
 }
 
 TEST_F(ReaderWalk, OnAChestWithoutTheRoot) {

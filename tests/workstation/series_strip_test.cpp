@@ -356,6 +356,67 @@ TEST_F(StudyWindow, WorkingOnAnotherPutsItOnTheTable) {
   EXPECT_EQ(list().currentRow(), row_of("55 %"));
 }
 
+TEST_F(StudyWindow, ASeriesOfASecondFolderIsPutOnTheTableAndTheStripStays) {
+  const fs::path beside = folder / "beside";
+  fs::create_directories(beside);
+  fs::rename(study / "P1-35", beside / "P1-35");
+  open_study();
+  EXPECT_EQ(list().count(), 4);
+  testing::answer_file_dialog(beside);
+  part<QAction>("file.phases")->trigger();
+  ASSERT_TRUE(wait_until([&] { return list().count() == 5; }, 60000));
+  ASSERT_TRUE(idle());
+  const auto work_on = [&](const QString& title, int percent) {
+    click(title);
+    ASSERT_TRUE(comes(percent));
+    const std::string before = bench().image().reference.sha256;
+    QTest::mouseClick(part<QPushButton>("series_open"), Qt::LeftButton);
+    ASSERT_TRUE(wait_until(
+        [&] { return bench().image().reference.sha256 != before && !window().jobs().any(); }, 120000));
+    EXPECT_EQ(shown_percent(), percent);
+    EXPECT_EQ(list().count(), 5) << title.toStdString();
+    EXPECT_TRUE(series().strip().isVisible());
+    EXPECT_EQ(list().currentRow(), row_of(title));
+  };
+  work_on("35 %", 35);
+  EXPECT_TRUE(testing::open_boxes().empty());
+  const auto known = window().machine().find_image(bench().image().reference.sha256);
+  ASSERT_TRUE(known);
+  EXPECT_EQ(known->path, beside) << "where it is found again";
+  work_on("55 %", 55);  // and back to one of the first folder
+  EXPECT_EQ(window().machine().find_image(bench().image().reference.sha256)->path, study);
+}
+
+TEST_F(StudyWindow, PhasesInFilesStayTheSameStackWhenAnotherIsPutOnTheTable) {
+  const fs::path phases = folder / "phases";
+  fs::create_directories(phases);
+  for (const int percent : {25, 55, 85})
+    imaging::write_image(phases / ("phase_" + std::to_string(percent) + ".nrrd"), smeared_tube(percent));
+  test = std::make_unique<TestWindow>(folder / "state");
+  window().open(phases / "phase_25.nrrd");
+  ASSERT_TRUE(wait_until([&] { return !bench().image().reference.sha256.empty(); }, 60000));
+  ASSERT_TRUE(idle());
+  testing::answer_file_dialog(phases);
+  part<QAction>("file.phases")->trigger();
+  ASSERT_TRUE(wait_until([&] { return series().choice().has_value(); }, 60000));
+  ASSERT_TRUE(idle());
+  bool measured_again = false;
+  const auto watch = QObject::connect(&window().jobs(), &Jobs::changed, [&] {
+    measured_again = measured_again || window().jobs().running("best_phase");
+  });
+  click("55 %");
+  ASSERT_TRUE(comes(55));
+  const std::string before = bench().image().reference.sha256;
+  QTest::mouseClick(part<QPushButton>("series_open"), Qt::LeftButton);
+  ASSERT_TRUE(wait_until([&] { return bench().image().reference.sha256 != before && !window().jobs().any(); },
+                         120000));
+  ASSERT_TRUE(idle());
+  QObject::disconnect(watch);
+  EXPECT_EQ(shown_percent(), 55);
+  EXPECT_TRUE(series().choice().has_value());
+  EXPECT_FALSE(measured_again) << "it is the same study";
+}
+
 TEST_F(StudyWindow, AnImageFromElsewhereTakesTheStripAway) {
   open_study();
   const fs::path image = folder / "image.nrrd";

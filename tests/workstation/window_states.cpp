@@ -168,6 +168,7 @@ void Stage::enter(const std::string& state) {
          run("help.tour");
          child<Tour>(*window_, "tour").go(2);
        }},
+      {"orientation", [this] { run("file.orientation"); }},
       {"failure", [this] { window_->open(folder_ / "image.nrrd"); }},
       {"complaint",
        [this] {

@@ -14,6 +14,7 @@
 #include "ostia/io/centerline_file.h"
 #include "ostia/io/markups_file.h"
 #include "ostia/io/surface_file.h"
+#include "ostia/pipeline/model.h"
 #include "ostia/pipeline/repair.h"
 
 #include <nlohmann/json.hpp>
@@ -46,12 +47,8 @@ bool repair(const ConvertCommand& options, geometry::FacedSurface& surface, Json
   done["repair"] = told(fixed);
   surface = {fixed.mesh, {}, {}};
   if (!fixed.meshable && options.smooth == 0 && options.subdivide == 0)
-    core::log_warning(
-        "what is left keeps the surface from being meshed. Where a rough wall folds, --smooth 200 of the "
-        "file "
-        "as it came, without --repair, smooths the folds away (flat caps get round); else take the places "
-        "out "
-        "in the program that the surface is from");
+    core::log_warning("what is left keeps the surface from being meshed. " +
+                      pipeline::cure_of_crossings(fixed.mesh));
   return fixed.meshable;
 }
 

@@ -6,6 +6,7 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/log.h"
+#include "ostia/imaging/image_axes.h"
 #include "ostia/imaging/image_file.h"
 #include "ostia/session/case_file.h"
 #include "ostia/session/label_volume.h"
@@ -84,16 +85,23 @@ ExitCode convert_to_labels(const ConvertCommand& options, const core::TaskContex
   require_output(options.output, image_outputs);
   task.set_stage("reading");
   const auto opened = session::CaseFile::open(options.input.input, session::OpenMode::read_only);
-  const Grid grid = grid_of(options.grid, walls, task.sub(0.0, 0.2));
-  if (grid.ct.image && opened.image() && opened.image()->sha256 != grid.ct.sha256)
+  Grid grid = grid_of(options.grid, walls, task.sub(0.0, 0.2));
+  const std::optional<session::ImageReference> own = opened.image();
+  // What a person said of the CT's axes is in the case and not in its file.
+  const imaging::AxesGiven as_file = imaging::given_axes(grid.geometry, {});
+  const imaging::AxesGiven as_case = imaging::given_axes(grid.geometry, own ? own->axes : std::string());
+  if (grid.ct.image && own && !own->axes.empty())
+    grid.ct.image =
+        std::make_shared<const imaging::ImageVolume>(imaging::laid(*grid.ct.image, as_file, as_case));
+  if (grid.ct.image && own && own->sha256 != grid.ct.sha256)
     core::log_warning(own_name(options.grid) + " is not the image that the case was made of");
   const session::LabelVolume labels = naming(options.grid, [&] {
-    return session::label_volume(*opened.model(), grid.geometry, what, walls ? grid.ct.image.get() : nullptr,
+    return session::label_volume(*opened.model(), as_case.grid, what, walls ? grid.ct.image.get() : nullptr,
                                  {}, task.sub(0.2, 0.9));
   });
   for (const std::string& warning : labels.warnings) core::log_warning(warning);
   task.set_stage("writing");
-  imaging::write_image(options.output, labels.volume);
+  imaging::write_image(options.output, imaging::laid(labels.volume, as_case, as_file));
   task.set_progress(1.0);
   print_counts(labels, options.json);
   return ExitCode::ok;

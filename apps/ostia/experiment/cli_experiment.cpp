@@ -57,6 +57,7 @@ void define_experiment(CLI::App& app, ExperimentCommand& c, const std::uint64_t&
   define_experiment_sensitivity(*experiment, seed, run);
   define_experiment_robustness(*experiment, seed, run);
   define_experiment_motion(*experiment, seed, run);
+  define_experiment_pressure(*experiment, seed, run);
 }
 
 }  // namespace ostia::app

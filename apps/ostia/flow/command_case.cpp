@@ -98,8 +98,7 @@ solver::BoundaryFlowOptions flow_options(const CaseOptions& c) {
   for (const std::string& text : c.flow) add_flow(text, flow);
   flow.mean_velocity_cm_s = c.velocity_cm_s;
   flow.reynolds = c.reynolds;
-  if (c.outlets == "split") flow.outlets = solver::OutletModel::split;
-  if (c.outlets == "resistance") flow.outlets = solver::OutletModel::resistance;
+  flow.outlets = solver::outlet_model(c.outlets);
   flow.split_exponent = c.split_exponent;
   flow.total_resistance_mmhg_s_ml = c.resistance;
   if (!c.waveform.empty()) flow.waveform = waveform_of(c);
@@ -152,10 +151,13 @@ void add_flow_options(CLI::App& app, CaseOptions& c) {
       "Pulsatile: coronary-left, coronary-right, or a .csv with the columns time_s,flow_ml_s of one "
       "cycle; scaled to the mean flow where one is given");
   app.add_option("--period", c.period_s, "Of the waveform, s")->check(above_zero());
-  app.add_option("--outlets", c.outlets,
-                 "zero: the same pressure at each; split: a share of the flow each; resistance: pressure is "
-                 "resistance times flow")
-      ->check(CLI::IsMember({"zero", "split", "resistance"}));
+  std::string models;
+  std::vector<std::string> names;
+  for (const solver::OutletTraits& one : solver::outlet_models()) {
+    names.emplace_back(one.name);
+    models += (models.empty() ? "" : "; ") + names.back() + ": " + std::string(one.what);
+  }
+  app.add_option("--outlets", c.outlets, models)->check(CLI::IsMember(names));
   app.add_option("--split-exponent", c.split_exponent, "Flow goes as the diameter to this; Murray's is 3");
   app.add_option("--resistance", c.resistance,
                  "Of all outlets together, mmHg s / ml; left out: 90 mmHg over the mean flow")

@@ -116,13 +116,6 @@ void add_pieces(const std::vector<Vec3>& points, std::vector<segmentation::Branc
   }
 }
 
-bool ends_in(std::string_view text, std::string_view extension) {
-  if (text.size() <= extension.size()) return false;
-  text.remove_prefix(text.size() - extension.size());
-  return std::equal(text.begin(), text.end(), extension.begin(),
-                    [](unsigned char a, unsigned char b) { return std::tolower(a) == b; });
-}
-
 }  // namespace
 
 SeedFrame seed_frame(const InputOptions& input, const pipeline::Source& source,
@@ -141,10 +134,9 @@ SeedFrame seed_frame(const InputOptions& input, const pipeline::Source& source,
 }
 
 bool names_point_file(std::string_view text) {
-  for (const char* extension : {".json", ".fcsv", ".csv", ".tsv"})
-    if (ends_in(text, extension)) return true;
+  const std::filesystem::path path(text);
   std::error_code none;
-  return std::filesystem::is_regular_file(std::filesystem::path(text), none);
+  return io::is_point_file(path) || std::filesystem::is_regular_file(path, none);
 }
 
 std::vector<Vec3> seed_points(const std::string& text, const SeedFrame& frame) {

@@ -1,8 +1,10 @@
 #include "measure/report.h"
 #include "options/validators.h"
 
+#include "ostia/core/background_task.h"
 #include "ostia/core/files.h"
 #include "ostia/core/log.h"
+#include "ostia/imaging/image_axes.h"
 #include "ostia/pipeline/source.h"
 #include "ostia/session/case_report.h"
 
@@ -22,13 +24,17 @@ using Clock = std::chrono::steady_clock;
 pipeline::Source image_of(const ReportCommand& o, const session::CaseFile& file,
                           const core::TaskContext& task) {
   task.set_stage("reading");
-  pipeline::Source source = pipeline::load_ct(o.image, {}, task);
+  pipeline::SourceOptions reading;
+  reading.dicom.assume_axial = true;  // whoever made the case of it has seen how it lies
+  pipeline::Source source = pipeline::load_ct(o.image, reading, task);
   for (const std::string& warning : source.warnings) core::log_warning(warning);
   try {
     file.check_image({source.sha256, source.pseudonym});
   } catch (const InvalidInput& error) {
     throw InvalidInput(o.image.string() + ": " + error.what());
   }
+  if (const auto own = file.image(); own && !own->axes.empty())
+    source.image = std::make_shared<const imaging::ImageVolume>(imaging::with_axes(*source.image, own->axes));
   return source;
 }
 
@@ -64,6 +70,11 @@ ExitCode run_report(const ReportCommand& o, const core::TaskContext& task) {
   pipeline::require_free_folder(o.output);
   const session::CaseFile file = session::CaseFile::open(o.input, session::OpenMode::read_only);
   options.image = file.image();
+  // Walls need no image: they are solved while it is read.
+  core::BackgroundTask<analysis::SurfaceOfVessel> solving(
+      [model = file.model()](const core::TaskContext& beside) {
+        return session::solved_surfaces(*model, beside);
+      });
   pipeline::Source source;
   if (!o.image.empty()) source = image_of(o, file, task.sub(0.0, 0.15));
   if (source.image && !options.image) options.image = {source.sha256, source.pseudonym};
@@ -75,7 +86,7 @@ ExitCode run_report(const ReportCommand& o, const core::TaskContext& task) {
   }
   task.set_stage("solving");
   const lumen::LumenModel& model = *file.model();
-  const analysis::SurfaceOfVessel surfaces = session::solved_surfaces(model, task.sub(0.15, 0.3));
+  const analysis::SurfaceOfVessel surfaces = solving.get(task.sub(0.15, 0.3));
   const session::CaseReport report = session::make_case_report(
       model, surfaces, *file.annotations(), file.journal(), source.image.get(), options, task.sub(0.3, 0.5));
   for (const std::string& warning : report.warnings) core::log_warning(warning);

@@ -7,6 +7,7 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/log.h"
+#include "ostia/imaging/image_axes.h"
 #include "ostia/io/centerline_file.h"
 #include "ostia/pipeline/source.h"
 #include "ostia/session/found_model.h"
@@ -17,6 +18,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
+#include <memory>
 
 namespace ostia::app {
 namespace {
@@ -123,16 +125,20 @@ ExitCode run_extract(const ExtractCommand& o, const core::TaskContext& task) {
     throw UsageError("--image and --label are for masks, and " + own_name(o.input.input) +
                      " is a CT; give --mask if it is a mask");
   task.set_stage("reading");
-  const pipeline::Source source =
-      pipeline::load_ct(o.input.input, source_options(o.input), task.sub(0.0, 0.1));
+  pipeline::SourceOptions reading = source_options(o.input);
+  reading.dicom.assume_axial = !o.axes.empty();
+  const pipeline::Source source = pipeline::load_ct(o.input.input, reading, task.sub(0.0, 0.1));
   for (const std::string& warning : source.warnings) core::log_warning(warning);
   coronary::ExtractOptions options;
   options.labels.least_confidence = o.least_confidence;
   if (o.vesselness == "hessian") options.growth.likeness = segmentation::TubeMethod::hessian;
-  const session::FoundModel result = found_in(o.input.input, *source.image, options, task.sub(0.1, 0.98));
+  std::shared_ptr<const imaging::ImageVolume> image = source.image;
+  if (!o.axes.empty())
+    image = std::make_shared<const imaging::ImageVolume>(imaging::with_axes(*image, o.axes));
+  const session::FoundModel result = found_in(o.input.input, *image, options, task.sub(0.1, 0.98));
   for (const std::string& warning : result.found.warnings) core::log_warning(warning);
   task.throw_if_cancelled();
-  made.make(result, session::ImageReference{source.sha256, source.pseudonym});
+  made.make(result, session::ImageReference{source.sha256, source.pseudonym, o.axes});
   if (!o.lines.empty()) io::write_centerlines(o.lines, result.model.tree);
   made.commit();
   task.set_progress(1.0);
@@ -160,6 +166,19 @@ void define_extract(CLI::App& app, ExtractCommand& c, std::function<ExitCode(con
   add_dicom(*extract, c.input);
   extract->add_option("-o,--output", c.output, "Case with labelled, editable vessels, .ostia")->required();
   extract->add_option("--lines", c.lines, "Also the centerlines: .vtp or .csv");
+  extract
+      ->add_option(
+          "--axes", c.axes,
+          "What the CT's axes i, j, k rise towards, where its file says it wrongly: a letter each of "
+          "L or R, P or A, S or I, such as LPS; the case keeps it")
+      ->check([](const std::string& axes) {
+        try {
+          imaging::validate_axes(axes);
+          return std::string();
+        } catch (const InvalidInput& error) {
+          return std::string(error.what());
+        }
+      });
   extract
       ->add_option("--least-confidence", c.least_confidence,
                    "A vessel that is named with less keeps a number for its name")

@@ -19,6 +19,7 @@ struct ExtractCommand {
   MaskOptions of_mask;
   std::filesystem::path output;  ///< case
   std::filesystem::path lines;   ///< centerlines; empty: none
+  std::string axes;              ///< of the CT, in place of its file's; empty: its file's
   double least_confidence = 0.5;
   std::string vesselness = "flux";  ///< or "hessian"
   bool json = false;

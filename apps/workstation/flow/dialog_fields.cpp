@@ -24,6 +24,18 @@ constexpr int typing_ms = 400;
 constexpr double field_most = 99999.0;  // what can be typed; what is allowed is checked
 constexpr double usual_flow_ml_s = 1.0;
 
+QString outlets_text(solver::OutletModel model) {
+  switch (model) {
+    case solver::OutletModel::zero_pressure:
+      return FlowDialog::tr("pressure 0 at each");
+    case solver::OutletModel::split:
+      return FlowDialog::tr("a share of the flow each, by diameter");
+    case solver::OutletModel::resistance:
+      return FlowDialog::tr("resistances, by diameter");
+  }
+  return {};
+}
+
 QDoubleSpinBox* number(const QString& name, const QString& accessible, int decimals, double value,
                        const QString& suffix) {
   auto* box = number_field(name, accessible, field_most, decimals, decimals == 0 ? 10.0 : 0.1, value);
@@ -136,10 +148,8 @@ void FlowDialog::add_flow(QFormLayout* form, const FlowChoice& last) {
 
 void FlowDialog::add_outlets(QFormLayout* form, const FlowChoice& last) {
   outlets_ = list("flow_outlets", tr("Outlets"));
-  outlets_->addItem(tr("a share of the flow each, by diameter"),
-                    static_cast<int>(solver::OutletModel::split));
-  outlets_->addItem(tr("pressure 0 at each"), static_cast<int>(solver::OutletModel::zero_pressure));
-  outlets_->addItem(tr("resistances, by diameter"), static_cast<int>(solver::OutletModel::resistance));
+  for (const solver::OutletTraits& one : solver::outlet_models())
+    outlets_->addItem(outlets_text(one.model), static_cast<int>(one.model));
   outlets_->setCurrentIndex(std::max(0, outlets_->findData(static_cast<int>(last.outlets))));
   outlets_->setToolTip(
       tr("Shares and resistances go as the diameter to 2.27 (van der Giessen 2011); together the "

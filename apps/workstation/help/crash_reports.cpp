@@ -23,14 +23,14 @@ constexpr const char* offered_setting = "crash_report.offered";  // the newest o
 
 }  // namespace
 
-CrashReports::CrashReports(Desk& desk) : QObject(&desk.window), desk_(desk) {}
-
-std::vector<std::filesystem::path> CrashReports::left() const {
-  return crash_reports(crash_folder(desk_.state_folder));
+CrashReports::CrashReports(Desk& desk) : QObject(&desk.window), desk_(desk) {
+  left();
 }
 
-bool CrashReports::any() const {
-  return !left().empty();
+std::vector<std::filesystem::path> CrashReports::left() {
+  std::vector<std::filesystem::path> all = crash_reports(crash_folder(desk_.state_folder));
+  any_ = !all.empty();
+  return all;
 }
 
 void CrashReports::offer() {
@@ -68,6 +68,7 @@ void CrashReports::delete_all() {
     std::filesystem::remove(one, error);
     if (error) return desk_.messages.complain(tr("A report could not be deleted."));
   }
+  left();
   desk_.messages.say(tr("There is no report of a crash any more."));
 }
 

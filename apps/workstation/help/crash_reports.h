@@ -14,15 +14,17 @@ class CrashReports final : public QObject {
   Q_OBJECT
  public:
   explicit CrashReports(Desk& desk);
-  bool any() const;
+  /// As it was when the folder was last looked into: at the start, and whenever one of the others is called.
+  bool any() const { return any_; }
   /// Asks once, where there is a report that was not offered yet: look at it, delete it, or neither.
   void offer();
   void show();
   void delete_all();
 
  private:
-  std::vector<std::filesystem::path> left() const;
+  std::vector<std::filesystem::path> left();
   Desk& desk_;
+  bool any_ = false;
 };
 
 /// All reports, with a way to copy and to delete them.

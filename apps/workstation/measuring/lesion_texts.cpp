@@ -1,5 +1,7 @@
 #include "measuring/lesion_texts.h"
 
+#include "shell/quantities.h"
+
 #include "ostia/view/words.h"
 
 #include <QCoreApplication>
@@ -11,11 +13,22 @@ struct LesionTexts {
   Q_DECLARE_TR_FUNCTIONS(LesionTexts)
 };
 
+/// Its grade, or why it has none.
 QString grade_text(const session::LesionRow& row) {
-  using analysis::Evaluability;
-  if (row.state == session::LesionState::rejected) return QStringLiteral("\u2013");
-  const bool hidden = row.evaluable && row.evaluable->grade == Evaluability::not_evaluable;
-  if (hidden && row.state != session::LesionState::accepted) return QStringLiteral("N");
+  using session::GradeBar;
+  switch (row.bar()) {
+    case GradeBar::none:
+      break;
+    case GradeBar::rejected:
+      return QStringLiteral("\u2013");
+    case GradeBar::not_evaluable_by_reader:
+    case GradeBar::not_evaluable:
+      return LesionTexts::tr("not graded: not evaluable");
+    case GradeBar::limited:
+      return LesionTexts::tr("not graded: limited");
+    case GradeBar::image_unknown:
+      return row.has_image ? QStringLiteral("?") : LesionTexts::tr("not graded: not checked");
+  }
   return QString::fromStdString(analysis::to_string(row.lesion.category()));
 }
 
@@ -41,10 +54,6 @@ QString evaluable_text(const session::LesionRow& row) {
                              : row.evaluable->grade == analysis::Evaluability::limited ? words.limited
                                                                                        : words.not_evaluable;
   return QString::fromStdString(row.evaluable->by_person ? grade + " (" + words.by_reader + ")" : grade);
-}
-
-QString fixed(double value, int decimals) {
-  return QString::number(value, 'f', decimals);
 }
 
 }  // namespace
@@ -73,15 +82,14 @@ QStringList lesion_titles_in_full() {
 
 QStringList lesion_cells(const session::LesionRow& row) {
   const analysis::Stenosis& s = row.lesion.stenosis;
-  const double percent = s.diameter_percent < 100.0 - 1e-9 ? std::min(s.diameter_percent, 99.0) : 100.0;
   return {QStringLiteral("S%1").arg(row.number),
           QString::fromStdString(row.segment.empty() ? row.vessel_name : row.segment),
           grade_text(row),
-          fixed(percent, 0),
-          fixed(s.least_diameter_mm, 2),
-          fixed(s.least_area_mm2, 2),
-          fixed(s.length_mm(), 1),
-          row.lesion.plaque ? fixed(row.lesion.plaque->plaque_mm3(), 1) : QStringLiteral("?"),
+          quantity::stenosis(s.diameter_percent),
+          quantity::calibre(s.least_diameter_mm),
+          quantity::area(s.least_area_mm2),
+          quantity::length(s.length_mm()),
+          row.lesion.plaque ? quantity::volume(row.lesion.plaque->plaque_mm3()) : QStringLiteral("?"),
           class_text(row),
           evaluable_text(row),
           state_word(row.state),
@@ -92,7 +100,9 @@ std::vector<std::optional<double>> lesion_numbers(const session::LesionRow& row)
   const analysis::Stenosis& s = row.lesion.stenosis;
   std::vector<std::optional<double>> out(lesion_columns);
   out[number_column] = row.number;
-  out[grade_column] = static_cast<double>(row.lesion.category());
+  // Those without a grade stand before all that have one.
+  out[grade_column] =
+      row.bar() == session::GradeBar::none ? static_cast<double>(row.lesion.category()) : -1.0;
   out[percent_column] = s.diameter_percent;
   out[mld_column] = s.least_diameter_mm;
   out[mla_column] = s.least_area_mm2;
@@ -105,7 +115,12 @@ QString lesion_tip(const session::LesionRow& row) {
   const analysis::Stenosis& s = row.lesion.stenosis;
   const QString where = row.lesion.narrows ? LesionTexts::tr("%1, narrowest at %2 mm")
                                            : LesionTexts::tr("%1, plaque about %2 mm");
-  return where.arg(QString::fromStdString(row.vessel_name)).arg(s.throat_mm, 0, 'f', 1);
+  QString tip = where.arg(QString::fromStdString(row.vessel_name), quantity::length(s.throat_mm));
+  if (row.bar() != session::GradeBar::none && row.state != session::LesionState::rejected)
+    tip += '\n' + LesionTexts::tr(
+                      "A lesion has a grade where its stretch is evaluable, its vessel is Done, or "
+                      "you have accepted it.");
+  return tip;
 }
 
 QString state_word(session::LesionState state) {

@@ -26,8 +26,7 @@ enum LesionColumn {
 };
 QStringList lesion_titles();          ///< short, as the header has them
 QStringList lesion_titles_in_full();  ///< with units: "Minimal lumen diameter (mm)"
-/// One text a column. The grade is the lesion's own; a rejected one, and one that cannot be judged and was
-/// not accepted, has none.
+/// One text a column. The grade is the lesion's own; where it has none (LesionRow::bar) it says why.
 QStringList lesion_cells(const session::LesionRow& row);
 /// What a column sorts by, where that is a number.
 std::vector<std::optional<double>> lesion_numbers(const session::LesionRow& row);

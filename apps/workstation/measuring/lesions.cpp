@@ -23,10 +23,11 @@ void walk_lesions(Desk& desk, Lesions& lesions, int by) {
 
 }  // namespace
 
-Lesions::Lesions(Desk& desk, session::EvaluabilityBoard& evaluability, LesionList& list)
+Lesions::Lesions(Desk& desk, session::EvaluabilityBoard& evaluability,
+                 std::shared_ptr<session::FoundWalls> found, LesionList& list)
     : QObject(&desk.window),
       desk_(desk),
-      board_(desk.bench, evaluability),
+      board_(desk.bench, evaluability, std::move(found)),
       list_(&list),
       work_(desk.bench, board_, plaque_pause_ms) {
   list.show_lesions(&board_);

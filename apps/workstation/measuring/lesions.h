@@ -9,6 +9,7 @@
 
 #include <QObject>
 #include <QPointer>
+#include <memory>
 
 namespace ostia::workstation {
 
@@ -20,7 +21,9 @@ struct Desk;
 class Lesions final : public QObject {
   Q_OBJECT
  public:
-  Lesions(Desk& desk, session::EvaluabilityBoard& evaluability, LesionList& list);
+  /// `found`: where the outer wall's display looks for walls, too.
+  Lesions(Desk& desk, session::EvaluabilityBoard& evaluability, std::shared_ptr<session::FoundWalls> found,
+          LesionList& list);
   ~Lesions() override;
   session::LesionBoard& board() { return board_; }
   LesionList& list() { return *list_; }

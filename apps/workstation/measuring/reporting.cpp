@@ -45,7 +45,9 @@ void write(const Snapshot& from, const fs::path& folder, const core::TaskContext
   std::vector<session::KeyImage> images =
       session::key_images(report, *from.model, surface_of, from.image.get(), task.sub(0.3, 0.8));
   images.insert(images.end(), from.pinned.begin(), from.pinned.end());
-  session::write_case_report(folder, report, images, from.job, 0.0, task.sub(0.8, 1.0), from.named);
+  pipeline::JobKey job = from.job;
+  session::add_further(job, from.pinned);  // not before: it packs them
+  session::write_case_report(folder, report, images, job, 0.0, task.sub(0.8, 1.0), from.named);
 }
 
 }  // namespace
@@ -93,7 +95,7 @@ void Reporting::make_report_in(const fs::path& folder, const imaging::ShownIdent
   from.pinned = pinned_;
   for (std::size_t i = 0; i < from.pinned.size(); ++i)
     from.pinned[i].name = "pinned-" + std::to_string(i + 1);
-  from.job = session::report_job(file, from.image != nullptr, from.options, from.pinned, !named.anonymous());
+  from.job = session::report_job(file, from.image != nullptr, from.options, {}, !named.anonymous());
   from.named = named;
   desk_.jobs.run(
       "report", tr("Report"),

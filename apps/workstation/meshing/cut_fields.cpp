@@ -2,6 +2,7 @@
 
 #include "meshing/cut_handle.h"
 #include "meshing/dock.h"
+#include "views/scene_drag.h"
 
 #include <QAbstractItemView>
 #include <QCheckBox>

@@ -10,10 +10,9 @@ using geometry::Vec2;
 using geometry::Vec3;
 
 constexpr double reach_units = 8.0;
-constexpr double beyond_box = 1.04;   // so that the frame is not in the mesh's own sides
-constexpr double arrow_share = 0.5;   // of the frame's shorter half side
-constexpr double head_share = 0.2;    // of the arrow's half length
-constexpr double least_slope = 0.15;  // of the normal against the sight, as the sine of the angle
+constexpr double beyond_box = 1.04;  // so that the frame is not in the mesh's own sides
+constexpr double arrow_share = 0.5;  // of the frame's shorter half side
+constexpr double head_share = 0.2;   // of the arrow's half length
 
 /// One that is not nearly along the normal.
 Vec3 sideways(const Vec3& normal) {
@@ -58,16 +57,6 @@ bool near_lines(const view::TreeScene& scene, const std::vector<std::vector<Vec3
       if (distance(display, scene.project(line[i - 1]), scene.project(line[i])) < reach) return true;
     return false;
   });
-}
-
-double dragged_mm(const view::TreeScene& scene, const Vec3& point, const Vec3& normal, const Vec2& from,
-                  const Vec2& to) {
-  const view::CameraPose pose = scene.pose();
-  const Vec2 origin = scene.project(point), along = scene.project(point + normal) - origin;
-  const double px_per_mm = (scene.project(point + pose.up) - origin).norm();
-  if (along.norm() >= least_slope * px_per_mm) return (to - from).dot(along) / along.squaredNorm();
-  const double away = normal.dot(pose.towards) > 0.0 ? -1.0 : 1.0;
-  return away * (to.y() - from.y()) / px_per_mm;
 }
 
 }  // namespace ostia::workstation

@@ -17,9 +17,4 @@ std::vector<std::vector<geometry::Vec3>> cut_handle(const view::MeshCut& cut, co
 bool near_lines(const view::TreeScene& scene, const std::vector<std::vector<geometry::Vec3>>& lines,
                 const geometry::Vec2& display);
 
-/// How far along the unit vector `normal` at `point` a drag from one place of the picture to another leads,
-/// mm. Where the normal points at the viewer, or nearly so, a drag upwards leads away from them.
-double dragged_mm(const view::TreeScene& scene, const geometry::Vec3& point, const geometry::Vec3& normal,
-                  const geometry::Vec2& from, const geometry::Vec2& to);
-
 }  // namespace ostia::workstation

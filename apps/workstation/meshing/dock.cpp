@@ -1,6 +1,7 @@
 #include "meshing/dock.h"
 
 #include "meshing/histogram.h"
+#include "shell/quantities.h"
 
 #include <QAbstractItemView>
 #include <QComboBox>
@@ -214,8 +215,8 @@ void MeshDock::show_measure() {
     for (const std::size_t element : worst_) {
       const Eigen::Vector3f& at = preview_->mesh->centres[element];
       list_->addItem(tr("%1 at (%2, %3, %4) mm")
-                         .arg(number((*values)[element]), QString::number(at.x(), 'f', 1),
-                              QString::number(at.y(), 'f', 1), QString::number(at.z(), 'f', 1)));
+                         .arg(number((*values)[element]), quantity::length(at.x()), quantity::length(at.y()),
+                              quantity::length(at.z())));
     }
   }
   if (!guest_) return;

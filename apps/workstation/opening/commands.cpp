@@ -3,11 +3,12 @@
 #include "commands/kinds.h"
 #include "commands/table.h"
 #include "opening/opening.h"
+#include "opening/orientation.h"
 #include "shell/desk.h"
 
 namespace ostia::workstation {
 
-void add_opening_commands(CommandTable& table, const Desk& desk, Opening& opening) {
+void add_opening_commands(CommandTable& table, const Desk& desk, Opening& opening, Orientation& orientation) {
   table.add(
       {.id = "file.open",
        .text = Command::tr("&Open a case or image\u2026"),
@@ -27,6 +28,15 @@ void add_opening_commands(CommandTable& table, const Desk& desk, Opening& openin
   series.enabled = [&opening] { return opening.has_series(); };
   series.why_not = [] { return Command::tr("What was opened last is no folder of DICOM files."); };
   table.add(series);
+  Command turned{
+      .id = "file.orientation",
+      .text = Command::tr("Set o&rientation\u2026"),
+      .tip = Command::tr("How the image lies in the patient, where its file says it wrongly or not "
+                         "at all."),
+      .run = [&orientation] { orientation.ask(); }};
+  turned.enabled = [&orientation] { return orientation.can_be_set(); };
+  turned.why_not = [] { return Command::tr("No image is open."); };
+  table.add(turned);
   table.add({.id = "file.sample",
              .text = Command::tr("The &sample case"),
              .tip = Command::tr("Opens a computed patient with disease, made on the first use."),

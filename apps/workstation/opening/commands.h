@@ -6,7 +6,8 @@ namespace ostia::workstation {
 class CommandTable;
 struct Desk;
 class Opening;
+class Orientation;
 
-void add_opening_commands(CommandTable& table, const Desk& desk, Opening& opening);
+void add_opening_commands(CommandTable& table, const Desk& desk, Opening& opening, Orientation& orientation);
 
 }  // namespace ostia::workstation

@@ -74,10 +74,18 @@ void Opening::choose_another_series() {
 void Opening::choose_series(const session::KnownImage& image, const imaging::DicomFolder& folder, bool ask) {
   const auto whole = std::make_shared<const imaging::DicomFolder>(folder);
   const auto readable = [](const imaging::DicomSeries& one) { return one.faults.empty() && !one.uneven; };
+  const auto known_series = [&](const imaging::DicomSeries& one) {
+    return !image.series_uid.empty() && one.uid == image.series_uid;
+  };
   for (const imaging::DicomSeries& one : folder.series) {
-    const bool known = !image.series_uid.empty() && one.uid == image.series_uid;
+    if (!ask && known_series(one) && one.lacks_orientation) {  // consent was given when it was opened first
+      imaging::DicomReadOptions options;
+      options.assume_axial = true;
+      load_series(whole, image.path, one, options);
+      return;
+    }
     const bool alone = folder.series.size() == 1 && folder.damaged.empty() && one.warnings.empty();
-    if (ask || !readable(one) || !(known || alone)) continue;
+    if (ask || !readable(one) || !(known_series(one) || alone)) continue;
     load_series(whole, image.path, one, {});
     return;
   }
@@ -91,8 +99,9 @@ void Opening::choose_series(const session::KnownImage& image, const imaging::Dic
   browser->open();
 }
 
-void Opening::open_beside(const imaging::DicomSeries& series) {
-  load_series(folder_, folder_path_, series, {});
+void Opening::open_beside(const imaging::DicomSeries& series,
+                          const std::shared_ptr<const imaging::DicomFolder>& folder, const fs::path& path) {
+  load_series(folder, path, series, {});
 }
 
 void Opening::load_series(const std::shared_ptr<const imaging::DicomFolder>& folder, const fs::path& path,
@@ -106,13 +115,14 @@ void Opening::load_series(const std::shared_ptr<const imaging::DicomFolder>& fol
         loaded.image.reference = session::image_reference(series, task.sub(0.0, 0.2));
         auto read = imaging::read_dicom_series(series, options, task.sub(0.2, 1.0));
         loaded.image.volume = std::make_shared<const imaging::ImageVolume>(std::move(read.volume));
+        loaded.as_read = loaded.image.volume->geometry;
+        loaded.axes_guessed = series.lacks_orientation;
         loaded.warnings = read.header.warnings;
         loaded.whose = imaging::shown_identity(series);
         return std::any(loaded);
       },
       [this, folder, path](const std::any& result) {
         folder_ = folder;
-        folder_path_ = path;
         show(std::any_cast<const Loaded&>(result), path);
       },
       [this](const QString& message) { desk_.cannot_open(message, tr("The image cannot be opened")); });
@@ -167,7 +177,10 @@ void Opening::drop_unread() {
 Opening::Loaded Opening::read_file(const fs::path& path, const core::TaskContext& task) {
   const pipeline::Source source = pipeline::load(path, {}, task);
   if (!source.image) throw InvalidInput(path.string() + " is no CT image: open an angiogram");
-  return {{source.image, {source.sha256, source.pseudonym}}, path.filename().string(), {}, source.warnings};
+  Loaded loaded{
+      {source.image, {source.sha256, source.pseudonym}}, path.filename().string(), {}, source.warnings};
+  loaded.as_read = source.image->geometry;
+  return loaded;
 }
 
 Opening::ImageBeside Opening::read_beside(const std::optional<session::KnownImage>& image) {
@@ -208,24 +221,34 @@ void Opening::show(const Loaded& loaded, const fs::path& path) {
     }
     if (other) close_case();
   }
+  if (const std::string axes = wanted_axes(reference); axes != reference.axes)
+    return turn(loaded, axes, path);
   // Before the image is there: no moment with the one's name over the other's pictures.
   desk_.messages.guarded([&] { desk_.identity.take(reference.sha256, loaded.whose); });
   const bool shown_now = desk_.messages.guarded(
       [&] {
         bench.set_image(loaded.image);
         series_uid_ = loaded.series_uid;
+        shown_ = loaded;
+        shown_.image.volume.reset();
+        shown_path_ = path;
         desk_.messages.set_shown_name(QString::fromStdString(loaded.name));
         take_first_sight();
         desk_.machine.remember_image(reference.sha256, path, loaded.series_uid);
       },
       true);
   if (!shown_now) return;
+  if (!reference.axes.empty())
+    desk_.messages.say(tr("The image is turned as a person said: File > Set orientation."));
   if (!loaded.warnings.empty()) desk_.messages.say(library_text(loaded.warnings.front()));
   if (loaded.series_uid.empty() || !folder_)
     emit image_alone();
   else
-    emit series_shown(folder_, loaded.series_uid);
-  if (!bench.has_case()) emit image_without_case();
+    emit series_shown(folder_, loaded.series_uid, path);
+  if (loaded.axes_guessed && reference.axes.empty() && !bench.has_case())
+    emit axes_unknown();
+  else if (!bench.has_case())
+    emit image_without_case();
 }
 
 }  // namespace ostia::workstation

@@ -26,6 +26,10 @@ fs::path path_of(const QString& text) {
   return fs::path(text.toStdString());
 }
 
+bool same_image(const ImageReference& a, const ImageReference& b) {
+  return a.sha256 == b.sha256 && a.axes == b.axes;
+}
+
 std::int64_t now_s() {
   return std::chrono::duration_cast<std::chrono::seconds>(std::chrono::system_clock::now().time_since_epoch())
       .count();
@@ -90,11 +94,11 @@ void Opening::open_case(const fs::path& path, const QString& then_say) {
   desk_.jobs.run(
       "open", tr("Opening the case"),
       [path, editable, state = desk_.state_folder,
-       shown = desk_.bench.image().reference.sha256](const core::TaskContext&) {
+       shown = desk_.bench.image().reference](const core::TaskContext&) {
         session::CaseFile file = session::CaseFile::open(
             path, editable ? session::OpenMode::read_write : session::OpenMode::read_only);
         OpenedCase opened;
-        if (const auto image = file.image(); image && image->sha256 != shown)
+        if (const auto image = file.image(); image && !same_image(*image, shown))
           opened.image = read_beside(session::MachineState(state).find_image(image->sha256));
         opened.session = std::make_shared<session::Session>(std::move(file));
         opened.session->live().wall(
@@ -117,7 +121,7 @@ void Opening::open_case(const fs::path& path, const QString& then_say) {
 void Opening::show_case(session::Session session, const fs::path& path, const ImageBeside& image_beside) {
   session::Workbench& bench = desk_.bench;
   const std::optional<ImageReference> image = session.file().image();
-  const bool other_image = bench.image().volume && image && bench.image().reference.sha256 != image->sha256;
+  const bool other_image = bench.image().volume && image && !same_image(*image, bench.image().reference);
   const bool shown_now = desk_.messages.guarded(
       [&] {
         keep_view();
@@ -215,6 +219,7 @@ void Opening::close_case() {
 }
 
 void Opening::keep_view() {
+  emit leaving_case();
   try {
     memory_.keep();
   } catch (const Error& error) {

@@ -5,6 +5,7 @@
 
 #include "ostia/core/background_task.h"
 #include "ostia/imaging/dicom.h"
+#include "ostia/imaging/image_axes.h"
 #include "ostia/imaging/series_preview.h"
 #include "ostia/session/machine_state.h"
 #include "ostia/session/open_mark.h"
@@ -50,18 +51,32 @@ class Opening final : public QObject {
   void close_case();
   /// The case that was open when a program ended without closing it.
   void recover();
-  /// Another series of the folder that the image on the table is of.
-  void open_beside(const imaging::DicomSeries& series);
+  /// Another series of the study that the image on the table is of: one of `folder`, found in `path`.
+  void open_beside(const imaging::DicomSeries& series,
+                   const std::shared_ptr<const imaging::DicomFolder>& folder,
+                   const std::filesystem::path& path);
   /// What is on the table is one slice of an image that is still being read.
   bool reading() const;
+  /// How the image on the table lies by its file; of a whole one alone.
+  const imaging::Geometry& as_read() const { return shown_.as_read; }
+  /// Gives the image on the table other axes (imaging::given_axes; empty: those of its file), which this
+  /// machine remembers. A case that is open is closed: it was made of the image as it was.
+  void give_axes(const std::string& axes);
+  /// A case of the image on the table, with the axes that it was made with: those the machine knows from here
+  /// on.
+  void open_with_axes(const std::filesystem::path& case_file, const std::string& axes);
 
  signals:
   /// A file that the person chose: of a case or an image, or of what others open.
   void file_chosen(const QString& path);
-  /// A series of this folder is on the table, whole.
-  void series_shown(const std::shared_ptr<const imaging::DicomFolder>& folder, const std::string& uid);
+  /// A series of this folder is on the table, whole; it lies in `path`.
+  void series_shown(const std::shared_ptr<const imaging::DicomFolder>& folder, const std::string& uid,
+                    const std::filesystem::path& path);
   /// An image is on the table of which nobody knows what lies beside it.
   void image_alone();
+  /// An image is on the table of which its files do not say how the patient lies, nor has a person said it.
+  void axes_unknown();
+  void leaving_case();  ///< it is still open, and about to be closed or copied
   /// A whole image is on the table, and no case of it.
   void image_without_case();
 
@@ -72,6 +87,8 @@ class Opening final : public QObject {
     std::string series_uid;  ///< empty where it is no series
     std::vector<std::string> warnings;
     imaging::ShownIdentity whose{};  ///< of a series
+    imaging::Geometry as_read{};     ///< before a person gave it other axes
+    bool axes_guessed = false;       ///< its files do not say how the patient lies
   };
   /// What is known of a series before it has been read.
   struct FirstSight {
@@ -106,6 +123,8 @@ class Opening final : public QObject {
   static ImageBeside read_beside(const std::optional<session::KnownImage>& image);
   void load_file(const std::filesystem::path& path, const ImageBeside& beside = {});
   void show(const Loaded& loaded, const std::filesystem::path& path);
+  std::string wanted_axes(const session::ImageReference& image) const;
+  void turn(const Loaded& loaded, const std::string& axes, const std::filesystem::path& path);
   // masks (masks.cpp)
   struct MaskCase {
     std::filesystem::path path;
@@ -121,8 +140,9 @@ class Opening final : public QObject {
   std::optional<FirstSight> first_sight_;
   std::filesystem::path scanned_;  // for series; empty where another kind of image was opened since
   std::string series_uid_;         // of the image on the table
+  Loaded shown_;                   // it, but for its voxels
+  std::filesystem::path shown_path_;
   std::shared_ptr<const imaging::DicomFolder> folder_;  // of the series that was read last
-  std::filesystem::path folder_path_;
 
  private slots:
   void drop_unread();

@@ -3,6 +3,7 @@
 #include "shell/hanging.h"
 #include "shell/identity.h"
 #include "shell/jobs.h"
+#include "shell/quantities.h"
 
 #include "ostia/imaging/series_preview.h"
 
@@ -65,7 +66,10 @@ SeriesBrowser::SeriesBrowser(const imaging::DicomFolder& folder, Jobs& jobs, QWi
   connect(buttons, &QDialogButtonBox::accepted, this, &SeriesBrowser::take);
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
   connect(list_, &QTreeWidget::itemDoubleClicked, this, &SeriesBrowser::take);
-  buttons->button(QDialogButtonBox::Open)->setEnabled(list_->currentItem() != nullptr);
+  auto* open = buttons->button(QDialogButtonBox::Open);
+  open->setEnabled(list_->currentItem() != nullptr);
+  connect(list_, &QTreeWidget::currentItemChanged, open,
+          [open](const QTreeWidgetItem* item) { open->setEnabled(item != nullptr); });
   preview_next();
 }
 
@@ -82,15 +86,14 @@ void SeriesBrowser::fill() {
     item->setText(slices_column, QString::number(series.files.size()));
     const geometry::Vec3& voxel = series.geometry.spacing;
     item->setText(voxel_column, QStringLiteral("%1 x %2 x %3")
-                                    .arg(voxel.x(), 0, 'f', 2)
-                                    .arg(voxel.y(), 0, 'f', 2)
-                                    .arg(voxel.z(), 0, 'f', 2));
+                                    .arg(quantity::calibre(voxel.x()), quantity::calibre(voxel.y()),
+                                         quantity::calibre(voxel.z())));
     item->setText(notes_column, notes_of(series));
     item->setToolTip(notes_column, notes_of(series));
     item->setSizeHint(picture_column, {thumbnail_px + 8, thumbnail_px + 6});
-    if (!series.faults.empty())
+    if (!series.faults.empty() && !series.lacks_orientation)
       item->setFlags(Qt::ItemIsEnabled);
-    else if (!list_->currentItem())
+    else if (!list_->currentItem() && series.faults.empty())
       list_->setCurrentItem(item);
   }
 }
@@ -128,8 +131,16 @@ void SeriesBrowser::take() {
   const int row = list_->indexOfTopLevelItem(list_->currentItem());
   if (row < 0) return;
   const imaging::DicomSeries series = folder_.series[static_cast<std::size_t>(row)];
-  if (!series.faults.empty()) return;
+  if (!series.faults.empty() && !series.lacks_orientation) return;
   imaging::DicomReadOptions options;
+  if (series.lacks_orientation) {
+    const auto answer = QMessageBox::question(
+        this, tr("Orientation unknown"),
+        tr("The files of this series do not say how the patient lies. It can be read as axial slices, and "
+           "you set its orientation by the pictures then. Go on?"));
+    if (answer != QMessageBox::Yes) return;
+    options.assume_axial = true;
+  }
   if (series.uneven) {
     const auto answer = QMessageBox::question(
         this, tr("Uneven slices"),

@@ -1,5 +1,7 @@
 #include "phases/map.h"
 
+#include "shell/quantities.h"
+
 #include "ostia/figure/plot.h"
 #include "ostia/view/surface_field_scene.h"
 #include "ostia/view/value_scale.h"
@@ -106,10 +108,9 @@ QRect PhaseMap::plot() const {
 
 QString PhaseMap::value_text(double value) const {
   if (!std::isfinite(value)) return QStringLiteral("\u2013");
-  const QString number = QString::number(value, 'f', value_ == PhaseMapValue::change ? 1 : 2);
-  return number + (value_ == PhaseMapValue::diameter ? tr(" mm")
-                   : value_ == PhaseMapValue::area   ? tr(" mm\u00b2")
-                                                     : tr(" %"));
+  if (value_ == PhaseMapValue::diameter) return quantity::calibre(value) + tr(" mm");
+  if (value_ == PhaseMapValue::area) return quantity::area(value) + tr(" mm\u00b2");
+  return quantity::percent(value) + tr(" %");
 }
 
 /// Each sample's middle where its phase and its abscissa are: the outer ones are cut in half.
@@ -195,12 +196,11 @@ bool PhaseMap::event(QEvent* event) {
     if (!at.contains(help->pos())) return QWidget::event(event);
     const double s = profile_->s_mm.back() * (help->x() - at.left()) / at.width();
     const double phase = static_cast<double>(help->y() - at.top()) / at.height();
-    QToolTip::showText(help->globalPos(),
-                       tr("%1 mm, %2 %: %3")
-                           .arg(s, 0, 'f', 1)
-                           .arg(100.0 * phase, 0, 'f', 0)
-                           .arg(value_text(value_at(phase, s))),
-                       this);
+    QToolTip::showText(
+        help->globalPos(),
+        tr("%1 mm, %2 %: %3")
+            .arg(quantity::length(s), quantity::percent(100.0 * phase), value_text(value_at(phase, s))),
+        this);
     return true;
   }
   return QWidget::event(event);

@@ -48,7 +48,7 @@ void StudySeries::open_folder(const std::filesystem::path& folder) {
   desk_.jobs.run(
       "series_folder", tr("Looking for the phases"),
       [folder](const core::TaskContext& task) { return std::any(look_into(folder, task)); },
-      [this](const std::any& result) {
+      [this, folder](const std::any& result) {
         const auto& found = std::any_cast<const FolderBeside&>(result);
         const session::OpenImage& image = desk_.bench.image();
         if (!image.volume) return;
@@ -63,7 +63,9 @@ void StudySeries::open_folder(const std::filesystem::path& folder) {
         for (const imaging::DicomSeries& one : found.series.series) {
           const bool there = std::any_of(both->series.begin(), both->series.end(),
                                          [&](const auto& other) { return other.files == one.files; });
-          if (!there) both->series.push_back(one);
+          if (there) continue;
+          both->series.push_back(one);
+          if (!one.files.empty()) found_in_[one.files.front()] = folder;
         }
         const std::size_t before = stack_.entries.size();
         if (folder_) take(both, uid_);

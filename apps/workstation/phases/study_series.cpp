@@ -17,9 +17,9 @@ constexpr const char* strip_setting = "series.strip";
 bool same_stacks(const session::SeriesStack& a, const session::SeriesStack& b) {
   return std::equal(a.entries.begin(), a.entries.end(), b.entries.begin(), b.entries.end(),
                     [](const session::StackEntry& x, const session::StackEntry& y) {
-                      return x.source.series && y.source.series &&
-                             x.source.series->uid == y.source.series->uid &&
-                             x.source.series->files == y.source.series->files;
+                      const auto &one = x.source.series, &other = y.source.series;
+                      if (!one || !other) return !one && !other && x.source.file == y.source.file;
+                      return one->uid == other->uid && one->files == other->files;
                     });
 }
 
@@ -65,11 +65,14 @@ StudySeries::StudySeries(Desk& desk, QMainWindow& window, BeatingCase& beating)
 
 StudySeries::~StudySeries() = default;
 
-void StudySeries::take(const std::shared_ptr<const imaging::DicomFolder>& folder, const std::string& uid) {
+void StudySeries::take(const std::shared_ptr<const imaging::DicomFolder>& folder, const std::string& uid,
+                       const std::filesystem::path& path) {
   session::SeriesStack stack;
   if (!desk_.messages.guarded([&] { stack = session::stack_beside(*folder, uid); })) return clear();
   folder_ = folder;
   uid_ = uid;
+  for (const imaging::DicomSeries& one : folder->series)
+    if (!path.empty() && !one.files.empty()) found_in_.try_emplace(one.files.front(), path);
   start(std::move(stack));
 }
 
@@ -122,6 +125,7 @@ void StudySeries::clear() {
   start({});
   folder_.reset();
   uid_.clear();
+  found_in_.clear();
   desk_.jobs.cancel("series_pictures");
   put_away();
 }
@@ -168,10 +172,16 @@ void StudySeries::open(int n) {
   if (n < 0 || n >= static_cast<int>(stack_.entries.size()) || n == own()) return;
   if (!row_of(n).whole) return;
   stop();
-  if (entry(n).source.series)
-    emit series_wanted(*entry(n).source.series);
+  if (const auto& series = entry(n).source.series)
+    emit series_wanted(*series, folder_, folder_of(*series));
   else
     emit file_wanted(QString::fromStdString(entry(n).source.file.string()));
+}
+
+std::filesystem::path StudySeries::folder_of(const imaging::DicomSeries& series) const {
+  if (series.files.empty()) return {};
+  const auto found = found_in_.find(series.files.front());
+  return found == found_in_.end() ? std::filesystem::path() : found->second;
 }
 
 void StudySeries::go_to_own() {

@@ -11,6 +11,7 @@
 #include <QObject>
 #include <QTimer>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -34,8 +35,9 @@ class StudySeries final : public QObject {
   /// Its dock is put into `window`, hidden until there is more than one image.
   StudySeries(Desk& desk, QMainWindow& window, BeatingCase& beating);
   ~StudySeries() override;
-  /// The image on the table is the series `uid` of this folder.
-  void take(const std::shared_ptr<const imaging::DicomFolder>& folder, const std::string& uid);
+  /// The image on the table is the series `uid` of this folder, which lies in `path`.
+  void take(const std::shared_ptr<const imaging::DicomFolder>& folder, const std::string& uid,
+            const std::filesystem::path& path = {});
   void take_alone();  ///< the image on the table is a file: one of the phases, or another
   void clear();       ///< nothing is known beside the image on the table
   void put_away();    ///< hides the dock until there is something to show
@@ -56,7 +58,10 @@ class StudySeries final : public QObject {
   void set_budget(std::size_t bytes);  ///< of the images in memory
 
  signals:
-  void series_wanted(const imaging::DicomSeries& series);  ///< to be put on the table
+  /// To be put on the table; `folder` is all that is known beside it, `path` where it was found itself.
+  void series_wanted(const imaging::DicomSeries& series,
+                     const std::shared_ptr<const imaging::DicomFolder>& folder,
+                     const std::filesystem::path& path);
   void file_wanted(const QString& path);
   void changed();
 
@@ -68,6 +73,7 @@ class StudySeries final : public QObject {
   void read(int n);
   void put(int n, const session::StackImages::Image& image);
   session::StackImages::Image image_of(int n) const;  // that is there: whole or coarser
+  std::filesystem::path folder_of(const imaging::DicomSeries& series) const;
   session::OtherImage described(int n, const session::StackImages::Image& image) const;
   void fail(int n, const QString& why);
   // cine (study_cine.cpp)
@@ -95,6 +101,8 @@ class StudySeries final : public QObject {
   SeriesStrip* strip_;
   std::shared_ptr<const imaging::DicomFolder> folder_;
   std::string uid_;  // of the series on the table
+  /// Where each series was found, by its first file: a study may lie in several folders.
+  std::map<std::filesystem::path, std::filesystem::path> found_in_;
   session::SeriesStack stack_;
   std::vector<int> cine_;
   session::StackImages images_;

@@ -25,11 +25,15 @@ QString as_sentence(QString text) {
   return text;
 }
 
-QPushButton* way_button(QAction& action) {
+QString way_text(const QAction& action) {
   QString text = plain_text(action.text());
   const QString keys = action.shortcut().toString(QKeySequence::NativeText);
   if (!keys.isEmpty()) text += QStringLiteral("   %1").arg(keys);
-  auto* button = new QPushButton(text.replace('&', QStringLiteral("&&")));
+  return text.replace('&', QStringLiteral("&&"));
+}
+
+QPushButton* way_button(QAction& action) {
+  auto* button = new QPushButton(way_text(action));
   button->setObjectName("way." + action.objectName());
   button->setToolTip(action.toolTip());
   button->setFocusPolicy(Qt::TabFocus);
@@ -77,7 +81,14 @@ QString FailurePanel::waiting_for() const {
              : tr("Click the ostium of the artery in the slice, then its distal end.");
 }
 
+/// A button stays the one that it is, focus and all, as long as the same ones are shown.
 void FailurePanel::fill_ways(const QStringList& ways) {
+  std::vector<Way> wanted;
+  for (const QString& id : ways + QStringList{"help.messages"})
+    if (const QAction& action = commands_.action(id); action.isEnabled())
+      wanted.push_back({id, way_text(action), action.toolTip()});
+  if (wanted == shown_) return;
+  shown_ = wanted;
   while (QLayoutItem* item = ways_->takeAt(0)) {
     if (QWidget* old = item->widget()) {
       old->hide();
@@ -85,12 +96,11 @@ void FailurePanel::fill_ways(const QStringList& ways) {
     }
     delete item;
   }
-  for (const QString& id : ways + QStringList{"help.messages"})
-    if (QAction& action = commands_.action(id); action.isEnabled()) {
-      QPushButton* button = way_button(action);
-      ways_->addWidget(button);
-      button->show();  // a layout has room for what is shown alone
-    }
+  for (const Way& one : wanted) {
+    QPushButton* button = way_button(commands_.action(one.id));
+    ways_->addWidget(button);
+    button->show();  // a layout has room for what is shown alone
+  }
 }
 
 void FailurePanel::refresh() {

@@ -34,6 +34,12 @@ class FailurePanel final : public Card {
   const CommandTable& commands_;
   QLabel *title_, *reason_, *waiting_;
   QVBoxLayout* ways_;
+  /// A button of those that are shown.
+  struct Way {
+    QString id, text, tip;
+    bool operator==(const Way&) const = default;
+  };
+  std::vector<Way> shown_;
   std::vector<session::Subscription> own_;
 };
 

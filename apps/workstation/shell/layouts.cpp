@@ -5,6 +5,7 @@
 #include "shell/floating_views.h"
 #include "shell/panel_layout.h"
 #include "shell/screen_room.h"
+#include "views/heart_memory.h"
 #include "views/planes_dock.h"
 
 #include "ostia/core/error.h"
@@ -24,11 +25,12 @@ const QString own_prefix = QStringLiteral("own:");
 
 }  // namespace
 
-Layouts::Layouts(Desk& desk, QMainWindow& window, PanelLayout& panels, PlanesDock& planes)
+Layouts::Layouts(Desk& desk, QMainWindow& window, PanelLayout& panels, PlanesDock& planes, HeartVolume& heart)
     : desk_(desk),
       window_(window),
       panels_(panels),
       planes_(planes),
+      heart_(heart),
       own_layouts_(desk.machine, "layouts.own") {
   // A window without anything in it would be a riddle.
   connect(&planes, &QDockWidget::topLevelChanged, this, &Layouts::keep_something);
@@ -103,6 +105,7 @@ Layouts::Values Layouts::now() const {
   Values values = panels_.layout_settings();
   values[geometry_key] = window_.saveGeometry().toBase64().toStdString();
   values.merge(dock_settings(window_));
+  values.merge(look_settings(heart_));
   values[centre_key] = window_.centralWidget()->isHidden() ? "off" : "on";
   values[tree_key] = panels_.tree_shown() ? "on" : "off";
   return values;
@@ -123,6 +126,7 @@ void Layouts::arrange(const Values& values) {
   bring_back_docks(window_);
   centre(value(centre_key).value_or("on") != "off");
   keep_something();
+  restore_look(heart_, values);
 }
 
 void Layouts::show(const QString& which) {

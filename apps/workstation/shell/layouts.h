@@ -1,7 +1,7 @@
 #pragma once
 /// \file Arrangements of the whole window (hanging protocols): three that are built in, and a person's own.
 
-#include "shell/named_settings.h"
+#include "shell/named_presets.h"
 
 #include <QObject>
 #include <map>
@@ -15,17 +15,18 @@ namespace ostia::workstation {
 class CommandTable;
 struct Desk;
 class FloatingViews;
+class HeartVolume;
 class PanelLayout;
 class PlanesDock;
 
 /// A layout is the window's place and size, docks with theirs (also those that float on another monitor),
 /// views in windows of their own and where these are, the panels' sizes, whether the tree is there and
-/// whether the three planes fill the window.
+/// whether the three planes fill the window, and the look of the heart in 3D.
 class Layouts final : public QObject {
   Q_OBJECT
  public:
-  using Values = NamedSettings::Values;
-  Layouts(Desk& desk, QMainWindow& window, PanelLayout& panels, PlanesDock& planes);
+  using Values = NamedPresets::Values;
+  Layouts(Desk& desk, QMainWindow& window, PanelLayout& panels, PlanesDock& planes, HeartVolume& heart);
 
   void show_reading();                 ///< all views, the three planes put away
   void show_planes();                  ///< the three planes alone, in the window
@@ -52,7 +53,8 @@ class Layouts final : public QObject {
   QMainWindow& window_;
   PanelLayout& panels_;
   PlanesDock& planes_;
-  NamedSettings own_layouts_;
+  HeartVolume& heart_;
+  NamedPresets own_layouts_;
   QString shown_;
 };
 

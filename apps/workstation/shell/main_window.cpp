@@ -9,6 +9,7 @@
 #include "meshing/export.h"
 #include "meshing/preview.h"
 #include "opening/opening.h"
+#include "opening/orientation.h"
 #include "opening/start_page.h"
 #include "phases/beating_case.h"
 #include "phases/study_series.h"
@@ -18,6 +19,7 @@
 #include "shell/hanging.h"
 #include "shell/layouts.h"
 #include "shell/library_texts.h"
+#include "shell/status_line.h"
 #include "shell/theme.h"
 #include "shell/unfinished_work.h"
 #include "trees/opening.h"
@@ -25,9 +27,11 @@
 #include "vessels/finder.h"
 #include "vessels/list.h"
 #include "vessels/outer_walls.h"
+#include "views/box_grip.h"
 #include "views/frame_log.h"
 #include "views/heart_behind.h"
 #include "views/heart_dock.h"
+#include "views/heart_memory.h"
 #include "views/heart_volume.h"
 #include "views/planes_dock.h"
 #include "views/scissors.h"
@@ -49,6 +53,7 @@ namespace {
 constexpr int heartbeat_ms = 20;
 constexpr double blocked_ms = 50.0;
 constexpr int message_ms = 8000;
+constexpr int most_letters_of_name = 40;  // what is said has the rest
 
 QStringList local_files(const QMimeData& data) {
   QStringList files;
@@ -91,9 +96,10 @@ MainWindow::~MainWindow() {
 }
 
 void MainWindow::build_status_bar() {
+  setStatusBar(new StatusLine(this));
   place_ = new QLabel(this);
   place_->setObjectName("place");
-  shown_name_ = new QLabel(this);
+  shown_name_ = new ElidedLabel(most_letters_of_name, this);
   shown_name_->setObjectName("shown_name");
   shown_name_->setContentsMargins(0, 0, 12, 0);
   read_only_ = new QLabel(tr("Read-only"), this);
@@ -112,8 +118,6 @@ void MainWindow::build_status_bar() {
   statusBar()->addPermanentWidget(place_);
   place_->setMinimumWidth(
       place_->fontMetrics().horizontalAdvance("-1000 HU   x -000.0  y -000.0  z -0000.0 mm"));
-  connect(statusBar(), &QStatusBar::messageChanged, statusBar(),
-          [bar = statusBar()](const QString& text) { bar->setToolTip(text); });  // a long one is cut off
 }
 
 void MainWindow::build_qa() {
@@ -130,9 +134,13 @@ void MainWindow::build_parts() {
   opening_ = std::make_unique<Opening>(desk_);
   reporting_ = std::make_unique<Reporting>(desk_);
   finder_ = std::make_unique<VesselFinder>(desk_, *opening_);
+  orientation_ = std::make_unique<Orientation>(desk_, *opening_, [this] { finder_->find_tree(); });
   panels_ = new PanelLayout(desk_);
   panels_->add_beside_tree(heart_behind(panels_->scene()));
   heart_ = new HeartVolume(desk_, panels_->scene(), [this] { return opening_->reading(); });
+  new BoxGrip(*heart_, panels_->scene());
+  auto* memory = new HeartMemory(desk_, *heart_);
+  connect(opening_.get(), &Opening::leaving_case, memory, &HeartMemory::keep);
   scissors_ =
       std::make_unique<Scissors>(panels_->scene(), [this](const view::VolumeCut& cut) { heart_->cut(cut); });
   setCentralWidget(&panels_->whole());
@@ -145,7 +153,8 @@ void MainWindow::build_parts() {
   evaluability_ =
       std::make_unique<Evaluability>(desk_, panels_->pictures(), panels_->profile(), panels_->scene());
   panels_->vessels().show_evaluability(evaluability_->board());
-  lesions_ = std::make_unique<Lesions>(desk_, evaluability_->board(), panels_->lesions());
+  lesions_ = std::make_unique<Lesions>(desk_, evaluability_->board(), outer_walls_->board().found(),
+                                       panels_->lesions());
   build_qa();
   addDockWidget(Qt::RightDockWidgetArea, &meshing_->dock());
   meshing_->dock().hide();
@@ -155,7 +164,7 @@ void MainWindow::build_parts() {
   heart_dock_ = new HeartDock(*heart_, this);
   addDockWidget(Qt::RightDockWidgetArea, heart_dock_);
   heart_dock_->hide();
-  layouts_ = std::make_unique<Layouts>(desk_, *this, *panels_, *planes_);
+  layouts_ = std::make_unique<Layouts>(desk_, *this, *panels_, *planes_, *heart_);
 }
 
 void MainWindow::connect_parts() {

@@ -24,6 +24,7 @@ class FlowResults;
 class Lesions;
 class MeshingExport;
 class Opening;
+class Orientation;
 class OuterWalls;
 class Evaluability;
 class QaDock;
@@ -96,6 +97,7 @@ class MainWindow final : public QMainWindow {
   std::unique_ptr<Opening> opening_;
   std::unique_ptr<Reporting> reporting_;
   std::unique_ptr<VesselFinder> finder_;
+  std::unique_ptr<Orientation> orientation_;
   PanelLayout* panels_ = nullptr;
   PlanesDock* planes_ = nullptr;
   HeartVolume* heart_ = nullptr;

@@ -11,6 +11,7 @@
 #include "measuring/lesions.h"
 #include "meshing/commands.h"
 #include "opening/commands.h"
+#include "opening/orientation.h"
 #include "opening/recent_cases.h"
 #include "phases/commands.h"
 #include "qa/commands.h"
@@ -45,10 +46,12 @@ void MainWindow::build_commands() {
   auto* keyboard = new Keyboard(this);
   auto* help = new Help(desk_, *commands_);
   add_shell_commands(*commands_, desk_, panels_->scene(),
-                     {[this] { return finder_->can_take_back(); }, [this] { return finder_->can_do_again(); },
-                      [this] { finder_->take_back(); }, [this] { finder_->do_again(); }});
+                     {[this] { return finder_->can_take_back() || orientation_->can_take_back(); },
+                      [this] { return finder_->can_do_again() || orientation_->can_do_again(); },
+                      [this] { finder_->can_take_back() ? finder_->take_back() : orientation_->take_back(); },
+                      [this] { finder_->can_do_again() ? finder_->do_again() : orientation_->do_again(); }});
   add_keyboard_commands(*commands_, *keyboard);
-  add_opening_commands(*commands_, desk_, *opening_);
+  add_opening_commands(*commands_, desk_, *opening_, *orientation_);
   auto* greys = new GreyPresets(desk_);
   add_grey_preset_commands(*commands_, *greys);
   add_layout_commands(*commands_, desk_, *layouts_, *planes_);

@@ -18,7 +18,7 @@ class MenuBuilder {
   MenuBuilder(QMenuBar& bar, const CommandTable& commands) : bar_(bar), commands_(commands) {}
   void file() {
     QMenu* menu = bar_.addMenu(tr("&File"));
-    fill(menu, {"file.open", "file.open_folder", "file.series"});
+    fill(menu, {"file.open", "file.open_folder", "file.series", "file.orientation"});
     made.recent = menu->addMenu(tr("&Recent cases"));
     fill(menu, {"file.sample", line, "file.save_as", "file.close", line, "file.report", "file.pin"});
     fill(menu->addMenu(tr("&Export")),
@@ -69,8 +69,8 @@ class MenuBuilder {
           "camera.broadside"});
     fill(menu->addMenu(tr("Heart in &3D")),
          {"heart.controls", "heart.alone", "heart.tree", line, "heart.look_coronary", "heart.look_vessels",
-          "heart.look_soft_tissue", "heart.look_bone", line, "heart.cut_inside", "heart.cut_outside",
-          "heart.undo_cut", "heart.all_back"});
+          "heart.look_soft_tissue", "heart.look_bone", line, "heart.box", "heart.cut_inside",
+          "heart.cut_outside", "heart.undo_cut", "heart.all_back"});
     made.layouts = menu->addMenu(tr("La&youts"));
     fill(made.layouts,
          {"view.layout_reading", "view.layout_planes", "view.layout_flat", line, "view.planes"});

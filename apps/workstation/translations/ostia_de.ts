@@ -11,6 +11,22 @@
 <context>
     <name>LesionTexts</name>
     <message>
+        <source>not graded: not evaluable</source>
+        <translation>nicht bewertet: nicht beurteilbar</translation>
+    </message>
+    <message>
+        <source>not graded: limited</source>
+        <translation>nicht bewertet: eingeschränkt</translation>
+    </message>
+    <message>
+        <source>not graded: not checked</source>
+        <translation>nicht bewertet: nicht geprüft</translation>
+    </message>
+    <message>
+        <source>A lesion has a grade where its stretch is evaluable, its vessel is Done, or you have accepted it.</source>
+        <translation>Eine Läsion hat einen Grad, wo ihre Strecke beurteilbar ist, ihr Gefäß „Fertig“ ist oder Sie sie angenommen haben.</translation>
+    </message>
+    <message>
         <source>none</source>
         <translation>keine</translation>
     </message>
@@ -60,7 +76,7 @@
     </message>
     <message>
         <source>Class</source>
-        <translation>Art</translation>
+        <translation>Klasse</translation>
     </message>
     <message>
         <source>Image</source>
@@ -2390,6 +2406,22 @@
         <source>Without it the arteries are those of the CT, as the look shows them.</source>
         <translation>Ohne ihn sind die Arterien die des CT, wie die Darstellung sie zeigt.</translation>
     </message>
+    <message>
+        <source>Set o&amp;rientation…</source>
+        <translation>O&amp;rientierung angeben…</translation>
+    </message>
+    <message>
+        <source>How the image lies in the patient, where its file says it wrongly or not at all.</source>
+        <translation>Wie das Bild in der Person liegt, wo seine Datei es falsch oder gar nicht sagt.</translation>
+    </message>
+    <message>
+        <source>Box with handles</source>
+        <translation>Box mit Griffen</translation>
+    </message>
+    <message>
+        <source>A frame about the heart; a side that is pulled cuts away what lies beyond.</source>
+        <translation>Ein Rahmen um das Herz; eine gezogene Seite nimmt weg, was jenseits liegt.</translation>
+    </message>
 </context>
 <context>
     <name>ostia::workstation::CrashReportDialog</name>
@@ -3883,6 +3915,18 @@
         <source>none yet</source>
         <translation>noch keine</translation>
     </message>
+    <message>
+        <source>Turning the image</source>
+        <translation>Das Bild wird gedreht</translation>
+    </message>
+    <message>
+        <source>The image cannot be turned</source>
+        <translation>Das Bild kann nicht gedreht werden</translation>
+    </message>
+    <message>
+        <source>The image is turned as a person said: File &gt; Set orientation.</source>
+        <translation>Das Bild liegt, wie es von Hand angegeben wurde: Datei &gt; Orientierung angeben.</translation>
+    </message>
 </context>
 <context>
     <name>ostia::workstation::OuterWalls</name>
@@ -4811,6 +4855,14 @@ Rechtsklick: ein eigenes Fenster, und zurück</translation>
         <source>Images of several patients lie in this folder. Each series is of one of them: look at its name.</source>
         <translation>In diesem Ordner liegen Bilder mehrerer Patienten. Jede Serie ist von einem von ihnen: Achten Sie auf ihren Namen.</translation>
     </message>
+    <message>
+        <source>Orientation unknown</source>
+        <translation>Orientierung unbekannt</translation>
+    </message>
+    <message>
+        <source>The files of this series do not say how the patient lies. It can be read as axial slices, and you set its orientation by the pictures then. Go on?</source>
+        <translation>Die Dateien dieser Serie sagen nicht, wie die Person liegt. Sie kann als axiale Schichten gelesen werden, und Sie geben die Orientierung dann anhand der Bilder an. Weiter?</translation>
+    </message>
 </context>
 <context>
     <name>ostia::workstation::SeriesStrip</name>
@@ -5340,7 +5392,7 @@ Rechtsklick: ein eigenes Fenster, und zurück</translation>
     </message>
     <message>
         <source>The tree</source>
-        <translation>Der Baum</translation>
+        <translation>Der Gefäßbaum</translation>
     </message>
     <message>
         <source>The lumen in three dimensions. Drag turns it, a click on a vessel goes there. The list in its title shows the heart behind it.</source>
@@ -6294,6 +6346,105 @@ Eine Reparatur ändert, was gezeigt wird, nie die Datei.</translation>
     <message>
         <source>MinIP</source>
         <translation>MinIP</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::OrientationDialog</name>
+    <message>
+        <source>Set orientation</source>
+        <translation>Orientierung angeben</translation>
+    </message>
+    <message>
+        <source>Turn and flip until the letters are right: the breastbone at A, the spine at P, the heart&apos;s tip towards L, the liver at R and I.</source>
+        <translation>Drehen und spiegeln Sie, bis die Buchstaben stimmen: das Brustbein bei A, die Wirbelsäule bei P, die Herzspitze gegen L, die Leber bei R und I.</translation>
+    </message>
+    <message>
+        <source>The case that is open was made of the image as it was. It is kept and closed; the arteries are looked for anew.</source>
+        <translation>Der offene Fall wurde am Bild gemacht, wie es war. Er bleibt erhalten und wird geschlossen; die Arterien werden neu gesucht.</translation>
+    </message>
+    <message>
+        <source>As in the file</source>
+        <translation>Wie in der Datei</translation>
+    </message>
+    <message>
+        <source>Axial, seen from the feet</source>
+        <translation>Axial, von den Füßen gesehen</translation>
+    </message>
+    <message>
+        <source>Coronal, seen from the front</source>
+        <translation>Koronal, von vorn gesehen</translation>
+    </message>
+    <message>
+        <source>Sagittal, seen from the left</source>
+        <translation>Sagittal, von links gesehen</translation>
+    </message>
+    <message>
+        <source>Turn by 90°</source>
+        <translation>Um 90° drehen</translation>
+    </message>
+    <message>
+        <source>Turn by 90°: %1</source>
+        <translation>Um 90° drehen: %1</translation>
+    </message>
+    <message>
+        <source>Columns run towards</source>
+        <translation>Spalten laufen nach</translation>
+    </message>
+    <message>
+        <source>Rows run towards</source>
+        <translation>Zeilen laufen nach</translation>
+    </message>
+    <message>
+        <source>Slices run towards</source>
+        <translation>Schichten laufen nach</translation>
+    </message>
+    <message>
+        <source>Left (L)</source>
+        <translation>links (L)</translation>
+    </message>
+    <message>
+        <source>Right (R)</source>
+        <translation>rechts (R)</translation>
+    </message>
+    <message>
+        <source>Back (P)</source>
+        <translation>hinten (P)</translation>
+    </message>
+    <message>
+        <source>Front (A)</source>
+        <translation>vorn (A)</translation>
+    </message>
+    <message>
+        <source>Head (S)</source>
+        <translation>oben, Kopf (S)</translation>
+    </message>
+    <message>
+        <source>Feet (I)</source>
+        <translation>unten, Füße (I)</translation>
+    </message>
+    <message>
+        <source>Flip left and right</source>
+        <translation>Links und rechts tauschen</translation>
+    </message>
+    <message>
+        <source>Flip front and back</source>
+        <translation>Vorn und hinten tauschen</translation>
+    </message>
+    <message>
+        <source>Flip head and feet</source>
+        <translation>Kopf und Füße tauschen</translation>
+    </message>
+    <message>
+        <source>Axes %1, as the file says.</source>
+        <translation>Achsen %1, wie die Datei sagt.</translation>
+    </message>
+    <message>
+        <source>Axes %1; the file says %2.</source>
+        <translation>Achsen %1; die Datei sagt %2.</translation>
+    </message>
+    <message>
+        <source>This mirrors the patient: left and right of the heart are exchanged against the file. Be sure of it.</source>
+        <translation>Das spiegelt die Person: links und rechts des Herzens sind gegen die Datei vertauscht. Seien Sie sich sicher.</translation>
     </message>
 </context>
 </TS>

@@ -1,6 +1,7 @@
 #include "vessels/evaluability.h"
 
 #include "shell/desk.h"
+#include "shell/quantities.h"
 #include "views/overlay_colors.h"
 #include "views/picture_widget.h"
 #include "views/scene_widget.h"
@@ -93,8 +94,8 @@ void Evaluability::judge(std::optional<analysis::Evaluability> grade) {
   const QString name = QString::fromStdString(bench.vessel_name(on.vessel));
   const QString said = grade ? QString::fromStdString(view::text_of({on.from_mm, on.to_mm, *grade, {}, true}))
                              : tr("as the program finds it");
-  desk_.messages.say(
-      tr("%1 from %2 to %3 mm: %4").arg(name).arg(on.from_mm, 0, 'f', 1).arg(on.to_mm, 0, 'f', 1).arg(said));
+  desk_.messages.say(tr("%1 from %2 to %3 mm: %4")
+                         .arg(name, quantity::length(on.from_mm), quantity::length(on.to_mm), said));
 }
 
 }  // namespace ostia::workstation

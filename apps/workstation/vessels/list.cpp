@@ -1,6 +1,7 @@
 #include "vessels/list.h"
 
 #include "shell/list_rows.h"
+#include "shell/quantities.h"
 #include "vessels/connect_menu.h"
 #include "vessels/tips.h"
 
@@ -147,7 +148,7 @@ void VesselList::show_segments(QTreeWidgetItem& item, const std::vector<analysis
     part->setData(0, vessel_id_role, vessel);
     part->setData(0, from_role, segment.from_mm);
     part->setText(name_column, QString::fromStdString(segment.label));
-    part->setText(length_column, QString::number(segment.to_mm - segment.from_mm, 'f', 0));
+    part->setText(length_column, quantity::length(segment.to_mm - segment.from_mm));
     part->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable);
   }
   while (item.childCount() > parts) delete item.child(item.childCount() - 1);
@@ -217,13 +218,12 @@ void VesselList::show_grade(QTreeWidgetItem& item, const std::vector<analysis::E
                some = no + analysis::share_of(stretches, Evaluability::limited);
   if (!stretches.empty()) text = QStringLiteral("\u2022");
   if (some > 0.1) text = tr("in part");
-  if (no > 0.1) text = tr("%1 % not").arg(100.0 * no, 0, 'f', 0);
+  if (no > 0.1) text = tr("%1 % not").arg(quantity::percent(100.0 * no));
   for (const analysis::EvaluableStretch& one : stretches)
     if (one.grade != Evaluability::evaluable || one.by_person)
       tip += tr("%1 to %2 mm: %3")
-                 .arg(one.from_mm, 0, 'f', 0)
-                 .arg(one.to_mm, 0, 'f', 0)
-                 .arg(QString::fromStdString(view::text_of(one))) +
+                 .arg(quantity::length(one.from_mm), quantity::length(one.to_mm),
+                      QString::fromStdString(view::text_of(one))) +
              '\n';
   if (!stretches.empty() && tip.isEmpty()) tip = tr("All of it can be judged");
   item.setText(image_column, text);
@@ -261,7 +261,7 @@ void VesselList::show_vessel(QTreeWidgetItem& item, std::int32_t id) {
     item.setCheckState(name_column, mark.visible ? Qt::Checked : Qt::Unchecked);
     item.setToolTip(name_column, name + '\n' + tr("Tick: shown in 3D. F2: another name."));
   }
-  item.setText(length_column, QString::number(vessel.axis->length(), 'f', 0));
+  item.setText(length_column, quantity::length(vessel.axis->length()));
   const int edits = edited_samples(vessel);
   item.setText(edited_column, edits > 0 ? QString::number(edits) : QStringLiteral("\u2013"));
   item.setCheckState(checked_column, mark.checked ? Qt::Checked : Qt::Unchecked);
@@ -282,8 +282,7 @@ void VesselList::show_narrowing(QTreeWidgetItem& item, std::int32_t id) {
     double worst = 0.0;
     for (const analysis::Stenosis& one : bench_.stenoses(id))
       if (one.throat_mm >= own) worst = std::max(worst, one.diameter_percent);
-    item.setText(stenosis_column,
-                 worst > 0.0 ? QString::number(worst, 'f', 0) + " %" : QStringLiteral("\u2013"));
+    item.setText(stenosis_column, worst > 0.0 ? quantity::stenosis(worst) + " %" : QStringLiteral("\u2013"));
   }
 }
 

@@ -1,6 +1,7 @@
 #include "vessels/outer_walls.h"
 
 #include "shell/desk.h"
+#include "shell/quantities.h"
 #include "views/picture_widget.h"
 
 #include "ostia/session/plaque_sampling.h"
@@ -19,20 +20,20 @@ const char* const wall_job_kind = "outer_wall";
 QString plaque_text(const session::VesselWalls& walls) {
   const analysis::PlaqueVolumes all =
       analysis::plaque_between(walls.plaque, walls.plaque.from_mm, walls.plaque.to_mm);
-  const auto mm3 = [&](analysis::PlaqueClass one) { return QString::number(all.of(one), 'f', 1); };
+  const auto mm3 = [&](analysis::PlaqueClass one) { return quantity::volume(all.of(one)); };
   using analysis::PlaqueClass;
   return OuterWalls::tr(
              "Plaque %1 mm³ (low attenuation %2, fibrofatty %3, fibrous %4, calcified %5), burden %6 %; the "
              "outer wall is seen on %7 % of it")
-      .arg(all.plaque_mm3(), 0, 'f', 1)
+      .arg(quantity::volume(all.plaque_mm3()))
       .arg(mm3(PlaqueClass::low_attenuation), mm3(PlaqueClass::fibrofatty), mm3(PlaqueClass::fibrous),
            mm3(PlaqueClass::calcified))
-      .arg(all.burden_percent(), 0, 'f', 0)
-      .arg(100.0 * walls.outer.seen_share, 0, 'f', 0);
+      .arg(quantity::percent(all.burden_percent()))
+      .arg(quantity::percent(100.0 * walls.outer.seen_share));
 }
 
 QStringList lesion_text(const session::VesselWalls* walls, const analysis::Stenosis& lesion) {
-  QStringList lines{OuterWalls::tr("Stenosis %1 %").arg(lesion.diameter_percent, 0, 'f', 0)};
+  QStringList lines{OuterWalls::tr("Stenosis %1 %").arg(quantity::stenosis(lesion.diameter_percent))};
   const auto found = walls ? session::plaque_of(*walls, lesion) : std::nullopt;
   if (!found) {
     lines << OuterWalls::tr("its plaque is known with the outer wall (View > Outer wall)");
@@ -40,14 +41,14 @@ QStringList lesion_text(const session::VesselWalls* walls, const analysis::Steno
   }
   using analysis::PlaqueClass;
   const analysis::PlaqueVolumes& all = found->volumes;
-  const auto mm3 = [&](PlaqueClass one) { return QString::number(all.of(one), 'f', 1); };
-  lines << OuterWalls::tr("plaque %1 mm³").arg(all.plaque_mm3(), 0, 'f', 1);
+  const auto mm3 = [&](PlaqueClass one) { return quantity::volume(all.of(one)); };
+  lines << OuterWalls::tr("plaque %1 mm³").arg(quantity::volume(all.plaque_mm3()));
   lines << OuterWalls::tr("low attenuation %1, fibrofatty %2, fibrous %3, calcified %4")
                .arg(mm3(PlaqueClass::low_attenuation), mm3(PlaqueClass::fibrofatty),
                     mm3(PlaqueClass::fibrous), mm3(PlaqueClass::calcified));
-  lines << OuterWalls::tr("burden %1 %").arg(all.burden_percent(), 0, 'f', 0);
+  lines << OuterWalls::tr("burden %1 %").arg(quantity::percent(all.burden_percent()));
   if (found->remodelling_index)
-    lines << OuterWalls::tr("remodelling index %1").arg(*found->remodelling_index, 0, 'f', 2);
+    lines << OuterWalls::tr("remodelling index %1").arg(quantity::ratio(*found->remodelling_index));
   return lines;
 }
 

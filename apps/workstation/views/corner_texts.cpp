@@ -1,5 +1,7 @@
 #include "views/corner_texts.h"
 
+#include "shell/quantities.h"
+
 #include <QCoreApplication>
 
 namespace ostia::workstation {
@@ -56,8 +58,7 @@ std::vector<view::OverlayText> grey_window_texts(const QSizeF& view_px, const se
                                                  double density) {
   if (too_small(view_px, density)) return {};
   const QString text = QCoreApplication::translate("ostia::workstation::PictureWidget", "W %1  L %2")
-                           .arg(window.width_hu, 0, 'f', 0)
-                           .arg(window.level_hu, 0, 'f', 0);
+                           .arg(quantity::hu(window.width_hu), quantity::hu(window.level_hu));
   return {{{view_px.width() - corner_edge * density, corner_edge * density},
            text.toStdString(),
            view::Role::information,

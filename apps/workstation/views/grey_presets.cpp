@@ -2,6 +2,7 @@
 
 #include "commands/table.h"
 #include "shell/desk.h"
+#include "shell/quantities.h"
 
 #include "ostia/core/error.h"
 
@@ -15,7 +16,7 @@
 namespace ostia::workstation {
 namespace {
 
-std::optional<double> number_of(const NamedSettings::Values& values, const char* key) {
+std::optional<double> number_of(const NamedPresets::Values& values, const char* key) {
   const auto found = values.find(key);
   if (found == values.end()) return std::nullopt;
   bool good = false;
@@ -33,7 +34,7 @@ GreyPresets::GreyPresets(Desk& desk)
     : QObject(&desk.window), desk_(desk), presets_(desk.machine, "window.own") {}
 
 void GreyPresets::use(const QString& name) {
-  const NamedSettings::Values values = presets_.values(name);
+  const NamedPresets::Values values = presets_.values(name);
   const auto level = number_of(values, "level"), width = number_of(values, "width");
   if (level && width && *width >= 1.0) desk_.bench.grey.set({*level, *width});
 }
@@ -50,7 +51,7 @@ void GreyPresets::ask_and_save() {
   const session::GreyWindow now = desk_.bench.grey.get();
   const QString name = QInputDialog::getText(
       &desk_.window, tr("Save these grey levels"),
-      tr("Name of window %1, level %2:").arg(now.width_hu, 0, 'f', 0).arg(now.level_hu, 0, 'f', 0),
+      tr("Name of window %1, level %2:").arg(quantity::hu(now.width_hu), quantity::hu(now.level_hu)),
       QLineEdit::Normal, {}, &given);
   if (given) desk_.messages.guarded([&] { save(name); }, true);
 }

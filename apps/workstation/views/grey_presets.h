@@ -1,7 +1,7 @@
 #pragma once
 /// \file Grey levels that a person keeps under names of their own, on this machine.
 
-#include "shell/named_settings.h"
+#include "shell/named_presets.h"
 
 #include "ostia/session/workbench.h"
 
@@ -28,7 +28,7 @@ class GreyPresets final : public QObject {
 
  private:
   Desk& desk_;
-  NamedSettings presets_;
+  NamedPresets presets_;
 };
 
 void add_grey_preset_commands(CommandTable& table, GreyPresets& presets);

@@ -93,6 +93,10 @@ void add_heart_commands(CommandTable& table, Desk& desk, HeartVolume& heart, Sci
              .text = Command::tr("Tree over the heart"),
              .tip = Command::tr("Without it the arteries are those of the CT, as the look shows them."),
              .bind = [&heart](QAction& action) { bind_checked(&action, heart.tree_over_it); }});
+  table.add({.id = "heart.box",
+             .text = Command::tr("Box with handles"),
+             .tip = Command::tr("A frame about the heart; a side that is pulled cuts away what lies beyond."),
+             .bind = [&heart](QAction& action) { bind_checked(&action, heart.box_shown); }});
   add_looks(table, desk, heart);
   add_scissors(table, desk, heart, scissors);
 }

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double artery_step_mm = 0.5;
 constexpr std::size_t most_cuts = 200;  // a hand that cuts more begins anew
+constexpr int rest_ms = 350;            // longer than a cine shows a picture
 
 /// About the arteries: what heart_region keeps at most.
 imaging::ReducedVolumeOptions region_about(const std::vector<coronary::ArteryPlace>& arteries) {
@@ -87,12 +88,20 @@ HeartVolume::HeartVolume(Desk& desk, SceneWidget& scene, std::function<bool()> i
     scene_.scene().set_volume_crop(now);
     scene_.request_render();
   }));
+  own_.push_back(box_shown.observe([this](const bool& shown) {
+    if (shown) show();
+  }));
   own_.push_back(alone.observe([this](const bool&) { forget_ground(); }));
   own_.push_back(desk.bench.image_changed.observe([this] {
     follow_image();
     make_stale();  // the scene has let go of it
     refresh();
   }));
+  resting_.setSingleShot(true);
+  resting_.setInterval(rest_ms);
+  connect(&resting_, &QTimer::timeout, this, &HeartVolume::follow_shown);
+  own_.push_back(desk.bench.other_image_changed.observe([this] { resting_.start(); }));
+  own_.push_back(desk.bench.phase_changed.observe([this] { resting_.start(); }));
   own_.push_back(desk.bench.case_changed.observe([this] {
     if (alone.get()) forget_ground();
   }));
@@ -118,6 +127,7 @@ void HeartVolume::cut(const view::VolumeCut& cut) {
   cuts_.push_back(cut);
   make_stale();
   show();
+  emit cuts_changed();
 }
 
 bool HeartVolume::undo_cut() {
@@ -125,26 +135,43 @@ bool HeartVolume::undo_cut() {
   cuts_.pop_back();
   make_stale();
   refresh();
+  emit cuts_changed();
   return true;
 }
 
 void HeartVolume::reset_cuts() {
-  if (cuts_.empty()) return;
-  cuts_.clear();
+  set_cuts({});
+}
+
+void HeartVolume::set_cuts(std::vector<view::VolumeCut> cuts) {
+  if (cuts.empty() && cuts_.empty()) return;
+  if (cuts.size() > most_cuts) cuts.resize(most_cuts);
+  cuts_ = std::move(cuts);
   make_stale();
   refresh();
+  emit cuts_changed();
 }
 
 void HeartVolume::follow_image() {
   if (desk_.bench.image().volume == image_) return;
+  resting_.stop();
   image_ = desk_.bench.image().volume;
+  source_ = desk_.bench.shown_image();
   ground_ = {};
   cuts_.clear();
   shown_.reset();
   histogram_.clear();
   make_stale();
   crop.set({});
+  emit cuts_changed();
   emit shown_changed();
+}
+
+/// What was shown last stays until the new one is there.
+void HeartVolume::follow_shown() {
+  if (desk_.bench.shown_image() == source_) return;
+  source_ = desk_.bench.shown_image();
+  forget_ground();
 }
 
 void HeartVolume::make_stale() {
@@ -161,20 +188,20 @@ void HeartVolume::forget_ground() {
 std::vector<coronary::ArteryPlace> HeartVolume::arteries() const {
   std::vector<coronary::ArteryPlace> places;
   const lumen::LumenModel* model = desk_.bench.model();
-  if (!model || !image_) return places;
+  if (!model || !source_) return places;
   for (const auto& vessel : model->vessels) {
-    const geometry::AxisCurve& axis = *vessel->axis;
-    for (double s = 0.0; s < axis.length() + artery_step_mm; s += artery_step_mm)
-      if (const geometry::Vec3 place = axis.point(s); image_->geometry.contains(place))
-        places.push_back({place, axis.radius(s)});
+    const auto axis = desk_.bench.axis(vessel->vessel);  // at the phase that is shown
+    for (double s = 0.0; axis && s < axis->length() + artery_step_mm; s += artery_step_mm)
+      if (const geometry::Vec3 place = axis->point(s); source_->geometry.contains(place))
+        places.push_back({place, axis->radius(s)});
   }
   return places;
 }
 
 void HeartVolume::refresh() {
   follow_image();
-  if (!stale_ || !image_ || scene_.volume_mode() == view::VolumeMode::off || is_being_read_()) return;
-  const Wish wish{image_, arteries(), alone.get(), !scene_.scene().draws_in_software(), cuts_};
+  if (!stale_ || !source_ || scene_.volume_mode() == view::VolumeMode::off || is_being_read_()) return;
+  const Wish wish{source_, arteries(), alone.get(), !scene_.scene().draws_in_software(), cuts_};
   desk_.jobs.run(
       "volume", SceneWidget::tr("Preparing the heart"),
       [wish, ground = ground_](const core::TaskContext& task) {

@@ -10,6 +10,7 @@
 #include "ostia/view/volume_scene.h"
 
 #include <QObject>
+#include <QTimer>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -21,7 +22,9 @@ struct Desk;
 class SceneWidget;
 
 /// Prepares the volume in the background once it is to be shown: reduced, the heart taken out of the chest,
-/// what the scissors took away. Box and cuts are those of one image; look and heart stay with the window.
+/// what the scissors took away. It is of the image that the views show; while one follows the other, as in a
+/// cine, the last one stays until they rest. Box and cuts are those of a study, in the patient's millimetres;
+/// look and heart stay with the window.
 class HeartVolume final : public QObject {
   Q_OBJECT
  public:
@@ -38,6 +41,7 @@ class HeartVolume final : public QObject {
   session::Property<double> shift_hu{0.0, session::Range<double>{-500.0, 500.0, 5.0}};
   session::Property<double> stretch{1.0, session::Range<double>{0.3, 3.0, 0.0}};
   session::Property<view::VolumeCrop> crop;
+  session::Property<bool> box_shown{false};  ///< with its handles, while the volume is shown
 
   view::VolumeLook look() const { return {preset.get(), shift_hu.get(), stretch.get()}; }
   void reset_look();  ///< the preset as it is
@@ -47,12 +51,15 @@ class HeartVolume final : public QObject {
   bool undo_cut();  ///< false: there is none
   void reset_cuts();
   std::size_t cuts() const { return cuts_.size(); }
+  const std::vector<view::VolumeCut>& all_cuts() const { return cuts_; }
+  void set_cuts(std::vector<view::VolumeCut> cuts);  ///< in the place of those that are there
   const std::vector<std::int64_t>& histogram() const { return histogram_; }
   /// What is shown; null before it has been prepared.
   const std::shared_ptr<const imaging::ImageVolume>& shown() const { return shown_; }
 
  signals:
   void shown_changed();
+  void cuts_changed();
 
  private:
   using SharedImage = std::shared_ptr<const imaging::ImageVolume>;
@@ -70,6 +77,7 @@ class HeartVolume final : public QObject {
   };
   static Prepared prepare(const Wish& wish, Ground ground, const core::TaskContext& task);
   void follow_image();
+  void follow_shown();
   void make_stale();     ///< something else is wished: what is under way comes too late
   void forget_ground();  ///< another tree, or another wish
   void refresh();
@@ -77,7 +85,9 @@ class HeartVolume final : public QObject {
   Desk& desk_;
   SceneWidget& scene_;
   std::function<bool()> is_being_read_;
-  SharedImage image_;  // that all below is of
+  SharedImage image_;   // on the table: box and cuts are its study's
+  SharedImage source_;  // that is shown in the views: all below is of it
+  QTimer resting_;      // runs while one image follows the other
   Ground ground_;
   std::vector<view::VolumeCut> cuts_;
   SharedImage shown_;

@@ -1,6 +1,7 @@
 #include "views/picture_widget.h"
 
 #include "shell/identity.h"
+#include "shell/quantities.h"
 #include "views/corner_texts.h"
 #include "views/frame_log.h"
 #include "views/hand_events.h"
@@ -290,12 +291,10 @@ void PictureWidget::tell_place(const view::Vec2& px) {
   const std::optional<view::Vec3> place = view_->world(px);
   if (!place) return;
   const std::optional<double> value = view_->value_at(px);
-  const QString hu = value ? QStringLiteral("%1 HU").arg(*value, 0, 'f', 0) : tr("outside the image");
-  emit hovered(QStringLiteral("%1   x %2  y %3  z %4 mm")
-                   .arg(hu)
-                   .arg(place->x(), 0, 'f', 1)
-                   .arg(place->y(), 0, 'f', 1)
-                   .arg(place->z(), 0, 'f', 1));
+  const QString hu = value ? quantity::hu(*value) + QStringLiteral(" HU") : tr("outside the image");
+  emit hovered(
+      QStringLiteral("%1   x %2  y %3  z %4 mm")
+          .arg(hu, quantity::length(place->x()), quantity::length(place->y()), quantity::length(place->z())));
 }
 
 void PictureWidget::show_cursor() {

@@ -4,10 +4,9 @@
 
 #include "ostia/analysis/stenosis.h"
 #include "ostia/core/error.h"
+#include "ostia/core/quantity_text.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 
@@ -111,13 +110,13 @@ std::vector<MeasuredValue> measured_ring(const Measurement& measurement, const M
           {"samples", static_cast<double>(ring.samples), ""}};
 }
 
-/// Three digits that count for lengths, areas and volumes; no more than is meant for the others.
-int decimals(double value, const std::string& unit) {
-  if (unit == "%" || unit == "HU" || unit.empty()) return 0;
-  if (unit == "deg") return 1;
-  const double size = std::abs(value);
-  const int digits = size < 9.995 ? 2 : size < 99.95 ? 1 : 0;
-  return unit == "mm" ? std::max(digits, 1) : digits;
+std::string number_text(double value, const std::string& unit) {
+  if (unit == "mm") return core::calibre_text(value);
+  if (unit == "mm2") return core::area_text(value);
+  if (unit == "mm3") return core::volume_text(value);
+  if (unit == "deg") return core::measured_angle_text(value);
+  if (unit == "HU") return core::hu_text(value);
+  return core::percent_text(value);
 }
 
 std::string shown_unit(const std::string& unit) {
@@ -178,13 +177,8 @@ std::vector<MeasuredValue> measured(const Measurement& measurement, const Measur
 
 std::string to_text(const MeasuredValue& value) {
   if (!std::isfinite(value.value)) return "-";
-  std::array<char, 64> digits{};
   const double shown = std::abs(value.value) < 1e15 ? value.value : std::copysign(1e15, value.value);
-  const auto written = std::to_chars(digits.data(), digits.data() + digits.size(), shown,
-                                     std::chars_format::fixed, decimals(value.value, value.unit));
-  std::string text(digits.data(), written.ptr);
-  if (text.find_first_of("123456789") == std::string::npos && text.front() == '-') text.erase(0, 1);
-  return text + shown_unit(value.unit);
+  return number_text(shown, value.unit) + shown_unit(value.unit);
 }
 
 }  // namespace ostia::analysis

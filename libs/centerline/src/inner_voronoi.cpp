@@ -264,13 +264,14 @@ InnerVoronoi inner_voronoi(const geometry::TriMesh& capped, const std::vector<bo
   if (sites.points.empty()) throw GeometryError("the surface has no points: it encloses no lumen");
   Delaunay cells;
   std::shared_ptr<const geometry::AabbTree> tree;
+  // What waits for tetrahedra that were begun elsewhere comes last, where no thread is free for both.
   core::parallel_invoke(
-      [&] { cells = tetrahedra_of(sites.points, known, task.sub(0.0, 0.6)); },
       [&] {
         tree = tree_of(capped, known);
         add_normals(capped, sites);
         tree->inside(sites.points.front());  // what such questions need is made at the first
-      });
+      },
+      [&] { cells = tetrahedra_of(sites.points, known, task.sub(0.0, 0.6)); });
   Classified classified = classify(sites, cells, capped, *tree, task);
   settle_flat_cells(sites, cells, classified);
   task.set_progress(0.8);

@@ -24,6 +24,8 @@ constexpr double most_trimmed_mm = 4.0, most_trimmed_share = 0.4;  // of an end;
 constexpr double near_fork_radii = 3.0;  // of both vessels: what is no farther along the tree cannot part
 constexpr double parted_share = 0.6;     // of both radii: walls give way to half of them
 constexpr double most_led_radii = 3.0;
+constexpr double forked_tip_radii = 3.0;  // so long its shorter branch may be; the other twice that
+constexpr double straight_on_rad = 0.6;
 constexpr double dome_window_radii = 2.0, dome_share = 1.1;  // of what a vessel is before its end
 
 /// The tree while its ends are settled.
@@ -141,6 +143,27 @@ class EndSettling {
     return std::nullopt;
   }
 
+  /// By how much the way from one segment to the next turns where they meet, within a diameter of it.
+  static double turn_between(const TreeSegment& before, const TreeSegment& after) {
+    const double window = 2.0 * after.axis.radius.front();
+    const InwardLine back(before.axis, false), ahead(after.axis, true);
+    const Vec3 way = (back.point(0.0) - back.point(window)).normalized();
+    return std::acos(std::clamp(way.dot((ahead.point(window) - ahead.point(0.0)).normalized()), -1.0, 1.0));
+  }
+
+  /// A tip that forks: two ends behind one fork, hardly longer than it is wide. Planes may see them as two,
+  /// but the wall leans over from the one to the other there, which skews the elements of layers. True of the
+  /// shorter, where the vessel goes on straight into the other.
+  bool is_half_of_a_tip(const TreeSegment& leaf) {
+    const double mm = leaf.axis.abscissa.back(), most = forked_tip_radii * leaf.axis.radius.front();
+    const std::vector<std::int32_t> both = leaving(leaf.from);
+    if (both.size() != 2 || mm > most) return false;
+    const TreeSegment& other = geometry::segment(tree_, both[0] == leaf.id ? both[1] : both[0]);
+    const double other_mm = other.axis.abscissa.back();
+    return leaving(other.to).empty() && mm <= other_mm && other_mm <= 2.0 * most &&
+           turn_between(segment_to(leaf.from), other) <= straight_on_rad;
+  }
+
   bool drop_a_stub() {
     std::optional<std::int32_t> shortest;
     double shortest_mm = 1e9;
@@ -148,7 +171,8 @@ class EndSettling {
       const TreeSegment& leaf = segment_to(node);
       const double mm = leaf.axis.abscissa.back();
       bool may_stay = false;
-      if (mm >= shortest_mm || is_root(leaf.from) || clean_after(leaf, may_stay) || may_stay) continue;
+      if (mm >= shortest_mm || is_root(leaf.from)) continue;
+      if (!is_half_of_a_tip(leaf) && (clean_after(leaf, may_stay) || may_stay)) continue;
       shortest = node;
       shortest_mm = mm;
     }

@@ -1,6 +1,7 @@
 #include "ostia/figure/picture.h"
 
 #include "canvas.h"
+#include "png_bytes.h"
 
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
@@ -142,9 +143,9 @@ Raster Picture::raster(double density) const {
 std::string Picture::png(double density) const {
   return drawing_->png(density, [&] {
     const Surface surface = painted(*drawing_, density, CAIRO_FORMAT_RGB24);
-    std::string bytes;
-    check_picture(cairo_surface_write_to_png_stream(surface.get(), append_picture, &bytes));
-    return bytes;
+    return png_bytes(
+        cairo_image_surface_get_data(surface.get()), cairo_image_surface_get_width(surface.get()),
+        cairo_image_surface_get_height(surface.get()), cairo_image_surface_get_stride(surface.get()));
   });
 }
 

@@ -190,6 +190,9 @@ bool RayScene::occluded(const Ray& ray, double near_mm, double far_mm) const {
 bool RayScene::has_transparent() const {
   return !impl_->transparent.actor_of.empty();
 }
+const Vec3& RayScene::centre() const {
+  return impl_->centre;
+}
 double RayScene::diagonal_mm() const {
   return impl_->diagonal;
 }

@@ -39,6 +39,7 @@ class RayScene {
   /// Whether something opaque lies on the ray nearer than `far_mm`.
   bool occluded(const Ray& ray, double near_mm, double far_mm) const;
   bool has_transparent() const;
+  const Vec3& centre() const;
   double diagonal_mm() const;
   /// The shading normal: interpolated between the corners of smooth meshes, else the geometric one. Unit.
   Vec3 shading_normal(const Hit& hit) const;

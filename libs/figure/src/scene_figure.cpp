@@ -1,4 +1,5 @@
 #include "canvas.h"
+#include "renderer.h"
 #include "scale_bar.h"
 
 #include "ostia/figure/scene.h"
@@ -125,11 +126,9 @@ void draw_legend(Canvas& canvas, const Scene& scene, double width_px, const Them
   for (const TubeActor& tube : scene.tubes) entry(tube.label, tube.color, tube.points.size() > 1);
 }
 
-}  // namespace
-
-Picture scene_figure(const Scene& scene, const Camera& camera, const RenderOptions& options,
-                     const core::TaskContext& task) {
-  const Raster raster = render(scene, camera, options, task);
+/// The raster with what is written over it.
+Picture dressed(const Raster& raster, const Scene& scene, const Camera& camera,
+                const RenderOptions& options) {
   const double width = options.width_px;
   const double height = options.height_px;
   const View view = fitted_view(scene, camera, width, height);
@@ -149,6 +148,40 @@ Picture scene_figure(const Scene& scene, const Camera& camera, const RenderOptio
                   {.size_px = kTitleSize, .color = look.foreground, .bold = true, .halo = look.background});
     }
   });
+}
+
+Vec3 middle_of(const Scene& scene) {
+  geometry::Box3 box;
+  for (const MeshActor& actor : scene.meshes)
+    for (const Vec3& p : actor.mesh.points) box.extend(p);
+  for (const TubeActor& tube : scene.tubes)
+    for (const Vec3& p : tube.points) box.extend(p);
+  return box.isEmpty() ? Vec3(Vec3::Zero()) : Vec3(box.center());
+}
+
+}  // namespace
+
+Picture scene_figure(const Scene& scene, const Camera& camera, const RenderOptions& options,
+                     const core::TaskContext& task) {
+  return dressed(render(scene, camera, options, task), scene, camera, options);
+}
+
+std::vector<Picture> scene_figures(const Scene& scene, const std::vector<SceneSight>& sights,
+                                   const RenderOptions& options, const core::TaskContext& task) {
+  validate(scene, options);
+  const RayScene rays(scene, middle_of(scene));
+  std::vector<Picture> pictures;
+  for (const SceneSight& sight : sights) {
+    const auto done = [&](std::size_t count) {
+      return static_cast<double>(count) / static_cast<double>(sights.size());
+    };
+    RenderOptions of_sight = options;
+    of_sight.title = sight.title;
+    const Raster raster = rendered(scene, rays, raster_view(scene, sight.camera, of_sight), of_sight,
+                                   task.sub(done(pictures.size()), done(pictures.size() + 1)));
+    pictures.push_back(dressed(raster, scene, sight.camera, of_sight));
+  }
+  return pictures;
 }
 
 }  // namespace ostia::figure

@@ -108,6 +108,21 @@ bool ends_with_mark(const std::string& stream) {
   return end >= 2 && byte_of(stream, end - 2) == 0xFF && byte_of(stream, end - 1) == 0xD9;
 }
 
+StreamInfo info_of(DicomCodec codec, const std::string& stream) {
+  switch (codec) {
+    case DicomCodec::jpeg_2000:
+      return jpeg_2000_info(stream);
+    case DicomCodec::jpeg:
+    case DicomCodec::jpeg_ls:
+      return jpeg_info(stream);
+    case DicomCodec::native:
+    case DicomCodec::rle:
+    case DicomCodec::unknown:
+      break;
+  }
+  throw InvalidInput("no codec for the pixel data");
+}
+
 }  // namespace
 
 StreamInfo jpeg_info(const std::string& stream) {
@@ -249,7 +264,7 @@ std::vector<std::int32_t> decode_frame(DicomFile& file, std::int64_t frame) {
   if (codec == DicomCodec::rle)
     return values(decode_rle(stream, pixels, sample_bytes), sample_bytes, false, word);
 
-  const StreamInfo info = codec == DicomCodec::jpeg_2000 ? jpeg_2000_info(stream) : jpeg_info(stream);
+  const StreamInfo info = info_of(codec, stream);
   check_stream(header, info);
   if (codec == DicomCodec::jpeg_2000 && !jpeg_2000_sound(stream)) {
     throw InvalidInput("the JPEG 2000 data are damaged");

@@ -185,6 +185,7 @@ void place_slices(DicomSeriesDetail& series) {
           ": nothing else says where slices lie (SliceThickness does not); give their distance "
           "(slice_spacing_mm, --slice-spacing MM) to stack them by instance number");
     } else {
+      summary.lacks_orientation = summary.faults.empty() && !slices.front().info().orientation;
       summary.faults.push_back(
           std::string("ImageOrientationPatient is ") +
           (slices.front().info().orientation ? "not two perpendicular unit vectors" : "missing") + " in " +

@@ -173,10 +173,13 @@ SharedHeader completed(const SharedHeader& header, const DicomReadOptions& optio
   const bool lacks_position = header->frame_count == 1 && !header->frames.front().position;
   const bool spacing = options.pixel_spacing_mm && lacks_spacing;
   const bool place = options.slice_spacing_mm && lacks_position && header->instance_number;
-  if (!spacing && !place) return header;
+  const bool lie = options.assume_axial && std::any_of(header->frames.begin(), header->frames.end(),
+                                                       [](const DicomFrame& f) { return !f.orientation; });
+  if (!spacing && !place && !lie) return header;
   DicomHeader copy = *header;
   for (DicomFrame& frame : copy.frames) {
     if (spacing) frame.pixel_spacing = {*options.pixel_spacing_mm, *options.pixel_spacing_mm};
+    if (lie && !frame.orientation) frame.orientation = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0};
     if (!place) continue;
     if (!frame.orientation) frame.orientation = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0};
     const auto& o = *frame.orientation;
@@ -296,6 +299,7 @@ DicomScan scan_dicom_slices(const fs::path& folder_or_file, const DicomReadOptio
       if (series.slices.front().header->series_uid != header->series_uid || header->series_uid.empty())
         continue;
       series.summary.faults.push_back(message);
+      series.summary.lacks_orientation = false;  // it is not all that is wrong
       known = true;
     }
     if (!known) scan.damaged.push_back(message);
@@ -336,7 +340,8 @@ DicomSeriesDetail scan_dicom_series(const DicomSeries& series, const DicomReadOp
     // What the whole folder told of it (a damaged file of the same series) still holds.
     for (const std::string& fault : series.faults) {
       auto& faults = found.summary.faults;
-      const bool cured = options.pixel_spacing_mm || options.slice_spacing_mm;
+      const bool cured = options.pixel_spacing_mm || options.slice_spacing_mm ||
+                         (options.assume_axial && series.lacks_orientation);
       if (!cured && std::find(faults.begin(), faults.end(), fault) == faults.end()) faults.push_back(fault);
     }
     return std::move(found);

@@ -3,7 +3,6 @@
 #include "ostia/core/error.h"
 #include "ostia/core/text.h"
 #include "ostia/geometry/mesh_topology.h"
-#include "ostia/meshing/flat_caps.h"
 #include "ostia/pipeline/source.h"
 
 #include <algorithm>
@@ -49,15 +48,19 @@ double calibre_of_closed(const TriMesh& closed) {
   return 4.0 * std::abs(geometry::volume(closed)) / geometry::area(closed);
 }
 
-std::optional<EndWidths> end_widths(const geometry::FacedSurface& surface) try {
+std::optional<EndWidths> end_widths(const geometry::FacedSurface& surface, bool sound,
+                                    std::optional<meshing::OpenedCaps>& kept) try {
   std::vector<double> widths;
-  const TriMesh mesh = turned_outward(geometry::oriented(geometry::welded(surface.mesh)));
-  const bool same = mesh.triangles.size() == surface.mesh.triangles.size();
-  const meshing::OpenedCaps opened =
-      meshing::without_flat_caps(same ? geometry::FacedSurface{mesh, surface.face_ids, surface.faces}
-                                      : geometry::FacedSurface{mesh, {}, {}});
+  const auto mended = [&] {
+    TriMesh mesh = turned_outward(geometry::oriented(geometry::welded(surface.mesh)));
+    const bool same = mesh.triangles.size() == surface.mesh.triangles.size();
+    return same ? geometry::FacedSurface{std::move(mesh), surface.face_ids, surface.faces}
+                : geometry::FacedSurface{std::move(mesh), {}, {}};
+  };
+  meshing::OpenedCaps opened = meshing::without_flat_caps(sound ? surface : mended());
   for (const auto& loop : geometry::boundary_loops(opened.wall))
     widths.push_back(2.0 * meshing::end_at_loop(opened.wall, loop).radius_mm);
+  if (sound) kept = std::move(opened);
   if (widths.empty()) return std::nullopt;
   const double widest = *std::ranges::max_element(widths);
   std::erase_if(widths, [&](double width) { return width < hole_over_widest * widest; });
@@ -84,8 +87,9 @@ double unit_by_calibre(double calibre, double extent) {
 namespace {
 
 /// Where the calibre leaves it open, the ends say it.
-void settle_cm_by_ends(const geometry::FacedSurface& surface, TakenSurface& out, const std::string& sizes) {
-  const std::optional<EndWidths> ends = end_widths(surface);
+void settle_cm_by_ends(const geometry::FacedSurface& surface, bool sound, TakenSurface& out,
+                       const std::string& sizes, std::optional<meshing::OpenedCaps>& kept) {
+  const std::optional<EndWidths> ends = end_widths(surface, sound, kept);
   if (!ends) return;
   const std::string thinnest = core::significant_text(ends->thinnest, 2),
                     widest = core::significant_text(ends->widest, 2);
@@ -102,8 +106,10 @@ void settle_cm_by_ends(const geometry::FacedSurface& surface, TakenSurface& out,
 
 }  // namespace
 
-void to_mm(geometry::FacedSurface& surface, std::optional<double> known_calibre, const IntakeOptions& options,
-           TakenSurface& out, const std::string& what) {
+std::optional<meshing::OpenedCaps> to_mm(geometry::FacedSurface& surface, std::optional<double> known_calibre,
+                                         const IntakeOptions& options, TakenSurface& out,
+                                         const std::string& what) {
+  std::optional<meshing::OpenedCaps> opened;
   const double extent = geometry::bounds(surface.mesh.points).sizes().norm();
   if (options.unit_mm) {
     out.unit_mm = *options.unit_mm;
@@ -116,12 +122,14 @@ void to_mm(geometry::FacedSurface& surface, std::optional<double> known_calibre,
                          ", since its vessels are " + core::significant_text(calibre, 2) +
                          " wide in the mean; --units mm says otherwise");
     else if (may_be_cm(calibre, extent))
-      settle_cm_by_ends(surface, out,
+      settle_cm_by_ends(surface, known_calibre.has_value(), out,
                         "vessels " + core::significant_text(calibre, 2) + " mm wide in the mean, " +
-                            core::significant_text(extent, 2) + " mm from end to end");
+                            core::significant_text(extent, 2) + " mm from end to end",
+                        opened);
   }
-  if (out.unit_mm == 1.0) return;
+  if (out.unit_mm == 1.0) return opened;
   for (geometry::Vec3& p : surface.mesh.points) p *= out.unit_mm;
+  return std::nullopt;
 }
 
 }  // namespace ostia::pipeline

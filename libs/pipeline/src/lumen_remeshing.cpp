@@ -7,6 +7,7 @@
 #include "ostia/core/text.h"
 #include "ostia/geometry/faces.h"
 #include "ostia/geometry/smoothing.h"
+#include "ostia/meshing/quality.h"
 #include "ostia/meshing/stenosis_sizing.h"
 #include "ostia/meshing/volume_keeping.h"
 
@@ -48,6 +49,33 @@ meshing::RemeshedSurface remeshed_in_shape(const geometry::FacedSurface& capped,
     meshing::limit_gradation(capped.mesh, options.sizing.gradation, lengths);
     core::log_debug("remeshing again with shorter edges at " + std::to_string(shortened) + " points");
   }
+}
+
+bool gate_takes(const meshing::RemeshedSurface& made, const meshing::QualityBounds& bounds) {
+  if (made.report.self_intersections > 0) return false;
+  const meshing::SurfaceQuality quality = meshing::surface_quality(made.surface.mesh, false);
+  return quality.min_angle_deg >= bounds.min_angle_deg &&
+         quality.max_frobenius_aspect <= bounds.max_frobenius_aspect;
+}
+
+/// Which triangles come out flat is chance where the wall bends sharply: somewhat shorter edges put points
+/// elsewhere. The first that the gate takes; else `made` as it is.
+meshing::RemeshedSurface with_other_points(meshing::RemeshedSurface made,
+                                           const geometry::FacedSurface& capped,
+                                           const meshing::TubeFunction& tube,
+                                           const std::vector<double>& lengths, const ModelOptions& options,
+                                           const core::TaskContext& task) {
+  if (gate_takes(made, options.bounds)) return made;
+  for (const double factor : {0.94, 0.88}) {
+    std::vector<double> shorter = lengths;
+    for (double& length : shorter) length *= factor;
+    meshing::RemeshedSurface other = remeshed_in_shape(capped, tube, std::move(shorter), options, task);
+    if (!gate_takes(other, options.bounds)) continue;
+    core::log_debug("remeshed with edges of " + core::fixed_text(factor, 2) +
+                    " of their length, for triangles that are not flat");
+    return other;
+  }
+  return made;
 }
 
 /// Edge lengths by the distance to the axes, whatever the lumen's width is there.
@@ -120,12 +148,11 @@ meshing::RemeshedSurface remeshed_lumen(const geometry::FacedSurface& capped,
                                         const ModelOptions& options, std::vector<std::string>& warnings,
                                         const core::TaskContext& task) {
   meshing::SizingOptions sizing = meshing::at_throats(options.sizing, axes, capped.mesh);
-  const auto made_with = [&] {
-    return remeshed_in_shape(capped, tube, meshing::target_edge_lengths(capped.mesh, tube, sizing, task),
-                             options, task);
-  };
+  const auto lengths = [&] { return meshing::target_edge_lengths(capped.mesh, tube, sizing, task); };
+  const auto made_with = [&] { return remeshed_in_shape(capped, tube, lengths(), options, task); };
   meshing::RemeshedSurface made = made_with();
-  if (made.report.self_intersections == 0) return made;
+  if (made.report.self_intersections == 0)
+    return with_other_points(std::move(made), capped, tube, lengths(), options, task);
   const bool by_distance = !sizing.array && sizing.measure == meshing::SizeMeasure::distance;
   if (by_distance) {
     // What lies far from all axes is too rough for triangles of its own size: noise, or a leak. Larger ones
@@ -148,7 +175,7 @@ meshing::RemeshedSurface remeshed_lumen(const geometry::FacedSurface& capped,
       "the surface is too rough for triangles of this size: remeshing left " +
       std::to_string(made.report.self_intersections) +
       " self-intersections, and smoothing the wall did not help; take shorter edges "
-      "(--edge-ratio 0.1), or smooth the file first (`ostia convert IN OUT.vtp --smooth 200`)");
+      "(--edge-ratio 0.1), or smooth the file first (`ostia convert IN OUT.vtp --repair --smooth 200`)");
 }
 
 }  // namespace ostia::pipeline

@@ -83,6 +83,21 @@ double largest_radius(const std::vector<geometry::Centerline>& lines) {
 
 }  // namespace
 
+std::string cure_of_crossings(const TriMesh& surface) {
+  const std::vector<std::int32_t> part = geometry::components(surface);
+  const auto of = [&](std::int32_t triangle) { return part[static_cast<std::size_t>(triangle)]; };
+  for (const auto& [a, b] : geometry::self_intersections(surface))
+    if (of(a) != of(b))
+      return "Two of its separate parts run through each other: take one of them out in the program that the "
+             "surface is from, or keep the largest alone (`ostia convert IN OUT.vtp --repair "
+             "--largest-part`)";
+  return "Where a rough wall folds, `ostia convert IN OUT.vtp --smooth 200` of the file as it came smooths "
+         "the "
+         "folds away (flat caps get round, so name the ends with --source and --target); else take the "
+         "places "
+         "out in the program that the surface is from";
+}
+
 void validate(const ModelOptions& options) {
   meshing::validate(options.sizing);
   meshing::validate(options.remesh);
@@ -112,11 +127,9 @@ void require_sound_surface(const TriMesh& surface, const std::string& what, bool
   if (open > 0) message += " (its open ends are fine)";
   const bool mended_before = several_parts;  // what is left then is what repairing could not mend
   throw GeometryError(
-      message + (mended_before && faults.self_intersections > 0
-                     ? "; it is as far mended as `ostia convert --repair` can. Where a rough wall folds, "
-                       "`ostia convert IN OUT.vtp --smooth 200` of the file as it came smooths the folds "
-                       "away (flat caps get round, so name the ends with --source and --target)"
-                     : "; `ostia convert --repair` mends what can be mended"));
+      message + (mended_before
+                     ? "; it is as far mended as `ostia convert --repair` can. " + cure_of_crossings(surface)
+                     : "; `ostia convert IN OUT.vtp --repair` mends what can be mended"));
 }
 
 meshing::ClipOptions clip_of(const Source& source, const ModelOptions& options) {

@@ -1,5 +1,6 @@
 #include "ostia/pipeline/repair.h"
 
+#include "crossings.h"
 #include "specks.h"
 #include "spikes.h"
 #include "unfolding.h"
@@ -56,14 +57,17 @@ void drop_not_finite(Repaired& out) {
 /// the counts are those of the faults it found.
 void weld(Repaired& out) {
   TriMesh joined = geometry::welded(out.mesh);
-  const geometry::SurfaceFaults before = geometry::find_faults(out.mesh, false);
-  const std::size_t gone =
-      out.mesh.triangles.size() - std::min(out.mesh.triangles.size(), joined.triangles.size());
-  const std::size_t flat = std::min(gone, before.degenerate_triangles);
+  const std::size_t before = out.mesh.triangles.size(), after = joined.triangles.size();
+  const bool all_stays = joined.points.size() == out.mesh.points.size() && before == after;
+  if (!all_stays) {  // else it had none of the three
+    const geometry::SurfaceFaults faults = geometry::find_faults(out.mesh, false);
+    const std::size_t gone = before - std::min(before, after);
+    const std::size_t flat = std::min(gone, faults.degenerate_triangles);
+    note(out, "equal_points_joined", faults.duplicate_points, "points equal to another one joined");
+    note(out, "degenerate_triangles_dropped", flat, "triangles that were degenerate dropped");
+    note(out, "duplicate_triangles_dropped", gone - flat, "triangles that were there twice dropped");
+  }
   out.mesh = std::move(joined);
-  note(out, "equal_points_joined", before.duplicate_points, "points equal to another one joined");
-  note(out, "degenerate_triangles_dropped", flat, "triangles that were degenerate dropped");
-  note(out, "duplicate_triangles_dropped", gone - flat, "triangles that were there twice dropped");
   if (out.mesh.triangles.empty())
     throw GeometryError("nothing of the surface is left after dropping bad triangles");
 }
@@ -152,8 +156,8 @@ void keep_parts(Repaired& out, KeptParts which) {
 }
 
 /// Without the triangles that intersect others, and those `rings` times around them.
-TriMesh without_folds(const TriMesh& mesh, const std::vector<std::pair<std::int32_t, std::int32_t>>& pairs,
-                      int rings, std::set<std::array<double, 3>>& rim) {
+TriMesh without_folds(const TriMesh& mesh, const Crossings& pairs, int rings,
+                      std::set<std::array<double, 3>>& rim) {
   std::set<std::int32_t> points;
   for (const auto& [a, b] : pairs) {
     for (const std::int32_t t : {a, b})
@@ -201,13 +205,15 @@ TriMesh with_rim_closed(const TriMesh& mesh, const std::set<std::array<double, 3
   return with_some_closed(mesh, ours);
 }
 
-void pull_spikes_in(Repaired& out) {
-  note(out, "spikes_pulled_in", pull_in_spikes(out.mesh), "spikes of one point pulled in");
+KnownCrossings pull_spikes_in(Repaired& out) {
+  PulledIn pulled = pull_in_spikes(out.mesh);
+  note(out, "spikes_pulled_in", pulled.count, "spikes of one point pulled in");
+  return std::move(pulled.crossings);
 }
 
 /// What crosses itself because it is rough is made smooth before anything is cut.
-void smooth_folds(Repaired& out, const core::TaskContext& task) {
-  const Unfolded smoothed = unfold(out.mesh, task);
+void smooth_folds(Repaired& out, KnownCrossings& known, const core::TaskContext& task) {
+  const Unfolded smoothed = unfold(out.mesh, known, task);
   if (smoothed.crossings == 0) return;
   note(out, "self_intersections_smoothed", smoothed.crossings,
        smoothed.everywhere ? "self-intersections of a wall that is rough all over smoothed away"
@@ -216,10 +222,12 @@ void smooth_folds(Repaired& out, const core::TaskContext& task) {
 }
 
 /// Whether none is left.
-bool cut_folds_out(Repaired& out, const RepairOptions& options, const core::TaskContext& task) {
+bool cut_folds_out(Repaired& out, KnownCrossings known, const RepairOptions& options,
+                   const core::TaskContext& task) {
   for (int round = 0; round < rounds; ++round) {
     task.throw_if_cancelled();
-    const auto pairs = geometry::self_intersections(out.mesh);
+    const Crossings pairs = known ? std::move(*known) : geometry::self_intersections(out.mesh);
+    known.reset();
     if (pairs.empty()) return true;
     std::set<std::array<double, 3>> rim;
     const TriMesh open =
@@ -271,9 +279,9 @@ Repaired repaired(const TriMesh& mesh, const RepairOptions& options, const core:
   make_simple(out);
   take_apart(out);  // dropping flaps can leave borders that touch
   keep_parts(out, options.parts);
-  pull_spikes_in(out);
-  smooth_folds(out, task);
-  const bool no_folds = cut_folds_out(out, options, task);
+  KnownCrossings crossings = pull_spikes_in(out);
+  smooth_folds(out, crossings, task);
+  const bool no_folds = cut_folds_out(out, std::move(crossings), options, task);
   const bool closed_some = close_holes(out, options.fill_holes_up_to_mm);
   // What was just found to have none is not searched once more.
   geometry::SurfaceFaults faults = geometry::find_faults(out.mesh, closed_some || !no_folds);

@@ -48,7 +48,7 @@ void load_surface(const fs::path& path, const SourceOptions& options, Source& so
   io::LoadedSurface loaded = io::read_surface(path);
   append_warnings(source.warnings, loaded.warnings);
   TakenSurface taken = take_surface(std::move(loaded.surface), path.string(),
-                                    {options.unit_mm, options.strict, true, options.for_axes}, task);
+                                    {options.unit_mm, options.strict, options.for_axes}, task);
   for (const std::string& line : taken.told) source.warnings.push_back("the surface: " + line);
   source.surface = std::move(taken.lumen);
   source.ends = std::move(taken.ends);

@@ -91,9 +91,9 @@ class Rings {
 };
 
 /// Points of triangles that intersect others.
-std::vector<bool> stabbing(const TriMesh& mesh) {
+std::vector<bool> stabbing(const TriMesh& mesh, const Crossings& crossings) {
   std::vector<bool> at(mesh.points.size(), false);
-  for (const auto& [a, b] : geometry::self_intersections(mesh))
+  for (const auto& [a, b] : crossings)
     for (const std::int32_t t : {a, b})
       for (const std::int32_t p : mesh.triangles[static_cast<std::size_t>(t)])
         at[static_cast<std::size_t>(p)] = true;
@@ -101,8 +101,8 @@ std::vector<bool> stabbing(const TriMesh& mesh) {
 }
 
 /// The steepest first: a spike makes its neighbours look steep.
-std::vector<std::size_t> found(const TriMesh& mesh, const Rings& rings) {
-  const std::vector<bool> stabs = stabbing(mesh);
+std::vector<std::size_t> found(const TriMesh& mesh, const Rings& rings, const Crossings& crossings) {
+  const std::vector<bool> stabs = stabbing(mesh, crossings);
   std::vector<std::pair<double, std::size_t>> steepest;
   for (std::size_t p = 0; p < mesh.points.size(); ++p)
     if (const double s = rings.steepness(p, stabs[p]); s > 0.0) steepest.emplace_back(-s, p);
@@ -126,19 +126,23 @@ bool has_spikes(const TriMesh& mesh) {
   return false;
 }
 
-std::size_t pull_in_spikes(TriMesh& mesh) {
+PulledIn pull_in_spikes(TriMesh& mesh) {
   constexpr int settles = 3;  // neighbours' bending is known once the spike no longer pulls at it
-  std::size_t count = 0;
+  PulledIn out;
   for (int round = 0; round < rounds; ++round) {
     const Rings rings(mesh);
-    const std::vector<std::size_t> spikes = found(mesh, rings);
-    if (spikes.empty()) break;
-    count += spikes.size();
+    Crossings crossings = geometry::self_intersections(mesh);
+    const std::vector<std::size_t> spikes = found(mesh, rings, crossings);
+    if (spikes.empty()) {
+      out.crossings = std::move(crossings);
+      break;
+    }
+    out.count += spikes.size();
     for (const std::size_t p : spikes) mesh.points[p] = rings.middle(p);
     for (int k = 0; k < settles; ++k)
       for (const std::size_t p : spikes) mesh.points[p] = rings.smooth_place(p);
   }
-  return count;
+  return out;
 }
 
 }  // namespace ostia::pipeline

@@ -1,6 +1,8 @@
 #pragma once
 /// \file Single points of a surface that stand far out of it, or stab through it.
 
+#include "crossings.h"
+
 #include "ostia/geometry/tri_mesh.h"
 
 #include <cstddef>
@@ -12,7 +14,11 @@ namespace ostia::pipeline {
 bool has_spikes(const geometry::TriMesh& mesh);
 
 /// Moves them to where the surface about them bends as it does next to them. Where a point's triangles
-/// intersect others, half as much area is enough. Returns how many were moved. Points on borders stay.
-std::size_t pull_in_spikes(geometry::TriMesh& mesh);
+/// intersect others, half as much area is enough. Points on borders stay.
+struct PulledIn {
+  std::size_t count = 0;     ///< of points that were moved
+  KnownCrossings crossings;  ///< of the mesh as it is afterwards, where the last look moved nothing
+};
+PulledIn pull_in_spikes(geometry::TriMesh& mesh);
 
 }  // namespace ostia::pipeline

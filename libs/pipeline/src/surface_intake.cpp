@@ -29,9 +29,15 @@ constexpr double blunt_rim_deg = 10.0;  // of labelled caps on a wall that was s
 struct FirstLook {
   bool sound = false;     ///< nothing to be mended before anything else looks at it; open ends are none
   bool all_used = false;  ///< nor a point that no triangle uses
+  bool inward = false;    ///< though it was so all over: it is sound once its triangles are turned
   geometry::FilledHoles closed;  ///< where it is sound
 };
 
+void turn_round(TriMesh& mesh) {
+  for (geometry::Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+}
+
+/// What it tells is of the surface as it faces outward.
 FirstLook first_look(const TriMesh& mesh) {
   geometry::SurfaceFaults faults = geometry::find_faults(mesh, false);
   faults.open_edges = 0;
@@ -42,7 +48,10 @@ FirstLook first_look(const TriMesh& mesh) {
   core::parallel_invoke([&] { whole = geometry::self_intersections(mesh).empty(); },
                         [&] {
                           look.closed = geometry::fill_holes(mesh);
-                          smooth = geometry::volume(look.closed.mesh) > 0.0 && !has_spikes(mesh);
+                          const double volume = geometry::volume(look.closed.mesh);
+                          look.inward = volume < 0.0;
+                          if (look.inward) turn_round(look.closed.mesh);
+                          smooth = volume != 0.0 && !has_spikes(mesh);
                         });
   look.sound = whole && smooth;
   return look;
@@ -59,14 +68,19 @@ std::shared_ptr<centerline::DelaunayAhead> tetrahedra_ahead(const TriMesh& mesh,
 /// One surface on its way in.
 class Intake {
  public:
-  /// `surface` in mm.
-  Intake(geometry::FacedSurface surface, const IntakeOptions& options, TakenSurface& out,
-         const core::TaskContext& task)
-      : came_(std::move(surface)), ready_(came_), options_(options), out_(out), task_(task) {}
+  /// `surface` in mm; `opened`: the same without its caps, where that is known.
+  Intake(geometry::FacedSurface surface, std::optional<meshing::OpenedCaps> opened,
+         const IntakeOptions& options, TakenSurface& out, const core::TaskContext& task)
+      : came_(std::move(surface)),
+        ready_(came_),
+        options_(options),
+        out_(out),
+        task_(task),
+        opened_(std::move(opened)) {}
 
   void mend() {
     // What is wrong at the rims of caps would be cut out together with the caps.
-    if (options_.open_caps) early_ends_ = take_labelled_caps_off(ready_);
+    early_ends_ = take_labelled_caps_off(ready_);
     const geometry::FacedSurface before = ready_;
     MendedParts whole = mended(before.mesh, out_.told, task_.sub(0.1, 0.7));
     std::vector<TriMesh>& parts = whole.parts;
@@ -100,7 +114,9 @@ class Intake {
           rims = rims_of(whole, closed, options_.for_axes);
           close_holes_in_the_wall(whole, closed, rims, out_.told);
         },
-        [&] { open_caps(); });
+        [&] {
+          if (!opened_) open_caps();
+        });
     if (whole.triangles.size() == ready_.mesh.triangles.size())
       return centerline::KnownSurface{std::move(rims.loops), std::move(closed.mesh), std::move(rims.tree),
                                       std::move(tetrahedra)};
@@ -112,10 +128,6 @@ class Intake {
 
   void finish() {
     task_.throw_if_cancelled();
-    if (!options_.open_caps) {
-      out_.lumen = std::move(ready_.mesh);
-      return;
-    }
     if (!opened_) open_caps();
     out_.lumen = std::move(opened_->wall);
     out_.ends.insert(out_.ends.end(), opened_->ends.begin(), opened_->ends.end());
@@ -123,9 +135,7 @@ class Intake {
   }
 
  private:
-  void open_caps() {
-    if (options_.open_caps) opened_ = meshing::without_flat_caps(ready_, caps_, task_.sub(0.8, 1.0));
-  }
+  void open_caps() { opened_ = meshing::without_flat_caps(ready_, caps_, task_.sub(0.8, 1.0)); }
 
   /// Those that are still open; of the others tell_ends says what is lost.
   void keep_early_ends() {
@@ -206,20 +216,26 @@ TakenSurface take_surface(geometry::FacedSurface surface, const std::string& wha
   FirstLook look;
   if (!options.strict) {
     look = first_look(surface.mesh);
+    if (look.sound && look.inward) {
+      turn_round(surface.mesh);
+      out.told.push_back("triangles turned the way of the others, or outward: " +
+                         std::to_string(surface.mesh.triangles.size()));
+    }
     if (auto lumen = taken_from_wall(surface, look, what, options, task)) {
       lumen->told.insert(lumen->told.begin(), out.told.begin(), out.told.end());
       return std::move(*lumen);
     }
   }
-  to_mm(surface, look.sound ? std::optional(calibre_of_closed(look.closed.mesh)) : std::nullopt, options, out,
-        what);
+  std::optional<meshing::OpenedCaps> opened =
+      to_mm(surface, look.sound ? std::optional(calibre_of_closed(look.closed.mesh)) : std::nullopt, options,
+            out, what);
   if (!options.strict && out.unit_mm != 1.0) {
     tetrahedra = look.sound ? tetrahedra_ahead(surface.mesh, options) : nullptr;
     look = first_look(surface.mesh);
   }
   if (!look.sound) tetrahedra.reset();
   task.throw_if_cancelled();
-  Intake intake(std::move(surface), options, out, task);
+  Intake intake(std::move(surface), std::move(opened), options, out, task);
   std::optional<centerline::KnownSurface> known;
   if (!options.strict && !look.sound) intake.mend();
   if (!options.strict && look.sound) known = intake.look_for_holes(look.closed, tetrahedra);

@@ -17,7 +17,6 @@ namespace {
 
 using geometry::TriMesh;
 using geometry::Vec3;
-using Crossings = std::vector<std::pair<std::int32_t, std::int32_t>>;
 
 constexpr int unfolding_rounds = 5;
 constexpr int unfolding_steps = 30;  // of the filter; each round has as many more
@@ -30,12 +29,15 @@ constexpr double worth_while =
     0.2;  // smoothing all of it pays where no more than this share of crossings stays
 
 /// Pairs of triangles of one part: parts that run through each other are no folds.
-Crossings folds_of(const TriMesh& mesh, const std::vector<std::int32_t>& part) {
-  Crossings found = geometry::self_intersections(mesh);
-  std::erase_if(found, [&](const auto& pair) {
+Crossings folds_among(Crossings crossings, const std::vector<std::int32_t>& part) {
+  std::erase_if(crossings, [&](const auto& pair) {
     return part[static_cast<std::size_t>(pair.first)] != part[static_cast<std::size_t>(pair.second)];
   });
-  return found;
+  return crossings;
+}
+
+Crossings folds_of(const TriMesh& mesh, const std::vector<std::int32_t>& part) {
+  return folds_among(geometry::self_intersections(mesh), part);
 }
 
 /// The points of a surface that may move.
@@ -110,10 +112,11 @@ std::string Unfolded::text() const {
          " mm at most, at " + place_text(where);
 }
 
-Unfolded unfold(TriMesh& mesh, const core::TaskContext& task) {
+Unfolded unfold(TriMesh& mesh, KnownCrossings& known, const core::TaskContext& task) {
   Unfolded out;
   const std::vector<std::int32_t> part = geometry::components(mesh);
-  Crossings crossings = folds_of(mesh, part);
+  if (!known) known = geometry::self_intersections(mesh);
+  Crossings crossings = folds_among(*known, part);
   if (crossings.empty()) return out;
   const std::size_t at_first = crossings.size();
   const TriMesh before = mesh;
@@ -142,6 +145,7 @@ Unfolded unfold(TriMesh& mesh, const core::TaskContext& task) {
     mesh = before;
     return {};
   }
+  known.reset();
   out.crossings = at_first - crossings.size();
   measure_moves(before.points, mesh.points, out);
   return out;

@@ -1,6 +1,8 @@
 #pragma once
 /// \file Walls that cross themselves because they are rough, made smooth.
 
+#include "crossings.h"
+
 #include "ostia/core/task_context.h"
 #include "ostia/geometry/tri_mesh.h"
 
@@ -24,7 +26,8 @@ struct Unfolded {
 /// (geometry::smoothed_in_volume), more and wider as long as some cross; where that concerns a fifth of the
 /// points, all of it is, with its open rims. Places that stay crossed (a vessel that runs through itself)
 /// become what they were; in a wall that is rough all over they stay smooth where most others are gone.
-/// Triangles and points keep their numbers. Throws Cancelled.
-Unfolded unfold(geometry::TriMesh& mesh, const core::TaskContext& task);
+/// Triangles and points keep their numbers. `known` are the mesh's crossings where the caller has them; what
+/// has moved has none afterwards. Throws Cancelled.
+Unfolded unfold(geometry::TriMesh& mesh, KnownCrossings& known, const core::TaskContext& task);
 
 }  // namespace ostia::pipeline

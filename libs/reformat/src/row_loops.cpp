@@ -1,5 +1,7 @@
 #include "row_loops.h"
 
+#include "ostia/core/processor.h"
+
 namespace ostia::reformat {
 namespace {
 
@@ -24,11 +26,7 @@ RowLoops row_loops_plain() {
 }
 
 const RowLoops& row_loops() {
-#if defined(__x86_64__)
-  static const RowLoops loops = __builtin_cpu_supports("avx2") ? row_loops_avx2() : row_loops_plain();
-#else
-  static const RowLoops loops = row_loops_plain();
-#endif
+  static const RowLoops loops = core::best_for_processor(row_loops_avx2, row_loops_plain);
   return loops;
 }
 

@@ -8,6 +8,7 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
+#include "ostia/imaging/image_axes.h"
 #include "ostia/session/annotation_json.h"
 #include "ostia/session/edit_json.h"
 #include "ostia/session/model_changes.h"
@@ -33,6 +34,7 @@ void check_reference(const ImageReference& image) {
   const auto hexadecimal = [](unsigned char c) { return std::isdigit(c) || (c >= 'a' && c <= 'f'); };
   if (image.sha256.size() != 64 || !std::all_of(image.sha256.begin(), image.sha256.end(), hexadecimal))
     throw InvalidInput("the image's SHA-256 must be 64 hexadecimal digits");
+  if (!image.axes.empty()) imaging::validate_axes(image.axes);
 }
 
 bool is_path(const std::string& value) {
@@ -74,6 +76,10 @@ void write_case(Database& database, const LumenModel& model, const std::optional
   if (image)
     Statement(database, "INSERT INTO image VALUES(1, ?1, ?2, ?3)")
         .with(image->sha256, image->pseudonym, sum_of_pair("image", image->sha256, image->pseudonym))
+        .run();
+  if (image && !image->axes.empty())
+    Statement(database, "INSERT INTO image_axes VALUES(1, ?1, ?2)")
+        .with(image->axes, sum_of_pair("image_axes", image->sha256, image->axes))
         .run();
   Journal(database).append({0, "case.begin", begin_parameters(name), StepState::done, {}, {}});
   transaction.commit();
@@ -144,7 +150,7 @@ struct CaseFile::Impl {
   ModelStore store;
   AnnotationRows notes;
   Journal steps;
-  Statement find_image, find_setting, put_setting, find_content;
+  Statement find_image, find_axes, find_setting, put_setting, find_content;
   std::shared_ptr<const LumenModel> model;
   std::uint64_t checksum = 0;
   std::shared_ptr<const LumenModel> before_last;  // of the last step, if it was made just now
@@ -160,6 +166,7 @@ struct CaseFile::Impl {
         notes(database),
         steps(database),
         find_image(database, "SELECT sha256, pseudonym, checksum FROM image"),
+        find_axes(database, "SELECT axes, checksum FROM image_axes"),
         find_setting(database, "SELECT value, checksum FROM setting WHERE key = ?1"),
         put_setting(database,
                     "INSERT INTO setting VALUES(?1, ?2, ?3) ON CONFLICT(key) DO UPDATE SET "
@@ -180,11 +187,18 @@ struct CaseFile::Impl {
 
   std::optional<ImageReference> image() {
     if (!find_image.with().step()) return std::nullopt;
-    const ImageReference image{find_image.text(0), find_image.text(1)};
+    ImageReference image{find_image.text(0), find_image.text(1)};
     const std::int64_t sum = find_image.integer(2);
     find_image.reset();
     if (sum != sum_of_pair("image", image.sha256, image.pseudonym))
       throw InvalidInput("the case is damaged: its image's reference is not what was written");
+    if (!find_axes.with().step()) return image;
+    image.axes = find_axes.text(0);
+    const std::int64_t sum_of_axes = find_axes.integer(1);
+    find_axes.reset();
+    if (sum_of_axes != sum_of_pair("image_axes", image.sha256, image.axes))
+      throw InvalidInput("the case is damaged: its image's axes are not what was written");
+    imaging::validate_axes(image.axes);
     return image;
   }
 

@@ -2,9 +2,11 @@
 
 #include "case_report_grading.h"
 #include "case_report_text.h"
+#include "vessel_look.h"
 #include "vessels_beside.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/quantity_text.h"
 #include "ostia/core/text.h"
 #include "ostia/core/version.h"
 #include "ostia/session/lesion_board.h"
@@ -86,8 +88,9 @@ struct MeasuredVessel {
   analysis::ReferenceLine reference;
 };
 
-/// A vessel's outer wall, or why it was not looked for.
-struct WallsFound {
+/// What the image shows of a vessel; of its outer wall, or why it was not looked for.
+struct LookedAt {
+  VesselEvaluability judged;
   std::optional<VesselWalls> walls;
   std::string problem;
 };
@@ -110,7 +113,8 @@ class Maker {
     const std::vector<geometry::Vessel>& vessels = model_.tree.vessels;
     auto measured = beside<MeasuredVessel>(
         vessels.size(), task,
-        [&](std::size_t i, const core::TaskContext& part) { return measure(vessels[i], part); });
+        [&](std::size_t i, const core::TaskContext& part) { return measure(vessels[i], part); },
+        own_lengths(model_));
     for (std::size_t i = 0; i < vessels.size(); ++i) add_vessel(vessels[i], std::move(measured[i]));
   }
 
@@ -167,17 +171,24 @@ class Maker {
     }
   }
 
-  /// How far vessels, segments and lesions can be judged.
-  void judge(const imaging::ImageVolume* image, const core::TaskContext& task) {
+  /// How far vessels, segments and lesions can be judged, and what lies between lumen and outer wall.
+  void look_at(const imaging::ImageVolume* image, const core::TaskContext& task) {
     report_.has_image = image != nullptr;
-    const double noise_hu = image ? noise_about(model_, *image) : 0.0;
     std::vector<VesselEvaluability> judged;
-    if (image)
-      judged = beside<VesselEvaluability>(
-          report_.vessels.size(), task, [&](std::size_t i, const core::TaskContext& part) {
-            return vessel_evaluability(model_, surface_of_, report_.vessels[i].id, *image, noise_hu,
-                                       report_.options.evaluability, part);
-          });
+    if (image) {
+      const double noise_hu = noise_about(model_, *image);
+      auto looked = beside<LookedAt>(
+          report_.vessels.size(), task,
+          [&](std::size_t i, const core::TaskContext& part) {
+            return looked_at(report_.vessels[i].id, *image, noise_hu, part);
+          },
+          own_lengths(model_));
+      for (std::size_t i = 0; i < looked.size(); ++i) {
+        judged.push_back(std::move(looked[i].judged));
+        add_plaque(report_.vessels[i], looked[i]);
+      }
+      report_.quality = scan_quality(image->geometry, noise_hu, judged);
+    }
     for (std::size_t i = 0; i < report_.vessels.size(); ++i) {
       ReportVessel& vessel = report_.vessels[i];
       vessel.evaluable =
@@ -185,7 +196,6 @@ class Maker {
                       find_mark(annotations_, vessel.id),
                       analysis::EvaluableStretch{vessel.own_from_mm, vessel.length_mm, {}, {}, false});
     }
-    if (image) report_.quality = scan_quality(image->geometry, noise_hu, judged);
   }
 
   void grade() {
@@ -213,31 +223,6 @@ class Maker {
     }
   }
 
-  /// What the image shows between lumen and outer wall, by vessel.
-  void add_plaque(const imaging::ImageVolume* image, const core::TaskContext& task) {
-    if (!image) return;
-    auto found = beside<WallsFound>(
-        report_.vessels.size(), task, [&](std::size_t i, const core::TaskContext& part) -> WallsFound {
-          try {
-            return {
-                vessel_walls(model_, surface_of_, report_.vessels[i].id, *image, report_.options.walls, part),
-                {}};
-          } catch (const InvalidInput& error) {
-            return {std::nullopt, error.what()};
-          }
-        });
-    for (std::size_t i = 0; i < report_.vessels.size(); ++i) {
-      ReportVessel& vessel = report_.vessels[i];
-      if (!found[i].problem.empty())
-        report_.warnings.push_back(vessel.name + ": its outer wall was not looked for: " + found[i].problem);
-      if (!found[i].walls) continue;
-      for (const std::string& warning : found[i].walls->outer.surface.warnings)
-        report_.warnings.push_back(vessel.name + ": " + warning);
-      vessel.plaque = plaque_of(*found[i].walls, vessel.own_from_mm, vessel.length_mm);
-      report_.walls.emplace(vessel.id, std::move(*found[i].walls));
-    }
-  }
-
   void add_steps(const std::vector<JournalEntry>& journal) {
     for (const JournalEntry& entry : journal)
       if (!entry.undone && entry.kind != StepKind::travel)
@@ -247,7 +232,7 @@ class Maker {
   void warn() {
     for (const ReportVessel& vessel : report_.vessels) {
       if (vessel.unmeasured_mm > 0.0)
-        report_.warnings.push_back(vessel.name + ": " + core::shown_text(vessel.unmeasured_mm, 1) +
+        report_.warnings.push_back(vessel.name + ": " + core::length_text(vessel.unmeasured_mm) +
                                    " mm could not be measured, the wall does not close there");
       if (analysis::main_vessel_of(vessel.name).empty())
         report_.warnings.push_back(vessel.name +
@@ -262,6 +247,32 @@ class Maker {
   CaseReport take() { return std::move(report_); }
 
  private:
+  LookedAt looked_at(std::int32_t vessel, const imaging::ImageVolume& image, double noise_hu,
+                     const core::TaskContext& task) const {
+    LookedAt out;
+    const ReportOptions& o = report_.options;
+    const OwnLumen own = own_lumen(model_, surface_of_, vessel, o.evaluability.step_mm, rays_around, task);
+    out.judged = evaluability_in(own, model_, image, noise_hu, o.evaluability, task);
+    const bool alike = o.walls.step_mm == o.evaluability.step_mm && o.walls.around == rays_around;
+    try {
+      out.walls = alike ? walls_in(own, model_, image, o.walls, task)
+                        : vessel_walls(model_, surface_of_, vessel, image, o.walls, task);
+    } catch (const InvalidInput& error) {
+      out.problem = error.what();
+    }
+    return out;
+  }
+
+  void add_plaque(ReportVessel& vessel, LookedAt& looked) {
+    if (!looked.problem.empty())
+      report_.warnings.push_back(vessel.name + ": its outer wall was not looked for: " + looked.problem);
+    if (!looked.walls) return;
+    for (const std::string& warning : looked.walls->outer.surface.warnings)
+      report_.warnings.push_back(vessel.name + ": " + warning);
+    vessel.plaque = plaque_of(*looked.walls, vessel.own_from_mm, vessel.length_mm);
+    report_.walls.emplace(vessel.id, std::move(*looked.walls));
+  }
+
   static std::optional<ReportPlaque> plaque_of(const VesselWalls& walls, double from_mm, double to_mm) {
     ReportPlaque out;
     out.from_mm = std::max(from_mm, walls.plaque.from_mm);
@@ -380,8 +391,7 @@ CaseReport make_case_report(const lumen::LumenModel& model, const analysis::Surf
   task.set_stage("measuring");
   Maker maker(model, surface_of, annotations, options);
   maker.measure_vessels(task.sub(0.0, image ? 0.2 : 0.9));
-  maker.judge(image, task.sub(0.2, 0.4));
-  maker.add_plaque(image, task.sub(0.4, 0.9));
+  maker.look_at(image, task.sub(0.2, 0.9));
   maker.add_lesions();
   maker.add_segments();
   maker.grade();

@@ -3,7 +3,7 @@
 #include "case_report_text.h"
 #include "case_report_words.h"
 
-#include "ostia/core/text.h"
+#include "ostia/core/quantity_text.h"
 #include "ostia/figure/html_report.h"
 #include "ostia/figure/pdf_document.h"
 #include "ostia/session/case_report.h"
@@ -13,7 +13,6 @@
 namespace ostia::session {
 namespace {
 
-using core::shown_text;
 using figure::Notice;
 using report_text::label;
 using report_text::percent;
@@ -54,9 +53,9 @@ std::string quality_text(const CaseReport& report) {
   const ScanQuality& q = *report.quality;
   std::string text = to_string(q.grade);
   for (const std::string& reason : q.reasons) text += "\n" + reason;
-  return text + "\nOf the arteries' length " + shown_text(100.0 * q.evaluable_share, 0) + " % evaluable, " +
-         shown_text(100.0 * q.limited_share, 0) + " % limited, " +
-         shown_text(100.0 * q.not_evaluable_share, 0) + " % not evaluable";
+  return text + "\nOf the arteries' length " + core::percent_text(100.0 * q.evaluable_share) +
+         " % evaluable, " + core::percent_text(100.0 * q.limited_share) + " % limited, " +
+         core::percent_text(100.0 * q.not_evaluable_share) + " % not evaluable";
 }
 
 std::string evaluable_text(const std::optional<analysis::EvaluableStretch>& stretch) {
@@ -69,7 +68,7 @@ std::string doubtful_text(const ReportVessel& vessel) {
   std::string text;
   for (const analysis::EvaluableStretch& one : vessel.evaluable) {
     if (one.grade == analysis::Evaluability::evaluable && !one.by_person) continue;
-    text += (text.empty() ? "" : "\n") + shown_text(one.from_mm, 0) + "-" + shown_text(one.to_mm, 0) +
+    text += (text.empty() ? "" : "\n") + core::length_text(one.from_mm) + "-" + core::length_text(one.to_mm) +
             " mm: " + report_text::grade(one);
     if (!one.reasons.empty()) text += ", " + report_text::reasons(one);
   }
@@ -94,6 +93,8 @@ std::vector<std::pair<std::string, std::string>> summary_of(const CaseReport& re
   rows.emplace_back("Image", report.options.image ? report.options.image->pseudonym +
                                                         (report.has_image ? "" : " (not at hand)")
                                                   : "the case names none");
+  if (report.options.image && !report.options.image->axes.empty())
+    rows.emplace_back("Orientation", report.options.image->axes + ", given by a person");
   rows.emplace_back("CAD-RADS",
                     analysis::to_string(report.category) + ": " + analysis::description(report.category));
   rows.emplace_back("Worst graded stenosis", worst_text(report));
@@ -115,10 +116,10 @@ Rows stenosis_rows(const CaseReport& report) {
   Rows rows;
   for (const ReportStenosis& one : report.stenoses) {
     const analysis::Stenosis& s = one.stenosis;
-    rows.push_back({label(one), own(one.vessel_name), one.segment, shown_text(s.throat_mm, 1),
-                    shown_text(s.length_mm(), 1), shown_text(s.least_diameter_mm, 2),
-                    shown_text(s.reference_diameter_mm, 2), percent(s.diameter_percent) + " %",
-                    shown_text(s.least_area_mm2, 2), percent(s.area_percent) + " %",
+    rows.push_back({label(one), own(one.vessel_name), one.segment, core::length_text(s.throat_mm),
+                    core::length_text(s.length_mm()), core::calibre_text(s.least_diameter_mm),
+                    core::calibre_text(s.reference_diameter_mm), percent(s.diameter_percent) + " %",
+                    core::area_text(s.least_area_mm2), percent(s.area_percent) + " %",
                     one.category ? analysis::to_string(*one.category) + (one.graded ? "" : " *")
                     : one.state == LesionState::rejected ? "rejected"
                                                          : "not graded",
@@ -130,9 +131,9 @@ Rows stenosis_rows(const CaseReport& report) {
 Rows segment_rows(const CaseReport& report) {
   Rows rows;
   for (const ReportSegment& s : report.segments)
-    rows.push_back({s.label, own(s.vessel_name), shown_text(s.to_mm - s.from_mm, 1),
-                    shown_text(s.mean_diameter_mm, 2), shown_text(s.least_diameter_mm, 2),
-                    shown_text(s.least_area_mm2, 2), shown_text(s.volume_mm3, 1),
+    rows.push_back({s.label, own(s.vessel_name), core::length_text(s.to_mm - s.from_mm),
+                    core::calibre_text(s.mean_diameter_mm), core::calibre_text(s.least_diameter_mm),
+                    core::area_text(s.least_area_mm2), core::volume_text(s.volume_mm3),
                     s.worst_stenosis > 0
                         ? "S" + std::to_string(s.worst_stenosis) + ": " + percent(s.worst_percent) + " %"
                         : "none",
@@ -143,7 +144,7 @@ Rows segment_rows(const CaseReport& report) {
 Rows vessel_rows(const CaseReport& report) {
   Rows rows;
   for (const ReportVessel& v : report.vessels)
-    rows.push_back({own(v.name), shown_text(v.length_mm - v.own_from_mm, 1), doubtful_text(v),
+    rows.push_back({own(v.name), core::length_text(v.length_mm - v.own_from_mm), doubtful_text(v),
                     checked_text(v.checked), own(v.note)});
   return rows;
 }
@@ -230,7 +231,8 @@ void add_stenoses(Document& document, const CaseReport& report) {
       if (!one.category) document.paragraph(label(one) + " is not graded: " + one.not_graded + ".");
     if (std::any_of(report.stenoses.begin(), report.stenoses.end(),
                     [](const ReportStenosis& one) { return one.category && !one.graded; }))
-      document.paragraph("* The reference is thinner than " + shown_text(report.options.least_graded_mm, 1) +
+      document.paragraph("* The reference is thinner than " +
+                         core::calibre_text(report.options.least_graded_mm) +
                          " mm: without a say in the patient's category.");
   }
   document.paragraph(
@@ -250,7 +252,7 @@ Rows bifurcation_rows(const CaseReport& report) {
     const analysis::MedinaClass& m = one.medina;
     if (!m.any()) continue;
     rows.push_back({own(one.main_name + " / " + one.side_name), analysis::to_string(m),
-                    shown_text(m.joint_mm, 1), percent(m.proximal_percent) + " %",
+                    core::length_text(m.joint_mm), percent(m.proximal_percent) + " %",
                     percent(m.distal_percent) + " %", percent(m.side_percent) + " %"});
   }
   return rows;
@@ -268,20 +270,21 @@ void add_bifurcations(Document& document, const CaseReport& report) {
       "Medina's class: main vessel before the bifurcation, main vessel behind it, side branch; 1 where "
       "the diameter is narrowed by " +
       percent(report.options.medina.least_percent) + " % or more within " +
-      shown_text(report.options.medina.region_mm, 0) + " mm. Side branches from " +
-      shown_text(report.options.medina.least_side_mm, 1) + " mm on.");
+      core::length_text(report.options.medina.region_mm) + " mm. Side branches from " +
+      core::calibre_text(report.options.medina.least_side_mm) + " mm on.");
 }
 
 /// A stretch's volumes, mm^3, and what follows from them.
 std::vector<std::string> plaque_row(const std::string& name, const ReportPlaque& plaque,
                                     const std::string& remodelling) {
   const analysis::PlaqueVolumes& v = plaque.volumes;
-  std::vector<std::string> row{own(name), to_string(analysis::plaque_type(v)), shown_text(v.plaque_mm3(), 1)};
-  for (const double volume : v.class_mm3) row.push_back(shown_text(volume, 1));
-  row.push_back(shown_text(v.thin_wall_mm3, 1));
-  row.push_back(shown_text(v.burden_percent(), 0) + " %");
+  std::vector<std::string> row{own(name), to_string(analysis::plaque_type(v)),
+                               core::volume_text(v.plaque_mm3())};
+  for (const double volume : v.class_mm3) row.push_back(core::volume_text(volume));
+  row.push_back(core::volume_text(v.thin_wall_mm3));
+  row.push_back(core::percent_text(v.burden_percent()) + " %");
   row.push_back(remodelling);
-  row.push_back(shown_text(100.0 * plaque.seen_share, 0) + " %");
+  row.push_back(core::percent_text(100.0 * plaque.seen_share) + " %");
   return row;
 }
 
@@ -292,7 +295,7 @@ Rows plaque_rows(const CaseReport& report) {
     rows.push_back(plaque_row(vessel.name, *vessel.plaque, ""));
     for (const ReportStenosis& one : report.stenoses)
       if (one.stenosis.vessel == vessel.id && one.plaque)
-        rows.push_back(plaque_row("  " + label(one), *one.plaque, shown_text(one.remodelling_index, 2)));
+        rows.push_back(plaque_row("  " + label(one), *one.plaque, core::ratio_text(one.remodelling_index)));
   }
   return rows;
 }
@@ -311,10 +314,11 @@ void add_plaque(Document& document, const CaseReport& report) {
                   "Calcified", "Thin wall (mm\xC2\xB3)", "Burden", "Remodelling index", "Outer wall seen"},
                  rows, "Between lumen and outer wall, by vessel and by stenosis");
   document.paragraph(
-      "Low attenuation: below " + shown_text(o.low_attenuation_hu, 0) + " HU; fibrofatty: to " +
-      shown_text(o.fibrofatty_hu, 0) + " HU; fibrous: to " + shown_text(o.fibrous_hu, 0) +
+      "Low attenuation: below " + core::hu_text(o.low_attenuation_hu) + " HU; fibrofatty: to " +
+      core::hu_text(o.fibrofatty_hu) + " HU; fibrous: to " + core::hu_text(o.fibrous_hu) +
       " HU; calcified: above, after the blur of lumen and fat was taken away. A wall thinner than " +
-      shown_text(o.thin_wall_mm, 1) + " mm, or thicker by less than " + shown_text(o.healthy_margin_mm, 1) +
+      core::calibre_text(o.thin_wall_mm) + " mm, or thicker by less than " +
+      core::calibre_text(o.healthy_margin_mm) +
       " mm than a healthy one of that calibre, is wall and no plaque. Class: calcified from half of the "
       "plaque "
       "on, non-calcified below 5 %. Burden: plaque, of all within the outer wall. "

@@ -3,6 +3,7 @@
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
 #include "ostia/core/parallel.h"
+#include "ostia/core/parallel_invoke.h"
 #include "ostia/session/annotation_json.h"
 #include "ostia/session/case_report.h"
 
@@ -41,7 +42,10 @@ void check_names(const std::vector<KeyImage>& images) {
 }
 
 Json image_json(const std::optional<ImageReference>& image) {
-  return image ? Json{{"sha256", image->sha256}, {"pseudonym", image->pseudonym}} : Json();
+  if (!image) return {};
+  Json known{{"sha256", image->sha256}, {"pseudonym", image->pseudonym}};
+  if (!image->axes.empty()) known["axes"] = image->axes;
+  return known;
 }
 
 Json walls_json(const OuterWallsOptions& o) {
@@ -68,6 +72,14 @@ Json walls_json(const OuterWallsOptions& o) {
           p.blur_sigma_mm};
 }
 
+void write_data(const fs::path& folder, const CaseReport& report, const std::vector<KeyImage>& images) {
+  core::write_file(folder / "report.json", report_json(report, images));
+  core::write_file(folder / "segments.csv", segments_csv(report));
+  core::write_file(folder / "stenoses.csv", stenoses_csv(report));
+  core::write_file(folder / "plaque.csv", plaque_csv(report));
+  core::write_file(folder / "measurements.csv", measurements_csv(report));
+}
+
 }  // namespace
 
 std::string report_digest(const CaseFile& file) {
@@ -84,9 +96,6 @@ std::string report_digest(const CaseFile& file) {
 
 pipeline::JobKey report_job(const CaseFile& file, bool with_image, const ReportOptions& o,
                             const std::vector<KeyImage>& further, bool named) {
-  Json pictures = Json::array();
-  for (const KeyImage& one : further)
-    pictures.push_back({one.name, one.caption, core::sha256(one.picture.png(image_density))});
   Json parameters{{"date", o.date},
                   {"profile", {o.profile.step_mm, o.profile.around}},
                   {"reference_window_mm", o.reference.window_mm},
@@ -100,12 +109,21 @@ pipeline::JobKey report_job(const CaseFile& file, bool with_image, const ReportO
                   {"picture_percent", o.picture_percent},
                   {"theta_deg", o.theta_deg},
                   {"grey", {o.level_hu, o.window_hu}},
-                  {"further", pictures}};
+                  {"further", Json::array()}};
   if (named) parameters["named"] = true;
   if (o.language != ReportLanguage::english) parameters["language"] = to_string(o.language);
   pipeline::JobKey key{"report", {{"case", report_digest(file)}}, parameters.dump()};
   if (with_image && o.image) key.inputs["image"] = o.image->sha256;
+  add_further(key, further);
   return key;
+}
+
+void add_further(pipeline::JobKey& job, const std::vector<KeyImage>& further) {
+  if (further.empty()) return;
+  Json parameters = Json::parse(job.parameters);
+  for (const KeyImage& one : further)
+    parameters["further"].push_back({one.name, one.caption, core::sha256(one.picture.png(image_density))});
+  job.parameters = parameters.dump();
 }
 
 void write_case_report(const fs::path& folder, const CaseReport& report, const std::vector<KeyImage>& images,
@@ -124,16 +142,12 @@ void write_case_report(const fs::path& folder, const CaseReport& report, const s
     images[i].picture.write_png(made / "images" / (images[i].name + ".png"), image_density);
   });
   task.set_progress(0.4);
-  core::write_file(made / "report.json", report_json(report, images));
-  core::write_file(made / "segments.csv", segments_csv(report));
-  core::write_file(made / "stenoses.csv", stenoses_csv(report));
-  core::write_file(made / "plaque.csv", plaque_csv(report));
-  core::write_file(made / "measurements.csv", measurements_csv(report));
-  task.throw_if_cancelled();
-  core::write_file(made / "report.html", report_html(report, images, named));
-  task.set_progress(0.7);
-  task.throw_if_cancelled();
-  core::write_file(made / "report.pdf", report_pdf(report, images, named));
+  // Pictures are drawn by one at a time: the page shows the PNG files that are there by now.
+  core::parallel_invoke([&] { core::write_file(made / "report.pdf", report_pdf(report, images, named)); },
+                        [&] {
+                          core::write_file(made / "report.html", report_html(report, images, named));
+                          write_data(made, report, images);
+                        });
   task.throw_if_cancelled();
   const double seconds =
       seconds_before + std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

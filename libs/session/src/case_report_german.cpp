@@ -35,6 +35,8 @@ Phrases summary() {
       {"Image", "Bild"},
       {"%1 (not at hand)", "%1 (lag nicht vor)"},
       {"the case names none", "der Fall nennt keines"},
+      {"Orientation", "Orientierung"},
+      {"%1, given by a person", "%1, von Hand angegeben"},
       {"Worst graded stenosis", "Schwerste bewertete Stenose"},
       {"none from %1 % of the diameter on", "keine ab %1 % des Durchmessers"},
       {"%1: %2 % of the diameter", "%1: %2 % des Durchmessers"},

@@ -183,15 +183,17 @@ Phrases pictures() {
       {"reference", "Referenz"},
       {"Diameter along the vessel", "Durchmesser entlang des Gefäßes"},
       {"leaves %1", "Abgang aus %1"},
-      {"%1: straightened at %2 and %3 degrees with the lumen's contour, diameter along the vessel",
-       "%1: gestreckt bei %2 und %3 Grad mit der Kontur des Lumens, Durchmesser entlang des Gefäßes"},
-      {"%1: straightened at %2 and %3 degrees with the lumen's contour, diameter along the vessel, and the "
+      {"%1: straightened at %2\u00b0 and %3\u00b0 with the lumen's contour, diameter along the vessel",
+       "%1: gestreckt bei %2° und %3° mit der Kontur des Lumens, Durchmesser entlang des Gefäßes"},
+      {"%1: straightened at %2\u00b0 and %3\u00b0 with the lumen's contour, diameter along the vessel, and "
+       "the "
        "cross-section at each throat",
-       "%1: gestreckt bei %2 und %3 Grad mit der Kontur des Lumens, Durchmesser entlang des Gefäßes und der "
+       "%1: gestreckt bei %2° und %3° mit der Kontur des Lumens, Durchmesser entlang des Gefäßes und der "
        "Querschnitt an jeder Engstelle"},
-      {"%1: straightened at %2 and %3 degrees with the lumen's contour, diameter along the vessel, and the "
+      {"%1: straightened at %2\u00b0 and %3\u00b0 with the lumen's contour, diameter along the vessel, and "
+       "the "
        "cross-sections at the %4 narrowest throats of %5",
-       "%1: gestreckt bei %2 und %3 Grad mit der Kontur des Lumens, Durchmesser entlang des Gefäßes und die "
+       "%1: gestreckt bei %2° und %3° mit der Kontur des Lumens, Durchmesser entlang des Gefäßes und die "
        "Querschnitte an den %4 engsten von %5 Engstellen"},
   };
 }

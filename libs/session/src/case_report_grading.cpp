@@ -2,7 +2,8 @@
 
 #include "case_report_text.h"
 
-#include "ostia/core/text.h"
+#include "ostia/core/quantity_text.h"
+#include "ostia/session/lesion_grading.h"
 
 #include <algorithm>
 
@@ -30,14 +31,21 @@ bool thin(const CaseReport& report, const ReportStenosis& one) {
 
 /// Why a lesion cannot be judged; empty where it can.
 std::string objection(const ReportStenosis& one) {
-  if (one.state == LesionState::rejected) return "rejected by the reader";
-  if (one.state == LesionState::accepted) return {};
-  const std::optional<EvaluableStretch>& image = one.evaluable;
-  if (image && image->by_person && image->grade == Evaluability::not_evaluable)
-    return "not evaluable, says the reader";
-  if (one.checked || (image && (image->by_person || image->grade == Evaluability::evaluable))) return {};
-  if (!image) return "nobody has checked it, and no image was at hand";
-  return analysis::to_string(image->grade) + " (" + reasons_of(*image) + "), and nobody has checked it";
+  switch (grade_bar(one.state, one.checked, one.evaluable)) {
+    case GradeBar::none:
+      return {};
+    case GradeBar::rejected:
+      return "rejected by the reader";
+    case GradeBar::not_evaluable_by_reader:
+      return "not evaluable, says the reader";
+    case GradeBar::image_unknown:
+      return "nobody has checked it, and no image was at hand";
+    case GradeBar::limited:
+    case GradeBar::not_evaluable:
+      break;
+  }
+  return analysis::to_string(one.evaluable->grade) + " (" + reasons_of(*one.evaluable) +
+         "), and nobody has checked it";
 }
 
 /// The reference calibre at an abscissa.
@@ -60,8 +68,8 @@ void add_stretches(CaseReport& report, const ReportVessel& vessel) {
         one.to_mm - one.from_mm >= least_stretch_mm &&
         calibre_at(report, vessel.id, 0.5 * (one.from_mm + one.to_mm)) >= report.options.least_graded_mm;
     if (!told || one.grade != Evaluability::not_evaluable || (vessel.checked && !one.by_person)) continue;
-    report.not_judged.push_back(vessel.name + " from " + core::shown_text(one.from_mm, 0) + " to " +
-                                core::shown_text(one.to_mm, 0) + " mm: not evaluable (" + reasons_of(one) +
+    report.not_judged.push_back(vessel.name + " from " + core::length_text(one.from_mm) + " to " +
+                                core::length_text(one.to_mm) + " mm: not evaluable (" + reasons_of(one) +
                                 ")");
   }
 }
@@ -79,7 +87,7 @@ void grade_report(CaseReport& report) {
     if (!one.not_graded.empty()) one.category.reset();
     if (thin(report, one) && one.not_graded.empty())
       one.not_graded =
-          "its vessel is thinner than " + core::shown_text(report.options.least_graded_mm, 1) + " mm";
+          "its vessel is thinner than " + core::calibre_text(report.options.least_graded_mm) + " mm";
     one.graded = one.not_graded.empty();
     if (one.graded)
       graded.push_back({one.main_vessel, one.graded_percent});

@@ -4,7 +4,7 @@
 #include "case_report_words.h"
 #include "vessels_beside.h"
 
-#include "ostia/core/text.h"
+#include "ostia/core/quantity_text.h"
 #include "ostia/figure/plot.h"
 #include "ostia/figure/scene.h"
 #include "ostia/figure/slice_figure.h"
@@ -16,7 +16,6 @@
 #include "ostia/session/case_report.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -143,21 +142,12 @@ KeyImage Painter::tree(const core::TaskContext& task) const {
   how.occlusion_rays = 4;
   how.look = Look::light;
   how.legend = false;
-  struct Sight {
-    const char* name;
-    figure::Camera camera;
-  };
-  const std::array<Sight, 4> sights{{{"from the front", figure::cameras::anterior()},
-                                     {"LAO 50, cranial 20", figure::cameras::angiographic(50.0, 20.0)},
-                                     {"RAO 30, caudal 20", figure::cameras::angiographic(-30.0, -20.0)},
-                                     {"from above", figure::cameras::superior()}}};
-  std::vector<Picture> views;
-  for (const Sight& sight : sights) {
-    how.title = said(sight.name);
-    const double done = 0.25 * static_cast<double>(views.size());
-    views.push_back(figure::scene_figure(shown, sight.camera, how,
-                                         task.sub(0.3 + 0.7 * done, 0.3 + 0.7 * (done + 0.25))));
-  }
+  const std::vector<figure::SceneSight> sights{
+      {figure::cameras::anterior(), said("from the front")},
+      {figure::cameras::angiographic(50.0, 20.0), said("LAO 50, cranial 20")},
+      {figure::cameras::angiographic(-30.0, -20.0), said("RAO 30, caudal 20")},
+      {figure::cameras::superior(), said("from above")}};
+  const std::vector<Picture> views = figure::scene_figures(shown, sights, how, task.sub(0.3, 1.0));
   return {"tree", said("The tree" + std::string(report_.stenoses.empty() ? "" : ", with stenoses ringed")),
           figure::grid(views, {.columns = 2, .look = Look::light})};
 }
@@ -173,7 +163,7 @@ Picture Painter::strips(std::int32_t id, const core::TaskContext& task) const {
   std::vector<figure::StripPanel> panels;
   for (const reformat::CurvedReformation& view : {first, first.twin()}) {
     figure::StripPanel panel{
-        core::shown_text(view.options().theta_deg, 0) + "\xC2\xB0", o.width, o.height, {}, {}};
+        core::set_angle_text(view.options().theta_deg) + "\xC2\xB0", o.width, o.height, {}, {}};
     if (image_)
       panel.values = reformat::reformatted(*image_, view, imaging::Interpolation::cubic, task).values;
     else
@@ -252,7 +242,7 @@ Picture Painter::throat(const ReportStenosis& one) const {
                                   .contour;
   if (!contour.empty()) contour.push_back(contour.front());
   figure::SliceFigureOptions how;
-  how.title = said(mark_text(one) + " at " + core::shown_text(one.stenosis.throat_mm, 1) + " mm");
+  how.title = said(mark_text(one) + " at " + core::length_text(one.stenosis.throat_mm) + " mm");
   how.level_hu = report_.options.level_hu;
   how.window_hu = report_.options.window_hu;
   how.image_width_px = 256;
@@ -286,8 +276,8 @@ KeyImage Painter::vessel(std::int32_t id, const core::TaskContext& task) const {
     right.push_back(figure::grid(throats, {.columns = 2, .look = Look::light, .gap_px = 8}));
   const Picture along = strips(id, task);
   const std::string name = report_text::vessel_name(model_, id);
-  const std::string theta = core::shown_text(report_.options.theta_deg, 0) + " and " +
-                            core::shown_text(report_.options.theta_deg + 90.0, 0) + " degrees";
+  const std::string theta = core::set_angle_text(report_.options.theta_deg) + "\u00b0 and " +
+                            core::set_angle_text(report_.options.theta_deg + 90.0) + "\u00b0";
   return {"vessel-" + std::to_string(id),
           said(name + ": straightened at " + theta + " with the lumen's contour, diameter along the vessel" +
                throats_text(throats.size(), stenoses_of(id).size())),

@@ -235,6 +235,7 @@ std::string report_json(const CaseReport& report, const std::vector<KeyImage>& i
   Json image;
   if (o.image)
     image = {{"pseudonym", o.image->pseudonym}, {"sha256", o.image->sha256}, {"at_hand", report.has_image}};
+  if (o.image && !o.image->axes.empty()) image["axes"] = o.image->axes;
   const Json out{
       {"v", 1},
       {"kind", "case report"},

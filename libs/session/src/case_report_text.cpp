@@ -1,13 +1,12 @@
 #include "case_report_text.h"
 
-#include "ostia/core/text.h"
+#include "ostia/core/quantity_text.h"
 #include "ostia/session/annotation_json.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -66,7 +65,7 @@ std::string detail_of(const std::string& op, const ReportJson& given) {
     return detail.empty() ? detail : ": " + detail;
   }
   const auto at = given.find("s_mm");
-  return at != given.end() && at->is_number() ? " at " + core::shown_text(at->get<double>(), 1) + " mm"
+  return at != given.end() && at->is_number() ? " at " + core::length_text(at->get<double>()) + " mm"
                                               : std::string();
 }
 
@@ -87,8 +86,7 @@ std::optional<std::int32_t> vessel_of(const std::string& op, const ReportJson& g
 }  // namespace
 
 std::string percent(double value) {
-  if (!std::isfinite(value)) return "-";
-  return core::rounded_text(value < 100.0 - 1e-9 ? std::min(value, 99.0) : value, 0);
+  return core::stenosis_text(value);
 }
 
 std::string label(const ReportStenosis& stenosis) {

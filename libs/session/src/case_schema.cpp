@@ -60,6 +60,15 @@ constexpr const char* stamp_table =
     "CREATE TABLE step_stamp(number INTEGER PRIMARY KEY, time_s INTEGER NOT NULL, author TEXT NOT NULL, "
     "checksum INTEGER NOT NULL);";
 
+// Since version 6: how the image's axes run, where a person has said so in place of its file.
+constexpr const char* axes_table =
+    "CREATE TABLE image_axes(id INTEGER PRIMARY KEY CHECK(id = 1), axes TEXT NOT NULL, "
+    "checksum INTEGER NOT NULL);";
+
+void create_axes(Database& database) {
+  database.execute(axes_table);
+}
+
 void create_stamps(Database& database) {
   database.execute(stamp_table);
 }
@@ -80,7 +89,7 @@ void create_annotations(Database& database) {
 /// Step k makes version k + 2 of version k + 1.
 using Step = void (*)(Database&);
 constexpr std::array<Step, schema_version - 1> steps{create_annotations, create_evaluability, create_lesions,
-                                                     create_stamps};
+                                                     create_stamps, create_axes};
 
 void set_version(Database& database, std::int32_t version) {
   database.execute("PRAGMA user_version = " + std::to_string(version));

@@ -1,8 +1,9 @@
 #include "ostia/session/evaluability.h"
 
-#include "lumen_on_rays.h"
+#include "vessel_look.h"
 
 #include "ostia/analysis/aha_segments.h"
+#include "ostia/core/quantity_text.h"
 #include "ostia/core/text.h"
 #include "ostia/imaging/noise.h"
 
@@ -16,7 +17,6 @@ namespace {
 
 constexpr double least_own_mm = 2.0;  // by itself, to be looked at
 constexpr double about_tree_mm = 20.0;
-constexpr int rays_around = 32;
 
 /// What a figure of a scan is usual for, and what is no longer fair.
 struct Bound {
@@ -58,8 +58,19 @@ class Grading {
   ScanQuality& quality_;
 };
 
+/// Checked.
+analysis::WallEvidenceOptions evidence_options(const VesselEvaluabilityOptions& options, double noise_hu) {
+  analysis::validate(options.grades);
+  analysis::WallEvidenceOptions how;
+  how.step_mm = options.step_mm;
+  how.around = rays_around;
+  how.noise_hu = std::min(noise_hu, 500.0);
+  analysis::validate(how);
+  return how;
+}
+
 std::string percent_text(double share) {
-  return core::shown_text(100.0 * share, 0) + " %";
+  return core::percent_text(100.0 * share) + " %";
 }
 
 }  // namespace
@@ -77,31 +88,31 @@ double noise_about(const lumen::LumenModel& model, const imaging::ImageVolume& i
   return noise.value_or(0.0);
 }
 
+VesselEvaluability evaluability_in(const OwnLumen& own, const lumen::LumenModel& model,
+                                   const imaging::ImageVolume& image, double noise_hu,
+                                   const VesselEvaluabilityOptions& options, const core::TaskContext& task) {
+  const analysis::WallEvidenceOptions how = evidence_options(options, noise_hu);
+  VesselEvaluability out;
+  out.vessel = own.vessel;
+  if (own.to_mm() - own.rows.from_mm < least_own_mm) return out;
+  const geometry::AxisCurve& axis = *lumen::vessel(model, own.vessel).axis;
+  out.evidence = analysis::wall_evidence(
+      image, axis, [&](double s, double theta) { return own.rows.at(s, theta); }, own.rows.from_mm,
+      own.to_mm(), how, task);
+  out.stretches =
+      analysis::evaluable_stretches(out.evidence, lumen::own_from_mm(model.tree, own.vessel), axis.length(),
+                                    image.geometry.spacing.maxCoeff(), noise_hu, options.grades);
+  return out;
+}
+
 VesselEvaluability vessel_evaluability(const lumen::LumenModel& model,
                                        const analysis::SurfaceOfVessel& surface_of, std::int32_t vessel,
                                        const imaging::ImageVolume& image, double noise_hu,
                                        const VesselEvaluabilityOptions& options,
                                        const core::TaskContext& task) {
-  analysis::validate(options.grades);
-  VesselEvaluability out;
-  out.vessel = vessel;
-  const Stretch own = stretch_by_itself(model, vessel);
-  analysis::WallEvidenceOptions how;
-  how.step_mm = options.step_mm;
-  how.around = rays_around;
-  how.noise_hu = std::min(noise_hu, 500.0);
-  analysis::validate(how);
-  if (own.to_mm - own.from_mm < least_own_mm) return out;
-  const geometry::AxisCurve& axis = *lumen::vessel(model, vessel).axis;
-  const segmentation::LumenBoundary lumen =
-      lumen_on_rays(model, surface_of, vessel, own, options.step_mm, rays_around, task.sub(0.0, 0.6));
-  out.evidence = analysis::wall_evidence(
-      image, axis, [&](double s, double theta) { return lumen.at(s, theta); }, own.from_mm, own.to_mm, how,
-      task.sub(0.6, 1.0));
-  out.stretches =
-      analysis::evaluable_stretches(out.evidence, lumen::own_from_mm(model.tree, vessel), axis.length(),
-                                    image.geometry.spacing.maxCoeff(), noise_hu, options.grades);
-  return out;
+  evidence_options(options, noise_hu);
+  const OwnLumen own = own_lumen(model, surface_of, vessel, options.step_mm, rays_around, task.sub(0.0, 0.6));
+  return evaluability_in(own, model, image, noise_hu, options, task.sub(0.6, 1.0));
 }
 
 std::vector<analysis::EvaluableStretch> judged_over(const std::vector<analysis::EvaluableStretch>& by_program,
@@ -137,16 +148,15 @@ ScanQuality scan_quality(const imaging::Geometry& grid, double noise_hu,
 
   Grading grading(out);
   const double plane = std::max(grid.spacing.x(), grid.spacing.y());
-  grading.at_most(plane, in_plane_mm, "voxels of " + core::shown_text(plane, 2) + " mm in the plane", 1);
-  grading.at_most(grid.spacing.z(), slices_mm,
-                  "slices " + core::shown_text(grid.spacing.z(), 2) + " mm apart", 1);
-  grading.at_most(noise_hu, noise_hu_bound, "noise of " + core::shown_text(noise_hu, 0) + " HU", 0);
+  grading.at_most(plane, in_plane_mm, "voxels of " + core::calibre_text(plane) + " mm in the plane", 1);
+  grading.at_most(grid.spacing.z(), slices_mm, "slices " + core::calibre_text(grid.spacing.z()) + " mm apart",
+                  1);
+  grading.at_most(noise_hu, noise_hu_bound, "noise of " + core::hu_text(noise_hu) + " HU", 0);
   if (all.empty()) return out;
-  grading.at_least(out.lumen_hu, lumen_hu_bound, "arteries of " + core::shown_text(out.lumen_hu, 0) + " HU",
-                   0);
+  grading.at_least(out.lumen_hu, lumen_hu_bound, "arteries of " + core::hu_text(out.lumen_hu) + " HU", 0);
   grading.at_least(out.cnr, cnr_bound, "contrast is " + core::shown_text(out.cnr, 1) + " times the noise", 0);
   grading.at_most(out.blur_mm, blur_bound,
-                  "edges blurred by " + core::shown_text(out.blur_mm, 2) + " mm (motion, or the scanner)", 1);
+                  "edges blurred by " + core::calibre_text(out.blur_mm) + " mm (motion, or the scanner)", 1);
   if (out.not_evaluable_share > 0.1)
     grading.lower(out.not_evaluable_share > 0.3,
                   percent_text(out.not_evaluable_share) + " of the arteries' length cannot be evaluated");

@@ -8,14 +8,13 @@
 namespace ostia::session {
 
 std::optional<analysis::PlaqueProfile> PlaqueWork::found(const core::TaskContext& task) const {
-  auto walls_found = vessel_walls(
-      *model, [this](std::int32_t one) { return walls.at(one); }, vessel, *image, {}, task);
-  if (!walls_found) return std::nullopt;
-  return std::move(walls_found->plaque);
+  const std::shared_ptr<const VesselWalls> shared = known->of(*this, task);
+  if (!shared) return std::nullopt;
+  return shared->plaque;
 }
 
-LesionBoard::LesionBoard(Workbench& bench, EvaluabilityBoard& evaluability)
-    : bench_(bench), evaluability_(evaluability) {
+LesionBoard::LesionBoard(Workbench& bench, EvaluabilityBoard& evaluability, std::shared_ptr<FoundWalls> walls)
+    : bench_(bench), evaluability_(evaluability), found_(std::move(walls)) {
   own_.push_back(bench.model_changed.observe([this](const ModelEvent& event) {
     if (event.tree_changed) return drop();
     for (const lumen::LiveChange::OfVessel& one : event.change.vessels)
@@ -79,6 +78,8 @@ void LesionBoard::add_rows(const geometry::Vessel& vessel) {
     row.vessel = vessel.id;
     row.vessel_name = vessel.name;
     row.evaluable = analysis::worst_within(stretches, place.from_mm, place.to_mm);
+    row.checked = mark && mark->checked;
+    row.has_image = bench_.image().volume != nullptr;
     if (const LesionWord* said = word_on(mark, place.from_mm, place.to_mm))
       row.state = said->state, row.comment = said->comment;
     row.lesion = std::move(lesion);
@@ -107,8 +108,9 @@ std::optional<PlaqueWork> LesionBoard::work() const {
                return unknown(one.id);
              })->id;
   }
-  return PlaqueWork{bench_.session().file().model(), bench_.session().solved_walls(), bench_.image().volume,
-                    wanted};
+  return PlaqueWork{
+      {bench_.session().file().model(), bench_.session().solved_walls(), bench_.image().volume, wanted},
+      found_};
 }
 
 bool LesionBoard::take(const PlaqueWork& work, std::optional<analysis::PlaqueProfile> found) {

@@ -10,20 +10,20 @@
 
 namespace ostia::session {
 
-struct Stretch {
-  double from_mm = 0.0, to_mm = 0.0;
+/// A vessel's lumen where it runs by itself.
+struct OwnLumen {
+  std::int32_t vessel = 0;
+  segmentation::LumenBoundary rows;  ///< none where the vessel is shorter than two of them by itself
+  double to_mm() const { return rows.from_mm + (rows.rows() - 1) * rows.step_mm; }
 };
 
-/// Where a vessel runs by itself: behind its take-off, without a radius at its free ends, where the lumen
-/// closes or opens to the aorta. `from` may be beyond `to`. Throws InvalidInput for a vessel that is not
-/// there.
-Stretch stretch_by_itself(const lumen::LumenModel& model, std::int32_t vessel);
+/// The model's lumen on rays, from where the vessel runs by itself on, at whole steps as far as it does;
+/// 0.05 mm where it is shut. Where a section's wall is open its neighbours' is taken. `surface_of` is asked
+/// from the calling thread. Throws InvalidInput for a vessel that is not there, and Cancelled.
+OwnLumen own_lumen(const lumen::LumenModel& model, const analysis::SurfaceOfVessel& surface_of,
+                   std::int32_t vessel, double step_mm, int around, const core::TaskContext& task);
 
-/// The model's lumen on rays, at rows about `step_mm` apart; 0.05 mm where it is shut. Where a section's wall
-/// is open its neighbours' is taken. `surface_of` is asked from the calling thread. Throws Cancelled.
-segmentation::LumenBoundary lumen_on_rays(const lumen::LumenModel& model,
-                                          const analysis::SurfaceOfVessel& surface_of, std::int32_t vessel,
-                                          const Stretch& stretch, double step_mm, int around,
-                                          const core::TaskContext& task);
+/// Rows [first, last] of others.
+segmentation::LumenBoundary rows_between(const segmentation::LumenBoundary& rows, int first, int last);
 
 }  // namespace ostia::session

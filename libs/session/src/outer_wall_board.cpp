@@ -31,13 +31,15 @@ RuledSurface ruled(const VesselWalls& walls) {
 }  // namespace
 
 std::optional<VesselWalls> OuterWallWork::found(const core::TaskContext& task) const {
-  const auto wall_of = [this](std::int32_t one) { return walls.at(one); };
-  OuterWallsOptions options;
-  options.maps = true;
-  return vessel_walls(*model, wall_of, vessel, *image, options, task);
+  const std::shared_ptr<const VesselWalls> shared = known->of(*this, task.sub(0.0, 0.9));
+  if (!shared) return std::nullopt;
+  VesselWalls out = *shared;
+  add_plaque_maps(out, *model, *image, {}, task.sub(0.9, 1.0));
+  return out;
 }
 
-OuterWallBoard::OuterWallBoard(Workbench& bench) : bench_(bench) {
+OuterWallBoard::OuterWallBoard(Workbench& bench, std::shared_ptr<FoundWalls> walls)
+    : bench_(bench), found_(std::move(walls)) {
   own_.push_back(bench.model_changed.observe([this](const ModelEvent&) { drop(); }));
   own_.push_back(bench.case_changed.observe([this] { drop(); }));
   own_.push_back(bench.image_changed.observe([this] { drop(); }));
@@ -60,8 +62,9 @@ std::optional<OuterWallWork> OuterWallBoard::work() const {
   const std::int32_t vessel = bench_.vessel.get();
   if (!model || !bench_.image().volume || vessel == Workbench::no_vessel || known_.contains(vessel))
     return std::nullopt;
-  return OuterWallWork{bench_.session().file().model(), bench_.session().solved_walls(),
-                       bench_.image().volume, vessel};
+  return OuterWallWork{
+      {bench_.session().file().model(), bench_.session().solved_walls(), bench_.image().volume, vessel},
+      found_};
 }
 
 bool OuterWallBoard::take(const OuterWallWork& work, std::optional<VesselWalls> found) {

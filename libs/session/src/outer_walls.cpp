@@ -1,6 +1,6 @@
 #include "ostia/session/outer_walls.h"
 
-#include "lumen_on_rays.h"
+#include "vessel_look.h"
 
 #include "ostia/analysis/stenosis.h"
 #include "ostia/core/error.h"
@@ -23,21 +23,18 @@ constexpr double least_seen_share = 0.5, seen_within_mm = 2.0;
 constexpr double closed_radius_mm = 0.06;  // radii of a shut lumen are less
 using std::numbers::pi;
 
-/// The vessel by itself, and of that the longest part in the image.
-Stretch stretch_in(const imaging::ImageVolume& image, const lumen::LumenModel& model, std::int32_t vessel,
-                   double step_mm) {
-  const geometry::AxisCurve& axis = *lumen::vessel(model, vessel).axis;
-  const Stretch own = stretch_by_itself(model, vessel);
-  Stretch best, here;
-  bool inside = false;
-  for (double s = own.from_mm; s <= own.to_mm; s += step_mm) {
-    const bool now = image.geometry.contains(axis.point(s));
-    if (now && !inside) here.from_mm = s;
-    if (now) here.to_mm = s;
-    if (now && here.to_mm - here.from_mm > best.to_mm - best.from_mm) best = here;
-    inside = now;
+/// Of rows those of the longest part in the image; empty where none is.
+segmentation::LumenBoundary rows_in(const imaging::ImageVolume& image, const geometry::AxisCurve& axis,
+                                    const segmentation::LumenBoundary& rows) {
+  int best_first = 0, best_last = -1, first = 0;
+  for (int r = 0; r < rows.rows(); ++r) {
+    const double s = std::min(rows.from_mm + r * rows.step_mm, axis.length());
+    if (!image.geometry.contains(axis.point(s)))
+      first = r + 1;
+    else if (r - first > best_last - best_first)
+      best_first = first, best_last = r;
   }
-  return best;
+  return best_last > best_first ? rows_between(rows, best_first, best_last) : segmentation::LumenBoundary();
 }
 
 /// One value a row, linear between.
@@ -95,32 +92,41 @@ std::vector<double> seen_rows(const segmentation::LumenBoundary& outer) {
   return seen;
 }
 
-void add_plaque(VesselWalls& walls, const lumen::LumenModel& model, const imaging::ImageVolume& image,
-                const OuterWallsOptions& options, const core::TaskContext& task) {
+/// What plaque lies between, and what the image says of it there. Refers to `walls`.
+analysis::WallRadii radii_between(const VesselWalls& walls, const lumen::LumenModel& model) {
   analysis::WallRadii radii;
   radii.from_mm = walls.lumen.from_mm;
   radii.to_mm = walls.lumen.from_mm + (walls.lumen.rows() - 1) * walls.lumen.step_mm;
-  radii.lumen_mm = [&](double s, double theta) { return walls.lumen.at(s, theta); };
+  radii.lumen_mm = [&walls](double s, double theta) { return walls.lumen.at(s, theta); };
   // In muscle no outer wall is seen, and what is drawn there is a bridge: it tells no plaque.
   const auto seen = along(walls.lumen, seen_rows(walls.outer.surface));
-  const auto calibre_mm = calibre_of(model, walls);
-  radii.outer_mm = [&](double s, double theta) {
+  radii.calibre_mm = calibre_of(model, walls);
+  radii.outer_mm = [&walls, seen, calibre_mm = radii.calibre_mm](double s, double theta) {
     const double outer = walls.outer.surface.at(s, theta);
     if (seen(s) >= 0.5) return outer;
     return std::min(outer, walls.lumen.at(s, theta) + analysis::healthy_wall_mm(calibre_mm(s)));
   };
   radii.lumen_hu = along(walls.lumen, walls.outer.lumen_hu);
   radii.fat_hu = along(walls.lumen, walls.outer.fat_hu);
-  radii.calibre_mm = calibre_mm;
+  return radii;
+}
+
+void add_maps(VesselWalls& walls, const analysis::WallRadii& radii, const imaging::ImageVolume& image,
+              const analysis::PlaqueOptions& options, const core::TaskContext& task) {
   const auto hu_at = [&](const Vec3& place) { return imaging::sample(image, place); };
-  walls.plaque = analysis::plaque_profile(*walls.axis, radii, hu_at, options.plaque, task);
-  if (!options.maps) return;
   walls.maps.resize(walls.plaque.slabs.size());
   core::parallel_for(walls.maps.size(), 8, [&](std::size_t i) {
     task.throw_if_cancelled();
-    walls.maps[i] =
-        analysis::plaque_map(*walls.axis, radii, walls.plaque.slabs[i].s_mm, hu_at, options.plaque);
+    walls.maps[i] = analysis::plaque_map(*walls.axis, radii, walls.plaque.slabs[i].s_mm, hu_at, options);
   });
+}
+
+void add_plaque(VesselWalls& walls, const lumen::LumenModel& model, const imaging::ImageVolume& image,
+                const OuterWallsOptions& options, const core::TaskContext& task) {
+  const analysis::WallRadii radii = radii_between(walls, model);
+  const auto hu_at = [&](const Vec3& place) { return imaging::sample(image, place); };
+  walls.plaque = analysis::plaque_profile(*walls.axis, radii, hu_at, options.plaque, task);
+  if (options.maps) add_maps(walls, radii, image, options.plaque, task);
 }
 
 }  // namespace
@@ -136,21 +142,34 @@ void validate(const OuterWallsOptions& options) {
   analysis::validate(options.plaque);
 }
 
+std::optional<VesselWalls> walls_in(const OwnLumen& own, const lumen::LumenModel& model,
+                                    const imaging::ImageVolume& image, const OuterWallsOptions& options,
+                                    const core::TaskContext& task) {
+  validate(options);
+  VesselWalls out;
+  out.vessel = own.vessel;
+  out.axis = lumen::vessel(model, own.vessel).axis;
+  out.lumen = rows_in(image, *out.axis, own.rows);
+  if ((out.lumen.rows() - 1) * out.lumen.step_mm < shortest_mm) return std::nullopt;
+  out.outer = segmentation::outer_wall(image, *out.axis, out.lumen, options.wall, task.sub(0.0, 0.9));
+  add_plaque(out, model, image, options, task.sub(0.9, 1.0));
+  return out;
+}
+
 std::optional<VesselWalls> vessel_walls(const lumen::LumenModel& model,
                                         const analysis::SurfaceOfVessel& surface_of, std::int32_t vessel,
                                         const imaging::ImageVolume& image, const OuterWallsOptions& options,
                                         const core::TaskContext& task) {
   validate(options);
-  const Stretch stretch = stretch_in(image, model, vessel, options.step_mm);
-  if (stretch.to_mm - stretch.from_mm < shortest_mm) return std::nullopt;
-  VesselWalls out;
-  out.vessel = vessel;
-  out.axis = lumen::vessel(model, vessel).axis;
-  out.lumen = lumen_on_rays(model, surface_of, vessel, stretch, options.step_mm, options.around, task);
-  task.set_progress(0.3);
-  out.outer = segmentation::outer_wall(image, *out.axis, out.lumen, options.wall, task.sub(0.3, 0.9));
-  add_plaque(out, model, image, options, task.sub(0.9, 1.0));
-  return out;
+  const OwnLumen own =
+      own_lumen(model, surface_of, vessel, options.step_mm, options.around, task.sub(0.0, 0.3));
+  return walls_in(own, model, image, options, task.sub(0.3, 1.0));
+}
+
+void add_plaque_maps(VesselWalls& walls, const lumen::LumenModel& model, const imaging::ImageVolume& image,
+                     const analysis::PlaqueOptions& options, const core::TaskContext& task) {
+  analysis::validate(options);
+  add_maps(walls, radii_between(walls, model), image, options, task);
 }
 
 std::vector<Vec3> outer_wall_ring(const VesselWalls& walls, double s_mm, int points) {

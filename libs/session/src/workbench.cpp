@@ -76,6 +76,18 @@ struct Workbench::Measured {
   }
 };
 
+namespace {
+
+void require_image_of(const CaseFile& file, const ImageReference& image) {
+  file.check_image(image);
+  const std::optional<ImageReference> own = file.image();
+  if (own && own->axes != image.axes)
+    throw InvalidInput("the image is turned otherwise than the case has it (its axes run " +
+                       (own->axes.empty() ? "as its file says" : own->axes) + "); open it from the case");
+}
+
+}  // namespace
+
 Workbench::Workbench() {
   own_.push_back(vessel.observe([this](const std::int32_t&) { cursor_to_vessel(); }));
   own_.push_back(cursor_mm.observe([this](const double&) { cursor_to_place(); }));
@@ -84,7 +96,7 @@ Workbench::~Workbench() = default;
 
 void Workbench::set_image(OpenImage image) {
   if (!image.volume) throw InvalidInput("there is no image to show");
-  if (session_) session_->file().check_image(image.reference);
+  if (session_) require_image_of(session_->file(), image.reference);
   leave_other_image();
   image_ = std::move(image);
   const imaging::Geometry& grid = image_.volume->geometry;
@@ -103,7 +115,7 @@ void Workbench::close_image() {
 }
 
 void Workbench::set_session(Session session) {
-  if (image_.volume) session.file().check_image(image_.reference);
+  if (image_.volume) require_image_of(session.file(), image_.reference);
   leave_phase();
   leave_other_image();
   session_ = std::make_unique<Session>(std::move(session));

@@ -77,9 +77,9 @@ void Workbench::leave_other_image() {
   other_image_changed.tell();
 }
 
-const imaging::ImageVolume* Workbench::shown_volume() const {
-  if (phase_image_ && phase_image_->volume) return phase_image_->volume.get();
-  return other_image_ ? other_image_->volume.get() : image_.volume.get();
+std::shared_ptr<const imaging::ImageVolume> Workbench::shown_image() const {
+  if (phase_image_ && phase_image_->volume) return phase_image_->volume;
+  return other_image_ ? other_image_->volume : image_.volume;
 }
 
 double Workbench::image_phase() const {

@@ -9,8 +9,10 @@
 #include "ostia/meshing/boundary_layer.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 namespace ostia::solver {
 namespace {
@@ -126,8 +128,27 @@ std::string_view name_of(Rheology rheology) {
   return rheology == Rheology::carreau ? "carreau" : "newton";
 }
 
+std::span<const OutletTraits> outlet_models() {
+  static constexpr std::array<OutletTraits, 3> all{
+      {{OutletModel::zero_pressure, "zero", "the same pressure at each"},
+       {OutletModel::split, "split", "a share of the flow each"},
+       {OutletModel::resistance, "resistance", "pressure is resistance times flow"}}};
+  return all;
+}
+
 std::string_view name_of(OutletModel outlets) {
-  return outlets == OutletModel::split ? "split" : outlets == OutletModel::resistance ? "resistance" : "zero";
+  const auto found = std::ranges::find(outlet_models(), outlets, &OutletTraits::model);
+  if (found == outlet_models().end()) throw std::logic_error("outlets that are in no table");
+  return found->name;
+}
+
+OutletModel outlet_model(std::string_view name) {
+  std::string there;
+  for (const OutletTraits& one : outlet_models()) {
+    if (one.name == name) return one.model;
+    there += (there.empty() ? "" : ", ") + std::string(one.name);
+  }
+  throw InvalidInput("outlets \"" + std::string(name) + "\": there are " + there);
 }
 
 double usual_flow_ml_s(double diameter_mm) {

@@ -5,13 +5,13 @@
 #include "wall_cut.h"
 #include "way_marks.h"
 
+#include "ostia/core/quantity_text.h"
 #include "ostia/lumen/views.h"
 #include "ostia/session/beating.h"
 #include "ostia/view/words.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace ostia::view {
 namespace {
@@ -368,8 +368,7 @@ void CurvedView::add_to_overlay(Overlay& overlay) {
   add_scale_bar(overlay);
   add_slab(overlay);
   const double edge = units(6.0);
-  char turn[32];
-  std::snprintf(turn, sizeof turn, "%.0f\u00b0", std::remainder(theta_deg(), 360.0));
+  const std::string turn = core::set_angle_text(std::remainder(theta_deg(), 360.0)) + "\u00b0";
   std::string title = bench().vessel_name(bench().vessel.get());
   const bool straight = bench().curved_mode.get() == reformat::CurvedMode::straightened;
   title += "  " + (straight ? words().straightened : words().stretched) + " ";

@@ -3,11 +3,11 @@
 #include "measure_marks.h"
 #include "slice_crossings.h"
 
+#include "ostia/core/quantity_text.h"
 #include "ostia/view/words.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace ostia::view {
 namespace {
@@ -188,12 +188,11 @@ void LinkedPlaneView::add_to_overlay(Overlay& overlay) {
           {one.px, one.vessel == bench().vessel.get() ? Role::axis : Role::other_axis, 2.0});
   add_letters(overlay, shown->u, shown->v);
   add_scale_bar(overlay);
-  char text[64];
+  std::string text = word_of_plane(kind_);
   if (planes_->straight())
-    std::snprintf(text, sizeof text, "%s  %.1f mm", word_of_plane(kind_).c_str(),
-                  bench().place.get().dot(shown->normal().cwiseAbs()));
+    text += "  " + core::length_text(bench().place.get().dot(shown->normal().cwiseAbs())) + " mm";
   else
-    std::snprintf(text, sizeof text, "%s, %s", word_of_plane(kind_).c_str(), words().oblique.c_str());
+    text += ", " + words().oblique;
   overlay.texts.push_back({Vec2(units(6.0), units(6.0)), text, role_of_plane(kind_), Anchor::top_left});
   add_slab(overlay);
   add_measurements(overlay, mark_reach_mm);

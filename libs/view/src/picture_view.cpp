@@ -3,13 +3,13 @@
 #include "measure_marks.h"
 
 #include "ostia/core/parallel.h"
+#include "ostia/core/quantity_text.h"
 #include "ostia/reformat/plane.h"
 #include "ostia/session/beating.h"
 #include "ostia/view/words.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace ostia::view {
 namespace {
@@ -268,8 +268,7 @@ void PictureView::add_slab(Overlay& overlay) {
   const std::string& name = slab == reformat::Slab::mean      ? words().slab_mean
                             : slab == reformat::Slab::maximum ? words().slab_maximum
                                                               : words().slab_minimum;
-  char text[48];
-  std::snprintf(text, sizeof text, "%s %.1f mm", name.c_str(), bench_.slab_mm.get());
+  const std::string text = name + " " + core::length_text(bench_.slab_mm.get()) + " mm";
   // Below the line that a window keeps for its grey levels.
   overlay.texts.push_back(
       {Vec2(width() - units(6.0), units(22.0)), text, Role::information, Anchor::top_right});

@@ -4,6 +4,8 @@
 #include "slice_crossings.h"
 #include "wall_cut.h"
 
+#include "ostia/core/quantity_text.h"
+#include "ostia/core/text.h"
 #include "ostia/geometry/frame.h"
 #include "ostia/lumen/views.h"
 #include "ostia/reformat/plane_image.h"
@@ -13,7 +15,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace ostia::view {
 namespace {
@@ -203,18 +204,16 @@ void SectionView::add_to_overlay(Overlay& overlay) {
     add_slab(overlay);
   }
   overlay.marks.push_back({centre, Role::axis, bench().tool.get() == session::Tool::axis ? 4.0 : 2.0});
-  char text[64];
-  if (main)
-    std::snprintf(text, sizeof text, "%.1f mm", bench().own_mm(s_mm()));
-  else
-    std::snprintf(text, sizeof text, "%+.0f", offset_mm_);
+  std::string text = core::length_text(bench().own_mm(s_mm())) + " mm";
+  if (!main) text = core::signed_text(offset_mm_, 0);
   overlay.texts.push_back({Vec2(units(6.0), units(6.0)), text, Role::information, Anchor::top_left});
   if (main)
     if (const auto measured = bench().section(bench().vessel.get(), s_mm())) {
       const analysis::SectionMeasures& here = *measured;
       if (here.found) {
-        std::snprintf(text, sizeof text, "%.2f mm\u00b2  \u00d8 %.2f (%.2f\u2013%.2f) mm", here.area_mm2,
-                      here.diameter_mm, here.least_diameter_mm, here.largest_diameter_mm);
+        text = core::area_text(here.area_mm2) + " mm\u00b2  \u00d8 " + core::calibre_text(here.diameter_mm) +
+               " (" + core::calibre_text(here.least_diameter_mm) + "\u2013" +
+               core::calibre_text(here.largest_diameter_mm) + ") mm";
         overlay.texts.push_back({Vec2(units(6.0), units(22.0)), text, Role::information, Anchor::top_left});
       }
     }
@@ -336,13 +335,10 @@ void SliceView::add_to_overlay(Overlay& overlay) {
   add_letters(overlay, shown->u, shown->v);
   add_scale_bar(overlay);
   add_slab(overlay);
-  char text[64];
   const Vec3 n = shown->normal();
   const double depth = bench().place.get().dot(n.cwiseAbs());
-  if (kind_ == SliceKind::oblique)
-    std::snprintf(text, sizeof text, "%s", words().oblique.c_str());
-  else
-    std::snprintf(text, sizeof text, "%s  %.1f mm", word_of(kind_).c_str(), depth);
+  std::string text = words().oblique;
+  if (kind_ != SliceKind::oblique) text = word_of(kind_) + "  " + core::length_text(depth) + " mm";
   overlay.texts.push_back({Vec2(units(6.0), units(6.0)), text, Role::information, Anchor::top_left});
   add_measurements(overlay, mark_reach_mm);
   add_fading(overlay, fading_depth_mm);

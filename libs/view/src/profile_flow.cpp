@@ -147,12 +147,17 @@ std::vector<FlowStation> stations_along(const FlowStations& stations,
 
 void ProfileView::set_flow(std::shared_ptr<const ProfileFlow> flow) {
   flow_ = std::move(flow);
+  forget_flow_along();
   touch();
 }
 
-std::vector<FlowStation> ProfileView::flow_along() const {
-  if (!flow_ || bench_.vessel.get() == session::Workbench::no_vessel) return {};
-  return stations_along(flow_->stations, bench_.way(bench_.vessel.get()));
+const std::vector<FlowStation>& ProfileView::flow_along() const {
+  static const std::vector<FlowStation> none;
+  const std::int32_t vessel = bench_.vessel.get();
+  if (!flow_ || vessel == session::Workbench::no_vessel) return none;
+  if (!flow_along_ || flow_along_->vessel != vessel)
+    flow_along_ = FlowAlong{vessel, stations_along(flow_->stations, bench_.way(vessel))};
+  return flow_along_->stations;
 }
 
 double ProfileView::flow_room_px() const {
@@ -221,7 +226,7 @@ void ProfileView::add_pressure(const Frame& f, const std::vector<FlowStation>& a
 }
 
 void ProfileView::add_flow(const Frame& f) {
-  const std::vector<FlowStation> along = flow_along();
+  const std::vector<FlowStation>& along = flow_along();
   if (along.empty()) return;
   const double cursor = bench_.own_mm(bench_.cursor_mm.get());
   if (!flow_->shear_title.empty()) add_shear(f, along, cursor);

@@ -4,6 +4,7 @@
 #include "measure_placing.h"
 #include "way_marks.h"
 
+#include "ostia/core/quantity_text.h"
 #include "ostia/figure/plot.h"
 #include "ostia/session/outer_wall_board.h"
 #include "ostia/session/plaque_sampling.h"
@@ -12,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace ostia::view {
 
@@ -20,8 +20,15 @@ ProfileView::ProfileView(session::Workbench& bench) : bench_(bench) {
   const auto on = [this](const auto&) { touch(); };
   own_.push_back(bench.vessel.observe(on));
   own_.push_back(bench.cursor_mm.observe(on));
-  own_.push_back(bench.model_changed.observe(on));
-  own_.push_back(bench.case_changed.observe([this] { touch(); }));
+  own_.push_back(bench.model_changed.observe([this](const session::ModelEvent&) {
+    forget_flow_along();
+    touch();
+  }));
+  own_.push_back(bench.case_changed.observe([this] {
+    forget_flow_along();
+    touch();
+  }));
+  own_.push_back(bench.phase_changed.observe([this] { forget_flow_along(); }));  // ways are that phase's
   own_.push_back(bench.annotations_changed.observe([this] { touch(); }));
   own_.push_back(bench.selected_measurement.observe(on));
   own_.push_back(area_shown.observe(on));
@@ -173,8 +180,7 @@ void ProfileView::add_stenoses(const Frame& f) {
   for (const analysis::Stenosis& one : bench_.stenoses(bench_.vessel.get())) {
     overlay_.bands.push_back(
         {Vec2(f.x(one.from_mm), f.top), Vec2(f.x(one.to_mm), f.bottom), Role::stenosis, 0.25});
-    char label[32];
-    std::snprintf(label, sizeof label, "%.0f %%", one.diameter_percent);
+    const std::string label = core::stenosis_text(one.diameter_percent) + " %";
     // Between the curve and its reference, or above both.
     const double high = f.y(one.reference_diameter_mm / f.most_mm);
     const double low = f.y(one.least_diameter_mm / f.most_mm);

@@ -147,7 +147,9 @@ SceneOverlay::SceneOverlay(vtkRenderer& renderer)
       cube_(make_flat(renderer)),
       ruler_(make_flat(renderer)),
       bar_(make_flat(renderer)),
-      lasso_(make_flat(renderer)) {
+      lasso_(make_flat(renderer)),
+      frame_(make_flat(renderer)),
+      grips_(make_flat(renderer)) {
   for (auto& letter : letters_) letter = make_text(renderer);
   ruler_text_ = make_text(renderer);
   bar_title_ = make_text(renderer);
@@ -168,6 +170,7 @@ void SceneOverlay::lay_out(const CameraPose& pose, int width_px, int height_px,
   lay_out_color_bar(width_px, height_px, settings);
   lay_out_angles(pose, height_px, settings);
   lay_out_lasso(settings);
+  lay_out_frame(pose, width_px, height_px, settings);
 }
 
 void SceneOverlay::lay_out_marker(const CameraPose& pose, const OverlaySettings& settings) {
@@ -245,6 +248,43 @@ void SceneOverlay::lay_out_lasso(const OverlaySettings& settings) {
   lasso_.shape->SetLines(line);
   lasso_.actor->GetProperty()->SetColor(1.0, 0.85, 0.2);
   lasso_.actor->GetProperty()->SetLineWidth(static_cast<float>(2.0 * settings.pixel_ratio));
+}
+
+void SceneOverlay::lay_out_frame(const CameraPose& pose, int width_px, int height_px,
+                                 const OverlaySettings& settings) {
+  const SceneFrame& frame = settings.frame;
+  frame_.actor->SetVisibility(!frame.lines.empty());
+  grips_.actor->SetVisibility(!frame.grips.empty());
+  if (height_px < 1) return;
+  const double px_per_mm = height_px / (2.0 * pose.half_height_mm), unit = settings.pixel_ratio;
+  const auto seen = [&](const Vec3& place) -> Vec2 {
+    const Vec3 off = place - pose.target;
+    return Vec2(0.5 * width_px, 0.5 * height_px) + px_per_mm * Vec2(off.dot(pose.right()), off.dot(pose.up));
+  };
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> lines;
+  for (const std::array<Vec3, 2>& line : frame.lines) {
+    lines->InsertNextCell(2);
+    for (const Vec3& end : line) {
+      const Vec2 at = seen(end);
+      lines->InsertCellPoint(points->InsertNextPoint(at.x(), at.y(), 0.0));
+    }
+  }
+  frame_.shape->SetPoints(points);
+  frame_.shape->SetLines(lines);
+  frame_.actor->GetProperty()->SetColor(1.0, 0.85, 0.2);
+  frame_.actor->GetProperty()->SetOpacity(0.7);
+  frame_.actor->GetProperty()->SetLineWidth(static_cast<float>(1.2 * unit));
+  Quads quads;
+  const Color gold{1.0, 0.85, 0.2}, held{1.0, 1.0, 1.0}, edge{0.1, 0.1, 0.1};
+  for (std::size_t n = 0; n < frame.grips.size(); ++n) {
+    const Vec2 at = seen(frame.grips[n]);
+    const double half = (frame.held == static_cast<int>(n) ? 6.5 : 5.0) * unit, rim = half + unit;
+    quads.add_box(at.x() - rim, at.y() - rim, 2.0 * rim, 2.0 * rim, edge);
+    quads.add_box(at.x() - half, at.y() - half, 2.0 * half, 2.0 * half,
+                  frame.held == static_cast<int>(n) ? held : gold);
+  }
+  quads.put_into(*grips_.shape);
 }
 
 void SceneOverlay::lay_out_color_bar(int width_px, int height_px, const OverlaySettings& settings) {

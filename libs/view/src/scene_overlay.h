@@ -6,6 +6,7 @@
 
 #include "ostia/figure/color.h"
 #include "ostia/view/scene_camera.h"
+#include "ostia/view/scene_marks.h"
 #include "ostia/view/value_scale.h"
 
 #include <vtkSmartPointer.h>
@@ -26,6 +27,7 @@ struct OverlaySettings {
   double pixel_ratio = 1.0;
   figure::Look look = figure::Look::dark;
   std::optional<ValueScale> color_bar;
+  SceneFrame frame;
   std::vector<geometry::Vec2> lasso;  // px from the lower left corner; closed when it is shown
 };
 
@@ -55,6 +57,7 @@ class SceneOverlay {
                          const OverlaySettings& settings);
   void lay_out_angles(const CameraPose& pose, int height_px, const OverlaySettings& settings);
   void lay_out_lasso(const OverlaySettings& settings);
+  void lay_out_frame(const CameraPose& pose, int width_px, int height_px, const OverlaySettings& settings);
   void lay_out_color_bar(int width_px, int height_px, const OverlaySettings& settings);
   /// Its middle, or its end at the right, moves inwards where the picture would cut it off; a text that is
   /// too long for it is written smaller.
@@ -63,7 +66,7 @@ class SceneOverlay {
   SceneCorner corner_;
   int height_px_ = 0;
   std::vector<LabelRect> pictures_;  // cube and bar
-  Flat cube_, ruler_, bar_, lasso_;
+  Flat cube_, ruler_, bar_, lasso_, frame_, grips_;
   std::array<vtkSmartPointer<vtkTextActor>, 6> letters_;
   vtkSmartPointer<vtkTextActor> ruler_text_, bar_title_, angles_;
   std::array<vtkSmartPointer<vtkTextActor>, 3> bar_texts_;

@@ -63,6 +63,7 @@ figure::Raster TreeScene::snapshot(int width_px, int height_px, std::optional<fi
   OverlaySettings settings = impl_->shown_settings();
   marks.look = settings.look = look.value_or(settings.look);
   settings.lasso.clear();
+  settings.frame = {};
   add_lights(*renderer);
   apply_look(*renderer, settings.look);
   apply_pose(*renderer, pose());

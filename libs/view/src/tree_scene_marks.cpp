@@ -174,6 +174,10 @@ void TreeScene::set_angles_shown(bool shown) {
   impl_->settings.angles_shown = shown;
 }
 
+void TreeScene::set_frame(SceneFrame frame) {
+  impl_->settings.frame = std::move(frame);
+}
+
 void TreeScene::set_lasso(std::vector<geometry::Vec2> corners) {
   impl_->settings.lasso = std::move(corners);
 }

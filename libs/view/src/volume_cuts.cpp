@@ -126,10 +126,9 @@ void validate(const VolumeCrop& crop) {
                          " of the image is not possible: 0 <= from < to <= 1");
 }
 
-IndexBox index_box(const VolumeCrop& crop, const imaging::Geometry& grid) {
-  validate(crop);
-  IndexBox box;
-  std::array<bool, 3> taken{};  // each of the patient's axes is one of the image's
+std::array<Eigen::Index, 3> patient_axes(const imaging::Geometry& grid) {
+  std::array<Eigen::Index, 3> axes{};
+  std::array<bool, 3> taken{};
   for (Eigen::Index image_axis = 0; image_axis < 3; ++image_axis) {
     Eigen::Index patient_axis = 0;
     double most = -1.0;
@@ -139,8 +138,19 @@ IndexBox index_box(const VolumeCrop& crop, const imaging::Geometry& grid) {
       most = along;
       patient_axis = p;
     }
+    taken[static_cast<std::size_t>(patient_axis)] = true;
+    axes[static_cast<std::size_t>(image_axis)] = patient_axis;
+  }
+  return axes;
+}
+
+IndexBox index_box(const VolumeCrop& crop, const imaging::Geometry& grid) {
+  validate(crop);
+  IndexBox box;
+  const std::array<Eigen::Index, 3> axes = patient_axes(grid);
+  for (Eigen::Index image_axis = 0; image_axis < 3; ++image_axis) {
+    const Eigen::Index patient_axis = axes[static_cast<std::size_t>(image_axis)];
     const auto axis = static_cast<std::size_t>(patient_axis);
-    taken[axis] = true;
     const double last = static_cast<double>(grid.size[static_cast<std::size_t>(image_axis)] - 1);
     const bool backwards = grid.direction(patient_axis, image_axis) < 0.0;
     box.low[image_axis] = last * (backwards ? 1.0 - crop.high[axis] : crop.low[axis]);

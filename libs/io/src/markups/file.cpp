@@ -4,7 +4,10 @@
 #include "ostia/core/files.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <string_view>
+#include <utility>
 
 namespace ostia::io {
 namespace fs = std::filesystem;
@@ -14,6 +17,20 @@ std::string lower_name(const fs::path& path) {
   std::string name = path.filename().string();
   std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
   return name;
+}
+
+using Reader = MarkupsFile (*)(const fs::path&);
+constexpr std::array<std::pair<std::string_view, Reader>, 4> readers{{{".json", markups::read_json},
+                                                                      {".fcsv", markups::read_fcsv},
+                                                                      {".csv", markups::read_table},
+                                                                      {".tsv", markups::read_table}}};
+
+/// Nothing where no reader takes the name.
+Reader reader_of(const fs::path& path) {
+  const std::string name = lower_name(path);
+  for (const auto& [extension, read] : readers)
+    if (name.ends_with(extension)) return read;
+  return nullptr;
 }
 
 void require_writable(const fs::path& path, const std::vector<Markup>& markups) {
@@ -44,11 +61,12 @@ bool is_markups_file(const fs::path& path) {
   return name.ends_with(".mrk.json") || name.ends_with(".fcsv");
 }
 
+bool is_point_file(const fs::path& path) {
+  return reader_of(path) != nullptr;
+}
+
 MarkupsFile read_markups(const fs::path& path) {
-  const std::string name = lower_name(path);
-  if (name.ends_with(".json")) return markups::read_json(path);
-  if (name.ends_with(".fcsv")) return markups::read_fcsv(path);
-  if (name.ends_with(".csv") || name.ends_with(".tsv")) return markups::read_table(path);
+  if (const auto read = reader_of(path)) return read(path);
   markups::refuse(path, "files of points end in .mrk.json, .fcsv, .csv or .tsv");
 }
 

@@ -4,9 +4,12 @@
 
 #include "ostia/core/files.h"
 
+#include <array>
+#include <bit>
+#include <cstdint>
 #include <cstring>
 #include <limits>
-#include <unordered_map>
+#include <vector>
 
 namespace ostia::io {
 namespace fs = std::filesystem;
@@ -18,37 +21,52 @@ using geometry::Vec3;
 constexpr std::size_t header_bytes = 84;
 constexpr std::size_t facet_bytes = 50;
 
-struct Corner {
-  std::array<float, 3> xyz;
-  bool operator==(const Corner& other) const {
-    return std::memcmp(xyz.data(), other.xyz.data(), sizeof xyz) == 0;
-  }
-};
-struct CornerHash {
-  std::size_t operator()(const Corner& corner) const {
-    std::array<std::uint32_t, 3> bits{};
-    std::memcpy(bits.data(), corner.xyz.data(), sizeof bits);
-    std::size_t hash = 1469598103934665603ULL;
-    for (const std::uint32_t b : bits) hash = (hash ^ b) * 1099511628211ULL;
-    return hash ^ (hash >> 29);
-  }
-};
+using Corner = std::array<float, 3>;
 
-/// Gives corners that are equal bit for bit (-0 counts as 0) one index.
+/// Gives corners that are equal bit for bit (-0 counts as 0) one index: a table of open places, at least half
+/// of them free.
 class Points {
  public:
-  explicit Points(TriMesh& mesh) : mesh_(mesh) {}
-  std::int32_t index(std::array<float, 3> xyz) {
-    for (float& value : xyz) value += 0.0f;  // -0 -> 0
-    const auto [found, added] =
-        index_.try_emplace(Corner{xyz}, static_cast<std::int32_t>(mesh_.points.size()));
-    if (added) mesh_.points.emplace_back(xyz[0], xyz[1], xyz[2]);
-    return found->second;
+  Points(TriMesh& mesh, std::size_t triangles) : mesh_(mesh), places_(64, -1) {
+    mesh_.points.reserve(triangles / 2 + 2);  // of a closed surface
+    corners_.reserve(triangles / 2 + 2);
+  }
+  std::int32_t index(Corner corner) {
+    for (float& value : corner) value += 0.0f;  // -0 -> 0
+    if (2 * (corners_.size() + 1) > places_.size()) grow();
+    std::int32_t& place = places_[place_of(corner)];
+    if (place < 0) {
+      place = static_cast<std::int32_t>(corners_.size());
+      corners_.push_back(corner);
+      mesh_.points.emplace_back(corner[0], corner[1], corner[2]);
+    }
+    return place;
   }
 
  private:
+  using Bits = std::array<std::uint32_t, 3>;
+
+  /// Where it is, or the free place where it belongs.
+  std::size_t place_of(const Corner& corner) const {
+    const auto bits = std::bit_cast<Bits>(corner);
+    std::size_t hash = 1469598103934665603ULL;
+    for (const std::uint32_t b : bits) hash = (hash ^ b) * 1099511628211ULL;
+    hash = (hash ^ hash >> 29) * 0x9e3779b97f4a7c15ULL >> 24;  // short decimals leave low bits alike
+    std::size_t place = hash & (places_.size() - 1);
+    while (places_[place] >= 0 &&
+           std::bit_cast<Bits>(corners_[static_cast<std::size_t>(places_[place])]) != bits)
+      place = (place + 1) & (places_.size() - 1);
+    return place;
+  }
+  void grow() {
+    places_.assign(4 * places_.size(), -1);
+    for (std::size_t i = 0; i < corners_.size(); ++i)
+      places_[place_of(corners_[i])] = static_cast<std::int32_t>(i);
+  }
+
   TriMesh& mesh_;
-  std::unordered_map<Corner, std::int32_t, CornerHash> index_;
+  std::vector<Corner> corners_;
+  std::vector<std::int32_t> places_;  // as many as a power of two
 };
 
 std::uint32_t facet_count(const std::string& content) {
@@ -82,11 +100,11 @@ TriMesh read_binary(const std::string& content, const fs::path& path) {
   }
   TriMesh mesh;
   mesh.triangles.reserve(count);
-  Points points(mesh);
+  Points points(mesh, count);
   for (std::size_t f = 0; f < count; ++f) {
     geometry::Triangle triangle{};
     for (std::size_t corner = 0; corner < 3; ++corner) {
-      std::array<float, 3> xyz{};
+      Corner xyz{};
       std::memcpy(xyz.data(), content.data() + header_bytes + facet_bytes * f + 12 * (corner + 1),
                   sizeof xyz);
       triangle[corner] = points.index(xyz);
@@ -98,7 +116,7 @@ TriMesh read_binary(const std::string& content, const fs::path& path) {
 
 TriMesh read_ascii(const std::string& content, const fs::path& path) {
   TriMesh mesh;
-  Points points(mesh);
+  Points points(mesh, 0);
   Words words(content);
   geometry::Triangle triangle{};
   std::size_t corners = 0;
@@ -107,7 +125,7 @@ TriMesh read_ascii(const std::string& content, const fs::path& path) {
     if (word == "endsolid") ended = true;
     if (word != "vertex") continue;
     ended = false;
-    std::array<float, 3> xyz{};
+    Corner xyz{};
     for (float& value : xyz) {
       const std::string_view text = words.next();
       const auto read = number<float>(text);

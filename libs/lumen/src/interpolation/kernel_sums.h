@@ -57,6 +57,5 @@ struct KernelLoops {
 KernelLoops kernel_loops(Kernel kernel);
 KernelLoops kernel_loops_baseline(Kernel kernel);
 KernelLoops kernel_loops_avx2(Kernel kernel);  ///< the baseline's where the compiler does not know AVX2
-bool processor_has_avx2();
 
 }  // namespace ostia::lumen

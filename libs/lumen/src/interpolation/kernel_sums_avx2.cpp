@@ -1,4 +1,4 @@
-// Compiled with -mavx2 on x86-64 (CMakeLists.txt).
+// Compiled with -mavx2 on x86-64 (ostia_avx2_sources).
 #include "interpolation/kernel_loops.h"
 
 namespace ostia::lumen {

@@ -96,7 +96,7 @@ void add_thin(const ForecastSurface& surface, const LayerWall& wall, const std::
                      place_text(place.point) + "; for less than half of it on " + percent(thin / all) +
                      " of the wall";
     place.repair = OfferedRepair::thinner_layers;
-    place.factor = std::max(worst, 0.01);
+    place.factor = std::clamp(worst, 0.01, 0.99);
     place.repair_sentence =
         "ask for thinner layers or shorter edges; else they get thinner there by themselves";
     found.push_back(std::move(place));

@@ -90,6 +90,11 @@ void look_at_edge_lengths(const ForecastSurface& surface, std::vector<ForecastPl
   places.push_back(std::move(place));
 }
 
+/// A factor that shortens, as it is told with two digits too.
+double shorter(double factor) {
+  return std::min(factor, 0.99);
+}
+
 void look_at_ends(const ForecastSurface& surface, std::vector<ForecastPlace>& places) {
   constexpr double fewest_edges = 2.0;  // across
   std::vector<ForecastPlace> found;
@@ -104,7 +109,8 @@ void look_at_ends(const ForecastSurface& surface, std::vector<ForecastPlace>& pl
     place.sentence = end.name + " is " + millimetres(end.diameter_mm) + " across and an edge there " +
                      millimetres(edge) + " long, near " + place_text(end.centre);
     place.repair = OfferedRepair::smaller_edges;
-    place.factor = end.diameter_mm / (std::max(fewest_edges, surface.options.min_edges_across) * edge);
+    place.factor =
+        shorter(end.diameter_mm / (std::max(fewest_edges, surface.options.min_edges_across) * edge));
     place.repair_sentence = "mesh with " + significant_text(place.factor, 2) +
                             " times the edge length, or cut the end farther inside";
     found.push_back(std::move(place));
@@ -194,7 +200,7 @@ void look_at_sizes(const ForecastSurface& surface, const WallDistances& distance
                      (larger ? ": the edge is larger than the vessel"
                              : ": " + significant_text(edges_across, 2) + " edges across");
     place.repair = OfferedRepair::smaller_edges;
-    place.factor = edges_across / std::max(surface.options.min_edges_across, 1.0);
+    place.factor = shorter(edges_across / std::max(surface.options.min_edges_across, 1.0));
     place.repair_sentence = "mesh with " + significant_text(place.factor, 2) + " times the edge length there";
     (larger ? too_large : narrow).push_back(std::move(place));
   }
@@ -241,7 +247,7 @@ void look_at_neighbours(const ForecastSurface& surface, const WallDistances& dis
                      " outside, edges are " + millimetres(surface.edge_mm[worst]) + " long, near " +
                      place_text(place.point);
     place.repair = OfferedRepair::smaller_edges;
-    place.factor = std::max(distances.outside[worst] / surface.edge_mm[worst], 0.01);
+    place.factor = shorter(std::max(distances.outside[worst] / surface.edge_mm[worst], 0.01));
     place.repair_sentence = "part the vessels there by an edit of the wall, or mesh with shorter edges";
     found.push_back(std::move(place));
   }

@@ -1,6 +1,7 @@
 #include "boundary/boundary_fit.h"
 
 #include "ostia/core/parallel.h"
+#include "ostia/core/simd.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +9,26 @@
 
 namespace ostia::segmentation {
 namespace {
+
+/// Numbers one at a time, and as many as the processor takes at once; each result has the same bits.
+struct OneNumber {
+  static double get(const double* p) { return *p; }
+  static double all(double v) { return v; }
+  static void put(double* p, double v) { *p = v; }
+};
+struct PackOfNumbers {
+  static core::simd::DoublePack get(const double* p) { return core::simd::load(p); }
+  static core::simd::DoublePack all(double v) { return core::simd::all(v); }
+  static void put(double* p, core::simd::DoublePack v) { core::simd::store(p, v); }
+};
+
+/// `work(how, i)` for numbers [first, last), packs as far as they fit.
+template <class Work>
+void over_packs(std::size_t first, std::size_t last, const Work& work) {
+  constexpr std::size_t size = core::simd::double_pack_size;
+  for (; first + size <= last; first += size) work(PackOfNumbers(), first);
+  for (; first < last; ++first) work(OneNumber(), first);
+}
 
 /// The smooth surface's equations.
 struct Smoother {
@@ -20,10 +41,12 @@ struct Smoother {
   }
   /// y = (pull + D2s' along D2s + D2t' across D2t) x
   void apply(const std::vector<double>& x, std::vector<double>& y) const;
+  void bend(const std::vector<double>& x) const;  ///< fills across_ and along_
   /// pull (target - x) + D2s' along (expected - D2s x) - D2t' across D2t x: zero at the solution.
   std::vector<double> residual(const std::vector<double>& target, const std::vector<double>& x) const;
   void solve(const std::vector<double>& target, std::vector<double>& x) const;
   void expect_bends(const std::vector<double>& x, double usual_bend_mm, int reach);
+  mutable std::vector<double> across_, along_;  ///< bends of what was last applied to, kept for their room
 };
 
 /// Rings bend by `usual_bend_mm` from row to row on most of a vessel and by ten times that in a short
@@ -46,23 +69,49 @@ void Smoother::expect_bends(const std::vector<double>& x, double usual_bend_mm, 
   }
 }
 
-void Smoother::apply(const std::vector<double>& x, std::vector<double>& y) const {
-  for (std::size_t n = 0; n < x.size(); ++n) y[n] = pull * x[n];
+void Smoother::bend(const std::vector<double>& x) const {
   const auto ring = static_cast<std::size_t>(around);
+  across_.resize(x.size());
+  along_.assign(x.size(), 0.0);
   for (int r = 0; r < rows; ++r) {
-    const std::size_t first = static_cast<std::size_t>(r) * ring, last = first + ring - 1;
-    for (std::size_t n = first; n <= last; ++n) {
-      const std::size_t left = n > first ? n - 1 : last, right = n < last ? n + 1 : first;
-      const double bend = x[left] - 2.0 * x[n] + x[right];
-      y[left] += across[r] * bend;
-      y[n] -= 2.0 * across[r] * bend;
-      y[right] += across[r] * bend;
-      if (r == 0 || r + 1 == rows) continue;
-      const double bend_s = x[n - ring] - 2.0 * x[n] + x[n + ring];
-      y[n - ring] += along[r] * bend_s;
-      y[n] -= 2.0 * along[r] * bend_s;
-      y[n + ring] += along[r] * bend_s;
-    }
+    const double* row = x.data() + static_cast<std::size_t>(r) * ring;
+    double* out = across_.data() + static_cast<std::size_t>(r) * ring;
+    over_packs(1, ring - 1, [&](auto at, std::size_t a) {
+      at.put(out + a, at.get(row + a - 1) - at.all(2.0) * at.get(row + a) + at.get(row + a + 1));
+    });
+    out[0] = row[ring - 1] - 2.0 * row[0] + row[1];
+    out[ring - 1] = row[ring - 2] - 2.0 * row[ring - 1] + row[0];
+    if (r == 0 || r + 1 == rows) continue;
+    double* down = along_.data() + static_cast<std::size_t>(r) * ring;
+    over_packs(0, ring, [&](auto at, std::size_t a) {
+      at.put(down + a, at.get(row + a - ring) - at.all(2.0) * at.get(row + a) + at.get(row + a + ring));
+    });
+  }
+}
+
+/// Each value's terms are added in one order, that in which the bends' own sums would meet them.
+void Smoother::apply(const std::vector<double>& x, std::vector<double>& y) const {
+  bend(x);
+  const auto ring = static_cast<std::size_t>(around);
+  const std::vector<double> none(ring, 0.0);
+  for (int r = 0; r < rows; ++r) {
+    const std::size_t first = static_cast<std::size_t>(r) * ring, end = ring - 1;
+    const double *row = x.data() + first, *b = across_.data() + first, *here = along_.data() + first;
+    const double* before = r > 0 ? here - ring : none.data();
+    const double* after = r + 1 < rows ? here + ring : none.data();
+    const double c = across[r], c2 = 2.0 * c, s2 = 2.0 * along[r];
+    const double s_before = r > 0 ? along[r - 1] : 0.0, s_after = r + 1 < rows ? along[r + 1] : 0.0;
+    double* out = y.data() + first;
+    over_packs(1, end, [&](auto at, std::size_t a) {
+      at.put(out + a, at.all(pull) * at.get(row + a) + at.all(s_before) * at.get(before + a) +
+                          at.all(c) * at.get(b + a - 1) - at.all(c2) * at.get(b + a) -
+                          at.all(s2) * at.get(here + a) + at.all(c) * at.get(b + a + 1) +
+                          at.all(s_after) * at.get(after + a));
+    });
+    out[0] = pull * row[0] + s_before * before[0] - c2 * b[0] - s2 * here[0] + c * b[1] + c * b[end] +
+             s_after * after[0];
+    out[end] = pull * row[end] + s_before * before[end] + c * b[0] + c * b[end - 1] - c2 * b[end] -
+               s2 * here[end] + s_after * after[end];
   }
 }
 

@@ -1,7 +1,5 @@
 #include "outer_wall/profile.h"
 
-#include "boundary/edge_profile.h"
-
 #include "ostia/core/parallel.h"
 
 #include <Eigen/Cholesky>
@@ -57,17 +55,11 @@ Matrix correlated(double spread, double length_mm, double step_mm) {
 
 BlurredDiscs::BlurredDiscs(double largest_radius_mm, double reach_mm, double step_mm, double sigma_mm)
     : samples_(static_cast<int>(reach_mm / step_mm) + 2),
-      radii_(static_cast<int>(largest_radius_mm / wall_disc_step_mm) + 3) {
-  share_.resize(static_cast<std::size_t>(samples_) * radii_);
-  core::parallel_for(static_cast<std::size_t>(radii_), 8, [&](std::size_t r) {
-    for (int i = 0; i < samples_; ++i)
-      share_[r * samples_ + i] =
-          blurred_disc(static_cast<double>(r) * wall_disc_step_mm, i * step_mm, sigma_mm);
-  });
-}
+      radii_(static_cast<int>(largest_radius_mm / wall_disc_step_mm) + 3),
+      table_(disc_table(wall_disc_step_mm, step_mm, sigma_mm, radii_, samples_)) {}
 
 double BlurredDiscs::share(int radius, int sample) const {
-  return share_[static_cast<std::size_t>(radius) * samples_ + std::min(sample, samples_ - 1)];
+  return table_->at(radius, std::min(sample, samples_ - 1));
 }
 
 double BlurredDiscs::place(double radius_mm) const {

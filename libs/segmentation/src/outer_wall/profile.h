@@ -4,10 +4,12 @@
 
 #include "boundary/boundary_fit.h"
 #include "boundary/star_surface.h"
+#include "outer_wall/disc_table.h"
 #include "outer_wall/wall_loops.h"
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 namespace ostia::segmentation {
@@ -25,7 +27,7 @@ class BlurredDiscs {
 
  private:
   int samples_ = 0, radii_ = 0;
-  std::vector<double> share_;  // [radius][sample]
+  std::shared_ptr<const DiscTable> table_;
 };
 
 struct WallProfileOptions {

@@ -1,5 +1,7 @@
 #include "outer_wall/wall_loops_rows.h"
 
+#include "ostia/core/processor.h"
+
 namespace ostia::segmentation::detail {
 
 WallLoop wall_loop_plain() {
@@ -7,11 +9,7 @@ WallLoop wall_loop_plain() {
 }
 
 WallLoop wall_loop() {
-#if defined(__x86_64__)
-  static const WallLoop loop = __builtin_cpu_supports("avx2") ? wall_loop_avx2() : wall_loop_plain();
-#else
-  static const WallLoop loop = wall_loop_plain();
-#endif
+  static const WallLoop loop = core::best_for_processor(wall_loop_avx2, wall_loop_plain);
   return loop;
 }
 

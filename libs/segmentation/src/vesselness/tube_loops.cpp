@@ -1,5 +1,7 @@
 #include "vesselness/tube_loops_rows.h"
 
+#include "ostia/core/processor.h"
+
 namespace ostia::segmentation::detail {
 
 TubeLoops tube_loops_plain() {
@@ -7,11 +9,7 @@ TubeLoops tube_loops_plain() {
 }
 
 const TubeLoops& tube_loops() {
-#if defined(__x86_64__)
-  static const TubeLoops loops = __builtin_cpu_supports("avx2") ? tube_loops_avx2() : tube_loops_plain();
-#else
-  static const TubeLoops loops = tube_loops_plain();
-#endif
+  static const TubeLoops loops = core::best_for_processor(tube_loops_avx2, tube_loops_plain);
   return loops;
 }
 

@@ -1,4 +1,4 @@
-// Compiled with -mavx2 on x86-64 (CMakeLists.txt).
+// Compiled with -mavx2 on x86-64 (ostia_avx2_sources).
 #include "vesselness/tube_loops_rows.h"
 
 namespace ostia::segmentation::detail {

@@ -121,4 +121,13 @@ Raster render(const Scene& scene, const Camera& camera, const RenderOptions& opt
 Picture scene_figure(const Scene& scene, const Camera& camera = {}, const RenderOptions& options = {},
                      const core::TaskContext& task = core::no_task());
 
+struct SceneSight {
+  Camera camera;
+  std::string title{};  ///< of the picture, instead of the options'
+};
+/// The same scene from several sides, prepared once.
+std::vector<Picture> scene_figures(const Scene& scene, const std::vector<SceneSight>& sights,
+                                   const RenderOptions& options = {},
+                                   const core::TaskContext& task = core::no_task());
+
 }  // namespace ostia::figure

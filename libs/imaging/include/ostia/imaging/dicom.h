@@ -37,6 +37,7 @@ struct DicomSeries {
   std::vector<std::string> warnings;         ///< missing slices, uneven spacing, tilt, ...
   std::vector<std::string>
       faults;  ///< why it cannot be read (no position, no pixel spacing, duplicates); empty if it can
+  bool lacks_orientation = false;  ///< its only fault: needs consent to be read as axial slices
   bool uneven = false;  ///< a slice missing or distances off by more than 0.2 mm: needs consent to resample
   /// Where the files were unpacked from a zip: they vanish with the last copy of this.
   std::shared_ptr<const UnpackedArchive> archive;
@@ -72,6 +73,9 @@ struct DicomReadOptions {
   std::optional<double> pixel_spacing_mm;  ///< given by the user where the files have none
   std::optional<double>
       slice_spacing_mm;  ///< given by the user where the files have no position: stacked by instance number
+  /// The user's consent where the files do not say how the patient lies: axial slices of one on the back.
+  /// What is wrong of it is set right by imaging::given_axes.
+  bool assume_axial = false;
 };
 
 /// The image in HU on a right-handed orthonormal grid: rescaled slice by slice, tilt corrected by resampling,

@@ -37,6 +37,9 @@ struct MarkupsFile {
 /// By its name: .mrk.json or .fcsv, in any case.
 bool is_markups_file(const std::filesystem::path& path);
 
+/// By its name: one that `read_markups` takes?
+bool is_point_file(const std::filesystem::path& path);
+
 /// Reads by extension: .json (.mrk.json), .fcsv (of Slicer 3 to 5), .csv and .tsv. Of markups, fiducials,
 /// lines, curves and angles are taken, and a measurement `Radius` of each point; points without a defined
 /// position are left out. Tables: x,y,z[,label] without a header, or by one that names `x,y,z`, `r,a,s` or

@@ -1,5 +1,6 @@
 #pragma once
-/// \file Points and polygons with arrays under names of the caller's choice, for tools that read VTK's files.
+/// \file Points, and polygons or lines, with arrays under names of the caller's choice, for tools that read
+/// VTK's files.
 
 #include "ostia/io/surface_fields.h"
 
@@ -19,12 +20,13 @@ struct PolydataArrays {
 
 struct Polydata {
   std::vector<geometry::Vec3> points;
-  std::vector<std::vector<std::int32_t>> polygons;  ///< none: each point is a vertex of its own
+  std::vector<std::vector<std::int32_t>> polygons;  ///< none, and no lines: each point is a vertex of its own
   PolydataArrays at_points, at_cells;
+  std::vector<std::vector<std::int32_t>> lines = {};  ///< instead of polygons
 };
 
-/// VTP. Throws InvalidInput for a polygon with a point that is not there or an array of another length;
-/// IoError.
+/// VTP. Throws InvalidInput for a polygon or line with a point that is not there, for both together, or an
+/// array of another length; IoError.
 void write_polydata(const std::filesystem::path& path, const Polydata& data);
 
 }  // namespace ostia::io

@@ -55,6 +55,10 @@ struct StageTime {
 void require_sound_surface(const geometry::TriMesh& surface, const std::string& what,
                            bool several_parts = false);
 
+/// A sentence for a person: what helps where walls still cross each other after mending, as commands to type
+/// with IN and OUT for the files. It depends on whose walls they are: two parts', or one's with itself.
+std::string cure_of_crossings(const geometry::TriMesh& surface);
+
 /// From surface and centerlines to the mesh: cut, capped, remeshed, filled.
 struct MeshedLumen {
   centerline::CenterlineResult

@@ -18,7 +18,6 @@ struct IntakeOptions {
   /// mm in the file's unit of length; nothing: told by the calibre (unit_by_calibre).
   std::optional<double> unit_mm;
   bool strict = false;    ///< faults are refused instead of mended; caps are taken off all the same
-  bool open_caps = true;  ///< flat caps are taken off, so that their ends are where they are
   bool for_axes = false;  ///< centerlines come next: what they take longest for is begun on the way
 };
 

@@ -22,6 +22,8 @@ namespace ostia::session {
 struct ImageReference {
   std::string sha256;     ///< of the file, or of a series' files in order
   std::string pseudonym;  ///< "case-3f2a"
+  /// How its axes run where a person said so and not its file (imaging::given_axes), "LPS"; empty: as read.
+  std::string axes{};
 };
 
 enum class StepKind {
@@ -77,7 +79,8 @@ class CaseIsReadOnly : public IoError {
 class CaseFile {
  public:
   /// Makes a new case from a model (journal entry "case.begin" points to it whole, so that a replay starts
-  /// from it). Throws InvalidInput for a model with a fault, IoError where there is a file already.
+  /// from it). Throws InvalidInput for a model with a fault or axes that are none, IoError where there is a
+  /// file already.
   static CaseFile create(const std::filesystem::path& path, const lumen::LumenModel& model,
                          const std::optional<ImageReference>& image = {});
   /// Throws InvalidInput (not a case, truncated, damaged, of a newer version: which, and the way out),
@@ -101,7 +104,8 @@ class CaseFile {
   std::shared_ptr<const lumen::LumenModel> starting_model() const;  ///< that of "case.begin"
   std::shared_ptr<const Annotations> annotations() const;
   std::optional<ImageReference> image() const;
-  /// Throws InvalidInput where the image is not the one that the case was made with.
+  /// Throws InvalidInput where the image is not the one that the case was made with, its axes apart: an image
+  /// that was read anew is to be given those of `image()`.
   void check_image(const ImageReference& found) const;
 
   /// Runs between the computing of a change and its commit; what it throws refuses the change.

@@ -204,6 +204,8 @@ std::string report_digest(const CaseFile& file);
 /// `named`: the documents say whose image it is; the manifest says that they do, and not who.
 pipeline::JobKey report_job(const CaseFile& file, bool with_image, const ReportOptions& options,
                             const std::vector<KeyImage>& further = {}, bool named = false);
+/// Further pictures of a report's job, which takes as long as packing them does; any thread.
+void add_further(pipeline::JobKey& job, const std::vector<KeyImage>& further);
 
 /// report.html, report.pdf, report.json, segments.csv, stenoses.csv, plaque.csv, measurements.csv,
 /// images/*.png and, last, manifest.json. The folder appears whole or not at all; the same report gives the

@@ -4,7 +4,8 @@
 
 #include "ostia/analysis/lesions.h"
 #include "ostia/session/evaluability_board.h"
-#include "ostia/session/outer_walls.h"
+#include "ostia/session/found_walls.h"
+#include "ostia/session/lesion_grading.h"
 #include "ostia/session/workbench.h"
 
 #include <cstdint>
@@ -33,15 +34,16 @@ struct LesionRow {
   analysis::Lesion lesion;
   std::optional<analysis::EvaluableStretch> evaluable;  ///< the worst of it; nothing: not known
   LesionState state = LesionState::open;
+  bool checked = false;    ///< a person is done with its vessel
+  bool has_image = false;  ///< an image is open, so that what is not known of it yet will be
   std::string comment;
+
+  GradeBar bar() const { return grade_bar(state, checked, evaluable); }  ///< why it has no grade
 };
 
-/// A vessel whose plaque is to be measured, on a model that no longer changes.
-struct PlaqueWork {
-  std::shared_ptr<const lumen::LumenModel> model;
-  SolvedWalls walls;
-  std::shared_ptr<const imaging::ImageVolume> image;
-  std::int32_t vessel = 0;
+/// A vessel whose plaque is to be measured.
+struct PlaqueWork : WallsWanted {
+  std::shared_ptr<FoundWalls> known;  ///< where its walls are looked for, or were
 
   using Found = analysis::PlaqueProfile;
   /// Any thread; nothing where no outer wall can be looked for. Throws as vessel_walls does.
@@ -52,7 +54,9 @@ struct PlaqueWork {
 /// another tree, image or case begins afresh. One thread.
 class LesionBoard {
  public:
-  LesionBoard(Workbench& bench, EvaluabilityBoard& evaluability);
+  /// `walls`: what others who look for walls find, too.
+  LesionBoard(Workbench& bench, EvaluabilityBoard& evaluability,
+              std::shared_ptr<FoundWalls> walls = std::make_shared<FoundWalls>());
   LesionBoard(const LesionBoard&) = delete;
   LesionBoard& operator=(const LesionBoard&) = delete;
 
@@ -83,6 +87,7 @@ class LesionBoard {
   bool unknown(std::int32_t vessel) const;
   Workbench& bench_;
   EvaluabilityBoard& evaluability_;
+  std::shared_ptr<FoundWalls> found_;
   std::map<std::int32_t, Known> known_;
   std::vector<LesionRow> rows_;
   bool fresh_ = false, finding_ = false;

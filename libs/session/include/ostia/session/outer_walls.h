@@ -44,6 +44,12 @@ std::optional<VesselWalls> vessel_walls(const lumen::LumenModel& model,
                                         const OuterWallsOptions& options = {},
                                         const core::TaskContext& task = core::no_task());
 
+/// Fills in `maps` of walls that were found without them; as `OuterWallsOptions::maps` with the same options
+/// for plaque. Throws InvalidInput for bad options, and Cancelled.
+void add_plaque_maps(VesselWalls& walls, const lumen::LumenModel& model, const imaging::ImageVolume& image,
+                     const analysis::PlaqueOptions& options = {},
+                     const core::TaskContext& task = core::no_task());
+
 /// The outer wall's line on the section at an abscissa: `points` world places from theta = 0 on, where it was
 /// found; none beyond.
 std::vector<geometry::Vec3> outer_wall_ring(const VesselWalls& walls, double s_mm, int points = 96);

@@ -75,7 +75,7 @@ class Workbench {
   void set_image(OpenImage image);  ///< the place goes to its middle if it was outside of it
   void close_image();
   const OpenImage& image() const { return image_; }
-  /// Throws InvalidInput where an image is open that is not the case's.
+  /// Throws InvalidInput where an image is open that is not the case's, or turned otherwise.
   void set_session(Session session);
   void close_case();
   bool has_case() const { return session_ != nullptr; }
@@ -129,7 +129,8 @@ class Workbench {
   const OtherImage* other_image() const { return other_image_.get(); }
   /// What views show: the phase's image where there is one, else another of the study, else the case's; null
   /// without any.
-  const imaging::ImageVolume* shown_volume() const;
+  const imaging::ImageVolume* shown_volume() const { return shown_image().get(); }
+  std::shared_ptr<const imaging::ImageVolume> shown_image() const;  ///< the same, to be kept
   /// The phase that `shown_volume` is of: the case's own where there is no other.
   double image_phase() const;  ///< only with other_phase()
   /// Abscissas on the selected vessel as it is shown, for those at the case's own phase, and back.

@@ -8,6 +8,7 @@
 #include <complex>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -42,8 +43,16 @@ enum class OutletModel {
   resistance,     ///< pressure = resistance x flow; resistances as diameter to -`split_exponent`
 };
 
-/// "zero", "split", "resistance".
+struct OutletTraits {
+  OutletModel model;
+  std::string_view name;  ///< as it is written: "zero", "split", "resistance"
+  std::string_view what;  ///< it does, in a few words
+};
+/// All of them, once each.
+std::span<const OutletTraits> outlet_models();
 std::string_view name_of(OutletModel outlets);
+/// By its name. Throws InvalidInput, naming those there are.
+OutletModel outlet_model(std::string_view name);
 
 struct BoundaryFlowOptions {
   Blood blood;

@@ -73,7 +73,9 @@ class ProfileView {
   void add_outer_wall(const Frame& frame);
   void add_titles(const Frame& frame);
   // Of what flows (profile_flow.cpp).
-  std::vector<analysis::FlowStation> flow_along() const;  ///< of the selected vessel's way; none: not shown
+  /// Of the selected vessel's way; none: not shown. Gathered once, until vessel, model or flow are others.
+  const std::vector<analysis::FlowStation>& flow_along() const;
+  void forget_flow_along() { flow_along_.reset(); }
   bool area_drawn() const { return area_shown.get() && !(flow_room_px() > 0.0); }
   double flow_room_px() const;  ///< of its axes, in units of the interface
   void add_flow_line(const Frame& frame, const std::vector<analysis::FlowStation>& along, Role role,
@@ -90,6 +92,11 @@ class ProfileView {
   session::OuterWallBoard* walls_ = nullptr;
   session::EvaluabilityBoard* evaluability_ = nullptr;
   std::shared_ptr<const ProfileFlow> flow_;
+  struct FlowAlong {
+    std::int32_t vessel = 0;
+    std::vector<analysis::FlowStation> stations;
+  };
+  mutable std::optional<FlowAlong> flow_along_;
   std::vector<session::Subscription> own_, walls_changes_, evaluability_changes_;
 };
 

@@ -6,6 +6,7 @@
 #include "ostia/reformat/plane.h"
 #include "ostia/view/label_layout.h"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -48,6 +49,12 @@ struct SceneMeasurement {
   std::vector<SceneCurve> curves{};  ///< its lines where they are not those from point to point
   bool dots = true;
   std::optional<Vec3> label_at{};  ///< nothing: whichever point is to the right
+};
+/// A frame over the picture, with squares that a hand can take hold of.
+struct SceneFrame {
+  std::vector<std::array<Vec3, 2>> lines;
+  std::vector<Vec3> grips;
+  int held = -1;  ///< which of them is held
 };
 /// A text of the picture as it was laid out last; px, y runs down.
 struct SceneText {

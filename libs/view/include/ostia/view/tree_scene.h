@@ -178,6 +178,8 @@ class TreeScene {
   void set_angles_shown(bool shown);  ///< "LAO 30 CRA 20" in a corner; not at first
   /// A line that is being drawn over the picture, display coordinates, closed; none: nothing.
   void set_lasso(std::vector<geometry::Vec2> corners);
+  /// A frame with places to take hold of, over all else; no snapshot has it. An empty one takes it away.
+  void set_frame(SceneFrame frame);
 
   /// The scene as it is, in another size and perhaps another look, from a window of its own that is never
   /// shown; a volume as fine as `patience_ms` a picture allows. Throws InvalidInput for sizes not in [16,

@@ -39,6 +39,8 @@ struct VolumeCrop {
   bool operator==(const VolumeCrop&) const = default;
 };
 void validate(const VolumeCrop& crop);  ///< throws InvalidInput unless 0 <= low < high <= 1
+/// Of each of the image's axes the patient's axis that it is taken for: 0, 1, 2 for x, y, z, each once.
+std::array<Eigen::Index, 3> patient_axes(const imaging::Geometry& grid);
 /// The same in the image's axes i, j, k: as numbers of voxels, (0, size - 1) for the whole.
 struct IndexBox {
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();

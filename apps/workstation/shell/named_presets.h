@@ -1,5 +1,5 @@
 #pragma once
-/// \file Settings of this machine that a person keeps under names of their own: layouts, grey levels.
+/// \file What a person keeps on this machine under names of their own: layouts, grey levels.
 
 #include "ostia/session/machine_state.h"
 
@@ -11,10 +11,10 @@
 namespace ostia::workstation {
 
 /// Under one key of MachineState. What cannot be read is as if there were none.
-class NamedSettings {
+class NamedPresets {
  public:
   using Values = std::map<std::string, std::string>;
-  NamedSettings(session::MachineState& machine, std::string key) : machine_(machine), key_(std::move(key)) {}
+  NamedPresets(session::MachineState& machine, std::string key) : machine_(machine), key_(std::move(key)) {}
   QStringList names() const;                            ///< by the alphabet
   Values values(const QString& name) const;             ///< empty where there is none of the name
   void set(const QString& name, const Values& values);  ///< in the place of one of the same name

@@ -1,4 +1,4 @@
-#include "shell/named_settings.h"
+#include "shell/named_presets.h"
 
 #include <QJsonDocument>
 #include <QJsonObject>
@@ -17,13 +17,13 @@ void store_object(session::MachineState& machine, const std::string& key, const 
 
 }  // namespace
 
-QStringList NamedSettings::names() const {
+QStringList NamedPresets::names() const {
   QStringList names = stored_object(machine_, key_).keys();
   names.sort(Qt::CaseInsensitive);
   return names;
 }
 
-NamedSettings::Values NamedSettings::values(const QString& name) const {
+NamedPresets::Values NamedPresets::values(const QString& name) const {
   Values values;
   const QJsonObject one = stored_object(machine_, key_).value(name).toObject();
   for (auto it = one.begin(); it != one.end(); ++it)
@@ -31,14 +31,14 @@ NamedSettings::Values NamedSettings::values(const QString& name) const {
   return values;
 }
 
-void NamedSettings::set(const QString& name, const Values& values) {
+void NamedPresets::set(const QString& name, const Values& values) {
   QJsonObject all = stored_object(machine_, key_), one;
   for (const auto& [key, value] : values) one[QString::fromStdString(key)] = QString::fromStdString(value);
   all[name] = one;
   store_object(machine_, key_, all);
 }
 
-void NamedSettings::remove(const QString& name) {
+void NamedPresets::remove(const QString& name) {
   QJsonObject all = stored_object(machine_, key_);
   all.remove(name);
   store_object(machine_, key_, all);

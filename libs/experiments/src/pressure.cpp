@@ -1,0 +1,283 @@
+// The pressure experiment: what is to be run, is kept, and is compared.
+
+#include "ostia/experiments/pressure.h"
+
+#include "pressure_compare.h"
+#include "pressure_keep.h"
+#include "pressure_patients.h"
+
+#include "ostia/core/error.h"
+#include "ostia/core/log.h"
+#include "ostia/hemodynamics/conditions.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <exception>
+#include <mutex>
+#include <set>
+#include <thread>
+
+namespace ostia::experiments {
+namespace {
+
+constexpr std::size_t converged_cases = 3;  // of which the mesh's convergence is shown
+
+/// A case with its wall.
+struct Walled {
+  PressureCase planned;
+  lumen::LumenModel model;
+};
+
+std::string on_edges(const std::string& id, double edge_ratio) {
+  std::string name = id + "-edges-" + std::to_string(std::lround(1000.0 * edge_ratio));
+  return name;
+}
+
+PressureTask task_of(const Walled& one, const PressureMesh& mesh) {
+  return {one.planned.id, one.model, one.planned.flow_ml_s, mesh};
+}
+
+std::vector<Walled> walled_plan(const PressureOptions& options, const core::TaskContext& task) {
+  std::vector<Walled> all;
+  const std::vector<PressureCase> plan = plan_pressure(options.plan);
+  for (const PressureCase& one : plan) {
+    task.throw_if_cancelled();
+    all.push_back({one, pressure_model(one)});
+  }
+  if (options.masks.empty()) return all;
+  for (const std::string& name : options.patients) {
+    PressurePatient patient = pressure_patient(options.masks, name, task);
+    all.push_back({std::move(patient.planned), std::move(patient.model)});
+  }
+  return all;
+}
+
+/// A concentric, an eccentric and a fork's, the first of each that are narrow.
+std::vector<std::size_t> convergence_cases(const std::vector<Walled>& plan) {
+  std::vector<std::size_t> chosen;
+  for (const PressureKind kind : {PressureKind::concentric, PressureKind::eccentric, PressureKind::fork})
+    for (std::size_t i = 0; i < plan.size(); ++i)
+      if (plan[i].planned.kind == kind && plan[i].planned.stenoses.front().severity >= 0.5) {
+        chosen.push_back(i);
+        break;
+      }
+  if (chosen.size() > converged_cases) chosen.resize(converged_cases);
+  return chosen;
+}
+
+/// A computation: of a case, on a mesh.
+struct Wanted {
+  std::size_t of = 0;
+  PressureTask task;
+};
+
+std::vector<Wanted> wanted_runs(const std::vector<Walled>& plan, const PressureOptions& options) {
+  std::vector<Wanted> all;
+  for (std::size_t i = 0; i < plan.size(); ++i) all.push_back({i, task_of(plan[i], options.mesh)});
+  for (const std::size_t i : convergence_cases(plan))
+    for (const double ratio : options.other_edge_ratios) {
+      PressureMesh mesh = options.mesh;
+      mesh.edge_ratio = ratio;
+      all.push_back({i, task_of(plan[i], mesh)});
+      all.back().task.id = on_edges(plan[i].planned.id, ratio);
+    }
+  return all;
+}
+
+bool asked_for(const PressureOptions& options, const PressureCase& one, const std::string& id) {
+  if (options.only.empty()) return true;
+  return std::any_of(options.only.begin(), options.only.end(), [&](const std::string& word) {
+    return word == id || word == one.id || word == name_of(one.kind);
+  });
+}
+
+void require_known(const std::vector<Walled>& plan, const std::vector<Wanted>& all,
+                   const PressureOptions& options) {
+  for (const std::string& word : options.only) {
+    const bool known = std::any_of(all.begin(), all.end(), [&](const Wanted& one) {
+      return word == one.task.id || word == name_of(plan[one.of].planned.kind);
+    });
+    if (!known)
+      throw InvalidInput("experiment pressure: the plan has no case and no kind \"" + word +
+                         "\"; its cases are listed in plan.json of the folder that keeps runs");
+  }
+}
+
+/// What a message says, without where it was.
+std::string without_path(std::string message, const std::filesystem::path& folder, const std::string& id) {
+  for (const std::string& path : {std::filesystem::absolute(folder).string(), folder.string()})
+    for (std::size_t at = message.find(path); at != std::string::npos; at = message.find(path))
+      message.replace(at, path.size(), id);
+  return message;
+}
+
+/// One run into the folder that keeps it. What lies in the case is told there; what lies in the machine ends
+/// the experiment.
+void run_one(const Wanted& wanted, const PressureRunner& runner, const PressureKeep& keep,
+             const core::TaskContext& task) {
+  PressureRun run;
+  const std::filesystem::path folder = keep.folder_of(wanted.task.id);
+  try {
+    run = runner(wanted.task, folder, task);
+  } catch (const GeometryError& error) {
+    run.failure = error.what();
+  } catch (const NumericalError& error) {
+    run.failure = error.what();
+  } catch (const InvalidInput& error) {
+    run.failure = error.what();
+  }
+  run.failure = without_path(run.failure, folder, wanted.task.id);
+  run.digest = digest_of(wanted.task);
+  keep.put(wanted.task.id, run);
+  core::log_info(wanted.task.id + ": " +
+                 (!run.failure.empty()
+                      ? run.failure
+                      : std::to_string(run.cells) + " cells, " + std::to_string(std::lround(run.iterations)) +
+                            " iterations, " + std::to_string(std::lround(run.seconds)) + " s" +
+                            (run.converged ? "" : ", not converged")));
+}
+
+void run_all(const std::vector<Wanted>& runs, const PressureRunner& runner, const PressureKeep& keep,
+             int jobs, const core::TaskContext& task) {
+  std::atomic<std::size_t> next = 0, done = 0;
+  std::mutex mutex;
+  std::exception_ptr fault;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < runs.size(); i = next++) {
+      try {
+        task.throw_if_cancelled();
+        task.set_stage(runs[i].task.id);
+        const double from = static_cast<double>(done) / static_cast<double>(runs.size());
+        run_one(runs[i], runner, keep,
+                task.sub(from, std::min(1.0, from + 1.0 / static_cast<double>(runs.size()))));
+        ++done;
+      } catch (...) {
+        const std::scoped_lock lock(mutex);
+        if (!fault) fault = std::current_exception();
+        next = runs.size();
+      }
+    }
+  };
+  {
+    std::vector<std::jthread> others;
+    for (int i = 1; i < jobs && i < static_cast<int>(runs.size()); ++i) others.emplace_back(work);
+    work();
+  }
+  if (fault) std::rethrow_exception(fault);
+}
+
+/// Pressure from the root to the first place of reading.
+double drop_mmhg(const PressureProblem& problem) {
+  return (1.0 - readings_of(problem, compared_model()).front().ffr_3d) *
+         hemodynamics::Conditions().mean_aortic_mmhg();
+}
+
+std::optional<ConvergenceRow> convergence_of(const PressureProblem& middle, const std::vector<Wanted>& all,
+                                             std::size_t of, const PressureKeep& keep) {
+  std::vector<std::pair<double, PressureProblem>> meshes;
+  for (const Wanted& one : all) {
+    if (one.of != of) continue;
+    const auto run = keep.find(one.task.id, digest_of(one.task));
+    if (!run || !run->failure.empty()) return std::nullopt;
+    meshes.emplace_back(one.task.mesh.edge_ratio, middle);
+    meshes.back().second.run = *run;
+  }
+  if (meshes.size() < 2) return std::nullopt;
+  std::sort(meshes.begin(), meshes.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  ConvergenceRow row;
+  row.id = middle.planned.id;
+  for (const auto& [ratio, problem] : meshes) {
+    row.edge_ratios.push_back(ratio);
+    row.cells.push_back(problem.run.cells);
+    row.drops_mmhg.push_back(drop_mmhg(problem));
+  }
+  extrapolate(row);
+  return row;
+}
+
+PressureResults compared(const std::vector<Walled>& plan, const std::vector<Wanted>& all,
+                         const PressureKeep& keep, const core::TaskContext& task) {
+  PressureResults results;
+  results.planned = plan.size();
+  results.aortic_mmhg = hemodynamics::Conditions().mean_aortic_mmhg();
+  const std::vector<std::size_t> shown = convergence_cases(plan);
+  std::vector<PressureProblem> problems;
+  std::vector<std::size_t> row_of_problem;
+  for (std::size_t i = 0; i < plan.size(); ++i) {
+    task.throw_if_cancelled();
+    task.set_progress(static_cast<double>(i) / static_cast<double>(plan.size()));
+    const auto run = keep.find(all[i].task.id, digest_of(all[i].task));
+    if (!run) continue;
+    PressureRow row;
+    row.planned = plan[i].planned;
+    row.run = *run;
+    row.failure = run->failure;
+    if (row.failure.empty()) {
+      try {
+        const PressureProblem problem =
+            problem_of(plan[i].planned, measured_network(plan[i].model, task), *run);
+        row = row_of(problem);
+        if (std::find(shown.begin(), shown.end(), i) != shown.end())
+          if (auto meshes = convergence_of(problem, all, i, keep)) results.convergence.push_back(*meshes);
+        row_of_problem.push_back(results.rows.size());
+        problems.push_back(problem);
+      } catch (const InvalidInput& error) {
+        row.failure = error.what();
+      } catch (const NumericalError& error) {
+        row.failure = error.what();
+      }
+    }
+    results.rows.push_back(std::move(row));
+  }
+  results.fit = fit_pressure(problems);
+  hemodynamics::FlowModel model = compared_model();
+  if (results.fit) {
+    model.development = results.fit->development;
+    model.layer_friction = results.fit->layer_friction;
+  }
+  for (std::size_t k = 0; k < problems.size(); ++k) {
+    const std::vector<PressureReading> fitted = readings_of(problems[k], model);
+    std::vector<PressureReading>& own = results.rows[row_of_problem[k]].readings;
+    for (std::size_t j = 0; j < own.size(); ++j) own[j].fitted = fitted[j].ffr_1d;
+  }
+  return results;
+}
+
+}  // namespace
+
+void validate(const PressureOptions& options) {
+  validate(options.plan);
+  validate(options.mesh);
+  for (const double ratio : options.other_edge_ratios) {
+    PressureMesh other = options.mesh;
+    other.edge_ratio = ratio;
+    validate(other);
+  }
+  if (options.keep.empty()) throw InvalidInput("experiment pressure: name a folder that keeps its runs");
+  if (options.jobs < 1 || options.jobs > 256)
+    throw InvalidInput("experiment pressure: 1 to 256 runs at once");
+  if (options.most < 0) throw InvalidInput("experiment pressure: no fewer than 0 runs");
+}
+
+PressureResults run_pressure(const PressureOptions& options, const PressureRunner& runner,
+                             const core::TaskContext& task) {
+  validate(options);
+  const PressureKeep keep(options);
+  task.set_stage("walls");
+  const std::vector<Walled> plan = walled_plan(options, task.sub(0.0, 0.02));
+  const std::vector<Wanted> all = wanted_runs(plan, options);
+  require_known(plan, all, options);
+  std::vector<Wanted> missing;
+  for (const Wanted& one : all) {
+    if (!asked_for(options, plan[one.of].planned, one.task.id)) continue;
+    if (options.most > 0 && static_cast<int>(missing.size()) == options.most) break;
+    const auto kept = keep.find(one.task.id, digest_of(one.task));
+    if (!kept || (options.again && !kept->failure.empty())) missing.push_back(one);
+  }
+  run_all(missing, runner, keep, options.jobs, task.sub(0.02, 0.95));
+  task.set_stage("comparing");
+  return compared(plan, all, keep, task.sub(0.95, 1.0));
+}
+
+}  // namespace ostia::experiments

@@ -1,0 +1,96 @@
+#include "network_system.h"
+
+#include "ostia/hemodynamics/junction_loss.h"
+
+#include <algorithm>
+
+namespace ostia::hemodynamics {
+
+Links links_of(const PreparedNetwork& network) {
+  Links links;
+  links.children.resize(network.size());
+  links.below.resize(network.size());
+  const auto& branches = network.network().branches;
+  std::vector<char> blocked(network.size(), 0);
+  for (std::size_t i = 0; i < network.size(); ++i) {
+    const int parent = branches[i].parent;
+    if (parent >= 0) links.children[static_cast<std::size_t>(parent)].push_back(i);
+    blocked[i] = network.branch(i).shut() || (parent >= 0 && blocked[static_cast<std::size_t>(parent)] != 0);
+  }
+  for (std::size_t k = 0; k < network.outlets().size(); ++k) {
+    const std::size_t leaf = network.outlets()[k];
+    if (blocked[leaf] != 0) continue;
+    for (int b = static_cast<int>(leaf); b >= 0; b = branches[static_cast<std::size_t>(b)].parent)
+      links.below[static_cast<std::size_t>(b)].push_back(links.open.size());
+    links.open.push_back(leaf);
+    links.open_outlets.push_back(k);
+  }
+  return links;
+}
+
+namespace {
+
+std::vector<double> branch_flows(const Links& links, const Eigen::VectorXd& open) {
+  std::vector<double> flow(links.below.size(), 0.0);
+  for (std::size_t b = 0; b < flow.size(); ++b)
+    for (const std::size_t k : links.below[b]) flow[b] += open[static_cast<Eigen::Index>(k)];
+  return flow;
+}
+
+void add_forks(const PreparedNetwork& network, const FlowModel& model, const Links& links, Losses& losses) {
+  if (model.junctions == JunctionLaw::none || !model.inertia) return;
+  for (std::size_t parent = 0; parent < network.size(); ++parent) {
+    const double area = network.branch(parent).last_area_mm2;
+    if (!(area > 0.0)) continue;
+    std::vector<ForkBranch> fork;
+    std::vector<std::size_t> of;
+    for (const std::size_t child : links.children[parent]) {
+      const double first = network.branch(child).first_area_mm2;
+      if (links.below[child].empty() || !(first > shut_mm2)) continue;
+      fork.push_back({losses.flow[child], first, network.network().branches[child].angle_rad});
+      of.push_back(child);
+    }
+    const auto drops = fork_drops(model.density_kg_m3 * model.inertia_scale, losses.flow[parent], area, fork);
+    for (std::size_t i = 0; i < of.size(); ++i) {
+      losses.at_fork[of[i]] = drops[i].pa;
+      losses.by_own[of[i]] = drops[i].by_own_pa_s_ml;
+      losses.by_parent[of[i]] = drops[i].by_parent_pa_s_ml;
+    }
+  }
+}
+
+void add_entries(const PreparedNetwork& network, const FlowModel& model, const Links& links, Losses& losses) {
+  if (!model.inertia || !model.from_rest) return;
+  for (std::size_t root = 0; root < network.size(); ++root) {
+    const double area = network.branch(root).first_area_mm2;
+    if (network.network().branches[root].parent >= 0 || links.below[root].empty() || !(area > shut_mm2))
+      continue;
+    const double flow = std::max(0.0, losses.flow[root]);
+    const double energy = 1.0 + 3.0 * (model.root_momentum - 1.0);
+    const double scale = model.density_kg_m3 * model.inertia_scale * energy / (area * area);
+    losses.at_fork[root] = 0.5 * scale * flow * flow;
+    losses.by_own[root] = scale * flow;
+  }
+}
+
+}  // namespace
+
+Losses losses_of(const PreparedNetwork& network, const FlowModel& model, const Links& links,
+                 const Eigen::VectorXd& open) {
+  Losses losses;
+  losses.flow = branch_flows(links, open);
+  const std::size_t count = network.size();
+  for (auto* one : {&losses.along, &losses.by_flow, &losses.at_fork, &losses.by_own, &losses.by_parent})
+    one->assign(count, 0.0);
+  for (std::size_t b = 0; b < count; ++b) {
+    if (links.below[b].empty()) continue;
+    const Drop drop = pressure_drop(network.branch(b), model, losses.flow[b]);
+    losses.along[b] = drop.pa;
+    losses.by_flow[b] = drop.pa_s_ml;
+  }
+  add_forks(network, model, links, losses);
+  add_entries(network, model, links, losses);
+  return losses;
+}
+
+}  // namespace ostia::hemodynamics

@@ -11,7 +11,7 @@ if(OSTIA_APPS)
   list(APPEND _ostia_needed CLI11::CLI11)
 endif()
 if(OSTIA_WITH_IMAGE_LIBRARIES)
-  list(APPEND _ostia_needed PkgConfig::PANGOCAIRO PkgConfig::HDF5_SERIAL PkgConfig::NETCDF embree OstiaThirdParty::gdcm
+  list(APPEND _ostia_needed PkgConfig::PANGOCAIRO PNG::PNG PkgConfig::HDF5_SERIAL PkgConfig::NETCDF embree OstiaThirdParty::gdcm
        OstiaThirdParty::cgns)
   foreach(module IN ITEMS CommonCore CommonDataModel CommonExecutionModel CommonMisc CommonMath CommonTransforms FiltersCore
           IOXML IOLegacy RenderingCore RenderingOpenGL2 RenderingFreeType RenderingVolume RenderingVolumeOpenGL2)

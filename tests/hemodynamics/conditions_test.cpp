@@ -138,5 +138,35 @@ TEST(FlowState, AStenosisTakesTheReserveBeforeTheRest) {
   EXPECT_GT(starved.solution.to_pa[1], 0.0);
 }
 
+TEST(FlowState, BehindATightTrunkNoBedTakesMoreThanItAsksFor) {
+  Network network;
+  network.branches = {tube_of(10.0, 2.2), tube_of(20.0, 1.5, 0), tube_of(20.0, 1.5, 0)};
+  const RestingFlow resting = resting_flow(network, {});
+  const Conditions conditions;
+  const double all_pa = (conditions.mean_aortic_mmhg() - conditions.venous_mmhg) * pa_of_mmhg;
+  // At the flow that is asked for the trunk leaves less than wide open beds need; one branch takes twice what
+  // there is, so that much less flows.
+  const double trunk = resting.total_ml_s, branch = resting.outlets_ml_s[0];
+  network.branches[0].lumped.quadratic_pa_s2_ml2 = 0.8 * all_pa / (trunk * trunk);
+  network.branches[1].lumped.quadratic_pa_s2_ml2 = 2.0 * all_pa / (branch * branch);
+  const PreparedNetwork tight(network, {});
+  const FlowState rest = flow_state(tight, conditions, resting, State::rest);
+  EXPECT_EQ(rest.exhausted, std::vector<std::size_t>{0});
+  EXPECT_LT(rest.solution.flow_ml_s[1], 0.9 * resting.outlets_ml_s[0]);
+  EXPECT_NEAR(rest.solution.flow_ml_s[2], resting.outlets_ml_s[1], 1e-9);
+  EXPECT_GE(rest.solution.to_pa[2] - conditions.venous_mmhg * pa_of_mmhg,
+            microcirculation(resting, conditions).hyperaemic_pa_s_ml[1] * resting.outlets_ml_s[1]);
+}
+
+TEST(Conditions, ARootTooShortForSectionsIsAsWideAsItsBranches) {
+  Network network = left_and_right();
+  const double whole = resting_flow(network, {}).total_ml_s;
+  network.branches[0].stations.clear();
+  const RestingFlow flow = resting_flow(network, {});
+  EXPECT_GT(flow.outlets_ml_s[0], 0.0);
+  EXPECT_LT(flow.total_ml_s, whole);
+  EXPECT_GT(flow.total_ml_s, resting_flow({{network.branches[3]}}, {}).total_ml_s);
+}
+
 }  // namespace
 }  // namespace ostia::hemodynamics

@@ -42,6 +42,29 @@ TEST(VolumeBox, FacesLieWhereTheSharesSay) {
   EXPECT_LT((faces[0].middle - Vec3(-10.0, 6.0, 30.0)).norm(), 1e-9) << "in the middle of its side";
 }
 
+TEST(VolumeBox, StaysInThePatientWhenTheGridIsAnother) {
+  const imaging::Geometry grid = exchanged_grid();
+  imaging::Geometry part = grid;  // x from -10 to 20, y from 5 to 12.5, z from 20 to 80
+  part.size = {31, 31, 16};
+  part.origin = {-10.0, 12.5, 80.0};
+  VolumeCrop crop;
+  crop.low = {0.5, 0.0, 0.1};
+  crop.high = {1.0, 0.6, 0.5};
+  const VolumeCrop there = carried(crop, grid, part);
+  EXPECT_NEAR(there.low[0], 1.0 / 3.0, 1e-9);  // x = 0
+  EXPECT_EQ(there.high[0], 1.0);               // nothing was cut off
+  EXPECT_EQ(there.low[1], 0.0);
+  EXPECT_NEAR(there.high[1], 4.0 / 7.5, 1e-9);  // y = 9
+  EXPECT_EQ(there.low[2], 0.0);                 // z = 10 lies below the part
+  EXPECT_NEAR(there.high[2], 0.5, 1e-9);        // z = 50
+  const VolumeCrop back = carried(there, part, grid);
+  EXPECT_NEAR(back.low[0], crop.low[0], 1e-9);
+  EXPECT_NEAR(back.high[1], crop.high[1], 1e-9);
+  crop.high = {1.0, 1.0, 0.15};  // below the part: nothing would be left
+  EXPECT_EQ(carried(crop, grid, part).low[2], 0.0);
+  EXPECT_EQ(carried(crop, grid, part).high[2], 1.0);
+}
+
 TEST(VolumeBox, HasTwelveEdgesOfItsSizes) {
   const auto edges = edges_of({}, exchanged_grid());
   ASSERT_EQ(edges.size(), 12U);

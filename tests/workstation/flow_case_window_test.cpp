@@ -83,6 +83,10 @@ TEST_F(FlowCaseWindow, TheDialogListsTheEndsAndSaysWhatIsWrong) {
   EXPECT_NEAR(ends->topLevelItem(0)->text(2).split(' ')[0].toDouble(), solver::usual_flow_ml_s(diameter),
               0.01);
   auto* go = part<QPushButton>("go", dialog);
+  const auto pick_outlets = [this](solver::OutletModel model) {
+    auto* outlets = part<QComboBox>("flow_outlets", dialog);
+    pick(outlets, outlets->findData(static_cast<int>(model)));
+  };
   pick(part<QComboBox>("flow_kind", dialog), 1);
   type(part<QDoubleSpinBox>("flow_ml_s", dialog), "0");
   EXPECT_TRUE(trouble("flow").contains("0.001 to 50 ml/s")) << trouble("flow").toStdString();
@@ -90,13 +94,13 @@ TEST_F(FlowCaseWindow, TheDialogListsTheEndsAndSaysWhatIsWrong) {
   type(part<QDoubleSpinBox>("flow_ml_s", dialog), "0.5");
   EXPECT_TRUE(trouble("flow").isEmpty());
   EXPECT_EQ(ends->topLevelItem(1)->text(2), "0.500 ml/s");
-  pick(part<QComboBox>("flow_outlets", dialog), 1);
+  pick_outlets(solver::OutletModel::zero_pressure);
   EXPECT_EQ(ends->topLevelItem(1)->text(2), "computed");
-  pick(part<QComboBox>("flow_outlets", dialog), 0);
+  pick_outlets(solver::OutletModel::split);
   pick(part<QComboBox>("flow_solver", dialog), 1);
   EXPECT_TRUE(trouble("outlets").contains("svMultiPhysics")) << trouble("outlets").toStdString();
   EXPECT_FALSE(part<QCheckBox>("flow_run", dialog)->isEnabled());
-  pick(part<QComboBox>("flow_outlets", dialog), 1);
+  pick_outlets(solver::OutletModel::zero_pressure);
   EXPECT_TRUE(go->isEnabled());
   type(part<QLineEdit>("flow_mesh", dialog), QString::fromStdString(layered.string()));
   EXPECT_TRUE(wait_until([&] { return trouble("mesh").contains("prisms"); }))

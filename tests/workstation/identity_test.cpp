@@ -20,6 +20,7 @@
 #include <QMenu>
 #include <QPushButton>
 #include <QTest>
+#include <string_view>
 
 namespace ostia::workstation {
 namespace {
@@ -76,12 +77,21 @@ struct WhoIsIt : ::testing::Test {
     for (const QAction* action : menu->actions()) texts.push_back(action->text().toStdString());
     return texts;
   }
+  /// Pictures within a page are letters, too, and four of them may spell a name by chance.
+  static std::string without_pictures(std::string text) {
+    constexpr std::string_view before = "base64,";
+    for (std::size_t at = text.find(before); at != std::string::npos; at = text.find(before, at)) {
+      at += before.size();
+      text.erase(at, text.find_first_of("\"')", at) - at);
+    }
+    return text;
+  }
   /// Files below the folder, but for the scan itself, whose bytes name the patient.
   std::vector<std::string> naming() {
     std::vector<std::string> found;
     for (const fs::directory_entry& one : fs::recursive_directory_iterator(folder / "")) {
       if (!one.is_regular_file() || one.path().string().find("/scan/") != std::string::npos) continue;
-      const std::string bytes = core::read_file(one.path(), 1U << 28);
+      const std::string bytes = without_pictures(core::read_file(one.path(), 1U << 28));
       for (const char* word : {"Jane", "JANE", "4711"})
         if (bytes.find(word) != std::string::npos) {
           found.push_back(one.path().filename().string());

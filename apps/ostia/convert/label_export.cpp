@@ -40,7 +40,9 @@ Grid grid_of(const std::filesystem::path& file, bool whole, const core::TaskCont
   if (kind == pipeline::SourceKind::surface)
     throw InvalidInput(own_name(file) + " is a surface and has no grid; give the CT, or a mask on its grid");
   if (whole || kind == pipeline::SourceKind::dicom) {
-    grid.ct = pipeline::load_ct(file, {}, task);
+    pipeline::SourceOptions reading;
+    reading.dicom.assume_axial = true;  // the case says how the patient lies
+    grid.ct = pipeline::load_ct(file, reading, task);
     for (const std::string& warning : grid.ct.warnings) core::log_warning(warning);
     grid.geometry = grid.ct.image->geometry;
   } else {

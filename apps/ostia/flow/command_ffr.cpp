@@ -49,6 +49,7 @@ session::PressureReportOptions options_of(const FfrCommand& c) {
       c.junctions == "none" ? hemodynamics::JunctionLaw::none : hemodynamics::JunctionLaw::unified;
   options.pulse = c.pulse;
   options.unusual = c.unusual;
+  hemodynamics::validate(options.conditions, true);  // what has no meaning is never taken
   try {
     hemodynamics::validate(options.conditions, options.unusual);
   } catch (const InvalidInput& error) {

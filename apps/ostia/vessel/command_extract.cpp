@@ -120,7 +120,11 @@ ExitCode run_extract(const ExtractCommand& o, const core::TaskContext& task) {
   require_output(o.output, {".ostia"});
   require_output(o.lines, line_outputs);
   NewCase made(o.output);
-  if (o.of_mask.mask || holds_labels(o.input.input)) return extract_mask(o, made, task);
+  if (o.of_mask.mask || holds_labels(o.input.input)) {
+    if (!o.axes.empty())
+      throw UsageError("--axes is for a CT, and " + own_name(o.input.input) + " is a mask");
+    return extract_mask(o, made, task);
+  }
   if (!o.of_mask.image.empty() || !o.of_mask.labels.empty())
     throw UsageError("--image and --label are for masks, and " + own_name(o.input.input) +
                      " is a CT; give --mask if it is a mask");

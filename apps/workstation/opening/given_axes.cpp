@@ -55,11 +55,11 @@ void Opening::open_with_axes(const fs::path& case_file, const std::string& axes)
     open_case(case_file);
 }
 
-void Opening::give_axes(const std::string& axes) {
+bool Opening::give_axes(const std::string& axes) {
   const session::OpenImage& image = desk_.bench.image();
-  if (!image.volume || reading()) return;
+  if (!image.volume || reading()) return false;
   const std::string given = axes == imaging::axes_of(shown_.as_read) ? std::string() : axes;
-  if (given == image.reference.axes) return;
+  if (given == image.reference.axes) return false;
   Loaded loaded = shown_;
   loaded.image = image;
   loaded.warnings.clear();
@@ -69,9 +69,12 @@ void Opening::give_axes(const std::string& axes) {
             desk_.machine.set_setting(axes_setting(image.reference.sha256), given);
           },
           true))
-    return;
+    return false;
+  // What is being sought in the image as it was would begin a case of it.
+  for (const char* job : {"tree", "path"}) desk_.jobs.cancel(job);
   if (desk_.bench.has_case()) close_case();
   turn(loaded, given, shown_path_);
+  return true;
 }
 
 }  // namespace ostia::workstation

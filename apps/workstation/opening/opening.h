@@ -61,7 +61,7 @@ class Opening final : public QObject {
   const imaging::Geometry& as_read() const { return shown_.as_read; }
   /// Gives the image on the table other axes (imaging::given_axes; empty: those of its file), which this
   /// machine remembers. A case that is open is closed: it was made of the image as it was.
-  void give_axes(const std::string& axes);
+  bool give_axes(const std::string& axes);
   /// A case of the image on the table, with the axes that it was made with: those the machine knows from here
   /// on.
   void open_with_axes(const std::filesystem::path& case_file, const std::string& axes);

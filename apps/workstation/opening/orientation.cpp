@@ -34,14 +34,16 @@ void Orientation::give(const std::string& axes) {
   const session::OpenImage& image = desk_.bench.image();
   const std::string own = imaging::axes_of(opening_.as_read());
   const std::string given = axes == own ? std::string() : axes;
-  if (given == image.reference.axes) {
+  const std::string& now = image.reference.axes;
+  if ((now.empty() ? own : now) == axes) {
     if (!desk_.bench.has_case()) search_();
     return;
   }
+  const Step step{image.reference.sha256, now, given,
+                  desk_.bench.has_case() ? desk_.case_path : std::filesystem::path()};
+  if (!opening_.give_axes(given)) return;
   undone_.clear();
-  done_.push_back({image.reference.sha256, image.reference.axes, given,
-                   desk_.bench.has_case() ? desk_.case_path : std::filesystem::path()});
-  opening_.give_axes(given);
+  done_.push_back(step);
 }
 
 bool Orientation::stands_at(const Step& step, const std::string& axes) const {

@@ -44,6 +44,7 @@ void BoxGrip::refresh() {
   if (there && !scene_.grip()) scene_.set_grip(this);  // a mesh that was cut has let go of it
   if (there == in_hand_) return;
   in_hand_ = there;
+  if (scene_.grip() && scene_.grip()->draws()) scene_.grip()->put_back();  // scissors: one at a time
   if (there) {
     former_ = scene_.grip() == this ? nullptr : scene_.grip();
     scene_.set_grip(this);

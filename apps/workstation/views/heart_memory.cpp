@@ -4,6 +4,7 @@
 #include "views/heart_volume.h"
 
 #include "ostia/core/error.h"
+#include "ostia/view/volume_box.h"
 
 #include <QJsonArray>
 #include <QJsonDocument>
@@ -121,7 +122,8 @@ std::string text_of_cuts(const std::vector<view::VolumeCut>& cuts) {
 
 std::string text_of_box(const view::VolumeCrop& box) {
   QJsonArray all;
-  for (std::size_t a = 0; a < 3; ++a) all.append(numbers_of({box.low[a], box.high[a]}));
+  const auto rounded = [](double share) { return std::round(1e4 * share) / 1e4; };
+  for (std::size_t a = 0; a < 3; ++a) all.append(numbers_of({rounded(box.low[a]), rounded(box.high[a])}));
   return QJsonDocument(all).toJson(QJsonDocument::Compact).toStdString();
 }
 
@@ -169,7 +171,9 @@ HeartMemory::HeartMemory(Desk& desk, HeartVolume& heart) : QObject(&heart), desk
 }
 
 std::map<std::string, std::string> HeartMemory::now() const {
-  return {{cuts_key, text_of_cuts(heart_.all_cuts())}, {box_key, text_of_box(heart_.crop.get())}};
+  const view::VolumeCrop box =
+      view::carried(heart_.crop.get(), heart_.crop_grid(), desk_.bench.image().volume->geometry);
+  return {{cuts_key, text_of_cuts(heart_.all_cuts())}, {box_key, text_of_box(box)}};
 }
 
 void HeartMemory::changed() {
@@ -208,9 +212,12 @@ void HeartMemory::on_case() {
 
 void HeartMemory::restore() {
   const session::CaseFile& file = desk_.bench.session().file();
+  const auto cuts =
+      cuts_of_text(file.setting(cuts_key).value_or("")).value_or(std::vector<view::VolumeCut>{});
+  const auto box = box_of_text(file.setting(box_key).value_or("")).value_or(view::VolumeCrop{});
   restoring_ = true;
-  heart_.set_cuts(cuts_of_text(file.setting(cuts_key).value_or("")).value_or(std::vector<view::VolumeCut>{}));
-  heart_.crop.set(box_of_text(file.setting(box_key).value_or("")).value_or(view::VolumeCrop{}));
+  heart_.set_cuts(cuts);
+  heart_.crop.set(view::carried(box, desk_.bench.image().volume->geometry, heart_.crop_grid()));
   restoring_ = false;
   kept_ = now();
 }

@@ -4,6 +4,7 @@
 #include "views/scene_widget.h"
 
 #include "ostia/imaging/reduced_volume.h"
+#include "ostia/view/volume_box.h"
 #include "ostia/view/volume_light.h"
 
 #include <any>
@@ -157,6 +158,7 @@ void HeartVolume::follow_image() {
   resting_.stop();
   image_ = desk_.bench.image().volume;
   source_ = desk_.bench.shown_image();
+  crop_grid_ = image_ ? image_->geometry : imaging::Geometry();
   ground_ = {};
   cuts_.clear();
   shown_.reset();
@@ -215,6 +217,9 @@ void HeartVolume::refresh() {
         histogram_ = made->histogram;
         stale_ = false;
         scene_.scene().set_volume(shown_);
+        const view::VolumeCrop box = view::carried(crop.get(), crop_grid_, shown_->geometry);
+        crop_grid_ = shown_->geometry;
+        crop.set(box);
         scene_.scene().set_volume_light(made->light);
         scene_.request_render();
         emit shown_changed();

@@ -56,6 +56,8 @@ class HeartVolume final : public QObject {
   const std::vector<std::int64_t>& histogram() const { return histogram_; }
   /// What is shown; null before it has been prepared.
   const std::shared_ptr<const imaging::ImageVolume>& shown() const { return shown_; }
+  /// The grid of which `crop` has shares: the image's until a heart is shown.
+  const imaging::Geometry& crop_grid() const { return crop_grid_; }
 
  signals:
   void shown_changed();
@@ -91,6 +93,7 @@ class HeartVolume final : public QObject {
   Ground ground_;
   std::vector<view::VolumeCut> cuts_;
   SharedImage shown_;
+  imaging::Geometry crop_grid_;
   std::vector<std::int64_t> histogram_;
   bool stale_ = true;
   int wish_ = 0;

@@ -179,7 +179,7 @@ std::optional<ConvergenceRow> convergence_of(const PressureProblem& middle, cons
   for (const Wanted& one : all) {
     if (one.of != of) continue;
     const auto run = keep.find(one.task.id, digest_of(one.task));
-    if (!run || !run->failure.empty()) return std::nullopt;
+    if (!run || !run->failure.empty() || !run->converged) return std::nullopt;
     meshes.emplace_back(one.task.mesh.edge_ratio, middle);
     meshes.back().second.run = *run;
   }
@@ -223,6 +223,8 @@ PressureResults compared(const std::vector<Walled>& plan, const std::vector<Want
         row_of_problem.push_back(results.rows.size());
         problems.push_back(problem);
       } catch (const InvalidInput& error) {
+        row.failure = error.what();
+      } catch (const GeometryError& error) {
         row.failure = error.what();
       } catch (const NumericalError& error) {
         row.failure = error.what();

@@ -53,6 +53,7 @@ struct Common {
 Common common_of(const PressureProblem& problem, const std::vector<std::vector<double>>& pa) {
   const std::size_t root = root_of(problem.network);
   const hemodynamics::Branch& branch = problem.network.branches[root];
+  if (branch.stations.size() < 2) throw InvalidInput("the root has no sections that are measured");
   Common common;
   common.s_mm = first_compared_mm(branch);
   common.pa_1d = between(branch, pa[root], common.s_mm);

@@ -161,7 +161,11 @@ RestingFlow resting_flow(const Network& network, const Conditions& conditions) {
         "flow goes by its calibre");
   flow.outlets_ml_s.assign(outlets.size(), 0.0);
   for (const std::size_t root : roots) {
-    const double d = root_diameter_mm(network.branches[root]);
+    double d = root_diameter_mm(network.branches[root]);
+    const bool widest = !(d > 0.0);
+    // A root too short to be measured is as wide as the widest of its branches.
+    for (std::size_t b = 0; b < root_of.size() && widest; ++b)
+      if (root_of[b] == static_cast<int>(root)) d = std::max(d, root_diameter_mm(network.branches[b]));
     const double carried = conditions.calibre_factor * std::pow(1e-3 * d, conditions.calibre_exponent) * 1e6;
     double own = 0.0;
     for (std::size_t k = 0; k < outlets.size(); ++k)

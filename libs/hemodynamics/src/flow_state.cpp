@@ -1,32 +1,34 @@
 #include "ostia/hemodynamics/flow_state.h"
 
-#include <algorithm>
+#include <optional>
 
 namespace ostia::hemodynamics {
 namespace {
 
-/// A bed asks for its flow as long as its resistance need not fall below the least.
+/// A bed asks for its flow as long as its resistance need not fall below the least. All begin wide open; one
+/// that gets more than it asks for takes that alone. This only raises the pressure elsewhere, so no bed is
+/// asked twice.
 FlowState at_rest(const PreparedNetwork& network, const Conditions& conditions, const RestingFlow& resting,
                   const Microcirculation& beds, Boundary boundary, const Solution* from) {
   FlowState state{State::rest, std::move(boundary), {}, {}};
   const double venous = conditions.venous_mmhg * pa_of_mmhg;
-  for (std::size_t k = 0; k < resting.outlets_ml_s.size(); ++k)
-    state.boundary.outlets[k] = {beds.hyperaemic_pa_s_ml[k], venous, resting.outlets_ml_s[k]};
-  for (;;) {
+  auto& outlets = state.boundary.outlets;
+  const auto asks = [&](std::size_t k) {
+    return !outlets[k].flow_ml_s && !network.beyond_occlusion(network.outlets()[k]);
+  };
+  for (std::size_t k = 0; k < outlets.size(); ++k)
+    outlets[k] = {beds.hyperaemic_pa_s_ml[k], venous, std::nullopt};
+  for (bool changed = true; changed;) {
     state.solution = solve(network, state.boundary, from);
-    bool changed = false;
-    for (std::size_t k = 0; k < state.boundary.outlets.size(); ++k) {
-      Outlet& outlet = state.boundary.outlets[k];
-      if (!outlet.flow_ml_s || network.beyond_occlusion(network.outlets()[k])) continue;
-      const double pressure = state.solution.to_pa[network.outlets()[k]];
-      if (pressure >= venous + outlet.resistance_pa_s_ml * *outlet.flow_ml_s * (1.0 - 1e-9)) continue;
-      outlet.flow_ml_s.reset();
-      state.exhausted.push_back(k);
+    changed = false;
+    for (std::size_t k = 0; k < outlets.size(); ++k) {
+      if (!asks(k) || state.solution.flow_ml_s[network.outlets()[k]] < resting.outlets_ml_s[k]) continue;
+      outlets[k].flow_ml_s = resting.outlets_ml_s[k];
       changed = true;
     }
-    if (!changed) break;
   }
-  std::sort(state.exhausted.begin(), state.exhausted.end());
+  for (std::size_t k = 0; k < outlets.size(); ++k)
+    if (asks(k)) state.exhausted.push_back(k);
   return state;
 }
 

@@ -209,7 +209,8 @@ TreeReadings read_tree(const PreparedNetwork& network, const FlowState& state,
                          : pressure_at(network, readings, lesion.from) / readings.aortic_pa;
     reading.read_at = downstream(network, state.solution, lesion.to, options.behind_mm, reading.distance_mm);
     reading.behind = pressure_at(network, readings, reading.read_at) / readings.aortic_pa;
-    reading.occluded = network.beyond_occlusion(reading.read_at.branch);
+    reading.occluded = network.beyond_occlusion(reading.read_at.branch) ||
+                       state.solution.flow_ml_s[reading.lesion.throat.branch] == 0.0;
     readings.lesions.push_back(std::move(reading));
   }
   for (const std::size_t outlet : network.outlets()) {

@@ -65,10 +65,9 @@ meshing::RemeshedSurface with_other_points(meshing::RemeshedSurface made,
                                            const meshing::TubeFunction& tube,
                                            const std::vector<double>& lengths, const ModelOptions& options,
                                            const core::TaskContext& task) {
-  if (gate_takes(made, options.bounds)) return made;
   for (const double factor : {0.94, 0.88}) {
     std::vector<double> shorter = lengths;
-    for (double& length : shorter) length *= factor;
+    for (double& length : shorter) length = std::max(factor * length, options.sizing.min_edge_mm);
     meshing::RemeshedSurface other = remeshed_in_shape(capped, tube, std::move(shorter), options, task);
     if (!gate_takes(other, options.bounds)) continue;
     core::log_debug("remeshed with edges of " + core::fixed_text(factor, 2) +
@@ -151,6 +150,7 @@ meshing::RemeshedSurface remeshed_lumen(const geometry::FacedSurface& capped,
   const auto lengths = [&] { return meshing::target_edge_lengths(capped.mesh, tube, sizing, task); };
   const auto made_with = [&] { return remeshed_in_shape(capped, tube, lengths(), options, task); };
   meshing::RemeshedSurface made = made_with();
+  if (gate_takes(made, options.bounds)) return made;
   if (made.report.self_intersections == 0)
     return with_other_points(std::move(made), capped, tube, lengths(), options, task);
   const bool by_distance = !sizing.array && sizing.measure == meshing::SizeMeasure::distance;

@@ -113,7 +113,8 @@ void write_manifest(const fs::path& folder, const ManifestRecord& record) {
   manifest["warnings"] = warnings_of(record);
   manifest["quality"] = record.quality.empty() ? json::object() : json::parse(record.quality);
   manifest["outputs"] = outputs_of(folder);
-  core::write_file(folder / manifest_name, manifest.dump(2) + "\n");
+  core::write_file(folder / manifest_name,
+                   manifest.dump(2, ' ', false, json::error_handler_t::replace) + "\n");
 }
 
 std::string manifest_of(const fs::path& folder) {

@@ -128,7 +128,8 @@ void require_sound_surface(const TriMesh& surface, const std::string& what, bool
   const bool mended_before = several_parts;  // what is left then is what repairing could not mend
   throw GeometryError(
       message + (mended_before
-                     ? "; it is as far mended as `ostia convert --repair` can. " + cure_of_crossings(surface)
+                     ? "; it is as far mended as `ostia convert --repair` can" +
+                           (faults.self_intersections > 0 ? ". " + cure_of_crossings(surface) : std::string())
                      : "; `ostia convert IN OUT.vtp --repair` mends what can be mended"));
 }
 

@@ -59,15 +59,18 @@ std::string stations_csv(const PressureReport& report) {
     for (std::size_t i = 0; i < branches[b].stations.size(); ++i) {
       const auto& station = branches[b].stations[i];
       const auto& flow = report.under_hyperaemia.stations[b][i];
+      const auto unless_beyond = [&](double value, int decimals) {
+        return beyond ? std::string() : fixed_text(value, decimals);
+      };
       text += core::csv_line(
           {std::to_string(b), std::to_string(branches[b].vessel), branches[b].name,
            fixed_text(station.s_mm, 3), fixed_text(station.point.x(), 3), fixed_text(station.point.y(), 3),
            fixed_text(station.point.z(), 3), fixed_text(station.area_mm2, 4),
            fixed_text(station.shape.viscous, 4), fixed_text(station.curvature_per_mm, 5),
-           fixed_text(report.under_hyperaemia.ratio(b, i), 5), fixed_text(report.at_rest.ratio(b, i), 5),
-           fixed_text(flow.pressure_pa / pa_of_mmhg, 4), fixed_text(flow.momentum, 4),
-           fixed_text(flow.wall_shear_pa, 4), fixed_text(flow.reynolds, 1), flow.separated() ? "1" : "0",
-           beyond ? "1" : "0"});
+           unless_beyond(report.under_hyperaemia.ratio(b, i), 5),
+           unless_beyond(report.at_rest.ratio(b, i), 5), unless_beyond(flow.pressure_pa / pa_of_mmhg, 4),
+           fixed_text(flow.momentum, 4), fixed_text(flow.wall_shear_pa, 4), fixed_text(flow.reynolds, 1),
+           flow.separated() ? "1" : "0", beyond ? "1" : "0"});
     }
   }
   return text;
@@ -86,7 +89,7 @@ std::string lesions_csv(const PressureReport& report) {
     text += core::csv_line({one.lesion.name, report.tree.network.branches[one.lesion.throat.branch].name,
                             fixed_text(one.lesion.from.s_mm, 2), fixed_text(one.lesion.throat.s_mm, 2),
                             fixed_text(one.lesion.to.s_mm, 2), number(one.behind, 4),
-                            fixed_text(one.distance_mm, 1), fixed_text(one.before, 4), number(one.delta(), 4),
+                            fixed_text(one.distance_mm, 1), number(one.before, 4), number(one.delta(), 4),
                             number(report.at_rest.lesions[i].behind, 4),
                             report.pulse ? number(report.pulse->places[i].wave_free_ratio, 4) : std::string(),
                             one.occluded ? "1" : "0"});
@@ -109,7 +112,7 @@ std::string outlets_csv(const PressureReport& report) {
                             fixed_text(report.rest.solution.flow_ml_s[b] * 60.0, 3),
                             fixed_text(report.hyperaemia.solution.flow_ml_s[b] * 60.0, 3),
                             known ? fixed_text(pullback.points.back().ratio, 4) : std::string(),
-                            fixed_text(pullback.ppg_index, 3)});
+                            known ? fixed_text(pullback.ppg_index, 3) : std::string()});
   }
   return text;
 }

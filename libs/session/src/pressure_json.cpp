@@ -55,7 +55,7 @@ Json lesions_json(const PressureReport& report) {
                 {"read_at", place_json(report, one.read_at)},
                 {"behind_mm", one.distance_mm},
                 {"occluded", one.occluded},
-                {"before", one.before},
+                {"before", unless_occluded(one.before)},
                 {"ffr", unless_occluded(one.behind)},
                 {"delta_ffr", unless_occluded(one.delta())},
                 {"resting_pd_pa", unless_occluded(rest.behind)},
@@ -87,8 +87,8 @@ Json outlets_json(const PressureReport& report) {
                    {"hyperaemic_ml_min", hyperaemic * ml_min},
                    {"flow_reserve", rest > 0.0 ? Json(hyperaemic / rest) : Json()},
                    {"ffr", beyond || pullback.points.empty() ? Json() : Json(pullback.points.back().ratio)},
-                   {"ppg_index", pullback.ppg_index},
-                   {"greatest_fall_20mm", pullback.greatest_fall_20mm},
+                   {"ppg_index", beyond ? Json() : Json(pullback.ppg_index)},
+                   {"greatest_fall_20mm", beyond ? Json() : Json(pullback.greatest_fall_20mm)},
                    {"occluded", beyond}});
   }
   return all;
@@ -125,7 +125,7 @@ std::string pressure_json(const PressureReport& report) {
                      {"change_pa", report.pulse->change_pa}};
   root["conditions"] = Json::parse(hemodynamics::conditions_json(report.options.conditions));
   root["warnings"] = report.warnings;
-  return root.dump(1) + "\n";
+  return root.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace ostia::session

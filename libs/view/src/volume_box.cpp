@@ -55,4 +55,23 @@ VolumeCrop with_face_moved(const VolumeCrop& crop, const BoxFace& face, double b
   return moved;
 }
 
+VolumeCrop carried(const VolumeCrop& crop, const imaging::Geometry& from, const imaging::Geometry& to) {
+  validate(crop);
+  const auto faces = faces_of(crop, from), ends = faces_of({}, to);
+  VolumeCrop out;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const BoxFace& first = ends[2 * axis];
+    const auto share_of = [&](const BoxFace& side) {
+      if (!(first.whole_mm > 0.0)) return side.high ? 1.0 : 0.0;
+      return std::clamp((side.middle - first.middle).dot(first.towards) / first.whole_mm, 0.0, 1.0);
+    };
+    if (crop.low[axis] > 0.0) out.low[axis] = share_of(faces[2 * axis]);
+    if (crop.high[axis] < 1.0) out.high[axis] = share_of(faces[2 * axis + 1]);
+    if (out.high[axis] - out.low[axis] >= least_box_share) continue;
+    out.low[axis] = 0.0;
+    out.high[axis] = 1.0;
+  }
+  return out;
+}
+
 }  // namespace ostia::view

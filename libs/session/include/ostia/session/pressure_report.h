@@ -31,7 +31,7 @@ struct PressureReport {
   std::vector<std::string> warnings;
 };
 
-/// Throws InvalidInput for conditions, options or a tree without an open way, NumericalError, Cancelled.
+/// Throws InvalidInput for conditions or options, NumericalError, Cancelled.
 PressureReport make_pressure_report(PressureTree tree, const PressureReportOptions& options,
                                     const core::TaskContext& task = core::no_task());
 

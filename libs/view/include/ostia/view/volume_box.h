@@ -24,5 +24,9 @@ std::vector<std::array<Vec3, 2>> edges_of(const VolumeCrop& crop, const imaging:
 /// The box with one side moved by so many mm along `towards`, as far as the image and the other side let it:
 /// 1 % of the image stays between them. Throws InvalidInput for a crop that is none.
 VolumeCrop with_face_moved(const VolumeCrop& crop, const BoxFace& face, double by_mm);
+/// The same box in the patient, as shares of another grid: sides that cut nothing off stay at its ends, those
+/// beyond it come to its ends; whole where nothing would be left. Throws InvalidInput for a crop that is
+/// none.
+VolumeCrop carried(const VolumeCrop& crop, const imaging::Geometry& from, const imaging::Geometry& to);
 
 }  // namespace ostia::view

@@ -16,5 +16,5 @@ if [ "$all" = yes ]; then
   scripts/build.sh asan
   ctest --test-dir build/asan --parallel "$(nproc)" --label-regex '^unit$'
 else
-  ctest --test-dir build/release --parallel "$(($(nproc) + 1))" --label-exclude '^slow$'
+  ctest --test-dir build/release --parallel "$(($(nproc) + 2))" --label-exclude '^slow$'
 fi

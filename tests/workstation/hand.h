@@ -6,12 +6,15 @@
 #include <QApplication>
 #include <QElapsedTimer>
 #include <QFileDialog>
+#include <QImage>
 #include <QLineEdit>
 #include <QMessageBox>
 #include <QMouseEvent>
+#include <QScreen>
 #include <QThread>
 #include <QTimer>
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -105,6 +108,16 @@ inline void let_rest() {
   constexpr int rest_ms = 190, most_ms = 3000;
   LastDrawn drawn;
   wait_until([&] { return drawn.rested_ms() >= rest_ms; }, most_ms);
+}
+
+/// What the screen shows of a window at rest; kept as a PNG of this name where OSTIA_PICTURES says.
+inline QImage on_screen(const QWidget& window, const QString& name) {
+  let_rest();
+  const QRect all = window.frameGeometry();
+  QImage picture = window.screen()->grabWindow(0, all.x(), all.y(), all.width(), all.height()).toImage();
+  if (const char* pictures = std::getenv("OSTIA_PICTURES"))
+    picture.save(QString("%1/%2.png").arg(pictures, name));
+  return picture;
 }
 
 inline void send(QWidget& widget, QEvent::Type type, const QPoint& at, Qt::MouseButton button,

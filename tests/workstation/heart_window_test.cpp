@@ -18,14 +18,12 @@
 #include <QComboBox>
 #include <QDockWidget>
 #include <QInputDialog>
-#include <QScreen>
 #include <QSlider>
 #include <QTest>
 #include <QWindow>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 
 namespace ostia::workstation {
 namespace {
@@ -102,16 +100,6 @@ struct HeartWindow : ::testing::Test {
     const QPointF where(px.x() / ratio, native->height() - px.y() / ratio);
     QMouseEvent event(type, where, native->mapToGlobal(where.toPoint()), button, held, Qt::NoModifier);
     QApplication::sendEvent(native, &event);
-  }
-  void look(const char* name) {
-    testing::let_rest();
-    const char* pictures = std::getenv("OSTIA_PICTURES");
-    if (!pictures) return;
-    const QRect all = test->window().frameGeometry();
-    test->window()
-        .screen()
-        ->grabWindow(0, all.x(), all.y(), all.width(), all.height())
-        .save(QString("%1/heart-%2.png").arg(pictures, name));
   }
   /// Around the places from z = 10 to z = 16 mm, across all of the image.
   void draw_around(bool let_go = true) {
@@ -241,7 +229,7 @@ TEST_F(HeartWindow, ASideOfTheBoxIsPulledByTheMouse) {
   EXPECT_EQ(heart().crop.get().low, (std::array{0.0, 0.0, 0.0}));
   EXPECT_LT((scene().pose().towards - before.towards).norm(), 1e-12) << "the hand turned the tree";
   EXPECT_LT(child<QSlider>("heart_to_3").value(), 200) << "the dock follows";
-  look("box");
+  testing::on_screen(test->window(), "heart-box");
   run("heart.box");  // without it the mouse turns the tree again
   testing::let_rest();
   mouse(QEvent::MouseButtonPress, top().middle, Qt::LeftButton, Qt::LeftButton);

@@ -17,14 +17,12 @@
 #include <QDoubleSpinBox>
 #include <QListWidget>
 #include <QRegularExpression>
-#include <QScreen>
 #include <QSlider>
 #include <QSpinBox>
 #include <QWindow>
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
 #include <numeric>
 #include <thread>
 
@@ -43,14 +41,9 @@ class NarrowWindow : public testing::MeshingWindow {
   NarrowWindow() : MeshingWindow(0.8) {}
   ~NarrowWindow() override { QApplication::processEvents(); }
 
-  /// What the screen has of the 3D view, or of all; kept where OSTIA_PICTURES says.
+  /// What the screen has of the 3D view.
   QImage look(const char* name) {
-    settle();
-    const QRect all = test->window().frameGeometry();
-    const QImage whole =
-        test->window().screen()->grabWindow(0, all.x(), all.y(), all.width(), all.height()).toImage();
-    if (const char* folder_of_pictures = std::getenv("OSTIA_PICTURES"))
-      whole.save(QString("%1/%2.png").arg(folder_of_pictures, name));
+    const QImage whole = testing::on_screen(test->window(), name);
     const QPoint corner = test->window().scene().mapTo(&test->window(), QPoint(0, 0));
     return whole.copy(QRect(corner, test->window().scene().size()));
   }

@@ -14,11 +14,9 @@
 
 #include <QCheckBox>
 #include <QListWidget>
-#include <QScreen>
 #include <QSlider>
 #include <atomic>
 #include <chrono>
-#include <cstdlib>
 #include <numeric>
 #include <thread>
 
@@ -59,16 +57,7 @@ struct MeshOpening : testing::TubeWindow {
   bool shown() {
     return wait_until([&] { return idle() && panel().isVisible(); }, 30000);
   }
-  /// Kept where OSTIA_PICTURES says.
-  QImage look(const char* name_of_picture) {
-    settle();
-    const QRect all = window().frameGeometry();
-    const QImage picture =
-        window().screen()->grabWindow(0, all.x(), all.y(), all.width(), all.height()).toImage();
-    if (const char* pictures = std::getenv("OSTIA_PICTURES"))
-      picture.save(QString("%1/%2.png").arg(pictures, name_of_picture));
-    return picture;
-  }
+  QImage look(const char* name) { return testing::on_screen(window(), name); }
   void open_and_look() {
     open_case();
     open(write(MeshFormat::vtu, "mesh.vtu"));

@@ -19,10 +19,8 @@
 #include <QLabel>
 #include <QPointer>
 #include <QPushButton>
-#include <QScreen>
 #include <QTest>
 #include <QTreeWidget>
-#include <cstdlib>
 
 namespace ostia::workstation {
 namespace {
@@ -123,16 +121,6 @@ struct OrientationWindow : ::testing::Test {
   void expect_right() {
     for (const Block& one : {left, right, back, front, head, feet}) EXPECT_EQ(hu_at(one.at), one.hu);
   }
-  void look(const char* name) {
-    testing::let_rest();
-    const char* pictures = std::getenv("OSTIA_PICTURES");
-    if (!pictures) return;
-    const QRect all = window().frameGeometry();
-    window()
-        .screen()
-        ->grabWindow(0, all.x(), all.y(), all.width(), all.height())
-        .save(QString("%1/orientation-%2.png").arg(pictures, name));
-  }
 };
 
 TEST_F(OrientationWindow, TheSlicesFollowAtOnceAndTheLettersMeanWhatTheySay) {
@@ -161,12 +149,12 @@ TEST_F(OrientationWindow, TheSlicesFollowAtOnceAndTheLettersMeanWhatTheySay) {
     EXPECT_NEAR(seen("orientation_sagittal", 0, -14), s.hu, 5);
   };
   expect_slices(left, right, back, front, head, feet);
-  look("dialog");
+  testing::on_screen(window(), "orientation-dialog");
   press("orientation_flip_3");
   EXPECT_EQ(dialog().axes(), "LPI");
   expect_slices(left, right, back, front, feet, head);
   EXPECT_THAT(dialog().findChild<QLabel*>("orientation_told")->text().toStdString(), HasSubstr("mirrors"));
-  look("mirrored");
+  testing::on_screen(window(), "orientation-mirrored");
   press("orientation_flip_1");
   EXPECT_EQ(dialog().axes(), "RPI");
   expect_slices(right, left, back, front, feet, head);
@@ -202,7 +190,7 @@ TEST_F(OrientationWindow, AnImageOnItsHeadIsSetRightTakenBackAndRemembered) {
   end(Qt::Key_Return);
   EXPECT_EQ(bench().image().reference.axes, "LPI");
   expect_right();
-  look("set");
+  testing::on_screen(window(), "orientation-set");
   part<QAction>("edit.undo")->trigger();
   ASSERT_TRUE(wait_until([&] { return bench().image().reference.axes.empty(); }));
   ASSERT_TRUE(idle());

@@ -15,10 +15,8 @@
 
 #include <QCheckBox>
 #include <QDoubleSpinBox>
-#include <QScreen>
 #include <QStatusBar>
 #include <QStyle>
-#include <cstdlib>
 
 namespace ostia::workstation {
 namespace {
@@ -87,15 +85,7 @@ class BeatingWindow : public testing::TubeWindow {
     settle();
   }
   double percent() { return window().beating().clock().percent.get(); }
-  /// Of the screen; kept where OSTIA_PICTURES says.
-  QImage look(const char* name) {
-    settle();
-    const QRect all = window().frameGeometry();
-    QImage whole = window().screen()->grabWindow(0, all.x(), all.y(), all.width(), all.height()).toImage();
-    if (const char* pictures = std::getenv("OSTIA_PICTURES"))
-      whole.save(QString("%1/%2.png").arg(pictures, name));
-    return whole;
-  }
+  QImage look(const char* name) { return testing::on_screen(window(), name); }
   QImage tree_of(const QImage& whole) {
     return whole.copy(QRect(window().scene().mapTo(&window(), QPoint(0, 0)), window().scene().size()));
   }

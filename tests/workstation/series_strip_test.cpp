@@ -22,7 +22,6 @@
 #include <QAction>
 #include <QLabel>
 #include <QPushButton>
-#include <QScreen>
 #include <QSlider>
 #include <QStatusBar>
 #include <QTest>
@@ -149,16 +148,6 @@ struct StudyWindow : ::testing::Test {
       if (text.text.starts_with("image ")) return QString::fromStdString(text.text);
     return {};
   }
-  void look(const char* name) {
-    testing::let_rest();
-    const char* pictures = std::getenv("OSTIA_PICTURES");
-    if (!pictures) return;
-    const QRect all = window().frameGeometry();
-    window()
-        .screen()
-        ->grabWindow(0, all.x(), all.y(), all.width(), all.height())
-        .save(QString("%1/%2.png").arg(pictures, name));
-  }
 };
 
 TEST_F(StudyWindow, AFoldersPhasesAreInTheStripAndTheSharpestIsProposed) {
@@ -179,11 +168,11 @@ TEST_F(StudyWindow, AFoldersPhasesAreInTheStripAndTheSharpestIsProposed) {
   EXPECT_THAT(note_of("75 %").toStdString(), HasSubstr(" % sharp"));
   EXPECT_TRUE(testing::layout_faults(window()).isEmpty())
       << testing::layout_faults(window()).join("\n").toStdString();
-  look("series_75");
+  testing::on_screen(window(), "series_75");
   QTest::mouseClick(best, Qt::LeftButton);
   EXPECT_TRUE(comes(rest_percent));
   EXPECT_EQ(caption(), "image 55 %");
-  look("series_55");
+  testing::on_screen(window(), "series_55");
 }
 
 TEST_F(StudyWindow, ClicksKeysAndTheSliderChooseAndThereIsAWayBack) {
@@ -265,7 +254,7 @@ TEST_F(StudyWindow, WithACaseTheAxesStayAndItIsSaidAndNothingIsEdited) {
   for (const char* view : {"slice", "section", "cpr1", "cpr2"})
     EXPECT_EQ(caption(view), "image 35 %, axes of 75 %") << view;
   EXPECT_FALSE(test->picture("cpr1").view().contour_lines().empty()) << "the walls are the case's";
-  look("series_case_35");
+  testing::on_screen(window(), "series_case_35");
   lumen::WallDrag edit;
   edit.vessel = bench().vessel.get();
   edit.from = {1.5, 0.0, 20.0};

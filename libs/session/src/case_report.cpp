@@ -212,8 +212,7 @@ class Maker {
       for (const analysis::Lesion& one :
            analysis::find_lesions(report_.profiles.at(vessel.id), report_.references.at(vessel.id), plaque,
                                   report_.options.stenosis, report_.options.plaque_stretches))
-        if (one.stenosis.throat_mm >= vessel.own_from_mm && is_told(one, vessel.evaluable))
-          add_lesion(vessel, one);
+        if (is_told(one, vessel.own_from_mm, vessel.evaluable)) add_lesion(vessel, one);
     }
     for (ReportStenosis& one : report_.stenoses) {
       const auto walls = report_.walls.find(one.stenosis.vessel);

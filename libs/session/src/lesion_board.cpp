@@ -72,7 +72,7 @@ void LesionBoard::add_rows(const geometry::Vessel& vessel) {
   const VesselMark* mark = find_mark(*bench_.session().file().annotations(), vessel.id);
   for (analysis::Lesion& lesion : analysis::find_lesions(*profile, *reference, plaque)) {
     const analysis::Stenosis& place = lesion.stenosis;
-    if (place.throat_mm < own_mm || !is_told(lesion, stretches)) continue;
+    if (!is_told(lesion, own_mm, stretches)) continue;
     LesionRow row;
     row.number = static_cast<int>(rows_.size()) + 1;
     row.vessel = vessel.id;

@@ -17,10 +17,12 @@
 
 namespace ostia::session {
 
-/// Plaque by itself is told only where the image can be judged: elsewhere an outer wall is a guess.
-/// `stretches`: of its vessel; empty: not known, all is told.
-inline bool is_told(const analysis::Lesion& lesion,
+/// Which of the lesions that are found are told, in lists and in reports: those on the vessel's own part,
+/// which begins at `own_from_mm` (before it lies its parent's); plaque by itself only where the image can be
+/// judged: elsewhere an outer wall is a guess. `stretches`: of its vessel; empty: not known, all is told.
+inline bool is_told(const analysis::Lesion& lesion, double own_from_mm,
                     const std::vector<analysis::EvaluableStretch>& stretches) {
+  if (lesion.stenosis.throat_mm < own_from_mm) return false;
   if (lesion.narrows) return true;
   const auto here = analysis::worst_within(stretches, lesion.stenosis.throat_mm, lesion.stenosis.throat_mm);
   return !here || here->grade != analysis::Evaluability::not_evaluable;

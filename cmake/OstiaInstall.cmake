@@ -3,6 +3,7 @@
 #   workstation    the window, its manual, desktop entry, icon and file type
 #   development    libraries, headers, what find_package(Ostia) reads
 #   documentation  the texts of docs/
+#   python         the package ostia, by its name alone (bindings/python)
 # Nothing is installed that was not asked to be built; benchmarks and tests are not needed.
 include(CMakePackageConfigHelpers)
 

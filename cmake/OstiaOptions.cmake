@@ -22,7 +22,22 @@ option(OSTIA_WERROR "Treat warnings as errors" ${PROJECT_IS_TOP_LEVEL})
 option(OSTIA_APPS "Build the programs, not only the libraries and their worker" ${PROJECT_IS_TOP_LEVEL})
 option(OSTIA_INSTALL "Offer to install what is built" ${PROJECT_IS_TOP_LEVEL})
 option(OSTIA_WITH_IMAGE_LIBRARIES "Build what needs VTK, GDCM, Cairo or Embree" ON)
+set(OSTIA_PYTHON AUTO CACHE STRING "Build the Python package: ON, OFF, or AUTO, with the tests")
+set_property(CACHE OSTIA_PYTHON PROPERTY STRINGS AUTO ON OFF)
+option(OSTIA_PIC "Compile everything so that a shared module can hold it; OFF: only what the Python module links" OFF)
 option(OSTIA_ASAN "AddressSanitizer and UndefinedBehaviorSanitizer in our own libraries" OFF)
+
+# Of the whole chain: the module needs all rooms below the views. An instrumented module needs an instrumented Python.
+set(OSTIA_PYTHON_BUILT "${OSTIA_PYTHON}")
+if(OSTIA_PYTHON STREQUAL "AUTO")
+  set(OSTIA_PYTHON_BUILT "${OSTIA_TESTS}")
+endif()
+if(NOT OSTIA_WITH_IMAGE_LIBRARIES OR OSTIA_ASAN)
+  if(OSTIA_PYTHON STREQUAL "ON")
+    message(FATAL_ERROR " The Python package needs OSTIA_WITH_IMAGE_LIBRARIES, and is not built with OSTIA_ASAN: configure with -DOSTIA_PYTHON=OFF")
+  endif()
+  set(OSTIA_PYTHON_BUILT OFF)
+endif()
 
 # Both are for speed alone; the preset `plain` builds without them, so that each source is seen to include what it uses.
 option(OSTIA_UNITY "Compile a room's sources in batches" ON)
@@ -42,6 +57,10 @@ endif()
 
 # Results must not depend on whether the compiler fuses multiply and add.
 add_compile_options(-ffp-contract=off)
+if(OSTIA_PIC)
+  # Nothing takes the place of a function of ours when a program is loaded, so calls within a source may be inlined as ever.
+  add_compile_options(-fPIC -fno-semantic-interposition)
+endif()
 # A program links only what it uses: the worker alone needs GDCM and TetGen.
 add_link_options(-Wl,--as-needed)
 if(OSTIA_ASAN)

@@ -39,6 +39,9 @@ set(OSTIA_THIRD_PARTIES
   "PkgConfig::EPOXY|pkgconfig epoxy|libepoxy-dev"
   "Qt5::Widgets|package Qt5 5.15 COMPONENTS Widgets|qtbase5-dev"
   "Qt5::lrelease|package Qt5 5.15 COMPONENTS LinguistTools|qttools5-dev"
+  "pybind11::headers|package pybind11 2.10|pybind11-dev"
+  # Headers alone: who loads the module has the library.
+  "OstiaThirdParty::python|library Python.h:python3.11|python3-dev"
   "GTest::gtest|package GTest|libgtest-dev"
   "benchmark::benchmark|package benchmark|libbenchmark-dev")
 

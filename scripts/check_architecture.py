@@ -30,12 +30,15 @@ QUARANTINE = {
 # The workstation: its frame, and a folder for what a user does, each of which may use the frame and those before it.
 # The window that puts them together is known in these sources alone.
 FRAME = {"shell", "commands", "views"}
-FEATURES = ["opening", "trees", "phases", "vessels", "measuring", "meshing", "flow", "qa", "help"]
+FEATURES = ["opening", "trees", "phases", "vessels", "measuring", "pressure", "meshing", "flow", "qa", "help"]
 WORKSTATION = FRAME | set(FEATURES)
 COMPOSED_IN = re.compile(r"shell/(main_window\w*|panel_layout)\.cpp$")
 # The command line: what serves all commands, and a folder for what they work on. Above the folders, all of them together.
 COMMAND_LINE = {"options", "input", "output", "convert", "vessel", "tree", "mesh", "flow", "measure", "motion", "phantom", "evaluate", "experiment", "chain"}
 ABOVE_COMMANDS = {"main", "cli", "commands", "command_table"}
+# Python's hands: a source a room, which is named after it, and what they share. pybind11 stands nowhere else.
+SHARED_BY_BINDINGS = {"module", "rooms", "array", "call", "errors", "options"}
+PARTS_OF_BINDINGS = {"meshes": "geometry", "trees": "geometry", "graphs": "geometry", "volume": "imaging", "walls": "lumen", "mesh_options": "meshing", "case": "session"}
 FEATURE_INCLUDED = re.compile(r'#\s*include\s*"([a-z]+)/')
 
 
@@ -125,6 +128,28 @@ def check_command_line(root, breaches):
             breaches.append(f"{path.relative_to(root).as_posix()}:1: the commands' sources live in the folders of apps/ostia: {', '.join(sorted(COMMAND_LINE))}")
 
 
+def check_bindings(root, breaches):
+    """A room's source asks its own room, and those below it whose values it hands over."""
+    for path in sorted(p for p in (root / "bindings" / "python").rglob("*") if p.suffix in {".h", ".cpp"}):
+        relative = path.relative_to(root).as_posix()
+        room = PARTS_OF_BINDINGS.get(path.stem, path.stem)
+        if path.stem not in SHARED_BY_BINDINGS and position(room) is None:
+            breaches.append(f"{relative}:1: a source of the bindings is named after its room")
+            continue
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+            own = OWN.search(line)
+            if own and path.stem not in SHARED_BY_BINDINGS and not may_use(room, own.group(1)):
+                breaches.append(f"{relative}:{number}: {room} may not use {own.group(1)}")
+            if own and path.stem in SHARED_BY_BINDINGS and own.group(1) not in {"core", "geometry"}:
+                breaches.append(f"{relative}:{number}: what all bindings share uses core and geometry alone")
+            if FOREIGN.search(line):
+                breaches.append(f"{relative}:{number}: the bindings see the libraries' own headers: {line.strip()}")
+    for folder in ("libs", "apps"):
+        for path in sorted(p for p in (root / folder).rglob("*") if p.suffix in {".h", ".cpp"}):
+            if "pybind11" in path.read_text(encoding="utf-8"):
+                breaches.append(f"{path.relative_to(root).as_posix()}:1: pybind11 stands in bindings/python alone")
+
+
 def main():
     root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else __file__.rsplit("/", 2)[0]).resolve()
     breaches = []
@@ -140,6 +165,7 @@ def main():
             check_hidden_constants(folder, root, breaches)
     check_workstation(root, breaches)
     check_command_line(root, breaches)
+    check_bindings(root, breaches)
     print("\n".join(breaches) if breaches else f"{len(sources)} files, no breach")
     return 1 if breaches else 0
 

@@ -12,7 +12,7 @@ MENTION = re.compile(r"\bdocs/[A-Za-z0-9_./-]+\.(?:md|png|svg|json)\b")
 KEY = re.compile(r"(?<![\w\])])\[([A-Z][a-z]+)(?: et al\.)?(?: \d[\d.]*(?:, \d[\d.]*)*)?\](?!\()")
 SOURCE = re.compile(r"`([\w./-]+\.(?:cpp|h|cmake|sh))`")
 CODE = {".h", ".cpp", ".py", ".sh", ".cmake", ".txt"}
-FOLDERS_OF_CODE = ["libs", "apps", "tests", "bench", "scripts", "cmake", "examples", "packaging"]
+FOLDERS_OF_CODE = ["libs", "apps", "bindings", "tests", "bench", "scripts", "cmake", "examples", "packaging"]
 
 
 def pages(root):

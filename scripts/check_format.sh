@@ -3,7 +3,7 @@
 # Names each file that is not, and exits with 1; --fix formats them.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-sources() { find libs apps tests bench \( -name '*.h' -o -name '*.cpp' \) -print0 | sort -z; }
+sources() { find libs apps bindings tests bench \( -name '*.h' -o -name '*.cpp' \) -print0 | sort -z; }
 if [ "${1:-}" = --fix ]; then
   sources | xargs -0 clang-format -i
   exit 0

@@ -33,6 +33,7 @@ build/release/bin/extension_picture sections docs/pictures/flow-extensions.png
 build/release/bin/bifurcation_picture branches fork docs/pictures/bifurcations-branches.png
 build/release/bin/bifurcation_picture patches fork docs/pictures/bifurcations-patches.png
 build/release/bin/filters_picture "$work/phantom/dataset00" vessel1 docs/pictures/filters.png
+build/release/bin/uncertainty_picture docs/pictures/pressure-uncertainty.png
 
 # Where OpenFOAM is installed: the first flow of the researcher's tutorial.
 if command -v simpleFoam > /dev/null; then
@@ -54,6 +55,10 @@ cp "$work/orientations/radius.png" docs/pictures/orientations-radius.png
 build/release/bin/ostia experiment smoothness -o "$work/smoothness"
 cp "$work/smoothness/distance.png" docs/pictures/smoothness-distance.png
 cp "$work/smoothness/smoothness.png" docs/pictures/smoothness-curvature.png
+
+# Some minutes: walls found in noise, against the truth.
+build/release/bin/ostia experiment wall-spread -o "$work/wall-spread"
+cp "$work/wall-spread/wall-spread.png" docs/pictures/wall-spread.png
 
 # A minute: the whole chain on a synthetic heart, its coronary arteries against the aorta.
 build/release/bin/ostia phantom -o "$work/chain-heart" --preset small --formats nrrd --no-report

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Debian packages of what scripts/build.sh builds: scripts/package.sh [OUTPUT_FOLDER]   (default: out/packages)
-# Builds the programs where they are not up to date; nothing is compiled a second time. lintian must find no error.
+# Builds the programs and the Python package where they are not up to date. lintian must find no error.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 out=${1:-out/packages}
@@ -13,6 +13,7 @@ fail() {
 }
 
 scripts/build.sh release programs
+scripts/build.sh release python
 if grep -q 'OSTIA_WITH_IMAGE_LIBRARIES:BOOL=OFF' "$build/CMakeCache.txt" || [ ! -x "$build/bin/ostia-live" ]; then
   fail "build/release lacks some of the programs; configure it anew: cmake --fresh --preset release"
 fi
@@ -43,9 +44,9 @@ END
     tail -20 "$stage/log" >&2
     fail "dpkg-buildpackage failed (its last lines are above)"
   }
-rm -f "$out"/ostia_* "$out"/ostia-*.deb "$out"/libostia-dev_*.deb  # of an earlier version
+rm -f "$out"/ostia_* "$out"/ostia-*.deb "$out"/libostia-dev_*.deb "$out"/python3-ostia_*.deb  # of an earlier version
 mv "$stage"/*.deb "$stage"/*.changes "$stage"/*.buildinfo "$out"
 lintian --fail-on error "$out/ostia_${version}-1_$(dpkg --print-architecture).changes"
 echo
 ls -l "$out"/*"_$version-1_"*.deb
-echo "Install them: apt install $out/ostia*_$version-1_*.deb; for C++ also $out/libostia-dev_$version-1_*.deb"
+echo "Install them: apt install $out/ostia*_$version-1_*.deb; for C++ also $out/libostia-dev_$version-1_*.deb, for Python $out/python3-ostia_$version-1_*.deb"

@@ -131,7 +131,7 @@ void define(CLI::App& app, Commands& c, Run& run) {
   define_run(app, c.chain, c.batch, c.common, run);
   define_case(app, c.solver_case, run);
   define_result(app, c.result, run);
-  define_ffr(app, c.ffr, run);
+  define_ffr(app, c.ffr, c.common.seed, run);
   define_motion(app, c.motion, run);
 
   CLI::App* segment = command(app, "segment", "The lumen of the vessels between seed points",

@@ -68,7 +68,8 @@ TEST(FfrCommand, MakesTheFolderOnce) {
   EXPECT_THAT(made.out, HasSubstr(research));
   EXPECT_THAT(names_in(folder / "out"),
               ::testing::ElementsAre("README.txt", "conditions.json", "ffr.json", "lesions.csv", "lines.vtp",
-                                     "manifest.json", "outlets.csv", "stations.csv"));
+                                     "manifest.json", "outlets.csv", "pressure.html", "pressure.pdf",
+                                     "stations.csv"));
   EXPECT_THAT(core::read_file(folder / "out" / "README.txt"), HasSubstr(research));
   const Outcome again = ostia({"ffr", "artery.csv", "-o", "out", "--pulse"}, {folder, ""});
   EXPECT_THAT(again.err, HasSubstr("done already"));
@@ -113,6 +114,63 @@ TEST(FfrCommand, TakesConditionsOfAFileAndOfItsOptions) {
   EXPECT_EQ(again["lesions"], made["lesions"]);
 }
 
+TEST(FfrCommand, TellsWhatAnOpenedOrNarrowedStretchWouldGive) {
+  const fs::path folder = artery_folder(0.35);
+  const Json made = pressures(folder, {"artery.ostia", "-o", "out", "--open", "LAD:24-36:10"});
+  EXPECT_LT(made["lesions"][0]["ffr"].get<double>(), 0.8);
+  EXPECT_GT(made["what_if"]["lesions"][0]["ffr"].get<double>(), 0.9);
+  EXPECT_EQ(made["what_if"]["stretches"][0]["percent"], 10.0);
+  EXPECT_THAT(core::read_file(folder / "out" / "what_if_readings.csv"), HasSubstr("lesion,S1,"));
+  EXPECT_THAT(core::read_file(folder / "out" / "what_if_stations.csv"), HasSubstr("ffr_what_if"));
+  EXPECT_THAT(core::read_file(folder / "out" / "lines.vtp"), HasSubstr("FFRWhatIf"));
+  const Json narrow = pressures(folder, {"--narrow", "LAD:45-55:70", "artery.ostia", "-o", "narrow"});
+  EXPECT_LT(narrow["what_if"]["outlets"][0]["ffr"].get<double>(),
+            narrow["outlets"][0]["ffr"].get<double>() - 0.02);
+}
+
+TEST(FfrCommand, TakesWhatTheCaseKeeps) {
+  const fs::path folder = artery_folder(0.5);
+  {
+    session::CaseFile file = session::CaseFile::open(folder / "artery.ostia");
+    file.annotate(session::SetPressureInputs{{{"rest_flow_ml_min", 90.0}, {"systolic_mmhg", 150.0}}});
+    file.annotate(session::SetWhatIfs{{{4, 24.0, 36.0, session::WhatIfKind::open, 0.0}}});
+  }
+  const Json made = pressures(folder, {"artery.ostia", "-o", "out", "--systolic", "140"});
+  EXPECT_EQ(made["conditions"]["rest_flow_ml_min"]["value"], 90.0);
+  EXPECT_EQ(made["conditions"]["systolic_mmhg"]["value"], 140.0) << "what is told goes before";
+  EXPECT_EQ(made["what_if"]["stretches"].size(), 1u);
+  // Above the usual systolic pressure, but not above the case's.
+  const Json high = pressures(folder, {"artery.ostia", "-o", "high", "--diastolic", "125"});
+  EXPECT_EQ(high["conditions"]["diastolic_mmhg"]["value"], 125.0);
+}
+
+TEST(FfrCommand, SaysHowSureItIs) {
+  const fs::path folder = artery_folder(0.45);
+  const Outcome made =
+      ostia({"ffr", "artery.csv", "-o", "out", "--uncertainty=64", "--rest-flow", "90"}, {folder, ""});
+  ASSERT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr("in 95 %"));
+  EXPECT_THAT(made.out, HasSubstr("; by "));
+  const Json result = Json::parse(core::read_file(folder / "out" / "ffr.json"));
+  const Json& ffr = result["uncertainty"]["lesions"][0]["ffr"];
+  EXPECT_LT(ffr["low"], result["lesions"][0]["ffr"]);
+  EXPECT_GT(ffr["high"], result["lesions"][0]["ffr"]);
+  EXPECT_EQ(result["uncertainty"]["settings"]["inputs"]["rest_flow"]["sd"], 0.10);  // it was told
+  // The same again by what conditions.json says, and narrower with a wall that is better known.
+  const Json again = pressures(
+      folder, {"artery.csv", "-o", "again", "--uncertainty", "--conditions", "out/conditions.json"});
+  EXPECT_EQ(again["uncertainty"], result["uncertainty"]);
+  const Json other = pressures(folder, {"artery.csv", "-o", "other", "--uncertainty", "--conditions",
+                                        "out/conditions.json", "--seed", "7"});
+  EXPECT_EQ(other["uncertainty"]["settings"]["seed"], 7);
+  const Json known = pressures(folder, {"artery.csv", "-o", "known", "--uncertainty=64", "--rest-flow", "90",
+                                        "--wall-spread", "0.02"});
+  const Json& narrow = known["uncertainty"]["lesions"][0]["ffr"];
+  EXPECT_LT(narrow["high"].get<double>() - narrow["low"].get<double>(),
+            ffr["high"].get<double>() - ffr["low"].get<double>());
+  EXPECT_EQ(known["uncertainty"]["settings"]["wall"]["source"], "told");
+}
+
 TEST(FfrCommand, RefusesInOneSentence) {
   const fs::path folder = artery_folder(0.5);
   core::write_file(folder / "wrong.json", R"({"venus_mmhg": 8})");
@@ -132,7 +190,19 @@ TEST(FfrCommand, RefusesInOneSentence) {
   refused({"missing.csv", "-o", "out"}, 3, "no such file");
   refused({"flat.csv", "-o", "out"}, 3, "radius");
   refused({"loop.csv", "-o", "out"}, 3, "");
+  refused({"artery.csv", "-o", "out", "--open", "LAD:3"}, 3, "VESSEL:FROM-TO");
+  refused({"artery.ostia", "-o", "out", "--open", "OM1:3-9"}, 3, "it has LAD");
+  refused({"artery.ostia", "-o", "out", "--narrow", "LAD:3-9"}, 3, "VESSEL:FROM-TO:PERCENT");
+  refused({"artery.ostia", "-o", "out", "--open", "LAD:3-9:95"}, 3, "0 to 90");
   refused({"artery.csv", "-o", "out", "--behind", "100"}, 2, "--behind");
+  core::write_file(folder / "spread.json", R"({"uncertainty": {"inputs": {"sistolic": 8}}})");
+  refused({"artery.csv", "-o", "out", "--uncertainty=15"}, 2, "--uncertainty");
+  refused({"artery.csv", "-o", "out", "--uncertainty=17"}, 3, "an even number from 16 to 10000");
+  refused({"artery.csv", "-o", "out", "--wall-spread", "0.1"}, 2, "--uncertainty");
+  refused({"artery.ostia", "-o", "out", "--uncertainty=16", "--image", "artery.csv", "--wall-spread", "0.1"},
+          2, "--wall-spread");
+  refused({"artery.csv", "-o", "out", "--uncertainty=16", "--image", "artery.csv"}, 3, "leave out --image");
+  refused({"artery.csv", "-o", "out", "--uncertainty=16", "--conditions", "spread.json"}, 3, "sistolic");
   refused({"artery.csv"}, 2, "--output");
   const Outcome unusual =
       ostia({"ffr", "artery.csv", "-o", "out", "--systolic", "300", "--unusual"}, {folder, ""});
@@ -153,6 +223,47 @@ TEST(FfrCommand, AnOcclusionIsToldAndIsNoNumber) {
   EXPECT_TRUE(result["lesions"][0]["significant"].get<bool>());
   for (const char* file : {"ffr.json", "stations.csv", "lesions.csv", "outlets.csv", "lines.vtp"})
     EXPECT_THAT(core::read_file(folder / "out" / file), Not(HasSubstr("nan"))) << file;
+}
+
+TEST(FfrCommand, PutsPressuresOnTheWallOfACase) {
+  const fs::path folder = artery_folder();
+  pressures(folder, {"artery.ostia", "-o", "walls"});
+  const std::string wall = core::read_file(folder / "walls" / "wall.vtp");
+  for (const char* name : {"FFR", "RestingPdPa", "Pressure_mmHg", "WallShear_Pa", "Vessel", "Occluded"})
+    EXPECT_THAT(wall, HasSubstr(name));
+  pressures(folder, {"artery.csv", "-o", "lines"});
+  EXPECT_FALSE(fs::exists(folder / "lines" / "wall.vtp"));  // a tree of lines has none
+}
+
+TEST(FfrCommand, WritesCasesOfSolversAndComputesSvzerodsAgain) {
+  const fs::path folder = artery_folder();
+  const Json made = pressures(folder, {"artery.csv", "-o", "out", "--export", "svzerod,svoned,openbf"});
+  for (const char* name : {"svzerod.json", "svoned.in", "openbf.yaml", "openbf_inlet.dat"})
+    EXPECT_TRUE(fs::exists(folder / "out" / name)) << name;
+  const Json again = pressures(folder, {"out/svzerod.json", "-o", "again"});
+  EXPECT_EQ(again["kind"], "network-flow");
+  EXPECT_THAT(again["research_use"].get<std::string>(), HasSubstr(research));
+  // ml/s, and dyn/cm2 a mmHg.
+  const auto& last = again["vessels"].back();
+  EXPECT_NEAR(last["flow"].get<double>() * 60.0 / made["branches"][0]["hyperaemic_ml_min"].get<double>(), 1.0,
+              1e-6);
+  EXPECT_NEAR(
+      last["pressure_out"].get<double>() / 1333.22387415 / made["branches"][0]["to_mmhg"].get<double>(), 1.0,
+      1e-6);
+  const Outcome words = ostia({"ffr", "out/svzerod.json", "-o", "again"}, {folder, ""});
+  EXPECT_THAT(words.err, HasSubstr("done already"));
+  EXPECT_THAT(words.out, HasSubstr("branch0_seg0: flow "));
+  EXPECT_THAT(core::read_file(folder / "again" / "network.csv"),
+              ::testing::StartsWith("name,time,flow_in,flow_out,pressure_in,pressure_out"));
+  const auto refused = [&](const std::vector<std::string>& arguments, int code, const std::string& says) {
+    const Outcome done = ostia(std::vector<std::string>{"ffr"} + arguments, {folder, ""});
+    EXPECT_EQ(done.code, code) << done.err;
+    EXPECT_THAT(done.err, HasSubstr(says));
+    EXPECT_FALSE(fs::exists(folder / "no"));
+  };
+  refused({"artery.csv", "-o", "no", "--export", "cgns"}, 2, "--export");
+  refused({"out/svzerod.json", "-o", "no", "--systolic", "120"}, 2, "its own boundaries");
+  refused({"out/conditions.json", "-o", "no"}, 3, "no case of svZeroDSolver");
 }
 
 TEST(FfrCommand, NamesNobody) {

@@ -524,7 +524,7 @@ TEST(LumenCommand, CasesThatCannotBeOpened) {
   core::write_file(folder / "short.ostia", bytes.substr(0, bytes.size() / 2));
   core::write_file(folder / "empty.ostia", "");
   std::string newer = bytes;
-  newer[63] = 7;  // SQLite's user_version, big-endian
+  newer[63] += 1;  // SQLite's user_version, big-endian
   core::write_file(folder / "newer.ostia", newer);
   std::string damaged = bytes;
   std::fill_n(damaged.begin() + static_cast<std::ptrdiff_t>(damaged.size() / 2), 3000, 'x');

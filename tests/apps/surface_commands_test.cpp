@@ -25,6 +25,15 @@ TriMesh box(const geometry::Vec3& corner = geometry::Vec3::Zero()) {
   return mesh;
 }
 
+/// Its lower side is an inlet.
+geometry::FacedSurface box_with_inlet() {
+  geometry::FacedSurface faced{
+      box(), std::vector<std::int32_t>(12, 1), {{1, "wall", geometry::FaceKind::wall}}};
+  faced.face_ids[0] = faced.face_ids[1] = 2;
+  faced.faces.push_back({2, "inlet_a", geometry::FaceKind::inlet});
+  return faced;
+}
+
 TriMesh both(TriMesh a, const TriMesh& b) {
   const auto shift = static_cast<std::int32_t>(a.points.size());
   a.points.insert(a.points.end(), b.points.begin(), b.points.end());
@@ -108,14 +117,30 @@ TEST(SurfaceCommands, SmoothsAndSubdivides) {
   EXPECT_EQ(fine["triangles"], 12 * 16);
   EXPECT_EQ(fine["open_edges"], 0);
   EXPECT_LT(fine["volume_mm3"].get<double>(), 900.0);  // corners are rounded
-  geometry::FacedSurface faced{
-      box(), std::vector<std::int32_t>(12, 1), {{1, "wall", geometry::FaceKind::wall}}};
-  faced.face_ids[0] = faced.face_ids[1] = 2;
-  faced.faces.push_back({2, "inlet_a", geometry::FaceKind::inlet});
-  io::write_surface(folder / "faced.vtp", faced);
+  io::write_surface(folder / "faced.vtp", box_with_inlet());
   const Outcome refused = ostia({"convert", "faced.vtp", "c.vtp", "--subdivide", "1"}, {folder, ""});
   EXPECT_EQ(refused.code, 3);
   EXPECT_THAT(refused.err, HasSubstr("before the ends are capped"));
+}
+
+TEST(SurfaceCommands, SmoothsAWallBetweenItsCaps) {
+  const auto folder = temporary_folder("smooth");
+  const geometry::FacedSurface before = box_with_inlet();
+  io::write_surface(folder / "a.vtp", before);
+  const Outcome done = ostia({"convert", "a.vtp", "b.vtp", "--smooth", "5"}, {folder, ""});
+  ASSERT_EQ(done.code, 0) << done.err;
+  const geometry::FacedSurface after = io::read_surface(folder / "b.vtp").surface;
+  EXPECT_EQ(after.face_ids, before.face_ids);
+  EXPECT_EQ(after.faces.size(), 2u);
+  for (std::size_t p = 0; p < 8; ++p)
+    EXPECT_EQ((after.mesh.points[p] - before.mesh.points[p]).norm() < 1e-6, p < 4) << p;  // z = 0: the inlet
+}
+
+TEST(SurfaceCommands, RepairSaysThatItLeavesNamesOfFacesOut) {
+  const auto folder = temporary_folder("repair");
+  io::write_surface(folder / "a.vtp", box_with_inlet());
+  const Outcome done = ostia({"convert", "a.vtp", "b.vtp", "--repair"}, {folder, ""});
+  EXPECT_THAT(done.err, HasSubstr("the names of its 2 faces are left out"));
 }
 
 TEST(SurfaceCommands, CheckJudgesByItsExitCode) {

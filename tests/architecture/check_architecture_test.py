@@ -19,12 +19,18 @@ CASES = {
     "command's source in no folder": ("apps/ostia/command_a.cpp", "\n", "live in the folders of apps/ostia"),
     "command's folder that is unknown": ("apps/ostia/misc/command_a.cpp", "\n", "live in the folders of apps/ostia"),
     "MainWindow outside the shell": ("apps/workstation/flow/a.h", "class MainWindow;\n", "only shell knows MainWindow"),
+    "bindings' source of no room": ("bindings/python/src/helpers.cpp", "\n", "named after its room"),
+    "bindings' source that asks a room above": ("bindings/python/src/lumen.cpp", '#include "ostia/session/case_file.h"\n', "lumen may not use session"),
+    "what bindings share asks a room": ("bindings/python/src/array.cpp", '#include "ostia/io/surface_file.h"\n', "core and geometry alone"),
+    "bindings see a third party": ("bindings/python/src/io.cpp", "#include <vtkPolyData.h>\n", "the libraries' own headers"),
+    "pybind11 in a library": ("libs/io/src/a.cpp", "#include <pybind11/numpy.h>\n", "bindings/python alone"),
     "its header outside the shell": ("apps/workstation/flow/a.cpp", '#include "shell/main_window.h"\n', "only shell knows MainWindow"),
 }
 SOUND = [
     ("libs/meshing/src/a.cpp", '#include "ostia/centerline/a.h"\n#include "ostia/core/error.h"\n'),
     ("apps/ostia/command_table.cpp", '#include "mesh/cli_mesh.h"\n'),
     ("apps/ostia/mesh/command_a.cpp", "\n"),
+    ("bindings/python/src/case.cpp", '#include "ostia/session/case_file.h"\n#include <pybind11/stl.h>\n'),
     ("apps/workstation/shell/a.h", "class MainWindow;\n"),
     ("apps/workstation/flow/a.h", "class QMainWindow;\n"),
     ("apps/workstation/main.cpp", '#include "shell/main_window.h"\n'),

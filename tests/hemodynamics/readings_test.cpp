@@ -9,6 +9,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace ostia::hemodynamics {
 namespace {
 
@@ -101,7 +103,9 @@ TEST(Readings, MarksWhereTheModelDoesNotHold) {
   tree = tree_of(std::move(graft));
   const TreeReadings readings = read_tree(tree.network, tree.state, {});
   ASSERT_TRUE(has(readings, FlowMark::Kind::graft));
-  EXPECT_THAT(readings.marks.front().text, HasSubstr("graft"));
+  EXPECT_TRUE(std::any_of(readings.marks.begin(), readings.marks.end(), [](const FlowMark& mark) {
+    return mark.kind == FlowMark::Kind::graft && mark.text.find("graft") != std::string::npos;
+  }));
   Tree healthy = tree_of(focal(0.9));
   EXPECT_TRUE(read_tree(healthy.network, healthy.state, {}).marks.empty());
 }

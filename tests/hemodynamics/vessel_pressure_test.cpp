@@ -78,26 +78,28 @@ TEST(VesselPressure, HasHagenbachsEntrance) {
 
 TEST(VesselPressure, OfASuddenWideningIsBordaAndCarnots) {
   // A developed stream of radius r into a tube of radius R, and on until it has mixed: momentum gives
-  // 4/3 rho U u (1 - u / U) back of the pressure, friction aside.
-  FlowModel model = from_developed();
-  model.adverse_friction = model.backflow = 0.0;  // momentum alone
-  const double r = 1.0, R = 2.0, flow = 1.0;
+  // 4/3 rho U u (1 - u / U) back of the pressure, less what the wall takes, which its shear tells.
+  const FlowModel model = from_developed();
+  const double r = 1.0, R = 2.0, flow = 1.0, far_mm = 1500.0;
   Branch branch = tube_of(20.0, r);
-  const double far_mm = 3000.0;
-  branch.stations.push_back({20.001, circle_mm2(R), {}, 0.0, Vec3::Zero()});
-  branch.stations.push_back({far_mm, circle_mm2(R), {}, 0.0, Vec3::Zero()});
+  for (double s = 20.001; s < far_mm; s += 0.25)
+    branch.stations.push_back({s, circle_mm2(R), {}, 0.0, Vec3::Zero()});
   const double U = flow / circle_mm2(r), u = flow / circle_mm2(R);
   const double back = 4.0 / 3.0 * 1060.0 * u * (U - u);
-  const double friction = flow * (poiseuille_pa_s_ml(20.0, r) + poiseuille_pa_s_ml(far_mm - 20.001, R));
-  // Beside the jet the wall rubs the other way: a little more comes back, and without that, Borda and
-  // Carnot's.
-  const double share = (friction - drop(branch, model, flow)) / back;
-  EXPECT_GT(share, 1.0);
-  EXPECT_LT(share, 1.3);
   const auto along = pressure_along(prepare(branch, model), model, flow, 0.0);
-  EXPECT_TRUE(along[along.size() - 2].separated());
+  std::size_t first = 0;
+  while (branch.stations[first].s_mm < 20.0005) ++first;
+  double wall = 0.0;
+  for (std::size_t i = first + 1; i < along.size(); ++i)
+    wall += 0.5 * (along[i - 1].wall_shear_pa + along[i].wall_shear_pa) * 2.0 / R *
+            (branch.stations[i].s_mm - branch.stations[i - 1].s_mm);
+  const double returned = along.back().pressure_pa - along[first - 1].pressure_pa;
+  EXPECT_NEAR((returned + wall) / back, 1.0, 0.02);
+  EXPECT_TRUE(along[first].separated());
   EXPECT_FALSE(along.back().separated());
-  EXPECT_NEAR(along[along.size() - 2].momentum, 4.0 / 3.0 * 4.0, 1e-3);
+  EXPECT_NEAR(along[first].momentum, 4.0 / 3.0 * 4.0, 1e-2);
+  // Beside the jet the wall rubs the other way.
+  EXPECT_LT(along[first + 20].wall_shear_pa, 0.0);
 }
 
 TEST(VesselPressure, ComesBackWholeWhereALumenWidensSlowly) {
@@ -146,12 +148,12 @@ TEST(VesselPressure, IsWithinAMillimetreOfMercuryOfThreeDimensions) {
     const auto along =
         pressure_along(prepare(branch, from_developed()), from_developed(), one.flow_ml_s, 0.0);
     const double fallen = -along.back().pressure_pa / 133.322387415;
-    EXPECT_NEAR(fallen, one.fallen_mmhg, 0.9) << one.least << " at " << one.flow_ml_s;
+    EXPECT_NEAR(fallen, one.fallen_mmhg, 0.6) << one.least << " at " << one.flow_ml_s;
     bias += (fallen - one.fallen_mmhg) / 6.0;
     RecordProperty("fallen_" + std::to_string(one.least) + "_" + std::to_string(one.flow_ml_s),
                    std::to_string(fallen));
   }
-  EXPECT_LT(std::abs(bias), 0.5);
+  EXPECT_LT(std::abs(bias), 0.2);
 }
 
 TEST(VesselPressure, DoesNotRatchetOnARoughWall) {

@@ -22,6 +22,19 @@ TEST(SurfaceFile, RefusesToLoseFaceNames) {
   EXPECT_FALSE(std::filesystem::exists(folder / "a.stl"));
 }
 
+TEST(SurfaceFile, RefusesToWriteATriangleOfAPointThatIsNot) {
+  geometry::TriMesh mesh;
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  for (const std::int32_t corner : {3, -1}) {
+    mesh.triangles = {{0, 1, corner}};
+    for (const char* name : {"a.stl", "a.ply", "a.vtp"}) {
+      const auto file = testing::temporary_folder("io") / name;
+      EXPECT_THROW(write_surface(file, mesh), InvalidInput) << name;
+      EXPECT_FALSE(std::filesystem::exists(file)) << name;
+    }
+  }
+}
+
 TEST(SurfaceFile, EmptyFile) {
   for (const std::string name : {"a.stl", "a.ply", "a.obj", "a.vtp"}) {
     const auto path = file_with(name, "");

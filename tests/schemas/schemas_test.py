@@ -52,6 +52,13 @@ class Experiments(Refusing):
         self.assertEqual(printed, json.loads((out / "experiment.json").read_text()))
         self.assert_refused("experiment-smoothness", {"v": 1, "kind": "smoothness"})
 
+    def test_experiment_wall_spread(self):
+        out = pathlib.Path(self.holder.name) / "spread"
+        printed = json.loads(run("experiment", "wall-spread", "-o", out, "--fitting", "2", "--judged", "1", "--json"))
+        validator("experiment-wall-spread").validate(printed)
+        self.assertEqual(printed, json.loads((out / "experiment.json").read_text()))
+        self.assert_refused("experiment-wall-spread", {"v": 1, "kind": "wall-spread"})
+
     def test_experiment_chain(self):
         # A bright tube of 4 mm along z, in voxels of 1 mm.
         image = pathlib.Path(self.holder.name) / "tube.nrrd"
@@ -202,6 +209,13 @@ class Schemas(Refusing):
         self.assertTrue(made["lesions"])
         self.assertEqual(made, json.loads((holder / "ffr" / "ffr.json").read_text()))
         validator("manifest").validate(json.loads((holder / "ffr" / "manifest.json").read_text()))
+        vessel = made["branches"][0]["vessel"]
+        unsure = json.loads(run("ffr", holder / "artery.csv", "-o", holder / "unsure", "--uncertainty=16", "--json"))
+        validator("ffr").validate(unsure)
+        self.assertEqual(unsure["uncertainty"]["trees"], 16 + 6 * 8)
+        opened = json.loads(run("ffr", holder / "artery.csv", "-o", holder / "opened", "--open", f"{vessel}:18-24:10", "--json"))
+        validator("ffr").validate(opened)
+        self.assertGreater(opened["what_if"]["lesions"][0]["ffr"], opened["lesions"][0]["ffr"])
         for field in set(made) - {"pulse"}:
             broken = copy.deepcopy(made)
             del broken[field]

@@ -175,11 +175,11 @@ TEST(WallProfile, HasTheSameBitsOnEveryProcessor) {
 }
 
 TEST(BlurredDiscs, AreThoseOfTheFormulaWhateverWasAskedForBefore) {
-  const auto check = [](double largest_mm, double reach_mm, double step_mm, double sigma_mm) {
-    const BlurredDiscs discs(largest_mm, reach_mm, step_mm, sigma_mm);
+  const auto check = [](double largest_mm, double reach_mm, double step, double sigma) {
+    const BlurredDiscs discs(largest_mm, reach_mm, step, sigma);
     for (int r = 0; r < discs.radii(); r += 7)
       for (int i = 0; i < discs.samples(); i += 3)
-        EXPECT_EQ(discs.share(r, i), blurred_disc(r * 0.05, i * step_mm, sigma_mm))
+        EXPECT_EQ(discs.share(r, i), blurred_disc(r * 0.05, i * step, sigma))
             << r << ", " << i << " of " << largest_mm;
     EXPECT_EQ(discs.share(3, 10000), discs.share(3, discs.samples() - 1));
   };
@@ -193,9 +193,9 @@ TEST(BlurredDiscs, AreThoseOfTheFormulaWhateverWasAskedForBefore) {
 
 TEST(BlurredDiscs, AreAskedForByManyAtOnce) {
   std::vector<double> sums(32, 0.0);
-  core::parallel_for(sums.size(), 1, [&](std::size_t n) {
-    const BlurredDiscs discs(2.0 + 0.3 * static_cast<double>(n % 5), 6.0, 0.2, 0.37);
-    for (int i = 0; i < 30; ++i) sums[n] += discs.at(1.23, i);
+  core::parallel_for(sums.size(), 1, [&](std::size_t k) {
+    const BlurredDiscs discs(2.0 + 0.3 * static_cast<double>(k % 5), 6.0, 0.2, 0.37);
+    for (int i = 0; i < 30; ++i) sums[k] += discs.at(1.23, i);
   });
   for (const double sum : sums) EXPECT_EQ(sum, sums.front());
 }

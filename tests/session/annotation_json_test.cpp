@@ -24,7 +24,8 @@ const testing::Schema& schema() {
 std::vector<AnnotationCommand> one_annotation_of_each() {
   const MarkVessel plain{{0, true, false, std::nullopt, ""}};
   std::vector<AnnotationCommand> commands{MeasureDelete{2147483647},
-                                          testing::marked("\"calcified\"\n\xC3\xA9"), plain};
+                                          testing::marked("\"calcified\"\n\xC3\xA9"), plain,
+                                          testing::told_inputs(), testing::opened()};
   for (const MeasureKind kind : testing::all_kinds) {
     commands.push_back(testing::added(kind));
     MeasureChange change{testing::measurement(kind)};
@@ -44,6 +45,12 @@ TEST(AnnotationJson, EveryCommandComesBackAsItWas) {
     EXPECT_EQ(to_json(back), line);
     if (const auto* change = std::get_if<MeasureChange>(&command)) {
       EXPECT_TRUE(same(change->measurement, std::get<MeasureChange>(back).measurement));
+    }
+    if (const auto* inputs = std::get_if<SetPressureInputs>(&command)) {
+      EXPECT_EQ(inputs->inputs, std::get<SetPressureInputs>(back).inputs);
+    }
+    if (const auto* stretches = std::get_if<SetWhatIfs>(&command)) {
+      EXPECT_EQ(stretches->what_ifs, std::get<SetWhatIfs>(back).what_ifs);
     }
     if (const auto* mark = std::get_if<MarkVessel>(&command)) {
       EXPECT_TRUE(same(mark->mark, std::get<MarkVessel>(back).mark));
@@ -74,6 +81,15 @@ TEST(AnnotationJson, SaysWhatIsWrong) {
   expect_refused(R"({"v":1,"op":"measure.change","id":1,"kind":"length"})", "distance");
   expect_refused(R"({"v":1,"op":"measure.change","kind":"area"})", "no \"id\"");
   expect_refused(R"({"v":1,"op":"measure.add","kind":"area","points":[[0,0,0],[1,2]]})", "points[1]");
+  expect_refused(R"({"v":1,"op":"pressure.inputs","inputs":{"systolic_mmhg":120}})", "a list");
+  expect_refused(R"({"v":1,"op":"pressure.inputs","inputs":[{"key":"a","value":1},{"key":"a","value":2}]})",
+                 "\"a\" twice");
+  expect_refused(R"({"v":1,"op":"pressure.inputs","inputs":[{"key":"a","value":"x"}]})", "a number");
+  expect_refused(R"({"v":1,"op":"pressure.what_if","stretches":[{"vessel":1,"from_mm":0,"to_mm":1}]})",
+                 "\"percent\"");
+  expect_refused(
+      R"({"v":1,"op":"pressure.what_if","stretches":[{"vessel":1,"from_mm":0,"to_mm":1,"kind":"wide","percent":1}]})",
+      "open or narrow");
   expect_refused(R"({"v":1,"op":"vessel.mark","vessel":1,"visible":1,"checked":true})", "true or false");
   expect_refused(R"({"v":1,"op":"vessel.mark","vessel":1,"visible":true,"checked":true,"color":[1,0]})",
                  "color");

@@ -295,7 +295,10 @@ TEST(Annotation, OpsHaveNames) {
   EXPECT_EQ(op_name(MeasureChange{}), "measure.change");
   EXPECT_EQ(op_name(MeasureDelete{}), "measure.delete");
   EXPECT_EQ(op_name(MarkVessel{}), "vessel.mark");
+  EXPECT_EQ(op_name(SetPressureInputs{}), "pressure.inputs");
+  EXPECT_EQ(op_name(SetWhatIfs{}), "pressure.what_if");
   EXPECT_TRUE(is_annotation_op("vessel.mark"));
+  EXPECT_TRUE(is_annotation_op("pressure.what_if"));
   EXPECT_FALSE(is_annotation_op("vessel.rename"));
 }
 

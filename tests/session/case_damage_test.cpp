@@ -73,9 +73,9 @@ TEST_F(CaseDamage, OtherFilesAreRefused) {
 }
 
 TEST_F(CaseDamage, NewerVersionsSayWhichProgramIsNeeded) {
-  sql(path, "PRAGMA user_version = 7; UPDATE meta SET value = '3.1.4' WHERE key = 'needs'");
+  sql(path, "PRAGMA user_version = 8; UPDATE meta SET value = '3.1.4' WHERE key = 'needs'");
   const std::string said = refusal(path);
-  EXPECT_THAT(said, HasSubstr("format 7"));
+  EXPECT_THAT(said, HasSubstr("format 8"));
   EXPECT_THAT(said, HasSubstr("3.1.4"));
   sql(path, "PRAGMA user_version = 0");
   EXPECT_THAT(refusal(path), HasSubstr("damaged"));
@@ -125,6 +125,9 @@ TEST_F(CaseDamage, RowsThatWereTamperedWithAreRefused) {
                              "UPDATE annotation SET checksum = checksum + 1",
                              "DELETE FROM annotation",
                              "DROP TABLE mark",
+                             "INSERT INTO pressure_input VALUES('systolic_mmhg', 140)",
+                             "INSERT INTO what_if VALUES(0, 4, 1, 2, 'open', 0)",
+                             "DROP TABLE what_if",
                              "UPDATE journal SET op = 'cpr.stroke' WHERE op = 'vessel.mark'",
                              "CREATE TRIGGER t AFTER INSERT ON journal BEGIN DELETE FROM sample; END"}) {
     write_bytes(path, bytes);

@@ -95,7 +95,8 @@ std::vector<JournalEntry> every_step() {
   for (const analysis::MeasureKind kind : analysis::measure_kinds)
     for (const AnnotationCommand& command :
          {AnnotationCommand(added(kind)), AnnotationCommand(MeasureChange{measurement(kind)}),
-          AnnotationCommand(MeasureDelete{3}), AnnotationCommand(marked(own_words))})
+          AnnotationCommand(MeasureDelete{3}), AnnotationCommand(marked(own_words)),
+          AnnotationCommand(told_inputs()), AnnotationCommand(opened())})
       add(op_name(command), to_json(command), StepKind::annotation);
   return journal;
 }

@@ -302,7 +302,8 @@ TEST(CaseReport, HasWordsForEveryCommand) {
   for (const AnnotationCommand& command :
        {AnnotationCommand(added(analysis::MeasureKind::angle)),
         AnnotationCommand(MeasureChange{measurement(analysis::MeasureKind::area)}),
-        AnnotationCommand(MeasureDelete{3}), AnnotationCommand(marked(""))})
+        AnnotationCommand(MeasureDelete{3}), AnnotationCommand(marked("")), AnnotationCommand(told_inputs()),
+        AnnotationCommand(opened())})
     journal.push_back({static_cast<std::int64_t>(journal.size()) + 1,
                        op_name(command),
                        to_json(command),

@@ -147,6 +147,15 @@ inline MarkVessel marked(const std::string& note, bool checked = true, std::int3
             {2.0, 7.5, LesionState::rejected, "a step of the scanner's \xC3\xA4rger \"quoted\""}}}};
 }
 
+/// What pressures can be told, with numbers that are hard to write.
+inline SetPressureInputs told_inputs() {
+  return {{{"systolic_mmhg", 130.0 + 1.0 / 3.0}, {"lv_mass_g", 141.7}, {"split_exponent", 2.3}}};
+}
+inline SetWhatIfs opened(std::int32_t vessel = tube_vessel) {
+  return {{{vessel, 5.0 + 1.0 / 7.0, 12.5, WhatIfKind::open, 10.1},
+           {vessel, 0.1, 20.0 / 3.0, WhatIfKind::narrow, 60.0}}};
+}
+
 /// All of the annotations as text, to the last bit.
 inline std::string text_of(const Annotations& annotations) {
   std::string text = std::to_string(annotations.next_measurement_id) + "\n";
@@ -154,6 +163,8 @@ inline std::string text_of(const Annotations& annotations) {
     text += to_json(AnnotationCommand(MeasureChange{one})) + "\n";
   for (const VesselMark& mark : annotations.marks)
     text += to_json(AnnotationCommand(MarkVessel{mark})) + "\n";
+  text += to_json(AnnotationCommand(SetPressureInputs{annotations.pressure.inputs})) + "\n";
+  text += to_json(AnnotationCommand(SetWhatIfs{annotations.pressure.what_ifs})) + "\n";
   return text;
 }
 

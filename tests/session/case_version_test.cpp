@@ -37,7 +37,8 @@ class CaseVersion : public ::testing::Test {
     }
     case_version_sql(path,
                      "DROP TABLE annotation; DROP TABLE measurement; DROP TABLE mark; DROP TABLE "
-                     "evaluability; DROP TABLE lesion; DROP TABLE step_stamp; DROP TABLE image_axes; PRAGMA "
+                     "evaluability; DROP TABLE lesion; DROP TABLE step_stamp; DROP TABLE image_axes; DROP "
+                     "TABLE pressure_input; DROP TABLE what_if; PRAGMA "
                      "user_version = 1");
     ASSERT_EQ(version_of(path), "1");
     bytes = bytes_of_file(path);
@@ -114,7 +115,7 @@ TEST(CaseOfVersionTwo, KeepsItsMarksAndGetsTheReadersWord) {
   }
   case_version_sql(path,
                    "DROP TABLE evaluability; DROP TABLE lesion; DROP TABLE step_stamp; DROP TABLE "
-                   "image_axes; PRAGMA user_version = 2");
+                   "image_axes; DROP TABLE pressure_input; DROP TABLE what_if; PRAGMA user_version = 2");
   CaseFile file = CaseFile::open(path);
   ASSERT_EQ(file.annotations()->marks.size(), 1U);
   EXPECT_TRUE(same(file.annotations()->marks[0], plain.mark));
@@ -136,8 +137,9 @@ TEST(CaseOfVersionThree, KeepsTheReadersWordAndGetsThatOnLesions) {
     CaseFile file = CaseFile::create(path, tube_model());
     file.annotate(older);
   }
-  case_version_sql(
-      path, "DROP TABLE lesion; DROP TABLE step_stamp; DROP TABLE image_axes; PRAGMA user_version = 3");
+  case_version_sql(path,
+                   "DROP TABLE lesion; DROP TABLE step_stamp; DROP TABLE image_axes; DROP TABLE "
+                   "pressure_input; DROP TABLE what_if; PRAGMA user_version = 3");
   {
     CaseFile file = CaseFile::open(path);
     ASSERT_EQ(file.annotations()->marks.size(), 1U);
@@ -159,7 +161,9 @@ TEST(CaseOfVersionFour, GetsTimesAndNamesFromTheNextStepOn) {
     CaseFile file = CaseFile::create(path, tube_model());
     file.apply(ring(10.0, 1.8));
   }
-  case_version_sql(path, "DROP TABLE step_stamp; DROP TABLE image_axes; PRAGMA user_version = 4");
+  case_version_sql(path,
+                   "DROP TABLE step_stamp; DROP TABLE image_axes; DROP TABLE pressure_input; DROP TABLE "
+                   "what_if; PRAGMA user_version = 4");
   CaseFile file = CaseFile::open(path);
   file.set_author("Dr. A");
   file.apply(renamed("two"));
@@ -176,7 +180,8 @@ TEST(CaseOfVersionFive, HasItsImageAsItsFileSaysAndNewOnesAsTheReaderDoes) {
   const fs::path path = folder / "a.ostia";
   const std::string hash(64, 'a');
   CaseFile::create(path, tube_model(), ImageReference{hash, "image-aaaaaaaa"});
-  case_version_sql(path, "DROP TABLE image_axes; PRAGMA user_version = 5");
+  case_version_sql(
+      path, "DROP TABLE image_axes; DROP TABLE pressure_input; DROP TABLE what_if; PRAGMA user_version = 5");
   EXPECT_EQ(CaseFile::open(path).image()->axes, "");
   EXPECT_EQ(version_of(path), std::to_string(schema_version));
   CaseFile::create(folder / "b.ostia", tube_model(), ImageReference{hash, "image-aaaaaaaa", "RPS"});
@@ -188,6 +193,30 @@ TEST(CaseOfVersionFive, HasItsImageAsItsFileSaysAndNewOnesAsTheReaderDoes) {
       InvalidInput);
   case_version_sql(folder / "b.ostia", "UPDATE image_axes SET axes = 'LPS'");
   EXPECT_THROW(CaseFile::open(folder / "b.ostia"), InvalidInput);
+}
+
+TEST(CaseOfVersionSix, KeepsItsMarksAndGetsWhatPressuresAreTold) {
+  const TempFolder folder;
+  const fs::path path = folder / "a.ostia";
+  {
+    CaseFile file = CaseFile::create(path, tube_model());
+    file.annotate(marked("seen"));
+  }
+  case_version_sql(path, "DROP TABLE pressure_input; DROP TABLE what_if; PRAGMA user_version = 6");
+  {
+    const CaseFile file = CaseFile::open(path);
+    EXPECT_TRUE(same(file.annotations()->marks.at(0), marked("seen").mark));
+    EXPECT_THAT(file.annotations()->pressure.inputs, IsEmpty());
+  }
+  EXPECT_EQ(version_of(path), std::to_string(schema_version));
+  CaseFile file = CaseFile::open(path);
+  file.annotate(told_inputs());
+  file.annotate(opened());
+  EXPECT_EQ(file.annotations()->pressure.what_ifs, opened().what_ifs);
+  ASSERT_TRUE(file.undo());
+  ASSERT_TRUE(file.undo());
+  ASSERT_TRUE(file.undo());  // a step of the older program
+  EXPECT_THAT(file.annotations()->marks, IsEmpty());
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ OpenfoamCaseOptions windkessels() {
 
 /// A model of resistances in the place of pimpleFoam's: outlet 1 hangs on the inlet by `r1`, outlet 2 by `r2`
 /// (kinematic, 1 / (m s)), with inertia; flows and the first outlet's pressure are those of the tables.
-fs::path made_up_network(const BoundaryFlow& flow, double r1, double r2, double inertia) {
+fs::path made_up_network(const BoundaryFlow& flow, double r1, double r2) {
   const fs::path folder = testing::temporary_folder("programs");
   std::ostringstream text;
   text << "#!/bin/sh\n"
@@ -144,7 +144,7 @@ TEST(OpenfoamOutlets, AreCoupledWithTheModelFromCycleToCycle) {
   const BoundaryFlow flow = write_openfoam_case(fork_mesh(), options, folder).flow;
   // The second branch resists a half of what its outlet does, the first nearly nothing.
   const double own = flow.outlets[1].resistance_pa_s_m3 / 1060.0;
-  const fs::path programs = made_up_network(flow, 0.01 * own, 0.5 * own, inertia);
+  const fs::path programs = made_up_network(flow, 0.01 * own, 0.5 * own);
   const Shell done = shell(folder, "PATH='" + programs.string() + "':\"$PATH\" sh Allrun");
   EXPECT_TRUE(done.good) << done.output << shell(folder, "cat log.*").output;
   const double end = 8.0 * period;
@@ -181,8 +181,8 @@ TEST(OpenfoamOutlets, ACycleIsNotEnough) {
   const fs::path folder = testing::temporary_folder("coupled") / "case";
   const BoundaryFlow flow = write_openfoam_case(fork_mesh(), options, folder).flow;
   const double own = flow.outlets[1].resistance_pa_s_m3 / 1060.0;
-  const Shell done = shell(folder, "PATH='" + made_up_network(flow, 0.01 * own, 0.5 * own, inertia).string() +
-                                       "':\"$PATH\" sh Allrun");
+  const Shell done = shell(
+      folder, "PATH='" + made_up_network(flow, 0.01 * own, 0.5 * own).string() + "':\"$PATH\" sh Allrun");
   EXPECT_FALSE(done.good);
   EXPECT_THAT(done.output, HasSubstr("have not settled"));
 }

@@ -7,6 +7,7 @@
 #include "tree/tree_commands.h"
 
 #include "ostia/core/log.h"
+#include "ostia/geometry/faces.h"
 #include "ostia/geometry/mesh_topology.h"
 #include "ostia/geometry/smoothing.h"
 #include "ostia/geometry/subdivision.h"
@@ -45,6 +46,10 @@ bool repair(const ConvertCommand& options, geometry::FacedSurface& surface, Json
   for (const std::string& step : fixed.done) core::log_info(step);
   core::log_info("faults left: " + fixed.left);
   done["repair"] = told(fixed);
+  if (surface.faces.size() > 1)
+    core::log_warning(
+        "the names of its " + std::to_string(surface.faces.size()) +
+        " faces are left out, since repairing makes other triangles; ends are found by their shape");
   surface = {fixed.mesh, {}, {}};
   if (!fixed.meshable && options.smooth == 0 && options.subdivide == 0)
     core::log_warning("what is left keeps the surface from being meshed. " +
@@ -56,13 +61,14 @@ bool repair(const ConvertCommand& options, geometry::FacedSurface& surface, Json
 void refine(const ConvertCommand& options, geometry::FacedSurface& surface, Json& done,
             const core::TaskContext& task) {
   if (options.smooth == 0 && options.subdivide == 0) return;
-  if (surface.faces.size() > 1)
+  if (surface.faces.size() > 1 && options.subdivide > 0)
     throw InvalidInput("the surface has " + std::to_string(surface.faces.size()) +
-                       " faces, whose edges --smooth and --subdivide would round off; use them before the "
-                       "ends are capped");
+                       " faces, whose edges --subdivide would round off; use it before the ends are capped");
   if (options.smooth > 0) {
     geometry::VolumeSmoothingOptions how;
     how.filter.iterations = options.smooth;
+    how.borders_move = true;  // a rim is as rough as its wall
+    if (surface.faces.size() > 1) how.free = geometry::points_of_wall_alone(surface);
     surface.mesh = geometry::smoothed_in_volume(surface.mesh, how, task.sub(0.3, 0.6));
     done["smoothed"] = options.smooth;
   }

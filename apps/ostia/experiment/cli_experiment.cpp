@@ -58,6 +58,7 @@ void define_experiment(CLI::App& app, ExperimentCommand& c, const std::uint64_t&
   define_experiment_robustness(*experiment, seed, run);
   define_experiment_motion(*experiment, seed, run);
   define_experiment_pressure(*experiment, seed, run);
+  define_experiment_wall_spread(*experiment, seed, run);
 }
 
 }  // namespace ostia::app

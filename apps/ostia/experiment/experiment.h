@@ -64,6 +64,9 @@ void define_experiment_sensitivity(CLI::App& experiment, const std::uint64_t& se
 void define_experiment_pressure(CLI::App& experiment, const std::uint64_t& seed,
                                 std::function<ExitCode(const core::TaskContext&)>& run);
 
+void define_experiment_wall_spread(CLI::App& experiment, const std::uint64_t& seed,
+                                   std::function<ExitCode(const core::TaskContext&)>& run);
+
 /// Adds `experiment` and its subcommands; `seed` is read when the command runs.
 void define_experiment(CLI::App& app, ExperimentCommand& command, const std::uint64_t& seed,
                        std::function<ExitCode(const core::TaskContext&)>& run);

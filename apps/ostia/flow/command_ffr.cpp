@@ -1,7 +1,8 @@
 // `ostia ffr`: pressure and flow along a coronary tree, from its form alone.
 
 #include "flow/ffr.h"
-#include "options/validators.h"
+#include "input/case_image.h"
+#include "input/input_digest.h"
 
 #include "ostia/core/files.h"
 #include "ostia/core/log.h"
@@ -11,11 +12,9 @@
 #include "ostia/session/case_file.h"
 #include "ostia/session/case_report.h"
 #include "ostia/session/pressure_report.h"
+#include "ostia/session/pressure_wall_spread.h"
+#include "ostia/session/pressure_what_if.h"
 
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
-#include <CLI/Validators.hpp>
 #include <nlohmann/json.hpp>
 
 #include <chrono>
@@ -27,11 +26,36 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-session::PressureReportOptions options_of(const FfrCommand& c) {
-  session::PressureReportOptions options;
+/// Trees to be drawn; the walls' spread by an image comes later.
+std::optional<hemodynamics::UncertaintyOptions> uncertainty_of(const FfrCommand& c) {
+  if (c.uncertainty.empty()) return std::nullopt;
+  hemodynamics::UncertaintyOptions options;
   if (!c.conditions.empty()) {
     try {
-      options.conditions = hemodynamics::conditions_of_json(core::read_file(c.conditions));
+      options = hemodynamics::uncertainty_of_json(core::read_file(c.conditions), options);
+    } catch (const InvalidInput& error) {
+      throw InvalidInput(c.conditions.string() + ": " + error.what());
+    }
+  }
+  // An option goes before the file, which names a seed where it is a result's.
+  if (c.seed != hemodynamics::UncertaintyOptions().seed) options.seed = c.seed;
+  if (c.uncertainty != usual_trees) options.samples = std::stoi(c.uncertainty);
+  if (c.wall_spread_mm) {
+    options.wall.radius_sd_mm = *c.wall_spread_mm;
+    options.wall.source = "told";
+  }
+  hemodynamics::validate(options);
+  return options;
+}
+
+/// `kept`: what the case itself says, before all that is told here.
+session::PressureReportOptions options_of(const FfrCommand& c, const session::PressureNotes& kept) {
+  session::PressureReportOptions options;
+  options.conditions = session::conditions_of(kept);
+  if (!c.conditions.empty()) {
+    try {
+      options.conditions =
+          hemodynamics::conditions_of_json(core::read_file(c.conditions), options.conditions);
     } catch (const InvalidInput& error) {
       throw InvalidInput(c.conditions.string() + ": " + error.what());
     }
@@ -47,8 +71,10 @@ session::PressureReportOptions options_of(const FfrCommand& c) {
   options.reading.behind_mm = c.behind_mm;
   options.model.junctions =
       c.junctions == "none" ? hemodynamics::JunctionLaw::none : hemodynamics::JunctionLaw::unified;
+  for (const std::string& format : c.exports) options.exports.push_back(hemodynamics::network_format(format));
   options.pulse = c.pulse;
   options.unusual = c.unusual;
+  options.uncertainty = uncertainty_of(c);
   hemodynamics::validate(options.conditions, true);  // what has no meaning is never taken
   try {
     hemodynamics::validate(options.conditions, options.unusual);
@@ -60,35 +86,97 @@ session::PressureReportOptions options_of(const FfrCommand& c) {
 }
 
 pipeline::JobKey job_of(const FfrCommand& c, const session::PressureReportOptions& options) {
-  const nlohmann::json parameters = {
+  nlohmann::json parameters = {
       {"conditions", nlohmann::json::parse(hemodynamics::conditions_json(options.conditions))},
       {"behind_mm", c.behind_mm},
       {"junctions", c.junctions},
+      {"export", c.exports},
       {"pulse", c.pulse},
+      {"open", c.open},
+      {"narrow", c.narrow},
       {"unusual", c.unusual}};
-  return {"ffr", {{"input", core::sha256_file(c.input)}}, parameters.dump()};
+  if (options.uncertainty)
+    parameters["uncertainty"] = nlohmann::json::parse(hemodynamics::uncertainty_json(*options.uncertainty));
+  std::map<std::string, std::string> inputs{{"input", core::sha256_file(c.input)}};
+  if (!c.image.empty()) inputs["image"] = digest_of(c.image);
+  return {"ffr", std::move(inputs), parameters.dump()};
 }
 
-session::PressureTree tree_of(const FfrCommand& c, const core::TaskContext& task) {
-  task.set_stage("reading");
-  if (c.input.extension() != ".ostia") {
-    const geometry::VesselTree tree = io::read_centerlines(c.input);
-    task.set_stage("sections");
-    return session::pressure_tree(tree, {}, task);
+/// A case, or a tree of lines.
+struct FfrInput {
+  std::shared_ptr<const lumen::LumenModel> model;  // of a case
+  geometry::VesselTree lines;                      // else
+  session::PressureNotes notes;
+  std::shared_ptr<const imaging::ImageVolume> image;  // of a case, where it is told
+  const geometry::VesselTree& tree() const { return model ? model->tree : lines; }
+};
+
+FfrInput read_input(const FfrCommand& c, const core::TaskContext& task) {
+  const fs::path& path = c.input;
+  FfrInput input;
+  if (path.extension() != ".ostia") {
+    if (!c.image.empty())
+      throw InvalidInput(path.string() +
+                         " has no walls that an image could tell the spread of; leave out --image");
+    input.lines = io::read_centerlines(path);
+    return input;
   }
-  const session::CaseFile file = session::CaseFile::open(c.input, session::OpenMode::read_only);
-  const lumen::LumenModel& model = *file.model();
+  const session::CaseFile file = session::CaseFile::open(path, session::OpenMode::read_only);
+  input.model = file.model();
+  input.notes = file.annotations()->pressure;
+  options_of(c, input.notes);  // what is wrong with it is said before the image is read
+  if (!c.image.empty()) input.image = case_image(c.image, file, task).image;
+  return input;
+}
+
+/// Those of the case, then those that are told.
+std::vector<session::WhatIf> what_ifs_of(const FfrCommand& c, const FfrInput& input) {
+  std::vector<session::WhatIf> all = input.notes.what_ifs;
+  for (const std::string& text : c.open)
+    all.push_back(session::what_if_of_text(text, session::WhatIfKind::open, input.tree()));
+  for (const std::string& text : c.narrow)
+    all.push_back(session::what_if_of_text(text, session::WhatIfKind::narrow, input.tree()));
+  return all;
+}
+
+/// With the spread of its walls by the image, where there is one.
+session::PressureTree tree_of(const FfrInput& input, session::PressureReportOptions& options,
+                              const core::TaskContext& task) {
+  if (!input.model) {
+    task.set_stage("sections");
+    return session::pressure_tree(input.lines, {}, task);
+  }
+  const lumen::LumenModel& model = *input.model;
   task.set_stage("solving");
   const analysis::SurfaceOfVessel surfaces = session::solved_surfaces(model, task.sub(0.0, 0.4));
   task.set_stage("sections");
-  return session::pressure_tree(model, surfaces, {}, task.sub(0.4, 1.0));
+  session::PressureTree tree = session::pressure_tree(model, surfaces, {}, task.sub(0.4, 0.8));
+  if (input.image && options.uncertainty)
+    options.uncertainty->wall = session::wall_spread_of_image(
+        tree, model, surfaces, *input.image, options.uncertainty->wall, {}, task.sub(0.8, 1.0));
+  return tree;
 }
 
 std::string number_text(const nlohmann::json& value, int decimals) {
   return value.is_null() ? std::string("-") : core::fixed_text(value.get<double>(), decimals);
 }
 
-void print(const nlohmann::json& result) {
+/// Where it comes from is told of the inputs that have a say.
+void print_uncertainty(const nlohmann::json& lesion) {
+  if (lesion["ffr"].is_null()) return;
+  std::string line = lesion["name"].get<std::string>() + " in 95 % " + number_text(lesion["ffr"]["low"], 2) +
+                     " to " + number_text(lesion["ffr"]["high"], 2) + ", at or below the threshold in " +
+                     core::fixed_text(100.0 * lesion["ffr"]["probability"].get<double>(), 0) + " %";
+  std::string from;
+  if (lesion["sobol"].is_object())
+    for (const auto& [group, index] : lesion["sobol"].items())
+      if (index["total"].get<double>() >= 0.05)
+        from += (from.empty() ? "; by " : ", ") + group + " " +
+                core::fixed_text(100.0 * index["total"].get<double>(), 0) + " %";
+  std::printf("%s%s\n", line.c_str(), from.c_str());
+}
+
+void print_pressures(const nlohmann::json& result) {
   std::printf("mean aortic pressure %s mmHg; the tree asks for %s ml/min at rest (by %s)\n",
               number_text(result["aortic_mmhg"], 0).c_str(),
               number_text(result["flow"]["asked_ml_min"], 0).c_str(),
@@ -105,6 +193,12 @@ void print(const nlohmann::json& result) {
     if (lesion.contains("pulse")) line += ", iFR " + number_text(lesion["pulse"]["wave_free_ratio"], 2);
     std::printf("%s\n", line.c_str());
   }
+  if (result.contains("uncertainty"))
+    for (const auto& lesion : result["uncertainty"]["lesions"]) print_uncertainty(lesion);
+  if (result.contains("what_if"))
+    for (const auto& lesion : result["what_if"]["lesions"])
+      std::printf("%s as if: FFR %s\n", lesion["name"].get<std::string>().c_str(),
+                  number_text(lesion["ffr"], 2).c_str());
   for (const auto& outlet : result["outlets"])
     std::printf("end of %s: FFR %s, %s ml/min, %s at rest\n", outlet["name"].get<std::string>().c_str(),
                 number_text(outlet["ffr"], 2).c_str(), number_text(outlet["hyperaemic_ml_min"], 0).c_str(),
@@ -116,18 +210,26 @@ void print(const nlohmann::json& result) {
 
 ExitCode run_ffr(const FfrCommand& c, const core::TaskContext& task) {
   const auto start = Clock::now();
-  const session::PressureReportOptions options = options_of(c);
+  // What is wrong with it is said before anything is read; a case's own inputs come first.
+  if (c.input.extension() != ".ostia") options_of(c, {});
   pipeline::require_free_folder(c.output);
   if (!fs::is_regular_file(c.input))
     throw IoError("cannot read " + c.input.string() + ": there is no such file");
+  if (c.input.extension() == ".json") return run_ffr_network(c, task);
+  task.set_stage("reading");
+  const FfrInput input = read_input(c, task.sub(0.0, 0.1));
+  session::PressureReportOptions options = options_of(c, input.notes);
+  options.what_ifs = what_ifs_of(c, input);
   const pipeline::JobKey job = job_of(c, options);
   if (pipeline::already_done(c.output, job)) {
     core::log_info("done already with the same input and parameters; nothing to do");
   } else {
-    session::PressureTree tree = tree_of(c, task.sub(0.0, 0.9));
-    const session::PressureReport report =
-        session::make_pressure_report(std::move(tree), options, task.sub(0.9, 0.98));
+    session::PressureTree tree = tree_of(input, options, task.sub(0.1, 0.8));
+    session::PressureReport report =
+        session::make_pressure_report(std::move(tree), options, task.sub(0.8, 0.9));
     for (const std::string& warning : report.warnings) core::log_warning(warning);
+    task.set_stage("the wall");
+    if (input.model) report.wall = session::pressure_wall(report, *input.model, task.sub(0.9, 0.98));
     task.set_stage("writing");
     session::write_pressure_report(c.output, report, job,
                                    std::chrono::duration<double>(Clock::now() - start).count());
@@ -136,40 +238,9 @@ ExitCode run_ffr(const FfrCommand& c, const core::TaskContext& task) {
   if (c.json)
     std::fputs(result.c_str(), stdout);
   else
-    print(nlohmann::json::parse(result));
+    print_pressures(nlohmann::json::parse(result));
   task.set_progress(1.0);
   return ExitCode::ok;
-}
-
-void define_ffr(CLI::App& app, FfrCommand& c, std::function<ExitCode(const core::TaskContext&)>& run) {
-  CLI::App* ffr = app.add_subcommand("ffr",
-                                     "Pressure and flow along a coronary tree, FFR behind each narrowing, "
-                                     "computed from its form; for research");
-  ffr->footer(
-      "Example:\n  ostia ffr heart.ostia -o pressure\n"
-      "  ostia ffr lines.vtp -o pressure --systolic 135 --diastolic 85 --lv-mass 140 --pulse");
-  ffr->fallthrough();
-  ffr->add_option("INPUT", c.input, "Case, or a tree of vessels with radii (.vtp, .vtk, .swc, .csv, .gxl)")
-      ->required();
-  ffr->add_option("-o,--output", c.output, "Folder that is made")->required();
-  ffr->add_option("--systolic", c.systolic_mmhg, "Systolic pressure by cuff, mmHg");
-  ffr->add_option("--diastolic", c.diastolic_mmhg, "Diastolic pressure by cuff, mmHg");
-  ffr->add_option("--heart-rate", c.heart_rate_bpm, "Beats a minute, for --pulse");
-  ffr->add_option("--lv-mass", c.lv_mass_g,
-                  "Mass of the left ventricle, g; left out: flow goes by the vessels' calibre");
-  ffr->add_option("--rest-flow", c.rest_flow_ml_min,
-                  "Flow of the whole tree at rest, ml/min, where it is known");
-  ffr->add_option("--conditions", c.conditions,
-                  "Any input, as JSON: {\"venous_mmhg\": 7}, or a conditions.json");
-  ffr->add_option("--behind", c.behind_mm, "Where a narrowing's FFR is read, mm behind its end")
-      ->check(CLI::Range(0.0, 60.0));
-  ffr->add_option("--junctions", c.junctions,
-                  "Losses at forks: unified (Mynard and Valen-Sendstad 2015), none")
-      ->check(CLI::IsMember({"unified", "none"}));
-  ffr->add_flag("--pulse", c.pulse, "Also over the beat at rest: Pd/Pa and iFR");
-  ffr->add_flag("--unusual", c.unusual, "Take pressures and flows beyond physiology");
-  ffr->add_flag("--json", c.json, "ffr.json on standard output");
-  ffr->callback([&] { run = [&](const core::TaskContext& task) { return run_ffr(c, task); }; });
 }
 
 }  // namespace ostia::app

@@ -1,11 +1,10 @@
+#include "input/case_image.h"
 #include "measure/report.h"
 #include "options/validators.h"
 
 #include "ostia/core/background_task.h"
 #include "ostia/core/files.h"
 #include "ostia/core/log.h"
-#include "ostia/imaging/image_axes.h"
-#include "ostia/pipeline/source.h"
 #include "ostia/session/case_report.h"
 
 #include <CLI/App.hpp>
@@ -20,23 +19,6 @@ namespace ostia::app {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-pipeline::Source image_of(const ReportCommand& o, const session::CaseFile& file,
-                          const core::TaskContext& task) {
-  task.set_stage("reading");
-  pipeline::SourceOptions reading;
-  reading.dicom.assume_axial = true;  // whoever made the case of it has seen how it lies
-  pipeline::Source source = pipeline::load_ct(o.image, reading, task);
-  for (const std::string& warning : source.warnings) core::log_warning(warning);
-  try {
-    file.check_image({source.sha256, source.pseudonym});
-  } catch (const InvalidInput& error) {
-    throw InvalidInput(o.image.string() + ": " + error.what());
-  }
-  if (const auto own = file.image(); own && !own->axes.empty())
-    source.image = std::make_shared<const imaging::ImageVolume>(imaging::with_axes(*source.image, own->axes));
-  return source;
-}
 
 void print(const std::filesystem::path& folder, bool as_json) {
   const std::string json = core::read_file(folder / "report.json");
@@ -76,7 +58,7 @@ ExitCode run_report(const ReportCommand& o, const core::TaskContext& task) {
         return session::solved_surfaces(*model, beside);
       });
   pipeline::Source source;
-  if (!o.image.empty()) source = image_of(o, file, task.sub(0.0, 0.15));
+  if (!o.image.empty()) source = case_image(o.image, file, task.sub(0.0, 0.15));
   if (source.image && !options.image) options.image = {source.sha256, source.pseudonym};
   const pipeline::JobKey job = session::report_job(file, source.image != nullptr, options);
   if (const auto code = pipeline::already_done(o.output, job)) {

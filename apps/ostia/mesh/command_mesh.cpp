@@ -253,7 +253,7 @@ ExitCode run_mesh(const MeshCommand& options, const core::TaskContext& task) {
   EndsNotCutPicture ends(kept);
   pipeline::MeshedLumen meshed = kept.guard([&] {
     return ends.guard(source.surface, tree,
-                      [&] { return pipeline::mesh_lumen(source.surface, tree, how, task.sub(0.3, 0.95)); });
+                      [&] { return pipeline::mesh_surface(source.surface, tree, how, task.sub(0.3, 0.95)); });
   });
   for (const std::string& warning : meshed.warnings) core::log_warning(warning);
   if (how.side_branches != pipeline::SideBranches::asked_only)

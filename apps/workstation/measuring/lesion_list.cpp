@@ -64,6 +64,7 @@ LesionList::LesionList(session::Workbench& bench, Guard guard, QWidget* parent)
   header()->setSectionResizeMode(lesion_columns - 1, QHeaderView::Fixed);  // as give_comments_room has it
   setItemDelegate(new OnlyComments(this));
   setEditTriggers(EditKeyPressed | DoubleClicked);
+  setColumnHidden(ffr_column, true);
   setMinimumSize(120, 40);
   soon_.setSingleShot(true);
   soon_.setInterval(fill_lesions_after_ms);
@@ -123,6 +124,42 @@ void LesionList::show_lesions(session::LesionBoard* board) {
   soon_.start();
 }
 
+void LesionList::show_pressures(session::PressureBoard* board) {
+  pressures_ = board;
+  of_pressures_.clear();
+  if (board) {
+    of_pressures_.push_back(board->shown.observe([this](const bool&) { show_ffr(); }));
+    of_pressures_.push_back(board->changed.observe([this] { show_ffr(); }));
+  }
+  show_ffr();
+}
+
+/// In the rows that are there: these are written anew when others are found.
+void LesionList::show_ffr() {
+  const bool on = pressures_ && pressures_->shown.get();
+  if (isColumnHidden(ffr_column) == on) {
+    setColumnHidden(ffr_column, !on);
+    give_comments_room();
+  }
+  if (!on || state() == EditingState) return;
+  std::vector<analysis::Stenosis> places;
+  for (const session::LesionRow& row : rows_) places.push_back(row.lesion.stenosis);
+  std::vector<std::optional<session::LesionFfr>> found(places.size());
+  if (pressures_->now()) guard_([&] { found = session::ffr_of_lesions(*pressures_->now(), places); });
+  const QScopedValueRollback<bool> filling(filling_, true);
+  for (int i = 0; i < topLevelItemCount(); ++i) {
+    QTreeWidgetItem& item = *topLevelItem(i);
+    const auto k = static_cast<std::size_t>(item.data(0, place_role).toInt());
+    // Of plaque that narrows nothing it would be that of the next narrowing.
+    const bool narrows = k < found.size() && rows_[k].lesion.narrows;
+    const std::optional<session::LesionFfr> ffr = narrows ? found[k] : std::nullopt;
+    item.setText(ffr_column, narrows || !pressures_->now() ? ffr_cell(ffr) : QStringLiteral("\u2013"));
+    item.setToolTip(ffr_column, ffr_tip(ffr));
+    item.setData(ffr_column, sort_role, ffr && !ffr->now.occluded ? QVariant(ffr->now.behind) : QVariant());
+    item.setTextAlignment(ffr_column, Qt::AlignRight | Qt::AlignVCenter);
+  }
+}
+
 /// Written anew, but for the row that is being typed into; the chosen one stays chosen.
 void LesionList::fill() {
   if (!board_) return;
@@ -140,6 +177,7 @@ void LesionList::fill() {
     topLevelItem(i)->setData(0, place_role, i);
     show_row(*topLevelItem(i), rows_[static_cast<std::size_t>(i)]);
   }
+  show_ffr();
   setSortingEnabled(true);
   setCurrentItem(item_at_cursor());
   filter();
@@ -304,10 +342,15 @@ void LesionList::commented(const QTreeWidgetItem& item) {
 }
 
 QString LesionList::as_text() const {
-  QString text = lesion_titles_in_full().join('\t') + '\n';
+  const QStringList all = lesion_titles_in_full();
+  QStringList titles;
+  for (int i = 0; i < lesion_columns; ++i)
+    if (!isColumnHidden(i)) titles << all[i];
+  QString text = titles.join('\t') + '\n';
   for (const QTreeWidgetItem* item : shown_items()) {
     QStringList cells;
-    for (int i = 0; i < lesion_columns; ++i) cells << item->text(i).simplified();
+    for (int i = 0; i < lesion_columns; ++i)
+      if (!isColumnHidden(i)) cells << item->text(i).simplified();
     text += cells.join('\t') + '\n';
   }
   return text;

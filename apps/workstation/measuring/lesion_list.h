@@ -4,6 +4,7 @@
 #include "views/picture_widget.h"
 
 #include "ostia/session/lesion_board.h"
+#include "ostia/session/pressure_board.h"
 
 #include <QTimer>
 #include <QTreeWidget>
@@ -24,6 +25,8 @@ class LesionList final : public QTreeWidget {
   LesionList(session::Workbench& bench, Guard guard, QWidget* parent = nullptr);
   /// Where the lesions come from; it has to outlive the list, or null is set before it goes.
   void show_lesions(session::LesionBoard* board);
+  /// While it is shown, a column has FFR behind each lesion; it has to outlive the list, or null is set.
+  void show_pressures(session::PressureBoard* board);
   /// What filters the rows and tells what is missing; for a title beside which they stand.
   QWidget* controls();
 
@@ -48,6 +51,7 @@ class LesionList final : public QTreeWidget {
   void fill();
   void give_comments_room();
   void show_row(QTreeWidgetItem& item, const session::LesionRow& row);
+  void show_ffr();
   void filter();
   void follow_cursor();
   void go_to(const session::LesionRow& row);
@@ -58,6 +62,7 @@ class LesionList final : public QTreeWidget {
   session::Workbench& bench_;
   Guard guard_;
   session::LesionBoard* board_ = nullptr;
+  session::PressureBoard* pressures_ = nullptr;
   QWidget* controls_ = nullptr;
   QLineEdit* wanted_text_ = nullptr;
   QComboBox* wanted_state_ = nullptr;
@@ -65,7 +70,7 @@ class LesionList final : public QTreeWidget {
   std::vector<session::LesionRow> rows_;
   bool filling_ = false;
   QTimer soon_;
-  std::vector<session::Subscription> own_, of_board_;
+  std::vector<session::Subscription> own_, of_board_, of_pressures_;
 };
 
 }  // namespace ostia::workstation

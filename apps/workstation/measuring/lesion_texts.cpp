@@ -59,10 +59,11 @@ QString evaluable_text(const session::LesionRow& row) {
 }  // namespace
 
 QStringList lesion_titles() {
-  return {LesionTexts::tr("No."),    LesionTexts::tr("Segment"), LesionTexts::tr("Grade"),
-          LesionTexts::tr("%"),      LesionTexts::tr("MLD"),     LesionTexts::tr("MLA"),
-          LesionTexts::tr("Length"), LesionTexts::tr("Plaque"),  LesionTexts::tr("Class"),
-          LesionTexts::tr("Image"),  LesionTexts::tr("State"),   LesionTexts::tr("Comment")};
+  return {LesionTexts::tr("No."),    LesionTexts::tr("Segment"),        LesionTexts::tr("Grade"),
+          LesionTexts::tr("%"),      LesionTexts::tr("FFR (research)"), LesionTexts::tr("MLD"),
+          LesionTexts::tr("MLA"),    LesionTexts::tr("Length"),         LesionTexts::tr("Plaque"),
+          LesionTexts::tr("Class"),  LesionTexts::tr("Image"),          LesionTexts::tr("State"),
+          LesionTexts::tr("Comment")};
 }
 
 QStringList lesion_titles_in_full() {
@@ -70,6 +71,7 @@ QStringList lesion_titles_in_full() {
           LesionTexts::tr("Segment"),
           LesionTexts::tr("CAD-RADS of the lesion"),
           LesionTexts::tr("Diameter stenosis (%)"),
+          LesionTexts::tr("FFR behind it (computed, for research)"),
           LesionTexts::tr("Minimal lumen diameter (mm)"),
           LesionTexts::tr("Minimal lumen area (mm\u00b2)"),
           LesionTexts::tr("Length (mm)"),
@@ -86,6 +88,7 @@ QStringList lesion_cells(const session::LesionRow& row) {
           QString::fromStdString(row.segment.empty() ? row.vessel_name : row.segment),
           grade_text(row),
           quantity::stenosis(s.diameter_percent),
+          QString(),
           quantity::calibre(s.least_diameter_mm),
           quantity::area(s.least_area_mm2),
           quantity::length(s.length_mm()),
@@ -121,6 +124,20 @@ QString lesion_tip(const session::LesionRow& row) {
                       "A lesion has a grade where its stretch is evaluable, its vessel is Done, or "
                       "you have accepted it.");
   return tip;
+}
+
+QString ffr_cell(const std::optional<session::LesionFfr>& ffr) {
+  if (!ffr) return QStringLiteral("?");
+  const auto text = [](const hemodynamics::LesionReading& one) {
+    return one.occluded ? QStringLiteral("\u2013") : quantity::ratio(one.behind);
+  };
+  return ffr->after ? text(ffr->now) + QStringLiteral(" \u2192 ") + text(*ffr->after) : text(ffr->now);
+}
+
+QString ffr_tip(const std::optional<session::LesionFfr>& ffr) {
+  if (!ffr || ffr->now.occluded) return LesionTexts::tr("Nothing flows there, or it has no sections.");
+  return LesionTexts::tr("Computed, for research; read %1 mm behind it. The lesion takes %2 of it.")
+      .arg(quantity::length(ffr->now.distance_mm), quantity::ratio(ffr->now.delta()));
 }
 
 QString state_word(session::LesionState state) {

@@ -2,6 +2,7 @@
 /// \file The words of the table of lesions.
 
 #include "ostia/session/lesion_board.h"
+#include "ostia/session/pressure_readout.h"
 
 #include <QStringList>
 #include <optional>
@@ -14,6 +15,7 @@ enum LesionColumn {
   segment_column,
   grade_column,
   percent_column,
+  ffr_column,  ///< while pressures are shown
   mld_column,
   mla_column,
   lesion_length_column,
@@ -31,6 +33,9 @@ QStringList lesion_cells(const session::LesionRow& row);
 /// What a column sorts by, where that is a number.
 std::vector<std::optional<double>> lesion_numbers(const session::LesionRow& row);
 QString lesion_tip(const session::LesionRow& row);  ///< where it lies
+/// "0.78", or "0.78, 0.91 if" with the stretches that are looked at as if they were otherwise.
+QString ffr_cell(const std::optional<session::LesionFfr>& ffr);
+QString ffr_tip(const std::optional<session::LesionFfr>& ffr);
 QString state_word(session::LesionState state);
 
 }  // namespace ostia::workstation

@@ -129,6 +129,8 @@ view::Words words_of_views() {
                  word(QT_TRANSLATE_NOOP("views", "Stenosis")), word(QT_TRANSLATE_NOOP("views", "Volume")),
                  word(QT_TRANSLATE_NOOP("views", "HU ring")),  word(QT_TRANSLATE_NOOP("views", "Arrow")),
                  word(QT_TRANSLATE_NOOP("views", "Note"))};
+  words.ffr = word(QT_TRANSLATE_NOOP("views", "FFR (research)"));
+  words.what_if = word(QT_TRANSLATE_NOOP("views", "what if"));
   words.not_measurable = word(QT_TRANSLATE_NOOP("views", "not measurable"));
   words.off_wall = word(QT_TRANSLATE_NOOP("views", "There is no vessel: click on the wall of one."));
   words.other_vessel =

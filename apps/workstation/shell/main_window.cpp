@@ -13,6 +13,8 @@
 #include "opening/start_page.h"
 #include "phases/beating_case.h"
 #include "phases/study_series.h"
+#include "pressure/live.h"
+#include "pressure/page.h"
 #include "qa/dock.h"
 #include "shell/docks.h"
 #include "shell/failure_panel.h"
@@ -93,6 +95,8 @@ MainWindow::MainWindow(const std::filesystem::path& state_folder)
 MainWindow::~MainWindow() {
   // Children go in the order of their making: a dialog that is open would outlive the jobs that it cancels.
   while (QDialog* dialog = findChild<QDialog*>()) delete dialog;
+  delete pressure_page_;  // it and the list watch what goes before them
+  panels_->lesions().show_pressures(nullptr);
 }
 
 void MainWindow::build_status_bar() {
@@ -155,6 +159,11 @@ void MainWindow::build_parts() {
   panels_->vessels().show_evaluability(evaluability_->board());
   lesions_ = std::make_unique<Lesions>(desk_, evaluability_->board(), outer_walls_->board().found(),
                                        panels_->lesions());
+  pressures_ = std::make_unique<Pressures>(desk_, panels_->pictures(), panels_->profile(), panels_->scene());
+  panels_->lesions().show_pressures(&pressures_->board());
+  pressure_page_ = new PressurePage(desk_, *pressures_);
+  addDockWidget(Qt::RightDockWidgetArea, pressure_page_);
+  pressure_page_->hide();
   build_qa();
   addDockWidget(Qt::RightDockWidgetArea, &meshing_->dock());
   meshing_->dock().hide();

@@ -32,6 +32,8 @@ class HeartDock;
 class HeartVolume;
 class Layouts;
 class PlanesDock;
+class PressurePage;
+class Pressures;
 class Reporting;
 class Scissors;
 class StudySeries;
@@ -73,6 +75,8 @@ class MainWindow final : public QMainWindow {
   StudySeries& series() { return *series_; }
   Layouts& layouts() { return *layouts_; }
   Lesions& lesions() { return *lesions_; }
+  Pressures& pressures() { return *pressures_; }
+  PressurePage& pressure_page() { return *pressure_page_; }
 
  protected:
   void closeEvent(QCloseEvent* event) override;
@@ -111,6 +115,8 @@ class MainWindow final : public QMainWindow {
   std::unique_ptr<Evaluability> evaluability_;
   std::unique_ptr<Lesions> lesions_;  // asks evaluability_
   std::shared_ptr<QaDock> qa_;        // so does this
+  std::unique_ptr<Pressures> pressures_;
+  PressurePage* pressure_page_ = nullptr;
   std::unique_ptr<FlowResults> flow_results_;
   std::unique_ptr<FlowCases> flow_cases_;
   std::unique_ptr<TreeOpening> trees_;

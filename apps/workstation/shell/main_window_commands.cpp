@@ -14,6 +14,8 @@
 #include "opening/orientation.h"
 #include "opening/recent_cases.h"
 #include "phases/commands.h"
+#include "pressure/commands.h"
+#include "pressure/page.h"
 #include "qa/commands.h"
 #include "qa/dock.h"
 #include "shell/commands.h"
@@ -65,6 +67,8 @@ void MainWindow::build_commands() {
   add_meshing_commands(*commands_, desk_, *meshing_);
   add_flow_commands(*commands_, desk_, *flow_cases_, *flow_results_);
   add_tree_commands(*commands_, *trees_);
+  add_pressure_commands(*commands_, desk_, *pressures_, *pressure_page_);
+  pressure_page_->add_buttons(*commands_);
   add_phase_commands(*commands_, desk_, *beating_);
   add_series_commands(*commands_, desk_, *series_);
   add_qa_commands(*commands_, *qa_);

@@ -27,11 +27,15 @@ class MenuBuilder {
   }
   void edit() { fill(bar_.addMenu(tr("&Edit")), {"edit.undo", "edit.redo", line, "edit.preferences"}); }
   void vessel() {
-    fill(bar_.addMenu(tr("Ve&ssel")),
-         {"vessel.find", "vessel.split", "vessel.merge", "vessel.cut", "vessel.connect", line,
-          "vessel.evaluable", "vessel.limited", "vessel.not_evaluable", "vessel.judged_by_program",
-          "view.evaluability", line, "lesion.accept", "lesion.reject", "lesion.open", "lesion.comment",
-          "lesion.copy"});
+    QMenu* menu = bar_.addMenu(tr("Ve&ssel"));
+    fill(menu, {"vessel.find", "vessel.split", "vessel.merge", "vessel.cut", "vessel.connect", line,
+                "vessel.evaluable", "vessel.limited", "vessel.not_evaluable", "vessel.judged_by_program",
+                "view.evaluability", line, "lesion.accept", "lesion.reject", "lesion.open", "lesion.comment",
+                "lesion.copy", line});
+    QMenu* pressure = menu->addMenu(tr("&Pressure"));
+    pressure->setToolTipsVisible(true);
+    fill(pressure, {"view.pressure", "pressure.map", line, "pressure.open", "pressure.narrow",
+                    "pressure.clear", line, "pressure.report"});
   }
   void tools() {
     QMenu* menu = bar_.addMenu(tr("&Tools"));

@@ -75,6 +75,8 @@ QString step_name(const std::string& op) {
       {"vessel.mark", QT_TRANSLATE_NOOP("steps", "Mark a vessel")},
       {"measure.add", QT_TRANSLATE_NOOP("steps", "Measure")},
       {"measure.change", QT_TRANSLATE_NOOP("steps", "Change a measurement")},
+      {"pressure.inputs", QT_TRANSLATE_NOOP("steps", "Inputs of the pressures")},
+      {"pressure.what_if", QT_TRANSLATE_NOOP("steps", "What if, of the pressures")},
       {"measure.delete", QT_TRANSLATE_NOOP("steps", "Delete a measurement")}};
   const QString key = QString::fromStdString(op);
   const auto found = names.find(key);

@@ -146,6 +146,22 @@
         <source>rejected</source>
         <translation>verworfen</translation>
     </message>
+    <message>
+        <source>FFR (research)</source>
+        <translation>FFR (Forschung)</translation>
+    </message>
+    <message>
+        <source>FFR behind it (computed, for research)</source>
+        <translation>FFR dahinter (berechnet, für die Forschung)</translation>
+    </message>
+    <message>
+        <source>Nothing flows there, or it has no sections.</source>
+        <translation>Dort fließt nichts, oder es gibt keine Schnitte.</translation>
+    </message>
+    <message>
+        <source>Computed, for research; read %1 mm behind it. The lesion takes %2 of it.</source>
+        <translation>Berechnet, für die Forschung; %1 mm dahinter gelesen. Die Läsion nimmt davon %2.</translation>
+    </message>
 </context>
 <context>
     <name>MeshPreview</name>
@@ -682,6 +698,10 @@
     <message>
         <source>the thickness of the slab</source>
         <translation>die Dicke der Schicht</translation>
+    </message>
+    <message>
+        <source>Pressure</source>
+        <translation>Druck</translation>
     </message>
 </context>
 <context>
@@ -2422,6 +2442,66 @@
         <source>A frame about the heart; a side that is pulled cuts away what lies beyond.</source>
         <translation>Ein Rahmen um das Herz; eine gezogene Seite nimmt weg, was jenseits liegt.</translation>
     </message>
+    <message>
+        <source>The page Pressure is not open.</source>
+        <translation>Die Seite „Druck“ ist nicht offen.</translation>
+    </message>
+    <message>
+        <source>&amp;Pressure (research)</source>
+        <translation>&amp;Druck (Forschung)</translation>
+    </message>
+    <message>
+        <source>Computes pressure and flow along the tree, and shows FFR in all views.</source>
+        <translation>Berechnet Druck und Fluss entlang des Gefäßbaums und zeigt die FFR in allen Ansichten.</translation>
+    </message>
+    <message>
+        <source>&amp;Colour the tree by FFR</source>
+        <translation>Gefäßbaum nach FFR &amp;färben</translation>
+    </message>
+    <message>
+        <source>While the page Pressure is open.</source>
+        <translation>Solange die Seite „Druck“ offen ist.</translation>
+    </message>
+    <message>
+        <source>What if it were &amp;opened</source>
+        <translation>Was wäre, wenn sie &amp;offen wäre</translation>
+    </message>
+    <message>
+        <source>FFR as if the narrowing at the cursor had its reference calibre, less what stays; the lumen is as it was.</source>
+        <translation>FFR, als hätte die Engstelle am Cursor ihr Referenzkaliber, abzüglich dessen, was bleibt; das Lumen bleibt, wie es war.</translation>
+    </message>
+    <message>
+        <source>What if it were &amp;narrower</source>
+        <translation>Was wäre, wenn es &amp;enger wäre</translation>
+    </message>
+    <message>
+        <source>FFR as if the stretch at the cursor were narrowed by a stenosis of this percent; the lumen is as it was.</source>
+        <translation>FFR, als wäre die Strecke am Cursor durch eine Stenose dieses Prozentsatzes verengt; das Lumen bleibt, wie es war.</translation>
+    </message>
+    <message>
+        <source>&amp;Take all of them back</source>
+        <translation>Alle &amp;zurücknehmen</translation>
+    </message>
+    <message>
+        <source>FFR of the lumen as it is alone.</source>
+        <translation>Nur die FFR des Lumens, wie es ist.</translation>
+    </message>
+    <message>
+        <source>Nothing is looked at as if it were otherwise.</source>
+        <translation>Nichts wird betrachtet, als wäre es anders.</translation>
+    </message>
+    <message>
+        <source>Report of the p&amp;ressures</source>
+        <translation>&amp;Befund der Drücke</translation>
+    </message>
+    <message>
+        <source>PDF, HTML and tables of inputs, curves and readings, in a folder beside the case.</source>
+        <translation>PDF, HTML und Tabellen der Eingaben, Kurven und Ablesungen, in einem Ordner neben dem Fall.</translation>
+    </message>
+    <message>
+        <source>The page Pressure is not open, or knows no pressures yet.</source>
+        <translation>Die Seite „Druck“ ist nicht offen oder kennt noch keine Drücke.</translation>
+    </message>
 </context>
 <context>
     <name>ostia::workstation::CrashReportDialog</name>
@@ -3297,6 +3377,10 @@
         <source>Series and phases</source>
         <translation>Serien und Phasen</translation>
     </message>
+    <message>
+        <source>&amp;Pressure</source>
+        <translation>&amp;Druck</translation>
+    </message>
 </context>
 <context>
     <name>ostia::workstation::MeshDock</name>
@@ -3929,6 +4013,105 @@
     </message>
 </context>
 <context>
+    <name>ostia::workstation::OrientationDialog</name>
+    <message>
+        <source>Set orientation</source>
+        <translation>Orientierung angeben</translation>
+    </message>
+    <message>
+        <source>Turn and flip until the letters are right: the breastbone at A, the spine at P, the heart&apos;s tip towards L, the liver at R and I.</source>
+        <translation>Drehen und spiegeln Sie, bis die Buchstaben stimmen: das Brustbein bei A, die Wirbelsäule bei P, die Herzspitze gegen L, die Leber bei R und I.</translation>
+    </message>
+    <message>
+        <source>The case that is open was made of the image as it was. It is kept and closed; the arteries are looked for anew.</source>
+        <translation>Der offene Fall wurde am Bild gemacht, wie es war. Er bleibt erhalten und wird geschlossen; die Arterien werden neu gesucht.</translation>
+    </message>
+    <message>
+        <source>As in the file</source>
+        <translation>Wie in der Datei</translation>
+    </message>
+    <message>
+        <source>Axial, seen from the feet</source>
+        <translation>Axial, von den Füßen gesehen</translation>
+    </message>
+    <message>
+        <source>Coronal, seen from the front</source>
+        <translation>Koronal, von vorn gesehen</translation>
+    </message>
+    <message>
+        <source>Sagittal, seen from the left</source>
+        <translation>Sagittal, von links gesehen</translation>
+    </message>
+    <message>
+        <source>Turn by 90°</source>
+        <translation>Um 90° drehen</translation>
+    </message>
+    <message>
+        <source>Turn by 90°: %1</source>
+        <translation>Um 90° drehen: %1</translation>
+    </message>
+    <message>
+        <source>Columns run towards</source>
+        <translation>Spalten laufen nach</translation>
+    </message>
+    <message>
+        <source>Rows run towards</source>
+        <translation>Zeilen laufen nach</translation>
+    </message>
+    <message>
+        <source>Slices run towards</source>
+        <translation>Schichten laufen nach</translation>
+    </message>
+    <message>
+        <source>Left (L)</source>
+        <translation>links (L)</translation>
+    </message>
+    <message>
+        <source>Right (R)</source>
+        <translation>rechts (R)</translation>
+    </message>
+    <message>
+        <source>Back (P)</source>
+        <translation>hinten (P)</translation>
+    </message>
+    <message>
+        <source>Front (A)</source>
+        <translation>vorn (A)</translation>
+    </message>
+    <message>
+        <source>Head (S)</source>
+        <translation>oben, Kopf (S)</translation>
+    </message>
+    <message>
+        <source>Feet (I)</source>
+        <translation>unten, Füße (I)</translation>
+    </message>
+    <message>
+        <source>Flip left and right</source>
+        <translation>Links und rechts tauschen</translation>
+    </message>
+    <message>
+        <source>Flip front and back</source>
+        <translation>Vorn und hinten tauschen</translation>
+    </message>
+    <message>
+        <source>Flip head and feet</source>
+        <translation>Kopf und Füße tauschen</translation>
+    </message>
+    <message>
+        <source>Axes %1, as the file says.</source>
+        <translation>Achsen %1, wie die Datei sagt.</translation>
+    </message>
+    <message>
+        <source>Axes %1; the file says %2.</source>
+        <translation>Achsen %1; die Datei sagt %2.</translation>
+    </message>
+    <message>
+        <source>This mirrors the patient: left and right of the heart are exchanged against the file. Be sure of it.</source>
+        <translation>Das spiegelt die Person: links und rechts des Herzens sind gegen die Datei vertauscht. Seien Sie sich sicher.</translation>
+    </message>
+</context>
+<context>
     <name>ostia::workstation::OuterWalls</name>
     <message>
         <source>Plaque %1 mm³ (low attenuation %2, fibrofatty %3, fibrous %4, calcified %5), burden %6 %; the outer wall is seen on %7 % of it</source>
@@ -4459,6 +4642,195 @@ Rechtsklick: ein eigenes Fenster, und zurück</translation>
     <message>
         <source>%1 is this command&apos;s key now, but many desktops take it for themselves: where nothing happens, choose another.</source>
         <translation>%1 ist jetzt die Taste dieses Befehls, aber viele Arbeitsumgebungen behalten sie für sich: Wo nichts geschieht, wählen Sie eine andere.</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::PressureInputs</name>
+    <message>
+        <source>Inputs of the pressures</source>
+        <translation>Eingaben der Drücke</translation>
+    </message>
+    <message>
+        <source>Input</source>
+        <translation>Eingabe</translation>
+    </message>
+    <message>
+        <source>Value</source>
+        <translation>Wert</translation>
+    </message>
+    <message>
+        <source>Unit</source>
+        <translation>Einheit</translation>
+    </message>
+    <message>
+        <source>Usual</source>
+        <translation>Üblich</translation>
+    </message>
+    <message>
+        <source>Source</source>
+        <translation>Quelle</translation>
+    </message>
+    <message>
+        <source>Double click on a value to type another; nothing typed: the usual one.</source>
+        <translation>Doppelklick auf einen Wert, um einen anderen zu tippen; nichts getippt: der übliche.</translation>
+    </message>
+    <message>
+        <source>given here</source>
+        <translation>hier angegeben</translation>
+    </message>
+    <message>
+        <source>%1: %2 to %3 are taken; source of the usual value: %4</source>
+        <translation>%1: %2 bis %3 werden genommen; Quelle des üblichen Werts: %4</translation>
+    </message>
+    <message>
+        <source>“%1” is no number</source>
+        <translation>„%1“ ist keine Zahl</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::PressurePage</name>
+    <message>
+        <source>occluded</source>
+        <translation>verschlossen</translation>
+    </message>
+    <message>
+        <source>Pressure</source>
+        <translation>Druck</translation>
+    </message>
+    <message>
+        <source>Readings</source>
+        <translation>Ablesungen</translation>
+    </message>
+    <message>
+        <source>Inputs</source>
+        <translation>Eingaben</translation>
+    </message>
+    <message>
+        <source>FFR behind narrowings</source>
+        <translation>FFR hinter Engstellen</translation>
+    </message>
+    <message>
+        <source>Vessel</source>
+        <translation>Gefäß</translation>
+    </message>
+    <message>
+        <source>FFR</source>
+        <translation>FFR</translation>
+    </message>
+    <message>
+        <source>Takes</source>
+        <translation>Abfall</translation>
+    </message>
+    <message>
+        <source>What if</source>
+        <translation>Was wäre, wenn</translation>
+    </message>
+    <message>
+        <source>Read about 25 mm behind each narrowing, under hyperaemia.</source>
+        <translation>Etwa 25 mm hinter jeder Engstelle gelesen, unter Hyperämie.</translation>
+    </message>
+    <message>
+        <source>Ends of the vessels</source>
+        <translation>Enden der Gefäße</translation>
+    </message>
+    <message>
+        <source>End of</source>
+        <translation>Ende von</translation>
+    </message>
+    <message>
+        <source>ml/min</source>
+        <translation>ml/min</translation>
+    </message>
+    <message>
+        <source>Reserve</source>
+        <translation>Reserve</translation>
+    </message>
+    <message>
+        <source>PPG</source>
+        <translation>PPG</translation>
+    </message>
+    <message>
+        <source>Flow under hyperaemia, flow reserve, pullback pressure gradient index (1: focal).</source>
+        <translation>Fluss unter Hyperämie, Flussreserve, Index des Druckgradienten beim Rückzug (1: fokal).</translation>
+    </message>
+    <message>
+        <source>What is to be looked at</source>
+        <translation>Was anzusehen ist</translation>
+    </message>
+    <message>
+        <source>Diameter stenosis that stays</source>
+        <translation>Durchmesserstenose, die bleibt</translation>
+    </message>
+    <message>
+        <source>Diameter stenosis at the throat</source>
+        <translation>Durchmesserstenose an der engsten Stelle</translation>
+    </message>
+    <message>
+        <source>What if: stretches</source>
+        <translation>Was wäre, wenn: Strecken</translation>
+    </message>
+    <message>
+        <source>mm from its root</source>
+        <translation>mm ab Ursprung</translation>
+    </message>
+    <message>
+        <source>Delete takes the chosen stretch away; Undo brings it back.</source>
+        <translation>Entf nimmt die gewählte Strecke weg; Rückgängig bringt sie wieder.</translation>
+    </message>
+    <message>
+        <source>Take this stretch back</source>
+        <translation>Diese Strecke zurücknehmen</translation>
+    </message>
+    <message>
+        <source>%1 at %2 mm: FFR %3</source>
+        <translation>%1 bei %2 mm: FFR %3</translation>
+    </message>
+    <message>
+        <source>, what if %1</source>
+        <translation>, was wäre, wenn: %1</translation>
+    </message>
+    <message>
+        <source>No case is open.</source>
+        <translation>Es ist kein Fall geöffnet.</translation>
+    </message>
+    <message>
+        <source>Sections are being measured…</source>
+        <translation>Schnitte werden gemessen…</translation>
+    </message>
+    <message>
+        <source>open, %1 % left</source>
+        <translation>offen, %1 % bleiben</translation>
+    </message>
+    <message>
+        <source>narrowed by %1 %</source>
+        <translation>um %1 % verengt</translation>
+    </message>
+    <message>
+        <source>95 %: %1 to %2; at or below %3 with %4 %</source>
+        <translation>95 %: %1 bis %2; bei oder unter %3 mit %4 %</translation>
+    </message>
+    <message>
+        <source>At (mm)</source>
+        <translation>Bei (mm)</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::PressureSaving</name>
+    <message>
+        <source>Report of the pressures</source>
+        <translation>Befund der Drücke</translation>
+    </message>
+    <message>
+        <source>The pressures are in %1</source>
+        <translation>Die Drücke sind in %1</translation>
+    </message>
+    <message>
+        <source>Open the PDF</source>
+        <translation>PDF öffnen</translation>
+    </message>
+    <message>
+        <source>The report could not be made</source>
+        <translation>Der Befund konnte nicht erstellt werden</translation>
     </message>
 </context>
 <context>
@@ -6176,6 +6548,14 @@ Eine Reparatur ändert, was gezeigt wird, nie die Datei.</translation>
         <source>Connect a vessel</source>
         <translation>Gefäß verbinden</translation>
     </message>
+    <message>
+        <source>Inputs of the pressures</source>
+        <translation>Eingaben der Drücke</translation>
+    </message>
+    <message>
+        <source>What if, of the pressures</source>
+        <translation>Was wäre, wenn, bei den Drücken</translation>
+    </message>
 </context>
 <context>
     <name>views</name>
@@ -6347,104 +6727,13 @@ Eine Reparatur ändert, was gezeigt wird, nie die Datei.</translation>
         <source>MinIP</source>
         <translation>MinIP</translation>
     </message>
-</context>
-<context>
-    <name>ostia::workstation::OrientationDialog</name>
     <message>
-        <source>Set orientation</source>
-        <translation>Orientierung angeben</translation>
+        <source>FFR (research)</source>
+        <translation>FFR (Forschung)</translation>
     </message>
     <message>
-        <source>Turn and flip until the letters are right: the breastbone at A, the spine at P, the heart&apos;s tip towards L, the liver at R and I.</source>
-        <translation>Drehen und spiegeln Sie, bis die Buchstaben stimmen: das Brustbein bei A, die Wirbelsäule bei P, die Herzspitze gegen L, die Leber bei R und I.</translation>
-    </message>
-    <message>
-        <source>The case that is open was made of the image as it was. It is kept and closed; the arteries are looked for anew.</source>
-        <translation>Der offene Fall wurde am Bild gemacht, wie es war. Er bleibt erhalten und wird geschlossen; die Arterien werden neu gesucht.</translation>
-    </message>
-    <message>
-        <source>As in the file</source>
-        <translation>Wie in der Datei</translation>
-    </message>
-    <message>
-        <source>Axial, seen from the feet</source>
-        <translation>Axial, von den Füßen gesehen</translation>
-    </message>
-    <message>
-        <source>Coronal, seen from the front</source>
-        <translation>Koronal, von vorn gesehen</translation>
-    </message>
-    <message>
-        <source>Sagittal, seen from the left</source>
-        <translation>Sagittal, von links gesehen</translation>
-    </message>
-    <message>
-        <source>Turn by 90°</source>
-        <translation>Um 90° drehen</translation>
-    </message>
-    <message>
-        <source>Turn by 90°: %1</source>
-        <translation>Um 90° drehen: %1</translation>
-    </message>
-    <message>
-        <source>Columns run towards</source>
-        <translation>Spalten laufen nach</translation>
-    </message>
-    <message>
-        <source>Rows run towards</source>
-        <translation>Zeilen laufen nach</translation>
-    </message>
-    <message>
-        <source>Slices run towards</source>
-        <translation>Schichten laufen nach</translation>
-    </message>
-    <message>
-        <source>Left (L)</source>
-        <translation>links (L)</translation>
-    </message>
-    <message>
-        <source>Right (R)</source>
-        <translation>rechts (R)</translation>
-    </message>
-    <message>
-        <source>Back (P)</source>
-        <translation>hinten (P)</translation>
-    </message>
-    <message>
-        <source>Front (A)</source>
-        <translation>vorn (A)</translation>
-    </message>
-    <message>
-        <source>Head (S)</source>
-        <translation>oben, Kopf (S)</translation>
-    </message>
-    <message>
-        <source>Feet (I)</source>
-        <translation>unten, Füße (I)</translation>
-    </message>
-    <message>
-        <source>Flip left and right</source>
-        <translation>Links und rechts tauschen</translation>
-    </message>
-    <message>
-        <source>Flip front and back</source>
-        <translation>Vorn und hinten tauschen</translation>
-    </message>
-    <message>
-        <source>Flip head and feet</source>
-        <translation>Kopf und Füße tauschen</translation>
-    </message>
-    <message>
-        <source>Axes %1, as the file says.</source>
-        <translation>Achsen %1, wie die Datei sagt.</translation>
-    </message>
-    <message>
-        <source>Axes %1; the file says %2.</source>
-        <translation>Achsen %1; die Datei sagt %2.</translation>
-    </message>
-    <message>
-        <source>This mirrors the patient: left and right of the heart are exchanged against the file. Be sure of it.</source>
-        <translation>Das spiegelt die Person: links und rechts des Herzens sind gegen die Datei vertauscht. Seien Sie sich sicher.</translation>
+        <source>what if</source>
+        <translation>was wäre, wenn</translation>
     </message>
 </context>
 </TS>

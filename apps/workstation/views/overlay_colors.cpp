@@ -72,6 +72,8 @@ QColor role_color(view::Role role, Ground ground) {
       return bright ? QColor(64, 214, 190) : QColor(0, 120, 105);
     case Role::pressure:
       return bright ? QColor(226, 140, 255) : QColor(135, 40, 170);
+    case Role::what_if:
+      return bright ? QColor(64, 214, 190) : QColor(0, 120, 105);
     case Role::limited:
       return bright ? QColor(196, 176, 255) : QColor(105, 80, 190);
     case Role::not_evaluable:

@@ -158,7 +158,7 @@ void SceneWidget::refresh() {
     if (bench_.has_case()) {
       wall_ = std::make_shared<const geometry::TriMesh>(bench_.session().live().wall(screen_cell_mm));
       scene_->set_wall(wall_, *bench_.model());
-      if (wall_painter_) wall_painter_(*wall_);
+      paint_wall();
     } else {
       scene_->clear_wall();
     }
@@ -201,9 +201,18 @@ void SceneWidget::set_wall_painter(std::function<void(const geometry::TriMesh&)>
   wall_painter_ = std::move(painter);
 }
 
+void SceneWidget::set_top_painter(std::function<void(const geometry::TriMesh&)> painter) {
+  top_painter_ = std::move(painter);
+}
+
+void SceneWidget::paint_wall() {
+  if (wall_painter_) wall_painter_(*wall_);
+  if (top_painter_) top_painter_(*wall_);
+}
+
 void SceneWidget::repaint_wall() {
-  if (!wall_ || wall_stale_ || !wall_painter_) return;
-  wall_painter_(*wall_);
+  if (!wall_ || wall_stale_ || !(wall_painter_ || top_painter_)) return;
+  paint_wall();
   request_render();
 }
 

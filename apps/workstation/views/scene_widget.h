@@ -43,6 +43,8 @@ class SceneWidget final : public QWidget {
   void show_identity(Identity& identity);
   /// Called with each new wall, to colour it.
   void set_wall_painter(std::function<void(const geometry::TriMesh&)> painter);
+  /// The same, after that one: what it colours is seen.
+  void set_top_painter(std::function<void(const geometry::TriMesh&)> painter);
   void repaint_wall();  ///< the painter would colour it otherwise
   /// In the wall's place, all of it in the picture; null: the wall again.
   void show_guest(std::shared_ptr<view::SceneGuest> guest);
@@ -76,6 +78,7 @@ class SceneWidget final : public QWidget {
 
  private:
   void refresh();
+  void paint_wall();
   void refresh_phase();
   void refresh_styles();
   void refresh_cursor();
@@ -106,7 +109,7 @@ class SceneWidget final : public QWidget {
   view::VolumeMode volume_mode_ = view::VolumeMode::off;
   bool wall_unseen_ = false;  // it was made and not drawn yet
   std::shared_ptr<const geometry::TriMesh> wall_;
-  std::function<void(const geometry::TriMesh&)> wall_painter_;
+  std::function<void(const geometry::TriMesh&)> wall_painter_, top_painter_;
   QPointF pressed_, last_;
   Qt::MouseButtons buttons_;
   HeldButton button_;

@@ -49,6 +49,7 @@ Conditions conditions_of_json(std::string_view text, const Conditions& given) {
   Conditions conditions = given;
   const auto inputs_known = condition_inputs();
   for (const auto& [key, entry] : all.items()) {
+    if (key == "uncertainty") continue;  // uncertainty_of_json
     const auto input = std::find_if(inputs_known.begin(), inputs_known.end(),
                                     [&key = key](const ConditionInput& one) { return one.key == key; });
     if (input == inputs_known.end())

@@ -26,6 +26,7 @@ void validate(const FlowModel& model) {
   require_within("the friction of a layer", model.layer_friction, 0.0, 2.0, "");
   require_within("the friction in a widening lumen", model.adverse_friction, 0.0, 1.5, "");
   require_within("the friction of dead water", model.backflow, 0.0, 3.0, "");
+  require_within("the spread of a jet", model.jet_spread, 0.1, 20.0, "");
   require_within("the step of the integration", model.step_mm, 0.01, 2.0, " mm");
   require_within("the scale of inertia", model.inertia_scale, 0.0, 1.0, "");
 }

@@ -60,9 +60,10 @@ void validate(const Branch& branch) {
       throw InvalidInput(named(branch) + " has sections that do not go on downstream at " +
                          core::mm_text(branch.stations[i].s_mm));
   }
-  if (!sound(branch.lumped.linear_pa_s_ml) || !sound(branch.lumped.quadratic_pa_s2_ml2) ||
+  if (!sound(branch.lumped.linear_pa_s_ml) || !std::isfinite(branch.lumped.quadratic_pa_s2_ml2) ||
       !std::isfinite(branch.angle_rad))
-    throw InvalidInput(named(branch) + " has a resistance or an angle that is no number, or is below 0");
+    throw InvalidInput(named(branch) +
+                       " has a resistance or an angle that is no number, or a resistance below 0");
 }
 
 void validate(const Network& network) {

@@ -79,6 +79,7 @@ Solution told_of(const PreparedNetwork& network, const Boundary& boundary, const
   Solution solution;
   solution.inlet_pa = system.inlet_pa(x);
   solution.flow_ml_s = losses.flow;
+  solution.start_momentum = losses.start_momentum;
   solution.from_pa.assign(network.size(), 0.0);
   solution.to_pa.assign(network.size(), 0.0);
   // Behind an occlusion: the mean of what its outlets rest at.
@@ -175,7 +176,8 @@ Solution solve(const PreparedNetwork& network, const Boundary& boundary, const S
 
 std::vector<StationFlow> along(const PreparedNetwork& network, const Solution& solution, std::size_t branch) {
   return pressure_along(network.branch(branch), network.model(), solution.flow_ml_s.at(branch),
-                        solution.from_pa.at(branch), solution.to_pa.at(branch));
+                        solution.from_pa.at(branch), solution.to_pa.at(branch),
+                        solution.start_momentum.at(branch));
 }
 
 Residuals residuals(const PreparedNetwork& network, const Boundary& boundary, double inlet_pa,

@@ -3,6 +3,7 @@
 #include "ostia/hemodynamics/junction_loss.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace ostia::hemodynamics {
 
@@ -29,6 +30,8 @@ Links links_of(const PreparedNetwork& network) {
 }
 
 namespace {
+
+constexpr double developed_momentum = 4.0 / 3.0;
 
 std::vector<double> branch_flows(const Links& links, const Eigen::VectorXd& open) {
   std::vector<double> flow(links.below.size(), 0.0);
@@ -59,6 +62,70 @@ void add_forks(const PreparedNetwork& network, const FlowModel& model, const Lin
   }
 }
 
+/// The profile at the beginning of a branch, and how it changes with flows.
+struct Profile {
+  double momentum = developed_momentum;
+  std::vector<ByFlow> by;
+};
+
+/// Of the children that something can flow into; one that is occluded takes no jet.
+std::size_t straightest_of(const PreparedNetwork& network, const Links& links, std::size_t parent) {
+  const auto turn = [&](std::size_t b) {
+    return links.below[b].empty() ? HUGE_VAL : std::abs(network.network().branches[b].angle_rad);
+  };
+  const std::vector<std::size_t>& children = links.children[parent];
+  return *std::min_element(children.begin(), children.end(),
+                           [&](std::size_t a, std::size_t b) { return turn(a) < turn(b); });
+}
+
+/// A jet goes on into the straightest branch: what of its excess over the developed profile goes that way
+/// keeps its speed, so that the coefficient goes with the ratio of the mean speeds. The others leave the dead
+/// water.
+Profile handed_on(const PreparedNetwork& network, std::size_t parent, const Profile& behind,
+                  std::size_t child, bool straightest, const std::vector<double>& flow) {
+  Profile profile;
+  const double before = network.branch(parent).last_area_mm2, first = network.branch(child).first_area_mm2;
+  const double excess = behind.momentum - developed_momentum;
+  const double along = std::cos(network.network().branches[child].angle_rad);
+  if (!(straightest && excess > 0.0 && along > 0.0 && flow[child] > 0.0 && flow[parent] > 0.0 &&
+        first > shut_mm2))
+    return profile;
+  const double ratio = along * flow[parent] * first / (before * flow[child]);
+  profile.momentum += excess * ratio;
+  for (const ByFlow& one : behind.by) profile.by.push_back({one.branch, one.value * ratio});
+  profile.by.push_back({parent, excess * ratio / flow[parent]});
+  profile.by.push_back({child, -excess * ratio / flow[child]});
+  return profile;
+}
+
+/// Along all branches, a parent before its children.
+void add_branches(const PreparedNetwork& network, const FlowModel& model, const Links& links,
+                  Losses& losses) {
+  std::vector<Profile> behind(network.size());
+  for (std::size_t b = 0; b < network.size(); ++b) {
+    if (links.below[b].empty()) continue;
+    const int parent = network.network().branches[b].parent;
+    Profile start{network.branch(b).start_momentum, {}};
+    const bool jets = model.inertia && model.fork_momentum == developed_momentum;
+    if (parent >= 0 && jets)
+      start =
+          handed_on(network, static_cast<std::size_t>(parent), behind[static_cast<std::size_t>(parent)], b,
+                    straightest_of(network, links, static_cast<std::size_t>(parent)) == b, losses.flow);
+    const Passage passage = pass(network.branch(b), model, losses.flow[b], start.momentum,
+                                 !jets || links.children[b].empty(), !start.by.empty());
+    losses.along[b] = passage.pa;
+    losses.by_flow[b] = passage.by_flow_pa_s_ml;
+    losses.start_momentum[b] = start.momentum;
+    behind[b].momentum = passage.momentum;
+    if (passage.momentum_by_flow_s_ml != 0.0) behind[b].by.push_back({b, passage.momentum_by_flow_s_ml});
+    for (const ByFlow& one : start.by) {
+      losses.by_others[b].push_back({one.branch, one.value * passage.by_momentum_pa});
+      if (passage.momentum_by_momentum != 0.0)
+        behind[b].by.push_back({one.branch, one.value * passage.momentum_by_momentum});
+    }
+  }
+}
+
 void add_entries(const PreparedNetwork& network, const FlowModel& model, const Links& links, Losses& losses) {
   if (!model.inertia || !model.from_rest) return;
   for (std::size_t root = 0; root < network.size(); ++root) {
@@ -82,12 +149,10 @@ Losses losses_of(const PreparedNetwork& network, const FlowModel& model, const L
   const std::size_t count = network.size();
   for (auto* one : {&losses.along, &losses.by_flow, &losses.at_fork, &losses.by_own, &losses.by_parent})
     one->assign(count, 0.0);
-  for (std::size_t b = 0; b < count; ++b) {
-    if (links.below[b].empty()) continue;
-    const Drop drop = pressure_drop(network.branch(b), model, losses.flow[b]);
-    losses.along[b] = drop.pa;
-    losses.by_flow[b] = drop.pa_s_ml;
-  }
+  losses.start_momentum.resize(count);
+  for (std::size_t b = 0; b < count; ++b) losses.start_momentum[b] = network.branch(b).start_momentum;
+  losses.by_others.resize(count);
+  add_branches(network, model, links, losses);
   add_forks(network, model, links, losses);
   add_entries(network, model, links, losses);
   return losses;

@@ -17,9 +17,18 @@ struct Links {
   std::vector<std::vector<std::size_t>> below;  ///< of each branch: indices into `open` behind it
 };
 
+/// A derivative by the flow of a branch.
+struct ByFlow {
+  std::size_t branch = 0;
+  double value = 0.0;
+};
+
 /// What each branch takes of the pressure at the flows of the open outlets, and how it changes with them.
 struct Losses {
-  std::vector<double> flow, along, by_flow;        // of a branch
+  std::vector<double> flow, along, by_flow;  // of a branch
+  std::vector<double> start_momentum;
+  /// How `along` changes with the flows of branches before it, whose jets reach it.
+  std::vector<std::vector<ByFlow>> by_others;
   std::vector<double> at_fork, by_own, by_parent;  // before it
 };
 
@@ -81,6 +90,9 @@ class System {
       pressure -= losses.along[at] + losses.at_fork[at];
       for (const std::size_t k : links_.below[at])
         out.jacobian(i, static_cast<Eigen::Index>(k)) -= losses.by_flow[at] + losses.by_own[at];
+      for (const ByFlow& other : losses.by_others[at])
+        for (const std::size_t k : links_.below[other.branch])
+          out.jacobian(i, static_cast<Eigen::Index>(k)) -= other.value;
       if (branches[at].parent < 0 || losses.by_parent[at] == 0.0) continue;
       for (const std::size_t k : links_.below[static_cast<std::size_t>(branches[at].parent)])
         out.jacobian(i, static_cast<Eigen::Index>(k)) -= losses.by_parent[at];

@@ -42,8 +42,9 @@ struct Marching {
   const FlowModel& model;
   T flow;  // >= 0, ml/s
   T momentum;
-  T fallen = T(0.0);   // Pa
-  double inertia;      // density times scale, kg/m3; pressures are in Pa with ml/s and mm2
+  T fallen = T(0.0);  // Pa
+  double inertia;     // density times scale, kg/m3; pressures are in Pa with ml/s and mm2
+  T struck = T(0.0);  // of a jet's excess over `developed`, what has struck a fork: it goes on along the wall
   double least = 0.0;  // area of the last throat, mm2
 
   /// Between two areas without friction. While the flow is attached every stream line keeps its head, so that
@@ -54,9 +55,13 @@ struct Marching {
     using std::pow;
     if (to <= from) least = to;
     if (value_of(momentum) > developed) {
-      if (to >= from * developed / value_of(momentum))
+      if (to >= from * developed / value_of(momentum)) {
+        const T before = momentum - T(developed);
         momentum = momentum * T(to / from);
-      else
+        // What a widening adds has struck nothing; a narrowing takes from both alike. So nothing jumps where
+        // a jet all but fills the lumen.
+        struck = to >= from ? struck * T(to / from) : struck * (momentum - T(developed)) / before;
+      } else
         attached(T(from * developed) / momentum, T(to), T(1.0));  // the jet fills the lumen, and goes on
       return;
     }
@@ -74,8 +79,12 @@ struct Marching {
   }
 
   void attached(T from, T to, T b) {
+    struck = T(0.0);
     const T ratio = to / from, square = ratio * ratio;
-    const T after = b * square * square;
+    // In a contraction a thin layer keeps its share of the flow and its deficit of u^2, so that b goes with
+    // the area's square; the developed profile's vorticity is stretched, and b goes with the fourth power.
+    // That is so of a small change; over many b / (1 + b) goes with the square.
+    const T after = value_of(ratio) < 1.0 ? b * square * (T(1.0) - b + b * square) : b * square * square;
     fallen = fallen +
              T(0.5 * inertia) * flow * flow * ((T(1.0) + after) / (to * to) - (T(1.0) + b) / (from * from));
     momentum = T(1.0) + after / T(3.0);
@@ -92,16 +101,19 @@ struct Marching {
       return;
     }
     const T length = T(model.development * 4.0 * inertia / (pi * model.viscosity_mpa_s)) * flow;
-    const T decay = exp(T(-step.length_mm) / length);
     const T before = momentum;
     const T bend = bend_factor(step);
     if (value_of(momentum) > developed) {
-      momentum = T(developed) + (momentum - T(developed)) * decay;
-      fallen =
-          fallen + friction * T(step.friction_mm3) * bend * jet_friction(model, T(0.5) * (before + momentum));
+      const T excess = momentum - T(developed);
+      const T slower = T(1.0) + excess / T(model.jet_spread);
+      const T left = exp(T(-step.length_mm) / (length * slower));
+      momentum = T(developed) + excess * left;
+      struck = struck * left;
+      const T beside = jet_friction(model, T(0.5) * (before + momentum));
+      fallen = fallen + friction * T(step.friction_mm3) * bend * (beside + leans(step) * (T(1.0) - beside));
     } else {
       const T b0 = T(3.0) * (momentum - T(1.0));
-      const T square = T(1.0) - (T(1.0) - b0 * b0) * decay;
+      const T square = T(1.0) - (T(1.0) - b0 * b0) * exp(T(-step.length_mm) / length);
       const T b1 = sqrt(square);
       // A layer of thickness ~ b rubs as 1 / b: the integral of 1 / b - 1 over the step is exact.
       const T excess = T(model.layer_friction * step.mean_friction_mm4) * length * T(2.0) *
@@ -111,6 +123,12 @@ struct Marching {
     }
     fallen = fallen - friction * T(step.friction_mm3) * adverse_friction(model, widening, length, momentum);
     fallen = fallen + T(inertia / (area * area)) * flow * flow * (momentum - before);
+  }
+
+  T leans(const PreparedBranch::Step& step) const {
+    const double own = model.bends ? step.lean : 0.0;
+    const T excess = momentum - T(developed);
+    return value_of(excess) > 0.0 ? T(own) + T(1.0 - own) * struck / excess : T(own);
   }
 
   /// White's law for developed flow in bent pipes.
@@ -131,12 +149,27 @@ struct Marching {
   }
 };
 
+/// What has fallen (of a flow that runs back: below 0), and the profile behind.
+template <typename T>
+struct Marched {
+  T fallen, momentum;
+};
+
+double first_of(double slope) {
+  return slope;
+}
+double first_of(Slopes slopes) {
+  return slopes.first;
+}
+
 template <typename T, typename AtStation>
-T march(const PreparedBranch& branch, const FlowModel& model, T flow, AtStation at_station) {
+Marched<T> march(const PreparedBranch& branch, const FlowModel& model, T flow, T start_momentum, bool mixes,
+                 AtStation at_station) {
   const bool forward = value_of(flow) >= 0.0;
   Marching<T> marching{model, forward ? flow : T(0.0) - flow, T(1.0), T(0.0),
                        model.inertia ? model.density_kg_m3 * model.inertia_scale : 0.0};
-  marching.momentum = T(forward ? branch.start_momentum : model.fork_momentum);
+  marching.momentum = forward ? start_momentum : T(model.fork_momentum);
+  if (value_of(marching.momentum) > developed) marching.struck = marching.momentum - T(developed);
   const std::size_t count = branch.steps.size();
   marching.least = forward ? branch.first_area_mm2 : branch.last_area_mm2;
   for (std::size_t i = 0; i < count; ++i) {
@@ -148,105 +181,55 @@ T march(const PreparedBranch& branch, const FlowModel& model, T flow, AtStation 
     if (marching.inertia > 0.0) marching.change_area(step.area_mm2[1], to);
     at_station(step, marching, before);
   }
-  if (count > 0 && marching.inertia > 0.0)
+  if (count > 0 && marching.inertia > 0.0 && (mixes || !forward))
     marching.mix(forward ? branch.last_area_mm2 : branch.first_area_mm2);
-  return forward ? marching.fallen : T(0.0) - marching.fallen;
-}
-
-double area_between(const Station& a, const Station& b, double t) {
-  const double root = (1.0 - t) * std::sqrt(a.area_mm2) + t * std::sqrt(b.area_mm2);
-  return root * root;
-}
-
-/// Of 1 / area^2, over a stretch on which the radius is linear: exact for a cone.
-double cone_integral(double length, double area_a, double area_b) {
-  const double a = std::sqrt(area_a), b = std::sqrt(area_b);
-  return length * (a * a + a * b + b * b) / (3.0 * a * a * a * b * b * b);
-}
-
-PreparedBranch::Step step_between(const Station& a, const Station& b, double from, double to) {
-  PreparedBranch::Step step;
-  const double middle = 0.5 * (from + to);
-  const auto mix = [middle](double x, double y) { return (1.0 - middle) * x + middle * y; };
-  step.length_mm = (to - from) * (b.s_mm - a.s_mm);
-  step.area_mm2[0] = area_between(a, b, from);
-  step.area_mm2[1] = area_between(a, b, middle);
-  step.area_mm2[2] = area_between(a, b, to);
-  const double shape = mix(a.shape.viscous, b.shape.viscous);
-  step.friction_mm3 = shape * cone_integral(step.length_mm, step.area_mm2[0], step.area_mm2[2]);
-  step.mean_friction_mm4 = step.friction_mm3 / step.length_mm;
-  step.diameter_mm = 2.0 * std::sqrt(step.area_mm2[1] / pi);
-  step.perimeter_mm = pi * step.diameter_mm * mix(a.shape.perimeter, b.shape.perimeter);
-  step.bend = std::sqrt(std::max(0.0, 0.5 * step.diameter_mm * mix(a.curvature_per_mm, b.curvature_per_mm)));
-  return step;
-}
-
-/// Over a diameter, half on either side: a rough wall is none that widens.
-void set_widening(std::vector<PreparedBranch::Step>& steps) {
-  std::vector<double> s = {0.0}, log_area = {std::log(steps.front().area_mm2[0])};
-  for (const PreparedBranch::Step& step : steps) {
-    s.push_back(s.back() + step.length_mm);
-    log_area.push_back(std::log(step.area_mm2[2]));
-  }
-  std::size_t before = 0, behind = 0;
-  const auto at = [&](double place, std::size_t& i) {
-    while (i + 2 < s.size() && s[i + 1] <= place) ++i;
-    while (i > 0 && s[i] > place) --i;
-    const double t = (place - s[i]) / (s[i + 1] - s[i]);
-    return log_area[i] + t * (log_area[i + 1] - log_area[i]);
-  };
-  for (std::size_t k = 0; k < steps.size(); ++k) {
-    const double middle = 0.5 * (s[k] + s[k + 1]), half = 0.5 * steps[k].diameter_mm;
-    const double from = std::max(0.0, middle - half), to = std::min(s.back(), middle + half);
-    steps[k].widening = (at(to, behind) - at(from, before)) / (to - from);
-  }
+  return {forward ? marching.fallen : T(0.0) - marching.fallen, marching.momentum};
 }
 
 }  // namespace
 
-PreparedBranch prepare(const Branch& branch, const FlowModel& model) {
-  validate(branch);
-  validate(model);
-  PreparedBranch out;
-  out.lumped = branch.lumped;
-  out.start_momentum = branch.parent < 0 ? model.root_momentum : model.fork_momentum;
-  out.stations = branch.stations.size();
-  while (out.open_stations < out.stations && branch.stations[out.open_stations].area_mm2 > shut_mm2)
-    ++out.open_stations;
-  if (branch.stations.empty()) return out;
-  out.first_area_mm2 = branch.stations.front().area_mm2;
-  out.last_area_mm2 = branch.stations.back().area_mm2;
-  if (out.shut()) return out;
-  for (std::size_t i = 1; i < branch.stations.size(); ++i) {
-    const Station &a = branch.stations[i - 1], &b = branch.stations[i];
-    const double length = b.s_mm - a.s_mm;
-    // Also where the area changes fast: half of it or twice as much within a step at most.
-    const double turns = std::abs(std::log(b.area_mm2 / a.area_mm2)) / std::numbers::ln2;
-    const int steps =
-        std::clamp(static_cast<int>(std::ceil(std::max(length / model.step_mm - 1e-9, turns))), 1, 10000);
-    for (int k = 0; k < steps; ++k)
-      out.steps.push_back(
-          step_between(a, b, static_cast<double>(k) / steps, static_cast<double>(k + 1) / steps));
-    out.steps.back().station = true;
+Passage pass(const PreparedBranch& branch, const FlowModel& model, double flow_ml_s, double start_momentum,
+             bool mixes, bool by_momentum) {
+  if (branch.shut()) return {};
+  const double turn = std::abs(flow_ml_s) * branch.lumped.quadratic_pa_s2_ml2;
+  Passage passage;
+  passage.pa = flow_ml_s * (branch.lumped.linear_pa_s_ml + turn);
+  passage.by_flow_pa_s_ml = branch.lumped.linear_pa_s_ml + 2.0 * turn;
+  if (branch.steps.empty()) return passage;
+  const auto take = [&](const auto& along) {
+    passage.pa += along.fallen.value;
+    passage.by_flow_pa_s_ml += first_of(along.fallen.slope);
+    passage.momentum = along.momentum.value;
+    passage.momentum_by_flow_s_ml = first_of(along.momentum.slope);
+  };
+  const auto none = [](const PreparedBranch::Step&, const auto&, const auto&) {};
+  if (!by_momentum) {
+    using One = DualBy<double>;
+    take(march(branch, model, One(flow_ml_s, 1.0), One(start_momentum), mixes, none));
+    return passage;
   }
-  set_widening(out.steps);
-  return out;
+  using Two = DualBy<Slopes>;
+  const Marched<Two> along =
+      march(branch, model, Two(flow_ml_s, {1.0, 0.0}), Two(start_momentum, {0.0, 1.0}), mixes, none);
+  take(along);
+  passage.by_momentum_pa = along.fallen.slope.second;
+  passage.momentum_by_momentum = along.momentum.slope.second;
+  return passage;
 }
 
 Drop pressure_drop(const PreparedBranch& branch, const FlowModel& model, double flow_ml_s) {
-  if (branch.shut()) return {};
-  const double turn = std::abs(flow_ml_s) * branch.lumped.quadratic_pa_s2_ml2;
-  Drop drop{flow_ml_s * (branch.lumped.linear_pa_s_ml + turn), branch.lumped.linear_pa_s_ml + 2.0 * turn};
-  if (branch.steps.empty()) return drop;
-  const auto none = [](const PreparedBranch::Step&, const Marching<Dual>&, Dual) {};
-  const Dual along = march(branch, model, Dual(flow_ml_s, 1.0), none);
-  drop.pa += along.value;
-  drop.pa_s_ml += along.slope;
-  return drop;
+  const Passage passage = pass(branch, model, flow_ml_s, branch.start_momentum, true, false);
+  return {passage.pa, passage.by_flow_pa_s_ml};
 }
 
 std::vector<StationFlow> pressure_along(const PreparedBranch& branch, const FlowModel& model,
                                         double flow_ml_s, double inlet_pa, double behind_pa) {
+  return pressure_along(branch, model, flow_ml_s, inlet_pa, behind_pa, branch.start_momentum);
+}
+
+std::vector<StationFlow> pressure_along(const PreparedBranch& branch, const FlowModel& model,
+                                        double flow_ml_s, double inlet_pa, double behind_pa,
+                                        double start_momentum) {
   std::vector<StationFlow> stations(branch.stations);
   if (stations.empty()) return stations;
   if (branch.shut()) {
@@ -261,7 +244,8 @@ std::vector<StationFlow> pressure_along(const PreparedBranch& branch, const Flow
                                                                 double) mutable {
     // Friction alone, at the profile that the step ends with.
     const double b = std::max(0.05, 3.0 * (marching.momentum - 1.0));
-    const double form = marching.momentum > developed ? jet_friction(model, marching.momentum)
+    const double beside = jet_friction(model, marching.momentum);
+    const double form = marching.momentum > developed ? beside + marching.leans(step) * (1.0 - beside)
                                                       : 1.0 + model.layer_friction * (1.0 / b - 1.0);
     const double length =
         model.development * 4.0 * marching.inertia / (pi * model.viscosity_mpa_s) * marching.flow;
@@ -277,8 +261,8 @@ std::vector<StationFlow> pressure_along(const PreparedBranch& branch, const Flow
     if (!(forward ? step.station : &step == &branch.steps.front() || (&step - 1)->station)) return;
     stations[forward ? ++at : --at] = now;
   };
-  stations[forward ? 0 : last] = {0.0, forward ? branch.start_momentum : model.fork_momentum, 0.0, 0.0};
-  march(branch, model, flow_ml_s, record);
+  stations[forward ? 0 : last] = {0.0, forward ? start_momentum : model.fork_momentum, 0.0, 0.0};
+  march(branch, model, flow_ml_s, start_momentum, true, record);
   StationFlow& first = stations[forward ? 0 : last];
   first.wall_shear_pa = stations[forward ? std::min<std::size_t>(1, last) : last - 1].wall_shear_pa;
   first.reynolds = reynolds(model, std::abs(flow_ml_s),

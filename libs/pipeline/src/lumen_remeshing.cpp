@@ -91,16 +91,6 @@ std::shared_ptr<const meshing::SizeArray> by_distance_alone(const TriMesh& surfa
   return array;
 }
 
-/// Points of the wall that are not on the rings about caps.
-std::vector<bool> points_of_wall_alone(const geometry::FacedSurface& capped) {
-  std::vector<bool> alone(capped.mesh.points.size(), true);
-  const geometry::FacesByKind faces(capped.faces);
-  for (std::size_t i = 0; i < capped.mesh.triangles.size(); ++i)
-    if (!faces.wall(capped.face_ids[i]))
-      for (const std::int32_t p : capped.mesh.triangles[i]) alone[static_cast<std::size_t>(p)] = false;
-  return alone;
-}
-
 /// How far points are from where they were, in the mean and at most, in words.
 std::string moves_in_words(const TriMesh& before, const TriMesh& after) {
   double sum = 0.0, most = 0.0;
@@ -121,7 +111,7 @@ std::optional<meshing::RemeshedSurface> remeshed_smoothed(const geometry::FacedS
                                                           std::vector<std::string>& warnings,
                                                           const core::TaskContext& task) {
   geometry::VolumeSmoothingOptions how;
-  how.free = points_of_wall_alone(capped);
+  how.free = geometry::points_of_wall_alone(capped);
   for (int attempt = 1; attempt <= smoothing_attempts; ++attempt) {
     const bool shorter = attempt == smoothing_attempts;
     how.filter = {.iterations = 20 << attempt, .pass_band = smoothing_pass_band};
@@ -174,8 +164,7 @@ meshing::RemeshedSurface remeshed_lumen(const geometry::FacedSurface& capped,
   throw GeometryError(
       "the surface is too rough for triangles of this size: remeshing left " +
       std::to_string(made.report.self_intersections) +
-      " self-intersections, and smoothing the wall did not help; take shorter edges "
-      "(--edge-ratio 0.1), or smooth the file first (`ostia convert IN OUT.vtp --repair --smooth 200`)");
+      " self-intersections, and smoothing the wall did not help; take shorter edges (--edge-ratio 0.1)");
 }
 
 }  // namespace ostia::pipeline

@@ -93,9 +93,8 @@ std::string cure_of_crossings(const TriMesh& surface) {
              "--largest-part`)";
   return "Where a rough wall folds, `ostia convert IN OUT.vtp --smooth 200` of the file as it came smooths "
          "the "
-         "folds away (flat caps get round, so name the ends with --source and --target); else take the "
-         "places "
-         "out in the program that the surface is from";
+         "folds away (flat caps without labels get round, so name the ends with --source and --target); else "
+         "take the places out in the program that the surface is from";
 }
 
 void validate(const ModelOptions& options) {
@@ -199,6 +198,23 @@ LumenWithAxes build_lumen(Source source, const ModelOptions& options, const core
   return made;
 }
 
+MeshedLumen mesh_surface(const TriMesh& surface, const geometry::VesselTree& tree,
+                         const ModelOptions& options, const core::TaskContext& task) {
+  const std::string cure =
+      "where the wall is rough, smooth the file first: `ostia convert IN OUT.vtp "
+      "--repair --smooth 200`";
+  try {
+    MeshedLumen made = mesh_lumen(surface, tree, options, task);
+    if (made.quality.surface.min_angle_deg < options.bounds.min_angle_deg)
+      made.warnings.push_back("the mesh has flat triangles; " + cure);
+    return made;
+  } catch (const meshing::EndsNotCut&) {
+    throw;
+  } catch (const GeometryError& error) {
+    throw GeometryError(error.what() + ("; " + cure));
+  }
+}
+
 Model mesh_model(LumenWithAxes lumen, const ModelOptions& options, const core::TaskContext& task) {
   Model model = std::move(lumen.model);
   ModelOptions meshing_options = options;
@@ -206,7 +222,8 @@ Model mesh_model(LumenWithAxes lumen, const ModelOptions& options, const core::T
   meshing_options.clip.planes.insert(meshing_options.clip.planes.end(), lumen.stubs.begin(),
                                      lumen.stubs.end());
   meshing_options.inset_radii.reset();
-  model.meshed = mesh_lumen(model.lumen, lumen.axes, meshing_options, task);
+  const auto mesh = model.source.kind == SourceKind::surface ? mesh_surface : mesh_lumen;
+  model.meshed = mesh(model.lumen, lumen.axes, meshing_options, task);
   append(model.warnings, model.meshed.warnings);
   append(model.meshed.quality.verdict.reasons, model.left_out);
   model.stages.insert(model.stages.end(), model.meshed.stages.begin(), model.meshed.stages.end());

@@ -19,7 +19,7 @@ using analysis::Measurement;
 using lumen::LumenModel;
 
 constexpr std::array<const char*, std::variant_size_v<AnnotationCommand>> op_names{
-    "measure.add", "measure.change", "measure.delete", "vessel.mark"};
+    "measure.add", "measure.change", "measure.delete", "vessel.mark", "pressure.inputs", "pressure.what_if"};
 
 std::int32_t key_of(const Measurement& measurement) {
   return measurement.id;
@@ -139,6 +139,29 @@ void run(Annotations& annotations, const MarkVessel& command, const LumenModel& 
   annotations.marks.insert(found, mark);
 }
 
+void run(Annotations& annotations, const SetPressureInputs& command, const LumenModel&) {
+  validate(command.inputs);
+  annotations.pressure.inputs = command.inputs;
+}
+
+void run(Annotations& annotations, const SetWhatIfs& command, const LumenModel& model) {
+  constexpr std::size_t most = 100;
+  if (command.what_ifs.size() > most)
+    throw InvalidInput("a case keeps up to " + std::to_string(most) + " stretches with another calibre");
+  const std::vector<WhatIf>& before = annotations.pressure.what_ifs;
+  for (const WhatIf& one : command.what_ifs) {
+    validate(one);
+    if (std::find(before.begin(), before.end(), one) != before.end())
+      continue;  // it may have lost its vessel
+    require_vessel(model, one.vessel, "the stretch with another calibre");
+    const double length = lumen::vessel(model, one.vessel).axis->length();
+    if (one.from_mm >= length)
+      throw InvalidInput("a stretch begins at " + std::to_string(one.from_mm) + " mm of a vessel of " +
+                         std::to_string(length) + " mm");
+  }
+  annotations.pressure.what_ifs = command.what_ifs;
+}
+
 /// The mark of a vessel, made where there is none.
 VesselMark& mark_of(Annotations& annotations, std::int32_t vessel) {
   const auto place = place_of(annotations.marks, vessel);
@@ -166,9 +189,23 @@ void hand_lesions_on(Annotations& annotations, std::int32_t vessel, double from_
   }
 }
 
+/// And stretches with another calibre.
+void hand_what_ifs_on(Annotations& annotations, std::int32_t vessel, double from_mm, double to_mm,
+                      std::int32_t other, double by_mm) {
+  std::vector<WhatIf>& all = annotations.pressure.what_ifs;
+  for (WhatIf& one : all) {
+    const double middle = 0.5 * (one.from_mm + one.to_mm);
+    if (one.vessel != vessel || middle < from_mm || !(middle < to_mm)) continue;
+    one.vessel = other;
+    one.from_mm = std::max(0.0, one.from_mm + by_mm), one.to_mm += by_mm;
+  }
+  std::erase_if(all, [](const WhatIf& one) { return !(one.from_mm < one.to_mm); });
+}
+
 /// The reader's word on what lies between two abscissas of one vessel goes to another, moved along.
 void hand_on(Annotations& annotations, std::int32_t vessel, double from_mm, double to_mm, std::int32_t other,
              double by_mm) {
+  hand_what_ifs_on(annotations, vessel, from_mm, to_mm, other, by_mm);
   hand_lesions_on(annotations, vessel, from_mm, to_mm, other, by_mm);
   const VesselMark* mark = find_mark(annotations, vessel);
   if (!mark || mark->evaluable.empty()) return;
@@ -369,7 +406,8 @@ Annotations following(const Annotations& before, const lumen::Edit& edit, const 
 }
 
 AnnotationChange changes_between(const Annotations& before, const Annotations& after) {
-  return {differing(before.measurements, after.measurements), differing(before.marks, after.marks)};
+  return {differing(before.measurements, after.measurements), differing(before.marks, after.marks),
+          !same(before.pressure, after.pressure)};
 }
 
 bool same(const Measurement& a, const Measurement& b) {

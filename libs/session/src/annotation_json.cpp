@@ -37,6 +37,10 @@ void fields(C& command, V& v) {
     measurement_fields(command.measurement, v, Need::required);
   } else if constexpr (std::is_same_v<Kind, MeasureDelete>) {
     v("id", command.id);
+  } else if constexpr (std::is_same_v<Kind, SetPressureInputs>) {
+    v("inputs", command.inputs);
+  } else if constexpr (std::is_same_v<Kind, SetWhatIfs>) {
+    v("stretches", command.what_ifs);
   } else {
     v("vessel", command.mark.vessel);
     v("visible", command.mark.visible);
@@ -58,7 +62,8 @@ AnnotationCommand command_named(const std::string& op) {
   std::string choices;
   for (const AnnotationCommand& candidate :
        {AnnotationCommand(MeasureAdd{}), AnnotationCommand(MeasureChange{}),
-        AnnotationCommand(MeasureDelete{}), AnnotationCommand(MarkVessel{})}) {
+        AnnotationCommand(MeasureDelete{}), AnnotationCommand(MarkVessel{}),
+        AnnotationCommand(SetPressureInputs{}), AnnotationCommand(SetWhatIfs{})}) {
     if (op_name(candidate) == op) return candidate;
     choices += (choices.empty() ? "" : ", ") + op_name(candidate);
   }

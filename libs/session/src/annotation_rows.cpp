@@ -100,7 +100,7 @@ std::uint64_t sum_of(const Annotations& annotations) {
     sum += sum_of(mark);
     for (const LesionWord& word : mark.lesions) sum += sum_of(mark.vessel, word);
   }
-  return sum;
+  return sum + sum_of(annotations.pressure);
 }
 
 AnnotationRows::AnnotationRows(const Database& db)
@@ -130,7 +130,8 @@ AnnotationRows::AnnotationRows(const Database& db)
       put_lesion_(db, "INSERT INTO lesion VALUES(?1, ?2, ?3, ?4, ?5)"),
       erase_lesions_(db, "DELETE FROM lesion WHERE vessel = ?1"),
       read_lesions_(
-          db, "SELECT vessel, from_mm, to_mm, state, comment FROM lesion ORDER BY vessel, from_mm, to_mm") {}
+          db, "SELECT vessel, from_mm, to_mm, state, comment FROM lesion ORDER BY vessel, from_mm, to_mm"),
+      pressure_(db) {}
 
 void AnnotationRows::put(const Measurement& m) {
   const std::string points = bytes_of(m.points);
@@ -191,6 +192,7 @@ void AnnotationRows::write_change(const Annotations& before, const Annotations& 
       erase_mark_.with(vessel).run(), erase_evaluability_.with(vessel).run(),
           erase_lesions_.with(vessel).run();
   }
+  if (change.pressure) pressure_.write(before.pressure, after.pressure);
   update_.with(after.next_measurement_id, static_cast<std::int64_t>(sum_of(after))).run();
 }
 
@@ -224,6 +226,7 @@ Annotations AnnotationRows::read() {
     mark->evaluable = stretches_of(e.bytes(1));
   }
   read_lesions(annotations);
+  annotations.pressure = pressure_.read();
   if (sum_of(annotations) != checksum) damaged("its annotations are not what was written");
   if (!annotations.measurements.empty() &&
       annotations.measurements.back().id >= annotations.next_measurement_id)

@@ -2,6 +2,7 @@
 /// \file The tables of annotations: rows read, written, and their sum.
 
 #include "database.h"
+#include "pressure_rows.h"
 
 #include "ostia/session/annotation.h"
 
@@ -31,6 +32,7 @@ class AnnotationRows {
   Statement update_, put_measurement_, erase_measurement_, put_mark_, erase_mark_, read_, read_measurements_,
       read_marks_, put_evaluability_, erase_evaluability_, read_evaluability_, put_lesion_, erase_lesions_,
       read_lesions_;
+  PressureRows pressure_;
 };
 
 }  // namespace ostia::session

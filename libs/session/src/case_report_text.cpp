@@ -18,7 +18,7 @@ using ReportJson = nlohmann::json;
 struct OpWords {
   const char *op, *words;
 };
-constexpr std::array<OpWords, 23> kWords{{
+constexpr std::array<OpWords, 25> kWords{{
     {"case.begin", "case begun"},
     {"cpr.stroke", "wall drawn on a curved reformation"},
     {"section.contour", "contour drawn on a cross-section"},
@@ -42,6 +42,8 @@ constexpr std::array<OpWords, 23> kWords{{
     {"measure.change", "measurement changed"},
     {"measure.delete", "measurement deleted"},
     {"vessel.mark", "vessel's mark set"},
+    {"pressure.inputs", "inputs of the computed pressures set"},
+    {"pressure.what_if", "stretches with another calibre, for the computed pressures, set"},
 }};
 
 std::string text_at(const ReportJson& object, const char* name) {

@@ -65,6 +65,17 @@ constexpr const char* axes_table =
     "CREATE TABLE image_axes(id INTEGER PRIMARY KEY CHECK(id = 1), axes TEXT NOT NULL, "
     "checksum INTEGER NOT NULL);";
 
+// Since version 7: what the computed pressures are told.
+constexpr const char* pressure_tables = R"(
+CREATE TABLE pressure_input(key TEXT PRIMARY KEY NOT NULL, value NOT NULL) WITHOUT ROWID;
+CREATE TABLE what_if(place INTEGER PRIMARY KEY, vessel INTEGER NOT NULL, from_mm NOT NULL, to_mm NOT NULL,
+  kind TEXT NOT NULL, percent NOT NULL);
+)";
+
+void create_pressure(Database& database) {
+  database.execute(pressure_tables);
+}
+
 void create_axes(Database& database) {
   database.execute(axes_table);
 }
@@ -88,8 +99,8 @@ void create_annotations(Database& database) {
 
 /// Step k makes version k + 2 of version k + 1.
 using Step = void (*)(Database&);
-constexpr std::array<Step, schema_version - 1> steps{create_annotations, create_evaluability, create_lesions,
-                                                     create_stamps, create_axes};
+constexpr std::array<Step, schema_version - 1> steps{
+    create_annotations, create_evaluability, create_lesions, create_stamps, create_axes, create_pressure};
 
 void set_version(Database& database, std::int32_t version) {
   database.execute("PRAGMA user_version = " + std::to_string(version));

@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -69,6 +70,19 @@ class Writer {
             {"to_mm", json(one.to_mm)},
             {"state", to_string(one.state)},
             {"comment", one.comment}};
+  }
+  Json json(const WhatIf& one) const {
+    return {{"vessel", json(one.vessel)},
+            {"from_mm", json(one.from_mm)},
+            {"to_mm", json(one.to_mm)},
+            {"kind", to_string(one.kind)},
+            {"percent", json(one.percent)}};
+  }
+  /// Numbers by name as a list, in the names' order.
+  Json json(const std::map<std::string, double>& values) const {
+    Json list = Json::array();
+    for (const auto& [key, value] : values) list.push_back({{"key", key}, {"value", json(value)}});
+    return list;
   }
   template <class Value>
   Json json(const std::vector<Value>& values) const {
@@ -176,6 +190,34 @@ class Reader {
       out.state = lesion_state(state);
     } catch (const InvalidInput& e) {
       fail("\"" + name + ".state\": " + e.what());
+    }
+  }
+  void read(const Json& in, const std::string& name, WhatIf& out) const {
+    if (!in.is_object() || in.size() != 5 || !in.contains("vessel") || !in.contains("from_mm") ||
+        !in.contains("to_mm") || !in.contains("kind") || !in.contains("percent"))
+      fail("\"" + name + "\" must be a stretch {\"vessel\", \"from_mm\", \"to_mm\", \"kind\", \"percent\"}");
+    std::string kind;
+    read(in["vessel"], name + ".vessel", out.vessel);
+    read(in["from_mm"], name + ".from_mm", out.from_mm);
+    read(in["to_mm"], name + ".to_mm", out.to_mm);
+    read(in["kind"], name + ".kind", kind);
+    read(in["percent"], name + ".percent", out.percent);
+    try {
+      out.kind = what_if_kind(kind);
+    } catch (const InvalidInput& e) {
+      fail("\"" + name + ".kind\": " + e.what());
+    }
+  }
+  void read(const Json& in, const std::string& name, std::map<std::string, double>& out) const {
+    if (!in.is_array()) fail(name, in, "a list");
+    out.clear();
+    for (const Json& one : in) {
+      if (!one.is_object() || one.size() != 2 || !one.contains("key") || !one.contains("value"))
+        fail("\"" + name + "\" must be a list of inputs {\"key\", \"value\"}");
+      std::string key;
+      read(one["key"], name + ".key", key);
+      if (out.contains(key)) fail("\"" + name + "\" has \"" + key + "\" twice");
+      read(one["value"], name + "." + key, out[key]);
     }
   }
   void read(const Json& in, const std::string& name, std::array<double, 3>& out) const {

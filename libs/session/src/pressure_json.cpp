@@ -1,3 +1,6 @@
+#include "pressure_after_files.h"
+#include "pressure_uncertainty_files.h"
+
 #include "ostia/session/pressure_report.h"
 
 #include <nlohmann/json.hpp>
@@ -123,6 +126,8 @@ std::string pressure_json(const PressureReport& report) {
     root["pulse"] = {{"heart_rate_bpm", report.options.conditions.heart_rate_bpm},
                      {"beats", report.pulse->beats},
                      {"change_pa", report.pulse->change_pa}};
+  if (report.after) root["what_if"] = what_if_json(report);
+  if (report.uncertainty) root["uncertainty"] = uncertainty_of_report(report);
   root["conditions"] = Json::parse(hemodynamics::conditions_json(report.options.conditions));
   root["warnings"] = report.warnings;
   return root.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -41,15 +41,26 @@ SectionShape form_of(const lumen::LumenModel& model, const analysis::SurfaceOfVe
   return twice == 0.0 ? SectionShape() : hemodynamics::shape_of_contour(flat);
 }
 
+/// So little that its form is the same, too: a wall that is pulled moves far away by next to nothing.
+bool looks_the_same(const analysis::SectionMeasures& a, const analysis::SectionMeasures& b) {
+  constexpr double share = 1e-4;
+  const auto near = [](double x, double y) { return std::abs(x - y) <= share * std::abs(x); };
+  return a.found == b.found && a.open == b.open && near(a.area_mm2, b.area_mm2) &&
+         near(a.perimeter_mm, b.perimeter_mm) && near(a.least_diameter_mm, b.least_diameter_mm) &&
+         near(a.largest_diameter_mm, b.largest_diameter_mm);
+}
+
+/// `former`: sections with the forms that the vessel has; those that look as they did keep them.
 void measure_forms(PressureVessel& vessel, const lumen::LumenModel& model,
                    const analysis::SurfaceOfVessel& surface_of, double from_mm, double to_mm,
-                   const PressureTreeOptions& options) {
+                   const PressureTreeOptions& options,
+                   const std::vector<analysis::SectionMeasures>& former = {}) {
   const auto& sections = vessel.profile.sections;
   vessel.shapes.resize(sections.size());
   std::vector<std::size_t> wanted;
   for (std::size_t i = 0; i < sections.size(); ++i)
     if (sections[i].found && sections[i].s_mm >= std::max(from_mm, vessel.ostium_mm) - 1e-6 &&
-        sections[i].s_mm <= to_mm + 1e-6)
+        sections[i].s_mm <= to_mm + 1e-6 && !(i < former.size() && looks_the_same(former[i], sections[i])))
       wanted.push_back(i);
   // Of its own part the wall is its own: no other is asked for, and none from another thread.
   const auto wall = surface_of(vessel.vessel);
@@ -100,6 +111,14 @@ bool has_sections(const hemodynamics::Network& network, std::int32_t vessel) {
                      [=](const hemodynamics::Branch& branch) {
                        return branch.vessel == vessel && branch.stations.size() > 1;
                      });
+}
+
+analysis::ReferenceLine reference_of(const PressureVessel& vessel, const lumen::LumenModel& model,
+                                     const analysis::SurfaceOfVessel& surface_of,
+                                     const PressureTreeOptions& options) {
+  const auto ostia = analysis::ostia_of(model, surface_of, vessel.vessel);
+  return analysis::reference_line(vessel.profile, analysis::branch_abscissas(model, vessel.vessel),
+                                  analysis::reading_from_ostium(ostia, options.reference));
 }
 
 void add_pressure_lesions(PressureTree& tree, const geometry::VesselTree& vessels,
@@ -208,10 +227,15 @@ std::vector<std::size_t> update_pressure_tree(PressureTree& tree, const lumen::L
   if (found == tree.vessels.end())
     throw InvalidInput("vessel " + std::to_string(vessel) + " owns no part of the tree");
   PressureVessel& measured = found->second;
+  const std::vector<analysis::SectionMeasures> former = measured.profile.sections;
   analysis::update_profile(measured.profile, model, surface_of, from_mm, to_mm);
   const double step = measured.profile.length_mm / static_cast<double>(measured.profile.sections.size() - 1);
-  measure_forms(measured, model, surface_of, from_mm - step, to_mm + step, options);
-  return remake_branches(tree, vessel, from_mm - step, to_mm + step, options.bend_chord_mm);
+  measure_forms(measured, model, surface_of, from_mm - step, to_mm + step, options, former);
+  measured.reference = reference_of(measured, model, surface_of, options);
+  auto changed = remake_branches(tree, vessel, from_mm - step, to_mm + step, options.bend_chord_mm);
+  tree.lesions.clear();
+  add_pressure_lesions(tree, model.tree, options);
+  return changed;
 }
 
 hemodynamics::TreePlace place_on(const hemodynamics::Network& network, std::int32_t vessel, double s_mm) {

@@ -94,8 +94,9 @@ ProfileView::Frame ProfileView::frame() const {
   Frame made;
   made.left = 40.0 * density_;
   const double flow = flow_room_px();
-  made.right = width_ - std::max(flow, area_shown.get() ? 44.0 : 12.0) * density_;
-  made.top = (flow > 0.0 ? 34.0 : 20.0) * density_;
+  const double ffr = ffr_room();
+  made.right = width_ - std::max(flow + ffr, area_shown.get() ? 44.0 : 12.0) * density_;
+  made.top = (flow > 0.0 && ffr > 0.0 ? 48.0 : flow > 0.0 ? 34.0 : 20.0) * density_;
   made.bottom = height_ - 26.0 * density_;
   made.right = std::max(made.right, made.left + 1.0);
   made.bottom = std::max(made.bottom, made.top + 1.0);
@@ -299,6 +300,7 @@ const Overlay& ProfileView::overlay() {
   add_flow(f);
   add_curves(f, *profile);
   add_outer_wall(f);
+  add_ffr(f);
   const double s = bench_.own_mm(bench_.cursor_mm.get());
   overlay_.lines.push_back({{Vec2(f.x(s), f.top), Vec2(f.x(s), f.bottom)}, Role::cursor});
   add_titles(f);

@@ -10,7 +10,8 @@
 
 namespace ostia::view {
 figure::Color scale_color(ColorScale scale, double t) {
-  return scale == ColorScale::sequential ? figure::viridis(t) : figure::blue_to_vermilion(t);
+  if (scale == ColorScale::sequential) return figure::viridis(t);
+  return figure::blue_to_vermilion(scale == ColorScale::falling ? 1.0 - t : t);
 }
 
 void validate(const ValueScale& scale) {

@@ -21,16 +21,15 @@ std::string lower_extension(const fs::path& path) {
   return extension;
 }
 
-void check_indices(const LoadedSurface& loaded, const fs::path& path) {
-  const auto count = static_cast<std::int64_t>(loaded.surface.mesh.points.size());
-  for (std::size_t t = 0; t < loaded.surface.mesh.triangles.size(); ++t) {
-    for (const std::int32_t p : loaded.surface.mesh.triangles[t]) {
-      if (p < 0 || p >= count) {
-        refuse(path, "triangle " + std::to_string(t) + " names point " + std::to_string(p) +
-                         ", but there are " + std::to_string(count) + " points");
-      }
-    }
-  }
+/// A triangle with a corner that is no point, in words; none: empty.
+std::string missing_corner(const geometry::TriMesh& mesh) {
+  const auto count = static_cast<std::int64_t>(mesh.points.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (const std::int32_t p : mesh.triangles[t])
+      if (p < 0 || p >= count)
+        return "triangle " + std::to_string(t) + " names point " + std::to_string(p) + ", but there are " +
+               std::to_string(count) + " points";
+  return {};
 }
 
 }  // namespace
@@ -84,7 +83,7 @@ LoadedSurface read_surface(const fs::path& path) {
     refuse(path, "a surface ends in .stl, .ply, .obj, .vtp or .vtk");
   if (loaded.surface.mesh.triangles.empty())
     throw EmptySurface("cannot read " + path.string() + ": it has no triangles");
-  check_indices(loaded, path);
+  if (const std::string fault = missing_corner(loaded.surface.mesh); !fault.empty()) refuse(path, fault);
   return loaded;
 }
 
@@ -93,6 +92,8 @@ void write_surface(const fs::path& path, const geometry::TriMesh& mesh) {
 }
 
 void write_surface(const fs::path& path, const geometry::FacedSurface& surface) {
+  if (const std::string fault = missing_corner(surface.mesh); !fault.empty())
+    throw InvalidInput("cannot write " + path.string() + ": " + fault);
   const std::string extension = lower_extension(path);
   if (extension == ".vtp") return core::write_file(path, vtp_text(surface));
   const bool one_face = surface.face_ids.empty() ||

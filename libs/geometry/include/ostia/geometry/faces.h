@@ -43,4 +43,14 @@ class FacesByKind {
   std::vector<std::int32_t> walls_, caps_;
 };
 
+/// One a point: whether all its triangles are wall. Points of the rings about caps are not.
+inline std::vector<bool> points_of_wall_alone(const FacedSurface& surface) {
+  std::vector<bool> alone(surface.mesh.points.size(), true);
+  const FacesByKind faces(surface.faces);
+  for (std::size_t i = 0; i < surface.mesh.triangles.size(); ++i)
+    if (!faces.wall(surface.face_ids[i]))
+      for (const std::int32_t p : surface.mesh.triangles[i]) alone[static_cast<std::size_t>(p)] = false;
+  return alone;
+}
+
 }  // namespace ostia::geometry

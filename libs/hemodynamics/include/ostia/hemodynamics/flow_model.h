@@ -14,7 +14,9 @@ struct FlowModel {
   /// Terms in the square of the flow: momentum, separation, developing profiles, bends. Without them pressure
   /// falls by developed friction alone.
   bool inertia = true;
-  bool bends = true;  ///< friction rises with Dean's number (White 1929)
+  /// Friction rises with Dean's number (White 1929), and where the lumen turns away from it a jet leans on
+  /// the wall.
+  bool bends = true;
   JunctionLaw junctions = JunctionLaw::unified;
   /// The pressure that is told is that of blood at rest, as in the aorta: at a root static pressure is less
   /// by what sets it in motion. False: it is the static one at the root's first section.
@@ -28,11 +30,14 @@ struct FlowModel {
   /// developed friction (Shah and London: 1.25). [0, 2]
   double layer_friction = 0.5;
   /// What the wall rubs less where the lumen widens, over the developed friction and the widening within the
-  /// length in which a profile develops. Fitted on three computations of round stenoses. [0, 1.5]
-  double adverse_friction = 0.6;
-  /// Friction of the dead water beside a jet, backwards, over the developed one, at most: read off one of
-  /// these. [0, 3]
-  double backflow = 0.8;
+  /// length in which a profile develops. Fitted on computations of round stenoses. [0, 1.5]
+  double adverse_friction = 1.0;
+  /// Friction of the dead water beside a jet, backwards, over the developed one, at most. Fitted as that.
+  /// [0, 3]
+  double backflow = 1.2;
+  /// Far from the developed profile a jet's momentum coefficient falls by this over the length that
+  /// `development` stands for: it spreads through dead water first. Fitted as those. [0.1, 20]
+  double jet_spread = 1.6;
   double step_mm = 0.25;  ///< of the integration along s, at most, [0.01, 2]
   /// Scales all terms in the square of the flow, [0, 1]: the solver's way from linear to whole. 1 for
   /// results.

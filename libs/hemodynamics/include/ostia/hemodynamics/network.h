@@ -22,7 +22,8 @@ struct Station {
   double diameter_mm() const;     ///< of the circle of equal area
 };
 
-/// Pressure over flow that is told instead of worked out: linear Q + quadratic Q |Q|.
+/// Pressure over flow that is told instead of worked out: linear Q + quadratic Q |Q|. The linear part is not
+/// below 0; the quadratic one is where pressure comes back.
 struct LumpedDrop {
   double linear_pa_s_ml = 0.0, quadratic_pa_s2_ml2 = 0.0;
 };

@@ -50,6 +50,8 @@ struct Solution {
   /// One a branch: flow; static pressure at its beginning and its end. Behind an occlusion nothing flows, and
   /// the pressure is the outlet's distal one: collateral flow is not modelled.
   std::vector<double> flow_ml_s, from_pa, to_pa;
+  /// Of the profile at each branch's beginning: a jet goes on through a fork.
+  std::vector<double> start_momentum;
   int iterations = 0;
   double residual_pa = 0.0;
 };

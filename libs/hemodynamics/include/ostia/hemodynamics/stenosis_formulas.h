@@ -16,8 +16,9 @@ struct FormulaDrop {
   std::string_view name, source;
   double pa = 0.0;
 };
-/// Young and Tsai 1973 (Kt = 1.52) with Seeley and Young's 1976 viscous term; Poiseuille in the throat with
-/// Borda-Carnot behind it; Poiseuille alone. Throws InvalidInput unless 0 < throat < vessel, length > 0 and
+/// Young and Tsai 1973 (Kt = 1.52) with Seeley and Young's 1976 viscous term; Huo and Kassab's growing core
+/// in the throat, and the jet's loss by how far it has developed; Poiseuille in the throat with Borda-Carnot
+/// behind it; Poiseuille alone. Throws InvalidInput unless 0 < throat < vessel, length > 0 and
 /// flow >= 0.
 std::vector<FormulaDrop> stenosis_formulas(const StenosisCase& stenosis);
 

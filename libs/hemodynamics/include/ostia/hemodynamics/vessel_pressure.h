@@ -18,7 +18,9 @@ struct PreparedBranch {
     double friction_mm3 = 0.0;             ///< integral of viscous shape / area^2, 1/mm^3
     double mean_friction_mm4 = 0.0;        ///< viscous shape / area^2 in the middle, 1/mm^4
     double widening = 0.0;                 ///< of the area's logarithm, over a diameter, 1/mm
-    double bend = 0.0;                     ///< Dean's number over Reynolds'
+    /// Of a jet that goes straight on from the last throat: 0 in the lumen's middle, 1 at its wall.
+    double lean = 0.0;
+    double bend = 0.0;  ///< Dean's number over Reynolds'
     double diameter_mm = 0.0, perimeter_mm = 0.0;
     bool station = false;  ///< ends at a station
   };
@@ -32,11 +34,23 @@ struct PreparedBranch {
 /// Throws as validate(branch) and validate(model) do.
 PreparedBranch prepare(const Branch& branch, const FlowModel& model);
 
+/// A branch passed forward (or backward, from its end) by a flow whose profile has a momentum coefficient.
+struct Passage {
+  double pa = 0.0, by_flow_pa_s_ml = 0.0, by_momentum_pa = 0.0;  ///< fall of pressure, and its derivatives
+  /// Of the profile behind; above 4/3 a jet, that goes on into what comes there.
+  double momentum = 4.0 / 3.0, momentum_by_flow_s_ml = 0.0, momentum_by_momentum = 0.0;
+};
+/// `mixes`: what is left of a jet mixes at the end. `by_momentum`: with the derivatives by it, else they are
+/// 0.
+Passage pass(const PreparedBranch& branch, const FlowModel& model, double flow_ml_s, double start_momentum,
+             bool mixes, bool by_momentum = true);
+
 struct Drop {
   double pa = 0.0;       ///< pressure before less pressure behind
   double pa_s_ml = 0.0;  ///< its exact derivative by the flow
 };
-/// Odd where the branch is the same from both ends; of a shut one it is 0 (nothing flows).
+/// Of the branch by itself: its profile begins as it is told there, and a jet mixes at its end. Odd where the
+/// branch is the same from both ends; of a shut one it is 0 (nothing flows).
 Drop pressure_drop(const PreparedBranch& branch, const FlowModel& model, double flow_ml_s);
 
 /// What there is at a station.
@@ -51,5 +65,9 @@ struct StationFlow {
 /// shut section and `behind_pa` from there on.
 std::vector<StationFlow> pressure_along(const PreparedBranch& branch, const FlowModel& model,
                                         double flow_ml_s, double inlet_pa, double behind_pa = 0.0);
+/// The same with another profile at its beginning.
+std::vector<StationFlow> pressure_along(const PreparedBranch& branch, const FlowModel& model,
+                                        double flow_ml_s, double inlet_pa, double behind_pa,
+                                        double start_momentum);
 
 }  // namespace ostia::hemodynamics

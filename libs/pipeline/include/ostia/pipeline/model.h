@@ -75,7 +75,11 @@ struct MeshedLumen {
 /// narrows, led on through flow extensions where there are any.
 MeshedLumen mesh_lumen(const geometry::TriMesh& lumen, const geometry::VesselTree& tree,
                        const ModelOptions& options, const core::TaskContext& task = core::no_task());
-/// The same about axes that are known and run inside the lumen, those of a case: none are extracted, and
+/// The same of a surface that came from outside: where triangles stay flat a warning, and every error, offers
+/// the command that smooths a rough wall.
+MeshedLumen mesh_surface(const geometry::TriMesh& surface, const geometry::VesselTree& tree,
+                         const ModelOptions& options, const core::TaskContext& task = core::no_task());
+/// mesh_lumen about axes that are known and run inside the lumen, those of a case: none are extracted, and
 /// `centerlines` has the axes alone. The wall's distance from them decides sizes (SizeMeasure::distance), so
 /// that radii that are older than the wall do no harm.
 MeshedLumen mesh_lumen_about(const geometry::TriMesh& lumen, const geometry::VesselTree& axes,

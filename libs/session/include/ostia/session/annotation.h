@@ -1,9 +1,11 @@
 #pragma once
-/// \file What a person notes in a case beside the model: measurements, and marks at vessels.
+/// \file What a person notes in a case beside the model: measurements, marks at vessels, and what
+/// the computed pressures are told.
 
 #include "ostia/analysis/evaluability.h"
 #include "ostia/analysis/measurement.h"
 #include "ostia/lumen/edit.h"
+#include "ostia/session/pressure_notes.h"
 
 #include <array>
 #include <cstdint>
@@ -42,6 +44,7 @@ struct Annotations {
   std::vector<analysis::Measurement> measurements;  ///< by id
   std::vector<VesselMark> marks;                    ///< by vessel, at most one each
   std::int32_t next_measurement_id = 1;
+  PressureNotes pressure = {};
 };
 /// The mark after the reader's word on a stretch; nothing as grade takes the word back, whatever it was.
 VesselMark with_evaluability(VesselMark mark, double from_mm, double to_mm,
@@ -73,14 +76,24 @@ struct MeasureDelete {
 struct MarkVessel {
   VesselMark mark;
 };
-using AnnotationCommand = std::variant<MeasureAdd, MeasureChange, MeasureDelete, MarkVessel>;
+/// "pressure.inputs": those that a person gives, whole.
+struct SetPressureInputs {
+  std::map<std::string, double> inputs;
+};
+/// "pressure.what_if": the stretches that are looked at as if they were otherwise, whole.
+struct SetWhatIfs {
+  std::vector<WhatIf> what_ifs;
+};
+using AnnotationCommand =
+    std::variant<MeasureAdd, MeasureChange, MeasureDelete, MarkVessel, SetPressureInputs, SetWhatIfs>;
 
 std::string op_name(const AnnotationCommand& command);  ///< "measure.add", ...
 bool is_annotation_op(const std::string& op);           ///< one of these names
 
 /// The annotations after a command. Pure. Throws InvalidInput (and nothing is changed): a measurement with a
 /// fault, an id that is not there, a vessel that the model does not have (a measurement that lost its vessel
-/// may keep it), a color outside [0, 1], values that are not finite, text that is not UTF-8.
+/// may keep it), a color outside [0, 1], inputs beyond physiology, stretches that are none, values that are
+/// not finite, text that is not UTF-8.
 Annotations annotated(const Annotations& before, const AnnotationCommand& command,
                       const lumen::LumenModel& model);
 
@@ -92,10 +105,11 @@ Annotations annotated(const Annotations& before, const AnnotationCommand& comman
 Annotations following(const Annotations& before, const lumen::Edit& edit,
                       const lumen::LumenModel& model_before, const lumen::LumenModel& model_after);
 
-/// What differs: measurements by id, marks by vessel; came, went or changed.
+/// What differs: measurements by id, marks by vessel, came, went or changed; what pressures are told.
 struct AnnotationChange {
   std::vector<std::int32_t> measurements, marks;
-  bool empty() const { return measurements.empty() && marks.empty(); }
+  bool pressure = false;
+  bool empty() const { return measurements.empty() && marks.empty() && !pressure; }
 };
 AnnotationChange changes_between(const Annotations& before, const Annotations& after);
 

@@ -54,8 +54,9 @@ PressureTree pressure_tree(const geometry::VesselTree& tree, const PressureTreeO
                            const core::TaskContext& task = core::no_task());
 
 /// After an edit that moved walls of one vessel between two abscissas alone: its sections are measured again
-/// there, and the branches that changed are returned (indices into the network), to be put into a
-/// PreparedNetwork with `with_branch`. The tree's axes are as before. Throws as update_profile does.
+/// there, lesions are found anew, and the branches that changed are returned (indices into the network), to
+/// be put into a PreparedNetwork with `with_branch`. The tree's axes are as before. Throws as update_profile
+/// does.
 std::vector<std::size_t> update_pressure_tree(PressureTree& tree, const lumen::LumenModel& model,
                                               const analysis::SurfaceOfVessel& surface_of,
                                               std::int32_t vessel, double from_mm, double to_mm,

@@ -51,6 +51,7 @@ enum class Role {
   sagittal_plane,
   shear,  ///< of a solver's result along the vessel
   pressure,
+  what_if,  ///< pressures as if the vessel were another
   limited,  ///< stretches that can be judged in part, and not at all
   not_evaluable,
 };

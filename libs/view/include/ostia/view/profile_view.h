@@ -15,6 +15,7 @@
 namespace ostia::session {
 class EvaluabilityBoard;
 class OuterWallBoard;
+class PressureBoard;
 }  // namespace ostia::session
 
 namespace ostia::view {
@@ -31,6 +32,9 @@ class ProfileView {
   void set_walls(session::OuterWallBoard* board);
   /// Where stretches come from that are less than evaluable; the same holds.
   void set_evaluability(session::EvaluabilityBoard* board);
+  /// Where FFR along the vessel comes from, with an axis of its own in the place of the area's; the same
+  /// holds.
+  void set_pressure(session::PressureBoard* board);
   void set_flow(std::shared_ptr<const ProfileFlow> flow);  ///< null: none
   void set_size(int width, int height, double density);
   const Overlay& overlay();
@@ -76,13 +80,18 @@ class ProfileView {
   /// Of the selected vessel's way; none: not shown. Gathered once, until vessel, model or flow are others.
   const std::vector<analysis::FlowStation>& flow_along() const;
   void forget_flow_along() { flow_along_.reset(); }
-  bool area_drawn() const { return area_shown.get() && !(flow_room_px() > 0.0); }
+  bool area_drawn() const { return area_shown.get() && !(flow_room_px() + ffr_room() > 0.0); }
   double flow_room_px() const;  ///< of its axes, in units of the interface
   void add_flow_line(const Frame& frame, const std::vector<analysis::FlowStation>& along, Role role,
                      const std::function<double(const analysis::FlowStation&)>& share);
   void add_shear(const Frame& frame, const std::vector<analysis::FlowStation>& along, double cursor_mm);
   void add_pressure(const Frame& frame, const std::vector<analysis::FlowStation>& along, double cursor_mm);
   void add_flow(const Frame& frame);
+  // Of computed pressures (profile_pressure.cpp).
+  bool ffr_drawn() const;
+  double ffr_room() const;  ///< of its axis, in units of the interface
+  void add_ffr(const Frame& frame);
+  void add_ffr_axis(const Frame& frame, double low, double threshold);
   void touch();
   session::Workbench& bench_;
   int width_ = 0, height_ = 0;
@@ -91,13 +100,14 @@ class ProfileView {
   Overlay overlay_;
   session::OuterWallBoard* walls_ = nullptr;
   session::EvaluabilityBoard* evaluability_ = nullptr;
+  session::PressureBoard* pressure_ = nullptr;
   std::shared_ptr<const ProfileFlow> flow_;
   struct FlowAlong {
     std::int32_t vessel = 0;
     std::vector<analysis::FlowStation> stations;
   };
   mutable std::optional<FlowAlong> flow_along_;
-  std::vector<session::Subscription> own_, walls_changes_, evaluability_changes_;
+  std::vector<session::Subscription> own_, walls_changes_, evaluability_changes_, pressure_changes_;
 };
 
 }  // namespace ostia::view

@@ -10,6 +10,7 @@ namespace ostia::view {
 
 enum class ColorScale {
   sequential,  ///< viridis (van der Walt and Smith 2015): dark blue, green, yellow, evenly brighter
+  falling,     ///< vermilion, nearly white in the middle, blue: ratios of which low ones matter
   diverging,   ///< blue, nearly white in the middle, vermilion: signed errors about zero
 };
 

@@ -32,6 +32,8 @@ struct Words {
   std::array<std::string, analysis::measure_kinds.size()> kinds{
       "Distance", "Angle", "Area", "Diameter", "Stenosis", "Volume", "HU ring", "Arrow", "Note"};
   const std::string& kind(analysis::MeasureKind one) const { return kinds[static_cast<std::size_t>(one)]; }
+  std::string ffr = "FFR (research)";  ///< before a number; says what it is for
+  std::string what_if = "what if";     ///< before the number that it would be
   std::string not_measurable = "not measurable";
   std::string image = "image", tree = "tree";  ///< each before the phase of the heart that it is of
   // What the 3D view answers to clicks that place nothing.

@@ -134,12 +134,20 @@ TEST_F(HelpTest, TheDialogRefusesAKeyThatIsTaken) {
 }
 
 TEST_F(HelpTest, FocusGoesRoundAllPanels) {
+  const auto station = [] {
+    if (QGuiApplication::focusWindow() && QGuiApplication::focusWindow()->inherits("QVTKOpenGLWindow"))
+      return QString("tree");
+    for (QWidget* at = QApplication::focusWidget(); at; at = at->parentWidget())
+      if (Keyboard::stations().contains(at->objectName())) return at->objectName();
+    return QString();
+  };
   std::set<QString> seen;
   for (int i = 0; i < Keyboard::stations().size(); ++i) {
+    const QString before = station();
     QTest::keyClick(window_->windowHandle(), Qt::Key_Tab, Qt::ControlModifier);
-    if (QGuiApplication::focusWindow()->inherits("QVTKOpenGLWindow")) seen.insert("tree");
-    for (QWidget* at = QApplication::focusWidget(); at; at = at->parentWidget())
-      if (Keyboard::stations().contains(at->objectName())) seen.insert(at->objectName());
+    // The tree's window gets the keyboard from the X server, a moment later.
+    EXPECT_TRUE(QTest::qWaitFor([&] { return station() != before; })) << before.toStdString();
+    seen.insert(station());
   }
   // Of the two lists behind one tab one is shown.
   EXPECT_EQ(seen.size(), static_cast<std::size_t>(Keyboard::stations().size() - 1));

@@ -155,7 +155,9 @@ struct KeyboardAlone : ::testing::Test {
   fs::path report() {
     key(Qt::Key_R, Qt::ControlModifier);
     const auto said = [&] { return test.window().findChild<QMessageBox*>("report_made"); };
-    EXPECT_TRUE(wait_until([&] { return said() && said()->isVisible(); }, report_ms));
+    // Shown, and with the keyboard: a moment lies between.
+    EXPECT_TRUE(
+        wait_until([&] { return said() && said()->isVisible() && said()->isActiveWindow(); }, report_ms));
     key(Qt::Key_Escape);
     EXPECT_TRUE(wait_until([&] { return !said(); }));
     for (const auto& entry : fs::directory_iterator(folder / "state/cases"))

@@ -26,17 +26,22 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
+/// `given` as a file of conditions has it; what is wrong in there is told with the file's name.
+template <typename Value>
+Value told_in(const fs::path& file, Value (*read)(std::string_view, const Value&), const Value& given) {
+  if (file.empty()) return given;
+  try {
+    return read(core::read_file(file), given);
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(file.string() + ": " + error.what());
+  }
+}
+
 /// Trees to be drawn; the walls' spread by an image comes later.
 std::optional<hemodynamics::UncertaintyOptions> uncertainty_of(const FfrCommand& c) {
   if (c.uncertainty.empty()) return std::nullopt;
   hemodynamics::UncertaintyOptions options;
-  if (!c.conditions.empty()) {
-    try {
-      options = hemodynamics::uncertainty_of_json(core::read_file(c.conditions), options);
-    } catch (const InvalidInput& error) {
-      throw InvalidInput(c.conditions.string() + ": " + error.what());
-    }
-  }
+  options = told_in(c.conditions, hemodynamics::uncertainty_of_json, options);
   // An option goes before the file, which names a seed where it is a result's.
   if (c.seed != hemodynamics::UncertaintyOptions().seed) options.seed = c.seed;
   if (c.uncertainty != usual_trees) options.samples = std::stoi(c.uncertainty);
@@ -52,14 +57,7 @@ std::optional<hemodynamics::UncertaintyOptions> uncertainty_of(const FfrCommand&
 session::PressureReportOptions options_of(const FfrCommand& c, const session::PressureNotes& kept) {
   session::PressureReportOptions options;
   options.conditions = session::conditions_of(kept);
-  if (!c.conditions.empty()) {
-    try {
-      options.conditions =
-          hemodynamics::conditions_of_json(core::read_file(c.conditions), options.conditions);
-    } catch (const InvalidInput& error) {
-      throw InvalidInput(c.conditions.string() + ": " + error.what());
-    }
-  }
+  options.conditions = told_in(c.conditions, hemodynamics::conditions_of_json, options.conditions);
   const auto take = [](const std::optional<double>& told, double& value) {
     if (told) value = *told;
   };

@@ -66,16 +66,12 @@ void PressurePage::fill_lesions(const session::PressureReport& now) {
 void PressurePage::fill_outlets(const session::PressureReport& now) {
   const auto& network = *now.network;
   const auto& outlets = network.outlets();
-  const auto ratio = [](const hemodynamics::PreparedNetwork& of, const hemodynamics::TreeReadings& readings,
-                        std::size_t k) -> std::optional<double> {
-    if (of.beyond_occlusion(of.outlets()[k]) || readings.pullbacks[k].points.empty()) return std::nullopt;
-    return readings.pullbacks[k].points.back().ratio;
-  };
+  using hemodynamics::outlet_ratio;
   set_rows(*outlets_, static_cast<int>(outlets.size()));
   for (std::size_t k = 0; k < outlets.size(); ++k) {
     const double most = now.hyperaemia.solution.flow_ml_s[outlets[k]],
                  rest = now.rest.solution.flow_ml_s[outlets[k]];
-    const auto ffr = ratio(network, now.under_hyperaemia, k);
+    const auto ffr = outlet_ratio(network, now.under_hyperaemia, k);
     QTreeWidgetItem& item = *outlets_->topLevelItem(static_cast<int>(k));
     set_cells(
         item,
@@ -83,7 +79,8 @@ void PressurePage::fill_outlets(const session::PressureReport& now) {
          whole_number(most * minute_s),
          quantity::ratio(rest > 0.0 ? std::optional(most / rest) : std::nullopt),
          quantity::ratio(ffr ? std::optional(now.under_hyperaemia.pullbacks[k].ppg_index) : std::nullopt),
-         now.after ? quantity::ratio(ratio(now.after->network, now.after->under_hyperaemia, k)) : QString()});
+         now.after ? quantity::ratio(outlet_ratio(now.after->network, now.after->under_hyperaemia, k))
+                   : QString()});
     mark_significant(item, 1, ffr && *ffr <= now.options.reading.threshold);
   }
 }

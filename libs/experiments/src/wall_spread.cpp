@@ -1,6 +1,7 @@
 #include "ostia/experiments/wall_spread.h"
 
 #include "ostia/core/error.h"
+#include "ostia/hemodynamics/uncertainty.h"
 #include "ostia/imaging/noise.h"
 #include "ostia/phantom/noise.h"
 #include "ostia/segmentation/lumen_boundary.h"
@@ -14,7 +15,7 @@ namespace {
 
 constexpr double quantile_95 = 1.959963984540054;
 constexpr double spread_end_mm = 6.0, apart_mm = 6.0, course_step_mm = 0.5;
-constexpr double most_relative = 0.4;  // hemodynamics::WallSpread
+const double most_relative = hemodynamics::WallSpread().most_relative;
 
 /// The true axis, moved to the side.
 geometry::AxisCurve axis_beside(const geometry::AxisCurve& axis, double angle, double mm) {

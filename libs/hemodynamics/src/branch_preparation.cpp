@@ -110,7 +110,7 @@ PreparedBranch prepare(const Branch& branch, const FlowModel& model) {
   validate(model);
   PreparedBranch out;
   out.lumped = branch.lumped;
-  out.start_momentum = branch.parent < 0 ? model.root_momentum : model.fork_momentum;
+  out.start_momentum = branch.parent < 0 ? model.root_momentum : developed_momentum;
   out.stations = branch.stations.size();
   while (out.open_stations < out.stations && branch.stations[out.open_stations].area_mm2 > shut_mm2)
     ++out.open_stations;

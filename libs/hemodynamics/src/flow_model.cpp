@@ -20,8 +20,7 @@ void require_within(const char* what, double value, double low, double high, con
 void validate(const FlowModel& model) {
   require_within("the density of blood", model.density_kg_m3, 900.0, 1200.0, " kg/m3");
   require_within("the viscosity of blood", model.viscosity_mpa_s, 0.5, 20.0, " mPa s");
-  require_within("the momentum coefficient at a root", model.root_momentum, 1.0, 4.0 / 3.0, "");
-  require_within("the momentum coefficient behind a fork", model.fork_momentum, 1.0, 4.0 / 3.0, "");
+  require_within("the momentum coefficient at a root", model.root_momentum, 1.0, developed_momentum, "");
   require_within("the development of profiles", model.development, 0.001, 0.1, "");
   require_within("the friction of a layer", model.layer_friction, 0.0, 2.0, "");
   require_within("the friction in a widening lumen", model.adverse_friction, 0.0, 1.5, "");

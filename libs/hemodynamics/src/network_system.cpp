@@ -31,8 +31,6 @@ Links links_of(const PreparedNetwork& network) {
 
 namespace {
 
-constexpr double developed_momentum = 4.0 / 3.0;
-
 std::vector<double> branch_flows(const Links& links, const Eigen::VectorXd& open) {
   std::vector<double> flow(links.below.size(), 0.0);
   for (std::size_t b = 0; b < flow.size(); ++b)
@@ -106,13 +104,12 @@ void add_branches(const PreparedNetwork& network, const FlowModel& model, const 
     if (links.below[b].empty()) continue;
     const int parent = network.network().branches[b].parent;
     Profile start{network.branch(b).start_momentum, {}};
-    const bool jets = model.inertia && model.fork_momentum == developed_momentum;
-    if (parent >= 0 && jets)
+    if (parent >= 0 && model.inertia)
       start =
           handed_on(network, static_cast<std::size_t>(parent), behind[static_cast<std::size_t>(parent)], b,
                     straightest_of(network, links, static_cast<std::size_t>(parent)) == b, losses.flow);
     const Passage passage = pass(network.branch(b), model, losses.flow[b], start.momentum,
-                                 !jets || links.children[b].empty(), !start.by.empty());
+                                 !model.inertia || links.children[b].empty(), !start.by.empty());
     losses.along[b] = passage.pa;
     losses.by_flow[b] = passage.by_flow_pa_s_ml;
     losses.start_momentum[b] = start.momentum;

@@ -158,6 +158,13 @@ void validate(const ReadingOptions& options) {
         "between 0 and 1");
 }
 
+std::optional<double> outlet_ratio(const PreparedNetwork& network, const TreeReadings& readings,
+                                   std::size_t outlet) {
+  const auto& points = readings.pullbacks[outlet].points;
+  if (network.beyond_occlusion(network.outlets()[outlet]) || points.empty()) return std::nullopt;
+  return points.back().ratio;
+}
+
 double pressure_at(const PreparedNetwork& network, const TreeReadings& readings, const TreePlace& place) {
   if (place.branch >= network.size() || network.network().branches[place.branch].stations.size() < 2)
     throw InvalidInput("a place names a branch that is not there, or has no sections");

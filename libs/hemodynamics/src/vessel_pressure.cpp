@@ -9,7 +9,7 @@
 namespace ostia::hemodynamics {
 namespace {
 
-constexpr double developed = 4.0 / 3.0;
+constexpr double developed = developed_momentum;
 /// A thin layer on the wall parts from it where the speed has fallen to this share (Howarth 1938).
 constexpr double speed_kept = 0.88;
 
@@ -168,7 +168,7 @@ Marched<T> march(const PreparedBranch& branch, const FlowModel& model, T flow, T
   const bool forward = value_of(flow) >= 0.0;
   Marching<T> marching{model, forward ? flow : T(0.0) - flow, T(1.0), T(0.0),
                        model.inertia ? model.density_kg_m3 * model.inertia_scale : 0.0};
-  marching.momentum = forward ? start_momentum : T(model.fork_momentum);
+  marching.momentum = forward ? start_momentum : T(developed);
   if (value_of(marching.momentum) > developed) marching.struck = marching.momentum - T(developed);
   const std::size_t count = branch.steps.size();
   marching.least = forward ? branch.first_area_mm2 : branch.last_area_mm2;
@@ -261,7 +261,7 @@ std::vector<StationFlow> pressure_along(const PreparedBranch& branch, const Flow
     if (!(forward ? step.station : &step == &branch.steps.front() || (&step - 1)->station)) return;
     stations[forward ? ++at : --at] = now;
   };
-  stations[forward ? 0 : last] = {0.0, forward ? start_momentum : model.fork_momentum, 0.0, 0.0};
+  stations[forward ? 0 : last] = {0.0, forward ? start_momentum : developed, 0.0, 0.0};
   march(branch, model, flow_ml_s, start_momentum, true, record);
   StationFlow& first = stations[forward ? 0 : last];
   first.wall_shear_pa = stations[forward ? std::min<std::size_t>(1, last) : last - 1].wall_shear_pa;

@@ -8,18 +8,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using core::fixed_text;
+using hemodynamics::outlet_ratio;
 
 std::string name_of_vessel(const PressureReport& report, std::int32_t vessel) {
   const auto found = report.tree.vessels.find(vessel);
   return found == report.tree.vessels.end() ? std::string() : found->second.name;
-}
-
-/// FFR at an outlet; nothing behind an occlusion.
-std::optional<double> outlet_ffr(const hemodynamics::PreparedNetwork& network,
-                                 const hemodynamics::TreeReadings& readings, std::size_t k) {
-  if (network.beyond_occlusion(network.outlets()[k]) || readings.pullbacks[k].points.empty())
-    return std::nullopt;
-  return readings.pullbacks[k].points.back().ratio;
 }
 
 Json ratio_json(const std::optional<double>& value) {
@@ -55,7 +48,7 @@ Json what_if_json(const PressureReport& report) {
   for (std::size_t k = 0; k < after.network.outlets().size(); ++k)
     outlets.push_back(
         {{"branch", after.network.outlets()[k]},
-         {"ffr", ratio_json(outlet_ffr(after.network, after.under_hyperaemia, k))},
+         {"ffr", ratio_json(outlet_ratio(after.network, after.under_hyperaemia, k))},
          {"rest_ml_min", after.rest.solution.flow_ml_s[after.network.outlets()[k]] * 60.0},
          {"hyperaemic_ml_min", after.hyperaemia.solution.flow_ml_s[after.network.outlets()[k]] * 60.0}});
   return {{"stretches", stretches}, {"lesions", lesions}, {"outlets", outlets}};
@@ -96,8 +89,8 @@ std::string what_if_readings_csv(const PressureReport& report) {
   for (std::size_t k = 0; k < after.network.outlets().size(); ++k) {
     const std::size_t branch = after.network.outlets()[k];
     text += core::csv_line({"outlet", report.tree.network.branches[branch].name,
-                            ratio_csv(outlet_ffr(*report.network, report.under_hyperaemia, k)),
-                            ratio_csv(outlet_ffr(after.network, after.under_hyperaemia, k)),
+                            ratio_csv(outlet_ratio(*report.network, report.under_hyperaemia, k)),
+                            ratio_csv(outlet_ratio(after.network, after.under_hyperaemia, k)),
                             flow(report.hyperaemia, branch), flow(after.hyperaemia, branch)});
   }
   return text;

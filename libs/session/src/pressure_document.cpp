@@ -20,18 +20,12 @@ namespace {
 
 using core::fixed_text;
 using core::ratio_text;
+using hemodynamics::outlet_ratio;
 using hemodynamics::pa_of_mmhg;
 using report_words::own;
 using Rows = std::vector<std::vector<std::string>>;
 
 constexpr double per_minute = 60.0;
-
-std::optional<double> outlet_ratio(const hemodynamics::PreparedNetwork& network,
-                                   const hemodynamics::TreeReadings& readings, std::size_t k) {
-  if (network.beyond_occlusion(network.outlets()[k]) || readings.pullbacks[k].points.empty())
-    return std::nullopt;
-  return readings.pullbacks[k].points.back().ratio;
-}
 
 std::string lowest_text(const PressureReport& report) {
   const auto& network = *report.network;

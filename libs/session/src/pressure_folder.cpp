@@ -130,15 +130,15 @@ std::string outlets_csv(const PressureReport& report) {
     const std::size_t b = network.outlets()[k];
     const Branch& branch = network.network().branches[b];
     const auto& pullback = report.under_hyperaemia.pullbacks[k];
-    const bool known = !network.beyond_occlusion(b) && !pullback.points.empty();
+    const auto ratio = hemodynamics::outlet_ratio(network, report.under_hyperaemia, k);
     text += core::csv_line(
         joined_cells({std::to_string(b), std::to_string(branch.vessel), branch.name,
                       fixed_text(hemodynamics::outlet_diameter_mm(branch), 3),
                       fixed_text(report.resting.outlets_ml_s[k] * 60.0, 3),
                       fixed_text(report.rest.solution.flow_ml_s[b] * 60.0, 3),
                       fixed_text(report.hyperaemia.solution.flow_ml_s[b] * 60.0, 3),
-                      known ? fixed_text(pullback.points.back().ratio, 4) : std::string(),
-                      known ? fixed_text(pullback.ppg_index, 3) : std::string()},
+                      ratio ? fixed_text(*ratio, 4) : std::string(),
+                      ratio ? fixed_text(pullback.ppg_index, 3) : std::string()},
                      uncertain_cells(report, report.uncertainty ? report.uncertainty->outlets[k].ratio
                                                                 : no_distribution)));
   }

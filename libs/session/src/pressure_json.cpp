@@ -79,6 +79,7 @@ Json outlets_json(const PressureReport& report) {
     const Branch& branch = network.network().branches[outlets[k]];
     const auto& pullback = report.under_hyperaemia.pullbacks[k];
     const bool beyond = network.beyond_occlusion(outlets[k]);
+    const auto ratio = hemodynamics::outlet_ratio(network, report.under_hyperaemia, k);
     const double rest = report.rest.solution.flow_ml_s[outlets[k]];
     const double hyperaemic = report.hyperaemia.solution.flow_ml_s[outlets[k]];
     all.push_back({{"branch", outlets[k]},
@@ -89,7 +90,7 @@ Json outlets_json(const PressureReport& report) {
                    {"rest_ml_min", rest * ml_min},
                    {"hyperaemic_ml_min", hyperaemic * ml_min},
                    {"flow_reserve", rest > 0.0 ? Json(hyperaemic / rest) : Json()},
-                   {"ffr", beyond || pullback.points.empty() ? Json() : Json(pullback.points.back().ratio)},
+                   {"ffr", ratio ? Json(*ratio) : Json()},
                    {"ppg_index", beyond ? Json() : Json(pullback.ppg_index)},
                    {"greatest_fall_20mm", beyond ? Json() : Json(pullback.greatest_fall_20mm)},
                    {"occluded", beyond}});

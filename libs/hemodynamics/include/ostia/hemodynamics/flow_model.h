@@ -8,6 +8,9 @@ enum class JunctionLaw {
   unified,  ///< Mynard and Valen-Sendstad 2015 (junction_loss.h)
 };
 
+/// Momentum coefficient of the developed profile, a parabola.
+constexpr double developed_momentum = 4.0 / 3.0;
+
 struct FlowModel {
   double density_kg_m3 = 1060.0;  ///< [900, 1200]
   double viscosity_mpa_s = 3.5;   ///< [0.5, 20]
@@ -21,8 +24,8 @@ struct FlowModel {
   /// The pressure that is told is that of blood at rest, as in the aorta: at a root static pressure is less
   /// by what sets it in motion. False: it is the static one at the root's first section.
   bool from_rest = false;
-  /// Momentum coefficient at the aorta and behind a fork, [1, 4/3]: 1 is flat, 4/3 developed.
-  double root_momentum = 1.0, fork_momentum = 4.0 / 3.0;
+  /// Momentum coefficient at the aorta, [1, 4/3]: 1 is flat, 4/3 developed.
+  double root_momentum = 1.0;
   /// Length over Reynolds number and diameter in which a profile, or a jet, comes e times nearer to the
   /// developed one: the centre has 99 % of its speed after 0.056 Re D (Shah and London 1978). [0.001, 0.1]
   double development = 0.0122;

@@ -31,8 +31,8 @@ struct NetworkFile {
 /// resistance, and as stenosis coefficient what the piece takes of the pressure beside it at this flow,
 /// junctions included, so that its own solution has these pressures; the others compute along the sections
 /// with their own models. svOneDSolver and openBF have one inlet: a file a root. What lies beyond an
-/// occlusion is left out. Throws InvalidInput for options, for an outlet whose flow is told (svOneDSolver,
-/// openBF), and where a root has no flow.
+/// occlusion is left out, and of the latter two what nothing flows through. Throws InvalidInput for options,
+/// for an outlet whose flow is told (svOneDSolver, openBF), and where nothing flows at all.
 std::vector<NetworkFile> export_network(const PreparedNetwork& network, const Boundary& boundary,
                                         const Solution& solution, NetworkFormat format,
                                         const NetworkExportOptions& options = {});

@@ -4,6 +4,7 @@
 #include "ostia/hemodynamics/flow_state.h"
 #include "ostia/hemodynamics/pulse.h"
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -79,6 +80,9 @@ struct TreeReadings {
 TreeReadings read_tree(const PreparedNetwork& network, const FlowState& state,
                        const std::vector<LesionPlace>& lesions, const ReadingOptions& options = {});
 
+/// Pd/Pa where an outlet of the network ends; nothing behind an occlusion.
+std::optional<double> outlet_ratio(const PreparedNetwork& network, const TreeReadings& readings,
+                                   std::size_t outlet);
 /// Pressure at a place of a tree, linear between stations.
 double pressure_at(const PreparedNetwork& network, const TreeReadings& readings, const TreePlace& place);
 /// So far downstream of a place, along the way of the largest flow; `gone_mm` is less where the tree ends.

@@ -24,7 +24,6 @@ option(OSTIA_INSTALL "Offer to install what is built" ${PROJECT_IS_TOP_LEVEL})
 option(OSTIA_WITH_IMAGE_LIBRARIES "Build what needs VTK, GDCM, Cairo or Embree" ON)
 set(OSTIA_PYTHON AUTO CACHE STRING "Build the Python package: ON, OFF, or AUTO, with the tests")
 set_property(CACHE OSTIA_PYTHON PROPERTY STRINGS AUTO ON OFF)
-option(OSTIA_PIC "Compile everything so that a shared module can hold it; OFF: only what the Python module links" OFF)
 option(OSTIA_ASAN "AddressSanitizer and UndefinedBehaviorSanitizer in our own libraries" OFF)
 
 # Of the whole chain: the module needs all rooms below the views. An instrumented module needs an instrumented Python.
@@ -57,10 +56,9 @@ endif()
 
 # Results must not depend on whether the compiler fuses multiply and add.
 add_compile_options(-ffp-contract=off)
-if(OSTIA_PIC)
-  # Nothing takes the place of a function of ours when a program is loaded, so calls within a source may be inlined as ever.
-  add_compile_options(-fPIC -fno-semantic-interposition)
-endif()
+# The Python module holds the same objects as the programs, so all can be loaded anywhere. Nothing takes the place of a function
+# of ours when a program is loaded, so calls within a source may be inlined as ever.
+add_compile_options(-fPIC -fno-semantic-interposition)
 # A program links only what it uses: the worker alone needs GDCM and TetGen.
 add_link_options(-Wl,--as-needed)
 if(OSTIA_ASAN)

@@ -22,7 +22,6 @@ function(ostia_warnings target)
 endfunction()
 
 include(OstiaPrecompiled)
-include(OstiaMovable)
 include(OstiaExport)
 include(OstiaTestEntries)
 
@@ -46,8 +45,6 @@ function(ostia_library name)
   ostia_link_privately(${name} ${ARG_PRIVATE})
   ostia_warnings(ostia_${name})
   ostia_compile_fast(ostia_${name} source)
-  list(TRANSFORM ARG_USES REPLACE "^ostia::" "")
-  ostia_movable_library(${name} SOURCES ${ARG_SOURCES} USES ${ARG_USES} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
 endfunction()
 
 # ostia_avx2_sources(a.cpp ...) Sources of a room with the same loops for newer processors, which core/processor.h

@@ -93,7 +93,9 @@ foreach(room IN LISTS OSTIA_ROOMS)
 endforeach()
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/examples" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT development)
 
-# Texts.
+# Texts. The reference of the Python package is there where the target python_docs was built.
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT documentation)
+install(DIRECTORY "${PROJECT_BINARY_DIR}/python-docs/" DESTINATION "${CMAKE_INSTALL_DOCDIR}/python" COMPONENT documentation
+        OPTIONAL PATTERN ".buildinfo" EXCLUDE)
 install(FILES "${PROJECT_SOURCE_DIR}/README.md" "${PROJECT_SOURCE_DIR}/CHANGELOG.md" "${PROJECT_SOURCE_DIR}/LICENSE"
         DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT documentation)

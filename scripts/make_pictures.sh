@@ -18,6 +18,8 @@ build/release/bin/ostia phantom -o "$work/masked" --preset small --formats nrrd 
 build/release/bin/ostia extract "$work/masked/dataset00/labels.nrrd" --label 20 -o "$work/masked.ostia"
 build/release/bin/ostia report "$work/masked.ostia" -o "$work/masked-report"
 cp "$work/masked-report/images/tree.png" docs/pictures/mask-tree.png
+build/release/bin/ostia phantom -o "$work/around" --preset small --seed 5 --tree "$work/masked.ostia" --truth-only --surface-spacing 1
+cp "$work/around/dataset00/report/heart.png" docs/pictures/phantom-trees.png
 
 build/release/bin/model_picture docs/pictures/lumen-model.png
 build/release/bin/joint_picture docs/pictures/lumen-joint.png
@@ -34,6 +36,7 @@ build/release/bin/bifurcation_picture branches fork docs/pictures/bifurcations-b
 build/release/bin/bifurcation_picture patches fork docs/pictures/bifurcations-patches.png
 build/release/bin/filters_picture "$work/phantom/dataset00" vessel1 docs/pictures/filters.png
 build/release/bin/uncertainty_picture docs/pictures/pressure-uncertainty.png
+PYTHONPATH=build/release/python /usr/bin/python3 -B scripts/python_picture.py README.md docs/pictures/python.png
 
 # Where OpenFOAM is installed: the first flow of the researcher's tutorial.
 if command -v simpleFoam > /dev/null; then

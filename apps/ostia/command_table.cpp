@@ -129,6 +129,7 @@ void define(CLI::App& app, Commands& c, Run& run) {
   define_reconstruct(app, c.reconstruct, run);
   define_extract(app, c.extract, run, add_dicom);
   define_run(app, c.chain, c.batch, c.common, run);
+  define_plugin(app, c.plugin, run);
   define_case(app, c.solver_case, run);
   define_result(app, c.result, run);
   define_ffr(app, c.ffr, c.common.seed, run);

@@ -1,6 +1,7 @@
 #pragma once
 /// \file All commands of the program: their options and how each is declared. A new one gets its lines here.
 
+#include "chain/plugin.h"
 #include "chain/run.h"
 #include "commands.h"
 #include "evaluate/evaluate.h"
@@ -52,6 +53,7 @@ struct Commands {
   ExtractCommand extract;
   RunCommand chain;
   BatchCommand batch;
+  PluginCommand plugin;
   CaseCommand solver_case;
   ResultCommand result;
   FfrCommand ffr;

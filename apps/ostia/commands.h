@@ -186,6 +186,8 @@ struct PhantomCommand {
   std::vector<std::string> formats;  ///< mhd, nrrd, dicom; none: all
   double disease = 1.0, calcium = 1.0, stent_mm = 0.0, venous = 0.0;
   std::string anatomy = "usual";
+  std::filesystem::path tree;         ///< a patient's, as mask or case; empty: drawn
+  std::optional<double> tree_rim_mm;  ///< of each radius, that is no lumen
   std::optional<double> contrast_hu;
   std::optional<double> noise_hu, blur_mm, blur_z_mm, motion_mm, stair_step_mm, beam_hardening;
   std::optional<double> contour_spacing_mm, surface_spacing_mm;

@@ -3,6 +3,7 @@
 #include "ostia/core/parallel.h"
 #include "ostia/phantom/body.h"
 #include "ostia/phantom/coronary_tree.h"
+#include "ostia/phantom/patient_heart.h"
 #include "ostia/phantom/presets.h"
 #include "ostia/phantom/scan.h"
 #include "ostia/phantom/scene.h"
@@ -125,6 +126,51 @@ void full_image(benchmark::State& state) {
   core::set_max_threads(0);
 }
 
+/// A drawn tree as if it were a patient's, turned and elsewhere.
+phantom::PatientTree patient() {
+  const phantom::CoronaryTree tree =
+      phantom::draw_coronaries(phantom::draw_heart(7), {.seed = 7, .disease = 0.0});
+  phantom::PatientTree out;
+  out.dominance = tree.dominance;
+  for (const phantom::CoronaryVessel& vessel : tree.vessels) {
+    phantom::PatientVessel one{vessel.name, vessel.parent, {}, {}};
+    for (std::size_t i = 0; i < vessel.axis.size(); i += 5) {
+      one.points.push_back(1.05 * vessel.axis.points[i] + geometry::Vec3(30, -120, 480));
+      one.radius_mm.push_back(vessel.healthy_radius_mm[i]);
+    }
+    out.vessels.push_back(std::move(one));
+  }
+  return out;
+}
+
+/// A heart laid under a patient's arteries.
+void patient_heart(benchmark::State& state) {
+  core::set_max_threads(2);
+  const phantom::PatientTree tree = patient();
+  const phantom::HeartShape heart = phantom::draw_heart(1);
+  for (auto _ : state) {
+    const phantom::PatientHeart built = phantom::patient_heart(tree, heart, {});
+    state.counters["least_jacobian"] = built.record.least_jacobian;
+  }
+  core::set_max_threads(0);
+}
+
+/// The same as an image: every place goes through the map.
+void patient_image(benchmark::State& state) {
+  core::set_max_threads(2);
+  const phantom::HeartShape heart = phantom::draw_heart(1);
+  const phantom::PatientHeart built = phantom::patient_heart(patient(), heart, {});
+  phantom::ScanOptions options;
+  options.grid = phantom::grid_of(phantom::Preset::full, heart, &built.tree);
+  for (auto _ : state) {
+    const phantom::Body body(heart, built.tree, phantom::draw_body(1), built.warp);
+    const phantom::Scan scan = phantom::acquire(body, options);
+    benchmark::DoNotOptimize(scan.image.voxels.data());
+  }
+  state.counters["peak_mb"] = peak_memory_mb();
+  core::set_max_threads(0);
+}
+
 void add(const char* name, void (*function)(benchmark::State&)) {
   benchmark::RegisterBenchmark(name, function)
       ->Unit(benchmark::kMillisecond)
@@ -139,6 +185,8 @@ int main(int argc, char** argv) {
   add("noise", noise);
   add("simple_full_image", simple_full);
   add("full_image", full_image);
+  add("patient_heart", patient_heart);
+  add("patient_image", patient_image);
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();
   return 0;

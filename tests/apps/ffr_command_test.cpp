@@ -163,6 +163,10 @@ TEST(FfrCommand, SaysHowSureItIs) {
   const Json other = pressures(folder, {"artery.csv", "-o", "other", "--uncertainty", "--conditions",
                                         "out/conditions.json", "--seed", "7"});
   EXPECT_EQ(other["uncertainty"]["settings"]["seed"], 7);
+  // Also the seed that is usual goes before a file's.
+  const Json usual = pressures(folder, {"artery.csv", "-o", "usual", "--uncertainty", "--conditions",
+                                        "other/conditions.json", "--seed", "1"});
+  EXPECT_EQ(usual["uncertainty"], result["uncertainty"]);
   const Json known = pressures(folder, {"artery.csv", "-o", "known", "--uncertainty=64", "--rest-flow", "90",
                                         "--wall-spread", "0.02"});
   const Json& narrow = known["uncertainty"]["lesions"][0]["ffr"];

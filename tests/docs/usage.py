@@ -130,7 +130,7 @@ def inputs_of(command):
     made, names = set(outputs_of(command)), [word[1] for word in command if isinstance(word, tuple) and word[0] == "<"]
     start = 1
     if name_of(command) == "ostia":
-        start = 3 if words[1:2] in (["motion"], ["evaluate"], ["experiment"]) else 2
+        start = 3 if words[1:2] in (["motion"], ["evaluate"], ["experiment"], ["plugin"]) else 2
     if name_of(command) not in PROGRAMS:
         start = 0
     for word in words[start:]:

@@ -90,10 +90,20 @@ TEST(PressurePlan, CoversAllKindsSeveritiesLengthsAndFlows) {
   EXPECT_LT(calm, 0.35);
   EXPECT_GT(wide, 0.9);
   EXPECT_GT(re, 500.0);
-  // The first few are of all kinds.
+  // The first few are of all kinds, and a third of the plan is of both halves and of all severities.
   std::set<PressureKind> first;
   for (std::size_t i = 0; i < 8; ++i) first.insert(plan[i].kind);
   EXPECT_GE(first.size(), 4u);
+  int to_judge = 0;
+  double least = 1.0, largest = 0.0;
+  for (std::size_t i = 1; i <= 22; ++i) {
+    to_judge += plan[i].judged ? 1 : 0;
+    least = std::min(least, plan[i].stenoses.front().severity);
+    largest = std::max(largest, plan[i].stenoses.front().severity);
+  }
+  EXPECT_NEAR(to_judge, 11, 3);
+  EXPECT_LT(least, 0.36);
+  EXPECT_GT(largest, 0.75);
 }
 
 TEST(PressurePlan, AWallHasItsExactSections) {

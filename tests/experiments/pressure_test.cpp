@@ -3,6 +3,7 @@
 #include "ostia/experiments/pressure.h"
 
 #include "pressure_compare.h"
+#include "pressure_keep.h"
 #include "shared_data.h"
 
 #include "ostia/core/error.h"
@@ -161,8 +162,65 @@ TEST(Pressure, AnotherPlansFolderIsRefused) {
   other.keep = testing::temporary_folder("pressure_foreign");
   core::write_file(other.keep / "letter.txt", "dear");
   EXPECT_THROW(run_pressure(other, fake.runner()), InvalidInput);
-  core::write_file(options.keep / "tube" / "run.json", "{\"v\": 1");
-  EXPECT_THROW(run_pressure(options, fake.runner()), InvalidInput);
+  for (const char* broken : {"{\"v\": 1", "{\"v\": 0}", "{}", "[1]"}) {
+    core::write_file(options.keep / "tube.json", broken);
+    EXPECT_THROW(run_pressure(options, fake.runner()), InvalidInput) << broken;
+  }
+}
+
+TEST(Pressure, ARunIsKeptToWhatMatters) {
+  PressureRun run;
+  run.digest = "d";
+  run.converged = true;
+  run.iterations = 123.0;
+  run.cells = 100000;
+  run.seconds = 99.6;
+  run.inlet_ml_s = 1.23456789;
+  run.outlets_ml_s = {{"main", 0.7}, {"side", 0.53456789}};
+  for (int vessel : {8, 9})
+    for (int i = 0; i < 200; ++i)
+      run.sections.push_back({vessel, 1.0 / 3.0 + 0.25 * i, 1000.0 / 3.0 - 7.7777777 * i});
+  const std::string text = run_json(run);
+  EXPECT_LT(text.size(), 8000u);
+  const PressureRun read = run_of_json(text, "run");
+  EXPECT_EQ(read.digest, run.digest);
+  EXPECT_TRUE(read.converged);
+  EXPECT_EQ(read.cells, run.cells);
+  EXPECT_NEAR(read.inlet_ml_s, run.inlet_ml_s, 1e-7);
+  EXPECT_NEAR(read.outlets_ml_s.at("side"), run.outlets_ml_s.at("side"), 1e-7);
+  ASSERT_EQ(read.sections.size(), run.sections.size());
+  for (std::size_t i = 0; i < read.sections.size(); ++i) {
+    EXPECT_EQ(read.sections[i].vessel, run.sections[i].vessel);
+    EXPECT_NEAR(read.sections[i].s_mm, run.sections[i].s_mm, 5.1e-4);
+    EXPECT_NEAR(read.sections[i].pressure_pa, run.sections[i].pressure_pa, 5.1e-3);
+  }
+  EXPECT_EQ(run_json(read), text) << "nothing more is lost";
+}
+
+TEST(Pressure, JudgingRunsNothing) {
+  PressureOptions options = few("pressure_judge");
+  options.only = {"fit"};
+  Fake fake;
+  const std::size_t kept = run_pressure(options, fake.runner()).rows.size();
+  EXPECT_EQ(fake.calls, static_cast<int>(kept));
+  EXPECT_GT(kept, 0u);
+  options.only.clear();
+  options.judge = true;
+  const PressureResults judged = run_pressure(options, fake.runner());
+  EXPECT_EQ(fake.calls, static_cast<int>(kept));
+  EXPECT_EQ(judged.rows.size(), kept);
+  for (const PressureRow& row : judged.rows) EXPECT_EQ(half_of(row.planned), PressureHalf::fitting);
+}
+
+TEST(Pressure, ADigestIsOfAllThatIsComputed) {
+  const PressureMesh mesh;
+  PressureMesh finer = mesh;
+  finer.edge_ratio = 0.1;
+  const std::string digest = digest_of("wall", 1.0, mesh);
+  EXPECT_EQ(digest, digest_of("wall", 1.0 + 1e-15, mesh)) << "last bits are a processor's own";
+  EXPECT_NE(digest, digest_of("wall", 1.0 + 1e-6, mesh));
+  EXPECT_NE(digest, digest_of("walls", 1.0, mesh));
+  EXPECT_NE(digest, digest_of("wall", 1.0, finer));
 }
 
 TEST(Pressure, StopsWhenCancelledAndKeepsWhatIsDone) {
@@ -237,8 +295,9 @@ TEST(Pressure, WritesItsReport) {
   const PressureResults results = run_pressure(options, fake.runner());
   const fs::path out = testing::temporary_folder("pressure_out");
   write_pressure_report(out, results, options);
-  for (const char* name : {"cases.csv", "curves.csv", "agreement.png", "report.html"})
+  for (const char* name : {"cases.csv", "curves.csv", "tables.md", "agreement.png", "report.html"})
     EXPECT_TRUE(fs::is_regular_file(out / name)) << name;
+  EXPECT_NE(core::read_file(out / "tables.md").find("\n| concentric-01 | fit |"), std::string::npos);
   const auto json = nlohmann::json::parse(pressure_json(results, options));
   EXPECT_EQ(json["kind"], "pressure");
   EXPECT_EQ(json["cases"].size(), 4u);

@@ -125,6 +125,28 @@ TEST(Jets, GoOnIntoTheStraighterBranch) {
   EXPECT_GT(s.to_pa[1] + 0.7 * poiseuille_pa_s_ml(40.0, 1.5), s.from_pa[1]);
 }
 
+TEST(Jets, AreSplitWhereBranchesTurnAlike) {
+  FlowModel model = with_developed_root();
+  model.junctions = JunctionLaw::none;
+  const auto shares = [&](double side_deg) {
+    const PreparedNetwork network(trunk_with_a_jet(side_deg), model);
+    const Solution s = solve(network, told_flows(0.6, 0.5));
+    const double excess = along(network, s, 0).back().momentum - developed;
+    const auto share = [&](std::size_t b, double flow, double radius, double turn_deg) {
+      const double ratio = (1.1 / circle_mm2(1.8)) / (flow / circle_mm2(radius)) *
+                           std::cos(turn_deg * std::numbers::pi / 180.0);
+      return (s.start_momentum[b] - developed) / (excess * ratio);
+    };
+    return std::array{share(1, 0.6, 1.5, 15.0), share(2, 0.5, 1.2, side_deg)};
+  };
+  EXPECT_NEAR(shares(15.0)[0], 0.5, 1e-9);
+  EXPECT_NEAR(shares(15.0)[1], 0.5, 1e-9);
+  EXPECT_NEAR(shares(30.0)[0], 0.8, 1e-9);  // (1 - 15 / 30)^2 = 1 / 4 to the other
+  EXPECT_NEAR(shares(30.0)[1], 0.2, 1e-9);
+  EXPECT_NEAR(shares(44.99)[1], 0.0, 1e-6);
+  EXPECT_EQ(shares(45.0)[1], 0.0);
+}
+
 TEST(Jets, DoNotGoIntoAnOccludedBranch) {
   FlowModel model = with_developed_root();
   model.junctions = JunctionLaw::none;

@@ -144,6 +144,28 @@ TEST(NetworkExport, ReadsSvzerodsOwnSteadyCases) {
   EXPECT_THAT(csv, HasSubstr("branch2_seg0,0,"));
 }
 
+TEST(NetworkExport, ReadsAChainOfAnyLength) {
+  nlohmann::json root =
+      published_case({{1.0, 0.0}}, nlohmann::json::array({resistance_at("OUT", 100.0, 0.0)}));
+  const nlohmann::json one = root["vessels"][0];
+  root["vessels"][0]["boundary_conditions"].erase("outlet");
+  constexpr int count = 50000;
+  for (int i = 1; i < count; ++i) {
+    nlohmann::json& next = root["vessels"].emplace_back(one);
+    next["vessel_id"] = i;
+    next["boundary_conditions"].erase("inlet");
+    if (i + 1 < count) next.erase("boundary_conditions");
+    root["junctions"].push_back({{"inlet_vessels", {i - 1}},
+                                 {"junction_name", "J" + std::to_string(i)},
+                                 {"junction_type", "internal_junction"},
+                                 {"outlet_vessels", {i}}});
+  }
+  const SvzerodCase problem = read_svzerod(root.dump());
+  ASSERT_EQ(problem.network.branches.size(), static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i)
+    ASSERT_EQ(problem.network.branches[static_cast<std::size_t>(i)].parent, i - 1);
+}
+
 TEST(NetworkExport, RefusesWhatIsNoSteadyTree) {
   const auto out = nlohmann::json::array({resistance_at("OUT", 100.0, 100.0)});
   const nlohmann::json good = published_case({{100.0, 0.0}}, out);
@@ -165,6 +187,9 @@ TEST(NetworkExport, RefusesWhatIsNoSteadyTree) {
   bad = good;
   bad["vessels"].push_back(nlohmann::json(good["vessels"][0]));
   refused(bad, "two vessels of the number 0");
+  bad = good;
+  bad["boundary_conditions"].push_back(nlohmann::json(good["boundary_conditions"][0]));
+  refused(bad, "two boundary conditions named");
   bad = good;
   bad.erase("vessels");
   refused(bad, "no case of svZeroDSolver");

@@ -201,6 +201,20 @@ TEST(VesselPressure, ConvergesWithItsStep) {
   EXPECT_NEAR(drop(branch, coarse, 2.0) / drop(branch, fine, 2.0), 1.0, 0.005);
 }
 
+TEST(VesselPressure, OfAContractionDoesNotDependOnItsSteps) {
+  // Of a flow so fast that friction has no say the areas at the ends alone tell the profile behind.
+  FlowModel coarse = from_developed(), fine = from_developed();
+  coarse.viscosity_mpa_s = fine.viscosity_mpa_s = 0.5;
+  fine.step_mm = 0.01;
+  const Branch cone = vessel_of(
+      2.0, [](double s) { return 1.5 - 0.25 * s; }, -1, 0.5);
+  const auto behind = [&](const FlowModel& model) {
+    return pressure_along(prepare(cone, model), model, 50.0, 0.0).back();
+  };
+  EXPECT_NEAR((behind(coarse).momentum - 1.0) / (behind(fine).momentum - 1.0), 1.0, 0.01);
+  EXPECT_NEAR(behind(coarse).pressure_pa / behind(fine).pressure_pa, 1.0, 1e-3);
+}
+
 TEST(VesselPressure, AlongTheVesselEndsWhereTheDropDoes) {
   const FlowModel model;
   const Branch branch = vessel_of(80.0, narrowed(1.5, 30.0, 10.0, 0.6));

@@ -1,4 +1,4 @@
-"""Every command is a function, with the options that the program has; and which of them need no process of their own."""
+"""Every command is a function, with the options that the program has. Which functions do its work in process: reach_test.py."""
 import json
 import pathlib
 
@@ -6,28 +6,6 @@ import pytest
 
 import ostia
 from ostia import commands
-
-
-# What a command does, done by functions on values in memory. The commands that are not here are reached by ostia.commands
-# alone; this list only grows.
-WITHOUT_A_PROCESS = {
-    "info": "read_image, read_surface, read_centerlines, read_volume_mesh, Case.open",
-    "segment": "segment_vessels, segment_mask, lumen_surface",
-    "centerline": "extract_centerlines",
-    "extract": "extract, extract_mask",
-    "lumen": "model_of_tubes, model_of_surface, model_of_image, apply_edit, LumenModel.surface",
-    "replay": "Case.replay",
-    "mesh": "mesh_lumen, remesh, tetrahedralize, export_mesh",
-    "convert": "read_surface, write_surface, read_image, write_image, read_volume_mesh, export_mesh",
-    "ffr": "pressure",
-}
-BY_COMMANDS_ALONE = {
-    "import_", "report", "skeleton", "grow", "reconstruct", "run_pipeline", "batch", "case", "result", "measure", "model", "phantom",
-    "evaluate_centerline", "evaluate_lumen", "evaluate_surface", "evaluate_volume", "evaluate_motion", "evaluate_suite",
-    "experiment_editing", "experiment_extraction", "experiment_orientations", "experiment_smoothness", "experiment_chain",
-    "experiment_carotid", "experiment_sensitivity", "experiment_robustness", "experiment_motion", "experiment_pressure", "experiment_wall_spread",
-    "motion_fit", "motion_apply", "motion_evaluate", "motion_export", "motion_measure",
-}
 
 
 def leaves(described):
@@ -44,17 +22,6 @@ def test_every_command_is_a_function():
     assert len(commands.names) == len(leaves(described())) > 40
     for name in commands.names:
         assert callable(getattr(commands, name)) and getattr(commands, name).__doc__
-
-
-def test_which_need_no_process_of_their_own():
-    """A command that is new belongs to one of the two lists."""
-    assert set(commands.names) == WITHOUT_A_PROCESS.keys() | BY_COMMANDS_ALONE
-    assert not WITHOUT_A_PROCESS.keys() & BY_COMMANDS_ALONE
-    for functions in WITHOUT_A_PROCESS.values():
-        for name in functions.split(", "):
-            value = ostia
-            for part in name.split("."):
-                value = getattr(value, part)
 
 
 def test_every_option_of_every_command_is_taken():

@@ -11,6 +11,7 @@ import sys
 import pytest
 
 import ostia
+import printed
 from ostia import _ostia
 
 PACKAGE = pathlib.Path(ostia.__file__).parent
@@ -38,7 +39,7 @@ def test_every_member_has_types(name):
 
 @pytest.mark.parametrize("name", sorted(_ostia._options))
 def test_options_are_those_of_the_libraries(name):
-    arguments = {argument.arg for argument in FUNCTIONS[name].args.kwonlyargs} - {"progress"}
+    arguments = {argument.arg for argument in FUNCTIONS[name].args.kwonlyargs} - set(signature(getattr(_ostia, name)))
     assert arguments == set(_ostia._options[name])
 
 
@@ -71,11 +72,16 @@ def test_arguments_are_those_of_the_module(name):
 
 @pytest.mark.skipif(shutil.which("mypy") is None, reason="mypy is not there: apt install mypy")
 def test_strict_mypy_is_content(source, tmp_path):
-    examples = sorted((source / "examples" / "python").glob("*.py"))
-    assert examples
+    examples = sorted((source / "examples" / "python").glob("*.py")) + sorted((source / "examples" / "plugins").glob("*.py"))
+    printed_code = {f"recipe_{number}": code for number, _, _, code in printed.recipes(source)}
+    printed_code |= {"notebook_" + path.stem.replace("-", "_"): printed.code_of(path) for path in printed.notebooks(source)}
+    assert examples and len(printed_code) > 20
+    for name, code in printed_code.items():
+        examples.append(tmp_path / f"{name}.py")
+        examples[-1].write_text(code)
     environment = {**os.environ, "MYPYPATH": str(PACKAGE.parent)}
     for what in (["-p", "ostia"], [str(example) for example in examples]):
-        done = subprocess.run(["mypy", "--strict", "--ignore-missing-imports", "--cache-dir", str(tmp_path), *what],
+        done = subprocess.run(["mypy", "--strict", "--ignore-missing-imports", "--cache-dir", str(tmp_path / "cache"), *what],
                               capture_output=True, text=True, env=environment, cwd=tmp_path)
         assert done.returncode == 0, done.stdout + done.stderr
 
@@ -86,6 +92,7 @@ def test_examples_run(source, tmp_path, example):
                           capture_output=True, text=True, cwd=tmp_path)
     assert done.returncode == 0, done.stderr
     assert list(tmp_path.iterdir())
+    assert example != "study.py" or (tmp_path / "study.png").stat().st_size > 1000
 
 
 def python_of(page):

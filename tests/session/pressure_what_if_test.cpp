@@ -5,6 +5,7 @@
 #include "report_cases.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/quantity_text.h"
 #include "ostia/session/pressure_document.h"
 #include "ostia/session/pressure_readout.h"
 
@@ -170,6 +171,27 @@ TEST(PressureReadout, OfALesionIsThatOfTheReport) {
   ASSERT_TRUE(found[1]);
   EXPECT_NEAR(found[1]->now.behind, report.under_hyperaemia.lesions[0].behind, 1e-12);
   EXPECT_FALSE(found[1]->after);
+}
+
+TEST(PressureDocument, SaysHowSureItIs) {
+  const lumen::LumenModel model = narrowed_tube("LAD", 60.0, 1.6, 25.0, 0.45);
+  hemodynamics::UncertaintyOptions drawn;
+  drawn.samples = 64;
+  const PressureReport report = with_uncertainty(pressures_of(model.tree), drawn);
+  const auto& lesion = report.uncertainty->lesions.at(0).ratio;
+  const std::string english = pressure_html(report, {});
+  EXPECT_THAT(english, HasSubstr("How sure"));
+  EXPECT_THAT(english, HasSubstr(core::ratio_text(lesion.low) + " - " + core::ratio_text(lesion.high)));
+  EXPECT_THAT(english, HasSubstr("Of 64 trees drawn"));
+  EXPECT_THAT(english, HasSubstr("wall "));
+  PressureDocumentOptions german;
+  german.language = ReportLanguage::german;
+  const std::string other = pressure_html(report, german);
+  EXPECT_THAT(other, HasSubstr("Wie sicher"));
+  EXPECT_THAT(other, HasSubstr("Wand "));
+  for (const char* left : {"How sure", "lie in", "Varies", "wall ", "trees drawn"})
+    EXPECT_THAT(other, Not(HasSubstr(left)));
+  EXPECT_THAT(pressure_html(pressures_of(model.tree), {}), Not(HasSubstr("How sure")));
 }
 
 TEST(PressureDocument, HasInputsCurvesTableAndTheSentenceInBothLanguages) {

@@ -35,6 +35,8 @@ const std::vector<Shortcut> known{
     {"edit.undo", "Ctrl+Z", "Ctrl+Z"},
     {"edit.redo", "Ctrl+Shift+Z; Ctrl+Y", "Ctrl+Shift+Z; Ctrl+Y"},
     {"edit.preferences", "Ctrl+,", "Ctrl+,"},
+    {"plugins.look", "", ""},
+    {"plugins.folder", "", ""},
     {"vessel.find", "Ctrl+Shift+F", "Ctrl+Shift+F"},
     {"vessel.split", "Ctrl+Shift+X", "Ctrl+Shift+X"},
     {"vessel.merge", "Ctrl+Shift+J", "Ctrl+Shift+J"},

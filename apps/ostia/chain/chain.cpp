@@ -2,6 +2,7 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
+#include "ostia/session/plugin.h"
 
 #include <nlohmann/json.hpp>
 
@@ -40,6 +41,8 @@ class Reader {
   Name input(const std::string& name, ChainStep& step);
   Name output(const std::string& name, ChainStep& step);
   std::optional<std::size_t> maker_of(const std::string& name) const;
+  void read_plugin(ChainStep& step);
+  std::size_t read(const fs::path& path, ChainStep& step);
   void options(const json& step, const std::string& member, ChainStep& made);
 
   fs::path file_, folder_;
@@ -145,10 +148,25 @@ Reader::Name Reader::input(const std::string& name, ChainStep& step) {
   const fs::path path = fs::path(name).is_absolute() ? fs::path(name) : file_.parent_path() / name;
   if (!fs::exists(path))
     refuse("its input " + as_written(name) + " is no file, and no earlier step makes it; " + way_out(name));
+  return {path.string(), "input " + std::to_string(read(path, step) + 1)};
+}
+
+/// The index among what is read from outside.
+std::size_t Reader::read(const fs::path& path, ChainStep& step) {
   auto known = std::find(chain_.inputs.begin(), chain_.inputs.end(), path);
   if (known == chain_.inputs.end()) known = chain_.inputs.insert(known, path);
   step.reads.push_back(static_cast<std::size_t>(known - chain_.inputs.begin()));
-  return {path.string(), "input " + std::to_string(known - chain_.inputs.begin() + 1)};
+  return step.reads.back();
+}
+
+/// A plug-in's script decides what its step makes, as an input does.
+void Reader::read_plugin(ChainStep& step) {
+  if (step.words.size() != 3 || step.words[1] != "run") refuse("a plug-in's step is \"plugin run NAME\"");
+  try {
+    read(session::plugin_named(session::list_plugins(session::plugin_folders()), step.words[2]).script, step);
+  } catch (const InvalidInput& error) {
+    refuse(error.what());
+  }
 }
 
 Reader::Name Reader::output(const std::string& name, ChainStep& step) {
@@ -193,6 +211,7 @@ void Reader::take_step(const json& step) {
   for (std::string word; words >> word;) made.add(word, word);
   if (made.words.empty()) refuse("its \"command\" is empty");
   if (made.words[0] == "run" || made.words[0] == "batch") refuse("a chain cannot start another one");
+  if (made.words[0] == "plugin") read_plugin(made);
   for (const std::string& name : texts(step, "input")) {
     const Name file = input(name, made);
     made.add(file.path, file.meaning);

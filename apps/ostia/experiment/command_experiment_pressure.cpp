@@ -40,11 +40,9 @@ experiments::PressureOptions checked(const PressureCommand& command) {
 std::map<std::string, std::string> kept_runs(const std::filesystem::path& keep) {
   std::map<std::string, std::string> runs;
   if (!std::filesystem::is_directory(keep)) return runs;
-  for (const auto& entry : std::filesystem::directory_iterator(keep)) {
-    const std::filesystem::path file = entry.path() / "run.json";
-    if (std::filesystem::is_regular_file(file))
-      runs[entry.path().filename().string()] = core::sha256_file(file);
-  }
+  for (const auto& entry : std::filesystem::directory_iterator(keep))
+    if (entry.is_regular_file() && entry.path().extension() == ".json")
+      runs[entry.path().stem().string()] = core::sha256_file(entry.path());
   return runs;
 }
 
@@ -101,9 +99,13 @@ void define_experiment_pressure(CLI::App& experiment, const std::uint64_t& seed,
   sub->add_flag("--one-mesh", command->one_mesh, "No other meshes of three of the cases");
   sub->add_option("--masks", o.masks, "Folder of patients' masks; left out: no patients");
   sub->add_option("--patients", o.patients, "Files in it, without .nrrd")->delimiter(',');
-  sub->add_option("--only", o.only, "Cases or kinds to be run now, by name; the report has all that is kept")
+  sub->add_option("--only", o.only,
+                  "Cases, kinds or halves (fit, judge) to be run now; the report has all that is kept")
       ->delimiter(',');
   sub->add_option("--most", o.most, "Runs now, at most; 0: all")->check(CLI::Range(0, 100000));
+  sub->add_flag("--judge", o.judge, "Runs nothing: all that is kept is compared anew")
+      ->excludes("--only")
+      ->excludes("--most");
   sub->add_option("--jobs", o.jobs, "Runs at the same time, one processor each")->check(CLI::Range(1, 256));
   sub->add_option("--timeout", command->timeout_min, "Of one solution, minutes")->check(above_zero());
   sub->add_flag("--again", o.again, "Runs that failed are tried again");

@@ -67,8 +67,8 @@ void define_ffr(CLI::App& app, FfrCommand& c, const std::uint64_t& seed,
       ->excludes(spread);
   ffr->add_flag("--unusual", c.unusual, "Take pressures and flows beyond physiology");
   ffr->add_flag("--json", c.json, "ffr.json on standard output");
-  ffr->callback([&c, &seed, &run] {
-    c.seed = seed;
+  ffr->callback([&app, &c, &seed, &run] {
+    if (app.count("--seed") > 0) c.seed = seed;
     run = [&c](const core::TaskContext& task) { return run_ffr(c, task); };
   });
 }

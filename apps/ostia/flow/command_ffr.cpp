@@ -43,7 +43,7 @@ std::optional<hemodynamics::UncertaintyOptions> uncertainty_of(const FfrCommand&
   hemodynamics::UncertaintyOptions options;
   options = told_in(c.conditions, hemodynamics::uncertainty_of_json, options);
   // An option goes before the file, which names a seed where it is a result's.
-  if (c.seed != hemodynamics::UncertaintyOptions().seed) options.seed = c.seed;
+  if (c.seed) options.seed = *c.seed;
   if (c.uncertainty != usual_trees) options.samples = std::stoi(c.uncertainty);
   if (c.wall_spread_mm) {
     options.wall.radius_sd_mm = *c.wall_spread_mm;

@@ -33,7 +33,7 @@ struct FfrCommand {
   std::string uncertainty;               ///< empty: not asked for; "usual", or how many trees are drawn
   std::optional<double> wall_spread_mm;  ///< of a section's mean radius
   std::filesystem::path image;           ///< that the case was made with: its edges tell the walls' spread
-  std::uint64_t seed = 1;
+  std::optional<std::uint64_t> seed;     ///< where it is told
 };
 ExitCode run_ffr(const FfrCommand& options, const core::TaskContext& task);
 /// Of a case of svZeroDSolver (.json): its own boundaries, its own units.

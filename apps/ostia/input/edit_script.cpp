@@ -120,4 +120,11 @@ lumen::LumenModel NewCase::go_on(const session::CaseFile& from, const EditScript
   });
 }
 
+lumen::EditOutcome NewCase::go_on(const session::CaseFile& from, const session::PluginEdits& step) {
+  return named([&] {
+    from.copy_to(staged_.temporary());
+    return session::CaseFile::open(staged_.temporary()).apply_plugin(step);
+  });
+}
+
 }  // namespace ostia::app

@@ -46,6 +46,8 @@ class NewCase {
   /// A copy of a case, its journal included, with the script's edits after those that it has.
   lumen::LumenModel go_on(const session::CaseFile& from, const EditScript& script,
                           std::vector<std::string>& notes, const core::TaskContext& task);
+  /// The same with a plug-in's edits, one step.
+  lumen::EditOutcome go_on(const session::CaseFile& from, const session::PluginEdits& step);
   void make(const session::FoundModel& found, const std::optional<session::ImageReference>& image);
   void commit() { staged_.commit(); }
 

@@ -116,9 +116,7 @@ std::string motion_fit_table(const Json& report) {
 }
 
 ExitCode verdict_of(const MotionFit& fit) {
-  const Sums sums = sums_of(fit);
-  const bool fine = sums.bridged == 0 && sums.least_jacobian > 0.0 && sums.new_intersections == 0;
-  return fine ? ExitCode::ok : ExitCode::quality_failed;
+  return pipeline::is_sound(fit) ? ExitCode::ok : ExitCode::quality_failed;
 }
 
 void print_motion_fit(const Json& report) {

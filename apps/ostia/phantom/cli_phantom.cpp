@@ -35,6 +35,14 @@ void add_phantom(CLI::App& app, PhantomCommand& o) {
       ->check(CLI::Range(0.0, 5.0));
   app.add_option("--anatomy", o.anatomy, CLI::detail::join(phantom::anatomy_words(), ", "))
       ->check(CLI::IsMember(phantom::anatomy_words()));
+  CLI::Option* tree = app.add_option(
+      "--tree", o.tree,
+      "The heart is built around these arteries: a patient's mask (.nrrd, .nii.gz, ...) or case (.ostia)");
+  tree->excludes(app.get_option("--anatomy"));
+  app.add_option("--tree-rim", o.tree_rim_mm,
+                 "What of each of their radii is no lumen, mm; default 0.5 of a mask, 0 of a case")
+      ->check(CLI::Range(0.0, 1.0))
+      ->needs(tree);
   app.add_option("--calcium", o.calcium, "0: none; 1: that of the lesions; more: nodules along the arteries")
       ->check(CLI::Range(0.0, 20.0));
   app.add_option("--stent", o.stent_mm, "Length of a stent in the proximal LAD, mm")

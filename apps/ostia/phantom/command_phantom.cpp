@@ -1,4 +1,5 @@
 #include "commands.h"
+#include "phantom/patient_input.h"
 
 #include "ostia/core/files.h"
 #include "ostia/core/log.h"
@@ -99,10 +100,17 @@ ExitCode run_phantom(const PhantomCommand& command, const core::TaskContext& tas
     throw UsageError("--phases " + std::to_string(command.phases) +
                      ": 1 (the heart stands still in mid-diastole) to 100 phases of a beat can be made");
   }
-  const phantom::SuiteOptions options = options_of(command);
+  phantom::SuiteOptions options = options_of(command);
   phantom::validate(options);
   pipeline::require_free_folder(command.output);
-  const pipeline::JobKey key{"phantom", {}, phantom::parameters_json(options)};
+  const bool of_patient = !command.tree.empty();
+  pipeline::JobKey key{"phantom", {}, ""};
+  if (of_patient) {
+    options.first.patient =
+        read_patient(command.tree, command.tree_rim_mm, command.seed, task.sub(0.0, 0.02));
+    key.inputs["tree"] = options.first.patient->digest;
+  }
+  key.parameters = phantom::parameters_json(options);
   if (const auto code = pipeline::already_done(command.output, key)) {
     core::log_info("done already with the same parameters; nothing to do");
     if (command.json) print_suite(command.output);

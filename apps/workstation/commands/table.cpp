@@ -39,6 +39,13 @@ void CommandTable::add(Command command) {
   all_.push_back(std::move(command));
 }
 
+void CommandTable::take_away(const QString& id) {
+  const auto found = std::find_if(all_.begin(), all_.end(), [&](const Command& one) { return one.id == id; });
+  if (found == all_.end()) return;
+  delete found->action;
+  all_.erase(found);
+}
+
 const Command* CommandTable::find(const QString& id) const {
   const auto found = std::find_if(all_.begin(), all_.end(), [&](const Command& one) { return one.id == id; });
   return found == all_.end() ? nullptr : &*found;

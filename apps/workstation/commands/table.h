@@ -22,6 +22,8 @@ class CommandTable final : public QObject {
   explicit CommandTable(Desk& desk);
   /// Throws std::logic_error for an id that is there already.
   void add(Command command);
+  /// With its action; nothing where there is none. A list of commands that is open is not to be used again.
+  void take_away(const QString& id);
   /// Gives all commands their keys (those of this machine's settings), tips and pictures. Once all are there.
   void dress();
   /// Asks each command whether it can be used now. Done by itself for another case, image, step or vessel.

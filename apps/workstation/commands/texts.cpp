@@ -27,6 +27,8 @@ QString command_group(const QString& id) {
       {"camera", QT_TRANSLATE_NOOP("gestures", "Camera")},
       {"panel", QT_TRANSLATE_NOOP("gestures", "Panels")},
       {"mouse", QT_TRANSLATE_NOOP("gestures", "Mouse by keys")},
+      {"plugin", QT_TRANSLATE_NOOP("gestures", "Plug-ins")},
+      {"plugins", QT_TRANSLATE_NOOP("gestures", "Plug-ins")},
       {"report", QT_TRANSLATE_NOOP("gestures", "Report")},
       {"qa", QT_TRANSLATE_NOOP("gestures", "Quality")},
       {"help", QT_TRANSLATE_NOOP("gestures", "Help")},

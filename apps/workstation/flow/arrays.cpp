@@ -116,6 +116,13 @@ FlowSurface read_flow_surface(const std::vector<std::filesystem::path>& files) {
   return made;
 }
 
+FlowSurface flow_surface_of(io::SurfaceWithFields read) {
+  FlowSurface made{nullptr, arrays_of(read)};
+  if (made.arrays.empty()) throw InvalidInput("the surface has no values");
+  made.surface = std::make_shared<const view::FieldSurface>(std::move(read.mesh));
+  return made;
+}
+
 QString unit_of_array(const std::string& name) {
   const Ending* ending = ending_of(name);
   return ending ? QString::fromUtf8(ending->unit) : QString();

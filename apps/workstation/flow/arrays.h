@@ -1,6 +1,7 @@
 #pragma once
 /// \file Results on a surface as they are listed: names in words, units, values.
 
+#include "ostia/io/surface_fields.h"
 #include "ostia/view/surface_field_scene.h"
 
 #include <QString>
@@ -25,6 +26,9 @@ struct FlowSurface {
 /// Several (the walls of left and right artery) as one surface, with the arrays that all have. Throws
 /// InvalidInput for files without such arrays, and as io::read_surface_with_fields does.
 FlowSurface read_flow_surface(const std::vector<std::filesystem::path>& files);
+
+/// Of a surface that has been read. Throws InvalidInput where it has no values.
+FlowSurface flow_surface_of(io::SurfaceWithFields read);
 
 /// The unit that a name ends in: "Pa" of wall_shear_stress_Pa; empty where it names none.
 QString unit_of_array(const std::string& name);

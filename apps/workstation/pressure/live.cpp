@@ -6,6 +6,7 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
+#include "ostia/geometry/along.h"
 #include "ostia/view/curved_view.h"
 #include "ostia/view/words.h"
 
@@ -23,16 +24,8 @@ constexpr int rest_pressures_ms =
 constexpr int color_after_ms = 120;  // the tree's colours follow a moment later than the numbers
 constexpr double map_low = 0.60, map_high = 1.00;  // the threshold in the middle
 
-/// Between the points of a way, linear.
 double on_curve(const std::vector<session::FfrPoint>& along, double s_mm) {
-  const auto next = std::lower_bound(along.begin(), along.end(), s_mm,
-                                     [](const session::FfrPoint& one, double s) { return one.s_mm < s; });
-  if (next == along.begin()) return along.front().ffr;
-  if (next == along.end()) return along.back().ffr;
-  const auto before = next - 1;
-  const double step = next->s_mm - before->s_mm;
-  const double t = step > 0.0 ? (s_mm - before->s_mm) / step : 0.0;
-  return (1.0 - t) * before->ffr + t * next->ffr;
+  return geometry::value_along(along, s_mm, &session::FfrPoint::s_mm, &session::FfrPoint::ffr);
 }
 
 }  // namespace

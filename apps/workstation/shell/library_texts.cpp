@@ -168,6 +168,12 @@ constexpr const char* sentences[] = {
     QT_TRANSLATE_NOOP("library", "'%1' does not exist"),
     QT_TRANSLATE_NOOP("library", "'%1' of the series is gone; open its folder again"),
     QT_TRANSLATE_NOOP("library", "the files of DICOM series %1 have changed; open their folder again"),
+    // Pressures.
+    QT_TRANSLATE_NOOP("library", "%1 is %2; it is a number above 0"),
+    QT_TRANSLATE_NOOP("library", "the diastolic pressure, %1 mmHg, is not below the systolic one, %2 mmHg"),
+    QT_TRANSLATE_NOOP("library", "the venous pressure, %1 mmHg, is not below the mean aortic one, %2 mmHg"),
+    QT_TRANSLATE_NOOP("library", "no outlet of the tree has a diameter; its share of the flow is not known"),
+    QT_TRANSLATE_NOOP("library", "no root of the tree has a diameter; its flow is not known"),
 };
 
 core::Phrasebook& book() {

@@ -14,6 +14,8 @@
 #include "opening/orientation.h"
 #include "opening/recent_cases.h"
 #include "phases/commands.h"
+#include "plugins/commands.h"
+#include "plugins/plugins.h"
 #include "pressure/commands.h"
 #include "pressure/page.h"
 #include "qa/commands.h"
@@ -71,6 +73,8 @@ void MainWindow::build_commands() {
   pressure_page_->add_buttons(*commands_);
   add_phase_commands(*commands_, desk_, *beating_);
   add_series_commands(*commands_, desk_, *series_);
+  auto* plugins = new Plugins(desk_, *opening_, *flow_results_);
+  add_plugin_commands(*commands_, *plugins);
   add_qa_commands(*commands_, *qa_);
   add_help_commands(*commands_, *help);
   auto* crashes = new CrashReports(desk_);
@@ -80,6 +84,8 @@ void MainWindow::build_commands() {
   list_recent_cases(*menus.recent, desk_, [this](const QString& path) { open(path.toStdString()); });
   list_own_layouts(*menus.layouts, *layouts_);
   list_grey_presets(*menus.greys, *greys);
+  list_plugins_in(*menus.plugins, *commands_, *plugins);
+  QTimer::singleShot(0, plugins, [plugins] { plugins->look(); });
   connect(&commands_->action("view.fit"), &QAction::triggered, planes_, &PlanesDock::fit);
   commands_->arrange(menus.order);
   commands_->dress();

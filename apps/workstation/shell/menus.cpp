@@ -55,6 +55,8 @@ class MenuBuilder {
     fill(menu, {line, "tool.smaller", "tool.larger"});
     fill(menu->addMenu(tr("Mouse by keys")),
          {"mouse.left", "mouse.right", "mouse.up", "mouse.down", "mouse.press"});
+    made.plugins = menu->addMenu(tr("Plug-&ins"));
+    fill(made.plugins, {"plugins.look", "plugins.folder"});
   }
   void view() {
     QMenu* menu = bar_.addMenu(tr("&View"));

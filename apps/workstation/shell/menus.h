@@ -15,6 +15,7 @@ struct BuiltMenus {
   QMenu* recent = nullptr;   ///< for the recent cases
   QMenu* layouts = nullptr;  ///< takes a person's own layouts, too
   QMenu* greys = nullptr;    ///< takes a person's own grey levels
+  QMenu* plugins = nullptr;  ///< takes the plug-ins
 };
 /// Throws std::logic_error where a command of the table stands in no menu, or one of a menu not in the table.
 BuiltMenus build_menus(QMenuBar& bar, const CommandTable& commands);

@@ -77,6 +77,7 @@ QString step_name(const std::string& op) {
       {"measure.change", QT_TRANSLATE_NOOP("steps", "Change a measurement")},
       {"pressure.inputs", QT_TRANSLATE_NOOP("steps", "Inputs of the pressures")},
       {"pressure.what_if", QT_TRANSLATE_NOOP("steps", "What if, of the pressures")},
+      {"plugin", QT_TRANSLATE_NOOP("steps", "Plug-in")},
       {"measure.delete", QT_TRANSLATE_NOOP("steps", "Delete a measurement")}};
   const QString key = QString::fromStdString(op);
   const auto found = names.find(key);
@@ -139,14 +140,17 @@ void StepList::fill() {
   if (!bench_.has_case()) return;
   for (const session::JournalEntry& step : bench_.session().file().journal()) {
     if (step.kind == session::StepKind::travel || step.dropped) continue;
-    auto* item = new QListWidgetItem(step_name(step.op), this);
+    QString name = step_name(step.op);
+    if (step.op == session::plugin_op)
+      name += QStringLiteral(": ") + QString::fromStdString(session::plugin_named_in(step.parameters));
+    auto* item = new QListWidgetItem(name, this);
     item->setData(step_number_role, static_cast<qlonglong>(step.number));
     if (step.undone) item->setForeground(palette().color(QPalette::Disabled, QPalette::Text));
     const QDateTime when = step.time_s > 0 ? QDateTime::fromSecsSinceEpoch(step.time_s) : QDateTime();
     QStringList details{vessel_of(step), shown_time(when), QString::fromStdString(step.author)};
     details.removeAll(QString());
     item->setData(detail_role, details.join(QStringLiteral("  \u00b7  ")));
-    QStringList tip{step_name(step.op)};
+    QStringList tip{name};
     if (!details.isEmpty()) tip << details.join(QStringLiteral(", "));
     item->setData(Qt::AccessibleTextRole, tip.join(QStringLiteral(", ")));
     for (const std::string& note : step.notes) tip << library_text(note);

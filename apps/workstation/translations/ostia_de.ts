@@ -380,6 +380,10 @@
 <context>
     <name>gestures</name>
     <message>
+        <source>Plug-ins</source>
+        <translation>Plug-ins</translation>
+    </message>
+    <message>
         <source>File</source>
         <translation>Datei</translation>
     </message>
@@ -744,6 +748,26 @@
     <message>
         <source>no ascending aorta was found (an upright, evenly enhanced tube of %1 to %2 mm radius above %3 HU, at least %4 mm long): %t5; draw a first vessel by its two ends instead</source>
         <translation>Es wurde keine aufsteigende Aorta gefunden (ein aufrechtes, gleichmäßig kontrastiertes Rohr von %1 bis %2 mm Radius über %3 HU, mindestens %4 mm lang): %t5. Zeichnen Sie stattdessen ein erstes Gefäß durch seine zwei Enden.</translation>
+    </message>
+    <message>
+        <source>%1 is %2; it is a number above 0</source>
+        <translation>%1 ist %2; verlangt ist eine Zahl über 0</translation>
+    </message>
+    <message>
+        <source>the diastolic pressure, %1 mmHg, is not below the systolic one, %2 mmHg</source>
+        <translation>der diastolische Druck, %1 mmHg, ist nicht kleiner als der systolische, %2 mmHg</translation>
+    </message>
+    <message>
+        <source>the venous pressure, %1 mmHg, is not below the mean aortic one, %2 mmHg</source>
+        <translation>der venöse Druck, %1 mmHg, ist nicht kleiner als der mittlere Aortendruck, %2 mmHg</translation>
+    </message>
+    <message>
+        <source>no outlet of the tree has a diameter; its share of the flow is not known</source>
+        <translation>kein Ende des Baums hat einen Durchmesser; sein Anteil am Fluss ist nicht bekannt</translation>
+    </message>
+    <message>
+        <source>no root of the tree has a diameter; its flow is not known</source>
+        <translation>kein Anfang des Baums hat einen Durchmesser; sein Fluss ist nicht bekannt</translation>
     </message>
     <message>
         <source>no upright tube of contrast is there</source>
@@ -1230,6 +1254,26 @@
 </context>
 <context>
     <name>ostia::workstation::Command</name>
+    <message>
+        <source>&amp;Look for plug-ins again</source>
+        <translation>Plug-ins neu &amp;suchen</translation>
+    </message>
+    <message>
+        <source>Reads the scripts in the folders of plug-ins, and says which are none.</source>
+        <translation>Liest die Skripte in den Ordnern der Plug-ins und sagt, welche keine sind.</translation>
+    </message>
+    <message>
+        <source>&amp;Open the folder of plug-ins</source>
+        <translation>&amp;Ordner der Plug-ins öffnen</translation>
+    </message>
+    <message>
+        <source>Python scripts in it become commands of this menu.</source>
+        <translation>Python-Skripte darin werden Befehle dieses Menüs.</translation>
+    </message>
+    <message>
+        <source>None yet</source>
+        <translation>Noch keine</translation>
+    </message>
     <message>
         <source>%1 in a window of its own</source>
         <translation>%1 in eigenem Fenster</translation>
@@ -3302,6 +3346,10 @@
 <context>
     <name>ostia::workstation::Menus</name>
     <message>
+        <source>Plug-&amp;ins</source>
+        <translation>&amp;Plug-ins</translation>
+    </message>
+    <message>
         <source>Windows of their own</source>
         <translation>Eigene Fenster</translation>
     </message>
@@ -4495,6 +4543,109 @@ Rechtsklick: ein eigenes Fenster, und zurück</translation>
     <message>
         <source>Axial, coronal and sagittal again; the rings on the lines turn them</source>
         <translation>Wieder axial, koronar und sagittal; die Ringe auf den Linien drehen sie</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::PluginDialog</name>
+    <message>
+        <source>Trust it and run</source>
+        <translation>Vertrauen und ausführen</translation>
+    </message>
+    <message>
+        <source>Run</source>
+        <translation>Ausführen</translation>
+    </message>
+    <message>
+        <source>The script %1 is new here, or has changed. It is a program that may do what you may do on this computer. Run it if you know where it is from.</source>
+        <translation>Das Skript %1 ist hier neu oder hat sich geändert. Es ist ein Programm, das auf diesem Computer darf, was Sie dürfen. Führen Sie es aus, wenn Sie wissen, woher es ist.</translation>
+    </message>
+    <message>
+        <source>A whole number.</source>
+        <translation>Eine ganze Zahl.</translation>
+    </message>
+    <message>
+        <source>A number.</source>
+        <translation>Eine Zahl.</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::Plugins</name>
+    <message>
+        <source>Looking for plug-ins</source>
+        <translation>Plug-ins suchen</translation>
+    </message>
+    <message>
+        <source>The plug-ins cannot be listed</source>
+        <translation>Die Plug-ins können nicht aufgelistet werden</translation>
+    </message>
+    <message>
+        <source>Some scripts are no plug-ins</source>
+        <translation>Einige Skripte sind keine Plug-ins</translation>
+    </message>
+    <message>
+        <source>Some scripts are no plug-ins: %1</source>
+        <translation>Einige Skripte sind keine Plug-ins: %1</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n plug-in(s).</source>
+        <translation>
+            <numerusform>%n Plug-in.</numerusform>
+            <numerusform>%n Plug-ins.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>The folder of plug-ins is %1</source>
+        <translation>Der Ordner der Plug-ins ist %1</translation>
+    </message>
+    <message>
+        <source>No case is open.</source>
+        <translation>Es ist kein Fall geöffnet.</translation>
+    </message>
+    <message>
+        <source>No image is open.</source>
+        <translation>Es ist kein Bild geöffnet.</translation>
+    </message>
+    <message>
+        <source>The image is still being read.</source>
+        <translation>Das Bild wird noch gelesen.</translation>
+    </message>
+    <message>
+        <source>The case is open for reading only; save it as another one, which can be edited.</source>
+        <translation>Der Fall ist nur zum Lesen geöffnet; speichern Sie ihn als einen anderen, der bearbeitet werden kann.</translation>
+    </message>
+    <message>
+        <source>%1 has failed</source>
+        <translation>%1 ist gescheitert</translation>
+    </message>
+    <message>
+        <source>The case was edited while %1 was at work, and its edits are of the case before. Run it again.</source>
+        <translation>Der Fall wurde bearbeitet, während %1 am Werk war, und dessen Änderungen gelten dem Fall davor. Führen Sie es noch einmal aus.</translation>
+    </message>
+    <message>
+        <source>%1: shown in the wall's place.</source>
+        <translation>%1: anstelle der Wand gezeigt.</translation>
+    </message>
+    <message>
+        <source>%1: shown in the wall's place, of the case before the last edit.</source>
+        <translation>%1: anstelle der Wand gezeigt, vom Fall vor der letzten Änderung.</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n vessel(s) of the mask; a question mark says where to look first.</source>
+        <translation>
+            <numerusform>%n Gefäß der Maske; ein Fragezeichen sagt, wo zuerst hinzusehen ist.</numerusform>
+            <numerusform>%n Gefäße der Maske; ein Fragezeichen sagt, wo zuerst hinzusehen ist.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>The plug-in has changed nothing.</source>
+        <translation>Das Plug-in hat nichts geändert.</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n edit(s) as one step; Undo takes it back.</source>
+        <translation>
+            <numerusform>%n Änderung als ein Schritt; Rückgängig nimmt ihn zurück.</numerusform>
+            <numerusform>%n Änderungen als ein Schritt; Rückgängig nimmt ihn zurück.</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -6456,6 +6607,10 @@ Eine Reparatur ändert, was gezeigt wird, nie die Datei.</translation>
 </context>
 <context>
     <name>steps</name>
+    <message>
+        <source>Plug-in</source>
+        <translation>Plug-in</translation>
+    </message>
     <message>
         <source>Add an artery</source>
         <translation>Arterie hinzufügen</translation>

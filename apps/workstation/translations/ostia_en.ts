@@ -29,6 +29,30 @@
     </message>
 </context>
 <context>
+    <name>ostia::workstation::Plugins</name>
+    <message numerus="yes">
+        <source>%n plug-in(s).</source>
+        <translation>
+            <numerusform>One plug-in.</numerusform>
+            <numerusform>%n plug-ins.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n vessel(s) of the mask; a question mark says where to look first.</source>
+        <translation>
+            <numerusform>One vessel of the mask; a question mark says where to look first.</numerusform>
+            <numerusform>%n vessels of the mask; a question mark says where to look first.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n edit(s) as one step; Undo takes it back.</source>
+        <translation>
+            <numerusform>One edit; Undo takes it back.</numerusform>
+            <numerusform>%n edits as one step; Undo takes it back.</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>ostia::workstation::QaDock</name>
     <message numerus="yes">
         <source>%n movement(s) were recorded.</source>

@@ -21,4 +21,6 @@ def line(op: Any, /, **fields: Any) -> str:
         fields = {**op, **fields}
         op = fields.pop("op", None)
     named = {name.rstrip("_"): value for name, value in fields.items()}
+    if op == "pressure.inputs" and isinstance(named.get("inputs"), dict):
+        named["inputs"] = [{"key": key, "value": value} for key, value in named["inputs"].items()]
     return json.dumps({"v": 1, "op": op, **named}, default=_plain)

@@ -74,12 +74,13 @@ class _Command:
         for name in names:
             if name in options:
                 values[name] = options.pop(name)
-        words = list(self.words)
+        # Inputs come first: behind an option of several values they would be taken for more of them.
+        words = self.words + [_text(values[name]) for name in names if values.get(name) is not None]
         for name, value in options.items():
             if name not in self.named:
                 raise errors.UsageError(f"{where}: there is no option {name}; there are {', '.join(self.named)}")
             words += self._option(f"{where}: {name}", self.named[name], value)
-        return words + [_text(values[name]) for name in names if values.get(name) is not None]
+        return words
 
     def _option(self, where: str, option: dict[str, Any], value: Any) -> list[str]:
         flag: str = option["names"][-1]

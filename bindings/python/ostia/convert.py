@@ -116,7 +116,7 @@ def from_meshio(mesh: Any, copy: bool | None = None) -> ostia.TriMesh:
 
 def to_pandas(value: Any) -> Any:
     """A table of a LumenProfile (a row a section), of a list of Stenosis (a row each), of a VesselTree or a Centerline (a row a
-    point)."""
+    point; x, y, z in mm, LPS). Other columns have their unit in their name."""
     pandas = _module("pandas", "apt install python3-pandas")
     if isinstance(value, ostia.LumenProfile):
         names = ["s_mm", "found", "area_mm2", "perimeter_mm", "diameter_mm", "least_diameter_mm", "largest_diameter_mm"]

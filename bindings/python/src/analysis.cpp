@@ -2,6 +2,7 @@
 #include "call.h"
 #include "options.h"
 #include "rooms.h"
+#include "values.h"
 #include "walls.h"
 
 #include "ostia/analysis/lumen_profile.h"
@@ -40,6 +41,68 @@ py::array centroids(const LumenProfile& profile) {
   return out;
 }
 
+// A row a section, for pickles.
+constexpr py::ssize_t section_numbers = 14;
+
+py::tuple state_of(const LumenProfile& profile) {
+  py::array_t<double> rows({static_cast<py::ssize_t>(profile.sections.size()), section_numbers});
+  double* to = rows.mutable_data();
+  for (const analysis::SectionMeasures& s : profile.sections)
+    for (const double value :
+         {s.s_mm, s.area_mm2, s.perimeter_mm, s.diameter_mm, s.least_diameter_mm, s.largest_diameter_mm,
+          s.centroid.x(), s.centroid.y(), s.centroid.z(), s.normal.x(), s.normal.y(), s.normal.z(),
+          s.found ? 1.0 : 0.0, s.open ? 1.0 : 0.0})
+      *to++ = value;
+  return py::make_tuple(profile.vessel, profile.options.step_mm, profile.options.around, profile.length_mm,
+                        rows);
+}
+
+LumenProfile profile_of_state(const py::tuple& state) {
+  LumenProfile profile{state[0].cast<std::int32_t>(),
+                       {state[1].cast<double>(), state[2].cast<int>()},
+                       state[3].cast<double>(),
+                       {}};
+  const py::array rows = taken(state[4], {"sections", 'f', 8, {-1, section_numbers}}, {true, true});
+  const auto* v = static_cast<const double*>(rows.data());
+  for (py::ssize_t i = 0; i < rows.shape(0); ++i, v += section_numbers) {
+    analysis::SectionMeasures s;
+    s.s_mm = v[0];
+    s.area_mm2 = v[1];
+    s.perimeter_mm = v[2];
+    s.diameter_mm = v[3];
+    s.least_diameter_mm = v[4];
+    s.largest_diameter_mm = v[5];
+    s.centroid = {v[6], v[7], v[8]};
+    s.normal = {v[9], v[10], v[11]};
+    s.found = v[12] != 0.0;
+    s.open = v[13] != 0.0;
+    profile.sections.push_back(s);
+  }
+  return profile;
+}
+
+py::tuple state_of(const Stenosis& s) {
+  return py::make_tuple(s.vessel, s.from_mm, s.to_mm, s.throat_mm, s.proximal_mm, s.distal_mm,
+                        s.least_diameter_mm, s.least_area_mm2, s.reference_diameter_mm, s.reference_area_mm2,
+                        s.diameter_percent, s.area_percent);
+}
+
+Stenosis stenosis_of_state(const py::tuple& state) {
+  const auto number = [&](std::size_t i) { return state[i].cast<double>(); };
+  return {state[0].cast<std::int32_t>(),
+          number(1),
+          number(2),
+          number(3),
+          number(4),
+          number(5),
+          number(6),
+          number(7),
+          number(8),
+          number(9),
+          number(10),
+          number(11)};
+}
+
 /// As a case's report finds them: the reference line knows the ostia on the vessel's way and its branches.
 std::vector<Stenosis> stenoses_of(const lumen::LumenModel& model, const SolvedWalls& walls,
                                   std::int32_t vessel, const LumenProfile& profile,
@@ -52,29 +115,37 @@ std::vector<Stenosis> stenoses_of(const lumen::LumenModel& model, const SolvedWa
 
 void bind_profile(py::module_& m) {
   using Section = analysis::SectionMeasures;
-  py::class_<LumenProfile, std::shared_ptr<LumenProfile>>(
-      m, "LumenProfile", "Sections along a vessel, one row each, from the root to its end.")
-      .def_readonly("vessel", &LumenProfile::vessel)
-      .def_readonly("length_mm", &LumenProfile::length_mm)
-      .def_property_readonly("s_mm", column(&Section::s_mm))
-      .def_property_readonly("found", column(&Section::found), "False: no lumen there, its measures are 0")
-      .def_property_readonly("area_mm2", column(&Section::area_mm2))
-      .def_property_readonly("perimeter_mm", column(&Section::perimeter_mm))
-      .def_property_readonly("diameter_mm", column(&Section::diameter_mm), "of the circle of the same area")
-      .def_property_readonly("least_diameter_mm", column(&Section::least_diameter_mm))
-      .def_property_readonly("largest_diameter_mm", column(&Section::largest_diameter_mm))
-      .def_property_readonly("centroid", &centroids, "(n, 3), mm")
+  py::class_<LumenProfile, std::shared_ptr<LumenProfile>> profiles(
+      m, "LumenProfile",
+      "Sections along a vessel, from the root to its end: n = len(profile), one number a section.");
+  profiles.def_readonly("vessel", &LumenProfile::vessel, "Its id.")
+      .def_readonly("length_mm", &LumenProfile::length_mm, "Of the vessel's axis.")
+      .def_property_readonly("s_mm", column(&Section::s_mm), "(n,), along the axis from the root, mm")
+      .def_property_readonly("found", column(&Section::found),
+                             "(n,) bool; False: no lumen there, its measures are 0")
+      .def_property_readonly("area_mm2", column(&Section::area_mm2), "(n,), mm2")
+      .def_property_readonly("perimeter_mm", column(&Section::perimeter_mm), "(n,), mm")
+      .def_property_readonly("diameter_mm", column(&Section::diameter_mm),
+                             "(n,), of the circle of the same area, mm")
+      .def_property_readonly("least_diameter_mm", column(&Section::least_diameter_mm),
+                             "(n,), least distance of two parallel tangents, mm")
+      .def_property_readonly("largest_diameter_mm", column(&Section::largest_diameter_mm),
+                             "(n,), largest distance of two parallel tangents, mm")
+      .def_property_readonly("centroid", &centroids, "(n, 3), of the area, mm, LPS")
       .def(
           "volume_mm3",
           [](const LumenProfile& profile, double from_mm, double to_mm) {
             return analysis::volume_mm3(profile, from_mm, to_mm);
           },
-          py::arg("from_mm"), py::arg("to_mm"))
+          py::arg("from_mm"), py::arg("to_mm"), "Of the lumen between two places on the axis, mm3.")
       .def("__len__", [](const LumenProfile& profile) { return profile.sections.size(); })
-      .def("__repr__", [](const LumenProfile& p) {
-        return py::str("<ostia.LumenProfile of vessel {}: {} sections, {:.4g} mm>")
-            .format(p.vessel, p.sections.size(), p.length_mm);
-      });
+      .def("__repr__",
+           [](const LumenProfile& p) {
+             return py::str("<ostia.LumenProfile of vessel {}: {} sections, {:.4g} mm>")
+                 .format(p.vessel, p.sections.size(), p.length_mm);
+           })
+      .def(py::pickle(py::overload_cast<const LumenProfile&>(&state_of), &profile_of_state));
+  same_when_copied(profiles);
   const std::string text = with_options<ProfileOptions>(
       m, "lumen_profile", "The lumen's size along a vessel (its id), on its solved walls.");
   m.def(
@@ -95,25 +166,32 @@ void bind_profile(py::module_& m) {
 
 void bind_analysis(py::module_& m) {
   bind_profile(m);
-  py::class_<Stenosis>(m, "Stenosis", "A narrowing of one vessel, mm along its axis.")
-      .def_readonly("vessel", &Stenosis::vessel)
-      .def_readonly("from_mm", &Stenosis::from_mm)
-      .def_readonly("to_mm", &Stenosis::to_mm)
-      .def_readonly("throat_mm", &Stenosis::throat_mm)
-      .def_property_readonly("length_mm", &Stenosis::length_mm)
-      .def_readonly("least_diameter_mm", &Stenosis::least_diameter_mm)
-      .def_readonly("least_area_mm2", &Stenosis::least_area_mm2)
-      .def_readonly("reference_diameter_mm", &Stenosis::reference_diameter_mm)
-      .def_readonly("reference_area_mm2", &Stenosis::reference_area_mm2)
-      .def_readonly("diameter_percent", &Stenosis::diameter_percent)
-      .def_readonly("area_percent", &Stenosis::area_percent)
+  py::class_<Stenosis> stenoses(m, "Stenosis",
+                                "A narrowing of one vessel; places are mm along its axis from the root.");
+  stenoses.def_readonly("vessel", &Stenosis::vessel, "Its id.")
+      .def_readonly("from_mm", &Stenosis::from_mm, "Where it begins.")
+      .def_readonly("to_mm", &Stenosis::to_mm, "Where it ends.")
+      .def_readonly("throat_mm", &Stenosis::throat_mm, "Where the area is least.")
+      .def_property_readonly("length_mm", &Stenosis::length_mm, "to_mm - from_mm")
+      .def_readonly("least_diameter_mm", &Stenosis::least_diameter_mm, "Of the circle with the least area.")
+      .def_readonly("least_area_mm2", &Stenosis::least_area_mm2, "At the throat.")
+      .def_readonly("reference_diameter_mm", &Stenosis::reference_diameter_mm,
+                    "At the throat, without the disease.")
+      .def_readonly("reference_area_mm2", &Stenosis::reference_area_mm2,
+                    "At the throat, without the disease.")
+      .def_readonly("diameter_percent", &Stenosis::diameter_percent, "100 (1 - least / reference)")
+      .def_readonly("area_percent", &Stenosis::area_percent, "100 (1 - least / reference)")
       .def_property_readonly(
           "cad_rads",
-          [](const Stenosis& s) { return analysis::to_string(analysis::cad_rads(s.diameter_percent)); })
-      .def("__repr__", [](const Stenosis& s) {
-        return py::str("<ostia.Stenosis of vessel {} at {:.1f} mm: {:.0f} % of diameter>")
-            .format(s.vessel, s.throat_mm, s.diameter_percent);
-      });
+          [](const Stenosis& s) { return analysis::to_string(analysis::cad_rads(s.diameter_percent)); },
+          "CAD-RADS category of this narrowing: '0' to '5', '4A', '4B'")
+      .def("__repr__",
+           [](const Stenosis& s) {
+             return py::str("<ostia.Stenosis of vessel {} at {:.1f} mm: {:.0f} % of diameter>")
+                 .format(s.vessel, s.throat_mm, s.diameter_percent);
+           })
+      .def(py::pickle(py::overload_cast<const Stenosis&>(&state_of), &stenosis_of_state));
+  same_when_copied(stenoses);
   const std::string text = with_options<StenosisOptions>(
       m, "find_stenoses", "The narrowings of a vessel (its id) against its reference line.");
   m.def(

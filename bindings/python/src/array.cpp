@@ -1,8 +1,11 @@
 #include "array.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/parallel.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -118,16 +121,50 @@ py::array taken(const py::object& given, const ArrayWanted& wanted, const Copyin
 namespace {
 
 constexpr py::ssize_t many_values = 100000;  // from here on others may work meanwhile
+constexpr std::size_t block = 4096;          // a number that is known lets the compiler take many at once
+
+/// Whether all exponents are those of finite numbers: with one more, the rest reach the highest bit.
+template <class T, class Bits, Bits exponent, Bits least>
+bool finite_block(const T* values) {
+  Bits reached = 0;
+  for (std::size_t i = 0; i < block; ++i) {
+    Bits bits = 0;
+    std::memcpy(&bits, values + i, sizeof(bits));
+    reached |= (bits & exponent) + least;
+  }
+  return reached >> (8 * sizeof(Bits) - 1) == 0;
+}
+bool finite_block(const float* values) {
+  return finite_block<float, std::uint32_t, 0x7f800000U, 0x00800000U>(values);
+}
+bool finite_block(const double* values) {
+  return finite_block<double, std::uint64_t, 0x7ff0000000000000U, 0x0010000000000000U>(values);
+}
+
+/// Of [first, last); `last` where there is none.
+template <class T>
+std::size_t not_finite_in(const T* values, std::size_t first, std::size_t last) {
+  for (; first + block <= last && finite_block(values + first); first += block) {
+  }
+  while (first < last && std::isfinite(values[first])) ++first;
+  return first;
+}
 
 template <class T>
 py::ssize_t first_not_finite(const py::array& array) {
+  constexpr std::size_t grain = std::size_t{1} << 20;
   const T* values = static_cast<const T*>(array.data());
-  const py::ssize_t count = array.size();
+  const auto count = static_cast<std::size_t>(array.size());
   std::optional<py::gil_scoped_release> released;
-  if (count > many_values) released.emplace();
-  for (py::ssize_t i = 0; i < count; ++i)
-    if (!std::isfinite(values[i])) return i;
-  return -1;
+  if (array.size() > many_values) released.emplace();
+  const std::size_t found = core::parallel_reduce(
+      count, grain, count,
+      [&](std::size_t first, std::size_t last) {
+        const std::size_t at = not_finite_in(values, first, last);
+        return at == last ? count : at;
+      },
+      [](std::size_t a, std::size_t b) { return std::min(a, b); });
+  return found == count ? -1 : static_cast<py::ssize_t>(found);
 }
 
 }  // namespace
@@ -155,18 +192,6 @@ Held::~Held() {
   }
   const py::gil_scoped_acquire locked;
   object_ = py::object();
-}
-
-void require_known_vectors() {
-  std::vector<int> vector{1, 2, 3};
-  vector.reserve(8);
-  VectorParts parts{};
-  static_assert(sizeof(vector) == sizeof(parts));
-  std::memcpy(&parts, static_cast<const void*>(&vector), sizeof(parts));
-  if (parts.first != vector.data() || parts.last != vector.data() + 3 ||
-      parts.end != vector.data() + vector.capacity())
-    throw std::runtime_error(
-        "ostia: this build's std::vector is not the three pointers that arrays are lent to");
 }
 
 geometry::Vec3 place_of(const py::object& given, const std::string& name) {

@@ -8,7 +8,6 @@
 
 #include <array>
 #include <cstdint>
-#include <cstring>
 #include <memory>
 #include <string>
 #include <vector>
@@ -73,24 +72,27 @@ class Held {
 
 // The libraries take std::vectors, and an array of NumPy's is not one. A vector whose three pointers are set
 // to the array's memory is, for who reads it and never lets it grow or end: values that came from Python are
-// const, and `take_back` empties the vector before its destructor runs.
-struct VectorParts {
-  void *first, *last, *end;
-};
-/// Throws where a std::vector of this compiler's library is anything else than these three pointers.
-void require_known_vectors();
-
+// const, and `take_back` empties the vector before its destructor runs. A cast to a base that is not
+// accessible is allowed to this kind of cast alone; no memory is seen as what it is not. The pointers' names
+// are those of one library, and any other does not compile.
+#if !defined(__GLIBCXX__) || defined(_GLIBCXX_DEBUG)
+#error "arrays are lent to the vectors of libstdc++, without its debug mode"
+#endif
+template <class T>
+void set_pointers(std::vector<T>& vector, T* first, T* last) noexcept {
+  auto& pointers = ((std::_Vector_base<T, std::allocator<T>>&)vector)._M_impl;
+  pointers._M_start = first;
+  pointers._M_finish = pointers._M_end_of_storage = last;
+}
+/// The vector is empty and has no memory of its own.
 template <class T>
 void lend(std::vector<T>& vector, const void* data, std::size_t count) {
-  static_assert(sizeof(std::vector<T>) == sizeof(VectorParts));
   T* first = const_cast<T*>(static_cast<const T*>(data));
-  const VectorParts parts{first, first + count, first + count};
-  std::memcpy(static_cast<void*>(&vector), &parts, sizeof(parts));
+  set_pointers(vector, first, first + count);
 }
 template <class T>
 void take_back(std::vector<T>& vector) noexcept {
-  const VectorParts none{nullptr, nullptr, nullptr};
-  std::memcpy(static_cast<void*>(&vector), &none, sizeof(none));
+  set_pointers<T>(vector, nullptr, nullptr);
 }
 
 /// A place, or places, from anything that NumPy can make an array of. Throws InvalidInput.

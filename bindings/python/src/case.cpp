@@ -1,19 +1,14 @@
 #include "case.h"
 
-#include "call.h"
 #include "errors.h"
+#include "values.h"
 
-#include "ostia/core/error.h"
-#include "ostia/session/case_file.h"
+#include "ostia/session/annotation_json.h"
 #include "ostia/session/edit_json.h"
 #include "ostia/session/replay.h"
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
-
-#include <mutex>
-#include <optional>
-#include <utility>
 
 namespace ostia::python {
 namespace {
@@ -27,35 +22,6 @@ std::shared_ptr<LumenModel> shared(const std::shared_ptr<const LumenModel>& mode
   return std::const_pointer_cast<LumenModel>(model);  // Python has no way to change one
 }
 
-/// An open case, used by one thread at a time.
-class Case {
- public:
-  explicit Case(CaseFile file) : file_(std::move(file)) {}
-
-  /// Runs `work` on the file without the interpreter's lock.
-  template <class Work>
-  auto with_file(Work&& work) {
-    const std::unique_lock lock(mutex_, std::try_to_lock);
-    if (!lock.owns_lock())
-      throw UsageError("case: another thread is at work in it; take turns, or open it twice");
-    if (!file_) throw UsageError("case: it is closed; open it again");
-    return unlocked([&] { return work(*file_); });
-  }
-  void close() {
-    const std::unique_lock lock(mutex_, std::try_to_lock);
-    if (!lock.owns_lock()) throw UsageError("case: another thread is at work in it");
-    // Closed for all who look, before the file is, which takes a while.
-    std::optional<CaseFile> closing = std::move(file_);
-    file_.reset();
-    unlocked([&] { closing.reset(); });
-  }
-  bool closed() const { return !file_; }
-
- private:
-  std::mutex mutex_;
-  std::optional<CaseFile> file_;
-};
-
 py::dict shown(const JournalEntry& entry) {
   using py::literals::operator""_a;
   return py::dict("number"_a = entry.number, "op"_a = entry.op,
@@ -64,6 +30,66 @@ py::dict shown(const JournalEntry& entry) {
                                        : py::module_::import("json").attr("loads")(entry.parameters),
                   "undone"_a = entry.undone, "dropped"_a = entry.dropped, "notes"_a = entry.notes,
                   "time_s"_a = entry.time_s, "author"_a = entry.author);
+}
+
+/// A command's fields, as the journal has them, without what all have.
+py::object fields_of(const session::AnnotationCommand& command) {
+  py::object fields = json_of(session::to_json(command));
+  for (const char* key : {"v", "op"}) fields.attr("pop")(key);
+  return fields;
+}
+
+py::list measurements_of(Case& file) {
+  py::list rows;
+  const auto notes = file.with_file([](CaseFile& f) { return f.annotations(); });
+  for (const auto& one : notes->measurements) rows.append(fields_of(session::MeasureChange{one}));
+  return rows;
+}
+
+py::list marks_of(Case& file) {
+  py::list rows;
+  const auto notes = file.with_file([](CaseFile& f) { return f.annotations(); });
+  for (const auto& one : notes->marks) rows.append(fields_of(session::MarkVessel{one}));
+  return rows;
+}
+
+/// The id of a new measurement; else None.
+py::object annotated(Case& file, const py::object& op, const py::kwargs& fields) {
+  const auto line = py::module_::import("ostia._edits").attr("line")(op, **fields).cast<std::string>();
+  const session::AnnotationCommand command = session::annotation_of_json(line);
+  const auto change = file.with_file([&](CaseFile& f) { return f.annotate(command); });
+  if (!std::holds_alternative<session::MeasureAdd>(command) || change.measurements.empty()) return py::none();
+  return py::int_(change.measurements.back());
+}
+
+void bind_notes(py::class_<Case, std::shared_ptr<Case>>& type) {
+  type.def("annotate", &annotated, py::arg("op"),
+           "A measurement, a mark or what pressures are told, committed to the file: 'measure.add', "
+           "'measure.change', 'measure.delete', 'vessel.mark', 'pressure.inputs', 'pressure.what_if', and "
+           "fields "
+           "by keyword, or a line of JSON. Returns the id of a new measurement.")
+      .def_property_readonly(
+          "measurements", &measurements_of,
+          "A dictionary each: id, kind, name, points (places, mm), vessel, from_mm, to_mm, "
+          "inner_mm, outer_mm")
+      .def_property_readonly(
+          "marks", &marks_of,
+          "What is noted of vessels, a dictionary each: vessel, visible, checked, color, note, "
+          "evaluable, lesions")
+      .def_property_readonly(
+          "pressure_inputs",
+          [](Case& file) {
+            return file.with_file([](CaseFile& f) { return f.annotations(); })->pressure.inputs;
+          },
+          "What the case's pressures are told, {key: number}: the option `conditions` of pressure")
+      .def_property_readonly(
+          "what_ifs",
+          [](Case& file) {
+            const auto notes = file.with_file([](CaseFile& f) { return f.annotations(); });
+            return fields_of(session::SetWhatIfs{notes->pressure.what_ifs})["stretches"].cast<py::object>();
+          },
+          "Stretches that are looked at as if they were otherwise, a dictionary each: the option of "
+          "pressure");
 }
 
 /// Whether there was such a step.
@@ -84,7 +110,9 @@ void bind_steps(py::class_<Case, std::shared_ptr<Case>>& type) {
       .def(
           "undo", [](Case& file) { return stepped(file, [](CaseFile& f) { return f.undo(); }); },
           "Takes the last step back; False where there is none.")
-      .def("redo", [](Case& file) { return stepped(file, [](CaseFile& f) { return f.redo(); }); })
+      .def(
+          "redo", [](Case& file) { return stepped(file, [](CaseFile& f) { return f.redo(); }); },
+          "Does the last step that was taken back again; False where there is none.")
       .def(
           "go_to_step",
           [](Case& file, std::int64_t number) {
@@ -115,6 +143,15 @@ void bind_steps(py::class_<Case, std::shared_ptr<Case>>& type) {
 
 }  // namespace
 
+void Case::close() {
+  const std::unique_lock lock(mutex_, std::try_to_lock);
+  if (!lock.owns_lock()) throw UsageError("case: another thread is at work in it");
+  // Closed for all who look, before the file is, which takes a while.
+  std::optional<CaseFile> closing = std::move(file_);
+  file_.reset();
+  unlocked([&] { closing.reset(); });
+}
+
 lumen::Edit edit_of(const py::object& op, const py::kwargs& fields) {
   const auto line = py::module_::import("ostia._edits").attr("line")(op, **fields).cast<std::string>();
   return session::edit_of_json(line);
@@ -136,13 +173,14 @@ void bind_case(py::module_& m) {
             const auto mode = read_only ? session::OpenMode::read_only : session::OpenMode::read_write;
             return std::make_shared<Case>(unlocked([&] { return CaseFile::open(path, mode); }));
           },
-          py::arg("path"), py::arg("read_only") = false)
+          py::arg("path"), py::arg("read_only") = false, "A case that is there.")
       .def_property_readonly(
           "model", [](Case& file) { return shared(file.with_file([](CaseFile& f) { return f.model(); })); },
           "LumenModel as it is now")
       .def_property_readonly(
           "starting_model",
-          [](Case& file) { return shared(file.with_file([](CaseFile& f) { return f.starting_model(); })); })
+          [](Case& file) { return shared(file.with_file([](CaseFile& f) { return f.starting_model(); })); },
+          "LumenModel before all edits")
       .def_property_readonly(
           "journal",
           [](Case& file) {
@@ -162,8 +200,9 @@ void bind_case(py::module_& m) {
           },
           "Those not undone, each as a line of JSON")
       .def_property_readonly(
-          "editable", [](Case& file) { return file.with_file([](CaseFile& f) { return f.editable(); }); })
-      .def("close", &Case::close)
+          "editable", [](Case& file) { return file.with_file([](CaseFile& f) { return f.editable(); }); },
+          "False where it is open for reading alone")
+      .def("close", &Case::close, "Ends the work on the file; `with` does it by itself.")
       .def("__enter__", [](const py::object& self) { return self; })
       .def("__exit__", [](Case& file, const py::args&) { file.close(); })
       .def("__repr__", [](Case& file) {
@@ -173,6 +212,7 @@ void bind_case(py::module_& m) {
         return py::str("<ostia.Case: {} vessels, {} edits>").format(model->vessels.size(), steps);
       });
   bind_steps(type);
+  bind_notes(type);
 }
 
 }  // namespace ostia::python

@@ -77,12 +77,13 @@ void bind_volume(py::module_& m) {
   py::class_<AnyVolume>(
       m, "Volume",
       "A scalar image in world space (LPS, mm). `array` is (z, y, x), int16 (HU), uint8 (masks, "
-      "labels) or float32, one memory with what was given; immutable.")
+      "labels) or float32, one memory with what was given; immutable. spacing and origin are (x, y, z), mm, "
+      "direction (3, 3) with the axes x, y, z as columns.")
       .def(py::init(&make), py::arg("array"), py::kw_only(), py::arg("spacing") = py::none(),
            py::arg("origin") = py::none(), py::arg("direction") = py::none(), py::arg("copy") = py::none())
       .def_property_readonly(
           "array", [](const py::object& self) { return self.cast<const AnyVolume&>().array(self); },
-          "A view of the voxels, (z, y, x); nobody may write to it.")
+          "A view of the voxels, (z, y, x), HU, labels or what the image is of; nobody may write to it.")
       .def_property_readonly(
           "spacing", [](const AnyVolume& v) { return tuple_of(v.grid().spacing); }, "(x, y, z), mm")
       .def_property_readonly(
@@ -90,15 +91,16 @@ void bind_volume(py::module_& m) {
           "Centre of voxel (0, 0, 0), LPS, mm")
       .def_property_readonly(
           "direction", [](const AnyVolume& v) { return direction_array(v.grid()); },
-          "(3, 3); its columns are the axes x, y, z")
+          "(3, 3) float64; its columns are the axes x, y, z, of unit length")
       .def_property_readonly(
           "size",
           [](const AnyVolume& v) {
             const auto& s = v.grid().size;
             return py::make_tuple(s[0], s[1], s[2]);
           },
-          "(x, y, z)")
-      .def_property_readonly("dtype", [](const AnyVolume& v) { return v.type(); })
+          "(x, y, z), voxels")
+      .def_property_readonly(
+          "dtype", [](const AnyVolume& v) { return v.type(); }, "'int16', 'uint8' or 'float32'")
       .def_property_readonly(
           "axes", [](const AnyVolume& v) { return imaging::axes_of(v.grid()); },
           "What x, y and z rise towards: 'LPS'")
@@ -107,13 +109,13 @@ void bind_volume(py::module_& m) {
           [](const AnyVolume& v, const py::object& index) {
             return tuple_of(v.grid().world(place_of(index, "index")));
           },
-          py::arg("index"), "Where an index (x, y, z) lies, mm.")
+          py::arg("index"), "Where an index (x, y, z), in voxels, lies: (x, y, z), mm, LPS.")
       .def(
           "index",
           [](const AnyVolume& v, const py::object& world) {
             return tuple_of(v.grid().index(place_of(world, "world")));
           },
-          py::arg("world"), "The index (x, y, z) of a place in mm.")
+          py::arg("world"), "The index (x, y, z), in voxels, of a place (x, y, z), mm, LPS.")
       .def(
           "astype",
           [](const py::object& self, const std::string& dtype) {
@@ -160,7 +162,9 @@ void bind_imaging(py::module_& m) {
   m.def(
       "write_image",
       [](const fs::path& path, const AnyVolume& volume) {
-        unlocked([&] { volume.visit([&](const auto& one) { imaging::write_image(path, one); }); });
+        watched_or_left(py::none(), [path, volume](const TaskContext&) {
+          volume.visit([&](const auto& one) { imaging::write_image(path, one); });
+        });
       },
       py::arg("path"), py::arg("volume"),
       "By extension: .nrrd, .mhd, .mha, .nii, .nii.gz; whole or not at all.");

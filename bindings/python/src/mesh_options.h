@@ -22,9 +22,12 @@ using meshing::ExtensionDirection;
 using meshing::FlowExtensionOptions;
 using meshing::Mesher;
 using meshing::MixedBounds;
+using meshing::PlacedPlane;
 using meshing::QualityBounds;
 using meshing::RemeshOptions;
 using meshing::ShapeBounds;
+using meshing::SizeArray;
+using meshing::SizeField;
 using meshing::SizeFocus;
 using meshing::SizeMeasure;
 using meshing::SizingOptions;
@@ -53,25 +56,28 @@ struct WordsOf<ExtensionCollision> {
       {"refuse", ExtensionCollision::refuse}};
 };
 
-// Fields in space, planes and caps are values that Python does not have yet, and limits those of the worker.
+// Caps are those that a reader took off, and limits those of the worker.
 OSTIA_OPTIONS(SizeFocus, (place, reach_mm, share), ())
+OSTIA_OPTIONS(SizeArray, (surface, edge_mm), ())
+OSTIA_OPTIONS(SizeField, (points, edge_mm, gradation), ())
+OSTIA_OPTIONS(PlacedPlane, (end, origin, normal), ())
 OSTIA_OPTIONS(SizingOptions,
               (edge_ratio, measure, most_distance_radii, curvature_ratio, curvature_reach, foci, throat_share,
-               gradation, min_edge_mm, max_edge_mm),
-              (array, field))
+               array, field, gradation, min_edge_mm, max_edge_mm),
+              ())
 OSTIA_OPTIONS(RemeshOptions, (iterations, mending_rounds, mend_below_angle_deg, max_cap_deviation), ())
 OSTIA_OPTIONS(TetrahedralizeOptions,
-              (mesher, size_factor, max_radius_edge_ratio, min_dihedral_deg, mending_rounds, mend_below_deg,
-               most_growth, check_input),
-              (field, limits, mesh3_limits))
+              (mesher, size_factor, field, max_radius_edge_ratio, min_dihedral_deg, mending_rounds,
+               mend_below_deg, most_growth, check_input),
+              (limits, mesh3_limits))
 OSTIA_OPTIONS(BoundaryLayerOptions,
               (layers, thickness, growth, largest_fraction_of_radius, gradation, min_scaled_jacobian,
                min_angle_deg, max_rounds),
               ())
 OSTIA_OPTIONS(ClipOptions,
               (inset_radii, move_inside_radii, sliver_fraction, reach_radii, flat_tolerance,
-               flat_max_angle_deg, ends_as_they_are),
-              (given, planes))
+               flat_max_angle_deg, ends_as_they_are, planes),
+              (given))
 OSTIA_OPTIONS(FlowExtensionOptions,
               (inlet_diameters, outlet_diameters, ends, transition_share, direction, bend_deg, bend_towards,
                area_across_axis, collision, min_diameters, clearance, even_seam),

@@ -6,8 +6,11 @@
 #include "errors.h"
 
 #include "ostia/core/error.h"
+#include "ostia/geometry/tri_mesh.h"
 
 #include <cmath>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -18,7 +21,8 @@
 #define OSTIA_NOTHING ()
 #define OSTIA_AGAIN(...) OSTIA_AGAIN_2(OSTIA_AGAIN_2(OSTIA_AGAIN_2(OSTIA_AGAIN_2(__VA_ARGS__))))
 #define OSTIA_AGAIN_2(...) OSTIA_AGAIN_3(OSTIA_AGAIN_3(OSTIA_AGAIN_3(OSTIA_AGAIN_3(__VA_ARGS__))))
-#define OSTIA_AGAIN_3(...) __VA_ARGS__
+#define OSTIA_AGAIN_3(...) OSTIA_AGAIN_4(OSTIA_AGAIN_4(__VA_ARGS__))
+#define OSTIA_AGAIN_4(...) __VA_ARGS__
 #define OSTIA_EACH(macro, ...) __VA_OPT__(OSTIA_AGAIN(OSTIA_EACH_STEP(macro, __VA_ARGS__)))
 #define OSTIA_EACH_STEP(macro, one, ...) \
   macro(one) __VA_OPT__(OSTIA_EACH_NEXT OSTIA_NOTHING(macro, __VA_ARGS__))
@@ -32,7 +36,6 @@
   template <>                                                                      \
   struct OptionsOf<Type> {                                                         \
     static constexpr bool known = true;                                            \
-    static constexpr const char* name = #Type;                                     \
     template <class Visitor>                                                       \
     static void visit(Type& options, Visitor&& visitor) {                          \
       OSTIA_COUNT(options, OSTIA_LIST given OSTIA_BEFORE others OSTIA_LIST others) \
@@ -95,6 +98,12 @@ struct Optional<std::optional<T>> : std::true_type {
   using Value = T;
 };
 template <class T>
+struct Shared : std::false_type {};
+template <class T>
+struct Shared<std::shared_ptr<const T>> : std::true_type {
+  using Value = T;
+};
+template <class T>
 struct Vector : std::false_type {};
 template <class T>
 struct Vector<std::vector<T>> : std::true_type {
@@ -132,6 +141,11 @@ void take(T& value, const py::handle& given, const std::string& name) {
     typename detail::Optional<T>::Value inner = value.value_or(typename detail::Optional<T>::Value{});
     take(inner, given, name);
     value = std::move(inner);
+  } else if constexpr (detail::Shared<T>::value) {
+    if (given.is_none()) return value.reset();
+    typename detail::Shared<T>::Value inner;
+    take(inner, given, name);
+    value = std::make_shared<const typename detail::Shared<T>::Value>(std::move(inner));
   } else if constexpr (OptionsOf<T>::known) {
     if (!py::isinstance<py::dict>(given)) detail::wrong_type(name, "a dictionary of options", given);
     take_members(value, py::reinterpret_borrow<py::dict>(given), name + ".");
@@ -169,6 +183,18 @@ void take(T& value, const py::handle& given, const std::string& name) {
     value = given.cast<std::string>();
   } else if constexpr (std::is_same_v<T, geometry::Vec3>) {
     value = place_of(py::reinterpret_borrow<py::object>(given), name);
+  } else if constexpr (std::is_same_v<T, std::map<std::string, double>>) {
+    if (!py::isinstance<py::dict>(given)) detail::wrong_type(name, "a dictionary of numbers", given);
+    value.clear();
+    for (const auto& [key, number] : py::reinterpret_borrow<py::dict>(given)) {
+      const std::string word = py::str(key).cast<std::string>();
+      take(value[word], number, name + "['" + word + "']");
+    }
+  } else if constexpr (std::is_same_v<T, std::vector<geometry::Vec3>>) {
+    value = places_of(py::reinterpret_borrow<py::object>(given), name);
+  } else if constexpr (std::is_same_v<T, geometry::TriMesh>) {
+    if (!py::isinstance<T>(given)) detail::wrong_type(name, "a TriMesh", given);
+    value = given.cast<const T&>();
   } else {
     static_assert(detail::Vector<T>::value, "no way from Python for this type of option");
     if (py::isinstance<py::str>(given) || !py::isinstance<py::iterable>(given))
@@ -207,6 +233,8 @@ template <class T>
 py::object shown(const T& value) {
   if constexpr (detail::Optional<T>::value) {
     return value ? shown(*value) : py::none();
+  } else if constexpr (detail::Shared<T>::value) {
+    return py::none();  // of what has a default there is none
   } else if constexpr (OptionsOf<T>::known) {
     return members_shown(value);
   } else if constexpr (std::is_enum_v<T>) {
@@ -217,19 +245,49 @@ py::object shown(const T& value) {
     py::list list;
     for (const auto& one : value) list.append(shown(one));
     return list;
+  } else if constexpr (std::is_same_v<T, std::map<std::string, double>>) {
+    py::dict numbers;
+    for (const auto& [name, number] : value) numbers[name.c_str()] = number;
+    return numbers;
   } else {
     return py::cast(value);
   }
 }
 
-/// Notes a function's options in the module's table `_options`, and gives the sentence that its help ends
-/// with.
+/// What is none unless it is given, and lists: the defaults of the options in them, by the option's name.
+template <class T>
+void note_given(py::dict& table, T options) {
+  OptionsOf<T>::visit(options, [&](const char* name, auto& member) {
+    using Member = std::remove_cvref_t<decltype(member)>;
+    [[maybe_unused]] const auto note = [&]<class Inner>(std::type_identity<Inner>) {
+      if constexpr (OptionsOf<Inner>::known) {
+        table[detail::spelled(name).c_str()] = members_shown(Inner{});
+        note_given(table, Inner{});
+      }
+    };
+    if constexpr (OptionsOf<Member>::known) {
+      note_given(table, member);
+    } else if constexpr (detail::Optional<Member>::value) {
+      note(std::type_identity<typename detail::Optional<Member>::Value>{});
+    } else if constexpr (detail::Vector<Member>::value) {
+      note(std::type_identity<typename detail::Vector<Member>::Value>{});
+    }
+  });
+}
+
+/// Notes a function's options in the module's tables `_options` and `_options_given`, and gives the sentences
+/// that its help ends with.
 template <class T>
 std::string with_options(py::module_& m, const char* function, const std::string& text) {
-  if (!py::hasattr(m, "_options")) m.attr("_options") = py::dict();
+  for (const char* table : {"_options", "_options_given"})
+    if (!py::hasattr(m, table)) m.attr(table) = py::dict();
   const py::dict defaults = members_shown(T{});
   m.attr("_options")[function] = defaults;
-  return text + "\n\nOptions, by keyword: " + detail::listed(defaults);
+  py::dict given;
+  note_given(given, T{});
+  m.attr("_options_given")[function] = given;
+  return text + "\n\nOptions, by keyword: " + detail::listed(defaults) +
+         (given.empty() ? "" : "\nOptions in those, where they are given: " + detail::listed(given));
 }
 
 }  // namespace ostia::python

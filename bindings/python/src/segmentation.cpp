@@ -91,18 +91,27 @@ struct Segmented {
 
 void bind_segmentation(py::module_& m) {
   py::class_<Segmented>(m, "Segmentation", "What segment_vessels found.")
-      .def_readonly("level_set", &Segmented::level_set, "Volume, mm, negative inside")
+      .def_readonly("level_set", &Segmented::level_set, "Volume of float32, distance in mm, negative inside")
       .def_readonly("left_out", &Segmented::left_out, "branches that could not be followed, and why")
-      .def_readonly("warnings", &Segmented::warnings)
-      .def_readonly("iterations", &Segmented::iterations)
-      .def_readonly("converged", &Segmented::converged)
-      .def("__repr__", [](const Segmented& s) {
-        return py::str("<ostia.Segmentation: {} iterations, converged {}, {} branches left out>")
-            .format(s.iterations, s.converged, s.left_out.size());
-      });
-  std::string text = with_options<SegmentOptions>(
-      m, "segment_vessels",
-      "The lumen between the ends of branches, each [(x, y, z), (x, y, z)], mm, or with a place between.");
+      .def_readonly("warnings", &Segmented::warnings, "What a person should know.")
+      .def_readonly("iterations", &Segmented::iterations, "Of the level set.")
+      .def_readonly("converged", &Segmented::converged, "Whether it came to rest before iterations_max.")
+      .def("__repr__",
+           [](const Segmented& s) {
+             return py::str("<ostia.Segmentation: {} iterations, converged {}, {} branches left out>")
+                 .format(s.iterations, s.converged, s.left_out.size());
+           })
+      .def(py::pickle(
+          [](const Segmented& s) {
+            return py::make_tuple(s.level_set, s.left_out, s.warnings, s.iterations, s.converged);
+          },
+          [](const py::tuple& s) {
+            return Segmented{s[0].cast<const AnyVolume&>(), s[1].cast<std::vector<std::string>>(),
+                             s[2].cast<std::vector<std::string>>(), s[3].cast<int>(), s[4].cast<bool>()};
+          }));
+  std::string text = with_options<SegmentOptions>(m, "segment_vessels",
+                                                  "The lumen in a CT between the ends of branches, each of "
+                                                  "two places, (2, 3), mm, or three, with one between.");
   m.def(
       "segment_vessels",
       [](const AnyVolume& image, const py::sequence& branches, const py::object& progress,

@@ -1,6 +1,7 @@
 #include "trees.h"
 
 #include "array.h"
+#include "values.h"
 
 #include "ostia/core/error.h"
 #include "ostia/geometry/vessel_tree.h"
@@ -8,6 +9,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <cstring>
 
 namespace ostia::python {
 namespace {
@@ -119,60 +121,53 @@ Centerline axis_of(const VesselTree& tree, const py::object& which) {
 
 void bind_parts(py::module_& m) {
   py::class_<geometry::TreeNode>(m, "TreeNode", "A point where axes begin, end or join.")
-      .def_readonly("id", &geometry::TreeNode::id)
+      .def_readonly("id", &geometry::TreeNode::id, "What segments name it by.")
       .def_property_readonly(
-          "position", [](const geometry::TreeNode& n) { return tuple_of(n.position); }, "mm, LPS")
+          "position", [](const geometry::TreeNode& n) { return tuple_of(n.position); }, "(x, y, z), mm, LPS")
       .def("__repr__", [](const geometry::TreeNode& n) {
         return py::str("<ostia.TreeNode {} at {}>").format(n.id, tuple_of(n.position));
       });
   py::class_<geometry::TreeSegment>(m, "TreeSegment", "An edge between two nodes, with axis and radius.")
-      .def_readonly("id", &geometry::TreeSegment::id)
+      .def_readonly("id", &geometry::TreeSegment::id, "What vessels name it by.")
       .def_readonly("start", &geometry::TreeSegment::from, "node id, proximal")
       .def_readonly("end", &geometry::TreeSegment::to, "node id, distal")
-      .def_readonly("axis", &geometry::TreeSegment::axis)
+      .def_readonly("axis", &geometry::TreeSegment::axis, "Centerline, proximal first.")
       .def("__repr__", [](const geometry::TreeSegment& s) {
         return py::str("<ostia.TreeSegment {}: node {} to {}, {} points>")
             .format(s.id, s.from, s.to, s.axis.size());
       });
   py::class_<geometry::Vessel>(m, "Vessel", "A named path of segments.")
-      .def_readonly("id", &geometry::Vessel::id)
-      .def_readonly("name", &geometry::Vessel::name)
+      .def_readonly("id", &geometry::Vessel::id, "What functions and edits name it by.")
+      .def_readonly("name", &geometry::Vessel::name, "'LAD', 'vessel_1'.")
       .def_readonly("segments", &geometry::Vessel::segments, "segment ids, proximal first")
       .def("__repr__",
            [](const geometry::Vessel& v) { return py::str("<ostia.Vessel {} '{}'>").format(v.id, v.name); });
 }
 
-/// Items of a vector as objects that keep the one that holds them alive.
-template <class T>
-py::list items(const std::vector<T>& values, const py::object& owner) {
-  py::list list;
-  for (const T& value : values)
-    list.append(py::cast(&value, py::return_value_policy::reference_internal, owner));
-  return list;
-}
-
 }  // namespace
 
 void bind_trees(py::module_& m) {
-  py::class_<Centerline, std::shared_ptr<Centerline>>(
-      m, "Centerline", "The axis of a vessel, from proximal to distal, mm and LPS.")
+  py::class_<Centerline, std::shared_ptr<Centerline>>(m, "Centerline",
+                                                      "The axis of a vessel, from proximal to distal: points "
+                                                      "(n, 3), mm, LPS, and the radius (n,) at each, mm.")
       .def(py::init(&line_of), py::arg("points"), py::arg("radius"))
       .def_property_readonly(
           "points",
           [](const py::object& self) { return view_of(self.cast<const Centerline&>().points, self); },
-          "(n, 3)")
+          "(n, 3) float64, mm, LPS")
       .def_property_readonly(
           "radius",
           [](const py::object& self) { return view_of(self.cast<const Centerline&>().radius, self); },
-          "(n,), maximal inscribed sphere")
+          "(n,) float64, of the maximal inscribed sphere, mm")
       .def_property_readonly(
           "abscissa",
           [](const py::object& self) { return view_of(self.cast<const Centerline&>().abscissa, self); },
-          "(n,), arc length from the first point")
-      .def_property_readonly("frames", &frames_view,
-                             "(n, 3, 3): tangent, normal, binormal, rotation-minimising")
-      .def_property_readonly("length",
-                             [](const Centerline& c) { return c.abscissa.empty() ? 0.0 : c.abscissa.back(); })
+          "(n,) float64, arc length from the first point, mm")
+      .def_property_readonly(
+          "frames", &frames_view,
+          "(n, 3, 3) float64: tangent, normal, binormal, unit vectors, rotation-minimising")
+      .def_property_readonly(
+          "length", [](const Centerline& c) { return c.abscissa.empty() ? 0.0 : c.abscissa.back(); }, "mm")
       .def("__len__", &Centerline::size)
       .def("__repr__",
            [](const Centerline& c) {
@@ -187,15 +182,19 @@ void bind_trees(py::module_& m) {
   py::class_<VesselTree, std::shared_ptr<VesselTree>>(
       m, "VesselTree", "A tree of vessels: nodes, segments between them, named vessels.")
       .def_static("single", &single, py::arg("points"), py::arg("radius"), py::arg("name") = "vessel_1",
-                  "A tree of one vessel along these points.")
+                  "A tree of one vessel along points (n, 3), mm, LPS, proximal first, with the radius (n,) "
+                  "at each, mm.")
       .def_property_readonly(
-          "nodes", [](const py::object& self) { return items(self.cast<const VesselTree&>().nodes, self); })
+          "nodes", [](const py::object& self) { return items(self.cast<const VesselTree&>().nodes, self); },
+          "A list of TreeNode.")
       .def_property_readonly(
           "segments",
-          [](const py::object& self) { return items(self.cast<const VesselTree&>().segments, self); })
+          [](const py::object& self) { return items(self.cast<const VesselTree&>().segments, self); },
+          "A list of TreeSegment.")
       .def_property_readonly(
           "vessels",
-          [](const py::object& self) { return items(self.cast<const VesselTree&>().vessels, self); })
+          [](const py::object& self) { return items(self.cast<const VesselTree&>().vessels, self); },
+          "A list of Vessel.")
       .def("axis", &axis_of, py::arg("vessel"), "The axis of a whole vessel, by name or id, from the root.")
       .def_property_readonly("roots", &geometry::roots, "ids of nodes without a parent segment")
       .def_property_readonly("ends", &geometry::ends, "ids of nodes without a child segment")

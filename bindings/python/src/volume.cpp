@@ -67,6 +67,11 @@ const imaging::Volume<T>& AnyVolume::as(const std::string& argument, const char*
                      argument + ".astype('" + wanted + "')");
 }
 
+std::shared_ptr<const imaging::ImageVolume> AnyVolume::shared_image(const std::string& argument) const {
+  static_cast<void>(image(argument));
+  return std::get<std::shared_ptr<const imaging::ImageVolume>>(volume_);
+}
+
 const imaging::ImageVolume& AnyVolume::image(const std::string& argument) const {
   return as<std::int16_t>(argument, "int16");
 }

@@ -32,6 +32,8 @@ class AnyVolume {
   const imaging::ImageVolume& image(const std::string& argument) const;
   const imaging::MaskVolume& mask(const std::string& argument) const;
   const imaging::FloatVolume& floats(const std::string& argument) const;
+  /// The same for what keeps it.
+  std::shared_ptr<const imaging::ImageVolume> shared_image(const std::string& argument) const;
 
   template <class Call>
   auto visit(Call&& call) const {

@@ -5,6 +5,7 @@
 #include "sha256.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/job.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -133,6 +134,7 @@ std::string read_file(const fs::path& path, std::uint64_t max_bytes) {
   std::string content;
   std::array<char, 1 << 16> block{};
   while (in.read(block.data(), block.size()) || in.gcount() > 0) {
+    throw_if_job_cancelled();
     content.append(block.data(), static_cast<std::size_t>(in.gcount()));
     if (content.size() > max_bytes) {
       throw ResourceError("cannot read " + path.string() + ": it is larger than " +
@@ -160,6 +162,7 @@ StagedFile::~StagedFile() {
 }
 
 void StagedFile::commit() {
+  throw_if_job_cancelled();
   sync(temporary_, O_RDONLY);
   if (::rename(temporary_.c_str(), target_.c_str()) != 0) throw_errno("cannot write", target_, errno);
   committed_ = true;
@@ -217,6 +220,7 @@ StagedFolder::~StagedFolder() {
 }
 
 void StagedFolder::commit() {
+  throw_if_job_cancelled();
   publish_folder(temporary_, target_);
   parents_->keep();
   committed_ = true;

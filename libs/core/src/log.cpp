@@ -1,5 +1,7 @@
 #include "ostia/core/log.h"
 
+#include "ostia/core/job.h"
+
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
@@ -159,6 +161,7 @@ HeardWarnings::~HeardWarnings() {
 }
 
 std::vector<std::string> heard_warnings() {
+  if (const Job* job = current_job()) return job->warnings();
   Collectors& all = collectors();
   const std::lock_guard lock(all.mutex);
   return all.living.empty() ? std::vector<std::string>() : all.heard.at(all.living.back());
@@ -215,6 +218,7 @@ void log_info(std::string_view message) {
 }
 void log_warning(std::string_view message) {
   hear(std::string(message));
+  if (const Job* job = current_job()) job->hear(message);
   write(spdlog::level::warn, message);
 }
 void log_error(std::string_view message) {

@@ -1,5 +1,7 @@
 #include "ostia/core/parallel.h"
 
+#include "ostia/core/job.h"
+
 #include <sys/resource.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -50,10 +52,11 @@ void parallel_chunks(std::size_t count, std::size_t grain,
     for (std::size_t chunk = 0; chunk < chunks; ++chunk) run_chunk(chunk);
     return;
   }
-  const auto loop = [&] {
+  const auto loop = [&, job = current_job()] {
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, chunks, 1),
         [&](const tbb::blocked_range<std::size_t>& range) {
+          const JobHere here(job);
           for (std::size_t chunk = range.begin(); chunk != range.end(); ++chunk) run_chunk(chunk);
         },
         tbb::simple_partitioner());

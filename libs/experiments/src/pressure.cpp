@@ -21,12 +21,12 @@
 namespace ostia::experiments {
 namespace {
 
-constexpr std::size_t converged_cases = 3;  // of which the mesh's convergence is shown
-
-/// A case with its wall.
+/// A case with what its wall is made of.
 struct Walled {
   PressureCase planned;
-  lumen::LumenModel model;
+  std::string wall;
+  std::optional<lumen::LumenModel> found;  ///< a patient's; others are made when they are needed
+  lumen::LumenModel model() const { return found ? *found : pressure_model(planned); }
 };
 
 std::string on_edges(const std::string& id, double edge_ratio) {
@@ -34,53 +34,49 @@ std::string on_edges(const std::string& id, double edge_ratio) {
   return name;
 }
 
-PressureTask task_of(const Walled& one, const PressureMesh& mesh) {
-  return {one.planned.id, one.model, one.planned.flow_ml_s, mesh};
-}
-
 std::vector<Walled> walled_plan(const PressureOptions& options, const core::TaskContext& task) {
   std::vector<Walled> all;
-  const std::vector<PressureCase> plan = plan_pressure(options.plan);
-  for (const PressureCase& one : plan) {
-    task.throw_if_cancelled();
-    all.push_back({one, pressure_model(one)});
-  }
+  for (const PressureCase& one : plan_pressure(options.plan)) all.push_back({one, text_of(one), {}});
   if (options.masks.empty()) return all;
   for (const std::string& name : options.patients) {
     PressurePatient patient = pressure_patient(options.masks, name, task);
-    all.push_back({std::move(patient.planned), std::move(patient.model)});
+    all.push_back({patient.planned, text_of(patient.planned) + text_of(patient.model), patient.model});
   }
   return all;
 }
 
-/// A concentric, an eccentric and a fork's, the first of each that are narrow.
+/// A concentric, an eccentric and a fork's, those of the lowest seeds that are narrow.
 std::vector<std::size_t> convergence_cases(const std::vector<Walled>& plan) {
   std::vector<std::size_t> chosen;
-  for (const PressureKind kind : {PressureKind::concentric, PressureKind::eccentric, PressureKind::fork})
+  for (const PressureKind kind : {PressureKind::concentric, PressureKind::eccentric, PressureKind::fork}) {
+    std::optional<std::size_t> lowest;
     for (std::size_t i = 0; i < plan.size(); ++i)
-      if (plan[i].planned.kind == kind && plan[i].planned.stenoses.front().severity >= 0.5) {
-        chosen.push_back(i);
-        break;
-      }
-  if (chosen.size() > converged_cases) chosen.resize(converged_cases);
+      if (plan[i].planned.kind == kind && plan[i].planned.stenoses.front().severity >= 0.5 &&
+          (!lowest || plan[i].planned.seed < plan[*lowest].planned.seed))
+        lowest = i;
+    if (lowest) chosen.push_back(*lowest);
+  }
   return chosen;
 }
 
 /// A computation: of a case, on a mesh.
 struct Wanted {
   std::size_t of = 0;
-  PressureTask task;
+  std::string id, digest;
+  PressureMesh mesh;
 };
 
 std::vector<Wanted> wanted_runs(const std::vector<Walled>& plan, const PressureOptions& options) {
   std::vector<Wanted> all;
-  for (std::size_t i = 0; i < plan.size(); ++i) all.push_back({i, task_of(plan[i], options.mesh)});
+  const auto add = [&](std::size_t i, const std::string& id, const PressureMesh& mesh) {
+    all.push_back({i, id, digest_of(plan[i].wall, plan[i].planned.flow_ml_s, mesh), mesh});
+  };
+  for (std::size_t i = 0; i < plan.size(); ++i) add(i, plan[i].planned.id, options.mesh);
   for (const std::size_t i : convergence_cases(plan))
     for (const double ratio : options.other_edge_ratios) {
       PressureMesh mesh = options.mesh;
       mesh.edge_ratio = ratio;
-      all.push_back({i, task_of(plan[i], mesh)});
-      all.back().task.id = on_edges(plan[i].planned.id, ratio);
+      add(i, on_edges(plan[i].planned.id, ratio), mesh);
     }
   return all;
 }
@@ -88,7 +84,7 @@ std::vector<Wanted> wanted_runs(const std::vector<Walled>& plan, const PressureO
 bool asked_for(const PressureOptions& options, const PressureCase& one, const std::string& id) {
   if (options.only.empty()) return true;
   return std::any_of(options.only.begin(), options.only.end(), [&](const std::string& word) {
-    return word == id || word == one.id || word == name_of(one.kind);
+    return word == id || word == one.id || word == name_of(half_of(one)) || word == name_of(one.kind);
   });
 }
 
@@ -96,10 +92,11 @@ void require_known(const std::vector<Walled>& plan, const std::vector<Wanted>& a
                    const PressureOptions& options) {
   for (const std::string& word : options.only) {
     const bool known = std::any_of(all.begin(), all.end(), [&](const Wanted& one) {
-      return word == one.task.id || word == name_of(plan[one.of].planned.kind);
+      const PressureCase& planned = plan[one.of].planned;
+      return word == one.id || word == name_of(half_of(planned)) || word == name_of(planned.kind);
     });
     if (!known)
-      throw InvalidInput("experiment pressure: the plan has no case and no kind \"" + word +
+      throw InvalidInput("experiment pressure: the plan has no case, kind or half \"" + word +
                          "\"; its cases are listed in plan.json of the folder that keeps runs");
   }
 }
@@ -114,12 +111,12 @@ std::string without_path(std::string message, const std::filesystem::path& folde
 
 /// One run into the folder that keeps it. What lies in the case is told there; what lies in the machine ends
 /// the experiment.
-void run_one(const Wanted& wanted, const PressureRunner& runner, const PressureKeep& keep,
+void run_one(const Walled& one, const Wanted& wanted, const PressureRunner& runner, const PressureKeep& keep,
              const core::TaskContext& task) {
   PressureRun run;
-  const std::filesystem::path folder = keep.folder_of(wanted.task.id);
+  const std::filesystem::path folder = keep.folder_of(wanted.id);
   try {
-    run = runner(wanted.task, folder, task);
+    run = runner({wanted.id, one.wall, one.model(), one.planned.flow_ml_s, wanted.mesh}, folder, task);
   } catch (const GeometryError& error) {
     run.failure = error.what();
   } catch (const NumericalError& error) {
@@ -127,10 +124,10 @@ void run_one(const Wanted& wanted, const PressureRunner& runner, const PressureK
   } catch (const InvalidInput& error) {
     run.failure = error.what();
   }
-  run.failure = without_path(run.failure, folder, wanted.task.id);
-  run.digest = digest_of(wanted.task);
-  keep.put(wanted.task.id, run);
-  core::log_info(wanted.task.id + ": " +
+  run.failure = without_path(run.failure, folder, wanted.id);
+  run.digest = wanted.digest;
+  keep.put(wanted.id, run);
+  core::log_info(wanted.id + ": " +
                  (!run.failure.empty()
                       ? run.failure
                       : std::to_string(run.cells) + " cells, " + std::to_string(std::lround(run.iterations)) +
@@ -138,8 +135,8 @@ void run_one(const Wanted& wanted, const PressureRunner& runner, const PressureK
                             (run.converged ? "" : ", not converged")));
 }
 
-void run_all(const std::vector<Wanted>& runs, const PressureRunner& runner, const PressureKeep& keep,
-             int jobs, const core::TaskContext& task) {
+void run_all(const std::vector<Walled>& plan, const std::vector<Wanted>& runs, const PressureRunner& runner,
+             const PressureKeep& keep, int jobs, const core::TaskContext& task) {
   std::atomic<std::size_t> next = 0, done = 0;
   std::mutex mutex;
   std::exception_ptr fault;
@@ -147,9 +144,9 @@ void run_all(const std::vector<Wanted>& runs, const PressureRunner& runner, cons
     for (std::size_t i = next++; i < runs.size(); i = next++) {
       try {
         task.throw_if_cancelled();
-        task.set_stage(runs[i].task.id);
+        task.set_stage(runs[i].id);
         const double from = static_cast<double>(done) / static_cast<double>(runs.size());
-        run_one(runs[i], runner, keep,
+        run_one(plan[runs[i].of], runs[i], runner, keep,
                 task.sub(from, std::min(1.0, from + 1.0 / static_cast<double>(runs.size()))));
         ++done;
       } catch (...) {
@@ -178,9 +175,9 @@ std::optional<ConvergenceRow> convergence_of(const PressureProblem& middle, cons
   std::vector<std::pair<double, PressureProblem>> meshes;
   for (const Wanted& one : all) {
     if (one.of != of) continue;
-    const auto run = keep.find(one.task.id, digest_of(one.task));
+    const auto run = keep.find(one.id, one.digest);
     if (!run || !run->failure.empty() || !run->converged) return std::nullopt;
-    meshes.emplace_back(one.task.mesh.edge_ratio, middle);
+    meshes.emplace_back(one.mesh.edge_ratio, middle);
     meshes.back().second.run = *run;
   }
   if (meshes.size() < 2) return std::nullopt;
@@ -207,7 +204,7 @@ PressureResults compared(const std::vector<Walled>& plan, const std::vector<Want
   for (std::size_t i = 0; i < plan.size(); ++i) {
     task.throw_if_cancelled();
     task.set_progress(static_cast<double>(i) / static_cast<double>(plan.size()));
-    const auto run = keep.find(all[i].task.id, digest_of(all[i].task));
+    const auto run = keep.find(all[i].id, all[i].digest);
     if (!run) continue;
     PressureRow row;
     row.planned = plan[i].planned;
@@ -216,7 +213,7 @@ PressureResults compared(const std::vector<Walled>& plan, const std::vector<Want
     if (row.failure.empty()) {
       try {
         const PressureProblem problem =
-            problem_of(plan[i].planned, measured_network(plan[i].model, task), *run);
+            problem_of(plan[i].planned, measured_network(plan[i].model(), task), *run);
         row = row_of(problem);
         if (std::find(shown.begin(), shown.end(), i) != shown.end())
           if (auto meshes = convergence_of(problem, all, i, keep)) results.convergence.push_back(*meshes);
@@ -272,12 +269,12 @@ PressureResults run_pressure(const PressureOptions& options, const PressureRunne
   require_known(plan, all, options);
   std::vector<Wanted> missing;
   for (const Wanted& one : all) {
-    if (!asked_for(options, plan[one.of].planned, one.task.id)) continue;
+    if (options.judge || !asked_for(options, plan[one.of].planned, one.id)) continue;
     if (options.most > 0 && static_cast<int>(missing.size()) == options.most) break;
-    const auto kept = keep.find(one.task.id, digest_of(one.task));
+    const auto kept = keep.find(one.id, one.digest);
     if (!kept || (options.again && !kept->failure.empty())) missing.push_back(one);
   }
-  run_all(missing, runner, keep, options.jobs, task.sub(0.02, 0.95));
+  run_all(plan, missing, runner, keep, options.jobs, task.sub(0.02, 0.95));
   task.set_stage("comparing");
   return compared(plan, all, keep, task.sub(0.95, 1.0));
 }

@@ -54,9 +54,7 @@ FiguresJson row_json(const PressureRow& row) {
                   {"kind", name_of(one.kind)},
                   {"medina", one.medina.empty() ? FiguresJson() : FiguresJson(one.medina)},
                   {"seed", one.seed},
-                  {"half", one.kind == PressureKind::patient ? "patient"
-                           : one.judged                      ? "judge"
-                                                             : "fit"},
+                  {"half", name_of(half_of(one))},
                   {"diameter_mm", one.diameter_mm},
                   {"flow_ml_s", one.flow_ml_s},
                   {"reynolds", one.reynolds},

@@ -5,11 +5,44 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+
 namespace ostia::experiments {
 namespace fs = std::filesystem;
 namespace {
 
 using KeptJson = nlohmann::ordered_json;
+
+constexpr int kept_version = 1;
+// Parts of a millimetre, a pascal, a ml/s that are kept.
+constexpr double of_mm = 1e3, of_pa = 1e2, of_ml_s = 1e7;
+
+double rounded(double value, double parts) {
+  return std::round(value * parts) / parts;
+}
+
+/// Sections of one vessel after the other.
+KeptJson sections_json(const std::vector<SectionPressure>& sections) {
+  KeptJson out = KeptJson::array();
+  for (const SectionPressure& one : sections) {
+    if (out.empty() || out.back()["vessel"] != one.vessel)
+      out.push_back({{"vessel", one.vessel}, {"s_mm", KeptJson::array()}, {"pa", KeptJson::array()}});
+    out.back()["s_mm"].push_back(rounded(one.s_mm, of_mm));
+    out.back()["pa"].push_back(rounded(one.pressure_pa, of_pa));
+  }
+  return out;
+}
+
+std::vector<SectionPressure> sections_of_json(const KeptJson& vessels) {
+  std::vector<SectionPressure> sections;
+  for (const KeptJson& vessel : vessels) {
+    const auto id = vessel.at("vessel").get<std::int32_t>();
+    const KeptJson& s_mm = vessel.at("s_mm");
+    for (std::size_t i = 0; i < s_mm.size(); ++i)
+      sections.push_back({id, s_mm.at(i).get<double>(), vessel.at("pa").at(i).get<double>()});
+  }
+  return sections;
+}
 
 /// What all runs of a folder have in common.
 std::string plan_json(const PressureOptions& options) {
@@ -29,24 +62,27 @@ std::string plan_json(const PressureOptions& options) {
 }  // namespace
 
 std::string run_json(const PressureRun& run) {
-  KeptJson out{{"v", 1},
-               {"digest", run.digest},
-               {"failure", run.failure},
-               {"converged", run.converged},
-               {"iterations", run.iterations},
-               {"cells", run.cells},
-               {"seconds", run.seconds},
-               {"inlet_ml_s", run.inlet_ml_s},
-               {"outlets_ml_s", run.outlets_ml_s},
-               {"sections", KeptJson::array()}};
-  for (const SectionPressure& one : run.sections)
-    out["sections"].push_back({one.vessel, one.s_mm, one.pressure_pa});
-  return out.dump() + "\n";
+  KeptJson outlets = KeptJson::object();
+  for (const auto& [name, ml_s] : run.outlets_ml_s) outlets[name] = rounded(ml_s, of_ml_s);
+  return KeptJson{{"v", kept_version},
+                  {"digest", run.digest},
+                  {"failure", run.failure},
+                  {"converged", run.converged},
+                  {"iterations", run.iterations},
+                  {"cells", run.cells},
+                  {"seconds", std::round(run.seconds)},
+                  {"inlet_ml_s", rounded(run.inlet_ml_s, of_ml_s)},
+                  {"outlets_ml_s", outlets},
+                  {"sections", sections_json(run.sections)}}
+             .dump() +
+         "\n";
 }
 
 PressureRun run_of_json(const std::string& text, const fs::path& file) {
   try {
     const KeptJson in = KeptJson::parse(text);
+    if (in.at("v") != kept_version)
+      throw InvalidInput(file.string() + " was kept by another version; name another folder to keep runs in");
     PressureRun run;
     in.at("digest").get_to(run.digest);
     in.at("failure").get_to(run.failure);
@@ -56,9 +92,7 @@ PressureRun run_of_json(const std::string& text, const fs::path& file) {
     in.at("seconds").get_to(run.seconds);
     in.at("inlet_ml_s").get_to(run.inlet_ml_s);
     in.at("outlets_ml_s").get_to(run.outlets_ml_s);
-    for (const KeptJson& one : in.at("sections"))
-      run.sections.push_back(
-          {one.at(0).get<std::int32_t>(), one.at(1).get<double>(), one.at(2).get<double>()});
+    run.sections = sections_of_json(in.at("sections"));
     return run;
   } catch (const nlohmann::json::exception& error) {
     throw InvalidInput(file.string() + " is no run of this experiment (" + error.what() +
@@ -92,7 +126,7 @@ fs::path PressureKeep::folder_of(const std::string& id) const {
 }
 
 std::optional<PressureRun> PressureKeep::find(const std::string& id, const std::string& digest) const {
-  const fs::path file = folder_ / id / "run.json";
+  const fs::path file = folder_ / (id + ".json");
   if (!fs::exists(file)) return std::nullopt;
   PressureRun run = run_of_json(core::read_file(file), file);
   if (run.digest != digest) return std::nullopt;
@@ -100,7 +134,7 @@ std::optional<PressureRun> PressureKeep::find(const std::string& id, const std::
 }
 
 void PressureKeep::put(const std::string& id, const PressureRun& run) const {
-  core::write_file(folder_of(id) / "run.json", run_json(run));
+  core::write_file(folder_ / (id + ".json"), run_json(run));
 }
 
 }  // namespace ostia::experiments

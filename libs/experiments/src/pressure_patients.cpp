@@ -1,6 +1,7 @@
 #include "pressure_patients.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/text.h"
 #include "ostia/hemodynamics/conditions.h"
 #include "ostia/imaging/image_file.h"
 #include "ostia/pipeline/vessel_choice.h"
@@ -48,7 +49,30 @@ double root_diameter_mm(const lumen::LumenModel& model) {
   return 2.0 * *middle;
 }
 
+double mean_distance_mm(const lumen::VesselLumen& vessel) {
+  double sum = 0.0;
+  for (const lumen::SurfaceSample& sample : vessel.samples)
+    sum += vessel.axis->nearest_foot(sample.position).rho_mm;
+  return vessel.samples.empty() ? 0.0 : sum / static_cast<double>(vessel.samples.size());
+}
+
 }  // namespace
+
+std::string text_of(const lumen::LumenModel& model) {
+  constexpr int digits = 4;
+  constexpr double told_every_mm = 1.0;
+  std::string text;
+  for (std::size_t v = 0; v < model.vessels.size(); ++v) {
+    const lumen::VesselLumen& vessel = *model.vessels[v];
+    const double length = vessel.axis->length();
+    text += " [" + model.tree.vessels[v].name;
+    const auto add = [&](double number) { text += " " + core::significant_text(number, digits); };
+    for (const double number : {length, vessel.own_from_mm, mean_distance_mm(vessel)}) add(number);
+    for (double s = 0.0; s <= length; s += told_every_mm) add(vessel.axis->radius(s));
+    text += "]";
+  }
+  return text;
+}
 
 PressurePatient pressure_patient(const std::filesystem::path& masks, const std::string& name,
                                  const core::TaskContext& task) {

@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace ostia::experiments {
 namespace {
@@ -60,6 +61,21 @@ int shuffled(int i, int n) {
   int rank = 0;
   for (int k = 0; k < n; ++k) rank += key(k) < key(i) ? 1 : 0;
   return rank;
+}
+
+/// The digits of i to base 3, mirrored at the point: 0, 1/3, 2/3, 1/9, 4/9, ...
+double mirrored(int i) {
+  double sum = 0.0, digit = 1.0;
+  for (; i > 0; i /= 3) sum += (digit /= 3.0) * (i % 3);
+  return sum;
+}
+
+/// 0 to n - 1 in an order whose beginnings lie evenly in it, odd and even in turn.
+std::vector<int> even_order(int n) {
+  std::vector<int> order(static_cast<std::size_t>(n));
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [](int a, int b) { return mirrored(a) < mirrored(b); });
+  return order;
 }
 
 PlannedStenosis stenosis_of(Draw& draw, double severity, double least_mm, double most_mm) {
@@ -236,11 +252,12 @@ std::vector<PressureCase> plan_pressure(const PressurePlanOptions& options) {
   std::uint64_t seed = options.first_seed;
   for (const auto& [kind, count] : counts)
     for (int i = 0; i < count; ++i) all.push_back(made(kind, i, count, seed++));
-  std::vector<std::pair<double, std::size_t>> order;  // how far on in its kind a case is
+  std::vector<std::pair<double, std::size_t>> order;  // how far on in its kind a case's turn is
   std::size_t first = 0;
   for (const auto& [kind, count] : counts) {
-    for (int i = 0; i < count; ++i)
-      order.emplace_back((i + 0.5) / count, first + static_cast<std::size_t>(i));
+    double turn = 0.5;
+    for (const int i : even_order(count))
+      order.emplace_back(turn++ / count, first + static_cast<std::size_t>(i));
     first += static_cast<std::size_t>(count);
   }
   std::stable_sort(order.begin(), order.end(),
@@ -250,17 +267,18 @@ std::vector<PressureCase> plan_pressure(const PressurePlanOptions& options) {
 }
 
 std::string text_of(const PressureCase& one) {
-  using core::shortest_text;
+  constexpr int digits = 9;  // the same on processors whose last bits differ
+  const auto told = [](double number) { return core::significant_text(number, digits); };
   std::string text = one.id + " seed " + std::to_string(one.seed) + " " + one.medina;
   for (const double number : {one.diameter_mm, one.taper, one.length_mm, one.bend_radius_mm,
                               one.bend_length_mm, one.fork_mm, one.main_mm, one.side_mm, one.main_deg,
                               one.side_deg, one.side_length_mm, one.dilation, one.flow_ml_s})
-    text += " " + shortest_text(number);
+    text += " " + told(number);
   for (const PlannedStenosis& s : one.stenoses) {
     text += " [" + std::to_string(s.vessel);
     for (const double number :
          {s.at_mm, s.length_mm, s.shoulder_mm, s.severity, s.aside_mm, s.aside_deg, s.oval})
-      text += " " + shortest_text(number);
+      text += " " + told(number);
     text += "]";
   }
   return text;

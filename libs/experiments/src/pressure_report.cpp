@@ -19,10 +19,6 @@ using Cells = std::vector<std::string>;
 
 constexpr std::size_t worst_shown = 6;
 
-std::string half_word(const PressureCase& one) {
-  return one.kind == PressureKind::patient ? "patient" : one.judged ? "judge" : "fit";
-}
-
 double severest(const PressureCase& one) {
   double most = 0.0;
   for (const PlannedStenosis& s : one.stenoses) most = std::max(most, s.severity);
@@ -38,7 +34,7 @@ std::vector<Cells> case_cells(const PressureRow& row) {
     };
     return Cells{one.id,
                  one.medina,
-                 half_word(one),
+                 std::string(name_of(half_of(one))),
                  std::to_string(one.seed),
                  one.stenoses.empty() ? "-" : fixed_text(100.0 * severest(one), 0),
                  fixed_text(one.reynolds, 0),
@@ -60,6 +56,39 @@ std::vector<Cells> case_cells(const PressureRow& row) {
   for (const PressureReading& reading : row.readings) lines.push_back(line(&reading));
   if (lines.empty()) lines.push_back(line(nullptr));
   return lines;
+}
+
+/// The same for a page of the documentation, in fewer columns.
+Cells short_cells(const PressureRow& row, const PressureReading* reading) {
+  const PressureCase& one = row.planned;
+  const bool first = !reading || reading == row.readings.data();
+  const std::string vessel = row.readings.size() > 1 && reading ? ", " + reading->vessel : "";
+  return {one.id + (one.medina.empty() ? "" : " (" + one.medina + ")") + vessel,
+          one.kind == PressureKind::tube ? "" : std::string(name_of(half_of(one))),
+          one.stenoses.empty() ? "none" : fixed_text(100.0 * severest(one), 0) + " %",
+          fixed_text(one.reynolds, 0),
+          reading ? fixed_text(reading->ffr_1d, 3) : "-",
+          reading ? fixed_text(reading->ffr_3d, 3) : "-",
+          reading ? core::signed_text(reading->difference(), 3) : "-",
+          first && row.failure.empty() ? fixed_text(row.rms_mmhg, 2) : "",
+          first ? std::to_string(row.run.cells) : "",
+          first ? fixed_text(row.run.iterations, 0) : "",
+          !row.failure.empty() ? row.failure
+          : row.run.converged  ? ""
+                               : "not converged"};
+}
+
+std::string markdown_table(const Cells& header, const std::vector<Cells>& lines) {
+  std::string text;
+  const auto line = [&](const Cells& cells) {
+    text += "|";
+    for (const std::string& cell : cells) text += " " + cell + (cell.empty() ? "|" : " |");
+    text += "\n";
+  };
+  line(header);
+  line(Cells(header.size(), "---"));
+  for (const Cells& cells : lines) line(cells);
+  return text + "\n";
 }
 
 const Cells case_header{"case",
@@ -150,20 +179,38 @@ std::vector<Cells> summary_cells(const PressureResults& results) {
 const Cells summary_header{"",      "cases", "readings",        "bias",           "SD", "alike at 0.80, %",
                            "worst", "case",  "RMS along, mmHg", "worst RMS, mmHg"};
 
-void add_meshes(figure::HtmlReport& page, const PressureResults& results) {
-  if (const auto error = poiseuille_error(results))
-    page.paragraph("Poiseuille's tube on this mesh: pressure falls by " +
-                   core::signed_text(100.0 * *error, 2) + " % against theory for its circle.");
-  if (results.convergence.empty()) return;
+const Cells mesh_header{"case",       "edge over radius",  "cells", "fall of pressure, mmHg",
+                        "order seen", "extrapolated, mmHg"};
+
+std::vector<Cells> mesh_cells(const PressureResults& results) {
   std::vector<Cells> lines;
   for (const ConvergenceRow& row : results.convergence)
     for (std::size_t i = 0; i < row.drops_mmhg.size(); ++i)
       lines.push_back({row.id, fixed_text(row.edge_ratios[i], 3), std::to_string(row.cells[i]),
                        fixed_text(row.drops_mmhg[i], 3), core::shown_text(row.order, 2),
                        core::shown_text(row.richardson_mmhg, 3)});
-  page.table(
-      {"case", "edge over radius", "cells", "fall of pressure, mmHg", "order seen", "extrapolated, mmHg"},
-      lines, "Order and extrapolation only where the three fall in line.");
+  return lines;
+}
+
+void add_meshes(figure::HtmlReport& page, const PressureResults& results) {
+  if (const auto error = poiseuille_error(results))
+    page.paragraph("Poiseuille's tube on this mesh: pressure falls by " +
+                   core::signed_text(100.0 * *error, 2) + " % against theory for its circle.");
+  if (results.convergence.empty()) return;
+  page.table(mesh_header, mesh_cells(results), "Order and extrapolation only where the three fall in line.");
+}
+
+std::string tables_md(const PressureResults& results) {
+  std::vector<Cells> cases;
+  for (const PressureRow& row : results.rows) {
+    for (const PressureReading& reading : row.readings) cases.push_back(short_cells(row, &reading));
+    if (row.readings.empty()) cases.push_back(short_cells(row, nullptr));
+  }
+  return markdown_table(summary_header, summary_cells(results)) +
+         (results.convergence.empty() ? "" : markdown_table(mesh_header, mesh_cells(results))) +
+         markdown_table({"case", "half", "diameter lost", "Reynolds at the throat", "FFR 1D", "FFR 3D",
+                         "1D - 3D", "RMS along, mmHg", "cells", "iterations", "note"},
+                        cases);
 }
 
 void add_agreement(figure::HtmlReport& page, const PressureResults& results, const fs::path& folder) {
@@ -191,12 +238,13 @@ void add_worst(figure::HtmlReport& page, const PressureResults& results, const P
     const figure::Picture plot = curves_plot(*row);
     plot.write_png(folder / ("worst-" + row->planned.id + ".png"), 2.0);
     const fs::path speed = options.keep / row->planned.id / "speed.png";
+    const std::string copy = "worst-" + row->planned.id + "-speed.png";
     std::error_code ignored;
-    if (fs::exists(speed, ignored))
-      core::write_file(folder / ("worst-" + row->planned.id + "-speed.png"), core::read_file(speed));
+    const bool pictured = fs::exists(speed, ignored);
+    if (pictured) core::write_file(folder / copy, core::read_file(speed));
     page.picture(plot, row->planned.id + ": FFR 1D less 3D is off by " + fixed_text(worst_of(*row), 3) +
-                           " at most; RMS along the vessels " + fixed_text(row->rms_mmhg, 2) +
-                           " mmHg. The speed of the blood: worst-" + row->planned.id + "-speed.png.");
+                           " at most; RMS along the vessels " + fixed_text(row->rms_mmhg, 2) + " mmHg." +
+                           (pictured ? " The speed of the blood: " + copy + "." : ""));
   }
 }
 
@@ -230,6 +278,7 @@ void write_pressure_report(const fs::path& folder, const PressureResults& result
     }
   core::write_file(folder / "cases.csv", cases);
   core::write_file(folder / "curves.csv", curves_csv(results));
+  core::write_file(folder / "tables.md", tables_md(results));
   figure::HtmlReport page("Pressure in one and in three dimensions",
                           std::to_string(results.rows.size()) + " of " + std::to_string(results.planned) +
                               " cases have been run");

@@ -2,6 +2,8 @@
 
 #include "ostia/experiments/pressure_run.h"
 
+#include "pressure_compare.h"
+
 #include "ostia/analysis/wall_flow.h"
 #include "ostia/core/child_process.h"
 #include "ostia/core/error.h"
@@ -31,7 +33,7 @@ constexpr double section_step_mm = 0.25, section_width_mm = 0.5;
 constexpr double reach_radii = 1.8;  // beyond that a cell belongs to no vessel
 constexpr std::size_t cells_at_once = 512;
 
-pipeline::MeshExportOptions mesh_options(const PressureTask& task) {
+pipeline::MeshExportOptions mesh_options(const PressureTask& task, const core::TaskContext& context) {
   pipeline::MeshExportOptions options;
   options.sizing.edge_ratio = task.mesh.edge_ratio;
   options.surface_formats = {"vtp"};
@@ -47,6 +49,8 @@ pipeline::MeshExportOptions mesh_options(const PressureTask& task) {
   openfoam.iterations = task.mesh.iterations;
   openfoam.tolerance = task.mesh.tolerance;
   openfoam.processes = 1;
+  // The nearer a run begins to its end, the sooner it is there.
+  openfoam.start = solver::start_from(measured_network(task.model, context));
   options.volume.solver_case = openfoam;
   return options;
 }
@@ -150,12 +154,13 @@ void validate(const PressureMesh& mesh) {
   require(mesh.tolerance >= 1e-9 && mesh.tolerance <= 1e-2, "residuals fall to 1e-9 to 1e-2");
 }
 
-std::string digest_of(const PressureTask& task) {
+std::string digest_of(const std::string& wall, double flow_ml_s, const PressureMesh& mesh) {
   using core::shortest_text;
-  return core::sha256(lumen::digest(task.model) + " " + shortest_text(task.flow_ml_s) + " " +
-                      shortest_text(task.mesh.edge_ratio) + " " + std::to_string(task.mesh.layers) + " " +
-                      shortest_text(task.mesh.layer_thickness) + " " + std::to_string(task.mesh.iterations) +
-                      " " + shortest_text(task.mesh.tolerance));
+  constexpr int digits = 9;
+  return core::sha256(wall + " " + core::significant_text(flow_ml_s, digits) + " " +
+                      shortest_text(mesh.edge_ratio) + " " + std::to_string(mesh.layers) + " " +
+                      shortest_text(mesh.layer_thickness) + " " + std::to_string(mesh.iterations) + " " +
+                      shortest_text(mesh.tolerance));
 }
 
 bool openfoam_is_there() {
@@ -174,7 +179,7 @@ PressureRunner openfoam_runner(const OpenfoamRunnerOptions& options) {
                     ": the path has blanks or quotation marks; keep runs elsewhere");
     const auto start = Clock::now();
     const fs::path mesh = folder / "mesh";
-    const pipeline::MeshExportOptions how = mesh_options(task);
+    const pipeline::MeshExportOptions how = mesh_options(task, context);
     std::error_code ignored;
     fs::remove_all(mesh, ignored);  // of a run that was killed
     const FolderGone after{options.keep_cases ? fs::path() : mesh};
@@ -183,7 +188,6 @@ PressureRunner openfoam_runner(const OpenfoamRunnerOptions& options) {
     run_in_time(of_case, options.timeout_s, context.sub(0.1, 0.95));
     const solver::FlowResult result = solver::read_flow_result(of_case, {}, context);
     PressureRun run;
-    run.digest = digest_of(task);
     run.converged = result.run.converged;
     run.iterations = result.run.last;
     run.cells = result.mesh.tetrahedra.size() + result.mesh.prisms.size();

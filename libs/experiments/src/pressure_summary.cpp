@@ -13,12 +13,24 @@ namespace {
 
 constexpr double decided_at = 0.80;
 
+}  // namespace
+
 PressureHalf half_of(const PressureCase& one) {
   if (one.kind == PressureKind::patient) return PressureHalf::patients;
   return one.judged ? PressureHalf::judging : PressureHalf::fitting;
 }
 
-}  // namespace
+std::string_view name_of(PressureHalf half) {
+  switch (half) {
+    case PressureHalf::fitting:
+      return "fit";
+    case PressureHalf::judging:
+      return "judge";
+    case PressureHalf::patients:
+      break;
+  }
+  return "patient";
+}
 
 bool counts(const PressureRow& row) {
   return row.planned.kind != PressureKind::tube && row.failure.empty() && row.run.converged;

@@ -1,5 +1,7 @@
 #include "network_system.h"
 
+#include "circle.h"
+
 #include "ostia/hemodynamics/junction_loss.h"
 
 #include <algorithm>
@@ -66,27 +68,33 @@ struct Profile {
   std::vector<ByFlow> by;
 };
 
-/// Of the children that something can flow into; one that is occluded takes no jet.
-std::size_t straightest_of(const PreparedNetwork& network, const Links& links, std::size_t parent) {
-  const auto turn = [&](std::size_t b) {
-    return links.below[b].empty() ? HUGE_VAL : std::abs(network.network().branches[b].angle_rad);
+/// Of a jet that comes to the fork. It goes straight on, and the fork's edge, which lies half way between the
+/// branches' directions, splits it where they turn nearly alike. One that is occluded takes none.
+double share_of_jet(const PreparedNetwork& network, const Links& links, std::size_t parent,
+                    std::size_t child) {
+  constexpr double misses_rad = 30.0 * pi / 180.0;  // so much less of a turn, and all goes there
+  const auto turn = [&](std::size_t b) { return std::abs(network.network().branches[b].angle_rad); };
+  double least = HUGE_VAL, all = 0.0;
+  for (const std::size_t b : links.children[parent])
+    if (!links.below[b].empty()) least = std::min(least, turn(b));
+  const auto weight = [&](std::size_t b) {
+    const double left = std::max(0.0, 1.0 - (turn(b) - least) / misses_rad);
+    return left * left;
   };
-  const std::vector<std::size_t>& children = links.children[parent];
-  return *std::min_element(children.begin(), children.end(),
-                           [&](std::size_t a, std::size_t b) { return turn(a) < turn(b); });
+  for (const std::size_t b : links.children[parent])
+    if (!links.below[b].empty()) all += weight(b);
+  return weight(child) / all;
 }
 
-/// A jet goes on into the straightest branch: what of its excess over the developed profile goes that way
-/// keeps its speed, so that the coefficient goes with the ratio of the mean speeds. The others leave the dead
-/// water.
+/// What of a jet's excess over the developed profile goes a branch's way keeps its speed, so that the
+/// coefficient goes with the ratio of the mean speeds.
 Profile handed_on(const PreparedNetwork& network, std::size_t parent, const Profile& behind,
-                  std::size_t child, bool straightest, const std::vector<double>& flow) {
+                  std::size_t child, double share, const std::vector<double>& flow) {
   Profile profile;
   const double before = network.branch(parent).last_area_mm2, first = network.branch(child).first_area_mm2;
   const double excess = behind.momentum - developed_momentum;
-  const double along = std::cos(network.network().branches[child].angle_rad);
-  if (!(straightest && excess > 0.0 && along > 0.0 && flow[child] > 0.0 && flow[parent] > 0.0 &&
-        first > shut_mm2))
+  const double along = share * std::cos(network.network().branches[child].angle_rad);
+  if (!(excess > 0.0 && along > 0.0 && flow[child] > 0.0 && flow[parent] > 0.0 && first > shut_mm2))
     return profile;
   const double ratio = along * flow[parent] * first / (before * flow[child]);
   profile.momentum += excess * ratio;
@@ -105,9 +113,8 @@ void add_branches(const PreparedNetwork& network, const FlowModel& model, const 
     const int parent = network.network().branches[b].parent;
     Profile start{network.branch(b).start_momentum, {}};
     if (parent >= 0 && model.inertia)
-      start =
-          handed_on(network, static_cast<std::size_t>(parent), behind[static_cast<std::size_t>(parent)], b,
-                    straightest_of(network, links, static_cast<std::size_t>(parent)) == b, losses.flow);
+      start = handed_on(network, static_cast<std::size_t>(parent), behind[static_cast<std::size_t>(parent)],
+                        b, share_of_jet(network, links, static_cast<std::size_t>(parent), b), losses.flow);
     const Passage passage = pass(network.branch(b), model, losses.flow[b], start.momentum,
                                  !model.inertia || links.children[b].empty(), !start.by.empty());
     losses.along[b] = passage.pa;

@@ -2,6 +2,7 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/text.h"
+#include "ostia/geometry/along.h"
 
 #include <algorithm>
 #include <array>
@@ -35,13 +36,7 @@ void add_pullback(const PreparedNetwork& network, const TreeReadings& readings, 
 }
 
 double ratio_at(const std::vector<PullbackPoint>& points, double s) {
-  const auto next = std::lower_bound(points.begin(), points.end(), s,
-                                     [](const PullbackPoint& p, double x) { return p.from_aorta_mm < x; });
-  if (next == points.begin()) return points.front().ratio;
-  if (next == points.end()) return points.back().ratio;
-  const auto &a = *(next - 1), &b = *next;
-  const double length = b.from_aorta_mm - a.from_aorta_mm;
-  return length > 0.0 ? a.ratio + (s - a.from_aorta_mm) / length * (b.ratio - a.ratio) : b.ratio;
+  return geometry::value_along(points, s, &PullbackPoint::from_aorta_mm, &PullbackPoint::ratio);
 }
 
 /// (greatest fall over 20 mm / whole fall + 1 - share of the length with a fall of 0.0015 a mm or more) / 2.
@@ -169,13 +164,9 @@ double pressure_at(const PreparedNetwork& network, const TreeReadings& readings,
   if (place.branch >= network.size() || network.network().branches[place.branch].stations.size() < 2)
     throw InvalidInput("a place names a branch that is not there, or has no sections");
   const auto& stations = network.network().branches[place.branch].stations;
-  const auto next = std::lower_bound(stations.begin() + 1, stations.end() - 1, place.s_mm,
-                                     [](const Station& a, double s) { return a.s_mm < s; });
-  const auto i = static_cast<std::size_t>(next - stations.begin());
-  const double t =
-      std::clamp((place.s_mm - stations[i - 1].s_mm) / (stations[i].s_mm - stations[i - 1].s_mm), 0.0, 1.0);
+  const geometry::PlaceAlong at = geometry::place_along(stations, place.s_mm, &Station::s_mm);
   const auto& flows = readings.stations[place.branch];
-  return (1.0 - t) * flows[i - 1].pressure_pa + t * flows[i].pressure_pa;
+  return at.between(flows[at.index].pressure_pa, flows[at.index + 1].pressure_pa);
 }
 
 TreePlace downstream(const PreparedNetwork& network, const Solution& solution, TreePlace from,
@@ -211,9 +202,8 @@ TreeReadings read_tree(const PreparedNetwork& network, const FlowState& state,
   for (const LesionPlace& lesion : lesions) {
     LesionReading reading;
     reading.lesion = lesion;
-    reading.before = begins_at_aorta(network, lesion.from)
-                         ? 1.0
-                         : pressure_at(network, readings, lesion.from) / readings.aortic_pa;
+    reading.ostial = begins_at_aorta(network, lesion.from);
+    reading.before = reading.ostial ? 1.0 : pressure_at(network, readings, lesion.from) / readings.aortic_pa;
     reading.read_at = downstream(network, state.solution, lesion.to, options.behind_mm, reading.distance_mm);
     reading.behind = pressure_at(network, readings, reading.read_at) / readings.aortic_pa;
     reading.occluded = network.beyond_occlusion(reading.read_at.branch) ||

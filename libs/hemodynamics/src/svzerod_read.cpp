@@ -27,6 +27,8 @@ double steady(const ReadJson& value, const std::string& of) {
 }
 
 struct ReadCondition {
+  ReadCondition(std::string type_told, ReadJson values_told)
+      : type(std::move(type_told)), values(std::move(values_told)) {}
   std::string type;
   ReadJson values;
 };
@@ -98,20 +100,28 @@ void join_vessels(const ReadJson& root, std::map<int, ReadVessel>& vessels) {
   }
 }
 
-/// A vessel and all behind it.
-void add_vessel(const std::map<int, ReadVessel>& vessels, int id, int parent,
-                const std::map<std::string, ReadCondition>& conditions, SvzerodCase& problem) {
-  const ReadVessel& vessel = vessels.at(id);
-  Branch branch = vessel.branch;
-  branch.parent = parent;
-  const int index = static_cast<int>(problem.network.branches.size());
-  problem.network.branches.push_back(std::move(branch));
-  if (vessel.behind.empty()) {
-    if (!conditions.contains(vessel.outlet))
-      throw InvalidInput("vessel " + vessel.branch.name + " of the svZeroDSolver case ends in nothing");
-    problem.boundary.outlets.push_back(outlet_of_json(vessel.outlet, conditions.at(vessel.outlet)));
+/// A vessel and all behind it, each way to its end before the next one begins.
+void add_tree(const std::map<int, ReadVessel>& vessels, int root,
+              const std::map<std::string, ReadCondition>& conditions, SvzerodCase& problem) {
+  struct Next {
+    int id, parent;
+  };
+  std::vector<Next> waiting{{root, -1}};
+  while (!waiting.empty()) {
+    const Next next = waiting.back();
+    waiting.pop_back();
+    const ReadVessel& vessel = vessels.at(next.id);
+    const int index = static_cast<int>(problem.network.branches.size());
+    problem.network.branches.push_back(vessel.branch);
+    problem.network.branches.back().parent = next.parent;
+    if (vessel.behind.empty()) {
+      if (!conditions.contains(vessel.outlet))
+        throw InvalidInput("vessel " + vessel.branch.name + " of the svZeroDSolver case ends in nothing");
+      problem.boundary.outlets.push_back(outlet_of_json(vessel.outlet, conditions.at(vessel.outlet)));
+    }
+    for (auto behind = vessel.behind.rbegin(); behind != vessel.behind.rend(); ++behind)
+      waiting.push_back({*behind, index});
   }
-  for (const int behind : vessel.behind) add_vessel(vessels, behind, index, conditions, problem);
 }
 
 /// All roots have one pressure, or the one root has a flow.
@@ -150,15 +160,17 @@ SvzerodCase read_svzerod(std::string_view json) {
   try {
     const ReadJson root = ReadJson::parse(json);
     std::map<std::string, ReadCondition> conditions;
-    for (const ReadJson& one : root.at("boundary_conditions"))
-      conditions[one.at("bc_name").get<std::string>()] = {one.at("bc_type").get<std::string>(),
-                                                          one.at("bc_values")};
+    for (const ReadJson& one : root.at("boundary_conditions")) {
+      const auto name = one.at("bc_name").get<std::string>();
+      if (!conditions.try_emplace(name, one.at("bc_type").get<std::string>(), one.at("bc_values")).second)
+        throw InvalidInput("the svZeroDSolver case has two boundary conditions named " + name);
+    }
     bool capacitive = false;
     std::map<int, ReadVessel> vessels = vessels_of_json(root, capacitive);
     join_vessels(root, vessels);
     set_inlets(vessels, conditions, problem);
     for (const auto& [id, vessel] : vessels)
-      if (!vessel.before) add_vessel(vessels, id, -1, conditions, problem);
+      if (!vessel.before) add_tree(vessels, id, conditions, problem);
     if (problem.network.branches.size() != vessels.size())
       throw InvalidInput("the svZeroDSolver case has vessels that no inlet leads to");
     if (capacitive) problem.notes.emplace_back("C and L of vessels do not matter to a steady state");

@@ -141,10 +141,8 @@ class UncertaintyStudy {
       if (all || needed_[b] != 0) readings.stations[b] = along(prepared, solution, b);
     TreeValues values;
     for (const LesionReading& one : lesions_) {
-      // What lies before an ostial one is the aorta: nothing is lost there.
-      const bool ostial = one.before == 1.0;
       values.lesion_before.push_back(
-          ostial ? 1.0 : pressure_at(prepared, readings, one.lesion.from) / readings.aortic_pa);
+          one.ostial ? 1.0 : pressure_at(prepared, readings, one.lesion.from) / readings.aortic_pa);
       values.lesion_behind.push_back(pressure_at(prepared, readings, one.read_at) / readings.aortic_pa);
     }
     for (const std::size_t outlet : outlets_) {

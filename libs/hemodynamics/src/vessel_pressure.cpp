@@ -83,8 +83,8 @@ struct Marching {
     const T ratio = to / from, square = ratio * ratio;
     // In a contraction a thin layer keeps its share of the flow and its deficit of u^2, so that b goes with
     // the area's square; the developed profile's vorticity is stretched, and b goes with the fourth power.
-    // That is so of a small change; over many b / (1 + b) goes with the square.
-    const T after = value_of(ratio) < 1.0 ? b * square * (T(1.0) - b + b * square) : b * square * square;
+    // Between the two b / (1 + b) goes with the square.
+    const T after = value_of(ratio) < 1.0 ? b * square / (T(1.0) + b - b * square) : b * square * square;
     fallen = fallen +
              T(0.5 * inertia) * flow * flow * ((T(1.0) + after) / (to * to) - (T(1.0) + b) / (from * from));
     momentum = T(1.0) + after / T(3.0);

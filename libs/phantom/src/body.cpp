@@ -1,6 +1,7 @@
 #include "ostia/phantom/body.h"
 
 #include "body_organs.h"
+#include "place_lattice.h"
 
 #include "ostia/core/error.h"
 #include "ostia/phantom/noise.h"
@@ -9,7 +10,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <string>
+#include <utility>
 
 namespace ostia::phantom {
 namespace {
@@ -44,21 +47,24 @@ struct Body::Impl {
   std::shared_ptr<const NoiseField> noise;
   std::vector<Prepared> organs;
   std::map<std::int32_t, double> before_mm;  // from the ostium to where a vessel begins
+  std::shared_ptr<const HeartWarp> warp;     // or none
 
-  Impl(const HeartShape& heart, const CoronaryTree& coronaries, const BodyOptions& body)
+  Impl(const HeartShape& heart, const CoronaryTree& coronaries, const BodyOptions& body,
+       std::shared_ptr<const HeartWarp> bent)
       : options(body),
         tree(coronaries),
         field(coronaries),
-        noise(std::make_shared<const NoiseField>(body.seed)) {
+        noise(std::make_shared<const NoiseField>(body.seed)),
+        warp(std::move(bent)) {
     for (const CoronaryVessel& vessel : tree.vessels) {
       const auto parent = before_mm.find(vessel.parent);
       before_mm[vessel.id] = parent == before_mm.end() ? 0.0 : parent->second + vessel.parent_s_mm;
     }
     const TissueHu& hu = options.hu;
-    const Capsules veins = coronary_veins(heart, tree, field);
+    const Capsules veins = coronary_veins(heart, tree, field, warp.get());
     Organs all;
     add_aorta(all, heart, hu);
-    all.push_back({{Label::coronary_vein, hu.vein}, {10.0f, 6.0f, 0.0f}, {}, veins});
+    all.push_back({{Label::coronary_vein, hu.vein}, {10.0f, 6.0f, 0.0f}, {}, veins, true});
     add_groove_fat(all, tree, veins, hu);
     add_chambers(all, heart, hu, noise);
     add_great_vessels(all, hu);
@@ -104,8 +110,15 @@ namespace {
 class BodyPart : public ScenePart {
  public:
   BodyPart(const Body::Impl& body, const Box3& box) : body_(body) {
-    const double half = 0.5 * box.diagonal().norm() + 1e-9;
-    const Vec3 middle = box.center();
+    double half = 0.5 * box.diagonal().norm() + 1e-9;
+    Vec3 middle = box.center();
+    Box3 own = box;
+    if (body.warp) {
+      lattice_.emplace(box, [&](const Vec3& p) { return body.warp->to_own(p); });
+      own = lattice_->from();
+      middle = own.center();
+      half = lattice_->reach(middle) + 1e-9;
+    }
     coronary_ = body.field.near(box, 0.0);
     thin_ = body.field.near(box, 2.0);
     for (const Prepared& organ : body.organs) {
@@ -116,10 +129,11 @@ class BodyPart : public ScenePart {
         if (distance < -half) break;  // holds the whole block: nothing behind it is met
         continue;
       }
-      if (!organ.box.intersects(box)) continue;
+      const Box3& there = organ.organ.stays ? box : own;
+      if (!organ.box.intersects(there)) continue;
       const std::size_t first = capsules_.size();
       for (std::size_t i = 0; i < organ.boxes.size(); ++i)
-        if (organ.boxes[i].intersects(box)) capsules_.push_back(organ.organ.capsules[i]);
+        if (organ.boxes[i].intersects(there)) capsules_.push_back(organ.organ.capsules[i]);
       if (capsules_.size() > first) chosen_.push_back({&organ.organ, first, capsules_.size(), false});
     }
   }
@@ -159,8 +173,10 @@ class BodyPart : public ScenePart {
     bool whole;
   };
 
-  Material tissue(const Vec3& p) const {
+  Material tissue(const Vec3& world) const {
+    const Vec3 own = lattice_ ? lattice_->at(world) : world;
     for (const Chosen& c : chosen_) {
+      const Vec3& p = c.organ->stays ? world : own;
       bool inside = c.whole;
       if (!inside && c.organ->distance) inside = c.organ->distance(p) < 0.0;
       for (std::size_t i = c.first; i < c.last && !inside; ++i) inside = capsules_[i].holds(p);
@@ -170,6 +186,7 @@ class BodyPart : public ScenePart {
   }
 
   const Body::Impl& body_;
+  std::optional<PlaceLattice> lattice_;
   bool coronary_ = false, thin_ = false;
   std::vector<Chosen> chosen_;
   Capsules capsules_;
@@ -204,7 +221,8 @@ BodyOptions draw_body(std::uint64_t seed) {
   return options;
 }
 
-Body::Body(const HeartShape& heart, const CoronaryTree& tree, const BodyOptions& options) {
+Body::Body(const HeartShape& heart, const CoronaryTree& tree, const BodyOptions& options,
+           std::shared_ptr<const HeartWarp> warp) {
   require_body(options.texture >= 0.0 && options.texture <= largest_texture, "texture must lie in [0, 3]");
   const TissueHu& hu = options.hu;
   for (const float value :
@@ -212,7 +230,7 @@ Body::Body(const HeartShape& heart, const CoronaryTree& tree, const BodyOptions&
         hu.muscle, hu.fat, hu.epicardial_fat, hu.lung, hu.marrow, hu.bone, hu.liver})
     require_body(value >= -1024.0f && value <= 3071.0f, "CT numbers must lie in [-1024, 3071] HU");
   require_body(hu.coronary_drop >= 0.0f && hu.coronary_drop <= 0.6f, "coronary_drop must lie in [0, 0.6]");
-  impl_ = std::make_unique<const Impl>(heart, tree, options);
+  impl_ = std::make_unique<const Impl>(heart, tree, options, std::move(warp));
 }
 
 Body::~Body() = default;

@@ -144,6 +144,15 @@ Capsules aorta_above_root(const HeartShape& heart) {
               {r, r, r, r, 0.95 * r, 0.9 * r, 0.85 * r, 0.82 * r, 0.8 * r, 0.76 * r}, 3.0);
 }
 
+Distance heart_outline(const HeartShape& heart) {
+  const HeartFrame f(heart);
+  const Noise none = std::make_shared<const NoiseField>(1);  // cavities alone are uneven
+  const Ventricles v = ventricles_of(f, none);
+  const Atria a = atria_of(f, none);
+  return either({both(either({both(v.left_outer, v.epicardium), v.right_outer}), v.base),
+                 grown(a.left_shape, 3.2), grown(a.right_shape, 3.4), aortic_root(heart.root, 1.4)});
+}
+
 void add_aorta(Organs& organs, const HeartShape& heart, const TissueHu& hu) {
   const Texture blood{5.0f, 9.0f, 0.0f};
   const Capsules tubes = aorta_above_root(heart);
@@ -165,7 +174,7 @@ void add_groove_fat(Organs& organs, const CoronaryTree& tree, const Capsules& ve
     }
   }
   append(fat, grown(veins, 1.3));
-  organs.push_back({{Label::epicardial_fat, hu.epicardial_fat}, {7.0f, 4.0f, 0.0f}, {}, fat});
+  organs.push_back({{Label::epicardial_fat, hu.epicardial_fat}, {7.0f, 4.0f, 0.0f}, {}, fat, true});
 }
 
 void add_chambers(Organs& organs, const HeartShape& heart, const TissueHu& hu, const Noise& noise) {

@@ -26,10 +26,14 @@ struct HeartFrame {
 /// Inside of the aortic root with its three sinuses, from the outflow tract to above the junction.
 Distance aortic_root(const AorticRoot& root, double wall_mm);
 Capsules aorta_above_root(const HeartShape& heart);
+/// The outside of ventricles, atria and root, for pictures.
+Distance heart_outline(const HeartShape& heart);
 
 /// Great cardiac vein with the coronary sinus, middle cardiac vein, and veins beside larger branches: each
 /// clear of every artery's outer wall.
-Capsules coronary_veins(const HeartShape& heart, const CoronaryTree& tree, const VesselField& field);
+/// `warp`: what the heart is bent by, or null.
+Capsules coronary_veins(const HeartShape& heart, const CoronaryTree& tree, const VesselField& field,
+                        const HeartWarp* warp);
 
 void add_aorta(Organs& organs, const HeartShape& heart, const TissueHu& hu);
 /// Fat about the arteries and veins; before the chambers, so that none takes an artery.

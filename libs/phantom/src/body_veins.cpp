@@ -82,8 +82,13 @@ void add_vein(Capsules& veins, std::vector<Vec3> points, double from_mm, double 
 
 }  // namespace
 
-Capsules coronary_veins(const HeartShape& heart, const CoronaryTree& tree, const VesselField& field) {
+Capsules coronary_veins(const HeartShape& heart, const CoronaryTree& tree, const VesselField& field,
+                        const HeartWarp* warp) {
   Capsules veins;
+  const auto epicardium = [&](double phi_rad, double depth, double outwards_mm) {
+    const Vec3 own = heart.epicardium(phi_rad, depth, outwards_mm);
+    return warp == nullptr ? own : warp->to_world(own);
+  };
   constexpr double degrees = std::numbers::pi / 180.0;
   const CoronaryVessel* lad = named(tree, "LAD");
   const CoronaryVessel* lcx = named(tree, "LCX");
@@ -93,14 +98,14 @@ Capsules coronary_veins(const HeartShape& heart, const CoronaryTree& tree, const
     beside(heart, *lad, std::min(95.0, lad->axis.abscissa.back() - 5.0), 30.0, -1.0, 1.4, great);
     for (double phi = heart.anterior_groove_rad + 26.0 * degrees; phi < crux + 12.0 * degrees;
          phi += 9.0 * degrees)
-      great.push_back(heart.epicardium(phi, 0.07, 4.2));
-    great.push_back(heart.epicardium(crux + 22.0 * degrees, -0.06, 0.0));
+      great.push_back(epicardium(phi, 0.07, 4.2));
+    great.push_back(epicardium(crux + 22.0 * degrees, -0.06, 0.0));
     add_vein(veins, great, 1.1, 4.6, field);
   }
   if (const CoronaryVessel* pda = named(tree, "PDA")) {
     std::vector<Vec3> middle;
     beside(heart, *pda, pda->axis.abscissa.back() - 4.0, 6.0, 1.0, 1.6, middle);
-    middle.push_back(heart.epicardium(crux + 14.0 * degrees, 0.06, 4.6));
+    middle.push_back(epicardium(crux + 14.0 * degrees, 0.06, 4.6));
     add_vein(veins, middle, 0.9, 2.2, field);
   }
   double side = 1.0;

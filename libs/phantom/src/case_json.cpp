@@ -81,6 +81,7 @@ json parameters(const CaseOptions& o) {
              {"axis_mm", o.observers.axis_mm},
              {"axis_length_mm", o.observers.axis_length_mm}}},
            {"surface_spacing_mm", o.surface_spacing_mm}};
+  if (o.patient) out["patient"] = {{"sha256", o.patient->digest}, {"rim_mm", o.patient->rim_mm}};
   const json variant = variant_parameters(o.variant);
   if (!variant.empty()) out["variant"] = variant;
   return out;
@@ -225,6 +226,31 @@ json challenge_json(const CasePlan& plan) {
   return out;
 }
 
+/// How the heart was laid under a patient's arteries.
+json patient_json(const PatientRecord& record) {
+  json parts = json::array();
+  for (const PatientPart& one : record.parts)
+    parts.push_back({{"vessel", one.vessel},
+                     {"measured_mm", rounded(one.measured_mm)},
+                     {"grown_mm", rounded(one.grown_mm)}});
+  json rotation = json::array();
+  for (int row = 0; row < 3; ++row) rotation.push_back(point(record.rotation.row(row).transpose()));
+  return {{"sha256", record.digest},
+          {"rim_mm", rounded(record.rim_mm)},
+          {"rotation", rotation},
+          {"shift_mm", point(record.shift_mm)},
+          {"heart_size", point(record.size)},
+          {"height_mm", rounded(record.height_mm)},
+          {"groove_mm", rounded(record.groove_mm)},
+          {"height_left_mm", rounded(record.height_left_mm)},
+          {"groove_left_mm", rounded(record.groove_left_mm)},
+          {"least_jacobian", rounded(record.least_jacobian)},
+          {"largest_jacobian", rounded(record.largest_jacobian)},
+          {"longest_mm", rounded(record.longest_mm)},
+          {"smoothings", record.smoothings},
+          {"parts", parts}};
+}
+
 json phases_json(const std::string& image, bool with_image, int phases) {
   json out = json::array();
   if (phases == 1) {
@@ -268,6 +294,7 @@ std::string case_json(const CasePlan& plan, int number, bool with_image, int pha
   out["axes"] = "LPS";
   out["synthetic"] = true;
   out["parameters"] = parameters(plan.options);
+  if (plan.patient) out["patient"] = patient_json(*plan.patient);
   out["dominance"] = word(plan.tree.dominance);
   out["tissue_hu"] = tissue_json(plan.options);
   out["grid"] = grid_json(plan.options.scan.grid);

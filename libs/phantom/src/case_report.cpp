@@ -215,7 +215,13 @@ std::vector<CasePicture> case_pictures(const CasePlan& plan, const Scan* scan, c
   out.push_back({"tree", "Coronary tree",
                  "The true lumen with the vessels' names, seen from two angles of an angiograph; balls mark "
                  "stenoses.",
-                 tree_picture(plan, lumen, task.sub(0.8, 1.0))});
+                 tree_picture(plan, lumen, task.sub(0.8, plan.patient ? 0.9 : 1.0))});
+  if (plan.patient)
+    out.push_back({"heart", "Heart under a patient's arteries",
+                   "The phantom's heart, bent until the patient's arteries run on it; what the patient's "
+                   "file lacked is "
+                   "grown and drawn.",
+                   heart_picture(plan, task.sub(0.9, 1.0))});
   if (!plan.challenge.vessels.empty()) {
     out.push_back({"calibre", "Calibre", "Mean diameter of the true lumen along the vessels of the data set.",
                    calibre_picture(plan)});
@@ -249,7 +255,10 @@ CasePicture motion_picture(const std::vector<VesselMotion>& vessels) {
 void write_case_report(const std::filesystem::path& path, const CasePlan& plan, const Scan* scan,
                        const std::vector<CasePicture>& pictures) {
   figure::HtmlReport report("Synthetic coronary CT angiogram", "seed " + std::to_string(plan.options.seed));
-  report.notice(figure::Notice::note, "This image was computed. It shows no patient.");
+  report.notice(figure::Notice::note,
+                plan.patient
+                    ? "This image was computed. Its arteries run as a patient's do; all else is made up."
+                    : "This image was computed. It shows no patient.");
   for (const std::string& warning : plan.warnings) report.notice(figure::Notice::warning, warning);
   for (const CasePicture& one : pictures) {
     report.section(one.heading);
@@ -267,6 +276,22 @@ void write_case_report(const std::filesystem::path& path, const CasePlan& plan, 
         fixed_text(plan.options.scan.psf_fwhm_mm, 2) + " in the slice, " +
             fixed_text(plan.options.scan.psf_fwhm_z_mm, 2) + " along z"},
        {"Image", scan != nullptr ? "made" : "left out (truth alone)"}});
+  if (plan.patient) {
+    const PatientRecord& patient = *plan.patient;
+    report.section("Heart under the arteries");
+    report.key_values(
+        {{"Size of the heart over the phantom's (right, up, along)",
+          fixed_text(patient.size.x(), 2) + ", " + fixed_text(patient.size.y(), 2) + ", " +
+              fixed_text(patient.size.z(), 2)},
+         {"Arteries from their usual height above it, root mean square (mm)",
+          fixed_text(patient.height_left_mm, 1) + "; " + fixed_text(patient.height_mm, 1) +
+              " before it was bent"},
+         {"From their grooves (mm)", fixed_text(patient.groove_left_mm, 1) + "; " +
+                                         fixed_text(patient.groove_mm, 1) + " before it was bent"},
+         {"Jacobian of the map",
+          fixed_text(patient.least_jacobian, 2) + " to " + fixed_text(patient.largest_jacobian, 2)},
+         {"Longest way that a place is moved (mm)", fixed_text(patient.longest_mm, 1)}});
+  }
   report.section("Vessels");
   report.table({"vessel", "from", "AHA segments", "length (mm)", "first diameter (mm)", "last diameter (mm)"},
                vessel_rows(plan));

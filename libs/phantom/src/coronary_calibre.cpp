@@ -33,22 +33,8 @@ double healthy_wall_radius(double lumen_radius_mm) {
   return 1.12 * lumen_radius_mm + 0.25;
 }
 
-void set_calibre(CoronaryVessel& vessel, double start_radius_mm, double end_radius_mm, double taper_power,
-                 std::vector<BranchShare> branches, std::uint64_t seed) {
-  std::sort(branches.begin(), branches.end(),
-            [](const BranchShare& a, const BranchShare& b) { return a.s_mm < b.s_mm; });
+void set_profiles(CoronaryVessel& vessel, const std::function<double(double)>& healthy, std::uint64_t seed) {
   const double length = vessel.axis.abscissa.back();
-  const auto murray = [&](double s) {
-    double cube = 1.0;
-    for (const BranchShare& b : branches)
-      cube *= 1.0 - b.share * b.share * b.share * smooth_step((s - b.s_mm + 1.0) / 6.0);
-    return std::cbrt(cube);
-  };
-  const double left_over = start_radius_mm * murray(length);
-  const double narrowing = std::min(1.0, end_radius_mm / left_over);
-  const auto healthy = [&](double s) {
-    return start_radius_mm * murray(s) * (1.0 - (1.0 - narrowing) * std::pow(s / length, taper_power));
-  };
   vessel.healthy_radius_mm.clear();
   for (const double s : vessel.axis.abscissa) vessel.healthy_radius_mm.push_back(healthy(s));
   vessel.axis.radius = vessel.healthy_radius_mm;
@@ -75,6 +61,25 @@ void set_calibre(CoronaryVessel& vessel, double start_radius_mm, double end_radi
   }
   vessel.lumen = RadialProfile(profile_step_mm, profile_angles, std::move(lumen));
   vessel.wall = RadialProfile(profile_step_mm, profile_angles, std::move(wall));
+}
+
+void set_calibre(CoronaryVessel& vessel, double start_radius_mm, double end_radius_mm, double taper_power,
+                 std::vector<BranchShare> branches, std::uint64_t seed) {
+  std::sort(branches.begin(), branches.end(),
+            [](const BranchShare& a, const BranchShare& b) { return a.s_mm < b.s_mm; });
+  const double length = vessel.axis.abscissa.back();
+  const auto murray = [&](double s) {
+    double cube = 1.0;
+    for (const BranchShare& b : branches)
+      cube *= 1.0 - b.share * b.share * b.share * smooth_step((s - b.s_mm + 1.0) / 6.0);
+    return std::cbrt(cube);
+  };
+  const double left_over = start_radius_mm * murray(length);
+  const double narrowing = std::min(1.0, end_radius_mm / left_over);
+  const auto healthy = [&](double s) {
+    return start_radius_mm * murray(s) * (1.0 - (1.0 - narrowing) * std::pow(s / length, taper_power));
+  };
+  set_profiles(vessel, healthy, seed);
 }
 
 double radius_before_branch(const CoronaryVessel& vessel, double s_mm) {

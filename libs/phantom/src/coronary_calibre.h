@@ -4,6 +4,7 @@
 #include "ostia/phantom/coronary_tree.h"
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace ostia::phantom {
@@ -18,6 +19,8 @@ struct BranchShare {
 /// length)^taper_power, so that it ends with `end_radius_mm` where the branches leave it more than that.
 void set_calibre(CoronaryVessel& vessel, double start_radius_mm, double end_radius_mm, double taper_power,
                  std::vector<BranchShare> branches, std::uint64_t seed);
+/// The same from a healthy radius at each abscissa.
+void set_profiles(CoronaryVessel& vessel, const std::function<double(double)>& healthy, std::uint64_t seed);
 /// The mean radius just before a place where a branch leaves.
 double radius_before_branch(const CoronaryVessel& vessel, double s_mm);
 /// From where on a branch's lumen is wholly outside its parent's outer wall.

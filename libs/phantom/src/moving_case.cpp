@@ -1,5 +1,7 @@
 #include "ostia/phantom/moving_case.h"
 
+#include "place_lattice.h"
+
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
 
@@ -13,65 +15,26 @@ namespace {
 using geometry::Box3;
 using geometry::Centerline;
 
-constexpr double lattice_mm = 1.0;
 /// The map back stretches no distance by more.
 constexpr double most_stretch = 3.0;
 
 /// What lies in a box at a phase, asked from the part of the still scene that it came from.
 class MovedPart : public ScenePart {
  public:
-  MovedPart(const Scene& still, const BeatPhase& phase, const Box3& box) {
-    // The lattice is the world's, not the box's: the same answer at a place from every box.
-    for (std::size_t a = 0; a < 3; ++a) {
-      const auto axis = static_cast<Eigen::Index>(a);
-      first_[a] = static_cast<std::int64_t>(std::floor(box.min()[axis] / lattice_mm));
-      count_[a] = static_cast<std::int64_t>(std::ceil(box.max()[axis] / lattice_mm)) - first_[a] + 1;
-      count_[a] = std::max<std::int64_t>(count_[a], 2);
-    }
-    Box3 from;
-    places_.reserve(static_cast<std::size_t>(count_[0] * count_[1] * count_[2]));
-    for (std::int64_t k = 0; k < count_[2]; ++k) {
-      for (std::int64_t j = 0; j < count_[1]; ++j) {
-        for (std::int64_t i = 0; i < count_[0]; ++i) {
-          const Vec3 node(static_cast<double>(first_[0] + i), static_cast<double>(first_[1] + j),
-                          static_cast<double>(first_[2] + k));
-          places_.push_back(phase.template_of(lattice_mm * node));
-          from.extend(places_.back());
-        }
-      }
-    }
+  MovedPart(const Scene& still, const BeatPhase& phase, const Box3& box)
+      : lattice_(box, [&](const Vec3& p) { return phase.template_of(p); }) {
+    const Box3& from = lattice_.from();
     part_ = still.part({from.min() - Vec3::Constant(1e-6), from.max() + Vec3::Constant(1e-6)});
   }
 
-  Material at(const Vec3& p) const override { return part_->at(place(p)); }
+  Material at(const Vec3& p) const override { return part_->at(lattice_.at(p)); }
   std::optional<Material> uniform() const override { return part_->uniform(); }
   bool fine_near(const Vec3& p, double reach_mm) const override {
-    return part_->fine_near(place(p), most_stretch * reach_mm);
+    return part_->fine_near(lattice_.at(p), most_stretch * reach_mm);
   }
 
  private:
-  Vec3 place(const Vec3& p) const {
-    std::array<std::int64_t, 3> cell{};
-    Vec3 t;
-    for (std::size_t a = 0; a < 3; ++a) {
-      const auto axis = static_cast<Eigen::Index>(a);
-      const double x = p[axis] / lattice_mm - static_cast<double>(first_[a]);
-      cell[a] = std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor(x)), 0, count_[a] - 2);
-      t[axis] = x - static_cast<double>(cell[a]);
-    }
-    const auto at = static_cast<std::size_t>(cell[0] + count_[0] * (cell[1] + count_[1] * cell[2]));
-    const auto row = static_cast<std::size_t>(count_[0]), plane = row * static_cast<std::size_t>(count_[1]);
-    const auto along = [&](std::size_t n) -> Vec3 {
-      return (1.0 - t.x()) * places_[n] + t.x() * places_[n + 1];
-    };
-    const auto across = [&](std::size_t n) -> Vec3 {
-      return (1.0 - t.y()) * along(n) + t.y() * along(n + row);
-    };
-    return (1.0 - t.z()) * across(at) + t.z() * across(at + plane);
-  }
-
-  std::array<std::int64_t, 3> first_{}, count_{};
-  std::vector<Vec3> places_;
+  PlaceLattice lattice_;
   std::unique_ptr<const ScenePart> part_;
 };
 

@@ -36,8 +36,9 @@ using Capsules = std::vector<Capsule>;
 struct Organ {
   Material material;
   Texture texture;
-  Distance distance;  ///< the shape, or none:
-  Capsules capsules;  ///< tubes
+  Distance distance;   ///< the shape, or none:
+  Capsules capsules;   ///< tubes
+  bool stays = false;  ///< where it is, although the heart is bent: it was made about the arteries
 };
 
 /// In order: a place belongs to the first organ that holds it.

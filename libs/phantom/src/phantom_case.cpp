@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <numbers>
+#include <utility>
 
 namespace ostia::phantom {
 namespace {
@@ -104,7 +105,14 @@ CasePlan plan_case(const CaseOptions& options) {
   coronary.seed = options.seed;
   coronary.disease = options.disease;
   coronary.anatomy = options.variant.anatomy;
-  plan.tree = draw_coronaries(plan.heart, coronary);
+  if (options.patient) {
+    PatientHeart patient = patient_heart(*options.patient, plan.heart, coronary);
+    plan.tree = std::move(patient.tree);
+    plan.warp = std::move(patient.warp);
+    plan.patient = std::move(patient.record);
+  } else {
+    plan.tree = draw_coronaries(plan.heart, coronary);
+  }
   plan.options.scan.grid = grid_of(options.preset, plan.heart, &plan.tree);
   let_the_heart_move(plan.heart, plan.options.scan);
   validate(plan.options.scan);
@@ -114,7 +122,8 @@ CasePlan plan_case(const CaseOptions& options) {
   if (options.variant.stent_mm > 0.0) stent_the_lad(plan.tree, options.variant.stent_mm);
   plan.sections = plan_sections(plan.tree, wanted);
   plan.challenge = challenge_vessels(plan.tree, plan.options.observers, plan.options.scan.grid);
-  plan.warnings = plan.sections.warnings;
+  if (plan.patient) plan.warnings = plan.patient->remarks;
+  plan.warnings.insert(plan.warnings.end(), plan.sections.warnings.begin(), plan.sections.warnings.end());
   plan.warnings.insert(plan.warnings.end(), plan.challenge.warnings.begin(), plan.challenge.warnings.end());
   return plan;
 }
@@ -129,7 +138,7 @@ BodyOptions body_of(const CaseOptions& options) {
 }
 
 Scan scan_case(const CasePlan& plan, const core::TaskContext& task) {
-  const Body body(plan.heart, plan.tree, body_of(plan.options));
+  const Body body(plan.heart, plan.tree, body_of(plan.options), plan.warp);
   return acquire(body, plan.options.scan, task);
 }
 

@@ -78,7 +78,7 @@ std::vector<VesselMotion> write_phases(const fs::path& folder, int number, const
   });
   if (options.truth_only) return vessels;
   // One image after the other: a full one takes a good part of a gigabyte.
-  const Body body(plan.heart, plan.tree, body_of(plan.options));
+  const Body body(plan.heart, plan.tree, body_of(plan.options), plan.warp);
   for (std::size_t i = 0; i < percents.size(); ++i) {
     const double n = static_cast<double>(percents.size());
     const core::TaskContext own =

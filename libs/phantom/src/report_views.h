@@ -22,6 +22,8 @@ figure::Picture projections(const CasePlan& plan, const imaging::ImageVolume& im
 figure::Picture straightened_views(const CasePlan& plan, const imaging::ImageVolume& image);
 /// Across the vessel at the throats of the worst stenoses, with the true lumen and outer wall.
 figure::Picture stenosis_sections(const CasePlan& plan, const imaging::ImageVolume& image);
+/// The heart's surface with the arteries on it: the patient's own, what was grown, from four sides.
+figure::Picture heart_picture(const CasePlan& plan, const core::TaskContext& task);
 bool has_stenosis_in(const CasePlan& plan, const imaging::Geometry& grid);
 
 }  // namespace ostia::phantom

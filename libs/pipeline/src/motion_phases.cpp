@@ -54,6 +54,15 @@ std::array<Way, 2> ways(const std::vector<double>& phases, std::size_t from) {
   return out;
 }
 
+bool is_sound(const MotionFit& fit) {
+  return std::ranges::all_of(fit.phases, [](const PhaseFit& one) {
+    const bool bridged = one.origin == geometry::PhaseOrigin::bridged;
+    const bool crossed = one.origin == geometry::PhaseOrigin::fitted &&
+                         one.report.self_intersections > one.report.source_self_intersections;
+    return !crossed && (!bridged || one.gap) && one.report.least_jacobian > 0.0;
+  });
+}
+
 bool is_same_phase(double a, double b) {
   constexpr double moment = 0.002;
   const double off = std::abs(a - b);

@@ -253,6 +253,38 @@ struct CaseFile::Impl {
     return outcome;
   }
 
+  /// The edits in a row on a copy in memory; nothing of them is seen before the commit.
+  EditOutcome apply_plugin(const PluginEdits& step, const Check& check) {
+    EditOutcome outcome{*model, {}, {}};
+    if (step.edits.empty()) return outcome;
+    const std::string parameters = to_json(step);
+    Annotations noted = *annotations;
+    for (std::size_t i = 0; i < step.edits.size(); ++i) {
+      try {
+        EditOutcome next = lumen::apply(outcome.model, step.edits[i]);
+        noted = following(noted, step.edits[i], outcome.model, next.model);
+        outcome.model = std::move(next.model);
+        outcome.notes.insert(outcome.notes.end(), next.notes.begin(), next.notes.end());
+      } catch (const InvalidInput& error) {
+        throw InvalidInput("edit " + std::to_string(i + 1) + " of " + std::to_string(step.edits.size()) +
+                           " (" + lumen::op_name(step.edits[i]) +
+                           ") is refused, and none was made: " + error.what());
+      }
+    }
+    outcome.changes = changes_between(*model, outcome.model);
+    if (check) check(outcome);
+    auto next = std::make_shared<const Annotations>(std::move(noted));
+    commit(outcome.model, [&](const Recording& recording) {
+      if (!changes_between(*annotations, *next).empty()) notes.write_change(*annotations, *next);
+      if (can_redo) steps.drop_undone();
+      steps.append(
+          {0, std::string(plugin_op), parameters, StepState::done, outcome.notes, recording.changeset()});
+    });
+    before_last.reset();  // what comes next goes on from none of these edits
+    annotations = std::move(next);
+    return outcome;
+  }
+
   EditOutcome apply_merged(const Edit& edit, const Check& check) {
     std::optional<JournalStep> last;
     if (before_last) last = steps.last_done();
@@ -448,6 +480,11 @@ EditOutcome CaseFile::apply_merged(const Edit& edit, const Check& check) {
   return impl_->apply_merged(edit, check);
 }
 
+EditOutcome CaseFile::apply_plugin(const PluginEdits& step, const Check& check) {
+  impl_->require_writable();
+  return impl_->apply_plugin(step, check);
+}
+
 AnnotationChange CaseFile::annotate(const AnnotationCommand& command) {
   impl_->require_writable();
   return impl_->annotate(command, std::nullopt);
@@ -481,7 +518,14 @@ std::vector<JournalEntry> CaseFile::journal() const {
 std::vector<Edit> CaseFile::edits() const {
   std::vector<Edit> edits;
   for (const JournalEntry& entry : impl_->steps.entries())
-    if (entry.kind == StepKind::edit && !entry.undone) edits.push_back(edit_of_json(entry.parameters));
+    if (entry.kind == StepKind::edit && !entry.undone) {
+      if (entry.op != plugin_op) {
+        edits.push_back(edit_of_json(entry.parameters));
+        continue;
+      }
+      const PluginEdits step = plugin_edits_of_json(entry.parameters);
+      edits.insert(edits.end(), step.edits.begin(), step.edits.end());
+    }
   return edits;
 }
 

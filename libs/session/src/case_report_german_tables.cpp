@@ -146,6 +146,7 @@ Phrases steps() {
       {"vessel cut in two trees", "Gefäß in zwei Bäume getrennt"},
       {"vessel connected by a new piece", "Gefäß durch ein neues Stück verbunden"},
       {"vessel renamed: %1", "Gefäß umbenannt: %1"},
+      {"edited by a plug-in: %1", "von einem Plug-in bearbeitet: %1"},
       {"vessel with an ostium of its own added: %1", "Gefäß mit eigenem Ostium hinzugefügt: %1"},
       {"measurement added: %t1", "Messung hinzugefügt: %t1"},
       {"measurement changed: %t1", "Messung geändert: %t1"},

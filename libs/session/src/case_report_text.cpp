@@ -2,6 +2,7 @@
 
 #include "ostia/core/quantity_text.h"
 #include "ostia/session/annotation_json.h"
+#include "ostia/session/edit_json.h"
 
 #include <nlohmann/json.hpp>
 
@@ -18,7 +19,7 @@ using ReportJson = nlohmann::json;
 struct OpWords {
   const char *op, *words;
 };
-constexpr std::array<OpWords, 25> kWords{{
+constexpr std::array<OpWords, 26> kWords{{
     {"case.begin", "case begun"},
     {"cpr.stroke", "wall drawn on a curved reformation"},
     {"section.contour", "contour drawn on a cross-section"},
@@ -42,6 +43,7 @@ constexpr std::array<OpWords, 25> kWords{{
     {"measure.change", "measurement changed"},
     {"measure.delete", "measurement deleted"},
     {"vessel.mark", "vessel's mark set"},
+    {"plugin", "edited by a plug-in"},
     {"pressure.inputs", "inputs of the computed pressures set"},
     {"pressure.what_if", "stretches with another calibre, for the computed pressures, set"},
 }};
@@ -59,6 +61,7 @@ bool flag_at(const ReportJson& object, const char* name) {
 /// What tells this step from others of its kind.
 std::string detail_of(const std::string& op, const ReportJson& given) {
   if (op == "vessel.mark") return flag_at(given, "checked") ? ": checked" : ": not checked";
+  if (op == "plugin") return ": " + plugin_named_in(given.dump());
   if (op == "vessel.rename" || op == "branch.add" || op == "vessel.add") return ": " + text_at(given, "name");
   if (op.rfind("measure.", 0) == 0) {
     std::string detail = kind_words(text_at(given, "kind"));

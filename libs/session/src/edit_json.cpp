@@ -156,6 +156,41 @@ Edit edit_of_json(std::string_view line) {
   return edit;
 }
 
+std::string to_json(const PluginEdits& step) {
+  Json edits = Json::array();
+  for (const Edit& edit : step.edits) edits.push_back(Json::parse(to_json(edit)));
+  return json_fields::line_of("edit", std::string(plugin_op), [&](Writer& writer) {
+    writer("name", step.name);
+    writer("version", step.version);
+    writer.put("edits", std::move(edits));
+  });
+}
+
+PluginEdits plugin_edits_of_json(std::string_view line) {
+  const Json in = json_fields::object_of("edit", line);
+  PluginEdits step;
+  Reader reader(in, "edit plugin");
+  reader("name", step.name);
+  reader("version", step.version);
+  if (!in.contains("edits") || !in["edits"].is_array())
+    throw InvalidInput("the edit plugin: it has no array \"edits\"");
+  for (const Json& one : in["edits"]) {
+    try {
+      step.edits.push_back(edit_of_json(one.dump()));
+    } catch (const InvalidInput& error) {
+      throw InvalidInput("edit " + std::to_string(step.edits.size() + 1) + ": " + error.what());
+    }
+  }
+  return step;
+}
+
+std::string plugin_named_in(std::string_view line) {
+  const Json in = Json::parse(line, nullptr, false);
+  if (!in.is_object() || !in.contains("name") || !in["name"].is_string()) return {};
+  const std::string version = in.value("version", "");
+  return in["name"].get<std::string>() + (version.empty() ? "" : " " + version);
+}
+
 std::vector<EditLine> edit_lines(std::string_view text, const std::string& name) {
   std::vector<EditLine> lines;
   std::size_t number = 0;

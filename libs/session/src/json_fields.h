@@ -42,6 +42,7 @@ class Writer {
   void operator()(const char* name, const std::optional<Value>& value, Need = Need::optional) {
     if (value) (*this)(name, *value);
   }
+  void put(const char* name, Json value) { (*out_)[name] = std::move(value); }
 
  private:
   Json json(std::int32_t value) const { return value; }

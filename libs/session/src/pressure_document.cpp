@@ -108,6 +108,38 @@ Rows outlet_rows_of(const PressureReport& report) {
   return rows;
 }
 
+/// Groups of inputs with a say in a reading, the first in what varies first.
+std::string varies_by(const hemodynamics::SobolIndices& indices) {
+  constexpr double least_say = 0.05;
+  std::vector<std::size_t> groups;
+  for (std::size_t g = 0; g < hemodynamics::input_groups; ++g)
+    if (indices.total[g] >= least_say) groups.push_back(g);
+  std::ranges::stable_sort(groups, std::ranges::greater(), [&](std::size_t g) { return indices.total[g]; });
+  std::string text;
+  for (const std::size_t g : groups)
+    text += (text.empty() ? "" : "; ") +
+            std::string(hemodynamics::name_of(static_cast<hemodynamics::InputGroup>(g))) + " " +
+            core::percent_text(100.0 * indices.total[g]) + " %";
+  return text.empty() ? "-" : text;
+}
+
+std::vector<std::string> sure_row(std::string what, const hemodynamics::UncertainReading& one) {
+  if (!one.ratio.known) return {std::move(what), "occluded", "-", "-", "-"};
+  return {std::move(what), ratio_text(one.ratio.median),
+          ratio_text(one.ratio.low) + " - " + ratio_text(one.ratio.high),
+          core::percent_text(100.0 * one.ratio.probability), varies_by(one.indices)};
+}
+
+Rows sure_rows_of(const PressureReport& report) {
+  Rows rows;
+  const hemodynamics::PressureUncertainty& sure = *report.uncertainty;
+  for (std::size_t i = 0; i < sure.lesions.size(); ++i)
+    rows.push_back(sure_row(report.under_hyperaemia.lesions[i].lesion.name, sure.lesions[i]));
+  for (const hemodynamics::UncertainReading& one : sure.outlets)
+    rows.push_back(sure_row(own(report.tree.network.branches[one.place.branch].name), one));
+  return rows;
+}
+
 Rows stretch_rows_of(const PressureReport& report) {
   Rows rows;
   for (const WhatIf& one : report.options.what_ifs) {
@@ -176,6 +208,14 @@ void compose_pressures(Document& written, const PressureReport& report,
     document.table(header, lesion_rows_of(report), "Narrowings");
   document.paragraph("FFR is Pd/Pa under hyperaemia, read behind each narrowing; at or below " +
                      ratio_text(report.options.reading.threshold) + " it counts as significant.");
+  if (report.uncertainty) {
+    document.section("How sure");
+    document.table({"Narrowing or end", "Median FFR", "95 % lie in",
+                    "At or below " + ratio_text(report.uncertainty->threshold) + " (%)", "Varies by"},
+                   sure_rows_of(report), "How sure");
+    document.paragraph("Of " + std::to_string(report.uncertainty->samples) +
+                       " trees drawn within what is not known for sure of the wall and the inputs.");
+  }
   if (report.after) {
     document.section("What if");
     document.paragraph(

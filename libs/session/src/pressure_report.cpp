@@ -67,14 +67,15 @@ PressureReport make_pressure_report(PressureTree tree, const PressureReportOptio
   prepare_network(report);
   solve_report(report, nullptr, task);
   const auto& network = *report.network;
-  task.set_progress(0.5);
+  constexpr double solved_share = 0.05;  // of the time, where trees are drawn
+  task.set_progress(solved_share);
   if (options.pulse) {
     std::vector<hemodynamics::TreePlace> places;
     for (const auto& lesion : report.under_hyperaemia.lesions) places.push_back(lesion.read_at);
     report.pulse =
         hemodynamics::pulse(network, options.conditions, report.rest, places, options.pulse_options);
   }
-  if (options.uncertainty) add_uncertainty(report, task.sub(0.5, 1.0));
+  if (options.uncertainty) add_uncertainty(report, task.sub(solved_share, 1.0));
   task.set_progress(1.0);
   return report;
 }

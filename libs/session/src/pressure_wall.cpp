@@ -1,6 +1,7 @@
 #include "ostia/session/pressure_wall.h"
 
 #include "ostia/core/parallel.h"
+#include "ostia/geometry/along.h"
 #include "ostia/lumen/tree_surface.h"
 #include "ostia/session/pressure_report.h"
 
@@ -46,21 +47,6 @@ WallFoot wall_foot(const std::vector<const PressureVessel*>& vessels, const geom
   return best;
 }
 
-/// The station before a place of a branch, and how far it is to the next.
-struct WallStation {
-  std::size_t index = 0;
-  double part = 0.0;
-};
-
-WallStation station_at(const hemodynamics::Branch& branch, double s_mm) {
-  const auto& stations = branch.stations;
-  const auto next = std::lower_bound(stations.begin() + 1, stations.end() - 1, s_mm,
-                                     [](const hemodynamics::Station& a, double s) { return a.s_mm < s; });
-  const auto i = static_cast<std::size_t>(next - stations.begin());
-  const double length = stations[i].s_mm - stations[i - 1].s_mm;
-  return {i - 1, std::clamp((s_mm - stations[i - 1].s_mm) / length, 0.0, 1.0)};
-}
-
 }  // namespace
 
 WallPressures pressures_on(const PressureReport& report, std::span<const geometry::Vec3> points,
@@ -75,18 +61,18 @@ WallPressures pressures_on(const PressureReport& report, std::span<const geometr
     if (p % points_at_once == 0) task.throw_if_cancelled();
     const WallFoot foot = wall_foot(vessels, points[p]);
     const hemodynamics::TreePlace place = place_on(network, foot.vessel, foot.s_mm);
-    const WallStation at = station_at(network.branches[place.branch], place.s_mm);
+    const geometry::PlaceAlong at = geometry::place_along(network.branches[place.branch].stations, place.s_mm,
+                                                          &hemodynamics::Station::s_mm);
     const auto between = [&](const hemodynamics::TreeReadings& readings, auto value) {
       const auto& stations = readings.stations[place.branch];
-      return (1.0 - at.part) * value(stations[at.index]) + at.part * value(stations[at.index + 1]);
+      return at.between(stations[at.index].*value, stations[at.index + 1].*value);
     };
-    const auto pressure = [](const hemodynamics::StationFlow& one) { return one.pressure_pa; };
-    const double pa = between(report.under_hyperaemia, pressure);
+    const double pa = between(report.under_hyperaemia, &hemodynamics::StationFlow::pressure_pa);
     out.ffr[p] = pa / report.under_hyperaemia.aortic_pa;
-    out.resting_ratio[p] = between(report.at_rest, pressure) / report.at_rest.aortic_pa;
+    out.resting_ratio[p] =
+        between(report.at_rest, &hemodynamics::StationFlow::pressure_pa) / report.at_rest.aortic_pa;
     out.pressure_mmhg[p] = pa / hemodynamics::pa_of_mmhg;
-    out.wall_shear_pa[p] = between(report.under_hyperaemia,
-                                   [](const hemodynamics::StationFlow& one) { return one.wall_shear_pa; });
+    out.wall_shear_pa[p] = between(report.under_hyperaemia, &hemodynamics::StationFlow::wall_shear_pa);
     out.s_mm[p] = foot.s_mm;
     out.vessel[p] = foot.vessel;
     out.branch[p] = static_cast<std::int32_t>(place.branch);

@@ -3,6 +3,7 @@
 #include "ostia/core/error.h"
 #include "ostia/core/quantity_text.h"
 #include "ostia/core/text.h"
+#include "ostia/geometry/along.h"
 #include "ostia/session/pressure_readout.h"
 
 #include <algorithm>
@@ -21,13 +22,8 @@ double healthy_mm(const PressureVessel& vessel, double s_mm) {
   const auto& sections = vessel.profile.sections;
   const auto& line = vessel.reference.diameter_mm;
   if (sections.size() < 2 || line.size() != sections.size()) return 0.0;
-  const auto next =
-      std::lower_bound(sections.begin() + 1, sections.end() - 1, s_mm,
-                       [](const analysis::SectionMeasures& one, double s) { return one.s_mm < s; });
-  const auto i = static_cast<std::size_t>(next - sections.begin());
-  const double t =
-      std::clamp((s_mm - sections[i - 1].s_mm) / (sections[i].s_mm - sections[i - 1].s_mm), 0.0, 1.0);
-  return (1.0 - t) * line[i - 1] + t * line[i];
+  const geometry::PlaceAlong at = geometry::place_along(sections, s_mm, &analysis::SectionMeasures::s_mm);
+  return at.between(line[at.index], line[at.index + 1]);
 }
 
 /// Of the reference, what is wanted at an abscissa.

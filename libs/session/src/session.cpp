@@ -62,6 +62,15 @@ Session::Done Session::apply_merged(const lumen::Edit& edit) {
   });
 }
 
+Session::Done Session::apply_plugin(const PluginEdits& step) {
+  const auto before = file_.annotations();
+  return *followed([&](const CaseFile::Check& check) {
+    lumen::EditOutcome outcome = file_.apply_plugin(step, check);
+    return std::optional(
+        StepOutcome{std::move(outcome), !step.edits.empty(), changes_between(*before, *file_.annotations())});
+  });
+}
+
 Session::Done Session::annotate(const AnnotationCommand& command) {
   const AnnotationChange change = file_.annotate(command);
   return {{*file_.model(), {}, {}}, {}, false, change};

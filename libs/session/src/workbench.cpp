@@ -303,6 +303,13 @@ Session::Done Workbench::edit_merged(const lumen::Edit& change) {
   follow(done, *before);
   return done;
 }
+Session::Done Workbench::edit_by_plugin(const PluginEdits& step) {
+  require_own_phase();
+  const std::shared_ptr<const lumen::LumenModel> before = session().file().model();
+  Session::Done done = session().apply_plugin(step);
+  follow(done, *before);
+  return done;
+}
 Session::Done Workbench::annotate(const AnnotationCommand& command) {
   if (!std::holds_alternative<MarkVessel>(command)) require_own_phase();
   const std::shared_ptr<const lumen::LumenModel> before = session().file().model();

@@ -62,9 +62,9 @@ std::string patch(const std::string& name, const std::string& entries) {
 }
 
 std::string field(const std::string& type, const std::string& object, const std::string& dimensions,
-                  const std::string& value, const std::string& patches) {
-  return foam_head(type, "0", object) + "dimensions      " + dimensions + ";\ninternalField   uniform " +
-         value + ";\nboundaryField\n{\n" + patches + "}\n";
+                  const std::string& values, const std::string& patches) {
+  return foam_head(type, "0", object) + "dimensions      " + dimensions + ";\ninternalField   " + values +
+         ";\nboundaryField\n{\n" + patches + "}\n";
 }
 
 std::string outlet_velocity(const CasePlan& plan, std::size_t i) {
@@ -88,6 +88,19 @@ double outlet_resistance(const CasePlan& plan) {
 /// At the start, m2/s2.
 double outlet_pressure_now(const CasePlan& plan) {
   return outlet_resistance(plan) * plan.flow.flow_ml_s(0.0) * m3_per_ml;
+}
+
+std::string first_velocities(const CasePlan& plan) {
+  if (plan.start.velocity_m_s.empty()) return "uniform (0 0 0)";
+  return "nonuniform List<vector>\n" + vector_list(plan.start.velocity_m_s);
+}
+
+std::string first_pressures(const CasePlan& plan) {
+  const double outlet = outlet_pressure_now(plan);
+  if (plan.start.pressure_pa.empty()) return "uniform " + shortest_text(outlet);
+  std::string text = "nonuniform List<scalar>\n" + std::to_string(plan.start.pressure_pa.size()) + "\n(\n";
+  for (const double pa : plan.start.pressure_pa) text += shortest_text(outlet + pa / plan.density()) + "\n";
+  return text + ")\n";
 }
 
 std::string outlet_pressure(const CasePlan& plan, std::size_t i) {
@@ -152,9 +165,10 @@ void write_boundaries(const CasePlan& plan, const fs::path& folder, const core::
     velocity += patch(wall, "        type            noSlip;\n");
     pressure += patch(wall, "        type            zeroGradient;\n");
   }
-  write_case_file(folder / "0" / "U", field("volVectorField", "U", "[0 1 -1 0 0 0 0]", "(0 0 0)", velocity));
-  write_case_file(folder / "0" / "p", field("volScalarField", "p", "[0 2 -2 0 0 0 0]",
-                                            shortest_text(outlet_pressure_now(plan)), pressure));
+  write_case_file(folder / "0" / "U",
+                  field("volVectorField", "U", "[0 1 -1 0 0 0 0]", first_velocities(plan), velocity));
+  write_case_file(folder / "0" / "p",
+                  field("volScalarField", "p", "[0 2 -2 0 0 0 0]", first_pressures(plan), pressure));
 }
 
 }  // namespace ostia::solver

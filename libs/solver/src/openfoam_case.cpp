@@ -5,6 +5,7 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
+#include "ostia/core/parallel.h"
 #include "ostia/core/text.h"
 #include "ostia/geometry/mixed_mesh_sides.h"
 #include "ostia/io/mesh_export.h"
@@ -122,6 +123,31 @@ int longest_axis(const MixedMesh& mesh) {
   return static_cast<int>(axis);
 }
 
+StartFields start_fields(const MixedMesh& mesh, const BoundaryFlow& flow, const StartOf& start_of) {
+  StartFields fields;
+  const StartFlowAt start = start_of ? start_of(flow) : StartFlowAt();
+  if (!start) return fields;
+  std::vector<Vec3> centres;
+  const auto add = [&](const auto& elements) {
+    for (const auto& element : elements) {
+      Vec3 sum = Vec3::Zero();
+      for (const std::int32_t corner : element) sum += mesh.points[static_cast<std::size_t>(corner)];
+      centres.push_back(sum / static_cast<double>(element.size()));
+    }
+  };
+  add(mesh.tetrahedra);
+  add(mesh.prisms);
+  fields.velocity_m_s.resize(centres.size());
+  fields.pressure_pa.resize(centres.size());
+  constexpr std::size_t at_once = 512;
+  core::parallel_for(centres.size(), at_once, [&](std::size_t i) {
+    const StartFlow at = start(centres[i]);
+    fields.velocity_m_s[i] = at.velocity_m_s;
+    fields.pressure_pa[i] = at.pressure_pa;
+  });
+  return fields;
+}
+
 void write_dictionaries(const CasePlan& plan, const fs::path& folder) {
   const fs::path system = folder / "system", constant = folder / "constant";
   write_case_file(system / "controlDict", control_dict(plan));
@@ -173,7 +199,7 @@ OpenfoamCaseResult write_openfoam_case(const MixedMesh& mesh, const OpenfoamCase
   OpenfoamCaseResult result;
   result.flow = boundary_flow(mesh, options.flow);
   result.warnings = result.flow.warnings;
-  CasePlan plan{options, result.flow, period_of(options), 0.0, longest_axis(mesh)};
+  CasePlan plan{options, result.flow, period_of(options), 0.0, longest_axis(mesh), {}};
   if (plan.pulsatile()) {
     const TimeSteps steps = time_steps(mesh, result.flow, plan);
     result.time_step_s = plan.time_step_s = steps.first_s;
@@ -181,6 +207,7 @@ OpenfoamCaseResult write_openfoam_case(const MixedMesh& mesh, const OpenfoamCase
     result.hours =
         openfoam_hours(mesh.tetrahedra.size() + mesh.prisms.size(), steps.count, options.processes);
   }
+  if (!plan.pulsatile()) plan.start = start_fields(mesh, result.flow, options.start);
   task.set_progress(0.1);
   core::StagedFolder staged(folder);
   const io::MeshExportResult written = io::export_mesh(mesh, io::MeshFormat::openfoam, staged.temporary());

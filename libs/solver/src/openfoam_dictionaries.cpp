@@ -100,16 +100,19 @@ std::string fv_solution(const CasePlan& plan) {
   const std::string solver_u =
       "        solver          smoothSolver;\n        smoother        symGaussSeidel;\n" +
       tolerance_of_solvers;
-  std::string text = foam_head("dictionary", "system", "fvSolution") + "solvers\n{\n    p\n    {\n" +
-                     solver_p + "        relTol          0.02;\n    }\n    pFinal\n    {\n" + solver_p +
+  // A gradient is asked for three times and more before its field changes, and costs more than a solver.
+  std::string text = foam_head("dictionary", "system", "fvSolution") +
+                     "cache\n{\n    grad(U);\n    grad(p);\n}\n\nsolvers\n{\n    p\n    {\n" + solver_p +
+                     "        relTol          0.02;\n    }\n    pFinal\n    {\n" + solver_p +
                      "        relTol          0;\n    }\n    \"(U|UFinal)\"\n    {\n" + solver_u +
                      "        relTol          " + (plan.pulsatile() ? "0" : "0.05") + ";\n    }\n}\n\n";
   if (plan.pulsatile())
     return text +
            "PIMPLE\n{\n    nOuterCorrectors 2;\n    nCorrectors     2;\n    nNonOrthogonalCorrectors 1;\n}\n";
   const std::string tolerance = shortest_text(plan.options.tolerance);
+  // What meshes are not orthogonal by is taken from the iteration before: at the end it is the same.
   return text +
-         "SIMPLE\n{\n    consistent      yes;\n    nNonOrthogonalCorrectors 1;\n    residualControl\n    {\n"
+         "SIMPLE\n{\n    consistent      yes;\n    nNonOrthogonalCorrectors 0;\n    residualControl\n    {\n"
          "        p               " +
          tolerance + ";\n        U               " + tolerance +
          ";\n    }\n}\n\nrelaxationFactors\n{\n    equations\n    {\n        U               0.9;\n    "

@@ -5,8 +5,15 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace ostia::solver {
+
+/// Of each element, tetrahedra first; empty: at rest.
+struct StartFields {
+  std::vector<geometry::Vec3> velocity_m_s;
+  std::vector<double> pressure_pa;
+};
 
 struct CasePlan {
   const OpenfoamCaseOptions& options;
@@ -14,6 +21,7 @@ struct CasePlan {
   double period_s = 0.0;     ///< 0: steady
   double time_step_s = 0.0;  ///< the first, and all of them where the case was told one
   int long_axis = 0;         ///< along which the model is longest: 0, 1, 2
+  StartFields start = {};
   bool pulsatile() const { return period_s > 0.0; }
   double end_time_s() const { return period_s * options.cycles; }
   /// A hundredth of the cycle: the inlets' velocities are straight between their samples.

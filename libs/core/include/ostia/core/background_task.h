@@ -1,11 +1,13 @@
 #pragma once
 /// \file Work that runs beside its owner.
 
+#include "ostia/core/job.h"
 #include "ostia/core/task_context.h"
 
 #include <chrono>
 #include <functional>
 #include <future>
+#include <optional>
 #include <utility>
 
 namespace ostia::core {
@@ -16,8 +18,10 @@ class BackgroundTask {
  public:
   using Work = std::function<T(const TaskContext& task)>;
   explicit BackgroundTask(Work work)
-      : result_(
-            std::async(std::launch::async, [task = task_, work = std::move(work)] { return work(task); })) {}
+      : result_(std::async(std::launch::async, [task = task_, work = std::move(work), job = job_here()] {
+          const JobHere here(job ? &*job : nullptr);
+          return work(task);
+        })) {}
   ~BackgroundTask() { task_.cancel(); }
   BackgroundTask(const BackgroundTask&) = delete;
   BackgroundTask& operator=(const BackgroundTask&) = delete;
@@ -34,6 +38,10 @@ class BackgroundTask {
   }
 
  private:
+  /// A copy: this may outlive the thread's own.
+  static std::optional<Job> job_here() {
+    return current_job() != nullptr ? std::optional<Job>(*current_job()) : std::nullopt;
+  }
   TaskContext task_;
   std::future<T> result_;
 };

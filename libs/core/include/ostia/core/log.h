@@ -39,7 +39,8 @@ class HeardWarnings {
   HeardWarnings(const HeardWarnings&) = delete;
   HeardWarnings& operator=(const HeardWarnings&) = delete;
 };
-/// What the youngest living collector has heard, each once; nothing without one.
+/// What the calling thread's job (job.h) has heard or, without one, the youngest living collector, each once;
+/// nothing without either.
 std::vector<std::string> heard_warnings();
 
 void log_debug(std::string_view message);

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace ostia::experiments {
@@ -18,15 +19,17 @@ struct PressureOptions {
   PressureMesh mesh;
   /// Of the mesh's edges, for three cases: one run each. Empty: none.
   std::vector<double> other_edge_ratios{0.31, 0.155};
-  /// Folder that keeps each run as it is finished: what is in it is not run again.
+  /// Folder that keeps each run as it is finished (CASE.json): what is in it is not run again.
   std::filesystem::path keep;
   std::filesystem::path masks;  ///< folder; empty: no patients
   std::vector<std::string> patients{"patient001", "patient010",
                                     "patient171"};  ///< files in it, without .nrrd
-  std::vector<std::string> only;  ///< names or kinds to be run now; empty: all. The report has all there is
-  int most = 0;                   ///< runs now, 0: all
-  int jobs = 1;                   ///< runs at once, [1, 256]
-  bool again = false;             ///< what failed before is tried again
+  /// Names, kinds or halves to be run now; empty: all. The report has all there is.
+  std::vector<std::string> only;
+  int most = 0;        ///< runs now, 0: all
+  int jobs = 1;        ///< runs at once, [1, 256]
+  bool again = false;  ///< what failed before is tried again
+  bool judge = false;  ///< nothing is run: what is kept is compared
 };
 /// Throws InvalidInput.
 void validate(const PressureOptions& options);
@@ -85,6 +88,9 @@ struct PressureSummary {
   std::string worst_id;
 };
 enum class PressureHalf { fitting, judging, patients };
+PressureHalf half_of(const PressureCase& one);
+/// "fit", "judge", "patient".
+std::string_view name_of(PressureHalf half);
 /// `fitted`: with the fitted constants. Failed rows, runs that did not converge and the tube are left out.
 PressureSummary summarize(const PressureResults& results, PressureHalf half, bool fitted = false);
 
@@ -109,7 +115,7 @@ std::string parameters_json(const PressureOptions& options);
 /// docs/schemas/experiment-pressure.schema.json.
 std::string pressure_json(const PressureResults& results, const PressureOptions& options);
 std::string pressure_text(const PressureResults& results);
-/// cases.csv, curves.csv, agreement.png, worst-*.png, report.html into a folder that is there.
+/// cases.csv, curves.csv, tables.md, agreement.png, worst-*.png, report.html into a folder that is there.
 void write_pressure_report(const std::filesystem::path& folder, const PressureResults& results,
                            const PressureOptions& options);
 

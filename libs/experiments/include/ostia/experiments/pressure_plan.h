@@ -61,11 +61,11 @@ struct PressurePlanOptions {
 };
 void validate(const PressurePlanOptions& options);  ///< throws InvalidInput
 
-/// A tube without a narrowing, then all kinds in turn, so that the first few are of all. Seeds go up from the
-/// first; odd ones are for fitting, even ones for judging. Severities (30 to 85 %) and flows (rest to
-/// hyperaemia) are spread evenly within each kind. Deterministic.
+/// A tube without a narrowing, then all kinds in turn, in an order whose first few are of all kinds, both
+/// halves and all severities. Seeds go up from the first; odd ones are for fitting, even ones for judging.
+/// Severities (30 to 85 %) and flows (rest to hyperaemia) are spread evenly within each kind. Deterministic.
 std::vector<PressureCase> plan_pressure(const PressurePlanOptions& options = {});
-/// A line of all that a case is made of.
+/// A line of all that a case is made of, numbers to nine digits.
 std::string text_of(const PressureCase& one);
 
 /// Its wall as a case of the program has it: samples on the exact sections r(s, theta). Throws as

@@ -35,6 +35,7 @@ struct LesionReading {
   LesionPlace lesion;
   TreePlace read_at;       ///< behind its end, along the way of the largest flow
   double distance_mm = 0;  ///< from its end; less than asked for where the tree ends before
+  bool ostial = false;     ///< it begins at the aorta
   double before = 1.0;     ///< Pd/Pa at its proximal end; 1 of an ostial one
   double behind = 1.0;     ///< Pd/Pa where it is read: the lesion's FFR
   double delta() const { return before - behind; }

@@ -3,6 +3,7 @@
 
 #include "ostia/phantom/coronary_tree.h"
 #include "ostia/phantom/heart.h"
+#include "ostia/phantom/heart_warp.h"
 #include "ostia/phantom/scene.h"
 
 #include <cstdint>
@@ -31,7 +32,9 @@ BodyOptions draw_body(std::uint64_t seed);
 /// The scene a scanner is shown. Immutable.
 class Body : public Scene {
  public:
-  Body(const HeartShape& heart, const CoronaryTree& tree, const BodyOptions& options = {});
+  /// With a map, heart and chest are bent by it; the arteries are where the tree has them.
+  Body(const HeartShape& heart, const CoronaryTree& tree, const BodyOptions& options = {},
+       std::shared_ptr<const HeartWarp> warp = nullptr);
   ~Body() override;
   std::unique_ptr<const ScenePart> part(const geometry::Box3& box) const override;
   Material at(const Vec3& point_mm) const;  ///< slow; for single questions

@@ -15,8 +15,8 @@ namespace ostia::phantom {
 
 /// A picture and what it is called as a file.
 struct CasePicture {
-  std::string
-      name;  ///< "planes", "mip", "straightened", "tree", "stenoses", "calibre", "histogram", "motion"
+  std::string name;  ///< "planes", "mip", "straightened", "tree", "heart", "stenoses", "calibre",
+                     ///< "histogram", "motion"
   std::string heading, caption;
   figure::Picture picture;
 };

@@ -6,6 +6,7 @@
 #include "ostia/phantom/body.h"
 #include "ostia/phantom/coronary_tree.h"
 #include "ostia/phantom/heart.h"
+#include "ostia/phantom/patient_heart.h"
 #include "ostia/phantom/presets.h"
 #include "ostia/phantom/scan.h"
 #include "ostia/phantom/sections.h"
@@ -13,6 +14,8 @@
 #include "ostia/phantom/variant.h"
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +27,9 @@ struct CaseOptions {
   Preset preset = Preset::full;
   double disease = 1.0;  ///< CoronaryOptions::disease, in [0, 5]; 0: no lesion and no diseased section
   CaseVariant variant;
+  /// The heart is built around these arteries instead of drawn ones (docs/methods/phantom-trees.md); null:
+  /// drawn.
+  std::shared_ptr<const PatientTree> patient = nullptr;
   ScanOptions scan;  ///< `grid` and `seed` are set from the preset and the case's seed
   ContourOptions contours;
   ObserverOptions observers;         ///< `seed` is set from the case's seed
@@ -36,6 +42,8 @@ struct CasePlan {
   CaseOptions options;  ///< with grid and seeds set
   HeartShape heart;
   CoronaryTree tree;
+  std::shared_ptr<const HeartWarp> warp;  ///< what heart and chest are bent by; null: not
+  std::optional<PatientRecord> patient;   ///< how the heart came to lie under a patient's arteries
   SectionPlan sections;
   ChallengeVessels challenge;
   std::vector<std::string> warnings;  ///< of sections and vessels

@@ -72,6 +72,10 @@ std::vector<double> missing_phases(const std::vector<double>& phases);
 MotionFit fit_motion(std::vector<PhaseSurface> phases, const MotionFitOptions& options = {},
                      const core::TaskContext& task = core::no_task());
 
+/// Whether no person need look at it: gaps are as they are; all else that was bridged, an inverted cell, and
+/// triangles that intersect more often than the template's are for a person.
+bool is_sound(const MotionFit& fit);
+
 using geometry::percent_text;
 
 }  // namespace ostia::pipeline

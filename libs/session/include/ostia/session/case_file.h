@@ -5,6 +5,7 @@
 #include "ostia/core/error.h"
 #include "ostia/lumen/edit.h"
 #include "ostia/session/annotation.h"
+#include "ostia/session/edit_json.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -117,6 +118,10 @@ class CaseFile {
   /// the model before that one, and both are one step of undo. The changes are those from the present model.
   lumen::EditOutcome apply_merged(const lumen::Edit& edit, const Check& check = {});
 
+  /// Applies a plug-in's edits one after the other and commits them as one step, or none of them:
+  /// InvalidInput then names the edit. Without edits there is no step and nothing changes.
+  lumen::EditOutcome apply_plugin(const PluginEdits& step, const Check& check = {});
+
   /// Runs a command on measurements or marks (`annotated` says what is refused) and commits it, a step like
   /// an edit; redo steps are dropped. A new measurement's id is the one in the change. A command that changes
   /// nothing is no step.
@@ -139,7 +144,7 @@ class CaseFile {
 
   std::vector<JournalEntry> journal() const;
   std::vector<lumen::Edit> edits() const;  ///< those not undone, in order, without annotations: what a replay
-                                           ///< applies
+                                           ///< applies; those of a plug-in's step one by one
 
   /// Small texts of the interface. A value that is a path is refused: a case holds none.
   void set_setting(const std::string& key, const std::string& value);

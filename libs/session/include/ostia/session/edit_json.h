@@ -16,6 +16,20 @@ namespace ostia::session {
 std::string to_json(const lumen::Edit& edit);
 /// Throws InvalidInput naming the field, what is wrong with it and what is allowed.
 lumen::Edit edit_of_json(std::string_view line);
+/// Edits that a plug-in gave: one step of a case's journal.
+struct PluginEdits {
+  std::string name, version;  ///< of the plug-in, as a person reads them; one line each
+  std::vector<lumen::Edit> edits;
+};
+/// What the journal says of such a step.
+inline constexpr std::string_view plugin_op = "plugin";
+/// {"v":1,"op":"plugin","name":...,"version":...,"edits":[...]}.
+std::string to_json(const PluginEdits& step);
+/// Throws InvalidInput as edit_of_json does, with the edit's number.
+PluginEdits plugin_edits_of_json(std::string_view line);
+/// "Widen the wall 1.0" of such a line; empty for what is none.
+std::string plugin_named_in(std::string_view line);
+
 /// An edit and the line of the file it stands in, from 1.
 struct EditLine {
   std::size_t number = 0;

@@ -31,6 +31,7 @@ class Session {
   };
   Done apply(const lumen::Edit& edit);
   Done apply_merged(const lumen::Edit& edit);
+  Done apply_plugin(const PluginEdits& step);  ///< CaseFile::apply_plugin, solved once for all its edits
   Done annotate(const AnnotationCommand& command);
   Done annotate_merged(const AnnotationCommand& command, std::int64_t drag);
   std::optional<Done> undo();

@@ -142,6 +142,7 @@ class Workbench {
   // -- commands: each is in the case file when it returns
   Session::Done edit(const lumen::Edit& edit);
   Session::Done edit_merged(const lumen::Edit& edit);
+  Session::Done edit_by_plugin(const PluginEdits& step);  ///< one step
   Session::Done annotate(const AnnotationCommand& command);
   Session::Done annotate_merged(const AnnotationCommand& command, std::int64_t drag);
   bool undo();  ///< false where there is nothing to undo

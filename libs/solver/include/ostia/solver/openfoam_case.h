@@ -4,6 +4,7 @@
 
 #include "ostia/core/task_context.h"
 #include "ostia/solver/boundary_conditions.h"
+#include "ostia/solver/start_flow.h"
 
 #include <filesystem>
 #include <optional>
@@ -18,6 +19,7 @@ struct OpenfoamCaseOptions {
   // Steady.
   int iterations = 2000;    ///< at most; in [1, 1000000]
   double tolerance = 1e-6;  ///< initial residuals at which it stops; in [1e-12, 1e-2]
+  StartOf start;            ///< what it begins with; none: blood at rest. The result is the same
   // Pulsatile.
   int cycles = 3;  ///< in [1, 100]
   /// Of all outlets together, ml / mmHg, split as the flow is: makes each resistance a Windkessel (RCR).

@@ -13,8 +13,7 @@ fail() {
 }
 
 scripts/build.sh release programs
-scripts/build.sh release python
-cmake --build --preset release --target python_docs
+scripts/build.sh release python python_docs
 if grep -q 'OSTIA_WITH_IMAGE_LIBRARIES:BOOL=OFF' "$build/CMakeCache.txt" || [ ! -x "$build/bin/ostia-live" ]; then
   fail "build/release lacks some of the programs; configure it anew: cmake --fresh --preset release"
 fi

@@ -213,7 +213,7 @@ void define_plugin(CLI::App& app, PluginCommand& c, std::function<ExitCode(const
   list->callback([&] { run = [&](const core::TaskContext& task) { return run_plugin_list(c, task); }; });
 
   CLI::App* one = plugin->add_subcommand("run", "One of them, on a case or an image");
-  one->footer("Example:\n  ostia plugin run NAME heart.ostia -o wider.ostia --set by_mm=0.2");
+  one->footer("Example:\n  ostia plugin run widen_wall heart.ostia -o wider.ostia --set by_mm=0.2");
   one->fallthrough();
   one->add_option("NAME", c.name, "The plug-in, of those that `ostia plugin list` names")->required();
   one->add_option("INPUT", c.input, "Case (.ostia); of a plug-in that gives a mask also an image")

@@ -108,6 +108,10 @@ if [ -n "${CAROTID:-}" ]; then
   for picture in slices distances calibre; do cp "$work/carotid/$picture.png" "docs/pictures/carotid-$picture.png"; done
 fi
 
+# Pressure in one dimension against the three-dimensional runs that are kept.
+build/release/bin/ostia experiment pressure -o "$work/pressure" --keep data/pressure --judge
+cp "$work/pressure/agreement.png" docs/pictures/pressure-agreement.png
+
 # The tutorial of regression tests: a model held against the truth, and two models against each other.
 cd "$work"
 PATH=$OLDPWD/build/release/bin:$PATH

@@ -16,7 +16,6 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
-#include <algorithm>
 #include <cstdio>
 #include <optional>
 
@@ -67,6 +66,14 @@ void print_plugin(const Plugin& plugin) {
     std::printf("  --set %s\n", shown_parameter(one).c_str());
 }
 
+const session::PluginParameter& told_parameter(const Plugin& plugin, const std::string& name) {
+  try {
+    return session::parameter_named(plugin, name);
+  } catch (const InvalidInput& error) {
+    throw UsageError(error.what());
+  }
+}
+
 session::PluginValues typed_values(const Plugin& plugin, const std::vector<std::string>& given) {
   session::PluginValues values;
   for (const std::string& one : given) {
@@ -74,15 +81,7 @@ session::PluginValues typed_values(const Plugin& plugin, const std::vector<std::
     if (equals == std::string::npos || equals == 0)
       throw UsageError("--set takes name=value, not \"" + one + "\"");
     const std::string name = one.substr(0, equals);
-    const auto known = std::find_if(plugin.parameters.begin(), plugin.parameters.end(),
-                                    [&](const auto& parameter) { return parameter.name == name; });
-    if (known == plugin.parameters.end()) {
-      std::string all;
-      for (const auto& parameter : plugin.parameters) all += (all.empty() ? "" : ", ") + parameter.name;
-      throw UsageError("the plug-in " + plugin.name + " has no parameter " + name +
-                       (all.empty() ? "; it has none" : "; it has " + all));
-    }
-    values[name] = session::plugin_value(*known, one.substr(equals + 1));
+    values[name] = session::plugin_value(told_parameter(plugin, name), one.substr(equals + 1));
   }
   return values;
 }

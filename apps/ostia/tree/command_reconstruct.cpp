@@ -65,22 +65,6 @@ ReconstructedSurface surface_of(const ReconstructCommand& c, const geometry::Ves
   return reconstruction::reconstruct_surface(fit.graph, fit.sections, options, task.sub(0.3, 1.0));
 }
 
-/// The surface with each quadrilateral from such a corner on that readers split it as the library did.
-io::QuadSurface quads_of(ReconstructedSurface&& made) {
-  io::QuadSurface out;
-  const geometry::FacedSurface& split = made.surface;
-  for (std::size_t q = 0; q < made.quads.size(); ++q) {
-    const geometry::Triangle& first = split.mesh.triangles[2 * q];
-    const geometry::Triangle& second = split.mesh.triangles[2 * q + 1];
-    out.quads.push_back({first[0], first[1], first[2], second[2]});
-    out.face_ids.push_back(split.face_ids[2 * q]);
-  }
-  out.points = std::move(made.points);
-  out.branch_ids = std::move(made.branch_of_quad);
-  out.faces = std::move(made.surface.faces);
-  return out;
-}
-
 void tell(const ReconstructedSurface& made, Json& done) {
   const geometry::SurfaceFaults faults = geometry::find_faults(made.surface.mesh, false);
   done["points"] = made.points.size();
@@ -186,7 +170,9 @@ ExitCode run_reconstruct(const ReconstructCommand& c, const core::TaskContext& t
   tell(made, done);
   const bool usable = write_hexahedra(c, made, done, task.sub(0.8, 0.9));
   task.set_stage("writing");
-  warn(io::write_quad_surface(c.output, quads_of(std::move(made)), task.sub(0.9, 1.0)));
+  warn(io::write_quad_surface(
+      c.output, io::quads_of_pairs(made.surface, std::move(made.points), std::move(made.branch_of_quad)),
+      task.sub(0.9, 1.0)));
   print(done, c.json);
   if (done["closed"].get<bool>()) return usable ? ExitCode::ok : ExitCode::quality_failed;
   core::log_warning("pairs of triangles that still cross: " + done["self_intersections"].dump() +

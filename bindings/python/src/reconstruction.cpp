@@ -53,22 +53,6 @@ ReconstructedSurface surface_of(const VesselGraph& graph, const TriMesh* wall,
   return reconstruction::reconstruct_surface(fit.graph, fit.sections, how, task.sub(0.3, 1.0));
 }
 
-/// The surface with each quadrilateral from such a corner on that readers split it as the library did.
-io::QuadSurface quads_of(const ReconstructedSurface& made) {
-  io::QuadSurface out;
-  const geometry::FacedSurface& split = made.surface;
-  for (std::size_t q = 0; q < made.quads.size(); ++q) {
-    const geometry::Triangle& first = split.mesh.triangles[2 * q];
-    const geometry::Triangle& second = split.mesh.triangles[2 * q + 1];
-    out.quads.push_back({first[0], first[1], first[2], second[2]});
-    out.face_ids.push_back(split.face_ids[2 * q]);
-  }
-  out.points = made.points;
-  out.branch_ids = made.branch_of_quad;
-  out.faces = split.faces;
-  return out;
-}
-
 bool is_closed(const ReconstructedSurface& made) {
   return made.self_intersections == 0 && geometry::find_faults(made.surface.mesh, false).closed_manifold();
 }
@@ -114,7 +98,8 @@ void bind_surface(py::module_& m) {
       "write_quad_surface",
       [](const fs::path& path, const ReconstructedSurface& surface) {
         return watched_or_left(py::none(), [path, surface = kept(surface)](const auto& task) {
-          return io::write_quad_surface(path, quads_of(*surface), task);
+          return io::write_quad_surface(
+              path, io::quads_of_pairs(surface->surface, surface->points, surface->branch_of_quad), task);
         });
       },
       py::arg("path"), py::arg("surface"),

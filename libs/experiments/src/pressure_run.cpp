@@ -10,6 +10,7 @@
 #include "ostia/core/files.h"
 #include "ostia/core/parallel.h"
 #include "ostia/core/text.h"
+#include "ostia/geometry/element_centres.h"
 #include "ostia/pipeline/vessel_export.h"
 #include "ostia/solver/flow_figures.h"
 #include "ostia/solver/flow_result.h"
@@ -75,20 +76,6 @@ void run_in_time(const fs::path& folder, double timeout_s, const core::TaskConte
   }
 }
 
-std::vector<Vec3> centres_of(const geometry::MixedMesh& mesh) {
-  std::vector<Vec3> centres;
-  const auto add = [&](const auto& elements) {
-    for (const auto& element : elements) {
-      Vec3 sum = Vec3::Zero();
-      for (const std::int32_t corner : element) sum += mesh.points[static_cast<std::size_t>(corner)];
-      centres.push_back(sum / static_cast<double>(element.size()));
-    }
-  };
-  add(mesh.tetrahedra);
-  add(mesh.prisms);
-  return centres;
-}
-
 /// The vessel whose part a place is in, and the abscissa of its foot; none beyond all lumens. At a fork the
 /// vessel counts whose axis is nearest, by its radius.
 analysis::WallFlowSample place_of(const lumen::LumenModel& model, const Vec3& place) {
@@ -108,7 +95,7 @@ analysis::WallFlowSample place_of(const lumen::LumenModel& model, const Vec3& pl
 }
 
 std::vector<SectionPressure> sections_of(const lumen::LumenModel& model, const solver::FlowResult& result) {
-  const std::vector<Vec3> centres = centres_of(result.mesh);
+  const std::vector<Vec3> centres = geometry::element_centres(result.mesh);
   const std::vector<double> volumes = solver::element_volumes(result.mesh);
   std::vector<analysis::WallFlowSample> samples(centres.size());
   core::parallel_for(samples.size(), cells_at_once, [&](std::size_t i) {

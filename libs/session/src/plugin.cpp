@@ -197,6 +197,16 @@ const Plugin& plugin_named(const PluginList& list, const std::string& name) {
                      why);
 }
 
+const PluginParameter& parameter_named(const Plugin& plugin, const std::string& name) {
+  std::string all;
+  for (const PluginParameter& one : plugin.parameters) {
+    if (one.name == name) return one;
+    all += (all.empty() ? "" : ", ") + one.name;
+  }
+  throw InvalidInput("the plug-in " + plugin.name + " has no parameter " + name +
+                     (all.empty() ? "; it has none" : "; it has " + all));
+}
+
 PluginValue plugin_value(const PluginParameter& parameter, const std::string& typed) {
   const auto refuse = [&]() -> PluginValue {
     throw InvalidInput("the plug-in's parameter " + parameter.name + " takes " + what_it_takes(parameter) +

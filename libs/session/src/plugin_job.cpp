@@ -140,16 +140,7 @@ void log_what_it_said(const std::string& name, const std::string& said) {
 PluginJob::PluginJob(Plugin plugin, PluginValues values)
     : plugin_(std::move(plugin)), folder_(std::make_unique<core::PrivateFolder>()) {
   for (const PluginParameter& one : plugin_.parameters) values_[one.name] = one.value;
-  for (auto& [name, value] : values) {
-    const auto known = values_.find(name);
-    if (known == values_.end()) {
-      std::string all;
-      for (const auto& [other, of] : values_) all += (all.empty() ? "" : ", ") + other;
-      throw InvalidInput("the plug-in " + plugin_.name + " has no parameter " + name +
-                         (all.empty() ? "; it has none" : "; it has " + all));
-    }
-    known->second = std::move(value);
-  }
+  for (auto& [name, value] : values) values_[parameter_named(plugin_, name).name] = std::move(value);
 }
 PluginJob::~PluginJob() = default;
 PluginJob::PluginJob(PluginJob&&) noexcept = default;

@@ -7,6 +7,7 @@
 #include "ostia/core/files.h"
 #include "ostia/core/parallel.h"
 #include "ostia/core/text.h"
+#include "ostia/geometry/element_centres.h"
 #include "ostia/geometry/mixed_mesh_sides.h"
 #include "ostia/io/mesh_export.h"
 #include "ostia/meshing/boundary_layer.h"
@@ -127,16 +128,7 @@ StartFields start_fields(const MixedMesh& mesh, const BoundaryFlow& flow, const 
   StartFields fields;
   const StartFlowAt start = start_of ? start_of(flow) : StartFlowAt();
   if (!start) return fields;
-  std::vector<Vec3> centres;
-  const auto add = [&](const auto& elements) {
-    for (const auto& element : elements) {
-      Vec3 sum = Vec3::Zero();
-      for (const std::int32_t corner : element) sum += mesh.points[static_cast<std::size_t>(corner)];
-      centres.push_back(sum / static_cast<double>(element.size()));
-    }
-  };
-  add(mesh.tetrahedra);
-  add(mesh.prisms);
+  const std::vector<Vec3> centres = geometry::element_centres(mesh);
   fields.velocity_m_s.resize(centres.size());
   fields.pressure_pa.resize(centres.size());
   constexpr std::size_t at_once = 512;

@@ -100,10 +100,11 @@ std::string fv_solution(const CasePlan& plan) {
   const std::string solver_u =
       "        solver          smoothSolver;\n        smoother        symGaussSeidel;\n" +
       tolerance_of_solvers;
-  // A gradient is asked for three times and more before its field changes, and costs more than a solver.
-  std::string text = foam_head("dictionary", "system", "fvSolution") +
-                     "cache\n{\n    grad(U);\n    grad(p);\n}\n\nsolvers\n{\n    p\n    {\n" + solver_p +
-                     "        relTol          0.02;\n    }\n    pFinal\n    {\n" + solver_p +
+  // A gradient is asked for three times and more before its field changes, and costs more than a solver. In a
+  // pulse kept ones change the flow, so that coupled outlets do not settle.
+  const std::string kept = plan.pulsatile() ? "" : "cache\n{\n    grad(U);\n    grad(p);\n}\n\n";
+  std::string text = foam_head("dictionary", "system", "fvSolution") + kept + "solvers\n{\n    p\n    {\n" +
+                     solver_p + "        relTol          0.02;\n    }\n    pFinal\n    {\n" + solver_p +
                      "        relTol          0;\n    }\n    \"(U|UFinal)\"\n    {\n" + solver_u +
                      "        relTol          " + (plan.pulsatile() ? "0" : "0.05") + ";\n    }\n}\n\n";
   if (plan.pulsatile())

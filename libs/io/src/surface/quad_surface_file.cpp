@@ -13,6 +13,7 @@
 #include <vtkStringArray.h>
 
 #include <new>
+#include <utility>
 
 namespace ostia::io {
 namespace fs = std::filesystem;
@@ -143,6 +144,20 @@ std::string stl_text_of(const QuadSurface& surface) {
 }
 
 }  // namespace
+
+QuadSurface quads_of_pairs(const geometry::FacedSurface& halves, std::vector<geometry::Vec3> points,
+                           std::vector<std::int32_t> branch_ids) {
+  QuadSurface out;
+  out.points = std::move(points);
+  out.branch_ids = std::move(branch_ids);
+  out.faces = halves.faces;
+  for (std::size_t first = 0; first + 1 < halves.mesh.triangles.size(); first += 2) {
+    const geometry::Triangle &a = halves.mesh.triangles[first], &b = halves.mesh.triangles[first + 1];
+    out.quads.push_back({a[0], a[1], a[2], b[2]});
+    out.face_ids.push_back(halves.face_ids[first]);
+  }
+  return out;
+}
 
 std::vector<std::string> write_quad_surface(const fs::path& path, const QuadSurface& surface,
                                             const core::TaskContext& task) {

@@ -20,6 +20,11 @@ struct QuadSurface {
   std::vector<geometry::Face> faces;     ///< names of the face ids
 };
 
+/// Of a surface whose triangles 2q and 2q + 1 are the halves of quadrilateral q, each of which begins with
+/// such a corner that readers split it in the same way. `branch_ids`: one a quadrilateral, or empty.
+QuadSurface quads_of_pairs(const geometry::FacedSurface& halves, std::vector<geometry::Vec3> points,
+                           std::vector<std::int32_t> branch_ids);
+
 /// Writes by extension, whole or not at all, and tells what the format could not hold.
 /// - .vtp, .vtk (legacy, binary): double precision, arrays of the cells `CellEntityIds` (the face) and
 ///   `BranchIds`, names of the faces.

@@ -63,6 +63,9 @@ PluginList list_plugins(const std::vector<std::filesystem::path>& folders,
 /// Throws InvalidInput for a name that is not there, with those that are.
 const Plugin& plugin_named(const PluginList& list, const std::string& name);
 
+/// Throws InvalidInput for a name that is no parameter, with those that are.
+const PluginParameter& parameter_named(const Plugin& plugin, const std::string& name);
+
 /// The value that a person typed. Throws InvalidInput naming the parameter and what it takes.
 PluginValue plugin_value(const PluginParameter& parameter, const std::string& typed);
 std::string plugin_value_text(const PluginValue& value);

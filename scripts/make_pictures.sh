@@ -38,6 +38,12 @@ build/release/bin/filters_picture "$work/phantom/dataset00" vessel1 docs/picture
 build/release/bin/uncertainty_picture docs/pictures/pressure-uncertainty.png
 PYTHONPATH=build/release/python /usr/bin/python3 -B scripts/python_picture.py README.md docs/pictures/python.png
 
+# A minute: real images and the phantom's measured alike; real ones that are not there are named and left out.
+build/release/bin/scan_comparison "${OSTIA_SHARED_DATA:-../shared/data}" "$work/scans"
+cp "$work/scans/options.png" docs/pictures/scan-options.png
+cp "$work/scans/spectra.png" docs/pictures/scan-spectra.png
+cp "$work/scans/profiles.png" docs/pictures/scan-profiles.png
+
 # Where OpenFOAM is installed: the first flow of the researcher's tutorial.
 if command -v simpleFoam > /dev/null; then
   build/release/bin/ostia mesh "$work/builtin/lumen.vtp" -o "$work/mesh" --centerline "$work/builtin/centerlines.vtp" \
@@ -84,6 +90,12 @@ build/release/bin/ostia experiment editing --suite "$work/suite18" -o "$work/edi
 cp "$work/editing/accuracy.png" docs/pictures/editing-accuracy.png
 cp "$work/editing/one-section.png" docs/pictures/editing-one-section.png
 
+# Patients' trees with the names that were written down, where $OSTIA_SHARED_DATA has their masks.
+for mask in "${OSTIA_SHARED_DATA:-../shared/data}"/coronary/patient-masks/*.nrrd; do
+  [ -e "$mask" ] || continue
+  build/release/bin/names_picture "$mask" data/names/patients.csv "docs/pictures/names-$(basename "$mask" .nrrd).png"
+done
+
 # An hour and 2 GB of disk: the coronary tree without a click on 18 scans.
 build/release/bin/ostia phantom -o "$work/scans18" --preset full --cases 18 --formats nrrd --no-report
 build/release/bin/ostia experiment extraction --suite "$work/scans18" -o "$work/extraction"
@@ -106,6 +118,13 @@ cp "$work/sensitivity/sensitivity.png" docs/pictures/sensitivity.png
 if [ -n "${CAROTID:-}" ]; then
   build/release/bin/ostia experiment carotid --surface "$CAROTID" -o "$work/carotid"
   for picture in slices distances calibre; do cp "$work/carotid/$picture.png" "docs/pictures/carotid-$picture.png"; done
+fi
+
+# Where the real images are: the one that may be shown.
+data=${OSTIA_SHARED_DATA:-../shared/data}
+if [ -d "$data/cta" ]; then
+  scripts/real_images.sh "$data" "$work/real"
+  cp "$work/real/aorta-report/images/vessel-3.png" docs/pictures/real-rca.png
 fi
 
 # Pressure in one dimension against the three-dimensional runs that are kept.

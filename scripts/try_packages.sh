@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Tries the packages of scripts/package.sh in a clean Debian 12: scripts/try_packages.sh [PACKAGE_FOLDER] [OUTPUT_FOLDER]
 # Installs them, makes the first model, opens a case in the workstation (a picture of its window), builds the example
-# with libostia-dev, purges all of it and looks for what is left.
+# with libostia-dev, reads the model with python3-ostia, purges all of it and looks for what is left.
 # Needs root and the network; some 5 GB of disk. Ends with 1 where something is not as it must be.
 # Nothing of this machine is mounted into the clean Debian; its /proc is mounted in a namespace of its own.
 set -euo pipefail
@@ -81,9 +81,14 @@ inside 'apt-get install -q -y --no-install-recommends /packages/libostia-dev_*.d
 inside 'cmake -S /usr/share/doc/libostia-dev/examples/consumer -B /tmp/example && cmake --build /tmp/example &&
         /tmp/example/layered_mesh /root/model/lumen.vtp /tmp/layered.vtu && ostia mesh --check /tmp/layered.vtu' > "$out/example.log" 2>&1 || complain "the example: $(tail -3 "$out/example.log")"
 
+echo "Python ..."
+inside 'apt-get install -q -y --no-install-recommends /packages/python3-ostia_*.deb' >> "$out/install.log" 2>&1 || complain "apt install python3-ostia"
+inside 'cd /root && python3 -c "import ostia; print(ostia.read_surface(\"model/lumen.vtp\"))"' > "$out/python.log" 2>&1 || complain "Python: $(tail -3 "$out/python.log")"
+[ -s "$root/usr/share/doc/ostia/python/index.html" ] || complain "no reference of the Python package"
+
 echo "apt purge ..."
 for package in "$packages"/*.deb; do dpkg-deb --fsys-tarfile "$package" | tar -t | grep -v '/$' | sed 's#/$##'; done | sort > "$base/ours"
-inside 'apt-get purge -q -y "ostia*" libostia-dev xvfb && apt-get autoremove -q -y --purge' > "$out/purge.log" 2>&1 || complain "apt purge"
+inside 'apt-get purge -q -y "ostia*" libostia-dev python3-ostia xvfb && apt-get autoremove -q -y --purge' > "$out/purge.log" 2>&1 || complain "apt purge"
 files > "$base/after"
 comm -23 "$base/before" "$base/after" > "$base/gone"
 [ ! -s "$base/gone" ] || complain "the purge took what was there before: $(head -3 "$base/gone")"

@@ -181,6 +181,7 @@ ExitCode run_model(const ModelCommand& options, const core::TaskContext& task);
 struct PhantomCommand {
   std::filesystem::path output;
   std::string preset = "full";
+  std::string suite = "usual";  ///< "hard": each case's patient and scan are drawn
   int cases = 1, phases = 1;
   bool truth_only = false, no_report = false;
   std::vector<std::string> formats;  ///< mhd, nrrd, dicom; none: all
@@ -189,6 +190,8 @@ struct PhantomCommand {
   std::filesystem::path tree;         ///< a patient's, as mask or case; empty: drawn
   std::optional<double> tree_rim_mm;  ///< of each radius, that is no lumen
   std::optional<double> contrast_hu;
+  std::string scanner = "ideal";     ///< or "measured"
+  std::vector<std::string> realism;  ///< name=value of phantom::ScanRealism
   std::optional<double> noise_hu, blur_mm, blur_z_mm, motion_mm, stair_step_mm, beam_hardening;
   std::optional<double> contour_spacing_mm, surface_spacing_mm;
   int contour_points = 0;  ///< 0: the library's default

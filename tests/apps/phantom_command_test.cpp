@@ -12,6 +12,7 @@
 namespace ostia::testing {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::IsSupersetOf;
@@ -56,6 +57,31 @@ TEST(PhantomCommand, OtherParametersMakeItAnew) {
   ASSERT_EQ(ostia(truth + std::vector<std::string>{"--seed", "5", "--cases", "2"}, {folder, ""}).code, 0);
   EXPECT_NE(core::read_file(folder / "out" / "dataset00" / "contours.json"), one);
   EXPECT_TRUE(std::filesystem::exists(folder / "out" / "dataset01" / "case.json"));
+}
+
+TEST(PhantomCommand, RealScannersAreAskedForByNameAndWrittenDown) {
+  const auto folder = temporary_folder("phantom");
+  const std::vector<std::string> truth{"phantom",      "--preset",          "tiny", "-o",         "out",
+                                       "--truth-only", "--surface-spacing", "1",    "--no-report"};
+  const Outcome made = ostia(truth + std::vector<std::string>{"--scanner", "measured", "--realism",
+                                                              "tail=0.1,clips=3", "--noise", "20", "--json"},
+                             {folder, ""});
+  ASSERT_EQ(made.code, 0) << made.err;
+  const Json scan = Json::parse(made.out)["parameters"]["scan"];
+  EXPECT_EQ(scan["noise_hu"], 20.0);
+  EXPECT_EQ(scan["realism"]["tail"], 0.1);
+  EXPECT_EQ(scan["realism"]["clips"], 3);
+  EXPECT_GT(scan["realism"]["noise_structure"], 0.0);  // as measured
+  EXPECT_FALSE(scan["realism"].contains("half_scan_motion_mm"));
+  const auto refused = [&](const std::string& given) {
+    const Outcome none = ostia(truth + std::vector<std::string>{"--realism", given}, {folder, ""});
+    EXPECT_EQ(none.code, 2) << given;
+    return none.err;
+  };
+  EXPECT_THAT(refused("snow=1"), AllOf(HasSubstr("snow"), HasSubstr("undershoot")));
+  EXPECT_THAT(refused("tail=much"), HasSubstr("tail=0.1"));
+  EXPECT_THAT(refused("tail"), HasSubstr("tail=0.1"));
+  EXPECT_THAT(refused("clips=1,tail=7"), HasSubstr("[0.000000, 0.400000]"));
 }
 
 TEST(PhantomCommand, PhasesAreReadByWhatComparesMotions) {

@@ -23,7 +23,7 @@ from usage import Usage
 
 # Examples of `--help` that are not run, or by the slow test alone: a help text has no room for marks.
 HELP_MARKS = {r"ostia experiment (editing|orientations|smoothness)|ostia phantom|ostia extract CT|--video": ("slow", "minutes of computing"),
-              r"ostia experiment (extraction|motion|pressure|sensitivity|robustness|wall-spread)|--waveform": ("not run", "hours of computing"),
+              r"ostia experiment (extraction|motion|pressure|sensitivity|robustness|certainty|hard|reading|wall-spread)|--waveform": ("not run", "hours of computing"),
               r"ostia experiment (chain|carotid)": ("not run", "needs data that are not in the repository"),
               r"ostia plugin run": ("not run", "needs a plug-in in a folder of its own"),
               r"Allrun": ("needs", "simpleFoam")}

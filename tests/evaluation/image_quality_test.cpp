@@ -230,5 +230,80 @@ TEST(EdgeWidth, RefusesNonsenseAndCanBeCancelled) {
                Cancelled);
 }
 
+/// A wave of 20 HU with its normal at this angle from the i axis.
+double wave(const Vec3& p, double degrees, double per_mm) {
+  const double a = degrees * std::numbers::pi / 180.0;
+  return 20.0 * std::cos(2.0 * std::numbers::pi * per_mm * (p.x() * std::cos(a) + p.y() * std::sin(a)));
+}
+
+TEST(NoisePower, StreaksLieAcrossTheWavesThatMakeThem) {
+  const std::vector<NoiseRegion> squares{{0, 0, 0}, {32, 0, 0}, {0, 32, 0}, {32, 32, 0}};
+  for (const double angle : {0.0, 30.0, 90.0, 135.0}) {
+    const auto one =
+        image_of({64, 64, 1}, {0.5, 0.5, 0.5}, [&](const Vec3& p) { return wave(p, angle, 0.3); });
+    const NoisePower power = noise_power(one, squares, 32);
+    EXPECT_GT(power.anisotropy, 0.8) << angle;  // the square lets some power leak
+    EXPECT_NEAR(std::remainder(power.streaks_deg - angle - 90.0, 180.0), 0.0, 3.0) << angle;
+    // With as much across, there is no direction.
+    const auto both = image_of({64, 64, 1}, {0.5, 0.5, 0.5}, [&](const Vec3& p) {
+      return wave(p, angle, 0.3) + wave(p, angle + 90.0, 0.3);
+    });
+    EXPECT_LT(noise_power(both, squares, 32).anisotropy, 0.08) << angle;
+    // Three quarters of the power one way: 3/4 - 1/4.
+    const auto more = image_of({64, 64, 1}, {0.5, 0.5, 0.5}, [&](const Vec3& p) {
+      return std::sqrt(3.0) * wave(p, angle, 0.3) + wave(p, angle + 90.0, 0.3);
+    });
+    EXPECT_NEAR(noise_power(more, squares, 32).anisotropy, 0.5, 0.12) << angle;
+  }
+}
+
+TEST(NoiseCorrelation, IsTheShareThatSlicesHaveInCommon) {
+  // Slices k and k + 1 share a wave of half the power, slices farther apart nothing.
+  const auto image = image_of({48, 48, 8}, {0.5, 0.5, 1.0}, [](const Vec3& p) {
+    const double k = p.z() - 11.0;
+    return wave(p, 25.0 * k, 0.3) + wave(p, 25.0 * (k + 1.0), 0.3);
+  });
+  const std::vector<double> alike =
+      noise_correlation_along_k(image, {{0, 0, 0}, {0, 0, 1}, {0, 0, 2}, {0, 0, 3}, {0, 0, 4}}, 48, 3);
+  ASSERT_EQ(alike.size(), 3u);
+  EXPECT_NEAR(alike[0], 0.5, 0.08);
+  EXPECT_NEAR(alike[1], 0.0, 0.08);
+  EXPECT_NEAR(alike[2], 0.0, 0.08);
+  EXPECT_THROW(noise_correlation_along_k(image, {{0, 0, 7}}, 48, 1), InvalidInput);
+  EXPECT_THROW(noise_correlation_along_k(image, {{0, 0, 0}}, 48, 0), InvalidInput);
+  EXPECT_THROW(noise_correlation_along_k(image, {}, 48, 1), InvalidInput);
+}
+
+TEST(EdgeProfile, ShowsHowFarAnEdgeFallsBelowAndRisesAboveItsSides) {
+  const auto rise = [](double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); };
+  for (const double negative : {0.0, 0.3}) {
+    const auto level = [&](double x) { return (1.0 + negative) * rise(x / 0.4) - negative * rise(x / 0.8); };
+    double lowest = 0.0;
+    for (double x = -3.0; x < 0.0; x += 0.01) lowest = std::min(lowest, level(x));
+    // A ball, brighter and darker than what is about it.
+    for (const double step : {600.0, -600.0}) {
+      const Vec3 middle(10.0, 15.0, 24.0);
+      const auto image = image_of({64, 64, 64}, {0.4, 0.4, 0.4}, [&](const Vec3& p) {
+        return 100.0 + (step > 0.0 ? step * level(8.0 - (p - middle).norm())
+                                   : step * (1.0 - level((p - middle).norm() - 8.0)));
+      });
+      imaging::MaskVolume mask{image.geometry, {}};
+      for (std::int64_t v = 0; v < image.geometry.voxels(); ++v) {
+        const Vec3 index(static_cast<double>(v % 64), static_cast<double>(v / 64 % 64),
+                         static_cast<double>(v / 4096));
+        mask.voxels.push_back((image.geometry.world(index) - middle).norm() < 8.0);
+      }
+      EdgeOptions options;
+      options.half_length_mm = 4.0;
+      const EdgeProfile profile = edge_profile(image, mask, options, 300);
+      ASSERT_GT(profile.edges, 100u);
+      EXPECT_NEAR(profile.undershoot, -lowest, 0.006) << negative << " " << step;
+      EXPECT_NEAR(profile.overshoot, -lowest, 0.006) << negative << " " << step;
+      EXPECT_LT(profile.level.front(), 0.02);
+      EXPECT_GT(profile.level.back(), 0.98);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace ostia::evaluation

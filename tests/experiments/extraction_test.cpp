@@ -94,9 +94,13 @@ session::FoundModel found_as(const std::vector<Line>& lines) {
   const geometry::VesselTree tree = tree_of(lines);
   found.model = lumen::model_of_tubes(tree);
   found.found.vessels.tree = tree;
-  for (const Line& one : lines)
-    found.found.vessels.labels.push_back({static_cast<std::int32_t>(found.found.vessels.labels.size()),
-                                          coronary::CoronarySide::left, one.name, 1.0});
+  for (const Line& one : lines) {
+    coronary::VesselLabel label;
+    label.vessel = static_cast<std::int32_t>(found.found.vessels.labels.size());
+    label.likeliest = one.name;
+    label.confidence = 1.0;
+    found.found.vessels.labels.push_back(std::move(label));
+  }
   return found;
 }
 

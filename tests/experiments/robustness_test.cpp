@@ -23,7 +23,7 @@ Variation varied(const std::string& what, const std::string& value) {
   return variation;
 }
 
-TEST(Robustness, AClosedOstiumIsMissedAndToldAndAHeartInNoiseRefused) {
+TEST(Robustness, AnArteryBehindAClosedOstiumIsFoundAndToldAndAHeartInNoiseRefused) {
   Variation closed = varied("anatomy", "right ostium closed");
   closed.patient.anatomy = phantom::Anatomy::right_ostium_closed;
   Variation loud = varied("noise", "500 HU");
@@ -41,10 +41,9 @@ TEST(Robustness, AClosedOstiumIsMissedAndToldAndAHeartInNoiseRefused) {
   EXPECT_GT(rows[0].main_ov, 0.9);
   EXPECT_GE(rows[0].right, 3U);
   EXPECT_LT(rows[0].astray_mm, 5.0);
-  EXPECT_LT(rows[2].main_ov, 0.75);  // the right artery is missing
-  EXPECT_GE(rows[2].missing, rows[0].missing + 1);
-  EXPECT_FALSE(rows[2].holds());
-  EXPECT_THAT(rows[2].told, Contains(HasSubstr("one coronary artery alone was found")));
+  EXPECT_GT(rows[2].main_ov, 0.9);
+  EXPECT_LT(rows[2].astray_mm, 5.0);
+  EXPECT_THAT(rows[2].told, Contains(HasSubstr("beyond the aorta's lumen")));
   EXPECT_EQ(rows[1].refused, 1U);
   EXPECT_EQ(rows[1].ov, 0.0);
   EXPECT_THAT(rows[1].told, Contains(HasSubstr("first vessel")));

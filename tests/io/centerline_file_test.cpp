@@ -4,7 +4,10 @@
 
 #include "ostia/io/graph_file.h"
 
+#include <vtkCell.h>
+#include <vtkCellData.h>
 #include <vtkFieldData.h>
+#include <vtkIdList.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
@@ -65,6 +68,40 @@ TEST(CenterlineFile, CarriesTheNamesThatTheFieldReads) {
                            "FrenetBinormal", "Curvature", "Torsion", "TractIds", "Length", "Tortuosity"}) {
     EXPECT_NE(content.find("Name=\"" + std::string(name) + "\""), std::string::npos) << name;
   }
+}
+
+TEST(CenterlineFile, WhatIsKnownAlongVesselsStandsBesideTheRadius) {
+  const AlongVessels share{"Share", [](std::int32_t vessel, double s_mm) {
+                             return s_mm > 1.0 ? vessel + 0.001 * s_mm : std::nan("");
+                           }};
+  const auto folder = testing::temporary_folder("io");
+  write_centerlines(folder / "lines.vtp", fork(), {share});
+  vtkNew<vtkXMLPolyDataReader> reader;
+  reader->SetFileName((folder / "lines.vtp").c_str());
+  reader->Update();
+  vtkPointData& points = *reader->GetOutput()->GetPointData();
+  vtkCellData& cells = *reader->GetOutput()->GetCellData();
+  ASSERT_NE(points.GetArray("Share"), nullptr);
+  vtkIdType looked_at = 0;
+  for (vtkIdType c = 0; c < reader->GetOutput()->GetNumberOfCells(); ++c) {
+    vtkIdList& ids = *reader->GetOutput()->GetCell(c)->GetPointIds();
+    for (vtkIdType i = 0; i < ids.GetNumberOfIds(); ++i) {
+      const double s_mm = points.GetArray("Abscissas")->GetTuple1(ids.GetId(i));
+      if (s_mm <= 1.0) continue;
+      EXPECT_NEAR(points.GetArray("Share")->GetTuple1(ids.GetId(i)),
+                  cells.GetArray("CenterlineIds")->GetTuple1(c) + 0.001 * s_mm, 1e-12);
+      ++looked_at;
+    }
+  }
+  EXPECT_GT(looked_at, 10);
+  write_centerlines(folder / "lines.csv", fork(), {share});
+  const std::string table = core::read_file(folder / "lines.csv");
+  EXPECT_EQ(table.substr(0, table.find('\n')), "vessel,x,y,z,radius,abscissa,Share");
+  EXPECT_EQ(table.substr(table.find('\n') + 1, table.find('\n', table.find('\n') + 1) - table.find('\n') - 1)
+                .back(),
+            ',')
+      << "not known at the root";
+  EXPECT_EQ(read_centerlines(folder / "lines.csv").vessels.size(), 2U);
 }
 
 /// As VMTK's scripts leave it: without what only Ostia writes.

@@ -127,6 +127,7 @@ def test_two_threads_ask_the_same_values(motion, wall):
     (lambda: ostia.phantom_case(preset="huge"), "preset: one of tiny, small, full"),
     (lambda: ostia.phantom_case(disease=-1), "disease"),
     (lambda: ostia.phantom_case(scan={"noise": 3}), "there is no option scan.noise"),
+    (lambda: ostia.phantom_case(scan={"realism": {"tail": 0.7}}), "tail is 0.7"),
     (lambda: ostia.waveform("renal"), "coronary-left"),
     (lambda: ostia.ImplicitSurface(RING, np.ones(16), 1.0, kernel="gauss"), "kernel"),
     (lambda: ostia.ImplicitSurface(RING, np.ones(15), 1.0), "weight|centre|15|16"),

@@ -50,6 +50,9 @@ REACH = {
     "experiment_carotid": ["experiment_carotid"],
     "experiment_sensitivity": ["experiment_sensitivity"],
     "experiment_robustness": ["experiment_robustness"],
+    "experiment_certainty": ["experiment_certainty"],
+    "experiment_hard": ["experiment_hard"],
+    "experiment_reading": ["experiment_reading"],
     "experiment_motion": ["experiment_motion"],
     "experiment_wall_spread": ["experiment_wall_spread"],
 }

@@ -59,6 +59,22 @@ class Experiments(Refusing):
         self.assertEqual(printed, json.loads((out / "experiment.json").read_text()))
         self.assert_refused("experiment-wall-spread", {"v": 1, "kind": "wall-spread"})
 
+    def assert_experiment(self, name, *options):
+        out = pathlib.Path(self.holder.name) / name
+        printed = json.loads(run("experiment", name, "-o", out, *options, "--json"))
+        validator("experiment-" + name).validate(printed)
+        self.assertEqual(printed, json.loads((out / "experiment.json").read_text()))
+        self.assert_refused("experiment-" + name, {"v": 1, "kind": name})
+
+    def test_experiment_hard(self):
+        self.assert_experiment("hard", "--cases", "1", "--voxel", "2", "--no-search")
+
+    def test_experiment_reading(self):
+        self.assert_experiment("reading", "--patients", "1", "--voxel", "2", "--tolerance", "2")
+
+    def test_experiment_certainty(self):
+        self.assert_experiment("certainty", "--patients", "1", "--scans", "1", "--voxel", "2")
+
     def test_experiment_chain(self):
         # A bright tube of 4 mm along z, in voxels of 1 mm.
         image = pathlib.Path(self.holder.name) / "tube.nrrd"

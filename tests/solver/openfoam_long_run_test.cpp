@@ -142,19 +142,23 @@ TEST(OpenfoamLongRun, WindkesselsSettleBehindAFork) {
   for (const Outlet& outlet : flow.outlets) {
     const OpenfoamSeries q = read_openfoam_series(folder, "flow_" + outlet.name),
                          p = read_openfoam_series(folder, "pressure_" + outlet.name);
+    // Steps are not of one length: the series is read between them, at equal times of the last cycle.
     const auto harmonic = [&](const OpenfoamSeries& series, int k) {
+      constexpr int samples = 2000;
       std::complex<double> sum = 0.0;
-      double last = end - period;
-      for (auto at = series.upper_bound(end - period * 0.9999); at != series.end(); ++at) {
-        sum += at->second * std::polar(at->first - last, -2.0 * std::numbers::pi * k * at->first / period);
-        last = at->first;
+      for (int i = 1; i < samples; ++i) {
+        const double time = end - period + period * i / samples;
+        const auto next = series.lower_bound(time), last = std::prev(next);
+        const double value =
+            std::lerp(last->second, next->second, (time - last->first) / (next->first - last->first));
+        sum += value * std::polar(1.0, -2.0 * std::numbers::pi * k * time / period);
       }
-      return sum / period;
+      return (sum + series.rbegin()->second) / double(samples);
     };
     for (int k = 0; k <= 2; ++k) {
       const std::complex<double> z =
           windkessel_of(outlet, 0.02).impedance(2.0 * std::numbers::pi * k / period);
-      EXPECT_LT(std::abs(1060.0 * harmonic(p, k) / harmonic(q, k) / z - 1.0), 0.02)
+      EXPECT_LT(std::abs(1060.0 * harmonic(p, k) / harmonic(q, k) / z - 1.0), 0.01)
           << outlet.name << " " << k;
     }
   }

@@ -77,6 +77,8 @@ const std::vector<Shortcut> known{
     {"view.end", "Ctrl+End", "Ctrl+End"},
     {"view.next_lesion", "L", "L"},
     {"view.previous_lesion", "Shift+L", "Shift+L"},
+    {"view.next_doubt", "O", "O"},
+    {"view.previous_doubt", "Shift+O", "Shift+O"},
     {"view.next_vessel", "Ctrl+Right", "N; Ctrl+Right"},
     {"view.previous_vessel", "Ctrl+Left", "P; Ctrl+Left"},
     {"view.stretched", "T", "T"},

@@ -56,6 +56,9 @@ void define_experiment(CLI::App& app, ExperimentCommand& c, const std::uint64_t&
   define_experiment_carotid(*experiment, seed, run);
   define_experiment_sensitivity(*experiment, seed, run);
   define_experiment_robustness(*experiment, seed, run);
+  define_experiment_reading(*experiment, seed, run);
+  define_experiment_certainty(*experiment, seed, run);
+  define_experiment_hard(*experiment, seed, run);
   define_experiment_motion(*experiment, seed, run);
   define_experiment_pressure(*experiment, seed, run);
   define_experiment_wall_spread(*experiment, seed, run);

@@ -52,6 +52,15 @@ void define_experiment_chain(CLI::App& experiment, std::function<ExitCode(const 
 void define_experiment_robustness(CLI::App& experiment, const std::uint64_t& seed,
                                   std::function<ExitCode(const core::TaskContext&)>& run);
 
+void define_experiment_reading(CLI::App& experiment, const std::uint64_t& seed,
+                               std::function<ExitCode(const core::TaskContext&)>& run);
+
+void define_experiment_hard(CLI::App& experiment, const std::uint64_t& seed,
+                            std::function<ExitCode(const core::TaskContext&)>& run);
+
+void define_experiment_certainty(CLI::App& experiment, const std::uint64_t& seed,
+                                 std::function<ExitCode(const core::TaskContext&)>& run);
+
 void define_experiment_motion(CLI::App& experiment, const std::uint64_t& seed,
                               std::function<ExitCode(const core::TaskContext&)>& run);
 

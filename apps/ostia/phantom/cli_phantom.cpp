@@ -13,7 +13,19 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
+#include <string>
+#include <vector>
+
 namespace ostia::app {
+namespace {
+
+std::string names_of_realism() {
+  std::vector<std::string> names;
+  for (const phantom::RealismMember& member : phantom::realism_members()) names.push_back(member.name);
+  return CLI::detail::join(names, ", ");
+}
+
+}  // namespace
 
 void add_phantom(CLI::App& app, PhantomCommand& o) {
   const phantom::ScanOptions usual{};
@@ -25,6 +37,12 @@ void add_phantom(CLI::App& app, PhantomCommand& o) {
       ->check(CLI::IsMember({"tiny", "small", "full"}));
   app.add_option("--cases", o.cases, "How many cases, with the seeds from --seed on")
       ->check(CLI::Range(1, 100));
+  CLI::Option* suite =
+      app.add_option(
+             "--suite", o.suite,
+             "usual: alike but for the heart; hard: noise, contrast, blur, motion, disease and anatomy as "
+             "mixed as a clinic's")
+          ->check(CLI::IsMember({"usual", "hard"}));
   app.add_option("--phases", o.phases,
                  "Phases of a heartbeat, 1 to 100; 1: the heart stands still in mid-diastole");
   app.add_flag("--truth-only", o.truth_only, "No images and label volumes");
@@ -52,6 +70,13 @@ void add_phantom(CLI::App& app, PhantomCommand& o) {
       ->check(CLI::Range(80.0, 1000.0));
   app.add_option("--venous", o.venous, "Contrast in veins and right heart, as a share of the arteries'")
       ->check(CLI::Range(0.0, 1.0));
+  app.add_option("--scanner", o.scanner,
+                 "ideal: even noise, Gaussian blur; measured: as a gated coronary CTA was measured")
+      ->check(CLI::IsMember({"ideal", "measured"}));
+  app.add_option("--realism", o.realism,
+                 "What real scans show, as NAME=VALUE,...: " + names_of_realism() +
+                     " (docs/methods/phantom-realism.md)")
+      ->delimiter(',');
   app.add_option("--noise", o.noise_hu, "Standard deviation of the noise, HU" + default_text(usual.noise_hu))
       ->check(CLI::Range(0.0, 500.0));
   app.add_option(
@@ -77,6 +102,9 @@ void add_phantom(CLI::App& app, PhantomCommand& o) {
   app.add_option("--surface-spacing", o.surface_spacing_mm,
                  "Edges of the true surfaces, mm; default 0.15, with phases 0.4")
       ->check(CLI::Range(0.05, 1.0));
+  for (const char* drawn : {"--disease", "--anatomy", "--calcium", "--stent", "--contrast", "--venous",
+                            "--noise", "--blur", "--blur-z", "--motion", "--stair-step", "--beam-hardening"})
+    app.get_option(drawn)->excludes(suite);
   app.add_flag("--no-report", o.no_report, "No report.html and no pictures");
   app.add_flag("--json", o.json, "suite.json on standard output");
 }

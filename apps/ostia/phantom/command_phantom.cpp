@@ -6,6 +6,7 @@
 #include "ostia/phantom/case_folder.h"
 #include "ostia/pipeline/manifest.h"
 
+#include <charconv>
 #include <chrono>
 #include <cstdio>
 
@@ -25,6 +26,24 @@ phantom::Preset preset_of(const std::string& name) {
   throw UsageError("the preset " + name + " is not known; it is tiny, small or full");
 }
 
+/// "name=value" each.
+void set_realism(const std::vector<std::string>& given, phantom::ScanRealism& realism) {
+  for (const std::string& one : given) {
+    const std::size_t sign = one.find('=');
+    const std::string name = one.substr(0, sign);
+    const std::string text = sign == std::string::npos ? "" : one.substr(sign + 1);
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size())
+      throw UsageError("--realism " + one + ": a name and a number are needed, as in tail=0.1");
+    try {
+      phantom::set_value(realism, name, value);
+    } catch (const InvalidInput& wrong) {
+      throw UsageError("--realism " + one + ": " + wrong.what());
+    }
+  }
+}
+
 phantom::SuiteOptions options_of(const PhantomCommand& command) {
   phantom::SuiteOptions options;
   options.first.seed = command.seed;
@@ -33,6 +52,8 @@ phantom::SuiteOptions options_of(const PhantomCommand& command) {
   options.first.variant = {phantom::anatomy_of(command.anatomy), command.calcium, command.stent_mm,
                            command.contrast_hu, command.venous};
   phantom::ScanOptions& scan = options.first.scan;
+  if (command.scanner == "measured") scan = phantom::measured_scan();
+  set_realism(command.realism, scan.realism);
   set_if(command.noise_hu, scan.noise_hu);
   set_if(command.blur_mm, scan.psf_fwhm_mm);
   set_if(command.blur_z_mm, scan.psf_fwhm_z_mm);
@@ -45,6 +66,7 @@ phantom::SuiteOptions options_of(const PhantomCommand& command) {
   if (command.phases > 1) options.first.surface_spacing_mm = spacing_of_phases_mm;
   set_if(command.surface_spacing_mm, options.first.surface_spacing_mm);
   if (command.contour_points > 0) options.first.contours.points = command.contour_points;
+  options.hard = command.suite == "hard";
   options.cases = command.cases;
   options.phases = command.phases;
   options.truth_only = command.truth_only;

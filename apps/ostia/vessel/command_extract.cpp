@@ -25,6 +25,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+void add_certainty(const coronary::VesselCertainty& certainty, Json& vessel) {
+  vessel["probability"] = certainty.probability;
+  vessel["pieces"] = Json::array();
+  for (const coronary::VesselPiece& piece : certainty.pieces)
+    vessel["pieces"].push_back(
+        {{"from_mm", piece.from_mm}, {"to_mm", piece.to_mm}, {"probability", piece.probability}});
+}
+
 Json facts_of(const session::FoundModel& result) {
   Json vessels = Json::array();
   const coronary::Extraction& found = result.found;
@@ -35,9 +43,12 @@ Json facts_of(const session::FoundModel& result) {
                        {"name", vessel.name},
                        {"likeliest", label.likeliest},
                        {"confidence", label.confidence},
+                       {"second", label.second},
+                       {"second_confidence", label.second_confidence},
                        {"evidence", found.notes[i].evidence},
                        {"length_mm", geometry::vessel_axis(found.vessels.tree, vessel).abscissa.back()},
                        {"doubt", result.doubts[i]}});
+    if (!found.certainty.empty()) add_certainty(found.certainty[i], vessels.back());
   }
   return {{"v", 1},
           {"kind", "extraction"},
@@ -60,6 +71,13 @@ void print_extracted(const Json& facts, bool as_json) {
   }
   std::printf("%zu ostia, %zu vessels, dominance %s\n", facts["ostia"].get<std::size_t>(),
               facts["vessels"].size(), facts["dominance"].get<std::string>().c_str());
+}
+
+/// The probability of each place, for the file of lines.
+std::vector<io::AlongVessels> along_of(const coronary::Extraction& found) {
+  return {{"Probability", [&found](std::int32_t vessel, double s_mm) {
+             return coronary::probability_at(found.certainty, found.vessels.tree, vessel, s_mm);
+           }}};
 }
 
 /// What is refused is told with the file's name, and with the way out that the command line has.
@@ -143,7 +161,7 @@ ExitCode run_extract(const ExtractCommand& o, const core::TaskContext& task) {
   for (const std::string& warning : result.found.warnings) core::log_warning(warning);
   task.throw_if_cancelled();
   made.make(result, session::ImageReference{source.sha256, source.pseudonym, o.axes});
-  if (!o.lines.empty()) io::write_centerlines(o.lines, result.model.tree);
+  if (!o.lines.empty()) io::write_centerlines(o.lines, result.model.tree, along_of(result.found));
   made.commit();
   task.set_progress(1.0);
   print_extracted(facts_of(result), o.json);

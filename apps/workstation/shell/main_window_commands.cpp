@@ -28,6 +28,7 @@
 #include "trees/commands.h"
 #include "trees/opening.h"
 #include "vessels/commands.h"
+#include "vessels/doubts.h"
 #include "vessels/finder.h"
 #include "views/commands.h"
 #include "views/grey_presets.h"
@@ -65,6 +66,7 @@ void MainWindow::build_commands() {
   heart_dock_->add_buttons(*commands_);
   add_vessel_commands(*commands_, desk_, *finder_, *outer_walls_, *evaluability_, tools);
   add_lesion_commands(*commands_, desk_, *lesions_);
+  add_doubt_commands(*commands_, desk_, panels_->doubts());
   add_measuring_commands(*commands_, desk_, *reporting_, tools);
   add_meshing_commands(*commands_, desk_, *meshing_);
   add_flow_commands(*commands_, desk_, *flow_cases_, *flow_results_);

@@ -88,7 +88,8 @@ class MenuBuilder {
     fill(menu->addMenu(tr("Series and phases")),
          {"view.series", "view.series_play", "view.best_phase", "view.own_series"});
     fill(menu, {line, "view.theme", "view.qa", "view.mesh"});
-    fill(menu->addMenu(tr("Go to")), {"view.root", "view.end", "view.next_lesion", "view.previous_lesion"});
+    fill(menu->addMenu(tr("Go to")), {"view.root", "view.end", "view.next_lesion", "view.previous_lesion",
+                                      "view.next_doubt", "view.previous_doubt"});
     fill(menu->addMenu(tr("Panels")),
          {"panel.next", "panel.previous", "panel.alone", line, "panel.vessels", "panel.cpr1", "panel.cpr2",
           "panel.section", "panel.slice", "panel.tree", "panel.profile", "panel.measurements", "panel.steps",

@@ -8,6 +8,7 @@
 #include "shell/panel.h"
 #include "shell/step_list.h"
 #include "shell/theme.h"
+#include "vessels/doubts.h"
 #include "vessels/list.h"
 #include "views/paint_queue.h"
 #include "views/scene_widget.h"
@@ -208,6 +209,11 @@ QWidget* PanelLayout::side_column() {
   tabs->setDocumentMode(true);
   tabs->addTab((new MeasurementList(desk_.bench, guard_))->with_filter(), tr("Measurements"));
   tabs->addTab((new StepList(desk_.bench, guard_))->with_filter(), tr("Steps"));
+  doubts_ = new DoubtList(desk_.bench);
+  tabs->setTabVisible(tabs->addTab(doubts_, tr("Doubts")), false);
+  connect(doubts_, &DoubtList::known, tabs, [tabs, list = doubts_](bool probabilities) {
+    tabs->setTabVisible(tabs->indexOf(list), probabilities);
+  });
   column->addWidget(tabs);
   column->setSizes({420, 320});
   // Names and numbers of vessels.

@@ -14,6 +14,7 @@ class QSplitter;
 namespace ostia::workstation {
 
 struct Desk;
+class DoubtList;
 class FloatingViews;
 class Hanging;
 class LesionList;
@@ -32,6 +33,7 @@ class PanelLayout final : public QObject {
   ProfileWidget& profile() { return *profile_; }
   VesselList& vessels() { return *vessels_; }
   LesionList& lesions() { return *lesions_; }
+  DoubtList& doubts() { return *doubts_; }
   const std::vector<PictureWidget*>& pictures() const { return pictures_; }
   /// Something in the title of the tree: a combo box, a button.
   void add_beside_tree(QWidget* control);
@@ -69,6 +71,7 @@ class PanelLayout final : public QObject {
   ProfileWidget* profile_ = nullptr;
   VesselList* vessels_ = nullptr;
   LesionList* lesions_ = nullptr;
+  DoubtList* doubts_ = nullptr;
   std::vector<PictureWidget*> pictures_;
   std::vector<QSplitter*> splitters_;
   std::map<const QSplitter*, std::string> parts_;  // their panels, in a wide window

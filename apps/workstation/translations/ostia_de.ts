@@ -1323,6 +1323,38 @@
         <translation>Alle Ansichten gehen zur engsten Stelle der Läsion davor in der Tabelle.</translation>
     </message>
     <message>
+        <source>This case has no probabilities: its vessels were not found by the program.</source>
+        <translation>Dieser Fall hat keine Wahrscheinlichkeiten: Das Programm hat seine Gefäße nicht gefunden.</translation>
+    </message>
+    <message>
+        <source>No place of this case is doubtful.</source>
+        <translation>Keine Stelle dieses Falls ist zweifelhaft.</translation>
+    </message>
+    <message>
+        <source>No other doubtful place in this direction.</source>
+        <translation>Keine weitere zweifelhafte Stelle in dieser Richtung.</translation>
+    </message>
+    <message>
+        <source>Doubtful place %1 of %2: %3, %4, probability %5</source>
+        <translation>Zweifelhafte Stelle %1 von %2: %3, %4, Wahrscheinlichkeit %5</translation>
+    </message>
+    <message>
+        <source>Next doubtful place</source>
+        <translation>Nächste zweifelhafte Stelle</translation>
+    </message>
+    <message>
+        <source>All views go to the place that the program is least sure of, then to the next in the order of doubt.</source>
+        <translation>Alle Ansichten gehen zur Stelle, deren das Programm am wenigsten sicher ist, dann zur nächsten in der Reihenfolge des Zweifels.</translation>
+    </message>
+    <message>
+        <source>Previous doubtful place</source>
+        <translation>Vorige zweifelhafte Stelle</translation>
+    </message>
+    <message>
+        <source>All views go back to the doubtful place before it.</source>
+        <translation>Alle Ansichten gehen zur zweifelhaften Stelle davor zurück.</translation>
+    </message>
+    <message>
         <source>&amp;Accept the lesion</source>
         <translation>Läsion &amp;annehmen</translation>
     </message>
@@ -2602,6 +2634,33 @@
     <message>
         <source>The plane can be dragged in 3D by its frame and its arrow.</source>
         <translation>Die Ebene lässt sich in 3D an ihrem Rahmen und ihrem Pfeil ziehen.</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::DoubtList</name>
+    <message>
+        <source>%1 to %2 mm</source>
+        <translation>%1 bis %2 mm</translation>
+    </message>
+    <message>
+        <source>Doubts</source>
+        <translation>Zweifel</translation>
+    </message>
+    <message>
+        <source>Vessel</source>
+        <translation>Gefäß</translation>
+    </message>
+    <message>
+        <source>Place</source>
+        <translation>Stelle</translation>
+    </message>
+    <message>
+        <source>Probability</source>
+        <translation>Wahrscheinlichkeit</translation>
+    </message>
+    <message>
+        <source>That a coronary artery is there and its axis lies in it, by the program</source>
+        <translation>Dass dort eine Koronararterie ist und ihre Mittellinie darin liegt, nach dem Programm</translation>
     </message>
 </context>
 <context>
@@ -4263,6 +4322,10 @@ Rechtsklick: ein eigenes Fenster, und zurück</translation>
 </context>
 <context>
     <name>ostia::workstation::PanelLayout</name>
+    <message>
+        <source>Doubts</source>
+        <translation>Zweifel</translation>
+    </message>
     <message>
         <source>Measurements and steps</source>
         <translation>Messungen und Schritte</translation>

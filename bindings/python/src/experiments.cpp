@@ -6,10 +6,13 @@
 
 #include "ostia/core/error.h"
 #include "ostia/experiments/carotid_report.h"
+#include "ostia/experiments/certainty.h"
 #include "ostia/experiments/editing_report.h"
 #include "ostia/experiments/extraction_report.h"
+#include "ostia/experiments/hard.h"
 #include "ostia/experiments/motion.h"
 #include "ostia/experiments/orientations_report.h"
+#include "ostia/experiments/reading.h"
 #include "ostia/experiments/robustness.h"
 #include "ostia/experiments/sensitivity.h"
 #include "ostia/experiments/smoothness_report.h"
@@ -24,18 +27,24 @@ namespace ostia::python {
 using experiments::BeatingHeartOptions;
 using experiments::CarotidOptions;
 using experiments::CarotidScan;
+using experiments::CertaintyOptions;
 using experiments::ChainMesh;
 using experiments::ChainOptions;
 using experiments::EditingOptions;
 using experiments::ExtractionScoreOptions;
+using experiments::HandTimes;
+using experiments::HardOptions;
 using experiments::MotionMethod;
 using experiments::MotionOptions;
 using experiments::OrientationsOptions;
 using experiments::ReaderOptions;
+using experiments::ReadingOptions;
+using experiments::ReadingPatients;
 using experiments::RobustnessOptions;
 using experiments::SensitivityOptions;
 using experiments::SmoothnessOptions;
 using experiments::TubeScanOptions;
+using phantom::HardStrength;
 using segmentation::RivalGrowthOptions;
 
 template <>
@@ -56,8 +65,17 @@ OSTIA_OPTIONS(ReaderOptions,
                section_share, beta_deg, eps_mm, most_strokes, seconds_a_stroke, seconds_a_point,
                seconds_a_view, seed),
               ())
+OSTIA_OPTIONS(HandTimes, (think_s, home_s, key_s, point_s, press_s), ())
+OSTIA_OPTIONS(ReadingOptions,
+              (tolerance_mm, least_diameter_mm, astray_mm, click_sigma_mm, view_mm, most_actions, times,
+               strokes, seed),
+              ())
+OSTIA_OPTIONS(ReadingPatients, (first_seed, patients, voxel_mm, hard, noise_hu, motion_mm, reader), ())
 OSTIA_OPTIONS(EditingOptions, (reader, observer, start_excess_mm, margin_mm, start_spacing_mm), ())
 OSTIA_OPTIONS(ExtractionScoreOptions, (astray_mm, threshold), ())
+OSTIA_OPTIONS(HardStrength, (noise, blur, motion, venous), ())
+OSTIA_OPTIONS(HardOptions, (first_seed, cases, easy, search, voxel_mm, strength, scores), ())
+OSTIA_OPTIONS(CertaintyOptions, (first_seed, patients, scans, voxel_mm), ())
 OSTIA_OPTIONS(TubeScanOptions,
               (spacing_mm, psf_fwhm_mm, psf_fwhm_z_mm, lumen_hu, gel_hu, noise_hu, margin_mm, seed), ())
 OSTIA_OPTIONS(OrientationsOptions,
@@ -179,6 +197,36 @@ void bind_patients(py::module_& m) {
         return experiments::robustness_json(
             experiments::vary_patients(experiments::usual_variations(), how, task), how);
       });
+  experiment<ReadingPatients>(m, "experiment_reading",
+                              "How many actions a simulated reader takes to a tree that is right, with the "
+                              "search and without: hours.",
+                              [](const ReadingPatients& how, const TaskContext& task) {
+                                return experiments::reading_json(experiments::read_patients(how, task), how);
+                              });
+  experiment<CertaintyOptions>(
+      m, "experiment_certainty",
+      "Whether the probability of found vessels, and of each centimetre, is the share that is right: hours.",
+      [](const CertaintyOptions& how, const TaskContext& task) {
+        return experiments::certainty_json(experiments::judge_certainty(how, task));
+      });
+  const std::string text = with_options<HardOptions>(m, "experiment_hard",
+                                                     "Two classical methods, and the search without a click, "
+                                                     "on patients and scans as a clinic has them; masks: a "
+                                                     "folder of patients' coronary masks, for hearts around "
+                                                     "their trees: hours. The figures as experiment.json "
+                                                     "has them.");
+  m.def(
+      "experiment_hard",
+      [](const std::optional<fs::path>& masks, const py::object& progress, const py::kwargs& options) {
+        const auto how = options_of<HardOptions>(options);
+        experiments::validate(how);
+        return json_of(watched(progress, [&](const TaskContext& task) {
+          std::vector<experiments::HardPatient> patients;
+          if (masks) patients = experiments::read_hard_patients(*masks, task.sub(0.0, 0.05));
+          return experiments::hard_json(experiments::run_hard(how, patients, task.sub(0.05, 1.0)), how);
+        }));
+      },
+      py::arg("masks") = py::none(), py::kw_only(), py::arg("progress") = py::none(), text.c_str());
   experiment<MotionOptions>(
       m, "experiment_motion",
       "Hearts whose motion is known: surfaces brought onto all phases by depth of the cage and by method.",

@@ -26,6 +26,7 @@ using phantom::ObserverOptions;
 using phantom::PlaqueKind;
 using phantom::Preset;
 using phantom::ScanOptions;
+using phantom::ScanRealism;
 using phantom::SuiteOptions;
 
 template <>
@@ -51,15 +52,20 @@ struct WordsOf<PlaqueKind> {
                                                                  {"mixed", PlaqueKind::mixed}};
 };
 OSTIA_OPTIONS(CaseVariant, (anatomy, calcium, stent_mm, contrast_hu, venous), ())
+OSTIA_OPTIONS(ScanRealism,
+              (noise_structure, iterative, undershoot, tail, tail_fwhm_mm, streaks, half_scan_motion_mm,
+               mixing, cava_hu, sternal_wires, clips, ecg_leads, pacemaker_leads, stent_struts),
+              ())
 OSTIA_OPTIONS(ScanOptions,
               (supersampling, psf_fwhm_mm, psf_fwhm_z_mm, noise_hu, noise_peak_per_mm, noise_fwhm_z_mm,
-               stair_step_mm, stair_block_mm, motion_mm, moving_centre, moving_radius_mm, beam_hardening),
+               stair_step_mm, stair_block_mm, motion_mm, moving_centre, moving_radius_mm, beam_hardening,
+               realism),
               (grid, seed))  // set from the preset and the case's seed
 OSTIA_OPTIONS(ContourOptions, (spacing_mm, observer_spacing_mm, points), ())
 OSTIA_OPTIONS(ObserverOptions, (count, healthy_mm, diseased_mm, axis_mm, axis_length_mm), (seed))
 OSTIA_OPTIONS(CaseOptions, (seed, preset, disease, variant, scan, contours, observers, surface_spacing_mm),
               (patient))  // arteries of a file
-OSTIA_OPTIONS(SuiteOptions, (first, cases, truth_only, mhd, nrrd, dicom, report, phases), ())
+OSTIA_OPTIONS(SuiteOptions, (first, cases, truth_only, mhd, nrrd, dicom, report, phases, hard), ())
 OSTIA_OPTIONS(BuiltinOptions,
               (seed, spacing_mm, blur_fwhm_mm, noise_hu, noise_grain_mm, lumen_hu, fat_hu, myocardium_hu), ())
 OSTIA_FIGURES(BuiltinStenosis, (tube, centre_mm, length_mm, diameter_stenosis, throat_radius_mm), ())

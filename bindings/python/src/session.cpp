@@ -12,6 +12,8 @@
 
 #include <pybind11/stl.h>
 
+#include <array>
+
 namespace ostia::python {
 
 namespace {
@@ -68,7 +70,39 @@ void bind_found(py::module_& m) {
             for (const auto& label : f.found.vessels.labels) values.push_back(label.confidence);
             return values;
           },
-          "of each vessel's name, 0 to 1")
+          "probability of each vessel's likeliest name")
+      .def_property_readonly(
+          "choices",
+          [](const FoundModel& f) {
+            std::vector<std::vector<std::pair<std::string, double>>> vessels;
+            for (const auto& label : f.found.vessels.labels) {
+              vessels.emplace_back();
+              if (!label.likeliest.empty()) vessels.back().emplace_back(label.likeliest, label.confidence);
+              if (!label.second.empty()) vessels.back().emplace_back(label.second, label.second_confidence);
+            }
+            return vessels;
+          },
+          "the names that each vessel may have, likeliest first, at most two: name, probability")
+      .def_property_readonly(
+          "probability",
+          [](const FoundModel& f) {
+            std::vector<double> values;
+            for (const auto& one : f.found.certainty) values.push_back(one.probability);
+            return values;
+          },
+          "that each vessel is a coronary artery and its axis lies in it; empty for a mask")
+      .def_property_readonly(
+          "pieces",
+          [](const FoundModel& f) {
+            std::vector<std::vector<std::array<double, 3>>> vessels;
+            for (const auto& one : f.found.certainty) {
+              vessels.emplace_back();
+              for (const auto& piece : one.pieces)
+                vessels.back().push_back({piece.from_mm, piece.to_mm, piece.probability});
+            }
+            return vessels;
+          },
+          "the same of each vessel's centimetres: from mm, to mm, probability")
       .def_property_readonly(
           "dominance",
           [](const FoundModel& f) { return std::string(coronary::word(f.found.vessels.dominance)); },

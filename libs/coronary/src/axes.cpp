@@ -60,6 +60,14 @@ void tell_gaps(const GrownBranch& branch, segmentation::MinimalPath& path) {
   }
 }
 
+/// An artery that does not come from the aorta.
+void tell_lost_beginning(const Ostium& ostium, segmentation::MinimalPath& path) {
+  if (ostium.beyond_mm > 0.0)
+    path.warnings.push_back("it begins " + core::mm_text(ostium.beyond_mm, 1) +
+                            " beyond the aorta's lumen, and none is seen between them: its ostium is closed, "
+                            "or the way from it was lost");
+}
+
 /// Follows the branches one after the other.
 class Centring {
  public:
@@ -108,6 +116,7 @@ class Centring {
       leave_out(branch, "it is " + core::mm_text(path.length_mm, 1) + " long");
       return;
     }
+    if (branch.parent < 0) tell_lost_beginning(ostia_[branch.ostium], path);
     tell_gaps(branch, path);
     add(std::move(path));
   }

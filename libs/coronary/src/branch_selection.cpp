@@ -21,12 +21,14 @@ Vec3 world_of(const imaging::Geometry& grid, std::int64_t voxel) {
 class BranchPicker {
  public:
   BranchPicker(const FrontNodes& nodes, const imaging::FloatVolume& tube,
-               const imaging::FloatVolume& radius_mm, const Voxels& unseen, double least_branch_mm)
+               const imaging::FloatVolume& radius_mm, const Voxels& unseen, double least_branch_mm,
+               const std::optional<VeinLook>& veins)
       : nodes_(nodes),
         tube_(tube),
         radius_mm_(radius_mm),
         unseen_(unseen),
-        least_branch_mm_(least_branch_mm) {
+        least_branch_mm_(least_branch_mm),
+        veins_(veins) {
     covered_.assign(tube.voxels.size(), 0);
   }
 
@@ -51,6 +53,15 @@ class BranchPicker {
     while (voxel >= 0 && !covered_[static_cast<std::size_t>(voxel)]) {
       way.push_back(voxel);
       voxel = nodes_.at(voxel).before;
+    }
+    if (voxel >= 0 && dismissed_.contains(voxel)) {
+      dismiss(way, way.size());
+      return;
+    }
+    if (const std::size_t vein = veins_ ? voxels_in_vein(*veins_, nodes_, tube_, radius_mm_, way) : 0;
+        vein > 0) {
+      dismiss(way, vein);
+      return;
     }
     if (!is_branch(end, voxel, way)) {
       // Nothing that hangs on this way is longer.
@@ -93,6 +104,14 @@ class BranchPicker {
     const auto middle = tube.begin() + static_cast<std::ptrdiff_t>(tube.size() / 2);
     std::nth_element(tube.begin(), middle, tube.end());
     return *middle >= clear_tube;
+  }
+
+  /// The first of a way, and what hangs on them.
+  void dismiss(const std::vector<std::int64_t>& way, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      covered_[static_cast<std::size_t>(way[i])] = 1;
+      dismissed_.insert(way[i]);
+    }
   }
 
   /// From the place before to the one behind what is not seen.
@@ -159,7 +178,9 @@ class BranchPicker {
   const imaging::FloatVolume& radius_mm_;
   const Voxels& unseen_;
   double least_branch_mm_;
+  const std::optional<VeinLook>& veins_;
   std::vector<std::uint8_t> covered_;
+  Voxels dismissed_;
   std::vector<GrownBranch> branches_;
 };
 
@@ -167,8 +188,9 @@ class BranchPicker {
 
 std::vector<GrownBranch> branches_on(const FrontNodes& nodes, const imaging::FloatVolume& tube,
                                      const imaging::FloatVolume& radius_mm,
-                                     const std::unordered_set<std::int64_t>& unseen, double least_branch_mm) {
-  return BranchPicker(nodes, tube, radius_mm, unseen, least_branch_mm).pick();
+                                     const std::unordered_set<std::int64_t>& unseen, double least_branch_mm,
+                                     const std::optional<VeinLook>& veins) {
+  return BranchPicker(nodes, tube, radius_mm, unseen, least_branch_mm, veins).pick();
 }
 
 }  // namespace ostia::coronary

@@ -2,6 +2,7 @@
 
 #include "heart_chambers.h"
 #include "input_checks.h"
+#include "search_image.h"
 
 #include "ostia/core/error.h"
 
@@ -103,6 +104,24 @@ void validate(const ExtractOptions& options) {
 
 namespace {
 
+void require_found(const Extraction& result, const GrownTree& grown) {
+  if (result.ostia.empty() && grown.lost.empty())
+    throw GeometryError(
+        "no coronary artery was found where one should leave the aorta: the root may lie outside of the "
+        "image, or the arteries hold too little contrast; draw a first vessel by its two ends");
+  if (grown.branches.empty())
+    throw GeometryError(
+        "nothing that looks like an artery goes on from where one leaves the aorta; draw a first vessel by "
+        "its two ends");
+  if (grown.branches.size() > most_branches)
+    throw GeometryError(
+        "what was found has " + std::to_string(grown.branches.size()) +
+        " branches, more than coronary arteries show: the image is too noisy (a deviation of " +
+        std::to_string(std::lround(result.aorta.noise_hu)) +
+        " HU in the aorta, in cubes of 1.5 mm) or veins and muscle are as bright as arteries; "
+        "take a smoother reconstruction, or draw a first vessel by its two ends");
+}
+
 Extraction extracted(const imaging::ImageVolume& image, const ExtractOptions& options,
                      const InputNotes& notes, const core::TaskContext& task) {
   Extraction result;
@@ -117,26 +136,17 @@ Extraction extracted(const imaging::ImageVolume& image, const ExtractOptions& op
     labels.least_confidence = no_names;
   }
   task.set_stage("finding where the coronary arteries leave it");
-  result.ostia = find_ostia(image, result.aorta, options.ostia, task.sub(0.2, 0.25));
-  if (result.ostia.empty())
-    throw GeometryError(
-        "no coronary artery was found where one should leave the aorta: the root may lie outside of the "
-        "image, "
-        "or the arteries hold too little contrast; draw a first vessel by its two ends");
+  const SearchImage search = search_image(image, result.aorta, task.sub(0.2, 0.22));
+  const imaging::ImageVolume& seen = search.of(image);
+  result.warnings.insert(result.warnings.end(), search.warnings.begin(), search.warnings.end());
+  result.ostia = find_ostia(seen, result.aorta, options.ostia, task.sub(0.22, 0.25));
   task.set_stage("growing the coronary tree");
-  const GrownTree grown = grow_tree(image, result.aorta, result.ostia, options.growth, task.sub(0.25, 0.85));
-  if (grown.branches.empty())
-    throw GeometryError(
-        "nothing that looks like an artery goes on from where one leaves the aorta; draw a first vessel by "
-        "its "
-        "two ends");
-  if (grown.branches.size() > most_branches)
-    throw GeometryError(
-        "what was found has " + std::to_string(grown.branches.size()) +
-        " branches, more than coronary arteries show: the image is too noisy (a deviation of " +
-        std::to_string(std::lround(result.aorta.noise_hu)) +
-        " HU in the aorta, in cubes of 1.5 mm) or veins and muscle are as bright as arteries; "
-        "take a smoother reconstruction, or draw a first vessel by its two ends");
+  GrowthOptions growth = options.growth;
+  growth.noise_hu = std::max(growth.noise_hu, search.noise_hu);
+  growth.image_blur_mm = std::hypot(growth.image_blur_mm, search.blur_mm);
+  const GrownTree grown = grow_tree(seen, result.aorta, result.ostia, growth, task.sub(0.25, 0.85));
+  require_found(result, grown);
+  result.ostia.insert(result.ostia.end(), grown.lost.begin(), grown.lost.end());
   task.set_stage("centring the vessels");
   CentredTree centred = centred_tree(image, grown, result.ostia, options.axes, task.sub(0.85, 0.98));
   result.warnings.insert(result.warnings.end(), centred.warnings.begin(), centred.warnings.end());
@@ -144,6 +154,7 @@ Extraction extracted(const imaging::ImageVolume& image, const ExtractOptions& op
   task.set_stage("naming the vessels");
   result.vessels = label_branches(centred.tree, labels);
   result.notes = in_order_of(result.vessels.tree, centred.notes);
+  result.certainty = certainty_of(image, result.vessels.tree, result.aorta);
   tell(result);
   tell_borders(result, image.geometry);
   task.set_progress(1.0);

@@ -1,11 +1,11 @@
 #include "gap_bridges.h"
 
 #include "median.h"
+#include "voxel_places.h"
 
 #include "ostia/geometry/polyline.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -29,22 +29,6 @@ constexpr double detour = 1.35, detour_mm = 1.0;
 
 double angle_deg(const Vec3& a, const Vec3& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b)) / degrees;
-}
-
-using Index = std::array<std::int64_t, 3>;
-
-Index index_of(const imaging::Geometry& grid, std::int64_t voxel) {
-  return {voxel % grid.size[0], voxel / grid.size[0] % grid.size[1], voxel / (grid.size[0] * grid.size[1])};
-}
-
-Vec3 place_of(const imaging::Geometry& grid, std::int64_t voxel) {
-  const Index at = index_of(grid, voxel);
-  return grid.world(Vec3(static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])));
-}
-
-std::int64_t voxel_at(const imaging::Geometry& grid, const Vec3& place) {
-  const Vec3 at = grid.index(place);
-  return grid.offset(std::lround(at.x()), std::lround(at.y()), std::lround(at.z()));
 }
 
 /// What a vessel is like along some of its voxels.
@@ -83,7 +67,7 @@ std::optional<End> end_of(const GrownFront& front, const GrownBranch& branch) {
     if (before_end <= tip_mm) tip += branch.points[i], tips += 1.0;
     if (before_end >= back_from_mm && before_end <= back_to_mm) back += branch.points[i], backs += 1.0;
     if (before_end >= calibre_from_mm && before_end <= calibre_to_mm)
-      voxels.push_back(voxel_at(front.image.geometry, branch.points[i]));
+      voxels.push_back(voxel_near(front.image.geometry, branch.points[i]));
   }
   if (backs == 0.0 || voxels.empty()) return std::nullopt;
   End end;
@@ -118,11 +102,11 @@ class Ahead {
     imaging::MaskVolume mask;
     mask.geometry = whole_;
     for (std::size_t a = 0; a < 3; ++a) mask.geometry.size[a] = box_.upper[a] - box_.lower[a];
-    mask.geometry.origin = place_of(whole_, whole_.offset(box_.lower[0], box_.lower[1], box_.lower[2]));
+    mask.geometry.origin = voxel_place(whole_, whole_.offset(box_.lower[0], box_.lower[1], box_.lower[2]));
     mask.voxels.assign(static_cast<std::size_t>(mask.geometry.voxels()), 0);
     const imaging::Geometry& grid = mask.geometry;
     for (std::int64_t voxel = 0; voxel < grid.voxels(); ++voxel) {
-      const Vec3 to = place_of(grid, voxel) - end.place;
+      const Vec3 to = voxel_place(grid, voxel) - end.place;
       const bool in_cone = to.norm() <= longest_mm && angle_deg(to, end.ahead) <= cone_deg;
       mask.voxels[static_cast<std::size_t>(voxel)] = to.norm() <= tip_mm || in_cone ? 1 : 0;
     }
@@ -130,8 +114,9 @@ class Ahead {
     for (float& value : seen_.response_hu.voxels) value /= static_cast<float>(front.contrast_hu);
     std::vector<FrontSource> sources;
     for (const Vec3& point : branch.points)
-      if ((point - end.place).norm() <= tip_mm) sources.push_back({voxel_at(grid, point), 0});
-    nodes_ = run_tube_front(seen_.response_hu, sources, least_gap_tube, task);
+      if ((point - end.place).norm() <= tip_mm) sources.push_back({voxel_near(grid, point), 0});
+    nodes_ =
+        run_tube_front(seen_.response_hu, sources, std::max(least_gap_tube, 0.5 * front.least_tube), task);
   }
 
   /// All that was met, the nearest first.
@@ -146,7 +131,7 @@ class Ahead {
   }
 
   std::int64_t in_image(std::int64_t voxel) const {
-    const Index at = index_of(seen_.response_hu.geometry, voxel);
+    const GridIndex at = grid_index(seen_.response_hu.geometry, voxel);
     return whole_.offset(at[0] + box_.lower[0], at[1] + box_.lower[1], at[2] + box_.lower[2]);
   }
 
@@ -173,19 +158,19 @@ class Ahead {
 /// Neighbouring voxels that look like a tube, from one of them on, as far as it is looked at.
 std::vector<std::int64_t> tube_about(const GrownFront& front, std::int64_t from) {
   const imaging::Geometry& grid = front.image.geometry;
-  const Vec3 middle = place_of(grid, from);
+  const Vec3 middle = voxel_place(grid, from);
   std::vector<std::int64_t> found{from};
   std::unordered_set<std::int64_t> known{from};
   for (std::size_t next = 0; next < found.size(); ++next) {
-    const Index at = index_of(grid, found[next]);
+    const GridIndex at = grid_index(grid, found[next]);
     for (int n = 0; n < 27; ++n) {
-      const Index to{at[0] + n % 3 - 1, at[1] + n / 3 % 3 - 1, at[2] + n / 9 - 1};
+      const GridIndex to{at[0] + n % 3 - 1, at[1] + n / 3 % 3 - 1, at[2] + n / 9 - 1};
       bool inside = true;
       for (std::size_t a = 0; a < 3; ++a) inside = inside && to[a] >= 0 && to[a] < grid.size[a];
       if (!inside) continue;
       const std::int64_t voxel = grid.offset(to[0], to[1], to[2]);
       if (static_cast<double>(front.tube.voxels[static_cast<std::size_t>(voxel)]) < front.least_tube ||
-          (place_of(grid, voxel) - middle).norm() > far_look_mm || !known.insert(voxel).second)
+          (voxel_place(grid, voxel) - middle).norm() > far_look_mm || !known.insert(voxel).second)
         continue;
       found.push_back(voxel);
     }
@@ -198,12 +183,12 @@ bool goes_on(const GrownFront& front, const End& end, const std::vector<std::int
   constexpr double core = 0.7;  // of its greatest likeness
   constexpr double narrowest = 0.5, widest = 1.5, faintest = 0.7, brightest = 1.3;
   const imaging::Geometry& grid = front.image.geometry;
-  const Vec3 start = place_of(grid, tube.front());
+  const Vec3 start = voxel_place(grid, tube.front());
   Vec3 mean = Vec3::Zero();
   double away = 0.0, farthest = 0.0;
   float most = 0.0F;
   for (const std::int64_t voxel : tube) {
-    const Vec3 to = place_of(grid, voxel) - start;
+    const Vec3 to = voxel_place(grid, voxel) - start;
     mean += to;
     away += to.norm();
     farthest = std::max(farthest, to.norm());
@@ -236,7 +221,7 @@ Bridge bridge_ahead(const GrownFront& front, const GrownBranch& branch, double l
     if (likeness < least_far_tube * end->calibre.tube || front.reached.contains(there) ||
         refused.contains(there))
       continue;
-    const double straight = (place_of(grid, there) - end->place).norm();
+    const double straight = (voxel_place(grid, there) - end->place).norm();
     if (ahead.way_mm(voxel) > detour * straight + detour_mm) continue;
     const std::vector<std::int64_t> tube = tube_about(front, there);
     if (goes_on(front, *end, tube)) return ahead.way_to(voxel);

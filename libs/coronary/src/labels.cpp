@@ -1,16 +1,20 @@
 #include "ostia/coronary/labels.h"
 
-#include "naming_rules.h"
+#include "branch_rules.h"
+#include "name_certainty.h"
+#include "name_reading.h"
 
 #include "ostia/core/error.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <set>
 
 namespace ostia::coronary {
 namespace {
 
-/// All paths named in a frame, and the order in which that was done: parents first.
+/// All paths named, and the order in which that was done: parents first.
 struct Naming {
   std::vector<PathName> names;
   MainVessels main;
@@ -50,20 +54,32 @@ int longest_left(const std::vector<TreePath>& paths, Naming& naming) {
   return best;
 }
 
-Naming named_in(const HeartFrame& frame, std::vector<TreePath>& paths) {
-  for (TreePath& path : paths) path.at = frame.places(path.points);
+Naming named_by(const NameReading& reading) {
   Naming naming;
-  naming.names.resize(paths.size());
-  name_sides(frame, paths, naming.names);
-  naming.main = name_main_vessels(paths, naming.names);
+  naming.names = reading.sided.names;
+  naming.main = reading.sided.main;
   for (const int main : {naming.main.lad, naming.main.lcx, naming.main.rca})
     if (main >= 0) naming.order.push_back(main);
-  for (int next = longest_left(paths, naming); next >= 0; next = longest_left(paths, naming)) {
-    name_branch(paths, naming.main, naming.names, next);
+  for (std::size_t i = 0; i < naming.names.size(); ++i)
+    if (naming.names[i].kind == "SVG") naming.order.push_back(static_cast<int>(i));
+  for (int next = longest_left(reading.paths, naming); next >= 0;
+       next = longest_left(reading.paths, naming)) {
+    name_branch(reading.paths, naming.main, naming.names, next);
     naming.order.push_back(next);
   }
-  settle_posterior(paths, naming.names);
+  settle_posterior(reading.paths, naming.names);
   return naming;
+}
+
+/// What the rules say becomes a probability, and that of the heart's lie comes into it.
+void make_probable(const NameReading& reading, Naming& naming) {
+  for (PathName& name : naming.names) {
+    const double raw = name.confidence;
+    name.confidence = reading.probability * as_probability(raw);
+    // The second has its share of what the first leaves.
+    const double left = reading.probability - name.confidence;
+    name.second_confidence = raw < 1.0 ? left * name.second_confidence / (1.0 - raw) : 0.0;
+  }
 }
 
 /// Numbers branches of a kind from their parent's beginning: D1, D2; the first of others has none: AM, AM2.
@@ -81,26 +97,39 @@ class Numbering {
                        &y = naming.names[static_cast<std::size_t>(b)];
         return x.leave_mm < y.leave_mm;
       });
-      const bool first_too = kind == "D" || kind == "OM" || kind == "S";
       int number = 1;
       for (const int i : members) {
         const bool given = naming.names[static_cast<std::size_t>(i)].confidence >= least_confidence;
-        likeliest_[i] = number > 1 || first_too ? kind + std::to_string(number) : kind;
+        likeliest_[i] = numbered(kind, number);
         if (!given) continue;
         name_[i] = likeliest_[i];
         ++number;
       }
     }
+    for (const int i : naming.order) {
+      const PathName& own = naming.names[static_cast<std::size_t>(i)];
+      if (own.second.empty()) continue;
+      const auto before = std::count_if(naming.order.begin(), naming.order.end(), [&](int other) {
+        const PathName& that = naming.names[static_cast<std::size_t>(other)];
+        return that.kind == own.second && name_.contains(other) && that.leave_mm < own.leave_mm;
+      });
+      second_[i] = numbered(own.second, 1 + static_cast<int>(before));
+    }
   }
   std::string likeliest(int path) const { return at(likeliest_, path); }
   std::string name(int path) const { return at(name_, path); }
+  std::string second(int path) const { return at(second_, path); }
 
  private:
+  static std::string numbered(const std::string& kind, int number) {
+    const bool first_too = kind == "D" || kind == "OM" || kind == "S";
+    return number > 1 || first_too ? kind + std::to_string(number) : kind;
+  }
   static std::string at(const std::map<int, std::string>& names, int path) {
     const auto found = names.find(path);
     return found == names.end() ? std::string() : found->second;
   }
-  std::map<int, std::string> likeliest_, name_;
+  std::map<int, std::string> likeliest_, name_, second_;
 };
 
 /// Ids of the vessels that reached each end before, and new ones for the others.
@@ -120,7 +149,7 @@ std::vector<std::int32_t> vessel_ids(const geometry::VesselTree& tree, const std
 }
 
 /// Where neither main vessel of the left tree lies where it should, the names of the right one are not to be
-/// trusted either: the image may be mirrored.
+/// trusted either: it may be a part of a heart alone.
 bool doubtful(std::size_t ostia, Naming& naming) {
   constexpr double unsure = 0.65;
   const auto weak = [&](int path) {
@@ -129,8 +158,17 @@ bool doubtful(std::size_t ostia, Naming& naming) {
   const bool left = std::any_of(naming.names.begin(), naming.names.end(),
                                 [](const PathName& name) { return name.side == CoronarySide::left; });
   if ((!left && ostia < 2) || !weak(naming.main.lad) || !weak(naming.main.lcx)) return false;
-  for (PathName& name : naming.names) name.confidence *= 0.5;
+  for (PathName& name : naming.names) {
+    name.confidence *= 0.5;
+    name.second_confidence *= 0.5;
+  }
   return true;
+}
+
+std::size_t count_of_roots(const std::vector<TreePath>& paths) {
+  std::set<std::int32_t> roots;
+  for (const TreePath& path : paths) roots.insert(path.root);
+  return roots.size();
 }
 
 void tell(const Naming& naming, LabelledTree& result) {
@@ -184,44 +222,42 @@ LabelledTree label_branches(const geometry::VesselTree& tree, const LabelOptions
   validate(options);
   if (const auto fault = geometry::find_fault(tree))
     throw InvalidInput("names of coronary arteries: " + *fault);
-  std::vector<TreePath> paths = paths_of(tree);
+  const std::vector<TreePath> paths = paths_of(tree);
   if (paths.empty()) throw InvalidInput("names of coronary arteries: the tree has no segments");
-  std::map<std::int32_t, Vec3> ostia;
-  for (const TreePath& path : paths) ostia[path.root] = path.points.front();
-  std::vector<Vec3> begin;
-  for (const auto& [root, place] : ostia) begin.push_back(place);
-  HeartFrame frame = usual_frame(begin, options.heart.long_axis);
-  Naming naming = named_in(frame, paths);
-  // The ring that the first names give makes better names, and these a better ring.
-  constexpr int turns = 3;
-  const HeartFrame usual = frame;
-  for (int turn = 0; turn < turns && !options.heart.long_axis; ++turn) {
-    const auto better = frame_of_ring(usual, groove_points(paths, naming.main));
-    if (!better) break;
-    frame = *better;
-    naming = named_in(frame, paths);
-  }
+  const NameReading reading = likeliest_reading(paths, options.heart.long_axis);
+  Naming naming = named_by(reading);
+  make_probable(reading, naming);
 
   LabelledTree result;
-  if (doubtful(ostia.size(), naming))
+  result.lie = {word(reading), reading.probability, as_given(reading)};
+  const bool unsure = doubtful(count_of_roots(paths), naming);
+  if (!result.lie.as_given)
+    result.warnings.push_back("the arteries lie as in a heart that is " + result.lie.word + " (probability " +
+                              std::to_string(std::lround(100.0 * reading.probability)) +
+                              " %): look whether the image is mirrored or turned; no vessel has a name");
+  else if (unsure)
     result.warnings.push_back(
         "the left coronary arteries do not lie as they do in a heart: look whether the image is mirrored or "
         "shows a part of the heart alone");
   result.tree.nodes = tree.nodes;
   result.tree.segments = tree.segments;
-  result.long_axis = frame.long_axis;
+  result.long_axis = reading.frame.long_axis.cwiseProduct(reading.signs);
+  constexpr double never = 2.0;
   const Numbering numbering(naming, options.least_confidence);
   const std::vector<std::int32_t> ids = vessel_ids(tree, paths);
   int unnamed = 0;
   for (const int i : naming.order) {
     const auto n = static_cast<std::size_t>(i);
-    std::string name = numbering.name(i);
-    if (name.empty()) name = "V" + std::to_string(++unnamed);
+    const PathName& own = naming.names[n];
+    std::string name = result.lie.as_given ? numbering.name(i) : "";
+    const bool given = !name.empty();
+    if (!given) name = "V" + std::to_string(++unnamed);
     result.tree.vessels.push_back({ids[n], name, paths[n].segments});
-    result.labels.push_back(
-        {ids[n], naming.names[n].side, numbering.likeliest(i), naming.names[n].confidence});
+    result.labels.push_back({ids[n], own.side, numbering.likeliest(i), own.confidence, numbering.second(i),
+                             own.second.empty() ? 0.0 : own.second_confidence, given});
   }
-  result.dominance = dominance_of(paths, naming.main, naming.names, options.least_confidence);
+  result.dominance = dominance_of(reading.paths, naming.main, naming.names,
+                                  result.lie.as_given ? options.least_confidence : never);
   tell(naming, result);
   return result;
 }

@@ -118,7 +118,9 @@ LabelledTree named_tree(const geometry::VesselTree& tree, const std::vector<std:
   result.tree.segments.insert(result.tree.segments.end(), rest.segments.begin(), rest.segments.end());
   for (geometry::Vessel vessel : rest.vessels) {
     vessel.name = "V" + std::to_string(++unnamed);
-    result.labels.push_back({vessel.id, CoronarySide::left, "", 0.0});
+    VesselLabel nameless;
+    nameless.vessel = vessel.id;
+    result.labels.push_back(std::move(nameless));
     result.tree.vessels.push_back(std::move(vessel));
   }
   return result;

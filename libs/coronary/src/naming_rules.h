@@ -2,7 +2,7 @@
 /// \file Rules by which paths of a coronary tree get their names; docs/methods/coronary-labels.md explains
 /// them.
 
-#include "tree_paths.h"
+#include "path_courses.h"
 
 #include "ostia/coronary/labels.h"
 
@@ -11,13 +11,12 @@
 
 namespace ostia::coronary {
 
-/// 0 far below, 1/2 at, 1 far above: how sure a rule is whose measure lies `x` over its bound.
-double sure(double over, double softness);
-
 /// What a path is thought to be.
 struct PathName {
   std::string kind;  ///< "LAD", "D", "OM", ... without numbers; empty: none of them
   double confidence = 0.0;
+  std::string second;  ///< what else; empty: nothing
+  double second_confidence = 0.0;
   CoronarySide side = CoronarySide::left;
   int parent = -1;        ///< index of the path it leaves; -1: begins at a root
   double leave_mm = 0.0;  ///< where it leaves it
@@ -28,15 +27,11 @@ struct MainVessels {
   double bifurcation_mm = -1.0;      ///< where LAD and LCX part; below 0 where they do not
 };
 
-/// The side to which each path's root belongs, with how sure that is.
-void name_sides(const HeartFrame& frame, const std::vector<TreePath>& paths, std::vector<PathName>& names);
-/// LAD, LCX and RCA among the paths of their sides.
+/// LAD, LCX and RCA among the paths of their sides that have no kind.
 MainVessels name_main_vessels(const std::vector<TreePath>& paths, std::vector<PathName>& names);
-/// A path that leaves another which has its kind already.
-void name_branch(const std::vector<TreePath>& paths, const MainVessels& main, std::vector<PathName>& names,
-                 int branch);
-/// Of the branches that run down behind, the posterior descending one and those beyond it.
-void settle_posterior(const std::vector<TreePath>& paths, std::vector<PathName>& names);
+
+/// By how much the heart is turned about its long axis, as far as the LAD tells.
+double roll_of(const std::vector<TreePath>& paths, const MainVessels& main);
 
 /// Points of the main vessels that run between atria and ventricles.
 std::vector<Vec3> groove_points(const std::vector<TreePath>& paths, const MainVessels& main);

@@ -152,8 +152,138 @@ void require_options(const EdgeOptions& options) {
     throw InvalidInput("edge width: half_length_mm and tube_radius_mm must lie in (0, 50]");
 }
 
+void require_same_grid(const imaging::ImageVolume& image, const imaging::MaskVolume& mask) {
+  if (!imaging::same_grid(image.geometry, mask.geometry))
+    throw InvalidInput("edge widths: the mask and the image are on different grids");
+}
+
 Vec3 vector_of(std::int64_t i, std::int64_t j, std::int64_t k) {
   return {static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)};
+}
+
+/// The places on a mask's boundary whose normals are wanted, and the smoothed mask that tells the normals:
+/// the noise of the image would turn them.
+struct BoundaryPlaces {
+  BoundaryPlaces(const imaging::MaskVolume& mask, EdgeDirection direction, const core::TaskContext& task)
+      : smooth{mask.geometry, std::vector<float>(mask.voxels.begin(), mask.voxels.end())} {
+    const Geometry& g = mask.geometry;
+    for (float& v : smooth.voxels) v = v != 0.0f ? 1.0f : 0.0f;
+    smooth = imaging::gaussian_blurred(smooth, 1.2 * g.spacing.maxCoeff(), task);
+    for (std::int64_t k = 1; k + 1 < g.size[2]; ++k) {
+      for (std::int64_t j = 1; j + 1 < g.size[1]; ++j) {
+        for (std::int64_t i = 1; i + 1 < g.size[0]; ++i) {
+          if (mask(i, j, k) == 0) continue;
+          const bool border = mask(i - 1, j, k) == 0 || mask(i + 1, j, k) == 0 || mask(i, j - 1, k) == 0 ||
+                              mask(i, j + 1, k) == 0 || mask(i, j, k - 1) == 0 || mask(i, j, k + 1) == 0;
+          if (!border) continue;
+          const Vec3 p = g.world(vector_of(i, j, k));
+          if (wanted(direction, imaging::sample_gradient(smooth, p), g)) places.push_back(p);
+        }
+      }
+    }
+  }
+  imaging::FloatVolume smooth;
+  std::vector<Vec3> places;
+};
+
+/// An edge that is good enough, with the voxels that it was fitted to.
+struct GoodEdge {
+  Edge edge;
+  std::vector<Sample> samples;
+};
+
+std::optional<GoodEdge> good_edge_at(const imaging::ImageVolume& image, const imaging::FloatVolume& smooth,
+                                     const Vec3& at, const EdgeOptions& options) {
+  const Geometry& g = image.geometry;
+  const Vec3 normal = imaging::sample_gradient(smooth, at).normalized();
+  const Vec3 middle = g.index(at);
+  const double reach_mm = std::hypot(options.half_length_mm, options.tube_radius_mm);
+  GoodEdge out;
+  std::array<std::int64_t, 3> lower{}, upper{};
+  for (int axis = 0; axis < 3; ++axis) {
+    const double reach = reach_mm / g.spacing[axis];
+    const auto a = static_cast<std::size_t>(axis);
+    lower[a] = std::max<std::int64_t>(0, static_cast<std::int64_t>(std::ceil(middle[axis] - reach)));
+    upper[a] = std::min(g.size[a], static_cast<std::int64_t>(std::floor(middle[axis] + reach)) + 1);
+  }
+  for (std::int64_t k = lower[2]; k < upper[2]; ++k) {
+    for (std::int64_t j = lower[1]; j < upper[1]; ++j) {
+      for (std::int64_t i = lower[0]; i < upper[0]; ++i) {
+        const Vec3 d = g.world(vector_of(i, j, k)) - at;
+        const double along = d.dot(normal);
+        if (std::abs(along) > options.half_length_mm) continue;
+        if ((d - along * normal).squaredNorm() > options.tube_radius_mm * options.tube_radius_mm) continue;
+        out.samples.push_back({along, static_cast<double>(image(i, j, k))});
+      }
+    }
+  }
+  if (out.samples.size() < 12) return std::nullopt;
+  const std::optional<Edge> edge = fit_edge(out.samples, options.half_length_mm);
+  if (!edge) return std::nullopt;
+  const double contrast = std::abs(edge->high - edge->low);
+  const bool whole = std::abs(edge->place) + 1.5 * edge->sigma < options.half_length_mm;
+  if (!whole || contrast < options.least_contrast_hu || edge->residual > options.most_residual * contrast)
+    return std::nullopt;
+  out.edge = *edge;
+  return out;
+}
+
+/// Every `step`-th of so many places is looked at.
+std::size_t step_of(std::size_t places, std::size_t most) {
+  return std::max<std::size_t>(1, places / std::max<std::size_t>(most, 1));
+}
+
+/// A mean profile, in bins.
+struct ProfileSum {
+  static constexpr double bin_mm = 0.1;
+  std::vector<double> sum, count;
+  std::size_t edges = 0;
+  explicit ProfileSum(double half_mm)
+      : sum(static_cast<std::size_t>(2.0 * std::ceil(half_mm / bin_mm))), count(sum.size(), 0.0) {}
+  double place(std::size_t bin) const {
+    return bin_mm * (static_cast<double>(bin) + 0.5 - 0.5 * static_cast<double>(sum.size()));
+  }
+  void add(const GoodEdge& good) {
+    const double height = good.edge.high - good.edge.low, sign = height > 0.0 ? 1.0 : -1.0;
+    const double low = std::min(good.edge.low, good.edge.high);
+    for (const Sample& s : good.samples) {
+      const double at = sign * (s.at_mm - good.edge.place) / bin_mm + 0.5 * static_cast<double>(sum.size());
+      if (at < 0.0 || at >= static_cast<double>(sum.size())) continue;
+      sum[static_cast<std::size_t>(at)] += (s.hu - low) / std::abs(height);
+      count[static_cast<std::size_t>(at)] += 1.0;
+    }
+    ++edges;
+  }
+  ProfileSum& operator+=(const ProfileSum& other) {
+    for (std::size_t b = 0; b < sum.size(); ++b) {
+      sum[b] += other.sum[b];
+      count[b] += other.count[b];
+    }
+    edges += other.edges;
+    return *this;
+  }
+};
+
+/// From 0 to 1 on the two sides.
+EdgeProfile profile_of(const ProfileSum& mean, double half_mm) {
+  EdgeProfile out;
+  out.edges = mean.edges;
+  std::array<double, 2> side{}, weight{};
+  for (std::size_t b = 0; b < mean.sum.size(); ++b) {
+    if (std::abs(mean.place(b)) < 0.6 * half_mm) continue;
+    side[mean.place(b) > 0.0] += mean.sum[b];
+    weight[mean.place(b) > 0.0] += mean.count[b];
+  }
+  if (weight[0] == 0.0 || weight[1] == 0.0) return out;
+  const double low = side[0] / weight[0], high = side[1] / weight[1];
+  for (std::size_t b = 0; b < mean.sum.size(); ++b) {
+    if (mean.count[b] == 0.0) continue;
+    out.at_mm.push_back(mean.place(b));
+    out.level.push_back((mean.sum[b] / mean.count[b] - low) / (high - low));
+    if (out.at_mm.back() < 0.0) out.undershoot = std::max(out.undershoot, -out.level.back());
+    if (out.at_mm.back() > 0.0) out.overshoot = std::max(out.overshoot, out.level.back() - 1.0);
+  }
+  return out;
 }
 
 }  // namespace
@@ -203,62 +333,16 @@ EdgeWidth edge_width(const imaging::ImageVolume& image,
 EdgeWidths edge_widths(const imaging::ImageVolume& image, const imaging::MaskVolume& mask,
                        const EdgeOptions& options, std::size_t most, const core::TaskContext& task) {
   require_options(options);
-  if (!imaging::same_grid(image.geometry, mask.geometry))
-    throw InvalidInput("edge widths: the mask and the image are on different grids");
-  const Geometry& g = image.geometry;
-  // The mask's smoothed gradient tells the normal; the noise of the image would turn it.
-  imaging::FloatVolume smooth{g, std::vector<float>(mask.voxels.begin(), mask.voxels.end())};
-  for (float& v : smooth.voxels) v = v != 0.0f ? 1.0f : 0.0f;
-  smooth = imaging::gaussian_blurred(smooth, 1.2 * g.spacing.maxCoeff(), task);
-  std::vector<Vec3> places;
-  for (std::int64_t k = 1; k + 1 < g.size[2]; ++k) {
-    for (std::int64_t j = 1; j + 1 < g.size[1]; ++j) {
-      for (std::int64_t i = 1; i + 1 < g.size[0]; ++i) {
-        if (mask(i, j, k) == 0) continue;
-        const bool border = mask(i - 1, j, k) == 0 || mask(i + 1, j, k) == 0 || mask(i, j - 1, k) == 0 ||
-                            mask(i, j + 1, k) == 0 || mask(i, j, k - 1) == 0 || mask(i, j, k + 1) == 0;
-        if (!border) continue;
-        const Vec3 p = g.world(vector_of(i, j, k));
-        if (wanted(options.direction, imaging::sample_gradient(smooth, p), g)) places.push_back(p);
-      }
-    }
-  }
+  require_same_grid(image, mask);
+  const BoundaryPlaces boundary(mask, options.direction, task);
+  const std::size_t step = step_of(boundary.places.size(), most);
   EdgeWidths result;
-  const std::size_t step = std::max<std::size_t>(1, places.size() / std::max<std::size_t>(most, 1));
-  result.tried = (places.size() + step - 1) / step;
+  result.tried = (boundary.places.size() + step - 1) / step;
   std::vector<double> widths(result.tried, 0.0);
   core::parallel_for(result.tried, 4, [&](std::size_t n) {
     task.throw_if_cancelled();
-    const Vec3 at = places[n * step];
-    const Vec3 normal = imaging::sample_gradient(smooth, at).normalized();
-    const Vec3 middle = g.index(at);
-    const double reach_mm = std::hypot(options.half_length_mm, options.tube_radius_mm);
-    std::vector<Sample> samples;
-    std::array<std::int64_t, 3> lower{}, upper{};
-    for (int axis = 0; axis < 3; ++axis) {
-      const double reach = reach_mm / g.spacing[axis];
-      const auto a = static_cast<std::size_t>(axis);
-      lower[a] = std::max<std::int64_t>(0, static_cast<std::int64_t>(std::ceil(middle[axis] - reach)));
-      upper[a] = std::min(g.size[a], static_cast<std::int64_t>(std::floor(middle[axis] + reach)) + 1);
-    }
-    for (std::int64_t k = lower[2]; k < upper[2]; ++k) {
-      for (std::int64_t j = lower[1]; j < upper[1]; ++j) {
-        for (std::int64_t i = lower[0]; i < upper[0]; ++i) {
-          const Vec3 d = g.world(vector_of(i, j, k)) - at;
-          const double along = d.dot(normal);
-          if (std::abs(along) > options.half_length_mm) continue;
-          if ((d - along * normal).squaredNorm() > options.tube_radius_mm * options.tube_radius_mm) continue;
-          samples.push_back({along, static_cast<double>(image(i, j, k))});
-        }
-      }
-    }
-    if (samples.size() < 12) return;
-    const std::optional<Edge> edge = fit_edge(samples, options.half_length_mm);
-    if (!edge) return;
-    const double contrast = std::abs(edge->high - edge->low);
-    const bool whole = std::abs(edge->place) + 1.5 * edge->sigma < options.half_length_mm;
-    if (whole && contrast >= options.least_contrast_hu && edge->residual <= options.most_residual * contrast)
-      widths[n] = fwhm_per_sigma * edge->sigma;
+    if (const auto good = good_edge_at(image, boundary.smooth, boundary.places[n * step], options))
+      widths[n] = fwhm_per_sigma * good->edge.sigma;
   });
   for (const double w : widths)
     if (w > 0.0) result.fwhm_mm.push_back(w);
@@ -272,6 +356,28 @@ EdgeWidths edge_widths(const imaging::ImageVolume& image, const imaging::MaskVol
   result.p25_mm = quantile(0.25);
   result.p75_mm = quantile(0.75);
   return result;
+}
+
+EdgeProfile edge_profile(const imaging::ImageVolume& image, const imaging::MaskVolume& mask,
+                         const EdgeOptions& options, std::size_t most, const core::TaskContext& task) {
+  require_options(options);
+  require_same_grid(image, mask);
+  const BoundaryPlaces boundary(mask, options.direction, task);
+  const std::size_t step = step_of(boundary.places.size(), most);
+  const ProfileSum none(options.half_length_mm);
+  const ProfileSum sum = core::parallel_reduce(
+      (boundary.places.size() + step - 1) / step, 16, none,
+      [&](std::size_t first, std::size_t last) {
+        ProfileSum part = none;
+        for (std::size_t n = first; n < last; ++n) {
+          task.throw_if_cancelled();
+          if (const auto good = good_edge_at(image, boundary.smooth, boundary.places[n * step], options))
+            part.add(*good);
+        }
+        return part;
+      },
+      [](ProfileSum a, const ProfileSum& b) { return a += b; });
+  return profile_of(sum, options.half_length_mm);
 }
 
 }  // namespace ostia::evaluation

@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
+#include <numeric>
 #include <string>
 
 namespace ostia::evaluation {
@@ -65,7 +67,9 @@ double peak_of(const std::vector<double>& frequency, const std::vector<double>& 
 
 }  // namespace
 
-NoisePower noise_power(const imaging::ImageVolume& image, const std::vector<NoiseRegion>& regions, int side) {
+namespace {
+
+void require_regions(const imaging::ImageVolume& image, const std::vector<NoiseRegion>& regions, int side) {
   const imaging::Geometry& g = image.geometry;
   if (side < 8)
     throw InvalidInput("noise power: a side of " + std::to_string(side) + " voxels; at least 8 are needed");
@@ -76,6 +80,24 @@ NoisePower noise_power(const imaging::ImageVolume& image, const std::vector<Nois
       throw InvalidInput("noise power: the region at (" + std::to_string(r[0]) + ", " + std::to_string(r[1]) +
                          ", " + std::to_string(r[2]) + ") reaches beyond the image");
   }
+}
+
+/// The square of `side` voxels at (i, j, k) less its trend.
+Eigen::VectorXd residual(const imaging::ImageVolume& image, const NoiseRegion& at, int side,
+                         const Eigen::MatrixXd& trend) {
+  Eigen::VectorXd values(side * side);
+  for (int j = 0; j < side; ++j) {
+    for (int i = 0; i < side; ++i) values[i + side * j] = image(at[0] + i, at[1] + j, at[2]);
+  }
+  values -= trend * (trend.transpose() * values);
+  return values;
+}
+
+}  // namespace
+
+NoisePower noise_power(const imaging::ImageVolume& image, const std::vector<NoiseRegion>& regions, int side) {
+  require_regions(image, regions, side);
+  const imaging::Geometry& g = image.geometry;
   const Eigen::MatrixXd trend = trends(side);
   const Spectrum fourier = fourier_matrix(side);
   const Eigen::MatrixXd sum = core::parallel_reduce(
@@ -83,12 +105,7 @@ NoisePower noise_power(const imaging::ImageVolume& image, const std::vector<Nois
       [&](std::size_t first, std::size_t last) {
         Eigen::MatrixXd power = Eigen::MatrixXd::Zero(side, side);
         for (std::size_t n = first; n < last; ++n) {
-          Eigen::VectorXd values(side * side);
-          for (int j = 0; j < side; ++j) {
-            for (int i = 0; i < side; ++i)
-              values[i + side * j] = image(regions[n][0] + i, regions[n][1] + j, regions[n][2]);
-          }
-          values -= trend * (trend.transpose() * values);
+          const Eigen::VectorXd values = residual(image, regions[n], side, trend);
           const Eigen::Map<const Square> square(values.data(), side, side);
           power += (fourier * square * fourier).cwiseAbs2();
         }
@@ -104,6 +121,7 @@ NoisePower noise_power(const imaging::ImageVolume& image, const std::vector<Nois
   const double ring = 1.0 / (side * std::max(dx, dy));
   const auto rings = static_cast<std::size_t>(std::floor(0.5 / std::max(dx, dy) / ring));
   std::vector<double> total(rings, 0.0), count(rings, 0.0), frequencies(rings, 0.0);
+  std::complex<double> harmonic = 0.0;
   for (int v = 0; v < side; ++v) {
     for (int u = 0; u < side; ++u) {
       const double fx = (u <= side / 2 ? u : u - side) / (side * dx),
@@ -114,6 +132,7 @@ NoisePower noise_power(const imaging::ImageVolume& image, const std::vector<Nois
       total[r] += power(u, v);
       frequencies[r] += f;
       count[r] += 1.0;
+      harmonic += power(u, v) * std::polar(1.0, 2.0 * std::atan2(fy, fx));
     }
   }
   double weighted = 0.0, whole = 0.0;
@@ -124,8 +143,38 @@ NoisePower noise_power(const imaging::ImageVolume& image, const std::vector<Nois
     weighted += result.frequency_per_mm.back() * result.power_hu2_mm2.back();
     whole += result.power_hu2_mm2.back();
   }
+  const double all = std::accumulate(total.begin(), total.end(), 0.0);
+  if (all > 0.0) {
+    result.anisotropy = std::abs(harmonic) / all;
+    const double across = std::arg(harmonic) * 90.0 / std::numbers::pi;
+    result.streaks_deg = std::fmod(across + 90.0 + 180.0, 180.0);
+  }
   result.mean_per_mm = whole > 0.0 ? weighted / whole : 0.0;
   result.peak_per_mm = whole > 0.0 ? peak_of(result.frequency_per_mm, result.power_hu2_mm2) : 0.0;
+  return result;
+}
+
+std::vector<double> noise_correlation_along_k(const imaging::ImageVolume& image,
+                                              const std::vector<NoiseRegion>& regions, int side, int most) {
+  require_regions(image, regions, side);
+  if (most < 1) throw InvalidInput("noise correlation: at least one slice apart must be asked for");
+  const Eigen::MatrixXd trend = trends(side);
+  std::vector<double> result;
+  for (int lag = 1; lag <= most; ++lag) {
+    double product = 0.0, first = 0.0, second = 0.0;
+    for (const NoiseRegion& at : regions) {
+      if (at[2] + lag >= image.geometry.size[2]) continue;
+      const Eigen::VectorXd a = residual(image, at, side, trend);
+      const Eigen::VectorXd b = residual(image, {at[0], at[1], at[2] + lag}, side, trend);
+      product += a.dot(b);
+      first += a.squaredNorm();
+      second += b.squaredNorm();
+    }
+    if (!(first > 0.0 && second > 0.0))
+      throw InvalidInput("noise correlation: no square has noise in the slice " + std::to_string(lag) +
+                         " above it, too");
+    result.push_back(product / std::sqrt(first * second));
+  }
   return result;
 }
 

@@ -9,13 +9,13 @@
 namespace ostia::evaluation {
 namespace {
 
-using json = nlohmann::ordered_json;
+using SuiteJson = nlohmann::ordered_json;
 
 constexpr FindingKind kinds[] = {FindingKind::regression, FindingKind::missing, FindingKind::improvement,
                                  FindingKind::change, FindingKind::extra};
 
-json number(const std::optional<double>& value) {
-  return value && std::isfinite(*value) ? json(*value) : json(nullptr);
+SuiteJson number(const std::optional<double>& value) {
+  return value && std::isfinite(*value) ? SuiteJson(*value) : SuiteJson(nullptr);
 }
 
 const char* name_of_direction(Direction direction) {
@@ -26,12 +26,12 @@ const char* name_of_direction(Direction direction) {
 }  // namespace
 
 std::string suite_json(const SuiteResult& result) {
-  json out{{"v", 1},
-           {"passed", result.passed()},
-           {"files_compared", result.files.size()},
-           {"figures_compared", result.figures}};
+  SuiteJson out{{"v", 1},
+                {"passed", result.passed()},
+                {"files_compared", result.files.size()},
+                {"figures_compared", result.figures}};
   for (const FindingKind kind : kinds) out["counts"][name_of(kind)] = result.count(kind);
-  out["findings"] = json::array();
+  out["findings"] = SuiteJson::array();
   for (const Finding& f : result.findings)
     out["findings"].push_back({{"kind", name_of(f.kind)},
                                {"file", f.file},
@@ -40,12 +40,12 @@ std::string suite_json(const SuiteResult& result) {
                                {"result", number(f.result)},
                                {"allowed", f.allowed},
                                {"text", f.text}});
-  out["files"] = json::array();
+  out["files"] = SuiteJson::array();
   for (const ComparedFile& file : result.files) {
-    json one{{"file", file.file},
-             {"kind", name_of(file.kind)},
-             {"differs", file.differs},
-             {"figures", json::array()}};
+    SuiteJson one{{"file", file.file},
+                  {"kind", name_of(file.kind)},
+                  {"differs", file.differs},
+                  {"figures", SuiteJson::array()}};
     for (const FigurePair& f : file.figures)
       one["figures"].push_back({{"key", f.key},
                                 {"golden", number(f.golden)},

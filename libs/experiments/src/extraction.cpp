@@ -14,21 +14,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-std::vector<fs::path> cases_of(const fs::path& suite) {
-  std::vector<fs::path> cases;
-  if (fs::is_directory(suite)) {
-    for (const auto& entry : fs::directory_iterator(suite))
-      if (entry.is_directory() && entry.path().filename().string().starts_with("dataset"))
-        cases.push_back(entry.path());
-  }
-  if (cases.empty())
-    throw InvalidInput(suite.filename().string() +
-                       " holds no dataset folders; make a suite by `ostia phantom -o DIR --cases 18 "
-                       "--preset full --formats nrrd`");
-  std::sort(cases.begin(), cases.end());
-  return cases;
-}
-
 ExtractionRun run_case(const fs::path& folder, const ExtractionScoreOptions& options,
                        const core::TaskContext& task) {
   const ExtractionTruth truth = read_extraction_truth(folder);
@@ -64,6 +49,21 @@ void validate(const ExtractionScoreOptions& options) {
     throw InvalidInput("extraction experiment: the threshold of stenoses lies between 0 and 1");
 }
 
+std::vector<fs::path> cases_of_suite(const fs::path& suite) {
+  std::vector<fs::path> cases;
+  if (fs::is_directory(suite)) {
+    for (const auto& entry : fs::directory_iterator(suite))
+      if (entry.is_directory() && entry.path().filename().string().starts_with("dataset"))
+        cases.push_back(entry.path());
+  }
+  if (cases.empty())
+    throw InvalidInput(suite.filename().string() +
+                       " holds no dataset folders; make a suite by `ostia phantom -o DIR --cases 18 "
+                       "--preset full --formats nrrd`");
+  std::sort(cases.begin(), cases.end());
+  return cases;
+}
+
 fs::path image_of_case(const fs::path& folder) {
   std::vector<fs::path> images;
   for (const auto& entry : fs::directory_iterator(folder)) {
@@ -95,7 +95,7 @@ std::string name_of(NameVerdict verdict) {
 std::vector<ExtractionRun> extract_suite(const fs::path& suite, const ExtractionScoreOptions& options,
                                          const core::TaskContext& task) {
   validate(options);
-  const std::vector<fs::path> cases = cases_of(suite);
+  const std::vector<fs::path> cases = cases_of_suite(suite);
   for (const fs::path& one : cases) image_of_case(one);  // before hours of work
   std::vector<ExtractionRun> runs;
   const double count = static_cast<double>(cases.size());

@@ -1,5 +1,7 @@
 #include "ostia/experiments/robustness.h"
 
+#include "heart_field.h"
+
 #include "ostia/core/error.h"
 #include "ostia/core/text.h"
 #include "ostia/coronary/extract.h"
@@ -18,8 +20,6 @@ using core::rounded_text;
 using geometry::Vec3;
 using phantom::Anatomy;
 
-constexpr double about_heart_mm = 15.0, aorta_above_mm = 45.0;
-
 /// Nothing but water: what is left of its scan is the noise.
 class Water : public phantom::Scene {
   class Part : public phantom::ScenePart {
@@ -35,26 +35,6 @@ class Water : public phantom::Scene {
   }
 };
 
-/// The heart's field: the tree and the root with the beginning of the aorta.
-imaging::Geometry field_about(const phantom::CasePlan& plan, double voxel_mm, double slice_mm) {
-  geometry::Box3 box;
-  for (const phantom::CoronaryVessel& vessel : plan.tree.vessels)
-    for (const Vec3& point : vessel.axis.points) box.extend(point);
-  const phantom::AorticRoot& root = plan.heart.root;
-  box.extend(root.annulus - Vec3::Constant(root.sinus_radius_mm));
-  box.extend(root.annulus + Vec3::Constant(root.sinus_radius_mm));
-  const Vec3 above = root.annulus + aorta_above_mm * root.axis;
-  box.extend(above);
-  imaging::Geometry grid;
-  grid.spacing = {voxel_mm, voxel_mm, slice_mm};
-  const Vec3 lower = box.min() - Vec3(about_heart_mm, about_heart_mm, 5.0);
-  const Vec3 size = box.max() + Vec3(about_heart_mm, about_heart_mm, 0.0) - lower;
-  for (int a = 0; a < 3; ++a)
-    grid.size[static_cast<std::size_t>(a)] = static_cast<std::int64_t>(std::ceil(size[a] / grid.spacing[a]));
-  grid.origin = lower;
-  return grid;
-}
-
 phantom::CasePlan plan_of(const Variation& variation, std::uint64_t seed, const RobustnessOptions& options) {
   phantom::CaseOptions patient;
   patient.seed = seed;
@@ -63,7 +43,7 @@ phantom::CasePlan plan_of(const Variation& variation, std::uint64_t seed, const 
   patient.scan.motion_mm = variation.motion_mm;
   phantom::CasePlan plan = phantom::plan_case(patient);
   phantom::ScanOptions& scan = plan.options.scan;
-  scan.grid = field_about(plan, options.voxel_mm, variation.slice_mm);
+  scan.grid = heart_field(plan, options.voxel_mm, variation.slice_mm);
   scan.supersampling = 3;
   scan.psf_fwhm_mm = std::max(scan.psf_fwhm_mm, 0.5 * options.voxel_mm);
   scan.psf_fwhm_z_mm = std::max(scan.psf_fwhm_z_mm, 0.9 * variation.slice_mm);
@@ -114,25 +94,22 @@ ExtractionTruth truth_of(const phantom::CasePlan& plan, const imaging::Geometry&
   return truth;
 }
 
-RobustnessRun run_one(const Variation& variation, const phantom::CasePlan& plan,
-                      const imaging::ImageVolume& image, const RobustnessOptions& options,
+RobustnessRun run_one(const VariedScan& scan, const RobustnessOptions& options,
                       const core::TaskContext& task) {
   RobustnessRun run;
-  run.variation = variation;
-  run.seed = plan.options.seed;
-  ExtractionTruth truth = truth_of(plan, image.geometry);
-  truth.case_name = variation.what + " " + variation.step;
+  run.variation = scan.variation;
+  run.seed = scan.seed;
   const auto start = std::chrono::steady_clock::now();
-  const auto refused = [&](const std::string& why) { run.score = score_of_no_extraction(truth, why); };
+  const auto refused = [&](const std::string& why) { run.score = score_of_no_extraction(scan.truth, why); };
   double seconds = 0.0;
   const auto passed = [&] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   };
   try {
-    const coronary::Extraction found = coronary::extract(image, {}, task);
+    const coronary::Extraction found = coronary::extract(scan.image, {}, task);
     seconds = passed();
     run.warnings = found.warnings;
-    run.score = score_axes(truth, found.vessels, options.scores, task);
+    run.score = score_axes(scan.truth, found.vessels, options.scores, task);
   } catch (const GeometryError& error) {
     seconds = passed();
     refused(error.what());
@@ -191,17 +168,17 @@ void validate(const RobustnessOptions& options) {
   validate(options.scores);
 }
 
-std::vector<RobustnessRun> vary_patients(const std::vector<Variation>& variations,
-                                         const RobustnessOptions& options, const core::TaskContext& task) {
+void scan_patients(const std::vector<Variation>& variations, const RobustnessOptions& options,
+                   const std::function<void(const VariedScan&, const core::TaskContext&)>& look,
+                   const core::TaskContext& task) {
   validate(options);
-  std::vector<RobustnessRun> runs;
+  double done = 0.0;
   const double count = static_cast<double>(options.seeds) * static_cast<double>(variations.size());
   for (int patient = 0; patient < options.seeds; ++patient) {
     const std::uint64_t seed = options.first_seed + static_cast<std::uint64_t>(patient);
     std::string scanned;  // what the clean image shows
     imaging::ImageVolume clean;
     for (const Variation& variation : variations) {
-      const double done = static_cast<double>(runs.size());
       const core::TaskContext part = task.sub(done / count, (done + 1.0) / count);
       part.throw_if_cancelled();
       const phantom::CasePlan plan = plan_of(variation, seed, options);
@@ -211,10 +188,24 @@ std::vector<RobustnessRun> vary_patients(const std::vector<Variation>& variation
       imaging::ImageVolume image = clean;
       add_noise(image, plan, variation.noise_hu, part.sub(0.7, 0.75));
       if (variation.kept < 1.0) image = upper_part(image, variation.kept);
-      task.set_stage(variation.what + " " + variation.step);
-      runs.push_back(run_one(variation, plan, image, options, part.sub(0.75, 1.0)));
+      ExtractionTruth truth = truth_of(plan, image.geometry);
+      truth.case_name = variation.what + " " + variation.step;
+      task.set_stage(truth.case_name);
+      look({variation, seed, image, truth}, part.sub(0.75, 1.0));
+      done += 1.0;
     }
   }
+}
+
+std::vector<RobustnessRun> vary_patients(const std::vector<Variation>& variations,
+                                         const RobustnessOptions& options, const core::TaskContext& task) {
+  std::vector<RobustnessRun> runs;
+  scan_patients(
+      variations, options,
+      [&](const VariedScan& scan, const core::TaskContext& part) {
+        runs.push_back(run_one(scan, options, part));
+      },
+      task);
   return runs;
 }
 

@@ -1,9 +1,10 @@
 #include "ostia/experiments/simulated_reader.h"
 
+#include "wall_on_ray.h"
+
 #include "ostia/core/error.h"
 #include "ostia/evaluation/contour_surface.h"
 #include "ostia/geometry/aabb_tree.h"
-#include "ostia/geometry/zero_crossing.h"
 #include "ostia/phantom/noise.h"
 #include "ostia/reformat/curved_reformation.h"
 
@@ -21,7 +22,7 @@ using geometry::Vec2;
 
 using std::numbers::pi;
 constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
-constexpr double farthest_mm = 8.0;    // a wall is looked for so far from the axis
+constexpr double farthest_mm = farthest_wall_mm;
 constexpr double beyond_mm = 1.5;      // a stroke that reaches an end of the overlay runs on so far
 constexpr double clear_mm = 0.2;       // a stroke stays so far from the axis, which is in the picture too
 constexpr double joined_gap_mm = 3.0;  // disagreements nearer to each other are mended by one stroke
@@ -30,19 +31,10 @@ constexpr int section_angles = 24;
 constexpr int never_again = 30;  // a gain is halved for each time that a stroke was drawn there
 constexpr double least_gain = 1e-3;
 
-/// The wall as seen along a ray across the axis: its first crossing outwards.
-double wall_on_ray(const lumen::ScalarField& wall, const AxisCurve& axis, double s, double theta) {
-  const Vec3 foot = axis.point(s), direction = axis.place(s, theta, 1.0) - foot;
-  constexpr double step = 0.2;
-  if (wall.value(foot) >= 0.0) return nowhere;
-  for (double rho = step; rho <= farthest_mm; rho += step) {
-    if (wall.value(foot + rho * direction) < 0.0) continue;
-    const double t = geometry::zero_crossing(
-        [&](double u) { return wall.value(foot + (rho - step + u * step) * direction); },
-        {.value = 1e-4, .bracket = 1e-4, .most_iterations = 30});
-    return rho - step + t * step;
-  }
-  return nowhere;
+/// The wall across the axis.
+double wall_across(const lumen::ScalarField& wall, const AxisCurve& axis, double s, double theta) {
+  const Vec3 foot = axis.point(s);
+  return wall_on_ray(wall, foot, axis.place(s, theta, 1.0) - foot);
 }
 
 /// Cubic through the chosen places (Fritsch-Carlson would be as good): how a person sees a line through
@@ -108,7 +100,7 @@ struct SimulatedReader::Impl {
       std::vector<double> off(rows.size(), 0.0);
       for (std::size_t i = 0; i < rows.size(); ++i) {
         if (std::isnan(line[k][i])) continue;
-        const double rho = wall_on_ray(wall, *axis, rows[i], angles[k]);
+        const double rho = wall_across(wall, *axis, rows[i], angles[k]);
         off[i] = std::isnan(rho) ? farthest_mm : std::abs(rho - line[k][i]);
       }
       for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -140,7 +132,7 @@ struct SimulatedReader::Impl {
       for (int a = 0; a < section_angles; ++a) {
         const double overlay = ring[k][static_cast<std::size_t>(a)];
         if (std::isnan(overlay)) continue;
-        const double rho = wall_on_ray(wall, *axis, sections[k], 2.0 * pi * a / section_angles);
+        const double rho = wall_across(wall, *axis, sections[k], 2.0 * pi * a / section_angles);
         const double off = std::isnan(rho) ? farthest_mm : std::abs(rho - overlay);
         sum += std::min(off, 2.0);
         worst = std::max(worst, off);
@@ -255,7 +247,7 @@ struct SimulatedReader::Impl {
 
 SimulatedReader::SimulatedReader(const geometry::ContourSection& overlay,
                                  std::shared_ptr<const AxisCurve> axis, std::int32_t vessel,
-                                 const ReaderOptions& options)
+                                 const ReaderOptions& options, const Hidden& hidden)
     : impl_(std::make_unique<Impl>()) {
   validate(options);
   if (const auto fault = geometry::find_fault(overlay))
@@ -278,9 +270,10 @@ SimulatedReader::SimulatedReader(const geometry::ContourSection& overlay,
 
   const geometry::AabbTree surface(evaluation::surface_of(overlay));
   const auto seen = [&](double s, double theta) {
-    const Vec3 origin = m.axis->point(s);
-    const auto hit = surface.first_hit(origin, m.axis->place(s, theta, 1.0) - origin);
-    return hit && hit->t <= farthest_mm ? std::max(hit->t, clear_mm) : nowhere;
+    const Vec3 origin = m.axis->point(s), direction = m.axis->place(s, theta, 1.0) - origin;
+    const auto hit = surface.first_hit(origin, direction);
+    if (!hit || hit->t > farthest_mm || (hidden && hidden(origin + hit->t * direction))) return nowhere;
+    return std::max(hit->t, clear_mm);
   };
   // The first and the last row lie just inside the ends, where a ray still meets the overlay.
   const double inset = 0.05;

@@ -103,8 +103,10 @@ VesselTree read_centerline_table(const fs::path& path) {
   return tree_of_lines(lines, names);
 }
 
-std::string centerline_table_text(const VesselTree& tree) {
-  std::string out = "vessel,x,y,z,radius,abscissa\n";
+std::string centerline_table_text(const VesselTree& tree, const std::vector<AlongVessels>& along) {
+  std::string out = "vessel,x,y,z,radius,abscissa";
+  for (const AlongVessels& one : along) out += ',' + core::csv_cell(one.name);
+  out += '\n';
   for (const Vessel& vessel : tree.vessels) {
     const Centerline axis = geometry::vessel_axis(tree, vessel);
     if (vessel.name.find_first_of("\r\n") != std::string::npos)
@@ -118,6 +120,11 @@ std::string centerline_table_text(const VesselTree& tree) {
            {axis.points[i].x(), axis.points[i].y(), axis.points[i].z(), axis.radius[i], axis.abscissa[i]}) {
         out += ',';
         out += core::shortest_text(value);
+      }
+      for (const AlongVessels& one : along) {
+        const double value = one.at(vessel.id, axis.abscissa[i]);
+        out += ',';
+        if (std::isfinite(value)) out += core::shortest_text(value);
       }
       out += '\n';
     }

@@ -97,10 +97,10 @@ std::optional<geometry::BranchedLines> read_branched_lines(const fs::path& path)
   return branched_lines_of(*data, path);
 }
 
-void write_centerlines(const fs::path& path, const VesselTree& tree) {
+void write_centerlines(const fs::path& path, const VesselTree& tree, const std::vector<AlongVessels>& along) {
   const std::string extension = path.extension().string();
-  if (extension == ".vtp") return core::write_file(path, tracts_text(tree));
-  if (extension == ".csv") return core::write_file(path, centerline_table_text(tree));
+  if (extension == ".vtp") return core::write_file(path, tracts_text(tree, along));
+  if (extension == ".csv") return core::write_file(path, centerline_table_text(tree, along));
   if (is_markups_file(path) && extension != ".fcsv") return write_markups(path, curves_of(tree));
   throw InvalidInput("cannot write " + path.string() +
                      ": centerlines are written as .vtp, .csv or .mrk.json");

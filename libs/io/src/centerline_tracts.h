@@ -4,7 +4,7 @@
 #include "line_tree.h"
 #include "vtk/xml.h"
 
-#include "ostia/geometry/branch_groups.h"
+#include "ostia/io/centerline_file.h"
 
 #include <filesystem>
 #include <string>
@@ -32,6 +32,6 @@ std::vector<FileLine> lines_of_tracts(vtkPolyData& data, const std::filesystem::
 geometry::BranchedLines branched_lines_of(vtkPolyData& data, const std::filesystem::path& path);
 
 /// The file that write_centerlines writes.
-std::string tracts_text(const geometry::VesselTree& tree);
+std::string tracts_text(const geometry::VesselTree& tree, const std::vector<AlongVessels>& along);
 
 }  // namespace ostia::io

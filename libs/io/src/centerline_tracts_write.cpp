@@ -31,6 +31,7 @@ struct TractColumns {
   std::vector<std::int32_t> segment;
   std::vector<std::int32_t> vessel, group, tract, blanking;
   std::vector<double> length, tortuosity;
+  std::vector<std::vector<double>> along;  ///< one for each AlongVessels
 };
 
 /// A direction between two points' directions.
@@ -55,7 +56,8 @@ void add_tract_points(const BranchedLine& line, const LineGeometry& bends,
   }
 }
 
-void add_branched_line(const BranchedLine& line, vtkCellArray& cells, TractColumns& columns) {
+void add_branched_line(const BranchedLine& line, const std::vector<AlongVessels>& along, vtkCellArray& cells,
+                       TractColumns& columns) {
   std::vector<Vec3> transported;
   for (const geometry::Frame& frame : line.axis.frames) transported.push_back(frame.normal);
   const LineGeometry bends = geometry::line_geometry(line.axis.points, transported);
@@ -66,6 +68,9 @@ void add_branched_line(const BranchedLine& line, vtkCellArray& cells, TractColum
     for (std::size_t i = 0; i < tract.places.size(); ++i)
       cells.InsertCellPoint(first + static_cast<vtkIdType>(i));
     add_tract_points(line, bends, transported, tract, columns);
+    for (std::size_t k = 0; k < along.size(); ++k)
+      for (std::size_t i = columns.along[k].size(); i < columns.abscissa.size(); ++i)
+        columns.along[k].push_back(along[k].at(line.vessel, columns.abscissa[i]));
     const std::vector<Vec3> points(columns.points.begin() + first, columns.points.end());
     columns.length.push_back(geometry::length(points));
     columns.tortuosity.push_back(geometry::tortuosity(points));
@@ -111,11 +116,12 @@ void add_tree_fields(const VesselTree& tree, vtkPolyData& data) {
 
 }  // namespace
 
-std::string tracts_text(const VesselTree& tree) {
+std::string tracts_text(const VesselTree& tree, const std::vector<AlongVessels>& along) {
   TractColumns columns;
+  columns.along.resize(along.size());
   vtkNew<vtkCellArray> lines;
   for (const BranchedLine& line : geometry::branch_groups(tree).lines)
-    add_branched_line(line, *lines, columns);
+    add_branched_line(line, along, *lines, columns);
   vtkNew<vtkPolyData> data;
   data->SetPoints(to_vtk(columns.points));
   data->SetLines(lines);
@@ -129,6 +135,7 @@ std::string tracts_text(const VesselTree& tree) {
   add_array(points, "FrenetNormal", columns.normals);
   add_array(points, "FrenetBinormal", columns.binormals);
   add_array(points, "SegmentIds", columns.segment);
+  for (std::size_t k = 0; k < along.size(); ++k) add_array(points, along[k].name.c_str(), columns.along[k]);
   vtkCellData& cells = *data->GetCellData();
   add_array(cells, "CenterlineIds", columns.vessel);
   add_array(cells, "TractIds", columns.tract);

@@ -15,12 +15,11 @@ using geometry::Vec3;
 
 constexpr std::uint64_t stair_stream = 0x7374616972ULL, motion_stream = 0x6d6f74696f6eULL;
 
-/// A direction in the plane of the slices, drawn from the seed.
+}  // namespace
+
 double drawn_angle(const ScanOptions& options, std::uint64_t stream) {
   return 2.0 * std::numbers::pi * uniform(options.seed ^ stream, 0);
 }
-
-}  // namespace
 
 geometry::Vec3 stair_shift(const ScanOptions& options, std::int64_t slice) {
   if (options.stair_step_mm <= 0.0) return Vec3::Zero();

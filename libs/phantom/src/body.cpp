@@ -66,7 +66,7 @@ struct Body::Impl {
     add_aorta(all, heart, hu);
     all.push_back({{Label::coronary_vein, hu.vein}, {10.0f, 6.0f, 0.0f}, {}, veins, true});
     add_groove_fat(all, tree, veins, hu);
-    add_chambers(all, heart, hu, noise);
+    add_chambers(all, heart, options, noise);
     add_great_vessels(all, hu);
     add_heart_walls(all, heart, hu, noise);
     add_bones(all, hu);
@@ -78,7 +78,7 @@ struct Body::Impl {
 
   float textured(const Organ& organ, const Vec3& p) const {
     const Texture& t = organ.texture;
-    float hu = organ.material.hu;
+    float hu = organ.mixed_hu ? organ.mixed_hu(p) : organ.material.hu;
     if (t.amplitude_hu > 0.0f) {
       const double strength = options.texture * static_cast<double>(t.amplitude_hu);
       const double grain = static_cast<double>(t.grain_mm);
@@ -224,6 +224,7 @@ BodyOptions draw_body(std::uint64_t seed) {
 Body::Body(const HeartShape& heart, const CoronaryTree& tree, const BodyOptions& options,
            std::shared_ptr<const HeartWarp> warp) {
   require_body(options.texture >= 0.0 && options.texture <= largest_texture, "texture must lie in [0, 3]");
+  require_body(options.mixing >= 0.0 && options.mixing <= 1.0, "mixing must lie in [0, 1]");
   const TissueHu& hu = options.hu;
   for (const float value :
        {hu.arterial, hu.right_heart, hu.pulmonary, hu.vein, hu.superior_vena_cava, hu.blood, hu.myocardium,

@@ -1,10 +1,15 @@
 #include "body_organs.h"
+#include "smooth_step.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <utility>
 
 namespace ostia::phantom {
 namespace {
+
+using MixedHu = std::function<float(const Vec3&)>;
 
 /// Shapes that several tissues share.
 struct Ventricles {
@@ -76,6 +81,65 @@ Capsules papillary(const HeartFrame& f) {
   }
   return out;
 }
+
+/// Of the superior cava's contrast, what the atrium is mixed of: undiluted contrast is soon thinned.
+float inflow_of(const TissueHu& hu) {
+  constexpr float most = 600.0f;
+  return std::min(hu.superior_vena_cava, most);
+}
+
+/// Contrast that comes from one arm and is not yet mixed with the blood from elsewhere. What it becomes on
+/// its way: layers and swirls in the superior cava, a jet into the atrium, less and less of it from there on.
+class RightHeartContrast {
+ public:
+  RightHeartContrast(const HeartShape& heart, const BodyOptions& options, Noise noise)
+      : heart_(heart), hu_(options.hu), mixing_(options.mixing), noise_(std::move(noise)) {}
+
+  MixedHu cava() const {
+    // It is heavier than blood, and flows in long threads.
+    return mixed(hu_.superior_vena_cava, hu_.blood + 60.0f, hu_.superior_vena_cava,
+                 [noise = noise_](const Vec3& p) {
+                   const Vec3 thread(p.x() / 5.0, p.y() / 5.0, p.z() / 16.0 + 11.3);
+                   return 0.5 + p.y() / 20.0 + 0.55 * noise->at(thread);
+                 });
+  }
+  MixedHu atrium() const {
+    const double middle = HeartFrame(heart_).world(34.0, -7.0, -22.5).z();
+    const float even = 0.3f * (0.5f * (hu_.right_heart + inflow_of(hu_))) + 0.7f * hu_.right_heart;
+    const float jet = 0.5f * (hu_.right_heart + inflow_of(hu_));
+    return mixed(even, hu_.blood + 35.0f, jet, [middle, noise = noise_](const Vec3& p) {
+      return 0.5 + (p.z() - middle) / 80.0 + 0.25 * noise->at(p / 8.0 + Vec3::Constant(5.1));
+    });
+  }
+  MixedHu ventricle() const {
+    const float low = 0.5f * (hu_.blood + hu_.right_heart);
+    return mixed(hu_.right_heart, low, 2.0f * hu_.right_heart - low, swirls(10.0, 0.5));
+  }
+  MixedHu pulmonary() const {
+    return mixed(hu_.pulmonary, 0.88f * hu_.pulmonary, 1.12f * hu_.pulmonary, swirls(12.0, 0.5));
+  }
+
+ private:
+  using Share = std::function<double(const Vec3&)>;
+  Share swirls(double grain_mm, double strength) const {
+    return [=, noise = noise_](const Vec3& p) {
+      return 0.5 + strength * noise->at(p / grain_mm + Vec3::Constant(19.7));
+    };
+  }
+  /// From `even` everywhere to a share of `high` in `low`.
+  MixedHu mixed(float even, float low, float high, Share share) const {
+    if (mixing_ <= 0.0) return {};
+    return [=, amount = static_cast<float>(mixing_), share = std::move(share)](const Vec3& p) {
+      const auto part = static_cast<float>(smooth_step(share(p), 0.0, 1.0).value);
+      return even + amount * (low + (high - low) * part - even);
+    };
+  }
+
+  HeartShape heart_;
+  TissueHu hu_;
+  double mixing_;
+  Noise noise_;
+};
 
 }  // namespace
 
@@ -177,23 +241,45 @@ void add_groove_fat(Organs& organs, const CoronaryTree& tree, const Capsules& ve
   organs.push_back({{Label::epicardial_fat, hu.epicardial_fat}, {7.0f, 4.0f, 0.0f}, {}, fat, true});
 }
 
-void add_chambers(Organs& organs, const HeartShape& heart, const TissueHu& hu, const Noise& noise) {
+void add_chambers(Organs& organs, const HeartShape& heart, const BodyOptions& options, const Noise& noise) {
+  const TissueHu& hu = options.hu;
+  const RightHeartContrast contrast(heart, options, noise);
   const HeartFrame f(heart);
   const Ventricles v = ventricles_of(f, noise);
   const Atria a = atria_of(f, noise);
-  const float mixed = 0.5f * (hu.right_heart + hu.superior_vena_cava);
+  const float mixed = 0.5f * (hu.right_heart + inflow_of(hu));
   organs.push_back({{Label::vessel_wall, 50.0f}, {}, aortic_root(heart.root, 1.4), {}});
   organs.push_back({{Label::myocardium, hu.myocardium + 10.0f}, {8.0f, 4.0f, 0.0f}, {}, papillary(f)});
   organs.push_back({{Label::left_ventricle, hu.arterial - 8.0f}, {9.0f, 9.0f, 0.0f}, v.left_cavity, {}});
-  organs.push_back({{Label::pulmonary_artery, hu.pulmonary}, {10.0f, 10.0f, 0.0f}, {}, pulmonary_trunk()});
-  organs.push_back({{Label::right_ventricle, hu.right_heart}, {20.0f, 12.0f, 0.0f}, {}, outflow()});
-  organs.push_back({{Label::right_ventricle, hu.right_heart}, {24.0f, 12.0f, 0.2f}, v.right_cavity, {}});
+  organs.push_back({{Label::pulmonary_artery, hu.pulmonary},
+                    {10.0f, 10.0f, 0.0f},
+                    {},
+                    pulmonary_trunk(),
+                    false,
+                    contrast.pulmonary()});
+  organs.push_back({{Label::right_ventricle, hu.right_heart},
+                    {20.0f, 12.0f, 0.0f},
+                    {},
+                    outflow(),
+                    false,
+                    contrast.ventricle()});
+  organs.push_back({{Label::right_ventricle, hu.right_heart},
+                    {24.0f, 12.0f, 0.2f},
+                    v.right_cavity,
+                    {},
+                    false,
+                    contrast.ventricle()});
   organs.push_back({{Label::left_atrium, hu.arterial - 4.0f}, {7.0f, 9.0f, 0.0f}, a.left, {}});
   organs.push_back({{Label::left_atrium, hu.arterial - 14.0f}, {16.0f, 4.0f, 0.0f}, {}, a.appendage});
   organs.push_back({{Label::left_atrium, hu.arterial - 4.0f}, {7.0f, 9.0f, 0.0f}, {}, a.veins});
+  organs.push_back({{Label::right_atrium, 0.3f * mixed + 0.7f * hu.right_heart},
+                    {34.0f, 11.0f, 0.0f},
+                    a.right,
+                    {},
+                    false,
+                    contrast.atrium()});
   organs.push_back(
-      {{Label::right_atrium, 0.3f * mixed + 0.7f * hu.right_heart}, {34.0f, 11.0f, 0.0f}, a.right, {}});
-  organs.push_back({{Label::vein, hu.superior_vena_cava}, {45.0f, 7.0f, 0.0f}, {}, a.caval_upper});
+      {{Label::vein, hu.superior_vena_cava}, {45.0f, 7.0f, 0.0f}, {}, a.caval_upper, false, contrast.cava()});
   organs.push_back({{Label::vein, hu.blood + 45.0f}, {14.0f, 10.0f, 0.0f}, {}, a.caval_lower});
   organs.push_back({{Label::vessel_wall, 50.0f}, {}, {}, grown(aorta_above_root(heart), 1.5)});
 }
@@ -225,6 +311,29 @@ void add_heart_walls(Organs& organs, const HeartShape& heart, const TissueHu& hu
                     uneven(sac_shape, 1.1, 17.0, noise),
                     {}});
   organs.push_back({{Label::muscle, 25.0f}, {}, uneven(grown(sac_shape, 1.2), 1.1, 17.0, noise), {}});
+}
+
+Capsules pacing_lead(const HeartShape& heart, int which) {
+  const HeartFrame f(heart);
+  std::vector<Vec3> way{{-31, -4, 150}, {-33, -1, 80}, {-35, 1, 40}, {-37, 3, 14}};
+  const double w = f.wide, l = f.long_;
+  if (which == 0) {
+    way.push_back(f.world(44.0 * w, -8.0, -18.0));
+    way.push_back(f.world(35.0 * w, -10.0, -2.0));
+    for (const Vec3& at : {Vec3(30, -12, 20), Vec3(26, -10, 42), Vec3(22, -6, 64)})
+      way.push_back(f.world(at.x() * w, at.y(), at.z() * l));
+  } else {
+    for (const Vec3& at : {Vec3(38, -16, -24), Vec3(30, -14, -14), Vec3(32, 4, -10), Vec3(36, 15, -17)})
+      way.push_back(f.world(at.x() * w, at.y(), at.z()));
+  }
+  constexpr double coil = 0.6, electrode = 1.0;
+  Capsules out = tube(way, std::vector<double>(way.size(), coil), 2.0);
+  // The tip and the ring behind it.
+  for (const std::size_t from_end : {std::size_t{1}, std::size_t{7}}) {
+    Capsule& piece = out[out.size() - from_end];
+    piece.from_radius = piece.to_radius = electrode;
+  }
+  return out;
 }
 
 }  // namespace ostia::phantom

@@ -38,7 +38,7 @@ Capsules coronary_veins(const HeartShape& heart, const CoronaryTree& tree, const
 void add_aorta(Organs& organs, const HeartShape& heart, const TissueHu& hu);
 /// Fat about the arteries and veins; before the chambers, so that none takes an artery.
 void add_groove_fat(Organs& organs, const CoronaryTree& tree, const Capsules& veins, const TissueHu& hu);
-void add_chambers(Organs& organs, const HeartShape& heart, const TissueHu& hu, const Noise& noise);
+void add_chambers(Organs& organs, const HeartShape& heart, const BodyOptions& options, const Noise& noise);
 void add_great_vessels(Organs& organs, const TissueHu& hu);
 void add_heart_walls(Organs& organs, const HeartShape& heart, const TissueHu& hu, const Noise& noise);
 /// Spine, sternum and ribs; before the mediastinum, which lies about the spine.
@@ -46,5 +46,13 @@ void add_bones(Organs& organs, const TissueHu& hu);
 void add_mediastinum(Organs& organs, const TissueHu& hu, const Noise& noise);
 void add_lungs(Organs& organs, const TissueHu& hu, std::uint64_t seed);
 void add_chest_wall(Organs& organs, const TissueHu& hu, std::uint64_t seed);
+
+// What patients carry, in the phantom's own heart and chest.
+/// A loop of wire about the sternum with its knot in front.
+Capsules sternal_wire(double height_mm);
+/// Where the left internal mammary artery lies, behind the sternum's edge.
+Vec3 mammary_bed(double height_mm);
+/// Through the superior cava to the right ventricle's apex (0) or the right atrium's appendage (1).
+Capsules pacing_lead(const HeartShape& heart, int which);
 
 }  // namespace ostia::phantom

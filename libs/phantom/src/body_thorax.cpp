@@ -66,14 +66,38 @@ void add_ribs(Organs& organs, const TissueHu& hu) {
   organs.push_back({{Label::muscle, 110.0f}, {14.0f, 4.0f, 0.0f}, {}, cartilage});
 }
 
+constexpr double sternum_y = middle_y - cavity_y - 6.5;
+constexpr double sternum_x_mm = 17.5, sternum_y_mm = 5.9;  // semi-axes
+
 void add_sternum(Organs& organs, const TissueHu& hu) {
-  const double y = middle_y - cavity_y - 6.5;
   organs.push_back(
-      {{Label::marrow, hu.marrow - 50.0f}, {35.0f, 2.5f, 0.0f}, column(middle_x, y, 16.3, 4.6), {}});
-  organs.push_back({{Label::bone, hu.bone - 60.0f}, {60.0f, 5.0f, 0.0f}, column(middle_x, y, 17.5, 5.9), {}});
+      {{Label::marrow, hu.marrow - 50.0f}, {35.0f, 2.5f, 0.0f}, column(middle_x, sternum_y, 16.3, 4.6), {}});
+  organs.push_back({{Label::bone, hu.bone - 60.0f},
+                    {60.0f, 5.0f, 0.0f},
+                    column(middle_x, sternum_y, sternum_x_mm, sternum_y_mm),
+                    {}});
 }
 
 }  // namespace
+
+Capsules sternal_wire(double height_mm) {
+  constexpr double radius = 0.4, clear = 0.7;
+  constexpr int pieces = 36;
+  const auto at = [&](int n) {
+    const double a = 2.0 * M_PI * n / pieces;
+    return Vec3(middle_x + (sternum_x_mm + clear) * std::sin(a),
+                sternum_y - (sternum_y_mm + clear) * std::cos(a), height_mm);
+  };
+  Capsules out;
+  for (int n = 0; n < pieces; ++n) out.push_back({at(n), at(n + 1), radius, radius});
+  const Vec3 knot = at(0);
+  out.push_back({knot, knot + Vec3(1.2, -0.9, 5.0), 2.0 * radius, 1.6 * radius});
+  return out;
+}
+
+Vec3 mammary_bed(double height_mm) {
+  return {middle_x + sternum_x_mm + 5.0, sternum_y + sternum_y_mm + 3.0, height_mm};
+}
 
 void add_bones(Organs& organs, const TissueHu& hu) {
   add_spine(organs, hu);

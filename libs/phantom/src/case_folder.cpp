@@ -9,6 +9,7 @@
 #include "ostia/io/contour_file.h"
 #include "ostia/io/surface_file.h"
 #include "ostia/phantom/case_report.h"
+#include "ostia/phantom/hard_suite.h"
 #include "ostia/phantom/vessel_field.h"
 
 namespace ostia::phantom {
@@ -81,6 +82,7 @@ CaseRecord write_case(const fs::path& folder, int number, const SuiteOptions& op
                       const core::TaskContext& task) {
   CaseOptions own = options.first;
   own.seed += static_cast<std::uint64_t>(number);
+  if (options.hard) own = hard_case(own);
   task.set_stage("case " + std::to_string(number + 1) + ": anatomy");
   const CasePlan plan = plan_case(own);
   task.throw_if_cancelled();

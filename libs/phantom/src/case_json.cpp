@@ -41,17 +41,35 @@ const char* word(geometry::Health health) {
   return health == geometry::Health::healthy ? "healthy" : "diseased";
 }
 
+/// What is as usual is left out.
+json realism_parameters(const ScanRealism& r) {
+  const ScanRealism usual;
+  json out = json::object();
+  for (const RealismMember& member : realism_members()) {
+    const double value = value_of(r, member.name);
+    if (value == value_of(usual, member.name)) continue;
+    if (member.whole)
+      out[member.name] = static_cast<int>(value);
+    else
+      out[member.name] = value;
+  }
+  return out;
+}
+
 json scan_parameters(const ScanOptions& o) {
-  return {{"supersampling", o.supersampling},
-          {"psf_fwhm_mm", o.psf_fwhm_mm},
-          {"psf_fwhm_z_mm", o.psf_fwhm_z_mm},
-          {"noise_hu", o.noise_hu},
-          {"noise_peak_per_mm", o.noise_peak_per_mm},
-          {"noise_fwhm_z_mm", o.noise_fwhm_z_mm},
-          {"stair_step_mm", o.stair_step_mm},
-          {"stair_block_mm", o.stair_block_mm},
-          {"motion_mm", o.motion_mm},
-          {"beam_hardening", o.beam_hardening}};
+  json out{{"supersampling", o.supersampling},
+           {"psf_fwhm_mm", o.psf_fwhm_mm},
+           {"psf_fwhm_z_mm", o.psf_fwhm_z_mm},
+           {"noise_hu", o.noise_hu},
+           {"noise_peak_per_mm", o.noise_peak_per_mm},
+           {"noise_fwhm_z_mm", o.noise_fwhm_z_mm},
+           {"stair_step_mm", o.stair_step_mm},
+           {"stair_block_mm", o.stair_block_mm},
+           {"motion_mm", o.motion_mm},
+           {"beam_hardening", o.beam_hardening}};
+  const json realism = realism_parameters(o.realism);
+  if (!realism.empty()) out["realism"] = realism;
+  return out;
 }
 
 /// What is as usual is left out.
@@ -283,6 +301,7 @@ std::string parameters_json(const SuiteOptions& options) {
   all["formats"] = formats;
   all["report"] = options.report;
   all["phases"] = options.phases;
+  if (options.hard) all["suite"] = "hard";
   return all.dump();
 }
 

@@ -207,13 +207,14 @@ void set_calcium(CoronaryTree& tree, double amount, std::uint64_t seed) {
   }
 }
 
-void add_stent(CoronaryVessel& vessel, double s_from_mm, double length_mm) {
+void add_stent(CoronaryVessel& vessel, double s_from_mm, double length_mm, bool struts) {
   const double length = vessel.axis.abscissa.back();
   if (!(s_from_mm >= 0.0 && length_mm > 0.0 && s_from_mm + length_mm <= length))
     throw InvalidInput("stent: it reaches from " + std::to_string(s_from_mm) + " to " +
                        std::to_string(s_from_mm + length_mm) + " mm, beyond " + vessel.name + " of " +
                        std::to_string(length) + " mm");
-  vessel.stents.push_back({s_from_mm, s_from_mm + length_mm, 0.1, 3000.0f});
+  constexpr float even_hu = 3000.0f, solid_hu = 14000.0f;  // of cobalt chromium, about
+  vessel.stents.push_back({s_from_mm, s_from_mm + length_mm, 0.1, struts ? solid_hu : even_hu, struts});
 }
 
 void draw_disease(CoronaryTree& tree, double amount, std::uint64_t seed) {

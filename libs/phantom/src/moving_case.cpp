@@ -77,7 +77,8 @@ Scan scan_phase(const CasePlan& plan, const Body& body, const BeatPhase& phase,
   // Another noise for every phase, and none that another case's image has.
   options.seed +=
       (std::uint64_t{1} << 32) * (1 + static_cast<std::uint64_t>(std::lround(1e3 * phase.percent())));
-  return acquire(MovedScene(body, phase), options, task);
+  const CarriedScene still(body, things_of(plan, body));
+  return acquire(MovedScene(still, phase), options, task);
 }
 
 geometry::VesselTree moved(const geometry::VesselTree& tree, const BeatPhase& phase) {

@@ -39,6 +39,8 @@ struct Organ {
   Distance distance;   ///< the shape, or none:
   Capsules capsules;   ///< tubes
   bool stays = false;  ///< where it is, although the heart is bent: it was made about the arteries
+  /// CT number at a place, instead of the material's; or none. Only beside a texture.
+  std::function<float(const Vec3&)> mixed_hu = {};
 };
 
 /// In order: a place belongs to the first organ that holds it.

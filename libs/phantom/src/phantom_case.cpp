@@ -68,13 +68,13 @@ void add_missing_lesions(CoronaryTree& tree, const SectionOptions& wanted, std::
 }
 
 /// Just beyond the left main.
-void stent_the_lad(CoronaryTree& tree, double length_mm) {
+void stent_the_lad(CoronaryTree& tree, double length_mm, bool struts) {
   for (CoronaryVessel& vessel : tree.vessels) {
     if (vessel.name != "LAD") continue;
     double begin = 10.0;
     for (const SegmentSpan& span : vessel.segments)
       if (span.aha == 6) begin = span.s_from_mm;
-    add_stent(vessel, begin + 3.0, length_mm);
+    add_stent(vessel, begin + 3.0, length_mm, struts);
   }
 }
 
@@ -90,6 +90,7 @@ void validate(const CaseOptions& options) {
   require_case(!variant.contrast_hu || (*variant.contrast_hu >= 80.0 && *variant.contrast_hu <= 1000.0),
                "the contrast must be 80 to 1000 HU");
   require_case(variant.venous >= 0.0 && variant.venous <= 1.0, "the share of venous contrast must be 0 to 1");
+  validate(options.scan.realism);
   validate(options.contours);
   validate(options.observers);
 }
@@ -119,7 +120,8 @@ CasePlan plan_case(const CaseOptions& options) {
   const SectionOptions wanted = section_options(options, plan.options.scan.grid);
   add_missing_lesions(plan.tree, wanted, options.seed);
   set_calcium(plan.tree, options.variant.calcium, options.seed);
-  if (options.variant.stent_mm > 0.0) stent_the_lad(plan.tree, options.variant.stent_mm);
+  if (options.variant.stent_mm > 0.0)
+    stent_the_lad(plan.tree, options.variant.stent_mm, options.scan.realism.stent_struts);
   plan.sections = plan_sections(plan.tree, wanted);
   plan.challenge = challenge_vessels(plan.tree, plan.options.observers, plan.options.scan.grid);
   if (plan.patient) plan.warnings = plan.patient->remarks;
@@ -132,14 +134,23 @@ BodyOptions body_of(const CaseOptions& options) {
   BodyOptions body = draw_body(options.seed);
   TissueHu& hu = body.hu;
   if (options.variant.contrast_hu) hu.arterial = static_cast<float>(*options.variant.contrast_hu);
+  const ScanRealism& realism = options.scan.realism;
+  if (realism.cava_hu > 0.0) hu.superior_vena_cava = static_cast<float>(realism.cava_hu);
+  body.mixing = realism.mixing;
   const auto share = static_cast<float>(options.variant.venous);
   for (float* tissue : {&hu.right_heart, &hu.pulmonary, &hu.vein}) *tissue += share * (hu.arterial - *tissue);
   return body;
 }
 
+std::vector<CarriedThing> things_of(const CasePlan& plan, const Body& body) {
+  return carried_things({plan.heart, plan.tree, plan.warp.get(), body}, plan.options.scan.realism,
+                        plan.options.seed);
+}
+
 Scan scan_case(const CasePlan& plan, const core::TaskContext& task) {
   const Body body(plan.heart, plan.tree, body_of(plan.options), plan.warp);
-  return acquire(body, plan.options.scan, task);
+  const CarriedScene scene(body, things_of(plan, body));
+  return acquire(scene, plan.options.scan, task);
 }
 
 }  // namespace ostia::phantom

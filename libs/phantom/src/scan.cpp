@@ -1,7 +1,9 @@
 #include "ostia/phantom/scan.h"
 
 #include "artefacts.h"
+#include "iterative_noise.h"
 #include "paint.h"
+#include "plane_kernel.h"
 #include "point_spread.h"
 #include "scan_noise.h"
 
@@ -37,10 +39,21 @@ void require_spread(const char* name, double fwhm_mm, double spacing_mm) {
                        " mm; ask for 0 to have the voxel's own box, or for a finer grid");
 }
 
-PointSpread point_spread(const ScanOptions& options) {
+/// With tails the core, which is painted, is narrower than the whole.
+void require_kernel(const ScanOptions& options) {
+  const double base_mm = PlaneKernel(options).base_fwhm_mm(),
+               voxel = options.grid.spacing.head<2>().maxCoeff();
+  if (base_mm > 0.0 && base_mm < 0.5 * voxel)
+    throw InvalidInput("scan: with an undershoot of " + std::to_string(options.realism.undershoot) +
+                       " and tails of " + std::to_string(options.realism.tail) + " the kernel's core is " +
+                       std::to_string(base_mm) +
+                       " mm wide, less than half a voxel; ask for a larger psf_fwhm_mm or less of them");
+}
+
+PointSpread point_spread(const ScanOptions& options, double plane_fwhm_mm) {
   const Vec3& spacing = options.grid.spacing;
-  return {AxisSpread(options.psf_fwhm_mm, spacing.x(), options.supersampling),
-          AxisSpread(options.psf_fwhm_mm, spacing.y(), options.supersampling),
+  return {AxisSpread(plane_fwhm_mm, spacing.x(), options.supersampling),
+          AxisSpread(plane_fwhm_mm, spacing.y(), options.supersampling),
           AxisSpread(options.psf_fwhm_z_mm, spacing.z(), options.supersampling)};
 }
 
@@ -51,12 +64,17 @@ class Acquisition {
   Acquisition(const Scene& scene, const ScanOptions& options, const core::TaskContext& task)
       : options_(options),
         task_(task),
-        spread_(point_spread(options)),
-        margin_{spread_.reach(0) + motion_reach(0), spread_.reach(1) + motion_reach(1), spread_.reach(2)},
+        kernel_(options),
+        spread_(point_spread(options, kernel_.base_fwhm_mm())),
+        margin_{spread_.reach(0) + kernel_.reach(0) + motion_reach(0),
+                spread_.reach(1) + kernel_.reach(1) + motion_reach(1), spread_.reach(2)},
         grid_(with_margin()),
         painter_(scene, options, grid_, margin_),
         motion_(options),
-        noise_(options) {}
+        half_scan_(options),
+        streaks_(options),
+        noise_(scene, options, task),
+        iterative_(options) {}
 
   Scan run() {
     const auto voxels = static_cast<std::size_t>(options_.grid.voxels());
@@ -88,7 +106,8 @@ class Acquisition {
 
  private:
   std::int64_t motion_reach(int axis) const {
-    return static_cast<std::int64_t>(std::ceil(0.5 * options_.motion_mm / options_.grid.spacing[axis]));
+    const double path_mm = options_.motion_mm + options_.realism.half_scan_motion_mm;
+    return static_cast<std::int64_t>(std::ceil(0.5 * path_mm / options_.grid.spacing[axis]));
   }
   imaging::Geometry with_margin() const {
     imaging::Geometry grid = options_.grid;
@@ -159,10 +178,13 @@ class Acquisition {
     const SliceView painted{work.data() + room_j * stride + room_i, width, height, stride};
     spread_slice(k + margin_[2], painted);
     const std::int64_t nx = options_.grid.size[0], ny = options_.grid.size[1];
+    kernel_.apply(painted);
     if (!motion_.none()) motion_.blur(painted, margin_[0], margin_[1], k);
+    half_scan_.blur(painted, margin_[0], margin_[1], k);
     const SliceView slice{painted.row(margin_[1]) + margin_[0], nx, ny, stride};
     add_beam_hardening(slice, options_.grid.spacing, options_.beam_hardening);
-    noise_.add(slice, k);
+    streaks_.add(slice, k);
+    add_noise(slice, k);
     const Slab& slab = slab_of(k + margin_[2]);
     for (std::int64_t j = 0; j < ny; ++j) {
       const auto to = static_cast<std::size_t>(options_.grid.offset(0, j, k));
@@ -176,14 +198,25 @@ class Acquisition {
     }
   }
 
+  void add_noise(const SliceView& slice, std::int64_t k) const {
+    if (iterative_.none() || options_.noise_hu <= 0.0) return noise_.add(slice, k);
+    std::vector<float> noise(static_cast<std::size_t>(slice.width * slice.height), 0.0f);
+    noise_.add({noise.data(), slice.width, slice.height, slice.width}, k);
+    iterative_.add(slice, std::move(noise));
+  }
+
   ScanOptions options_;
   core::TaskContext task_;
+  PlaneKernel kernel_;
   PointSpread spread_;
   std::array<std::int64_t, 3> margin_;
   imaging::Geometry grid_;
   Painter painter_;
   MotionBlur motion_;
+  HalfScanMotion half_scan_;
+  ViewStreaks streaks_;
   ScanNoise noise_;
+  IterativeNoise iterative_;
   std::deque<Slab> slabs_;
   Scan scan_;
 };
@@ -204,13 +237,17 @@ void validate(const ScanOptions& options) {
   if (options.supersampling < 1 || options.supersampling > 8)
     throw InvalidInput("scan: supersampling is " + std::to_string(options.supersampling) +
                        "; it must lie in [1, 8]");
+  validate(options.realism);
   require_spread("psf_fwhm_mm", options.psf_fwhm_mm, options.grid.spacing.head<2>().maxCoeff());
+  require_kernel(options);
   require_spread("psf_fwhm_z_mm", options.psf_fwhm_z_mm, options.grid.spacing.z());
   require_range("noise_hu", options.noise_hu, 0.0, 500.0, " HU");
   require_range(
       "noise_peak_per_mm", options.noise_peak_per_mm, 0.0,
       options.noise_hu > 0.0 ? std::min(2.0, 0.18 / options.grid.spacing.head<2>().maxCoeff()) : 2.0,
       " cycles/mm");
+  if (options.realism.noise_structure > 0.0 && options.noise_hu > 0.0 && options.noise_peak_per_mm <= 0.0)
+    throw InvalidInput("scan: noise_structure needs a noise_peak_per_mm above 0");
   require_range("noise_fwhm_z_mm", options.noise_fwhm_z_mm, 0.0, 5.0, " mm");
   require_range("stair_step_mm", options.stair_step_mm, 0.0, 10.0, " mm");
   require_range("stair_block_mm", options.stair_block_mm, 1.0, 500.0, " mm");
@@ -218,6 +255,22 @@ void validate(const ScanOptions& options) {
   require_range("moving_radius_mm", options.moving_radius_mm, 0.0, 1000.0, " mm");
   require_range("beam_hardening", options.beam_hardening, 0.0, 5.0, "");
   if (!options.moving_centre.allFinite()) throw InvalidInput("scan: moving_centre is not finite");
+}
+
+ScanOptions measured_scan() {
+  ScanOptions options;
+  options.psf_fwhm_mm = 0.9;
+  options.psf_fwhm_z_mm = 0.7;
+  options.noise_hu = 34.0;
+  options.noise_peak_per_mm = 0.21;
+  options.noise_fwhm_z_mm = 0.53;
+  options.beam_hardening = 1.0;
+  options.realism.noise_structure = 0.7;
+  options.realism.undershoot = 0.05;
+  options.realism.streaks = 1.0;
+  options.realism.mixing = 0.9;
+  options.realism.cava_hu = 2000.0;
+  return options;
 }
 
 Scan acquire(const Scene& scene, const ScanOptions& options, const core::TaskContext& task) {

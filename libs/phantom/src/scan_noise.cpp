@@ -1,5 +1,7 @@
 #include "scan_noise.h"
 
+#include "slice_blur.h"
+
 #include "ostia/core/parallel.h"
 #include "ostia/phantom/noise.h"
 
@@ -20,19 +22,6 @@ using ConstRow = Eigen::Map<const Eigen::ArrayXf, Eigen::Unaligned>;
 // squares) to f exp(-f^2 / 2): the ramp of filtered back-projection under a Gaussian apodisation.
 constexpr double narrow_decay = 0.1803, broad_decay = 2.0422, broad_amount = 0.5944;
 constexpr std::uint64_t noise_stream = 0x6e6f697365ULL;
-
-/// A sampled Gaussian of unit sum: weights at 0, 1, ... voxels.
-std::vector<double> gaussian(double sigma_voxels) {
-  if (sigma_voxels < 0.05) return {1.0};
-  std::vector<double> weights;
-  double sum = 0.0;
-  for (int n = 0; n <= static_cast<int>(std::ceil(3.3 * sigma_voxels)); ++n) {
-    weights.push_back(std::exp(-0.5 * n * n / (sigma_voxels * sigma_voxels)));
-    sum += n == 0 ? weights.back() : 2.0 * weights.back();
-  }
-  for (double& w : weights) w /= sum;
-  return weights;
-}
 
 /// Sum over all places of the product of two symmetric kernels.
 double product(const std::vector<double>& a, const std::vector<double>& b) {
@@ -59,7 +48,7 @@ std::pair<double, double> lobe_sigmas(double peak) {
 /// Where the power of the two lobes' difference really peaks on the grid (mean of axis and diagonal).
 double true_peak(double peak) {
   const auto [narrow, broad] = lobe_sigmas(peak);
-  const std::vector<double> a = gaussian(narrow), b = gaussian(broad);
+  const std::vector<double> a = gaussian_weights(narrow), b = gaussian_weights(broad);
   double best = 0.0, at = 0.0;
   for (double f = 0.2 * peak; f < std::min(0.5, 3.0 * peak); f += 0.002 * peak) {
     const double d = f / std::numbers::sqrt2;
@@ -76,10 +65,22 @@ double true_peak(double peak) {
 
 }  // namespace
 
-ScanNoise::ScanNoise(const ScanOptions& options) : options_(options) {
+double noise_amplitude(double q) {
+  return std::exp(-narrow_decay * q * q) - broad_amount * std::exp(-broad_decay * q * q);
+}
+
+ScanNoise::ScanNoise(const Scene& scene, const ScanOptions& options, const core::TaskContext& task)
+    : options_(options) {
   const geometry::Vec3& spacing = options.grid.spacing;
+  z_ = gaussian_weights(options.noise_fwhm_z_mm / fwhm_per_sigma / spacing.z());
+  if (options.noise_hu > 0.0 && options.realism.noise_structure > 0.0) {
+    rays_.emplace(scene, options, task);
+    scale_ = options.noise_hu / std::sqrt(product(z_, z_));
+    return;
+  }
   const auto lobe = [&](double amount, double sigma_mm) {
-    lobes_.push_back({amount, gaussian(sigma_mm / spacing.x()), gaussian(sigma_mm / spacing.y())});
+    lobes_.push_back(
+        {amount, gaussian_weights(sigma_mm / spacing.x()), gaussian_weights(sigma_mm / spacing.y())});
   };
   if (options.noise_peak_per_mm > 0.0) {
     // A coarse grid moves the peak: asked for a little elsewhere, it comes out where it should.
@@ -92,7 +93,6 @@ ScanNoise::ScanNoise(const ScanOptions& options) : options_(options) {
   } else {
     lobe(1.0, options.psf_fwhm_mm / fwhm_per_sigma);
   }
-  z_ = gaussian(options.noise_fwhm_z_mm / fwhm_per_sigma / spacing.z());
   double power = 0.0;
   for (const Lobe& a : lobes_) {
     margin_x_ = std::max(margin_x_, static_cast<std::int64_t>(a.x.size()) - 1);
@@ -104,6 +104,7 @@ ScanNoise::ScanNoise(const ScanOptions& options) : options_(options) {
 
 /// White noise of a slice (wider than the grid, so that the border is like everywhere) through the lobes.
 std::vector<float> ScanNoise::filtered(std::int64_t k) const {
+  if (rays_) return rays_->slice(k);
   const std::int64_t nx = options_.grid.size[0], ny = options_.grid.size[1];
   const std::int64_t width = nx + 2 * margin_x_, height = ny + 2 * margin_y_;
   const std::int64_t margin_z = static_cast<std::int64_t>(z_.size()) - 1;

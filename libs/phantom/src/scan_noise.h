@@ -1,22 +1,28 @@
 #pragma once
-/// \file The noise of a CT image: normal, stationary, with the power spectrum of filtered back-projection.
+/// \file The noise of a CT image: normal, with the power spectrum of filtered back-projection; the same
+/// everywhere, or what the rays through the body make of it.
 
 #include "point_spread.h"
+#include "ray_noise.h"
 
 #include "ostia/core/task_context.h"
 #include "ostia/phantom/scan.h"
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <vector>
 
 namespace ostia::phantom {
+
+/// The noise's amplitude in the plane at a frequency in units of the peak's.
+double noise_amplitude(double frequency_over_peak);
 
 /// Noise of an image, slice by slice in ascending order. Its expected deviation is exactly `noise_hu`, from
 /// the kernels' norms.
 class ScanNoise {
  public:
-  explicit ScanNoise(const ScanOptions& options);
+  ScanNoise(const Scene& scene, const ScanOptions& options, const core::TaskContext& task);
   /// Makes ready for slices [first, last); forgets what lies before.
   void prepare(std::int64_t first, std::int64_t last, const core::TaskContext& task);
   /// Adds to a slice of the options' grid that was made ready.
@@ -31,6 +37,7 @@ class ScanNoise {
   std::vector<float> filtered(std::int64_t k) const;
 
   ScanOptions options_;
+  std::optional<RayNoise> rays_;  // instead of the lobes
   std::vector<Lobe> lobes_;
   std::vector<double> z_;
   std::int64_t margin_x_ = 0, margin_y_ = 0;

@@ -55,6 +55,25 @@ bool holds(const Plaque& plaque, double s_mm, double theta, double depth) {
   return left > through * through;
 }
 
+/// Whether a place within the thickness of a stent lies on one of its struts: rings of zigzags in phase,
+/// three links from each to the next.
+bool is_metal(const Stent& stent, const VesselField::Place& place) {
+  if (!stent.struts) return true;
+  constexpr double pitch_mm = 1.1, swing_mm = 0.4, half_width_mm = 0.05;
+  constexpr int crowns = 6, links = 3;
+  const double s = place.s_mm - stent.s_from_mm, turn = 2.0 * std::numbers::pi;
+  // From -1 to 1 and back with every crown.
+  const double saw = 4.0 * std::abs(std::remainder(place.theta * crowns / turn, 1.0)) - 1.0;
+  const double radius = std::max(0.2, place.lumen_mm);
+  const double slope = 4.0 * swing_mm * crowns / (turn * radius);
+  const double along = s - swing_mm * saw;
+  const double ring = pitch_mm * (std::floor(along / pitch_mm) + 0.5);
+  if (std::abs(along - ring) < half_width_mm * std::sqrt(1.0 + slope * slope)) return true;
+  const double aside = std::remainder(
+      place.theta - (std::fmod(std::floor(along / pitch_mm), 2.0) * 0.5 * turn / links), turn / links);
+  return std::abs(aside) * radius < half_width_mm;
+}
+
 }  // namespace
 
 struct VesselField::Impl {
@@ -260,7 +279,8 @@ std::optional<Material> VesselField::material(const Vec3& point) const {
     if (inside >= 0.0) continue;
     // Where a branch leaves, its mouth stays open.
     const Stent* const stent = impl_->stent_at(place);
-    if (stent == nullptr || inside < -stent->thickness_mm) return Material{Label::coronary_lumen, lumen_hu};
+    if (stent == nullptr || inside < -stent->thickness_mm || !is_metal(*stent, place))
+      return Material{Label::coronary_lumen, lumen_hu};
     metal = Material{Label::metal, stent->hu};
   }
   if (metal) return metal;

@@ -5,6 +5,7 @@
 #include "ostia/core/text.h"
 #include "ostia/lumen/start_surface.h"
 #include "ostia/pipeline/image_walls.h"
+#include "ostia/session/doubts.h"
 
 #include <system_error>
 
@@ -12,17 +13,28 @@ namespace ostia::session {
 namespace {
 
 constexpr double least_evidence = 0.5;  // of an axis that needs no second look
+constexpr double least_choice = 0.1;    // of a second name that is worth telling
+
+/// "D1 (62 %) or RI (30 %)".
+std::string names_of(const coronary::VesselLabel& label) {
+  const auto named = [](const std::string& name, double probability) {
+    return name + " (" + core::rounded_text(100.0 * probability, 0) + " %)";
+  };
+  const std::string first = named(label.likeliest, label.confidence);
+  return label.second_confidence > least_choice
+             ? first + " or " + named(label.second, label.second_confidence)
+             : first;
+}
 
 }  // namespace
 
-std::string doubt_about(const coronary::VesselLabel& label, const coronary::AxisNotes& axis,
-                        double least_confidence) {
+std::string doubt_about(const coronary::VesselLabel& label, const coronary::AxisNotes& axis) {
   std::string doubt;
   const auto add = [&](const std::string& text) { doubt += (doubt.empty() ? "" : "; ") + text; };
   if (label.likeliest.empty())
     add("which artery it is was not found");
-  else if (label.confidence < least_confidence)
-    add("perhaps " + label.likeliest + " (" + core::rounded_text(100.0 * label.confidence, 0) + " %)");
+  else if (!label.given || label.second_confidence > least_choice)
+    add((label.given ? "" : "perhaps ") + names_of(label));
   if (axis.evidence < least_evidence)
     add("faint: evidence " + core::rounded_text(100.0 * axis.evidence, 0) + " %");
   for (const std::string& warning : axis.warnings) add(warning);
@@ -41,8 +53,10 @@ FoundModel found_model(const imaging::ImageVolume& image, const coronary::Extrac
   for (std::size_t i = 0; i < tree.vessels.size(); ++i) {
     std::vector<std::string>& warnings = result.found.notes[i].warnings;
     warnings.insert(warnings.end(), said[i].begin(), said[i].end());
-    result.doubts.push_back(
-        doubt_about(result.found.vessels.labels[i], result.found.notes[i], options.labels.least_confidence));
+    std::string doubt = doubt_text(result.found.certainty[i]);
+    const std::string other = doubt_about(result.found.vessels.labels[i], result.found.notes[i]);
+    if (!doubt.empty() && !other.empty()) doubt += "; ";
+    result.doubts.push_back(doubt + other);
   }
   task.set_progress(1.0);
   return result;
@@ -52,6 +66,7 @@ CaseFile create_case(const std::filesystem::path& path, const FoundModel& found,
                      const std::optional<ImageReference>& image) {
   CaseFile made = CaseFile::create(path, found.model, image);
   try {
+    if (!found.found.certainty.empty()) keep_certainty(made, found.found.certainty);
     for (std::size_t i = 0; i < found.doubts.size(); ++i) {
       if (found.doubts[i].empty()) continue;
       VesselMark mark;

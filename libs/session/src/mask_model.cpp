@@ -178,8 +178,7 @@ MaskModel model_of_mask(const imaging::MaskVolume& labels, const imaging::ImageV
   for (std::size_t i = 0; i < result.tree.notes.size(); ++i) {
     coronary::AxisNotes notes = result.tree.notes[i];
     notes.evidence = 1.0;  // how sure a bridge is stands in the notes' words
-    found.doubts.push_back(
-        doubt_about(result.tree.vessels.labels[i], notes, options.labels.least_confidence));
+    found.doubts.push_back(doubt_about(result.tree.vessels.labels[i], notes));
   }
   task.set_progress(1.0);
   return result;

@@ -1,5 +1,6 @@
 #include "ostia/session/patient_tree.h"
 
+#include "ostia/analysis/aha_segments.h"
 #include "ostia/core/error.h"
 #include "ostia/core/text.h"
 #include "ostia/imaging/image_axes.h"
@@ -7,11 +8,9 @@
 #include "ostia/session/found_model.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -19,17 +18,6 @@ namespace ostia::session {
 namespace {
 
 constexpr double patient_step_mm = 0.5, patient_even_mm = 1.0;
-
-bool is_standard(const std::string& name) {
-  static constexpr std::array<std::string_view, 9> whole{"LAD", "LCX", "RCA", "RI", "CB",
-                                                         "AM",  "PDA", "PLB", "OM"};
-  if (std::ranges::find(whole, name) != whole.end()) return true;
-  for (const std::string_view start : {"D", "S", "OM"})
-    if (name.starts_with(start) && name.size() == start.size() + 1 && name.back() >= '1' &&
-        name.back() <= '9')
-      return true;
-  return false;
-}
 
 /// Of a circle as large as the section through the wall's samples about an abscissa.
 double section_radius(const lumen::VesselLumen& vessel, double s_mm) {
@@ -46,7 +34,7 @@ double section_radius(const lumen::VesselLumen& vessel, double s_mm) {
 
 phantom::PatientVessel patient_vessel(const lumen::VesselLumen& vessel, const std::string& name) {
   phantom::PatientVessel out;
-  if (is_standard(name)) out.name = name;
+  out.name = analysis::usual_name(name);
   const double from = vessel.own_from_mm, length = vessel.axis->length() - from;
   const int steps = std::max(4, static_cast<int>(std::ceil(length / patient_step_mm)));
   for (int i = 0; i <= steps; ++i) {

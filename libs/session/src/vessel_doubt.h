@@ -9,7 +9,6 @@
 namespace ostia::session {
 
 /// Empty where the program is sure of its axis and its name.
-std::string doubt_about(const coronary::VesselLabel& label, const coronary::AxisNotes& axis,
-                        double least_confidence);
+std::string doubt_about(const coronary::VesselLabel& label, const coronary::AxisNotes& axis);
 
 }  // namespace ostia::session

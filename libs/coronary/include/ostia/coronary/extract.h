@@ -2,6 +2,7 @@
 /// \file The coronary tree of a contrast-enhanced CT, found and named without a click.
 
 #include "ostia/coronary/axes.h"
+#include "ostia/coronary/certainty.h"
 #include "ostia/coronary/labels.h"
 
 #include <string>
@@ -24,8 +25,9 @@ struct Extraction {
   std::vector<Ostium> ostia;
   LabelledTree vessels;          ///< axes with radii, named as far as that is sure
   std::vector<AxisNotes> notes;  ///< one a vessel, in the tree's order: of the branch that ends where it does
-  std::vector<std::string> warnings;  ///< of all steps, in plain words
-  std::vector<std::string> left_out;  ///< CentredTree::left_out, also among the warnings
+  std::vector<VesselCertainty> certainty;  ///< one a vessel, in the tree's order
+  std::vector<std::string> warnings;       ///< of all steps, in plain words
+  std::vector<std::string> left_out;       ///< CentredTree::left_out, also among the warnings
 };
 
 /// Looks first whether the image can hold a coronary tree (docs/methods/coronary-input.md); then aorta,

@@ -27,6 +27,7 @@ struct Ostium {
   double height_mm = 0.0;          ///< above the lower end of the aorta that was found
   double reach_mm = 0.0;           ///< farthest place from it that was looked at, at most 20
   double section_mm2 = 0.0;        ///< mean section of what goes on: its volume over its reach
+  double beyond_mm = 0.0;          ///< without lumen between the aorta and it; 0: it lies on the aorta's wall
 };
 
 /// The wall of root and ascending aorta is unrolled, and small bright spots just outside it are arteries that

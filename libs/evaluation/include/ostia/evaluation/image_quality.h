@@ -49,10 +49,21 @@ struct NoisePower {
   double deviation_hu = 0.0;             ///< root of the spectrum's integral: of the squares less their trend
   double peak_per_mm = 0.0;              ///< of the parabola through the top, log power
   double mean_per_mm = 0.0;              ///< integral of f NPS(f) over that of NPS(f)
+  /// How much of the power lies along one direction: the modulus of the second harmonic over the angle, 0
+  /// (the same all round) to 1 (streaks).
+  double anisotropy = 0.0;
+  /// Along which the noise is longest, across its strongest waves: from the i axis towards the j axis, [0,
+  /// 180).
+  double streaks_deg = 0.0;
   std::size_t regions = 0;
 };
 /// Throws InvalidInput for no region, a side below 8 voxels, and a region that reaches beyond the image.
 NoisePower noise_power(const imaging::ImageVolume& image, const std::vector<NoiseRegion>& regions, int side);
+/// How alike the noise of slices is that lie 1, 2, ..., `most` apart: the correlation of squares (less their
+/// trends) with those above them. Squares without so many slices above are left out of those lags. Throws
+/// InvalidInput as noise_power does, and where a lag has no square.
+std::vector<double> noise_correlation_along_k(const imaging::ImageVolume& image,
+                                              const std::vector<NoiseRegion>& regions, int side, int most);
 /// Squares wholly inside the mask, side by side; every `slice_step`-th slice.
 std::vector<NoiseRegion> noise_regions(const imaging::MaskVolume& mask, int side, int slice_step = 1);
 
@@ -97,5 +108,18 @@ struct EdgeWidths {
 EdgeWidths edge_widths(const imaging::ImageVolume& image, const imaging::MaskVolume& mask,
                        const EdgeOptions& options = {}, std::size_t most = 2000,
                        const core::TaskContext& task = core::no_task());
+
+/// What edges look like on average: their profiles laid over each other, from 0 to 1 on their two sides (the
+/// means beyond 0.6 of the half length).
+struct EdgeProfile {
+  std::vector<double> at_mm, level;  ///< in steps of 0.1 mm, the higher side last
+  double undershoot = 0.0;           ///< how far it falls below 0 on the lower side
+  double overshoot = 0.0;            ///< how far it rises above 1 on the higher side
+  std::size_t edges = 0;
+};
+/// Of the edges that `edge_widths` finds good enough; without any, empty.
+EdgeProfile edge_profile(const imaging::ImageVolume& image, const imaging::MaskVolume& mask,
+                         const EdgeOptions& options = {}, std::size_t most = 2000,
+                         const core::TaskContext& task = core::no_task());
 
 }  // namespace ostia::evaluation

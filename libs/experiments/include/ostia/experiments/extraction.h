@@ -35,6 +35,8 @@ struct ExtractionTruth {
 /// vesselM/reference.txt. Throws InvalidInput naming what is missing, IoError.
 ExtractionTruth read_extraction_truth(const std::filesystem::path& folder);
 
+/// A suite's folders dataset*, by name. Throws InvalidInput where there is none.
+std::vector<std::filesystem::path> cases_of_suite(const std::filesystem::path& suite);
 /// image*.nrrd or image*.mhd of a case's folder, the first by name. Throws InvalidInput where there is none.
 std::filesystem::path image_of_case(const std::filesystem::path& folder);
 

@@ -7,6 +7,7 @@
 #include "ostia/phantom/phantom_case.h"
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,19 @@ struct RobustnessOptions {
 };
 void validate(const RobustnessOptions& options);  ///< throws InvalidInput
 
+/// A patient as one step shows it, and what is true of it (its vessels as far as they lie in the image).
+struct VariedScan {
+  const Variation& variation;
+  std::uint64_t seed = 0;
+  const imaging::ImageVolume& image;
+  const ExtractionTruth& truth;
+};
+/// Each variation with each patient, patient by patient; `look` with a task for its own part. The field is
+/// the heart's, 15 mm about tree and root. Deterministic. Throws InvalidInput, Cancelled, what `look` throws.
+void scan_patients(const std::vector<Variation>& variations, const RobustnessOptions& options,
+                   const std::function<void(const VariedScan&, const core::TaskContext&)>& look,
+                   const core::TaskContext& task = core::no_task());
+
 /// One patient with one step.
 struct RobustnessRun {
   Variation variation;
@@ -39,8 +53,7 @@ struct RobustnessRun {
   ExtractionRun score;                ///< without wall and stenoses; `failure`: what the refusal says
   std::vector<std::string> warnings;  ///< that the search gave
 };
-/// Each variation with each patient, patient by patient. The field is the heart's, 15 mm about tree and root.
-/// Deterministic. Throws InvalidInput, Cancelled.
+/// Scanned as scan_patients does, and searched. Deterministic. Throws InvalidInput, Cancelled.
 std::vector<RobustnessRun> vary_patients(const std::vector<Variation>& variations,
                                          const RobustnessOptions& options = {},
                                          const core::TaskContext& task = core::no_task());

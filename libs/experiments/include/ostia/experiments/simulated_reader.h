@@ -7,6 +7,7 @@
 #include "ostia/lumen/scalar_field.h"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -50,9 +51,11 @@ struct ReaderStroke {
 /// along the axis; never a score, never the truth.
 class SimulatedReader {
  public:
+  /// Whether a place of the overlay is none of the wall's: a branch leaves there.
+  using Hidden = std::function<bool(const Vec3& place)>;
   /// Throws InvalidInput for a section with a fault or one that the axis does not run through.
   SimulatedReader(const geometry::ContourSection& overlay, std::shared_ptr<const geometry::AxisCurve> axis,
-                  std::int32_t vessel, const ReaderOptions& options = {});
+                  std::int32_t vessel, const ReaderOptions& options = {}, const Hidden& hidden = {});
   ~SimulatedReader();
   /// The next stroke, where they disagree most; nothing when no disagreement is visible.
   std::optional<ReaderStroke> next(const lumen::ScalarField& wall);

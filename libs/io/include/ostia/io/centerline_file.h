@@ -4,8 +4,12 @@
 
 #include "ostia/geometry/branch_groups.h"
 
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace ostia::io {
 
@@ -24,13 +28,21 @@ geometry::VesselTree read_centerlines(const std::filesystem::path& path);
 /// tracts. Throws as read_centerlines does.
 std::optional<geometry::BranchedLines> read_branched_lines(const std::filesystem::path& path);
 
+/// What is known along vessels besides their radius, by a vessel's id and the abscissa on its axis.
+struct AlongVessels {
+  std::string name;                                            ///< "Probability"
+  std::function<double(std::int32_t vessel, double s_mm)> at;  ///< NaN where it is not known
+};
+
 /// VTP: a polyline for each tract of each vessel (geometry::branch_groups), with the arrays that VMTK's
 /// scripts write and read: at points `MaximumInscribedSphereRadius`, `Abscissas` (mm from the root),
 /// `ParallelTransportNormals`, `Curvature` (1/mm), `Torsion` (1/mm), `FrenetTangent`, `FrenetNormal`,
 /// `FrenetBinormal`, and Ostia's `SegmentIds` (-1 at places that were put between the tree's points); on
 /// cells `CenterlineIds`, `TractIds`, `Blanking`, `GroupIds`, `Length` (mm), `Tortuosity`; as field arrays
 /// vessels' names in `VesselNames` and the first points of segments. CSV:
-/// `vessel,x,y,z,radius,abscissa`. Markups: a curve for each vessel (curves_of).
-void write_centerlines(const std::filesystem::path& path, const geometry::VesselTree& tree);
+/// `vessel,x,y,z,radius,abscissa`. `along`: further arrays at points, and columns after these (an empty cell
+/// where it is NaN). Markups: a curve for each vessel (curves_of), without them.
+void write_centerlines(const std::filesystem::path& path, const geometry::VesselTree& tree,
+                       const std::vector<AlongVessels>& along = {});
 
 }  // namespace ostia::io

@@ -25,6 +25,7 @@ struct BodyOptions {
   std::uint64_t seed = 1;
   TissueHu hu;
   double texture = 1.0;  ///< scales the tissues' inner variation, in [0, 3]
+  double mixing = 0.0;   ///< ScanRealism::mixing, in [0, 1]
 };
 /// Options with CT numbers drawn about their usual values.
 BodyOptions draw_body(std::uint64_t seed);

@@ -23,6 +23,9 @@ struct SuiteOptions {
   /// Of the heart's beat, at equal distances, 1 to 100; 1: the heart stands still
   /// (docs/methods/phantom-motion.md).
   int phases = 1;
+  /// Each case's disease, variant and scan are drawn from its seed, as the suite `hard` has them (hard_case),
+  /// not taken from `first`.
+  bool hard = false;
 };
 void validate(const SuiteOptions& options);  ///< throws InvalidInput
 std::string parameters_json(const SuiteOptions& options);

@@ -43,11 +43,13 @@ struct Stenosis {
 };
 
 /// A tube of metal just inside the lumen's boundary; its thickness stands for that of the struts, its CT
-/// number for metal thinned by the gaps between them.
+/// number for metal thinned by the gaps between them. With `struts`, rings of zigzags joined by links, solid,
+/// with the lumen between them.
 struct Stent {
   double s_from_mm = 0.0, s_to_mm = 0.0;
   double thickness_mm = 0.1;
   float hu = 3000.0f;
+  bool struts = false;
 };
 
 /// A stretch of a vessel that bears one of the AHA's segment numbers (Austen et al. 1975; SCCT 2009 for 17).
@@ -106,9 +108,9 @@ void add_lesion(CoronaryVessel& vessel, const LesionOptions& options);
 /// it is, more adds nodules in both halves of the wall along the first two thirds of LAD, LCX and RCA:
 /// (amount - 1) every 12 mm. Throws InvalidInput outside [0, 20].
 void set_calcium(CoronaryTree& tree, double amount, std::uint64_t seed);
-/// A stent of `length_mm` in a vessel, from `s_from_mm` on. Throws InvalidInput where it reaches beyond the
-/// vessel.
-void add_stent(CoronaryVessel& vessel, double s_from_mm, double length_mm);
+/// A stent of `length_mm` in a vessel, from `s_from_mm` on, even or of struts. Throws InvalidInput where it
+/// reaches beyond the vessel.
+void add_stent(CoronaryVessel& vessel, double s_from_mm, double length_mm, bool struts = false);
 
 /// The tree as axes alone: nodes, segments (radius: the mean one) and vessels from each ostium to each end.
 geometry::VesselTree vessel_tree(const CoronaryTree& tree);

@@ -4,6 +4,7 @@
 #include "ostia/core/task_context.h"
 #include "ostia/imaging/volume.h"
 #include "ostia/phantom/body.h"
+#include "ostia/phantom/carried.h"
 #include "ostia/phantom/coronary_tree.h"
 #include "ostia/phantom/heart.h"
 #include "ostia/phantom/patient_heart.h"
@@ -54,6 +55,9 @@ CasePlan plan_case(const CaseOptions& options);
 
 /// The tissues of a case: drawn from its seed, with the variant's contrast.
 BodyOptions body_of(const CaseOptions& options);
+
+/// What the case's patient carries; `body` is the case's.
+std::vector<CarriedThing> things_of(const CasePlan& plan, const Body& body);
 
 /// The case as the scanner sees it.
 Scan scan_case(const CasePlan& plan, const core::TaskContext& task = core::no_task());

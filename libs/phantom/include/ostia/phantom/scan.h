@@ -3,6 +3,7 @@
 
 #include "ostia/core/task_context.h"
 #include "ostia/imaging/volume.h"
+#include "ostia/phantom/scan_realism.h"
 #include "ostia/phantom/scene.h"
 
 #include <cstdint>
@@ -29,9 +30,16 @@ struct ScanOptions {
   geometry::Vec3 moving_centre = geometry::Vec3::Zero();  ///< steps and motion move what lies in this ball
   double moving_radius_mm = 0.0;                          ///< 0: they move everything
   double beam_hardening = 0.0;  ///< 0 none, 1 usual: dark streaks beside dense bone and contrast, in [0, 5]
+  /// What real scans show beyond that. Of its members `acquire` obeys those of the scanner; contrast and what
+  /// patients carry are drawn where a case's scene is made (`scan_case`).
+  ScanRealism realism;
   std::uint64_t seed = 1;
 };
 void validate(const ScanOptions& options);  ///< throws InvalidInput
+
+/// The scanner and the contrast of a gated coronary CT angiogram as it was measured
+/// (docs/experiments/scans.md); nothing carried, no motion. The grid is the caller's.
+ScanOptions measured_scan();
 
 struct Scan {
   imaging::ImageVolume image;  ///< HU in [-1024, 3071]

@@ -44,8 +44,8 @@ MaskModel model_of_mask(const imaging::MaskVolume& labels, const imaging::ImageV
                         const coronary::MaskTreeOptions& options = {},
                         const core::TaskContext& task = core::no_task());
 
-/// A new case with the model, and a mark with a note for each vessel that is in doubt. Throws as
-/// CaseFile::create does; then there is no such file.
+/// A new case with the model, its probabilities, and a mark with a note for each vessel that is in doubt.
+/// Throws as CaseFile::create does; then there is no such file.
 CaseFile create_case(const std::filesystem::path& path, const FoundModel& found,
                      const std::optional<ImageReference>& image);
 

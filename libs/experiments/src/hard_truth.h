@@ -1,0 +1,13 @@
+#pragma once
+/// \file What is known of a synthetic patient, without a folder.
+
+#include "ostia/experiments/extraction.h"
+#include "ostia/phantom/phantom_case.h"
+
+namespace ostia::experiments {
+
+/// As read_extraction_truth has it of the case's folder: the challenge's four vessels with their references,
+/// the others from their own axes; only those whose own lumen begins `least_mm` wide or more.
+ExtractionTruth truth_of_plan(const phantom::CasePlan& plan, double least_mm);
+
+}  // namespace ostia::experiments

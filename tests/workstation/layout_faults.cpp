@@ -129,6 +129,7 @@ class Look {
 
   void of_tabs(const QTabBar& bar) {
     for (int i = 0; i < bar.count(); ++i) {
+      if (!bar.isTabVisible(i)) continue;
       fits(bar, bar.tabText(i), bar.tabRect(i).width() - 8);
       if (!bar.rect().contains(bar.tabRect(i)))
         faults << QStringLiteral("%1: the tab \"%2\" is outside").arg(called(bar), bar.tabText(i));

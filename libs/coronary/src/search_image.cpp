@@ -15,7 +15,7 @@
 namespace ostia::coronary {
 namespace {
 
-constexpr double coarse_slice_mm = 1.25, coarse_slice_share = 1.4;  // of the other axes' voxels
+constexpr double coarse_slice_mm = 1.25, coarse_slice_share = 1.4;  // of the voxels' width
 constexpr double fine_slice_mm = 1.0;                               // at most, afterwards
 constexpr double epicardial_fat_hu = -90.0;
 constexpr double left_noise = 0.75;   // at a vessel's width, by such a blur
@@ -77,7 +77,8 @@ SearchImage search_image(const imaging::ImageVolume& image, const Aorta& aorta,
   const Vec3& spacing = image.geometry.spacing;
   Eigen::Index axis = 0;
   const double slice_mm = spacing.maxCoeff(&axis);
-  if (slice_mm > coarse_slice_mm && slice_mm > coarse_slice_share * spacing.minCoeff())
+  const double wide_mm = std::max(spacing[(axis + 1) % 3], spacing[(axis + 2) % 3]);
+  if (slice_mm > coarse_slice_mm && slice_mm > coarse_slice_share * wide_mm)
     result.changed = with_finer_slices(image, axis, task.sub(0.0, 0.5));
   result.noise_hu = aortic_noise_hu(image, aorta);
   if (result.noise_hu <= borne_noise * (aorta.lumen_hu - epicardial_fat_hu)) return result;

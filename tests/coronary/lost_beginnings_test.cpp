@@ -125,11 +125,11 @@ TEST(SearchImage, NoiseIsMeasuredInTheAortaAndSmoothed) {
   const Aorta aorta = RootScene::aorta();
   EXPECT_LT(aortic_noise_hu(clean, aorta), 1.0);
   const imaging::ImageVolume loud = noisy(clean, 100.0);
-  EXPECT_NEAR(aortic_noise_hu(loud, aorta), 100.0, 8.0);
+  EXPECT_NEAR(aortic_noise_hu(loud, aorta), 100.0, 15.0);  // the lower quartile of small sections
   EXPECT_FALSE(search_image(noisy(clean, 40.0), aorta).changed.has_value());
   const SearchImage smooth = search_image(loud, aorta);
   ASSERT_TRUE(smooth.changed.has_value());
-  EXPECT_NEAR(smooth.noise_hu, 75.0, 6.0);
+  EXPECT_NEAR(smooth.noise_hu, 75.0, 12.0);
   EXPECT_LT(aortic_noise_hu(*smooth.changed, aorta), 0.6 * smooth.noise_hu);
   ASSERT_EQ(smooth.warnings.size(), 1U);
 }

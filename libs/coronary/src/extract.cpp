@@ -104,11 +104,16 @@ void validate(const ExtractOptions& options) {
 
 namespace {
 
-void require_found(const Extraction& result, const GrownTree& grown) {
-  if (result.ostia.empty() && grown.lost.empty())
+/// What begins beyond the wall is looked for beside an artery that does not: where none leaves the aorta,
+/// what was taken for it may be something else.
+void require_ostium(const std::vector<Ostium>& ostia) {
+  if (ostia.empty())
     throw GeometryError(
         "no coronary artery was found where one should leave the aorta: the root may lie outside of the "
         "image, or the arteries hold too little contrast; draw a first vessel by its two ends");
+}
+
+void require_found(const Extraction& result, const GrownTree& grown) {
   if (grown.branches.empty())
     throw GeometryError(
         "nothing that looks like an artery goes on from where one leaves the aorta; draw a first vessel by "
@@ -140,6 +145,7 @@ Extraction extracted(const imaging::ImageVolume& image, const ExtractOptions& op
   const imaging::ImageVolume& seen = search.of(image);
   result.warnings.insert(result.warnings.end(), search.warnings.begin(), search.warnings.end());
   result.ostia = find_ostia(seen, result.aorta, options.ostia, task.sub(0.22, 0.25));
+  require_ostium(result.ostia);
   task.set_stage("growing the coronary tree");
   GrowthOptions growth = options.growth;
   growth.noise_hu = std::max(growth.noise_hu, search.noise_hu);

@@ -269,8 +269,13 @@ TEST_P(SmallScreen, TheTreeIsATabBesideTheListsAndComesBackWithTheRoom) {
   Stage stage(size());
   stage.enter("case");
   auto& tree = stage.window().scene();
-  auto* tabs = stage.window().findChild<QTabWidget*>("lists");
-  ASSERT_EQ(tabs->count(), 3);
+  const auto* tabs = stage.window().findChild<QTabWidget*>("lists");
+  const auto shown_tabs = [&] {
+    int shown = 0;
+    for (int i = 0; i < tabs->count(); ++i) shown += tabs->isTabVisible(i) ? 1 : 0;
+    return shown;
+  };
+  ASSERT_EQ(shown_tabs(), 3);
   EXPECT_FALSE(tree.isVisible());
   for (const char* name : {"cpr1", "cpr2", "section", "slice"})
     EXPECT_GE(stage.window().findChild<QWidget*>(name)->width(), 100) << name;
@@ -292,18 +297,18 @@ TEST_P(SmallScreen, TheTreeIsATabBesideTheListsAndComesBackWithTheRoom) {
   EXPECT_TRUE(testing::wait_until([&] { return colors() > 50; }, 20000)) << colors();
   EXPECT_EQ(color(), unseen);
   EXPECT_TRUE(tree.isVisible());
-  EXPECT_EQ(tabs->currentIndex(), 2);
+  EXPECT_EQ(tabs->currentIndex(), tabs->count() - 1);
   expect_within(stage.window(), "the tree's tab");
 
   stage.window().resize(1600, 1000);
   QApplication::processEvents();
-  EXPECT_EQ(tabs->count(), 2);
+  EXPECT_EQ(shown_tabs(), 2);
   EXPECT_TRUE(tree.isVisible());
   EXPECT_GT(tree.mapTo(&stage.window(), QPoint(0, 0)).x(),
             stage.window().findChild<QWidget*>("section")->mapTo(&stage.window(), QPoint(0, 0)).x());
   stage.window().resize(size());
   QApplication::processEvents();
-  EXPECT_EQ(tabs->count(), 3);
+  EXPECT_EQ(shown_tabs(), 3);
   expect_within(stage.window(), "narrow again");
 }
 

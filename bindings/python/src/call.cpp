@@ -32,9 +32,15 @@ class Calls {
     if (task != nullptr) tasks_.erase(task);
     wake_.notify_all();
   }
+  /// Python ends in another thread.
+  bool ended_elsewhere() {
+    const std::lock_guard lock(mutex_);
+    return ending_ && ender_ != std::this_thread::get_id();
+  }
   void end_all() {
     std::unique_lock lock(mutex_);
     ending_ = true;
+    ender_ = std::this_thread::get_id();
     for (const core::TaskContext* task : tasks_) task->cancel();
     wake_.wait(lock, [this] { return count_ == 0; });
   }
@@ -45,6 +51,7 @@ class Calls {
   std::set<const core::TaskContext*> tasks_;
   int count_ = 0;
   bool ending_ = false;
+  std::thread::id ender_;
 };
 
 Calls& calls() {
@@ -52,11 +59,26 @@ Calls& calls() {
   return *all;
 }
 
+/// A thread that Python does not wait for may not come back to it when it has ended: where it next gave up
+/// the interpreter's lock, in whatever runs there, Python would end the thread through frames of C++, whose
+/// objects are then let go of without the lock. It stays here instead, until the process is gone (as Python
+/// itself does from 3.14 on).
+void stay_where_python_ends() {
+  if (!calls().ended_elsewhere()) return;
+  const py::gil_scoped_release released;
+  for (;;) std::this_thread::sleep_for(std::chrono::hours(1));
+}
+
+/// With the interpreter's lock, from its beginning to its end.
 class InCall {
  public:
-  explicit InCall(const core::TaskContext* task) : task_(task), counted_(calls().begin(task)) {}
+  explicit InCall(const core::TaskContext* task) : task_(task), counted_(calls().begin(task)) {
+    if (!counted_) stay_where_python_ends();
+  }
   ~InCall() {
-    if (counted_) calls().end(task_);
+    if (!counted_) return;
+    calls().end(task_);
+    stay_where_python_ends();
   }
   InCall(const InCall&) = delete;
   InCall& operator=(const InCall&) = delete;
@@ -178,11 +200,6 @@ Outcome outcome_of(const std::shared_ptr<Running>& running, const py::object& te
   return out;
 }
 
-bool in_main_thread() {
-  const py::module_ threading = py::module_::import("threading");
-  return threading.attr("current_thread")().is(threading.attr("main_thread")());
-}
-
 void run(const py::object& progress, Work work, bool may_be_left) {
   const py::object tell = teller(progress);
   const auto running = std::make_shared<Running>(std::move(work));
@@ -191,7 +208,6 @@ void run(const py::object& progress, Work work, bool may_be_left) {
   if (call.counted()) {
     out = outcome_of(running, tell, may_be_left);
   } else {
-    if (!in_main_thread()) throw Cancelled();  // Python waits for this one alone
     running->run();
     out.failure = running->failure();
   }

@@ -77,7 +77,7 @@ std::shared_ptr<const T> kept(const T& given) {
 
 /// When Python ends: calls in other threads are cancelled and waited for, since a thread that comes back to
 /// an interpreter which has ended would take the process down. From then on the main thread's calls run as
-/// they are, and those of others are cancelled.
+/// they are, and other threads stay in theirs until the process is gone.
 void end_all_calls();
 
 }  // namespace ostia::python

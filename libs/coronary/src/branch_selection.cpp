@@ -1,7 +1,8 @@
 #include "branch_selection.h"
 
+#include "voxel_places.h"
+
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -10,12 +11,6 @@ namespace ostia::coronary {
 namespace {
 
 using Voxels = std::unordered_set<std::int64_t>;
-
-Vec3 world_of(const imaging::Geometry& grid, std::int64_t voxel) {
-  return grid.world(Vec3(static_cast<double>(voxel % grid.size[0]),
-                         static_cast<double>(voxel / grid.size[0] % grid.size[1]),
-                         static_cast<double>(voxel / (grid.size[0] * grid.size[1]))));
-}
 
 /// Takes branches off the ways of a front, the longest first.
 class BranchPicker {
@@ -71,7 +66,7 @@ class BranchPicker {
     GrownBranch branch;
     branch.ostium = static_cast<std::size_t>(nodes_.at(end).of);
     if (voxel >= 0) {
-      const auto [parent, point] = nearest_place(world_of(tube_.geometry, voxel));
+      const auto [parent, point] = nearest_place(voxel_place(tube_.geometry, voxel));
       branch.parent = parent;
       branch.parent_point = point;
       lead_out(branches_[static_cast<std::size_t>(parent)], point, way.back(), branch);
@@ -79,7 +74,7 @@ class BranchPicker {
     std::reverse(way.begin(), way.end());
     for (const std::int64_t passed : way) {
       if (unseen_.contains(passed)) add_to_gap(branch);
-      branch.points.push_back(world_of(tube_.geometry, passed));
+      branch.points.push_back(voxel_place(tube_.geometry, passed));
       branch.radius_mm.push_back(radius_mm_.voxels[static_cast<std::size_t>(passed)]);
       branch.tube.push_back(tube_.voxels[static_cast<std::size_t>(passed)]);
       cover(passed);
@@ -96,9 +91,9 @@ class BranchPicker {
     const double beyond_mm = nodes_.at(end).length_mm - nodes_.at(leaves).length_mm;
     if (beyond_mm >= least_branch_mm_) return true;
     if (beyond_mm < least_part * least_branch_mm_) return false;
-    const auto [parent, point] = nearest_place(world_of(tube_.geometry, leaves));
+    const auto [parent, point] = nearest_place(voxel_place(tube_.geometry, leaves));
     const Vec3& from = branches_[static_cast<std::size_t>(parent)].points[point];
-    if (beyond_mm + (world_of(tube_.geometry, leaves) - from).norm() < least_branch_mm_) return false;
+    if (beyond_mm + (voxel_place(tube_.geometry, leaves) - from).norm() < least_branch_mm_) return false;
     std::vector<float> tube;
     for (const std::int64_t voxel : way) tube.push_back(tube_.voxels[static_cast<std::size_t>(voxel)]);
     const auto middle = tube.begin() + static_cast<std::ptrdiff_t>(tube.size() / 2);
@@ -125,7 +120,7 @@ class BranchPicker {
   /// A straight line from a place of the trunk to just before the voxel where a branch leaves its lumen.
   void lead_out(const GrownBranch& trunk, std::size_t point, std::int64_t to, GrownBranch& branch) const {
     constexpr double step_mm = 0.5;
-    const Vec3 from = trunk.points[point], way = world_of(tube_.geometry, to) - from;
+    const Vec3 from = trunk.points[point], way = voxel_place(tube_.geometry, to) - from;
     const double width = radius_mm_.voxels[static_cast<std::size_t>(to)];
     const double likeness = tube_.voxels[static_cast<std::size_t>(to)];
     const auto steps = std::max<std::size_t>(1, static_cast<std::size_t>(way.norm() / step_mm));
@@ -155,9 +150,8 @@ class BranchPicker {
     constexpr double wider = 1.3, and_mm = 0.7;
     const imaging::Geometry& grid = tube_.geometry;
     const double reach_mm = wider * radius_mm_.voxels[static_cast<std::size_t>(voxel)] + and_mm;
-    std::array<std::int64_t, 3> at{voxel % grid.size[0], voxel / grid.size[0] % grid.size[1],
-                                   voxel / (grid.size[0] * grid.size[1])};
-    std::array<std::int64_t, 3> low{}, high{};
+    const GridIndex at = grid_index(grid, voxel);
+    GridIndex low{}, high{};
     for (std::size_t a = 0; a < 3; ++a) {
       const auto reach = static_cast<std::int64_t>(reach_mm / grid.spacing[static_cast<Eigen::Index>(a)]);
       low[a] = std::max<std::int64_t>(0, at[a] - reach);

@@ -170,8 +170,8 @@ class Growing {
 void validate(const GrowthOptions& options) {
   check_growth_option("the wall's intensity", options.wall_hu, -100.0, 150.0, " HU");
   check_growth_option("the fat's intensity", options.fat_hu, -200.0, 50.0, " HU");
-  check_growth_option("the least contrast", options.least_contrast, 0.0, 0.6, "");
-  check_growth_option("the least likeness to a tube", options.least_tube, 0.05, 0.6, "");
+  check_growth_option("the least contrast", options.least_contrast, 0.1, 0.6, "");
+  check_growth_option("the least likeness to a tube", options.least_tube, 0.1, 0.6, "");
   check_growth_option("the noise", options.noise_hu, 0.0, 500.0, " HU");
   check_growth_option("the image's blur", options.image_blur_mm, 0.0, 1.5, " mm");
   check_growth_option("the largest radius", options.largest_radius_mm, 2.0, 8.0, " mm");

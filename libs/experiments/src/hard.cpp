@@ -8,9 +8,6 @@
 #include "ostia/core/error.h"
 #include "ostia/geometry/polyline.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace ostia::experiments {
 namespace {
 
@@ -18,7 +15,6 @@ using geometry::Vec3;
 
 constexpr double judged_mm = 1.5;  // width of the vessels that are judged, where they begin
 
-/// A case on the heart's own field.
 phantom::CasePlan plan_of_hard(HardSuite suite, std::uint64_t seed, const HardPatient* patient,
                                const HardOptions& options) {
   phantom::CaseOptions usual;
@@ -26,19 +22,7 @@ phantom::CasePlan plan_of_hard(HardSuite suite, std::uint64_t seed, const HardPa
   usual.preset = phantom::Preset::small;
   if (patient) usual.patient = patient->tree;
   const bool hard = suite == HardSuite::hard;
-  phantom::CasePlan plan = phantom::plan_case(hard ? hard_case(usual, options.strength) : usual);
-  phantom::ScanOptions& scan = plan.options.scan;
-  // Slices lie closer than they are thick, as they are usually reconstructed.
-  constexpr double slice_share = 0.6;
-  scan.grid =
-      heart_field(plan, options.voxel_mm, std::max(options.voxel_mm, slice_share * scan.psf_fwhm_z_mm));
-  scan.supersampling = 3;
-  scan.psf_fwhm_z_mm = std::max(scan.psf_fwhm_z_mm, 0.5 * scan.grid.spacing.z());
-  // At least half a voxel with the narrower core that kernels with tails and undershoot have.
-  constexpr double least_voxels = 0.7;
-  scan.psf_fwhm_mm = std::max(scan.psf_fwhm_mm, least_voxels * options.voxel_mm);
-  scan.noise_peak_per_mm = std::min(scan.noise_peak_per_mm, 0.17 / options.voxel_mm);
-  return plan;
+  return plan_on_heart_field(hard ? hard_case(usual, options.strength) : usual, options.voxel_mm);
 }
 
 std::vector<Vec3> ostia_of(const phantom::CasePlan& plan) {

@@ -1,8 +1,10 @@
 #include "heart_field.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace ostia::experiments {
+namespace {
 
 imaging::Geometry heart_field(const phantom::CasePlan& plan, double voxel_mm, double slice_mm) {
   using geometry::Vec3;
@@ -24,6 +26,28 @@ imaging::Geometry heart_field(const phantom::CasePlan& plan, double voxel_mm, do
     grid.size[static_cast<std::size_t>(a)] = static_cast<std::int64_t>(std::ceil(size[a] / grid.spacing[a]));
   grid.origin = lower;
   return grid;
+}
+
+}  // namespace
+
+void scan_heart_field(phantom::CasePlan& plan, double voxel_mm, double slice_mm, double least_voxels) {
+  constexpr double highest_peak = 0.17;  // cycles a voxel
+  phantom::ScanOptions& scan = plan.options.scan;
+  scan.grid = heart_field(plan, voxel_mm, slice_mm);
+  scan.supersampling = 3;
+  scan.psf_fwhm_mm = std::max(scan.psf_fwhm_mm, least_voxels * voxel_mm);
+  scan.psf_fwhm_z_mm = std::max(scan.psf_fwhm_z_mm, 0.5 * slice_mm);
+  scan.noise_peak_per_mm = std::min(scan.noise_peak_per_mm, highest_peak / voxel_mm);
+}
+
+phantom::CasePlan plan_on_heart_field(const phantom::CaseOptions& patient, double voxel_mm) {
+  constexpr double slice_share = 0.6;
+  // At least half a voxel with the narrower core that kernels with tails and undershoot have.
+  constexpr double least_voxels = 0.7;
+  phantom::CasePlan plan = phantom::plan_case(patient);
+  scan_heart_field(plan, voxel_mm, std::max(voxel_mm, slice_share * plan.options.scan.psf_fwhm_z_mm),
+                   least_voxels);
+  return plan;
 }
 
 }  // namespace ostia::experiments

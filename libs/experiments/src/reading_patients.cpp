@@ -7,14 +7,10 @@
 #include "ostia/phantom/hard_suite.h"
 #include "ostia/session/found_model.h"
 
-#include <algorithm>
-
 namespace ostia::experiments {
 namespace {
 
 phantom::CasePlan plan_of_reading(std::uint64_t seed, const ReadingPatients& options) {
-  // Slices lie closer than they are thick, as they are usually reconstructed.
-  constexpr double slice_share = 0.6, supersampled_peak = 0.17;
   phantom::CaseOptions patient;
   patient.seed = seed;
   patient.preset = phantom::Preset::small;
@@ -24,15 +20,7 @@ phantom::CasePlan plan_of_reading(std::uint64_t seed, const ReadingPatients& opt
     patient.scan.noise_hu = options.noise_hu;
     patient.scan.motion_mm = options.motion_mm;
   }
-  phantom::CasePlan plan = phantom::plan_case(patient);
-  phantom::ScanOptions& scan = plan.options.scan;
-  scan.grid =
-      heart_field(plan, options.voxel_mm, std::max(options.voxel_mm, slice_share * scan.psf_fwhm_z_mm));
-  scan.supersampling = 3;
-  scan.psf_fwhm_mm = std::max(scan.psf_fwhm_mm, 0.5 * options.voxel_mm);
-  scan.psf_fwhm_z_mm = std::max(scan.psf_fwhm_z_mm, 0.5 * options.voxel_mm);
-  scan.noise_peak_per_mm = std::min(scan.noise_peak_per_mm, supersampled_peak / options.voxel_mm);
-  return plan;
+  return plan_on_heart_field(patient, options.voxel_mm);
 }
 
 /// Null, with the reason, where nothing is found.

@@ -42,12 +42,9 @@ phantom::CasePlan plan_of(const Variation& variation, std::uint64_t seed, const 
   patient.variant = variation.patient;
   patient.scan.motion_mm = variation.motion_mm;
   phantom::CasePlan plan = phantom::plan_case(patient);
+  scan_heart_field(plan, options.voxel_mm, variation.slice_mm);
   phantom::ScanOptions& scan = plan.options.scan;
-  scan.grid = heart_field(plan, options.voxel_mm, variation.slice_mm);
-  scan.supersampling = 3;
-  scan.psf_fwhm_mm = std::max(scan.psf_fwhm_mm, 0.5 * options.voxel_mm);
   scan.psf_fwhm_z_mm = std::max(scan.psf_fwhm_z_mm, 0.9 * variation.slice_mm);
-  scan.noise_peak_per_mm = std::min(scan.noise_peak_per_mm, 0.17 / options.voxel_mm);
   return plan;
 }
 

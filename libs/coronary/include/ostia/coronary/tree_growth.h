@@ -14,9 +14,9 @@ namespace ostia::coronary {
 struct GrowthOptions {
   double wall_hu = 60.0;  ///< usual intensity of vessels' walls and muscle, [-100, 150]
   double fat_hu = -90.0;  ///< of what lies about arteries, [-200, 50]
-  /// Share of the aorta's contrast above the wall that a voxel must have to be looked at, [0, 0.6].
+  /// Share of the aorta's contrast above the wall that a voxel must have to be looked at, [0.1, 0.6].
   double least_contrast = 0.25;
-  /// Share of its contrast above the fat with which a voxel must look like a tube (vesselness), [0.05, 0.6];
+  /// Share of its contrast above the fat with which a voxel must look like a tube (vesselness), [0.1, 0.6];
   /// more where there is noise, which looks so by chance.
   double least_tube = 0.25;
   double noise_hu = 0.0;       ///< standard deviation of the voxels, before the image was smoothed, [0, 500]
@@ -52,8 +52,8 @@ struct GrownTree {
 /// A front from the ostia goes through neighbouring voxels that look like tubes, faster the more they do; the
 /// way to the place farthest along is a branch, and so is each way to the farthest place outside of those
 /// already found, while it is long enough. Where a branch ends and one as wide and as bright goes on ahead of
-/// it, joined by what looks a little like a tube, they are one. Deterministic. Throws InvalidInput,
-/// Cancelled.
+/// it, joined by what looks a little like a tube, they are one. Where fewer than two trees leave the aorta,
+/// fronts come from what begins beyond its wall, too. Deterministic. Throws InvalidInput, Cancelled.
 GrownTree grow_tree(const imaging::ImageVolume& image, const Aorta& aorta, const std::vector<Ostium>& ostia,
                     const GrowthOptions& options = {}, const core::TaskContext& task = core::no_task());
 

@@ -2,7 +2,7 @@
 # only rooms that stand before it here (phantom and evaluation: ground and data alone).
 set(OSTIA_ROOMS
     core geometry
-    imaging reformat io figure
+    imaging dicom pacs reformat io figure
     segmentation centerline reconstruction lumen meshing hemodynamics solver motion analysis
     phantom evaluation coronary pipeline
     session experiments

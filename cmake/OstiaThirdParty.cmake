@@ -29,6 +29,8 @@ set(OSTIA_THIRD_PARTIES
   "OstiaThirdParty::zip|library zip.h zip|libzip-dev"
   "OstiaThirdParty::isal|library isa-l/igzip_lib.h isal|libisal-dev"
   "OstiaThirdParty::gdcm|library gdcmImage.h:gdcm-3.0 gdcmMSFF gdcmDSED gdcmCommon|libgdcm-dev"
+  "OstiaThirdParty::dcmtk|library dcmtk/config/osconfig.h dcmnet dcmtls dcmseg dcmfg dcmiod dcmsr dcmdata oflog ofstd|libdcmtk-dev"
+  "OstiaThirdParty::curl|library curl/curl.h curl|libcurl4-openssl-dev"
   "OstiaThirdParty::cgns|library cgnslib.h cgns|libcgns-dev"
   # All that is left of CGAL when its headers are compiled.
   "OstiaThirdParty::gmp|library gmp.h gmp|libgmp-dev"
@@ -38,6 +40,7 @@ set(OSTIA_THIRD_PARTIES
   "PkgConfig::NETCDF|pkgconfig netcdf|libnetcdf-dev"
   "PkgConfig::EPOXY|pkgconfig epoxy|libepoxy-dev"
   "Qt5::Widgets|package Qt5 5.15 COMPONENTS Widgets|qtbase5-dev"
+  "qt5keychain|package Qt5Keychain|qtkeychain-qt5-dev"
   "Qt5::lrelease|package Qt5 5.15 COMPONENTS LinguistTools|qttools5-dev"
   "pybind11::headers|package pybind11 2.10|pybind11-dev"
   # Headers alone: who loads the module has the library.

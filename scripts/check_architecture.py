@@ -9,7 +9,7 @@ import sys
 
 FLOORS = [
     ["core", "geometry"],
-    ["imaging", "reformat", "io", "figure"],
+    ["imaging", "dicom", "pacs", "reformat", "io", "figure"],
     ["segmentation", "centerline", "reconstruction", "lumen", "meshing", "hemodynamics", "solver", "motion", "analysis"],
     ["phantom", "evaluation", "coronary", "pipeline"],
     ["session", "experiments"],
@@ -18,7 +18,7 @@ FLOORS = [
 GROUND_AND_DATA_ONLY = {"phantom", "evaluation"}
 FOREIGN = re.compile(
     r'#\s*include\s*[<"](itk|vtk|gdcm|CGAL/|tetgen|cholmod|sqlite3|SQLiteCpp|nlohmann|spdlog|fmt/|CLI/|tbb/|oneapi/|embree|cairo|pango|'
-    r'nanoflann|openssl|zlib|isa-l|Q[A-Z])')
+    r'nanoflann|openssl|dcmtk/|curl/|zlib|isa-l|Q[A-Z])')
 OWN = re.compile(r'#\s*include\s*[<"]ostia/([a-z]+)/')
 HEADERS_MAY_SHOW_THIRD_PARTIES = {"view", "glview"}
 # Each stays in files of its own, because of its licence.
@@ -30,17 +30,17 @@ QUARANTINE = {
 # The workstation: its frame, and a folder for what a user does, each of which may use the frame and those before it.
 # The window that puts them together is known in these sources alone.
 FRAME = {"shell", "commands", "views"}
-FEATURES = ["opening", "trees", "phases", "vessels", "measuring", "pressure", "meshing", "flow", "plugins", "qa", "help"]
+FEATURES = ["opening", "archive", "trees", "phases", "vessels", "measuring", "pressure", "meshing", "flow", "plugins", "qa", "help"]
 WORKSTATION = FRAME | set(FEATURES)
 COMPOSED_IN = re.compile(r"shell/(main_window\w*|panel_layout)\.cpp$")
 # The command line: what serves all commands, and a folder for what they work on. Above the folders, all of them together.
-COMMAND_LINE = {"options", "input", "output", "convert", "vessel", "tree", "mesh", "flow", "measure", "motion", "phantom", "evaluate", "experiment", "chain"}
+COMMAND_LINE = {"options", "input", "output", "convert", "pacs", "vessel", "tree", "mesh", "flow", "measure", "motion", "phantom", "evaluate", "experiment", "chain"}
 ABOVE_COMMANDS = {"main", "cli", "commands", "command_table"}
 # Python's hands: a source a room, which is named after it, and what they share. pybind11 stands nowhere else.
 SHARED_BY_BINDINGS = {"module", "rooms", "array", "call", "errors", "figures", "options", "values"}
 PARTS_OF_BINDINGS = {"meshes": "geometry", "trees": "geometry", "graphs": "geometry", "volume": "imaging", "contours": "geometry", "fields": "io", "walls": "lumen", "mesh_options": "meshing",
                      "growth": "analysis", "pipeline_motion": "pipeline", "pipeline_parts": "pipeline", "pipeline_trees": "pipeline",
-                     "case": "session", "display": "session", "pressure": "session", "session_parts": "session", "session_walls": "session"}
+                     "case": "session", "display": "session", "pressure": "session", "session_parts": "session", "session_tissues": "session", "session_walls": "session"}
 FEATURE_INCLUDED = re.compile(r'#\s*include\s*"([a-z]+)/')
 
 

@@ -4,14 +4,20 @@
 #include "chain/plugin.h"
 #include "chain/run.h"
 #include "commands.h"
+#include "convert/deidentify.h"
 #include "evaluate/evaluate.h"
 #include "experiment/experiment.h"
 #include "flow/ffr.h"
 #include "flow/flow_result.h"
 #include "flow/solver_case.h"
+#include "measure/calcium.h"
+#include "measure/dicom_objects.h"
+#include "measure/fat.h"
 #include "measure/measure.h"
 #include "measure/report.h"
+#include "measure/territories.h"
 #include "motion/motion.h"
+#include "pacs/pacs.h"
 #include "tree/grow.h"
 #include "tree/reconstruct.h"
 #include "tree/skeleton.h"
@@ -46,6 +52,11 @@ struct Commands {
   LumenModelCommand lumen;
   ReplayCommand replay;
   ReportCommand report;
+  CalciumCommand calcium;
+  FatCommand fat;
+  TerritoriesCommand territories;
+  DicomCommand dicom;
+  DeidentifyCommand deidentify;
   SkeletonCommand skeleton;
   GrowCommand grow;
   ReconstructCommand reconstruct;
@@ -58,6 +69,7 @@ struct Commands {
   ResultCommand result;
   FfrCommand ffr;
   MotionCommands motion;
+  PacsCommands pacs;
 };
 
 /// Declares them all to the parser; parsing then fills `commands` and sets `run`.

@@ -151,6 +151,78 @@ TEST(ReportCommand, TurnsAnImageWhoseAxesWereGivenByHand) {
   EXPECT_GT(lumen, inside * 9 / 10) << "labels are not where the lumen is";
 }
 
+TEST(ReportCommand, TakesACalciumScoreAndAnImpressionAndKeepsASignature) {
+  const fs::path folder = report_case_folder();
+  core::write_file(folder / "calcium.json", R"({"kind": "calcium score", "total": {"agatston": 312.5}})");
+  core::write_file(folder / "text.txt", "Moderate stenosis of the LAD.\n");
+  const auto report = [&](const std::string& output, const std::vector<std::string>& more) {
+    return ostia(std::vector<std::string>{"report", "heart.ostia", "-o", output, "--json"} + more,
+                 {folder, ""});
+  };
+  const std::string before = core::read_file(folder / "heart.ostia");
+  Outcome made =
+      report("a", {"--calcium", "calcium.json", "--impression", "text.txt", "--template", "short"});
+  ASSERT_EQ(made.code, 0) << made.err;
+  Json json = Json::parse(made.out);
+  EXPECT_EQ(json["cad_rads"]["burden"]["by_calcium"], "P3");
+  EXPECT_EQ(json["impression"]["text"], "Moderate stenosis of the LAD.");
+  EXPECT_EQ(json["impression"]["by_person"], true);
+  EXPECT_EQ(json["signed"], false);
+  EXPECT_EQ(core::read_file(folder / "heart.ostia"), before) << "the case was written without being asked";
+  const std::vector<std::string> sign{"--date", "2026-01-31", "--sign", "Dr. A"};
+  made =
+      report("b", sign + std::vector<std::string>{"--impression", "text.txt", "--calcium", "calcium.json"});
+  ASSERT_EQ(made.code, 0) << made.err;
+  json = Json::parse(made.out);
+  EXPECT_EQ(json["signed"], true);
+  EXPECT_EQ(json["versions"].size(), 1U);
+  EXPECT_EQ(json["versions"][0]["signer"], "Dr. A");
+  made = report("c", {});
+  json = Json::parse(made.out);
+  EXPECT_EQ(json["impression"]["text"], "Moderate stenosis of the LAD.") << "the case keeps it";
+  EXPECT_EQ(json["signed"], true);
+  made = report("d", sign);
+  EXPECT_EQ(made.code, 3);
+  EXPECT_THAT(made.err, HasSubstr("nothing has changed since version 1"));
+  core::write_file(folder / "text.txt", "Another reading.");
+  const std::vector<std::string> anew = sign + std::vector<std::string>{"--impression", "text.txt"};
+  made = report("e", anew);
+  EXPECT_EQ(made.code, 3);
+  EXPECT_THAT(made.err, HasSubstr("does not say what changed"));
+  EXPECT_EQ(Json::parse(report("f", {}).out)["impression"]["text"], "Moderate stenosis of the LAD.")
+      << "half of a refused signature was kept";
+  made = report("g", anew + std::vector<std::string>{"--change", "read again"});
+  ASSERT_EQ(made.code, 0) << made.err;
+  json = Json::parse(made.out);
+  EXPECT_EQ(json["versions"].size(), 2U);
+  EXPECT_EQ(json["versions"][1]["changes"], "read again");
+}
+
+TEST(ReportCommand, RefusesTextsAndScoresThatAreNone) {
+  const fs::path folder = report_case_folder();
+  core::write_file(folder / "empty.txt", " \n");
+  core::write_file(folder / "none.json", "{\"score\": 3}");
+  core::write_file(folder / "less.json", "{\"agatston\": -3}");
+  core::write_file(folder / "bad.json", "{");
+  const std::vector<std::string> before = names_in(folder);
+  const std::vector<std::pair<std::vector<std::string>, std::string>> commands{
+      {{"--impression", "empty.txt"}, "the impression is empty"},
+      {{"--impression", "missing.txt"}, "missing.txt"},
+      {{"--calcium", "none.json"}, "no calcium score"},
+      {{"--calcium", "bad.json"}, "no calcium score"},
+      {{"--calcium", "less.json"}, "0 to 20000"},
+      {{"--template", "long"}, "short"},
+      {{"--sign", "Dr. A"}, "give a date"},
+      {{"--change", "x"}, "--sign"}};
+  for (const auto& [arguments, said] : commands) {
+    const Outcome done =
+        ostia(std::vector<std::string>{"report", "heart.ostia", "-o", "out"} + arguments, {folder, ""});
+    EXPECT_NE(done.code, 0) << said;
+    EXPECT_THAT(done.err, HasSubstr(said));
+  }
+  EXPECT_EQ(names_in(folder), before);
+}
+
 TEST(ReportCommand, DoesWithoutAnImageAndSaysSo) {
   const fs::path folder = report_case_folder();
   const Outcome made = ostia({"report", "heart.ostia", "-o", "out", "--json"}, {folder, ""});

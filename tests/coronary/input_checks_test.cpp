@@ -146,5 +146,13 @@ TEST(InputChecks, WithoutContrastItSaysWhatWasSeen) {
                           HasSubstr("draw a first vessel by its two ends")));
 }
 
+TEST(InputChecks, AScanForTheCalciumScoreIsKnownByItsMissingContrast) {
+  EXPECT_THAT(input_checks_refusal_of(made_image(120.0, 100.0, 3.0, chest_hu)),
+              AllOf(HasSubstr("wider than coronary arteries"), HasSubstr("without contrast agent")));
+  const auto bright = [](const geometry::Vec3& at) { return chest_hu(at) > 0.0 ? 300.0 : -850.0; };
+  EXPECT_THAT(input_checks_refusal_of(made_image(120.0, 100.0, 3.0, bright)),
+              AllOf(HasSubstr("wider than coronary arteries"), ::testing::Not(HasSubstr("contrast"))));
+}
+
 }  // namespace
 }  // namespace ostia::coronary

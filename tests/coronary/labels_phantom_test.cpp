@@ -133,6 +133,19 @@ TEST(LabelsOfAPhantom, WhereThinEndsAreMissing) {
   EXPECT_LE(score.wrong, 2) << score.faults;
 }
 
+/// The first 60 % of each vessel: the second diagonal branch then comes deeper than the LAD, the second
+/// marginal branch farther round than the LCX.
+TEST(LabelsOfAPhantom, WhereEndsAreMissing) {
+  Score score;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const geometry::VesselTree truth = phantom::vessel_tree(testing::first_part(healthy(seed), 0.6));
+    score.add(truth, label_branches(truth));
+  }
+  EXPECT_GE(score.mains_right, 0.85 * score.mains) << score.faults;
+  EXPECT_GE(score.branches_right, 0.9 * score.branches) << score.faults;
+  EXPECT_LE(score.wrong, 8) << score.faults;
+}
+
 TEST(LabelsOfAPhantom, AKnownLongAxisIsUsed) {
   const phantom::HeartShape heart = phantom::draw_heart(5);
   LabelOptions options;

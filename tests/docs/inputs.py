@@ -101,6 +101,7 @@ TABLE = (
     ("CT", "", writes(small_files.write_dicom)),
     ("heart.nrrd", "--aorta", golden_image),
     ("heart.nrrd", "", writes(small_files.write_image)),
+    ("scan.nrrd", "", writes(small_files.write_calcium_scan)),
     ("ct.nii.gz", "", by("convert", "heart.nrrd", "{}")),
     ("vessels.nrrd", "", writes(small_files.write_mask)),
     ("mask.nrrd", "", writes(small_files.write_mask)),

@@ -3,6 +3,7 @@ NRRD and DICOM, its mask, a network in SWC, surfaces as SimVascular writes them,
 
 The vessel runs where the examples put their seeds: from (8, -187, 675) to (6, -178, 720), LPS, mm.
 """
+import gzip
 import json
 import math
 import struct
@@ -65,6 +66,23 @@ def write_mask(path, by_piece=False):
     for index, (inside, piece) in _vessel().items():
         voxels[index] = (piece if by_piece else 1) if inside > 0 else 0
     _nrrd(path, "unsigned char", bytes(voxels))
+
+
+def write_calcium_scan(path):
+    """A chest without contrast agent, voxels of 2 x 2 x 3 mm: a ball of a heart in fat in lung, with two spots of calcium on it."""
+    size, spacing, middle, radius = (80, 80, 44), (2.0, 2.0, 3.0), (80.0, 80.0, 66.0), 45.0
+    spots = [tuple(m + radius * p for m, p in zip(middle, place)) for place in ((0.8, -0.47, 0.46), (-1.1, -0.1, -0.2))]
+
+    def value(x, y, z):
+        if any(abs(x - a) < 3 and abs(y - b) < 3 and abs(z - c) < 3 for a, b, c in spots):
+            return 450
+        away = math.dist((x, y, z), middle)
+        return 45 if away < radius else -90 if away < radius + 9 else -850 if math.hypot(x - 80, y - 80) < 72 else 50
+    voxels = [value(2.0 * i, 2.0 * j, 3.0 * k) for k in range(size[2]) for j in range(size[1]) for i in range(size[0])]
+    directions = " ".join("(" + ",".join(str(s if a == b else 0) for b in range(3)) + ")" for a, s in enumerate(spacing))
+    head = (f"NRRD0004\ntype: short\ndimension: 3\nspace: left-posterior-superior\nsizes: {size[0]} {size[1]} {size[2]}\n"
+            f"space directions: {directions}\nspace origin: (0,0,0)\nendian: little\nencoding: gzip\n\n")
+    path.write_bytes(head.encode() + gzip.compress(struct.pack(f"<{len(voxels)}h", *voxels)))
 
 
 def write_segmentation(path):

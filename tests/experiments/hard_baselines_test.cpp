@@ -78,6 +78,12 @@ TEST(CheapestWay, IsStraightWhereAllCostsTheSameAndGoesThroughTheGapInAWall) {
   EXPECT_EQ(about.front(), from);
   EXPECT_EQ(about.back(), to);
   EXPECT_EQ(cheapest_way(cost, from, from).size(), 1U);
+  const Vec3 aside(-5.0, 5.0, 0.0);
+  const auto both = cheapest_ways(cost, from, {aside, to, from});
+  ASSERT_EQ(both.size(), 3U);
+  EXPECT_EQ(both[0], cheapest_way(cost, from, aside));
+  EXPECT_EQ(both[1], about) << "whatever else is asked for";
+  EXPECT_EQ(both[2].size(), 1U);
 }
 
 /// A half circle of 15 mm about the origin in the plane z = 0, 1.5 mm in radius.

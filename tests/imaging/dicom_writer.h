@@ -115,6 +115,7 @@ struct CtSlice {
   std::string slope = "1", intercept = "-1024", instance = "1", photometric = "MONOCHROME2";
   std::string patient_name = "DOE^JANE", patient_id, study, study_date, description, character_set,
               window_centre, window_width;
+  std::string tube_kv, kernel;
   std::string acquisition, trigger_time, temporal_position, content_time, cardiac_percent, frames;
   unsigned rows = 4, columns = 5, samples = 1, bits_allocated = 16, bits_stored = 12, high_bit = 11,
            is_signed = 0;
@@ -153,7 +154,9 @@ struct CtSlice {
     put(0x00100010u, "PN", patient_name);
     put(0x00100020u, "LO", patient_id);
     put(0x00180050u, "DS", thickness);
+    put(0x00180060u, "DS", tube_kv);
     put(0x00181060u, "DS", trigger_time);
+    put(0x00181210u, "SH", kernel);
     put(0x0020000Du, "UI", study);
     put(0x0020000Eu, "UI", series);
     put(0x00200012u, "IS", acquisition);

@@ -4,6 +4,7 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
+#include "ostia/phantom/stair_steps.h"
 
 #include <gtest/gtest.h>
 
@@ -181,6 +182,8 @@ TEST(Scan, StairStepsMoveBlocksAsAsked) {
   for (const std::int64_t k : {5, 15, 25, 35}) {
     const Vec3 at = centre_of_slice(scan.image, k);
     EXPECT_NEAR((at - stair_shift(options, k)).head<2>().norm(), 0.0, 0.02) << k;
+    const Vec3 axis(0.0, 0.0, at.z());
+    EXPECT_NEAR((at - shown_at(options, axis)).norm(), 0.0, 0.02) << k;
   }
   EXPECT_NEAR((stair_shift(options, 9) - stair_shift(options, 10)).norm(), 2.0, 1e-12);
   EXPECT_EQ((stair_shift(options, 0) - stair_shift(options, 9)).norm(), 0.0);
@@ -196,6 +199,7 @@ TEST(Scan, WhatLiesOutsideTheMovingBallStaysWhereItIs) {
   options.moving_centre = {0, 0, 100.0};
   options.moving_radius_mm = 50.0;
   EXPECT_EQ(acquire(cylinder_scene(5.0), options).image.voxels, still.image.voxels);
+  EXPECT_EQ(shown_at(options, {1.0, 2.0, 3.0}), Vec3(1.0, 2.0, 3.0));
 }
 
 TEST(Scan, MotionBlursAlongOneDirectionByTheVarianceOfItsPath) {

@@ -252,6 +252,14 @@ def test_notes_of_a_case(model, tmp_path):
         assert case.pressure_inputs == {"lv_mass_g": 140.0} and case.what_ifs[0]["to_mm"] == 24
         told = ostia.pressure(case.model, conditions=case.pressure_inputs, what_ifs=case.what_ifs)
         assert told["what_if"]["lesions"][0]["ffr"] > told["lesions"][0]["ffr"]
+        case.annotate("report.modifiers", ischaemia="positive", stent=True, agatston=120.0)
+        case.annotate("report.features", features=[{"vessel": 1, "from_mm": 16.0, "to_mm": 24.0, "feature": "napkin ring", "state": "accepted"}])
+        case.annotate("report.impression", text="No obstructive disease.")
+        case.annotate("report.sign", date="2026-03-01", signer="Dr. A", digest=case.report_notes["digest"])
+        notes = case.report_notes
+        assert notes["impression"] == "No obstructive disease." and notes["modifiers"]["ischaemia"] == "positive"
+        assert notes["features"][0]["feature"] == "napkin ring" and notes["versions"][0]["number"] == 1
+        assert notes["versions"][0]["digest"] == notes["digest"]
         case.annotate("measure.delete", id=first)
         assert case.measurements == [] and case.undo() and len(case.measurements) == 1
         with pytest.raises(ostia.InvalidInput):
@@ -286,6 +294,37 @@ def test_plaque_between_two_walls():
     assert volumes["vessel_mm3"] == pytest.approx(math.pi * 2.6**2 * 10, rel=0.12)
     assert volumes["type"] == "non-calcified" and walls.slabs["plaque_mm2"].shape == walls.slabs["s_mm"].shape
     assert np.hypot(*walls.ring(15.0)[:, :2].T).mean() == pytest.approx(2.6, abs=0.15)
+
+
+def test_calcium_fat_and_territories():
+    """Calcium on a ball of a heart, fat about a tube, a wall between two arteries: each is known."""
+    z, y, x = np.meshgrid(np.arange(44) * 3.0, np.arange(80) * 2.0, np.arange(80) * 2.0, indexing="ij")
+    away = np.sqrt((x - 80) ** 2 + (y - 80) ** 2 + (z - 66) ** 2)
+    hu = np.where(away < 45, 45, np.where(away < 54, -90, np.where(np.hypot(x - 80, y - 80) < 72, -850, 50)))
+    for spot in ((0.8, -0.47, 0.46), (-1.1, -0.1, -0.2)):
+        a, b, c = (m + 45 * p for m, p in zip((80, 80, 66), spot))
+        hu[(abs(x - a) < 3) & (abs(y - b) < 3) & (abs(z - c) < 3)] = 450
+    scan = ostia.Volume(hu.astype(np.int16), spacing=(2, 2, 3))
+    score = ostia.score_calcium(scan, calibration=0.8)
+    assert [lesion["place"] for lesion in score["lesions"]] == ["LAD", "RCA"] and score["total"]["mass_mg"] > 0
+    rca = ostia.score_calcium(scan, places={1: "none"})
+    assert rca["total"]["agatston"] == score["vessels"]["RCA"]["agatston"] and rca["lesions"][0]["assigned"]
+    with pytest.raises(ostia.InvalidInput, match="no lesion 7"):
+        ostia.score_calcium(scan, places={7: "LAD"})
+
+    step = 0.4
+    z, y, x = np.meshgrid(np.arange(-2, 32, step), np.arange(-10, 10, step), np.arange(-10, 10, step), indexing="ij")
+    rho = np.hypot(x, y)
+    image = ostia.Volume(np.where(rho < 1.5, 400, np.where(rho < 2.0, 60, -85)).astype(np.int16), spacing=(step,) * 3, origin=(-10, -10, -2))
+    axis = np.arange(0, 30.1, 0.5)
+    tree = ostia.VesselTree.single(np.column_stack([0 * axis, 0 * axis, axis]), np.full(len(axis), 1.5), "LAD")
+    fat = ostia.measure_fat(ostia.model_of_tubes(tree), image, tube_kv=100.0)
+    assert fat["vessels"][0]["name"] == "LAD" and fat["vessels"][0]["mean_hu"] == pytest.approx(-85, abs=1)
+
+    muscle = ostia.Volume(np.ones((30, 10, 10), np.uint8), origin=(4, 0, 0.5))
+    labels, found = ostia.find_territories(tree, muscle, behind=[(1, 15.0)])
+    assert found["mass_g"] == pytest.approx(3.15) and found["behind_g"][0] == pytest.approx(3.15 / 2, rel=0.05)
+    assert set(np.unique(labels.array)) == {1} and found["lumen_mm3"] == pytest.approx(math.pi * 1.5**2 * 30, rel=0.01)
 
 
 def test_a_phantom_is_its_truth():

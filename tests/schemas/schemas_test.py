@@ -1,15 +1,17 @@
 """Validates what `ostia` writes against docs/schemas, and proves that a broken document fails.
 
-Usage: schemas_test.py OSTIA SCHEMA_FOLDER [Schemas] [Experiments]
+Usage: schemas_test.py OSTIA SCHEMA_FOLDER [Schemas] [Experiments] [Archives]
 """
 
 import copy
+import http.server
 import json
 import pathlib
 import shutil
 import subprocess
 import sys
 import tempfile
+import threading
 import unittest
 
 try:
@@ -38,6 +40,113 @@ class Refusing(unittest.TestCase):
     def assert_refused(self, name, document):
         with self.assertRaises(jsonschema.ValidationError):
             validator(name).validate(document)
+
+
+def element(group, number, kind, value):
+    if isinstance(value, str):
+        value = value.encode()
+    value += (b"\0" if kind in ("UI", "OB") else b" ") * (len(value) % 2)
+    head = group.to_bytes(2, "little") + number.to_bytes(2, "little") + kind.encode()
+    return head + (b"\0\0" + len(value).to_bytes(4, "little") if kind in ("OB", "OW") else len(value).to_bytes(2, "little")) + value
+
+
+def slice_of(number):
+    """A CT slice of 4 x 4 voxels."""
+    short = lambda value: value.to_bytes(2, "little")
+    uid = f"1.2.3.4.{number}"
+    meta = element(2, 2, "UI", CT_IMAGE) + element(2, 3, "UI", uid) + element(2, 0x10, "UI", "1.2.840.10008.1.2.1")
+    return (bytes(128) + b"DICM" + element(2, 0, "UL", len(meta).to_bytes(4, "little")) + meta
+            + element(8, 0x16, "UI", CT_IMAGE) + element(8, 0x18, "UI", uid) + element(8, 0x60, "CS", "CT")
+            + element(0x10, 0x10, "PN", "PLANTED^NAME") + element(0x10, 0x20, "LO", "PLANTED-ID")
+            + element(0x20, 0xD, "UI", "1.2") + element(0x20, 0xE, "UI", "1.2.3") + element(0x20, 0x13, "IS", str(number))
+            + element(0x20, 0x32, "DS", f"0\\0\\{number}") + element(0x20, 0x37, "DS", "1\\0\\0\\0\\1\\0")
+            + element(0x28, 2, "US", short(1)) + element(0x28, 4, "CS", "MONOCHROME2") + element(0x28, 0x10, "US", short(4)) + element(0x28, 0x11, "US", short(4))
+            + element(0x28, 0x30, "DS", "1\\1") + element(0x28, 0x100, "US", short(16)) + element(0x28, 0x101, "US", short(16))
+            + element(0x28, 0x102, "US", short(15)) + element(0x28, 0x103, "US", short(0)) + element(0x7FE0, 0x10, "OW", bytes(32)))
+
+
+CT_IMAGE = "1.2.840.10008.5.1.4.1.1.2"
+
+
+class DicomWeb(http.server.BaseHTTPRequestHandler):
+    """An archive of one series of three slices, which stores whatever it is sent."""
+
+    def log_message(self, *_):
+        pass
+
+    def answer(self, kind, body):
+        self.send_response(200)
+        self.send_header("Content-Type", kind)
+        self.send_header("Content-Length", str(len(body)))
+        self.end_headers()
+        self.wfile.write(body)
+
+    def do_GET(self):
+        one = {"0020000D": {"vr": "UI", "Value": ["1.2"]}, "00100020": {"vr": "LO", "Value": ["PLANTED-ID"]}, "00100010": {"vr": "PN", "Value": [{"Alphabetic": "PLANTED^NAME"}]},
+               "0020000E": {"vr": "UI", "Value": ["1.2.3"]}, "00201209": {"vr": "IS", "Value": [3]}}
+        if "/instances?" in self.path:
+            self.answer("application/dicom+json", json.dumps([{**one, "00080018": {"vr": "UI", "Value": [f"1.2.3.4.{n}"]}} for n in range(3)]).encode())
+        elif "?" in self.path:
+            self.answer("application/dicom+json", json.dumps([one]).encode())
+        else:
+            self.answer('multipart/related; type="application/dicom"; boundary=b', b"".join(b"\r\n--b\r\n\r\n" + slice_of(n) for n in range(3)) + b"\r\n--b--")
+
+    def do_POST(self):
+        self.rfile.read(int(self.headers["Content-Length"]))
+        self.answer("application/dicom+json", b"{}")
+
+
+class Archives(Refusing):
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.folder = pathlib.Path(holder.name)
+        server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), DicomWeb)
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        self.addCleanup(server.server_close)
+        self.addCleanup(server.shutdown)
+        self.servers = self.folder / "servers.json"
+        servers = {"servers": [{"name": "archive", "transport": "dicomweb", "url": f"http://127.0.0.1:{server.server_port}/dicom-web"},
+                               {"name": "gone", "host": "127.0.0.1", "port": 1, "title": "GONE", "attempts": 1}]}
+        validator("pacs-servers").validate(servers)
+        self.servers.write_text(json.dumps(servers))
+
+    def holds(self, command, *arguments, codes=(0,)):
+        printed = json.loads(run("pacs", command, *arguments, "--servers", self.servers, "--json", codes=codes))
+        validator("pacs-" + command).validate(printed)
+        for field in ("v", "kind", "warnings"):
+            self.assert_refused("pacs-" + command, {k: v for k, v in printed.items() if k != field})
+        return printed
+
+    def test_what_is_printed(self):
+        self.holds("echo", "archive")
+        self.assertEqual(self.holds("find", "archive")["found"][0]["patient_name"], "PLANTED^NAME")
+        self.assertEqual(self.holds("find", "archive", "--study", "1.2")["found"][0]["images"], 3)
+        self.assertEqual(len(self.holds("find", "archive", "--study", "1.2", "--series", "1.2.3")["found"]), 3)
+        got = self.holds("get", "archive", "--study", "1.2", "--series", "1.2.3", "-o", self.folder / "CT")
+        self.assertEqual((got["images"], got["announced"], got["series"][0]["slices"]), (3, 3, 3))
+        self.assertEqual(self.holds("send", "archive", self.folder / "CT")["sent"], 3)
+        self.assertEqual(self.holds("send", "gone", self.folder / "CT", "--queue", self.folder / "outbox", codes=(5,))["not_sent"], 3)
+        self.assertEqual({one["state"] for one in self.holds("queue", self.folder / "outbox")["items"]}, {"waiting"})
+        self.holds("queue", self.folder / "outbox", "--send", codes=(5,))
+
+    def test_no_log_names_the_patient(self):
+        def said(*arguments):
+            done = subprocess.run([PROGRAM, "pacs", *map(str, arguments), "--servers", str(self.servers)], capture_output=True, text=True, timeout=100, check=False)
+            return done.stderr
+
+        asked = ("--patient-name", "PLANTED^NAME", "--patient-id", "PLANTED-ID")
+        for log in ("text", "json"):
+            for line in (("find", "archive", *asked), ("find", "gone", *asked), ("find", "nowhere", *asked), ("find", "archive", *asked, "--from", "yesterday"),
+                         ("get", "archive", "--study", "1.2", "--series", "1.2.3", "-o", self.folder / log), ("send", "gone", self.folder / log)):
+                with self.subTest(f"{log} {line[0]} {line[1]}"):
+                    self.assertNotIn("PLANTED", said(*line, "--log", log))
+
+    def test_a_wrong_file_of_servers_is_refused(self):
+        for wrong in ({"servers": [{"name": "a", "password": "x"}]}, {"servers": [{"transport": "dimse"}]}, {}):
+            self.assert_refused("pacs-servers", wrong)
+            self.servers.write_text(json.dumps(wrong))
+            run("pacs", "echo", "a", "--servers", self.servers, codes=(3,))
 
 
 class Experiments(Refusing):
@@ -237,6 +346,30 @@ class Schemas(Refusing):
             del broken[field]
             with self.subTest(field):
                 self.assert_refused("ffr", broken)
+
+    def test_dicom_objects(self):
+        holder = pathlib.Path(self.holder.name)
+        (holder / "dicom.csv").write_text("x,y,z,radius\n" + "".join(f"0,0,{0.5 * i},{0.7 if 24 <= i <= 26 else 1.5}\n" for i in range(49)))
+        run("lumen", holder / "dicom.csv", "-o", holder / "dicom.stl", "--case", holder / "dicom.ostia")
+        made = json.loads(run("dicom", holder / "dicom.ostia", "-o", holder / "objects", "--objects", "stl,sr", "--json"))
+        validator("dicom-objects").validate(made)
+        self.assertTrue(made["pseudonym"])
+        told = json.loads(run("dicom", holder / "objects" / "measurements.dcm"))
+        validator("dicom-measurements").validate(told)
+        self.assertTrue(told["groups"])
+        self.assert_refused("dicom-objects", {**made, "path": "/home"})
+        self.assert_refused("dicom-measurements", {**told, "groups": [{}]})
+
+    def test_deidentified(self):
+        holder = pathlib.Path(self.holder.name)
+        (holder / "named").mkdir()
+        for number in range(3):
+            (holder / "named" / f"{number}.dcm").write_bytes(slice_of(number))
+        made = json.loads(run("deidentify", holder / "named", "-o", holder / "anonymous", "--json"))
+        validator("deidentified").validate(made)
+        self.assertEqual(made["files"], 3)
+        self.assertEqual(made, json.loads((holder / "anonymous" / "deidentified.json").read_text()))
+        self.assert_refused("deidentified", {**made, "files": "3"})
 
     def test_case_report(self):
         holder = pathlib.Path(self.holder.name)

@@ -24,8 +24,14 @@ const testing::Schema& schema() {
 std::vector<AnnotationCommand> one_annotation_of_each() {
   const MarkVessel plain{{0, true, false, std::nullopt, ""}};
   std::vector<AnnotationCommand> commands{MeasureDelete{2147483647},
-                                          testing::marked("\"calcified\"\n\xC3\xA9"), plain,
-                                          testing::told_inputs(), testing::opened()};
+                                          testing::marked("\"calcified\"\n\xC3\xA9"),
+                                          plain,
+                                          testing::told_inputs(),
+                                          testing::opened(),
+                                          testing::written(),
+                                          testing::told_modifiers(),
+                                          testing::told_features(),
+                                          testing::signing("more")};
   for (const MeasureKind kind : testing::all_kinds) {
     commands.push_back(testing::added(kind));
     MeasureChange change{testing::measurement(kind)};
@@ -51,6 +57,15 @@ TEST(AnnotationJson, EveryCommandComesBackAsItWas) {
     }
     if (const auto* stretches = std::get_if<SetWhatIfs>(&command)) {
       EXPECT_EQ(stretches->what_ifs, std::get<SetWhatIfs>(back).what_ifs);
+    }
+    if (const auto* modifiers = std::get_if<SetReportModifiers>(&command)) {
+      EXPECT_EQ(modifiers->modifiers, std::get<SetReportModifiers>(back).modifiers);
+    }
+    if (const auto* features = std::get_if<SetPlaqueFeatures>(&command)) {
+      EXPECT_EQ(features->features, std::get<SetPlaqueFeatures>(back).features);
+    }
+    if (const auto* signed_one = std::get_if<SignReport>(&command)) {
+      EXPECT_EQ(signed_one->version, std::get<SignReport>(back).version);
     }
     if (const auto* mark = std::get_if<MarkVessel>(&command)) {
       EXPECT_TRUE(same(mark->mark, std::get<MarkVessel>(back).mark));
@@ -93,6 +108,10 @@ TEST(AnnotationJson, SaysWhatIsWrong) {
   expect_refused(R"({"v":1,"op":"vessel.mark","vessel":1,"visible":1,"checked":true})", "true or false");
   expect_refused(R"({"v":1,"op":"vessel.mark","vessel":1,"visible":true,"checked":true,"color":[1,0]})",
                  "color");
+  expect_refused(R"({"v":1,"op":"report.modifiers","ischaemia":"maybe"})", "borderline");
+  expect_refused(R"({"v":1,"op":"report.modifiers","seen":{"LAD":"mild"}})", "LCX");
+  expect_refused(R"({"v":1,"op":"report.features","features":[{"vessel":1}]})", "a word on plaque");
+  expect_refused(R"({"v":1,"op":"report.sign","date":"2026-03-01","signer":"A"})", "digest");
   expect_refused(R"({"v":1,"op":"vessel.mark","vessel":1,"visible":true,"checked":true,"color":null})",
                  "color");
 }
@@ -169,7 +188,8 @@ TEST(AnnotationSchema, HasTheDefaultsOfTheProgram) {
           << field;
     }
   }
-  EXPECT_EQ(defaults, 9 * 7 + 9 * 7 + 2);  // of each measurement seven, of a mark one
+  // Of each measurement seven, of a mark one, of modifiers five, of a signature one.
+  EXPECT_EQ(defaults, 9 * 7 + 9 * 7 + 2 + 5 + 1);
 }
 
 }  // namespace

@@ -297,6 +297,10 @@ TEST(Annotation, OpsHaveNames) {
   EXPECT_EQ(op_name(MarkVessel{}), "vessel.mark");
   EXPECT_EQ(op_name(SetPressureInputs{}), "pressure.inputs");
   EXPECT_EQ(op_name(SetWhatIfs{}), "pressure.what_if");
+  EXPECT_EQ(op_name(SetReportImpression{}), "report.impression");
+  EXPECT_EQ(op_name(SetReportModifiers{}), "report.modifiers");
+  EXPECT_EQ(op_name(SetPlaqueFeatures{}), "report.features");
+  EXPECT_EQ(op_name(SignReport{}), "report.sign");
   EXPECT_TRUE(is_annotation_op("vessel.mark"));
   EXPECT_TRUE(is_annotation_op("pressure.what_if"));
   EXPECT_FALSE(is_annotation_op("vessel.rename"));

@@ -221,9 +221,13 @@ TEST(ReportJson, HasTheFieldsOfItsSchema) {
   const Json json = Json::parse(report_json(report, images));
   const Schema schema("case-report.schema.json");
   EXPECT_EQ(names_in(schema["properties"]), names_in(json));
-  const std::map<std::string, std::string> lists{{"vessels", "vessel"},    {"segments", "segment"},
-                                                 {"stenoses", "stenosis"}, {"measurements", "measurement"},
-                                                 {"steps", "step"},        {"images", "image"}};
+  const std::map<std::string, std::string> lists{{"vessels", "vessel"},
+                                                 {"segments", "segment"},
+                                                 {"stenoses", "stenosis"},
+                                                 {"measurements", "measurement"},
+                                                 {"steps", "step"},
+                                                 {"images", "image"},
+                                                 {"standard_segments", "standard_segment"}};
   for (const auto& [list, one] : lists) {
     ASSERT_FALSE(json[list].empty()) << list;
     EXPECT_EQ(names_in(schema.definition(one)["properties"]), names_in(json[list][0])) << list;

@@ -96,7 +96,9 @@ std::vector<JournalEntry> every_step() {
     for (const AnnotationCommand& command :
          {AnnotationCommand(added(kind)), AnnotationCommand(MeasureChange{measurement(kind)}),
           AnnotationCommand(MeasureDelete{3}), AnnotationCommand(marked(own_words)),
-          AnnotationCommand(told_inputs()), AnnotationCommand(opened())})
+          AnnotationCommand(told_inputs()), AnnotationCommand(opened()), AnnotationCommand(written()),
+          AnnotationCommand(told_modifiers()), AnnotationCommand(told_features()),
+          AnnotationCommand(signing())})
       add(op_name(command), to_json(command), StepKind::annotation);
   return journal;
 }
@@ -118,6 +120,18 @@ Annotations all_said(const lumen::LumenModel& model) {
     if (needs_vessel(one)) one.vessel = mark.vessel;
     notes.measurements.push_back(one);
   }
+  return notes;
+}
+
+/// What a report can be told, in own words where these are free.
+ReportNotes all_told(std::int32_t vessel) {
+  ReportNotes notes;
+  notes.modifiers = told_modifiers().modifiers;
+  notes.modifiers.exception = own_words;
+  for (const analysis::PlaqueFeature feature : analysis::plaque_features)
+    notes.features.push_back({vessel, 10.0, 30.0, feature, LesionState::accepted});
+  notes.versions = {{"2026-03-01", own_words, "", std::string(64, 'a')},
+                    {"2026-03-02", own_words, own_words, std::string(64, 'b')}};
   return notes;
 }
 
@@ -158,6 +172,28 @@ TEST(GermanReport, OfABifurcationWithoutAnImageHasNoEnglishWord) {
       report_html(report_of(narrowed_tube("x7", 40.0, 1.5, 20.0, 0.6), {}, {}, nullptr, unknown), {}));
   expect_german(report_html(checked_report(named_y(), nullptr, in_german()), {}));
   expect_german(report_html(report_of(shut_tube(), {}, {}, nullptr, in_german()), {}));
+}
+
+TEST(GermanReport, OfWhatAReaderSignsHasNoEnglishWord) {
+  const imaging::ImageVolume image = walled_image(1.5, 2.6, 10.0);
+  const lumen::LumenModel model = narrowed_tube("RCA", 40.0, 1.5, 20.0, 0.6);
+  const std::int32_t vessel = model.tree.vessels[0].id;
+  Annotations notes;
+  notes.marks = {{vessel, true, true, std::nullopt, ""}};
+  notes.report = all_told(vessel);
+  for (const ReportTemplate form : {ReportTemplate::full, ReportTemplate::brief}) {
+    ReportOptions options = in_german();
+    options.form = form;
+    options.technique = imaging::ScanTechnique{100.0, 0.75, 40.0, "Qr36"};
+    const CaseReport report = report_of(model, notes, {}, &image, options);
+    EXPECT_TRUE(report.statement.high_risk_plaque);
+    expect_german(report_html(report, {}));
+    for (const std::string& line : texts_of("</style>" + drafted_impression(report) + "\n"))
+      EXPECT_THAT(english_in(line), IsEmpty()) << line;
+  }
+  notes.report.impression = own_words;
+  EXPECT_THAT(report_html(report_of(model, notes, {}, &image, in_german()), {}),
+              HasSubstr("reader&#39;s own words"));
 }
 
 TEST(GermanReport, KeepsWhatAPersonWrote) {
@@ -204,6 +240,20 @@ TEST(GermanReport, KnowsAllWordsThatTheLibrariesHave) {
     EXPECT_TRUE(german.knows(analysis::to_string(grade)));
   for (const analysis::MeasureKind kind : analysis::measure_kinds)
     EXPECT_TRUE(german.knows(analysis::traits_of(kind).label)) << analysis::traits_of(kind).label;
+  for (const analysis::PlaqueFeature one : analysis::plaque_features)
+    EXPECT_TRUE(german.knows(analysis::to_string(one))) << analysis::to_string(one);
+  for (const auto one : {analysis::Dominance::unknown, analysis::Dominance::right, analysis::Dominance::left,
+                         analysis::Dominance::codominant})
+    EXPECT_TRUE(german.knows(analysis::to_string(one))) << analysis::to_string(one);
+  for (const auto one : {analysis::Ischaemia::not_tested, analysis::Ischaemia::negative,
+                         analysis::Ischaemia::borderline, analysis::Ischaemia::positive})
+    EXPECT_TRUE(german.knows(analysis::to_string(one))) << analysis::to_string(one);
+  for (const CadRads one : {CadRads::zero, CadRads::three, CadRads::four_a, CadRads::four_b, CadRads::five})
+    EXPECT_TRUE(german.knows(analysis::further_investigation({one, false})));
+  EXPECT_TRUE(german.knows(analysis::further_investigation({std::nullopt, true})));
+  for (const auto one : {analysis::PlaqueBurden::none, analysis::PlaqueBurden::p1, analysis::PlaqueBurden::p2,
+                         analysis::PlaqueBurden::p3, analysis::PlaqueBurden::p4})
+    EXPECT_TRUE(german.knows(analysis::description(one))) << analysis::description(one);
   for (const ScanGrade grade : {ScanGrade::good, ScanGrade::fair, ScanGrade::poor})
     EXPECT_TRUE(german.knows(to_string(grade)));
 }

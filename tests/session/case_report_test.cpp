@@ -187,7 +187,7 @@ TEST(CaseReport, WhatTheReaderRejectsIsNotGradedAndWhatIsAcceptedIs) {
   const std::string label = "S" + std::to_string(narrow(rejected).number);
   EXPECT_THAT(report_html(rejected, {}), HasSubstr(label + ": seen on two planes"));
   EXPECT_THAT(report_html(rejected, {}), HasSubstr("1 rejected by a person"));
-  EXPECT_THAT(stenoses_csv(rejected), HasSubstr(",rejected,seen on two planes\r\n"));
+  EXPECT_THAT(stenoses_csv(rejected), HasSubstr(",rejected,seen on two planes,no,\r\n"));
   EXPECT_THAT(report_json(rejected, {}), HasSubstr("\"state\": \"rejected\""));
 }
 

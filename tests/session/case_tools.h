@@ -156,6 +156,30 @@ inline SetWhatIfs opened(std::int32_t vessel = tube_vessel) {
            {vessel, 0.1, 20.0 / 3.0, WhatIfKind::narrow, 60.0}}};
 }
 
+/// What a report can be told, with what is hard to write.
+inline SetReportImpression written(const std::string& text = "Line \"one\"\nl\xC3\xADne two") {
+  return {text};
+}
+inline SetReportModifiers told_modifiers() {
+  ReportModifiers all;
+  all.ischaemia = analysis::Ischaemia::borderline;
+  all.stent = true;
+  all.exception = "anomalous origin of the LCX";
+  all.seen =
+      SeenPlaque{analysis::PlaqueAmount::mild, analysis::PlaqueAmount::none, analysis::PlaqueAmount::severe};
+  all.agatston = 101.0 + 1.0 / 3.0;
+  all.burden = analysis::PlaqueBurden::p4;
+  all.dominance = analysis::Dominance::left;
+  return {all};
+}
+inline SetPlaqueFeatures told_features(std::int32_t vessel = tube_vessel) {
+  return {{{vessel, 5.0 + 1.0 / 7.0, 12.5, analysis::PlaqueFeature::napkin_ring, LesionState::accepted},
+           {vessel, 5.0, 12.5, analysis::PlaqueFeature::low_attenuation, LesionState::rejected}}};
+}
+inline SignReport signing(const std::string& changes = "") {
+  return {{"2026-03-01", "Dr. \xC3\x84", changes, std::string(64, 'a')}};
+}
+
 /// All of the annotations as text, to the last bit.
 inline std::string text_of(const Annotations& annotations) {
   std::string text = std::to_string(annotations.next_measurement_id) + "\n";
@@ -165,6 +189,11 @@ inline std::string text_of(const Annotations& annotations) {
     text += to_json(AnnotationCommand(MarkVessel{mark})) + "\n";
   text += to_json(AnnotationCommand(SetPressureInputs{annotations.pressure.inputs})) + "\n";
   text += to_json(AnnotationCommand(SetWhatIfs{annotations.pressure.what_ifs})) + "\n";
+  text += to_json(AnnotationCommand(SetReportImpression{annotations.report.impression})) + "\n";
+  text += to_json(AnnotationCommand(SetReportModifiers{annotations.report.modifiers})) + "\n";
+  text += to_json(AnnotationCommand(SetPlaqueFeatures{annotations.report.features})) + "\n";
+  for (const ReportVersion& one : annotations.report.versions)
+    text += to_json(AnnotationCommand(SignReport{one})) + "\n";
   return text;
 }
 

@@ -35,11 +35,12 @@ class CaseVersion : public ::testing::Test {
       file.undo();
       digest = lumen::digest(*file.model());
     }
-    case_version_sql(path,
-                     "DROP TABLE annotation; DROP TABLE measurement; DROP TABLE mark; DROP TABLE "
-                     "evaluability; DROP TABLE lesion; DROP TABLE step_stamp; DROP TABLE image_axes; DROP "
-                     "TABLE pressure_input; DROP TABLE what_if; PRAGMA "
-                     "user_version = 1");
+    case_version_sql(
+        path,
+        "DROP TABLE annotation; DROP TABLE measurement; DROP TABLE mark; DROP TABLE "
+        "evaluability; DROP TABLE lesion; DROP TABLE step_stamp; DROP TABLE image_axes; DROP "
+        "TABLE pressure_input; DROP TABLE what_if; DROP TABLE report_note; DROP TABLE report_version; PRAGMA "
+        "user_version = 1");
     ASSERT_EQ(version_of(path), "1");
     bytes = bytes_of_file(path);
   }
@@ -115,7 +116,8 @@ TEST(CaseOfVersionTwo, KeepsItsMarksAndGetsTheReadersWord) {
   }
   case_version_sql(path,
                    "DROP TABLE evaluability; DROP TABLE lesion; DROP TABLE step_stamp; DROP TABLE "
-                   "image_axes; DROP TABLE pressure_input; DROP TABLE what_if; PRAGMA user_version = 2");
+                   "image_axes; DROP TABLE pressure_input; DROP TABLE what_if; "
+                   "DROP TABLE report_note; DROP TABLE report_version; PRAGMA user_version = 2");
   CaseFile file = CaseFile::open(path);
   ASSERT_EQ(file.annotations()->marks.size(), 1U);
   EXPECT_TRUE(same(file.annotations()->marks[0], plain.mark));
@@ -137,9 +139,11 @@ TEST(CaseOfVersionThree, KeepsTheReadersWordAndGetsThatOnLesions) {
     CaseFile file = CaseFile::create(path, tube_model());
     file.annotate(older);
   }
-  case_version_sql(path,
-                   "DROP TABLE lesion; DROP TABLE step_stamp; DROP TABLE image_axes; DROP TABLE "
-                   "pressure_input; DROP TABLE what_if; PRAGMA user_version = 3");
+  case_version_sql(
+      path,
+      "DROP TABLE lesion; DROP TABLE step_stamp; DROP TABLE image_axes; DROP TABLE "
+      "pressure_input; DROP TABLE what_if; DROP TABLE report_note; DROP TABLE report_version; PRAGMA "
+      "user_version = 3");
   {
     CaseFile file = CaseFile::open(path);
     ASSERT_EQ(file.annotations()->marks.size(), 1U);
@@ -163,7 +167,7 @@ TEST(CaseOfVersionFour, GetsTimesAndNamesFromTheNextStepOn) {
   }
   case_version_sql(path,
                    "DROP TABLE step_stamp; DROP TABLE image_axes; DROP TABLE pressure_input; DROP TABLE "
-                   "what_if; PRAGMA user_version = 4");
+                   "what_if; DROP TABLE report_note; DROP TABLE report_version; PRAGMA user_version = 4");
   CaseFile file = CaseFile::open(path);
   file.set_author("Dr. A");
   file.apply(renamed("two"));
@@ -180,8 +184,9 @@ TEST(CaseOfVersionFive, HasItsImageAsItsFileSaysAndNewOnesAsTheReaderDoes) {
   const fs::path path = folder / "a.ostia";
   const std::string hash(64, 'a');
   CaseFile::create(path, tube_model(), ImageReference{hash, "image-aaaaaaaa"});
-  case_version_sql(
-      path, "DROP TABLE image_axes; DROP TABLE pressure_input; DROP TABLE what_if; PRAGMA user_version = 5");
+  case_version_sql(path,
+                   "DROP TABLE image_axes; DROP TABLE pressure_input; DROP TABLE what_if; "
+                   "DROP TABLE report_note; DROP TABLE report_version; PRAGMA user_version = 5");
   EXPECT_EQ(CaseFile::open(path).image()->axes, "");
   EXPECT_EQ(version_of(path), std::to_string(schema_version));
   CaseFile::create(folder / "b.ostia", tube_model(), ImageReference{hash, "image-aaaaaaaa", "RPS"});
@@ -202,7 +207,9 @@ TEST(CaseOfVersionSix, KeepsItsMarksAndGetsWhatPressuresAreTold) {
     CaseFile file = CaseFile::create(path, tube_model());
     file.annotate(marked("seen"));
   }
-  case_version_sql(path, "DROP TABLE pressure_input; DROP TABLE what_if; PRAGMA user_version = 6");
+  case_version_sql(path,
+                   "DROP TABLE pressure_input; DROP TABLE what_if; DROP TABLE report_note; DROP TABLE "
+                   "report_version; PRAGMA user_version = 6");
   {
     const CaseFile file = CaseFile::open(path);
     EXPECT_TRUE(same(file.annotations()->marks.at(0), marked("seen").mark));
@@ -217,6 +224,28 @@ TEST(CaseOfVersionSix, KeepsItsMarksAndGetsWhatPressuresAreTold) {
   ASSERT_TRUE(file.undo());
   ASSERT_TRUE(file.undo());  // a step of the older program
   EXPECT_THAT(file.annotations()->marks, IsEmpty());
+}
+
+TEST(CaseOfVersionSeven, KeepsWhatPressuresAreToldAndGetsWhatTheReportIs) {
+  const TempFolder folder;
+  const fs::path path = folder / "a.ostia";
+  {
+    CaseFile file = CaseFile::create(path, tube_model());
+    file.annotate(told_inputs());
+  }
+  case_version_sql(path, "DROP TABLE report_note; DROP TABLE report_version; PRAGMA user_version = 7");
+  {
+    const CaseFile file = CaseFile::open(path);
+    EXPECT_EQ(file.annotations()->pressure.inputs, told_inputs().inputs);
+    EXPECT_EQ(file.annotations()->report, ReportNotes{});
+  }
+  EXPECT_EQ(version_of(path), std::to_string(schema_version));
+  CaseFile file = CaseFile::open(path);
+  file.annotate(written());
+  EXPECT_EQ(file.annotations()->report.impression, written().text);
+  ASSERT_TRUE(file.undo());
+  ASSERT_TRUE(file.undo());  // a step of the older program
+  EXPECT_THAT(file.annotations()->pressure.inputs, IsEmpty());
 }
 
 }  // namespace

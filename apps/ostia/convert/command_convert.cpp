@@ -7,6 +7,7 @@
 #include "tree/tree_commands.h"
 
 #include "ostia/core/log.h"
+#include "ostia/dicom/label_object.h"
 #include "ostia/geometry/faces.h"
 #include "ostia/geometry/mesh_topology.h"
 #include "ostia/geometry/smoothing.h"
@@ -146,8 +147,9 @@ void convert_lines(const ConvertCommand& options) {
 }
 
 void convert_image(const ConvertCommand& options, pipeline::SourceKind kind, const core::TaskContext& task) {
-  if (kind == pipeline::SourceKind::mask && imaging::looks_like_labels(options.input.input)) {
-    const auto labels = imaging::read_labels(options.input.input, task).volume;
+  if (kind == pipeline::SourceKind::mask &&
+      (dicom::label_object_in(options.input.input) || imaging::looks_like_labels(options.input.input))) {
+    const auto labels = dicom::read_labels(options.input.input, task).volume;
     imaging::write_image(options.output, labels);
     print_done(options, {{"size", labels.geometry.size}});
   } else if (kind == pipeline::SourceKind::mask) {

@@ -7,6 +7,7 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/log.h"
+#include "ostia/dicom/label_object.h"
 #include "ostia/imaging/dicom.h"
 #include "ostia/imaging/image_file.h"
 #include "ostia/io/graph_file.h"
@@ -39,7 +40,7 @@ ImageFacts facts_of(const imaging::ImageVolume& image, std::string kind, std::ve
 std::vector<LabelFacts> labels_in(const std::filesystem::path& mask, const core::TaskContext& task) {
   std::map<int, std::size_t> voxels;  // in the order of the labels
   try {
-    const auto loaded = imaging::read_labels(mask, task);
+    const auto loaded = dicom::read_labels(mask, task);
     const std::vector<std::int64_t>& names = loaded.header.file_labels;
     for (const std::uint8_t value : loaded.volume.voxels)
       ++voxels[names.empty() ? value : static_cast<int>(names[value])];

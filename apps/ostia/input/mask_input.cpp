@@ -4,6 +4,8 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/log.h"
+#include "ostia/dicom/label_object.h"
+#include "ostia/imaging/dicom.h"
 #include "ostia/imaging/image_file.h"
 #include "ostia/pipeline/source.h"
 
@@ -30,10 +32,25 @@ std::string counts_in_words(const std::array<std::int64_t, 256>& counts,
   return text.empty() ? "none but 0" : text;
 }
 
+/// A segmentation and the images that it is said to be of: what both files say of patient and frame of
+/// reference.
+void require_same_origin(const MaskInput& input) {
+  const std::optional<std::filesystem::path> object = dicom::label_object_in(input.file);
+  if (!object || pipeline::classify(input.image) != pipeline::SourceKind::dicom) return;
+  const imaging::DicomFolder folder = imaging::scan_dicom(input.image);
+  if (folder.series.empty() || folder.series.front().files.empty() || folder.series.front().archive) return;
+  const std::string why = dicom::other_origin(dicom::object_origin(*object),
+                                              dicom::object_origin(folder.series.front().files.front()));
+  if (!why.empty())
+    throw InvalidInput(own_name(input.file) + " and " + own_name(input.image) +
+                       " do not belong together: " + why);
+}
+
 }  // namespace
 
-imaging::MaskVolume read_vessel_labels(const MaskInput& input, const core::TaskContext& task) {
-  imaging::LoadedImage<std::uint8_t> loaded = imaging::read_labels(input.file, task);
+imaging::MaskVolume read_vessel_labels(const MaskInput& input, const core::TaskContext& task,
+                                       const std::optional<imaging::Geometry>& grid) {
+  imaging::LoadedImage<std::uint8_t> loaded = dicom::read_labels(input.file, task, grid);
   for (const std::string& warning : loaded.header.warnings) core::log_warning(warning);
   if (input.labels.empty()) return std::move(loaded.volume);
   std::array<std::int64_t, 256> counts{};
@@ -58,12 +75,15 @@ MaskCase mask_case(const MaskInput& input, const coronary::MaskTreeOptions& opti
                    const core::TaskContext& task) {
   task.set_stage("reading");
   core::redact_in_logs(input.file.string(), "mask");
-  const imaging::MaskVolume labels = read_vessel_labels(input, task.sub(0.0, 0.1));
   pipeline::Source ct;
+  std::optional<imaging::Geometry> grid;
   if (!input.image.empty()) {
-    ct = pipeline::load_ct(input.image, {}, task.sub(0.1, 0.2));
+    ct = pipeline::load_ct(input.image, {}, task.sub(0.0, 0.1));
     for (const std::string& warning : ct.warnings) core::log_warning(warning);
+    require_same_origin(input);
+    grid = ct.image->geometry;
   }
+  const imaging::MaskVolume labels = read_vessel_labels(input, task.sub(0.1, 0.2), grid);
   MaskCase result;
   result.model = naming(input.file, [&] {
     return session::model_of_mask(labels, ct.image.get(), options, task.sub(0.2, 1.0));

@@ -6,6 +6,7 @@
 #include "ostia/session/found_model.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,10 +27,12 @@ struct MaskCase {
 
 /// The mask with its values, without those that were not asked for. Throws InvalidInput naming the labels
 /// that are there where one that is asked for is not.
-imaging::MaskVolume read_vessel_labels(const MaskInput& input, const core::TaskContext& task);
+/// `grid`: of the CT, which a structure set's contours are filled on.
+imaging::MaskVolume read_vessel_labels(const MaskInput& input, const core::TaskContext& task,
+                                       const std::optional<imaging::Geometry>& grid = {});
 
-/// From the file to the model. Throws what the readers and session::model_of_mask throw, with the file's
-/// name.
+/// From the file to the model; of a DICOM segmentation or structure set patient and frame of reference must
+/// be those of the CT. Throws what the readers and session::model_of_mask throw, with the file's name.
 MaskCase mask_case(const MaskInput& input, const coronary::MaskTreeOptions& options,
                    const core::TaskContext& task);
 

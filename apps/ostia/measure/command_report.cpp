@@ -3,6 +3,7 @@
 #include "options/validators.h"
 
 #include "ostia/core/background_task.h"
+#include "ostia/core/error.h"
 #include "ostia/core/files.h"
 #include "ostia/core/log.h"
 #include "ostia/session/case_report.h"
@@ -11,9 +12,11 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <CLI/Validators.hpp>
+#include <nlohmann/json.hpp>
 
 #include <chrono>
 #include <cstdio>
+#include <optional>
 
 namespace ostia::app {
 namespace {
@@ -29,7 +32,7 @@ void print(const std::filesystem::path& folder, bool as_json) {
 }
 
 void print(const session::CaseReport& report) {
-  std::printf("CAD-RADS %s: %s\n%zu lesions in %zu vessels\n", analysis::to_string(report.category).c_str(),
+  std::printf("CAD-RADS %s: %s\n%zu lesions in %zu vessels\n", analysis::to_string(report.statement).c_str(),
               analysis::description(report.category).c_str(), report.stenoses.size(), report.vessels.size());
   if (report.quality) {
     std::printf("image quality: %s\n", session::to_string(report.quality->grade).c_str());
@@ -38,28 +41,90 @@ void print(const session::CaseReport& report) {
   for (const std::string& one : report.not_judged) std::printf("not judged: %s\n", one.c_str());
 }
 
-}  // namespace
+constexpr std::uint64_t most_text_bytes = 1ULL << 20;
 
-ExitCode run_report(const ReportCommand& o, const core::TaskContext& task) {
-  const auto start = Clock::now();
+/// "agatston" of the object, or of its "total".
+double agatston_in(const std::filesystem::path& path) {
+  const auto json = nlohmann::json::parse(core::read_file(path, most_text_bytes), nullptr, false);
+  if (json.is_object()) {
+    const auto& holder = json.contains("agatston") || !json.contains("total") ? json : json["total"];
+    if (holder.is_object() && holder.contains("agatston") && holder["agatston"].is_number())
+      return holder["agatston"].get<double>();
+  }
+  throw InvalidInput(path.string() +
+                     ": no calcium score; give JSON with a number \"agatston\", by itself or in \"total\"");
+}
+
+std::string impression_in(const std::filesystem::path& path) {
+  std::string text = core::read_file(path, most_text_bytes);
+  while (!text.empty() && (text.back() == '\n' || text.back() == '\r' || text.back() == ' ')) text.pop_back();
+  if (text.empty())
+    throw InvalidInput(path.string() + ": the impression is empty; leave the option out for a draft");
+  return text;
+}
+
+/// What the options say and the case does not, and the signature, become steps of the case.
+void sign(const ReportCommand& o, const session::ReportOptions& options) {
+  session::CaseFile file = session::CaseFile::open(o.input);
+  const lumen::LumenModel& model = *file.model();
+  session::Annotations after = *file.annotations();
+  std::vector<session::AnnotationCommand> steps;
+  const auto add = [&](const session::AnnotationCommand& step) {
+    after = session::annotated(after, step, model);  // refuses before anything is kept
+    steps.push_back(step);
+  };
+  if (!options.impression.empty() && options.impression != after.report.impression)
+    add(session::SetReportImpression{options.impression});
+  if (options.agatston && options.agatston != after.report.modifiers.agatston) {
+    session::ReportModifiers modifiers = after.report.modifiers;
+    modifiers.agatston = options.agatston;
+    add(session::SetReportModifiers{modifiers});
+  }
+  const std::string digest = session::report_content_digest(model, after);
+  if (!after.report.versions.empty() && after.report.versions.back().digest == digest)
+    throw InvalidInput("nothing has changed since version " + std::to_string(after.report.versions.size()) +
+                       " of the report was signed; leave --sign out to make it again");
+  add(session::SignReport{{o.date, o.signer, o.changes, digest}});
+  for (const session::AnnotationCommand& step : steps) file.annotate(step);
+}
+
+session::ReportOptions options_of_report(const ReportCommand& o) {
   session::ReportOptions options;
   options.date = o.date;
   options.theta_deg = o.theta_deg;
   options.level_hu = o.level_hu;
   options.window_hu = o.window_hu;
   options.language = session::report_language(o.language);
+  options.form = session::report_template(o.form);
+  if (!o.calcium.empty()) options.agatston = agatston_in(o.calcium);
+  if (!o.impression.empty()) options.impression = impression_in(o.impression);
   session::validate(options);
+  return options;
+}
+
+}  // namespace
+
+ExitCode run_report(const ReportCommand& o, const core::TaskContext& task) {
+  const auto start = Clock::now();
+  session::ReportOptions options = options_of_report(o);
   pipeline::require_free_folder(o.output);
-  const session::CaseFile file = session::CaseFile::open(o.input, session::OpenMode::read_only);
-  options.image = file.image();
+  std::optional opened(session::CaseFile::open(o.input, session::OpenMode::read_only));
+  options.image = opened->image();
   // Walls need no image: they are solved while it is read.
   core::BackgroundTask<analysis::SurfaceOfVessel> solving(
-      [model = file.model()](const core::TaskContext& beside) {
+      [model = opened->model()](const core::TaskContext& beside) {
         return session::solved_surfaces(*model, beside);
       });
   pipeline::Source source;
-  if (!o.image.empty()) source = case_image(o.image, file, task.sub(0.0, 0.15));
+  if (!o.image.empty()) source = case_image(o.image, *opened, task.sub(0.0, 0.15));
   if (source.image && !options.image) options.image = {source.sha256, source.pseudonym};
+  options.technique = source.technique;
+  if (!o.signer.empty()) {
+    opened.reset();  // one at a time has a case open for writing
+    sign(o, options);
+    opened.emplace(session::CaseFile::open(o.input, session::OpenMode::read_only));
+  }
+  const session::CaseFile& file = *opened;
   const pipeline::JobKey job = session::report_job(file, source.image != nullptr, options);
   if (const auto code = pipeline::already_done(o.output, job)) {
     core::log_info("done already with the same case and parameters; nothing to do");
@@ -104,6 +169,21 @@ void define_report(CLI::App& app, ReportCommand& c, std::function<ExitCode(const
       ->add_option("--language", c.language,
                    "Of report.html, report.pdf and the key images: en or de; the other files are the same")
       ->check(CLI::IsMember({"en", "de"}));
+  report
+      ->add_option("--template", c.form,
+                   "How much report.html and report.pdf hold: full, or short (first page, impression, "
+                   "stenoses, segments)")
+      ->check(CLI::IsMember({"full", "short"}));
+  report->add_option("--calcium", c.calcium,
+                     "JSON with an Agatston score (\"agatston\"), for the plaque burden by calcium");
+  report->add_option("--impression", c.impression,
+                     "Text file: the impression, in place of the case's own or a draft of the findings");
+  CLI::Option* signer = report->add_option(
+      "--sign", c.signer,
+      "Who signs this version of the report; kept in the case, with the impression's text; needs --date "
+      "YYYY-MM-DD");
+  report->add_option("--change", c.changes, "What changed since the last version that was signed, one line")
+      ->needs(signer);
   report->add_flag("--json", c.json, "report.json on standard output");
   report->callback([&] { run = [&](const core::TaskContext& task) { return run_report(c, task); }; });
 }

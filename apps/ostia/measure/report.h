@@ -20,7 +20,11 @@ struct ReportCommand {
   std::string date;              ///< as it is to stand in the report; empty: none
   double theta_deg = 0.0;
   double level_hu = 250.0, window_hu = 900.0;
-  std::string language = "en";  ///< of what a person reads
+  std::string language = "en";       ///< of what a person reads
+  std::string form = "full";         ///< "full" or "short"
+  std::filesystem::path calcium;     ///< JSON with an Agatston score; empty: none
+  std::filesystem::path impression;  ///< text in place of the case's own or the draft; empty: none
+  std::string signer, changes;       ///< who signs it, and what changed since the last version
   bool json = false;
 };
 ExitCode run_report(const ReportCommand& options, const core::TaskContext& task);

@@ -80,7 +80,7 @@ void tell(const ReconstructedSurface& made, Json& done) {
   done["moved"] = made.moved;
 }
 
-void print(const Json& done, bool as_json) {
+void print_reconstructed(const Json& done, bool as_json) {
   if (as_json) {
     std::fputs((done.dump(2) + "\n").c_str(), stdout);
   } else if (done.contains("triangles")) {
@@ -144,7 +144,7 @@ ExitCode write_frusta(const ReconstructCommand& c, Json& done, const core::TaskC
   }
   done["points"] = made.mesh.points.size();
   done["triangles"] = made.mesh.triangles.size();
-  print(done, c.json);
+  print_reconstructed(done, c.json);
   return ExitCode::ok;
 }
 
@@ -173,7 +173,7 @@ ExitCode run_reconstruct(const ReconstructCommand& c, const core::TaskContext& t
   warn(io::write_quad_surface(
       c.output, io::quads_of_pairs(made.surface, std::move(made.points), std::move(made.branch_of_quad)),
       task.sub(0.9, 1.0)));
-  print(done, c.json);
+  print_reconstructed(done, c.json);
   if (done["closed"].get<bool>()) return usable ? ExitCode::ok : ExitCode::quality_failed;
   core::log_warning("pairs of triangles that still cross: " + done["self_intersections"].dump() +
                     "; vessels that overlap need more rounds (--untangling), or other radii");

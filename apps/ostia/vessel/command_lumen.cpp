@@ -117,7 +117,7 @@ pipeline::Source image_from(const std::filesystem::path& path, const core::TaskC
 
 /// What a library says of values, with the first of these files that they stand in, unless it names one.
 template <class Call>
-auto naming(const std::vector<std::filesystem::path>& files, const Call& call) {
+auto naming_one_of(const std::vector<std::filesystem::path>& files, const Call& call) {
   try {
     return call();
   } catch (const InvalidInput& error) {
@@ -150,8 +150,8 @@ LumenModel started(const LumenModelCommand& o, const std::string& start, const p
     sampling.spacing_mm = *o.spacing_mm;
     sampling.least_spacing_mm = std::min(sampling.least_spacing_mm, *o.spacing_mm);
   }
-  LumenModel model = naming({o.input, o.surface, o.contours},
-                            [&] { return model_about(tree_of(o), o, start, image, sampling, task); });
+  LumenModel model = naming_one_of({o.input, o.surface, o.contours},
+                                   [&] { return model_about(tree_of(o), o, start, image, sampling, task); });
   if (!o.kernel.empty()) {
     for (auto& vessel : model.vessels) {
       lumen::VesselLumen changed = *vessel;
@@ -202,7 +202,7 @@ using Image = std::optional<session::ImageReference>;
 LumenModel case_edited(const LumenModelCommand& o, const Image& image, const EditScript& script,
                        std::optional<NewCase>& made, Notes& notes, const core::TaskContext& task) {
   const session::CaseFile opened = session::CaseFile::open(o.input, session::OpenMode::read_only);
-  if (image) naming({o.image}, [&] { return opened.check_image(*image); });
+  if (image) naming_one_of({o.image}, [&] { return opened.check_image(*image); });
   task.set_stage("edits");
   return made ? made->go_on(opened, script, notes, task) : edited(*opened.model(), script, notes, task);
 }

@@ -29,6 +29,12 @@ void add_measuring_commands(CommandTable& table, Desk& desk, Reporting& reportin
                   .run = [&desk, &reporting] { reporting.ask_and_make(desk.case_path); }},
                  desk));
   table.add(needs_case(
+      {.id = "file.report_notes",
+       .text = Command::tr("&What the report says\u2026"),
+       .tip = Command::tr("Impression, modifiers of CAD-RADS, features of high-risk plaque, signature."),
+       .run = [&reporting] { reporting.say_in_report(); }},
+      desk));
+  table.add(needs_case(
       {.id = "file.pin",
        .text = Command::tr("&Pin this view to the report"),
        .tip = Command::tr("The view that was clicked last becomes a key image of the next report."),

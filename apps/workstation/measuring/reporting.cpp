@@ -1,6 +1,7 @@
 #include "measuring/reporting.h"
 
 #include "measuring/report_dialog.h"
+#include "measuring/report_notes_dialog.h"
 #include "shell/desk.h"
 #include "shell/file_dialogs.h"
 #include "shell/language.h"
@@ -14,6 +15,7 @@
 #include <QDate>
 #include <QMessageBox>
 #include <QPixmap>
+#include <QPointer>
 #include <QPushButton>
 #include <memory>
 #include <optional>
@@ -78,6 +80,41 @@ void Reporting::ask_and_make(const fs::path& case_file) {
   dialog->open();
 }
 
+session::ReportOptions Reporting::options_now() const {
+  session::ReportOptions options;
+  options.image = desk_.bench.session().file().image();
+  options.date = QDate::currentDate().toString(Qt::ISODate).toStdString();
+  options.theta_deg = desk_.bench.theta_deg.get();
+  options.level_hu = desk_.bench.grey.get().level_hu;
+  options.window_hu = desk_.bench.grey.get().width_hu;
+  options.language = session::report_language(language_in_use().toStdString());
+  return options;
+}
+
+void Reporting::say_in_report() {
+  const session::CaseFile& file = desk_.bench.session().file();
+  const auto dialog = QPointer<ReportNotesDialog>(new ReportNotesDialog(desk_));
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  desk_.jobs.run(
+      "report_findings", tr("Findings of the report"),
+      [model = file.model(), notes = file.annotations(), image = desk_.bench.image().volume,
+       options = options_now()](const core::TaskContext& task) {
+        task.set_stage("walls");
+        const analysis::SurfaceOfVessel surface_of = session::solved_surfaces(*model, task.sub(0.0, 0.3));
+        task.set_stage("measuring");
+        return std::any(std::make_shared<const session::CaseReport>(session::make_case_report(
+            *model, surface_of, *notes, {}, image.get(), options, task.sub(0.3, 1.0))));
+      },
+      [dialog](const std::any& found) {
+        if (dialog) dialog->show_findings(std::any_cast<std::shared_ptr<const session::CaseReport>>(found));
+      },
+      [dialog](const QString& message) {
+        if (dialog) dialog->show_failure(message);
+      });
+  connect(dialog.data(), &QDialog::finished, this, [this] { desk_.jobs.cancel("report_findings"); });
+  dialog->open();
+}
+
 void Reporting::make_report_in(const fs::path& folder, const imaging::ShownIdentity& named) {
   session::Workbench& bench = desk_.bench;
   const session::CaseFile& file = bench.session().file();
@@ -86,12 +123,7 @@ void Reporting::make_report_in(const fs::path& folder, const imaging::ShownIdent
   from.annotations = file.annotations();
   from.journal = file.journal();
   from.image = bench.image().volume;
-  from.options.image = file.image();
-  from.options.date = QDate::currentDate().toString(Qt::ISODate).toStdString();
-  from.options.theta_deg = bench.theta_deg.get();
-  from.options.level_hu = bench.grey.get().level_hu;
-  from.options.window_hu = bench.grey.get().width_hu;
-  from.options.language = session::report_language(language_in_use().toStdString());
+  from.options = options_now();
   from.pinned = pinned_;
   for (std::size_t i = 0; i < from.pinned.size(); ++i)
     from.pinned[i].name = "pinned-" + std::to_string(i + 1);

@@ -25,6 +25,8 @@ class Reporting final : public QObject {
   void make_report_in(const std::filesystem::path& folder, const imaging::ShownIdentity& named = {});
   /// The same after the question whether to name the patient, where it is known who that is: each time anew.
   void ask_and_make(const std::filesystem::path& case_file);
+  /// What a person says of the report, in a dialog; the findings are measured meanwhile.
+  void say_in_report();
   /// The view becomes a further key image of the next report.
   void pin(PictureWidget& view);
   std::size_t pinned() const { return pinned_.size(); }
@@ -36,6 +38,7 @@ class Reporting final : public QObject {
 
  private:
   void show_made(const std::filesystem::path& folder);
+  session::ReportOptions options_now() const;
   Desk& desk_;
   std::vector<session::KeyImage> pinned_;  // of this case alone
   int cases_ = 0;                          // that were on the table so far

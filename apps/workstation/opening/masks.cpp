@@ -3,7 +3,7 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/log.h"
-#include "ostia/imaging/image_file.h"
+#include "ostia/dicom/label_object.h"
 #include "ostia/session/found_model.h"
 
 namespace ostia::workstation {
@@ -26,7 +26,8 @@ session::MaskModel model_for(const imaging::MaskVolume& labels, const session::O
 
 Opening::MaskCase Opening::case_of_mask(const fs::path& mask, const session::OpenImage& image,
                                         const fs::path& state_folder, const core::TaskContext& task) {
-  const auto loaded = imaging::read_labels(mask, task.sub(0.0, 0.1));
+  const auto grid = image.volume ? std::optional(image.volume->geometry) : std::nullopt;
+  const auto loaded = dicom::read_labels(mask, task.sub(0.0, 0.1), grid);
   const session::MaskModel made = model_for(loaded.volume, image, task.sub(0.1, 0.95));
   task.throw_if_cancelled();
   MaskCase result;

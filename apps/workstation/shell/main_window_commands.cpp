@@ -1,5 +1,7 @@
 // The commands of all parts, and what is made of them.
 
+#include "archive/commands.h"
+#include "archive/keyring.h"
 #include "commands/keyboard.h"
 #include "commands/keyboard_commands.h"
 #include "commands/table.h"
@@ -57,6 +59,7 @@ void MainWindow::build_commands() {
                       [this] { finder_->can_do_again() ? finder_->do_again() : orientation_->do_again(); }});
   add_keyboard_commands(*commands_, *keyboard);
   add_opening_commands(*commands_, desk_, *opening_, *orientation_);
+  add_archive_commands(*commands_, desk_, *opening_, desktop_keyring());
   auto* greys = new GreyPresets(desk_);
   add_grey_preset_commands(*commands_, *greys);
   add_layout_commands(*commands_, desk_, *layouts_, *planes_);

@@ -18,9 +18,10 @@ class MenuBuilder {
   MenuBuilder(QMenuBar& bar, const CommandTable& commands) : bar_(bar), commands_(commands) {}
   void file() {
     QMenu* menu = bar_.addMenu(tr("&File"));
-    fill(menu, {"file.open", "file.open_folder", "file.series", "file.orientation"});
+    fill(menu, {"file.open", "file.open_folder", "file.archive", "file.series", "file.orientation"});
     made.recent = menu->addMenu(tr("&Recent cases"));
-    fill(menu, {"file.sample", line, "file.save_as", "file.close", line, "file.report", "file.pin"});
+    fill(menu, {"file.sample", line, "file.save_as", "file.close", line, "file.report_notes", "file.report",
+                "file.pin"});
     fill(menu->addMenu(tr("&Export")),
          {"file.export_surface", "file.export_mesh", "file.flow_case", "file.export_centerlines"});
     fill(menu, {"file.open_mesh", "file.flow_results", "file.motion", "file.phases", line, "file.quit"});

@@ -77,6 +77,10 @@ QString step_name(const std::string& op) {
       {"measure.change", QT_TRANSLATE_NOOP("steps", "Change a measurement")},
       {"pressure.inputs", QT_TRANSLATE_NOOP("steps", "Inputs of the pressures")},
       {"pressure.what_if", QT_TRANSLATE_NOOP("steps", "What if, of the pressures")},
+      {"report.impression", QT_TRANSLATE_NOOP("steps", "Impression of the report")},
+      {"report.modifiers", QT_TRANSLATE_NOOP("steps", "Modifiers of CAD-RADS")},
+      {"report.features", QT_TRANSLATE_NOOP("steps", "Features of plaque")},
+      {"report.sign", QT_TRANSLATE_NOOP("steps", "Sign the report")},
       {"plugin", QT_TRANSLATE_NOOP("steps", "Plug-in")},
       {"measure.delete", QT_TRANSLATE_NOOP("steps", "Delete a measurement")}};
   const QString key = QString::fromStdString(op);

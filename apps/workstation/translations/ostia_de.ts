@@ -1218,6 +1218,112 @@
     </message>
 </context>
 <context>
+    <name>ostia::workstation::ArchiveDialog</name>
+    <message>
+        <source>From the PACS</source>
+        <translation>Aus dem PACS</translation>
+    </message>
+    <message>
+        <source>&amp;Search</source>
+        <translation>&amp;Suchen</translation>
+    </message>
+    <message>
+        <source>Studies and series</source>
+        <translation>Studien und Serien</translation>
+    </message>
+    <message>
+        <source>Patient, series</source>
+        <translation>Patient, Serie</translation>
+    </message>
+    <message>
+        <source>Date</source>
+        <translation>Datum</translation>
+    </message>
+    <message>
+        <source>Description</source>
+        <translation>Beschreibung</translation>
+    </message>
+    <message>
+        <source>Modality</source>
+        <translation>Modalität</translation>
+    </message>
+    <message>
+        <source>Images</source>
+        <translation>Bilder</translation>
+    </message>
+    <message>
+        <source>Server</source>
+        <translation>Server</translation>
+    </message>
+    <message>
+        <source>Password or token</source>
+        <translation>Passwort oder Token</translation>
+    </message>
+    <message>
+        <source>&amp;Keep it in the desktop&apos;s keyring</source>
+        <translation>Im Schlüsselbund des Desktops &amp;behalten</translation>
+    </message>
+    <message>
+        <source>Patient&apos;s name</source>
+        <translation>Name des Patienten</translation>
+    </message>
+    <message>
+        <source>DOE^J*</source>
+        <translation>MUSTER^M*</translation>
+    </message>
+    <message>
+        <source>Patient&apos;s ID</source>
+        <translation>Kennung des Patienten</translation>
+    </message>
+    <message>
+        <source>From day</source>
+        <translation>Ab Tag</translation>
+    </message>
+    <message>
+        <source>To day</source>
+        <translation>Bis Tag</translation>
+    </message>
+    <message>
+        <source>Days, from and to</source>
+        <translation>Tage, von und bis</translation>
+    </message>
+    <message>
+        <source>Searching…</source>
+        <translation>Suche…</translation>
+    </message>
+    <message>
+        <source>Searching in the PACS</source>
+        <translation>Suche im PACS</translation>
+    </message>
+    <message>
+        <source>There are more: ask for less.</source>
+        <translation>Es gibt mehr: Grenzen Sie die Suche ein.</translation>
+    </message>
+    <message>
+        <source>Looking for series</source>
+        <translation>Suche nach Serien</translation>
+    </message>
+    <message>
+        <source>Series %1</source>
+        <translation>Serie %1</translation>
+    </message>
+    <message>
+        <source>Fetching the series</source>
+        <translation>Serie wird geholt</translation>
+    </message>
+    <message>
+        <source>The series did not come</source>
+        <translation>Die Serie kam nicht an</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n study(ies)</source>
+        <translation>
+            <numerusform>%n Studie</numerusform>
+            <numerusform>%n Studien</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>ostia::workstation::BeatingCase</name>
     <message>
         <source>Phase of the heart</source>
@@ -1705,6 +1811,22 @@
     <message>
         <source>Opens a case, an image file, or a zip of DICOM files; dropping it on the window does the same.</source>
         <translation>Öffnet einen Fall, eine Bilddatei oder ein ZIP mit DICOM-Dateien; auf das Fenster ziehen geht auch.</translation>
+    </message>
+    <message>
+        <source>No server is described yet. The manual tells what stands in the file %1.</source>
+        <translation>Es ist noch kein Server beschrieben. Was in der Datei %1 steht, sagt das Handbuch.</translation>
+    </message>
+    <message>
+        <source>From the PACS</source>
+        <translation>Aus dem PACS</translation>
+    </message>
+    <message>
+        <source>From the &amp;PACS…</source>
+        <translation>Aus dem &amp;PACS…</translation>
+    </message>
+    <message>
+        <source>Searches in an image archive and opens a series from it.</source>
+        <translation>Sucht in einem Bildarchiv und öffnet eine Serie daraus.</translation>
     </message>
     <message>
         <source>Open a DICOM &amp;folder…</source>
@@ -2577,6 +2699,14 @@
     <message>
         <source>The page Pressure is not open, or knows no pressures yet.</source>
         <translation>Die Seite „Druck“ ist nicht offen oder kennt noch keine Drücke.</translation>
+    </message>
+    <message>
+        <source>&amp;What the report says…</source>
+        <translation>Was der &amp;Befund sagt…</translation>
+    </message>
+    <message>
+        <source>Impression, modifiers of CAD-RADS, features of high-risk plaque, signature.</source>
+        <translation>Beurteilung, Zusätze zu CAD-RADS, Merkmale von Hochrisikoplaque, Unterschrift.</translation>
     </message>
 </context>
 <context>
@@ -5312,6 +5442,217 @@ Rechtsklick: ein eigenes Fenster, und zurück</translation>
     </message>
 </context>
 <context>
+    <name>ostia::workstation::ReportNotesDialog</name>
+    <message>
+        <source>What the report says</source>
+        <translation>Was der Befund sagt</translation>
+    </message>
+    <message>
+        <source>The findings are being measured…</source>
+        <translation>Die Messwerte werden erhoben…</translation>
+    </message>
+    <message>
+        <source>Impression</source>
+        <translation>Beurteilung</translation>
+    </message>
+    <message>
+        <source>Impression; left empty, the report has a draft of the findings</source>
+        <translation>Beurteilung; bleibt sie leer, steht im Befund ein Entwurf aus den Messwerten</translation>
+    </message>
+    <message>
+        <source>Add the &amp;draft</source>
+        <translation>&amp;Entwurf anfügen</translation>
+    </message>
+    <message>
+        <source>Puts the draft of the findings, as they are now, behind what is written.</source>
+        <translation>Setzt den Entwurf aus den Messwerten, wie sie jetzt sind, hinter das, was geschrieben ist.</translation>
+    </message>
+    <message>
+        <source>Features of high-risk plaque</source>
+        <translation>Merkmale von Hochrisikoplaque</translation>
+    </message>
+    <message>
+        <source>Lesion</source>
+        <translation>Läsion</translation>
+    </message>
+    <message>
+        <source>Feature</source>
+        <translation>Merkmal</translation>
+    </message>
+    <message>
+        <source>Measured</source>
+        <translation>Gemessen</translation>
+    </message>
+    <message>
+        <source>Confidence</source>
+        <translation>Sicherheit</translation>
+    </message>
+    <message>
+        <source>Is there</source>
+        <translation>Ist da</translation>
+    </message>
+    <message>
+        <source>Ischaemia (I)</source>
+        <translation>Ischämie (I)</translation>
+    </message>
+    <message>
+        <source>not tested</source>
+        <translation>nicht geprüft</translation>
+    </message>
+    <message>
+        <source>negative</source>
+        <translation>negativ</translation>
+    </message>
+    <message>
+        <source>borderline</source>
+        <translation>grenzwertig</translation>
+    </message>
+    <message>
+        <source>positive</source>
+        <translation>positiv</translation>
+    </message>
+    <message>
+        <source>Stent (S)</source>
+        <translation>Stent (S)</translation>
+    </message>
+    <message>
+        <source>Graft (G)</source>
+        <translation>Bypass (G)</translation>
+    </message>
+    <message>
+        <source>Exceptions (E)</source>
+        <translation>Ausnahmen (E)</translation>
+    </message>
+    <message>
+        <source>What is no atherosclerosis: dissection, anomalous origin, aneurysm</source>
+        <translation>Was keine Atherosklerose ist: Dissektion, anomaler Abgang, Aneurysma</translation>
+    </message>
+    <message>
+        <source>Dominance</source>
+        <translation>Versorgungstyp</translation>
+    </message>
+    <message>
+        <source>as the tree has it</source>
+        <translation>wie im Gefäßbaum</translation>
+    </message>
+    <message>
+        <source>right</source>
+        <translation>rechts</translation>
+    </message>
+    <message>
+        <source>left</source>
+        <translation>links</translation>
+    </message>
+    <message>
+        <source>co-dominant</source>
+        <translation>ausgeglichen</translation>
+    </message>
+    <message>
+        <source>Calcium score (Agatston)</source>
+        <translation>Kalkscore (Agatston)</translation>
+    </message>
+    <message>
+        <source>Plaque by sight</source>
+        <translation>Plaque nach Augenmaß</translation>
+    </message>
+    <message>
+        <source>none</source>
+        <translation>keine</translation>
+    </message>
+    <message>
+        <source>mild</source>
+        <translation>leicht</translation>
+    </message>
+    <message>
+        <source>moderate</source>
+        <translation>mäßig</translation>
+    </message>
+    <message>
+        <source>severe</source>
+        <translation>schwer</translation>
+    </message>
+    <message>
+        <source>Plaque burden stated</source>
+        <translation>Angegebene Plaquelast</translation>
+    </message>
+    <message>
+        <source>as the report chooses</source>
+        <translation>wie der Befund wählt</translation>
+    </message>
+    <message>
+        <source>no plaque</source>
+        <translation>keine Plaque</translation>
+    </message>
+    <message>
+        <source>Signed by</source>
+        <translation>Unterschrieben von</translation>
+    </message>
+    <message>
+        <source>What changed</source>
+        <translation>Was sich geändert hat</translation>
+    </message>
+    <message>
+        <source>&amp;Sign this version</source>
+        <translation>Diese Fassung &amp;unterschreiben</translation>
+    </message>
+    <message>
+        <source>As the case is now: CAD-RADS %1</source>
+        <translation>Wie der Fall jetzt ist: CAD-RADS %1</translation>
+    </message>
+    <message>
+        <source>The findings could not be measured: %1</source>
+        <translation>Die Messwerte waren nicht zu erheben: %1</translation>
+    </message>
+    <message>
+        <source>low attenuation</source>
+        <translation>niedrige Dichte</translation>
+    </message>
+    <message>
+        <source>positive remodelling</source>
+        <translation>positives Remodeling</translation>
+    </message>
+    <message>
+        <source>spotty calcium</source>
+        <translation>punktförmiger Kalk</translation>
+    </message>
+    <message>
+        <source>napkin ring</source>
+        <translation>Serviettenring</translation>
+    </message>
+    <message>
+        <source>high</source>
+        <translation>hoch</translation>
+    </message>
+    <message>
+        <source>low</source>
+        <translation>gering</translation>
+    </message>
+    <message>
+        <source>not known</source>
+        <translation>nicht bekannt</translation>
+    </message>
+    <message>
+        <source>found</source>
+        <translation>gefunden</translation>
+    </message>
+    <message>
+        <source>not found</source>
+        <translation>nicht gefunden</translation>
+    </message>
+    <message>
+        <source>yes</source>
+        <translation>ja</translation>
+    </message>
+    <message>
+        <source>no</source>
+        <translation>nein</translation>
+    </message>
+    <message>
+        <source>Version %1 of the report is signed.</source>
+        <translation>Fassung %1 des Befunds ist unterschrieben.</translation>
+    </message>
+</context>
+<context>
     <name>ostia::workstation::Reporting</name>
     <message>
         <source>Report</source>
@@ -5356,6 +5697,10 @@ Rechtsklick: ein eigenes Fenster, und zurück</translation>
     <message>
         <source>Click into the CPR, section or slice to be pinned first.</source>
         <translation>Klicken Sie zuerst in die CPR, den Querschnitt oder die Schicht, die angeheftet werden soll.</translation>
+    </message>
+    <message>
+        <source>Findings of the report</source>
+        <translation>Erhebung für den Befund</translation>
     </message>
 </context>
 <context>
@@ -6773,6 +7118,22 @@ Eine Reparatur ändert, was gezeigt wird, nie die Datei.</translation>
     <message>
         <source>What if, of the pressures</source>
         <translation>Was wäre, wenn, bei den Drücken</translation>
+    </message>
+    <message>
+        <source>Impression of the report</source>
+        <translation>Beurteilung des Befunds</translation>
+    </message>
+    <message>
+        <source>Modifiers of CAD-RADS</source>
+        <translation>Zusätze zu CAD-RADS</translation>
+    </message>
+    <message>
+        <source>Features of plaque</source>
+        <translation>Merkmale von Plaque</translation>
+    </message>
+    <message>
+        <source>Sign the report</source>
+        <translation>Befund unterschreiben</translation>
     </message>
 </context>
 <context>

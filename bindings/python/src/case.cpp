@@ -6,6 +6,7 @@
 #include "ostia/session/annotation_json.h"
 #include "ostia/session/edit_json.h"
 #include "ostia/session/replay.h"
+#include "ostia/session/report_digest.h"
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -46,6 +47,27 @@ py::list measurements_of(Case& file) {
   return rows;
 }
 
+/// What the case keeps of its report, and the digest that a signature of it is for.
+py::dict report_notes_of(Case& file) {
+  const auto [model, notes] =
+      file.with_file([](CaseFile& f) { return std::pair(f.model(), f.annotations()); });
+  const session::ReportNotes& report = notes->report;
+  py::dict modifiers = fields_of(session::SetReportModifiers{report.modifiers});
+  py::list versions;
+  for (const session::ReportVersion& one : report.versions) {
+    py::dict version = fields_of(session::SignReport{one});
+    version["number"] = versions.size() + 1;
+    versions.append(version);
+  }
+  py::dict all;
+  all["impression"] = report.impression;
+  all["modifiers"] = modifiers;
+  all["features"] = fields_of(session::SetPlaqueFeatures{report.features})["features"];
+  all["versions"] = versions;
+  all["digest"] = session::report_content_digest(*model, *notes);
+  return all;
+}
+
 py::list marks_of(Case& file) {
   py::list rows;
   const auto notes = file.with_file([](CaseFile& f) { return f.annotations(); });
@@ -64,9 +86,10 @@ py::object annotated(Case& file, const py::object& op, const py::kwargs& fields)
 
 void bind_notes(py::class_<Case, std::shared_ptr<Case>>& type) {
   type.def("annotate", &annotated, py::arg("op"),
-           "A measurement, a mark or what pressures are told, committed to the file: 'measure.add', "
-           "'measure.change', 'measure.delete', 'vessel.mark', 'pressure.inputs', 'pressure.what_if', and "
-           "fields "
+           "A measurement, a mark, what pressures are told or the report says, committed to the file: "
+           "'measure.add', "
+           "'measure.change', 'measure.delete', 'vessel.mark', 'pressure.inputs', 'pressure.what_if', "
+           "'report.impression', 'report.modifiers', 'report.features', 'report.sign', and fields "
            "by keyword, or a line of JSON. Returns the id of a new measurement.")
       .def_property_readonly(
           "measurements", &measurements_of,
@@ -76,6 +99,10 @@ void bind_notes(py::class_<Case, std::shared_ptr<Case>>& type) {
           "marks", &marks_of,
           "What is noted of vessels, a dictionary each: vessel, visible, checked, color, note, "
           "evaluable, lesions")
+      .def_property_readonly(
+          "report_notes", &report_notes_of,
+          "What a person says of the report: impression, modifiers, features (words on those of high-risk "
+          "plaque), versions that were signed, and the digest that a signature is for ('report.sign')")
       .def_property_readonly(
           "pressure_inputs",
           [](Case& file) {

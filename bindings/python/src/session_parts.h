@@ -8,5 +8,6 @@ namespace ostia::python {
 void bind_pressure(py::module_& m);
 void bind_session_walls(py::module_& m);
 void bind_session_reports(py::module_& m);
+void bind_session_tissues(py::module_& m);
 
 }  // namespace ostia::python

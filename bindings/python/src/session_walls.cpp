@@ -21,12 +21,14 @@
 
 namespace ostia::python {
 
+using analysis::HighRiskOptions;
 using analysis::PlaqueOptions;
 using segmentation::OuterWallOptions;
 using session::LabelCount;
 using session::OuterWallsOptions;
 using session::ReportLanguage;
 using session::ReportOptions;
+using session::ReportTemplate;
 using session::ScanGrade;
 using session::ScanQuality;
 using session::VoxelLabels;
@@ -35,6 +37,11 @@ template <>
 struct WordsOf<ReportLanguage> {
   static constexpr std::pair<const char*, ReportLanguage> words[] = {{"en", ReportLanguage::english},
                                                                      {"de", ReportLanguage::german}};
+};
+template <>
+struct WordsOf<ReportTemplate> {
+  static constexpr std::pair<const char*, ReportTemplate> words[] = {{"full", ReportTemplate::full},
+                                                                     {"short", ReportTemplate::brief}};
 };
 template <>
 struct WordsOf<ScanGrade> {
@@ -57,10 +64,13 @@ OSTIA_OPTIONS(PlaqueOptions,
                around, deep, blur_sigma_mm),
               ())
 OSTIA_OPTIONS(OuterWallsOptions, (step_mm, around, wall, plaque), (maps))  // of a screen
+OSTIA_OPTIONS(HighRiskOptions, (least_low_mm3, least_remodelling, spot_mm, least_spot_mm3, ring_deg, ring_mm),
+              ())
 OSTIA_OPTIONS(ReportOptions,
-              (date, walls, least_graded_mm, picture_percent, theta_deg, level_hu, window_hu, language),
-              (image, profile, reference, stenosis, medina, plaque_stretches,
-               evaluability))  // the case's; of the analyses
+              (date, walls, least_graded_mm, picture_percent, theta_deg, level_hu, window_hu, language, form,
+               agatston, impression, high_risk),
+              (image, profile, reference, stenosis, medina, plaque_stretches, evaluability,
+               technique))  // the case's; of the analyses; of the image
 OSTIA_FIGURES(LabelCount, (value, name, voxels), ())
 OSTIA_FIGURES(ScanQuality,
               (voxel_mm, noise_hu, lumen_hu, contrast_hu, cnr, blur_mm, evaluable_share, limited_share,

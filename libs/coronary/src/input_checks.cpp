@@ -1,5 +1,7 @@
 #include "input_checks.h"
 
+#include "heart_chambers.h"
+
 #include "ostia/core/error.h"
 #include "ostia/core/text.h"
 
@@ -212,8 +214,21 @@ void require_chest(const Intensities& values, const imaging::Geometry& grid) {
                       " mm), as abdomen, head or legs do; take an image of the heart, or " + guided);
 }
 
+/// A scan for the calcium score has thick slices: that it has no contrast agent either is said with them.
+void require_fit_grid(const imaging::ImageVolume& image) {
+  try {
+    require_grid(image.geometry);
+  } catch (const InvalidInput& error) {
+    const auto& size = image.geometry.size;
+    std::string why;
+    if (*std::min_element(size.begin(), size.end()) >= least_voxels && !image.voxels.empty())
+      why = why_no_aorta(image);
+    throw InvalidInput(error.what() + (why.find("without contrast") != std::string::npos ? why : ""));
+  }
+}
+
 InputNotes check_input(const imaging::ImageVolume& image) {
-  require_grid(image.geometry);
+  require_fit_grid(image);
   const Intensities values = intensities_of(image);
   require_ct_numbers(values);
   require_chest(values, image.geometry);

@@ -14,6 +14,16 @@ constexpr double least_single_mm = 20.0;
 constexpr double lcx_per_mm = 0.6, rca_per_mm = 0.3;
 constexpr double about_aorta_mm = 25.0;  // of an LCX with an ostium of its own, before it reaches the groove
 
+/// A path's way up to an abscissa.
+TreePath first_part(const TreePath& path, double to_mm) {
+  const std::size_t count = std::min(path.index(to_mm) + 1, path.at.size());
+  TreePath part;
+  part.points.assign(path.points.begin(), path.points.begin() + static_cast<std::ptrdiff_t>(count));
+  part.s_mm.assign(path.s_mm.begin(), path.s_mm.begin() + static_cast<std::ptrdiff_t>(count));
+  part.at.assign(path.at.begin(), path.at.begin() + static_cast<std::ptrdiff_t>(count));
+  return part;
+}
+
 /// The farther a path follows the groove, the better; what turns to the apex is a branch of it.
 double groove_score(const TreePath& path, double from_mm, double sign, double per_mm) {
   return sweep_deg(path, from_mm, sign) -
@@ -53,6 +63,43 @@ Choice best_of(const std::vector<TreePath>& paths, const std::vector<int>& among
   return choice;
 }
 
+/// A limb of a fork that is known a shorter way than the other is not to lose for that alone: where it is the
+/// better one as far as both are known, by `margin`, the vessel goes on in it.
+template <class Score>
+Choice as_far_as_known(const std::vector<TreePath>& paths, const std::vector<int>& among, Choice choice,
+                       double margin, const Score& score) {
+  constexpr double least_limb_mm = 2.0, little_less_mm = 16.0, least_share = 0.25;
+  while (choice.path >= 0) {  // each turn goes to a shorter path
+    const TreePath& best = paths[static_cast<std::size_t>(choice.path)];
+    Choice better;
+    double gain = margin;
+    for (const int i : among) {
+      const TreePath& other = paths[static_cast<std::size_t>(i)];
+      const double fork = shared_mm(best, other), limb = other.length() - fork, known = best.length() - fork;
+      if (other.root != best.root || i == choice.path || fork > same_vessel * best.length()) continue;
+      if (limb >= known || limb < least_limb_mm ||
+          (limb < least_share * known && limb < known - little_less_mm))
+        continue;
+      const double own = score(i, fork + limb), theirs = score(choice.path, fork + limb);
+      if (own - theirs <= gain) continue;
+      gain = own - theirs;
+      better = {i, own, theirs};
+    }
+    if (better.path < 0) break;
+    choice = better;
+  }
+  return choice;
+}
+
+/// In the groove between the ventricles, on the heart's surface, far towards the apex; about which angles say
+/// nothing.
+double lad_limb_score(const TreePath& path, double to_mm) {
+  constexpr double narrow_mm = 15.0, end_mm = 4.0;
+  const HeartPlace end = first_part(path, to_mm).ending(end_mm);
+  const double off = (end.angle_deg - anterior_groove) * std::min(1.0, end.away_mm / narrow_mm);
+  return end.depth_mm / 80.0 - off / 60.0 - std::abs(off) / 180.0 + end.away_mm / 40.0;
+}
+
 void name_lad(const std::vector<TreePath>& paths, std::vector<PathName>& names, MainVessels& main) {
   std::vector<int> among;
   double deepest = 0.0, least_angle = 1e9;
@@ -66,10 +113,14 @@ void name_lad(const std::vector<TreePath>& paths, std::vector<PathName>& names, 
     among.push_back(i);
     least_angle = std::min(least_angle, end.angle_deg);
   }
-  const Choice choice = best_of(paths, among, [&](int i) {
+  Choice choice = best_of(paths, among, [&](int i) {
     const HeartPlace end = way_to_apex(paths[static_cast<std::size_t>(i)]);
     return end.depth_mm / 80.0 - (end.angle_deg - least_angle) / 60.0 -
            std::abs(end.angle_deg - anterior_groove) / 180.0;
+  });
+  constexpr double margin = 0.05;
+  choice = as_far_as_known(paths, among, choice, margin, [&](int i, double to_mm) {
+    return lad_limb_score(paths[static_cast<std::size_t>(i)], to_mm);
   });
   if (choice.path < 0) return;
   const HeartPlace end = way_to_apex(paths[static_cast<std::size_t>(choice.path)]);
@@ -91,8 +142,12 @@ void name_lcx(const std::vector<TreePath>& paths, std::vector<PathName>& names, 
     return lad.root == path.root ? shared_mm(lad, path) : std::min(about_aorta_mm, 0.3 * path.length());
   };
   const std::vector<int> among = unnamed_of_side(names, CoronarySide::left);
-  const Choice choice = best_of(paths, among, [&](int i) {
+  Choice choice = best_of(paths, among, [&](int i) {
     return groove_score(paths[static_cast<std::size_t>(i)], from(i), 1.0, lcx_per_mm);
+  });
+  constexpr double margin_deg = 1.5;
+  choice = as_far_as_known(paths, among, choice, margin_deg, [&](int i, double to_mm) {
+    return groove_score(first_part(paths[static_cast<std::size_t>(i)], to_mm), from(i), 1.0, lcx_per_mm);
   });
   if (choice.path < 0) return;
   const TreePath& path = paths[static_cast<std::size_t>(choice.path)];

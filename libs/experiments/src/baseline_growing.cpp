@@ -79,6 +79,25 @@ std::vector<std::int64_t> connected(const MaskVolume& bright, const Vec3& ostium
   return found;
 }
 
+/// The skeleton begins behind what was taken off with the aorta; its lines go back to the ostium.
+void begin_at_ostia(geometry::VesselTree& tree, const std::vector<Vec3>& ostia, double within_mm) {
+  for (geometry::TreeNode& node : tree.nodes) {
+    if (std::ranges::any_of(tree.segments, [&](const auto& segment) { return segment.to == node.id; }))
+      continue;
+    const auto nearest =
+        std::ranges::min_element(ostia, {}, [&](const Vec3& o) { return (o - node.position).norm(); });
+    const double away = nearest == ostia.end() ? 0.0 : (*nearest - node.position).norm();
+    if (!(away > 0.0 && away <= within_mm)) continue;
+    node.position = *nearest;
+    for (geometry::TreeSegment& segment : tree.segments) {
+      if (segment.from != node.id) continue;
+      segment.axis.points.insert(segment.axis.points.begin(), *nearest);
+      segment.axis.radius.insert(segment.axis.radius.begin(), segment.axis.radius.front());
+      geometry::complete(segment.axis);
+    }
+  }
+}
+
 geometry::VesselTree skeleton_tree(const MaskVolume& region, const std::vector<Vec3>& ostia,
                                    const RegionGrowingOptions& options, const core::TaskContext& task) {
   constexpr double inlet_mm = 12.0;
@@ -93,7 +112,9 @@ geometry::VesselTree skeleton_tree(const MaskVolume& region, const std::vector<V
         }))
       inlets.push_back(ostium);
   graph = centerline::oriented(graph, inlets, {.snap_mm = inlet_mm}).graph;
-  return centerline::vessel_tree(graph).tree;
+  geometry::VesselTree tree = centerline::vessel_tree(graph).tree;
+  begin_at_ostia(tree, inlets, inlet_mm);
+  return tree;
 }
 
 /// Adds what grows from one ostium to the region, at the first threshold at which it does not leak.

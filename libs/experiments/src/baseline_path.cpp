@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 #include <queue>
+#include <set>
 #include <utility>
 
 namespace ostia::experiments {
@@ -59,11 +60,13 @@ imaging::FloatVolume cost_per_mm(const imaging::ImageVolume& image, const Cheape
   return cost;
 }
 
-std::vector<Vec3> cheapest_way(const imaging::FloatVolume& cost_per_mm, const Vec3& from, const Vec3& to,
-                               const core::TaskContext& task) {
+std::vector<std::vector<Vec3>> cheapest_ways(const imaging::FloatVolume& cost_per_mm, const Vec3& from,
+                                             const std::vector<Vec3>& to, const core::TaskContext& task) {
   const imaging::Geometry& grid = cost_per_mm.geometry;
   const std::vector<WayStep> steps = way_steps(grid);
-  const std::int64_t start = voxel_at(grid, from), end = voxel_at(grid, to);
+  const std::int64_t start = voxel_at(grid, from);
+  std::set<std::int64_t> ends;  // those that are not reached yet
+  for (const Vec3& place : to) ends.insert(voxel_at(grid, place));
   std::vector<double> paid(cost_per_mm.voxels.size(), std::numeric_limits<double>::infinity());
   std::vector<std::uint8_t> came_by(cost_per_mm.voxels.size(), 0);
   using Place = std::pair<double, std::int64_t>;
@@ -75,8 +78,8 @@ std::vector<Vec3> cheapest_way(const imaging::FloatVolume& cost_per_mm, const Ve
   while (!front.empty()) {
     const auto [so_far, here] = front.top();
     front.pop();
-    if (here == end) break;
     if (so_far > paid[static_cast<std::size_t>(here)]) continue;
+    if (ends.erase(here) > 0 && ends.empty()) break;
     if (++taken % 65536 == 0) task.throw_if_cancelled();
     const std::array<std::int64_t, 3> at = voxel_of(grid, here);
     for (std::size_t n = 0; n < steps.size(); ++n) {
@@ -92,14 +95,23 @@ std::vector<Vec3> cheapest_way(const imaging::FloatVolume& cost_per_mm, const Ve
       front.emplace(price, next);
     }
   }
-  std::vector<Vec3> way;
-  for (std::int64_t here = end;; here -= steps[came_by[static_cast<std::size_t>(here)]].offset) {
-    const std::array<std::int64_t, 3> at = voxel_of(grid, here);
-    way.push_back(grid.world(Vec3(double(at[0]), double(at[1]), double(at[2]))));
-    if (here == start) break;
+  std::vector<std::vector<Vec3>> ways;
+  for (const Vec3& place : to) {
+    std::vector<Vec3>& way = ways.emplace_back();
+    for (std::int64_t here = voxel_at(grid, place);;
+         here -= steps[came_by[static_cast<std::size_t>(here)]].offset) {
+      const std::array<std::int64_t, 3> at = voxel_of(grid, here);
+      way.push_back(grid.world(Vec3(double(at[0]), double(at[1]), double(at[2]))));
+      if (here == start) break;
+    }
+    std::ranges::reverse(way);
   }
-  std::ranges::reverse(way);
-  return way;
+  return ways;
+}
+
+std::vector<Vec3> cheapest_way(const imaging::FloatVolume& cost_per_mm, const Vec3& from, const Vec3& to,
+                               const core::TaskContext& task) {
+  return cheapest_ways(cost_per_mm, from, {to}, task).front();
 }
 
 }  // namespace ostia::experiments

@@ -19,9 +19,14 @@ struct CheapestWayOptions {
 imaging::FloatVolume cost_per_mm(const imaging::ImageVolume& image, const CheapestWayOptions& options = {},
                                  const core::TaskContext& task = core::no_task());
 
-/// The cheapest chain of voxels (26 neighbours; Dijkstra 1959) from the voxel at one place to that at the
-/// other, as their centres, mm; neither smoothed nor centred. Places outside go to the nearest voxel. Of
-/// ways that cost the same the one of lower voxels. Throws Cancelled.
+/// The cheapest chains of voxels (26 neighbours; Dijkstra 1959) from the voxel at one place to those at the
+/// others, as their centres, mm, one chain a place; neither smoothed nor centred. Places outside go to the
+/// nearest voxel. Of ways that cost the same the one of lower voxels. Throws Cancelled.
+std::vector<std::vector<geometry::Vec3>> cheapest_ways(const imaging::FloatVolume& cost_per_mm,
+                                                       const geometry::Vec3& from,
+                                                       const std::vector<geometry::Vec3>& to,
+                                                       const core::TaskContext& task = core::no_task());
+/// The same, to one place.
 std::vector<geometry::Vec3> cheapest_way(const imaging::FloatVolume& cost_per_mm, const geometry::Vec3& from,
                                          const geometry::Vec3& to,
                                          const core::TaskContext& task = core::no_task());

@@ -7,6 +7,9 @@
 
 #include "ostia/core/error.h"
 #include "ostia/geometry/polyline.h"
+#include "ostia/phantom/stair_steps.h"
+
+#include <algorithm>
 
 namespace ostia::experiments {
 namespace {
@@ -28,7 +31,7 @@ phantom::CasePlan plan_of_hard(HardSuite suite, std::uint64_t seed, const HardPa
 std::vector<Vec3> ostia_of(const phantom::CasePlan& plan) {
   std::vector<Vec3> ostia;
   for (const phantom::CoronaryVessel& vessel : plan.tree.vessels)
-    if (vessel.parent < 0) ostia.push_back(vessel.axis.points.front());
+    if (vessel.parent < 0) ostia.push_back(phantom::shown_at(plan.options.scan, vessel.axis.points.front()));
   return ostia;
 }
 
@@ -48,11 +51,28 @@ ExtractionRun by_path(const ExtractionTruth& truth, const imaging::ImageVolume& 
   ExtractionRun run;
   run.case_name = truth.case_name;
   const imaging::FloatVolume cost = cost_per_mm(image, {}, task.sub(0.0, 0.8));
-  for (const TrueVessel& vessel : truth.vessels) {
-    const std::vector<Vec3>& points = vessel.reference.points;
-    std::vector<Vec3> way = cheapest_way(cost, points.front(), points.back(), task.sub(0.8, 1.0));
-    if (way.size() < 2) way = {points.front(), points.back()};
-    run.vessels.push_back(scored_way(vessel, way, task));
+  // One front serves all vessels that begin at the same place.
+  std::vector<Vec3> starts;
+  for (const TrueVessel& vessel : truth.vessels)
+    if (std::ranges::find(starts, vessel.reference.points.front()) == starts.end())
+      starts.push_back(vessel.reference.points.front());
+  std::vector<std::vector<Vec3>> ways(truth.vessels.size());
+  for (const Vec3& start : starts) {
+    std::vector<std::size_t> members;
+    std::vector<Vec3> ends;
+    for (std::size_t n = 0; n < ways.size(); ++n) {
+      const std::vector<Vec3>& points = truth.vessels[n].reference.points;
+      if (points.front() != start) continue;
+      members.push_back(n);
+      ends.push_back(points.back());
+    }
+    std::vector<std::vector<Vec3>> found = cheapest_ways(cost, start, ends, task.sub(0.8, 1.0));
+    for (std::size_t m = 0; m < members.size(); ++m) ways[members[m]] = std::move(found[m]);
+  }
+  for (std::size_t n = 0; n < ways.size(); ++n) {
+    const TrueVessel& vessel = truth.vessels[n];
+    if (ways[n].size() < 2) ways[n] = {vessel.reference.points.front(), vessel.reference.points.back()};
+    run.vessels.push_back(scored_way(vessel, ways[n], task));
   }
   return run;
 }

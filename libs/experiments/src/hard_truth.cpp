@@ -1,5 +1,7 @@
 #include "hard_truth.h"
 
+#include "ostia/phantom/stair_steps.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -16,6 +18,34 @@ io::RotterdamReference own_reference(const phantom::CasePlan& plan, const phanto
   constexpr double observers_mm = 0.2;  // no observer traced it; the spread of those that did
   const geometry::Centerline path = phantom::path_from_ostium(plan.tree, vessel.id);
   return {path.points, path.radius, std::vector<double>(path.size(), observers_mm)};
+}
+
+/// As an observer sees it who traces what the image shows: moved by the steps between blocks of slices. A
+/// section that a step runs through has no whole contour any more and is left out.
+void show_steps(const phantom::ScanOptions& scan, ExtractionTruth& truth) {
+  using geometry::Vec3;
+  if (scan.stair_step_mm <= 0.0) return;
+  const auto show = [&](std::vector<Vec3>& points) {
+    for (Vec3& point : points) point = phantom::shown_at(scan, point);
+  };
+  const auto side = [&](const Vec3& p) {
+    return phantom::stair_shift(scan, std::lround(scan.grid.index(p).z()));
+  };
+  const auto is_torn = [&](const geometry::ContourSection& section) {
+    const Vec3 first = side(section.contours.front().points.front());
+    return std::ranges::any_of(section.contours, [&](const geometry::Contour& contour) {
+      return std::ranges::any_of(contour.points, [&](const Vec3& p) { return side(p) != first; });
+    });
+  };
+  for (TrueVessel& vessel : truth.vessels) show(vessel.reference.points);
+  for (geometry::TreeNode& node : truth.tree.nodes) node.position = phantom::shown_at(scan, node.position);
+  for (geometry::TreeSegment& segment : truth.tree.segments) {
+    show(segment.axis.points);
+    geometry::complete(segment.axis);
+  }
+  std::erase_if(truth.contours.sections, is_torn);
+  for (geometry::ContourSection& section : truth.contours.sections)
+    for (geometry::Contour& contour : section.contours) show(contour.points);
 }
 
 }  // namespace
@@ -36,6 +66,7 @@ ExtractionTruth truth_of_plan(const phantom::CasePlan& plan, double least_mm) {
     truth.vessels.push_back(
         {vessel.name, drawn != nullptr, drawn ? drawn->reference : own_reference(plan, vessel)});
   }
+  show_steps(plan.options.scan, truth);
   return truth;
 }
 

@@ -7,7 +7,9 @@
 namespace ostia::experiments {
 
 /// As read_extraction_truth has it of the case's folder: the challenge's four vessels with their references,
-/// the others from their own axes; only those whose own lumen begins `least_mm` wide or more.
+/// the others from their own axes; only those whose own lumen begins `least_mm` wide or more. Where the
+/// plan's scan has steps between blocks of slices, all lies where the image shows it; contours that a step
+/// tears are left out.
 ExtractionTruth truth_of_plan(const phantom::CasePlan& plan, double least_mm);
 
 }  // namespace ostia::experiments

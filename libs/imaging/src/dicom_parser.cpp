@@ -1,39 +1,25 @@
 #include "dicom_parser.h"
 
 #include "dicom_attributes.h"
+#include "dicom_element.h"
 #include "dicom_syntax.h"
 
 #include "ostia/core/error.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace ostia::imaging {
 namespace {
 
-constexpr std::uint32_t kUndefined = 0xFFFFFFFFu;
-constexpr std::uint32_t kItem = 0xFFFEE000u, kItemEnd = 0xFFFEE00Du, kSequenceEnd = 0xFFFEE0DDu;
-constexpr std::uint32_t kPixelData = 0x7FE00010u;
 constexpr std::uint32_t kSharedGroups = 0x52009229u, kFrameGroups = 0x52009230u, kModalityLut = 0x00283000u;
 constexpr std::size_t kMaxDepth = 64;
 constexpr std::size_t kMaxElements = 5'000'000;
 constexpr std::size_t kMaxValue = 64 * 1024;
 constexpr std::size_t kMaxFragments = 1'000'000;
 constexpr std::size_t kMaxDescribedFrames = 100'000;
-constexpr std::uint64_t kMaxInflated = 2ULL << 30;
 
-struct Syntax {
-  bool explicit_vr = true;
-  bool big_endian = false;
-};
-
-struct Element {
-  std::uint32_t tag = 0;
-  char vr[2] = {0, 0};  ///< zero where it is implicit
-  std::uint32_t length = 0;
-  std::uint64_t value = 0;  ///< offset
-  bool is(const char* text) const { return vr[0] == text[0] && vr[1] == text[1]; }
-};
+using Syntax = DicomEncoding;
+using Element = DicomElementHead;
 
 /// Where the functional groups met inside a sequence or an item belong.
 constexpr std::int64_t kNoFrame = -1, kAllFrames = -2;
@@ -47,68 +33,18 @@ struct Level {
   Syntax syntax;
 };
 
-bool upper_case(char c) {
-  return c >= 'A' && c <= 'Z';
-}
-
-bool has_long_length(const char* vr) {
-  static constexpr char kLong[][3] = {"OB", "OD", "OF", "OL", "OV", "OW", "SQ",
-                                      "SV", "UC", "UN", "UR", "UT", "UV"};
-  return std::any_of(std::begin(kLong), std::end(kLong),
-                     [&](const char* v) { return v[0] == vr[0] && v[1] == vr[1]; });
-}
-
-class Parser {
+class Parser : public DicomHeadReader {
  public:
-  explicit Parser(DicomSource& source, DicomTexts* texts = nullptr) : source_(source), texts_(texts) {}
+  explicit Parser(DicomSource& source, DicomTexts* texts = nullptr)
+      : DicomHeadReader(source), texts_(texts) {}
 
   DicomAttributes attributes;
-
-  std::uint32_t u16(std::uint64_t offset, bool big) {
-    unsigned char b[2];
-    need(offset, b, 2);
-    return big ? static_cast<std::uint32_t>(b[0]) << 8 | b[1] : static_cast<std::uint32_t>(b[1]) << 8 | b[0];
-  }
-  std::uint32_t u32(std::uint64_t offset, bool big) {
-    const std::uint32_t first = u16(offset, big), second = u16(offset + 2, big);
-    return big ? first << 16 | second : second << 16 | first;
-  }
-  std::uint32_t tag_at(std::uint64_t offset, bool big) {
-    return u16(offset, big) << 16 | u16(offset + 2, big);
-  }
-
-  /// Reads the header of the element at `offset`; its value is not touched.
-  Element element(std::uint64_t offset, Syntax syntax) {
-    Element e;
-    e.tag = tag_at(offset, syntax.big_endian);
-    e.value = offset + 8;
-    if (e.tag >> 16 == 0xFFFE || !syntax.explicit_vr) {
-      e.length = u32(offset + 4, syntax.big_endian);
-      return e;
-    }
-    char vr[2];
-    need(offset + 4, vr, 2);
-    if (!upper_case(vr[0]) || !upper_case(vr[1])) {
-      // Some writers slip elements without a VR into an explicit data set.
-      e.length = u32(offset + 4, syntax.big_endian);
-      return e;
-    }
-    e.vr[0] = vr[0];
-    e.vr[1] = vr[1];
-    if (has_long_length(vr)) {
-      e.length = u32(offset + 8, syntax.big_endian);
-      e.value = offset + 12;
-    } else {
-      e.length = u16(offset + 6, syntax.big_endian);
-    }
-    return e;
-  }
 
   /// The file meta information from `offset`; returns where the data set begins.
   std::uint64_t meta(std::uint64_t offset, std::string& transfer_syntax) {
     while (offset + 8 <= source_.size() && tag_at(offset, false) >> 16 == 0x0002) {
       const Element e = element(offset, {});
-      if (e.length == kUndefined)
+      if (e.length == dicom_undefined_length)
         throw DicomDamage{"the meta information holds an element of undefined length"};
       check_length(e, source_.size());
       if (e.tag == 0x00020010u) transfer_syntax = text(e);
@@ -121,20 +57,9 @@ class Parser {
   void data_set(std::uint64_t offset, Syntax syntax);
 
  private:
-  void need(std::uint64_t offset, void* to, std::size_t count) {
-    if (source_.read(offset, to, count)) return;
-    throw DicomDamage{"the file ends at byte " + std::to_string(source_.size()) +
-                      " in the middle of an element"};
-  }
   void count_element() {
     if (++elements_ > kMaxElements)
       throw DicomDamage{"more than " + std::to_string(kMaxElements) + " elements"};
-  }
-  void check_length(const Element& e, std::uint64_t end) const {
-    if (e.length <= end && e.value <= end - e.length) return;
-    const std::uint64_t left = end > e.value ? end - e.value : 0;
-    throw DicomDamage{"element " + tag_name(e.tag) + " is said to have " + std::to_string(e.length) +
-                      " bytes, but " + std::to_string(left) + " are left"};
   }
   std::string text(const Element& e) {
     std::string value = source_.bytes(e.value, std::min<std::size_t>(e.length, kMaxValue));
@@ -155,7 +80,6 @@ class Parser {
   void pixels(const Element& e);
   void fragments(std::uint64_t offset);
 
-  DicomSource& source_;
   DicomTexts* texts_;  // wanted besides, or null
   std::vector<Level> levels_;
   std::size_t elements_ = 0;
@@ -165,17 +89,17 @@ class Parser {
 std::uint64_t Parser::in_sequence(std::uint64_t offset) {
   Level& level = levels_.back();
   const Element e = element(offset, level.syntax);
-  if (e.tag == kSequenceEnd) {
+  if (e.tag == dicom_sequence_end) {
     if (level.defined) throw DicomDamage{"a sequence of defined length holds a sequence delimiter"};
     levels_.pop_back();
     return e.value;
   }
-  if (e.tag != kItem)
+  if (e.tag != dicom_item)
     throw DicomDamage{"sequence " + tag_name(level.tag) + " holds " + tag_name(e.tag) +
                       " where an item must be"};
   Level item = level;
   item.sequence = false;
-  item.defined = e.length != kUndefined;
+  item.defined = e.length != dicom_undefined_length;
   if (item.defined) {
     check_length(e, level.end);
     item.end = e.value + e.length;
@@ -197,7 +121,7 @@ std::uint64_t Parser::enter(const Element& e, std::int64_t frame) {
   level.sequence = true;
   level.tag = e.tag;
   level.frame = frame;
-  level.defined = e.length != kUndefined;
+  level.defined = e.length != dicom_undefined_length;
   if (level.defined) level.end = e.value + e.length;
   // An unknown VR hides a sequence in implicit VR little endian (PS3.5 6.2.2).
   if (e.is("UN")) level.syntax = {false, false};
@@ -233,13 +157,13 @@ std::uint64_t Parser::in_data_set(std::uint64_t offset) {
   const Level level = levels_.back();
   const Element e = element(offset, level.syntax);
   const bool at_top = levels_.size() == 1;
-  if (e.tag == kItemEnd && !at_top && !level.defined) {
+  if (e.tag == dicom_item_end && !at_top && !level.defined) {
     levels_.pop_back();
     return e.value;
   }
   if (e.tag >> 16 == 0xFFFE)
     throw DicomDamage{"a stray " + tag_name(e.tag) + " at byte " + std::to_string(offset)};
-  if (at_top && e.tag == kPixelData) {
+  if (at_top && e.tag == dicom_pixel_data) {
     pixels(e);
     done_ = true;
     return e.value;
@@ -247,7 +171,7 @@ std::uint64_t Parser::in_data_set(std::uint64_t offset) {
   if (at_top && e.tag == kModalityLut && e.length != 0) attributes.header.has_modality_lut = true;
   const bool groups = at_top && (e.tag == kSharedGroups || e.tag == kFrameGroups);
   const bool macro = level.frame != kNoFrame && (level.tag == kSharedGroups || level.tag == kFrameGroups);
-  if (e.length == kUndefined) {
+  if (e.length == dicom_undefined_length) {
     if (e.vr[0] != 0 && !e.is("SQ") && !e.is("UN")) {
       throw DicomDamage{"element " + tag_name(e.tag) + " has an undefined length but is no sequence"};
     }
@@ -264,7 +188,7 @@ void Parser::pixels(const Element& e) {
   header.has_pixels = true;
   header.pixel_offset = e.value;
   header.big_endian = levels_.back().syntax.big_endian;
-  if (e.length == kUndefined) {
+  if (e.length == dicom_undefined_length) {
     header.encapsulated = true;
     fragments(e.value);
     return;
@@ -278,8 +202,8 @@ void Parser::fragments(std::uint64_t offset) {
   DicomHeader& header = attributes.header;
   for (bool first = true;; first = false) {
     const Element e = element(offset, {});
-    if (e.tag == kSequenceEnd) return;
-    if (e.tag != kItem || e.length == kUndefined) {
+    if (e.tag == dicom_sequence_end) return;
+    if (e.tag != dicom_item || e.length == dicom_undefined_length) {
       throw DicomDamage{"the compressed pixel data hold " + tag_name(e.tag) + " where a fragment must be"};
     }
     check_length(e, source_.size());
@@ -312,30 +236,6 @@ void Parser::data_set(std::uint64_t offset, Syntax syntax) {
   }
 }
 
-/// How the data set is really encoded: some files say one thing and do the other.
-Syntax detected(DicomSource& source, std::uint64_t offset, Syntax declared) {
-  char b[8];
-  if (!source.read(offset, b, sizeof b)) return declared;
-  const bool vr = upper_case(b[4]) && upper_case(b[5]);
-  return {vr, declared.big_endian};
-}
-
-/// Without a preamble: a first element of group 0002 or 0008 that makes sense.
-bool looks_like_data_set(DicomSource& source, Syntax& syntax) {
-  unsigned char b[8];
-  if (!source.read(0, b, sizeof b)) return false;
-  const bool little = (b[0] == 0x02 || b[0] == 0x08) && b[1] == 0x00;
-  const bool big = b[0] == 0x00 && b[1] == 0x08;
-  if (!little && !big) return false;
-  syntax.big_endian = big;
-  syntax.explicit_vr = upper_case(static_cast<char>(b[4])) && upper_case(static_cast<char>(b[5]));
-  if (syntax.explicit_vr) return true;
-  const std::uint32_t length =
-      big ? static_cast<std::uint32_t>(b[6]) << 8 | b[7] : static_cast<std::uint32_t>(b[5]) << 8 | b[4];
-  const bool high_zero = big ? (b[4] == 0 && b[5] == 0) : (b[6] == 0 && b[7] == 0);
-  return high_zero && length <= 1024 && length <= source.size();
-}
-
 void parse(DicomSource& source, std::uint64_t start, Syntax syntax, bool has_meta, DicomHeader& header,
            DicomTexts* texts) {
   Parser head(source);
@@ -349,10 +249,11 @@ void parse(DicomSource& source, std::uint64_t start, Syntax syntax, bool has_met
       syntax = {declared != implicit_little_endian, declared == explicit_big_endian};
     }
     if (declared == deflated_little_endian) {
-      source = DicomSource::memory(inflated(source, offset, kMaxInflated));
+      source = DicomSource::memory(inflated(source, offset, most_inflated_dicom_bytes));
       offset = 0;
     }
-    if (declared.empty() || declared == implicit_little_endian) syntax = detected(source, offset, syntax);
+    if (declared.empty() || declared == implicit_little_endian)
+      syntax = detected_encoding(source, offset, syntax);
     Parser body(source, texts);
     try {
       body.data_set(offset, syntax);
@@ -380,28 +281,12 @@ void parse(DicomSource& source, std::uint64_t start, Syntax syntax, bool has_met
 }
 
 std::optional<DicomFile> parsed(DicomSource source, DicomTexts* texts) {
-  char magic[4] = {0, 0, 0, 0};
-  Syntax syntax;
-  std::uint64_t start = 0;
-  bool preamble = false;
-  if (source.read(128, magic, 4) && std::memcmp(magic, "DICM", 4) == 0) {
-    start = 132;
-    preamble = true;
-  } else if (!looks_like_data_set(source, syntax)) {
-    return std::nullopt;
-  }
-  char group[2] = {0, 0};
-  const bool has_meta = source.read(start, group, 2) && group[0] == 2 && group[1] == 0;
-  if (preamble && !has_meta && source.read(start, group, 2)) {
-    char b[6] = {0, 0, 0, 0, 0, 0};
-    source.read(start, b, sizeof b);
-    syntax.big_endian = b[0] == 0 && b[1] != 0;
-    syntax.explicit_vr = upper_case(b[4]) && upper_case(b[5]);
-  }
+  const std::optional<DicomStart> start = dicom_start(source);
+  if (!start) return std::nullopt;
   DicomFile file{std::move(source), {}};
-  parse(file.source, start, syntax, has_meta, file.header, texts);
+  parse(file.source, start->offset, start->encoding, start->has_meta, file.header, texts);
   // Without the magic word it takes an attribute that every DICOM object has to believe in it.
-  if (!preamble && file.header.sop_class.empty() && file.header.series_uid.empty() && !has_meta)
+  if (!start->preamble && file.header.sop_class.empty() && file.header.series_uid.empty() && !start->has_meta)
     return std::nullopt;
   return file;
 }

@@ -8,11 +8,11 @@
 #include "dicom_source.h"
 
 #include "ostia/geometry/vec.h"
+#include "ostia/imaging/dicom_texts.h"
 
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -82,12 +82,6 @@ struct DicomFile {
 /// damage. Throws IoError when it cannot be read.
 std::optional<DicomFile> parse_dicom(const std::filesystem::path& path);
 std::optional<DicomFile> parse_dicom(DicomSource source);
-
-/// Texts of the data set itself by their tags, as bytes without padding; for what is shown and never kept.
-using DicomTexts = std::map<std::uint32_t, std::string>;
-/// Fills the texts whose tags `wanted` holds; those that the file lacks, or has beyond a damage, stay as they
-/// are. False when it is not DICOM. Throws IoError.
-bool read_dicom_texts(const std::filesystem::path& path, DicomTexts& wanted);
 
 /// One number of a decimal string: spaces around it, '.' as the decimal point whatever the locale; nothing
 /// for anything else

@@ -1,6 +1,7 @@
 #include "artefacts.h"
 
 #include "ostia/phantom/noise.h"
+#include "ostia/phantom/stair_steps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,6 +37,12 @@ double motion_share(const ScanOptions& options, const Vec3& point_mm) {
   const double part = (point_mm - options.moving_centre).norm() / options.moving_radius_mm;
   const double t = std::clamp(3.0 * (1.0 - part), 0.0, 1.0);
   return t * t * (3.0 - 2.0 * t);
+}
+
+Vec3 shown_at(const ScanOptions& options, const Vec3& place) {
+  if (options.stair_step_mm <= 0.0) return place;
+  const auto slice = static_cast<std::int64_t>(std::lround(options.grid.index(place).z()));
+  return place + motion_share(options, place) * stair_shift(options, slice);
 }
 
 MotionBlur::MotionBlur(const ScanOptions& options) : options_(options) {

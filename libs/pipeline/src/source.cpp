@@ -4,6 +4,7 @@
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
 #include "ostia/core/log.h"
+#include "ostia/dicom/label_object.h"
 #include "ostia/geometry/mesh_topology.h"
 #include "ostia/imaging/archive.h"
 #include "ostia/imaging/image_file.h"
@@ -41,6 +42,14 @@ bool is_image_name(const fs::path& path) {
 
 void append_warnings(std::vector<std::string>& to, const std::vector<std::string>& from) {
   to.insert(to.end(), from.begin(), from.end());
+}
+
+/// 0 and 1.
+imaging::LoadedImage<std::uint8_t> mask_in(const fs::path& path, const core::TaskContext& task) {
+  if (!dicom::label_object_in(path)) return imaging::read_mask(path, task);
+  auto loaded = dicom::read_labels(path, task);
+  for (std::uint8_t& voxel : loaded.volume.voxels) voxel = voxel != 0;
+  return loaded;
 }
 
 void load_surface(const fs::path& path, const SourceOptions& options, Source& source,
@@ -86,6 +95,7 @@ SourceKind classify(const fs::path& path) {
   std::error_code error;
   if (!fs::exists(path, error))
     throw IoError("cannot read " + path.string() + ": there is no such file or folder");
+  if (dicom::label_object_in(path)) return SourceKind::mask;
   if (fs::is_directory(path)) return SourceKind::dicom;
   if (!fs::is_regular_file(path))
     throw InvalidInput("cannot read " + path.string() + ": it is neither a file nor a folder");
@@ -111,12 +121,15 @@ Source load(const fs::path& path, const SourceOptions& options, const core::Task
   source.kind = classify(path);
   core::redact_in_logs(path.string(), "image");  // until its pseudonym is known
   std::optional<core::BackgroundTask<std::string>> sha256;
-  if (source.kind != SourceKind::dicom)
-    sha256.emplace([path](const core::TaskContext&) { return core::sha256_file(path); });
+  if (source.kind != SourceKind::dicom) {
+    const fs::path file = dicom::label_object_in(path).value_or(path);  // a folder may hold a segmentation
+    sha256.emplace([file](const core::TaskContext&) { return core::sha256_file(file); });
+  }
   switch (source.kind) {
     case SourceKind::dicom: {
       auto loaded = imaging::read_dicom(path, options.dicom, task, [&](const imaging::DicomSeries& series) {
         sha256.emplace([series](const core::TaskContext& beside) { return series_digest(series, beside); });
+        source.technique = imaging::scan_technique(series);
       });
       append_warnings(source.warnings, loaded.header.warnings);
       source.image = std::make_shared<const imaging::ImageVolume>(std::move(loaded.volume));
@@ -129,7 +142,7 @@ Source load(const fs::path& path, const SourceOptions& options, const core::Task
       break;
     }
     case SourceKind::mask: {
-      auto loaded = imaging::read_mask(path, task);
+      auto loaded = mask_in(path, task);
       append_warnings(source.warnings, loaded.header.warnings);
       source.mask = std::make_shared<const imaging::MaskVolume>(std::move(loaded.volume));
       break;

@@ -19,7 +19,8 @@ using analysis::Measurement;
 using lumen::LumenModel;
 
 constexpr std::array<const char*, std::variant_size_v<AnnotationCommand>> op_names{
-    "measure.add", "measure.change", "measure.delete", "vessel.mark", "pressure.inputs", "pressure.what_if"};
+    "measure.add",      "measure.change",    "measure.delete",   "vessel.mark",     "pressure.inputs",
+    "pressure.what_if", "report.impression", "report.modifiers", "report.features", "report.sign"};
 
 std::int32_t key_of(const Measurement& measurement) {
   return measurement.id;
@@ -162,6 +163,37 @@ void run(Annotations& annotations, const SetWhatIfs& command, const LumenModel& 
   annotations.pressure.what_ifs = command.what_ifs;
 }
 
+void run(Annotations& annotations, const SetReportImpression& command, const LumenModel&) {
+  validate_impression(command.text);
+  annotations.report.impression = command.text;
+}
+
+void run(Annotations& annotations, const SetReportModifiers& command, const LumenModel&) {
+  validate(command.modifiers);
+  annotations.report.modifiers = command.modifiers;
+}
+
+void run(Annotations& annotations, const SetPlaqueFeatures& command, const LumenModel& model) {
+  validate(command.features);
+  const std::vector<FeatureWord>& before = annotations.report.features;
+  for (const FeatureWord& one : command.features)
+    if (std::find(before.begin(), before.end(), one) == before.end())  // else it may have lost its vessel
+      require_vessel(model, one.vessel, "the word on a plaque");
+  annotations.report.features = command.features;
+}
+
+void run(Annotations& annotations, const SignReport& command, const LumenModel&) {
+  constexpr std::size_t most = 1000;
+  std::vector<ReportVersion>& versions = annotations.report.versions;
+  validate(command.version);
+  if (versions.size() >= most)
+    throw InvalidInput("a case keeps up to " + std::to_string(most) + " versions of its report");
+  if (!versions.empty() && command.version.changes.empty())
+    throw InvalidInput("version " + std::to_string(versions.size() + 1) +
+                       " of the report does not say what changed; say it in a line");
+  versions.push_back(command.version);
+}
+
 /// The mark of a vessel, made where there is none.
 VesselMark& mark_of(Annotations& annotations, std::int32_t vessel) {
   const auto place = place_of(annotations.marks, vessel);
@@ -202,10 +234,24 @@ void hand_what_ifs_on(Annotations& annotations, std::int32_t vessel, double from
   std::erase_if(all, [](const WhatIf& one) { return !(one.from_mm < one.to_mm); });
 }
 
+/// And words on plaque.
+void hand_features_on(Annotations& annotations, std::int32_t vessel, double from_mm, double to_mm,
+                      std::int32_t other, double by_mm) {
+  std::vector<FeatureWord>& all = annotations.report.features;
+  for (FeatureWord& one : all) {
+    const double middle = 0.5 * (one.from_mm + one.to_mm);
+    if (one.vessel != vessel || middle < from_mm || !(middle < to_mm)) continue;
+    one.vessel = other;
+    one.from_mm = std::max(0.0, one.from_mm + by_mm), one.to_mm += by_mm;
+  }
+  std::erase_if(all, [](const FeatureWord& one) { return !(one.from_mm < one.to_mm); });
+}
+
 /// The reader's word on what lies between two abscissas of one vessel goes to another, moved along.
 void hand_on(Annotations& annotations, std::int32_t vessel, double from_mm, double to_mm, std::int32_t other,
              double by_mm) {
   hand_what_ifs_on(annotations, vessel, from_mm, to_mm, other, by_mm);
+  hand_features_on(annotations, vessel, from_mm, to_mm, other, by_mm);
   hand_lesions_on(annotations, vessel, from_mm, to_mm, other, by_mm);
   const VesselMark* mark = find_mark(annotations, vessel);
   if (!mark || mark->evaluable.empty()) return;
@@ -407,7 +453,7 @@ Annotations following(const Annotations& before, const lumen::Edit& edit, const 
 
 AnnotationChange changes_between(const Annotations& before, const Annotations& after) {
   return {differing(before.measurements, after.measurements), differing(before.marks, after.marks),
-          !same(before.pressure, after.pressure)};
+          !same(before.pressure, after.pressure), !(before.report == after.report)};
 }
 
 bool same(const Measurement& a, const Measurement& b) {

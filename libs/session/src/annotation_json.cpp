@@ -41,6 +41,24 @@ void fields(C& command, V& v) {
     v("inputs", command.inputs);
   } else if constexpr (std::is_same_v<Kind, SetWhatIfs>) {
     v("stretches", command.what_ifs);
+  } else if constexpr (std::is_same_v<Kind, SetReportImpression>) {
+    v("text", command.text);
+  } else if constexpr (std::is_same_v<Kind, SetReportModifiers>) {
+    v("ischaemia", command.modifiers.ischaemia, Need::optional);
+    v("stent", command.modifiers.stent, Need::optional);
+    v("graft", command.modifiers.graft, Need::optional);
+    v("exception", command.modifiers.exception, Need::optional);
+    v("seen", command.modifiers.seen);
+    v("agatston", command.modifiers.agatston);
+    v("burden", command.modifiers.burden);
+    v("dominance", command.modifiers.dominance, Need::optional);
+  } else if constexpr (std::is_same_v<Kind, SetPlaqueFeatures>) {
+    v("features", command.features);
+  } else if constexpr (std::is_same_v<Kind, SignReport>) {
+    v("date", command.version.date);
+    v("signer", command.version.signer);
+    v("changes", command.version.changes, Need::optional);
+    v("digest", command.version.digest);
   } else {
     v("vessel", command.mark.vessel);
     v("visible", command.mark.visible);
@@ -63,7 +81,9 @@ AnnotationCommand command_named(const std::string& op) {
   for (const AnnotationCommand& candidate :
        {AnnotationCommand(MeasureAdd{}), AnnotationCommand(MeasureChange{}),
         AnnotationCommand(MeasureDelete{}), AnnotationCommand(MarkVessel{}),
-        AnnotationCommand(SetPressureInputs{}), AnnotationCommand(SetWhatIfs{})}) {
+        AnnotationCommand(SetPressureInputs{}), AnnotationCommand(SetWhatIfs{}),
+        AnnotationCommand(SetReportImpression{}), AnnotationCommand(SetReportModifiers{}),
+        AnnotationCommand(SetPlaqueFeatures{}), AnnotationCommand(SignReport{})}) {
     if (op_name(candidate) == op) return candidate;
     choices += (choices.empty() ? "" : ", ") + op_name(candidate);
   }

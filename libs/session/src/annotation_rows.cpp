@@ -100,7 +100,7 @@ std::uint64_t sum_of(const Annotations& annotations) {
     sum += sum_of(mark);
     for (const LesionWord& word : mark.lesions) sum += sum_of(mark.vessel, word);
   }
-  return sum + sum_of(annotations.pressure);
+  return sum + sum_of(annotations.pressure) + sum_of(annotations.report);
 }
 
 AnnotationRows::AnnotationRows(const Database& db)
@@ -131,7 +131,8 @@ AnnotationRows::AnnotationRows(const Database& db)
       erase_lesions_(db, "DELETE FROM lesion WHERE vessel = ?1"),
       read_lesions_(
           db, "SELECT vessel, from_mm, to_mm, state, comment FROM lesion ORDER BY vessel, from_mm, to_mm"),
-      pressure_(db) {}
+      pressure_(db),
+      report_(db) {}
 
 void AnnotationRows::put(const Measurement& m) {
   const std::string points = bytes_of(m.points);
@@ -193,6 +194,7 @@ void AnnotationRows::write_change(const Annotations& before, const Annotations& 
           erase_lesions_.with(vessel).run();
   }
   if (change.pressure) pressure_.write(before.pressure, after.pressure);
+  if (change.report) report_.write(before.report, after.report);
   update_.with(after.next_measurement_id, static_cast<std::int64_t>(sum_of(after))).run();
 }
 
@@ -227,6 +229,7 @@ Annotations AnnotationRows::read() {
   }
   read_lesions(annotations);
   annotations.pressure = pressure_.read();
+  annotations.report = report_.read();
   if (sum_of(annotations) != checksum) damaged("its annotations are not what was written");
   if (!annotations.measurements.empty() &&
       annotations.measurements.back().id >= annotations.next_measurement_id)

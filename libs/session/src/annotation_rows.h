@@ -3,6 +3,7 @@
 
 #include "database.h"
 #include "pressure_rows.h"
+#include "report_rows.h"
 
 #include "ostia/session/annotation.h"
 
@@ -33,6 +34,7 @@ class AnnotationRows {
       read_marks_, put_evaluability_, erase_evaluability_, read_evaluability_, put_lesion_, erase_lesions_,
       read_lesions_;
   PressureRows pressure_;
+  ReportRows report_;
 };
 
 }  // namespace ostia::session

@@ -107,6 +107,8 @@ class Maker {
     report_.options = options;
     report_.program_version = core::version();
     report_.model_digest = lumen::digest(model);
+    report_.notes = annotations.report;
+    report_.content_digest = report_content_digest(model, annotations);
   }
 
   void measure_vessels(const core::TaskContext& task) {
@@ -125,6 +127,7 @@ class Maker {
       segment.vessel = cut.vessel;
       segment.vessel_name = report_text::vessel_name(model_, cut.vessel);
       segment.label = cut.label;
+      segment.number = cut.aha ? cut.aha->number : 0;
       segment.from_mm = cut.from_mm;
       segment.to_mm = cut.to_mm;
       const auto [from, to] = within_ends(profile, report_.references.at(cut.vessel), cut.from_mm, cut.to_mm);
@@ -202,7 +205,11 @@ class Maker {
     report_.not_found = arteries_not_found(model_);
     classify_bifurcations(report_);
     grade_report(report_);
+    find_high_risk_plaque(report_);
+    state_category(report_, cut_);
   }
+
+  void write() { write_impression(report_); }
 
   /// Narrowings, and plaque where it is known, with what the reader says of them.
   void add_lesions() {
@@ -253,9 +260,11 @@ class Maker {
     const OwnLumen own = own_lumen(model_, surface_of_, vessel, o.evaluability.step_mm, rays_around, task);
     out.judged = evaluability_in(own, model_, image, noise_hu, o.evaluability, task);
     const bool alike = o.walls.step_mm == o.evaluability.step_mm && o.walls.around == rays_around;
+    OuterWallsOptions walls = o.walls;
+    walls.maps = true;  // what high-risk plaque is told by
     try {
-      out.walls = alike ? walls_in(own, model_, image, o.walls, task)
-                        : vessel_walls(model_, surface_of_, vessel, image, o.walls, task);
+      out.walls = alike ? walls_in(own, model_, image, walls, task)
+                        : vessel_walls(model_, surface_of_, vessel, image, walls, task);
     } catch (const InvalidInput& error) {
       out.problem = error.what();
     }
@@ -369,6 +378,9 @@ void validate(const ReportOptions& options) {
   require(options.picture_percent >= 0.0 && options.picture_percent <= 100.0,
           "shows vessels with stenoses from 0 to 100 %, not " + core::shown_text(options.picture_percent, 1) +
               " %");
+  analysis::validate(options.high_risk);
+  validate_impression(options.impression);
+  if (options.agatston) validate(ReportModifiers{.agatston = options.agatston});
   require(std::isfinite(options.theta_deg), "needs a finite angle of the reformations");
   require(std::isfinite(options.level_hu) && options.window_hu > 0.0 && std::isfinite(options.window_hu),
           "needs a grey window with a finite level and a positive width, HU");
@@ -397,6 +409,7 @@ CaseReport make_case_report(const lumen::LumenModel& model, const analysis::Surf
   maker.add_measurements(image);
   maker.add_steps(journal);
   maker.warn();
+  maker.write();
   task.throw_if_cancelled();
   task.set_progress(1.0);
   return maker.take();

@@ -1,5 +1,6 @@
 // The report as a person reads it: the same parts as HTML and as PDF.
 
+#include "case_report_parts.h"
 #include "case_report_text.h"
 #include "case_report_words.h"
 
@@ -96,9 +97,12 @@ std::vector<std::pair<std::string, std::string>> summary_of(const CaseReport& re
   if (report.options.image && !report.options.image->axes.empty())
     rows.emplace_back("Orientation", report.options.image->axes + ", given by a person");
   rows.emplace_back("CAD-RADS",
-                    analysis::to_string(report.category) + ": " + analysis::description(report.category));
+                    analysis::to_string(report.statement) + ": " + analysis::description(report.category));
   rows.emplace_back("Worst graded stenosis", worst_text(report));
   rows.emplace_back("Image quality", quality_text(report));
+  if (const std::string technique = report_parts::technique_text(report); !technique.empty())
+    rows.emplace_back("Technique", technique);
+  rows.emplace_back("Dominance", report_parts::dominance_text(report));
   if (!report.not_found.empty()) rows.emplace_back("Not found", joined(report.not_found, "\n"));
   rows.emplace_back("Lesions", lesions_text(report));
   rows.emplace_back("Vessels", std::to_string(report.vessels.size()) + ", of which " +
@@ -214,6 +218,65 @@ void add_summary(Document& document, const CaseReport& report) {
   for (const std::string& warning : report.warnings) document.notice(Notice::warning, warning);
 }
 
+/// The reader's text as it stands, or the draft.
+template <class Document>
+void add_impression(Document& document, const CaseReport& report) {
+  document.section("Impression");
+  if (!report.impression_by_person)
+    document.notice(Notice::note, "Drafted by the program from the findings; nobody has written it.");
+  std::string line;
+  const auto end_line = [&] {
+    if (!line.empty()) document.paragraph(report.impression_by_person ? own(line) : line);
+    line.clear();
+  };
+  for (const char c : report.impression) {
+    if (c == '\n')
+      end_line();
+    else if (c != '\r')
+      line += c;
+  }
+  end_line();
+}
+
+template <class Document>
+void add_cad_rads(Document& document, const CaseReport& report) {
+  document.section("CAD-RADS 2.0");
+  document.key_values(report_parts::cad_rads_facts(report));
+  document.paragraph(
+      "Category, plaque burden and modifiers after Cury et al. 2022; the two ways to the plaque burden often "
+      "differ, and the higher one is stated. Next investigation: what their table names for stable chest "
+      "pain; it is no advice for this patient.");
+}
+
+/// Features that are there, and those that a reader speaks of; nothing without any.
+template <class Document>
+void add_high_risk(Document& document, const CaseReport& report) {
+  const report_parts::Rows rows = report_parts::high_risk_rows(report);
+  if (rows.empty()) return;
+  document.section("High-risk plaque");
+  document.table(report_parts::high_risk_header(), rows, "Features of high-risk plaque, by lesion");
+  document.paragraph(report_parts::high_risk_note(report));
+}
+
+template <class Document>
+void add_standard_segments(Document& document, const CaseReport& report) {
+  document.section("Standard segments");
+  document.table(report_parts::standard_header(), report_parts::standard_rows(report),
+                 "The 18 segments of the SCCT");
+}
+
+template <class Document>
+void add_versions(Document& document, const CaseReport& report) {
+  document.section("Versions");
+  document.notice(report.is_signed                ? Notice::good
+                  : report.notes.versions.empty() ? Notice::note
+                                                  : Notice::warning,
+                  report_parts::version_note(report));
+  if (!report.notes.versions.empty())
+    document.table(report_parts::version_header(), report_parts::version_rows(report),
+                   "Versions that were signed");
+}
+
 template <class Document>
 void add_stenoses(Document& document, const CaseReport& report) {
   document.section("Stenoses");
@@ -236,10 +299,7 @@ void add_stenoses(Document& document, const CaseReport& report) {
                          " mm: without a say in the patient's category.");
   }
   document.paragraph(
-      "CAD-RADS is by the diameter alone, of what can be judged (N: not diagnostic), without the other "
-      "modifiers "
-      "(plaque burden, high-risk "
-      "plaque, stents, grafts, ischemia). Narrowings below " +
+      "CAD-RADS of a lesion is by its diameter alone, of what can be judged. Narrowings below " +
       percent(report.options.stenosis.least_percent) +
       " % are listed where plaque is seen; plaque without narrowing is category 1. MLD and MLA: least lumen "
       "diameter and area. Percentages are against the "
@@ -360,11 +420,21 @@ void compose(Document& written, const CaseReport& report, const std::vector<KeyI
   report_words::Said<Document> document(written, report_words::of(report.options.language));
   add_identity(document, named);
   add_summary(document, report);
+  add_impression(document, report);
+  add_cad_rads(document, report);
   add_stenoses(document, report);
-  add_bifurcations(document, report);
-  add_plaque(document, report);
-  add_images(document, images);
-  add_tables(document, report);
+  add_high_risk(document, report);
+  add_standard_segments(document, report);
+  const bool brief = report.options.form == ReportTemplate::brief;
+  if (brief) {
+    if (!images.empty()) add_images(document, {images.front()});
+  } else {
+    add_bifurcations(document, report);
+    add_plaque(document, report);
+    add_images(document, images);
+    add_tables(document, report);
+  }
+  add_versions(document, report);
 }
 
 std::string case_name(const CaseReport& report) {

@@ -112,6 +112,12 @@ pipeline::JobKey report_job(const CaseFile& file, bool with_image, const ReportO
                   {"further", Json::array()}};
   if (named) parameters["named"] = true;
   if (o.language != ReportLanguage::english) parameters["language"] = to_string(o.language);
+  if (o.form != ReportTemplate::full) parameters["template"] = to_string(o.form);
+  if (o.agatston) parameters["agatston"] = *o.agatston;
+  if (!o.impression.empty()) parameters["impression"] = core::sha256(o.impression);
+  const analysis::HighRiskOptions& h = o.high_risk;
+  parameters["high_risk"] = {h.least_low_mm3,  h.least_remodelling, h.spot_mm,
+                             h.least_spot_mm3, h.ring_deg,          h.ring_mm};
   pipeline::JobKey key{"report", {{"case", report_digest(file)}}, parameters.dump()};
   if (with_image && o.image) key.inputs["image"] = o.image->sha256;
   add_further(key, further);

@@ -146,19 +146,6 @@ Phrases lesions() {
       {"its vessel is thinner than %1 mm", "das Gefäß ist dünner als %1 mm"},
       {"* The reference is thinner than %1 mm: without a say in the patient's category.",
        "* Die Referenz ist dünner als %1 mm: zählt nicht für die Kategorie der Person."},
-      {"CAD-RADS is by the diameter alone, of what can be judged (N: not diagnostic), without the other "
-       "modifiers (plaque burden, high-risk plaque, stents, grafts, ischemia). Narrowings below %1 % are "
-       "listed where plaque is seen; plaque without narrowing is category 1. MLD and MLA: least lumen "
-       "diameter "
-       "and area. Percentages are against the calibre that the vessel would have without disease.",
-       "CAD-RADS nach dem Durchmesser allein, von dem, was sich beurteilen lässt (N: nicht diagnostisch), "
-       "ohne "
-       "die weiteren Zusätze (Plaquelast, Hochrisikoplaque, Stents, Bypässe, Ischämie). Verengungen unter %1 "
-       "% "
-       "sind aufgeführt, wo Plaque zu sehen ist; Plaque ohne Verengung ist Kategorie 1. MLD und MLA: "
-       "kleinster "
-       "Durchmesser und kleinste Fläche des Lumens. Prozente gelten gegen das Kaliber, das das Gefäß ohne "
-       "Erkrankung hätte."},
       {"Bifurcation lesions", "Bifurkationsläsionen"},
       {"Bifurcation", "Bifurkation"},
       {"Main, proximal", "Hauptgefäß, proximal"},
@@ -176,7 +163,8 @@ Phrases lesions() {
 }  // namespace
 
 std::vector<core::Phrase> german() {
-  std::vector<core::Phrase> all = german_of_tables();
+  std::vector<core::Phrase> all = german_of_tables(), parts = german_of_parts();
+  all.insert(all.end(), parts.begin(), parts.end());
   for (const Phrases& some : {about_document(), summary(), quality(), lesions()})
     all.insert(all.end(), some.begin(), some.end());
   return all;

@@ -14,5 +14,11 @@ namespace ostia::session {
 void grade_report(CaseReport& report);
 /// Fills in `bifurcations`, and what lesions belong to.
 void classify_bifurcations(CaseReport& report);
+/// `features` and `high_risk` of lesions; after grade_report, for its walls with maps.
+void find_high_risk_plaque(CaseReport& report);
+/// `standard_segments`, `dominance`, `burden` and `statement`; after find_high_risk_plaque.
+void state_category(CaseReport& report, const std::vector<analysis::VesselSegment>& cut);
+/// `impression_draft`, `impression` and `is_signed`, last.
+void write_impression(CaseReport& report);
 
 }  // namespace ostia::session

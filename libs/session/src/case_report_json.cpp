@@ -96,6 +96,98 @@ Json vessel_json(const ReportVessel& v) {
           {"plaque", plaque_json(v.plaque)}};
 }
 
+Json feature_json(const ReportFeature& one) {
+  const analysis::PlaqueFeatureFinding& f = one.finding;
+  return {{"feature", analysis::to_string(f.feature)},
+          {"known", f.known},
+          {"present", f.present},
+          {"value", f.known ? number(f.value) : Json()},
+          {"bound", number(f.bound)},
+          {"unit", analysis::unit_of(f.feature)},
+          {"s_mm", number(f.s_mm)},
+          {"theta_deg", number(f.theta_deg)},
+          {"confidence", analysis::to_string(f.confidence)},
+          {"state", to_string(one.state)},
+          {"counts", one.counts}};
+}
+
+/// A list of what `make` makes of each.
+template <class Rows, class Make>
+Json list_of(const Rows& rows, const Make& make) {
+  Json all = Json::array();
+  for (const auto& row : rows) all.push_back(make(row));
+  return all;
+}
+
+Json burden_json(const ReportBurden& burden) {
+  const auto word = [](const std::optional<analysis::PlaqueBurden>& one) {
+    return one ? Json(analysis::to_string(*one)) : Json();
+  };
+  return {{"segments", burden.segments},
+          {"at_least", burden.at_least},
+          {"by_segments", analysis::to_string(burden.by_segments)},
+          {"agatston", number(burden.agatston)},
+          {"by_calcium", word(burden.by_calcium)},
+          {"by_sight", word(burden.by_sight)},
+          {"stated", analysis::to_string(burden.stated)},
+          {"by_reader", burden.by_reader}};
+}
+
+Json cad_rads_json(const CaseReport& report) {
+  const analysis::CadRadsStatement& s = report.statement;
+  return {{"category", analysis::to_string(report.category)},
+          {"description", analysis::description(report.category)},
+          {"not_diagnostic", report.category.not_diagnostic},
+          {"not_judged", texts(report.not_judged)},
+          {"statement", analysis::to_string(s)},
+          {"burden", burden_json(report.burden)},
+          {"modifiers",
+           {{"high_risk_plaque", s.high_risk_plaque},
+            {"ischaemia", analysis::to_string(s.ischaemia)},
+            {"stent", s.stent},
+            {"graft", s.graft},
+            {"exception", text(report.notes.modifiers.exception)}}},
+          {"next_investigation", analysis::further_investigation(report.category)}};
+}
+
+Json standard_json(const ReportStandardSegment& row) {
+  return {{"number", row.number},
+          {"code", row.code},
+          {"name", row.name},
+          {"vessels", texts(row.vessels)},
+          {"cad_rads", row.category ? Json(analysis::to_string(*row.category)) : Json()},
+          {"worst_stenosis", row.worst_stenosis > 0 ? Json(row.worst_stenosis) : Json()},
+          {"worst_percent", row.worst_stenosis > 0 ? number(row.worst_percent) : Json()},
+          {"has_plaque", row.has_plaque},
+          {"plaque_type", row.plaque ? Json(to_string(analysis::plaque_type(*row.plaque))) : Json()},
+          {"plaque_mm3", row.plaque ? number(row.plaque->plaque_mm3()) : Json()},
+          {"least_diameter_mm", number(row.least_diameter_mm)},
+          {"least_area_mm2", number(row.least_area_mm2)},
+          {"features",
+           list_of(row.features, [](analysis::PlaqueFeature one) { return Json(analysis::to_string(one)); })},
+          {"evaluable", grade_json(row.evaluable)},
+          {"checked", row.checked}};
+}
+
+Json technique_json(const std::optional<imaging::ScanTechnique>& technique) {
+  if (!technique) return {};
+  return {{"tube_kv", number(technique->tube_kv)},
+          {"slice_mm", number(technique->slice_mm)},
+          {"phase_percent", number(technique->phase_percent)},
+          {"kernel", technique->kernel.empty() ? Json() : text(technique->kernel)}};
+}
+
+Json versions_json(const ReportNotes& notes) {
+  Json all = Json::array();
+  for (const ReportVersion& one : notes.versions)
+    all.push_back({{"number", static_cast<int>(all.size()) + 1},
+                   {"date", one.date},
+                   {"signer", text(one.signer)},
+                   {"changes", text(one.changes)},
+                   {"digest", one.digest}});
+  return all;
+}
+
 Json segment_json(const ReportSegment& s) {
   return {{"vessel", s.vessel},
           {"vessel_name", text(s.vessel_name)},
@@ -110,7 +202,8 @@ Json segment_json(const ReportSegment& s) {
           {"worst_stenosis", s.worst_stenosis > 0 ? Json(s.worst_stenosis) : Json()},
           {"worst_percent", number(s.worst_percent)},
           {"evaluable", grade_json(s.evaluable)},
-          {"checked", s.checked}};
+          {"checked", s.checked},
+          {"number", s.number > 0 ? Json(s.number) : Json()}};
 }
 
 Json stenosis_json(const ReportStenosis& one) {
@@ -143,7 +236,9 @@ Json stenosis_json(const ReportStenosis& one) {
           {"plaque", plaque_json(one.plaque)},
           {"remodelling_index", number(one.remodelling_index)},
           {"medina", one.medina.empty() ? Json() : Json(one.medina)},
-          {"bifurcation", one.bifurcation.empty() ? Json() : text(one.bifurcation)}};
+          {"bifurcation", one.bifurcation.empty() ? Json() : text(one.bifurcation)},
+          {"features", list_of(one.features, feature_json)},
+          {"high_risk", one.high_risk}};
 }
 
 Json bifurcation_json(const ReportBifurcation& one) {
@@ -179,13 +274,6 @@ Json step_json(const ReportStep& step) {
           {"words", text(step.words)},
           {"vessel_name", text(step.vessel)},
           {"notes", texts(step.notes)}};
-}
-
-template <class Rows, class Make>
-Json list(const Rows& rows, const Make& make) {
-  Json all = Json::array();
-  for (const auto& row : rows) all.push_back(make(row));
-  return all;
 }
 
 /// A line of a CSV file.
@@ -224,6 +312,13 @@ void add_plaque(Line& line, const ReportPlaque& plaque) {
   line.add(v.burden_percent(), 2).add(100.0 * plaque.seen_share, 1);
 }
 
+std::string counted_features(const ReportStenosis& one) {
+  std::string text;
+  for (const ReportFeature& feature : one.features)
+    if (feature.counts) text += (text.empty() ? "" : "; ") + analysis::to_string(feature.finding.feature);
+  return text;
+}
+
 std::string yes_no(bool value) {
   return value ? "yes" : "no";
 }
@@ -243,11 +338,14 @@ std::string report_json(const CaseReport& report, const std::vector<KeyImage>& i
       {"date", o.date.empty() ? Json() : text(o.date)},
       {"image", image},
       {"model_digest", report.model_digest},
-      {"cad_rads",
-       {{"category", analysis::to_string(report.category)},
-        {"description", analysis::description(report.category)},
-        {"not_diagnostic", report.category.not_diagnostic},
-        {"not_judged", texts(report.not_judged)}}},
+      {"cad_rads", cad_rads_json(report)},
+      {"impression",
+       {{"text", text(report.impression)},
+        {"by_person", report.impression_by_person},
+        {"draft", text(report.impression_draft)}}},
+      {"dominance",
+       {{"value", analysis::to_string(report.dominance)}, {"by_reader", report.dominance_by_reader}}},
+      {"technique", technique_json(o.technique)},
       {"not_found", texts(report.not_found)},
       {"quality", quality_json(report.quality)},
       {"options",
@@ -265,18 +363,28 @@ std::string report_json(const CaseReport& report, const std::vector<KeyImage>& i
         {"fibrous_hu", o.walls.plaque.fibrous_hu},
         {"thin_wall_mm", o.walls.plaque.thin_wall_mm},
         {"healthy_margin_mm", o.walls.plaque.healthy_margin_mm},
-        {"blur_sigma_mm", o.walls.plaque.blur_sigma_mm}}},
+        {"blur_sigma_mm", o.walls.plaque.blur_sigma_mm},
+        {"least_low_mm3", o.high_risk.least_low_mm3},
+        {"least_remodelling", o.high_risk.least_remodelling},
+        {"spot_mm", o.high_risk.spot_mm},
+        {"least_spot_mm3", o.high_risk.least_spot_mm3},
+        {"ring_deg", o.high_risk.ring_deg},
+        {"ring_mm", o.high_risk.ring_mm}}},
       {"all_checked", report.unchecked().empty()},
-      {"vessels", list(report.vessels, vessel_json)},
-      {"segments", list(report.segments, segment_json)},
-      {"stenoses", list(report.stenoses, stenosis_json)},
-      {"bifurcations", list(report.bifurcations, bifurcation_json)},
-      {"measurements", list(report.measurements, measurement_json)},
-      {"steps", list(report.steps, step_json)},
-      {"images", list(images,
-                      [](const KeyImage& one) {
-                        return Json{{"file", "images/" + one.name + ".png"}, {"caption", text(one.caption)}};
-                      })},
+      {"vessels", list_of(report.vessels, vessel_json)},
+      {"segments", list_of(report.segments, segment_json)},
+      {"standard_segments", list_of(report.standard_segments, standard_json)},
+      {"stenoses", list_of(report.stenoses, stenosis_json)},
+      {"bifurcations", list_of(report.bifurcations, bifurcation_json)},
+      {"measurements", list_of(report.measurements, measurement_json)},
+      {"versions", versions_json(report.notes)},
+      {"signed", report.is_signed},
+      {"steps", list_of(report.steps, step_json)},
+      {"images",
+       list_of(images,
+               [](const KeyImage& one) {
+                 return Json{{"file", "images/" + one.name + ".png"}, {"caption", text(one.caption)}};
+               })},
       {"warnings", texts(report.warnings)}};
   return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -309,7 +417,7 @@ std::string stenoses_csv(const CaseReport& report) {
       "stenosis,vessel,segment,main_vessel,from_mm,to_mm,throat_mm,length_mm,least_diameter_mm,least_area_"
       "mm2,"
       "reference_diameter_mm,reference_area_mm2,diameter_percent,area_percent,cad_rads,graded,evaluable,"
-      "checked,narrows,plaque_mm3,plaque_type,state,comment\r\n";
+      "checked,narrows,plaque_mm3,plaque_type,state,comment,high_risk,high_risk_features\r\n";
   for (const ReportStenosis& one : report.stenoses) {
     const analysis::Stenosis& s = one.stenosis;
     all += Line()
@@ -336,6 +444,8 @@ std::string stenoses_csv(const CaseReport& report) {
                .add(one.plaque ? to_string(analysis::plaque_type(one.plaque->volumes)) : "")
                .add(to_string(one.state))
                .free(one.comment)
+               .add(yes_no(one.high_risk))
+               .add(counted_features(one))
                .end();
   }
   return all;

@@ -19,7 +19,7 @@ using ReportJson = nlohmann::json;
 struct OpWords {
   const char *op, *words;
 };
-constexpr std::array<OpWords, 26> kWords{{
+constexpr std::array<OpWords, 30> kWords{{
     {"case.begin", "case begun"},
     {"cpr.stroke", "wall drawn on a curved reformation"},
     {"section.contour", "contour drawn on a cross-section"},
@@ -46,6 +46,10 @@ constexpr std::array<OpWords, 26> kWords{{
     {"plugin", "edited by a plug-in"},
     {"pressure.inputs", "inputs of the computed pressures set"},
     {"pressure.what_if", "stretches with another calibre, for the computed pressures, set"},
+    {"report.impression", "impression of the report written"},
+    {"report.modifiers", "modifiers of CAD-RADS set"},
+    {"report.features", "word on features of plaque given"},
+    {"report.sign", "report signed"},
 }};
 
 std::string text_at(const ReportJson& object, const char* name) {

@@ -46,6 +46,16 @@ ReportLanguage report_language(const std::string& code) {
   throw InvalidInput("there is no report in the language \"" + code + "\"; known are en and de");
 }
 
+ReportTemplate report_template(const std::string& word) {
+  if (word == "full") return ReportTemplate::full;
+  if (word == "short") return ReportTemplate::brief;
+  throw InvalidInput("there is no template \"" + word + "\" of a report; known are full and short");
+}
+
+std::string to_string(ReportTemplate form) {
+  return form == ReportTemplate::brief ? "short" : "full";
+}
+
 std::string to_string(ReportLanguage language) {
   return language == ReportLanguage::german ? "de" : "en";
 }

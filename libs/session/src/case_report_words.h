@@ -16,6 +16,7 @@ const core::Phrasebook& of(ReportLanguage language);  ///< English: without phra
 figure::DocumentWords document(ReportLanguage language);
 std::vector<core::Phrase> german();
 std::vector<core::Phrase> german_of_tables();  ///< part of them
+std::vector<core::Phrase> german_of_parts();   ///< and these
 
 /// A person's own text: it is written as it is.
 std::string own(const std::string& text);

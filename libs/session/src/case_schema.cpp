@@ -72,6 +72,17 @@ CREATE TABLE what_if(place INTEGER PRIMARY KEY, vessel INTEGER NOT NULL, from_mm
   kind TEXT NOT NULL, percent NOT NULL);
 )";
 
+// Since version 8: what the report says by a person, each note as the command that makes it; who signed it.
+constexpr const char* report_tables = R"(
+CREATE TABLE report_note(op TEXT PRIMARY KEY NOT NULL, line TEXT NOT NULL) WITHOUT ROWID;
+CREATE TABLE report_version(number INTEGER PRIMARY KEY, date TEXT NOT NULL, signer TEXT NOT NULL,
+  changes TEXT NOT NULL, digest TEXT NOT NULL);
+)";
+
+void create_report(Database& database) {
+  database.execute(report_tables);
+}
+
 void create_pressure(Database& database) {
   database.execute(pressure_tables);
 }
@@ -99,8 +110,9 @@ void create_annotations(Database& database) {
 
 /// Step k makes version k + 2 of version k + 1.
 using Step = void (*)(Database&);
-constexpr std::array<Step, schema_version - 1> steps{
-    create_annotations, create_evaluability, create_lesions, create_stamps, create_axes, create_pressure};
+constexpr std::array<Step, schema_version - 1> steps{create_annotations, create_evaluability, create_lesions,
+                                                     create_stamps,      create_axes,         create_pressure,
+                                                     create_report};
 
 void set_version(Database& database, std::int32_t version) {
   database.execute("PRAGMA user_version = " + std::to_string(version));

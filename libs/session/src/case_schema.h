@@ -8,7 +8,7 @@
 namespace ostia::session {
 
 inline constexpr std::uint32_t application_id = 0x4F535449;  // "OSTI"
-inline constexpr std::int32_t schema_version = 7;
+inline constexpr std::int32_t schema_version = 8;
 
 /// Tables and header of a new case; inside a transaction.
 void create_schema(Database& database);

@@ -79,6 +79,21 @@ class Writer {
             {"kind", to_string(one.kind)},
             {"percent", json(one.percent)}};
   }
+  Json json(analysis::Ischaemia value) const { return analysis::to_string(value); }
+  Json json(analysis::PlaqueBurden value) const { return analysis::to_string(value); }
+  Json json(analysis::Dominance value) const { return analysis::to_string(value); }
+  Json json(const SeenPlaque& seen) const {
+    return {{"LAD", analysis::to_string(seen.lad)},
+            {"LCX", analysis::to_string(seen.lcx)},
+            {"RCA", analysis::to_string(seen.rca)}};
+  }
+  Json json(const FeatureWord& one) const {
+    return {{"vessel", json(one.vessel)},
+            {"from_mm", json(one.from_mm)},
+            {"to_mm", json(one.to_mm)},
+            {"feature", analysis::to_string(one.feature)},
+            {"state", to_string(one.state)}};
+  }
   /// Numbers by name as a list, in the names' order.
   Json json(const std::map<std::string, double>& values) const {
     Json list = Json::array();
@@ -208,6 +223,48 @@ class Reader {
     } catch (const InvalidInput& e) {
       fail("\"" + name + ".kind\": " + e.what());
     }
+  }
+  /// A word of an enumeration, by what reads it.
+  template <class Value, class Parse>
+  void read_word(const Json& in, const std::string& name, Value& out, const Parse& parse) const {
+    std::string text;
+    read(in, name, text);
+    try {
+      out = parse(text);
+    } catch (const InvalidInput& e) {
+      fail("\"" + name + "\": " + e.what());
+    }
+  }
+  void read(const Json& in, const std::string& name, analysis::Ischaemia& out) const {
+    read_word(in, name, out, [](const std::string& text) { return analysis::ischaemia(text); });
+  }
+  void read(const Json& in, const std::string& name, analysis::PlaqueBurden& out) const {
+    read_word(in, name, out, [](const std::string& text) { return analysis::plaque_burden(text); });
+  }
+  void read(const Json& in, const std::string& name, analysis::Dominance& out) const {
+    read_word(in, name, out, [](const std::string& text) { return analysis::dominance(text); });
+  }
+  void read(const Json& in, const std::string& name, SeenPlaque& out) const {
+    if (!in.is_object() || in.size() != 3 || !in.contains("LAD") || !in.contains("LCX") ||
+        !in.contains("RCA"))
+      fail("\"" + name + "\" must be amounts of plaque {\"LAD\", \"LCX\", \"RCA\"}");
+    const auto amount = [](const std::string& text) { return analysis::plaque_amount(text); };
+    read_word(in["LAD"], name + ".LAD", out.lad, amount);
+    read_word(in["LCX"], name + ".LCX", out.lcx, amount);
+    read_word(in["RCA"], name + ".RCA", out.rca, amount);
+  }
+  void read(const Json& in, const std::string& name, FeatureWord& out) const {
+    if (!in.is_object() || in.size() != 5 || !in.contains("vessel") || !in.contains("from_mm") ||
+        !in.contains("to_mm") || !in.contains("feature") || !in.contains("state"))
+      fail("\"" + name +
+           "\" must be a word on plaque {\"vessel\", \"from_mm\", \"to_mm\", \"feature\", \"state\"}");
+    read(in["vessel"], name + ".vessel", out.vessel);
+    read(in["from_mm"], name + ".from_mm", out.from_mm);
+    read(in["to_mm"], name + ".to_mm", out.to_mm);
+    read_word(in["feature"], name + ".feature", out.feature,
+              [](const std::string& text) { return analysis::plaque_feature(text); });
+    read_word(in["state"], name + ".state", out.state,
+              [](const std::string& text) { return lesion_state(text); });
   }
   void read(const Json& in, const std::string& name, std::map<std::string, double>& out) const {
     if (!in.is_array()) fail(name, in, "a list");

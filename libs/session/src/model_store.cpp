@@ -20,9 +20,9 @@ using lumen::LumenModel;
 using lumen::SurfaceSample;
 using lumen::VesselLumen;
 
-constexpr std::array<const char*, 12> recorded_tables{
-    "model",       "node", "segment",      "vessel", "sample",         "annotation",
-    "measurement", "mark", "evaluability", "lesion", "pressure_input", "what_if"};
+constexpr std::array<const char*, 14> recorded_tables{
+    "model", "node",         "segment", "vessel",         "sample",  "annotation",  "measurement",
+    "mark",  "evaluability", "lesion",  "pressure_input", "what_if", "report_note", "report_version"};
 
 bool same_item(const TreeNode& a, const TreeNode& b) {
   return a.id == b.id && bytes_of(a.position) == bytes_of(b.position);
@@ -204,7 +204,8 @@ void add_touched(const Database& database, const std::string& changeset, Touched
     sqlite3changeset_op(iterator, &name, &columns, &op, &indirect);
     const std::string_view table(name ? name : "");
     if (table == "annotation" || table == "measurement" || table == "mark" || table == "evaluability" ||
-        table == "lesion" || table == "pressure_input" || table == "what_if")
+        table == "lesion" || table == "pressure_input" || table == "what_if" || table == "report_note" ||
+        table == "report_version")
       touched.annotations = true;
     else
       touched.model = true;

@@ -5,6 +5,7 @@
 #include "ostia/core/task_context.h"
 #include "ostia/geometry/tri_mesh.h"
 #include "ostia/imaging/dicom.h"
+#include "ostia/imaging/scan_technique.h"
 #include "ostia/imaging/volume.h"
 #include "ostia/meshing/flat_caps.h"
 
@@ -20,7 +21,8 @@ enum class SourceKind { dicom, image, mask, surface };
 std::string name_of(SourceKind kind);
 
 /// By what is there: a folder, a file with a DICOM header or a zip, a surface's or an image's extension; an
-/// image of few different values is a mask. Throws IoError when there is nothing, InvalidInput when it is
+/// image of few different values is a mask, and so is a DICOM segmentation or structure set, or a folder of
+/// one. Throws IoError when there is nothing, InvalidInput when it is
 /// none of these.
 SourceKind classify(const std::filesystem::path& path);
 
@@ -46,6 +48,7 @@ struct Source {
   double unit_mm = 1.0;     ///< surface: of the file, in which points are given, too
   bool unit_given = false;  ///< surface: the user said which unit it is in
   std::vector<std::string> warnings;
+  std::optional<imaging::ScanTechnique> technique = {};  ///< dicom: as its headers say
 };
 
 /// Reads it. From here on the log knows the path by the pseudonym alone. Throws what the readers throw;

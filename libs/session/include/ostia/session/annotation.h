@@ -1,11 +1,13 @@
 #pragma once
-/// \file What a person notes in a case beside the model: measurements, marks at vessels, and what
-/// the computed pressures are told.
+/// \file What a person notes in a case beside the model: measurements, marks at vessels, what the computed
+/// pressures are told, and what the report says by a person.
 
 #include "ostia/analysis/evaluability.h"
 #include "ostia/analysis/measurement.h"
 #include "ostia/lumen/edit.h"
+#include "ostia/session/lesion_state.h"
 #include "ostia/session/pressure_notes.h"
+#include "ostia/session/report_notes.h"
 
 #include <array>
 #include <cstdint>
@@ -15,10 +17,6 @@
 #include <vector>
 
 namespace ostia::session {
-
-enum class LesionState { open, accepted, rejected };
-std::string to_string(LesionState state);           ///< "open", "accepted", "rejected"
-LesionState lesion_state(const std::string& text);  ///< of to_string; throws InvalidInput
 
 /// What a reader says of a lesion, which is known by its stretch: lesions are found anew after every edit.
 struct LesionWord {
@@ -45,6 +43,7 @@ struct Annotations {
   std::vector<VesselMark> marks;                    ///< by vessel, at most one each
   std::int32_t next_measurement_id = 1;
   PressureNotes pressure = {};
+  ReportNotes report = {};
 };
 /// The mark after the reader's word on a stretch; nothing as grade takes the word back, whatever it was.
 VesselMark with_evaluability(VesselMark mark, double from_mm, double to_mm,
@@ -84,8 +83,25 @@ struct SetPressureInputs {
 struct SetWhatIfs {
   std::vector<WhatIf> what_ifs;
 };
+/// "report.impression": the reader's text, whole; empty: the report drafts one.
+struct SetReportImpression {
+  std::string text;
+};
+/// "report.modifiers": whole.
+struct SetReportModifiers {
+  ReportModifiers modifiers;
+};
+/// "report.features": the words on features of plaque, whole.
+struct SetPlaqueFeatures {
+  std::vector<FeatureWord> features;
+};
+/// "report.sign": a further version.
+struct SignReport {
+  ReportVersion version;
+};
 using AnnotationCommand =
-    std::variant<MeasureAdd, MeasureChange, MeasureDelete, MarkVessel, SetPressureInputs, SetWhatIfs>;
+    std::variant<MeasureAdd, MeasureChange, MeasureDelete, MarkVessel, SetPressureInputs, SetWhatIfs,
+                 SetReportImpression, SetReportModifiers, SetPlaqueFeatures, SignReport>;
 
 std::string op_name(const AnnotationCommand& command);  ///< "measure.add", ...
 bool is_annotation_op(const std::string& op);           ///< one of these names
@@ -93,7 +109,7 @@ bool is_annotation_op(const std::string& op);           ///< one of these names
 /// The annotations after a command. Pure. Throws InvalidInput (and nothing is changed): a measurement with a
 /// fault, an id that is not there, a vessel that the model does not have (a measurement that lost its vessel
 /// may keep it), a color outside [0, 1], inputs beyond physiology, stretches that are none, values that are
-/// not finite, text that is not UTF-8.
+/// not finite, text that is not UTF-8, a further version of the report that does not say what changed.
 Annotations annotated(const Annotations& before, const AnnotationCommand& command,
                       const lumen::LumenModel& model);
 
@@ -105,11 +121,12 @@ Annotations annotated(const Annotations& before, const AnnotationCommand& comman
 Annotations following(const Annotations& before, const lumen::Edit& edit,
                       const lumen::LumenModel& model_before, const lumen::LumenModel& model_after);
 
-/// What differs: measurements by id, marks by vessel, came, went or changed; what pressures are told.
+/// What differs: measurements by id, marks by vessel, came, went or changed; what pressures are told; what
+/// the report says by a person.
 struct AnnotationChange {
   std::vector<std::int32_t> measurements, marks;
-  bool pressure = false;
-  bool empty() const { return measurements.empty() && marks.empty() && !pressure; }
+  bool pressure = false, report = false;
+  bool empty() const { return measurements.empty() && marks.empty() && !pressure && !report; }
 };
 AnnotationChange changes_between(const Annotations& before, const Annotations& after);
 

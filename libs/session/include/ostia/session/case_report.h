@@ -3,17 +3,22 @@
 /// (docs/reference/report.md).
 
 #include "ostia/analysis/aha_segments.h"
+#include "ostia/analysis/cad_rads.h"
+#include "ostia/analysis/high_risk_plaque.h"
 #include "ostia/analysis/lesions.h"
 #include "ostia/analysis/measurement.h"
 #include "ostia/analysis/medina.h"
+#include "ostia/analysis/scct_segments.h"
 #include "ostia/analysis/stenosis.h"
 #include "ostia/core/task_context.h"
 #include "ostia/figure/picture.h"
+#include "ostia/imaging/scan_technique.h"
 #include "ostia/imaging/series_preview.h"
 #include "ostia/pipeline/manifest.h"
 #include "ostia/session/case_file.h"
 #include "ostia/session/evaluability.h"
 #include "ostia/session/outer_walls.h"
+#include "ostia/session/report_digest.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -29,6 +34,14 @@ namespace ostia::session {
 enum class ReportLanguage { english, german };
 ReportLanguage report_language(const std::string& code);  ///< "en", "de"; throws InvalidInput
 std::string to_string(ReportLanguage language);           ///< its code
+
+/// How much of it a person reads; report.json and the tables hold everything.
+enum class ReportTemplate {
+  full,
+  brief,  ///< "short": first page, impression, stenoses, segments, versions, the tree
+};
+ReportTemplate report_template(const std::string& word);  ///< "full", "short"; throws InvalidInput
+std::string to_string(ReportTemplate form);               ///< its word
 
 struct ReportOptions {
   std::optional<ImageReference> image;  ///< how the case knows its image; none: the report says so
@@ -47,6 +60,12 @@ struct ReportOptions {
   double theta_deg = 0.0;         ///< of the first reformation; the second is at + 90
   double level_hu = 250.0, window_hu = 900.0;
   ReportLanguage language = ReportLanguage::english;
+  ReportTemplate form = ReportTemplate::full;
+  /// Agatston score of another scan, in place of the one that the case's modifiers have; [0, 20000]
+  std::optional<double> agatston = {};
+  std::string impression = {};  ///< in place of the case's own; empty: that one, else a draft
+  analysis::HighRiskOptions high_risk = {};
+  std::optional<imaging::ScanTechnique> technique = {};  ///< as the image's headers say
 };
 void validate(const ReportOptions& options);  ///< throws InvalidInput
 
@@ -81,6 +100,15 @@ struct ReportSegment {
   double worst_percent = 0.0;
   bool checked = false;
   std::optional<analysis::EvaluableStretch> evaluable;  ///< the worst of it; nothing where nothing is known
+  int number = 0;                                       ///< of the standard (AhaSegment); 0: none of it
+};
+
+/// A feature of high-risk plaque of a lesion.
+struct ReportFeature {
+  analysis::PlaqueFeatureFinding finding;  ///< with less confidence where the image shows the place less
+  LesionState state = LesionState::open;   ///< the reader's word on it
+  /// It is there by the reader's word, or found with more than low confidence and not rejected.
+  bool counts = false;
 };
 
 /// A lesion: a narrowing, or plaque that narrows little or nothing.
@@ -105,6 +133,38 @@ struct ReportStenosis {
   std::optional<double> remodelling_index;
   /// Of the first bifurcation that it belongs to with a 1 in Medina's class: "1,0,1", "LAD/LCX"; else empty.
   std::string medina = {}, bifurcation = {};
+  std::vector<ReportFeature> features = {};  ///< all four; empty where no outer wall was looked for
+  bool high_risk = false;                    ///< two features or more count
+};
+
+/// One of the 18 standard segments (SCCT, Leipsic et al. 2014), whether the tree has it or not.
+struct ReportStandardSegment {
+  int number = 0;
+  std::string code, name;            ///< "pLAD", "proximal LAD"
+  std::vector<std::string> vessels;  ///< names of those that it is a part of; empty: the tree lacks it
+  /// By the worst lesion in it that is graded; 0 where none is and all of it can be judged; else nothing.
+  std::optional<analysis::CadRads> category;
+  double worst_percent = 0.0;
+  int worst_stenosis = 0;   ///< ReportStenosis::number; 0: none
+  bool has_plaque = false;  ///< counts in the segment involvement score: a lesion that is graded lies in it
+  std::optional<analysis::PlaqueVolumes> plaque;  ///< where an outer wall was looked for
+  std::optional<double> least_diameter_mm, least_area_mm2;
+  std::vector<analysis::PlaqueFeature> features;        ///< that count, of lesions in it
+  std::optional<analysis::EvaluableStretch> evaluable;  ///< the worst of it
+  bool checked = false;
+};
+
+/// The overall plaque burden by each way that is known, and the one that is stated.
+struct ReportBurden {
+  int segments = 0;       ///< segment involvement score
+  bool at_least = false;  ///< something could not be judged: there may be more
+  analysis::PlaqueBurden by_segments = analysis::PlaqueBurden::none;
+  std::optional<double> agatston = {};
+  std::optional<analysis::PlaqueBurden> by_calcium = {}, by_sight = {};
+  /// The reader's, else the highest of the known ones; with a stent, whose metal is no calcium, without
+  /// that by the calcium score.
+  analysis::PlaqueBurden stated = analysis::PlaqueBurden::none;
+  bool by_reader = false;
 };
 
 /// Where a side branch leaves, wide enough to count (MedinaOptions::least_side_mm).
@@ -151,7 +211,19 @@ struct CaseReport {
   std::map<std::int32_t, analysis::LumenProfile> profiles;
   std::map<std::int32_t, analysis::ReferenceLine> references;
   std::map<std::int32_t, analysis::Ostium> ostia;
-  std::map<std::int32_t, VesselWalls> walls;  ///< of vessels whose outer wall was looked for
+  std::map<std::int32_t, VesselWalls> walls;                  ///< of vessels whose outer wall was looked for
+  ReportNotes notes = {};                                     ///< what the case keeps of its report
+  std::vector<ReportStandardSegment> standard_segments = {};  ///< all 18, by number
+  analysis::Dominance dominance = analysis::Dominance::unknown;
+  bool dominance_by_reader = false;
+  ReportBurden burden = {};
+  analysis::CadRadsStatement statement = {};  ///< `category` with burden and modifiers
+  std::string impression_draft = {};          ///< of the findings, English
+  std::string impression = {};                ///< the reader's text, else the draft
+  bool impression_by_person = false;
+  std::string content_digest = {};  ///< report_content_digest
+  /// The case and the text are those of the last version that was signed.
+  bool is_signed = false;
 
   std::vector<std::string> unchecked() const;  ///< names of vessels that no person has checked
 };
@@ -197,6 +269,11 @@ std::string segments_csv(const CaseReport& report);
 std::string stenoses_csv(const CaseReport& report);
 std::string plaque_csv(const CaseReport& report);  ///< one line a vessel and, below it, a stenosis of it
 std::string measurements_csv(const CaseReport& report);
+
+/// What was measured of a feature that is known, with its unit: "2.10 mm3" with a raised 3.
+std::string feature_text(const analysis::PlaqueFeatureFinding& finding);
+/// The draft of the impression in the report's language, a line a statement.
+std::string drafted_impression(const CaseReport& report);
 
 /// SHA-256 over what a report is made of: model, annotations, journal, image reference.
 std::string report_digest(const CaseFile& file);

@@ -1,0 +1,120 @@
+#include "ostia/dicom/documents.h"
+
+#include "tags.h"
+
+#include "ostia/core/error.h"
+
+#include <bit>
+
+namespace ostia::dicom {
+namespace {
+
+constexpr const char* pdf_storage = "1.2.840.10008.5.1.4.1.1.104.1";
+constexpr const char* stl_storage = "1.2.840.10008.5.1.4.1.1.104.3";
+constexpr const char* capture_storage = "1.2.840.10008.5.1.4.1.1.7";
+constexpr std::size_t most_document_bytes = 0xFFFFFFF0u;
+
+void put_float(std::string& to, double value) {
+  const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(value));
+  for (int i = 0; i < 4; ++i) to.push_back(static_cast<char>(bits >> (8 * i) & 0xff));
+}
+
+/// Binary STL; a PDF or STL of odd length is padded by one byte, and its length said.
+std::string stl_bytes(const geometry::TriMesh& surface) {
+  std::string bytes = "Ostia, LPS, mm";
+  bytes.resize(80, ' ');
+  const auto count = static_cast<std::uint32_t>(surface.triangles.size());
+  for (int i = 0; i < 4; ++i) bytes.push_back(static_cast<char>(count >> (8 * i) & 0xff));
+  bytes.reserve(84 + 50 * surface.triangles.size());
+  for (const auto& triangle : surface.triangles) {
+    const Vec3& a = surface.points[static_cast<std::size_t>(triangle[0])];
+    const Vec3& b = surface.points[static_cast<std::size_t>(triangle[1])];
+    const Vec3& c = surface.points[static_cast<std::size_t>(triangle[2])];
+    Vec3 normal = (b - a).cross(c - a);
+    normal = normal.norm() > 0.0 ? Vec3(normal.normalized()) : Vec3(Vec3::Zero());
+    for (const Vec3* p : std::initializer_list<const Vec3*>{&normal, &a, &b, &c})
+      for (int axis = 0; axis < 3; ++axis) put_float(bytes, (*p)[axis]);
+    bytes.append(2, '\0');
+  }
+  return bytes;
+}
+
+void add_document(DicomDataset& d, const SourceSeries& source, std::string bytes, const std::string& title,
+                  const char* mime) {
+  d.set_text(0x0008002A, "DT", "");
+  d.set_text(0x00280301, "CS", source.pseudonym ? "NO" : "YES");
+  set_own_text(d, d, 0x00420010, "ST", title);
+  d.set_text(0x00420012, "LO", mime);
+  d.set_u32(0x00420015, {static_cast<std::uint32_t>(bytes.size())});
+  d.set_bytes(0x00420011, "OB", std::move(bytes));
+  if (!source.frames.empty()) add_source_instances(source, d, 0x00420013);
+}
+
+void require_document(const std::string& bytes, const char* what) {
+  if (bytes.size() > most_document_bytes)
+    throw InvalidInput(std::string("DICOM: the ") + what + " has 4 GiB or more and fits no object");
+}
+
+}  // namespace
+
+DicomDataset encapsulated_pdf(const SourceSeries& source, std::string pdf, const std::string& title,
+                              const ObjectOptions& options) {
+  if (!pdf.starts_with("%PDF-")) throw InvalidInput("DICOM: the document is no PDF");
+  require_document(pdf, "PDF");
+  DicomDataset d = object_head(source, pdf_storage, "DOC", "report", options);
+  d.set_text(0x00080064, "CS", "WSD");
+  set_code(d, 0x0040A043, {"18748-4", "LN", "Diagnostic imaging report"});
+  add_document(d, source, std::move(pdf), title, "application/pdf");
+  seal(d);
+  return d;
+}
+
+DicomDataset encapsulated_stl(const SourceSeries& source, const geometry::TriMesh& surface,
+                              const std::string& title, const ObjectOptions& options) {
+  if (surface.triangles.empty()) throw InvalidInput("DICOM: the surface has no triangles");
+  std::string bytes = stl_bytes(surface);
+  require_document(bytes, "surface");
+  DicomDataset d = object_head(source, stl_storage, "M3D", "surface", options);
+  d.set_text(tag::frame_of_reference, "UI", source.frame_of_reference);
+  d.set_text(0x00201040, "LO", "");
+  set_code(d, 0x004008EA, codes::millimetre);
+  set_code(d, 0x0040A043, {"85040-4", "LN", "3D body structure"});
+  d.set_text(0x00687001, "CS", "NO");  // model modification
+  d.set_text(0x00687002, "CS", "NO");  // model mirroring
+  set_code(d, 0x00687003, {"129013", "DCM", "Planning Intent"});
+  add_document(d, source, std::move(bytes), title, "model/stl");
+  add_referenced_series(source, d);
+  d.set_text(0x00280301, "CS", "NO");
+  seal(d);
+  return d;
+}
+
+DicomDataset secondary_capture(const SourceSeries& source, const CapturedPicture& picture,
+                               const ObjectOptions& options) {
+  if (picture.width < 1 || picture.height < 1 || picture.width > 65535 || picture.height > 65535 ||
+      picture.rgb.size() !=
+          3 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height))
+    throw InvalidInput("DICOM: the picture is empty, too large or does not fill its size");
+  DicomDataset d = object_head(source, capture_storage, "OT", "key images", options);
+  d.set_text(0x00080008, "CS", "DERIVED\\SECONDARY");
+  d.set_text(0x00080064, "CS", "WSD");
+  if (!source.frames.empty()) add_source_instances(source, d, 0x00082112);
+  set_own_text(d, d, 0x00204000, "LT", picture.caption);
+  d.set_text(0x00180015, "CS", "HEART");
+  d.set_text(0x00200020, "CS", "");  // a picture lies no way in the patient
+  d.set_u16(0x00280002, {3});
+  d.set_text(0x00280004, "CS", "RGB");
+  d.set_u16(0x00280006, {0});
+  d.set_u16(tag::rows, {static_cast<std::uint16_t>(picture.height)});
+  d.set_u16(tag::columns, {static_cast<std::uint16_t>(picture.width)});
+  d.set_u16(tag::bits_allocated, {8});
+  d.set_u16(0x00280101, {8});
+  d.set_u16(0x00280102, {7});
+  d.set_u16(0x00280103, {0});
+  d.set_text(0x00280301, "CS", "NO");
+  d.set_bytes(tag::pixel_data, "OB", std::string(picture.rgb.begin(), picture.rgb.end()));
+  seal(d);
+  return d;
+}
+
+}  // namespace ostia::dicom

@@ -1,0 +1,166 @@
+#include "ostia/pacs/archive.h"
+
+#include "intake.h"
+#include "pause.h"
+#include "transports.h"
+#include "uid.h"
+
+#include "ostia/core/files.h"
+#include "ostia/core/log.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+namespace ostia::pacs {
+namespace {
+
+constexpr std::size_t most_images = 100000;  // of one series
+
+bool is_date(const std::string& text) {
+  return text.size() == 8 &&
+         std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+void require_text(const std::string& text, const char* member) {
+  const bool sound = text.size() <= 256 && std::none_of(text.begin(), text.end(), [](char c) {
+                       return static_cast<unsigned char>(c) < 0x20 || c == 0x7F || c == '\\';
+                     });
+  if (!sound)
+    throw InvalidInput(std::string("the query's ") + member +
+                       " must have no backslash or control character, and 256 bytes at most");
+}
+
+/// Whose study it is, and what the server lists of the series.
+struct Announced {
+  std::string patient_id;
+  std::set<std::string> images, classes;
+};
+
+Announced announced(Archive& archive, const SeriesWanted& wanted, const core::TaskContext& task) {
+  Announced all;
+  Query study;
+  study.study_uid = wanted.study_uid;
+  study.most = 2;
+  for (const Found& one : archive.find(study, task).found) all.patient_id = one.patient_id;
+  Query images;
+  images.level = Level::image;
+  images.study_uid = wanted.study_uid;
+  images.series_uid = wanted.series_uid;
+  images.most = most_images;
+  const FindResult found = archive.find(images, task);
+  if (found.cut_off)
+    throw InvalidInput("the server '" + archive.server().name + "' lists more than " +
+                       std::to_string(most_images) + " images in this series");
+  for (const Found& one : found.found)
+    if (is_uid(one.sop_uid)) all.images.insert(one.sop_uid);
+  for (const Found& one : found.found)
+    if (is_uid(one.sop_class)) all.classes.insert(one.sop_class);
+  if (all.images.empty())
+    throw InvalidInput("the server '" + archive.server().name + "' has no image of this series");
+  return all;
+}
+
+std::string how_many(std::size_t count, const char* noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+}  // namespace
+
+void validate(const Query& query) {
+  require_text(query.patient_name, "patient_name");
+  require_text(query.patient_id, "patient_id");
+  require_text(query.description, "description");
+  require_text(query.modality, "modality");
+  for (const auto& [date, member] :
+       {std::pair(&query.from_date, "from_date"), std::pair(&query.to_date, "to_date")})
+    if (!date->empty() && !is_date(*date))
+      throw InvalidInput(std::string("the query's ") + member + " must be YYYYMMDD");
+  if (!query.study_uid.empty() && !is_uid(query.study_uid))
+    throw InvalidInput("the query's study_uid is no UID");
+  if (!query.series_uid.empty() && !is_uid(query.series_uid))
+    throw InvalidInput("the query's series_uid is no UID");
+  if (query.level != Level::study && query.study_uid.empty())
+    throw InvalidInput("a query for series or images needs the study's UID");
+  if (query.level == Level::image && query.series_uid.empty())
+    throw InvalidInput("a query for images needs the series' UID");
+  if (query.most < 1 || query.most > 1000000) throw InvalidInput("the query's most must be 1 to 1000000");
+}
+
+Fetched Archive::fetch(const SeriesWanted& wanted, const std::filesystem::path& folder,
+                       const core::TaskContext& task) {
+  if (!is_uid(wanted.study_uid) || !is_uid(wanted.series_uid))
+    throw InvalidInput("a series is asked for by its study's UID and its own");
+  if (std::filesystem::exists(folder)) throw InvalidInput(folder.string() + " is there already");
+  core::StagedFolder staged(folder);
+  std::filesystem::permissions(staged.temporary(), std::filesystem::perms::owner_all);
+  task.set_stage("asking");
+  const Announced all = announced(*this, wanted, task);
+  Intake intake(staged.temporary(), wanted, all.images, all.patient_id, all.classes, task.sub(0.02, 0.99));
+  std::string last;
+  for (int attempt = 1; attempt <= server_.attempts; ++attempt) {
+    if (attempt > 1) pause_before(attempt, task);
+    const std::vector<std::string> missing = intake.missing();
+    try {
+      retrieve(wanted, intake.received() == 0 ? std::vector<std::string>{} : missing, intake, task);
+      last.clear();
+    } catch (const NetworkError& error) {
+      last = error.what();
+    } catch (const InvalidInput&) {
+      if (intake.fault().empty()) throw;
+    }
+    task.throw_if_cancelled();
+    if (!intake.fault().empty())
+      throw InvalidInput("the server '" + server_.name + "' " + intake.fault() + "; nothing is kept");
+    intake.throw_if_faulty();
+    if (intake.missing().empty()) break;
+  }
+  if (const std::size_t missing = intake.missing().size(); missing > 0)
+    throw NetworkError("the server '" + server_.name + "' lists " + how_many(all.images.size(), "image") +
+                       " of this series and sent " + std::to_string(all.images.size() - missing) +
+                       "; nothing is kept, try again" + (last.empty() ? "" : " (" + last + ")"));
+  Fetched fetched;
+  fetched.announced = all.images.size();
+  fetched.duplicates = intake.duplicates();
+  if (fetched.duplicates > 0)
+    fetched.warnings.push_back("the server sent " + how_many(fetched.duplicates, "image") +
+                               " twice; one of each is kept");
+  if (intake.unlisted() > 0)
+    fetched.warnings.push_back("the server sent " + how_many(intake.unlisted(), "image") +
+                               " that it does not list; kept");
+  for (const std::filesystem::path& file : intake.files()) fetched.files.push_back(folder / file.filename());
+  for (const auto& entry : std::filesystem::directory_iterator(staged.temporary()))
+    if (entry.path().extension() != ".dcm") std::filesystem::remove(entry.path());
+  staged.commit();
+  task.set_progress(1.0);
+  return fetched;
+}
+
+std::vector<SendResult> Archive::send(const std::vector<std::filesystem::path>& files,
+                                      const core::TaskContext& task) {
+  std::vector<SendResult> results;
+  std::string last;
+  for (int attempt = 1; attempt <= server_.attempts && results.size() < files.size(); ++attempt) {
+    if (attempt > 1) pause_before(attempt, task);
+    const auto first = static_cast<std::ptrdiff_t>(results.size());
+    try {
+      store({files.begin() + first, files.end()}, results, task);
+    } catch (const NetworkError& error) {
+      last = error.what();
+    } catch (const InvalidInput& error) {  // no association: it will refuse the next attempt, too
+      task.throw_if_cancelled();
+      results.resize(files.size(), {SendState::refused, error.what()});
+    }
+    task.throw_if_cancelled();
+  }
+  results.resize(files.size(), {SendState::unreachable, last});
+  return results;
+}
+
+std::unique_ptr<Archive> open_archive(const ServerDescription& server, const Secrets& secrets) {
+  validate(server);
+  return server.transport == Transport::dimse ? dimse_archive(server, secrets)
+                                              : dicomweb_archive(server, secrets);
+}
+
+}  // namespace ostia::pacs

@@ -1,0 +1,59 @@
+#include "text.h"
+
+#include <algorithm>
+
+namespace ostia::pacs {
+namespace {
+
+constexpr std::size_t longest_text = 1024;
+
+/// Length of a sound UTF-8 sequence at the text's beginning, or 0.
+std::size_t utf8_sequence(std::string_view text) {
+  const auto first = static_cast<unsigned char>(text.front());
+  const std::size_t length = first < 0x80                    ? 1
+                             : first >= 0xC2 && first < 0xE0 ? 2
+                             : first >> 4 == 14              ? 3
+                             : first >= 0xF0 && first < 0xF5 ? 4
+                                                             : 0;
+  if (length == 0 || length > text.size()) return 0;
+  for (std::size_t n = 1; n < length; ++n)
+    if (static_cast<unsigned char>(text[n]) >> 6 != 2) return 0;
+  return length;
+}
+
+}  // namespace
+
+std::string clean_text(std::string_view text) {
+  std::string clean;
+  text = text.substr(0, longest_text);
+  while (!text.empty()) {
+    const std::size_t length = utf8_sequence(text);
+    const auto first = static_cast<unsigned char>(text.front());
+    if (length == 0)
+      clean += '?';
+    else if (length == 1)
+      clean += first < 0x20 || first == 0x7F ? ' ' : text.front();
+    else
+      clean += text.substr(0, length);
+    text.remove_prefix(std::max<std::size_t>(length, 1));
+  }
+  clean.erase(clean.find_last_not_of(' ') + 1);
+  clean.erase(0, std::min(clean.find_first_not_of(' '), clean.size()));
+  return clean;
+}
+
+std::string clean_name(std::string_view text) {
+  while (!text.empty() && text.front() == '=') text.remove_prefix(1);
+  std::string name = clean_text(text.substr(0, text.find('=')));
+  name.erase(name.find_last_not_of('^') + 1);
+  return name;
+}
+
+std::string hexadecimal(std::uint32_t number) {
+  constexpr std::string_view digits = "0123456789ABCDEF";
+  std::string text;
+  for (int shift = number > 0xFFFF ? 28 : 12; shift >= 0; shift -= 4) text += digits[number >> shift & 15];
+  return "0x" + text;
+}
+
+}  // namespace ostia::pacs

@@ -209,7 +209,8 @@ TEST(CalciumScore, CategoriesAndCacDrs) {
   EXPECT_EQ(cac_drs(0.0, 0), "A0");
   EXPECT_EQ(cac_drs(99.0, 2), "A1/N2");
   EXPECT_EQ(cac_drs(100.0, 1), "A2/N1");
-  EXPECT_EQ(cac_drs(299.9, 3), "A2/N3");
+  EXPECT_EQ(cac_drs(299.4, 3), "A2/N3");
+  EXPECT_EQ(cac_drs(299.9, 3), "A3/N3") << "reported as 300";
   EXPECT_EQ(cac_drs(300.0, 4), "A3/N4");
 }
 

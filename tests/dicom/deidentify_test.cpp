@@ -57,6 +57,16 @@ TEST(Deidentify, NothingThatWasPlantedIsLeft) {
   }
 }
 
+TEST(Deidentify, ASequenceThatCannotBeTakenApartIsNotKept) {
+  const MadeSeries made = made_series(grid_with(Mat3::Identity()));
+  DicomDataset slice = imaging::require_dicom_object(made.series.files.front()).data;
+  // An item that promises more bytes than there are, as an unknown VR may hide it.
+  slice.set(0x52009229, {"UN", std::string("\xFE\xFF\x00\xE0\xFF\x00\x00\x00", 8) + "PLANTED^"});
+  DeidentifyReport report;
+  EXPECT_FALSE(deidentified(slice, "key", "A", report).has(0x52009229));
+  EXPECT_EQ(report.tags.at(0x52009229).removed, 1U);
+}
+
 TEST(Deidentify, TheImageStaysTheImage) {
   const MadeSeries made = made_series(grid_with(oblique()));
   deidentify(made.folder / "CT", made.folder / "anonymous");

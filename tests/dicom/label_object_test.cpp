@@ -207,6 +207,18 @@ TEST(StructureSet, WithoutAnImageItHasAGridOfItsOwn) {
   }
 }
 
+TEST(StructureSet, PlanesBetweenTheSlicesAreRefused) {
+  const MadeSeries made = made_series(grid_with(Mat3::Identity()));
+  LabelObjectOptions options;
+  options.grid = made.series.geometry;
+  Geometry between = made.series.geometry;
+  between.origin += between.direction.col(2) * 0.4 * between.spacing.z();
+  const fs::path shifted = written(squares(between, {2, 3}), made.folder, "shifted.dcm");
+  EXPECT_THAT(refusal([&] { read_label_object(shifted, options); }), HasSubstr("does not lie in a slice"));
+  const fs::path sheets = written(squares(made.series.geometry, {1, 3, 5}), made.folder, "sheets.dcm");
+  EXPECT_THAT(refusal([&] { read_label_object(sheets, options); }), HasSubstr("2 slices of the image apart"));
+}
+
 TEST(StructureSet, OfOtherPlanesIsRefused) {
   const MadeSeries made = made_series(grid_with(Mat3::Identity()));
   LabelObjectOptions options;

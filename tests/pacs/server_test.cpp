@@ -74,16 +74,20 @@ TEST(Servers, APasswordInTheFileIsRefused) {
 
 TEST(Servers, WrongMembersAreNamed) {
   const auto file = testing::temporary_folder("servers") / "pacs.json";
-  for (const auto& [text, named] :
-       {std::pair{R"({"name": "a", "host": "h", "title": "T", "port": "x"})", "port"},
-        {R"({"name": "a", "host": "h", "title": "T", "port": 70000})", "port"},
-        {R"({"name": "a", "host": "h", "title": ""})", "title"},
-        {R"({"name": "a", "host": "h", "title": "TOO-LONG-A-TITLE-17"})", "title"},
-        {R"({"name": "a", "transport": "ftp"})", "transport"},
-        {R"({"name": "a", "transport": "dicomweb", "url": "ftp://x"})", "url"},
-        {R"({"name": "a", "transport": "dicomweb", "url": "https://u:p@x"})", "url"},
-        {R"({"name": "a", "transport": "dicomweb", "url": "http://x/y", "login": "bearer"})", "https"},
-        {R"({"name": "a", "host": "h", "title": "T", "key": "k"})", "certificate"}}) {
+  for (
+      const auto& [text, named] :
+      {std::pair{R"({"name": "a", "host": "h", "title": "T", "port": "x"})", "port"},
+       {R"({"name": "a", "host": "h", "title": "T", "port": 70000})", "port"},
+       {R"({"name": "a", "host": "h", "title": ""})", "title"},
+       {R"({"name": "a", "host": "h", "title": "TOO-LONG-A-TITLE-17"})", "title"},
+       {R"({"name": "a", "transport": "ftp"})", "transport"},
+       {R"({"name": "a", "transport": "dicomweb", "url": "ftp://x"})", "url"},
+       {R"({"name": "a", "transport": "dicomweb", "url": "https://u:p@x"})", "url"},
+       {R"({"name": "a", "transport": "dicomweb", "url": "http://x/y", "login": "bearer"})", "https"},
+       {R"({"name": "a", "transport": "dicomweb", "url": "http://127.x/y", "login": "bearer"})", "https"},
+       {R"({"name": "a", "transport": "dicomweb", "url": "http://localhost/y", "login": "bearer", "proxy": "p:1"})",
+        "https"},
+       {R"({"name": "a", "host": "h", "title": "T", "key": "k"})", "certificate"}}) {
     core::write_file(file, R"({"servers": [)" + std::string(text) + "]}");
     EXPECT_THAT(refusal([&] { read_servers(file); }), HasSubstr(named)) << text;
   }

@@ -5,7 +5,6 @@
 #include "ostia/core/error.h"
 #include "ostia/core/log.h"
 #include "ostia/dicom/label_object.h"
-#include "ostia/imaging/dicom.h"
 #include "ostia/imaging/image_file.h"
 #include "ostia/pipeline/source.h"
 
@@ -35,13 +34,7 @@ std::string counts_in_words(const std::array<std::int64_t, 256>& counts,
 /// A segmentation and the images that it is said to be of: what both files say of patient and frame of
 /// reference.
 void require_same_origin(const MaskInput& input) {
-  const std::optional<std::filesystem::path> object = dicom::label_object_in(input.file);
-  if (!object || pipeline::classify(input.image) != pipeline::SourceKind::dicom) return;
-  const imaging::DicomFolder folder = imaging::scan_dicom(input.image);
-  if (folder.series.empty() || folder.series.front().files.empty() || folder.series.front().archive) return;
-  const std::string why = dicom::other_origin(dicom::object_origin(*object),
-                                              dicom::object_origin(folder.series.front().files.front()));
-  if (!why.empty())
+  if (const std::string why = dicom::other_origin(input.file, input.image); !why.empty())
     throw InvalidInput(own_name(input.file) + " and " + own_name(input.image) +
                        " do not belong together: " + why);
 }

@@ -41,11 +41,11 @@ void print(const session::CaseReport& report) {
   for (const std::string& one : report.not_judged) std::printf("not judged: %s\n", one.c_str());
 }
 
-constexpr std::uint64_t most_text_bytes = 1ULL << 20;
+constexpr std::uint64_t most_text_bytes = 1ULL << 20, most_score_bytes = 64ULL << 20;
 
 /// "agatston" of the object, or of its "total".
 double agatston_in(const std::filesystem::path& path) {
-  const auto json = nlohmann::json::parse(core::read_file(path, most_text_bytes), nullptr, false);
+  const auto json = nlohmann::json::parse(core::read_file(path, most_score_bytes), nullptr, false);
   if (json.is_object()) {
     const auto& holder = json.contains("agatston") || !json.contains("total") ? json : json["total"];
     if (holder.is_object() && holder.contains("agatston") && holder["agatston"].is_number())
@@ -64,7 +64,7 @@ std::string impression_in(const std::filesystem::path& path) {
 }
 
 /// What the options say and the case does not, and the signature, become steps of the case.
-void sign(const ReportCommand& o, const session::ReportOptions& options) {
+void sign(const ReportCommand& o, const session::ReportOptions& options, const std::string& image_sha256) {
   session::CaseFile file = session::CaseFile::open(o.input);
   const lumen::LumenModel& model = *file.model();
   session::Annotations after = *file.annotations();
@@ -80,7 +80,7 @@ void sign(const ReportCommand& o, const session::ReportOptions& options) {
     modifiers.agatston = options.agatston;
     add(session::SetReportModifiers{modifiers});
   }
-  const std::string digest = session::report_content_digest(model, after);
+  const std::string digest = session::report_content_digest(model, after, image_sha256);
   if (!after.report.versions.empty() && after.report.versions.back().digest == digest)
     throw InvalidInput("nothing has changed since version " + std::to_string(after.report.versions.size()) +
                        " of the report was signed; leave --sign out to make it again");
@@ -121,7 +121,7 @@ ExitCode run_report(const ReportCommand& o, const core::TaskContext& task) {
   options.technique = source.technique;
   if (!o.signer.empty()) {
     opened.reset();  // one at a time has a case open for writing
-    sign(o, options);
+    sign(o, options, source.image ? options.image->sha256 : std::string());
     opened.emplace(session::CaseFile::open(o.input, session::OpenMode::read_only));
   }
   const session::CaseFile& file = *opened;

@@ -190,8 +190,9 @@ void ArchiveDialog::search() {
       [query, at = asked()](const core::TaskContext& task) {
         return std::any(pacs::open_archive(at.server, at.secrets)->find(query, task));
       },
-      [self](const std::any& result) {
-        if (self) self->show_studies(std::any_cast<const pacs::FindResult&>(result));
+      [self, at = server().name](const std::any& result) {
+        if (self && self->server().name == at)
+          self->show_studies(std::any_cast<const pacs::FindResult&>(result));
       },
       [self](const QString& message) {
         if (self) self->say(message);
@@ -225,7 +226,7 @@ void ArchiveDialog::look_into(QTreeWidgetItem* study) {
   query.study_uid = uid.toStdString();
   const QPointer<ArchiveDialog> self(this);
   desk_.jobs.run(
-      "archive", tr("Looking for series"),
+      "archive of " + uid, tr("Looking for series"),
       [query, at = asked()](const core::TaskContext& task) {
         return std::any(pacs::open_archive(at.server, at.secrets)->find(query, task));
       },

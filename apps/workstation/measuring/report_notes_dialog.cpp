@@ -322,10 +322,12 @@ void ReportNotesDialog::sign() {
   const bool done = desk_.messages.guarded(
       [&] {
         const session::CaseFile& file = desk_.bench.session().file();
+        const session::OpenImage& image = desk_.bench.image();
         const session::ReportVersion version{
             QDate::currentDate().toString(Qt::ISODate).toStdString(), signer_->text().trimmed().toStdString(),
             changes_->text().trimmed().toStdString(),
-            session::report_content_digest(*file.model(), *file.annotations())};
+            session::report_content_digest(*file.model(), *file.annotations(),
+                                           image.volume ? image.reference.sha256 : std::string())};
         desk_.bench.annotate(session::SignReport{version});
       },
       true);

@@ -5,6 +5,7 @@
 #include "ostia/core/log.h"
 #include "ostia/dicom/label_object.h"
 #include "ostia/session/found_model.h"
+#include "ostia/session/machine_state.h"
 
 namespace ostia::workstation {
 namespace fs = std::filesystem;
@@ -26,6 +27,11 @@ session::MaskModel model_for(const imaging::MaskVolume& labels, const session::O
 
 Opening::MaskCase Opening::case_of_mask(const fs::path& mask, const session::OpenImage& image,
                                         const fs::path& state_folder, const core::TaskContext& task) {
+  if (image.volume)
+    if (const auto known = session::MachineState(state_folder).find_image(image.reference.sha256))
+      if (const std::string why = dicom::other_origin(mask, known->path, known->series_uid); !why.empty())
+        throw InvalidInput("this mask and the image that is open do not belong together: " + why +
+                           "; close the image to open the mask alone");
   const auto grid = image.volume ? std::optional(image.volume->geometry) : std::nullopt;
   const auto loaded = dicom::read_labels(mask, task.sub(0.0, 0.1), grid);
   const session::MaskModel made = model_for(loaded.volume, image, task.sub(0.1, 0.95));

@@ -72,6 +72,11 @@ constexpr const char* sentences[] = {
         "voxels of %1 mm are wider than coronary arteries, which are 2 to 4 mm wide (at most %2 "
         "mm can be used); take a series with thinner slices, or draw a first vessel by its two "
         "ends where you see one"),
+    QT_TRANSLATE_NOOP(
+        "library",
+        "voxels of %1 mm are wider than coronary arteries, which are 2 to 4 mm wide (at most %2 "
+        "mm can be used); take a series with thinner slices, or draw a first vessel by its two "
+        "ends where you see one; %l3"),
     QT_TRANSLATE_NOOP("library", "the image is empty: every voxel is %1; take another image"),
     QT_TRANSLATE_NOOP("library",
                       "the image is noise: places %1 mm apart have nothing in common (correlation %2); take "

@@ -794,6 +794,10 @@
         <translation>Voxel von %1 mm sind breiter als Koronararterien mit ihren 2 bis 4 mm (höchstens %2 mm sind brauchbar). Nehmen Sie eine Serie mit dünneren Schichten, oder zeichnen Sie ein erstes Gefäß durch seine zwei Enden, wo Sie eines sehen.</translation>
     </message>
     <message>
+        <source>voxels of %1 mm are wider than coronary arteries, which are 2 to 4 mm wide (at most %2 mm can be used); take a series with thinner slices, or draw a first vessel by its two ends where you see one; %l3</source>
+        <translation>Voxel von %1 mm sind breiter als Koronararterien mit ihren 2 bis 4 mm (höchstens %2 mm sind brauchbar). Nehmen Sie eine Serie mit dünneren Schichten, oder zeichnen Sie ein erstes Gefäß durch seine zwei Enden, wo Sie eines sehen. %l3</translation>
+    </message>
+    <message>
         <source>the image is empty: every voxel is %1; take another image</source>
         <translation>Das Bild ist leer: Jedes Voxel ist %1. Nehmen Sie ein anderes Bild.</translation>
     </message>

@@ -3,6 +3,7 @@
 #include "calcium_heart.h"
 #include "calcium_surroundings.h"
 
+#include "ostia/analysis/plaque_burden.h"
 #include "ostia/core/error.h"
 #include "ostia/core/text.h"
 #include "ostia/imaging/morphology.h"
@@ -80,18 +81,28 @@ PlaceGuess proposal(const HeartBulk& heart, const Vec3& centre, double bright_ab
   return guess_place(heart.place(centre));
 }
 
+/// What is too large for a lesion and lies on the heart may be coronary calcium joined to a ring or a wall.
+void warn_of_large(const CalciumLesion& part, std::vector<std::string>& warnings) {
+  const auto mm = [&](int axis) { return core::rounded_text(part.centre[axis], 0); };
+  warnings.push_back("a part of " + core::rounded_text(part.amount.volume_mm3 / 1000.0, 1) +
+                     " ml on the heart, about (" + mm(0) + ", " + mm(1) + ", " + mm(2) +
+                     ") mm, is taken for no coronary calcium and not scored; look whether some of it is");
+}
+
 /// Parts that are lesions, with their proposals; `number` is still the part's.
 std::vector<CalciumLesion> lesions_of(const CalciumSlices& slices, const CalciumSpots& found,
                                       const std::vector<CalciumLesion>& parts,
-                                      const std::optional<HeartBulk>& heart, int& chest_parts) {
+                                      const std::optional<HeartBulk>& heart, CalciumScore& score) {
   std::vector<CalciumLesion> lesions;
   std::optional<NearHeart> near;
   if (heart) near.emplace(*heart);
   const std::vector<imaging::Region> boxes = part_boxes(found, slices.image.geometry);
   for (std::size_t part = 1; part < parts.size(); ++part) {
     CalciumLesion lesion = parts[part];
-    if (lesion.amount.volume_mm3 > largest_lesion_mm3 || (near && !near->holds(lesion.centre))) {
-      ++chest_parts;
+    const bool on_heart = near && near->holds(lesion.centre);
+    if (lesion.amount.volume_mm3 > largest_lesion_mm3 || (near && !on_heart)) {
+      ++score.chest_parts;
+      if (on_heart) warn_of_large(lesion, score.warnings);
       continue;
     }
     lesion.number = static_cast<int>(part);
@@ -168,12 +179,12 @@ void validate(const CalciumOptions& o) {
 }
 
 CalciumCategory calcium_category(double agatston) {
-  // Scores of less than half a unit round to 0, but some calcium is not none.
-  return agatston <= 0.0     ? CalciumCategory::none
-         : agatston <= 10.0  ? CalciumCategory::minimal
-         : agatston <= 100.0 ? CalciumCategory::mild
-         : agatston <= 400.0 ? CalciumCategory::moderate
-                             : CalciumCategory::severe;
+  const double whole = whole_agatston(agatston);
+  return whole <= 0.0     ? CalciumCategory::none
+         : whole <= 10.0  ? CalciumCategory::minimal
+         : whole <= 100.0 ? CalciumCategory::mild
+         : whole <= 400.0 ? CalciumCategory::moderate
+                          : CalciumCategory::severe;
 }
 
 std::string to_string(CalciumCategory category) {
@@ -193,8 +204,9 @@ std::string to_string(CalciumCategory category) {
 }
 
 std::string cac_drs(double agatston, int vessels) {
-  if (agatston <= 0.0) return "A0";
-  const int grade = agatston < 100.0 ? 1 : agatston < 300.0 ? 2 : 3;
+  const double whole = whole_agatston(agatston);
+  if (whole <= 0.0) return "A0";
+  const int grade = whole < 100.0 ? 1 : whole < 300.0 ? 2 : 3;
   return "A" + std::to_string(grade) + "/N" + std::to_string(vessels);
 }
 
@@ -222,7 +234,7 @@ ScoredCalcium score_calcium(const imaging::ImageVolume& image, const CalciumOpti
         "it lies");
   const CalciumSpots found = calcium_spots(slices, options, task.sub(0.6, 0.9));
   const std::vector<CalciumLesion> parts = measured_parts(slices, found, options);
-  score.lesions = lesions_of(slices, found, parts, heart, score.chest_parts);
+  score.lesions = lesions_of(slices, found, parts, heart, score);
   const std::vector<std::int32_t> numbers = number_them(score.lesions, parts.size());
   count(score);
   out.lesion_numbers.geometry = slices.image.geometry;

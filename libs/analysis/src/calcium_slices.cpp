@@ -22,11 +22,11 @@ int length_axis(const imaging::Geometry& grid) {
 }
 
 /// How many slices are averaged. Overlapping ones are thick already: of n of them the thickness is theirs and
-/// n - 1 distances.
+/// n - 1 distances. Nearest to the definition's, of two as near the thinner.
 int slices_of_one(double slice_mm, const CalciumOptions& o) {
   if (!o.average_thin) return 1;
   const double thick = std::max(slice_mm, o.slice_thickness_mm.value_or(slice_mm));
-  return 1 + std::max(0, static_cast<int>(std::floor((o.definition_mm - thick) / slice_mm + 0.5)));
+  return 1 + std::max(0, static_cast<int>(std::ceil((o.definition_mm - thick) / slice_mm - 0.5 - 1e-9)));
 }
 
 void require_slices(const imaging::Geometry& grid, int axis, const CalciumOptions& o) {

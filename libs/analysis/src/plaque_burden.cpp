@@ -52,11 +52,15 @@ PlaqueBurden burden_by_segments(int segments) {
   return segments >= 1 ? PlaqueBurden::p1 : PlaqueBurden::none;
 }
 
+double whole_agatston(double agatston) {
+  return agatston > 0.0 ? std::max(1.0, std::round(agatston)) : 0.0;
+}
+
 PlaqueBurden burden_by_calcium(double agatston) {
   if (!(agatston >= 0.0) || !std::isfinite(agatston))
     throw InvalidInput("a calcium score of " + std::to_string(agatston) + "; an Agatston score is 0 or more");
   if (agatston == 0.0) return PlaqueBurden::none;
-  const double whole = std::max(1.0, std::round(agatston));
+  const double whole = whole_agatston(agatston);
   if (whole >= 1000.0) return PlaqueBurden::p4;
   if (whole >= 301.0) return PlaqueBurden::p3;
   return whole >= 101.0 ? PlaqueBurden::p2 : PlaqueBurden::p1;

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <optional>
 
 namespace ostia::coronary {
 namespace {
@@ -125,8 +126,13 @@ HeartVerdict judge(const HeartChambers& heart) {
   return verdict;
 }
 
-std::string why_no_aorta(const imaging::ImageVolume& image, const core::TaskContext& task) {
-  constexpr double spacing_mm = 4.0, contrast_hu = 120.0, even_hu = 45.0, least_ml = 10.0;
+namespace {
+
+constexpr double even_region_ml = 10.0;
+
+/// What the brightest region of one tissue has, in HU; nothing where there is none of that size.
+std::optional<double> brightest_even_hu(const imaging::ImageVolume& image, const core::TaskContext& task) {
+  constexpr double spacing_mm = 4.0, even_hu = 45.0;
   const imaging::ImageVolume work = working_image(image, spacing_mm, task);
   const imaging::Geometry& grid = work.geometry;
   std::vector<double> even;  // means of cubes of three voxels that hold one tissue
@@ -142,16 +148,37 @@ std::string why_no_aorta(const imaging::ImageVolume& image, const core::TaskCont
         const double mean = sum / 27.0;
         if (squares / 27.0 - mean * mean < even_hu * even_hu) even.push_back(mean);
       }
-  const auto count = static_cast<std::size_t>(least_ml * 1000.0 / grid.spacing.prod());
-  if (even.size() <= count) return "";
+  const auto count = static_cast<std::size_t>(even_region_ml * 1000.0 / grid.spacing.prod());
+  if (even.size() <= count) return std::nullopt;
   std::nth_element(even.begin(), even.begin() + static_cast<std::ptrdiff_t>(count), even.end(),
                    std::greater<>());
-  const std::string brightest = std::to_string(std::lround(even[count])) + " HU";
-  if (even[count] < contrast_hu)
-    return "; the brightest even region of " + std::to_string(std::lround(least_ml)) + " ml has " +
-           brightest + ", as blood without contrast agent: take the angiogram of this patient";
-  return "; contrast is there (" + brightest +
-         "): the top of the heart may be cut off, or the image may be turned; look at its orientation";
+  return even[count];
+}
+
+/// Empty where there is contrast agent.
+std::string lack_of_contrast(double brightest_hu) {
+  constexpr double contrast_hu = 120.0;
+  if (brightest_hu >= contrast_hu) return "";
+  return "; the brightest even region of " + std::to_string(std::lround(even_region_ml)) + " ml has " +
+         std::to_string(std::lround(brightest_hu)) +
+         " HU, as blood without contrast agent: take the angiogram of this patient";
+}
+
+}  // namespace
+
+std::string why_no_contrast(const imaging::ImageVolume& image, const core::TaskContext& task) {
+  const std::optional<double> brightest = brightest_even_hu(image, task);
+  return brightest ? lack_of_contrast(*brightest) : "";
+}
+
+std::string why_no_aorta(const imaging::ImageVolume& image, const core::TaskContext& task) {
+  const std::optional<double> brightest = brightest_even_hu(image, task);
+  if (!brightest) return "";
+  const std::string lacks = lack_of_contrast(*brightest);
+  return lacks.empty() ? "; contrast is there (" + std::to_string(std::lround(*brightest)) +
+                             " HU): the top of the heart may be cut off, or the image may be turned; look "
+                             "at its orientation"
+                       : lacks;
 }
 
 }  // namespace ostia::coronary

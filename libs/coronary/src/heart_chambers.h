@@ -28,5 +28,8 @@ HeartVerdict judge(const HeartChambers& heart);
 /// In plain words, after a search for the aorta that failed: no contrast agent, or contrast that lies
 /// otherwise (turned image, cut heart); with what to do. "; ..." or nothing.
 std::string why_no_aorta(const imaging::ImageVolume& image, const core::TaskContext& task = core::no_task());
+/// The first of these alone: that there is no contrast agent, as in a scan for the calcium score; else empty.
+std::string why_no_contrast(const imaging::ImageVolume& image,
+                            const core::TaskContext& task = core::no_task());
 
 }  // namespace ostia::coronary

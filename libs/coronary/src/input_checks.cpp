@@ -138,22 +138,24 @@ Intensities intensities_of(const imaging::ImageVolume& image) {
   return result;
 }
 
-void require_grid(const imaging::Geometry& grid) {
+/// A scan for the calcium score has thick slices: that it has no contrast agent either is said with them.
+void require_grid(const imaging::ImageVolume& image) {
+  const imaging::Geometry& grid = image.geometry;
   for (std::size_t a = 0; a < 3; ++a) {
-    const double voxel_mm = grid.spacing[static_cast<Eigen::Index>(a)];
-    const double field_mm = voxel_mm * static_cast<double>(grid.size[a]);
+    const double field_mm = grid.spacing[static_cast<Eigen::Index>(a)] * static_cast<double>(grid.size[a]);
     if (grid.size[a] < least_voxels || field_mm < least_field_mm)
       throw InvalidInput(
           "the image is too small to hold the root of the aorta: " + std::to_string(grid.size[0]) + " x " +
           std::to_string(grid.size[1]) + " x " + std::to_string(grid.size[2]) + " voxels, " +
           rounded_text(field_mm, 1) + " mm along one of its axes; " + rounded_text(least_field_mm, 0) +
           " mm and " + std::to_string(least_voxels) + " voxels are needed");
-    if (voxel_mm > coarsest_mm)
-      throw InvalidInput("voxels of " + rounded_text(voxel_mm, 1) +
-                         " mm are wider than coronary arteries, which are 2 to 4 mm wide (at most " +
-                         rounded_text(coarsest_mm, 1) +
-                         " mm can be used); take a series with thinner slices, or " + guided);
   }
+  if (const double voxel_mm = grid.spacing.maxCoeff(); voxel_mm > coarsest_mm)
+    throw InvalidInput("voxels of " + rounded_text(voxel_mm, 1) +
+                       " mm are wider than coronary arteries, which are 2 to 4 mm wide (at most " +
+                       rounded_text(coarsest_mm, 1) +
+                       " mm can be used); take a series with thinner slices, or " + guided +
+                       why_no_contrast(image));
 }
 
 void require_ct_numbers(const Intensities& v) {
@@ -214,21 +216,8 @@ void require_chest(const Intensities& values, const imaging::Geometry& grid) {
                       " mm), as abdomen, head or legs do; take an image of the heart, or " + guided);
 }
 
-/// A scan for the calcium score has thick slices: that it has no contrast agent either is said with them.
-void require_fit_grid(const imaging::ImageVolume& image) {
-  try {
-    require_grid(image.geometry);
-  } catch (const InvalidInput& error) {
-    const auto& size = image.geometry.size;
-    std::string why;
-    if (*std::min_element(size.begin(), size.end()) >= least_voxels && !image.voxels.empty())
-      why = why_no_aorta(image);
-    throw InvalidInput(error.what() + (why.find("without contrast") != std::string::npos ? why : ""));
-  }
-}
-
 InputNotes check_input(const imaging::ImageVolume& image) {
-  require_fit_grid(image);
+  require_grid(image);
   const Intensities values = intensities_of(image);
   require_ct_numbers(values);
   require_chest(values, image.geometry);

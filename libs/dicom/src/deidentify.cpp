@@ -45,6 +45,12 @@ std::string why_not(const DicomDataset& data) {
   return {};
 }
 
+/// A sequence that could not be taken apart: what is in it was not looked at.
+bool hides_items(const DicomElement& element) {
+  return element.items.empty() && (element.vr.empty() || element.vr == "UN") &&
+         element.value.compare(0, 4, "\xFE\xFF\x00\xE0", 4) == 0;
+}
+
 std::string new_uid(const std::string& old, const std::string& key) {
   return imaging::dicom_uid("de-identified/" + key + "/" + old);
 }
@@ -64,6 +70,10 @@ DicomDataset cleaned(const DicomDataset& data, const std::string& key, Deidentif
   for (const auto& [tag, element] : data.elements()) {
     switch (is_private(tag) ? TagFate::remove : fate_of(tag)) {
       case TagFate::keep: {
+        if (hides_items(element)) {
+          ++report.tags[tag].removed;
+          break;
+        }
         DicomElement copy = element;
         for (DicomDataset& item : copy.items) item = cleaned(item, key, report);
         result.set(tag, std::move(copy));

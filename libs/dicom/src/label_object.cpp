@@ -4,6 +4,7 @@
 #include "tags.h"
 
 #include "ostia/core/error.h"
+#include "ostia/imaging/dicom.h"
 
 #include <algorithm>
 #include <array>
@@ -71,6 +72,17 @@ std::string other_origin(const ObjectOrigin& a, const ObjectOrigin& b) {
   if (differ(a.patient_id, b.patient_id)) return "they are of two patients (PatientID)";
   if (differ(a.frame_of_reference, b.frame_of_reference))
     return "their frames of reference (0020,0052) differ, so that their places cannot be compared";
+  return {};
+}
+
+std::string other_origin(const fs::path& mask, const fs::path& image, const std::string& series_uid) {
+  const std::optional<fs::path> object = label_object_in(mask);
+  if (!object || !(fs::is_directory(image) || !imaging::dicom_sop_class(image).empty())) return {};
+  for (const imaging::DicomSeries& series : imaging::scan_dicom(image).series) {
+    if (series_uid.empty() ? !series.faults.empty() : series.uid != series_uid) continue;
+    if (series.files.empty() || series.archive) return {};
+    return other_origin(object_origin(*object), object_origin(series.files.front()));
+  }
   return {};
 }
 

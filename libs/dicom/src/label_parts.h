@@ -1,6 +1,7 @@
 #pragma once
 /// \file The two kinds of label objects; messages come without the file's name.
 
+#include "ostia/core/error.h"
 #include "ostia/dicom/label_object.h"
 
 namespace ostia::dicom {
@@ -23,6 +24,8 @@ class LabelLayers {
     if (!layer.runs.empty() && layer.runs.back().second == at) {
       ++layer.runs.back().second;
     } else {
+      if (++runs_ > most_runs)
+        throw InvalidInput("its segments are scattered over more pieces of rows than any vessel has");
       layer.runs.emplace_back(at, at + 1);
     }
   }
@@ -34,8 +37,11 @@ class LabelLayers {
   struct Layer {
     std::vector<std::pair<std::size_t, std::size_t>> runs;  // of voxels, [first, last)
   };
+  static constexpr std::size_t most_runs = 1U << 25;  // half a gigabyte
+
   imaging::Geometry grid_;
   std::vector<Layer> layers_;
+  std::size_t runs_ = 0;
 };
 
 /// Throws InvalidInput for a grid with more voxels than that, without multiplying beyond the range.

@@ -4,6 +4,7 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
+#include "ostia/dicom/code.h"
 
 #include <algorithm>
 #include <array>
@@ -53,9 +54,9 @@ DicomDataset identity_of(const DicomDataset& data) {
     if (!element || element->value.empty()) continue;
     identity.set(one.tag, {one.vr, element->value});
   }
-  if (const imaging::DicomElement* method = data.find(tag::deidentification_codes);
-      method && method->vr == "SQ")
-    identity.set(tag::deidentification_codes, *method);
+  // Made anew: of a file of implicit value representations the items have none.
+  if (const std::optional<Code> method = code_of(data, tag::deidentification_codes))
+    set_code(identity, tag::deidentification_codes, *method);
   for (const Copied& one : always)
     if (!identity.has(one.tag)) identity.set_text(one.tag, one.vr, "");
   // Plain ASCII is UTF-8, too, so that our own texts need not be changed. Character sets that are escaped to

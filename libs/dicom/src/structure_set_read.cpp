@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 
 namespace ostia::dicom {
@@ -17,6 +18,8 @@ using imaging::Vec3;
 
 constexpr double own_pixel_mm = 0.25;  // of a grid that follows from the contours
 constexpr double margin_mm = 1.0;
+constexpr double same_plane_mm = 0.1;    // of contours of two structures
+constexpr double most_off_slice = 0.25;  // of the distance of slices
 constexpr std::size_t most_contour_points = 20'000'000;
 
 struct ReadContour {
@@ -117,7 +120,7 @@ Geometry own_grid(const std::vector<ReadContour>& contours) {
   std::sort(planes.begin(), planes.end());
   double step = 0.0;
   for (std::size_t i = 1; i < planes.size(); ++i)
-    if (planes[i] - planes[i - 1] > 0.01 && (step == 0.0 || planes[i] - planes[i - 1] < step))
+    if (planes[i] - planes[i - 1] > same_plane_mm && (step == 0.0 || planes[i] - planes[i - 1] < step))
       step = planes[i] - planes[i - 1];
   if (step == 0.0)
     throw InvalidInput("all its contours lie in one plane; give the CT that they were drawn on");
@@ -145,6 +148,22 @@ void fill_row(const std::vector<Vec3>& contour, double j, std::vector<double>& c
   }
 }
 
+/// By segment and slice, in index coordinates.
+using LoopsBySlice = std::map<std::pair<std::size_t, std::int64_t>, std::vector<std::vector<Vec3>>>;
+
+/// Contours that were drawn on every second slice or fewer would be sheets with nothing between them.
+void require_no_gaps(const LoopsBySlice& slices) {
+  std::int64_t least = 0;
+  for (auto one = slices.begin(), next = std::next(one); next != slices.end(); ++one, ++next) {
+    if (one->first.first != next->first.first) continue;
+    const std::int64_t apart = next->first.second - one->first.second;
+    least = least == 0 ? apart : std::min(least, apart);
+  }
+  if (least > 1)
+    throw InvalidInput("its contours lie " + std::to_string(least) +
+                       " slices of the image apart; open it without the image, or on one of its own slices");
+}
+
 }  // namespace
 
 LabelObject labels_of_structure_set(const imaging::DicomObject& object, const LabelObjectOptions& options,
@@ -153,8 +172,7 @@ LabelObject labels_of_structure_set(const imaging::DicomObject& object, const La
   std::vector<ReadContour> contours = contours_in(object.data, result);
   const Geometry grid = options.grid ? *options.grid : own_grid(contours);
   require_room(grid, options.most_voxels);
-  // By segment and slice, in index coordinates.
-  std::map<std::pair<std::size_t, std::int64_t>, std::vector<std::vector<Vec3>>> slices;
+  LoopsBySlice slices;
   std::size_t outside = 0;
   for (ReadContour& one : contours) {
     double low = 1e300, high = -1e300;
@@ -163,11 +181,11 @@ LabelObject labels_of_structure_set(const imaging::DicomObject& object, const La
       low = std::min(low, p.z());
       high = std::max(high, p.z());
     }
-    if (high - low > 0.5)
+    const std::int64_t k = std::llround(0.5 * (low + high));
+    if (high - low > 0.5 || std::abs(0.5 * (low + high) - static_cast<double>(k)) > most_off_slice)
       throw InvalidInput(
           "a contour of structure " + std::to_string(result.segments[one.segment].number) +
           " does not lie in a slice of the image; structure sets on other planes cannot be read");
-    const std::int64_t k = std::llround(0.5 * (low + high));
     if (k < 0 || k >= grid.size[2]) {
       ++outside;
       continue;
@@ -175,6 +193,7 @@ LabelObject labels_of_structure_set(const imaging::DicomObject& object, const La
     slices[{one.segment, k}].push_back(std::move(one.points));
   }
   if (slices.empty()) throw InvalidInput("none of its contours lies within the image");
+  require_no_gaps(slices);
   if (outside > 0) result.warnings.push_back(std::to_string(outside) + " contours lie outside the image");
   LabelLayers layers(grid, result.segments.size());
   for (const auto& [place, loops] : slices) {

@@ -31,6 +31,10 @@ void require_text(const std::string& text, const char* member) {
                        " must have no backslash or control character, and 256 bytes at most");
 }
 
+bool is_ascii(const std::string& text) {
+  return std::all_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+}
+
 /// Whose study it is, and what the server lists of the series.
 struct Announced {
   std::string patient_id;
@@ -42,7 +46,9 @@ Announced announced(Archive& archive, const SeriesWanted& wanted, const core::Ta
   Query study;
   study.study_uid = wanted.study_uid;
   study.most = 2;
-  for (const Found& one : archive.find(study, task).found) all.patient_id = one.patient_id;
+  // Letters beyond ASCII are written in another way in the files: then all need only be of the same patient.
+  for (const Found& one : archive.find(study, task).found)
+    if (one.study_uid == wanted.study_uid && is_ascii(one.patient_id)) all.patient_id = one.patient_id;
   Query images;
   images.level = Level::image;
   images.study_uid = wanted.study_uid;

@@ -205,6 +205,9 @@ class DicomwebArchive final : public Archive {
     const std::uint32_t failure = failure_in_json(answer.body);
     if (failure == 0x0111) return {};  // it is there already
     if (failure == 0x0122) return {SendState::refused, "the server does not take objects of this kind"};
+    if ((failure & 0xFF00) == 0xA700)
+      return {SendState::unreachable,
+              "the server has no room for it now (failure reason " + hexadecimal(failure) + ")"};
     if (failure != 0)
       return {SendState::refused, "the server refuses it (failure reason " + hexadecimal(failure) + ")"};
     const bool lets_in = answer.status != 401 && answer.status != 403;

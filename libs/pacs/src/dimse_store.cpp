@@ -92,6 +92,12 @@ SendResult judged(unsigned short status) {
   return {SendState::refused, "the server refuses it (status " + hexadecimal(status) + ")"};
 }
 
+/// DCMTK reads a file before it sends anything, and says of one that it cannot read that it was not sent.
+bool is_damaged(const std::filesystem::path& file) {
+  DcmFileFormat format;
+  return format.loadFile(file.c_str()).bad() || format.getDataset()->isEmpty();
+}
+
 SendResult sent(DimseConnection& connection, const std::filesystem::path& file, const Outgoing& object) {
   if (!object.fault.empty()) return {SendState::refused, object.fault};
   unsigned char context = connection.context_for(object.sop_class, object.syntax);
@@ -115,7 +121,8 @@ SendResult sent(DimseConnection& connection, const std::filesystem::path& file, 
       DIMSE_storeUser(connection.association(), context, &request, file.c_str(), nullptr, nullptr, nullptr,
                       DIMSE_NONBLOCKING, connection.timeout(), &response, &detail);
   delete detail;
-  if (condition == DIMSE_BADDATA || condition == DIMSE_BADMESSAGE || condition.module() == OFM_dcmdata)
+  if (condition == DIMSE_BADDATA || condition == DIMSE_BADMESSAGE || condition.module() == OFM_dcmdata ||
+      (condition == DIMSE_SENDFAILED && is_damaged(file)))
     return {SendState::refused, "the file is damaged"};
   connection.require(condition);
   return judged(response.DimseStatus);

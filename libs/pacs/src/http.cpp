@@ -99,13 +99,17 @@ HttpAnswer HttpClient::request(const HttpRequest& request, const core::TaskConte
   set(CURLOPT_PROXY, server_.proxy.c_str());  // an empty one: none, whatever the environment says
   set(CURLOPT_FOLLOWLOCATION, 0L);            // a login belongs to one server
   set(CURLOPT_NOSIGNAL, 1L);
+  set(CURLOPT_QUICK_EXIT, 1L);  // a cancel does not wait for the look-up of a name
   set(CURLOPT_HTTP_VERSION, static_cast<long>(CURL_HTTP_VERSION_1_1));
   set(CURLOPT_BUFFERSIZE, buffer_bytes);
   set(CURLOPT_CONNECTTIMEOUT_MS, static_cast<long>(server_.connect_timeout_s * 1000.0));
   set(CURLOPT_LOW_SPEED_LIMIT, 1L);
   set(CURLOPT_LOW_SPEED_TIME, std::max(1L, static_cast<long>(server_.idle_timeout_s + 0.5)));
   set(CURLOPT_SSLVERSION, static_cast<long>(CURL_SSLVERSION_TLSv1_2));
-  if (!server_.authorities.empty()) set(CURLOPT_CAINFO, server_.authorities.c_str());
+  if (!server_.authorities.empty()) {
+    set(CURLOPT_CAINFO, server_.authorities.c_str());
+    set(CURLOPT_CAPATH, static_cast<const char*>(nullptr));  // these alone, none of the system's
+  }
   if (!server_.certificate.empty()) {
     set(CURLOPT_SSLCERT, server_.certificate.c_str());
     set(CURLOPT_SSLKEY, server_.key.c_str());

@@ -35,8 +35,9 @@ std::string Intake::fault_of(const std::string& sop, const std::string& study, c
   if (!is_uid(sop)) return "sent an object without a SOP instance UID";
   if (study != wanted_.study_uid) return "sent an object of another study";
   if (series != wanted_.series_uid) return "sent an object of another series";
-  if (!std::exchange(patient_known_, true)) patient_id_ = patient;
-  if (patient != patient_id_) return "sent an object of another patient";
+  const std::string id = patient.substr(std::min(patient.find_first_not_of(' '), patient.size()));
+  if (!std::exchange(patient_known_, true)) patient_id_ = id;
+  if (id != patient_id_) return "sent an object of another patient";
   return {};
 }
 

@@ -55,9 +55,11 @@ std::string to_string(QueueState state) {
 
 SendQueue::SendQueue(std::filesystem::path folder) : folder_(std::move(folder)) {
   std::error_code error;
-  const bool made = std::filesystem::create_directories(folder_, error);
+  std::filesystem::create_directories(folder_, error);
   if (error) throw IoError("cannot make the queue's folder " + folder_.string() + ": " + error.message());
-  if (made) std::filesystem::permissions(folder_, std::filesystem::perms::owner_all);
+  std::filesystem::permissions(folder_, std::filesystem::perms::owner_all, error);
+  if (error)
+    throw IoError("cannot make the queue's folder " + folder_.string() + " yours alone: " + error.message());
   lock_ = std::make_unique<core::FolderLock>(folder_, folder_, "; wait until it has sent what it sends");
   core::remove_dead_parts(folder_);
   // What was killed between two files of one item: an object without a note was not added yet, one whose note
@@ -164,6 +166,13 @@ void SendQueue::send_waiting(const ArchiveOf& archive_of, const core::TaskContex
           files, task.sub(static_cast<double>(done) / static_cast<double>(count),
                           static_cast<double>(done + files.size()) / static_cast<double>(count)));
       for (std::size_t n = first; n < end; ++n) conclude(waiting[n], results[n - first]);
+      if (results.back().state != SendState::unreachable) continue;
+      for (std::size_t n = end; n < waiting.size(); ++n) {  // not tried: it would be silent for each, too
+        waiting[n].reason = results.back().reason;
+        note(waiting[n]);
+      }
+      done += waiting.size() - end;
+      break;
     }
   }
 }

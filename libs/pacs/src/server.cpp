@@ -4,6 +4,7 @@
 #include "ostia/core/files.h"
 #include "ostia/core/log.h"
 
+#include <arpa/inet.h>
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -35,7 +36,9 @@ std::string host_of(std::string_view url) {
 }
 
 bool is_this_machine(const std::string& host) {
-  return host == "localhost" || host == "[::1]" || host.compare(0, 4, "127.") == 0;
+  in_addr address{};
+  const bool is_address = ::inet_pton(AF_INET, host.c_str(), &address) == 1;
+  return host == "localhost" || host == "[::1]" || (is_address && ntohl(address.s_addr) >> 24 == 127);
 }
 
 void validate_dimse(const ServerDescription& server) {
@@ -60,7 +63,7 @@ void validate_dicomweb(const ServerDescription& server) {
         server, "url must have neither a query nor a login in it; the login is given by `login` and `user`");
   if (host_of(url).empty()) refuse_server(server, "url names no host");
   if (server.login == Login::basic && server.user.empty()) refuse_server(server, "login basic needs `user`");
-  if (server.login != Login::none && !secure && !is_this_machine(host_of(url)))
+  if (server.login != Login::none && !secure && !(is_this_machine(host_of(url)) && server.proxy.empty()))
     refuse_server(server,
                   "a password or token would be readable on the way; the url must begin with https://");
 }

@@ -18,7 +18,15 @@ std::size_t utf8_sequence(std::string_view text) {
   if (length == 0 || length > text.size()) return 0;
   for (std::size_t n = 1; n < length; ++n)
     if (static_cast<unsigned char>(text[n]) >> 6 != 2) return 0;
-  return length;
+  if (length < 3) return length;
+  // Neither written longer than needed, nor a half of a pair, nor beyond the last code point.
+  const auto second = static_cast<unsigned char>(text[1]);
+  const bool sound = first == 0xE0   ? second >= 0xA0
+                     : first == 0xED ? second < 0xA0
+                     : first == 0xF0 ? second >= 0x90
+                     : first == 0xF4 ? second < 0x90
+                                     : true;
+  return sound ? length : 0;
 }
 
 }  // namespace
@@ -33,6 +41,8 @@ std::string clean_text(std::string_view text) {
       clean += '?';
     else if (length == 1)
       clean += first < 0x20 || first == 0x7F ? ' ' : text.front();
+    else if (first == 0xC2 && static_cast<unsigned char>(text[1]) < 0xA0)
+      clean += ' ';  // U+0080 to U+009F steer a terminal
     else
       clean += text.substr(0, length);
     text.remove_prefix(std::max<std::size_t>(length, 1));

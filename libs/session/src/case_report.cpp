@@ -108,7 +108,6 @@ class Maker {
     report_.program_version = core::version();
     report_.model_digest = lumen::digest(model);
     report_.notes = annotations.report;
-    report_.content_digest = report_content_digest(model, annotations);
   }
 
   void measure_vessels(const core::TaskContext& task) {
@@ -177,6 +176,9 @@ class Maker {
   /// How far vessels, segments and lesions can be judged, and what lies between lumen and outer wall.
   void look_at(const imaging::ImageVolume* image, const core::TaskContext& task) {
     report_.has_image = image != nullptr;
+    const std::optional<ImageReference>& known = report_.options.image;
+    report_.content_digest =
+        report_content_digest(model_, annotations_, image && known ? known->sha256 : std::string());
     std::vector<VesselEvaluability> judged;
     if (image) {
       const double noise_hu = noise_about(model_, *image);

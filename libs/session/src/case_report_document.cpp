@@ -243,8 +243,9 @@ void add_cad_rads(Document& document, const CaseReport& report) {
   document.section("CAD-RADS 2.0");
   document.key_values(report_parts::cad_rads_facts(report));
   document.paragraph(
-      "Category, plaque burden and modifiers after Cury et al. 2022; the two ways to the plaque burden often "
-      "differ, and the higher one is stated. Next investigation: what their table names for stable chest "
+      "Category, plaque burden and modifiers after Cury et al. 2022; the ways to the plaque burden often "
+      "differ: the highest is stated, that by calcium not beside a stent, and the reader's word before all. "
+      "Next investigation: what their table names for stable chest "
       "pain; it is no advice for this patient.");
 }
 

@@ -68,7 +68,7 @@ Phrases cad_rads() {
       {"Stent (S)", "Stent (S)"},
       {"Graft (G)", "Bypass (G)"},
       {"Exceptions (E)", "Ausnahmen (E)"},
-      {"none known", "nicht bekannt"},
+      {"none known", "keine bekannt"},
       {"Next investigation", "Nächste Untersuchung"},
       {"functional assessment can be considered", "funktionelle Untersuchung kann erwogen werden"},
       {"invasive angiography or functional assessment can be considered",
@@ -77,13 +77,13 @@ Phrases cad_rads() {
       {"invasive angiography, functional assessment or assessment of viability can be considered",
        "invasive Angiographie, funktionelle Untersuchung oder Vitalitätsdiagnostik kann erwogen werden"},
       {"additional or other evaluation may be needed", "zusätzliche oder andere Diagnostik kann nötig sein"},
-      {"Category, plaque burden and modifiers after Cury et al. 2022; the two ways to the plaque burden "
-       "often differ, and the higher one is stated. Next investigation: what their table names for stable "
+      {"Category, plaque burden and modifiers after Cury et al. 2022; the ways to the plaque burden often "
+       "differ: the highest is stated, that by calcium not beside a stent, and the reader's word before all. "
+       "Next investigation: what their table names for stable "
        "chest pain; it is no advice for this patient.",
-       "Kategorie, Plaquelast und Zusätze nach Cury et al. 2022; die beiden Wege zur Plaquelast führen oft "
-       "zu "
-       "verschiedenen Ergebnissen, und das höhere wird angegeben. Nächste Untersuchung: was deren Tabelle "
-       "bei "
+       "Kategorie, Plaquelast und Zusätze nach Cury et al. 2022; die Wege zur Plaquelast führen oft zu "
+       "verschiedenen Ergebnissen: das höchste wird angegeben, das des Kalks nicht neben einem Stent, und "
+       "das Wort des Befunders vor allen. Nächste Untersuchung: was deren Tabelle bei "
        "stabilem Brustschmerz nennt; es ist kein Rat für diese Person."},
       {"CAD-RADS of a lesion is by its diameter alone, of what can be judged. Narrowings below %1 % are "
        "listed where plaque is seen; plaque without narrowing is category 1. MLD and MLA: least lumen "

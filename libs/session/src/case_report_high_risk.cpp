@@ -45,9 +45,10 @@ void find_high_risk_plaque(CaseReport& report) {
       feature.counts = one.state != LesionState::rejected && feature_counts(feature);
       one.features.push_back(feature);
     }
-    one.high_risk = std::count_if(one.features.begin(), one.features.end(), [](const ReportFeature& feature) {
-                      return feature.counts;
-                    }) >= analysis::least_high_risk_features;
+    const auto counted = std::count_if(one.features.begin(), one.features.end(),
+                                       [](const ReportFeature& feature) { return feature.counts; });
+    one.high_risk = counted >= analysis::least_high_risk_features &&
+                    one.stenosis.reference_diameter_mm >= report.options.least_graded_mm;
   }
 }
 

@@ -73,7 +73,7 @@ std::string stenosis_cell(const ReportStandardSegment& row) {
 std::string plaque_cell(const ReportStandardSegment& row) {
   if (row.vessels.empty()) return "";
   if (row.plaque && row.has_plaque) return analysis::to_string(analysis::plaque_type(*row.plaque));
-  return row.has_plaque || !row.plaque ? "not known" : "none";
+  return row.has_plaque || row.worst_stenosis > 0 || !row.plaque ? "not known" : "none";
 }
 
 std::string features_cell(const ReportStandardSegment& row) {

@@ -46,9 +46,13 @@ void add_lesions_of(ReportStandardSegment& row, const CaseReport& report, const 
           std::find(row.features.begin(), row.features.end(), feature.finding.feature) == row.features.end())
         row.features.push_back(feature.finding.feature);
     if (one.segment != segment.label) continue;  // its throat is elsewhere
-    if (one.category && (!row.category || *one.category > *row.category)) row.category = one.category;
-    if (one.graded_percent > row.worst_percent || row.worst_stenosis == 0)
-      row.worst_percent = one.graded_percent, row.worst_stenosis = one.number;
+    // One that is graded goes before all that are not.
+    const bool first = row.worst_stenosis == 0 || (one.graded && !row.category);
+    if (!first && (one.graded != row.category.has_value() || one.graded_percent <= row.worst_percent))
+      continue;
+    row.worst_percent = one.graded_percent;
+    row.worst_stenosis = one.number;
+    row.category = one.graded ? one.category : std::nullopt;
   }
 }
 
@@ -118,20 +122,19 @@ void state_category(CaseReport& report, const std::vector<analysis::VesselSegmen
   analysis::CadRadsStatement& statement = report.statement;
   statement.category = report.category;
   statement.burden = report.burden.stated;
-  statement.high_risk_plaque =
-      std::any_of(report.stenoses.begin(), report.stenoses.end(), [&](const ReportStenosis& one) {
-        return one.high_risk && one.stenosis.reference_diameter_mm >= report.options.least_graded_mm;
-      });
+  statement.high_risk_plaque = std::any_of(report.stenoses.begin(), report.stenoses.end(),
+                                           [](const ReportStenosis& one) { return one.high_risk; });
   statement.ischaemia = said.ischaemia;
   statement.stent = said.stent;
   statement.graft = said.graft;
   statement.exception = !said.exception.empty();
-  if (report.category.category != analysis::CadRads::zero) return;
-  if (statement.burden != analysis::PlaqueBurden::none)
-    report.warnings.push_back("the category is 0, but a plaque burden of " +
-                              analysis::to_string(statement.burden) +
-                              " was given: there is plaque that the tables do not have");
-  statement.burden = analysis::PlaqueBurden::none;
+  if (report.category.category != analysis::CadRads::zero || statement.burden == analysis::PlaqueBurden::none)
+    return;
+  // Category 0 is no plaque at all; plaque that does not narrow is 1.
+  report.category.category = statement.category.category = analysis::CadRads::one;
+  report.warnings.push_back("the category is 1 and not 0: a plaque burden of " +
+                            analysis::to_string(statement.burden) +
+                            " was given, so there is plaque that the tables do not have");
 }
 
 }  // namespace ostia::session

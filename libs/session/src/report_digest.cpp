@@ -5,8 +5,9 @@
 
 namespace ostia::session {
 
-std::string report_content_digest(const lumen::LumenModel& model, const Annotations& annotations) {
-  std::string all = lumen::digest(model) + "\n";
+std::string report_content_digest(const lumen::LumenModel& model, const Annotations& annotations,
+                                  const std::string& image_sha256) {
+  std::string all = lumen::digest(model) + "\n" + image_sha256 + "\n";
   const auto add = [&](const AnnotationCommand& command) { all += to_json(command) + "\n"; };
   for (const analysis::Measurement& one : annotations.measurements) add(MeasureChange{one});
   for (VesselMark mark : annotations.marks) {

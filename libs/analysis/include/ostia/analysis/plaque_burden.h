@@ -15,6 +15,8 @@ std::string description(PlaqueBurden burden);  ///< "no plaque", "mild", "modera
 /// By the segment involvement score (Min et al. 2007), how many standard segments have plaque: 1-2, 3-4, 5-7,
 /// from 8 on (Cury et al. 2022). Throws InvalidInput outside [0, 18].
 PlaqueBurden burden_by_segments(int segments);
+/// An Agatston score as it is reported: whole, and 1 at least where there is any calcium.
+double whole_agatston(double agatston);
 /// By the Agatston score: 1-100, 101-300, 301-999, from 1000 on. Whole numbers; what is above 0 is 1 at
 /// least. Throws InvalidInput for a negative or infinite one.
 PlaqueBurden burden_by_calcium(double agatston);

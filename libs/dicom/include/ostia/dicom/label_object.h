@@ -27,6 +27,10 @@ ObjectOrigin object_origin(const std::filesystem::path& path);
 /// In words why two objects cannot be of one image; empty where they can: patient or frame of reference
 /// differ.
 std::string other_origin(const ObjectOrigin& a, const ObjectOrigin& b);
+/// The same of a mask and the CT that it is opened on, or empty where one of them is no DICOM object on disk.
+/// `series_uid`: imaging::DicomSeries::uid; empty means the one that can be read.
+std::string other_origin(const std::filesystem::path& mask, const std::filesystem::path& image,
+                         const std::string& series_uid = {});
 
 struct ReadSegment {
   int number = 0;          ///< of the file

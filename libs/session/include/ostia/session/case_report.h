@@ -134,7 +134,7 @@ struct ReportStenosis {
   /// Of the first bifurcation that it belongs to with a 1 in Medina's class: "1,0,1", "LAD/LCX"; else empty.
   std::string medina = {}, bifurcation = {};
   std::vector<ReportFeature> features = {};  ///< all four; empty where no outer wall was looked for
-  bool high_risk = false;                    ///< two features or more count
+  bool high_risk = false;                    ///< two features or more count, in a vessel that is graded
 };
 
 /// One of the 18 standard segments (SCCT, Leipsic et al. 2014), whether the tree has it or not.

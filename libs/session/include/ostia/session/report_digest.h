@@ -8,7 +8,9 @@
 
 namespace ostia::session {
 
-/// SHA-256 over model, measurements, readers' words and notes, but not how vessels are shown and who signed.
-std::string report_content_digest(const lumen::LumenModel& model, const Annotations& annotations);
+/// SHA-256 over model, measurements, readers' words, notes and the image that is at hand (its digest; none:
+/// empty), but not how vessels are shown and who signed.
+std::string report_content_digest(const lumen::LumenModel& model, const Annotations& annotations,
+                                  const std::string& image_sha256 = {});
 
 }  // namespace ostia::session

@@ -64,8 +64,12 @@ struct Queue : ::testing::Test {
       return archive;
     };
   }
+  /// Objects in the archive, without what a killed program had half written there.
   std::size_t stored() const {
-    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(store), {}));
+    std::size_t count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(store))
+      count += entry.path().filename().string().front() != '.' ? 1 : 0;
+    return count;
   }
   std::multiset<std::string> states() const {
     std::multiset<std::string> all;

@@ -18,6 +18,7 @@ namespace {
 
 constexpr double largest_lesion_mm3 = 3000.0;  // a bone, or what holds together with one, is larger
 constexpr double about_heart_mm = 25.0;        // arteries on the heart, the root above it
+constexpr double at_heart_mm = 3.0;            // nearer than breastbone and ribs
 constexpr double contrast_hu = 130.0, some_contrast_hu = 90.0;
 constexpr double slice_tolerance_mm = 0.05;
 constexpr std::array<const char*, calcium_places> place_words{"LM",    "LAD",   "LCX",  "RCA",
@@ -48,7 +49,7 @@ void count(CalciumScore& score) {
 /// Within so far of the heart's bulk.
 class NearHeart {
  public:
-  explicit NearHeart(const HeartBulk& heart) : mask_(imaging::dilated(heart.mask, about_heart_mm)) {}
+  NearHeart(const HeartBulk& heart, double within_mm) : mask_(imaging::dilated(heart.mask, within_mm)) {}
   bool holds(const Vec3& place) const {
     const Vec3 at = mask_.geometry.index(place);
     std::array<std::int64_t, 3> n{};
@@ -94,15 +95,15 @@ std::vector<CalciumLesion> lesions_of(const CalciumSlices& slices, const Calcium
                                       const std::vector<CalciumLesion>& parts,
                                       const std::optional<HeartBulk>& heart, CalciumScore& score) {
   std::vector<CalciumLesion> lesions;
-  std::optional<NearHeart> near;
-  if (heart) near.emplace(*heart);
+  std::optional<NearHeart> near, at;
+  if (heart) near.emplace(*heart, about_heart_mm);
+  if (heart) at.emplace(*heart, at_heart_mm);
   const std::vector<imaging::Region> boxes = part_boxes(found, slices.image.geometry);
   for (std::size_t part = 1; part < parts.size(); ++part) {
     CalciumLesion lesion = parts[part];
-    const bool on_heart = near && near->holds(lesion.centre);
-    if (lesion.amount.volume_mm3 > largest_lesion_mm3 || (near && !on_heart)) {
+    if (lesion.amount.volume_mm3 > largest_lesion_mm3 || (near && !near->holds(lesion.centre))) {
       ++score.chest_parts;
-      if (on_heart) warn_of_large(lesion, score.warnings);
+      if (at && at->holds(lesion.centre)) warn_of_large(lesion, score.warnings);
       continue;
     }
     lesion.number = static_cast<int>(part);

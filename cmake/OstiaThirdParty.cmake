@@ -29,7 +29,7 @@ set(OSTIA_THIRD_PARTIES
   "OstiaThirdParty::zip|library zip.h zip|libzip-dev"
   "OstiaThirdParty::isal|library isa-l/igzip_lib.h isal|libisal-dev"
   "OstiaThirdParty::gdcm|library gdcmImage.h:gdcm-3.0 gdcmMSFF gdcmDSED gdcmCommon|libgdcm-dev"
-  "OstiaThirdParty::dcmtk|library dcmtk/config/osconfig.h dcmnet dcmtls dcmseg dcmfg dcmiod dcmsr dcmdata oflog ofstd|libdcmtk-dev"
+  "OstiaThirdParty::dcmtk|library dcmtk/config/osconfig.h dcmnet dcmtls dcmdata oflog ofstd|libdcmtk-dev"
   "OstiaThirdParty::curl|library curl/curl.h curl|libcurl4-openssl-dev"
   "OstiaThirdParty::cgns|library cgnslib.h cgns|libcgns-dev"
   # All that is left of CGAL when its headers are compiled.

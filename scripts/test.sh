@@ -7,14 +7,25 @@ cd "$(dirname "$0")/.."
 all=no
 [ "${1:-}" = --all ] && all=yes
 
+# A window beside other programs may lose the keyboard or miss its moment: a few tests of windows that failed are run once
+# more, alone, and stay named in what is printed. All others have another reason.
+tests() {
+  ctest --test-dir "$@" && return
+  local failed="$1/Testing/Temporary/LastTestsFailed.log"
+  [ -e "$failed" ] && [ "$(wc -l < "$failed")" -le 3 ] && ! grep -qv '^[0-9]*:workstation\.' "$failed" || return 1
+  echo "Failed beside others, and run once more alone:"
+  sed 's/^[0-9]*:/  /' "$failed"
+  ctest --test-dir "$1" --rerun-failed
+}
+
 scripts/build.sh release
 export CTEST_OUTPUT_ON_FAILURE=1
 if [ "$all" = yes ]; then
-  ctest --test-dir build/release --parallel "$(nproc)"
+  tests build/release --parallel "$(nproc)"
   scripts/build.sh release benchmarks
   scripts/build.sh plain
   scripts/build.sh asan
-  ctest --test-dir build/asan --parallel "$(nproc)" --label-regex '^unit$'
+  tests build/asan --parallel "$(nproc)" --label-regex '^unit$'
 else
-  ctest --test-dir build/release --parallel "$(($(nproc) + 2))" --label-exclude '^slow$'
+  tests build/release --parallel "$(($(nproc) + 2))" --label-exclude '^slow$'
 fi

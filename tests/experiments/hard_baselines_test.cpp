@@ -67,21 +67,21 @@ TEST(FrangiVesselness, IsNothingInDarkTubesAndFlatImages) {
 TEST(CheapestWay, IsStraightWhereAllCostsTheSameAndGoesThroughTheGapInAWall) {
   imaging::FloatVolume cost{cube(11, 1.0), std::vector<float>(11 * 11 * 11, 1.0F)};
   const Vec3 from(-5.0, 0.0, 0.0), to(5.0, 0.0, 0.0);
-  const std::vector<Vec3> straight = cheapest_way(cost, from, to);
+  const std::vector<Vec3> straight = cheapest_ways(cost, from, {to}).front();
   EXPECT_EQ(straight.size(), 11U);
   EXPECT_DOUBLE_EQ(geometry::length(straight), 10.0);
   for (std::int64_t j = 0; j < 11; ++j)
     for (std::int64_t k = 0; k < 11; ++k)
       if (j != 9 || k != 5) cost(5, j, k) = 1000.0F;  // x = 0, but for y = 4
-  const std::vector<Vec3> about = cheapest_way(cost, from, to);
+  const std::vector<Vec3> about = cheapest_ways(cost, from, {to}).front();
   EXPECT_TRUE(std::ranges::any_of(about, [](const Vec3& p) { return p == Vec3(0.0, 4.0, 0.0); }));
   EXPECT_EQ(about.front(), from);
   EXPECT_EQ(about.back(), to);
-  EXPECT_EQ(cheapest_way(cost, from, from).size(), 1U);
+  EXPECT_EQ(cheapest_ways(cost, from, {from}).front().size(), 1U);
   const Vec3 aside(-5.0, 5.0, 0.0);
   const auto both = cheapest_ways(cost, from, {aside, to, from});
   ASSERT_EQ(both.size(), 3U);
-  EXPECT_EQ(both[0], cheapest_way(cost, from, aside));
+  EXPECT_EQ(both[0], cheapest_ways(cost, from, {aside}).front());
   EXPECT_EQ(both[1], about) << "whatever else is asked for";
   EXPECT_EQ(both[2].size(), 1U);
 }
@@ -99,7 +99,7 @@ TEST(CheapestWay, FollowsABentTubeAndNotTheStraightWay) {
   grid.origin.z() = -6.0;
   const imaging::ImageVolume image = sampled_image(
       grid, [](const Vec3& p) { return 400.0 / (1.0 + std::exp((off_arc(p) - 1.5) / 0.3)) - 80.0; });
-  const std::vector<Vec3> way = cheapest_way(cost_per_mm(image), {15, 0, 0}, {-15, 0, 0});
+  const std::vector<Vec3> way = cheapest_ways(cost_per_mm(image), {15, 0, 0}, {{-15, 0, 0}}).front();
   for (const Vec3& point : way) EXPECT_LT(off_arc(point), 1.0) << point.transpose();
   EXPECT_GT(geometry::length(way), 0.98 * 15.0 * std::numbers::pi);
   EXPECT_LT(geometry::length(way), 1.2 * 15.0 * std::numbers::pi);  // voxel by voxel

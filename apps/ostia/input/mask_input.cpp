@@ -33,16 +33,20 @@ std::string counts_in_words(const std::array<std::int64_t, 256>& counts,
 
 /// A segmentation and the images that it is said to be of: what both files say of patient and frame of
 /// reference.
-void require_same_origin(const MaskInput& input) {
-  if (const std::string why = dicom::other_origin(input.file, input.image); !why.empty())
+void require_same_origin(const MaskInput& input, const std::filesystem::path& series_file) {
+  const std::optional<std::filesystem::path> object = dicom::label_object_in(input.file);
+  if (!object || series_file.empty()) return;
+  const std::string why =
+      dicom::other_origin(dicom::object_origin(*object), dicom::object_origin(series_file));
+  if (!why.empty())
     throw InvalidInput(own_name(input.file) + " and " + own_name(input.image) +
                        " do not belong together: " + why);
 }
 
 }  // namespace
 
-imaging::MaskVolume read_vessel_labels(const MaskInput& input, const core::TaskContext& task,
-                                       const std::optional<imaging::Geometry>& grid) {
+imaging::MaskVolume read_asked_labels(const MaskInput& input, const core::TaskContext& task,
+                                      const std::optional<imaging::Geometry>& grid) {
   imaging::LoadedImage<std::uint8_t> loaded = dicom::read_labels(input.file, task, grid);
   for (const std::string& warning : loaded.header.warnings) core::log_warning(warning);
   if (input.labels.empty()) return std::move(loaded.volume);
@@ -73,10 +77,10 @@ MaskCase mask_case(const MaskInput& input, const coronary::MaskTreeOptions& opti
   if (!input.image.empty()) {
     ct = pipeline::load_ct(input.image, {}, task.sub(0.0, 0.1));
     for (const std::string& warning : ct.warnings) core::log_warning(warning);
-    require_same_origin(input);
+    require_same_origin(input, ct.series_file);
     grid = ct.image->geometry;
   }
-  const imaging::MaskVolume labels = read_vessel_labels(input, task.sub(0.1, 0.2), grid);
+  const imaging::MaskVolume labels = read_asked_labels(input, task.sub(0.1, 0.2), grid);
   MaskCase result;
   result.model = naming(input.file, [&] {
     return session::model_of_mask(labels, ct.image.get(), options, task.sub(0.2, 1.0));

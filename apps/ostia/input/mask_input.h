@@ -1,5 +1,5 @@
 #pragma once
-/// \file Masks of coronary arteries on the command line.
+/// \file Masks on the command line, of coronary arteries above all.
 
 #include "ostia/core/task_context.h"
 #include "ostia/imaging/volume.h"
@@ -17,7 +17,7 @@ using session::holds_labels;
 struct MaskInput {
   std::filesystem::path file;
   std::filesystem::path image;  ///< the CT that it was drawn on; empty: none
-  std::vector<int> labels;      ///< that are vessels; empty: all but 0
+  std::vector<int> labels;      ///< that are meant; empty: all but 0
 };
 
 struct MaskCase {
@@ -28,8 +28,8 @@ struct MaskCase {
 /// The mask with its values, without those that were not asked for. Throws InvalidInput naming the labels
 /// that are there where one that is asked for is not.
 /// `grid`: of the CT, which a structure set's contours are filled on.
-imaging::MaskVolume read_vessel_labels(const MaskInput& input, const core::TaskContext& task,
-                                       const std::optional<imaging::Geometry>& grid = {});
+imaging::MaskVolume read_asked_labels(const MaskInput& input, const core::TaskContext& task,
+                                      const std::optional<imaging::Geometry>& grid = {});
 
 /// From the file to the model; of a DICOM segmentation or structure set patient and frame of reference must
 /// be those of the CT. Throws what the readers and session::model_of_mask throw, with the file's name.

@@ -1,4 +1,5 @@
 #include "input/input_digest.h"
+#include "input/mask_input.h"
 #include "measure/territories.h"
 #include "output/refusal.h"
 
@@ -92,22 +93,6 @@ AskedPlace asked_place(const std::string& text, const geometry::VesselTree& tree
   throw InvalidInput("--behind " + text + ": no vessel is named " + name);
 }
 
-imaging::MaskVolume muscle_of(const TerritoriesCommand& c, const core::TaskContext& task) {
-  auto loaded = imaging::read_labels(c.myocardium, task);
-  for (const std::string& warning : loaded.header.warnings) core::log_warning(warning);
-  imaging::MaskVolume mask = std::move(loaded.volume);
-  bool any = false;
-  for (std::uint8_t& value : mask.voxels) {
-    value = (c.label == 0 ? value != 0 : value == c.label) ? 1 : 0;
-    any = any || value != 0;
-  }
-  if (!any)
-    throw InvalidInput(own_name(c.myocardium) + ": " +
-                       (c.label == 0 ? std::string("the mask is empty")
-                                     : "no voxel has the label " + std::to_string(c.label)));
-  return mask;
-}
-
 Json territories_json(const analysis::MyocardialTerritories& found, const TerritoryInput& input,
                       const std::vector<AskedPlace>& asked) {
   Json out{{"v", 1},
@@ -192,7 +177,8 @@ ExitCode run_territories(const TerritoriesCommand& c, const core::TaskContext& t
     const TerritoryInput input = read_input_tree(c.input, task.sub(0.0, 0.6));
     std::vector<AskedPlace> asked;
     for (const std::string& text : c.behind) asked.push_back(asked_place(text, input.tree));
-    const imaging::MaskVolume muscle = muscle_of(c, task.sub(0.6, 0.7));
+    const imaging::MaskVolume muscle = read_asked_labels(
+        {c.myocardium, {}, c.label == 0 ? std::vector<int>{} : std::vector{c.label}}, task.sub(0.6, 0.7));
     const auto found = naming(c.myocardium, [&] {
       return analysis::myocardial_territories(input.tree, muscle, {}, task.sub(0.7, 0.9));
     });
@@ -227,7 +213,7 @@ void define_territories(CLI::App& app, TerritoriesCommand& c,
       ->add_option("--myocardium", c.myocardium, "Mask of the left ventricle's muscle (.nrrd, .nii.gz, ...)")
       ->required();
   territories->add_option("--label", c.label, "The mask's value that is muscle; left out: all but 0")
-      ->check(CLI::Range(1, 255));
+      ->check(CLI::PositiveNumber);
   territories
       ->add_option("-o,--output", c.output,
                    "Folder that is made: territories.json, territories.csv, territories.nrrd")

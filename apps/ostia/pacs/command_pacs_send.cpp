@@ -3,6 +3,7 @@
 
 #include "ostia/core/log.h"
 #include "ostia/imaging/dicom_texts.h"
+#include "ostia/imaging/files_below.h"
 #include "ostia/pacs/send_queue.h"
 
 #include <algorithm>
@@ -21,13 +22,10 @@ std::vector<std::filesystem::path> objects_of(const std::vector<std::filesystem:
       all.push_back(input);
       continue;
     }
-    const std::size_t before = all.size();
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(input)) {
+    for (const std::filesystem::path& file : imaging::files_below(input)) {
       imaging::DicomTexts none;
-      if (entry.is_regular_file() && imaging::read_dicom_texts(entry.path(), none))
-        all.push_back(entry.path());
+      if (imaging::read_dicom_texts(file, none)) all.push_back(file);
     }
-    std::sort(all.begin() + static_cast<std::ptrdiff_t>(before), all.end());
   }
   if (all.empty()) throw InvalidInput("there is no DICOM object to send");
   return all;

@@ -35,7 +35,7 @@ std::shared_ptr<const phantom::PatientTree> read_patient(const std::filesystem::
         " is neither a mask nor a case, which --tree takes; of a CT make a case first (ostia extract)");
   auto tree = std::make_shared<phantom::PatientTree>(naming(file, [&] {
     return is_case ? patient_of_case(file)
-                   : session::patient_of_mask(read_vessel_labels({file, {}, {}}, task), seed, task);
+                   : session::patient_of_mask(read_asked_labels({file, {}, {}}, task), seed, task);
   }));
   for (std::string& remark : tree->remarks) remark = "the patient's tree: " + remark;
   tree->rim_mm = rim_mm.value_or(is_case ? 0.0 : mask_rim_mm);

@@ -47,10 +47,11 @@ py::list measurements_of(Case& file) {
   return rows;
 }
 
-/// What the case keeps of its report, and the digest that a signature of it is for.
+/// What the case keeps of its report, and the digests that a signature of it is for: without and with the
+/// case's image at hand.
 py::dict report_notes_of(Case& file) {
-  const auto [model, notes] =
-      file.with_file([](CaseFile& f) { return std::pair(f.model(), f.annotations()); });
+  const auto [model, notes, image] =
+      file.with_file([](CaseFile& f) { return std::tuple(f.model(), f.annotations(), f.image()); });
   const session::ReportNotes& report = notes->report;
   py::dict modifiers = fields_of(session::SetReportModifiers{report.modifiers});
   py::list versions;
@@ -65,6 +66,8 @@ py::dict report_notes_of(Case& file) {
   all["features"] = fields_of(session::SetPlaqueFeatures{report.features})["features"];
   all["versions"] = versions;
   all["digest"] = session::report_content_digest(*model, *notes);
+  all["digest_with_image"] =
+      image ? py::cast(session::report_content_digest(*model, *notes, image->sha256)) : py::none();
   return all;
 }
 

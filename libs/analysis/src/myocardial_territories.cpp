@@ -1,5 +1,6 @@
 #include "ostia/analysis/myocardial_territories.h"
 
+#include "ostia/analysis/graph_measures.h"
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
 #include "ostia/core/text.h"
@@ -8,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <set>
 
 namespace ostia::analysis {
@@ -16,7 +16,8 @@ namespace {
 
 using geometry::Vec3;
 
-constexpr double farthest_mm = 30.0;  // of the nearest artery from the muscle
+constexpr double farthest_mm = 30.0;    // of the nearest artery from the muscle
+constexpr double longest_drift = 0.02;  // of a way along smooth axes against chords
 
 void require_territory(double value, double low, double high, const char* name, const char* range) {
   if (!(value >= low && value <= high))
@@ -47,10 +48,9 @@ double lumen_of(const geometry::VesselTree& tree) {
   for (const geometry::TreeSegment& segment : tree.segments) {
     const geometry::Centerline& axis = segment.axis;
     if (axis.radius.size() != axis.size()) continue;
-    for (std::size_t i = 1; i < axis.size(); ++i) {
-      const double a = axis.radius[i - 1], b = axis.radius[i];
-      sum += std::numbers::pi / 3.0 * (axis.points[i] - axis.points[i - 1]).norm() * (a * a + a * b + b * b);
-    }
+    for (std::size_t i = 1; i < axis.size(); ++i)
+      sum += measure_cone((axis.points[i] - axis.points[i - 1]).norm(), axis.radius[i - 1], axis.radius[i])
+                 .volume_mm3;
   }
   return sum;
 }
@@ -150,7 +150,8 @@ double mass_behind_g(const MyocardialTerritories& territories, const geometry::V
                                   [&](const geometry::Vessel& one) { return one.id == vessel; });
   if (found == tree.vessels.end())
     throw InvalidInput("territories: there is no vessel " + std::to_string(vessel));
-  // The segment that the place is in, and how far along.
+  // The segment that the place is in, and how far along. A vessel's smooth axis is a little longer than its
+  // segments' chords.
   double left = s_mm;
   const geometry::TreeSegment* at = nullptr;
   for (const std::int32_t id : found->segments) {
@@ -158,7 +159,7 @@ double mass_behind_g(const MyocardialTerritories& territories, const geometry::V
     if (left <= at->axis.abscissa.back() + 1e-6) break;
     left -= at->axis.abscissa.back();
   }
-  if (at == nullptr || !(s_mm >= 0.0) || left > at->axis.abscissa.back() + 1e-6)
+  if (at == nullptr || !(s_mm >= 0.0) || left > at->axis.abscissa.back() + 1e-6 + longest_drift * s_mm)
     throw InvalidInput("territories: " + found->name + " has no place at " + core::rounded_text(s_mm, 1) +
                        " mm");
   std::set<std::int32_t> nodes{at->to}, behind;

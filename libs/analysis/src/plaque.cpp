@@ -153,6 +153,12 @@ PlaqueMap Measuring::map(double s_mm) const {
   return out;
 }
 
+double share_percent(double part, double whole) {
+  return whole > 0.0 ? 100.0 * part / whole : 0.0;
+}
+
+}  // namespace
+
 void add(PlaqueVolumes& sum, const PlaqueVolumes& one, double share) {
   sum.length_mm += share * one.length_mm;
   sum.lumen_mm3 += share * one.lumen_mm3;
@@ -160,12 +166,6 @@ void add(PlaqueVolumes& sum, const PlaqueVolumes& one, double share) {
   sum.thin_wall_mm3 += share * one.thin_wall_mm3;
   for (std::size_t i = 0; i < plaque_classes; ++i) sum.class_mm3[i] += share * one.class_mm3[i];
 }
-
-double share_percent(double part, double whole) {
-  return whole > 0.0 ? 100.0 * part / whole : 0.0;
-}
-
-}  // namespace
 
 std::string to_string(PlaqueClass one) {
   switch (one) {

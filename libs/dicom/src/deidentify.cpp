@@ -6,6 +6,7 @@
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
 #include "ostia/dicom/code.h"
+#include "ostia/imaging/files_below.h"
 
 #include <nlohmann/json.hpp>
 
@@ -132,19 +133,8 @@ struct ToCopy {
 
 std::vector<ToCopy> images_below(const fs::path& input, const std::string& key, DeidentifyReport& report,
                                  const core::TaskContext& task) {
-  std::vector<fs::path> files;
-  std::error_code error;
-  if (fs::is_directory(input, error)) {
-    for (auto at =
-             fs::recursive_directory_iterator(input, fs::directory_options::skip_permission_denied, error);
-         at != fs::recursive_directory_iterator(); at.increment(error)) {
-      task.throw_if_cancelled();
-      if (at->is_regular_file(error)) files.push_back(at->path());
-    }
-  } else {
-    files.push_back(input);
-  }
-  std::sort(files.begin(), files.end());
+  const std::vector<fs::path> files =
+      fs::is_directory(input) ? imaging::files_below(input) : std::vector{input};
   std::vector<ToCopy> images;
   for (const fs::path& file : files) {
     task.throw_if_cancelled();

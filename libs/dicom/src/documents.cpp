@@ -47,7 +47,7 @@ void add_document(DicomDataset& d, const SourceSeries& source, std::string bytes
   d.set_text(0x00420012, "LO", mime);
   d.set_u32(0x00420015, {static_cast<std::uint32_t>(bytes.size())});
   d.set_bytes(0x00420011, "OB", std::move(bytes));
-  if (!source.frames.empty()) add_source_instances(source, d, 0x00420013);
+  add_source_instances(source, d, 0x00420013);
 }
 
 void require_document(const std::string& bytes, const char* what) {
@@ -98,7 +98,7 @@ DicomDataset secondary_capture(const SourceSeries& source, const CapturedPicture
   DicomDataset d = object_head(source, capture_storage, "OT", "key images", options);
   d.set_text(0x00080008, "CS", "DERIVED\\SECONDARY");
   d.set_text(0x00080064, "CS", "WSD");
-  if (!source.frames.empty()) add_source_instances(source, d, 0x00082112);
+  add_source_instances(source, d, 0x00082112);
   set_own_text(d, d, 0x00204000, "LT", picture.caption);
   d.set_text(0x00180015, "CS", "HEART");
   d.set_text(0x00200020, "CS", "");  // a picture lies no way in the patient

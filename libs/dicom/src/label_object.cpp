@@ -23,28 +23,12 @@ LabelObjectKind kind_of(const std::string& sop_class) {
   return LabelObjectKind::none;
 }
 
-void add_instances(const DicomDataset& data, std::size_t depth, std::vector<std::string>& to) {
-  if (depth > 8 || to.size() > 100'000) return;
-  for (const auto& [tag, element] : data.elements()) {
-    if (tag == tag::referenced_instance) to.push_back(data.text(tag));
-    for (const DicomDataset& item : element.items) add_instances(item, depth + 1, to);
-  }
-}
-
 ObjectOrigin origin_of(const DicomDataset& data) {
-  ObjectOrigin origin{data.text(tag::study_uid),
-                      data.text(tag::frame_of_reference),
-                      data.text(tag::patient_id),
-                      data.text(tag::patient_name),
-                      {}};
+  ObjectOrigin origin{data.text(tag::frame_of_reference), data.text(tag::patient_id)};
   // A structure set names its frames of reference inside.
   if (origin.frame_of_reference.empty())
     if (const DicomDataset* frame = data.item(0x30060010))
       origin.frame_of_reference = frame->text(tag::frame_of_reference);
-  add_instances(data, 0, origin.source_instances);
-  std::sort(origin.source_instances.begin(), origin.source_instances.end());
-  origin.source_instances.erase(std::unique(origin.source_instances.begin(), origin.source_instances.end()),
-                                origin.source_instances.end());
   return origin;
 }
 

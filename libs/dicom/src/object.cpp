@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 
 namespace ostia::dicom {
 namespace {
@@ -189,17 +190,14 @@ void set_own_text(DicomDataset& object, const DicomDataset& root, imaging::Dicom
   object.set_text(tag, vr, own_text(root, utf8, most));
 }
 
-std::size_t add_source_instances(const SourceSeries& source, DicomDataset& to, imaging::DicomTag tag) {
-  std::map<std::string, std::string> seen;
-  std::size_t count = 0;
+void add_source_instances(const SourceSeries& source, DicomDataset& to, imaging::DicomTag tag) {
+  std::set<std::string> seen;
   for (const SourceFrame& one : source.frames) {
-    if (!seen.emplace(one.sop_instance, one.sop_class).second) continue;
+    if (!seen.insert(one.sop_instance).second) continue;
     DicomDataset& item = to.add_item(tag);
     item.set_text(tag::referenced_class, "UI", one.sop_class);
     item.set_text(tag::referenced_instance, "UI", one.sop_instance);
-    ++count;
   }
-  return count;
 }
 
 void add_referenced_series(const SourceSeries& source, DicomDataset& to) {

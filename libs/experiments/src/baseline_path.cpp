@@ -109,9 +109,4 @@ std::vector<std::vector<Vec3>> cheapest_ways(const imaging::FloatVolume& cost_pe
   return ways;
 }
 
-std::vector<Vec3> cheapest_way(const imaging::FloatVolume& cost_per_mm, const Vec3& from, const Vec3& to,
-                               const core::TaskContext& task) {
-  return cheapest_ways(cost_per_mm, from, {to}, task).front();
-}
-
 }  // namespace ostia::experiments

@@ -26,9 +26,5 @@ std::vector<std::vector<geometry::Vec3>> cheapest_ways(const imaging::FloatVolum
                                                        const geometry::Vec3& from,
                                                        const std::vector<geometry::Vec3>& to,
                                                        const core::TaskContext& task = core::no_task());
-/// The same, to one place.
-std::vector<geometry::Vec3> cheapest_way(const imaging::FloatVolume& cost_per_mm, const geometry::Vec3& from,
-                                         const geometry::Vec3& to,
-                                         const core::TaskContext& task = core::no_task());
 
 }  // namespace ostia::experiments

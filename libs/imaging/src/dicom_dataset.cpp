@@ -404,12 +404,6 @@ void DicomDataset::set_u32(DicomTag tag, std::initializer_list<std::uint32_t> va
   set(tag, std::move(element));
 }
 
-void DicomDataset::set_f32(DicomTag tag, double value) {
-  DicomElement element{"FL", {}};
-  put_number(element.value, std::bit_cast<std::uint32_t>(static_cast<float>(value)), 4);
-  set(tag, std::move(element));
-}
-
 void DicomDataset::set_f64(DicomTag tag, double value) {
   DicomElement element{"FD", {}};
   put_number(element.value, std::bit_cast<std::uint64_t>(value), 8);

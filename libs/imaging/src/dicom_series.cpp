@@ -5,6 +5,7 @@
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
 #include "ostia/imaging/archive.h"
+#include "ostia/imaging/files_below.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,32 +17,7 @@ namespace ostia::imaging {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::size_t kMaxFiles = 200'000;
-constexpr int kMaxFolders = 32;
-
 using SharedHeader = std::shared_ptr<const DicomHeader>;
-
-std::vector<fs::path> files_below(const fs::path& folder, bool recursive) {
-  std::vector<fs::path> files;
-  std::error_code error;
-  fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, error);
-  if (error) throw IoError("cannot read folder '" + folder.string() + "': " + error.message());
-  for (; at != fs::recursive_directory_iterator(); at.increment(error)) {
-    if (error) throw IoError("cannot read folder '" + folder.string() + "': " + error.message());
-    if (at->is_directory(error)) {
-      if (!recursive || at.depth() >= kMaxFolders) at.disable_recursion_pending();
-      continue;
-    }
-    if (!at->is_regular_file(error)) continue;
-    if (files.size() == kMaxFiles) {
-      throw InvalidInput("folder '" + folder.string() + "' holds more than " + std::to_string(kMaxFiles) +
-                         " files; choose a smaller one");
-    }
-    files.push_back(at->path());
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
 
 struct Files {
   std::vector<SharedHeader> images;

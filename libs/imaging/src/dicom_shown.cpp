@@ -3,6 +3,8 @@
 #include "dicom_attributes.h"
 #include "dicom_parser.h"
 
+#include "ostia/imaging/dicom_dataset.h"
+
 #include <algorithm>
 
 namespace ostia::imaging {
@@ -29,6 +31,17 @@ std::size_t sequence(std::string_view text, std::size_t at) {
 
 bool is_digit(char c) {
   return c >= '0' && c <= '9';
+}
+
+template <class TextOf>
+ShownIdentity shown_of(const TextOf& text_of) {
+  const std::string set = text_of(kCharacterSet);
+  ShownIdentity shown;
+  shown.patient_name = shown_name(text_of(kPatientName), set);
+  shown.patient_id = shown_text(text_of(kShownPatientId), set);
+  shown.study_date = shown_date(text_of(kStudyDate));
+  shown.series_description = shown_text(text_of(kShownSeries), set);
+  return shown;
 }
 
 }  // namespace
@@ -89,14 +102,12 @@ std::string shown_date(std::string_view text) {
 ShownIdentity shown_identity(const std::filesystem::path& dicom_file) {
   DicomTexts texts{
       {kCharacterSet, {}}, {kStudyDate, {}}, {kShownSeries, {}}, {kPatientName, {}}, {kShownPatientId, {}}};
-  ShownIdentity shown;
-  if (!read_dicom_texts(dicom_file, texts)) return shown;
-  const std::string& set = texts[kCharacterSet];
-  shown.patient_name = shown_name(texts[kPatientName], set);
-  shown.patient_id = shown_text(texts[kShownPatientId], set);
-  shown.study_date = shown_date(texts[kStudyDate]);
-  shown.series_description = shown_text(texts[kShownSeries], set);
-  return shown;
+  if (!read_dicom_texts(dicom_file, texts)) return {};
+  return shown_of([&](DicomTag tag) { return texts[tag]; });
+}
+
+ShownIdentity shown_identity(const DicomDataset& data) {
+  return shown_of([&](DicomTag tag) { return data.text(tag); });
 }
 
 ShownIdentity shown_identity(const DicomSeries& series) {

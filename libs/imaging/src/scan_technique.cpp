@@ -5,9 +5,6 @@
 
 #include "ostia/imaging/dicom_texts.h"
 
-#include <charconv>
-#include <cmath>
-
 namespace ostia::imaging {
 namespace {
 
@@ -17,14 +14,8 @@ constexpr std::uint32_t technique_set = dicom_tag(0x0008, 0x0005), technique_kv 
 
 /// A positive decimal string, up to what any scanner has.
 std::optional<double> positive(const std::string& text, double largest) {
-  const std::size_t first = text.find_first_not_of(" +");
-  if (first == std::string::npos) return std::nullopt;
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data() + first, text.data() + text.size(), value);
-  if (error != std::errc() || !(value > 0.0 && value <= largest)) return std::nullopt;
-  return text.find_first_not_of(' ', static_cast<std::size_t>(end - text.data())) == std::string::npos
-             ? std::optional(value)
-             : std::nullopt;
+  const std::optional<double> value = parse_decimal(text);
+  return value && *value > 0.0 && *value <= largest ? value : std::nullopt;
 }
 
 }  // namespace

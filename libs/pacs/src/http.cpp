@@ -138,7 +138,6 @@ HttpAnswer HttpClient::request(const HttpRequest& request, const core::TaskConte
   }
   perform(exchange, task);
   curl_easy_getinfo(easy, CURLINFO_RESPONSE_CODE, &exchange.answer.status);
-  exchange.answer.content_type = exchange.content_type();
   return std::move(exchange.answer);
 }
 

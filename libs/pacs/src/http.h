@@ -24,7 +24,6 @@ struct HttpRequest {
 
 struct HttpAnswer {
   long status = 0;
-  std::string content_type;
   std::string body;  ///< what no sink took
 };
 

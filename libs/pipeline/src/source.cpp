@@ -130,6 +130,7 @@ Source load(const fs::path& path, const SourceOptions& options, const core::Task
       auto loaded = imaging::read_dicom(path, options.dicom, task, [&](const imaging::DicomSeries& series) {
         sha256.emplace([series](const core::TaskContext& beside) { return series_digest(series, beside); });
         source.technique = imaging::scan_technique(series);
+        if (!series.archive && !series.files.empty()) source.series_file = series.files.front();
       });
       append_warnings(source.warnings, loaded.header.warnings);
       source.image = std::make_shared<const imaging::ImageVolume>(std::move(loaded.volume));

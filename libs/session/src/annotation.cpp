@@ -221,37 +221,24 @@ void hand_lesions_on(Annotations& annotations, std::int32_t vessel, double from_
   }
 }
 
-/// And stretches with another calibre.
-void hand_what_ifs_on(Annotations& annotations, std::int32_t vessel, double from_mm, double to_mm,
-                      std::int32_t other, double by_mm) {
-  std::vector<WhatIf>& all = annotations.pressure.what_ifs;
-  for (WhatIf& one : all) {
+/// And stretches of other kinds: with another calibre, words on plaque.
+template <class Stretch>
+void hand_stretches_on(std::vector<Stretch>& all, std::int32_t vessel, double from_mm, double to_mm,
+                       std::int32_t other, double by_mm) {
+  for (Stretch& one : all) {
     const double middle = 0.5 * (one.from_mm + one.to_mm);
     if (one.vessel != vessel || middle < from_mm || !(middle < to_mm)) continue;
     one.vessel = other;
     one.from_mm = std::max(0.0, one.from_mm + by_mm), one.to_mm += by_mm;
   }
-  std::erase_if(all, [](const WhatIf& one) { return !(one.from_mm < one.to_mm); });
-}
-
-/// And words on plaque.
-void hand_features_on(Annotations& annotations, std::int32_t vessel, double from_mm, double to_mm,
-                      std::int32_t other, double by_mm) {
-  std::vector<FeatureWord>& all = annotations.report.features;
-  for (FeatureWord& one : all) {
-    const double middle = 0.5 * (one.from_mm + one.to_mm);
-    if (one.vessel != vessel || middle < from_mm || !(middle < to_mm)) continue;
-    one.vessel = other;
-    one.from_mm = std::max(0.0, one.from_mm + by_mm), one.to_mm += by_mm;
-  }
-  std::erase_if(all, [](const FeatureWord& one) { return !(one.from_mm < one.to_mm); });
+  std::erase_if(all, [](const Stretch& one) { return !(one.from_mm < one.to_mm); });
 }
 
 /// The reader's word on what lies between two abscissas of one vessel goes to another, moved along.
 void hand_on(Annotations& annotations, std::int32_t vessel, double from_mm, double to_mm, std::int32_t other,
              double by_mm) {
-  hand_what_ifs_on(annotations, vessel, from_mm, to_mm, other, by_mm);
-  hand_features_on(annotations, vessel, from_mm, to_mm, other, by_mm);
+  hand_stretches_on(annotations.pressure.what_ifs, vessel, from_mm, to_mm, other, by_mm);
+  hand_stretches_on(annotations.report.features, vessel, from_mm, to_mm, other, by_mm);
   hand_lesions_on(annotations, vessel, from_mm, to_mm, other, by_mm);
   const VesselMark* mark = find_mark(annotations, vessel);
   if (!mark || mark->evaluable.empty()) return;

@@ -93,9 +93,10 @@ Phrases cad_rads() {
        "MLA: kleinster Durchmesser und kleinste Fläche des Lumens. Prozente gelten gegen das Kaliber, das "
        "das "
        "Gefäß ohne Erkrankung hätte."},
-      {"the category is 0, but a plaque burden of %1 was given: there is plaque that the tables do not have",
-       "die Kategorie ist 0, aber es wurde eine Plaquelast von %1 angegeben: es gibt Plaque, die in den "
-       "Tabellen fehlt"},
+      {"the category is 1 and not 0: a plaque burden of %1 was given, so there is plaque that the tables do "
+       "not have",
+       "die Kategorie ist 1 und nicht 0: es wurde eine Plaquelast von %1 angegeben, also gibt es Plaque, die "
+       "in den Tabellen fehlt"},
   };
 }
 

@@ -26,11 +26,7 @@ void add_segment_plaque(std::optional<analysis::PlaqueVolumes>& sum, const CaseR
       analysis::plaque_between(walls->second.plaque, segment.from_mm, segment.to_mm);
   if (!(one.length_mm > 0.0)) return;
   if (!sum) sum.emplace();
-  sum->length_mm += one.length_mm;
-  sum->lumen_mm3 += one.lumen_mm3;
-  sum->vessel_mm3 += one.vessel_mm3;
-  sum->thin_wall_mm3 += one.thin_wall_mm3;
-  for (std::size_t i = 0; i < analysis::plaque_classes; ++i) sum->class_mm3[i] += one.class_mm3[i];
+  analysis::add(*sum, one);
 }
 
 void take_least(std::optional<double>& least, const std::optional<double>& value) {

@@ -100,19 +100,7 @@ std::vector<dicom::Segment> segments_of_plaque(const LabelVolume& labels) {
 
 /// The name is the person's, who asked for it by naming the series.
 imaging::ShownIdentity named_in_report(const dicom::SourceSeries& source) {
-  imaging::ShownIdentity named;
-  if (source.pseudonym) return named;
-  const auto ascii = [&](imaging::DicomTag tag) {
-    std::string text = source.identity.text(tag);
-    for (char& c : text)
-      if (static_cast<unsigned char>(c) >= 0x80 || static_cast<unsigned char>(c) < 0x20) c = '?';
-    return text;
-  };
-  std::string name = ascii(0x00100010);
-  std::replace(name.begin(), name.end(), '^', ' ');
-  named.patient_name = name;
-  named.patient_id = ascii(0x00100020);
-  return named;
+  return source.pseudonym ? imaging::ShownIdentity{} : imaging::shown_identity(source.identity);
 }
 
 dicom::CapturedPicture captured(const KeyImage& image) {

@@ -66,6 +66,8 @@ struct PlaqueVolumes {
   double wall_percent() const;    ///< 100 wall / vessel, which ultrasound calls burden; 0 of nothing
 };
 
+void add(PlaqueVolumes& sum, const PlaqueVolumes& one, double share = 1.0);
+
 /// What a plaque is made of, as a report names it.
 enum class PlaqueType { none, non_calcified, mixed, calcified };
 /// Calcified from half of the plaque's volume on, as Hausleiter et al. (2006) have it of its area;

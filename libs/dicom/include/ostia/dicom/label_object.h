@@ -20,8 +20,7 @@ LabelObjectKind label_object_kind(const std::filesystem::path& path);
 
 /// Where an object says that it belongs; texts as they stand in the file.
 struct ObjectOrigin {
-  std::string study_uid, frame_of_reference, patient_id, patient_name;
-  std::vector<std::string> source_instances;  ///< SOP instances that it refers to
+  std::string frame_of_reference, patient_id;
 };
 ObjectOrigin object_origin(const std::filesystem::path& path);
 /// In words why two objects cannot be of one image; empty where they can: patient or frame of reference

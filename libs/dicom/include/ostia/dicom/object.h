@@ -63,9 +63,9 @@ std::string own_text(const DicomDataset& object, const std::string& utf8, std::s
 void set_own_text(DicomDataset& object, const DicomDataset& root, imaging::DicomTag tag, const char* vr,
                   const std::string& utf8);
 
-/// Adds references to instances of the source series as sequence `tag` of items (0008,1150), (0008,1155) and,
-/// of multi-frame instances, (0008,1160): each instance once. Returns how many.
-std::size_t add_source_instances(const SourceSeries& source, DicomDataset& to, imaging::DicomTag tag);
+/// Adds references to instances of the source series as sequence `tag` of items (0008,1150), (0008,1155):
+/// each instance once; nothing without the source.
+void add_source_instances(const SourceSeries& source, DicomDataset& to, imaging::DicomTag tag);
 /// The same as the Common Instance Reference module (PS3.3 C.12.2) has it; nothing without the source.
 void add_referenced_series(const SourceSeries& source, DicomDataset& to);
 

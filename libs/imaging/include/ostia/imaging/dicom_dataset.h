@@ -54,7 +54,6 @@ class DicomDataset {
   void set_text(DicomTag tag, const char* vr, std::string value);
   void set_u16(DicomTag tag, std::initializer_list<std::uint16_t> values);
   void set_u32(DicomTag tag, std::initializer_list<std::uint32_t> values);
-  void set_f32(DicomTag tag, double value);
   void set_f64(DicomTag tag, double value);
   void set_decimals(DicomTag tag, std::initializer_list<double> values);  ///< DS, by dicom_decimal
   void set_tag(DicomTag tag, DicomTag value);                             ///< AT

@@ -12,6 +12,8 @@
 
 namespace ostia::imaging {
 
+class DicomDataset;
+
 /// Whose image it is, for what a window shows, keeps on its own machine, and writes where a person asks for
 /// it each time: never in a case, a log or a message. UTF-8; what is not known is empty.
 struct ShownIdentity {
@@ -29,6 +31,8 @@ struct ShownIdentity {
 /// From the header of the series' middle slice, without decoding a picture. Empty where there is none or it
 /// says nothing. Throws IoError.
 ShownIdentity shown_identity(const DicomSeries& series);
+/// The same of one object's data set.
+ShownIdentity shown_identity(const DicomDataset& data);
 
 /// Grey values from black to white.
 struct GreyWindow {

@@ -49,6 +49,7 @@ struct Source {
   bool unit_given = false;  ///< surface: the user said which unit it is in
   std::vector<std::string> warnings;
   std::optional<imaging::ScanTechnique> technique = {};  ///< dicom: as its headers say
+  std::filesystem::path series_file = {};  ///< dicom: the first of the series that was read; of a zip none
 };
 
 /// Reads it. From here on the log knows the path by the pseudonym alone. Throws what the readers throw;

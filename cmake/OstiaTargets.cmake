@@ -3,7 +3,7 @@
 set(OSTIA_ROOMS
     core geometry
     imaging dicom pacs reformat io figure
-    segmentation centerline reconstruction lumen meshing hemodynamics solver motion analysis
+    registration segmentation centerline reconstruction lumen meshing hemodynamics solver motion analysis
     phantom evaluation coronary pipeline
     session experiments
     glview view)

@@ -32,6 +32,8 @@ set(OSTIA_THIRD_PARTIES
   "OstiaThirdParty::dcmtk|library dcmtk/config/osconfig.h dcmnet dcmtls dcmdata oflog ofstd|libdcmtk-dev"
   "OstiaThirdParty::curl|library curl/curl.h curl|libcurl4-openssl-dev"
   "OstiaThirdParty::cgns|library cgnslib.h cgns|libcgns-dev"
+  # Its own configuration loads every module, and with them what they need of other packages.
+  "OstiaThirdParty::itk|library itkImage.h:ITK-5.2 ITKOptimizers-5.2 ITKSmoothing-5.2 ITKTransform-5.2 ITKStatistics-5.2 ITKCommon-5.2 ITKVNLInstantiation-5.2 itkvnl_algo-5.2 itkvnl-5.2 itksys-5.2|libinsighttoolkit5-dev"
   # All that is left of CGAL when its headers are compiled.
   "OstiaThirdParty::gmp|library gmp.h gmp|libgmp-dev"
   "OstiaThirdParty::mpfr|library mpfr.h mpfr|libmpfr-dev"

@@ -10,7 +10,7 @@ import sys
 FLOORS = [
     ["core", "geometry"],
     ["imaging", "dicom", "pacs", "reformat", "io", "figure"],
-    ["segmentation", "centerline", "reconstruction", "lumen", "meshing", "hemodynamics", "solver", "motion", "analysis"],
+    ["registration", "segmentation", "centerline", "reconstruction", "lumen", "meshing", "hemodynamics", "solver", "motion", "analysis"],
     ["phantom", "evaluation", "coronary", "pipeline"],
     ["session", "experiments"],
     ["glview", "view"],
@@ -30,7 +30,7 @@ QUARANTINE = {
 # The workstation: its frame, and a folder for what a user does, each of which may use the frame and those before it.
 # The window that puts them together is known in these sources alone.
 FRAME = {"shell", "commands", "views"}
-FEATURES = ["opening", "archive", "trees", "phases", "vessels", "measuring", "pressure", "meshing", "flow", "plugins", "qa", "help"]
+FEATURES = ["opening", "archive", "trees", "phases", "calcium", "vessels", "measuring", "pressure", "meshing", "flow", "plugins", "qa", "help"]
 WORKSTATION = FRAME | set(FEATURES)
 COMPOSED_IN = re.compile(r"shell/(main_window\w*|panel_layout)\.cpp$")
 # The command line: what serves all commands, and a folder for what they work on. Above the folders, all of them together.
@@ -40,7 +40,7 @@ ABOVE_COMMANDS = {"main", "cli", "commands", "command_table"}
 SHARED_BY_BINDINGS = {"module", "rooms", "array", "call", "errors", "figures", "options", "values"}
 PARTS_OF_BINDINGS = {"meshes": "geometry", "trees": "geometry", "graphs": "geometry", "volume": "imaging", "contours": "geometry", "fields": "io", "walls": "lumen", "mesh_options": "meshing",
                      "growth": "analysis", "pipeline_motion": "pipeline", "pipeline_parts": "pipeline", "pipeline_trees": "pipeline",
-                     "case": "session", "display": "session", "pressure": "session", "session_parts": "session", "session_tissues": "session", "session_walls": "session"}
+                     "case": "session", "display": "session", "pressure": "session", "session_parts": "session", "session_tissues": "session", "session_comparison": "session", "session_walls": "session"}
 FEATURE_INCLUDED = re.compile(r'#\s*include\s*"([a-z]+)/')
 
 

@@ -27,9 +27,11 @@ while [ $# -gt 0 ]; do
 done
 ostia=$bin/ostia
 [ -x "$ostia" ] || { echo "golden_suite.sh: no program $ostia; build it first or name its folder with --bin" >&2; exit 2; }
+pages=yes # reports and pictures of each case, where somebody will look at them
 if [ -z "$out" ]; then
   out=$(mktemp -d)
   trap 'rm -rf "$out"' EXIT
+  pages=$docs
 fi
 mkdir -p "$out/model" "$out/figures"
 
@@ -73,10 +75,13 @@ for case in "$golden"/dataset*; do
   done
   [ ${#left[@]} = 0 ] || model "$case" left "${left[@]}"
   figures=$out/figures/$name
-  "$ostia" evaluate centerline "$case" "$out/model/$name" --json --quiet -o "$out/$name-centerline.html" > "$figures/centerline.json"
-  "$ostia" evaluate lumen "$case" "$out/model/$name" --json --quiet -o "$out/$name-lumen.html" > "$figures/lumen.json"
-  "$ostia" evaluate surface "$case" "$out/model/$name" --covered --json --quiet -o "$out/$name-surface.html" \
-    --picture "$out/$name-surface.png" > "$figures/surface.json"
+  for of in centerline lumen surface; do
+    more=()
+    [ $of != surface ] || more+=(--covered)
+    [ $pages = no ] || more+=(-o "$out/$name-$of.html")
+    [ $pages = no ] || [ $of != surface ] || more+=(--picture "$out/$name-surface.png")
+    "$ostia" evaluate $of "$case" "$out/model/$name" --json --quiet "${more[@]}" > "$figures/$of.json"
+  done
 done
 
 if [ "$update" = yes ]; then

@@ -1,9 +1,13 @@
 #!/usr/bin/env bash
 # Makes the pictures of the user's manual anew, with the program itself on the sample case, by keys and mouse:
-# scripts/make_screenshots.sh [BUILD_FOLDER]. Five minutes on two cores, most of it for the sample case.
+# scripts/make_screenshots.sh [BUILD_FOLDER [PART...]]. The parts: sample (all that is on the sample case; five
+# minutes on two cores, most of it for the case itself), keys, calcium (of the scan in OSTIA_SHARED_DATA), fat (of
+# the sample case), pacs (needs orthanc). All of them without a name.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 bin=${1:-build/release}/bin
+shift || true
+parts=${*:-sample keys calcium fat pacs}
 [ -x "$bin/ostia-workstation" ] || scripts/build.sh release
 out=docs/images/manual
 mkdir -p "$out"
@@ -56,60 +60,6 @@ drag() {
   sleep 0.5
 }
 
-start --sample --frame-log "$work/frames"
-until grep -qs '"view":"cpr1".*"picture":[1-9]' "$work/frames"; do sleep 1; done # the image comes after the case
-sleep 5
-front
-at 640 790
-keys l
-shot window 3
-
-# A stenosis between two places of reference.
-keys s
-drag 410 420 410 595
-shot measuring 2
-
-keys Escape Escape alt+6 F11
-shot tree 3
-keys F11 alt+4 F11
-shot section 2
-keys F11
-
-keys F1
-shot keys 2
-keys Escape
-front
-keys ctrl+comma ctrl+Tab
-shot preferences 2
-keys Escape
-front
-keys alt+v q
-shot qa 3
-keys alt+v q
-keys alt+h t
-keys Right Right
-shot tour 2
-keys Escape
-front
-keys ctrl+z # the measurement
-
-# The RCA's stenosis, large, with its calcified plaque on the left of the first CPR: there the model's wall takes
-# some of the calcium for lumen. It is drawn anew where the phantom has it, and pulled there.
-keys ctrl+Right ctrl+Right ctrl+Right ctrl+Right ctrl+Right ctrl+Right ctrl+Home l
-keys bracketleft bracketleft bracketleft bracketleft
-keys alt+2 plus plus plus plus plus alt+4 plus plus plus alt+9
-at 379 680 # on the profile, beyond the stenosis: the way back brings it into the middle of the CPRs
-xdotool click 1
-sleep 1
-keys shift+l ctrl+Up ctrl+Up alt+2 w
-drag 383 244 386 255 389 267 391 278 394 289 396 301 398 312 399 323 399 334 399 357 399 380 399 391 398 402 \
-  397 414 395 425 393 436 390 448
-at 330 500
-shot editing 2
-keys ctrl+z e
-drag 393 318 395 318 397 318 398 318
-shot pull 2
-
 # What has no key of its own, by the palette.
 command() {
   keys ctrl+k
@@ -117,17 +67,137 @@ command() {
   sleep 0.5
   keys Return
 }
-keys Escape Escape
-front
-command "Three planes alone"
-shot planes 4
-command "All views"
-command "Set orientation"
-shot orientation 2
-keys Escape
-front
-command "Look: coronary arteries"
-command "Box with handles"
-keys alt+6 F11
-shot heart 20
+done_with() {
+  kill "$program"
+  wait "$program" 2>/dev/null || true
+  program=
+}
+# The window in front, with the sample case and its image.
+sample() {
+  rm -f "$work/frames"
+  start --sample --frame-log "$work/frames"
+  until grep -qs '"view":"cpr1".*"picture":[1-9]' "$work/frames"; do sleep 1; done # the image comes after the case
+  sleep 5
+  front
+}
+
+of_sample() {
+  sample
+  at 640 790
+  keys l
+  shot window 3
+
+  # A stenosis between two places of reference.
+  keys s
+  drag 410 420 410 595
+  shot measuring 2
+
+  keys Escape Escape alt+6 F11
+  shot tree 3
+  keys F11 alt+4 F11
+  shot section 2
+  keys F11
+
+  keys ctrl+comma ctrl+Tab
+  shot preferences 2
+  keys Escape
+  front
+  keys alt+v q
+  shot qa 3
+  keys alt+v q
+  keys alt+h t
+  keys Right Right
+  shot tour 2
+  keys Escape
+  front
+  keys ctrl+z # the measurement
+
+  # The RCA's stenosis, large, with its calcified plaque on the left of the first CPR: there the model's wall takes
+  # some of the calcium for lumen. It is drawn anew where the phantom has it, and pulled there.
+  keys ctrl+Right ctrl+Right ctrl+Right ctrl+Right ctrl+Right ctrl+Right ctrl+Home l
+  keys bracketleft bracketleft bracketleft bracketleft
+  keys alt+2 plus plus plus plus plus alt+4 plus plus plus alt+9
+  at 379 680 # on the profile, beyond the stenosis: the way back brings it into the middle of the CPRs
+  xdotool click 1
+  sleep 1
+  keys shift+l ctrl+Up ctrl+Up alt+2 w
+  drag 383 244 386 255 389 267 391 278 394 289 396 301 398 312 399 323 399 334 399 357 399 380 399 391 398 402 \
+    397 414 395 425 393 436 390 448
+  at 330 500
+  shot editing 2
+  keys ctrl+z e
+  drag 393 318 395 318 397 318 398 318
+  shot pull 2
+
+  keys Escape Escape
+  front
+  command "Three planes alone"
+  shot planes 4
+  command "All views"
+  command "Set orientation"
+  shot orientation 2
+  keys Escape
+  front
+  command "Look: coronary arteries"
+  command "Box with handles"
+  keys alt+6 F11
+  shot heart 20
+  done_with
+}
+
+of_keys() {
+  start
+  sleep 3
+  front
+  keys F1
+  shot keys 2
+  done_with
+}
+
+of_calcium() {
+  start "${OSTIA_SHARED_DATA:?where the scans for tests are}/ct/calcium-score/calcium-score.nrrd"
+  sleep 40 # the search for arteries, which finds none
+  front
+  keys alt+5 F11 ctrl+shift+a
+  sleep 40
+  at 1000 310 # the first lesion
+  xdotool click 1
+  shot calcium 3
+  done_with
+}
+
+of_fat() {
+  sample
+  keys ctrl+alt+f
+  sleep 30
+  shot fat 5
+  done_with
+}
+
+# An archive on this machine with a small series, and an object that it refuses to be asked for.
+of_pacs() {
+  python3 scripts/screenshot_archive.py "$bin" "$work" &
+  archive=$!
+  until [ -e "$work/archive-ready" ]; do sleep 1; done
+  export XDG_CONFIG_HOME="$work/config"
+  start
+  sleep 3
+  front
+  command "From the PACS"
+  sleep 2
+  keys Return
+  sleep 3
+  keys Tab Tab Tab Tab Tab Tab Tab Tab Home Right # unfolds the study
+  at 700 760
+  shot archive 8
+  keys Escape
+  front
+  command "Outbox"
+  shot outbox 2
+  done_with
+  unset XDG_CONFIG_HOME
+  kill "$archive" 2>/dev/null || true
+}
+
+for part in $parts; do "of_$part"; done
 ls -l "$out"

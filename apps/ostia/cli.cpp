@@ -20,6 +20,7 @@
 #include <iostream>
 #include <memory>
 #include <sstream>
+#include <utility>
 
 namespace ostia::app {
 namespace {
@@ -32,12 +33,18 @@ struct Asked {
   int exit_code = -1;  ///< 0 or more: all was said already (`--help`, a wrong option)
 };
 
+/// Every command and its options; nothing is asked yet.
+std::unique_ptr<Asked> with_all_commands() {
+  auto asked = std::make_unique<Asked>();
+  asked->app.set_version_flag("--version", "ostia " + core::version());
+  define(asked->app, asked->commands, asked->run);
+  return asked;
+}
+
 /// A log that is kept must not name what a folder, a file or anything else was called. Whatever is written
 /// from now on leaves it out, what the parser, a file of options and the reading of options refuse among it.
-void keep_out_of_the_log(const std::vector<std::string>& arguments) {
-  Asked asked;
-  define(asked.app, asked.commands, asked.run);
-  const command_line::CommandDescription program = command_line::describe(asked.app);
+void keep_out_of_the_log(const CLI::App& app, const std::vector<std::string>& arguments) {
+  const command_line::CommandDescription program = command_line::describe(app);
   core::never_redact(command_line::ordinary_words(program));
   const auto exists = [](const std::string& name) {
     std::error_code error;
@@ -53,10 +60,9 @@ void keep_out_of_the_log(const std::vector<std::string>& arguments) {
 
 enum class Refusals { printed, thrown };
 
-std::unique_ptr<Asked> asked_by(const std::vector<std::string>& arguments, Refusals refusals) {
-  auto asked = std::make_unique<Asked>();
-  asked->app.set_version_flag("--version", "ostia " + core::version());
-  define(asked->app, asked->commands, asked->run);
+/// `asked` has read no arguments yet.
+std::unique_ptr<Asked> asked_by(std::unique_ptr<Asked> asked, const std::vector<std::string>& arguments,
+                                Refusals refusals) {
   try {
     std::vector<std::string> words = arguments;
     std::reverse(words.begin(), words.end());  // as CLI11 takes them
@@ -78,15 +84,16 @@ int run_with(const std::vector<std::string>& arguments, Refusals refusals, const
     command_line::write_description_files(command_line::describe(asked.app), *folder);
     return 0;
   }
-  keep_out_of_the_log(arguments);
+  std::unique_ptr<Asked> asked = with_all_commands();
+  keep_out_of_the_log(asked->app, arguments);
   const std::vector<std::string> all_arguments = with_config(arguments);
-  if (all_arguments != arguments) keep_out_of_the_log(all_arguments);
+  if (all_arguments != arguments) keep_out_of_the_log(asked->app, all_arguments);
   StandardStreams streams(all_arguments);
-  std::unique_ptr<Asked> asked = asked_by(streams.arguments(), refusals);
+  asked = asked_by(std::move(asked), streams.arguments(), refusals);
   if (asked->exit_code >= 0) return asked->exit_code;
   if (streams.used()) {
     streams.open();  // only now: a wrong option is told before the command in front has ended
-    asked = asked_by(streams.arguments(), refusals);
+    asked = asked_by(with_all_commands(), streams.arguments(), refusals);
   }
   const CommonOptions& common = asked->commands.common;
   core::set_max_threads(common.threads);

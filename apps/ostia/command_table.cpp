@@ -124,6 +124,7 @@ void define(CLI::App& app, Commands& c, Run& run) {
   define_experiment(app, c.experiment, c.common.seed, run);
   define_lumen(app, c.lumen, c.replay, run);
   define_report(app, c.report, run);
+  define_compare(app, c.compare, run);
   define_calcium(app, c.calcium, run, add_dicom);
   define_fat(app, c.fat, run);
   define_territories(app, c.territories, run);

@@ -11,6 +11,7 @@
 #include "flow/flow_result.h"
 #include "flow/solver_case.h"
 #include "measure/calcium.h"
+#include "measure/compare.h"
 #include "measure/dicom_objects.h"
 #include "measure/fat.h"
 #include "measure/measure.h"
@@ -53,6 +54,7 @@ struct Commands {
   ReplayCommand replay;
   ReportCommand report;
   CalciumCommand calcium;
+  CompareCommand compare;
   FatCommand fat;
   TerritoriesCommand territories;
   DicomCommand dicom;

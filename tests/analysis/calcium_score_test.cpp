@@ -1,5 +1,7 @@
 #include "ostia/analysis/calcium_score.h"
 
+#include "calcium_spots.h"
+
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
 
@@ -280,6 +282,18 @@ TEST(CalciumScore, TheSameForAnyNumberOfThreads) {
   core::set_max_threads(0);
   EXPECT_EQ(one.lesion_numbers.voxels, four.lesion_numbers.voxels);
   EXPECT_EQ(one.score.total.agatston, four.score.total.agatston);
+}
+
+TEST(CalciumScore, FindingAndMeasuringAreCancelled) {
+  const ImageVolume image = insert_image({{12.0, 12.0, 12.0}, 5.0, 400.0}, 3.0);
+  const CalciumSlices slices = calcium_slices(image, {}, core::no_task());
+  const CalciumSpots found = calcium_spots(slices, {}, core::no_task());
+  ASSERT_EQ(measured_parts(slices, found, {}, core::no_task()).size(), 2U);
+  const core::TaskContext task;
+  task.cancel();
+  EXPECT_THROW(calcium_spots(slices, {}, task), Cancelled);
+  EXPECT_THROW(measured_parts(slices, found, {}, task), Cancelled);
+  EXPECT_THROW(score_calcium(image, {}, task), Cancelled);
 }
 
 TEST(CalciumScore, WhatCannotBeScoredIsRefused) {

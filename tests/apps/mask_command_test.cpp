@@ -39,9 +39,16 @@ std::vector<std::string> names_of(const nlohmann::json& facts) {
   return names;
 }
 
+/// Makes heart.ostia of the mask, once.
+const Outcome& case_of_mask() {
+  static const Outcome done =
+      ostia({"extract", "mask.nii.gz", "-o", "heart.ostia", "--json"}, {heart_with_labels(), ""});
+  return done;
+}
+
 TEST(MaskCommands, AMaskBecomesACaseAndItsLabelsComeBack) {
   const Setting in{heart_with_labels(), ""};
-  const Outcome done = ostia({"extract", "mask.nii.gz", "-o", "heart.ostia", "--json"}, in);
+  const Outcome& done = case_of_mask();
   ASSERT_EQ(done.code, 0) << done.err;
   const auto facts = nlohmann::json::parse(done.out);
   EXPECT_EQ(facts["ostia"], 2);
@@ -124,14 +131,13 @@ TEST(MaskCommands, MasksWithoutVesselsAreRefusedByNameAndLeaveNoCase) {
 
 TEST(MaskCommands, LabelsNeedACaseAndAGrid) {
   const Setting in{heart_with_labels(), ""};
-  const Outcome done = ostia({"extract", "mask.nii.gz", "-o", "grid.ostia"}, in);
-  ASSERT_EQ(done.code, 0) << done.err;
-  EXPECT_EQ(ostia({"convert", "grid.ostia", "a.nrrd"}, in).code, 2);
+  ASSERT_EQ(case_of_mask().code, 0) << case_of_mask().err;
+  EXPECT_EQ(ostia({"convert", "heart.ostia", "a.nrrd"}, in).code, 2);
   EXPECT_EQ(ostia({"convert", "mask.nii.gz", "a.nrrd", "--grid", "ct.nrrd"}, in).code, 2);
   imaging::MaskVolume far = imaging::read_mask(in.folder / "mask.nii.gz").volume;
   far.geometry.origin.z() += 900.0;
   imaging::write_image(in.folder / "far.nrrd", far);
-  const Outcome other = ostia({"convert", "grid.ostia", "a.nrrd", "--grid", "far.nrrd"}, in);
+  const Outcome other = ostia({"convert", "heart.ostia", "a.nrrd", "--grid", "far.nrrd"}, in);
   EXPECT_EQ(other.code, 3);
   EXPECT_THAT(other.err, HasSubstr("another patient's"));
   EXPECT_FALSE(fs::exists(in.folder / "a.nrrd"));

@@ -198,6 +198,30 @@ TEST(ReportCommand, TakesACalciumScoreAndAnImpressionAndKeepsASignature) {
   EXPECT_EQ(json["versions"][1]["changes"], "read again");
 }
 
+TEST(ReportCommand, ASignatureIsKeptWithItsReportAlone) {
+  const fs::path folder = report_case_folder();
+  const std::vector<std::string> sign{"report", "heart.ostia", "-o",     "out",  "--json",
+                                      "--date", "2026-01-31",  "--sign", "Dr. A"};
+  ASSERT_LT(fs::file_size(folder / "heart.ostia"), 200'000U) << "its copy must fit below the limit";
+  const Outcome failed = ostia(sign, {folder, "ulimit -f 400;"});  // blocks of 512 bytes: the pictures do not
+  EXPECT_EQ(failed.code, 5) << failed.err;
+  EXPECT_FALSE(fs::exists(folder / "out"));
+  EXPECT_TRUE(session::CaseFile::open(folder / "heart.ostia", session::OpenMode::read_only)
+                  .annotations()
+                  ->report.versions.empty())
+      << "signed without a report";
+  const Outcome made = ostia(sign, {folder, ""});
+  ASSERT_EQ(made.code, 0) << made.err;
+  EXPECT_EQ(Json::parse(made.out)["signed"], true);
+  const auto signed_case = session::CaseFile::open(folder / "heart.ostia", session::OpenMode::read_only);
+  ASSERT_EQ(signed_case.annotations()->report.versions.size(), 1U);
+  EXPECT_EQ(signed_case.annotations()->report.versions[0].signer, "Dr. A");
+  // The report that was made of a copy is the one of the signed case.
+  const Outcome again = ostia({"report", "heart.ostia", "-o", "out", "--date", "2026-01-31"}, {folder, ""});
+  EXPECT_EQ(again.code, 0);
+  EXPECT_THAT(again.err, HasSubstr("nothing to do"));
+}
+
 TEST(ReportCommand, RefusesTextsAndScoresThatAreNone) {
   const fs::path folder = report_case_folder();
   core::write_file(folder / "empty.txt", " \n");

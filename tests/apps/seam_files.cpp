@@ -137,6 +137,8 @@ class Maker {
              branches,
          {{"segmented.vtp", surface}});
     make({"segment", "mask.nrrd", "-o", "masked.stl"}, {{"masked.stl", surface}});
+    make({"calcium", "image.nrrd", "-o", "calcium"},
+         {{"calcium", result}, {"calcium/calcium.json", calcium}});
     make({"skeleton", "mask.nrrd", "-o", "skeleton.vtp"}, {{"skeleton.vtp", lines}});
     make({"skeleton", "mask.nrrd", "-o", "skeleton.csv"}, {{"skeleton.csv", lines}});
     const std::vector<std::string> ends{"--source",   "10,7,5",   "--target",

@@ -7,7 +7,19 @@
 
 namespace ostia::testing {
 
-enum class SeamKind { image, mask, surface, lines, network, mesh, model_case, journal, motion, result };
+enum class SeamKind {
+  image,
+  mask,
+  surface,
+  lines,
+  network,
+  mesh,
+  model_case,
+  journal,
+  motion,
+  result,
+  calcium
+};
 
 /// A file or folder that a command has made.
 struct SeamFile {

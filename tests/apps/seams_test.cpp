@@ -76,6 +76,7 @@ const std::vector<Reader>& readers() {
       {"mesh_case", {model_case}, {"mesh", "{}", "-o", "{out}"}},
       {"convert_case", {model_case}, {"convert", "{}", "{out}.stl"}},
       {"report", {model_case}, {"report", "{}", "-o", "{out}"}},
+      {"report_calcium", {calcium}, {"report", "case.ostia", "-o", "{out}", "--calcium", "{}"}},
       {"ffr", {lines, model_case}, {"ffr", "{}", "-o", "{out}"}},
       {"replay", {model_case, journal}, {"replay", "{}", "-o", "{out}.ostia"}},
       {"motion_apply", {motion}, {"motion", "apply", "{}", "lines.vtp", "-o", "{out}.csv", "--phase", "50"}},

@@ -1,10 +1,12 @@
-// What others say of our objects: the checkers of dicom3tools and PixelMed, DCMTK's reader of reports,
-// pydicom.
+// What others say of our objects: the checkers of dicom3tools and PixelMed, DCMTK's readers of reports and
+// pictures, GDCM, pydicom.
 
 #include "made_series.h"
 
 #include "ostia/dicom/documents.h"
 #include "ostia/dicom/measurement_report.h"
+
+#include <algorithm>
 
 namespace ostia::dicom {
 namespace {
@@ -67,6 +69,45 @@ TEST(DicomReaders, DsrdumpReadsTheReport) {
   EXPECT_THAT(run.output, HasSubstr("Fractional flow reserve"));
   EXPECT_THAT(run.output, HasSubstr("\"0.78\""));
   EXPECT_THAT(run.output, HasSubstr("3 - Moderate stenosis"));
+}
+
+TEST(DicomReaders, GdcmReadsAllAndTheSizesOfThePictures) {
+  const MadeSeries made = made_series(grid_with(oblique()));
+  if (!has_program(made.folder, "gdcmdump") || !has_program(made.folder, "gdcminfo"))
+    GTEST_SKIP() << "needs gdcmdump and gdcminfo (libgdcm-tools)";
+  for (const fs::path& file : one_of_each(made)) {
+    const ShellRun run = shell_run(made.folder, "gdcmdump '" + file.string() + "'");
+    EXPECT_TRUE(run.good) << run.output;
+    const auto object = imaging::require_dicom_object(file);
+    EXPECT_THAT(run.output, HasSubstr(object.data.text(0x00080018))) << file;
+    EXPECT_THAT(run.output, HasSubstr("DOE^JANE")) << file;
+  }
+  // gdcminfo does not know the kinds of the surface and of the report.
+  const std::pair<std::string, std::string> sizes[] = {{"seg.dcm", "Dimensions: (13,10,"},
+                                                       {"fractional.dcm", "Dimensions: (13,10,"},
+                                                       {"sc.dcm", "Dimensions: (2,1,1)"},
+                                                       {"pdf.dcm", "Encapsulated PDF Storage"}};
+  for (const auto& [name, said] : sizes)
+    EXPECT_THAT(shell_run(made.folder, "gdcminfo objects/" + name).output, HasSubstr(said)) << name;
+}
+
+TEST(DicomReaders, DcmtkDrawsThePictures) {
+  const MadeSeries made = made_series(grid_with(oblique()));
+  const std::string program = has_program(made.folder, "dcm2img") ? "dcm2img" : "dcmj2pnm";
+  if (!has_program(made.folder, program)) GTEST_SKIP() << "needs dcm2img or dcmj2pnm (dcmtk)";
+  one_of_each(made);
+  // The program scales as a window would: what is nothing is black, what is there is white.
+  const std::string draw = program + " --min-max-window --write-raw-pnm objects/";
+  const ShellRun seg = shell_run(made.folder, draw + "seg.dcm seg.pgm");
+  ASSERT_TRUE(seg.good) << seg.output;
+  const std::string frame = core::read_file(made.folder / "seg.pgm");
+  ASSERT_THAT(frame, ::testing::StartsWith("P5\n13 10\n255\n"));
+  EXPECT_EQ(std::count(frame.end() - 130, frame.end(), '\xff'), 15) << "the first frame's 5 x 3 voxels";
+  EXPECT_EQ(std::count(frame.end() - 130, frame.end(), '\0'), 115);
+  const ShellRun picture = shell_run(made.folder, program + " --write-raw-pnm objects/sc.dcm sc.ppm");
+  ASSERT_TRUE(picture.good) << picture.output;
+  EXPECT_EQ(core::read_file(made.folder / "sc.ppm"), std::string("P6\n2 1\n255\n\xff\0\0\0\0\xff", 17));
+  EXPECT_TRUE(shell_run(made.folder, draw + "fractional.dcm fractional.pgm").good);
 }
 
 TEST(DicomReaders, PydicomFindsEveryVoxelIn48Orientations) {

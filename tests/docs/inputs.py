@@ -123,6 +123,8 @@ TABLE = (
     ("lines.vtp", "", by("centerline", "lumen.vtp", "-o", "{}")),
     ("centerlines.vtp", "", by("centerline", "lumen.vtp", "-o", "{}")),
     ("heart.ostia", "", by("lumen", "lines.vtp", "-o", "surface.vtp", "--image", "heart.nrrd", "--case", "{}")),
+    ("old.ostia", "", by("lumen", "lines.vtp", "-o", "surface.vtp", "--image", "heart.nrrd", "--edits", "edits.jsonl", "--case", "{}")),
+    ("new.ostia", "", by("lumen", "lines.vtp", "-o", "surface.vtp", "--image", "heart.nrrd", "--edits", "edits.jsonl", "--case", "{}")),
     ("mesh", "", by("mesh", "lumen.vtp", "-o", "{}", "--edge-ratio", "0.7")),
     ("mesh.vtu", "", lambda inputs, path: shutil.copy(inputs.get("mesh") / "mesh.vtu", path)),
     ("flow", "", computed_flow),
@@ -154,11 +156,12 @@ TABLE = (
     ("result.json", "", writes(other_programs.write_moving_points)),
     ("pipeline.json", r"--set ct=heart.nrrd$", text('{"v":1,"steps":[{"command":"info","input":"{ct}"}]}')),
     ("pipeline.json", "", shown("docs/reference/pipelines.md", "pipeline.json")),
+    ("trial.csv", "", shown("docs/methods/compare.md", "trial.csv")),
     ("patients.csv", "", shown("docs/reference/pipelines.md", "patients.csv")),
 )
 
 # What lies beside a file that names it.
-BESIDE = {"patients.csv": ("heart.nrrd", "ct.nii.gz"), "100.hea": ("100.dat",)}
+BESIDE = {"trial.csv": ("old.ostia", "new.ostia"), "patients.csv": ("heart.nrrd", "ct.nii.gz"), "100.hea": ("100.dat",)}
 
 
 class Inputs:

@@ -142,7 +142,9 @@ TEST(MotionExperiment, RegistrationBringsTheTreeOverTheTruth) {
 
 TEST(MotionExperiment, TheSameForAnyNumberOfThreads) {
   MotionOptions options = quick();
-  options.depths = {2};
+  options.depths = {1};
+  options.depth = 1;
+  options.dice_resolution_mm = 0.8;
   options.methods.clear();
   core::set_max_threads(1);
   const auto once = run_motion(options).runs;

@@ -64,6 +64,31 @@ TEST(Morphology, ErosionTakesNothingAwayAtTheImagesBorder) {
   EXPECT_EQ(count(eroded(half, 0.0)), count(dilated(half, 0.0)));
 }
 
+/// Voxel by voxel, every other one asked.
+TEST(Morphology, OfScatteredVoxelsItIsWhatTheDefinitionSays) {
+  std::uint32_t state = 1;
+  const MaskVolume mask = mask_of({14, 11, 9}, Vec3(0.7, 0.9, 1.1), [&](const Vec3&) {
+    state = state * 1664525U + 1013904223U;
+    return (state >> 16) % 40 == 0;
+  });
+  constexpr double radius_mm = 2.3;
+  const auto place = [](std::size_t n) {
+    return Vec3(0.7 * static_cast<double>(n % 14), 0.9 * static_cast<double>(n / 14 % 11),
+                1.1 * static_cast<double>(n / (14 * 11)));
+  };
+  const MaskVolume grown = dilated(mask, radius_mm), back = eroded(grown, radius_mm);
+  for (std::size_t n = 0; n < mask.voxels.size(); ++n) {
+    bool near_object = false, near_background = false;
+    for (std::size_t m = 0; m < mask.voxels.size(); ++m) {
+      if ((place(n) - place(m)).norm() > radius_mm) continue;
+      near_object |= mask.voxels[m] != 0;
+      near_background |= grown.voxels[m] == 0;
+    }
+    ASSERT_EQ(grown.voxels[n], near_object ? 1 : 0) << n;
+    ASSERT_EQ(back.voxels[n], near_background ? 0 : 1) << n;
+  }
+}
+
 TEST(Morphology, PartsAreConnectedThroughFacesAlone) {
   MaskVolume mask = mask_of({6, 5, 4}, Vec3::Ones(), [](const Vec3&) { return false; });
   for (const auto& [i, j, k] :

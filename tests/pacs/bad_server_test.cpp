@@ -1,19 +1,16 @@
 // Servers that refuse, hang, send garbage, too much, or what was not asked for.
 
 #include "fake_server.h"
-#include "local_orthanc.h"
 #include "shared_data.h"
 #include "small_series.h"
+#include "started_program.h"
 
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
 #include "ostia/pacs/archive.h"
 
-#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <csignal>
@@ -194,62 +191,6 @@ TEST(BadServer, EntriesThatAreNoneAreCounted) {
   EXPECT_THAT(result.warnings, ::testing::ElementsAre(HasSubstr("3 entries")));
 }
 
-/// Pages by https, from OpenSSL's own server.
-class SecurePages {
- public:
-  explicit SecurePages(const std::filesystem::path& folder) : port_(testing::free_port()) {
-    testing::make_certificate(folder);
-    process_ = ::fork();
-    if (process_ == 0) {
-      const int nothing = ::open("/dev/null", O_RDWR);
-      for (const int one : {0, 1, 2}) ::dup2(nothing, one);
-      ::execlp("openssl", "openssl", "s_server", "-quiet", "-www", "-accept", std::to_string(port_).c_str(),
-               "-cert", (folder / "certificate.pem").c_str(), "-key", (folder / "key.pem").c_str(),
-               static_cast<char*>(nullptr));
-      ::_exit(127);
-    }
-  }
-  ~SecurePages() {
-    ::kill(process_, SIGKILL);
-    ::waitpid(process_, nullptr, 0);
-  }
-  int port() const { return port_; }
-
- private:
-  int port_;
-  pid_t process_ = -1;
-};
-
-/// What is said once the server is there at all.
-std::string said_of(const ServerDescription& server) {
-  for (int n = 0; n < 100; ++n) {
-    try {
-      open_archive(server)->echo();
-    } catch (const NetworkError&) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    } catch (const InvalidInput& error) {
-      return error.what();
-    }
-  }
-  return "nothing";
-}
-
-TEST(BadServer, CertificatesAreChecked) {
-  const auto folder = testing::temporary_folder("https");
-  const SecurePages pages(folder);
-  ServerDescription server = web_at(pages.port());
-  server.url = "https://localhost:" + std::to_string(pages.port()) + "/dicom-web";
-  server.authorities = folder / "certificate.pem";
-  EXPECT_THAT(said_of(server), HasSubstr("no DICOM JSON")) << "the certificate is right";
-  server.authorities.clear();
-  EXPECT_THAT(said_of(server), HasSubstr("certificate")) << "the system did not sign it";
-  server.authorities = folder / "certificate.pem";
-  server.url = "https://127.0.0.1:" + std::to_string(pages.port()) + "/dicom-web";
-  EXPECT_THAT(said_of(server), HasSubstr("certificate")) << "it is for localhost";
-  server.authorities = folder / "missing.pem";
-  EXPECT_THAT(said_of(server), HasSubstr("authorities"));
-}
-
 /// Lists a series and hands over whatever it is told to.
 class WebArchive {
  public:
@@ -257,6 +198,8 @@ class WebArchive {
       : server_([&series, handed = std::move(handed)](const std::string& request) {
           if (request.find("/instances?") != std::string::npos)
             return http_answer(200, "application/dicom+json", listed(series));
+          if (request.find("/series?") != std::string::npos)
+            return http_answer(200, "application/dicom+json", counted(series));
           if (request.find("/studies?") != std::string::npos)
             return http_answer(
                 200, "application/dicom+json",
@@ -266,6 +209,11 @@ class WebArchive {
   int port() const { return server_.port(); }
 
  private:
+  static std::string counted(const SmallSeries& series) {
+    return R"([{"0020000D":{"Value":[")" + series.study_uid + R"("]},"0020000E":{"Value":[")" +
+           series.series_uid + R"("]},"00201209":{"Value":[)" + std::to_string(series.sop_uids.size()) +
+           "]}}]";
+  }
   static std::string listed(const SmallSeries& series) {
     std::string body = "[";
     for (const std::string& uid : series.sop_uids)

@@ -26,12 +26,14 @@ void give(Intake& intake, const std::string& bytes) {
   intake.take(part);
 }
 
-/// An archive that lists a series and, with each request, does the next of its steps.
+/// An archive that lists a series and, with each request, does the next of its steps. `said`: how many images
+/// it says that the series has; -1: nothing.
 class ScriptedArchive : public Archive {
  public:
-  ScriptedArchive(const SmallSeries& series, Steps steps)
-      : Archive(description()), series_(series), steps_(std::move(steps)) {}
+  ScriptedArchive(const SmallSeries& series, Steps steps, long said = -1, int attempts = 2)
+      : Archive(description(attempts)), series_(series), steps_(std::move(steps)), said_(said) {}
   std::vector<std::vector<std::string>> asked;
+  int lists = 0;
 
   void echo(const core::TaskContext&) override {}
   FindResult find(const Query& query, const core::TaskContext&) override {
@@ -40,6 +42,12 @@ class ScriptedArchive : public Archive {
       result.found.emplace_back().patient_id = "PID-1";
       return result;
     }
+    if (query.level == Level::series) {
+      result.found.emplace_back().series_uid = series_.series_uid;
+      result.found.back().images = said_;
+      return result;
+    }
+    ++lists;
     for (const std::string& uid : series_.sop_uids) result.found.emplace_back().sop_uid = uid;
     return result;
   }
@@ -54,14 +62,15 @@ class ScriptedArchive : public Archive {
              const core::TaskContext&) override {}
 
  private:
-  static ServerDescription description() {
+  static ServerDescription description(int attempts) {
     ServerDescription server;
     server.name = "scripted";
-    server.attempts = 2;
+    server.attempts = attempts;
     return server;
   }
   const SmallSeries& series_;
   Steps steps_;
+  long said_;
 };
 
 struct Fetching : ::testing::Test {
@@ -108,6 +117,41 @@ TEST_F(Fetching, WhatABrokenConnectionLeftOutIsAskedForAgain) {
   EXPECT_THAT(archive.asked[0], IsEmpty());
   EXPECT_THAT(archive.asked[1],
               ::testing::UnorderedElementsAre(series.sop_uids[1], series.sop_uids[3], series.sop_uids[4]));
+}
+
+/// Gives these images.
+Steps::value_type giving(const SmallSeries& series, std::vector<std::size_t> which) {
+  return [&series, which = std::move(which)](Intake& intake) {
+    for (const std::size_t n : which) give(intake, series.bytes[n]);
+  };
+}
+
+TEST_F(Fetching, AsManyAsItSaysNeedNoList) {
+  ScriptedArchive archive(series, {giving(series, {0, 1, 2, 3, 4})}, 5);
+  EXPECT_EQ(archive.fetch(wanted, target).announced, 5u);
+  EXPECT_EQ(archive.lists, 0);
+  EXPECT_EQ(archive.asked.size(), 1u);
+}
+
+TEST_F(Fetching, WhatIsNotAsManyIsListedAndTheRestAskedForInOneAttempt) {
+  ScriptedArchive archive(series, {giving(series, {0, 3, 0}), giving(series, {1, 2, 4})}, 5, 1);
+  EXPECT_EQ(archive.fetch(wanted, target).files.size(), 5u);
+  EXPECT_EQ(archive.lists, 1);
+  ASSERT_EQ(archive.asked.size(), 2u);
+  EXPECT_THAT(archive.asked[1],
+              ::testing::UnorderedElementsAre(series.sop_uids[1], series.sop_uids[2], series.sop_uids[4]));
+}
+
+TEST_F(Fetching, ANumberThatIsWrongIsNotBelievedOverTheList) {
+  for (const long said : {3L, 9L}) {
+    ScriptedArchive archive(series, {giving(series, {0, 1, 2, 3, 4})}, said, 1);
+    const auto folder = testing::temporary_folder("wrong") / "CT";
+    const Fetched fetched = archive.fetch(wanted, folder);
+    EXPECT_EQ(fetched.files.size(), 5u);
+    EXPECT_EQ(fetched.announced, 5u);
+    EXPECT_TRUE(fetched.warnings.empty());
+    EXPECT_EQ(archive.asked.size(), 1u);
+  }
 }
 
 TEST_F(Fetching, AnIncompleteSeriesIsNotHandedOver) {

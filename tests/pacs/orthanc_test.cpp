@@ -100,6 +100,18 @@ TEST_F(Orthanc, ASeriesComesWholeAndReads) {
   }
 }
 
+TEST_F(Orthanc, OneImageOutOfTheMiddleComesAlone) {
+  for (const ServerDescription& way : ways()) {
+    const auto folder = testing::temporary_folder("middle") / "image";
+    const auto file = archive(way)->fetch_middle({first.study_uid, first.series_uid}, folder);
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 1);
+    const auto place = std::find(first.sop_uids.begin(), first.sop_uids.end(), file.stem().string());
+    ASSERT_NE(place, first.sop_uids.end());
+    EXPECT_EQ(std::distance(first.sop_uids.begin(), place), 3) << "of six";
+    EXPECT_THROW(archive(way)->fetch_middle({first.study_uid, "1.2.3.4.5"}, folder / "no"), InvalidInput);
+  }
+}
+
 TEST_F(Orthanc, ASeriesThatItDoesNotHaveIsRefused) {
   for (const ServerDescription& way : ways()) {
     const auto folder = testing::temporary_folder("none");

@@ -71,11 +71,12 @@ struct Queue : ::testing::Test {
       count += entry.path().filename().string().front() != '.' ? 1 : 0;
     return count;
   }
-  std::multiset<std::string> states() const {
+  static std::multiset<std::string> states(const SendQueue& queue) {
     std::multiset<std::string> all;
-    for (const QueueItem& item : SendQueue(folder).items()) all.insert(to_string(item.state));
+    for (const QueueItem& item : queue.items()) all.insert(to_string(item.state));
     return all;
   }
+  std::multiset<std::string> states() const { return states(SendQueue(folder)); }
 };
 
 TEST_F(Queue, TheSameObjectForTheSameServerIsOneItem) {
@@ -137,6 +138,21 @@ TEST_F(Queue, WhatIsRefusedWaitsForAPerson) {
   queue.retry_failed();
   queue.send_waiting(answering({}));
   EXPECT_EQ(stored(), 1u);
+}
+
+TEST_F(Queue, OneItemIsTriedAgainOrTakenOutAndSaysWhatItIs) {
+  SendQueue queue(folder);
+  const std::string one = queue.add(series.files[0], "a", "pdf"), other = queue.add(series.files[1], "a");
+  queue.send_waiting(answering({SendState::refused, "no"}));
+  queue.retry(one);
+  queue.retry("nobody's");
+  EXPECT_EQ(states(queue), (std::multiset<std::string>{"failed", "waiting"}));
+  queue.remove(other);
+  ASSERT_EQ(queue.items().size(), 1u);
+  EXPECT_EQ(queue.items()[0].what, "pdf");
+  EXPECT_EQ(queue.items()[0].attempts, 1);
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    EXPECT_EQ(entry.path().string().find(other), std::string::npos) << "the object goes, too";
 }
 
 TEST_F(Queue, OneProgramAtATime) {

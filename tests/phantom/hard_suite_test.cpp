@@ -78,6 +78,19 @@ TEST(HardSuite, IsStrongerWhereItIsAskedToBe) {
               ThrowsMessage<InvalidInput>(HasSubstr("the strength of venous contrast must be 0 to 5")));
 }
 
+TEST(HardSuite, ObstaclesAreDrawnStrongerWhereAskedAndGoIntoTheCase) {
+  const double usual = median(drawn_values("nearness of veins"));
+  EXPECT_LT(median(drawn_values("nearness of veins", {.contact = 0.5})), usual);
+  EXPECT_EQ(draw_hard(3, {.contact = 0.0}).obstacles.lobes, 0.0);
+  EXPECT_EQ(draw_hard(3, {.fall = 0.5}).obstacles.vein_closeness, draw_hard(3).obstacles.vein_closeness);
+  CaseOptions patient;
+  while (draw_hard(patient.seed).obstacles.calcified_mm <= 0.0 || draw_hard(patient.seed).calcium > 0.0)
+    ++patient.seed;
+  EXPECT_EQ(hard_case(patient).obstacles, draw_hard(patient.seed).obstacles);
+  EXPECT_EQ(hard_case(patient).variant.calcium, 1.0) << "plaques are calcified, too";
+  EXPECT_EQ(CaseOptions{}.obstacles, Obstacles{}) << "of the other suites";
+}
+
 TEST(HardSuite, RareAnatomiesAreRareAndGraftsComeWithWires) {
   std::map<Anatomy, int> counts;
   for (std::uint64_t seed = 1; seed <= many; ++seed) {

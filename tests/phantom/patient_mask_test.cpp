@@ -117,7 +117,7 @@ TEST(PatientMask, OneThatIsMirroredOrOnItsHeadIsTurnedAndThatIsTold) {
     bool x, y, z;
     const char* told;
   };
-  const imaging::MaskVolume coarse = mask_with(0.0, 0.9);  // eight ways are tried
+  const imaging::MaskVolume coarse = mask_with(0.0, 1.1);  // eight ways are tried
   for (const Flip& flip : {Flip{true, false, false, "mirrored"}, Flip{false, true, true, "turned"}}) {
     const PatientTree tree = session::patient_of_mask(flipped(coarse, flip.x, flip.y, flip.z), 3);
     EXPECT_THAT(tree.remarks, Contains(HasSubstr(flip.told)));

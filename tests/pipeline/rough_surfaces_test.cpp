@@ -1,5 +1,6 @@
 // Walls as rough as noise makes them, and walls of some thickness: what comes of them is a lumen.
 
+#include "intake_units.h"
 #include "thick_walls.h"
 #include "unfolding.h"
 
@@ -14,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <random>
 
 namespace ostia::pipeline {
@@ -99,6 +101,22 @@ TEST(RoughSurfaces, AreMeshedWithNoFurtherWord) {
   EXPECT_TRUE(model.meshed.quality.verdict.ok()) << model.meshed.quality.verdict.summary();
   ASSERT_TRUE(model.meshed.quality.shape);
   EXPECT_LE(std::abs(model.meshed.quality.shape->volume_change()), 0.01);
+}
+
+TEST(RoughSurfaces, NoiseDoesNotMakeMillimetresCentimetres) {
+  const TriMesh fine = geometry::surface_of(geometry::y_junction(12.0, 12.0, 1.8, 1.3, 60.0), 0.2, false);
+  geometry::FacedSurface rough{noisy(fine, 0.2), {}, {}};
+  const double extent = geometry::bounds(rough.mesh.points).sizes().norm();
+  ASSERT_EQ(unit_by_calibre(calibre_of_closed(rough.mesh), extent), 10.0);
+  TakenSurface taken;
+  to_mm(rough, std::nullopt, {}, taken, "noise");
+  EXPECT_EQ(taken.unit_mm, 1.0);
+  EXPECT_TRUE(taken.told.empty());
+
+  geometry::FacedSurface in_cm{noisy(fine, 0.1), {}, {}};
+  for (Vec3& p : in_cm.mesh.points) p *= 0.1;
+  to_mm(in_cm, std::nullopt, {}, taken, "noise");
+  EXPECT_EQ(taken.unit_mm, 10.0);
 }
 
 TEST(RoughSurfaces, VesselsThatRunThroughEachOtherAreNoFold) {

@@ -27,6 +27,7 @@ REACH = {
     "grow": ["grow_tree"],
     "reconstruct": ["reconstruct_surface", "write_quad_surface", "sweep_hexahedra", "write_hex_mesh", "frusta"],
     "report": ["write_report", "find_stenoses", "lumen_profile", "find_plaque", "scan_quality", "Case.annotate", "Case.measurements", "Case.marks", "Case.report_notes"],
+    "compare": ["compare_cases"],
     "calcium": ["score_calcium"],
     "fat": ["measure_fat"],
     "territories": ["find_territories"],

@@ -1,5 +1,6 @@
 """Values and functions of the rooms above the mesh, against truth that is known beforehand."""
 import copy
+import json
 import math
 import pickle
 
@@ -255,9 +256,11 @@ def test_notes_of_a_case(model, tmp_path):
         case.annotate("report.modifiers", ischaemia="positive", stent=True, agatston=120.0)
         case.annotate("report.features", features=[{"vessel": 1, "from_mm": 16.0, "to_mm": 24.0, "feature": "napkin ring", "state": "accepted"}])
         case.annotate("report.impression", text="No obstructive disease.")
+        case.annotate("calcium.places", words=[{"centre": [1.0, 2.5, -3.0], "place": "LAD"}])
         case.annotate("report.sign", date="2026-03-01", signer="Dr. A", digest=case.report_notes["digest"])
         notes = case.report_notes
         assert notes["impression"] == "No obstructive disease." and notes["modifiers"]["ischaemia"] == "positive"
+        assert notes["calcium"] == [{"centre": [1.0, 2.5, -3.0], "place": "LAD"}]
         assert notes["features"][0]["feature"] == "napkin ring" and notes["versions"][0]["number"] == 1
         assert notes["versions"][0]["digest"] == notes["digest"] and notes["digest_with_image"] is None
         case.annotate("measure.delete", id=first)
@@ -296,6 +299,30 @@ def test_plaque_between_two_walls():
     assert np.hypot(*walls.ring(15.0)[:, :2].T).mean() == pytest.approx(2.6, abs=0.15)
 
 
+def test_two_cases_compared(tmp_path, source):
+    """A tube narrowed to half its diameter since the former scan, and moved: the areas are known."""
+    z = np.arange(0, 30.1, 0.5)
+
+    def narrowed(share, shift):
+        radius = 1.5 * (1 - share * np.where(np.abs(z - 15) < 4, 0.5 + 0.5 * np.cos(np.pi * (z - 15) / 4), 0))
+        tree = ostia.VesselTree.single(np.column_stack([0 * z + shift, 0 * z, z]), radius, "LAD")
+        return ostia.Case.create(tmp_path / f"{shift}.ostia", ostia.model_of_tubes(tree))
+
+    with narrowed(0.3, 0) as old, narrowed(0.6, 8) as new:
+        found = ostia.compare_cases(old, new)
+        cohort = tmp_path / "cohort.json"
+        cohort.write_text('{"repeatability": {"lesion": {"mla_mm2": {"sd": 0.2, "share": 0}}}}')
+        told = ostia.compare_cases(old, new, repeatability=cohort)
+        with pytest.raises(ostia.InvalidInput, match="cohort"):
+            ostia.compare_cases(old, new, repeatability=source / "docs/schemas/cohort.schema.json")
+    area = found["lesions"][0]["measures"]["mla_mm2"]
+    assert area["after"] / area["before"] == pytest.approx((0.4 / 0.7) ** 2, rel=0.15)
+    assert area["verdict"] == "not known" and told["lesions"][0]["measures"]["mla_mm2"]["verdict"] == "less"
+    assert found["map"]["rigid"]["shift_mm"] == pytest.approx([8, 0, 0], abs=1e-3)
+    jsonschema = pytest.importorskip("jsonschema")
+    jsonschema.Draft202012Validator(json.loads((source / "docs/schemas/comparison.schema.json").read_text())).validate(found)
+
+
 def test_calcium_fat_and_territories():
     """Calcium on a ball of a heart, fat about a tube, a wall between two arteries: each is known."""
     z, y, x = np.meshgrid(np.arange(44) * 3.0, np.arange(80) * 2.0, np.arange(80) * 2.0, indexing="ij")
@@ -328,7 +355,7 @@ def test_calcium_fat_and_territories():
 
 
 def test_a_phantom_is_its_truth():
-    case = ostia.phantom_case(seed=2, preset="tiny")
+    case = ostia.phantom_case(seed=2, preset="tiny", surface_spacing_mm=0.5)
     beat = case.beating([0.0, 0.4])
     assert set(beat) == {0.0, 0.4} and np.array_equal(beat[0.0].triangles, beat[0.4].triangles)
     assert case.lumen().closed and {line for line in case.references} and all(s["diameter_stenosis"] < 1 for s in case.stenoses)

@@ -239,21 +239,22 @@ def test_overlap_of_masks_and_surfaces(folder, ball):
 
 @pytest.fixture(scope="module")
 def patient(folder):
-    """A synthetic patient without its image."""
-    told = commands.phantom(output=folder / "suite", preset="tiny", truth_only=True, no_report=True, seed=3)
+    """A synthetic patient without its image; the surface and the contours are coarse, so that it is soon made."""
+    told = commands.phantom(output=folder / "suite", preset="tiny", truth_only=True, no_report=True, seed=3, surface_spacing=0.5, contour_spacing=2)
     assert told.quality_ok
     return folder / "suite" / "dataset00"
 
 
 def test_a_phantom(folder, patient):
-    case = ostia.phantom_case(seed=3, preset="tiny")
+    options = {"seed": 3, "preset": "tiny", "surface_spacing_mm": 0.5, "contours": {"spacing_mm": 2}}
+    case = ostia.phantom_case(**options)
     ostia.write_contours(folder / "contours_python.json", case.contours)
     same(patient / "contours.json", folder / "contours_python.json")
     ostia.write_centerlines(folder / "axes_python.vtp", case.tree)
     same(patient / "centerlines.vtp", folder / "axes_python.vtp")
     ostia.write_surface(folder / "truth_python.vtp", case.lumen())
     same(patient / "lumen.vtp", folder / "truth_python.vtp")
-    ostia.write_phantom(folder / "suite_python", first={"seed": 3, "preset": "tiny"}, truth_only=True, report=False)
+    ostia.write_phantom(folder / "suite_python", first=options, truth_only=True, report=False)
     same(patient / "case.json", folder / "suite_python" / "dataset00" / "case.json")
 
 
@@ -279,10 +280,10 @@ def test_scores_of_sections(folder, patient):
 
 
 def test_walls_of_contours(folder, patient):
-    commands.lumen(patient / "centerlines.vtp", contours=patient / "contours.json", observer="truth", output=folder / "drawn_command.vtp")
+    commands.lumen(patient / "centerlines.vtp", contours=patient / "contours.json", observer="truth", cell=0.5, output=folder / "drawn_command.vtp")
     drawn = [section for section in ostia.read_contours(patient / "contours.json").sections if section.observer == "truth"]
     model = ostia.model_of_contours(ostia.read_centerlines(patient / "centerlines.vtp"), ostia.ContourSet(drawn))
-    ostia.write_surface(folder / "drawn_python.vtp", model.surface())
+    ostia.write_surface(folder / "drawn_python.vtp", model.surface(0.5))
     same(folder / "drawn_command.vtp", folder / "drawn_python.vtp")
 
 
@@ -371,8 +372,8 @@ def test_labels_of_a_case(folder):
 
 
 def test_an_experiment(folder):
-    told = commands.experiment_sensitivity(output=folder / "sensitivity", only="tau").data
-    assert ostia.experiment_sensitivity("tau") == told
+    told = commands.experiment_wall_spread(output=folder / "spread", fitting=2, judged=1).data
+    assert ostia.experiment_wall_spread(fitting=2, judged=1) == told
 
 
 def test_two_runs(folder):

@@ -10,7 +10,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <numbers>
@@ -302,6 +304,38 @@ TEST(BlurredDisc, KnownValues) {
   for (double rho = 0.005; rho < 4.0; rho += 0.01)
     volume += 2.0 * pi * rho * 0.01 * blurred_disc(0.9, rho, 0.3);
   EXPECT_NEAR(volume, pi * 0.81, 2e-3);
+}
+
+TEST(EdgeLoops, HaveTheSameBitsOnEveryProcessor) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> value(-1.0F, 1.0F);
+  std::vector<detail::EdgeNormals> normals(2);
+  for (detail::EdgeNormals& one : normals) {
+    for (auto& row : one.mean)
+      for (float& x : row) x = value(random);
+    for (auto& row : one.whitening)
+      for (float& x : row) x = value(random);
+    for (float& x : one.offset) x = value(random);
+  }
+  float samples[detail::edge_samples], lumen[detail::edge_samples];
+  for (float& x : samples) x = value(random);
+  for (float& x : lumen) x = value(random);
+  float found[2][2 * detail::edge_lanes] = {};
+  detail::edge_loop_plain()(normals.data(), 2, samples, lumen, found[0]);
+  detail::edge_loop()(normals.data(), 2, samples, lumen, found[1]);
+  for (int n = 0; n < 2 * detail::edge_lanes; ++n) {
+    const detail::EdgeNormals& of = normals[static_cast<std::size_t>(n / detail::edge_lanes)];
+    const int lane = n % detail::edge_lanes;
+    double square = 0.0;
+    for (int i = 0, at = 0; i < detail::edge_samples; ++i) {
+      double white = 0.0;
+      for (int j = 0; j <= i; ++j, ++at)
+        white += of.whitening[at][lane] * (samples[j] - of.mean[j][lane] - lumen[j]);
+      square += white * white;
+    }
+    EXPECT_NEAR(found[0][n], 0.5 * square + of.offset[lane], 1e-4);
+    EXPECT_EQ(std::bit_cast<std::uint32_t>(found[0][n]), std::bit_cast<std::uint32_t>(found[1][n]));
+  }
 }
 
 /// The best of all surfaces by trying them all: 2 rows of 3 rays with 4 radii.

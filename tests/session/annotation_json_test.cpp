@@ -31,7 +31,8 @@ std::vector<AnnotationCommand> one_annotation_of_each() {
                                           testing::written(),
                                           testing::told_modifiers(),
                                           testing::told_features(),
-                                          testing::signing("more")};
+                                          testing::signing("more"),
+                                          testing::told_calcium()};
   for (const MeasureKind kind : testing::all_kinds) {
     commands.push_back(testing::added(kind));
     MeasureChange change{testing::measurement(kind)};

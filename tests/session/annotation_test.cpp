@@ -301,6 +301,7 @@ TEST(Annotation, OpsHaveNames) {
   EXPECT_EQ(op_name(SetReportModifiers{}), "report.modifiers");
   EXPECT_EQ(op_name(SetPlaqueFeatures{}), "report.features");
   EXPECT_EQ(op_name(SignReport{}), "report.sign");
+  EXPECT_EQ(op_name(SetCalciumPlaces{}), "calcium.places");
   EXPECT_TRUE(is_annotation_op("vessel.mark"));
   EXPECT_TRUE(is_annotation_op("pressure.what_if"));
   EXPECT_FALSE(is_annotation_op("vessel.rename"));

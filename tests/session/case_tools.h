@@ -176,6 +176,10 @@ inline SetPlaqueFeatures told_features(std::int32_t vessel = tube_vessel) {
   return {{{vessel, 5.0 + 1.0 / 7.0, 12.5, analysis::PlaqueFeature::napkin_ring, LesionState::accepted},
            {vessel, 5.0, 12.5, analysis::PlaqueFeature::low_attenuation, LesionState::rejected}}};
 }
+inline SetCalciumPlaces told_calcium() {
+  return {{{{1.0 / 3.0, -20.25, 1e-3}, analysis::CalciumPlace::rca},
+           {{7.0, 8.5, -100.1}, analysis::CalciumPlace::other}}};
+}
 inline SignReport signing(const std::string& changes = "") {
   return {{"2026-03-01", "Dr. \xC3\x84", changes, std::string(64, 'a')}};
 }
@@ -192,6 +196,7 @@ inline std::string text_of(const Annotations& annotations) {
   text += to_json(AnnotationCommand(SetReportImpression{annotations.report.impression})) + "\n";
   text += to_json(AnnotationCommand(SetReportModifiers{annotations.report.modifiers})) + "\n";
   text += to_json(AnnotationCommand(SetPlaqueFeatures{annotations.report.features})) + "\n";
+  text += to_json(AnnotationCommand(SetCalciumPlaces{annotations.report.calcium})) + "\n";
   for (const ReportVersion& one : annotations.report.versions)
     text += to_json(AnnotationCommand(SignReport{one})) + "\n";
   return text;

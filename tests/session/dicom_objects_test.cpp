@@ -147,6 +147,58 @@ TEST(DicomObjects, TheReportOfNumbersHasTheLesionItsSiteAndItsFfr) {
     EXPECT_THROW(dicom_measurements(report, wrong), InvalidInput) << wrong;
 }
 
+/// The values of statements of this name, a code's or a text.
+std::vector<std::string> said_under(const std::vector<dicom::Statement>& statements,
+                                    const std::string& name) {
+  std::vector<std::string> values;
+  for (const dicom::Statement& one : statements)
+    if (one.name.value == name)
+      values.push_back(one.value ? one.value->scheme + " " + one.value->value : one.text);
+  return values;
+}
+
+TEST(DicomObjects, BurdenModifiersAndHighRiskPlaqueAreInCodes) {
+  using ::testing::ElementsAre;
+  CaseReport report;
+  ReportStenosis lesion;
+  lesion.number = 1;
+  lesion.high_risk = true;
+  using Feature = analysis::PlaqueFeature;
+  lesion.features = {{{Feature::low_attenuation, true, true, 2.5, 1.0}, LesionState::open, true},
+                     {{Feature::positive_remodelling, true, true, 1.2, 1.1}, LesionState::open, true},
+                     {{Feature::spotty_calcium, false, false, 0.0, 3.0}, LesionState::open, false},
+                     {{Feature::napkin_ring, true, false, 20.0, 60.0}, LesionState::open, false}};
+  report.stenoses = {lesion};
+  report.category.category = analysis::CadRads::three;
+  report.burden.by_segments = analysis::PlaqueBurden::p2;
+  report.burden.by_calcium = report.burden.stated = analysis::PlaqueBurden::p3;
+  report.statement = {report.category, analysis::PlaqueBurden::p3, true};
+  report.statement.stent = report.statement.graft = true;
+  const dicom::MeasurementReport measured = dicom_measurements(report);
+  const auto& patient = measured.statements;
+  EXPECT_THAT(said_under(patient, "plaque_burden"), ElementsAre("99OSTIA P3"));
+  EXPECT_THAT(said_under(patient, "burden_segments"), ElementsAre("99OSTIA P2"));
+  EXPECT_THAT(said_under(patient, "burden_calcium"), ElementsAre("99OSTIA P3"));
+  EXPECT_THAT(said_under(patient, dicom::cad_modifier.value),
+              ElementsAre("DCM 130733", "DCM 130734", "99OSTIA HRP"));
+  EXPECT_THAT(said_under(patient, "cad_rads"), ElementsAre("3/P3/HRP/S/G"));
+  ASSERT_EQ(measured.groups.size(), 1U);
+  const auto& group = measured.groups.front();
+  EXPECT_THAT(said_under(group.statements, "hrp_feature"),
+              ElementsAre("99OSTIA low_attenuation", "99OSTIA pos_remodelling"));
+  EXPECT_THAT(said_under(group.statements, "hrp"), ElementsAre("SCT 373066001"));
+  for (const auto* statements : {&patient, &group.statements})
+    for (const dicom::Statement& one : *statements) {
+      EXPECT_LE(one.name.value.size(), 16U) << one.name.value;  // VR SH
+      EXPECT_LE(one.value ? one.value->value.size() : 0U, 16U) << one.name.value;
+    }
+  std::map<std::string, std::string> units;
+  for (const dicom::MeasuredNumber& one : group.numbers)
+    if (one.name.scheme == "99OSTIA") units[one.name.value] = one.unit.value;
+  EXPECT_EQ(units, (std::map<std::string, std::string>{{"low_attenuation", "mm3"}, {"napkin_ring", "deg"}}));
+  check_json("dicom-measurements.schema.json", Json::parse(dicom_measurements_json(measured)));
+}
+
 TEST(DicomObjects, OccupanciesAddUpToTheVolume) {
   const lumen::LumenModel model = narrowed_tube("RCA", 40.0, 1.5, 20.0, 1.5);
   const imaging::MaskVolume shares = lumen_occupancy(model, turned_grid());

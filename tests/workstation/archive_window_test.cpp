@@ -115,6 +115,19 @@ TEST_F(ArchiveWindow, ASeriesIsSearchedFetchedAndOpened) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(kept), {}), 1);
 }
 
+TEST_F(ArchiveWindow, AnUnfoldedStudyShowsAPictureOfEachSeries) {
+  search();
+  found().topLevelItem(0)->setExpanded(true);
+  ASSERT_TRUE(wait_until([&] { return found().topLevelItem(0)->childCount() == 1; }));
+  QTreeWidgetItem* item = found().topLevelItem(0)->child(0);
+  const auto picture = [&] { return item->icon(0).pixmap(72, 72).toImage(); };
+  const QImage none = picture();
+  ASSERT_TRUE(wait_until([&] { return picture() != none; }, 30000)) << item->toolTip(0).toStdString();
+  EXPECT_EQ(picture().size(), QSize(72, 72));
+  EXPECT_TRUE(test.idle());
+  EXPECT_FALSE(std::filesystem::exists(test.desk().state_folder / "archive")) << "nothing of it is kept";
+}
+
 TEST_F(ArchiveWindow, APasswordIsKeptInTheKeyringWhereThePersonWantsIt) {
   search();
   EXPECT_TRUE(keyring.kept["hospital"].isEmpty());

@@ -27,6 +27,7 @@
 #include <QTest>
 #include <QToolButton>
 #include <QTreeWidget>
+#include <algorithm>
 #include <cstdlib>
 #include <set>
 
@@ -49,19 +50,43 @@ imaging::ImageVolume smeared_tube(int percent) {
   image.geometry.origin = {-12.6, -12.6, -1.0};
   image.voxels.resize(static_cast<std::size_t>(image.geometry.voxels()));
   const double smear = 0.08 * std::abs(percent - rest_percent);
-  for (std::int64_t k = 0; k < 60; ++k)
-    for (std::int64_t j = 0; j < 64; ++j)
-      for (std::int64_t i = 0; i < 64; ++i) {
-        const geometry::Vec3 at =
-            image.geometry.world({static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)});
-        double inside = 0.0;
-        for (int n = -3; n <= 3; ++n)
-          inside +=
-              std::clamp(0.5 - (std::hypot(at.x() - smear * n / 6.0, at.y()) - 1.5) / 0.7, 0.0, 1.0) / 7.0;
-        image(i, j, k) = static_cast<std::int16_t>(std::lround(-80.0 + 480.0 * inside));
-      }
+  // Every slice is the first: nothing changes along the tube.
+  constexpr std::int64_t side = 64;
+  for (std::int64_t j = 0; j < side; ++j)
+    for (std::int64_t i = 0; i < side; ++i) {
+      const geometry::Vec3 at = image.geometry.world({static_cast<double>(i), static_cast<double>(j), 0.0});
+      double inside = 0.0;
+      for (int n = -3; n <= 3; ++n)
+        inside +=
+            std::clamp(0.5 - (std::hypot(at.x() - smear * n / 6.0, at.y()) - 1.5) / 0.7, 0.0, 1.0) / 7.0;
+      image(i, j, 0) = static_cast<std::int16_t>(std::lround(-80.0 + 480.0 * inside));
+    }
+  for (std::ptrdiff_t k = 1; k < 60; ++k)
+    std::copy_n(image.voxels.begin(), side * side, image.voxels.begin() + k * side * side);
   image(0, 0, 0) = static_cast<std::int16_t>(1000 + percent);
   return image;
+}
+
+void write_series(const fs::path& study, int percent, const std::string& name, const std::string& id,
+                  const std::string& study_seed) {
+  imaging::DicomSeriesOptions options;
+  options.patient_name = name;
+  options.patient_id = id;
+  options.study_seed = study_seed;
+  options.uid_seed = id + std::to_string(percent);
+  options.series_description = "CTA " + std::to_string(percent) + " % B26f";
+  imaging::write_dicom_series(study / (id + "-" + std::to_string(percent)), smeared_tube(percent), options);
+}
+
+/// A study of five phases, written once.
+fs::path five_phases() {
+  static const testing::Folder folder;
+  static const fs::path study = [] {
+    for (const int percent : {15, 35, 55, 75, 95})
+      write_series(folder / "study", percent, "DOE^JANE", "P1", "study");
+    return folder / "study";
+  }();
+  return study;
 }
 
 struct StudyWindow : ::testing::Test {
@@ -69,18 +94,10 @@ struct StudyWindow : ::testing::Test {
   fs::path study = folder / "study";
   std::unique_ptr<TestWindow> test;
 
-  StudyWindow() {
-    for (const int percent : {15, 35, 55, 75, 95}) add(percent, "DOE^JANE", "P1", "study");
-  }
+  StudyWindow() { fs::copy(five_phases(), study, fs::copy_options::recursive); }
   ~StudyWindow() override { QApplication::processEvents(); }
   void add(int percent, const std::string& name, const std::string& id, const std::string& study_seed) {
-    imaging::DicomSeriesOptions options;
-    options.patient_name = name;
-    options.patient_id = id;
-    options.study_seed = study_seed;
-    options.uid_seed = id + std::to_string(percent);
-    options.series_description = "CTA " + std::to_string(percent) + " % B26f";
-    imaging::write_dicom_series(study / (id + "-" + std::to_string(percent)), smeared_tube(percent), options);
+    write_series(study, percent, name, id, study_seed);
   }
   MainWindow& window() { return test->window(); }
   session::Workbench& bench() { return test->bench(); }

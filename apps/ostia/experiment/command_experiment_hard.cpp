@@ -20,7 +20,7 @@ namespace {
 struct HardCommand {
   fs::path output, masks;
   experiments::HardOptions options;
-  std::vector<double> strength;  ///< of noise, blur, motion and venous contrast; empty: as calibrated
+  std::vector<double> strength;  ///< in the order of HardStrength's members; empty: as calibrated
   bool json = false;
 };
 
@@ -73,15 +73,18 @@ void define_experiment_hard(CLI::App& experiment, const std::uint64_t& seed,
       ->check(CLI::Range(0.35, 2.0));
   sub->add_option(
          "--strength", command->strength,
-         "NOISE,BLUR,MOTION,VENOUS: factors by which the suite is harder than it is calibrated to be")
+         "NOISE,BLUR,MOTION,VENOUS[,CONTACT,CALCIUM,FALL,CLOSED]: factors by which the suite is harder than "
+         "it is calibrated to be")
       ->delimiter(',')
-      ->expected(4)
+      ->expected(4, 8)
       ->check(CLI::Range(0.0, 5.0));
   sub->add_flag("--json", command->json, "The figures as JSON on standard output");
   sub->callback([command, &seed, &run] {
     command->options.first_seed = seed;
-    if (const std::vector<double>& s = command->strength; !s.empty())
-      command->options.strength = {s[0], s[1], s[2], s[3]};
+    if (std::vector<double> s = command->strength; !s.empty()) {
+      s.resize(8, 1.0);
+      command->options.strength = {s[0], s[1], s[2], s[3], s[4], s[5], s[6], s[7]};
+    }
     run = [command](const core::TaskContext& task) { return run_experiment_hard(*command, task); };
   });
 }

@@ -6,6 +6,7 @@
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
 #include "ostia/core/log.h"
+#include "ostia/core/private_folder.h"
 #include "ostia/session/case_report.h"
 
 #include <CLI/App.hpp>
@@ -17,6 +18,7 @@
 #include <chrono>
 #include <cstdio>
 #include <optional>
+#include <vector>
 
 namespace ostia::app {
 namespace {
@@ -63,9 +65,10 @@ std::string impression_in(const std::filesystem::path& path) {
   return text;
 }
 
-/// What the options say and the case does not, and the signature, become steps of the case.
-void sign(const ReportCommand& o, const session::ReportOptions& options, const std::string& image_sha256) {
-  session::CaseFile file = session::CaseFile::open(o.input);
+/// What the options say and the case does not, and the signature, as steps of the case.
+std::vector<session::AnnotationCommand> signing_steps(const session::CaseFile& file, const ReportCommand& o,
+                                                      const session::ReportOptions& options,
+                                                      const std::string& image_sha256) {
   const lumen::LumenModel& model = *file.model();
   session::Annotations after = *file.annotations();
   std::vector<session::AnnotationCommand> steps;
@@ -85,7 +88,42 @@ void sign(const ReportCommand& o, const session::ReportOptions& options, const s
     throw InvalidInput("nothing has changed since version " + std::to_string(after.report.versions.size()) +
                        " of the report was signed; leave --sign out to make it again");
   add(session::SignReport{{o.date, o.signer, o.changes, digest}});
-  for (const session::AnnotationCommand& step : steps) file.annotate(step);
+  return steps;
+}
+
+/// Signs a copy, of which the report is made: the case itself is signed when the report stands, so that there
+/// is no signature of a report that never came to be. Nobody else writes into the case until then.
+class Signing {
+ public:
+  Signing(const ReportCommand& o, const session::ReportOptions& options, const std::string& image_sha256)
+      : file_(session::CaseFile::open(o.input)), steps_(signing_steps(file_, o, options, image_sha256)) {
+    file_.copy_to(copy());
+    session::CaseFile signed_copy = session::CaseFile::open(copy());
+    for (const session::AnnotationCommand& step : steps_) signed_copy.annotate(step);
+  }
+  session::CaseFile signed_case() const {
+    return session::CaseFile::open(copy(), session::OpenMode::read_only);
+  }
+  void keep() {
+    for (const session::AnnotationCommand& step : steps_) file_.annotate(step);
+  }
+
+ private:
+  std::filesystem::path copy() const { return folder_.path() / "case.ostia"; }
+  core::PrivateFolder folder_;
+  session::CaseFile file_;
+  std::vector<session::AnnotationCommand> steps_;
+};
+
+/// A report that says it is signed does not stand without the signature.
+void keep_or_remove(Signing& signing, const std::filesystem::path& report) {
+  try {
+    signing.keep();
+  } catch (...) {
+    std::error_code ignored;
+    std::filesystem::remove_all(report, ignored);
+    throw;
+  }
 }
 
 session::ReportOptions options_of_report(const ReportCommand& o) {
@@ -119,15 +157,17 @@ ExitCode run_report(const ReportCommand& o, const core::TaskContext& task) {
   if (!o.image.empty()) source = case_image(o.image, *opened, task.sub(0.0, 0.15));
   if (source.image && !options.image) options.image = {source.sha256, source.pseudonym};
   options.technique = source.technique;
+  std::optional<Signing> signing;
   if (!o.signer.empty()) {
     opened.reset();  // one at a time has a case open for writing
-    sign(o, options, source.image ? options.image->sha256 : std::string());
-    opened.emplace(session::CaseFile::open(o.input, session::OpenMode::read_only));
+    signing.emplace(o, options, source.image ? options.image->sha256 : std::string());
+    opened.emplace(signing->signed_case());
   }
   const session::CaseFile& file = *opened;
   const pipeline::JobKey job = session::report_job(file, source.image != nullptr, options);
   if (const auto code = pipeline::already_done(o.output, job)) {
     core::log_info("done already with the same case and parameters; nothing to do");
+    if (signing) signing->keep();  // an earlier run ended between report and signature
     print(o.output, o.json);
     return *code;
   }
@@ -141,6 +181,7 @@ ExitCode run_report(const ReportCommand& o, const core::TaskContext& task) {
       session::key_images(report, model, surfaces, source.image.get(), task.sub(0.5, 0.85));
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
   session::write_case_report(o.output, report, images, job, seconds, task.sub(0.85, 1.0));
+  if (signing) keep_or_remove(*signing, o.output);
   task.set_progress(1.0);
   if (!o.json) print(report);
   print(o.output, o.json);

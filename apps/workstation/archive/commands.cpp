@@ -2,40 +2,82 @@
 
 #include "archive/dialog.h"
 #include "archive/keyring.h"
+#include "archive/outbox.h"
+#include "archive/servers.h"
 #include "commands/table.h"
 #include "shell/desk.h"
 #include "shell/one_dialog.h"
 
 #include "ostia/core/error.h"
-#include "ostia/pacs/server.h"
 
 #include <QMessageBox>
+#include <functional>
 
 namespace ostia::workstation {
 namespace {
 
-void ask_archive(Desk& desk, Opening& opening, Keyring& keyring) {
-  const std::filesystem::path file = pacs::default_servers_file();
-  std::vector<pacs::ServerDescription> servers;
-  QString reason;
+using Servers = std::vector<pacs::ServerDescription>;
+
+/// Without any, those are asked for; a file that cannot be read is told, and left as it is.
+void with_servers(Desk& desk, Keyring& keyring, const QString& title,
+                  const std::function<void(const Servers&)>& then) {
+  Servers servers;
   try {
-    if (std::filesystem::exists(file)) servers = pacs::read_servers(file);
+    servers = known_servers();
   } catch (const Error& error) {
-    reason = QString::fromStdString(error.what());
+    QMessageBox::information(&desk.window, title, QString::fromStdString(error.what()));
+    return;
   }
-  if (!servers.empty()) return show_one<ArchiveDialog>(desk.window, servers, keyring, desk, opening);
-  const QString none = Command::tr("No server is described yet. The manual tells what stands in the file %1.")
-                           .arg(QString::fromStdString(file.string()));
-  QMessageBox::information(&desk.window, Command::tr("From the PACS"), reason.isEmpty() ? none : reason);
+  if (servers.empty())
+    show_one<ServersDialog>(desk.window, servers, keyring, desk);
+  else
+    then(servers);
+}
+
+void edit_servers(Desk& desk, Keyring& keyring) {
+  Servers servers;
+  try {
+    servers = known_servers();
+  } catch (const Error& error) {
+    QMessageBox::information(&desk.window, ServersDialog::tr("PACS servers"),
+                             QString::fromStdString(error.what()));
+    return;
+  }
+  show_one<ServersDialog>(desk.window, servers, keyring, desk);
 }
 
 }  // namespace
 
-void add_archive_commands(CommandTable& table, Desk& desk, Opening& opening, Keyring& keyring) {
+void add_archive_commands(CommandTable& table, Desk& desk, Opening& opening, Outbox& outbox,
+                          Keyring& keyring) {
   table.add({.id = "file.archive",
              .text = Command::tr("From the &PACS\u2026"),
              .tip = Command::tr("Searches in an image archive and opens a series from it."),
-             .run = [&] { ask_archive(desk, opening, keyring); }});
+             .run = [&] {
+               with_servers(desk, keyring, Command::tr("From the PACS"), [&](const Servers& servers) {
+                 show_one<ArchiveDialog>(desk.window, servers, keyring, desk, opening);
+               });
+             }});
+  table.add(
+      {.id = "file.send",
+       .text = Command::tr("&Send to the PACS\u2026"),
+       .tip = Command::tr("Sends the case's segmentation, report, measurements, surface and key images."),
+       .run =
+           [&] {
+             with_servers(desk, keyring, Command::tr("Send to the PACS"), [&](const Servers& servers) {
+               show_one<SendDialog>(desk.window, servers, outbox, desk);
+             });
+           },
+       .enabled = [&outbox] { return outbox.why_not().isEmpty(); },
+       .why_not = [&outbox] { return outbox.why_not(); }});
+  table.add({.id = "file.outbox",
+             .text = Command::tr("&Outbox\u2026"),
+             .tip = Command::tr("What waits to be sent to the PACS, and why it was not."),
+             .run = [&] { show_one<OutboxDialog>(desk.window, outbox, desk); }});
+  table.add({.id = "file.servers",
+             .text = Command::tr("S&ervers\u2026"),
+             .tip = Command::tr("Which image archives there are, and how each is reached."),
+             .run = [&] { edit_servers(desk, keyring); }});
 }
 
 }  // namespace ostia::workstation

@@ -7,7 +7,9 @@ class CommandTable;
 struct Desk;
 class Keyring;
 class Opening;
+class Outbox;
 
-void add_archive_commands(CommandTable& table, Desk& desk, Opening& opening, Keyring& keyring);
+void add_archive_commands(CommandTable& table, Desk& desk, Opening& opening, Outbox& outbox,
+                          Keyring& keyring);
 
 }  // namespace ostia::workstation

@@ -7,6 +7,8 @@
 #include "shell/jobs.h"
 
 #include "ostia/core/files.h"
+#include "ostia/core/private_folder.h"
+#include "ostia/imaging/series_preview.h"
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -16,6 +18,8 @@
 #include <QHeaderView>
 #include <QLabel>
 #include <QLineEdit>
+#include <QPainter>
+#include <QPixmap>
 #include <QPointer>
 #include <QPushButton>
 #include <QTreeWidget>
@@ -41,6 +45,29 @@ std::string typed_day(const QLineEdit& field) {
 
 QString image_count(long images) {
   return images < 0 ? QString() : QString::number(images);
+}
+
+constexpr int series_picture_px = 72;
+
+QImage shown_preview(const imaging::SeriesPreview& preview) {
+  const QImage grey(preview.pixels.data(), preview.width, preview.height, preview.width,
+                    QImage::Format_Grayscale8);
+  QImage square(series_picture_px, series_picture_px, QImage::Format_RGB32);
+  square.fill(Qt::black);
+  QPainter(&square).drawImage((series_picture_px - grey.width()) / 2, (series_picture_px - grey.height()) / 2,
+                              grey);
+  return square;
+}
+
+/// Of one image out of the middle, which is not kept.
+QImage series_picture_of(pacs::Archive& archive, const pacs::SeriesWanted& wanted,
+                         const core::TaskContext& task) {
+  const core::PrivateFolder own;
+  const std::filesystem::path file = archive.fetch_middle(wanted, own.path() / "image", task);
+  const imaging::DicomFolder found = imaging::scan_dicom(file, task);
+  return found.series.empty()
+             ? QImage()
+             : shown_preview(imaging::preview(found.series.front(), series_picture_px, task));
 }
 
 QLineEdit* query_field(QFormLayout& form, const QString& text, const QString& name) {
@@ -82,6 +109,7 @@ ArchiveDialog::ArchiveDialog(std::vector<pacs::ServerDescription> servers, Keyri
   list_->setObjectName("archive_found");
   list_->setAccessibleName(tr("Studies and series"));
   list_->setColumnCount(found_columns);
+  list_->setIconSize(QSize(series_picture_px, series_picture_px));
   list_->setHeaderLabels(
       {tr("Patient, series"), tr("Date"), tr("Description"), tr("Modality"), tr("Images")});
   list_->header()->setSectionResizeMode(QHeaderView::ResizeToContents);
@@ -111,6 +139,7 @@ ArchiveDialog::ArchiveDialog(std::vector<pacs::ServerDescription> servers, Keyri
 
 ArchiveDialog::~ArchiveDialog() {
   desk_.jobs.cancel("archive");
+  desk_.jobs.cancel("archive picture");
 }
 
 void ArchiveDialog::build_server(QFormLayout& form) {
@@ -157,6 +186,7 @@ void ArchiveDialog::choose_server() {
   remember_->setChecked(false);
   remember_->setEnabled(asks);
   list_->clear();
+  forget_pictures();
   say({});
   if (!asks) return;
   keyring_.read(server_->currentText(), this, [this, name = server_->currentText()](const QString& password) {
@@ -181,6 +211,7 @@ void ArchiveDialog::search() {
   query.description = description_->text().trimmed().toStdString();
   query.modality = modality_->text().trimmed().toStdString();
   list_->clear();
+  forget_pictures();
   say(tr("Searching\u2026"));
   if (remember_->isChecked() && !password_->text().isEmpty())
     keyring_.keep(server_->currentText(), password_->text());
@@ -251,8 +282,61 @@ void ArchiveDialog::show_series(const QString& study, const pacs::FindResult& re
       item->setText(images_column, image_count(one.images));
       item->setData(whose_column, study_uid_role, study);
       item->setData(whose_column, series_uid_role, QString::fromStdString(one.series_uid));
+      QPixmap none(series_picture_px, series_picture_px);  // its room: rows do not move when pictures come
+      none.fill(palette().color(QPalette::AlternateBase));
+      item->setIcon(whose_column, none);
+      without_picture_.push_back({study.toStdString(), one.series_uid});
     }
   }
+  next_picture();
+}
+
+void ArchiveDialog::forget_pictures() {
+  desk_.jobs.cancel("archive picture");
+  without_picture_.clear();
+  asking_picture_ = false;
+}
+
+void ArchiveDialog::next_picture() {
+  if (asking_picture_ || without_picture_.empty()) return;
+  asking_picture_ = true;
+  const pacs::SeriesWanted wanted = without_picture_.front();
+  without_picture_.pop_front();
+  const QPointer<ArchiveDialog> self(this);
+  const auto go_on = [self] {
+    if (!self) return;
+    self->asking_picture_ = false;
+    self->next_picture();
+  };
+  const QString uid = QString::fromStdString(wanted.series_uid);
+  desk_.jobs.run(
+      "archive picture", tr("Pictures of the series"),
+      [wanted, at = asked()](const core::TaskContext& task) {
+        return std::any(series_picture_of(*pacs::open_archive(at.server, at.secrets), wanted, task));
+      },
+      [self, uid, go_on](const std::any& result) {
+        if (self) self->show_picture(uid, std::any_cast<const QImage&>(result));
+        go_on();
+      },
+      [self, uid, go_on](const QString& why) {  // a list without this picture is a list
+        if (self)
+          if (QTreeWidgetItem* item = self->item_of(uid)) item->setToolTip(whose_column, why);
+        go_on();
+      });
+}
+
+QTreeWidgetItem* ArchiveDialog::item_of(const QString& series) const {
+  for (int row = 0; row < list_->topLevelItemCount(); ++row)
+    for (int n = 0; n < list_->topLevelItem(row)->childCount(); ++n)
+      if (QTreeWidgetItem* item = list_->topLevelItem(row)->child(n);
+          item->data(whose_column, series_uid_role).toString() == series)
+        return item;
+  return nullptr;
+}
+
+void ArchiveDialog::show_picture(const QString& series, const QImage& picture) {
+  QTreeWidgetItem* item = item_of(series);
+  if (item && !picture.isNull()) item->setIcon(whose_column, QPixmap::fromImage(picture));
 }
 
 void ArchiveDialog::fetch() {

@@ -4,6 +4,8 @@
 #include "ostia/pacs/archive.h"
 
 #include <QDialog>
+#include <QImage>
+#include <deque>
 #include <vector>
 
 class QCheckBox;
@@ -22,7 +24,8 @@ class Keyring;
 class Opening;
 
 /// Searches, lists and fetches in the background (jobs "archive", "archive fetch"); a series that is whole is
-/// opened. Studies show their series when they are unfolded.
+/// opened. Studies show their series when they are unfolded, and then a picture of each, made of one image of
+/// its middle (jobs "archive picture", one after the other).
 class ArchiveDialog final : public QDialog {
   Q_OBJECT
  public:
@@ -43,6 +46,10 @@ class ArchiveDialog final : public QDialog {
   void show_studies(const pacs::FindResult& result);
   void look_into(QTreeWidgetItem* study);
   void show_series(const QString& study, const pacs::FindResult& result);
+  void forget_pictures();
+  void next_picture();
+  void show_picture(const QString& series, const QImage& picture);
+  QTreeWidgetItem* item_of(const QString& series) const;
   void fetch();
   void say(const QString& text);
   const pacs::ServerDescription& server() const;
@@ -58,6 +65,8 @@ class ArchiveDialog final : public QDialog {
   QTreeWidget* list_;
   QLabel* said_;
   QPushButton* open_;
+  std::deque<pacs::SeriesWanted> without_picture_;
+  bool asking_picture_ = false;
 };
 
 }  // namespace ostia::workstation

@@ -18,6 +18,7 @@ QString command_group(const QString& id) {
       {"edit", QT_TRANSLATE_NOOP("gestures", "Edit")},
       {"vessel", QT_TRANSLATE_NOOP("gestures", "Vessel")},
       {"lesion", QT_TRANSLATE_NOOP("gestures", "Lesions")},
+      {"calcium", QT_TRANSLATE_NOOP("gestures", "Calcium score")},
       {"pressure", QT_TRANSLATE_NOOP("gestures", "Pressure")},
       {"tool", QT_TRANSLATE_NOOP("gestures", "Tools")},
       {"tree", QT_TRANSLATE_NOOP("gestures", "Vessel tree")},

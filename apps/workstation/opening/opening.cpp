@@ -98,6 +98,10 @@ void Opening::open_case(const fs::path& path, const QString& then_say) {
         session::CaseFile file = session::CaseFile::open(
             path, editable ? session::OpenMode::read_write : session::OpenMode::read_only);
         OpenedCase opened;
+        if (file.model()->vessels.empty() && file.image()) {
+          opened.calcium_of = file.image();
+          return std::any(opened);
+        }
         if (const auto image = file.image(); image && !same_image(*image, shown))
           opened.image = read_beside(session::MachineState(state).find_image(image->sha256));
         opened.session = std::make_shared<session::Session>(std::move(file));
@@ -107,6 +111,7 @@ void Opening::open_case(const fs::path& path, const QString& then_say) {
       },
       [this, path, editable, then_say](const std::any& result) {
         const auto& opened = std::any_cast<const OpenedCase&>(result);
+        if (opened.calcium_of) return show_calcium_case(*opened.calcium_of, path);
         show_case(std::move(*opened.session), path, opened.image);
         if (!editable)
           desk_.messages.say(
@@ -140,6 +145,18 @@ void Opening::show_case(session::Session session, const fs::path& path, const Im
   if (!shown_now) return;
   memory_.restore();
   if (image && !bench.image().volume) open_image_of(*image, image_beside);
+}
+
+void Opening::show_calcium_case(const ImageReference& image, const fs::path& path) {
+  desk_.messages.guarded([&] {
+    desk_.machine.remember_case({path, image.pseudonym, now_s(), image.sha256});
+  });
+  emit calcium_case_chosen(QString::fromStdString(image.sha256), shown(path));
+  if (!same_image(image, desk_.bench.image().reference)) {
+    close_case();
+    desk_.bench.close_image();
+    open_image_of(image, {});
+  }
 }
 
 void Opening::open_image_of(const ImageReference& image, const ImageBeside& beside) {

@@ -79,6 +79,8 @@ class Opening final : public QObject {
   void leaving_case();  ///< it is still open, and about to be closed or copied
   /// A whole image is on the table, and no case of it.
   void image_without_case();
+  /// A case without vessels: words on a calcium score of this image, which is being opened.
+  void calcium_case_chosen(const QString& image_sha256, const QString& case_file);
 
  private:
   struct Loaded {
@@ -101,10 +103,12 @@ class Opening final : public QObject {
   struct OpenedCase {
     std::shared_ptr<session::Session> session;
     ImageBeside image;  // the case's; null where it is open already or no such file is known
+    std::optional<session::ImageReference> calcium_of{};  // it has no vessels: no session then
   };
   void open_case(const std::filesystem::path& path, const QString& then_say = {});
   void show_case(session::Session session, const std::filesystem::path& path,
                  const ImageBeside& image_beside = {});
+  void show_calcium_case(const session::ImageReference& image, const std::filesystem::path& path);
   void open_image_of(const session::ImageReference& image, const ImageBeside& beside);
   /// `reason`: why what was chosen is not it.
   void image_missing(const session::ImageReference& image, const QString& reason = {});

@@ -173,6 +173,39 @@ constexpr const char* sentences[] = {
     QT_TRANSLATE_NOOP("library", "'%1' does not exist"),
     QT_TRANSLATE_NOOP("library", "'%1' of the series is gone; open its folder again"),
     QT_TRANSLATE_NOOP("library", "the files of DICOM series %1 have changed; open their folder again"),
+    // Calcium and fat.
+    QT_TRANSLATE_NOOP("library",
+                      "some contrast agent may be in the blood: a fifth of the heart is brighter than %1 HU, "
+                      "and blood without contrast agent has 30 to 60; look at each lesion"),
+    QT_TRANSLATE_NOOP("library",
+                      "calcium score: the blood has contrast agent (a fifth of the heart is brighter than %1 "
+                      "HU, and blood without contrast agent has 30 to 60), which counts as calcium from 130 "
+                      "HU on; take the scan without contrast agent"),
+    QT_TRANSLATE_NOOP("library",
+                      "a part of %1 ml on the heart, about %2 mm, is taken for no coronary calcium and not "
+                      "scored; look whether some of it is"),
+    QT_TRANSLATE_NOOP("library",
+                      "no heart was found, so no place could be proposed: no lesion counts until a person "
+                      "has said where it lies"),
+    QT_TRANSLATE_NOOP("library",
+                      "the slices lie %1 mm apart, and the Agatston score is defined for %2 mm: %3 of them "
+                      "were averaged to one of %4 mm"),
+    QT_TRANSLATE_NOOP("library",
+                      "the slices lie %1 mm apart, and the Agatston score is defined for %2 mm: %3 of them "
+                      "were averaged to one of %4 mm, and a slice's score is multiplied by %5"),
+    QT_TRANSLATE_NOOP("library",
+                      "the slices lie %1 mm apart, and the Agatston score is defined for %2 mm: a slice's "
+                      "score is multiplied by %3"),
+    QT_TRANSLATE_NOOP("library", "no vessel is named %1"),
+    QT_TRANSLATE_NOOP("library", "%1: less than 5 mm of its range were measured"),
+    QT_TRANSLATE_NOOP("library", "%1: %2 of %3 mm were measured"),
+    QT_TRANSLATE_NOOP("library", "%1: no fat was found that is clear of edges"),
+    QT_TRANSLATE_NOOP("library",
+                      "the tube voltage is not known: fat is darker at less than 120 kV (by about a quarter "
+                      "at 80), and bounds of studies hold for theirs"),
+    QT_TRANSLATE_NOOP("library",
+                      "the scan was taken at %1 kV: compare its values with those of other voltages only as "
+                      "estimated at 120 kV"),
     // Pressures.
     QT_TRANSLATE_NOOP("library", "%1 is %2; it is a number above 0"),
     QT_TRANSLATE_NOOP("library", "the diastolic pressure, %1 mmHg, is not below the systolic one, %2 mmHg"),

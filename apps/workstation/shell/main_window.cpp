@@ -1,5 +1,7 @@
 #include "shell/main_window.h"
 
+#include "calcium/page.h"
+#include "calcium/reading.h"
 #include "commands/table.h"
 #include "flow/cases.h"
 #include "flow/results.h"
@@ -26,6 +28,7 @@
 #include "shell/unfinished_work.h"
 #include "trees/opening.h"
 #include "vessels/evaluability.h"
+#include "vessels/fat.h"
 #include "vessels/finder.h"
 #include "vessels/list.h"
 #include "vessels/outer_walls.h"
@@ -95,7 +98,9 @@ MainWindow::MainWindow(const std::filesystem::path& state_folder)
 MainWindow::~MainWindow() {
   // Children go in the order of their making: a dialog that is open would outlive the jobs that it cancels.
   while (QDialog* dialog = findChild<QDialog*>()) delete dialog;
-  delete pressure_page_;  // it and the list watch what goes before them
+  delete pressure_page_;  // these and the list watch what goes before them
+  delete calcium_page_;
+  delete fat_page_;
   panels_->lesions().show_pressures(nullptr);
 }
 
@@ -174,6 +179,26 @@ void MainWindow::build_parts() {
   addDockWidget(Qt::RightDockWidgetArea, heart_dock_);
   heart_dock_->hide();
   layouts_ = std::make_unique<Layouts>(desk_, *this, *panels_, *planes_, *heart_);
+  build_tissues();
+}
+
+/// Calcium and fat.
+void MainWindow::build_tissues() {
+  std::vector<PictureWidget*> slices = panels_->pictures();
+  slices.insert(slices.end(), planes_->pictures().begin(), planes_->pictures().end());
+  calcium_ =
+      std::make_unique<Calcium>(desk_, *opening_, slices, [this]() -> std::optional<imaging::DicomSeries> {
+        const int n = series_->shown();
+        if (n < 0) return std::nullopt;
+        return series_->stack().entries[static_cast<std::size_t>(n)].source.series;
+      });
+  calcium_page_ = new CalciumPage(desk_, *calcium_);
+  addDockWidget(Qt::RightDockWidgetArea, calcium_page_);
+  calcium_page_->hide();
+  fat_ = std::make_unique<Fat>(desk_, panels_->pictures());
+  fat_page_ = new FatPage(desk_, *fat_);
+  addDockWidget(Qt::RightDockWidgetArea, fat_page_);
+  fat_page_->hide();
 }
 
 void MainWindow::connect_parts() {
@@ -191,7 +216,10 @@ void MainWindow::connect_parts() {
   connect(opening_.get(), &Opening::image_alone, series_, &StudySeries::take_alone);
   connect(series_, &StudySeries::series_wanted, opening_.get(), &Opening::open_beside);
   connect(series_, &StudySeries::file_wanted, opening_.get(), &Opening::file_chosen);
-  connect(opening_.get(), &Opening::image_without_case, finder_.get(), &VesselFinder::find_tree);
+  connect(opening_.get(), &Opening::image_without_case, this, [this] {
+    if (!calcium_->expects_shown()) finder_->find_tree();
+  });
+  connect(opening_.get(), &Opening::calcium_case_chosen, calcium_page_, &QWidget::show);
   connect(flow_results_.get(), &FlowResults::pointed, place_, &QLabel::setText);
   connect(meshing_.get(), &MeshingExport::mesh_made, flow_cases_.get(),
           [this](const QString& file) { flow_cases_->mesh_made(file.toStdString()); });

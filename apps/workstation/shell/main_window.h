@@ -18,6 +18,8 @@ class QLabel;
 namespace ostia::workstation {
 
 class BeatingCase;
+class Calcium;
+class CalciumPage;
 class CommandTable;
 class FlowCases;
 class FlowResults;
@@ -27,6 +29,8 @@ class Opening;
 class Orientation;
 class OuterWalls;
 class Evaluability;
+class Fat;
+class FatPage;
 class QaDock;
 class HeartDock;
 class HeartVolume;
@@ -36,6 +40,7 @@ class PressurePage;
 class Pressures;
 class Reporting;
 class Scissors;
+struct StepsBeside;
 class StudySeries;
 class TreeOpening;
 class VesselFinder;
@@ -77,6 +82,8 @@ class MainWindow final : public QMainWindow {
   Lesions& lesions() { return *lesions_; }
   Pressures& pressures() { return *pressures_; }
   PressurePage& pressure_page() { return *pressure_page_; }
+  Calcium& calcium() { return *calcium_; }
+  Fat& fat() { return *fat_; }
 
  protected:
   void closeEvent(QCloseEvent* event) override;
@@ -87,7 +94,9 @@ class MainWindow final : public QMainWindow {
   void build_status_bar();
   void build_parts();
   void build_qa();
+  void build_tissues();
   void build_commands();
+  StepsBeside steps_beside();
   void connect_parts();
   void watch_case();
   void show_whether_editable();
@@ -117,6 +126,10 @@ class MainWindow final : public QMainWindow {
   std::shared_ptr<QaDock> qa_;        // so does this
   std::unique_ptr<Pressures> pressures_;
   PressurePage* pressure_page_ = nullptr;
+  std::unique_ptr<Calcium> calcium_;
+  CalciumPage* calcium_page_ = nullptr;
+  std::unique_ptr<Fat> fat_;
+  FatPage* fat_page_ = nullptr;
   std::unique_ptr<FlowResults> flow_results_;
   std::unique_ptr<FlowCases> flow_cases_;
   std::unique_ptr<TreeOpening> trees_;

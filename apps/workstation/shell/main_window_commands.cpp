@@ -2,6 +2,10 @@
 
 #include "archive/commands.h"
 #include "archive/keyring.h"
+#include "archive/outbox.h"
+#include "calcium/commands.h"
+#include "calcium/page.h"
+#include "calcium/reading.h"
 #include "commands/keyboard.h"
 #include "commands/keyboard_commands.h"
 #include "commands/table.h"
@@ -31,6 +35,7 @@
 #include "trees/opening.h"
 #include "vessels/commands.h"
 #include "vessels/doubts.h"
+#include "vessels/fat.h"
 #include "vessels/finder.h"
 #include "views/commands.h"
 #include "views/grey_presets.h"
@@ -46,20 +51,41 @@
 
 namespace ostia::workstation {
 
+/// Of what is no step of the case on the table.
+StepsBeside MainWindow::steps_beside() {
+  const auto of_calcium = [this](bool (session::CalciumBoard::*can)() const) {
+    return calcium_->has_the_steps() && (calcium_->board().*can)();
+  };
+  const auto can_undo = [of_calcium] { return of_calcium(&session::CalciumBoard::can_undo); };
+  const auto can_redo = [of_calcium] { return of_calcium(&session::CalciumBoard::can_redo); };
+  return {
+      [this, can_undo] { return can_undo() || finder_->can_take_back() || orientation_->can_take_back(); },
+      [this, can_redo] { return can_redo() || finder_->can_do_again() || orientation_->can_do_again(); },
+      [this, can_undo] {
+        if (can_undo())
+          calcium_->board().undo();
+        else
+          finder_->can_take_back() ? finder_->take_back() : orientation_->take_back();
+      },
+      [this, can_redo] {
+        if (can_redo())
+          calcium_->board().redo();
+        else
+          finder_->can_do_again() ? finder_->do_again() : orientation_->do_again();
+      }};
+}
+
 void MainWindow::build_commands() {
   commands_ = new CommandTable(desk_);
   trees_ = std::make_unique<TreeOpening>(desk_, *this, *commands_);
   auto& tools = *new QActionGroup(commands_);
   auto* keyboard = new Keyboard(this);
   auto* help = new Help(desk_, *commands_);
-  add_shell_commands(*commands_, desk_, panels_->scene(),
-                     {[this] { return finder_->can_take_back() || orientation_->can_take_back(); },
-                      [this] { return finder_->can_do_again() || orientation_->can_do_again(); },
-                      [this] { finder_->can_take_back() ? finder_->take_back() : orientation_->take_back(); },
-                      [this] { finder_->can_do_again() ? finder_->do_again() : orientation_->do_again(); }});
+  add_shell_commands(*commands_, desk_, panels_->scene(), steps_beside());
   add_keyboard_commands(*commands_, *keyboard);
   add_opening_commands(*commands_, desk_, *opening_, *orientation_);
-  add_archive_commands(*commands_, desk_, *opening_, desktop_keyring());
+  auto* outbox = new Outbox(desk_, desktop_keyring());
+  add_archive_commands(*commands_, desk_, *opening_, *outbox, desktop_keyring());
   auto* greys = new GreyPresets(desk_);
   add_grey_preset_commands(*commands_, *greys);
   add_layout_commands(*commands_, desk_, *layouts_, *planes_);
@@ -76,6 +102,9 @@ void MainWindow::build_commands() {
   add_tree_commands(*commands_, *trees_);
   add_pressure_commands(*commands_, desk_, *pressures_, *pressure_page_);
   pressure_page_->add_buttons(*commands_);
+  add_calcium_commands(*commands_, desk_, *calcium_, *calcium_page_);
+  calcium_page_->add_buttons(*commands_);
+  add_fat_commands(*commands_, *fat_page_);
   add_phase_commands(*commands_, desk_, *beating_);
   add_series_commands(*commands_, desk_, *series_);
   auto* plugins = new Plugins(desk_, *opening_, *flow_results_);

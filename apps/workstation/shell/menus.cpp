@@ -19,6 +19,7 @@ class MenuBuilder {
   void file() {
     QMenu* menu = bar_.addMenu(tr("&File"));
     fill(menu, {"file.open", "file.open_folder", "file.archive", "file.series", "file.orientation"});
+    fill(menu->addMenu(tr("PACS")), {"file.send", "file.outbox", "file.servers"});
     made.recent = menu->addMenu(tr("&Recent cases"));
     fill(menu, {"file.sample", line, "file.save_as", "file.close", line, "file.report_notes", "file.report",
                 "file.pin"});
@@ -33,6 +34,9 @@ class MenuBuilder {
                 "vessel.evaluable", "vessel.limited", "vessel.not_evaluable", "vessel.judged_by_program",
                 "view.evaluability", line, "lesion.accept", "lesion.reject", "lesion.open", "lesion.comment",
                 "lesion.copy", line});
+    fill(menu->addMenu(tr("Calci&um score")),
+         {"calcium.score", line, "calcium.lm", "calcium.lad", "calcium.lcx", "calcium.rca", "calcium.none",
+          line, "calcium.report", "calcium.save"});
     QMenu* pressure = menu->addMenu(tr("&Pressure"));
     pressure->setToolTipsVisible(true);
     fill(pressure, {"view.pressure", "pressure.map", line, "pressure.open", "pressure.narrow",
@@ -64,7 +68,7 @@ class MenuBuilder {
     menu->setToolTipsVisible(true);  // why a command cannot be used
     fill(menu, {"view.turn_left", "view.turn_right", "view.proximal", "view.distal", "view.next_vessel",
                 "view.previous_vessel", line, "view.stretched", "view.contours", "view.outer_wall",
-                "view.plaque", "view.identity", "view.fit", line});
+                "view.plaque", "view.fat", "view.identity", "view.fit", line});
     fill(menu->addMenu(tr("S&lab")),
          {"view.mip", "view.mean", "view.minip", line, "view.thinner", "view.thicker"});
     made.greys = menu->addMenu(tr("&Grey levels"));

@@ -80,6 +80,7 @@ QString step_name(const std::string& op) {
       {"report.impression", QT_TRANSLATE_NOOP("steps", "Impression of the report")},
       {"report.modifiers", QT_TRANSLATE_NOOP("steps", "Modifiers of CAD-RADS")},
       {"report.features", QT_TRANSLATE_NOOP("steps", "Features of plaque")},
+      {"calcium.places", QT_TRANSLATE_NOOP("steps", "Place of a lesion of calcium")},
       {"report.sign", QT_TRANSLATE_NOOP("steps", "Sign the report")},
       {"plugin", QT_TRANSLATE_NOOP("steps", "Plug-in")},
       {"measure.delete", QT_TRANSLATE_NOOP("steps", "Delete a measurement")}};

@@ -707,6 +707,10 @@
         <source>Pressure</source>
         <translation>Druck</translation>
     </message>
+    <message>
+        <source>Calcium score</source>
+        <translation>Kalkscore</translation>
+    </message>
 </context>
 <context>
     <name>jobs</name>
@@ -1001,6 +1005,58 @@
         <source>%1 ml of metal (above %2 HU): look at each vessel that passes near it, its shadows may cut or fake vessels</source>
         <translation>%1 ml Metall (über %2 HU): Prüfen Sie jedes Gefäß, das nahe daran verläuft; seine Schatten können Gefäße abschneiden oder vortäuschen.</translation>
     </message>
+    <message>
+        <source>some contrast agent may be in the blood: a fifth of the heart is brighter than %1 HU, and blood without contrast agent has 30 to 60; look at each lesion</source>
+        <translation>im Blut kann Kontrastmittel sein: Ein Fünftel des Herzens ist heller als %1 HU, und Blut ohne Kontrastmittel hat 30 bis 60; jede Läsion ansehen</translation>
+    </message>
+    <message>
+        <source>calcium score: the blood has contrast agent (a fifth of the heart is brighter than %1 HU, and blood without contrast agent has 30 to 60), which counts as calcium from 130 HU on; take the scan without contrast agent</source>
+        <translation>Kalkscore: Im Blut ist Kontrastmittel (ein Fünftel des Herzens ist heller als %1 HU, und Blut ohne Kontrastmittel hat 30 bis 60), das von 130 HU an als Kalk zählt; die Aufnahme ohne Kontrastmittel nehmen</translation>
+    </message>
+    <message>
+        <source>a part of %1 ml on the heart, about %2 mm, is taken for no coronary calcium and not scored; look whether some of it is</source>
+        <translation>ein Teil von %1 ml am Herzen, um %2 mm, gilt nicht als Koronarkalk und zählt nicht; nachsehen, ob etwas davon es ist</translation>
+    </message>
+    <message>
+        <source>no heart was found, so no place could be proposed: no lesion counts until a person has said where it lies</source>
+        <translation>es wurde kein Herz gefunden und darum kein Ort vorgeschlagen: Keine Läsion zählt, bis ein Mensch gesagt hat, wo sie liegt</translation>
+    </message>
+    <message>
+        <source>the slices lie %1 mm apart, and the Agatston score is defined for %2 mm: %3 of them were averaged to one of %4 mm</source>
+        <translation>die Schichten liegen %1 mm auseinander, und der Agatston-Score ist für %2 mm definiert: Je %3 wurden zu einer von %4 mm gemittelt</translation>
+    </message>
+    <message>
+        <source>the slices lie %1 mm apart, and the Agatston score is defined for %2 mm: %3 of them were averaged to one of %4 mm, and a slice&apos;s score is multiplied by %5</source>
+        <translation>die Schichten liegen %1 mm auseinander, und der Agatston-Score ist für %2 mm definiert: Je %3 wurden zu einer von %4 mm gemittelt, und der Score einer Schicht wird mit %5 multipliziert</translation>
+    </message>
+    <message>
+        <source>the slices lie %1 mm apart, and the Agatston score is defined for %2 mm: a slice&apos;s score is multiplied by %3</source>
+        <translation>die Schichten liegen %1 mm auseinander, und der Agatston-Score ist für %2 mm definiert: Der Score einer Schicht wird mit %3 multipliziert</translation>
+    </message>
+    <message>
+        <source>no vessel is named %1</source>
+        <translation>kein Gefäß heißt %1</translation>
+    </message>
+    <message>
+        <source>%1: less than 5 mm of its range were measured</source>
+        <translation>%1: Weniger als 5 mm des Bereichs wurden gemessen</translation>
+    </message>
+    <message>
+        <source>%1: %2 of %3 mm were measured</source>
+        <translation>%1: %2 von %3 mm wurden gemessen</translation>
+    </message>
+    <message>
+        <source>%1: no fat was found that is clear of edges</source>
+        <translation>%1: Es wurde kein Fett gefunden, das frei von Rändern ist</translation>
+    </message>
+    <message>
+        <source>the tube voltage is not known: fat is darker at less than 120 kV (by about a quarter at 80), and bounds of studies hold for theirs</source>
+        <translation>die Röhrenspannung ist nicht bekannt: Unter 120 kV ist Fett dunkler (bei 80 um etwa ein Viertel), und Grenzen aus Studien gelten für deren Spannung</translation>
+    </message>
+    <message>
+        <source>the scan was taken at %1 kV: compare its values with those of other voltages only as estimated at 120 kV</source>
+        <translation>aufgenommen mit %1 kV: Werte mit denen anderer Spannungen nur so vergleichen, wie sie für 120 kV geschätzt sind</translation>
+    </message>
 </context>
 <context>
     <name>manual</name>
@@ -1043,6 +1099,18 @@
     <message>
         <source>When something is wrong</source>
         <translation>Wenn etwas nicht stimmt</translation>
+    </message>
+    <message>
+        <source>PACS</source>
+        <translation>PACS</translation>
+    </message>
+    <message>
+        <source>Calcium score</source>
+        <translation>Kalkscore</translation>
+    </message>
+    <message>
+        <source>Fat around the arteries</source>
+        <translation>Fett um die Arterien</translation>
     </message>
 </context>
 <context>
@@ -1326,6 +1394,10 @@
             <numerusform>%n Studien</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Pictures of the series</source>
+        <translation>Bilder der Serien</translation>
+    </message>
 </context>
 <context>
     <name>ostia::workstation::BeatingCase</name>
@@ -1360,6 +1432,188 @@
     <message>
         <source>The images of the phases cannot be opened</source>
         <translation>Die Bilder der Phasen können nicht geöffnet werden</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::Calcium</name>
+    <message>
+        <source>The image is still being read.</source>
+        <translation>Das Bild wird noch gelesen.</translation>
+    </message>
+    <message>
+        <source>Open this image by itself: it is not known which file it is of.</source>
+        <translation>Dieses Bild für sich öffnen: Es ist nicht bekannt, aus welcher Datei es ist.</translation>
+    </message>
+    <message>
+        <source>Calcium score</source>
+        <translation>Kalkscore</translation>
+    </message>
+    <message>
+        <source>There is no calcium score</source>
+        <translation>Es gibt keinen Kalkscore</translation>
+    </message>
+    <message>
+        <source>No scan has been scored.</source>
+        <translation>Noch keine Aufnahme ist ausgewertet.</translation>
+    </message>
+    <message>
+        <source>No case is open whose report could take it.</source>
+        <translation>Es ist kein Fall offen, dessen Bericht ihn nehmen könnte.</translation>
+    </message>
+    <message>
+        <source>The case that is open is of another patient than the scan.</source>
+        <translation>Der offene Fall ist von einem anderen Patienten als die Aufnahme.</translation>
+    </message>
+    <message>
+        <source>The report says an Agatston score of %1.</source>
+        <translation>Der Bericht nennt einen Agatston-Score von %1.</translation>
+    </message>
+    <message>
+        <source>Where the calcium score&apos;s folder is made</source>
+        <translation>Wo der Ordner des Kalkscores entsteht</translation>
+    </message>
+    <message>
+        <source>The calcium score is in %1.</source>
+        <translation>Der Kalkscore ist in %1.</translation>
+    </message>
+    <message>
+        <source>The calcium score was not written</source>
+        <translation>Der Kalkscore wurde nicht geschrieben</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::CalciumPage</name>
+    <message>
+        <source>none</source>
+        <translation>keine</translation>
+    </message>
+    <message>
+        <source>minimal (1 to 10)</source>
+        <translation>minimal (1 bis 10)</translation>
+    </message>
+    <message>
+        <source>mild (11 to 100)</source>
+        <translation>gering (11 bis 100)</translation>
+    </message>
+    <message>
+        <source>moderate (101 to 400)</source>
+        <translation>mäßig (101 bis 400)</translation>
+    </message>
+    <message>
+        <source>severe (above 400)</source>
+        <translation>schwer (über 400)</translation>
+    </message>
+    <message>
+        <source>aorta</source>
+        <translation>Aorta</translation>
+    </message>
+    <message>
+        <source>valve</source>
+        <translation>Klappe</translation>
+    </message>
+    <message>
+        <source>bone</source>
+        <translation>Knochen</translation>
+    </message>
+    <message>
+        <source>other</source>
+        <translation>anderes</translation>
+    </message>
+    <message>
+        <source>Calcium score</source>
+        <translation>Kalkscore</translation>
+    </message>
+    <message>
+        <source>Calcium by artery</source>
+        <translation>Kalk nach Arterie</translation>
+    </message>
+    <message>
+        <source>Artery</source>
+        <translation>Arterie</translation>
+    </message>
+    <message>
+        <source>Agatston</source>
+        <translation>Agatston</translation>
+    </message>
+    <message>
+        <source>mm³</source>
+        <translation>mm³</translation>
+    </message>
+    <message>
+        <source>mg</source>
+        <translation>mg</translation>
+    </message>
+    <message>
+        <source>Lesions of calcium</source>
+        <translation>Kalkläsionen</translation>
+    </message>
+    <message>
+        <source>Place</source>
+        <translation>Ort</translation>
+    </message>
+    <message>
+        <source>Peak HU</source>
+        <translation>Höchste HU</translation>
+    </message>
+    <message>
+        <source>Sure</source>
+        <translation>Sicher</translation>
+    </message>
+    <message>
+        <source>Click: slices go to the lesion. A click on it in a slice chooses it here. Sure: how much the place that the program proposes can be trusted.</source>
+        <translation>Klick: Die Schichten gehen zur Läsion. Ein Klick auf sie in einer Schicht wählt sie hier. Sicher: wie weit dem Ort zu trauen ist, den das Programm vorschlägt.</translation>
+    </message>
+    <message>
+        <source>&amp;Bones and what else is bright, too</source>
+        <translation>Auch &amp;Knochen und was sonst hell ist</translation>
+    </message>
+    <message>
+        <source>Calibration for the mass</source>
+        <translation>Kalibrierung für die Masse</translation>
+    </message>
+    <message>
+        <source>mg of hydroxyapatite in 1 cm³ for each HU, of this scanner and protocol, from a phantom.</source>
+        <translation>mg Hydroxylapatit in 1 cm³ je HU, für dieses Gerät und Protokoll, aus einem Phantom.</translation>
+    </message>
+    <message>
+        <source>The scan is being scored…</source>
+        <translation>Die Aufnahme wird ausgewertet…</translation>
+    </message>
+    <message>
+        <source>No score yet</source>
+        <translation>Noch kein Score</translation>
+    </message>
+    <message>
+        <source>Open a CT without contrast agent, and choose Vessel &gt; Calcium score.</source>
+        <translation>Ein CT ohne Kontrastmittel öffnen und Gefäß &gt; Kalkscore wählen.</translation>
+    </message>
+    <message>
+        <source>Agatston %1: %2. CAC-DRS %3</source>
+        <translation>Agatston %1: %2. CAC-DRS %3</translation>
+    </message>
+    <message>
+        <source>Tube voltage %1 kV; the threshold of %2 HU is for 120 kV.</source>
+        <translation>Röhrenspannung %1 kV; die Schwelle von %2 HU gilt für 120 kV.</translation>
+    </message>
+    <message>
+        <source>Places are proposals until you have looked at the lesions.</source>
+        <translation>Orte sind Vorschläge, bis ein Mensch die Läsionen angesehen hat.</translation>
+    </message>
+    <message>
+        <source>The image that is shown is another one.</source>
+        <translation>Das Bild, das gezeigt wird, ist ein anderes.</translation>
+    </message>
+    <message>
+        <source>Total</source>
+        <translation>Summe</translation>
+    </message>
+    <message>
+        <source>reader</source>
+        <translation>Befunder</translation>
+    </message>
+    <message>
+        <source>%1 %</source>
+        <translation>%1 %</translation>
     </message>
 </context>
 <context>
@@ -1815,10 +2069,6 @@
     <message>
         <source>Opens a case, an image file, or a zip of DICOM files; dropping it on the window does the same.</source>
         <translation>Öffnet einen Fall, eine Bilddatei oder ein ZIP mit DICOM-Dateien; auf das Fenster ziehen geht auch.</translation>
-    </message>
-    <message>
-        <source>No server is described yet. The manual tells what stands in the file %1.</source>
-        <translation>Es ist noch kein Server beschrieben. Was in der Datei %1 steht, sagt das Handbuch.</translation>
     </message>
     <message>
         <source>From the PACS</source>
@@ -2712,6 +2962,98 @@
         <source>Impression, modifiers of CAD-RADS, features of high-risk plaque, signature.</source>
         <translation>Beurteilung, Zusätze zu CAD-RADS, Merkmale von Hochrisikoplaque, Unterschrift.</translation>
     </message>
+    <message>
+        <source>Says where the chosen lesion of calcium lies; Undo takes it back.</source>
+        <translation>Sagt, wo die gewählte Kalkläsion liegt; Rückgängig nimmt es zurück.</translation>
+    </message>
+    <message>
+        <source>No lesion of calcium is chosen.</source>
+        <translation>Keine Kalkläsion ist gewählt.</translation>
+    </message>
+    <message>
+        <source>Calcium &amp;score</source>
+        <translation>Kalk&amp;score</translation>
+    </message>
+    <message>
+        <source>Finds the calcium of a CT without contrast agent and counts it by artery.</source>
+        <translation>Findet den Kalk eines CT ohne Kontrastmittel und zählt ihn nach Arterie.</translation>
+    </message>
+    <message>
+        <source>L&amp;M</source>
+        <translation>L&amp;M</translation>
+    </message>
+    <message>
+        <source>&amp;LAD</source>
+        <translation>&amp;LAD</translation>
+    </message>
+    <message>
+        <source>LC&amp;X</source>
+        <translation>LC&amp;X</translation>
+    </message>
+    <message>
+        <source>&amp;RCA</source>
+        <translation>&amp;RCA</translation>
+    </message>
+    <message>
+        <source>&amp;Not coronary</source>
+        <translation>&amp;Nicht koronar</translation>
+    </message>
+    <message>
+        <source>&amp;Take it into the report</source>
+        <translation>In den &amp;Bericht nehmen</translation>
+    </message>
+    <message>
+        <source>The report of the case that is open says this score.</source>
+        <translation>Der Bericht des offenen Falls nennt diesen Score.</translation>
+    </message>
+    <message>
+        <source>&amp;Write tables and pictures…</source>
+        <translation>&amp;Tabellen und Bilder schreiben…</translation>
+    </message>
+    <message>
+        <source>A folder with the score as JSON, the lesions as a table and a mask, and slices.</source>
+        <translation>Ein Ordner mit dem Score als JSON, den Läsionen als Tabelle und Maske und mit Schichten.</translation>
+    </message>
+    <message>
+        <source>No scan has been scored.</source>
+        <translation>Noch keine Aufnahme ist ausgewertet.</translation>
+    </message>
+    <message>
+        <source>&amp;Send to the PACS…</source>
+        <translation>An das PACS &amp;senden…</translation>
+    </message>
+    <message>
+        <source>Sends the case&apos;s segmentation, report, measurements, surface and key images.</source>
+        <translation>Sendet Segmentierung, Bericht, Messungen, Oberfläche und Schlüsselbilder des Falls.</translation>
+    </message>
+    <message>
+        <source>Send to the PACS</source>
+        <translation>An das PACS senden</translation>
+    </message>
+    <message>
+        <source>&amp;Outbox…</source>
+        <translation>&amp;Postausgang…</translation>
+    </message>
+    <message>
+        <source>What waits to be sent to the PACS, and why it was not.</source>
+        <translation>Was darauf wartet, an das PACS gesendet zu werden, und warum es das noch nicht ist.</translation>
+    </message>
+    <message>
+        <source>S&amp;ervers…</source>
+        <translation>S&amp;erver…</translation>
+    </message>
+    <message>
+        <source>Which image archives there are, and how each is reached.</source>
+        <translation>Welche Bildarchive es gibt und wie jedes erreicht wird.</translation>
+    </message>
+    <message>
+        <source>&amp;Fat about the arteries</source>
+        <translation>&amp;Fett um die Arterien</translation>
+    </message>
+    <message>
+        <source>Measures the fat about RCA, LAD and LCX and colours it on the CPRs.</source>
+        <translation>Misst das Fett um RCA, LAD und LCX und färbt es auf den CPRs.</translation>
+    </message>
 </context>
 <context>
     <name>ostia::workstation::CrashReportDialog</name>
@@ -2833,6 +3175,80 @@
     <message>
         <source>There is an image, and no vessel in it yet. Have the arteries found, or begin one by two clicks.</source>
         <translation>Es gibt ein Bild und noch kein Gefäß darin. Lassen Sie die Arterien suchen, oder beginnen Sie eine mit zwei Klicks.</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::Fat</name>
+    <message>
+        <source>Fat about the arteries</source>
+        <translation>Fett um die Arterien</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::FatPage</name>
+    <message>
+        <source>Fat about the arteries</source>
+        <translation>Fett um die Arterien</translation>
+    </message>
+    <message>
+        <source>Artery</source>
+        <translation>Arterie</translation>
+    </message>
+    <message>
+        <source>mm</source>
+        <translation>mm</translation>
+    </message>
+    <message>
+        <source>Index HU</source>
+        <translation>Index HU</translation>
+    </message>
+    <message>
+        <source>At 120 kV</source>
+        <translation>Bei 120 kV</translation>
+    </message>
+    <message>
+        <source>Clear HU</source>
+        <translation>Frei HU</translation>
+    </message>
+    <message>
+        <source>mm³</source>
+        <translation>mm³</translation>
+    </message>
+    <message>
+        <source>Index: the mean of all that is -190 to -30 HU within one diameter of the outer wall. Clear: without what lies beside an edge and is partly something else. Return: the CPRs show this artery.</source>
+        <translation>Index: das Mittel von allem, was -190 bis -30 HU hat und nicht weiter als einen Durchmesser von der Außenwand liegt. Frei: ohne das, was an einem Rand liegt und zum Teil etwas anderes ist. Eingabe: Die CPRs zeigen diese Arterie.</translation>
+    </message>
+    <message>
+        <source>%1 to %2 HU</source>
+        <translation>%1 bis %2 HU</translation>
+    </message>
+    <message>
+        <source>below %1 HU</source>
+        <translation>unter %1 HU</translation>
+    </message>
+    <message>
+        <source>above %1 HU</source>
+        <translation>über %1 HU</translation>
+    </message>
+    <message>
+        <source>No case is open.</source>
+        <translation>Es ist kein Fall offen.</translation>
+    </message>
+    <message>
+        <source>The image of the case is not open.</source>
+        <translation>Das Bild des Falls ist nicht offen.</translation>
+    </message>
+    <message>
+        <source>The fat is being measured…</source>
+        <translation>Das Fett wird gemessen…</translation>
+    </message>
+    <message>
+        <source>%1 to %2</source>
+        <translation>%1 bis %2</translation>
+    </message>
+    <message>
+        <source>Tube voltage %1 kV.</source>
+        <translation>Röhrenspannung %1 kV.</translation>
     </message>
 </context>
 <context>
@@ -3622,6 +4038,14 @@
         <source>&amp;Pressure</source>
         <translation>&amp;Druck</translation>
     </message>
+    <message>
+        <source>PACS</source>
+        <translation>PACS</translation>
+    </message>
+    <message>
+        <source>Calci&amp;um score</source>
+        <translation>Kal&amp;kscore</translation>
+    </message>
 </context>
 <context>
     <name>ostia::workstation::MeshDock</name>
@@ -4353,6 +4777,116 @@
     </message>
 </context>
 <context>
+    <name>ostia::workstation::Outbox</name>
+    <message>
+        <source>Sending to the PACS</source>
+        <translation>Senden an das PACS</translation>
+    </message>
+    <message>
+        <source>All is sent to the PACS.</source>
+        <translation>Alles ist an das PACS gesendet.</translation>
+    </message>
+    <message>
+        <source>Not sent: %1 wait, %2 were refused; File &gt; PACS &gt; Outbox says why.</source>
+        <translation>Nicht gesendet: %1 warten, %2 wurden abgelehnt; Datei &gt; PACS &gt; Postausgang sagt, warum.</translation>
+    </message>
+    <message>
+        <source>The outbox was not sent</source>
+        <translation>Der Postausgang wurde nicht gesendet</translation>
+    </message>
+    <message>
+        <source>No case is open.</source>
+        <translation>Es ist kein Fall offen.</translation>
+    </message>
+    <message>
+        <source>The image of the case is not open.</source>
+        <translation>Das Bild des Falls ist nicht offen.</translation>
+    </message>
+    <message>
+        <source>The image of the case is no DICOM series: its objects would be nobody&apos;s.</source>
+        <translation>Das Bild des Falls ist keine DICOM-Serie: Seine Objekte wären von niemandem.</translation>
+    </message>
+    <message>
+        <source>The image is turned against its files: objects would lie elsewhere than in them.</source>
+        <translation>Das Bild ist gegen seine Dateien gedreht: Objekte lägen anderswo als in ihnen.</translation>
+    </message>
+    <message>
+        <source>Making DICOM objects</source>
+        <translation>DICOM-Objekte entstehen</translation>
+    </message>
+    <message>
+        <source>Nothing was sent</source>
+        <translation>Nichts wurde gesendet</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::OutboxDialog</name>
+    <message>
+        <source>waiting</source>
+        <translation>wartet</translation>
+    </message>
+    <message>
+        <source>sent</source>
+        <translation>gesendet</translation>
+    </message>
+    <message>
+        <source>refused</source>
+        <translation>abgelehnt</translation>
+    </message>
+    <message>
+        <source>Outbox</source>
+        <translation>Postausgang</translation>
+    </message>
+    <message>
+        <source>What is sent to the PACS</source>
+        <translation>Was an das PACS gesendet wird</translation>
+    </message>
+    <message>
+        <source>What</source>
+        <translation>Was</translation>
+    </message>
+    <message>
+        <source>To</source>
+        <translation>An</translation>
+    </message>
+    <message>
+        <source>State</source>
+        <translation>Stand</translation>
+    </message>
+    <message>
+        <source>Tries</source>
+        <translation>Versuche</translation>
+    </message>
+    <message>
+        <source>Why</source>
+        <translation>Warum</translation>
+    </message>
+    <message>
+        <source>&amp;Send what waits</source>
+        <translation>&amp;Senden, was wartet</translation>
+    </message>
+    <message>
+        <source>&amp;Try again</source>
+        <translation>&amp;Noch einmal</translation>
+    </message>
+    <message>
+        <source>&amp;Remove</source>
+        <translation>&amp;Entfernen</translation>
+    </message>
+    <message>
+        <source>Takes what is chosen out of the outbox; what was not sent is not sent any more.</source>
+        <translation>Nimmt das Gewählte aus dem Postausgang; was nicht gesendet war, wird nicht mehr gesendet.</translation>
+    </message>
+    <message>
+        <source>Sending…</source>
+        <translation>Wird gesendet…</translation>
+    </message>
+    <message>
+        <source>Nothing waits to be sent.</source>
+        <translation>Nichts wartet.</translation>
+    </message>
+</context>
+<context>
     <name>ostia::workstation::OuterWalls</name>
     <message>
         <source>Plaque %1 mm³ (low attenuation %2, fibrofatty %3, fibrous %4, calcified %5), burden %6 %; the outer wall is seen on %7 % of it</source>
@@ -4819,11 +5353,11 @@ Rechtsklick: ein eigenes Fenster, und zurück</translation>
         <translation>Der Fall wurde bearbeitet, während %1 am Werk war, und dessen Änderungen gelten dem Fall davor. Führen Sie es noch einmal aus.</translation>
     </message>
     <message>
-        <source>%1: shown in the wall's place.</source>
+        <source>%1: shown in the wall&apos;s place.</source>
         <translation>%1: anstelle der Wand gezeigt.</translation>
     </message>
     <message>
-        <source>%1: shown in the wall's place, of the case before the last edit.</source>
+        <source>%1: shown in the wall&apos;s place, of the case before the last edit.</source>
         <translation>%1: anstelle der Wand gezeigt, vom Fall vor der letzten Änderung.</translation>
     </message>
     <message numerus="yes">
@@ -5735,6 +6269,49 @@ Rechtsklick: ein eigenes Fenster, und zurück</translation>
     </message>
 </context>
 <context>
+    <name>ostia::workstation::SendDialog</name>
+    <message>
+        <source>Segmentation</source>
+        <translation>Segmentierung</translation>
+    </message>
+    <message>
+        <source>Report (PDF)</source>
+        <translation>Bericht (PDF)</translation>
+    </message>
+    <message>
+        <source>Lumen&apos;s surface (STL)</source>
+        <translation>Oberfläche des Lumens (STL)</translation>
+    </message>
+    <message>
+        <source>Measurements (structured report)</source>
+        <translation>Messungen (Structured Report)</translation>
+    </message>
+    <message>
+        <source>Key images</source>
+        <translation>Schlüsselbilder</translation>
+    </message>
+    <message>
+        <source>DICOM object</source>
+        <translation>DICOM-Objekt</translation>
+    </message>
+    <message>
+        <source>Send to the PACS</source>
+        <translation>An das PACS senden</translation>
+    </message>
+    <message>
+        <source>Server</source>
+        <translation>Server</translation>
+    </message>
+    <message>
+        <source>They are of the patient of the image and name them, as its files do. What cannot be sent now waits in the outbox.</source>
+        <translation>Sie sind vom Patienten des Bildes und nennen ihn, wie dessen Dateien. Was jetzt nicht gesendet werden kann, wartet im Postausgang.</translation>
+    </message>
+    <message>
+        <source>&amp;Send</source>
+        <translation>&amp;Senden</translation>
+    </message>
+</context>
+<context>
     <name>ostia::workstation::SeriesBrowser</name>
     <message>
         <source>Series in this folder</source>
@@ -5852,6 +6429,169 @@ Rechtsklick: ein eigenes Fenster, und zurück</translation>
     <message>
         <source>Play the phases</source>
         <translation>Phasen abspielen</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::ServersDialog</name>
+    <message>
+        <source>PACS servers</source>
+        <translation>PACS-Server</translation>
+    </message>
+    <message>
+        <source>&amp;New</source>
+        <translation>&amp;Neu</translation>
+    </message>
+    <message>
+        <source>&amp;Remove</source>
+        <translation>&amp;Entfernen</translation>
+    </message>
+    <message>
+        <source>&amp;Test the connection</source>
+        <translation>Verbindung &amp;prüfen</translation>
+    </message>
+    <message>
+        <source>Name here</source>
+        <translation>Name hier</translation>
+    </message>
+    <message>
+        <source>As lists of this program call it.</source>
+        <translation>So nennen ihn die Listen dieses Programms.</translation>
+    </message>
+    <message>
+        <source>Protocol</source>
+        <translation>Protokoll</translation>
+    </message>
+    <message>
+        <source>DICOM (C-FIND, C-GET, C-STORE)</source>
+        <translation>DICOM (C-FIND, C-GET, C-STORE)</translation>
+    </message>
+    <message>
+        <source>DICOMweb</source>
+        <translation>DICOMweb</translation>
+    </message>
+    <message>
+        <source>Host</source>
+        <translation>Rechner</translation>
+    </message>
+    <message>
+        <source>Port</source>
+        <translation>Port</translation>
+    </message>
+    <message>
+        <source>Its title</source>
+        <translation>Sein Titel</translation>
+    </message>
+    <message>
+        <source>Application entity title of the server.</source>
+        <translation>Application Entity Title des Servers.</translation>
+    </message>
+    <message>
+        <source>Our title</source>
+        <translation>Unser Titel</translation>
+    </message>
+    <message>
+        <source>As the server knows this machine.</source>
+        <translation>So kennt der Server diesen Rechner.</translation>
+    </message>
+    <message>
+        <source>Images come by</source>
+        <translation>Bilder kommen mit</translation>
+    </message>
+    <message>
+        <source>C-GET: on our connection</source>
+        <translation>C-GET: auf unserer Verbindung</translation>
+    </message>
+    <message>
+        <source>C-MOVE: the server connects to us</source>
+        <translation>C-MOVE: der Server verbindet sich mit uns</translation>
+    </message>
+    <message>
+        <source>Our port for C-MOVE</source>
+        <translation>Unser Port für C-MOVE</translation>
+    </message>
+    <message>
+        <source>&amp;Encrypted (TLS)</source>
+        <translation>&amp;Verschlüsselt (TLS)</translation>
+    </message>
+    <message>
+        <source>Address</source>
+        <translation>Adresse</translation>
+    </message>
+    <message>
+        <source>Login</source>
+        <translation>Anmeldung</translation>
+    </message>
+    <message>
+        <source>none</source>
+        <translation>keine</translation>
+    </message>
+    <message>
+        <source>name and password</source>
+        <translation>Name und Passwort</translation>
+    </message>
+    <message>
+        <source>token</source>
+        <translation>Token</translation>
+    </message>
+    <message>
+        <source>User</source>
+        <translation>Benutzer</translation>
+    </message>
+    <message>
+        <source>Password or token</source>
+        <translation>Passwort oder Token</translation>
+    </message>
+    <message>
+        <source>Kept in the desktop&apos;s keyring alone. Empty: the one that is there stays.</source>
+        <translation>Nur im Schlüsselbund des Desktops. Leer: Das vorhandene bleibt.</translation>
+    </message>
+    <message>
+        <source>Proxy</source>
+        <translation>Proxy</translation>
+    </message>
+    <message>
+        <source>Trusted certificates</source>
+        <translation>Vertraute Zertifikate</translation>
+    </message>
+    <message>
+        <source>A file in PEM; empty: those of the system.</source>
+        <translation>Eine PEM-Datei; leer: die des Systems.</translation>
+    </message>
+    <message>
+        <source>Our certificate</source>
+        <translation>Unser Zertifikat</translation>
+    </message>
+    <message>
+        <source>A file in PEM; empty: none.</source>
+        <translation>Eine PEM-Datei; leer: keines.</translation>
+    </message>
+    <message>
+        <source>Its key</source>
+        <translation>Sein Schlüssel</translation>
+    </message>
+    <message>
+        <source>A file in PEM.</source>
+        <translation>Eine PEM-Datei.</translation>
+    </message>
+    <message>
+        <source>No server is described yet: New begins one.</source>
+        <translation>Noch ist kein Server beschrieben: Neu beginnt einen.</translation>
+    </message>
+    <message>
+        <source>new</source>
+        <translation>neu</translation>
+    </message>
+    <message>
+        <source>Asking the server…</source>
+        <translation>Der Server wird gefragt…</translation>
+    </message>
+    <message>
+        <source>Asking the server</source>
+        <translation>Der Server wird gefragt</translation>
+    </message>
+    <message>
+        <source>It answers, and lets us in.</source>
+        <translation>Er antwortet und lässt uns ein.</translation>
     </message>
 </context>
 <context>
@@ -7138,6 +7878,10 @@ Eine Reparatur ändert, was gezeigt wird, nie die Datei.</translation>
     <message>
         <source>Sign the report</source>
         <translation>Befund unterschreiben</translation>
+    </message>
+    <message>
+        <source>Place of a lesion of calcium</source>
+        <translation>Ort einer Kalkläsion</translation>
     </message>
 </context>
 <context>

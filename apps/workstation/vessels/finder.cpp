@@ -138,10 +138,10 @@ void VesselFinder::find_tree() {
       },
       [this](const QString& message) {
         desk_.messages.say(tr("The arteries were not found by themselves: %1").arg(message));
-        desk_.failure.set(
-            {tr("The arteries were not found by themselves"),
-             message,
-             {"tool.add_artery", "view.layout_planes", "file.series", "file.orientation", "file.open"}});
+        desk_.failure.set({tr("The arteries were not found by themselves"),
+                           message,
+                           {"tool.add_artery", "calcium.score", "view.layout_planes", "file.series",
+                            "file.orientation", "file.open"}});
       });
 }
 

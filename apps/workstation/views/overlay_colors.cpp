@@ -9,6 +9,12 @@
 namespace ostia::workstation {
 namespace {
 
+/// As in pictures of a report, `figure::palette`.
+QColor color_of_palette(std::size_t index) {
+  const figure::Color color = figure::palette(index);
+  return QColor::fromRgbF(color.r, color.g, color.b);
+}
+
 QColor color_of_plaque(view::Role role) {
   const auto& [of, color] = *std::ranges::find(view::plaque_colors, role, &view::PlaqueColor::role);
   return QColor::fromRgbF(color.r, color.g, color.b);
@@ -78,6 +84,22 @@ QColor role_color(view::Role role, Ground ground) {
       return bright ? QColor(196, 176, 255) : QColor(105, 80, 190);
     case Role::not_evaluable:
       return bright ? QColor(255, 60, 170) : QColor(180, 0, 105);
+    case Role::calcium_lm:
+      return color_of_palette(6);
+    case Role::calcium_lad:
+      return color_of_palette(0);
+    case Role::calcium_lcx:
+      return color_of_palette(1);
+    case Role::calcium_rca:
+      return color_of_palette(2);
+    case Role::calcium_elsewhere:
+      return color_of_palette(7);
+    case Role::fat_dark:
+      return QColor(40, 90, 255);
+    case Role::fat_middle:
+      return QColor(240, 228, 66);
+    case Role::fat_bright:
+      return QColor(213, 94, 0);
   }
   return Qt::white;
 }

@@ -836,6 +836,10 @@ def write_report(
     window_hu: float = ..., language: Literal["en", "de"] = ..., form: Literal["full", "short"] = ...,
     agatston: Optional[float] = ..., impression: str = ..., high_risk: Options = ...,
 ) -> dict[str, Any]: ...
+def compare_cases(
+    old: Case, new: Case, old_image: Optional[Volume] = ..., new_image: Optional[Volume] = ..., *, anyway: bool = ...,
+    repeatability: Optional[Path] = ..., progress: Progress = ...,
+) -> dict[str, Any]: ...
 def sample_case(
     folder: Path, preset: Literal["tiny", "small", "full"] = ..., *, progress: Progress = ...,
 ) -> tuple[str, str]: ...

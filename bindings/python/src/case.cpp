@@ -64,6 +64,7 @@ py::dict report_notes_of(Case& file) {
   all["impression"] = report.impression;
   all["modifiers"] = modifiers;
   all["features"] = fields_of(session::SetPlaqueFeatures{report.features})["features"];
+  all["calcium"] = fields_of(session::SetCalciumPlaces{report.calcium})["words"];
   all["versions"] = versions;
   all["digest"] = session::report_content_digest(*model, *notes);
   all["digest_with_image"] =
@@ -92,7 +93,8 @@ void bind_notes(py::class_<Case, std::shared_ptr<Case>>& type) {
            "A measurement, a mark, what pressures are told or the report says, committed to the file: "
            "'measure.add', "
            "'measure.change', 'measure.delete', 'vessel.mark', 'pressure.inputs', 'pressure.what_if', "
-           "'report.impression', 'report.modifiers', 'report.features', 'report.sign', and fields "
+           "'report.impression', 'report.modifiers', 'report.features', 'report.sign', 'calcium.places', and "
+           "fields "
            "by keyword, or a line of JSON. Returns the id of a new measurement.")
       .def_property_readonly(
           "measurements", &measurements_of,
@@ -105,7 +107,8 @@ void bind_notes(py::class_<Case, std::shared_ptr<Case>>& type) {
       .def_property_readonly(
           "report_notes", &report_notes_of,
           "What a person says of the report: impression, modifiers, features (words on those of high-risk "
-          "plaque), versions that were signed, and the digest that a signature is for ('report.sign')")
+          "plaque), calcium (words on lesions of a calcium score), versions that were signed, and the digest "
+          "that a signature is for ('report.sign')")
       .def_property_readonly(
           "pressure_inputs",
           [](Case& file) {

@@ -73,7 +73,7 @@ OSTIA_OPTIONS(ReadingOptions,
 OSTIA_OPTIONS(ReadingPatients, (first_seed, patients, voxel_mm, hard, noise_hu, motion_mm, reader), ())
 OSTIA_OPTIONS(EditingOptions, (reader, observer, start_excess_mm, margin_mm, start_spacing_mm), ())
 OSTIA_OPTIONS(ExtractionScoreOptions, (astray_mm, threshold), ())
-OSTIA_OPTIONS(HardStrength, (noise, blur, motion, venous), ())
+OSTIA_OPTIONS(HardStrength, (noise, blur, motion, venous, contact, calcium, fall, closed), ())
 OSTIA_OPTIONS(HardOptions, (first_seed, cases, easy, search, voxel_mm, strength, scores), ())
 OSTIA_OPTIONS(CertaintyOptions, (first_seed, patients, scans, voxel_mm), ())
 OSTIA_OPTIONS(TubeScanOptions,

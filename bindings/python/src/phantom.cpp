@@ -64,7 +64,7 @@ OSTIA_OPTIONS(ScanOptions,
 OSTIA_OPTIONS(ContourOptions, (spacing_mm, observer_spacing_mm, points), ())
 OSTIA_OPTIONS(ObserverOptions, (count, healthy_mm, diseased_mm, axis_mm, axis_length_mm), (seed))
 OSTIA_OPTIONS(CaseOptions, (seed, preset, disease, variant, scan, contours, observers, surface_spacing_mm),
-              (patient))  // arteries of a file
+              (patient, obstacles))  // arteries of a file; the suite hard's
 OSTIA_OPTIONS(SuiteOptions, (first, cases, truth_only, mhd, nrrd, dicom, report, phases, hard), ())
 OSTIA_OPTIONS(BuiltinOptions,
               (seed, spacing_mm, blur_fwhm_mm, noise_hu, noise_grain_mm, lumen_hu, fat_hu, myocardium_hu), ())

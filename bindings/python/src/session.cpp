@@ -154,6 +154,7 @@ void bind_session(py::module_& m) {
   bind_pressure(m);
   bind_session_walls(m);
   bind_session_tissues(m);
+  bind_session_comparison(m);
   bind_case(m);
   bind_session_reports(m);
 }

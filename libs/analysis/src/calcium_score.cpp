@@ -233,8 +233,8 @@ ScoredCalcium score_calcium(const imaging::ImageVolume& image, const CalciumOpti
     score.warnings.push_back(
         "no heart was found, so no place could be proposed: no lesion counts until a person has said where "
         "it lies");
-  const CalciumSpots found = calcium_spots(slices, options, task.sub(0.6, 0.9));
-  const std::vector<CalciumLesion> parts = measured_parts(slices, found, options);
+  const CalciumSpots found = calcium_spots(slices, options, task.sub(0.6, 0.85));
+  const std::vector<CalciumLesion> parts = measured_parts(slices, found, options, task.sub(0.85, 0.95));
   score.lesions = lesions_of(slices, found, parts, heart, score);
   const std::vector<std::int32_t> numbers = number_them(score.lesions, parts.size());
   count(score);

@@ -76,13 +76,15 @@ CalciumSpots calcium_spots(const CalciumSlices& slices, const CalciumOptions& o,
 }
 
 std::vector<CalciumLesion> measured_parts(const CalciumSlices& slices, const CalciumSpots& found,
-                                          const CalciumOptions& o) {
+                                          const CalciumOptions& o, const core::TaskContext& task) {
   const FloatVolume& image = slices.image;
   const Geometry& grid = image.geometry;
   std::vector<CalciumLesion> out(found.parts.voxels.size());
   std::vector<double> above(out.size(), 0.0);
   std::vector<std::int64_t> last_slice(out.size(), -1);
-  for (std::int64_t k = 0; k < grid.size[2]; ++k)
+  for (std::int64_t k = 0; k < grid.size[2]; ++k) {
+    task.throw_if_cancelled();
+    task.set_progress(static_cast<double>(k) / static_cast<double>(grid.size[2]));
     for (std::int64_t j = 0; j < grid.size[1]; ++j)
       for (std::int64_t i = 0; i < grid.size[0]; ++i) {
         const std::uint32_t part = found.parts.label[static_cast<std::size_t>(grid.offset(i, j, k))];
@@ -103,6 +105,7 @@ std::vector<CalciumLesion> measured_parts(const CalciumSlices& slices, const Cal
         if (last_slice[part] != k) ++lesion.slices;
         last_slice[part] = k;
       }
+  }
   for (std::size_t part = 1; part < out.size(); ++part)
     out[part].centre = grid.world(out[part].centre / above[part]);
   for (const CalciumSpot& spot : found.spots) {

@@ -25,6 +25,6 @@ int agatston_weight(double peak_hu);
 
 /// Of each part, [0] of nothing: measures, centre, peak and slices. The rest stays as it is.
 std::vector<CalciumLesion> measured_parts(const CalciumSlices& slices, const CalciumSpots& found,
-                                          const CalciumOptions& options);
+                                          const CalciumOptions& options, const core::TaskContext& task);
 
 }  // namespace ostia::analysis

@@ -1,9 +1,10 @@
 #include "ostia/centerline/axis_fit.h"
 
+#include "line_points.h"
+
 #include "ostia/core/error.h"
 #include "ostia/core/parallel.h"
 #include "ostia/geometry/frame.h"
-#include "ostia/geometry/kd_tree.h"
 #include "ostia/geometry/mesh_topology.h"
 #include "ostia/geometry/polyline.h"
 #include "ostia/geometry/spline.h"
@@ -11,6 +12,7 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -27,6 +29,7 @@ using std::numbers::pi;
 struct WallSample {
   double abscissa = 0.0;
   double distance = 0.0;
+  double angle = 0.0;  // of the direction
   Vec2 direction = Vec2::Zero();
 };
 
@@ -67,19 +70,26 @@ std::vector<WallSample> unfold_wall(const Axis& axis, const std::vector<double>&
     box.extend(axis.points[i] + Vec3::Constant(reach * axis.radius[i]));
     box.extend(axis.points[i] - Vec3::Constant(reach * axis.radius[i]));
   }
-  const geometry::KdTree tree(axis.points);
+  const detail::LinePoints line(axis.points);
+  const double farthest = 1.1 * reach * *std::max_element(axis.radius.begin(), axis.radius.end());
+  const double within_squared = farthest * farthest * (1.0 + 1e-9);  // on the safe side of rounding
   constexpr std::size_t grain = 4096;
   const std::size_t count = wall.points().size();
   std::vector<std::vector<WallSample>> parts((count + grain - 1) / grain);
   core::parallel_chunks(count, grain, [&](std::size_t first, std::size_t last) {
+    std::size_t run = 0;
     for (std::size_t k = first; k < last; ++k) {
       const Vec3& p = wall.points()[k];
       if (!box.contains(p)) continue;
-      const auto near = static_cast<std::size_t>(tree.nearest(p));
+      const std::int32_t found = line.nearest(p, within_squared, run);
+      if (found < 0) continue;
+      const auto near = static_cast<std::size_t>(found);
       if ((p - axis.points[near]).norm() > 1.1 * reach * axis.radius[near]) continue;
       WallSample sample;
       if (!unfold(axis.points, s, frames, near, p, sample)) continue;
-      if (sample.distance <= reach * axis.radius[near]) parts[first / grain].push_back(sample);
+      if (sample.distance > reach * axis.radius[near]) continue;
+      sample.angle = std::atan2(sample.direction.y(), sample.direction.x());
+      parts[first / grain].push_back(sample);
     }
   });
   std::vector<WallSample> samples;
@@ -93,8 +103,7 @@ std::vector<WallSample> unfold_wall(const Axis& axis, const std::vector<double>&
 // fit. A wide gap (a branch leaves there) counts no more than three mean ones.
 std::vector<double> angular_weights(const WallSample* samples, std::size_t count) {
   std::vector<std::pair<double, std::size_t>> order(count);
-  for (std::size_t i = 0; i < count; ++i)
-    order[i] = {std::atan2(samples[i].direction.y(), samples[i].direction.x()), i};
+  for (std::size_t i = 0; i < count; ++i) order[i] = {samples[i].angle, i};
   std::sort(order.begin(), order.end());
   const double mean_gap = 2.0 * pi / static_cast<double>(count);
   std::vector<double> weights(count, 0.0);
@@ -109,31 +118,81 @@ std::vector<double> angular_weights(const WallSample* samples, std::size_t count
   return weights;
 }
 
+// The value that k of them are before when they are sorted; `scratch` may become anything.
+double value_at_rank(const std::vector<double>& values, std::size_t k, std::vector<double>& scratch) {
+  constexpr std::size_t few = 16;
+  if (k >= few) {
+    scratch = values;
+    const auto place = scratch.begin() + static_cast<std::ptrdiff_t>(k);
+    std::nth_element(scratch.begin(), place, scratch.end());
+    return *place;
+  }
+  std::array<double, few> least{};  // so far, sorted: most values are passed over by one comparison
+  std::size_t known = 0;
+  for (const double value : values) {
+    if (known > k && !(value < least[k])) continue;
+    std::size_t at = known > k ? k : known++;
+    for (; at > 0 && value < least[at - 1]; --at) least[at] = least[at - 1];
+    least[at] = value;
+  }
+  return least[k];
+}
+
+// Of least squares with the rows (1, along, x, y). Sums as plain numbers, and nothing called between them:
+// they stay in registers.
+class NormalEquations {
+ public:
+  void add(double weight, double along, const Vec2& direction, double value) {
+    const double x = direction.x(), y = direction.y();
+    const double wa = weight * along, wx = weight * x, wy = weight * y, wv = weight * value;
+    w_ += weight;
+    wa_ += wa;
+    wx_ += wx;
+    wy_ += wy;
+    waa_ += wa * along;
+    wxa_ += wx * along;
+    wya_ += wy * along;
+    wxx_ += wx * x;
+    wyx_ += wy * x;
+    wyy_ += wy * y;
+    v_ += wv;
+    va_ += wv * along;
+    vx_ += wv * x;
+    vy_ += wv * y;
+  }
+  Eigen::Matrix4d matrix() const {
+    Eigen::Matrix4d m;
+    m << w_, wa_, wx_, wy_, wa_, waa_, wxa_, wya_, wx_, wxa_, wxx_, wyx_, wy_, wya_, wyx_, wyy_;
+    return m;
+  }
+  Eigen::Vector4d right() const { return {v_, va_, vx_, vy_}; }
+
+ private:
+  double w_ = 0.0, wa_ = 0.0, wx_ = 0.0, wy_ = 0.0;
+  double waa_ = 0.0, wxa_ = 0.0, wya_ = 0.0, wxx_ = 0.0, wyx_ = 0.0, wyy_ = 0.0;
+  double v_ = 0.0, va_ = 0.0, vx_ = 0.0, vy_ = 0.0;
+};
+
 // Shift of the centre in the normal plane at abscissa s.
 Vec2 fit_centre(const WallSample* samples, std::size_t count, double s, double radius) {
   constexpr double softness = 0.03;  // wall this part of the radius beyond the inscribed circle weighs 1/e
   constexpr double prior = 0.02;     // of all the wall's weight: keeps the centre where the wall says nothing
   const std::vector<double> angular = angular_weights(samples, count);
   Vec2 shift = Vec2::Zero();
-  std::vector<double> distances(count), sorted;
+  std::vector<double> distances(count), weights(count), along(count), scratch;
+  for (std::size_t i = 0; i < count; ++i) along[i] = (samples[i].abscissa - s) / radius;
   for (int round = 0; round < 3; ++round) {
     for (std::size_t i = 0; i < count; ++i)
       distances[i] = samples[i].distance - shift.dot(samples[i].direction);
-    sorted = distances;
-    const auto tenth = sorted.begin() + static_cast<std::ptrdiff_t>(count / 10);
-    std::nth_element(sorted.begin(), tenth, sorted.end());
-    Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
-    Eigen::Vector4d right = Eigen::Vector4d::Zero();
-    for (std::size_t i = 0; i < count; ++i) {
-      const double excess = std::max(0.0, distances[i] - *tenth) / (softness * radius);
-      const double weight = angular[i] * std::exp(-excess);
-      const Eigen::Vector4d row(1.0, (samples[i].abscissa - s) / radius, samples[i].direction.x(),
-                                samples[i].direction.y());
-      normal += weight * row * row.transpose();
-      right += weight * distances[i] * row;
-    }
+    const double tenth = value_at_rank(distances, count / 10, scratch);
+    for (std::size_t i = 0; i < count; ++i)
+      weights[i] = angular[i] * std::exp(-(std::max(0.0, distances[i] - tenth) / (softness * radius)));
+    NormalEquations equations;
+    for (std::size_t i = 0; i < count; ++i)
+      equations.add(weights[i], along[i], samples[i].direction, distances[i]);
+    Eigen::Matrix4d normal = equations.matrix();
     normal.diagonal() += prior * 2.0 * pi * Eigen::Vector4d(1e-6, 1e-3, 1.0, 1.0);
-    const Eigen::Vector4d solution = normal.ldlt().solve(right);
+    const Eigen::Vector4d solution = normal.ldlt().solve(equations.right());
     shift += solution.tail<2>();
   }
   return shift;

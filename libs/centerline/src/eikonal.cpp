@@ -65,7 +65,14 @@ bool comes_too_late(const Vec3& a, const Vec3& b, double time_a, double time_b, 
 class March {
  public:
   March(const InnerVoronoi& diagram, std::int32_t source)
-      : diagram_(diagram), nodes_(diagram.points.size()), accepted_(diagram.points.size(), 0) {
+      : diagram_(diagram),
+        nodes_(diagram.points.size()),
+        accepted_(diagram.points.size(), 0),
+        faces_(diagram.polygon_count()) {
+    for (std::size_t i = 0; i < faces_.size(); ++i) {
+      const std::int32_t first = diagram.polygon_first[i];
+      faces_[i] = {first, diagram.polygon_first[i + 1] - first};
+    }
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
       nodes_[i].point = diagram.points[i];
       nodes_[i].slowness = 1.0 / std::max(diagram.radius[i], 1e-12);
@@ -95,6 +102,10 @@ class March {
   }
 
  private:
+  struct Face {
+    std::int32_t first = 0;  // of its corners
+    std::int32_t ahead = 0;  // corners that the front has not passed
+  };
   // All that is asked of a point that the front has not passed lies together.
   struct alignas(64) Node {
     Vec3 point = Vec3::Zero();
@@ -152,20 +163,26 @@ class March {
     offer(x, to, std::max({time, a.time, b.time}), t < 0.5 ? v : w);
   }
 
-  void spread_in_polygon(const std::int32_t* corners, std::int32_t size, std::int32_t point) {
-    if (size <= all_pairs_up_to) {
-      std::array<std::int32_t, all_pairs_up_to> passed;
-      std::size_t count = 0;
-      for (std::int32_t k = 0; k < size; ++k)
-        if (corners[k] != point && accepted(corners[k])) passed[count++] = corners[k];
-      if (static_cast<std::int32_t>(count) + 1 == size) return;
-      for (std::int32_t i = 0; i < size; ++i) {
-        if (accepted(corners[i])) continue;
-        offer_along_edge(point, corners[i]);
-        for (std::size_t k = 0; k < count; ++k) offer_across(point, passed[k], corners[i]);
-      }
-      return;
+  // To the corners that the front has not passed, along edges and chords from the point, and across the
+  // polygon from it and each of those that it has.
+  void spread_to_all(const std::int32_t* corners, std::int32_t size, std::int32_t point) {
+    std::array<std::int32_t, all_pairs_up_to> passed;
+    std::size_t count = 0;
+    for (std::int32_t k = 0; k < size; ++k)
+      if (corners[k] != point && accepted(corners[k])) passed[count++] = corners[k];
+    for (std::int32_t i = 0; i < size; ++i) {
+      if (accepted(corners[i])) continue;
+      offer_along_edge(point, corners[i]);
+      for (std::size_t k = 0; k < count; ++k) offer_across(point, passed[k], corners[i]);
     }
+  }
+
+  void spread_from_first(const std::int32_t* corners, std::int32_t size, std::int32_t point) {
+    for (std::int32_t i = 0; i < size; ++i)
+      if (corners[i] != point) offer_along_edge(point, corners[i]);
+  }
+
+  void spread_beside(const std::int32_t* corners, std::int32_t size, std::int32_t point) {
     std::int32_t place = 0;
     while (corners[place] != point) ++place;
     const std::array beside{corners[(place + 1) % size], corners[(place + size - 1) % size]};
@@ -177,20 +194,32 @@ class March {
     }
   }
 
+  void spread_in_polygon(std::size_t polygon, std::int32_t point) {
+    Face& face = faces_[polygon];
+    const std::int32_t ahead = --face.ahead;
+    if (ahead == 0) return;
+    const std::int32_t size = diagram_.polygon_first[polygon + 1] - face.first;
+    const std::int32_t* corners = diagram_.corners.data() + face.first;
+    if (ahead + 1 == size)
+      spread_from_first(corners, size, point);
+    else if (size <= all_pairs_up_to)
+      spread_to_all(corners, size, point);
+    else
+      spread_beside(corners, size, point);
+  }
+
   void spread_from(std::int32_t point) {
     for (const std::int32_t neighbour : diagram_.links[index(point)])
       if (neighbour >= 0 && !accepted(neighbour)) offer_along_edge(point, neighbour);
     for (std::int32_t k = diagram_.incidence_first[index(point)];
-         k < diagram_.incidence_first[index(point) + 1]; ++k) {
-      const std::size_t polygon = index(diagram_.incidence[index(k)]);
-      const std::int32_t first = diagram_.polygon_first[polygon];
-      spread_in_polygon(diagram_.corners.data() + first, diagram_.polygon_first[polygon + 1] - first, point);
-    }
+         k < diagram_.incidence_first[index(point) + 1]; ++k)
+      spread_in_polygon(index(diagram_.incidence[index(k)]), point);
   }
 
   const InnerVoronoi& diagram_;
   std::vector<Node> nodes_;
   std::vector<std::uint8_t> accepted_;  // apart: small enough to stay near
+  std::vector<Face> faces_;             // of polygons
   EarliestFirst waiting_;               // superseded entries stay and are passed over
 };
 

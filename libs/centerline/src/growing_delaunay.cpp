@@ -9,7 +9,7 @@ namespace {
 using geometry::Vec3;
 
 // Beyond so many points around a hollow pairs of its edges are found by sorting.
-constexpr std::int32_t widest_table = 64;
+constexpr std::size_t widest_table = 64;
 
 std::size_t slot(std::int32_t i) {
   return static_cast<std::size_t>(i);
@@ -34,6 +34,13 @@ constexpr std::array<std::array<std::array<std::uint8_t, 2>, 4>, 4> other_two = 
     }
   return table;
 }();
+
+constexpr std::array<std::array<std::uint8_t, 3>, 4> other_three{
+    {{{1, 2, 3}}, {{0, 2, 3}}, {{0, 1, 3}}, {{0, 1, 2}}}};
+
+bool has_nowhere(const GrowingDelaunay::Four& cell) {
+  return (cell[0] | cell[1] | cell[2] | cell[3]) < 0;
+}
 
 }  // namespace
 
@@ -88,8 +95,8 @@ bool GrowingDelaunay::in_sphere(const Four& cell, std::int32_t point) const {
 
 bool GrowingDelaunay::conflicts(std::int32_t cell, std::int32_t point) const {
   const Four& corners = corners_[slot(cell)];
+  if (!has_nowhere(corners)) return in_sphere(corners, point);
   const auto none = static_cast<std::size_t>(std::ranges::find(corners, nowhere) - corners.begin());
-  if (none == corners.size()) return in_sphere(corners, point);
   if (const int beyond = side_with(corners, none, point); beyond != 0) return beyond > 0;
   // In the hull's plane the sphere of the cell inside is the circle about the face.
   return in_sphere(corners_[slot(neighbour(slot(cell), none))], point);
@@ -143,7 +150,7 @@ std::int32_t GrowingDelaunay::find(std::int32_t point) const {
   for (bool moved = true; moved;) {
     moved = false;
     const Four& corners = corners_[slot(cell)];
-    if (std::ranges::find(corners, nowhere) != corners.end()) return cell;
+    if (has_nowhere(corners)) return cell;
     for (std::int32_t i = 0; i < 4 && !moved; ++i) {
       if (i == from) continue;
       if (side_with(corners, slot(i), point) >= 0) continue;
@@ -204,14 +211,14 @@ void GrowingDelaunay::fill() {
     seen_[slot(cell)] = {};
     join(4 * cell + faces_[i].apex, faces_[i].outside);
     made_.push_back(cell);
-    if (std::ranges::find(faces_[i].corners, nowhere) == faces_[i].corners.end()) near_ = cell;
+    if (!has_nowhere(faces_[i].corners)) near_ = cell;
   }
   for (std::size_t i = faces_.size(); i < hollow_.size(); ++i) {
     corners_[slot(hollow_[i])].fill(gone);
     free_.push_back(hollow_[i]);
   }
   // A closed surface of triangles has twice as many of them as points, less four.
-  if (static_cast<std::int32_t>(faces_.size()) / 2 + 2 <= widest_table)
+  if (faces_.size() / 2 + 2 <= widest_table)
     join_round_the_point();
   else
     join_many_round_the_point();
@@ -224,24 +231,29 @@ std::int32_t GrowingDelaunay::number_in_round(std::int32_t corner) {
 }
 
 // Each edge of the hollow's surface lies between two of the new cells, which name its ends in opposite
-// orders.
+// orders. First all write where they are, then each reads who is beyond: nothing depends on who came first,
+// which a processor could not guess.
 void GrowingDelaunay::join_round_the_point() {
   numbered_ = 0;
+  numbered_corners_.resize(std::max(numbered_corners_.size(), faces_.size()));
   for (std::size_t f = 0; f < faces_.size(); ++f) {
     const Face& face = faces_[f];
     const std::size_t apex = slot(face.apex);
-    std::array<std::int32_t, 4> number{};
-    for (std::size_t k = 0; k < 4; ++k)
-      if (k != apex) number[k] = number_in_round(face.corners[k]);
-    for (std::size_t k = 0; k < 4; ++k) {
-      if (k == apex) continue;
+    std::array<std::uint8_t, 4>& number = numbered_corners_[f];
+    for (const std::size_t k : other_three[apex])
+      number[k] = static_cast<std::uint8_t>(number_in_round(face.corners[k]));
+    for (const std::size_t k : other_three[apex]) {
       const auto [a, b] = other_two[apex][k];
-      const std::int32_t here = 4 * made_[f] + static_cast<std::int32_t>(k);
-      const Mark& there = table_[slot(number[b] * widest_table + number[a])];
-      if (there.round == round_)
-        join(here, there.value);
-      else
-        table_[slot(number[a] * widest_table + number[b])] = {round_, here};
+      table_[std::size_t{number[a]} * widest_table + number[b]] = 4 * made_[f] + static_cast<std::int32_t>(k);
+    }
+  }
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    const std::size_t apex = slot(faces_[f].apex);
+    const std::array<std::uint8_t, 4>& number = numbered_corners_[f];
+    Four& across = across_[slot(made_[f])];
+    for (const std::size_t k : other_three[apex]) {
+      const auto [a, b] = other_two[apex][k];
+      across[k] = table_[std::size_t{number[b]} * widest_table + number[a]];
     }
   }
 }

@@ -76,7 +76,9 @@ class GrowingDelaunay {
   std::uint32_t round_ = 0;
   std::int32_t numbered_ = 0;
   std::vector<std::int32_t> hollow_, free_, made_;
-  std::vector<Mark> table_;  // by an edge of the hollow's surface: the side of a new cell that waits there
+  std::vector<std::int32_t>
+      table_;  // by a directed edge of the hollow's surface: the side of the new cell there
+  std::vector<std::array<std::uint8_t, 4>> numbered_corners_;  // of each face
   std::vector<Face> faces_;
   std::int32_t near_ = 0;  // a cell by the last point
 };

@@ -212,8 +212,15 @@ void add_polygons(const Delaunay& cells, const std::vector<std::int32_t>& inner,
     std::vector<std::int32_t> ring;
     for (std::size_t cell = first; cell < last; ++cell) {
       if (inner[cell] < 0) continue;
+      std::array<bool, 4> on{};  // whether a ring that begins here may go on through the face
+      for (std::size_t k = 0; k < 4; ++k) {
+        const std::int32_t next = cells.neighbours[cell][k];
+        on[k] = next > static_cast<std::int32_t>(cell) && inner[static_cast<std::size_t>(next)] >= 0;
+      }
       for (std::size_t i = 0; i < 4; ++i)
         for (std::size_t j = i + 1; j < 4; ++j) {
+          const std::size_t k = i > 0 ? 0 : j > 1 ? 1 : 2, l = 6 - i - j - k;
+          if (!on[k] || !on[l]) continue;
           if (!ring_around(cells, inner, cell, i, j, ring)) continue;
           part.sizes.push_back(static_cast<std::int32_t>(ring.size()));
           part.corners.insert(part.corners.end(), ring.begin(), ring.end());
@@ -267,9 +274,12 @@ InnerVoronoi inner_voronoi(const geometry::TriMesh& capped, const std::vector<bo
   // What waits for tetrahedra that were begun elsewhere comes last, where no thread is free for both.
   core::parallel_invoke(
       [&] {
-        tree = tree_of(capped, known);
-        add_normals(capped, sites);
-        tree->inside(sites.points.front());  // what such questions need is made at the first
+        core::parallel_invoke(
+            [&] {
+              tree = tree_of(capped, known);
+              tree->inside(sites.points.front());  // what such questions need is made at the first
+            },
+            [&] { add_normals(capped, sites); });
       },
       [&] { cells = tetrahedra_of(sites.points, known, task.sub(0.0, 0.6)); });
   Classified classified = classify(sites, cells, capped, *tree, task);

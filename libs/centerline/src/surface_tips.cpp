@@ -3,14 +3,17 @@
 #include "earliest_first.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/parallel.h"
 #include "ostia/geometry/disjoint_sets.h"
 #include "ostia/geometry/mesh_topology.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 namespace ostia::centerline {
 namespace {
@@ -21,9 +24,22 @@ using geometry::Vec3;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double disc_radii = 4.0;  // geodesic radius of the disc by which a branch's radius is measured
 constexpr int disc_rounds = 6;
-constexpr double from_border_radii = 3.0;  // a maximum so near to an open end is that end
+constexpr double from_border_radii = 3.0;    // a maximum so near to an open end is that end
+constexpr double longest_neck_radii = 30.0;  // what is longer is no ball on a stalk
 
-/// Ways along the edges of a surface.
+/// How far points are from where a walk began; infinite where it did not come.
+struct Walked {
+  explicit Walked(std::size_t points) : distance(points, infinite) {}
+  /// For another walk.
+  void forget() {
+    for (const std::int32_t v : touched) distance[static_cast<std::size_t>(v)] = infinite;
+    touched.clear();
+  }
+  std::vector<double> distance;
+  std::vector<std::int32_t> touched;
+};
+
+/// Ways along the edges of a surface. Safe from many threads.
 class SurfaceWays {
  public:
   explicit SurfaceWays(const TriMesh& mesh)
@@ -50,9 +66,10 @@ class SurfaceWays {
 
   /// Visits points by increasing distance from `start` until `visit(point, distance)` says no.
   template <class Visit>
-  void walk(std::int32_t start, std::vector<double>& distance, Visit visit) const {
+  void walk(std::int32_t start, Walked& walked, Visit visit) const {
     EarliestFirst next;
-    std::vector<std::int32_t> touched{start};
+    std::vector<double>& distance = walked.distance;
+    walked.touched.push_back(start);
     distance[static_cast<std::size_t>(start)] = 0.0;
     next.push(0.0, start);
     while (!next.empty()) {
@@ -64,16 +81,11 @@ class SurfaceWays {
             d +
             (mesh_.points[static_cast<std::size_t>(v)] - mesh_.points[static_cast<std::size_t>(n)]).norm();
         if (to >= distance[static_cast<std::size_t>(n)]) continue;
-        if (distance[static_cast<std::size_t>(n)] == infinite) touched.push_back(n);
+        if (distance[static_cast<std::size_t>(n)] == infinite) walked.touched.push_back(n);
         distance[static_cast<std::size_t>(n)] = to;
         next.push(to, n);
       }
     }
-    touched_.swap(touched);
-  }
-  /// Makes the array of the last walk as it was before.
-  void forget(std::vector<double>& distance) const {
-    for (const std::int32_t v : touched_) distance[static_cast<std::size_t>(v)] = infinite;
   }
   double area(std::int32_t v) const { return area_[static_cast<std::size_t>(v)]; }
   /// All round a point there are as many triangles as neighbours.
@@ -86,7 +98,6 @@ class SurfaceWays {
   std::vector<std::vector<std::int32_t>> neighbours_;
   std::vector<double> area_;
   std::vector<std::size_t> triangles_;  // at each point
-  mutable std::vector<std::int32_t> touched_;
 };
 
 std::int32_t nearest_point(const SurfaceWays& ways, const Vec3& to) {
@@ -100,9 +111,9 @@ std::int32_t nearest_point(const SurfaceWays& ways, const Vec3& to) {
 }
 
 std::vector<double> distances(const SurfaceWays& ways, std::int32_t start) {
-  std::vector<double> distance(ways.mesh().points.size(), infinite);
-  ways.walk(start, distance, [](std::int32_t, double) { return true; });
-  return distance;
+  Walked walked(ways.mesh().points.size());
+  ways.walk(start, walked, [](std::int32_t, double) { return true; });
+  return std::move(walked.distance);
 }
 
 std::int32_t farthest(const std::vector<double>& distance) {
@@ -154,17 +165,16 @@ std::vector<Peak> peaks_of(const SurfaceWays& ways, const std::vector<double>& d
 }
 
 /// Of the branch that ends at `tip`: about A(h) / (2 pi h), h four radii.
-double radius_near(const SurfaceWays& ways, std::int32_t tip, double length_mm,
-                   std::vector<double>& scratch) {
+double radius_near(const SurfaceWays& ways, std::int32_t tip, double length_mm, Walked& walked) {
   double reach = length_mm, radius = 0.0;
   for (int round = 0; round < disc_rounds; ++round) {
     double area = 0.0;
-    ways.walk(tip, scratch, [&](std::int32_t v, double d) {
+    ways.walk(tip, walked, [&](std::int32_t v, double d) {
       if (d > reach) return false;
       area += ways.area(v);
       return true;
     });
-    ways.forget(scratch);
+    walked.forget();
     radius = area / (2.0 * std::numbers::pi * reach);
     if (disc_radii * radius >= reach) break;
     reach = disc_radii * radius;
@@ -173,14 +183,14 @@ double radius_near(const SurfaceWays& ways, std::int32_t tip, double length_mm,
 }
 
 /// SurfaceTip::neck.
-double neck_of(const SurfaceWays& ways, std::int32_t tip, double length_mm, std::vector<double>& scratch) {
+double neck_of(const SurfaceWays& ways, std::int32_t tip, double length_mm, Walked& walked) {
   double middle = 0.0, last = 0.0;
-  ways.walk(tip, scratch, [&](std::int32_t v, double d) {
+  ways.walk(tip, walked, [&](std::int32_t v, double d) {
     if (d > length_mm) return false;
     if (3.0 * d > length_mm) (3.0 * d > 2.0 * length_mm ? last : middle) += ways.area(v);
     return true;
   });
-  ways.forget(scratch);
+  walked.forget();
   return middle > 0.0 ? last / middle : 1.0;
 }
 
@@ -213,14 +223,32 @@ Vec3 normal_at(const TriMesh& mesh, std::int32_t point) {
   return geometry::vertex_normals(around).front();
 }
 
-bool near_border(const SurfaceWays& ways, std::int32_t tip, double within_mm, std::vector<double>& scratch) {
+bool near_border(const SurfaceWays& ways, std::int32_t tip, double within_mm, Walked& walked) {
   bool found = false;
-  ways.walk(tip, scratch, [&](std::int32_t v, double d) {
+  ways.walk(tip, walked, [&](std::int32_t v, double d) {
     found = found || ways.on_border(v);
     return !found && d <= within_mm;
   });
-  ways.forget(scratch);
+  walked.forget();
   return found;
+}
+
+/// None where the peak is no branch, or an open end.
+std::optional<SurfaceTip> tip_at(const SurfaceWays& ways, const Peak& peak,
+                                 const std::vector<double>& distance, const TipOptions& options,
+                                 Walked& walked) {
+  if (!(peak.prominence > 0.0)) return std::nullopt;
+  SurfaceTip tip;
+  tip.length_mm = peak.prominence;
+  tip.radius_mm = radius_near(ways, peak.point, peak.prominence, walked);
+  if (tip.length_mm < options.least_length_radii * tip.radius_mm) return std::nullopt;
+  if (near_border(ways, peak.point, from_border_radii * tip.radius_mm, walked)) return std::nullopt;
+  tip.point = ways.mesh().points[static_cast<std::size_t>(peak.point)];
+  tip.inside = tip.point - 0.5 * tip.radius_mm * normal_at(ways.mesh(), peak.point);
+  if (tip.length_mm <= longest_neck_radii * tip.radius_mm)
+    tip.neck = neck_of(ways, peak.point, tip.length_mm, walked);
+  tip.way = way_back(ways, distance, peak.point);
+  return tip;
 }
 
 }  // namespace
@@ -249,24 +277,20 @@ std::vector<SurfaceTip> find_tips(const TriMesh& surface, const std::optional<Ve
   task.throw_if_cancelled();
   std::vector<Peak> peaks = peaks_of(ways, distance);
   if (!from) peaks.push_back({start, distance[static_cast<std::size_t>(farthest(distance))]});
+  // The longest take the longest, each a walk over its branch: they are dealt out one by one.
+  constexpr std::size_t hands = 4;
+  std::ranges::stable_sort(peaks, std::greater{}, &Peak::prominence);
+  std::vector<std::optional<SurfaceTip>> found(peaks.size());
+  core::parallel_for(hands, 1, [&](std::size_t hand) {
+    Walked walked(surface.points.size());
+    for (std::size_t i = hand; i < peaks.size(); i += hands) {
+      task.throw_if_cancelled();
+      found[i] = tip_at(ways, peaks[i], distance, options, walked);
+    }
+  });
   std::vector<SurfaceTip> tips;
-  std::vector<double> scratch(surface.points.size(), infinite);
-  for (const Peak& peak : peaks) {
-    task.throw_if_cancelled();
-    if (!(peak.prominence > 0.0)) continue;
-    SurfaceTip tip;
-    tip.length_mm = peak.prominence;
-    tip.radius_mm = radius_near(ways, peak.point, peak.prominence, scratch);
-    if (tip.length_mm < options.least_length_radii * tip.radius_mm) continue;
-    if (near_border(ways, peak.point, from_border_radii * tip.radius_mm, scratch)) continue;
-    tip.point = surface.points[static_cast<std::size_t>(peak.point)];
-    tip.inside = tip.point - 0.5 * tip.radius_mm * normal_at(surface, peak.point);
-    tip.neck = neck_of(ways, peak.point, tip.length_mm, scratch);
-    tip.way = way_back(ways, distance, peak.point);
-    tips.push_back(std::move(tip));
-  }
-  std::ranges::stable_sort(
-      tips, [](const SurfaceTip& a, const SurfaceTip& b) { return a.length_mm > b.length_mm; });
+  for (std::optional<SurfaceTip>& tip : found)
+    if (tip) tips.push_back(std::move(*tip));
   return tips;
 }
 

@@ -6,17 +6,22 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/job.h"
+#include "ostia/core/write_back.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <exception>
 #include <fstream>
+#include <future>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -75,6 +80,38 @@ void sync(const fs::path& path, int flags) {
     if (errno == EINVAL) return;  // some file systems cannot sync a folder
     throw_errno("cannot write", path, errno);
   }
+}
+
+/// All regular files below a folder. Writing begins for all of them before the first is waited for, and
+/// several wait at a time, so that the file system puts them into few transactions: of hundreds of files one
+/// by one each would wait for its own.
+void sync_files_below(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) files.push_back(entry.path());
+  for (const fs::path& file : files) begin_writing_back(file);
+  constexpr std::size_t most_waiting = 8;
+  std::atomic<std::size_t> next{0};
+  std::mutex mutex;
+  std::exception_ptr thrown;
+  const auto wait_for_some = [&] {
+    try {
+      for (std::size_t n = next++; n < files.size(); n = next++) sync(files[n], O_RDONLY);
+    } catch (...) {
+      next = files.size();
+      const std::lock_guard lock(mutex);
+      if (!thrown) thrown = std::current_exception();
+    }
+  };
+  std::vector<std::future<void>> others;
+  try {
+    for (std::size_t n = 1; n < std::min(most_waiting, files.size()); ++n)
+      others.push_back(std::async(std::launch::async, wait_for_some));
+  } catch (const std::system_error&) {  // no thread to be had: fewer wait
+  }
+  wait_for_some();
+  for (std::future<void>& other : others) other.get();
+  if (thrown) std::rethrow_exception(thrown);
 }
 
 fs::path folder_of(const fs::path& target) {
@@ -227,9 +264,7 @@ void StagedFolder::commit() {
 }
 
 void publish_folder(const fs::path& made, const fs::path& target) {
-  for (const auto& entry : fs::recursive_directory_iterator(made)) {
-    if (entry.is_regular_file()) sync(entry.path(), O_RDONLY);
-  }
+  sync_files_below(made);
   sync(made, O_RDONLY | O_DIRECTORY);
   if (fs::exists(target)) {
     if (::renameat2(AT_FDCWD, made.c_str(), AT_FDCWD, target.c_str(), RENAME_EXCHANGE) != 0) {
@@ -241,6 +276,11 @@ void publish_folder(const fs::path& made, const fs::path& target) {
     throw_errno("cannot write", target, errno);
   }
   sync(folder_of(target), O_RDONLY | O_DIRECTORY);
+}
+
+void begin_writing_back(const fs::path& path) {
+  const Descriptor file(path, O_RDONLY);
+  if (file.get() >= 0) ::sync_file_range(file.get(), 0, 0, SYNC_FILE_RANGE_WRITE);
 }
 
 std::size_t remove_dead_parts(const fs::path& folder) {

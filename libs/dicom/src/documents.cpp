@@ -3,8 +3,7 @@
 #include "tags.h"
 
 #include "ostia/core/error.h"
-
-#include <bit>
+#include "ostia/geometry/stl.h"
 
 namespace ostia::dicom {
 namespace {
@@ -13,31 +12,6 @@ constexpr const char* pdf_storage = "1.2.840.10008.5.1.4.1.1.104.1";
 constexpr const char* stl_storage = "1.2.840.10008.5.1.4.1.1.104.3";
 constexpr const char* capture_storage = "1.2.840.10008.5.1.4.1.1.7";
 constexpr std::size_t most_document_bytes = 0xFFFFFFF0u;
-
-void put_float(std::string& to, double value) {
-  const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(value));
-  for (int i = 0; i < 4; ++i) to.push_back(static_cast<char>(bits >> (8 * i) & 0xff));
-}
-
-/// Binary STL; a PDF or STL of odd length is padded by one byte, and its length said.
-std::string stl_bytes(const geometry::TriMesh& surface) {
-  std::string bytes = "Ostia, LPS, mm";
-  bytes.resize(80, ' ');
-  const auto count = static_cast<std::uint32_t>(surface.triangles.size());
-  for (int i = 0; i < 4; ++i) bytes.push_back(static_cast<char>(count >> (8 * i) & 0xff));
-  bytes.reserve(84 + 50 * surface.triangles.size());
-  for (const auto& triangle : surface.triangles) {
-    const Vec3& a = surface.points[static_cast<std::size_t>(triangle[0])];
-    const Vec3& b = surface.points[static_cast<std::size_t>(triangle[1])];
-    const Vec3& c = surface.points[static_cast<std::size_t>(triangle[2])];
-    Vec3 normal = (b - a).cross(c - a);
-    normal = normal.norm() > 0.0 ? Vec3(normal.normalized()) : Vec3(Vec3::Zero());
-    for (const Vec3* p : std::initializer_list<const Vec3*>{&normal, &a, &b, &c})
-      for (int axis = 0; axis < 3; ++axis) put_float(bytes, (*p)[axis]);
-    bytes.append(2, '\0');
-  }
-  return bytes;
-}
 
 void add_document(DicomDataset& d, const SourceSeries& source, std::string bytes, const std::string& title,
                   const char* mime) {
@@ -72,7 +46,7 @@ DicomDataset encapsulated_pdf(const SourceSeries& source, std::string pdf, const
 DicomDataset encapsulated_stl(const SourceSeries& source, const geometry::TriMesh& surface,
                               const std::string& title, const ObjectOptions& options) {
   if (surface.triangles.empty()) throw InvalidInput("DICOM: the surface has no triangles");
-  std::string bytes = stl_bytes(surface);
+  std::string bytes = geometry::binary_stl(surface);
   require_document(bytes, "surface");
   DicomDataset d = object_head(source, stl_storage, "M3D", "surface", options);
   d.set_text(tag::frame_of_reference, "UI", source.frame_of_reference);

@@ -4,6 +4,7 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
+#include "ostia/core/utf8.h"
 #include "ostia/dicom/code.h"
 
 #include <algorithm>
@@ -170,15 +171,12 @@ std::string own_text(const DicomDataset& object, const std::string& utf8, std::s
   std::size_t characters = 0;
   for (std::size_t i = 0; i < utf8.size() && characters < most; ++characters) {
     const auto c = static_cast<unsigned char>(utf8[i]);
-    std::size_t length = 1;
-    while (c >= 0x80 && i + length < utf8.size() &&
-           (static_cast<unsigned char>(utf8[i + length]) & 0xC0) == 0x80)
-      ++length;
+    const std::size_t length = core::utf8_length(std::string_view(utf8).substr(i));
     if (c >= 0x80)
-      result += holds_all ? utf8.substr(i, length) : "?";
+      result += holds_all && length > 0 ? utf8.substr(i, length) : "?";
     else
       result += c < 0x20 || c == 0x7F ? ' ' : c == '\\' ? '/' : static_cast<char>(c);
-    i += length;
+    i += std::max<std::size_t>(length, 1);
   }
   return result;
 }

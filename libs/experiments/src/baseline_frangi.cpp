@@ -65,8 +65,11 @@ double largest_norm(const ScaleHessian& hessian, const imaging::Geometry& grid) 
       [](double a, double b) { return std::max(a, b); });
 }
 
-double tube_answer(const Eigen::Matrix3d& hessian, double c, const FrangiOptions& options) {
+/// 0 where it could not be more than `least`, too.
+double tube_answer(const Eigen::Matrix3d& hessian, double c, double least, const FrangiOptions& options) {
   if (hessian.trace() >= 0.0) return 0.0;  // l2 and l3 are not both below 0, or |l1| is the largest
+  const double strength = 1.0 - std::exp(-0.5 * hessian.squaredNorm() / (c * c));
+  if (strength <= least) return 0.0;  // the other factors are 1 at most
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
   solver.computeDirect(hessian, Eigen::EigenvaluesOnly);
   std::array<double, 3> l{solver.eigenvalues()[0], solver.eigenvalues()[1], solver.eigenvalues()[2]};
@@ -75,7 +78,6 @@ double tube_answer(const Eigen::Matrix3d& hessian, double c, const FrangiOptions
   const double a = l[1] / l[2], b2 = l[0] * l[0] / (l[1] * l[2]);
   const double plate = 1.0 - std::exp(-0.5 * a * a / (options.alpha * options.alpha));
   const double blob = std::exp(-0.5 * b2 / (options.beta * options.beta));
-  const double strength = 1.0 - std::exp(-0.5 * hessian.squaredNorm() / (c * c));
   return plate * blob * strength;
 }
 
@@ -100,7 +102,7 @@ imaging::FloatVolume frangi_vesselness(const imaging::ImageVolume& image, const 
                        [&](std::size_t k) {
                          for_inner(grid, static_cast<std::int64_t>(k) + 1, [&](std::int64_t at) {
                            float& value = best.voxels[static_cast<std::size_t>(at)];
-                           value = std::max(value, float(tube_answer(hessian.at(at), c, options)));
+                           value = std::max(value, float(tube_answer(hessian.at(at), c, value, options)));
                          });
                        });
     part.set_progress(1.0);

@@ -274,15 +274,22 @@ std::vector<HardRow> rows_of(const std::vector<HardRun>& runs, const ExtractionS
 
 std::string parameters_json(const HardOptions& options) {
   const phantom::HardStrength& s = options.strength;
-  return HardJson{
-      {"first_seed", options.first_seed},
-      {"cases", options.cases},
-      {"easy", options.easy},
-      {"search", options.search},
-      {"voxel_mm", options.voxel_mm},
-      {"strength", {{"noise", s.noise}, {"blur", s.blur}, {"motion", s.motion}, {"venous", s.venous}}},
-      {"astray_mm", options.scores.astray_mm},
-      {"threshold", options.scores.threshold}}
+  return HardJson{{"first_seed", options.first_seed},
+                  {"cases", options.cases},
+                  {"easy", options.easy},
+                  {"search", options.search},
+                  {"voxel_mm", options.voxel_mm},
+                  {"strength",
+                   {{"noise", s.noise},
+                    {"blur", s.blur},
+                    {"motion", s.motion},
+                    {"venous", s.venous},
+                    {"contact", s.contact},
+                    {"calcium", s.calcium},
+                    {"fall", s.fall},
+                    {"closed", s.closed}}},
+                  {"astray_mm", options.scores.astray_mm},
+                  {"threshold", options.scores.threshold}}
       .dump();
 }
 

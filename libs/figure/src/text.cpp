@@ -1,37 +1,15 @@
 #include "text.h"
 
-#include <array>
+#include "ostia/core/utf8.h"
+
 #include <charconv>
-#include <cstdint>
 
 namespace ostia::figure {
-namespace {
-
-/// Length of the well-formed UTF-8 character at the start of `text`, 0 if there is none (overlong forms,
-/// surrogates and values past U+10FFFF are not well-formed).
-std::size_t character_length(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
-  const std::uint8_t first = byte(0);
-  if (first < 0x80) return 1;
-  const std::size_t length = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
-  if (first < 0xC2 || first > 0xF4 || text.size() < length) return 0;
-  std::uint32_t code = first & (0xFFU >> (length + 1));
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xC0) != 0x80) return 0;
-    code = (code << 6) | (byte(i) & 0x3FU);
-  }
-  constexpr std::array<std::uint32_t, 5> kLeast{0, 0, 0x80, 0x800, 0x10000};
-  if (code < kLeast[length] || code > 0x10FFFF || (code >= 0xD800 && code <= 0xDFFF)) return 0;
-  return length;
-}
-
-}  // namespace
-
 std::string clean_utf8(std::string_view text) {
   std::string result;
   result.reserve(text.size());
   while (!text.empty()) {
-    const std::size_t length = character_length(text);
+    const std::size_t length = core::utf8_length(text);
     if (length == 0) {
       result += "\xEF\xBF\xBD";
       text.remove_prefix(1);

@@ -101,6 +101,7 @@ struct AabbTree::Impl {
   Bvh bvh;
   std::vector<CornerPoints> triangles;  // in the order of the leaves
   std::vector<char> needles;
+  std::vector<detail::TrianglePlane> planes;
 
   /// Made when it is first asked for: most trees are only asked for distances and hits.
   const detail::WindingTree& winding() const {
@@ -119,10 +120,12 @@ struct AabbTree::Impl {
     bvh = detail::build_bvh(boxes);
     triangles.resize(boxes.size());
     needles.resize(boxes.size());
+    planes.resize(boxes.size());
     for (std::size_t place = 0; place < boxes.size(); ++place) {
       const Triangle& triangle = mesh.triangles[static_cast<std::size_t>(bvh.order[place])];
       for (int i = 0; i < 3; ++i) triangles[place][i] = detail::corner(mesh, triangle, i);
       needles[place] = detail::is_needle(triangles[place]) ? 1 : 0;
+      planes[place] = detail::TrianglePlane(triangles[place]);
     }
   }
 
@@ -147,7 +150,7 @@ SurfacePoint AabbTree::Impl::nearest(const Vec3& query, double bound) const {
   detail::Nearest best;
   best.squared = bound;
   std::int32_t place = -1;
-  detail::search_nearest(bvh, triangles, needles, query, best, place);
+  detail::search_nearest(bvh, triangles, needles, planes, query, best, place);
   return detail::surface_point(bvh, triangles, query, best, place);
 }
 

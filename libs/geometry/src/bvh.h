@@ -43,8 +43,9 @@ struct BvhBox {
     for (int a = 0; a < 3; ++a) {
       const double below = lower[a] - point[a];
       const double above = point[a] - upper[a];
-      const double gap = below > above ? below : above;
-      if (gap > 0.0) sum += gap * gap;
+      double gap = below > above ? below : above;
+      gap = gap > 0.0 ? gap : 0.0;  // a choice and no branch: on which side of a box a point lies is chance
+      sum += gap * gap;
     }
     return sum;
   }

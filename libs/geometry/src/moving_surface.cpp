@@ -22,6 +22,7 @@ struct MovingSurface::Impl {
   std::vector<std::int32_t> place_of;  // of each triangle
   std::vector<CornerPoints> triangles;
   std::vector<char> needles;
+  std::vector<detail::TrianglePlane> planes;
 
   explicit Impl(const TriMesh& mesh) : points(mesh.points.size()) {
     if (mesh.triangles.empty()) throw InvalidInput("moving surface: the surface has no triangles");
@@ -36,6 +37,7 @@ struct MovingSurface::Impl {
     place_of.resize(count);
     triangles.resize(count);
     needles.resize(count);
+    planes.resize(count);
     for (std::size_t place = 0; place < count; ++place) {
       const auto t = static_cast<std::size_t>(bvh.order[place]);
       corners[place] = mesh.triangles[t];
@@ -49,6 +51,7 @@ struct MovingSurface::Impl {
       for (std::size_t i = 0; i < 3; ++i)
         triangles[place][i] = to[static_cast<std::size_t>(corners[place][i])];
       needles[place] = detail::is_needle(triangles[place]) ? 1 : 0;
+      planes[place] = detail::TrianglePlane(triangles[place]);
     });
     // Children come after their parents.
     for (std::size_t n = bvh.nodes.size(); n-- > 0;) {
@@ -89,7 +92,7 @@ SurfacePoint MovingSurface::closest(const Vec3& query, std::int32_t near) const 
     const auto i = static_cast<std::size_t>(place);
     best = detail::nearest_on_triangle(impl_->triangles[i], impl_->needles[i] != 0, query);
   }
-  detail::search_nearest(impl_->bvh, impl_->triangles, impl_->needles, query, best, place);
+  detail::search_nearest(impl_->bvh, impl_->triangles, impl_->needles, impl_->planes, query, best, place);
   return detail::surface_point(impl_->bvh, impl_->triangles, query, best, place);
 }
 

@@ -71,9 +71,19 @@ bool is_needle(const CornerPoints& p) {
   return !(u.cross(v).norm() > 1e-10 * longest2);
 }
 
+TrianglePlane::TrianglePlane(const CornerPoints& p) {
+  constexpr double sliver = 1e-3;  // of the longest edge squared: twice the area
+  const Vec3 u = p[1] - p[0], v = p[2] - p[1], w = p[0] - p[2];
+  const Vec3 normal = u.cross(v);
+  const double length = normal.norm();
+  if (!(length > sliver * std::max({u.squaredNorm(), v.squaredNorm(), w.squaredNorm()}))) return;
+  normal_ = normal / length;
+  along_ = normal_.dot(p[0]);
+}
+
 void search_nearest(const Bvh& bvh, const std::vector<CornerPoints>& triangles,
-                    const std::vector<char>& needles, const Vec3& query, Nearest& best,
-                    std::int32_t& best_place) {
+                    const std::vector<char>& needles, const std::vector<TrianglePlane>& planes,
+                    const Vec3& query, Nearest& best, std::int32_t& best_place) {
   struct Waiting {
     std::int32_t node;
     double squared;
@@ -88,6 +98,7 @@ void search_nearest(const Bvh& bvh, const std::vector<CornerPoints>& triangles,
     if (node.count > 0) {
       for (std::int32_t place = node.next; place < node.next + node.count; ++place) {
         const auto i = static_cast<std::size_t>(place);
+        if (planes[i].is_beyond(query, best.squared)) continue;
         const Nearest candidate = nearest_on_triangle(triangles[i], needles[i] != 0, query);
         if (candidate.squared < best.squared) {
           best = candidate;

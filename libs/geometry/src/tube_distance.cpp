@@ -11,6 +11,12 @@ namespace {
 
 constexpr std::int32_t leaf_size = 4;
 
+/// Squared distance of a point from a box, 0 inside; without the branches of Eigen's, which are guessed
+/// wrong.
+double squared_distance(const Box3& box, const Vec3& p) {
+  return (box.min() - p).cwiseMax(p - box.max()).cwiseMax(0.0).squaredNorm();
+}
+
 }  // namespace
 
 TubeDistance::TubeDistance(const AnalyticShape& shape) {
@@ -75,13 +81,13 @@ TubeDistance::Nearest TubeDistance::nearest_on(const Piece& piece, const Vec3& p
 TubeDistance::Nearest TubeDistance::nearest(const Vec3& point) const {
   const auto bound = [&](std::int32_t i) {
     const Node& node = nodes_[static_cast<std::size_t>(i)];
-    return std::sqrt(node.box.squaredExteriorDistance(point)) - node.radius;
+    return std::sqrt(squared_distance(node.box, point)) - node.radius;
   };
   struct Waiting {
     std::int32_t node;
     double bound;
   };
-  std::array<Waiting, 64> stack{};
+  std::array<Waiting, 64> stack;
   std::size_t depth = 0;
   stack[depth++] = {0, bound(0)};
   Nearest best{};

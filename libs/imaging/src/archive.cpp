@@ -1,6 +1,7 @@
 #include "ostia/imaging/archive.h"
 
 #include "ostia/core/error.h"
+#include "ostia/core/utf8.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -69,22 +70,6 @@ Zip opened(const fs::path& path) {
   throw InvalidInput(named(path) + " is damaged or cut short: " + text + "; get it anew from its source");
 }
 
-bool is_utf8(std::string_view text) {
-  for (std::size_t i = 0; i < text.size();) {
-    const auto byte = static_cast<unsigned char>(text[i]);
-    const std::size_t more = byte < 0x80       ? 0
-                             : byte >> 5 == 6  ? 1
-                             : byte >> 4 == 14 ? 2
-                             : byte >> 3 == 30 ? 3
-                                               : 9;
-    if (more == 9 || i + more >= text.size()) return false;
-    for (std::size_t n = 1; n <= more; ++n)
-      if (static_cast<unsigned char>(text[i + n]) >> 6 != 2) return false;
-    i += more + 1;
-  }
-  return true;
-}
-
 /// What is wrong with a member's name, without the name; nothing if sound.
 std::string name_fault(std::string_view name, bool marked_utf8) {
   if (name.empty()) return "has no name";
@@ -95,7 +80,7 @@ std::string name_fault(std::string_view name, bool marked_utf8) {
     if (c == '\\') return "has a backslash in its name";
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) return "has a control character in its name";
   }
-  if (marked_utf8 && !is_utf8(name)) return "has a name that is not UTF-8";
+  if (marked_utf8 && !core::is_utf8(name)) return "has a name that is not UTF-8";
   for (std::size_t at = 0; at <= name.size();) {
     const std::size_t end = std::min(name.find('/', at), name.size());
     if (name.substr(at, end - at) == "..") return "leads out of the archive ('..')";

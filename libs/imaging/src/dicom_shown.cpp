@@ -3,6 +3,7 @@
 #include "dicom_attributes.h"
 #include "dicom_parser.h"
 
+#include "ostia/core/utf8.h"
 #include "ostia/imaging/dicom_dataset.h"
 
 #include <algorithm>
@@ -14,20 +15,6 @@ constexpr std::uint32_t kCharacterSet = dicom_tag(0x0008, 0x0005), kStudyDate = 
                         kShownSeries = dicom_tag(0x0008, 0x103E), kPatientName = dicom_tag(0x0010, 0x0010),
                         kShownPatientId = dicom_tag(0x0010, 0x0020);
 constexpr std::size_t kLongest = 256;
-
-/// Length of a sound UTF-8 sequence at `at`, or 0.
-std::size_t sequence(std::string_view text, std::size_t at) {
-  const auto first = static_cast<unsigned char>(text[at]);
-  const std::size_t length = first < 0x80       ? 1
-                             : first >> 5 == 6  ? 2
-                             : first >> 4 == 14 ? 3
-                             : first >> 3 == 30 ? 4
-                                                : 0;
-  if (length == 0 || at + length > text.size()) return 0;
-  for (std::size_t n = 1; n < length; ++n)
-    if (static_cast<unsigned char>(text[at + n]) >> 6 != 2) return 0;
-  return length;
-}
 
 bool is_digit(char c) {
   return c >= '0' && c <= '9';
@@ -59,8 +46,8 @@ std::string shown_text(std::string_view bytes, std::string_view character_set) {
       result += ' ';
     } else if (c < 0x80) {
       result += bytes[i];
-    } else if (utf8 && sequence(bytes, i) > 0) {
-      used = sequence(bytes, i);
+    } else if (const std::size_t length = utf8 ? core::utf8_length(bytes.substr(i)) : 0; length > 0) {
+      used = length;
       result += bytes.substr(i, used);
     } else if (latin && c >= 0xA0) {
       result += static_cast<char>(0xC0 | c >> 6);

@@ -19,21 +19,30 @@ void require_whole(const MaskVolume& mask) {
                        std::to_string(mask.geometry.voxels()) + " voxels");
 }
 
-std::vector<Index> ball(const Geometry& grid, double radius_mm) {
+/// A row of voxels of the ball about a voxel: how far along x it reaches, j and k rows away.
+struct BallRow {
+  std::int64_t i, j, k;
+};
+
+std::vector<BallRow> ball(const Geometry& grid, double radius_mm) {
   if (!(radius_mm >= 0.0) || radius_mm > 100.0)
     throw InvalidInput("morphology: the radius is " + std::to_string(radius_mm) +
                        " mm; it must be in [0, 100]");
   Index reach{};
   for (int d = 0; d < 3; ++d)
     reach[static_cast<std::size_t>(d)] = static_cast<std::int64_t>(radius_mm / grid.spacing[d] + 1e-9);
-  std::vector<Index> offsets;
+  const auto holds = [&](std::int64_t i, std::int64_t j, std::int64_t k) {
+    const Vec3 away(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k));
+    return grid.spacing.cwiseProduct(away).norm() <= radius_mm * (1.0 + 1e-9);
+  };
+  std::vector<BallRow> rows;
   for (std::int64_t k = -reach[2]; k <= reach[2]; ++k)
-    for (std::int64_t j = -reach[1]; j <= reach[1]; ++j)
-      for (std::int64_t i = -reach[0]; i <= reach[0]; ++i) {
-        const Vec3 away(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k));
-        if (grid.spacing.cwiseProduct(away).norm() <= radius_mm * (1.0 + 1e-9)) offsets.push_back({i, j, k});
-      }
-  return offsets;
+    for (std::int64_t j = -reach[1]; j <= reach[1]; ++j) {
+      std::int64_t i = reach[0];
+      while (i >= 0 && !holds(i, j, k)) --i;
+      if (i >= 0) rows.push_back({i, j, k});
+    }
+  return rows;
 }
 
 Index index_of(std::int64_t n, const Index& size) {
@@ -53,26 +62,32 @@ void for_neighbours(std::int64_t n, const Index& size, const Visit& visit) {
 }
 
 /// Gives every voxel within the ball about a voxel that is `from`, and next to one that is not, the value
-/// `from`.
+/// `from`. Such voxels beside each other along x are taken together.
 MaskVolume spread(const MaskVolume& mask, double radius_mm, std::uint8_t from) {
   require_whole(mask);
-  const std::vector<Index> offsets = ball(mask.geometry, radius_mm);
+  const std::vector<BallRow> rows = ball(mask.geometry, radius_mm);
   const Index& size = mask.geometry.size;
-  MaskVolume out = mask;
-  for (std::int64_t n = 0; n < mask.geometry.voxels(); ++n) {
-    if (mask.voxels[static_cast<std::size_t>(n)] != from) continue;
+  const auto on_border = [&](std::int64_t n) {
     bool border = false;
-    for_neighbours(n, size,
-                   [&](std::int64_t m) { border |= mask.voxels[static_cast<std::size_t>(m)] != from; });
-    if (!border) continue;
-    const Index at = index_of(n, size);
-    for (const Index& o : offsets) {
-      const Index to{at[0] + o[0], at[1] + o[1], at[2] + o[2]};
-      bool inside = true;
-      for (std::size_t d = 0; d < 3; ++d) inside &= to[d] >= 0 && to[d] < size[d];
-      if (inside) out(to[0], to[1], to[2]) = from;
+    if (mask.voxels[static_cast<std::size_t>(n)] == from)
+      for_neighbours(n, size,
+                     [&](std::int64_t m) { border |= mask.voxels[static_cast<std::size_t>(m)] != from; });
+    return border;
+  };
+  MaskVolume out = mask;
+  for (std::int64_t row = 0; row < size[1] * size[2]; ++row)
+    for (std::int64_t first = 0, last = 0; first < size[0]; first = last + 1) {
+      last = first;
+      if (!on_border(row * size[0] + first)) continue;
+      while (last + 1 < size[0] && on_border(row * size[0] + last + 1)) ++last;
+      for (const BallRow& of : rows) {
+        const std::int64_t j = row % size[1] + of.j, k = row / size[1] + of.k;
+        if (j < 0 || j >= size[1] || k < 0 || k >= size[2]) continue;
+        const auto start = out.voxels.begin() + (k * size[1] + j) * size[0];
+        std::fill(start + std::max<std::int64_t>(0, first - of.i), start + std::min(size[0], last + of.i + 1),
+                  from);
+      }
     }
-  }
   return out;
 }
 

@@ -15,7 +15,6 @@ LoadedSurface read_stl(const std::filesystem::path& path);
 LoadedSurface read_ply(const std::filesystem::path& path);
 LoadedSurface read_obj(const std::filesystem::path& path);
 LoadedSurface read_vtp(const std::filesystem::path& path);
-std::string stl_text(const geometry::TriMesh& mesh);
 std::string ply_text(const geometry::TriMesh& mesh);
 std::string vtp_text(const geometry::FacedSurface& surface);
 

@@ -31,40 +31,56 @@ void require_text(const std::string& text, const char* member) {
                        " must have no backslash or control character, and 256 bytes at most");
 }
 
+[[noreturn]] void refuse_so_many(const ServerDescription& server) {
+  throw InvalidInput("the server '" + server.name + "' lists more than " + std::to_string(most_images) +
+                     " images in this series");
+}
+
 bool is_ascii(const std::string& text) {
   return std::all_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; });
 }
 
-/// Whose study it is, and what the server lists of the series.
-struct Announced {
-  std::string patient_id;
-  std::set<std::string> images, classes;
-};
-
-Announced announced(Archive& archive, const SeriesWanted& wanted, const core::TaskContext& task) {
-  Announced all;
+/// Whose study it is: nothing where it is not told in ASCII.
+std::string patient_of(Archive& archive, const SeriesWanted& wanted, const core::TaskContext& task) {
   Query study;
   study.study_uid = wanted.study_uid;
   study.most = 2;
   // Letters beyond ASCII are written in another way in the files: then all need only be of the same patient.
   for (const Found& one : archive.find(study, task).found)
-    if (one.study_uid == wanted.study_uid && is_ascii(one.patient_id)) all.patient_id = one.patient_id;
+    if (one.study_uid == wanted.study_uid && is_ascii(one.patient_id)) return one.patient_id;
+  return {};
+}
+
+/// How many images the server says that the series has; 0 where it does not say. Much sooner answered than
+/// which ones they are.
+std::size_t images_said(Archive& archive, const SeriesWanted& wanted, const core::TaskContext& task) {
+  Query series;
+  series.level = Level::series;
+  series.study_uid = wanted.study_uid;
+  series.series_uid = wanted.series_uid;
+  for (const Found& one : archive.find(series, task).found)
+    if (one.series_uid == wanted.series_uid && one.images > 0) return static_cast<std::size_t>(one.images);
+  return 0;
+}
+
+/// Asks which images there are.
+void list_images(Archive& archive, const SeriesWanted& wanted, Intake& intake,
+                 const core::TaskContext& task) {
   Query images;
   images.level = Level::image;
   images.study_uid = wanted.study_uid;
   images.series_uid = wanted.series_uid;
   images.most = most_images;
   const FindResult found = archive.find(images, task);
-  if (found.cut_off)
-    throw InvalidInput("the server '" + archive.server().name + "' lists more than " +
-                       std::to_string(most_images) + " images in this series");
-  for (const Found& one : found.found)
-    if (is_uid(one.sop_uid)) all.images.insert(one.sop_uid);
-  for (const Found& one : found.found)
-    if (is_uid(one.sop_class)) all.classes.insert(one.sop_class);
-  if (all.images.empty())
+  if (found.cut_off) refuse_so_many(archive.server());
+  std::set<std::string> uids, classes;
+  for (const Found& one : found.found) {
+    if (is_uid(one.sop_uid)) uids.insert(one.sop_uid);
+    if (is_uid(one.sop_class)) classes.insert(one.sop_class);
+  }
+  if (uids.empty())
     throw InvalidInput("the server '" + archive.server().name + "' has no image of this series");
-  return all;
+  intake.expect(std::move(uids), std::move(classes));
 }
 
 std::string how_many(std::size_t count, const char* noun) {
@@ -101,32 +117,21 @@ Fetched Archive::fetch(const SeriesWanted& wanted, const std::filesystem::path& 
   core::StagedFolder staged(folder);
   std::filesystem::permissions(staged.temporary(), std::filesystem::perms::owner_all);
   task.set_stage("asking");
-  const Announced all = announced(*this, wanted, task);
-  Intake intake(staged.temporary(), wanted, all.images, all.patient_id, all.classes, task.sub(0.02, 0.99));
+  const std::string patient = patient_of(*this, wanted, task);
+  const std::size_t images = images_said(*this, wanted, task);
+  if (images > most_images) refuse_so_many(server_);
+  Intake intake(staged.temporary(), wanted, patient, images, task.sub(0.02, 0.99));
   std::string last;
-  for (int attempt = 1; attempt <= server_.attempts; ++attempt) {
+  for (int attempt = 1; attempt <= server_.attempts && !intake.complete(); ++attempt) {
     if (attempt > 1) pause_before(attempt, task);
-    const std::vector<std::string> missing = intake.missing();
-    try {
-      retrieve(wanted, intake.received() == 0 ? std::vector<std::string>{} : missing, intake, task);
-      last.clear();
-    } catch (const NetworkError& error) {
-      last = error.what();
-    } catch (const InvalidInput&) {
-      if (intake.fault().empty()) throw;
-    }
-    task.throw_if_cancelled();
-    if (!intake.fault().empty())
-      throw InvalidInput("the server '" + server_.name + "' " + intake.fault() + "; nothing is kept");
-    intake.throw_if_faulty();
-    if (intake.missing().empty()) break;
+    last = attempted(wanted, intake, attempt > 1 || images == 0, task);
   }
-  if (const std::size_t missing = intake.missing().size(); missing > 0)
-    throw NetworkError("the server '" + server_.name + "' lists " + how_many(all.images.size(), "image") +
-                       " of this series and sent " + std::to_string(all.images.size() - missing) +
+  if (!intake.complete())
+    throw NetworkError("the server '" + server_.name + "' lists " + how_many(intake.announced(), "image") +
+                       " of this series and sent " + std::to_string(intake.received() - intake.unlisted()) +
                        "; nothing is kept, try again" + (last.empty() ? "" : " (" + last + ")"));
   Fetched fetched;
-  fetched.announced = all.images.size();
+  fetched.announced = intake.announced();
   fetched.duplicates = intake.duplicates();
   if (fetched.duplicates > 0)
     fetched.warnings.push_back("the server sent " + how_many(fetched.duplicates, "image") +
@@ -140,6 +145,65 @@ Fetched Archive::fetch(const SeriesWanted& wanted, const std::filesystem::path& 
   staged.commit();
   task.set_progress(1.0);
   return fetched;
+}
+
+std::filesystem::path Archive::fetch_middle(const SeriesWanted& wanted, const std::filesystem::path& folder,
+                                            const core::TaskContext& task) {
+  Query query;
+  query.level = Level::image;
+  query.study_uid = wanted.study_uid;
+  query.series_uid = wanted.series_uid;
+  query.most = most_images;
+  std::vector<Found> images = find(query, task).found;
+  std::erase_if(images, [](const Found& one) { return !is_uid(one.sop_uid); });
+  if (images.empty()) throw InvalidInput("the server '" + server_.name + "' has no image of this series");
+  // UIDs of a scanner count upwards: by length, then by digits, the middle one is about the middle slice.
+  const auto middle = images.begin() + static_cast<std::ptrdiff_t>(images.size() / 2);
+  std::nth_element(images.begin(), middle, images.end(), [](const Found& a, const Found& b) {
+    return std::pair(a.sop_uid.size(), a.sop_uid) < std::pair(b.sop_uid.size(), b.sop_uid);
+  });
+  if (std::filesystem::exists(folder)) throw InvalidInput(folder.string() + " is there already");
+  core::StagedFolder staged(folder);
+  std::filesystem::permissions(staged.temporary(), std::filesystem::perms::owner_all);
+  Intake intake(staged.temporary(), wanted, {}, 1, task);
+  std::set<std::string> classes;
+  if (is_uid(middle->sop_class)) classes.insert(middle->sop_class);
+  intake.expect({middle->sop_uid}, std::move(classes));
+  retrieve(wanted, {middle->sop_uid}, intake, task);
+  task.throw_if_cancelled();
+  intake.throw_if_faulty();
+  if (!intake.complete()) throw NetworkError("the server '" + server_.name + "' did not send the image");
+  const std::string name = middle->sop_uid + ".dcm";
+  std::vector<std::filesystem::path> others;  // that it sent, too
+  for (const auto& entry : std::filesystem::directory_iterator(staged.temporary()))
+    if (entry.path().filename() != name) others.push_back(entry.path());
+  for (const std::filesystem::path& other : others) std::filesystem::remove(other);
+  staged.commit();
+  return folder / name;
+}
+
+std::string Archive::attempted(const SeriesWanted& wanted, Intake& intake, bool list_first,
+                               const core::TaskContext& task) {
+  std::string broken;
+  try {
+    if (list_first && !intake.has_list()) list_images(*this, wanted, intake, task);
+    if (!intake.complete())
+      retrieve(wanted, intake.received() == 0 ? std::vector<std::string>{} : intake.missing(), intake, task);
+    if (!intake.complete() && !intake.has_list() && intake.fault().empty()) {
+      // Nothing broke, and it is not as many as it said: what it lists decides.
+      list_images(*this, wanted, intake, task);
+      if (!intake.complete()) retrieve(wanted, intake.missing(), intake, task);
+    }
+  } catch (const NetworkError& error) {
+    broken = error.what();
+  } catch (const InvalidInput&) {
+    if (intake.fault().empty()) throw;
+  }
+  task.throw_if_cancelled();
+  if (!intake.fault().empty())
+    throw InvalidInput("the server '" + server_.name + "' " + intake.fault() + "; nothing is kept");
+  intake.throw_if_faulty();
+  return broken;
 }
 
 std::vector<SendResult> Archive::send(const std::vector<std::filesystem::path>& files,

@@ -12,6 +12,8 @@
 #include <dcmtk/dcmnet/dimse.h>
 #include <dcmtk/dcmtls/tlslayer.h>
 #include <dcmtk/oflog/oflog.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
 #include <openssl/x509.h>
 #include <openssl/x509v3.h>
 #include <sys/socket.h>
@@ -37,6 +39,27 @@ void limit_silence(int socket, double seconds) {
   ::setsockopt(socket, SOL_SOCKET, SO_SNDTIMEO, &time, sizeof time);
 }
 
+/// Messages are written in several small pieces: Nagle's algorithm, which Debian's DCMTK leaves on, would
+/// hold a later one back until the peer acknowledges the first, some 40 ms an object.
+void send_at_once(int socket) {
+  const int on = 1;
+  ::setsockopt(socket, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+}
+
+/// And a peer that has it on waits for our acknowledgements, which the system delays as long.
+class PromptConnection : public DcmTCPConnection {
+ public:
+  explicit PromptConnection(DcmNativeSocketType socket) : DcmTCPConnection(socket), socket_(socket) {}
+  ssize_t read(void* to, size_t most) override {
+    const int on = 1;
+    ::setsockopt(socket_, IPPROTO_TCP, TCP_QUICKACK, &on, sizeof on);  // the system forgets it after a while
+    return DcmTCPConnection::read(to, most);
+  }
+
+ private:
+  const int socket_;
+};
+
 /// A transport layer whose sockets are watched from the moment that they are connected.
 template <class Layer>
 class WatchedLayer : public Layer {
@@ -46,7 +69,9 @@ class WatchedLayer : public Layer {
       : Layer(arguments...), watch_(watch), silence_s_(silence_s) {}
   DcmTransportConnection* createConnection(DcmNativeSocketType socket, OFBool secure) override {
     watch_.add(socket);
-    DcmTransportConnection* connection = Layer::createConnection(socket, secure);
+    send_at_once(socket);
+    DcmTransportConnection* connection =
+        secure ? Layer::createConnection(socket, secure) : new PromptConnection(socket);
     if (connection != nullptr) limit_silence(socket, silence_s_);
     return connection;
   }
@@ -209,6 +234,11 @@ void DimseConnection::request(const std::vector<ProposedContext>& contexts, cons
         "the server '" + server_.name +
         "': no secure connection; its certificate is not signed by one of `authorities`, ours is not "
         "accepted, or it does not speak TLS at this port");
+  const bool silent = condition == DUL_READTIMEOUT || condition == DIMSE_NODATAAVAILABLE;
+  if (server_.tls && !silent && !is_foreign_talk(condition))  // TLS 1.3 looks at our certificate afterwards
+    throw NetworkError("the server '" + server_.name +
+                       "' has ended the connection before it let us in; it may be busy, or it asks for "
+                       "certificates and does not accept our certificate");
   require(condition);
 }
 

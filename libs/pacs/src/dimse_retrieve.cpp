@@ -24,10 +24,12 @@ constexpr std::size_t images_a_request = 500;
 
 /// One context for each pair, so that whatever syntax the server has an object in can come as it is.
 std::vector<ProposedContext> contexts_for(std::set<std::string> classes) {
-  if (classes.empty())  // the server does not tell
-    classes = {UID_CTImageStorage,      UID_EnhancedCTImageStorage,
-               UID_MRImageStorage,      UID_SecondaryCaptureImageStorage,
-               UID_SegmentationStorage, UID_EncapsulatedPDFStorage};
+  if (classes.empty())  // not known: what fits into none of these is missing, and then listed and asked for
+    classes = {UID_CTImageStorage,         UID_EnhancedCTImageStorage,
+               UID_MRImageStorage,         UID_SecondaryCaptureImageStorage,
+               UID_SegmentationStorage,    UID_EncapsulatedPDFStorage,
+               UID_EncapsulatedSTLStorage, UID_Comprehensive3DSRStorage,
+               UID_ComprehensiveSRStorage, UID_RTStructureSetStorage};
   std::vector<ProposedContext> contexts{{UID_GETStudyRootQueryRetrieveInformationModel, plain_syntaxes()}};
   std::size_t count = 0;
   for (const std::string& one : classes) {

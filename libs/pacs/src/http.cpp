@@ -5,6 +5,7 @@
 #include <curl/curl.h>
 
 #include <algorithm>
+#include <array>
 #include <exception>
 #include <mutex>
 
@@ -12,7 +13,7 @@ namespace ostia::pacs {
 namespace {
 
 constexpr std::size_t most_gathered_bytes = 64U << 20;
-constexpr long buffer_bytes = 256L << 10;
+constexpr long buffer_bytes = 512L << 10;  // the most that libcurl takes
 
 void prepare_curl() {
   static std::once_flag once;
@@ -23,11 +24,21 @@ bool is_success(long status) {
   return status >= 200 && status < 300;
 }
 
+/// What a proxy said in place of leading us through.
+[[noreturn]] void refuse_tunnel(const std::string& server, long status) {
+  const std::string said = " (HTTP " + std::to_string(status) + ")";
+  if (status == 407) throw InvalidInput(server + " is behind a proxy that asks for a login" + said);
+  const std::string refused = server + ": the proxy does not lead to it" + said;
+  if (status >= 500 && status != 501 && status != 505) throw NetworkError(refused + "; try again later");
+  throw InvalidInput(refused);
+}
+
 }  // namespace
 
 struct HttpClient::Curl {
   CURL* easy = nullptr;
   CURLM* multi = nullptr;
+  std::array<char, CURL_ERROR_SIZE> fault{};  // in libcurl's words, which may name a host: to look into only
   ~Curl() {
     if (multi != nullptr) curl_multi_cleanup(multi);
     if (easy != nullptr) curl_easy_cleanup(easy);
@@ -94,6 +105,8 @@ HttpAnswer HttpClient::request(const HttpRequest& request, const core::TaskConte
   Exchange exchange{request, sink, easy};
   const auto set = [easy](CURLoption option, auto value) { curl_easy_setopt(easy, option, value); };
   const std::string url = server_.url.substr(0, server_.url.find_last_not_of('/') + 1) + request.path;
+  curl_->fault.front() = '\0';
+  set(CURLOPT_ERRORBUFFER, curl_->fault.data());
   set(CURLOPT_URL, url.c_str());
   set(CURLOPT_PROTOCOLS_STR, "http,https");
   set(CURLOPT_PROXY, server_.proxy.c_str());  // an empty one: none, whatever the environment says
@@ -167,6 +180,16 @@ void HttpClient::perform(Exchange& exchange, const core::TaskContext& task) {
 
 void HttpClient::refuse(int code) const {
   const std::string name = "the server '" + server_.name + "'";
+  long tunnel = 0;
+  curl_easy_getinfo(curl_->easy, CURLINFO_HTTP_CONNECTCODE, &tunnel);
+  if (tunnel >= 300) refuse_tunnel(name, tunnel);
+  // With TLS 1.3 a server looks at our certificate when all else is done: what it says of it comes as an
+  // alert in place of an answer.
+  const std::string_view fault = curl_->fault.data();
+  if (code == CURLE_SSL_CLIENTCERT || fault.find(" alert ") != std::string_view::npos)
+    throw InvalidInput(name +
+                       ": no secure connection; it asks for a certificate of ours, or does not accept " +
+                       "the one of `certificate`");
   switch (code) {
     case CURLE_PEER_FAILED_VERIFICATION:
       throw InvalidInput(

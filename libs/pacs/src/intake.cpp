@@ -2,6 +2,7 @@
 
 #include "uid.h"
 
+#include "ostia/core/write_back.h"
 #include "ostia/imaging/dicom_texts.h"
 
 #include <algorithm>
@@ -15,15 +16,20 @@ constexpr std::uint32_t kSopInstance = 0x00080018, kStudy = 0x0020000D, kSeries 
 
 }  // namespace
 
-Intake::Intake(std::filesystem::path folder, SeriesWanted wanted, std::set<std::string> expected,
-               std::string patient_id, std::set<std::string> classes, core::TaskContext task)
+Intake::Intake(std::filesystem::path folder, SeriesWanted wanted, std::string patient_id, std::size_t images,
+               core::TaskContext task)
     : folder_(std::move(folder)),
       wanted_(std::move(wanted)),
-      expected_(std::move(expected)),
-      classes_(std::move(classes)),
+      images_(images),
       task_(std::move(task)),
       patient_id_(std::move(patient_id)),
       patient_known_(!patient_id_.empty()) {}
+
+void Intake::expect(std::set<std::string> images, std::set<std::string> classes) {
+  const std::lock_guard lock(mutex_);
+  expected_ = std::move(images);
+  classes_ = std::move(classes);
+}
 
 std::filesystem::path Intake::next_part() {
   const std::lock_guard lock(mutex_);
@@ -64,16 +70,16 @@ Intake::Taken Intake::take(const std::filesystem::path& part) {
   std::filesystem::rename(part, target, error);
   if (error) throw IoError("cannot keep a received object: " + error.message());
   files_.emplace(sop, target);
-  if (!expected_.empty() && expected_.count(sop) == 0) ++unlisted_;
+  core::begin_writing_back(target);  // beside what comes next, so that the sync at the end finds little left
   show_progress();
   return Taken::yes;
 }
 
 void Intake::show_progress() const {
-  if (expected_.empty()) return;
-  const std::size_t done = std::min(files_.size(), expected_.size());
-  task_.set_progress(static_cast<double>(done) / static_cast<double>(expected_.size()));
-  task_.set_stage("receiving " + std::to_string(files_.size()) + " of " + std::to_string(expected_.size()));
+  const std::size_t all = has_list() ? expected_.size() : images_;
+  if (all == 0) return;
+  task_.set_progress(static_cast<double>(std::min(files_.size(), all)) / static_cast<double>(all));
+  task_.set_stage("receiving " + std::to_string(files_.size()) + " of " + std::to_string(all));
 }
 
 void Intake::note_disk_fault(const std::string& fault) {
@@ -97,6 +103,15 @@ void Intake::throw_if_faulty() const {
   if (!disk_fault_.empty()) throw ResourceError(disk_fault_);
 }
 
+bool Intake::complete() const {
+  if (has_list()) return missing().empty();
+  return images_ > 0 && received() == images_;
+}
+
+std::size_t Intake::announced() const {
+  return has_list() ? expected_.size() : images_;
+}
+
 std::vector<std::string> Intake::missing() const {
   const std::lock_guard lock(mutex_);
   std::vector<std::string> all;
@@ -117,7 +132,9 @@ std::size_t Intake::duplicates() const {
 
 std::size_t Intake::unlisted() const {
   const std::lock_guard lock(mutex_);
-  return unlisted_;
+  if (!has_list()) return 0;
+  return static_cast<std::size_t>(std::count_if(
+      files_.begin(), files_.end(), [&](const auto& one) { return expected_.count(one.first) == 0; }));
 }
 
 std::vector<std::filesystem::path> Intake::files() const {

@@ -18,12 +18,15 @@ class Intake {
  public:
   enum class Taken { yes, duplicate, refused };
 
-  /// `expected`: SOP instance UIDs that the server lists. `patient_id`: of the study; empty: not known, then
-  /// all must be of the same.
-  /// `classes`: SOP classes that they are said to have; empty: not known.
-  Intake(std::filesystem::path folder, SeriesWanted wanted, std::set<std::string> expected,
-         std::string patient_id, std::set<std::string> classes, core::TaskContext task);
+  /// `patient_id`: of the study; empty: not known, then all must be of the same. `images`: how many the
+  /// server says that the series has; 0: it does not say.
+  Intake(std::filesystem::path folder, SeriesWanted wanted, std::string patient_id, std::size_t images,
+         core::TaskContext task);
 
+  /// Which images the server lists, and which SOP classes it says that they have (none: not known). From then
+  /// on these count and not their number. Not while something comes.
+  void expect(std::set<std::string> images, std::set<std::string> classes);
+  bool has_list() const { return !expected_.empty(); }
   const std::set<std::string>& classes() const { return classes_; }
 
   /// Where the next object may be written to; hidden until it is taken.
@@ -39,10 +42,12 @@ class Intake {
   std::string disk_fault() const;
   /// Throws InvalidInput or ResourceError where one of both is there.
   void throw_if_faulty() const;
-  std::vector<std::string> missing() const;  ///< of the expected
+  bool complete() const;                     ///< all that the server lists, or as many as it says, are there
+  std::size_t announced() const;             ///< how many it lists or says
+  std::vector<std::string> missing() const;  ///< of those that it lists
   std::size_t received() const;
   std::size_t duplicates() const;
-  std::size_t unlisted() const;  ///< of the series, but not expected: kept
+  std::size_t unlisted() const;  ///< of the series, but not listed: kept
   std::vector<std::filesystem::path> files() const;
 
  private:
@@ -52,13 +57,14 @@ class Intake {
 
   const std::filesystem::path folder_;
   const SeriesWanted wanted_;
-  const std::set<std::string> expected_, classes_;
+  const std::size_t images_;
   const core::TaskContext task_;
+  std::set<std::string> expected_, classes_;
   mutable std::mutex mutex_;
   std::string patient_id_, fault_, disk_fault_;
   bool patient_known_;
   std::map<std::string, std::filesystem::path> files_;
-  std::size_t parts_ = 0, duplicates_ = 0, unlisted_ = 0;
+  std::size_t parts_ = 0, duplicates_ = 0;
 };
 
 }  // namespace ostia::pacs

@@ -21,59 +21,78 @@ std::string lower(std::string_view text) {
 }  // namespace
 
 MultipartParser::MultipartParser(const std::string& boundary, PartSink& sink)
-    : delimiter_("\r\n--" + boundary), sink_(sink) {}
+    : delimiter_("\r\n--" + boundary), searcher_(delimiter_.begin(), delimiter_.end()), sink_(sink) {}
 
 void MultipartParser::feed(std::string_view bytes) {
+  // What was kept is joined with as little as ends it; the rest stays where it is.
+  while (!held_.empty() && !bytes.empty() && !finished()) {
+    const std::string_view some = bytes.substr(0, delimiter_.size() + 512);
+    held_ += some;
+    std::string_view rest = held_;
+    consume(rest);
+    if (rest.size() > some.size()) {
+      bytes.remove_prefix(some.size());
+      held_.erase(0, held_.size() - rest.size());
+    } else {
+      bytes.remove_prefix(some.size() - rest.size());
+      held_.clear();
+    }
+  }
   if (finished()) return;  // an epilogue
+  consume(bytes);
   held_ += bytes;
-  while (step()) {
+}
+
+void MultipartParser::consume(std::string_view& rest) {
+  bool on = true;
+  while (on) {
+    switch (state_) {
+      case State::preamble:
+      case State::body:
+        on = pass_body(rest);
+        break;
+      case State::delimiter:
+        on = pass_delimiter(rest);
+        break;
+      case State::headers:
+        on = pass_headers(rest);
+        break;
+      case State::finished:
+        rest = {};
+        on = false;
+        break;
+    }
   }
 }
 
-bool MultipartParser::step() {
-  switch (state_) {
-    case State::preamble:
-    case State::body:
-      return pass_body();
-    case State::delimiter:
-      return pass_delimiter();
-    case State::headers:
-      return pass_headers();
-    case State::finished:
-      break;
-  }
-  return false;
-}
-
-bool MultipartParser::pass_body() {
-  const std::size_t at = held_.find(delimiter_);
-  const bool found = at != std::string::npos;
-  const std::size_t whole = found ? at : held_.size() - std::min(held_.size(), delimiter_.size() - 1);
-  if (state_ == State::body && whole > 0) sink_.body({held_.data(), whole});
-  held_.erase(0, found ? at + delimiter_.size() : whole);
+bool MultipartParser::pass_body(std::string_view& rest) {
+  const auto at = std::search(rest.begin(), rest.end(), searcher_);
+  const bool found = at != rest.end();
+  const std::size_t whole = found ? static_cast<std::size_t>(at - rest.begin())
+                                  : rest.size() - std::min(rest.size(), delimiter_.size() - 1);
+  if (state_ == State::body && whole > 0) sink_.body(rest.substr(0, whole));
+  rest.remove_prefix(found ? whole + delimiter_.size() : whole);
   if (!found) return false;
   if (state_ == State::body) sink_.end_part();
   state_ = State::delimiter;
   return true;
 }
 
-bool MultipartParser::pass_delimiter() {
-  if (held_.size() < 2) return false;
-  const bool last = held_.compare(0, 2, "--") == 0;
-  state_ = last ? State::finished : State::headers;
-  if (last) held_.clear();
-  return !last;
+bool MultipartParser::pass_delimiter(std::string_view& rest) {
+  if (rest.size() < 2) return false;
+  state_ = rest.substr(0, 2) == "--" ? State::finished : State::headers;
+  return true;
 }
 
-bool MultipartParser::pass_headers() {
+bool MultipartParser::pass_headers(std::string_view& rest) {
   // The delimiter's own line end is still there, so that a part without headers has its empty line, too.
-  const std::size_t end = held_.find("\r\n\r\n");
-  if (end == std::string::npos) {
-    if (held_.size() > most_header_bytes) throw InvalidInput("a part of the answer has headers without end");
+  const std::size_t end = rest.find("\r\n\r\n");
+  if (end == std::string_view::npos) {
+    if (rest.size() > most_header_bytes) throw InvalidInput("a part of the answer has headers without end");
     return false;
   }
-  sink_.begin_part({held_.data(), end});
-  held_.erase(0, end + 4);
+  sink_.begin_part(rest.substr(0, end));
+  rest.remove_prefix(end + 4);
   state_ = State::body;
   return true;
 }

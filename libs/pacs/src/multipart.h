@@ -2,6 +2,7 @@
 // multipart/related as it comes over the network (RFC 2046), part by part and never whole.
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -16,10 +17,13 @@ class PartSink {
   virtual void end_part() = 0;
 };
 
-/// Keeps no more than a boundary's length of a body, and 16 KiB of a part's headers.
+/// Keeps no more than a boundary's length of a body, and 16 KiB of a part's headers; bodies are handed on
+/// from where they lie.
 class MultipartParser {
  public:
   MultipartParser(const std::string& boundary, PartSink& sink);
+  MultipartParser(const MultipartParser&) = delete;
+  MultipartParser& operator=(const MultipartParser&) = delete;
   /// Throws InvalidInput for headers without end.
   void feed(std::string_view bytes);
   /// The closing boundary has come: nothing is missing.
@@ -27,11 +31,14 @@ class MultipartParser {
 
  private:
   enum class State { preamble, delimiter, headers, body, finished };
-  bool step();
-  bool pass_body();
-  bool pass_delimiter();
-  bool pass_headers();
+  using Searcher = std::boyer_moore_horspool_searcher<std::string::const_iterator>;
+  /// Takes what can be taken off `rest`.
+  void consume(std::string_view& rest);
+  bool pass_body(std::string_view& rest);
+  bool pass_delimiter(std::string_view& rest);
+  bool pass_headers(std::string_view& rest);
   const std::string delimiter_;
+  const Searcher searcher_;
   PartSink& sink_;
   State state_ = State::preamble;
   std::string held_ = "\r\n";  // the first boundary may stand at the very beginning

@@ -42,6 +42,7 @@ QueueItem item_of(const std::filesystem::path& file) {
                        " is damaged; remove it and queue the object again");
   item.state = known->first;
   item.attempts = json["attempts"].get<int>();
+  item.what = text("what");
   return item;
 }
 
@@ -79,21 +80,24 @@ std::filesystem::path SendQueue::file_of(const std::string& id, const char* exte
 }
 
 void SendQueue::note(const QueueItem& item) const {
-  const QueueJson json{{"v", 1},
-                       {"server", item.server},
-                       {"state", to_string(item.state)},
-                       {"reason", item.reason},
-                       {"attempts", item.attempts}};
+  QueueJson json{{"v", 1},
+                 {"server", item.server},
+                 {"state", to_string(item.state)},
+                 {"reason", item.reason},
+                 {"attempts", item.attempts}};
+  if (!item.what.empty()) json["what"] = item.what;
   core::write_file(file_of(item.id, ".json"), json.dump(1) + "\n");
 }
 
-std::string SendQueue::add(const std::filesystem::path& file, const std::string& server) {
+std::string SendQueue::add(const std::filesystem::path& file, const std::string& server,
+                           const std::string& what) {
   imaging::DicomTexts texts{{kQueuedInstance, {}}};
   if (!imaging::read_dicom_texts(file, texts) || !is_uid(texts[kQueuedInstance]))
     throw InvalidInput(file.string() + " is no DICOM object");
   QueueItem item;
   item.id = core::sha256(server + "\n" + texts[kQueuedInstance]).substr(0, id_digits);
   item.server = server;
+  item.what = what;
   if (const auto told = file_of(item.id, ".json");
       std::filesystem::exists(told) && item_of(told).state == QueueState::waiting)
     return item.id;
@@ -124,6 +128,23 @@ void SendQueue::retry_failed() {
     if (item.state != QueueState::failed) continue;
     item.state = QueueState::waiting;
     note(item);
+  }
+}
+
+void SendQueue::retry(const std::string& id) {
+  for (QueueItem& item : items()) {
+    if (item.id != id || item.state != QueueState::failed) continue;
+    item.state = QueueState::waiting;
+    note(item);
+  }
+}
+
+void SendQueue::remove(const std::string& id) {
+  for (const QueueItem& item : items()) {
+    if (item.id != id) continue;
+    // The note first: an object without one was never added.
+    std::filesystem::remove(file_of(id, ".json"));
+    std::filesystem::remove(file_of(id, ".dcm"));
   }
 }
 

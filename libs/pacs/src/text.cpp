@@ -1,5 +1,7 @@
 #include "text.h"
 
+#include "ostia/core/utf8.h"
+
 #include <algorithm>
 
 namespace ostia::pacs {
@@ -7,35 +9,13 @@ namespace {
 
 constexpr std::size_t longest_text = 1024;
 
-/// Length of a sound UTF-8 sequence at the text's beginning, or 0.
-std::size_t utf8_sequence(std::string_view text) {
-  const auto first = static_cast<unsigned char>(text.front());
-  const std::size_t length = first < 0x80                    ? 1
-                             : first >= 0xC2 && first < 0xE0 ? 2
-                             : first >> 4 == 14              ? 3
-                             : first >= 0xF0 && first < 0xF5 ? 4
-                                                             : 0;
-  if (length == 0 || length > text.size()) return 0;
-  for (std::size_t n = 1; n < length; ++n)
-    if (static_cast<unsigned char>(text[n]) >> 6 != 2) return 0;
-  if (length < 3) return length;
-  // Neither written longer than needed, nor a half of a pair, nor beyond the last code point.
-  const auto second = static_cast<unsigned char>(text[1]);
-  const bool sound = first == 0xE0   ? second >= 0xA0
-                     : first == 0xED ? second < 0xA0
-                     : first == 0xF0 ? second >= 0x90
-                     : first == 0xF4 ? second < 0x90
-                                     : true;
-  return sound ? length : 0;
-}
-
 }  // namespace
 
 std::string clean_text(std::string_view text) {
   std::string clean;
   text = text.substr(0, longest_text);
   while (!text.empty()) {
-    const std::size_t length = utf8_sequence(text);
+    const std::size_t length = core::utf8_length(text);
     const auto first = static_cast<unsigned char>(text.front());
     if (length == 0)
       clean += '?';

@@ -47,6 +47,7 @@ struct Body::Impl {
   std::shared_ptr<const NoiseField> noise;
   std::vector<Prepared> organs;
   std::map<std::int32_t, double> before_mm;  // from the ostium to where a vessel begins
+  std::map<std::int32_t, double> filling;    // share of the contrast with which it begins
   std::shared_ptr<const HeartWarp> warp;     // or none
 
   Impl(const HeartShape& heart, const CoronaryTree& coronaries, const BodyOptions& body,
@@ -59,13 +60,15 @@ struct Body::Impl {
     for (const CoronaryVessel& vessel : tree.vessels) {
       const auto parent = before_mm.find(vessel.parent);
       before_mm[vessel.id] = parent == before_mm.end() ? 0.0 : parent->second + vessel.parent_s_mm;
+      filling[vessel.id] = vessel.parent < 0 ? 1.0 : filling_at(vessel.parent, vessel.parent_s_mm);
     }
     const TissueHu& hu = options.hu;
-    const Capsules veins = coronary_veins(heart, tree, field, warp.get());
+    const Capsules veins = coronary_veins(heart, tree, field, warp.get(), options.vein_closeness);
     Organs all;
     add_aorta(all, heart, hu);
     all.push_back({{Label::coronary_vein, hu.vein}, {10.0f, 6.0f, 0.0f}, {}, veins, true});
-    add_groove_fat(all, tree, veins, hu);
+    add_lobes(all, heart, tree, field, warp.get(), options);
+    add_groove_fat(all, tree, veins, hu, options.groove_fat);
     add_chambers(all, heart, options, noise);
     add_great_vessels(all, hu);
     add_heart_walls(all, heart, hu, noise);
@@ -88,19 +91,30 @@ struct Body::Impl {
     return hu + t.dorsal_hu_per_mm * static_cast<float>(std::clamp(p.y(), -100.0, 100.0));
   }
 
+  /// What closed stretches before an abscissa have left of the contrast.
+  double filling_at(std::int32_t id, double s_mm) const {
+    double left = filling.at(id);
+    for (const CoronaryVessel& vessel : tree.vessels)
+      if (vessel.id == id)
+        for (const Occlusion& closed : vessel.occlusions)
+          if (s_mm > 0.5 * (closed.s_from_mm + closed.s_to_mm)) left *= closed.filling;
+    return left;
+  }
+
   /// Contrast is lost along the arteries.
   Material lumen(const Vec3& p) const {
     std::vector<VesselField::Place> places;
     field.places(p, 0.01, places);
-    double way = 0.0, deepest = 1e9;
+    double way = 0.0, deepest = 1e9, filled = 1.0;
     for (const VesselField::Place& place : places) {
       if (place.rho_mm - place.lumen_mm >= deepest) continue;
       deepest = place.rho_mm - place.lumen_mm;
       way = place.s_mm + before_mm.at(place.vessel);
+      filled = filling_at(place.vessel, place.s_mm);
     }
     const TissueHu& hu = options.hu;
     const float kept = 1.0f - hu.coronary_drop * static_cast<float>(std::min(1.5, way / 100.0));
-    return {Label::coronary_lumen, hu.blood + (hu.arterial - hu.blood) * kept};
+    return {Label::coronary_lumen, hu.blood + (hu.arterial - hu.blood) * kept * static_cast<float>(filled)};
   }
 };
 
@@ -225,6 +239,10 @@ Body::Body(const HeartShape& heart, const CoronaryTree& tree, const BodyOptions&
            std::shared_ptr<const HeartWarp> warp) {
   require_body(options.texture >= 0.0 && options.texture <= largest_texture, "texture must lie in [0, 3]");
   require_body(options.mixing >= 0.0 && options.mixing <= 1.0, "mixing must lie in [0, 1]");
+  require_body(options.vein_closeness >= 0.0 && options.vein_closeness <= 1.0,
+               "vein_closeness must lie in [0, 1]");
+  require_body(options.lobes >= 0.0 && options.lobes <= 1.0, "lobes must lie in [0, 1]");
+  require_body(options.groove_fat >= 0.1 && options.groove_fat <= 1.0, "groove_fat must lie in [0.1, 1]");
   const TissueHu& hu = options.hu;
   for (const float value :
        {hu.arterial, hu.right_heart, hu.pulmonary, hu.vein, hu.superior_vena_cava, hu.blood, hu.myocardium,

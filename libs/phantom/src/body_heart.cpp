@@ -224,7 +224,8 @@ void add_aorta(Organs& organs, const HeartShape& heart, const TissueHu& hu) {
   organs.push_back({{Label::aorta, hu.arterial}, blood, {}, tubes});
 }
 
-void add_groove_fat(Organs& organs, const CoronaryTree& tree, const Capsules& veins, const TissueHu& hu) {
+void add_groove_fat(Organs& organs, const CoronaryTree& tree, const Capsules& veins, const TissueHu& hu,
+                    double thickness) {
   Capsules fat;
   for (const CoronaryVessel& vessel : tree.vessels) {
     if (vessel.name.starts_with("S")) continue;  // septal branches run in muscle
@@ -232,12 +233,13 @@ void add_groove_fat(Organs& organs, const CoronaryTree& tree, const Capsules& ve
     for (std::size_t i = 0; i + 1 < axis.size(); i += 15) {
       const std::size_t j = std::min(i + 15, axis.size() - 1);
       const auto sheath = [&](std::size_t at) {
-        return std::max(axis.radius[at] + 2.6, vessel.wall.max_at(axis.abscissa[at]) + 1.0);
+        return std::max(axis.radius[at] + thickness * 2.6,
+                        vessel.wall.max_at(axis.abscissa[at]) + thickness * 1.0);
       };
       fat.push_back({axis.points[i], axis.points[j], sheath(i), sheath(j)});
     }
   }
-  append(fat, grown(veins, 1.3));
+  append(fat, grown(veins, thickness * 1.3));
   organs.push_back({{Label::epicardial_fat, hu.epicardial_fat}, {7.0f, 4.0f, 0.0f}, {}, fat, true});
 }
 

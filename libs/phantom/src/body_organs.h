@@ -31,13 +31,20 @@ Distance heart_outline(const HeartShape& heart);
 
 /// Great cardiac vein with the coronary sinus, middle cardiac vein, and veins beside larger branches: each
 /// clear of every artery's outer wall.
-/// `warp`: what the heart is bent by, or null.
+/// `warp`: what the heart is bent by, or null. `closeness`: Obstacles::vein_closeness.
 Capsules coronary_veins(const HeartShape& heart, const CoronaryTree& tree, const VesselField& field,
-                        const HeartWarp* warp);
+                        const HeartWarp* warp, double closeness = 0.0);
+
+/// Lobes of auricles, atria and pulmonary trunk that touch an artery's outer wall, with their walls.
+/// Nothing where `options.lobes` is 0.
+void add_lobes(Organs& organs, const HeartShape& heart, const CoronaryTree& tree, const VesselField& field,
+               const HeartWarp* warp, const BodyOptions& options);
 
 void add_aorta(Organs& organs, const HeartShape& heart, const TissueHu& hu);
 /// Fat about the arteries and veins; before the chambers, so that none takes an artery.
-void add_groove_fat(Organs& organs, const CoronaryTree& tree, const Capsules& veins, const TissueHu& hu);
+/// `thickness`: Obstacles::groove_fat.
+void add_groove_fat(Organs& organs, const CoronaryTree& tree, const Capsules& veins, const TissueHu& hu,
+                    double thickness = 1.0);
 void add_chambers(Organs& organs, const HeartShape& heart, const BodyOptions& options, const Noise& noise);
 void add_great_vessels(Organs& organs, const TissueHu& hu);
 void add_heart_walls(Organs& organs, const HeartShape& heart, const TissueHu& hu, const Noise& noise);

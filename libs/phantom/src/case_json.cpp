@@ -83,6 +83,24 @@ json variant_parameters(const CaseVariant& v) {
   return out;
 }
 
+/// What is as usual is left out.
+json obstacle_parameters(const Obstacles& o) {
+  const Obstacles usual;
+  json out = json::object();
+  const auto tell = [&](const char* name, double Obstacles::*member) {
+    if (o.*member != usual.*member) out[name] = o.*member;
+  };
+  tell("calibre", &Obstacles::calibre);
+  tell("contrast_fall", &Obstacles::contrast_fall);
+  tell("vein_closeness", &Obstacles::vein_closeness);
+  tell("lobes", &Obstacles::lobes);
+  tell("groove_fat", &Obstacles::groove_fat);
+  tell("calcified_mm", &Obstacles::calcified_mm);
+  tell("closed", &Obstacles::closed);
+  tell("filling", &Obstacles::filling);
+  return out;
+}
+
 json parameters(const CaseOptions& o) {
   json out{{"seed", o.seed},
            {"preset", preset_name(o.preset)},
@@ -102,6 +120,8 @@ json parameters(const CaseOptions& o) {
   if (o.patient) out["patient"] = {{"sha256", o.patient->digest}, {"rim_mm", o.patient->rim_mm}};
   const json variant = variant_parameters(o.variant);
   if (!variant.empty()) out["variant"] = variant;
+  const json obstacles = obstacle_parameters(o.obstacles);
+  if (!obstacles.empty()) out["obstacles"] = obstacles;
   return out;
 }
 

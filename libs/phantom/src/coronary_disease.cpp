@@ -16,11 +16,11 @@ namespace {
 using std::numbers::pi;
 constexpr std::uint64_t disease_stream = 0x4449534500000000;
 
-/// 1 at the throat, 0 from the shoulders on; smooth, with a short plateau.
+/// 1 at the throat, 0 from the shoulders on; smooth, with a plateau.
 double narrowing_at(double s_mm, const LesionOptions& lesion) {
   const double x = 2.0 * std::abs(s_mm - lesion.s_throat_mm) / lesion.length_mm;
   if (x >= 1.0) return 0.0;
-  const double y = std::max(0.0, (x - 0.15) / 0.85);
+  const double y = std::max(0.0, (x - lesion.plateau) / (1.0 - lesion.plateau));
   return 0.5 * (1.0 + std::cos(pi * y));
 }
 
@@ -124,8 +124,9 @@ void add_nodules(CoronaryVessel& vessel, double s_mm, double length_mm, double t
   }
 }
 
-/// Places on a vessel where a lesion of this length may lie.
-bool is_free(const CoronaryTree& tree, const CoronaryVessel& vessel, double from, double to) {
+}  // namespace
+
+bool free_for_lesion(const CoronaryTree& tree, const CoronaryVessel& vessel, double from, double to) {
   if (from < vessel.s_free_mm + 2.0 || to > vessel.axis.abscissa.back() - 8.0) return false;
   for (const CoronaryVessel& child : tree.vessels) {
     if (child.parent == vessel.id && child.parent_s_mm > from - 3.0 && child.parent_s_mm < to + 3.0)
@@ -135,8 +136,6 @@ bool is_free(const CoronaryTree& tree, const CoronaryVessel& vessel, double from
                       [&](const Stenosis& s) { return s.s_from_mm < to + 3.0 && s.s_to_mm > from - 3.0; });
 }
 
-}  // namespace
-
 void add_lesion(CoronaryVessel& vessel, const LesionOptions& lesion) {
   require(lesion.length_mm >= 2.0 && lesion.length_mm <= 40.0, "length_mm must lie in [2, 40]");
   require(lesion.diameter_stenosis >= 0.0 && lesion.diameter_stenosis <= 0.95,
@@ -145,6 +144,7 @@ void add_lesion(CoronaryVessel& vessel, const LesionOptions& lesion) {
   require(lesion.diameter_stenosis * (1.0 + lesion.eccentricity) <= 0.97,
           "diameter_stenosis (1 + eccentricity) must not exceed 0.97: the lumen would close on one side");
   require(lesion.remodelling >= 1.0 && lesion.remodelling <= 1.5, "remodelling must lie in [1, 1.5]");
+  require(lesion.plateau >= 0.0 && lesion.plateau <= 0.9, "plateau must lie in [0, 0.9]");
   const double from = lesion.s_throat_mm - 0.5 * lesion.length_mm, to = from + lesion.length_mm;
   require(from >= 0.0 && to <= vessel.axis.abscissa.back(),
           "it reaches from " + std::to_string(from) + " to " + std::to_string(to) + " mm, beyond " +
@@ -246,8 +246,8 @@ void draw_disease(CoronaryTree& tree, double amount, std::uint64_t seed) {
       const double low = vessel.s_free_mm + 3.0, high = 0.75 * vessel.axis.abscissa.back();
       lesion.s_throat_mm = low + place * (high - low);
       lesion.eccentricity = std::max(0.0, lesion.eccentricity);
-      if (!is_free(tree, vessel, lesion.s_throat_mm - 0.5 * lesion.length_mm,
-                   lesion.s_throat_mm + 0.5 * lesion.length_mm))
+      if (!free_for_lesion(tree, vessel, lesion.s_throat_mm - 0.5 * lesion.length_mm,
+                           lesion.s_throat_mm + 0.5 * lesion.length_mm))
         break;
       add_lesion(vessel, lesion);
       ++made;

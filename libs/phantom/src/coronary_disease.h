@@ -11,4 +11,7 @@ namespace ostia::phantom {
 /// three main vessels and of large side branches, clear of bifurcations and of each other.
 void draw_disease(CoronaryTree& tree, double amount, std::uint64_t seed);
 
+/// Whether a lesion may lie there: clear of the vessel's ends, of bifurcations and of other lesions.
+bool free_for_lesion(const CoronaryTree& tree, const CoronaryVessel& vessel, double from_mm, double to_mm);
+
 }  // namespace ostia::phantom

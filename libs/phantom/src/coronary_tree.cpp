@@ -123,6 +123,8 @@ const char* word(PlaqueKind kind) {
 CoronaryTree draw_coronaries(const HeartShape& heart, const CoronaryOptions& options) {
   if (!(options.disease >= 0.0 && options.disease <= 10.0))
     throw InvalidInput("disease must lie in [0, 10], not " + std::to_string(options.disease));
+  if (!(options.calibre >= 0.5 && options.calibre <= 1.3))
+    throw InvalidInput("calibre must lie in [0.5, 1.3], not " + std::to_string(options.calibre));
   CoursePlan plan = plan_courses(heart, options.seed);
   change_origins(plan, heart, options.anatomy);
   CoronaryTree tree;
@@ -142,11 +144,12 @@ CoronaryTree draw_coronaries(const HeartShape& heart, const CoronaryOptions& opt
       if (other.parent == course.name) branches.push_back({other.parent_s_mm, other.start_radius_mm});
     }
     const double start = vessel.parent < 0
-                             ? course.start_radius_mm
+                             ? options.calibre * course.start_radius_mm
                              : course.start_radius_mm *
                                    radius_before_branch(tree.vessels[static_cast<std::size_t>(vessel.parent)],
                                                         course.parent_s_mm);
-    set_calibre(vessel, start, course.end_radius_mm, course.taper_power, branches, options.seed);
+    set_calibre(vessel, start, options.calibre * course.end_radius_mm, course.taper_power, branches,
+                options.seed);
     tree.vessels.push_back(std::move(vessel));
   }
   for (CoronaryVessel& vessel : tree.vessels) {

@@ -27,7 +27,7 @@ const std::vector<HardRow>& hard_rows() {
         "Imaging, "
         "PMC5963691)"},
        [](HardDraw& d) -> double& { return d.contrast_hu; }},
-      {{"venous contrast", "of the arterial", 1.0, 0.0, Spread::uniform, 0.0, 0.0, 0.0, 0.5,
+      {{"venous contrast", "of the arterial", 1.0, 0.0, Spread::uniform, 0.0, 0.0, 0.1, 0.9,
         "veins and right heart beside what they have anyway: from a saline chaser to none"},
        [](HardDraw& d) -> double& { return d.venous; },
        &HardStrength::venous},
@@ -82,6 +82,35 @@ const std::vector<HardRow>& hard_rows() {
        [](HardDraw& d) -> double& { return d.realism.mixing; }},
       {{"superior cava", "HU", 0.5, 0.0, Spread::uniform, 0.0, 0.0, 500.0, 1500.0, "undiluted contrast"},
        [](HardDraw& d) -> double& { return d.realism.cava_hu; }},
+      {{"calibre", "of the usual", 1.0, 0.0, Spread::normal, 0.92, 0.1, 0.7, 1.15,
+        "women's arteries are 9 % thinner than men's (Dodge et al. 1992)"},
+       [](HardDraw& d) -> double& { return d.obstacles.calibre; }},
+      {{"contrast lost along 100 mm", "of that above blood", 1.0, 0.0, Spread::normal, 0.3, 0.1, 0.05, 0.6,
+        "falls along every artery"},
+       [](HardDraw& d) -> double& { return d.obstacles.contrast_fall; },
+       &HardStrength::fall},
+      {{"nearness of veins", "", 1.0, 0.0, Spread::uniform, 0.0, 0.0, 0.6, 1.0,
+        "0: 1.6 mm of fat between them and the arteries' walls; 1: none"},
+       [](HardDraw& d) -> double& { return d.obstacles.vein_closeness; },
+       &HardStrength::contact},
+      {{"lobes that touch an artery", "of the places", 1.0, 0.0, Spread::uniform, 0.0, 0.0, 0.2, 1.0,
+        "of auricles, atria and pulmonary trunk, at nine places"},
+       [](HardDraw& d) -> double& { return d.obstacles.lobes; },
+       &HardStrength::contact},
+      {{"fat in the grooves", "of the usual", 1.0, 0.0, Spread::uniform, 0.0, 0.0, 0.6, 1.0,
+        "lean and stout patients"},
+       [](HardDraw& d) -> double& { return d.obstacles.groove_fat; }},
+      {{"long calcium", "mm", 0.65, 0.0, Spread::uniform, 0.0, 0.0, 20.0, 180.0,
+        "in stretches of 8 to 38 mm beside the lumen, 700 to 1,500 HU"},
+       [](HardDraw& d) -> double& { return d.obstacles.calcified_mm; },
+       &HardStrength::calcium},
+      {{"closed stretches", "", 0.35, 0.0, Spread::uniform, 0.0, 0.0, 0.5, 2.5,
+        "rounded; 6 to 25 mm long, what lies behind is filled from elsewhere"},
+       [](HardDraw& d) -> double& { return d.obstacles.closed; },
+       &HardStrength::closed},
+      {{"contrast behind them", "of the usual", 1.0, 0.0, Spread::uniform, 0.0, 0.0, 0.4, 0.85,
+        "by collaterals"},
+       [](HardDraw& d) -> double& { return d.obstacles.filling; }},
   };
   return rows;
 }
@@ -158,7 +187,9 @@ const char* word(Spread spread) {
 void validate(const HardStrength& strength) {
   for (const auto& [name, value] :
        {std::pair("noise", strength.noise), std::pair("blur", strength.blur),
-        std::pair("motion", strength.motion), std::pair("venous contrast", strength.venous)})
+        std::pair("motion", strength.motion), std::pair("venous contrast", strength.venous),
+        std::pair("contact", strength.contact), std::pair("calcium", strength.calcium),
+        std::pair("contrast lost", strength.fall), std::pair("closed stretches", strength.closed)})
     if (!(value >= 0.0 && value <= 5.0))
       throw InvalidInput(std::string("suite hard: the strength of ") + name + " must be 0 to 5");
 }
@@ -197,6 +228,9 @@ CaseOptions hard_case(const CaseOptions& usual, const HardStrength& strength) {
   out.disease = draw.disease;
   out.variant = {out.patient ? Anatomy::usual : draw.anatomy, draw.calcium, draw.stent_mm, draw.contrast_hu,
                  draw.venous};
+  out.obstacles = draw.obstacles;
+  // Who has long calcium has that of plaques, too.
+  if (draw.obstacles.calcified_mm > 0.0) out.variant.calcium = std::max(out.variant.calcium, 1.0);
   ScanOptions& scan = out.scan;
   scan.noise_hu = draw.noise_hu;
   constexpr double most_cycles_a_voxel = 0.17;

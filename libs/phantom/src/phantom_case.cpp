@@ -1,5 +1,7 @@
 #include "ostia/phantom/phantom_case.h"
 
+#include "coronary_obstacles.h"
+
 #include "ostia/core/error.h"
 #include "ostia/phantom/body.h"
 #include "ostia/phantom/noise.h"
@@ -90,6 +92,7 @@ void validate(const CaseOptions& options) {
   require_case(!variant.contrast_hu || (*variant.contrast_hu >= 80.0 && *variant.contrast_hu <= 1000.0),
                "the contrast must be 80 to 1000 HU");
   require_case(variant.venous >= 0.0 && variant.venous <= 1.0, "the share of venous contrast must be 0 to 1");
+  validate(options.obstacles);
   validate(options.scan.realism);
   validate(options.contours);
   validate(options.observers);
@@ -106,6 +109,7 @@ CasePlan plan_case(const CaseOptions& options) {
   coronary.seed = options.seed;
   coronary.disease = options.disease;
   coronary.anatomy = options.variant.anatomy;
+  coronary.calibre = options.obstacles.calibre;
   if (options.patient) {
     PatientHeart patient = patient_heart(*options.patient, plan.heart, coronary);
     plan.tree = std::move(patient.tree);
@@ -123,6 +127,7 @@ CasePlan plan_case(const CaseOptions& options) {
   if (options.variant.stent_mm > 0.0)
     stent_the_lad(plan.tree, options.variant.stent_mm, options.scan.realism.stent_struts);
   plan.sections = plan_sections(plan.tree, wanted);
+  add_obstacles(plan.tree, options.obstacles, plan.sections.sections, options.seed);
   plan.challenge = challenge_vessels(plan.tree, plan.options.observers, plan.options.scan.grid);
   if (plan.patient) plan.warnings = plan.patient->remarks;
   plan.warnings.insert(plan.warnings.end(), plan.sections.warnings.begin(), plan.sections.warnings.end());
@@ -137,6 +142,11 @@ BodyOptions body_of(const CaseOptions& options) {
   const ScanRealism& realism = options.scan.realism;
   if (realism.cava_hu > 0.0) hu.superior_vena_cava = static_cast<float>(realism.cava_hu);
   body.mixing = realism.mixing;
+  const Obstacles& obstacles = options.obstacles;
+  if (obstacles.contrast_fall >= 0.0) hu.coronary_drop = static_cast<float>(obstacles.contrast_fall);
+  body.vein_closeness = obstacles.vein_closeness;
+  body.lobes = obstacles.lobes;
+  body.groove_fat = obstacles.groove_fat;
   const auto share = static_cast<float>(options.variant.venous);
   for (float* tissue : {&hu.right_heart, &hu.pulmonary, &hu.vein}) *tissue += share * (hu.arterial - *tissue);
   return body;

@@ -24,6 +24,12 @@ struct Chunk {
   double most_mm = 0.0;             // that radius
 };
 
+/// Squared distance of a point from a box, 0 inside; without the branches of Eigen's, which are guessed
+/// wrong.
+double squared_distance(const Box3& box, const Vec3& p) {
+  return (box.min() - p).cwiseMax(p - box.max()).cwiseMax(0.0).squaredNorm();
+}
+
 /// What the search for feet reads of an axis point, side by side in memory.
 struct Station {
   Vec3 point, tangent;
@@ -119,7 +125,7 @@ struct VesselField::Impl {
     while (top > 0) {
       const Node& node = nodes[static_cast<std::size_t>(stack[--top])];
       const double bound = reach > 0.0 ? reach * reach : 0.0;
-      if (node.box.squaredExteriorDistance(p) > bound) continue;
+      if (squared_distance(node.box, p) > bound) continue;
       if (node.left >= 0) {
         stack[top++] = node.right;
         stack[top++] = node.left;
@@ -127,7 +133,7 @@ struct VesselField::Impl {
       }
       for (std::int32_t i = node.first; i < node.last; ++i) {
         const Chunk& chunk = chunks[static_cast<std::size_t>(i)];
-        if (chunk.box.squaredExteriorDistance(p) <= bound) visit(chunk);
+        if (squared_distance(chunk.box, p) <= bound) visit(chunk);
       }
     }
   }

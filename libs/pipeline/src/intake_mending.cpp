@@ -117,27 +117,30 @@ Rims rims_of(const TriMesh& part, const geometry::FilledHoles& filled, bool tree
   return rims;
 }
 
-void close_holes_in_the_wall(TriMesh& part, const geometry::FilledHoles& filled, const Rims& rims,
-                             std::vector<std::string>& told) {
+std::vector<meshing::GivenEnd> close_holes_in_the_wall(TriMesh& part, const geometry::FilledHoles& filled,
+                                                       const Rims& rims, std::vector<std::string>& told) {
+  std::vector<meshing::GivenEnd> closed;
   const auto& loops = rims.loops;
   std::vector<bool> close(loops.size(), false);
   for (std::size_t i = 0; i < loops.size(); ++i) {
     const meshing::GivenEnd end = meshing::end_at_loop(part, loops[i]);
     close[i] = meshing::is_hole_in_wall(*rims.tree, end);
-    if (close[i])
-      told.push_back("a hole in the wall closed, " + core::fixed_text(2.0 * end.radius_mm, 2) +
-                     " mm wide at " + place_text(end.centre));
+    if (!close[i]) continue;
+    told.push_back("a hole in the wall closed, " + core::fixed_text(2.0 * end.radius_mm, 2) + " mm wide at " +
+                   place_text(end.centre));
+    closed.push_back(end);
   }
-  if (std::ranges::count(close, true) == 0) return;
+  if (closed.empty()) return closed;
   std::vector<bool> keep;
   for (const std::int32_t hole : filled.hole_of_triangle)
     keep.push_back(hole < 0 || close[static_cast<std::size_t>(hole)]);
   part = geometry::subset(filled.mesh, keep);
+  return closed;
 }
 
-void close_holes_in_the_wall(TriMesh& part, std::vector<std::string>& told) {
+std::vector<meshing::GivenEnd> close_holes_in_the_wall(TriMesh& part, std::vector<std::string>& told) {
   const geometry::FilledHoles filled = geometry::fill_holes(part);
-  close_holes_in_the_wall(part, filled, rims_of(part, filled), told);
+  return close_holes_in_the_wall(part, filled, rims_of(part, filled), told);
 }
 
 }  // namespace ostia::pipeline

@@ -5,6 +5,7 @@
 #include "ostia/geometry/aabb_tree.h"
 #include "ostia/geometry/mesh_topology.h"
 #include "ostia/geometry/tri_mesh.h"
+#include "ostia/meshing/flat_caps.h"
 
 #include <memory>
 #include <string>
@@ -38,8 +39,11 @@ Rims rims_of(const geometry::TriMesh& part, const geometry::FilledHoles& filled,
              bool tree_in_any_case = false);
 
 /// An opening much narrower than the lumen behind it is no end. `filled` is the part with its holes filled.
-void close_holes_in_the_wall(geometry::TriMesh& part, const geometry::FilledHoles& filled, const Rims& rims,
-                             std::vector<std::string>& told);
-void close_holes_in_the_wall(geometry::TriMesh& part, std::vector<std::string>& told);
+/// Returns those that were closed.
+std::vector<meshing::GivenEnd> close_holes_in_the_wall(geometry::TriMesh& part,
+                                                       const geometry::FilledHoles& filled, const Rims& rims,
+                                                       std::vector<std::string>& told);
+std::vector<meshing::GivenEnd> close_holes_in_the_wall(geometry::TriMesh& part,
+                                                       std::vector<std::string>& told);
 
 }  // namespace ostia::pipeline

@@ -3,6 +3,7 @@
 #include "ostia/core/error.h"
 #include "ostia/core/text.h"
 #include "ostia/geometry/mesh_topology.h"
+#include "ostia/geometry/smoothing.h"
 #include "ostia/pipeline/source.h"
 
 #include <algorithm>
@@ -28,9 +29,17 @@ bool may_be_cm(double calibre, double extent) {
   return calibre > 1.0 && calibre < 4.5 && extent > 4.0 && extent < 30.0;
 }
 
-double calibre_of(const TriMesh& mesh) {
+/// Noise makes the wall larger and so the calibre smaller: a rough wall in millimetres has the numbers of a
+/// smooth one in centimetres. Where the calibre says another unit, the smoothed wall has to say it, too.
+double calibre_of(const TriMesh& mesh, double extent) {
   try {
-    return calibre_of_closed(geometry::fill_holes(geometry::oriented(geometry::welded(mesh))).mesh);
+    const TriMesh closed = geometry::fill_holes(geometry::oriented(geometry::welded(mesh))).mesh;
+    const double calibre = calibre_of_closed(closed);
+    if (unit_by_calibre(calibre, extent) == 1.0) return calibre;
+    geometry::VolumeSmoothingOptions how;
+    how.filter.pass_band = 0.05;
+    const double smooth = calibre_of_closed(geometry::smoothed_in_volume(closed, how));
+    return unit_by_calibre(smooth, extent) == 1.0 ? smooth : calibre;
   } catch (const Error&) {  // too broken for that: its extent alone decides
     return geometry::bounds(mesh.points).sizes().maxCoeff();
   }
@@ -114,7 +123,7 @@ std::optional<meshing::OpenedCaps> to_mm(geometry::FacedSurface& surface, std::o
   if (options.unit_mm) {
     out.unit_mm = *options.unit_mm;
   } else {
-    const double calibre = known_calibre ? *known_calibre : calibre_of(surface.mesh);
+    const double calibre = known_calibre ? *known_calibre : calibre_of(surface.mesh, extent);
     out.unit_mm = unit_by_calibre(calibre, extent);
     check_vessel_size(out.unit_mm * calibre, what);
     if (out.unit_mm != 1.0)

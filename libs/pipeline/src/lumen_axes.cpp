@@ -57,6 +57,12 @@ meshing::PlacedPlane stub_plane(const geometry::VesselTree& tree, const std::str
   return {"outlet_" + name, axis.points[i], axis.points[behind] - axis.points[before]};
 }
 
+/// What questions of inside and outside need is made at the first of them; the axes will ask many.
+void make_ready(const centerline::KnownSurface* known) {
+  if (known != nullptr && known->tree && !known->closed.points.empty())
+    known->tree->inside(known->closed.points.front());
+}
+
 core::TaskContext share_of(const core::TaskContext& task, std::size_t i, std::size_t count) {
   const auto part = [&](std::size_t k) { return static_cast<double>(k) / static_cast<double>(count); };
   return task.sub(part(i), part(i + 1));
@@ -93,7 +99,9 @@ LumenAxes lumen_axes(const TriMesh& lumen, const AxesRequest& asked_for, const c
   };
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const core::TaskContext part_task = share_of(task, i, parts.size());
-    PartEnds ends = ends_of_part(parts[i], asked[i], request, part_task);
+    PartEnds ends;
+    core::parallel_invoke([&] { ends = ends_of_part(parts[i], asked[i], request, part_task); },
+                          [&] { make_ready(request.known.get()); });
     centerline::CenterlineOptions options = request.centerline;
     const bool name_them = options.vessel_names.empty();
     std::vector<Vec3> targets;

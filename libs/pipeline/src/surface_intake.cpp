@@ -15,6 +15,7 @@
 #include "ostia/pipeline/model.h"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -92,11 +93,19 @@ class Intake {
     for (std::string& line : drop_outer_walls(parts)) out_.told.push_back(std::move(line));
     const bool shells_gone = parts.size() < count;
     if (const Specks gone = drop_specks(parts); gone.count() > 0) out_.told.push_back(gone.text());
-    for (TriMesh& part : parts) close_holes_in_the_wall(part, out_.told);
+    std::vector<meshing::GivenEnd> closed;
+    for (TriMesh& part : parts)
+      std::ranges::move(close_holes_in_the_wall(part, out_.told), std::back_inserter(closed));
     ready_.mesh = joined(parts);
     ready_.face_ids = labels_on(ready_.mesh, before);
     keep_early_ends();
     if (!shells_gone) out_.lost = rims_gone(before.mesh, ready_.mesh);
+    // A hole that was closed has been told, and was wider or narrower while the wall was rough.
+    std::erase_if(out_.lost, [&](const meshing::GivenEnd& rim) {
+      return std::ranges::any_of(closed, [&](const meshing::GivenEnd& hole) {
+        return (rim.centre - hole.centre).norm() <= std::max(rim.radius_mm, hole.radius_mm);
+      });
+    });
     labels_may_be_gone_ = !shells_gone;
     if (parts.size() > 1)
       out_.told.push_back("it has " + std::to_string(parts.size()) +

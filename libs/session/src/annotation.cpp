@@ -19,8 +19,9 @@ using analysis::Measurement;
 using lumen::LumenModel;
 
 constexpr std::array<const char*, std::variant_size_v<AnnotationCommand>> op_names{
-    "measure.add",      "measure.change",    "measure.delete",   "vessel.mark",     "pressure.inputs",
-    "pressure.what_if", "report.impression", "report.modifiers", "report.features", "report.sign"};
+    "measure.add",     "measure.change",   "measure.delete",    "vessel.mark",
+    "pressure.inputs", "pressure.what_if", "report.impression", "report.modifiers",
+    "report.features", "report.sign",      "calcium.places"};
 
 std::int32_t key_of(const Measurement& measurement) {
   return measurement.id;
@@ -180,6 +181,11 @@ void run(Annotations& annotations, const SetPlaqueFeatures& command, const Lumen
     if (std::find(before.begin(), before.end(), one) == before.end())  // else it may have lost its vessel
       require_vessel(model, one.vessel, "the word on a plaque");
   annotations.report.features = command.features;
+}
+
+void run(Annotations& annotations, const SetCalciumPlaces& command, const LumenModel&) {
+  validate(command.words);
+  annotations.report.calcium = command.words;
 }
 
 void run(Annotations& annotations, const SignReport& command, const LumenModel&) {

@@ -54,6 +54,8 @@ void fields(C& command, V& v) {
     v("dominance", command.modifiers.dominance, Need::optional);
   } else if constexpr (std::is_same_v<Kind, SetPlaqueFeatures>) {
     v("features", command.features);
+  } else if constexpr (std::is_same_v<Kind, SetCalciumPlaces>) {
+    v("words", command.words);
   } else if constexpr (std::is_same_v<Kind, SignReport>) {
     v("date", command.version.date);
     v("signer", command.version.signer);
@@ -83,7 +85,8 @@ AnnotationCommand command_named(const std::string& op) {
         AnnotationCommand(MeasureDelete{}), AnnotationCommand(MarkVessel{}),
         AnnotationCommand(SetPressureInputs{}), AnnotationCommand(SetWhatIfs{}),
         AnnotationCommand(SetReportImpression{}), AnnotationCommand(SetReportModifiers{}),
-        AnnotationCommand(SetPlaqueFeatures{}), AnnotationCommand(SignReport{})}) {
+        AnnotationCommand(SetPlaqueFeatures{}), AnnotationCommand(SignReport{}),
+        AnnotationCommand(SetCalciumPlaces{})}) {
     if (op_name(candidate) == op) return candidate;
     choices += (choices.empty() ? "" : ", ") + op_name(candidate);
   }

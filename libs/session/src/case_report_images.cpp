@@ -32,6 +32,7 @@ using geometry::Vec3;
 constexpr double strip_mm = 16.0, strip_pixel_mm = 0.15;
 constexpr double section_mm = 9.0, section_pixel_mm = 0.05;
 constexpr double tree_cell_mm = 0.35;
+constexpr double least_shown_mm = 40.0;  // a short vessel seen along its axis is not blown up
 constexpr std::size_t most_throats = 6;
 constexpr figure::Color mark_color{0.84, 0.37, 0.0};  // Okabe-Ito vermilion
 
@@ -142,11 +143,15 @@ KeyImage Painter::tree(const core::TaskContext& task) const {
   how.occlusion_rays = 4;
   how.look = Look::light;
   how.legend = false;
-  const std::vector<figure::SceneSight> sights{
+  std::vector<figure::SceneSight> sights{
       {figure::cameras::anterior(), said("from the front")},
       {figure::cameras::angiographic(50.0, 20.0), said("LAO 50, cranial 20")},
       {figure::cameras::angiographic(-30.0, -20.0), said("RAO 30, caudal 20")},
       {figure::cameras::superior(), said("from above")}};
+  for (figure::SceneSight& sight : sights) {
+    const figure::View fitted = figure::fitted_view(shown, sight.camera, how.width_px, how.height_px);
+    if (fitted.mm_per_px * how.height_px < least_shown_mm) sight.camera.height_mm = least_shown_mm;
+  }
   const std::vector<Picture> views = figure::scene_figures(shown, sights, how, task.sub(0.3, 1.0));
   return {"tree", said("The tree" + std::string(report_.stenoses.empty() ? "" : ", with stenoses ringed")),
           figure::grid(views, {.columns = 2, .look = Look::light})};

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace ostia::session {
@@ -17,6 +18,23 @@ using dicom::MeasurementGroup;
 /// (code, scheme, meaning) of our own where the standard has none.
 dicom::Code own_code(const char* value, const char* meaning) {
   return {value, "99OSTIA", meaning};
+}
+
+/// Values of codes have 16 characters at most.
+dicom::Code feature_code(analysis::PlaqueFeature feature) {
+  const std::string words = analysis::to_string(feature);
+  std::string value =
+      feature == analysis::PlaqueFeature::positive_remodelling ? std::string("pos_remodelling") : words;
+  std::replace(value.begin(), value.end(), ' ', '_');
+  return own_code(value.c_str(), words.c_str());
+}
+
+dicom::Code unit_code(analysis::PlaqueFeature feature) {
+  const std::string unit = analysis::unit_of(feature);
+  return unit == "mm3"   ? dicom::codes::cubic_millimetre
+         : unit == "mm"  ? dicom::codes::millimetre
+         : unit == "deg" ? dicom::Code{"deg", "UCUM", "deg"}
+                         : dicom::codes::ratio;
 }
 
 const std::array<dicom::Code, analysis::plaque_classes>& plaque_codes() {
@@ -91,6 +109,22 @@ std::optional<double> ffr_behind(const nlohmann::json& ffr, const analysis::Sten
   return found;
 }
 
+/// The features of high-risk plaque that count, and what was measured of each that is known.
+void add_high_risk(const ReportStenosis& lesion, MeasurementGroup& group) {
+  for (const ReportFeature& one : lesion.features) {
+    const dicom::Code code = feature_code(one.finding.feature);
+    // The remodelling index has a code of its own, under which it stands already.
+    const bool own_number = one.finding.feature != analysis::PlaqueFeature::positive_remodelling;
+    if (one.finding.known && own_number)
+      group.numbers.push_back({code, one.finding.value, unit_code(one.finding.feature), {}});
+    if (one.counts)
+      group.statements.push_back({own_code("hrp_feature", "Feature of high-risk plaque"), code, {}});
+  }
+  if (lesion.high_risk)
+    group.statements.push_back(
+        {own_code("hrp", "High-risk plaque"), dicom::Code{"373066001", "SCT", "Yes"}, {}});
+}
+
 MeasurementGroup group_of_stenosis(const ReportStenosis& lesion, const nlohmann::json& ffr) {
   const analysis::Stenosis& s = lesion.stenosis;
   MeasurementGroup group{"S" + std::to_string(lesion.number),
@@ -110,6 +144,7 @@ MeasurementGroup group_of_stenosis(const ReportStenosis& lesion, const nlohmann:
         {codes::plaque_volume, lesion.plaque->volumes.plaque_mm3(), codes::cubic_millimetre, {}});
   if (const auto value = ffr_behind(ffr, s))
     group.numbers.push_back({codes::fractional_flow_reserve, *value, codes::ratio, {}});
+  add_high_risk(lesion, group);
   group.statements.push_back({own_code("vessel_name", "Name of the vessel"), {}, lesion.vessel_name});
   group.statements.push_back({own_code("segment", "Segment"), {}, lesion.segment});
   if (lesion.category)
@@ -149,6 +184,29 @@ void add_category(const analysis::PatientCategory& category, dicom::MeasurementR
     report.statements.push_back({dicom::cad_stenosis_modifier, coded->stenosis_modifier, {}});
   if (category.category && category.not_diagnostic)
     report.statements.push_back({dicom::cad_modifier, dicom::not_diagnostic_segments, {}});
+}
+
+/// Plaque burden by each way that is known, the modifiers, and the whole as it is written.
+void add_statement(const CaseReport& report, dicom::MeasurementReport& to) {
+  using analysis::PlaqueBurden;
+  const auto burden = [&](const char* value, const char* meaning, PlaqueBurden one) {
+    if (one == PlaqueBurden::none) return;
+    const std::string grade = analysis::to_string(one), words = grade + ", " + analysis::description(one);
+    to.statements.push_back({own_code(value, meaning), own_code(grade.c_str(), words.c_str()), {}});
+  };
+  burden("plaque_burden", "CAD-RADS plaque burden", report.burden.stated);
+  burden("burden_segments", "Plaque burden by segment involvement", report.burden.by_segments);
+  if (report.burden.by_calcium)
+    burden("burden_calcium", "Plaque burden by calcium score", *report.burden.by_calcium);
+  const auto modifier = [&](const dicom::Code& code) {
+    to.statements.push_back({dicom::cad_modifier, code, {}});
+  };
+  const analysis::CadRadsStatement& statement = report.statement;
+  if (statement.stent) modifier(dicom::stent_modifier);
+  if (statement.graft) modifier(dicom::graft_modifier);
+  if (statement.high_risk_plaque) modifier(own_code("HRP", "HRP - High-risk plaque"));
+  to.statements.push_back(
+      {own_code("cad_rads", "CAD-RADS 2.0 as it is written"), {}, analysis::to_string(statement)});
 }
 
 nlohmann::ordered_json json_of(const dicom::Code& code) {
@@ -203,6 +261,7 @@ dicom::MeasurementReport dicom_measurements(const CaseReport& report, const std:
     throw InvalidInput(std::string("the FFR is not what `ostia ffr` writes: ") + error.what());
   }
   add_category(report.category, result);
+  add_statement(report, result);
   return result;
 }
 

@@ -94,6 +94,9 @@ class Writer {
             {"feature", analysis::to_string(one.feature)},
             {"state", to_string(one.state)}};
   }
+  Json json(const CalciumWord& one) const {
+    return {{"centre", json(one.centre)}, {"place", analysis::to_string(one.place)}};
+  }
   /// Numbers by name as a list, in the names' order.
   Json json(const std::map<std::string, double>& values) const {
     Json list = Json::array();
@@ -265,6 +268,13 @@ class Reader {
               [](const std::string& text) { return analysis::plaque_feature(text); });
     read_word(in["state"], name + ".state", out.state,
               [](const std::string& text) { return lesion_state(text); });
+  }
+  void read(const Json& in, const std::string& name, CalciumWord& out) const {
+    if (!in.is_object() || in.size() != 2 || !in.contains("centre") || !in.contains("place"))
+      fail("\"" + name + "\" must be a word on a lesion {\"centre\", \"place\"}");
+    read(in["centre"], name + ".centre", out.centre);
+    read_word(in["place"], name + ".place", out.place,
+              [](const std::string& text) { return analysis::calcium_place(text); });
   }
   void read(const Json& in, const std::string& name, std::map<std::string, double>& out) const {
     if (!in.is_array()) fail(name, in, "a list");

@@ -19,6 +19,7 @@ std::map<std::string, std::string> note_lines(const ReportNotes& notes) {
   if (!notes.impression.empty()) add(SetReportImpression{notes.impression});
   if (!(notes.modifiers == ReportModifiers{})) add(SetReportModifiers{notes.modifiers});
   if (!notes.features.empty()) add(SetPlaqueFeatures{notes.features});
+  if (!notes.calcium.empty()) add(SetCalciumPlaces{notes.calcium});
   return lines;
 }
 
@@ -45,6 +46,9 @@ void take_note(ReportNotes& notes, const std::string& op, const std::string& lin
     } else if (auto* features = std::get_if<SetPlaqueFeatures>(&command)) {
       validate(features->features);
       notes.features = std::move(features->features);
+    } else if (auto* calcium = std::get_if<SetCalciumPlaces>(&command)) {
+      validate(calcium->words);
+      notes.calcium = std::move(calcium->words);
     } else {
       damaged("its report has a note that is none");
     }

@@ -107,6 +107,7 @@ CaseFat case_fat(const lumen::LumenModel& model, const analysis::SurfaceOfVessel
                              core::rounded_text(fat->asked_mm, 0) + " mm were measured");
     if (fat->profile.fat.voxels == 0)
       out.warnings.push_back(name + ": no fat was found that is clear of edges");
+    fat->walls = std::make_shared<const VesselWalls>(*walls);
     out.vessels.push_back(std::move(*fat));
   }
   tell_voltage(out);

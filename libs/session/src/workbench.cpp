@@ -311,7 +311,9 @@ Session::Done Workbench::edit_by_plugin(const PluginEdits& step) {
   return done;
 }
 Session::Done Workbench::annotate(const AnnotationCommand& command) {
-  if (!std::holds_alternative<MarkVessel>(command)) require_own_phase();
+  // A calcium score is read off another image of the study, while it is shown.
+  if (!std::holds_alternative<MarkVessel>(command) && !std::holds_alternative<SetReportModifiers>(command))
+    require_own_phase();
   const std::shared_ptr<const lumen::LumenModel> before = session().file().model();
   Session::Done done = session().annotate(command);
   follow(done, *before);

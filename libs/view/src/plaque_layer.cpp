@@ -1,6 +1,7 @@
 #include "ostia/view/plaque_layer.h"
 
-#include "ostia/core/parallel.h"
+#include "tints.h"
+
 #include "ostia/session/plaque_sampling.h"
 #include "ostia/view/curved_view.h"
 #include "ostia/view/plane_view.h"
@@ -13,6 +14,7 @@
 #include <numbers>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace ostia::view {
 namespace {
@@ -33,29 +35,10 @@ double widest_mm(const VesselWalls& walls) {
   return radii.empty() ? 0.0 : *std::max_element(radii.begin(), radii.end());
 }
 
-/// Nothing coloured yet, from one corner to the other as far as the view reaches.
-OverlayTint blank(const PictureView& view, const Vec2& low, const Vec2& high) {
-  OverlayTint out;
-  out.left = static_cast<int>(std::clamp(std::floor(low.x()), 0.0, static_cast<double>(view.width())));
-  out.top = static_cast<int>(std::clamp(std::floor(low.y()), 0.0, static_cast<double>(view.height())));
-  out.width =
-      static_cast<int>(std::clamp(std::ceil(high.x()), 0.0, static_cast<double>(view.width()))) - out.left;
-  out.height =
-      static_cast<int>(std::clamp(std::ceil(high.y()), 0.0, static_cast<double>(view.height()))) - out.top;
-  out.width = std::max(0, out.width);
-  out.height = std::max(0, out.height);
-  out.what.assign(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height), 0);
-  for (const PlaqueColor& one : plaque_colors) out.roles.push_back(one.role);
-  return out;
-}
-
-/// Asks `of(x, y)` for the middle of every pixel, rows side by side.
-template <class Of>
-void fill(OverlayTint& tint, const Of& of_row) {
-  core::parallel_for(static_cast<std::size_t>(tint.height), 16, [&](std::size_t row) {
-    of_row(tint.top + static_cast<double>(row) + 0.5,
-           tint.what.data() + row * static_cast<std::size_t>(tint.width));
-  });
+std::vector<Role> class_roles() {
+  std::vector<Role> roles;
+  for (const PlaqueColor& one : plaque_colors) roles.push_back(one.role);
+  return roles;
 }
 
 OverlayTint on_section(SectionView& view, const VesselWalls& walls) {
@@ -65,8 +48,9 @@ OverlayTint on_section(SectionView& view, const VesselWalls& walls) {
   std::vector<PlaqueRay> around;
   for (int i = 0; i < rays; ++i)
     around.push_back(*session::plaque_ray(walls, s, (i + 0.5) * 2.0 * pi / rays));
-  OverlayTint tint = blank(view, middle->px - Vec2(reach, reach), middle->px + Vec2(reach, reach));
-  fill(tint, [&](double y, std::uint8_t* row) {
+  OverlayTint tint =
+      blank_tint(view, middle->px - Vec2(reach, reach), middle->px + Vec2(reach, reach), class_roles());
+  fill_tint(tint, [&](double y, std::uint8_t* row) {
     for (int i = 0; i < tint.width; ++i) {
       const Vec2 from = pixel * (Vec2(tint.left + i + 0.5, y) - middle->px);
       const double turns = std::atan2(-from.y(), from.x()) / (2.0 * pi);
@@ -81,9 +65,9 @@ OverlayTint on_section(SectionView& view, const VesselWalls& walls) {
 OverlayTint on_straightened(CurvedView& view, const VesselWalls& walls) {
   const double pixel = view.pixel_mm(), reach = widest_mm(walls) / pixel + 1.0;
   const double middle = view.axis_at(walls.plaque.from_mm).x(), theta = view.theta_deg() * pi / 180.0;
-  OverlayTint tint = blank(view, {middle - reach, view.row_of(walls.plaque.from_mm)},
-                           {middle + reach, view.row_of(walls.plaque.to_mm)});
-  fill(tint, [&](double y, std::uint8_t* row) {
+  OverlayTint tint = blank_tint(view, {middle - reach, view.row_of(walls.plaque.from_mm)},
+                                {middle + reach, view.row_of(walls.plaque.to_mm)}, class_roles());
+  fill_tint(tint, [&](double y, std::uint8_t* row) {
     const double s = view.abscissa_at(y);
     const auto right = session::plaque_ray(walls, s, theta), left = session::plaque_ray(walls, s, theta + pi);
     if (!right || !left) return;
@@ -95,56 +79,19 @@ OverlayTint on_straightened(CurvedView& view, const VesselWalls& walls) {
   return tint;
 }
 
-/// Where a place is about the axis: abscissa, and across it along theta = 0 and 90 degrees.
-using About = std::optional<Vec3>;
-constexpr int mesh_px = 4;  // places are looked for so far apart; between them they change evenly
-
-/// Looked for at the corners of a mesh over the tint, row by row from the axis outwards, near the row's own
-/// abscissa, as far as the vessel reaches.
-std::vector<About> places_about(CurvedView& view, const VesselWalls& walls, const OverlayTint& tint,
-                                int columns, int rows) {
-  std::vector<About> all(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
-  const double widest = widest_mm(walls), reach = widest + 2.0 * mesh_px * view.pixel_mm();
-  core::parallel_for(static_cast<std::size_t>(rows), 8, [&](std::size_t row) {
-    const double y = tint.top + static_cast<double>(row) * mesh_px;
-    const double s = view.abscissa_at(y), middle = (view.axis_at(s).x() - tint.left) / mesh_px;
-    const auto look = [&](int column) {  // false where the vessel has ended
-      const std::optional<Vec3> place = view.world({tint.left + static_cast<double>(column) * mesh_px, y});
-      const auto foot = place ? walls.axis->foot_near(*place, s, 2.0 * reach) : std::nullopt;
-      if (!foot || foot->past_end || foot->rho_mm > reach) return false;
-      all[row * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column)] =
-          Vec3(foot->s_mm, foot->rho_mm * std::cos(foot->theta), foot->rho_mm * std::sin(foot->theta));
-      return true;
-    };
-    const int first = static_cast<int>(std::clamp(std::floor(middle), 0.0, static_cast<double>(columns)));
-    for (int x = first; x < columns && look(x); ++x) continue;
-    for (int x = first - 1; x >= 0 && look(x); --x) continue;
-  });
-  return all;
-}
-
 /// Rows cross the vessel as it comes.
 OverlayTint on_stretched(CurvedView& view, const VesselWalls& walls) {
-  const double pixel = view.pixel_mm(), beside = widest_mm(walls) / pixel;
-  OverlayTint tint = blank(view, {0.0, view.row_of(walls.plaque.from_mm) - beside},
-                           {static_cast<double>(view.width()), view.row_of(walls.plaque.to_mm) + beside});
-  const int columns = tint.width / mesh_px + 2, rows = tint.height / mesh_px + 2;
-  const std::vector<About> mesh = places_about(view, walls, tint, columns, rows);
-  const double torn_mm = 4.0 * mesh_px * pixel;  // corners farther apart along the vessel are of two places
-  fill(tint, [&](double y, std::uint8_t* row) {
-    const double down = (y - tint.top) / mesh_px;
-    const auto j = static_cast<std::size_t>(down);
+  const double beside = widest_mm(walls) / view.pixel_mm();
+  OverlayTint tint = blank_tint(view, {0.0, view.row_of(walls.plaque.from_mm) - beside},
+                                {static_cast<double>(view.width()), view.row_of(walls.plaque.to_mm) + beside},
+                                class_roles());
+  const PlacesAbout places(view, *walls.axis, widest_mm(walls), tint);
+  fill_tint(tint, [&](double y, std::uint8_t* row) {
     for (int i = 0; i < tint.width; ++i) {
-      const double right = (i + 0.5) / mesh_px, a = right - std::floor(right), b = down - std::floor(down);
-      const About* upper = mesh.data() + j * static_cast<std::size_t>(columns) + i / mesh_px;
-      const About* lower = upper + columns;
-      if (!upper[0] || !upper[1] || !lower[0] || !lower[1]) continue;
-      const auto [least, most] = std::minmax({upper[0]->x(), upper[1]->x(), lower[0]->x(), lower[1]->x()});
-      if (most - least > torn_mm) continue;
-      const Vec3 at =
-          (1.0 - b) * ((1.0 - a) * *upper[0] + a * *upper[1]) + b * ((1.0 - a) * *lower[0] + a * *lower[1]);
-      if (const auto ray = session::plaque_ray(walls, at.x(), std::atan2(at.z(), at.y())))
-        row[i] = code_of(ray->at(at.tail<2>().norm()));
+      const auto at = places.at(i, y);
+      if (!at) continue;
+      if (const auto ray = session::plaque_ray(walls, at->x(), std::atan2(at->z(), at->y())))
+        row[i] = code_of(ray->at(at->tail<2>().norm()));
     }
   });
   return tint;

@@ -1,5 +1,7 @@
 // One binary STL for each face.
 
+#include "ostia/geometry/stl.h"
+
 #include "mesh/formats.h"
 #include "mesh/text.h"
 #include "surface_formats.h"
@@ -18,7 +20,7 @@ void write_stl_faces(const PreparedMesh& mesh, const std::filesystem::path& fold
       for (const geometry::Triangle& t : geometry::split_quad(mesh.mesh.quads[static_cast<std::size_t>(q)]))
         surface.triangles.push_back(t);
     }
-    write_whole(folder / (mesh.names[f] + ".stl"), stl_text(surface));
+    write_whole(folder / (mesh.names[f] + ".stl"), geometry::binary_stl(surface));
   }
 }
 

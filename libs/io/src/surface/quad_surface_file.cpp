@@ -5,6 +5,7 @@
 #include "vtk/xml.h"
 
 #include "ostia/core/files.h"
+#include "ostia/geometry/stl.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -140,7 +141,7 @@ std::string stl_text_of(const QuadSurface& surface) {
     mesh.triangles.push_back({q[0], q[1], q[2]});
     mesh.triangles.push_back({q[0], q[2], q[3]});
   }
-  return stl_text(mesh);
+  return geometry::binary_stl(mesh);
 }
 
 }  // namespace

@@ -16,7 +16,6 @@ namespace fs = std::filesystem;
 namespace {
 
 using geometry::TriMesh;
-using geometry::Vec3;
 
 constexpr std::size_t header_bytes = 84;
 constexpr std::size_t facet_bytes = 50;
@@ -153,26 +152,6 @@ LoadedSurface read_stl(const fs::path& path) {
   LoadedSurface loaded;
   loaded.surface.mesh = looks_ascii(content) ? read_ascii(content, path) : read_binary(content, path);
   return loaded;
-}
-
-std::string stl_text(const TriMesh& mesh) {
-  std::string out = "Ostia surface, axes LPS, unit mm";
-  out.resize(80, ' ');
-  const auto append = [&out](const auto& value) {
-    out.append(reinterpret_cast<const char*>(&value), sizeof value);
-  };
-  append(static_cast<std::uint32_t>(mesh.triangles.size()));
-  out.reserve(header_bytes + facet_bytes * mesh.triangles.size());
-  for (const geometry::Triangle& t : mesh.triangles) {
-    const Vec3 normal = (mesh.points[t[1]] - mesh.points[t[0]]).cross(mesh.points[t[2]] - mesh.points[t[0]]);
-    const Vec3 unit = normal.norm() > 0.0 ? Vec3(normal.normalized()) : Vec3(Vec3::Zero());
-    for (const double value : unit) append(static_cast<float>(value));
-    for (const std::int32_t p : t) {
-      for (const double value : mesh.points[p]) append(static_cast<float>(value));
-    }
-    append(std::uint16_t{0});
-  }
-  return out;
 }
 
 }  // namespace ostia::io

@@ -5,6 +5,7 @@
 
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
+#include "ostia/geometry/stl.h"
 
 #include <algorithm>
 #include <array>
@@ -106,7 +107,7 @@ void write_surface(const fs::path& path, const geometry::FacedSurface& surface) 
     throw InvalidInput("cannot write " + path.string() + ": " + extension +
                        " cannot hold named faces; write .vtp, or the mesh alone");
   }
-  core::write_file(path, extension == ".stl" ? stl_text(surface.mesh) : ply_text(surface.mesh));
+  core::write_file(path, extension == ".stl" ? geometry::binary_stl(surface.mesh) : ply_text(surface.mesh));
 }
 
 }  // namespace ostia::io

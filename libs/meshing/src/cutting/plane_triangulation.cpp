@@ -1,7 +1,5 @@
 #include "cutting/plane_triangulation.h"
 
-#include "remeshing/remesher.h"
-
 #include "ostia/core/error.h"
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
@@ -9,8 +7,10 @@
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <set>
 #include <utility>
@@ -150,10 +150,31 @@ struct Filling {
   double min_angle_deg = 0.0;
 };
 
-/// Largest cosine of the angles of a triangle's corners, that of the smallest angle.
+/// Largest cosine of the angles of a triangle's corners, that of the smallest angle: min_angle_cosine in a
+/// plane.
 double sharpest(const Vec2& a, const Vec2& b, const Vec2& c) {
-  const auto in_space = [](const Vec2& p) { return Vec3(p.x(), p.y(), 0.0); };
-  return min_angle_cosine(in_space(a), in_space(b), in_space(c));
+  const Vec2 u = b - a, v = c - b, w = a - c;
+  const double x = u.squaredNorm(), y = v.squaredNorm(), z = w.squaredNorm();
+  double product = z * x, dot = -w.dot(u);
+  if (x <= y && x <= z) {
+    product = y * z, dot = -v.dot(w);
+  } else if (z <= y) {
+    product = x * y, dot = -u.dot(v);
+  }
+  return product > 0.0 ? dot / std::sqrt(product) : 1.0;
+}
+
+/// The directions of the pattern search.
+const std::array<Vec2, 8>& eight_ways() {
+  static const std::array<Vec2, 8> ways = [] {
+    std::array<Vec2, 8> out;
+    for (int k = 0; k < 8; ++k) {
+      const double angle = k * std::numbers::pi / 4.0;
+      out[static_cast<std::size_t>(k)] = Vec2(std::cos(angle), std::sin(angle));
+    }
+    return out;
+  }();
+  return ways;
 }
 
 /// Moves each inner point to where the smallest angle around it is largest, by a pattern search.
@@ -182,22 +203,33 @@ class AngleOpening {
   const Vec2& at(std::int32_t v) const {
     return v < first() ? loop_[static_cast<std::size_t>(v)] : filling_.inner[inner(v)];
   }
-  double worst_around(std::size_t i, const Vec2& p) const {
-    double worst = 0.0;
-    for (const auto& [a, b] : around_[i])
-      worst = std::max(worst, cross(at(a) - p, at(b) - p) > 0.0 ? sharpest(p, at(a), at(b)) : 2.0);
+  double worst_of(const std::pair<std::int32_t, std::int32_t>& edge, const Vec2& p) const {
+    const Vec2 &a = at(edge.first), &b = at(edge.second);
+    return cross(a - p, b - p) > 0.0 ? sharpest(p, a, b) : 2.0;
+  }
+  /// Of the triangles around, or no less than `enough` once one reaches it; `first` of them is tried first,
+  /// and then the one that reached it.
+  double worst_around(std::size_t i, const Vec2& p, double enough, std::size_t& first) const {
+    const auto& edges = around_[i];
+    double worst = edges.empty() ? 0.0 : std::max(0.0, worst_of(edges[first], p));
+    for (std::size_t n = 0; n < edges.size() && worst < enough; ++n) {
+      if (n == first) continue;
+      worst = std::max(worst, worst_of(edges[n], p));
+      if (worst >= enough) first = n;
+    }
     return worst;
   }
   void open(std::size_t i) {
+    constexpr double least_gain = 1e-6;
     Vec2& p = filling_.inner[i];
-    double best = worst_around(i, p), edge = 0.0;
+    std::size_t first = 0;
+    double best = worst_around(i, p, std::numeric_limits<double>::infinity(), first), edge = 0.0;
     for (const auto& [a, b] : around_[i]) edge += (at(a) - p).norm() / static_cast<double>(around_[i].size());
     for (double step = 0.2 * edge; step > 0.01 * edge; step *= 0.5)
-      for (int k = 0; k < 8; ++k) {
-        const double angle = k * std::numbers::pi / 4.0;
-        const Vec2 there = p + step * Vec2(std::cos(angle), std::sin(angle));
-        const double now = worst_around(i, there);
-        if (now < best - 1e-6) best = now, p = there;
+      for (const Vec2& way : eight_ways()) {
+        const Vec2 there = p + step * way;
+        const double now = worst_around(i, there, best - least_gain, first);
+        if (now < best - least_gain) best = now, p = there;
       }
   }
 

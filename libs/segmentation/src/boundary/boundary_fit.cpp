@@ -191,7 +191,8 @@ float clearness(const RayEnergy& energy, const RadiusGrid& grid, double radius) 
 
 std::vector<RayEnergy> energies(const RayFan& fan, const std::vector<double>& lumen_hu,
                                 const std::vector<double>& radius_mm, const std::vector<float>& calcium_odds,
-                                const EdgeProfile& profile, const core::TaskContext& task) {
+                                EdgeProfile& profile, const core::TaskContext& task) {
+  profile.prepare(radius_mm);
   std::vector<RayEnergy> out(radius_mm.size());
   core::parallel_for(static_cast<std::size_t>(fan.rows), 4, [&](std::size_t r) {
     task.throw_if_cancelled();
@@ -252,7 +253,7 @@ BoundaryFit fit_boundary(const std::vector<RayEnergy>& energy, const RadiusGrid&
 
 BoundaryFit fit_boundary(const RayFan& fan, const std::vector<double>& lumen_hu,
                          const std::vector<double>& radius_mm, const std::vector<float>& calcium_odds,
-                         const EdgeProfile& profile, const BoundaryFitOptions& options,
+                         EdgeProfile& profile, const BoundaryFitOptions& options,
                          const core::TaskContext& task) {
   const RadiusGrid grid{profile.radius(0), profile.radius(1) - profile.radius(0), 0};
   return fit_boundary(energies(fan, lumen_hu, radius_mm, calcium_odds, profile, task), grid, fan.rows,

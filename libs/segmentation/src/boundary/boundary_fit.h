@@ -22,10 +22,11 @@ struct BoundaryFit {
   std::vector<float> confidence;
 };
 
-/// Starts from `radius_mm`; the rays' own edges are looked for within EdgeProfile::reach_mm() of it.
+/// Starts from `radius_mm`; the rays' own edges are looked for within EdgeProfile::reach_mm() of it, for
+/// which the profile is prepared.
 BoundaryFit fit_boundary(const RayFan& fan, const std::vector<double>& lumen_hu,
                          const std::vector<double>& radius_mm, const std::vector<float>& calcium_odds,
-                         const EdgeProfile& profile, const BoundaryFitOptions& options,
+                         EdgeProfile& profile, const BoundaryFitOptions& options,
                          const core::TaskContext& task);
 
 /// How bad each of a ray's candidate radii is: number `first` of a grid of radii and those behind it.

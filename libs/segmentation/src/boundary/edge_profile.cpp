@@ -63,12 +63,12 @@ double normal_distribution(double x) {
 
 }  // namespace
 
-double blurred_disc(double radius_mm, double rho_mm, double sigma_mm) {
-  if (radius_mm <= 0.0) return 0.0;
+std::vector<double> blurred_disc(double radius_mm, double step_mm, int count, double sigma_mm) {
+  std::vector<double> sums(static_cast<std::size_t>(count), 0.0);
+  if (radius_mm <= 0.0) return sums;
   // Strips parallel to the ray: each an interval blurred along it, weighted across it.
   constexpr int strips = 48;
   const double reach = std::min(radius_mm, 5.0 * sigma_mm);
-  double sum = 0.0;
   for (int i = 0; i < strips; ++i) {
     // midpoints in the angle, so that the strips crowd where the disc ends
     const double phi = (i + 0.5) / strips * 0.5 * std::numbers::pi;
@@ -76,11 +76,18 @@ double blurred_disc(double radius_mm, double rho_mm, double sigma_mm) {
     const double half = std::sqrt(std::max(0.0, radius_mm * radius_mm - y * y));
     const double across =
         std::exp(-0.5 * y * y / (sigma_mm * sigma_mm)) / (sigma_mm * std::sqrt(2.0 * std::numbers::pi));
-    sum +=
-        2.0 * dy * across *
-        (normal_distribution((half - rho_mm) / sigma_mm) - normal_distribution((-half - rho_mm) / sigma_mm));
+    for (int n = 0; n < count; ++n) {
+      const double rho = n * step_mm;
+      sums[static_cast<std::size_t>(n)] +=
+          2.0 * dy * across *
+          (normal_distribution((half - rho) / sigma_mm) - normal_distribution((-half - rho) / sigma_mm));
+    }
   }
-  return sum;
+  return sums;
+}
+
+double blurred_disc(double radius_mm, double rho_mm, double sigma_mm) {
+  return blurred_disc(radius_mm, rho_mm, 2, sigma_mm)[1];
 }
 
 int EdgeProfile::window(double radius_mm) const {
@@ -99,22 +106,10 @@ int EdgeProfile::lowest_start(int candidate) const {
 }
 
 double EdgeProfile::disc(double radius_mm, int sample) const {
-  const double at = std::min(radius_mm / disc_step_mm, disc_radii_ - 1.001);
+  const double at = std::min(radius_mm / disc_step_mm, discs_->radii - 1.001);
   const int i = static_cast<int>(at);
   const double t = at - i;
-  const double* column = disc_.data() + static_cast<std::size_t>(i) * disc_rhos_;
-  return (1.0 - t) * column[sample] + t * column[sample + disc_rhos_];
-}
-
-void EdgeProfile::fill_discs() {
-  const double largest = radius(options_.radii - 1), h = options_.sample_step_mm;
-  disc_rhos_ = static_cast<int>((largest + reach_mm() + window_mm()) / h) + samples + 2;
-  disc_radii_ = static_cast<int>((largest + endless_mm + 2.0) / disc_step_mm) + 2;
-  disc_.resize(static_cast<std::size_t>(disc_radii_) * disc_rhos_);
-  core::parallel_for(static_cast<std::size_t>(disc_radii_), 8, [&](std::size_t i) {
-    for (int j = 0; j < disc_rhos_; ++j)
-      disc_[i * disc_rhos_ + j] = blurred_disc(i * disc_step_mm, j * h, options_.blur_sigma_mm);
-  });
+  return (1.0 - t) * discs_->at(i, sample) + t * discs_->at(i + 1, sample);
 }
 
 struct EdgeProfile::Build {
@@ -125,8 +120,10 @@ struct EdgeProfile::Build {
 
   explicit Build(const EdgeProfile& of);
   Vector share(double radius_mm, int start) const;
-  Normal normal(const Hypothesis& hypothesis, double radius_mm, int start) const;
-  static Normal packed(const Vector& lumen, const Vector& mean, const Matrix& covariance);
+  /// Puts a hypothesis into its lane.
+  void normal(const Hypothesis& hypothesis, double radius_mm, int start, detail::EdgeNormals& group,
+              int lane) const;
+  Candidate candidate(const std::vector<Hypothesis>& all, int number) const;
 };
 
 EdgeProfile::Build::Build(const EdgeProfile& of) : profile(of) {
@@ -144,14 +141,14 @@ EdgeProfile::Build::Build(const EdgeProfile& of) : profile(of) {
 EdgeProfile::Build::Vector EdgeProfile::Build::share(double radius_mm, int start) const {
   Vector out;
   for (int i = 0; i < samples; ++i)
-    out[i] = profile.disc(radius_mm, std::min(start + i, profile.disc_rhos_ - 1));
+    out[i] = profile.disc(radius_mm, std::min(start + i, profile.discs_->samples - 1));
   return out;
 }
 
 /// Samples' distribution: rings of tissue between blurred discs; levels and thicknesses are normal and enter
 /// the covariance.
-EdgeProfile::Normal EdgeProfile::Build::normal(const Hypothesis& hypothesis, double radius_mm,
-                                               int start) const {
+void EdgeProfile::Build::normal(const Hypothesis& hypothesis, double radius_mm, int start,
+                                detail::EdgeNormals& group, int lane) const {
   const Vector lumen = share(radius_mm, start);
   const double spread = profile.options_.lumen_spread_hu;
   Vector mean = Vector::Zero(), inner = lumen;
@@ -173,67 +170,74 @@ EdgeProfile::Normal EdgeProfile::Build::normal(const Hypothesis& hypothesis, dou
     }
     inner = outer;
   }
-  Normal out = packed(lumen, mean, covariance);
-  out.calcium = hypothesis.calcium;
-  out.offset -= static_cast<float>(std::log(hypothesis.prior));
-  return out;
-}
-
-EdgeProfile::Normal EdgeProfile::Build::packed(const Vector& lumen, const Vector& mean,
-                                               const Matrix& covariance) {
   const Eigen::LLT<Matrix> factor(covariance);
   const Matrix lower = factor.matrixL();
   const Matrix whitening = factor.matrixL().solve(Matrix::Identity());
-  Normal out;
   double half_log = 0.0;
   for (int i = 0, at = 0; i < samples; ++i) {
-    out.lumen[i] = static_cast<float>(lumen[i]);
-    out.mean[i] = static_cast<float>(mean[i]);
+    group.mean[i][lane] = static_cast<float>(mean[i]);
     half_log += std::log(lower(i, i));
-    for (int j = 0; j <= i; ++j) out.whitening[at++] = static_cast<float>(whitening(i, j));
+    for (int j = 0; j <= i; ++j, ++at) group.whitening[at][lane] = static_cast<float>(whitening(i, j));
   }
-  out.offset = static_cast<float>(half_log);
+  group.offset[lane] = static_cast<float>(half_log) - static_cast<float>(std::log(hypothesis.prior));
+}
+
+EdgeProfile::Candidate EdgeProfile::Build::candidate(const std::vector<Hypothesis>& all, int number) const {
+  const double radius_mm = profile.radius(number);
+  const int lowest = profile.lowest_start(number), groups = profile.groups_;
+  Candidate out;
+  out.normals.resize(static_cast<std::size_t>(profile.starts_) * groups);
+  for (int d = 0; d < profile.starts_; ++d) {
+    for (const double part : share(radius_mm, lowest + d)) out.lumen.push_back(static_cast<float>(part));
+    for (int n = 0; n < profile.hypotheses_; ++n)
+      normal(all[n], radius_mm, lowest + d, out.normals[d * groups + n / detail::edge_lanes],
+             n % detail::edge_lanes);
+  }
   return out;
 }
 
 EdgeProfile::EdgeProfile(const EdgeProfileOptions& options) : options_(options) {
-  fill_discs();
+  const double largest = radius(options_.radii - 1), h = options_.sample_step_mm;
+  discs_ = disc_table(disc_step_mm, h, options_.blur_sigma_mm,
+                      static_cast<int>((largest + endless_mm + 2.0) / disc_step_mm) + 2,
+                      static_cast<int>((largest + reach_mm() + window_mm()) / h) + samples + 2);
+  for (const Hypothesis& one : hypotheses(options_.wall_hu, options_.wall_spread_hu))
+    calcium_.push_back(one.calcium ? 1 : 0);
+  hypotheses_ = static_cast<int>(calcium_.size());
+  groups_ = (hypotheses_ + detail::edge_lanes - 1) / detail::edge_lanes;
+  starts_ = static_cast<int>(2.0 * reach_mm() / h) + 2;
+  candidates_.resize(static_cast<std::size_t>(options_.radii));
+}
+
+void EdgeProfile::prepare(const std::vector<double>& radius_mm) {
+  std::vector<char> wanted(candidates_.size(), 0);
+  for (const double radius : radius_mm) {
+    int first = 0, last = 0;
+    candidates(radius, first, last);
+    std::fill(wanted.begin() + first, wanted.begin() + last + 1, 1);
+  }
   const std::vector<Hypothesis> all = hypotheses(options_.wall_hu, options_.wall_spread_hu);
-  hypotheses_ = static_cast<int>(all.size());
-  starts_ = static_cast<int>(2.0 * reach_mm() / options_.sample_step_mm) + 2;
-  table_.resize(static_cast<std::size_t>(options_.radii) * starts_ * hypotheses_);
   const Build build(*this);
-  core::parallel_for(static_cast<std::size_t>(options_.radii), 2, [&](std::size_t candidate) {
-    const int lowest = lowest_start(static_cast<int>(candidate));
-    for (int d = 0; d < starts_; ++d)
-      for (int n = 0; n < hypotheses_; ++n)
-        table_[(candidate * starts_ + d) * hypotheses_ + n] =
-            build.normal(all[n], radius(static_cast<int>(candidate)), lowest + d);
+  core::parallel_for(candidates_.size(), 2, [&](std::size_t n) {
+    if (wanted[n] && candidates_[n].normals.empty())
+      candidates_[n] = build.candidate(all, static_cast<int>(n));
   });
 }
 
 double EdgeProfile::energy(const float* ray, int start, int candidate, double lumen_hu,
                            double calcium_odds) const {
   const int d = std::clamp(start - lowest_start(candidate), 0, starts_ - 1);
-  const Normal* normals = table_.data() + (static_cast<std::size_t>(candidate) * starts_ + d) *
-                                              static_cast<std::size_t>(hypotheses_);
+  const Candidate& of = candidates_[static_cast<std::size_t>(candidate)];
+  float lumen[samples];
+  for (int i = 0; i < samples; ++i)
+    lumen[i] = static_cast<float>(lumen_hu) * of.lumen[static_cast<std::size_t>(d) * samples + i];
+  std::array<float, most_hypotheses> energy;
+  detail::edge_loop()(of.normals.data() + static_cast<std::size_t>(d) * groups_, groups_, ray + start, lumen,
+                      energy.data());
   const auto bonus = static_cast<float>(std::log(calcium_odds));
-  std::array<float, most_hypotheses> energy{};
   float least = std::numeric_limits<float>::max();
   for (int n = 0; n < hypotheses_; ++n) {
-    const Normal& normal = normals[n];
-    float off[samples];
-    for (int i = 0; i < samples; ++i) {
-      off[i] = ray[start + i] - normal.mean[i] - static_cast<float>(lumen_hu) * normal.lumen[i];
-    }
-    float sum = 0.0F;
-    const float* w = normal.whitening;
-    for (int i = 0; i < samples; ++i) {
-      float white = 0.0F;
-      for (int j = 0; j <= i; ++j) white += *w++ * off[j];
-      sum += white * white;
-    }
-    energy[n] = 0.5F * sum + normal.offset - (normal.calcium ? bonus : 0.0F);
+    energy[n] -= calcium_[n] ? bonus : 0.0F;
     least = std::min(least, energy[n]);
   }
   float total = 0.0F;

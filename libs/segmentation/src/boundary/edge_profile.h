@@ -2,7 +2,11 @@
 /// \file What a ray across a blurred vessel looks like: lumen, wall and what lies behind it, and how probable
 /// the samples of a ray are for every place of the boundary.
 
+#include "boundary/edge_loops.h"
+#include "outer_wall/disc_table.h"
+
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 namespace ostia::segmentation {
@@ -10,6 +14,8 @@ namespace ostia::segmentation {
 /// Share of a disc of radius R in a Gaussian blur's weight at a distance rho from the disc's centre: the
 /// picture of a long straight vessel across it. Tends to Phi((R - rho) / sigma) for large R.
 double blurred_disc(double radius_mm, double rho_mm, double sigma_mm);
+/// The same at rho = 0, step_mm, ...: `count` of them.
+std::vector<double> blurred_disc(double radius_mm, double step_mm, int count, double sigma_mm);
 
 /// The defaults suit a blur of 0.3 mm; `sample_step_mm`, `noise_length_mm` and `radius_step_mm` grow with it.
 struct EdgeProfileOptions {
@@ -28,7 +34,7 @@ struct EdgeProfileOptions {
 /// fat or muscle or blood behind it; plaque; calcium) is a normal distribution of the samples.
 class EdgeProfile {
  public:
-  static constexpr int samples = 11;
+  static constexpr int samples = detail::edge_samples;
 
   explicit EdgeProfile(const EdgeProfileOptions& options);
   /// Candidates lie that near to where the window was put.
@@ -37,6 +43,8 @@ class EdgeProfile {
   int window(double radius_mm) const;
   /// Candidates about a radius: [first, last].
   void candidates(double radius_mm, int& first, int& last) const;
+  /// Before `energy` of the candidates about these radii: it works out what is not known of them yet.
+  void prepare(const std::vector<double>& radius_mm);
   /// `ray` points to the sample at rho = 0; `start` comes from `window`; `calcium_odds` multiply what is
   /// thought of calcium beforehand.
   double energy(const float* ray, int start, int candidate, double lumen_hu, double calcium_odds) const;
@@ -44,18 +52,16 @@ class EdgeProfile {
 
  private:
   double window_mm() const { return 5.0 * options_.sample_step_mm; }  ///< to either side
-  struct Normal {
-    float lumen[samples] = {}, mean[samples] = {};
-    float whitening[samples * (samples + 1) / 2] = {};
-    bool calcium = false;
-    float offset = 0.0F;  ///< half the logarithm of the determinant, less that of the prior
+  /// What the rays at a candidate may look like, for each start of the window.
+  struct Candidate {
+    std::vector<float> lumen;                  ///< [start][sample]
+    std::vector<detail::EdgeNormals> normals;  ///< [start][group of hypotheses]
   };
   EdgeProfileOptions options_;
-  int starts_ = 0, hypotheses_ = 0;
-  std::vector<double> disc_;  ///< [radius][rho]
-  int disc_radii_ = 0, disc_rhos_ = 0;
-  std::vector<Normal> table_;  ///< [candidate][start][hypothesis]
-  void fill_discs();
+  int starts_ = 0, hypotheses_ = 0, groups_ = 0;
+  std::vector<char> calcium_;  ///< one a hypothesis
+  std::shared_ptr<const DiscTable> discs_;
+  std::vector<Candidate> candidates_;  ///< empty where not prepared
   int lowest_start(int candidate) const;
   double disc(double radius_mm, int sample) const;
   struct Build;  ///< what makes the table

@@ -18,7 +18,7 @@ struct DiscTable {
   }
 };
 
-/// One with at least so many radii and samples; the last one is kept for the next vessel. Any thread.
+/// One with at least so many radii and samples; the last few are kept for the next vessel. Any thread.
 std::shared_ptr<const DiscTable> disc_table(double radius_step_mm, double step_mm, double sigma_mm, int radii,
                                             int samples);
 

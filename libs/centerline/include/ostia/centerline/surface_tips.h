@@ -25,7 +25,8 @@ struct SurfaceTip {
   double length_mm = 0.0;  ///< along the surface, from the tip to where the branch joins what is longer;
                            ///< of the farthest tip the distance from where the search began
   /// Wall in the last third of that length over wall in the middle one: 1 for a tube, more where a branch
-  /// joins, below 0.7 for a ball, which narrows towards its neck.
+  /// joins, below 0.7 for a ball, which narrows towards its neck. 1 without a look where the branch is longer
+  /// than thirty radii, as no ball on a stalk is.
   double neck = 1.0;
   std::vector<geometry::Vec3> way;  ///< along the surface, from the tip to where the search began
 };

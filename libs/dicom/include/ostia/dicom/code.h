@@ -69,6 +69,8 @@ inline const Code cad_assessment{"130720", "DCM", "Coronary Artery Disease Asses
 inline const Code cad_modifier{"130721", "DCM", "Coronary Artery Disease Assessment Modifier"};
 inline const Code cad_stenosis_modifier{"130722", "DCM",
                                         "Coronary Artery Disease Stenosis Assessment Modifier"};
+inline const Code stent_modifier{"130733", "DCM", "S - Stent"};
+inline const Code graft_modifier{"130734", "DCM", "G - Graft"};
 inline const Code not_diagnostic_segments{"130732", "DCM", "N - Non-diagnostic segments"};
 
 }  // namespace ostia::dicom

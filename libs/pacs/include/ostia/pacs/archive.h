@@ -60,7 +60,7 @@ struct SeriesWanted {
 };
 struct Fetched {
   std::vector<std::filesystem::path> files;  ///< by SOP instance UID
-  std::size_t announced = 0;                 ///< images that the server lists
+  std::size_t announced = 0;                 ///< images that the server says it has
   std::size_t duplicates = 0;                ///< came again, and were dropped
   std::vector<std::string> warnings;
 };
@@ -94,6 +94,12 @@ class Archive {
   Fetched fetch(const SeriesWanted& wanted, const std::filesystem::path& folder,
                 const core::TaskContext& task = core::no_task());
 
+  /// One image out of the middle of the series, of those that the server lists: a file in `folder`, which
+  /// must not exist, is readable by its owner alone and appears with it or not at all. No second attempt.
+  /// Throws as `fetch` does.
+  std::filesystem::path fetch_middle(const SeriesWanted& wanted, const std::filesystem::path& folder,
+                                     const core::TaskContext& task = core::no_task());
+
   /// DICOM files, each by itself: one result a file, in their order. What the server has already it is sent
   /// again under the same SOP instance UID, which makes no copy. Throws Cancelled alone.
   std::vector<SendResult> send(const std::vector<std::filesystem::path>& files,
@@ -110,6 +116,10 @@ class Archive {
                      const core::TaskContext& task) = 0;
 
  private:
+  /// Asks for what is not there yet, and for a list of it where that is needed or `list_first`. Returns why
+  /// the connection broke; empty: it did not.
+  std::string attempted(const SeriesWanted& wanted, Intake& intake, bool list_first,
+                        const core::TaskContext& task);
   ServerDescription server_;
 };
 

@@ -26,6 +26,7 @@ struct QueueItem {
   QueueState state = QueueState::waiting;
   std::string reason;  ///< of the last attempt that failed
   int attempts = 0;
+  std::string what = {};  ///< as `add` was told: a kind of object, and nobody's name
 };
 
 /// A folder that its owner alone may read: `ID.dcm`, a copy of the object until it is sent, and `ID.json`,
@@ -40,11 +41,15 @@ class SendQueue {
   /// A DICOM file for a server. An item that is there already is not added again: one that failed waits
   /// again, and so does one that was sent. Returns its id. Throws InvalidInput (no DICOM object), IoError,
   /// ResourceError (disk full).
-  std::string add(const std::filesystem::path& file, const std::string& server);
+  std::string add(const std::filesystem::path& file, const std::string& server, const std::string& what = {});
   /// By id. Throws InvalidInput naming an item's file that is damaged.
   std::vector<QueueItem> items() const;
   /// Failed items wait again.
   void retry_failed();
+  /// This one alone, where it failed; nothing for another id.
+  void retry(const std::string& id);
+  /// Object and note go, whatever became of it. Not while `send_waiting` runs.
+  void remove(const std::string& id);
   /// Notes of what was sent go.
   void forget_sent();
 

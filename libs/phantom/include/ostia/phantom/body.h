@@ -26,6 +26,7 @@ struct BodyOptions {
   TissueHu hu;
   double texture = 1.0;  ///< scales the tissues' inner variation, in [0, 3]
   double mixing = 0.0;   ///< ScanRealism::mixing, in [0, 1]
+  double vein_closeness = 0.0, lobes = 0.0, groove_fat = 1.0;  ///< as Obstacles has them
 };
 /// Options with CT numbers drawn about their usual values.
 BodyOptions draw_body(std::uint64_t seed);

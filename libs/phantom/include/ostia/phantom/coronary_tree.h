@@ -52,6 +52,12 @@ struct Stent {
   bool struts = false;
 };
 
+/// A stretch that is closed, or all but: what lies behind it is filled from elsewhere, and poorly.
+struct Occlusion {
+  double s_from_mm = 0.0, s_to_mm = 0.0;
+  double filling = 1.0;  ///< share of the contrast above blood that vessel and branches have behind it
+};
+
 /// A stretch of a vessel that bears one of the AHA's segment numbers (Austen et al. 1975; SCCT 2009 for 17).
 struct SegmentSpan {
   int aha = 0;
@@ -75,6 +81,7 @@ struct CoronaryVessel {
   std::vector<Plaque> plaques;
   std::vector<Stenosis> stenoses;
   std::vector<Stent> stents;
+  std::vector<Occlusion> occlusions;
 };
 
 struct CoronaryTree {
@@ -86,6 +93,7 @@ struct CoronaryOptions {
   std::uint64_t seed = 1;
   double disease = 1.0;  ///< scales the number of lesions; 0 is a healthy tree
   Anatomy anatomy = Anatomy::usual;
+  double calibre = 1.0;  ///< scales all radii, in [0.5, 1.3]
 };
 CoronaryTree draw_coronaries(const HeartShape& heart, const CoronaryOptions& options = {});
 
@@ -98,6 +106,7 @@ struct LesionOptions {
   double theta = 0.0;              ///< side of the plaque, rad
   double remodelling = 1.1;        ///< outer wall's radius at the throat over the healthy one, in [1, 1.5]
   PlaqueKind kind = PlaqueKind::mixed;
+  double plateau = 0.15;   ///< share of the length that is as narrow as the throat, in [0, 0.9]
   std::uint64_t seed = 1;  ///< of the plaque's nodules and CT numbers
 };
 /// Narrows the lumen, moves the outer wall and records stenosis and plaques; the recorded grades are measured

@@ -2,6 +2,7 @@
 /// \file The suite `hard`: patients and scans as mixed as those of a clinic, each drawn from its seed
 /// (docs/experiments/hard.md).
 
+#include "ostia/phantom/obstacles.h"
 #include "ostia/phantom/phantom_case.h"
 #include "ostia/phantom/scan_realism.h"
 
@@ -32,6 +33,10 @@ struct HardQuantity {
 /// Factors of what the suite's difficulty is calibrated by, each in [0, 5].
 struct HardStrength {
   double noise = 1.0, blur = 1.0, motion = 1.0, venous = 1.0;
+  double contact = 1.0;  ///< of veins and lobes with the arteries
+  double calcium = 1.0;  ///< length of long calcified stretches
+  double fall = 1.0;     ///< of the contrast along the arteries
+  double closed = 1.0;   ///< number of closed stretches
 };
 void validate(const HardStrength& strength);  ///< throws InvalidInput
 
@@ -47,6 +52,7 @@ struct HardDraw {
   double disease = 1.0, calcium = 1.0, stent_mm = 0.0;
   Anatomy anatomy = Anatomy::usual;
   ScanRealism realism;
+  Obstacles obstacles;
 };
 
 /// The table, in the order of docs/experiments/hard.md.

@@ -7,6 +7,7 @@
 #include "ostia/phantom/carried.h"
 #include "ostia/phantom/coronary_tree.h"
 #include "ostia/phantom/heart.h"
+#include "ostia/phantom/obstacles.h"
 #include "ostia/phantom/patient_heart.h"
 #include "ostia/phantom/presets.h"
 #include "ostia/phantom/scan.h"
@@ -28,6 +29,7 @@ struct CaseOptions {
   Preset preset = Preset::full;
   double disease = 1.0;  ///< CoronaryOptions::disease, in [0, 5]; 0: no lesion and no diseased section
   CaseVariant variant;
+  Obstacles obstacles;
   /// The heart is built around these arteries instead of drawn ones (docs/methods/phantom-trees.md); null:
   /// drawn.
   std::shared_ptr<const PatientTree> patient = nullptr;

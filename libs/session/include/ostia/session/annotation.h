@@ -95,13 +95,17 @@ struct SetReportModifiers {
 struct SetPlaqueFeatures {
   std::vector<FeatureWord> features;
 };
+/// "calcium.places": the words on lesions of a calcium score, whole.
+struct SetCalciumPlaces {
+  std::vector<CalciumWord> words;
+};
 /// "report.sign": a further version.
 struct SignReport {
   ReportVersion version;
 };
 using AnnotationCommand =
     std::variant<MeasureAdd, MeasureChange, MeasureDelete, MarkVessel, SetPressureInputs, SetWhatIfs,
-                 SetReportImpression, SetReportModifiers, SetPlaqueFeatures, SignReport>;
+                 SetReportImpression, SetReportModifiers, SetPlaqueFeatures, SignReport, SetCalciumPlaces>;
 
 std::string op_name(const AnnotationCommand& command);  ///< "measure.add", ...
 bool is_annotation_op(const std::string& op);           ///< one of these names

@@ -1,10 +1,11 @@
 #pragma once
 /// \file What a case keeps of its report: the reader's impression, modifiers of CAD-RADS, words on features
-/// of plaque, and who signed which version.
+/// of plaque and on lesions of a calcium score, and who signed which version.
 
 #include "ostia/analysis/cad_rads.h"
 #include "ostia/analysis/high_risk_plaque.h"
 #include "ostia/analysis/scct_segments.h"
+#include "ostia/session/calcium_words.h"
 #include "ostia/session/lesion_state.h"
 
 #include <cstdint>
@@ -56,6 +57,7 @@ struct ReportNotes {
   std::string impression = {};  ///< the reader's text; empty: the report drafts one
   ReportModifiers modifiers = {};
   std::vector<FeatureWord> features = {};
+  std::vector<CalciumWord> calcium = {};  ///< of a case of a scan for the calcium score
   std::vector<ReportVersion> versions = {};
   bool operator==(const ReportNotes&) const = default;
 };

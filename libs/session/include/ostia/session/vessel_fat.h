@@ -7,6 +7,7 @@
 #include "ostia/session/outer_walls.h"
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +23,7 @@ struct VesselFat {
   double asked_mm = 0.0;         ///< length of the range; the profile's may be less
   analysis::FatProfile profile;  ///< abscissas from the root
   double seen_share = 0.0;       ///< of the outer wall that borders on fat; the rest is a bridge
+  std::shared_ptr<const VesselWalls> walls = {};  ///< about which it was measured
 };
 
 struct CaseFat {

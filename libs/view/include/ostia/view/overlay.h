@@ -54,6 +54,14 @@ enum class Role {
   what_if,  ///< pressures as if the vessel were another
   limited,  ///< stretches that can be judged in part, and not at all
   not_evaluable,
+  calcium_lm,  ///< lesions of a calcium score, by artery
+  calcium_lad,
+  calcium_lcx,
+  calcium_rca,
+  calcium_elsewhere,
+  fat_dark,  ///< about an artery, by its CT number
+  fat_middle,
+  fat_bright,
 };
 
 struct OverlayLine {

@@ -89,7 +89,7 @@ class PictureView {
 
   /// Something of others over the picture, under what the tool shows; asked whenever the overlay is made.
   using Layer = std::function<void(Overlay& overlay)>;
-  enum class LayerPlace { plaque, truth, outer_wall, evaluability, pressure };
+  enum class LayerPlace { plaque, truth, outer_wall, evaluability, pressure, fat, calcium };
   void set_layer(Layer layer, LayerPlace place = LayerPlace::truth);
   void touch_layer() { overlay_stale(); }  ///< the layer shows something else
   /// Another number whenever world and project may mean something else.
@@ -148,7 +148,7 @@ class PictureView {
   GreyImage image_;
   Overlay overlay_, tool_overlay_;
   std::uint64_t image_revision_ = 0, placement_revision_ = 0;
-  std::array<Layer, 5> layers_;  // by LayerPlace
+  std::array<Layer, 7> layers_;  // by LayerPlace
   bool image_fresh_ = false, overlay_fresh_ = false;
   bool drafts_allowed_ = false, draft_ = false, refining_ = false;
   enum class Lines { fresh, moved, anew } lines_state_ = Lines::anew;

@@ -1,0 +1,54 @@
+#pragma once
+/// \file The page of the calcium score: the total, the arteries, the lesions.
+
+#include "ostia/analysis/calcium_score.h"
+#include "ostia/session/signal.h"
+
+#include <QDockWidget>
+#include <vector>
+
+class QCheckBox;
+class QDoubleSpinBox;
+class QLabel;
+class QTreeWidget;
+class QTreeWidgetItem;
+
+namespace ostia::workstation {
+
+class Calcium;
+class CommandTable;
+struct Desk;
+
+/// Open, lesions are shown on the slices of the scan; put away, they are not.
+class CalciumPage final : public QDockWidget {
+  Q_OBJECT
+ public:
+  CalciumPage(Desk& desk, Calcium& calcium);
+  /// Of what can be done; after the table of commands is there.
+  void add_buttons(const CommandTable& commands);
+
+ private:
+  QWidget* calibration_row();
+  QTreeWidget* table(const QString& name, const QString& title, const QStringList& columns);
+  void fill();
+  void fill_total();
+  void fill_vessels();
+  void fill_lesions();
+  void show_chosen();
+  void hide_what_is_not_wanted();
+  bool is_wanted(const analysis::CalciumLesion& lesion) const;
+  Desk& desk_;
+  Calcium& calcium_;
+  QLabel *total_ = nullptr, *state_ = nullptr;
+  QTreeWidget *vessels_ = nullptr, *lesions_ = nullptr;
+  QCheckBox* all_ = nullptr;
+  QDoubleSpinBox* calibration_ = nullptr;
+  QWidget* buttons_ = nullptr;
+  bool filling_ = false;
+  std::vector<session::Subscription> own_;
+};
+
+/// As tables show it: "LAD", "aorta", "other".
+QString calcium_place_word(analysis::CalciumPlace place);
+
+}  // namespace ostia::workstation

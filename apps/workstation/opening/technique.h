@@ -1,0 +1,17 @@
+#pragma once
+/// \file How an image of this machine was taken.
+
+#include "ostia/core/task_context.h"
+#include "ostia/imaging/scan_technique.h"
+#include "ostia/session/machine_state.h"
+
+#include <optional>
+
+namespace ostia::workstation {
+
+/// From the headers of its series; empty for a file that is no DICOM, an image that is not known, and where
+/// the series is not there any more. Any thread; throws Cancelled alone.
+imaging::ScanTechnique technique_of(const std::optional<session::KnownImage>& image,
+                                    const core::TaskContext& task = core::no_task());
+
+}  // namespace ostia::workstation

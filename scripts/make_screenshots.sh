@@ -174,7 +174,7 @@ of_fat() {
   done_with
 }
 
-# An archive on this machine with a small series, and an object that it refuses to be asked for.
+# An archive on this machine with a small series, and an object that waits for a server that is not there.
 of_pacs() {
   python3 scripts/screenshot_archive.py "$bin" "$work" &
   archive=$!

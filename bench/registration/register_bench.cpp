@@ -24,10 +24,10 @@ void forget_peak() {
   std::ofstream("/proc/self/clear_refs") << "5";
 }
 
-const phantom_pair::PhantomPair& pair_of(phantom::Preset preset) {
+const phantom_pair::PhantomPair& full_pair() {
   static const phantom_pair::PhantomPair pair([&] {
     phantom_pair::PairOptions options;
-    options.preset = preset;
+    options.preset = phantom::Preset::full;
     return options;
   }());
   return pair;
@@ -45,8 +45,8 @@ void tell(benchmark::State& state, const phantom_pair::PhantomPair& pair,
   state.counters["peak_mb"] = peak_mb();
 }
 
-void register_pair(benchmark::State& state, phantom::Preset preset, bool landmarks) {
-  const phantom_pair::PhantomPair& pair = pair_of(preset);
+void register_pair(benchmark::State& state, bool landmarks) {
+  const phantom_pair::PhantomPair& pair = full_pair();
   registration::Guidance guidance{pair.axes(), {}};
   if (landmarks) guidance.landmarks = pair.landmarks();
   forget_peak();
@@ -56,10 +56,10 @@ void register_pair(benchmark::State& state, phantom::Preset preset, bool landmar
 }
 
 void by_trees(benchmark::State& state) {
-  register_pair(state, phantom::Preset::full, true);
+  register_pair(state, true);
 }
 void by_the_image_alone(benchmark::State& state) {
-  register_pair(state, phantom::Preset::full, false);
+  register_pair(state, false);
 }
 BENCHMARK(by_trees)->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime()->Iterations(1);
 BENCHMARK(by_the_image_alone)

@@ -2,7 +2,7 @@
 // wrong is said.
 
 #include "archive/dialog.h"
-#include "archive/keyring.h"
+#include "fake_keyring.h"
 #include "fake_server.h"
 #include "opening/opening.h"
 #include "shared_data.h"
@@ -27,14 +27,6 @@ using ostia::testing::SmallSeries;
 using ::testing::HasSubstr;
 using testing::wait_until;
 
-struct FakeKeyring : Keyring {
-  std::map<QString, QString> kept;
-  void read(const QString& server, QObject*, std::function<void(const QString&)> then) override {
-    then(kept[server]);
-  }
-  void keep(const QString& server, const QString& password) override { kept[server] = password; }
-};
-
 struct ArchiveWindow : ::testing::Test {
   SmallSeries series = small_series("window", 12);
   std::string password = "open sesame";
@@ -42,7 +34,7 @@ struct ArchiveWindow : ::testing::Test {
   FakeServer web{[this](const std::string& request) { return answer(request); }};
   testing::TestDesk test{ostia::testing::temporary_folder("archive-desk")};
   Opening opening{test.desk()};
-  FakeKeyring keyring;
+  testing::FakeKeyring keyring;
 
   std::string answer(const std::string& request) const {
     if (!answers) return {};

@@ -129,21 +129,13 @@ TEST_F(CalciumWindow, LesionsAreColouredOnSlicesByTheirArtery) {
   const auto one = lesion_of(bright);
   window().calcium().choose(one.number);
   window().calcium().say(CalciumPlace::lcx);
-  const auto roles = [&] {
-    std::vector<view::Role> found;
-    view::PictureView& slice = test->picture("slice").view();
-    for (const auto& tint : slice.overlay().tints)
-      for (const std::uint8_t code : tint->what)
-        if (code != 0) found.push_back(tint->roles[code - 1U]);
-    return found;
-  };
-  const auto found = roles();
+  const auto found = coloured("slice");
   EXPECT_NE(std::count(found.begin(), found.end(), view::Role::calcium_lcx), 0);
   // 9 mm2 of the slice: as many pixels as that is.
   const double pixel = test->picture("slice").view().pixel_mm();
   EXPECT_NEAR(std::count(found.begin(), found.end(), view::Role::calcium_lcx) * pixel * pixel, 9.0, 1.5);
   part<QWidget>("calcium")->hide();
-  EXPECT_TRUE(roles().empty());
+  EXPECT_TRUE(coloured("slice").empty());
 }
 
 TEST_F(CalciumWindow, ItsCaseIsOpenedAndAReportTakesTheScore) {

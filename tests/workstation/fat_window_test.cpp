@@ -27,14 +27,6 @@ struct FatWindow : testing::TubeWindow {
   bool is_known() {
     return wait_until([&] { return window().fat().board().known() && idle(); }, 60000);
   }
-  /// Pixels of a CPR by role.
-  std::vector<view::Role> coloured(const char* name) {
-    std::vector<view::Role> found;
-    for (const auto& tint : test->picture(name).view().overlay().tints)
-      for (const std::uint8_t code : tint->what)
-        if (code != 0) found.push_back(tint->roles[code - 1U]);
-    return found;
-  }
 };
 
 TEST_F(FatWindow, ItsPageTellsTheIndexAndTheCprsShowWhereTheFatIs) {

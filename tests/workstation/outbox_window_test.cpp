@@ -1,9 +1,9 @@
 // What waits to be sent, and the servers that it goes to, in their dialogs by mouse and keys: an archive that
 // is not reached, one that refuses, one that takes it; a password that goes into the keyring alone.
 
-#include "archive/keyring.h"
 #include "archive/outbox.h"
 #include "archive/servers.h"
+#include "fake_keyring.h"
 #include "fake_server.h"
 #include "shared_data.h"
 #include "small_series.h"
@@ -36,14 +36,6 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 using testing::wait_until;
 
-struct OutboxKeyring : Keyring {
-  std::map<QString, QString> kept;
-  void read(const QString& server, QObject*, std::function<void(const QString&)> then) override {
-    then(kept[server]);
-  }
-  void keep(const QString& server, const QString& password) override { kept[server] = password; }
-};
-
 struct OutboxWindow : ::testing::Test {
   std::filesystem::path home = ostia::testing::temporary_folder("outbox-home");
   SmallSeries series = small_series("outbox", 2);
@@ -51,7 +43,7 @@ struct OutboxWindow : ::testing::Test {
   std::vector<std::string> asked;
   FakeServer web{[this](const std::string& request) { return answer(request); }};
   testing::TestDesk test{ostia::testing::temporary_folder("outbox-desk")};
-  OutboxKeyring keyring;
+  testing::FakeKeyring keyring;
   Outbox outbox{test.desk(), keyring};
   std::filesystem::path file = home / "ostia" / "pacs.json";
 

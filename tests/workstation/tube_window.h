@@ -22,6 +22,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace ostia::workstation::testing {
 
@@ -104,6 +105,14 @@ struct TubeWindow : ::testing::Test {
     QApplication::processEvents();
   }
   bool idle() { return !window().jobs().any(); }
+  /// The roles of a picture's coloured pixels.
+  std::vector<view::Role> coloured(const char* picture) {
+    std::vector<view::Role> found;
+    for (const auto& tint : test->picture(picture).view().overlay().tints)
+      for (const std::uint8_t code : tint->what)
+        if (code != 0) found.push_back(tint->roles[code - 1U]);
+    return found;
+  }
   QString left_line(const char* kind) {
     auto* line = window().jobs().findChild<QWidget*>(QStringLiteral("left.%1").arg(kind));
     auto* label = line ? line->findChild<QLabel*>() : nullptr;

@@ -141,8 +141,14 @@ ExitCode compare_cohort(const CompareCommand& c, const core::TaskContext& task) 
   core::StagedFolder staged(c.output);
   std::vector<session::CohortRow> rows;
   std::vector<std::string> warnings;
-  pipeline::JobKey job{"compare pairs", {{"table", core::sha256_file(c.pairs)}}, "{}"};
+  pipeline::JobKey job{
+      "compare pairs", {{"table", core::sha256_file(c.pairs)}}, comparison_parameters(options)};
   ExitCode code = ExitCode::ok;
+  const auto not_well = [&](const std::string& what) {
+    code = ExitCode::quality_failed;
+    warnings.push_back(what);
+    core::log_warning(what);
+  };
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const NamedPair& one = pairs[i];
     const auto part = task.sub(static_cast<double>(i) / static_cast<double>(pairs.size()),
@@ -152,18 +158,13 @@ ExitCode compare_cohort(const CompareCommand& c, const core::TaskContext& task) 
       const session::Comparison made = pair.compared(options, part.sub(0.0, 0.9));
       const auto found = session::cohort_rows(one.name, made);
       rows.insert(rows.end(), found.begin(), found.end());
-      if (code_of(made) != ExitCode::ok) {
-        code = ExitCode::quality_failed;
-        warnings.push_back(one.name + ": hardly one patient: " + made.another_patient);
-      }
+      if (code_of(made) != ExitCode::ok) not_well(one.name + ": hardly one patient: " + made.another_patient);
       session::write_comparison(staged.temporary() / one.name, made, pair.job(options), code_of(made), 0.0,
                                 part.sub(0.9, 1.0));
     } catch (const Error& error) {
       if (error.exit_code() != ExitCode::bad_input) throw;
-      code = ExitCode::quality_failed;
-      warnings.push_back(one.name + ": not compared: " + error.what());
+      not_well(one.name + ": not compared: " + error.what());
     }
-    if (!warnings.empty() && warnings.back().starts_with(one.name + ": ")) core::log_warning(warnings.back());
   }
   if (rows.empty()) throw InvalidInput(c.pairs.string() + ": no pair could be compared; " + warnings.front());
   const std::string result = session::cohort_json(rows, warnings);

@@ -13,20 +13,24 @@
 
 namespace ostia::app {
 
+std::string comparison_parameters(const session::ComparisonOptions& options) {
+  nlohmann::json parameters{{"anyway", options.anyway}, {"spreads", nlohmann::json::array()}};
+  for (const auto& scope : options.change.repeatability.spreads)
+    for (const analysis::DifferenceSpread& one : scope) parameters["spreads"].push_back({one.sd, one.share});
+  return parameters.dump();
+}
+
 OpenedPair::OpenedPair(const PairPaths& paths)
     : paths_(paths),
       before_(session::CaseFile::open(paths.before, session::OpenMode::read_only)),
       after_(session::CaseFile::open(paths.after, session::OpenMode::read_only)) {}
 
 pipeline::JobKey OpenedPair::job(const session::ComparisonOptions& options) const {
-  nlohmann::json parameters{{"anyway", options.anyway}, {"spreads", nlohmann::json::array()}};
-  for (const auto& scope : options.change.repeatability.spreads)
-    for (const analysis::DifferenceSpread& one : scope) parameters["spreads"].push_back({one.sd, one.share});
-  pipeline::JobKey key{
-      "compare", {{"old", session::report_digest(before_)}, {"new", session::report_digest(after_)}}, {}};
+  pipeline::JobKey key{"compare",
+                       {{"old", session::report_digest(before_)}, {"new", session::report_digest(after_)}},
+                       comparison_parameters(options)};
   if (!paths_.before_image.empty()) key.inputs["old image"] = digest_of(paths_.before_image);
   if (!paths_.after_image.empty()) key.inputs["new image"] = digest_of(paths_.after_image);
-  key.parameters = parameters.dump();
   return key;
 }
 

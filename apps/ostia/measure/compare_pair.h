@@ -16,6 +16,9 @@ struct PairPaths {
   std::filesystem::path before_image, after_image;  ///< empty: none
 };
 
+/// What a comparison is made with, as canonical JSON.
+std::string comparison_parameters(const session::ComparisonOptions& options);
+
 /// A pair whose cases are open.
 class OpenedPair {
  public:

@@ -12,38 +12,37 @@
 
 #include <QMessageBox>
 #include <functional>
+#include <optional>
 
 namespace ostia::workstation {
 namespace {
 
 using Servers = std::vector<pacs::ServerDescription>;
 
-/// Without any, those are asked for; a file that cannot be read is told, and left as it is.
-void with_servers(Desk& desk, Keyring& keyring, const QString& title,
-                  const std::function<void(const Servers&)>& then) {
-  Servers servers;
+/// A file that cannot be read is told, and left as it is.
+std::optional<Servers> readable_servers(Desk& desk, const QString& title) {
   try {
-    servers = known_servers();
+    return known_servers();
   } catch (const Error& error) {
     QMessageBox::information(&desk.window, title, QString::fromStdString(error.what()));
-    return;
+    return std::nullopt;
   }
-  if (servers.empty())
-    show_one<ServersDialog>(desk.window, servers, keyring, desk);
-  else
-    then(servers);
 }
 
 void edit_servers(Desk& desk, Keyring& keyring) {
-  Servers servers;
-  try {
-    servers = known_servers();
-  } catch (const Error& error) {
-    QMessageBox::information(&desk.window, ServersDialog::tr("PACS servers"),
-                             QString::fromStdString(error.what()));
-    return;
-  }
-  show_one<ServersDialog>(desk.window, servers, keyring, desk);
+  if (const auto servers = readable_servers(desk, ServersDialog::tr("PACS servers")))
+    show_one<ServersDialog>(desk.window, *servers, keyring, desk);
+}
+
+/// Without any, those are asked for.
+void with_servers(Desk& desk, Keyring& keyring, const QString& title,
+                  const std::function<void(const Servers&)>& then) {
+  const auto servers = readable_servers(desk, title);
+  if (!servers) return;
+  if (servers->empty())
+    show_one<ServersDialog>(desk.window, *servers, keyring, desk);
+  else
+    then(*servers);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "shell/desk.h"
 #include "shell/hanging.h"
 #include "shell/jobs.h"
+#include "views/raster_image.h"
 
 #include "ostia/core/files.h"
 #include "ostia/core/private_folder.h"
@@ -50,8 +51,7 @@ QString image_count(long images) {
 constexpr int series_picture_px = 72;
 
 QImage shown_preview(const imaging::SeriesPreview& preview) {
-  const QImage grey(preview.pixels.data(), preview.width, preview.height, preview.width,
-                    QImage::Format_Grayscale8);
+  const QImage grey = preview_image(preview);
   QImage square(series_picture_px, series_picture_px, QImage::Format_RGB32);
   square.fill(Qt::black);
   QPainter(&square).drawImage((series_picture_px - grey.width()) / 2, (series_picture_px - grey.height()) / 2,

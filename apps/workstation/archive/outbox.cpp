@@ -2,6 +2,7 @@
 
 #include "archive/keyring.h"
 #include "archive/servers.h"
+#include "opening/technique.h"
 #include "shell/desk.h"
 #include "shell/hanging.h"
 #include "shell/jobs.h"
@@ -44,8 +45,8 @@ struct ObjectsWanted {
 };
 
 dicom::SourceSeries source_of_image(const session::KnownImage& known, const core::TaskContext& task) {
-  for (const imaging::DicomSeries& one : imaging::scan_dicom(known.path, task.sub(0.0, 0.5)).series)
-    if (one.uid == known.series_uid) return dicom::source_of(one, task.sub(0.5, 1.0));
+  if (const auto series = series_of_image(known, task.sub(0.0, 0.5)))
+    return dicom::source_of(*series, task.sub(0.5, 1.0));
   throw InvalidInput("the series of this case is not where it was; open it again");
 }
 
@@ -73,8 +74,7 @@ QString queue_word(pacs::QueueState state) {
   return OutboxDialog::tr("refused");
 }
 
-}  // namespace
-
+/// As people call it: "Segmentation".
 QString object_word(const std::string& kind) {
   if (kind == session::to_string(DicomObjectKind::segmentation)) return SendDialog::tr("Segmentation");
   if (kind == session::to_string(DicomObjectKind::report)) return SendDialog::tr("Report (PDF)");
@@ -84,6 +84,8 @@ QString object_word(const std::string& kind) {
   if (kind == session::to_string(DicomObjectKind::images)) return SendDialog::tr("Key images");
   return kind.empty() ? SendDialog::tr("DICOM object") : QString::fromStdString(kind);
 }
+
+}  // namespace
 
 Outbox::Outbox(Desk& desk, Keyring& keyring)
     : QObject(&desk.window), desk_(desk), keyring_(keyring), folder_(desk.state_folder / "outbox") {}
@@ -105,7 +107,10 @@ bool Outbox::sending() const {
 }
 
 void Outbox::send() {
-  if (sending()) return;
+  if (sending()) {
+    send_again_ = true;
+    return;
+  }
   std::vector<pacs::ServerDescription> servers;
   const bool known = desk_.messages.guarded([&] { servers = known_servers(); }, true);
   if (!known) return;
@@ -116,7 +121,8 @@ void Outbox::send() {
 
 void Outbox::send_as(const std::vector<pacs::ServerDescription>& servers,
                      const std::vector<pacs::Secrets>& secrets) {
-  if (sending()) return;
+  send_again_ = sending();
+  if (send_again_) return;
   desk_.jobs.run(
       outbox_job, tr("Sending to the PACS"),
       [queue = queue(), servers, secrets](const core::TaskContext& task) {
@@ -129,6 +135,7 @@ void Outbox::send_as(const std::vector<pacs::ServerDescription>& servers,
         return std::any(queue->items());
       },
       [this](const std::any& result) {
+        if (send_again_) return send();
         int waiting = 0, refused = 0;
         for (const pacs::QueueItem& item : std::any_cast<const std::vector<pacs::QueueItem>&>(result)) {
           waiting += item.state == pacs::QueueState::waiting ? 1 : 0;
@@ -156,11 +163,6 @@ void Outbox::retry(const std::string& id) {
 
 void Outbox::remove(const std::string& id) {
   queue()->remove(id);
-  emit changed();
-}
-
-void Outbox::forget_sent() {
-  queue()->forget_sent();
   emit changed();
 }
 

@@ -32,10 +32,9 @@ class Outbox final : public QObject {
   /// Of the folder; throws as pacs::SendQueue does. Empty where there is none.
   std::vector<pacs::QueueItem> items();
   bool sending() const;
-  void send();  ///< all that waits
+  void send();  ///< all that waits; while it is sending, what came after that is sent next
   void retry(const std::string& id);
   void remove(const std::string& id);
-  void forget_sent();
   /// Why nothing of the case can be sent; empty where it can.
   QString why_not() const;
   /// Of the case as it is now; they are queued, and sent.
@@ -51,7 +50,8 @@ class Outbox final : public QObject {
   Desk& desk_;
   Keyring& keyring_;
   const std::filesystem::path folder_;
-  std::weak_ptr<pacs::SendQueue> queue_;
+  std::weak_ptr<pacs::SendQueue> queue_;  // its folder is locked only while somebody has it
+  bool send_again_ = false;
 };
 
 /// The queue as a table: what, for whom, its state, why it failed.
@@ -85,8 +85,5 @@ class SendDialog final : public QDialog {
   std::vector<std::pair<session::DicomObjectKind, QCheckBox*>> kinds_;
   QPushButton* ok_ = nullptr;
 };
-
-/// As people call it: "Segmentation".
-QString object_word(const std::string& kind);
 
 }  // namespace ostia::workstation

@@ -5,6 +5,7 @@
 #include "shell/desk.h"
 #include "shell/docks.h"
 #include "shell/library_texts.h"
+#include "shell/list_rows.h"
 #include "shell/quantities.h"
 #include "views/overlay_colors.h"
 
@@ -13,10 +14,8 @@
 #include <QCheckBox>
 #include <QDoubleSpinBox>
 #include <QGridLayout>
-#include <QHeaderView>
 #include <QLabel>
 #include <QMainWindow>
-#include <QPixmap>
 #include <QScopedValueRollback>
 #include <QToolButton>
 #include <QTreeWidget>
@@ -35,10 +34,7 @@ QString score_text(double agatston) {
 }
 
 QIcon square_of(CalciumPlace place) {
-  constexpr int side = 12;
-  QPixmap square(side, side);
-  square.fill(role_color(view::calcium_role(place), Ground::image));
-  return QIcon(square);
+  return color_square(role_color(view::calcium_role(place), Ground::image));
 }
 
 QString category_text(analysis::CalciumCategory category) {
@@ -58,8 +54,6 @@ QString category_text(analysis::CalciumCategory category) {
   return CalciumPage::tr("severe (above 400)");
 }
 
-}  // namespace
-
 QString calcium_place_word(CalciumPlace place) {
   switch (place) {
     case CalciumPlace::aorta:
@@ -74,6 +68,8 @@ QString calcium_place_word(CalciumPlace place) {
       return QString::fromStdString(analysis::to_string(place));
   }
 }
+
+}  // namespace
 
 CalciumPage::CalciumPage(Desk& desk, Calcium& calcium)
     : QDockWidget(tr("Calcium score"), &desk.window), desk_(desk), calcium_(calcium) {
@@ -91,12 +87,13 @@ CalciumPage::CalciumPage(Desk& desk, Calcium& calcium)
   state_ = new QLabel;
   state_->setObjectName("calcium_state");
   state_->setWordWrap(true);
-  vessels_ = table("calcium_vessels", tr("Calcium by artery"),
-                   {tr("Artery"), tr("Agatston"), tr("mm\u00b3"), tr("mg")});
+  vessels_ = figures_table("calcium_vessels", tr("Calcium by artery"),
+                           {tr("Artery"), tr("Agatston"), tr("mm\u00b3"), tr("mg")});
   vessels_->setSelectionMode(QAbstractItemView::NoSelection);
   vessels_->setFocusPolicy(Qt::NoFocus);
-  lesions_ = table("calcium_lesions", tr("Lesions of calcium"),
-                   {tr("Place"), tr("Agatston"), tr("mm\u00b3"), tr("mg"), tr("Peak HU"), tr("Sure")});
+  lesions_ =
+      figures_table("calcium_lesions", tr("Lesions of calcium"),
+                    {tr("Place"), tr("Agatston"), tr("mm\u00b3"), tr("mg"), tr("Peak HU"), tr("Sure")});
   lesions_->setToolTip(
       tr("Click: slices go to the lesion. A click on it in a slice chooses it here. Sure: how much the "
          "place that the program proposes can be trusted."));
@@ -132,21 +129,6 @@ CalciumPage::CalciumPage(Desk& desk, Calcium& calcium)
   fill();
 }
 
-QTreeWidget* CalciumPage::table(const QString& name, const QString& title, const QStringList& columns) {
-  auto* made = new QTreeWidget;
-  made->setObjectName(name);
-  made->setAccessibleName(title);
-  made->setColumnCount(columns.size());
-  made->setHeaderLabels(columns);
-  made->setRootIsDecorated(false);
-  made->setUniformRowHeights(true);
-  made->setAllColumnsShowFocus(true);
-  made->header()->setSectionResizeMode(QHeaderView::ResizeToContents);
-  made->header()->setStretchLastSection(false);
-  made->setMinimumSize(120, 60);
-  return made;
-}
-
 QWidget* CalciumPage::calibration_row() {
   auto* whole = new QWidget;
   auto* line = new QHBoxLayout(whole);
@@ -176,12 +158,7 @@ QWidget* CalciumPage::calibration_row() {
 void CalciumPage::add_buttons(const CommandTable& commands) {
   auto* grid = qobject_cast<QGridLayout*>(buttons_->layout());
   const auto add = [&](const char* id, int row, int column, int columns) {
-    auto* button = new QToolButton;
-    button->setObjectName(QStringLiteral("button.") + id);
-    button->setDefaultAction(&commands.action(id));
-    button->setToolButtonStyle(Qt::ToolButtonTextOnly);
-    button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-    grid->addWidget(button, row, column, 1, columns);
+    grid->addWidget(command_button(commands, id), row, column, 1, columns);
   };
   int column = 0;
   for (const char* id : {"calcium.lm", "calcium.lad", "calcium.lcx", "calcium.rca"}) {

@@ -11,7 +11,6 @@ class QCheckBox;
 class QDoubleSpinBox;
 class QLabel;
 class QTreeWidget;
-class QTreeWidgetItem;
 
 namespace ostia::workstation {
 
@@ -29,7 +28,6 @@ class CalciumPage final : public QDockWidget {
 
  private:
   QWidget* calibration_row();
-  QTreeWidget* table(const QString& name, const QString& title, const QStringList& columns);
   void fill();
   void fill_total();
   void fill_vessels();
@@ -47,8 +45,5 @@ class CalciumPage final : public QDockWidget {
   bool filling_ = false;
   std::vector<session::Subscription> own_;
 };
-
-/// As tables show it: "LAD", "aorta", "other".
-QString calcium_place_word(analysis::CalciumPlace place);
 
 }  // namespace ostia::workstation

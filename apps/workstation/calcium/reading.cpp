@@ -21,7 +21,8 @@ namespace {
 
 const char* const calcium_job = "calcium";
 
-std::filesystem::path case_beside_cases(const Desk& desk, const session::ImageReference& image) {
+/// Among this machine's cases.
+std::filesystem::path calcium_case_of(const Desk& desk, const session::ImageReference& image) {
   return desk.state_folder / "cases" / (image.pseudonym + "-calcium.ostia");
 }
 
@@ -100,7 +101,7 @@ void Calcium::take(const session::CalciumReading& reading) {
   desk_.messages.guarded(
       [&] {
         board_.set_author(desk_.machine.setting(author_setting).value_or(""));
-        board_.take(reading, expected ? expected_case_ : case_beside_cases(desk_, reading.reference));
+        board_.take(reading, expected ? expected_case_ : calcium_case_of(desk_, reading.reference));
       },
       true);
 }
@@ -112,8 +113,7 @@ void Calcium::set_calibration(std::optional<double> calibration) {
 }
 
 void Calcium::say(analysis::CalciumPlace place) {
-  const int number = board_.chosen.get();
-  board_.say(number, place);
+  board_.say(board_.chosen.get(), place);
 }
 
 void Calcium::choose(int number) {
@@ -134,6 +134,14 @@ bool Calcium::has_the_steps() const {
   if (!board_.reading() || !page_ || page_->isHidden()) return false;
   const QWidget* focus = desk_.window.focusWidget();
   return !desk_.bench.has_case() || (focus && page_->isAncestorOf(focus));
+}
+
+bool Calcium::can_take_back() const {
+  return has_the_steps() && board_.can_undo();
+}
+
+bool Calcium::can_do_again() const {
+  return has_the_steps() && board_.can_redo();
 }
 
 QString Calcium::why_not_into_report() const {

@@ -37,12 +37,15 @@ class Calcium final : public QObject {
   bool expects_shown() const;  ///< the image on the table
   /// mg of hydroxyapatite in 1 cm3 for each HU; nothing: no mass. Scores again.
   void set_calibration(std::optional<double> calibration);
-  std::optional<double> calibration() const { return calibration_; }
 
   void say(analysis::CalciumPlace place);  ///< of the chosen lesion
   void choose(int number);                 ///< and all slices go to it
-  /// Undo and Redo are of its words: no other case is open, or the keyboard is on its page.
-  bool has_the_steps() const;
+  /// Words on lesions are steps of their own: Undo and Redo are theirs while no other case is open, or while
+  /// the keyboard is on their page.
+  bool can_take_back() const;
+  bool can_do_again() const;
+  void take_back() { board_.undo(); }
+  void do_again() { board_.redo(); }
   void set_page(QWidget* page) { page_ = page; }
   /// Why the score cannot be taken into the report of the case that is open; empty where it can.
   QString why_not_into_report() const;
@@ -52,6 +55,7 @@ class Calcium final : public QObject {
  private:
   void take(const session::CalciumReading& reading);
   void follow_place();
+  bool has_the_steps() const;
   Desk& desk_;
   session::CalciumBoard board_;
   ShownSeries shown_series_;

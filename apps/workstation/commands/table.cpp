@@ -6,6 +6,7 @@
 #include "shell/desk.h"
 
 #include <QMenu>
+#include <QToolButton>
 #include <algorithm>
 #include <memory>
 #include <stdexcept>
@@ -113,6 +114,15 @@ void CommandTable::set_keys(const ShortcutKeys& keys) {
   const auto settings = keys.settings(keys_);
   dress_as(keys);
   desk_.messages.guarded([&] { desk_.machine.set_settings(settings); });
+}
+
+QToolButton* command_button(const CommandTable& commands, const QString& id) {
+  auto* button = new QToolButton;
+  button->setObjectName("button." + id);
+  button->setDefaultAction(&commands.action(id));
+  button->setToolButtonStyle(Qt::ToolButtonTextOnly);
+  button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+  return button;
 }
 
 QStringList menus_of(const QAction& action) {

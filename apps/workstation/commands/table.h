@@ -10,6 +10,8 @@
 #include <QStringList>
 #include <vector>
 
+class QToolButton;
+
 namespace ostia::workstation {
 
 struct Desk;
@@ -50,6 +52,9 @@ class CommandTable final : public QObject {
   ShortcutKeys keys_;
   std::vector<session::Subscription> own_;
 };
+
+/// Does a command of the table, and has its text; it is called "button.ID".
+QToolButton* command_button(const CommandTable& commands, const QString& id);
 
 /// The menus that lead to the action ("View", "Go to"); empty where none does.
 QStringList menus_of(const QAction& action);

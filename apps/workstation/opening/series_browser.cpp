@@ -4,6 +4,7 @@
 #include "shell/identity.h"
 #include "shell/jobs.h"
 #include "shell/quantities.h"
+#include "views/raster_image.h"
 
 #include "ostia/imaging/series_preview.h"
 
@@ -112,10 +113,8 @@ void SeriesBrowser::preview_next() {
       [self, row](const std::any& result) {
         if (!self) return;
         const auto& made = std::any_cast<const imaging::SeriesPreview&>(result);
-        const QImage picture(made.pixels.data(), made.width, made.height, made.width,
-                             QImage::Format_Grayscale8);
         QTreeWidgetItem* item = self->list_->topLevelItem(row);
-        item->setIcon(picture_column, QIcon(QPixmap::fromImage(picture)));
+        item->setIcon(picture_column, QIcon(QPixmap::fromImage(preview_image(made))));
         const QString whose =
             identity_parts({made.shown.patient_name, made.shown.patient_id, made.shown.study_date, {}})
                 .join(QStringLiteral("  \u00b7  "));

@@ -3,6 +3,7 @@
 #include "phases/series_strip.h"
 #include "phases/study_series.h"
 #include "shell/desk.h"
+#include "views/raster_image.h"
 
 #include "ostia/imaging/series_preview.h"
 
@@ -16,10 +17,6 @@ using session::SharpnessPlaces;
 
 QString strip_percent(double phase) {
   return QString::fromStdString(session::percent_of_cycle(phase));
-}
-
-QImage strip_image(const imaging::SeriesPreview& made) {
-  return QImage(made.pixels.data(), made.width, made.height, made.width, QImage::Format_Grayscale8).copy();
 }
 
 /// Why a phase that was read was not compared.
@@ -101,7 +98,7 @@ void StudySeries::next_picture(int from) {
                                       : imaging::preview(source.file, SeriesStrip::picture_px, task));
       },
       [this, n](const std::any& result) {
-        strip_->set_picture(n, strip_image(std::any_cast<const imaging::SeriesPreview&>(result)));
+        strip_->set_picture(n, preview_image(std::any_cast<const imaging::SeriesPreview&>(result)));
         next_picture(n + 1);
       },
       [this, n](const QString&) { next_picture(n + 1); });  // reading it says what is wrong

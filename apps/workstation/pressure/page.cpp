@@ -7,13 +7,13 @@
 #include "shell/docks.h"
 #include "shell/language.h"
 #include "shell/library_texts.h"
+#include "shell/list_rows.h"
 #include "shell/quantities.h"
 
 #include "ostia/session/pressure_document.h"
 
 #include <QDoubleSpinBox>
 #include <QGridLayout>
-#include <QHeaderView>
 #include <QLabel>
 #include <QListWidget>
 #include <QMainWindow>
@@ -89,33 +89,18 @@ PressurePage::PressurePage(Desk& desk, Pressures& pressures)
   fill();
 }
 
-QTreeWidget* PressurePage::table(const QString& name, const QString& title, const QStringList& columns) {
-  auto* made = new QTreeWidget;
-  made->setObjectName(name);
-  made->setAccessibleName(title);
-  made->setColumnCount(columns.size());
-  made->setHeaderLabels(columns);
-  made->setRootIsDecorated(false);
-  made->setUniformRowHeights(true);
-  made->setAllColumnsShowFocus(true);
-  made->header()->setSectionResizeMode(QHeaderView::ResizeToContents);
-  made->header()->setStretchLastSection(false);
-  made->setMinimumSize(120, 40);
-  return made;
-}
-
 QWidget* PressurePage::readings() {
   auto* parts = new QSplitter(Qt::Vertical);
   parts->setObjectName("pressure_parts");
-  lesions_ = table("pressure_lesions", tr("FFR behind narrowings"),
-                   {tr("Vessel"), tr("At (mm)"), tr("FFR"), tr("Takes"), tr("What if")});
+  lesions_ = figures_table("pressure_lesions", tr("FFR behind narrowings"),
+                           {tr("Vessel"), tr("At (mm)"), tr("FFR"), tr("Takes"), tr("What if")});
   lesions_->setToolTip(tr("Read about 25 mm behind each narrowing, under hyperaemia."));
   connect(lesions_, &QTreeWidget::itemActivated, this, [this](QTreeWidgetItem* item) {
     desk_.bench.vessel.set(item->data(0, Qt::UserRole).toInt());
     desk_.bench.cursor_mm.set(desk_.bench.here_mm(item->data(1, Qt::UserRole).toDouble()));
   });
-  outlets_ = table("pressure_outlets", tr("Ends of the vessels"),
-                   {tr("End of"), tr("FFR"), tr("ml/min"), tr("Reserve"), tr("PPG"), tr("What if")});
+  outlets_ = figures_table("pressure_outlets", tr("Ends of the vessels"),
+                           {tr("End of"), tr("FFR"), tr("ml/min"), tr("Reserve"), tr("PPG"), tr("What if")});
   outlets_->setToolTip(
       tr("Flow under hyperaemia, flow reserve, pullback pressure gradient index (1: focal)."));
   marks_ = new QListWidget;
@@ -153,8 +138,8 @@ QWidget* PressurePage::what_if_rows() {
   grid->addWidget(percent("what_if_narrow", tr("Diameter stenosis at the throat"), pressures_.narrow_percent),
                   1, 1);
   grid->setColumnStretch(0, 1);
-  stretches_ = table("what_if_stretches", tr("What if: stretches"),
-                     {tr("Vessel"), tr("mm from its root"), tr("What if")});
+  stretches_ = figures_table("what_if_stretches", tr("What if: stretches"),
+                             {tr("Vessel"), tr("mm from its root"), tr("What if")});
   stretches_->setToolTip(tr("Delete takes the chosen stretch away; Undo brings it back."));
   auto* remove = new QAction(tr("Take this stretch back"), stretches_);
   remove->setShortcut(QKeySequence::Delete);
@@ -174,12 +159,7 @@ void PressurePage::add_buttons(const CommandTable& commands) {
   auto* grid = qobject_cast<QGridLayout*>(buttons_->layout());
   int row = 0;
   for (const char* id : {"pressure.open", "pressure.narrow", "pressure.clear"}) {
-    auto* button = new QToolButton;
-    button->setObjectName(QString("button.") + id);
-    button->setDefaultAction(&commands.action(id));
-    button->setToolButtonStyle(Qt::ToolButtonTextOnly);
-    button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-    grid->addWidget(button, row, 0, 1, row == 2 ? 2 : 1);
+    grid->addWidget(command_button(commands, id), row, 0, 1, row == 2 ? 2 : 1);
     ++row;
   }
 }

@@ -31,7 +31,6 @@ class PressurePage final : public QDockWidget {
  private:
   QWidget* readings();
   QWidget* what_if_rows();
-  QTreeWidget* table(const QString& name, const QString& title, const QStringList& columns);
   void show_cursor();
   void fill();
   void fill_lesions(const session::PressureReport& now);

@@ -3,6 +3,7 @@
 #include "shell/bind.h"
 #include "shell/docks.h"
 #include "shell/file_dialogs.h"
+#include "views/overlay_colors.h"
 
 #include "ostia/io/contour_file.h"
 #include "ostia/view/value_scale.h"
@@ -34,9 +35,7 @@ QString millimetres(double value, int decimals = 2) {
 
 QIcon error_icon(double msd_mm) {
   const figure::Color color = view::scale_color(view::ColorScale::sequential, msd_mm / worst_mm);
-  QPixmap square(12, 12);
-  square.fill(QColor::fromRgbF(color.r, color.g, color.b));
-  return QIcon(square);
+  return color_square(QColor::fromRgbF(color.r, color.g, color.b));
 }
 
 QString text_of(const session::WholeError& error) {

@@ -9,7 +9,7 @@ class CommandTable;
 struct Desk;
 class SceneWidget;
 
-/// What Undo and Redo do where the case's own steps have ended.
+/// What Undo and Redo do that is no step of the case; it comes before those.
 struct StepsBeside {
   std::function<bool()> can_undo, can_redo;
   std::function<void()> undo, redo;

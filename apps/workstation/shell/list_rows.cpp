@@ -1,10 +1,26 @@
 #include "shell/list_rows.h"
 
+#include <QHeaderView>
 #include <QLineEdit>
 #include <QVBoxLayout>
 #include <utility>
 
 namespace ostia::workstation {
+
+QTreeWidget* figures_table(const QString& name, const QString& title, const QStringList& columns) {
+  auto* made = new QTreeWidget;
+  made->setObjectName(name);
+  made->setAccessibleName(title);
+  made->setColumnCount(static_cast<int>(columns.size()));
+  made->setHeaderLabels(columns);
+  made->setRootIsDecorated(false);
+  made->setUniformRowHeights(true);
+  made->setAllColumnsShowFocus(true);
+  made->header()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  made->header()->setStretchLastSection(false);
+  made->setMinimumSize(120, 40);
+  return made;
+}
 
 QTreeWidgetItem& row_of(QTreeWidget& list, std::int32_t id, int row) {
   int found = row;

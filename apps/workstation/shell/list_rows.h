@@ -1,11 +1,14 @@
 #pragma once
-/// \file Rows of lists that are written anew while they are being used.
+/// \file Lists: tables of figures, and rows that are written anew while they are being used.
 
 #include <QTreeWidget>
 #include <cstdint>
 #include <functional>
 
 namespace ostia::workstation {
+
+/// Flat, with columns as wide as their texts; may be as low as its head and a row.
+QTreeWidget* figures_table(const QString& name, const QString& title, const QStringList& columns);
 
 constexpr int row_id_role = Qt::UserRole;  ///< of a row's first column: the id of what it shows
 

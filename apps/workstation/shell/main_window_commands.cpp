@@ -53,23 +53,20 @@ namespace ostia::workstation {
 
 /// Of what is no step of the case on the table.
 StepsBeside MainWindow::steps_beside() {
-  const auto of_calcium = [this](bool (session::CalciumBoard::*can)() const) {
-    return calcium_->has_the_steps() && (calcium_->board().*can)();
-  };
-  const auto can_undo = [of_calcium] { return of_calcium(&session::CalciumBoard::can_undo); };
-  const auto can_redo = [of_calcium] { return of_calcium(&session::CalciumBoard::can_redo); };
   return {
-      [this, can_undo] { return can_undo() || finder_->can_take_back() || orientation_->can_take_back(); },
-      [this, can_redo] { return can_redo() || finder_->can_do_again() || orientation_->can_do_again(); },
-      [this, can_undo] {
-        if (can_undo())
-          calcium_->board().undo();
+      [this] {
+        return calcium_->can_take_back() || finder_->can_take_back() || orientation_->can_take_back();
+      },
+      [this] { return calcium_->can_do_again() || finder_->can_do_again() || orientation_->can_do_again(); },
+      [this] {
+        if (calcium_->can_take_back())
+          calcium_->take_back();
         else
           finder_->can_take_back() ? finder_->take_back() : orientation_->take_back();
       },
-      [this, can_redo] {
-        if (can_redo())
-          calcium_->board().redo();
+      [this] {
+        if (calcium_->can_do_again())
+          calcium_->do_again();
         else
           finder_->can_do_again() ? finder_->do_again() : orientation_->do_again();
       }};

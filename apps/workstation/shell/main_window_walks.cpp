@@ -5,6 +5,7 @@
 #include "qa/walk_recorder.h"
 #include "shell/main_window.h"
 #include "vessels/evaluability.h"
+#include "vessels/fat.h"
 #include "vessels/outer_walls.h"
 
 #include "ostia/session/case_file.h"
@@ -48,7 +49,7 @@ void begin_walk(MainWindow& window, const std::filesystem::path& file, const std
   stage.commands = &window.commands();
   stage.idle = [&window] {
     return !window.jobs().any() && window.evaluability().idle() && window.lesions().idle() &&
-           window.outer_walls().idle();
+           window.outer_walls().idle() && window.fat().idle();
   };
   stage.counts = counts_of(window);
   stage.folder = folder;

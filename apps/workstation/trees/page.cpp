@@ -78,12 +78,7 @@ QWidget* TreePage::build_panel() {
   auto* buttons = new QGridLayout;
   int number = 0;
   for (const char* id : button_commands) {
-    auto* button = new QToolButton;
-    button->setObjectName(QStringLiteral("button.") + id);
-    button->setToolButtonStyle(Qt::ToolButtonTextOnly);
-    button->setDefaultAction(&commands_.action(id));
-    button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-    buttons->addWidget(button, number / 2, number % 2);
+    buttons->addWidget(command_button(commands_, id), number / 2, number % 2);
     ++number;
   }
   rows->addLayout(buttons);

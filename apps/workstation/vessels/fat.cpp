@@ -5,6 +5,7 @@
 #include "shell/desk.h"
 #include "shell/docks.h"
 #include "shell/library_texts.h"
+#include "shell/list_rows.h"
 #include "shell/quantities.h"
 #include "views/overlay_colors.h"
 #include "views/picture_widget.h"
@@ -12,10 +13,8 @@
 #include "ostia/core/text.h"
 
 #include <QHBoxLayout>
-#include <QHeaderView>
 #include <QLabel>
 #include <QMainWindow>
-#include <QPixmap>
 #include <QTreeWidget>
 #include <QVBoxLayout>
 #include <any>
@@ -84,20 +83,12 @@ FatPage::FatPage(Desk& desk, Fat& fat)
   auto* whole = new QWidget;
   auto* rows = new QVBoxLayout(whole);
   rows->setContentsMargins(6, 6, 6, 6);
-  vessels_ = new QTreeWidget;
-  vessels_->setObjectName("fat_vessels");
-  vessels_->setAccessibleName(tr("Fat about the arteries"));
-  vessels_->setHeaderLabels(
+  vessels_ = figures_table(
+      "fat_vessels", tr("Fat about the arteries"),
       {tr("Artery"), tr("mm"), tr("Index HU"), tr("At 120 kV"), tr("Clear HU"), tr("mm\u00b3")});
   vessels_->setToolTip(tr(
       "Index: the mean of all that is -190 to -30 HU within one diameter of the outer wall. Clear: without "
       "what lies beside an edge and is partly something else. Return: the CPRs show this artery."));
-  vessels_->setRootIsDecorated(false);
-  vessels_->setUniformRowHeights(true);
-  vessels_->setAllColumnsShowFocus(true);
-  vessels_->header()->setSectionResizeMode(QHeaderView::ResizeToContents);
-  vessels_->header()->setStretchLastSection(false);
-  vessels_->setMinimumSize(120, 60);
   state_ = new QLabel;
   state_->setObjectName("fat_state");
   state_->setWordWrap(true);
@@ -134,11 +125,8 @@ QWidget* FatPage::legend() {
       middle.arg(quantity::hu(view::fat_colors[0].to_hu), quantity::hu(view::fat_colors[1].to_hu)),
       tr("above %1 HU").arg(quantity::hu(view::fat_colors[1].to_hu))};
   for (std::size_t i = 0; i < view::fat_colors.size(); ++i) {
-    constexpr int side = 12;
-    QPixmap square(side, side);
-    square.fill(role_color(view::fat_colors[i].role, Ground::image));
     auto* colour = new QLabel;
-    colour->setPixmap(square);
+    colour->setPixmap(color_square(role_color(view::fat_colors[i].role, Ground::image)));
     line->addWidget(colour);
     line->addWidget(new QLabel(texts[static_cast<int>(i)]));
     line->addStretch(1);

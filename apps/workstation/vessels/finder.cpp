@@ -4,9 +4,11 @@
 #include "shell/desk.h"
 
 #include "ostia/core/error.h"
+#include "ostia/coronary/extract.h"
 #include "ostia/session/found_model.h"
 #include "ostia/session/new_vessel.h"
 
+#include <atomic>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -120,11 +122,19 @@ void VesselFinder::find_tree() {
   if (!image_is_there()) return;
   const session::OpenImage image = desk_.bench.image();
   using Found = std::shared_ptr<const session::FoundModel>;
+  const auto plain = std::make_shared<std::atomic<bool>>(false);  // of a scan without contrast agent
   desk_.jobs.run(
       "tree", tr("Finding the coronary arteries"),
-      [volume = image.volume](const core::TaskContext& task) {
-        return std::any(
-            Found(std::make_shared<const session::FoundModel>(session::found_model(*volume, {}, task))));
+      [volume = image.volume, plain](const core::TaskContext& task) {
+        try {
+          return std::any(
+              Found(std::make_shared<const session::FoundModel>(session::found_model(*volume, {}, task))));
+        } catch (const Cancelled&) {
+          throw;
+        } catch (const Error&) {
+          *plain = coronary::lacks_contrast(*volume, task);
+          throw;
+        }
       },
       [this, reference = image.reference](const std::any& result) {
         const Found found = std::any_cast<Found>(result);
@@ -136,12 +146,12 @@ void VesselFinder::find_tree() {
                "list says where the program is not sure.",
                nullptr, static_cast<int>(found->model.tree.vessels.size())));
       },
-      [this](const QString& message) {
+      [this, plain](const QString& message) {
         desk_.messages.say(tr("The arteries were not found by themselves: %1").arg(message));
-        desk_.failure.set({tr("The arteries were not found by themselves"),
-                           message,
-                           {"tool.add_artery", "calcium.score", "view.layout_planes", "file.series",
-                            "file.orientation", "file.open"}});
+        QStringList ways{"tool.add_artery", "view.layout_planes", "file.series", "file.orientation",
+                         "file.open"};
+        if (*plain) ways.insert(1, "calcium.score");
+        desk_.failure.set({tr("The arteries were not found by themselves"), message, ways});
       });
 }
 

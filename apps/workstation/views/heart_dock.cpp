@@ -161,14 +161,8 @@ void HeartDock::add_buttons(const CommandTable& commands) {
   add_switch("heart.alone", heart_.alone);
   add_switch("heart.tree", heart_.tree_over_it);
   add_switch("heart.box", heart_.box_shown);
-  for (const char* id : {"heart.cut_inside", "heart.cut_outside", "heart.undo_cut", "heart.all_back"}) {
-    auto* button = new QToolButton;
-    button->setObjectName(QString("button.") + id);
-    button->setDefaultAction(&commands.action(id));
-    button->setToolButtonStyle(Qt::ToolButtonTextOnly);
-    button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-    buttons_->layout()->addWidget(button);
-  }
+  for (const char* id : {"heart.cut_inside", "heart.cut_outside", "heart.undo_cut", "heart.all_back"})
+    buttons_->layout()->addWidget(command_button(commands, id));
 }
 
 }  // namespace ostia::workstation

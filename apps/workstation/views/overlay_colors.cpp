@@ -104,6 +104,13 @@ QColor role_color(view::Role role, Ground ground) {
   return Qt::white;
 }
 
+QPixmap color_square(const QColor& color) {
+  constexpr int side = 12;
+  QPixmap square(side, side);
+  square.fill(color);
+  return square;
+}
+
 double role_width(view::Role role) {
   using view::Role;
   switch (role) {

@@ -4,12 +4,14 @@
 #include "ostia/view/overlay.h"
 
 #include <QColor>
+#include <QPixmap>
 
 namespace ostia::workstation {
 
 /// How a role is drawn over an image (always dark) or on the theme's own background (plots).
 enum class Ground { image, paper };
 QColor role_color(view::Role role, Ground ground);
-double role_width(view::Role role);  ///< in units of the interface
+QPixmap color_square(const QColor& color);  ///< for lists and legends
+double role_width(view::Role role);         ///< in units of the interface
 
 }  // namespace ostia::workstation

@@ -1,7 +1,8 @@
 #pragma once
-/// \file Pictures of Qt as the libraries have them.
+/// \file Pictures of Qt as the libraries have them, and the other way round.
 
 #include "ostia/figure/picture.h"
+#include "ostia/imaging/series_preview.h"
 
 #include <QImage>
 #include <cstring>
@@ -17,6 +18,11 @@ inline figure::Raster raster_of(const QImage& image) {
   for (int row = 0; row < rgba.height(); ++row)
     std::memcpy(raster.rgba.data() + static_cast<std::size_t>(row) * line, rgba.constScanLine(row), line);
   return raster;
+}
+
+/// Copies the pixels.
+inline QImage preview_image(const imaging::SeriesPreview& made) {
+  return QImage(made.pixels.data(), made.width, made.height, made.width, QImage::Format_Grayscale8).copy();
 }
 
 }  // namespace ostia::workstation

@@ -47,6 +47,20 @@ Beginning beginning_of(const VesselTree& tree, std::size_t index, const AxisCurv
   return {axis.point(own), {}};
 }
 
+std::vector<TreeLandmark> landmarks_of(const std::vector<std::pair<std::size_t, std::size_t>>& pairs,
+                                       const VesselTree& before, const std::vector<AxisCurve>& b_axes,
+                                       const VesselTree& after, const std::vector<AxisCurve>& a_axes) {
+  std::vector<TreeLandmark> landmarks;
+  for (const auto& [b, a] : pairs) {
+    const Beginning was = beginning_of(before, b, b_axes[b]), is = beginning_of(after, a, a_axes[a]);
+    const std::string name = telling_name(before.vessels[b]);
+    if (was.from == is.from)
+      landmarks.push_back(
+          {was.from.empty() ? name + ", ostium" : name + " leaves " + was.from, was.place, is.place});
+  }
+  return landmarks;
+}
+
 Vec3 mirrored(const Vec3& place) {
   return {-place.x(), place.y(), place.z()};
 }
@@ -107,19 +121,6 @@ std::vector<AxisCurve> axes_of(const VesselTree& tree) {
   return axes;
 }
 
-std::vector<TreeLandmark> tree_landmarks(const VesselTree& before, const VesselTree& after) {
-  const std::vector<AxisCurve> b_axes = axes_of(before), a_axes = axes_of(after);
-  std::vector<TreeLandmark> landmarks;
-  for (const auto& [b, a] : pairs_by_name(before, after)) {
-    const Beginning was = beginning_of(before, b, b_axes[b]), is = beginning_of(after, a, a_axes[a]);
-    const std::string name = telling_name(before.vessels[b]);
-    if (was.from == is.from)
-      landmarks.push_back(
-          {was.from.empty() ? name + ", ostium" : name + " leaves " + was.from, was.place, is.place});
-  }
-  return landmarks;
-}
-
 TreeFit fit_trees(const VesselTree& before, const VesselTree& after) {
   const auto pairs = pairs_by_name(before, after);
   if (pairs.empty())
@@ -134,7 +135,7 @@ TreeFit fit_trees(const VesselTree& before, const VesselTree& after) {
   fit.vessels = pairs.size();
   fit.axes_mm = as_is.mean_mm;
   fit.mirrored_mm = mirror.mean_mm;
-  fit.landmarks = tree_landmarks(before, after);
+  fit.landmarks = landmarks_of(pairs, before, b_axes, after, a_axes);
   for (const TreeLandmark& one : fit.landmarks)
     fit.landmark_residuals_mm.push_back((fit.motion(one.before) - one.after).norm());
   return fit;

@@ -82,13 +82,15 @@ void sync(const fs::path& path, int flags) {
   }
 }
 
-/// All regular files below a folder. Writing begins for all of them before the first is waited for, and
-/// several wait at a time, so that the file system puts them into few transactions: of hundreds of files one
-/// by one each would wait for its own.
-void sync_files_below(const fs::path& folder) {
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder))
+/// A folder with all regular files and folders below it. Writing begins for all files before the first is
+/// waited for, and several wait at a time, so that the file system puts them into few transactions: of
+/// hundreds of files one by one each would wait for its own.
+void sync_all_of(const fs::path& folder) {
+  std::vector<fs::path> files, folders{folder};
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     if (entry.is_regular_file()) files.push_back(entry.path());
+    if (entry.is_directory() && !entry.is_symlink()) folders.push_back(entry.path());
+  }
   for (const fs::path& file : files) begin_writing_back(file);
   constexpr std::size_t most_waiting = 8;
   std::atomic<std::size_t> next{0};
@@ -112,6 +114,7 @@ void sync_files_below(const fs::path& folder) {
   wait_for_some();
   for (std::future<void>& other : others) other.get();
   if (thrown) std::rethrow_exception(thrown);
+  for (const fs::path& one : folders) sync(one, O_RDONLY | O_DIRECTORY);  // the files' names
 }
 
 fs::path folder_of(const fs::path& target) {
@@ -264,8 +267,7 @@ void StagedFolder::commit() {
 }
 
 void publish_folder(const fs::path& made, const fs::path& target) {
-  sync_files_below(made);
-  sync(made, O_RDONLY | O_DIRECTORY);
+  sync_all_of(made);
   if (fs::exists(target)) {
     if (::renameat2(AT_FDCWD, made.c_str(), AT_FDCWD, target.c_str(), RENAME_EXCHANGE) != 0) {
       throw_errno("cannot write", target, errno);

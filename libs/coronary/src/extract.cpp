@@ -183,4 +183,8 @@ Extraction extract(const imaging::ImageVolume& image, const ExtractOptions& opti
   }
 }
 
+bool lacks_contrast(const imaging::ImageVolume& image, const core::TaskContext& task) {
+  return !why_no_contrast(image, task).empty();
+}
+
 }  // namespace ostia::coronary

@@ -133,8 +133,9 @@ struct ToCopy {
 
 std::vector<ToCopy> images_below(const fs::path& input, const std::string& key, DeidentifyReport& report,
                                  const core::TaskContext& task) {
+  std::error_code error;
   const std::vector<fs::path> files =
-      fs::is_directory(input) ? imaging::files_below(input) : std::vector{input};
+      fs::is_directory(input, error) ? imaging::files_below(input) : std::vector{input};
   std::vector<ToCopy> images;
   for (const fs::path& file : files) {
     task.throw_if_cancelled();

@@ -6,7 +6,6 @@
 #include "ostia/core/error.h"
 #include "ostia/imaging/dicom.h"
 
-#include <algorithm>
 #include <array>
 
 namespace ostia::dicom {

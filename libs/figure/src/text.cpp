@@ -5,6 +5,7 @@
 #include <charconv>
 
 namespace ostia::figure {
+
 std::string clean_utf8(std::string_view text) {
   std::string result;
   result.reserve(text.size());

@@ -51,35 +51,42 @@ std::string patient_of(Archive& archive, const SeriesWanted& wanted, const core:
   return {};
 }
 
-/// How many images the server says that the series has; 0 where it does not say. Much sooner answered than
-/// which ones they are.
+/// How many images the server says that the series has, which is much sooner answered than which ones they
+/// are; 0 where it does not say, and where they may be of classes that are asked for by what is listed alone.
 std::size_t images_said(Archive& archive, const SeriesWanted& wanted, const core::TaskContext& task) {
   Query series;
   series.level = Level::series;
   series.study_uid = wanted.study_uid;
   series.series_uid = wanted.series_uid;
   for (const Found& one : archive.find(series, task).found)
-    if (one.series_uid == wanted.series_uid && one.images > 0) return static_cast<std::size_t>(one.images);
+    if (one.series_uid == wanted.series_uid && one.images > 0 &&
+        (one.modality.empty() || one.modality == "CT" || one.modality == "MR"))
+      return static_cast<std::size_t>(one.images);
   return 0;
 }
 
-/// Asks which images there are.
-void list_images(Archive& archive, const SeriesWanted& wanted, Intake& intake,
-                 const core::TaskContext& task) {
+/// The images that the server lists, one at least.
+std::vector<Found> listed_images(Archive& archive, const SeriesWanted& wanted,
+                                 const core::TaskContext& task) {
   Query images;
   images.level = Level::image;
   images.study_uid = wanted.study_uid;
   images.series_uid = wanted.series_uid;
   images.most = most_images;
-  const FindResult found = archive.find(images, task);
-  if (found.cut_off) refuse_so_many(archive.server());
+  FindResult result = archive.find(images, task);
+  if (result.cut_off) refuse_so_many(archive.server());
+  std::erase_if(result.found, [](const Found& one) { return !is_uid(one.sop_uid); });
+  if (result.found.empty())
+    throw InvalidInput("the server '" + archive.server().name + "' has no image of this series");
+  return std::move(result.found);
+}
+
+void expect(Intake& intake, const std::vector<Found>& images) {
   std::set<std::string> uids, classes;
-  for (const Found& one : found.found) {
-    if (is_uid(one.sop_uid)) uids.insert(one.sop_uid);
+  for (const Found& one : images) {
+    uids.insert(one.sop_uid);
     if (is_uid(one.sop_class)) classes.insert(one.sop_class);
   }
-  if (uids.empty())
-    throw InvalidInput("the server '" + archive.server().name + "' has no image of this series");
   intake.expect(std::move(uids), std::move(classes));
 }
 
@@ -149,14 +156,7 @@ Fetched Archive::fetch(const SeriesWanted& wanted, const std::filesystem::path& 
 
 std::filesystem::path Archive::fetch_middle(const SeriesWanted& wanted, const std::filesystem::path& folder,
                                             const core::TaskContext& task) {
-  Query query;
-  query.level = Level::image;
-  query.study_uid = wanted.study_uid;
-  query.series_uid = wanted.series_uid;
-  query.most = most_images;
-  std::vector<Found> images = find(query, task).found;
-  std::erase_if(images, [](const Found& one) { return !is_uid(one.sop_uid); });
-  if (images.empty()) throw InvalidInput("the server '" + server_.name + "' has no image of this series");
+  std::vector<Found> images = listed_images(*this, wanted, task);
   // UIDs of a scanner count upwards: by length, then by digits, the middle one is about the middle slice.
   const auto middle = images.begin() + static_cast<std::ptrdiff_t>(images.size() / 2);
   std::nth_element(images.begin(), middle, images.end(), [](const Found& a, const Found& b) {
@@ -166,9 +166,7 @@ std::filesystem::path Archive::fetch_middle(const SeriesWanted& wanted, const st
   core::StagedFolder staged(folder);
   std::filesystem::permissions(staged.temporary(), std::filesystem::perms::owner_all);
   Intake intake(staged.temporary(), wanted, {}, 1, task);
-  std::set<std::string> classes;
-  if (is_uid(middle->sop_class)) classes.insert(middle->sop_class);
-  intake.expect({middle->sop_uid}, std::move(classes));
+  expect(intake, {*middle});
   retrieve(wanted, {middle->sop_uid}, intake, task);
   task.throw_if_cancelled();
   intake.throw_if_faulty();
@@ -186,12 +184,12 @@ std::string Archive::attempted(const SeriesWanted& wanted, Intake& intake, bool 
                                const core::TaskContext& task) {
   std::string broken;
   try {
-    if (list_first && !intake.has_list()) list_images(*this, wanted, intake, task);
+    if (list_first && !intake.has_list()) expect(intake, listed_images(*this, wanted, task));
     if (!intake.complete())
       retrieve(wanted, intake.received() == 0 ? std::vector<std::string>{} : intake.missing(), intake, task);
     if (!intake.complete() && !intake.has_list() && intake.fault().empty()) {
       // Nothing broke, and it is not as many as it said: what it lists decides.
-      list_images(*this, wanted, intake, task);
+      expect(intake, listed_images(*this, wanted, task));
       if (!intake.complete()) retrieve(wanted, intake.missing(), intake, task);
     }
   } catch (const NetworkError& error) {

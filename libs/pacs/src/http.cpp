@@ -13,7 +13,7 @@ namespace ostia::pacs {
 namespace {
 
 constexpr std::size_t most_gathered_bytes = 64U << 20;
-constexpr long buffer_bytes = 512L << 10;  // the most that libcurl takes
+constexpr long buffer_bytes = 512L << 10;
 
 void prepare_curl() {
   static std::once_flag once;
@@ -24,12 +24,17 @@ bool is_success(long status) {
   return status >= 200 && status < 300;
 }
 
+/// It may succeed another time.
+bool may_pass(long status) {
+  return status == 408 || status == 429 || (status >= 500 && status != 501 && status != 505);
+}
+
 /// What a proxy said in place of leading us through.
 [[noreturn]] void refuse_tunnel(const std::string& server, long status) {
   const std::string said = " (HTTP " + std::to_string(status) + ")";
   if (status == 407) throw InvalidInput(server + " is behind a proxy that asks for a login" + said);
   const std::string refused = server + ": the proxy does not lead to it" + said;
-  if (status >= 500 && status != 501 && status != 505) throw NetworkError(refused + "; try again later");
+  if (may_pass(status)) throw NetworkError(refused + "; try again later");
   throw InvalidInput(refused);
 }
 
@@ -235,9 +240,7 @@ void require_success(const ServerDescription& server, const HttpAnswer& answer, 
                        "; if all is so, url is wrong");
   if (answer.status >= 300 && answer.status < 400)
     throw InvalidInput(name + "sends us elsewhere" + status + ", where no login is taken; correct url");
-  const bool later = answer.status == 408 || answer.status == 429 ||
-                     (answer.status >= 500 && answer.status != 501 && answer.status != 505);
-  if (later) throw NetworkError(name + "fails in " + what + status + "; try again later");
+  if (may_pass(answer.status)) throw NetworkError(name + "fails in " + what + status + "; try again later");
   throw InvalidInput(name + "refuses " + what + status);
 }
 

@@ -33,7 +33,7 @@ Distance heart_outline(const HeartShape& heart);
 /// clear of every artery's outer wall.
 /// `warp`: what the heart is bent by, or null. `closeness`: Obstacles::vein_closeness.
 Capsules coronary_veins(const HeartShape& heart, const CoronaryTree& tree, const VesselField& field,
-                        const HeartWarp* warp, double closeness = 0.0);
+                        const HeartWarp* warp, double closeness);
 
 /// Lobes of auricles, atria and pulmonary trunk that touch an artery's outer wall, with their walls.
 /// Nothing where `options.lobes` is 0.
@@ -44,7 +44,7 @@ void add_aorta(Organs& organs, const HeartShape& heart, const TissueHu& hu);
 /// Fat about the arteries and veins; before the chambers, so that none takes an artery.
 /// `thickness`: Obstacles::groove_fat.
 void add_groove_fat(Organs& organs, const CoronaryTree& tree, const Capsules& veins, const TissueHu& hu,
-                    double thickness = 1.0);
+                    double thickness);
 void add_chambers(Organs& organs, const HeartShape& heart, const BodyOptions& options, const Noise& noise);
 void add_great_vessels(Organs& organs, const TissueHu& hu);
 void add_heart_walls(Organs& organs, const HeartShape& heart, const TissueHu& hu, const Noise& noise);

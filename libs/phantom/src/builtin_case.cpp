@@ -132,7 +132,7 @@ double lumen_part(const geometry::TubeDistance& distance, const Vec3& centre, do
   int inside = 0;
   for (int n = 0; n < parts * parts; ++n) {
     const int b = n % parts, c = n / parts;
-    // It changes by no more than the way: of a row that the wall does not reach, its middle says all.
+    // Of a row whose ends (0.4 voxels away) the wall cannot come to, its middle says all.
     const double middle = part(parts / 2, b, c);
     if (std::abs(middle) > 0.5 * spacing_mm) {
       inside += middle < 0.0 ? parts : 0;

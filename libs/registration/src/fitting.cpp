@@ -133,7 +133,7 @@ class FittedCost : public itk::SingleValuedCostFunction {
 };
 
 /// The best parameters that L-BFGS-B (Byrd, Lu, Nocedal, Zhu, SIAM J. Sci. Comput. 16:1190-1208, 1995) comes
-/// by, from nothing or from `start`.
+/// by, from `start` on.
 ItkArray minimized(const ItkArray& start, int iterations, const FittedCost::Evaluation& evaluate,
                    const core::TaskContext& task, double& cost) {
   auto function = FittedCost::New();
@@ -174,10 +174,7 @@ auto by_itk(const Work& work) {
   } catch (const itk::ExceptionObject& error) {
     const std::string text = error.GetDescription();
     if (text.find("outside") != std::string::npos || text.find("PDF") != std::string::npos)
-      throw InvalidInput(
-          "the scans do not overlap: hardly a point of the fixed scan's region lies in the moving scan; give "
-          "landmarks, "
-          "or check that both are of the heart");
+      throw InvalidInput(no_overlap);
     throw NumericalError("the images could not be compared (ITK: " + text + ")");
   }
 }

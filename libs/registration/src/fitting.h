@@ -18,6 +18,11 @@ struct ComparedImages {
   Likeness likeness = Likeness::mutual_information;
 };
 
+/// What is said where hardly a sample is left to be compared.
+inline constexpr const char* no_overlap =
+    "the scans do not overlap: hardly a point of the fixed scan's region lies in the moving scan; give "
+    "landmarks, or check that both are of the heart";
+
 struct LinearMap {
   Mat3 linear = Mat3::Identity();
   Vec3 offset_mm = Vec3::Zero();

@@ -77,8 +77,7 @@ LandmarkFit rigid_from_landmarks(const std::vector<LandmarkPair>& pairs, const L
   if (mirrored(all, options.outlier_mm))
     throw InvalidInput(
         "the landmarks fit only as a mirror image: left and right are exchanged in one of the scans; look at "
-        "its "
-        "orientation");
+        "its orientation");
   geometry::RigidFit fit = geometry::rigid_fit(all.fixed, all.moving);
   for (std::size_t left = pairs.size();; --left) {
     result.residuals_mm.clear();

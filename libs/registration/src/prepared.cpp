@@ -139,11 +139,7 @@ std::vector<std::int64_t> Region::samples(const imaging::Geometry& image, const 
   std::vector<std::int64_t> offsets;
   for (std::size_t i = 0; i < taken.size(); ++i)
     if (taken[i] != 0) offsets.push_back(static_cast<std::int64_t>(i));
-  if (offsets.size() < 100)
-    throw InvalidInput(
-        "the scans do not overlap: hardly a point of the fixed scan's region lies in the moving scan; give "
-        "landmarks, or "
-        "check that both are of the heart");
+  if (offsets.size() < 100) throw InvalidInput(no_overlap);
   return offsets;
 }
 

@@ -11,6 +11,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 namespace ostia::registration {
 namespace {
@@ -83,17 +84,8 @@ LinearMap best_start(const ComparedImages& images, const std::vector<LinearMap>&
                       task.sub(static_cast<double>(i) / tried, static_cast<double>(i + 1) / tried));
     if (!best || found.cost < best->cost) best = found;
   }
-  if (!best)
-    throw InvalidInput(
-        "the scans do not overlap: hardly a point of the fixed scan's region lies in the moving scan; give "
-        "landmarks, or "
-        "check that both are of the heart");
+  if (!best) throw InvalidInput(no_overlap);
   return *best;
-}
-
-ComparedImages compared(const imaging::FloatVolume& fixed, const imaging::FloatVolume& moving,
-                        Likeness likeness) {
-  return {&fixed, &moving, {}, likeness};
 }
 
 struct LinearMaps {
@@ -115,7 +107,7 @@ LinearMaps linear_maps(const Pair& pair, const std::optional<LinearMap>& start,
         coarse(pair.fixed, &pair.region.box(), voxel_mm, pair.fixed_window, task.sub(0.0, 0.0));
     const imaging::FloatVolume moving =
         coarse(pair.moving, nullptr, voxel_mm, pair.moving_window, task.sub(0.0, 0.0));
-    ComparedImages images = compared(fixed, moving, options.likeness);
+    ComparedImages images{&fixed, &moving, {}, options.likeness};
     const std::int64_t count = std::min(options.samples, linear_samples);
     if (first && !start) {
       // All of the region: which part of it the moving scan shows depends on the start.
@@ -182,7 +174,7 @@ SplineGrid bent(const Pair& pair, const LinearMap& map, Quality& quality, const 
         coarse(pair.fixed, &pair.region.box(), voxel_mm, pair.fixed_window, part.sub(0.0, 0.0));
     const imaging::FloatVolume moving =
         laid_on(fixed.geometry, pair.moving, map, voxel_mm, pair.moving_window, part.sub(0.0, 0.0));
-    ComparedImages images = compared(fixed, moving, options.likeness);
+    ComparedImages images{&fixed, &moving, {}, options.likeness};
     const auto count =
         static_cast<std::int64_t>(static_cast<double>(options.samples) / std::sqrt(coarsening(level)));
     images.samples = pair.region.samples(fixed.geometry, pair.moving_field, map, count, &quality.overlap);
@@ -211,6 +203,19 @@ SplineGrid bent(const Pair& pair, const LinearMap& map, Quality& quality, const 
     }
   }
   return spline;
+}
+
+/// Whether a spline makes the scans more alike; of other kinds of images the correlation does not tell.
+bool pays(const Quality& quality, const RegistrationOptions& options) {
+  return !options.hounsfield || quality.correlation > quality.correlation_linear;
+}
+
+/// What is true of the affine map alone.
+Quality without_spline(const Quality& with) {
+  Quality left;
+  left.overlap = with.overlap;
+  left.correlation = left.correlation_linear = with.correlation_linear;
+  return left;
 }
 
 /// Without a spline: only how alike the images are.
@@ -284,13 +289,17 @@ Registration register_scans(const imaging::ImageVolume& fixed, const imaging::Im
   Registration result;
   result.rigid = Transform(maps.rigid.linear, maps.rigid.offset_mm);
   result.affine = Transform(maps.affine.linear, maps.affine.offset_mm);
+  result.transform = result.affine;
   task.set_stage("B-spline registration");
-  if (options.levels > 0)
-    result.transform = Transform(maps.affine.linear, maps.affine.offset_mm,
-                                 bent(pair, maps.affine, result.quality, task.sub(linear_share, 1.0)));
-  else
-    result.transform = result.affine;
-  if (options.levels == 0) compare_linear(pair, maps.affine, result.quality, task.sub(linear_share, 1.0));
+  if (options.levels > 0) {
+    SplineGrid spline = bent(pair, maps.affine, result.quality, task.sub(linear_share, 1.0));
+    if (pays(result.quality, options))
+      result.transform = Transform(maps.affine.linear, maps.affine.offset_mm, std::move(spline));
+    else
+      result.quality = without_spline(result.quality);
+  } else {
+    compare_linear(pair, maps.affine, result.quality, task.sub(linear_share, 1.0));
+  }
   judge(result.quality, fixed, moving, guidance, result.transform, options.hounsfield);
   task.set_progress(1.0);
   return result;

@@ -73,14 +73,17 @@ Comparison compare_cases(ComparedCase before, ComparedCase after, const Comparis
     carry = map->map;
     made.map_words = map->words;
   }
+  made.change = analysis::compare_scans(was, is, carry, options.change);
+  // Whether they are one patient's is asked of the trees, whatever map they are compared by.
   made.another_patient = analysis::why_another_patient(
-      made.fit, analysis::match_trees(was.tree, is.tree, made.fit.motion, options.change.match),
+      made.fit,
+      map ? analysis::match_trees(was.tree, is.tree, made.fit.motion, options.change.match)
+          : made.change.match,
       options.bounds);
   if (!made.another_patient.empty() && !options.anyway)
     throw InvalidInput("the two cases are hardly of one patient: " + made.another_patient +
                        "; compare them with --anyway if they are");
   if (!made.another_patient.empty()) made.warnings.push_back("hardly one patient: " + made.another_patient);
-  made.change = analysis::compare_scans(was, is, carry, options.change);
   warn_of_scans(made);
   return made;
 }

@@ -103,12 +103,11 @@ CompareRows patient_rows(const Comparison& made) {
   return rows;
 }
 
-std::string count_of(const Comparison& made, analysis::LesionFate fate) {
-  return std::to_string(std::ranges::count(made.change.lesions, fate, &analysis::LesionChange::fate));
-}
-
 std::vector<std::pair<std::string, std::string>> comparison_facts(const Comparison& made) {
   using analysis::LesionFate;
+  const auto count = [&](LesionFate fate) {
+    return std::ranges::count(made.change.lesions, fate, &analysis::LesionChange::fate);
+  };
   const auto image = [](const ComparedCase& one) {
     return (one.image ? one.image->pseudonym : std::string("the case names none")) +
            (one.has_image ? "" : " (not at hand)");
@@ -116,13 +115,10 @@ std::vector<std::pair<std::string, std::string>> comparison_facts(const Comparis
   std::vector<std::pair<std::string, std::string>> rows{
       {"Former scan", image(made.before)},
       {"Later scan", image(made.after)},
-      {"Lesions", count_of(made, LesionFate::both) + " in both scans, " +
-                      count_of(made, LesionFate::appeared) + " new, " + count_of(made, LesionFate::gone) +
-                      " gone, " +
-                      std::to_string(std::ranges::count(made.change.lesions, LesionFate::before_unseen,
-                                                        &analysis::LesionChange::fate) +
-                                     std::ranges::count(made.change.lesions, LesionFate::after_unseen,
-                                                        &analysis::LesionChange::fate)) +
+      {"Lesions", std::to_string(count(LesionFate::both)) + " in both scans, " +
+                      std::to_string(count(LesionFate::appeared)) + " new, " +
+                      std::to_string(count(LesionFate::gone)) + " gone, " +
+                      std::to_string(count(LesionFate::before_unseen) + count(LesionFate::after_unseen)) +
                       " in what one tree alone reaches"},
       {"Map between the scans", made.map_words},
       {"Axes on each other", core::fixed_text(made.fit.axes_mm, 2) + " mm apart in the mean when rigid; " +

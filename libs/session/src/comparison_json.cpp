@@ -179,7 +179,8 @@ analysis::Repeatability repeatability_of_json(const std::string& text, const std
     return refuse("no object \"repeatability\"");
   const CompareJson& all = json["repeatability"];
   analysis::Repeatability table;
-  table.from = all.value("from", std::string("a file"));
+  table.from = all.contains("from") && all["from"].is_string() ? all["from"].get<std::string>()
+                                                               : std::string("a file");
   for (const ChangeScope scope : analysis::change_scopes) {
     const std::string name = analysis::key_of(scope);
     if (!all.contains(name)) continue;

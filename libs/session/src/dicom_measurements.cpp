@@ -16,7 +16,7 @@ using dicom::MeasuredNumber;
 using dicom::MeasurementGroup;
 
 /// (code, scheme, meaning) of our own where the standard has none.
-dicom::Code own_code(const char* value, const char* meaning) {
+dicom::Code own_code(const std::string& value, const std::string& meaning) {
   return {value, "99OSTIA", meaning};
 }
 
@@ -26,7 +26,7 @@ dicom::Code feature_code(analysis::PlaqueFeature feature) {
   std::string value =
       feature == analysis::PlaqueFeature::positive_remodelling ? std::string("pos_remodelling") : words;
   std::replace(value.begin(), value.end(), ' ', '_');
-  return own_code(value.c_str(), words.c_str());
+  return own_code(value, words);
 }
 
 dicom::Code unit_code(analysis::PlaqueFeature feature) {
@@ -192,7 +192,7 @@ void add_statement(const CaseReport& report, dicom::MeasurementReport& to) {
   const auto burden = [&](const char* value, const char* meaning, PlaqueBurden one) {
     if (one == PlaqueBurden::none) return;
     const std::string grade = analysis::to_string(one), words = grade + ", " + analysis::description(one);
-    to.statements.push_back({own_code(value, meaning), own_code(grade.c_str(), words.c_str()), {}});
+    to.statements.push_back({own_code(value, meaning), own_code(grade, words), {}});
   };
   burden("plaque_burden", "CAD-RADS plaque burden", report.burden.stated);
   burden("burden_segments", "Plaque burden by segment involvement", report.burden.by_segments);

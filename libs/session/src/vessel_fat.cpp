@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace ostia::session {
 namespace {
@@ -93,7 +94,7 @@ CaseFat case_fat(const lumen::LumenModel& model, const analysis::SurfaceOfVessel
       out.warnings.push_back("no vessel is named " + name);
       continue;
     }
-    const auto walls = vessel_walls(model, surface_of, vessel->id, image, options.walls, part.sub(0.0, 0.7));
+    auto walls = vessel_walls(model, surface_of, vessel->id, image, options.walls, part.sub(0.0, 0.7));
     const double origin_mm = name == "RCA" ? 0.0 : left_main_mm;
     std::optional<VesselFat> fat;
     if (walls) fat = fat_of(*walls, name, origin_mm, image, options, part.sub(0.7, 1.0));
@@ -107,7 +108,7 @@ CaseFat case_fat(const lumen::LumenModel& model, const analysis::SurfaceOfVessel
                              core::rounded_text(fat->asked_mm, 0) + " mm were measured");
     if (fat->profile.fat.voxels == 0)
       out.warnings.push_back(name + ": no fat was found that is clear of edges");
-    fat->walls = std::make_shared<const VesselWalls>(*walls);
+    fat->walls = std::make_shared<const VesselWalls>(std::move(*walls));
     out.vessels.push_back(std::move(*fat));
   }
   tell_voltage(out);

@@ -53,7 +53,7 @@ CalciumLayer::~CalciumLayer() {
 }
 
 std::shared_ptr<const OverlayTint> CalciumLayer::made() const {
-  if (!view_.ready()) return nullptr;
+  if (!view_.ready() || !board_.reading()) return nullptr;
   const imaging::Volume<std::int32_t>& numbers = board_.reading()->scored->lesion_numbers;
   const imaging::Geometry& grid = numbers.geometry;
   const std::vector<std::uint8_t> codes = codes_of(board_.score());
@@ -77,13 +77,7 @@ std::shared_ptr<const OverlayTint> CalciumLayer::made() const {
 }
 
 const std::shared_ptr<const OverlayTint>& CalciumLayer::tint() {
-  const std::uint64_t known = board_.revision(), placed = view_.placement_revision();
-  if (made_ && known == known_ && placed == placed_) return tint_;
-  tint_ = board_.reading() ? made() : nullptr;
-  known_ = known;
-  placed_ = placed;
-  made_ = true;
-  return tint_;
+  return tint_.of({board_.revision(), view_.placement_revision(), 0}, [this] { return made(); });
 }
 
 void CalciumLayer::draw(Overlay& overlay) {

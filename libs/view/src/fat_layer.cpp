@@ -4,9 +4,6 @@
 
 #include "ostia/imaging/sampling.h"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <utility>
 
 namespace ostia::view {
@@ -17,11 +14,6 @@ class FatCode {
  public:
   FatCode(const session::VesselFat& fat, const imaging::ImageVolume& image) : fat_(fat), image_(image) {}
   double reach_mm() const { return fat_.profile.options.reach_diameters * fat_.profile.diameter_mm; }
-  double widest_mm() const {
-    double widest = 0.0;
-    for (const double radius : fat_.walls->outer.surface.radius_mm) widest = std::max(widest, radius);
-    return widest + reach_mm();
-  }
   /// Of a place, abscissa and distance from the axis at an angle.
   std::uint8_t of(double s, double rho, double theta) const {
     const analysis::FatProfile& profile = fat_.profile;
@@ -42,51 +34,11 @@ class FatCode {
   const imaging::ImageVolume& image_;
 };
 
-std::vector<Role> fat_roles() {
-  std::vector<Role> roles;
-  for (const FatColor& one : fat_colors) roles.push_back(one.role);
-  return roles;
-}
-
-OverlayTint fat_on_straightened(CurvedView& view, const session::VesselFat& fat, const FatCode& code) {
-  const double pixel = view.pixel_mm(), reach = code.widest_mm() / pixel + 1.0;
-  const double middle = view.axis_at(fat.profile.from_mm).x(),
-               theta = view.theta_deg() * std::numbers::pi / 180.0;
-  OverlayTint tint = blank_tint(view, {middle - reach, view.row_of(fat.profile.from_mm)},
-                                {middle + reach, view.row_of(fat.profile.to_mm)}, fat_roles());
-  fill_tint(tint, [&](double y, std::uint8_t* row) {
-    const double s = view.abscissa_at(y);
-    for (int i = 0; i < tint.width; ++i) {
-      const double from = pixel * (tint.left + i + 0.5 - middle);
-      row[i] = code.of(s, std::abs(from), from >= 0.0 ? theta : theta + std::numbers::pi);
-    }
-  });
-  return tint;
-}
-
-OverlayTint fat_on_stretched(CurvedView& view, const session::VesselFat& fat, const FatCode& code) {
-  const double beside = code.widest_mm() / view.pixel_mm();
-  OverlayTint tint =
-      blank_tint(view, {0.0, view.row_of(fat.profile.from_mm) - beside},
-                 {static_cast<double>(view.width()), view.row_of(fat.profile.to_mm) + beside}, fat_roles());
-  const PlacesAbout places(view, *fat.walls->axis, code.widest_mm(), tint);
-  fill_tint(tint, [&](double y, std::uint8_t* row) {
-    for (int i = 0; i < tint.width; ++i)
-      if (const auto at = places.at(i, y))
-        row[i] = code.of(at->x(), at->tail<2>().norm(), std::atan2(at->z(), at->y()));
-  });
-  return tint;
-}
-
 }  // namespace
 
 FatLayer::FatLayer(CurvedView& view, session::FatBoard& board) : view_(view), board_(board) {
   view_.set_layer([this](Overlay& overlay) { draw(overlay); }, PictureView::LayerPlace::fat);
-  own_.push_back(board.shown.observe([this](const bool&) { view_.touch_layer(); }));
-  own_.push_back(board.changed.observe([this] { view_.touch_layer(); }));
-  own_.push_back(view.bench().turning.observe([this](const bool&) {
-    if (board_.shown.get()) view_.touch_layer();
-  }));
+  own_ = redraw_with(view, board.shown, board.changed);
 }
 
 FatLayer::~FatLayer() {
@@ -98,24 +50,20 @@ std::shared_ptr<const OverlayTint> FatLayer::made() const {
   const session::Workbench& bench = view_.bench();
   if (!fat || !fat->walls || !view_.ready() || !bench.image().volume) return nullptr;
   const FatCode code(*fat, *bench.image().volume);
-  OverlayTint tint;
-  if (bench.curved_mode.get() == reformat::CurvedMode::straightened)
-    tint = fat_on_straightened(view_, *fat, code);
-  else if (!bench.turning.get())
-    tint = fat_on_stretched(view_, *fat, code);
+  const session::VesselWalls& walls = *fat->walls;
+  OverlayTint tint =
+      tint_about_vessel(view_,
+                        {*walls.axis, fat->profile.from_mm, fat->profile.to_mm,
+                         widest_mm(walls) + code.reach_mm(), roles_of(fat_colors)},
+                        [&](double s, double theta) {
+                          return [&code, s, theta](double rho) { return code.of(s, rho, theta); };
+                        });
   return tint.what.empty() ? nullptr : std::make_shared<const OverlayTint>(std::move(tint));
 }
 
 const std::shared_ptr<const OverlayTint>& FatLayer::tint() {
-  const std::uint64_t known = board_.revision(), placed = view_.placement_revision();
-  const bool turning = view_.bench().turning.get();
-  if (made_ && known == known_ && placed == placed_ && turning == turning_) return tint_;
-  tint_ = made();
-  known_ = known;
-  placed_ = placed;
-  turning_ = turning;
-  made_ = true;
-  return tint_;
+  return tint_.of({board_.revision(), view_.placement_revision(), view_.bench().turning.get()},
+                  [this] { return made(); });
 }
 
 void FatLayer::draw(Overlay& overlay) {

@@ -65,4 +65,20 @@ std::optional<Vec3> PlacesAbout::at(int column, double y) const {
               b * ((1.0 - a) * *lower[0] + a * *lower[1]));
 }
 
+double widest_mm(const session::VesselWalls& walls) {
+  const std::vector<double>& radii = walls.outer.surface.radius_mm;
+  return radii.empty() ? 0.0 : *std::max_element(radii.begin(), radii.end());
+}
+
+std::vector<session::Subscription> redraw_with(PictureView& view, session::Property<bool>& shown,
+                                               session::Signal<>& changed) {
+  std::vector<session::Subscription> own;
+  own.push_back(shown.observe([&view](const bool&) { view.touch_layer(); }));
+  own.push_back(changed.observe([&view] { view.touch_layer(); }));
+  own.push_back(view.bench().turning.observe([&view, &shown](const bool&) {
+    if (shown.get()) view.touch_layer();
+  }));
+  return own;
+}
+
 }  // namespace ostia::view

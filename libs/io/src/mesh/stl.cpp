@@ -4,7 +4,6 @@
 
 #include "mesh/formats.h"
 #include "mesh/text.h"
-#include "surface_formats.h"
 
 #include "ostia/geometry/mixed_mesh_split.h"
 

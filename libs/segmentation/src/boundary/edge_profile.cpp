@@ -61,9 +61,9 @@ double normal_distribution(double x) {
   return 0.5 * std::erfc(-x / std::numbers::sqrt2);
 }
 
-}  // namespace
-
-std::vector<double> blurred_disc(double radius_mm, double step_mm, int count, double sigma_mm) {
+/// blurred_disc at first_mm, first_mm + step_mm, ...: `count` of them.
+std::vector<double> blurred_disc_from(double first_mm, double radius_mm, double step_mm, int count,
+                                      double sigma_mm) {
   std::vector<double> sums(static_cast<std::size_t>(count), 0.0);
   if (radius_mm <= 0.0) return sums;
   // Strips parallel to the ray: each an interval blurred along it, weighted across it.
@@ -77,7 +77,7 @@ std::vector<double> blurred_disc(double radius_mm, double step_mm, int count, do
     const double across =
         std::exp(-0.5 * y * y / (sigma_mm * sigma_mm)) / (sigma_mm * std::sqrt(2.0 * std::numbers::pi));
     for (int n = 0; n < count; ++n) {
-      const double rho = n * step_mm;
+      const double rho = first_mm + n * step_mm;
       sums[static_cast<std::size_t>(n)] +=
           2.0 * dy * across *
           (normal_distribution((half - rho) / sigma_mm) - normal_distribution((-half - rho) / sigma_mm));
@@ -86,8 +86,14 @@ std::vector<double> blurred_disc(double radius_mm, double step_mm, int count, do
   return sums;
 }
 
+}  // namespace
+
+std::vector<double> blurred_disc(double radius_mm, double step_mm, int count, double sigma_mm) {
+  return blurred_disc_from(0.0, radius_mm, step_mm, count, sigma_mm);
+}
+
 double blurred_disc(double radius_mm, double rho_mm, double sigma_mm) {
-  return blurred_disc(radius_mm, rho_mm, 2, sigma_mm)[1];
+  return blurred_disc_from(rho_mm, radius_mm, 0.0, 1, sigma_mm)[0];
 }
 
 int EdgeProfile::window(double radius_mm) const {

@@ -20,7 +20,7 @@ bool is_like(const DiscTable& table, double radius_step_mm, double step_mm, doub
   return table.radius_step_mm == radius_step_mm && table.step_mm == step_mm && table.sigma_mm == sigma_mm;
 }
 
-/// Larger than `smaller` (null: none), whose numbers it takes over.
+/// Larger than `smaller` (null: none), whose rows it takes over where they are as long.
 std::shared_ptr<const DiscTable> larger_table(DiscTable made, const DiscTable* smaller) {
   made.share.reserve(static_cast<std::size_t>(made.radii) * static_cast<std::size_t>(made.samples));
   for (int r = 0; r < made.radii; ++r) {

@@ -22,17 +22,15 @@ struct TreeLandmark {
   std::string name;  ///< "RCA, ostium", "D1 leaves LAD"
   Vec3 before = Vec3::Zero(), after = Vec3::Zero();
 };
-/// Of vessels whose names both trees have; a name that is only a number ("V3") says nothing.
-std::vector<TreeLandmark> tree_landmarks(const geometry::VesselTree& before,
-                                         const geometry::VesselTree& after);
 
 /// How the trees lie to each other when each is taken as rigid.
 struct TreeFit {
-  geometry::RigidFit motion;                    ///< from the former to the later
-  std::size_t vessels = 0;                      ///< with a name that both have
-  double axes_mm = 0.0;                         ///< mean distance of their axes, where both run
-  double mirrored_mm = 0.0;                     ///< the same with the former tree mirrored
-  std::vector<TreeLandmark> landmarks;          ///< of tree_landmarks
+  geometry::RigidFit motion;  ///< from the former to the later
+  std::size_t vessels = 0;    ///< with a name that both have
+  double axes_mm = 0.0;       ///< mean distance of their axes, where both run
+  double mirrored_mm = 0.0;   ///< the same with the former tree mirrored
+  /// Of vessels whose names both trees have; a name that is only a number ("V3") says nothing.
+  std::vector<TreeLandmark> landmarks;
   std::vector<double> landmark_residuals_mm{};  ///< of each, carried
 };
 /// Begins with places at equal lengths along vessels of the same name, then lays axes on axes by their

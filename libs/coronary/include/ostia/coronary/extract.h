@@ -38,4 +38,8 @@ struct Extraction {
 Extraction extract(const imaging::ImageVolume& image, const ExtractOptions& options = {},
                    const core::TaskContext& task = core::no_task());
 
+/// Whether there is no contrast agent, as in a scan for the calcium score: why the search fails there. Throws
+/// Cancelled.
+bool lacks_contrast(const imaging::ImageVolume& image, const core::TaskContext& task = core::no_task());
+
 }  // namespace ostia::coronary

@@ -67,6 +67,7 @@ struct Registration {
 
 /// Where the points of the fixed scan lie in the moving one: landmarks, then rigid, affine and B-spline maps
 /// from coarse to fine, by ITK's metric of mutual information and its L-BFGS-B, with a penalty on bending.
+/// Of CT a B-spline that does not raise the images' correlation is left out, and `transform` is `affine`.
 /// The images are cropped to the region and never used at full size. The same bits for any number of threads.
 /// Throws InvalidInput for empty images, guidance that is not finite or outside the fixed scan, images
 /// without Hounsfield units where `hounsfield`, scans that do not overlap, mirrored landmarks or bad options;

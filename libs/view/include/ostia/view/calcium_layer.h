@@ -2,9 +2,9 @@
 /// \file The lesions of a calcium score over a slice, coloured by the artery that they lie in.
 
 #include "ostia/session/calcium_board.h"
+#include "ostia/view/kept_tint.h"
 #include "ostia/view/plane_view.h"
 
-#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -29,9 +29,7 @@ class CalciumLayer {
   std::shared_ptr<const OverlayTint> made() const;
   PlaneView& view_;
   session::CalciumBoard& board_;
-  std::shared_ptr<const OverlayTint> tint_;
-  std::uint64_t placed_ = 0, known_ = 0;
-  bool made_ = false;
+  KeptTint tint_;
   std::vector<session::Subscription> own_;
 };
 

@@ -3,9 +3,9 @@
 
 #include "ostia/session/fat_board.h"
 #include "ostia/view/curved_view.h"
+#include "ostia/view/kept_tint.h"
 
 #include <array>
-#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -37,9 +37,7 @@ class FatLayer {
   std::shared_ptr<const OverlayTint> made() const;
   CurvedView& view_;
   session::FatBoard& board_;
-  std::shared_ptr<const OverlayTint> tint_;
-  std::uint64_t placed_ = 0, known_ = 0;
-  bool made_ = false, turning_ = false;
+  KeptTint tint_;
   std::vector<session::Subscription> own_;
 };
 

@@ -2,9 +2,9 @@
 /// \file Plaque over a picture, coloured by its class.
 
 #include "ostia/session/outer_wall_board.h"
+#include "ostia/view/kept_tint.h"
 #include "ostia/view/picture_view.h"
 
-#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -29,9 +29,7 @@ class PlaqueLayer {
   std::shared_ptr<const OverlayTint> made() const;
   PictureView& view_;
   session::OuterWallBoard& board_;
-  std::shared_ptr<const OverlayTint> tint_;
-  std::uint64_t placed_ = 0, known_ = 0;
-  bool made_ = false, turning_ = false;
+  KeptTint tint_;
   std::vector<session::Subscription> own_;
 };
 

@@ -1,0 +1,18 @@
+#pragma once
+/// \file A keyring that tests look into.
+
+#include "archive/keyring.h"
+
+#include <map>
+
+namespace ostia::workstation::testing {
+
+struct FakeKeyring : Keyring {
+  std::map<QString, QString> kept;
+  void read(const QString& server, QObject*, std::function<void(const QString&)> then) override {
+    then(kept[server]);
+  }
+  void keep(const QString& server, const QString& password) override { kept[server] = password; }
+};
+
+}  // namespace ostia::workstation::testing

@@ -12,7 +12,7 @@ if(OSTIA_APPS)
 endif()
 if(OSTIA_WITH_IMAGE_LIBRARIES)
   list(APPEND _ostia_needed PkgConfig::PANGOCAIRO PNG::PNG PkgConfig::HDF5_SERIAL PkgConfig::NETCDF embree OstiaThirdParty::gdcm
-       OstiaThirdParty::cgns OstiaThirdParty::dcmtk OstiaThirdParty::curl OstiaThirdParty::itk)
+       OstiaThirdParty::cgns OstiaThirdParty::dcmtk OstiaThirdParty::curl OstiaThirdParty::itk OstiaThirdParty::itk_filters OstiaThirdParty::itk_readers)
   foreach(module IN ITEMS CommonCore CommonDataModel CommonExecutionModel CommonMisc CommonMath CommonTransforms FiltersCore
           IOXML IOLegacy RenderingCore RenderingOpenGL2 RenderingFreeType RenderingVolume RenderingVolumeOpenGL2)
     list(APPEND _ostia_needed VTK::${module})
@@ -48,10 +48,12 @@ if(OSTIA_TESTS)
   include(GoogleTest)
 endif()
 target_compile_definitions(OstiaThirdParty::tetgen INTERFACE TETLIBRARY)
-if(TARGET OstiaThirdParty::itk)
-  # Its own copy of Eigen is an older one: the two do not go into one source.
-  target_compile_definitions(OstiaThirdParty::itk INTERFACE ITK_USE_SYSTEM_EIGEN)
-endif()
+foreach(target IN ITEMS OstiaThirdParty::itk OstiaThirdParty::itk_filters OstiaThirdParty::itk_readers)
+  if(TARGET ${target})
+    # Its own copy of Eigen is an older one: the two do not go into one source.
+    target_compile_definitions(${target} INTERFACE ITK_USE_SYSTEM_EIGEN)
+  endif()
+endforeach()
 
 # CGAL's headers are compiled into our libraries. Who links those installed needs only what is below CGAL.
 add_library(ostia_cgal INTERFACE)

@@ -2,6 +2,7 @@
 #   programs       the commands, the live viewer and the worker, their manual pages and completions
 #   workstation    the window, its manual, desktop entry, icon and file type
 #   development    libraries, headers, what find_package(Ostia) reads
+#   itk            the header by which programs that use ITK, too, view volumes as its images
 #   documentation  the texts of docs/
 #   python         the package ostia, by its name alone (bindings/python)
 # Nothing is installed that was not asked to be built; benchmarks and tests are not needed.
@@ -47,6 +48,9 @@ foreach(program IN ITEMS ostia ostia-live)
 endforeach()
 install(TARGETS ostia-worker RUNTIME DESTINATION "${CMAKE_INSTALL_LIBEXECDIR}/ostia" COMPONENT programs)
 
+# The workflow for a cohort, which calls the program.
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/apps/ostia/workflow" DESTINATION "${CMAKE_INSTALL_DATADIR}/ostia" COMPONENT programs)
+
 # The window.
 if(TARGET ostia-workstation)
   install(TARGETS ostia-workstation RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT workstation)
@@ -91,6 +95,7 @@ foreach(room IN LISTS OSTIA_ROOMS)
             COMPONENT development FILES_MATCHING PATTERN "*.h")
   endif()
 endforeach()
+install(FILES "${PROJECT_SOURCE_DIR}/bindings/itk/ostia/itk.h" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/ostia" COMPONENT itk)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/examples" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT development)
 
 # Texts. The reference of the Python package is there where the target python_docs was built.

@@ -3,9 +3,9 @@
 set(OSTIA_ROOMS
     core geometry
     imaging dicom pacs reformat io figure
-    registration segmentation centerline reconstruction lumen meshing hemodynamics solver motion analysis
+    filtering registration segmentation centerline reconstruction lumen meshing hemodynamics solver motion analysis
     phantom evaluation coronary pipeline
-    session experiments
+    session experiments cohort
     glview view)
 
 function(ostia_warnings target)

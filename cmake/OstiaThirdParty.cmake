@@ -34,6 +34,8 @@ set(OSTIA_THIRD_PARTIES
   "OstiaThirdParty::cgns|library cgnslib.h cgns|libcgns-dev"
   # Its own configuration loads every module, and with them what they need of other packages.
   "OstiaThirdParty::itk|library itkImage.h:ITK-5.2 ITKOptimizers-5.2 ITKSmoothing-5.2 ITKTransform-5.2 ITKStatistics-5.2 ITKCommon-5.2 ITKVNLInstantiation-5.2 itkvnl_algo-5.2 itkvnl-5.2 itksys-5.2|libinsighttoolkit5-dev"
+  "OstiaThirdParty::itk_filters|library itkImage.h:ITK-5.2 ITKBiasCorrection-5.2 ITKMathematicalMorphology-5.2 ITKImageFeature-5.2 ITKFastMarching-5.2 ITKSmoothing-5.2 ITKStatistics-5.2 ITKTransform-5.2 ITKCommon-5.2 ITKVNLInstantiation-5.2 itkvnl_algo-5.2 itkvnl-5.2 itksys-5.2|libinsighttoolkit5-dev"
+  "OstiaThirdParty::itk_readers|library itkImage.h:ITK-5.2 ITKIOGIPL-5.2 ITKIOTIFF-5.2 ITKIOVTK-5.2 ITKIONIFTI-5.2 ITKIOHDF5-5.2 ITKIOImageBase-5.2 ITKCommon-5.2 itkvnl-5.2 itksys-5.2|libinsighttoolkit5-dev"
   # All that is left of CGAL when its headers are compiled.
   "OstiaThirdParty::gmp|library gmp.h gmp|libgmp-dev"
   "OstiaThirdParty::mpfr|library mpfr.h mpfr|libmpfr-dev"

@@ -10,9 +10,9 @@ import sys
 FLOORS = [
     ["core", "geometry"],
     ["imaging", "dicom", "pacs", "reformat", "io", "figure"],
-    ["registration", "segmentation", "centerline", "reconstruction", "lumen", "meshing", "hemodynamics", "solver", "motion", "analysis"],
+    ["filtering", "registration", "segmentation", "centerline", "reconstruction", "lumen", "meshing", "hemodynamics", "solver", "motion", "analysis"],
     ["phantom", "evaluation", "coronary", "pipeline"],
-    ["session", "experiments"],
+    ["session", "experiments", "cohort"],
     ["glview", "view"],
 ]
 GROUND_AND_DATA_ONLY = {"phantom", "evaluation"}
@@ -25,16 +25,16 @@ HEADERS_MAY_SHOW_THIRD_PARTIES = {"view", "glview"}
 QUARANTINE = {
     "tetgen.h": re.compile(r"libs/meshing/src/mesher/tetgen\w*\.cpp$"),
     "cholmod.h": re.compile(r"libs/lumen/src/interpolation/sparse_factor\.cpp$"),
-    "sqlite3.h": re.compile(r"libs/session/src/\w+\.(cpp|h)$"),
+    "sqlite3.h": re.compile(r"libs/(session|cohort)/src/\w+\.(cpp|h)$"),
 }
 # The workstation: its frame, and a folder for what a user does, each of which may use the frame and those before it.
 # The window that puts them together is known in these sources alone.
 FRAME = {"shell", "commands", "views"}
-FEATURES = ["opening", "archive", "trees", "phases", "calcium", "vessels", "measuring", "pressure", "meshing", "flow", "plugins", "qa", "help"]
+FEATURES = ["opening", "archive", "trees", "phases", "calcium", "vessels", "measuring", "comparison", "pressure", "meshing", "flow", "plugins", "qa", "help"]
 WORKSTATION = FRAME | set(FEATURES)
 COMPOSED_IN = re.compile(r"shell/(main_window\w*|panel_layout)\.cpp$")
 # The command line: what serves all commands, and a folder for what they work on. Above the folders, all of them together.
-COMMAND_LINE = {"options", "input", "output", "convert", "pacs", "vessel", "tree", "mesh", "flow", "measure", "motion", "phantom", "evaluate", "experiment", "chain"}
+COMMAND_LINE = {"options", "input", "output", "convert", "pacs", "vessel", "tree", "mesh", "flow", "measure", "motion", "phantom", "evaluate", "experiment", "chain", "cohort"}
 ABOVE_COMMANDS = {"main", "cli", "commands", "command_table"}
 # Python's hands: a source a room, which is named after it, and what they share. pybind11 stands nowhere else.
 SHARED_BY_BINDINGS = {"module", "rooms", "array", "call", "errors", "figures", "options", "values"}

@@ -2,12 +2,12 @@
 # Makes the pictures of the user's manual anew, with the program itself on the sample case, by keys and mouse:
 # scripts/make_screenshots.sh [BUILD_FOLDER [PART...]]. The parts: sample (all that is on the sample case; five
 # minutes on two cores, most of it for the case itself), keys, calcium (of the scan in OSTIA_SHARED_DATA), fat (of
-# the sample case), pacs (needs orthanc). All of them without a name.
+# the sample case), comparison (of a synthetic patient scanned twice), pacs (needs orthanc). All of them without a name.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 bin=${1:-build/release}/bin
 shift || true
-parts=${*:-sample keys calcium fat pacs}
+parts=${*:-sample keys calcium fat comparison pacs}
 [ -x "$bin/ostia-workstation" ] || scripts/build.sh release
 out=docs/images/manual
 mkdir -p "$out"
@@ -85,12 +85,17 @@ of_sample() {
   sample
   at 640 790
   keys l
+  sleep 20 # plaque is looked for
   shot window 3
 
   # A stenosis between two places of reference.
   keys s
   drag 410 420 410 595
   shot measuring 2
+  # Its stretch as one that the image does not show.
+  keys ctrl+3
+  shot evaluability 2
+  keys ctrl+z
 
   keys Escape Escape alt+6 F11
   shot tree 3
@@ -105,11 +110,6 @@ of_sample() {
   keys alt+v q
   shot qa 3
   keys alt+v q
-  keys alt+h t
-  keys Right Right
-  shot tour 2
-  keys Escape
-  front
   keys ctrl+z # the measurement
 
   # The RCA's stenosis, large, with its calcified plaque on the left of the first CPR: there the model's wall takes
@@ -117,10 +117,13 @@ of_sample() {
   keys ctrl+Right ctrl+Right ctrl+Right ctrl+Right ctrl+Right ctrl+Right ctrl+Home l
   keys bracketleft bracketleft bracketleft bracketleft
   keys alt+2 plus plus plus plus plus alt+4 plus plus plus alt+9
-  at 379 680 # on the profile, beyond the stenosis: the way back brings it into the middle of the CPRs
-  xdotool click 1
-  sleep 1
-  keys shift+l ctrl+Up ctrl+Up alt+2 w
+  # On the profile, beyond the stenosis and then before it: so the CPRs have it in their middle.
+  for x in 379 150; do
+    at "$x" 680
+    xdotool click 1
+    sleep 1
+  done
+  keys l ctrl+Up ctrl+Up alt+2 w
   drag 383 244 386 255 389 267 391 278 394 289 396 301 398 312 399 323 399 334 399 357 399 380 399 391 398 402 \
     397 414 395 425 393 436 390 448
   at 330 500
@@ -141,7 +144,7 @@ of_sample() {
   command "Look: coronary arteries"
   command "Box with handles"
   keys alt+6 F11
-  shot heart 20
+  shot heart 60
   done_with
 }
 
@@ -171,6 +174,39 @@ of_fat() {
   keys ctrl+alt+f
   sleep 30
   shot fat 5
+  done_with
+}
+
+# A patient whose disease was half of today's, in a scan with less contrast and more noise.
+of_comparison() {
+  for scan in "before --disease 0.5 --contrast 380 --noise 30" now; do
+    read -r name options <<<"$scan"
+    # shellcheck disable=SC2086
+    "$bin/ostia" phantom -o "$work/$name" --preset small --formats nrrd --no-report $options
+    "$bin/ostia" lumen "$work/$name/dataset00/centerlines.vtp" -o "$work/$name.vtp" \
+      --image "$work/$name/dataset00/image00.nrrd" --case "$work/$name.ostia"
+  done
+  mkdir -p "$work/state"
+  python3 - "$work" <<'MACHINE'
+import hashlib, json, pathlib, sys
+work = pathlib.Path(sys.argv[1])
+images = [work / name / "dataset00/image00.nrrd" for name in ("before", "now")]
+seen = {hashlib.sha256(image.read_bytes()).hexdigest(): {"path": str(image), "seen": 1} for image in images}
+(work / "state/machine.json").write_text(json.dumps({"v": 1, "images": seen, "recent": [], "settings": {}}))
+MACHINE
+  start "$work/now.ostia"
+  sleep 15
+  front
+  keys ctrl+alt+b
+  sleep 2
+  xdotool type --delay 20 "$work/before.ostia"
+  keys Return
+  sleep 60
+  front
+  keys i i
+  shot comparison 3
+  keys z
+  shot comparison-blink 3
   done_with
 }
 

@@ -2,6 +2,7 @@
 
 #include "ostia/core/error.h"
 #include "ostia/geometry/graph_faults.h"
+#include "ostia/geometry/graph_units.h"
 #include "ostia/io/graph_file.h"
 
 #include <utility>
@@ -30,6 +31,8 @@ TreeInput read_tree(const Options& options, const core::TaskContext& task) {
   task.set_stage("measuring");
   input.ruler = std::make_shared<const analysis::TreeRuler>(input.graph, task.sub(0.6, 0.9));
   input.rays = std::make_shared<const analysis::TreeRays>(input.graph, task.sub(0.9, 1.0));
+  if (const std::string doubt = geometry::unit_doubt(geometry::facts_of(*input.graph)); !doubt.empty())
+    input.warnings.push_back(doubt);
   if (!input.ruler->why_no_tree().empty()) input.warnings.push_back(input.ruler->why_no_tree());
   return input;
 }

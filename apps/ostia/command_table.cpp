@@ -125,11 +125,13 @@ void define(CLI::App& app, Commands& c, Run& run) {
   define_lumen(app, c.lumen, c.replay, run);
   define_report(app, c.report, run);
   define_compare(app, c.compare, run);
+  define_carry(app, c.carry, run, add_dicom);
   define_calcium(app, c.calcium, run, add_dicom);
   define_fat(app, c.fat, run);
   define_territories(app, c.territories, run);
   define_dicom(app, c.dicom, run);
   define_deidentify(app, c.deidentify, run);
+  define_filter(app, c.filter, run, add_dicom);
   define_skeleton(app, c.skeleton, run);
   define_grow(app, c.grow, c.common.seed, run);
   define_reconstruct(app, c.reconstruct, run);
@@ -141,6 +143,7 @@ void define(CLI::App& app, Commands& c, Run& run) {
   define_ffr(app, c.ffr, c.common.seed, run);
   define_motion(app, c.motion, run);
   define_pacs(app, c.pacs, run);
+  define_cohort(app, c.cohort, run);
 
   CLI::App* segment = command(app, "segment", "The lumen of the vessels between seed points",
                               "ostia segment heart.nrrd -o lumen.vtp --branch 8,-187,675:6,-178,720\n"

@@ -3,8 +3,10 @@
 
 #include "chain/plugin.h"
 #include "chain/run.h"
+#include "cohort/cohort.h"
 #include "commands.h"
 #include "convert/deidentify.h"
+#include "convert/filter.h"
 #include "evaluate/evaluate.h"
 #include "experiment/experiment.h"
 #include "flow/ffr.h"
@@ -22,6 +24,7 @@
 #include "tree/grow.h"
 #include "tree/reconstruct.h"
 #include "tree/skeleton.h"
+#include "vessel/carry.h"
 #include "vessel/extract.h"
 #include "vessel/lumen.h"
 
@@ -55,10 +58,12 @@ struct Commands {
   ReportCommand report;
   CalciumCommand calcium;
   CompareCommand compare;
+  CarryCommand carry;
   FatCommand fat;
   TerritoriesCommand territories;
   DicomCommand dicom;
   DeidentifyCommand deidentify;
+  FilterCommand filter;
   SkeletonCommand skeleton;
   GrowCommand grow;
   ReconstructCommand reconstruct;
@@ -72,6 +77,7 @@ struct Commands {
   FfrCommand ffr;
   MotionCommands motion;
   PacsCommands pacs;
+  CohortCommands cohort;
 };
 
 /// Declares them all to the parser; parsing then fills `commands` and sets `run`.

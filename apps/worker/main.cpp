@@ -4,6 +4,7 @@
 
 #ifdef OSTIA_WORKER_DECODE
 #include "ostia/imaging/dicom.h"
+#include "ostia/imaging/foreign_image.h"
 #endif
 #ifdef OSTIA_WORKER_TETRAHEDRALIZE
 #include "ostia/meshing/tetrahedralize.h"
@@ -36,6 +37,7 @@ struct Task {
 constexpr Task kTasks[] = {
 #ifdef OSTIA_WORKER_DECODE
     {"decode", ostia::imaging::decode_dicom_files},
+    {"read-image", ostia::imaging::read_foreign_image_in_worker},
 #endif
 #ifdef OSTIA_WORKER_TETRAHEDRALIZE
     {"tetrahedralize", ostia::meshing::tetrahedralize_in_worker},

@@ -27,7 +27,7 @@ geometry::TriMesh tetrahedron() {
 class EveryCommand : public ::testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(CommandLine, EveryCommand,
                          ::testing::Values("info", "import", "segment", "centerline", "mesh", "convert",
-                                           "model", "lumen", "replay"));
+                                           "model", "lumen", "replay", "filter"));
 
 TEST_P(EveryCommand, ExplainsItselfWithAnExample) {
   const Outcome done = ostia({GetParam(), "--help"});

@@ -132,6 +132,7 @@ TEST(CompareCommand, RefusesWhatIsNoPair) {
   refused({"old.ostia"}, 2, "two cases");
   refused({"old.ostia", "new.ostia", "--repeatability", "bad.json"}, 3, "bad.json");
   refused({"old.ostia", "missing.ostia"}, 3, "missing.ostia");
+  refused({"old.ostia", "new.ostia", "--map", "images"}, 3, "needs both");
 }
 
 TEST(CompareCommand, ATableOfPairsIsACohort) {

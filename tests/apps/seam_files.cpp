@@ -66,6 +66,20 @@ void write_trees(const fs::path& folder) {
       "5 2 0.05 0.15 0.75 0.02 2\n");
 }
 
+/// Two arteries with their names, as 3D Slicer has them.
+void write_named_lines(const fs::path& folder) {
+  const auto curve = [](const std::string& name, const std::string& bend, const std::string& end) {
+    return R"({"type": "Curve", "name": ")" + name +
+           R"(", "coordinateSystem": "LPS", "controlPoints": [{"position": [10, 7, 4]}, )"
+           R"({"position": [10, 7, 11]}, {"position": [10, 7, 18]}, {"position": [)" +
+           bend + R"(]}, {"position": [)" + end +
+           R"(]}], "measurements": [{"name": "Radius", "enabled": true, )"
+           R"("controlPointValues": [2.4, 2.4, 2.2, 1.9, 1.9]}]})";
+  };
+  core::write_file(folder / "named.mrk.json", R"({"markups": [)" + curve("LAD", "7, 6, 25", "4, 5, 32") +
+                                                  ", " + curve("LCX", "13, 6, 25", "16, 5, 32") + "]}");
+}
+
 /// The way from the root to the left end, as the Rotterdam challenge has it.
 void write_reference(const fs::path& folder) {
   std::string text;
@@ -88,6 +102,7 @@ class Maker {
     write_image_and_mask(folder);
     write_trees(folder);
     write_reference(folder);
+    write_named_lines(folder);
     from_images();
     from_the_tree();
     of_the_model();
@@ -131,12 +146,16 @@ class Maker {
     const std::vector<std::string> branches{"--branch", "10,7,5:4.4,5.1,31", "--branch",
                                             "10,7,5:15.6,5.1,31"};
     make({"import", "image.nrrd", "-o", "imported.mha"}, {{"imported.mha", image}});
+    make({"filter", "image.nrrd", "-o", "filtered.nrrd", "--with", "gaussian:sigma_mm=0.5"},
+         {{"filtered.nrrd", image}});
     make({"convert", "mask.nrrd", "mask.mhd"}, {{"mask.mhd", mask}});
     make(std::vector<std::string>{"segment", "image.nrrd", "-o", "segmented.vtp", "--levelset",
                                   "levels.nrrd"} +
              branches,
          {{"segmented.vtp", surface}});
     make({"segment", "mask.nrrd", "-o", "masked.stl"}, {{"masked.stl", surface}});
+    make({"extract", "mask.nrrd", "-o", "extracted.ostia", "--lines", "extracted.vtp"},
+         {{"extracted.ostia", model_case}, {"extracted.vtp", lines}});
     make({"calcium", "image.nrrd", "-o", "calcium"},
          {{"calcium", result}, {"calcium/calcium.json", calcium}});
     make({"skeleton", "mask.nrrd", "-o", "skeleton.vtp"}, {{"skeleton.vtp", lines}});
@@ -180,7 +199,23 @@ class Maker {
       make({"convert", "case.ostia", name}, {{name, kind}});
     make({"report", "case.ostia", "-o", "report"}, {{"report", result}});
     make({"measure", "case.ostia", "-o", "measures"}, {{"measures", result}});
-    make({"ffr", "case.ostia", "-o", "ffr"}, {{"ffr", result}});
+    make({"ffr", "case.ostia", "-o", "ffr"},
+         {{"ffr", result}, {"ffr/ffr.json", ffr}, {"ffr/wall.vtp", surface}});
+    make({"lumen", "named.mrk.json", "-o", "named.vtp", "--case", "named.ostia"},
+         {{"named.vtp", surface}, {"named.ostia", named_case}});
+    make({"convert", "named.ostia", "named_out.mrk.json"}, {{"named_out.mrk.json", lines}});
+    make({"replay", "named.ostia", "-o", "named_again.ostia"}, {{"named_again.ostia", named_case}});
+    make({"carry", "named.ostia", "--old-image", "image.nrrd", "--new-image", "filtered.nrrd", "-o",
+          "carried.ostia"},
+         {{"carried.ostia", carried_case}});
+    make({"compare", "named.ostia", "named_again.ostia", "-o", "compared"}, {{"compared", result}});
+    make({"fat", "named.ostia", "--image", "image.nrrd", "-o", "fat"}, {{"fat", result}});
+    make({"territories", "named.ostia", "--myocardium", "mask.nrrd", "-o", "territories"},
+         {{"territories", result}});
+    make({"dicom", "named.ostia", "--image", "image.nrrd", "-o", "objects"},
+         {{"objects/segmentation.dcm", dicom_object},
+          {"objects/segmentation.dcm", mask},
+          {"objects/measurements.dcm", dicom_object}});
   }
 
   void of_meshes() {

@@ -15,10 +15,14 @@ enum class SeamKind {
   network,
   mesh,
   model_case,
+  named_case,    ///< its vessels have names that tell which artery they are
+  carried_case,  ///< the same, of another image
   journal,
   motion,
   result,
-  calcium
+  calcium,
+  ffr,
+  dicom_object
 };
 
 /// A file or folder that a command has made.
@@ -29,7 +33,7 @@ struct SeamFile {
 };
 
 /// The files, and what the tests of reading need beside them: `tree.swc`, `image.nrrd`, `mask.nrrd`,
-/// `lines.vtp`, `lumen.vtp`, `phases/`, `beating/`.
+/// `lines.vtp`, `lumen.vtp`, `named.ostia`, `filtered.nrrd`, `phases/`, `beating/`.
 const std::vector<SeamFile>& seam_files();
 /// Where they lie. They are made once, at the first call; what could not be made is told by `seam_faults`.
 const std::filesystem::path& seam_folder();

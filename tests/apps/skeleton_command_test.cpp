@@ -15,13 +15,13 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-/// A tube of 2 mm radius along z, 30 mm long.
-imaging::MaskVolume tube() {
+/// A tube of 2 mm radius along z, 30 mm long unless its slices are given.
+imaging::MaskVolume tube(std::int64_t first = 8, std::int64_t last = 83) {
   imaging::MaskVolume mask;
   mask.geometry.size = {30, 30, 90};
   mask.geometry.spacing = {0.4, 0.4, 0.4};
   mask.voxels.assign(static_cast<std::size_t>(mask.geometry.voxels()), 0);
-  for (std::int64_t k = 8; k < 83; ++k)
+  for (std::int64_t k = first; k < last; ++k)
     for (std::int64_t j = 0; j < 30; ++j)
       for (std::int64_t i = 0; i < 30; ++i)
         if (std::hypot(0.4 * static_cast<double>(i) - 6.0, 0.4 * static_cast<double>(j) - 6.0) <= 2.0)
@@ -47,6 +47,17 @@ TEST(SkeletonCommand, AMaskBecomesLinesWithRadiiAndATable) {
   EXPECT_LT(line.points.front().z(), line.points.back().z());
   EXPECT_NEAR(line.radius[line.radius.size() / 2], 2.0, 0.15);
   EXPECT_THAT(core::read_file(folder / "sections.csv"), StartsWith("edge,point,x_mm,"));
+}
+
+TEST(SkeletonCommand, AVesselMayLeaveTheImage) {
+  const auto folder = temporary_folder("skeleton");
+  imaging::write_image(folder / "through.nrrd", tube(0, 90));
+  const Outcome done = ostia({"skeleton", "through.nrrd", "-o", "lines.vtp", "--json"}, {folder, ""});
+  ASSERT_EQ(done.code, 0) << done.err;
+  EXPECT_NEAR(nlohmann::json::parse(done.out)["length_mm"].get<double>(), 36.0, 1.0);
+  const auto tree = io::read_centerlines(folder / "lines.vtp");
+  ASSERT_EQ(tree.segments.size(), 1U);
+  for (const double radius : tree.segments.front().axis.radius) EXPECT_NEAR(radius, 2.0, 0.2);
 }
 
 TEST(SkeletonCommand, LinesAreCutAndRemovedByHand) {

@@ -94,6 +94,14 @@ def phases(inputs, path):
         other_programs.move_stl(surface, path / f"lumen-{15 * n:02}.stl", lambda p, s=shift: (p[0] + s, p[1], p[2] + 0.02 * s * (p[2] - 670)))
 
 
+def begun_cohort(inputs, path):
+    """A cohort whose table and scans are gone again."""
+    for name in BESIDE["scans.csv"]:
+        shutil.copy(inputs.get(name), path.parent)
+    (path.parent / "scans.csv").write_text(inputs.shown("docs/tutorials/cohort.md", "scans.csv"))
+    inputs.ostia("cohort", "init", path.parent / "scans.csv", "-o", path)
+
+
 # Name, what of the command's text makes it this file ("" for any), how it is made. The first that fits is taken.
 TABLE = (
     ("CT", "--aorta", golden_dicom),
@@ -157,11 +165,13 @@ TABLE = (
     ("pipeline.json", r"--set ct=heart.nrrd$", text('{"v":1,"steps":[{"command":"info","input":"{ct}"}]}')),
     ("pipeline.json", "", shown("docs/reference/pipelines.md", "pipeline.json")),
     ("trial.csv", "", shown("docs/methods/compare.md", "trial.csv")),
+    ("scans.csv", "", shown("docs/tutorials/cohort.md", "scans.csv")),
+    ("study", "", begun_cohort),
     ("patients.csv", "", shown("docs/reference/pipelines.md", "patients.csv")),
 )
 
 # What lies beside a file that names it.
-BESIDE = {"trial.csv": ("old.ostia", "new.ostia"), "patients.csv": ("heart.nrrd", "ct.nii.gz"), "100.hea": ("100.dat",)}
+BESIDE = {"scans.csv": ("vessels.nrrd", "mask.nrrd", "heart.nrrd"), "trial.csv": ("old.ostia", "new.ostia"), "patients.csv": ("heart.nrrd", "ct.nii.gz"), "100.hea": ("100.dat",)}
 
 
 class Inputs:

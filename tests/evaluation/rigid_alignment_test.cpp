@@ -15,8 +15,8 @@ geometry::TriMesh rigid_alignment_fork() {
   return geometry::surface_of(geometry::y_junction(15.0, 15.0, 2.0, 1.5, 70.0), 0.5, false);
 }
 
-RigidMotion small_motion() {
-  RigidMotion motion;
+geometry::RigidFit small_motion() {
+  geometry::RigidFit motion;
   motion.rotation =
       (Eigen::AngleAxisd(0.05, Vec3::UnitX()) * Eigen::AngleAxisd(-0.04, Vec3::UnitZ())).toRotationMatrix();
   motion.shift = Vec3(0.6, -0.4, 0.5);
@@ -25,7 +25,7 @@ RigidMotion small_motion() {
 
 TEST(RigidAlignment, FindsTheMotionBack) {
   const geometry::TriMesh mesh = rigid_alignment_fork();
-  const RigidMotion moved = small_motion();
+  const geometry::RigidFit moved = small_motion();
   std::vector<Vec3> points;
   for (const Vec3& p : mesh.points) points.push_back(moved(p));
   const RigidAlignment found = align_to(geometry::AabbTree(mesh), points);

@@ -1,5 +1,7 @@
 #include "ostia/experiments/orientations.h"
 
+#include "experiment_schema.h"
+
 #include "ostia/core/error.h"
 #include "ostia/core/files.h"
 #include "ostia/experiments/orientations_report.h"
@@ -144,8 +146,7 @@ TEST(OrientationsReport, WritesTablesAndPlots) {
   for (const char* name : {"measures.csv", "report.html", "length.png", "radius.png"})
     EXPECT_GT(fs::file_size(folder / name), 100U) << name;
   EXPECT_THAT(core::read_file(folder / "measures.csv"), ::testing::HasSubstr("two,b,19.500,2.000,1,20.4000"));
-  const std::string figures = orientations_json(made_runs(), options);
-  EXPECT_THAT(figures, ::testing::HasSubstr("\"kind\": \"orientations\""));
+  EXPECT_TRUE(fits_schema(orientations_json(made_runs(), options), "orientations"));
   EXPECT_THAT(orientations_text(made_runs()), ::testing::HasSubstr("length"));
   fs::remove_all(folder);
 }

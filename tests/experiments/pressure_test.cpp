@@ -237,8 +237,41 @@ TEST(Pressure, StopsWhenCancelledAndKeepsWhatIsDone) {
   };
   EXPECT_THROW(run_pressure(options, runner, task), Cancelled);
   EXPECT_EQ(fake.calls, 2);
+  const auto left_of = [&](const std::string& name) {
+    return std::distance(fs::directory_iterator(options.keep), {}) == 3 && fs::exists(options.keep / name);
+  };
+  EXPECT_TRUE(left_of("plan.json")) << "beside it the first run and its folder";
   run_pressure(options, fake.runner());
   EXPECT_EQ(fake.calls, 5) << "the first was kept, the second was not";
+}
+
+/// What ends a run from outside, or happens to it while it is being cancelled, is no failure of the case.
+TEST(Pressure, ARunThatIsEndedFromOutsideLeavesNothing) {
+  PressureOptions options = few("pressure_ended");
+  options.only = {"tube"};
+  const auto ended = [&](const auto& how, const core::TaskContext& task) {
+    run_pressure(
+        options,
+        [&](const PressureTask& one, const fs::path& folder, const core::TaskContext&) {
+          core::write_file(folder / "half", "written");
+          how();
+          return made_up(one);
+        },
+        task);
+  };
+  const core::TaskContext task, cancelled;
+  EXPECT_THROW(ended([] { throw ResourceError("simpleFoam was told to stop"); }, task), ResourceError);
+  EXPECT_THROW(ended(
+                   [&] {
+                     cancelled.cancel();
+                     throw NumericalError("Allrun exited with code 143");
+                   },
+                   cancelled),
+               Cancelled);
+  EXPECT_EQ(std::distance(fs::directory_iterator(options.keep), {}), 1) << "plan.json";
+  Fake fake;
+  EXPECT_EQ(run_pressure(options, fake.runner()).rows.front().failure, "");
+  EXPECT_EQ(fake.calls, 1);
 }
 
 TEST(Pressure, MeshesAreExtrapolatedWhereTheyFallInLine) {

@@ -1,5 +1,6 @@
 #include "ostia/experiments/reading.h"
 
+#include "experiment_schema.h"
 #include "shared_data.h"
 
 #include "ostia/core/error.h"
@@ -259,6 +260,8 @@ TEST(Reading, TablesHoldBothStarts) {
   ReadingRun run;
   run.patient = "seed 1";
   run.automatic = true;
+  run.before.length_mm = run.after.length_mm = 90.0;
+  run.vessels = 3;
   run.actions = {{ReadingAct::search, {}, 0, 2.0, {}}, {ReadingAct::stroke, "LAD", 0, 4.0, "no"}};
   ReadingRun manual = run;
   manual.automatic = false;
@@ -271,7 +274,7 @@ TEST(Reading, TablesHoldBothStarts) {
   write_reading_report(folder, {run, manual}, {});
   for (const char* name : {"patients.csv", "actions.csv", "report.html"})
     EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
-  EXPECT_THAT(reading_json({run, manual}, {}), HasSubstr("\"kind\": \"reading\""));
+  EXPECT_TRUE(fits_schema(reading_json({run, manual}, {}), "reading"));
   EXPECT_THAT(reading_text({run, manual}), HasSubstr("automatic start"));
 }
 

@@ -16,21 +16,21 @@
 namespace ostia::experiments {
 namespace {
 
-/// The model's scale was chosen on the seeds 1 to 500; none of them is here.
-TEST(WallSpread, HoldsTheTruthInNinetyFiveOfAHundredSections) {
+/// The model's scale was chosen on the seeds 1 to 500; none of them is here. wall_spread_slow_test.cpp has
+/// more of them.
+TEST(WallSpread, HoldsTheTruthOfAFewVessels) {
   WallSpreadOptions options;
   options.first_seed = 20001;
-  options.vessels = 100;
-  options.sections = 2;
+  options.vessels = 20;
+  options.sections = 4;
   const SpreadRun run = run_wall_spread(options);
-  ASSERT_EQ(run.sections.size(), 200u);
+  ASSERT_EQ(run.sections.size(), 80u);
   const auto groups = coverage(run.sections);
-  EXPECT_GE(groups[0].held, 0.93);
-  EXPECT_LE(groups[0].held, 0.97);
-  EXPECT_LT(std::abs(groups[0].bias_mm), 0.02);
+  EXPECT_GE(groups[0].held, 0.90);
+  EXPECT_LT(std::abs(groups[0].bias_mm), 0.03);
   // Narrowed sections are those that decide: they are neither forgotten nor drowned.
-  EXPECT_GE(groups[2].sections, 100u);
-  EXPECT_GE(groups[2].held, 0.90);
+  EXPECT_GE(groups[2].sections, 20u);
+  EXPECT_GE(groups[2].held, 0.85);
   EXPECT_GT(groups[2].sd_mm, groups[1].sd_mm);
   const auto folder = ostia::testing::temporary_folder("wall-spread");
   write_wall_spread_report(folder, run, run);

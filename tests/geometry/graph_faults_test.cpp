@@ -3,6 +3,7 @@
 #include "test_graphs.h"
 
 #include "ostia/core/error.h"
+#include "ostia/geometry/graph_units.h"
 
 #include <gtest/gtest.h>
 
@@ -166,6 +167,13 @@ TEST(GraphFacts, BranchesAgreeWithTheirList) {
   EXPECT_EQ(facts.trifurcations, 1u);
   EXPECT_EQ(facts.joins, 1u);
   EXPECT_EQ(facts.loops, 4u);
+}
+
+TEST(GraphUnits, BranchesShorterThanTheLeastRadiusAreDoubted) {
+  GraphFacts facts = facts_of(y_graph());
+  EXPECT_EQ(unit_doubt(facts), "");
+  facts.length_mm = 0.99 * facts.least_radius_mm * static_cast<double>(facts.branches);
+  EXPECT_NE(unit_doubt(facts).find("different units"), std::string::npos);
 }
 
 }  // namespace

@@ -21,6 +21,15 @@ expect_refusal 'rooms need are missing (lumen); install them by: apt install lib
 project core "$version" -DCMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON > /dev/null 2>&1  # which needs none
 project "core geometry" "$version" > /dev/null
 
+# Ostia's volumes as ITK's images, by a header of its own component.
+[ ! -e "$work/prefix/include/ostia/itk.h" ] || fail "the header for ITK belongs to its own component"
+cmake --install "$build" --prefix "$work/prefix" --component itk > /dev/null
+cmake -G Ninja -S "$source/examples/itk" -B "$work/itk" -DCMAKE_PREFIX_PATH="$work/prefix" > /dev/null
+cmake --build "$work/itk" > "$work/log" || { cat "$work/log"; fail "the example with ITK does not build"; }
+printf 'NRRD0004\ntype: uchar\ndimension: 3\nsizes: 3 3 3\nencoding: ascii\nspace: left-posterior-superior\nspace origin: (1,2,3)\nspace directions: (1,0,0) (0,1,0) (0,0,1)\n\n0 0 0 0 0 0 0 0 0 0 0 0 0 9 0 0 0 0 0 0 0 0 0 0 0 0 0\n' > "$work/spike.nrrd"
+"$work/itk/itk_median" "$work/spike.nrrd" "$work/flat.nrrd" | grep -q "the same memory: yes" || fail "the example with ITK copies"
+"$work/prefix/bin/ostia" info "$work/flat.nrrd" > "$work/said" 2>&1 || fail "what ITK made of a volume is no image: $(cat "$work/said")"
+
 cmake -G Ninja -S "$source/examples/consumer" -B "$work/build" -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_BUILD_TYPE=Release > /dev/null
 cmake --build "$work/build" > "$work/log" || { cat "$work/log"; fail "the example does not build"; }
 "$work/prefix/bin/ostia" model --builtin -o "$work/model" --quiet > /dev/null

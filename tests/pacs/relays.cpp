@@ -59,6 +59,19 @@ def welcome(raw):
 serve(int(port), welcome)
 )";
 
+constexpr const char* tls_alarm_in_python = R"(
+port, alert = int(sys.argv[1]), int(sys.argv[2])
+
+def welcome(raw):
+    raw.recv(65536)
+    raw.sendall(bytes([21, 3, 3, 0, 2, 2, alert]))
+    raw.shutdown(socket.SHUT_WR)
+    while raw.recv(65536):
+        pass
+
+serve(port, welcome)
+)";
+
 constexpr const char* tls_back_in_python = R"(
 port, behind, authorities = sys.argv[1:]
 context = ssl.create_default_context(cafile=authorities)
@@ -109,6 +122,12 @@ TlsFront::TlsFront(int behind, const std::filesystem::path& folder, const std::f
                       {std::to_string(port_), std::to_string(behind), (folder / "certificate.pem").string(),
                        (folder / "key.pem").string(), authorities.string()})) {
   if (!comes_to_answer(port_)) throw std::runtime_error("python3 does not take TLS off");
+}
+
+TlsAlarm::TlsAlarm(int alert)
+    : port_(free_port()),
+      program_(python(tls_alarm_in_python, {std::to_string(port_), std::to_string(alert)})) {
+  if (!comes_to_answer(port_)) throw std::runtime_error("python3 sends no alert");
 }
 
 TlsBack::TlsBack(int behind, const std::filesystem::path& authorities)

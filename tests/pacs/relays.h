@@ -21,6 +21,17 @@ class TlsFront {
   StartedProgram program_;
 };
 
+/// Answers each begin of TLS with an alert (a fatal one, RFC 8446, 6.2) and hangs up.
+class TlsAlarm {
+ public:
+  explicit TlsAlarm(int alert);
+  int port() const { return port_; }
+
+ private:
+  int port_;
+  StartedProgram program_;
+};
+
 /// For programs that know no TLS: puts it on towards a port of this machine.
 class TlsBack {
  public:

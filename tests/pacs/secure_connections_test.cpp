@@ -20,6 +20,7 @@ using testing::FakeServer;
 using ::testing::HasSubstr;
 using testing::make_certificate;
 using testing::StartedProgram;
+using testing::TlsAlarm;
 using testing::TlsFront;
 using testing::Tunnel;
 namespace fs = std::filesystem;
@@ -109,6 +110,21 @@ TEST_F(WebByTls, OneThatAsksForOurCertificateGetsIt) {
               HasSubstr("does not accept the one of `certificate`"))
       << "it has expired";
   EXPECT_EQ(archive.requests().size(), 1u);
+}
+
+TEST_F(WebByTls, AnAlertIsToldForWhatItMeans) {
+  const char* ours = "or does not accept the one of `certificate`";
+  const fs::path trusted = certified();
+  for (const auto& [alert, said] :
+       {std::pair(40, "no cipher in common"), std::pair(42, ours), std::pair(45, ours), std::pair(48, ours),
+        std::pair(49, ours), std::pair(70, "no TLS that is still safe"), std::pair(71, "ciphers"),
+        std::pair(80,
+                  "not refused, but failed: the server 'archive' has ended the secure connection (TLS "
+                  "alert: internal error)"),
+        std::pair(112, "does not know the host of url"), std::pair(116, ours)}) {
+    const TlsAlarm front(alert);
+    EXPECT_THAT(refusal_of(web_by_tls(front.port(), trusted)), HasSubstr(said)) << "alert " << alert;
+  }
 }
 
 TEST_F(WebByTls, AKeyThatIsEncryptedNeedsItsPasswordAndOneOfAnotherIsRefused) {

@@ -51,6 +51,40 @@ FacedSurface with_labelled_caps(const TriMesh& open) {
   return surface;
 }
 
+/// Noise on the wall alone: caps stay flat.
+TriMesh noisy_wall(const FacedSurface& capped, double sigma_mm) {
+  TriMesh mesh = noisy(capped.mesh, sigma_mm);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    if (capped.face_ids[t] != 1)
+      for (const std::int32_t v : mesh.triangles[t])
+        mesh.points[static_cast<std::size_t>(v)] = capped.mesh.points[static_cast<std::size_t>(v)];
+  return mesh;
+}
+
+/// One end covered but for two sectors, each of 0.42 of the circle.
+TriMesh with_a_cover(TriMesh open) {
+  const std::vector<std::int32_t> rim = geometry::boundary_loops(open).front();
+  Vec3 centre = Vec3::Zero();
+  for (const std::int32_t v : rim)
+    centre += open.points[static_cast<std::size_t>(v)] / static_cast<double>(rim.size());
+  const auto first = static_cast<std::int32_t>(open.points.size());
+  for (const std::int32_t v : rim)
+    open.points.push_back(centre + 0.4 * (open.points[static_cast<std::size_t>(v)] - centre));
+  const auto middle = static_cast<std::int32_t>(open.points.size());
+  open.points.push_back(centre);
+  for (std::size_t i = 0; i < rim.size(); ++i) {
+    const std::size_t next = (i + 1) % rim.size();
+    const auto inner = first + static_cast<std::int32_t>(i),
+               inner_next = first + static_cast<std::int32_t>(next);
+    open.triangles.push_back({inner, inner_next, middle});
+    const double at = static_cast<double>(i) / static_cast<double>(rim.size());
+    if (at < 0.42 || (at >= 0.5 && at < 0.92)) continue;
+    open.triangles.push_back({rim[i], rim[next], inner});
+    open.triangles.push_back({inner, rim[next], inner_next});
+  }
+  return geometry::oriented(open);
+}
+
 double volume_when_filled(const TriMesh& mesh) {
   return geometry::volume(geometry::fill_holes(mesh).mesh);
 }
@@ -86,6 +120,38 @@ TEST(RoughSurfaces, AClosedOneWithoutLabelsIsSoundToo) {
   expect_whole_wall(taken.lumen);
   EXPECT_TRUE(geometry::boundary_loops(taken.lumen).empty());
   EXPECT_NEAR(geometry::volume(taken.lumen), geometry::volume(round), 0.02 * geometry::volume(round));
+}
+
+TEST(RoughSurfaces, FlatCapsWithoutLabelsAreEndsToo) {
+  const double truth = volume_when_filled(forked_lumen(true));
+  const TriMesh came = noisy_wall(with_labelled_caps(forked_lumen(true)), 0.1);
+  ASSERT_FALSE(geometry::self_intersections(came).empty());
+  const TakenSurface taken = take_surface({came, {}, {}}, "noise");
+  expect_whole_wall(taken.lumen);
+  EXPECT_EQ(taken.ends.size(), 3u);
+  EXPECT_TRUE(taken.lost.empty());
+  EXPECT_EQ(geometry::boundary_loops(taken.lumen).size(), 3u);
+  EXPECT_NEAR(volume_when_filled(taken.lumen), truth, 0.02 * truth);
+}
+
+TEST(RoughSurfaces, OfAnEndThatIsCoveredInPartTheLargestOpeningIsTheEnd) {
+  const TriMesh whole = forked_lumen(true);
+  const TriMesh came = with_a_cover(whole);
+  ASSERT_EQ(geometry::boundary_loops(came).size(), 4u);
+  const TakenSurface taken = take_surface({came, {}, {}}, "covered");
+  expect_whole_wall(taken.lumen);
+  EXPECT_EQ(geometry::boundary_loops(taken.lumen).size(), 3u);
+  EXPECT_TRUE(tells_of(taken.told, "a second opening of one end closed"));
+  EXPECT_NEAR(volume_when_filled(taken.lumen), volume_when_filled(whole), 0.01 * volume_when_filled(whole));
+}
+
+TEST(RoughSurfaces, EndsBesideEachOtherStayTwo) {
+  // Both branches end some 2 mm from each other, and face nearly the same way.
+  const TriMesh fork = geometry::surface_of(geometry::y_junction(12.0, 7.2, 1.8, 1.3, 40.0), 0.3, true);
+  ASSERT_EQ(geometry::boundary_loops(fork).size(), 3u);
+  const TakenSurface taken = take_surface({fork, {}, {}}, "fork");
+  EXPECT_EQ(geometry::boundary_loops(taken.lumen).size(), 3u);
+  EXPECT_TRUE(taken.told.empty());
 }
 
 TEST(RoughSurfaces, AreMeshedWithNoFurtherWord) {

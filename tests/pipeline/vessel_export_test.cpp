@@ -102,7 +102,7 @@ TEST(VesselChoice, PartsAreSound) {
 TEST(VesselExport, AMeshHasTheTubesVolumeAndNamedEnds) {
   const fs::path folder = testing::temporary_folder("export") / "mesh";
   MeshExportOptions options;
-  options.sizing = even_edges(0.2);
+  options.sizing = even_edges(0.25);
   const ExportSummary made = export_mesh(folder, vessel_export_tube(), options);
   EXPECT_TRUE(made.verdict.ok()) << made.verdict.summary();
   const geometry::MixedMesh mesh = io::read_volume_mesh(folder / "mesh.vtu");
@@ -164,7 +164,7 @@ TEST(VesselExport, TheEstimateIsNearWhatIsMade) {
   const fs::path parent = testing::temporary_folder("export");
   int number = 0;
   for (const meshing::SizingOptions& sizing :
-       {edges_around(16), edges_around(28), even_edges(0.3), even_edges(0.6)}) {
+       {edges_around(16), edges_around(22), even_edges(0.3), even_edges(0.6)}) {
     MeshExportOptions options;
     options.sizing = sizing;
     const ExportSummary made = export_mesh(parent / std::to_string(number++), heart(), options);
@@ -204,7 +204,7 @@ TEST(VesselExport, SurfacesEndAsAsked) {
   const fs::path parent = testing::temporary_folder("export");
   SurfaceExportOptions options;
   options.formats = {"vtp", "stl", "ply"};
-  options.sizing = even_edges(0.2);
+  options.sizing = even_edges(0.25);
   export_surface(parent / "capped", vessel_export_tube(), options);
   const auto capped = io::read_surface(parent / "capped" / "lumen.vtp").surface;
   EXPECT_THAT(names(capped.faces), ElementsAre("wall", "inlet_LAD", "outlet_LAD"));

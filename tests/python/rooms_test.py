@@ -323,6 +323,62 @@ def test_two_cases_compared(tmp_path, source):
     jsonschema.Draft202012Validator(json.loads((source / "docs/schemas/comparison.schema.json").read_text())).validate(found)
 
 
+def test_a_tree_carried_to_the_next_scan(tmp_path, source):
+    """A heart of balls with one straight artery, scanned again 8 mm aside: where the artery lies is known."""
+    step, count = 2.0, 48
+    place = (np.arange(count) - count / 2) * step
+    z, y, x = np.meshgrid(place, place, place, indexing="ij")
+
+    def ball(centre, half):
+        return np.sqrt(sum(((a - c) / h) ** 2 for a, c, h in zip((x, y, z), centre, half))) < 1
+
+    hu = np.full(x.shape, -800.0)
+    for centre, half, value in [((0, 0, 0), (44, 40, 38), -90), ((0, 2, -4), (36, 32, 30), 70), ((14, 4, -8), (14, 12, 18), 350),
+                                ((-15, 2, -6), (11, 14, 15), 270), ((8, 14, 14), (12, 9, 8), 350)]:
+        hu[ball(centre, half)] = value
+    rho = np.hypot(x, y + 33)
+    hu = np.where((rho < 2.6) & (np.abs(z) < 30), 420, hu)
+    noise = np.random.default_rng(1)
+
+    def scan(shift):
+        voxels = (hu + noise.normal(0, 12, hu.shape)).astype(np.int16)
+        return ostia.Volume(voxels, spacing=(step,) * 3, origin=(place[0] + shift, place[0], place[0]))
+
+    s = np.arange(-25, 25.1, 0.5)
+    tree = ostia.VesselTree.single(np.column_stack([0 * s, 0 * s - 33, s]), np.full(len(s), 2.6), "LAD")
+    with ostia.Case.create(tmp_path / "old.ostia", ostia.model_of_tubes(tree)) as old:
+        told = ostia.carry_case(old, scan(0), scan(8), tmp_path / "new.ostia", search=False, anyway=True)
+        with pytest.raises(ostia.InvalidInput, match="reach_mm"):
+            ostia.carry_case(old, scan(0), scan(8), reach_mm=50)
+    assert told["vessels"][0]["how"] == "followed"
+    with ostia.Case.open(tmp_path / "new.ostia") as new:
+        axis = np.asarray(new.model.tree.axis("LAD").points)
+        assert "not checked" in new.marks[0]["note"]
+    assert np.hypot(axis[:, 0] - 8, axis[:, 1] + 33).mean() < 0.5 * step
+    jsonschema = pytest.importorskip("jsonschema")
+    jsonschema.Draft202012Validator(json.loads((source / "docs/schemas/carried-case.schema.json").read_text())).validate(told)
+
+
+def test_filters_of_itk():
+    """A spike goes by a median, a box is parted and measured; what is not known is refused with the nearest name."""
+    values = np.zeros((10, 12, 14), np.int16)
+    values[2:6, 3:8, 4:9] = 300
+    values[8, 10, 12] = 300
+    image = ostia.Volume(values, spacing=(0.5, 0.5, 0.5), origin=(1, 2, 3))
+    clean = ostia.filter_image(image, "median:radius_mm=0.5")
+    assert clean.dtype == "float32" and clean.origin == image.origin and clean.array[8, 10, 12] == 0 and clean.array[3, 5, 6] == 300
+    parts = ostia.filter_image(image, ["threshold:lower=150", "components:least_voxels=2"])
+    assert set(np.unique(parts.array)) == {0, 1} and (parts.array == 1).sum() == 4 * 5 * 5
+    matched = ostia.filter_image(image, "match-histogram:above_mean=no", reference=ostia.Volume(values * np.int16(2)))
+    assert abs(matched.array.max() - 600) < 5
+    facts = {one["name"]: one for one in ostia.list_filters()}
+    assert facts["gaussian"]["parameters"][0]["unit"] == "mm" and facts["n4"]["companion"] == "mask"
+    with pytest.raises(ostia.InvalidInput, match="the nearest name is \"median\""):
+        ostia.filter_image(image, "medain")
+    with pytest.raises(ostia.InvalidInput, match="reference"):
+        ostia.filter_image(image, "match-histogram")
+
+
 def test_calcium_fat_and_territories():
     """Calcium on a ball of a heart, fat about a tube, a wall between two arteries: each is known."""
     z, y, x = np.meshgrid(np.arange(44) * 3.0, np.arange(80) * 2.0, np.arange(80) * 2.0, indexing="ij")

@@ -16,6 +16,12 @@ def folder(tmp_path_factory, surface, tree):
     return made
 
 
+@pytest.fixture(scope="module")
+def filled(surface):
+    """A mesh of the surface, by functions."""
+    return ostia.mesh_lumen(surface, ostia.extract_centerlines(surface).tree, sizing={"edge_ratio": 0.7}).mesh
+
+
 def same(a, b):
     assert a.stat().st_size > 0 and a.read_bytes() == b.read_bytes()
 
@@ -95,23 +101,18 @@ def test_pressure_of_a_case(folder):
     assert without_job(by_python) == without_job(by_command)
 
 
-def test_a_volume_mesh_in_another_format(folder, surface):
-    tree = ostia.extract_centerlines(surface).tree
-    mesh = ostia.mesh_lumen(surface, tree, sizing={"edge_ratio": 0.7}).mesh
-    ostia.export_mesh(folder / "mesh.vtu", mesh)
+def test_a_volume_mesh_in_another_format(folder, filled):
+    ostia.export_mesh(folder / "mesh.vtu", filled)
     commands.convert(folder / "mesh.vtu", folder / "mesh_command.msh", format="gmsh4")
     ostia.export_mesh(folder / "mesh_python.msh", ostia.read_volume_mesh(folder / "mesh.vtu"), "gmsh4")
     same(folder / "mesh_command.msh", folder / "mesh_python.msh")
 
 
-def test_a_mesh(folder, surface):
+def test_a_mesh(folder, filled):
     result = commands.mesh(folder / "lumen.vtp", output=folder / "mesh", edge_ratio=0.7)
-    tree = ostia.extract_centerlines(surface).tree
-    meshed = ostia.mesh_lumen(surface, tree, sizing={"edge_ratio": 0.7})
-    ostia.export_mesh(folder / "by_python.vtu", meshed.mesh)
     by_command = ostia.read_volume_mesh(folder / "mesh" / "mesh.vtu")
-    assert result.quality_ok and np.array_equal(by_command.points, meshed.mesh.points)
-    assert np.array_equal(by_command.tetrahedra, meshed.mesh.tetrahedra)
+    assert result.quality_ok and np.array_equal(by_command.points, filled.points)
+    assert np.array_equal(by_command.tetrahedra, filled.tetrahedra)
 
 
 def alike(figures, told, names=None):
@@ -322,9 +323,8 @@ def test_a_network_for_other_solvers(folder):
     assert (folder / "solved" / "network.csv").read_text() == found["csv"]
 
 
-def test_a_case_of_a_solver(folder, surface):
-    tree = ostia.extract_centerlines(surface).tree
-    ostia.export_mesh(folder / "flow.vtu", ostia.mesh_lumen(surface, tree, sizing={"edge_ratio": 0.7}).mesh)
+def test_a_case_of_a_solver(folder, filled):
+    ostia.export_mesh(folder / "flow.vtu", filled)
     commands.case(folder / "flow.vtu", output=folder / "flow_command", outlets="split", flow=["1.5"])
     made = ostia.write_openfoam_case(folder / "flow_python", ostia.read_volume_mesh(folder / "flow.vtu"), flow={"outlets": "split", "flow_ml_s": 1.5})
     assert made["mean_flow_ml_s"] == 1.5 and sum(outlet["share"] for outlet in made["outlets"]) == pytest.approx(1)

@@ -53,6 +53,8 @@ class PhantomPair {
     return turn_.transpose() * (phase_.at(fixed_mm) - middle_) + middle_ + shift_;
   }
 
+  const ostia::geometry::VesselTree& tree() const { return tree_; }  ///< of the first scan
+
   /// On the axes, every mm or so.
   std::vector<Vec3> axes() const {
     std::vector<Vec3> points;

@@ -33,14 +33,20 @@ class Schema {
     if (rules.contains("type") && !has_type(value, rules["type"])) return false;
     return std::all_of(rules.items().begin(), rules.items().end(), [&](const auto& rule) {
       if (rule.key() == "additionalProperties")
-        return std::all_of(value.items().begin(), value.items().end(),
-                           [&](const auto& field) { return rules["properties"].contains(field.key()); });
+        return std::all_of(value.items().begin(), value.items().end(), [&](const auto& field) {
+          if (rules.contains("properties") && rules["properties"].contains(field.key())) return true;
+          return rule.value().is_object() && is_valid(rule.value(), field.value());
+        });
       return rule_holds(rule.key(), rule.value(), value);
     });
   }
 
  private:
-  static bool has_type(const Json& value, const std::string& type) {
+  static bool has_type(const Json& value, const Json& types) {
+    if (types.is_array())
+      return std::any_of(types.begin(), types.end(), [&](const Json& one) { return has_type(value, one); });
+    const auto type = types.get<std::string>();
+    if (type == "null") return value.is_null();
     if (type == "object") return value.is_object();
     if (type == "array") return value.is_array();
     if (type == "string") return value.is_string();
@@ -54,9 +60,9 @@ class Schema {
     if (rule == "description" || rule == "default" || rule == "type") return true;
     if (rule == "const") return value == wanted;
     if (rule == "enum") return std::find(wanted.begin(), wanted.end(), value) != wanted.end();
-    if (rule == "minimum") return value >= wanted;
-    if (rule == "exclusiveMinimum") return value > wanted;
-    if (rule == "maximum") return value <= wanted;
+    if (rule == "minimum") return !value.is_number() || value >= wanted;
+    if (rule == "exclusiveMinimum") return !value.is_number() || value > wanted;
+    if (rule == "maximum") return !value.is_number() || value <= wanted;
     if (rule == "minItems") return value.size() >= wanted.get<std::size_t>();
     if (rule == "maxItems") return value.size() <= wanted.get<std::size_t>();
     if (rule == "minLength") return value.get<std::string>().size() >= wanted.get<std::size_t>();

@@ -117,6 +117,20 @@ TEST(OpenfoamLaunch, AFailureEndsWithTheLogsLastLines) {
   }
 }
 
+/// The shell that runs the script tells it by an exit code, the script itself by its signal.
+TEST(OpenfoamLaunch, ARunThatIsToldToStopFromOutsideIsNoFailure) {
+  NEEDS_OPENFOAM();
+  for (const char* script :
+       {"sh -c 'kill -TERM $$' || exit $?\n", "sh -c 'kill -INT $$' || exit $?\n", "kill -HUP $$\n"}) {
+    try {
+      run_openfoam_case(case_of(script));
+      ADD_FAILURE() << "was fine";
+    } catch (const ResourceError& error) {
+      EXPECT_NE(std::string(error.what()).find("ended from outside"), std::string::npos) << error.what();
+    }
+  }
+}
+
 TEST(OpenfoamLaunch, WhatTheScriptSaysIsToldWithTheLog) {
   NEEDS_OPENFOAM();
   const fs::path folder =

@@ -111,6 +111,18 @@ TEST(Language, SentencesOfLibrariesKeepTheirPlaces) {
       std::string::npos);
 }
 
+TEST(Language, EditsAreSaidWithTheNamesOfVesselsAlone) {
+  EXPECT_EQ(library_text("branch.delete on vessel 7 (RCA): its branches go, too: CB, vessel 12"),
+            QStringLiteral("RCA: its branches go, too: CB, vessel 12"));
+  EXPECT_EQ(
+      library_text("wall.drag on LAD starts 3.00 mm from the vessel's wall; take hold of the wall itself"),
+      QStringLiteral("the pull on LAD starts 3.00 mm from the vessel's wall; take hold of the wall itself"));
+  EXPECT_EQ(
+      library_text("cpr.stroke on vessel 4 runs back along the vessel at 2.0 mm; draw it in one direction, "
+                   "or use section.contour"),
+      QStringLiteral("the line on vessel 4 runs back along the vessel at 2.0 mm; draw it in one direction"));
+}
+
 TEST(Language, EnglishHasThePluralsThatGermanHas) {
   QStringList english, german;
   for (const Text& one : texts_of("en")) {

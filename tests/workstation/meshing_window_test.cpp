@@ -61,7 +61,7 @@ TEST_F(MeshingWindow, AMeshIsMadeByTheDialogWhileTheCaseIsEdited) {
   ask("file.export_mesh");
   EXPECT_EQ(in_dialog<QLineEdit>("folder")->text().toStdString(), (folder / "tube-mesh").string());
   pick(in_dialog<QComboBox>("size"), 1);
-  type(in_dialog<QDoubleSpinBox>("edge_mm"), "0.20");
+  type(in_dialog<QDoubleSpinBox>("edge_mm"), "0.25");
   EXPECT_TRUE(in_dialog<QLabel>("estimate")->text().contains("cells"));
   click_go();
   ASSERT_FALSE(idle());

@@ -158,6 +158,37 @@ TEST_F(OutboxWindow, AServerIsDescribedTriedAndKeptWithoutItsPassword) {
   EXPECT_THAT(core::read_file(file), Not(HasSubstr("sesame")));
 }
 
+TEST_F(OutboxWindow, APasswordFollowsItsServerToAnotherNameAndGoesWithIt) {
+  pacs::ServerDescription other = server();
+  other.name = "practice";
+  keyring.kept = {{"hospital", "open sesame"}, {"practice", "swordfish"}};
+  test.show();
+  const auto rename = [&](const std::vector<std::pair<int, const char*>>& names, int removed = -1) {
+    ServersDialog dialog(pacs::read_servers(file), keyring, test.desk(), file);
+    dialog.show();
+    auto& list = part<QListWidget>(dialog, "servers_list");
+    for (const auto& [row, name] : names) {
+      list.setCurrentRow(row);
+      type(part<QLineEdit>(dialog, "servers_name"), name);
+    }
+    if (removed >= 0) {
+      list.setCurrentRow(removed);
+      click(part<QPushButton>(dialog, "servers_remove"));
+    }
+    click(*dialog.findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Save));
+    EXPECT_FALSE(dialog.isVisible());
+  };
+  using Kept = std::map<QString, QString>;
+  std::filesystem::create_directories(file.parent_path());
+  pacs::write_servers(file, {server(), other});
+  rename({{0, "clinic"}});
+  EXPECT_EQ(keyring.kept, (Kept{{"clinic", "open sesame"}, {"practice", "swordfish"}}));
+  rename({{0, "practice"}, {1, "clinic"}});
+  EXPECT_EQ(keyring.kept, (Kept{{"practice", "open sesame"}, {"clinic", "swordfish"}}));
+  rename({}, 0);
+  EXPECT_EQ(keyring.kept, (Kept{{"clinic", "swordfish"}}));
+}
+
 TEST_F(OutboxWindow, WithoutACaseNothingCanBeSentAndItIsSaidWhy) {
   EXPECT_EQ(outbox.why_not(), "No case is open.");
 }

@@ -68,14 +68,18 @@ imaging::ImageVolume smeared_tube(int percent) {
 }
 
 void write_series(const fs::path& study, int percent, const std::string& name, const std::string& id,
-                  const std::string& study_seed) {
+                  const std::string& study_seed, const imaging::ImageVolume& image) {
   imaging::DicomSeriesOptions options;
   options.patient_name = name;
   options.patient_id = id;
   options.study_seed = study_seed;
   options.uid_seed = id + std::to_string(percent);
   options.series_description = "CTA " + std::to_string(percent) + " % B26f";
-  imaging::write_dicom_series(study / (id + "-" + std::to_string(percent)), smeared_tube(percent), options);
+  imaging::write_dicom_series(study / (id + "-" + std::to_string(percent)), image, options);
+}
+void write_series(const fs::path& study, int percent, const std::string& name, const std::string& id,
+                  const std::string& study_seed) {
+  write_series(study, percent, name, id, study_seed, smeared_tube(percent));
 }
 
 /// A study of five phases, written once.
@@ -328,6 +332,36 @@ TEST_F(StudyWindow, ABadPhaseIsNamedAndLeftOut) {
   part<QAction>("view.best_phase")->trigger();
   ASSERT_TRUE(idle());
   EXPECT_EQ(part<QPushButton>("series_best")->text(), "Sharpest: 55 %");
+}
+
+TEST_F(StudyWindow, ASeriesThatChangesItsSizeHalfwayIsTwoPictures) {
+  const imaging::ImageVolume wide = smeared_tube(15);
+  imaging::ImageVolume narrow;
+  narrow.geometry = wide.geometry;
+  narrow.geometry.size[0] = 48;
+  for (std::int64_t k = 0; k < 60; ++k)
+    for (std::int64_t j = 0; j < 64; ++j)
+      for (std::int64_t i = 0; i < 48; ++i) narrow.voxels.push_back(wide(i, j, k));
+  write_series(folder / "narrow", 15, "DOE^JANE", "P1", "study", narrow);
+  for (int n = 31; n <= 60; ++n) {
+    const fs::path file = fs::path("P1-15") / ("CT00" + std::to_string(n) + ".dcm");
+    fs::copy_file(folder / "narrow" / file, study / file, fs::copy_options::overwrite_existing);
+  }
+  open_study();
+  ASSERT_EQ(list().count(), 6);
+  std::set<std::int64_t> widths;
+  for (int row = 0; row < list().count(); ++row) {
+    if (!list().item(row)->text().startsWith("15 %")) continue;
+    const auto before = bench().shown_volume();
+    list().setCurrentRow(row);
+    ASSERT_TRUE(
+        wait_until([&] { return bench().shown_volume() != before && !window().jobs().any(); }, 60000));
+    EXPECT_EQ(bench().shown_volume()->geometry.size[2], 30) << "never one image of both";
+    widths.insert(bench().shown_volume()->geometry.size[0]);
+  }
+  EXPECT_EQ(widths, (std::set<std::int64_t>{48, 64}));
+  click("35 %");
+  EXPECT_TRUE(comes(35)) << "the others are there";
 }
 
 TEST_F(StudyWindow, AnotherPatientsSeriesAreNeverInTheStrip) {

@@ -223,6 +223,12 @@ TEST_F(TreePageTest, FaultsAreToldAndRepairedWhereThatIsWanted) {
   EXPECT_THAT(facts(), HasSubstr("radi"));
 }
 
+TEST_F(TreePageTest, PlacesInAnotherUnitThanRadiiAreSaid) {
+  open("x1,y1,z1,radius1,x2,y2,z2,radius2\n0,0,0,2,0,0.003,0.004,1.5\n");
+  ASSERT_TRUE(wait_until([&] { return page() != nullptr; }));
+  EXPECT_THAT(facts(), HasSubstr("in different units?"));
+}
+
 TEST_F(TreePageTest, WhatIsNoTreeIsSaid) {
   open("x1,y1,z1,radius1,x2,y2,z2,radius2\n0,0,zero,1,0,0,10,1\n");
   EXPECT_THAT(testing::message(), HasSubstr("tree.csv"));

@@ -21,7 +21,9 @@ inline double tube_radius(double s_mm, double narrowing) {
          (1.0 - (from_throat < 1.0 ? narrowing * 0.5 * (1.0 + std::cos(M_PI * from_throat)) : 0.0));
 }
 
-inline imaging::ImageVolume tube_image(double narrowing = 0.0) {
+/// `at`: where the tube begins.
+inline imaging::ImageVolume tube_image(double narrowing = 0.0,
+                                       const geometry::Vec3& at = geometry::Vec3::Zero()) {
   imaging::ImageVolume image;
   image.geometry.size = {64, 64, 110};
   image.geometry.spacing = {0.4, 0.4, 0.4};
@@ -30,22 +32,24 @@ inline imaging::ImageVolume tube_image(double narrowing = 0.0) {
   for (std::int64_t k = 0; k < 110; ++k)
     for (std::int64_t j = 0; j < 64; ++j)
       for (std::int64_t i = 0; i < 64; ++i) {
-        const geometry::Vec3 at = image.geometry.world({double(i), double(j), double(k)});
-        const double r = std::hypot(at.x(), at.y());
+        const geometry::Vec3 here = image.geometry.world({double(i), double(j), double(k)});
+        const double r = std::hypot(here.x(), here.y());
         const auto within = [&](double radius) { return std::clamp(0.5 - (r - radius) / 0.7, 0.0, 1.0); };
         const double hu =
-            -80.0 + 130.0 * within(tube_radius_mm + 0.8) + 350.0 * within(tube_radius(at.z(), narrowing));
+            -80.0 + 130.0 * within(tube_radius_mm + 0.8) + 350.0 * within(tube_radius(here.z(), narrowing));
         const double noise =
             40.0 * ((((i * 73 + j * 179 + k * 283) * 2654435761LL) >> 12) % 1000 / 1000.0 - 0.5);
         image(i, j, k) = static_cast<std::int16_t>(std::lround(hu + noise));
       }
+  image.geometry.origin += at;
   return image;
 }
 
-inline lumen::LumenModel tube_model(double narrowing = 0.0) {
+inline lumen::LumenModel tube_model(double narrowing = 0.0,
+                                    const geometry::Vec3& at = geometry::Vec3::Zero()) {
   geometry::Centerline axis;
   for (int i = 0; i <= 80; ++i) {
-    axis.points.push_back({0.0, 0.0, 0.5 * i});
+    axis.points.push_back(at + geometry::Vec3(0.0, 0.0, 0.5 * i));
     axis.radius.push_back(tube_radius(0.5 * i, narrowing));
   }
   geometry::complete(axis);

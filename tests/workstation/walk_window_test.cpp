@@ -69,7 +69,8 @@ TEST_F(WalkWindow, AWrittenOneIsWalkedLookedAtAndMeasured) {
   const QImage picture(QString::fromStdString((out / "pulled.png").string()));
   EXPECT_EQ(picture.size(), window().size());
   const std::string table = core::read_file(out / "walk.csv");
-  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 13);
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 14);
+  EXPECT_THAT(table, HasSubstr("\n0,opening,"));
   EXPECT_THAT(table, HasSubstr("7,\"drag section wall wall+9,0\","));
 }
 

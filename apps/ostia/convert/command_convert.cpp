@@ -12,6 +12,7 @@
 #include "ostia/geometry/mesh_topology.h"
 #include "ostia/geometry/smoothing.h"
 #include "ostia/geometry/subdivision.h"
+#include "ostia/imaging/foreign_image.h"
 #include "ostia/imaging/image_file.h"
 #include "ostia/io/centerline_file.h"
 #include "ostia/io/markups_file.h"
@@ -164,7 +165,8 @@ void convert_image(const ConvertCommand& options, pipeline::SourceKind kind, con
 }
 
 bool is_lines(const std::filesystem::path& path) {
-  if (path.extension() == ".vtk") return !io::is_surface_file(path);
+  if (path.extension() == ".vtk")
+    return !io::is_surface_file(path) && imaging::foreign_image_format(path).empty();
   return path.extension() == ".csv" || path.extension() == ".txt" || io::is_markups_file(path);
 }
 

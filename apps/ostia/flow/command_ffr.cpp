@@ -8,6 +8,7 @@
 #include "ostia/core/log.h"
 #include "ostia/core/text.h"
 #include "ostia/io/centerline_file.h"
+#include "ostia/io/markups_file.h"
 #include "ostia/pipeline/manifest.h"
 #include "ostia/session/case_file.h"
 #include "ostia/session/case_report.h"
@@ -213,7 +214,7 @@ ExitCode run_ffr(const FfrCommand& c, const core::TaskContext& task) {
   pipeline::require_free_folder(c.output);
   if (!fs::is_regular_file(c.input))
     throw IoError("cannot read " + c.input.string() + ": there is no such file");
-  if (c.input.extension() == ".json") return run_ffr_network(c, task);
+  if (c.input.extension() == ".json" && !io::is_markups_file(c.input)) return run_ffr_network(c, task);
   task.set_stage("reading");
   const FfrInput input = read_input(c, task.sub(0.0, 0.1));
   session::PressureReportOptions options = options_of(c, input.notes);

@@ -112,6 +112,11 @@ void NewCase::make(const session::FoundModel& found, const std::optional<session
   named([&] { session::create_case(staged_.temporary(), found, image); });
 }
 
+void NewCase::make(const session::CarriedModel& carried,
+                   const std::optional<session::ImageReference>& image) {
+  named([&] { session::create_case(staged_.temporary(), carried, image); });
+}
+
 lumen::LumenModel NewCase::go_on(const session::CaseFile& from, const EditScript& script,
                                  std::vector<std::string>& notes, const core::TaskContext& task) {
   return named([&] {

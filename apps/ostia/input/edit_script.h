@@ -4,6 +4,7 @@
 
 #include "ostia/core/files.h"
 #include "ostia/core/task_context.h"
+#include "ostia/session/carry.h"
 #include "ostia/session/case_file.h"
 #include "ostia/session/found_model.h"
 
@@ -49,6 +50,7 @@ class NewCase {
   /// The same with a plug-in's edits, one step.
   lumen::EditOutcome go_on(const session::CaseFile& from, const session::PluginEdits& step);
   void make(const session::FoundModel& found, const std::optional<session::ImageReference>& image);
+  void make(const session::CarriedModel& carried, const std::optional<session::ImageReference>& image);
   void commit() { staged_.commit(); }
 
  private:

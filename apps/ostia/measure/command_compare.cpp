@@ -65,14 +65,15 @@ void print_comparison(const nlohmann::json& result) {
 ExitCode compare_pair(const CompareCommand& c, const core::TaskContext& task) {
   const auto start = Clock::now();
   const session::ComparisonOptions options = compare_options(c);
+  const session::MapBy by = session::map_by(c.map);
   pipeline::require_free_folder(c.output);
   const OpenedPair pair({c.before, c.after, c.before_image, c.after_image});
-  const pipeline::JobKey job = pair.job(options);
+  const pipeline::JobKey job = pair.job(options, by);
   std::optional<ExitCode> code = pipeline::already_done(c.output, job);
   if (code) {
     core::log_info("done already with the same cases and parameters; nothing to do");
   } else {
-    const session::Comparison made = pair.compared(options, task.sub(0.0, 0.9));
+    const session::Comparison made = pair.compared(options, by, task.sub(0.0, 0.9));
     for (const std::string& warning : made.warnings) core::log_warning(warning);
     code = code_of(made);
     session::write_comparison(c.output, made, job, *code, seconds_since(start), task.sub(0.9, 1.0));
@@ -136,13 +137,14 @@ std::vector<NamedPair> pairs_of(const fs::path& file) {
 ExitCode compare_cohort(const CompareCommand& c, const core::TaskContext& task) {
   const auto start = Clock::now();
   const session::ComparisonOptions options = compare_options(c);
+  const session::MapBy by = session::map_by(c.map);
   pipeline::require_free_folder(c.output);
   const std::vector<NamedPair> pairs = pairs_of(c.pairs);
   core::StagedFolder staged(c.output);
   std::vector<session::CohortRow> rows;
   std::vector<std::string> warnings;
   pipeline::JobKey job{
-      "compare pairs", {{"table", core::sha256_file(c.pairs)}}, comparison_parameters(options)};
+      "compare pairs", {{"table", core::sha256_file(c.pairs)}}, comparison_parameters(options, by)};
   ExitCode code = ExitCode::ok;
   const auto not_well = [&](const std::string& what) {
     code = ExitCode::quality_failed;
@@ -155,12 +157,12 @@ ExitCode compare_cohort(const CompareCommand& c, const core::TaskContext& task) 
                                static_cast<double>(i + 1) / static_cast<double>(pairs.size()));
     try {
       const OpenedPair pair(one.paths);
-      const session::Comparison made = pair.compared(options, part.sub(0.0, 0.9));
+      const session::Comparison made = pair.compared(options, by, part.sub(0.0, 0.9));
       const auto found = session::cohort_rows(one.name, made);
       rows.insert(rows.end(), found.begin(), found.end());
       if (code_of(made) != ExitCode::ok) not_well(one.name + ": hardly one patient: " + made.another_patient);
-      session::write_comparison(staged.temporary() / one.name, made, pair.job(options), code_of(made), 0.0,
-                                part.sub(0.9, 1.0));
+      session::write_comparison(staged.temporary() / one.name, made, pair.job(options, by), code_of(made),
+                                0.0, part.sub(0.9, 1.0));
     } catch (const Error& error) {
       if (error.exit_code() != ExitCode::bad_input) throw;
       not_well(one.name + ": not compared: " + error.what());
@@ -218,6 +220,11 @@ void define_compare(CLI::App& app, CompareCommand& c,
                    "Folder that is made: comparison.html, .pdf, .json, .csv, images; with --pairs "
                    "cohort.html, .json, .csv and a folder a pair")
       ->required();
+  compare
+      ->add_option("--map", c.map,
+                   "What lays the scans onto each other: trees, images, or any: the images where both are "
+                   "given and fit well")
+      ->check(CLI::IsMember({"any", "trees", "images"}));
   compare->add_flag("--anyway", c.anyway, "Compare trees that are hardly of one patient, too (exit code 4)");
   compare->add_flag("--json", c.json, "comparison.json, or cohort.json, on standard output");
   compare->callback([&] { run = [&](const core::TaskContext& task) { return run_compare(c, task); }; });

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <string>
 
 namespace CLI {
 class App;
@@ -18,6 +19,7 @@ struct CompareCommand {
   std::filesystem::path pairs;          ///< table of pairs, in place of all those; empty: one pair
   std::filesystem::path repeatability;  ///< cohort.json; empty: none
   std::filesystem::path output;         ///< folder that is made
+  std::string map = "any";              ///< session::map_by
   bool anyway = false;
   bool json = false;
 };

@@ -4,17 +4,15 @@
 #include "input/input_digest.h"
 
 #include "ostia/core/background_task.h"
-#include "ostia/session/case_report.h"
-#include "ostia/session/vessel_fat.h"
+#include "ostia/session/comparison_measures.h"
 
 #include <nlohmann/json.hpp>
 
-#include <optional>
-
 namespace ostia::app {
 
-std::string comparison_parameters(const session::ComparisonOptions& options) {
-  nlohmann::json parameters{{"anyway", options.anyway}, {"spreads", nlohmann::json::array()}};
+std::string comparison_parameters(const session::ComparisonOptions& options, session::MapBy by) {
+  nlohmann::json parameters{
+      {"anyway", options.anyway}, {"map", session::to_string(by)}, {"spreads", nlohmann::json::array()}};
   for (const auto& scope : options.change.repeatability.spreads)
     for (const analysis::DifferenceSpread& one : scope) parameters["spreads"].push_back({one.sd, one.share});
   return parameters.dump();
@@ -25,44 +23,45 @@ OpenedPair::OpenedPair(const PairPaths& paths)
       before_(session::CaseFile::open(paths.before, session::OpenMode::read_only)),
       after_(session::CaseFile::open(paths.after, session::OpenMode::read_only)) {}
 
-pipeline::JobKey OpenedPair::job(const session::ComparisonOptions& options) const {
+pipeline::JobKey OpenedPair::job(const session::ComparisonOptions& options, session::MapBy by) const {
   pipeline::JobKey key{"compare",
                        {{"old", session::report_digest(before_)}, {"new", session::report_digest(after_)}},
-                       comparison_parameters(options)};
+                       comparison_parameters(options, by)};
   if (!paths_.before_image.empty()) key.inputs["old image"] = digest_of(paths_.before_image);
   if (!paths_.after_image.empty()) key.inputs["new image"] = digest_of(paths_.after_image);
   return key;
 }
 
-session::ComparedCase OpenedPair::measured(const session::CaseFile& file, const std::filesystem::path& image,
-                                           const core::TaskContext& task) const {
-  session::ReportOptions options;
-  options.image = file.image();
-  const auto model = file.model();
+OpenedPair::Measured OpenedPair::measured(const session::CaseFile& file, const std::filesystem::path& image,
+                                          const core::TaskContext& task) const {
+  session::CaseMoment moment = session::moment_of(file);
   // Walls need no image: they are solved while it is read.
   core::BackgroundTask<analysis::SurfaceOfVessel> solving(
-      [model](const core::TaskContext& beside) { return session::solved_surfaces(*model, beside); });
-  pipeline::Source source;
-  if (!image.empty()) source = case_image(image, file, task.sub(0.0, 0.3));
+      [model = moment.model](const core::TaskContext& beside) {
+        return session::solved_surfaces(*model, beside);
+      });
+  if (!image.empty()) {
+    const pipeline::Source source = case_image(image, file, task.sub(0.0, 0.3));
+    moment.image = source.image;
+    if (source.technique) moment.tube_kv = source.technique->tube_kv;
+  }
   task.set_stage("measuring");
   const analysis::SurfaceOfVessel surfaces = solving.get(task.sub(0.3, 0.5));
-  const session::CaseReport report = session::make_case_report(
-      *model, surfaces, *file.annotations(), file.journal(), source.image.get(), options, task.sub(0.5, 0.9));
-  std::optional<session::CaseFat> fat;
-  if (source.image) {
-    session::CaseFatOptions how;
-    if (source.technique) how.tube_kv = source.technique->tube_kv;
-    fat = session::case_fat(*model, surfaces, *source.image, how, task.sub(0.9, 1.0));
-  }
-  return session::compared_case(*model, report, fat ? &*fat : nullptr);
+  return {session::measured_case(moment, surfaces, task.sub(0.5, 1.0)), moment.image};
 }
 
-session::Comparison OpenedPair::compared(const session::ComparisonOptions& options,
+session::Comparison OpenedPair::compared(const session::ComparisonOptions& options, session::MapBy by,
                                          const core::TaskContext& task) const {
-  session::ComparedCase before = measured(before_, paths_.before_image, task.sub(0.0, 0.48));
-  session::ComparedCase after = measured(after_, paths_.after_image, task.sub(0.48, 0.96));
+  Measured before = measured(before_, paths_.before_image, task.sub(0.0, 0.4));
+  Measured after = measured(after_, paths_.after_image, task.sub(0.4, 0.8));
+  const session::MapOfImages laid =
+      session::map_of_images(before.compared.tree.tree, after.compared.tree.tree, before.image.get(),
+                             after.image.get(), by, task.sub(0.8, 0.96));
   task.set_stage("comparing");
-  return session::compare_cases(std::move(before), std::move(after), options);
+  session::Comparison made =
+      session::compare_cases(std::move(before.compared), std::move(after.compared), options, laid.map);
+  if (!laid.why_not.empty()) made.warnings.push_back(laid.why_not);
+  return made;
 }
 
 }  // namespace ostia::app

@@ -5,6 +5,7 @@
 #include "ostia/core/log.h"
 #include "ostia/core/text.h"
 #include "ostia/geometry/graph_faults.h"
+#include "ostia/geometry/graph_units.h"
 #include "ostia/io/graph_file.h"
 #include "ostia/io/markups_file.h"
 #include "ostia/io/rotterdam_file.h"
@@ -151,10 +152,7 @@ ExitCode tree_info(const InfoOptions& options, const core::TaskContext& task) {
     loaded.warnings.push_back(told);
   const GraphFaults faults = geometry::find_faults(loaded.graph, task.sub(0.85, 0.9));
   const GraphFacts facts = geometry::facts_of(loaded.graph, task.sub(0.9, 1.0));
-  if (facts.least_radius_mm * static_cast<double>(facts.branches) > facts.length_mm)
-    loaded.warnings.push_back(
-        "its branches are shorter on average than the least radius: are radii and places "
-        "in different units? `ostia convert --units m --radius-units mm` settles it");
+  if (const std::string doubt = geometry::unit_doubt(facts); !doubt.empty()) loaded.warnings.push_back(doubt);
   std::fputs((options.json ? json_text(facts, faults, loaded) : plain_text(facts, faults, loaded)).c_str(),
              stdout);
   return ExitCode::ok;

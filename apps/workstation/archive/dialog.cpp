@@ -85,8 +85,9 @@ std::filesystem::path fetched(pacs::Archive& archive, const pacs::SeriesWanted& 
   std::filesystem::create_directories(folder);
   std::filesystem::permissions(folder, std::filesystem::perms::owner_all);
   std::filesystem::remove_all(made);  // whole, of a run that ended before it was given its name
-  archive.fetch(wanted, made, task);
-  core::publish_folder(made, target);
+  const bool again = std::filesystem::exists(target);
+  archive.fetch(wanted, again ? made : target, task);
+  if (again) core::publish_folder(made, target);
   return target;
 }
 

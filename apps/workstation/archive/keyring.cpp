@@ -25,6 +25,11 @@ class DesktopKeyring final : public Keyring {
     job->setTextData(password);
     job->start();
   }
+  void forget(const QString& server) override {
+    auto* job = new QKeychain::DeletePasswordJob(keyring_service);
+    job->setKey(server);
+    job->start();
+  }
 };
 
 }  // namespace

@@ -14,6 +14,7 @@ class Keyring {
   /// `then` is told in the interface's thread: empty where there is none, or no keyring.
   virtual void read(const QString& server, QObject* context, std::function<void(const QString&)> then) = 0;
   virtual void keep(const QString& server, const QString& password) = 0;
+  virtual void forget(const QString& server) = 0;
 };
 /// The desktop's own (Secret Service, KWallet).
 Keyring& desktop_keyring();

@@ -23,6 +23,7 @@
 #include <QSpinBox>
 #include <QVBoxLayout>
 #include <memory>
+#include <set>
 #include <utility>
 
 namespace ostia::workstation {
@@ -86,6 +87,22 @@ void read_next_secret(Keyring& keyring, QObject* context, const std::shared_ptr<
                });
 }
 
+struct PasswordMove {
+  QString from;  ///< empty: `password` was typed
+  QString to, password;
+};
+
+/// All are read before `then` is told: two servers may have exchanged their names.
+void read_moved(Keyring& keyring, QObject* context, const std::shared_ptr<std::vector<PasswordMove>>& moves,
+                std::size_t next, const std::function<void()>& then) {
+  while (next < moves->size() && (*moves)[next].from.isEmpty()) ++next;
+  if (next == moves->size()) return then();
+  keyring.read((*moves)[next].from, context, [&keyring, context, moves, next, then](const QString& password) {
+    (*moves)[next].password = password;
+    read_moved(keyring, context, moves, next + 1, then);
+  });
+}
+
 }  // namespace
 
 std::vector<ServerDescription> known_servers() {
@@ -102,7 +119,10 @@ void read_secrets(Keyring& keyring, const std::vector<ServerDescription>& server
 ServersDialog::ServersDialog(std::vector<ServerDescription> servers, Keyring& keyring, Desk& desk,
                              std::filesystem::path file)
     : QDialog(&desk.window), keyring_(keyring), desk_(desk), file_(std::move(file)) {
-  for (ServerDescription& one : servers) rows_.push_back({std::move(one)});
+  for (ServerDescription& one : servers) {
+    names_before_.push_back(QString::fromStdString(one.name));
+    rows_.push_back({std::move(one), names_before_.back()});
+  }
   setObjectName("servers");
   setWindowTitle(tr("PACS servers"));
   resize_within(*this, QSize(820, 680));
@@ -330,7 +350,9 @@ void ServersDialog::test() {
   const Row row = rows_[static_cast<std::size_t>(shown_)];
   say(tr("Asking the server\u2026"));
   const QPointer<ServersDialog> self(this);
-  read_secrets(keyring_, {row.server}, this, [this, self, row](std::vector<pacs::Secrets> secrets) {
+  ServerDescription kept = row.server;
+  if (!row.kept_as.isEmpty()) kept.name = row.kept_as.toStdString();
+  read_secrets(keyring_, {kept}, this, [this, self, row](std::vector<pacs::Secrets> secrets) {
     if (!row.password.isEmpty()) secrets[0].password = row.password.toStdString();
     desk_.jobs.run(
         "server test", tr("Asking the server"),
@@ -357,9 +379,31 @@ void ServersDialog::accept() {
   } catch (const std::exception& error) {
     return say(QString::fromStdString(error.what()));
   }
-  for (const Row& one : rows_)
-    if (!one.password.isEmpty()) keyring_.keep(QString::fromStdString(one.server.name), one.password);
+  keep_passwords();
   QDialog::accept();
+}
+
+void ServersDialog::keep_passwords() {
+  const auto moves = std::make_shared<std::vector<PasswordMove>>();
+  std::set<QString> wanted;
+  for (const Row& one : rows_) {
+    if (!wants_secret(one.server)) continue;
+    const QString name = QString::fromStdString(one.server.name);
+    wanted.insert(name);
+    if (!one.password.isEmpty())
+      moves->push_back({{}, name, one.password});
+    else if (one.kept_as != name)
+      moves->push_back({one.kept_as, name, {}});
+  }
+  std::vector<QString> gone;
+  for (const QString& name : names_before_)
+    if (wanted.count(name) == 0) gone.push_back(name);
+  // The dialog may be gone before the keyring has answered.
+  read_moved(keyring_, &desk_.window, moves, 0, [&keyring = keyring_, moves, gone] {
+    for (const QString& name : gone) keyring.forget(name);
+    for (const PasswordMove& one : *moves)
+      if (!one.password.isEmpty()) keyring.keep(one.to, one.password);
+  });
 }
 
 void ServersDialog::say(const QString& text) {

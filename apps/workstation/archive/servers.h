@@ -50,13 +50,16 @@ class ServersDialog final : public QDialog {
   void add();
   void remove();
   void test();
+  void keep_passwords();  ///< each under its server's name; those of servers that are gone are forgotten
   void say(const QString& text);
 
   struct Row {
     pacs::ServerDescription server;
+    QString kept_as{};   ///< by which name the keyring may know it
     QString password{};  ///< that was typed; empty: as the keyring has it
   };
   std::vector<Row> rows_;
+  std::vector<QString> names_before_;
   Keyring& keyring_;
   Desk& desk_;
   const std::filesystem::path file_;

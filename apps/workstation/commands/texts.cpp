@@ -19,6 +19,7 @@ QString command_group(const QString& id) {
       {"vessel", QT_TRANSLATE_NOOP("gestures", "Vessel")},
       {"lesion", QT_TRANSLATE_NOOP("gestures", "Lesions")},
       {"calcium", QT_TRANSLATE_NOOP("gestures", "Calcium score")},
+      {"compare", QT_TRANSLATE_NOOP("gestures", "Compared with the last scan")},
       {"pressure", QT_TRANSLATE_NOOP("gestures", "Pressure")},
       {"tool", QT_TRANSLATE_NOOP("gestures", "Tools")},
       {"tree", QT_TRANSLATE_NOOP("gestures", "Vessel tree")},

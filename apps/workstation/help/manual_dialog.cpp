@@ -36,6 +36,7 @@ constexpr std::array pages{Page{"index.md", QT_TRANSLATE_NOOP("manual", "Beginni
                            Page{"pacs.md", QT_TRANSLATE_NOOP("manual", "PACS")},
                            Page{"calcium.md", QT_TRANSLATE_NOOP("manual", "Calcium score")},
                            Page{"fat.md", QT_TRANSLATE_NOOP("manual", "Fat around the arteries")},
+                           Page{"comparison.md", QT_TRANSLATE_NOOP("manual", "Compared with the last scan")},
                            Page{"researcher.md", QT_TRANSLATE_NOOP("manual", "For researchers")},
                            Page{"qa.md", QT_TRANSLATE_NOOP("manual", "Quality mode")},
                            Page{"keys.md", QT_TRANSLATE_NOOP("manual", "Keys and mouse")},

@@ -174,6 +174,11 @@ void Reporting::pin(PictureWidget& view) {
   desk_.messages.say(tr("This view will be key image %1 of the next report.").arg(pinned_.size()));
 }
 
+void Reporting::add_pages(const std::vector<session::KeyImage>& pages) {
+  pinned_.insert(pinned_.end(), pages.begin(), pages.end());
+  desk_.messages.say(tr("%n page(s) more in the next report.", nullptr, static_cast<int>(pages.size())));
+}
+
 void Reporting::export_centerlines() {
   const QString chosen =
       ask_save_file(&desk_.window, tr("Export the centerlines"), tr("Centerlines (*.vtp)"));

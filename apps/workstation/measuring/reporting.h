@@ -29,6 +29,8 @@ class Reporting final : public QObject {
   void say_in_report();
   /// The view becomes a further key image of the next report.
   void pin(PictureWidget& view);
+  /// Further pages of the next report.
+  void add_pages(const std::vector<session::KeyImage>& pages);
   std::size_t pinned() const { return pinned_.size(); }
   /// Asks for a file: the axes with their radii (VTP).
   void export_centerlines();

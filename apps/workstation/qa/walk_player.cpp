@@ -69,7 +69,7 @@ WalkPlayer::WalkPlayer(Stage stage, std::vector<WalkStep> steps, QObject* parent
 WalkPlayer::~WalkPlayer() = default;
 
 double WalkPlayer::longest_block_ms() const {
-  double longest = blocked_ms_;
+  double longest = std::max(blocked_ms_, opening_blocked_ms_);
   for (const Done& one : done_) longest = std::max(longest, one.blocked_ms);
   return longest;
 }
@@ -110,7 +110,12 @@ void WalkPlayer::wait_for_rest() {
   if (step_clock_.elapsed() > most_walk_ms) throw CannotWalk{"the window does not come to rest"};
   const bool rests = idle && (quiet_.elapsed() >= walk_rest_ms || step_clock_.elapsed() > most_restless_ms);
   if (!rests) return;
-  if (doing_) finish_step();
+  if (doing_) {
+    finish_step();
+  } else {
+    opening_ms_ = ms(step_clock_);
+    opening_blocked_ms_ = blocked_ms_;
+  }
   if (done_.size() == steps_.size()) return end();
   doing_ = true;
   step_clock_.start();
@@ -279,10 +284,12 @@ void WalkPlayer::end() {
   heartbeat_.stop();
   qApp->removeEventFilter(this);
   std::string table = core::csv_line({"line", "step", "ms", "blocked_ms"});
-  for (const Done& one : done_)
-    table += core::csv_line({std::to_string(one.step.line), walk_line(one.step).toStdString(),
-                             QString::number(one.ms, 'f', 1).toStdString(),
-                             QString::number(one.blocked_ms, 'f', 1).toStdString()});
+  const auto add = [&table](int line, const std::string& step, double took_ms, double blocked_ms) {
+    table += core::csv_line({std::to_string(line), step, QString::number(took_ms, 'f', 1).toStdString(),
+                             QString::number(blocked_ms, 'f', 1).toStdString()});
+  };
+  add(0, "opening", opening_ms_, opening_blocked_ms_);
+  for (const Done& one : done_) add(one.step.line, walk_line(one.step).toStdString(), one.ms, one.blocked_ms);
   try {
     core::write_file(stage_.folder / "walk.csv", table);
   } catch (const Error& error) {

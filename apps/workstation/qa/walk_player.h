@@ -47,7 +47,7 @@ class WalkPlayer final : public QObject {
   ~WalkPlayer() override;
   /// With the first step once the window is at rest.
   void start();
-  double longest_block_ms() const;
+  double longest_block_ms() const;  ///< with what was opened before the first step
   /// Why it ended early; empty where it did not.
   const QString& failure() const { return failure_; }
 
@@ -79,6 +79,7 @@ class WalkPlayer final : public QObject {
   QElapsedTimer step_clock_, quiet_, beat_;
   QTimer heartbeat_;
   double blocked_ms_ = 0.0;
+  double opening_ms_ = 0.0, opening_blocked_ms_ = 0.0;  // until the first step could begin
   bool doing_ = false, ended_ = false;
 };
 

@@ -3,6 +3,8 @@
 #include "ostia/core/phrasebook.h"
 
 #include <QCoreApplication>
+#include <QRegularExpression>
+#include <utility>
 
 namespace ostia::workstation {
 namespace {
@@ -136,6 +138,34 @@ constexpr const char* sentences[] = {
         "end of one that is not"),
     QT_TRANSLATE_NOOP("library", "no way from %1 mm to %t2: %l3"),
     QT_TRANSLATE_NOOP("library", "the front has covered the image"),
+    QT_TRANSLATE_NOOP("library", "the click was moved by %1 mm onto the lumen"),
+    // Edits, as `by_names` has them.
+    QT_TRANSLATE_NOOP("library", "%1: its branches go, too: %2"),
+    QT_TRANSLATE_NOOP("library", "%1: what leaves it beyond the cut goes, too: %2"),
+    QT_TRANSLATE_NOOP("library", "%1: no vessel would be left; the last one stays"),
+    QT_TRANSLATE_NOOP("library", "the ball did not touch the wall; nothing changed"),
+    QT_TRANSLATE_NOOP("library", "the wall was dragged nowhere; nothing changed"),
+    QT_TRANSLATE_NOOP("library",
+                      "the wall was stopped %1 before the axis at %2 places; a wall never passes its axis"),
+    QT_TRANSLATE_NOOP("library",
+                      "the reach of %1 is shorter than one and a half times the wall's %2 between samples: "
+                      "the wall follows as smoothly as they allow"),
+    QT_TRANSLATE_NOOP("library",
+                      "the pull on %1 starts %2 from the vessel's wall; take hold of the wall itself"),
+    QT_TRANSLATE_NOOP("library", "the pull on %1 moves the wall by more than %2; drag it in steps"),
+    QT_TRANSLATE_NOOP(
+        "library",
+        "the pull on %1 ends %2 from the axis; keep the wall at least %3 away, or move the axis "
+        "first"),
+    QT_TRANSLATE_NOOP("library",
+                      "the line on %1 comes within %2 of the axis at %3 along the vessel; draw each side of "
+                      "the wall by itself"),
+    QT_TRANSLATE_NOOP(
+        "library",
+        "the line on %1 crosses the axis near %2 along the vessel; draw each side of the wall by itself"),
+    QT_TRANSLATE_NOOP("library",
+                      "the line on %1 crosses itself near %2 along the vessel; draw it without a loop"),
+    QT_TRANSLATE_NOOP("library", "the line on %1 runs back along the vessel at %2; draw it in one direction"),
     // Cases.
     QT_TRANSLATE_NOOP("library", "cannot open the case %1: %l2"),
     QT_TRANSLATE_NOOP("library",
@@ -206,6 +236,44 @@ constexpr const char* sentences[] = {
     QT_TRANSLATE_NOOP("library",
                       "the scan was taken at %1 kV: compare its values with those of other voltages only as "
                       "estimated at 120 kV"),
+    // Networks of vessels.
+    QT_TRANSLATE_NOOP("library",
+                      "its branches are shorter on average than the least radius: are radii and places in "
+                      "different units? `ostia convert --units m --radius-units mm` settles it"),
+    // Two scans compared.
+    QT_TRANSLATE_NOOP("library", "hardly one patient: %l1"),
+    QT_TRANSLATE_NOOP("library",
+                      "one of the trees is mirrored: as they are their axes are %1 mm apart, mirrored %2 mm"),
+    QT_TRANSLATE_NOOP(
+        "library",
+        "the axes of the vessels with the same names are %1 mm apart when the trees lie on each "
+        "other as well as they can (one patient's: up to %2 mm)"),
+    QT_TRANSLATE_NOOP(
+        "library",
+        "half of the ostia and forks with the same names are %1 mm or more apart when the trees "
+        "lie on each other as well as they can (one patient's: up to %2 mm)"),
+    QT_TRANSLATE_NOOP("library",
+                      "only %1 % of the shorter tree runs beside the other (one patient's: %2 % or more)"),
+    QT_TRANSLATE_NOOP("library",
+                      "no vessel has the same name in both trees, so that nothing says how they lie to each "
+                      "other; name the vessels (RCA, LAD, LCX, ...) in both"),
+    QT_TRANSLATE_NOOP("library", "%1 is not compared: less than half of it is in both trees"),
+    QT_TRANSLATE_NOOP("library", "%1 is in the former tree alone"),
+    QT_TRANSLATE_NOOP("library", "%1 is in the later tree alone"),
+    QT_TRANSLATE_NOOP("library", "the former scan: %l1"),
+    QT_TRANSLATE_NOOP("library", "the later scan: %l1"),
+    QT_TRANSLATE_NOOP("library", "%1: %2 mm could not be measured, the wall does not close there"),
+    QT_TRANSLATE_NOOP("library", "plaque is not compared: the image of the former case was not at hand"),
+    QT_TRANSLATE_NOOP("library", "plaque is not compared: the image of the later case was not at hand"),
+    QT_TRANSLATE_NOOP(
+        "library",
+        "the scans were taken at %1 and %2 kV: classes of plaque and the fat's CT number change "
+        "with that alone"),
+    QT_TRANSLATE_NOOP(
+        "library", "no repeatability was given: differences are told, and none of them is called a change"),
+    QT_TRANSLATE_NOOP("library", "the former case has no vessels; choose one with a coronary tree"),
+    QT_TRANSLATE_NOOP("library", "the series of the former image is not in its folder any more"),
+    QT_TRANSLATE_NOOP("library", "what was chosen is another image than that of the former case"),
     // Pressures.
     QT_TRANSLATE_NOOP("library", "%1 is %2; it is a number above 0"),
     QT_TRANSLATE_NOOP("library", "the diastolic pressure, %1 mmHg, is not below the systolic one, %2 mmHg"),
@@ -217,6 +285,22 @@ constexpr const char* sentences[] = {
 core::Phrasebook& book() {
   static core::Phrasebook made;
   return made;
+}
+
+/// Libraries name an edit and its vessel for those who write scripts, "branch.delete on vessel 7 (RCA)": who
+/// made it by hand reads "RCA", and of what was drawn what it was.
+std::string by_names(const std::string& text) {
+  static const std::pair<QRegularExpression, const char*> names[] = {
+      {QRegularExpression(QStringLiteral("\\bvessel \\d+ \\(([^()]+)\\)")), "\\1"},
+      {QRegularExpression(QStringLiteral("\\b(axis|branch|vessel)\\.[a-z_]+ on ")), ""},
+      {QRegularExpression(QStringLiteral("\\bwall\\.drag on ")), "the pull on "},
+      {QRegularExpression(QStringLiteral("\\bwall\\.push on ")), "the brush on "},
+      {QRegularExpression(QStringLiteral("\\bcpr\\.stroke on ")), "the line on "},
+      {QRegularExpression(QStringLiteral("\\bsection\\.contour on ")), "the contour on "},
+      {QRegularExpression(QStringLiteral(", or use section\\.contour$")), ""}};
+  QString said = QString::fromStdString(text);
+  for (const auto& [name, now] : names) said.replace(name, QString::fromLatin1(now));
+  return said.toStdString();
 }
 
 }  // namespace
@@ -235,7 +319,7 @@ void use_library_language() {
 }
 
 QString library_text(const std::string& text) {
-  return QString::fromStdString(book().say(text));
+  return QString::fromStdString(book().say(by_names(text)));
 }
 
 }  // namespace ostia::workstation

@@ -3,6 +3,8 @@
 #include "calcium/page.h"
 #include "calcium/reading.h"
 #include "commands/table.h"
+#include "comparison/comparing.h"
+#include "comparison/page.h"
 #include "flow/cases.h"
 #include "flow/results.h"
 #include "measuring/lesions.h"
@@ -101,6 +103,7 @@ MainWindow::~MainWindow() {
   delete pressure_page_;  // these and the list watch what goes before them
   delete calcium_page_;
   delete fat_page_;
+  delete comparison_page_;
   panels_->lesions().show_pressures(nullptr);
 }
 
@@ -180,6 +183,7 @@ void MainWindow::build_parts() {
   heart_dock_->hide();
   layouts_ = std::make_unique<Layouts>(desk_, *this, *panels_, *planes_, *heart_);
   build_tissues();
+  build_comparison();
 }
 
 /// Calcium and fat.
@@ -201,11 +205,17 @@ void MainWindow::build_tissues() {
   fat_page_->hide();
 }
 
+void MainWindow::build_comparison() {
+  comparing_ = std::make_unique<Comparing>(desk_);
+  comparison_page_ = new ComparisonPage(desk_, *this, *comparing_);
+}
+
 void MainWindow::connect_parts() {
   connect(panels_, &PanelLayout::hovered, place_, &QLabel::setText);
   connect(panels_, &PanelLayout::end_chosen, finder_.get(), &VesselFinder::find_vessel);
   connect(&panels_->vessels(), &VesselList::last_deleted, finder_.get(), &VesselFinder::delete_last);
   connect(planes_, &PlanesDock::hovered, place_, &QLabel::setText);
+  connect(comparison_page_, &ComparisonPage::hovered, place_, &QLabel::setText);
   connect(planes_, &PlanesDock::end_chosen, finder_.get(), &VesselFinder::find_vessel);
   connect(panels_, &PanelLayout::narrow_changed, place_, [this, wide = place_->minimumWidth()](bool narrow) {
     place_->setMinimumWidth(narrow ? 0 : wide);  // what a tool says needs the room

@@ -21,6 +21,8 @@ class BeatingCase;
 class Calcium;
 class CalciumPage;
 class CommandTable;
+class Comparing;
+class ComparisonPage;
 class FlowCases;
 class FlowResults;
 class Lesions;
@@ -84,6 +86,7 @@ class MainWindow final : public QMainWindow {
   PressurePage& pressure_page() { return *pressure_page_; }
   Calcium& calcium() { return *calcium_; }
   Fat& fat() { return *fat_; }
+  Comparing& comparing() { return *comparing_; }
 
  protected:
   void closeEvent(QCloseEvent* event) override;
@@ -95,6 +98,7 @@ class MainWindow final : public QMainWindow {
   void build_parts();
   void build_qa();
   void build_tissues();
+  void build_comparison();
   void build_commands();
   StepsBeside steps_beside();
   void connect_parts();
@@ -130,6 +134,8 @@ class MainWindow final : public QMainWindow {
   CalciumPage* calcium_page_ = nullptr;
   std::unique_ptr<Fat> fat_;
   FatPage* fat_page_ = nullptr;
+  std::unique_ptr<Comparing> comparing_;
+  ComparisonPage* comparison_page_ = nullptr;
   std::unique_ptr<FlowResults> flow_results_;
   std::unique_ptr<FlowCases> flow_cases_;
   std::unique_ptr<TreeOpening> trees_;

@@ -9,6 +9,8 @@
 #include "commands/keyboard.h"
 #include "commands/keyboard_commands.h"
 #include "commands/table.h"
+#include "comparison/commands.h"
+#include "comparison/page.h"
 #include "flow/commands.h"
 #include "help/commands.h"
 #include "help/crash_reports.h"
@@ -102,6 +104,8 @@ void MainWindow::build_commands() {
   add_calcium_commands(*commands_, desk_, *calcium_, *calcium_page_);
   calcium_page_->add_buttons(*commands_);
   add_fat_commands(*commands_, *fat_page_);
+  add_comparison_commands(*commands_, desk_, *comparing_, *comparison_page_, *reporting_);
+  comparison_page_->add_buttons(*commands_);
   add_phase_commands(*commands_, desk_, *beating_);
   add_series_commands(*commands_, desk_, *series_);
   auto* plugins = new Plugins(desk_, *opening_, *flow_results_);
@@ -118,6 +122,7 @@ void MainWindow::build_commands() {
   list_plugins_in(*menus.plugins, *commands_, *plugins);
   QTimer::singleShot(0, plugins, [plugins] { plugins->look(); });
   connect(&commands_->action("view.fit"), &QAction::triggered, planes_, &PlanesDock::fit);
+  connect(&commands_->action("view.fit"), &QAction::triggered, comparison_page_, &ComparisonPage::fit);
   commands_->arrange(menus.order);
   commands_->dress();
   build_tool_bars(*this, *commands_, desk_);

@@ -21,8 +21,11 @@ class MenuBuilder {
     fill(menu, {"file.open", "file.open_folder", "file.archive", "file.series", "file.orientation"});
     fill(menu->addMenu(tr("PACS")), {"file.send", "file.outbox", "file.servers"});
     made.recent = menu->addMenu(tr("&Recent cases"));
-    fill(menu, {"file.sample", line, "file.save_as", "file.close", line, "file.report_notes", "file.report",
-                "file.pin"});
+    fill(menu, {"file.sample", line, "file.compare"});
+    fill(menu->addMenu(tr("Compared with the &last scan")),
+         {"compare.page", "compare.again", line, "compare.previous", "compare.next", "compare.blink",
+          "compare.side", line, "compare.report", "compare.save", line, "compare.close"});
+    fill(menu, {line, "file.save_as", "file.close", line, "file.report_notes", "file.report", "file.pin"});
     fill(menu->addMenu(tr("&Export")),
          {"file.export_surface", "file.export_mesh", "file.flow_case", "file.export_centerlines"});
     fill(menu, {"file.open_mesh", "file.flow_results", "file.motion", "file.phases", line, "file.quit"});

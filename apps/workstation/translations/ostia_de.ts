@@ -711,6 +711,10 @@
         <source>Calcium score</source>
         <translation>Kalkscore</translation>
     </message>
+    <message>
+        <source>Compared with the last scan</source>
+        <translation>Verglichen mit der letzten Aufnahme</translation>
+    </message>
 </context>
 <context>
     <name>jobs</name>
@@ -868,6 +872,70 @@
     <message>
         <source>the click %1 mm lies inside vessel &apos;%2&apos;, which is in the tree already: click the distal end of one that is not</source>
         <translation>Der Klick bei %1 mm liegt im Gefäß „%2“, das schon im Baum ist: Klicken Sie das distale Ende eines Gefäßes an, das noch fehlt.</translation>
+    </message>
+    <message>
+        <source>the click was moved by %1 mm onto the lumen</source>
+        <translation>Der Klick wurde um %1 mm auf das Lumen gerückt</translation>
+    </message>
+    <message>
+        <source>%1: its branches go, too: %2</source>
+        <translation>%1: Die Äste gehen mit: %2</translation>
+    </message>
+    <message>
+        <source>%1: what leaves it beyond the cut goes, too: %2</source>
+        <translation>%1: Was jenseits des Schnitts abgeht, geht mit: %2</translation>
+    </message>
+    <message>
+        <source>%1: no vessel would be left; the last one stays</source>
+        <translation>%1: Kein Gefäß bliebe übrig; das letzte bleibt</translation>
+    </message>
+    <message>
+        <source>the ball did not touch the wall; nothing changed</source>
+        <translation>die Kugel berührte die Wand nicht; nichts wurde geändert</translation>
+    </message>
+    <message>
+        <source>the wall was dragged nowhere; nothing changed</source>
+        <translation>die Wand wurde nirgendwohin gezogen; nichts wurde geändert</translation>
+    </message>
+    <message>
+        <source>the wall was stopped %1 before the axis at %2 places; a wall never passes its axis</source>
+        <translation>die Wand wurde an %2 Stellen %1 vor der Achse angehalten; eine Wand überschreitet nie ihre Achse</translation>
+    </message>
+    <message>
+        <source>the reach of %1 is shorter than one and a half times the wall&apos;s %2 between samples: the wall follows as smoothly as they allow</source>
+        <translation>die Reichweite von %1 ist kürzer als das Anderthalbfache des Abstands der Proben der Wand, %2: die Wand folgt so glatt, wie es diese erlauben</translation>
+    </message>
+    <message>
+        <source>the pull on %1 starts %2 from the vessel&apos;s wall; take hold of the wall itself</source>
+        <translation>%1: Der Zug beginnt %2 neben der Gefäßwand; fassen Sie die Wand selbst</translation>
+    </message>
+    <message>
+        <source>the pull on %1 moves the wall by more than %2; drag it in steps</source>
+        <translation>%1: Der Zug versetzt die Wand um mehr als %2; ziehen Sie sie in Schritten</translation>
+    </message>
+    <message>
+        <source>the pull on %1 ends %2 from the axis; keep the wall at least %3 away, or move the axis first</source>
+        <translation>%1: Der Zug endet %2 neben der Achse; lassen Sie der Wand mindestens %3 Abstand, oder versetzen Sie erst die Achse</translation>
+    </message>
+    <message>
+        <source>the line on %1 comes within %2 of the axis at %3 along the vessel; draw each side of the wall by itself</source>
+        <translation>%1: Die Linie kommt der Achse bei %3 längs des Gefäßes näher als %2; zeichnen Sie jede Seite der Wand für sich</translation>
+    </message>
+    <message>
+        <source>the line on %1 crosses the axis near %2 along the vessel; draw each side of the wall by itself</source>
+        <translation>%1: Die Linie kreuzt die Achse bei %2 längs des Gefäßes; zeichnen Sie jede Seite der Wand für sich</translation>
+    </message>
+    <message>
+        <source>the line on %1 crosses itself near %2 along the vessel; draw it without a loop</source>
+        <translation>%1: Die Linie kreuzt sich selbst bei %2 längs des Gefäßes; zeichnen Sie sie ohne Schleife</translation>
+    </message>
+    <message>
+        <source>the line on %1 runs back along the vessel at %2; draw it in one direction</source>
+        <translation>%1: Die Linie läuft bei %2 längs des Gefäßes zurück; zeichnen Sie sie in einer Richtung</translation>
+    </message>
+    <message>
+        <source>its branches are shorter on average than the least radius: are radii and places in different units? `ostia convert --units m --radius-units mm` settles it</source>
+        <translation>Seine Äste sind im Mittel kürzer als der kleinste Radius: Haben Radien und Orte verschiedene Einheiten? `ostia convert --units m --radius-units mm` bringt es in Ordnung.</translation>
     </message>
     <message>
         <source>no way from %1 mm to %t2: %l3</source>
@@ -1057,6 +1125,82 @@
         <source>the scan was taken at %1 kV: compare its values with those of other voltages only as estimated at 120 kV</source>
         <translation>aufgenommen mit %1 kV: Werte mit denen anderer Spannungen nur so vergleichen, wie sie für 120 kV geschätzt sind</translation>
     </message>
+    <message>
+        <source>hardly one patient: %l1</source>
+        <translation>kaum ein Patient: %l1</translation>
+    </message>
+    <message>
+        <source>one of the trees is mirrored: as they are their axes are %1 mm apart, mirrored %2 mm</source>
+        <translation>einer der Bäume ist gespiegelt: so, wie sie sind, liegen ihre Achsen %1 mm auseinander, gespiegelt %2 mm</translation>
+    </message>
+    <message>
+        <source>the axes of the vessels with the same names are %1 mm apart when the trees lie on each other as well as they can (one patient&apos;s: up to %2 mm)</source>
+        <translation>die Achsen der Gefäße gleichen Namens liegen %1 mm auseinander, wenn die Bäume so gut wie möglich aufeinander liegen (bei einem Patienten: bis %2 mm)</translation>
+    </message>
+    <message>
+        <source>half of the ostia and forks with the same names are %1 mm or more apart when the trees lie on each other as well as they can (one patient&apos;s: up to %2 mm)</source>
+        <translation>die Hälfte der Ostien und Gabelungen gleichen Namens liegt %1 mm oder mehr auseinander, wenn die Bäume so gut wie möglich aufeinander liegen (bei einem Patienten: bis %2 mm)</translation>
+    </message>
+    <message>
+        <source>only %1 % of the shorter tree runs beside the other (one patient&apos;s: %2 % or more)</source>
+        <translation>nur %1 % des kürzeren Baums laufen neben dem anderen (bei einem Patienten: %2 % oder mehr)</translation>
+    </message>
+    <message>
+        <source>no vessel has the same name in both trees, so that nothing says how they lie to each other; name the vessels (RCA, LAD, LCX, ...) in both</source>
+        <translation>kein Gefäß heißt in beiden Bäumen gleich, so dass nichts sagt, wie sie zueinander liegen; benennen Sie die Gefäße (RCA, LAD, LCX, ...) in beiden</translation>
+    </message>
+    <message>
+        <source>%1 is not compared: less than half of it is in both trees</source>
+        <translation>%1 wird nicht verglichen: weniger als die Hälfte davon ist in beiden Bäumen</translation>
+    </message>
+    <message>
+        <source>%1 is in the former tree alone</source>
+        <translation>%1 ist nur im früheren Baum</translation>
+    </message>
+    <message>
+        <source>%1 is in the later tree alone</source>
+        <translation>%1 ist nur im späteren Baum</translation>
+    </message>
+    <message>
+        <source>the former scan: %l1</source>
+        <translation>die frühere Aufnahme: %l1</translation>
+    </message>
+    <message>
+        <source>the later scan: %l1</source>
+        <translation>die spätere Aufnahme: %l1</translation>
+    </message>
+    <message>
+        <source>%1: %2 mm could not be measured, the wall does not close there</source>
+        <translation>%1: %2 mm konnten nicht vermessen werden, dort schließt sich die Wand nicht</translation>
+    </message>
+    <message>
+        <source>plaque is not compared: the image of the former case was not at hand</source>
+        <translation>Plaque wird nicht verglichen: das Bild des früheren Falls war nicht zur Hand</translation>
+    </message>
+    <message>
+        <source>plaque is not compared: the image of the later case was not at hand</source>
+        <translation>Plaque wird nicht verglichen: das Bild des späteren Falls war nicht zur Hand</translation>
+    </message>
+    <message>
+        <source>the scans were taken at %1 and %2 kV: classes of plaque and the fat&apos;s CT number change with that alone</source>
+        <translation>die Aufnahmen wurden mit %1 und %2 kV gemacht: schon damit ändern sich die Klassen der Plaque und die CT-Zahl des Fetts</translation>
+    </message>
+    <message>
+        <source>no repeatability was given: differences are told, and none of them is called a change</source>
+        <translation>keine Wiederholbarkeit ist bekannt: Unterschiede werden genannt, und keiner davon heißt eine Veränderung</translation>
+    </message>
+    <message>
+        <source>the former case has no vessels; choose one with a coronary tree</source>
+        <translation>der frühere Fall hat keine Gefäße; wählen Sie einen mit einem Koronarbaum</translation>
+    </message>
+    <message>
+        <source>the series of the former image is not in its folder any more</source>
+        <translation>die Serie des früheren Bildes ist nicht mehr in ihrem Ordner</translation>
+    </message>
+    <message>
+        <source>what was chosen is another image than that of the former case</source>
+        <translation>gewählt wurde ein anderes Bild als das des früheren Falls</translation>
+    </message>
 </context>
 <context>
     <name>manual</name>
@@ -1111,6 +1255,10 @@
     <message>
         <source>Fat around the arteries</source>
         <translation>Fett um die Arterien</translation>
+    </message>
+    <message>
+        <source>Compared with the last scan</source>
+        <translation>Verglichen mit der letzten Aufnahme</translation>
     </message>
 </context>
 <context>
@@ -1287,6 +1435,37 @@
     <message>
         <source>&lt;p&gt;The editing of the lumen follows Wels et al., which is the subject of the patent application EP 16170187.5; look into its state before commercial use. Details: docs/licences.md.&lt;/p&gt;</source>
         <translation>&lt;p&gt;Das Bearbeiten des Lumens folgt Wels et al.; das Verfahren ist Gegenstand der Patentanmeldung EP 16170187.5. Prüfen Sie deren Stand vor gewerblicher Nutzung. Näheres: docs/licences.md.&lt;/p&gt;</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::AlongWidget</name>
+    <message>
+        <source>Diameter along the vessel, before and now</source>
+        <translation>Durchmesser entlang des Gefäßes, früher und jetzt</translation>
+    </message>
+    <message>
+        <source>This vessel is in one of the scans alone.</source>
+        <translation>Dieses Gefäß ist nur in einer der Aufnahmen.</translation>
+    </message>
+    <message>
+        <source>One of the scans shows no lumen here.</source>
+        <translation>Eine der Aufnahmen zeigt hier kein Lumen.</translation>
+    </message>
+    <message>
+        <source>%1 mm: diameter %2 mm before, %3 mm now, difference %4 mm</source>
+        <translation>%1 mm: Durchmesser früher %2 mm, jetzt %3 mm, Unterschied %4 mm</translation>
+    </message>
+    <message>
+        <source> (smallest real difference %1 mm)</source>
+        <translation> (kleinster echter Unterschied %1 mm)</translation>
+    </message>
+    <message>
+        <source>now</source>
+        <translation>jetzt</translation>
+    </message>
+    <message>
+        <source>before</source>
+        <translation>früher</translation>
     </message>
 </context>
 <context>
@@ -3054,6 +3233,232 @@
         <source>Measures the fat about RCA, LAD and LCX and colours it on the CPRs.</source>
         <translation>Misst das Fett um RCA, LAD und LCX und färbt es auf den CPRs.</translation>
     </message>
+    <message>
+        <source>The page of the comparison is not open.</source>
+        <translation>Die Seite des Vergleichs ist nicht offen.</translation>
+    </message>
+    <message>
+        <source>Compare with the last s&amp;can…</source>
+        <translation>Mit der letzten Auf&amp;nahme vergleichen…</translation>
+    </message>
+    <message>
+        <source>What has changed since the same patient&apos;s former case: lesions, lumen, plaque. The former case is only read.</source>
+        <translation>Was sich seit dem früheren Fall desselben Patienten verändert hat: Läsionen, Lumen, Plaque. Der frühere Fall wird nur gelesen.</translation>
+    </message>
+    <message>
+        <source>&amp;Page of the comparison</source>
+        <translation>Seite des &amp;Vergleichs</translation>
+    </message>
+    <message>
+        <source>Both scans side by side in the place of the views, and back.</source>
+        <translation>Beide Aufnahmen nebeneinander an der Stelle der Ansichten, und zurück.</translation>
+    </message>
+    <message>
+        <source>&amp;Blink</source>
+        <translation>&amp;Blinken</translation>
+    </message>
+    <message>
+        <source>The other scan in the same place; again, and the first is back.</source>
+        <translation>Die andere Aufnahme an derselben Stelle; noch einmal, und die erste ist wieder da.</translation>
+    </message>
+    <message>
+        <source>&amp;Side by side</source>
+        <translation>&amp;Nebeneinander</translation>
+    </message>
+    <message>
+        <source>Ne&amp;xt lesion of either scan</source>
+        <translation>Nä&amp;chste Läsion beider Aufnahmen</translation>
+    </message>
+    <message>
+        <source>Both scans go to the next lesion of the list.</source>
+        <translation>Beide Aufnahmen gehen zur nächsten Läsion der Liste.</translation>
+    </message>
+    <message>
+        <source>Pre&amp;vious lesion of either scan</source>
+        <translation>Vo&amp;rige Läsion beider Aufnahmen</translation>
+    </message>
+    <message>
+        <source>&amp;Compare again</source>
+        <translation>Noch &amp;einmal vergleichen</translation>
+    </message>
+    <message>
+        <source>With the case as it is now.</source>
+        <translation>Mit dem Fall, wie er jetzt ist.</translation>
+    </message>
+    <message>
+        <source>&amp;Take it into the next report</source>
+        <translation>In den nächsten Befund übe&amp;rnehmen</translation>
+    </message>
+    <message>
+        <source>The lesions before and now, and what runs along the vessels, become pages of the next report.</source>
+        <translation>Die Läsionen früher und jetzt und die Verläufe entlang der Gefäße werden Seiten des nächsten Befunds.</translation>
+    </message>
+    <message>
+        <source>&amp;Write pages and tables…</source>
+        <translation>Seiten und Tabellen &amp;schreiben…</translation>
+    </message>
+    <message>
+        <source>A folder with the comparison as PDF, HTML, JSON and table.</source>
+        <translation>Ein Ordner mit dem Vergleich als PDF, HTML, JSON und Tabelle.</translation>
+    </message>
+    <message>
+        <source>Put the &amp;former scan away</source>
+        <translation>Die &amp;frühere Aufnahme weglegen</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::Comparing</name>
+    <message>
+        <source>No case is open.</source>
+        <translation>Kein Fall ist offen.</translation>
+    </message>
+    <message>
+        <source>The case has not been compared with a former one.</source>
+        <translation>Der Fall wurde mit keinem früheren verglichen.</translation>
+    </message>
+    <message>
+        <source>the former scan</source>
+        <translation>die frühere Aufnahme</translation>
+    </message>
+    <message>
+        <source>The same patient&apos;s former case</source>
+        <translation>Der frühere Fall desselben Patienten</translation>
+    </message>
+    <message>
+        <source>Cases (*.ostia);;All files (*)</source>
+        <translation>Fälle (*.ostia);;Alle Dateien (*)</translation>
+    </message>
+    <message>
+        <source>%1 is the case that is open. Choose the case of the patient&apos;s former scan.</source>
+        <translation>%1 ist der Fall, der offen ist. Wählen Sie den Fall der früheren Aufnahme des Patienten.</translation>
+    </message>
+    <message>
+        <source>Nothing was compared</source>
+        <translation>Nichts wurde verglichen</translation>
+    </message>
+    <message>
+        <source>Reading the former case</source>
+        <translation>Der frühere Fall wird gelesen</translation>
+    </message>
+    <message>
+        <source>The image of the former case</source>
+        <translation>Das Bild des früheren Falls</translation>
+    </message>
+    <message>
+        <source>The image that the former case was made on (%1) is not where it was, or has never been opened on this computer. Without it lumens are compared, and neither plaque nor pictures.</source>
+        <translation>Das Bild, auf dem der frühere Fall beruht (%1), ist nicht, wo es war, oder wurde auf diesem Rechner nie geöffnet. Ohne es werden Lumen verglichen, weder Plaque noch Bilder.</translation>
+    </message>
+    <message>
+        <source>Find the file…</source>
+        <translation>Die Datei suchen…</translation>
+    </message>
+    <message>
+        <source>Find the DICOM folder…</source>
+        <translation>Den DICOM-Ordner suchen…</translation>
+    </message>
+    <message>
+        <source>Go on without</source>
+        <translation>Ohne weiter</translation>
+    </message>
+    <message>
+        <source>Comparing the two scans</source>
+        <translation>Die Aufnahmen werden verglichen</translation>
+    </message>
+    <message>
+        <source>The images are known as those of two patients.</source>
+        <translation>Die Bilder sind als die zweier Patienten bekannt.</translation>
+    </message>
+    <message>
+        <source>Hardly one patient</source>
+        <translation>Kaum ein Patient</translation>
+    </message>
+    <message>
+        <source>The two cases are hardly of one patient, and nothing was compared.
+
+%1</source>
+        <translation>Die beiden Fälle sind kaum von einem Patienten, und nichts wurde verglichen.
+
+%1</translation>
+    </message>
+    <message>
+        <source>Compare all the same</source>
+        <translation>Trotzdem vergleichen</translation>
+    </message>
+    <message>
+        <source>Compared with the scan %1</source>
+        <translation>Verglichen mit der Aufnahme %1</translation>
+    </message>
+    <message>
+        <source>%1: lesions, before → now</source>
+        <translation>%1: Läsionen, früher → jetzt</translation>
+    </message>
+    <message>
+        <source>Where the comparison&apos;s folder is made</source>
+        <translation>Wo der Ordner des Vergleichs angelegt wird</translation>
+    </message>
+    <message>
+        <source>Comparison</source>
+        <translation>Vergleich</translation>
+    </message>
+    <message>
+        <source>The comparison is in %1.</source>
+        <translation>Der Vergleich ist in %1.</translation>
+    </message>
+    <message>
+        <source>The comparison was not written</source>
+        <translation>Der Vergleich wurde nicht geschrieben</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::ComparisonPage</name>
+    <message>
+        <source>What is to be known of this comparison</source>
+        <translation>Was von diesem Vergleich zu wissen ist</translation>
+    </message>
+    <message>
+        <source>CPR</source>
+        <translation>CPR</translation>
+    </message>
+    <message>
+        <source>Vessel</source>
+        <translation>Gefäß</translation>
+    </message>
+    <message>
+        <source>Section</source>
+        <translation>Querschnitt</translation>
+    </message>
+    <message>
+        <source>Orientation of the slice</source>
+        <translation>Lage der Schicht</translation>
+    </message>
+    <message>
+        <source>Axial</source>
+        <translation>Axial</translation>
+    </message>
+    <message>
+        <source>Coronal</source>
+        <translation>Koronar</translation>
+    </message>
+    <message>
+        <source>Sagittal</source>
+        <translation>Sagittal</translation>
+    </message>
+    <message>
+        <source>Slice</source>
+        <translation>Schicht</translation>
+    </message>
+    <message>
+        <source>Out of date: the case has changed since. Compare again.</source>
+        <translation>Veraltet: Der Fall wurde seither geändert. Noch einmal vergleichen.</translation>
+    </message>
+    <message>
+        <source>Compared with the scan %1.</source>
+        <translation>Verglichen mit der Aufnahme %1.</translation>
+    </message>
+    <message>
+        <source>Lesions: %1 in both, %2 new, %3 gone, %4 not reached by one scan.</source>
+        <translation>Läsionen: %1 in beiden, %2 neu, %3 verschwunden, %4 von einer Aufnahme nicht erreicht.</translation>
+    </message>
 </context>
 <context>
     <name>ostia::workstation::CrashReportDialog</name>
@@ -3841,6 +4246,65 @@
     </message>
 </context>
 <context>
+    <name>ostia::workstation::LesionChanges</name>
+    <message>
+        <source>in both</source>
+        <translation>in beiden</translation>
+    </message>
+    <message>
+        <source>new</source>
+        <translation>neu</translation>
+    </message>
+    <message>
+        <source>gone</source>
+        <translation>verschwunden</translation>
+    </message>
+    <message>
+        <source>not reached before</source>
+        <translation>früher nicht erreicht</translation>
+    </message>
+    <message>
+        <source>not reached now</source>
+        <translation>jetzt nicht erreicht</translation>
+    </message>
+    <message>
+        <source>Lesion</source>
+        <translation>Läsion</translation>
+    </message>
+    <message>
+        <source>Vessel</source>
+        <translation>Gefäß</translation>
+    </message>
+    <message>
+        <source>Before → now</source>
+        <translation>Früher → jetzt</translation>
+    </message>
+    <message>
+        <source>MLD, mm</source>
+        <translation>MLD, mm</translation>
+    </message>
+    <message>
+        <source>MLA, mm²</source>
+        <translation>MLA, mm²</translation>
+    </message>
+    <message>
+        <source>Stenosis, %</source>
+        <translation>Stenose, %</translation>
+    </message>
+    <message>
+        <source>Plaque, mm³</source>
+        <translation>Plaque, mm³</translation>
+    </message>
+    <message>
+        <source>Lesions before and now</source>
+        <translation>Läsionen früher und jetzt</translation>
+    </message>
+    <message>
+        <source>Both scans go to the lesion. * differs by more than two scans of an unchanged patient do (smallest real difference, 95 %).</source>
+        <translation>Beide Aufnahmen gehen zur Läsion. * unterscheidet sich um mehr, als zwei Aufnahmen eines unveränderten Patienten es tun (kleinster echter Unterschied, 95 %).</translation>
+    </message>
+</context>
+<context>
     <name>ostia::workstation::LesionList</name>
     <message>
         <source>Lesions</source>
@@ -4045,6 +4509,10 @@
     <message>
         <source>Calci&amp;um score</source>
         <translation>Kal&amp;kscore</translation>
+    </message>
+    <message>
+        <source>Compared with the &amp;last scan</source>
+        <translation>Verglichen mit der &amp;letzten Aufnahme</translation>
     </message>
 </context>
 <context>
@@ -6240,6 +6708,13 @@ Rechtsklick: ein eigenes Fenster, und zurück</translation>
         <source>Findings of the report</source>
         <translation>Erhebung für den Befund</translation>
     </message>
+    <message numerus="yes">
+        <source>%n page(s) more in the next report.</source>
+        <translation>
+            <numerusform>%n Seite mehr im nächsten Befund.</numerusform>
+            <numerusform>%n Seiten mehr im nächsten Befund.</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>ostia::workstation::SceneWidget</name>
@@ -7329,6 +7804,25 @@ Eine Reparatur ändert, was gezeigt wird, nie die Datei.</translation>
     <message>
         <source>The graphics driver refuses the tree&apos;s drawing: %1</source>
         <translation>Der Grafiktreiber lehnt das Zeichnen des Baums ab: %1</translation>
+    </message>
+</context>
+<context>
+    <name>ostia::workstation::TwinViews</name>
+    <message>
+        <source>%1, now</source>
+        <translation>%1, jetzt</translation>
+    </message>
+    <message>
+        <source>%1, before</source>
+        <translation>%1, früher</translation>
+    </message>
+    <message>
+        <source>%1, now: not reached</source>
+        <translation>%1, jetzt: nicht erreicht</translation>
+    </message>
+    <message>
+        <source>%1, before: not reached</source>
+        <translation>%1, früher: nicht erreicht</translation>
     </message>
 </context>
 <context>

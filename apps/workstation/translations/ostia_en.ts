@@ -73,6 +73,16 @@
     </message>
 </context>
 <context>
+    <name>ostia::workstation::Reporting</name>
+    <message numerus="yes">
+        <source>%n page(s) more in the next report.</source>
+        <translation>
+            <numerusform>%n page more in the next report.</numerusform>
+            <numerusform>%n pages more in the next report.</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>ostia::workstation::SeriesBrowser</name>
     <message numerus="yes">
         <source>%n damaged file(s)</source>

@@ -5,6 +5,7 @@
 
 #include "ostia/core/error.h"
 #include "ostia/geometry/graph_repair.h"
+#include "ostia/geometry/graph_units.h"
 
 #include <QMessageBox>
 #include <QPushButton>
@@ -41,8 +42,9 @@ OpenTree prepared(const io::LoadedGraph& loaded, bool repair, const core::TaskCo
   tree.ruler = std::make_shared<const analysis::TreeRuler>(tree.graph, task.sub(0.3, 0.8));
   tree.rays = std::make_shared<const analysis::TreeRays>(tree.graph, task.sub(0.8, 0.9));
   tree.blocks = std::make_shared<const geometry::SegmentBlocks>(*tree.graph, task.sub(0.9, 1.0));
-  if (!tree.ruler->why_no_tree().empty())
-    tree.notes += (tree.notes.empty() ? "" : "\n") + tree.ruler->why_no_tree();
+  for (const std::string& note :
+       {tree.ruler->why_no_tree(), geometry::unit_doubt(geometry::facts_of(*tree.graph))})
+    if (!note.empty()) tree.notes += (tree.notes.empty() ? "" : "\n") + note;
   return tree;
 }
 

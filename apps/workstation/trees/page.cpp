@@ -10,19 +10,14 @@
 #include <QApplication>
 #include <QClipboard>
 #include <QDoubleSpinBox>
-#include <QEvent>
 #include <QGridLayout>
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
 #include <QMainWindow>
-#include <QMenuBar>
-#include <QStatusBar>
 #include <QTableWidget>
-#include <QToolBar>
 #include <QToolButton>
 #include <QVBoxLayout>
-#include <algorithm>
 
 namespace ostia::workstation {
 namespace {
@@ -42,34 +37,20 @@ QTableWidgetItem* cell(const QString& text) {
 }  // namespace
 
 TreePage::TreePage(Desk& desk, QMainWindow& window, const CommandTable& commands, OpenTree tree)
-    : QFrame(&window),
-      desk_(desk),
-      window_(window),
-      commands_(commands),
-      tree_(std::move(tree)),
-      measuring_(tree_.ruler) {
+    : OverViews(window), desk_(desk), commands_(commands), tree_(std::move(tree)), measuring_(tree_.ruler) {
   setObjectName("tree_page");
-  setAutoFillBackground(true);
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(0, 0, 0, 0);
   view_ = new TreeView(tree_.blocks, tree_.rays);
   row->addWidget(view_, 1);
   row->addWidget(build_panel());
   connect(view_, &TreeView::clicked, this, &TreePage::click);
-  // The views lie in a window of the system's own, which nothing can cover: they are hidden.
-  window_.centralWidget()->hide();
-  window_.installEventFilter(this);
-  place();
   show_facts();
   show();
-  raise();
   view_->setFocus();
 }
 
-TreePage::~TreePage() {
-  window_.removeEventFilter(this);
-  if (QWidget* views = window_.centralWidget()) views->show();
-}
+TreePage::~TreePage() = default;
 
 QWidget* TreePage::build_panel() {
   auto* panel = new QWidget;
@@ -113,21 +94,6 @@ QWidget* TreePage::build_panel() {
   table_->setAccessibleName(tr("Measured values"));
   rows->addWidget(table_, 1);
   return panel;
-}
-
-void TreePage::place() {
-  int top = window_.menuBar()->geometry().bottom() + 1;
-  for (const QToolBar* bar : window_.findChildren<QToolBar*>(QString(), Qt::FindDirectChildrenOnly))
-    if (bar->isVisible() && bar->geometry().height() < window_.height() / 2)
-      top = std::max(top, bar->geometry().bottom() + 1);
-  const int bottom = window_.statusBar()->geometry().top();
-  setGeometry(0, top, window_.width(), std::max(1, bottom - top));
-}
-
-bool TreePage::eventFilter(QObject* object, QEvent* event) {
-  if (object == &window_ && (event->type() == QEvent::Resize || event->type() == QEvent::LayoutRequest))
-    place();
-  return QFrame::eventFilter(object, event);
 }
 
 void TreePage::choose(TreeTool tool) {

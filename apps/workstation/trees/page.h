@@ -1,10 +1,10 @@
 #pragma once
 /// \file A vessel tree with its facts and measuring tools, in the place of the case's views.
 
+#include "shell/over_views.h"
 #include "trees/measuring.h"
 #include "trees/view.h"
 
-#include <QFrame>
 #include <string>
 
 class QDoubleSpinBox;
@@ -28,7 +28,7 @@ struct OpenTree {
   std::string notes;           ///< faults that are left, what was repaired
 };
 
-class TreePage final : public QFrame {
+class TreePage final : public OverViews {
   Q_OBJECT
  public:
   /// Lies over the window's views, which come back when it goes.
@@ -45,12 +45,8 @@ class TreePage final : public QFrame {
   std::int32_t chosen() const { return chosen_; }
   TreeView& view() { return *view_; }
 
- protected:
-  bool eventFilter(QObject* object, QEvent* event) override;
-
  private:
   QWidget* build_panel();
-  void place();
   void click(const QPointF& at);
   void choose_segment(std::int32_t edge);
   void show_facts();
@@ -58,7 +54,6 @@ class TreePage final : public QFrame {
   void show_marks();
   QString text_of(const TreeMeasured& one) const;
   Desk& desk_;
-  QMainWindow& window_;
   const CommandTable& commands_;
   OpenTree tree_;
   TreeMeasuring measuring_;

@@ -1,5 +1,6 @@
 // What the page of a vessel tree says of a segment and of what was measured.
 
+#include "shell/library_texts.h"
 #include "trees/page.h"
 
 #include <QLabel>
@@ -30,7 +31,7 @@ QString TreePage::text_of(const TreeMeasured& one) const {
 void TreePage::show_facts() {
   QStringList lines{QString::fromStdString(tree_.name),
                     tr("%n segment(s)", nullptr, static_cast<int>(tree_.graph->edges.size()))};
-  if (!tree_.notes.empty()) lines << QString::fromStdString(tree_.notes);
+  if (!tree_.notes.empty()) lines << library_text(tree_.notes);
   if (chosen_ < 0) {
     lines << QString() << tr("Click a segment to see its facts.");
     facts_->setText(lines.join('\n'));

@@ -301,11 +301,11 @@ void VesselList::share_width() {
   const int others =
       wanted(length_column) + wanted(stenosis_column) + wanted(image_column) + wanted(checked_column);
   const int room = viewport()->width();
-  const int names = std::min(least, sizeHintForColumn(name_column));
+  const int names = std::min(least, wanted(name_column));
   setColumnHidden(edited_column, others + wanted(edited_column) + names > room);
-  const bool scrolls = others + least > room;
+  const bool scrolls = others + names > room;
   header()->setSectionResizeMode(name_column, scrolls ? QHeaderView::Fixed : QHeaderView::Stretch);
-  if (scrolls) header()->resizeSection(name_column, least);
+  if (scrolls) header()->resizeSection(name_column, names);
 }
 
 void VesselList::resizeEvent(QResizeEvent* event) {

@@ -825,6 +825,11 @@ def score_calcium(
 def measure_fat(
     model: LumenModel, image: Volume, *, progress: Progress = ..., fat: Options = ..., tube_kv: Optional[float] = ...,
 ) -> dict[str, Any]: ...
+def filter_image(
+    image: Volume, with_: Union[str, Sequence[str]], *, mask: Optional[Volume] = ..., reference: Optional[Volume] = ...,
+    progress: Progress = ...,
+) -> Volume: ...
+def list_filters() -> list[dict[str, Any]]: ...
 def find_territories(
     tree: VesselTree, myocardium: Volume, *, behind: Sequence[tuple[int, float]] = ..., progress: Progress = ...,
     density_g_ml: float = ..., step_mm: float = ...,
@@ -838,7 +843,12 @@ def write_report(
 ) -> dict[str, Any]: ...
 def compare_cases(
     old: Case, new: Case, old_image: Optional[Volume] = ..., new_image: Optional[Volume] = ..., *, anyway: bool = ...,
-    repeatability: Optional[Path] = ..., progress: Progress = ...,
+    repeatability: Optional[Path] = ..., map: Literal["any", "trees", "images"] = ..., old_tube_kv: Optional[float] = ...,
+    new_tube_kv: Optional[float] = ..., progress: Progress = ...,
+) -> dict[str, Any]: ...
+def carry_case(
+    old: Case, old_image: Volume, new_image: Volume, path: Optional[Path] = ..., *, progress: Progress = ...,
+    reach_mm: float = ..., search: bool = ..., anyway: bool = ...,
 ) -> dict[str, Any]: ...
 def sample_case(
     folder: Path, preset: Literal["tiny", "small", "full"] = ..., *, progress: Progress = ...,

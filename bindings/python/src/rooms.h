@@ -13,6 +13,7 @@ void bind_core(py::module_& m);
 void bind_geometry(py::module_& m);
 void bind_imaging(py::module_& m);
 void bind_io(py::module_& m);
+void bind_filtering(py::module_& m);
 void bind_segmentation(py::module_& m);
 void bind_centerline(py::module_& m);
 void bind_reconstruction(py::module_& m);

@@ -30,6 +30,16 @@ constexpr int table_reach = 6, table_steps = 40;  // standard deviations, and en
 constexpr double blurs_of_reach = 4.0;
 constexpr double rounding = 1e-5;  // of the values: a smaller fall is none
 
+// Vessels that the image cuts off end on the faces of its last voxels, half a voxel beyond their middles.
+bool is_beyond(const imaging::Geometry& grid, const Vec3& point) {
+  const Vec3 at = grid.index(point);
+  for (std::size_t d = 0; d < 3; ++d) {
+    const double i = at[static_cast<Eigen::Index>(d)];
+    if (!(i >= -1.0 && i <= static_cast<double>(grid.size[d]))) return true;
+  }
+  return false;
+}
+
 // The part of the image about the graph, as floats, blurred.
 template <class T, class Value>
 FloatVolume surroundings(const SkeletonGraph& graph, const imaging::Volume<T>& image,
@@ -39,7 +49,7 @@ FloatVolume surroundings(const SkeletonGraph& graph, const imaging::Volume<T>& i
   const double margin = options.largest_radius_mm + blurs_of_reach * options.sigma_mm;
   for (const SkeletonEdge& e : graph.edges)
     for (const Vec3& p : e.points) {
-      if (!grid.contains(p))
+      if (is_beyond(grid, p))
         throw InvalidInput("sections: edge " + std::to_string(e.id) + " leaves the image at " +
                            detail::text(p) + "; is it another image's?");
       const Vec3 at = grid.index(p);

@@ -12,6 +12,7 @@ namespace ostia::evaluation {
 namespace {
 
 using geometry::Mat3;
+using geometry::RigidFit;
 using geometry::Vec3;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 using Vec6 = Eigen::Matrix<double, 6, 1>;
@@ -30,7 +31,7 @@ struct Normal {
   }
 };
 
-Normal model_of(const geometry::AabbTree& surface, const std::vector<Vec3>& points, const RigidMotion& motion,
+Normal model_of(const geometry::AabbTree& surface, const std::vector<Vec3>& points, const RigidFit& motion,
                 const Vec3& centre) {
   constexpr double on_surface_mm = 1e-12;  // has no direction, and no say
   return core::parallel_reduce(
@@ -54,7 +55,7 @@ Normal model_of(const geometry::AabbTree& surface, const std::vector<Vec3>& poin
 }
 
 /// The motion followed by a turn about `centre` and a shift.
-RigidMotion after(const RigidMotion& motion, const Vec6& step, const Vec3& centre) {
+RigidFit after(const RigidFit& motion, const Vec6& step, const Vec3& centre) {
   const Vec3 turn = step.head<3>();
   const double angle = turn.norm();
   const Mat3 rotation =
@@ -72,7 +73,7 @@ void require_usable(const std::vector<Vec3>& points, const AlignmentOptions& opt
 
 }  // namespace
 
-double angle_deg(const RigidMotion& motion) {
+double angle_deg(const RigidFit& motion) {
   constexpr double degrees = 57.29577951308232;
   return degrees * Eigen::AngleAxisd(motion.rotation).angle();
 }
@@ -102,7 +103,7 @@ RigidAlignment align_to(const geometry::AabbTree& surface, const std::vector<Vec
     const Vec6 step = -damped.ldlt().solve(here.slope);
     if (!step.allFinite()) break;
     const double largest = step.head<3>().norm() * reach + step.tail<3>().norm();
-    const RigidMotion next = after(out.motion, step, centre);
+    const RigidFit next = after(out.motion, step, centre);
     const Normal there = model_of(surface, points, next, next(mean));
     if (there.squares <= here.squares) {
       out.motion = next;

@@ -17,8 +17,8 @@
 namespace ostia::experiments {
 namespace {
 
-using evaluation::RigidMotion;
 using geometry::Mat3;
+using geometry::RigidFit;
 using geometry::Vec3;
 
 constexpr double ct_surroundings = 50.0, ct_contrast = 300.0;
@@ -45,12 +45,12 @@ std::vector<Seed> seeds_of(const CarotidPhantom& phantom, double inset) {
   return seeds;
 }
 
-RigidMotion pose_of(const CarotidPhantom& phantom, CarotidScan scan, const CarotidOptions& options) {
+RigidFit pose_of(const CarotidPhantom& phantom, CarotidScan scan, const CarotidOptions& options) {
   const Vec3 centre = geometry::bounds(phantom.lumen.points).center();
   const auto drawn = [&](std::uint64_t n) {
     return 2.0 * phantom::uniform(options.seed, 16 * (1 + static_cast<std::uint64_t>(scan)) + n) - 1.0;
   };
-  RigidMotion pose;
+  RigidFit pose;
   for (int d = 0; d < 3; ++d) {
     const double angle = options.tilt_deg * std::numbers::pi / 180.0 * drawn(static_cast<std::uint64_t>(d));
     pose.rotation = Eigen::AngleAxisd(angle, Vec3::Unit(d)).toRotationMatrix() * pose.rotation;
@@ -59,7 +59,7 @@ RigidMotion pose_of(const CarotidPhantom& phantom, CarotidScan scan, const Carot
   return pose;
 }
 
-geometry::TriMesh moved(const geometry::TriMesh& mesh, const RigidMotion& motion) {
+geometry::TriMesh moved(const geometry::TriMesh& mesh, const RigidFit& motion) {
   geometry::TriMesh out = mesh;
   for (Vec3& p : out.points) p = motion(p);
   return out;
@@ -176,7 +176,7 @@ struct Counted {
   std::vector<Vec3> points, normals;
 };
 
-Counted counted(const geometry::TriMesh& model, const RigidMotion& pose, const std::vector<Seed>& seeds,
+Counted counted(const geometry::TriMesh& model, const RigidFit& pose, const std::vector<Seed>& seeds,
                 double end_mm) {
   const std::vector<Vec3> normals = geometry::vertex_normals(model);
   Counted out;

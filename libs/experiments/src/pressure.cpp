@@ -109,20 +109,26 @@ std::string without_path(std::string message, const std::filesystem::path& folde
   return message;
 }
 
-/// One run into the folder that keeps it. What lies in the case is told there; what lies in the machine ends
-/// the experiment.
+/// One run into the folder that keeps it. What lies in the case is told there; what lies in the machine, or
+/// in somebody who stops it, ends the experiment and leaves nothing of the run.
 void run_one(const Walled& one, const Wanted& wanted, const PressureRunner& runner, const PressureKeep& keep,
              const core::TaskContext& task) {
   PressureRun run;
   const std::filesystem::path folder = keep.folder_of(wanted.id);
   try {
-    run = runner({wanted.id, one.wall, one.model(), one.planned.flow_ml_s, wanted.mesh}, folder, task);
-  } catch (const GeometryError& error) {
-    run.failure = error.what();
-  } catch (const NumericalError& error) {
-    run.failure = error.what();
-  } catch (const InvalidInput& error) {
-    run.failure = error.what();
+    try {
+      run = runner({wanted.id, one.wall, one.model(), one.planned.flow_ml_s, wanted.mesh}, folder, task);
+    } catch (const GeometryError& error) {
+      run.failure = error.what();
+    } catch (const NumericalError& error) {
+      run.failure = error.what();
+    } catch (const InvalidInput& error) {
+      run.failure = error.what();
+    }
+    if (!run.failure.empty()) task.throw_if_cancelled();
+  } catch (...) {
+    keep.drop(wanted.id);
+    throw;
   }
   run.failure = without_path(run.failure, folder, wanted.id);
   run.digest = wanted.digest;
@@ -161,7 +167,9 @@ void run_all(const std::vector<Walled>& plan, const std::vector<Wanted>& runs, c
     for (int i = 1; i < jobs && i < static_cast<int>(runs.size()); ++i) others.emplace_back(work);
     work();
   }
-  if (fault) std::rethrow_exception(fault);
+  if (!fault) return;
+  task.throw_if_cancelled();  // whatever else went wrong with it
+  std::rethrow_exception(fault);
 }
 
 /// Pressure from the root to the first place of reading.

@@ -137,4 +137,9 @@ void PressureKeep::put(const std::string& id, const PressureRun& run) const {
   core::write_file(folder_ / (id + ".json"), run_json(run));
 }
 
+void PressureKeep::drop(const std::string& id) const {
+  std::error_code ignored;
+  fs::remove_all(folder_ / id, ignored);
+}
+
 }  // namespace ostia::experiments

@@ -25,6 +25,8 @@ class PressureKeep {
   /// Of a run's own, made if it is not there.
   std::filesystem::path folder_of(const std::string& id) const;
   void put(const std::string& id, const PressureRun& run) const;
+  /// Removes the folder of a run that was not brought to its end.
+  void drop(const std::string& id) const;
 
  private:
   std::filesystem::path folder_;

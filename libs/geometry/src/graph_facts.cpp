@@ -4,6 +4,7 @@
 
 #include "ostia/geometry/disjoint_sets.h"
 #include "ostia/geometry/graph_faults.h"
+#include "ostia/geometry/graph_units.h"
 
 #include <algorithm>
 #include <cmath>
@@ -74,6 +75,13 @@ GraphFacts facts_of(const VesselGraph& graph, const core::TaskContext& task) {
   add_points(degrees, parts, facts);
   task.set_progress(1.0);
   return facts;
+}
+
+std::string unit_doubt(const GraphFacts& facts) {
+  if (!(facts.least_radius_mm * static_cast<double>(facts.branches) > facts.length_mm)) return {};
+  return "its branches are shorter on average than the least radius: are radii and places in different "
+         "units? "
+         "`ostia convert --units m --radius-units mm` settles it";
 }
 
 }  // namespace ostia::geometry

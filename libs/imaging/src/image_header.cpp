@@ -1,3 +1,4 @@
+#include "foreign_source.h"
 #include "image_data.h"
 #include "image_source.h"
 
@@ -213,11 +214,15 @@ ImageSource read_source(const fs::path& given) {
                              lower_case(path.extension().string()) == ".mhd" ||
                              lower_case(path.extension().string()) == ".mha")) {
     source = parse_meta_image(path, head);
+  } else if (const std::string foreign = foreign_format_of(path, head); !foreign.empty()) {
+    source = read_foreign_source(path, foreign);
   } else if (!compressed && head.size() > 132 && head.compare(128, 4, "DICM") == 0) {
     throw InvalidInput(path.string() + ": format: a DICOM file; give the folder of its series");
   } else {
-    throw InvalidInput(path.string() +
-                       ": format: neither NRRD, MetaImage (MHD, MHA) nor NIfTI, or its header is cut short");
+    throw InvalidInput(
+        path.string() +
+        ": format: neither NRRD, MetaImage (MHD, MHA) nor NIfTI, nor GIPL, TIFF, VTK image, Analyze or HDF5 "
+        "image, or its header is cut short");
   }
   check_data_size(source);
   return source;

@@ -1,12 +1,14 @@
 #pragma once
 /// \file What the header of an image file says, before its voxels are put in order. Private to the room.
 
+#include "ostia/core/private_folder.h"
 #include "ostia/imaging/image_file.h"
 
 #include <array>
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -32,6 +34,7 @@ struct ImageSource {
   std::string axes_field;  ///< the header's name for `step`, for messages
   double slope = 1.0, intercept = 0.0;
   std::vector<std::string> warnings;
+  std::shared_ptr<const core::PrivateFolder> kept{};  ///< that holds the data file, where the worker made it
 
   std::int64_t voxels() const { return size[0] * size[1] * size[2]; }
   std::uint64_t bytes() const;

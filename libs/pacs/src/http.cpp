@@ -38,6 +38,38 @@ bool may_pass(long status) {
   throw InvalidInput(refused);
 }
 
+struct TlsAlert {
+  std::string_view words;  ///< in OpenSSL's message
+  const char* meaning;
+};
+constexpr const char* not_our_certificate =
+    "it asks for a certificate of ours, or does not accept the one of `certificate`";
+/// What a server's alerts mean (RFC 8446, 6.2); the first one whose words are there counts.
+constexpr TlsAlert tls_alerts[] = {
+    {"alert protocol version", "it speaks no TLS that is still safe, 1.2 at least"},
+    {"alert insufficient security", "it asks for ciphers that we do not have"},
+    {"unrecognized name", "it does not know the host of url"},
+    // Before TLS 1.3 this also stands for a certificate that was not shown.
+    {"alert handshake failure", "it has no cipher in common with us, or asks for a certificate of ours"},
+    {"alert unknown ca", not_our_certificate},
+    {"alert access denied", not_our_certificate},
+    {"alert certificate", not_our_certificate},
+    {"alert bad certificate", not_our_certificate},
+    {"alert unsupported certificate", not_our_certificate},
+    // libcurl's own words where the server says that ours has expired; of the server's it says which problem.
+    {"SSL certificate verification failed", not_our_certificate}};
+
+/// Throws where `fault`, libcurl's words, tells of an alert of the server.
+void refuse_alert(const std::string& server, std::string_view fault) {
+  for (const TlsAlert& one : tls_alerts)
+    if (fault.find(one.words) != std::string_view::npos)
+      throw InvalidInput(server + ": no secure connection; " + one.meaning);
+  constexpr std::string_view any = " alert ";
+  if (const auto at = fault.rfind(any); at != std::string_view::npos)
+    throw NetworkError(server + " has ended the secure connection (TLS alert: " +
+                       std::string(fault.substr(at + any.size(), 40)) + "); try again later");
+}
+
 }  // namespace
 
 struct HttpClient::Curl {
@@ -190,11 +222,9 @@ void HttpClient::refuse(int code) const {
   if (tunnel >= 300) refuse_tunnel(name, tunnel);
   // With TLS 1.3 a server looks at our certificate when all else is done: what it says of it comes as an
   // alert in place of an answer.
-  const std::string_view fault = curl_->fault.data();
-  if (code == CURLE_SSL_CLIENTCERT || fault.find(" alert ") != std::string_view::npos)
-    throw InvalidInput(name +
-                       ": no secure connection; it asks for a certificate of ours, or does not accept " +
-                       "the one of `certificate`");
+  refuse_alert(name, curl_->fault.data());
+  if (code == CURLE_SSL_CLIENTCERT)
+    throw InvalidInput(name + ": no secure connection; " + not_our_certificate);
   switch (code) {
     case CURLE_PEER_FAILED_VERIFICATION:
       throw InvalidInput(

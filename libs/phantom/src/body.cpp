@@ -8,11 +8,15 @@
 #include "ostia/phantom/vessel_field.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace ostia::phantom {
 namespace {
@@ -20,6 +24,7 @@ namespace {
 using geometry::Box3;
 
 constexpr double largest_texture = 3.0;
+constexpr double largest_in_cells_mm = 100.0;
 
 /// A tube organ's pieces lie in boxes, so that a block finds those that touch it.
 struct Prepared {
@@ -120,6 +125,95 @@ struct Body::Impl {
 
 namespace {
 
+/// How far a place is from a tube's surface at the foot of its axis, negative within; changes by no more than
+/// `steepest` a mm.
+double outside_mm(const Capsule& tube, const Vec3& p) {
+  const Vec3 along = tube.to - tube.from, d = p - tube.from;
+  const double length2 = along.squaredNorm();
+  const double t = length2 > 0.0 ? std::clamp(d.dot(along) / length2, 0.0, 1.0) : 0.0;
+  return (d - t * along).norm() - (tube.from_radius + t * (tube.to_radius - tube.from_radius));
+}
+
+double steepest(const Capsule& tube) {
+  const double length = (tube.to - tube.from).norm();
+  return length > 0.0 ? 1.0 + std::abs(tube.to_radius - tube.from_radius) / length : 1.0;
+}
+
+/// One organ of those that a place may belong to, with its tubes' pieces in a list.
+struct Chosen {
+  const Organ* organ;
+  std::size_t first, last;  // of the capsules
+  bool whole;               // it holds all of the region
+};
+
+/// The organs that a region may meet, in order; nothing after one that holds all of it.
+struct Choice {
+  std::vector<Chosen> organs;
+  Capsules capsules;
+};
+
+/// A block in cells: most places of a block are near one organ or two of the many that touch it. A cell is
+/// looked at when it is first asked for.
+class Cells {
+ public:
+  Cells(const Box3& box, const Choice& of_block)
+      : of_block_(of_block), low_(box.min()), side_mm_(std::clamp(box.sizes().maxCoeff() / 5.0, 1.0, 4.0)) {
+    for (std::size_t a = 0; a < 3; ++a)
+      count_[a] = static_cast<std::int64_t>(std::ceil(box.sizes()[static_cast<Eigen::Index>(a)] / side_mm_));
+    cells_.resize(static_cast<std::size_t>(count_[0] * count_[1] * count_[2]));
+  }
+
+  const Choice& at(const Vec3& p) {
+    std::array<std::int64_t, 3> cell{};
+    for (std::size_t a = 0; a < 3; ++a) {
+      const auto axis = static_cast<Eigen::Index>(a);
+      const double place = (p[axis] - low_[axis]) * a_side_;
+      if (!(place >= 0.0 && place < static_cast<double>(count_[a]))) return of_block_;
+      cell[a] = static_cast<std::int64_t>(place);
+    }
+    std::unique_ptr<const Choice>& found =
+        cells_[static_cast<std::size_t>(cell[0] + count_[0] * (cell[1] + count_[1] * cell[2]))];
+    if (!found) found = chosen(cell);
+    return *found;
+  }
+
+ private:
+  std::unique_ptr<const Choice> chosen(const std::array<std::int64_t, 3>& cell) const {
+    const Vec3 low = low_ + side_mm_ * Vec3(static_cast<double>(cell[0]), static_cast<double>(cell[1]),
+                                            static_cast<double>(cell[2]));
+    const Vec3 rounding = Vec3::Constant(1e-9);
+    const Box3 box(low - rounding, low + Vec3::Constant(side_mm_) + rounding);
+    const double half = 0.5 * box.diagonal().norm();
+    auto out = std::make_unique<Choice>();
+    for (const Chosen& one : of_block_.organs) {
+      Chosen here = one;
+      here.first = out->capsules.size();
+      if (!one.whole && one.organ->distance) {
+        const double distance = one.organ->distance(box.center());
+        if (distance > half) continue;
+        here.whole = distance < -half;
+      }
+      for (std::size_t i = one.first; i < one.last && !here.whole; ++i) {
+        const Capsule& capsule = of_block_.capsules[i];
+        const double outside = outside_mm(capsule, box.center()), most = steepest(capsule) * half;
+        if (outside < most) out->capsules.push_back(capsule);
+        here.whole = outside < -most;
+      }
+      here.last = out->capsules.size();
+      if (!here.whole && !one.organ->distance && here.first == here.last) continue;
+      out->organs.push_back(here);
+      if (here.whole) break;
+    }
+    return out;
+  }
+
+  const Choice& of_block_;
+  Vec3 low_;
+  double side_mm_, a_side_ = 1.0 / side_mm_;
+  std::array<std::int64_t, 3> count_{};
+  std::vector<std::unique_ptr<const Choice>> cells_;
+};
+
 /// The organs that touch a block.
 class BodyPart : public ScenePart {
  public:
@@ -139,17 +233,22 @@ class BodyPart : public ScenePart {
       if (organ.organ.distance) {
         const double distance = organ.organ.distance(middle);
         if (distance > half) continue;
-        chosen_.push_back({&organ.organ, 0, 0, distance < -half});
+        chosen_.organs.push_back({&organ.organ, 0, 0, distance < -half});
         if (distance < -half) break;  // holds the whole block: nothing behind it is met
         continue;
       }
       const Box3& there = organ.organ.stays ? box : own;
       if (!organ.box.intersects(there)) continue;
-      const std::size_t first = capsules_.size();
+      Capsules& capsules = chosen_.capsules;
+      const std::size_t first = capsules.size();
       for (std::size_t i = 0; i < organ.boxes.size(); ++i)
-        if (organ.boxes[i].intersects(there)) capsules_.push_back(organ.organ.capsules[i]);
-      if (capsules_.size() > first) chosen_.push_back({&organ.organ, first, capsules_.size(), false});
+        if (organ.boxes[i].intersects(there)) capsules.push_back(organ.organ.capsules[i]);
+      if (capsules.size() > first) chosen_.organs.push_back({&organ.organ, first, capsules.size(), false});
     }
+    const Vec3 sizes = box.sizes();  // a few places of a plane are not worth it
+    if (!lattice_ && chosen_.organs.size() > 1 && sizes.minCoeff() > 1.0 &&
+        sizes.maxCoeff() < largest_in_cells_mm)
+      cells_.emplace(box, chosen_);
   }
 
   Material at(const Vec3& p) const override {
@@ -167,8 +266,8 @@ class BodyPart : public ScenePart {
 
   std::optional<Material> uniform() const override {
     if (coronary_) return std::nullopt;
-    if (chosen_.empty()) return Material{};
-    const Chosen& first = chosen_.front();
+    if (chosen_.organs.empty()) return Material{};
+    const Chosen& first = chosen_.organs.front();
     const Texture& t = first.organ->texture;
     if (!first.whole || t.amplitude_hu > 0.0f || t.dorsal_hu_per_mm != 0.0f) return std::nullopt;
     return first.organ->material;
@@ -181,19 +280,14 @@ class BodyPart : public ScenePart {
   }
 
  private:
-  struct Chosen {
-    const Organ* organ;
-    std::size_t first, last;  // of the capsules
-    bool whole;
-  };
-
   Material tissue(const Vec3& world) const {
     const Vec3 own = lattice_ ? lattice_->at(world) : world;
-    for (const Chosen& c : chosen_) {
+    const Choice& choice = cells_ ? cells_->at(world) : chosen_;
+    for (const Chosen& c : choice.organs) {
       const Vec3& p = c.organ->stays ? world : own;
       bool inside = c.whole;
       if (!inside && c.organ->distance) inside = c.organ->distance(p) < 0.0;
-      for (std::size_t i = c.first; i < c.last && !inside; ++i) inside = capsules_[i].holds(p);
+      for (std::size_t i = c.first; i < c.last && !inside; ++i) inside = choice.capsules[i].holds(p);
       if (inside) return {c.organ->material.label, body_.textured(*c.organ, p)};
     }
     return {};
@@ -202,8 +296,8 @@ class BodyPart : public ScenePart {
   const Body::Impl& body_;
   std::optional<PlaceLattice> lattice_;
   bool coronary_ = false, thin_ = false;
-  std::vector<Chosen> chosen_;
-  Capsules capsules_;
+  Choice chosen_;
+  mutable std::optional<Cells> cells_;  // a part is asked from one thread
 };
 
 void require_body(bool good, const char* what) {

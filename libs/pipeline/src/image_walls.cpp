@@ -3,7 +3,6 @@
 #include "ostia/core/error.h"
 #include "ostia/core/log.h"
 #include "ostia/lumen/lumen_model.h"
-#include "ostia/segmentation/lumen_boundary.h"
 
 #include <algorithm>
 #include <memory>
@@ -26,22 +25,6 @@ double calibre(const segmentation::LumenBoundary& found, double s_mm) {
   double sum = 0.0;
   for (int a = 0; a < found.around; ++a) sum += found.at(s_mm, 2.0 * std::numbers::pi * a / found.around);
   return sum / found.around;
-}
-
-/// A take-off is as wide as the branch is behind it: the axis' first radius is its parent's. An end is as
-/// wide as the vessel a radius and the blur before it: from there on its blunt end is seen, too, and what
-/// shows is narrower than what is there.
-lumen::RadialWall wall_of(const segmentation::LumenBoundary& found, double free_mm, double end_mm) {
-  const auto boundary = std::make_shared<const segmentation::LumenBoundary>(found);
-  const double blunt_mm = calibre(found, end_mm - look_back_mm) + blur_mm;
-  const double held_mm = std::max(end_mm - blunt_mm, std::min(end_mm, free_mm + passage_mm));
-  return
-      [boundary, free_mm, held_mm, tube = calibre(found, free_mm + passage_mm)](double at_mm, double theta) {
-        const double s_mm = std::min(at_mm, held_mm);
-        if (free_mm <= 0.0) return boundary->at(s_mm, theta);
-        const double t = std::clamp((s_mm - free_mm) / passage_mm, 0.0, 1.0), w = t * t * (3.0 - 2.0 * t);
-        return w > 0.0 ? (1.0 - w) * tube + w * boundary->at(s_mm, theta) : tube;
-      };
 }
 
 /// Round, with the axis' radii; at the take-off, where these are the parent's, as wide as behind it.
@@ -67,6 +50,22 @@ double free_from_mm(const geometry::VesselTree& tree, const std::vector<Axis>& a
   return std::min(s, branch.length());
 }
 
+/// A take-off is as wide as the branch is behind it: the axis' first radius is its parent's. An end is as
+/// wide as the vessel a radius and the blur before it: from there on its blunt end is seen, too, and what
+/// shows is narrower than what is there.
+lumen::RadialWall wall_of_boundary(const segmentation::LumenBoundary& found, double free_mm, double end_mm) {
+  const auto boundary = std::make_shared<const segmentation::LumenBoundary>(found);
+  const double blunt_mm = calibre(found, end_mm - look_back_mm) + blur_mm;
+  const double held_mm = std::max(end_mm - blunt_mm, std::min(end_mm, free_mm + passage_mm));
+  return
+      [boundary, free_mm, held_mm, tube = calibre(found, free_mm + passage_mm)](double at_mm, double theta) {
+        const double s_mm = std::min(at_mm, held_mm);
+        if (free_mm <= 0.0) return boundary->at(s_mm, theta);
+        const double t = std::clamp((s_mm - free_mm) / passage_mm, 0.0, 1.0), w = t * t * (3.0 - 2.0 * t);
+        return w > 0.0 ? (1.0 - w) * tube + w * boundary->at(s_mm, theta) : tube;
+      };
+}
+
 lumen::RadialWall wall_from_image(const geometry::VesselTree& tree, const std::vector<Axis>& axes,
                                   std::size_t vessel, const imaging::ImageVolume& image,
                                   std::vector<std::string>& warnings, const core::TaskContext& task) {
@@ -89,7 +88,7 @@ lumen::RadialWall wall_from_image(const geometry::VesselTree& tree, const std::v
     const segmentation::LumenBoundary found =
         segmentation::lumen_boundary(image, *axis, free_mm, length, {}, task);
     for (const std::string& warning : found.warnings) warn(warning);
-    return wall_of(found, free_mm, length);
+    return wall_of_boundary(found, free_mm, length);
   } catch (const GeometryError& error) {
     return tube(error.what());
   } catch (const InvalidInput& error) {  // an axis that leaves the image, among others

@@ -46,15 +46,12 @@ std::vector<GivenEnd> open_rims(const TriMesh& mesh) {
   return ends;
 }
 
-std::vector<GivenEnd> take_labelled_caps_off(geometry::FacedSurface& surface) try {
-  if (surface.face_ids.empty()) return {};
+std::vector<GivenEnd> take_caps_off(geometry::FacedSurface& surface) try {
   geometry::FacedSurface whole{geometry::oriented(geometry::welded(surface.mesh)), {}, surface.faces};
   const geometry::SurfaceFaults faults = geometry::find_faults(whole.mesh, false);
   if (faults.non_manifold_edges > 0 || faults.non_manifold_vertices > 0) return {};
   whole.face_ids = labels_on(whole.mesh, surface);
-  meshing::FlatCapOptions labels_alone;
-  labels_alone.by_shape = false;
-  meshing::OpenedCaps opened = meshing::without_flat_caps(whole, labels_alone);
+  meshing::OpenedCaps opened = meshing::without_flat_caps(whole);
   if (opened.ends.empty()) return {};
   surface.mesh = std::move(opened.wall);
   surface.face_ids = labels_on(surface.mesh, whole);

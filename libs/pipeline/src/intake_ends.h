@@ -17,9 +17,9 @@ std::string words_of(const meshing::GivenEnd& end);
 /// The open rims that may be ends: 0.4 mm wide or more.
 std::vector<meshing::GivenEnd> open_rims(const geometry::TriMesh& mesh);
 
-/// Takes off the caps that labels name, of a surface that is to be mended, where it is manifold; returns
-/// their ends. Its triangles keep their labels.
-std::vector<meshing::GivenEnd> take_labelled_caps_off(geometry::FacedSurface& surface);
+/// Takes off the caps of a surface that is to be mended, those that labels name or that are seen to be flat,
+/// where it is manifold; returns their ends. Its triangles keep their labels.
+std::vector<meshing::GivenEnd> take_caps_off(geometry::FacedSurface& surface);
 
 /// Open rims of the surface as it came that the mended one neither has nor has as holes in its wall; rims of
 /// parts that were left out, which is told, are none.

@@ -21,6 +21,12 @@ using geometry::TriMesh;
 using geometry::Vec3;
 
 constexpr double told_volume_change = 0.02;  // by mending
+// Openings of one end that is covered in part face the same way. Two round ends beside each other are as far
+// apart as their radii together, aslant ones a little less.
+constexpr double same_way_cosine = 0.5, least_apart_radii = 0.8;
+// Or they lie in one plane about, and are narrower than the lumen behind them, which has room for both.
+constexpr double in_plane_radii = 0.5, most_apart_radii = 4.0, slit_radii = 0.05;
+constexpr double second_opening_share = 0.75, both_areas_share = 1.1;
 
 /// Of a part with its holes filled; nothing where it is too broken for one.
 std::optional<double> volume_of_part(const TriMesh& part) try {
@@ -38,6 +44,36 @@ void tell_volume(const TriMesh& part, const TriMesh& mended, std::vector<std::st
                  core::fixed_text(100.0 * (*after - *before) / *before, 1) + " % (" +
                  core::significant_text(*before, 4) + " to " + core::significant_text(*after, 4) +
                  " mm3): look at what is left before it is used");
+}
+
+/// Whether it opens the same end as a larger opening.
+bool opens_end_of(const meshing::GivenEnd& larger, const meshing::GivenEnd& opening,
+                  const geometry::AabbTree& closed) {
+  if (opening.normal.dot(larger.normal) < same_way_cosine) return false;
+  const Vec3 between = opening.centre - larger.centre;
+  const double apart = between.norm();
+  if (apart < least_apart_radii * (opening.radius_mm + larger.radius_mm)) return true;
+  if (apart > most_apart_radii * larger.radius_mm ||
+      std::abs(between.dot(larger.normal)) > in_plane_radii * larger.radius_mm)
+    return false;
+  const double depth = larger.radius_mm / std::max(opening.radius_mm, slit_radii * larger.radius_mm);
+  const double width = meshing::lumen_width_behind(closed, opening, depth);
+  const double areas = opening.radius_mm * opening.radius_mm + larger.radius_mm * larger.radius_mm;
+  return apart < 2.0 * width && opening.radius_mm < second_opening_share * width &&
+         areas < both_areas_share * width * width;
+}
+
+/// Of the openings of an end that is covered in part the largest is the end; the others.
+std::vector<bool> second_openings(const std::vector<meshing::GivenEnd>& rims,
+                                  const geometry::AabbTree& closed) {
+  std::vector<bool> second(rims.size(), false);
+  for (std::size_t i = 0; i < rims.size(); ++i)
+    for (std::size_t k = 0; k < rims.size() && !second[i]; ++k) {
+      const bool larger =
+          rims[k].radius_mm > rims[i].radius_mm || (k < i && rims[k].radius_mm == rims[i].radius_mm);
+      second[i] = larger && opens_end_of(rims[k], rims[i], closed);
+    }
+  return second;
 }
 
 }  // namespace
@@ -119,16 +155,19 @@ Rims rims_of(const TriMesh& part, const geometry::FilledHoles& filled, bool tree
 
 std::vector<meshing::GivenEnd> close_holes_in_the_wall(TriMesh& part, const geometry::FilledHoles& filled,
                                                        const Rims& rims, std::vector<std::string>& told) {
-  std::vector<meshing::GivenEnd> closed;
-  const auto& loops = rims.loops;
-  std::vector<bool> close(loops.size(), false);
-  for (std::size_t i = 0; i < loops.size(); ++i) {
-    const meshing::GivenEnd end = meshing::end_at_loop(part, loops[i]);
-    close[i] = meshing::is_hole_in_wall(*rims.tree, end);
+  std::vector<meshing::GivenEnd> ends, closed;
+  for (const auto& loop : rims.loops) ends.push_back(meshing::end_at_loop(part, loop));
+  if (ends.empty()) return closed;
+  std::vector<bool> close(ends.size(), false);
+  const std::vector<bool> second = second_openings(ends, *rims.tree);
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    const bool hole = meshing::is_hole_in_wall(*rims.tree, ends[i]);
+    close[i] = hole || second[i];
     if (!close[i]) continue;
-    told.push_back("a hole in the wall closed, " + core::fixed_text(2.0 * end.radius_mm, 2) + " mm wide at " +
-                   place_text(end.centre));
-    closed.push_back(end);
+    told.push_back((hole ? "a hole in the wall closed, " : "a second opening of one end closed, ") +
+                   core::fixed_text(2.0 * ends[i].radius_mm, 2) + " mm wide at " +
+                   place_text(ends[i].centre));
+    closed.push_back(ends[i]);
   }
   if (closed.empty()) return closed;
   std::vector<bool> keep;

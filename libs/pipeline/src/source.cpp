@@ -7,6 +7,7 @@
 #include "ostia/dicom/label_object.h"
 #include "ostia/geometry/mesh_topology.h"
 #include "ostia/imaging/archive.h"
+#include "ostia/imaging/foreign_image.h"
 #include "ostia/imaging/image_file.h"
 #include "ostia/io/graph_file.h"
 #include "ostia/io/surface_file.h"
@@ -100,7 +101,7 @@ SourceKind classify(const fs::path& path) {
   if (!fs::is_regular_file(path))
     throw InvalidInput("cannot read " + path.string() + ": it is neither a file nor a folder");
   if (io::is_surface_file(path)) return SourceKind::surface;
-  if (is_image_name(path))
+  if (is_image_name(path) || !imaging::foreign_image_format(path).empty())
     return imaging::looks_like_mask(path) || imaging::looks_like_probabilities(path) ? SourceKind::mask
                                                                                      : SourceKind::image;
   if (path.extension() == ".dcm" || has_dicom_mark(path) || imaging::is_zip_archive(path))

@@ -81,7 +81,7 @@ class Intake {
 
   void mend() {
     // What is wrong at the rims of caps would be cut out together with the caps.
-    early_ends_ = take_labelled_caps_off(ready_);
+    early_ends_ = take_caps_off(ready_);
     const geometry::FacedSurface before = ready_;
     MendedParts whole = mended(before.mesh, out_.told, task_.sub(0.1, 0.7));
     std::vector<TriMesh>& parts = whole.parts;

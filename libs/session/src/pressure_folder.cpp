@@ -10,6 +10,9 @@
 #include "ostia/session/pressure_document.h"
 #include "ostia/session/pressure_report.h"
 
+#include <cmath>
+#include <numbers>
+
 namespace ostia::session {
 namespace {
 
@@ -23,8 +26,8 @@ io::Polydata lines_of(const PressureReport& report) {
   io::Polydata data;
   const auto& branches = report.tree.network.branches;
   auto& numbers = data.at_points.numbers;
-  for (const char* name : {"FFR", "RestingPdPa", "Pressure_mmHg", "Flow_ml_min", "Area_mm2", "WallShear_Pa",
-                           "Reynolds", "Momentum", "Abscissas"})
+  for (const char* name : {"FFR", "RestingPdPa", "Pressure_mmHg", "Flow_ml_min", "Area_mm2", "Radius",
+                           "WallShear_Pa", "Reynolds", "Momentum", "Abscissas"})
     numbers[name] = {1, {}};
   if (report.after) numbers["FFRWhatIf"] = {1, {}};
   if (report.uncertainty)
@@ -52,6 +55,7 @@ io::Polydata lines_of(const PressureReport& report) {
       numbers["Pressure_mmHg"].values.push_back(flow.pressure_pa / pa_of_mmhg);
       numbers["Flow_ml_min"].values.push_back(report.hyperaemia.solution.flow_ml_s[b] * 60.0);
       numbers["Area_mm2"].values.push_back(station.area_mm2);
+      numbers["Radius"].values.push_back(std::sqrt(station.area_mm2 / std::numbers::pi));
       numbers["WallShear_Pa"].values.push_back(flow.wall_shear_pa);
       numbers["Reynolds"].values.push_back(flow.reynolds);
       numbers["Momentum"].values.push_back(flow.momentum);

@@ -9,6 +9,7 @@
 #include <charconv>
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <fstream>
 #include <limits>
@@ -123,7 +124,17 @@ std::string last_lines(const std::string& text) {
   return told;
 }
 
+/// Told to stop by somebody, which says nothing of the case.
+bool ended_from_outside(const core::ChildResult& child) {
+  constexpr int of_shell = 128;  // what a shell adds to the number of the signal that ended a program
+  const int signal = child.signal != 0 ? child.signal : child.exit_code - of_shell;
+  return signal == SIGTERM || signal == SIGINT || signal == SIGHUP;
+}
+
 [[noreturn]] void refuse_failed(const fs::path& folder, const core::ChildResult& child) {
+  if (ended_from_outside(child))
+    throw ResourceError("the run of " + folder.string() + " was ended from outside (Allrun " +
+                        child.describe() + "); run it again");
   const std::string what = "the run of " + folder.string() + " failed: Allrun " + child.describe();
   const fs::path log = last_log(folder);
   const std::string told = last_lines(child.standard_error);

@@ -168,8 +168,15 @@ std::optional<PlaneView::Placement> SectionView::placement() const {
   if (!axis) return std::nullopt;
   const double s = s_mm();
   const geometry::Frame frame = axis->frame(s);
-  return Placement{axis->point(s), geometry::radial_direction(frame, 0.0),
-                   geometry::radial_direction(frame, -M_PI / 2.0), side_mm_};
+  const double turn = turn_deg_ * M_PI / 180.0;
+  return Placement{axis->point(s), geometry::radial_direction(frame, turn),
+                   geometry::radial_direction(frame, turn - M_PI / 2.0), side_mm_};
+}
+
+void SectionView::set_turn_deg(double turn_deg) {
+  if (turn_deg == turn_deg_) return;
+  turn_deg_ = turn_deg;
+  moved();
 }
 
 // The vessel itself, also at its ends, where the plane only touches the axis.
@@ -192,7 +199,7 @@ void SectionView::add_to_overlay(Overlay& overlay) {
     // Where the two CPRs cut this section: short lines at its rim, long enough to see their angle.
     const double inner = 0.30 * std::min(width(), height()), outer = 0.46 * std::min(width(), height());
     for (int i = 0; i < 4; ++i) {
-      const double angle = (bench().theta_deg.get() + 90.0 * i) * M_PI / 180.0;
+      const double angle = (bench().theta_deg.get() - turn_deg_ + 90.0 * i) * M_PI / 180.0;
       const Vec2 along(std::cos(angle), -std::sin(angle));
       overlay.lines.push_back({{centre + inner * along, centre + outer * along},
                                Role::cursor,

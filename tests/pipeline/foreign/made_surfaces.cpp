@@ -101,6 +101,25 @@ TriMesh torn(const TriMesh& open) {
   }
 }
 
+/// The point nearest to the middle of all.
+Vec3 middle_of_wall(const TriMesh& mesh) {
+  Vec3 middle = Vec3::Zero(), nearest = Vec3::Constant(std::numeric_limits<double>::infinity());
+  for (const Vec3& p : mesh.points)
+    if (p.allFinite()) middle += p / static_cast<double>(mesh.points.size());
+  for (const Vec3& p : mesh.points)
+    if (p.allFinite() && (p - middle).norm() < (nearest - middle).norm()) nearest = p;
+  return nearest;
+}
+
+/// Noise that is the same for the same place, in [-1, 1] along each axis.
+Vec3 noise_at(const Vec3& place) {
+  const auto one = [&](double a, double b, double c) {
+    const double x = std::sin(a * place.x() + b * place.y() + c * place.z()) * 43758.5453;
+    return 2.0 * (x - std::floor(x)) - 1.0;
+  };
+  return {one(12.9898, 78.233, 37.719), one(39.346, 11.135, 83.155), one(73.156, 52.235, 9.151)};
+}
+
 void turn(MadeSurface& made) {
   for (geometry::Triangle& t : made.mesh.triangles) std::swap(t[0], t[1]);
 }
@@ -216,7 +235,7 @@ std::vector<ForeignKind> foreign_kinds() {
       {"aslant_caps", "aslant.vtp", "", 1.0, 1, 1, aslant},
       {"loft_of_a_cad_program", "loft.stl", "", 1.0, 1, 1, cad},
       {"sac_on_a_tube", "sac.ply", "", 1.0, 1, 1, aneurysm},
-      {"aortic_arch", "arch.vtp", "ModelFaceID", 1.0, 1, 4, aortic_arch},
+      {"aortic_arch", "arch.vtp", "ModelFaceID", 1.0, 1, 4, aortic_arch, false},
       {"coronary_tree_closed", "lca.vtp", "", 1.0, 1, 4,
        [] {
          return MadeSurface{geometry::raw_surface_of(geometry::coronary_like_tree(), 0.4, false), {}};
@@ -315,18 +334,28 @@ std::vector<Fault> faults() {
        }},
       {"a spike through the other side",
        [](MadeSurface& made) {
-         // The wall's point half-way up the first tube.
-         std::size_t nearest = 0;
          Vec3 middle = Vec3::Zero();
          for (const Vec3& p : made.mesh.points)
            if (p.allFinite()) middle += p / static_cast<double>(made.mesh.points.size());
-         for (std::size_t i = 0; i < made.mesh.points.size(); ++i)
-           if ((made.mesh.points[i] - middle).norm() < (made.mesh.points[nearest] - middle).norm())
-             nearest = i;
-         const Vec3 from = made.mesh.points[nearest];
+         const Vec3 from = middle_of_wall(made.mesh);
          for (Vec3& p : made.mesh.points)
            if ((p - from).norm() == 0.0) p += 5.0 * (middle - from).normalized() + Vec3(0.1, 0.2, 0.0);
        }},
+      {"small folds",
+       [](MadeSurface& made) {
+         constexpr double reach_mm = 1.5, noise_mm = 0.2;
+         const Vec3 place = middle_of_wall(made.mesh);
+         for (Vec3& p : made.mesh.points)
+           if ((p - place).norm() < reach_mm) p += noise_mm * noise_at(p);
+       }},
+      {"in centimetres", [](MadeSurface&) {}, [](ForeignKind& kind) { kind.unit_mm = 10.0; }},
+      {"two of it",
+       [](MadeSurface& made) {
+         made.mesh = geometry::merged(made.mesh, shifted(made.mesh, Vec3(0.0, 200.0, 0.0)));
+         const std::vector<std::int32_t> once = made.labels;
+         for (const std::int32_t label : once) made.labels.push_back(100 + label);
+       },
+       [](ForeignKind& kind) { kind.parts *= 2, kind.outlets *= 2; }},
   };
 }
 

@@ -25,6 +25,7 @@ struct ForeignKind {
   double unit_mm = 1.0;     ///< in which the file is written
   std::size_t parts = 1, outlets = 2;
   std::function<MadeSurface()> make;
+  bool calibre_tells_unit = true;  ///< an aorta in centimetres has the numbers of a coronary in millimetres
 };
 
 /// For messages of the tests.
@@ -40,10 +41,11 @@ ForeignKind tree_of_46_outlets();
 std::filesystem::path write_foreign(const ForeignKind& kind, const MadeSurface& made,
                                     const std::filesystem::path& folder);
 
-/// A fault that a file may have on top of its kind.
+/// A fault that a file may have on top of its kind, or what else may come on top of it.
 struct Fault {
   std::string name;
   std::function<void(MadeSurface&)> add;
+  std::function<void(ForeignKind&)> tell = [](ForeignKind&) {};  ///< what is known of it then
 };
 std::vector<Fault> faults();
 

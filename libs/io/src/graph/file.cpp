@@ -93,10 +93,22 @@ void warn_if_cut(const PieceReader& reader, LoadedGraph& loaded) {
                               ", the last one, has no end: the file may be cut short");
 }
 
+namespace {
+
+/// Structured points, which an image's reader takes.
+bool is_legacy_image(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::string head(4096, '\0');
+  in.read(head.data(), static_cast<std::streamsize>(head.size()));
+  return upper(head).find("\nDATASET STRUCTURED_POINTS") != std::string::npos;
+}
+
+}  // namespace
+
 bool is_graph_file(const fs::path& path) {
   const std::string extension = upper(path.extension().string());
   if (extension == ".VTP") return has_lines_alone(path);
-  if (extension == ".VTK") return !legacy_has_polygons(path);
+  if (extension == ".VTK") return !legacy_has_polygons(path) && !is_legacy_image(path);
   if (extension == ".JSON") return is_markups_file(path);
   if (extension == ".TXT") return is_rotterdam_line(path);
   static constexpr std::array<std::string_view, 4> known{".SWC", ".CSV", ".GXL", ".XML"};

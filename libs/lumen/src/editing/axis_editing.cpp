@@ -227,9 +227,8 @@ EditOutcome apply_to(const LumenModel& model, const AxisTrim& edit) {
     throw InvalidInput(tree.what() + ": nothing of the vessel would be left; use branch.delete");
   std::set<std::int32_t> gone = tree.through({path[keep]});
   gone.erase(edit.vessel);
-  for (const std::int32_t id : gone)
-    tree.notes.push_back(tree.what() + ": " + vessel_label(tree.vessel(id)) +
-                         " leaves distal of the cut and goes too");
+  if (!gone.empty())
+    tree.notes.push_back(tree.what() + ": what leaves it beyond the cut goes, too: " + tree.names_of(gone));
   path.resize(keep + 1);
   tree.drop(gone);
   tree.way_changed(edit.vessel);

@@ -240,10 +240,10 @@ EditOutcome apply_to(const LumenModel& model, const BranchDelete& edit) {
   const std::set<std::int32_t> gone = tree.through(tree.own_segments(edit.vessel));
   if (gone.size() == model.tree.vessels.size())
     throw InvalidInput(tree.what() + ": no vessel would be left; the last one stays");
-  for (const std::int32_t id : gone) {
-    if (id != edit.vessel)
-      tree.notes.push_back(tree.what() + ": " + vessel_label(tree.vessel(id)) + " leaves it and goes too");
-  }
+  std::set<std::int32_t> branches = gone;
+  branches.erase(edit.vessel);
+  if (!branches.empty())
+    tree.notes.push_back(tree.what() + ": its branches go, too: " + tree.names_of(branches));
   tree.drop(gone);
   return std::move(tree).finish(standing_samples);
 }

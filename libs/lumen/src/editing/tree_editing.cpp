@@ -157,6 +157,15 @@ TreeEdit::TreeEdit(const LumenModel& before, const std::string& op, std::int32_t
 TreeEdit::TreeEdit(const LumenModel& before, const std::string& op)
     : before_(&before), after_(before), what_(op) {}
 
+std::string TreeEdit::names_of(const std::set<std::int32_t>& vessels) {
+  std::string names;
+  for (const std::int32_t id : vessels) {
+    const std::string& name = vessel(id).name;
+    names += (names.empty() ? "" : ", ") + (name.empty() ? "vessel " + std::to_string(id) : name);
+  }
+  return names;
+}
+
 geometry::TreeSegment& TreeEdit::segment(std::int32_t id) {
   return item(after_.tree.segments, id, "segment");
 }

@@ -67,6 +67,7 @@ class TreeEdit {
   geometry::TreeNode& node(std::int32_t id);
   std::int32_t new_tree_id() { return after_.next_tree_id++; }
   std::int64_t new_sample_id() { return after_.next_sample_id++; }
+  std::string names_of(const std::set<std::int32_t>& vessels);  ///< "D1, D2"
   std::vector<std::string> notes;
 
   /// The segment's points have changed: abscissas and frames are made anew, and all vessels through it.

@@ -3,19 +3,13 @@
 
 #include "ostia/core/task_context.h"
 #include "ostia/geometry/aabb_tree.h"
-#include "ostia/geometry/vec.h"
+#include "ostia/geometry/rigid_fit.h"
 
 #include <vector>
 
 namespace ostia::evaluation {
 
-/// x -> rotation x + shift.
-struct RigidMotion {
-  geometry::Mat3 rotation = geometry::Mat3::Identity();
-  geometry::Vec3 shift = geometry::Vec3::Zero();  ///< mm
-  geometry::Vec3 operator()(const geometry::Vec3& point) const { return rotation * point + shift; }
-};
-double angle_deg(const RigidMotion& motion);  ///< of the rotation, [0, 180]
+double angle_deg(const geometry::RigidFit& motion);  ///< of the rotation, [0, 180]
 
 struct AlignmentOptions {
   int iterations_max = 100;    ///< >= 1
@@ -23,7 +17,7 @@ struct AlignmentOptions {
 };
 
 struct RigidAlignment {
-  RigidMotion motion;  ///< takes the points onto the surface
+  geometry::RigidFit motion;  ///< takes the points onto the surface
   double rms_before_mm = 0.0, rms_mm = 0.0;
   int iterations = 0;
   bool converged = false;

@@ -53,7 +53,7 @@ void validate(const CarotidOptions& options);  ///< throws InvalidInput
 struct CarotidImage {
   CarotidScan scan = CarotidScan::ct;
   imaging::ImageVolume image;
-  evaluation::RigidMotion pose;  ///< from the phantom's frame to the scanner's
+  geometry::RigidFit pose;  ///< from the phantom's frame to the scanner's
 };
 CarotidImage scan_carotid(const CarotidPhantom& phantom, CarotidScan scan, const CarotidOptions& options,
                           const core::TaskContext& task = core::no_task());

@@ -4,6 +4,7 @@
 #include "ostia/core/task_context.h"
 #include "ostia/imaging/volume.h"
 #include "ostia/lumen/start_surface.h"
+#include "ostia/segmentation/lumen_boundary.h"
 
 #include <cstddef>
 #include <memory>
@@ -16,6 +17,10 @@ namespace ostia::pipeline {
 /// from none. `axes` in the order of the tree's vessels, of which `vessel` is an index.
 double free_from_mm(const geometry::VesselTree& tree,
                     const std::vector<std::shared_ptr<const geometry::AxisCurve>>& axes, std::size_t vessel);
+
+/// The wall of a boundary that was found from where the vessel runs by itself (free_from_mm) to its end, with
+/// take-off and end as walls_from_image has them.
+lumen::RadialWall wall_of_boundary(const segmentation::LumenBoundary& found, double free_mm, double end_mm);
 
 /// The wall of one vessel, as below; `axes` as above. What is to be told is added to `warnings`.
 lumen::RadialWall wall_from_image(const geometry::VesselTree& tree,

@@ -38,8 +38,8 @@ bool openfoam_can_work_in(const std::filesystem::path& folder);
 /// 3e-04", "time, s: 0.1 / 2.4") come from the program's log. On cancel all its processes are ended before
 /// Cancelled is thrown; the case stays with what was written; they also end within seconds of this
 /// process's death. Throws InvalidInput where OpenFOAM cannot work in the folder, IoError where the program
-/// is not installed, NumericalError with the last lines of the log where it fails, ResourceError, and what
-/// openfoam_run_plan throws.
+/// is not installed, NumericalError with the last lines of the log where it fails, ResourceError where a
+/// signal ends it from outside, and what openfoam_run_plan throws.
 OpenfoamProgress run_openfoam_case(const std::filesystem::path& case_folder,
                                    const core::TaskContext& task = core::no_task());
 

@@ -53,6 +53,8 @@ class SectionView final : public PlaneView {
   void scroll(double steps) override;  ///< the cursor goes along the vessel
   double s_mm() const;
   double offset_mm() const { return offset_mm_; }
+  /// What stands at this angle about the axis lies to the right; 0 at first.
+  void set_turn_deg(double turn_deg);
   bool ready() const override;
 
  protected:
@@ -62,6 +64,7 @@ class SectionView final : public PlaneView {
 
  private:
   double offset_mm_, side_mm_;
+  double turn_deg_ = 0.0;
 };
 
 enum class SliceKind { axial, coronal, sagittal, oblique };

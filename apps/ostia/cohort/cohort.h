@@ -1,0 +1,46 @@
+#pragma once
+/// \file `ostia cohort` and its subcommands: what they are told.
+
+#include "commands.h"
+
+#include <filesystem>
+#include <functional>
+
+namespace CLI {
+class App;
+}
+
+namespace ostia::app {
+
+struct CohortInitCommand {
+  std::filesystem::path table, output;
+  bool skip_bad = false;
+  bool json = false;
+};
+/// bad_input where rows cannot be used, all of which are printed; quality_failed where they were left out.
+ExitCode run_cohort_init(const CohortInitCommand& options, const core::TaskContext& task);
+
+struct CohortStatusCommand {
+  std::filesystem::path cohort;
+  bool verify = false;
+  bool json = false;
+};
+ExitCode run_cohort_status(const CohortStatusCommand& options, const core::TaskContext& task);
+
+struct CohortTableCommand {
+  std::filesystem::path cohort, output;
+  bool json = false;
+};
+ExitCode run_cohort_table(const CohortTableCommand& options, const core::TaskContext& task);
+
+struct CohortCommands {
+  CohortInitCommand init;
+  CohortStatusCommand status;
+  CohortTableCommand table;
+};
+
+/// Adds `cohort` with its subcommands.
+void define_cohort(CLI::App& app, CohortCommands& cohort,
+                   std::function<ExitCode(const core::TaskContext&)>& run);
+
+}  // namespace ostia::app

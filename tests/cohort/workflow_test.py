@@ -1,0 +1,138 @@
+#!/usr/bin/env python3
+"""Three synthetic patients and a scan that holds no heart through the whole workflow: once in one go, once killed in the middle
+and gone on with. Every scan ends whole or named, and both runs come to the same bits.
+
+Usage: workflow_test.py OSTIA SOURCE
+"""
+import json
+import os
+import pathlib
+import shutil
+import signal
+import sqlite3
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+OSTIA, SOURCE = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
+WORKFLOW = SOURCE / "apps/ostia/workflow"
+sys.path.insert(0, str(SOURCE / "tests/docs"))
+import small_files  # noqa: E402
+
+if not shutil.which("snakemake"):
+    print("skipped: needs snakemake")
+    sys.exit(77)
+
+FOLDERS = ("inputs", "cases", "lumens", "meshes", "measures")
+
+
+def ostia(*words, codes=(0,)):
+    done = subprocess.run([OSTIA, *map(str, words)], capture_output=True, text=True, timeout=600, check=False)
+    assert done.returncode in codes, f"{words}: {done.returncode}: {done.stderr}"
+    return done.stdout
+
+
+def snakemake(cohort, *more):
+    return ["snakemake", "-s", str(WORKFLOW / "Snakefile"), "--profile", str(WORKFLOW / "profiles/local"), "--directory", str(cohort.parent / "work"),
+            "--config", f"cohort={cohort}", f"ostia={OSTIA}", *more]
+
+
+def status(cohort):
+    return json.loads(ostia("cohort", "status", cohort, "--verify", "--json"))
+
+
+def content_of_case(file):
+    """All but when its steps were done."""
+    case = sqlite3.connect(file)
+    lines = [line for line in case.iterdump() if not line.startswith('INSERT INTO "step_stamp"')]
+    case.close()
+    return "\n".join(lines)
+
+
+def results(cohort):
+    """Of each scan, by its id, what was made: digests, and the content of cases. Manifests have times in them."""
+    sources = sqlite3.connect(f"{cohort}.private/sources.sqlite")
+    names = dict(sources.execute("SELECT pseudonym, id FROM source"))
+    sources.close()
+    found = {}
+    for folder in FOLDERS:
+        for manifest in sorted((cohort / folder).glob("*/manifest.json")):
+            outputs = json.loads(manifest.read_text())["outputs"]
+            found[names[manifest.parent.name], folder] = {
+                name: content_of_case(manifest.parent / name) if name.endswith(".ostia") else digest
+                for name, digest in outputs.items() if not name.endswith("manifest.json")}
+    return found
+
+
+class Workflow(unittest.TestCase):
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.folder = pathlib.Path(holder.name)
+        small_files.write_mask(self.folder / "one's.nrrd")
+        for number, voxel in (("two", "0.55"), ("three", "0.6")):  # the same vessel, larger
+            self.grown(self.folder / f"{number}.nrrd", voxel)
+        small_files.write_image(self.folder / "chestless.nrrd")
+        (self.folder / "scans.csv").write_text("id,scan,kind\n1,one's.nrrd,mask\n2,two.nrrd,mask\n3,three.nrrd,mask\n4,chestless.nrrd,image\n")
+        (self.folder / "work").mkdir()
+
+    def grown(self, path, spacing):
+        head, _, voxels = (self.folder / "one's.nrrd").read_bytes().partition(b"\n\n")
+        lines = [f"space directions: ({spacing},0,0) (0,{spacing},0) (0,0,{spacing})".encode() if line.startswith(b"space directions") else line
+                 for line in head.split(b"\n")]
+        path.write_bytes(b"\n".join(lines) + b"\n\n" + voxels)
+
+    def cohort(self, name):
+        ostia("cohort", "init", self.folder / "scans.csv", "-o", self.folder / name)
+        return self.folder / name
+
+    def unlock(self, cohort):
+        """A killed one has left its lock."""
+        subprocess.run(snakemake(cohort, "--unlock"), check=False, capture_output=True)
+
+    def finish(self, cohort):
+        self.unlock(cohort)
+        done = subprocess.run(snakemake(cohort, "--cores", "2"), capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr[-3000:])
+
+    def kill_in_the_middle(self, cohort, records):
+        """Everything at once, as when a machine goes down."""
+        self.unlock(cohort)
+        running = subprocess.Popen(snakemake(cohort, "--cores", "2"), start_new_session=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        while running.poll() is None and len(list((cohort / "logs").glob("*/*.json"))) < records:
+            time.sleep(0.05)
+        self.assertIsNone(running.poll(), "it was done before it was killed")
+        os.killpg(running.pid, signal.SIGKILL)
+        running.wait()
+
+    def test_killed_and_gone_on_with_it_comes_to_the_same(self):
+        whole = self.cohort("whole")
+        self.finish(whole)
+        killed = self.cohort("killed")
+        for records in (3, 9):
+            self.kill_in_the_middle(killed, records)
+        self.finish(killed)
+        for cohort in (whole, killed):
+            told = status(cohort)
+            self.assertEqual((told["scans"], told["whole"]), (4, 3), told)
+            self.assertEqual([(one["stage"], one["exit_code"], one["scans"]) for one in told["reasons"]], [("extract", 3, 1)])
+            self.assertEqual([p for folder in FOLDERS for p in (cohort / folder).iterdir() if ".part-" in p.name], [])
+        expected, found = results(whole), results(killed)
+        self.assertEqual(len(expected), 3 * 5 + 1)
+        self.assertEqual(found.keys(), expected.keys())
+        for key, digests in expected.items():
+            self.assertEqual(found[key], digests, key)
+        for cohort in (whole, killed):
+            ostia("cohort", "table", cohort, "-o", f"{cohort}.tables")
+        rows = [len((self.folder / f"{name}.tables/measures.csv").read_text().splitlines()) for name in ("whole", "killed")]
+        self.assertEqual(rows[0], rows[1])
+        self.assertGreater(rows[0], 3 * 4)
+        shared = b"".join(p.read_bytes() for p in killed.rglob("*") if p.is_file())
+        for secret in (b"one's", b"chestless", str(self.folder).encode()):
+            self.assertNotIn(secret, shared)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

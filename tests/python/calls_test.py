@@ -158,7 +158,7 @@ def test_warnings_of_the_libraries_go_to_python(tmp_path, caplog):
 
 def test_progress_as_lines(fine):
     script = "import sys, ostia; ostia.example_surface(); from ostia._progress import Bar; b = Bar(); b(0.5, 'wall'); b.close()"
-    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, env={**os.environ})
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, encoding="utf-8", env={**os.environ})
     assert done.returncode == 0 and "50" in done.stderr
 
 

@@ -127,10 +127,10 @@ TEST_F(HelpTest, TheDialogRefusesAKeyThatIsTaken) {
   emit editor->editingFinished();
   EXPECT_TRUE(trouble->text().contains("Brush")) << trouble->text().toStdString();
   EXPECT_EQ(child<QAction>("tool.draw")->shortcut(), QKeySequence("W"));
-  editor->setKeySequence(QKeySequence("I"));
+  editor->setKeySequence(QKeySequence("J"));
   emit editor->editingFinished();
   EXPECT_EQ(trouble->text(), "");
-  EXPECT_EQ(child<QAction>("tool.draw")->shortcut(), QKeySequence("I"));
+  EXPECT_EQ(child<QAction>("tool.draw")->shortcut(), QKeySequence("J"));
 }
 
 TEST_F(HelpTest, FocusGoesRoundAllPanels) {

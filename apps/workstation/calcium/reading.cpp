@@ -5,6 +5,7 @@
 #include "shell/desk.h"
 #include "shell/file_dialogs.h"
 #include "shell/new_folder.h"
+#include "shell/two_patients.h"
 #include "views/picture_widget.h"
 
 #include "ostia/core/text.h"
@@ -24,12 +25,6 @@ const char* const calcium_job = "calcium";
 /// Among this machine's cases.
 std::filesystem::path calcium_case_of(const Desk& desk, const session::ImageReference& image) {
   return desk.state_folder / "cases" / (image.pseudonym + "-calcium.ostia");
-}
-
-/// The patient of one image is another one than that of the other, as far as both are known.
-bool other_patient(const imaging::ShownIdentity& a, const imaging::ShownIdentity& b) {
-  if (!a.patient_id.empty() && !b.patient_id.empty()) return a.patient_id != b.patient_id;
-  return !a.patient_name.empty() && !b.patient_name.empty() && a.patient_name != b.patient_name;
 }
 
 }  // namespace
@@ -148,8 +143,8 @@ QString Calcium::why_not_into_report() const {
   if (!board_.reading()) return tr("No scan has been scored.");
   if (!desk_.bench.has_case()) return tr("No case is open whose report could take it.");
   const auto image = desk_.bench.session().file().image();
-  if (image && other_patient(desk_.identity.of_image(image->sha256),
-                             desk_.identity.of_image(board_.reading()->reference.sha256)))
+  if (image && two_patients(desk_.identity.of_image(image->sha256),
+                            desk_.identity.of_image(board_.reading()->reference.sha256)))
     return tr("The case that is open is of another patient than the scan.");
   return {};
 }

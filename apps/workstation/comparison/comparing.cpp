@@ -6,6 +6,7 @@
 #include "shell/file_dialogs.h"
 #include "shell/library_texts.h"
 #include "shell/new_folder.h"
+#include "shell/two_patients.h"
 
 #include "ostia/core/error.h"
 #include "ostia/figure/plot.h"

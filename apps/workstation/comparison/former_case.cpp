@@ -82,9 +82,4 @@ session::Comparison compared_now(session::ComparedCase before, session::CaseMome
   return session::compare_cases(std::move(before), std::move(after), options);
 }
 
-bool two_patients(const imaging::ShownIdentity& a, const imaging::ShownIdentity& b) {
-  if (!a.patient_id.empty() && !b.patient_id.empty()) return a.patient_id != b.patient_id;
-  return !a.patient_name.empty() && !b.patient_name.empty() && a.patient_name != b.patient_name;
-}
-
 }  // namespace ostia::workstation

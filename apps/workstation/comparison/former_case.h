@@ -2,7 +2,6 @@
 /// \file A patient's former case, read and measured for a comparison. For any thread.
 
 #include "ostia/core/task_context.h"
-#include "ostia/imaging/series_preview.h"
 #include "ostia/session/comparison_measures.h"
 #include "ostia/session/machine_state.h"
 #include "ostia/session/session.h"
@@ -38,8 +37,5 @@ session::ComparedCase measured_former(const FormerCase& former, const FormerImag
 session::Comparison compared_now(session::ComparedCase before, session::CaseMoment now,
                                  const std::optional<session::KnownImage>& known,
                                  const core::TaskContext& task);
-
-/// The patients of two images are known to be two, as far as both are known.
-bool two_patients(const imaging::ShownIdentity& a, const imaging::ShownIdentity& b);
 
 }  // namespace ostia::workstation
